@@ -1,0 +1,82 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace viscera::gpu {
+
+/// Untyped GPU memory; Buffer<T> is what the rest of the code uses.
+class RawBuffer {
+ public:
+  RawBuffer() = default;
+  explicit RawBuffer(size_t bytes);  ///< zero-filled; at least 16 bytes are allocated. @throws GpuError out of memory
+  ~RawBuffer();
+  RawBuffer(RawBuffer&& other) noexcept;
+  RawBuffer& operator=(RawBuffer&& other) noexcept;
+
+  void write(size_t offset, size_t bytes, const void* data);
+  void read(size_t offset, size_t bytes, void* data) const;  ///< waits for the GPU
+  void clear();                                              ///< to zero, on the GPU
+  void bindStorage(uint32_t binding) const;
+  void bindUniform(uint32_t binding, size_t offset, size_t bytes) const;
+  uint32_t id() const { return id_; }
+  size_t bytes() const { return bytes_; }
+
+ private:
+  uint32_t id_ = 0;
+  size_t bytes_ = 0;
+};
+
+/// A buffer seen through texel fetches: the read path for gathers, several times faster than storage loads where a
+/// software rasteriser runs the kernels and no slower on a GPU.
+enum class TexelFormat { kRgba32f, kR32ui };
+class TexelView {
+ public:
+  TexelView() = default;
+  TexelView(const RawBuffer& buffer, TexelFormat format);  ///< @throws GpuError if the driver takes no buffer this long
+  ~TexelView();
+  TexelView(TexelView&& other) noexcept;
+  TexelView& operator=(TexelView&& other) noexcept;
+  void bind(uint32_t unit) const;
+
+ private:
+  uint32_t id_ = 0;
+};
+
+/// Move-only array of T on the GPU. T must have the std430 layout of its twin in shaders/layout.h.
+template <class T>
+class Buffer {
+ public:
+  Buffer() = default;
+  explicit Buffer(size_t count) : raw_(count * sizeof(T)), count_(count) {}
+  explicit Buffer(const std::vector<T>& values) : Buffer(values.size()) { write(values); }
+
+  void write(const std::vector<T>& values, size_t first = 0) { write(values.data(), values.size(), first); }
+  void write(const T* values, size_t count, size_t first = 0) {
+    if (count) raw_.write(first * sizeof(T), count * sizeof(T), values);
+  }
+  std::vector<T> read() const {
+    std::vector<T> out(count_);
+    if (count_) raw_.read(0, count_ * sizeof(T), out.data());
+    return out;
+  }
+  void clear() { raw_.clear(); }
+  void bindStorage(uint32_t binding) const { raw_.bindStorage(binding); }
+  void bindUniform(uint32_t binding) const { bindUniform(binding, 0, count_); }
+  /// @param first  its bytes must be a multiple of GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT (256 is always enough)
+  void bindUniform(uint32_t binding, size_t first, size_t count) const {
+    raw_.bindUniform(binding, first * sizeof(T), count * sizeof(T));
+  }
+  uint32_t id() const { return raw_.id(); }
+  const RawBuffer& raw() const { return raw_; }
+  size_t size() const { return count_; }
+
+ private:
+  RawBuffer raw_;
+  size_t count_ = 0;
+};
+
+}  // namespace viscera::gpu

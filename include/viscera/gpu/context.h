@@ -1,0 +1,49 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace viscera::gpu {
+
+/// One EGL device that was looked at, and what came of it.
+struct DeviceAttempt {
+  int index = 0;
+  std::string name;
+  bool taken = false;
+  std::string reason;  ///< why it was taken, or the call and code that failed
+};
+
+/// Headless OpenGL 4.5 core context through EGL, current on the thread that made it. Needs no display.
+class Context {
+ public:
+  /// Tries the EGL devices in turn (hardware before software), or only device `only` if it is >= 0.
+  /// @throws GpuError naming every device and why it failed
+  explicit Context(int only = -1);
+  ~Context();
+  Context(const Context&) = delete;
+  Context& operator=(const Context&) = delete;
+
+  const std::string& renderer() const { return renderer_; }
+  const std::string& version() const { return version_; }
+  bool isSoftware() const { return software_; }
+  const std::vector<DeviceAttempt>& attempts() const { return attempts_; }
+
+ private:
+  bool open(int index, void* device, DeviceAttempt& attempt);
+
+  void* display_ = nullptr;
+  void* context_ = nullptr;
+  std::string renderer_, version_;
+  bool software_ = false;
+  std::vector<DeviceAttempt> attempts_;
+};
+
+/// @throws GpuError if OpenGL has an error pending; `what` names the work just done
+void checkErrors(const char* what);
+
+/// OpenGL objects made since the process began; the hot loop must not change it.
+size_t objectsCreated();
+
+}  // namespace viscera::gpu

@@ -1,0 +1,41 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace viscera::gpu {
+
+/// Source of an embedded shader with its #include lines expanded (#line kept), after `#version 450 core` and defines.
+/// @throws GpuError  no such shader
+std::string shaderSource(const std::string& name, const std::vector<std::string>& defines = {});
+
+/// A linked program. Compile and link errors throw GpuError with file, line and the driver's log.
+class Program {
+ public:
+  Program() = default;
+  /// Compute program from shaders/`name`. @param defines  "NAME" or "NAME value", one #define each
+  static Program compute(const std::string& name, const std::vector<std::string>& defines = {});
+  /// Vertex and fragment program from shaders/`vertex` and shaders/`fragment`.
+  static Program graphics(const std::string& vertex, const std::string& fragment,
+                          const std::vector<std::string>& defines = {});
+  ~Program();
+  Program(Program&& other) noexcept;
+  Program& operator=(Program&& other) noexcept;
+
+  void use() const;
+  /// Enough groups of `group_size` for `invocations`; none is launched for 0. The program must be in use.
+  static void dispatch(size_t invocations, uint32_t group_size);
+  /// Makes storage writes of earlier dispatches visible to later ones.
+  static void storageBarrier();
+  int location(const char* uniform) const;  ///< -1 where the compiler removed it
+  explicit operator bool() const { return id_ != 0; }
+  uint32_t id() const { return id_; }
+
+ private:
+  uint32_t id_ = 0;
+};
+
+}  // namespace viscera::gpu

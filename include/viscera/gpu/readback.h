@@ -1,0 +1,50 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace viscera::gpu {
+
+/// The one place where data comes back from the GPU without waiting: a ring of persistently mapped buffers with fences.
+/// request() queues a copy; collect() hands over the oldest copy whose fence has passed, in order of request.
+class ReadbackRing {
+ public:
+  /// @param bytes  largest copy  @param depth  copies that may be in flight
+  ReadbackRing(size_t bytes, int depth = 3);
+  ~ReadbackRing();
+  ReadbackRing(const ReadbackRing&) = delete;
+  ReadbackRing& operator=(const ReadbackRing&) = delete;
+
+  struct Source {
+    uint32_t buffer;
+    size_t offset, bytes;
+  };
+  /// Queues copies of the sources, one after the other, under a tag of the caller's. False if every slot is in flight.
+  bool request(const Source* sources, size_t count, uint64_t tag);
+  bool request(const Source& source, uint64_t tag) { return request(&source, 1, tag); }
+  /// Queues a copy of the bound read framebuffer's RGB bytes, from its bottom row, packed without padding. Renderer
+  /// draws the image's top row there, so rows arrive top first.
+  bool requestPixels(int width, int height, uint64_t tag);
+  /// Oldest finished copy, or nullptr. The memory stays valid until release().
+  const void* collect(uint64_t* tag, bool wait = false);
+  void release();
+  /// Forgets what is in flight.
+  void drop();
+  int inFlight() const { return in_flight_; }
+
+ private:
+  struct Slot {
+    uint32_t buffer = 0;
+    void* memory = nullptr;
+    void* fence = nullptr;
+    uint64_t tag = 0;
+  };
+  Slot& claim(uint64_t tag);
+  std::vector<Slot> slots_;
+  int oldest_ = 0, in_flight_ = 0;
+};
+
+}  // namespace viscera::gpu

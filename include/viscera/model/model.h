@@ -1,0 +1,44 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "viscera/model/lattice.h"
+#include "viscera/model/mesh_import.h"
+#include "viscera/model/scene.h"
+#include "viscera/model/skin.h"
+#include "viscera/model/solid.h"
+
+namespace viscera {
+
+/// One piece of tissue, ready to simulate.
+struct Body {
+  std::string name;
+  MaterialConfig material;
+  Lattice lattice;
+  Skin skin;
+  Vector3d color = Vector3d::Ones();
+  std::vector<std::string> notes;  ///< what the preparation decided: one line each, for a person
+};
+
+/// Everything that is simulated. Slots of body b are offset by slotOffset(b) in the solver's buffers.
+struct Model {
+  std::vector<Body> bodies;
+
+  uint32_t slotOffset(size_t body) const;
+  size_t slots() const;
+  size_t activeNodes() const;
+  size_t springs() const;
+  size_t skinVertices() const;
+  size_t skinTriangles() const;
+};
+
+/// Builds every body of a scene: mesh or phantom -> solid -> lattice + skin, fixed nodes marked.
+/// @throws MeshError     a mesh file that cannot be used, or that encloses no volume
+/// @throws LatticeError  spacing_m or target_nodes out of reach; names the body
+/// @throws SceneError    a fixed entry that matches no node or names no part; skin: input without a mesh
+Model buildModel(const Scene& scene, const Progress& progress = {});
+
+}  // namespace viscera

@@ -1,0 +1,129 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "viscera/math/types.h"
+#include "viscera/model/lattice.h"
+
+namespace viscera {
+
+// Every field of these structs has one entry in src/model/scene_fields.h, which gives its key, unit, range and
+// sentence of documentation; the default is the initialiser here. `viscera keys` prints the table.
+
+enum class TissueSource { kPhantom, kMesh, kBox };
+enum class SkinSource { kAuto, kInput, kVolume };
+enum class UpAxis { kZ, kY };
+enum class FixedShape { kBox, kSphere, kPlane, kPart };
+enum class ToolMode { kNone = 0, kProbe = 1, kGrab = 2, kCut = 3, kCutParticles = 4 };
+
+/// Nodes that are held in space. Coordinates are in the body's frame, before its pose is applied.
+struct FixedConfig {
+  FixedShape shape = FixedShape::kBox;
+  Vector3d min_m = Vector3d::Zero();
+  Vector3d max_m = Vector3d::Zero();
+  Vector3d center_m = Vector3d::Zero();
+  double radius_m = 0.01;
+  Vector3d point_m = Vector3d::Zero();
+  Vector3d normal = Vector3d::UnitZ();  ///< nodes on its negative side are fixed
+  std::string part;
+};
+
+struct MaterialConfig {
+  double young_modulus_pa = 20e3;
+  double density_kg_per_m3 = 1060;
+  double drag_per_s = 4;
+  double dashpot_ratio = 0.2;
+  Weights weights = Weights::kCell;
+};
+
+struct BodyConfig {
+  std::string name = "tissue";
+  TissueSource source = TissueSource::kPhantom;
+  std::string mesh_file;  ///< relative to the scene file
+  double unit_scale_m = 1;
+  UpAxis up_axis = UpAxis::kZ;
+  bool centered = false;
+  double phantom_length_m = 0.1;
+  double phantom_wall_scale = 1;
+  Vector3d box_size_m = Vector3d::Constant(0.05);
+  double spacing_m = 0.004;  ///< 0: from target_nodes
+  int target_nodes = 0;      ///< 0: from spacing_m
+  SkinSource skin = SkinSource::kAuto;
+  Vector3d position_m = Vector3d::Zero();
+  Vector3d rotation_deg = Vector3d::Zero();  ///< about fixed x, then y, then z
+  Vector3d color = Vector3d(0.72, 0.25, 0.22);
+  MaterialConfig material;
+  std::vector<FixedConfig> fixed;
+};
+
+struct StylusConfig {
+  std::string name = "stylus";
+  ToolMode idle = ToolMode::kProbe;
+  ToolMode button1 = ToolMode::kGrab;
+  ToolMode button2 = ToolMode::kCut;
+  double probe_radius_m = 0.006;
+  double grab_radius_m = 0.008;
+  double blade_length_m = 0.02;
+  double eraser_radius_m = 0.002;
+  double release_speed_m_per_s = 0.5;
+  double max_force_n = 5;
+  double max_force_rate_n_per_s = 500;
+  double stale_after_s = 0.2;
+  double workspace_m = 1;
+};
+
+struct CameraConfig {
+  std::string name = "camera";
+  Vector3d position_m = Vector3d(0, -0.3, 0.1);
+  Vector3d target_m = Vector3d::Zero();
+  Vector3d up = Vector3d::UnitZ();
+  double vertical_fov_deg = 35;
+  int width_px = 640;
+  int height_px = 480;
+  double rate_hz = 30;
+  int supersampling = 2;
+};
+
+struct EnvironmentConfig {
+  Vector3d gravity_m_per_s2 = Vector3d(0, 0, -9.81);
+  std::string world_frame = "world";
+  std::string tissue_frame = "tissue";
+  Vector3d tissue_position_m = Vector3d::Zero();
+  Vector3d tissue_rotation_deg = Vector3d::Zero();
+};
+
+struct SolverConfig {
+  double tick_hz = 60;
+  double dt_fraction = 0.5;
+  int max_substeps = 2000;
+  int device = -1;
+};
+
+/// WHAT is simulated: bodies, tools, cameras and an environment.
+struct Scene {
+  std::string name = "scene";
+  std::vector<BodyConfig> bodies;
+  std::vector<StylusConfig> styluses;
+  std::vector<CameraConfig> cameras;
+  EnvironmentConfig environment;
+  SolverConfig solver;
+  std::string folder;  ///< of the scene file: relative mesh files are looked up here
+};
+
+/// "key=value" as given on the command line or in a launch file; the key is a path such as bodies[0].spacing_m.
+using Overrides = std::vector<std::string>;
+
+/// Reads and checks a scene file.
+/// @throws SceneError  file, line, key and accepted range, for an unknown key, a wrong type, a value out of range, NaN
+Scene loadScene(const std::string& path, const Overrides& overrides = {});
+
+/// The same from text, for tests; `name` stands for the file in messages.
+Scene parseScene(const std::string& yaml, const std::string& name, const Overrides& overrides = {});
+
+/// Markdown table of every scene key: key, type and unit, default, range, meaning.
+std::string sceneKeysTable();
+
+}  // namespace viscera

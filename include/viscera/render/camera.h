@@ -1,0 +1,38 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "viscera/math/types.h"
+#include "viscera/model/scene.h"
+
+namespace viscera {
+
+/// Pinhole intrinsics [px] of a camera: square pixels, principal point at the image centre. Pixel (column, row) covers
+/// [column, column + 1) x [row, row + 1), row 0 at the top, so its centre is at (column + 0.5, row + 0.5).
+/// A point (x, y, z) of the optical frame is seen at (fx x / z + cx, fy y / z + cy).
+/// Where pixel centres are whole numbers (OpenCV, sensor_msgs/CameraInfo) the principal point is (cx - 0.5, cy - 0.5).
+struct Intrinsics {
+  double fx, fy, cx, cy;
+};
+Intrinsics intrinsics(const CameraConfig& camera);
+
+/// Pose of the camera's optical frame (x right, y down, z forward) in the tissue frame.
+/// @throws SceneError  naming the camera, if the target is at its position or `up` is along the line of sight
+Pose opticalPose(const CameraConfig& camera);
+
+/// Depths [m] along the optical axis between which something is drawn.
+struct DepthRange {
+  double near_m, far_m;
+};
+/// A hundredth to a hundred times the distance of the target: a tool before the lens and a whole room are both in
+/// view, and 24 bits of depth still part surfaces 1e-5 of the distance from each other at the target.
+DepthRange depthRange(const CameraConfig& camera);
+
+/// OpenGL clip coordinates of optical-frame points. The optical frame's y points down and stays so: images are drawn
+/// with their first row at OpenGL's bottom row, so that rows read back come top first and never need turning.
+Eigen::Matrix4f clipFromOptical(const CameraConfig& camera);
+
+/// Homogeneous matrix of a pose.
+Eigen::Matrix4f poseMatrix(const Pose& pose);
+
+}  // namespace viscera

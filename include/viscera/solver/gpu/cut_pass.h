@@ -1,0 +1,22 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "viscera/solver/gpu/integrate_pass.h"
+
+namespace viscera {
+
+/// Erases the springs that the swept blade crosses, or all springs of the nodes near it. Owner of shaders/cut.comp.
+class CutPass {
+ public:
+  explicit CutPass(const FeatureSet& features);
+  /// @param stylus  row of the bound tool motions
+  /// @param particles  erase nodes instead of single springs
+  void run(const LatticeBuffers& buffers, uint32_t stylus, bool particles) const;
+
+ private:
+  gpu::Program springs_, particles_;
+  uint32_t group_size_;
+};
+
+}  // namespace viscera

@@ -1,0 +1,43 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "viscera/model/model.h"
+#include "viscera/solver/state.h"
+#include "viscera/tools/stylus.h"
+
+namespace viscera {
+
+/// The seam between the session and a backend: upload, step, state (architecture.md, "Three backends, one solver").
+class Solver {
+ public:
+  virtual ~Solver() = default;
+  /// Advances every active node by one tick: substeps() substeps of dt_s() (physics.md 2).
+  virtual void step(const ToolMotions& motions) = 0;
+  /// Back to rest: springs whole, nothing held, time 0.
+  virtual void reset() = 0;
+  virtual StateView state() const = 0;
+  virtual HostState readState() const = 0;  ///< waits
+  /// Measurements of the next tick that has come back, oldest first; false if there is none (yet).
+  /// @param wait  wait for the next one if one is under way
+  virtual bool pollStats(layout::TickStats& stats, bool wait) = 0;
+  virtual double dt_s() const = 0;
+  virtual double dtSafe_s() const = 0;
+  virtual int substeps() const = 0;
+  virtual std::string backend() const = 0;
+};
+
+/// 64-bit fingerprint of displacement, velocity and springs of the active nodes, in active-list order.
+uint64_t stateHash(const Model& model, const HostState& state);
+
+/// Largest stable substep in any state of deformation [s]: min over free nodes of sqrt(2 m / sum k) (physics.md 2).
+double safeTimeStep(const Model& model);
+
+/// Material constants of a body as the kernels take them.
+layout::BodyParams bodyParams(const Body& body, double dt_safe_s);
+
+}  // namespace viscera

@@ -1,0 +1,61 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "viscera/model/model.h"
+#include "viscera/tools/stylus.h"
+
+namespace viscera {
+
+/// A ray towards the tissue. Where it first meets the skin at rest lies the origin of the stroke's own frame: z back
+/// along the ray, x horizontal, y upwards. A stroke made so touches any organ, whatever its shape.
+struct Anchor {
+  Vector3d from_m, towards_m;  ///< two points of the ray, tissue frame
+};
+
+/// Timed poses and buttons of one stylus: in the tissue frame, or in that of the anchor until resolveAnchors().
+struct Stroke {
+  struct Key {
+    double time_s;
+    Pose pose;
+    bool button1, button2;
+  };
+  std::string stylus;     ///< name of a stylus of the scene
+  std::vector<Key> keys;  ///< times strictly increasing
+  std::optional<Anchor> anchor;
+};
+
+/// A moment worth a picture: `viscera run` saves one per camera under this name.
+struct Mark {
+  std::string name;
+  double time_s;
+};
+
+/// A recorded strokes file.
+struct Strokes {
+  std::vector<Stroke> strokes;
+  std::vector<Mark> marks;
+  double duration_s() const;
+  bool anchored() const;  ///< some stroke still waits for resolveAnchors()
+  /// Samples at a time; anchors must have been resolved: poses interpolated between keys, buttons of the last key;
+  /// invalid before the first key.
+  /// @param configs  the scene's styluses, in order
+  StylusSamples at(double time_s, const std::vector<StylusConfig>& configs) const;
+};
+
+/// @throws StrokesError  file, line and key, for a missing file, an unknown key, times that do not increase,
+///                       a number out of range
+Strokes loadStrokes(const std::string& path);
+Strokes parseStrokes(const std::string& yaml, const std::string& name);
+
+/// Brings anchored strokes into the tissue frame. @throws StrokesError if a ray misses every skin
+void resolveAnchors(Strokes& strokes, const Model& model);
+
+/// The strokes as a file that loadStrokes() reads; anchors must have been resolved.
+std::string strokesYaml(const Strokes& strokes);
+
+}  // namespace viscera

@@ -1,0 +1,59 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// What a probe does to a node, and where a held node goes (VR05 2.7.1, 2.7.2; physics.md 5). Included by integrate.comp.
+#include "quaternion.glsl"
+
+/// Adds a change of momentum to what a stylus gave this node in this tick; w counts substeps of contact.
+void giveMomentum(uint stylus, uint slot, vec3 impulse) { impulses[stylus * slot_count + slot] += vec4(impulse, 1.0); }
+
+/// Point of the segment a..b that is nearest to x.
+vec3 nearestOnSegment(vec3 a, vec3 b, vec3 x) {
+  vec3 ab = b - a;
+  float length2 = dot(ab, ab);
+  return length2 > 0.0 ? a + clamp(dot(x - a, ab) / length2, 0.0, 1.0) * ab : a;
+}
+
+/// Swept sphere: a node inside the final sphere goes to its surface along the radius; one that the sphere has passed over
+/// goes out of the swept capsule sideways, so no sweep is too fast. Its normal velocity becomes the tool's.
+void probe(ToolMotion motion, vec3 x, inout vec3 x_next, inout vec3 v_next) {
+  float radius = motion.from.w;
+  vec3 travel = motion.to.xyz - motion.from.xyz;
+  vec3 centre = distance(x_next, motion.to.xyz) < radius ? motion.to.xyz
+                                                         : nearestOnSegment(motion.from.xyz, motion.to.xyz, x_next);
+  vec3 out_of = x_next - centre;
+  float depth2 = dot(out_of, out_of);
+  if (depth2 >= radius * radius) return;
+  // A node at the centre has no direction: it leaves where it came from, or against the travel, or upwards.
+  vec3 fallback = distance(x, centre) > 0.0 ? x - centre : dot(travel, travel) > 0.0 ? -travel : vec3(0.0, 0.0, 1.0);
+  vec3 normal = normalize(depth2 > 1e-12 * radius * radius ? out_of : fallback);
+  x_next = centre + radius * normal;
+  float approach = dot(v_next - travel / dt_s, normal);
+  if (approach < 0.0) v_next -= approach * normal;
+}
+
+void resolveContacts(uint slot, NodeBits bits, float mass, vec3 u, inout vec3 u_next, inout vec3 v_next) {
+  vec3 rest = restPosition(slot);
+  uint held_by = (bits.lo & kGrabMask) >> kGrabShift;
+  for (uint s = 0u; s < kMaxStyluses; ++s) {
+    if (tool_motions[s].info.x != kModeProbe && held_by != s + 1u) continue;
+    ToolMotion motion = tool_motions[s];
+    vec3 v_before = v_next;
+    if (held_by == s + 1u) {
+      u_next = motion.to.xyz + rotated(motion.orientation, grab_offsets[slot].xyz) - rest;
+      v_next = (u_next - u) / dt_s;
+    } else if (held_by == 0u) {
+      vec3 x_next = rest + u_next;
+      vec3 reach = x_next - motion.to.xyz;
+      vec3 travel = motion.to.xyz - motion.from.xyz;
+      float far = motion.from.w + length(travel);
+      if (dot(reach, reach) >= far * far) continue;
+      probe(motion, rest + u, x_next, v_next);
+      u_next = x_next - rest;
+      if (v_next == v_before) continue;
+    } else {
+      continue;
+    }
+    giveMomentum(s, slot, mass * (v_next - v_before));
+  }
+}

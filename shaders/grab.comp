@@ -1,0 +1,48 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// grab.comp - take hold of the nodes around a stylus tip, or let them go.   Owner: solver/gpu/grab_pass.h   VR05 2.7.2
+// in  displacement     in/out  nodes (grab bits), velocity     out  grab offsets
+// Feature: RELEASE lets go; without it the pass takes hold.
+#include "layout.h"
+#include "lattice.glsl"
+#include "quaternion.glsl"
+
+layout(std430, binding = kBindActive) readonly buffer ActiveBuffer { uint active_nodes[]; };
+layout(std430, binding = kBindNodes) buffer NodesBuffer { NodeBits nodes[]; };
+layout(std430, binding = kBindDisplacementIn) readonly buffer DisplacementIn { vec4 displacement[]; };
+layout(std430, binding = kBindVelocityIn) buffer VelocityIn { vec4 velocity[]; };
+layout(std430, binding = kBindGrabOffsets) writeonly buffer GrabOffsetsBuffer { vec4 grab_offsets[]; };
+
+layout(location = 0) uniform uint active_count;
+layout(location = 1) uniform uint stylus;
+layout(location = 2) uniform vec4 tip;          // xyz tip [m], w grab radius [m]
+layout(location = 3) uniform vec4 orientation;  // of the stylus, quaternion xyzw
+layout(location = 4) uniform float release_speed;  // largest |v| after release [m/s]
+
+void takeHold(uint slot, NodeBits bits) {
+  if ((bits.lo & (kFixedBit | kGrabMask)) != 0u || isIsolated(bits)) return;
+  vec3 offset = restPosition(slot) + displacement[slot].xyz - tip.xyz;
+  if (dot(offset, offset) > tip.w * tip.w) return;
+  grab_offsets[slot] = vec4(rotated(conjugate(orientation), offset), 0.0);
+  nodes[slot].lo = bits.lo | ((stylus + 1u) << kGrabShift);
+}
+
+void letGo(uint slot, NodeBits bits) {
+  if ((bits.lo & kGrabMask) >> kGrabShift != stylus + 1u) return;
+  vec3 v = velocity[slot].xyz;
+  float speed = length(v);
+  if (speed > release_speed) velocity[slot] = vec4(v * (release_speed / speed), 0.0);
+  nodes[slot].lo = bits.lo & ~kGrabMask;
+}
+
+void main() {
+  uint i = globalIndex();
+  if (i >= active_count) return;
+  uint slot = active_nodes[i];
+#ifdef RELEASE
+  letGo(slot, nodes[slot]);
+#else
+  takeHold(slot, nodes[slot]);
+#endif
+}

@@ -1,0 +1,54 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// map_skin.comp - where the nodes carry the vertices and normals of the skin (EGVE eqs 4 to 9, hybrid of 3.6).
+// Owner: surface/surface.h   physics.md 4
+// in  skin[count], displacement[slots] m, node_normals[slots]     out  positions[3 * count] m, normals[count] packed
+#include "layout.h"
+layout(local_size_x = GROUP_SIZE) in;  // before globalIndex(), which asks for it
+#include "lattice.glsl"
+#include "pack.glsl"
+#include "skin_basis.glsl"
+
+layout(location = 0) uniform uint vertex_count;
+layout(std430, binding = kBindDisplacementIn) readonly buffer DisplacementBuffer { vec4 displacement[]; };
+layout(std430, binding = kBindNodeNormals) readonly buffer NodeNormalsBuffer { vec4 node_normals[]; };
+layout(std430, binding = kBindSkinBindings) readonly buffer SkinBuffer { SkinBinding skin[]; };
+layout(std430, binding = kBindSkinPositions) writeonly buffer PositionsBuffer { float positions[]; };
+layout(std430, binding = kBindSkinNormals) writeonly buffer NormalsBuffer { uint normals[]; };
+
+/// Direction of an axial spring at rest. Edges 0-1 and 2-0 of every binding are axial (model/skin_anchor.h).
+vec3 axialDirection(uint spring) {
+  vec3 axis = vec3(0.0);
+  axis[spring >> 1] = (spring & 1u) == 0u ? 1.0 : -1.0;
+  return axis;
+}
+
+void main() {
+  uint vertex = globalIndex();
+  if (vertex >= vertex_count) return;
+  SkinBinding s = skin[vertex];
+  float spacing = bodies[bricks[s.slot0 >> 6].body].origin_spacing.w;
+  vec3 rest1 = axialDirection(s.springs & 31u);
+  vec3 rest2 = -axialDirection((s.springs >> 10) & 31u);
+  vec3 u0 = displacement[s.slot0].xyz;
+  // Edges as rest offset plus difference of displacements: exact at rest, wherever the body is.
+  vec3 edge1 = spacing * rest1 + (displacement[s.slot1].xyz - u0);
+  vec3 edge2 = spacing * rest2 + (displacement[s.slot2].xyz - u0);
+
+  Basis constant = triangleBasis(edge1, edge2, rest1, rest2);
+  vec3 offset = inSpace(constant, s.offset_constant.xyz);
+  vec3 normal = inSpace(constant, s.normal_constant.xyz);
+  if ((s.springs & kInterpolatedBit) != 0u) {
+    vec4 n0 = node_normals[s.slot0], n1 = node_normals[s.slot1], n2 = node_normals[s.slot2];
+    float trust = min(n0.w, min(n1.w, n2.w));
+    Basis curved = interpolatedBasis(s.weights.x * n0.xyz + s.weights.y * n1.xyz + s.weights.z * n2.xyz, constant);
+    offset = mix(offset, inSpace(curved, s.offset_interpolated.xyz), trust);
+    normal = mix(normal, inSpace(curved, s.normal_interpolated.xyz), trust);
+  }
+  vec3 position = restPosition(s.slot0) + (u0 + (s.weights.y * edge1 + s.weights.z * edge2 + offset));
+  positions[3u * vertex] = position.x;
+  positions[3u * vertex + 1u] = position.y;
+  positions[3u * vertex + 2u] = position.z;
+  normals[vertex] = packNormal(direction(normal, constant.n));
+}

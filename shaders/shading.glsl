@@ -1,0 +1,46 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// shading.glsl - the light of an operating field, in the optical frame (x right, y down, z forward), linear colours.
+// A key lamp above the lens moves with the camera; a hemisphere of fill keeps shadowed sides readable.
+const vec3 kToKey = vec3(-0.5000, -0.6124, -0.6124);  // unit
+const vec3 kKeyLight = vec3(1.42, 1.36, 1.30);
+const vec3 kSkyLight = vec3(0.24, 0.25, 0.28);
+const vec3 kGroundLight = vec3(0.06, 0.045, 0.045);
+
+/// Unit normal of a fragment, or of its flat triangle where the mesh has none (torn borders, one-node sheets).
+/// Either way it is the normal of the side that is seen.
+vec3 seenNormal(vec3 mesh_normal, vec3 position_m, bool front) {
+  if (dot(mesh_normal, mesh_normal) > 0.01) return normalize(front ? mesh_normal : -mesh_normal);
+  vec3 flat_normal = normalize(cross(dFdx(position_m), dFdy(position_m)));
+  return dot(flat_normal, position_m) < 0.0 ? flat_normal : -flat_normal;
+}
+
+/// Light from all around a direction: bright above, dim below.
+vec3 fill(vec3 direction) { return mix(kGroundLight, kSkyLight, 0.5 - 0.5 * direction.y); }
+
+/// Diffuse light that bends around the terminator by `wrap` per colour, as in tissue that red light wanders through.
+vec3 wrappedDiffuse(float n_l, vec3 wrap) {
+  vec3 lit = max((n_l + wrap) / (1.0 + wrap), 0.0);
+  return lit / (1.0 + 0.5 * wrap);
+}
+
+/// Share of light that a smooth film reflects at an angle (Schlick).
+float fresnel(float cosine, float straight) {
+  float rest = 1.0 - cosine, rest2 = rest * rest;
+  return straight + (1.0 - straight) * rest2 * rest2 * rest;
+}
+
+/// GGX distribution over 4, times pi: brightness of a lamp's highlight for a reflectance of 1.
+float highlight(float n_h, float roughness) {
+  float a = roughness * roughness, a2 = a * a;
+  float d = n_h * n_h * (a2 - 1.0) + 1.0;
+  return 0.25 * a2 / (d * d);
+}
+
+/// Bends values above a knee so that highlights keep their shape instead of clipping.
+vec3 shoulder(vec3 light) {
+  const float knee = 0.75;
+  vec3 over = max(light - knee, 0.0) / (1.0 - knee);
+  return min(light, knee) + (1.0 - knee) * over / (1.0 + over);
+}

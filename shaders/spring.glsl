@@ -1,0 +1,28 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The force of one lattice spring on the node at its near end (physics.md 1, 2).
+
+const float kSqrt2 = 1.41421356237309505;
+const float kShortest = 1e-6;  // of the rest length: below it a spring has no direction of its own and keeps its rest one
+
+struct Spring {
+  vec3 direction;   // unit vector towards the far end
+  float extension;  // L - l0 [m]
+};
+
+/// Dot product without freedom: `precise` keeps the compiler from factoring or fusing, fma() says what is fused.
+float fixedDot(vec3 a, vec3 b) {
+  precise float sum = fma(a.x, b.x, fma(a.y, b.y, a.z * b.z));
+  return sum;
+}
+
+/// @param d  rest offset to the far end [m]   @param l0  its length [m]   @param w  u_far - u_near [m]
+/// L - l0 = (2 d.w + w.w) / (L + l0): no cancellation at small strain; antisymmetric to the bit under (d, w) -> (-d, -w).
+Spring springBetween(vec3 d, float l0, vec3 w) {
+  precise vec3 e = d + w;
+  precise float l = sqrt(fixedDot(e, e));
+  precise vec3 direction = l > kShortest * l0 ? e / l : d / l0;
+  precise float extension = fma(2.0, fixedDot(d, w), fixedDot(w, w)) / (l + l0);
+  return Spring(direction, extension);
+}

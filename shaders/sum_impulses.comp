@@ -1,0 +1,67 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// sum_impulses.comp - momentum given by each stylus over the tick, and its moment about the tip.
+// Owner: solver/gpu/reaction_pass.h   physics.md 5
+// A fixed tree of additions: level 0 (feature LEAVES) turns runs of nodes into partial sums and clears the impulses; later
+// levels fold runs of partial sums until one is left, which goes into the stats. The order never changes, so neither does the sum.
+#include "layout.h"
+#include "lattice.glsl"
+
+
+struct Partial {
+  vec4 impulse[2];  // xyz N s; w nodes touched
+  vec4 angular[2];  // xyz N m s
+};
+layout(std430, binding = kBindPartials) buffer PartialsBuffer { Partial partials[]; };
+layout(std430, binding = kBindStats) buffer StatsBuffer { TickStats stats; };
+
+const uint kRun = 64u;
+layout(location = 0) uniform uint input_count;
+layout(location = 1) uniform uint input_first;   // of the partial sums
+layout(location = 2) uniform uint output_first;
+layout(location = 3) uniform uint last_level;
+
+#ifdef LEAVES
+layout(location = 4) uniform uint slot_count;
+layout(location = 5) uniform vec3 tips[2];  // stylus tips at the end of the tick [m]
+layout(std430, binding = kBindActive) readonly buffer ActiveBuffer { uint active_nodes[]; };
+layout(std430, binding = kBindDisplacementIn) readonly buffer DisplacementIn { vec4 displacement[]; };
+layout(std430, binding = kBindImpulses) buffer ImpulsesBuffer { vec4 impulses[]; };
+
+void add(inout Partial sum, uint i) {
+  uint slot = active_nodes[i];
+  for (uint s = 0u; s < kMaxStyluses; ++s) {
+    vec4 impulse = impulses[s * slot_count + slot];
+    if (impulse.w == 0.0) continue;
+    vec3 arm = restPosition(slot) + displacement[slot].xyz - tips[s];
+    sum.impulse[s] += vec4(impulse.xyz, 1.0);
+    sum.angular[s].xyz += cross(arm, impulse.xyz);
+    impulses[s * slot_count + slot] = vec4(0.0);
+  }
+}
+#else
+void add(inout Partial sum, uint i) {
+  Partial p = partials[input_first + i];
+  for (uint s = 0u; s < kMaxStyluses; ++s) {
+    sum.impulse[s] += p.impulse[s];
+    sum.angular[s] += p.angular[s];
+  }
+}
+#endif
+
+void main() {
+  uint run = globalIndex();
+  if (run * kRun >= input_count) return;
+  Partial sum;
+  for (uint s = 0u; s < kMaxStyluses; ++s) sum.impulse[s] = sum.angular[s] = vec4(0.0);
+  uint end = min((run + 1u) * kRun, input_count);
+  for (uint i = run * kRun; i < end; ++i) add(sum, i);
+  partials[output_first + run] = sum;
+  if (last_level == 0u) return;
+  for (uint s = 0u; s < kMaxStyluses; ++s) {
+    stats.impulse[s] = sum.impulse[s];
+    stats.angular[s] = sum.angular[s];
+    stats.touched[s] = uint(sum.impulse[s].w);
+  }
+}

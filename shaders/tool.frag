@@ -1,0 +1,25 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// tool.frag - satin metal; vertices with alpha < 1 are an outline, densest at its rim.   Owner: render/tool_painter.h
+#include "shading.glsl"
+
+in vec3 position_m;
+in vec3 normal;
+in vec4 color;
+layout(location = 0) out vec4 image;
+
+/// What metal mirrors: the fill light with a dark horizon, by which its roundness is seen.
+vec3 surroundings(vec3 direction) { return fill(direction) * (1.0 - smoothstep(-0.6, 0.7, direction.y)); }
+
+void main() {
+  vec3 n = seenNormal(normal, position_m, gl_FrontFacing);
+  vec3 to_eye = -normalize(position_m);
+  float n_v = clamp(dot(n, to_eye), 0.0, 1.0);
+  float n_h = max(dot(n, normalize(kToKey + to_eye)), 0.0);
+
+  vec3 diffuse = 0.55 * color.rgb * (kKeyLight * max(dot(n, kToKey), 0.0) + fill(n));
+  vec3 gloss = color.rgb * (0.8 * kKeyLight * highlight(n_h, 0.40) + 1.6 * surroundings(reflect(-to_eye, n)));
+  float rim = (1.0 - n_v) * (1.0 - n_v);
+  image = vec4(shoulder(diffuse + gloss), color.a < 1.0 ? color.a * (0.08 + 0.92 * rim) : 1.0);
+}

@@ -1,0 +1,24 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fstream>
+
+#include "cli/commands.h"
+#include "viscera/math/error.h"
+#include "viscera/model/model.h"
+#include "viscera/tools/strokes.h"
+
+namespace viscera::cli {
+
+int anchor(const RunOptions& options) {
+  Overrides overrides = meshOverrides(options.mesh);
+  overrides.insert(overrides.end(), options.overrides.begin(), options.overrides.end());
+  const Scene scene = loadScene(findScene(options.scene), overrides);
+  Strokes strokes = loadStrokes(options.strokes);
+  resolveAnchors(strokes, buildModel(scene, consoleProgress()));
+  std::ofstream file(options.out);
+  file << strokesYaml(strokes);
+  if (!file) throw Error(options.out + ": cannot be written");
+  return 0;
+}
+
+}  // namespace viscera::cli

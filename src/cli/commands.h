@@ -1,0 +1,48 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "viscera/model/scene.h"
+#include "viscera/model/solid.h"
+
+namespace viscera::cli {
+
+/// `viscera check`: EGL devices, which is taken, why others were not.
+int check(int device);
+
+struct RunOptions {
+  std::string scene;
+  std::string mesh;     ///< empty: what the scene says
+  std::string strokes;  ///< empty: nobody touches the tissue
+  std::optional<double> seconds;
+  std::string out;  ///< empty: no pictures, no metrics.json
+  Overrides overrides;
+};
+/// `viscera run`: a session without ROS.
+int run(const RunOptions& options);
+
+struct BenchStepOptions {
+  std::vector<int> nodes;
+  std::string scene;
+  std::string csv = "-";
+  Overrides overrides;
+};
+/// `viscera bench step`: time of a substep.
+int benchStep(const BenchStepOptions& options);
+
+/// `viscera anchor`: anchored strokes as absolute ones, for `stylus_replay`, which does not know the tissue.
+int anchor(const RunOptions& options);
+
+/// The file itself, or the shipped scene of that name. @throws SceneError naming where it was looked for
+std::string findScene(const std::string& name);
+/// Overrides that make a mesh file, relative to the working directory, the tissue of the first body: centred on the
+/// body's origin, upright. Overrides that come later go before them.
+Overrides meshOverrides(const std::string& mesh_file);
+/// Reports preparation on standard error: one line per stage, refreshed where it is a terminal.
+Progress consoleProgress();
+
+}  // namespace viscera::cli

@@ -1,0 +1,84 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <iostream>
+
+#include "cli/commands.h"
+
+using namespace viscera;
+
+namespace {
+
+struct Options {
+  int device = -1;
+  cli::RunOptions run;
+  double seconds = 0;
+  cli::BenchStepOptions step;
+};
+
+void addOverrides(CLI::App* command, Overrides& overrides) {
+  command->add_option("--set", overrides, "key=value: replaces one value of the scene, as in bodies[0].spacing_m=0.003")
+      ->allow_extra_args(false);
+}
+
+int dispatch(int argc, char** argv) {
+  CLI::App app("viscera: soft-tissue surgical simulator");
+  app.require_subcommand(1);
+  Options o;
+  CLI::App* check = app.add_subcommand("check", "list the EGL devices and say which is taken, and why others are not");
+  check->add_option("--device", o.device, "take only this device");
+
+  CLI::App* run = app.add_subcommand("run", "run a scene without ROS; the last line is one JSON object");
+  run->add_option("scene", o.run.scene, "scene file, or name of a shipped scene")->required();
+  run->add_option("--mesh", o.run.mesh, "mesh file that becomes the first body");
+  run->add_option("--strokes", o.run.strokes, "recorded strokes to replay");
+  CLI::Option* seconds = run->add_option("--seconds", o.seconds, "simulated time; default: the strokes' length, or 1")
+                             ->check(CLI::Range(0.0, 86400.0));
+  run->add_option("--out", o.run.out, "folder for pictures and metrics.json");
+  addOverrides(run, o.run.overrides);
+
+  CLI::App* anchor =
+      app.add_subcommand("anchor", "turn strokes anchored to the skin into absolute ones, for stylus_replay");
+  anchor->add_option("scene", o.run.scene, "scene file, or name of a shipped scene")->required();
+  anchor->add_option("--strokes", o.run.strokes, "strokes file with anchors")->required();
+  anchor->add_option("--mesh", o.run.mesh, "mesh file that becomes the first body");
+  anchor->add_option("--out", o.run.out, "strokes file to write")->required();
+  addOverrides(anchor, o.run.overrides);
+
+  CLI::App* bench = app.add_subcommand("bench", "measure");
+  bench->require_subcommand(1);
+  CLI::App* step = bench->add_subcommand("step", "time per substep of a cube and a heart");
+  step->add_option("--nodes", o.step.nodes, "node counts; default 10000 42745 100000")->check(CLI::Range(8, 20000000));
+  step->add_option("--scene", o.step.scene, "measure this scene instead");
+  step->add_option("--csv", o.step.csv, "file to write; - is standard output");
+  addOverrides(step, o.step.overrides);
+
+  CLI::App* keys = app.add_subcommand("keys", "print the table of scene keys");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    return app.exit(e);
+  }
+  if (*check) return cli::check(o.device);
+  if (*anchor) return cli::anchor(o.run);
+  if (*step) return cli::benchStep(o.step);
+  if (*keys) {
+    std::cout << sceneKeysTable();
+    return 0;
+  }
+  if (*seconds) o.run.seconds = o.seconds;
+  return cli::run(o.run);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return dispatch(argc, argv);
+  } catch (const std::exception& e) {
+    std::fflush(stdout);
+    std::cerr << "viscera: error: " << e.what() << '\n';
+    return 1;
+  }
+}

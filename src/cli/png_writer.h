@@ -1,0 +1,23 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "viscera/math/error.h"
+
+namespace viscera {
+
+/// An image file that cannot be written. Names the file and what the system said.
+struct ImageError : Error {
+  using Error::Error;
+};
+
+/// Writes an 8-bit sRGB image, replacing the file if there is one.
+/// @param rgb  [3 * width * height], rows from the top
+/// @throws ImageError
+void writePng(const std::string& path, int width, int height, const std::vector<uint8_t>& rgb);
+
+}  // namespace viscera

@@ -1,0 +1,69 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <unistd.h>
+
+#include <filesystem>
+#include <iostream>
+
+#include "cli/commands.h"
+#include "viscera/math/error.h"
+
+namespace viscera::cli {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Folders of shipped scenes: beside an installed program, then in the source tree it was built from.
+std::vector<fs::path> sceneFolders() {
+  std::error_code error;
+  const fs::path program = fs::read_symlink("/proc/self/exe", error);
+  std::vector<fs::path> out;
+  if (!error) {
+    for (fs::path up = program.parent_path(); up != up.parent_path(); up = up.parent_path()) {
+      out.push_back(up / "share" / "viscera" / "config" / "scenes");
+    }
+  }
+  out.push_back(fs::path(VISCERA_SOURCE_CONFIG) / "scenes");
+  return out;
+}
+
+}  // namespace
+
+std::string findScene(const std::string& name) {
+  std::error_code error;
+  if (fs::exists(name, error) || name.find('/') != std::string::npos) return name;
+  for (const fs::path& folder : sceneFolders()) {
+    const fs::path file = folder / (name + ".yaml");
+    if (fs::exists(file, error)) return file.string();
+  }
+  throw SceneError("'" + name + "' is neither a file nor the name of a shipped scene");
+}
+
+Overrides meshOverrides(const std::string& mesh_file) {
+  if (mesh_file.empty()) return {};
+  std::string quoted = "'";
+  for (char c : fs::absolute(mesh_file).string()) quoted += c == '\'' ? std::string("''") : std::string(1, c);
+  const std::string extension = fs::path(mesh_file).extension().string();
+  const bool gltf = extension == ".glb" || extension == ".gltf";  // glTF 2.0: +y is up
+  return {"bodies[0].source=mesh", "bodies[0].mesh_file=" + quoted + "'", "bodies[0].centered=true",
+          std::string("bodies[0].up_axis=") + (gltf ? "y" : "z")};
+}
+
+Progress consoleProgress() {
+  const bool terminal = isatty(STDERR_FILENO) != 0;
+  return [terminal, stage = std::string(), shown = -1](const std::string& name, double fraction) mutable {
+    const int step = static_cast<int>(fraction * (terminal ? 100 : 4));
+    if (name == stage && step <= shown) return;
+    if (terminal) {
+      std::cerr << (name == stage || stage.empty() ? "\r" : "\n") << name << " " << step << " %" << std::flush;
+      if (step >= 100) std::cerr << "\r" << name << " done \n";
+    } else {
+      std::cerr << name << " " << static_cast<int>(fraction * 100) << " %\n";
+    }
+    stage = terminal && step >= 100 ? "" : name;
+    shown = step;
+  };
+}
+
+}  // namespace viscera::cli

@@ -1,0 +1,91 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "viscera/gpu/buffer.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "gpu/gl.h"
+#include "viscera/math/error.h"
+
+namespace viscera::gpu {
+
+RawBuffer::RawBuffer(size_t bytes) : bytes_(bytes) {
+  constexpr size_t kSmallest = 16;  // drivers refuse storage of size 0
+  glCreateBuffers(1, &id_);
+  countObject();
+  glNamedBufferStorage(id_, static_cast<GLsizeiptr>(std::max(bytes, kSmallest)), nullptr, GL_DYNAMIC_STORAGE_BIT);
+  const GLenum code = glGetError();
+  if (code != GL_NO_ERROR) {
+    glDeleteBuffers(1, &id_);
+    throw GpuError("glNamedBufferStorage of " + std::to_string(bytes) + " bytes failed: " + glErrorText(code));
+  }
+  clear();
+}
+
+RawBuffer::~RawBuffer() {
+  if (id_) glDeleteBuffers(1, &id_);
+}
+
+RawBuffer::RawBuffer(RawBuffer&& other) noexcept
+    : id_(std::exchange(other.id_, 0)), bytes_(std::exchange(other.bytes_, 0)) {}
+
+RawBuffer& RawBuffer::operator=(RawBuffer&& other) noexcept {
+  std::swap(id_, other.id_);
+  std::swap(bytes_, other.bytes_);
+  return *this;
+}
+
+void RawBuffer::write(size_t offset, size_t bytes, const void* data) {
+  glNamedBufferSubData(id_, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes), data);
+}
+
+void RawBuffer::read(size_t offset, size_t bytes, void* data) const {
+  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+  glGetNamedBufferSubData(id_, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes), data);
+}
+
+void RawBuffer::clear() {
+  const uint32_t zero = 0;
+  glClearNamedBufferData(id_, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &zero);
+}
+
+TexelView::TexelView(const RawBuffer& buffer, TexelFormat format) {
+  const bool is_float = format == TexelFormat::kRgba32f;
+  const size_t texels = buffer.bytes() / (is_float ? 16 : 4);
+  GLint most = 0;
+  glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most);
+  if (texels > static_cast<size_t>(most)) {
+    throw GpuError("a buffer of " + std::to_string(texels) +
+                   " texels is longer than the driver's GL_MAX_TEXTURE_BUFFER_SIZE, " + std::to_string(most) +
+                   ": use a larger spacing_m");
+  }
+  glCreateTextures(GL_TEXTURE_BUFFER, 1, &id_);
+  countObject();
+  glTextureBuffer(id_, is_float ? GL_RGBA32F : GL_R32UI, buffer.id());
+}
+
+TexelView::~TexelView() {
+  if (id_) glDeleteTextures(1, &id_);
+}
+
+TexelView::TexelView(TexelView&& other) noexcept : id_(std::exchange(other.id_, 0)) {}
+
+TexelView& TexelView::operator=(TexelView&& other) noexcept {
+  std::swap(id_, other.id_);
+  return *this;
+}
+
+void TexelView::bind(uint32_t unit) const {
+  glBindTextureUnit(unit, id_);
+}
+
+void RawBuffer::bindStorage(uint32_t binding) const {
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, id_);
+}
+
+void RawBuffer::bindUniform(uint32_t binding, size_t offset, size_t bytes) const {
+  glBindBufferRange(GL_UNIFORM_BUFFER, binding, id_, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes));
+}
+
+}  // namespace viscera::gpu

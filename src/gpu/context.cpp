@@ -1,0 +1,166 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "viscera/gpu/context.h"
+
+#include <EGL/egl.h>
+#include <EGL/eglext.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstring>
+
+#include "gpu/gl.h"
+#include "viscera/math/error.h"
+
+namespace viscera::gpu {
+
+namespace {
+
+constexpr int kMaxDevices = 32;
+
+std::string eglFailure(const char* call) {
+  char text[96];
+  std::snprintf(text, sizeof text, "%s failed with EGL error 0x%04x", call, eglGetError());
+  return text;
+}
+
+bool hasWord(const char* list, const char* word) {
+  return list && std::strstr(list, word) != nullptr;
+}
+
+template <class F>
+F eglFunction(const char* name) {
+  return reinterpret_cast<F>(eglGetProcAddress(name));
+}
+
+struct Candidate {
+  int index;
+  EGLDeviceEXT device;
+  bool software;
+  std::string name;
+};
+
+std::vector<Candidate> listDevices(std::string& problem) {
+  const char* client = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
+  auto query_devices = eglFunction<PFNEGLQUERYDEVICESEXTPROC>("eglQueryDevicesEXT");
+  auto query_string = eglFunction<PFNEGLQUERYDEVICESTRINGEXTPROC>("eglQueryDeviceStringEXT");
+  if (!hasWord(client, "EGL_EXT_platform_device") || !query_devices || !query_string) {
+    problem = "the EGL library has no EGL_EXT_platform_device / EGL_EXT_device_enumeration";
+    return {};
+  }
+  EGLDeviceEXT devices[kMaxDevices];
+  EGLint count = 0;
+  if (!query_devices(kMaxDevices, devices, &count)) {
+    problem = eglFailure("eglQueryDevicesEXT");
+    return {};
+  }
+  if (count == 0) problem = "eglQueryDevicesEXT lists no device";
+  std::vector<Candidate> out;
+  for (int i = 0; i < count; ++i) {
+    const char* extensions = query_string(devices[i], EGL_EXTENSIONS);
+    const bool software = hasWord(extensions, "EGL_MESA_device_software");
+    const char* file =
+        hasWord(extensions, "EGL_EXT_device_drm") ? query_string(devices[i], EGL_DRM_DEVICE_FILE_EXT) : nullptr;
+    std::string name = software ? "software rasteriser" : hasWord(extensions, "EGL_NV_device_cuda") ? "NVIDIA" : "GPU";
+    if (file) name += std::string(" ") + file;
+    out.push_back({i, devices[i], software, name});
+  }
+  std::stable_sort(out.begin(), out.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.software < b.software; });
+  return out;
+}
+
+}  // namespace
+
+Context::Context(int only) {
+  std::string problem;
+  for (const Candidate& candidate : listDevices(problem)) {
+    DeviceAttempt attempt{candidate.index, candidate.name, false, ""};
+    if (only >= 0 && candidate.index != only) {
+      attempt.reason = "not asked for: device " + std::to_string(only) + " was";
+    } else if (!context_) {
+      attempt.taken = open(candidate.index, candidate.device, attempt);
+    } else {
+      attempt.reason = "not needed: a device before it was taken";
+    }
+    attempts_.push_back(attempt);
+  }
+  if (context_) return;
+  std::string message = "no EGL device gives OpenGL 4.5 core";
+  if (!problem.empty()) message += "; " + problem;
+  for (const DeviceAttempt& a : attempts_) {
+    message += "; device " + std::to_string(a.index) + " (" + a.name + "): " + a.reason;
+  }
+  throw GpuError(message);
+}
+
+bool Context::open(int index, void* device, DeviceAttempt& attempt) {
+  (void)index;
+  auto platform_display = eglFunction<PFNEGLGETPLATFORMDISPLAYEXTPROC>("eglGetPlatformDisplayEXT");
+  const EGLDisplay display =
+      platform_display ? platform_display(EGL_PLATFORM_DEVICE_EXT, device, nullptr) : EGL_NO_DISPLAY;
+  if (display == EGL_NO_DISPLAY) {
+    attempt.reason = eglFailure("eglGetPlatformDisplayEXT");
+    return false;
+  }
+  if (!eglInitialize(display, nullptr, nullptr)) {
+    attempt.reason = eglFailure("eglInitialize");
+    return false;
+  }
+  const EGLint config_wishes[] = {EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
+  const EGLint context_wishes[] = {
+      EGL_CONTEXT_MAJOR_VERSION,           4,       EGL_CONTEXT_MINOR_VERSION, 5, EGL_CONTEXT_OPENGL_PROFILE_MASK,
+      EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
+  EGLConfig config = nullptr;
+  EGLint configs = 0;
+  EGLContext context = EGL_NO_CONTEXT;
+  if (!eglBindAPI(EGL_OPENGL_API)) {
+    attempt.reason = eglFailure("eglBindAPI(EGL_OPENGL_API)");
+  } else if (!eglChooseConfig(display, config_wishes, &config, 1, &configs) || configs == 0) {
+    attempt.reason = eglFailure("eglChooseConfig");
+  } else if ((context = eglCreateContext(display, config, EGL_NO_CONTEXT, context_wishes)) == EGL_NO_CONTEXT) {
+    attempt.reason = eglFailure("eglCreateContext(OpenGL 4.5 core)");
+  } else if (!eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context)) {
+    attempt.reason = eglFailure("eglMakeCurrent(no surface)");
+    eglDestroyContext(display, context);
+    context = EGL_NO_CONTEXT;
+  }
+  if (context == EGL_NO_CONTEXT) {
+    eglTerminate(display);
+    return false;
+  }
+  glewExperimental = GL_TRUE;
+  const GLenum glew = glewInit();
+  // GLEW 2.2 asks GLX for a display after it has loaded the entry points; on EGL there is none, and that is all right.
+  if (glew != GLEW_OK && glew != GLEW_ERROR_NO_GLX_DISPLAY) {
+    attempt.reason = std::string("glewInit failed: ") + reinterpret_cast<const char*>(glewGetErrorString(glew));
+  } else if (!glDispatchCompute || !glCreateBuffers || !glBufferStorage) {
+    attempt.reason = "the driver lacks OpenGL 4.5 entry points";
+  }
+  if (!attempt.reason.empty()) {
+    eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    eglDestroyContext(display, context);
+    eglTerminate(display);
+    return false;
+  }
+  while (glGetError() != GL_NO_ERROR) {
+  }  // glewInit may leave GL_INVALID_ENUM behind on a core context
+  display_ = display;
+  context_ = context;
+  renderer_ = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+  version_ = reinterpret_cast<const char*>(glGetString(GL_VERSION));
+  software_ = renderer_.find("llvmpipe") != std::string::npos || renderer_.find("softpipe") != std::string::npos;
+  attempt.name = renderer_;
+  attempt.reason = software_ ? "first that works; no hardware device before it did" : "first that works";
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  return true;
+}
+
+Context::~Context() {
+  if (!context_) return;
+  eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+  eglDestroyContext(display_, context_);
+  eglTerminate(display_);
+}
+
+}  // namespace viscera::gpu

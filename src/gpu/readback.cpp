@@ -1,0 +1,95 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "viscera/gpu/readback.h"
+
+#include <cassert>
+
+#include "gpu/gl.h"
+#include "viscera/math/error.h"
+
+namespace viscera::gpu {
+
+namespace {
+constexpr GLuint64 kOneSecondNs = 1000000000ull;
+}
+
+ReadbackRing::ReadbackRing(size_t bytes, int depth) : slots_(static_cast<size_t>(depth)) {
+  const GLbitfield flags = GL_MAP_READ_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
+  for (Slot& slot : slots_) {
+    glCreateBuffers(1, &slot.buffer);
+    countObject();
+    glNamedBufferStorage(slot.buffer, static_cast<GLsizeiptr>(bytes), nullptr, flags | GL_CLIENT_STORAGE_BIT);
+    slot.memory = glMapNamedBufferRange(slot.buffer, 0, static_cast<GLsizeiptr>(bytes), flags);
+    if (!slot.memory)
+      throw GpuError("glMapNamedBufferRange of " + std::to_string(bytes) +
+                     " bytes failed: " + glErrorText(glGetError()));
+  }
+}
+
+ReadbackRing::~ReadbackRing() {
+  for (Slot& slot : slots_) {
+    if (slot.fence) glDeleteSync(static_cast<GLsync>(slot.fence));
+    if (slot.buffer) glDeleteBuffers(1, &slot.buffer);
+  }
+}
+
+ReadbackRing::Slot& ReadbackRing::claim(uint64_t tag) {
+  Slot& slot = slots_[static_cast<size_t>(oldest_ + in_flight_) % slots_.size()];
+  slot.tag = tag;
+  ++in_flight_;
+  return slot;
+}
+
+bool ReadbackRing::request(const Source* sources, size_t count, uint64_t tag) {
+  if (in_flight_ == static_cast<int>(slots_.size())) return false;
+  Slot& slot = claim(tag);
+  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+  GLintptr at = 0;
+  for (const Source* s = sources; s != sources + count; ++s) {
+    glCopyNamedBufferSubData(s->buffer, slot.buffer, static_cast<GLintptr>(s->offset), at,
+                             static_cast<GLsizeiptr>(s->bytes));
+    at += static_cast<GLintptr>(s->bytes);
+  }
+  glMemoryBarrier(GL_CLIENT_MAPPED_BUFFER_BARRIER_BIT);
+  slot.fence = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+  return true;
+}
+
+bool ReadbackRing::requestPixels(int width, int height, uint64_t tag) {
+  if (in_flight_ == static_cast<int>(slots_.size())) return false;
+  Slot& slot = claim(tag);
+  glBindBuffer(GL_PIXEL_PACK_BUFFER, slot.buffer);
+  glReadPixels(0, 0, width, height, GL_RGB, GL_UNSIGNED_BYTE, nullptr);
+  glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
+  glMemoryBarrier(GL_CLIENT_MAPPED_BUFFER_BARRIER_BIT);
+  slot.fence = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+  return true;
+}
+
+const void* ReadbackRing::collect(uint64_t* tag, bool wait) {
+  if (in_flight_ == 0) return nullptr;
+  Slot& slot = slots_[static_cast<size_t>(oldest_)];
+  if (slot.fence) {
+    const GLsync fence = static_cast<GLsync>(slot.fence);
+    GLenum result = glClientWaitSync(fence, GL_SYNC_FLUSH_COMMANDS_BIT, wait ? kOneSecondNs : 0);
+    while (wait && result == GL_TIMEOUT_EXPIRED) result = glClientWaitSync(fence, 0, kOneSecondNs);
+    if (result == GL_WAIT_FAILED) throw GpuError("glClientWaitSync failed: " + glErrorText(glGetError()));
+    if (result == GL_TIMEOUT_EXPIRED) return nullptr;
+    glDeleteSync(fence);
+    slot.fence = nullptr;
+  }
+  if (tag) *tag = slot.tag;
+  return slot.memory;
+}
+
+void ReadbackRing::release() {
+  assert(in_flight_ > 0);
+  oldest_ = (oldest_ + 1) % static_cast<int>(slots_.size());
+  --in_flight_;
+}
+
+void ReadbackRing::drop() {
+  while (collect(nullptr, true)) release();
+}
+
+}  // namespace viscera::gpu

@@ -1,0 +1,154 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <limits>
+
+#include "viscera/model/scene.h"
+
+namespace viscera {
+
+// The one list of scene keys. A visitor offers
+//   number(key, double&, Range, unit, text)   integer(key, int&, Range, text)   text(key, std::string&, text)
+//   boolean(key, bool&, text)
+//   vector(key, Vector3d&, Range, unit, text) choice(key, Enum&, {{name, value}...}, text)
+//   group(key, Struct&, text)                 list(key, std::vector<Struct>&, max_count, text)
+
+/// Accepted values, both ends included.
+struct Range {
+  double min, max;
+};
+template <class E>
+struct Choice {
+  const char* name;
+  E value;
+};
+template <class E>
+using Choices = std::initializer_list<Choice<E>>;
+
+constexpr Range kLength{0, 10};         // m: organs and rooms
+constexpr Range kCoordinate{-10, 10};   // m
+constexpr Range kDirection{-1e3, 1e3};  // any length but zero
+constexpr Range kAngle{-360, 360};      // degrees
+
+template <class V>
+void visitFields(V& v, FixedConfig& c) {
+  v.choice("shape", c.shape,
+           {{"box", FixedShape::kBox},
+            {"sphere", FixedShape::kSphere},
+            {"plane", FixedShape::kPlane},
+            {"part", FixedShape::kPart}},
+           "which nodes are held in space; coordinates are the body's own, before its pose");
+  v.vector("min_m", c.min_m, kCoordinate, "m", "box: lower corner");
+  v.vector("max_m", c.max_m, kCoordinate, "m", "box: upper corner");
+  v.vector("center_m", c.center_m, kCoordinate, "m", "sphere: centre");
+  v.number("radius_m", c.radius_m, kLength, "m", "sphere: radius");
+  v.vector("point_m", c.point_m, kCoordinate, "m", "plane: a point of it");
+  v.vector("normal", c.normal, kDirection, "", "plane: nodes on the side it points away from are held");
+  v.text("part", c.part, "part: name of a part of the mesh or phantom");
+}
+
+template <class V>
+void visitFields(V& v, MaterialConfig& c) {
+  v.number("young_modulus_pa", c.young_modulus_pa, {1, 1e9}, "Pa", "Young's modulus E; Poisson's ratio is 1/4");
+  v.number("density_kg_per_m3", c.density_kg_per_m3, {1, 1e5}, "kg/m3", "mass density");
+  v.number("drag_per_s", c.drag_per_s, {0, 1e4}, "1/s", "node drag gamma: every velocity decays at this rate");
+  v.number("dashpot_ratio", c.dashpot_ratio, {0, 0.5}, "1",
+           "axial dashpot: damping ratio at the highest frequency; 0 leaves it out of the kernel");
+  v.choice("weights", c.weights, {{"cell", Weights::kCell}, {"paper", Weights::kPaper}},
+           "assembly of springs and masses: per solid cell (exact), or VR05's uniform weights");
+}
+
+template <class V>
+void visitFields(V& v, BodyConfig& c) {
+  v.text("name", c.name, "name, unique");
+  v.choice("source", c.source,
+           {{"phantom", TissueSource::kPhantom}, {"mesh", TissueSource::kMesh}, {"box", TissueSource::kBox}},
+           "where the tissue comes from: the built-in heart, a mesh file, a box");
+  v.text("mesh_file", c.mesh_file, "mesh: OBJ, STL, PLY, glTF or GLB file, relative to the scene file");
+  v.number("unit_scale_m", c.unit_scale_m, {1e-9, 1e3}, "m", "mesh: metres per unit of the file");
+  v.choice("up_axis", c.up_axis, {{"z", UpAxis::kZ}, {"y", UpAxis::kY}},
+           "mesh: axis of the file that points up and is turned to z; y in glTF");
+  v.boolean("centered", c.centered, "mesh: move the middle of its bounding box to the body's origin");
+  v.number("phantom_length_m", c.phantom_length_m, {0.01, 1}, "m", "phantom: base to apex");
+  v.number("phantom_wall_scale", c.phantom_wall_scale, {0.1, 2}, "1", "phantom: multiplies every wall thickness");
+  v.vector("box_size_m", c.box_size_m, {1e-4, 10}, "m", "box: edge lengths, centred on the body's origin");
+  v.number("spacing_m", c.spacing_m, {1e-5, 10}, "m", "lattice spacing h");
+  v.integer("target_nodes", c.target_nodes, {0, 20e6},
+            "node count to reach within 2 %; above 0 it decides instead of spacing_m");
+  v.choice("skin", c.skin,
+           {{"auto", SkinSource::kAuto}, {"input", SkinSource::kInput}, {"volume", SkinSource::kVolume}},
+           "detailed surface: the input mesh, or extracted from the volume; auto takes the mesh where there is one");
+  v.vector("position_m", c.position_m, kCoordinate, "m", "origin of the body in the tissue frame");
+  v.vector("rotation_deg", c.rotation_deg, kAngle, "deg", "turns about the fixed x, then y, then z axis");
+  v.vector("color", c.color, {0, 1}, "1", "red, green, blue");
+  v.group("material", c.material, "elastic material");
+  v.list("fixed", c.fixed, 64, "regions whose nodes are held in space");
+}
+
+template <class V>
+void visitFields(V& v, StylusConfig& c) {
+  const Choices<ToolMode> modes = {{"none", ToolMode::kNone},
+                                   {"probe", ToolMode::kProbe},
+                                   {"grab", ToolMode::kGrab},
+                                   {"cut", ToolMode::kCut},
+                                   {"cut_particles", ToolMode::kCutParticles}};
+  v.text("name", c.name, "name: its topics are <name>/measured_cp and so on");
+  v.choice("idle", c.idle, modes, "what it does with no button pressed");
+  v.choice("button1", c.button1, modes, "what it does while button 1 is pressed");
+  v.choice("button2", c.button2, modes, "what it does while button 2 is pressed; goes before button 1");
+  v.number("probe_radius_m", c.probe_radius_m, {1e-4, 1}, "m", "probe: radius of the tip's sphere");
+  v.number("grab_radius_m", c.grab_radius_m, {1e-4, 1}, "m", "grab: nodes within this distance of the tip are held");
+  v.number("blade_length_m", c.blade_length_m, {1e-4, 1}, "m", "cut: blade from the tip along -z of the stylus");
+  v.number("eraser_radius_m", c.eraser_radius_m, {1e-5, 1}, "m",
+           "cut_particles: nodes within this distance of the blade are erased");
+  v.number("release_speed_m_per_s", c.release_speed_m_per_s, {0, 100}, "m/s", "grab: largest node speed after release");
+  v.number("max_force_n", c.max_force_n, {0, 1e3}, "N", "reaction force is saturated here");
+  v.number("max_force_rate_n_per_s", c.max_force_rate_n_per_s, {0, 1e6}, "N/s", "reaction force changes no faster");
+  v.number("stale_after_s", c.stale_after_s, {0.001, 60}, "s", "a pose older than this is no pose: no tool, no force");
+  v.number("workspace_m", c.workspace_m, {0.01, 100}, "m", "a pose farther than this from the tissue frame is refused");
+}
+
+template <class V>
+void visitFields(V& v, CameraConfig& c) {
+  v.text("name", c.name, "name: its topics are <name>/image_raw and <name>/camera_info");
+  v.vector("position_m", c.position_m, kCoordinate, "m", "eye, tissue frame");
+  v.vector("target_m", c.target_m, kCoordinate, "m", "point looked at, tissue frame");
+  v.vector("up", c.up, kDirection, "", "direction that is up in the image");
+  v.number("vertical_fov_deg", c.vertical_fov_deg, {1, 150}, "deg", "vertical field of view");
+  v.integer("width_px", c.width_px, {16, 4096}, "image width");
+  v.integer("height_px", c.height_px, {16, 4096}, "image height");
+  v.number("rate_hz", c.rate_hz, {0.1, 240}, "Hz", "images per second of simulated time, at most one per tick");
+  v.integer("supersampling", c.supersampling, {1, 2}, "antialiasing: pixels drawn per image pixel along each axis");
+}
+
+template <class V>
+void visitFields(V& v, EnvironmentConfig& c) {
+  v.vector("gravity_m_per_s2", c.gravity_m_per_s2, {-100, 100}, "m/s2", "gravity, tissue frame");
+  v.text("world_frame", c.world_frame, "tf frame in which the tissue frame is placed");
+  v.text("tissue_frame", c.tissue_frame, "tf frame of bodies, cameras, surface and forces");
+  v.vector("tissue_position_m", c.tissue_position_m, {-1e4, 1e4}, "m", "origin of the tissue frame in the world frame");
+  v.vector("tissue_rotation_deg", c.tissue_rotation_deg, kAngle, "deg",
+           "turns about the world's x, then y, then z axis");
+}
+
+template <class V>
+void visitFields(V& v, SolverConfig& c) {
+  v.number("tick_hz", c.tick_hz, {1, 1000}, "Hz", "ticks per second: tools, forces and surface follow at this rate");
+  v.number("dt_fraction", c.dt_fraction, {0.01, 0.95}, "1",
+           "substep over the largest stable one; 0.9 holds ordinary scenes, 0.5 extreme ones");
+  v.integer("max_substeps", c.max_substeps, {1, 100000}, "a scene that needs more substeps per tick is refused");
+  v.integer("device", c.device, {-1, 31}, "EGL device to take, as listed by `viscera check`; -1: the first that works");
+}
+
+template <class V>
+void visitFields(V& v, Scene& c) {
+  v.text("name", c.name, "name, for reports");
+  v.list("bodies", c.bodies, layout::kMaxBodies, "pieces of tissue, at least one");
+  v.list("styluses", c.styluses, layout::kMaxStyluses, "tools");
+  v.list("cameras", c.cameras, 8, "views");
+  v.group("environment", c.environment, "gravity and frames");
+  v.group("solver", c.solver, "time stepping");
+}
+
+}  // namespace viscera

@@ -1,0 +1,18 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+
+#include "model/tissue.h"
+
+namespace viscera {
+
+/// Nodes that the lattice of a solid has: corners of filled cells.
+size_t countNodes(const Solid& solid);
+
+/// The filling whose node count is nearest to a target, found by adjusting the spacing; 2 % ends the search.
+/// @throws LatticeError  the nearest is more than 25 % off, or so fine a grid would not fit in memory
+Filling fillToNodes(const Tissue& tissue, int target_nodes, const Progress& progress);
+
+}  // namespace viscera

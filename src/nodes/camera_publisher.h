@@ -1,0 +1,27 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <image_transport/image_transport.h>
+
+#include "nodes/conversions.h"
+#include "nodes/throttle.h"
+
+namespace viscera::nodes {
+
+/// Topics `<camera>/image_raw` and `<camera>/camera_info` of one camera.
+class CameraPublisher {
+ public:
+  CameraPublisher(image_transport::ImageTransport& transport, const CameraConfig& camera, double tick_hz);
+
+  /// Call once in a tick: whether somebody subscribes and the camera's rate makes an image due.
+  bool pick();
+  void publish(ImageFrame&& frame, const ros::Time& stamp);
+
+ private:
+  const CameraConfig camera_;
+  image_transport::CameraPublisher publisher_;
+  Throttle throttle_;
+};
+
+}  // namespace viscera::nodes

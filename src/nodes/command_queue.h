@@ -1,0 +1,56 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <future>
+#include <mutex>
+#include <optional>
+#include <string>
+
+namespace viscera::nodes {
+
+/// What came of a command, in the words of the service's answer.
+struct CommandAnswer {
+  bool success = false;
+  std::string message;
+  std::string state_hash;  ///< of a step
+  uint64_t tick = 0;
+};
+
+/// Something that a service asks of the simulation's thread.
+struct Command {
+  enum class Kind { kReset, kPause, kResume, kStep };
+  Kind kind = Kind::kReset;
+  uint32_t ticks = 0;                              ///< of a step
+  std::chrono::steady_clock::time_point deadline;  ///< nobody waits for the answer after this
+  std::promise<CommandAnswer> answer;
+};
+
+/// Bounded queue of commands from service callbacks to the simulation's thread.
+class CommandQueue {
+ public:
+  static constexpr size_t kCapacity = 8;
+
+  /// Hands a command over and waits for its answer until `limit` has passed; fails at once if the queue is full or
+  /// closed. A command whose caller has given up is not executed.
+  CommandAnswer call(Command::Kind kind, uint32_t ticks, std::chrono::milliseconds limit);
+
+  /// Next command, if one waits. For the simulation's thread.
+  std::optional<Command> take();
+  /// Sleeps until a command waits, the queue is closed or `limit` has passed.
+  void wait(std::chrono::milliseconds limit);
+  /// Refuses all commands from now on; those that wait are answered.
+  void close();
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<Command> commands_;
+  bool closed_ = false;
+};
+
+}  // namespace viscera::nodes

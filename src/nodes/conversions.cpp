@@ -1,0 +1,191 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/conversions.h"
+
+#include <sensor_msgs/distortion_models.h>
+#include <sensor_msgs/image_encodings.h>
+
+#include <cmath>
+
+#include "viscera/render/renderer.h"
+
+namespace viscera::nodes {
+namespace {
+
+geometry_msgs::Vector3 toVector(const Vector3d& v) {
+  geometry_msgs::Vector3 out;
+  out.x = v.x(), out.y = v.y(), out.z = v.z();
+  return out;
+}
+
+geometry_msgs::Quaternion toQuaternion(const Quaterniond& q) {
+  geometry_msgs::Quaternion out;
+  out.x = q.x(), out.y = q.y(), out.z = q.z(), out.w = q.w();
+  return out;
+}
+
+geometry_msgs::Point toPoint(const float* xyz_m) {
+  geometry_msgs::Point out;
+  out.x = xyz_m[0], out.y = xyz_m[1], out.z = xyz_m[2];
+  return out;
+}
+
+bool finite(const float* xyz) {
+  return std::isfinite(xyz[0]) && std::isfinite(xyz[1]) && std::isfinite(xyz[2]);
+}
+
+std_msgs::Header header(const std::string& frame, const ros::Time& stamp) {
+  std_msgs::Header out;
+  out.frame_id = frame;
+  out.stamp = stamp;
+  return out;
+}
+
+visualization_msgs::Marker emptyMarker(const SkinLayout::BodySkin& body, size_t id) {
+  visualization_msgs::Marker marker;
+  marker.ns = body.name;
+  marker.id = static_cast<int32_t>(id);
+  marker.type = visualization_msgs::Marker::TRIANGLE_LIST;
+  marker.pose.orientation.w = 1;
+  marker.scale.x = marker.scale.y = marker.scale.z = 1;
+  marker.color.r = static_cast<float>(body.color.x());
+  marker.color.g = static_cast<float>(body.color.y());
+  marker.color.b = static_cast<float>(body.color.z());
+  marker.color.a = 1;
+  return marker;
+}
+
+}  // namespace
+
+Pose fromMessage(const geometry_msgs::Pose& message) {
+  const auto& q = message.orientation;
+  return {{message.position.x, message.position.y, message.position.z}, Quaterniond(q.w, q.x, q.y, q.z)};
+}
+
+Pose fromMessage(const geometry_msgs::Transform& message) {
+  const auto& q = message.rotation;
+  return {{message.translation.x, message.translation.y, message.translation.z}, Quaterniond(q.w, q.x, q.y, q.z)};
+}
+
+geometry_msgs::Pose toMessage(const Pose& pose) {
+  geometry_msgs::Pose out;
+  out.position.x = pose.position_m.x(), out.position.y = pose.position_m.y(), out.position.z = pose.position_m.z();
+  out.orientation = toQuaternion(pose.orientation);
+  return out;
+}
+
+geometry_msgs::TransformStamped toTransform(const Pose& pose, const std::string& parent, const std::string& child,
+                                            const ros::Time& stamp) {
+  geometry_msgs::TransformStamped out;
+  out.header = header(parent, stamp);
+  out.child_frame_id = child;
+  out.transform.translation = toVector(pose.position_m);
+  out.transform.rotation = toQuaternion(pose.orientation);
+  return out;
+}
+
+bool isFinite(const Pose& pose) {
+  return pose.position_m.allFinite() && pose.orientation.coeffs().allFinite();
+}
+
+geometry_msgs::WrenchStamped toWrench(const Reaction& reaction, const Quaterniond& frame_from_tissue,
+                                      const std::string& frame, const ros::Time& stamp) {
+  geometry_msgs::WrenchStamped out;
+  out.header = header(frame, stamp);
+  if (!reaction.force_n.allFinite() || !reaction.torque_nm.allFinite()) return out;
+  out.wrench.force = toVector(frame_from_tissue * reaction.force_n);
+  out.wrench.torque = toVector(frame_from_tissue * reaction.torque_nm);
+  return out;
+}
+
+SkinLayout skinLayout(const Session& session) {
+  SkinLayout skin;
+  skin.vertices = session.surface().vertices();
+  skin.indices = session.surface().triangleIndices();
+  for (const Body& body : session.model().bodies)
+    skin.bodies.push_back({body.name, body.skin.mesh.triangles.size(), body.color});
+  return skin;
+}
+
+SurfaceTopology toTopology(const SkinLayout& skin, const std::vector<uint32_t>& alive, uint32_t version,
+                           const std::string& frame, const ros::Time& stamp) {
+  SurfaceTopology out;
+  out.header = header(frame, stamp);
+  out.version = version;
+  out.vertices = static_cast<uint32_t>(skin.vertices);
+  size_t triangle = 0;
+  for (const auto& body : skin.bodies) {
+    const size_t before = out.triangles.size();
+    for (const size_t end = triangle + body.triangles; triangle < end; ++triangle)
+      if (alive.empty() || alive[triangle])
+        out.triangles.insert(out.triangles.end(), &skin.indices[3 * triangle], &skin.indices[3 * triangle] + 3);
+    out.bodies.push_back(body.name);
+    out.body_triangles.push_back(static_cast<uint32_t>((out.triangles.size() - before) / 3));
+  }
+  return out;
+}
+
+SurfaceVertices toVertices(const SurfaceFrame& frame, uint32_t topology_version, const std::string& frame_id,
+                           const ros::Time& stamp) {
+  SurfaceVertices out;
+  out.header = header(frame_id, stamp);
+  out.tick = frame.tick;
+  out.topology_version = topology_version;
+  out.positions_m = frame.positions_m;
+  out.normals = frame.normals;
+  return out;
+}
+
+std::vector<visualization_msgs::Marker> toMarkers(const SkinLayout& skin, const SurfaceFrame& frame,
+                                                  const std::string& frame_id, const ros::Time& stamp) {
+  std::vector<visualization_msgs::Marker> markers;
+  size_t triangle = 0;
+  for (const auto& body : skin.bodies) {
+    visualization_msgs::Marker marker = emptyMarker(body, markers.size());
+    marker.header = header(frame_id, stamp);
+    marker.points.reserve(3 * body.triangles);
+    for (const size_t end = triangle + body.triangles; triangle < end; ++triangle) {
+      if (!frame.alive[triangle]) continue;
+      const uint32_t* index = &skin.indices[3 * triangle];
+      const float* corner[3];
+      for (int i = 0; i < 3; ++i) corner[i] = &frame.positions_m[3 * static_cast<size_t>(index[i])];
+      if (!finite(corner[0]) || !finite(corner[1]) || !finite(corner[2])) continue;
+      for (const float* xyz_m : corner) marker.points.push_back(toPoint(xyz_m));
+    }
+    if (marker.points.empty()) marker.action = visualization_msgs::Marker::DELETE;
+    markers.push_back(std::move(marker));
+  }
+  return markers;
+}
+
+std::string opticalFrame(const CameraConfig& camera) {
+  return camera.name + "_optical_frame";
+}
+
+sensor_msgs::Image toImage(ImageFrame&& frame, const std::string& optical_frame, const ros::Time& stamp) {
+  sensor_msgs::Image out;
+  out.header = header(optical_frame, stamp);
+  out.width = static_cast<uint32_t>(frame.width);
+  out.height = static_cast<uint32_t>(frame.height);
+  out.encoding = sensor_msgs::image_encodings::RGB8;
+  out.step = 3 * out.width;
+  out.data = std::move(frame.rgb);
+  return out;
+}
+
+sensor_msgs::CameraInfo toCameraInfo(const CameraConfig& camera, const std::string& optical_frame,
+                                     const ros::Time& stamp) {
+  const Intrinsics lens = intrinsics(camera);
+  sensor_msgs::CameraInfo out;
+  out.header = header(optical_frame, stamp);
+  out.width = static_cast<uint32_t>(camera.width_px);
+  out.height = static_cast<uint32_t>(camera.height_px);
+  out.distortion_model = sensor_msgs::distortion_models::PLUMB_BOB;
+  out.D.assign(5, 0.0);
+  out.K = {lens.fx, 0, lens.cx, 0, lens.fy, lens.cy, 0, 0, 1};
+  out.R = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+  out.P = {lens.fx, 0, lens.cx, 0, 0, lens.fy, lens.cy, 0, 0, 0, 1, 0};
+  return out;
+}
+
+}  // namespace viscera::nodes

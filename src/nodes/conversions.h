@@ -1,0 +1,72 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <geometry_msgs/Pose.h>
+#include <geometry_msgs/TransformStamped.h>
+#include <geometry_msgs/WrenchStamped.h>
+#include <ros/time.h>
+#include <sensor_msgs/CameraInfo.h>
+#include <sensor_msgs/Image.h>
+#include <visualization_msgs/Marker.h>
+
+#include <string>
+#include <vector>
+
+#include "viscera/SurfaceTopology.h"
+#include "viscera/SurfaceVertices.h"
+#include "viscera/math/types.h"
+#include "viscera/model/scene.h"
+#include "viscera/session/session.h"
+#include "viscera/tools/stylus.h"
+
+namespace viscera::nodes {
+
+// Messages <-> core types: pure functions, no node needed. Everything is in metres, newtons and radians on both sides.
+
+/// The pose as sent; the quaternion is copied, not normalised.
+Pose fromMessage(const geometry_msgs::Pose& message);
+geometry_msgs::Pose toMessage(const Pose& pose);
+Pose fromMessage(const geometry_msgs::Transform& message);
+geometry_msgs::TransformStamped toTransform(const Pose& pose, const std::string& parent, const std::string& child,
+                                            const ros::Time& stamp);
+
+/// All seven numbers are finite.
+bool isFinite(const Pose& pose);
+
+/// Force and torque in a frame that is turned by `frame_from_tissue` against the tissue frame. A reaction that is not
+/// finite becomes zero: a device must never be sent one.
+geometry_msgs::WrenchStamped toWrench(const Reaction& reaction, const Quaterniond& frame_from_tissue,
+                                      const std::string& frame, const ros::Time& stamp);
+
+/// The part of the skin that does not change from tick to tick: triangles of all bodies, concatenated.
+struct SkinLayout {
+  struct BodySkin {
+    std::string name;
+    size_t triangles = 0;
+    Vector3d color = Vector3d::Ones();
+  };
+  size_t vertices = 0;
+  std::vector<uint32_t> indices;  ///< [3 * triangles]
+  std::vector<BodySkin> bodies;
+};
+SkinLayout skinLayout(const Session& session);
+
+/// @param alive  [triangles] 1 whole, 0 torn; empty means all whole
+SurfaceTopology toTopology(const SkinLayout& skin, const std::vector<uint32_t>& alive, uint32_t version,
+                           const std::string& frame, const ros::Time& stamp);
+SurfaceVertices toVertices(const SurfaceFrame& frame, uint32_t topology_version, const std::string& frame_id,
+                           const ros::Time& stamp);
+
+/// One marker per body, for stock rviz: TRIANGLE_LIST of its whole triangles, or DELETE if none is left. Triangles with
+/// a coordinate that is not finite are left out, since rviz would crash on them.
+std::vector<visualization_msgs::Marker> toMarkers(const SkinLayout& skin, const SurfaceFrame& frame,
+                                                  const std::string& frame_id, const ros::Time& stamp);
+
+/// Takes the pixels out of `frame`.
+sensor_msgs::Image toImage(ImageFrame&& frame, const std::string& optical_frame, const ros::Time& stamp);
+sensor_msgs::CameraInfo toCameraInfo(const CameraConfig& camera, const std::string& optical_frame,
+                                     const ros::Time& stamp);
+std::string opticalFrame(const CameraConfig& camera);
+
+}  // namespace viscera::nodes

@@ -1,0 +1,116 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/frame_publisher.h"
+
+#include <utility>
+
+#include "viscera/render/renderer.h"
+
+namespace viscera::nodes {
+FramePublisher::FramePublisher(ros::NodeHandle node, const Scene& scene,
+                               const std::vector<const StylusMailbox*>& mailboxes, double surface_rate_hz)
+    : transport_(node),
+      surface_(node, scene.environment.tissue_frame),
+      surface_throttle_(surface_rate_hz, scene.solver.tick_hz) {
+  for (const CameraConfig& camera : scene.cameras)
+    cameras_.push_back(std::make_unique<CameraPublisher>(transport_, camera, scene.solver.tick_hz));
+  for (const StylusMailbox* mailbox : mailboxes)
+    styluses_.push_back(std::make_unique<StylusPublisher>(node, *mailbox, scene.environment.tissue_frame));
+  slots_ = emptySlots();
+  broadcastStaticFrames(scene);
+  thread_ = std::thread([this] { main(); });
+}
+
+FramePublisher::~FramePublisher() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    stop_ = true;
+  }
+  filled_.notify_one();
+  thread_.join();
+}
+
+void FramePublisher::broadcastStaticFrames(const Scene& scene) {
+  const EnvironmentConfig& world = scene.environment;
+  const ros::Time now = ros::Time::now();
+  std::vector<geometry_msgs::TransformStamped> frames;
+  if (world.world_frame != world.tissue_frame) {
+    const Pose tissue{world.tissue_position_m, rotationFromDegrees(world.tissue_rotation_deg)};
+    frames.push_back(toTransform(tissue, world.world_frame, world.tissue_frame, now));
+  }
+  for (const CameraConfig& camera : scene.cameras)
+    frames.push_back(toTransform(opticalPose(camera), world.tissue_frame, opticalFrame(camera), now));
+  static_frames_.sendTransform(frames);
+}
+
+void FramePublisher::start(SkinLayout&& skin) {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    slots_.skin = {ros::Time::now(), std::move(skin)};
+    any_ = true;
+  }
+  filled_.notify_one();
+}
+
+Wants FramePublisher::beginTick() {
+  tick_stamp_ = ros::Time::now();
+  Wants wants;
+  wants.surface = surface_.isWanted() && surface_throttle_.pick();
+  for (const auto& camera : cameras_) wants.cameras.push_back(camera->pick());
+  return wants;
+}
+
+ros::Time FramePublisher::stampOf(uint64_t tick) const {
+  const Stamped<uint64_t>& entry = stamps_[tick % stamps_.size()];
+  return entry.value == tick ? entry.stamp : ros::Time::now();
+}
+
+void FramePublisher::deliver(Frame&& frame, const StylusSamples& samples) {
+  stamps_[frame.tick % stamps_.size()] = {tick_stamp_, frame.tick};
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    slots_.hands.emplace();
+    slots_.hands->stamp = ros::Time::now();
+    for (size_t i = 0; i < samples.size(); ++i) slots_.hands->value[i] = {frame.reactions[i], samples[i]};
+    if (frame.surface) {
+      const ros::Time stamp = stampOf(frame.surface->tick);
+      slots_.surface = {stamp, std::move(frame.surface)};
+    }
+    for (ImageFrame& image : frame.images) slots_.images.at(image.camera) = {stampOf(image.tick), std::move(image)};
+    any_ = true;
+  }
+  filled_.notify_one();
+}
+
+void FramePublisher::main() {
+  std::unique_lock<std::mutex> lock(mutex_);
+  while (true) {
+    filled_.wait(lock, [this] { return any_ || stop_; });
+    if (stop_) return;
+    Slots slots = std::exchange(slots_, emptySlots());
+    any_ = false;
+    lock.unlock();
+    send(std::move(slots));
+    lock.lock();
+  }
+}
+
+FramePublisher::Slots FramePublisher::emptySlots() const {
+  Slots slots;
+  slots.images.resize(cameras_.size());
+  return slots;
+}
+
+void FramePublisher::send(Slots&& slots) {
+  if (slots.skin) surface_.start(std::move(slots.skin->value), slots.skin->stamp);
+  if (slots.hands)
+    for (size_t i = 0; i < styluses_.size(); ++i) {
+      const auto& [reaction, sample] = slots.hands->value[i];
+      styluses_[i]->publish(reaction, sample, slots.hands->stamp);
+    }
+  if (slots.surface) surface_.publish(*slots.surface->value, slots.surface->stamp);
+  for (size_t i = 0; i < slots.images.size(); ++i)
+    if (slots.images[i]) cameras_[i]->publish(std::move(slots.images[i]->value), slots.images[i]->stamp);
+}
+
+}  // namespace viscera::nodes

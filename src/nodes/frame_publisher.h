@@ -1,0 +1,79 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <ros/node_handle.h>
+#include <tf2_ros/static_transform_broadcaster.h>
+
+#include <array>
+#include <condition_variable>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "nodes/camera_publisher.h"
+#include "nodes/stylus_publisher.h"
+#include "nodes/surface_publisher.h"
+#include "nodes/throttle.h"
+
+namespace viscera::nodes {
+
+/// Sends what the simulation made, on a thread of its own. Every topic has one slot: what a slow subscriber has not let
+/// go in time is overtaken by newer data, and the simulation never waits.
+class FramePublisher {
+ public:
+  /// @param mailboxes  of the scene's styluses, in order; they must outlive this
+  FramePublisher(ros::NodeHandle node, const Scene& scene, const std::vector<const StylusMailbox*>& mailboxes,
+                 double surface_rate_hz);
+  ~FramePublisher();
+  FramePublisher(const FramePublisher&) = delete;
+  FramePublisher& operator=(const FramePublisher&) = delete;
+
+  // For the simulation's thread:
+  void start(SkinLayout&& skin);
+  /// What subscribers want of the tick that begins now; the tick's stamp is taken here.
+  Wants beginTick();
+  void deliver(Frame&& frame, const StylusSamples& samples);
+
+ private:
+  template <class T>
+  struct Stamped {
+    ros::Time stamp;
+    T value{};
+  };
+  using Hands = std::array<std::pair<Reaction, StylusSample>, layout::kMaxStyluses>;
+  struct Slots {
+    std::optional<Stamped<SkinLayout>> skin;
+    std::optional<Stamped<Hands>> hands;
+    std::optional<Stamped<std::unique_ptr<SurfaceFrame>>> surface;
+    std::vector<std::optional<Stamped<ImageFrame>>> images;  ///< [cameras]
+  };
+
+  void broadcastStaticFrames(const Scene& scene);
+  ros::Time stampOf(uint64_t tick) const;
+  Slots emptySlots() const;
+  void main();
+  void send(Slots&& slots);
+
+  tf2_ros::StaticTransformBroadcaster static_frames_;
+  image_transport::ImageTransport transport_;
+  SurfacePublisher surface_;
+  Throttle surface_throttle_;
+  std::vector<std::unique_ptr<CameraPublisher>> cameras_;
+  std::vector<std::unique_ptr<StylusPublisher>> styluses_;
+
+  // Of the simulation's thread: when the last ticks began, since images and surfaces come back late.
+  ros::Time tick_stamp_;
+  std::array<Stamped<uint64_t>, 64> stamps_;
+
+  std::mutex mutex_;
+  std::condition_variable filled_;
+  Slots slots_;
+  bool any_ = false, stop_ = false;
+  std::thread thread_;
+};
+
+}  // namespace viscera::nodes

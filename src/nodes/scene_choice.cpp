@@ -1,0 +1,71 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/scene_choice.h"
+
+#include <filesystem>
+#include <set>
+#include <sstream>
+
+namespace viscera::nodes {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string namesIn(const std::string& folder) {
+  std::set<std::string> names;
+  std::error_code ignored;  // a missing folder holds no names
+  for (const auto& entry : fs::directory_iterator(folder, ignored))
+    if (entry.path().extension() == ".yaml") names.insert(entry.path().stem().string());
+  std::string text;
+  for (const std::string& name : names) text += " " + name;
+  return text;
+}
+
+/// A YAML scalar that stands for exactly this text.
+std::string quoted(const std::string& text) {
+  std::string out = "'";
+  for (const char c : text) out += c == '\'' ? std::string("''") : std::string(1, c);
+  return out + "'";
+}
+
+Overrides meshOverrides(Parameters& parameters) {
+  constexpr double kMinUnit_m = 1e-9, kMaxUnit_m = 1e3;
+  const std::string mesh = parameters.text("mesh", "");
+  const bool has_unit = parameters.has("mesh_unit_m");
+  const double unit_m = parameters.number("mesh_unit_m", 1, kMinUnit_m, kMaxUnit_m);
+  if (mesh.empty()) {
+    if (has_unit) throw ParameterError("parameter ~mesh_unit_m: has no meaning without ~mesh");
+    return {};
+  }
+  const fs::path path = fs::absolute(mesh);
+  if (!fs::is_regular_file(path))
+    throw ParameterError("parameter ~mesh: no file " + path.string() + "; give an absolute path");
+  Overrides overrides = {"bodies[0].source=mesh", "bodies[0].mesh_file=" + quoted(path.string())};
+  std::ostringstream unit;
+  unit.precision(17);
+  unit << "bodies[0].unit_scale_m=" << unit_m;
+  if (has_unit) overrides.push_back(unit.str());
+  return overrides;
+}
+
+}  // namespace
+
+std::string namedFile(const std::string& key, const std::string& value, const std::string& folder) {
+  const bool is_path = value.find('/') != std::string::npos || fs::path(value).extension() == ".yaml";
+  const fs::path path = is_path ? fs::absolute(value) : fs::path(folder) / (value + ".yaml");
+  if (fs::is_regular_file(path)) return path.string();
+  throw ParameterError("parameter ~" + key + ": no file " + path.string() + "; give an absolute path or one of" +
+                       namesIn(folder));
+}
+
+SceneChoice SceneChoice::read(Parameters& parameters, const std::string& fallback) {
+  SceneChoice choice{parameters.text("scene", fallback), meshOverrides(parameters)};
+  for (const std::string& item : parameters.texts("overrides")) choice.overrides.push_back(item);
+  return choice;
+}
+
+Scene SceneChoice::load(const std::string& package_folder) const {
+  return loadScene(namedFile("scene", scene, package_folder + "/config/scenes"), overrides);
+}
+
+}  // namespace viscera::nodes

@@ -1,0 +1,27 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "nodes/parameters.h"
+#include "viscera/model/scene.h"
+
+namespace viscera::nodes {
+
+/// The scene that private parameters choose: ~scene, ~mesh, ~mesh_unit_m and ~overrides.
+struct SceneChoice {
+  std::string scene;    ///< name or path; empty: none
+  Overrides overrides;  ///< those that ~mesh stands for, then those of ~overrides
+
+  /// @param fallback  where ~scene is absent   @throws ParameterError
+  static SceneChoice read(Parameters& parameters, const std::string& fallback);
+  /// @param package_folder  where config/scenes/<name>.yaml are looked up   @throws ParameterError, SceneError
+  Scene load(const std::string& package_folder) const;
+};
+
+/// A name such as "heart" is <folder>/heart.yaml; what holds a '/' or ends in .yaml is a path.
+/// @throws ParameterError  naming `key` and the names there are, if there is no such file
+std::string namedFile(const std::string& key, const std::string& value, const std::string& folder);
+
+}  // namespace viscera::nodes

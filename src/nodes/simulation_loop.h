@@ -1,0 +1,93 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <exception>
+#include <functional>
+#include <future>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "nodes/command_queue.h"
+#include "nodes/pace_meter.h"
+#include "nodes/pacer.h"
+#include "viscera/session/session.h"
+
+namespace viscera::nodes {
+
+/// How the simulation does: a copy for the diagnostics.
+struct LoopStatus {
+  std::string gpu, backend;
+  bool software_gpu = false;
+  bool paused = false;
+  double dt_s = 0, dt_safe_s = 0;
+  uint64_t tick = 0;
+  Counters counters;
+  layout::TickStats stats{};
+  std::array<Reaction, layout::kMaxStyluses> reactions;
+  PaceMeter::Reading pace;  ///< since the last LoopStatus was taken
+};
+
+/// What the loop asks of its surroundings, on its own thread. None of them may block.
+struct LoopPorts {
+  std::function<StylusSamples()> samples;     ///< for a tick that begins now
+  std::function<Wants()> wants;               ///< of that tick
+  std::function<void(const Session&)> ready;  ///< once, before the first tick
+  std::function<void(Frame&&)> deliver;       ///< what came back after a tick; while paused, a frame without forces
+};
+
+/// Owns the thread on which the OpenGL context and the session live, and paces it by the steady clock.
+class SimulationLoop {
+ public:
+  /// Most ticks that one step command may ask for.
+  static constexpr uint32_t kMaxStepTicks = 10000;
+
+  SimulationLoop(const Scene& scene, LoopPorts ports, Progress progress);
+  ~SimulationLoop();
+  SimulationLoop(const SimulationLoop&) = delete;
+  SimulationLoop& operator=(const SimulationLoop&) = delete;
+
+  /// The thread has ended: by stop(), or by an error that stop() will rethrow.
+  bool ended() const { return ended_; }
+  /// Ends the thread. @throws what ended it, if that was an error
+  void stop();
+
+  CommandQueue& commands() { return commands_; }
+  /// Nothing until the session is ready. The pace is measured anew from here.
+  std::optional<LoopStatus> takeStatus();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  void main();
+  void run();
+  void tick(Session& session);
+  /// Hands over what is still on its way from the GPU, without forces; time does not count until the next tick.
+  void rest(Session& session);
+  void deliver(const Session& session, Frame&& frame);
+  CommandAnswer execute(const Command& command, Session& session);
+  CommandAnswer step(const Command& command, Session& session);
+
+  const Scene scene_;
+  const LoopPorts ports_;
+  const Progress progress_;
+  CommandQueue commands_;
+  Pacer pacer_;
+  bool paused_ = false;
+  Clock::time_point tick_ended_{};
+  std::atomic<bool> stop_{false}, ended_{false};
+  std::exception_ptr error_;
+
+  std::mutex status_mutex_;
+  bool ready_ = false;
+  LoopStatus status_;
+  PaceMeter pace_;
+  std::thread thread_;
+};
+
+}  // namespace viscera::nodes

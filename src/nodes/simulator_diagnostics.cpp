@@ -1,0 +1,94 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/simulator_diagnostics.h"
+
+#include <cstring>
+#include <numeric>
+
+namespace viscera::nodes {
+namespace {
+
+using Level = diagnostic_msgs::DiagnosticStatus;
+
+constexpr double kPeriod_s = 1;
+constexpr double kSlow = 0.9;  ///< real-time factor below which a person notices
+
+float fromBits(uint32_t bits) {
+  float value;
+  std::memcpy(&value, &bits, sizeof value);
+  return value;
+}
+
+}  // namespace
+
+SimulatorDiagnostics::SimulatorDiagnostics(ros::NodeHandle node, SimulationLoop& loop, const Inputs& inputs)
+    : loop_(loop), inputs_(inputs), dropped_before_(inputs.size(), 0), updater_(node) {
+  updater_.setHardwareID("none");
+  updater_.add("simulation", this, &SimulatorDiagnostics::simulation);
+  updater_.add("pace", this, &SimulatorDiagnostics::pace);
+  for (size_t i = 0; i < inputs_.size(); ++i)
+    updater_.add(inputs_[i]->mailbox().config().name, [this, i](Status& status) { stylus(i, status); });
+  // Forced from the steady clock, since the updater's own period follows ROS time, which may stand still.
+  timer_ = node.createSteadyTimer(ros::WallDuration(kPeriod_s), [this](const ros::SteadyTimerEvent&) { update(); });
+}
+
+void SimulatorDiagnostics::update() {
+  now_ = loop_.takeStatus();
+  if (now_) updater_.setHardwareID(now_->gpu);
+  updater_.force_update();
+}
+
+void SimulatorDiagnostics::simulation(Status& status) {
+  if (!now_) return status.summary(Level::OK, "preparing");
+  status.summary(Level::OK, now_->paused ? "paused" : "running");
+  if (now_->stats.nonfinite) status.summary(Level::ERROR, "nodes are not finite: call reset");
+  status.add("gpu", now_->gpu);
+  status.add("gpu_is_software", now_->software_gpu);
+  status.add("backend", now_->backend);
+  status.add("tick", now_->tick);
+  status.add("dt_s", now_->dt_s);
+  status.add("dt_safe_s", now_->dt_safe_s);
+  status.add("nonfinite_nodes", now_->stats.nonfinite);
+  status.add("max_stretch", fromBits(now_->stats.max_stretch_bits));
+  status.add("max_speed_m_per_s", fromBits(now_->stats.max_speed_bits));
+  status.add("springs_cut", now_->stats.springs_cut);
+  status.add("ticks", now_->counters.ticks);
+  status.add("substeps", now_->counters.substeps);
+  status.add("mappings", now_->counters.mappings);
+  status.add("renders", now_->counters.renders);
+  status.add("read_backs", now_->counters.readbacks);
+}
+
+void SimulatorDiagnostics::pace(Status& status) {
+  if (!now_) return status.summary(Level::OK, "preparing");
+  const PaceMeter::Reading& pace = now_->pace;
+  const bool slow = !now_->paused && pace.real_time_factor < kSlow;
+  status.summary(slow ? Level::WARN : Level::OK, slow ? "slower than real time" : "keeps up");
+  status.add("real_time_factor", pace.real_time_factor);
+  status.add("step_mean_ms", 1e3 * pace.step_mean_s);
+  status.add("step_max_ms", 1e3 * pace.step_max_s);
+}
+
+void SimulatorDiagnostics::stylus(size_t index, Status& status) {
+  StylusInput& input = *inputs_[index];
+  const StylusStatus in = input.mailbox().status(std::chrono::steady_clock::now());
+  const uint64_t dropped = std::accumulate(in.dropped.begin(), in.dropped.end(), uint64_t{0});
+  const bool dropping = dropped > dropped_before_[index];
+  dropped_before_[index] = dropped;
+
+  status.summary(Level::OK, in.seen ? "tracked" : "no pose yet");
+  if (in.stale) status.summary(input.hasPublisher() ? Level::WARN : Level::OK, "the last pose is stale");
+  if (dropping) status.summary(Level::WARN, "messages are dropped");
+  status.add("has_publisher", input.hasPublisher());
+  status.add("input_age_s", in.input_age_s);
+  status.add("poses_accepted", in.accepted);
+  for (size_t i = 0; i < kDropReasons; ++i)
+    status.add(std::string("dropped_") + text(static_cast<Drop>(i)), in.dropped[i]);
+  if (!now_) return;
+  status.add("force_n", now_->reactions[index].force_n.norm());
+  status.add("force_saturated", now_->reactions[index].saturated);
+  status.add("nodes_touched", now_->stats.touched[index]);
+  status.add("nodes_held", now_->stats.grabbed[index]);
+}
+
+}  // namespace viscera::nodes

@@ -1,0 +1,40 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <ros/node_handle.h>
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "nodes/simulation_loop.h"
+#include "nodes/stylus_input.h"
+
+namespace viscera::nodes {
+
+/// Sends /diagnostics once a second: health of the simulation, its pace, and every stylus.
+class SimulatorDiagnostics {
+ public:
+  using Inputs = std::vector<std::unique_ptr<StylusInput>>;
+
+  /// @param loop, inputs  must outlive this
+  SimulatorDiagnostics(ros::NodeHandle node, SimulationLoop& loop, const Inputs& inputs);
+
+ private:
+  using Status = diagnostic_updater::DiagnosticStatusWrapper;
+  void update();
+  void simulation(Status& status);
+  void pace(Status& status);
+  void stylus(size_t index, Status& status);
+
+  SimulationLoop& loop_;
+  const Inputs& inputs_;
+  std::optional<LoopStatus> now_;
+  std::vector<uint64_t> dropped_before_;
+  diagnostic_updater::Updater updater_;
+  ros::SteadyTimer timer_;
+};
+
+}  // namespace viscera::nodes

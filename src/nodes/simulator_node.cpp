@@ -1,0 +1,14 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <ros/package.h>
+
+#include "nodes/node_main.h"
+#include "nodes/simulator.h"
+
+int main(int argc, char** argv) {
+  return viscera::nodes::nodeMain(argc, argv, "simulator", [] {
+    auto parameters = viscera::nodes::Parameters::ofThisNode();
+    const auto options = viscera::nodes::simulatorOptions(parameters, ros::package::getPath("viscera"));
+    viscera::nodes::Simulator(options).run();
+  });
+}

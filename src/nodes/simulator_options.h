@@ -1,0 +1,22 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "nodes/parameters.h"
+#include "viscera/model/scene.h"
+
+namespace viscera::nodes {
+
+/// What the private parameters of the simulator say.
+struct SimulatorOptions {
+  Scene scene;
+  double surface_rate_hz = 30;  ///< most often that `surface` and `surface_marker` are sent
+};
+
+/// @param package_folder  where config/scenes/<name>.yaml are looked up
+/// @throws ParameterError, SceneError
+SimulatorOptions simulatorOptions(Parameters& parameters, const std::string& package_folder);
+
+}  // namespace viscera::nodes

@@ -1,0 +1,33 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <ros/callback_queue.h>
+#include <ros/node_handle.h>
+#include <ros/spinner.h>
+#include <std_srvs/Trigger.h>
+
+#include <vector>
+
+#include "nodes/command_queue.h"
+#include "viscera/Step.h"
+
+namespace viscera::nodes {
+
+/// Services `reset`, `pause`, `resume` and `step`, on a thread of their own: waiting for an answer holds up no input.
+class SimulatorServices {
+ public:
+  /// @param commands  must outlive this
+  SimulatorServices(ros::NodeHandle node, CommandQueue& commands);
+
+ private:
+  void advertiseTrigger(ros::NodeHandle& node, const std::string& name, Command::Kind kind);
+  bool onStep(Step::Request& request, Step::Response& response);
+
+  CommandQueue& commands_;
+  ros::CallbackQueue queue_;
+  std::vector<ros::ServiceServer> servers_;
+  ros::AsyncSpinner spinner_;
+};
+
+}  // namespace viscera::nodes

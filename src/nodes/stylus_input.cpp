@@ -1,0 +1,57 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/stylus_input.h"
+
+#include <ros/console.h>
+
+#include "nodes/conversions.h"
+
+namespace viscera::nodes {
+namespace {
+
+constexpr uint32_t kButtonQueue = 16;  ///< events, none of which may be overtaken by a newer one
+
+}  // namespace
+
+StylusInput::StylusInput(const StylusConfig& config, const std::string& tissue_frame, const tf2_ros::Buffer& frames)
+    : frames_(frames), tissue_frame_(tissue_frame), mailbox_(config, tissue_frame) {}
+
+void StylusInput::subscribe(ros::NodeHandle& node) {
+  const std::string& name = mailbox_.config().name;
+  const auto hints = ros::TransportHints().tcpNoDelay();
+  for (size_t i = 0; i < buttons_.size(); ++i)
+    buttons_[i] = node.subscribe<sensor_msgs::Joy>(
+        name + "/button" + std::to_string(i + 1), kButtonQueue,
+        [this, i](const sensor_msgs::JoyConstPtr& message) { onButton(i, *message); }, ros::VoidConstPtr(), hints);
+  pose_ = node.subscribe(name + "/measured_cp", 1, &StylusInput::onPose, this, hints);
+  subscribed_ = true;
+}
+
+void StylusInput::onPose(const geometry_msgs::PoseStamped& message) {
+  const auto lookup = [this](const std::string& frame) { return inTissue(frame); };
+  warn("measured_cp", mailbox_.put(message, lookup, std::chrono::steady_clock::now()));
+}
+
+void StylusInput::onButton(size_t button, const sensor_msgs::Joy& message) {
+  warn("button" + std::to_string(button + 1), mailbox_.put(button, message));
+}
+
+std::optional<Pose> StylusInput::inTissue(const std::string& frame) const {
+  try {
+    // The newest transform: waiting for the one of the pose's stamp would delay the hand by a tf period.
+    Pose pose = fromMessage(frames_.lookupTransform(tissue_frame_, frame, ros::Time(0)).transform);
+    pose.orientation.normalize();
+    return pose;
+  } catch (const tf2::TransformException&) {
+    return std::nullopt;
+  }
+}
+
+void StylusInput::warn(const std::string& topic, std::optional<Drop> reason) {
+  if (!reason || warned_[static_cast<size_t>(*reason)]) return;
+  warned_[static_cast<size_t>(*reason)] = true;
+  ROS_WARN("%s/%s: a message was dropped (%s); later ones are counted in /diagnostics", mailbox_.config().name.c_str(),
+           topic.c_str(), text(*reason));
+}
+
+}  // namespace viscera::nodes

@@ -1,0 +1,91 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <geometry_msgs/PoseStamped.h>
+#include <sensor_msgs/Joy.h>
+
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "viscera/tools/stylus.h"
+
+namespace viscera::nodes {
+
+using SteadyTime = std::chrono::steady_clock::time_point;
+
+/// Why a message of a device was not used.
+enum class Drop {
+  kStampZero,         ///< CRTK: an invalid measurement
+  kNotFinite,         ///< NaN or Inf in the pose, or in the transform to the tissue frame
+  kBadQuaternion,     ///< its length is not 1 within kQuaternionTolerance
+  kNoTransform,       ///< tf2 does not know the frame
+  kOutsideWorkspace,  ///< farther than StylusConfig::workspace_m from the tissue frame's origin
+  kNoButtons,         ///< Joy without a button
+  kButtonValue        ///< Joy with a value other than 0, 1, 2
+};
+constexpr size_t kDropReasons = 7;
+const char* text(Drop reason);  ///< snake_case, as in the diagnostics
+
+/// Some trackers send quaternions that are a few percent off unit length: those are normalised, others refused.
+constexpr double kQuaternionTolerance = 0.1;
+
+/// Pose of a named frame in the tissue frame, or nothing if it is not known.
+using FrameLookup = std::function<std::optional<Pose>(const std::string& frame)>;
+
+struct StylusStatus {
+  bool seen = false;       ///< a pose was accepted at some time
+  bool stale = false;      ///< ... but too long ago
+  double input_age_s = 0;  ///< since the last accepted pose
+  uint64_t accepted = 0;   ///< poses
+  std::array<uint64_t, kDropReasons> dropped{};
+};
+
+/// The frame in which a device reports its poses, and so wants its forces.
+struct DeviceFrame {
+  std::string name;
+  Quaterniond from_tissue = Quaterniond::Identity();  ///< turns a vector of the tissue frame into this frame
+};
+
+/// One slot for the latest valid pose and the buttons of a stylus, between ROS callbacks and the simulation's thread.
+class StylusMailbox {
+ public:
+  StylusMailbox(const StylusConfig& config, const std::string& tissue_frame);
+
+  /// Checks a pose, brings it to the tissue frame and keeps it; or says why not.
+  std::optional<Drop> put(const geometry_msgs::PoseStamped& message, const FrameLookup& lookup, SteadyTime now);
+  /// @param button  0 or 1
+  std::optional<Drop> put(size_t button, const sensor_msgs::Joy& message);
+
+  /// The sample for a tick that begins now. A press or click that came and went since the last tick counts for one.
+  StylusSample take(SteadyTime now);
+
+  StylusStatus status(SteadyTime now) const;
+  DeviceFrame deviceFrame() const;
+  const StylusConfig& config() const { return config_; }
+
+ private:
+  struct Button {
+    bool held = false;
+    bool pressed_since = false;  ///< since the last take()
+    bool take();
+  };
+  bool isStale(SteadyTime now) const;
+  std::optional<Drop> drop(Drop reason);
+
+  const StylusConfig config_;
+  const std::string tissue_frame_;
+  mutable std::mutex mutex_;
+  Pose pose_;
+  DeviceFrame device_frame_;
+  SteadyTime received_{};
+  std::array<Button, 2> buttons_;
+  StylusStatus status_;
+};
+
+}  // namespace viscera::nodes

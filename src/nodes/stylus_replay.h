@@ -1,0 +1,57 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <ros/node_handle.h>
+
+#include <string>
+#include <vector>
+
+#include "nodes/master_watch.h"
+#include "nodes/parameters.h"
+#include "viscera/tools/strokes.h"
+
+namespace viscera::nodes {
+
+/// What the private parameters of the replay say.
+struct ReplayOptions {
+  Strokes strokes;
+  std::string frame = "tissue";  ///< frame id of the poses: ~frame, or the tissue frame of ~scene
+  double rate_hz = 100;
+  double delay_s = 0;  ///< before the first pose, once the simulator listens
+  bool loop = false;
+};
+
+/// Anchored strokes are brought to the skin of the scene that the parameters choose as for the simulator.
+/// @param package_folder  where config/strokes/<name>.yaml and config/scenes/<name>.yaml are looked up
+/// @throws ParameterError, StrokesError, SceneError, MeshError, LatticeError
+ReplayOptions replayOptions(Parameters& parameters, const std::string& package_folder);
+
+/// Plays recorded strokes as a device driver would: `<stylus>/measured_cp`, `button1` and `button2`.
+class StylusReplay {
+ public:
+  /// @throws StrokesError  more styluses than a simulator has
+  explicit StylusReplay(const ReplayOptions& options);
+
+  /// Waits until every pose topic has a subscriber, then plays; returns at the end or when ROS shuts down.
+  /// @throws Error  if the master is lost
+  void run();
+
+ private:
+  struct Device {
+    ros::Publisher pose, button1, button2;
+    StylusSample last;
+    bool begun = false;
+  };
+  bool allHeard() const;
+  void play(double from_s, MasterWatch& master);
+  void send(double time_s);
+  void send(Device& device, const StylusSample& sample) const;
+
+  const ReplayOptions options_;
+  ros::NodeHandle node_;
+  std::vector<StylusConfig> styluses_;  ///< only their names matter
+  std::vector<Device> devices_;         ///< [styluses]
+};
+
+}  // namespace viscera::nodes

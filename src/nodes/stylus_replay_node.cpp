@@ -1,0 +1,14 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <ros/package.h>
+
+#include "nodes/node_main.h"
+#include "nodes/stylus_replay.h"
+
+int main(int argc, char** argv) {
+  return viscera::nodes::nodeMain(argc, argv, "stylus_replay", [] {
+    auto parameters = viscera::nodes::Parameters::ofThisNode();
+    const auto options = viscera::nodes::replayOptions(parameters, ros::package::getPath("viscera"));
+    viscera::nodes::StylusReplay(options).run();
+  });
+}

@@ -1,0 +1,52 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/surface_publisher.h"
+
+#include <ros/console.h>
+
+#include <utility>
+
+namespace viscera::nodes {
+namespace {
+
+constexpr uint32_t kMarkerQueue = 16;             ///< one message per body and frame
+constexpr size_t kMaxMarkerTriangles = 10000000;  ///< TCPROS refuses messages of 1 GB; a triangle takes 72 bytes
+
+}  // namespace
+
+SurfacePublisher::SurfacePublisher(ros::NodeHandle& node, const std::string& tissue_frame)
+    : frame_(tissue_frame),
+      topology_(node.advertise<SurfaceTopology>("surface_topology", 1, true)),
+      vertices_(node.advertise<SurfaceVertices>("surface", 1)),
+      marker_(node.advertise<visualization_msgs::Marker>("surface_marker", kMarkerQueue)) {}
+
+bool SurfacePublisher::isWanted() const {
+  return vertices_.getNumSubscribers() > 0 || marker_.getNumSubscribers() > 0;
+}
+
+void SurfacePublisher::start(SkinLayout&& skin, const ros::Time& stamp) {
+  skin_ = std::move(skin);
+  publishTopology(std::vector<uint32_t>(skin_.indices.size() / 3, 1u), stamp);
+}
+
+void SurfacePublisher::publishTopology(const std::vector<uint32_t>& alive, const ros::Time& stamp) {
+  alive_ = alive;
+  topology_.publish(toTopology(skin_, alive_, ++version_, frame_, stamp));
+}
+
+void SurfacePublisher::publish(const SurfaceFrame& frame, const ros::Time& stamp) {
+  if (frame.alive != alive_) publishTopology(frame.alive, stamp);
+  if (vertices_.getNumSubscribers() > 0) vertices_.publish(toVertices(frame, version_, frame_, stamp));
+  if (marker_.getNumSubscribers() > 0) publishMarkers(frame, stamp);
+}
+
+void SurfacePublisher::publishMarkers(const SurfaceFrame& frame, const ros::Time& stamp) {
+  if (skin_.indices.size() / 3 > kMaxMarkerTriangles) {
+    ROS_WARN_ONCE("surface_marker: more than %zu triangles do not fit in a message; use `surface`",
+                  kMaxMarkerTriangles);
+    return;
+  }
+  for (const visualization_msgs::Marker& marker : toMarkers(skin_, frame, frame_, stamp)) marker_.publish(marker);
+}
+
+}  // namespace viscera::nodes

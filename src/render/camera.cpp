@@ -1,0 +1,69 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "viscera/render/camera.h"
+
+#include <cmath>
+
+#include "viscera/math/error.h"
+
+namespace viscera {
+
+namespace {
+constexpr double kNearOverDistance = 0.01;
+constexpr double kFarOverDistance = 100;
+constexpr double kSmallestSine = 1e-6;  // between up and the line of sight: below it the image has no upright
+}  // namespace
+
+Intrinsics intrinsics(const CameraConfig& camera) {
+  const double half_fov_rad = camera.vertical_fov_deg * M_PI / 360;
+  const double focal_px = 0.5 * camera.height_px / std::tan(half_fov_rad);
+  return {focal_px, focal_px, 0.5 * camera.width_px, 0.5 * camera.height_px};
+}
+
+Pose opticalPose(const CameraConfig& camera) {
+  const Vector3d sight = camera.target_m - camera.position_m;
+  if (!(sight.norm() > 0)) {
+    throw SceneError("camera '" + camera.name + "': target_m must differ from position_m");
+  }
+  const Vector3d forward = sight.normalized();
+  const Vector3d right = forward.cross(camera.up.normalized());
+  if (!(right.norm() > kSmallestSine)) {
+    throw SceneError("camera '" + camera.name +
+                     "': up must be non-zero and not along the line from position_m to "
+                     "target_m");
+  }
+  Eigen::Matrix3d axes;
+  axes.col(0) = right.normalized();
+  axes.col(1) = forward.cross(axes.col(0));
+  axes.col(2) = forward;
+  return {camera.position_m, Quaterniond(axes)};
+}
+
+DepthRange depthRange(const CameraConfig& camera) {
+  const double distance_m = (camera.target_m - camera.position_m).norm();
+  return {kNearOverDistance * distance_m, kFarOverDistance * distance_m};
+}
+
+Eigen::Matrix4f clipFromOptical(const CameraConfig& camera) {
+  const Intrinsics k = intrinsics(camera);
+  const DepthRange range = depthRange(camera);
+  const double depth = range.far_m - range.near_m;
+  Eigen::Matrix4d clip = Eigen::Matrix4d::Zero();
+  clip(0, 0) = 2 * k.fx / camera.width_px;
+  clip(0, 2) = 2 * k.cx / camera.width_px - 1;
+  clip(1, 1) = 2 * k.fy / camera.height_px;
+  clip(1, 2) = 2 * k.cy / camera.height_px - 1;
+  clip(2, 2) = (range.far_m + range.near_m) / depth;
+  clip(2, 3) = -2 * range.far_m * range.near_m / depth;
+  clip(3, 2) = 1;
+  return clip.cast<float>();
+}
+
+Eigen::Matrix4f poseMatrix(const Pose& pose) {
+  Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();
+  matrix.topLeftCorner<3, 3>() = pose.orientation.toRotationMatrix();
+  matrix.topRightCorner<3, 1>() = pose.position_m;
+  return matrix.cast<float>();
+}
+
+}  // namespace viscera

@@ -1,0 +1,67 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "viscera/render/renderer.h"
+
+#include <cassert>
+
+#include "gpu/gl.h"
+#include "render/tissue_painter.h"
+#include "render/tool_painter.h"
+
+namespace viscera {
+
+namespace {
+
+constexpr float kBackground[] = {0.0056f, 0.0066f, 0.0080f, 1.0f};  // linear light: a neutral, slightly cool near-black
+
+void prepareImage() {
+  glDisable(GL_SCISSOR_TEST);  // clearing and resolving heed it
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  glDisable(GL_BLEND);
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_LESS);
+  glDepthMask(GL_TRUE);
+  glDepthRange(0, 1);
+  glEnable(GL_FRAMEBUFFER_SRGB);
+  glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+  glDisable(GL_CULL_FACE);  // tissue is seen from inside through a cut
+  glFrontFace(GL_CW);       // the image is drawn upside down, which turns every winding
+  glClearColor(kBackground[0], kBackground[1], kBackground[2], kBackground[3]);
+  glClearDepth(1);
+  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+}
+
+}  // namespace
+
+Renderer::Renderer(const std::vector<CameraConfig>& cameras, const std::vector<StylusConfig>& styluses)
+    : cameras_(cameras),
+      styluses_(styluses),
+      tissue_(std::make_unique<TissuePainter>()),
+      tools_(std::make_unique<ToolPainter>(styluses)) {
+  for (const CameraConfig& camera : cameras) {
+    opticalPose(camera);  // throws now rather than in the loop
+    targets_.emplace_back(camera.width_px, camera.height_px, camera.supersampling);
+  }
+}
+
+Renderer::~Renderer() = default;
+
+void Renderer::draw(size_t camera, const Surface& surface, const ToolMotions& motions) {
+  const MeshView mesh = {surface.positions().id(), surface.normals().id(), surface.colors().id(),
+                         surface.liveIndices().id(), 3 * surface.triangles()};
+  draw(camera, mesh, motions);
+}
+
+void Renderer::draw(size_t camera, const MeshView& mesh, const ToolMotions& motions) {
+  assert(camera < cameras_.size());
+  const Pose optical_from_tissue = opticalPose(cameras_[camera]).inverse();
+  const Eigen::Matrix4f clip_from_optical = clipFromOptical(cameras_[camera]);
+  targets_[camera].bindForDrawing();
+  prepareImage();
+  tissue_->draw(mesh, toolShadows(motions, styluses_, optical_from_tissue), optical_from_tissue, clip_from_optical);
+  tools_->draw(motions, optical_from_tissue, clip_from_optical);
+  targets_[camera].resolve();
+  ++renders_;
+}
+
+}  // namespace viscera

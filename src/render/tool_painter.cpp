@@ -1,0 +1,69 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "render/tool_painter.h"
+
+#include <algorithm>
+#include <cstddef>
+
+#include "render/mesh_uniforms.h"
+
+namespace viscera {
+
+ToolPainter::ToolPainter(const std::vector<StylusConfig>& styluses)
+    : program_(gpu::Program::graphics("mesh.vert", "tool.frag")) {
+  std::vector<ToolVertex> vertices;
+  std::vector<uint32_t> indices;
+  for (const StylusConfig& stylus : styluses) {
+    ranges_.emplace_back();
+    for (size_t mode = 0; mode < kModes; ++mode) {
+      const ToolShape shape = toolShape(stylus, static_cast<ToolMode>(mode));
+      ranges_.back()[mode] = {indices.size(), shape.solid_indices, shape.indices.size() - shape.solid_indices};
+      const uint32_t first_vertex = static_cast<uint32_t>(vertices.size());
+      for (uint32_t index : shape.indices) indices.push_back(first_vertex + index);
+      vertices.insert(vertices.end(), shape.vertices.begin(), shape.vertices.end());
+    }
+  }
+  vertices_ = gpu::Buffer<ToolVertex>(vertices);
+  indices_ = gpu::Buffer<uint32_t>(indices);
+  constexpr GLuint kBinding = 0;
+  inputs_.describe(kPositionInput, kBinding, 3, GL_FLOAT, GL_FALSE, offsetof(ToolVertex, position_m));
+  inputs_.describe(kNormalInput, kBinding, 3, GL_FLOAT, GL_FALSE, offsetof(ToolVertex, normal));
+  inputs_.describe(kColorInput, kBinding, 4, GL_UNSIGNED_BYTE, GL_TRUE, offsetof(ToolVertex, color));
+  glVertexArrayVertexBuffer(inputs_.id(), kBinding, vertices_.id(), 0, sizeof(ToolVertex));
+  glVertexArrayElementBuffer(inputs_.id(), indices_.id());
+}
+
+void ToolPainter::draw(const ToolMotions& motions, const Pose& optical_from_tissue,
+                       const Eigen::Matrix4f& clip_from_optical) {
+  glBindVertexArray(inputs_.id());
+  program_.use();
+  drawPart(Part::kSolid, motions, optical_from_tissue, clip_from_optical);
+  glEnable(GL_BLEND);
+  glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  glBlendEquation(GL_FUNC_ADD);
+  glDepthMask(GL_FALSE);  // an outline hides nothing
+  glEnable(GL_CULL_FACE);
+  glCullFace(GL_BACK);
+  drawPart(Part::kTranslucent, motions, optical_from_tissue, clip_from_optical);
+  glDisable(GL_BLEND);
+  glDepthMask(GL_TRUE);
+  glDisable(GL_CULL_FACE);
+  glBindVertexArray(0);
+}
+
+void ToolPainter::drawPart(Part part, const ToolMotions& motions, const Pose& optical_from_tissue,
+                           const Eigen::Matrix4f& clip_from_optical) {
+  for (size_t stylus = 0; stylus < std::min(motions.size(), ranges_.size()); ++stylus) {
+    const StylusMotion& motion = motions[stylus];
+    const Range& range = ranges_[stylus][static_cast<size_t>(motion.mode)];
+    const bool solid = part == Part::kSolid;
+    const size_t count = solid ? range.solid_indices : range.translucent_indices;
+    if (!motion.present || count == 0) continue;
+    const size_t first = range.first_index + (solid ? 0 : range.solid_indices);
+    setMeshMatrices(program_, optical_from_tissue * motion.to, clip_from_optical);
+    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(count), GL_UNSIGNED_INT,
+                   reinterpret_cast<const void*>(first * sizeof(uint32_t)));
+  }
+}
+
+}  // namespace viscera

@@ -1,0 +1,39 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "render/vertex_array.h"
+#include "viscera/gpu/buffer.h"
+#include "viscera/gpu/program.h"
+#include "viscera/render/tool_shape.h"
+#include "viscera/tools/stylus.h"
+
+namespace viscera {
+
+/// Draws the styluses that are present, each in its mode. Owner of shaders/tool.frag, with shaders/mesh.vert.
+class ToolPainter {
+ public:
+  explicit ToolPainter(const std::vector<StylusConfig>& styluses);
+  /// Draws into the bound framebuffer, where the tissue already is: the outlines of tools let it shine through.
+  void draw(const ToolMotions& motions, const Pose& optical_from_tissue, const Eigen::Matrix4f& clip_from_optical);
+
+ private:
+  static constexpr size_t kModes = 5;
+  struct Range {
+    size_t first_index = 0, solid_indices = 0, translucent_indices = 0;
+  };
+  enum class Part { kSolid, kTranslucent };
+  void drawPart(Part part, const ToolMotions& motions, const Pose& optical_from_tissue,
+                const Eigen::Matrix4f& clip_from_optical);
+
+  gpu::Program program_;
+  VertexArray inputs_;
+  gpu::Buffer<ToolVertex> vertices_;
+  gpu::Buffer<uint32_t> indices_;
+  std::vector<std::array<Range, kModes>> ranges_;  ///< [styluses][ToolMode]
+};
+
+}  // namespace viscera

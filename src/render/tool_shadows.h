@@ -1,0 +1,23 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "viscera/tools/stylus.h"
+
+namespace viscera {
+
+/// What of the tools casts a shadow on tissue, as tissue.frag takes it: by its shadow a person sees how far a tool is.
+struct ToolShadows {
+  using Vector4 = std::array<float, 4>;
+  int count = 0;
+  std::array<Vector4, layout::kMaxStyluses> tips;  ///< xyz m, optical frame; w radius of a ball at the tip [m]
+  std::array<Vector4, layout::kMaxStyluses> ends;  ///< xyz m, optical frame; w radius of the shaft [m]
+};
+
+ToolShadows toolShadows(const ToolMotions& motions, const std::vector<StylusConfig>& styluses,
+                        const Pose& optical_from_tissue);
+
+}  // namespace viscera

@@ -1,0 +1,35 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "gpu/gl.h"
+
+namespace viscera {
+
+/// Inputs of shaders/mesh.vert.
+enum MeshInput : GLuint { kPositionInput = 0, kNormalInput = 1, kColorInput = 2 };
+
+/// How vertex inputs are read from buffers; the buffers themselves are bound when drawing.
+class VertexArray {
+ public:
+  VertexArray() {
+    glCreateVertexArrays(1, &id_);
+    gpu::countObject();
+  }
+  ~VertexArray() { glDeleteVertexArrays(1, &id_); }
+  VertexArray(const VertexArray&) = delete;
+  VertexArray& operator=(const VertexArray&) = delete;
+
+  /// Input `input` has `size` components of `type`, `offset` bytes into each element of the buffer at `binding`.
+  void describe(GLuint input, GLuint binding, GLint size, GLenum type, GLboolean normalized, GLuint offset) {
+    glEnableVertexArrayAttrib(id_, input);
+    glVertexArrayAttribFormat(id_, input, size, type, normalized, offset);
+    glVertexArrayAttribBinding(id_, input, binding);
+  }
+  GLuint id() const { return id_; }
+
+ private:
+  GLuint id_ = 0;
+};
+
+}  // namespace viscera

@@ -1,0 +1,24 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "viscera/solver/gpu/cut_pass.h"
+
+#include "gpu/gl.h"
+
+namespace viscera {
+
+CutPass::CutPass(const FeatureSet& features) : group_size_(features.group_size) {
+  std::vector<std::string> defines = features.defines();
+  springs_ = gpu::Program::compute("cut.comp", defines);
+  defines.push_back("PARTICLES");
+  particles_ = gpu::Program::compute("cut.comp", defines);
+}
+
+void CutPass::run(const LatticeBuffers& buffers, uint32_t stylus, bool particles) const {
+  (particles ? particles_ : springs_).use();
+  glUniform1ui(0, static_cast<GLuint>(buffers.active_count));
+  glUniform1ui(1, stylus);
+  gpu::Program::dispatch(buffers.active_count, group_size_);
+  gpu::Program::storageBarrier();
+}
+
+}  // namespace viscera

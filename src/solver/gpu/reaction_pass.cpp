@@ -1,0 +1,58 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "viscera/solver/gpu/reaction_pass.h"
+
+#include "gpu/gl.h"
+
+namespace viscera {
+
+namespace {
+
+constexpr size_t kRun = 64;  // terms that one invocation adds up; sum_impulses.comp knows the same number
+
+size_t runs(size_t terms) {
+  return (terms + kRun - 1) / kRun;
+}
+
+/// Partial sums of all levels together.
+size_t treeSize(size_t leaves) {
+  size_t total = 0;
+  for (size_t level = runs(leaves);; level = runs(level)) {
+    total += level;
+    if (level <= 1) return total;
+  }
+}
+
+}  // namespace
+
+ReactionPass::ReactionPass(const FeatureSet& features, size_t active_count)
+    : partials_(treeSize(active_count)), group_size_(features.group_size) {
+  std::vector<std::string> defines = features.defines();
+  fold_ = gpu::Program::compute("sum_impulses.comp", defines);
+  defines.push_back("LEAVES");
+  leaves_ = gpu::Program::compute("sum_impulses.comp", defines);
+}
+
+void ReactionPass::run(const LatticeBuffers& buffers, const std::array<Vector3f, layout::kMaxStyluses>& tips) const {
+  partials_.bindStorage(layout::kBindPartials);
+  size_t inputs = buffers.active_count, input_first = 0, output_first = 0;
+  for (bool first = true; first || inputs > 1; first = false) {
+    const size_t outputs = runs(inputs);
+    (first ? leaves_ : fold_).use();
+    glUniform1ui(0, static_cast<GLuint>(inputs));
+    glUniform1ui(1, static_cast<GLuint>(input_first));
+    glUniform1ui(2, static_cast<GLuint>(output_first));
+    glUniform1ui(3, outputs == 1 ? 1 : 0);
+    if (first) {
+      glUniform1ui(4, static_cast<GLuint>(buffers.slot_count));
+      for (size_t s = 0; s < tips.size(); ++s) glUniform3fv(5 + static_cast<GLint>(s), 1, tips[s].data());
+    }
+    gpu::Program::dispatch(outputs, group_size_);
+    gpu::Program::storageBarrier();
+    input_first = output_first;
+    output_first += outputs;
+    inputs = outputs;
+  }
+}
+
+}  // namespace viscera

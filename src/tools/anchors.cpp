@@ -1,0 +1,104 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <yaml-cpp/yaml.h>
+
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+#include "viscera/math/error.h"
+#include "viscera/tools/strokes.h"
+
+namespace viscera {
+
+namespace {
+
+/// Distance along the unit direction at which a ray meets a triangle (Moeller and Trumbore), or infinity.
+double hitDistance(const Vector3d& from, const Vector3d& direction, const Vector3d& a, const Vector3d& b,
+                   const Vector3d& c) {
+  constexpr double kMiss = std::numeric_limits<double>::infinity();
+  constexpr double kBorder = 1e-9;  // of an edge: rounding must not let a ray slip between two triangles
+  const Vector3d ab = b - a, ac = c - a, p = direction.cross(ac);
+  const double det = ab.dot(p);
+  if (det == 0) return kMiss;
+  const Vector3d s = from - a;
+  const double u = s.dot(p) / det;
+  const Vector3d q = s.cross(ab);
+  const double v = direction.dot(q) / det, t = ac.dot(q) / det;
+  return u >= -kBorder && v >= -kBorder && u + v <= 1 + kBorder && t > 0 ? t : kMiss;
+}
+
+double firstHit(const Model& model, const Vector3d& from, const Vector3d& direction) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const Body& body : model.bodies) {
+    const TriangleMesh& mesh = body.skin.mesh;
+    const auto at = [&](uint32_t vertex) { return mesh.positions_m[vertex].cast<double>(); };
+    for (const auto& t : mesh.triangles)
+      nearest = std::min(nearest, hitDistance(from, direction, at(t[0]), at(t[1]), at(t[2])));
+  }
+  return nearest;
+}
+
+/// z along `back`, x horizontal, y upwards.
+Quaterniond frameAlong(const Vector3d& back) {
+  const Vector3d up = std::abs(back.z()) < 1 - 1e-6 ? Vector3d::UnitZ() : Vector3d::UnitY();
+  Eigen::Matrix3d axes;
+  axes.col(2) = back;
+  axes.col(0) = up.cross(back).normalized();
+  axes.col(1) = back.cross(axes.col(0));
+  return Quaterniond(axes);
+}
+
+std::string rayText(const Anchor& anchor) {
+  const Eigen::IOFormat list(6, Eigen::DontAlignCols, ", ", ", ", "", "", "[", "]");
+  std::ostringstream out;
+  out << "from " << anchor.from_m.transpose().format(list) << " towards " << anchor.towards_m.transpose().format(list);
+  return out.str();
+}
+
+}  // namespace
+
+void resolveAnchors(Strokes& strokes, const Model& model) {
+  for (Stroke& stroke : strokes.strokes) {
+    if (!stroke.anchor) continue;
+    const Vector3d direction = (stroke.anchor->towards_m - stroke.anchor->from_m).normalized();
+    const double distance = firstHit(model, stroke.anchor->from_m, direction);
+    if (!std::isfinite(distance)) {
+      throw StrokesError("the anchor of stylus '" + stroke.stylus + "', a ray " + rayText(*stroke.anchor) +
+                         " (m), meets no tissue");
+    }
+    const Pose frame{stroke.anchor->from_m + distance * direction, frameAlong(-direction)};
+    for (Stroke::Key& key : stroke.keys) key.pose = frame * key.pose;
+    stroke.anchor.reset();
+  }
+}
+
+std::string strokesYaml(const Strokes& strokes) {
+  YAML::Emitter out;
+  const auto vector = [&out](const char* key, const Vector3d& v) {
+    out << YAML::Key << key << YAML::Value << YAML::Flow << YAML::BeginSeq << v.x() << v.y() << v.z() << YAML::EndSeq;
+  };
+  out.SetDoublePrecision(9);
+  out << YAML::BeginMap << YAML::Key << "strokes" << YAML::Value << YAML::BeginSeq;
+  for (const Stroke& stroke : strokes.strokes) {
+    out << YAML::BeginMap << YAML::Key << "stylus" << YAML::Value << stroke.stylus << YAML::Key << "keys" << YAML::Value
+        << YAML::BeginSeq;
+    for (const Stroke::Key& key : stroke.keys) {
+      out << YAML::Flow << YAML::BeginMap << YAML::Key << "t_s" << YAML::Value << key.time_s;
+      vector("position_m", key.pose.position_m);
+      vector("rotation_deg", degreesFromRotation(key.pose.orientation));
+      out << YAML::Key << "button1" << YAML::Value << key.button1 << YAML::Key << "button2" << YAML::Value
+          << key.button2 << YAML::EndMap;
+    }
+    out << YAML::EndSeq << YAML::EndMap;
+  }
+  out << YAML::EndSeq << YAML::Key << "marks" << YAML::Value << YAML::BeginSeq;
+  for (const Mark& mark : strokes.marks) {
+    out << YAML::Flow << YAML::BeginMap << YAML::Key << "name" << YAML::Value << mark.name << YAML::Key << "t_s"
+        << YAML::Value << mark.time_s << YAML::EndMap;
+  }
+  out << YAML::EndSeq << YAML::EndMap;
+  return std::string(out.c_str()) + "\n";
+}
+
+}  // namespace viscera

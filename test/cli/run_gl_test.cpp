@@ -1,0 +1,165 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "cli/small_scene.h"
+#include "support/text.h"
+
+namespace viscera {
+namespace {
+
+using namespace test;
+using Json = nlohmann::json;
+namespace fs = std::filesystem;
+
+/// A cut through the block, which begins when the stylus is already beside it, and a moment worth a picture.
+constexpr const char* kCut =
+    "strokes:\n"
+    "  - stylus: left\n"
+    "    anchor: {from_m: [0.001, -0.3, 0.001], towards_m: [0.001, 0, 0.001]}\n"
+    "    keys:\n"
+    "      - {t_s: 0, position_m: [-0.03, 0, 0.005], button2: true}\n"
+    "      - {t_s: 0.15, position_m: [0.03, 0, 0.005], button2: true}\n"
+    "marks: [{name: half way, t_s: 0.1}]\n";
+
+class Run : public ::testing::Test {
+ protected:
+  /// The JSON object in the last line of standard output.
+  static Json metricsOf(const Ending& ending) {
+    EXPECT_EQ(ending.status, 0) << ending.err;
+    const std::vector<std::string> lines = linesOf(ending.out);
+    return lines.empty() ? Json() : Json::parse(lines.back(), nullptr, false);
+  }
+  Ending run(std::vector<std::string> options) const {
+    options.insert(options.begin(), {"run", scene_});
+    return viscera(options);
+  }
+
+  TemporaryFolder folder_;
+  std::string scene_ = folder_.write("block.yaml", kBlockScene), strokes_ = folder_.write("cut.yaml", kCut);
+};
+
+uint32_t bigEndian(const std::string& bytes, size_t at) {
+  uint32_t value = 0;
+  for (size_t i = at; i < at + 4; ++i) value = value << 8 | static_cast<uint8_t>(bytes.at(i));
+  return value;
+}
+
+void expectPng(const std::string& path, uint32_t width, uint32_t height) {
+  const std::string bytes = readFile(path);
+  ASSERT_GT(bytes.size(), 24u) << path;
+  EXPECT_EQ(bytes.substr(0, 8), "\x89PNG\r\n\x1a\n") << path;
+  EXPECT_EQ(bigEndian(bytes, 16), width) << path;
+  EXPECT_EQ(bigEndian(bytes, 20), height) << path;
+}
+
+TEST_F(Run, LastLineIsAnObjectWithAllMeasurements) {
+  const Json metrics = metricsOf(run({"--seconds", "0.1"}));
+  ASSERT_TRUE(metrics.is_object());
+  for (const char* key : {"nodes", "springs", "springs_cut", "faces", "steps", "dt_s", "dt_safe_s", "real_time_factor",
+                          "node_updates_per_s", "max_stretch", "nonfinite", "peak_force_n"}) {
+    ASSERT_TRUE(metrics.contains(key)) << key;
+    EXPECT_TRUE(metrics[key].is_number()) << key;
+  }
+  EXPECT_EQ(metrics["nodes"], 125);
+  EXPECT_EQ(metrics["springs"], 3 * 4 * 25 + 2 * 3 * 16 * 5);  // edges and the diagonals of all faces of 64 cells
+  EXPECT_EQ(metrics["springs_cut"], 0);
+  EXPECT_GT(metrics["faces"], 0);
+  EXPECT_LE(metrics["dt_s"].get<double>(), 0.5 * metrics["dt_safe_s"].get<double>());
+  EXPECT_NEAR(metrics["steps"].get<double>() * metrics["dt_s"].get<double>(), 0.1, 1e-9);
+  EXPECT_GT(metrics["max_stretch"], 0);  // it hangs
+  EXPECT_EQ(metrics["nonfinite"], 0);
+  EXPECT_EQ(metrics["peak_force_n"], 0);
+  EXPECT_EQ(metrics["state_hash"].get<std::string>().find_first_not_of("0123456789abcdef"), std::string::npos);
+  EXPECT_EQ(metrics["state_hash"].get<std::string>().size(), 16u);
+  EXPECT_FALSE(metrics["renderer"].get<std::string>().empty());
+}
+
+TEST_F(Run, SameCommandGivesTheSameStateAndAnotherOneAnother) {
+  const auto hashOf = [this](const std::string& seconds) {
+    return metricsOf(run({"--seconds", seconds, "--strokes", strokes_}))["state_hash"].get<std::string>();
+  };
+  const std::string hash = hashOf("0.2");
+  EXPECT_EQ(hashOf("0.2"), hash);
+  EXPECT_NE(hashOf("0.1"), hash);
+}
+
+TEST_F(Run, StrokesActOnTheTissueAndSayHowLongToRun) {
+  const Json metrics = metricsOf(run({"--strokes", strokes_}));
+  EXPECT_GT(metrics["springs_cut"], 0);
+  EXPECT_NEAR(metrics["steps"].get<double>() * metrics["dt_s"].get<double>(), 0.15, 1e-9);
+}
+
+TEST_F(Run, PicturesAndMetricsGoToTheFolder) {
+  const std::string out = folder_.file("a/new/folder");
+  const Ending ending = run({"--strokes", strokes_, "--seconds", "0.2", "--out", out});
+  const Json metrics = metricsOf(ending);
+  EXPECT_EQ(Json::parse(readFile(out + "/metrics.json"), nullptr, false), metrics);
+  std::set<std::string> pictures;
+  for (const auto& entry : fs::directory_iterator(out + "/frames")) pictures.insert(entry.path().filename().string());
+  EXPECT_EQ(pictures, (std::set<std::string>{"eye_000002.png", "eye_000004.png", "eye_000006.png", "eye_000008.png",
+                                             "eye_000010.png", "eye_000012.png"}));  // 30 Hz at 60 ticks per second
+  for (const std::string& picture : pictures) expectPng(out + "/frames/" + picture, 64, 48);
+  expectPng(out + "/half way_eye.png", 64, 48);
+  EXPECT_EQ(readFile(out + "/half way_eye.png"), readFile(out + "/frames/eye_000006.png"));
+  EXPECT_NE(readFile(out + "/frames/eye_000002.png"), readFile(out + "/frames/eye_000012.png"));
+}
+
+TEST_F(Run, PicturesDoNotChangeTheState) {
+  const Json seen = metricsOf(run({"--strokes", strokes_, "--out", folder_.file("out")}));
+  EXPECT_EQ(seen["state_hash"], metricsOf(run({"--strokes", strokes_}))["state_hash"]);
+}
+
+TEST_F(Run, OverrideChangesTheScene) {
+  EXPECT_EQ(metricsOf(run({"--seconds", "0.02", "--set", "bodies[0].spacing_m=0.02"}))["nodes"], 27);
+}
+
+TEST_F(Run, MeshOfTheCommandLineBecomesTheTissue) {
+  const std::string tetrahedron = "v 0 0 0\nv 4 0 0\nv 0 4 0\nv 0 0 4\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+  const std::string mesh = folder_.write("it's a mesh.obj", tetrahedron);
+  const Json metrics = metricsOf(run({"--seconds", "0.02", "--mesh", mesh, "--set", "bodies[0].unit_scale_m=0.02"}));
+  EXPECT_GT(metrics["nodes"], 8);
+  EXPECT_NE(metrics["nodes"], 125);
+}
+
+TEST_F(Run, AnchoredStrokesWrittenOutDoTheSame) {
+  const std::string absolute = folder_.file("absolute.yaml");
+  ASSERT_EQ(viscera({"anchor", scene_, "--strokes", strokes_, "--out", absolute}).status, 0);
+  EXPECT_EQ(readFile(absolute).find("anchor"), std::string::npos);
+  const Json anchored = metricsOf(run({"--strokes", strokes_})), written = metricsOf(run({"--strokes", absolute}));
+  EXPECT_EQ(written["springs_cut"], anchored["springs_cut"]);
+  EXPECT_EQ(written["steps"], anchored["steps"]);
+}
+
+TEST(Check, NamesTheRendererAndTheDeviceTaken) {
+  const Ending ending = viscera({"check"});
+  EXPECT_EQ(ending.status, 0) << ending.err;
+  EXPECT_TRUE(says(ending.out, {"* device ", "renderer: ", "OpenGL:   4."}));
+}
+
+TEST(Bench, StepWritesOneRowForACubeAndOneForAHeart) {
+  const TemporaryFolder folder;
+  const Ending ending = viscera({"bench", "step", "--nodes", "1000", "--csv", folder.file("step.csv")});
+  ASSERT_EQ(ending.status, 0) << ending.err;
+  const std::vector<std::string> lines = linesOf(readFile(folder.file("step.csv")));
+  ASSERT_EQ(lines.size(), 3u);
+  EXPECT_EQ(lines[0],
+            "scene,nodes,backend,threads,renderer,ms_per_step_median,ms_per_step_p99,node_updates_per_s,state_hash");
+  EXPECT_EQ(lines[1].rfind("cube,1000,gpu,", 0), 0u) << lines[1];
+  EXPECT_EQ(lines[2].rfind("heart,", 0), 0u) << lines[2];
+  EXPECT_NEAR(std::stod(lines[2].substr(6)), 1000, 20);  // target_nodes is reached within 2 %
+}
+
+TEST(Keys, PrintsTheTableOfSceneKeys) {
+  const Ending ending = viscera({"keys"});
+  EXPECT_EQ(ending.status, 0);
+  EXPECT_TRUE(says(ending.out, {"| key | type, unit | default | range | meaning |", "| `bodies[].spacing_m` |",
+                                "| `bodies[].material.young_modulus_pa` | number, Pa | 20000 | 1 .. 1e+09 |"}));
+}
+
+}  // namespace
+}  // namespace viscera

@@ -1,0 +1,208 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+#include <yaml-cpp/yaml.h>
+
+#include <map>
+#include <set>
+#include <sstream>
+
+#include "viscera/model/scene.h"
+
+namespace viscera {
+namespace {
+
+/// Every key there is, each with a value that no other number has and that is not the default.
+constexpr const char* kEveryKey = R"(
+name: full
+bodies:
+  - name: organ
+    source: mesh
+    mesh_file: organ.obj
+    unit_scale_m: 0.001
+    up_axis: y
+    centered: true
+    phantom_length_m: 0.101
+    phantom_wall_scale: 1.02
+    box_size_m: [0.031, 0.032, 0.033]
+    spacing_m: 0.0041
+    target_nodes: 4200
+    skin: volume
+    position_m: [0.051, 0.052, 0.053]
+    rotation_deg: [61, 62, 63]
+    color: [0.071, 0.072, 0.073]
+    material: {young_modulus_pa: 8100, density_kg_per_m3: 820, drag_per_s: 8.3, dashpot_ratio: 0.084, weights: paper}
+    fixed:
+      - shape: part
+        min_m: [-0.11, -0.12, -0.13]
+        max_m: [0.14, 0.15, 0.16]
+        center_m: [0.17, 0.18, 0.19]
+        radius_m: 0.21
+        point_m: [0.22, 0.23, 0.24]
+        normal: [0.25, 0.26, 0.27]
+        part: septum
+styluses:
+  - name: left
+    idle: grab
+    button1: cut
+    button2: cut_particles
+    probe_radius_m: 0.0061
+    grab_radius_m: 0.0062
+    blade_length_m: 0.063
+    eraser_radius_m: 0.0064
+    release_speed_m_per_s: 0.65
+    max_force_n: 6.6
+    max_force_rate_n_per_s: 670
+    stale_after_s: 0.68
+    workspace_m: 0.69
+cameras:
+  - name: eye
+    position_m: [0.71, 0.72, 0.73]
+    target_m: [0.74, 0.75, 0.76]
+    up: [0.77, 0.78, 0.79]
+    vertical_fov_deg: 45
+    width_px: 333
+    height_px: 222
+    rate_hz: 12
+    supersampling: 1
+environment:
+  gravity_m_per_s2: [1.1, 1.2, 1.3]
+  world_frame: room
+  tissue_frame: table
+  tissue_position_m: [1.4, 1.5, 1.6]
+  tissue_rotation_deg: [17, 18, 19]
+solver: {tick_hz: 90, dt_fraction: 0.91, max_substeps: 92, device: 3}
+)";
+
+/// Paths of all keys below a node, list items as name[].
+void collectPaths(const YAML::Node& node, const std::string& path, std::multiset<std::string>& paths) {
+  for (const auto& entry : node) {
+    const std::string key = path + entry.first.as<std::string>();
+    paths.insert(key);
+    if (entry.second.IsMap()) collectPaths(entry.second, key + ".", paths);
+    if (!entry.second.IsSequence() || !entry.second[0].IsMap()) continue;
+    for (const YAML::Node& item : entry.second) collectPaths(item, key + "[].", paths);
+  }
+}
+
+/// Cells of the rows of a Markdown table, without its head.
+std::vector<std::vector<std::string>> tableRows(const std::string& table) {
+  std::vector<std::vector<std::string>> rows;
+  std::istringstream lines(table);
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream cells(line);
+    std::vector<std::string> row;
+    for (std::string cell; std::getline(cells, cell, '|');) row.push_back(cell);
+    rows.push_back(row);
+  }
+  rows.erase(rows.begin(), rows.begin() + 2);
+  return rows;
+}
+
+TEST(SceneKeys, EveryBodyKeyReachesItsField) {
+  const BodyConfig body = parseScene(kEveryKey, "full").bodies.at(0);
+  EXPECT_EQ(body.name, "organ");
+  EXPECT_EQ(body.source, TissueSource::kMesh);
+  EXPECT_EQ(body.mesh_file, "organ.obj");
+  EXPECT_EQ(body.unit_scale_m, 0.001);
+  EXPECT_EQ(body.up_axis, UpAxis::kY);
+  EXPECT_TRUE(body.centered);
+  EXPECT_EQ(body.phantom_length_m, 0.101);
+  EXPECT_EQ(body.phantom_wall_scale, 1.02);
+  EXPECT_EQ(body.box_size_m, Vector3d(0.031, 0.032, 0.033));
+  EXPECT_EQ(body.spacing_m, 0.0041);
+  EXPECT_EQ(body.target_nodes, 4200);
+  EXPECT_EQ(body.skin, SkinSource::kVolume);
+  EXPECT_EQ(body.position_m, Vector3d(0.051, 0.052, 0.053));
+  EXPECT_EQ(body.rotation_deg, Vector3d(61, 62, 63));
+  EXPECT_EQ(body.color, Vector3d(0.071, 0.072, 0.073));
+  EXPECT_EQ(body.material.young_modulus_pa, 8100);
+  EXPECT_EQ(body.material.density_kg_per_m3, 820);
+  EXPECT_EQ(body.material.drag_per_s, 8.3);
+  EXPECT_EQ(body.material.dashpot_ratio, 0.084);
+  EXPECT_EQ(body.material.weights, Weights::kPaper);
+  const FixedConfig& fixed = body.fixed.at(0);
+  EXPECT_EQ(fixed.shape, FixedShape::kPart);
+  EXPECT_EQ(fixed.min_m, Vector3d(-0.11, -0.12, -0.13));
+  EXPECT_EQ(fixed.max_m, Vector3d(0.14, 0.15, 0.16));
+  EXPECT_EQ(fixed.center_m, Vector3d(0.17, 0.18, 0.19));
+  EXPECT_EQ(fixed.radius_m, 0.21);
+  EXPECT_EQ(fixed.point_m, Vector3d(0.22, 0.23, 0.24));
+  EXPECT_EQ(fixed.normal, Vector3d(0.25, 0.26, 0.27));
+  EXPECT_EQ(fixed.part, "septum");
+}
+
+TEST(SceneKeys, EveryOtherKeyReachesItsField) {
+  const Scene scene = parseScene(kEveryKey, "full");
+  EXPECT_EQ(scene.name, "full");
+  const StylusConfig& stylus = scene.styluses.at(0);
+  EXPECT_EQ(stylus.name, "left");
+  EXPECT_EQ(stylus.idle, ToolMode::kGrab);
+  EXPECT_EQ(stylus.button1, ToolMode::kCut);
+  EXPECT_EQ(stylus.button2, ToolMode::kCutParticles);
+  EXPECT_EQ(stylus.probe_radius_m, 0.0061);
+  EXPECT_EQ(stylus.grab_radius_m, 0.0062);
+  EXPECT_EQ(stylus.blade_length_m, 0.063);
+  EXPECT_EQ(stylus.eraser_radius_m, 0.0064);
+  EXPECT_EQ(stylus.release_speed_m_per_s, 0.65);
+  EXPECT_EQ(stylus.max_force_n, 6.6);
+  EXPECT_EQ(stylus.max_force_rate_n_per_s, 670);
+  EXPECT_EQ(stylus.stale_after_s, 0.68);
+  EXPECT_EQ(stylus.workspace_m, 0.69);
+  const CameraConfig& camera = scene.cameras.at(0);
+  EXPECT_EQ(camera.name, "eye");
+  EXPECT_EQ(camera.position_m, Vector3d(0.71, 0.72, 0.73));
+  EXPECT_EQ(camera.target_m, Vector3d(0.74, 0.75, 0.76));
+  EXPECT_EQ(camera.up, Vector3d(0.77, 0.78, 0.79));
+  EXPECT_EQ(camera.vertical_fov_deg, 45);
+  EXPECT_EQ(camera.width_px, 333);
+  EXPECT_EQ(camera.height_px, 222);
+  EXPECT_EQ(camera.rate_hz, 12);
+  EXPECT_EQ(camera.supersampling, 1);
+  EXPECT_EQ(scene.environment.gravity_m_per_s2, Vector3d(1.1, 1.2, 1.3));
+  EXPECT_EQ(scene.environment.world_frame, "room");
+  EXPECT_EQ(scene.environment.tissue_frame, "table");
+  EXPECT_EQ(scene.environment.tissue_position_m, Vector3d(1.4, 1.5, 1.6));
+  EXPECT_EQ(scene.environment.tissue_rotation_deg, Vector3d(17, 18, 19));
+  EXPECT_EQ(scene.solver.tick_hz, 90);
+  EXPECT_EQ(scene.solver.dt_fraction, 0.91);
+  EXPECT_EQ(scene.solver.max_substeps, 92);
+  EXPECT_EQ(scene.solver.device, 3);
+}
+
+TEST(SceneKeys, TableHoldsEveryKeyOnceAndNoOther) {
+  std::multiset<std::string> accepted, listed;
+  collectPaths(YAML::Load(kEveryKey), "", accepted);
+  for (const auto& row : tableRows(sceneKeysTable())) listed.insert(row.at(1).substr(2, row.at(1).size() - 4));
+  for (const std::string& key : accepted) EXPECT_EQ(listed.count(key), 1u) << key;
+  for (const std::string& key : listed) EXPECT_EQ(accepted.count(key), 1u) << key << " is missing in this test's scene";
+}
+
+TEST(SceneKeys, EveryRowTellsAllAboutItsKey) {
+  for (const auto& row : tableRows(sceneKeysTable())) {
+    ASSERT_EQ(row.size(), 6u) << row.at(1);  // before the first bar stands nothing
+    EXPECT_GT(row[2].size(), 2u) << row[1] << " has no type";
+    EXPECT_GT(row[5].size(), 2u) << row[1] << " has no meaning";
+    const bool ranged = row[2] != " text " && row[2] != " map " && row[2] != " true or false ";
+    EXPECT_EQ(row[4].find_first_not_of(' ') != std::string::npos, ranged) << row[1] << row[4];
+  }
+}
+
+TEST(SceneKeys, KeyEndsInItsUnit) {
+  const std::map<std::string, std::string> suffixes = {{"m", "_m"},       {"Pa", "_pa"},       {"kg/m3", "_kg_per_m3"},
+                                                       {"1/s", "_per_s"}, {"m/s", "_m_per_s"}, {"m/s2", "_m_per_s2"},
+                                                       {"N", "_n"},       {"N/s", "_n_per_s"}, {"s", "_s"},
+                                                       {"deg", "_deg"},   {"Hz", "_hz"}};
+  for (const auto& row : tableRows(sceneKeysTable())) {
+    const size_t comma = row.at(2).find(", ");
+    if (comma == std::string::npos) continue;
+    const std::string unit = row[2].substr(comma + 2, row[2].size() - comma - 3),
+                      key = row[1].substr(0, row[1].size() - 2);
+    ASSERT_TRUE(suffixes.count(unit)) << key << " is in " << unit;
+    const std::string& suffix = suffixes.at(unit);
+    EXPECT_EQ(key.substr(key.size() - suffix.size()), suffix) << key << " is in " << unit;
+  }
+}
+
+}  // namespace
+}  // namespace viscera

@@ -1,0 +1,176 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "viscera/model/scene.h"
+
+#include <gtest/gtest.h>
+
+#include "support/temporary_folder.h"
+#include "support/text.h"
+#include "viscera/math/error.h"
+
+namespace viscera {
+namespace {
+
+using test::says;
+
+/// What the reader has against a scene.
+std::string refusal(const std::string& yaml, const Overrides& overrides = {}) {
+  return test::messageOf<SceneError>([&] { parseScene(yaml, "s.yaml", overrides); });
+}
+
+/// A scene and what its refusal must say.
+struct Case {
+  std::string yaml;
+  std::vector<std::string> parts;
+};
+
+void expectRefusals(const std::vector<Case>& cases) {
+  for (const Case& c : cases) EXPECT_TRUE(says(refusal(c.yaml), c.parts)) << c.yaml;
+}
+
+TEST(Scene, UnknownKeyIsRefusedWithFileLineKeyAndTheAcceptedKeys) {
+  expectRefusals({
+      {"bodies: [{}]\nbodeis: 1\n", {"s.yaml:2: ", "unknown key 'bodeis'", "name, bodies, styluses, cameras"}},
+      {"bodies:\n  - name: a\n    material:\n      young: 3\n",
+       {"s.yaml:4: ", "unknown key 'bodies[0].material.young'", "young_modulus_pa, density_kg_per_m3"}},
+      {"bodies:\n  - name: a\n  - name: b\n    spacing: 1\n",
+       {"s.yaml:4: ", "unknown key 'bodies[1].spacing'", "spacing_m"}},
+      {"bodies:\n  - fixed:\n      - shape: box\n      - {shape: box, radius: 1}\n",
+       {"s.yaml:4: ", "unknown key 'bodies[0].fixed[1].radius'", "radius_m"}},
+      {"bodies: [{}]\nsolver:\n  dt: 1\n", {"s.yaml:3: ", "unknown key 'solver.dt'", "dt_fraction"}},
+  });
+}
+
+TEST(Scene, WrongTypeIsRefusedWithFileLineKeyAndWhatIsAccepted) {
+  expectRefusals({
+      {"bodies:\n  - spacing_m: soft\n", {"s.yaml:2: 'bodies[0].spacing_m' is a number, 1e-05 .. 10 m; found 'soft'"}},
+      {"bodies:\n  - spacing_m: [1]\n", {"s.yaml:2: 'bodies[0].spacing_m' is a number", "found a list of 1"}},
+      {"bodies:\n  - spacing_m:\n", {"s.yaml:2: 'bodies[0].spacing_m' is a number", "found nothing"}},
+      {"bodies:\n  - position_m: [0, 1]\n", {"s.yaml:2: 'bodies[0].position_m' is a list of 3 numbers, -10 .. 10 m"}},
+      {"bodies:\n  - position_m: [0, 1, up]\n", {"s.yaml:2: 'bodies[0].position_m' is a number", "found 'up'"}},
+      {"bodies:\n  - position_m: 3\n", {"s.yaml:2: 'bodies[0].position_m' is a list of 3 numbers"}},
+      {"bodies:\n  - name: [a]\n", {"s.yaml:2: 'bodies[0].name' is a text that is not empty; found a list of 1"}},
+      {"bodies:\n  - name: ''\n", {"s.yaml:2: 'bodies[0].name' is a text that is not empty"}},
+      {"bodies:\n  - source: fish\n", {"s.yaml:2: 'bodies[0].source' is one of phantom, mesh, box; found 'fish'"}},
+      {"bodies:\n  - target_nodes: 10.5\n", {"s.yaml:2: 'bodies[0].target_nodes' is a whole number, 0 .. 2e+07"}},
+      {"bodies:\n  material: soft\n", {"s.yaml:2: 'bodies' is a list of at most 16; found a map"}},
+      {"bodies:\n  - material: soft\n", {"s.yaml:2: 'bodies[0].material' must be a map of keys, not 'soft'"}},
+      {"bodies:\n  - heart\n", {"s.yaml:2: 'bodies[0]' must be a map of keys, not 'heart'"}},
+  });
+}
+
+TEST(Scene, ValueOutOfRangeIsRefusedWithFileLineKeyAndRange) {
+  expectRefusals({
+      {"bodies:\n  - material:\n      young_modulus_pa: -20000\n",
+       {"s.yaml:3: 'bodies[0].material.young_modulus_pa' is a number, 1 .. 1e+09 Pa; found '-20000'"}},
+      {"bodies:\n  - material: {density_kg_per_m3: 0}\n", {"s.yaml:2: ", "1 .. 100000 kg/m3; found '0'"}},
+      {"bodies:\n  - material: {dashpot_ratio: 0.6}\n",
+       {"s.yaml:2: ", "'bodies[0].material.dashpot_ratio'", "0 .. 0.5"}},
+      {"bodies:\n  - position_m: [0, 0, 11]\n", {"s.yaml:2: ", "'bodies[0].position_m'", "-10 .. 10 m; found '11'"}},
+      {"bodies: [{}]\ncameras:\n  - width_px: 5000\n", {"s.yaml:3: ", "'cameras[0].width_px'", "16 .. 4096"}},
+      {"bodies: [{}]\nsolver: {tick_hz: 0}\n", {"s.yaml:2: ", "'solver.tick_hz'", "1 .. 1000 Hz"}},
+      {"bodies: [{}]\nstyluses: [{name: a}, {name: b}, {name: c}]\n", {"s.yaml:2: ", "'styluses'", "at most 2"}},
+  });
+}
+
+TEST(Scene, NumberThatIsNotFiniteIsRefused) {
+  for (const char* number : {".nan", ".NaN", ".inf", "-.inf", "1e999", "nan", "inf"}) {
+    const std::string text = number;
+    EXPECT_TRUE(says(refusal("bodies:\n  - spacing_m: " + text + "\n"), {"s.yaml:2: ", "1e-05 .. 10 m", text}));
+    EXPECT_TRUE(says(refusal("bodies:\n  - position_m: [0, " + text + ", 0]\n"), {"s.yaml:2: ", "position_m", text}));
+  }
+}
+
+TEST(Scene, KeyGivenTwiceIsRefused) {
+  expectRefusals({
+      {"name: a\nbodies: [{}]\nname: b\n", {"s.yaml:3: ", "key 'name' is given twice"}},
+      {"bodies:\n  - spacing_m: 0.01\n    spacing_m: 0.02\n",
+       {"s.yaml:3: ", "key 'bodies[0].spacing_m' is given twice"}},
+  });
+}
+
+TEST(Scene, FileThatIsNoMapOfKeysIsRefused) {
+  for (const char* yaml : {"", "# nothing but this\n", "heart\n", "- a\n- b\n", "---\n"}) {
+    EXPECT_TRUE(says(refusal(yaml), {"s.yaml", "map of keys", "bodies"})) << yaml;
+  }
+}
+
+TEST(Scene, BrokenYamlIsRefusedWithFileAndLine) {
+  expectRefusals({{"name: a\nbodies: [\n", {"s.yaml:3: "}},
+                  {"name: a\nbodies: [{}]\n  x: : y\n", {"s.yaml:3: "}},
+                  {"name: a\nbodies: *nothing\n", {"s.yaml:2: ", "anchor"}}});
+}
+
+TEST(Scene, NestingWithoutEndIsRefused) {
+  EXPECT_TRUE(says(refusal("name: " + std::string(200000, '[')), {"s.yaml"}));
+}
+
+TEST(Scene, FileThatCannotBeReadIsNamed) {
+  const test::TemporaryFolder folder;
+  const auto loading = [](const std::string& path) { return test::messageOf<SceneError>([&] { loadScene(path); }); };
+  EXPECT_TRUE(says(loading(folder.file("none.yaml")), {folder.file("none.yaml"), "cannot be read"}));
+  EXPECT_TRUE(says(loading(folder.path()), {folder.path(), "is a folder"}));
+  EXPECT_TRUE(says(loading(folder.write("empty.yaml", "")), {folder.file("empty.yaml"), "bodies"}));
+}
+
+TEST(Scene, NeedsABody) {
+  EXPECT_TRUE(says(refusal("name: a\n"), {"s.yaml", "'bodies' must hold at least one body"}));
+  EXPECT_TRUE(says(refusal("bodies: []\n"), {"s.yaml", "'bodies' must hold at least one body"}));
+}
+
+TEST(Scene, NamesMustBeUniqueAndFitForTopics) {
+  expectRefusals({
+      {"bodies: [{}, {}]\n", {"name 'tissue' stands twice in 'bodies'"}},
+      {"bodies: [{}]\nstyluses: [{name: left}, {name: left}]\n", {"name 'left' stands twice in 'styluses'"}},
+      {"bodies: [{}]\ncameras: [{name: eye}, {name: eye}]\n", {"name 'eye' stands twice in 'cameras'"}},
+      {"bodies: [{}]\ncameras: [{name: my eye}]\n", {"name 'my eye' in 'cameras'", "letters, digits and _"}},
+      {"bodies: [{}]\nstyluses: [{name: ../left}]\n", {"name '../left' in 'styluses'"}},
+      {"bodies: [{name: 1st}]\n", {"name '1st' in 'bodies'", "must start with a letter"}},
+  });
+}
+
+TEST(Scene, KeysThatOnlyTogetherMakeNoSenseAreRefusedByName) {
+  expectRefusals({
+      {"bodies: [{name: a, source: mesh}]\n", {"s.yaml", "body 'a'", "needs 'mesh_file'"}},
+      {"bodies: [{name: a, fixed: [{min_m: [1, 0, 0]}]}]\n", {"body 'a' fixed[0]", "'min_m'", "'max_m'"}},
+      {"bodies: [{name: a, fixed: [{shape: plane, normal: [0, 0, 0]}]}]\n", {"body 'a' fixed[0]", "'normal'"}},
+      {"bodies: [{name: a, fixed: [{}, {shape: part}]}]\n", {"body 'a' fixed[1]", "'part'"}},
+  });
+}
+
+TEST(Scene, CameraWithoutALineOfSightIsRefusedByName) {
+  for (const char* camera : {"position_m: [1, 2, 3], target_m: [1, 2, 3]",  // looks nowhere
+                             "position_m: [0, 0, 1], target_m: [0, 0, 0]",  // looks down, up is z
+                             "position_m: [0, 1, 0], up: [0, 0, 0]"}) {     // no up
+    const std::string yaml = "bodies: [{}]\ncameras: [{name: eye, " + std::string(camera) + "}]\n";
+    EXPECT_TRUE(says(refusal(yaml), {"s.yaml", "camera 'eye'", "line of sight"})) << yaml;
+  }
+}
+
+TEST(Scene, WhatIsLeftOutHasItsDefault) {
+  const Scene scene = parseScene("bodies:\n  - {spacing_m: 0.01, material: {drag_per_s: 9}}\n  - {name: b}\n", "s");
+  ASSERT_EQ(scene.bodies.size(), 2u);
+  EXPECT_EQ(scene.bodies[0].spacing_m, 0.01);
+  EXPECT_EQ(scene.bodies[0].material.drag_per_s, 9);
+  EXPECT_EQ(scene.bodies[0].material.young_modulus_pa, MaterialConfig{}.young_modulus_pa);
+  EXPECT_EQ(scene.bodies[1].spacing_m, BodyConfig{}.spacing_m);  // and not that of the body before
+  EXPECT_EQ(scene.bodies[1].material.drag_per_s, MaterialConfig{}.drag_per_s);
+  EXPECT_TRUE(scene.styluses.empty());
+  EXPECT_TRUE(scene.cameras.empty());
+  EXPECT_EQ(scene.environment.gravity_m_per_s2, EnvironmentConfig{}.gravity_m_per_s2);
+  EXPECT_EQ(scene.solver.tick_hz, SolverConfig{}.tick_hz);
+}
+
+TEST(Scene, BothEndsOfARangeAreAccepted) {
+  EXPECT_EQ(refusal("bodies: [{spacing_m: 1e-5}, {name: b, spacing_m: 10}]\n"), "nothing was thrown");
+  EXPECT_NE(refusal("bodies: [{spacing_m: 0.99e-5}]\n"), "nothing was thrown");
+  EXPECT_NE(refusal("bodies: [{spacing_m: 10.01}]\n"), "nothing was thrown");
+}
+
+TEST(Scene, KnowsTheFolderOfItsFile) {
+  const test::TemporaryFolder folder;
+  EXPECT_EQ(loadScene(folder.write("a.yaml", "bodies: [{}]\n")).folder, folder.path());
+}
+
+}  // namespace
+}  // namespace viscera

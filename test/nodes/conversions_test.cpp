@@ -1,0 +1,163 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/conversions.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace viscera::nodes {
+namespace {
+
+constexpr double kRounding = 1e-12;  // [m], [N] double rounding of a few operations
+
+/// Two bodies: a square of two triangles, and a single triangle.
+SkinLayout twoBodies() {
+  SkinLayout skin;
+  skin.vertices = 7;
+  skin.indices = {0, 1, 2, 2, 1, 3, 4, 5, 6};
+  skin.bodies = {{"square", 2, Vector3d(1, 0, 0)}, {"flap", 1, Vector3d(0, 1, 0)}};
+  return skin;
+}
+
+SurfaceFrame frameOf(const SkinLayout& skin) {
+  SurfaceFrame frame;
+  frame.tick = 12;
+  for (size_t i = 0; i < 3 * skin.vertices; ++i) frame.positions_m.push_back(0.25f * static_cast<float>(i));
+  frame.normals.assign(skin.vertices, 7u);
+  frame.alive.assign(skin.indices.size() / 3, 1u);
+  return frame;
+}
+
+TEST(Conversions, PoseSurvivesTheWayThereAndBack) {
+  const Pose pose{{0.1, -0.2, 0.3}, Quaterniond(Eigen::AngleAxisd(0.7, Vector3d(1, 2, 3).normalized()))};
+  const Pose back = fromMessage(toMessage(pose));
+  EXPECT_EQ(back.position_m, pose.position_m);
+  EXPECT_EQ(back.orientation.coeffs(), pose.orientation.coeffs());
+}
+
+TEST(Conversions, TransformNamesParentAndChild) {
+  const Pose pose{{1, 2, 3}, Quaterniond(Eigen::AngleAxisd(0.5, Vector3d::UnitY()))};
+  const auto message = toTransform(pose, "tissue", "left_tool", ros::Time(5));
+  EXPECT_EQ(message.header.frame_id, "tissue");
+  EXPECT_EQ(message.child_frame_id, "left_tool");
+  EXPECT_EQ(message.header.stamp, ros::Time(5));
+  const Pose back = fromMessage(message.transform);
+  EXPECT_EQ(back.position_m, pose.position_m);
+  EXPECT_EQ(back.orientation.coeffs(), pose.orientation.coeffs());
+}
+
+TEST(Conversions, PoseWithAnyNumberThatIsNotFiniteIsSeen) {
+  EXPECT_TRUE(isFinite(Pose{}));
+  for (int i = 0; i < 3; ++i) {
+    Pose pose;
+    pose.position_m[i] = std::numeric_limits<double>::infinity();
+    EXPECT_FALSE(isFinite(pose));
+  }
+  for (int i = 0; i < 4; ++i) {
+    Pose pose;
+    pose.orientation.coeffs()[i] = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_FALSE(isFinite(pose));
+  }
+}
+
+TEST(Conversions, WrenchIsTurnedIntoTheFrameOfTheDevice) {
+  Reaction reaction;
+  reaction.force_n = {1, 0, 0};
+  reaction.torque_nm = {0, 0, 2};
+  const Quaterniond turn(Eigen::AngleAxisd(M_PI / 2, Vector3d::UnitZ()));
+  const auto message = toWrench(reaction, turn, "base", ros::Time(3));
+  EXPECT_EQ(message.header.frame_id, "base");
+  EXPECT_NEAR(message.wrench.force.x, 0, kRounding);
+  EXPECT_NEAR(message.wrench.force.y, 1, kRounding);
+  EXPECT_NEAR(message.wrench.torque.z, 2, kRounding);
+}
+
+TEST(Conversions, WrenchThatIsNotFiniteBecomesZero) {
+  Reaction reaction;
+  reaction.force_n = {1, std::numeric_limits<double>::quiet_NaN(), 0};
+  reaction.torque_nm = {1, 1, 1};
+  const auto message = toWrench(reaction, Quaterniond::Identity(), "base", ros::Time(3));
+  EXPECT_EQ(message.wrench.force.x, 0);
+  EXPECT_EQ(message.wrench.force.y, 0);
+  EXPECT_EQ(message.wrench.torque.z, 0);
+}
+
+TEST(Conversions, TopologyLeavesOutTornTrianglesAndCountsPerBody) {
+  const SkinLayout skin = twoBodies();
+  const auto whole = toTopology(skin, {}, 1, "tissue", ros::Time(1));
+  EXPECT_EQ(whole.triangles, skin.indices);
+  EXPECT_EQ(whole.vertices, 7u);
+  const auto torn = toTopology(skin, {0, 1, 1}, 2, "tissue", ros::Time(1));
+  EXPECT_EQ(torn.version, 2u);
+  EXPECT_EQ(torn.triangles, (std::vector<uint32_t>{2, 1, 3, 4, 5, 6}));
+  EXPECT_EQ(torn.bodies, (std::vector<std::string>{"square", "flap"}));
+  EXPECT_EQ(torn.body_triangles, (std::vector<uint32_t>{1, 1}));
+}
+
+TEST(Conversions, VerticesCarryTickAndTopologyVersion) {
+  const SurfaceFrame frame = frameOf(twoBodies());
+  const auto message = toVertices(frame, 4, "tissue", ros::Time(2));
+  EXPECT_EQ(message.tick, 12u);
+  EXPECT_EQ(message.topology_version, 4u);
+  EXPECT_EQ(message.positions_m, frame.positions_m);
+  EXPECT_EQ(message.normals, frame.normals);
+}
+
+TEST(Conversions, MarkersHoldTheCornersOfWholeTrianglesOfOneBodyEach) {
+  const SkinLayout skin = twoBodies();
+  SurfaceFrame frame = frameOf(skin);
+  frame.alive = {1, 0, 1};
+  const auto markers = toMarkers(skin, frame, "tissue", ros::Time(2));
+  ASSERT_EQ(markers.size(), 2u);
+  ASSERT_EQ(markers[0].points.size(), 3u);
+  EXPECT_EQ(markers[0].points[1].x, frame.positions_m[3]);
+  EXPECT_EQ(markers[0].color.r, 1);
+  EXPECT_TRUE(markers[0].colors.empty());  // rviz would switch lighting off
+  ASSERT_EQ(markers[1].points.size(), 3u);
+  EXPECT_EQ(markers[1].points[0].z, frame.positions_m[14]);
+  EXPECT_NE(markers[0].ns + std::to_string(markers[0].id), markers[1].ns + std::to_string(markers[1].id));
+}
+
+TEST(Conversions, MarkerOfATornBodyIsDeletedRatherThanEmpty) {
+  const SkinLayout skin = twoBodies();
+  SurfaceFrame frame = frameOf(skin);
+  frame.alive = {1, 1, 0};
+  const auto markers = toMarkers(skin, frame, "tissue", ros::Time(2));
+  EXPECT_EQ(markers[0].action, visualization_msgs::Marker::ADD);
+  EXPECT_EQ(markers[1].action, visualization_msgs::Marker::DELETE);
+}
+
+TEST(Conversions, MarkerNeverHoldsACoordinateThatIsNotFinite) {
+  const SkinLayout skin = twoBodies();
+  SurfaceFrame frame = frameOf(skin);
+  frame.positions_m[0] = std::numeric_limits<float>::quiet_NaN();
+  const auto markers = toMarkers(skin, frame, "tissue", ros::Time(2));
+  ASSERT_EQ(markers[0].points.size(), 3u);
+  EXPECT_EQ(markers[0].points[0].x, frame.positions_m[6]);
+}
+
+TEST(Conversions, ImageAndCameraInfoAgreeInStampFrameAndSize) {
+  CameraConfig camera;
+  camera.name = "left";
+  camera.width_px = 4;
+  camera.height_px = 2;
+  ImageFrame frame;
+  frame.width = 4;
+  frame.height = 2;
+  frame.rgb.assign(24, 9);
+  const auto image = toImage(std::move(frame), opticalFrame(camera), ros::Time(8));
+  const auto info = toCameraInfo(camera, opticalFrame(camera), ros::Time(8));
+  EXPECT_EQ(image.header.frame_id, "left_optical_frame");
+  EXPECT_EQ(image.header.frame_id, info.header.frame_id);
+  EXPECT_EQ(image.header.stamp, info.header.stamp);
+  EXPECT_EQ(image.step * image.height, image.data.size());
+  EXPECT_EQ(image.encoding, "rgb8");
+  EXPECT_EQ(info.width, image.width);
+  EXPECT_EQ(info.K[2], 2.0);
+  EXPECT_EQ(info.P[0], info.K[0]);
+  EXPECT_GT(info.K[0], 0);
+}
+
+}  // namespace
+}  // namespace viscera::nodes

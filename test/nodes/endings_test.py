@@ -1,0 +1,104 @@
+#!/usr/bin/env python3
+# Copyright (c) 2026, the viscera authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""How the nodes end: a wrong start is refused in words, a lost master is noticed, an interrupt is obeyed."""
+import itertools
+import os
+import signal
+import socket
+import subprocess
+import sys
+import unittest
+
+import rosgraph
+import roslib.packages
+import rostest
+from simulator_watch import wait_until
+
+REFUSAL_LIMIT_S = 20
+END_LIMIT_S = 30
+serial = itertools.count()
+COARSE = "_overrides:=bodies[0].spacing_m=0.008"
+
+
+def start(node, arguments, master_uri=None):
+    environment = dict(os.environ, ROSCONSOLE_STDOUT_LINE_BUFFERED="1")
+    if master_uri:
+        environment["ROS_MASTER_URI"] = master_uri
+    path = roslib.packages.find_node("viscera", node)[0]
+    name = "__name:=ending_%d" % next(serial)  # private parameters outlive a node: no name is used twice
+    return subprocess.Popen([path, name] + arguments, env=environment, text=True, stdout=subprocess.PIPE,
+                            stderr=subprocess.STDOUT)
+
+
+def wait_ready(process):
+    for line in process.stdout:
+        if "ready" in line:
+            return
+    raise AssertionError("the simulator ended before it was ready")
+
+
+def free_port():
+    with socket.socket() as probe:
+        probe.bind(("localhost", 0))
+        return probe.getsockname()[1]
+
+
+class EndingsTest(unittest.TestCase):
+    def assertRefused(self, node, arguments, *words):
+        """The node ends by itself, with a status and one line that names the trouble."""
+        process = start(node, arguments)
+        output = process.communicate(timeout=REFUSAL_LIMIT_S)[0]
+        self.assertEqual(process.returncode, 1, output)
+        fatal = [line for line in output.splitlines() if "FATAL" in line]
+        self.assertEqual(len(fatal), 1, output)
+        for word in words:
+            self.assertIn(word, output)
+
+    def test_unknown_scene_key_is_refused(self):
+        self.assertRefused("simulator", ["_overrides:=bodies[0].spacing_mm=4"], "spacing_mm")
+
+    def test_scene_value_out_of_range_is_refused(self):
+        self.assertRefused("simulator", ["_overrides:=bodies[0].spacing_m=-1"], "spacing_m")
+
+    def test_parameter_of_the_wrong_type_is_refused(self):
+        self.assertRefused("simulator", ["_surface_rate_hz:=fast"], "~surface_rate_hz")
+        self.assertRefused("stylus_replay", ["_loop:=maybe"], "~loop")
+
+    def test_unknown_parameter_is_refused(self):
+        self.assertRefused("simulator", ["_sceen:=heart"], "~sceen")
+
+    def test_missing_files_are_refused(self):
+        self.assertRefused("simulator", ["_scene:=nowhere"], "~scene", "nowhere")
+        self.assertRefused("simulator", ["_mesh:=/nowhere.obj"], "~mesh", "/nowhere.obj")
+        self.assertRefused("stylus_replay", ["_strokes:=nowhere"], "~strokes", "nowhere")
+
+    def test_interrupt_ends_the_simulator_well(self):
+        process = start("simulator", [COARSE])
+        wait_ready(process)
+        process.send_signal(signal.SIGINT)
+        output = process.communicate(timeout=END_LIMIT_S)[0]
+        self.assertEqual(process.returncode, 0, output)
+
+    def test_lost_master_ends_the_simulator_with_an_error(self):
+        port = free_port()
+        master = subprocess.Popen(["rosmaster", "--core", "-p", str(port)], stdout=subprocess.DEVNULL,
+                                  stderr=subprocess.DEVNULL)
+        process = start("simulator", [COARSE], "http://localhost:%d" % port)
+        try:
+            wait_ready(process)
+            view = rosgraph.Master("/endings_test", "http://localhost:%d" % port)
+            wait_until(lambda: "/left/measured_cp" in dict(view.getSystemState()[1]), END_LIMIT_S, "subscription")
+            master.terminate()
+            master.wait(END_LIMIT_S)
+            output = process.communicate(timeout=END_LIMIT_S)[0]
+            self.assertEqual(process.returncode, 1, output)
+            self.assertIn("master is lost", output)
+        finally:
+            for leftover in (master, process):
+                if leftover.poll() is None:
+                    leftover.kill()
+
+
+if __name__ == "__main__":
+    rostest.rosrun("viscera", "endings_test", EndingsTest, sys.argv)

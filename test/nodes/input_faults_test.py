@@ -1,0 +1,125 @@
+#!/usr/bin/env python3
+# Copyright (c) 2026, the viscera authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Whatever a device sends, the session goes on: bad messages are dropped and counted by reason."""
+import sys
+import unittest
+
+import rospy
+import rostest
+from diagnostic_msgs.msg import DiagnosticStatus
+from geometry_msgs.msg import PoseStamped, TransformStamped, WrenchStamped
+from sensor_msgs.msg import Joy
+from simulator_watch import Latest, SimulatorWatch, wait_until
+from tf2_msgs.msg import TFMessage
+
+LIMIT_S = 20
+AWAY_M = 0.5     # far from the tissue, inside the workspace
+NAN, INF = float("nan"), float("inf")
+
+
+def pose(x=AWAY_M, qw=1.0, frame="tissue"):
+    message = PoseStamped()
+    message.header.frame_id = frame
+    message.header.stamp = rospy.Time.now()
+    message.pose.position.x = x
+    message.pose.orientation.w = qw
+    return message
+
+
+def invalid_pose():
+    message = pose()
+    message.header.stamp = rospy.Time(0)
+    return message
+
+
+class InputFaultsTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        rospy.init_node("input_faults_test")
+        cls.watch = SimulatorWatch()
+        cls.force = Latest("left/body/servo_cf", WrenchStamped)
+        cls.tool = {}
+        cls.tf = Latest("/tf", TFMessage, cls.on_tf)
+        cls.poses = rospy.Publisher("left/measured_cp", PoseStamped, queue_size=10)
+        cls.buttons = rospy.Publisher("left/button1", Joy, queue_size=10)
+        cls.watch.wait_ready()
+        wait_until(lambda: cls.poses.get_num_connections() and cls.buttons.get_num_connections(), LIMIT_S, "subscriber")
+
+    def setUp(self):
+        self.watch.wait_news()  # what the test before has sent is counted
+
+    @classmethod
+    def on_tf(cls, message):
+        for transform in message.transforms:
+            cls.tool[transform.child_frame_id] = transform.transform.translation
+
+    def count_of(self, reason):
+        return self.watch.value("left", "dropped_" + reason)
+
+    def assertDropped(self, publisher, message, reason):
+        """The message is counted under its reason, nothing is accepted, and time goes on."""
+        before, tick = self.count_of(reason), self.watch.value("simulation", "tick")
+        accepted = self.watch.value("left", "poses_accepted")
+        publisher.publish(message)
+        wait_until(lambda: self.count_of(reason) > before, LIMIT_S, "drop because of " + reason)
+        wait_until(lambda: self.watch.value("simulation", "tick") > tick, LIMIT_S, "tick after " + reason)
+        self.assertEqual(self.watch.value("left", "poses_accepted"), accepted)
+        self.assertEqual(self.watch.value("simulation", "nonfinite_nodes"), 0)
+
+    def assertAccepted(self, message):
+        before = self.watch.value("left", "poses_accepted")
+        self.poses.publish(message)
+        wait_until(lambda: self.watch.value("left", "poses_accepted") > before, LIMIT_S, "accepted pose")
+
+    def test_numbers_that_are_not_finite(self):
+        self.assertDropped(self.poses, pose(x=NAN), "not_finite")
+        self.assertDropped(self.poses, pose(x=INF), "not_finite")
+        self.assertDropped(self.poses, pose(qw=NAN), "not_finite")
+
+    def test_quaternion_that_is_no_rotation(self):
+        self.assertDropped(self.poses, pose(qw=0), "bad_quaternion")
+
+    def test_stamp_of_zero(self):
+        self.assertDropped(self.poses, invalid_pose(), "stamp_zero")
+
+    def test_frame_that_tf_does_not_know(self):
+        self.assertDropped(self.poses, pose(frame="moon"), "no_transform")
+        self.assertDropped(self.poses, pose(frame=""), "no_transform")
+
+    def test_pose_a_kilometre_away(self):
+        self.assertDropped(self.poses, pose(x=1000), "outside_workspace")
+
+    def test_buttons_without_or_with_strange_values(self):
+        self.assertDropped(self.buttons, Joy(), "no_buttons")
+        self.assertDropped(self.buttons, Joy(buttons=[7]), "button_value")
+
+    def test_session_takes_good_poses_after_bad_ones(self):
+        self.poses.publish(pose(x=NAN))
+        self.assertAccepted(pose())
+        self.assertAccepted(pose(frame="world"))
+        status = self.watch.status("simulation")
+        self.assertEqual((status.level, status.message), (DiagnosticStatus.OK, "running"))
+
+    def test_pose_in_the_frame_of_a_device_is_brought_to_the_tissue(self):
+        static = rospy.Publisher("/tf_static", TFMessage, queue_size=1, latch=True)
+        base = TransformStamped()
+        base.header.frame_id, base.child_frame_id = "world", "device_base"
+        base.header.stamp = rospy.Time.now()
+        base.transform.translation.y = 0.3
+        base.transform.rotation.z = base.transform.rotation.w = 0.5 ** 0.5  # a quarter turn about z
+        static.publish(TFMessage([base]))
+        wait_until(static.get_num_connections, LIMIT_S, "tf listener")
+
+        def arrived():
+            self.poses.publish(pose(frame="device_base"))
+            tip = self.tool.get("left_tool")
+            return tip and abs(tip.x) < 1e-9 and abs(tip.y - (0.3 + AWAY_M)) < 1e-9
+
+        wait_until(arrived, LIMIT_S, "tool where tf puts it")
+        wait_until(lambda: self.force.message and self.force.message.header.frame_id == "device_base", LIMIT_S,
+                   "force in the frame of the device")
+
+
+if __name__ == "__main__":
+    rostest.rosrun("viscera", "input_faults_test", InputFaultsTest, sys.argv)

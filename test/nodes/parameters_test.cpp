@@ -1,0 +1,140 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/parameters.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "nodes/simulator_options.h"
+#include "nodes/stylus_replay.h"
+
+namespace viscera::nodes {
+namespace {
+
+using XmlRpc::XmlRpcValue;
+
+/// The call fails with a message that holds every one of these words.
+template <class Call>
+void expectRefused(Call call, const std::vector<std::string>& words) {
+  try {
+    call();
+    ADD_FAILURE() << "was accepted";
+  } catch (const Error& e) {
+    for (const std::string& word : words) EXPECT_NE(std::string(e.what()).find(word), std::string::npos) << e.what();
+  }
+}
+
+XmlRpcValue one(const std::string& key, const XmlRpcValue& value) {
+  XmlRpcValue values;
+  values[key] = value;
+  return values;
+}
+
+TEST(Parameters, AbsentOnesTakeTheDefault) {
+  Parameters none{XmlRpcValue()};
+  EXPECT_EQ(none.text("scene", "heart"), "heart");
+  EXPECT_EQ(none.number("rate_hz", 30, 1, 100), 30);
+  EXPECT_TRUE(none.texts("overrides").empty());
+  EXPECT_NO_THROW(none.refuseOthers());
+}
+
+TEST(Parameters, WholeNumberServesAsANumber) {
+  Parameters parameters(one("rate_hz", XmlRpcValue(25)));
+  EXPECT_EQ(parameters.number("rate_hz", 30, 1, 100), 25);
+}
+
+TEST(Parameters, WrongTypeIsRefusedWithTheKey) {
+  expectRefused([] { Parameters(one("rate_hz", XmlRpcValue("fast"))).number("rate_hz", 30, 1, 100); },
+                {"~rate_hz", "1..100"});
+  expectRefused([] { Parameters(one("scene", XmlRpcValue(3))).text("scene", "heart"); }, {"~scene", "string"});
+  expectRefused([] { Parameters(one("loop", XmlRpcValue(1))).flag("loop", false); }, {"~loop", "true or false"});
+  expectRefused([] { Parameters(one("overrides", XmlRpcValue(1.5))).texts("overrides"); }, {"~overrides", "list"});
+}
+
+TEST(Parameters, NumberOutOfRangeOrNotANumberIsRefused) {
+  expectRefused([] { Parameters(one("rate_hz", XmlRpcValue(101))).number("rate_hz", 30, 1, 100); }, {"~rate_hz"});
+  expectRefused([] { Parameters(one("rate_hz", XmlRpcValue(std::nan("")))).number("rate_hz", 30, 1, 100); },
+                {"~rate_hz"});
+}
+
+TEST(Parameters, UnknownOneIsRefusedWithTheKnownOnes) {
+  Parameters parameters(one("sceen", XmlRpcValue("heart")));
+  parameters.text("scene", "heart");
+  expectRefused([&] { parameters.refuseOthers(); }, {"~sceen", "~scene"});
+}
+
+TEST(Parameters, OverridesComeAsAListOrAsOneString) {
+  XmlRpcValue list;
+  list[0] = "a=1";
+  list[1] = "b=2";
+  const std::vector<std::string> both = {"a=1", "b=2"};
+  EXPECT_EQ(Parameters(one("overrides", list)).texts("overrides"), both);
+  EXPECT_EQ(Parameters(one("overrides", XmlRpcValue("a=1;;b=2; "))).texts("overrides"), both);
+}
+
+class SimulatorOptionsTest : public ::testing::Test {
+ protected:
+  SimulatorOptionsTest() : folder_(std::filesystem::temp_directory_path() / "viscera_options_test") {
+    std::filesystem::create_directories(folder_ / "config/scenes");
+    std::ofstream(folder_ / "config/scenes/block.yaml") << "bodies: [{source: box, spacing_m: 0.01}]\n";
+    std::ofstream(folder_ / "it's a mesh.obj") << "v 0 0 0\n";
+  }
+  ~SimulatorOptionsTest() override { std::filesystem::remove_all(folder_); }
+
+  SimulatorOptions read(const XmlRpcValue& values) {
+    Parameters parameters(values);
+    return simulatorOptions(parameters, folder_.string());
+  }
+  std::filesystem::path folder_;
+};
+
+TEST_F(SimulatorOptionsTest, SceneIsANameOrAPath) {
+  EXPECT_EQ(read(one("scene", XmlRpcValue("block"))).scene.bodies.at(0).source, TissueSource::kBox);
+  const std::string path = (folder_ / "config/scenes/block.yaml").string();
+  EXPECT_EQ(read(one("scene", XmlRpcValue(path))).scene.bodies.at(0).source, TissueSource::kBox);
+}
+
+TEST_F(SimulatorOptionsTest, MissingSceneIsRefusedWithTheNamesThereAre) {
+  expectRefused([&] { read(one("scene", XmlRpcValue("liver"))); }, {"~scene", "liver", "block"});
+}
+
+TEST_F(SimulatorOptionsTest, MeshTakesThePlaceOfTheFirstBody) {
+  XmlRpcValue values = one("scene", XmlRpcValue("block"));
+  const std::string mesh = (folder_ / "it's a mesh.obj").string();
+  values["mesh"] = mesh;
+  values["mesh_unit_m"] = 0.001;
+  const BodyConfig body = read(values).scene.bodies.at(0);
+  EXPECT_EQ(body.source, TissueSource::kMesh);
+  EXPECT_EQ(body.mesh_file, mesh);
+  EXPECT_EQ(body.unit_scale_m, 0.001);
+}
+
+TEST_F(SimulatorOptionsTest, MissingMeshIsRefused) {
+  XmlRpcValue values = one("scene", XmlRpcValue("block"));
+  values["mesh"] = "nowhere.obj";
+  expectRefused([&] { read(values); }, {"~mesh", "nowhere.obj"});
+}
+
+TEST_F(SimulatorOptionsTest, OverridesReachTheScene) {
+  XmlRpcValue values = one("scene", XmlRpcValue("block"));
+  values["overrides"] = "bodies[0].spacing_m=0.02;solver.tick_hz=50";
+  const Scene scene = read(values).scene;
+  EXPECT_EQ(scene.bodies.at(0).spacing_m, 0.02);
+  EXPECT_EQ(scene.solver.tick_hz, 50);
+}
+
+TEST_F(SimulatorOptionsTest, OverrideOfAnUnknownKeyIsRefused) {
+  XmlRpcValue values = one("scene", XmlRpcValue("block"));
+  values["overrides"] = "bodies[0].spacing_mm=2";
+  expectRefused([&] { read(values); }, {"spacing_mm"});
+}
+
+TEST(ReplayOptions, StrokesMustBeNamed) {
+  Parameters parameters{XmlRpcValue()};
+  expectRefused([&] { replayOptions(parameters, "/nowhere"); }, {"~strokes"});
+}
+
+}  // namespace
+}  // namespace viscera::nodes

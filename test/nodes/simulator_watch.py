@@ -1,0 +1,80 @@
+# Copyright (c) 2026, the viscera authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the rostests share: the simulator as seen through /diagnostics, and waiting with a limit."""
+import threading
+import time
+
+import rospy
+from diagnostic_msgs.msg import DiagnosticArray
+
+READY_LIMIT_S = 60  # a software GPU on a busy machine
+
+
+def wait_until(condition, limit_s, what):
+    """Polls until condition() is true and returns what it gave; fails naming `what` after limit_s."""
+    end = time.monotonic() + limit_s
+    while time.monotonic() < end:
+        found = condition()
+        if found:
+            return found
+        time.sleep(0.05)
+    raise AssertionError("no %s within %g s" % (what, limit_s))
+
+
+class Latest:
+    """Keeps the newest message of a topic and counts them."""
+
+    def __init__(self, topic, message_type, on_message=None):
+        self.message = None
+        self.count = 0
+        self._on_message = on_message
+        self._subscriber = rospy.Subscriber(topic, message_type, self._receive, queue_size=1, buff_size=2**24)
+
+    def _receive(self, message):
+        self.message = message
+        self.count += 1
+        if self._on_message:
+            self._on_message(message)
+
+    def stop(self):
+        self._subscriber.unregister()
+
+
+class SimulatorWatch:
+    """The newest /diagnostics of the node called simulator."""
+
+    def __init__(self):
+        self._lock = threading.Lock()
+        self._statuses = {}
+        self._arrays = 0
+        self._subscriber = rospy.Subscriber("/diagnostics", DiagnosticArray, self._receive, queue_size=10)
+
+    def _receive(self, array):
+        with self._lock:
+            for status in array.status:
+                self._statuses[status.name] = status
+            self._arrays += 1
+
+    def status(self, part):
+        with self._lock:
+            return self._statuses.get("simulator: " + part)
+
+    def value(self, part, key):
+        """A value of the diagnostics as a number, or as text where it is none; nothing if it is not there yet."""
+        status = self.status(part)
+        for item in status.values if status else []:
+            if item.key == key:
+                try:
+                    return float(item.value)
+                except ValueError:
+                    return item.value
+        return None
+
+    def wait_ready(self):
+        wait_until(lambda: self.value("simulation", "tick"), READY_LIMIT_S, "first tick")
+
+    def wait_news(self):
+        """Waits for diagnostics that were made after this call."""
+        with self._lock:
+            before = self._arrays
+        wait_until(lambda: self._arrays >= before + 2, 10, "diagnostics")

@@ -1,0 +1,98 @@
+#!/usr/bin/env python3
+# Copyright (c) 2026, the viscera authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Services of the simulator: wrong states are refused, a reset restores the state to the bit, nobody is served unasked."""
+import sys
+import unittest
+
+import rospy
+import rostest
+from sensor_msgs.msg import Image
+from simulator_watch import Latest, READY_LIMIT_S, SimulatorWatch, wait_until
+from std_srvs.srv import Trigger
+from viscera.srv import Step
+from visualization_msgs.msg import Marker
+
+
+class SteppingTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        rospy.init_node("stepping_test")
+        cls.watch = SimulatorWatch()
+        cls.watch.wait_ready()
+        for name in ("reset", "pause", "resume", "step"):
+            rospy.wait_for_service(name, READY_LIMIT_S)
+        cls.reset = rospy.ServiceProxy("reset", Trigger)
+        cls.pause = rospy.ServiceProxy("pause", Trigger)
+        cls.resume = rospy.ServiceProxy("resume", Trigger)
+        cls.step = rospy.ServiceProxy("step", Step)
+
+    def tearDown(self):
+        self.resume()
+
+    def assertDone(self, answer):
+        self.assertTrue(answer.success, answer.message)
+
+    def assertRefused(self, answer):
+        self.assertFalse(answer.success)
+        self.assertTrue(answer.message)
+
+    def test_0_nobody_subscribed_so_nothing_was_mapped_drawn_or_read_back(self):
+        self.watch.wait_news()
+        self.assertGreater(self.watch.value("simulation", "ticks"), 0)
+        for counter in ("mappings", "renders", "read_backs"):
+            self.assertEqual(self.watch.value("simulation", counter), 0, counter)
+
+    def test_services_in_the_wrong_state_are_refused(self):
+        self.assertRefused(self.resume())
+        self.assertRefused(self.step(1))
+        self.assertDone(self.pause())
+        self.assertRefused(self.pause())
+        self.assertRefused(self.step(1000000))
+        self.assertDone(self.step(1))
+
+    def test_step_makes_exactly_that_many_ticks(self):
+        self.assertDone(self.pause())
+        self.assertDone(self.reset())
+        before = self.step(0)
+        self.assertEqual(before.tick, 0)
+        after = self.step(5)
+        self.assertEqual(after.tick, 5)
+        self.assertNotEqual(after.state_hash, before.state_hash)
+        self.assertRegex(after.state_hash, "^[0-9a-f]{16}$")
+
+    def test_reset_restores_the_state_to_the_bit(self):
+        self.assertDone(self.pause())
+        self.assertDone(self.reset())
+        rest, later = self.step(0).state_hash, self.step(7).state_hash
+        self.assertDone(self.reset())
+        self.assertEqual(self.step(0).state_hash, rest)
+        self.assertEqual(self.step(7).state_hash, later)
+
+    def test_time_stands_still_while_paused(self):
+        self.assertDone(self.pause())
+        self.watch.wait_news()
+        tick = self.watch.value("simulation", "tick")
+        self.watch.wait_news()
+        self.assertEqual(self.watch.value("simulation", "tick"), tick)
+        self.assertEqual(self.watch.status("simulation").message, "paused")
+        self.assertDone(self.resume())
+        wait_until(lambda: self.watch.value("simulation", "tick") > tick, 10, "tick after resume")
+
+    def test_subscribers_are_served_and_cost_ends_with_them(self):
+        image, marker = Latest("camera/image_raw", Image), Latest("surface_marker", Marker)
+        wait_until(lambda: image.count and marker.count, 20, "image and marker")
+        image.stop()
+        marker.stop()
+
+        def settled():
+            counts = [self.watch.value("simulation", c) for c in ("mappings", "renders", "read_backs")]
+            self.watch.wait_news()
+            return counts == [self.watch.value("simulation", c) for c in ("mappings", "renders", "read_backs")]
+
+        wait_until(settled, 20, "end of the work for subscribers that left")
+        self.assertGreater(self.watch.value("simulation", "renders"), 0)
+
+
+if __name__ == "__main__":
+    rostest.rosrun("viscera", "stepping_test", SteppingTest, sys.argv)

@@ -1,0 +1,93 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "viscera/render/camera.h"
+
+#include <gtest/gtest.h>
+
+#include "viscera/math/error.h"
+
+using namespace viscera;
+
+namespace {
+
+constexpr double kTight = 1e-12;      // of double arithmetic on numbers of order 1
+constexpr double kFloatTight = 1e-5;  // of float matrices, relative to numbers of order 1
+
+CameraConfig lookingAlongY() {
+  CameraConfig camera;
+  camera.position_m = Vector3d(0, -0.3, 0);
+  return camera;
+}
+
+Vector3d normalizedDevice(const CameraConfig& camera, const Vector3d& optical) {
+  const Eigen::Vector4d clip = clipFromOptical(camera).cast<double>() * optical.homogeneous();
+  return clip.hnormalized();
+}
+
+}  // namespace
+
+TEST(Camera, OpticalFrameHasXRightYDownZForward) {
+  const Pose pose = opticalPose(lookingAlongY());
+  EXPECT_LT((pose.orientation * Vector3d::UnitX() - Vector3d::UnitX()).norm(), kTight);
+  EXPECT_LT((pose.orientation * Vector3d::UnitY() + Vector3d::UnitZ()).norm(), kTight);
+  EXPECT_LT((pose.orientation * Vector3d::UnitZ() - Vector3d::UnitY()).norm(), kTight);
+}
+
+TEST(Camera, TargetIsSeenAtThePrincipalPoint) {
+  CameraConfig camera;
+  camera.position_m = Vector3d(0.3, 0.1, 0.7);
+  camera.target_m = Vector3d(-0.1, 0.2, 0.05);
+  const Vector3d optical = opticalPose(camera).inverse() * camera.target_m;
+  EXPECT_NEAR(optical.x(), 0, kTight);
+  EXPECT_NEAR(optical.y(), 0, kTight);
+  EXPECT_NEAR(optical.z(), (camera.target_m - camera.position_m).norm(), kTight);
+}
+
+TEST(Camera, VerticalFieldOfViewSpansTheRows) {
+  const CameraConfig camera = lookingAlongY();
+  const Intrinsics k = intrinsics(camera);
+  const double half_fov_rad = camera.vertical_fov_deg / 2 * M_PI / 180;
+  EXPECT_NEAR(k.fy * std::tan(half_fov_rad) + k.cy, camera.height_px, 1e-9);
+  EXPECT_EQ(k.fx, k.fy);
+  EXPECT_EQ(k.cx, 320);
+  EXPECT_EQ(k.cy, 240);
+}
+
+TEST(Camera, ClipCoordinatesAgreeWithTheIntrinsicsRowsFromTheTop) {
+  const CameraConfig camera = lookingAlongY();
+  const Intrinsics k = intrinsics(camera);
+  const Vector3d optical(0.04, -0.03, 0.4);
+  const Vector3d device = normalizedDevice(camera, optical);
+  EXPECT_NEAR((device.x() + 1) / 2 * camera.width_px, k.fx * optical.x() / optical.z() + k.cx,
+              kFloatTight * camera.width_px);
+  EXPECT_NEAR((device.y() + 1) / 2 * camera.height_px, k.fy * optical.y() / optical.z() + k.cy,
+              kFloatTight * camera.height_px);
+}
+
+TEST(Camera, NearAndFarPlanesFollowTheDistanceOfTheTarget) {
+  const CameraConfig camera = lookingAlongY();
+  const DepthRange range = depthRange(camera);
+  EXPECT_NEAR(range.near_m, 0.003, kTight);
+  EXPECT_NEAR(range.far_m, 30, 1e-9);
+  EXPECT_NEAR(normalizedDevice(camera, Vector3d(0, 0, range.near_m)).z(), -1, kFloatTight);
+  EXPECT_NEAR(normalizedDevice(camera, Vector3d(0, 0, range.far_m)).z(), 1, kFloatTight);
+}
+
+TEST(Camera, CameraWithoutALineOfSightOrAnUprightIsRefusedByName) {
+  CameraConfig at_target = lookingAlongY();
+  at_target.name = "scope";
+  at_target.target_m = at_target.position_m;
+  CameraConfig no_upright = lookingAlongY();
+  no_upright.name = "scope";
+  no_upright.up = Vector3d(0, 2, 0);
+  CameraConfig null_up = no_upright;
+  null_up.up = Vector3d::Zero();
+  for (const CameraConfig& camera : {at_target, no_upright, null_up}) {
+    try {
+      opticalPose(camera);
+      FAIL() << "made a pose of nothing";
+    } catch (const SceneError& e) {
+      EXPECT_NE(std::string(e.what()).find("'scope'"), std::string::npos) << e.what();
+    }
+  }
+}

@@ -1,0 +1,83 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "viscera/render/tool_shape.h"
+
+#include <gtest/gtest.h>
+
+using namespace viscera;
+
+namespace {
+
+constexpr ToolMode kModes[] = {ToolMode::kNone, ToolMode::kProbe, ToolMode::kGrab, ToolMode::kCut,
+                               ToolMode::kCutParticles};
+constexpr float kTight_m = 1e-6f;  // of float coordinates of some centimetres
+
+Vector3f position(const ToolVertex& vertex) {
+  return Vector3f(vertex.position_m.data());
+}
+Vector3f normal(const ToolVertex& vertex) {
+  return Vector3f(vertex.normal.data());
+}
+
+float lowestZ(const ToolShape& shape) {
+  float lowest = 1;
+  for (const ToolVertex& vertex : shape.vertices) lowest = std::min(lowest, vertex.position_m[2]);
+  return lowest;
+}
+
+}  // namespace
+
+TEST(ToolShape, TrianglesFaceOutwards) {
+  constexpr float kSmallestArea = 1e-14f;  // [m2] at poles triangles vanish and have no side
+  for (ToolMode mode : kModes) {
+    const ToolShape shape = toolShape(StylusConfig(), mode);
+    for (size_t i = 0; i < shape.indices.size(); i += 3) {
+      const ToolVertex &a = shape.vertices[shape.indices[i]], &b = shape.vertices[shape.indices[i + 1]],
+                       &c = shape.vertices[shape.indices[i + 2]];
+      const Vector3f side = (position(b) - position(a)).cross(position(c) - position(a));
+      if (side.norm() < kSmallestArea) continue;
+      ASSERT_GT(side.dot(normal(a) + normal(b) + normal(c)), 0) << "triangle " << i / 3;
+    }
+  }
+}
+
+TEST(ToolShape, NormalsAreUnit) {
+  for (ToolMode mode : kModes) {
+    for (const ToolVertex& vertex : toolShape(StylusConfig(), mode).vertices) {
+      ASSERT_NEAR(normal(vertex).norm(), 1, 1e-5);
+    }
+  }
+}
+
+TEST(ToolShape, ActingPartsHaveTheSizesOfTheStylus) {
+  StylusConfig stylus;
+  stylus.probe_radius_m = 0.011;
+  stylus.grab_radius_m = 0.016;
+  stylus.blade_length_m = 0.031;
+  stylus.eraser_radius_m = 0.004;
+  EXPECT_NEAR(lowestZ(toolShape(stylus, ToolMode::kNone)), 0, kTight_m);
+  EXPECT_NEAR(lowestZ(toolShape(stylus, ToolMode::kProbe)), -0.011, kTight_m);
+  EXPECT_NEAR(lowestZ(toolShape(stylus, ToolMode::kGrab)), -0.016, kTight_m);
+  EXPECT_NEAR(lowestZ(toolShape(stylus, ToolMode::kCut)), -0.031, kTight_m);
+  EXPECT_NEAR(lowestZ(toolShape(stylus, ToolMode::kCutParticles)), -0.035, kTight_m);
+}
+
+TEST(ToolShape, ShaftEndsTwelveCentimetresBehindTheTip) {
+  for (ToolMode mode : kModes) {
+    float highest = 0;
+    for (const ToolVertex& vertex : toolShape(StylusConfig(), mode).vertices) {
+      highest = std::max(highest, vertex.position_m[2]);
+    }
+    EXPECT_NEAR(highest, 0.12, kTight_m);
+  }
+}
+
+TEST(ToolShape, OnlyTheGraspersSphereIsTranslucent) {
+  for (ToolMode mode : kModes) {
+    const ToolShape shape = toolShape(StylusConfig(), mode);
+    EXPECT_EQ(shape.solid_indices < shape.indices.size(), mode == ToolMode::kGrab);
+    for (size_t i = 0; i < shape.indices.size(); ++i) {
+      EXPECT_EQ(shape.vertices[shape.indices[i]].color[3] == 255, i < shape.solid_indices);
+    }
+  }
+}

@@ -1,0 +1,127 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "render/drawing.h"
+
+using namespace viscera;
+
+namespace {
+
+constexpr ToolMode kModes[] = {ToolMode::kNone, ToolMode::kProbe, ToolMode::kGrab, ToolMode::kCut,
+                               ToolMode::kCutParticles};
+
+class ToolsGl : public Drawing {
+ protected:
+  /// The stylus's shaft points up (+z), the flat of its blade to the camera, its tip is at a point [m].
+  static ToolMotions tool(ToolMode mode, const Vector3d& tip_m = Vector3d::Zero()) {
+    ToolMotions motions;
+    motions[0].present = true;
+    motions[0].mode = mode;
+    motions[0].to = {tip_m, Quaterniond(Eigen::AngleAxisd(M_PI / 2, Vector3d::UnitZ()))};
+    return motions;
+  }
+  double pixelsPerMetre() const { return intrinsics(camera_).fy / 0.3; }
+  const MeshView nothing_;
+};
+
+int differingPixels(const Image& a, const Image& b) {
+  int count = 0;
+  for (size_t i = 0; i < a.rgb.size(); i += 3) count += std::equal(&a.rgb[i], &a.rgb[i] + 3, &b.rgb[i]) ? 0 : 1;
+  return count;
+}
+
+/// Rows [px] in which something is drawn, first and last.
+std::pair<int, int> drawnRows(const Image& image) {
+  std::pair<int, int> rows{image.height, -1};
+  for (int row = 0; row < image.height; ++row) {
+    for (int column = 1; column < image.width; ++column) {
+      if (image.drawn(column, row)) rows = {std::min(rows.first, row), std::max(rows.second, row)};
+    }
+  }
+  return rows;
+}
+
+}  // namespace
+
+TEST_F(ToolsGl, AbsentStylusIsNotDrawnWhateverItsMode) {
+  for (ToolMode mode : kModes) {
+    ToolMotions motions = tool(mode);
+    motions[0].present = false;
+    EXPECT_EQ(draw(nothing_, motions).drawnPixels(), 0);
+  }
+}
+
+TEST_F(ToolsGl, PresentStylusWithoutAModeIsAShaft) {
+  const Image image = draw(nothing_, tool(ToolMode::kNone));
+  EXPECT_GT(image.drawnPixels(), 200);
+  EXPECT_LE(drawnRows(image).second, image.height / 2 + 1) << "nothing hangs below the tip";
+  EXPECT_EQ(drawnRows(image).first, 0) << "12 cm of shaft leave the image at its top";
+}
+
+TEST_F(ToolsGl, EveryModeLooksDifferent) {
+  std::vector<Image> images;
+  for (ToolMode mode : kModes) images.push_back(draw(nothing_, tool(mode)));
+  for (size_t a = 0; a < images.size(); ++a) {
+    for (size_t b = a + 1; b < images.size(); ++b) {
+      EXPECT_GT(differingPixels(images[a], images[b]), 50) << "modes " << a << " and " << b;
+    }
+  }
+}
+
+TEST_F(ToolsGl, ActingPartsAreDrawnInTheirTrueSize) {
+  constexpr double kWithin_px = 2;
+  styluses_[0].probe_radius_m = 0.01;
+  styluses_[0].grab_radius_m = 0.015;
+  styluses_[0].blade_length_m = 0.03;
+  styluses_[0].eraser_radius_m = 0.005;
+  const double middle = camera_.height_px / 2.0;
+  auto reach_px = [&](ToolMode mode) { return drawnRows(draw(nothing_, tool(mode))).second + 1 - middle; };
+  EXPECT_NEAR(reach_px(ToolMode::kProbe), 0.010 * pixelsPerMetre(), kWithin_px);
+  EXPECT_NEAR(reach_px(ToolMode::kGrab), 0.015 * pixelsPerMetre(), kWithin_px);
+  EXPECT_NEAR(reach_px(ToolMode::kCut), 0.030 * pixelsPerMetre(), kWithin_px);
+  EXPECT_NEAR(reach_px(ToolMode::kCutParticles), 0.035 * pixelsPerMetre(), kWithin_px);
+}
+
+TEST_F(ToolsGl, TissueHidesWhatIsBehindItAndShinesThroughAGrabOutline) {
+  const GpuMesh square = squareMesh(0.1f, {0, -1, 0});
+  const Image tissue = draw(square.view());
+  const Image behind = draw(square.view(), tool(ToolMode::kProbe, {0, 0.05, -0.02}));
+  EXPECT_EQ(behind.sum(160, 130), tissue.sum(160, 130));
+  const Image before = draw(square.view(), tool(ToolMode::kProbe, {0, -0.05, -0.02}));
+  EXPECT_GT(before.at(160, 138)[2], before.at(160, 138)[0]) << "the probe is blue before red tissue";
+  const Image outline = draw(square.view(), tool(ToolMode::kGrab, {0, -0.05, 0.0}));
+  EXPECT_GT(outline.at(160, 122)[0], 2 * outline.at(160, 122)[1]) << "red shines through";
+}
+
+TEST_F(ToolsGl, OutlineOfOneStylusDoesNotHideThatOfTheOther) {
+  constexpr int kSumWithin = 3;  // levels over three channels: blending in the other order rounds differently
+  const ToolMotions near = tool(ToolMode::kGrab, {0, -0.05, 0}), far = tool(ToolMode::kGrab, {0.008, 0, 0});
+  const Image near_first = draw(nothing_, {near[0], far[0]}), far_first = draw(nothing_, {far[0], near[0]});
+  const int column = camera_.width_px / 2 + 9, row = camera_.height_px / 2 + 5;  // within both outlines, off both jaws
+  EXPECT_GT(near_first.sum(column, row), draw(nothing_, near).sum(column, row));
+  EXPECT_NEAR(near_first.sum(column, row), far_first.sum(column, row), kSumWithin);
+}
+
+TEST_F(ToolsGl, ToolShadesTheTissueBelowIt) {
+  const GpuMesh square = squareMesh(0.1f, {0, -1, 0});
+  const Image tissue = draw(square.view()), shaded = draw(square.view(), tool(ToolMode::kNone, {-0.03, -0.02, -0.03}));
+  int darker = 0;
+  for (int row = 0; row < tissue.height; ++row) {
+    for (int column = 0; column < tissue.width; ++column) {
+      const bool red = shaded.at(column, row)[0] > 2 * shaded.at(column, row)[2];
+      darker += red && shaded.sum(column, row) < 0.8 * tissue.sum(column, row) ? 1 : 0;
+    }
+  }
+  EXPECT_GT(darker, 100);
+}
+
+TEST_F(ToolsGl, BothStylusesAreDrawnAtTheirPoses) {
+  ToolMotions motions = tool(ToolMode::kProbe, {-0.04, 0, -0.02});
+  motions[1] = motions[0];
+  motions[1].to.position_m.x() = 0.04;
+  const Image image = draw(nothing_, motions);
+  const int shift_px = static_cast<int>(std::lround(0.04 * pixelsPerMetre()));
+  const int row = image.height / 2 + static_cast<int>(std::lround(0.02 * pixelsPerMetre()));
+  EXPECT_TRUE(image.drawn(image.width / 2 - shift_px, row));
+  EXPECT_TRUE(image.drawn(image.width / 2 + shift_px, row));
+  EXPECT_FALSE(image.drawn(image.width / 2, row));
+}

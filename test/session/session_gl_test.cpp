@@ -1,0 +1,162 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "viscera/session/session.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "session/block_session.h"
+#include "support/gpu_fixture.h"
+#include "support/text.h"
+#include "viscera/math/error.h"
+
+namespace viscera {
+namespace {
+
+using namespace test;
+
+constexpr double kRestM = 1e-6;  ///< mapping positions of a few centimetres in single precision
+constexpr double kFollowM =
+    1e-5;  ///< a held node is where the stylus is; the skin above it is bound to its neighbours too
+constexpr double kForceN = 0.1;   ///< well below what millimetres of tissue of 20 kPa give, well above rounding
+constexpr double kDentM = 0.003;  ///< half of what the probe goes deep
+constexpr double kAside = 0.05;   ///< of a force on a block that is the same on all sides
+
+class SessionTest : public GpuTest {
+ protected:
+  explicit SessionTest(const Scene& scene = blockScene()) : session_(scene, context_) {}
+  Session session_;
+};
+using SessionWithTools = SessionTest;
+
+/// Height of the skin's vertex that lies nearest to a point at rest.
+float heightAt(const SurfaceFrame& surface, const std::vector<float>& rest_m, const Vector3f& point_m) {
+  size_t nearest = 0;
+  float distance = std::numeric_limits<float>::max();
+  for (size_t v = 0; v < rest_m.size(); v += 3) {
+    const float d = (Vector3f(rest_m[v], rest_m[v + 1], rest_m[v + 2]) - point_m).norm();
+    if (d < distance) distance = d, nearest = v;
+  }
+  return surface.positions_m.at(nearest + 2);
+}
+
+double largestMove(const SurfaceFrame& surface, const std::vector<float>& rest_m) {
+  double largest = 0;
+  for (size_t i = 0; i < rest_m.size(); ++i)
+    largest = std::max(largest, std::abs(static_cast<double>(surface.positions_m.at(i)) - rest_m[i]));
+  return largest;
+}
+
+TEST_F(SessionWithTools, ProbeDentsTheTissueAndIsPushedBackOut) {
+  play(session_, press, kPressTicks + 5);
+  const Frame pressed = session_.drain();
+  const Vector3d force = pressed.reactions[0].force_n;
+  EXPECT_GT(force.z(), kForceN);
+  EXPECT_LT(force.head<2>().norm(), kAside * force.z());
+  EXPECT_GE(session_.extremes().peak_force_n, force.z());
+  EXPECT_GT(pressed.stats.touched[0], 0u);
+  EXPECT_EQ(pressed.reactions[1].force_n, Vector3d::Zero());
+
+  const std::vector<float> rest_m = restPositions(session_);
+  const SurfaceFrame surface = surfaceAfter(session_, press(kPressTicks));
+  EXPECT_LT(heightAt(surface, rest_m, {0, 0, kHalfM}), kHalfM - kDentM);
+  EXPECT_NEAR(heightAt(surface, rest_m, {0, 0, -kHalfM}), -kHalfM, kRestM);  // held
+}
+
+TEST_F(SessionWithTools, LostStylusHasNoForceAtOnce) {
+  play(session_, press, kPressTicks + 5);
+  ASSERT_GT(session_.drain().reactions[0].force_n.norm(), 0);
+  const Frame lost = session_.step({}, {});
+  EXPECT_EQ(lost.reactions[0].force_n, Vector3d::Zero());
+  EXPECT_EQ(lost.reactions[0].torque_nm, Vector3d::Zero());
+}
+
+TEST_F(SessionWithTools, GrabbedTissueFollowsThePullAndPullsBack) {
+  const auto pull = [](int tick) { return leftAt({0, 0, kHalfM + 0.0005 * tick}, true); };
+  play(session_, pull, 20);
+  const Frame pulled = session_.drain();
+  EXPECT_GT(pulled.stats.grabbed[0], 0u);
+  EXPECT_LT(pulled.reactions[0].force_n.z(), -kForceN);
+  const std::vector<float> rest_m = restPositions(session_);
+  EXPECT_NEAR(heightAt(surfaceAfter(session_, pull(20)), rest_m, {0, 0, kHalfM}), kHalfM + 0.0095, kFollowM);
+  session_.step({}, {});
+  EXPECT_EQ(session_.drain().stats.grabbed[0], 0u);  // a lost stylus lets go
+}
+
+TEST_F(SessionWithTools, CutSeversSpringsAndOpensTheSkin) {
+  play(session_, cut, kCutTicks);
+  const SurfaceFrame surface = surfaceAfter(session_, {});
+  const Frame after = session_.drain();
+  EXPECT_GT(after.stats.springs_cut, 0u);
+  EXPECT_LT(after.stats.springs_cut, session_.model().springs());
+  const auto torn = std::count(surface.alive.begin(), surface.alive.end(), 0u);
+  EXPECT_GT(torn, 0);
+  EXPECT_LT(torn, static_cast<long>(surface.alive.size()) / 2);
+  EXPECT_EQ(after.stats.nonfinite, 0u);
+}
+
+TEST_F(SessionWithTools, ResetRestoresEverything) {
+  const uint64_t at_rest = session_.stateHash();
+  play(session_, cut, kCutTicks);
+  play(session_, press, kPressTicks);
+  const uint64_t first = session_.stateHash();
+  EXPECT_NE(first, at_rest);
+  session_.reset();
+  EXPECT_EQ(session_.stateHash(), at_rest);
+  EXPECT_EQ(session_.tick(), 0u);
+  EXPECT_EQ(session_.extremes().peak_force_n, 0);
+  EXPECT_FALSE(session_.drain().has_stats);
+
+  const SurfaceFrame surface = surfaceAfter(session_, {});
+  EXPECT_LT(largestMove(surface, restPositions(session_)), kRestM);
+  EXPECT_EQ(std::count(surface.alive.begin(), surface.alive.end(), 0u), 0);
+
+  session_.reset();
+  play(session_, cut, kCutTicks);
+  play(session_, press, kPressTicks);
+  EXPECT_EQ(session_.stateHash(), first);
+}
+
+TEST_F(SessionTest, TissueThatNothingActsOnStaysAtRest) {
+  play(
+      session_, [](int) { return StylusSamples{}; }, 10);
+  const SurfaceFrame surface = surfaceAfter(session_, {});
+  EXPECT_EQ(surface.tick, 11u);
+  EXPECT_LT(largestMove(surface, restPositions(session_)), kRestM);
+}
+
+/// Two blocks side by side; the right one is pressed.
+Scene twoBlocks() {
+  Scene scene = blockScene();
+  scene.bodies.push_back(scene.bodies[0]);
+  scene.bodies[0].name = "other";
+  scene.bodies[0].position_m = Vector3d(-0.1, 0, 0);
+  scene.bodies[0].spacing_m = 0.01;
+  return scene;
+}
+
+class SessionOfTwoBodies : public SessionTest {
+ protected:
+  SessionOfTwoBodies() : SessionTest(twoBlocks()) {}
+};
+
+TEST_F(SessionOfTwoBodies, SurfaceHoldsBothAndATouchMovesOnlyOne) {
+  const std::vector<float> rest_m = restPositions(session_);
+  EXPECT_LT(largestMove(surfaceAfter(session_, {}), rest_m), kRestM);
+  play(session_, press, kPressTicks + 5);
+  const SurfaceFrame surface = surfaceAfter(session_, press(kPressTicks));
+  ASSERT_EQ(surface.positions_m.size(), rest_m.size());
+  EXPECT_LT(heightAt(surface, rest_m, {0, 0, kHalfM}), kHalfM - kDentM);
+  EXPECT_NEAR(heightAt(surface, rest_m, {-0.1f, 0, kHalfM}), kHalfM, kRestM);
+}
+
+TEST_F(GpuTest, SceneThatNeedsMoreSubstepsThanAllowedIsRefusedWithTheWayOut) {
+  Scene scene = blockScene();
+  scene.solver.max_substeps = 3;
+  const std::string message = messageOf<SceneError>([&] { Session(scene, context_); });
+  EXPECT_TRUE(says(message, {"solver.max_substeps = 3", "spacing_m"}));
+}
+
+}  // namespace
+}  // namespace viscera

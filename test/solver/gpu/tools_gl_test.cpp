@@ -1,0 +1,293 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "support/gpu_fixture.h"
+
+using namespace viscera;
+using namespace viscera::test;
+
+namespace {
+
+// Relative to the largest value; contact projections add roundings of absolute positions (6e-8 of ~0.1 m on u of ~1e-3
+// m).
+constexpr double kContactFloat32 = 1e-4;
+constexpr int kSubsteps = 20;
+
+StylusConfig stylusConfig() {
+  StylusConfig config;
+  config.probe_radius_m = 0.012;
+  config.grab_radius_m = 0.012;
+  config.blade_length_m = 0.2;
+  config.eraser_radius_m = 0.004;
+  config.release_speed_m_per_s = 0.05;
+  return config;
+}
+
+class ToolsOnTissue : public GpuTest {
+ protected:
+  ToolsOnTissue() : model_(modelOf({boxBody({6, 6, 6}, 0.01)})), styluses_{stylusConfig(), stylusConfig()} {
+    for (uint32_t slot : lattice().active_slots) {
+      if (lattice().nodeAt(slot).z() == 0) model_.bodies[0].lattice.nodes[slot].lo |= layout::kFixedBit;
+    }
+    solver_.emplace(model_, sceneFor(model_, kSubsteps, styluses_));
+    reference_.emplace(model_, Vector3d::Zero(), static_cast<float>(solver_->dt_s()));
+  }
+  const Lattice& lattice() const { return model_.bodies[0].lattice; }
+
+  /// One tick of both solvers.
+  void tick(const ToolMotions& motions) {
+    solver_->step(motions);
+    for (uint32_t s = 0; s < 2; ++s) {
+      if (motions[s].grab_ends) reference_->letGo(s, styluses_[s].release_speed_m_per_s);
+      if (motions[s].grab_begins) reference_->takeHold(s, motions[s].from, styluses_[s].grab_radius_m);
+    }
+    std::vector<layout::ToolMotion> rows;
+    interpolateMotions(motions, styluses_, kSubsteps, rows);
+    for (int s = 0; s < kSubsteps; ++s)
+      reference_->substep({rows[2 * static_cast<size_t>(s)], rows[2 * static_cast<size_t>(s) + 1]});
+  }
+  layout::TickStats stats() {
+    layout::TickStats stats{};
+    while (solver_->pollStats(stats, true)) {
+    }
+    return stats;
+  }
+  void expectSameDisplacement() {
+    EXPECT_LT(relativeError(solver_->readState().displacement_m, reference_->u_m, reference_->active), kContactFloat32);
+  }
+
+  Model model_;
+  std::vector<StylusConfig> styluses_;
+  std::optional<GpuSolver> solver_;
+  std::optional<ReferenceSolver> reference_;
+};
+
+StylusMotion motion(ToolMode mode, const Vector3d& from, const Vector3d& to) {
+  StylusMotion out;
+  out.mode = mode;
+  out.present = true;
+  out.from.position_m = from;
+  out.to.position_m = to;
+  return out;
+}
+
+size_t asymmetricSprings(const Lattice& lattice, const std::vector<layout::NodeBits>& nodes) {
+  size_t wrong = 0;
+  for (uint32_t slot : lattice.active_slots) {
+    for (uint32_t s = 0; s < layout::kSpringsPerNode; ++s) {
+      const int64_t other = lattice.neighborSlot(slot, s);
+      const uint32_t here = springCount(nodes[slot], s);
+      wrong += here != (other < 0 ? 0 : springCount(nodes[static_cast<size_t>(other)], oppositeSpring(s)));
+    }
+  }
+  return wrong;
+}
+
+}  // namespace
+
+TEST_F(ToolsOnTissue, ProbeDentsLikeTheReference) {
+  ToolMotions motions;
+  for (int t = 0; t < 10; ++t) {
+    const double z = 0.075 - 0.002 * t;
+    motions[0] = motion(ToolMode::kProbe, {0.031, 0.029, z}, {0.031, 0.029, z - 0.002});
+    tick(motions);
+  }
+  expectSameDisplacement();
+  float lowest = 0;
+  for (const layout::vec4& u : solver_->readState().displacement_m) lowest = std::min(lowest, u.z);
+  EXPECT_LT(lowest, -0.004);
+}
+
+TEST_F(ToolsOnTissue, ReactionIsTheMomentumGivenPerTick) {
+  ToolMotions motions;
+  Vector3d before = Vector3d::Zero();
+  for (int t = 0; t < 10; ++t) {
+    before = reference_->impulse_n_s[0];
+    const double z = 0.075 - 0.001 * t;
+    motions[0] = motion(ToolMode::kProbe, {0.03, 0.03, z}, {0.03, 0.03, z - 0.001});
+    tick(motions);
+  }
+  const Vector3d truth = reference_->impulse_n_s[0] - before;
+  const layout::TickStats s = stats();
+  EXPECT_LT((xyz(s.impulse[0]) - truth).norm(),
+            1e-3 * truth.norm());  // roundings of contact positions, see kContactFloat32
+  EXPECT_LT(s.impulse[0].z, 0);    // tissue is pushed down
+  EXPECT_GT(s.touched[0], 0u);
+  EXPECT_EQ(xyz(s.impulse[1]), Vector3d::Zero().eval());
+}
+
+TEST_F(ToolsOnTissue, FastProbeLeavesNoNodeInsideItsSweep) {
+  ToolMotions motions;
+  motions[0] = motion(ToolMode::kProbe, {0.03, 0.03, 0.12}, {0.03, 0.03, 0.02});  // 10 cm in one tick
+  tick(motions);
+  const HostState state = solver_->readState();
+  for (uint32_t slot : lattice().active_slots) {
+    const Vector3d x = lattice().restPosition(slot) + xyz(state.displacement_m[slot]);
+    EXPECT_TRUE(x.allFinite());
+    if (isFixed(lattice().nodes[slot])) continue;
+    EXPECT_GT((x - motions[0].to.position_m).norm(), 0.99 * styluses_[0].probe_radius_m);
+  }
+}
+
+TEST_F(ToolsOnTissue, ProbeAtANodesPlaceHasADirectionAllTheSame) {
+  ToolMotions motions;
+  const Vector3d node(0.03, 0.03, 0.06);
+  motions[0] = motion(ToolMode::kProbe, node, node);
+  tick(motions);
+  for (const layout::vec4& u : solver_->readState().displacement_m) EXPECT_TRUE(xyz(u).allFinite());
+  EXPECT_GT(stats().touched[0], 0u);
+}
+
+TEST_F(ToolsOnTissue, HeldNodesFollowTheFullPose) {
+  ToolMotions motions;
+  motions[1] = motion(ToolMode::kGrab, {0.03, 0.03, 0.06}, {0.03, 0.03, 0.062});
+  motions[1].grab_begins = true;
+  tick(motions);
+  const layout::TickStats held = stats();
+  EXPECT_GT(held.grabbed[1], 0u);
+  motions[1] = motion(ToolMode::kGrab, {0.03, 0.03, 0.062}, {0.032, 0.03, 0.07});
+  motions[1].to.orientation = rotationFromDegrees({10, 20, 90});
+  tick(motions);
+  expectSameDisplacement();
+  const HostState state = solver_->readState();
+  const Pose grabbed{{0.03, 0.03, 0.06}, Quaterniond::Identity()};
+  for (uint32_t slot : lattice().active_slots) {
+    const Vector3d rest = lattice().restPosition(slot);
+    if ((rest - grabbed.position_m).norm() > 0.0119) continue;
+    const Vector3d where = motions[1].to * (grabbed.inverse() * rest);
+    EXPECT_LT((rest + xyz(state.displacement_m[slot]) - where).norm(), 1e-7);  // m, float32 at 0.1 m
+  }
+}
+
+TEST_F(ToolsOnTissue, ReleaseClampsTheVelocity) {
+  ToolMotions motions;
+  motions[0] = motion(ToolMode::kGrab, {0.03, 0.03, 0.06}, {0.03, 0.03, 0.08});
+  motions[0].grab_begins = true;
+  tick(motions);
+  motions[0] = motion(ToolMode::kNone, {0.03, 0.03, 0.08}, {0.03, 0.03, 0.08});
+  motions[0].grab_ends = true;
+  tick(motions);
+  expectSameDisplacement();
+  EXPECT_EQ(stats().grabbed[0], 0u);
+}
+
+TEST_F(ToolsOnTissue, BladeCutsTheSpringsItCrossesFromBothEnds) {
+  ToolMotions motions;
+  // The blade points along -z from z = 0.16 to -0.04 and sweeps along x in the plane y = 0.035, between two rows of
+  // nodes.
+  motions[0] = motion(ToolMode::kCut, {-0.02, 0.035, 0.16}, {0.08, 0.035, 0.16});
+  tick(motions);
+  const HostState state = solver_->readState();
+  EXPECT_EQ(asymmetricSprings(lattice(), state.nodes), 0u);
+  size_t crossing = 0;
+  for (uint32_t slot : lattice().active_slots) {
+    const int y = lattice().nodeAt(slot).y();
+    for (uint32_t s = 0; s < layout::kSpringsPerNode; ++s) {
+      if (!springCount(lattice().nodes[slot], s)) continue;
+      const bool crosses = y == 3 && kNeighborOffsets[s][1] == 1;
+      const bool crosses_back = y == 4 && kNeighborOffsets[s][1] == -1;
+      crossing += crosses ? 1 : 0;
+      EXPECT_EQ(springCount(state.nodes[slot], s) == 0, crosses || crosses_back);
+    }
+  }
+  EXPECT_EQ(stats().springs_cut, crossing);
+}
+
+TEST_F(ToolsOnTissue, MasksStaySymmetricAndLikeTheReferenceAfterRandomCuts) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> angle(-180, 180);
+  ToolMotions motions;
+  for (int t = 0; t < 60; ++t) {
+    for (uint32_t s = 0; s < 2; ++s) {
+      const Vector3d middle = Vector3d::Constant(0.03);
+      motions[s] = motion(t % 7 == 6 ? ToolMode::kCutParticles : ToolMode::kCut, middle + randomVector(random, 0.08),
+                          middle + randomVector(random, 0.08));
+      motions[s].from.orientation = rotationFromDegrees({angle(random), angle(random), angle(random)});
+      motions[s].to.orientation = rotationFromDegrees({angle(random), angle(random), angle(random)});
+    }
+    const HostState before = solver_->readState();
+    load(*reference_, before);  // each round starts from the same state: cuts must agree, not chaos after many of them
+    tick(motions);
+    ASSERT_EQ(asymmetricSprings(lattice(), solver_->readState().nodes), 0u) << "after cut " << t;
+  }
+  EXPECT_GT(stats().springs_cut, 0u);
+}
+
+TEST_F(ToolsOnTissue, OneSweepCutsWhatTheReferenceCuts) {
+  std::mt19937 random(9);
+  std::uniform_real_distribution<double> angle(-180, 180);
+  for (ToolMode mode : {ToolMode::kCut, ToolMode::kCutParticles}) {
+    for (int t = 0; t < 10; ++t) {
+      solver_->reset();
+      ReferenceSolver fresh(model_, Vector3d::Zero(), static_cast<float>(solver_->dt_s()));
+      reference_.emplace(fresh);
+      ToolMotions motions;
+      motions[0] = motion(mode, Vector3d(0.03, 0.03, 0.05) + randomVector(random, 0.05),
+                          Vector3d(0.03, 0.03, 0.05) + randomVector(random, 0.05));
+      motions[0].to.orientation = motions[0].from.orientation =
+          rotationFromDegrees({angle(random), angle(random), angle(random)});
+      tick(motions);
+      const HostState state = solver_->readState();
+      size_t different = 0;
+      for (uint32_t slot : lattice().active_slots) {
+        different += (state.nodes[slot].lo ^ reference_->nodes[slot].lo) & layout::kAxialMask ? 1 : 0;
+        different += (state.nodes[slot].hi ^ reference_->nodes[slot].hi) & layout::kDiagonalMask ? 1 : 0;
+      }
+      EXPECT_EQ(different, 0u);
+    }
+  }
+}
+
+TEST_F(ToolsOnTissue, ParticleEraseLeavesAWiderGapThanSpringErase) {
+  ToolMotions motions;
+  const auto isolated = [&] {
+    size_t count = 0;
+    const HostState state = solver_->readState();
+    for (uint32_t slot : lattice().active_slots) {
+      const layout::NodeBits bits = state.nodes[slot];
+      count += (bits.lo & layout::kAxialMask) == 0 && (bits.hi & layout::kDiagonalMask) == 0;
+    }
+    return count;
+  };
+  motions[0] = motion(ToolMode::kCut, {-0.02, 0.031, 0.16}, {0.08, 0.031, 0.16});
+  tick(motions);
+  EXPECT_EQ(isolated(), 0u);  // springs only: no node is lost, the gap is one rest length
+  solver_->reset();
+  motions[0].mode = ToolMode::kCutParticles;
+  tick(motions);
+  EXPECT_EQ(isolated(), 49u);  // the 7 x 7 nodes of the plane y = 0.03: the gap is two rest lengths
+}
+
+TEST_F(ToolsOnTissue, BladeAtRestCutsNothing) {
+  ToolMotions motions;
+  motions[0] = motion(ToolMode::kCut, {0.03, 0.035, 0.16}, {0.03, 0.035, 0.16});
+  tick(motions);
+  EXPECT_EQ(stats().springs_cut, 0u);
+}
+
+TEST_F(ToolsOnTissue, SeveredSpringExertsNoForce) {
+  ToolMotions motions;
+  motions[0] = motion(ToolMode::kCut, {-0.02, 0.035, 0.16}, {0.08, 0.035, 0.16});
+  tick(motions);
+  HostState state = solver_->readState();
+  for (uint32_t slot : lattice().active_slots) {  // the half beyond the cut goes away by a centimetre
+    state.velocity_m_per_s[slot] = {};
+    state.displacement_m[slot] = {};
+    if (lattice().nodeAt(slot).y() >= 4) state.displacement_m[slot].y = 0.01f;
+    state.nodes[slot].lo &= ~layout::kFixedBit;
+  }
+  solver_->writeState(state);
+  solver_->step({});
+  const HostState after = solver_->readState();
+  for (uint32_t slot : lattice().active_slots) {
+    // m/s: rounding of displacements of 1 cm, times k/m dt; an uncut spring would give about 5 m/s
+    EXPECT_LT(xyz(after.velocity_m_per_s[slot]).norm(), 1e-3);
+  }
+}
+
+TEST_F(ToolsOnTissue, NonFiniteNodesAreCounted) {
+  HostState state = solver_->readState();
+  state.displacement_m[lattice().active_slots[200]].x = std::numeric_limits<float>::quiet_NaN();
+  solver_->writeState(state);
+  solver_->step({});
+  EXPECT_GT(stats().nonfinite, 0u);
+}

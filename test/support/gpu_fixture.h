@@ -1,0 +1,81 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "support/lattices.h"
+#include "viscera/gpu/context.h"
+#include "viscera/solver/gpu/gpu_solver.h"
+#include "viscera/solver/reference/reference_solver.h"
+
+namespace viscera::test {
+
+/// Gives every test an EGL context; a machine without one fails, it does not skip.
+class GpuTest : public ::testing::Test {
+ protected:
+  gpu::Context context_;
+};
+
+/// Scene whose tick is `substeps` substeps of half the largest stable one.
+inline Scene sceneFor(const Model& model, int substeps, std::vector<StylusConfig> styluses = {},
+                      const Vector3d& gravity = Vector3d::Zero()) {
+  Scene scene;
+  scene.styluses = std::move(styluses);
+  scene.environment.gravity_m_per_s2 = gravity;
+  scene.solver.dt_fraction = 0.5;
+  const double dt_safe_s = safeTimeStep(model);
+  const double dt_s = std::isfinite(dt_safe_s) ? 0.5 * dt_safe_s : 1e-3;
+  scene.solver.tick_hz = 1.0 / (substeps * dt_s) * (1 + 1e-9);
+  return scene;
+}
+
+inline layout::vec4 vec4(const Vector3d& v) {
+  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z()), 0};
+}
+inline Vector3d xyz(const layout::vec4& v) {
+  return {v.x, v.y, v.z};
+}
+
+inline HostState restState(const Model& model) {
+  HostState state;
+  state.displacement_m.assign(model.slots(), layout::vec4{});
+  state.velocity_m_per_s.assign(model.slots(), layout::vec4{});
+  for (size_t b = 0; b < model.bodies.size(); ++b) {
+    for (layout::NodeBits bits : model.bodies[b].lattice.nodes) {
+      bits.hi |= static_cast<uint32_t>(b) << layout::kBodyShift;
+      state.nodes.push_back(bits);
+    }
+  }
+  return state;
+}
+
+inline Vector3d randomVector(std::mt19937& random, double size) {
+  std::uniform_real_distribution<double> uniform(-size, size);
+  return {uniform(random), uniform(random), uniform(random)};
+}
+
+/// Puts the state of the host into the reference.
+inline void load(ReferenceSolver& reference, const HostState& state) {
+  for (uint32_t slot : reference.active) {
+    reference.u_m[slot] = xyz(state.displacement_m[slot]);
+    reference.v_m_per_s[slot] = xyz(state.velocity_m_per_s[slot]);
+    reference.nodes[slot] = state.nodes[slot];
+  }
+}
+
+/// Largest nodal error over the largest value of the reference.
+inline double relativeError(const std::vector<layout::vec4>& values, const std::vector<Vector3d>& truth,
+                            const std::vector<uint32_t>& active) {
+  double error = 0, size = 0;
+  for (uint32_t slot : active) {
+    error = std::max(error, (xyz(values[slot]) - truth[slot]).norm());
+    size = std::max(size, truth[slot].norm());
+  }
+  return size > 0 ? error / size : error;
+}
+
+}  // namespace viscera::test

@@ -1,0 +1,71 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <random>
+#include <set>
+
+#include "viscera/model/model.h"
+
+namespace viscera::test {
+
+/// A body of a box of whole cells, its lower corner at the origin.
+inline Body boxBody(const Vector3i& cells, double spacing_m, Weights weights = Weights::kCell) {
+  Body body;
+  body.name = "box";
+  Solid solid;
+  solid.spacing_m = spacing_m;
+  solid.cells = cells;
+  solid.labels.assign(static_cast<size_t>(cells.prod()), 1);
+  solid.part_names = {"box"};
+  body.lattice = buildLattice(solid, weights);
+  return body;
+}
+
+/// A lattice of exactly `count` nodes: a random tree of touching nodes with random counts on every spring between two
+/// of them, the same from both ends. A solid's cells cannot give sizes such as 1 or 63.
+inline Body blobBody(size_t count, double spacing_m, uint32_t seed) {
+  std::mt19937 random(seed);
+  const int extent = std::max(4, static_cast<int>(2 * std::cbrt(static_cast<double>(count))));
+  const Vector3i middle = Vector3i::Constant(extent / 2);
+  const auto key = [](const Vector3i& n) { return std::array<int, 3>{n.x(), n.y(), n.z()}; };
+  std::set<std::array<int, 3>> wanted = {key(middle)};
+  std::vector<Vector3i> grown = {middle};
+  while (grown.size() < count) {
+    const auto& o = kNeighborOffsets[random() % layout::kSpringsPerNode];
+    const Vector3i next = grown[random() % grown.size()] + Vector3i(o[0], o[1], o[2]);
+    if ((next.array() < 0).any() || (next.array() > extent).any() || !wanted.insert(key(next)).second) continue;
+    grown.push_back(next);
+  }
+  Body body = boxBody(Vector3i::Constant(extent), spacing_m);
+  Lattice& lattice = body.lattice;
+  lattice.active_slots.clear();
+  for (uint32_t slot = 0; slot < lattice.nodes.size(); ++slot) {
+    layout::NodeBits& bits = lattice.nodes[slot];
+    const bool keep = wanted.count(key(lattice.nodeAt(slot))) > 0;
+    bits = {keep ? (1u + static_cast<uint32_t>(random() % 8)) << layout::kMassShift : 0u, 0u};
+    if (keep) lattice.active_slots.push_back(slot);
+  }
+  for (uint32_t slot : lattice.active_slots) {
+    for (uint32_t s = 0; s < layout::kSpringsPerNode; s += 2) {
+      const int64_t other = lattice.neighborSlot(slot, s);
+      if (other < 0) continue;
+      const uint32_t strength = isAxial(s) ? 1 + random() % 4 : 1 + random() % 2;
+      setSpringCount(lattice.nodes[slot], s, strength);
+      setSpringCount(lattice.nodes[static_cast<size_t>(other)], oppositeSpring(s), strength);
+    }
+  }
+  return body;
+}
+
+inline Model modelOf(std::vector<Body> bodies) {
+  Model model;
+  model.bodies = std::move(bodies);
+  return model;
+}
+
+/// Node counts that bracket a work group, and one that fills many.
+constexpr size_t kSizes[] = {1, 63, 64, 65, 1234};
+
+}  // namespace viscera::test

@@ -1,0 +1,134 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The skin's mapping and tearing in float64, written from the papers' equations and not from the kernels.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <unordered_set>
+#include <vector>
+
+#include "viscera/model/skin.h"
+
+namespace viscera::testing {
+
+/// Which form of EGVE eqs 6 and 8: orthonormal (physics.md 4), or as printed, without normalising N and N_c.
+enum class Bases { kOrthonormal, kAsPrinted };
+
+class ReferenceMapping {
+ public:
+  ReferenceMapping(const Lattice& lattice, const std::vector<layout::vec4>& displacement_m,
+                   const std::vector<layout::NodeBits>& nodes, Bases bases = Bases::kOrthonormal)
+      : lattice_(lattice), displacement_m_(displacement_m), nodes_(nodes), bases_(bases) {}
+
+  struct Vertex {
+    Vector3d position_m, normal;
+  };
+  Vertex map(const layout::SkinBinding& s) const {
+    const Vector3d p1 = position(s.slot0), p2 = position(s.slot1), p3 = position(s.slot2);
+    const Vector3d t = (p2 - p1).normalized(), b_t = (p3 - p1).normalized();
+    const Vector3d n = normalised(t.cross(b_t)), b = n.cross(t);
+    Vector3d offset = sum(s.offset_constant, t, n, b), normal = sum(s.normal_constant, t, n, b);
+    if (s.springs & layout::kInterpolatedBit) {
+      const std::array<Normal, 3> a = {approximate(s.slot0), approximate(s.slot1), approximate(s.slot2)};
+      const double trust = std::min({a[0].trust, a[1].trust, a[2].trust});
+      const Vector3d n_c = normalised(s.weights.x * a[0].unit + s.weights.y * a[1].unit + s.weights.z * a[2].unit);
+      const Vector3d b_c = normalised(n_c.cross(t)), t_c = b_c.cross(n_c);
+      offset += trust * (sum(s.offset_interpolated, t_c, n_c, b_c) - offset);
+      normal += trust * (sum(s.normal_interpolated, t_c, n_c, b_c) - normal);
+    }
+    const double w[3] = {1.0 - s.weights.y - s.weights.z, s.weights.y, s.weights.z};
+    return {w[0] * p1 + w[1] * p2 + w[2] * p3 + offset, normal.normalized()};
+  }
+
+ private:
+  struct Normal {
+    Vector3d unit;
+    double trust;
+  };
+  Vector3d position(uint32_t slot) const {
+    const layout::vec4& u = displacement_m_[slot];
+    return lattice_.restPosition(slot) + Vector3d(u.x, u.y, u.z);
+  }
+  Vector3d normalised(const Vector3d& v) const { return bases_ == Bases::kOrthonormal ? v.normalized() : v; }
+  static Vector3d sum(const layout::vec4& c, const Vector3d& t, const Vector3d& n, const Vector3d& b) {
+    return c.x * t + c.y * n + c.z * b;
+  }
+  Normal approximate(uint32_t slot) const {
+    Vector3d total = Vector3d::Zero();
+    for (uint32_t spring = 0; spring < layout::kSpringsPerNode; ++spring) {
+      if (!springCount(nodes_[slot], spring)) continue;
+      const auto neighbor = static_cast<uint32_t>(lattice_.neighborSlot(slot, spring));
+      total += (position(slot) - position(neighbor)).normalized();
+    }
+    const double clear = (total.norm() - layout::kNormalSumNone) / (layout::kNormalSumFull - layout::kNormalSumNone);
+    const bool severed = (nodes_[slot].lo & layout::kSeveredBit) != 0;
+    return {total.normalized(), severed ? 0.0 : std::clamp(clear, 0.0, 1.0)};
+  }
+
+  const Lattice& lattice_;
+  const std::vector<layout::vec4>& displacement_m_;
+  const std::vector<layout::NodeBits>& nodes_;
+  Bases bases_;
+};
+
+/// 1 for every triangle of a skin that is whole (the rule in model/skin.h), 0 for a torn one.
+inline std::vector<uint32_t> wholeTriangles(const Skin& skin, const Lattice& lattice,
+                                            const std::vector<layout::NodeBits>& nodes) {
+  const auto joined = [&](uint32_t a, uint32_t b) {
+    const int spring = springIndex(lattice.nodeAt(b) - lattice.nodeAt(a));
+    return spring >= 0 && springCount(nodes[a], static_cast<uint32_t>(spring)) > 0;
+  };
+  std::vector<uint32_t> whole;
+  for (size_t t = 0; t < skin.mesh.triangles.size(); ++t) {
+    bool is_whole = true;
+    for (uint32_t v : skin.mesh.triangles[t]) {
+      const layout::SkinBinding& s = skin.bindings[v];
+      is_whole &= joined(s.slot0, s.slot1) + joined(s.slot1, s.slot2) + joined(s.slot2, s.slot0) >= 2;
+    }
+    bool group_holds = false;
+    for (uint32_t i = skin.tie_starts[t]; i < skin.tie_starts[t + 1]; ++i) {
+      group_holds |= springCount(nodes[skin.ties[i].slot], skin.ties[i].spring & ~layout::kTieEndBit) > 0;
+      if (!(skin.ties[i].spring & layout::kTieEndBit)) continue;
+      is_whole &= group_holds;
+      group_holds = false;
+    }
+    whole.push_back(is_whole);
+  }
+  return whole;
+}
+
+/// For every slot, the lowest slot of its piece: the nodes that paths of live springs join.
+inline std::vector<uint32_t> pieces(const Lattice& lattice, const std::vector<layout::NodeBits>& nodes) {
+  std::vector<uint32_t> piece(nodes.size(), UINT32_MAX);
+  for (uint32_t seed : lattice.active_slots) {
+    if (piece[seed] != UINT32_MAX) continue;
+    std::vector<uint32_t> stack = {seed};
+    piece[seed] = seed;
+    while (!stack.empty()) {
+      const uint32_t slot = stack.back();
+      stack.pop_back();
+      for (uint32_t spring = 0; spring < layout::kSpringsPerNode; ++spring) {
+        if (!springCount(nodes[slot], spring)) continue;
+        const auto next = static_cast<uint32_t>(lattice.neighborSlot(slot, spring));
+        if (piece[next] != UINT32_MAX) continue;
+        piece[next] = seed;
+        stack.push_back(next);
+      }
+    }
+  }
+  return piece;
+}
+
+/// Pieces that the vertices of a triangle are bound to.
+inline size_t piecesOf(const Skin& skin, size_t triangle, const std::vector<uint32_t>& piece) {
+  std::unordered_set<uint32_t> seen;
+  for (uint32_t v : skin.mesh.triangles[triangle]) {
+    const layout::SkinBinding& s = skin.bindings[v];
+    seen.insert({piece[s.slot0], piece[s.slot1], piece[s.slot2]});
+  }
+  return seen.size();
+}
+
+}  // namespace viscera::testing

@@ -1,0 +1,103 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// A surface over a state that the test writes itself: no solver.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "model/skin_shapes.h"
+#include "viscera/solver/gpu/lattice_buffers.h"
+#include "viscera/solver/solver.h"
+#include "viscera/surface/surface.h"
+
+namespace viscera::testing {
+
+inline Body makeBody(const Solid& solid, const TriangleMesh& mesh, Weights weights = Weights::kCell) {
+  Body body;
+  body.lattice = buildLattice(solid, weights);
+  body.skin = bindSkin(mesh, body.lattice, solid);
+  return body;
+}
+
+/// Bodies with nodes that go where a function of (body, rest position) sends them.
+class SurfaceRig {
+ public:
+  explicit SurfaceRig(std::vector<Body> bodies)
+      : model{std::move(bodies)}, surface(model), buffers_(model, paramsOf(model), false) {
+    displacement_m.assign(model.slots(), layout::vec4{0, 0, 0, 0});
+    nodes = buffers_.nodes.read();
+  }
+  explicit SurfaceRig(Body body) : SurfaceRig(one(std::move(body))) {}
+
+  /// @param moved  rest position [m] -> position [m]
+  template <class Moved>
+  void moveNodes(Moved moved) {
+    for (size_t b = 0; b < model.bodies.size(); ++b) {
+      const Lattice& lattice = model.bodies[b].lattice;
+      for (uint32_t slot : lattice.active_slots) {
+        const Vector3d rest = lattice.restPosition(slot);
+        const Vector3f u = (moved(rest) - rest).template cast<float>();
+        displacement_m[model.slotOffset(b) + slot] = {u.x(), u.y(), u.z(), 0};
+      }
+    }
+  }
+  void follow() {
+    upload();
+    surface.follow(state());
+  }
+  void tear() {
+    upload();
+    ++revision;
+    surface.tear(state());
+  }
+  /// Writes displacement_m and nodes.
+  void upload() {
+    buffers_.displacement[0].write(displacement_m);
+    buffers_.nodes.write(nodes);
+  }
+  StateView state() const {
+    return {buffers_.displacement[0].id(), buffers_.velocity[0].id(), buffers_.nodes.id(),
+            buffers_.bricks.id(),          buffers_.bodies.id(),      revision};
+  }
+  /// Part of displacement_m or nodes that belongs to one body, by its own slots.
+  template <class T>
+  std::vector<T> ofBody(const std::vector<T>& all, size_t body) const {
+    const auto first = all.begin() + model.slotOffset(body);
+    return std::vector<T>(first, first + static_cast<long>(model.bodies[body].lattice.nodes.size()));
+  }
+  std::vector<Vector3d> positions() const {
+    const std::vector<float> flat = surface.positions().read();
+    std::vector<Vector3d> out;
+    for (size_t v = 0; v < surface.vertices(); ++v) out.emplace_back(flat[3 * v], flat[3 * v + 1], flat[3 * v + 2]);
+    return out;
+  }
+  std::vector<Vector3d> normals() const {
+    std::vector<Vector3d> out;
+    for (uint32_t packed : surface.normals().read()) out.push_back(unpackNormal(packed).cast<double>());
+    return out;
+  }
+
+  Model model;
+  Surface surface;
+  std::vector<layout::vec4> displacement_m;  ///< [slots]
+  std::vector<layout::NodeBits> nodes;       ///< [slots]
+  uint64_t revision = 0;
+
+ private:
+  static std::vector<Body> one(Body body) {
+    std::vector<Body> bodies;
+    bodies.push_back(std::move(body));
+    return bodies;
+  }
+  static std::vector<layout::BodyParams> paramsOf(const Model& model) {
+    std::vector<layout::BodyParams> params;
+    for (const Body& body : model.bodies) params.push_back(bodyParams(body, 0));
+    return params;
+  }
+  LatticeBuffers buffers_;
+};
+
+}  // namespace viscera::testing

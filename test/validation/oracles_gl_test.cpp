@@ -1,0 +1,218 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Exact oracles of physics.md 6: these test physics, on the GPU's float32 state.
+#include "support/gpu_fixture.h"
+
+using namespace viscera;
+using namespace viscera::test;
+
+namespace {
+
+/// Chain of nodes along z with axial springs of four quarters (stiffness k) and nodes of eight eighths (mass m).
+Body chainBody(int count, double spacing_m) {
+  Body body = boxBody({1, 1, count - 1}, spacing_m);
+  Lattice& lattice = body.lattice;
+  lattice.active_slots.clear();
+  for (uint32_t slot = 0; slot < lattice.nodes.size(); ++slot) {
+    const Vector3i n = lattice.nodeAt(slot);
+    layout::NodeBits& bits = lattice.nodes[slot];
+    const bool keep = n.x() == 0 && n.y() == 0 && massEighths(bits) > 0;
+    bits = {keep ? 8u << layout::kMassShift : 0u, 0u};
+    if (!keep) continue;
+    lattice.active_slots.push_back(slot);
+    if (n.z() + 1 < count) setSpringCount(bits, 4, 4);
+    if (n.z() > 0) setSpringCount(bits, 5, 4);
+  }
+  return body;
+}
+
+uint32_t slotOf(const Lattice& lattice, int x, int y, int z) {
+  return static_cast<uint32_t>(lattice.slotAt({x, y, z}));
+}
+
+/// Forces [N] on every node, from the velocity that half a kick gives (no drag, no gravity, from rest).
+std::vector<Vector3d> forcesOf(const Model& model, const HostState& state) {
+  GpuSolver solver(model, sceneFor(model, 1));
+  solver.writeState(state);
+  solver.step({});
+  const HostState after = solver.readState();
+  std::vector<Vector3d> out(model.slots(), Vector3d::Zero());
+  const Body& body = model.bodies[0];
+  const double eighth = bodyParams(body, 0).mass_eighth_kg;
+  for (uint32_t slot : body.lattice.active_slots) {
+    out[slot] = massEighths(state.nodes[slot]) * eighth * xyz(after.velocity_m_per_s[slot]) / (0.5 * solver.dt_s());
+  }
+  return out;
+}
+
+Body undamped(Body body) {
+  body.material.drag_per_s = 0;
+  body.material.dashpot_ratio = 0;
+  return body;
+}
+
+/// k = h = 1: E = 2.5 Pa at h = 1 m.
+Body unitBody(const Vector3i& cells) {
+  Body body = undamped(boxBody(cells, 1.0));
+  body.material.young_modulus_pa = 2.5;
+  body.material.density_kg_per_m3 = 1;
+  return body;
+}
+
+using Oracle = GpuTest;
+
+}  // namespace
+
+TEST_F(Oracle, DampedOscillatorFollowsItsDiscreteSolution) {
+  Body body = chainBody(2, 0.01);
+  body.lattice.nodes[slotOf(body.lattice, 0, 0, 0)].lo |= layout::kFixedBit;
+  body.material.dashpot_ratio = 0;
+  body.material.drag_per_s = 40;
+  const Model model = modelOf({body});
+  GpuSolver solver(model, sceneFor(model, 1));
+  const layout::BodyParams params = bodyParams(body, 0);
+  const double dt = solver.dt_s(), omega2 = 4.0 * params.axial_quarter_n_per_m / (8.0 * params.mass_eighth_kg);
+  const double g = body.material.drag_per_s * dt, o2 = omega2 * dt * dt;
+  const double radius = std::sqrt((1 - g / 2) / (1 + g / 2));
+  const double theta = std::acos((1 - o2 / 2) / std::sqrt(1 - g * g / 4));
+  const double amplitude = 1e-3;
+  const auto exact = [&](int n) { return amplitude * std::pow(radius, n) * std::cos(n * theta); };
+  HostState state = restState(model);
+  const uint32_t free = slotOf(body.lattice, 0, 0, 1);
+  state.displacement_m[free].z = static_cast<float>(exact(0));
+  state.velocity_m_per_s[free].z = static_cast<float>((exact(0) - exact(-1)) / dt);
+  solver.writeState(state, true);
+  double worst = 0;
+  for (int n = 1; n <= 300; ++n) {
+    solver.step({});
+    worst = std::max(worst, std::abs(solver.readState().displacement_m[free].z - exact(n)));
+  }
+  EXPECT_LT(worst / amplitude, 1e-5);  // float32 roundings and the float32 values of k, m, dt over 300 steps
+}
+
+TEST_F(Oracle, HangingChainSagsExactly) {
+  constexpr int kMasses = 10;
+  Body body = chainBody(kMasses + 1, 0.01);
+  body.lattice.nodes[slotOf(body.lattice, 0, 0, kMasses)].lo |= layout::kFixedBit;
+  const layout::BodyParams params = bodyParams(body, 0);
+  const double k = 4.0 * params.axial_quarter_n_per_m, m = 8.0 * params.mass_eighth_kg, gravity = 9.81;
+  body.material.drag_per_s =
+      2 * 2 * std::sqrt(k / m) * std::sin(M_PI / (4.0 * kMasses + 2));  // 2 omega_1: settles fastest
+  const Model model = modelOf({body});
+  GpuSolver solver(model, sceneFor(model, 100, {}, Vector3d(0, 0, -gravity)));
+  for (int t = 0; t < 60; ++t) solver.step({});
+  const HostState state = solver.readState();
+  const double deepest = m * gravity / k * (kMasses * kMasses - kMasses * (kMasses - 1) / 2.0);
+  for (int j = 1; j <= kMasses; ++j) {
+    const double exact = m * gravity / k * (kMasses * j - j * (j - 1) / 2.0);
+    EXPECT_NEAR(-state.displacement_m[slotOf(body.lattice, 0, 0, kMasses - j)].z, exact, 1e-5 * deepest)
+        << "mass " << j;
+  }
+}
+
+TEST_F(Oracle, AffineDisplacementGivesNoForceInside) {
+  const Body body = unitBody({6, 6, 6});
+  const Model model = modelOf({body});
+  Eigen::Matrix3d gradient;
+  gradient << 0.02, 0.01, -0.015, 0.005, -0.03, 0.02, 0.01, 0.015, 0.025;
+  HostState state = restState(model);
+  for (uint32_t slot : body.lattice.active_slots)
+    state.displacement_m[slot] = vec4(gradient * body.lattice.restPosition(slot));
+  const std::vector<Vector3d> forces = forcesOf(model, state);
+  for (uint32_t slot : body.lattice.active_slots) {
+    const Eigen::Array3i n = body.lattice.nodeAt(slot).array();
+    if ((n == 0).any() || (n == 6).any()) continue;
+    EXPECT_LT(forces[slot].norm(), 2e-6);  // in units of k h: float32 rounding of displacements up to 0.3 h
+  }
+}
+
+TEST_F(Oracle, RigidMotionGivesNoForceAnywhere) {
+  const Body body = unitBody({5, 4, 6});
+  const Model model = modelOf({body});
+  const Quaterniond turn = rotationFromDegrees({35, -50, 110});
+  HostState state = restState(model);
+  for (uint32_t slot : body.lattice.active_slots) {
+    const Vector3d rest = body.lattice.restPosition(slot);
+    state.displacement_m[slot] = vec4(turn * rest + Vector3d(1.5, -2, 0.7) - rest);
+  }
+  for (const Vector3d& force : forcesOf(model, state))
+    EXPECT_LT(force.norm(), 2e-5);  // in units of k h: float32 of u up to 10 h
+}
+
+TEST_F(Oracle, ForcesSumToNothing) {
+  const Body body = undamped(boxBody({7, 6, 5}, 0.01));
+  const Model model = modelOf({body});
+  std::mt19937 random(2);
+  HostState state = restState(model);
+  for (uint32_t slot : body.lattice.active_slots) state.displacement_m[slot] = vec4(randomVector(random, 0.003));
+  Vector3d sum = Vector3d::Zero();
+  double size = 0;
+  for (const Vector3d& force : forcesOf(model, state)) {
+    sum += force;
+    size += force.norm();
+  }
+  EXPECT_LT(sum.norm() / size, 1e-6);
+}
+
+TEST_F(Oracle, GatheredPairForcesAreAntisymmetricToTheBit) {
+  std::mt19937 random(3);
+  for (uint32_t spring = 0; spring < layout::kSpringsPerNode; spring += 2) {
+    for (int trial = 0; trial < 20; ++trial) {
+      Body body = undamped(boxBody({4, 4, 4}, 0.01));
+      Lattice& lattice = body.lattice;
+      const Vector3i near(2, 2, 2);
+      const auto& o = kNeighborOffsets[spring];
+      const uint32_t a = slotOf(lattice, 2, 2, 2),
+                     b = static_cast<uint32_t>(lattice.slotAt(near + Vector3i(o[0], o[1], o[2])));
+      for (layout::NodeBits& bits : lattice.nodes) bits = {};
+      lattice.nodes[a].lo = lattice.nodes[b].lo = 8u << layout::kMassShift;
+      setSpringCount(lattice.nodes[a], spring, 2);
+      setSpringCount(lattice.nodes[b], oppositeSpring(spring), 2);
+      lattice.active_slots = {std::min(a, b), std::max(a, b)};
+      const Model model = modelOf({body});
+      HostState state = restState(model);
+      state.displacement_m[a] = vec4(randomVector(random, 0.02));
+      state.displacement_m[b] = vec4(randomVector(random, 0.02));
+      GpuSolver solver(model, sceneFor(model, 1));
+      solver.writeState(state);
+      solver.step({});
+      const HostState after = solver.readState();
+      ASSERT_NE(after.velocity_m_per_s[a].x, 0.0f);
+      EXPECT_EQ(after.velocity_m_per_s[a].x, -after.velocity_m_per_s[b].x);
+      EXPECT_EQ(after.velocity_m_per_s[a].y, -after.velocity_m_per_s[b].y);
+      EXPECT_EQ(after.velocity_m_per_s[a].z, -after.velocity_m_per_s[b].z);
+    }
+  }
+}
+
+TEST_F(Oracle, FiniteUniaxialStretchHasTheExactLateralStrainAndStress) {
+  struct Row {
+    double stretch, lateral, stress;
+  };
+  // physics.md 6, oracle 5: k = h = 1
+  const Row table[] = {{0.9, 1.02509614, -0.23220140}, {1.01, 0.99750205, 0.02517550}, {1.1, 0.97528475, 0.26725437},
+                       {1.5, 0.88822938, 1.63251783},  {2, 0.81303026, 3.75959822},    {10, 0.63589939, 43.35454844}};
+  for (const Vector3i& cells : {Vector3i(4, 1, 1), Vector3i(5, 3, 2)}) {
+    const Body body = unitBody(cells);
+    const Model model = modelOf({body});
+    for (const Row& row : table) {
+      HostState state = restState(model);
+      for (uint32_t slot : body.lattice.active_slots) {
+        const Vector3d rest = body.lattice.restPosition(slot);
+        state.displacement_m[slot] =
+            vec4(Vector3d((row.stretch - 1) * rest.x(), (row.lateral - 1) * rest.y(), (row.lateral - 1) * rest.z()));
+      }
+      const std::vector<Vector3d> forces = forcesOf(model, state);
+      double pull = 0, loose = 0;
+      for (uint32_t slot : body.lattice.active_slots) {
+        const int x = body.lattice.nodeAt(slot).x();
+        if (x == 0) pull += forces[slot].x();
+        loose = std::max(
+            loose, (x == 0 || x == cells.x() ? Vector3d(0, forces[slot].y(), forces[slot].z()) : forces[slot]).norm());
+      }
+      const double tolerance = 1e-6 * std::max(1.0, row.stretch * row.stretch);  // float32 of u up to (a - 1) * 5 h
+      EXPECT_NEAR(pull / (cells.y() * cells.z()), row.stress, 4 * tolerance) << "stretch " << row.stretch;
+      EXPECT_LT(loose, 4 * tolerance) << "stretch " << row.stretch;
+    }
+  }
+}
