@@ -40,3 +40,4 @@ foreach(main ${node_mains})
   target_link_libraries(${node} PRIVATE viscera_nodes)
   list(APPEND VISCERA_NODES ${node})
 endforeach()
+unset(CMAKE_RUNTIME_OUTPUT_DIRECTORY)  # catkin's, for nodes: tests stay in the build folder

@@ -34,14 +34,11 @@ struct BenchStepOptions {
 /// `viscera bench step`: time of a substep.
 int benchStep(const BenchStepOptions& options);
 
-/// `viscera anchor`: anchored strokes as absolute ones, for `stylus_replay`, which does not know the tissue.
+/// `viscera anchor`: anchored strokes as absolute ones.
 int anchor(const RunOptions& options);
 
 /// The file itself, or the shipped scene of that name. @throws SceneError naming where it was looked for
 std::string findScene(const std::string& name);
-/// Overrides that make a mesh file, relative to the working directory, the tissue of the first body: centred on the
-/// body's origin, upright. Overrides that come later go before them.
-Overrides meshOverrides(const std::string& mesh_file);
 /// Reports preparation on standard error: one line per stage, refreshed where it is a terminal.
 Progress consoleProgress();
 

@@ -1,10 +1,12 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <cstdio>
 #include <iostream>
 
 #include "cli/commands.h"
+#include "viscera/math/error.h"
 
 using namespace viscera;
 
@@ -38,8 +40,7 @@ int dispatch(int argc, char** argv) {
   run->add_option("--out", o.run.out, "folder for pictures and metrics.json");
   addOverrides(run, o.run.overrides);
 
-  CLI::App* anchor =
-      app.add_subcommand("anchor", "turn strokes anchored to the skin into absolute ones, for stylus_replay");
+  CLI::App* anchor = app.add_subcommand("anchor", "write strokes anchored to the skin as absolute ones");
   anchor->add_option("scene", o.run.scene, "scene file, or name of a shipped scene")->required();
   anchor->add_option("--strokes", o.run.strokes, "strokes file with anchors")->required();
   anchor->add_option("--mesh", o.run.mesh, "mesh file that becomes the first body");
@@ -53,6 +54,8 @@ int dispatch(int argc, char** argv) {
   step->add_option("--scene", o.step.scene, "measure this scene instead");
   step->add_option("--csv", o.step.csv, "file to write; - is standard output");
   addOverrides(step, o.step.overrides);
+  step->get_option("--scene")->excludes("--nodes");
+  step->get_option("--set")->needs("--scene");
 
   CLI::App* keys = app.add_subcommand("keys", "print the table of scene keys");
   try {
@@ -67,6 +70,7 @@ int dispatch(int argc, char** argv) {
     std::cout << sceneKeysTable();
     return 0;
   }
+  if (std::isnan(o.seconds)) throw Error("--seconds is a number, 0 .. 86400; found nan");  // passes CLI::Range
   if (*seconds) o.run.seconds = o.seconds;
   return cli::run(o.run);
 }

@@ -102,7 +102,9 @@ void requireStyluses(const Strokes& strokes, const Scene& scene, const std::stri
       known |= stylus.name == stroke.stylus;
       names += (names.empty() ? "" : ", ") + stylus.name;
     }
-    if (!known) throw StrokesError(file + ": stylus '" + stroke.stylus + "' is not one of the scene's: " + names);
+    if (!known)
+      throw StrokesError(file + ": stylus '" + stroke.stylus +
+                         "' is not one of the scene's: " + (names.empty() ? "it has none" : names));
   }
 }
 

@@ -40,16 +40,6 @@ std::string findScene(const std::string& name) {
   throw SceneError("'" + name + "' is neither a file nor the name of a shipped scene");
 }
 
-Overrides meshOverrides(const std::string& mesh_file) {
-  if (mesh_file.empty()) return {};
-  std::string quoted = "'";
-  for (char c : fs::absolute(mesh_file).string()) quoted += c == '\'' ? std::string("''") : std::string(1, c);
-  const std::string extension = fs::path(mesh_file).extension().string();
-  const bool gltf = extension == ".glb" || extension == ".gltf";  // glTF 2.0: +y is up
-  return {"bodies[0].source=mesh", "bodies[0].mesh_file=" + quoted + "'", "bodies[0].centered=true",
-          std::string("bodies[0].up_axis=") + (gltf ? "y" : "z")};
-}
-
 Progress consoleProgress() {
   const bool terminal = isatty(STDERR_FILENO) != 0;
   return [terminal, stage = std::string(), shown = -1](const std::string& name, double fraction) mutable {

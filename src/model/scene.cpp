@@ -130,6 +130,17 @@ void requireConsistent(const std::string& file, const Scene& scene) {
 
 }  // namespace
 
+Overrides meshOverrides(const std::string& mesh_file) {
+  if (mesh_file.empty()) return {};
+  std::string quoted = "'";
+  for (char c : std::filesystem::absolute(mesh_file).string())
+    quoted += c == '\'' ? std::string("''") : std::string(1, c);
+  const std::string extension = std::filesystem::path(mesh_file).extension().string();
+  const bool gltf = extension == ".glb" || extension == ".gltf";  // glTF 2.0: +y is up
+  return {"bodies[0].source=mesh", "bodies[0].mesh_file=" + quoted + "'", "bodies[0].centered=true",
+          std::string("bodies[0].up_axis=") + (gltf ? "y" : "z")};
+}
+
 Scene parseScene(const std::string& yaml, const std::string& name, const Overrides& overrides) {
   YamlSource source{name, {}};
   Scene scene;

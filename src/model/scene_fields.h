@@ -93,7 +93,7 @@ void visitFields(V& v, StylusConfig& c) {
                                    {"grab", ToolMode::kGrab},
                                    {"cut", ToolMode::kCut},
                                    {"cut_particles", ToolMode::kCutParticles}};
-  v.text("name", c.name, "name: its topics are <name>/measured_cp and so on");
+  v.text("name", c.name, "name: its topics are `<name>/measured_cp` and so on");
   v.choice("idle", c.idle, modes, "what it does with no button pressed");
   v.choice("button1", c.button1, modes, "what it does while button 1 is pressed");
   v.choice("button2", c.button2, modes, "what it does while button 2 is pressed; goes before button 1");
@@ -111,7 +111,7 @@ void visitFields(V& v, StylusConfig& c) {
 
 template <class V>
 void visitFields(V& v, CameraConfig& c) {
-  v.text("name", c.name, "name: its topics are <name>/image_raw and <name>/camera_info");
+  v.text("name", c.name, "name: its topics are `<name>/image_raw` and `<name>/camera_info`");
   v.vector("position_m", c.position_m, kCoordinate, "m", "eye, tissue frame");
   v.vector("target_m", c.target_m, kCoordinate, "m", "point looked at, tissue frame");
   v.vector("up", c.up, kDirection, "", "direction that is up in the image");

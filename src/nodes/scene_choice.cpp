@@ -21,14 +21,7 @@ std::string namesIn(const std::string& folder) {
   return text;
 }
 
-/// A YAML scalar that stands for exactly this text.
-std::string quoted(const std::string& text) {
-  std::string out = "'";
-  for (const char c : text) out += c == '\'' ? std::string("''") : std::string(1, c);
-  return out + "'";
-}
-
-Overrides meshOverrides(Parameters& parameters) {
+Overrides meshChoice(Parameters& parameters) {
   constexpr double kMinUnit_m = 1e-9, kMaxUnit_m = 1e3;
   const std::string mesh = parameters.text("mesh", "");
   const bool has_unit = parameters.has("mesh_unit_m");
@@ -40,7 +33,7 @@ Overrides meshOverrides(Parameters& parameters) {
   const fs::path path = fs::absolute(mesh);
   if (!fs::is_regular_file(path))
     throw ParameterError("parameter ~mesh: no file " + path.string() + "; give an absolute path");
-  Overrides overrides = {"bodies[0].source=mesh", "bodies[0].mesh_file=" + quoted(path.string())};
+  Overrides overrides = meshOverrides(path.string());
   std::ostringstream unit;
   unit.precision(17);
   unit << "bodies[0].unit_scale_m=" << unit_m;
@@ -59,7 +52,7 @@ std::string namedFile(const std::string& key, const std::string& value, const st
 }
 
 SceneChoice SceneChoice::read(Parameters& parameters, const std::string& fallback) {
-  SceneChoice choice{parameters.text("scene", fallback), meshOverrides(parameters)};
+  SceneChoice choice{parameters.text("scene", fallback), meshChoice(parameters)};
   for (const std::string& item : parameters.texts("overrides")) choice.overrides.push_back(item);
   return choice;
 }

@@ -15,6 +15,8 @@ namespace {
 
 using XmlRpc::XmlRpcValue;
 
+constexpr double kCell_m = 0.005;  // half a cell of the block, by which its skin may lie beside its sides
+
 /// The call fails with a message that holds every one of these words.
 template <class Call>
 void expectRefused(Call call, const std::vector<std::string>& words) {
@@ -129,6 +131,23 @@ TEST_F(SimulatorOptionsTest, OverrideOfAnUnknownKeyIsRefused) {
   XmlRpcValue values = one("scene", XmlRpcValue("block"));
   values["overrides"] = "bodies[0].spacing_mm=2";
   expectRefused([&] { read(values); }, {"spacing_mm"});
+}
+
+TEST_F(SimulatorOptionsTest, AnchoredStrokesAreBroughtToTheSkinOfTheScene) {
+  std::ofstream(folder_ / "anchored.yaml") << "strokes:\n"
+                                              "  - stylus: hand\n"
+                                              "    anchor: {from_m: [0, -0.3, 0], towards_m: [0, 0, 0]}\n"
+                                              "    keys: [{t_s: 0, position_m: [0, 0, 0.01]}]\n";
+  XmlRpcValue values = one("strokes", XmlRpcValue((folder_ / "anchored.yaml").string()));
+  Parameters without(values);
+  expectRefused([&] { replayOptions(without, folder_.string()); }, {"~scene"});
+
+  values["scene"] = "block";  // a box of 0.05 m about the origin: its skin is at y = -0.025 m
+  Parameters with(values);
+  const ReplayOptions options = replayOptions(with, folder_.string());
+  EXPECT_FALSE(options.strokes.anchored());
+  EXPECT_NEAR(options.strokes.strokes.at(0).keys.at(0).pose.position_m.y(), -0.035, kCell_m);
+  EXPECT_EQ(options.frame, "tissue");
 }
 
 TEST(ReplayOptions, StrokesMustBeNamed) {

@@ -30,7 +30,7 @@ inline std::string shellQuoted(const std::string& word) {
 inline Ending runProgram(const std::string& program, const std::vector<std::string>& arguments,
                          const std::vector<std::string>& environment = {}) {
   const TemporaryFolder folder;
-  std::string command = "env";
+  std::string command = "timeout 60 env";  // a program that hangs ends with status 124
   for (const std::string& variable : environment) command += " " + shellQuoted(variable);
   command += " " + shellQuoted(program);
   for (const std::string& argument : arguments) command += " " + shellQuoted(argument);

@@ -116,6 +116,11 @@ struct Scene {
 /// "key=value" as given on the command line or in a launch file; the key is a path such as bodies[0].spacing_m.
 using Overrides = std::vector<std::string>;
 
+/// Overrides that make a mesh file, relative to the working directory, the tissue of the first body: centred on the
+/// body's origin, upright (glTF's y up is turned to z). None for an empty name. Overrides that come later go before
+/// them.
+Overrides meshOverrides(const std::string& mesh_file);
+
 /// Reads and checks a scene file.
 /// @throws SceneError  file, line, key and accepted range, for an unknown key, a wrong type, a value out of range, NaN
 Scene loadScene(const std::string& path, const Overrides& overrides = {});
