@@ -19,7 +19,7 @@ layout(std430, binding = kBindStats) buffer StatsBuffer { TickStats stats; };
 layout(location = 0) uniform uint active_count;
 layout(location = 1) uniform uint stylus;
 
-const float kLongest = 8.0;  // rest lengths: a node farther than this from the blade has no spring that reaches it
+const float kLongest = 8.0;  // rest lengths of a diagonal: a spring with an end farther from the blade is not cut
 
 /// Position relative to the blade's first tip [m].
 vec3 seenFromBlade(uint slot, ToolMotion m) {
@@ -78,12 +78,14 @@ bool erased(vec3 x, ToolMotion m) {
 bool farFromBlade(vec3 x, ToolMotion m, float h) {
   vec3 tip = m.to.xyz - m.from.xyz, far_from = m.blade_from.xyz - m.from.xyz, far_to = m.blade_to.xyz - m.from.xyz;
   vec3 centre = 0.25 * (tip + far_from + far_to);
-  float radius = max(max(length(centre), distance(centre, tip)), max(distance(centre, far_from), distance(centre, far_to)));
-  return distance(x, centre) > radius + kLongest * h + m.blade_from.w;
+  precise float radius = max(max(length(centre), distance(centre, tip)), max(distance(centre, far_from), distance(centre, far_to)));
+  return distance(x, centre) > radius + kLongest * 1.41421356 * h + m.blade_from.w;
 }
 
-bool severs(uint slot, vec3 x, uint other, ToolMotion m) {
+/// The near end has been found not to be far; the far end must not be either, or the two ends would disagree.
+bool severs(uint slot, vec3 x, uint other, ToolMotion m, float h) {
   vec3 y = seenFromBlade(other, m);
+  if (farFromBlade(y, m, h)) return false;
 #ifdef PARTICLES
   return erased(x, m) || erased(y, m);
 #else
@@ -98,13 +100,14 @@ void main() {
   NodeBits bits = nodes[slot];
   ToolMotion m = tool_motions[stylus];
   vec3 x = seenFromBlade(slot, m);
-  if (isIsolated(bits) || farFromBlade(x, m, bodies[bodyOf(bits)].origin_spacing.w)) return;
+  float h = bodies[bodyOf(bits)].origin_spacing.w;
+  if (isIsolated(bits) || farFromBlade(x, m, h)) return;
   NodeBits whole = bits;
   uint cut = 0u;
 #define CUT_SPRING(spring, offset)                              \
   if (springCount(whole, spring) != 0u) {                       \
     uint n = neighborSlot(slot, offset);                        \
-    if (severs(slot, x, n, m)) {                                \
+    if (severs(slot, x, n, m, h)) {                                \
       bits = withoutSpring(bits, spring);                       \
       cut += slot < n ? 1u : 0u;                                \
     }                                                           \

@@ -3,6 +3,7 @@
 #include "viscera/model/scene.h"
 
 #include <cctype>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -105,6 +106,17 @@ void requireFixed(const std::string& where, const FixedConfig& fixed) {
   if (fixed.shape == FixedShape::kPart && fixed.part.empty()) throw SceneError(where + ": 'part' must name a part");
 }
 
+/// The dashpot acts on velocities of half a substep ago and so lowers the stable step: f^2 + 2 xi f must stay below 1
+/// for f = dt / dt_safe (physics.md 2).
+void requireStableSubstep(const std::string& file, double dt_fraction, const BodyConfig& body) {
+  const double xi = body.material.dashpot_ratio;
+  const double largest = std::sqrt(1 + xi * xi) - xi;
+  if (dt_fraction < largest) return;
+  throw SceneError(file + ": solver.dt_fraction = " + numberText(dt_fraction) +
+                   " is not stable with the dashpot_ratio of body '" + body.name + "', " + numberText(xi) +
+                   ": use less than " + numberText(largest) + ", or a smaller dashpot_ratio");
+}
+
 /// What no single key can tell.
 void requireConsistent(const std::string& file, const Scene& scene) {
   if (scene.bodies.empty()) throw SceneError(file + ": 'bodies' must hold at least one body");
@@ -119,6 +131,7 @@ void requireConsistent(const std::string& file, const Scene& scene) {
       requireFixed(file + ": body '" + body.name + "' fixed[" + std::to_string(i) + "]", body.fixed[i]);
     }
   }
+  for (const BodyConfig& body : scene.bodies) requireStableSubstep(file, scene.solver.dt_fraction, body);
   for (const CameraConfig& camera : scene.cameras) {
     const Vector3d sight = camera.target_m - camera.position_m;
     if (sight.cross(camera.up).norm() <= 1e-9 * camera.up.norm()) {

@@ -136,7 +136,7 @@ template <class V>
 void visitFields(V& v, SolverConfig& c) {
   v.number("tick_hz", c.tick_hz, {1, 1000}, "Hz", "ticks per second: tools, forces and surface follow at this rate");
   v.number("dt_fraction", c.dt_fraction, {0.01, 0.95}, "1",
-           "substep over the largest stable one; 0.9 holds ordinary scenes, 0.5 extreme ones");
+           "substep over the largest stable one; with a dashpot of ratio xi, below sqrt(1 + xi^2) - xi");
   v.integer("max_substeps", c.max_substeps, {1, 100000}, "a scene that needs more substeps per tick is refused");
   v.integer("device", c.device, {-1, 31}, "EGL device to take, as listed by `viscera check`; -1: the first that works");
 }

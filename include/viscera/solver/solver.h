@@ -12,7 +12,7 @@
 
 namespace viscera {
 
-/// The seam between the session and a backend: upload, step, state (architecture.md, "Three backends, one solver").
+/// The seam between the session and a backend: upload, step, state.
 class Solver {
  public:
   virtual ~Solver() = default;
@@ -34,7 +34,8 @@ class Solver {
 /// 64-bit fingerprint of displacement, velocity and springs of the active nodes, in active-list order.
 uint64_t stateHash(const Model& model, const HostState& state);
 
-/// Largest stable substep in any state of deformation [s]: min over free nodes of sqrt(2 m / sum k) (physics.md 2).
+/// Largest stable substep of a lattice without dashpot, however it is deformed [s]: min over free nodes of sqrt(2 m /
+/// sum k) (physics.md 2).
 double safeTimeStep(const Model& model);
 
 /// Material constants of a body as the kernels take them.
