@@ -28,19 +28,26 @@ double secondsSince(Clock::time_point start) {
 /// Where pictures go: a numbered series per camera, and a named one for every mark of the strokes.
 class Album {
  public:
-  Album(const std::string& folder, const Scene& scene, const Strokes& strokes) : folder_(folder), scene_(scene) {
+  Album(const std::string& folder, const Scene& scene, const Strokes& strokes, uint64_t ticks)
+      : folder_(folder), scene_(scene) {
     if (folder_.empty()) return;
     std::error_code error;
     std::filesystem::create_directories(folder_ + "/frames", error);
     if (error) throw Error(folder_ + ": cannot be made into a folder for pictures: " + error.message());
     for (const Mark& mark : strokes.marks) {
-      marks_[static_cast<uint64_t>(std::max(1.0, std::round(mark.time_s * scene.solver.tick_hz)))] = mark.name;
+      const double tick = std::max(1.0, std::round(mark.time_s * scene.solver.tick_hz));
+      if (tick > static_cast<double>(ticks)) {
+        std::cout << "mark '" << mark.name << "' lies after the end: no picture\n";
+        continue;
+      }
+      marks_.emplace(static_cast<uint64_t>(tick), mark.name);
     }
   }
 
   Wants wants(const Session& session) const {
     Wants out;
     if (folder_.empty()) return out;
+    out.every_image = true;
     for (size_t c = 0; c < scene_.cameras.size(); ++c) {
       out.cameras.push_back(session.imageDue(c) || marks_.count(session.tick() + 1) > 0);
     }
@@ -53,16 +60,17 @@ class Album {
       std::snprintf(number, sizeof number, "_%06llu.png", static_cast<unsigned long long>(image.tick));
       const std::string& camera = scene_.cameras[image.camera].name;
       writePng(folder_ + "/frames/" + camera + number, image.width, image.height, image.rgb);
-      const auto mark = marks_.find(image.tick);
-      if (mark == marks_.end()) continue;
-      writePng(folder_ + "/" + mark->second + "_" + camera + ".png", image.width, image.height, image.rgb);
+      const auto named = marks_.equal_range(image.tick);
+      for (auto mark = named.first; mark != named.second; ++mark) {
+        writePng(folder_ + "/" + mark->second + "_" + camera + ".png", image.width, image.height, image.rgb);
+      }
     }
   }
 
  private:
   std::string folder_;
   const Scene& scene_;
-  std::map<uint64_t, std::string> marks_;
+  std::multimap<uint64_t, std::string> marks_;  ///< tick -> names
 };
 
 Json metricsOf(const Session& session, const layout::TickStats& stats, const std::string& renderer, double wall_s) {
@@ -128,8 +136,8 @@ int run(const RunOptions& options) {
   for (const Body& body : session.model().bodies) {
     for (const std::string& note : body.notes) std::cout << body.name << ": " << note << '\n';
   }
-  const Album album(options.out, session.scene(), strokes);
   const uint64_t ticks = static_cast<uint64_t>(std::llround(seconds * scene.solver.tick_hz));
+  const Album album(options.out, session.scene(), strokes, ticks);
   const Clock::time_point start = Clock::now();
   for (uint64_t t = 0; t < ticks; ++t) {
     const double time_s = static_cast<double>(t + 1) * session.tick_s();

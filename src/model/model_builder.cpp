@@ -93,6 +93,15 @@ Body buildBody(const BodyConfig& config, const std::string& folder, const Progre
   return body;
 }
 
+bool canMove(const Model& model) {
+  for (const Body& body : model.bodies) {
+    for (const uint32_t slot : body.lattice.active_slots) {
+      if (!isFixed(body.lattice.nodes[slot])) return true;
+    }
+  }
+  return false;
+}
+
 }  // namespace
 
 Model buildModel(const Scene& scene, const Progress& progress) {
@@ -104,6 +113,8 @@ Model buildModel(const Scene& scene, const Progress& progress) {
       throw LatticeError("body '" + config.name + "': " + error.what());
     }
   }
+  if (!canMove(model))
+    throw SceneError("every node of the scene is fixed: nothing can move; make a 'fixed' region smaller");
   if (model.slots() > std::numeric_limits<uint32_t>::max()) {
     throw LatticeError("the bodies need " + std::to_string(model.slots()) + " node slots together, more than 2^32");
   }

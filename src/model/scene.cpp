@@ -148,7 +148,8 @@ Overrides meshOverrides(const std::string& mesh_file) {
   std::string quoted = "'";
   for (char c : std::filesystem::absolute(mesh_file).string())
     quoted += c == '\'' ? std::string("''") : std::string(1, c);
-  const std::string extension = std::filesystem::path(mesh_file).extension().string();
+  std::string extension = std::filesystem::path(mesh_file).extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   const bool gltf = extension == ".glb" || extension == ".gltf";  // glTF 2.0: +y is up
   return {"bodies[0].source=mesh", "bodies[0].mesh_file=" + quoted + "'", "bodies[0].centered=true",
           std::string("bodies[0].up_axis=") + (gltf ? "y" : "z")};

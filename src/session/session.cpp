@@ -19,6 +19,10 @@ size_t surfaceBytes(const Surface& surface) {
   return surface.vertices() * (3 * sizeof(float) + sizeof(uint32_t)) + surface.triangles() * sizeof(uint32_t);
 }
 
+size_t imageBytes(const CameraConfig& camera) {
+  return size_t{3} * static_cast<size_t>(camera.width_px) * static_cast<size_t>(camera.height_px);
+}
+
 bool wanted(const Wants& wants, size_t camera) {
   return camera < wants.cameras.size() && wants.cameras[camera];
 }
@@ -42,8 +46,7 @@ Session::Session(const Scene& scene, gpu::Context&, const Progress& progress)
   renderer_ = std::make_unique<Renderer>(scene_.cameras, scene_.styluses);
   surface_ring_ = std::make_unique<gpu::ReadbackRing>(surfaceBytes(*surface_), kSurfacesInFlight);
   for (const CameraConfig& camera : scene_.cameras) {
-    const size_t bytes = size_t{3} * static_cast<size_t>(camera.width_px) * static_cast<size_t>(camera.height_px);
-    image_rings_.push_back(std::make_unique<gpu::ReadbackRing>(bytes, kImagesInFlight));
+    image_rings_.push_back(std::make_unique<gpu::ReadbackRing>(imageBytes(camera), kImagesInFlight));
   }
   for (const StylusConfig& stylus : scene_.styluses) {
     limiters_.emplace_back(stylus.max_force_n, stylus.max_force_rate_n_per_s);
@@ -57,8 +60,8 @@ Frame Session::step(const StylusSamples& samples, const Wants& wants) {
   solver_->step(motions);                               // VR05 2.4: n substeps on the GPU
   ++tick_;
   ++ticks_;
-  capture(wants, motions);  // EGVE 3.3: nodes -> vertices, only what is wanted
   Frame frame;
+  capture(wants, motions, frame);  // EGVE 3.3: nodes -> vertices, only what is wanted
   collect(frame, false);
   for (size_t s = 0; s < limiters_.size(); ++s) {
     if (!motions[s].present) {  // no pose, no force
@@ -69,7 +72,7 @@ Frame Session::step(const StylusSamples& samples, const Wants& wants) {
   return frame;
 }
 
-void Session::capture(const Wants& wants, const ToolMotions& motions) {
+void Session::capture(const Wants& wants, const ToolMotions& motions, Frame& frame) {
   bool followed = false;
   const auto follow = [&] {
     if (followed) return;
@@ -87,7 +90,9 @@ void Session::capture(const Wants& wants, const ToolMotions& motions) {
     ++readbacks_;
   }
   for (size_t c = 0; c < image_rings_.size(); ++c) {
-    if (!wanted(wants, c) || image_rings_[c]->inFlight() == kImagesInFlight) continue;
+    if (!wanted(wants, c)) continue;
+    const bool full = image_rings_[c]->inFlight() == kImagesInFlight;
+    if (full && !(wants.every_image && takeImage(c, frame, true))) continue;
     follow();
     renderer_->draw(c, *surface_, motions);
     image_rings_[c]->requestPixels(scene_.cameras[c].width_px, scene_.cameras[c].height_px, tick_);
@@ -114,16 +119,21 @@ void Session::collect(Frame& frame, bool wait) {
     surface_ring_->release();
   }
   for (size_t c = 0; c < image_rings_.size(); ++c) {
-    while (const void* memory = image_rings_[c]->collect(&tick, wait)) {
-      const CameraConfig& camera = scene_.cameras[c];
-      ImageFrame image{tick, c, camera.width_px, camera.height_px, {}};
-      const uint8_t* rgb = static_cast<const uint8_t*>(memory);
-      image.rgb.assign(rgb,
-                       rgb + size_t{3} * static_cast<size_t>(camera.width_px) * static_cast<size_t>(camera.height_px));
-      frame.images.push_back(std::move(image));
-      image_rings_[c]->release();
+    while (takeImage(c, frame, wait)) {
     }
   }
+}
+
+bool Session::takeImage(size_t camera, Frame& frame, bool wait) {
+  uint64_t tick = 0;
+  const auto* rgb = static_cast<const uint8_t*>(image_rings_[camera]->collect(&tick, wait));
+  if (!rgb) return false;
+  const CameraConfig& config = scene_.cameras[camera];
+  ImageFrame image{tick, camera, config.width_px, config.height_px, {}};
+  image.rgb.assign(rgb, rgb + imageBytes(config));
+  frame.images.push_back(std::move(image));
+  image_rings_[camera]->release();
+  return true;
 }
 
 void Session::collectStats(Frame& frame, bool wait) {

@@ -77,5 +77,18 @@ TEST(FixedNodes, AFixedShapeThatMatchesNothingIsRefused) {
   EXPECT_TRUE(contains(message, "body 'slab': fixed[0] matches no node; the body spans")) << message;
 }
 
+TEST(FixedNodes, SceneInWhichNothingCanMoveIsRefused) {
+  Scene scene;
+  BodyConfig body;
+  body.source = TissueSource::kBox;
+  body.spacing_m = 0.01;
+  FixedConfig everything;
+  everything.shape = FixedShape::kSphere;
+  everything.radius_m = 1;
+  body.fixed = {everything};
+  scene.bodies = {body};
+  EXPECT_THROW(buildModel(scene), SceneError);
+}
+
 }  // namespace
 }  // namespace viscera::test

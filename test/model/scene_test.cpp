@@ -59,6 +59,20 @@ TEST(Scene, WrongTypeIsRefusedWithFileLineKeyAndWhatIsAccepted) {
   });
 }
 
+TEST(Scene, SubstepThatTheDashpotMakesUnstableIsRefusedWithTheOneThatWouldDo) {
+  expectRefusals({
+      {"bodies: [{}]\nsolver: {dt_fraction: 0.9}\n", {"s.yaml: ", "solver.dt_fraction = 0.9", "use less than 0.81980"}},
+      {"bodies: [{}, {name: b, material: {dashpot_ratio: 0.5}}]\nsolver: {dt_fraction: 0.7}\n", {"body 'b'", "0.618"}},
+  });
+  EXPECT_NO_THROW(parseScene("bodies: [{material: {dashpot_ratio: 0}}]\nsolver: {dt_fraction: 0.9}\n", "s.yaml"));
+}
+
+TEST(Scene, MeshOverridesTurnGltfUpright) {
+  EXPECT_EQ(meshOverrides("/a/HEART.GLB").back(), "bodies[0].up_axis=y");
+  EXPECT_EQ(meshOverrides("/a/heart.obj").back(), "bodies[0].up_axis=z");
+  EXPECT_TRUE(meshOverrides("").empty());
+}
+
 TEST(Scene, ValueOutOfRangeIsRefusedWithFileLineKeyAndRange) {
   expectRefusals({
       {"bodies:\n  - material:\n      young_modulus_pa: -20000\n",

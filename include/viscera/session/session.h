@@ -22,6 +22,7 @@ namespace viscera {
 struct Wants {
   bool surface = false;
   std::vector<bool> cameras;  ///< [cameras]; shorter means false
+  bool every_image = false;   ///< wait for the GPU rather than skip an image when too many are on their way
 };
 
 /// Deformed skin as it left the GPU, at most a frame late.
@@ -88,8 +89,9 @@ class Session {
   uint64_t tick() const { return tick_; }
 
  private:
-  void capture(const Wants& wants, const ToolMotions& motions);
+  void capture(const Wants& wants, const ToolMotions& motions, Frame& frame);
   void collect(Frame& frame, bool wait);
+  bool takeImage(size_t camera, Frame& frame, bool wait);
   void collectStats(Frame& frame, bool wait);
 
   Scene scene_;
