@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-//
+// clang-format off
 // The one layout of GPU memory, valid as GLSL 4.50 (std430) and as C++17: constants, bindings, structs.
 // In C++ everything is in namespace viscera::layout.
 #ifndef VISCERA_LAYOUT_H
