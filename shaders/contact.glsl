@@ -1,8 +1,12 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What a probe does to a node, and where a held node goes (VR05 2.7.1, 2.7.2; physics.md 5). Included by integrate.comp.
+// What a probe does to a node, and where a held node goes (VR05 2.7.1, 2.7.2; physics.md 5). Included by the integrators.
 #include "quaternion.glsl"
+
+layout(std140, binding = kBindToolMotions) uniform ToolMotionsBlock { ToolMotion tool_motions[kMaxStyluses]; };
+layout(std430, binding = kBindGrabOffsets) readonly buffer GrabOffsetsBuffer { vec4 grab_offsets[]; };
+layout(std430, binding = kBindImpulses) buffer ImpulsesBuffer { vec4 impulses[]; };
 
 /// Adds a change of momentum to what a stylus gave this node in this tick; w counts substeps of contact.
 void giveMomentum(uint stylus, uint slot, vec3 impulse) { impulses[stylus * slot_count + slot] += vec4(impulse, 1.0); }
@@ -27,9 +31,16 @@ void probe(ToolMotion motion, vec3 x, inout vec3 x_next, inout vec3 v_next) {
   // A node at the centre has no direction: it leaves where it came from, or against the travel, or upwards.
   vec3 fallback = distance(x, centre) > 0.0 ? x - centre : dot(travel, travel) > 0.0 ? -travel : vec3(0.0, 0.0, 1.0);
   vec3 normal = normalize(depth2 > 1e-12 * radius * radius ? out_of : fallback);
-  x_next = centre + radius * normal;
+  // Out of the tool, but no faster than waves travel: a tool that appears inside the tissue must not shoot it away.
+  float way = radius - dot(out_of, normal);
+  x_next += min(way, push_speed * dt_s) * normal;
   float approach = dot(v_next - travel / dt_s, normal);
   if (approach < 0.0) v_next -= approach * normal;
+}
+
+/// Where a stylus has a node that it holds at the end of the substep: displacement [m].
+vec3 heldDisplacement(uint stylus, uint slot) {
+  return tool_motions[stylus].to.xyz + rotated(tool_motions[stylus].orientation, grab_offsets[slot].xyz) - restPosition(slot);
 }
 
 void resolveContacts(uint slot, NodeBits bits, float mass, vec3 u, inout vec3 u_next, inout vec3 v_next) {
@@ -40,7 +51,7 @@ void resolveContacts(uint slot, NodeBits bits, float mass, vec3 u, inout vec3 u_
     ToolMotion motion = tool_motions[s];
     vec3 v_before = v_next;
     if (held_by == s + 1u) {
-      u_next = motion.to.xyz + rotated(motion.orientation, grab_offsets[slot].xyz) - rest;
+      u_next = heldDisplacement(s, slot);
       v_next = (u_next - u) / dt_s;
     } else if (held_by == 0u) {
       vec3 x_next = rest + u_next;

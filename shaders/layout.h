@@ -36,6 +36,7 @@ const uint kFixedBit = 1u << 22; // fixed in space
 const uint kGrabShift = 23u;     // 2 bits: 0 free, 1 + stylus index while held
 const uint kGrabMask = 3u << 23;
 const uint kSeveredBit = 1u << 25; // at least one spring of this node was cut
+const uint kCellBit = 1u << 26;  // the cell whose lowest corner is this node is filled and whole
 const uint kAxialMask = (1u << 18) - 1u;
 // NodeBits.hi: twelve diagonal counts of 2 bits (halves of the diagonal stiffness, 0..2), then the body index:
 const uint kBodyShift = 24u;
@@ -73,11 +74,27 @@ const uint kBindSkinTieStarts = 20u;  // uint[triangles + 1]
 const uint kBindSkinAlive = 21u;      // uint[triangles]: 1 whole, 0 torn
 const uint kBindSkinLive = 22u;       // uint[3 * triangles]: indices drawn; a torn triangle is (0, 0, 0)
 const uint kBindSkinColors = 23u;     // uint[vertices]: RGBA8
+const uint kBindCells = 24u;          // uint[cells]: slots of the lowest corners
+const uint kBindCellForces = 25u;     // vec4[3 * slots]: what a cell's volume does to its corners, see volume.comp
+const uint kBindCompensation = 26u;   // vec4[2 * slots]: what the sums of displacement [m] and velocity [m/s] have lost
+const uint kBindIncrement = 27u;      // vec4[slots]: implicit integrators: displacement gained in this substep [m]
+const uint kBindIncrementOut = 28u;   // the same, next iterate; holds the last but one until then
+const uint kBindGuard = 30u;          // uint[1 + 2 iterations]: see implicit.glsl
+const uint kBindPositions = 31u;      // vec4[slots]: verlet_paper: x [m]
+const uint kBindPositionsBefore = 32u;  // vec4[slots]: verlet_paper: x one substep ago [m]; written with the next x
+const uint kBindSavedDisplacement = 33u;  // vec4[slots]: a good state of the governor's ring
+const uint kBindSavedVelocity = 34u;      // vec4[slots]
 
 // Texture units: buffers seen through texel fetches
 const uint kUnitDisplacement = 0u;  // rgba32f, as kBindDisplacementIn
 const uint kUnitVelocity = 1u;      // rgba32f, as kBindVelocityIn
 const uint kUnitBricks = 2u;        // r32ui, as kBindBricks
+const uint kUnitSpringStiffness = 3u;  // r32f [9 * slots]: N/m of a node's even springs; bodies with parts
+const uint kUnitNodeMass = 4u;         // r32f [slots]: kg
+const uint kUnitCellBulk = 5u;         // r32f [slots]: J
+const uint kUnitCellForces = 6u;       // rgba32f, as kBindCellForces
+const uint kUnitIncrement = 7u;        // rgba32f, as kBindIncrement
+const uint kUnitPositions = 8u;        // rgba32f, as kBindPositions
 
 struct NodeBits {
   uint lo;
@@ -100,7 +117,8 @@ struct BodyParams {
   float mass_eighth_kg;
   float drag_per_s;         // gamma
   float dashpot_s;          // axial dashpot coefficient over spring stiffness, c/k [s]
-  float pad0, pad1, pad2;
+  float bulk_j;             // lambda_V h^3: a cell of volume V has the energy volumeEnergy(bulk_j, V/V0 - 1)
+  float pad0, pad1;
 };
 
 // One stylus over one substep, tissue frame.
@@ -114,6 +132,8 @@ struct ToolMotion {
   uvec4 pad0, pad1;  // two styluses make 256 bytes, the coarsest alignment of a uniform block
 };
 
+const float kCollapsed = 0.3f;  // of a spring's rest length
+
 // What one tick leaves behind, read back as one small block.
 struct TickStats {
   vec4 impulse[2];        // xyz momentum given to the nodes by each stylus over the tick [N s]
@@ -124,6 +144,12 @@ struct TickStats {
   uint max_speed_bits;    // float bits of max |v| [m/s]
   uint grabbed[2];        // nodes held by each stylus
   uint touched[2];        // nodes that got an impulse from each stylus in the tick
+  uint collapsed;         // springs shorter than kCollapsed of their rest length
+  uint max_rate_bits;     // float bits of max over free nodes of (2 sum k + volume) / m [1/s2]: dt_safe = 2 / sqrt of it
+  float kinetic_j;
+  float elastic_j;        // springs and volumes
+  uint inverted;          // whole cells turned inside out
+  uint pad[3];
 };
 
 // A skin vertex bound to the lattice (EGVE eqs 4 to 9).

@@ -1,18 +1,37 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// measure.comp - what a tick left behind: non-finite nodes, largest stretch and speed, held nodes.
-// Owner: solver/gpu/measure_pass.h.   Integer atomics only: sums and maxima do not depend on the order.
+// measure.comp - the state of the tissue at the end of a tick.   Owner: solver/gpu/measure_pass.h   physics.md 3
+// in  displacement, velocity, nodes, cell forces' cells     out  stats; energy of every node, which feature FOLD then sums
+// Integer atomics only: their result does not depend on the order. Energies are summed in a fixed tree of runs of kRun terms.
 #include "layout.h"
 #include "lattice.glsl"
-#include "spring.glsl"
 
+layout(std430, binding = kBindStats) buffer StatsBuffer { TickStats stats; };
+layout(std430, binding = kBindPartials) buffer PartialsBuffer { vec2 energies[]; };  // kinetic, elastic [J]
+layout(location = 0) uniform uint count;  // active nodes; FOLD: terms of this level
+
+#ifdef FOLD
+const uint kRun = 64u;
+layout(location = 1) uniform uint input_first;
+layout(location = 2) uniform uint output_first;
+layout(location = 3) uniform uint last_level;
+
+void main() {
+  uint run = globalIndex();
+  if (run * kRun >= count) return;
+  vec2 sum = vec2(0.0);
+  uint end = min((run + 1u) * kRun, count);
+  for (uint i = run * kRun; i < end; ++i) sum += energies[input_first + i];
+  energies[output_first + run] = sum;
+  if (last_level == 0u) return;
+  stats.kinetic_j = sum.x;
+  stats.elastic_j = sum.y;
+}
+#else
+#include "elastic.glsl"
 layout(std430, binding = kBindActive) readonly buffer ActiveBuffer { uint active_nodes[]; };
 layout(std430, binding = kBindNodes) readonly buffer NodesBuffer { NodeBits nodes[]; };
-layout(std430, binding = kBindDisplacementIn) readonly buffer DisplacementIn { vec4 displacement[]; };
-layout(std430, binding = kBindVelocityIn) readonly buffer VelocityIn { vec4 velocity[]; };
-layout(std430, binding = kBindStats) buffer StatsBuffer { TickStats stats; };
-layout(location = 0) uniform uint active_count;
 
 /// Compilers drop isnan(); the bits do not lie (physics.md 2).
 bool finite(vec3 v) {
@@ -20,29 +39,88 @@ bool finite(vec3 v) {
   return all(notEqual(bits, uvec3(0x7f800000u)));
 }
 
+vec3 u(uint slot) { return texelFetch(displacement, int(slot)).xyz; }
+
+uint cornerSlot(uint slot, uint c) { return neighborSlot(slot, ivec3(c & 1u, (c >> 1) & 1u, (c >> 2) & 1u)); }
+
+/// V/V0 - 1 of the cell whose lowest corner is this node.
+float dilation(uint slot, BodyParams body) {
+  vec3 n0 = u(slot), n1 = u(cornerSlot(slot, 1u)), n2 = u(cornerSlot(slot, 2u)), n3 = u(cornerSlot(slot, 3u));
+  vec3 n4 = u(cornerSlot(slot, 4u)), n5 = u(cornerSlot(slot, 5u)), n6 = u(cornerSlot(slot, 6u)), n7 = u(cornerSlot(slot, 7u));
+  float quarter = 0.25 / body.origin_spacing.w;
+  vec3 da = quarter * ((n1 - n0) + (n3 - n2) + (n5 - n4) + (n7 - n6));
+  vec3 db = quarter * ((n2 - n0) + (n3 - n1) + (n6 - n4) + (n7 - n5));
+  vec3 dc = quarter * ((n4 - n0) + (n5 - n1) + (n6 - n2) + (n7 - n3));
+  return cellShape(da, db, dc).e;
+}
+
+#ifdef VOLUME
+/// What the volumes of the cells around add to a node's stiffness at rest [N/m].
+float volumeStiffness(uint slot, BodyParams body) {
+  float sum = 0.0;
+#define ADD_BULK(corner)                                                                                             \
+  {                                                                                                                  \
+    bool exists;                                                                                                     \
+    uint cell = cellAt(slot, corner, exists);                                                                        \
+    if (exists && (nodes[cell].lo & kCellBit) != 0u) sum += max(0.0, cellBulk(cell, body));                           \
+  }
+  FOR_EACH_CELL(ADD_BULK)
+  return 1.5 * sum / (body.origin_spacing.w * body.origin_spacing.w);
+}
+#endif
+
 void main() {
   uint i = globalIndex();
-  if (i >= active_count) return;
+  if (i >= count) return;
   uint slot = active_nodes[i];
   NodeBits bits = nodes[slot];
-  vec3 u = displacement[slot].xyz, v = velocity[slot].xyz;
-  if (!finite(u) || !finite(v)) {
+  vec3 near = u(slot), v = texelFetch(velocity, int(slot)).xyz;
+  energies[i] = vec2(0.0);
+  if (!finite(near) || !finite(v)) {
     atomicAdd(stats.nonfinite, 1u);
     return;
   }
-  float h = bodies[bodyOf(bits)].origin_spacing.w;
-  float stretch = 0.0;
-#define STRETCH(spring, offset)                                                                            \
-  if ((spring & 1u) == 0u && springCount(bits, spring) != 0u) {                                            \
-    vec3 far = displacement[neighborSlot(slot, offset)].xyz;                                               \
-    float l0 = spring < kAxialSprings ? h : kSqrt2 * h;                                                    \
-    if (finite(far)) stretch = max(stretch, abs(springBetween(h * vec3(offset), l0, far - u).extension) / l0); \
+  BodyParams body = bodies[bodyOf(bits)];
+  float h = body.origin_spacing.w, mass = nodeMass(slot, bits, body);
+  float stretch = 0.0, elastic = 0.0, stiffness = 0.0;
+  uint collapsed = 0u;
+#define MEASURE(spring, offset)                                                                              \
+  {                                                                                                          \
+    uint strength = springCount(bits, spring);                                                               \
+    if (strength != 0u) {                                                                                    \
+      uint n = neighborSlot(slot, offset);                                                                   \
+      float k = springStiffness(slot, n, spring, strength, body);                                            \
+      stiffness += k;                                                                                        \
+      vec3 far = u(n);                                                                                       \
+      if ((spring & 1u) == 0u && finite(far)) {                                                              \
+        float l0 = spring < kAxialSprings ? h : kSqrt2 * h;                                                  \
+        float extension = springBetween(h * vec3(offset), l0, far - near).extension;                         \
+        stretch = max(stretch, abs(extension) / l0);                                                         \
+        if (extension < (kCollapsed - 1.0) * l0) ++collapsed;                                                \
+        elastic += 0.5 * k * extension * extension;                                                          \
+      }                                                                                                      \
+    }                                                                                                        \
   }
-  FOR_EACH_SPRING(STRETCH)
+  FOR_EACH_SPRING(MEASURE)
+  stiffness *= 2.0;
+#ifdef VOLUME
+  stiffness += volumeStiffness(slot, body);
+#endif
+  if ((bits.lo & kCellBit) != 0u) {
+    float e = dilation(slot, body);
+#ifdef VOLUME
+    elastic += volumeEnergy(cellBulk(slot, body), e);
+#endif
+    if (e < -1.0 && (bits.lo & kSeveredBit) == 0u) atomicAdd(stats.inverted, 1u);
+  }
+  energies[i] = vec2(0.5 * mass * dot(v, v), elastic);
   // Positive floats order like their bits. The look before the atomic only saves work: the maximum is the same.
-  uint stretch_bits = floatBitsToUint(stretch), speed_bits = floatBitsToUint(length(v));
+  uint stretch_bits = floatBitsToUint(stretch), speed_bits = floatBitsToUint(length(v)), rate_bits = floatBitsToUint(stiffness / mass);
   if (stretch_bits > stats.max_stretch_bits) atomicMax(stats.max_stretch_bits, stretch_bits);
   if (speed_bits > stats.max_speed_bits) atomicMax(stats.max_speed_bits, speed_bits);
+  if ((bits.lo & kFixedBit) == 0u && rate_bits > stats.max_rate_bits) atomicMax(stats.max_rate_bits, rate_bits);
+  if (collapsed != 0u) atomicAdd(stats.collapsed, collapsed);
   uint held_by = (bits.lo & kGrabMask) >> kGrabShift;
   if (held_by != 0u) atomicAdd(stats.grabbed[held_by - 1u], 1u);
 }
+#endif

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/suites.h"
 #include "viscera/model/scene.h"
 #include "viscera/model/solid.h"
 
@@ -19,7 +20,9 @@ struct RunOptions {
   std::string mesh;     ///< empty: what the scene says
   std::string strokes;  ///< empty: nobody touches the tissue
   std::optional<double> seconds;
-  std::string out;  ///< empty: no pictures, no metrics.json
+  std::string out;         ///< empty: no pictures, no metrics.json
+  bool reference = false;  ///< in float64 on the CPU
+  bool compare = false;    ///< with --reference: and the GPU beside it
   Overrides overrides;
 };
 /// `viscera run`: a session without ROS.
@@ -33,6 +36,14 @@ struct BenchStepOptions {
 };
 /// `viscera bench step`: time of a substep.
 int benchStep(const BenchStepOptions& options);
+
+struct BenchSuiteOptions {
+  bench::SuiteOptions suite;
+  int device = -1;
+  bool strict = false;  ///< a missed limit is exit status 1
+};
+/// `viscera bench material` and its like: a suite of measurements.
+int benchSuite(const bench::Suite& suite, const BenchSuiteOptions& options);
 
 /// `viscera anchor`: anchored strokes as absolute ones.
 int anchor(const RunOptions& options);

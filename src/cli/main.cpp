@@ -17,11 +17,24 @@ struct Options {
   cli::RunOptions run;
   double seconds = 0;
   cli::BenchStepOptions step;
+  cli::BenchSuiteOptions suite;
 };
 
 void addOverrides(CLI::App* command, Overrides& overrides) {
   command->add_option("--set", overrides, "key=value: replaces one value of the scene, as in bodies[0].spacing_m=0.003")
       ->allow_extra_args(false);
+}
+
+/// One command per suite; `chosen` is the one that is given.
+void addSuites(CLI::App* bench, cli::BenchSuiteOptions& options, const bench::Suite*& chosen) {
+  for (const bench::Suite& suite : bench::suites()) {
+    CLI::App* command = bench->add_subcommand(suite.name, suite.what);
+    command->add_option("--out", options.suite.out, "folder for tables (CSV) and plots (PNG); default out/bench");
+    command->add_flag("--short", options.suite.short_form, "fewer and smaller cases: seconds");
+    command->add_flag("--strict", options.strict, "exit status 1 if a limit is missed");
+    command->add_option("--device", options.device, "EGL device, as `viscera check` lists them");
+    command->callback([&suite, &chosen] { chosen = &suite; });
+  }
 }
 
 int dispatch(int argc, char** argv) {
@@ -38,6 +51,8 @@ int dispatch(int argc, char** argv) {
   CLI::Option* seconds = run->add_option("--seconds", o.seconds, "simulated time; default: the strokes' length, or 1")
                              ->check(CLI::Range(0.0, 86400.0));
   run->add_option("--out", o.run.out, "folder for pictures and metrics.json");
+  CLI::Option* reference = run->add_flag("--reference", o.run.reference, "the plain float64 solver instead of the GPU");
+  run->add_flag("--compare", o.run.compare, "the GPU's error against the reference, as gpu_error")->needs(reference);
   addOverrides(run, o.run.overrides);
 
   CLI::App* anchor = app.add_subcommand("anchor", "write strokes anchored to the skin as absolute ones");
@@ -57,6 +72,9 @@ int dispatch(int argc, char** argv) {
   step->get_option("--scene")->excludes("--nodes");
   step->get_option("--set")->needs("--scene");
 
+  const bench::Suite* suite = nullptr;
+  addSuites(bench, o.suite, suite);
+
   CLI::App* keys = app.add_subcommand("keys", "print the table of scene keys");
   try {
     app.parse(argc, argv);
@@ -66,6 +84,7 @@ int dispatch(int argc, char** argv) {
   if (*check) return cli::check(o.device);
   if (*anchor) return cli::anchor(o.run);
   if (*step) return cli::benchStep(o.step);
+  if (suite) return cli::benchSuite(*suite, o.suite);
   if (*keys) {
     std::cout << sceneKeysTable();
     return 0;

@@ -5,12 +5,12 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
-#include <nlohmann/json.hpp>
 
 #include "cli/commands.h"
 #include "cli/png_writer.h"
+#include "cli/run_metrics.h"
+#include "cli/run_plan.h"
 #include "viscera/math/error.h"
-#include "viscera/math/state_hash.h"
 #include "viscera/session/session.h"
 #include "viscera/tools/strokes.h"
 
@@ -75,31 +75,19 @@ class Album {
 
 Json metricsOf(const Session& session, const layout::TickStats& stats, const std::string& renderer, double wall_s) {
   const Counters counters = session.counters();
-  const Extremes& extremes = session.extremes();
-  const double simulated_s = static_cast<double>(counters.ticks) * session.tick_s();
-  const size_t nodes = session.model().activeNodes();
-  Json out;
-  out["scene"] = session.scene().name;
-  out["nodes"] = nodes;
-  out["springs"] = session.model().springs();
-  out["springs_cut"] = stats.springs_cut;
-  out["faces"] = session.model().skinTriangles();
-  out["steps"] = counters.substeps;
-  out["dt_s"] = session.solver().dt_s();
-  out["dt_safe_s"] = session.solver().dtSafe_s();
-  out["simulated_s"] = simulated_s;
-  out["wall_s"] = wall_s;
-  out["real_time_factor"] = simulated_s / wall_s;
-  out["node_updates_per_s"] = static_cast<double>(nodes) * static_cast<double>(counters.substeps) / wall_s;
-  out["state_hash"] = StateHash::text(session.stateHash());
-  out["max_stretch"] = extremes.max_stretch;
-  out["max_speed_m_per_s"] = extremes.max_speed_m_per_s;
-  out["nonfinite"] = extremes.nonfinite;
-  out["peak_force_n"] = extremes.peak_force_n;
-  out["images"] = counters.renders;
-  out["backend"] = session.solver().backend();
-  out["renderer"] = renderer;
-  return out;
+  RunMetrics metrics{session.scene().name, session.model()};
+  metrics.springs_cut = stats.springs_cut;
+  metrics.substeps = counters.substeps;
+  metrics.dt_s = session.solver().dt_s();
+  metrics.dt_safe_s = session.solver().dtSafe_s();
+  metrics.simulated_s = static_cast<double>(counters.ticks) * session.tick_s();
+  metrics.wall_s = wall_s;
+  metrics.state_hash = session.stateHash();
+  metrics.extremes = session.extremes();
+  metrics.images = counters.renders;
+  metrics.backend = session.solver().backend();
+  metrics.renderer = renderer;
+  return toJson(metrics);
 }
 
 void requireStyluses(const Strokes& strokes, const Scene& scene, const std::string& file) {
@@ -118,16 +106,28 @@ void requireStyluses(const Strokes& strokes, const Scene& scene, const std::stri
 
 }  // namespace
 
-int run(const RunOptions& options) {
+RunPlan planRun(const RunOptions& options) {
   Overrides overrides = meshOverrides(options.mesh);
   overrides.insert(overrides.end(), options.overrides.begin(), options.overrides.end());
-  const Scene scene = loadScene(findScene(options.scene), overrides);
-  Strokes strokes;
+  RunPlan plan{loadScene(findScene(options.scene), overrides), {}, 0};
   if (!options.strokes.empty()) {
-    strokes = loadStrokes(options.strokes);
-    requireStyluses(strokes, scene, options.strokes);
+    plan.strokes = loadStrokes(options.strokes);
+    requireStyluses(plan.strokes, plan.scene, options.strokes);
   }
-  const double seconds = options.seconds.value_or(options.strokes.empty() ? 1.0 : strokes.duration_s());
+  const double seconds = options.seconds.value_or(options.strokes.empty() ? 1.0 : plan.strokes.duration_s());
+  plan.ticks = static_cast<uint64_t>(std::llround(seconds * plan.scene.solver.tick_hz));
+  return plan;
+}
+
+int run(const RunOptions& options) {
+  if (options.reference && !options.out.empty()) {
+    throw Error("--out goes without --reference: pictures come from the GPU, which the reference does not use");
+  }
+  RunPlan plan = planRun(options);
+  if (options.reference) return runReference(plan, options.compare);
+  const uint64_t ticks = plan.ticks;
+  const Scene& scene = plan.scene;
+  Strokes& strokes = plan.strokes;
 
   gpu::Context context(scene.solver.device);
   const Progress progress = consoleProgress();
@@ -136,7 +136,6 @@ int run(const RunOptions& options) {
   for (const Body& body : session.model().bodies) {
     for (const std::string& note : body.notes) std::cout << body.name << ": " << note << '\n';
   }
-  const uint64_t ticks = static_cast<uint64_t>(std::llround(seconds * scene.solver.tick_hz));
   const Album album(options.out, session.scene(), strokes, ticks);
   const Clock::time_point start = Clock::now();
   for (uint64_t t = 0; t < ticks; ++t) {

@@ -50,9 +50,14 @@ void RawBuffer::clear() {
   glClearNamedBufferData(id_, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &zero);
 }
 
+void RawBuffer::copyFrom(const RawBuffer& other) {
+  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+  glCopyNamedBufferSubData(other.id_, id_, 0, 0, static_cast<GLsizeiptr>(bytes_));
+}
+
 TexelView::TexelView(const RawBuffer& buffer, TexelFormat format) {
-  const bool is_float = format == TexelFormat::kRgba32f;
-  const size_t texels = buffer.bytes() / (is_float ? 16 : 4);
+  const size_t texels = buffer.bytes() / (format == TexelFormat::kRgba32f ? 16 : 4);
+  const GLenum name = format == TexelFormat::kRgba32f ? GL_RGBA32F : format == TexelFormat::kR32f ? GL_R32F : GL_R32UI;
   GLint most = 0;
   glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most);
   if (texels > static_cast<size_t>(most)) {
@@ -62,7 +67,7 @@ TexelView::TexelView(const RawBuffer& buffer, TexelFormat format) {
   }
   glCreateTextures(GL_TEXTURE_BUFFER, 1, &id_);
   countObject();
-  glTextureBuffer(id_, is_float ? GL_RGBA32F : GL_R32UI, buffer.id());
+  glTextureBuffer(id_, name, buffer.id());
 }
 
 TexelView::~TexelView() {

@@ -153,7 +153,7 @@ void Program::dispatch(size_t invocations, uint32_t group_size) {
 }
 
 void Program::storageBarrier() {
-  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
 }
 
 int Program::location(const char* uniform) const {

@@ -81,6 +81,9 @@ void linkBricks(Lattice& lattice) {
 /// One solid cell adds a quarter to its 12 edges, a half to its 12 face diagonals, an eighth to its 8 nodes.
 void addCell(const Solid& solid, const Vector3i& cell, Lattice& lattice) {
   const uint16_t label = solid.label(cell.x(), cell.y(), cell.z());
+  const uint32_t lowest = static_cast<uint32_t>(storedAt(lattice, cell));
+  lattice.cell_labels[lowest] = label;
+  lattice.nodes[lowest].lo |= layout::kCellBit;
   for (int a = 0; a < 8; ++a) {
     const Vector3i node = cell + corner(a);
     const uint32_t slot = static_cast<uint32_t>(storedAt(lattice, node));
@@ -148,6 +151,7 @@ Lattice buildLattice(const Solid& solid, Weights weights) {
   linkBricks(lattice);
   lattice.nodes.resize(lattice.bricks.size() * layout::kBrickSlots);
   lattice.labels.resize(lattice.nodes.size());
+  lattice.cell_labels.resize(lattice.nodes.size());
   forEachCell(solid, [&](const Vector3i& cell) { addCell(solid, cell, lattice); });
   for (uint32_t slot = 0; slot < lattice.nodes.size(); ++slot) {
     if (massEighths(lattice.nodes[slot])) lattice.active_slots.push_back(slot);

@@ -74,6 +74,7 @@ Body buildBody(const BodyConfig& config, const std::string& folder, const Progre
   Body body;
   body.name = config.name;
   body.material = config.material;
+  body.parts = config.parts;
   body.color = config.color;
   if (progress) progress("read", 0);
   const std::unique_ptr<Tissue> tissue = makeTissue(config, folder);

@@ -108,7 +108,10 @@ void requireFixed(const std::string& where, const FixedConfig& fixed) {
 
 /// The dashpot acts on velocities of half a substep ago and so lowers the stable step: f^2 + 2 xi f must stay below 1
 /// for f = dt / dt_safe (physics.md 2).
-void requireStableSubstep(const std::string& file, double dt_fraction, const BodyConfig& body) {
+void requireStableSubstep(const std::string& file, const SolverConfig& solver, const BodyConfig& body) {
+  if (solver.integrator != Integrator::kLeapfrog && solver.integrator != Integrator::kVerletPaper) return;
+  if (solver.substeps > 0) return;  // checked against the lattice when it is known
+  const double dt_fraction = solver.dt_fraction;
   const double xi = body.material.dashpot_ratio;
   const double largest = std::sqrt(1 + xi * xi) - xi;
   if (dt_fraction < largest) return;
@@ -131,7 +134,7 @@ void requireConsistent(const std::string& file, const Scene& scene) {
       requireFixed(file + ": body '" + body.name + "' fixed[" + std::to_string(i) + "]", body.fixed[i]);
     }
   }
-  for (const BodyConfig& body : scene.bodies) requireStableSubstep(file, scene.solver.dt_fraction, body);
+  for (const BodyConfig& body : scene.bodies) requireStableSubstep(file, scene.solver, body);
   for (const CameraConfig& camera : scene.cameras) {
     const Vector3d sight = camera.target_m - camera.position_m;
     if (sight.cross(camera.up).norm() <= 1e-9 * camera.up.norm()) {

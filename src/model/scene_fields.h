@@ -50,13 +50,23 @@ void visitFields(V& v, FixedConfig& c) {
 
 template <class V>
 void visitFields(V& v, MaterialConfig& c) {
-  v.number("young_modulus_pa", c.young_modulus_pa, {1, 1e9}, "Pa", "Young's modulus E; Poisson's ratio is 1/4");
+  v.number("young_modulus_pa", c.young_modulus_pa, {1, 1e9}, "Pa", "Young's modulus E");
+  v.number("poisson_ratio", c.poisson_ratio, {0, 0.49}, "1",
+           "Poisson's ratio nu; 1/4 costs nothing, any other adds a pass over the cells");
   v.number("density_kg_per_m3", c.density_kg_per_m3, {1, 1e5}, "kg/m3", "mass density");
   v.number("drag_per_s", c.drag_per_s, {0, 1e4}, "1/s", "node drag gamma: every velocity decays at this rate");
   v.number("dashpot_ratio", c.dashpot_ratio, {0, 0.5}, "1",
            "axial dashpot: damping ratio at the highest frequency; 0 leaves it out of the kernel");
   v.choice("weights", c.weights, {{"cell", Weights::kCell}, {"paper", Weights::kPaper}},
            "assembly of springs and masses: per solid cell (exact), or VR05's uniform weights");
+}
+
+template <class V>
+void visitFields(V& v, PartConfig& c) {
+  v.text("part", c.part, "name of a part of the mesh or phantom");
+  v.number("young_modulus_pa", c.young_modulus_pa, {1, 1e9}, "Pa", "Young's modulus E of this part");
+  v.number("poisson_ratio", c.poisson_ratio, {0, 0.49}, "1", "Poisson's ratio nu of this part");
+  v.number("density_kg_per_m3", c.density_kg_per_m3, {1, 1e5}, "kg/m3", "mass density of this part");
 }
 
 template <class V>
@@ -83,6 +93,7 @@ void visitFields(V& v, BodyConfig& c) {
   v.vector("rotation_deg", c.rotation_deg, kAngle, "deg", "turns about the fixed x, then y, then z axis");
   v.vector("color", c.color, {0, 1}, "1", "red, green, blue");
   v.group("material", c.material, "elastic material");
+  v.list("parts", c.parts, 64, "parts whose elasticity differs from `material`");
   v.list("fixed", c.fixed, 64, "regions whose nodes are held in space");
 }
 
@@ -135,8 +146,26 @@ void visitFields(V& v, EnvironmentConfig& c) {
 template <class V>
 void visitFields(V& v, SolverConfig& c) {
   v.number("tick_hz", c.tick_hz, {1, 1000}, "Hz", "ticks per second: tools, forces and surface follow at this rate");
-  v.number("dt_fraction", c.dt_fraction, {0.01, 0.95}, "1",
-           "substep over the largest stable one; with a dashpot of ratio xi, below sqrt(1 + xi^2) - xi");
+  v.choice("integrator", c.integrator,
+           {{"leapfrog", Integrator::kLeapfrog},
+            {"verlet_paper", Integrator::kVerletPaper},
+            {"vbd", Integrator::kVbd},
+            {"pd", Integrator::kPd}},
+           "leapfrog: explicit, order 2; verlet_paper: as VR05 and GW print it, to compare; vbd, pd: implicit Euler");
+  v.number("dt_fraction", c.dt_fraction, {0.01, 1000}, "1",
+           "substep over the largest stable one; explicit integrators with a dashpot of ratio xi need less than "
+           "sqrt(1 + xi^2) - xi");
+  v.number(
+      "dt_fraction_strained", c.dt_fraction_strained, {0.01, 1000}, "1",
+      "leapfrog under the governor: the same while the tissue is strained or fast; dt_fraction where that is less");
+  v.integer("substeps", c.substeps, {0, 100000}, "substeps per tick; above 0 it decides instead of both fractions");
+  v.integer("iterations", c.iterations, {1, 10000}, "vbd, pd: sweeps over all nodes per substep");
+  v.boolean("compensated", c.compensated,
+            "leapfrog: sum displacement and velocity with compensation (Kahan); always where substeps are below 50 us");
+  v.boolean("governor", c.governor, "watch every tick, roll an explosion back and recover from it");
+  v.number("recovery_s", c.recovery_s, {0, 10}, "s", "governor: simulated time for which pd goes on after a roll-back");
+  v.number("sleep_distance_m", c.sleep_distance_m, {0.01, 100}, "m",
+           "a node is stopped this far from its place at rest: where fragments that fall come to lie");
   v.integer("max_substeps", c.max_substeps, {1, 100000}, "a scene that needs more substeps per tick is refused");
   v.integer("device", c.device, {-1, 31}, "EGL device to take, as listed by `viscera check`; -1: the first that works");
 }

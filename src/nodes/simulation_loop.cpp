@@ -109,6 +109,8 @@ void SimulationLoop::deliver(const Session& session, Frame&& frame) {
     status_.counters = session.counters();
     status_.reactions = frame.reactions;
     status_.stats = frame.stats;
+    status_.health = frame.health;
+    status_.held_back = frame.held_back;
   }
   ports_.deliver(std::move(frame));
 }

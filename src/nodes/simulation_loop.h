@@ -29,6 +29,8 @@ struct LoopStatus {
   uint64_t tick = 0;
   Counters counters;
   layout::TickStats stats{};
+  Health health;
+  std::array<bool, layout::kMaxStyluses> held_back{};
   std::array<Reaction, layout::kMaxStyluses> reactions;
   PaceMeter::Reading pace;  ///< since the last LoopStatus was taken
 };

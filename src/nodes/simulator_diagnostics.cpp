@@ -41,6 +41,7 @@ void SimulatorDiagnostics::update() {
 void SimulatorDiagnostics::simulation(Status& status) {
   if (!now_) return status.summary(Level::OK, "preparing");
   status.summary(Level::OK, now_->paused ? "paused" : "running");
+  if (now_->health.recovering) status.summary(Level::WARN, "recovering from an instability: no forces");
   if (now_->stats.nonfinite) status.summary(Level::ERROR, "nodes are not finite: call reset");
   status.add("gpu", now_->gpu);
   status.add("gpu_is_software", now_->software_gpu);
@@ -51,6 +52,13 @@ void SimulatorDiagnostics::simulation(Status& status) {
   status.add("nonfinite_nodes", now_->stats.nonfinite);
   status.add("max_stretch", fromBits(now_->stats.max_stretch_bits));
   status.add("max_speed_m_per_s", fromBits(now_->stats.max_speed_bits));
+  status.add("governor_trips", now_->health.trips);
+  status.add("recovering", now_->health.recovering);
+  status.add("strained", now_->health.strained);
+  status.add("kinetic_energy_j", now_->stats.kinetic_j);
+  status.add("elastic_energy_j", now_->stats.elastic_j);
+  status.add("springs_collapsed", now_->stats.collapsed);
+  status.add("cells_inverted", now_->stats.inverted);
   status.add("springs_cut", now_->stats.springs_cut);
   status.add("ticks", now_->counters.ticks);
   status.add("substeps", now_->counters.substeps);
@@ -78,6 +86,7 @@ void SimulatorDiagnostics::stylus(size_t index, Status& status) {
 
   status.summary(Level::OK, in.seen ? "tracked" : "no pose yet");
   if (in.stale) status.summary(input.hasPublisher() ? Level::WARN : Level::OK, "the last pose is stale");
+  if (now_ && now_->held_back[index]) status.summary(Level::WARN, "faster than tissue can follow: held back");
   if (dropping) status.summary(Level::WARN, "messages are dropped");
   status.add("has_publisher", input.hasPublisher());
   status.add("input_age_s", in.input_age_s);

@@ -40,7 +40,9 @@ Vector3d xyz(const layout::vec4& v) {
 }  // namespace
 
 Session::Session(const Scene& scene, gpu::Context&, const Progress& progress)
-    : scene_(scene), model_(buildModel(scene, progress)), tools_(scene.styluses) {
+    : scene_(scene),
+      model_(buildModel(scene, progress)),
+      tools_(scene.styluses, waveSpeed(model_) / scene.solver.tick_hz) {
   solver_ = std::make_unique<GpuSolver>(model_, scene_);
   surface_ = std::make_unique<Surface>(model_);
   renderer_ = std::make_unique<Renderer>(scene_.cameras, scene_.styluses);
@@ -64,7 +66,9 @@ Frame Session::step(const StylusSamples& samples, const Wants& wants) {
   capture(wants, motions, frame);  // EGVE 3.3: nodes -> vertices, only what is wanted
   collect(frame, false);
   for (size_t s = 0; s < limiters_.size(); ++s) {
-    if (!motions[s].present) {  // no pose, no force
+    frame.held_back[s] = motions[s].held_back;
+    extremes_.held_back += motions[s].held_back;
+    if (!motions[s].present || frame.health.recovering) {  // no pose, or tissue that is not itself: no force, at once
       limiters_[s].reset();
       frame.reactions[s] = Reaction{};
     }
@@ -151,6 +155,7 @@ void Session::collectStats(Frame& frame, bool wait) {
         std::max(extremes_.max_speed_m_per_s, static_cast<double>(floatFromBits(stats_.max_speed_bits)));
     extremes_.nonfinite = std::max<uint64_t>(extremes_.nonfinite, stats_.nonfinite);
   }
+  frame.health = solver_->health();
   frame.stats = stats_;
   frame.has_stats = has_stats_;
   frame.reactions = reactions_;
@@ -180,8 +185,7 @@ uint64_t Session::stateHash() const {
 }
 
 Counters Session::counters() const {
-  return {ticks_, ticks_ * static_cast<uint64_t>(solver_->substeps()), surface_->mappings(), renderer_->renders(),
-          readbacks_};
+  return {ticks_, solver_->substepsDone(), surface_->mappings(), renderer_->renders(), readbacks_};
 }
 
 bool Session::imageDue(size_t camera) const {

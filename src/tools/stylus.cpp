@@ -35,7 +35,8 @@ layout::ToolMotion substep(const StylusMotion& motion, const StylusConfig& confi
 
 }  // namespace
 
-Tools::Tools(const std::vector<StylusConfig>& styluses) : configs_(styluses) {}
+Tools::Tools(const std::vector<StylusConfig>& styluses, double max_travel_m)
+    : configs_(styluses), max_travel_m_(max_travel_m) {}
 
 ToolMotions Tools::advance(const StylusSamples& samples) {
   ToolMotions motions;
@@ -48,10 +49,19 @@ ToolMotions Tools::advance(const StylusSamples& samples) {
     motion.from = last_[i].valid ? last_[i].pose : motion.to;
     motion.grab_begins = motion.mode == ToolMode::kGrab && mode_[i] != ToolMode::kGrab;
     motion.grab_ends = motion.mode != ToolMode::kGrab && mode_[i] == ToolMode::kGrab;
+    holdBack(motion);
     last_[i] = now;
+    last_[i].pose = motion.to;
     mode_[i] = motion.mode;
   }
   return motions;
+}
+
+void Tools::holdBack(StylusMotion& motion) const {
+  const Vector3d travel = motion.to.position_m - motion.from.position_m;
+  const double length = travel.norm();
+  motion.held_back = length > max_travel_m_;
+  if (motion.held_back) motion.to.position_m = motion.from.position_m + max_travel_m_ / length * travel;
 }
 
 void Tools::reset() {

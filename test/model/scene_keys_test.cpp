@@ -31,7 +31,8 @@ bodies:
     position_m: [0.051, 0.052, 0.053]
     rotation_deg: [61, 62, 63]
     color: [0.071, 0.072, 0.073]
-    material: {young_modulus_pa: 8100, density_kg_per_m3: 820, drag_per_s: 8.3, dashpot_ratio: 0.084, weights: paper}
+    material: {young_modulus_pa: 8100, poisson_ratio: 0.31, density_kg_per_m3: 820, drag_per_s: 8.3, dashpot_ratio: 0.084, weights: paper}
+    parts: [{part: valve, young_modulus_pa: 8101, poisson_ratio: 0.32, density_kg_per_m3: 821}]
     fixed:
       - shape: part
         min_m: [-0.11, -0.12, -0.13]
@@ -71,7 +72,8 @@ environment:
   tissue_frame: table
   tissue_position_m: [1.4, 1.5, 1.6]
   tissue_rotation_deg: [17, 18, 19]
-solver: {tick_hz: 90, dt_fraction: 0.91, max_substeps: 92, device: 3}
+solver: {tick_hz: 90, integrator: vbd, dt_fraction: 0.91, dt_fraction_strained: 0.41, substeps: 93, iterations: 94,
+         compensated: true, governor: false, recovery_s: 0.95, sleep_distance_m: 0.96, max_substeps: 92, device: 3}
 )";
 
 /// Paths of all keys below a node, list items as name[].
@@ -117,10 +119,16 @@ TEST(SceneKeys, EveryBodyKeyReachesItsField) {
   EXPECT_EQ(body.rotation_deg, Vector3d(61, 62, 63));
   EXPECT_EQ(body.color, Vector3d(0.071, 0.072, 0.073));
   EXPECT_EQ(body.material.young_modulus_pa, 8100);
+  EXPECT_EQ(body.material.poisson_ratio, 0.31);
   EXPECT_EQ(body.material.density_kg_per_m3, 820);
   EXPECT_EQ(body.material.drag_per_s, 8.3);
   EXPECT_EQ(body.material.dashpot_ratio, 0.084);
   EXPECT_EQ(body.material.weights, Weights::kPaper);
+  const PartConfig& part = body.parts.at(0);
+  EXPECT_EQ(part.part, "valve");
+  EXPECT_EQ(part.young_modulus_pa, 8101);
+  EXPECT_EQ(part.poisson_ratio, 0.32);
+  EXPECT_EQ(part.density_kg_per_m3, 821);
   const FixedConfig& fixed = body.fixed.at(0);
   EXPECT_EQ(fixed.shape, FixedShape::kPart);
   EXPECT_EQ(fixed.min_m, Vector3d(-0.11, -0.12, -0.13));
@@ -165,7 +173,15 @@ TEST(SceneKeys, EveryOtherKeyReachesItsField) {
   EXPECT_EQ(scene.environment.tissue_position_m, Vector3d(1.4, 1.5, 1.6));
   EXPECT_EQ(scene.environment.tissue_rotation_deg, Vector3d(17, 18, 19));
   EXPECT_EQ(scene.solver.tick_hz, 90);
+  EXPECT_EQ(scene.solver.integrator, Integrator::kVbd);
   EXPECT_EQ(scene.solver.dt_fraction, 0.91);
+  EXPECT_EQ(scene.solver.dt_fraction_strained, 0.41);
+  EXPECT_EQ(scene.solver.substeps, 93);
+  EXPECT_EQ(scene.solver.iterations, 94);
+  EXPECT_TRUE(scene.solver.compensated);
+  EXPECT_FALSE(scene.solver.governor);
+  EXPECT_EQ(scene.solver.recovery_s, 0.95);
+  EXPECT_EQ(scene.solver.sleep_distance_m, 0.96);
   EXPECT_EQ(scene.solver.max_substeps, 92);
   EXPECT_EQ(scene.solver.device, 3);
 }

@@ -32,7 +32,7 @@ TEST(Scene, UnknownKeyIsRefusedWithFileLineKeyAndTheAcceptedKeys) {
   expectRefusals({
       {"bodies: [{}]\nbodeis: 1\n", {"s.yaml:2: ", "unknown key 'bodeis'", "name, bodies, styluses, cameras"}},
       {"bodies:\n  - name: a\n    material:\n      young: 3\n",
-       {"s.yaml:4: ", "unknown key 'bodies[0].material.young'", "young_modulus_pa, density_kg_per_m3"}},
+       {"s.yaml:4: ", "unknown key 'bodies[0].material.young'", "young_modulus_pa, poisson_ratio, density_kg_per_m3"}},
       {"bodies:\n  - name: a\n  - name: b\n    spacing: 1\n",
        {"s.yaml:4: ", "unknown key 'bodies[1].spacing'", "spacing_m"}},
       {"bodies:\n  - fixed:\n      - shape: box\n      - {shape: box, radius: 1}\n",

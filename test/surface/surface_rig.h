@@ -26,7 +26,7 @@ inline Body makeBody(const Solid& solid, const TriangleMesh& mesh, Weights weigh
 class SurfaceRig {
  public:
   explicit SurfaceRig(std::vector<Body> bodies)
-      : model{std::move(bodies)}, surface(model), buffers_(model, paramsOf(model), false) {
+      : model{std::move(bodies)}, surface(model), buffers_(model, paramsOf(model), FeatureSet{}) {
     displacement_m.assign(model.slots(), layout::vec4{0, 0, 0, 0});
     nodes = buffers_.nodes.read();
   }

@@ -20,6 +20,7 @@ class RawBuffer {
   void write(size_t offset, size_t bytes, const void* data);
   void read(size_t offset, size_t bytes, void* data) const;  ///< waits for the GPU
   void clear();                                              ///< to zero, on the GPU
+  void copyFrom(const RawBuffer& other);                     ///< all of it, on the GPU; sizes must agree
   void bindStorage(uint32_t binding) const;
   void bindUniform(uint32_t binding, size_t offset, size_t bytes) const;
   uint32_t id() const { return id_; }
@@ -32,7 +33,7 @@ class RawBuffer {
 
 /// A buffer seen through texel fetches: the read path for gathers, several times faster than storage loads where a
 /// software rasteriser runs the kernels and no slower on a GPU.
-enum class TexelFormat { kRgba32f, kR32ui };
+enum class TexelFormat { kRgba32f, kR32f, kR32ui };
 class TexelView {
  public:
   TexelView() = default;
@@ -64,6 +65,7 @@ class Buffer {
     return out;
   }
   void clear() { raw_.clear(); }
+  void copyFrom(const Buffer& other) { raw_.copyFrom(other.raw_); }
   void bindStorage(uint32_t binding) const { raw_.bindStorage(binding); }
   void bindUniform(uint32_t binding) const { bindUniform(binding, 0, count_); }
   /// @param first  its bytes must be a multiple of GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT (256 is always enough)

@@ -27,6 +27,8 @@ struct Lattice {
   std::vector<layout::Brick> bricks;    ///< [bricks] ordered by (z, y, x); body is 0 here
   std::vector<layout::NodeBits> nodes;  ///< [64 * bricks] all-zero where no node is
   std::vector<uint16_t> labels;         ///< [64 * bricks] 0 no node, else 1 + part of a cell around it
+  std::vector<uint16_t> cell_labels;    ///< [64 * bricks] of the cell whose lowest corner is the node: 0 none, else
+                                        ///< 1 + part
   std::vector<uint32_t> active_slots;   ///< [active] slots of nodes, ascending
   std::vector<std::string> part_names;
 

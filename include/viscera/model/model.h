@@ -17,6 +17,7 @@ namespace viscera {
 struct Body {
   std::string name;
   MaterialConfig material;
+  std::vector<PartConfig> parts;  ///< elasticities of their own
   Lattice lattice;
   Skin skin;
   Vector3d color = Vector3d::Ones();

@@ -17,6 +17,7 @@ enum class TissueSource { kPhantom, kMesh, kBox };
 enum class SkinSource { kAuto, kInput, kVolume };
 enum class UpAxis { kZ, kY };
 enum class FixedShape { kBox, kSphere, kPlane, kPart };
+enum class Integrator { kLeapfrog, kVerletPaper, kVbd, kPd };
 enum class ToolMode { kNone = 0, kProbe = 1, kGrab = 2, kCut = 3, kCutParticles = 4 };
 
 /// Nodes that are held in space. Coordinates are in the body's frame, before its pose is applied.
@@ -33,10 +34,20 @@ struct FixedConfig {
 
 struct MaterialConfig {
   double young_modulus_pa = 20e3;
+  double poisson_ratio = 0.25;  ///< 1/4 is what springs give alone; else cells have an energy of volume
   double density_kg_per_m3 = 1060;
   double drag_per_s = 4;
   double dashpot_ratio = 0.2;
   Weights weights = Weights::kCell;
+};
+
+/// Elasticity of one part of a body, such as a valve; keys that are left out are not inherited: they have these
+/// defaults.
+struct PartConfig {
+  std::string part;
+  double young_modulus_pa = 20e3;
+  double poisson_ratio = 0.25;
+  double density_kg_per_m3 = 1060;
 };
 
 struct BodyConfig {
@@ -56,6 +67,7 @@ struct BodyConfig {
   Vector3d rotation_deg = Vector3d::Zero();  ///< about fixed x, then y, then z
   Vector3d color = Vector3d(0.72, 0.25, 0.22);
   MaterialConfig material;
+  std::vector<PartConfig> parts;  ///< cells of other parts have `material`
   std::vector<FixedConfig> fixed;
 };
 
@@ -97,7 +109,15 @@ struct EnvironmentConfig {
 
 struct SolverConfig {
   double tick_hz = 60;
-  double dt_fraction = 0.5;
+  Integrator integrator = Integrator::kLeapfrog;
+  double dt_fraction = 0.75;
+  double dt_fraction_strained = 0.5;
+  int substeps = 0;     ///< 0: from dt_fraction
+  int iterations = 20;  ///< of vbd and pd
+  bool governor = true;
+  double recovery_s = 0.25;
+  double sleep_distance_m = 1;
+  bool compensated = false;
   int max_substeps = 2000;
   int device = -1;
 };

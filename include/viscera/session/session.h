@@ -47,6 +47,8 @@ struct Frame {
   std::array<Reaction, layout::kMaxStyluses> reactions;
   layout::TickStats stats{};
   bool has_stats = false;  ///< stats are those of some recent tick
+  Health health;
+  std::array<bool, layout::kMaxStyluses> held_back{};  ///< the stylus was faster than tissue can follow
   std::unique_ptr<SurfaceFrame> surface;
   std::vector<ImageFrame> images;
 };
@@ -62,6 +64,7 @@ struct Extremes {
   double max_stretch = 0;   ///< largest |L - l0| / l0
   double max_speed_m_per_s = 0;
   uint64_t nonfinite = 0;  ///< largest number of non-finite nodes in a tick
+  uint64_t held_back = 0;  ///< ticks in which a stylus was faster than tissue can follow
 };
 
 /// ONE loop: owns model, solver, surface and renderer on the thread that made it.

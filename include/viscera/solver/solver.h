@@ -7,6 +7,8 @@
 #include <string>
 
 #include "viscera/model/model.h"
+#include "viscera/solver/governor.h"
+#include "viscera/solver/material.h"
 #include "viscera/solver/state.h"
 #include "viscera/tools/stylus.h"
 
@@ -25,20 +27,15 @@ class Solver {
   /// Measurements of the next tick that has come back, oldest first; false if there is none (yet).
   /// @param wait  wait for the next one if one is under way
   virtual bool pollStats(layout::TickStats& stats, bool wait) = 0;
-  virtual double dt_s() const = 0;
+  virtual const Health& health() const = 0;
+  virtual double dt_s() const = 0;  ///< in calm states
   virtual double dtSafe_s() const = 0;
-  virtual int substeps() const = 0;
+  virtual int substeps() const = 0;           ///< per tick, in calm states
+  virtual uint64_t substepsDone() const = 0;  ///< since the solver was made
   virtual std::string backend() const = 0;
 };
 
 /// 64-bit fingerprint of displacement, velocity and springs of the active nodes, in active-list order.
 uint64_t stateHash(const Model& model, const HostState& state);
-
-/// Largest stable substep of a lattice without dashpot, however it is deformed [s]: min over free nodes of sqrt(2 m /
-/// sum k) (physics.md 2).
-double safeTimeStep(const Model& model);
-
-/// Material constants of a body as the kernels take them.
-layout::BodyParams bodyParams(const Body& body, double dt_safe_s);
 
 }  // namespace viscera

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,7 @@ struct StylusMotion {
   bool present = false;  ///< a valid pose is known, whatever the mode
   Pose from, to;
   bool grab_begins = false;  ///< this tick is the first of a grab
+  bool held_back = false;    ///< the tip was faster than tissue can follow: `to` lags behind the pose, and catches up
   bool grab_ends = false;    ///< a grab was let go, or the stylus was lost, at the start of this tick
 };
 using ToolMotions = std::array<StylusMotion, layout::kMaxStyluses>;
@@ -35,13 +37,19 @@ using ToolMotions = std::array<StylusMotion, layout::kMaxStyluses>;
 /// Turns stylus samples into motions, tick by tick: modes from buttons, jumps that are no motion (first sample).
 class Tools {
  public:
-  explicit Tools(const std::vector<StylusConfig>& styluses);
+  /// @param max_travel_m  how far a tip may move in a tick: what tissue could follow, the speed of its waves times the
+  ///                      tick. A tip that is faster, or jumps, follows its pose at that speed (physics.md 5).
+  explicit Tools(const std::vector<StylusConfig>& styluses,
+                 double max_travel_m = std::numeric_limits<double>::infinity());
   ToolMotions advance(const StylusSamples& samples);
   void reset();
   const std::vector<StylusConfig>& configs() const { return configs_; }
 
  private:
+  void holdBack(StylusMotion& motion) const;
+
   std::vector<StylusConfig> configs_;
+  double max_travel_m_;
   std::array<StylusSample, layout::kMaxStyluses> last_{};
   std::array<ToolMode, layout::kMaxStyluses> mode_{};
 };

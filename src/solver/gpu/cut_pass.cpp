@@ -11,6 +11,7 @@ CutPass::CutPass(const FeatureSet& features) : group_size_(features.group_size) 
   springs_ = gpu::Program::compute("cut.comp", defines);
   defines.push_back("PARTICLES");
   particles_ = gpu::Program::compute("cut.comp", defines);
+  if (features.volume) torn_cells_.emplace(features);
 }
 
 void CutPass::run(const LatticeBuffers& buffers, uint32_t stylus, bool particles) const {
@@ -19,6 +20,7 @@ void CutPass::run(const LatticeBuffers& buffers, uint32_t stylus, bool particles
   glUniform1ui(1, stylus);
   gpu::Program::dispatch(buffers.active_count, group_size_);
   gpu::Program::storageBarrier();
+  if (torn_cells_) torn_cells_->run(buffers);
 }
 
 }  // namespace viscera

@@ -4,6 +4,8 @@
 
 #include <utility>
 
+#include "viscera/solver/material.h"
+
 namespace viscera {
 
 namespace {
@@ -44,7 +46,8 @@ std::vector<layout::NodeBits> allNodes(const Model& model) {
 
 }  // namespace
 
-LatticeBuffers::LatticeBuffers(const Model& model, const std::vector<layout::BodyParams>& params, bool with_tools)
+LatticeBuffers::LatticeBuffers(const Model& model, const std::vector<layout::BodyParams>& params,
+                               const FeatureSet& features)
     : active_count(model.activeNodes()),
       slot_count(model.slots()),
       active(activeSlots(model)),
@@ -60,12 +63,44 @@ LatticeBuffers::LatticeBuffers(const Model& model, const std::vector<layout::Bod
     velocity_texels_[i] = gpu::TexelView(velocity[i].raw(), gpu::TexelFormat::kRgba32f);
   }
   brick_texels_ = gpu::TexelView(bricks.raw(), gpu::TexelFormat::kR32ui);
-  if (with_tools) {
+  if (features.volume) allocateVolume(model);
+  if (features.parts) allocateParts(model);
+  if (features.compensated) compensation = gpu::Buffer<layout::vec4>(2 * slot_count);
+  if (features.tools) {
     grab_offsets = gpu::Buffer<layout::vec4>(slot_count);
     impulses = gpu::Buffer<layout::vec4>(slot_count * layout::kMaxStyluses);
   }
   bodies.write(params);
   nodes.write(whole_nodes_);
+}
+
+void LatticeBuffers::allocateVolume(const Model& model) {
+  std::vector<uint32_t> slots;
+  for (size_t b = 0; b < model.bodies.size(); ++b) {
+    const Lattice& lattice = model.bodies[b].lattice;
+    for (uint32_t slot : lattice.active_slots) {
+      if (lattice.nodes[slot].lo & layout::kCellBit) slots.push_back(model.slotOffset(b) + slot);
+    }
+  }
+  cells = gpu::Buffer<uint32_t>(slots);
+  cell_forces = gpu::Buffer<layout::vec4>(3 * slot_count);
+  cell_force_texels_ = gpu::TexelView(cell_forces.raw(), gpu::TexelFormat::kRgba32f);
+}
+
+void LatticeBuffers::allocateParts(const Model& model) {
+  std::vector<float> springs, masses, bulks;
+  for (const Body& body : model.bodies) {
+    const Strengths table = strengths(body);
+    springs.insert(springs.end(), table.spring_n_per_m.begin(), table.spring_n_per_m.end());
+    masses.insert(masses.end(), table.mass_kg.begin(), table.mass_kg.end());
+    bulks.insert(bulks.end(), table.bulk_j.begin(), table.bulk_j.end());
+  }
+  spring_stiffness = gpu::Buffer<float>(springs);
+  node_mass = gpu::Buffer<float>(masses);
+  cell_bulk = gpu::Buffer<float>(bulks);
+  spring_texels_ = gpu::TexelView(spring_stiffness.raw(), gpu::TexelFormat::kR32f);
+  mass_texels_ = gpu::TexelView(node_mass.raw(), gpu::TexelFormat::kR32f);
+  bulk_texels_ = gpu::TexelView(cell_bulk.raw(), gpu::TexelFormat::kR32f);
 }
 
 void LatticeBuffers::bind() const {
@@ -81,6 +116,17 @@ void LatticeBuffers::bind() const {
   brick_texels_.bind(layout::kUnitBricks);
   displacement_texels_[current].bind(layout::kUnitDisplacement);
   velocity_texels_[current].bind(layout::kUnitVelocity);
+  if (cells.size()) {
+    cells.bindStorage(layout::kBindCells);
+    cell_forces.bindStorage(layout::kBindCellForces);
+    cell_force_texels_.bind(layout::kUnitCellForces);
+  }
+  if (spring_stiffness.size()) {
+    spring_texels_.bind(layout::kUnitSpringStiffness);
+    mass_texels_.bind(layout::kUnitNodeMass);
+    bulk_texels_.bind(layout::kUnitCellBulk);
+  }
+  if (compensation.size()) compensation.bindStorage(layout::kBindCompensation);
   if (grab_offsets.size()) grab_offsets.bindStorage(layout::kBindGrabOffsets);
   if (impulses.size()) impulses.bindStorage(layout::kBindImpulses);
 }
@@ -93,6 +139,7 @@ void LatticeBuffers::reset() {
   }
   if (grab_offsets.size()) grab_offsets.clear();
   if (impulses.size()) impulses.clear();
+  if (compensation.size()) compensation.clear();
   stats.clear();
   current = 0;
 }

@@ -5,11 +5,16 @@
 #include <cstddef>
 
 #include "gpu/gl.h"
+#include "solver/gpu/sum_tree.h"
 
 namespace viscera {
 
-MeasurePass::MeasurePass(const FeatureSet& features) : group_size_(features.group_size) {
-  measure_ = gpu::Program::compute("measure.comp", features.defines());
+MeasurePass::MeasurePass(const FeatureSet& features, size_t active_count)
+    : energies_(active_count + sumTreeSize(active_count)), group_size_(features.group_size) {
+  std::vector<std::string> defines = features.defines();
+  measure_ = gpu::Program::compute("measure.comp", defines);
+  defines.push_back("FOLD");
+  fold_ = gpu::Program::compute("measure.comp", defines);
 }
 
 void MeasurePass::run(const LatticeBuffers& buffers) const {
@@ -20,10 +25,24 @@ void MeasurePass::run(const LatticeBuffers& buffers) const {
   };
   clear(0, offsetof(layout::TickStats, springs_cut));
   clear(offsetof(layout::TickStats, nonfinite), sizeof(layout::TickStats));
+  energies_.bindStorage(layout::kBindPartials);
   measure_.use();
   glUniform1ui(0, static_cast<GLuint>(buffers.active_count));
   gpu::Program::dispatch(buffers.active_count, group_size_);
   gpu::Program::storageBarrier();
+  sumEnergies(buffers);
+}
+
+void MeasurePass::sumEnergies(const LatticeBuffers& buffers) const {
+  fold_.use();
+  forEachSumLevel(buffers.active_count, [&](size_t inputs, size_t input_first, size_t output_first, bool last) {
+    glUniform1ui(0, static_cast<GLuint>(inputs));
+    glUniform1ui(1, static_cast<GLuint>(input_first));
+    glUniform1ui(2, static_cast<GLuint>(output_first));
+    glUniform1ui(3, last ? 1 : 0);
+    gpu::Program::dispatch(sumRuns(inputs), group_size_);
+    gpu::Program::storageBarrier();
+  });
 }
 
 }  // namespace viscera

@@ -3,30 +3,12 @@
 #include "viscera/solver/gpu/reaction_pass.h"
 
 #include "gpu/gl.h"
+#include "solver/gpu/sum_tree.h"
 
 namespace viscera {
 
-namespace {
-
-constexpr size_t kRun = 64;  // terms that one invocation adds up; sum_impulses.comp knows the same number
-
-size_t runs(size_t terms) {
-  return (terms + kRun - 1) / kRun;
-}
-
-/// Partial sums of all levels together.
-size_t treeSize(size_t leaves) {
-  size_t total = 0;
-  for (size_t level = runs(leaves);; level = runs(level)) {
-    total += level;
-    if (level <= 1) return total;
-  }
-}
-
-}  // namespace
-
 ReactionPass::ReactionPass(const FeatureSet& features, size_t active_count)
-    : partials_(treeSize(active_count)), group_size_(features.group_size) {
+    : partials_(sumTreeSize(active_count)), group_size_(features.group_size) {
   std::vector<std::string> defines = features.defines();
   fold_ = gpu::Program::compute("sum_impulses.comp", defines);
   defines.push_back("LEAVES");
@@ -37,7 +19,7 @@ void ReactionPass::run(const LatticeBuffers& buffers, const std::array<Vector3f,
   partials_.bindStorage(layout::kBindPartials);
   size_t inputs = buffers.active_count, input_first = 0, output_first = 0;
   for (bool first = true; first || inputs > 1; first = false) {
-    const size_t outputs = runs(inputs);
+    const size_t outputs = sumRuns(inputs);
     (first ? leaves_ : fold_).use();
     glUniform1ui(0, static_cast<GLuint>(inputs));
     glUniform1ui(1, static_cast<GLuint>(input_first));

@@ -29,7 +29,9 @@ class ToolsOnTissue : public GpuTest {
       if (lattice().nodeAt(slot).z() == 0) model_.bodies[0].lattice.nodes[slot].lo |= layout::kFixedBit;
     }
     solver_.emplace(model_, sceneFor(model_, kSubsteps, styluses_));
-    reference_.emplace(model_, Vector3d::Zero(), static_cast<float>(solver_->dt_s()));
+    ReferenceOptions options;
+    options.push_speed_m_per_s = pushSpeed(model_);
+    reference_.emplace(model_, Vector3d::Zero(), static_cast<float>(solver_->dt_s()), options);
   }
   const Lattice& lattice() const { return model_.bodies[0].lattice; }
 
@@ -115,10 +117,19 @@ TEST_F(ToolsOnTissue, ReactionIsTheMomentumGivenPerTick) {
   EXPECT_EQ(xyz(s.impulse[1]), Vector3d::Zero().eval());
 }
 
-TEST_F(ToolsOnTissue, FastProbeLeavesNoNodeInsideItsSweep) {
+TEST_F(ToolsOnTissue, ProbeThatJumpsLeavesNoNodeInsideIt) {
+  const double tick_s = kSubsteps * solver_->dt_s();
+  Tools tools(styluses_, waveSpeed(model_) * tick_s);
+  StylusSamples samples;
+  samples[0].valid = true;
+  samples[0].pose.position_m = Vector3d(0.03, 0.03, 0.12);
+  tools.advance(samples);
+  samples[0].pose.position_m = Vector3d(0.03, 0.03, 0.02);  // 10 cm in one tick: several hundred times c_p
   ToolMotions motions;
-  motions[0] = motion(ToolMode::kProbe, {0.03, 0.03, 0.12}, {0.03, 0.03, 0.02});  // 10 cm in one tick
-  tick(motions);
+  do {
+    motions = tools.advance(samples);
+    tick(motions);
+  } while (motions[0].held_back);
   const HostState state = solver_->readState();
   for (uint32_t slot : lattice().active_slots) {
     const Vector3d x = lattice().restPosition(slot) + xyz(state.displacement_m[slot]);
@@ -126,6 +137,17 @@ TEST_F(ToolsOnTissue, FastProbeLeavesNoNodeInsideItsSweep) {
     if (isFixed(lattice().nodes[slot])) continue;
     EXPECT_GT((x - motions[0].to.position_m).norm(), 0.99 * styluses_[0].probe_radius_m);
   }
+}
+
+TEST_F(ToolsOnTissue, ProbeThatAppearsInsideTissuePushesNoFasterThanItsPushSpeed) {
+  ToolMotions motions;
+  motions[0] = motion(ToolMode::kProbe, {0.031, 0.032, 0.033}, {0.031, 0.032, 0.033});
+  tick(motions);
+  const double farthest = pushSpeed(model_) * kSubsteps * solver_->dt_s();
+  double moved = 0;
+  for (const layout::vec4& u : solver_->readState().displacement_m) moved = std::max(moved, xyz(u).norm());
+  EXPECT_GT(moved, 0);
+  EXPECT_LT(moved, 1.001 * farthest);  // float32 rounding of a sum of ten steps
 }
 
 TEST_F(ToolsOnTissue, ProbeAtANodesPlaceHasADirectionAllTheSame) {

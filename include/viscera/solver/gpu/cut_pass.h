@@ -2,7 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "viscera/solver/gpu/integrate_pass.h"
+#include <optional>
+
+#include "viscera/gpu/program.h"
+#include "viscera/solver/gpu/features.h"
+#include "viscera/solver/gpu/lattice_buffers.h"
+#include "viscera/solver/gpu/volume_pass.h"
 
 namespace viscera {
 
@@ -16,6 +21,7 @@ class CutPass {
 
  private:
   gpu::Program springs_, particles_;
+  std::optional<TornCellsPass> torn_cells_;
   uint32_t group_size_;
 };
 

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "viscera/solver/gpu/integrate_pass.h"
+#include "viscera/gpu/program.h"
+#include "viscera/solver/gpu/features.h"
+#include "viscera/solver/gpu/lattice_buffers.h"
 
 namespace viscera {
 

@@ -4,13 +4,14 @@
 
 #include "viscera/gpu/buffer.h"
 #include "viscera/model/model.h"
+#include "viscera/solver/gpu/features.h"
 
 namespace viscera {
 
 /// The lattices of all bodies and their state in GPU memory: what every kernel of the solver works on.
 struct LatticeBuffers {
-  /// @param bodies  [bodies] material constants   @param with_tools  allocate what only tools need
-  LatticeBuffers(const Model& model, const std::vector<layout::BodyParams>& bodies, bool with_tools);
+  /// @param bodies  [bodies] material constants   @param features  what is allocated beyond the state itself
+  LatticeBuffers(const Model& model, const std::vector<layout::BodyParams>& bodies, const FeatureSet& features);
 
   /// Binds what all kernels share, with the current state as input and the other as output.
   void bind() const;
@@ -29,10 +30,19 @@ struct LatticeBuffers {
   gpu::Buffer<layout::vec4> grab_offsets;     ///< [slots] m, stylus frame
   gpu::Buffer<layout::vec4> impulses;         ///< [kMaxStyluses * slots] N s
   gpu::Buffer<layout::TickStats> stats;       ///< [1]
+  gpu::Buffer<uint32_t> cells;                ///< [cells] slots of their lowest corners; feature volume
+  gpu::Buffer<layout::vec4> cell_forces;      ///< [3 * slots] N, see shaders/volume.comp; feature volume
+  gpu::Buffer<layout::vec4> compensation;     ///< [2 * slots] m, m/s; feature compensated
+  gpu::Buffer<float> spring_stiffness;        ///< [9 * slots] N/m; feature parts
+  gpu::Buffer<float> node_mass;               ///< [slots] kg; feature parts
+  gpu::Buffer<float> cell_bulk;               ///< [slots] J; feature parts
   int current = 0;
 
  private:
   gpu::TexelView brick_texels_, displacement_texels_[2], velocity_texels_[2];
+  gpu::TexelView cell_force_texels_, spring_texels_, mass_texels_, bulk_texels_;
+  void allocateVolume(const Model& model);
+  void allocateParts(const Model& model);
   std::vector<layout::NodeBits> whole_nodes_;
 };
 

@@ -2,19 +2,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "viscera/solver/gpu/integrate_pass.h"
+#include <array>
+
+#include "viscera/gpu/program.h"
+#include "viscera/solver/gpu/features.h"
+#include "viscera/solver/gpu/lattice_buffers.h"
 
 namespace viscera {
 
-/// Non-finite nodes, largest stretch and speed, held nodes, once a tick. Owner of shaders/measure.comp.
+/// Non-finite nodes, largest stretch and speed, energies, held nodes, once a tick. Owner of shaders/measure.comp.
 class MeasurePass {
  public:
-  explicit MeasurePass(const FeatureSet& features);
+  MeasurePass(const FeatureSet& features, size_t active_count);
   /// Clears what belongs to one tick (all but springs_cut), then measures the current state.
   void run(const LatticeBuffers& buffers) const;
 
  private:
-  gpu::Program measure_;
+  void sumEnergies(const LatticeBuffers& buffers) const;
+
+  gpu::Program measure_, fold_;
+  gpu::Buffer<std::array<float, 2>> energies_;  ///< of nodes, then of the runs of each level
   uint32_t group_size_;
 };
 

@@ -4,7 +4,9 @@
 
 #include <array>
 
-#include "viscera/solver/gpu/integrate_pass.h"
+#include "viscera/gpu/program.h"
+#include "viscera/solver/gpu/features.h"
+#include "viscera/solver/gpu/lattice_buffers.h"
 
 namespace viscera {
 

@@ -1,0 +1,59 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+
+#include "viscera/model/model.h"
+
+namespace viscera {
+
+/// How a session fares: what the governor has seen and done since the last reset.
+struct Health {
+  uint64_t trips = 0;       ///< ticks that were rolled back
+  bool recovering = false;  ///< pd goes on in place of the scene's integrator; no force is given
+  bool strained = false;    ///< the state calls for the shorter substep
+  double kinetic_j = 0;     ///< energies of the last tick
+  double elastic_j = 0;
+};
+
+/// The governor's judgement of ticks (physics.md 3). Host logic only: GpuSolver does what it says.
+class Governor {
+ public:
+  /// Why a tick was found bad; kNone if it was good.
+  enum class Trip { kNone, kNonFinite, kSpeed, kEnergy };
+  /// What must not be exceeded. All come from the material, none from the scene's taste.
+  struct Limits {
+    double speed_m_per_s;  ///< 5 times the fastest of waves and of fragments that fall to where they sleep
+    double energy_j;       ///< all of the tissue moving as fast as waves, plus its fall
+  };
+  Governor(const Limits& limits, double tick_s, double recovery_s);
+
+  /// Judges the tick that the measurement belongs to. @param implicit  it was made by an integrator that may be fast
+  /// @param work_j  that tools did on the tissue in this tick
+  Trip judge(const layout::TickStats& stats, bool implicit, double work_j = 0);
+  /// A state was written from outside: what is measured of it, whatever it is, is the new start.
+  void restart(const layout::TickStats& stats);
+  const Health& health() const { return health_; }
+  /// Rollbacks in a row without a good tick between them: how far back the next one should go.
+  int setbacks() const { return setbacks_; }
+
+ private:
+  Trip inspect(const layout::TickStats& stats, bool implicit, double work_j) const;
+  void note(const layout::TickStats& stats);
+  void recover();
+
+  Limits limits_;
+  double tick_s_, recovery_s_;
+  Health health_;
+  double energy_j_ = 0;  ///< of the last good tick
+  int64_t recovery_ticks_left_ = 0;
+  double recovery_wanted_s_;  ///< grows with trips that come soon after a recovery
+  int64_t ticks_since_recovery_ = 0;
+  int setbacks_ = 0;
+};
+
+/// @param gravity_m_per_s2  size   @param sleep_distance_m  how far fragments fall
+Governor::Limits governorLimits(const Model& model, double gravity_m_per_s2, double sleep_distance_m);
+
+}  // namespace viscera

@@ -1,0 +1,33 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "layout.h"
+#include "viscera/model/model.h"
+
+namespace viscera {
+
+/// What the kernels must know of; everything else is compiled out and has no buffer.
+struct FeatureSet {
+  bool dashpot = false;
+  bool volume = false;       ///< some cell has an energy of volume: nu other than 1/4
+  bool parts = false;        ///< strengths differ within a body
+  bool compensated = false;  ///< u and v are summed with Kahan's compensation
+  bool tools = false;        ///< there are styluses
+  bool single_body = false;
+  uint32_t group_size = layout::kGroupSize;
+
+  std::vector<std::string> defines() const;
+};
+
+/// Substeps below this lose float32 digits of u unless they are summed with compensation [s] (physics.md 2).
+constexpr double kShortSubstep_s = 50e-6;
+
+/// @param dt_s  shortest substep
+FeatureSet featuresOf(const Model& model, const Scene& scene, double dt_s, uint32_t group_size);
+
+}  // namespace viscera

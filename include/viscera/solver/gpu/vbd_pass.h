@@ -1,0 +1,39 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "viscera/solver/gpu/implicit_substep.h"
+
+namespace viscera {
+
+/// Vertex block descent on implicit Euler (physics.md 2): colour by colour, every node goes to the minimum of the
+/// incremental potential over its own increment, by one step with a 3x3 block. Every step descends. Owner of
+/// shaders/vbd.comp.
+class VbdPass : public Stepper {
+ public:
+  /// @param iterations  sweeps over all colours per substep
+  VbdPass(const FeatureSet& features, const LatticeBuffers& buffers, int iterations);
+  void run(LatticeBuffers& buffers, const Substep& step) override;
+
+ private:
+  struct Colour {
+    uint32_t first, count;  ///< in by_colour_
+  };
+  ImplicitSubstep implicit_;
+  gpu::Program sweep_;
+  gpu::Buffer<uint32_t> by_colour_;  ///< [active] slots
+  std::vector<Colour> colours_;
+  int iterations_;
+  uint32_t group_size_;
+};
+
+/// Which nodes may move at once. Springs join none of the four colours 2 ((i + j) & 1) + ((j + k) & 1); a cell's energy
+/// of volume joins its opposite corners too, so with volumes the eight parities of (i, j, k) are needed.
+uint32_t colourOf(uint32_t slot, bool volume);
+constexpr uint32_t colourCount(bool volume) {
+  return volume ? 8 : 4;
+}
+
+}  // namespace viscera

@@ -1,0 +1,107 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/SparseCore>
+#include <array>
+#include <vector>
+
+#include "viscera/model/model.h"
+#include "viscera/solver/material.h"
+
+namespace viscera {
+
+/// One vector per slot: displacements [m], velocities [m/s] or forces [N]; zero where no node is.
+using Field = std::vector<Vector3d>;
+
+/// Forces, energies and stiffness of the lattice as functions of the displacement, in float64. The constants are the
+/// float32 ones that the kernels take, so a difference to a kernel is its arithmetic and nothing else.
+class ReferenceLattice {
+ public:
+  /// Which second derivative: the true one, or its nearest that has no negative eigenvalue, term by term.
+  enum class Curvature { kTrue, kPositive };
+
+  /// @param model  must outlive the lattice
+  explicit ReferenceLattice(const Model& model);
+
+  std::vector<uint32_t> active;         ///< [active] slots
+  std::vector<layout::NodeBits> nodes;  ///< [slots]; counts of heterogeneous bodies only say alive or cut
+
+  size_t slots() const { return nodes.size(); }
+  Vector3d restPosition(uint32_t slot) const { return rest_m_[slot]; }
+  double mass(uint32_t slot) const;                        ///< [kg]
+  double stiffness(uint32_t slot, uint32_t spring) const;  ///< k [N/m], 0 where there is none
+  double dashpot(uint32_t slot, uint32_t spring) const;    ///< c [N s/m]
+  double drag_per_s(uint32_t slot) const { return body(slot).drag_per_s; }
+  /// lambda_V h^3 [J] of the cell whose lowest corner is the node; 0 where there is none or it is cut.
+  double bulk(uint32_t slot) const;
+  bool isIsolated(uint32_t slot) const;
+  /// 0 free, else 1 + stylus.
+  uint32_t heldBy(uint32_t slot) const { return (nodes[slot].lo & layout::kGrabMask) >> layout::kGrabShift; }
+
+  /// (L - l0) / l0 of a spring.
+  double strain(const Field& u_m, uint32_t slot, uint32_t spring) const;
+  /// Springs and volume, on one node and on all [N].
+  Vector3d elasticForce(const Field& u_m, uint32_t slot) const;
+  Field elasticForces(const Field& u_m) const;
+  /// Axial dashpots, sum of c n (n . (v_far - v_near)) with n of u [N].
+  Vector3d dashpotForce(const Field& u_m, const Field& v_m_per_s, uint32_t slot) const;
+  /// Half the power that the dashpots take, sum of c/2 (n . (v_far - v_near))^2 [W].
+  double dissipation(const Field& u_m, const Field& v_m_per_s) const;
+  double elasticEnergy(const Field& u_m) const;  ///< [J]
+  double springEnergy(const Field& u_m) const;   ///< [J]
+  double volumeEnergy(const Field& u_m) const;   ///< [J]
+  /// Largest force of a spring, or of one that is strained by 1e-6 where all are less [N]: what a residual is held
+  /// against.
+  double forceScale(const Field& u_m) const;
+
+  /// Row and column of a node's axis in stiffnessMatrix(): 3 * (place in `active`) + axis.
+  int dof(uint32_t slot, int axis) const { return 3 * place_[slot] + axis; }
+  int dofs() const { return 3 * static_cast<int>(active.size()); }
+  /// d2 elasticEnergy / du2, [dofs x dofs] [N/m]; symmetric, both halves stored.
+  /// @param dashpot_per_s  adds c n n^T times this: the derivative of an implicit dashpot
+  Eigen::SparseMatrix<double> stiffnessMatrix(const Field& u_m, Curvature curvature = Curvature::kTrue,
+                                              double dashpot_per_s = 0) const;
+
+  /// Erases a spring from both ends, and with it the volume of every cell that it belongs to.
+  void eraseSpring(uint32_t slot, uint32_t spring);
+  uint32_t farEnd(uint32_t slot, uint32_t spring) const { return neighbor(slot, spring).slot; }
+
+ private:
+  struct Neighbor {
+    uint32_t slot = 0;
+    Vector3d offset_m = Vector3d::Zero();  ///< rest offset
+    double rest_m = 0;                     ///< its length
+  };
+  struct Spring;  ///< direction, length and extension of one deformed spring
+  struct Cell {
+    std::array<uint32_t, 8> corners;  ///< slots; bit per axis, x lowest
+    double spacing_m;
+  };
+  void addBody(const Model& model, size_t b, double dt_safe_s);
+  void addCell(const Lattice& lattice, uint32_t first, uint32_t local);
+  const Neighbor& neighbor(uint32_t slot, uint32_t spring) const {
+    return neighbors_[slot * layout::kSpringsPerNode + spring];
+  }
+  const layout::BodyParams& body(uint32_t slot) const { return params_[nodes[slot].hi >> layout::kBodyShift]; }
+  Spring springAt(const Field& u_m, uint32_t slot, uint32_t spring) const;
+  Eigen::Matrix3d cellGradient(const Field& u_m, const Cell& cell) const;
+  Eigen::Matrix3d cellStress(const Field& u_m, size_t cell) const;
+  Vector3d springForce(const Field& u_m, uint32_t slot) const;
+  template <class StressOf>
+  Vector3d volumeForce(StressOf stress_of, uint32_t slot) const;
+  void addSprings(const Field& u_m, Curvature curvature, double dashpot_per_s,
+                  std::vector<Eigen::Triplet<double>>& out) const;
+  void addVolumes(const Field& u_m, Curvature curvature, std::vector<Eigen::Triplet<double>>& out) const;
+
+  std::vector<layout::BodyParams> params_;
+  std::vector<Strengths> strengths_;        ///< [bodies] empty where a body has one material
+  std::vector<uint32_t> first_;             ///< [bodies] slot offsets
+  std::vector<Neighbor> neighbors_;         ///< [slots * 18]
+  Field rest_m_;                            ///< [slots]
+  std::vector<int> place_;                  ///< [slots] place in `active`, or -1
+  std::vector<Cell> cells_;                 ///< [cells]
+  std::vector<std::array<int, 8>> around_;  ///< [slots] cell of which the node is corner c, or -1
+};
+
+}  // namespace viscera

@@ -1,0 +1,29 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "viscera/model/model.h"
+
+namespace viscera {
+
+/// How many substeps a tick has (physics.md 2).
+struct SubstepPlan {
+  int calm = 1;      ///< in ordinary states
+  int strained = 1;  ///< leapfrog, while the governor finds the tissue strained: at least as many
+};
+
+constexpr bool isExplicit(Integrator integrator) {
+  return integrator == Integrator::kLeapfrog || integrator == Integrator::kVerletPaper;
+}
+
+/// Largest substep over dt_safe that an explicit integrator is surely stable with: f^2 + 2 xi f = 1.
+/// @param dashpot_ratio  xi
+double largestFraction(double dashpot_ratio);
+
+/// @param allow_unstable  do not refuse a substep that is too long: for those who study what happens then
+/// @throws SceneError  more substeps than max_substeps; substeps given that are too long for an explicit integrator,
+/// with
+///                     the number that would do
+SubstepPlan planSubsteps(const Model& model, const SolverConfig& config, double dt_safe_s, bool allow_unstable = false);
+
+}  // namespace viscera

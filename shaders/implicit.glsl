@@ -1,0 +1,104 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Implicit Euler in increments du = u+ - u, what vbd and pd solve (physics.md 2). After elastic.glsl and step.glsl.
+//   m (1 + gamma dt)/dt^2 (du - y) = F(u + du),   y = (dt v + dt^2 g)/(1 + gamma dt),   v+ = du/dt
+// F has the springs, the volumes and the dashpots c/dt n n^T (du_far - du_near), n at the current iterate. A solution is a
+// stationary point of the incremental potential
+//   P(du) = sum of m (1 + gamma dt)/(2 dt^2) |du - y|^2 + E(u + du) + sum of c/(2 dt) (n . (du_far - du_near))^2
+// increment.w is 1 where du is prescribed: fixed, sleeping and held nodes.
+layout(std430, binding = kBindActive) readonly buffer ActiveBuffer { uint active_nodes[]; };
+layout(std430, binding = kBindNodes) readonly buffer NodesBuffer { NodeBits nodes[]; };
+// Word 0: float bits of the share of y that the iterations start from, in the end of the share of du that was taken. Then two
+// words per iteration of pd: float bits of its largest change; 1 if acceleration was given up by then.
+layout(std430, binding = kBindGuard) buffer GuardBuffer { uint guard[]; };
+
+uint changeWord(uint iteration) { return 1u + 2u * iteration; }
+uint plainWord(uint iteration) { return 2u + 2u * iteration; }
+
+/// How far a node may go in a sweep of pd where there are volumes [m]: what their majoriser reckons with. Twice what the last
+/// sweep did, so that it is no more than a formality near a solution.
+float reach(float h, uint iteration) {
+  const float longest = 0.1, shortest = 1e-3;
+  return iteration == 0u ? longest * h : clamp(2.0 * uintBitsToFloat(guard[changeWord(iteration - 1u)]), shortest * h, longest * h);
+}
+
+/// m (1 + gamma dt)/dt^2 [N/m]
+float inertia(float mass, BodyParams body) { return mass * (1.0 + body.drag_per_s * dt_s) / (dt_s * dt_s); }
+
+/// y: the increment that no force would change.
+vec3 freeIncrement(uint slot, BodyParams body) {
+  vec3 v = texelFetch(velocity, int(slot)).xyz;
+  return (dt_s * v + (dt_s * dt_s) * gravity) / (1.0 + body.drag_per_s * dt_s);
+}
+
+/// c/dt of a spring's dashpot [N/m]
+float damping(float k, BodyParams body) {
+#ifdef DASHPOT
+  return k * body.dashpot_s / dt_s;
+#else
+  return 0.0;
+#endif
+}
+
+/// What a node knows of a spring in the current iterate.
+struct ImplicitSpring {
+  Spring spring;
+  float stretch;  // max(0, 1 - l0/L): how much of k acts across the spring
+  float damping;  // c/dt [N/m]
+  vec3 force;     // spring and dashpot [N]
+};
+
+/// @param u, du  of the near end   @param d  rest offset to the far end n [m]   @param l0  its length [m]
+ImplicitSpring implicitSpring(uint n, vec3 u, vec3 du, vec3 d, float l0, float k, BodyParams body) {
+  vec3 along = texelFetch(increment, int(n)).xyz - du;
+  ImplicitSpring s;
+  s.spring = springBetween(d, l0, (texelFetch(displacement, int(n)).xyz - u) + along);
+  s.stretch = s.spring.extension > 0.0 ? s.spring.extension / (l0 + s.spring.extension) : 0.0;
+  s.damping = damping(k, body);
+  s.force = (k * s.spring.extension + s.damping * dot(s.spring.direction, along)) * s.spring.direction;
+  return s;
+}
+
+/// For FOR_EACH_SPRING: a kernel says in VISIT_SPRING what it does with the ImplicitSpring s of stiffness k and rest length l0.
+#define IMPLICIT_SPRING(spring, offset)                                                     \
+  {                                                                                         \
+    uint count = springCount(bits, spring);                                                 \
+    if (count != 0u) {                                                                      \
+      uint n = neighborSlot(slot, offset);                                                  \
+      float k = springStiffness(slot, n, spring, count, body);                              \
+      float l0 = spring < kAxialSprings ? h : kSqrt2 * h;                                   \
+      ImplicitSpring s = implicitSpring(n, u, du, h * vec3(offset), l0, k, body);           \
+      VISIT_SPRING                                                                          \
+    }                                                                                       \
+  }
+
+#ifdef VOLUME
+/// @param at  displacements of the cell's corners, bit per axis, x lowest [m]
+CellShape shapeOf(vec3 at[8], float h, out vec3 edge_lengths) {
+  float quarter = 0.25 / h;
+  vec3 da = quarter * ((at[1] - at[0]) + (at[3] - at[2]) + (at[5] - at[4]) + (at[7] - at[6]));
+  vec3 db = quarter * ((at[2] - at[0]) + (at[3] - at[1]) + (at[6] - at[4]) + (at[7] - at[5]));
+  vec3 dc = quarter * ((at[4] - at[0]) + (at[5] - at[1]) + (at[6] - at[2]) + (at[7] - at[3]));
+  edge_lengths = vec3(length(vec3(1.0, 0.0, 0.0) + da), length(vec3(0.0, 1.0, 0.0) + db), length(vec3(0.0, 0.0, 1.0) + dc));
+  return cellShape(da, db, dc);
+}
+
+/// Bounds on the curvature W'' and the slope |W'| of a cell's energy within `way` of e [J].
+vec2 volumeBounds(float bulk, float e, float way) {
+  if (bulk <= 0.0) return vec2(-0.75 * bulk, -0.703 * bulk);  // the largest there are
+  return vec2(abs(e) - way < 1.0 ? bulk : 0.0, bulk * min(1.0, abs(e) + way));
+}
+
+/// Added to the diagonal of a Jacobi iteration for each corner of a cell [N/m], this makes every step descend in which no
+/// corner goes farther than reach: half of a bound on the curvature of W along such a motion. With mean edges a, b, c over h,
+/// which move by up to 2 reach/h, and their rates a', b', c':  W = W'' e'^2 + W' e'',
+///   e'^2 <= (|b x c|^2 + |c x a|^2 + |a x b|^2) sum |a'|^2,   e'' <= (|a| + |b| + |c|) sum |a'|^2,   sum |a'|^2 <= sum |du'|^2/(2 h^2)
+float volumeMajoriser(float bulk, CellShape s, vec3 edge_lengths, float reach, float h) {
+  float way = 2.0 * reach / h;
+  vec3 a = edge_lengths + way;
+  vec3 areas = vec3(length(s.bc), length(s.ca), length(s.ab)) + way * (edge_lengths.yzx + edge_lengths.zxy + way);
+  vec2 bounds = volumeBounds(bulk, s.e, way * (areas.x + areas.y + areas.z));
+  return 0.25 * (bounds.x * dot(areas, areas) + bounds.y * (a.x + a.y + a.z)) / (h * h);
+}
+#endif

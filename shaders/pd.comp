@@ -1,0 +1,107 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// pd.comp - one sweep of PD-Jacobi in majorise-minimise form, accelerated by Chebyshev's recurrence.   Owner: solver/gpu/pd_pass.h
+// physics.md 2: x <- (m'/dt^2 y + sum k (x_far + l0 n)) / (m'/dt^2 + sum k), here as du += force / (m'/dt^2 + sum (k + c/dt) + volume)
+// in  displacement, velocity, increments, cell forces of this iterate     out  increments of the next, where the last but one was
+// Feature RATE finds what the spectrum of the iteration depends on instead.
+#include "layout.h"
+#include "lattice.glsl"
+#include "elastic.glsl"
+#include "step.glsl"
+#include "implicit.glsl"
+
+#ifdef RATE
+/// max over nodes of (sum of k + volume)/m [1/s2] and of (sum of k dashpot_s)/m [1/s], as float bits in the guard.
+void main() {
+  uint i = globalIndex();
+  if (i >= active_count) return;
+  uint slot = active_nodes[i];
+  NodeBits bits = nodes[slot];
+  if ((bits.lo & kFixedBit) != 0u) return;
+  BodyParams body = bodies[bodyOf(bits)];
+  float mass = nodeMass(slot, bits, body), stiffness = 0.0, volume = 0.0;
+#define ADD_STIFFNESS(spring, offset)                                                                 \
+  {                                                                                                   \
+    uint count = springCount(bits, spring);                                                           \
+    if (count != 0u) stiffness += springStiffness(slot, neighborSlot(slot, offset), spring, count, body); \
+  }
+  FOR_EACH_SPRING(ADD_STIFFNESS)
+#ifdef VOLUME
+  const CellShape at_rest = cellShape(vec3(0.0), vec3(0.0), vec3(0.0));
+#define ADD_BULK(corner)                                                                                      \
+  {                                                                                                           \
+    bool exists;                                                                                              \
+    uint cell = cellAt(slot, corner, exists);                                                                 \
+    if (exists && (nodes[cell].lo & kCellBit) != 0u)                                                          \
+      volume += volumeMajoriser(cellBulk(cell, body), at_rest, vec3(1.0), 0.0, body.origin_spacing.w);        \
+  }
+  FOR_EACH_CELL(ADD_BULK)
+#endif
+  atomicMax(guard[0], floatBitsToUint((stiffness + volume) / mass));  // positive floats order like their bits
+  atomicMax(guard[1], floatBitsToUint(stiffness * body.dashpot_s / mass));
+}
+#else
+layout(std430, binding = kBindIncrementOut) buffer IncrementOut { vec4 next_increments[]; };  // holds the last but one
+layout(location = 7) uniform uint iteration;
+layout(location = 8) uniform float omega;  // Chebyshev's weight; 1 is plain Jacobi
+
+/// Has the last sweep moved a node farther than the first did, by more than the norms' difference? Modes within the spectrum
+/// cannot grow (in the sum of squares; the largest of all nodes may for a while), so the acceleration has met one outside.
+bool wentWrong() {
+  const float allowed = 4.0;
+  if (iteration == 0u) return false;
+  return !(uintBitsToFloat(guard[changeWord(iteration - 1u)]) <= allowed * uintBitsToFloat(guard[changeWord(0u)]));
+}
+bool wasPlain() { return iteration > 0u && guard[plainWord(iteration - 1u)] != 0u; }
+
+/// The force on a node less its inertia [N]; w the majoriser of all that pulls it [N/m].
+vec4 pull(uint slot, NodeBits bits, BodyParams body, vec3 u, vec3 du) {
+  float h = body.origin_spacing.w, inertia_n_per_m = inertia(nodeMass(slot, bits, body), body);
+  vec4 sum = vec4(inertia_n_per_m * (freeIncrement(slot, body) - du), inertia_n_per_m);
+#define VISIT_SPRING sum += vec4(s.force, k + s.damping);
+  FOR_EACH_SPRING(IMPLICIT_SPRING)
+#ifdef VOLUME
+  sum += volumeForce(slot);
+#endif
+  return sum;
+}
+
+void recordChange(vec3 change) {
+  uint bits = floatBitsToUint(length(change));
+  // The look before the atomic only saves work: the maximum is the same.
+  if (bits > guard[changeWord(iteration)]) atomicMax(guard[changeWord(iteration)], bits);
+}
+
+void main() {
+  uint i = globalIndex();
+  if (i >= active_count) return;
+  uint slot = active_nodes[i];
+  bool was_plain = wasPlain(), plain = was_plain || (omega != 1.0 && wentWrong());
+  if (i == 0u && plain) guard[plainWord(iteration)] = 1u;
+  vec4 now = texelFetch(increment, int(slot));
+  if (now.w != 0.0) {
+    next_increments[slot] = now;
+    return;
+  }
+  NodeBits bits = nodes[slot];
+  BodyParams body = bodies[bodyOf(bits)];
+  if (plain && !was_plain) {  // what acceleration has spoilt starts anew
+    if (i == 0u) guard[changeWord(iteration)] = guard[changeWord(0u)];
+    next_increments[slot] = vec4(uintBitsToFloat(guard[0]) * freeIncrement(slot, body), 0.0);
+    return;
+  }
+  vec4 p = pull(slot, bits, body, texelFetch(displacement, int(slot)).xyz, now.xyz);
+  vec3 change = p.xyz / p.w;
+#ifdef VOLUME
+  change *= min(1.0, reach(body.origin_spacing.w, iteration) / max(length(change), 1e-30));
+#endif
+  recordChange(change);
+  vec3 next = now.xyz + change;
+  if (omega != 1.0 && !plain) {
+    vec3 before = next_increments[slot].xyz;
+    next = before + omega * (next - before);
+  }
+  next_increments[slot] = vec4(next, 0.0);
+}
+#endif

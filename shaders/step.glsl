@@ -1,0 +1,27 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// What every integrator is told of a substep, and which nodes do not take part (physics.md 2, 5). After elastic.glsl.
+layout(location = 0) uniform uint active_count;
+layout(location = 1) uniform float dt_s;              // drift: how long u moves on
+layout(location = 2) uniform float kick_s;            // leapfrog's kick: half the substep before, half this one; half in the first
+layout(location = 3) uniform vec3 gravity;            // m/s2
+layout(location = 4) uniform float sleep_distance_m;  // a free node is stopped this far from its rest place
+
+#ifdef TOOLS
+layout(location = 5) uniform uint slot_count;
+layout(location = 6) uniform float push_speed;        // m/s: a probe pushes a node out no faster
+#endif
+
+/// Fixed, or alone and not held: a lone node sleeps; it would fall for ever.
+bool isAtRest(NodeBits bits) {
+  return (bits.lo & kFixedBit) != 0u || (isIsolated(bits) && (bits.lo & kGrabMask) == 0u);
+}
+
+/// Fragments that fall come to lie where sleep_distance_m ends; they may come back.
+void fallAsleep(NodeBits bits, vec3 u, inout vec3 u_next, inout vec3 v_next) {
+  float away = dot(u_next, u_next);
+  if (away <= sleep_distance_m * sleep_distance_m || away <= dot(u, u) || (bits.lo & kGrabMask) != 0u) return;
+  u_next = u;
+  v_next = vec3(0.0);
+}

@@ -1,0 +1,98 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// verlet_paper.comp - position Verlet as VR05 and GW print it, in absolute float32 positions.   Owner: solver/gpu/verlet_paper_pass.h
+// physics.md 2: x+ = 2 x - x_prev + dt^2 a,  a = F/m + g - gamma (x - x_prev)/dt;  k is the true one, a dashpot is unknown to it.
+// in  x, x_prev [slots]     out  x+ (where x_prev was); displacement x - x_rest, velocity (x+ - x)/dt for everybody else
+// Features: REBUILD makes x and x_prev from displacement and velocity; TOOLS, VOLUME, PARTS as in leapfrog.comp.
+#include "layout.h"
+#include "lattice.glsl"
+#include "elastic.glsl"
+
+layout(std430, binding = kBindActive) readonly buffer ActiveBuffer { uint active_nodes[]; };
+layout(std430, binding = kBindNodes) readonly buffer NodesBuffer { NodeBits nodes[]; };
+layout(std430, binding = kBindPositionsBefore) buffer PositionsBefore { vec4 positions_before[]; };
+#ifdef REBUILD
+layout(std430, binding = kBindPositions) writeonly buffer Positions { vec4 rebuilt_positions[]; };
+#else
+layout(binding = kUnitPositions) uniform samplerBuffer positions;
+layout(std430, binding = kBindDisplacementOut) writeonly buffer DisplacementOut { vec4 next_displacement[]; };
+layout(std430, binding = kBindVelocityOut) writeonly buffer VelocityOut { vec4 next_velocity[]; };
+#endif
+
+#include "step.glsl"
+#ifdef TOOLS
+#include "contact.glsl"
+#endif
+
+#ifdef REBUILD
+void main() {
+  uint i = globalIndex();
+  if (i >= active_count) return;
+  uint slot = active_nodes[i];
+  vec3 x = restPosition(slot) + texelFetch(displacement, int(slot)).xyz;
+  rebuilt_positions[slot] = vec4(x, 0.0);
+  positions_before[slot] = vec4(x - dt_s * texelFetch(velocity, int(slot)).xyz, 0.0);
+}
+#else
+/// Sum of the forces of springs and volumes [N]; the springs' from absolute positions: L - l0 cancels, as printed.
+vec3 latticeForce(uint slot, NodeBits bits, BodyParams body, vec3 x) {
+  float h = body.origin_spacing.w;
+  vec3 force = vec3(0.0);
+#define ADD_SPRING(spring, offset)                                                    \
+  {                                                                                   \
+    uint count = springCount(bits, spring);                                           \
+    if (count != 0u) {                                                                \
+      uint n = neighborSlot(slot, offset);                                            \
+      float k = springStiffness(slot, n, spring, count, body);                        \
+      float l0 = spring < kAxialSprings ? h : kSqrt2 * h;                             \
+      vec3 edge = texelFetch(positions, int(n)).xyz - x;                              \
+      float l = length(edge);                                                         \
+      vec3 direction = l > kShortest * l0 ? edge / l : h * vec3(offset) / l0;         \
+      force += (k * (l - l0)) * direction;                                            \
+    }                                                                                 \
+  }
+  FOR_EACH_SPRING(ADD_SPRING)
+#ifdef VOLUME
+  force += volumeForce(slot).xyz;
+#endif
+  return force;
+}
+
+void main() {
+  uint i = globalIndex();
+  if (i >= active_count) return;
+  uint slot = active_nodes[i];
+  NodeBits bits = nodes[slot];
+  vec3 rest = restPosition(slot);
+  vec3 x = texelFetch(positions, int(slot)).xyz;
+  vec3 u = texelFetch(displacement, int(slot)).xyz;
+  if (isAtRest(bits)) {
+    positions_before[slot] = vec4(x, 0.0);
+    next_displacement[slot] = vec4(u, 0.0);
+    next_velocity[slot] = vec4(0.0);
+    return;
+  }
+  BodyParams body = bodies[bodyOf(bits)];
+  // What x_prev stands for. A tool may have changed the velocity since: then x_prev is no longer where the node was.
+  vec3 v = texelFetch(velocity, int(slot)).xyz;
+  precise vec3 x_prev = positions_before[slot].xyz;
+  precise vec3 v_stored = (x - x_prev) / dt_s;
+  if (v != v_stored) x_prev = x - dt_s * v;
+
+  float mass = nodeMass(slot, bits, body);
+  vec3 a = latticeForce(slot, bits, body, x) / mass + gravity - body.drag_per_s * ((x - x_prev) / dt_s);
+  precise vec3 x_next = 2.0 * x - x_prev + dt_s * dt_s * a;
+  precise vec3 v_next = (x_next - x) / dt_s;
+  precise vec3 u_next = x_next - rest;
+  vec3 u_free = u_next;
+#ifdef TOOLS
+  resolveContacts(slot, bits, mass, u, u_next, v_next);
+#endif
+  fallAsleep(bits, u, u_next, v_next);
+  if (u_next != u_free) x_next = rest + u_next;
+  positions_before[slot] = vec4(x_next, 0.0);
+  next_displacement[slot] = vec4(u_next, 0.0);
+  next_velocity[slot] = vec4(v_next, 0.0);
+}
+#endif

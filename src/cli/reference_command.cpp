@@ -1,0 +1,96 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <chrono>
+#include <iostream>
+#include <optional>
+
+#include "cli/run_metrics.h"
+#include "cli/run_plan.h"
+#include "viscera/solver/gpu/gpu_solver.h"
+#include "viscera/solver/reference/reference_ticks.h"
+
+namespace viscera::cli {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// The GPU solver over the same ticks: governor off, so that it takes the same substeps.
+class Comparison {
+ public:
+  Comparison(const Model& model, Scene scene)
+      : context_(scene.solver.device), solver_(model, ungoverned(std::move(scene))) {}
+  void step(const ToolMotions& motions) { solver_.step(motions); }
+
+  /// Largest nodal error of displacement over the largest displacement.
+  double error(const ReferenceSolver& truth) const {
+    const HostState state = solver_.readState();
+    double error = 0, largest = 0;
+    for (uint32_t slot : truth.active) {
+      const layout::vec4& u = state.displacement_m[slot];
+      error = std::max(error, (Vector3d(u.x, u.y, u.z) - truth.u_m[slot]).norm());
+      largest = std::max(largest, truth.u_m[slot].norm());
+    }
+    return largest > 0 ? error / largest : error;
+  }
+
+ private:
+  static Scene ungoverned(Scene scene) {
+    scene.solver.governor = false;
+    return scene;
+  }
+  gpu::Context context_;
+  GpuSolver solver_;
+};
+
+void keepWorst(const ReferenceTicks& reference, double tick_hz, Extremes& worst) {
+  for (uint32_t s = 0; s < layout::kMaxStyluses; ++s)
+    worst.peak_force_n = std::max(worst.peak_force_n, reference.impulse(s).norm() * tick_hz);
+  worst.max_stretch = std::max(worst.max_stretch, reference.maxStretch());
+  worst.max_speed_m_per_s = std::max(worst.max_speed_m_per_s, reference.maxSpeed_m_per_s());
+  worst.nonfinite = std::max(worst.nonfinite, reference.nonfinite());
+}
+
+}  // namespace
+
+int runReference(const RunPlan& plan, bool compare) {
+  const Progress progress = consoleProgress();
+  const Model model = buildModel(plan.scene, progress);
+  for (const Body& body : model.bodies) {
+    for (const std::string& note : body.notes) std::cout << body.name << ": " << note << '\n';
+  }
+  Strokes strokes = plan.strokes;
+  resolveAnchors(strokes, model);
+  const double tick_hz = plan.scene.solver.tick_hz;
+  Tools tools(plan.scene.styluses, waveSpeed(model) / tick_hz);
+  ReferenceTicks reference(model, plan.scene);
+  std::optional<Comparison> comparison;
+  if (compare) comparison.emplace(model, plan.scene);
+
+  RunMetrics metrics{plan.scene.name, model};
+  const Clock::time_point start = Clock::now();
+  for (uint64_t t = 0; t < plan.ticks; ++t) {
+    const double time_s = static_cast<double>(t + 1) / tick_hz;
+    const ToolMotions motions = tools.advance(strokes.at(time_s, plan.scene.styluses));
+    reference.step(motions);
+    if (comparison) comparison->step(motions);
+    keepWorst(reference, tick_hz, metrics.extremes);
+    progress("simulating", static_cast<double>(t + 1) / static_cast<double>(plan.ticks));
+  }
+  metrics.wall_s = std::chrono::duration<double>(Clock::now() - start).count();
+  metrics.springs_cut = reference.solver().springs_cut;
+  metrics.substeps = plan.ticks * static_cast<uint64_t>(reference.substeps());
+  metrics.dt_s = reference.dt_s();
+  metrics.dt_safe_s = reference.dtSafe_s();
+  metrics.simulated_s = static_cast<double>(plan.ticks) / tick_hz;
+  metrics.state_hash = stateHash(model, reference.solver().state());
+  metrics.backend = "reference";
+  metrics.renderer = "none";
+  nlohmann::ordered_json out = toJson(metrics);
+  if (comparison) out["gpu_error"] = comparison->error(reference.solver());
+  std::cout << out.dump() << std::endl;
+  return 0;
+}
+
+}  // namespace viscera::cli

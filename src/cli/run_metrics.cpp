@@ -1,0 +1,35 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cli/run_metrics.h"
+
+#include "viscera/math/state_hash.h"
+
+namespace viscera::cli {
+
+nlohmann::ordered_json toJson(const RunMetrics& metrics) {
+  const size_t nodes = metrics.model.activeNodes();
+  nlohmann::ordered_json out;
+  out["scene"] = metrics.scene;
+  out["nodes"] = nodes;
+  out["springs"] = metrics.model.springs();
+  out["springs_cut"] = metrics.springs_cut;
+  out["faces"] = metrics.model.skinTriangles();
+  out["steps"] = metrics.substeps;
+  out["dt_s"] = metrics.dt_s;
+  out["dt_safe_s"] = metrics.dt_safe_s;
+  out["simulated_s"] = metrics.simulated_s;
+  out["wall_s"] = metrics.wall_s;
+  out["real_time_factor"] = metrics.simulated_s / metrics.wall_s;
+  out["node_updates_per_s"] = static_cast<double>(nodes) * static_cast<double>(metrics.substeps) / metrics.wall_s;
+  out["state_hash"] = StateHash::text(metrics.state_hash);
+  out["max_stretch"] = metrics.extremes.max_stretch;
+  out["max_speed_m_per_s"] = metrics.extremes.max_speed_m_per_s;
+  out["nonfinite"] = metrics.extremes.nonfinite;
+  out["peak_force_n"] = metrics.extremes.peak_force_n;
+  out["images"] = metrics.images;
+  out["backend"] = metrics.backend;
+  out["renderer"] = metrics.renderer;
+  return out;
+}
+
+}  // namespace viscera::cli

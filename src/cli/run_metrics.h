@@ -1,0 +1,23 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "viscera/session/session.h"
+
+namespace viscera::cli {
+
+/// What `viscera run` says at its end, whoever did the work.
+struct RunMetrics {
+  std::string scene;
+  const Model& model;
+  uint64_t springs_cut = 0, substeps = 0, images = 0, state_hash = 0;
+  double dt_s = 0, dt_safe_s = 0, simulated_s = 0, wall_s = 0;
+  Extremes extremes = {};
+  std::string backend = {}, renderer = {};
+};
+nlohmann::ordered_json toJson(const RunMetrics& metrics);
+
+}  // namespace viscera::cli

@@ -1,0 +1,23 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "cli/commands.h"
+#include "viscera/model/scene.h"
+#include "viscera/tools/strokes.h"
+
+namespace viscera::cli {
+
+/// What a run is made of, read and checked.
+struct RunPlan {
+  Scene scene;
+  Strokes strokes;
+  uint64_t ticks;
+};
+/// @throws SceneError, StrokesError
+RunPlan planRun(const RunOptions& options);
+
+/// `viscera run --reference`: without a GPU, unless it is compared with one.
+int runReference(const RunPlan& plan, bool compare);
+
+}  // namespace viscera::cli

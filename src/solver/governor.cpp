@@ -1,0 +1,107 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "viscera/solver/governor.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "viscera/solver/material.h"
+
+namespace viscera {
+
+namespace {
+
+constexpr double kSpeedMargin = 5;       // of the fastest speed that physics gives: what tools may throw nodes at
+constexpr double kEnergyGrowth = 2;      // per tick, on top of which comes Limits::energy_j
+constexpr double kLongestRecovery = 16;  // times recovery_s, when trips keep coming
+constexpr double kSoon = 4;              // times recovery_s: a trip this soon after a recovery doubles the next one
+// A tick beyond one of these is strained: the shorter substep follows. Chosen by `viscera bench stability`
+// (docs/stability.md).
+constexpr double kStrainedStretch = 1.0;  // |L - l0| / l0
+
+float fromBits(uint32_t bits) {
+  float value;
+  std::memcpy(&value, &bits, sizeof value);
+  return value;
+}
+
+double massOf(const Body& body) {
+  double mass = 0;
+  const double eighth = bodyParams(body, 0).mass_eighth_kg;
+  const Strengths table = isHeterogeneous(body) ? strengths(body) : Strengths{};
+  for (uint32_t slot : body.lattice.active_slots) {
+    mass += isHeterogeneous(body) ? table.mass_kg[slot] : massEighths(body.lattice.nodes[slot]) * eighth;
+  }
+  return mass;
+}
+
+}  // namespace
+
+Governor::Limits governorLimits(const Model& model, double gravity_m_per_s2, double sleep_distance_m) {
+  double mass = 0;
+  for (const Body& body : model.bodies) mass += massOf(body);
+  const double wave = waveSpeed(model), fall2 = 2 * gravity_m_per_s2 * sleep_distance_m;
+  return {kSpeedMargin * std::max(wave, std::sqrt(fall2)), mass * (wave * wave + fall2)};
+}
+
+Governor::Governor(const Limits& limits, double tick_s, double recovery_s)
+    : limits_(limits), tick_s_(tick_s), recovery_s_(recovery_s), recovery_wanted_s_(recovery_s) {}
+
+void Governor::restart(const layout::TickStats& stats) {
+  note(stats);
+  setbacks_ = 0;
+  recovery_ticks_left_ = 0;
+  recovery_wanted_s_ = recovery_s_;
+  ticks_since_recovery_ = 0;
+  health_.recovering = false;
+}
+
+Governor::Trip Governor::inspect(const layout::TickStats& stats, bool implicit, double work_j) const {
+  const double energy = static_cast<double>(stats.kinetic_j) + stats.elastic_j;
+  if (stats.nonfinite > 0 || !std::isfinite(energy)) return Trip::kNonFinite;
+  if (energy > kEnergyGrowth * (energy_j_ + limits_.energy_j + work_j)) return Trip::kEnergy;
+  if (!implicit && fromBits(stats.max_speed_bits) > limits_.speed_m_per_s) return Trip::kSpeed;
+  return Trip::kNone;
+}
+
+Governor::Trip Governor::judge(const layout::TickStats& stats, bool implicit, double work_j) {
+  const Trip trip = inspect(stats, implicit, work_j);
+  if (trip != Trip::kNone) {
+    recover();
+    return trip;
+  }
+  setbacks_ = 0;
+  note(stats);
+  const bool calm = fromBits(stats.max_speed_bits) < 0.5 * limits_.speed_m_per_s;
+  if (health_.recovering && --recovery_ticks_left_ <= 0 && calm) {
+    health_.recovering = false;
+    ticks_since_recovery_ = 0;
+  } else {
+    ++ticks_since_recovery_;
+  }
+  return trip;
+}
+
+/// Takes a good state's measurements over.
+void Governor::note(const layout::TickStats& stats) {
+  energy_j_ = static_cast<double>(stats.kinetic_j) + stats.elastic_j;
+  health_.kinetic_j = stats.kinetic_j;
+  health_.elastic_j = stats.elastic_j;
+  health_.strained = fromBits(stats.max_stretch_bits) > kStrainedStretch || stats.collapsed > 0 || stats.inverted > 0 ||
+                     fromBits(stats.max_speed_bits) > limits_.speed_m_per_s / kSpeedMargin;
+}
+
+void Governor::recover() {
+  const bool soon = health_.trips > 0 && static_cast<double>(ticks_since_recovery_) * tick_s_ < kSoon * recovery_s_;
+  recovery_wanted_s_ = soon && !health_.recovering ? std::min(2 * recovery_wanted_s_, kLongestRecovery * recovery_s_)
+                       : soon                      ? recovery_wanted_s_
+                                                   : recovery_s_;
+  recovery_ticks_left_ = std::max<int64_t>(1, std::llround(recovery_wanted_s_ / tick_s_));
+  health_.recovering = true;
+  health_.strained = true;
+  ++health_.trips;
+  ++setbacks_;
+}
+
+}  // namespace viscera

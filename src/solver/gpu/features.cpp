@@ -1,0 +1,31 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "viscera/solver/gpu/features.h"
+
+#include "viscera/solver/material.h"
+
+namespace viscera {
+
+std::vector<std::string> FeatureSet::defines() const {
+  std::vector<std::string> out = {"GROUP_SIZE " + std::to_string(group_size), "TEXELS"};
+  if (dashpot) out.push_back("DASHPOT");
+  if (volume) out.push_back("VOLUME");
+  if (parts) out.push_back("PARTS");
+  if (compensated) out.push_back("COMPENSATED");
+  if (single_body) out.push_back("SINGLE_BODY");
+  return out;
+}
+
+FeatureSet featuresOf(const Model& model, const Scene& scene, double dt_s, uint32_t group_size) {
+  FeatureSet features;
+  features.group_size = group_size;
+  features.single_body = model.bodies.size() == 1;
+  features.volume = hasVolumeEnergy(model);
+  features.parts = isHeterogeneous(model);
+  features.compensated = scene.solver.compensated || dt_s < kShortSubstep_s;
+  features.tools = !scene.styluses.empty();
+  for (const Body& body : model.bodies) features.dashpot |= body.material.dashpot_ratio > 0;
+  return features;
+}
+
+}  // namespace viscera

@@ -1,0 +1,36 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "viscera/solver/gpu/good_states.h"
+
+#include <algorithm>
+
+namespace viscera {
+
+GoodStates::GoodStates(size_t slots, int depth) {
+  for (int i = 0; i < depth; ++i) {
+    ring_.push_back({gpu::Buffer<layout::vec4>(slots), gpu::Buffer<layout::vec4>(slots)});
+  }
+}
+
+void GoodStates::save(const LatticeBuffers& buffers) {
+  State& state = ring_[static_cast<size_t>(next_)];
+  state.displacement.copyFrom(buffers.displacement[buffers.current]);
+  state.velocity.copyFrom(buffers.velocity[buffers.current]);
+  next_ = (next_ + 1) % static_cast<int>(ring_.size());
+  kept_ = std::min(kept_ + 1, static_cast<int>(ring_.size()));
+}
+
+void GoodStates::restore(LatticeBuffers& buffers, int back) {
+  const bool exhausted = back >= kept_;
+  back = std::min(back, kept_ - 1);
+  const int depth = static_cast<int>(ring_.size());
+  next_ = (next_ - back + depth) % depth;
+  kept_ -= back;
+  const State& state = ring_[static_cast<size_t>((next_ - 1 + depth) % depth)];
+  buffers.displacement[buffers.current].copyFrom(state.displacement);
+  buffers.velocity[buffers.current].copyFrom(state.velocity);
+  if (exhausted) buffers.velocity[buffers.current].clear();
+  if (buffers.compensation.size()) buffers.compensation.clear();
+}
+
+}  // namespace viscera

@@ -1,0 +1,112 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "viscera/solver/gpu/implicit_substep.h"
+
+#include "gpu/gl.h"
+#include "solver/gpu/sum_tree.h"
+
+namespace viscera {
+
+namespace {
+
+constexpr size_t kEnergiesPerNode = 2;  // implicit.comp: ENERGIES_PER_NODE
+
+}  // namespace
+
+std::vector<std::string> ImplicitSubstep::defines(const FeatureSet& features, const char* more) {
+  std::vector<std::string> out = features.defines();
+  out.push_back("INCREMENT");
+  if (more) out.push_back(more);
+  return out;
+}
+
+ImplicitSubstep::ImplicitSubstep(const FeatureSet& features, const LatticeBuffers& buffers, int iterations)
+    : guard(1 + 2 * static_cast<size_t>(iterations)),
+      energies_(kEnergiesPerNode * (buffers.active_count + sumTreeSize(buffers.active_count))),
+      group_size_(features.group_size) {
+  const auto stage = [&](const char* name, bool tools = false) {
+    std::vector<std::string> all = defines(features, name);
+    if (tools) all.push_back("TOOLS");
+    return gpu::Program::compute("implicit.comp", all);
+  };
+  begin_ = stage("BEGIN");
+  guess_ = stage("GUESS");
+  fold_ = stage("FOLD");
+  scale_ = stage("SCALE");
+  end_ = stage("END");
+  if (features.tools) {
+    begin_with_tools_ = stage("BEGIN", true);
+    end_with_tools_ = stage("END", true);
+  }
+  if (features.volume) cells_ = stage("CELLS");
+  for (int i = 0; i < 2; ++i) {
+    increments_[i] = gpu::Buffer<layout::vec4>(buffers.slot_count);
+    increment_texels_[i] = gpu::TexelView(increments_[i].raw(), gpu::TexelFormat::kRgba32f);
+  }
+}
+
+void ImplicitSubstep::bindIncrements() const {
+  increments_[current_].bindStorage(layout::kBindIncrement);
+  increments_[1 - current_].bindStorage(layout::kBindIncrementOut);
+  increment_texels_[current_].bind(layout::kUnitIncrement);
+}
+
+void ImplicitSubstep::swap() {
+  current_ = 1 - current_;
+  bindIncrements();
+}
+
+void ImplicitSubstep::updateVolumes(const LatticeBuffers& buffers, const Substep& step, int iteration) const {
+  if (!cells_) return;
+  cells_.use();
+  glUniform1ui(0, static_cast<GLuint>(buffers.cells.size()));
+  glUniform1f(1, step.dt_s);
+  glUniform1ui(7, static_cast<GLuint>(iteration));
+  gpu::Program::dispatch(buffers.cells.size(), group_size_);
+  gpu::Program::storageBarrier();
+}
+
+void ImplicitSubstep::runStage(const gpu::Program& stage, const LatticeBuffers& buffers, const Substep& step) const {
+  stage.use();
+  setSubstep(buffers, step);
+  gpu::Program::dispatch(buffers.active_count, group_size_);
+  gpu::Program::storageBarrier();
+}
+
+void ImplicitSubstep::begin(const LatticeBuffers& buffers, const Substep& step) {
+  guard.clear();
+  guard.bindStorage(layout::kBindGuard);
+  bindIncrements();
+  runStage(step.tools ? begin_with_tools_ : begin_, buffers, step);
+  keepBestShare(buffers, step, false);
+}
+
+void ImplicitSubstep::keepBestShare(const LatticeBuffers& buffers, const Substep& step, bool bound_energy) const {
+  Substep plain = step;
+  plain.tools = false;  // unknown to these stages
+  energies_.bindStorage(layout::kBindPartials);
+  runStage(guess_, buffers, plain);
+  chooseShare(buffers, bound_energy);
+  runStage(scale_, buffers, plain);
+}
+
+void ImplicitSubstep::chooseShare(const LatticeBuffers& buffers, bool bound_energy) const {
+  fold_.use();
+  forEachSumLevel(buffers.active_count, [&](size_t inputs, size_t input_first, size_t output_first, bool last) {
+    glUniform1ui(0, static_cast<GLuint>(inputs));
+    glUniform1ui(1, static_cast<GLuint>(input_first));
+    glUniform1ui(2, static_cast<GLuint>(output_first));
+    glUniform1ui(3, last ? 1 : 0);
+    glUniform1ui(4, bound_energy ? 1 : 0);
+    gpu::Program::dispatch(sumRuns(inputs), group_size_);
+    gpu::Program::storageBarrier();
+  });
+}
+
+void ImplicitSubstep::end(const LatticeBuffers& buffers, const Substep& step) const {
+  keepBestShare(buffers, step, !step.tools);        // tools may bring energy in
+  if (step.tools) updateVolumes(buffers, step, 0);  // held nodes' momentum needs them
+  runStage(step.tools ? end_with_tools_ : end_, buffers, step);
+}
+
+}  // namespace viscera

@@ -1,0 +1,24 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "viscera/solver/gpu/leapfrog_pass.h"
+
+namespace viscera {
+
+LeapfrogPass::LeapfrogPass(const FeatureSet& features) : group_size_(features.group_size) {
+  std::vector<std::string> defines = features.defines();
+  plain_ = gpu::Program::compute("leapfrog.comp", defines);
+  if (features.volume) volume_.emplace(features);
+  if (!features.tools) return;
+  defines.push_back("TOOLS");
+  with_tools_ = gpu::Program::compute("leapfrog.comp", defines);
+}
+
+void LeapfrogPass::run(LatticeBuffers& buffers, const Substep& step) {
+  if (volume_) volume_->run(buffers);
+  (step.tools ? with_tools_ : plain_).use();
+  setSubstep(buffers, step);
+  gpu::Program::dispatch(buffers.active_count, group_size_);
+  gpu::Program::storageBarrier();
+}
+
+}  // namespace viscera

@@ -1,0 +1,79 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "viscera/solver/gpu/pd_pass.h"
+
+#include <cstring>
+
+#include "gpu/gl.h"
+
+namespace viscera {
+
+namespace {
+
+/// Weights of Chebyshev's semi-iteration: 1, 2/(2 - rho^2), then 4/(4 - rho^2 w).
+double nextWeight(int iteration, double weight, double rho) {
+  if (iteration == 0) return 1;
+  return iteration == 1 ? 2 / (2 - rho * rho) : 4 / (4 - rho * rho * weight);
+}
+
+}  // namespace
+
+PdPass::PdPass(const FeatureSet& features, const LatticeBuffers& buffers, const PdOptions& options)
+    : implicit_(features, buffers, options.iterations),
+      sweep_(gpu::Program::compute("pd.comp", ImplicitSubstep::defines(features))),
+      options_(options),
+      group_size_(features.group_size) {
+  if (options_.accelerated && options_.spectral_radius == 0) findRates(features, buffers);
+}
+
+void PdPass::findRates(const FeatureSet& features, const LatticeBuffers& buffers) {
+  const gpu::Program rate = gpu::Program::compute("pd.comp", ImplicitSubstep::defines(features, "RATE"));
+  gpu::Buffer<float> rates(2);
+  buffers.bind();
+  rates.bindStorage(layout::kBindGuard);
+  rate.use();
+  glUniform1ui(0, static_cast<GLuint>(buffers.active_count));
+  gpu::Program::dispatch(buffers.active_count, group_size_);
+  const std::vector<float> found = rates.read();
+  stiffness_rate_per_s2_ = found[0];
+  damping_rate_per_s_ = found[1];
+}
+
+double PdPass::spectralRadius(double dt_s) const {
+  if (options_.spectral_radius > 0) return options_.spectral_radius;
+  const double rate = stiffness_rate_per_s2_ + damping_rate_per_s_ / dt_s;
+  return rate / (1 / (dt_s * dt_s) + rate);
+}
+
+void PdPass::run(LatticeBuffers& buffers, const Substep& step) {
+  implicit_.begin(buffers, step);
+  Substep plain = step;
+  plain.tools = false;  // the sweeps know of none
+  const double rho = spectralRadius(step.dt_s);
+  double weight = 1;
+  for (int iteration = 0; iteration < options_.iterations; ++iteration) {
+    implicit_.updateVolumes(buffers, step, iteration);
+    weight = options_.accelerated ? nextWeight(iteration, weight, rho) : 1;
+    sweep_.use();
+    setSubstep(buffers, plain);
+    glUniform1ui(7, static_cast<GLuint>(iteration));
+    glUniform1f(8, static_cast<float>(weight));
+    gpu::Program::dispatch(buffers.active_count, group_size_);
+    gpu::Program::storageBarrier();
+    implicit_.swap();
+  }
+  implicit_.end(buffers, step);
+}
+
+std::vector<float> PdPass::changes() const {
+  const std::vector<uint32_t> words = implicit_.guard.read();
+  std::vector<float> out(static_cast<size_t>(options_.iterations));
+  for (size_t n = 0; n < out.size(); ++n) std::memcpy(&out[n], &words[1 + 2 * n], sizeof out[n]);
+  return out;
+}
+
+bool PdPass::gaveUp() const {
+  return implicit_.guard.read().back() != 0;
+}
+
+}  // namespace viscera

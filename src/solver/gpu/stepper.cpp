@@ -1,0 +1,47 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "viscera/solver/gpu/stepper.h"
+
+#include "gpu/gl.h"
+#include "viscera/solver/gpu/leapfrog_pass.h"
+#include "viscera/solver/gpu/pd_pass.h"
+#include "viscera/solver/gpu/vbd_pass.h"
+#include "viscera/solver/gpu/verlet_paper_pass.h"
+
+namespace viscera {
+
+std::unique_ptr<Stepper> makeStepper(Integrator integrator, int iterations, const FeatureSet& features,
+                                     const LatticeBuffers& buffers) {
+  switch (integrator) {
+    case Integrator::kVerletPaper:
+      return std::make_unique<VerletPaperPass>(features, buffers);
+    case Integrator::kVbd:
+      return std::make_unique<VbdPass>(features, buffers, iterations);
+    case Integrator::kPd:
+      return std::make_unique<PdPass>(features, buffers, PdOptions{iterations});
+    case Integrator::kLeapfrog:
+      break;
+  }
+  return std::make_unique<LeapfrogPass>(features);
+}
+
+std::unique_ptr<Stepper> makeRecoveryStepper(int iterations, const FeatureSet& features,
+                                             const LatticeBuffers& buffers) {
+  PdOptions options;
+  options.iterations = iterations;
+  options.accelerated = false;
+  return std::make_unique<PdPass>(features, buffers, options);
+}
+
+void setSubstep(const LatticeBuffers& buffers, const Substep& step) {
+  glUniform1ui(0, static_cast<GLuint>(buffers.active_count));
+  glUniform1f(1, step.dt_s);
+  glUniform1f(2, step.kick_s);
+  glUniform3fv(3, 1, step.gravity.data());
+  glUniform1f(4, step.sleep_distance_m);
+  if (!step.tools) return;
+  glUniform1ui(5, static_cast<GLuint>(buffers.slot_count));
+  glUniform1f(6, step.push_speed_m_per_s);
+}
+
+}  // namespace viscera

@@ -1,0 +1,37 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "viscera/solver/gpu/volume_pass.h"
+
+#include "gpu/gl.h"
+
+namespace viscera {
+
+namespace {
+
+void dispatchCells(const gpu::Program& program, const LatticeBuffers& buffers, uint32_t group_size) {
+  program.use();
+  glUniform1ui(0, static_cast<GLuint>(buffers.cells.size()));
+  gpu::Program::dispatch(buffers.cells.size(), group_size);
+  gpu::Program::storageBarrier();
+}
+
+}  // namespace
+
+VolumePass::VolumePass(const FeatureSet& features)
+    : cells_(gpu::Program::compute("volume.comp", features.defines())), group_size_(features.group_size) {}
+
+void VolumePass::run(const LatticeBuffers& buffers) const {
+  dispatchCells(cells_, buffers, group_size_);
+}
+
+TornCellsPass::TornCellsPass(const FeatureSet& features) : group_size_(features.group_size) {
+  std::vector<std::string> defines = features.defines();
+  defines.push_back("CUT");
+  torn_ = gpu::Program::compute("volume.comp", defines);
+}
+
+void TornCellsPass::run(const LatticeBuffers& buffers) const {
+  dispatchCells(torn_, buffers, group_size_);
+}
+
+}  // namespace viscera

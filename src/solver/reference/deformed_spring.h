@@ -1,0 +1,47 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "viscera/solver/reference/reference_lattice.h"
+
+namespace viscera {
+
+constexpr double kShortest = 1e-6;  ///< of the rest length: a shorter spring keeps its direction at rest
+
+struct ReferenceLattice::Spring {
+  Vector3d direction;  ///< n, unit vector to the far end
+  double length_m;     ///< L
+  double extension_m;  ///< L - l0
+};
+
+inline ReferenceLattice::Spring ReferenceLattice::springAt(const Field& u_m, uint32_t slot, uint32_t spring) const {
+  const Neighbor& n = neighbor(slot, spring);
+  const Vector3d w = u_m[n.slot] - u_m[slot], edge = n.offset_m + w;
+  const double length = edge.norm();
+  // Without cancellation (physics.md 2).
+  const double extension = (2 * n.offset_m.dot(w) + w.squaredNorm()) / (length + n.rest_m);
+  const bool has_direction = length > kShortest * n.rest_m;
+  return {has_direction ? Vector3d(edge / length) : Vector3d(n.offset_m / n.rest_m), length, extension};
+}
+
+/// Sign of the axis at corner c of a cell: -1 or 1.
+inline double cornerSign(size_t corner, int axis) {
+  return (corner >> axis) & 1u ? 1 : -1;
+}
+
+/// Determinant of 1 + g, less 1, without cancellation.
+inline double volumeStrain(const Eigen::Matrix3d& g) {
+  const double minors = g(0, 0) * g(1, 1) - g(0, 1) * g(1, 0) + g(1, 1) * g(2, 2) - g(1, 2) * g(2, 1) +
+                        g(2, 2) * g(0, 0) - g(2, 0) * g(0, 2);
+  return g.trace() + minors + g.determinant();
+}
+
+/// Derivative of the determinant by the columns a', b', c' of 1 + g: b' x c', c' x a', a' x b'.
+inline Eigen::Matrix3d volumeGradient(const Eigen::Matrix3d& g) {
+  const Eigen::Matrix3d edges = Eigen::Matrix3d::Identity() + g;
+  Eigen::Matrix3d out;
+  for (int i = 0; i < 3; ++i) out.col(i) = edges.col((i + 1) % 3).cross(edges.col((i + 2) % 3));
+  return out;
+}
+
+}  // namespace viscera

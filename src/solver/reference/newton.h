@@ -1,0 +1,56 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/SparseCholesky>
+
+#include "viscera/solver/reference/reference_lattice.h"
+#include "viscera/solver/reference/statics.h"
+
+namespace viscera {
+
+/// Something to minimise over displacements.
+class Objective {
+ public:
+  virtual ~Objective() = default;
+  /// Freezes at u what the coming value()s keep fixed.
+  virtual void freeze(const Field& /*u_m*/) {}
+  virtual double value(const Field& u_m) const = 0;    ///< [J]
+  virtual Field gradient(const Field& u_m) const = 0;  ///< [slots] [N]
+  virtual Eigen::SparseMatrix<double> hessian(const Field& u_m, ReferenceLattice::Curvature curvature) const = 0;
+  virtual double forceScale(const Field& u_m) const = 0;  ///< largest of the forces that balance [N]
+};
+
+/// The degrees of freedom that may move, out of all of a lattice.
+class FreeDofs {
+ public:
+  /// @param free  [dofs]
+  FreeDofs(const ReferenceLattice& lattice, const std::vector<bool>& free);
+  int size() const { return static_cast<int>(select_.cols()); }
+  Eigen::VectorXd of(const Field& field) const;
+  void add(const Eigen::VectorXd& step, double share, Field& field) const;
+  Eigen::SparseMatrix<double> of(const Eigen::SparseMatrix<double>& matrix) const;
+
+ private:
+  const ReferenceLattice& lattice_;
+  Eigen::SparseMatrix<double> select_;  ///< [dofs x free]
+};
+
+Eigen::VectorXd flattened(const ReferenceLattice& lattice, const Field& field);  ///< [dofs]
+
+/// Who solves for the steps of Newton's method.
+enum class LinearSolver {
+  kCholesky,           ///< for statics: any condition number
+  kConjugateGradients  ///< for substeps: inertia keeps the condition number low, and a factorisation is slow
+};
+
+/// Newton's method with line search from u, over the free degrees of freedom. Where the true curvature is not positive,
+/// one that is takes its place, so every step goes downhill.
+/// @throws ConvergenceError
+StaticsReport minimise(Objective& objective, const FreeDofs& free, const StaticsOptions& options, LinearSolver solver,
+                       Field& u_m);
+
+/// Solution of H x = b with H symmetric, made positive definite by a multiple of 1 where it is not.
+Eigen::VectorXd solvePositive(const Eigen::SparseMatrix<double>& h, const Eigen::VectorXd& b);
+
+}  // namespace viscera

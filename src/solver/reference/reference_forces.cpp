@@ -1,0 +1,135 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Forces and energies of the reference (physics.md 1).
+#include <algorithm>
+#include <cmath>
+
+#include "solver/reference/deformed_spring.h"
+#include "viscera/solver/reference/volume_energy.h"
+
+namespace viscera {
+
+double ReferenceLattice::strain(const Field& u_m, uint32_t slot, uint32_t spring) const {
+  return springAt(u_m, slot, spring).extension_m / neighbor(slot, spring).rest_m;
+}
+
+Vector3d ReferenceLattice::springForce(const Field& u_m, uint32_t slot) const {
+  Vector3d sum = Vector3d::Zero();
+  for (uint32_t s = 0; s < layout::kSpringsPerNode; ++s) {
+    const double k = stiffness(slot, s);
+    if (k == 0) continue;
+    const Spring spring = springAt(u_m, slot, s);
+    sum += k * spring.extension_m * spring.direction;
+  }
+  return sum;
+}
+
+Vector3d ReferenceLattice::dashpotForce(const Field& u_m, const Field& v_m_per_s, uint32_t slot) const {
+  Vector3d sum = Vector3d::Zero();
+  for (uint32_t s = 0; s < layout::kSpringsPerNode; ++s) {
+    const double c = dashpot(slot, s);
+    if (c == 0) continue;
+    const Vector3d n = springAt(u_m, slot, s).direction;
+    sum += c * n.dot(v_m_per_s[farEnd(slot, s)] - v_m_per_s[slot]) * n;
+  }
+  return sum;
+}
+
+double ReferenceLattice::dissipation(const Field& u_m, const Field& v_m_per_s) const {
+  double sum = 0;
+  for (uint32_t slot : active) {
+    for (uint32_t s = 0; s < layout::kSpringsPerNode; s += 2) {  // each spring once, from its lower end
+      const double c = dashpot(slot, s);
+      if (c == 0) continue;
+      const double rate = springAt(u_m, slot, s).direction.dot(v_m_per_s[farEnd(slot, s)] - v_m_per_s[slot]);
+      sum += 0.5 * c * rate * rate;
+    }
+  }
+  return sum;
+}
+
+double ReferenceLattice::springEnergy(const Field& u_m) const {
+  double sum = 0;
+  for (uint32_t slot : active) {
+    for (uint32_t s = 0; s < layout::kSpringsPerNode; s += 2) {
+      const double k = stiffness(slot, s);
+      if (k == 0) continue;
+      const double extension = springAt(u_m, slot, s).extension_m;
+      sum += 0.5 * k * extension * extension;
+    }
+  }
+  return sum;
+}
+
+double ReferenceLattice::forceScale(const Field& u_m) const {
+  double scale = 0;
+  for (uint32_t slot : active) {
+    for (uint32_t s = 0; s < layout::kSpringsPerNode; s += 2) {
+      const double k = stiffness(slot, s);
+      if (k == 0) continue;
+      scale =
+          std::max(scale, k * std::max(std::abs(springAt(u_m, slot, s).extension_m), 1e-6 * neighbor(slot, s).rest_m));
+    }
+  }
+  return scale;
+}
+
+/// Columns: what the means of a cell's four edges along x, y, z have grown by, over h.
+Eigen::Matrix3d ReferenceLattice::cellGradient(const Field& u_m, const Cell& cell) const {
+  Eigen::Matrix3d g = Eigen::Matrix3d::Zero();
+  for (size_t c = 0; c < 8; ++c) {
+    for (int axis = 0; axis < 3; ++axis) g.col(axis) += cornerSign(c, axis) * u_m[cell.corners[c]];
+  }
+  return g / (4 * cell.spacing_m);
+}
+
+/// Columns: force that the corners on the far side of each axis get, -p / (4 h) d(V/V0)/d(edge) [N].
+Eigen::Matrix3d ReferenceLattice::cellStress(const Field& u_m, size_t index) const {
+  const Cell& cell = cells_[index];
+  const double bulk_j = bulk(cell.corners[0]);
+  if (bulk_j == 0) return Eigen::Matrix3d::Zero();
+  const Eigen::Matrix3d g = cellGradient(u_m, cell);
+  return -volumeSlope(bulk_j, volumeStrain(g)) / (4 * cell.spacing_m) * volumeGradient(g);
+}
+
+/// @param stress_of  stress_of(cell) is cellStress() of that cell
+template <class StressOf>
+Vector3d ReferenceLattice::volumeForce(StressOf stress_of, uint32_t slot) const {
+  Vector3d sum = Vector3d::Zero();
+  for (size_t c = 0; c < 8; ++c) {
+    const int cell = around_[slot][c];
+    if (cell < 0) continue;
+    const Eigen::Matrix3d stress = stress_of(static_cast<size_t>(cell));
+    for (int axis = 0; axis < 3; ++axis) sum += cornerSign(c, axis) * stress.col(axis);
+  }
+  return sum;
+}
+
+double ReferenceLattice::volumeEnergy(const Field& u_m) const {
+  double sum = 0;
+  for (const Cell& cell : cells_) {
+    const double bulk_j = bulk(cell.corners[0]);
+    if (bulk_j != 0) sum += viscera::volumeEnergy(bulk_j, volumeStrain(cellGradient(u_m, cell)));
+  }
+  return sum;
+}
+
+double ReferenceLattice::elasticEnergy(const Field& u_m) const {
+  return springEnergy(u_m) + volumeEnergy(u_m);
+}
+
+Vector3d ReferenceLattice::elasticForce(const Field& u_m, uint32_t slot) const {
+  return springForce(u_m, slot) + volumeForce([&](size_t cell) { return cellStress(u_m, cell); }, slot);
+}
+
+Field ReferenceLattice::elasticForces(const Field& u_m) const {
+  std::vector<Eigen::Matrix3d> stresses(cells_.size());  // each serves eight nodes
+  for (size_t c = 0; c < cells_.size(); ++c) stresses[c] = cellStress(u_m, c);
+  Field forces(slots(), Vector3d::Zero());
+  for (uint32_t slot : active) {
+    forces[slot] = springForce(u_m, slot) + volumeForce([&](size_t cell) { return stresses[cell]; }, slot);
+  }
+  return forces;
+}
+
+}  // namespace viscera

@@ -1,0 +1,99 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Second derivatives of the elastic energy.
+#include <Eigen/Eigenvalues>
+
+#include "solver/reference/deformed_spring.h"
+#include "viscera/solver/reference/volume_energy.h"
+
+namespace viscera {
+
+namespace {
+
+using Matrix9d = Eigen::Matrix<double, 9, 9>;
+using Vector9d = Eigen::Matrix<double, 9, 1>;
+using Triplets = std::vector<Eigen::Triplet<double>>;
+
+void addBlock(int row, int column, const Eigen::Matrix3d& block, Triplets& out) {
+  for (int r = 0; r < 3; ++r)
+    for (int c = 0; c < 3; ++c) out.emplace_back(row + r, column + c, block(r, c));
+}
+
+Eigen::Matrix3d crossMatrix(const Vector3d& a) {
+  Eigen::Matrix3d m;
+  m << 0, -a.z(), a.y(), a.z(), 0, -a.x(), -a.y(), a.x(), 0;
+  return m;
+}
+
+/// d2 W / d(a', b', c')2 with W(det(a', b', c') - 1): p'(e) grad grad^T + p(e) d2 det.
+Matrix9d volumeCurvatureMatrix(double bulk_j, const Eigen::Matrix3d& g) {
+  const double e = volumeStrain(g), slope = volumeSlope(bulk_j, e);
+  const Eigen::Matrix3d gradient = volumeGradient(g), edges = Eigen::Matrix3d::Identity() + g;
+  const Vector9d flat = Eigen::Map<const Vector9d>(gradient.data());
+  Matrix9d out = volumeCurvature(bulk_j, e) * flat * flat.transpose();
+  for (int i = 0; i < 3; ++i) {  // det(da', db', c') = da' . (db' x c')
+    const int j = (i + 1) % 3;
+    const Eigen::Matrix3d cross = slope * crossMatrix(edges.col((i + 2) % 3));
+    out.block<3, 3>(3 * i, 3 * j) -= cross;
+    out.block<3, 3>(3 * j, 3 * i) += cross;
+  }
+  return out;
+}
+
+Matrix9d positivePart(const Matrix9d& m) {
+  const Eigen::SelfAdjointEigenSolver<Matrix9d> eigen(m);
+  return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).asDiagonal() * eigen.eigenvectors().transpose();
+}
+
+}  // namespace
+
+void ReferenceLattice::addSprings(const Field& u_m, Curvature curvature, double dashpot_per_s, Triplets& out) const {
+  for (uint32_t slot : active) {
+    for (uint32_t s = 0; s < layout::kSpringsPerNode; s += 2) {  // each spring once, from its lower end
+      const double k = stiffness(slot, s);
+      if (k == 0) continue;
+      const Spring spring = springAt(u_m, slot, s);
+      const Eigen::Matrix3d along = spring.direction * spring.direction.transpose();
+      // Tension over length, what a spring resists turning with; negative while it is compressed.
+      double turning = k * spring.extension_m / std::max(spring.length_m, kShortest * neighbor(slot, s).rest_m);
+      if (curvature == Curvature::kPositive) turning = std::max(0.0, turning);
+      const Eigen::Matrix3d block =
+          (k + dashpot(slot, s) * dashpot_per_s) * along + turning * (Eigen::Matrix3d::Identity() - along);
+      const int near = dof(slot, 0), far = dof(farEnd(slot, s), 0);
+      addBlock(near, near, block, out);
+      addBlock(far, far, block, out);
+      addBlock(near, far, -block, out);
+      addBlock(far, near, -block, out);
+    }
+  }
+}
+
+void ReferenceLattice::addVolumes(const Field& u_m, Curvature curvature, Triplets& out) const {
+  for (const Cell& cell : cells_) {
+    const double bulk_j = bulk(cell.corners[0]);
+    if (bulk_j == 0) continue;
+    Matrix9d m = volumeCurvatureMatrix(bulk_j, cellGradient(u_m, cell));
+    if (curvature == Curvature::kPositive) m = positivePart(m);
+    m /= 16 * cell.spacing_m * cell.spacing_m;
+    for (size_t a = 0; a < 8; ++a) {
+      for (size_t b = 0; b < 8; ++b) {
+        Eigen::Matrix3d block = Eigen::Matrix3d::Zero();
+        for (int i = 0; i < 3; ++i)
+          for (int j = 0; j < 3; ++j) block += cornerSign(a, i) * cornerSign(b, j) * m.block<3, 3>(3 * i, 3 * j);
+        addBlock(dof(cell.corners[a], 0), dof(cell.corners[b], 0), block, out);
+      }
+    }
+  }
+}
+
+Eigen::SparseMatrix<double> ReferenceLattice::stiffnessMatrix(const Field& u_m, Curvature curvature,
+                                                              double dashpot_per_s) const {
+  Triplets triplets;
+  addSprings(u_m, curvature, dashpot_per_s, triplets);
+  addVolumes(u_m, curvature, triplets);
+  Eigen::SparseMatrix<double> out(dofs(), dofs());
+  out.setFromTriplets(triplets.begin(), triplets.end());
+  return out;
+}
+
+}  // namespace viscera

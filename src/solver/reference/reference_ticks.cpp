@@ -1,0 +1,80 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "viscera/solver/reference/reference_ticks.h"
+
+#include <algorithm>
+
+#include "viscera/solver/substeps.h"
+
+namespace viscera {
+
+namespace {
+
+SolverConfig ungoverned(SolverConfig config) {
+  config.governor = false;
+  return config;
+}
+
+ReferenceOptions optionsFor(const Model& model, const SolverConfig& config) {
+  ReferenceOptions options;
+  if (config.integrator == Integrator::kVerletPaper) options.integrator = ReferenceIntegrator::kVerletPaper;
+  if (!isExplicit(config.integrator)) options.integrator = ReferenceIntegrator::kImplicitEuler;
+  options.push_speed_m_per_s = static_cast<float>(pushSpeed(model));
+  options.sleep_distance_m = static_cast<float>(config.sleep_distance_m);
+  return options;
+}
+
+}  // namespace
+
+// Substep, gravity and limits are the float32 numbers that the kernels get: what differs is the arithmetic alone.
+ReferenceTicks::ReferenceTicks(const Model& model, const Scene& scene)
+    : styluses_(scene.styluses),
+      tick_hz_(scene.solver.tick_hz),
+      dt_safe_s_(safeTimeStep(model)),
+      substeps_(planSubsteps(model, ungoverned(scene.solver), dt_safe_s_).calm),
+      solver_(model, scene.environment.gravity_m_per_s2.cast<float>().cast<double>(), static_cast<float>(dt_s()),
+              optionsFor(model, scene.solver)),
+      impulse_before_(solver_.impulse_n_s) {}
+
+void ReferenceTicks::step(const ToolMotions& motions) {
+  impulse_before_ = solver_.impulse_n_s;
+  for (uint32_t s = 0; s < styluses_.size(); ++s) {
+    if (motions[s].grab_ends) solver_.letGo(s, styluses_[s].release_speed_m_per_s);
+    if (motions[s].grab_begins) solver_.takeHold(s, motions[s].from, styluses_[s].grab_radius_m);
+  }
+  interpolateMotions(motions, styluses_, substeps_, motions_);
+  for (int n = 0; n < substeps_; ++n) {
+    SubstepMotions substep;
+    std::copy_n(motions_.begin() + n * static_cast<int>(layout::kMaxStyluses), layout::kMaxStyluses, substep.begin());
+    solver_.substep(substep);
+  }
+}
+
+Vector3d ReferenceTicks::impulse(uint32_t stylus) const {
+  return solver_.impulse_n_s[stylus] - impulse_before_[stylus];
+}
+
+double ReferenceTicks::maxStretch() const {
+  double largest = 0;
+  for (uint32_t slot : solver_.active) {
+    for (uint32_t s = 0; s < layout::kSpringsPerNode; s += 2) {
+      if (springCount(solver_.nodes[slot], s) == 0) continue;
+      largest = std::max(largest, std::abs(solver_.strain(solver_.u_m, slot, s)));
+    }
+  }
+  return largest;
+}
+
+double ReferenceTicks::maxSpeed_m_per_s() const {
+  double largest = 0;
+  for (uint32_t slot : solver_.active) largest = std::max(largest, solver_.v_m_per_s[slot].norm());
+  return largest;
+}
+
+uint64_t ReferenceTicks::nonfinite() const {
+  return static_cast<uint64_t>(std::count_if(solver_.active.begin(), solver_.active.end(), [&](uint32_t slot) {
+    return !solver_.u_m[slot].allFinite() || !solver_.v_m_per_s[slot].allFinite();
+  }));
+}
+
+}  // namespace viscera

@@ -1,0 +1,123 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+// What styluses do to the reference (VR05 2.7, physics.md 5).
+#include <algorithm>
+#include <cmath>
+
+#include "viscera/solver/reference/reference_solver.h"
+
+namespace viscera {
+
+namespace {
+
+Vector3d xyz(const layout::vec4& v) {
+  return {v.x, v.y, v.z};
+}
+
+Vector3d nearestOnSegment(const Vector3d& a, const Vector3d& b, const Vector3d& x) {
+  const Vector3d ab = b - a;
+  const double length2 = ab.squaredNorm();
+  return length2 > 0 ? Vector3d(a + std::clamp((x - a).dot(ab) / length2, 0.0, 1.0) * ab) : a;
+}
+
+/// Does the segment a..b cross the triangle p q r? Borders belong to it.
+bool crosses(const Vector3d& a, const Vector3d& b, const Vector3d& p, const Vector3d& q, const Vector3d& r) {
+  const Vector3d normal = (q - p).cross(r - p);
+  if (normal.isZero(0)) return false;
+  const double da = (a - p).dot(normal), db = (b - p).dot(normal);
+  if ((da >= 0) == (db >= 0)) return false;
+  const Vector3d x = a + da / (da - db) * (b - a);
+  return (q - p).cross(x - p).dot(normal) >= 0 && (r - q).cross(x - q).dot(normal) >= 0 &&
+         (p - r).cross(x - r).dot(normal) >= 0;
+}
+
+double distanceToTriangle(const Vector3d& x, const Vector3d& p, const Vector3d& q, const Vector3d& r) {
+  double d = std::min({(x - nearestOnSegment(p, q, x)).norm(), (x - nearestOnSegment(q, r, x)).norm(),
+                       (x - nearestOnSegment(r, p, x)).norm()});
+  const Vector3d normal = (q - p).cross(r - p);
+  const bool inside = !normal.isZero(0) && (q - p).cross(x - p).dot(normal) >= 0 &&
+                      (r - q).cross(x - q).dot(normal) >= 0 && (p - r).cross(x - r).dot(normal) >= 0;
+  return inside ? std::min(d, std::abs((x - p).dot(normal)) / normal.norm()) : d;
+}
+
+/// Swept sphere of VR05 2.7.1: out of the final sphere along the radius, out of the swept capsule sideways, but by no
+/// more than longest_push_m.
+void probe(const layout::ToolMotion& m, double dt_s, double longest_push_m, const Vector3d& x, Vector3d& x_next,
+           Vector3d& v_next) {
+  const double radius = m.from.w;
+  const Vector3d from = xyz(m.from), to = xyz(m.to), travel = to - from;
+  const Vector3d centre = (x_next - to).norm() < radius ? to : nearestOnSegment(from, to, x_next);
+  const Vector3d out = x_next - centre;
+  if (out.norm() >= radius) return;
+  const Vector3d fallback = (x - centre).norm() > 0 ? Vector3d(x - centre)
+                            : travel.norm() > 0     ? Vector3d(-travel)
+                                                    : Vector3d::UnitZ();
+  const Vector3d normal = (out.norm() > 1e-6 * radius ? out : fallback).normalized();
+  const Vector3d push = centre + radius * normal - x_next;
+  x_next += std::min(1.0, longest_push_m / push.norm()) * push;
+  v_next -= std::min(0.0, (v_next - travel / dt_s).dot(normal)) * normal;
+}
+
+}  // namespace
+
+Vector3d ReferenceSolver::heldDisplacement(const layout::ToolMotion& m, uint32_t slot) const {
+  const Quaterniond q(m.orientation.w, m.orientation.x, m.orientation.y, m.orientation.z);
+  return xyz(m.to) + q * grab_offsets_[slot] - restPosition(slot);
+}
+
+void ReferenceSolver::applyTools(const SubstepMotions& motions, uint32_t slot, Vector3d& u_next, Vector3d& v_next) {
+  const uint32_t held_by = heldBy(slot);
+  for (uint32_t s = 0; s < layout::kMaxStyluses; ++s) {
+    const layout::ToolMotion& m = motions[s];
+    const Vector3d v_before = v_next;
+    if (held_by == s + 1) {
+      u_next = heldDisplacement(m, slot);
+      v_next = (u_next - u_m[slot]) / dt_s_;
+    } else if (held_by == 0 && m.info.x == layout::kModeProbe) {
+      Vector3d x_next = restPosition(slot) + u_next;
+      probe(m, dt_s_, options_.push_speed_m_per_s * dt_s_, restPosition(slot) + u_m[slot], x_next, v_next);
+      u_next = x_next - restPosition(slot);
+    }
+    impulse_n_s[s] += mass(slot) * (v_next - v_before);
+  }
+}
+
+void ReferenceSolver::takeHold(uint32_t stylus, const Pose& pose, double radius_m) {
+  for (uint32_t slot : active) {
+    if (isFixed(nodes[slot]) || heldBy(slot) != 0 || isIsolated(slot)) continue;
+    const Vector3d offset = restPosition(slot) + u_m[slot] - pose.position_m;
+    if (offset.norm() > radius_m) continue;
+    grab_offsets_[slot] = pose.orientation.conjugate() * offset;
+    nodes[slot].lo |= (stylus + 1) << layout::kGrabShift;
+  }
+}
+
+void ReferenceSolver::letGo(uint32_t stylus, double release_speed_m_per_s) {
+  for (uint32_t slot : active) {
+    if (heldBy(slot) != stylus + 1) continue;
+    nodes[slot].lo &= ~layout::kGrabMask;
+    const double speed = v_m_per_s[slot].norm();
+    if (speed > release_speed_m_per_s) v_m_per_s[slot] *= release_speed_m_per_s / speed;
+  }
+}
+
+void ReferenceSolver::cut(const layout::ToolMotion& m) {
+  const Vector3d a = xyz(m.from), b = xyz(m.blade_from), c = xyz(m.blade_to), d = xyz(m.to);
+  const auto position = [&](uint32_t slot) { return Vector3d(restPosition(slot) + u_m[slot]); };
+  const auto erased = [&](const Vector3d& x) {
+    return std::min(distanceToTriangle(x, a, b, c), distanceToTriangle(x, a, c, d)) <= m.blade_from.w;
+  };
+  for (uint32_t slot : active) {
+    for (uint32_t s = 0; s < layout::kSpringsPerNode; s += 2) {  // each spring once, from its lower end
+      if (springCount(nodes[slot], s) == 0) continue;
+      const Vector3d x = position(slot), y = position(farEnd(slot, s));
+      const bool severed = m.info.x == layout::kModeCutParticles ? erased(x) || erased(y)
+                                                                 : crosses(x, y, a, b, c) || crosses(x, y, a, c, d);
+      if (!severed) continue;
+      eraseSpring(slot, s);
+      ++springs_cut;
+    }
+  }
+}
+
+}  // namespace viscera

@@ -1,0 +1,45 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "support/process.h"
+#include "support/text.h"
+
+#ifdef VISCERA_COMMAND
+
+namespace viscera {
+namespace {
+
+using namespace test;
+
+TEST(MaterialSuite, ShortFormReachesEveryLimitAndLeavesTablesAndPlots) {
+  const TemporaryFolder folder;
+  const Ending ending =
+      runProgram(VISCERA_COMMAND, {"bench", "material", "--short", "--strict", "--out", folder.file("out")});
+  EXPECT_EQ(ending.status, 0) << ending.out << ending.err;
+  EXPECT_TRUE(says(ending.out, {"viscera bench material --short, on ", "Checks of material", " checks, 0 missed"}));
+  for (const char* stem : {"tension", "stretch", "chains", "waves", "cantilever", "hertz", "probe"}) {
+    for (const char* extension : {".csv", ".png"}) {
+      EXPECT_TRUE(std::filesystem::exists(folder.file(std::string("out/material_") + stem + extension)))
+          << stem << extension;
+    }
+  }
+  // Every kind of measurement has said what it found.
+  const std::string checks = readFile(folder.file("out/material_checks.csv"));
+  EXPECT_TRUE(says(checks, {"tension", "finite stretch", "chains", "plane waves", "cantilever", "Hertz", "probe"}));
+}
+
+TEST(MaterialSuite, RefusesAFolderThatIsAFile) {
+  const TemporaryFolder folder;
+  const Ending ending =
+      runProgram(VISCERA_COMMAND, {"bench", "material", "--short", "--out", folder.write("file", "") + "/x"});
+  EXPECT_EQ(ending.status, 1);
+  EXPECT_TRUE(says(ending.err, {"viscera: error: --out"}));
+}
+
+}  // namespace
+}  // namespace viscera
+
+#endif  // VISCERA_COMMAND

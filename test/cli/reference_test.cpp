@@ -1,0 +1,88 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/small_scene.h"
+#include "support/temporary_folder.h"
+#include "support/text.h"
+
+namespace viscera {
+namespace {
+
+using namespace test;
+using Json = nlohmann::json;
+
+/// The probe presses the block's side, then grabs and lets go.
+constexpr const char* kTouch =
+    "strokes:\n"
+    "  - stylus: left\n"
+    "    keys:\n"
+    "      - {t_s: 0, position_m: [0, -0.04, 0]}\n"
+    "      - {t_s: 0.1, position_m: [0, -0.018, 0]}\n"
+    "      - {t_s: 0.15, position_m: [0, -0.018, 0], button1: true}\n"
+    "      - {t_s: 0.25, position_m: [0, -0.025, 0.002], button1: true}\n"
+    "      - {t_s: 0.3, position_m: [0, -0.04, 0]}\n";
+
+class RunReference : public ::testing::Test {
+ protected:
+  static Json lastLine(const Ending& ending) {
+    EXPECT_EQ(ending.status, 0) << ending.err;
+    const std::vector<std::string> lines = linesOf(ending.out);
+    return lines.empty() ? Json() : Json::parse(lines.back(), nullptr, false);
+  }
+  Ending run(std::vector<std::string> options, const std::vector<std::string>& environment = {}) const {
+    options.insert(options.begin(), {"run", scene_});
+    return viscera(options, environment);
+  }
+  double gpuError(const std::vector<std::string>& settings) const {
+    std::vector<std::string> options = {"--reference", "--compare", "--strokes", strokes_};
+    for (const std::string& setting : settings) options.insert(options.end(), {"--set", setting});
+    const Json metrics = lastLine(run(options));
+    EXPECT_GT(metrics["peak_force_n"], 0);
+    return metrics["gpu_error"];
+  }
+
+  TemporaryFolder folder_;
+  std::string scene_ = folder_.write("block.yaml", kBlockScene), strokes_ = folder_.write("touch.yaml", kTouch);
+};
+
+}  // namespace
+
+TEST_F(RunReference, NeedsNoGpuAndSaysTheSameThings) {
+  const Json gpu = lastLine(run({"--strokes", strokes_, "--set", "solver.governor=false"}));
+  const Json reference = lastLine(run({"--strokes", strokes_, "--reference"}, {kNoDevice}));
+  EXPECT_EQ(reference["backend"], "reference");
+  EXPECT_EQ(reference["renderer"], "none");
+  for (const auto& [key, value] : gpu.items()) EXPECT_TRUE(reference.contains(key)) << key;
+  for (const char* key : {"nodes", "springs", "springs_cut", "faces", "steps", "dt_s", "dt_safe_s", "simulated_s"})
+    EXPECT_EQ(reference[key], gpu[key]) << key;
+  for (const char* key : {"max_stretch", "max_speed_m_per_s", "peak_force_n"}) {
+    EXPECT_NEAR(reference[key].get<double>() / gpu[key].get<double>(), 1, 1e-3) << key;  // float32, touched by a tool
+  }
+}
+
+TEST_F(RunReference, GpuIsCloseToIt) {
+  constexpr double kTouched = 1e-5;  // of the largest displacement: float32 while a tool presses, grabs and lets go
+  EXPECT_LT(gpuError({}), kTouched);
+  EXPECT_LT(gpuError({"bodies[0].material.poisson_ratio=0.4"}), kTouched);
+}
+
+TEST_F(RunReference, RefusesPictures) {
+  const Ending ending = run({"--reference", "--out", folder_.file("out")});
+  EXPECT_EQ(ending.status, 1);
+  const std::vector<std::string> errors = complaints(ending);
+  ASSERT_EQ(errors.size(), 1u) << ending.err;
+  EXPECT_TRUE(says(errors[0], {"--out", "--reference"}));
+}
+
+TEST_F(RunReference, SolvesImplicitEulerForVbdAndPd) {
+  const auto hashOf = [&](const std::string& integrator) {
+    return lastLine(run({"--reference", "--seconds", "0.05", "--set", "solver.integrator=" + integrator, "--set",
+                         "solver.substeps=4"}))["state_hash"];
+  };
+  EXPECT_EQ(hashOf("vbd"), hashOf("pd"));
+}
+
+}  // namespace viscera

@@ -1,0 +1,168 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "viscera/solver/governor.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+
+#include "support/lattices.h"
+#include "viscera/solver/material.h"
+
+namespace viscera {
+namespace {
+
+constexpr double kTick_s = 0.01;
+constexpr double kRecovery_s = 0.05;  // 5 ticks
+const Governor::Limits kLimits{10.0, 1.0};
+
+uint32_t bits(float value) {
+  uint32_t out;
+  std::memcpy(&out, &value, sizeof out);
+  return out;
+}
+
+layout::TickStats stats(double kinetic_j, double elastic_j, double speed = 0.1, double stretch = 0.1) {
+  layout::TickStats out{};
+  out.kinetic_j = static_cast<float>(kinetic_j);
+  out.elastic_j = static_cast<float>(elastic_j);
+  out.max_speed_bits = bits(static_cast<float>(speed));
+  out.max_stretch_bits = bits(static_cast<float>(stretch));
+  return out;
+}
+
+const layout::TickStats kCalm = stats(0.1, 0.1);
+const layout::TickStats kExploded = stats(100, 0.1);
+
+Governor governor() {
+  return Governor(kLimits, kTick_s, kRecovery_s);
+}
+
+/// Ticks until the recovery that is under way has ended.
+int ticksOfRecovery(Governor& g) {
+  int ticks = 0;
+  while (g.health().recovering && ticks < 1000) {
+    g.judge(kCalm, true);
+    ++ticks;
+  }
+  return ticks;
+}
+
+TEST(Governor, OrdinaryTicksPass) {
+  Governor g = governor();
+  for (int t = 0; t < 100; ++t) EXPECT_EQ(g.judge(kCalm, false), Governor::Trip::kNone);
+  EXPECT_EQ(g.health().trips, 0u);
+  EXPECT_FALSE(g.health().recovering);
+  EXPECT_FALSE(g.health().strained);
+  EXPECT_FLOAT_EQ(g.health().elastic_j, 0.1f);
+}
+
+TEST(Governor, NodesThatAreNotFiniteTrip) {
+  Governor g = governor();
+  layout::TickStats bad = kCalm;
+  bad.nonfinite = 1;
+  EXPECT_EQ(g.judge(bad, true), Governor::Trip::kNonFinite);
+  EXPECT_EQ(governor().judge(stats(NAN, 0), true), Governor::Trip::kNonFinite);
+  EXPECT_EQ(governor().judge(stats(0, INFINITY), true), Governor::Trip::kNonFinite);
+}
+
+TEST(Governor, EnergyFromNowhereTrips) {
+  Governor g = governor();
+  g.judge(kCalm, false);
+  EXPECT_EQ(g.judge(stats(1.1, 1.2), false), Governor::Trip::kNone);  // 2.3 < 2 (0.2 + 1)
+  EXPECT_EQ(g.judge(stats(6, 0.7), false), Governor::Trip::kEnergy);  // 6.7 > 2 (2.3 + 1)
+  EXPECT_EQ(g.judge(stats(6, 0.7), true), Governor::Trip::kEnergy) << "whatever the integrator";
+}
+
+TEST(Governor, EnergyThatToolsPutInIsAllowed) {
+  Governor g = governor();
+  g.judge(kCalm, false);
+  EXPECT_EQ(g.judge(stats(4, 0.7), false, 1.5), Governor::Trip::kNone);  // 4.7 < 2 (0.2 + 1 + 1.5)
+  Governor other = governor();
+  other.judge(kCalm, false);
+  EXPECT_EQ(other.judge(stats(4, 0.7), false, 1), Governor::Trip::kEnergy);
+}
+
+TEST(Governor, EnergyOfAStateThatWasWrittenIsNoExplosion) {
+  Governor g = governor();
+  g.judge(kCalm, false);
+  g.restart(stats(0, 1e6));
+  EXPECT_EQ(g.judge(stats(0, 1.5e6), false), Governor::Trip::kNone);
+}
+
+TEST(Governor, SpeedTripsExplicitIntegratorsOnly) {
+  Governor g = governor();
+  EXPECT_EQ(g.judge(stats(0.1, 0.1, 11), true), Governor::Trip::kNone);
+  EXPECT_EQ(g.judge(stats(0.1, 0.1, 11), false), Governor::Trip::kSpeed);
+  EXPECT_EQ(g.health().trips, 1u);
+}
+
+TEST(Governor, RecoveryTakesItsTimeAndEndsInACalmState) {
+  Governor g = governor();
+  g.judge(kExploded, false);
+  ASSERT_TRUE(g.health().recovering);
+  EXPECT_EQ(ticksOfRecovery(g), 5);
+  EXPECT_EQ(g.health().trips, 1u);
+}
+
+TEST(Governor, RecoveryGoesOnWhileNodesAreFast) {
+  Governor g = governor();
+  g.judge(kCalm, false);
+  g.judge(kExploded, false);
+  for (int t = 0; t < 50; ++t) g.judge(stats(0.1, 0.1, 6), true);
+  EXPECT_TRUE(g.health().recovering);
+  g.judge(kCalm, true);
+  EXPECT_FALSE(g.health().recovering);
+}
+
+TEST(Governor, TripsThatKeepComingMakeRecoveriesLongerUpToSixteenTimes) {
+  Governor g = governor();
+  g.judge(kCalm, false);
+  int expected = 5;
+  for (int trip = 0; trip < 7; ++trip) {
+    ASSERT_EQ(g.judge(kExploded, false), Governor::Trip::kEnergy);
+    EXPECT_EQ(ticksOfRecovery(g), expected) << "trip " << trip;
+    expected = std::min(2 * expected, 16 * 5);
+  }
+  for (int t = 0; t < 30; ++t) g.judge(kCalm, false);  // a long peace
+  g.judge(kExploded, false);
+  EXPECT_EQ(ticksOfRecovery(g), 5);
+}
+
+TEST(Governor, SetbacksCountTripsWithoutAGoodTickBetween) {
+  Governor g = governor();
+  g.judge(kCalm, false);
+  g.judge(kExploded, false);
+  EXPECT_EQ(g.setbacks(), 1);
+  g.judge(kExploded, true);
+  EXPECT_EQ(g.setbacks(), 2);
+  g.judge(kCalm, true);
+  EXPECT_EQ(g.setbacks(), 0);
+}
+
+TEST(Governor, StretchSpeedAndCollapseMeanStrained) {
+  const auto strained = [](const layout::TickStats& s) {
+    Governor g = governor();
+    g.judge(s, false);
+    return g.health().strained;
+  };
+  EXPECT_TRUE(strained(stats(0.1, 0.1, 0.1, 1.5)));
+  EXPECT_TRUE(strained(stats(0.1, 0.1, 3)));
+  layout::TickStats collapsed = kCalm;
+  collapsed.collapsed = 1;
+  EXPECT_TRUE(strained(collapsed));
+}
+
+TEST(Governor, LimitsComeFromTheMaterial) {
+  const Model model = test::modelOf({test::boxBody({2, 3, 4}, 0.01)});
+  const double wave = waveSpeed(model), mass = 1060 * 24 * 1e-6;
+  const Governor::Limits still = governorLimits(model, 0, 1);
+  EXPECT_NEAR(still.speed_m_per_s, 5 * wave, 1e-6 * wave);
+  EXPECT_NEAR(still.energy_j, mass * wave * wave, 1e-5 * mass * wave * wave);  // float32 mass of a cell
+  const Governor::Limits falling = governorLimits(model, 9.81, 10);
+  EXPECT_NEAR(falling.speed_m_per_s, 5 * std::sqrt(2 * 9.81 * 10), 1e-6);
+}
+
+}  // namespace
+}  // namespace viscera

@@ -1,0 +1,74 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <random>
+
+#include "support/lattices.h"
+#include "viscera/solver/reference/reference_solver.h"
+
+namespace viscera::test {
+
+/// Without drag and dashpot, k = h = 1 and a cell of 1 kg at nu = 1/4; exact in float32.
+inline Body unitBody(const Vector3i& cells, double poisson_ratio = 0.25) {
+  Body body = boxBody(cells, 1.0);
+  body.material = {2 * (1 + poisson_ratio), poisson_ratio, 1, 0, 0, Weights::kCell};
+  return body;
+}
+
+/// Chain of unit masses and unit springs along z.
+inline Body unitChain(int count) {
+  Body body = unitBody({1, 1, count - 1});
+  Lattice& lattice = body.lattice;
+  lattice.active_slots.clear();
+  for (uint32_t slot = 0; slot < lattice.nodes.size(); ++slot) {
+    const Vector3i n = lattice.nodeAt(slot);
+    layout::NodeBits& bits = lattice.nodes[slot];
+    const bool keep = n.x() == 0 && n.y() == 0 && massEighths(bits) > 0;
+    bits = {keep ? 8u << layout::kMassShift : 0u, 0u};
+    if (!keep) continue;
+    lattice.active_slots.push_back(slot);
+    if (n.z() + 1 < count) setSpringCount(bits, 4, 4);
+    if (n.z() > 0) setSpringCount(bits, 5, 4);
+  }
+  return body;
+}
+
+inline uint32_t slotAt(const Body& body, int x, int y, int z) {
+  return static_cast<uint32_t>(body.lattice.slotAt({x, y, z}));
+}
+
+/// Fixes the nodes at z = 0.
+inline Body standing(Body body) {
+  for (uint32_t slot : body.lattice.active_slots) {
+    if (body.lattice.nodeAt(slot).z() == 0) body.lattice.nodes[slot].lo |= layout::kFixedBit;
+  }
+  return body;
+}
+
+inline Field randomField(const ReferenceLattice& lattice, double size, uint32_t seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> uniform(-size, size);
+  Field out(lattice.slots(), Vector3d::Zero());
+  for (uint32_t slot : lattice.active) out[slot] = Vector3d(uniform(random), uniform(random), uniform(random));
+  return out;
+}
+
+/// A body of two parts whose cells differ in everything; some cells are missing.
+inline Body patchworkBody(Weights weights = Weights::kCell) {
+  Solid solid;
+  solid.spacing_m = 0.5;
+  solid.cells = {3, 3, 2};
+  solid.labels.assign(18, 1);
+  for (size_t i = 0; i < 18; i += 2) solid.labels[i] = 2;
+  solid.labels[4] = solid.labels[17] = 0;
+  solid.part_names = {"soft", "hard"};
+  Body body;
+  body.name = "patchwork";
+  body.lattice = buildLattice(solid, weights);
+  body.material = {2.5, 0.1, 1, 0, 0, weights};
+  body.parts = {{"hard", 40, 0.45, 3}};
+  return body;
+}
+
+}  // namespace viscera::test

@@ -1,0 +1,150 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "support/random_state.h"
+
+namespace viscera::test {
+
+/// Starts that no gentle simulation meets.
+enum class Abuse { kRandomPlaces, kRandomVelocities, kBoth, kOnePoint, kMirrored };
+constexpr Abuse kAbuses[] = {Abuse::kRandomPlaces, Abuse::kRandomVelocities, Abuse::kBoth, Abuse::kOnePoint,
+                             Abuse::kMirrored};
+
+/// Places to +-10 h, velocities to 100 m/s.
+inline HostState abusedState(const Model& model, Abuse abuse) {
+  const Lattice& lattice = model.bodies[0].lattice;
+  const bool places = abuse == Abuse::kRandomPlaces || abuse == Abuse::kBoth;
+  const bool velocities = abuse == Abuse::kRandomVelocities || abuse == Abuse::kBoth;
+  HostState state = randomState(model, places ? 10 * lattice.spacing_m : 0, velocities ? 100 : 0, 7);
+  for (uint32_t slot : lattice.active_slots) {
+    const Vector3d x = lattice.restPosition(slot);
+    if (abuse == Abuse::kOnePoint) state.displacement_m[slot] = vec4(Vector3d::Constant(0.015) - x);
+    if (abuse == Abuse::kMirrored) state.displacement_m[slot] = vec4({-2 * x.x(), 0, 0});
+  }
+  return state;
+}
+
+inline bool isFinite(const std::vector<layout::vec4>& values) {
+  return std::all_of(values.begin(), values.end(), [](const layout::vec4& v) { return xyz(v).allFinite(); });
+}
+
+/// Runs every abused start without gravity and drag: kinetic and elastic energy must stay below 1.01 of the start.
+inline void expectEnergyBound(Integrator integrator, double poisson_ratio, double fraction, int iterations = 20) {
+  constexpr int kTicks = 8;
+  constexpr double kAllowed = 0.01;    // of the start: the stability suite's limit
+  constexpr double kNothing_j = 1e-9;  // float32 rounding of a body at rest: 1e-7 h in every spring is 1e-14 J
+  Body body = boxBody({3, 3, 3}, 0.01);
+  body.material.poisson_ratio = poisson_ratio;
+  body.material.drag_per_s = 0;
+  const Model model = modelOf({body});
+  GpuSolver solver(model, sceneWith(integrator, model, 1, fraction, iterations));
+  for (const Abuse abuse : kAbuses) {
+    SCOPED_TRACE(::testing::Message() << "nu " << poisson_ratio << ", dt " << fraction << " dt_safe, start "
+                                      << static_cast<int>(abuse));
+    const HostState start = abusedState(model, abuse);
+    solver.writeState(start);
+    const double start_j = energyOf(model, start);
+    for (int t = 0; t < kTicks; ++t) {
+      solver.step({});
+      const HostState state = solver.readState();
+      ASSERT_TRUE(isFinite(state.displacement_m) && isFinite(state.velocity_m_per_s)) << "tick " << t;
+      ASSERT_LE(energyOf(model, state), start_j + kAllowed * std::abs(start_j) + kNothing_j) << "tick " << t;
+    }
+    // A bound that is kept by standing still would be worth nothing. (A mirrored box is at rest.)
+    if (abuse != Abuse::kMirrored && fraction >= 1) {
+      EXPECT_LT(energyOf(model, solver.readState()), 0.5 * start_j);
+    }
+  }
+}
+
+/// A stylus that takes hold of the body's corner and pulls it out, and one that probes the opposite side.
+struct PullAndProbe {
+  PullAndProbe() {
+    StylusConfig grab, probe;
+    grab.grab_radius_m = 0.008;
+    probe.probe_radius_m = 0.012;
+    styluses = {grab, probe};
+  }
+  /// Motions of a tick, held corner at (0, 0, 0), probe above the face at `height_m`.
+  ToolMotions motions(int tick, double height_m) const {
+    const auto at = [](double x, double y, double z) {
+      Pose pose;
+      pose.position_m = {x, y, z};
+      return pose;
+    };
+    ToolMotions out;
+    out[0].mode = ToolMode::kGrab;
+    out[0].grab_begins = tick == 0;
+    out[0].from = at(-0.001 * tick, 0, 0);
+    out[0].to = at(-0.001 * (tick + 1), 0, 0);
+    out[1].mode = ToolMode::kProbe;
+    out[1].from = at(0.02, 0.02, height_m + 0.012 - 0.001 * tick);
+    out[1].to = at(0.02, 0.02, height_m + 0.011 - 0.001 * tick);
+    for (StylusMotion& motion : out) motion.present = true;
+    return out;
+  }
+  std::vector<StylusConfig> styluses;
+};
+
+/// Ticks of pulling and probing against the reference's implicit Euler: displacements and what the tools gave.
+/// @param tolerance  relative to the largest value
+inline void expectToolsLikeReference(Integrator integrator, int iterations, double poisson_ratio, double tolerance) {
+  constexpr int kTicks = 3, kSubsteps = 2;
+  const PullAndProbe tools;
+  Body body = boxBody({4, 4, 4}, 0.01);
+  body.material.poisson_ratio = poisson_ratio;
+  for (uint32_t slot : body.lattice.active_slots) {
+    if (body.lattice.nodeAt(slot).z() == 0 && body.lattice.nodeAt(slot).x() > 1)
+      body.lattice.nodes[slot].lo |= layout::kFixedBit;
+  }
+  const Model model = modelOf({body});
+  GpuSolver solver(model, sceneWith(integrator, model, kSubsteps, 2, iterations, tools.styluses));
+  ReferenceOptions options;
+  options.integrator = ReferenceIntegrator::kImplicitEuler;
+  options.push_speed_m_per_s = pushSpeed(model);
+  ReferenceSolver reference(model, Vector3d::Zero(), static_cast<float>(solver.dt_s()), options);
+  std::array<Vector3d, 2> before;
+  for (int t = 0; t < kTicks; ++t) {
+    const ToolMotions motions = tools.motions(t, 0.04);
+    before = reference.impulse_n_s;
+    solver.step(motions);
+    if (motions[0].grab_begins) reference.takeHold(0, motions[0].from, tools.styluses[0].grab_radius_m);
+    std::vector<layout::ToolMotion> rows;
+    interpolateMotions(motions, tools.styluses, kSubsteps, rows);
+    for (size_t s = 0; s < kSubsteps; ++s) reference.substep({rows[2 * s], rows[2 * s + 1]});
+  }
+  const HostState state = solver.readState();
+  EXPECT_LT(relativeError(state.displacement_m, reference.u_m, reference.active), tolerance);
+  layout::TickStats stats{};
+  while (solver.pollStats(stats, true)) {
+  }
+  EXPECT_GT(stats.grabbed[0], 0u);
+  EXPECT_GT(stats.touched[1], 0u);
+  for (size_t s = 0; s < 2; ++s) {
+    const Vector3d given = reference.impulse_n_s[s] - before[s];
+    EXPECT_GT(given.norm(), 0);
+    EXPECT_LT((xyz(stats.impulse[s]) - given).norm(), 10 * tolerance * given.norm()) << "stylus " << s;
+  }
+}
+
+/// The same bits for every group size, with everything compiled in.
+inline void expectSameHashForEveryGroupSize(Integrator integrator) {
+  const PullAndProbe tools;
+  Body body = boxBody({6, 5, 7}, 0.01);
+  body.material.poisson_ratio = 0.4;
+  const Model model = modelOf({body});
+  uint64_t first = 0;
+  for (uint32_t group_size : {32u, 64u, 256u}) {
+    GpuSolver solver(model, sceneWith(integrator, model, 2, 3, 6, tools.styluses), {group_size});
+    solver.writeState(randomState(model, 1e-3, 0.5, 11));
+    for (int t = 0; t < 2; ++t) solver.step(tools.motions(t, 0.07));
+    const uint64_t hash = stateHash(model, solver.readState());
+    if (first == 0) first = hash;
+    EXPECT_EQ(hash, first) << "group size " << group_size;
+  }
+}
+
+}  // namespace viscera::test

@@ -1,0 +1,51 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include "viscera/tools/stylus.h"
+
+namespace viscera {
+namespace {
+
+constexpr double kTravel_m = 0.01;
+
+StylusSamples at(double x) {
+  StylusSamples samples;
+  samples[0].valid = true;
+  samples[0].pose.position_m = Vector3d(x, 0, 0);
+  return samples;
+}
+
+TEST(HeldBack, TipThatJumpsFollowsAtTheGivenTravelUntilItIsThere) {
+  Tools tools({StylusConfig{}}, kTravel_m);
+  EXPECT_FALSE(tools.advance(at(0))[0].held_back);
+  double reached = 0;
+  for (int t = 0; t < 3; ++t) {
+    const StylusMotion motion = tools.advance(at(0.035))[0];
+    EXPECT_TRUE(motion.held_back);
+    EXPECT_DOUBLE_EQ(motion.from.position_m.x(), reached);
+    EXPECT_NEAR(motion.to.position_m.x() - motion.from.position_m.x(), kTravel_m, 1e-15);
+    reached = motion.to.position_m.x();
+  }
+  const StylusMotion last = tools.advance(at(0.035))[0];
+  EXPECT_FALSE(last.held_back);
+  EXPECT_DOUBLE_EQ(last.to.position_m.x(), 0.035);
+}
+
+TEST(HeldBack, FirstPoseIsWhereTheTipIsHoweverFarItCameFrom) {
+  Tools tools({StylusConfig{}}, kTravel_m);
+  const StylusMotion motion = tools.advance(at(0.5))[0];
+  EXPECT_FALSE(motion.held_back);
+  EXPECT_DOUBLE_EQ(motion.from.position_m.x(), 0.5);
+}
+
+TEST(HeldBack, TipWithinTheTravelIsLeftAlone) {
+  Tools tools({StylusConfig{}}, kTravel_m);
+  tools.advance(at(0));
+  const StylusMotion motion = tools.advance(at(0.0099))[0];
+  EXPECT_FALSE(motion.held_back);
+  EXPECT_DOUBLE_EQ(motion.to.position_m.x(), 0.0099);
+}
+
+}  // namespace
+}  // namespace viscera
