@@ -24,12 +24,12 @@ Model blockOf(int cells, double poisson_ratio) {
 /// The worst of the cells that one check is about.
 struct Worst {
   int not_finite = 0;
-  double energy_ratio = 0, energy_left = 0;
+  double energy_ratio = 0, over_bound = 0;
 
   void add(const Outcome& outcome) {
     not_finite += outcome.finite ? 0 : 1;
     energy_ratio = std::max(energy_ratio, outcome.energy_ratio);
-    energy_left = std::max(energy_left, outcome.energy_left);
+    over_bound = std::max(over_bound, outcome.over_bound);
   }
 };
 
@@ -74,8 +74,8 @@ void tryAll(Report& report, double poisson_ratio, const std::vector<double>& rat
   report.checkAtMost(stem + ": cells with a value that is not finite", stable.not_finite + above.not_finite, 0);
   report.checkAtMost(stem + ": energy over start, leapfrog within its limit, vbd, pd", stable.energy_ratio,
                      kEnergyBound);
-  report.checkAtMost(stem + ": energy left over start, explicit above the limit and verlet_paper", above.energy_left,
-                     kEnergyBound);
+  report.checkAtMost(stem + ": energy over the governor's bound, explicit above the limit and verlet_paper",
+                     above.over_bound, kEnergyBound);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <functional>
 #include <random>
@@ -18,6 +19,7 @@ constexpr double kTop_m = 0.02;      // of the block
 constexpr double kBackWithin = 0.1;  // of the spacing: tissue that is nearer to its rest is back
 constexpr double kSpeedLimit = 5;    // times the tool's speed or c_p
 constexpr int kTicksPerSecond = 60;
+constexpr unsigned kSeed = 3;
 
 /// A block held at its bottom and one stylus, as a session has them, without skin and pictures.
 class Stage {
@@ -34,6 +36,7 @@ class Stage {
     sample_[0].pose.position_m = tip;
     tick();
   }
+  void turn(const Quaterniond& orientation) { sample_[0].pose.orientation = orientation; }
   void takeAway() {
     sample_[0].valid = false;
     tick();
@@ -184,11 +187,13 @@ void abuseTissue(Report& report) {
 /// Random strokes of a blade through the block until it is in pieces.
 void cutToPieces(Report& report) {
   const int strokes = report.isShort() ? 300 : 10000;
+  std::srand(kSeed);  // of UnitRandom()
   Stage stage(ToolMode::kCut, Vector3i(5, 5, 5));
-  std::mt19937 random(3);
+  std::mt19937 random(kSeed);
   std::uniform_real_distribution<double> place(-0.005, 0.03);
   for (int i = 0; i < strokes; ++i) {
-    stage.moveTo({place(random), place(random), place(random) + 0.01});
+    stage.turn(Quaterniond::UnitRandom());
+    stage.moveTo({place(random), place(random), place(random)});
     if (i % 1000 == 0) report.stage("random cuts, stroke " + std::to_string(i));
   }
   const size_t springs = stage.model().springs();

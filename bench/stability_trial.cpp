@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kTick_s = 1.0 / 60;
 constexpr double kRecovered = 0.01;  // of the start's energy
+constexpr double kNoEnergy = 1e-6;   // of M c_p^2: rounding of a mirrored lattice, which has none
 constexpr int kFewest = 12;          // ticks
 constexpr double kSweeps = 25000;    // passes over all nodes that a trial may take: a few seconds
 
@@ -61,7 +62,8 @@ Outcome tryStart(const Model& model, const Scene& scene, const Start& start, int
   GpuSolver solver(model, scene, options);
   ReferenceSolver reference(model, Vector3d::Zero(), solver.dt_s());
   solver.writeState(start.state);
-  const double first_j = energyOf(reference, start.state, 0);
+  const double whole_j = governorLimits(model, 0, 0).energy_j;
+  const double first_j = std::max(energyOf(reference, start.state, 0), kNoEnergy * whole_j);
   Outcome out;
   out.ticks = std::clamp(static_cast<int>(kSweeps / sweepsPerTick(scene)), std::min(kFewest, ticks), ticks);
   for (int t = 1; t <= out.ticks; ++t) {
@@ -69,7 +71,9 @@ Outcome tryStart(const Model& model, const Scene& scene, const Start& start, int
     const HostState state = solver.readState();
     out.finite = out.finite && isFinite(model, state);
     if (!out.finite) break;
-    out.energy_left = energyOf(reference, state, solver.velocityLag_s()) / first_j;
+    const double energy_j = energyOf(reference, state, solver.velocityLag_s());
+    out.energy_left = energy_j / first_j;
+    out.over_bound = std::max(out.over_bound, energy_j / (2 * (first_j + whole_j)));
     out.energy_ratio = std::max(out.energy_ratio, out.energy_left);
     if (out.frames_to_recover < 0 && out.energy_left < kRecovered) out.frames_to_recover = t;
   }

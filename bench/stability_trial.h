@@ -8,8 +8,10 @@ namespace viscera::bench {
 
 /// What became of a session.
 struct Outcome {
-  bool finite = true;          ///< no node was ever published that is not finite
-  double energy_ratio = 0;     ///< largest energy at the end of a tick over that of the start
+  bool finite = true;  ///< no node was ever published that is not finite
+  /// Largest energy at the end of a tick over that of the start; one without energy counts as a millionth of M c_p^2.
+  double energy_ratio = 0;
+  double over_bound = 0;       ///< largest energy over what the governor lets pass, 2 (start + M c_p^2)
   double energy_left = 0;      ///< the same at the end
   uint64_t trips = 0;          ///< of the governor
   int frames_to_recover = -1;  ///< ticks until energy fell below a hundredth of the start's; -1: it did not

@@ -18,10 +18,13 @@ bool isAtRest(NodeBits bits) {
   return (bits.lo & kFixedBit) != 0u || (isIsolated(bits) && (bits.lo & kGrabMask) == 0u);
 }
 
-/// Fragments that fall come to lie where sleep_distance_m ends; they may come back.
+/// Fragments that fall come to lie where sleep_distance_m ends; they may come back. One that would leap a tenth of it in a
+/// substep does not fall, it explodes: that is left for the governor to see.
 void fallAsleep(NodeBits bits, vec3 u, inout vec3 u_next, inout vec3 v_next) {
   float away = dot(u_next, u_next);
   if (away <= sleep_distance_m * sleep_distance_m || away <= dot(u, u) || (bits.lo & kGrabMask) != 0u) return;
+  vec3 leap = u_next - u;
+  if (dot(leap, leap) > 0.01 * sleep_distance_m * sleep_distance_m) return;
   u_next = u;
   v_next = vec3(0.0);
 }

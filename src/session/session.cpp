@@ -156,6 +156,7 @@ void Session::collectStats(Frame& frame, bool wait) {
     extremes_.nonfinite = std::max<uint64_t>(extremes_.nonfinite, stats_.nonfinite);
   }
   frame.health = solver_->health();
+  extremes_.governor_trips = frame.health.trips;
   frame.stats = stats_;
   frame.has_stats = has_stats_;
   frame.reactions = reactions_;

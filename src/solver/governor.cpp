@@ -13,7 +13,7 @@ namespace viscera {
 namespace {
 
 constexpr double kSpeedMargin = 5;       // of the fastest speed that physics gives: what tools may throw nodes at
-constexpr double kEnergyGrowth = 2;      // per tick, on top of which comes Limits::energy_j
+constexpr double kEnergyMargin = 2;      // energies are measured with velocities of half a substep ago
 constexpr double kLongestRecovery = 16;  // times recovery_s, when trips keep coming
 constexpr double kSoon = 4;              // times recovery_s: a trip this soon after a recovery doubles the next one
 // A tick beyond one of these is strained: the shorter substep follows. Chosen by `viscera bench stability`
@@ -49,6 +49,7 @@ Governor::Governor(const Limits& limits, double tick_s, double recovery_s)
     : limits_(limits), tick_s_(tick_s), recovery_s_(recovery_s), recovery_wanted_s_(recovery_s) {}
 
 void Governor::restart(const layout::TickStats& stats) {
+  owned_j_ = static_cast<double>(stats.kinetic_j) + stats.elastic_j;
   note(stats);
   setbacks_ = 0;
   recovery_ticks_left_ = 0;
@@ -60,7 +61,7 @@ void Governor::restart(const layout::TickStats& stats) {
 Governor::Trip Governor::inspect(const layout::TickStats& stats, bool implicit, double work_j) const {
   const double energy = static_cast<double>(stats.kinetic_j) + stats.elastic_j;
   if (stats.nonfinite > 0 || !std::isfinite(energy)) return Trip::kNonFinite;
-  if (energy > kEnergyGrowth * (energy_j_ + limits_.energy_j + work_j)) return Trip::kEnergy;
+  if (energy > kEnergyMargin * (owned_j_ + limits_.energy_j + work_j)) return Trip::kEnergy;
   if (!implicit && fromBits(stats.max_speed_bits) > limits_.speed_m_per_s) return Trip::kSpeed;
   return Trip::kNone;
 }
@@ -72,6 +73,7 @@ Governor::Trip Governor::judge(const layout::TickStats& stats, bool implicit, do
     return trip;
   }
   setbacks_ = 0;
+  owned_j_ = std::min(owned_j_ + work_j, static_cast<double>(stats.kinetic_j) + stats.elastic_j);
   note(stats);
   const bool calm = fromBits(stats.max_speed_bits) < 0.5 * limits_.speed_m_per_s;
   if (health_.recovering && --recovery_ticks_left_ <= 0 && calm) {
@@ -85,7 +87,6 @@ Governor::Trip Governor::judge(const layout::TickStats& stats, bool implicit, do
 
 /// Takes a good state's measurements over.
 void Governor::note(const layout::TickStats& stats) {
-  energy_j_ = static_cast<double>(stats.kinetic_j) + stats.elastic_j;
   health_.kinetic_j = stats.kinetic_j;
   health_.elastic_j = stats.elastic_j;
   health_.strained = fromBits(stats.max_stretch_bits) > kStrainedStretch || stats.collapsed > 0 || stats.inverted > 0 ||

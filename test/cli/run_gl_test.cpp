@@ -62,7 +62,7 @@ TEST_F(Run, LastLineIsAnObjectWithAllMeasurements) {
   const Json metrics = metricsOf(run({"--seconds", "0.1"}));
   ASSERT_TRUE(metrics.is_object());
   for (const char* key : {"nodes", "springs", "springs_cut", "faces", "steps", "dt_s", "dt_safe_s", "real_time_factor",
-                          "node_updates_per_s", "max_stretch", "nonfinite", "peak_force_n"}) {
+                          "node_updates_per_s", "max_stretch", "nonfinite", "governor_trips", "ticks_held_back", "peak_force_n"}) {
     ASSERT_TRUE(metrics.contains(key)) << key;
     EXPECT_TRUE(metrics[key].is_number()) << key;
   }

@@ -63,8 +63,9 @@ struct Extremes {
   double peak_force_n = 0;  ///< largest force on any stylus, before saturation
   double max_stretch = 0;   ///< largest |L - l0| / l0
   double max_speed_m_per_s = 0;
-  uint64_t nonfinite = 0;  ///< largest number of non-finite nodes in a tick
-  uint64_t held_back = 0;  ///< ticks in which a stylus was faster than tissue can follow
+  uint64_t nonfinite = 0;       ///< largest number of non-finite nodes in a tick
+  uint64_t governor_trips = 0;  ///< ticks rolled back
+  uint64_t held_back = 0;       ///< ticks in which a stylus was faster than tissue can follow
 };
 
 /// ONE loop: owns model, solver, surface and renderer on the thread that made it.

@@ -46,7 +46,7 @@ class Governor {
   Limits limits_;
   double tick_s_, recovery_s_;
   Health health_;
-  double energy_j_ = 0;  ///< of the last good tick
+  double owned_j_ = 0;  ///< energy that the tissue may have: the least since the start, plus what tools put in since
   int64_t recovery_ticks_left_ = 0;
   double recovery_wanted_s_;  ///< grows with trips that come soon after a recovery
   int64_t ticks_since_recovery_ = 0;

@@ -118,6 +118,7 @@ void ReferenceSolver::verletPaper(Field& u_next, Field& v_next) const {
 void ReferenceSolver::sleep(uint32_t slot, Vector3d& u_next, Vector3d& v_next) const {
   if (heldBy(slot) != 0) return;
   if (u_next.norm() <= options_.sleep_distance_m || u_next.norm() <= u_m[slot].norm()) return;
+  if ((u_next - u_m[slot]).norm() > 0.1 * options_.sleep_distance_m) return;  // that is no fall, but an explosion
   u_next = u_m[slot];
   v_next.setZero();
 }

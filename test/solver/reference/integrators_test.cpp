@@ -220,8 +220,8 @@ TEST(ReferenceSleep, StopsFragmentsThatFallAndLetsOthersComeBack) {
   for (ReferenceIntegrator integrator : kAll) {
     ReferenceOptions options = with(integrator);
     options.sleep_distance_m = 1;
-    ReferenceSolver solver(model, Vector3d(0, 0, -10), 0.05, options);
-    for (int i = 0; i < 100; ++i) solver.substep();
+    ReferenceSolver solver(model, Vector3d(0, 0, -10), 0.01, options);
+    for (int i = 0; i < 200; ++i) solver.substep();
     for (uint32_t slot : solver.active) {
       EXPECT_LE(solver.u_m[slot].norm(), 1.0);
       EXPECT_GT(solver.u_m[slot].norm(), 0.5);
