@@ -20,6 +20,7 @@ constexpr double kBackWithin = 0.1;  // of the spacing: tissue that is nearer to
 constexpr double kSpeedLimit = 5;    // times the tool's speed or c_p
 constexpr int kTicksPerSecond = 60;
 constexpr unsigned kSeed = 3;
+constexpr const char* kThrough = "probe through the block";
 
 /// A block held at its bottom and one stylus, as a session has them, without skin and pictures.
 class Stage {
@@ -127,7 +128,7 @@ std::vector<Abuse> abuses(bool short_form) {
   const std::vector<double> speeds =
       short_form ? std::vector<double>{1, 100} : std::vector<double>{0.01, 0.1, 1, 10, 100};
   for (double speed : speeds) {
-    out.push_back({"probe through the block", speed, [speed](Stage& stage) {
+    out.push_back({kThrough, speed, [speed](Stage& stage) {
                      const Vector3d above(0.014, 0.016, 0.032), inside(0.014, 0.016, 0.012), out_of(0.06, 0.016, 0.012);
                      stage.moveTo(above);
                      stage.sweep(above, inside, speed);
@@ -159,6 +160,8 @@ void abuseTissue(Report& report) {
                                                                                     {"governor trips"},
                                                                                     {"away after 1 s", "h"},
                                                                                     {"back"}});
+  Plot plot{"what a probe does to nodes, by its speed", "tool speed [m/s]", "peak node speed [m/s]", true, true, {}};
+  plot.series = {{"peak node speed", {}, {}}, {"5 times tool or c_p", {}, {}, Series::Style::kLines}};
   int not_finite = 0, not_said = 0;
   double worst_speed = 0;
   for (const Abuse& abuse : abuses(report.isShort())) {
@@ -172,6 +175,12 @@ void abuseTissue(Report& report) {
     const bool back = away < kBackWithin, said = stage.solver().health().strained;
     not_said += back || said ? 0 : 1;
     worst_speed = std::max(worst_speed, speed);
+    if (abuse.name == kThrough) {
+      plot.series[0].x.push_back(abuse.tool_speed);
+      plot.series[0].y.push_back(stage.peak_speed);
+      plot.series[1].x.push_back(abuse.tool_speed);
+      plot.series[1].y.push_back(kSpeedLimit * std::max(abuse.tool_speed, waveSpeed(stage.model())));
+    }
     table.add({abuse.name, abuse.tool_speed, stage.held_back, stage.finite ? "yes" : "NO", stage.peak_speed, speed,
                stage.peak_stretch, static_cast<double>(stage.solver().health().trips), away,
                back   ? "yes"
@@ -179,6 +188,7 @@ void abuseTissue(Report& report) {
                       : "bounded"});
   }
   report.add(table, "tools");
+  report.add(plot, "tools");
   report.checkAtMost("tools: sessions with a value that is not finite", not_finite, 0);
   report.checkAtMost("tools: peak node speed over the tool's or c_p", worst_speed, kSpeedLimit);
   report.checkAtMost("tools: sessions whose tissue is not back after 1 s and not reported as strained", not_said, 0);

@@ -71,9 +71,12 @@ Outcome tryStart(const Model& model, const Scene& scene, const Start& start, int
     const HostState state = solver.readState();
     out.finite = out.finite && isFinite(model, state);
     if (!out.finite) break;
-    const double energy_j = energyOf(reference, state, solver.velocityLag_s());
+    // Beyond the limit half a kick is no small thing, and velocities of one moment mean nothing: taken as they are.
+    const double lag_s = solver.dt_s() <= solver.dtSafe_s() ? solver.velocityLag_s() : 0;
+    const double energy_j = energyOf(reference, state, lag_s);
     out.energy_left = energy_j / first_j;
     out.over_bound = std::max(out.over_bound, energy_j / (2 * (first_j + whole_j)));
+    out.energies.push_back(out.energy_left);
     out.energy_ratio = std::max(out.energy_ratio, out.energy_left);
     if (out.frames_to_recover < 0 && out.energy_left < kRecovered) out.frames_to_recover = t;
   }

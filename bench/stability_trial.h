@@ -16,6 +16,7 @@ struct Outcome {
   uint64_t trips = 0;          ///< of the governor
   int frames_to_recover = -1;  ///< ticks until energy fell below a hundredth of the start's; -1: it did not
   int ticks = 0;
+  std::vector<double> energies;  ///< [ticks] over that of the start
 };
 
 /// A scene whose substep is `ratio` times the integrator's limit: that of largestFraction() for explicit ones, dt_safe

@@ -1,0 +1,58 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "bench/stability_trial.h"
+#include "support/process.h"
+#include "support/text.h"
+#include "viscera/gpu/context.h"
+
+namespace viscera::bench {
+namespace {
+
+TEST(ExtremeStarts, AreEightAndDeserveTheirNames) {
+  const Model model = blockModel({2, 2, 2}, 0.01, {});
+  const std::vector<Start> starts = extremeStarts(model);
+  ASSERT_EQ(starts.size(), 8u);
+  ReferenceSolver reference(model, Vector3d::Zero(), 1);
+  for (const Start& start : starts) {
+    const double energy_j = energyOf(reference, start.state, 0);
+    if (start.name == "mirrored") {
+      EXPECT_LT(energy_j, 1e-6) << "springs do not see it";
+    } else {
+      EXPECT_GT(energy_j, 1e-4) << start.name;  // J; all of it at c_p would be 0.1
+    }
+  }
+}
+
+TEST(StabilityTrial, ExplosionWithoutGovernorIsSeen) {
+  const gpu::Context context;
+  const Model model = blockModel({3, 3, 3}, 0.005, {});
+  Scene scene = sceneAt(model, Integrator::kLeapfrog, 10);
+  scene.solver.governor = false;
+  const Outcome wild = tryStart(model, scene, extremeStarts(model)[0], 20);
+  EXPECT_TRUE(!wild.finite || wild.energy_ratio > 1e6);
+  scene.solver.governor = true;
+  const Outcome governed = tryStart(model, scene, extremeStarts(model)[0], 20);
+  EXPECT_TRUE(governed.finite);
+  EXPECT_GT(governed.trips, 0u);
+  EXPECT_LT(governed.over_bound, 1);
+}
+
+#ifdef VISCERA_COMMAND
+TEST(StabilitySuite, ReachesEveryLimitInItsShortForm) {
+  const test::TemporaryFolder folder;
+  const test::Ending ending =
+      test::runProgram(VISCERA_COMMAND, {"bench", "stability", "--short", "--strict", "--out", folder.path()});
+  EXPECT_EQ(ending.status, 0) << ending.out << ending.err;
+  EXPECT_TRUE(test::says(ending.out, {"extreme starts", "what tools do", "random cuts", "state hash", ", 0 missed"}));
+  for (const char* table : {"starts", "fractions", "tools", "cuts", "ratios", "rest", "units", "hashes", "checks"}) {
+    EXPECT_GT(std::filesystem::file_size(folder.file(std::string("stability_") + table + ".csv")), 0u) << table;
+  }
+}
+#endif
+
+}  // namespace
+}  // namespace viscera::bench

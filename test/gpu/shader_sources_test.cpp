@@ -1,0 +1,47 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+// What a shader must not say although this machine's driver might get it right (physics.md 2, 4).
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <regex>
+
+#include "support/temporary_folder.h"
+
+namespace viscera {
+namespace {
+
+/// Names of the shaders whose code, comments aside, has a match.
+std::vector<std::string> shadersThatSay(const std::string& pattern) {
+  const std::regex comment("//[^\n]*"), wanted(pattern);
+  std::vector<std::string> out;
+  for (const auto& file : std::filesystem::directory_iterator(VISCERA_SOURCE_DIR "/shaders")) {
+    const std::string code = std::regex_replace(test::readFile(file.path().string()), comment, "");
+    if (std::regex_search(code, wanted)) out.push_back(file.path().filename().string());
+  }
+  return out;
+}
+
+using Names = std::vector<std::string>;
+
+TEST(ShaderSources, AreFound) {
+  EXPECT_GT(shadersThatSay("void main").size(), 10u);
+}
+
+/// Drivers may flush or quieten bits that are no ordinary float: a packed normal stays a uint (EGVE 3.2, VR05 2.6).
+TEST(ShaderSources, KeepPackedNormalsOutOfFloats) {
+  const Names with_normals = shadersThatSay("ackNormal");  // packNormal() and unpackNormal()
+  EXPECT_GE(with_normals.size(), 2u);
+  for (const std::string& name : shadersThatSay("BitsToFloat")) {
+    EXPECT_EQ(std::count(with_normals.begin(), with_normals.end(), name), 0) << name;
+  }
+}
+
+/// Compilers may take for granted that no number is NaN and drop the question.
+TEST(ShaderSources, NeverAskIsnanOrIsinf) {
+  EXPECT_EQ(shadersThatSay("\\bis(nan|inf)\\b"), Names{});
+}
+
+}  // namespace
+}  // namespace viscera

@@ -1,0 +1,175 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+// What no other test would notice if an error of the papers came back (docs/paper_errors.md).
+#include <limits>
+
+#include "support/gpu_fixture.h"
+
+using namespace viscera;
+using namespace viscera::test;
+
+namespace {
+
+constexpr double kSpacing_m = 1.0 / 128;  // a power of two: every rest position is exact in float32
+
+class PaperErrors : public GpuTest {
+ protected:
+  static Model block(const Vector3i& cells) { return modelOf({boxBody(cells, kSpacing_m)}); }
+  static uint32_t slotAt(const Model& model, const Vector3i& node) {
+    return static_cast<uint32_t>(model.bodies[0].lattice.slotAt(node));
+  }
+  static StylusMotion motion(ToolMode mode, const Vector3d& from, const Vector3d& to) {
+    StylusMotion out;
+    out.mode = mode;
+    out.present = true;
+    out.from.position_m = from;
+    out.to.position_m = to;
+    return out;
+  }
+  /// One tick with the first stylus.
+  static void tick(GpuSolver& solver, const StylusMotion& stylus) {
+    ToolMotions motions;
+    motions[0] = stylus;
+    solver.step(motions);
+  }
+  static layout::TickStats stats(GpuSolver& solver) {
+    layout::TickStats stats{};
+    while (solver.pollStats(stats, true)) {
+    }
+    return stats;
+  }
+};
+
+StylusConfig thinProbe(double radius_m) {
+  StylusConfig config;
+  config.probe_radius_m = radius_m;
+  return config;
+}
+
+}  // namespace
+
+TEST_F(PaperErrors, ProbeThatPassesANodeWithinASubstepPutsItOutOfItsWay) {
+  constexpr double kRadius_m = 0.1 * kSpacing_m;
+  const Model model = block({4, 4, 4});
+  GpuSolver solver(model, sceneFor(model, 1, {thinProbe(kRadius_m)}));
+  const uint32_t slot = slotAt(model, {2, 2, 4});
+  const Vector3d node = model.bodies[0].lattice.restPosition(slot);
+  const Vector3d beside = node + Vector3d(0.5 * kRadius_m, 0, 0), half_way(0, 0, 5 * kRadius_m);
+  tick(solver, motion(ToolMode::kProbe, beside + half_way, beside - half_way));
+  // At either end the sphere is five radii away; between, its axis passes the node at half a radius.
+  const Vector3d x = node + xyz(solver.readState().displacement_m[slot]);
+  EXPECT_NEAR(x.x(), beside.x() - kRadius_m, 1e-8);  // m: a few roundings of positions below 0.03 m
+  EXPECT_NEAR(x.z(), node.z(), 1e-8);                // sideways, not along
+}
+
+TEST_F(PaperErrors, ProbeWithANodeExactlyAtItsCentrePushesItUpwards) {
+  const Model model = block({4, 4, 4});
+  GpuSolver solver(model, sceneFor(model, 1, {thinProbe(0.1 * kSpacing_m)}));
+  const uint32_t slot = slotAt(model, {2, 2, 4});
+  const Vector3d node = model.bodies[0].lattice.restPosition(slot);
+  tick(solver, motion(ToolMode::kProbe, node, node));
+  const Vector3d u = xyz(solver.readState().displacement_m[slot]);
+  EXPECT_LT((u - Vector3d(0, 0, 0.1 * kSpacing_m)).norm(), 1e-8);  // m: a few roundings of positions below 0.03 m
+}
+
+/// A probe at rest that appears around a node moves it, but the way out is not a speed: the node was not on its way.
+TEST_F(PaperErrors, NodeThatAProbeMovesOutTakesTheSpeedOfTheToolAndNotOfItsWayOut) {
+  constexpr double kRadius_m = 0.1 * kSpacing_m;
+  const Model model = block({4, 4, 4});
+  GpuSolver solver(model, sceneFor(model, 1, {thinProbe(kRadius_m)}));
+  const uint32_t slot = slotAt(model, {2, 2, 4});
+  const Vector3d below = model.bodies[0].lattice.restPosition(slot) - Vector3d(0, 0, 0.5 * kRadius_m);
+  tick(solver, motion(ToolMode::kProbe, below, below));
+  const HostState state = solver.readState();
+  EXPECT_NEAR(xyz(state.displacement_m[slot]).z(), 0.5 * kRadius_m, 1e-8);  // m: roundings as above
+  EXPECT_EQ(xyz(state.velocity_m_per_s[slot]), Vector3d::Zero().eval());    // at rest, like the tool
+}
+
+/// Projected to the surface at once, nodes would leap a whole radius in a substep.
+TEST_F(PaperErrors, ProbeThatAppearsDeepInTissueMovesNodesOutNoFasterThanItsPushSpeed) {
+  const Model model = block({6, 6, 6});
+  GpuSolver solver(model, sceneFor(model, 1, {thinProbe(3 * kSpacing_m)}));
+  const Vector3d middle = model.bodies[0].lattice.restPosition(slotAt(model, {3, 3, 3}));
+  tick(solver, motion(ToolMode::kProbe, middle, middle));
+  double farthest_m = 0;
+  for (const layout::vec4& u : solver.readState().displacement_m) farthest_m = std::max(farthest_m, xyz(u).norm());
+  const double push_m = pushSpeed(model) * solver.dt_s();
+  ASSERT_LT(push_m, 2 * kSpacing_m);
+  EXPECT_NEAR(farthest_m, push_m, 1e-8);  // m: a few roundings of positions below 0.05 m
+}
+
+TEST_F(PaperErrors, CutsTakeSpringsAndNoMassSoTheStableSubstepNeverShrinks) {
+  const Model model = block({5, 5, 5});
+  const Lattice& lattice = model.bodies[0].lattice;
+  StylusConfig config;
+  config.blade_length_m = 0.2;
+  config.eraser_radius_m = 0.6 * kSpacing_m;
+  for (const ToolMode mode : {ToolMode::kCut, ToolMode::kCutParticles}) {
+    GpuSolver solver(model, sceneFor(model, 4, {config}));
+    solver.step({});
+    const uint32_t rate_whole = stats(solver).max_rate_bits;  // positive floats order like their bits
+    const double y = 2.5 * kSpacing_m;
+    tick(solver, motion(mode, {-0.02, y, 0.1}, {0.08, y, 0.1}));
+    const layout::TickStats cut = stats(solver);
+    EXPECT_GT(cut.springs_cut, 0u);
+    EXPECT_LE(cut.max_rate_bits, rate_whole);
+    const HostState state = solver.readState();
+    for (uint32_t slot : lattice.active_slots) {
+      ASSERT_EQ(massEighths(state.nodes[slot]), massEighths(lattice.nodes[slot])) << "slot " << slot;
+    }
+  }
+}
+
+TEST_F(PaperErrors, InfinitiesAreCountedAsNotFiniteLikeNan) {
+  const Model model = block({2, 2, 2});
+  const uint32_t middle = slotAt(model, {1, 1, 1});
+  const float infinity = std::numeric_limits<float>::infinity();
+  for (const float bad : {infinity, -infinity, std::numeric_limits<float>::quiet_NaN()}) {
+    GpuSolver solver(model, sceneFor(model, 1));
+    HostState state = restState(model);
+    for (uint32_t slot : model.bodies[0].lattice.active_slots) state.nodes[slot].lo |= layout::kFixedBit;
+    state.displacement_m[middle].x = bad;
+    solver.writeState(state);
+    solver.step({});
+    EXPECT_EQ(stats(solver).nonfinite, 1u) << bad;  // nobody moves, so nobody else catches it
+  }
+}
+
+TEST_F(PaperErrors, FragmentsThatFallAreStoppedWhereSleepDistanceEnds) {
+  constexpr double kSleep_m = 0.05, kGravity = 9.81;
+  const Model model = block({1, 1, 1});  // nothing holds it
+  Scene scene = sceneFor(model, 20, {}, Vector3d(0, 0, -kGravity));
+  scene.solver.sleep_distance_m = kSleep_m;
+  GpuSolver solver(model, scene);
+  const double tick_s = 20 * solver.dt_s(), fall_s = std::sqrt(2 * kSleep_m / kGravity);
+  for (double t = 0; t < 3 * fall_s; t += tick_s) solver.step({});  // a free fall would be nine times as deep
+  const HostState state = solver.readState();
+  for (uint32_t slot : model.bodies[0].lattice.active_slots) {
+    EXPECT_LE(xyz(state.displacement_m[slot]).norm(), kSleep_m);
+    EXPECT_GT(xyz(state.displacement_m[slot]).norm(), 0.9 * kSleep_m);  // stopped there, not before
+  }
+}
+
+/// Free fall in numbers that float32 holds exactly: dt^2 a is a quarter of a digit of u, which is lost whenever it is
+/// added to u alone. With what it moves on anyway it is (n - 1/2)/4 digits in the n-th substep: roundings cancel every
+/// fourth.
+TEST_F(PaperErrors, IncrementsAreSummedBeforeTheyAreAddedToTheDisplacement) {
+  constexpr int kTicks = 8, kSubsteps = 128;
+  constexpr double kDt_s = 1.0 / 8192, kGravity = 2, kStart_m = 1.25, kDigit_m = 1.0 / (1 << 23);
+  Model model = block({1, 1, 1});
+  model.bodies[0].material.drag_per_s = 0;
+  Scene scene = sceneFor(model, kSubsteps, {}, Vector3d(kGravity, 0, 0));
+  scene.solver.tick_hz = 1 / (kSubsteps * kDt_s);
+  scene.solver.substeps = kSubsteps;
+  GpuSolver solver(model, scene);
+  ASSERT_EQ(solver.dt_s(), kDt_s);
+  ASSERT_GE(kDt_s, kShortSubstep_s);  // not compensated
+  HostState state = restState(model);
+  for (uint32_t slot : model.bodies[0].lattice.active_slots) state.displacement_m[slot].x = kStart_m;
+  solver.writeState(state);
+  for (int t = 0; t < kTicks; ++t) solver.step({});
+  const double n = kTicks * kSubsteps, fallen_m = 0.5 * n * n * kDt_s * kDt_s * kGravity;
+  for (uint32_t slot : model.bodies[0].lattice.active_slots) {
+    EXPECT_NEAR(solver.readState().displacement_m[slot].x, kStart_m + fallen_m, kDigit_m);
+  }
+}
