@@ -22,7 +22,8 @@ bool isAtRest(NodeBits bits) {
 /// substep does not fall, it explodes: that is left for the governor to see.
 void fallAsleep(NodeBits bits, vec3 u, inout vec3 u_next, inout vec3 v_next) {
   float away = dot(u_next, u_next);
-  if (away <= sleep_distance_m * sleep_distance_m || away <= dot(u, u) || (bits.lo & kGrabMask) != 0u) return;
+  // Written so that a number that is not one is left alone too, for the governor to find.
+  if (!(away > sleep_distance_m * sleep_distance_m && away > dot(u, u)) || (bits.lo & kGrabMask) != 0u) return;
   vec3 leap = u_next - u;
   if (dot(leap, leap) > 0.01 * sleep_distance_m * sleep_distance_m) return;
   u_next = u;
