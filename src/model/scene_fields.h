@@ -64,9 +64,9 @@ void visitFields(V& v, MaterialConfig& c) {
 template <class V>
 void visitFields(V& v, PartConfig& c) {
   v.text("part", c.part, "name of a part of the mesh or phantom");
-  v.number("young_modulus_pa", c.young_modulus_pa, {1, 1e9}, "Pa", "Young's modulus E of this part");
-  v.number("poisson_ratio", c.poisson_ratio, {0, 0.49}, "1", "Poisson's ratio nu of this part");
-  v.number("density_kg_per_m3", c.density_kg_per_m3, {1, 1e5}, "kg/m3", "mass density of this part");
+  v.number("young_modulus_pa", c.young_modulus_pa, {1, 1e9}, "Pa", "Young's modulus E of this part; not inherited from `material`");
+  v.number("poisson_ratio", c.poisson_ratio, {0, 0.49}, "1", "Poisson's ratio nu of this part; not inherited");
+  v.number("density_kg_per_m3", c.density_kg_per_m3, {1, 1e5}, "kg/m3", "mass density of this part; not inherited");
 }
 
 template <class V>

@@ -36,6 +36,9 @@ std::vector<Elasticity> elasticityByLabel(const Body& body) {
       for (const std::string& n : names) known += (known.empty() ? "" : ", ") + n;
       throw SceneError("body '" + body.name + "': 'parts' names '" + part.part + "'; the parts are " + known);
     }
+    if (std::count_if(body.parts.begin(), body.parts.end(), [&](const PartConfig& p) { return p.part == part.part; }) >
+        1)
+      throw SceneError("body '" + body.name + "': 'parts' names '" + part.part + "' twice");
     out[static_cast<size_t>(name - names.begin()) + 1] =
         elasticity(part.young_modulus_pa, part.poisson_ratio, part.density_kg_per_m3, h);
   }

@@ -58,11 +58,40 @@ void expectPng(const std::string& path, uint32_t width, uint32_t height) {
   EXPECT_EQ(bigEndian(bytes, 20), height) << path;
 }
 
+TEST_F(Run, EveryIntegratorBringsTheHangingBlockToTheSameSag) {
+  // Implicit Euler damps, and none has settled after so short a time: they agree to a few hundredths.
+  const auto stretch = [&](const std::string& integrator) {
+    const Json metrics = metricsOf(run({"--seconds", "0.5", "--set", "bodies[0].material.drag_per_s=40", "--set",
+                                        "solver.integrator=" + integrator, "--set", "solver.substeps=40"}));
+    EXPECT_EQ(metrics["governor_trips"], 0) << integrator;
+    return metrics["max_stretch"].get<double>();
+  };
+  const double sag = stretch("leapfrog");
+  EXPECT_GT(sag, 0);
+  for (const char* integrator : {"verlet_paper", "vbd", "pd"})
+    EXPECT_NEAR(stretch(integrator), sag, 0.05 * sag) << integrator;
+}
+
+TEST_F(Run, MaterialOfAPartAndPoissonsRatioReachTheTissue) {
+  const auto metrics = [&](const std::string& change) {
+    return metricsOf(run({"--seconds", "0.5", "--set", "bodies[0].material.drag_per_s=700", "--set", change}));
+  };
+  const Json plain = metrics("bodies[0].material.poisson_ratio=0.25");
+  const Json stiff = metrics("bodies[0].parts=[{part: box, young_modulus_pa: 80000}]");
+  const Json full = metrics("bodies[0].material.poisson_ratio=0.45");
+  EXPECT_NEAR(stiff["max_stretch"].get<double>(), 0.25 * plain["max_stretch"].get<double>(),
+              0.02 * plain["max_stretch"].get<double>());  // a quarter of the sag; the drag lets neither swing
+  EXPECT_NEAR(stiff["dt_safe_s"].get<double>(), 0.5 * plain["dt_safe_s"].get<double>(), 1e-8);
+  EXPECT_LT(full["dt_safe_s"], 0.6 * plain["dt_safe_s"].get<double>());
+  EXPECT_NE(full["state_hash"], plain["state_hash"]);
+}
+
 TEST_F(Run, LastLineIsAnObjectWithAllMeasurements) {
   const Json metrics = metricsOf(run({"--seconds", "0.1"}));
   ASSERT_TRUE(metrics.is_object());
-  for (const char* key : {"nodes", "springs", "springs_cut", "faces", "steps", "dt_s", "dt_safe_s", "real_time_factor",
-                          "node_updates_per_s", "max_stretch", "nonfinite", "governor_trips", "ticks_held_back", "peak_force_n"}) {
+  for (const char* key :
+       {"nodes", "springs", "springs_cut", "faces", "steps", "dt_s", "dt_safe_s", "real_time_factor",
+        "node_updates_per_s", "max_stretch", "nonfinite", "governor_trips", "ticks_held_back", "peak_force_n"}) {
     ASSERT_TRUE(metrics.contains(key)) << key;
     EXPECT_TRUE(metrics[key].is_number()) << key;
   }

@@ -28,7 +28,7 @@ constexpr uint32_t kSpringPairs = layout::kSpringsPerNode / 2;
 
 /// Do parts of the body have elasticities of their own?
 bool isHeterogeneous(const Body& body);
-/// @throws SceneError  a part that the body has not
+/// @throws SceneError  a part that the body has not, or that stands twice
 Strengths strengths(const Body& body);
 
 /// Material constants of a body as the kernels take them.
