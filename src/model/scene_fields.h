@@ -12,7 +12,8 @@ namespace viscera {
 //   number(key, double&, Range, unit, text)   integer(key, int&, Range, text)   text(key, std::string&, text)
 //   boolean(key, bool&, text)
 //   vector(key, Vector3d&, Range, unit, text) choice(key, Enum&, {{name, value}...}, text)
-//   group(key, Struct&, text)                 list(key, std::vector<Struct>&, max_count, text)
+//   group(key, Struct&, text)                 list(key, std::vector<Struct>&, max_count, text, defaults of an item =
+//   {})
 
 /// Accepted values, both ends included.
 struct Range {
@@ -64,9 +65,9 @@ void visitFields(V& v, MaterialConfig& c) {
 template <class V>
 void visitFields(V& v, PartConfig& c) {
   v.text("part", c.part, "name of a part of the mesh or phantom");
-  v.number("young_modulus_pa", c.young_modulus_pa, {1, 1e9}, "Pa", "Young's modulus E of this part; not inherited from `material`");
-  v.number("poisson_ratio", c.poisson_ratio, {0, 0.49}, "1", "Poisson's ratio nu of this part; not inherited");
-  v.number("density_kg_per_m3", c.density_kg_per_m3, {1, 1e5}, "kg/m3", "mass density of this part; not inherited");
+  v.number("young_modulus_pa", c.young_modulus_pa, {1, 1e9}, "Pa", "Young's modulus E of this part");
+  v.number("poisson_ratio", c.poisson_ratio, {0, 0.49}, "1", "Poisson's ratio nu of this part");
+  v.number("density_kg_per_m3", c.density_kg_per_m3, {1, 1e5}, "kg/m3", "mass density of this part");
 }
 
 template <class V>
@@ -93,7 +94,8 @@ void visitFields(V& v, BodyConfig& c) {
   v.vector("rotation_deg", c.rotation_deg, kAngle, "deg", "turns about the fixed x, then y, then z axis");
   v.vector("color", c.color, {0, 1}, "1", "red, green, blue");
   v.group("material", c.material, "elastic material");
-  v.list("parts", c.parts, 64, "parts whose elasticity differs from `material`");
+  const PartConfig as_material{"", c.material.young_modulus_pa, c.material.poisson_ratio, c.material.density_kg_per_m3};
+  v.list("parts", c.parts, 64, "parts whose elasticity differs; what is left out is as in `material`", as_material);
   v.list("fixed", c.fixed, 64, "regions whose nodes are held in space");
 }
 

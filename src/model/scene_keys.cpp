@@ -45,11 +45,11 @@ class KeyTable {
     visitFields(inner, value);
   }
   template <class Struct>
-  void list(const char* key, std::vector<Struct>&, double max_count, const char* text) {
+  void list(const char* key, std::vector<Struct>&, double max_count, const char* text, const Struct& item = {}) {
     row(key, "list", "", "at most " + numberText(max_count), text);
-    Struct item;
+    Struct defaults = item;
     KeyTable inner(out_, path_ + key + "[].");
-    visitFields(inner, item);
+    visitFields(inner, defaults);
   }
 
  private:

@@ -54,13 +54,13 @@ class YamlReader {
     if (node) readMap(node, child(key), source_, value);
   }
   template <class Struct>
-  void list(const char* key, std::vector<Struct>& values, double max_count, const char*) {
+  void list(const char* key, std::vector<Struct>& values, double max_count, const char*, const Struct& prototype = {}) {
     const YAML::Node node = take(key);
     if (!node) return;
     requireList(key, node, max_count);
     values.clear();
     for (size_t i = 0; i < node.size(); ++i) {
-      values.emplace_back();
+      values.push_back(prototype);
       readMap(node[i], child(key) + "[" + std::to_string(i) + "]", source_, values.back());
     }
   }

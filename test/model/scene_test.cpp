@@ -28,6 +28,17 @@ void expectRefusals(const std::vector<Case>& cases) {
   for (const Case& c : cases) EXPECT_TRUE(says(refusal(c.yaml), c.parts)) << c.yaml;
 }
 
+TEST(Scene, PartIsLikeTheMaterialOfItsBodyButForWhatItSays) {
+  const Scene scene = parseScene(
+      "bodies: [{parts: [{part: valve, young_modulus_pa: 9}], material: {young_modulus_pa: 7, poisson_ratio: 0.4, "
+      "density_kg_per_m3: 900}}]\n",
+      "s.yaml");
+  const PartConfig& part = scene.bodies.at(0).parts.at(0);
+  EXPECT_EQ(part.young_modulus_pa, 9);
+  EXPECT_EQ(part.poisson_ratio, 0.4);
+  EXPECT_EQ(part.density_kg_per_m3, 900);
+}
+
 TEST(Scene, UnknownKeyIsRefusedWithFileLineKeyAndTheAcceptedKeys) {
   expectRefusals({
       {"bodies: [{}]\nbodeis: 1\n", {"s.yaml:2: ", "unknown key 'bodeis'", "name, bodies, styluses, cameras"}},

@@ -41,8 +41,7 @@ struct MaterialConfig {
   Weights weights = Weights::kCell;
 };
 
-/// Elasticity of one part of a body, such as a valve; keys that are left out are not inherited: they have these
-/// defaults.
+/// Elasticity of one part of a body, such as a valve. In a scene file, what is left out is as in the body's material.
 struct PartConfig {
   std::string part;
   double young_modulus_pa = 20e3;
