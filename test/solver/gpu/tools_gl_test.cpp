@@ -159,6 +159,24 @@ TEST_F(ToolsOnTissue, ProbeAtANodesPlaceHasADirectionAllTheSame) {
   EXPECT_GT(stats().touched[0], 0u);
 }
 
+TEST_F(ToolsOnTissue, SecondHandTakesNeitherWhatTheFirstHoldsNorWhatIsFixed) {
+  ToolMotions motions;
+  const Vector3d low(0.03, 0.03, 0.005);  // among fixed nodes (z = 0) and free ones
+  for (uint32_t s = 0; s < 2; ++s) {
+    motions[s] = motion(ToolMode::kGrab, low, low);
+    motions[s].grab_begins = true;
+  }
+  tick(motions);
+  const layout::TickStats held = stats();
+  EXPECT_GT(held.grabbed[0], 0u);
+  EXPECT_EQ(held.grabbed[1], 0u);
+  const HostState state = solver_->readState();
+  for (uint32_t slot : lattice().active_slots) {
+    const bool held_and_fixed = isFixed(state.nodes[slot]) && (state.nodes[slot].lo & layout::kGrabMask) != 0u;
+    EXPECT_FALSE(held_and_fixed) << slot;
+  }
+}
+
 TEST_F(ToolsOnTissue, HeldNodesFollowTheFullPose) {
   ToolMotions motions;
   motions[1] = motion(ToolMode::kGrab, {0.03, 0.03, 0.06}, {0.03, 0.03, 0.062});
