@@ -54,8 +54,7 @@ void addRow(Table& table, const Start& start, Integrator integrator, double rati
 
 /// Energy over time.
 Series curve(const Outcome& outcome, Integrator integrator, double ratio) {
-  Series out{
-      std::string(nameOf(integrator)) + ", dt " + Cell(ratio).text(3) + " x limit", {}, {}, Series::Style::kLines};
+  Series out{nameOf(integrator) + ", dt " + Cell(ratio).text(3) + " x limit", {}, {}, Series::Style::kLines};
   for (size_t t = 0; t < outcome.energies.size(); ++t) {
     out.x.push_back(static_cast<double>(t + 1));
     out.y.push_back(outcome.energies[t]);
@@ -72,7 +71,7 @@ void tryAll(Report& report, double poisson_ratio, const std::vector<double>& rat
   Table table = startsTable("extreme starts, Poisson's ratio " + Cell(poisson_ratio).text(3));
   Worst stable, above;
   for (Integrator integrator : {Integrator::kLeapfrog, Integrator::kVerletPaper, Integrator::kVbd, Integrator::kPd}) {
-    report.stage(std::string("starts, ") + nameOf(integrator));
+    report.stage("starts, " + nameOf(integrator));
     for (double ratio : ratios) {
       const Scene scene = sceneAt(model, integrator, ratio);
       for (const Start& start : starts) {

@@ -30,20 +30,6 @@ bool isFinite(const Model& model, const HostState& state) {
 
 }  // namespace
 
-const char* nameOf(Integrator integrator) {
-  switch (integrator) {
-    case Integrator::kLeapfrog:
-      return "leapfrog";
-    case Integrator::kVerletPaper:
-      return "verlet_paper";
-    case Integrator::kVbd:
-      return "vbd";
-    case Integrator::kPd:
-      break;
-  }
-  return "pd";
-}
-
 Scene sceneAt(const Model& model, Integrator integrator, double ratio) {
   Scene scene;
   scene.environment.gravity_m_per_s2 = Vector3d::Zero();

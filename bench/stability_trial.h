@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "bench/experiment.h"
 #include "bench/stability_starts.h"
 
 namespace viscera::bench {
@@ -26,7 +27,5 @@ Scene sceneAt(const Model& model, Integrator integrator, double ratio);
 /// Steps the model from a start and looks at it after every tick.
 /// @param ticks  at most; fewer where an integrator needs many sweeps per tick
 Outcome tryStart(const Model& model, const Scene& scene, const Start& start, int ticks);
-
-const char* nameOf(Integrator integrator);
 
 }  // namespace viscera::bench

@@ -70,7 +70,7 @@ TEST(Governor, NodesThatAreNotFiniteTrip) {
 TEST(Governor, EnergyFromNowhereTrips) {
   Governor g = governor();
   g.judge(kCalm, false);
-  EXPECT_EQ(g.judge(stats(0.9, 1), false), Governor::Trip::kNone);  // 1.9 < 2 (0 + 1)
+  EXPECT_EQ(g.judge(stats(0.9, 1), false), Governor::Trip::kNone);    // 1.9 < 2 (0 + 1)
   EXPECT_EQ(g.judge(stats(2, 0.7), false), Governor::Trip::kEnergy);  // growing slowly does not help
   EXPECT_EQ(g.judge(stats(2, 0.7), true), Governor::Trip::kEnergy) << "whatever the integrator";
 }

@@ -164,7 +164,7 @@ TEST(VolumeEnergy, HasBoundedPressureAndIsBoundedBelow) {
   EXPECT_DOUBLE_EQ(volumeEnergy(-2, 1), -1);
   EXPECT_NEAR(volumeEnergy(-2, 1e9), -1, 1e-8);
   for (double e = -5; e < 100; e += 0.01) EXPECT_GT(volumeEnergy(-2, e), -1.46);  // g is largest at e = 1 + sqrt 2
-  EXPECT_NEAR(volumeEnergy(-2, 1e-4), -1e-8, 3e-12);                             // e^2 (1 + 2 e + ...)
+  EXPECT_NEAR(volumeEnergy(-2, 1e-4), -1e-8, 3e-12);                              // e^2 (1 + 2 e + ...)
   EXPECT_EQ(volumeEnergy(-2, -2), 0) << "a mirrored cell must not gain";
 }
 
