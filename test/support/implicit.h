@@ -8,6 +8,19 @@
 
 namespace viscera::test {
 
+/// A box that is held at one end, with a stiffer, heavier, fuller part at the other.
+inline Body twoPartBody() {
+  Body body = boxBody({5, 4, 4}, 0.01);
+  body.lattice.part_names = {"wall", "valve"};
+  for (uint32_t slot : body.lattice.active_slots) {
+    uint16_t& label = body.lattice.cell_labels[slot];
+    if (label && body.lattice.nodeAt(slot).x() >= 3) label = 2;
+    if (body.lattice.nodeAt(slot).x() == 0) body.lattice.nodes[slot].lo |= layout::kFixedBit;
+  }
+  body.parts = {{"valve", 60e3, 0.4, 3000}};
+  return body;
+}
+
 /// Starts that no gentle simulation meets.
 enum class Abuse { kRandomPlaces, kRandomVelocities, kBoth, kOnePoint, kMirrored };
 constexpr Abuse kAbuses[] = {Abuse::kRandomPlaces, Abuse::kRandomVelocities, Abuse::kBoth, Abuse::kOnePoint,

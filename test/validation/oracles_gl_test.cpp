@@ -8,24 +8,6 @@ using namespace viscera::test;
 
 namespace {
 
-/// Chain of nodes along z with axial springs of four quarters (stiffness k) and nodes of eight eighths (mass m).
-Body chainBody(int count, double spacing_m) {
-  Body body = boxBody({1, 1, count - 1}, spacing_m);
-  Lattice& lattice = body.lattice;
-  lattice.active_slots.clear();
-  for (uint32_t slot = 0; slot < lattice.nodes.size(); ++slot) {
-    const Vector3i n = lattice.nodeAt(slot);
-    layout::NodeBits& bits = lattice.nodes[slot];
-    const bool keep = n.x() == 0 && n.y() == 0 && massEighths(bits) > 0;
-    bits = {keep ? 8u << layout::kMassShift : 0u, 0u};
-    if (!keep) continue;
-    lattice.active_slots.push_back(slot);
-    if (n.z() + 1 < count) setSpringCount(bits, 4, 4);
-    if (n.z() > 0) setSpringCount(bits, 5, 4);
-  }
-  return body;
-}
-
 uint32_t slotOf(const Lattice& lattice, int x, int y, int z) {
   return static_cast<uint32_t>(lattice.slotAt({x, y, z}));
 }

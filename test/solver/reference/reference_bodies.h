@@ -18,19 +18,8 @@ inline Body unitBody(const Vector3i& cells, double poisson_ratio = 0.25) {
 
 /// Chain of unit masses and unit springs along z.
 inline Body unitChain(int count) {
-  Body body = unitBody({1, 1, count - 1});
-  Lattice& lattice = body.lattice;
-  lattice.active_slots.clear();
-  for (uint32_t slot = 0; slot < lattice.nodes.size(); ++slot) {
-    const Vector3i n = lattice.nodeAt(slot);
-    layout::NodeBits& bits = lattice.nodes[slot];
-    const bool keep = n.x() == 0 && n.y() == 0 && massEighths(bits) > 0;
-    bits = {keep ? 8u << layout::kMassShift : 0u, 0u};
-    if (!keep) continue;
-    lattice.active_slots.push_back(slot);
-    if (n.z() + 1 < count) setSpringCount(bits, 4, 4);
-    if (n.z() > 0) setSpringCount(bits, 5, 4);
-  }
+  Body body = chainBody(count, 1.0);
+  body.material = unitBody({1, 1, 1}).material;
   return body;
 }
 
