@@ -20,7 +20,8 @@ std::vector<std::string> ImplicitSubstep::defines(const FeatureSet& features, co
   return out;
 }
 
-ImplicitSubstep::ImplicitSubstep(const FeatureSet& features, const LatticeBuffers& buffers, int iterations)
+ImplicitSubstep::ImplicitSubstep(const FeatureSet& features, const LatticeBuffers& buffers, int iterations,
+                                 int iterates)
     : guard(1 + 2 * static_cast<size_t>(iterations)),
       energies_(kEnergiesPerNode * (buffers.active_count + sumTreeSize(buffers.active_count))),
       group_size_(features.group_size) {
@@ -39,7 +40,7 @@ ImplicitSubstep::ImplicitSubstep(const FeatureSet& features, const LatticeBuffer
     end_with_tools_ = stage("END", true);
   }
   if (features.volume) cells_ = stage("CELLS");
-  for (int i = 0; i < 2; ++i) {
+  for (int i = 0; i < iterates; ++i) {
     increments_[i] = gpu::Buffer<layout::vec4>(buffers.slot_count);
     increment_texels_[i] = gpu::TexelView(increments_[i].raw(), gpu::TexelFormat::kRgba32f);
   }
@@ -47,7 +48,7 @@ ImplicitSubstep::ImplicitSubstep(const FeatureSet& features, const LatticeBuffer
 
 void ImplicitSubstep::bindIncrements() const {
   increments_[current_].bindStorage(layout::kBindIncrement);
-  increments_[1 - current_].bindStorage(layout::kBindIncrementOut);
+  if (increments_[1].size()) increments_[1 - current_].bindStorage(layout::kBindIncrementOut);
   increment_texels_[current_].bind(layout::kUnitIncrement);
 }
 

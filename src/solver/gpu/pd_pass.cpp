@@ -19,7 +19,7 @@ double nextWeight(int iteration, double weight, double rho) {
 }  // namespace
 
 PdPass::PdPass(const FeatureSet& features, const LatticeBuffers& buffers, const PdOptions& options)
-    : implicit_(features, buffers, options.iterations),
+    : implicit_(features, buffers, options.iterations, 2),
       sweep_(gpu::Program::compute("pd.comp", ImplicitSubstep::defines(features))),
       options_(options),
       group_size_(features.group_size) {

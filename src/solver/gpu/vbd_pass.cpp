@@ -13,7 +13,7 @@ uint32_t colourOf(uint32_t slot, bool volume) {
 }
 
 VbdPass::VbdPass(const FeatureSet& features, const LatticeBuffers& buffers, int iterations)
-    : implicit_(features, buffers, iterations),
+    : implicit_(features, buffers, iterations, 1),
       sweep_(gpu::Program::compute("vbd.comp", ImplicitSubstep::defines(features))),
       iterations_(iterations),
       group_size_(features.group_size) {

@@ -10,8 +10,8 @@ namespace viscera {
 /// (shaders/implicit.glsl has the equations). Owner of shaders/implicit.comp.
 class ImplicitSubstep {
  public:
-  /// @param iterations  at most, in a substep
-  ImplicitSubstep(const FeatureSet& features, const LatticeBuffers& buffers, int iterations);
+  /// @param iterations  at most, in a substep   @param iterates  that are kept: 1 (vbd, in place) or 2 (pd)
+  ImplicitSubstep(const FeatureSet& features, const LatticeBuffers& buffers, int iterations, int iterates);
 
   /// First iterate: held nodes are where their tools have them; the others at the best share of the motion that no
   /// force would change, the one of 0, 1/2, 3/4, 1 with the lowest incremental potential.
@@ -24,7 +24,7 @@ class ImplicitSubstep {
   /// have given them.
   void end(const LatticeBuffers& buffers, const Substep& step) const;
 
-  /// The next iterate is where the last but one was; swap() makes it the current one.
+  /// With two iterates the next one is where the last but one was; swap() makes it the current one.
   void swap();
   /// Forces and majorisers of the cells in the current iterate, where there are any, for the iteration that follows.
   void updateVolumes(const LatticeBuffers& buffers, const Substep& step, int iteration) const;
@@ -40,7 +40,7 @@ class ImplicitSubstep {
   void chooseShare(const LatticeBuffers& buffers, bool bound_energy) const;
 
   gpu::Program begin_, begin_with_tools_, guess_, fold_, scale_, cells_, end_, end_with_tools_;
-  gpu::Buffer<layout::vec4> increments_[2];  ///< [slots] xyz m; w 1 where prescribed
+  gpu::Buffer<layout::vec4> increments_[2];  ///< [slots] xyz m; w 1 where prescribed; the second with two iterates
   gpu::TexelView increment_texels_[2];
   gpu::Buffer<layout::vec4> energies_;  ///< [2 * (active + tree)] J
   int current_ = 0;
