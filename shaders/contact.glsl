@@ -4,46 +4,48 @@
 // What a probe does to a node, and where a held node goes (VR05 2.7.1, 2.7.2; physics.md 5). Included by the integrators.
 #include "quaternion.glsl"
 
+#ifndef __cplusplus
 layout(std140, binding = kBindToolMotions) uniform ToolMotionsBlock { ToolMotion tool_motions[kMaxStyluses]; };
 layout(std430, binding = kBindGrabOffsets) readonly buffer GrabOffsetsBuffer { vec4 grab_offsets[]; };
 layout(std430, binding = kBindImpulses) buffer ImpulsesBuffer { vec4 impulses[]; };
 
 /// Adds a change of momentum to what a stylus gave this node in this tick; w counts substeps of contact.
-void giveMomentum(uint stylus, uint slot, vec3 impulse) { impulses[stylus * slot_count + slot] += vec4(impulse, 1.0); }
+void giveMomentum(uint stylus, uint slot, vec3 impulse) { impulses[stylus * slot_count + slot] += vec4(impulse, 1.0f); }
+#endif
 
 /// Point of the segment a..b that is nearest to x.
 vec3 nearestOnSegment(vec3 a, vec3 b, vec3 x) {
   vec3 ab = b - a;
   float length2 = dot(ab, ab);
-  return length2 > 0.0 ? a + clamp(dot(x - a, ab) / length2, 0.0, 1.0) * ab : a;
+  return length2 > 0.0f ? a + clamp(dot(x - a, ab) / length2, 0.0f, 1.0f) * ab : a;
 }
 
 /// Swept sphere: a node inside the final sphere goes to its surface along the radius; one that the sphere has passed over
 /// goes out of the swept capsule sideways, so no sweep is too fast. Its normal velocity becomes the tool's.
-void probe(ToolMotion motion, vec3 x, inout vec3 x_next, inout vec3 v_next) {
+void probe(ToolMotion motion, vec3 x, INOUT(vec3) x_next, INOUT(vec3) v_next) {
   float radius = motion.from.w;
-  vec3 travel = motion.to.xyz - motion.from.xyz;
-  vec3 centre = distance(x_next, motion.to.xyz) < radius ? motion.to.xyz
-                                                         : nearestOnSegment(motion.from.xyz, motion.to.xyz, x_next);
+  vec3 travel = xyz(motion.to) - xyz(motion.from);
+  vec3 centre = distance(x_next, xyz(motion.to)) < radius ? xyz(motion.to)
+                                                         : nearestOnSegment(xyz(motion.from), xyz(motion.to), x_next);
   vec3 out_of = x_next - centre;
   float depth2 = dot(out_of, out_of);
   if (depth2 >= radius * radius) return;
   // A node at the centre has no direction: it leaves where it came from, or against the travel, or upwards.
-  vec3 fallback = distance(x, centre) > 0.0 ? x - centre : dot(travel, travel) > 0.0 ? -travel : vec3(0.0, 0.0, 1.0);
-  vec3 normal = normalize(depth2 > 1e-12 * radius * radius ? out_of : fallback);
+  vec3 fallback = distance(x, centre) > 0.0f ? x - centre : dot(travel, travel) > 0.0f ? -travel : vec3(0.0f, 0.0f, 1.0f);
+  vec3 normal = normalize(depth2 > 1e-12f * radius * radius ? out_of : fallback);
   // Out of the tool, but no faster than waves travel: a tool that appears inside the tissue must not shoot it away.
   float way = radius - dot(out_of, normal);
   x_next += min(way, push_speed * dt_s) * normal;
   float approach = dot(v_next - travel / dt_s, normal);
-  if (approach < 0.0) v_next -= approach * normal;
+  if (approach < 0.0f) v_next -= approach * normal;
 }
 
 /// Where a stylus has a node that it holds at the end of the substep: displacement [m].
 vec3 heldDisplacement(uint stylus, uint slot) {
-  return tool_motions[stylus].to.xyz + rotated(tool_motions[stylus].orientation, grab_offsets[slot].xyz) - restPosition(slot);
+  return xyz(tool_motions[stylus].to) + rotated(xyzw(tool_motions[stylus].orientation), xyz(grab_offsets[slot])) - restPosition(slot);
 }
 
-void resolveContacts(uint slot, NodeBits bits, float mass, vec3 u, inout vec3 u_next, inout vec3 v_next) {
+void resolveContacts(uint slot, NodeBits bits, float mass, vec3 u, INOUT(vec3) u_next, INOUT(vec3) v_next) {
   vec3 rest = restPosition(slot);
   uint held_by = (bits.lo & kGrabMask) >> kGrabShift;
   for (uint s = 0u; s < kMaxStyluses; ++s) {
@@ -55,8 +57,8 @@ void resolveContacts(uint slot, NodeBits bits, float mass, vec3 u, inout vec3 u_
       v_next = (u_next - u) / dt_s;
     } else if (held_by == 0u) {
       vec3 x_next = rest + u_next;
-      vec3 reach = x_next - motion.to.xyz;
-      vec3 travel = motion.to.xyz - motion.from.xyz;
+      vec3 reach = x_next - xyz(motion.to);
+      vec3 travel = xyz(motion.to) - xyz(motion.from);
       float far = motion.from.w + length(travel);
       if (dot(reach, reach) >= far * far) continue;
       probe(motion, rest + u, x_next, v_next);

@@ -7,6 +7,7 @@
 #include "spring.glsl"
 #include "volume.glsl"
 
+#ifndef __cplusplus
 layout(binding = kUnitDisplacement) uniform samplerBuffer displacement;
 layout(binding = kUnitVelocity) uniform samplerBuffer velocity;
 #ifdef INCREMENT
@@ -31,9 +32,12 @@ float springStiffness(uint slot, uint far, uint spring, uint count, BodyParams b
   return float(count) * (spring < kAxialSprings ? body.axial_quarter_n_per_m : body.diagonal_half_n_per_m);
 }
 #endif
-
 #ifdef VOLUME
 layout(binding = kUnitCellForces) uniform samplerBuffer cell_forces;  // [3 * slots], of volume.comp
+#endif
+#endif  // __cplusplus
+
+#ifdef VOLUME
 /// Calls APPLY(corner) for the eight corners that a node is of the cells around it, as -1 | +1 per axis.
 #define FOR_EACH_CELL(APPLY)                                                      \
   APPLY(ivec3(-1, -1, -1)) APPLY(ivec3(1, -1, -1)) APPLY(ivec3(-1, 1, -1))        \
@@ -41,7 +45,7 @@ layout(binding = kUnitCellForces) uniform samplerBuffer cell_forces;  // [3 * sl
   APPLY(ivec3(-1, 1, 1)) APPLY(ivec3(1, 1, 1))
 
 /// Lowest corner of the cell in which a node is this corner; exists says whether its brick is there.
-uint cellAt(uint slot, ivec3 corner, out bool exists) {
+uint cellAt(uint slot, ivec3 corner, OUT(bool) exists) {
   ivec3 p = localCoord(slot) - ((corner + 1) >> 1);  // -1 .. 3
   ivec3 side = (p + 4) >> 2;                          // 0, 1
   uint brick = neighborBrick(slot, uint(side.x + 3 * side.y + 9 * side.z));
@@ -52,7 +56,7 @@ uint cellAt(uint slot, ivec3 corner, out bool exists) {
 
 /// Force of the volume of the cells around a node [N]; w their Jacobi majorisers [N/m].
 vec4 volumeForce(uint slot) {
-  vec4 sum = vec4(0.0);
+  vec4 sum = vec4(0.0f);
 #define ADD_CELL(corner)                                                                                        \
   {                                                                                                             \
     bool exists;                                                                                                \
@@ -60,7 +64,7 @@ vec4 volumeForce(uint slot) {
     if (exists) {                                                                                               \
       vec4 pa = texelFetch(cell_forces, cell);                                                                  \
       vec3 s = vec3(corner);                                                                                    \
-      sum += vec4(-(s.x * pa.xyz + s.y * texelFetch(cell_forces, cell + 1).xyz + s.z * texelFetch(cell_forces, cell + 2).xyz), pa.w); \
+      sum += vec4(-(s.x * xyz(pa) + s.y * xyz(texelFetch(cell_forces, cell + 1)) + s.z * xyz(texelFetch(cell_forces, cell + 2))), pa.w); \
     }                                                                                                           \
   }
   FOR_EACH_CELL(ADD_CELL)

@@ -8,6 +8,7 @@
 #include "lattice.glsl"
 #include "quaternion.glsl"
 
+#ifndef __cplusplus
 layout(std430, binding = kBindActive) readonly buffer ActiveBuffer { uint active_nodes[]; };
 layout(std430, binding = kBindNodes) buffer NodesBuffer { NodeBits nodes[]; };
 layout(std430, binding = kBindDisplacementIn) readonly buffer DisplacementIn { vec4 displacement[]; };
@@ -19,20 +20,21 @@ layout(location = 1) uniform uint stylus;
 layout(location = 2) uniform vec4 tip;          // xyz tip [m], w grab radius [m]
 layout(location = 3) uniform vec4 orientation;  // of the stylus, quaternion xyzw
 layout(location = 4) uniform float release_speed;  // largest |v| after release [m/s]
+#endif
 
 void takeHold(uint slot, NodeBits bits) {
   if ((bits.lo & (kFixedBit | kGrabMask)) != 0u || isIsolated(bits)) return;
-  vec3 offset = restPosition(slot) + displacement[slot].xyz - tip.xyz;
+  vec3 offset = restPosition(slot) + xyz(displacement[slot]) - xyz(tip);
   if (dot(offset, offset) > tip.w * tip.w) return;
-  grab_offsets[slot] = vec4(rotated(conjugate(orientation), offset), 0.0);
+  grab_offsets[slot] = vec4(rotated(conjugate(orientation), offset), 0.0f);
   nodes[slot].lo = bits.lo | ((stylus + 1u) << kGrabShift);
 }
 
 void letGo(uint slot, NodeBits bits) {
   if ((bits.lo & kGrabMask) >> kGrabShift != stylus + 1u) return;
-  vec3 v = velocity[slot].xyz;
+  vec3 v = xyz(velocity[slot]);
   float speed = length(v);
-  if (speed > release_speed) velocity[slot] = vec4(v * (release_speed / speed), 0.0);
+  if (speed > release_speed) velocity[slot] = vec4(v * (release_speed / speed), 0.0f);
   nodes[slot].lo = bits.lo & ~kGrabMask;
 }
 

@@ -7,11 +7,13 @@
 // stationary point of the incremental potential
 //   P(du) = sum of m (1 + gamma dt)/(2 dt^2) |du - y|^2 + E(u + du) + sum of c/(2 dt) (n . (du_far - du_near))^2
 // increment.w is 1 where du is prescribed: fixed, sleeping and held nodes.
+#ifndef __cplusplus
 layout(std430, binding = kBindActive) readonly buffer ActiveBuffer { uint active_nodes[]; };
 layout(std430, binding = kBindNodes) readonly buffer NodesBuffer { NodeBits nodes[]; };
 // Word 0: float bits of the share of y that the iterations start from, in the end of the share of du that was taken. Then two
 // words per iteration of pd: float bits of its largest change; 1 if acceleration was given up by then.
 layout(std430, binding = kBindGuard) buffer GuardBuffer { uint guard[]; };
+#endif
 
 uint changeWord(uint iteration) { return 1u + 2u * iteration; }
 uint plainWord(uint iteration) { return 2u + 2u * iteration; }
@@ -19,17 +21,17 @@ uint plainWord(uint iteration) { return 2u + 2u * iteration; }
 /// How far a node may go in a sweep of pd where there are volumes [m]: what their majoriser reckons with. Twice what the last
 /// sweep did, so that it is no more than a formality near a solution.
 float reach(float h, uint iteration) {
-  const float longest = 0.1, shortest = 1e-3;
-  return iteration == 0u ? longest * h : clamp(2.0 * uintBitsToFloat(guard[changeWord(iteration - 1u)]), shortest * h, longest * h);
+  const float longest = 0.1f, shortest = 1e-3f;
+  return iteration == 0u ? longest * h : clamp(2.0f * uintBitsToFloat(guard[changeWord(iteration - 1u)]), shortest * h, longest * h);
 }
 
 /// m (1 + gamma dt)/dt^2 [N/m]
-float inertia(float mass, BodyParams body) { return mass * (1.0 + body.drag_per_s * dt_s) / (dt_s * dt_s); }
+float inertia(float mass, BodyParams body) { return mass * (1.0f + body.drag_per_s * dt_s) / (dt_s * dt_s); }
 
 /// y: the increment that no force would change.
 vec3 freeIncrement(uint slot, BodyParams body) {
-  vec3 v = texelFetch(velocity, int(slot)).xyz;
-  return (dt_s * v + (dt_s * dt_s) * gravity) / (1.0 + body.drag_per_s * dt_s);
+  vec3 v = xyz(texelFetch(velocity, int(slot)));
+  return (dt_s * v + (dt_s * dt_s) * gravity) / (1.0f + body.drag_per_s * dt_s);
 }
 
 /// c/dt of a spring's dashpot [N/m]
@@ -37,7 +39,7 @@ float damping(float k, BodyParams body) {
 #ifdef DASHPOT
   return k * body.dashpot_s / dt_s;
 #else
-  return 0.0;
+  return 0.0f;
 #endif
 }
 
@@ -51,10 +53,10 @@ struct ImplicitSpring {
 
 /// @param u, du  of the near end   @param d  rest offset to the far end n [m]   @param l0  its length [m]
 ImplicitSpring implicitSpring(uint n, vec3 u, vec3 du, vec3 d, float l0, float k, BodyParams body) {
-  vec3 along = texelFetch(increment, int(n)).xyz - du;
+  vec3 along = xyz(texelFetch(increment, int(n))) - du;
   ImplicitSpring s;
-  s.spring = springBetween(d, l0, (texelFetch(displacement, int(n)).xyz - u) + along);
-  s.stretch = s.spring.extension > 0.0 ? s.spring.extension / (l0 + s.spring.extension) : 0.0;
+  s.spring = springBetween(d, l0, (xyz(texelFetch(displacement, int(n))) - u) + along);
+  s.stretch = s.spring.extension > 0.0f ? s.spring.extension / (l0 + s.spring.extension) : 0.0f;
   s.damping = damping(k, body);
   s.force = (k * s.spring.extension + s.damping * dot(s.spring.direction, along)) * s.spring.direction;
   return s;
@@ -75,19 +77,19 @@ ImplicitSpring implicitSpring(uint n, vec3 u, vec3 du, vec3 d, float l0, float k
 
 #ifdef VOLUME
 /// @param at  displacements of the cell's corners, bit per axis, x lowest [m]
-CellShape shapeOf(vec3 at[8], float h, out vec3 edge_lengths) {
-  float quarter = 0.25 / h;
+CellShape shapeOf(vec3 at[8], float h, OUT(vec3) edge_lengths) {
+  float quarter = 0.25f / h;
   vec3 da = quarter * ((at[1] - at[0]) + (at[3] - at[2]) + (at[5] - at[4]) + (at[7] - at[6]));
   vec3 db = quarter * ((at[2] - at[0]) + (at[3] - at[1]) + (at[6] - at[4]) + (at[7] - at[5]));
   vec3 dc = quarter * ((at[4] - at[0]) + (at[5] - at[1]) + (at[6] - at[2]) + (at[7] - at[3]));
-  edge_lengths = vec3(length(vec3(1.0, 0.0, 0.0) + da), length(vec3(0.0, 1.0, 0.0) + db), length(vec3(0.0, 0.0, 1.0) + dc));
+  edge_lengths = vec3(length(vec3(1.0f, 0.0f, 0.0f) + da), length(vec3(0.0f, 1.0f, 0.0f) + db), length(vec3(0.0f, 0.0f, 1.0f) + dc));
   return cellShape(da, db, dc);
 }
 
 /// Bounds on the curvature W'' and the slope |W'| of a cell's energy within `way` of e [J].
 vec2 volumeBounds(float bulk, float e, float way) {
-  if (bulk <= 0.0) return vec2(-0.75 * bulk, -0.703 * bulk);  // the largest there are
-  return vec2(abs(e) - way < 1.0 ? bulk : 0.0, bulk * min(1.0, abs(e) + way));
+  if (bulk <= 0.0f) return vec2(-0.75f * bulk, -0.703f * bulk);  // the largest there are
+  return vec2(abs(e) - way < 1.0f ? bulk : 0.0f, bulk * min(1.0f, abs(e) + way));
 }
 
 /// Added to the diagonal of a Jacobi iteration for each corner of a cell [N/m], this makes every step descend in which no
@@ -95,10 +97,10 @@ vec2 volumeBounds(float bulk, float e, float way) {
 /// which move by up to 2 reach/h, and their rates a', b', c':  W = W'' e'^2 + W' e'',
 ///   e'^2 <= (|b x c|^2 + |c x a|^2 + |a x b|^2) sum |a'|^2,   e'' <= (|a| + |b| + |c|) sum |a'|^2,   sum |a'|^2 <= sum |du'|^2/(2 h^2)
 float volumeMajoriser(float bulk, CellShape s, vec3 edge_lengths, float reach, float h) {
-  float way = 2.0 * reach / h;
+  float way = 2.0f * reach / h;
   vec3 a = edge_lengths + way;
-  vec3 areas = vec3(length(s.bc), length(s.ca), length(s.ab)) + way * (edge_lengths.yzx + edge_lengths.zxy + way);
+  vec3 areas = vec3(length(s.bc), length(s.ca), length(s.ab)) + way * (vec3(edge_lengths.y + edge_lengths.z, edge_lengths.z + edge_lengths.x, edge_lengths.x + edge_lengths.y) + way);
   vec2 bounds = volumeBounds(bulk, s.e, way * (areas.x + areas.y + areas.z));
-  return 0.25 * (bounds.x * dot(areas, areas) + bounds.y * (a.x + a.y + a.z)) / (h * h);
+  return 0.25f * (bounds.x * dot(areas, areas) + bounds.y * (a.x + a.y + a.z)) / (h * h);
 }
 #endif

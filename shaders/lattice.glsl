@@ -4,6 +4,7 @@
 // The implicit lattice: bricks of 4x4x4 nodes, neighbours by offset, springs as small counts. model/neighbors.h is its twin.
 #include "layout.h"
 
+#ifndef __cplusplus  // there src/solver/cpu/glsl_kernel.h says where bricks and bodies are
 layout(local_size_x = GROUP_SIZE) in;
 // Two ways to the same buffers. Feature TEXELS (the solver's kernels): bricks by texel fetch, bodies in a uniform block,
 // which software rasterisers run several times faster than storage loads; otherwise storage buffers.
@@ -25,6 +26,12 @@ ivec3 brickCoord(uint slot) {
 uint brickBody(uint slot) { return bricks[slot >> 6].body; }
 #endif
 
+/// Index of this invocation over all groups (gpu/program.cpp folds many groups into rows).
+uint globalIndex() {
+  return (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
+}
+#endif
+
 /// Calls APPLY(spring, offset) for the 18 springs in the order of model/neighbors.h; the opposite of s is s ^ 1.
 #define FOR_EACH_SPRING(APPLY)                                                                                  \
   APPLY(0u, ivec3(1, 0, 0)) APPLY(1u, ivec3(-1, 0, 0)) APPLY(2u, ivec3(0, 1, 0)) APPLY(3u, ivec3(0, -1, 0))     \
@@ -32,11 +39,6 @@ uint brickBody(uint slot) { return bricks[slot >> 6].body; }
   APPLY(6u, ivec3(1, 1, 0)) APPLY(7u, ivec3(-1, -1, 0)) APPLY(8u, ivec3(1, -1, 0)) APPLY(9u, ivec3(-1, 1, 0))   \
   APPLY(10u, ivec3(1, 0, 1)) APPLY(11u, ivec3(-1, 0, -1)) APPLY(12u, ivec3(1, 0, -1)) APPLY(13u, ivec3(-1, 0, 1)) \
   APPLY(14u, ivec3(0, 1, 1)) APPLY(15u, ivec3(0, -1, -1)) APPLY(16u, ivec3(0, 1, -1)) APPLY(17u, ivec3(0, -1, 1))
-
-/// Index of this invocation over all groups (gpu/program.cpp folds many groups into rows).
-uint globalIndex() {
-  return (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
-}
 
 ivec3 localCoord(uint slot) { return ivec3(slot & 3u, (slot >> 2) & 3u, (slot >> 4) & 3u); }
 
@@ -75,6 +77,6 @@ ivec3 nodeCoord(uint slot) { return brickCoord(slot) * int(kBrickEdge) + localCo
 
 /// Rest position of a node [m, tissue frame].
 vec3 restPosition(uint slot) {
-  vec4 origin_spacing = bodies[bodyAt(slot)].origin_spacing;
-  return origin_spacing.xyz + origin_spacing.w * vec3(nodeCoord(slot));
+  BodyParams body = bodies[bodyAt(slot)];
+  return xyz(body.origin_spacing) + body.origin_spacing.w * vec3(nodeCoord(slot));
 }

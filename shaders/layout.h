@@ -19,6 +19,12 @@ struct alignas(16) uvec4 {
 struct alignas(16) ivec4 {
   int x, y, z, w;
 };
+#else
+// What the two languages spell differently where the CPU backend compiles GLSL as C++ (src/solver/cpu/glsl.h).
+#define INOUT(T) inout T
+#define OUT(T) out T
+#define xyz(v) (v).xyz
+#define xyzw(v) (v)
 #endif
 
 // Lattice nodes are stored in bricks of 4x4x4 slots: slot = 64 * brick + x + 4 y + 16 z (coordinates within the brick).
@@ -79,6 +85,7 @@ const uint kBindCellForces = 25u;     // vec4[3 * slots]: what a cell's volume d
 const uint kBindCompensation = 26u;   // vec4[2 * slots]: what the sums of displacement [m] and velocity [m/s] have lost
 const uint kBindIncrement = 27u;      // vec4[slots]: implicit integrators: displacement gained in this substep [m]
 const uint kBindIncrementOut = 28u;   // the same, next iterate; holds the last but one until then
+const uint kBindStaleBricks = 29u;    // uint[bricks]: StateView::stale_bricks
 const uint kBindGuard = 30u;          // uint[1 + 2 iterations]: see implicit.glsl
 const uint kBindPositions = 31u;      // vec4[slots]: verlet_paper: x [m]
 const uint kBindPositionsBefore = 32u;  // vec4[slots]: verlet_paper: x one substep ago [m]; written with the next x

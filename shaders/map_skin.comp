@@ -3,7 +3,7 @@
 //
 // map_skin.comp - where the nodes carry the vertices and normals of the skin (EGVE eqs 4 to 9, hybrid of 3.6).
 // Owner: surface/surface.h   physics.md 4
-// in  skin[count], displacement[slots] m, node_normals[slots]     out  positions[3 * count] m, normals[count] packed
+// in  skin[count], displacement[slots] m, node_normals[slots], stale_bricks[bricks]     out  positions[3 * count] m, normals[count] packed
 #include "layout.h"
 layout(local_size_x = GROUP_SIZE) in;  // before globalIndex(), which asks for it
 #include "lattice.glsl"
@@ -11,6 +11,8 @@ layout(local_size_x = GROUP_SIZE) in;  // before globalIndex(), which asks for i
 #include "skin_basis.glsl"
 
 layout(location = 0) uniform uint vertex_count;
+layout(location = 1) uniform uint followed_revision;  // what moved no later is in place; 0: nothing is
+layout(std430, binding = kBindStaleBricks) readonly buffer StaleBricksBuffer { uint stale_bricks[]; };
 layout(std430, binding = kBindDisplacementIn) readonly buffer DisplacementBuffer { vec4 displacement[]; };
 layout(std430, binding = kBindNodeNormals) readonly buffer NodeNormalsBuffer { vec4 node_normals[]; };
 layout(std430, binding = kBindSkinBindings) readonly buffer SkinBuffer { SkinBinding skin[]; };
@@ -24,10 +26,14 @@ vec3 axialDirection(uint spring) {
   return axis;
 }
 
+/// A node moved, or one that its approximate normal depends on.
+bool isStale(uint slot) { return stale_bricks[slot >> 6] > followed_revision; }
+
 void main() {
   uint vertex = globalIndex();
   if (vertex >= vertex_count) return;
   SkinBinding s = skin[vertex];
+  if (followed_revision != 0u && !isStale(s.slot0) && !isStale(s.slot1) && !isStale(s.slot2)) return;
   float spacing = bodies[bricks[s.slot0 >> 6].body].origin_spacing.w;
   vec3 rest1 = axialDirection(s.springs & 31u);
   vec3 rest2 = -axialDirection((s.springs >> 10) & 31u);

@@ -3,13 +3,15 @@
 //
 // node_normal.comp - approximate normals of the nodes that the skin is bound to (VR05 eq 5).
 // Owner: surface/surface.h   physics.md 4
-// in  surface_nodes[count], displacement[slots] m, nodes[slots]     out  node_normals[slots] xyz unit, w trust 0..1
+// in  surface_nodes[count], displacement[slots] m, nodes[slots], stale_bricks[bricks]     out  node_normals[slots] xyz unit, w trust 0..1
 #include "layout.h"
 layout(local_size_x = GROUP_SIZE) in;  // before globalIndex(), which asks for it
 #include "lattice.glsl"
 #include "skin_basis.glsl"
 
 layout(location = 0) uniform uint surface_node_count;
+layout(location = 1) uniform uint followed_revision;  // what moved no later is in place; 0: nothing is
+layout(std430, binding = kBindStaleBricks) readonly buffer StaleBricksBuffer { uint stale_bricks[]; };
 layout(std430, binding = kBindSurfaceNodes) readonly buffer SurfaceNodesBuffer { uint surface_nodes[]; };
 layout(std430, binding = kBindNodes) readonly buffer NodesBuffer { NodeBits nodes[]; };
 layout(std430, binding = kBindDisplacementIn) readonly buffer DisplacementBuffer { vec4 displacement[]; };
@@ -19,6 +21,7 @@ void main() {
   uint index = globalIndex();
   if (index >= surface_node_count) return;
   uint slot = surface_nodes[index];
+  if (followed_revision != 0u && stale_bricks[slot >> 6] <= followed_revision) return;
   NodeBits bits = nodes[slot];
   float spacing = bodies[bricks[slot >> 6].body].origin_spacing.w;
   vec3 here = displacement[slot].xyz;

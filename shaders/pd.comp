@@ -20,7 +20,7 @@ void main() {
   NodeBits bits = nodes[slot];
   if ((bits.lo & kFixedBit) != 0u) return;
   BodyParams body = bodies[bodyOf(bits)];
-  float mass = nodeMass(slot, bits, body), stiffness = 0.0, volume = 0.0;
+  float mass = nodeMass(slot, bits, body), stiffness = 0.0f, volume = 0.0f;
 #define ADD_STIFFNESS(spring, offset)                                                                 \
   {                                                                                                   \
     uint count = springCount(bits, spring);                                                           \
@@ -28,13 +28,13 @@ void main() {
   }
   FOR_EACH_SPRING(ADD_STIFFNESS)
 #ifdef VOLUME
-  const CellShape at_rest = cellShape(vec3(0.0), vec3(0.0), vec3(0.0));
+  const CellShape at_rest = cellShape(vec3(0.0f), vec3(0.0f), vec3(0.0f));
 #define ADD_BULK(corner)                                                                                      \
   {                                                                                                           \
     bool exists;                                                                                              \
     uint cell = cellAt(slot, corner, exists);                                                                 \
     if (exists && (nodes[cell].lo & kCellBit) != 0u)                                                          \
-      volume += volumeMajoriser(cellBulk(cell, body), at_rest, vec3(1.0), 0.0, body.origin_spacing.w);        \
+      volume += volumeMajoriser(cellBulk(cell, body), at_rest, vec3(1.0f), 0.0f, body.origin_spacing.w);        \
   }
   FOR_EACH_CELL(ADD_BULK)
 #endif
@@ -42,14 +42,16 @@ void main() {
   atomicMax(guard[1], floatBitsToUint(stiffness * body.dashpot_s / mass));
 }
 #else
+#ifndef __cplusplus
 layout(std430, binding = kBindIncrementOut) buffer IncrementOut { vec4 next_increments[]; };  // holds the last but one
 layout(location = 7) uniform uint iteration;
 layout(location = 8) uniform float omega;  // Chebyshev's weight; 1 is plain Jacobi
+#endif
 
 /// Has the last sweep moved a node farther than the first did, by more than the norms' difference? Modes within the spectrum
 /// cannot grow (in the sum of squares; the largest of all nodes may for a while), so the acceleration has met one outside.
 bool wentWrong() {
-  const float allowed = 4.0;
+  const float allowed = 4.0f;
   if (iteration == 0u) return false;
   return !(uintBitsToFloat(guard[changeWord(iteration - 1u)]) <= allowed * uintBitsToFloat(guard[changeWord(0u)]));
 }
@@ -61,6 +63,7 @@ vec4 pull(uint slot, NodeBits bits, BodyParams body, vec3 u, vec3 du) {
   vec4 sum = vec4(inertia_n_per_m * (freeIncrement(slot, body) - du), inertia_n_per_m);
 #define VISIT_SPRING sum += vec4(s.force, k + s.damping);
   FOR_EACH_SPRING(IMPLICIT_SPRING)
+#undef VISIT_SPRING
 #ifdef VOLUME
   sum += volumeForce(slot);
 #endif
@@ -77,31 +80,31 @@ void main() {
   uint i = globalIndex();
   if (i >= active_count) return;
   uint slot = active_nodes[i];
-  bool was_plain = wasPlain(), plain = was_plain || (omega != 1.0 && wentWrong());
+  bool was_plain = wasPlain(), plain = was_plain || (omega != 1.0f && wentWrong());
   if (i == 0u && plain) guard[plainWord(iteration)] = 1u;
   vec4 now = texelFetch(increment, int(slot));
-  if (now.w != 0.0) {
+  if (now.w != 0.0f) {
     next_increments[slot] = now;
     return;
   }
   NodeBits bits = nodes[slot];
   BodyParams body = bodies[bodyOf(bits)];
   if (plain && !was_plain) {  // what acceleration has spoilt starts anew
-    if (i == 0u) guard[changeWord(iteration)] = guard[changeWord(0u)];
-    next_increments[slot] = vec4(uintBitsToFloat(guard[0]) * freeIncrement(slot, body), 0.0);
+    if (i == 0u) guard[changeWord(iteration)] = uint(guard[changeWord(0u)]);
+    next_increments[slot] = vec4(uintBitsToFloat(guard[0]) * freeIncrement(slot, body), 0.0f);
     return;
   }
-  vec4 p = pull(slot, bits, body, texelFetch(displacement, int(slot)).xyz, now.xyz);
-  vec3 change = p.xyz / p.w;
+  vec4 p = pull(slot, bits, body, xyz(texelFetch(displacement, int(slot))), xyz(now));
+  vec3 change = xyz(p) / p.w;
 #ifdef VOLUME
-  change *= min(1.0, reach(body.origin_spacing.w, iteration) / max(length(change), 1e-30));
+  change *= min(1.0f, reach(body.origin_spacing.w, iteration) / max(length(change), 1e-30f));
 #endif
   recordChange(change);
-  vec3 next = now.xyz + change;
-  if (omega != 1.0 && !plain) {
-    vec3 before = next_increments[slot].xyz;
+  vec3 next = xyz(now) + change;
+  if (omega != 1.0f && !plain) {
+    vec3 before = xyz(next_increments[slot]);
     next = before + omega * (next - before);
   }
-  next_increments[slot] = vec4(next, 0.0);
+  next_increments[slot] = vec4(next, 0.0f);
 }
 #endif

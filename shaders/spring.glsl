@@ -3,8 +3,8 @@
 //
 // The force of one lattice spring on the node at its near end (physics.md 1, 2).
 
-const float kSqrt2 = 1.41421356237309505;
-const float kShortest = 1e-6;  // of the rest length: below it a spring has no direction of its own and keeps its rest one
+const float kSqrt2 = 1.41421356237309505f;
+const float kShortest = 1e-6f;  // of the rest length: below it a spring has no direction of its own and keeps its rest one
 
 struct Spring {
   vec3 direction;   // unit vector towards the far end
@@ -23,6 +23,7 @@ Spring springBetween(vec3 d, float l0, vec3 w) {
   precise vec3 e = d + w;
   precise float l = sqrt(fixedDot(e, e));
   precise vec3 direction = l > kShortest * l0 ? e / l : d / l0;
-  precise float extension = fma(2.0, fixedDot(d, w), fixedDot(w, w)) / (l + l0);
-  return Spring(direction, extension);
+  precise float extension = fma(2.0f, fixedDot(d, w), fixedDot(w, w)) / (l + l0);
+  Spring spring = {direction, extension};
+  return spring;
 }

@@ -13,13 +13,15 @@
 #include "step.glsl"
 #include "implicit.glsl"
 
+#ifndef __cplusplus
 layout(std430, binding = kBindIncrement) writeonly buffer IncrementBuffer { vec4 increments[]; };
 layout(location = 7) uniform uint colour_first;  // of this colour in active_nodes, which holds active_count of them
+#endif
 
 /// Newton's step is sure to descend if |s| <= kLongest L and r.s >= kSteep sum of k |s|^3 / L, L the shortest spring: what the
 /// block leaves out of a spring's energy is below 0.23 k |s|^3 / L then, and the block promises r.s / 2.
-const float kLongest = 0.1;
-const float kSteep = 0.5;
+const float kLongest = 0.1f;
+const float kSteep = 0.5f;
 
 /// What pulls a node and how stiffly.
 struct Block {
@@ -31,31 +33,32 @@ struct Block {
   mat3 bounded;       // dashpots and volumes: quadratic, or bounded by what is here, however long the step
 };
 
-void addSprings(uint slot, NodeBits bits, BodyParams body, vec3 u, vec3 du, inout Block block) {
+void addSprings(uint slot, NodeBits bits, BodyParams body, vec3 u, vec3 du, INOUT(Block) block) {
   float h = body.origin_spacing.w;
 #define VISIT_SPRING                                                                \
   mat3 along = outerProduct(s.spring.direction, s.spring.direction);                \
   block.force += s.force;                                                           \
-  block.springs += (k * (1.0 - s.stretch)) * along;                                 \
+  block.springs += (k * (1.0f - s.stretch)) * along;                                 \
   block.bounded += s.damping * along;                                                \
   block.across += k * s.stretch;                                                    \
   block.stiffness += k;                                                             \
   block.shortest = min(block.shortest, l0 + s.spring.extension);
   FOR_EACH_SPRING(IMPLICIT_SPRING)
+#undef VISIT_SPRING
 }
 
 #ifdef VOLUME
 int aroundIndex(ivec3 offset) { return (offset.x + 1) + 3 * (offset.y + 1) + 9 * (offset.z + 1); }
 
 /// A cell's V/V0 is an affine function of one corner, e + g.s, so its energy's curvature is W'' g g^T, and W'' has a bound.
-void addCells(uint slot, BodyParams body, inout Block block) {
+void addCells(uint slot, BodyParams body, INOUT(Block) block) {
   float h = body.origin_spacing.w;
   vec3 around[27];
   for (int z = -1; z <= 1; ++z)
     for (int y = -1; y <= 1; ++y)
       for (int x = -1; x <= 1; ++x) {
         int n = int(neighborSlot(slot, ivec3(x, y, z)));
-        around[aroundIndex(ivec3(x, y, z))] = texelFetch(displacement, n).xyz + texelFetch(increment, n).xyz;
+        around[aroundIndex(ivec3(x, y, z))] = xyz(texelFetch(displacement, n)) + xyz(texelFetch(increment, n));
       }
   for (int corner = 0; corner < 8; ++corner) {
     ivec3 here = ivec3(corner & 1, (corner >> 1) & 1, (corner >> 2) & 1);  // of this node in the cell
@@ -67,10 +70,10 @@ void addCells(uint slot, BodyParams body, inout Block block) {
     vec3 edge_lengths;
     CellShape shape = shapeOf(at, h, edge_lengths);
     vec3 s = vec3(2 * here - 1);
-    vec3 g = (s.x * shape.bc + s.y * shape.ca + s.z * shape.ab) * (0.25 / h);
+    vec3 g = (s.x * shape.bc + s.y * shape.ca + s.z * shape.ab) * (0.25f / h);
     float bulk = cellBulk(cell, body);
     block.force -= volumePressure(bulk, shape.e) * g;
-    block.bounded += volumeBounds(bulk, 0.0, 0.0).x * outerProduct(g, g);
+    block.bounded += volumeBounds(bulk, 0.0f, 0.0f).x * outerProduct(g, g);
   }
 }
 #endif
@@ -103,15 +106,15 @@ void main() {
   if (i >= active_count) return;
   uint slot = active_nodes[colour_first + i];
   vec4 start = texelFetch(increment, int(slot));
-  if (start.w != 0.0) return;
-  vec3 du = start.xyz;
+  if (start.w != 0.0f) return;
+  vec3 du = xyz(start);
   NodeBits bits = nodes[slot];
   BodyParams body = bodies[bodyOf(bits)];
   float inertia_n_per_m = inertia(nodeMass(slot, bits, body), body);
-  Block block = Block(inertia_n_per_m * (freeIncrement(slot, body) - du), mat3(0.0), 0.0, 0.0, 1e30, mat3(0.0));
-  addSprings(slot, bits, body, texelFetch(displacement, int(slot)).xyz, du, block);
+  Block block = {inertia_n_per_m * (freeIncrement(slot, body) - du), mat3(0.0f), 0.0f, 0.0f, 1e30f, mat3(0.0f)};
+  addSprings(slot, bits, body, xyz(texelFetch(displacement, int(slot))), du, block);
 #ifdef VOLUME
   addCells(slot, body, block);
 #endif
-  increments[slot] = vec4(du + descent(inertia_n_per_m, block), 0.0);
+  increments[slot] = vec4(du + descent(inertia_n_per_m, block), 0.0f);
 }

@@ -9,6 +9,7 @@
 #include "lattice.glsl"
 #include "elastic.glsl"
 
+#ifndef __cplusplus
 layout(std430, binding = kBindActive) readonly buffer ActiveBuffer { uint active_nodes[]; };
 layout(std430, binding = kBindNodes) readonly buffer NodesBuffer { NodeBits nodes[]; };
 layout(std430, binding = kBindPositionsBefore) buffer PositionsBefore { vec4 positions_before[]; };
@@ -18,6 +19,7 @@ layout(std430, binding = kBindPositions) writeonly buffer Positions { vec4 rebui
 layout(binding = kUnitPositions) uniform samplerBuffer positions;
 layout(std430, binding = kBindDisplacementOut) writeonly buffer DisplacementOut { vec4 next_displacement[]; };
 layout(std430, binding = kBindVelocityOut) writeonly buffer VelocityOut { vec4 next_velocity[]; };
+#endif
 #endif
 
 #include "step.glsl"
@@ -30,15 +32,15 @@ void main() {
   uint i = globalIndex();
   if (i >= active_count) return;
   uint slot = active_nodes[i];
-  vec3 x = restPosition(slot) + texelFetch(displacement, int(slot)).xyz;
-  rebuilt_positions[slot] = vec4(x, 0.0);
-  positions_before[slot] = vec4(x - dt_s * texelFetch(velocity, int(slot)).xyz, 0.0);
+  vec3 x = restPosition(slot) + xyz(texelFetch(displacement, int(slot)));
+  rebuilt_positions[slot] = vec4(x, 0.0f);
+  positions_before[slot] = vec4(x - dt_s * xyz(texelFetch(velocity, int(slot))), 0.0f);
 }
 #else
 /// Sum of the forces of springs and volumes [N]; the springs' from absolute positions: L - l0 cancels, as printed.
 vec3 latticeForce(uint slot, NodeBits bits, BodyParams body, vec3 x) {
   float h = body.origin_spacing.w;
-  vec3 force = vec3(0.0);
+  vec3 force = vec3(0.0f);
 #define ADD_SPRING(spring, offset)                                                    \
   {                                                                                   \
     uint count = springCount(bits, spring);                                           \
@@ -46,7 +48,7 @@ vec3 latticeForce(uint slot, NodeBits bits, BodyParams body, vec3 x) {
       uint n = neighborSlot(slot, offset);                                            \
       float k = springStiffness(slot, n, spring, count, body);                        \
       float l0 = spring < kAxialSprings ? h : kSqrt2 * h;                             \
-      vec3 edge = texelFetch(positions, int(n)).xyz - x;                              \
+      vec3 edge = xyz(texelFetch(positions, int(n))) - x;                              \
       float l = length(edge);                                                         \
       vec3 direction = l > kShortest * l0 ? edge / l : h * vec3(offset) / l0;         \
       force += (k * (l - l0)) * direction;                                            \
@@ -54,7 +56,7 @@ vec3 latticeForce(uint slot, NodeBits bits, BodyParams body, vec3 x) {
   }
   FOR_EACH_SPRING(ADD_SPRING)
 #ifdef VOLUME
-  force += volumeForce(slot).xyz;
+  force += xyz(volumeForce(slot));
 #endif
   return force;
 }
@@ -65,24 +67,24 @@ void main() {
   uint slot = active_nodes[i];
   NodeBits bits = nodes[slot];
   vec3 rest = restPosition(slot);
-  vec3 x = texelFetch(positions, int(slot)).xyz;
-  vec3 u = texelFetch(displacement, int(slot)).xyz;
+  vec3 x = xyz(texelFetch(positions, int(slot)));
+  vec3 u = xyz(texelFetch(displacement, int(slot)));
   if (isAtRest(bits)) {
-    positions_before[slot] = vec4(x, 0.0);
-    next_displacement[slot] = vec4(u, 0.0);
-    next_velocity[slot] = vec4(0.0);
+    positions_before[slot] = vec4(x, 0.0f);
+    next_displacement[slot] = vec4(u, 0.0f);
+    next_velocity[slot] = vec4(0.0f);
     return;
   }
   BodyParams body = bodies[bodyOf(bits)];
   // What x_prev stands for. A tool may have changed the velocity since: then x_prev is no longer where the node was.
-  vec3 v = texelFetch(velocity, int(slot)).xyz;
-  precise vec3 x_prev = positions_before[slot].xyz;
+  vec3 v = xyz(texelFetch(velocity, int(slot)));
+  precise vec3 x_prev = xyz(positions_before[slot]);
   precise vec3 v_stored = (x - x_prev) / dt_s;
   if (v != v_stored) x_prev = x - dt_s * v;
 
   float mass = nodeMass(slot, bits, body);
   vec3 a = latticeForce(slot, bits, body, x) / mass + gravity - body.drag_per_s * ((x - x_prev) / dt_s);
-  precise vec3 x_next = 2.0 * x - x_prev + dt_s * dt_s * a;
+  precise vec3 x_next = 2.0f * x - x_prev + dt_s * dt_s * a;
   precise vec3 v_next = (x_next - x) / dt_s;
   precise vec3 u_next = x_next - rest;
   vec3 u_free = u_next;
@@ -91,8 +93,8 @@ void main() {
 #endif
   fallAsleep(bits, u, u_next, v_next);
   if (u_next != u_free) x_next = rest + u_next;
-  positions_before[slot] = vec4(x_next, 0.0);
-  next_displacement[slot] = vec4(u_next, 0.0);
-  next_velocity[slot] = vec4(v_next, 0.0);
+  positions_before[slot] = vec4(x_next, 0.0f);
+  next_displacement[slot] = vec4(u_next, 0.0f);
+  next_velocity[slot] = vec4(v_next, 0.0f);
 }
 #endif

@@ -9,13 +9,17 @@
 #include "lattice.glsl"
 #include "elastic.glsl"
 
+#ifndef __cplusplus
 layout(std430, binding = kBindCells) readonly buffer CellsBuffer { uint cells[]; };
 layout(location = 0) uniform uint cell_count;
+#endif
 
 uint cornerSlot(uint slot, uint c) { return neighborSlot(slot, ivec3(c & 1u, (c >> 1) & 1u, (c >> 2) & 1u)); }
 
 #ifdef CUT
+#ifndef __cplusplus
 layout(std430, binding = kBindNodes) buffer NodesBuffer { NodeBits nodes[]; };
+#endif
 
 /// Has one of the cell's 24 springs, seen from a corner, been cut?
 bool torn(uint slot, uint c) {
@@ -42,31 +46,33 @@ void main() {
   if (lost) nodes[slot].lo &= ~kCellBit;
 }
 #else
+#ifndef __cplusplus
 layout(std430, binding = kBindNodes) readonly buffer NodesBuffer { NodeBits nodes[]; };
 layout(std430, binding = kBindCellForces) writeonly buffer CellForcesBuffer { vec4 cell_forces_out[]; };
+#endif
 
-vec3 u(uint slot) { return texelFetch(displacement, int(slot)).xyz; }
+vec3 u(uint slot) { return xyz(texelFetch(displacement, int(slot))); }
 
 void main() {
   uint i = globalIndex();
   if (i >= cell_count) return;
   uint slot = cells[i];
   NodeBits bits = nodes[slot];
-  vec4 pa = vec4(0.0), pb = vec4(0.0), pc = vec4(0.0);
+  vec4 pa = vec4(0.0f), pb = vec4(0.0f), pc = vec4(0.0f);
   if ((bits.lo & kCellBit) != 0u) {
     BodyParams body = bodies[bodyOf(bits)];
     float h = body.origin_spacing.w, bulk = cellBulk(slot, body);
     vec3 n0 = u(slot), n1 = u(cornerSlot(slot, 1u)), n2 = u(cornerSlot(slot, 2u)), n3 = u(cornerSlot(slot, 3u));
     vec3 n4 = u(cornerSlot(slot, 4u)), n5 = u(cornerSlot(slot, 5u)), n6 = u(cornerSlot(slot, 6u)), n7 = u(cornerSlot(slot, 7u));
-    float quarter = 0.25 / h;
+    float quarter = 0.25f / h;
     vec3 da = quarter * ((n1 - n0) + (n3 - n2) + (n5 - n4) + (n7 - n6));
     vec3 db = quarter * ((n2 - n0) + (n3 - n1) + (n6 - n4) + (n7 - n5));
     vec3 dc = quarter * ((n4 - n0) + (n5 - n1) + (n6 - n2) + (n7 - n3));
     CellShape s = cellShape(da, db, dc);
     float p = volumePressure(bulk, s.e) * quarter;
-    pa = vec4(p * s.bc, 0.0);
-    pb = vec4(p * s.ca, 0.0);
-    pc = vec4(p * s.ab, 0.0);
+    pa = vec4(p * s.bc, 0.0f);
+    pb = vec4(p * s.ca, 0.0f);
+    pc = vec4(p * s.ab, 0.0f);
   }
   cell_forces_out[3u * slot] = pa;
   cell_forces_out[3u * slot + 1u] = pb;

@@ -11,23 +11,24 @@ struct CellShape {
 
 /// @param da, db, dc  mean edges less their rest value, over h.   e without cancellation: tr D + minors of D + det D.
 CellShape cellShape(vec3 da, vec3 db, vec3 dc) {
-  vec3 a = vec3(1.0, 0.0, 0.0) + da, b = vec3(0.0, 1.0, 0.0) + db, c = vec3(0.0, 0.0, 1.0) + dc;
+  vec3 a = vec3(1.0f, 0.0f, 0.0f) + da, b = vec3(0.0f, 1.0f, 0.0f) + db, c = vec3(0.0f, 0.0f, 1.0f) + dc;
   float minors = (da.x * db.y - da.y * db.x) + (da.x * dc.z - da.z * dc.x) + (db.y * dc.z - db.z * dc.y);
   float e = (da.x + db.y + dc.z) + (minors + dot(da, cross(db, dc)));
-  return CellShape(cross(b, c), cross(c, a), cross(a, b), e);
+  CellShape shape = {cross(b, c), cross(c, a), cross(a, b), e};
+  return shape;
 }
 
 /// dW/de of the energy W(e) [J]: bulk/2 e^2, linear beyond |e| = 1; for bulk < 0 bulk/2 g^2 with g = (e + e^2)/(1 + e^2),
 /// which is bounded and, for a cell turned inside out, nothing.
 float volumePressure(float bulk, float e) {
-  if (bulk > 0.0) return bulk * clamp(e, -1.0, 1.0);
-  float q = 1.0 + e * e;
-  return e > -1.0 ? bulk * ((e + e * e) / q) * ((1.0 + 2.0 * e - e * e) / (q * q)) : 0.0;
+  if (bulk > 0.0f) return bulk * clamp(e, -1.0f, 1.0f);
+  float q = 1.0f + e * e;
+  return e > -1.0f ? bulk * ((e + e * e) / q) * ((1.0f + 2.0f * e - e * e) / (q * q)) : 0.0f;
 }
 
 float volumeEnergy(float bulk, float e) {
   float size = abs(e);
-  if (bulk > 0.0) return size <= 1.0 ? 0.5 * bulk * e * e : bulk * (size - 0.5);
-  float g = e > -1.0 ? (e + e * e) / (1.0 + e * e) : 0.0;
-  return 0.5 * bulk * g * g;
+  if (bulk > 0.0f) return size <= 1.0f ? 0.5f * bulk * e * e : bulk * (size - 0.5f);
+  float g = e > -1.0f ? (e + e * e) / (1.0f + e * e) : 0.0f;
+  return 0.5f * bulk * g * g;
 }

@@ -6,6 +6,7 @@
 #include <iostream>
 #include <thread>
 
+#include "cli/bench_stages.h"
 #include "cli/commands.h"
 #include "viscera/gpu/context.h"
 #include "viscera/math/error.h"
@@ -79,6 +80,15 @@ void print(std::ostream& out, const Row& row, const gpu::Context& context) {
       << static_cast<double>(row.nodes) / (row.median_ms * 1e-3) << ',' << row.hash << std::endl;
 }
 
+void stagesOf(const std::vector<Scene>& scenes, std::ostream& out) {
+  printStageNames(out);
+  for (Scene scene : scenes) {
+    const Model model = buildModel(scene, consoleProgress());
+    fitTick(model, scene);
+    printStages(out, model, scene);
+  }
+}
+
 }  // namespace
 
 int benchStep(const BenchStepOptions& options) {
@@ -98,6 +108,10 @@ int benchStep(const BenchStepOptions& options) {
   }
   std::ostream& out = options.csv == "-" ? std::cout : file;
   gpu::Context context;
+  if (options.stages) {
+    stagesOf(scenes, out);
+    return 0;
+  }
   out << "scene,nodes,backend,threads,renderer,ms_per_step_median,ms_per_step_p99,node_updates_per_s,state_hash\n";
   for (const Scene& scene : scenes) print(out, measure(scene), context);
   return 0;

@@ -21,6 +21,7 @@ struct RunOptions {
   std::string strokes;  ///< empty: nobody touches the tissue
   std::optional<double> seconds;
   std::string out;         ///< empty: no pictures, no metrics.json
+  bool live = false;       ///< pictures may be left out where drawing falls behind, but for marks
   bool reference = false;  ///< in float64 on the CPU
   bool compare = false;    ///< with --reference: and the GPU beside it
   Overrides overrides;
@@ -32,9 +33,10 @@ struct BenchStepOptions {
   std::vector<int> nodes;
   std::string scene;
   std::string csv = "-";
+  bool stages = false;  ///< of the GPU, in place of whole substeps
   Overrides overrides;
 };
-/// `viscera bench step`: time of a substep.
+/// `viscera bench step`: time of a substep, or of each of its stages.
 int benchStep(const BenchStepOptions& options);
 
 struct BenchSuiteOptions {

@@ -50,7 +50,10 @@ int dispatch(int argc, char** argv) {
   run->add_option("--strokes", o.run.strokes, "recorded strokes to replay");
   CLI::Option* seconds = run->add_option("--seconds", o.seconds, "simulated time; default: the strokes' length, or 1")
                              ->check(CLI::Range(0.0, 86400.0));
-  run->add_option("--out", o.run.out, "folder for pictures and metrics.json");
+  CLI::Option* out = run->add_option("--out", o.run.out, "folder for pictures and metrics.json");
+  run->add_flag("--live", o.run.live,
+                "leave pictures out rather than wait for them, as a live session does; but for marks")
+      ->needs(out);
   CLI::Option* reference = run->add_flag("--reference", o.run.reference, "the plain float64 solver instead of the GPU");
   run->add_flag("--compare", o.run.compare, "the GPU's error against the reference, as gpu_error")->needs(reference);
   addOverrides(run, o.run.overrides);
@@ -68,6 +71,7 @@ int dispatch(int argc, char** argv) {
   step->add_option("--nodes", o.step.nodes, "node counts; default 10000 42745 100000")->check(CLI::Range(8, 20000000));
   step->add_option("--scene", o.step.scene, "measure this scene instead");
   step->add_option("--csv", o.step.csv, "file to write; - is standard output");
+  step->add_flag("--stages", o.step.stages, "time of each stage on the GPU, by its own clock");
   addOverrides(step, o.step.overrides);
   step->get_option("--scene")->excludes("--nodes");
   step->get_option("--set")->needs("--scene");

@@ -16,6 +16,8 @@ void writePng(const std::string& path, int width, int height, const std::vector<
   image.width = static_cast<png_uint_32>(width);
   image.height = static_cast<png_uint_32>(height);
   image.format = PNG_FORMAT_RGB;
+  image.flags =
+      PNG_IMAGE_FLAG_FAST;  // several times faster, somewhat larger: pictures are taken while tissue is stepped
   if (!png_image_write_to_file(&image, path.c_str(), 0, rgb.data(), 0, nullptr)) {
     throw ImageError("cannot write '" + path + "': " + image.message);
   }

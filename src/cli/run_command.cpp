@@ -2,12 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <chrono>
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 #include <iostream>
 
+#include "cli/album.h"
 #include "cli/commands.h"
-#include "cli/png_writer.h"
 #include "cli/run_metrics.h"
 #include "cli/run_plan.h"
 #include "viscera/math/error.h"
@@ -25,54 +24,6 @@ double secondsSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// Where pictures go: a numbered series per camera, and a named one for every mark of the strokes.
-class Album {
- public:
-  Album(const std::string& folder, const Scene& scene, const Strokes& strokes, uint64_t ticks)
-      : folder_(folder), scene_(scene) {
-    if (folder_.empty()) return;
-    std::error_code error;
-    std::filesystem::create_directories(folder_ + "/frames", error);
-    if (error) throw Error(folder_ + ": cannot be made into a folder for pictures: " + error.message());
-    for (const Mark& mark : strokes.marks) {
-      const double tick = std::max(1.0, std::round(mark.time_s * scene.solver.tick_hz));
-      if (tick > static_cast<double>(ticks)) {
-        std::cout << "mark '" << mark.name << "' lies after the end: no picture\n";
-        continue;
-      }
-      marks_.emplace(static_cast<uint64_t>(tick), mark.name);
-    }
-  }
-
-  Wants wants(const Session& session) const {
-    Wants out;
-    if (folder_.empty()) return out;
-    out.every_image = true;
-    for (size_t c = 0; c < scene_.cameras.size(); ++c) {
-      out.cameras.push_back(session.imageDue(c) || marks_.count(session.tick() + 1) > 0);
-    }
-    return out;
-  }
-
-  void add(const Frame& frame) const {
-    for (const ImageFrame& image : frame.images) {
-      char number[32];
-      std::snprintf(number, sizeof number, "_%06llu.png", static_cast<unsigned long long>(image.tick));
-      const std::string& camera = scene_.cameras[image.camera].name;
-      writePng(folder_ + "/frames/" + camera + number, image.width, image.height, image.rgb);
-      const auto named = marks_.equal_range(image.tick);
-      for (auto mark = named.first; mark != named.second; ++mark) {
-        writePng(folder_ + "/" + mark->second + "_" + camera + ".png", image.width, image.height, image.rgb);
-      }
-    }
-  }
-
- private:
-  std::string folder_;
-  const Scene& scene_;
-  std::multimap<uint64_t, std::string> marks_;  ///< tick -> names
-};
-
 Json metricsOf(const Session& session, const layout::TickStats& stats, const std::string& renderer, double wall_s) {
   const Counters counters = session.counters();
   RunMetrics metrics{session.scene().name, session.model()};
@@ -85,6 +36,7 @@ Json metricsOf(const Session& session, const layout::TickStats& stats, const std
   metrics.state_hash = session.stateHash();
   metrics.extremes = session.extremes();
   metrics.images = counters.renders;
+  metrics.images_skipped = counters.skipped;
   metrics.backend = session.solver().backend();
   metrics.renderer = renderer;
   return toJson(metrics);
@@ -136,7 +88,8 @@ int run(const RunOptions& options) {
   for (const Body& body : session.model().bodies) {
     for (const std::string& note : body.notes) std::cout << body.name << ": " << note << '\n';
   }
-  const Album album(options.out, session.scene(), strokes, ticks);
+  std::cout << session.backendNote() << '\n';
+  Album album(options.out, session.scene(), strokes, ticks, options.live);
   const Clock::time_point start = Clock::now();
   for (uint64_t t = 0; t < ticks; ++t) {
     const double time_s = static_cast<double>(t + 1) * session.tick_s();
@@ -146,6 +99,7 @@ int run(const RunOptions& options) {
   const Frame last = session.drain();
   const double wall_s = secondsSince(start);
   album.add(last);
+  album.finish();
 
   const Json metrics = metricsOf(session, last.stats, context.renderer(), wall_s);
   if (!options.out.empty()) {

@@ -29,6 +29,7 @@ nlohmann::ordered_json toJson(const RunMetrics& metrics) {
   out["ticks_held_back"] = metrics.extremes.held_back;
   out["peak_force_n"] = metrics.extremes.peak_force_n;
   out["images"] = metrics.images;
+  out["images_skipped"] = metrics.images_skipped;
   out["backend"] = metrics.backend;
   out["renderer"] = metrics.renderer;
   return out;

@@ -85,6 +85,14 @@ void TexelView::bind(uint32_t unit) const {
   glBindTextureUnit(unit, id_);
 }
 
+void bindStorages(uint32_t first, std::initializer_list<uint32_t> buffers) {
+  glBindBuffersBase(GL_SHADER_STORAGE_BUFFER, first, static_cast<GLsizei>(buffers.size()), buffers.begin());
+}
+
+void bindTexels(uint32_t first, std::initializer_list<uint32_t> views) {
+  glBindTextures(first, static_cast<GLsizei>(views.size()), views.begin());
+}
+
 void RawBuffer::bindStorage(uint32_t binding) const {
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, id_);
 }

@@ -156,9 +156,19 @@ bool Context::open(int index, void* device, DeviceAttempt& attempt) {
   return true;
 }
 
+void Context::release() noexcept {
+  eglBindAPI(EGL_OPENGL_API);  // EGL keeps this for each thread
+  eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+}
+
+bool Context::makeCurrent() noexcept {
+  eglBindAPI(EGL_OPENGL_API);
+  return eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_) == EGL_TRUE;
+}
+
 Context::~Context() {
   if (!context_) return;
-  eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+  release();
   eglDestroyContext(display_, context_);
   eglTerminate(display_);
 }

@@ -3,6 +3,7 @@
 #include "viscera/gpu/program.h"
 
 #include <algorithm>
+#include <cstring>
 #include <sstream>
 #include <utility>
 
@@ -132,10 +133,11 @@ Program::~Program() {
   if (id_) glDeleteProgram(id_);
 }
 
-Program::Program(Program&& other) noexcept : id_(std::exchange(other.id_, 0)) {}
+Program::Program(Program&& other) noexcept : id_(std::exchange(other.id_, 0)), uniforms_(std::move(other.uniforms_)) {}
 
 Program& Program::operator=(Program&& other) noexcept {
   std::swap(id_, other.id_);
+  uniforms_.swap(other.uniforms_);
   return *this;
 }
 
@@ -158,6 +160,28 @@ void Program::storageBarrier() {
 
 int Program::location(const char* uniform) const {
   return glGetUniformLocation(id_, uniform);
+}
+
+/// Notes the value. OpenGL's own start, zero, is known too.
+bool Program::changes(int location, const void* value, size_t bytes) const {
+  const size_t at = static_cast<size_t>(location);
+  if (at >= uniforms_.size()) uniforms_.resize(at + 1);
+  if (std::memcmp(uniforms_[at].data(), value, bytes) == 0) return false;
+  std::memcpy(uniforms_[at].data(), value, bytes);
+  return true;
+}
+
+void Program::set(int location, uint32_t value) const {
+  if (changes(location, &value, sizeof value)) glProgramUniform1ui(id_, location, value);
+}
+
+void Program::set(int location, float value) const {
+  if (changes(location, &value, sizeof value)) glProgramUniform1f(id_, location, value);
+}
+
+void Program::setVector(int location, const float* value, size_t components) const {
+  if (!changes(location, value, components * sizeof *value)) return;
+  (components == 3 ? glProgramUniform3fv : glProgramUniform4fv)(id_, location, 1, value);
 }
 
 }  // namespace viscera::gpu

@@ -71,7 +71,8 @@ const void* ReadbackRing::collect(uint64_t* tag, bool wait) {
   Slot& slot = slots_[static_cast<size_t>(oldest_)];
   if (slot.fence) {
     const GLsync fence = static_cast<GLsync>(slot.fence);
-    GLenum result = glClientWaitSync(fence, GL_SYNC_FLUSH_COMMANDS_BIT, wait ? kOneSecondNs : 0);
+    GLenum result = glClientWaitSync(fence, GL_SYNC_FLUSH_COMMANDS_BIT, 0);
+    waits_ += wait && result == GL_TIMEOUT_EXPIRED;
     while (wait && result == GL_TIMEOUT_EXPIRED) result = glClientWaitSync(fence, 0, kOneSecondNs);
     if (result == GL_WAIT_FAILED) throw GpuError("glClientWaitSync failed: " + glErrorText(glGetError()));
     if (result == GL_TIMEOUT_EXPIRED) return nullptr;

@@ -69,6 +69,12 @@ Progress progressOf(const BodyConfig& config, const Progress& progress) {
   };
 }
 
+Filling fill(const Tissue& tissue, const BodyConfig& config, const Progress& progress) {
+  if (config.target_nodes > 0) return fillToNodes(tissue, config.target_nodes, progress);
+  if (config.auto_spacing) return fillToNodes(tissue, kUnmeasuredNodes, progress);
+  return tissue.fill(config.spacing_m, progress);
+}
+
 Body buildBody(const BodyConfig& config, const std::string& folder, const Progress& all_progress) {
   const Progress progress = progressOf(config, all_progress);
   Body body;
@@ -79,8 +85,8 @@ Body buildBody(const BodyConfig& config, const std::string& folder, const Progre
   if (progress) progress("read", 0);
   const std::unique_ptr<Tissue> tissue = makeTissue(config, folder);
   body.notes = tissue->notes;
-  const Filling filling = config.target_nodes > 0 ? fillToNodes(*tissue, config.target_nodes, progress)
-                                                  : tissue->fill(config.spacing_m, progress);
+  const Filling filling = fill(*tissue, config, progress);
+  if (!config.spacing_note.empty()) body.notes.push_back(config.spacing_note);
   if (!filling.note.empty()) body.notes.push_back(filling.note);
   if (progress) progress("build lattice", 0);
   body.lattice = buildLattice(filling.solid, config.material.weights);

@@ -158,6 +158,14 @@ Overrides meshOverrides(const std::string& mesh_file) {
           std::string("bodies[0].up_axis=") + (gltf ? "y" : "z")};
 }
 
+std::vector<size_t> autoBodies(const Scene& scene) {
+  std::vector<size_t> out;
+  for (size_t b = 0; b < scene.bodies.size(); ++b) {
+    if (scene.bodies[b].auto_spacing && scene.bodies[b].target_nodes == 0) out.push_back(b);
+  }
+  return out;
+}
+
 Scene parseScene(const std::string& yaml, const std::string& name, const Overrides& overrides) {
   YamlSource source{name, {}};
   Scene scene;

@@ -9,10 +9,10 @@
 namespace viscera {
 
 // The one list of scene keys. A visitor offers
-//   number(key, double&, Range, unit, text)   integer(key, int&, Range, text)   text(key, std::string&, text)
-//   boolean(key, bool&, text)
-//   vector(key, Vector3d&, Range, unit, text) choice(key, Enum&, {{name, value}...}, text)
-//   group(key, Struct&, text)                 list(key, std::vector<Struct>&, max_count, text, defaults of an item =
+//   number(key, double&, Range, unit, text)   numberOrAuto(key, double&, bool& is_auto, Range, unit, text) integer(key,
+//   int&, Range, text)   text(key, std::string&, text) boolean(key, bool&, text) vector(key, Vector3d&, Range, unit,
+//   text) choice(key, Enum&, {{name, value}...}, text) group(key, Struct&, text)                 list(key,
+//   std::vector<Struct>&, max_count, text, defaults of an item =
 //   {})
 
 /// Accepted values, both ends included.
@@ -84,7 +84,8 @@ void visitFields(V& v, BodyConfig& c) {
   v.number("phantom_length_m", c.phantom_length_m, {0.01, 1}, "m", "phantom: base to apex");
   v.number("phantom_wall_scale", c.phantom_wall_scale, {0.1, 2}, "1", "phantom: multiplies every wall thickness");
   v.vector("box_size_m", c.box_size_m, {1e-4, 10}, "m", "box: edge lengths, centred on the body's origin");
-  v.number("spacing_m", c.spacing_m, {1e-5, 10}, "m", "lattice spacing h");
+  v.numberOrAuto("spacing_m", c.spacing_m, c.auto_spacing, {1e-5, 10}, "m",
+                 "lattice spacing h; auto: the finest that this machine steps in real time (solver.real_time_factor)");
   v.integer("target_nodes", c.target_nodes, {0, 20e6},
             "node count to reach within 2 %; above 0 it decides instead of spacing_m");
   v.choice("skin", c.skin,
@@ -168,7 +169,15 @@ void visitFields(V& v, SolverConfig& c) {
   v.number("recovery_s", c.recovery_s, {0, 10}, "s", "governor: simulated time for which pd goes on after a roll-back");
   v.number("sleep_distance_m", c.sleep_distance_m, {0.01, 100}, "m",
            "a node is stopped this far from its place at rest: where fragments that fall come to lie");
+  v.number("sleep_speed_m_per_s", c.sleep_speed_m_per_s, {0, 0.1}, "m/s",
+           "CPU backend: bricks of 4x4x4 nodes that are all slower for 0.1 s are not stepped until something nears or "
+           "moves beside them; 0: never");
   v.integer("max_substeps", c.max_substeps, {1, 100000}, "a scene that needs more substeps per tick is refused");
+  v.number("real_time_factor", c.real_time_factor, {0.01, 1000}, "1",
+           "spacing_m: auto: seconds of tissue per second of clock that it must reach");
+  v.choice("backend", c.backend, {{"auto", Backend::kAuto}, {"gpu", Backend::kGpu}, {"cpu", Backend::kCpu}},
+           "what steps the tissue: GPU kernels or SIMD threads; auto: the GPU if it is a real one, else the CPU");
+  v.integer("threads", c.threads, {0, 256}, "CPU backend: threads; 0: one per processor");
   v.integer("device", c.device, {-1, 31}, "EGL device to take, as listed by `viscera check`; -1: the first that works");
 }
 

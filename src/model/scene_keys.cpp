@@ -17,6 +17,9 @@ class KeyTable {
   void number(const char* key, double& value, Range range, const char* unit, const char* text) {
     row(key, withUnit("number", unit), numberText(value), span(range), text);
   }
+  void numberOrAuto(const char* key, double& value, bool&, Range range, const char* unit, const char* text) {
+    row(key, withUnit("number or auto", unit), numberText(value), span(range), text);
+  }
   void integer(const char* key, int& value, Range range, const char* text) {
     row(key, "integer", std::to_string(value), span(range), text);
   }

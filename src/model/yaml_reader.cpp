@@ -72,11 +72,12 @@ void YamlReader::fail(const std::string& key, const YAML::Node& node, const std:
   throw SceneError(whereIs(source_, child(key), place) + "'" + child(key) + "' " + accepted + "; found " + shown(node));
 }
 
-double YamlReader::scalar(const char* key, const YAML::Node& node, Range range, const std::string& unit) const {
+double YamlReader::scalar(const char* key, const YAML::Node& node, Range range, const std::string& unit,
+                          const std::string& more) const {
   double value = 0;
   const bool is_number = node.IsScalar() && YAML::convert<double>::decode(node, value);
   if (!is_number || !std::isfinite(value) || value < range.min || value > range.max) {
-    fail(key, node, "is a number, " + rangeText(range, unit));
+    fail(key, node, "is a number, " + rangeText(range, unit) + more);
   }
   return value;
 }
@@ -84,6 +85,14 @@ double YamlReader::scalar(const char* key, const YAML::Node& node, Range range, 
 void YamlReader::number(const char* key, double& value, Range range, const char* unit, const char*) {
   const YAML::Node node = take(key);
   if (node) value = scalar(key, node, range, unit);
+}
+
+void YamlReader::numberOrAuto(const char* key, double& value, bool& is_auto, Range range, const char* unit,
+                              const char*) {
+  const YAML::Node node = take(key);
+  if (!node) return;
+  is_auto = node.IsScalar() && node.Scalar() == "auto";
+  if (!is_auto) value = scalar(key, node, range, unit, ", or auto");
 }
 
 void YamlReader::integer(const char* key, int& value, Range range, const char*) {

@@ -25,6 +25,7 @@ class YamlReader {
   YamlReader(const YAML::Node& map, const std::string& path, const YamlSource& source);
 
   void number(const char* key, double& value, Range range, const char* unit, const char* text);
+  void numberOrAuto(const char* key, double& value, bool& is_auto, Range range, const char* unit, const char* text);
   void integer(const char* key, int& value, Range range, const char* text);
   void boolean(const char* key, bool& value, const char* text);
   void text(const char* key, std::string& value, const char* text);
@@ -79,7 +80,9 @@ class YamlReader {
 
  private:
   YAML::Node take(const char* key);
-  double scalar(const char* key, const YAML::Node& node, Range range, const std::string& unit) const;
+  /// @param more  what is accepted besides the number, for the error
+  double scalar(const char* key, const YAML::Node& node, Range range, const std::string& unit,
+                const std::string& more = "") const;
   void requireList(const char* key, const YAML::Node& node, double max_count) const;
   std::string child(const std::string& key) const { return path_.empty() ? key : path_ + "." + key; }
   YAML::Node keyNode(const std::string& key) const;

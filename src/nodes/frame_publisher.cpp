@@ -16,6 +16,8 @@ FramePublisher::FramePublisher(ros::NodeHandle node, const Scene& scene,
     cameras_.push_back(std::make_unique<CameraPublisher>(transport_, camera, scene.solver.tick_hz));
   for (const StylusMailbox* mailbox : mailboxes)
     styluses_.push_back(std::make_unique<StylusPublisher>(node, *mailbox, scene.environment.tissue_frame));
+  force_latency_.resize(styluses_.size());
+  image_latency_.resize(cameras_.size());
   slots_ = emptySlots();
   broadcastStaticFrames(scene);
   thread_ = std::thread([this] { main(); });
@@ -71,7 +73,8 @@ void FramePublisher::deliver(Frame&& frame, const StylusSamples& samples) {
     const std::lock_guard<std::mutex> lock(mutex_);
     slots_.hands.emplace();
     slots_.hands->stamp = ros::Time::now();
-    for (size_t i = 0; i < samples.size(); ++i) slots_.hands->value[i] = {frame.reactions[i], samples[i]};
+    for (size_t i = 0; i < samples.size(); ++i)
+      slots_.hands->value[i] = {frame.reactions[i], frame.poses_received[i], samples[i]};
     if (frame.surface) {
       const ros::Time stamp = stampOf(frame.surface->tick);
       slots_.surface = {stamp, std::move(frame.surface)};
@@ -105,12 +108,34 @@ void FramePublisher::send(Slots&& slots) {
   if (slots.skin) surface_.start(std::move(slots.skin->value), slots.skin->stamp);
   if (slots.hands)
     for (size_t i = 0; i < styluses_.size(); ++i) {
-      const auto& [reaction, sample] = slots.hands->value[i];
-      styluses_[i]->publish(reaction, sample, slots.hands->stamp);
+      const Hand& hand = slots.hands->value[i];
+      styluses_[i]->publish(hand.reaction, hand.sample, slots.hands->stamp);
+      noteLatency(force_latency_[i], hand.pose_received);
     }
-  if (slots.surface) surface_.publish(*slots.surface->value, slots.surface->stamp);
-  for (size_t i = 0; i < slots.images.size(); ++i)
-    if (slots.images[i]) cameras_[i]->publish(std::move(slots.images[i]->value), slots.images[i]->stamp);
+  if (slots.surface) {
+    surface_.publish(*slots.surface->value, slots.surface->stamp);
+    noteLatency(surface_latency_, slots.surface->value->pose_received);
+  }
+  for (size_t i = 0; i < slots.images.size(); ++i) {
+    if (!slots.images[i]) continue;
+    const SteadyTime pose_received = slots.images[i]->value.pose_received;
+    cameras_[i]->publish(std::move(slots.images[i]->value), slots.images[i]->stamp);
+    noteLatency(image_latency_[i], pose_received);
+  }
+}
+
+void FramePublisher::noteLatency(LatencyMeter& meter, SteadyTime pose_received) {
+  const std::lock_guard<std::mutex> lock(latency_mutex_);
+  meter.add(pose_received, std::chrono::steady_clock::now());
+}
+
+FramePublisher::Latencies FramePublisher::takeLatencies() {
+  const std::lock_guard<std::mutex> lock(latency_mutex_);
+  Latencies out;
+  for (LatencyMeter& meter : force_latency_) out.forces.push_back(meter.take());
+  out.surface = surface_latency_.take();
+  for (LatencyMeter& meter : image_latency_) out.images.push_back(meter.take());
+  return out;
 }
 
 }  // namespace viscera::nodes

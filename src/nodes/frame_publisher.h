@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "nodes/camera_publisher.h"
+#include "nodes/latency_meter.h"
 #include "nodes/stylus_publisher.h"
 #include "nodes/surface_publisher.h"
 #include "nodes/throttle.h"
@@ -32,6 +33,14 @@ class FramePublisher {
   FramePublisher(const FramePublisher&) = delete;
   FramePublisher& operator=(const FramePublisher&) = delete;
 
+  /// From the arrival of a pose to the sending of what answers it, since they were last taken.
+  struct Latencies {
+    std::vector<LatencyMeter::Reading> forces;  ///< [styluses]
+    LatencyMeter::Reading surface;
+    std::vector<LatencyMeter::Reading> images;  ///< [cameras]
+  };
+  Latencies takeLatencies();
+
   // For the simulation's thread:
   void start(SkinLayout&& skin);
   /// What subscribers want of the tick that begins now; the tick's stamp is taken here.
@@ -44,7 +53,12 @@ class FramePublisher {
     ros::Time stamp;
     T value{};
   };
-  using Hands = std::array<std::pair<Reaction, StylusSample>, layout::kMaxStyluses>;
+  struct Hand {
+    Reaction reaction;
+    SteadyTime pose_received;  ///< of the pose that the reaction answers
+    StylusSample sample;
+  };
+  using Hands = std::array<Hand, layout::kMaxStyluses>;
   struct Slots {
     std::optional<Stamped<SkinLayout>> skin;
     std::optional<Stamped<Hands>> hands;
@@ -57,6 +71,7 @@ class FramePublisher {
   Slots emptySlots() const;
   void main();
   void send(Slots&& slots);
+  void noteLatency(LatencyMeter& meter, SteadyTime pose_received);
 
   tf2_ros::StaticTransformBroadcaster static_frames_;
   image_transport::ImageTransport transport_;
@@ -66,8 +81,13 @@ class FramePublisher {
   std::vector<std::unique_ptr<StylusPublisher>> styluses_;
 
   // Of the simulation's thread: when the last ticks began, since images and surfaces come back late.
+  static constexpr size_t kStampedTicks = 4096;
   ros::Time tick_stamp_;
-  std::array<Stamped<uint64_t>, 64> stamps_;
+  std::array<Stamped<uint64_t>, kStampedTicks> stamps_;
+
+  std::mutex latency_mutex_;
+  std::vector<LatencyMeter> force_latency_, image_latency_;
+  LatencyMeter surface_latency_;
 
   std::mutex mutex_;
   std::condition_variable filled_;

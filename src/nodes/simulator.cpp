@@ -26,7 +26,7 @@ Simulator::Simulator(const SimulatorOptions& options)
       publisher_(node_, options.scene, mailboxes(), options.surface_rate_hz),
       loop_(options.scene, ports(), reportProgress),
       services_(node_, loop_.commands()),
-      diagnostics_(node_, loop_, inputs_) {}
+      diagnostics_(node_, options.scene, loop_, publisher_, inputs_) {}
 
 SimulatorDiagnostics::Inputs Simulator::makeInputs(const Scene& scene, const tf2_ros::Buffer& frames) {
   SimulatorDiagnostics::Inputs inputs;
@@ -52,6 +52,7 @@ LoopPorts Simulator::ports() {
   ports.ready = [this](const Session& session) {
     ROS_INFO("ready: %zu nodes, %zu springs, %zu triangles, substep %.3g ms", session.model().activeNodes(),
              session.model().springs(), session.model().skinTriangles(), 1e3 * session.solver().dt_s());
+    ROS_INFO("%s", session.backendNote().c_str());
     for (const Body& body : session.model().bodies)
       for (const std::string& note : body.notes) ROS_INFO("%s: %s", body.name.c_str(), note.c_str());
     publisher_.start(skinLayout(session));

@@ -19,13 +19,23 @@ float fromBits(uint32_t bits) {
   return value;
 }
 
+void addLatency(const std::string& name, const LatencyMeter::Reading& reading,
+                diagnostic_updater::DiagnosticStatusWrapper& status) {
+  status.add(name + "_mean_ms", 1e3 * reading.mean_s);
+  status.add(name + "_max_ms", 1e3 * reading.max_s);
+}
+
 }  // namespace
 
-SimulatorDiagnostics::SimulatorDiagnostics(ros::NodeHandle node, SimulationLoop& loop, const Inputs& inputs)
-    : loop_(loop), inputs_(inputs), dropped_before_(inputs.size(), 0), updater_(node) {
+SimulatorDiagnostics::SimulatorDiagnostics(ros::NodeHandle node, const Scene& scene, SimulationLoop& loop,
+                                           FramePublisher& publisher, const Inputs& inputs)
+    : loop_(loop), publisher_(publisher), inputs_(inputs), dropped_before_(inputs.size(), 0), updater_(node) {
+  for (const CameraConfig& camera : scene.cameras) cameras_.push_back(camera.name);
+  latencies_ = publisher_.takeLatencies();
   updater_.setHardwareID("none");
   updater_.add("simulation", this, &SimulatorDiagnostics::simulation);
   updater_.add("pace", this, &SimulatorDiagnostics::pace);
+  updater_.add("latency", this, &SimulatorDiagnostics::latency);
   for (size_t i = 0; i < inputs_.size(); ++i)
     updater_.add(inputs_[i]->mailbox().config().name, [this, i](Status& status) { stylus(i, status); });
   // Forced from the steady clock, since the updater's own period follows ROS time, which may stand still.
@@ -34,6 +44,7 @@ SimulatorDiagnostics::SimulatorDiagnostics(ros::NodeHandle node, SimulationLoop&
 
 void SimulatorDiagnostics::update() {
   now_ = loop_.takeStatus();
+  latencies_ = publisher_.takeLatencies();
   if (now_) updater_.setHardwareID(now_->gpu);
   updater_.force_update();
 }
@@ -65,6 +76,8 @@ void SimulatorDiagnostics::simulation(Status& status) {
   status.add("mappings", now_->counters.mappings);
   status.add("renders", now_->counters.renders);
   status.add("read_backs", now_->counters.readbacks);
+  status.add("images_repeated", now_->counters.repeats);
+  status.add("frames_skipped", now_->counters.skipped);
 }
 
 void SimulatorDiagnostics::pace(Status& status) {
@@ -75,6 +88,14 @@ void SimulatorDiagnostics::pace(Status& status) {
   status.add("real_time_factor", pace.real_time_factor);
   status.add("step_mean_ms", 1e3 * pace.step_mean_s);
   status.add("step_max_ms", 1e3 * pace.step_max_s);
+}
+
+void SimulatorDiagnostics::latency(Status& status) {
+  status.summary(Level::OK, "from the arrival of a pose to the sending of what answers it");
+  for (size_t i = 0; i < inputs_.size(); ++i)
+    addLatency("pose_to_force_" + inputs_[i]->mailbox().config().name, latencies_.forces[i], status);
+  addLatency("pose_to_surface", latencies_.surface, status);
+  for (size_t i = 0; i < cameras_.size(); ++i) addLatency("pose_to_image_" + cameras_[i], latencies_.images[i], status);
 }
 
 void SimulatorDiagnostics::stylus(size_t index, Status& status) {

@@ -7,31 +7,38 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
+#include "nodes/frame_publisher.h"
 #include "nodes/simulation_loop.h"
 #include "nodes/stylus_input.h"
 
 namespace viscera::nodes {
 
-/// Sends /diagnostics once a second: health of the simulation, its pace, and every stylus.
+/// Sends /diagnostics once a second: health of the simulation, its pace, how long an answer takes, and every stylus.
 class SimulatorDiagnostics {
  public:
   using Inputs = std::vector<std::unique_ptr<StylusInput>>;
 
-  /// @param loop, inputs  must outlive this
-  SimulatorDiagnostics(ros::NodeHandle node, SimulationLoop& loop, const Inputs& inputs);
+  /// @param loop, publisher, inputs  must outlive this
+  SimulatorDiagnostics(ros::NodeHandle node, const Scene& scene, SimulationLoop& loop, FramePublisher& publisher,
+                       const Inputs& inputs);
 
  private:
   using Status = diagnostic_updater::DiagnosticStatusWrapper;
   void update();
   void simulation(Status& status);
   void pace(Status& status);
+  void latency(Status& status);
   void stylus(size_t index, Status& status);
 
   SimulationLoop& loop_;
+  FramePublisher& publisher_;
   const Inputs& inputs_;
+  std::vector<std::string> cameras_;  ///< their names
   std::optional<LoopStatus> now_;
+  FramePublisher::Latencies latencies_;
   std::vector<uint64_t> dropped_before_;
   diagnostic_updater::Updater updater_;
   ros::SteadyTimer timer_;

@@ -85,6 +85,7 @@ StylusSample StylusMailbox::take(SteadyTime now) {
   StylusSample sample;
   sample.valid = status_.seen && !isStale(now);
   sample.pose = pose_;
+  sample.received = received_;
   sample.button1 = buttons_[0].take();
   sample.button2 = buttons_[1].take();
   return sample;

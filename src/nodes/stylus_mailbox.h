@@ -17,8 +17,6 @@
 
 namespace viscera::nodes {
 
-using SteadyTime = std::chrono::steady_clock::time_point;
-
 /// Why a message of a device was not used.
 enum class Drop {
   kStampZero,         ///< CRTK: an invalid measurement

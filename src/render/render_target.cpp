@@ -91,11 +91,16 @@ void RenderTarget::bindForDrawing() const {
 
 void RenderTarget::resolve() const {
   glBindFramebuffer(GL_READ_FRAMEBUFFER, drawn_);
-  if (!image_) return;
-  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, image_);
-  glBlitFramebuffer(0, 0, supersampling_ * width_, supersampling_ * height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT,
-                    GL_LINEAR);
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, image_);
+  if (image_) {
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, image_);
+    glBlitFramebuffer(0, 0, supersampling_ * width_, supersampling_ * height_, 0, 0, width_, height_,
+                      GL_COLOR_BUFFER_BIT, GL_LINEAR);
+  }
+  bindForReading();
+}
+
+void RenderTarget::bindForReading() const {
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, image_ ? image_ : drawn_);
 }
 
 }  // namespace viscera

@@ -7,6 +7,7 @@
 #include "gpu/gl.h"
 #include "render/tissue_painter.h"
 #include "render/tool_painter.h"
+#include "viscera/gpu/stage_clock.h"
 
 namespace viscera {
 
@@ -54,6 +55,7 @@ void Renderer::draw(size_t camera, const Surface& surface, const ToolMotions& mo
 
 void Renderer::draw(size_t camera, const MeshView& mesh, const ToolMotions& motions) {
   assert(camera < cameras_.size());
+  const gpu::TimedStage timed(gpu::Stage::kRender);
   const Pose optical_from_tissue = opticalPose(cameras_[camera]).inverse();
   const Eigen::Matrix4f clip_from_optical = clipFromOptical(cameras_[camera]);
   targets_[camera].bindForDrawing();
@@ -62,6 +64,10 @@ void Renderer::draw(size_t camera, const MeshView& mesh, const ToolMotions& moti
   tools_->draw(motions, optical_from_tissue, clip_from_optical);
   targets_[camera].resolve();
   ++renders_;
+}
+
+void Renderer::bindLast(size_t camera) const {
+  targets_[camera].bindForReading();
 }
 
 }  // namespace viscera

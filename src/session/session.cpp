@@ -6,26 +6,14 @@
 #include <cmath>
 #include <cstring>
 
-#include "viscera/solver/gpu/gpu_solver.h"
+#include "viscera/session/auto_spacing.h"
+#include "viscera/solver/make_solver.h"
 
 namespace viscera {
 
 namespace {
 
-constexpr int kImagesInFlight = 3;
-constexpr int kSurfacesInFlight = 3;
-
-size_t surfaceBytes(const Surface& surface) {
-  return surface.vertices() * (3 * sizeof(float) + sizeof(uint32_t)) + surface.triangles() * sizeof(uint32_t);
-}
-
-size_t imageBytes(const CameraConfig& camera) {
-  return size_t{3} * static_cast<size_t>(camera.width_px) * static_cast<size_t>(camera.height_px);
-}
-
-bool wanted(const Wants& wants, size_t camera) {
-  return camera < wants.cameras.size() && wants.cameras[camera];
-}
+constexpr size_t kNotedTicks = 4096;  // images may come back that late
 
 float floatFromBits(uint32_t bits) {
   float value;
@@ -39,17 +27,14 @@ Vector3d xyz(const layout::vec4& v) {
 
 }  // namespace
 
-Session::Session(const Scene& scene, gpu::Context&, const Progress& progress)
-    : scene_(scene),
-      model_(buildModel(scene, progress)),
-      tools_(scene.styluses, waveSpeed(model_) / scene.solver.tick_hz) {
-  solver_ = std::make_unique<GpuSolver>(model_, scene_);
-  surface_ = std::make_unique<Surface>(model_);
-  renderer_ = std::make_unique<Renderer>(scene_.cameras, scene_.styluses);
-  surface_ring_ = std::make_unique<gpu::ReadbackRing>(surfaceBytes(*surface_), kSurfacesInFlight);
-  for (const CameraConfig& camera : scene_.cameras) {
-    image_rings_.push_back(std::make_unique<gpu::ReadbackRing>(imageBytes(camera), kImagesInFlight));
-  }
+Session::Session(const Scene& scene, gpu::Context& context, const Progress& progress)
+    : scene_(withChosenSpacing(scene, context, progress)),
+      model_(buildModel(scene_, progress)),
+      tools_(scene.styluses, waveSpeed(model_) / scene.solver.tick_hz),
+      pose_times_(kNotedTicks) {
+  solver_ = makeSolver(model_, scene_, context);
+  backend_note_ = viscera::backendNote(scene_.solver, context, *solver_);
+  view_ = makeView(*solver_, model_, scene_, context);
   for (const StylusConfig& stylus : scene_.styluses) {
     limiters_.emplace_back(stylus.max_force_n, stylus.max_force_rate_n_per_s);
   }
@@ -58,91 +43,57 @@ Session::Session(const Scene& scene, gpu::Context&, const Progress& progress)
 Session::~Session() = default;
 
 Frame Session::step(const StylusSamples& samples, const Wants& wants) {
-  const ToolMotions motions = tools_.advance(samples);  // VR05 2.7: probe, grab, cut
-  solver_->step(motions);                               // VR05 2.4: n substeps on the GPU
-  ++tick_;
+  look_.motions = tools_.advance(samples);  // VR05 2.7: probe, grab, cut
+  solver_->step(look_.motions);             // VR05 2.4: n substeps
+  look_.tick = ++tick_;
+  look_.wants = wants;
   ++ticks_;
+  notePoses(samples);
   Frame frame;
-  capture(wants, motions, frame);  // EGVE 3.3: nodes -> vertices, only what is wanted
+  view_->capture(*solver_, look_, frame);  // EGVE 3.3: nodes -> vertices, only what is wanted
   collect(frame, false);
-  for (size_t s = 0; s < limiters_.size(); ++s) {
-    frame.held_back[s] = motions[s].held_back;
-    extremes_.held_back += motions[s].held_back;
-    if (!motions[s].present || frame.health.recovering) {  // no pose, or tissue that is not itself: no force, at once
-      limiters_[s].reset();
-      frame.reactions[s] = Reaction{};
-    }
-  }
+  releaseUntracked(look_.motions, frame);
   return frame;
 }
 
-void Session::capture(const Wants& wants, const ToolMotions& motions, Frame& frame) {
-  bool followed = false;
-  const auto follow = [&] {
-    if (followed) return;
-    followed = true;
-    surface_->tear(solver_->state());
-    surface_->follow(solver_->state());
-  };
-  if (wants.surface && surface_ring_->inFlight() < kSurfacesInFlight) {
-    follow();
-    const gpu::ReadbackRing::Source sources[] = {
-        {surface_->positions().id(), 0, surface_->positions().size() * sizeof(float)},
-        {surface_->normals().id(), 0, surface_->normals().size() * sizeof(uint32_t)},
-        {surface_->alive().id(), 0, surface_->alive().size() * sizeof(uint32_t)}};
-    surface_ring_->request(sources, 3, tick_);
-    ++readbacks_;
+/// No pose, or tissue that is not itself: no force, at once.
+void Session::releaseUntracked(const ToolMotions& motions, Frame& frame) {
+  for (size_t s = 0; s < limiters_.size(); ++s) {
+    frame.held_back[s] = motions[s].held_back;
+    extremes_.held_back += motions[s].held_back;
+    if (motions[s].present && !frame.health.recovering) continue;
+    limiters_[s].reset();
+    frame.reactions[s] = Reaction{};
   }
-  for (size_t c = 0; c < image_rings_.size(); ++c) {
-    if (!wanted(wants, c)) continue;
-    const bool full = image_rings_[c]->inFlight() == kImagesInFlight;
-    if (full && !(wants.every_image && takeImage(c, frame, true))) continue;
-    follow();
-    renderer_->draw(c, *surface_, motions);
-    image_rings_[c]->requestPixels(scene_.cameras[c].width_px, scene_.cameras[c].height_px, tick_);
-    ++readbacks_;
-  }
+}
+
+SteadyTime Session::PoseTimes::newest() const {
+  return *std::max_element(received.begin(), received.end());
+}
+
+void Session::notePoses(const StylusSamples& samples) {
+  PoseTimes& times = pose_times_[tick_ % kNotedTicks];
+  times.tick = tick_;
+  for (size_t s = 0; s < samples.size(); ++s) times.received[s] = samples[s].valid ? samples[s].received : SteadyTime{};
+}
+
+Session::PoseTimes Session::posesOf(uint64_t tick) const {
+  const PoseTimes& times = pose_times_[tick % kNotedTicks];
+  return times.tick == tick ? times : PoseTimes{};
 }
 
 void Session::collect(Frame& frame, bool wait) {
   frame.tick = tick_;
   collectStats(frame, wait);
-  uint64_t tick = 0;
-  while (const void* memory = surface_ring_->collect(&tick, wait)) {
-    const char* at = static_cast<const char*>(memory);
-    frame.surface = std::make_unique<SurfaceFrame>();  // an older one of the same call is overtaken
-    const auto take = [&at](auto& out, size_t count) {
-      out.resize(count);
-      std::memcpy(out.data(), at, count * sizeof(out[0]));
-      at += count * sizeof(out[0]);
-    };
-    frame.surface->tick = tick;
-    take(frame.surface->positions_m, 3 * surface_->vertices());
-    take(frame.surface->normals, surface_->vertices());
-    take(frame.surface->alive, surface_->triangles());
-    surface_ring_->release();
-  }
-  for (size_t c = 0; c < image_rings_.size(); ++c) {
-    while (takeImage(c, frame, wait)) {
-    }
-  }
-}
-
-bool Session::takeImage(size_t camera, Frame& frame, bool wait) {
-  uint64_t tick = 0;
-  const auto* rgb = static_cast<const uint8_t*>(image_rings_[camera]->collect(&tick, wait));
-  if (!rgb) return false;
-  const CameraConfig& config = scene_.cameras[camera];
-  ImageFrame image{tick, camera, config.width_px, config.height_px, {}};
-  image.rgb.assign(rgb, rgb + imageBytes(config));
-  frame.images.push_back(std::move(image));
-  image_rings_[camera]->release();
-  return true;
+  view_->collect(frame, wait);
+  if (frame.surface) frame.surface->pose_received = posesOf(frame.surface->tick).newest();
+  for (ImageFrame& image : frame.images) image.pose_received = posesOf(image.tick).newest();
 }
 
 void Session::collectStats(Frame& frame, bool wait) {
   while (solver_->pollStats(stats_, wait)) {
     has_stats_ = true;
+    ++judged_;
     for (size_t s = 0; s < limiters_.size(); ++s) {
       // Force on a tool: minus the momentum it gave the nodes, per tick (physics.md 5).
       const Reaction raw{-xyz(stats_.impulse[s]) / tick_s(), -xyz(stats_.angular[s]) / tick_s(), false};
@@ -160,19 +111,21 @@ void Session::collectStats(Frame& frame, bool wait) {
   frame.stats = stats_;
   frame.has_stats = has_stats_;
   frame.reactions = reactions_;
+  frame.poses_received = posesOf(judged_).received;
 }
 
 void Session::reset() {
   drain();
   solver_->reset();
-  surface_->reset();
+  view_->reset();
   tools_.reset();
   for (ForceLimiter& limiter : limiters_) limiter.reset();
   reactions_ = {};
   stats_ = {};
   has_stats_ = false;
   extremes_ = {};
-  tick_ = 0;
+  tick_ = judged_ = 0;
+  std::fill(pose_times_.begin(), pose_times_.end(), PoseTimes{});
 }
 
 Frame Session::drain() {
@@ -186,7 +139,11 @@ uint64_t Session::stateHash() const {
 }
 
 Counters Session::counters() const {
-  return {ticks_, solver_->substepsDone(), surface_->mappings(), renderer_->renders(), readbacks_};
+  Counters out;
+  static_cast<ViewCounters&>(out) = view_->counters();
+  out.ticks = ticks_;
+  out.substeps = solver_->substepsDone();
+  return out;
 }
 
 bool Session::imageDue(size_t camera) const {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 #include "viscera/solver/material.h"
 
@@ -13,7 +14,6 @@ namespace viscera {
 namespace {
 
 constexpr double kSpeedMargin = 5;       // of the fastest speed that physics gives: what tools may throw nodes at
-constexpr double kEnergyMargin = 2;      // energies are measured with velocities of half a substep ago
 constexpr double kLongestRecovery = 16;  // times recovery_s, when trips keep coming
 constexpr double kSoon = 4;              // times recovery_s: a trip this soon after a recovery doubles the next one
 // A tick beyond one of these is strained: the shorter substep follows. Chosen by `viscera bench stability`
@@ -58,11 +58,17 @@ void Governor::restart(const layout::TickStats& stats) {
   health_.recovering = false;
 }
 
+Governor::Bounds Governor::bounds(bool implicit) const {
+  return {implicit ? std::numeric_limits<double>::infinity() : limits_.speed_m_per_s,
+          kEnergyMargin * (owned_j_ + limits_.energy_j)};
+}
+
 Governor::Trip Governor::inspect(const layout::TickStats& stats, bool implicit, double work_j) const {
   const double energy = static_cast<double>(stats.kinetic_j) + stats.elastic_j;
   if (stats.nonfinite > 0 || !std::isfinite(energy)) return Trip::kNonFinite;
-  if (energy > kEnergyMargin * (owned_j_ + limits_.energy_j + work_j)) return Trip::kEnergy;
-  if (!implicit && fromBits(stats.max_speed_bits) > limits_.speed_m_per_s) return Trip::kSpeed;
+  const Bounds most = bounds(implicit);
+  if (energy > most.energy_j + kEnergyMargin * work_j) return Trip::kEnergy;
+  if (fromBits(stats.max_speed_bits) > most.speed_m_per_s) return Trip::kSpeed;
   return Trip::kNone;
 }
 

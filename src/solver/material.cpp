@@ -166,6 +166,12 @@ layout::BodyParams bodyParams(const Body& body, double dt_safe_s) {
   return params;
 }
 
+std::vector<layout::BodyParams> bodyParams(const Model& model, double dt_safe_s) {
+  std::vector<layout::BodyParams> params;
+  for (const Body& body : model.bodies) params.push_back(bodyParams(body, dt_safe_s));
+  return params;
+}
+
 bool hasVolumeEnergy(const Model& model) {
   bool any = false;
   for (const Body& body : model.bodies) {

@@ -2,9 +2,34 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "viscera/solver/solver.h"
 
+#include <algorithm>
+
 #include "viscera/math/state_hash.h"
 
 namespace viscera {
+
+void copyShown(const float* displacement_m, StateSnapshot& out) {
+  out.displacement_m.resize(kBrickFloats * out.bricks.size());
+  float* to = out.displacement_m.data();
+  for (uint32_t brick : out.bricks) {
+    to = std::copy_n(displacement_m + kBrickFloats * brick, kBrickFloats, to);
+  }
+}
+
+void Solver::snapshot(StateSnapshot& out) const {
+  const HostState state = readState();
+  out.displacement_m.clear();
+  for (uint32_t brick : out.bricks) {
+    const layout::vec4* const first = state.displacement_m.data() + size_t{layout::kBrickSlots} * brick;
+    for (float layout::vec4::*component : {&layout::vec4::x, &layout::vec4::y, &layout::vec4::z}) {
+      for (uint32_t i = 0; i < layout::kBrickSlots; ++i) out.displacement_m.push_back(first[i].*component);
+    }
+  }
+  const auto same = [](layout::NodeBits a, layout::NodeBits b) { return a.lo == b.lo && a.hi == b.hi; };
+  if (std::equal(state.nodes.begin(), state.nodes.end(), out.nodes.begin(), out.nodes.end(), same)) return;
+  out.nodes = state.nodes;
+  ++out.cut_revision;
+}
 
 uint64_t stateHash(const Model& model, const HostState& state) {
   StateHash hash;

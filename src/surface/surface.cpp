@@ -7,12 +7,14 @@
 
 #include "gpu/gl.h"
 #include "surface/part_colors.h"
+#include "viscera/gpu/stage_clock.h"
 
 namespace viscera {
 
 namespace {
 
-constexpr GLint kCountUniform = 0;  // layout(location = 0) of all three kernels
+constexpr GLint kCountUniform = 0;     // layout(location = 0) of all three kernels
+constexpr GLint kFollowedUniform = 1;  // of those that follow
 
 void bind(uint32_t binding, uint32_t buffer) {
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, buffer);
@@ -26,6 +28,12 @@ void run(const gpu::Program& kernel, size_t count) {
   kernel.use();
   glUniform1ui(kCountUniform, static_cast<GLuint>(count));
   gpu::Program::dispatch(count, layout::kGroupSize);
+}
+
+void runSince(const gpu::Program& kernel, size_t count, uint32_t followed_revision) {
+  kernel.use();
+  glUniform1ui(kFollowedUniform, followed_revision);
+  run(kernel, count);
 }
 
 /// Whoever draws, copies or publishes next must see what was written.
@@ -92,6 +100,12 @@ Surface::Surface(const Model& model) {
 }
 
 void Surface::follow(const StateView& state) {
+  const bool known = state.stale_bricks != 0;
+  if (known && state.moved_revision <= followed_revision_) return;
+  const gpu::TimedStage timed(gpu::Stage::kSurface);
+  const uint32_t since = known ? followed_revision_ : 0;
+  followed_revision_ = known ? state.revision : 0;
+  if (known) bind(layout::kBindStaleBricks, state.stale_bricks);
   bind(layout::kBindBricks, state.bricks);
   bind(layout::kBindBodies, state.bodies);
   bind(layout::kBindNodes, state.nodes);
@@ -101,9 +115,9 @@ void Surface::follow(const StateView& state) {
   bindings_.bindStorage(layout::kBindSkinBindings);
   positions_.bindStorage(layout::kBindSkinPositions);
   normals_.bindStorage(layout::kBindSkinNormals);
-  run(node_normal_, surface_nodes_.size());
+  runSince(node_normal_, surface_nodes_.size(), since);
   gpu::Program::storageBarrier();
-  run(map_, vertices_);
+  runSince(map_, vertices_, since);
   publish();
   ++mappings_;
 }
@@ -111,6 +125,7 @@ void Surface::follow(const StateView& state) {
 void Surface::tear(const StateView& state) {
   if (state.cut_revision == cut_revision_) return;
   cut_revision_ = state.cut_revision;
+  const gpu::TimedStage timed(gpu::Stage::kSurface);
   bind(layout::kBindNodes, state.nodes);
   bindings_.bindStorage(layout::kBindSkinBindings);
   triangle_buffer_.bindStorage(layout::kBindSkinTriangles);

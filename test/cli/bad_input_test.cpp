@@ -64,6 +64,8 @@ TEST_F(BadInput, SceneThatIsWrong) {
 TEST_F(BadInput, Override) {
   expectSetRefusal("bodies[0].spacing=1", {"override", "'bodies[0].spacing'"});
   expectSetRefusal("bodies[0].spacing_m=-1", {"override", "'bodies[0].spacing_m'", "1e-05 .. 10 m"});
+  expectSetRefusal("bodies[0].spacing_m=automatic", {"override", "'bodies[0].spacing_m'", "1e-05 .. 10 m, or auto"});
+  expectSetRefusal("solver.real_time_factor=0", {"override", "'solver.real_time_factor'", "0.01 .. 1000"});
   expectSetRefusal("bodies[7].spacing_m=1", {"bodies[7]"});
   expectSetRefusal("nonsense", {"'nonsense'", "key=value"});
 }

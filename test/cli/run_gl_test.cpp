@@ -60,16 +60,20 @@ void expectPng(const std::string& path, uint32_t width, uint32_t height) {
 
 TEST_F(Run, EveryIntegratorBringsTheHangingBlockToTheSameSag) {
   // Implicit Euler damps, and none has settled after so short a time: they agree to a few hundredths.
-  const auto stretch = [&](const std::string& integrator) {
-    const Json metrics = metricsOf(run({"--seconds", "0.5", "--set", "bodies[0].material.drag_per_s=40", "--set",
-                                        "solver.integrator=" + integrator, "--set", "solver.substeps=40"}));
+  const auto stretch = [&](const std::string& integrator, const std::string& backend) {
+    const Json metrics = metricsOf(
+        run({"--seconds", "0.5", "--set", "bodies[0].material.drag_per_s=40", "--set",
+             "solver.integrator=" + integrator, "--set", "solver.substeps=40", "--set", "solver.backend=" + backend}));
     EXPECT_EQ(metrics["governor_trips"], 0) << integrator;
     return metrics["max_stretch"].get<double>();
   };
-  const double sag = stretch("leapfrog");
+  const double sag = stretch("leapfrog", "gpu");
   EXPECT_GT(sag, 0);
-  for (const char* integrator : {"verlet_paper", "vbd", "pd"})
-    EXPECT_NEAR(stretch(integrator), sag, 0.05 * sag) << integrator;
+  for (const std::string backend : {"gpu", "cpu"}) {
+    SCOPED_TRACE(backend);
+    for (const char* integrator : {"leapfrog", "verlet_paper", "vbd", "pd"})
+      EXPECT_NEAR(stretch(integrator, backend), sag, 0.05 * sag) << integrator;
+  }
 }
 
 TEST_F(Run, MaterialOfAPartAndPoissonsRatioReachTheTissue) {
@@ -109,13 +113,38 @@ TEST_F(Run, LastLineIsAnObjectWithAllMeasurements) {
   EXPECT_FALSE(metrics["renderer"].get<std::string>().empty());
 }
 
-TEST_F(Run, SameCommandGivesTheSameStateAndAnotherOneAnother) {
-  const auto hashOf = [this](const std::string& seconds) {
-    return metricsOf(run({"--seconds", seconds, "--strokes", strokes_}))["state_hash"].get<std::string>();
+TEST_F(Run, SameCommandGivesTheSameStateAndAnotherOneAnotherOnEveryBackend) {
+  for (const std::string backend : {"gpu", "cpu"}) {
+    SCOPED_TRACE(backend);
+    const auto hashOf = [&](const std::string& seconds) {
+      return metricsOf(
+                 run({"--seconds", seconds, "--strokes", strokes_, "--set", "solver.backend=" + backend}))["state_hash"]
+          .get<std::string>();
+    };
+    const std::string hash = hashOf("0.2");
+    EXPECT_EQ(hashOf("0.2"), hash);
+    EXPECT_NE(hashOf("0.1"), hash);
+  }
+}
+
+TEST_F(Run, BackendThatTheSceneAsksForIsTakenAndNamed) {
+  const auto metrics = [&](const std::vector<std::string>& set) {
+    std::vector<std::string> options = {"--strokes", strokes_};
+    for (const std::string& change : set) options.insert(options.end(), {"--set", change});
+    return metricsOf(run(options));
   };
-  const std::string hash = hashOf("0.2");
-  EXPECT_EQ(hashOf("0.2"), hash);
-  EXPECT_NE(hashOf("0.1"), hash);
+  const Json gpu = metrics({"solver.backend=gpu"}), cpu = metrics({"solver.backend=cpu"});
+  EXPECT_EQ(gpu["backend"], "gpu");
+  EXPECT_EQ(cpu["backend"].get<std::string>().rfind("cpu (", 0), 0u) << cpu["backend"];
+  // The same tissue: what it does differs by rounding.
+  EXPECT_EQ(cpu["springs_cut"], gpu["springs_cut"]);
+  EXPECT_NEAR(cpu["max_stretch"].get<double>(), gpu["max_stretch"].get<double>(),
+              1e-3 * gpu["max_stretch"].get<double>());
+  const Json alone = metrics({"solver.backend=cpu", "solver.threads=1"});
+  EXPECT_NE(alone["backend"].get<std::string>().find(", 1 thread)"), std::string::npos) << alone["backend"];
+  EXPECT_EQ(alone["state_hash"], cpu["state_hash"]);
+  const std::string chosen = metrics({})["backend"];
+  EXPECT_TRUE(chosen == gpu["backend"] || chosen == cpu["backend"]) << chosen;
 }
 
 TEST_F(Run, StrokesActOnTheTissueAndSayHowLongToRun) {
@@ -146,6 +175,38 @@ TEST_F(Run, PicturesDoNotChangeTheState) {
 
 TEST_F(Run, OverrideChangesTheScene) {
   EXPECT_EQ(metricsOf(run({"--seconds", "0.02", "--set", "bodies[0].spacing_m=0.02"}))["nodes"], 27);
+}
+
+/// Runs with spacing_m: auto, its measurements kept below a folder.
+class AutoSpacing : public Run {
+ protected:
+  Ending runAuto(const std::string& cache, const std::string& factor = "100") const {
+    return viscera({"run", scene_, "--seconds", "0.02", "--set", "bodies[0].spacing_m=auto", "--set",
+                    "solver.real_time_factor=" + factor},
+                   {"XDG_CACHE_HOME=" + cache});
+  }
+  static std::string noteOf(const Ending& ending) {
+    for (const std::string& line : linesOf(ending.out))
+      if (line.rfind("block: spacing_m: auto: ", 0) == 0) return line;
+    return "no note";
+  }
+};
+
+TEST_F(AutoSpacing, IsMeasuredOnceAndTellsTheChoice) {
+  const Ending first = runAuto(folder_.path(), "2"), second = runAuto(folder_.path(), "2");
+  const int nodes = metricsOf(first)["nodes"];
+  EXPECT_TRUE(says(noteOf(first), {" " + std::to_string(nodes) + " nodes, ", "(measured now)", " of 2 wanted"}));
+  EXPECT_TRUE(says(noteOf(second), {" " + std::to_string(nodes) + " nodes, ", "(measured before, " + folder_.path()}));
+  EXPECT_EQ(metricsOf(second)["state_hash"], metricsOf(first)["state_hash"]);
+  EXPECT_LT(metricsOf(runAuto(folder_.path(), "1000"))["nodes"], nodes);
+}
+
+TEST_F(AutoSpacing, BrokenOrUnwritableCacheIsNoError) {
+  fs::create_directories(folder_.file("viscera"));
+  folder_.write("viscera/step_times.tsv", "\xff\tnoise\n\n");
+  EXPECT_TRUE(says(noteOf(runAuto(folder_.path())), {"(measured now)"}));
+  EXPECT_TRUE(says(noteOf(runAuto(folder_.path())), {"(measured before"}));
+  EXPECT_TRUE(says(noteOf(runAuto(scene_)), {"(measured now)"}));  // a file, in which no folder can be made
 }
 
 TEST_F(Run, MeshOfTheCommandLineBecomesTheTissue) {
@@ -182,6 +243,15 @@ TEST(Bench, StepWritesOneRowForACubeAndOneForAHeart) {
   EXPECT_EQ(lines[1].rfind("cube,1000,gpu,", 0), 0u) << lines[1];
   EXPECT_EQ(lines[2].rfind("heart,", 0), 0u) << lines[2];
   EXPECT_NEAR(std::stod(lines[2].substr(6)), 1000, 20);  // target_nodes is reached within 2 %
+}
+
+TEST(Bench, StagesOfAGpuStepAreTimedEach) {
+  const Ending ending = viscera({"bench", "step", "--stages", "--nodes", "1000"});
+  ASSERT_EQ(ending.status, 0) << ending.err;
+  EXPECT_EQ(linesOf(ending.out)[0], "scene,nodes,stage,times_per_tick,ms_per_tick,ns_per_node_update");
+  for (const char* stage : {"step", "cut", "measure", "reaction", "surface", "render"}) {
+    EXPECT_TRUE(says(ending.out, {std::string("cube,1000,") + stage + ','})) << stage;
+  }
 }
 
 TEST(Keys, PrintsTheTableOfSceneKeys) {

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <thread>
+
 #include "viscera/gpu/buffer.h"
 #include "viscera/gpu/program.h"
 #include "viscera/gpu/readback.h"
@@ -29,6 +31,25 @@ TEST_F(Gpu, NamesTheDeviceItTook) {
     EXPECT_FALSE(attempt.reason.empty());
   }
   EXPECT_EQ(taken, 1);
+}
+
+TEST_F(Gpu, GoesToAnotherThreadAndBackAndToOneAtATime) {
+  Buffer<uint32_t> buffer(std::vector<uint32_t>{1, 2, 3});
+  bool taken_too_early = true, taken = false;
+  std::vector<uint32_t> seen;
+  std::thread([&] { taken_too_early = context_.makeCurrent(); }).join();
+  context_.release();
+  std::thread([&] {
+    taken = context_.makeCurrent();
+    seen = buffer.read();
+    buffer.write({4, 5, 6});
+    context_.release();
+  }).join();
+  EXPECT_FALSE(taken_too_early);
+  EXPECT_TRUE(taken);
+  EXPECT_EQ(seen, (std::vector<uint32_t>{1, 2, 3}));
+  ASSERT_TRUE(context_.makeCurrent());
+  EXPECT_EQ(buffer.read(), (std::vector<uint32_t>{4, 5, 6}));
 }
 
 TEST_F(Gpu, BufferStartsAtZeroAndKeepsWhatIsWritten) {

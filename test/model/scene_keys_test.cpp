@@ -73,7 +73,8 @@ environment:
   tissue_position_m: [1.4, 1.5, 1.6]
   tissue_rotation_deg: [17, 18, 19]
 solver: {tick_hz: 90, integrator: vbd, dt_fraction: 0.91, dt_fraction_strained: 0.41, substeps: 93, iterations: 94,
-         compensated: true, governor: false, recovery_s: 0.95, sleep_distance_m: 0.96, max_substeps: 92, device: 3}
+         compensated: true, governor: false, recovery_s: 0.95, sleep_distance_m: 0.96, sleep_speed_m_per_s: 0.0097, max_substeps: 92,
+         device: 3, backend: cpu, threads: 2, real_time_factor: 1.97}
 )";
 
 /// Paths of all keys below a node, list items as name[].
@@ -184,6 +185,7 @@ TEST(SceneKeys, EveryOtherKeyReachesItsField) {
   EXPECT_EQ(scene.solver.sleep_distance_m, 0.96);
   EXPECT_EQ(scene.solver.max_substeps, 92);
   EXPECT_EQ(scene.solver.device, 3);
+  EXPECT_EQ(scene.solver.real_time_factor, 1.97);
 }
 
 TEST(SceneKeys, TableHoldsEveryKeyOnceAndNoOther) {

@@ -11,7 +11,7 @@ import unittest
 import roslib.packages
 import rospy
 import rostest
-from diagnostic_msgs.msg import DiagnosticStatus
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from geometry_msgs.msg import PoseStamped, WrenchStamped
 from sensor_msgs.msg import CameraInfo, Image
 from simulator_watch import Latest, SimulatorWatch, wait_until
@@ -27,6 +27,7 @@ STILL_M = 0.001              # most motion of tissue that is held
 FORCE_N = 0.005              # least force that counts as felt; without contact it is exactly zero
 MAX_FORCE_N = 5.001          # StylusConfig.max_force_n and rounding
 PIXEL_STEP = 24              # of 255: a pixel that changed more is not noise
+LATENCY_MS = 1000            # most that an answer takes, however slow and busy the machine
 SESSION_LIMIT_S = 60
 
 
@@ -44,6 +45,7 @@ class Recorder:
         self.peak_force_n = 0
         self.faults = []
         self.frames = set()
+        self.latency_ms = {}          # largest of each value
         self.image_stamps, self.info_stamps = set(), set()
         self.first_image = None
         self.pose = {"left": Latest("left/measured_cp", PoseStamped),
@@ -52,6 +54,7 @@ class Recorder:
         self.force = Latest("left/body/servo_cf", WrenchStamped, self.on_force)
         self.image = Latest("camera/image_raw", Image, self.on_image)
         self.info = Latest("camera/camera_info", CameraInfo, lambda m: self.info_stamps.add(m.header.stamp))
+        self.diagnostics = Latest("/diagnostics", DiagnosticArray, self.on_diagnostics)
         self.tf = [Latest(topic, TFMessage, self.on_tf) for topic in ("/tf", "/tf_static")]
 
     def begun(self):
@@ -87,6 +90,12 @@ class Recorder:
         self.image_stamps.add(image.header.stamp)
         if not self.begun():
             self.first_image = image
+
+    def on_diagnostics(self, array):
+        for status in array.status:
+            if status.name == "simulator: latency":
+                for item in status.values:
+                    self.latency_ms[item.key] = max(self.latency_ms.get(item.key, 0), float(item.value))
 
     def on_tf(self, message):
         for transform in message.transforms:
@@ -162,6 +171,15 @@ class TrainingTest(unittest.TestCase):
         self.assertEqual(self.watch.value("simulation", "nonfinite_nodes"), 0)
         self.assertLess(self.watch.value("simulation", "dt_s"), self.watch.value("simulation", "dt_safe_s"))
         self.assertGreater(self.watch.value("left", "poses_accepted"), 100)
+
+    def test_delays_from_pose_to_force_surface_and_image_are_told(self):
+        for answer in ("force_left", "force_right", "surface", "image_camera"):
+            mean_ms, max_ms = (self.seen.latency_ms["pose_to_%s_%s_ms" % (answer, kind)] for kind in ("mean", "max"))
+            self.assertGreater(mean_ms, 0, answer)
+            self.assertLessEqual(mean_ms, max_ms, answer)
+            self.assertLess(max_ms, LATENCY_MS, answer)
+        self.watch.wait_news()  # no pose comes any more
+        self.assertEqual(self.watch.value("latency", "pose_to_force_left_max_ms"), 0)
 
     def test_z_reset_makes_the_skin_whole_again(self):
         self.assertTrue(rospy.ServiceProxy("reset", Trigger)().success)

@@ -39,6 +39,7 @@ TEST_F(Observation, NobodyWatchingMeansNothingMappedDrawnOrReadBack) {
 TEST_F(Observation, SurfaceAloneCostsOneMappingAndOneReadback) {
   Session session(blockScene(), context_);
   session.step({}, {true, {}});
+  session.drain();
   EXPECT_EQ(session.counters().mappings, 1u);
   EXPECT_EQ(session.counters().renders, 0u);
   EXPECT_EQ(session.counters().readbacks, 1u);
@@ -49,6 +50,7 @@ TEST_F(Observation, SurfaceAndTwoCamerasShareOneMapping) {
   scene.cameras.push_back(cameraOf("other"));
   Session session(scene, context_);
   session.step({}, everything());
+  session.drain();
   EXPECT_EQ(session.counters().mappings, 1u);
   EXPECT_EQ(session.counters().renders, 2u);
   EXPECT_EQ(session.counters().readbacks, 3u);
@@ -89,6 +91,53 @@ TEST_F(Observation, FramesComeInOrderAndNoneIsLost) {
   EXPECT_EQ(image_ticks.size(), session.counters().renders);
   EXPECT_TRUE(std::is_sorted(image_ticks.begin(), image_ticks.end()));
   EXPECT_EQ(std::set<uint64_t>(image_ticks.begin(), image_ticks.end()).size(), image_ticks.size());
+}
+
+TEST_F(Observation, ForcesSurfacesAndImagesTellWhenThePoseBehindThemCame) {
+  Session session(blockScene(), context_);
+  const SteadyTime begin{std::chrono::hours(1)};
+  const auto received = [&](int tick) { return begin + std::chrono::milliseconds(tick); };
+  const auto pressStamped = [&](int tick) {
+    StylusSamples samples = press(tick);
+    samples[0].received = received(tick);
+    return samples;
+  };
+  const Wants wants = {true, {true}};
+  Frame frame;
+  const auto check = [&] {
+    for (const ImageFrame& image : frame.images) EXPECT_EQ(image.pose_received, received(static_cast<int>(image.tick)));
+    if (!frame.surface) return;
+    EXPECT_EQ(frame.surface->pose_received, received(static_cast<int>(frame.surface->tick)));
+  };
+  for (int t = 1; t <= 5; ++t) {
+    frame = session.step(pressStamped(t), wants);
+    check();
+    EXPECT_EQ(frame.poses_received[0], received(t));  // the governor waits for every tick
+    EXPECT_EQ(frame.poses_received[1], SteadyTime{});
+  }
+  frame = session.drain();
+  check();
+  EXPECT_EQ(session.step({}, {}).poses_received[0], SteadyTime{});
+  session.reset();
+  EXPECT_EQ(session.drain().poses_received[0], SteadyTime{});
+}
+
+TEST_F(Observation, ForceThatComesLateTellsWhichPoseItAnswers) {
+  Scene scene = blockScene();
+  scene.solver.governor = false;  // nobody waits for the measurements of a tick
+  Session session(scene, context_);
+  const SteadyTime begin{std::chrono::hours(1)};
+  SteadyTime last{};
+  constexpr int kTicks = 20;
+  for (int t = 1; t <= kTicks; ++t) {
+    StylusSamples samples = press(t);
+    samples[0].received = begin + std::chrono::milliseconds(t);
+    const SteadyTime now = session.step(samples, {}).poses_received[0];
+    EXPECT_GE(now, last);
+    EXPECT_LE(now, samples[0].received);
+    last = now;
+  }
+  EXPECT_EQ(session.drain().poses_received[0], begin + std::chrono::milliseconds(kTicks));
 }
 
 TEST_F(Observation, SameInputGivesTheSameStateWhoeverWatches) {

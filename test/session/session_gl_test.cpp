@@ -23,12 +23,26 @@ constexpr double kForceN = 0.1;   ///< well below what millimetres of tissue of 
 constexpr double kDentM = 0.003;  ///< half of what the probe goes deep
 constexpr double kAside = 0.05;   ///< of a force on a block that is the same on all sides
 
-class SessionTest : public GpuTest {
+/// On every backend, by name.
+class SessionTest : public GpuTest, public ::testing::WithParamInterface<Backend> {
  protected:
-  explicit SessionTest(const Scene& scene = blockScene()) : session_(scene, context_) {}
+  explicit SessionTest(const Scene& scene = blockScene()) : session_(onBackend(scene), context_) {}
   Session session_;
+
+ private:
+  static Scene onBackend(Scene scene) {
+    scene.solver.backend = GetParam();
+    return scene;
+  }
 };
+std::string nameOf(const ::testing::TestParamInfo<Backend>& info) {
+  return info.param == Backend::kCpu ? "cpu" : "gpu";
+}
+#define VISCERA_ON_EVERY_BACKEND(suite) \
+  INSTANTIATE_TEST_SUITE_P(Backends, suite, ::testing::Values(Backend::kGpu, Backend::kCpu), nameOf)
 using SessionWithTools = SessionTest;
+VISCERA_ON_EVERY_BACKEND(SessionTest);
+VISCERA_ON_EVERY_BACKEND(SessionWithTools);
 
 /// Height of the skin's vertex that lies nearest to a point at rest.
 float heightAt(const SurfaceFrame& surface, const std::vector<float>& rest_m, const Vector3f& point_m) {
@@ -48,7 +62,7 @@ double largestMove(const SurfaceFrame& surface, const std::vector<float>& rest_m
   return largest;
 }
 
-TEST_F(SessionWithTools, ProbeDentsTheTissueAndIsPushedBackOut) {
+TEST_P(SessionWithTools, ProbeDentsTheTissueAndIsPushedBackOut) {
   play(session_, press, kPressTicks + 5);
   const Frame pressed = session_.drain();
   const Vector3d force = pressed.reactions[0].force_n;
@@ -64,7 +78,7 @@ TEST_F(SessionWithTools, ProbeDentsTheTissueAndIsPushedBackOut) {
   EXPECT_NEAR(heightAt(surface, rest_m, {0, 0, -kHalfM}), -kHalfM, kRestM);  // held
 }
 
-TEST_F(SessionWithTools, GrabbedTissueFollowsThePullAndPullsBack) {
+TEST_P(SessionWithTools, GrabbedTissueFollowsThePullAndPullsBack) {
   const auto pull = [](int tick) { return leftAt({0, 0, kHalfM + 0.0005 * tick}, true); };
   play(session_, pull, 20);
   const Frame pulled = session_.drain();
@@ -76,7 +90,7 @@ TEST_F(SessionWithTools, GrabbedTissueFollowsThePullAndPullsBack) {
   EXPECT_EQ(session_.drain().stats.grabbed[0], 0u);  // a lost stylus lets go
 }
 
-TEST_F(SessionWithTools, CutSeversSpringsAndOpensTheSkin) {
+TEST_P(SessionWithTools, CutSeversSpringsAndOpensTheSkin) {
   play(session_, cut, kCutTicks);
   const SurfaceFrame surface = surfaceAfter(session_, {});
   const Frame after = session_.drain();
@@ -88,7 +102,7 @@ TEST_F(SessionWithTools, CutSeversSpringsAndOpensTheSkin) {
   EXPECT_EQ(after.stats.nonfinite, 0u);
 }
 
-TEST_F(SessionWithTools, ResetRestoresEverything) {
+TEST_P(SessionWithTools, ResetRestoresEverything) {
   const uint64_t at_rest = session_.stateHash();
   play(session_, cut, kCutTicks);
   play(session_, press, kPressTicks);
@@ -110,7 +124,7 @@ TEST_F(SessionWithTools, ResetRestoresEverything) {
   EXPECT_EQ(std::count(surface.alive.begin(), surface.alive.end(), 0u), 0);
 }
 
-TEST_F(SessionTest, TissueThatNothingActsOnStaysAtRest) {
+TEST_P(SessionTest, TissueThatNothingActsOnStaysAtRest) {
   play(
       session_, [](int) { return StylusSamples{}; }, 10);
   const SurfaceFrame surface = surfaceAfter(session_, {});
@@ -129,8 +143,9 @@ class SessionWithSlowForce : public SessionTest {
  protected:
   SessionWithSlowForce() : SessionTest(slowForce()) {}
 };
+VISCERA_ON_EVERY_BACKEND(SessionWithSlowForce);
 
-TEST_F(SessionWithSlowForce, LostStylusHasNoForceAtOnceAllTheSame) {
+TEST_P(SessionWithSlowForce, LostStylusHasNoForceAtOnceAllTheSame) {
   play(session_, press, kPressTicks + 5);
   ASSERT_GT(session_.drain().reactions[0].force_n.norm(), kForceN);
   const Frame lost = session_.step({}, {});
@@ -152,8 +167,9 @@ class SessionOfTwoBodies : public SessionTest {
  protected:
   SessionOfTwoBodies() : SessionTest(twoBlocks()) {}
 };
+VISCERA_ON_EVERY_BACKEND(SessionOfTwoBodies);
 
-TEST_F(SessionOfTwoBodies, SurfaceHoldsBothAndATouchMovesOnlyOne) {
+TEST_P(SessionOfTwoBodies, SurfaceHoldsBothAndATouchMovesOnlyOne) {
   const std::vector<float> rest_m = restPositions(session_);
   EXPECT_LT(largestMove(surfaceAfter(session_, {}), rest_m), kRestM);
   play(session_, press, kPressTicks + 5);
@@ -161,6 +177,19 @@ TEST_F(SessionOfTwoBodies, SurfaceHoldsBothAndATouchMovesOnlyOne) {
   ASSERT_EQ(surface.positions_m.size(), rest_m.size());
   EXPECT_LT(heightAt(surface, rest_m, {0, 0, kHalfM}), kHalfM - kDentM);
   EXPECT_NEAR(heightAt(surface, rest_m, {-0.1f, 0, kHalfM}), kHalfM, kRestM);
+}
+
+TEST_P(SessionTest, RunsOnTheBackendThatTheSceneAsksFor) {
+  const std::string backend = session_.solver().backend();
+  EXPECT_EQ(backend.rfind(GetParam() == Backend::kCpu ? "cpu (" : "gpu", 0), 0u) << backend;
+  EXPECT_EQ(session_.solver().onHost(), GetParam() == Backend::kCpu);
+}
+
+/// Where a software rasteriser runs the compute shaders, the processor does the same faster by itself.
+TEST_F(GpuTest, AutoTakesTheGpuWhereThereIsOneAndElseTheCpu) {
+  const Session session(blockScene(), context_);
+  ASSERT_EQ(blockScene().solver.backend, Backend::kAuto);
+  EXPECT_EQ(session.solver().onHost(), context_.isSoftware()) << context_.renderer();
 }
 
 TEST_F(GpuTest, SceneThatNeedsMoreSubstepsThanAllowedIsRefusedWithTheWayOut) {

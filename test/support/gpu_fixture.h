@@ -29,6 +29,7 @@ inline Scene sceneFor(const Model& model, int substeps, std::vector<StylusConfig
   scene.solver.dt_fraction = scene.solver.dt_fraction_strained = 0.5;
   scene.solver.sleep_distance_m = 1e6;
   scene.solver.governor = false;  // kernels are under test: nothing else may step in
+  scene.solver.sleep_speed_m_per_s = 0;
   const double dt_safe_s = safeTimeStep(model);
   const double dt_s = std::isfinite(dt_safe_s) ? 0.5 * dt_safe_s : 1e-3;
   scene.solver.tick_hz = 1.0 / (substeps * dt_s) * (1 + 1e-9);

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "support/backends.h"
 #include "support/random_state.h"
 
 namespace viscera::test {
@@ -45,7 +46,8 @@ inline bool isFinite(const std::vector<layout::vec4>& values) {
 }
 
 /// Runs every abused start without gravity and drag: kinetic and elastic energy must stay below 1.01 of the start.
-inline void expectEnergyBound(Integrator integrator, double poisson_ratio, double fraction, int iterations = 20) {
+inline void expectEnergyBound(const std::string& backend, Integrator integrator, double poisson_ratio, double fraction,
+                              int iterations = 20) {
   constexpr int kTicks = 8;
   constexpr double kAllowed = 0.01;    // of the start: the stability suite's limit
   constexpr double kNothing_j = 1e-9;  // float32 rounding of a body at rest: 1e-7 h in every spring is 1e-14 J
@@ -53,22 +55,22 @@ inline void expectEnergyBound(Integrator integrator, double poisson_ratio, doubl
   body.material.poisson_ratio = poisson_ratio;
   body.material.drag_per_s = 0;
   const Model model = modelOf({body});
-  GpuSolver solver(model, sceneWith(integrator, model, 1, fraction, iterations));
+  const auto solver = makeBackend(backend, model, sceneWith(integrator, model, 1, fraction, iterations));
   for (const Abuse abuse : kAbuses) {
     SCOPED_TRACE(::testing::Message() << "nu " << poisson_ratio << ", dt " << fraction << " dt_safe, start "
                                       << static_cast<int>(abuse));
     const HostState start = abusedState(model, abuse);
-    solver.writeState(start);
+    solver->writeState(start);
     const double start_j = energyOf(model, start);
     for (int t = 0; t < kTicks; ++t) {
-      solver.step({});
-      const HostState state = solver.readState();
+      solver->step({});
+      const HostState state = solver->readState();
       ASSERT_TRUE(isFinite(state.displacement_m) && isFinite(state.velocity_m_per_s)) << "tick " << t;
       ASSERT_LE(energyOf(model, state), start_j + kAllowed * std::abs(start_j) + kNothing_j) << "tick " << t;
     }
     // A bound that is kept by standing still would be worth nothing. (A mirrored box is at rest.)
     if (abuse != Abuse::kMirrored && fraction >= 1) {
-      EXPECT_LT(energyOf(model, solver.readState()), 0.5 * start_j);
+      EXPECT_LT(energyOf(model, solver->readState()), 0.5 * start_j);
     }
   }
 }
@@ -104,7 +106,8 @@ struct PullAndProbe {
 
 /// Ticks of pulling and probing against the reference's implicit Euler: displacements and what the tools gave.
 /// @param tolerance  relative to the largest value
-inline void expectToolsLikeReference(Integrator integrator, int iterations, double poisson_ratio, double tolerance) {
+inline void expectToolsLikeReference(const std::string& backend, Integrator integrator, int iterations,
+                                     double poisson_ratio, double tolerance) {
   constexpr int kTicks = 3, kSubsteps = 2;
   const PullAndProbe tools;
   Body body = boxBody({4, 4, 4}, 0.01);
@@ -114,25 +117,26 @@ inline void expectToolsLikeReference(Integrator integrator, int iterations, doub
       body.lattice.nodes[slot].lo |= layout::kFixedBit;
   }
   const Model model = modelOf({body});
-  GpuSolver solver(model, sceneWith(integrator, model, kSubsteps, 2, iterations, tools.styluses));
+  const auto solver =
+      makeBackend(backend, model, sceneWith(integrator, model, kSubsteps, 2, iterations, tools.styluses));
   ReferenceOptions options;
   options.integrator = ReferenceIntegrator::kImplicitEuler;
   options.push_speed_m_per_s = pushSpeed(model);
-  ReferenceSolver reference(model, Vector3d::Zero(), static_cast<float>(solver.dt_s()), options);
+  ReferenceSolver reference(model, Vector3d::Zero(), static_cast<float>(solver->dt_s()), options);
   std::array<Vector3d, 2> before;
   for (int t = 0; t < kTicks; ++t) {
     const ToolMotions motions = tools.motions(t, 0.04);
     before = reference.impulse_n_s;
-    solver.step(motions);
+    solver->step(motions);
     if (motions[0].grab_begins) reference.takeHold(0, motions[0].from, tools.styluses[0].grab_radius_m);
     std::vector<layout::ToolMotion> rows;
     interpolateMotions(motions, tools.styluses, kSubsteps, rows);
     for (size_t s = 0; s < kSubsteps; ++s) reference.substep({rows[2 * s], rows[2 * s + 1]});
   }
-  const HostState state = solver.readState();
+  const HostState state = solver->readState();
   EXPECT_LT(relativeError(state.displacement_m, reference.u_m, reference.active), tolerance);
   layout::TickStats stats{};
-  while (solver.pollStats(stats, true)) {
+  while (solver->pollStats(stats, true)) {
   }
   EXPECT_GT(stats.grabbed[0], 0u);
   EXPECT_GT(stats.touched[1], 0u);
@@ -151,7 +155,7 @@ inline void expectSameHashForEveryGroupSize(Integrator integrator) {
   const Model model = modelOf({body});
   uint64_t first = 0;
   for (uint32_t group_size : {32u, 64u, 256u}) {
-    GpuSolver solver(model, sceneWith(integrator, model, 2, 3, 6, tools.styluses), {group_size});
+    GpuSolver solver(model, sceneWith(integrator, model, 2, 3, 6, tools.styluses), {{}, group_size});
     solver.writeState(randomState(model, 1e-3, 0.5, 11));
     for (int t = 0; t < 2; ++t) solver.step(tools.motions(t, 0.07));
     const uint64_t hash = stateHash(model, solver.readState());

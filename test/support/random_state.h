@@ -28,7 +28,7 @@ inline Scene sceneWith(Integrator integrator, const Model& model, int substeps, 
   return scene;
 }
 
-inline ReferenceSolver referenceFor(ReferenceIntegrator integrator, const Model& model, const GpuSolver& solver,
+inline ReferenceSolver referenceFor(ReferenceIntegrator integrator, const Model& model, const Solver& solver,
                                     const HostState& start, const Vector3d& gravity = Vector3d::Zero()) {
   ReferenceOptions options;
   options.integrator = integrator;

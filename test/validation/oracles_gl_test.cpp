@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Exact oracles of physics.md 6: these test physics, on the GPU's float32 state.
-#include "support/gpu_fixture.h"
+// Exact oracles of physics.md 6: these test physics, on the backends' float32 state.
+#include "support/backends.h"
 
 using namespace viscera;
 using namespace viscera::test;
@@ -10,21 +10,6 @@ namespace {
 
 uint32_t slotOf(const Lattice& lattice, int x, int y, int z) {
   return static_cast<uint32_t>(lattice.slotAt({x, y, z}));
-}
-
-/// Forces [N] on every node, from the velocity that half a kick gives (no drag, no gravity, from rest).
-std::vector<Vector3d> forcesOf(const Model& model, const HostState& state) {
-  GpuSolver solver(model, sceneFor(model, 1));
-  solver.writeState(state);
-  solver.step({});
-  const HostState after = solver.readState();
-  std::vector<Vector3d> out(model.slots(), Vector3d::Zero());
-  const Body& body = model.bodies[0];
-  const double eighth = bodyParams(body, 0).mass_eighth_kg;
-  for (uint32_t slot : body.lattice.active_slots) {
-    out[slot] = massEighths(state.nodes[slot]) * eighth * xyz(after.velocity_m_per_s[slot]) / (0.5 * solver.dt_s());
-  }
-  return out;
 }
 
 Body undamped(Body body) {
@@ -41,19 +26,37 @@ Body unitBody(const Vector3i& cells) {
   return body;
 }
 
-using Oracle = GpuTest;
+class Oracle : public OnBackend {
+ protected:
+  /// Forces [N] on every node, from the velocity that half a kick gives (no drag, no gravity, from rest).
+  std::vector<Vector3d> forcesOf(const Model& model, const HostState& state) {
+    const auto solver = make(model, sceneFor(model, 1));
+    solver->writeState(state);
+    solver->step({});
+    const HostState after = solver->readState();
+    std::vector<Vector3d> out(model.slots(), Vector3d::Zero());
+    const Body& body = model.bodies[0];
+    const double eighth = bodyParams(body, 0).mass_eighth_kg;
+    for (uint32_t slot : body.lattice.active_slots) {
+      out[slot] = massEighths(state.nodes[slot]) * eighth * xyz(after.velocity_m_per_s[slot]) / (0.5 * solver->dt_s());
+    }
+    return out;
+  }
+};
+
+INSTANTIATE_TEST_SUITE_P(Backends, Oracle, ::testing::ValuesIn(backendNames()), backendSuffix);
 
 }  // namespace
 
-TEST_F(Oracle, DampedOscillatorFollowsItsDiscreteSolution) {
+TEST_P(Oracle, DampedOscillatorFollowsItsDiscreteSolution) {
   Body body = chainBody(2, 0.01);
   body.lattice.nodes[slotOf(body.lattice, 0, 0, 0)].lo |= layout::kFixedBit;
   body.material.dashpot_ratio = 0;
   body.material.drag_per_s = 40;
   const Model model = modelOf({body});
-  GpuSolver solver(model, sceneFor(model, 1));
+  const auto solver = make(model, sceneFor(model, 1));
   const layout::BodyParams params = bodyParams(body, 0);
-  const double dt = solver.dt_s(), omega2 = 4.0 * params.axial_quarter_n_per_m / (8.0 * params.mass_eighth_kg);
+  const double dt = solver->dt_s(), omega2 = 4.0 * params.axial_quarter_n_per_m / (8.0 * params.mass_eighth_kg);
   const double g = body.material.drag_per_s * dt, o2 = omega2 * dt * dt;
   const double radius = std::sqrt((1 - g / 2) / (1 + g / 2));
   const double theta = std::acos((1 - o2 / 2) / std::sqrt(1 - g * g / 4));
@@ -63,16 +66,16 @@ TEST_F(Oracle, DampedOscillatorFollowsItsDiscreteSolution) {
   const uint32_t free = slotOf(body.lattice, 0, 0, 1);
   state.displacement_m[free].z = static_cast<float>(exact(0));
   state.velocity_m_per_s[free].z = static_cast<float>((exact(0) - exact(-1)) / dt);
-  solver.writeState(state, true);
+  solver->writeState(state, true);
   double worst = 0;
   for (int n = 1; n <= 300; ++n) {
-    solver.step({});
-    worst = std::max(worst, std::abs(solver.readState().displacement_m[free].z - exact(n)));
+    solver->step({});
+    worst = std::max(worst, std::abs(solver->readState().displacement_m[free].z - exact(n)));
   }
   EXPECT_LT(worst / amplitude, 1e-5);  // float32 roundings and the float32 values of k, m, dt over 300 steps
 }
 
-TEST_F(Oracle, HangingChainSagsExactly) {
+TEST_P(Oracle, HangingChainSagsExactly) {
   constexpr int kMasses = 10;
   Body body = chainBody(kMasses + 1, 0.01);
   body.lattice.nodes[slotOf(body.lattice, 0, 0, kMasses)].lo |= layout::kFixedBit;
@@ -81,9 +84,9 @@ TEST_F(Oracle, HangingChainSagsExactly) {
   body.material.drag_per_s =
       2 * 2 * std::sqrt(k / m) * std::sin(M_PI / (4.0 * kMasses + 2));  // 2 omega_1: settles fastest
   const Model model = modelOf({body});
-  GpuSolver solver(model, sceneFor(model, 100, {}, Vector3d(0, 0, -gravity)));
-  for (int t = 0; t < 60; ++t) solver.step({});
-  const HostState state = solver.readState();
+  const auto solver = make(model, sceneFor(model, 100, {}, Vector3d(0, 0, -gravity)));
+  for (int t = 0; t < 60; ++t) solver->step({});
+  const HostState state = solver->readState();
   const double deepest = m * gravity / k * (kMasses * kMasses - kMasses * (kMasses - 1) / 2.0);
   for (int j = 1; j <= kMasses; ++j) {
     const double exact = m * gravity / k * (kMasses * j - j * (j - 1) / 2.0);
@@ -92,7 +95,7 @@ TEST_F(Oracle, HangingChainSagsExactly) {
   }
 }
 
-TEST_F(Oracle, AffineDisplacementGivesNoForceInside) {
+TEST_P(Oracle, AffineDisplacementGivesNoForceInside) {
   const Body body = unitBody({6, 6, 6});
   const Model model = modelOf({body});
   Eigen::Matrix3d gradient;
@@ -108,7 +111,7 @@ TEST_F(Oracle, AffineDisplacementGivesNoForceInside) {
   }
 }
 
-TEST_F(Oracle, RigidMotionGivesNoForceAnywhere) {
+TEST_P(Oracle, RigidMotionGivesNoForceAnywhere) {
   const Body body = unitBody({5, 4, 6});
   const Model model = modelOf({body});
   const Quaterniond turn = rotationFromDegrees({35, -50, 110});
@@ -121,7 +124,7 @@ TEST_F(Oracle, RigidMotionGivesNoForceAnywhere) {
     EXPECT_LT(force.norm(), 2e-5);  // in units of k h: float32 of u up to 10 h
 }
 
-TEST_F(Oracle, ForcesSumToNothing) {
+TEST_P(Oracle, ForcesSumToNothing) {
   const Body body = undamped(boxBody({7, 6, 5}, 0.01));
   const Model model = modelOf({body});
   std::mt19937 random(2);
@@ -136,7 +139,7 @@ TEST_F(Oracle, ForcesSumToNothing) {
   EXPECT_LT(sum.norm() / size, 1e-6);
 }
 
-TEST_F(Oracle, GatheredPairForcesAreAntisymmetricToTheBit) {
+TEST_P(Oracle, GatheredPairForcesAreAntisymmetricToTheBit) {
   std::mt19937 random(3);
   for (uint32_t spring = 0; spring < layout::kSpringsPerNode; spring += 2) {
     for (int trial = 0; trial < 20; ++trial) {
@@ -155,10 +158,10 @@ TEST_F(Oracle, GatheredPairForcesAreAntisymmetricToTheBit) {
       HostState state = restState(model);
       state.displacement_m[a] = vec4(randomVector(random, 0.02));
       state.displacement_m[b] = vec4(randomVector(random, 0.02));
-      GpuSolver solver(model, sceneFor(model, 1));
-      solver.writeState(state);
-      solver.step({});
-      const HostState after = solver.readState();
+      const auto solver = make(model, sceneFor(model, 1));
+      solver->writeState(state);
+      solver->step({});
+      const HostState after = solver->readState();
       ASSERT_NE(after.velocity_m_per_s[a].x, 0.0f);
       EXPECT_EQ(after.velocity_m_per_s[a].x, -after.velocity_m_per_s[b].x);
       EXPECT_EQ(after.velocity_m_per_s[a].y, -after.velocity_m_per_s[b].y);
@@ -167,7 +170,7 @@ TEST_F(Oracle, GatheredPairForcesAreAntisymmetricToTheBit) {
   }
 }
 
-TEST_F(Oracle, FiniteUniaxialStretchHasTheExactLateralStrainAndStress) {
+TEST_P(Oracle, FiniteUniaxialStretchHasTheExactLateralStrainAndStress) {
   struct Row {
     double stretch, lateral, stress;
   };

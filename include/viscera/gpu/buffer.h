@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <vector>
 
 namespace viscera::gpu {
@@ -42,10 +43,16 @@ class TexelView {
   TexelView(TexelView&& other) noexcept;
   TexelView& operator=(TexelView&& other) noexcept;
   void bind(uint32_t unit) const;
+  uint32_t id() const { return id_; }
 
  private:
   uint32_t id_ = 0;
 };
+
+/// Several storage buffers at bindings first, first + 1, ... in one call. @param buffers  ids
+void bindStorages(uint32_t first, std::initializer_list<uint32_t> buffers);
+/// Several texel views at units first, first + 1, ... in one call. @param views  ids
+void bindTexels(uint32_t first, std::initializer_list<uint32_t> views);
 
 /// Move-only array of T on the GPU. T must have the std430 layout of its twin in shaders/layout.h.
 template <class T>

@@ -15,7 +15,8 @@ struct DeviceAttempt {
   std::string reason;  ///< why it was taken, or the call and code that failed
 };
 
-/// Headless OpenGL 4.5 core context through EGL, current on the thread that made it. Needs no display.
+/// Headless OpenGL 4.5 core context through EGL, current on the thread that made it until it is handed to another one.
+/// Needs no display.
 class Context {
  public:
   /// Tries the EGL devices in turn (hardware before software), or only device `only` if it is >= 0.
@@ -24,6 +25,11 @@ class Context {
   ~Context();
   Context(const Context&) = delete;
   Context& operator=(const Context&) = delete;
+
+  /// Gives the context up on the calling thread, where it is current; another one may then take it.
+  void release() noexcept;
+  /// Makes the context current on the calling thread. False if EGL refuses, as while another thread has it.
+  [[nodiscard]] bool makeCurrent() noexcept;
 
   const std::string& renderer() const { return renderer_; }
   const std::string& version() const { return version_; }

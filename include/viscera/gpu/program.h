@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -31,11 +33,27 @@ class Program {
   /// Makes storage writes of earlier dispatches visible to later ones.
   static void storageBarrier();
   int location(const char* uniform) const;  ///< -1 where the compiler removed it
+  /// @name Uniforms by location; a value that the program has already costs no OpenGL call
+  /// Only for programs whose uniforms nobody sets in another way. The program need not be in use.
+  /// @{
+  void set(int location, uint32_t value) const;
+  void set(int location, float value) const;
+  template <size_t N>
+  void set(int location, const float (&value)[N]) const {  ///< vec3, vec4
+    static_assert(N == 3 || N == 4);
+    setVector(location, value, N);
+  }
+  /// @}
   explicit operator bool() const { return id_ != 0; }
   uint32_t id() const { return id_; }
 
  private:
+  void setVector(int location, const float* value, size_t components) const;
+  using Words = std::array<uint32_t, 4>;
+  bool changes(int location, const void* value, size_t bytes) const;
+
   uint32_t id_ = 0;
+  mutable std::vector<Words> uniforms_;  ///< their values, by location, as far as they were set
 };
 
 }  // namespace viscera::gpu

@@ -34,6 +34,7 @@ class ReadbackRing {
   /// Forgets what is in flight.
   void drop();
   int inFlight() const { return in_flight_; }
+  uint64_t waits() const { return waits_; }  ///< times that collect() had to wait for the GPU
 
  private:
   struct Slot {
@@ -45,6 +46,7 @@ class ReadbackRing {
   Slot& claim(uint64_t tag);
   std::vector<Slot> slots_;
   int oldest_ = 0, in_flight_ = 0;
+  uint64_t waits_ = 0;
 };
 
 }  // namespace viscera::gpu

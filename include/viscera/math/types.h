@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 #include <Eigen/Core>
@@ -14,6 +15,8 @@ using Eigen::Quaterniond;
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 using Eigen::Vector3i;
+
+using SteadyTime = std::chrono::steady_clock::time_point;
 
 /// Rigid pose: position [m] and orientation (unit quaternion) of a frame in its parent frame.
 struct Pose {

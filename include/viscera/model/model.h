@@ -36,6 +36,9 @@ struct Model {
   size_t skinTriangles() const;
 };
 
+/// Nodes of a body with `spacing_m: auto` where nobody has measured the machine, as only a session does.
+constexpr int kUnmeasuredNodes = 20000;
+
 /// Builds every body of a scene: mesh or phantom -> solid -> lattice + skin, fixed nodes marked.
 /// @throws MeshError     a mesh file that cannot be used, or that encloses no volume
 /// @throws LatticeError  spacing_m or target_nodes out of reach; names the body

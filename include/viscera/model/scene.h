@@ -18,6 +18,7 @@ enum class SkinSource { kAuto, kInput, kVolume };
 enum class UpAxis { kZ, kY };
 enum class FixedShape { kBox, kSphere, kPlane, kPart };
 enum class Integrator { kLeapfrog, kVerletPaper, kVbd, kPd };
+enum class Backend { kAuto, kGpu, kCpu };
 enum class ToolMode { kNone = 0, kProbe = 1, kGrab = 2, kCut = 3, kCutParticles = 4 };
 
 /// Nodes that are held in space. Coordinates are in the body's frame, before its pose is applied.
@@ -59,8 +60,9 @@ struct BodyConfig {
   double phantom_length_m = 0.1;
   double phantom_wall_scale = 1;
   Vector3d box_size_m = Vector3d::Constant(0.05);
-  double spacing_m = 0.004;  ///< 0: from target_nodes
-  int target_nodes = 0;      ///< 0: from spacing_m
+  double spacing_m = 0.004;   ///< 0: from target_nodes
+  bool auto_spacing = false;  ///< `spacing_m: auto`: as fine as this machine can step; see autoBodies()
+  int target_nodes = 0;       ///< 0: from spacing_m
   SkinSource skin = SkinSource::kAuto;
   Vector3d position_m = Vector3d::Zero();
   Vector3d rotation_deg = Vector3d::Zero();  ///< about fixed x, then y, then z
@@ -68,6 +70,7 @@ struct BodyConfig {
   MaterialConfig material;
   std::vector<PartConfig> parts;  ///< cells of other parts have `material`
   std::vector<FixedConfig> fixed;
+  std::string spacing_note;  ///< no key: why spacing_m is what it is, where it was chosen
 };
 
 struct StylusConfig {
@@ -116,9 +119,13 @@ struct SolverConfig {
   bool governor = true;
   double recovery_s = 0.25;
   double sleep_distance_m = 1;
+  double sleep_speed_m_per_s = 1e-5;  ///< 0: tissue never sleeps
   bool compensated = false;
   int max_substeps = 2000;
+  double real_time_factor = 1.2;  ///< of bodies with auto_spacing
   int device = -1;
+  Backend backend = Backend::kAuto;
+  int threads = 0;  ///< of the CPU backend; 0: as many as there are processors
 };
 
 /// WHAT is simulated: bodies, tools, cameras and an environment.
@@ -146,6 +153,9 @@ Scene loadScene(const std::string& path, const Overrides& overrides = {});
 
 /// The same from text, for tests; `name` stands for the file in messages.
 Scene parseScene(const std::string& yaml, const std::string& name, const Overrides& overrides = {});
+
+/// Indices of the bodies whose spacing is to be chosen: `spacing_m: auto` and no target_nodes.
+std::vector<size_t> autoBodies(const Scene& scene);
 
 /// Markdown table of every scene key: key, type and unit, default, range, meaning.
 std::string sceneKeysTable();

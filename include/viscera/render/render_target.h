@@ -21,6 +21,8 @@ class RenderTarget {
   void bindForDrawing() const;
   /// Averages the drawn pixels of each image pixel in linear light and binds the image for reading.
   void resolve() const;
+  /// Binds the image resolved last for reading.
+  void bindForReading() const;
 
  private:
   RenderTarget() = default;

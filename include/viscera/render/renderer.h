@@ -43,6 +43,8 @@ class Renderer {
   /// Makes no OpenGL object, and sets all the state that it depends on.
   void draw(size_t camera, const Surface& surface, const ToolMotions& motions);
   void draw(size_t camera, const MeshView& mesh, const ToolMotions& motions);
+  /// Leaves the image that was drawn last bound for reading, as draw() does, without drawing.
+  void bindLast(size_t camera) const;
   uint64_t renders() const { return renders_; }
 
  private:

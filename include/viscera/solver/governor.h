@@ -8,7 +8,8 @@
 
 namespace viscera {
 
-/// How a session fares: what the governor has seen and done since the last reset.
+/// How a session fares: what the governor has seen and done since the last reset. On the GPU it has not yet seen the
+/// last tick.
 struct Health {
   uint64_t trips = 0;       ///< ticks that were rolled back
   bool recovering = false;  ///< pd goes on in place of the scene's integrator; no force is given
@@ -17,7 +18,7 @@ struct Health {
   double elastic_j = 0;
 };
 
-/// The governor's judgement of ticks (physics.md 3). Host logic only: GpuSolver does what it says.
+/// The governor's judgement of ticks (physics.md 3). Host logic only: LatticeSolver does what it says.
 class Governor {
  public:
   /// Why a tick was found bad; kNone if it was good.
@@ -27,7 +28,18 @@ class Governor {
     double speed_m_per_s;  ///< 5 times the fastest of waves and of fragments that fall to where they sleep
     double energy_j;       ///< all of the tissue moving as fast as waves, plus its fall
   };
+  /// What a tick must not exceed, of energy without the work of its own tools.
+  struct Bounds {
+    double speed_m_per_s, energy_j;
+  };
+  static constexpr double kEnergyMargin = 2;  ///< energies are measured with velocities of half a substep ago
+
   Governor(const Limits& limits, double tick_s, double recovery_s);
+
+  /// @param implicit  of an integrator that may be fast
+  Bounds bounds(bool implicit) const;
+  /// What judge() would say, without consequences.
+  Trip inspect(const layout::TickStats& stats, bool implicit, double work_j = 0) const;
 
   /// Judges the tick that the measurement belongs to. @param implicit  it was made by an integrator that may be fast
   /// @param work_j  that tools did on the tissue in this tick
@@ -39,7 +51,6 @@ class Governor {
   int setbacks() const { return setbacks_; }
 
  private:
-  Trip inspect(const layout::TickStats& stats, bool implicit, double work_j) const;
   void note(const layout::TickStats& stats);
   void recover();
 

@@ -33,6 +33,7 @@ Strengths strengths(const Body& body);
 
 /// Material constants of a body as the kernels take them.
 layout::BodyParams bodyParams(const Body& body, double dt_safe_s);
+std::vector<layout::BodyParams> bodyParams(const Model& model, double dt_safe_s);  ///< [bodies]
 
 /// Has any cell of the model an energy of volume (nu other than 1/4)?
 bool hasVolumeEnergy(const Model& model);

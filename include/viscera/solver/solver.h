@@ -22,8 +22,13 @@ class Solver {
   virtual void step(const ToolMotions& motions) = 0;
   /// Back to rest: springs whole, nothing held, time 0.
   virtual void reset() = 0;
-  virtual StateView state() const = 0;
+  virtual StateView state() = 0;            ///< not const: a backend may have to bring the state to the GPU first
   virtual HostState readState() const = 0;  ///< waits
+  /// Does the state live in host memory? Then snapshot() is cheap, and whoever shows the state works from snapshots.
+  virtual bool onHost() const { return false; }
+  /// Copies what showing the current state takes; see StateSnapshot. A backend on the host makes no memory for it once
+  /// `out` has had its size; others do it by way of readState().
+  virtual void snapshot(StateSnapshot& out) const;
   /// Measurements of the next tick that has come back, oldest first; false if there is none (yet).
   /// @param wait  wait for the next one if one is under way
   virtual bool pollStats(layout::TickStats& stats, bool wait) = 0;

@@ -11,13 +11,30 @@ namespace viscera {
 
 /// Where the state of all nodes lives: what surface/ and render/ need to know of a solver. Buffer names are OpenGL's.
 struct StateView {
-  uint32_t displacement = 0;  ///< vec4[slots], xyz m from rest
-  uint32_t velocity = 0;      ///< vec4[slots], xyz m/s
-  uint32_t nodes = 0;         ///< NodeBits[slots]
-  uint32_t bricks = 0;        ///< Brick[bricks]
-  uint32_t bodies = 0;        ///< BodyParams[bodies]
-  uint64_t cut_revision = 0;  ///< grows whenever springs may have been cut since the last step
+  uint32_t displacement = 0;    ///< vec4[slots], xyz m from rest
+  uint32_t velocity = 0;        ///< vec4[slots], xyz m/s
+  uint32_t nodes = 0;           ///< NodeBits[slots]
+  uint32_t bricks = 0;          ///< Brick[bricks]
+  uint32_t bodies = 0;          ///< BodyParams[bodies]
+  uint64_t cut_revision = 0;    ///< grows whenever springs may have been cut since the last step
+  uint32_t stale_bricks = 0;    ///< uint[bricks]: `revision` at which a node of the brick or of a brick beside it last
+                                ///< moved; 0 where nobody knows: every node may have moved
+  uint32_t revision = 0;        ///< of the state, > 0, growing
+  uint32_t moved_revision = 0;  ///< at which some node last moved; 0 where nobody knows
 };
+
+/// What showing a state that lives on the host takes of it. Whoever shows it keeps one and says which bricks matter.
+struct StateSnapshot {
+  std::vector<uint32_t> bricks;         ///< [shown] ascending; set by whoever asks
+  std::vector<float> displacement_m;    ///< [192 * shown] of each of the bricks: 64 x, 64 y, 64 z
+  std::vector<layout::NodeBits> nodes;  ///< [slots] copied only if empty, or of another cut_revision
+  uint64_t cut_revision = 0;            ///< as in StateView, of `nodes`
+};
+constexpr size_t kBrickFloats = size_t{3} * layout::kBrickSlots;
+
+/// Copies the displacements of the bricks that a snapshot asks for.
+/// @param displacement_m  [192 * bricks] of all bricks, each 64 x, 64 y, 64 z
+void copyShown(const float* displacement_m, StateSnapshot& out);
 
 /// Copy of the state on the host, for hashing, saving and tests.
 struct HostState {

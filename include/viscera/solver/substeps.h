@@ -16,6 +16,13 @@ constexpr bool isExplicit(Integrator integrator) {
   return integrator == Integrator::kLeapfrog || integrator == Integrator::kVerletPaper;
 }
 
+/// Substeps below this lose float32 digits of u unless they are summed with compensation [s] (physics.md 2).
+constexpr double kShortSubstep_s = 50e-6;
+/// Does leapfrog sum with compensation? @param dt_s  shortest substep
+constexpr bool isCompensated(const SolverConfig& config, double dt_s) {
+  return config.compensated || dt_s < kShortSubstep_s;
+}
+
 /// Largest substep over dt_safe that an explicit integrator is surely stable with: f^2 + 2 xi f = 1.
 /// @param dashpot_ratio  xi
 double largestFraction(double dashpot_ratio);

@@ -21,7 +21,8 @@ class Surface {
 
   /// Brings positions and normals to the given state. One pass over bound nodes, one over vertices. At rest the mesh
   /// comes back to float rounding; nodes on one line or in one point still give finite vertices and unit normals.
-  /// What it writes is ready to be drawn, copied or read by a kernel.
+  /// What it writes is ready to be drawn, copied or read by a kernel. Vertices none of whose nodes have moved since the
+  /// last call are left as they are, where the state says which those are; that changes no bit.
   void follow(const StateView& state);
   /// Takes out the triangles whose springs were cut (the rule is in model/skin.h), until reset(). Looks at the springs
   /// only if state.cut_revision has changed since the last call; costs nothing otherwise.
@@ -49,6 +50,7 @@ class Surface {
   gpu::Program node_normal_, map_, tear_;
   std::vector<uint32_t> indices_;
   uint64_t cut_revision_ = 0, mappings_ = 0;
+  uint32_t followed_revision_ = 0;  ///< of the state that positions and normals belong to; 0 if nobody knows
 };
 
 /// Unit normal <-> three signed 10-bit fractions in a uint (x in the low bits), as GL_INT_2_10_10_10_REV.

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "viscera/solver/gpu/cut_pass.h"
 
-#include "gpu/gl.h"
-
 namespace viscera {
 
 CutPass::CutPass(const FeatureSet& features) : group_size_(features.group_size) {
@@ -15,9 +13,10 @@ CutPass::CutPass(const FeatureSet& features) : group_size_(features.group_size) 
 }
 
 void CutPass::run(const LatticeBuffers& buffers, uint32_t stylus, bool particles) const {
-  (particles ? particles_ : springs_).use();
-  glUniform1ui(0, static_cast<GLuint>(buffers.active_count));
-  glUniform1ui(1, stylus);
+  const gpu::Program& program = particles ? particles_ : springs_;
+  program.use();
+  program.set(0, static_cast<uint32_t>(buffers.active_count));
+  program.set(1, stylus);
   gpu::Program::dispatch(buffers.active_count, group_size_);
   gpu::Program::storageBarrier();
   if (torn_cells_) torn_cells_->run(buffers);

@@ -3,6 +3,7 @@
 #include "viscera/solver/gpu/features.h"
 
 #include "viscera/solver/material.h"
+#include "viscera/solver/substeps.h"
 
 namespace viscera {
 
@@ -22,7 +23,7 @@ FeatureSet featuresOf(const Model& model, const Scene& scene, double dt_s, uint3
   features.single_body = model.bodies.size() == 1;
   features.volume = hasVolumeEnergy(model);
   features.parts = isHeterogeneous(model);
-  features.compensated = scene.solver.compensated || dt_s < kShortSubstep_s;
+  features.compensated = isCompensated(scene.solver, dt_s);
   features.tools = !scene.styluses.empty();
   for (const Body& body : model.bodies) features.dashpot |= body.material.dashpot_ratio > 0;
   return features;

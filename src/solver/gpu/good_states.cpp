@@ -26,11 +26,14 @@ void GoodStates::restore(LatticeBuffers& buffers, int back) {
   const int depth = static_cast<int>(ring_.size());
   next_ = (next_ - back + depth) % depth;
   kept_ -= back;
-  const State& state = ring_[static_cast<size_t>((next_ - 1 + depth) % depth)];
-  buffers.displacement[buffers.current].copyFrom(state.displacement);
-  buffers.velocity[buffers.current].copyFrom(state.velocity);
+  buffers.displacement[buffers.current].copyFrom(last().displacement);
+  buffers.velocity[buffers.current].copyFrom(last().velocity);
   if (exhausted) buffers.velocity[buffers.current].clear();
   if (buffers.compensation.size()) buffers.compensation.clear();
+}
+
+void GoodStates::bindLast() const {
+  gpu::bindStorages(layout::kBindSavedDisplacement, {last().displacement.id(), last().velocity.id()});
 }
 
 }  // namespace viscera

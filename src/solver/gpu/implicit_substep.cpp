@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "viscera/solver/gpu/implicit_substep.h"
 
-#include "gpu/gl.h"
 #include "solver/gpu/sum_tree.h"
+#include "viscera/gpu/stage_clock.h"
 
 namespace viscera {
 
@@ -59,17 +59,18 @@ void ImplicitSubstep::swap() {
 
 void ImplicitSubstep::updateVolumes(const LatticeBuffers& buffers, const Substep& step, int iteration) const {
   if (!cells_) return;
+  const gpu::TimedStage timed(gpu::Stage::kVolume);
   cells_.use();
-  glUniform1ui(0, static_cast<GLuint>(buffers.cells.size()));
-  glUniform1f(1, step.dt_s);
-  glUniform1ui(7, static_cast<GLuint>(iteration));
+  cells_.set(0, static_cast<uint32_t>(buffers.cells.size()));
+  cells_.set(1, step.dt_s);
+  cells_.set(7, static_cast<uint32_t>(iteration));
   gpu::Program::dispatch(buffers.cells.size(), group_size_);
   gpu::Program::storageBarrier();
 }
 
 void ImplicitSubstep::runStage(const gpu::Program& stage, const LatticeBuffers& buffers, const Substep& step) const {
   stage.use();
-  setSubstep(buffers, step);
+  setSubstep(stage, buffers, step);
   gpu::Program::dispatch(buffers.active_count, group_size_);
   gpu::Program::storageBarrier();
 }
@@ -94,11 +95,11 @@ void ImplicitSubstep::keepBestShare(const LatticeBuffers& buffers, const Substep
 void ImplicitSubstep::chooseShare(const LatticeBuffers& buffers, bool bound_energy) const {
   fold_.use();
   forEachSumLevel(buffers.active_count, [&](size_t inputs, size_t input_first, size_t output_first, bool last) {
-    glUniform1ui(0, static_cast<GLuint>(inputs));
-    glUniform1ui(1, static_cast<GLuint>(input_first));
-    glUniform1ui(2, static_cast<GLuint>(output_first));
-    glUniform1ui(3, last ? 1 : 0);
-    glUniform1ui(4, bound_energy ? 1 : 0);
+    fold_.set(0, static_cast<uint32_t>(inputs));
+    fold_.set(1, static_cast<uint32_t>(input_first));
+    fold_.set(2, static_cast<uint32_t>(output_first));
+    fold_.set(3, last ? 1u : 0u);
+    fold_.set(4, bound_energy ? 1u : 0u);
     gpu::Program::dispatch(sumRuns(inputs), group_size_);
     gpu::Program::storageBarrier();
   });

@@ -4,47 +4,9 @@
 
 #include <utility>
 
-#include "viscera/solver/material.h"
+#include "viscera/solver/joined_lattice.h"
 
 namespace viscera {
-
-namespace {
-
-std::vector<uint32_t> activeSlots(const Model& model) {
-  std::vector<uint32_t> out;
-  out.reserve(model.activeNodes());
-  for (size_t b = 0; b < model.bodies.size(); ++b) {
-    for (uint32_t slot : model.bodies[b].lattice.active_slots) out.push_back(model.slotOffset(b) + slot);
-  }
-  return out;
-}
-
-std::vector<layout::Brick> allBricks(const Model& model) {
-  std::vector<layout::Brick> out;
-  for (size_t b = 0; b < model.bodies.size(); ++b) {
-    const uint32_t first = static_cast<uint32_t>(out.size());
-    for (layout::Brick brick : model.bodies[b].lattice.bricks) {
-      brick.body = static_cast<uint32_t>(b);
-      for (uint32_t& neighbor : brick.neighbors) neighbor += first;
-      out.push_back(brick);
-    }
-  }
-  return out;
-}
-
-std::vector<layout::NodeBits> allNodes(const Model& model) {
-  std::vector<layout::NodeBits> out;
-  out.reserve(model.slots());
-  for (size_t b = 0; b < model.bodies.size(); ++b) {
-    for (layout::NodeBits bits : model.bodies[b].lattice.nodes) {
-      bits.hi |= static_cast<uint32_t>(b) << layout::kBodyShift;
-      out.push_back(bits);
-    }
-  }
-  return out;
-}
-
-}  // namespace
 
 LatticeBuffers::LatticeBuffers(const Model& model, const std::vector<layout::BodyParams>& params,
                                const FeatureSet& features)
@@ -75,47 +37,42 @@ LatticeBuffers::LatticeBuffers(const Model& model, const std::vector<layout::Bod
 }
 
 void LatticeBuffers::allocateVolume(const Model& model) {
-  std::vector<uint32_t> slots;
-  for (size_t b = 0; b < model.bodies.size(); ++b) {
-    const Lattice& lattice = model.bodies[b].lattice;
-    for (uint32_t slot : lattice.active_slots) {
-      if (lattice.nodes[slot].lo & layout::kCellBit) slots.push_back(model.slotOffset(b) + slot);
-    }
-  }
-  cells = gpu::Buffer<uint32_t>(slots);
+  cells = gpu::Buffer<uint32_t>(cellSlots(model));
   cell_forces = gpu::Buffer<layout::vec4>(3 * slot_count);
   cell_force_texels_ = gpu::TexelView(cell_forces.raw(), gpu::TexelFormat::kRgba32f);
 }
 
 void LatticeBuffers::allocateParts(const Model& model) {
-  std::vector<float> springs, masses, bulks;
-  for (const Body& body : model.bodies) {
-    const Strengths table = strengths(body);
-    springs.insert(springs.end(), table.spring_n_per_m.begin(), table.spring_n_per_m.end());
-    masses.insert(masses.end(), table.mass_kg.begin(), table.mass_kg.end());
-    bulks.insert(bulks.end(), table.bulk_j.begin(), table.bulk_j.end());
-  }
-  spring_stiffness = gpu::Buffer<float>(springs);
-  node_mass = gpu::Buffer<float>(masses);
-  cell_bulk = gpu::Buffer<float>(bulks);
+  const Strengths table = allStrengths(model);
+  spring_stiffness = gpu::Buffer<float>(table.spring_n_per_m);
+  node_mass = gpu::Buffer<float>(table.mass_kg);
+  cell_bulk = gpu::Buffer<float>(table.bulk_j);
   spring_texels_ = gpu::TexelView(spring_stiffness.raw(), gpu::TexelFormat::kR32f);
   mass_texels_ = gpu::TexelView(node_mass.raw(), gpu::TexelFormat::kR32f);
   bulk_texels_ = gpu::TexelView(cell_bulk.raw(), gpu::TexelFormat::kR32f);
 }
 
+/// Two calls, as this is done after every substep.
+void LatticeBuffers::bindState() const {
+  const int next = 1 - current;
+  gpu::bindStorages(layout::kBindDisplacementIn,
+                    {displacement[current].id(), velocity[current].id(), displacement[next].id(), velocity[next].id()});
+  gpu::bindTexels(layout::kUnitDisplacement, {displacement_texels_[current].id(), velocity_texels_[current].id()});
+}
+
+void LatticeBuffers::swap() {
+  current = 1 - current;
+  bindState();
+}
+
 void LatticeBuffers::bind() const {
+  bindState();
   active.bindStorage(layout::kBindActive);
   bricks.bindStorage(layout::kBindBricks);
   bodies.bindUniform(layout::kBindBodies);
   nodes.bindStorage(layout::kBindNodes);
-  displacement[current].bindStorage(layout::kBindDisplacementIn);
-  velocity[current].bindStorage(layout::kBindVelocityIn);
-  displacement[1 - current].bindStorage(layout::kBindDisplacementOut);
-  velocity[1 - current].bindStorage(layout::kBindVelocityOut);
   stats.bindStorage(layout::kBindStats);
   brick_texels_.bind(layout::kUnitBricks);
-  displacement_texels_[current].bind(layout::kUnitDisplacement);
-  velocity_texels_[current].bind(layout::kUnitVelocity);
   if (cells.size()) {
     cells.bindStorage(layout::kBindCells);
     cell_forces.bindStorage(layout::kBindCellForces);

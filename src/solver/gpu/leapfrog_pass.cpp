@@ -15,8 +15,9 @@ LeapfrogPass::LeapfrogPass(const FeatureSet& features) : group_size_(features.gr
 
 void LeapfrogPass::run(LatticeBuffers& buffers, const Substep& step) {
   if (volume_) volume_->run(buffers);
-  (step.tools ? with_tools_ : plain_).use();
-  setSubstep(buffers, step);
+  const gpu::Program& program = step.tools ? with_tools_ : plain_;
+  program.use();
+  setSubstep(program, buffers, step);
   gpu::Program::dispatch(buffers.active_count, group_size_);
   gpu::Program::storageBarrier();
 }

@@ -27,7 +27,7 @@ void MeasurePass::run(const LatticeBuffers& buffers) const {
   clear(offsetof(layout::TickStats, nonfinite), sizeof(layout::TickStats));
   energies_.bindStorage(layout::kBindPartials);
   measure_.use();
-  glUniform1ui(0, static_cast<GLuint>(buffers.active_count));
+  measure_.set(0, static_cast<uint32_t>(buffers.active_count));
   gpu::Program::dispatch(buffers.active_count, group_size_);
   gpu::Program::storageBarrier();
   sumEnergies(buffers);
@@ -36,10 +36,10 @@ void MeasurePass::run(const LatticeBuffers& buffers) const {
 void MeasurePass::sumEnergies(const LatticeBuffers& buffers) const {
   fold_.use();
   forEachSumLevel(buffers.active_count, [&](size_t inputs, size_t input_first, size_t output_first, bool last) {
-    glUniform1ui(0, static_cast<GLuint>(inputs));
-    glUniform1ui(1, static_cast<GLuint>(input_first));
-    glUniform1ui(2, static_cast<GLuint>(output_first));
-    glUniform1ui(3, last ? 1 : 0);
+    fold_.set(0, static_cast<uint32_t>(inputs));
+    fold_.set(1, static_cast<uint32_t>(input_first));
+    fold_.set(2, static_cast<uint32_t>(output_first));
+    fold_.set(3, last ? 1u : 0u);
     gpu::Program::dispatch(sumRuns(inputs), group_size_);
     gpu::Program::storageBarrier();
   });

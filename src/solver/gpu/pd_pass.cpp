@@ -4,19 +4,7 @@
 
 #include <cstring>
 
-#include "gpu/gl.h"
-
 namespace viscera {
-
-namespace {
-
-/// Weights of Chebyshev's semi-iteration: 1, 2/(2 - rho^2), then 4/(4 - rho^2 w).
-double nextWeight(int iteration, double weight, double rho) {
-  if (iteration == 0) return 1;
-  return iteration == 1 ? 2 / (2 - rho * rho) : 4 / (4 - rho * rho * weight);
-}
-
-}  // namespace
 
 PdPass::PdPass(const FeatureSet& features, const LatticeBuffers& buffers, const PdOptions& options)
     : implicit_(features, buffers, options.iterations, 2),
@@ -32,7 +20,7 @@ void PdPass::findRates(const FeatureSet& features, const LatticeBuffers& buffers
   buffers.bind();
   rates.bindStorage(layout::kBindGuard);
   rate.use();
-  glUniform1ui(0, static_cast<GLuint>(buffers.active_count));
+  rate.set(0, static_cast<uint32_t>(buffers.active_count));
   gpu::Program::dispatch(buffers.active_count, group_size_);
   const std::vector<float> found = rates.read();
   stiffness_rate_per_s2_ = found[0];
@@ -41,8 +29,7 @@ void PdPass::findRates(const FeatureSet& features, const LatticeBuffers& buffers
 
 double PdPass::spectralRadius(double dt_s) const {
   if (options_.spectral_radius > 0) return options_.spectral_radius;
-  const double rate = stiffness_rate_per_s2_ + damping_rate_per_s_ / dt_s;
-  return rate / (1 / (dt_s * dt_s) + rate);
+  return jacobiRadius(stiffness_rate_per_s2_, damping_rate_per_s_, dt_s);
 }
 
 void PdPass::run(LatticeBuffers& buffers, const Substep& step) {
@@ -53,11 +40,11 @@ void PdPass::run(LatticeBuffers& buffers, const Substep& step) {
   double weight = 1;
   for (int iteration = 0; iteration < options_.iterations; ++iteration) {
     implicit_.updateVolumes(buffers, step, iteration);
-    weight = options_.accelerated ? nextWeight(iteration, weight, rho) : 1;
+    weight = options_.accelerated ? chebyshevWeight(iteration, weight, rho) : 1;
     sweep_.use();
-    setSubstep(buffers, plain);
-    glUniform1ui(7, static_cast<GLuint>(iteration));
-    glUniform1f(8, static_cast<float>(weight));
+    setSubstep(sweep_, buffers, plain);
+    sweep_.set(7, static_cast<uint32_t>(iteration));
+    sweep_.set(8, static_cast<float>(weight));
     gpu::Program::dispatch(buffers.active_count, group_size_);
     gpu::Program::storageBarrier();
     implicit_.swap();

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "viscera/solver/gpu/reaction_pass.h"
 
-#include "gpu/gl.h"
 #include "solver/gpu/sum_tree.h"
 
 namespace viscera {
@@ -20,14 +19,17 @@ void ReactionPass::run(const LatticeBuffers& buffers, const std::array<Vector3f,
   size_t inputs = buffers.active_count, input_first = 0, output_first = 0;
   for (bool first = true; first || inputs > 1; first = false) {
     const size_t outputs = sumRuns(inputs);
-    (first ? leaves_ : fold_).use();
-    glUniform1ui(0, static_cast<GLuint>(inputs));
-    glUniform1ui(1, static_cast<GLuint>(input_first));
-    glUniform1ui(2, static_cast<GLuint>(output_first));
-    glUniform1ui(3, outputs == 1 ? 1 : 0);
+    const gpu::Program& program = first ? leaves_ : fold_;
+    program.use();
+    program.set(0, static_cast<uint32_t>(inputs));
+    program.set(1, static_cast<uint32_t>(input_first));
+    program.set(2, static_cast<uint32_t>(output_first));
+    program.set(3, outputs == 1 ? 1u : 0u);
     if (first) {
-      glUniform1ui(4, static_cast<GLuint>(buffers.slot_count));
-      for (size_t s = 0; s < tips.size(); ++s) glUniform3fv(5 + static_cast<GLint>(s), 1, tips[s].data());
+      program.set(4, static_cast<uint32_t>(buffers.slot_count));
+      for (size_t s = 0; s < tips.size(); ++s) {
+        program.set(5 + static_cast<int>(s), {tips[s].x(), tips[s].y(), tips[s].z()});
+      }
     }
     gpu::Program::dispatch(outputs, group_size_);
     gpu::Program::storageBarrier();

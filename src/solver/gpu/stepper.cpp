@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "viscera/solver/gpu/stepper.h"
 
-#include "gpu/gl.h"
 #include "viscera/solver/gpu/leapfrog_pass.h"
 #include "viscera/solver/gpu/pd_pass.h"
 #include "viscera/solver/gpu/vbd_pass.h"
@@ -33,15 +32,15 @@ std::unique_ptr<Stepper> makeRecoveryStepper(int iterations, const FeatureSet& f
   return std::make_unique<PdPass>(features, buffers, options);
 }
 
-void setSubstep(const LatticeBuffers& buffers, const Substep& step) {
-  glUniform1ui(0, static_cast<GLuint>(buffers.active_count));
-  glUniform1f(1, step.dt_s);
-  glUniform1f(2, step.kick_s);
-  glUniform3fv(3, 1, step.gravity.data());
-  glUniform1f(4, step.sleep_distance_m);
+void setSubstep(const gpu::Program& program, const LatticeBuffers& buffers, const Substep& step) {
+  program.set(0, static_cast<uint32_t>(buffers.active_count));
+  program.set(1, step.dt_s);
+  program.set(2, step.kick_s);
+  program.set(3, {step.gravity.x(), step.gravity.y(), step.gravity.z()});
+  program.set(4, step.sleep_distance_m);
   if (!step.tools) return;
-  glUniform1ui(5, static_cast<GLuint>(buffers.slot_count));
-  glUniform1f(6, step.push_speed_m_per_s);
+  program.set(5, static_cast<uint32_t>(buffers.slot_count));
+  program.set(6, step.push_speed_m_per_s);
 }
 
 }  // namespace viscera

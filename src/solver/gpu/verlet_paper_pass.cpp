@@ -28,7 +28,7 @@ void VerletPaperPass::rebuild(const LatticeBuffers& buffers, const Substep& step
   rebuild_.use();
   Substep plain = step;
   plain.tools = false;  // this kernel knows of none
-  setSubstep(buffers, plain);
+  setSubstep(rebuild_, buffers, plain);
   gpu::Program::dispatch(buffers.active_count, group_size_);
   gpu::Program::storageBarrier();
 }
@@ -39,8 +39,9 @@ void VerletPaperPass::run(LatticeBuffers& buffers, const Substep& step) {
   last_dt_s_ = step.dt_s;
   if (volume_) volume_->run(buffers);
   position_texels_[current_].bind(layout::kUnitPositions);
-  (step.tools ? with_tools_ : plain_).use();
-  setSubstep(buffers, step);
+  const gpu::Program& program = step.tools ? with_tools_ : plain_;
+  program.use();
+  setSubstep(program, buffers, step);
   gpu::Program::dispatch(buffers.active_count, group_size_);
   gpu::Program::storageBarrier();
   current_ = 1 - current_;

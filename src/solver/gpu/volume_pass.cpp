@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "viscera/solver/gpu/volume_pass.h"
 
-#include "gpu/gl.h"
+#include "viscera/gpu/stage_clock.h"
 
 namespace viscera {
 
@@ -10,7 +10,7 @@ namespace {
 
 void dispatchCells(const gpu::Program& program, const LatticeBuffers& buffers, uint32_t group_size) {
   program.use();
-  glUniform1ui(0, static_cast<GLuint>(buffers.cells.size()));
+  program.set(0, static_cast<uint32_t>(buffers.cells.size()));
   gpu::Program::dispatch(buffers.cells.size(), group_size);
   gpu::Program::storageBarrier();
 }
@@ -21,6 +21,7 @@ VolumePass::VolumePass(const FeatureSet& features)
     : cells_(gpu::Program::compute("volume.comp", features.defines())), group_size_(features.group_size) {}
 
 void VolumePass::run(const LatticeBuffers& buffers) const {
+  const gpu::TimedStage timed(gpu::Stage::kVolume);
   dispatchCells(cells_, buffers, group_size_);
 }
 

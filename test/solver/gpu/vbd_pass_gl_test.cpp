@@ -1,5 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
+// What only the GPU has; the rest is in solver/vbd_gl_test.cpp.
 #include "viscera/solver/gpu/vbd_pass.h"
 
 #include "support/implicit.h"
@@ -7,97 +8,8 @@
 using namespace viscera;
 using namespace viscera::test;
 
-namespace {
+using VbdOnGpu = GpuTest;
 
-// Relative to the largest value, after kSubsteps of 3 dt_safe with iterations enough that more change nothing: float32
-// rounding of increments and of their sum.
-constexpr double kConverged = 2e-6;
-constexpr int kIterations = 120;
-constexpr int kSubsteps = 3;
-
-class Vbd : public GpuTest {
- protected:
-  void expectLikeReference(const Model& model, const Vector3d& gravity) {
-    GpuSolver solver(model, sceneWith(Integrator::kVbd, model, kSubsteps, 3, kIterations, {}, gravity));
-    const HostState start = randomState(model, 0.05 * model.bodies[0].lattice.spacing_m, 0.1, 7);
-    solver.writeState(start);
-    ReferenceSolver reference = referenceFor(ReferenceIntegrator::kImplicitEuler, model, solver, start, gravity);
-    solver.step({});
-    for (int s = 0; s < kSubsteps; ++s) reference.substep();
-    const HostState end = solver.readState();
-    EXPECT_LT(relativeError(end.displacement_m, reference.u_m, reference.active), kConverged);
-    EXPECT_LT(relativeError(end.velocity_m_per_s, reference.v_m_per_s, reference.active), kConverged);
-  }
-};
-
-}  // namespace
-
-TEST(VbdColours, NoSpringAndNoCellJoinsTwoNodesOfOne) {
-  const Body body = boxBody({5, 6, 7}, 0.01);
-  const Lattice& lattice = body.lattice;
-  for (uint32_t slot : lattice.active_slots) {
-    EXPECT_LT(colourOf(slot, false), colourCount(false));
-    EXPECT_LT(colourOf(slot, true), colourCount(true));
-    for (uint32_t s = 0; s < layout::kSpringsPerNode; ++s) {
-      const int64_t other = lattice.neighborSlot(slot, s);
-      if (other < 0) continue;
-      EXPECT_NE(colourOf(slot, false), colourOf(static_cast<uint32_t>(other), false));
-    }
-    for (int corner = 0; corner < 27; ++corner) {
-      const Vector3i offset(corner % 3 - 1, corner / 3 % 3 - 1, corner / 9 - 1);
-      const int64_t other = lattice.slotAt(lattice.nodeAt(slot) + offset);
-      if (other < 0 || other == slot) continue;
-      EXPECT_NE(colourOf(slot, true), colourOf(static_cast<uint32_t>(other), true));
-    }
-  }
-}
-
-TEST_F(Vbd, MatchesReferenceAtEverySize) {
-  for (size_t size : kSizes) {
-    if (size > 100) continue;  // a random tree of 1234 nodes hangs together by single springs: thousands of iterations
-    SCOPED_TRACE(size);
-    Body body = blobBody(size, 0.01, 3);
-    body.material.drag_per_s = 50;
-    expectLikeReference(modelOf({body}), Vector3d(0.3, -0.2, -9.81));
-  }
-}
-
-TEST_F(Vbd, MatchesReferenceWithVolumesOfAnyPoissonRatio) {
-  for (const double poisson_ratio : {0.0, 0.45, 0.49}) {
-    SCOPED_TRACE(poisson_ratio);
-    Body body = boxBody({4, 4, 4}, 0.01);
-    body.material.poisson_ratio = poisson_ratio;
-    expectLikeReference(modelOf({body}), Vector3d(0, 0, -9.81));
-  }
-}
-
-TEST_F(Vbd, MatchesReferenceWithPartsAndFixedNodes) {
-  expectLikeReference(modelOf({twoPartBody()}), Vector3d(0, 0, -9.81));
-}
-
-TEST_F(Vbd, EnergyStaysBelowItsStartWhateverTheStart) {
-  for (const double poisson_ratio : {0.25, 0.45}) {
-    for (const double fraction : {1.0, 10.0, 100.0}) expectEnergyBound(Integrator::kVbd, poisson_ratio, fraction);
-  }
-}
-
-TEST_F(Vbd, FallsFreelyHoweverLongTheSubstep) {
-  const Model model = modelOf({boxBody({3, 3, 3}, 0.01)});
-  GpuSolver solver(model, sceneWith(Integrator::kVbd, model, 4, 30, 5, {}, Vector3d(0, 0, -9.81)));
-  ReferenceSolver reference =
-      referenceFor(ReferenceIntegrator::kImplicitEuler, model, solver, restState(model), Vector3d(0, 0, -9.81));
-  solver.step({});
-  for (int s = 0; s < 4; ++s) reference.substep();
-  EXPECT_LT(relativeError(solver.readState().displacement_m, reference.u_m, reference.active), kConverged);
-}
-
-TEST_F(Vbd, ToolsActLikeTheReferences) {
-  for (const double poisson_ratio : {0.25, 0.4}) {
-    // Absolute positions of tools, rounded at 6e-8 of 0.05 m, on displacements of 3e-3 m.
-    expectToolsLikeReference(Integrator::kVbd, kIterations, poisson_ratio, 1e-5);
-  }
-}
-
-TEST_F(Vbd, StateHashDoesNotDependOnGroupSize) {
+TEST_F(VbdOnGpu, StateHashDoesNotDependOnGroupSize) {
   expectSameHashForEveryGroupSize(Integrator::kVbd);
 }

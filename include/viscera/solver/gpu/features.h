@@ -24,9 +24,6 @@ struct FeatureSet {
   std::vector<std::string> defines() const;
 };
 
-/// Substeps below this lose float32 digits of u unless they are summed with compensation [s] (physics.md 2).
-constexpr double kShortSubstep_s = 50e-6;
-
 /// @param dt_s  shortest substep
 FeatureSet featuresOf(const Model& model, const Scene& scene, double dt_s, uint32_t group_size);
 

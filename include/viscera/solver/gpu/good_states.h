@@ -21,10 +21,14 @@ class GoodStates {
   /// saved.
   void restore(LatticeBuffers& buffers, int back);
 
+  /// Binds the state saved last, for GuardPass.
+  void bindLast() const;
+
  private:
   struct State {
     gpu::Buffer<layout::vec4> displacement, velocity;
   };
+  const State& last() const { return ring_[(static_cast<size_t>(next_) + ring_.size() - 1) % ring_.size()]; }
   std::vector<State> ring_;
   int next_ = 0, kept_ = 0;
 };

@@ -15,8 +15,8 @@ struct LatticeBuffers {
 
   /// Binds what all kernels share, with the current state as input and the other as output.
   void bind() const;
-  /// What was output becomes the current state.
-  void swap() { current = 1 - current; }
+  /// What was output becomes the current state. Binds anew only what that changes.
+  void swap();
   /// Rest state, whole springs, nothing held.
   void reset();
 
@@ -41,6 +41,7 @@ struct LatticeBuffers {
  private:
   gpu::TexelView brick_texels_, displacement_texels_[2], velocity_texels_[2];
   gpu::TexelView cell_force_texels_, spring_texels_, mass_texels_, bulk_texels_;
+  void bindState() const;
   void allocateVolume(const Model& model);
   void allocateParts(const Model& model);
   std::vector<layout::NodeBits> whole_nodes_;

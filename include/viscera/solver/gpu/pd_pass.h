@@ -5,14 +5,9 @@
 #include <vector>
 
 #include "viscera/solver/gpu/implicit_substep.h"
+#include "viscera/solver/jacobi.h"
 
 namespace viscera {
-
-struct PdOptions {
-  int iterations = 20;  ///< sweeps per substep
-  bool accelerated = true;
-  double spectral_radius = 0;  ///< of the iteration, for tests; 0: the bound from lattice and substep
-};
 
 /// PD-Jacobi in majorise-minimise form on implicit Euler (physics.md 2), with Chebyshev acceleration on request: where
 /// that goes wrong the rest of the substep starts anew without it, which the GPU decides. Owner of shaders/pd.comp.
@@ -21,9 +16,7 @@ class PdPass : public Stepper {
   PdPass(const FeatureSet& features, const LatticeBuffers& buffers, const PdOptions& options);
   void run(LatticeBuffers& buffers, const Substep& step) override;
 
-  /// Bound on the spectral radius of the plain iteration. Near a minimum it is 1 - D^-1 H with the majoriser
-  /// D = m/dt^2 + K, K = sum of (k + c/dt) + volume, and m/dt^2 <= H <= m/dt^2 + 2 K: so |1 - D^-1 H| <= K/(m/dt^2 +
-  /// K), largest where K/m is. Cuts only lower it.
+  /// Bound on the spectral radius of the plain iteration (jacobiRadius).
   double spectralRadius(double dt_s) const;
   /// Largest step of a node per iteration of the last substep, before acceleration [m]. Waits for the GPU.
   std::vector<float> changes() const;

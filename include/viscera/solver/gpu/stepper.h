@@ -7,19 +7,9 @@
 #include "viscera/gpu/program.h"
 #include "viscera/solver/gpu/features.h"
 #include "viscera/solver/gpu/lattice_buffers.h"
+#include "viscera/solver/substep.h"
 
 namespace viscera {
-
-/// One substep, as every integrator is told of it.
-struct Substep {
-  float dt_s = 0;
-  float kick_s = 0;  ///< leapfrog: half the substep before and half this one; half of dt_s in the very first
-  Vector3f gravity = Vector3f::Zero();  ///< [m/s2]
-  float sleep_distance_m = 1;
-  float push_speed_m_per_s = 0;  ///< largest speed at which a probe pushes nodes out
-  bool tools = false;            ///< probe or held nodes are about: the kernel that knows them is used
-  bool restarted = false;        ///< the state was written from outside since the last substep
-};
 
 /// An integrator: one substep of every active node (physics.md 2).
 class Stepper {
@@ -37,7 +27,7 @@ std::unique_ptr<Stepper> makeStepper(Integrator integrator, int iterations, cons
 /// pd without acceleration, so that every sweep lowers the energy, for the governor's recoveries.
 std::unique_ptr<Stepper> makeRecoveryStepper(int iterations, const FeatureSet& features, const LatticeBuffers& buffers);
 
-/// Sets the uniforms of shaders/step.glsl for the program in use.
-void setSubstep(const LatticeBuffers& buffers, const Substep& step);
+/// Sets the uniforms of shaders/step.glsl.
+void setSubstep(const gpu::Program& program, const LatticeBuffers& buffers, const Substep& step);
 
 }  // namespace viscera

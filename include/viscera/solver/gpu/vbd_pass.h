@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "viscera/solver/colours.h"
 #include "viscera/solver/gpu/implicit_substep.h"
 
 namespace viscera {
@@ -18,22 +19,12 @@ class VbdPass : public Stepper {
   void run(LatticeBuffers& buffers, const Substep& step) override;
 
  private:
-  struct Colour {
-    uint32_t first, count;  ///< in by_colour_
-  };
   ImplicitSubstep implicit_;
   gpu::Program sweep_;
-  gpu::Buffer<uint32_t> by_colour_;  ///< [active] slots
-  std::vector<Colour> colours_;
+  gpu::Buffer<uint32_t> by_colour_;        ///< [active] slots
+  std::vector<Coloured::Colour> colours_;  ///< in by_colour_
   int iterations_;
   uint32_t group_size_;
 };
-
-/// Which nodes may move at once. Springs join none of the four colours 2 ((i + j) & 1) + ((j + k) & 1); a cell's energy
-/// of volume joins its opposite corners too, so with volumes the eight parities of (i, j, k) are needed.
-uint32_t colourOf(uint32_t slot, bool volume);
-constexpr uint32_t colourCount(bool volume) {
-  return volume ? 8 : 4;
-}
 
 }  // namespace viscera

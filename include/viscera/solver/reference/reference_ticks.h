@@ -9,8 +9,8 @@
 
 namespace viscera {
 
-/// The reference tick by tick, as GpuSolver goes through a scene, but always in calm substeps and without a governor.
-/// vbd and pd are implicit Euler here, solved to the end.
+/// The reference tick by tick, as LatticeSolver goes through a scene, but always in calm substeps and without a
+/// governor. vbd and pd are implicit Euler here, solved to the end.
 class ReferenceTicks {
  public:
   /// @param model  must outlive this

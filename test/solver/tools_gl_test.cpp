@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "support/gpu_fixture.h"
+#include "support/backends.h"
 
 using namespace viscera;
 using namespace viscera::test;
@@ -22,13 +22,13 @@ StylusConfig stylusConfig() {
   return config;
 }
 
-class ToolsOnTissue : public GpuTest {
+class ToolsOnTissue : public OnBackend {
  protected:
   ToolsOnTissue() : model_(modelOf({boxBody({6, 6, 6}, 0.01)})), styluses_{stylusConfig(), stylusConfig()} {
     for (uint32_t slot : lattice().active_slots) {
       if (lattice().nodeAt(slot).z() == 0) model_.bodies[0].lattice.nodes[slot].lo |= layout::kFixedBit;
     }
-    solver_.emplace(model_, sceneFor(model_, kSubsteps, styluses_));
+    solver_ = make(model_, sceneFor(model_, kSubsteps, styluses_));
     ReferenceOptions options;
     options.push_speed_m_per_s = pushSpeed(model_);
     reference_.emplace(model_, Vector3d::Zero(), static_cast<float>(solver_->dt_s()), options);
@@ -59,7 +59,7 @@ class ToolsOnTissue : public GpuTest {
 
   Model model_;
   std::vector<StylusConfig> styluses_;
-  std::optional<GpuSolver> solver_;
+  std::unique_ptr<LatticeSolver> solver_;
   std::optional<ReferenceSolver> reference_;
 };
 
@@ -84,9 +84,11 @@ size_t asymmetricSprings(const Lattice& lattice, const std::vector<layout::NodeB
   return wrong;
 }
 
+INSTANTIATE_TEST_SUITE_P(Backends, ToolsOnTissue, ::testing::ValuesIn(backendNames()), backendSuffix);
+
 }  // namespace
 
-TEST_F(ToolsOnTissue, ProbeDentsLikeTheReference) {
+TEST_P(ToolsOnTissue, ProbeDentsLikeTheReference) {
   ToolMotions motions;
   for (int t = 0; t < 10; ++t) {
     const double z = 0.075 - 0.002 * t;
@@ -99,7 +101,7 @@ TEST_F(ToolsOnTissue, ProbeDentsLikeTheReference) {
   EXPECT_LT(lowest, -0.004);
 }
 
-TEST_F(ToolsOnTissue, ReactionIsTheMomentumGivenPerTick) {
+TEST_P(ToolsOnTissue, ReactionIsTheMomentumGivenPerTick) {
   ToolMotions motions;
   Vector3d before = Vector3d::Zero();
   for (int t = 0; t < 10; ++t) {
@@ -117,7 +119,7 @@ TEST_F(ToolsOnTissue, ReactionIsTheMomentumGivenPerTick) {
   EXPECT_EQ(xyz(s.impulse[1]), Vector3d::Zero().eval());
 }
 
-TEST_F(ToolsOnTissue, ProbeThatJumpsLeavesNoNodeInsideIt) {
+TEST_P(ToolsOnTissue, ProbeThatJumpsLeavesNoNodeInsideIt) {
   const double tick_s = kSubsteps * solver_->dt_s();
   Tools tools(styluses_, waveSpeed(model_) * tick_s);
   StylusSamples samples;
@@ -139,7 +141,7 @@ TEST_F(ToolsOnTissue, ProbeThatJumpsLeavesNoNodeInsideIt) {
   }
 }
 
-TEST_F(ToolsOnTissue, ProbeThatAppearsInsideTissuePushesNoFasterThanItsPushSpeed) {
+TEST_P(ToolsOnTissue, ProbeThatAppearsInsideTissuePushesNoFasterThanItsPushSpeed) {
   ToolMotions motions;
   motions[0] = motion(ToolMode::kProbe, {0.031, 0.032, 0.033}, {0.031, 0.032, 0.033});
   tick(motions);
@@ -150,7 +152,7 @@ TEST_F(ToolsOnTissue, ProbeThatAppearsInsideTissuePushesNoFasterThanItsPushSpeed
   EXPECT_LT(moved, 1.001 * farthest);  // float32 rounding of a sum of ten steps
 }
 
-TEST_F(ToolsOnTissue, ProbeAtANodesPlaceHasADirectionAllTheSame) {
+TEST_P(ToolsOnTissue, ProbeAtANodesPlaceHasADirectionAllTheSame) {
   ToolMotions motions;
   const Vector3d node(0.03, 0.03, 0.06);
   motions[0] = motion(ToolMode::kProbe, node, node);
@@ -159,7 +161,7 @@ TEST_F(ToolsOnTissue, ProbeAtANodesPlaceHasADirectionAllTheSame) {
   EXPECT_GT(stats().touched[0], 0u);
 }
 
-TEST_F(ToolsOnTissue, SecondHandTakesNeitherWhatTheFirstHoldsNorWhatIsFixed) {
+TEST_P(ToolsOnTissue, SecondHandTakesNeitherWhatTheFirstHoldsNorWhatIsFixed) {
   ToolMotions motions;
   const Vector3d low(0.03, 0.03, 0.005);  // among fixed nodes (z = 0) and free ones
   for (uint32_t s = 0; s < 2; ++s) {
@@ -177,7 +179,7 @@ TEST_F(ToolsOnTissue, SecondHandTakesNeitherWhatTheFirstHoldsNorWhatIsFixed) {
   }
 }
 
-TEST_F(ToolsOnTissue, HeldNodesFollowTheFullPose) {
+TEST_P(ToolsOnTissue, HeldNodesFollowTheFullPose) {
   ToolMotions motions;
   motions[1] = motion(ToolMode::kGrab, {0.03, 0.03, 0.06}, {0.03, 0.03, 0.062});
   motions[1].grab_begins = true;
@@ -198,7 +200,7 @@ TEST_F(ToolsOnTissue, HeldNodesFollowTheFullPose) {
   }
 }
 
-TEST_F(ToolsOnTissue, ReleaseClampsTheVelocity) {
+TEST_P(ToolsOnTissue, ReleaseClampsTheVelocity) {
   ToolMotions motions;
   motions[0] = motion(ToolMode::kGrab, {0.03, 0.03, 0.06}, {0.03, 0.03, 0.08});
   motions[0].grab_begins = true;
@@ -210,7 +212,7 @@ TEST_F(ToolsOnTissue, ReleaseClampsTheVelocity) {
   EXPECT_EQ(stats().grabbed[0], 0u);
 }
 
-TEST_F(ToolsOnTissue, BladeCutsTheSpringsItCrossesFromBothEnds) {
+TEST_P(ToolsOnTissue, BladeCutsTheSpringsItCrossesFromBothEnds) {
   ToolMotions motions;
   // The blade points along -z from z = 0.16 to -0.04 and sweeps along x in the plane y = 0.035, between two rows of
   // nodes.
@@ -232,7 +234,7 @@ TEST_F(ToolsOnTissue, BladeCutsTheSpringsItCrossesFromBothEnds) {
   EXPECT_EQ(stats().springs_cut, crossing);
 }
 
-TEST_F(ToolsOnTissue, MasksStaySymmetricAndLikeTheReferenceAfterRandomCuts) {
+TEST_P(ToolsOnTissue, MasksStaySymmetricAndLikeTheReferenceAfterRandomCuts) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> angle(-180, 180);
   ToolMotions motions;
@@ -252,7 +254,7 @@ TEST_F(ToolsOnTissue, MasksStaySymmetricAndLikeTheReferenceAfterRandomCuts) {
   EXPECT_GT(stats().springs_cut, 0u);
 }
 
-TEST_F(ToolsOnTissue, OneSweepCutsWhatTheReferenceCuts) {
+TEST_P(ToolsOnTissue, OneSweepCutsWhatTheReferenceCuts) {
   std::mt19937 random(9);
   std::uniform_real_distribution<double> angle(-180, 180);
   for (ToolMode mode : {ToolMode::kCut, ToolMode::kCutParticles}) {
@@ -277,7 +279,7 @@ TEST_F(ToolsOnTissue, OneSweepCutsWhatTheReferenceCuts) {
   }
 }
 
-TEST_F(ToolsOnTissue, ParticleEraseLeavesAWiderGapThanSpringErase) {
+TEST_P(ToolsOnTissue, ParticleEraseLeavesAWiderGapThanSpringErase) {
   ToolMotions motions;
   const auto isolated = [&] {
     size_t count = 0;
@@ -297,14 +299,14 @@ TEST_F(ToolsOnTissue, ParticleEraseLeavesAWiderGapThanSpringErase) {
   EXPECT_EQ(isolated(), 49u);  // the 7 x 7 nodes of the plane y = 0.03: the gap is two rest lengths
 }
 
-TEST_F(ToolsOnTissue, BladeAtRestCutsNothing) {
+TEST_P(ToolsOnTissue, BladeAtRestCutsNothing) {
   ToolMotions motions;
   motions[0] = motion(ToolMode::kCut, {0.03, 0.035, 0.16}, {0.03, 0.035, 0.16});
   tick(motions);
   EXPECT_EQ(stats().springs_cut, 0u);
 }
 
-TEST_F(ToolsOnTissue, SeveredSpringExertsNoForce) {
+TEST_P(ToolsOnTissue, SeveredSpringExertsNoForce) {
   ToolMotions motions;
   motions[0] = motion(ToolMode::kCut, {-0.02, 0.035, 0.16}, {0.08, 0.035, 0.16});
   tick(motions);
@@ -324,7 +326,7 @@ TEST_F(ToolsOnTissue, SeveredSpringExertsNoForce) {
   }
 }
 
-TEST_F(ToolsOnTissue, NonFiniteNodesAreCounted) {
+TEST_P(ToolsOnTissue, NonFiniteNodesAreCounted) {
   HostState state = solver_->readState();
   state.displacement_m[lattice().active_slots[200]].x = std::numeric_limits<float>::quiet_NaN();
   solver_->writeState(state);

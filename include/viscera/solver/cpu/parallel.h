@@ -1,0 +1,33 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+
+namespace viscera {
+
+/// Something that runs jobs side by side. parallel(count, job) calls job(0) to job(count - 1), each once, in any order
+/// and on any thread, and returns when all are done. Allocates nothing.
+class Parallel {
+ public:
+  virtual ~Parallel() = default;
+  template <class Job>
+  void operator()(size_t count, const Job& job) const {
+    run(
+        count, [](const void* of, size_t index) { (*static_cast<const Job*>(of))(index); }, &job);
+  }
+
+ protected:
+  using Call = void (*)(const void* job, size_t index);
+  virtual void run(size_t count, Call call, const void* job) const = 0;
+};
+
+/// One after the other, on the caller's thread.
+class Serial : public Parallel {
+ protected:
+  void run(size_t count, Call call, const void* job) const override {
+    for (size_t index = 0; index < count; ++index) call(job, index);
+  }
+};
+
+}  // namespace viscera

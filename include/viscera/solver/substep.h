@@ -1,0 +1,20 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "viscera/math/types.h"
+
+namespace viscera {
+
+/// One substep, as every integrator on every backend is told of it (physics.md 2).
+struct Substep {
+  float dt_s = 0;
+  float kick_s = 0;  ///< leapfrog: half the substep before and half this one; half of dt_s in the very first
+  Vector3f gravity = Vector3f::Zero();  ///< [m/s2]
+  float sleep_distance_m = 1;
+  float push_speed_m_per_s = 0;  ///< largest speed at which a probe pushes nodes out
+  bool tools = false;            ///< probe or held nodes are about: the kernel that knows them is used
+  bool restarted = false;        ///< the state was written from outside since the last substep
+};
+
+}  // namespace viscera

@@ -1,0 +1,67 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// What a swept blade crosses and what an eraser reaches (VR05 2.7.3). All vectors are from the blade's first tip.
+
+const float kLongest = 8.0f;  // rest lengths of a diagonal: a spring with an end farther from the blade is not cut
+
+/// Six times the signed volume of the tetrahedron (o, a, b, c) with o at the origin of the vectors.
+float triple(vec3 a, vec3 b, vec3 c) {
+  precise float v = dot(cross(a, b), c);
+  return v;
+}
+
+/// Does the segment a..b cross the triangle p q r? One end belongs to a side, so no end lies between; edges belong to it.
+bool crossesTriangle(vec3 a, vec3 b, vec3 p, vec3 q, vec3 r) {
+  vec3 normal = cross(q - p, r - p);
+  if (dot(normal, normal) == 0.0f) return false;  // the blade did not move
+  if ((dot(a - p, normal) >= 0.0f) == (dot(b - p, normal) >= 0.0f)) return false;
+  vec3 ab = b - a;
+  float pq = triple(p - a, q - a, ab), qr = triple(q - a, r - a, ab), rp = triple(r - a, p - a, ab);
+  return (pq >= 0.0f && qr >= 0.0f && rp >= 0.0f) || (pq <= 0.0f && qr <= 0.0f && rp <= 0.0f);
+}
+
+/// The blade sweeps a quadrilateral: tip and far end at the start, far end and tip at the end.
+bool crossesBlade(vec3 a, vec3 b, ToolMotion m) {
+  vec3 tip = xyz(m.to) - xyz(m.from), far_from = xyz(m.blade_from) - xyz(m.from), far_to = xyz(m.blade_to) - xyz(m.from);
+  return crossesTriangle(a, b, vec3(0.0f), far_from, far_to) || crossesTriangle(a, b, vec3(0.0f), far_to, tip);
+}
+
+float segmentDistance(vec3 a, vec3 b, vec3 x) {
+  vec3 ab = b - a;
+  float length2 = dot(ab, ab);
+  return distance(x, length2 > 0.0f ? a + clamp(dot(x - a, ab) / length2, 0.0f, 1.0f) * ab : a);
+}
+
+float planeDistanceInside(vec3 p, vec3 q, vec3 r, vec3 x, float otherwise) {
+  vec3 normal = cross(q - p, r - p);
+  float area2 = dot(normal, normal);
+  if (area2 == 0.0f) return otherwise;
+  bool inside = dot(cross(q - p, x - p), normal) >= 0.0f && dot(cross(r - q, x - q), normal) >= 0.0f &&
+                dot(cross(p - r, x - r), normal) >= 0.0f;
+  return inside ? min(otherwise, abs(dot(x - p, normal)) / sqrt(area2)) : otherwise;
+}
+
+/// Is a node within the eraser's radius of the swept blade?
+bool erased(vec3 x, ToolMotion m) {
+  vec3 tip = xyz(m.to) - xyz(m.from), far_from = xyz(m.blade_from) - xyz(m.from), far_to = xyz(m.blade_to) - xyz(m.from);
+  precise float d = min(min(segmentDistance(vec3(0.0f), far_from, x), segmentDistance(tip, far_to, x)),
+                        min(segmentDistance(vec3(0.0f), tip, x), segmentDistance(far_from, far_to, x)));
+  d = planeDistanceInside(vec3(0.0f), far_from, far_to, x, d);
+  d = planeDistanceInside(vec3(0.0f), far_to, tip, x, d);
+  return d <= m.blade_from.w;
+}
+
+/// Sphere around all that the sweep may cut: around the sweep itself, grown by the longest spring there may be. xyz centre,
+/// from the blade's first tip [m], w radius [m].
+vec4 bladeSphere(ToolMotion m, float h) {
+  vec3 tip = xyz(m.to) - xyz(m.from), far_from = xyz(m.blade_from) - xyz(m.from), far_to = xyz(m.blade_to) - xyz(m.from);
+  vec3 centre = 0.25f * (tip + far_from + far_to);
+  precise float radius = max(max(length(centre), distance(centre, tip)), max(distance(centre, far_from), distance(centre, far_to)));
+  return vec4(centre, radius + kLongest * 1.41421356f * h + m.blade_from.w);
+}
+
+/// @param sphere  bladeSphere()
+bool farFromBlade(vec3 x, vec4 sphere) {
+  return distance(x, xyz(sphere)) > sphere.w;
+}

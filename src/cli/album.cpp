@@ -1,0 +1,108 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cli/album.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+#include <utility>
+
+#include "cli/png_writer.h"
+#include "viscera/math/error.h"
+
+namespace viscera::cli {
+
+Album::Album(const std::string& folder, const Scene& scene, const Strokes& strokes, uint64_t ticks, bool live)
+    : folder_(folder), scene_(scene), live_(live) {
+  if (folder_.empty()) return;
+  std::error_code error;
+  std::filesystem::create_directories(folder_ + "/frames", error);
+  if (error) throw Error(folder_ + ": cannot be made into a folder for pictures: " + error.message());
+  for (const Mark& mark : strokes.marks) {
+    const double tick = std::max(1.0, std::round(mark.time_s * scene.solver.tick_hz));
+    if (tick > static_cast<double>(ticks)) {
+      std::cout << "mark '" << mark.name << "' lies after the end: no picture\n";
+      continue;
+    }
+    marks_.emplace(static_cast<uint64_t>(tick), mark.name);
+  }
+  writer_ = std::thread([this] { write(); });
+}
+
+Album::~Album() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    end_ = true;
+  }
+  changed_.notify_all();
+  if (writer_.joinable()) writer_.join();
+}
+
+Wants Album::wants(const Session& session) const {
+  Wants out;
+  if (folder_.empty()) return out;
+  const bool marked = marks_.count(session.tick() + 1) > 0;
+  out.every_image = !live_ || marked;
+  for (size_t c = 0; c < scene_.cameras.size(); ++c) out.cameras.push_back(session.imageDue(c) || marked);
+  return out;
+}
+
+void Album::add(const Frame& frame) {
+  if (frame.images.empty()) return;
+  std::unique_lock<std::mutex> lock(mutex_);
+  changed_.wait(lock, [this] { return waiting_.size() < kWaiting || error_; });
+  rethrow();
+  waiting_.insert(waiting_.end(), frame.images.begin(), frame.images.end());
+  changed_.notify_all();
+}
+
+void Album::finish() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    end_ = true;
+  }
+  changed_.notify_all();
+  if (writer_.joinable()) writer_.join();
+  rethrow();
+}
+
+void Album::rethrow() {
+  if (error_) std::rethrow_exception(std::exchange(error_, nullptr));
+}
+
+void Album::write() {
+  std::unique_lock<std::mutex> lock(mutex_);
+  for (;;) {
+    changed_.wait(lock, [this] { return end_ || !waiting_.empty(); });
+    if (waiting_.empty()) return;
+    const ImageFrame image = std::move(waiting_.front());
+    waiting_.pop_front();
+    changed_.notify_all();
+    lock.unlock();
+    std::exception_ptr error;
+    try {
+      writeOut(image);
+    } catch (...) {
+      error = std::current_exception();
+    }
+    lock.lock();
+    if (!error) continue;
+    error_ = error;
+    changed_.notify_all();
+    return;
+  }
+}
+
+void Album::writeOut(const ImageFrame& image) const {
+  char number[32];
+  std::snprintf(number, sizeof number, "_%06llu.png", static_cast<unsigned long long>(image.tick));
+  const std::string& camera = scene_.cameras[image.camera].name;
+  writePng(folder_ + "/frames/" + camera + number, image.width, image.height, image.rgb);
+  const auto named = marks_.equal_range(image.tick);
+  for (auto mark = named.first; mark != named.second; ++mark) {
+    writePng(folder_ + "/" + mark->second + "_" + camera + ".png", image.width, image.height, image.rgb);
+  }
+}
+
+}  // namespace viscera::cli

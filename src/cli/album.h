@@ -1,0 +1,54 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <condition_variable>
+#include <deque>
+#include <exception>
+#include <map>
+#include <mutex>
+#include <string>
+#include <thread>
+
+#include "viscera/session/session.h"
+#include "viscera/tools/strokes.h"
+
+namespace viscera::cli {
+
+/// Where pictures go: a numbered series per camera, and a named one for every mark of the strokes. A thread of its own
+/// packs and writes them.
+class Album {
+ public:
+  /// @param folder  empty: no pictures   @param live  the series may have gaps where drawing falls behind
+  /// @throws Error  the folder cannot be made
+  Album(const std::string& folder, const Scene& scene, const Strokes& strokes, uint64_t ticks, bool live);
+  ~Album();
+  Album(const Album&) = delete;
+  Album& operator=(const Album&) = delete;
+
+  /// What the session's next step should show.
+  Wants wants(const Session& session) const;
+  /// Waits only where more pictures wait to be written than kWaiting. @throws ImageError  of an earlier picture
+  void add(const Frame& frame);
+  /// Waits until all are written. @throws ImageError
+  void finish();
+
+ private:
+  static constexpr size_t kWaiting = 32;  // a megabyte each
+  void write();
+  void writeOut(const ImageFrame& image) const;
+  void rethrow();
+
+  std::string folder_;
+  const Scene& scene_;
+  bool live_;
+  std::multimap<uint64_t, std::string> marks_;  ///< tick -> names
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<ImageFrame> waiting_;
+  bool end_ = false;
+  std::exception_ptr error_;
+  std::thread writer_;
+};
+
+}  // namespace viscera::cli

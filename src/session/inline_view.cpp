@@ -1,0 +1,156 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "viscera/session/inline_view.h"
+
+#include <cstring>
+#include <utility>
+
+namespace viscera {
+
+namespace {
+
+constexpr int kImagesInFlight = 3;
+constexpr int kSurfacesInFlight = 3;
+
+size_t surfaceBytes(const Surface& surface) {
+  return surface.vertices() * (3 * sizeof(float) + sizeof(uint32_t)) + surface.triangles() * sizeof(uint32_t);
+}
+
+size_t imageBytes(const CameraConfig& camera) {
+  return size_t{3} * static_cast<size_t>(camera.width_px) * static_cast<size_t>(camera.height_px);
+}
+
+/// Do two motions look the same? Only where the tools end up is drawn.
+bool looksTheSame(const ToolMotions& a, const ToolMotions& b) {
+  for (size_t s = 0; s < a.size(); ++s) {
+    if (a[s].present != b[s].present) return false;
+    if (!a[s].present) continue;
+    if (a[s].mode != b[s].mode || a[s].to.position_m != b[s].to.position_m) return false;
+    if (a[s].to.orientation.coeffs() != b[s].to.orientation.coeffs()) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+InlineView::InlineView(const Model& model, const Scene& scene)
+    : surface_(model),
+      renderer_(scene.cameras, scene.styluses),
+      surface_ring_(surfaceBytes(surface_), kSurfacesInFlight) {
+  for (const CameraConfig& camera : scene.cameras) {
+    eyes_.push_back({camera, std::make_unique<gpu::ReadbackRing>(imageBytes(camera), kImagesInFlight), {}});
+  }
+}
+
+void InlineView::capture(const StateView& state, const Look& look, Pictures& out) {
+  followed_ = false;
+  if (look.wants.surface) captureSurface(state, look.tick);
+  for (size_t c = 0; c < eyes_.size(); ++c) {
+    if (look.wants.image(c)) captureImage(c, state, look, out);
+  }
+}
+
+/// Once per capture.
+void InlineView::follow(const StateView& state) {
+  if (std::exchange(followed_, true)) return;
+  surface_.tear(state);
+  surface_.follow(state);
+}
+
+void InlineView::captureSurface(const StateView& state, uint64_t tick) {
+  if (surface_ring_.inFlight() == kSurfacesInFlight) {
+    ++counters_.skipped;
+    return;
+  }
+  follow(state);
+  const gpu::ReadbackRing::Source sources[] = {
+      {surface_.positions().id(), 0, surface_.positions().size() * sizeof(float)},
+      {surface_.normals().id(), 0, surface_.normals().size() * sizeof(uint32_t)},
+      {surface_.alive().id(), 0, surface_.alive().size() * sizeof(uint32_t)}};
+  surface_ring_.request(sources, 3, tick);
+  ++counters_.readbacks;
+}
+
+void InlineView::captureImage(size_t camera, const StateView& state, const Look& look, Pictures& out) {
+  Eye& eye = eyes_[camera];
+  const bool full = eye.ring->inFlight() == kImagesInFlight;
+  if (full && !(look.wants.every_image && takeImage(camera, out, true))) {
+    ++counters_.skipped;
+    return;
+  }
+  draw(camera, state, look.motions);
+  eye.ring->requestPixels(eye.camera.width_px, eye.camera.height_px, look.tick);
+  ++counters_.readbacks;
+}
+
+/// Leaves the image bound for reading; draws it if it would differ from the last one.
+void InlineView::draw(size_t camera, const StateView& state, const ToolMotions& motions) {
+  std::optional<Drawn>& drawn = eyes_[camera].drawn;
+  if (drawn && state.moved_revision == drawn->moved_revision && state.cut_revision == drawn->cut_revision &&
+      looksTheSame(motions, drawn->motions)) {
+    renderer_.bindLast(camera);
+    ++counters_.repeats;
+    return;
+  }
+  follow(state);
+  renderer_.draw(camera, surface_, motions);
+  drawn.reset();
+  if (state.moved_revision) drawn = Drawn{state.moved_revision, state.cut_revision, motions};
+}
+
+void InlineView::collect(Pictures& out, bool wait) {
+  while (takeSurface(out, wait)) {
+  }
+  for (size_t c = 0; c < eyes_.size(); ++c) {
+    while (takeImage(c, out, wait)) {
+    }
+  }
+}
+
+bool InlineView::takeSurface(Pictures& out, bool wait) {
+  uint64_t tick = 0;
+  const char* at = static_cast<const char*>(surface_ring_.collect(&tick, wait));
+  if (!at) return false;
+  const auto take = [&at](auto& values, size_t count) {
+    values.resize(count);
+    std::memcpy(values.data(), at, count * sizeof(values[0]));
+    at += count * sizeof(values[0]);
+  };
+  out.surface = std::make_unique<SurfaceFrame>();  // an older one of the same call is overtaken
+  out.surface->tick = tick;
+  take(out.surface->positions_m, 3 * surface_.vertices());
+  take(out.surface->normals, surface_.vertices());
+  take(out.surface->alive, surface_.triangles());
+  surface_ring_.release();
+  return true;
+}
+
+bool InlineView::takeImage(size_t camera, Pictures& out, bool wait) {
+  Eye& eye = eyes_[camera];
+  uint64_t tick = 0;
+  const auto* rgb = static_cast<const uint8_t*>(eye.ring->collect(&tick, wait));
+  if (!rgb) return false;
+  ImageFrame image;
+  image.tick = tick;
+  image.camera = camera;
+  image.width = eye.camera.width_px;
+  image.height = eye.camera.height_px;
+  image.rgb.assign(rgb, rgb + imageBytes(eye.camera));
+  out.images.push_back(std::move(image));
+  eye.ring->release();
+  return true;
+}
+
+void InlineView::reset() {
+  surface_.reset();
+  for (Eye& eye : eyes_) eye.drawn.reset();
+}
+
+ViewCounters InlineView::counters() const {
+  ViewCounters out = counters_;
+  out.mappings = surface_.mappings();
+  out.renders = renderer_.renders();
+  return out;
+}
+
+}  // namespace viscera

@@ -1,0 +1,219 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "viscera/session/threaded_view.h"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include "viscera/math/error.h"
+#include "viscera/session/inline_view.h"
+#include "viscera/surface/state_mirror.h"
+
+namespace viscera {
+
+namespace {
+
+/// The context is this thread's as long as this lives.
+class Current {
+ public:
+  explicit Current(gpu::Context& context) : context_(context) {
+    if (!context.makeCurrent()) throw GpuError("eglMakeCurrent refuses the context to the thread of the view");
+  }
+  ~Current() { context_.release(); }
+  Current(const Current&) = delete;
+  Current& operator=(const Current&) = delete;
+
+ private:
+  gpu::Context& context_;
+};
+
+/// Moves what there is behind what there was; an older surface is overtaken.
+void append(Pictures&& from, Pictures& to) {
+  if (from.surface) to.surface = std::move(from.surface);
+  if (to.images.empty()) {
+    to.images.swap(from.images);
+    return;
+  }
+  std::move(from.images.begin(), from.images.end(), std::back_inserter(to.images));
+  from.images.clear();
+}
+
+/// @returns how much of it was wanted already
+size_t add(const Wants& wants, Wants& to) {
+  size_t twice = wants.surface && to.surface;
+  to.surface |= wants.surface;
+  to.cameras.resize(std::max(to.cameras.size(), wants.cameras.size()));
+  for (size_t c = 0; c < wants.cameras.size(); ++c) {
+    twice += wants.cameras[c] && to.cameras[c];
+    to.cameras[c] = to.cameras[c] || wants.cameras[c];
+  }
+  return twice;
+}
+
+}  // namespace
+
+ThreadedView::ThreadedView(const Model& model, const Scene& scene, gpu::Context& context) : context_(context) {
+  look_.wants.cameras.reserve(scene.cameras.size());
+  context_.release();
+  thread_ = std::thread([&] { main(model, scene); });
+  Lock lock(mutex_);
+  changed_.wait(lock, [this] { return !busy_ || error_; });
+  if (!error_) return;
+  lock.unlock();
+  thread_.join();
+  (void)context_.makeCurrent();  // what stopped the view says more
+  std::rethrow_exception(error_);
+}
+
+ThreadedView::~ThreadedView() {
+  {
+    Lock lock(mutex_);
+    changed_.wait(lock, [this] { return order_ == Order::kNone || error_; });
+    order_ = Order::kEnd;
+  }
+  changed_.notify_all();
+  thread_.join();
+  (void)context_.makeCurrent();  // where EGL refuses, whoever needs the context next fails and says so
+}
+
+/// Waits, on the stepping thread.
+template <class Condition>
+void ThreadedView::await(Lock& lock, Condition condition) {
+  changed_.wait(lock, [&] { return condition() || error_; });
+  if (error_) std::rethrow_exception(error_);
+}
+
+void ThreadedView::capture(Solver& solver, const Look& look, Pictures&) {
+  if (look.wants.count() == 0 || !claimSlot(look.wants)) return;
+  solver.snapshot(snapshot_);
+  look_.tick = look.tick;
+  look_.motions = look.motions;
+  {
+    Lock lock(mutex_);
+    order_ = Order::kShow;
+  }
+  changed_.notify_all();
+}
+
+/// Makes the slot the stepping thread's, with what is wanted in it. False if the view is just taking it.
+bool ThreadedView::claimSlot(const Wants& wants) {
+  Lock lock(mutex_);
+  await(lock, [&] { return order_ == Order::kNone || !(wants.every_image || look_.wants.every_image); });
+  if (order_ == Order::kTaken) {
+    skipped_ += wants.count();
+    return false;
+  }
+  if (order_ == Order::kShow) {
+    skipped_ += add(wants, look_.wants);
+  } else {
+    look_.wants = wants;
+  }
+  order_ = Order::kNone;
+  return true;
+}
+
+void ThreadedView::collect(Pictures& out, bool wait) {
+  Lock lock(mutex_);
+  await(lock, [&] { return !wait || (order_ == Order::kNone && !busy_); });
+  append(std::move(done_), out);
+}
+
+void ThreadedView::reset() {
+  Lock lock(mutex_);
+  await(lock, [this] { return order_ == Order::kNone && !busy_; });
+  order_ = Order::kReset;
+  changed_.notify_all();
+  await(lock, [this] { return order_ == Order::kNone && !busy_; });
+}
+
+ViewCounters ThreadedView::counters() const {
+  const Lock lock(mutex_);
+  ViewCounters out = counters_;
+  out.skipped += skipped_;
+  return out;
+}
+
+void ThreadedView::main(const Model& model, const Scene& scene) {
+  try {
+    run(model, scene);
+  } catch (...) {
+    const Lock lock(mutex_);
+    error_ = std::current_exception();
+  }
+  changed_.notify_all();
+}
+
+void ThreadedView::run(const Model& model, const Scene& scene) {
+  const Current current(context_);
+  InlineView view(model, scene);
+  StateMirror mirror(model);
+  Look look;
+  look.wants.cameras.reserve(scene.cameras.size());
+  announce(view, mirror);
+  while (true) {
+    switch (awaitOrder(look)) {
+      case Order::kShow:
+        show(view, mirror, look);
+        break;
+      case Order::kReset:
+        view.reset();
+        finish({}, counters_);
+        break;
+      default:
+        return;
+    }
+  }
+}
+
+/// The view is ready for its first order.
+void ThreadedView::announce(const InlineView& view, const StateMirror& mirror) {
+  {
+    const Lock lock(mutex_);
+    surface_ = &view.surface();
+    snapshot_.bricks = mirror.shownBricks();
+    snapshot_.displacement_m.reserve(kBrickFloats * snapshot_.bricks.size());
+    busy_ = false;
+  }
+  changed_.notify_all();
+}
+
+/// @param look  becomes what is to be shown
+ThreadedView::Order ThreadedView::awaitOrder(Look& look) {
+  Lock lock(mutex_);
+  changed_.wait(lock, [this] { return order_ != Order::kNone; });
+  if (order_ != Order::kShow) return order_;
+  order_ = Order::kTaken;
+  std::swap(look, look_);
+  return Order::kShow;
+}
+
+void ThreadedView::show(InlineView& view, StateMirror& mirror, const Look& look) {
+  mirror.upload(snapshot_);
+  {
+    const Lock lock(mutex_);
+    order_ = Order::kNone;  // the slot is free: the next state may come while this one is drawn
+    busy_ = true;
+  }
+  changed_.notify_all();
+  Pictures made;
+  view.capture(mirror.view(), look, made);
+  view.collect(made, true);
+  gpu::checkErrors("view");
+  ViewCounters counters = view.counters();
+  counters.moved_bricks = mirror.movedBricks();
+  finish(std::move(made), counters);
+}
+
+void ThreadedView::finish(Pictures&& made, const ViewCounters& counters) {
+  {
+    const Lock lock(mutex_);
+    append(std::move(made), done_);
+    counters_ = counters;
+    if (order_ == Order::kReset) order_ = Order::kNone;
+    busy_ = false;
+  }
+  changed_.notify_all();
+}
+
+}  // namespace viscera

@@ -1,0 +1,85 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solver/cpu/glsl_kernel.h"
+#include "viscera/solver/cpu/tool_passes.h"
+
+namespace viscera {
+
+namespace glsl {
+
+namespace {
+
+struct Contact : Kernel {
+  using Kernel::Kernel;
+#include "contact.glsl"
+#include "lattice.glsl"
+};
+
+}  // namespace
+
+}  // namespace glsl
+
+namespace {
+
+glsl::vec3 fromEigen(const Vector3f& v) {
+  return {v.x(), v.y(), v.z()};
+}
+Vector3f toEigen(const glsl::vec3& v) {
+  return {v.x, v.y, v.z};
+}
+
+/// Momentum that one stylus gave to all nodes, and its moment about the tip.
+struct Sum {
+  Vector3d impulse = Vector3d::Zero(), angular = Vector3d::Zero();
+  uint32_t touched = 0;
+};
+
+layout::vec4 rounded(const Vector3d& v, double w) {
+  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z()), static_cast<float>(w)};
+}
+
+void addBrick(CpuLattice& lattice, uint32_t brick, uint32_t stylus, const Vector3f& tip, Sum& sum) {
+  glsl::Contact place(lattice);
+  for (uint32_t i = lattice.first_active[brick]; i < lattice.first_active[brick + 1]; ++i) {
+    const uint32_t slot = lattice.active[i];
+    layout::vec4& given = lattice.impulses[stylus * lattice.slotCount() + slot];
+    if (given.w == 0) continue;
+    const Vector3f arm = toEigen(place.restPosition(slot) + glsl::xyz(place.displacement[slot])) - tip;
+    const Vector3d impulse(given.x, given.y, given.z);
+    sum.impulse += impulse;
+    sum.angular += arm.cast<double>().cross(impulse);
+    ++sum.touched;
+    given = {};
+  }
+}
+
+}  // namespace
+
+void resolveContact(CpuLattice& lattice, uint32_t slot, const layout::ToolMotion* motions, float dt_s,
+                    float push_speed_m_per_s, const Vector3f& u_m, Vector3f& u_next_m, Vector3f& v_next_m_per_s) {
+  glsl::Contact contact(lattice);
+  contact.tool_motions = motions;
+  contact.dt_s = dt_s;
+  contact.push_speed = push_speed_m_per_s;
+  glsl::vec3 u_next = fromEigen(u_next_m), v_next = fromEigen(v_next_m_per_s);
+  contact.resolveContacts(slot, lattice.nodes[slot], lattice.mass[slot], fromEigen(u_m), u_next, v_next);
+  u_next_m = toEigen(u_next);
+  v_next_m_per_s = toEigen(v_next);
+}
+
+void sumReactions(CpuLattice& lattice, const std::array<Vector3f, layout::kMaxStyluses>& tips,
+                  layout::TickStats& stats) {
+  std::array<Sum, layout::kMaxStyluses> sums;
+  for (uint32_t brick = 0; brick < lattice.touched.size(); ++brick) {
+    if (!lattice.touched[brick]) continue;
+    for (uint32_t s = 0; s < layout::kMaxStyluses; ++s) addBrick(lattice, brick, s, tips[s], sums[s]);
+    lattice.touched[brick] = 0;
+  }
+  for (uint32_t s = 0; s < layout::kMaxStyluses; ++s) {
+    stats.impulse[s] = rounded(sums[s].impulse, sums[s].touched);
+    stats.angular[s] = rounded(sums[s].angular, 0);
+    stats.touched[s] = sums[s].touched;
+  }
+}
+
+}  // namespace viscera

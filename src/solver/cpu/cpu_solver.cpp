@@ -1,0 +1,450 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "viscera/solver/cpu/cpu_solver.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "solver/cpu/kernels.h"
+#include "viscera/gpu/buffer.h"
+#include "viscera/math/error.h"
+
+namespace viscera {
+
+namespace {
+
+constexpr size_t kMostBricksPerJob = 16;  // of a substep: about 10 us of work
+constexpr size_t kJobsPerThread = 8;      // at least, where there are bricks enough: whoever is free takes the next
+
+int threadsOf(const SolverConfig& config) {
+  return config.threads > 0 ? config.threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
+bool isLeapfrog(Integrator integrator) {
+  return integrator == Integrator::kLeapfrog;
+}
+
+uint32_t bitsOf(float value) {
+  uint32_t bits;
+  std::memcpy(&bits, &value, sizeof bits);
+  return bits;
+}
+
+Vector3f xyz(const layout::vec4& v) {
+  return {v.x, v.y, v.z};
+}
+
+Vector3f planesAt(const float* planes, uint32_t slot) {
+  const float* at = planes + vectorAt(slot);
+  return {at[0], at[64], at[128]};
+}
+void setPlanes(float* planes, uint32_t slot, const Vector3f& value) {
+  float* at = planes + vectorAt(slot);
+  at[0] = value.x();
+  at[64] = value.y();
+  at[128] = value.z();
+}
+
+}  // namespace
+
+struct CpuSolver::Work {
+  simd::LeapfrogJob step{};
+  std::vector<uint8_t> near;            ///< [bricks]
+  std::vector<uint16_t> idle;           ///< [bricks]
+  std::vector<uint16_t> strained;       ///< [bricks]
+  std::vector<float> speed2;            ///< [bricks]
+  std::vector<simd::BrickStats> stats;  ///< [bricks]
+  std::vector<uint32_t> changed;        ///< bricks to be measured
+  size_t per_job = 1;
+};
+
+struct CpuSolver::Mirror {
+  explicit Mirror(const CpuLattice& lattice)
+      : displacement(lattice.slotCount()),
+        velocity(lattice.slotCount()),
+        nodes(lattice.slotCount()),
+        bricks(lattice.bricks),
+        bodies(layout::kMaxBodies) {
+    bodies.write(lattice.bodies);
+  }
+  gpu::Buffer<layout::vec4> displacement, velocity;
+  gpu::Buffer<layout::NodeBits> nodes;
+  gpu::Buffer<layout::Brick> bricks;
+  gpu::Buffer<layout::BodyParams> bodies;
+};
+
+std::vector<std::string> simdTargets() {
+  return simd::targets();
+}
+
+CpuSolver::CpuSolver(const Model& model, const Scene& scene, const CpuSolverOptions& options)
+    : LatticeSolver(model, scene, options),
+      model_(model),
+      config_(scene.solver),
+      simd_(options.simd),
+      params_(bodyParams(model, safeTimeStep(model))),
+      lattice_(model, params_, hasTools()),
+      pool_(threadsOf(scene.solver)),
+      sleep_(lattice_, isLeapfrog(scene.solver.integrator) ? scene.solver.sleep_speed_m_per_s : 0),
+      work_(std::make_unique<Work>()) {
+  if (!simd::useTarget(simd_)) {
+    std::string known;
+    for (const std::string& name : simdTargets()) known += (known.empty() ? "" : ", ") + name;
+    throw SceneError("no instruction set '" + simd_ + "' on this processor: " + known);
+  }
+  if (isLeapfrog(config_.integrator) && isCompensated(config_, shortestSubstep_s()))
+    compensation_.resize(6 * lattice_.slotCount());
+  if (!isLeapfrog(config_.integrator)) {
+    stepper_ = makeCpuStepper(config_.integrator, config_.iterations, lattice_, pool_);
+  }
+  work_->near.resize(bricks());
+  work_->idle.resize(bricks());
+  work_->strained.resize(bricks());
+  work_->speed2.resize(bricks());
+  work_->stats.resize(bricks());
+  work_->changed.reserve(bricks());
+  if (hasTools()) {
+    cut_.emplace(lattice_);
+    held_.resize(bricks());
+    motions_.reserve(static_cast<size_t>(mostSubsteps()) * layout::kMaxStyluses);
+  }
+  noteIdleRows();
+  if (!governed()) return;
+  recovery_ = makeCpuRecoveryStepper(kRecoveryIterations, lattice_, pool_);
+  for (int i = 0; i < kGoodStates; ++i) good_.push_back({lattice_.displacement[0], lattice_.velocity[0]});
+  saveGood();
+}
+
+CpuSolver::~CpuSolver() = default;
+
+std::string CpuSolver::backend() const {
+  simd::useTarget(simd_);
+  const std::string name = simd_.empty() ? simdTargets().front() : simd_;
+  return "cpu (" + name + ", " + std::to_string(pool_.threads()) + (pool_.threads() == 1 ? " thread)" : " threads)");
+}
+
+size_t CpuSolver::awakeBricks() const {
+  return sleep_.awake().size();
+}
+
+// ---- a tick ----
+
+void CpuSolver::beginTick() {
+  if (!simd_.empty()) simd::useTarget(simd_);  // another solver may have taken another one
+}
+
+void CpuSolver::takeHold(uint32_t stylus, const Pose& pose, double radius_m) {
+  const Vector3f tip = pose.position_m.cast<float>(), reach = Vector3f::Constant(static_cast<float>(radius_m));
+  sleep_.wakeNear(lattice_, tip - reach, tip + reach);
+  viscera::takeHold(lattice_, stylus, pose, radius_m);
+  noteHeld();
+}
+
+void CpuSolver::letGo(uint32_t stylus, double release_speed_m_per_s) {
+  viscera::letGo(lattice_, stylus, release_speed_m_per_s);
+  noteHeld();
+}
+
+/// Bricks with held nodes are awake, and looked at node by node.
+void CpuSolver::noteHeld() {
+  std::fill(held_.begin(), held_.end(), uint8_t{0});
+  stats_.grabbed[0] = stats_.grabbed[1] = 0;
+  for (uint32_t slot : lattice_.active) {
+    const uint32_t by = (lattice_.nodes[slot].lo & layout::kGrabMask) >> layout::kGrabShift;
+    if (by == 0) continue;
+    ++stats_.grabbed[by - 1];
+    if (held_.empty()) continue;
+    held_[slot / layout::kBrickSlots] = 1;
+    sleep_.wake(slot / layout::kBrickSlots);
+  }
+}
+
+void CpuSolver::writeMotions(const std::vector<layout::ToolMotion>& motions) {
+  motions_ = motions;
+  wakeForTools(motions);
+}
+
+/// Wakes what the tools may reach in this tick.
+void CpuSolver::wakeForTools(const std::vector<layout::ToolMotion>& motions) {
+  for (size_t s = 0; s < layout::kMaxStyluses; ++s) {
+    const layout::ToolMotion &first = motions[s], &last = motions[motions.size() - layout::kMaxStyluses + s];
+    if (first.info.x == layout::kModeNone) continue;
+    Vector3f low = xyz(first.from).cwiseMin(xyz(last.to)), high = xyz(first.from).cwiseMax(xyz(last.to));
+    float reach = first.from.w;
+    if (first.info.x == layout::kModeCut || first.info.x == layout::kModeCutParticles) {
+      low = low.cwiseMin(xyz(first.blade_from)).cwiseMin(xyz(last.blade_to));
+      high = high.cwiseMax(xyz(first.blade_from)).cwiseMax(xyz(last.blade_to));
+      reach = first.blade_from.w;
+    }
+    // The ends of springs that are cut lie up to a spring beside the blade.
+    float spacing = 0;
+    for (const layout::BodyParams& body : lattice_.bodies) spacing = std::max(spacing, body.origin_spacing.w);
+    const Vector3f grown = Vector3f::Constant(reach + 2 * spacing);
+    sleep_.wakeNear(lattice_, low - grown, high + grown);
+  }
+}
+
+void CpuSolver::selectMotions(size_t substep) {
+  motion_ = &motions_[substep * layout::kMaxStyluses];
+}
+
+void CpuSolver::cut(uint32_t stylus, bool particles) {
+  const uint32_t springs = cut_->run(lattice_, motion_[stylus], particles);
+  springs_cut_ += springs;
+  if (springs == 0) return;
+  for (uint32_t brick : cut_->bricks()) sleep_.wake(brick);
+}
+
+void CpuSolver::advance(const Substep& step, bool recovery) {
+  if (recovery || stepper_) {
+    if (recovery && step.restarted) sleep_.wakeAll(lattice_);
+    (recovery ? *recovery_ : *stepper_).run(lattice_, step, motion_);
+    lattice_.swap();
+    return;
+  }
+  const size_t awake = sleep_.awake().size();
+  if (awake > 0) {
+    const size_t fair = awake / (kJobsPerThread * static_cast<size_t>(pool_.threads()));
+    work_->per_job = std::clamp<size_t>(fair, 1, kMostBricksPerJob);
+    simd::LeapfrogJob& job = work_->step;
+    job.arrays = arrays();
+    job.step = step;
+    job.reaches = 0;
+    for (size_t s = 0; step.tools && s < layout::kMaxStyluses; ++s) {
+      if (motion_[s].info.x != layout::kModeProbe) continue;
+      const layout::ToolMotion& m = motion_[s];
+      const float travel = (xyz(m.to) - xyz(m.from)).norm();
+      job.reach[job.reaches++] = {{m.to.x, m.to.y, m.to.z}, m.from.w + travel};
+    }
+    pool_((awake + work_->per_job - 1) / work_->per_job, [this, &step](size_t chunk) { stepBricks(step, chunk); });
+    lattice_.swap();
+  }
+  since_look_s_ += static_cast<double>(step.dt_s);
+  if (++substeps_since_look_ < Sleep::kSubsteps) return;
+  if (awake > 0) sleep_.look(lattice_, work_->speed2, since_look_s_);
+  since_look_s_ = 0;
+  substeps_since_look_ = 0;
+}
+
+void CpuSolver::stepBricks(const Substep& step, size_t chunk) {
+  const std::vector<uint32_t>& awake = sleep_.awake();
+  const size_t first = chunk * work_->per_job, count = std::min(work_->per_job, awake.size() - first);
+  simd::leapfrog(work_->step, &awake[first], count);
+  if (!step.tools) return;
+  for (size_t i = first; i < first + count; ++i) {
+    const uint32_t brick = awake[i];
+    if (!work_->near[brick] && !held_[brick]) continue;
+    work_->near[brick] = 0;
+    touch(step, brick);
+  }
+}
+
+/// What tools do to the nodes of a brick in the substep (shaders/contact.glsl).
+void CpuSolver::touch(const Substep& step, uint32_t brick) {
+  const float* now = lattice_.displacement[lattice_.current].data();
+  float* const u = lattice_.displacement[1 - lattice_.current].data();
+  float* const v = lattice_.velocity[1 - lattice_.current].data();
+  for (uint32_t i = lattice_.first_active[brick]; i < lattice_.first_active[brick + 1]; ++i) {
+    const uint32_t slot = lattice_.active[i];
+    if (lattice_.mobility[slot] == 0) continue;
+    Vector3f u_next = planesAt(u, slot), v_next = planesAt(v, slot);
+    resolveContact(lattice_, slot, motion_, step.dt_s, step.push_speed_m_per_s, planesAt(now, slot), u_next, v_next);
+    setPlanes(u, slot, u_next);
+    setPlanes(v, slot, v_next);
+  }
+  work_->speed2[brick] = std::numeric_limits<float>::infinity();  // stays awake
+}
+
+void CpuSolver::measure() {
+  simd::MeasureJob job{arrays(), lattice_.nodes.data(), lattice_.mass.data(), work_->stats.data()};
+  std::vector<uint32_t>& changed = work_->changed;
+  sleep_.takeChanged(lattice_, changed);
+  pool_((changed.size() + kMostBricksPerJob - 1) / kMostBricksPerJob, [&](size_t i) {
+    const size_t first = i * kMostBricksPerJob;
+    simd::measure(job, &changed[first], std::min(kMostBricksPerJob, changed.size() - first));
+  });
+  layout::TickStats out{};
+  out.springs_cut = springs_cut_;
+  std::copy(std::begin(stats_.grabbed), std::end(stats_.grabbed), std::begin(out.grabbed));
+  double kinetic_j = 0, elastic_j = 0;
+  float stretch = 0, speed = 0;
+  for (const simd::BrickStats& brick : work_->stats) {
+    kinetic_j += brick.kinetic_j;
+    elastic_j += brick.elastic_j;
+    stretch = std::max(stretch, brick.max_stretch);
+    speed = std::max(speed, brick.max_speed);
+    out.nonfinite += brick.nonfinite;
+    out.collapsed += brick.collapsed;
+    out.inverted += brick.inverted;
+  }
+  out.kinetic_j = static_cast<float>(kinetic_j);
+  out.elastic_j = static_cast<float>(elastic_j);
+  out.max_stretch_bits = bitsOf(stretch);
+  out.max_speed_bits = bitsOf(speed);
+  const bool known = stats_.max_rate_bits != 0 && springs_cut_ == rate_springs_cut_;
+  out.max_rate_bits = known ? stats_.max_rate_bits : bitsOf(largestRate());
+  rate_springs_cut_ = springs_cut_;
+  stats_ = out;
+}
+
+/// Largest (2 sum k + volume) / m of a node that is not fixed [1/s2] (physics.md 2; shaders/measure.comp).
+float CpuSolver::largestRate() const {
+  float largest = 0;
+  for (uint32_t slot : lattice_.active) {
+    const layout::NodeBits& bits = lattice_.nodes[slot];
+    if (bits.lo & layout::kFixedBit) continue;
+    const size_t brick = slot / layout::kBrickSlots, local = slot % layout::kBrickSlots;
+    float springs = 0, bulk = 0;
+    for (size_t s = 0; s < layout::kSpringsPerNode; ++s) springs += lattice_.both_ends[brick * 1152 + s * 64 + local];
+    for (size_t c = 0; c < 8 && !lattice_.bulk_around.empty(); ++c) {
+      bulk += std::max(0.0f, lattice_.bulk_around[brick * 512 + c * 64 + local]);
+    }
+    const float h = lattice_.bodies[bits.hi >> layout::kBodyShift].origin_spacing.w;
+    largest = std::max(largest, (2 * springs + 1.5f * bulk / (h * h)) / lattice_.mass[slot]);
+  }
+  return largest;
+}
+
+void CpuSolver::sumReactions(const std::array<Vector3f, layout::kMaxStyluses>& tips) {
+  viscera::sumReactions(lattice_, tips, stats_);
+}
+
+bool CpuSolver::requestStats() {
+  if (has_stats_) return false;
+  has_stats_ = true;
+  return true;
+}
+
+bool CpuSolver::takeStats(layout::TickStats& stats, bool) {
+  if (!has_stats_) return false;
+  stats = stats_;
+  has_stats_ = false;
+  return true;
+}
+
+// ---- state as a whole ----
+
+simd::Arrays CpuSolver::arrays() {
+  simd::Arrays a{};
+  a.bricks = lattice_.bricks.data();
+  a.bodies = lattice_.bodies.data();
+  a.displacement = lattice_.displacement[lattice_.current].data();
+  a.velocity = lattice_.velocity[lattice_.current].data();
+  a.next_displacement = lattice_.displacement[1 - lattice_.current].data();
+  a.next_velocity = lattice_.velocity[1 - lattice_.current].data();
+  a.compensation = compensation_.empty() ? nullptr : compensation_.data();
+  a.spring_stiffness = lattice_.both_ends.data();
+  a.mobility = lattice_.mobility.data();
+  a.bulk_around = lattice_.bulk_around.empty() ? nullptr : lattice_.bulk_around.data();
+  a.uniform = lattice_.uniform.data();
+  a.idle_rows = work_->idle.data();
+  return a;
+}
+
+/// Rows of four nodes that will never move: the kernel leaves them out.
+void CpuSolver::noteIdleRows() {
+  simd::LeapfrogJob& job = work_->step;
+  job.dashpot = std::any_of(params_.begin(), params_.end(), [](const auto& body) { return body.dashpot_s > 0; });
+  job.near = work_->near.data();
+  job.strained = work_->strained.data();
+  job.speed2 = work_->speed2.data();
+  for (size_t b = 0; b < bricks(); ++b) {
+    work_->idle[b] = 0;
+    for (size_t row = 0; row < 16; ++row) {
+      const float* mobility = &lattice_.mobility[b * layout::kBrickSlots + 4 * row];
+      if (std::all_of(mobility, mobility + 4, [](float value) { return value == 0; })) {
+        work_->idle[b] = static_cast<uint16_t>(work_->idle[b] | 1u << row);
+      }
+    }
+  }
+}
+
+/// After the state was written from outside: both states the same and without velocity where nothing moves, everything
+/// awake and measured anew.
+void CpuSolver::changeAll() {
+  AlignedVector<float>& velocity = lattice_.velocity[lattice_.current];
+  for (uint32_t slot : lattice_.active) {
+    if (lattice_.mobility[slot] == 0) setPlanes(velocity.data(), slot, Vector3f::Zero());
+  }
+  lattice_.displacement[1 - lattice_.current] = lattice_.displacement[lattice_.current];
+  lattice_.velocity[1 - lattice_.current] = lattice_.velocity[lattice_.current];
+  std::fill(compensation_.begin(), compensation_.end(), 0.0f);
+  std::fill(lattice_.impulses.begin(), lattice_.impulses.end(), layout::vec4{});
+  std::fill(lattice_.touched.begin(), lattice_.touched.end(), uint8_t{0});
+  sleep_.wakeAll(lattice_);
+}
+
+void CpuSolver::resetState() {
+  lattice_.reset();
+  stats_ = {};
+  has_stats_ = false;
+  springs_cut_ = 0;
+  since_look_s_ = 0;
+  substeps_since_look_ = 0;
+  changeAll();
+  noteIdleRows();
+  if (!held_.empty()) noteHeld();
+}
+
+void CpuSolver::loadState(const HostState& state) {
+  lattice_.write(state);
+  stats_.max_rate_bits = 0;
+  changeAll();
+  noteIdleRows();
+  noteHeld();
+}
+
+void CpuSolver::saveGood() {
+  Good& good = good_[static_cast<size_t>(next_good_)];
+  good.displacement = lattice_.displacement[lattice_.current];
+  good.velocity = lattice_.velocity[lattice_.current];
+  next_good_ = (next_good_ + 1) % kGoodStates;
+  kept_good_ = std::min(kept_good_ + 1, kGoodStates);
+}
+
+void CpuSolver::restoreGood(int back) {
+  const bool exhausted = back >= kept_good_;
+  back = std::min(back, kept_good_ - 1);
+  next_good_ = (next_good_ - back + kGoodStates) % kGoodStates;
+  kept_good_ -= back;
+  const Good& good = good_[static_cast<size_t>((next_good_ - 1 + kGoodStates) % kGoodStates)];
+  lattice_.displacement[lattice_.current] = good.displacement;
+  lattice_.velocity[lattice_.current] = good.velocity;
+  if (exhausted)
+    std::fill(lattice_.velocity[lattice_.current].begin(), lattice_.velocity[lattice_.current].end(), 0.0f);
+  changeAll();
+}
+
+void CpuSolver::clearGood() {
+  kept_good_ = 0;
+}
+
+HostState CpuSolver::readState() const {
+  return lattice_.read();
+}
+
+void CpuSolver::snapshot(StateSnapshot& out) const {
+  copyShown(lattice_.displacement[lattice_.current].data(), out);
+  if (out.nodes.empty() || out.cut_revision != cutRevision()) out.nodes = lattice_.nodes;
+  out.cut_revision = cutRevision();
+}
+
+StateView CpuSolver::state() {
+  if (!mirror_) mirror_ = std::make_unique<Mirror>(lattice_);
+  const HostState state = lattice_.read();
+  mirror_->displacement.write(state.displacement_m);
+  mirror_->velocity.write(state.velocity_m_per_s);
+  mirror_->nodes.write(state.nodes);
+  StateView view;
+  view.displacement = mirror_->displacement.id();
+  view.velocity = mirror_->velocity.id();
+  view.nodes = mirror_->nodes.id();
+  view.bricks = mirror_->bricks.id();
+  view.bodies = mirror_->bodies.id();
+  view.cut_revision = cutRevision();
+  return view;
+}
+
+}  // namespace viscera

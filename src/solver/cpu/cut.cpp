@@ -1,0 +1,230 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+
+#include "solver/cpu/glsl_kernel.h"
+#include "viscera/solver/cpu/tool_passes.h"
+
+namespace viscera {
+
+namespace glsl {
+
+namespace {
+
+struct CutStats {
+  uint springs_cut = 0;
+};
+
+struct CutSprings : Kernel {
+  using Kernel::Kernel;
+  uint stylus = 0;
+  CutStats stats;
+#include "cut.comp"
+};
+
+struct CutParticles : Kernel {
+  using Kernel::Kernel;
+  uint stylus = 0;
+  CutStats stats;
+#define PARTICLES
+#include "cut.comp"
+};
+
+struct Blade {
+#include "blade.glsl"
+};
+
+struct TearCell : Kernel {
+  using Kernel::Kernel;
+  uint cell_count = 0;
+#define CUT
+#define VOLUME
+#include "volume.comp"
+};
+
+}  // namespace
+
+}  // namespace glsl
+
+namespace {
+
+/// A brick's places relative to a point [m]: rest position of the first one, spacing, displacements [192].
+struct Places {
+  float first[3];
+  float h;
+  const float* u;
+};
+
+Places placesOf(const CpuLattice& lattice, uint32_t b, const layout::vec4& from) {
+  const layout::Brick& brick = lattice.bricks[b];
+  const layout::vec4& origin = lattice.bodies[brick.body].origin_spacing;
+  const float edge = static_cast<float>(layout::kBrickEdge) * origin.w;
+  return {{origin.x + edge * static_cast<float>(brick.coord_x) - from.x,
+           origin.y + edge * static_cast<float>(brick.coord_y) - from.y,
+           origin.z + edge * static_cast<float>(brick.coord_z) - from.z},
+          origin.w,
+          &lattice.displacement[lattice.current][vectorAt(b * layout::kBrickSlots)]};
+}
+
+/// Calls visit(slot within the brick, x, y, z) for all 64 places, in a form that compilers turn into vectors.
+template <class Visit>
+void forEachPlace(const Places& p, Visit visit) {
+  for (int i = 0; i < static_cast<int>(layout::kBrickSlots); ++i) {
+    visit(i, p.first[0] + p.h * static_cast<float>(i & 3) + p.u[i],
+          p.first[1] + p.h * static_cast<float>(i >> 2 & 3) + p.u[i + 64],
+          p.first[2] + p.h * static_cast<float>(i >> 4) + p.u[i + 128]);
+  }
+}
+
+/// Positions are rounded otherwise in these loops than in cut.comp, which has the last word: by 1e-6 of the sizes at
+/// hand, so this is far beyond.
+constexpr float kMargin = 1e-4f;
+
+/// A box around the swept blade, along the blade and its way. All vectors are from the blade's first tip [m].
+struct SweepBox {
+  glsl::vec3 axes[3];
+  float low[3], high[3];
+};
+
+/// Part of v that is at right angles to the unit vector n, as a unit vector; any such vector where nothing is left.
+glsl::vec3 acrossOf(const glsl::vec3& n, const glsl::vec3& v) {
+  const glsl::vec3 across = v - glsl::dot(n, v) * n;
+  if (glsl::dot(across, across) > 1e-12f * glsl::dot(v, v)) return glsl::normalize(across);
+  const glsl::vec3 other = glsl::abs(n.x) < 0.5f ? glsl::vec3(1, 0, 0) : glsl::vec3(0, 1, 0);
+  return glsl::normalize(glsl::cross(n, other));
+}
+
+SweepBox boxAround(const layout::ToolMotion& m, float grown_m) {
+  const glsl::vec3 from = glsl::xyz(m.from), tip = glsl::xyz(m.to) - from;
+  const glsl::vec3 far_from = glsl::xyz(m.blade_from) - from, far_to = glsl::xyz(m.blade_to) - from;
+  SweepBox box;
+  box.axes[0] = glsl::dot(far_from, far_from) > 0 ? glsl::normalize(far_from) : glsl::vec3(0, 0, 1);
+  box.axes[1] = acrossOf(box.axes[0], tip + (far_to - far_from));
+  box.axes[2] = glsl::cross(box.axes[0], box.axes[1]);
+  for (int k = 0; k < 3; ++k) {
+    const float a = glsl::dot(box.axes[k], tip), b = glsl::dot(box.axes[k], far_from);
+    const float c = glsl::dot(box.axes[k], far_to);
+    box.low[k] = glsl::min(glsl::min(0.0f, a), glsl::min(b, c)) - grown_m;
+    box.high[k] = glsl::max(glsl::max(0.0f, a), glsl::max(b, c)) + grown_m;
+  }
+  return box;
+}
+
+/// Sides of the box beyond which a point is. Two points that have one in common have no point of the box between them.
+uint8_t sidesBeyond(const SweepBox& box, float x, float y, float z) {
+  int sides = 0;  // what is not finite is beyond none
+  for (int k = 0; k < 3; ++k) {
+    const float along = box.axes[k].x * x + box.axes[k].y * y + box.axes[k].z * z;
+    sides |= (along < box.low[k]) << (2 * k) | (along > box.high[k]) << (2 * k + 1);
+  }
+  return static_cast<uint8_t>(sides);
+}
+
+constexpr uint8_t kNotNear = 255;
+
+}  // namespace
+
+CpuCut::CpuCut(const CpuLattice& lattice)
+    : outside_(lattice.slotCount(), kNotNear), common_(lattice.brickCount(), kNotNear) {
+  near_.reserve(lattice.brickCount());
+  changed_.reserve(lattice.active.size());
+}
+
+void CpuCut::findBricks(const CpuLattice& lattice, const layout::ToolMotion& motion) {
+  near_.clear();
+  glsl::vec4 sphere(0);
+  for (uint32_t b = 0; b < lattice.brickCount(); ++b) {
+    Places places = placesOf(lattice, b, motion.from);
+    if (b == 0 || lattice.bricks[b].body != lattice.bricks[b - 1].body)
+      sphere = glsl::Blade().bladeSphere(motion, places.h);
+    float size = 0;
+    for (int k = 0; k < 3; ++k) size += glsl::abs(places.first[k] -= sphere[k]);
+    const float radius = sphere.w + kMargin * (sphere.w + size), radius2 = radius * radius;
+    int near = 0;
+    // Written so that what is not finite is looked at more closely.
+    forEachPlace(places, [&](int, float x, float y, float z) { near |= !(x * x + y * y + z * z > radius2); });
+    if (near) near_.push_back(b);
+  }
+}
+
+void CpuCut::placeNodes(const CpuLattice& lattice, const layout::ToolMotion& motion, float grown_m) {
+  for (uint32_t b : near_) {
+    const Places places = placesOf(lattice, b, motion.from);
+    const float size = glsl::Blade().bladeSphere(motion, places.h).w;
+    const SweepBox box = boxAround(motion, grown_m + kMargin * size);
+    uint8_t* const out = &outside_[b * layout::kBrickSlots];
+    forEachPlace(places, [&](int i, float x, float y, float z) { out[i] = sidesBeyond(box, x, y, z); });
+    uint8_t common = 255;
+    for (uint32_t i = 0; i < layout::kBrickSlots; ++i) common &= out[i];
+    common_[b] = common;
+  }
+}
+
+/// May a spring of the brick's nodes cross the box? Not if all places of it and around it are beyond the same side.
+bool CpuCut::mayCross(const layout::Brick& brick) const {
+  uint8_t common = 255;
+  for (uint32_t neighbor : brick.neighbors) common &= common_[neighbor];
+  return common == 0;
+}
+
+template <class Kernel>
+uint32_t CpuCut::cutWith(CpuLattice& lattice, const layout::ToolMotion& motion) {
+  Kernel kernel(lattice);
+  kernel.tool_motions = &motion;
+  const auto mayLose = [&](uint32_t slot) {
+    const uint8_t here = outside_[slot];
+    bool may = false;
+#define LOOK(spring, offset) may |= (here & outside_[kernel.neighborSlot(slot, offset)]) == 0;
+    using glsl::ivec3;
+    FOR_EACH_SPRING(LOOK)
+#undef LOOK
+    return may;
+  };
+  for (uint32_t brick : near_) {
+    if (!mayCross(lattice.bricks[brick])) continue;
+    for (uint32_t i = lattice.first_active[brick]; i < lattice.first_active[brick + 1]; ++i) {
+      const uint32_t slot = lattice.active[i];
+      if (!mayLose(slot)) continue;
+      const layout::NodeBits before = lattice.nodes[slot];
+      kernel.index = i;
+      kernel.main();
+      const layout::NodeBits& now = lattice.nodes[slot];
+      if (now.lo == before.lo && now.hi == before.hi) continue;
+      lattice.refresh(slot);
+      changed_.push_back(slot);
+    }
+  }
+  return kernel.stats.springs_cut;
+}
+
+/// Drops the volumes of cells that have lost a spring: they have a corner that has.
+void CpuCut::tearCells(CpuLattice& lattice) const {
+  glsl::TearCell kernel(lattice);
+  kernel.cell_count = 1;
+  for (uint32_t slot : changed_) {
+    for (int c = 0; c < 8; ++c) {
+      bool exists;
+      const uint32_t cell = kernel.cellAt(slot, 2 * glsl::ivec3(c & 1, c >> 1 & 1, c >> 2 & 1) - 1, exists);
+      if (!exists || !(lattice.nodes[cell].lo & layout::kCellBit)) continue;
+      kernel.cells = &cell;
+      kernel.main();
+      lattice.refresh(cell);
+    }
+  }
+}
+
+uint32_t CpuCut::run(CpuLattice& lattice, const layout::ToolMotion& motion, bool particles) {
+  findBricks(lattice, motion);
+  placeNodes(lattice, motion, particles ? motion.blade_from.w : 0);
+  changed_.clear();
+  const uint32_t springs =
+      particles ? cutWith<glsl::CutParticles>(lattice, motion) : cutWith<glsl::CutSprings>(lattice, motion);
+  if (!lattice.bulk.empty()) tearCells(lattice);
+  for (uint32_t b : near_) {  // as if nothing had been near
+    common_[b] = kNotNear;
+    std::fill_n(&outside_[b * layout::kBrickSlots], layout::kBrickSlots, kNotNear);
+  }
+  return springs;
+}
+
+}  // namespace viscera

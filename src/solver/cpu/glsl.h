@@ -1,0 +1,75 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <atomic>
+#include <glm/common.hpp>
+#include <glm/exponential.hpp>
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <glm/vector_relational.hpp>
+
+#include "layout.h"
+
+// The words of GLSL in C++: shaders are compiled for the CPU as members of a class that has what they find in buffers
+// and uniforms (glsl_kernel.h). Compile with -ffp-contract=off: both ends of a spring must come to the same bits.
+#pragma GCC diagnostic ignored "-Wunused-parameter"  // which are used is a matter of features
+#define precise
+#define INOUT(T) T&
+#define OUT(T) T&
+
+namespace viscera::glsl {
+
+using namespace layout;  // its vectors are hidden by GLM's
+using glm::dvec4;
+using glm::ivec3;
+using glm::mat3;
+using glm::uvec3;
+using glm::vec2;
+using glm::vec3;
+using glm::vec4;
+
+using glm::abs;
+using glm::all;
+using glm::clamp;
+using glm::cross;
+using glm::distance;
+using glm::dot;
+using glm::floatBitsToUint;
+using glm::fma;  // a * b + c, both operations rounded
+using glm::greaterThanEqual;
+using glm::length;
+using glm::lessThanEqual;
+using glm::max;
+using glm::min;
+using glm::normalize;
+using glm::outerProduct;
+using glm::sqrt;
+using glm::uintBitsToFloat;
+
+inline vec3 xyz(const vec4& v) {
+  return vec3(v);
+}
+inline vec3 xyz(const layout::vec4& v) {
+  return {v.x, v.y, v.z};
+}
+inline vec4 xyzw(const layout::vec4& v) {
+  return {v.x, v.y, v.z, v.w};
+}
+
+using Word = std::atomic<uint>;  ///< of a buffer that invocations write at the same time
+
+inline void atomicMax(Word& word, uint value) {
+  uint now = word.load(std::memory_order_relaxed);
+  while (now < value && !word.compare_exchange_weak(now, value, std::memory_order_relaxed)) {
+  }
+}
+inline void atomicAdd(uint& sum, uint value) {
+  sum += value;
+}
+
+}  // namespace viscera::glsl

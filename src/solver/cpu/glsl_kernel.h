@@ -1,0 +1,131 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "solver/cpu/glsl.h"
+#include "viscera/solver/cpu/cpu_lattice.h"
+#include "viscera/solver/substep.h"
+
+namespace viscera::glsl {
+
+/// displacement or velocity of a CpuLattice, as a shader's buffer of vec4 (w is 0).
+class Planes {
+ public:
+  class Element {
+   public:
+    explicit Element(float* at) : at_(at) {}
+    operator vec4() const { return {at_[0], at_[64], at_[128], 0}; }
+    void operator=(const vec4& v) {
+      at_[0] = v.x;
+      at_[64] = v.y;
+      at_[128] = v.z;
+    }
+
+   private:
+    float* at_;
+  };
+  explicit Planes(AlignedVector<float>& values) : first_(values.data()) {}
+  Element operator[](uint slot) const { return Element(first_ + vectorAt(slot)); }
+
+ private:
+  float* first_;
+};
+
+inline vec4 texelFetch(const Planes& planes, int slot) {
+  return planes[static_cast<uint>(slot)];
+}
+inline vec4 texelFetch(const vec4* buffer, int index) {
+  return buffer[index];
+}
+
+/// layout::vec4 in memory, as a shader's buffer of vec4.
+class Vectors {
+ public:
+  class Element {
+   public:
+    explicit Element(layout::vec4& at) : at_(at) {}
+    operator vec4() const { return xyzw(at_); }
+    void operator=(const vec4& v) { at_ = {v.x, v.y, v.z, v.w}; }
+    void operator+=(const vec4& v) { *this = xyzw(at_) + v; }
+
+   private:
+    layout::vec4& at_;
+  };
+  explicit Vectors(std::vector<layout::vec4>& values) : first_(values.data()) {}
+  Element operator[](size_t index) const { return Element(first_[index]); }
+
+ private:
+  layout::vec4* first_;
+};
+
+/// What kernels find in buffers and uniforms on the GPU (shaders/lattice.glsl, elastic.glsl, step.glsl, contact.glsl),
+/// under the names that they have there. A kernel is a class derived from this one with a shader's text as its body;
+/// main() is one invocation, that of `index`.
+struct Kernel {
+  explicit Kernel(CpuLattice& lattice)
+      : active_nodes(lattice.active.data()),
+        active_count(static_cast<uint>(lattice.active.size())),
+        slot_count(static_cast<uint>(lattice.nodes.size())),
+        nodes(lattice.nodes.data()),
+        bodies(lattice.bodies.data()),
+        cells(lattice.cells.data()),
+        displacement(lattice.displacement[lattice.current]),
+        velocity(lattice.velocity[lattice.current]),
+        next_displacement(lattice.displacement[1 - lattice.current]),
+        next_velocity(lattice.velocity[1 - lattice.current]),
+        grab_offsets(lattice.grab_offsets),
+        impulses_(lattice.impulses.data()),
+        touched_(lattice.touched.data()),
+        bricks_(lattice.bricks.data()),
+        stiffness_(lattice.stiffness.data()),
+        mass_(lattice.mass.data()),
+        bulk_(lattice.bulk.data()) {}
+
+  void tell(const Substep& step) {
+    dt_s = step.dt_s;
+    kick_s = step.kick_s;
+    gravity = vec3(step.gravity.x(), step.gravity.y(), step.gravity.z());
+    sleep_distance_m = step.sleep_distance_m;
+    push_speed = step.push_speed_m_per_s;
+  }
+
+  uint index = 0;
+  uint globalIndex() const { return index; }
+
+  const uint* active_nodes;
+  uint active_count, slot_count;
+  NodeBits* nodes;
+  const BodyParams* bodies;
+  const uint* cells;
+  Planes displacement, velocity, next_displacement, next_velocity;
+  float dt_s = 0, kick_s = 0, sleep_distance_m = 0, push_speed = 0;
+  vec3 gravity = vec3(0);
+  const ToolMotion* tool_motions = nullptr;
+  Vectors grab_offsets;
+  vec4* cell_forces = nullptr;
+
+  uint neighborBrick(uint slot, uint direction) const { return bricks_[slot >> 6].neighbors[direction]; }
+  ivec3 brickCoord(uint slot) const {
+    const Brick& brick = bricks_[slot >> 6];
+    return {brick.coord_x, brick.coord_y, brick.coord_z};
+  }
+  uint brickBody(uint slot) const { return bricks_[slot >> 6].body; }
+  float nodeMass(uint slot, const NodeBits&, const BodyParams&) const { return mass_[slot]; }
+  float cellBulk(uint slot, const BodyParams&) const { return bulk_[slot]; }
+  float springStiffness(uint slot, uint far, uint spring, uint, const BodyParams&) const {
+    return stiffness_[stiffnessAt((spring & 1u) == 0u ? slot : far, spring >> 1)];
+  }
+  void giveMomentum(uint stylus, uint slot, const vec3& impulse) {
+    layout::vec4& sum = impulses_[stylus * slot_count + slot];
+    sum = {sum.x + impulse.x, sum.y + impulse.y, sum.z + impulse.z, sum.w + 1};
+    touched_[slot >> 6] = 1;
+  }
+
+ private:
+  layout::vec4* impulses_;
+  uint8_t* touched_;
+  const Brick* bricks_;
+  const float *stiffness_, *mass_, *bulk_;
+};
+
+}  // namespace viscera::glsl

@@ -1,0 +1,160 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solver/cpu/implicit_substep.h"
+
+#define DASHPOT
+
+namespace viscera {
+
+namespace glsl {
+
+namespace {
+
+struct Begin : ImplicitKernel {
+  using ImplicitKernel::ImplicitKernel;
+#define BEGIN
+#include "implicit.comp"
+};
+
+struct Choose : ImplicitKernel {
+  using ImplicitKernel::ImplicitKernel;
+#undef BEGIN
+#define FOLD
+#include "implicit.comp"
+};
+
+struct Scale : ImplicitKernel {
+  using ImplicitKernel::ImplicitKernel;
+#undef FOLD
+#define SCALE
+#include "implicit.comp"
+};
+
+struct Guess : ImplicitKernel {
+  using ImplicitKernel::ImplicitKernel;
+#undef SCALE
+#define GUESS
+#include "implicit.comp"
+};
+
+struct End : ImplicitKernel {
+  using ImplicitKernel::ImplicitKernel;
+#undef GUESS
+#define END
+#include "implicit.comp"
+};
+
+struct EndWithTools : ImplicitKernel {
+  using ImplicitKernel::ImplicitKernel;
+#define TOOLS
+#include "implicit.comp"
+};
+
+struct BeginWithTools : ImplicitKernel {
+  using ImplicitKernel::ImplicitKernel;
+#undef END
+#define BEGIN
+#include "implicit.comp"
+};
+
+// With volumes.
+#define VOLUME
+struct EndWithToolsVolumes : ImplicitKernel {
+  using ImplicitKernel::ImplicitKernel;
+#undef BEGIN
+#define END
+#include "implicit.comp"
+};
+
+struct Cells : ImplicitKernel {
+  using ImplicitKernel::ImplicitKernel;
+#undef TOOLS
+#undef END
+#define CELLS
+#include "implicit.comp"
+};
+
+struct GuessVolumes : ImplicitKernel {
+  using ImplicitKernel::ImplicitKernel;
+#undef CELLS
+#define GUESS
+#include "implicit.comp"
+};
+
+}  // namespace
+
+}  // namespace glsl
+
+CpuImplicitSubstep::CpuImplicitSubstep(const CpuLattice& lattice, const Parallel& parallel, int iterations,
+                                       int iterates)
+    : guard(1 + 2 * static_cast<size_t>(iterations)), parallel_(parallel), energies_(nodeJobs(lattice)) {
+  for (int i = 0; i < iterates; ++i) increments_[i].assign(lattice.slotCount(), glsl::vec4(0));
+  if (!lattice.bulk.empty()) cell_forces_.assign(3 * lattice.slotCount(), glsl::vec4(0));
+}
+
+void CpuImplicitSubstep::begin(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions) {
+  for (glsl::Word& word : guard) word = 0;
+  if (step.tools) {
+    runNodes(parallel_, lattice, kernel<glsl::BeginWithTools>(lattice, step, motions));
+  } else {
+    runNodes(parallel_, lattice, kernel<glsl::Begin>(lattice, step));
+  }
+  keepBestShare(lattice, step, false);
+}
+
+void CpuImplicitSubstep::updateVolumes(CpuLattice& lattice, const Substep& step, int iteration) {
+  if (cell_forces_.empty()) return;
+  auto cells = kernel<glsl::Cells>(lattice, step);
+  cells.iteration = static_cast<uint32_t>(iteration);
+  cells.active_count = static_cast<uint32_t>(lattice.cells.size());
+  runCount(parallel_, lattice.cells.size(), cells);
+}
+
+template <class Guess>
+void CpuImplicitSubstep::sumEnergies(CpuLattice& lattice, const Substep& step) {
+  const auto guess = kernel<Guess>(lattice, step);
+  parallel_(energies_.size(), [&](size_t job) {
+    glsl::vec4 terms[2 * kNodesPerJob];
+    const auto range = nodesOfJob(lattice, job);
+    Guess mine = guess;
+    mine.energies = {terms, 2 * range[0]};
+    runRange(mine, range[0], range[1]);
+    Energies& sum = energies_[job];
+    sum.fill(0);
+    for (size_t i = 0; i < 2 * (range[1] - range[0]); ++i) {
+      for (int c = 0; c < 4; ++c) sum[4 * (i & 1) + static_cast<size_t>(c)] += static_cast<double>(terms[i][c]);
+    }
+  });
+}
+
+void CpuImplicitSubstep::keepBestShare(CpuLattice& lattice, const Substep& step, bool bound_energy) {
+  if (cell_forces_.empty()) {
+    sumEnergies<glsl::Guess>(lattice, step);
+  } else {
+    sumEnergies<glsl::GuessVolumes>(lattice, step);
+  }
+  glsl::dvec4 potential(0), energy(0);
+  for (const Energies& sum : energies_) {
+    potential += glsl::dvec4(sum[0], sum[1], sum[2], sum[3]);
+    energy += glsl::dvec4(sum[4], sum[5], sum[6], sum[7]);
+  }
+  auto choose = kernel<glsl::Choose>(lattice, step);
+  choose.bound_energy = bound_energy ? 1 : 0;
+  const int best = choose.bestShare(glsl::vec4(potential), glsl::vec4(energy));
+  guard[0] = glsl::floatBitsToUint(choose.kShares[best]);
+  runNodes(parallel_, lattice, kernel<glsl::Scale>(lattice, step));
+}
+
+void CpuImplicitSubstep::end(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions) {
+  keepBestShare(lattice, step, !step.tools);  // tools may bring energy in
+  if (!step.tools) {
+    runNodes(parallel_, lattice, kernel<glsl::End>(lattice, step));
+  } else if (cell_forces_.empty()) {
+    runNodes(parallel_, lattice, kernel<glsl::EndWithTools>(lattice, step, motions));
+  } else {
+    updateVolumes(lattice, step, 0);  // held nodes' momentum needs them
+    runNodes(parallel_, lattice, kernel<glsl::EndWithToolsVolumes>(lattice, step, motions));
+  }
+}
+
+}  // namespace viscera

@@ -1,0 +1,122 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <array>
+
+#include "solver/cpu/glsl_kernel.h"
+#include "viscera/solver/cpu/cpu_stepper.h"
+
+namespace viscera {
+
+namespace glsl {
+
+/// A run of a buffer: element i of the whole is element i - first of it.
+struct Window {
+  vec4* at = nullptr;
+  size_t first = 0;
+  vec4& operator[](size_t index) const { return at[index - first]; }
+};
+
+/// What kernels of implicit Euler find in buffers and uniforms (shaders/implicit.glsl, implicit.comp, pd.comp,
+/// vbd.comp).
+struct ImplicitKernel : Kernel {
+  using Kernel::Kernel;
+  Word* guard = nullptr;
+  const vec4* increment = nullptr;
+  vec4* increments = nullptr;  // the same buffer, to write
+  vec4* next_increments = nullptr;
+  vec4* cell_forces_out = nullptr;
+  Window energies;
+  uint iteration = 0, colour_first = 0, bound_energy = 0;
+  float omega = 1;
+};
+
+}  // namespace glsl
+
+/// Nodes brick by brick as jobs: large enough to be worth a thread's while, the same whatever the threads.
+constexpr size_t kBricksPerJob = 4;
+constexpr size_t kNodesPerJob = kBricksPerJob * layout::kBrickSlots;  ///< at most
+
+inline size_t nodeJobs(const CpuLattice& lattice) {
+  return (lattice.brickCount() + kBricksPerJob - 1) / kBricksPerJob;
+}
+
+/// Runs a kernel's invocations from `first` until before `end`.
+template <class Kernel>
+__attribute__((flatten)) void runRange(Kernel& kernel, size_t first, size_t end) {
+  for (size_t i = first; i < end; ++i) {
+    kernel.index = static_cast<uint32_t>(i);
+    kernel.main();
+  }
+}
+
+/// Places in `active` of a job's nodes.
+inline std::array<size_t, 2> nodesOfJob(const CpuLattice& lattice, size_t job) {
+  return {lattice.first_active[job * kBricksPerJob],
+          lattice.first_active[std::min((job + 1) * kBricksPerJob, lattice.brickCount())]};
+}
+
+/// Runs a kernel for every active node.
+template <class Kernel>
+void runNodes(const Parallel& parallel, const CpuLattice& lattice, const Kernel& kernel) {
+  parallel(nodeJobs(lattice), [&](size_t job) {
+    Kernel mine = kernel;
+    const auto range = nodesOfJob(lattice, job);
+    runRange(mine, range[0], range[1]);
+  });
+}
+
+/// Runs a kernel for the first `count` of whatever it goes through.
+template <class Kernel>
+void runCount(const Parallel& parallel, size_t count, const Kernel& kernel) {
+  parallel((count + kNodesPerJob - 1) / kNodesPerJob, [&](size_t job) {
+    Kernel mine = kernel;
+    runRange(mine, job * kNodesPerJob, std::min((job + 1) * kNodesPerJob, count));
+  });
+}
+
+/// Start and end of a substep of implicit Euler and the increments du = u+ - u in between, which vbd and pd iterate:
+/// shaders/implicit.comp on the CPU. See gpu/implicit_substep.h for what the stages promise.
+class CpuImplicitSubstep {
+ public:
+  /// @param iterations  at most, in a substep   @param iterates  that are kept: 1 (vbd, in place) or 2 (pd)
+  CpuImplicitSubstep(const CpuLattice& lattice, const Parallel& parallel, int iterations, int iterates);
+
+  void begin(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions);
+  void end(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions);
+  void swap() { current_ = 1 - current_; }
+  /// Forces and majorisers of the cells in the current iterate, for the iteration that follows.
+  void updateVolumes(CpuLattice& lattice, const Substep& step, int iteration);
+
+  /// A kernel that works on this substep, told of it.
+  template <class Kernel>
+  Kernel kernel(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions = nullptr) {
+    Kernel out(lattice);
+    out.tell(step);
+    out.tool_motions = motions;
+    out.guard = guard.data();
+    out.increments = increments_[current_].data();
+    out.increment = out.increments;
+    out.next_increments = increments_[1 - current_].data();
+    out.cell_forces = out.cell_forces_out = cell_forces_.data();
+    return out;
+  }
+
+  std::vector<glsl::Word> guard;  ///< [1 + 2 iterations], see shaders/implicit.glsl
+
+ private:
+  template <class Guess>
+  void sumEnergies(CpuLattice& lattice, const Substep& step);
+  void keepBestShare(CpuLattice& lattice, const Substep& step, bool bound_energy);
+
+  using Energies = std::array<double, 8>;  ///< [J] as two vectors of implicit.comp
+  const Parallel& parallel_;
+  std::vector<glsl::vec4> increments_[2];  ///< [slots] xyz m; w 1 where prescribed; the second with two iterates
+  std::vector<glsl::vec4> cell_forces_;    ///< [3 * slots] N, see shaders/volume.comp; empty without volumes
+  std::vector<Energies> energies_;         ///< [jobs]
+  int current_ = 0;
+};
+
+}  // namespace viscera

@@ -1,0 +1,585 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solver/cpu/kernels.h"
+
+#include <algorithm>
+#include <cmath>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "solver/cpu/kernels.cpp"
+#include "hwy/foreach_target.h"  // IWYU pragma: keep
+#include "hwy/highway.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace viscera::simd::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+using Tag = hn::CappedTag<float, 16>;
+using Row = hn::FixedTag<float, 4>;
+using V = hn::Vec<Tag>;
+using M = hn::Mask<Tag>;
+
+/// A brick and what lies around it, for each component of a vector: x is shifted by -1, 0, 1 beforehand, so that a
+/// neighbour in any direction is one load away.
+///   value of the node at (x, y, z), x 0..3, y and z -1..4, seen dx aside: at[dx + 1][(z + 1) * kPlane + kOwn + 4 y +
+///   x]
+constexpr int kPlane = 48, kOwn = 16;
+struct alignas(64) Tile {
+  float component[3][3][6 * kPlane];
+};
+
+HWY_INLINE V load(const float* at) {
+  return hn::LoadU(Tag(), at);
+}
+HWY_INLINE V set(float value) {
+  return hn::Set(Tag(), value);
+}
+
+/// Rows of one plane of the brick, its neighbours at the left and right, shifted by -1, 0, 1.
+template <class D>
+HWY_INLINE void copyShifted(D d, const float* own, const float* left, const float* right, float* minus, float* zero,
+                            float* plus) {
+  const auto middle = hn::LoadU(d, own);
+  hn::StoreU(middle, d, zero);
+  hn::StoreU(hn::CombineShiftRightBytes<12>(d, middle, hn::LoadU(d, left)), d, minus);
+  hn::StoreU(hn::CombineShiftRightBytes<4>(d, hn::LoadU(d, right), middle), d, plus);
+}
+
+/// @param corners  opposite corners of cells are needed too: springs never join them, volumes do
+template <bool corners>
+HWY_INLINE void fill(const Arrays& a, const float* values, uint32_t b, Tile& tile) {
+  constexpr int kFloats = 64;
+  const Tag d;
+  const Row row;
+  const float* brick[27];
+  for (int i = 0; i < 27; ++i) brick[i] = values + size_t{a.bricks[b].neighbors[i]} * (3 * kFloats);
+  for (int c = 0; c < 3; ++c) {
+    float *minus = tile.component[c][0], *zero = tile.component[c][1], *plus = tile.component[c][2];
+    for (int z = -1; z <= 4; ++z) {
+      const int side = z < 0 ? 0 : z > 3 ? 18 : 9;  // of the 27 neighbours
+      const int from = c * kFloats + (z & 3) * 16, to = (z + 1) * kPlane + kOwn;
+      for (int i = 0; i < 16; i += static_cast<int>(hn::MaxLanes(d))) {
+        copyShifted(d, brick[side + 4] + from + i, brick[side + 3] + from + i, brick[side + 5] + from + i,
+                    minus + to + i, zero + to + i, plus + to + i);
+      }
+      if (corners || side == 9) {
+        copyShifted(row, brick[side + 1] + from + 12, brick[side] + from + 12, brick[side + 2] + from + 12,
+                    minus + to - 4, zero + to - 4, plus + to - 4);
+        copyShifted(row, brick[side + 7] + from, brick[side + 6] + from, brick[side + 8] + from, minus + to + 16,
+                    zero + to + 16, plus + to + 16);
+      } else {
+        hn::StoreU(hn::LoadU(row, brick[side + 1] + from + 12), row, zero + to - 4);
+        hn::StoreU(hn::LoadU(row, brick[side + 7] + from), row, zero + to + 16);
+      }
+    }
+  }
+}
+
+struct Vec3 {
+  V x, y, z;
+};
+HWY_INLINE Vec3 operator-(const Vec3& a, const Vec3& b) {
+  return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
+}
+HWY_INLINE Vec3 operator+(const Vec3& a, const Vec3& b) {
+  return {hn::Add(a.x, b.x), hn::Add(a.y, b.y), hn::Add(a.z, b.z)};
+}
+HWY_INLINE Vec3 operator*(V a, const Vec3& b) {
+  return {hn::Mul(a, b.x), hn::Mul(a, b.y), hn::Mul(a, b.z)};
+}
+HWY_INLINE V dot(const Vec3& a, const Vec3& b) {
+  return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, hn::Mul(a.z, b.z)));
+}
+/// a + s b
+HWY_INLINE Vec3 mulAdd(V s, const Vec3& b, const Vec3& a) {
+  return {hn::MulAdd(s, b.x, a.x), hn::MulAdd(s, b.y, a.y), hn::MulAdd(s, b.z, a.z)};
+}
+HWY_INLINE Vec3 cross(const Vec3& a, const Vec3& b) {
+  return {hn::MulSub(a.y, b.z, hn::Mul(a.z, b.y)), hn::MulSub(a.z, b.x, hn::Mul(a.x, b.z)),
+          hn::MulSub(a.x, b.y, hn::Mul(a.y, b.x))};
+}
+HWY_INLINE Vec3 select(M mask, const Vec3& yes, const Vec3& no) {
+  return {hn::IfThenElse(mask, yes.x, no.x), hn::IfThenElse(mask, yes.y, no.y), hn::IfThenElse(mask, yes.z, no.z)};
+}
+HWY_INLINE Vec3 zero3() {
+  const V zero = hn::Zero(Tag());
+  return {zero, zero, zero};
+}
+/// Neighbour in direction (X, Y, Z) of the nodes at an index of the tile.
+template <int X, int Y, int Z>
+HWY_INLINE Vec3 seen(const Tile& tile, int at) {
+  constexpr int kOffset = Z * kPlane + Y * 4;
+  return {load(tile.component[0][1 + X] + at + kOffset), load(tile.component[1][1 + X] + at + kOffset),
+          load(tile.component[2][1 + X] + at + kOffset)};
+}
+template <int sign>
+HWY_INLINE V shifted(V value, V by) {
+  return sign > 0 ? hn::Add(value, by) : sign < 0 ? hn::Sub(value, by) : value;
+}
+/// value + (X, Y, Z) by
+template <int X, int Y, int Z>
+HWY_INLINE Vec3 shifted(const Vec3& value, V by) {
+  return {shifted<X>(value.x, by), shifted<Y>(value.y, by), shifted<Z>(value.z, by)};
+}
+
+/// Constants of a body, in all lanes.
+struct Material {
+  V h, h2;               ///< spacing, twice
+  V per_length2[2];      ///< 1 / l0^2 of axial and diagonal springs
+  V dashpot_length2[2];  ///< c / (k l0^2)
+  V full[2];             ///< N/m of whole springs
+};
+HWY_INLINE Material materialOf(const layout::BodyParams& body) {
+  const float h = body.origin_spacing.w;
+  Material m;
+  m.h = set(h);
+  m.h2 = set(2 * h);
+  for (int kind = 0; kind < 2; ++kind) {
+    m.per_length2[kind] = set(1 / (static_cast<float>(kind + 1) * h * h));
+    m.dashpot_length2[kind] = set(body.dashpot_s / (static_cast<float>(kind + 1) * h * h));
+  }
+  m.full[0] = set(4 * body.axial_quarter_n_per_m);
+  m.full[1] = set(2 * body.diagonal_half_n_per_m);
+  return m;
+}
+
+// With q = (L^2 - l0^2) / l0^2, computed without cancellation, the force of a spring on its near end is
+//   k (L - l0)/L e = k q phi(q) e,  phi(q) = 1 / (1 + q + sqrt(1 + q)),  e = vector to the far end (physics.md 1, 2).
+// Below |q| = kMild phi is a polynomial of degree 5, with a relative error of 5.2e-8 at most.
+constexpr float kMild = 0.125f;
+constexpr float kPhi[6] = {0.500000026f, -0.375000048f, 0.312470624f, -0.273403791f, 0.251082405f, -0.230579299f};
+// Below kShortest of its length at rest a spring has no direction of its own (shaders/spring.glsl).
+constexpr float kShortest2 = 1e-12f;
+
+HWY_INLINE V mildPhi(V q) {
+  V p = set(kPhi[5]);
+  for (int i = 4; i >= 0; --i) p = hn::MulAdd(p, q, set(kPhi[i]));
+  return p;
+}
+
+/// phi for any q > -1: one Newton step each on the processor's estimates of 1/sqrt(4 x) and of 1/(4 x + 4 sqrt(x)),
+/// x = 1 + q, where they have 12 bits at least; else exact.
+HWY_INLINE V anyPhi(V q) {
+  const V x4 = hn::Max(hn::MulAdd(q, set(4), set(4)), set(1e-24f));
+#if HWY_ARCH_X86
+  const V estimate = hn::ApproximateReciprocalSqrt(x4);
+  const V t = hn::Mul(x4, estimate);
+  const V d4 = hn::MulAdd(t, hn::NegMulAdd(t, estimate, set(3)), x4);
+  const V r = hn::ApproximateReciprocal(d4);
+  return hn::Mul(hn::Mul(set(4), r), hn::NegMulAdd(d4, r, set(2)));
+#else
+  return hn::Div(set(4), hn::MulAdd(set(2), hn::Sqrt(x4), x4));
+#endif
+}
+
+/// What a spring adds to the force on its near end.
+/// @param w  u_far - u_near   @param dv  v_far - v_near   @param largest  |q| so far
+template <int X, int Y, int Z, bool kUniform, bool kAny, bool kDashpot>
+HWY_INLINE void addSpring(const Material& m, V k, const Vec3& w, const Vec3& dv, V& largest, Vec3& force) {
+  constexpr int kKind = X * X + Y * Y + Z * Z - 1;
+  V q = hn::Mul(dot(w, shifted<X, Y, Z>(w, m.h2)), m.per_length2[kKind]);
+  // Springs that are not there have no say in whether the others are mild, and no power of q that is infinite.
+  if (!kUniform) q = hn::IfThenElseZero(hn::Gt(k, hn::Zero(Tag())), q);
+  largest = hn::Max(largest, hn::Abs(q));
+  Vec3 e = shifted<X, Y, Z>(w, m.h);
+  V phi;
+  if (kAny) {
+    phi = anyPhi(q);
+    const V x = hn::Add(set(1), q);
+    const M collapsed = hn::Lt(x, set(kShortest2));
+    if (HWY_UNLIKELY(!hn::AllFalse(Tag(), collapsed))) {  // k ext in the direction at rest
+      // So that q phi is ext / l0 and e, of length l0, stands for the direction.
+      phi = hn::IfThenElse(collapsed, set(1), phi);
+      e = select(collapsed, shifted<X, Y, Z>(zero3(), m.h), e);
+    }
+  } else {
+    phi = mildPhi(q);
+  }
+  V c = hn::Mul(q, phi);
+  if (kDashpot) {
+    V ratio = hn::NegMulAdd(q, phi, set(1));  // l0 / L; 1 where e is the direction at rest
+    if (kAny) ratio = hn::IfThenElse(hn::Lt(hn::Add(set(1), q), set(kShortest2)), set(1), ratio);
+    c = hn::MulAdd(hn::Mul(dot(dv, e), m.dashpot_length2[kKind]), hn::Mul(ratio, ratio), c);
+  }
+  force = mulAdd(hn::Mul(k, c), e, force);
+}
+
+/// Calls APPLY(index, x, y, z) for the 18 springs in the order of model/neighbors.h.
+#define VISCERA_SPRINGS(APPLY)                                                                                    \
+  APPLY(0, 1, 0, 0)                                                                                               \
+  APPLY(1, -1, 0, 0)                                                                                              \
+  APPLY(2, 0, 1, 0) APPLY(3, 0, -1, 0) APPLY(4, 0, 0, 1) APPLY(5, 0, 0, -1) APPLY(6, 1, 1, 0) APPLY(7, -1, -1, 0) \
+      APPLY(8, 1, -1, 0) APPLY(9, -1, 1, 0) APPLY(10, 1, 0, 1) APPLY(11, -1, 0, -1) APPLY(12, 1, 0, -1)           \
+          APPLY(13, -1, 0, 1) APPLY(14, 0, 1, 1) APPLY(15, 0, -1, -1) APPLY(16, 0, 1, -1) APPLY(17, 0, -1, 1)
+
+/// Springs' force on the nodes of a vector.
+/// @param k  stiffness of their first spring; the next is 64 farther   @param mild  all springs are, see kMild
+template <bool kUniform, bool kAny, bool kDashpot>
+HWY_INLINE Vec3 springForce(const Tile& u, const Tile& v, int at, const Material& m, const float* k, bool& mild) {
+  const Vec3 near = seen<0, 0, 0>(u, at);
+  const Vec3 near_v = kDashpot ? seen<0, 0, 0>(v, at) : zero3();
+  Vec3 force = zero3();
+  V largest = hn::Zero(Tag());
+#define VISCERA_ADD(i, X, Y, Z)                                                                          \
+  addSpring<X, Y, Z, kUniform, kAny, kDashpot>(m, kUniform ? m.full[(i) < 6 ? 0 : 1] : load(k + (i)*64), \
+                                               seen<X, Y, Z>(u, at) - near,                              \
+                                               kDashpot ? seen<X, Y, Z>(v, at) - near_v : near_v, largest, force);
+  VISCERA_SPRINGS(VISCERA_ADD)
+#undef VISCERA_ADD
+  mild = hn::AllTrue(Tag(), hn::Lt(largest, set(kMild)));
+  return force;
+}
+
+/// The rarer case, kept out of the way of the other.
+template <bool kDashpot>
+HWY_NOINLINE Vec3 anySpringForce(const Tile& u, const Tile& v, int at, const Material& m, const float* k, bool& mild) {
+  return springForce<false, true, kDashpot>(u, v, at, m, k, mild);
+}
+
+/// Shape of cells from the displacements of their corners (shaders/volume.glsl).
+struct Shape {
+  Vec3 bc, ca, ab;
+  V e;
+};
+/// @param n  corners: bit 0 of the index x, bit 1 y, bit 2 z   @param quarter  0.25 / h
+HWY_INLINE Shape shapeOf(const Vec3 (&n)[8], V quarter) {
+  const Vec3 da = quarter * (((n[1] - n[0]) + (n[3] - n[2])) + ((n[5] - n[4]) + (n[7] - n[6])));
+  const Vec3 db = quarter * (((n[2] - n[0]) + (n[3] - n[1])) + ((n[6] - n[4]) + (n[7] - n[5])));
+  const Vec3 dc = quarter * (((n[4] - n[0]) + (n[5] - n[1])) + ((n[6] - n[2]) + (n[7] - n[3])));
+  const V one = set(1);
+  const Vec3 a = {hn::Add(one, da.x), da.y, da.z}, b = {db.x, hn::Add(one, db.y), db.z};
+  const Vec3 c = {dc.x, dc.y, hn::Add(one, dc.z)};
+  const V minors =
+      hn::Add(hn::Add(hn::MulSub(da.x, db.y, hn::Mul(da.y, db.x)), hn::MulSub(da.x, dc.z, hn::Mul(da.z, dc.x))),
+              hn::MulSub(db.y, dc.z, hn::Mul(db.z, dc.y)));
+  const V trace = hn::Add(hn::Add(da.x, db.y), dc.z);
+  return {cross(b, c), cross(c, a), cross(a, b), hn::Add(trace, hn::Add(minors, dot(da, cross(db, dc))))};
+}
+
+/// dW/de (shaders/volume.glsl).
+HWY_INLINE V pressureOf(V bulk, V e) {
+  const V one = set(1), clamped = hn::Min(hn::Max(e, set(-1)), one);
+  const V q = hn::MulAdd(e, e, one), e2 = hn::Mul(e, e);
+  const V bounded =
+      hn::Div(hn::Mul(hn::Add(e, e2), hn::Sub(hn::MulAdd(set(2), e, one), e2)), hn::Mul(q, hn::Mul(q, q)));
+  const V soft = hn::IfThenElseZero(hn::Gt(e, set(-1)), bounded);
+  return hn::Mul(bulk, hn::IfThenElse(hn::Gt(bulk, hn::Zero(Tag())), clamped, soft));
+}
+
+/// Corners of the cell in which the nodes of a vector are corner (A, B, C).
+template <int A, int B, int C>
+HWY_INLINE void cornersAround(const Tile& u, int at, Vec3 (&n)[8]) {
+  n[0] = seen<-A, -B, -C>(u, at);
+  n[1] = seen<1 - A, -B, -C>(u, at);
+  n[2] = seen<-A, 1 - B, -C>(u, at);
+  n[3] = seen<1 - A, 1 - B, -C>(u, at);
+  n[4] = seen<-A, -B, 1 - C>(u, at);
+  n[5] = seen<1 - A, -B, 1 - C>(u, at);
+  n[6] = seen<-A, 1 - B, 1 - C>(u, at);
+  n[7] = seen<1 - A, 1 - B, 1 - C>(u, at);
+}
+
+/// What the volume of one of the eight cells around adds to the force on its corner (A, B, C).
+template <int A, int B, int C>
+HWY_INLINE void addVolume(const Tile& u, int at, V quarter, V bulk, Vec3& force) {
+  if (hn::AllTrue(Tag(), hn::Eq(bulk, hn::Zero(Tag())))) return;
+  Vec3 n[8];
+  cornersAround<A, B, C>(u, at, n);
+  const Shape s = shapeOf(n, quarter);
+  const V p = hn::Mul(pressureOf(bulk, s.e), quarter), minus = hn::Neg(p);
+  force = mulAdd(A ? minus : p, s.bc, force);
+  force = mulAdd(B ? minus : p, s.ca, force);
+  force = mulAdd(C ? minus : p, s.ab, force);
+}
+
+/// Volumes' force on the nodes of a vector. @param bulk  of their first cell around; the next is 64 farther
+HWY_NOINLINE void addVolumes(const Tile& u, int at, V quarter, const float* bulk, Vec3& force) {
+  addVolume<0, 0, 0>(u, at, quarter, load(bulk), force);
+  addVolume<1, 0, 0>(u, at, quarter, load(bulk + 64), force);
+  addVolume<0, 1, 0>(u, at, quarter, load(bulk + 128), force);
+  addVolume<1, 1, 0>(u, at, quarter, load(bulk + 192), force);
+  addVolume<0, 0, 1>(u, at, quarter, load(bulk + 256), force);
+  addVolume<1, 0, 1>(u, at, quarter, load(bulk + 320), force);
+  addVolume<0, 1, 1>(u, at, quarter, load(bulk + 384), force);
+  addVolume<1, 1, 1>(u, at, quarter, load(bulk + 448), force);
+}
+
+HWY_INLINE Vec3 loadPlanes(const float* at) {
+  return {load(at), load(at + 64), load(at + 128)};
+}
+HWY_INLINE void storePlanes(const Vec3& value, float* at) {
+  hn::StoreU(value.x, Tag(), at);
+  hn::StoreU(value.y, Tag(), at + 64);
+  hn::StoreU(value.z, Tag(), at + 128);
+}
+
+/// sum + increment, with Kahan's compensation where there is memory for it (shaders/leapfrog.comp).
+HWY_INLINE Vec3 added(float* compensation, size_t at, const Vec3& sum, const Vec3& increment) {
+  if (!compensation) return sum + increment;
+  const Vec3 all_of_it = increment - loadPlanes(compensation + at);
+  const Vec3 next = sum + all_of_it;
+  storePlanes((next - sum) - all_of_it, compensation + at);
+  return next;
+}
+
+/// Rest position of a vector's nodes [m]. @param from  rest position of the brick's first slot   @param i  index of the
+/// first node
+HWY_INLINE Vec3 restOf(const float (&from)[3], float h, int i) {
+  alignas(64) static constexpr float kX[16] = {0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3};
+  alignas(64) static constexpr float kY[16] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
+  const V spacing = set(h);
+  return {hn::MulAdd(spacing, load(kX), set(from[0])), hn::MulAdd(spacing, load(kY + (i & 15)), set(from[1])),
+          set(from[2] + h * static_cast<float>(i >> 4))};
+}
+
+struct Stepping {
+  Material material;
+  V kick, drag2, per_drag, dt, sleep2;
+  Vec3 gravity;
+};
+
+HWY_INLINE Stepping steppingOf(const LeapfrogJob& job, const layout::BodyParams& body) {
+  const float g = 0.5f * body.drag_per_s * job.step.kick_s;
+  const float far = job.step.sleep_distance_m;
+  return {materialOf(body),
+          set(job.step.kick_s),
+          set(2 * g),
+          set(1 / (1 + g)),
+          set(job.step.dt_s),
+          set(far * far),
+          {set(job.step.gravity.x()), set(job.step.gravity.y()), set(job.step.gravity.z())}};
+}
+
+/// Fragments that fall come to lie where sleep_distance_m ends (shaders/step.glsl).
+HWY_INLINE void fallAsleep(const Stepping& s, const Vec3& u, Vec3& u_next, Vec3& v_next) {
+  const V away = dot(u_next, u_next);
+  const M beyond = hn::Gt(away, s.sleep2);
+  if (HWY_LIKELY(hn::AllFalse(Tag(), beyond))) return;
+  const Vec3 leap = u_next - u;
+  const M falls = hn::And(hn::And(beyond, hn::Gt(away, dot(u, u))),
+                          hn::Not(hn::Gt(dot(leap, leap), hn::Mul(set(0.01f), s.sleep2))));
+  u_next = select(falls, u, u_next);
+  v_next = select(falls, zero3(), v_next);
+}
+
+/// One vector of nodes. @param i  index of the first in the brick   @return |v|^2
+template <bool kUniform, bool kDashpot>
+HWY_INLINE V stepVector(const LeapfrogJob& job, const Stepping& s, const Tile& u, const Tile& v, uint32_t b, int i,
+                        V mobility, Vec3& u_next) {
+  const Arrays& a = job.arrays;
+  const int at = ((i >> 4) + 1) * kPlane + kOwn + (i & 15);
+  const float* k = a.spring_stiffness + size_t{b} * 1152 + i;
+  // What was strained in the last substep is taken to be so still; which formula counts is the state's affair alone.
+  const uint32_t bit = 1u << (i / 4);
+  bool strained = (job.strained[b] & bit) != 0, mild;
+  Vec3 force;
+  if (HWY_UNLIKELY(strained)) {
+    force = anySpringForce<kDashpot>(u, v, at, s.material, k, mild);
+    strained = !mild;
+    if (mild) job.strained[b] = static_cast<uint16_t>(job.strained[b] & ~bit);
+  }
+  if (!strained) {
+    force = springForce<kUniform, false, kDashpot>(u, v, at, s.material, k, mild);
+    if (HWY_UNLIKELY(!mild)) {
+      force = anySpringForce<kDashpot>(u, v, at, s.material, k, mild);
+      job.strained[b] = static_cast<uint16_t>(job.strained[b] | bit);
+    }
+  }
+  if (a.bulk_around) {
+    const V quarter = hn::Div(set(0.25f), s.material.h);
+    addVolumes(u, at, quarter, a.bulk_around + size_t{b} * 512 + i, force);
+  }
+  const size_t to = size_t{b} * 192 + static_cast<size_t>(i);
+  const Vec3 near = seen<0, 0, 0>(u, at), speed = loadPlanes(a.velocity + to);
+  const M moves = hn::Gt(mobility, hn::Zero(Tag()));
+  const Vec3 acceleration = mulAdd(mobility, force, s.gravity);
+  // ((1 - g) v + kick a) / (1 + g), as v and an increment (shaders/leapfrog.comp).
+  const Vec3 change = s.per_drag * mulAdd(hn::Neg(s.drag2), speed, s.kick * acceleration);
+  float* const lost = a.compensation ? a.compensation + size_t{b} * 384 + static_cast<size_t>(i) : nullptr;
+  Vec3 v_next = added(lost, 192, speed, change);
+  u_next = added(lost, 0, near, s.dt * v_next);
+  fallAsleep(s, near, u_next, v_next);
+  u_next = select(moves, u_next, near);
+  v_next = select(moves, v_next, zero3());
+  storePlanes(u_next, a.next_displacement + to);
+  storePlanes(v_next, a.next_velocity + to);
+  return dot(v_next, v_next);
+}
+
+/// Is a node of the vector within reach of a probe?
+HWY_INLINE bool inReach(const LeapfrogJob& job, const Vec3& x) {
+  for (size_t r = 0; r < job.reaches; ++r) {
+    const Reach& reach = job.reach[r];
+    const Vec3 off = x - Vec3{set(reach.center_m[0]), set(reach.center_m[1]), set(reach.center_m[2])};
+    // A little more than is needed: who looks closer rounds otherwise.
+    if (!hn::AllFalse(Tag(), hn::Lt(dot(off, off), set(1.001f * reach.radius_m * reach.radius_m)))) return true;
+  }
+  return false;
+}
+
+template <bool kUniform, bool kDashpot>
+HWY_NOINLINE void stepBrick(const LeapfrogJob& job, const Stepping& s, const layout::BodyParams& body, const Tile& u,
+                            const Tile& v, uint32_t b) {
+  const Arrays& a = job.arrays;
+  const layout::Brick& brick = a.bricks[b];
+  const float h = body.origin_spacing.w, edge = 4 * h;
+  const float from[3] = {body.origin_spacing.x + edge * static_cast<float>(brick.coord_x),
+                         body.origin_spacing.y + edge * static_cast<float>(brick.coord_y),
+                         body.origin_spacing.z + edge * static_cast<float>(brick.coord_z)};
+  V speed2 = hn::Zero(Tag());
+  bool near = false;
+  constexpr int kLanes = static_cast<int>(hn::MaxLanes(Tag()));
+  for (int i = 0; i < 64; i += kLanes) {
+    // Nodes that are not there or never move: both states have their places already.
+    constexpr uint32_t kRows = (1u << (hn::MaxLanes(Tag()) / 4)) - 1;
+    if (((~uint32_t{a.idle_rows[b]} >> (i / 4)) & kRows) == 0) continue;
+    const V mobility = load(a.mobility + size_t{b} * 64 + static_cast<size_t>(i));
+    Vec3 u_next;
+    speed2 = hn::Max(speed2, stepVector<kUniform, kDashpot>(job, s, u, v, b, i, mobility, u_next));
+    if (job.reaches > 0 && !near) near = inReach(job, restOf(from, h, i) + u_next);
+  }
+  job.speed2[b] = hn::GetLane(hn::MaxOfLanes(Tag(), speed2));
+  if (near) job.near[b] = 1;
+}
+
+template <bool kDashpot>
+void stepBricks(const LeapfrogJob& job, const uint32_t* bricks, size_t count) {
+  Tile u, v;
+  for (size_t n = 0; n < count; ++n) {
+    const uint32_t b = bricks[n];
+    const layout::BodyParams& body = job.arrays.bodies[job.arrays.bricks[b].body];
+    const Stepping s = steppingOf(job, body);
+    if (job.arrays.bulk_around)
+      fill<true>(job.arrays, job.arrays.displacement, b, u);
+    else
+      fill<false>(job.arrays, job.arrays.displacement, b, u);
+    if (kDashpot) fill<false>(job.arrays, job.arrays.velocity, b, v);
+    if (job.arrays.uniform[b])
+      stepBrick<true, kDashpot>(job, s, body, u, v, b);
+    else
+      stepBrick<false, kDashpot>(job, s, body, u, v, b);
+  }
+}
+
+void leapfrogOf(const LeapfrogJob& job, const uint32_t* bricks, size_t count) {
+  if (job.dashpot)
+    stepBricks<true>(job, bricks, count);
+  else
+    stepBricks<false>(job, bricks, count);
+}
+
+/// Lanes whose numbers are all finite.
+HWY_INLINE M finite(const Vec3& v) {
+  const hn::RebindToUnsigned<Tag> bits;
+  const auto exponent = hn::Set(bits, 0x7f800000u);
+  const auto ofLane = [&](V value) HWY_ATTR { return hn::Ne(hn::And(hn::BitCast(bits, value), exponent), exponent); };
+  return hn::RebindMask(Tag(), hn::And(hn::And(ofLane(v.x), ofLane(v.y)), ofLane(v.z)));
+}
+HWY_INLINE V sumOfLanes(V value) {
+  return hn::SumOfLanes(Tag(), value);
+}
+HWY_INLINE double sum(V value) {
+  return static_cast<double>(hn::GetLane(sumOfLanes(value)));
+}
+HWY_INLINE uint32_t count(M mask) {
+  return static_cast<uint32_t>(hn::CountTrue(Tag(), mask));
+}
+
+/// Stretch and energy of the springs that a vector's nodes own.
+template <int X, int Y, int Z>
+HWY_INLINE void measureSpring(const Tile& u, int at, const Material& m, V k, M good, V& stretch, V& elastic,
+                              uint32_t& collapsed) {
+  constexpr int kKind = X * X + Y * Y + Z * Z - 1;
+  const Vec3 far = seen<X, Y, Z>(u, at), w = far - seen<0, 0, 0>(u, at);
+  const M there = hn::And(hn::And(good, hn::Gt(k, hn::Zero(Tag()))), finite(far));
+  const V q = hn::Mul(dot(w, shifted<X, Y, Z>(w, m.h2)), m.per_length2[kKind]);
+  // extension / l0 = sqrt(1 + q) - 1
+  const V ratio = hn::Div(q, hn::Add(set(1), hn::Sqrt(hn::Max(hn::Add(set(1), q), hn::Zero(Tag())))));
+  const V strain = hn::IfThenElseZero(there, ratio);
+  stretch = hn::Max(stretch, hn::Abs(strain));
+  elastic = hn::MulAdd(hn::Mul(hn::Div(set(0.5f), m.per_length2[kKind]), k), hn::Mul(strain, strain), elastic);
+  collapsed += count(hn::Lt(strain, set(layout::kCollapsed - 1)));
+}
+
+HWY_INLINE V volumeEnergyOf(V bulk, V e) {
+  const V size = hn::Abs(e), half = hn::Mul(set(0.5f), bulk);
+  const V stiff =
+      hn::IfThenElse(hn::Le(size, set(1)), hn::Mul(half, hn::Mul(e, e)), hn::Mul(bulk, hn::Sub(size, set(0.5f))));
+  const V g = hn::IfThenElseZero(hn::Gt(e, set(-1)), hn::Div(hn::MulAdd(e, e, e), hn::MulAdd(e, e, set(1))));
+  return hn::IfThenElse(hn::Gt(bulk, hn::Zero(Tag())), stiff, hn::Mul(half, hn::Mul(g, g)));
+}
+
+HWY_INLINE M hasBits(const layout::NodeBits* nodes, uint32_t bits, uint32_t wanted) {
+  alignas(64) float flags[16];
+  for (size_t i = 0; i < hn::MaxLanes(Tag()); ++i) flags[i] = (nodes[i].lo & bits) == wanted ? 1.0f : 0.0f;
+  return hn::Gt(hn::Load(Tag(), flags), hn::Zero(Tag()));
+}
+
+void measureVector(const MeasureJob& job, const Material& m, const Tile& u, uint32_t b, int i, BrickStats& stats) {
+  const Arrays& a = job.arrays;
+  const size_t slot = size_t{b} * 64 + static_cast<size_t>(i);
+  alignas(64) float present[16];
+  for (size_t lane = 0; lane < hn::MaxLanes(Tag()); ++lane) {
+    present[lane] = job.nodes[slot + lane].lo & (15u << layout::kMassShift) ? 1.0f : 0.0f;
+  }
+  const M there = hn::Gt(hn::Load(Tag(), present), hn::Zero(Tag()));
+  if (hn::AllFalse(Tag(), there)) return;
+  const int at = ((i >> 4) + 1) * kPlane + kOwn + (i & 15);
+  const Vec3 near = seen<0, 0, 0>(u, at), v = loadPlanes(a.velocity + size_t{b} * 192 + static_cast<size_t>(i));
+  const M good = hn::And(there, hn::And(finite(near), finite(v)));
+  stats.nonfinite += count(there) - count(good);
+  V stretch = hn::Zero(Tag()), elastic = stretch;
+  const float* k = a.spring_stiffness + size_t{b} * 1152 + i;
+#define VISCERA_MEASURE(s, X, Y, Z) \
+  if ((s) % 2 == 0) measureSpring<X, Y, Z>(u, at, m, load(k + (s)*64), good, stretch, elastic, stats.collapsed);
+  VISCERA_SPRINGS(VISCERA_MEASURE)
+#undef VISCERA_MEASURE
+  Vec3 corners[8];
+  cornersAround<0, 0, 0>(u, at, corners);
+  const V e = shapeOf(corners, hn::Div(set(0.25f), m.h)).e;
+  const M cell = hn::And(good, hasBits(job.nodes + slot, layout::kCellBit, layout::kCellBit));
+  const M whole = hn::And(cell, hasBits(job.nodes + slot, layout::kSeveredBit, 0));
+  stats.inverted += count(hn::And(whole, hn::Lt(e, set(-1))));
+  if (a.bulk_around) {
+    const V energy = volumeEnergyOf(load(a.bulk_around + size_t{b} * 512 + i), e);
+    elastic = hn::Add(elastic, hn::IfThenElseZero(cell, energy));
+  }
+  const V v2 = hn::IfThenElseZero(good, dot(v, v));
+  const V kinetic = hn::Mul(hn::Mul(set(0.5f), load(job.mass + slot)), v2);
+  stats.kinetic_j += sum(kinetic);
+  stats.elastic_j += sum(elastic);
+  stats.max_stretch = std::max(stats.max_stretch, hn::GetLane(hn::MaxOfLanes(Tag(), stretch)));
+  stats.max_speed = std::max(stats.max_speed, std::sqrt(hn::GetLane(hn::MaxOfLanes(Tag(), v2))));
+}
+
+void measureOf(const MeasureJob& job, const uint32_t* bricks, size_t count) {
+  Tile u;
+  for (size_t n = 0; n < count; ++n) {
+    const uint32_t b = bricks[n];
+    const Material m = materialOf(job.arrays.bodies[job.arrays.bricks[b].body]);
+    fill<true>(job.arrays, job.arrays.displacement, b, u);
+    BrickStats stats{};
+    for (int i = 0; i < 64; i += static_cast<int>(hn::MaxLanes(Tag()))) measureVector(job, m, u, b, i, stats);
+    job.stats[b] = stats;
+  }
+}
+
+}  // namespace viscera::simd::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace viscera::simd {
+
+HWY_EXPORT(leapfrogOf);
+HWY_EXPORT(measureOf);
+
+void leapfrog(const LeapfrogJob& job, const uint32_t* bricks, size_t count) {
+  HWY_DYNAMIC_DISPATCH(leapfrogOf)(job, bricks, count);
+}
+
+void measure(const MeasureJob& job, const uint32_t* bricks, size_t count) {
+  HWY_DYNAMIC_DISPATCH(measureOf)(job, bricks, count);
+}
+
+}  // namespace viscera::simd
+#endif  // HWY_ONCE

@@ -1,0 +1,74 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "layout.h"
+#include "viscera/solver/substep.h"
+
+// The SIMD kernels of the CPU backend, compiled for several instruction sets and chosen at run time. They work on
+// bricks; a vector is the 4x4 nodes of a plane, or as many rows of them as it has lanes for.
+namespace viscera::simd {
+
+/// Arrays of a CpuLattice, with its slots, and what is written.
+struct Arrays {
+  const layout::Brick* bricks;
+  const layout::BodyParams* bodies;
+  const float* displacement;      ///< [3 * slots] m
+  const float* velocity;          ///< [3 * slots] m/s
+  float* next_displacement;       ///< [3 * slots]
+  float* next_velocity;           ///< [3 * slots]
+  float* compensation;            ///< [6 * slots] what sums of displacement, then of velocity have lost; or null
+  const float* spring_stiffness;  ///< [18 * slots] N/m
+  const float* mobility;          ///< [slots] 1/kg
+  const float* bulk_around;       ///< [8 * slots] J of the cells around a node; null without volume energy
+  const uint8_t* uniform;         ///< [bricks] all springs of all nodes are whole and of full strength
+  const uint16_t* idle_rows;      ///< [bricks] bit r: none of the four nodes from 4 r on will ever move
+};
+
+/// A probe in a substep: nodes that reach into this sphere are looked at one by one (shaders/probe.glsl).
+struct Reach {
+  float center_m[3];
+  float radius_m;
+};
+
+struct LeapfrogJob {
+  Arrays arrays;
+  Substep step;
+  bool dashpot;    ///< some body has one
+  size_t reaches;  ///< probes
+  Reach reach[layout::kMaxStyluses];
+  uint8_t* near;       ///< [bricks] set where a node is within reach of a probe; null without probes
+  uint16_t* strained;  ///< [bricks] bit i / 4: the vector from node i on was strained in the last substep; kept here
+  float* speed2;       ///< [bricks] largest |v|^2 after the substep [m2/s2]
+};
+
+/// One substep of leapfrog, as in shaders/leapfrog.comp without its contacts, of the nodes of some bricks.
+void leapfrog(const LeapfrogJob& job, const uint32_t* bricks, size_t count);
+
+/// What is measured of a brick (shaders/measure.comp).
+struct BrickStats {
+  float max_stretch, max_speed;
+  double kinetic_j, elastic_j;
+  uint32_t nonfinite, collapsed, inverted;
+};
+
+struct MeasureJob {
+  Arrays arrays;
+  const layout::NodeBits* nodes;
+  const float* mass;  ///< [slots] kg
+  BrickStats* stats;  ///< [bricks]
+};
+void measure(const MeasureJob& job, const uint32_t* bricks, size_t count);
+
+/// Instruction sets in the binary that this processor has, best first.
+std::vector<std::string> targets();
+/// Takes one of targets() from now on, in the whole process; empty: the best.
+/// @return false if it is not one of them
+bool useTarget(const std::string& name);
+
+}  // namespace viscera::simd

@@ -1,0 +1,102 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solver/cpu/pd.h"
+
+#define DASHPOT
+
+namespace viscera {
+
+namespace glsl {
+
+namespace {
+
+struct Sweep : ImplicitKernel {
+  using ImplicitKernel::ImplicitKernel;
+#include "pd.comp"
+};
+
+struct Rate : ImplicitKernel {
+  using ImplicitKernel::ImplicitKernel;
+#define RATE
+#include "pd.comp"
+};
+
+// With volumes.
+#define VOLUME
+struct RateVolumes : ImplicitKernel {
+  using ImplicitKernel::ImplicitKernel;
+#include "pd.comp"
+};
+
+struct SweepVolumes : ImplicitKernel {
+  using ImplicitKernel::ImplicitKernel;
+#undef RATE
+#include "pd.comp"
+};
+
+}  // namespace
+
+}  // namespace glsl
+
+CpuPd::CpuPd(CpuLattice& lattice, const Parallel& parallel, const PdOptions& options)
+    : implicit_(lattice, parallel, options.iterations, 2), parallel_(parallel), options_(options) {
+  if (options_.accelerated && options_.spectral_radius == 0) findRates(lattice);
+}
+
+void CpuPd::findRates(CpuLattice& lattice) {
+  std::array<glsl::Word, 2> rates = {};
+  const auto find = [&](auto kernel) {
+    kernel.guard = rates.data();
+    runNodes(parallel_, lattice, kernel);
+  };
+  if (lattice.bulk.empty()) {
+    find(implicit_.kernel<glsl::Rate>(lattice, {}));
+  } else {
+    find(implicit_.kernel<glsl::RateVolumes>(lattice, {}));
+  }
+  stiffness_rate_per_s2_ = static_cast<double>(glsl::uintBitsToFloat(rates[0]));
+  damping_rate_per_s_ = static_cast<double>(glsl::uintBitsToFloat(rates[1]));
+}
+
+double CpuPd::spectralRadius(double dt_s) const {
+  if (options_.spectral_radius > 0) return options_.spectral_radius;
+  return jacobiRadius(stiffness_rate_per_s2_, damping_rate_per_s_, dt_s);
+}
+
+template <class Sweep>
+void CpuPd::sweep(CpuLattice& lattice, const Substep& step, int iteration, double weight) {
+  auto kernel = implicit_.kernel<Sweep>(lattice, step);
+  kernel.iteration = static_cast<uint32_t>(iteration);
+  kernel.omega = static_cast<float>(weight);
+  runNodes(parallel_, lattice, kernel);
+}
+
+void CpuPd::run(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions) {
+  implicit_.begin(lattice, step, motions);
+  const double rho = spectralRadius(static_cast<double>(step.dt_s));
+  double weight = 1;
+  for (int iteration = 0; iteration < options_.iterations; ++iteration) {
+    implicit_.updateVolumes(lattice, step, iteration);
+    weight = options_.accelerated ? chebyshevWeight(iteration, weight, rho) : 1;
+    if (lattice.bulk.empty()) {
+      sweep<glsl::Sweep>(lattice, step, iteration, weight);
+    } else {
+      sweep<glsl::SweepVolumes>(lattice, step, iteration, weight);
+    }
+    implicit_.swap();
+  }
+  implicit_.end(lattice, step, motions);
+}
+
+std::vector<float> CpuPd::changes() const {
+  std::vector<float> out;
+  for (int n = 0; n < options_.iterations; ++n)
+    out.push_back(glsl::uintBitsToFloat(implicit_.guard[1 + 2 * static_cast<size_t>(n)]));
+  return out;
+}
+
+bool CpuPd::gaveUp() const {
+  return implicit_.guard.back() != 0;
+}
+
+}  // namespace viscera

@@ -1,0 +1,57 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solver/cpu/vbd.h"
+
+#define DASHPOT
+
+namespace viscera {
+
+namespace glsl {
+
+namespace {
+
+struct Descend : ImplicitKernel {
+  using ImplicitKernel::ImplicitKernel;
+#include "vbd.comp"
+};
+
+#define VOLUME
+struct DescendVolumes : ImplicitKernel {
+  using ImplicitKernel::ImplicitKernel;
+#include "vbd.comp"
+};
+
+}  // namespace
+
+}  // namespace glsl
+
+CpuVbd::CpuVbd(const CpuLattice& lattice, const Parallel& parallel, int iterations)
+    : implicit_(lattice, parallel, iterations, 1),
+      parallel_(parallel),
+      coloured_(byColour(lattice.active, !lattice.bulk.empty())),
+      iterations_(iterations) {}
+
+template <class Kernel>
+void CpuVbd::sweep(CpuLattice& lattice, const Substep& step) {
+  auto kernel = implicit_.kernel<Kernel>(lattice, step);
+  kernel.active_nodes = coloured_.slots.data();
+  for (const Coloured::Colour& colour : coloured_.colours) {
+    kernel.colour_first = colour.first;
+    kernel.active_count = colour.count;
+    runCount(parallel_, colour.count, kernel);
+  }
+}
+
+void CpuVbd::run(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions) {
+  implicit_.begin(lattice, step, motions);
+  for (int iteration = 0; iteration < iterations_; ++iteration) {
+    if (lattice.bulk.empty()) {
+      sweep<glsl::Descend>(lattice, step);
+    } else {
+      sweep<glsl::DescendVolumes>(lattice, step);
+    }
+  }
+  implicit_.end(lattice, step, motions);
+}
+
+}  // namespace viscera

@@ -1,0 +1,97 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solver/cpu/verlet_paper.h"
+
+namespace viscera {
+
+namespace glsl {
+
+namespace {
+
+struct PositionKernel : Kernel {
+  using Kernel::Kernel;
+  const vec4* positions = nullptr;
+  vec4 *rebuilt_positions = nullptr, *positions_before = nullptr, *cell_forces_out = nullptr;
+  uint cell_count = 0;
+};
+
+struct Rebuild : PositionKernel {
+  using PositionKernel::PositionKernel;
+#define REBUILD
+#include "verlet_paper.comp"
+};
+
+struct Advance : PositionKernel {
+  using PositionKernel::PositionKernel;
+#undef REBUILD
+#include "verlet_paper.comp"
+};
+
+struct AdvanceWithTools : PositionKernel {
+  using PositionKernel::PositionKernel;
+#define TOOLS
+#include "verlet_paper.comp"
+};
+
+// With volumes.
+#define VOLUME
+struct AdvanceWithToolsVolumes : PositionKernel {
+  using PositionKernel::PositionKernel;
+#include "verlet_paper.comp"
+};
+
+struct AdvanceVolumes : PositionKernel {
+  using PositionKernel::PositionKernel;
+#undef TOOLS
+#include "verlet_paper.comp"
+};
+
+struct Volumes : PositionKernel {
+  using PositionKernel::PositionKernel;
+#include "volume.comp"
+};
+
+}  // namespace
+
+}  // namespace glsl
+
+CpuVerletPaper::CpuVerletPaper(const CpuLattice& lattice, const Parallel& parallel) : parallel_(parallel) {
+  for (auto& positions : positions_) positions.assign(lattice.slotCount(), glsl::vec4(0));
+  if (!lattice.bulk.empty()) cell_forces_.assign(3 * lattice.slotCount(), glsl::vec4(0));
+}
+
+template <class Kernel>
+Kernel CpuVerletPaper::kernel(CpuLattice& lattice, const Substep& step) {
+  Kernel out(lattice);
+  out.tell(step);
+  out.rebuilt_positions = positions_[current_].data();
+  out.positions = out.rebuilt_positions;
+  out.positions_before = positions_[1 - current_].data();
+  out.cell_forces = out.cell_forces_out = cell_forces_.data();
+  out.cell_count = static_cast<uint32_t>(lattice.cells.size());
+  return out;
+}
+
+template <class Kernel>
+void CpuVerletPaper::advance(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions) {
+  Kernel out = kernel<Kernel>(lattice, step);
+  out.tool_motions = motions;
+  runNodes(parallel_, lattice, out);
+}
+
+void CpuVerletPaper::run(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions) {
+  // x_prev is a whole substep behind x: another length of it makes another x_prev.
+  if (step.restarted || step.dt_s != last_dt_s_) runNodes(parallel_, lattice, kernel<glsl::Rebuild>(lattice, step));
+  last_dt_s_ = step.dt_s;
+  if (cell_forces_.empty()) {
+    step.tools ? advance<glsl::AdvanceWithTools>(lattice, step, motions)
+               : advance<glsl::Advance>(lattice, step, motions);
+  } else {
+    runCount(parallel_, lattice.cells.size(), kernel<glsl::Volumes>(lattice, step));
+    step.tools ? advance<glsl::AdvanceWithToolsVolumes>(lattice, step, motions)
+               : advance<glsl::AdvanceVolumes>(lattice, step, motions);
+  }
+  current_ = 1 - current_;
+}
+
+}  // namespace viscera

@@ -1,0 +1,71 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "viscera/solver/joined_lattice.h"
+
+namespace viscera {
+
+namespace {
+
+void append(std::vector<float>& to, const std::vector<float>& from) {
+  to.insert(to.end(), from.begin(), from.end());
+}
+
+}  // namespace
+
+std::vector<uint32_t> activeSlots(const Model& model) {
+  std::vector<uint32_t> out;
+  out.reserve(model.activeNodes());
+  for (size_t b = 0; b < model.bodies.size(); ++b) {
+    for (uint32_t slot : model.bodies[b].lattice.active_slots) out.push_back(model.slotOffset(b) + slot);
+  }
+  return out;
+}
+
+std::vector<uint32_t> cellSlots(const Model& model) {
+  std::vector<uint32_t> out;
+  for (size_t b = 0; b < model.bodies.size(); ++b) {
+    const Lattice& lattice = model.bodies[b].lattice;
+    for (uint32_t slot : lattice.active_slots) {
+      if (lattice.nodes[slot].lo & layout::kCellBit) out.push_back(model.slotOffset(b) + slot);
+    }
+  }
+  return out;
+}
+
+std::vector<layout::Brick> allBricks(const Model& model) {
+  std::vector<layout::Brick> out;
+  for (size_t b = 0; b < model.bodies.size(); ++b) {
+    const uint32_t first = static_cast<uint32_t>(out.size());
+    for (layout::Brick brick : model.bodies[b].lattice.bricks) {
+      brick.body = static_cast<uint32_t>(b);
+      for (uint32_t& neighbor : brick.neighbors) neighbor += first;
+      out.push_back(brick);
+    }
+  }
+  return out;
+}
+
+std::vector<layout::NodeBits> allNodes(const Model& model) {
+  std::vector<layout::NodeBits> out;
+  out.reserve(model.slots());
+  for (size_t b = 0; b < model.bodies.size(); ++b) {
+    for (layout::NodeBits bits : model.bodies[b].lattice.nodes) {
+      bits.hi |= static_cast<uint32_t>(b) << layout::kBodyShift;
+      out.push_back(bits);
+    }
+  }
+  return out;
+}
+
+Strengths allStrengths(const Model& model) {
+  Strengths out;
+  for (const Body& body : model.bodies) {
+    const Strengths table = strengths(body);
+    append(out.spring_n_per_m, table.spring_n_per_m);
+    append(out.mass_kg, table.mass_kg);
+    append(out.bulk_j, table.bulk_j);
+  }
+  return out;
+}
+
+}  // namespace viscera

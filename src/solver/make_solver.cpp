@@ -1,0 +1,27 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "viscera/solver/make_solver.h"
+
+#include "viscera/solver/cpu/cpu_solver.h"
+#include "viscera/solver/gpu/gpu_solver.h"
+
+namespace viscera {
+
+Backend chooseBackend(const SolverConfig& config, const gpu::Context& context) {
+  if (config.backend != Backend::kAuto) return config.backend;
+  return context.isSoftware() ? Backend::kCpu : Backend::kGpu;
+}
+
+std::string backendNote(const SolverConfig& config, const gpu::Context& context, const Solver& solver) {
+  const std::string taken = "stepped by: " + solver.backend();
+  if (config.backend != Backend::kAuto) return taken + ", as solver.backend asks";
+  return taken + (context.isSoftware() ? ", as OpenGL is a software rasteriser: " : ", as OpenGL has a GPU: ") +
+         context.renderer();
+}
+
+std::unique_ptr<Solver> makeSolver(const Model& model, const Scene& scene, const gpu::Context& context) {
+  if (chooseBackend(scene.solver, context) == Backend::kCpu) return std::make_unique<CpuSolver>(model, scene);
+  return std::make_unique<GpuSolver>(model, scene);
+}
+
+}  // namespace viscera

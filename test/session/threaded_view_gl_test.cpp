@@ -1,0 +1,364 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "viscera/session/threaded_view.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <thread>
+
+#include "session/block_session.h"
+#include "support/gpu_fixture.h"
+#include "viscera/math/error.h"
+#include "viscera/session/inline_view.h"
+#include "viscera/solver/joined_lattice.h"
+
+namespace viscera {
+namespace {
+
+using namespace test;
+using std::chrono::milliseconds;
+
+/// Tissue on the host that sways: its state follows from the number of ticks, and costs nothing.
+class SwayingTissue : public Solver {
+ public:
+  explicit SwayingTissue(const Model& model) : model_(model), state_(restState(model)) {}
+
+  void step(const ToolMotions&) override {
+    ++tick_;
+    if (still) return;
+    const float sway_m = 0.002f * std::sin(0.3f * static_cast<float>(tick_));
+    const Lattice& lattice = model_.bodies[0].lattice;
+    for (uint32_t slot : lattice.active_slots) {
+      const float height = static_cast<float>((lattice.restPosition(slot).z() + kHalfM) / kHalfM);
+      state_.displacement_m[slot] = {sway_m * height, 0, 0.5f * sway_m * height * height, 0};
+    }
+  }
+  /// Severs every spring of the upper nodes.
+  void cut() {
+    const Lattice& lattice = model_.bodies[0].lattice;
+    for (uint32_t slot : lattice.active_slots) {
+      if (lattice.restPosition(slot).z() < 0) continue;
+      state_.nodes[slot].lo = (state_.nodes[slot].lo & ~layout::kAxialMask) | layout::kSeveredBit;
+      state_.nodes[slot].hi &= ~layout::kDiagonalMask;
+    }
+    ++cut_revision_;
+  }
+  void reset() override {
+    state_ = restState(model_);
+    ++cut_revision_;
+  }
+  StateView state() override { return {}; }
+  HostState readState() const override { return state_; }
+  bool onHost() const override { return true; }
+  void snapshot(StateSnapshot& out) const override {
+    ++snapshots;
+    Solver::snapshot(out);
+    if (broken) out.nodes.resize(out.nodes.size() + 1);
+    out.cut_revision = cut_revision_;
+  }
+  bool pollStats(layout::TickStats&, bool) override { return false; }
+  const Health& health() const override { return health_; }
+  double dt_s() const override { return 1; }
+  double dtSafe_s() const override { return 1; }
+  int substeps() const override { return 1; }
+  uint64_t substepsDone() const override { return tick_; }
+  std::string backend() const override { return "swaying"; }
+
+  bool still = false;
+  bool broken = false;        ///< snapshots have more nodes than the model
+  mutable int snapshots = 0;  ///< how many were taken
+
+ private:
+  const Model& model_;
+  HostState state_;
+  Health health_;
+  uint64_t tick_ = 0, cut_revision_ = 0;
+};
+
+Scene scene() {
+  Scene scene = blockScene();
+  scene.cameras.push_back(cameraOf("other"));
+  scene.cameras[1].position_m = Vector3d(0.1, -0.1, 0.1);
+  return scene;
+}
+
+class ThreadedViewTest : public GpuTest {
+ protected:
+  explicit ThreadedViewTest(const Scene& scene = viscera::scene()) : scene_(scene), model_(buildModel(scene)) {}
+
+  /// A tick, with a probe that wanders above the tissue.
+  Look lookAfterStep(const Wants& wants) {
+    Look look;
+    look.tick = ++tick_;
+    look.wants = wants;
+    look.motions[0].mode = ToolMode::kProbe;
+    look.motions[0].present = true;
+    look.motions[0].to.position_m = Vector3d(0.0005 * static_cast<double>(tick_), 0, kHalfM + kProbeRadiusM);
+    tissue_.step(look.motions);
+    return look;
+  }
+  Pictures show(View& view, const Look& look) {
+    Pictures out;
+    view.capture(tissue_, look, out);
+    view.collect(out, true);
+    return out;
+  }
+
+  Scene scene_;
+  Model model_;
+  SwayingTissue tissue_{model_};
+  uint64_t tick_ = 0;
+};
+
+Wants everything() {
+  return {true, {true, true}, false};
+}
+
+void expectSame(const Pictures& a, const Pictures& b) {
+  ASSERT_TRUE(a.surface && b.surface);
+  EXPECT_EQ(a.surface->tick, b.surface->tick);
+  EXPECT_EQ(a.surface->positions_m, b.surface->positions_m);
+  EXPECT_EQ(a.surface->normals, b.surface->normals);
+  EXPECT_EQ(a.surface->alive, b.surface->alive);
+  ASSERT_EQ(a.images.size(), b.images.size());
+  for (size_t i = 0; i < a.images.size(); ++i) {
+    EXPECT_EQ(a.images[i].tick, b.images[i].tick);
+    EXPECT_EQ(a.images[i].camera, b.images[i].camera);
+    EXPECT_EQ(a.images[i].rgb, b.images[i].rgb);
+  }
+}
+
+/// Buffers that hold a state as a solver on the GPU would: nobody knows what moved.
+struct GpuState {
+  explicit GpuState(const Model& model)
+      : displacement(model.slots()), nodes(model.slots()), bricks(allBricks(model)), bodies(bodyParams(model, 0)) {}
+  StateView view(const HostState& state, uint64_t cut_revision) {
+    displacement.write(state.displacement_m);
+    nodes.write(state.nodes);
+    StateView out;
+    out.displacement = displacement.id();
+    out.nodes = nodes.id();
+    out.bricks = bricks.id();
+    out.bodies = bodies.id();
+    out.cut_revision = cut_revision;
+    return out;
+  }
+  gpu::Buffer<layout::vec4> displacement;
+  gpu::Buffer<layout::NodeBits> nodes;
+  gpu::Buffer<layout::Brick> bricks;
+  gpu::Buffer<layout::BodyParams> bodies;
+};
+
+TEST_F(ThreadedViewTest, ShowsToTheBitWhatAViewOnTheSteppersThreadShows) {
+  constexpr int kTicks = 12, kCutTick = 5, kStillTick = 9;
+  struct Shown {
+    Look look;
+    HostState state;
+    uint64_t cut_revision;
+    Pictures pictures;
+  };
+  std::vector<Shown> shown;
+  {
+    ThreadedView view(model_, scene_, context_);
+    for (int t = 1; t <= kTicks; ++t) {
+      if (t == kCutTick) tissue_.cut();
+      tissue_.still = t >= kStillTick;
+      const Look look = lookAfterStep(everything());
+      Pictures pictures = show(view, look);
+      shown.push_back({look, tissue_.readState(), t >= kCutTick ? 1u : 0u, std::move(pictures)});
+    }
+  }
+  InlineView view(model_, scene_);  // the context is this thread's again
+  GpuState gpu(model_);
+  for (const Shown& s : shown) {
+    Pictures pictures;
+    view.capture(gpu.view(s.state, s.cut_revision), s.look, pictures);
+    view.collect(pictures, true);
+    expectSame(s.pictures, pictures);
+    ASSERT_FALSE(HasFailure()) << "tick " << s.look.tick;
+  }
+  EXPECT_NE(shown[1].pictures.images[0].rgb, shown[2].pictures.images[0].rgb);
+}
+
+TEST_F(ThreadedViewTest, WithNobodyWatchingNothingIsCopied) {
+  ThreadedView view(model_, scene_, context_);
+  for (int t = 0; t < 10; ++t) {
+    const Pictures pictures = show(view, lookAfterStep({false, {false, false}}));
+    EXPECT_FALSE(pictures.surface);
+    EXPECT_TRUE(pictures.images.empty());
+  }
+  EXPECT_EQ(tissue_.snapshots, 0);
+  EXPECT_EQ(view.counters().mappings, 0u);
+  EXPECT_EQ(view.counters().renders, 0u);
+  EXPECT_EQ(view.counters().readbacks, 0u);
+}
+
+TEST_F(ThreadedViewTest, ImageIsNotDrawnAgainWhileNothingChanges) {
+  ThreadedView view(model_, scene_, context_);
+  Look look = lookAfterStep({false, {true, true}});
+  const Pictures first = show(view, look);
+  ASSERT_EQ(first.images.size(), 2u);
+  EXPECT_EQ(view.counters().renders, 2u);
+  tissue_.still = true;
+  look.tick = 2;
+  const Pictures second = show(view, look);
+  ASSERT_EQ(second.images.size(), 2u);
+  EXPECT_EQ(second.images[1].tick, 2u);
+  for (size_t c = 0; c < 2; ++c) EXPECT_EQ(second.images[c].rgb, first.images[c].rgb) << c;
+  EXPECT_EQ(view.counters().renders, 2u);
+  EXPECT_EQ(view.counters().repeats, 2u);
+  EXPECT_EQ(view.counters().mappings, 1u);
+}
+
+TEST_F(ThreadedViewTest, ImageIsDrawnAgainWhenToolsSpringsOrNodesChange) {
+  ThreadedView view(model_, scene_, context_);
+  const Wants wants = {false, {true}, false};
+  Look look = lookAfterStep(wants);
+  std::vector<uint8_t> last = show(view, look).images.at(0).rgb;
+  const auto expectAnother = [&](const char* what) {
+    const std::vector<uint8_t> now = show(view, look).images.at(0).rgb;
+    EXPECT_NE(now, last) << what;
+    last = now;
+  };
+  look.motions[0].to.position_m.x() += 0.01;
+  expectAnother("a tool is elsewhere");
+  look.motions[0].mode = ToolMode::kCut;
+  expectAnother("a tool does something else");
+  look.motions[0].to.orientation = rotationFromDegrees({0, 40, 0});
+  expectAnother("a tool is turned");
+  look.motions[0].present = false;
+  expectAnother("a tool is gone");
+  tissue_.cut();
+  expectAnother("springs are cut");
+  look = lookAfterStep(wants);
+  expectAnother("nodes have moved and a tool is there");
+  EXPECT_EQ(view.counters().repeats, 0u);
+}
+
+TEST_F(ThreadedViewTest, EveryImageThatMustComeComesInOrder) {
+  ThreadedView view(model_, scene_, context_);
+  Wants wants = {false, {true, true}, true};
+  Pictures all;
+  constexpr size_t kTicks = 30;
+  for (size_t t = 0; t < kTicks; ++t) {
+    view.capture(tissue_, lookAfterStep(wants), all);
+    view.collect(all, false);
+  }
+  view.collect(all, true);
+  ASSERT_EQ(all.images.size(), 2 * kTicks);
+  for (size_t i = 0; i < all.images.size(); ++i) {
+    EXPECT_EQ(all.images[i].tick, 1 + i / 2);
+    EXPECT_EQ(all.images[i].camera, i % 2);
+  }
+  EXPECT_EQ(view.counters().skipped, 0u);
+}
+
+TEST_F(ThreadedViewTest, ResetMakesTornSkinWhole) {
+  ThreadedView view(model_, scene_, context_);
+  const auto torn = [&] {
+    const Pictures pictures = show(view, lookAfterStep({true, {}, false}));
+    return std::count(pictures.surface->alive.begin(), pictures.surface->alive.end(), 0u);
+  };
+  tissue_.cut();
+  EXPECT_GT(torn(), 0);
+  tissue_.reset();
+  view.reset();
+  EXPECT_EQ(torn(), 0);
+}
+
+TEST_F(ThreadedViewTest, ShowingMakesNoOpenGlObject) {
+  ThreadedView view(model_, scene_, context_);
+  show(view, lookAfterStep(everything()));
+  const size_t before = gpu::objectsCreated();
+  for (int t = 0; t < 5; ++t) show(view, lookAfterStep(everything()));
+  EXPECT_EQ(gpu::objectsCreated(), before);
+}
+
+TEST_F(ThreadedViewTest, WhatGoesWrongOnItsThreadIsThrownToTheStepperFromThenOn) {
+  ThreadedView view(model_, scene_, context_);
+  show(view, lookAfterStep(everything()));
+  tissue_.broken = true;
+  tissue_.cut();  // so that nodes are uploaded
+  EXPECT_THROW(show(view, lookAfterStep(everything())), GpuError);
+  EXPECT_THROW(show(view, lookAfterStep(everything())), GpuError);
+  EXPECT_THROW(view.reset(), GpuError);
+}
+
+TEST_F(ThreadedViewTest, SceneThatCannotBeSeenIsRefusedAndTheContextComesBack) {
+  scene_.cameras[0].target_m = scene_.cameras[0].position_m;
+  EXPECT_THROW(ThreadedView(model_, scene_, context_), SceneError);
+  scene_.cameras[0].target_m = Vector3d::Zero();
+  EXPECT_NO_THROW(InlineView(model_, scene_));
+  EXPECT_NO_THROW(gpu::checkErrors("after the refusal"));
+}
+
+/// An image that takes a software rasteriser many ticks.
+Scene slowScene() {
+  Scene scene = blockScene();
+  scene.cameras[0].width_px = 1920;
+  scene.cameras[0].height_px = 1080;
+  return scene;
+}
+
+class SlowView : public ThreadedViewTest {
+ protected:
+  SlowView() : ThreadedViewTest(slowScene()) {}
+
+  /// Ticks of a millisecond that leave the processor to whoever draws. @returns how long they took [s]
+  double timeTicks(View& view, int ticks, const Wants& wants) {
+    const auto begun = std::chrono::steady_clock::now();
+    for (int t = 0; t < ticks; ++t) {
+      Pictures out;
+      std::this_thread::sleep_for(milliseconds(1));
+      view.capture(tissue_, lookAfterStep(wants), out);
+      view.collect(out, false);
+      images_ += out.images.size();
+    }
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+  }
+  size_t images_ = 0;
+};
+
+TEST_F(SlowView, SlowsNoTick) {
+  // Ticks that wait for images of tens of milliseconds would take more than ten times as long.
+  constexpr double kSlower = 3;
+  constexpr int kTicks = 300;
+  ThreadedView view(model_, scene_, context_);
+  const double unseen_s = timeTicks(view, kTicks, {});
+  const double seen_s = timeTicks(view, kTicks, {true, {true}, false});
+  EXPECT_LT(seen_s, kSlower * unseen_s);
+  EXPECT_GT(images_, 0u);
+}
+
+TEST_F(SlowView, SkipsAndCountsWhatItCannotKeepUpWith) {
+  ThreadedView view(model_, scene_, context_);
+  constexpr int kTicks = 100;
+  timeTicks(view, kTicks, {false, {true}, false});
+  Pictures rest;
+  view.collect(rest, true);
+  const ViewCounters counters = view.counters();
+  EXPECT_GT(counters.skipped, 0u);
+  EXPECT_EQ(images_ + rest.images.size() + counters.skipped, static_cast<size_t>(kTicks));
+  EXPECT_EQ(counters.readbacks, images_ + rest.images.size());
+}
+
+TEST_F(SlowView, WantsThatAreOvertakenAreMetByTheNewerState) {
+  ThreadedView view(model_, scene_, context_);
+  Pictures out;
+  view.capture(tissue_, lookAfterStep({false, {true}, false}), out);  // keeps the view busy
+  std::this_thread::sleep_for(milliseconds(2));
+  constexpr int kTicks = 4;
+  for (int t = 0; t < kTicks; ++t) {
+    view.capture(tissue_, lookAfterStep(t % 2 ? Wants{true, {}, false} : Wants{false, {true}, false}), out);
+  }
+  view.collect(out, true);
+  ASSERT_TRUE(out.surface);
+  EXPECT_GE(out.surface->tick, 3u);  // 5, but a view on a busy machine may take the slot earlier
+  ASSERT_FALSE(out.images.empty());
+  EXPECT_GE(out.images.back().tick, 3u);
+}
+
+}  // namespace
+}  // namespace viscera

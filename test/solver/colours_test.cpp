@@ -1,0 +1,30 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "viscera/solver/colours.h"
+
+#include <gtest/gtest.h>
+
+#include "support/lattices.h"
+
+using namespace viscera;
+using namespace viscera::test;
+
+TEST(VbdColours, NoSpringAndNoCellJoinsTwoNodesOfOne) {
+  const Body body = boxBody({5, 6, 7}, 0.01);
+  const Lattice& lattice = body.lattice;
+  for (uint32_t slot : lattice.active_slots) {
+    EXPECT_LT(colourOf(slot, false), colourCount(false));
+    EXPECT_LT(colourOf(slot, true), colourCount(true));
+    for (uint32_t s = 0; s < layout::kSpringsPerNode; ++s) {
+      const int64_t other = lattice.neighborSlot(slot, s);
+      if (other < 0) continue;
+      EXPECT_NE(colourOf(slot, false), colourOf(static_cast<uint32_t>(other), false));
+    }
+    for (int corner = 0; corner < 27; ++corner) {
+      const Vector3i offset(corner % 3 - 1, corner / 3 % 3 - 1, corner / 9 - 1);
+      const int64_t other = lattice.slotAt(lattice.nodeAt(slot) + offset);
+      if (other < 0 || other == slot) continue;
+      EXPECT_NE(colourOf(slot, true), colourOf(static_cast<uint32_t>(other), true));
+    }
+  }
+}

@@ -1,0 +1,163 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "viscera/solver/cpu/cpu_lattice.h"
+
+#include "support/implicit.h"
+#include "support/random_state.h"
+
+using namespace viscera;
+using namespace viscera::test;
+
+namespace {
+
+CpuLattice latticeOf(const Model& model, bool tools = false) {
+  return CpuLattice(model, bodyParams(model, safeTimeStep(model)), tools);
+}
+
+Model twoBodies() {
+  Body box = boxBody({5, 4, 3}, 0.01), blob = blobBody(63, 0.02, 3);
+  box.lattice.nodes[box.lattice.active_slots[7]].lo |= layout::kFixedBit;
+  return modelOf({box, blob});
+}
+
+/// Stiffness of any spring as the kernels find it: odd ones at their far end.
+float stiffness(const CpuLattice& lattice, const ReferenceLattice& reference, uint32_t slot, uint32_t spring) {
+  const uint32_t owner = spring % 2 ? reference.farEnd(slot, spring) : slot;
+  return lattice.stiffness[stiffnessAt(owner, spring / 2)];
+}
+
+void expectSameStrengths(const CpuLattice& lattice, const ReferenceLattice& reference) {
+  ASSERT_EQ(lattice.active, reference.active);
+  for (uint32_t slot : reference.active) {
+    ASSERT_FLOAT_EQ(lattice.mass[slot], static_cast<float>(reference.mass(slot)));
+    const float bulk = lattice.bulk.empty() ? 0 : lattice.bulk[slot];
+    ASSERT_FLOAT_EQ(bulk, static_cast<float>(reference.bulk(slot)));
+    for (uint32_t s = 0; s < layout::kSpringsPerNode; ++s) {
+      const float expected = static_cast<float>(reference.stiffness(slot, s));
+      if (expected == 0 && s % 2) continue;  // nobody looks there
+      ASSERT_FLOAT_EQ(stiffness(lattice, reference, slot, s), expected) << slot << " " << s;
+    }
+  }
+}
+
+bool sameBits(const layout::vec4& a, const layout::vec4& b) {
+  return a.x == b.x && a.y == b.y && a.z == b.z && a.w == b.w;
+}
+
+}  // namespace
+
+TEST(CpuLattice, GivesBackTheStateThatWasWritten) {
+  const Model model = twoBodies();
+  CpuLattice lattice = latticeOf(model);
+  const HostState written = randomState(model, 1e-3, 0.5, 3);
+  lattice.write(written);
+  const HostState read = lattice.read();
+  ASSERT_EQ(read.nodes.size(), model.slots());
+  for (size_t slot = 0; slot < model.slots(); ++slot) {
+    EXPECT_TRUE(sameBits(read.displacement_m[slot], written.displacement_m[slot])) << slot;
+    EXPECT_TRUE(sameBits(read.velocity_m_per_s[slot], written.velocity_m_per_s[slot])) << slot;
+    EXPECT_EQ(read.nodes[slot].lo, written.nodes[slot].lo);
+    EXPECT_EQ(read.nodes[slot].hi, written.nodes[slot].hi);
+  }
+}
+
+TEST(CpuLattice, HasVectorsOneComponentAfterTheOtherBrickByBrick) {
+  const Model model = twoBodies();
+  CpuLattice lattice = latticeOf(model);
+  const HostState state = randomState(model, 1e-3, 0.5, 3);
+  lattice.write(state);
+  for (uint32_t slot : lattice.active) {
+    const size_t first = slot / 64 * 192 + slot % 64;
+    EXPECT_EQ(lattice.displacement[0][first], state.displacement_m[slot].x);
+    EXPECT_EQ(lattice.displacement[0][first + 64], state.displacement_m[slot].y);
+    EXPECT_EQ(lattice.velocity[0][first + 128], state.velocity_m_per_s[slot].z);
+  }
+}
+
+TEST(CpuLattice, HasTheStrengthsOfCellsOfPartsAndOfOtherBodies) {
+  Body rubber = boxBody({3, 4, 5}, 0.01);
+  rubber.material.poisson_ratio = 0.45;
+  for (const Model& model : {twoBodies(), modelOf({rubber, twoPartBody()})}) {
+    expectSameStrengths(latticeOf(model), ReferenceLattice(model));
+  }
+}
+
+TEST(CpuLattice, HasNoBulkWithoutEnergyOfVolumeAndNoRoomForStylusesThatAreNot) {
+  CpuLattice lattice = latticeOf(twoBodies());
+  EXPECT_TRUE(lattice.bulk.empty());
+  EXPECT_TRUE(lattice.grab_offsets.empty() && lattice.impulses.empty() && lattice.touched.empty());
+  EXPECT_EQ(latticeOf(twoBodies(), true).impulses.size(), 2 * lattice.slotCount());
+}
+
+TEST(CpuLattice, KnowsTheNodesOfEveryBrick) {
+  const CpuLattice lattice = latticeOf(twoBodies());
+  ASSERT_EQ(lattice.first_active.size(), lattice.brickCount() + 1);
+  EXPECT_EQ(lattice.first_active.back(), lattice.active.size());
+  for (uint32_t b = 0; b < lattice.brickCount(); ++b) {
+    for (uint32_t i = lattice.first_active[b]; i < lattice.first_active[b + 1]; ++i)
+      EXPECT_EQ(lattice.active[i] / layout::kBrickSlots, b);
+  }
+}
+
+TEST(CpuLattice, GivesACutSpringNoStiffnessFromBothEnds) {
+  for (const bool parts : {false, true}) {
+    const Model model = modelOf({parts ? twoPartBody() : boxBody({5, 4, 4}, 0.01)});
+    CpuLattice lattice = latticeOf(model);
+    ReferenceLattice reference(model);
+    const uint32_t slot = static_cast<uint32_t>(model.bodies[0].lattice.slotAt({2, 2, 2}));  // a free node inside
+    uint32_t cut = 0;
+    for (uint32_t s = 0; s < layout::kSpringsPerNode; ++s) {
+      if (reference.stiffness(slot, s) == 0) continue;
+      ++cut;
+      const uint32_t other = reference.farEnd(slot, s);
+      EXPECT_GT(stiffness(lattice, reference, slot, s), 0);
+      reference.eraseSpring(slot, s);
+      for (uint32_t end : {slot, other}) {
+        lattice.nodes[end] = reference.nodes[end];
+        lattice.refresh(end);
+      }
+      EXPECT_EQ(stiffness(lattice, reference, slot, s), 0);
+      EXPECT_EQ(stiffness(lattice, reference, other, oppositeSpring(s)), 0);
+    }
+    EXPECT_GT(cut, 0u);
+    for (uint32_t other : lattice.active) {  // the cells that were torn
+      lattice.nodes[other] = reference.nodes[other];
+      lattice.refresh(other);
+    }
+    expectSameStrengths(lattice, reference);
+    EXPECT_EQ(lattice.mobility[slot], 0);  // alone now
+    lattice.reset();
+    expectSameStrengths(lattice, ReferenceLattice(model));
+    EXPECT_FLOAT_EQ(lattice.mobility[slot], 1 / lattice.mass[slot]);
+  }
+}
+
+TEST(CpuLattice, LetsAllButFixedNodesMove) {
+  const Model model = twoBodies();
+  CpuLattice lattice = latticeOf(model, true);
+  const uint32_t fixed = lattice.active[7], held = lattice.active[8];
+  lattice.nodes[held].lo |= 1u << layout::kGrabShift;
+  lattice.refresh(held);
+  size_t mobile = 0;
+  for (uint32_t slot = 0; slot < lattice.slotCount(); ++slot) mobile += lattice.mobility[slot] > 0;
+  EXPECT_EQ(mobile, lattice.active.size() - 1);
+  EXPECT_EQ(lattice.mobility[fixed], 0);
+  EXPECT_GT(lattice.mobility[held], 0);  // where it goes is its stylus' affair, but it feels forces
+}
+
+TEST(CpuLattice, IsAtRestAfterReset) {
+  const Model model = twoBodies();
+  CpuLattice lattice = latticeOf(model, true);
+  lattice.write(randomState(model, 1e-3, 0.5, 3));
+  lattice.swap();
+  lattice.impulses[5] = {1, 2, 3, 4};
+  lattice.touched[0] = 1;
+  lattice.reset();
+  const HostState rest = restState(model), state = lattice.read();
+  for (size_t slot = 0; slot < model.slots(); ++slot) {
+    EXPECT_TRUE(sameBits(state.displacement_m[slot], {}) && sameBits(state.velocity_m_per_s[slot], {}));
+    EXPECT_EQ(state.nodes[slot].lo, rest.nodes[slot].lo);
+  }
+  EXPECT_EQ(lattice.impulses[5].w, 0);
+  EXPECT_EQ(lattice.touched[0], 0);
+}

@@ -1,0 +1,157 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <fstream>
+#include <new>
+
+#include "support/lattices.h"
+#include "viscera/solver/cpu/cpu_solver.h"
+
+namespace {
+
+/// What operator new was asked for since the program began, by all threads.
+std::atomic<uint64_t> allocations{0};
+
+void* counted(std::size_t bytes, std::size_t alignment) {
+  ++allocations;
+  void* memory = nullptr;
+  if (posix_memalign(&memory, alignment, bytes) != 0) throw std::bad_alloc();
+  return memory;
+}
+
+}  // namespace
+
+// The counting versions, for the whole test program.
+void* operator new(std::size_t bytes) {
+  return counted(bytes, alignof(std::max_align_t));
+}
+void* operator new(std::size_t bytes, std::align_val_t alignment) {
+  return counted(bytes, static_cast<std::size_t>(alignment));
+}
+void operator delete(void* memory) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, std::size_t) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, std::align_val_t) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
+  std::free(memory);
+}
+
+namespace viscera {
+namespace {
+
+constexpr int kWarmUpTicks = 50, kTicks = 1000;
+constexpr double kSpacing_m = 0.004;
+constexpr Integrator kAllIntegrators[] = {Integrator::kLeapfrog, Integrator::kVerletPaper, Integrator::kVbd,
+                                          Integrator::kPd};
+// Heap and stacks of threads that come and go elsewhere in the process; 1000 ticks of one float each would be 4 kB.
+constexpr double kResidentNoise_bytes = 256 * 1024;
+
+double residentBytes() {
+  std::ifstream stream("/proc/self/statm");
+  double size = 0, resident = 0;
+  stream >> size >> resident;
+  return resident * static_cast<double>(sysconf(_SC_PAGESIZE));
+}
+
+/// A block held at its bottom with everything that a scene may have: parts aside, energy of volume, a dashpot, the
+/// governor, two styluses.
+class HotLoop : public ::testing::Test {
+ protected:
+  HotLoop() : model_(test::modelOf({heldBlock()})) {
+    scene_.styluses.resize(2);
+    scene_.solver.tick_hz = 500;
+    scene_.solver.threads = 2;
+    scene_.solver.iterations = 3;
+    scene_.solver.max_substeps = 10000;
+  }
+
+  static Body heldBlock() {
+    Body body = test::boxBody({9, 9, 5}, kSpacing_m);
+    body.material.poisson_ratio = 0.3;
+    for (uint32_t slot : body.lattice.active_slots) {
+      if (body.lattice.nodeAt(slot).z() == 0) body.lattice.nodes[slot].lo |= layout::kFixedBit;
+    }
+    return body;
+  }
+
+  /// A stylus that goes to and fro over the block's top, as deep as its nodes.
+  static ToolMotions motionsAt(int tick, ToolMode mode) {
+    const auto place = [](int t) { return Vector3d(0.018 + 0.004 * std::sin(0.05 * t), 0.018, 0.02); };
+    ToolMotions motions;
+    motions[0].mode = mode;
+    motions[0].present = true;
+    motions[0].from.position_m = place(tick - 1);
+    motions[0].to.position_m = place(tick);
+    motions[0].grab_begins = mode == ToolMode::kGrab && tick % 100 == 0;
+    motions[0].grab_ends = mode == ToolMode::kGrab && tick % 100 == 90;
+    return motions;
+  }
+
+  /// Probe, grab and cut in turn, or the probe alone. @return nodes touched, over all ticks
+  uint64_t run(CpuSolver& solver, int ticks, bool all_tools) {
+    constexpr ToolMode kModes[] = {ToolMode::kProbe, ToolMode::kGrab, ToolMode::kCut, ToolMode::kCutParticles};
+    uint64_t touched = 0;
+    layout::TickStats stats;
+    for (int t = 0; t < ticks; ++t) {
+      solver.step(motionsAt(t, all_tools ? kModes[(t / 100) % 4] : ToolMode::kProbe));
+      while (solver.pollStats(stats, true)) touched += stats.touched[0];
+    }
+    return touched;
+  }
+
+  Model model_;
+  Scene scene_;
+};
+
+TEST_F(HotLoop, TheCounterCounts) {
+  const uint64_t before = allocations;
+  const std::vector<double> memory(100);
+  EXPECT_EQ(allocations, before + 1) << memory.size();
+}
+
+TEST_F(HotLoop, AllocatesNothingInAThousandTicksOfContact) {
+  CpuSolver solver(model_, scene_);
+  run(solver, kWarmUpTicks, false);
+  const uint64_t before = allocations;
+  EXPECT_GT(run(solver, kTicks, false), 0u) << "the probe touched nothing";
+  EXPECT_EQ(allocations, before);
+}
+
+TEST_F(HotLoop, AllocatesNothingWhateverToolsDo) {
+  CpuSolver solver(model_, scene_);
+  run(solver, kWarmUpTicks, true);
+  const uint64_t before = allocations;
+  EXPECT_GT(run(solver, kTicks, true), 0u);
+  EXPECT_EQ(allocations, before);
+}
+
+TEST_F(HotLoop, AllocatesNothingWithAnyIntegrator) {
+  for (Integrator integrator : kAllIntegrators) {
+    scene_.solver.integrator = integrator;
+    CpuSolver solver(model_, scene_);
+    run(solver, 10, false);
+    const uint64_t before = allocations;
+    run(solver, 20, false);
+    EXPECT_EQ(allocations, before) << static_cast<int>(integrator);
+  }
+}
+
+TEST_F(HotLoop, KeepsResidentMemoryFlat) {
+  CpuSolver solver(model_, scene_);
+  run(solver, kWarmUpTicks, false);
+  const double before = residentBytes();
+  run(solver, kTicks, false);
+  EXPECT_NEAR(residentBytes(), before, kResidentNoise_bytes);
+}
+
+}  // namespace
+}  // namespace viscera

@@ -1,0 +1,112 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "viscera/solver/cpu/thread_pool.h"
+
+#include <gtest/gtest.h>
+#include <time.h>
+
+#include <algorithm>
+#include <chrono>
+#include <numeric>
+
+using namespace viscera;
+
+namespace {
+
+/// Processor time of all threads of this process [s].
+double processorTime() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+void rest(std::chrono::microseconds time) {
+  std::this_thread::sleep_for(time);
+}
+
+/// Rounds of jobs of changing number, each of which must have run once when a round ends.
+void expectEveryJobOnce(const ThreadPool& pool, int rounds, std::chrono::microseconds between) {
+  std::vector<std::atomic<uint32_t>> runs(100);
+  for (int round = 0; round < rounds; ++round) {
+    const size_t count = static_cast<size_t>(round * 7) % (runs.size() + 1);
+    for (auto& n : runs) n = 0;
+    pool(count, [&](size_t i) { ++runs[i]; });
+    for (size_t i = 0; i < runs.size(); ++i) ASSERT_EQ(runs[i], i < count ? 1u : 0u) << "round " << round;
+    if (between.count() > 0) rest(between);
+  }
+}
+
+}  // namespace
+
+TEST(ThreadPool, RunsEveryJobOnceInRoundsThatFollowAtOnce) {
+  for (int threads = 1; threads <= 4; ++threads) {
+    SCOPED_TRACE(threads);
+    const ThreadPool pool(threads);
+    EXPECT_EQ(pool.threads(), threads);
+    expectEveryJobOnce(pool, 20000, std::chrono::microseconds(0));
+  }
+}
+
+TEST(ThreadPool, RunsEveryJobOnceWhereThreadsHaveGoneToSleepBetweenRounds) {
+  for (int threads = 2; threads <= 4; ++threads) {
+    SCOPED_TRACE(threads);
+    const ThreadPool pool(threads);
+    expectEveryJobOnce(pool, 200, std::chrono::microseconds(20));   // some still watch
+    expectEveryJobOnce(pool, 200, std::chrono::microseconds(200));  // all are asleep
+  }
+}
+
+TEST(ThreadPool, JobsSeeWhatWasWrittenBeforeAndTheCallerWhatTheyWrote) {
+  const ThreadPool pool(3);
+  std::vector<uint64_t> values(64);  // no atomics: the rounds themselves must keep order
+  for (uint64_t round = 1; round <= 5000; ++round) {
+    const uint64_t sum = std::accumulate(values.begin(), values.end(), uint64_t{0});
+    ASSERT_EQ(sum, (round - 1) * values.size());
+    pool(values.size(), [&](size_t i) { values[(i + round) % values.size()] += 1; });
+  }
+}
+
+TEST(ThreadPool, OtherThreadsTakeWhatOneIsSlowWith) {
+  const ThreadPool pool(2);
+  std::atomic<int> done{0};
+  std::atomic<bool> waited_in_vain{false};
+  pool(8, [&](size_t) {
+    // One of the jobs waits for all others: they can only be done by the other thread.
+    if (done++ != 0) return;
+    const auto until = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+    while (done < 8 && std::chrono::steady_clock::now() < until) std::this_thread::yield();
+    waited_in_vain = done < 8;
+  });
+  EXPECT_FALSE(waited_in_vain);
+}
+
+TEST(ThreadPool, IdleThreadsTakeNoProcessorTime) {
+  constexpr double kIdle_s = 0.2, kBusyShare = 0.05;  // a thread that spins takes 1.0, or what the machine has left
+  const ThreadPool pool(4);
+  std::atomic<int> jobs{0};
+  pool(100, [&](size_t) { ++jobs; });
+  rest(std::chrono::milliseconds(5));  // they watch for a while, 50 us of each
+  const double before = processorTime();
+  rest(std::chrono::milliseconds(static_cast<int>(1000 * kIdle_s)));
+  EXPECT_LT(processorTime() - before, kBusyShare * kIdle_s);
+  EXPECT_EQ(jobs, 100);
+}
+
+TEST(ThreadPool, ComesAndGoesWithoutWork) {
+  for (int i = 0; i < 50; ++i) {
+    const ThreadPool pool(1 + i % 4);
+    if (i % 2) rest(std::chrono::microseconds(100));
+  }
+}
+
+TEST(ThreadPool, PoolsDoNotDisturbEachOther) {
+  const ThreadPool one(2), other(2);
+  std::atomic<int> outer{0}, inner{0};
+  std::thread second([&] {
+    for (int round = 0; round < 2000; ++round) other(5, [&](size_t) { ++inner; });
+  });
+  for (int round = 0; round < 2000; ++round) one(7, [&](size_t) { ++outer; });
+  second.join();
+  EXPECT_EQ(outer, 14000);
+  EXPECT_EQ(inner, 10000);
+}

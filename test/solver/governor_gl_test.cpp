@@ -1,0 +1,192 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cstring>
+
+#include "support/backends.h"
+#include "support/random_state.h"
+
+using namespace viscera;
+using namespace viscera::test;
+
+namespace {
+
+constexpr double kSpacing_m = 0.01;
+constexpr double kEnergyBound = 1.01;  // of the start's energy, at the end of any tick
+
+/// A scene of the governor's, with a substep of `fraction` times dt_safe.
+Scene governed(const Model& model, Integrator integrator, double fraction, int substeps = 10) {
+  Scene scene = sceneWith(integrator, model, substeps, fraction);
+  scene.solver.governor = true;
+  return scene;
+}
+
+SolverOptions unstable() {
+  SolverOptions options;
+  options.allow_unstable = true;
+  return options;
+}
+
+bool finite(const Model& model, const HostState& state) {
+  for (uint32_t slot : model.bodies[0].lattice.active_slots) {
+    if (!xyz(state.displacement_m[slot]).allFinite() || !xyz(state.velocity_m_per_s[slot]).allFinite()) return false;
+  }
+  return true;
+}
+
+class Governed : public OnBackend {
+ protected:
+  const Model model_ = modelOf({boxBody({4, 4, 4}, kSpacing_m)});
+};
+
+INSTANTIATE_TEST_SUITE_P(Backends, Governed, ::testing::ValuesIn(backendNames()), backendSuffix);
+
+}  // namespace
+
+TEST_P(Governed, ExplosionIsRolledBackInTheTickInWhichItHappensAndRecoveredFrom) {
+  for (Integrator integrator : {Integrator::kLeapfrog, Integrator::kVerletPaper}) {
+    for (double fraction : {3.0, 10.0, 100.0}) {
+      SCOPED_TRACE(fraction);
+      const auto solver = make(model_, governed(model_, integrator, fraction), unstable());
+      const HostState start = randomState(model_, 0.3 * kSpacing_m, 0.1, 5);
+      const double start_j = energyOf(model_, start);
+      solver->writeState(start);
+      for (int t = 0; t < 30; ++t) {
+        solver->step({});
+        const HostState state = solver->readState();
+        ASSERT_TRUE(finite(model_, state)) << "tick " << t;
+        ASSERT_LT(energyOf(model_, state), kEnergyBound * start_j) << "tick " << t;
+      }
+      EXPECT_GT(solver->health().trips, 0u);
+      EXPECT_LT(energyOf(model_, solver->readState()), 0.1 * start_j);
+    }
+  }
+}
+
+TEST_P(Governed, WithoutGovernorTheSameExplodes) {
+  Scene scene = governed(model_, Integrator::kLeapfrog, 10);
+  scene.solver.governor = false;
+  const auto solver = make(model_, scene, unstable());
+  const HostState start = randomState(model_, 0.3 * kSpacing_m, 0.1, 5);
+  solver->writeState(start);
+  for (int t = 0; t < 5; ++t) solver->step({});
+  EXPECT_FALSE(energyOf(model_, solver->readState()) < 1e6 * energyOf(model_, start));  // nor if it is not finite
+}
+
+TEST_P(Governed, OrdinarySessionIsTheSameToTheBitWithAndWithoutIt) {
+  uint64_t hash[2];
+  for (bool governor : {true, false}) {
+    Scene scene = governed(model_, Integrator::kLeapfrog, 0.5);
+    scene.solver.governor = governor;
+    const auto solver = make(model_, scene);
+    solver->writeState(randomState(model_, 0.05 * kSpacing_m, 0.1, 6));
+    for (int t = 0; t < 20; ++t) solver->step({});
+    EXPECT_EQ(solver->health().trips, 0u);
+    hash[governor] = stateHash(model_, solver->readState());
+  }
+  EXPECT_EQ(hash[0], hash[1]);
+}
+
+TEST_P(Governed, RecoveryGivesNoForceAndPublishesNothingOfTheBadTick) {
+  StylusConfig probe;
+  Scene scene = governed(model_, Integrator::kLeapfrog, 10);
+  scene.styluses = {probe};
+  const auto solver = make(model_, scene, unstable());
+  solver->writeState(randomState(model_, 0.3 * kSpacing_m, 0.1, 5));
+  ToolMotions motions;
+  motions[0].mode = ToolMode::kProbe;
+  motions[0].present = true;
+  motions[0].from.position_m = motions[0].to.position_m = Vector3d(0.02, 0.02, 0.038);
+  for (int t = 0; t < 2; ++t) {
+    solver->step(motions);
+    layout::TickStats stats;
+    ASSERT_TRUE(solver->pollStats(stats, true));
+    EXPECT_EQ(xyz(stats.impulse[0]), Vector3d::Zero().eval());
+    EXPECT_EQ(stats.nonfinite, 0u);
+    EXPECT_TRUE(std::isfinite(stats.kinetic_j) && std::isfinite(stats.elastic_j));
+  }
+  EXPECT_TRUE(solver->health().recovering);  // on the GPU one tick after it happened
+}
+
+TEST_P(Governed, TissueThatIsDraggedToNoPlaceAtAllIsRolledBack) {
+  Scene scene = governed(model_, Integrator::kLeapfrog, 0.5);
+  scene.styluses = {StylusConfig{}};
+  const auto solver = make(model_, scene);
+  ToolMotions motions;
+  motions[0].mode = ToolMode::kGrab;
+  motions[0].present = motions[0].grab_begins = true;
+  solver->step(motions);
+  const uint64_t before = stateHash(model_, solver->readState());
+  motions[0].grab_begins = false;
+  motions[0].to.position_m.x() = std::numeric_limits<double>::quiet_NaN();
+  solver->step(motions);
+  EXPECT_EQ(stateHash(model_, solver->readState()), before);
+  for (int t = 0; t < 10; ++t) solver->step({});
+  EXPECT_EQ(solver->health().trips, 1u);  // a GPU tells of it a tick later
+  EXPECT_TRUE(finite(model_, solver->readState()));
+}
+
+TEST_P(Governed, StrainedTissueGetsTheShorterSubstep) {
+  Scene scene = governed(model_, Integrator::kLeapfrog, 0.5);
+  scene.solver.substeps = 0;
+  scene.solver.dt_fraction = 0.75;
+  scene.solver.dt_fraction_strained = 0.25;
+  const auto solver = make(model_, scene);
+  solver->step({});
+  const uint64_t calm = solver->substepsDone();
+  HostState stretched = restState(model_);
+  for (uint32_t slot : model_.bodies[0].lattice.active_slots) {
+    stretched.displacement_m[slot] = vec4(1.5 * model_.bodies[0].lattice.restPosition(slot));
+  }
+  solver->writeState(stretched);
+  solver->step({});
+  EXPECT_GE(solver->substepsDone() - calm, 2 * calm);
+}
+
+TEST_P(Governed, EnergiesAndStableSubstepAreThoseOfTheReference) {
+  Body soft = boxBody({3, 4, 2}, kSpacing_m);
+  soft.material.poisson_ratio = 0.4;
+  const Model model = modelOf({soft});
+  Scene scene = governed(model, Integrator::kLeapfrog, 0.5, 1);
+  const auto solver = make(model, scene);
+  const HostState start = randomState(model, 0.1 * kSpacing_m, 0.5, 8);
+  solver->writeState(start);
+  ReferenceSolver reference(model, Vector3d::Zero(), 1);
+  load(reference, start);
+  EXPECT_NEAR(solver->health().kinetic_j, reference.kineticEnergy(), 1e-5 * reference.kineticEnergy());  // float32 sums
+  EXPECT_NEAR(solver->health().elastic_j, reference.elasticEnergy(), 1e-5 * reference.elasticEnergy());
+  solver->step({});
+  layout::TickStats stats;
+  ASSERT_TRUE(solver->pollStats(stats, true));
+  float rate;
+  std::memcpy(&rate, &stats.max_rate_bits, sizeof rate);
+  EXPECT_NEAR(2 / std::sqrt(rate), safeTimeStep(model), 1e-5 * safeTimeStep(model));
+}
+
+TEST_P(Governed, CellsTurnedInsideOutAreCounted) {
+  const auto solver = make(model_, governed(model_, Integrator::kPd, 1, 1));
+  HostState mirrored = restState(model_);
+  const Lattice& lattice = model_.bodies[0].lattice;
+  for (uint32_t slot : lattice.active_slots) {
+    mirrored.displacement_m[slot] = vec4({0.04 - 2 * lattice.restPosition(slot).x(), 0, 0});
+  }
+  solver->writeState(mirrored);
+  solver->step({});
+  layout::TickStats stats;
+  ASSERT_TRUE(solver->pollStats(stats, true));
+  EXPECT_EQ(stats.inverted, 64u);
+  EXPECT_TRUE(solver->health().strained);
+}
+
+TEST_P(Governed, FragmentThatFallsIsStoppedWhereItSleeps) {
+  Scene scene = governed(model_, Integrator::kLeapfrog, 0.5);
+  scene.environment.gravity_m_per_s2 = Vector3d(0, 0, -9.81);
+  scene.solver.sleep_distance_m = 0.02;
+  const auto solver = make(model_, scene);
+  for (int t = 0; t < 200; ++t) solver->step({});
+  for (uint32_t slot : model_.bodies[0].lattice.active_slots) {
+    const double away = xyz(solver->readState().displacement_m[slot]).norm();
+    ASSERT_LT(away, 0.0201);
+    ASSERT_GT(away, 0.01);
+  }
+  EXPECT_EQ(solver->health().trips, 0u);
+}

@@ -1,0 +1,129 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+// What the host does for a substep on the GPU, and whether it waits for it.
+#include <set>
+
+#include "gpu/gl.h"
+#include "support/random_state.h"
+
+using namespace viscera;
+using namespace viscera::test;
+
+namespace {
+
+int calls = 0;
+
+/// Counts the calls of one OpenGL function while it lives. @tparam Entry  GLEW's pointer to it
+template <auto& Entry>
+class Counted {
+ public:
+  Counted() {
+    original_ = Entry;
+    Entry = count(original_);
+  }
+  ~Counted() { Entry = original_; }
+
+ private:
+  template <class... Arguments>
+  static auto count(void (*)(Arguments...)) {
+    return [](Arguments... arguments) {
+      ++calls;
+      original_(arguments...);
+    };
+  }
+  static inline std::remove_reference_t<decltype(Entry)> original_ = nullptr;
+};
+
+template <auto&... Entries>
+struct AllCounted : Counted<Entries>... {};
+
+/// All that a substep of the solver calls.
+using SubstepCalls =
+    AllCounted<__glewUseProgram, __glewUniform1ui, __glewUniform1f, __glewUniform3fv, __glewUniform4fv,
+               __glewProgramUniform1ui, __glewProgramUniform1f, __glewProgramUniform3fv, __glewProgramUniform4fv,
+               __glewBindBufferBase, __glewBindBufferRange, __glewBindBuffersBase, __glewBindTextureUnit,
+               __glewBindTextures, __glewDispatchCompute, __glewMemoryBarrier, __glewNamedBufferSubData>;
+
+/// A GPU that has done nothing of what it was asked since the last finishAll(), as far as fences tell.
+class SlowGpu {
+ public:
+  SlowGpu() {
+    original_fence = __glewFenceSync;
+    original_wait = __glewClientWaitSync;
+    __glewFenceSync = [](GLenum condition, GLbitfield flags) {
+      return *unfinished.insert(original_fence(condition, flags)).first;
+    };
+    __glewClientWaitSync = [](GLsync fence, GLbitfield flags, GLuint64 timeout) {
+      return timeout == 0 && unfinished.count(fence) ? GL_TIMEOUT_EXPIRED : original_wait(fence, flags, timeout);
+    };
+  }
+  ~SlowGpu() {
+    __glewFenceSync = original_fence;
+    __glewClientWaitSync = original_wait;
+    finishAll();
+  }
+  static void finishAll() { unfinished.clear(); }
+
+ private:
+  static inline std::set<GLsync> unfinished;
+  static inline PFNGLFENCESYNCPROC original_fence = nullptr;
+  static inline PFNGLCLIENTWAITSYNCPROC original_wait = nullptr;
+};
+
+class HostWork : public GpuTest {
+ protected:
+  /// OpenGL calls that one more substep in a tick takes, after a tick that has set up everything.
+  double callsPerSubstep(Scene scene, const Model& model, const ToolMotions& motions = {}) const {
+    constexpr int kFew = 10, kMany = 30;
+    int in_tick[2];
+    for (int substeps : {kFew, kMany}) {
+      scene.solver.tick_hz *= substeps == kMany ? static_cast<double>(kFew) / kMany : 1;
+      scene.solver.substeps = substeps;
+      GpuSolver solver(model, scene);
+      solver.step(motions);
+      const SubstepCalls counted;
+      calls = 0;
+      solver.step(motions);
+      in_tick[substeps == kMany] = calls;
+    }
+    return (in_tick[1] - in_tick[0]) / static_cast<double>(kMany - kFew);
+  }
+
+  const Model model_ = modelOf({boxBody({4, 4, 4}, 0.01)});
+};
+
+}  // namespace
+
+TEST_F(HostWork, PlainSubstepTakesFiveOpenGlCalls) {
+  // use, dispatch, barrier, and the state's buffers and texel views
+  EXPECT_EQ(callsPerSubstep(sceneWith(Integrator::kLeapfrog, model_, 10, 0.5), model_), 5);
+}
+
+TEST_F(HostWork, VolumesTakeThreeMoreAndAProbeOne) {
+  Body soft = boxBody({4, 4, 4}, 0.01);
+  soft.material.poisson_ratio = 0.4;
+  const Model volumes = modelOf({soft});
+  EXPECT_EQ(callsPerSubstep(sceneWith(Integrator::kLeapfrog, volumes, 10, 0.5), volumes), 8);
+  ToolMotions motions;
+  motions[0].mode = ToolMode::kProbe;
+  motions[0].present = true;
+  motions[0].from.position_m = motions[0].to.position_m = Vector3d(0.02, 0.02, 0.038);
+  const Scene probed = sceneWith(Integrator::kLeapfrog, model_, 10, 0.5, 20, {StylusConfig{}});
+  EXPECT_EQ(callsPerSubstep(probed, model_, motions), 6);
+}
+
+TEST_F(HostWork, GovernedTickIsNotWaitedForUntilTheNextOneIsUnderWay) {
+  Scene scene = sceneWith(Integrator::kLeapfrog, model_, 10, 0.5);
+  scene.solver.governor = true;
+  const SlowGpu slow;
+  GpuSolver solver(model_, scene);
+  for (int t = 0; t < 20; ++t) {
+    SlowGpu::finishAll();
+    solver.step({});
+  }
+  EXPECT_EQ(solver.waits(), 0u);
+  layout::TickStats stats;
+  while (solver.pollStats(stats, true)) {
+  }
+  EXPECT_EQ(solver.waits(), 1u) << "the last tick was done at once: nothing was tested";
+}

@@ -1,0 +1,192 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+// What a backend that lags behind the host, as a GPU does, must not change (include/viscera/solver/lattice_solver.h).
+#include "viscera/solver/lattice_solver.h"
+
+#include <deque>
+
+#include "support/random_state.h"
+#include "viscera/solver/cpu/cpu_solver.h"
+
+using namespace viscera;
+using namespace viscera::test;
+
+namespace {
+
+constexpr double kSpacing_m = 0.01;
+
+/// Looks that it takes until measurements are seen to have come; more than any test takes: only who waits gets them.
+constexpr int kNever = 1000000;
+
+/// The CPU backend with the governor's lag of a GPU: measurements come some looks after they were asked for.
+class LateSolver : public CpuSolver {
+ public:
+  LateSolver(const Model& model, const Scene& scene, int looks, const CpuSolverOptions& options)
+      : CpuSolver(model, scene, options), looks_(looks) {}
+
+  int waits() const { return waits_; }
+  int under_way() const { return static_cast<int>(under_way_.size()); }
+
+ protected:
+  int lag() const override { return 1; }
+
+  bool requestStats() override {
+    Late late{{}, looks_};
+    CpuSolver::requestStats();
+    CpuSolver::takeStats(late.stats, true);
+    under_way_.push_back(late);
+    return true;
+  }
+
+  bool takeStats(layout::TickStats& stats, bool wait) override {
+    if (under_way_.empty()) return false;
+    Late& oldest = under_way_.front();
+    if (oldest.looks_left > 0 && !wait) {
+      --oldest.looks_left;
+      return false;
+    }
+    waits_ += oldest.looks_left > 0;
+    stats = oldest.stats;
+    under_way_.pop_front();
+    return true;
+  }
+
+ private:
+  struct Late {
+    layout::TickStats stats;
+    int looks_left;
+  };
+  std::deque<Late> under_way_;
+  int looks_, waits_ = 0;
+};
+
+class LaggingBackend : public ::testing::Test {
+ protected:
+  /// @param fraction  of the stable substep
+  LateSolver make(double fraction, int looks) const {
+    Scene scene = sceneWith(Integrator::kLeapfrog, model_, 10, fraction);
+    scene.solver.governor = true;
+    scene.solver.threads = 1;
+    scene.solver.recovery_s = 5 / scene.solver.tick_hz;
+    scene.styluses = {StylusConfig{}};
+    CpuSolverOptions options;
+    options.allow_unstable = true;
+    return LateSolver(model_, scene, looks, options);
+  }
+
+  static ToolMotions probe() {
+    ToolMotions motions;
+    motions[0].mode = ToolMode::kProbe;
+    motions[0].present = true;
+    motions[0].from.position_m = motions[0].to.position_m = Vector3d(0.02, 0.02, 0.038);
+    return motions;
+  }
+
+  const Model model_ = modelOf({boxBody({4, 4, 4}, kSpacing_m)});
+  const HostState wild_ = randomState(model_, 0.3 * kSpacing_m, 0.1, 5);
+};
+
+/// What is told of a tick, as text.
+std::string told(const layout::TickStats& stats) {
+  return std::to_string(stats.kinetic_j) + ' ' + std::to_string(stats.elastic_j) + ' ' +
+         std::to_string(stats.impulse[0].z) + ' ' + std::to_string(stats.max_speed_bits);
+}
+
+}  // namespace
+
+TEST_F(LaggingBackend, NoTickIsWaitedForBeforeTheNextOneIsUnderWay) {
+  LateSolver solver = make(0.5, kNever);
+  solver.writeState(randomState(model_, 0.05 * kSpacing_m, 0.1, 6));
+  const int before = solver.waits();  // writing a state measures it
+  for (int t = 0; t < 20; ++t) {
+    solver.step(probe());
+    EXPECT_EQ(solver.under_way(), 1) << "tick " << t;
+  }
+  EXPECT_EQ(solver.waits() - before, 19);  // for each tick but the last
+}
+
+TEST_F(LaggingBackend, MeasurementsThatHaveComeAreWaitedForByNobody) {
+  LateSolver solver = make(0.5, 0);
+  for (int t = 0; t < 20; ++t) solver.step(probe());
+  EXPECT_EQ(solver.waits(), 0);
+}
+
+TEST_F(LaggingBackend, ResultsAreTheSameHoweverLateMeasurementsCome) {
+  std::vector<std::string> first;
+  for (int looks : {0, 1, 2, kNever}) {
+    for (double fraction : {0.5, 10.0}) {  // calm; explodes until the governor recovers it, again and again
+      SCOPED_TRACE(testing::Message() << looks << " looks, fraction " << fraction);
+      LateSolver solver = make(fraction, looks);
+      solver.writeState(wild_);
+      std::vector<std::string> states, stats;
+      layout::TickStats tick;
+      for (int t = 0; t < 30; ++t) {
+        solver.step(probe());
+        while (solver.pollStats(tick, false)) stats.push_back(told(tick));
+        states.push_back(std::to_string(stateHash(model_, solver.readState())));
+      }
+      while (solver.pollStats(tick, true)) stats.push_back(told(tick));
+      ASSERT_EQ(stats.size(), 30u);
+      EXPECT_EQ(solver.health().trips > 0, fraction > 1);
+      states.insert(states.end(), stats.begin(), stats.end());
+      states.push_back(std::to_string(solver.health().trips));
+      if (looks == 0) {
+        first.insert(first.end(), states.begin(), states.end());
+      } else {
+        const auto same = first.begin() + (fraction > 1 ? static_cast<std::ptrdiff_t>(states.size()) : 0);
+        EXPECT_TRUE(std::equal(states.begin(), states.end(), same));
+      }
+    }
+  }
+}
+
+TEST_F(LaggingBackend, RollbackGoesToBeforeTheBadTickAndTheTickAfterItDoesNotCount) {
+  LateSolver solver = make(10, kNever);
+  solver.writeState(wild_);
+  const uint64_t start = stateHash(model_, solver.readState());
+  solver.step(probe());
+  EXPECT_EQ(solver.health().trips, 0u);
+  EXPECT_NE(stateHash(model_, solver.readState()), start);
+  solver.step(probe());
+  EXPECT_EQ(solver.health().trips, 1u);
+  EXPECT_TRUE(solver.health().recovering);
+  EXPECT_EQ(stateHash(model_, solver.readState()), start);
+  layout::TickStats stats;
+  for (int t = 0; t < 2; ++t) {
+    ASSERT_TRUE(solver.pollStats(stats, true));
+    EXPECT_EQ(stats.nonfinite, 0u);
+    EXPECT_NEAR(stats.elastic_j, energyOf(model_, wild_) - stats.kinetic_j, 1e-5 * stats.elastic_j);  // float32 sums
+    EXPECT_EQ(xyz(stats.impulse[0]), Vector3d::Zero().eval());
+  }
+  solver.step(probe());  // pd: good
+  solver.step(probe());
+  EXPECT_EQ(solver.health().trips, 1u) << "the tick that did not count was judged";
+}
+
+TEST_F(LaggingBackend, ResetForgetsTheTickThatIsOpen) {
+  LateSolver solver = make(10, kNever);
+  solver.writeState(wild_);
+  for (int t = 0; t < 3; ++t) solver.step(probe());
+  solver.reset();
+  EXPECT_EQ(solver.health().trips, 0u);
+  layout::TickStats stats;
+  EXPECT_FALSE(solver.pollStats(stats, true));
+  solver.step({});
+  ASSERT_TRUE(solver.pollStats(stats, true));
+  EXPECT_EQ(stats.elastic_j, 0);
+}
+
+TEST_F(LaggingBackend, MeasurementsAreDeliveredOnce) {
+  LateSolver solver = make(0.5, 0);
+  layout::TickStats stats;
+  for (int t = 0; t < 5; ++t) {
+    solver.step(probe());
+    EXPECT_TRUE(solver.pollStats(stats, true));
+    EXPECT_FALSE(solver.pollStats(stats, true));
+  }
+  solver.step(probe());
+  solver.step(probe());
+  EXPECT_TRUE(solver.pollStats(stats, false));
+  EXPECT_TRUE(solver.pollStats(stats, false));
+  EXPECT_FALSE(solver.pollStats(stats, false));
+}

@@ -1,0 +1,128 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "support/backends.h"
+#include "support/random_state.h"
+
+using namespace viscera;
+using namespace viscera::test;
+
+namespace {
+
+constexpr int kSubsteps = 10;
+// A rounding of a position is up to 2^-24 of it; a substep makes about four (2 x, - x_prev, + dt^2 a, and those of the
+// neighbours that come back as force). x+ = 2 x - x_prev carries each on as a velocity: over n substeps
+// n (n + 1)/2 of them at worst.
+constexpr double kRounding = 1.0 / (1 << 24);
+constexpr double kRoundingsPerSubstep = 4;
+
+class VerletPaper : public OnBackend {
+ protected:
+  /// Largest error against float64 after kSubsteps [m].
+  double expectLikeReference(const Model& model, const Vector3d& gravity) {
+    const auto solver = make(model, sceneWith(Integrator::kVerletPaper, model, kSubsteps, 0.5, 1, {}, gravity));
+    const HostState start = randomState(model, 0.05 * model.bodies[0].lattice.spacing_m, 0.1, 7);
+    solver->writeState(start);
+    ReferenceSolver reference = referenceFor(ReferenceIntegrator::kVerletPaper, model, *solver, start, gravity);
+    solver->step({});
+    for (int s = 0; s < kSubsteps; ++s) reference.substep();
+    double farthest_m = 0, error_m = 0, error_m_per_s = 0;
+    const HostState end = solver->readState();
+    for (uint32_t slot : reference.active) {
+      farthest_m = std::max(farthest_m, reference.restPosition(slot).cwiseAbs().maxCoeff());
+      error_m = std::max(error_m, (xyz(end.displacement_m[slot]) - reference.u_m[slot]).norm());
+      error_m_per_s = std::max(error_m_per_s, (xyz(end.velocity_m_per_s[slot]) - reference.v_m_per_s[slot]).norm());
+    }
+    const double rounding_m = kRoundingsPerSubstep * kRounding * farthest_m;
+    EXPECT_LT(error_m, rounding_m * kSubsteps * (kSubsteps + 1) / 2);
+    EXPECT_LT(error_m_per_s, rounding_m * kSubsteps / solver->dt_s());
+    return error_m;
+  }
+};
+
+INSTANTIATE_TEST_SUITE_P(Backends, VerletPaper, ::testing::ValuesIn(backendKinds()), backendSuffix);
+
+}  // namespace
+
+TEST_P(VerletPaper, MatchesReferenceAtEverySize) {
+  for (size_t size : kSizes) {
+    SCOPED_TRACE(size);
+    Body body = blobBody(size, 0.01, 3);
+    body.material.drag_per_s = 50;
+    expectLikeReference(modelOf({body}), Vector3d(0.3, -0.2, -9.81));
+  }
+}
+
+TEST_P(VerletPaper, MatchesReferenceWithVolumesAndParts) {
+  Body body = boxBody({5, 4, 6}, 0.01);
+  body.material.poisson_ratio = 0.45;
+  expectLikeReference(modelOf({body}), Vector3d(0, 0, -9.81));
+  body.parts = {{"box", 60e3, 0.1, 2000}};
+  expectLikeReference(modelOf({body}), Vector3d(0, 0, -9.81));
+}
+
+TEST_P(VerletPaper, PaysForItsAbsolutePositions) {
+  Body here = boxBody({5, 5, 5}, 0.01), far = here;
+  far.lattice.origin_m = Vector3d(1, 1, 1);
+  const double near_error_m = expectLikeReference(modelOf({here}), Vector3d::Zero());
+  const double far_error_m = expectLikeReference(modelOf({far}), Vector3d::Zero());
+  EXPECT_GT(far_error_m, 5 * near_error_m);  // positions 20 times as large
+}
+
+TEST_P(VerletPaper, DashpotsAreUnknownToIt) {
+  Body body = boxBody({4, 4, 4}, 0.01);
+  const auto hash = [&](double dashpot_ratio) {
+    body.material.dashpot_ratio = dashpot_ratio;
+    const Model model = modelOf({body});
+    const auto solver = make(model, sceneWith(Integrator::kVerletPaper, model, kSubsteps, 0.5));
+    solver->writeState(randomState(model, 1e-3, 0.5, 11));
+    solver->step({});
+    return stateHash(model, solver->readState());
+  };
+  EXPECT_EQ(hash(0.2), hash(0));
+}
+
+/// A released node's speed is clamped: from there it must go on, not from where x_prev was.
+TEST_P(VerletPaper, GrabbedNodesFollowTheToolAndAreLetGoAtTheReleaseSpeed) {
+  const Model model = modelOf({boxBody({4, 4, 4}, 0.01)});
+  StylusConfig config;
+  config.grab_radius_m = 0.005;
+  config.release_speed_m_per_s = 0.01;
+  const auto solver = make(model, sceneWith(Integrator::kVerletPaper, model, 1, 0.1, 1, {config}));
+  const uint32_t corner = static_cast<uint32_t>(model.bodies[0].lattice.slotAt({0, 0, 0}));
+  const double way_m = 0.5 * solver->dt_s();  // half a metre per second
+  ToolMotions motions;
+  motions[0].mode = ToolMode::kGrab;
+  motions[0].present = true;
+  for (int t = 0; t < 3; ++t) {
+    motions[0].grab_begins = t == 0;
+    motions[0].from.position_m = Vector3d(-t * way_m, 0, 0);
+    motions[0].to.position_m = Vector3d(-(t + 1) * way_m, 0, 0);
+    solver->step(motions);
+    // 0.01 m of spacing and of grab offset at most, rounded a few times.
+    EXPECT_NEAR(solver->readState().displacement_m[corner].x, -(t + 1) * way_m, 4 * kRounding * 0.01);
+  }
+  motions[0].mode = ToolMode::kNone;
+  motions[0].grab_ends = true;
+  solver->step(motions);
+  // The springs pull it back, so it moves on by less than the release speed carries it.
+  const double moved_m = -3 * way_m - solver->readState().displacement_m[corner].x;
+  EXPECT_LT(moved_m, config.release_speed_m_per_s * solver->dt_s());
+}
+
+TEST_P(VerletPaper, GoesOnFromAStateThatWasSaved) {
+  const Model model = modelOf({boxBody({4, 4, 4}, 0.01)});
+  const Scene scene = sceneWith(Integrator::kVerletPaper, model, kSubsteps, 0.5);
+  const auto saved = make(model, scene), loaded = make(model, scene);
+  saved->writeState(randomState(model, 5e-4, 0.1, 7));
+  saved->step({});
+  loaded->step({});
+  loaded->writeState(saved->readState(), true);
+  saved->step({});
+  loaded->step({});
+  const HostState a = saved->readState(), b = loaded->readState();
+  // x is rounded once more on its way through u: as one more substep's roundings at the bottom of kSubsteps.
+  const double rounding_m = kRoundingsPerSubstep * kRounding * 0.04;
+  for (uint32_t slot : model.bodies[0].lattice.active_slots) {
+    EXPECT_LT((xyz(a.displacement_m[slot]) - xyz(b.displacement_m[slot])).norm(), rounding_m * kSubsteps);
+  }
+}

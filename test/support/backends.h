@@ -1,0 +1,68 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "support/gpu_fixture.h"
+#include "viscera/solver/cpu/cpu_solver.h"
+#include "viscera/solver/gpu/gpu_solver.h"
+
+namespace viscera::test {
+
+/// "gpu", then the CPU with each instruction set that this processor has, best first: "cpu AVX3", "cpu SSE4" ...
+inline std::vector<std::string> backendNames() {
+  std::vector<std::string> out = {"gpu"};
+  for (const std::string& target : simdTargets()) out.push_back("cpu " + target);
+  return out;
+}
+
+/// "gpu" and the CPU with its best instruction set: for what is not compiled for several.
+inline std::vector<std::string> backendKinds() {
+  std::vector<std::string> out = backendNames();
+  out.resize(2);
+  return out;
+}
+
+inline std::unique_ptr<CpuSolver> makeCpu(const std::string& simd, const Model& model, Scene scene, int threads = 2,
+                                          const SolverOptions& options = {}) {
+  scene.solver.threads = threads;
+  return std::make_unique<CpuSolver>(model, scene, CpuSolverOptions{options, simd});
+}
+
+/// @param name  one of backendNames(); "gpu" needs a context   @param model  must outlive the solver
+inline std::unique_ptr<LatticeSolver> makeBackend(const std::string& name, const Model& model, const Scene& scene,
+                                                  const SolverOptions& options = {}) {
+  constexpr size_t kPrefix = 4;  // of "cpu "
+  if (name != "gpu") return makeCpu(name.substr(kPrefix), model, scene, 2, options);
+  return std::make_unique<GpuSolver>(model, scene, GpuSolverOptions{options, layout::kGroupSize});
+}
+
+/// One test body for every backend; with an EGL context where it needs one.
+class OnBackend : public ::testing::TestWithParam<std::string> {
+ protected:
+  OnBackend() {
+    if (GetParam() == "gpu") context_.emplace();
+  }
+  std::unique_ptr<LatticeSolver> make(const Model& model, const Scene& scene, const SolverOptions& options = {}) const {
+    return makeBackend(GetParam(), model, scene, options);
+  }
+
+ private:
+  std::optional<gpu::Context> context_;
+};
+
+/// As the last part of a test's name.
+inline std::string backendSuffix(const ::testing::TestParamInfo<std::string>& info) {
+  std::string out = info.param;
+  out.erase(std::remove(out.begin(), out.end(), ' '), out.end());
+  return out;
+}
+
+}  // namespace viscera::test
