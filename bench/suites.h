@@ -6,14 +6,15 @@
 #include <vector>
 
 #include "bench/report.h"
+#include "viscera/gpu/context.h"
 
 namespace viscera::bench {
 
-/// One suite of measurements; an OpenGL context is current while it runs.
+/// One suite of measurements.
 struct Suite {
   const char* name;
-  const char* what;  ///< one line for --help
-  void (*run)(Report& report);
+  const char* what;                                    ///< one line for --help
+  void (*run)(Report& report, gpu::Context& context);  ///< the context is current
 };
 
 /// All suites: a new one is an include and a line in suites.cpp.

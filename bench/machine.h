@@ -1,0 +1,36 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace viscera::bench {
+
+// What this machine can do at most, measured (docs/benchmarks.md, limit).
+
+/// Bytes read plus bytes written per second by memcpy between arrays far larger than caches.
+/// @param threads  at once, each with arrays of its own   @param mebibytes  of each array
+double copyRate(int threads, size_t mebibytes);
+/// Float32 operations per second of fused multiply-adds in registers (two operations each) on the best instruction set.
+/// @param threads  at once   @param seconds  of measurement
+double fmaRate(int threads, double seconds);
+std::string fmaTarget();  ///< the instruction set of fmaRate()
+
+/// The same on the renderer of the current context: copies between buffers, multiply-adds in a compute shader.
+double gpuCopyRate(size_t mebibytes);
+double gpuFmaRate(double seconds);
+
+struct Cache {
+  int level;
+  double bytes;  ///< as the system tells; 0 where it does not
+};
+/// Data and unified caches of the first processor, smallest first; empty where the system does not tell.
+std::vector<Cache> caches();
+
+/// Memory of this process that is resident [bytes].
+double residentBytes();
+int processors();
+
+}  // namespace viscera::bench

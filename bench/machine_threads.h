@@ -1,0 +1,12 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+
+namespace viscera::bench {
+
+/// Runs a measurement on several threads at once and adds what they found.
+double sumOverThreads(int threads, const std::function<double()>& measure);
+
+}  // namespace viscera::bench

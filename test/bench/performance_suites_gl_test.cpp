@@ -1,0 +1,92 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include "bench/suites.h"
+#include "support/process.h"
+#include "support/text.h"
+
+namespace viscera::bench {
+namespace {
+
+#ifdef VISCERA_COMMAND
+
+/// A suite in its short form, with what it wrote. Times are not judged here: the machine may be doing other things.
+class PerformanceSuite : public ::testing::Test {
+ protected:
+  void run(const std::string& suite) {
+    suite_ = suite;
+    ending_ = test::runProgram(VISCERA_COMMAND, {"bench", suite, "--short", "--out", folder_.path()});
+    ASSERT_EQ(ending_.status, 0) << ending_.out << ending_.err;
+  }
+  /// Lines of a table below its head.
+  std::vector<std::string> rows(const std::string& table) const {
+    std::vector<std::string> lines = test::linesOf(test::readFile(folder_.file(suite_ + "_" + table + ".csv")));
+    if (!lines.empty()) lines.erase(lines.begin());
+    return lines;
+  }
+  /// Rows that hold all of some words.
+  size_t rowsWith(const std::string& table, const std::vector<std::string>& words) const {
+    size_t count = 0;
+    for (const std::string& row : rows(table)) count += test::says(row, words) ? 1 : 0;
+    return count;
+  }
+
+  test::TemporaryFolder folder_;
+  std::string suite_;
+  test::Ending ending_;
+};
+
+TEST_F(PerformanceSuite, Table1HasEveryWayOfEveryBodyBesideThePaper) {
+  run("table1");
+  for (const std::string body : {"cube", "heart"}) {
+    for (const std::string way : {"cpu scalar", "cpu simd, 1 thread", "cpu simd, all threads", "gpu"})
+      EXPECT_EQ(rowsWith("sizes", {body, way}), 2u) << body << ", " << way;  // dashpot 0 and 0.2
+  }
+  EXPECT_EQ(rowsWith("sizes", {"839.8"}), 12u);  // VR05 at 10,000 nodes, beside all but the scalar loop
+  EXPECT_GE(rows("simd").size(), 2u);
+  EXPECT_EQ(rows("pig_heart").size(), 4u);
+  EXPECT_EQ(rows("sessions").size(), 6u);
+}
+
+TEST_F(PerformanceSuite, ScaleHasCostAndMemoryOfEverySize) {
+  run("scale");
+  EXPECT_EQ(rows("cubes").size(), 3u);
+}
+
+TEST_F(PerformanceSuite, SkipHasARowOfEachSkipOnEachBackend) {
+  run("skip");
+  for (const std::string feature : {"dashpot", "energy of volume", "strengths by part", "contacts", "cuts",
+                                    "compensated sums", "governor", "cut state", "fixed nodes"})
+    EXPECT_EQ(rowsWith("features", {feature}), 2u) << feature;
+  EXPECT_EQ(rows("space").size(), 2u);
+  EXPECT_EQ(rows("sleep").size(), 3u);
+  EXPECT_EQ(rows("views").size(), 14u);
+  // Not a matter of time: these hold on any machine.
+  EXPECT_EQ(rowsWith("checks", {"largest difference", ",ok"}), 1u) << ending_.out;
+  EXPECT_EQ(rowsWith("checks", {"nobody wanted", ",ok"}), 2u) << ending_.out;
+}
+
+TEST_F(PerformanceSuite, CutHasEveryShareOnEachBackend) {
+  run("cut");
+  EXPECT_EQ(rows("shares").size(), 12u);  // two bodies, two backends, three shares
+}
+
+TEST_F(PerformanceSuite, LatencyHasForceSurfaceAndImageOnEachBackend) {
+  run("latency");
+  EXPECT_EQ(rowsWith("delays", {"pose to force"}), 8u) << ending_.out;
+  EXPECT_EQ(rowsWith("delays", {"pose to surface"}), 4u) << ending_.out;
+  EXPECT_EQ(rowsWith("delays", {"pose to image"}), 4u) << ending_.out;
+  EXPECT_EQ(rowsWith("delays", {"jitter of ticks"}), 8u) << ending_.out;
+}
+
+TEST_F(PerformanceSuite, LimitHasMachineAndFractions) {
+  run("limit");
+  EXPECT_EQ(rows("machine").size(), 3u);
+  EXPECT_EQ(rows("fraction").size(), 6u);
+}
+
+#endif  // VISCERA_COMMAND
+
+}  // namespace
+}  // namespace viscera::bench
