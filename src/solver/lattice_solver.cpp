@@ -249,7 +249,11 @@ void LatticeSolver::relaxSubsteps(const layout::TickStats& stats) {
   plan_ = planSubsteps(model_, config_, dt_safe_s_, true);
 }
 
-double LatticeSolver::velocityLag_s() const {
+double LatticeSolver::velocityLag_s() {
+  if (watch_ && watch_->open) {
+    receiveOpen(true);
+    if (openIsBad()) return 0;  // the state was put back already
+  }
   const bool lags = config_.integrator == Integrator::kLeapfrog && !recovering_ && !restarted_;
   return lags ? 0.5 * last_dt_s_ : 0;
 }

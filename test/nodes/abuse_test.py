@@ -94,10 +94,12 @@ class AbuseTest(unittest.TestCase):
         self.assertAliveAndFinite()
 
     def test_2_probe_faster_than_sound(self):
+        fastest = 0
         for i in range(4 * RATE_HZ):  # 1.7 m from one pose to the next: 100 m/s
             self.move("left", 0.85 * (-1) ** i, 0.02 * random.random(), -0.02)
+            fastest = max(fastest, self.watch.value("simulation", "max_speed_m_per_s"))
         self.assertAliveAndFinite()
-        self.assertGreater(self.watch.value("simulation", "max_speed_m_per_s"), 0)
+        self.assertGreater(fastest, 0)
 
     def test_3_grip_pulled_to_ten_times_the_size_of_the_tissue(self):
         x, y, z = SKIN

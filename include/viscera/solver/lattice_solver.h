@@ -30,8 +30,9 @@ class LatticeSolver : public Solver {
   int substeps() const final { return plan_.calm; }
   uint64_t substepsDone() const final { return substeps_done_; }
 
-  /// How long before the displacements the velocities belong [s]: half a substep after leapfrog, else 0.
-  double velocityLag_s() const;
+  /// How long before the displacements the velocities belong [s]: half a substep after leapfrog, else 0. Waits for the
+  /// last tick.
+  double velocityLag_s();
 
   /// Sets the state, for tests and saved sessions.
   /// @param staggered  the velocities are those of half a substep earlier, as readState() gives them for leapfrog;
