@@ -17,7 +17,8 @@ constexpr double kAxialFlop = 29, kDiagonalFlop = 31, kNodeFlop = 37, kDashpotFl
 constexpr double kFlop = 6 * kAxialFlop + 12 * kDiagonalFlop + kNodeFlop;
 constexpr double kFlopWithDashpot = kFlop + 18 * kDashpotFlop;
 // Instructions that these take, for whole vectors: of operations on registers alone, fused ones once, with comparisons
-// and selections (four a spring: is it there, is it the most strained). The rest of the peak cannot be had even if nothing else were to be done.
+// and selections (four a spring: is it there, is it the most strained). The rest of the peak cannot be had even if
+// nothing else were to be done.
 constexpr double kInstructions = 6 * 23 + 12 * 25 + 35;
 // Bytes of a node update: u and v read and written, 1/m read; 18 stiffnesses where a brick holds a surface or a cut.
 constexpr double kBytes = 4 * 12 + 4, kStiffnessBytes = 18 * 4;

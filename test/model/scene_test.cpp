@@ -54,7 +54,8 @@ TEST(Scene, UnknownKeyIsRefusedWithFileLineKeyAndTheAcceptedKeys) {
 
 TEST(Scene, WrongTypeIsRefusedWithFileLineKeyAndWhatIsAccepted) {
   expectRefusals({
-      {"bodies:\n  - spacing_m: soft\n", {"s.yaml:2: 'bodies[0].spacing_m' is a number, 1e-05 .. 10 m, or auto; found 'soft'"}},
+      {"bodies:\n  - spacing_m: soft\n",
+       {"s.yaml:2: 'bodies[0].spacing_m' is a number, 1e-05 .. 10 m, or auto; found 'soft'"}},
       {"bodies:\n  - spacing_m: [1]\n", {"s.yaml:2: 'bodies[0].spacing_m' is a number", "found a list of 1"}},
       {"bodies:\n  - spacing_m:\n", {"s.yaml:2: 'bodies[0].spacing_m' is a number", "found nothing"}},
       {"bodies:\n  - position_m: [0, 1]\n", {"s.yaml:2: 'bodies[0].position_m' is a list of 3 numbers, -10 .. 10 m"}},

@@ -18,8 +18,8 @@ struct AlignedAllocator {
   AlignedAllocator() = default;
   template <typename U>
   AlignedAllocator(const AlignedAllocator<U>&) {}
-  T* allocate(size_t n) { return static_cast<T*>(::operator new(n * sizeof(T), std::align_val_t{kVectorAlignment})); }
-  void deallocate(T* p, size_t) { ::operator delete(p, std::align_val_t{kVectorAlignment}); }
+  T* allocate(size_t n) { return static_cast<T*>(::operator new (n * sizeof(T), std::align_val_t{kVectorAlignment})); }
+  void deallocate(T* p, size_t) { ::operator delete (p, std::align_val_t{kVectorAlignment}); }
   friend bool operator==(const AlignedAllocator&, const AlignedAllocator&) { return true; }
   friend bool operator!=(const AlignedAllocator&, const AlignedAllocator&) { return false; }
 };

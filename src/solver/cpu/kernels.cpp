@@ -204,13 +204,14 @@ HWY_INLINE void addSpring(const Material& m, V k, const Vec3& w, const Vec3& dv,
   force = mulAdd(hn::Mul(k, c), e, force);
 }
 
+// clang-format off
 /// Calls APPLY(index, x, y, z) for the 18 springs in the order of model/neighbors.h.
-#define VISCERA_SPRINGS(APPLY)                                                                                    \
-  APPLY(0, 1, 0, 0)                                                                                               \
-  APPLY(1, -1, 0, 0)                                                                                              \
-  APPLY(2, 0, 1, 0) APPLY(3, 0, -1, 0) APPLY(4, 0, 0, 1) APPLY(5, 0, 0, -1) APPLY(6, 1, 1, 0) APPLY(7, -1, -1, 0) \
-      APPLY(8, 1, -1, 0) APPLY(9, -1, 1, 0) APPLY(10, 1, 0, 1) APPLY(11, -1, 0, -1) APPLY(12, 1, 0, -1)           \
-          APPLY(13, -1, 0, 1) APPLY(14, 0, 1, 1) APPLY(15, 0, -1, -1) APPLY(16, 0, 1, -1) APPLY(17, 0, -1, 1)
+#define VISCERA_SPRINGS(APPLY)                                                                    \
+  APPLY(0, 1, 0, 0) APPLY(1, -1, 0, 0) APPLY(2, 0, 1, 0) APPLY(3, 0, -1, 0) APPLY(4, 0, 0, 1)     \
+  APPLY(5, 0, 0, -1) APPLY(6, 1, 1, 0) APPLY(7, -1, -1, 0) APPLY(8, 1, -1, 0) APPLY(9, -1, 1, 0)  \
+  APPLY(10, 1, 0, 1) APPLY(11, -1, 0, -1) APPLY(12, 1, 0, -1) APPLY(13, -1, 0, 1)                 \
+  APPLY(14, 0, 1, 1) APPLY(15, 0, -1, -1) APPLY(16, 0, 1, -1) APPLY(17, 0, -1, 1)
+// clang-format on
 
 /// Springs' force on the nodes of a vector.
 /// @param k  stiffness of their first spring; the next is 64 farther   @param mild  all springs are, see kMild
