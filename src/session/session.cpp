@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
+#include "viscera/math/float_bits.h"
 #include "viscera/session/auto_spacing.h"
 #include "viscera/solver/make_solver.h"
 
@@ -14,12 +14,6 @@ namespace viscera {
 namespace {
 
 constexpr size_t kNotedTicks = 4096;  // images may come back that late
-
-float floatFromBits(uint32_t bits) {
-  float value;
-  std::memcpy(&value, &bits, sizeof value);
-  return value;
-}
 
 Vector3d xyz(const layout::vec4& v) {
   return {v.x, v.y, v.z};

@@ -4,7 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
+
+#include "viscera/math/float_bits.h"
 
 namespace viscera {
 
@@ -240,8 +241,7 @@ bool LatticeSolver::judgeOpen() {
 void LatticeSolver::relaxSubsteps(const layout::TickStats& stats) {
   if (stats.springs_cut == springs_cut_) return;
   springs_cut_ = stats.springs_cut;
-  float rate;
-  std::memcpy(&rate, &stats.max_rate_bits, sizeof rate);
+  const float rate = floatFromBits(stats.max_rate_bits);
   if (rate <= 0) return;
   const double dt_safe_s = 2 / std::sqrt(static_cast<double>(rate));
   if (dt_safe_s < kWorthwhile * dt_safe_s_) return;

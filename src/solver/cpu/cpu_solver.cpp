@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
 
 #include "solver/cpu/kernels.h"
 #include "viscera/gpu/buffer.h"
 #include "viscera/math/error.h"
+#include "viscera/math/float_bits.h"
 
 namespace viscera {
 
@@ -24,12 +24,6 @@ int threadsOf(const SolverConfig& config) {
 
 bool isLeapfrog(Integrator integrator) {
   return integrator == Integrator::kLeapfrog;
-}
-
-uint32_t bitsOf(float value) {
-  uint32_t bits;
-  std::memcpy(&bits, &value, sizeof bits);
-  return bits;
 }
 
 Vector3f xyz(const layout::vec4& v) {
@@ -81,7 +75,6 @@ std::vector<std::string> simdTargets() {
 
 CpuSolver::CpuSolver(const Model& model, const Scene& scene, const CpuSolverOptions& options)
     : LatticeSolver(model, scene, options),
-      model_(model),
       config_(scene.solver),
       simd_(options.simd),
       params_(bodyParams(model, safeTimeStep(model))),
@@ -104,6 +97,11 @@ CpuSolver::CpuSolver(const Model& model, const Scene& scene, const CpuSolverOpti
   work_->strained.resize(bricks());
   work_->speed2.resize(bricks());
   work_->stats.resize(bricks());
+  simd::LeapfrogJob& job = work_->step;
+  job.dashpot = std::any_of(params_.begin(), params_.end(), [](const auto& body) { return body.dashpot_s > 0; });
+  job.near = work_->near.data();
+  job.strained = work_->strained.data();
+  job.speed2 = work_->speed2.data();
   work_->changed.reserve(bricks());
   if (hasTools()) {
     cut_.emplace(lattice_);
@@ -281,10 +279,10 @@ void CpuSolver::measure() {
   }
   out.kinetic_j = static_cast<float>(kinetic_j);
   out.elastic_j = static_cast<float>(elastic_j);
-  out.max_stretch_bits = bitsOf(stretch);
-  out.max_speed_bits = bitsOf(speed);
+  out.max_stretch_bits = bitsOfFloat(stretch);
+  out.max_speed_bits = bitsOfFloat(speed);
   const bool known = stats_.max_rate_bits != 0 && springs_cut_ == rate_springs_cut_;
-  out.max_rate_bits = known ? stats_.max_rate_bits : bitsOf(largestRate());
+  out.max_rate_bits = known ? stats_.max_rate_bits : bitsOfFloat(largestRate());
   rate_springs_cut_ = springs_cut_;
   stats_ = out;
 }
@@ -345,11 +343,6 @@ simd::Arrays CpuSolver::arrays() {
 
 /// Rows of four nodes that will never move: the kernel leaves them out.
 void CpuSolver::noteIdleRows() {
-  simd::LeapfrogJob& job = work_->step;
-  job.dashpot = std::any_of(params_.begin(), params_.end(), [](const auto& body) { return body.dashpot_s > 0; });
-  job.near = work_->near.data();
-  job.strained = work_->strained.data();
-  job.speed2 = work_->speed2.data();
   for (size_t b = 0; b < bricks(); ++b) {
     work_->idle[b] = 0;
     for (size_t row = 0; row < 16; ++row) {

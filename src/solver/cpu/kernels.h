@@ -30,7 +30,7 @@ struct Arrays {
   const uint16_t* idle_rows;      ///< [bricks] bit r: none of the four nodes from 4 r on will ever move
 };
 
-/// A probe in a substep: nodes that reach into this sphere are looked at one by one (shaders/probe.glsl).
+/// A probe in a substep: nodes that reach into this sphere are looked at one by one (shaders/contact.glsl).
 struct Reach {
   float center_m[3];
   float radius_m;

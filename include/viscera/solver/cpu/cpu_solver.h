@@ -74,7 +74,6 @@ class CpuSolver : public LatticeSolver {
   void noteIdleRows();
   float largestRate() const;
 
-  const Model& model_;
   SolverConfig config_;
   std::string simd_;
   std::vector<layout::BodyParams> params_;
