@@ -5,6 +5,7 @@
 #include <chrono>
 
 #include "bench/accuracy_suite.h"
+#include "bench/gw_suite.h"
 #include "bench/material_suite.h"
 #include "bench/performance_suites.h"
 #include "bench/stability_suite.h"
@@ -28,6 +29,7 @@ const std::vector<Suite>& suites() {
       {"accuracy", "what do substeps and float32 cost in error, and error in time?", run<accuracySuite>},
       {"stability", "does tissue stay finite and bounded whatever is done to it?", run<stabilitySuite>},
       {"table1", "substeps per second by number of nodes, beside VR05 Table 1", table1Suite},
+      {"gw", "Georgii & Westermann's tables, and the errors of their ways", run<gwSuite>},
       {"scale", "time and memory per node, from a thousand to ten million nodes", scaleSuite},
       {"skip", "what does not doing what a scene does not need save?", skipSuite},
       {"cut", "rate by share of springs cut, as in VR05 figure 11", cutSuite},

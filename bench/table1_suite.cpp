@@ -164,6 +164,7 @@ void measureTargets(Report& report) {
 
 void table1Suite(Report& report, gpu::Context& context) {
   measureSizes(report, context.isSoftware());
+  measureExplicit(report);
   measureTargets(report);
   measurePressedHeart(report);
   measureHeartSessions(report, context);

@@ -27,6 +27,22 @@ bool crossesBlade(vec3 a, vec3 b, ToolMotion m) {
   return crossesTriangle(a, b, vec3(0.0f), far_from, far_to) || crossesTriangle(a, b, vec3(0.0f), far_to, tip);
 }
 
+const float kLeastShare = 0.02f;  // a spring is not shown cut nearer to one of its ends than this share of it
+
+/// Share of a..b that lies on a's side of the plane through the origin.
+float shareBefore(vec3 a, vec3 b, vec3 normal) {
+  float da = dot(a, normal), db = dot(b, normal);
+  return clamp(da / (da - db), kLeastShare, 1.0f - kLeastShare);
+}
+
+/// Where the blade crosses the segment a..b: the share of it on a's side; 0 where it does not.
+float crossing(vec3 a, vec3 b, ToolMotion m) {
+  vec3 tip = xyz(m.to) - xyz(m.from), far_from = xyz(m.blade_from) - xyz(m.from), far_to = xyz(m.blade_to) - xyz(m.from);
+  if (crossesTriangle(a, b, vec3(0.0f), far_from, far_to)) return shareBefore(a, b, cross(far_from, far_to));
+  if (crossesTriangle(a, b, vec3(0.0f), far_to, tip)) return shareBefore(a, b, cross(far_to, tip));
+  return 0.0f;
+}
+
 float segmentDistance(vec3 a, vec3 b, vec3 x) {
   vec3 ab = b - a;
   float length2 = dot(ab, ab);

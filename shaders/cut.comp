@@ -46,6 +46,9 @@ void main() {
   NodeBits bits = nodes[slot];
   ToolMotion m = tool_motions[stylus];
   vec3 x = seenFromBlade(slot, m);
+#ifdef NETWORK
+  if (bodies[bodyOf(bits)].connections != kImplicit) return;  // cut_links.comp has them
+#endif
   vec4 sphere = bladeSphere(m, bodies[bodyOf(bits)].origin_spacing.w);
   if (isIsolated(bits) || farFromBlade(x, sphere)) return;
   NodeBits whole = bits;

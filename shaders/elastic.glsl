@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // What a node, a spring and a cell are made of (physics.md 1). After lattice.glsl.
-// Features: PARTS (strengths differ within a body: tables), VOLUME (cells have an energy of volume), INCREMENT (implicit
+// Features: LATTICE (some body has implicit connections), NETWORK (some body has explicit ones: network.glsl), PARTS (strengths differ within a body: tables), VOLUME (cells have an energy of volume), INCREMENT (implicit
 // integrators: the state is displacement + increment).
 #include "spring.glsl"
 #include "volume.glsl"
@@ -14,11 +14,15 @@ layout(binding = kUnitVelocity) uniform samplerBuffer velocity;
 layout(binding = kUnitIncrement) uniform samplerBuffer increment;
 #endif
 
+#if defined(PARTS) || defined(NETWORK)
+layout(binding = kUnitNodeMass) uniform samplerBuffer node_mass;                // [slots]
+float nodeMass(uint slot, NodeBits bits, BodyParams body) { return texelFetch(node_mass, int(slot)).x; }
+#else
+float nodeMass(uint slot, NodeBits bits, BodyParams body) { return float((bits.lo >> kMassShift) & 15u) * body.mass_eighth_kg; }
+#endif
 #ifdef PARTS
 layout(binding = kUnitSpringStiffness) uniform samplerBuffer spring_stiffness;  // [9 * slots]
-layout(binding = kUnitNodeMass) uniform samplerBuffer node_mass;                // [slots]
 layout(binding = kUnitCellBulk) uniform samplerBuffer cell_bulk;                // [slots]
-float nodeMass(uint slot, NodeBits bits, BodyParams body) { return texelFetch(node_mass, int(slot)).x; }
 float cellBulk(uint slot, BodyParams body) { return texelFetch(cell_bulk, int(slot)).x; }
 /// Stiffness [N/m] of a spring that is alive, the same number from both ends. @param far  slot of the other end
 float springStiffness(uint slot, uint far, uint spring, uint count, BodyParams body) {
@@ -26,7 +30,6 @@ float springStiffness(uint slot, uint far, uint spring, uint count, BodyParams b
   return texelFetch(spring_stiffness, int(owner * (kSpringsPerNode / 2u) + (spring >> 1))).x;
 }
 #else
-float nodeMass(uint slot, NodeBits bits, BodyParams body) { return float((bits.lo >> kMassShift) & 15u) * body.mass_eighth_kg; }
 float cellBulk(uint slot, BodyParams body) { return body.bulk_j; }
 float springStiffness(uint slot, uint far, uint spring, uint count, BodyParams body) {
   return float(count) * (spring < kAxialSprings ? body.axial_quarter_n_per_m : body.diagonal_half_n_per_m);
@@ -36,6 +39,38 @@ float springStiffness(uint slot, uint far, uint spring, uint count, BodyParams b
 layout(binding = kUnitCellForces) uniform samplerBuffer cell_forces;  // [3 * slots], of volume.comp
 #endif
 #endif  // __cplusplus
+
+// FOR_EACH_LINK does what a kernel has put into VISIT_LINK for every live spring of the node `slot` with `bits` and `body`: with
+// n (slot of the far end), k [N/m], d (rest offset to n [m]), l0 (rest length [m]), prestrain (spring.glsl), and counted, which is
+// true at one of its two ends.
+#define LATTICE_LINK(spring, offset)                                                                     \
+  {                                                                                                      \
+    uint count = springCount(bits, spring);                                                              \
+    if (count != 0u) {                                                                                   \
+      const bool counted = (spring & 1u) == 0u;                                                          \
+      const float prestrain = 0.0f;                                                                      \
+      uint n = neighborSlot(slot, offset);                                                               \
+      float k = springStiffness(slot, n, spring, count, body);                                           \
+      float l0 = spring < kAxialSprings ? body.origin_spacing.w : kSqrt2 * body.origin_spacing.w;        \
+      vec3 d = body.origin_spacing.w * vec3(offset);                                                     \
+      VISIT_LINK                                                                                         \
+    }                                                                                                    \
+  }
+#ifdef NETWORK
+#include "network.glsl"
+#endif
+#if defined(LATTICE) && defined(NETWORK)
+#define FOR_EACH_LINK                                                                                    \
+  if (body.connections == kImplicit) {                                                                   \
+    FOR_EACH_SPRING(LATTICE_LINK)                                                                        \
+  } else {                                                                                               \
+    FOR_EACH_NETWORK_LINK                                                                                \
+  }
+#elif defined(NETWORK)
+#define FOR_EACH_LINK FOR_EACH_NETWORK_LINK
+#else
+#define FOR_EACH_LINK FOR_EACH_SPRING(LATTICE_LINK)
+#endif
 
 #ifdef VOLUME
 /// Calls APPLY(corner) for the eight corners that a node is of the cells around it, as -1 | +1 per axis.

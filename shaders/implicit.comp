@@ -118,11 +118,11 @@ vec4 cellEnergies(uint slot, BodyParams body) {
 #endif
 
 /// Adds a spring's elastic energy and what its dashpot adds to P, for the four shares.
-/// @param near, far  increments of its ends   @param w  u_far - u_near   @param d, l0  at rest
-void addSpring(vec4 near, vec4 far, vec3 w, vec3 d, float l0, float k, float damping, INOUT(vec4) elastic, INOUT(vec4) damped) {
+/// @param near, far  increments of its ends   @param w  u_far - u_near   @param d, l0, prestrain  at rest
+void addSpring(vec4 near, vec4 far, vec3 w, vec3 d, float l0, float prestrain, float k, float damping, INOUT(vec4) elastic, INOUT(vec4) damped) {
   for (int c = 0; c < 4; ++c) {
     vec3 along = share(far, c) - share(near, c);
-    Spring s = springBetween(d, l0, w + along);
+    Spring s = springBetween(d, l0, prestrain, w + along);
     float rate = dot(s.direction, along);
     elastic[c] += 0.5f * k * s.extension * s.extension;
     damped[c] += 0.5f * damping * rate * rate;
@@ -135,7 +135,7 @@ void main() {
   uint slot = active_nodes[i];
   NodeBits bits = nodes[slot];
   BodyParams body = bodies[bodyOf(bits)];
-  float h = body.origin_spacing.w, mass = nodeMass(slot, bits, body);
+  float mass = nodeMass(slot, bits, body);
   vec4 du = texelFetch(increment, int(slot));
   vec3 u = xyz(texelFetch(displacement, int(slot)));
   vec4 elastic = vec4(0.0f), potential = vec4(0.0f), motion = vec4(0.0f);
@@ -148,17 +148,11 @@ void main() {
     }
     motion[0] = 0.5f * mass * dot(v, v);
   }
-#define ADD_ENERGY(spring, offset)                                                                              \
-  if ((spring & 1u) == 0u) {                                                                                    \
-    uint count = springCount(bits, spring);                                                                     \
-    if (count != 0u) {                                                                                          \
-      uint n = neighborSlot(slot, offset);                                                                      \
-      float k = springStiffness(slot, n, spring, count, body), l0 = spring < kAxialSprings ? h : kSqrt2 * h;    \
-      addSpring(du, texelFetch(increment, int(n)), xyz(texelFetch(displacement, int(n))) - u, h * vec3(offset),  \
-                l0, k, damping(k, body), elastic, potential);                                                   \
-    }                                                                                                           \
-  }
-  FOR_EACH_SPRING(ADD_ENERGY)
+#define VISIT_LINK                                                                                              \
+  if (counted) addSpring(du, texelFetch(increment, int(n)), xyz(texelFetch(displacement, int(n))) - u, d, l0,     \
+                         prestrain, k, damping(k, body), elastic, potential);
+  FOR_EACH_LINK
+#undef VISIT_LINK
 #ifdef VOLUME
   if ((bits.lo & kCellBit) != 0u) elastic += cellEnergies(slot, body);
 #endif
@@ -223,11 +217,10 @@ layout(std430, binding = kBindVelocityOut) writeonly buffer VelocityOut { vec4 n
 #ifdef TOOLS
 /// The velocity that the lattice alone would have given a held node: its tool's momentum is counted from there.
 vec3 velocityWithoutTool(uint slot, NodeBits bits, float mass, BodyParams body, vec3 u, vec3 du) {
-  float h = body.origin_spacing.w;
   vec3 force = vec3(0.0f);
-#define VISIT_SPRING force += s.force;
-  FOR_EACH_SPRING(IMPLICIT_SPRING)
-#undef VISIT_SPRING
+#define VISIT_LINK force += implicitSpring(n, u, du, d, l0, prestrain, k, body).force;
+  FOR_EACH_LINK
+#undef VISIT_LINK
 #ifdef VOLUME
   force += xyz(volumeForce(slot));
 #endif

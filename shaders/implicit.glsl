@@ -51,29 +51,16 @@ struct ImplicitSpring {
   vec3 force;     // spring and dashpot [N]
 };
 
-/// @param u, du  of the near end   @param d  rest offset to the far end n [m]   @param l0  its length [m]
-ImplicitSpring implicitSpring(uint n, vec3 u, vec3 du, vec3 d, float l0, float k, BodyParams body) {
+/// @param u, du  of the near end   @param n, d, l0, prestrain, k  of FOR_EACH_LINK (elastic.glsl)
+ImplicitSpring implicitSpring(uint n, vec3 u, vec3 du, vec3 d, float l0, float prestrain, float k, BodyParams body) {
   vec3 along = xyz(texelFetch(increment, int(n))) - du;
   ImplicitSpring s;
-  s.spring = springBetween(d, l0, (xyz(texelFetch(displacement, int(n))) - u) + along);
+  s.spring = springBetween(d, l0, prestrain, (xyz(texelFetch(displacement, int(n))) - u) + along);
   s.stretch = s.spring.extension > 0.0f ? s.spring.extension / (l0 + s.spring.extension) : 0.0f;
   s.damping = damping(k, body);
   s.force = (k * s.spring.extension + s.damping * dot(s.spring.direction, along)) * s.spring.direction;
   return s;
 }
-
-/// For FOR_EACH_SPRING: a kernel says in VISIT_SPRING what it does with the ImplicitSpring s of stiffness k and rest length l0.
-#define IMPLICIT_SPRING(spring, offset)                                                     \
-  {                                                                                         \
-    uint count = springCount(bits, spring);                                                 \
-    if (count != 0u) {                                                                      \
-      uint n = neighborSlot(slot, offset);                                                  \
-      float k = springStiffness(slot, n, spring, count, body);                              \
-      float l0 = spring < kAxialSprings ? h : kSqrt2 * h;                                   \
-      ImplicitSpring s = implicitSpring(n, u, du, h * vec3(offset), l0, k, body);           \
-      VISIT_SPRING                                                                          \
-    }                                                                                       \
-  }
 
 #ifdef VOLUME
 /// @param at  displacements of the cell's corners, bit per axis, x lowest [m]

@@ -25,6 +25,15 @@ ivec3 brickCoord(uint slot) {
 }
 uint brickBody(uint slot) { return bricks[slot >> 6].body; }
 #endif
+#ifdef NETWORK  // some body has explicit connections: where its nodes lie is in a table
+#ifdef TEXELS
+layout(binding = kUnitRest) uniform samplerBuffer rest_positions;
+vec3 tabulatedRest(uint slot) { return texelFetch(rest_positions, int(slot)).xyz; }
+#else
+layout(std430, binding = kBindRest) readonly buffer RestBuffer { vec4 rest_positions[]; };
+vec3 tabulatedRest(uint slot) { return rest_positions[slot].xyz; }
+#endif
+#endif
 
 /// Index of this invocation over all groups (gpu/program.cpp folds many groups into rows).
 uint globalIndex() {
@@ -78,5 +87,8 @@ ivec3 nodeCoord(uint slot) { return brickCoord(slot) * int(kBrickEdge) + localCo
 /// Rest position of a node [m, tissue frame].
 vec3 restPosition(uint slot) {
   BodyParams body = bodies[bodyAt(slot)];
+#ifdef NETWORK
+  if (body.connections == kNetwork) return tabulatedRest(slot);
+#endif
   return xyz(body.origin_spacing) + body.origin_spacing.w * vec3(nodeCoord(slot));
 }

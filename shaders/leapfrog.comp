@@ -3,11 +3,13 @@
 //
 // leapfrog.comp - advance every active node by one leapfrog substep.   Owner: solver/gpu/leapfrog_pass.h   physics.md 2, 5
 // in  displacement, velocity [slots]     out  displacement, velocity [slots]; impulses [kMaxStyluses * slots]
-// Features: DASHPOT (axial dashpot), TOOLS (probe and held nodes), VOLUME, PARTS (elastic.glsl), COMPENSATED (Kahan's sums of u and v).
+// Features: LATTICE, NETWORK, PARTS, VOLUME (elastic.glsl), EDGE_FORCES (of explicit connections: as spring_forces.comp found
+// them), DASHPOT (axial dashpot), TOOLS (probe and held nodes), COMPENSATED (Kahan's sums of u and v).
 #include "layout.h"
 #include "lattice.glsl"
 #include "elastic.glsl"
 
+#ifndef __cplusplus
 layout(std430, binding = kBindActive) readonly buffer ActiveBuffer { uint active_nodes[]; };
 layout(std430, binding = kBindNodes) readonly buffer NodesBuffer { NodeBits nodes[]; };
 layout(std430, binding = kBindDisplacementOut) writeonly buffer DisplacementOut { vec4 next_displacement[]; };
@@ -15,36 +17,58 @@ layout(std430, binding = kBindVelocityOut) writeonly buffer VelocityOut { vec4 n
 #ifdef COMPENSATED
 layout(std430, binding = kBindCompensation) buffer CompensationBuffer { vec4 compensation[]; };
 #endif
+#ifdef EDGE_FORCES
+layout(binding = kUnitLinkForces) uniform samplerBuffer link_forces;
+layout(binding = kUnitForceStarts) uniform usamplerBuffer force_starts;  // [slots + 1]
+uint forceStart(uint slot) { return texelFetch(force_starts, int(slot)).x; }
+#endif
+#endif
 
 #include "step.glsl"
 #ifdef TOOLS
 #include "contact.glsl"
 #endif
 
+#ifdef EDGE_FORCES
+/// Sum of what the springs of a node with explicit connections do to it [N].
+vec3 sumOfLinks(uint slot) {
+  vec3 force = vec3(0.0f);
+  uint end = forceStart(slot + 1u);
+  for (uint place = forceStart(slot); place < end; place += 2u) {  // two at a time: loops cost more than fetches
+    vec3 next = xyz(texelFetch(link_forces, int(place + 1u)));     // there is one place more than forces
+    force += xyz(texelFetch(link_forces, int(place)));
+    if (place + 1u < end) force += next;
+  }
+  return force;
+}
+#endif
+
 /// Sum of the forces of springs, dashpots and volumes on a node [N].
-vec3 latticeForce(uint slot, NodeBits bits, BodyParams body, vec3 u, vec3 v) {
-  float h = body.origin_spacing.w;
-  vec3 force = vec3(0.0);
+vec3 elasticForce(uint slot, NodeBits bits, BodyParams body, vec3 u, vec3 v) {
+  vec3 force = vec3(0.0f);
 #ifdef DASHPOT
-#define DASHPOT_FORCE(k, n, s) force += (k * body.dashpot_s * dot(texelFetch(velocity, int(n)).xyz - v, s.direction)) * s.direction;
+#define DASHPOT_FORCE(k, n, s) force += (k * body.dashpot_s * dot(xyz(texelFetch(velocity, int(n))) - v, s.direction)) * s.direction;
 #else
 #define DASHPOT_FORCE(k, n, s)
 #endif
-#define ADD_SPRING(spring, offset)                                                              \
-  {                                                                                             \
-    uint count = springCount(bits, spring);                                                     \
-    if (count != 0u) {                                                                          \
-      uint n = neighborSlot(slot, offset);                                                      \
-      float k = springStiffness(slot, n, spring, count, body);                                  \
-      float l0 = spring < kAxialSprings ? h : kSqrt2 * h;                                       \
-      Spring s = springBetween(h * vec3(offset), l0, texelFetch(displacement, int(n)).xyz - u); \
-      force += (k * s.extension) * s.direction;                                                 \
-      DASHPOT_FORCE(k, n, s)                                                                    \
-    }                                                                                           \
+#define VISIT_LINK                                                                  \
+  Spring s = springBetween(d, l0, prestrain, xyz(texelFetch(displacement, int(n))) - u); \
+  force += (k * s.extension) * s.direction;                                         \
+  DASHPOT_FORCE(k, n, s)
+#if defined(EDGE_FORCES) && defined(LATTICE)
+  if (body.connections != kImplicit) {
+    force = sumOfLinks(slot);
+  } else {
+    FOR_EACH_SPRING(LATTICE_LINK)
   }
-  FOR_EACH_SPRING(ADD_SPRING)
+#elif defined(EDGE_FORCES)
+  force = sumOfLinks(slot);
+#else
+  FOR_EACH_LINK
+#endif
+#undef VISIT_LINK
 #ifdef VOLUME
-  force += volumeForce(slot).xyz;
+  force += xyz(volumeForce(slot));
 #endif
   return force;
 }
@@ -52,10 +76,10 @@ vec3 latticeForce(uint slot, NodeBits bits, BodyParams body, vec3 u, vec3 v) {
 /// sum + increment. Kahan: what the last sums lost is added first, what this one loses is kept. @param of  compensation's index
 vec3 added(uint of, vec3 sum, vec3 increment) {
 #ifdef COMPENSATED
-  precise vec3 all_of_it = increment - compensation[of].xyz;
+  precise vec3 all_of_it = increment - xyz(compensation[of]);
   precise vec3 next = sum + all_of_it;
   precise vec3 lost = (next - sum) - all_of_it;
-  compensation[of] = vec4(lost, 0.0);
+  compensation[of] = vec4(lost, 0.0f);
   return next;
 #else
   return sum + increment;
@@ -67,25 +91,25 @@ void main() {
   if (i >= active_count) return;
   uint slot = active_nodes[i];
   NodeBits bits = nodes[slot];
-  vec3 u = texelFetch(displacement, int(slot)).xyz;
+  vec3 u = xyz(texelFetch(displacement, int(slot)));
   if (isAtRest(bits)) {
-    next_displacement[slot] = vec4(u, 0.0);
-    next_velocity[slot] = vec4(0.0);
+    next_displacement[slot] = vec4(u, 0.0f);
+    next_velocity[slot] = vec4(0.0f);
     return;
   }
   BodyParams body = bodies[bodyOf(bits)];
-  vec3 v = texelFetch(velocity, int(slot)).xyz;
+  vec3 v = xyz(texelFetch(velocity, int(slot)));
   float mass = nodeMass(slot, bits, body);
-  vec3 acceleration = latticeForce(slot, bits, body, u, v) / mass + gravity;
+  vec3 acceleration = elasticForce(slot, bits, body, u, v) / mass + gravity;
 
   // ((1 - g) v + kick a) / (1 + g), as v and an increment: rounding 1 - g would be a drag of its own, the same in every substep.
-  float g = 0.5 * body.drag_per_s * kick_s;
-  vec3 v_next = added(2u * slot + 1u, v, (kick_s * acceleration - (2.0 * g) * v) / (1.0 + g));
+  float g = 0.5f * body.drag_per_s * kick_s;
+  vec3 v_next = added(2u * slot + 1u, v, (kick_s * acceleration - (2.0f * g) * v) / (1.0f + g));
   vec3 u_next = added(2u * slot, u, dt_s * v_next);
 #ifdef TOOLS
   resolveContacts(slot, bits, mass, u, u_next, v_next);
 #endif
   fallAsleep(bits, u, u_next, v_next);
-  next_displacement[slot] = vec4(u_next, 0.0);
-  next_velocity[slot] = vec4(v_next, 0.0);
+  next_displacement[slot] = vec4(u_next, 0.0f);
+  next_velocity[slot] = vec4(v_next, 0.0f);
 }

@@ -4,6 +4,7 @@
 // map_skin.comp - where the nodes carry the vertices and normals of the skin (EGVE eqs 4 to 9, hybrid of 3.6).
 // Owner: surface/surface.h   physics.md 4
 // in  skin[count], displacement[slots] m, node_normals[slots], stale_bricks[bricks]     out  positions[3 * count] m, normals[count] packed
+// Feature: MIXED (some vertices belong to networks: network_skin.comp places them).
 #include "layout.h"
 layout(local_size_x = GROUP_SIZE) in;  // before globalIndex(), which asks for it
 #include "lattice.glsl"
@@ -33,6 +34,9 @@ void main() {
   uint vertex = globalIndex();
   if (vertex >= vertex_count) return;
   SkinBinding s = skin[vertex];
+#ifdef MIXED
+  if ((s.springs & kOneToOneBit) != 0u) return;
+#endif
   if (followed_revision != 0u && !isStale(s.slot0) && !isStale(s.slot1) && !isStale(s.slot2)) return;
   float spacing = bodies[bricks[s.slot0 >> 6].body].origin_spacing.w;
   vec3 rest1 = axialDirection(s.springs & 31u);

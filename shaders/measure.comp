@@ -7,9 +7,11 @@
 #include "layout.h"
 #include "lattice.glsl"
 
+#ifndef __cplusplus
 layout(std430, binding = kBindStats) buffer StatsBuffer { TickStats stats; };
 layout(std430, binding = kBindPartials) buffer PartialsBuffer { vec2 energies[]; };  // kinetic, elastic [J]
 layout(location = 0) uniform uint count;  // active nodes; FOLD: terms of this level
+#endif
 
 #ifdef FOLD
 const uint kRun = 64u;
@@ -30,8 +32,10 @@ void main() {
 }
 #else
 #include "elastic.glsl"
+#ifndef __cplusplus
 layout(std430, binding = kBindActive) readonly buffer ActiveBuffer { uint active_nodes[]; };
 layout(std430, binding = kBindNodes) readonly buffer NodesBuffer { NodeBits nodes[]; };
+#endif
 
 /// Compilers drop isnan(); the bits do not lie (physics.md 2).
 bool finite(vec3 v) {
@@ -39,7 +43,7 @@ bool finite(vec3 v) {
   return all(notEqual(bits, uvec3(0x7f800000u)));
 }
 
-vec3 u(uint slot) { return texelFetch(displacement, int(slot)).xyz; }
+vec3 u(uint slot) { return xyz(texelFetch(displacement, int(slot))); }
 
 uint cornerSlot(uint slot, uint c) { return neighborSlot(slot, ivec3(c & 1u, (c >> 1) & 1u, (c >> 2) & 1u)); }
 
@@ -47,7 +51,7 @@ uint cornerSlot(uint slot, uint c) { return neighborSlot(slot, ivec3(c & 1u, (c 
 float dilation(uint slot, BodyParams body) {
   vec3 n0 = u(slot), n1 = u(cornerSlot(slot, 1u)), n2 = u(cornerSlot(slot, 2u)), n3 = u(cornerSlot(slot, 3u));
   vec3 n4 = u(cornerSlot(slot, 4u)), n5 = u(cornerSlot(slot, 5u)), n6 = u(cornerSlot(slot, 6u)), n7 = u(cornerSlot(slot, 7u));
-  float quarter = 0.25 / body.origin_spacing.w;
+  float quarter = 0.25f / body.origin_spacing.w;
   vec3 da = quarter * ((n1 - n0) + (n3 - n2) + (n5 - n4) + (n7 - n6));
   vec3 db = quarter * ((n2 - n0) + (n3 - n1) + (n6 - n4) + (n7 - n5));
   vec3 dc = quarter * ((n4 - n0) + (n5 - n1) + (n6 - n2) + (n7 - n3));
@@ -57,15 +61,15 @@ float dilation(uint slot, BodyParams body) {
 #ifdef VOLUME
 /// What the volumes of the cells around add to a node's stiffness at rest [N/m].
 float volumeStiffness(uint slot, BodyParams body) {
-  float sum = 0.0;
+  float sum = 0.0f;
 #define ADD_BULK(corner)                                                                                             \
   {                                                                                                                  \
     bool exists;                                                                                                     \
     uint cell = cellAt(slot, corner, exists);                                                                        \
-    if (exists && (nodes[cell].lo & kCellBit) != 0u) sum += max(0.0, cellBulk(cell, body));                           \
+    if (exists && (nodes[cell].lo & kCellBit) != 0u) sum += max(0.0f, cellBulk(cell, body));                           \
   }
   FOR_EACH_CELL(ADD_BULK)
-  return 1.5 * sum / (body.origin_spacing.w * body.origin_spacing.w);
+  return 1.5f * sum / (body.origin_spacing.w * body.origin_spacing.w);
 }
 #endif
 
@@ -74,35 +78,28 @@ void main() {
   if (i >= count) return;
   uint slot = active_nodes[i];
   NodeBits bits = nodes[slot];
-  vec3 near = u(slot), v = texelFetch(velocity, int(slot)).xyz;
-  energies[i] = vec2(0.0);
+  vec3 near = u(slot), v = xyz(texelFetch(velocity, int(slot)));
+  energies[i] = vec2(0.0f);
   if (!finite(near) || !finite(v)) {
     atomicAdd(stats.nonfinite, 1u);
     return;
   }
   BodyParams body = bodies[bodyOf(bits)];
-  float h = body.origin_spacing.w, mass = nodeMass(slot, bits, body);
-  float stretch = 0.0, elastic = 0.0, stiffness = 0.0;
+  float mass = nodeMass(slot, bits, body);
+  float stretch = 0.0f, elastic = 0.0f, stiffness = 0.0f;
   uint collapsed = 0u;
-#define MEASURE(spring, offset)                                                                              \
-  {                                                                                                          \
-    uint strength = springCount(bits, spring);                                                               \
-    if (strength != 0u) {                                                                                    \
-      uint n = neighborSlot(slot, offset);                                                                   \
-      float k = springStiffness(slot, n, spring, strength, body);                                            \
-      stiffness += k;                                                                                        \
-      vec3 far = u(n);                                                                                       \
-      if ((spring & 1u) == 0u && finite(far)) {                                                              \
-        float l0 = spring < kAxialSprings ? h : kSqrt2 * h;                                                  \
-        float extension = springBetween(h * vec3(offset), l0, far - near).extension;                         \
-        stretch = max(stretch, abs(extension) / l0);                                                         \
-        if (extension < (kCollapsed - 1.0) * l0) ++collapsed;                                                \
-        elastic += 0.5 * k * extension * extension;                                                          \
-      }                                                                                                      \
-    }                                                                                                        \
+#define VISIT_LINK                                                                     \
+  stiffness += k;                                                                      \
+  vec3 far = u(n);                                                                     \
+  if (counted && finite(far)) {                                                        \
+    float extension = springBetween(d, l0, prestrain, far - near).extension;           \
+    if (l0 > 0.0f) stretch = max(stretch, abs(extension) / l0);                         \
+    if (extension < (kCollapsed - 1.0f) * l0) ++collapsed;                              \
+    elastic += 0.5f * k * extension * extension;                                        \
   }
-  FOR_EACH_SPRING(MEASURE)
-  stiffness *= 2.0;
+  FOR_EACH_LINK
+#undef VISIT_LINK
+  stiffness *= 2.0f;
 #ifdef VOLUME
   stiffness += volumeStiffness(slot, body);
 #endif
@@ -111,9 +108,9 @@ void main() {
 #ifdef VOLUME
     elastic += volumeEnergy(cellBulk(slot, body), e);
 #endif
-    if (e < -1.0 && (bits.lo & kSeveredBit) == 0u) atomicAdd(stats.inverted, 1u);
+    if (e < -1.0f && (bits.lo & kSeveredBit) == 0u) atomicAdd(stats.inverted, 1u);
   }
-  energies[i] = vec2(0.5 * mass * dot(v, v), elastic);
+  energies[i] = vec2(0.5f * mass * dot(v, v), elastic);
   // Positive floats order like their bits. The look before the atomic only saves work: the maximum is the same.
   uint stretch_bits = floatBitsToUint(stretch), speed_bits = floatBitsToUint(length(v)), rate_bits = floatBitsToUint(stiffness / mass);
   if (stretch_bits > stats.max_stretch_bits) atomicMax(stats.max_stretch_bits, stretch_bits);

@@ -21,12 +21,9 @@ void main() {
   if ((bits.lo & kFixedBit) != 0u) return;
   BodyParams body = bodies[bodyOf(bits)];
   float mass = nodeMass(slot, bits, body), stiffness = 0.0f, volume = 0.0f;
-#define ADD_STIFFNESS(spring, offset)                                                                 \
-  {                                                                                                   \
-    uint count = springCount(bits, spring);                                                           \
-    if (count != 0u) stiffness += springStiffness(slot, neighborSlot(slot, offset), spring, count, body); \
-  }
-  FOR_EACH_SPRING(ADD_STIFFNESS)
+#define VISIT_LINK stiffness += k;
+  FOR_EACH_LINK
+#undef VISIT_LINK
 #ifdef VOLUME
   const CellShape at_rest = cellShape(vec3(0.0f), vec3(0.0f), vec3(0.0f));
 #define ADD_BULK(corner)                                                                                      \
@@ -59,11 +56,13 @@ bool wasPlain() { return iteration > 0u && guard[plainWord(iteration - 1u)] != 0
 
 /// The force on a node less its inertia [N]; w the majoriser of all that pulls it [N/m].
 vec4 pull(uint slot, NodeBits bits, BodyParams body, vec3 u, vec3 du) {
-  float h = body.origin_spacing.w, inertia_n_per_m = inertia(nodeMass(slot, bits, body), body);
+  float inertia_n_per_m = inertia(nodeMass(slot, bits, body), body);
   vec4 sum = vec4(inertia_n_per_m * (freeIncrement(slot, body) - du), inertia_n_per_m);
-#define VISIT_SPRING sum += vec4(s.force, k + s.damping);
-  FOR_EACH_SPRING(IMPLICIT_SPRING)
-#undef VISIT_SPRING
+#define VISIT_LINK                                                            \
+  ImplicitSpring s = implicitSpring(n, u, du, d, l0, prestrain, k, body);     \
+  sum += vec4(s.force, k + s.damping);
+  FOR_EACH_LINK
+#undef VISIT_LINK
 #ifdef VOLUME
   sum += volumeForce(slot);
 #endif

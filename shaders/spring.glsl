@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The force of one lattice spring on the node at its near end (physics.md 1, 2).
+// The force of one spring on the node at its near end (physics.md 1, 2).
 
 const float kSqrt2 = 1.41421356237309505f;
 const float kShortest = 1e-6f;  // of the rest length: below it a spring has no direction of its own and keeps its rest one
@@ -17,9 +17,23 @@ float fixedDot(vec3 a, vec3 b) {
   return sum;
 }
 
-/// @param d  rest offset to the far end [m]   @param l0  its length [m]   @param w  u_far - u_near [m]
-/// L - l0 = (2 d.w + w.w) / (L + l0): no cancellation at small strain; antisymmetric to the bit under (d, w) -> (-d, -w).
-Spring springBetween(vec3 d, float l0, vec3 w) {
+/// @param d  rest offset to the far end [m]   @param l0  rest length [m]   @param prestrain  d.d - l0^2 [m2], 0 in a lattice
+/// @param w  u_far - u_near [m]
+/// L - l0 = (2 d.w + w.w + prestrain) / (L + l0): no cancellation at small strain; antisymmetric to the bit under
+/// (d, w) -> (-d, -w).
+#ifdef NETWORK
+/// A spring of no length at all has no direction and pulls nowhere.
+Spring springBetween(vec3 d, float l0, float prestrain, vec3 w) {
+  const float least = 1e-30f;  // [m, m2] far below any length, so that nothing is divided by 0
+  precise vec3 e = d + w;
+  precise float l = sqrt(fixedDot(e, e));
+  precise vec3 direction = l > max(kShortest * l0, least) ? e / l : d / sqrt(max(fixedDot(d, d), least));
+  precise float extension = (fma(2.0f, fixedDot(d, w), fixedDot(w, w)) + prestrain) / max(l + l0, least);
+  Spring spring = {direction, extension};
+  return spring;
+}
+#else
+Spring springBetween(vec3 d, float l0, float prestrain, vec3 w) {
   precise vec3 e = d + w;
   precise float l = sqrt(fixedDot(e, e));
   precise vec3 direction = l > kShortest * l0 ? e / l : d / l0;
@@ -27,3 +41,4 @@ Spring springBetween(vec3 d, float l0, vec3 w) {
   Spring spring = {direction, extension};
   return spring;
 }
+#endif

@@ -4,6 +4,7 @@
 // tear_skin.comp - takes out the triangles whose springs were cut (VR05 2.7.3; the rule is in model/skin.h).
 // Owner: surface/surface.h
 // in  triangles[3 * count], skin[vertices], ties[], nodes[slots]     in, out  alive[count], live[3 * count]
+// Feature: MIXED (some triangles belong to networks: split_triangles.comp shows them).
 #include "layout.h"
 layout(local_size_x = GROUP_SIZE) in;  // before globalIndex(), which asks for it
 #include "lattice.glsl"
@@ -44,6 +45,9 @@ void main() {
   uint triangle = globalIndex();
   if (triangle >= triangle_count || alive[triangle] == 0u) return;
   uint first = 3u * triangle;
+#ifdef MIXED
+  if ((skin[triangles[first]].springs & kOneToOneBit) != 0u) return;
+#endif
   bool whole = vertexHolds(triangles[first]) && vertexHolds(triangles[first + 1u]) &&
                vertexHolds(triangles[first + 2u]) && tiesHold(triangle);
   if (whole) return;

@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// tissue.frag - wet, slightly translucent tissue; a back face is the raw inside.   Owner: render/tissue_painter.h
+// tissue.frag - wet, slightly translucent tissue; a back face is the raw inside, except of a sheet (alpha 0).   Owner: render/tissue_painter.h
 #include "layout.h"
 #include "shading.glsl"
 
@@ -41,9 +41,10 @@ void main() {
   vec3 key = kKeyLight;
   for (int i = 0; i < shafts; ++i) key *= passing(shaft_tips[i], shaft_ends[i]);
 
-  vec3 albedo = color.rgb * mix(kGrazingTint, vec3(1.0), n_v) * (gl_FrontFacing ? vec3(1.0) : kRawTint);
+  bool skin = gl_FrontFacing || color.a < 0.5;
+  vec3 albedo = color.rgb * mix(kGrazingTint, vec3(1.0), n_v) * (skin ? vec3(1.0) : kRawTint);
   vec3 diffuse = albedo * (key * wrappedDiffuse(dot(n, kToKey), kWrap) + fill(n));
   float wet = 0.6 * highlight(n_h, 0.25) + 0.3 * highlight(n_h, 0.48);
   vec3 gloss = kFilm * wet * key + 0.6 * fresnel(n_v, kFilm) * fill(reflect(-to_eye, n));
-  image = vec4(shoulder(diffuse + (gl_FrontFacing ? 1.0 : 0.4) * gloss), 1.0);
+  image = vec4(shoulder(diffuse + (skin ? 1.0 : 0.4) * gloss), 1.0);
 }

@@ -34,8 +34,8 @@ struct Block {
 };
 
 void addSprings(uint slot, NodeBits bits, BodyParams body, vec3 u, vec3 du, INOUT(Block) block) {
-  float h = body.origin_spacing.w;
-#define VISIT_SPRING                                                                \
+#define VISIT_LINK                                                                  \
+  ImplicitSpring s = implicitSpring(n, u, du, d, l0, prestrain, k, body);           \
   mat3 along = outerProduct(s.spring.direction, s.spring.direction);                \
   block.force += s.force;                                                           \
   block.springs += (k * (1.0f - s.stretch)) * along;                                 \
@@ -43,8 +43,8 @@ void addSprings(uint slot, NodeBits bits, BodyParams body, vec3 u, vec3 du, INOU
   block.across += k * s.stretch;                                                    \
   block.stiffness += k;                                                             \
   block.shortest = min(block.shortest, l0 + s.spring.extension);
-  FOR_EACH_SPRING(IMPLICIT_SPRING)
-#undef VISIT_SPRING
+  FOR_EACH_LINK
+#undef VISIT_LINK
 }
 
 #ifdef VOLUME

@@ -38,23 +38,15 @@ void main() {
 }
 #else
 /// Sum of the forces of springs and volumes [N]; the springs' from absolute positions: L - l0 cancels, as printed.
-vec3 latticeForce(uint slot, NodeBits bits, BodyParams body, vec3 x) {
-  float h = body.origin_spacing.w;
+vec3 elasticForce(uint slot, NodeBits bits, BodyParams body, vec3 x) {
   vec3 force = vec3(0.0f);
-#define ADD_SPRING(spring, offset)                                                    \
-  {                                                                                   \
-    uint count = springCount(bits, spring);                                           \
-    if (count != 0u) {                                                                \
-      uint n = neighborSlot(slot, offset);                                            \
-      float k = springStiffness(slot, n, spring, count, body);                        \
-      float l0 = spring < kAxialSprings ? h : kSqrt2 * h;                             \
-      vec3 edge = xyz(texelFetch(positions, int(n))) - x;                              \
-      float l = length(edge);                                                         \
-      vec3 direction = l > kShortest * l0 ? edge / l : h * vec3(offset) / l0;         \
-      force += (k * (l - l0)) * direction;                                            \
-    }                                                                                 \
-  }
-  FOR_EACH_SPRING(ADD_SPRING)
+#define VISIT_LINK                                                                \
+  vec3 edge = xyz(texelFetch(positions, int(n))) - x;                             \
+  float l = length(edge);                                                         \
+  if (l > kShortest * l0) force += (k * (l - l0)) * (edge / l);                   \
+  else if (l0 > 0.0f) force += (k * (l - l0)) * (d / l0);
+  FOR_EACH_LINK
+#undef VISIT_LINK
 #ifdef VOLUME
   force += xyz(volumeForce(slot));
 #endif
@@ -83,7 +75,7 @@ void main() {
   if (v != v_stored) x_prev = x - dt_s * v;
 
   float mass = nodeMass(slot, bits, body);
-  vec3 a = latticeForce(slot, bits, body, x) / mass + gravity - body.drag_per_s * ((x - x_prev) / dt_s);
+  vec3 a = elasticForce(slot, bits, body, x) / mass + gravity - body.drag_per_s * ((x - x_prev) / dt_s);
   precise vec3 x_next = 2.0f * x - x_prev + dt_s * dt_s * a;
   precise vec3 v_next = (x_next - x) / dt_s;
   precise vec3 u_next = x_next - rest;

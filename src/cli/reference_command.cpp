@@ -7,8 +7,10 @@
 
 #include "cli/run_metrics.h"
 #include "cli/run_plan.h"
+#include "viscera/math/error.h"
 #include "viscera/solver/gpu/gpu_solver.h"
 #include "viscera/solver/reference/reference_ticks.h"
+#include "viscera/solver/surroundings.h"
 
 namespace viscera::cli {
 
@@ -57,6 +59,10 @@ void keepWorst(const ReferenceTicks& reference, double tick_hz, Extremes& worst)
 int runReference(const RunPlan& plan, bool compare) {
   const Progress progress = consoleProgress();
   const Model model = buildModel(plan.scene, progress);
+  const SurroundingsFeatures surroundings = surroundingsOf(model, plan.scene);
+  if (surroundings.any()) {
+    throw SceneError("--reference: float64 has no " + surroundingKeys(surroundings) + "; leave them out to compare");
+  }
   for (const Body& body : model.bodies) {
     for (const std::string& note : body.notes) std::cout << body.name << ": " << note << '\n';
   }

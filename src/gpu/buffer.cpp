@@ -55,9 +55,28 @@ void RawBuffer::copyFrom(const RawBuffer& other) {
   glCopyNamedBufferSubData(other.id_, id_, 0, 0, static_cast<GLsizeiptr>(bytes_));
 }
 
+namespace {
+
+GLenum glName(TexelFormat format) {
+  switch (format) {
+    case TexelFormat::kRgba32f:
+      return GL_RGBA32F;
+    case TexelFormat::kRgba32ui:
+      return GL_RGBA32UI;
+    case TexelFormat::kR32f:
+      return GL_R32F;
+    case TexelFormat::kR32ui:
+      break;
+  }
+  return GL_R32UI;
+}
+
+}  // namespace
+
 TexelView::TexelView(const RawBuffer& buffer, TexelFormat format) {
-  const size_t texels = buffer.bytes() / (format == TexelFormat::kRgba32f ? 16 : 4);
-  const GLenum name = format == TexelFormat::kRgba32f ? GL_RGBA32F : format == TexelFormat::kR32f ? GL_R32F : GL_R32UI;
+  const bool wide = format == TexelFormat::kRgba32f || format == TexelFormat::kRgba32ui;
+  const size_t texels = buffer.bytes() / (wide ? 16 : 4);
+  const GLenum name = glName(format);
   GLint most = 0;
   glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most);
   if (texels > static_cast<size_t>(most)) {

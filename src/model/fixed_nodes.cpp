@@ -6,13 +6,15 @@
 #include <functional>
 #include <sstream>
 
+#include "model/structure_rules.h"
 #include "model/tissue.h"
 #include "viscera/math/error.h"
 
 namespace viscera {
 namespace {
 
-constexpr double kOnBorder = 1e-6;  ///< of a cell: rounding of the pose
+constexpr double kOnBorder = 1e-6;      ///< of a cell: rounding of the pose
+constexpr double kOnMeshBorder = 1e-4;  ///< of a spring: rounding of single-precision meshes
 
 using Holds = std::function<bool(const Vector3d& point_m)>;
 
@@ -31,31 +33,17 @@ Holds shapeOf(const FixedConfig& fixed, double slack_m) {
   }
 }
 
-size_t fixShape(const Holds& holds, const Pose& to_body, Lattice& lattice) {
-  size_t matches = 0;
-  for (const uint32_t slot : lattice.active_slots) {
-    if (!holds(to_body * lattice.restPosition(slot))) continue;
-    lattice.nodes[slot].lo |= layout::kFixedBit;
-    ++matches;
-  }
-  return matches;
+size_t fix(const std::vector<uint32_t>& slots, Lattice& lattice) {
+  for (const uint32_t slot : slots) lattice.nodes[slot].lo |= layout::kFixedBit;
+  return slots.size();
 }
 
-size_t fixPart(uint16_t label, const Solid& solid, Lattice& lattice) {
-  size_t matches = 0;
-  for (int z = 0; z < solid.cells.z(); ++z) {
-    for (int y = 0; y < solid.cells.y(); ++y) {
-      for (int x = 0; x < solid.cells.x(); ++x) {
-        if (solid.labels[solid.index(x, y, z)] != label) continue;
-        for (int c = 0; c < 8; ++c) {
-          const int64_t slot = lattice.slotAt({x + (c & 1), y + (c >> 1 & 1), z + (c >> 2)});
-          lattice.nodes[static_cast<size_t>(slot)].lo |= layout::kFixedBit;
-        }
-        ++matches;
-      }
-    }
+size_t fixShape(const Holds& holds, const Pose& to_body, Body& body) {
+  std::vector<uint32_t> held;
+  for (const uint32_t slot : body.lattice.active_slots) {
+    if (holds(to_body * restPosition(body, slot))) held.push_back(slot);
   }
-  return matches;
+  return fix(held, body.lattice);
 }
 
 std::string listed(const std::vector<std::string>& names) {
@@ -64,9 +52,9 @@ std::string listed(const std::vector<std::string>& names) {
   return list;
 }
 
-std::string extentOf(const Lattice& lattice, const Pose& to_body) {
+std::string extentOf(const Body& body, const Pose& to_body) {
   Eigen::AlignedBox3d box;
-  for (const uint32_t slot : lattice.active_slots) box.extend(to_body * lattice.restPosition(slot));
+  for (const uint32_t slot : body.lattice.active_slots) box.extend(to_body * restPosition(body, slot));
   std::ostringstream out;
   out << "the body spans " << box.min().transpose() << " to " << box.max().transpose() << " m in its own frame";
   return out.str();
@@ -74,25 +62,43 @@ std::string extentOf(const Lattice& lattice, const Pose& to_body) {
 
 }  // namespace
 
-size_t fixNodes(const BodyConfig& config, const Solid& solid, Lattice& lattice) {
+std::vector<uint32_t> slotsOfPart(uint16_t label, const Solid& solid, const Lattice& lattice) {
+  std::vector<uint32_t> slots;
+  for (int z = 0; z < solid.cells.z(); ++z) {
+    for (int y = 0; y < solid.cells.y(); ++y) {
+      for (int x = 0; x < solid.cells.x(); ++x) {
+        if (solid.labels[solid.index(x, y, z)] != label) continue;
+        for (int c = 0; c < 8; ++c) {
+          const int64_t slot = lattice.slotAt({x + (c & 1), y + (c >> 1 & 1), z + (c >> 2)});
+          slots.push_back(static_cast<uint32_t>(slot));
+        }
+      }
+    }
+  }
+  return slots;
+}
+
+size_t fixNodes(const BodyConfig& config, const PartNodes& parts, Body& body) {
   const Pose to_body = bodyPose(config).inverse();
+  const double spacing_m = body.lattice.spacing_m;
+  const double slack_m = spacing_m * (isNetwork(config.structure) ? kOnMeshBorder : kOnBorder);
   for (size_t i = 0; i < config.fixed.size(); ++i) {
     const FixedConfig& fixed = config.fixed[i];
     const std::string where = "body '" + config.name + "': fixed[" + std::to_string(i) + "]";
     if (fixed.shape == FixedShape::kPart) {
-      const auto part = std::find(solid.part_names.begin(), solid.part_names.end(), fixed.part);
-      if (part == solid.part_names.end()) {
-        throw SceneError(where + ": no part '" + fixed.part + "'; the parts are " + listed(solid.part_names));
+      const auto part = std::find(parts.names.begin(), parts.names.end(), fixed.part);
+      if (part == parts.names.end()) {
+        throw SceneError(where + ": no part '" + fixed.part + "'; the parts are " + listed(parts.names));
       }
-      const auto label = static_cast<uint16_t>(part - solid.part_names.begin() + 1);
-      if (fixPart(label, solid, lattice) == 0) {
-        throw SceneError(where + ": part '" + fixed.part + "' fills no cell at spacing_m " +
-                         std::to_string(solid.spacing_m));
+      const auto label = static_cast<uint16_t>(part - parts.names.begin() + 1);
+      if (fix(parts.slots(label), body.lattice) == 0) {
+        throw SceneError(where + ": part '" + fixed.part + "' fills no cell at spacing_m " + std::to_string(spacing_m));
       }
-    } else if (fixShape(shapeOf(fixed, kOnBorder * solid.spacing_m), to_body, lattice) == 0) {
-      throw SceneError(where + " matches no node; " + extentOf(lattice, to_body));
+    } else if (fixShape(shapeOf(fixed, slack_m), to_body, body) == 0) {
+      throw SceneError(where + " matches no node; " + extentOf(body, to_body));
     }
   }
+  const Lattice& lattice = body.lattice;
   return static_cast<size_t>(std::count_if(lattice.active_slots.begin(), lattice.active_slots.end(),
                                            [&](uint32_t slot) { return isFixed(lattice.nodes[slot]); }));
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "viscera/model/model.h"
 
+#include <algorithm>
 #include <numeric>
 
 namespace viscera {
@@ -30,7 +31,8 @@ size_t Model::activeNodes() const {
 }
 
 size_t Model::springs() const {
-  return sumOver(bodies, [](const Body& body) { return body.lattice.springs(); });
+  return sumOver(bodies,
+                 [](const Body& body) { return body.network ? body.network->springs.size() : body.lattice.springs(); });
 }
 
 size_t Model::skinVertices() const {
@@ -39,6 +41,18 @@ size_t Model::skinVertices() const {
 
 size_t Model::skinTriangles() const {
   return sumOver(bodies, [](const Body& body) { return body.skin.mesh.triangles.size(); });
+}
+
+bool Model::hasNetwork() const {
+  return std::any_of(bodies.begin(), bodies.end(), [](const Body& body) { return body.network.has_value(); });
+}
+
+bool Model::hasLattice() const {
+  return std::any_of(bodies.begin(), bodies.end(), [](const Body& body) { return !body.network.has_value(); });
+}
+
+Vector3d restPosition(const Body& body, uint32_t slot) {
+  return body.network ? body.network->positions_m[slot] : body.lattice.restPosition(slot);
 }
 
 }  // namespace viscera

@@ -2,60 +2,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <limits>
-#include <sstream>
 
+#include "model/body_notes.h"
 #include "model/fixed_nodes.h"
+#include "model/network_body.h"
 #include "model/spacing_search.h"
+#include "model/structure_rules.h"
 #include "model/tissue.h"
 #include "viscera/math/error.h"
-#include "viscera/model/model.h"
+#include "viscera/model/network_builder.h"
+#include "viscera/model/network_skin.h"
 
 namespace viscera {
 namespace {
-
-/// Sizes of the pieces that springs hold together, largest first.
-std::vector<size_t> pieces(const Lattice& lattice) {
-  std::vector<bool> seen(lattice.nodes.size(), false);
-  std::vector<size_t> sizes;
-  for (const uint32_t seed : lattice.active_slots) {
-    if (seen[seed]) continue;
-    std::vector<uint32_t> piece = {seed};
-    seen[seed] = true;
-    for (size_t next = 0; next < piece.size(); ++next) {
-      for (uint32_t spring = 0; spring < layout::kSpringsPerNode; ++spring) {
-        if (springCount(lattice.nodes[piece[next]], spring) == 0) continue;
-        const auto neighbor = static_cast<uint32_t>(lattice.neighborSlot(piece[next], spring));
-        if (seen[neighbor]) continue;
-        seen[neighbor] = true;
-        piece.push_back(neighbor);
-      }
-    }
-    sizes.push_back(piece.size());
-  }
-  std::sort(sizes.rbegin(), sizes.rend());
-  return sizes;
-}
-
-std::string latticeNote(const Lattice& lattice, size_t fixed_nodes) {
-  std::ostringstream out;
-  out << "lattice: " << lattice.active_slots.size() << " nodes (" << fixed_nodes << " fixed), " << lattice.springs()
-      << " springs, spacing " << lattice.spacing_m * 1e3 << " mm";
-  return out.str();
-}
-
-std::string piecesNote(const std::vector<size_t>& sizes) {
-  std::ostringstream out;
-  out << "the lattice falls into " << sizes.size() << " pieces; the largest has " << sizes[0] << " nodes, the next "
-      << sizes[1];
-  return out.str();
-}
-
-std::string skinNote(const Skin& skin) {
-  std::ostringstream out;
-  out << "skin: " << skin.mesh.triangles.size() << " faces, " << skin.mesh.positions_m.size() << " vertices ("
-      << skin.deep_vertices << " inside the tissue, " << skin.bridges_removed << " faces across gaps left out)";
-  return out.str();
-}
 
 TriangleMesh surfaceOf(const Tissue& tissue, const BodyConfig& config, const Solid& solid) {
   return config.skin == SkinSource::kVolume ? extractSkin(solid) : tissue.surface(solid);
@@ -69,35 +28,63 @@ Progress progressOf(const BodyConfig& config, const Progress& progress) {
   };
 }
 
-Filling fill(const Tissue& tissue, const BodyConfig& config, const Progress& progress) {
-  if (config.target_nodes > 0) return fillToNodes(tissue, config.target_nodes, progress);
-  if (config.auto_spacing) return fillToNodes(tissue, kUnmeasuredNodes, progress);
-  return tissue.fill(config.spacing_m, progress);
+void addPiecesNote(Body& body) {
+  const std::string note = piecesNote(body);
+  if (!note.empty()) body.notes.push_back(note);
 }
 
-Body buildBody(const BodyConfig& config, const std::string& folder, const Progress& all_progress) {
-  const Progress progress = progressOf(config, all_progress);
-  Body body;
-  body.name = config.name;
-  body.material = config.material;
-  body.parts = config.parts;
-  body.color = config.color;
-  if (progress) progress("read", 0);
-  const std::unique_ptr<Tissue> tissue = makeTissue(config, folder);
-  body.notes = tissue->notes;
-  const Filling filling = fill(*tissue, config, progress);
+void addNotes(const std::vector<std::string>& notes, Body& body) {
+  body.notes.insert(body.notes.begin(), notes.begin(), notes.end());
+}
+
+Body buildLatticeBody(const BodyConfig& config, const Tissue& tissue, const Progress& progress) {
+  Body body = plainBody(config);
+  addNotes(tissue.notes, body);
+  const Filling filling = fill(tissue, config, progress);
+  const Solid& solid = filling.solid;
   if (!config.spacing_note.empty()) body.notes.push_back(config.spacing_note);
   if (!filling.note.empty()) body.notes.push_back(filling.note);
   if (progress) progress("build lattice", 0);
-  body.lattice = buildLattice(filling.solid, config.material.weights);
-  const size_t fixed_nodes = fixNodes(config, filling.solid, body.lattice);
+  body.lattice = buildLattice(solid, config.material.weights);
+  const auto slots = [&](uint16_t label) { return slotsOfPart(label, solid, body.lattice); };
+  const size_t fixed_nodes = fixNodes(config, {solid.part_names, slots}, body);
   body.notes.push_back(latticeNote(body.lattice, fixed_nodes));
-  const std::vector<size_t> sizes = pieces(body.lattice);
-  if (sizes.size() > 1) body.notes.push_back(piecesNote(sizes));
+  addPiecesNote(body);
   if (progress) progress("extract skin", 0);
-  body.skin = bindSkin(surfaceOf(*tissue, config, filling.solid), body.lattice, filling.solid, progress);
+  body.skin = bindSkin(surfaceOf(tissue, config, solid), body.lattice, solid, progress);
+  body.notes.push_back(skinNote(body.skin));
+  if (config.structure != Structure::kExplicit) return body;
+  body.network = latticeNetwork(body, config.bending_ratio);
+  body.notes.push_back(linksNote(*body.network));
+  return body;
+}
+
+Body buildNetworkBody(const BodyConfig& config, const Tissue& tissue, bool can_be_cut, const Progress& progress) {
+  PartNodes parts;
+  Body body = networkBody(config, tissue, progress, &parts);
+  addNotes(tissue.notes, body);
+  const size_t fixed_nodes = fixNodes(config, parts, body);
+  body.notes.push_back(networkNote(body, fixed_nodes));
+  addPiecesNote(body);
+  if (progress) progress("extract skin", 0);
+  body.skin = bindNetworkSkin(*body.network, can_be_cut);
   body.notes.push_back(skinNote(body.skin));
   return body;
+}
+
+Body buildBody(const BodyConfig& config, const std::string& folder, bool can_be_cut, const Progress& all_progress) {
+  const Progress progress = progressOf(config, all_progress);
+  if (progress) progress("read", 0);
+  const std::unique_ptr<Tissue> tissue = makeTissue(config, folder);
+  if (isNetwork(config.structure)) return buildNetworkBody(config, *tissue, can_be_cut, progress);
+  return buildLatticeBody(config, *tissue, progress);
+}
+
+bool canCut(const Scene& scene) {
+  const auto cuts = [](ToolMode mode) { return mode == ToolMode::kCut || mode == ToolMode::kCutParticles; };
+  return std::any_of(scene.styluses.begin(), scene.styluses.end(), [&](const StylusConfig& stylus) {
+    return cuts(stylus.idle) || cuts(stylus.button1) || cuts(stylus.button2);
+  });
 }
 
 bool canMove(const Model& model) {
@@ -112,10 +99,11 @@ bool canMove(const Model& model) {
 }  // namespace
 
 Model buildModel(const Scene& scene, const Progress& progress) {
+  const bool can_be_cut = canCut(scene);
   Model model;
   for (const BodyConfig& config : scene.bodies) {
     try {
-      model.bodies.push_back(buildBody(config, scene.folder, progress));
+      model.bodies.push_back(buildBody(config, scene.folder, can_be_cut, progress));
     } catch (const LatticeError& error) {
       throw LatticeError("body '" + config.name + "': " + error.what());
     }

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "model/structure_rules.h"
 #include "model/yaml_reader.h"
 #include "viscera/math/error.h"
 
@@ -126,10 +127,13 @@ void requireConsistent(const std::string& file, const Scene& scene) {
   requireNames(file, "bodies", scene.bodies);
   requireNames(file, "styluses", scene.styluses);
   requireNames(file, "cameras", scene.cameras);
+  requireNames(file, "obstacles", scene.obstacles);
   for (const BodyConfig& body : scene.bodies) {
     if (body.source == TissueSource::kMesh && body.mesh_file.empty()) {
       throw SceneError(file + ": body '" + body.name + "' has source mesh and needs 'mesh_file'");
     }
+    const std::string fault = structureFault(body);
+    if (!fault.empty()) throw SceneError(file + ": body '" + body.name + "': " + fault);
     for (size_t i = 0; i < body.fixed.size(); ++i) {
       requireFixed(file + ": body '" + body.name + "' fixed[" + std::to_string(i) + "]", body.fixed[i]);
     }

@@ -53,7 +53,8 @@ template <class V>
 void visitFields(V& v, MaterialConfig& c) {
   v.number("young_modulus_pa", c.young_modulus_pa, {1, 1e9}, "Pa", "Young's modulus E");
   v.number("poisson_ratio", c.poisson_ratio, {0, 0.49}, "1",
-           "Poisson's ratio nu; 1/4 costs nothing, any other adds a pass over the cells");
+           "Poisson's ratio nu; 1/4 costs nothing, any other adds a pass over the cells; structure surface and "
+           "tetrahedra have that of their springs, 1/3 and 1/4");
   v.number("density_kg_per_m3", c.density_kg_per_m3, {1, 1e5}, "kg/m3", "mass density");
   v.number("drag_per_s", c.drag_per_s, {0, 1e4}, "1/s", "node drag gamma: every velocity decays at this rate");
   v.number("dashpot_ratio", c.dashpot_ratio, {0, 0.5}, "1",
@@ -74,20 +75,43 @@ template <class V>
 void visitFields(V& v, BodyConfig& c) {
   v.text("name", c.name, "name, unique");
   v.choice("source", c.source,
-           {{"phantom", TissueSource::kPhantom}, {"mesh", TissueSource::kMesh}, {"box", TissueSource::kBox}},
-           "where the tissue comes from: the built-in heart, a mesh file, a box");
-  v.text("mesh_file", c.mesh_file, "mesh: OBJ, STL, PLY, glTF or GLB file, relative to the scene file");
+           {{"phantom", TissueSource::kPhantom},
+            {"mesh", TissueSource::kMesh},
+            {"box", TissueSource::kBox},
+            {"sheet", TissueSource::kSheet},
+            {"ball", TissueSource::kBall}},
+           "where the tissue comes from: the built-in heart, a mesh file, a box, a flat sheet, a ball");
+  v.choice("structure", c.structure,
+           {{"lattice", Structure::kLattice},
+            {"explicit", Structure::kExplicit},
+            {"surface", Structure::kSurface},
+            {"tetrahedra", Structure::kTetrahedra}},
+           "what is made of it: a solid lattice; the same with explicit connections (VR05 2.5.1); springs along the "
+           "edges of its surface (cloth, membranes, vessel walls); springs along the edges of a tetrahedral mesh");
+  v.text("mesh_file", c.mesh_file,
+         "mesh: OBJ, STL, PLY, glTF or GLB file, for tetrahedra a Gmsh .msh file; relative to the scene file");
   v.number("unit_scale_m", c.unit_scale_m, {1e-9, 1e3}, "m", "mesh: metres per unit of the file");
   v.choice("up_axis", c.up_axis, {{"z", UpAxis::kZ}, {"y", UpAxis::kY}},
            "mesh: axis of the file that points up and is turned to z; y in glTF");
   v.boolean("centered", c.centered, "mesh: move the middle of its bounding box to the body's origin");
   v.number("phantom_length_m", c.phantom_length_m, {0.01, 1}, "m", "phantom: base to apex");
   v.number("phantom_wall_scale", c.phantom_wall_scale, {0.1, 2}, "1", "phantom: multiplies every wall thickness");
-  v.vector("box_size_m", c.box_size_m, {1e-4, 10}, "m", "box: edge lengths, centred on the body's origin");
-  v.numberOrAuto("spacing_m", c.spacing_m, c.auto_spacing, {1e-5, 10}, "m",
-                 "lattice spacing h; auto: the finest that this machine steps in real time (solver.real_time_factor)");
-  v.integer("target_nodes", c.target_nodes, {0, 20e6},
-            "node count to reach within 2 %; above 0 it decides instead of spacing_m");
+  v.vector("box_size_m", c.box_size_m, {1e-4, 10}, "m",
+           "box: edge lengths, centred on the body's origin; sheet: x and y");
+  v.number("ball_radius_m", c.ball_radius_m, {1e-4, 10}, "m", "ball: radius, centred on the body's origin");
+  v.number("thickness_m", c.thickness_m, {1e-6, 1}, "m", "structure surface: of the membrane, for mass and stiffness");
+  v.number("bending_ratio", c.bending_ratio, {0, 1}, "1",
+           "stiffness of springs against bending over that of the springs around: across the edges of a surface, along "
+           "one-node-thick parts of an explicit lattice; 0: none. They shorten the stable substep");
+  v.vector("force_n", c.force_n, {-1e3, 1e3}, "N", "constant force on the body, spread over its nodes by mass");
+  v.numberOrAuto(
+      "spacing_m", c.spacing_m, c.auto_spacing, {1e-5, 10}, "m",
+      "lattice spacing h, edge length of a surface (the longest of a mesh); auto: the finest lattice that this "
+      "machine steps in real time (solver.real_time_factor)");
+  v.integer(
+      "target_nodes", c.target_nodes, {0, 20e6},
+      "node count to reach within 2 %, of surfaces as near as whole triangles come; above 0 it decides instead of "
+      "spacing_m");
   v.choice("skin", c.skin,
            {{"auto", SkinSource::kAuto}, {"input", SkinSource::kInput}, {"volume", SkinSource::kVolume}},
            "detailed surface: the input mesh, or extracted from the volume; auto takes the mesh where there is one");
@@ -137,6 +161,15 @@ void visitFields(V& v, CameraConfig& c) {
 }
 
 template <class V>
+void visitFields(V& v, WindConfig& c) {
+  v.vector("velocity_m_per_s", c.velocity_m_per_s, {-100, 100}, "m/s", "mean velocity of the air, tissue frame");
+  v.number("gust_ratio", c.gust_ratio, {0, 10}, "1", "gusts: speed swings by this share of it");
+  v.number("gust_period_s", c.gust_period_s, {0.01, 1000}, "s", "gusts: period");
+  v.number("air_density_kg_per_m3", c.air_density_kg_per_m3, {0, 2000}, "kg/m3", "density of what blows");
+  v.number("drag_coefficient", c.drag_coefficient, {0, 10}, "1", "pressure over that of the stopped air");
+}
+
+template <class V>
 void visitFields(V& v, EnvironmentConfig& c) {
   v.vector("gravity_m_per_s2", c.gravity_m_per_s2, {-100, 100}, "m/s2", "gravity, tissue frame");
   v.text("world_frame", c.world_frame, "tf frame in which the tissue frame is placed");
@@ -144,6 +177,43 @@ void visitFields(V& v, EnvironmentConfig& c) {
   v.vector("tissue_position_m", c.tissue_position_m, {-1e4, 1e4}, "m", "origin of the tissue frame in the world frame");
   v.vector("tissue_rotation_deg", c.tissue_rotation_deg, kAngle, "deg",
            "turns about the world's x, then y, then z axis");
+  v.group("wind", c.wind, "moving air; it pushes at bodies with structure surface");
+}
+
+template <class V>
+void visitFields(V& v, CollisionConfig& c) {
+  v.boolean("enabled", c.enabled, "bodies collide with themselves, each other and the flaps of cuts");
+  v.choice(
+      "search", c.search, {{"grid", CollisionSearch::kGrid}, {"staggered", CollisionSearch::kStaggered}},
+      "how pairs are found: a uniform grid, complete; or GW's staggered partitions with a sort, which misses some");
+  v.number("distance_m", c.distance_m, {0, 1}, "m", "nodes are kept this far apart; 0: the mean length of springs");
+  v.number("friction", c.friction, {0, 10}, "1", "Coulomb's coefficient");
+  v.number("restitution", c.restitution, {0, 1}, "1", "speed after over speed before a collision");
+  v.integer("partitions", c.partitions, {1, 8}, "staggered: space partitions, each shifted");
+  v.integer("window", c.window, {1, 64}, "staggered: nodes looked at on either side in sorted order");
+}
+
+template <class V>
+void visitFields(V& v, ObstacleConfig& c) {
+  v.text("name", c.name, "name, unique");
+  v.choice("shape", c.shape,
+           {{"plane", ObstacleShape::kPlane},
+            {"sphere", ObstacleShape::kSphere},
+            {"capsule", ObstacleShape::kCapsule},
+            {"box", ObstacleShape::kBox}},
+           "what nodes do not enter");
+  v.vector("position_m", c.position_m, kCoordinate, "m", "its origin in its frame; of a plane: a point of it");
+  v.vector("rotation_deg", c.rotation_deg, kAngle, "deg",
+           "turns about fixed x, then y, then z; a plane's tissue is on its +z side, a capsule lies along z");
+  v.number("radius_m", c.radius_m, {1e-4, 10}, "m", "sphere, capsule: radius");
+  v.number("length_m", c.length_m, kLength, "m", "capsule: between the centres of its ends");
+  v.vector("size_m", c.size_m, {1e-4, 10}, "m", "box: edge lengths");
+  v.vector("velocity_m_per_s", c.velocity_m_per_s, {-10, 10}, "m/s", "it moves so from the start on");
+  v.vector("rotation_deg_per_s", c.rotation_deg_per_s, {-3600, 3600}, "deg/s",
+           "and turns so about its origin: a rotation vector, tissue frame");
+  v.text("frame", c.frame, "tf frame that carries it; empty: the tissue frame");
+  v.number("friction", c.friction, {0, 10}, "1", "Coulomb's coefficient");
+  v.number("restitution", c.restitution, {0, 1}, "1", "speed after over speed before a collision");
 }
 
 template <class V>
@@ -165,6 +235,9 @@ void visitFields(V& v, SolverConfig& c) {
   v.integer("iterations", c.iterations, {1, 10000}, "vbd, pd: sweeps over all nodes per substep");
   v.boolean("compensated", c.compensated,
             "leapfrog: sum displacement and velocity with compensation (Kahan); always where substeps are below 50 us");
+  v.choice("spring_forces", c.spring_forces, {{"point", SpringForces::kPoint}, {"edge", SpringForces::kEdge}},
+           "leapfrog, explicit connections (GW 4): each node sums over its springs; or each spring's force once, then "
+           "each node sums them");
   v.boolean("governor", c.governor, "watch every tick, roll an explosion back and recover from it");
   v.number("recovery_s", c.recovery_s, {0, 10}, "s", "governor: simulated time for which pd goes on after a roll-back");
   v.number("sleep_distance_m", c.sleep_distance_m, {0.01, 100}, "m",
@@ -187,6 +260,8 @@ void visitFields(V& v, Scene& c) {
   v.list("bodies", c.bodies, layout::kMaxBodies, "pieces of tissue, at least one");
   v.list("styluses", c.styluses, layout::kMaxStyluses, "tools");
   v.list("cameras", c.cameras, 8, "views");
+  v.list("obstacles", c.obstacles, layout::kMaxObstacles, "rigid things that nodes do not enter");
+  v.group("collision", c.collision, "bodies against themselves and each other; costs nothing while it is off");
   v.group("environment", c.environment, "gravity and frames");
   v.group("solver", c.solver, "time stepping");
 }

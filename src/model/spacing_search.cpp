@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "viscera/math/error.h"
+#include "viscera/model/model.h"
 
 namespace viscera {
 namespace {
@@ -32,13 +33,42 @@ struct Bracket {
     }
   }
 
-  /// Nodes go roughly with 1/h^3; where that leads out of the bracket, its middle is taken.
-  double next(double spacing_m, size_t nodes, int target) const {
-    const double guess = spacing_m * std::cbrt(static_cast<double>(nodes) / target);
+  /// Where the nodes' power law leads; where that is out of the bracket, its middle is taken.
+  double next(double spacing_m, double factor) const {
+    const double guess = spacing_m * factor;
     const bool bounded = fine_m > 0 && std::isfinite(coarse_m);
     return bounded && (guess <= fine_m || guess >= coarse_m) ? std::sqrt(fine_m * coarse_m) : guess;
   }
 };
+
+/// Looks for the spacing that gives a number of nodes.
+/// @param root   of the number of nodes: what spacings go with
+/// @param make   (spacing_m) -> what is made
+/// @param count  nodes of what was made
+template <class Make, class Count>
+auto toNodes(int target, double start_m, double largest_m, double (*root)(double), Make make, Count count) {
+  double spacing_m = std::min(start_m, largest_m), best_m = 0;
+  Bracket bracket;
+  decltype(make(spacing_m)) best;
+  size_t best_nodes = 0;
+  for (int pass = 0; pass < kMostPasses; ++pass) {
+    auto made = make(spacing_m);
+    const size_t nodes = count(made);
+    bracket.learn(spacing_m, nodes, target);
+    if (best_nodes == 0 || relativeError(nodes, target) < relativeError(best_nodes, target)) {
+      best_nodes = nodes;
+      best_m = spacing_m;
+      best = std::move(made);
+    }
+    if (relativeError(best_nodes, target) <= kCloseEnough) return best;
+    spacing_m = std::min(bracket.next(spacing_m, root(static_cast<double>(nodes) / target)), largest_m);
+  }
+  if (relativeError(best_nodes, target) <= kTooFar) return best;
+  std::ostringstream out;
+  out << "target_nodes " << target << " is out of reach: the nearest is " << best_nodes << " nodes, with spacing_m "
+      << best_m;
+  throw LatticeError(out.str());
+}
 
 }  // namespace
 
@@ -59,26 +89,25 @@ size_t countNodes(const Solid& solid) {
 
 Filling fillToNodes(const Tissue& tissue, int target_nodes, const Progress& progress) {
   const Vector3d size_m = tissue.bounds().sizes();
-  double spacing_m = std::min(std::cbrt(kUsualFill * size_m.prod() / target_nodes), size_m.maxCoeff());
-  Bracket bracket;
-  Filling best;
-  size_t best_nodes = 0;
-  for (int pass = 0; pass < kMostPasses; ++pass) {
-    Filling filling = tissue.fill(spacing_m, progress);
-    const size_t nodes = countNodes(filling.solid);
-    bracket.learn(spacing_m, nodes, target_nodes);
-    if (best_nodes == 0 || relativeError(nodes, target_nodes) < relativeError(best_nodes, target_nodes)) {
-      best_nodes = nodes;
-      best = std::move(filling);
-    }
-    if (relativeError(best_nodes, target_nodes) <= kCloseEnough) return best;
-    spacing_m = std::min(bracket.next(spacing_m, nodes, target_nodes), size_m.maxCoeff());
-  }
-  if (relativeError(best_nodes, target_nodes) <= kTooFar) return best;
-  std::ostringstream out;
-  out << "target_nodes " << target_nodes << " is out of reach: the nearest is " << best_nodes
-      << " nodes, with spacing_m " << best.solid.spacing_m;
-  throw LatticeError(out.str());
+  const double start_m = std::cbrt(kUsualFill * size_m.prod() / target_nodes);
+  return toNodes(
+      target_nodes, start_m, size_m.maxCoeff(), std::cbrt,
+      [&](double spacing_m) { return tissue.fill(spacing_m, progress); },
+      [](const Filling& filling) { return countNodes(filling.solid); });
+}
+
+TriangleMesh shellToNodes(const Tissue& tissue, int target_nodes) {
+  const double size_m = tissue.bounds().sizes().maxCoeff();
+  return toNodes(
+      target_nodes, size_m / std::sqrt(target_nodes), size_m, std::sqrt,
+      [&](double spacing_m) { return tissue.shell(spacing_m); },
+      [](const TriangleMesh& mesh) { return mesh.positions_m.size(); });
+}
+
+Filling fill(const Tissue& tissue, const BodyConfig& config, const Progress& progress) {
+  if (config.target_nodes > 0) return fillToNodes(tissue, config.target_nodes, progress);
+  if (config.auto_spacing) return fillToNodes(tissue, kUnmeasuredNodes, progress);
+  return tissue.fill(config.spacing_m, progress);
 }
 
 }  // namespace viscera

@@ -15,4 +15,11 @@ size_t countNodes(const Solid& solid);
 /// @throws LatticeError  the nearest is more than 25 % off, or so fine a grid would not fit in memory
 Filling fillToNodes(const Tissue& tissue, int target_nodes, const Progress& progress);
 
+/// The membrane whose vertex count is nearest to a target, likewise.
+TriangleMesh shellToNodes(const Tissue& tissue, int target_nodes);
+
+/// The solid of a body as its target_nodes or else its spacing_m ask for; of an automatic spacing that nobody has
+/// chosen, with kUnmeasuredNodes nodes.
+Filling fill(const Tissue& tissue, const BodyConfig& config, const Progress& progress);
+
 }  // namespace viscera

@@ -3,43 +3,28 @@
 #include "model/tissue.h"
 
 #include <filesystem>
-#include <sstream>
 
-#include "model/box_surface.h"
-#include "model/solid_grid.h"
+#include "model/placing.h"
+#include "model/plain_tissue.h"
 #include "model/solid_shell.h"
+#include "model/structure_rules.h"
 #include "viscera/math/error.h"
 #include "viscera/model/mesh_import.h"
+#include "viscera/model/msh_reader.h"
 #include "viscera/model/phantom.h"
 
 namespace viscera {
 namespace {
 
-void move(TriangleMesh& mesh, const Pose& pose) {
-  for (Vector3f& position : mesh.positions_m) position = (pose * position.cast<double>()).cast<float>();
-}
-
-/// Turns the file's upward axis to z and moves the middle of its bounding box to the origin, where asked to.
-void toBodyFrame(TriangleMesh& mesh, const BodyConfig& config) {
-  if (config.up_axis == UpAxis::kY) {
-    for (Vector3f& p : mesh.positions_m) p = Vector3f(p.x(), -p.z(), p.y());
+TriangleMesh refined(const TriangleMesh& mesh, double longest_edge_m) {
+  double area_m2 = 0;
+  for (const auto& t : mesh.triangles) {
+    const Vector3d a = mesh.positions_m[t[0]].cast<double>();
+    area_m2 +=
+        0.5 * (mesh.positions_m[t[1]].cast<double>() - a).cross(mesh.positions_m[t[2]].cast<double>() - a).norm();
   }
-  if (!config.centered) return;
-  Eigen::AlignedBox3f box;
-  for (const Vector3f& p : mesh.positions_m) box.extend(p);
-  const Vector3f middle = box.center();
-  for (Vector3f& p : mesh.positions_m) p -= middle;
-}
-
-/// Box around a box that is turned and moved.
-Eigen::AlignedBox3d movedBox(const Vector3d& min_m, const Vector3d& max_m, const Pose& pose) {
-  const Vector3d half = 0.5 * (max_m - min_m), center = pose * (0.5 * (min_m + max_m));
-  const Vector3d reach = pose.orientation.toRotationMatrix().cwiseAbs() * half;
-  return {center - reach, center + reach};
-}
-
-DistanceField movedField(const DistanceField& field, const Pose& pose) {
-  return [field, to_body = pose.inverse()](const Vector3d& point_m) { return field(to_body * point_m); };
+  requireShell(area_m2, longest_edge_m);
+  return refine(mesh, longest_edge_m);
 }
 
 class MeshTissue : public Tissue {
@@ -48,8 +33,8 @@ class MeshTissue : public Tissue {
     path_ = (std::filesystem::path(folder) / config.mesh_file).string();
     ImportReport report;
     mesh_ = facingOutward(importMesh(path_, config.unit_scale_m, &report));
-    toBodyFrame(mesh_, config);
-    move(mesh_, bodyPose(config));
+    toBodyFrame(mesh_.positions_m, config);
+    move(mesh_.positions_m, bodyPose(config));
     notes.push_back(path_ + ": " + report.text());
   }
 
@@ -64,12 +49,8 @@ class MeshTissue : public Tissue {
   }
 
   TriangleMesh surface(const Solid&) const override { return mesh_; }
-
-  Eigen::AlignedBox3d bounds() const override {
-    Eigen::AlignedBox3d box;
-    for (const Vector3f& position : mesh_.positions_m) box.extend(position.cast<double>());
-    return box;
-  }
+  TriangleMesh shell(double spacing_m) const override { return refined(mesh_, spacing_m); }
+  Eigen::AlignedBox3d bounds() const override { return boundsOf(mesh_.positions_m); }
 
  private:
   std::string path_;
@@ -91,8 +72,9 @@ class PhantomTissue : public Tissue {
     return {voxelise(phantom_.field, phantom_.part_names, phantom_.min_m, phantom_.max_m, spacing_m, progress), ""};
   }
 
-  TriangleMesh surface(const Solid& solid) const override {
-    return extractSkin(phantom_.field, phantom_.part_names, phantom_.min_m, phantom_.max_m, solid.spacing_m);
+  TriangleMesh surface(const Solid& solid) const override { return shell(solid.spacing_m); }
+  TriangleMesh shell(double spacing_m) const override {
+    return extractSkin(phantom_.field, phantom_.part_names, phantom_.min_m, phantom_.max_m, spacing_m);
   }
 
   Eigen::AlignedBox3d bounds() const override { return {phantom_.min_m, phantom_.max_m}; }
@@ -101,51 +83,26 @@ class PhantomTissue : public Tissue {
   Phantom phantom_;
 };
 
-class BoxTissue : public Tissue {
+/// A tetrahedral mesh: it is what it is, no surface and no solid is made of it.
+class TetrahedraTissue : public Tissue {
  public:
-  explicit BoxTissue(const BodyConfig& config) : size_m_(config.box_size_m), pose_(bodyPose(config)) {}
-
-  Filling fill(double spacing_m, const Progress& progress) const override {
-    if (isTurned()) return {fillTurned(spacing_m, progress), ""};
-    requireSpacingWithin(size_m_, spacing_m);
-    const Vector3d rounded_m = (size_m_ / spacing_m).array().round().max(1.0) * spacing_m;
-    Solid solid = boxSolid(pose_.position_m - 0.5 * rounded_m, rounded_m, spacing_m);
-    if (progress) progress("voxelise", 1);
-    return {std::move(solid), roundingNote(rounded_m)};
+  TetrahedraTissue(const BodyConfig& config, const std::string& folder) {
+    const std::string path = (std::filesystem::path(folder) / config.mesh_file).string();
+    MshReport report;
+    mesh_ = readMsh(path, config.unit_scale_m, &report);
+    toBodyFrame(mesh_.positions_m, config);
+    move(mesh_.positions_m, bodyPose(config));
+    notes.push_back(path + ": " + report.text());
   }
 
-  TriangleMesh surface(const Solid& solid) const override {
-    if (!isTurned()) return boxSurface(solid.origin_m, solid.spacing_m * solid.cells.cast<double>(), solid.cells);
-    const Vector3i squares = (size_m_ / solid.spacing_m).array().ceil().max(1.0).cast<int>();
-    TriangleMesh mesh = boxSurface(-0.5 * size_m_, size_m_, squares);
-    move(mesh, pose_);
-    return mesh;
-  }
-
-  Eigen::AlignedBox3d bounds() const override { return movedBox(-0.5 * size_m_, 0.5 * size_m_, pose_); }
+  Filling fill(double, const Progress&) const override { throw LatticeError("a .msh file makes no lattice"); }
+  TriangleMesh surface(const Solid&) const override { throw LatticeError("a .msh file makes no lattice"); }
+  TriangleMesh shell(double) const override { throw LatticeError("a .msh file makes no membrane"); }
+  const TetrahedraMesh* tetrahedra() const override { return &mesh_; }
+  Eigen::AlignedBox3d bounds() const override { return boundsOf(mesh_.positions_m); }
 
  private:
-  bool isTurned() const { return pose_.orientation.vec().norm() > kTurn; }
-
-  Solid fillTurned(double spacing_m, const Progress& progress) const {
-    const Vector3d half_m = 0.5 * size_m_;
-    const DistanceField field = [half_m](const Vector3d& point_m) {
-      return LabelledDistance{(point_m.cwiseAbs() - half_m).maxCoeff(), 0};
-    };
-    return voxelise(movedField(field, pose_), {"box"}, bounds().min(), bounds().max(), spacing_m, progress);
-  }
-
-  std::string roundingNote(const Vector3d& rounded_m) const {
-    constexpr double kWorthTelling = 0.01;
-    if (((rounded_m - size_m_).cwiseAbs().array() < kWorthTelling * size_m_.array()).all()) return "";
-    std::ostringstream out;
-    out << "box of " << size_m_.transpose() << " m rounded to whole cells: " << rounded_m.transpose() << " m";
-    return out.str();
-  }
-
-  static constexpr double kTurn = 1e-9;  ///< rounding of a full turn, in half radians
-  Vector3d size_m_;
-  Pose pose_;
+  TetrahedraMesh mesh_;
 };
 
 }  // namespace
@@ -155,16 +112,20 @@ Pose bodyPose(const BodyConfig& config) {
 }
 
 std::unique_ptr<Tissue> makeTissue(const BodyConfig& config, const std::string& folder) {
-  if (config.skin == SkinSource::kInput && config.source != TissueSource::kMesh) {
-    throw SceneError("body '" + config.name + "': skin: input needs source: mesh; use auto or volume");
-  }
+  const std::string fault = structureFault(config);
+  if (!fault.empty()) throw SceneError("body '" + config.name + "': " + fault);
   switch (config.source) {
     case TissueSource::kMesh:
+      if (config.structure == Structure::kTetrahedra) return std::make_unique<TetrahedraTissue>(config, folder);
       return std::make_unique<MeshTissue>(config, folder);
     case TissueSource::kPhantom:
       return std::make_unique<PhantomTissue>(config);
+    case TissueSource::kSheet:
+      return sheetTissue(config);
+    case TissueSource::kBall:
+      return ballTissue(config);
     case TissueSource::kBox:
-      return std::make_unique<BoxTissue>(config);
+      return boxTissue(config);
   }
   throw SceneError("body '" + config.name + "': unknown source");
 }

@@ -4,22 +4,24 @@
 #include <cmath>
 #include <limits>
 
+#include "model/network_body.h"
 #include "model/spacing_search.h"
+#include "model/structure_rules.h"
 #include "model/tissue.h"
 #include "viscera/math/error.h"
+#include "viscera/model/network_builder.h"
 #include "viscera/model/spacing_choice.h"
 
 namespace viscera {
 namespace {
 
-Body latticeBody(const BodyConfig& config, const Tissue& tissue, double spacing_m) {
-  Body body;
-  body.name = config.name;
-  body.material = config.material;
-  body.parts = config.parts;
+Body bareBody(const BodyConfig& config, const Tissue& tissue, double spacing_m) {
+  if (isNetwork(config.structure)) return networkBody(config, tissue, {});
+  Body body = plainBody(config);
   const Filling filling =
       config.target_nodes > 0 ? fillToNodes(tissue, config.target_nodes, {}) : tissue.fill(spacing_m, {});
   body.lattice = buildLattice(filling.solid, config.material.weights);
+  if (config.structure == Structure::kExplicit) body.network = latticeNetwork(body, config.bending_ratio);
   return body;
 }
 
@@ -80,7 +82,7 @@ double UndividedBodies::wholeEdge_m() const {
 Model UndividedBodies::lattices(double spacing_m) const {
   Model model;
   for (const Draft& draft : auto_) {
-    model.bodies.push_back(naming(draft.config, [&] { return latticeBody(draft.config, *draft.tissue, spacing_m); }));
+    model.bodies.push_back(naming(draft.config, [&] { return bareBody(draft.config, *draft.tissue, spacing_m); }));
   }
   return model;
 }
@@ -89,7 +91,7 @@ Model UndividedBodies::others() const {
   Model model;
   for (const Draft& draft : others_) {
     model.bodies.push_back(
-        naming(draft.config, [&] { return latticeBody(draft.config, *draft.tissue, draft.config.spacing_m); }));
+        naming(draft.config, [&] { return bareBody(draft.config, *draft.tissue, draft.config.spacing_m); }));
   }
   return model;
 }

@@ -102,9 +102,14 @@ SkinLayout skinLayout(const Session& session) {
   SkinLayout skin;
   skin.vertices = session.surface().vertices();
   skin.indices = session.surface().triangleIndices();
+  skin.splits = session.surface().splitVertices();
   for (const Body& body : session.model().bodies)
     skin.bodies.push_back({body.name, body.skin.mesh.triangles.size(), body.color});
   return skin;
+}
+
+void SkinLayout::appendShown(size_t triangle, uint32_t alive, std::vector<uint32_t>& out) const {
+  viscera::appendShown(&indices[3 * triangle], splits.empty() ? nullptr : &splits[6 * triangle], alive, out);
 }
 
 SurfaceTopology toTopology(const SkinLayout& skin, const std::vector<uint32_t>& alive, uint32_t version,
@@ -117,8 +122,7 @@ SurfaceTopology toTopology(const SkinLayout& skin, const std::vector<uint32_t>& 
   for (const auto& body : skin.bodies) {
     const size_t before = out.triangles.size();
     for (const size_t end = triangle + body.triangles; triangle < end; ++triangle)
-      if (alive.empty() || alive[triangle])
-        out.triangles.insert(out.triangles.end(), &skin.indices[3 * triangle], &skin.indices[3 * triangle] + 3);
+      skin.appendShown(triangle, alive.empty() ? layout::kShownWhole : alive[triangle], out.triangles);
     out.bodies.push_back(body.name);
     out.body_triangles.push_back(static_cast<uint32_t>((out.triangles.size() - before) / 3));
   }
@@ -144,11 +148,12 @@ std::vector<visualization_msgs::Marker> toMarkers(const SkinLayout& skin, const 
     visualization_msgs::Marker marker = emptyMarker(body, markers.size());
     marker.header = header(frame_id, stamp);
     marker.points.reserve(3 * body.triangles);
-    for (const size_t end = triangle + body.triangles; triangle < end; ++triangle) {
-      if (!frame.alive[triangle]) continue;
-      const uint32_t* index = &skin.indices[3 * triangle];
+    std::vector<uint32_t> shown;
+    for (const size_t end = triangle + body.triangles; triangle < end; ++triangle)
+      skin.appendShown(triangle, frame.alive[triangle], shown);
+    for (size_t first = 0; first < shown.size(); first += 3) {
       const float* corner[3];
-      for (int i = 0; i < 3; ++i) corner[i] = &frame.positions_m[3 * static_cast<size_t>(index[i])];
+      for (size_t i = 0; i < 3; ++i) corner[i] = &frame.positions_m[3 * static_cast<size_t>(shown[first + i])];
       if (!finite(corner[0]) || !finite(corner[1]) || !finite(corner[2])) continue;
       for (const float* xyz_m : corner) marker.points.push_back(toPoint(xyz_m));
     }

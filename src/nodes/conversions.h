@@ -48,17 +48,21 @@ struct SkinLayout {
   };
   size_t vertices = 0;
   std::vector<uint32_t> indices;  ///< [3 * triangles]
+  std::vector<uint32_t> splits;   ///< Surface::splitVertices()
+
+  /// Appends the vertex indices of what is shown of a triangle. @param alive  as in Surface::alive()
+  void appendShown(size_t triangle, uint32_t alive, std::vector<uint32_t>& out) const;
   std::vector<BodySkin> bodies;
 };
 SkinLayout skinLayout(const Session& session);
 
-/// @param alive  [triangles] 1 whole, 0 torn; empty means all whole
+/// @param alive  [triangles] as in Surface::alive(); empty means all whole
 SurfaceTopology toTopology(const SkinLayout& skin, const std::vector<uint32_t>& alive, uint32_t version,
                            const std::string& frame, const ros::Time& stamp);
 SurfaceVertices toVertices(const SurfaceFrame& frame, uint32_t topology_version, const std::string& frame_id,
                            const ros::Time& stamp);
 
-/// One marker per body, for stock rviz: TRIANGLE_LIST of its whole triangles, or DELETE if none is left. Triangles with
+/// One marker per body, for stock rviz: TRIANGLE_LIST of what is shown of it, or DELETE if none is left. Triangles with
 /// a coordinate that is not finite are left out, since rviz would crash on them.
 std::vector<visualization_msgs::Marker> toMarkers(const SkinLayout& skin, const SurfaceFrame& frame,
                                                   const std::string& frame_id, const ros::Time& stamp);

@@ -80,6 +80,7 @@ void SimulationLoop::run() {
 
 void SimulationLoop::tick(Session& session) {
   const Clock::time_point begun = Clock::now();
+  if (ports_.place) ports_.place(session);
   Frame frame = session.step(ports_.samples(), ports_.wants());
   const Clock::time_point stepped = Clock::now();
   {

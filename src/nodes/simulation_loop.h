@@ -37,7 +37,8 @@ struct LoopStatus {
 
 /// What the loop asks of its surroundings, on its own thread. None of them may block.
 struct LoopPorts {
-  std::function<StylusSamples()> samples;     ///< for a tick that begins now
+  std::function<void(Session&)> place;        ///< obstacles that others carry, for a tick that begins now; may be null
+  std::function<StylusSamples()> samples;     ///< for that tick
   std::function<Wants()> wants;               ///< of that tick
   std::function<void(const Session&)> ready;  ///< once, before the first tick
   std::function<void(Frame&&)> deliver;       ///< what came back after a tick; while paused, a frame without forces

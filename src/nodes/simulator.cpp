@@ -22,11 +22,12 @@ void reportProgress(const std::string& stage, double fraction) {
 
 Simulator::Simulator(const SimulatorOptions& options)
     : listener_(frames_),
+      obstacles_(options.scene, frames_),
       inputs_(makeInputs(options.scene, frames_)),
       publisher_(node_, options.scene, mailboxes(), options.surface_rate_hz),
       loop_(options.scene, ports(), reportProgress),
       services_(node_, loop_.commands()),
-      diagnostics_(node_, options.scene, loop_, publisher_, inputs_) {}
+      diagnostics_(node_, options.scene, loop_, publisher_, inputs_, obstacles_) {}
 
 SimulatorDiagnostics::Inputs Simulator::makeInputs(const Scene& scene, const tf2_ros::Buffer& frames) {
   SimulatorDiagnostics::Inputs inputs;
@@ -43,6 +44,7 @@ std::vector<const StylusMailbox*> Simulator::mailboxes() const {
 
 LoopPorts Simulator::ports() {
   LoopPorts ports;
+  if (!obstacles_.empty()) ports.place = [this](Session& session) { obstacles_.apply(session); };
   ports.samples = [this] {
     const auto now = std::chrono::steady_clock::now();
     for (size_t i = 0; i < inputs_.size(); ++i) samples_[i] = inputs_[i]->mailbox().take(now);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "nodes/frame_publisher.h"
+#include "nodes/obstacle_frames.h"
 #include "nodes/simulation_loop.h"
 #include "nodes/simulator_diagnostics.h"
 #include "nodes/simulator_options.h"
@@ -35,6 +36,7 @@ class Simulator {
   ros::NodeHandle node_;
   tf2_ros::Buffer frames_;
   tf2_ros::TransformListener listener_;
+  ObstacleFrames obstacles_;
   SimulatorDiagnostics::Inputs inputs_;
   FramePublisher publisher_;
   StylusSamples samples_;           ///< of the last tick; only the simulation's thread touches them

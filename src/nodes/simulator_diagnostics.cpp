@@ -28,8 +28,14 @@ void addLatency(const std::string& name, const LatencyMeter::Reading& reading,
 }  // namespace
 
 SimulatorDiagnostics::SimulatorDiagnostics(ros::NodeHandle node, const Scene& scene, SimulationLoop& loop,
-                                           FramePublisher& publisher, const Inputs& inputs)
-    : loop_(loop), publisher_(publisher), inputs_(inputs), dropped_before_(inputs.size(), 0), updater_(node) {
+                                           FramePublisher& publisher, const Inputs& inputs,
+                                           const ObstacleFrames& obstacles)
+    : loop_(loop),
+      publisher_(publisher),
+      inputs_(inputs),
+      obstacles_(obstacles),
+      dropped_before_(inputs.size(), 0),
+      updater_(node) {
   for (const CameraConfig& camera : scene.cameras) cameras_.push_back(camera.name);
   latencies_ = publisher_.takeLatencies();
   updater_.setHardwareID("none");
@@ -38,6 +44,7 @@ SimulatorDiagnostics::SimulatorDiagnostics(ros::NodeHandle node, const Scene& sc
   updater_.add("latency", this, &SimulatorDiagnostics::latency);
   for (size_t i = 0; i < inputs_.size(); ++i)
     updater_.add(inputs_[i]->mailbox().config().name, [this, i](Status& status) { stylus(i, status); });
+  if (!obstacles_.empty()) updater_.add("obstacles", this, &SimulatorDiagnostics::obstacles);
   // Forced from the steady clock, since the updater's own period follows ROS time, which may stand still.
   timer_ = node.createSteadyTimer(ros::WallDuration(kPeriod_s), [this](const ros::SteadyTimerEvent&) { update(); });
 }
@@ -96,6 +103,15 @@ void SimulatorDiagnostics::latency(Status& status) {
     addLatency("pose_to_force_" + inputs_[i]->mailbox().config().name, latencies_.forces[i], status);
   addLatency("pose_to_surface", latencies_.surface, status);
   for (size_t i = 0; i < cameras_.size(); ++i) addLatency("pose_to_image_" + cameras_[i], latencies_.images[i], status);
+}
+
+void SimulatorDiagnostics::obstacles(Status& status) {
+  const uint64_t missed = obstacles_.missed();
+  const bool missing = missed > missed_before_;
+  missed_before_ = missed;
+  status.summary(missing ? Level::WARN : Level::OK, missing ? "a frame is not known: its obstacle stays" : "carried");
+  status.add("frames_found", obstacles_.found());
+  status.add("frames_missed", missed);
 }
 
 void SimulatorDiagnostics::stylus(size_t index, Status& status) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "nodes/frame_publisher.h"
+#include "nodes/obstacle_frames.h"
 #include "nodes/simulation_loop.h"
 #include "nodes/stylus_input.h"
 
@@ -21,9 +22,9 @@ class SimulatorDiagnostics {
  public:
   using Inputs = std::vector<std::unique_ptr<StylusInput>>;
 
-  /// @param loop, publisher, inputs  must outlive this
+  /// @param loop, publisher, inputs, obstacles  must outlive this
   SimulatorDiagnostics(ros::NodeHandle node, const Scene& scene, SimulationLoop& loop, FramePublisher& publisher,
-                       const Inputs& inputs);
+                       const Inputs& inputs, const ObstacleFrames& obstacles);
 
  private:
   using Status = diagnostic_updater::DiagnosticStatusWrapper;
@@ -32,10 +33,13 @@ class SimulatorDiagnostics {
   void pace(Status& status);
   void latency(Status& status);
   void stylus(size_t index, Status& status);
+  void obstacles(Status& status);
 
   SimulationLoop& loop_;
   FramePublisher& publisher_;
   const Inputs& inputs_;
+  const ObstacleFrames& obstacles_;
+  uint64_t missed_before_ = 0;        ///< frames of obstacles
   std::vector<std::string> cameras_;  ///< their names
   std::optional<LoopStatus> now_;
   FramePublisher::Latencies latencies_;

@@ -5,6 +5,7 @@
 #include <cassert>
 
 #include "gpu/gl.h"
+#include "render/obstacle_painter.h"
 #include "render/tissue_painter.h"
 #include "render/tool_painter.h"
 #include "viscera/gpu/stage_clock.h"
@@ -34,11 +35,13 @@ void prepareImage() {
 
 }  // namespace
 
-Renderer::Renderer(const std::vector<CameraConfig>& cameras, const std::vector<StylusConfig>& styluses)
+Renderer::Renderer(const std::vector<CameraConfig>& cameras, const std::vector<StylusConfig>& styluses,
+                   const std::vector<ObstacleConfig>& obstacles)
     : cameras_(cameras),
       styluses_(styluses),
       tissue_(std::make_unique<TissuePainter>()),
       tools_(std::make_unique<ToolPainter>(styluses)) {
+  if (!obstacles.empty()) obstacles_ = std::make_unique<ObstaclePainter>(obstacles);
   for (const CameraConfig& camera : cameras) {
     opticalPose(camera);  // throws now rather than in the loop
     targets_.emplace_back(camera.width_px, camera.height_px, camera.supersampling);
@@ -49,7 +52,7 @@ Renderer::~Renderer() = default;
 
 void Renderer::draw(size_t camera, const Surface& surface, const ToolMotions& motions) {
   const MeshView mesh = {surface.positions().id(), surface.normals().id(), surface.colors().id(),
-                         surface.liveIndices().id(), 3 * surface.triangles()};
+                         surface.liveIndices().id(), surface.liveIndices().size()};
   draw(camera, mesh, motions);
 }
 
@@ -61,6 +64,7 @@ void Renderer::draw(size_t camera, const MeshView& mesh, const ToolMotions& moti
   targets_[camera].bindForDrawing();
   prepareImage();
   tissue_->draw(mesh, toolShadows(motions, styluses_, optical_from_tissue), optical_from_tissue, clip_from_optical);
+  if (obstacles_) obstacles_->draw(obstacle_poses_, optical_from_tissue, clip_from_optical);
   tools_->draw(motions, optical_from_tissue, clip_from_optical);
   targets_[camera].resolve();
   ++renders_;

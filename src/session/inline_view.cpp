@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "viscera/session/inline_view.h"
 
+#include <algorithm>
 #include <cstring>
 #include <utility>
 
@@ -31,11 +32,15 @@ bool looksTheSame(const ToolMotions& a, const ToolMotions& b) {
   return true;
 }
 
+bool isSame(const Pose& a, const Pose& b) {
+  return a.position_m == b.position_m && a.orientation.coeffs() == b.orientation.coeffs();
+}
+
 }  // namespace
 
 InlineView::InlineView(const Model& model, const Scene& scene)
     : surface_(model),
-      renderer_(scene.cameras, scene.styluses),
+      renderer_(scene.cameras, scene.styluses, scene.obstacles),
       surface_ring_(surfaceBytes(surface_), kSurfacesInFlight) {
   for (const CameraConfig& camera : scene.cameras) {
     eyes_.push_back({camera, std::make_unique<gpu::ReadbackRing>(imageBytes(camera), kImagesInFlight), {}});
@@ -78,24 +83,27 @@ void InlineView::captureImage(size_t camera, const StateView& state, const Look&
     ++counters_.skipped;
     return;
   }
-  draw(camera, state, look.motions);
+  draw(camera, state, look);
   eye.ring->requestPixels(eye.camera.width_px, eye.camera.height_px, look.tick);
   ++counters_.readbacks;
 }
 
 /// Leaves the image bound for reading; draws it if it would differ from the last one.
-void InlineView::draw(size_t camera, const StateView& state, const ToolMotions& motions) {
+void InlineView::draw(size_t camera, const StateView& state, const Look& look) {
   std::optional<Drawn>& drawn = eyes_[camera].drawn;
   if (drawn && state.moved_revision == drawn->moved_revision && state.cut_revision == drawn->cut_revision &&
-      looksTheSame(motions, drawn->motions)) {
+      looksTheSame(look.motions, drawn->motions) &&
+      std::equal(look.obstacles.begin(), look.obstacles.end(), drawn->obstacles.begin(), drawn->obstacles.end(),
+                 isSame)) {
     renderer_.bindLast(camera);
     ++counters_.repeats;
     return;
   }
   follow(state);
-  renderer_.draw(camera, surface_, motions);
+  renderer_.placeObstacles(look.obstacles);
+  renderer_.draw(camera, surface_, look.motions);
   drawn.reset();
-  if (state.moved_revision) drawn = Drawn{state.moved_revision, state.cut_revision, motions};
+  if (state.moved_revision) drawn = Drawn{state.moved_revision, state.cut_revision, look.motions, look.obstacles};
 }
 
 void InlineView::collect(Pictures& out, bool wait) {

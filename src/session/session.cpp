@@ -25,6 +25,7 @@ Session::Session(const Scene& scene, gpu::Context& context, const Progress& prog
     : scene_(withChosenSpacing(scene, context, progress)),
       model_(buildModel(scene_, progress)),
       tools_(scene.styluses, waveSpeed(model_) / scene.solver.tick_hz),
+      obstacles_(scene.obstacles),
       pose_times_(kNotedTicks) {
   solver_ = makeSolver(model_, scene_, context);
   backend_note_ = viscera::backendNote(scene_.solver, context, *solver_);
@@ -37,6 +38,7 @@ Session::Session(const Scene& scene, gpu::Context& context, const Progress& prog
 Session::~Session() = default;
 
 Frame Session::step(const StylusSamples& samples, const Wants& wants) {
+  moveObstacles();
   look_.motions = tools_.advance(samples);  // VR05 2.7: probe, grab, cut
   solver_->step(look_.motions);             // VR05 2.4: n substeps
   look_.tick = ++tick_;
@@ -48,6 +50,17 @@ Frame Session::step(const StylusSamples& samples, const Wants& wants) {
   collect(frame, false);
   releaseUntracked(look_.motions, frame);
   return frame;
+}
+
+void Session::setObstacleFrame(size_t obstacle, const Pose& pose) {
+  obstacles_.setFrame(obstacle, pose);
+  solver_->setObstacleFrame(obstacle, pose);
+}
+
+void Session::moveObstacles() {
+  obstacles_.advance(static_cast<double>(tick_) * tick_s(), tick_s());
+  look_.obstacles.clear();
+  for (size_t i = 0; i < obstacles_.count(); ++i) look_.obstacles.push_back(obstacles_.pose(i));
 }
 
 /// No pose, or tissue that is not itself: no force, at once.
@@ -113,6 +126,7 @@ void Session::reset() {
   solver_->reset();
   view_->reset();
   tools_.reset();
+  obstacles_.reset();
   for (ForceLimiter& limiter : limiters_) limiter.reset();
   reactions_ = {};
   stats_ = {};

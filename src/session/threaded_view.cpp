@@ -55,6 +55,7 @@ size_t add(const Wants& wants, Wants& to) {
 
 ThreadedView::ThreadedView(const Model& model, const Scene& scene, gpu::Context& context) : context_(context) {
   look_.wants.cameras.reserve(scene.cameras.size());
+  look_.obstacles.reserve(scene.obstacles.size());
   context_.release();
   thread_ = std::thread([&] { main(model, scene); });
   Lock lock(mutex_);
@@ -89,6 +90,7 @@ void ThreadedView::capture(Solver& solver, const Look& look, Pictures&) {
   solver.snapshot(snapshot_);
   look_.tick = look.tick;
   look_.motions = look.motions;
+  look_.obstacles = look.obstacles;
   {
     Lock lock(mutex_);
     order_ = Order::kShow;
@@ -150,6 +152,7 @@ void ThreadedView::run(const Model& model, const Scene& scene) {
   StateMirror mirror(model);
   Look look;
   look.wants.cameras.reserve(scene.cameras.size());
+  look.obstacles.reserve(scene.obstacles.size());
   announce(view, mirror);
   while (true) {
     switch (awaitOrder(look)) {

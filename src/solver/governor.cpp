@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <numeric>
 
 #include "viscera/solver/material.h"
 
@@ -27,6 +28,7 @@ float fromBits(uint32_t bits) {
 }
 
 double massOf(const Body& body) {
+  if (body.network) return std::accumulate(body.network->masses_kg.begin(), body.network->masses_kg.end(), 0.0);
   double mass = 0;
   const double eighth = bodyParams(body, 0).mass_eighth_kg;
   const Strengths table = isHeterogeneous(body) ? strengths(body) : Strengths{};

@@ -51,6 +51,7 @@ LatticeSolver::LatticeSolver(const Model& model, const Scene& scene, const Solve
       push_speed_m_per_s_(pushSpeed(model)),
       plan_(planSubsteps(model, scene.solver, dt_safe_s_, options.allow_unstable)) {
   finished_.reserve(kFinishedKept);
+  if (surroundingsOf(model, scene).any()) surroundings_.emplace(model, scene);
   if (config_.governor) watch_.emplace(Watch{newGovernor(), std::max(1, plan_.strained / kRecoveryIterations), {}, {}});
   if (hasTools()) motions_.reserve(static_cast<size_t>(mostSubsteps()) * layout::kMaxStyluses);
 }
@@ -68,13 +69,20 @@ void LatticeSolver::step(const ToolMotions& motions) {
   chooseSubsteps();
   beginTick();
   changeGrips(motions);
+  if (surroundings_) {
+    surroundings_->beginTick(tick_s_, n_);
+    beginSurroundings(*surroundings_);
+  }
   if (contacts || cuts) {
     interpolateMotions(motions, styluses_, n_, motions_);
+    for (layout::ToolMotion& motion : motions_) motion.timing.x = static_cast<float>(tick_s_ / n_);
+    for (size_t s = 0; s < layout::kMaxStyluses; ++s)
+      motions_[s].timing.x = static_cast<float>(restarted_ ? 0 : last_dt_s_);
     writeMotions(motions_);
   }
   for (int s = 0; s < n_; ++s) {
     if (contacts || cuts) selectMotions(static_cast<size_t>(s));
-    substep(motions, cuts, contacts);
+    substep(s, motions, cuts, contacts);
   }
   substeps_done_ += static_cast<uint64_t>(n_);
   if (cuts) ++cut_revision_;
@@ -105,7 +113,7 @@ void LatticeSolver::changeGrips(const ToolMotions& motions) {
   }
 }
 
-void LatticeSolver::substep(const ToolMotions& motions, bool cuts, bool contacts) {
+void LatticeSolver::substep(int index, const ToolMotions& motions, bool cuts, bool contacts) {
   if (cuts) cutWith(motions);
   const double dt_s = tick_s_ / n_;
   Substep step;
@@ -116,7 +124,9 @@ void LatticeSolver::substep(const ToolMotions& motions, bool cuts, bool contacts
   step.push_speed_m_per_s = static_cast<float>(push_speed_m_per_s_);
   step.tools = contacts;
   step.restarted = restarted_;
+  step.index = index;
   advance(step, recovering_);
+  if (surroundings_) surround(step, *surroundings_);
   restarted_ = false;
   last_dt_s_ = dt_s;
 }
@@ -127,7 +137,12 @@ void LatticeSolver::cutWith(const ToolMotions& motions) {
   }
 }
 
+void LatticeSolver::setObstacleFrame(size_t obstacle, const Pose& pose) {
+  if (surroundings_) surroundings_->setObstacleFrame(obstacle, pose);
+}
+
 void LatticeSolver::reset() {
+  if (surroundings_) surroundings_->reset();
   layout::TickStats old;
   while (takeStats(old, true)) {
   }

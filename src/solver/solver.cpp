@@ -28,6 +28,7 @@ void Solver::snapshot(StateSnapshot& out) const {
   const auto same = [](layout::NodeBits a, layout::NodeBits b) { return a.lo == b.lo && a.hi == b.hi; };
   if (std::equal(state.nodes.begin(), state.nodes.end(), out.nodes.begin(), out.nodes.end(), same)) return;
   out.nodes = state.nodes;
+  out.spring_cut = state.spring_cut;
   ++out.cut_revision;
 }
 
@@ -45,6 +46,7 @@ uint64_t stateHash(const Model& model, const HostState& state) {
       hash.add(state.nodes[slot].hi & layout::kDiagonalMask);
     }
   }
+  for (const float cut : state.spring_cut) hash.add(cut);
   return hash.value();
 }
 

@@ -22,8 +22,8 @@ double spread(double step, size_t part) {
   return 2 * (turns - std::floor(turns)) - 1;
 }
 
-uint32_t rgba8(const Vector3d& color) {
-  uint32_t packed = 255u << 24;
+uint32_t rgba8(const Vector3d& color, bool two_sided) {
+  uint32_t packed = two_sided ? 0u : 255u << 24;
   for (int c = 0; c < 3; ++c) {
     packed |= static_cast<uint32_t>(std::lround(255 * std::clamp(color[c], 0.0, 1.0))) << (8 * c);
   }
@@ -39,14 +39,16 @@ Vector3d partColor(const Vector3d& organ_color, size_t part) {
   return color.cwiseMax(0.0).cwiseMin(1.0);
 }
 
-std::vector<uint32_t> vertexColors(const TriangleMesh& mesh, const Vector3d& organ_color) {
+std::vector<uint32_t> vertexColors(const TriangleMesh& mesh, const Vector3d& organ_color, bool two_sided) {
   std::vector<uint16_t> parts(mesh.positions_m.size(), kNoPart);
   for (size_t t = 0; t < mesh.triangles.size(); ++t) {
     for (uint32_t v : mesh.triangles[t]) parts[v] = std::min(parts[v], mesh.parts[t]);
   }
   std::vector<uint32_t> colors;
   colors.reserve(parts.size());
-  for (uint16_t part : parts) colors.push_back(rgba8(partColor(organ_color, part == kNoPart ? 0 : part)));
+  for (uint16_t part : parts) {
+    colors.push_back(rgba8(partColor(organ_color, part == kNoPart ? 0 : part), two_sided));
+  }
   return colors;
 }
 

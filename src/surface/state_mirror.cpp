@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "viscera/solver/joined_lattice.h"
+#include "viscera/solver/joined_network.h"
 #include "viscera/solver/material.h"
 
 namespace viscera {
@@ -47,6 +48,10 @@ StateMirror::StateMirror(const Model& model)
       stale_buffer_(stale_) {
   run_.reserve(layout::kBrickSlots * shown_.size());
   bodies_.write(bodyParams(model, 0));  // places and spacings are all that is shown of them
+  if (!model.hasNetwork()) return;
+  const JoinedNetwork network = joinNetworks(model);
+  rest_ = gpu::Buffer<layout::vec4>(network.rest_m);
+  spring_cut_ = gpu::Buffer<float>(network.springs.size());
 }
 
 void StateMirror::upload(const StateSnapshot& snapshot) {
@@ -56,6 +61,8 @@ void StateMirror::upload(const StateSnapshot& snapshot) {
   if (snapshot.cut_revision != cut_revision_) {
     cut_revision_ = snapshot.cut_revision;
     nodes_.write(snapshot.nodes);
+    assert(snapshot.spring_cut.size() == spring_cut_.size());
+    spring_cut_.write(snapshot.spring_cut);
     std::fill(stale_.begin(), stale_.end(), revision_);  // normals depend on springs
     moved_revision_ = revision_;
   }
@@ -101,6 +108,8 @@ StateView StateMirror::view() const {
   view.nodes = nodes_.id();
   view.bricks = brick_buffer_.id();
   view.bodies = bodies_.id();
+  view.rest = rest_.id();
+  view.spring_cut = spring_cut_.id();
   view.cut_revision = cut_revision_;
   view.stale_bricks = stale_buffer_.id();
   view.revision = revision_;

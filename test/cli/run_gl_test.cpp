@@ -217,6 +217,18 @@ TEST_F(Run, MeshOfTheCommandLineBecomesTheTissue) {
   EXPECT_NE(metrics["nodes"], 125);
 }
 
+TEST_F(Run, ShippedClothIsPressedLiftedAndCutByItsStrokes) {
+  const Json metrics =
+      metricsOf(viscera({"run", "cloth_on_points", "--strokes", VISCERA_SOURCE_DIR "/config/strokes/cut_cloth.yaml",
+                         "--set", "bodies[0].spacing_m=0.025", "--set", "cameras=[]"}));
+  EXPECT_EQ(metrics["scene"], "cloth_on_points");
+  EXPECT_GT(metrics["peak_force_n"], 0);
+  EXPECT_GT(metrics["springs_cut"], 30);  // 32 cm, every 2.5 cm at least three springs
+  EXPECT_LT(metrics["springs_cut"], 0.1 * metrics["springs"].get<double>());
+  EXPECT_EQ(metrics["governor_trips"], 0);
+  EXPECT_EQ(metrics["nonfinite"], 0);
+}
+
 TEST_F(Run, AnchoredStrokesWrittenOutDoTheSame) {
   const std::string absolute = folder_.file("absolute.yaml");
   ASSERT_EQ(viscera({"anchor", scene_, "--strokes", strokes_, "--out", absolute}).status, 0);

@@ -18,6 +18,7 @@ name: full
 bodies:
   - name: organ
     source: mesh
+    structure: explicit
     mesh_file: organ.obj
     unit_scale_m: 0.001
     up_axis: y
@@ -25,6 +26,10 @@ bodies:
     phantom_length_m: 0.101
     phantom_wall_scale: 1.02
     box_size_m: [0.031, 0.032, 0.033]
+    ball_radius_m: 0.034
+    thickness_m: 0.0035
+    bending_ratio: 0.36
+    force_n: [0.37, 0.38, 0.39]
     spacing_m: 0.0041
     target_nodes: 4200
     skin: volume
@@ -72,9 +77,24 @@ environment:
   tissue_frame: table
   tissue_position_m: [1.4, 1.5, 1.6]
   tissue_rotation_deg: [17, 18, 19]
+  wind: {velocity_m_per_s: [2.1, 2.2, 2.3], gust_ratio: 0.24, gust_period_s: 2.5, air_density_kg_per_m3: 1.26, drag_coefficient: 0.27}
+collision: {enabled: true, search: staggered, distance_m: 0.028, friction: 0.29, restitution: 0.301, partitions: 5, window: 9}
+obstacles:
+  - name: table
+    shape: capsule
+    position_m: [0.31, 0.32, 0.33]
+    rotation_deg: [34, 35, 36]
+    radius_m: 0.037
+    length_m: 0.38
+    size_m: [0.39, 0.401, 0.402]
+    velocity_m_per_s: [0.403, 0.404, 0.405]
+    rotation_deg_per_s: [406, 407, 408]
+    frame: arm
+    friction: 0.409
+    restitution: 0.411
 solver: {tick_hz: 90, integrator: vbd, dt_fraction: 0.91, dt_fraction_strained: 0.41, substeps: 93, iterations: 94,
          compensated: true, governor: false, recovery_s: 0.95, sleep_distance_m: 0.96, sleep_speed_m_per_s: 0.0097, max_substeps: 92,
-         device: 3, backend: cpu, threads: 2, real_time_factor: 1.97}
+         device: 3, backend: cpu, threads: 2, real_time_factor: 1.97, spring_forces: edge}
 )";
 
 /// Paths of all keys below a node, list items as name[].
@@ -106,6 +126,7 @@ TEST(SceneKeys, EveryBodyKeyReachesItsField) {
   const BodyConfig body = parseScene(kEveryKey, "full").bodies.at(0);
   EXPECT_EQ(body.name, "organ");
   EXPECT_EQ(body.source, TissueSource::kMesh);
+  EXPECT_EQ(body.structure, Structure::kExplicit);
   EXPECT_EQ(body.mesh_file, "organ.obj");
   EXPECT_EQ(body.unit_scale_m, 0.001);
   EXPECT_EQ(body.up_axis, UpAxis::kY);
@@ -113,6 +134,10 @@ TEST(SceneKeys, EveryBodyKeyReachesItsField) {
   EXPECT_EQ(body.phantom_length_m, 0.101);
   EXPECT_EQ(body.phantom_wall_scale, 1.02);
   EXPECT_EQ(body.box_size_m, Vector3d(0.031, 0.032, 0.033));
+  EXPECT_EQ(body.ball_radius_m, 0.034);
+  EXPECT_EQ(body.thickness_m, 0.0035);
+  EXPECT_EQ(body.bending_ratio, 0.36);
+  EXPECT_EQ(body.force_n, Vector3d(0.37, 0.38, 0.39));
   EXPECT_EQ(body.spacing_m, 0.0041);
   EXPECT_EQ(body.target_nodes, 4200);
   EXPECT_EQ(body.skin, SkinSource::kVolume);
@@ -186,6 +211,38 @@ TEST(SceneKeys, EveryOtherKeyReachesItsField) {
   EXPECT_EQ(scene.solver.max_substeps, 92);
   EXPECT_EQ(scene.solver.device, 3);
   EXPECT_EQ(scene.solver.real_time_factor, 1.97);
+  EXPECT_EQ(scene.solver.spring_forces, SpringForces::kEdge);
+}
+
+TEST(SceneKeys, EveryKeyOfTheSurroundingsReachesItsField) {
+  const Scene scene = parseScene(kEveryKey, "full");
+  const WindConfig& wind = scene.environment.wind;
+  EXPECT_EQ(wind.velocity_m_per_s, Vector3d(2.1, 2.2, 2.3));
+  EXPECT_EQ(wind.gust_ratio, 0.24);
+  EXPECT_EQ(wind.gust_period_s, 2.5);
+  EXPECT_EQ(wind.air_density_kg_per_m3, 1.26);
+  EXPECT_EQ(wind.drag_coefficient, 0.27);
+  const CollisionConfig& collision = scene.collision;
+  EXPECT_TRUE(collision.enabled);
+  EXPECT_EQ(collision.search, CollisionSearch::kStaggered);
+  EXPECT_EQ(collision.distance_m, 0.028);
+  EXPECT_EQ(collision.friction, 0.29);
+  EXPECT_EQ(collision.restitution, 0.301);
+  EXPECT_EQ(collision.partitions, 5);
+  EXPECT_EQ(collision.window, 9);
+  const ObstacleConfig& obstacle = scene.obstacles.at(0);
+  EXPECT_EQ(obstacle.name, "table");
+  EXPECT_EQ(obstacle.shape, ObstacleShape::kCapsule);
+  EXPECT_EQ(obstacle.position_m, Vector3d(0.31, 0.32, 0.33));
+  EXPECT_EQ(obstacle.rotation_deg, Vector3d(34, 35, 36));
+  EXPECT_EQ(obstacle.radius_m, 0.037);
+  EXPECT_EQ(obstacle.length_m, 0.38);
+  EXPECT_EQ(obstacle.size_m, Vector3d(0.39, 0.401, 0.402));
+  EXPECT_EQ(obstacle.velocity_m_per_s, Vector3d(0.403, 0.404, 0.405));
+  EXPECT_EQ(obstacle.rotation_deg_per_s, Vector3d(406, 407, 408));
+  EXPECT_EQ(obstacle.frame, "arm");
+  EXPECT_EQ(obstacle.friction, 0.409);
+  EXPECT_EQ(obstacle.restitution, 0.411);
 }
 
 TEST(SceneKeys, TableHoldsEveryKeyOnceAndNoOther) {
@@ -210,7 +267,7 @@ TEST(SceneKeys, KeyEndsInItsUnit) {
   const std::map<std::string, std::string> suffixes = {{"m", "_m"},       {"Pa", "_pa"},       {"kg/m3", "_kg_per_m3"},
                                                        {"1/s", "_per_s"}, {"m/s", "_m_per_s"}, {"m/s2", "_m_per_s2"},
                                                        {"N", "_n"},       {"N/s", "_n_per_s"}, {"s", "_s"},
-                                                       {"deg", "_deg"},   {"Hz", "_hz"}};
+                                                       {"deg", "_deg"},   {"Hz", "_hz"},       {"deg/s", "_deg_per_s"}};
   for (const auto& row : tableRows(sceneKeysTable())) {
     const size_t comma = row.at(2).find(", ");
     if (comma == std::string::npos) continue;

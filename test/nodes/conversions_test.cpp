@@ -95,6 +95,24 @@ TEST(Conversions, TopologyLeavesOutTornTrianglesAndCountsPerBody) {
   EXPECT_EQ(torn.body_triangles, (std::vector<uint32_t>{1, 1}));
 }
 
+TEST(Conversions, SplitTrianglesAreToldInPieces) {
+  SkinLayout skin = twoBodies();
+  skin.vertices = 13;
+  skin.splits.assign(18, 0);
+  for (uint32_t i = 0; i < 6; ++i)
+    skin.splits[12 + i] = 7 + i;  // of the flap: 7, 8 on 4-5; 9, 10 on 5-6; 11, 12 on 6-4
+  SurfaceFrame frame = frameOf(skin);
+  frame.alive = {0, 1, layout::kShownCorner << 1 | layout::kShownRest << 1};
+  const auto topology = toTopology(skin, frame.alive, 2, "tissue", ros::Time(1));
+  EXPECT_EQ(topology.triangles, (std::vector<uint32_t>{2, 1, 3, 5, 9, 8, 10, 6, 4, 10, 4, 7}));
+  EXPECT_EQ(topology.body_triangles, (std::vector<uint32_t>{1, 3}));
+  const auto markers = toMarkers(skin, frame, "tissue", ros::Time(1));
+  ASSERT_EQ(markers.size(), 2u);
+  EXPECT_EQ(markers[0].points.size(), 3u);
+  ASSERT_EQ(markers[1].points.size(), 9u);
+  EXPECT_EQ(markers[1].points[1].x, frame.positions_m[3 * 9]);
+}
+
 TEST(Conversions, VerticesCarryTickAndTopologyVersion) {
   const SurfaceFrame frame = frameOf(twoBodies());
   const auto message = toVertices(frame, 4, "tissue", ros::Time(2));

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "support/lattices.h"
+#include "support/networks.h"
+#include "viscera/solver/joined_lattice.h"
 
 using namespace viscera;
 using namespace viscera::test;
@@ -26,5 +28,23 @@ TEST(VbdColours, NoSpringAndNoCellJoinsTwoNodesOfOne) {
       if (other < 0 || other == slot) continue;
       EXPECT_NE(colourOf(slot, true), colourOf(static_cast<uint32_t>(other), true));
     }
+  }
+}
+
+TEST(VbdColours, NoLinkJoinsTwoNodesOfOneAndEveryNodeHasOne) {
+  for (const bool volume : {false, true}) {
+    const Model model = modelOf({graphBody(300, 2000, 5), boxBody({3, 4, 5}, 0.01)});
+    const JoinedNetwork network = joinNetworks(model);
+    const std::vector<uint32_t> active = activeSlots(model);
+    const Coloured coloured = byColour(active, volume, network);
+    std::vector<uint32_t> colour(model.slots(), UINT32_MAX);
+    uint32_t next = 0;
+    for (uint32_t c = 0; c < coloured.colours.size(); ++c) {
+      EXPECT_EQ(coloured.colours[c].first, next);
+      for (uint32_t i = 0; i < coloured.colours[c].count; ++i) colour[coloured.slots[next++]] = c;
+    }
+    ASSERT_EQ(next, active.size());
+    for (uint32_t slot : active) EXPECT_NE(colour[slot], UINT32_MAX);
+    for (const layout::SpringEnds& ends : network.springs) EXPECT_NE(colour[ends.a], colour[ends.b]);
   }
 }

@@ -52,6 +52,9 @@ inline HostState restState(const Model& model) {
       bits.hi |= static_cast<uint32_t>(b) << layout::kBodyShift;
       state.nodes.push_back(bits);
     }
+    if (model.bodies[b].network) {
+      state.spring_cut.resize(state.spring_cut.size() + model.bodies[b].network->springs.size());
+    }
   }
   return state;
 }
@@ -68,6 +71,7 @@ inline void load(ReferenceSolver& reference, const HostState& state) {
     reference.v_m_per_s[slot] = xyz(state.velocity_m_per_s[slot]);
     reference.nodes[slot] = state.nodes[slot];
   }
+  if (!state.spring_cut.empty()) reference.spring_cut = state.spring_cut;
 }
 
 /// Largest nodal error over the largest value of the reference.

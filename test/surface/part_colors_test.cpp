@@ -47,3 +47,9 @@ TEST(PartColors, VertexHasTheColorOfItsLowestPartInRgbaOrder) {
   EXPECT_EQ(colors[0], colors[2]);
   EXPECT_NE(colors[0], colors[1]);
 }
+
+TEST(PartColors, AlphaTellsSheetsFromSolids) {
+  const TriangleMesh mesh = sheetMesh({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 1);
+  EXPECT_EQ(vertexColors(mesh, Vector3d(1, 0.5, 0), false)[0], 0xff0080ffu);
+  EXPECT_EQ(vertexColors(mesh, Vector3d(1, 0.5, 0), true)[0], 0x000080ffu);
+}

@@ -10,6 +10,7 @@
 
 #include "gpu/gl.h"
 
+#include "surface/cloth_cuts.h"
 #include "surface/surface_rig.h"
 #include "viscera/gpu/context.h"
 #include "viscera/model/neighbors.h"
@@ -25,12 +26,14 @@ constexpr double kRadius_m = 0.06;
 /// A surface that follows the state itself, and one that follows what the mirror makes of it.
 class StateMirrorTest : public ::testing::Test {
  protected:
-  StateMirrorTest() : rig_(bodies()), mirror_(rig_.model), mirrored_(rig_.model) {
+  StateMirrorTest() : StateMirrorTest(balls()) {}
+  explicit StateMirrorTest(std::vector<Body> bodies)
+      : rig_(std::move(bodies)), mirror_(rig_.model), mirrored_(rig_.model) {
     snapshot_.bricks = mirror_.shownBricks();
   }
 
   /// Two balls of several bricks, so that springs and skins cross the borders of bricks.
-  static std::vector<Body> bodies() {
+  static std::vector<Body> balls() {
     std::vector<Body> out;
     for (const Vector3d& center : {Vector3d(0, 0, 0), Vector3d(0.3, 0.01, 0)}) {
       out.push_back(makeBody(ballSolid(center, kRadius_m, kSpacing_m), sphereMesh(center, kRadius_m, 12)));
@@ -49,11 +52,13 @@ class StateMirrorTest : public ::testing::Test {
     }
     copyShown(all.data(), snapshot_);
     snapshot_.nodes = rig_.nodes;
+    snapshot_.spring_cut = rig_.spring_cut;
     snapshot_.cut_revision = rig_.revision;
   }
   void followBoth() {
-    rig_.follow();
+    rig_.upload();
     rig_.surface.tear(rig_.state());
+    rig_.follow();
     takeSnapshot();
     mirror_.upload(snapshot_);
     mirrored_.tear(mirror_.view());
@@ -141,6 +146,77 @@ TEST_F(StateMirrorTest, OnlyVerticesNearAMovedBrickAreMappedAgain) {
   EXPECT_GT(mapped, 0u);
   EXPECT_LT(mapped, first_of_other);  // the node is on the ball's lowest side: two bricks up nothing depends on it
   EXPECT_EQ(mapped_of_other, 0u);
+}
+
+/// Networks of many bricks, in the order of a space-filling curve: triangles join nodes of any two of them.
+class NetworkMirrorTest : public StateMirrorTest {
+ protected:
+  NetworkMirrorTest() : StateMirrorTest(mixed()) {}
+
+  static std::vector<Body> mixed() {
+    std::vector<Body> out = balls();
+    out[1] = withNetworkSkin(test::clothBody(30, 31, kSpacing_m));
+    out.push_back(withNetworkSkin(test::clothBody(12, 9, kSpacing_m)));
+    return out;
+  }
+  size_t firstVertex(size_t body) const {
+    size_t first = 0;
+    for (size_t b = 0; b < body; ++b) {
+      const Skin& skin = rig_.model.bodies[b].skin;
+      first += skin.bindings.size() + 2 * skin.split_edges.size();
+    }
+    return first;
+  }
+};
+
+TEST_F(NetworkMirrorTest, ShowsTheSkinOfTheStateToTheBitWhereverNodesMoveAndSpringsAreCut) {
+  followBoth();
+  expectSameSkin();
+  for (int round = 0; round < 120; ++round) {
+    for (size_t body = 0; body < 3; ++body) moveNode(someNode(body));
+    if (round % 10 == 5) {
+      const size_t body = 1 + random_() % 2;
+      cutThrough(rig_, body, [&](const Vector3d& x) { return x.y() - 0.1 + 0.002 * round + 0.001 * x.x(); });
+      ++rig_.revision;
+    }
+    followBoth();
+    expectSameSkin();
+    ASSERT_FALSE(HasFailure()) << "round " << round;
+  }
+}
+
+TEST_F(NetworkMirrorTest, NormalFollowsANeighborInABrickThatIsNotBesideItsOwn) {
+  followBoth();
+  const Body& cloth = rig_.model.bodies[1];
+  size_t followed = 0;
+  for (const Corners& t : cloth.skin.mesh.triangles) {
+    const uint32_t near = cloth.skin.bound_slots[t[0]], far = cloth.skin.bound_slots[t[1]];
+    if (near / layout::kBrickSlots == far / layout::kBrickSlots) continue;
+    const uint32_t before = mirrored_.normals().read()[firstVertex(1) + t[0]];
+    rig_.displacement_m[rig_.model.slotOffset(1) + far].z += 0.004f;
+    followBoth();
+    ASSERT_NE(mirrored_.normals().read()[firstVertex(1) + t[0]], before);
+    if (++followed == 20) break;
+  }
+  EXPECT_EQ(followed, 20u);
+}
+
+TEST_F(NetworkMirrorTest, OnlyVerticesNearAMovedNodeAreMappedAgain) {
+  followBoth();
+  const float nothing = std::numeric_limits<float>::quiet_NaN();
+  glClearNamedBufferData(mirrored_.positions().id(), GL_R32F, GL_RED, GL_FLOAT, &nothing);
+  moveNode(rig_.model.slotOffset(1));
+  followBoth();
+  const std::vector<float> positions = mirrored_.positions().read();
+  size_t mapped = 0, mapped_of_others = 0;
+  for (size_t v = 0; v < mirrored_.vertices(); ++v) {
+    if (std::isnan(positions[3 * v])) continue;
+    ++mapped;
+    mapped_of_others += v < firstVertex(1) || v >= firstVertex(2);
+  }
+  EXPECT_GT(mapped, 0u);
+  EXPECT_LT(mapped, 3 * layout::kBrickSlots);  // its brick, and the nodes beside that
+  EXPECT_EQ(mapped_of_others, 0u);
 }
 
 TEST_F(StateMirrorTest, BricksDeepInsideAreNotAskedFor) {

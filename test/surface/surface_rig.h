@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "model/skin_shapes.h"
+#include "viscera/model/network_skin.h"
 #include "viscera/solver/gpu/lattice_buffers.h"
 #include "viscera/solver/solver.h"
 #include "viscera/surface/surface.h"
@@ -22,13 +23,20 @@ inline Body makeBody(const Solid& solid, const TriangleMesh& mesh, Weights weigh
   return body;
 }
 
+/// The body, whose network is its own, with the skin that shows it.
+inline Body withNetworkSkin(Body body, bool can_be_cut = true) {
+  body.skin = bindNetworkSkin(*body.network, can_be_cut);
+  return body;
+}
+
 /// Bodies with nodes that go where a function of (body, rest position) sends them.
 class SurfaceRig {
  public:
   explicit SurfaceRig(std::vector<Body> bodies)
-      : model{std::move(bodies)}, surface(model), buffers_(model, paramsOf(model), FeatureSet{}) {
+      : model{std::move(bodies)}, surface(model), buffers_(model, paramsOf(model), featuresOf(model)) {
     displacement_m.assign(model.slots(), layout::vec4{0, 0, 0, 0});
     nodes = buffers_.nodes.read();
+    spring_cut = buffers_.spring_cut.read();
   }
   explicit SurfaceRig(Body body) : SurfaceRig(one(std::move(body))) {}
 
@@ -38,7 +46,7 @@ class SurfaceRig {
     for (size_t b = 0; b < model.bodies.size(); ++b) {
       const Lattice& lattice = model.bodies[b].lattice;
       for (uint32_t slot : lattice.active_slots) {
-        const Vector3d rest = lattice.restPosition(slot);
+        const Vector3d rest = restPosition(model.bodies[b], slot);
         const Vector3f u = (moved(rest) - rest).template cast<float>();
         displacement_m[model.slotOffset(b) + slot] = {u.x(), u.y(), u.z(), 0};
       }
@@ -53,14 +61,23 @@ class SurfaceRig {
     ++revision;
     surface.tear(state());
   }
-  /// Writes displacement_m and nodes.
+  /// Writes displacement_m, nodes and spring_cut.
   void upload() {
     buffers_.displacement[0].write(displacement_m);
     buffers_.nodes.write(nodes);
+    buffers_.spring_cut.write(spring_cut);
   }
   StateView state() const {
-    return {buffers_.displacement[0].id(), buffers_.velocity[0].id(), buffers_.nodes.id(),
-            buffers_.bricks.id(),          buffers_.bodies.id(),      revision};
+    StateView view;
+    view.displacement = buffers_.displacement[0].id();
+    view.velocity = buffers_.velocity[0].id();
+    view.nodes = buffers_.nodes.id();
+    view.bricks = buffers_.bricks.id();
+    view.bodies = buffers_.bodies.id();
+    view.rest = buffers_.rest.id();
+    view.spring_cut = buffers_.spring_cut.id();
+    view.cut_revision = revision;
+    return view;
   }
   /// Part of displacement_m or nodes that belongs to one body, by its own slots.
   template <class T>
@@ -84,9 +101,15 @@ class SurfaceRig {
   Surface surface;
   std::vector<layout::vec4> displacement_m;  ///< [slots]
   std::vector<layout::NodeBits> nodes;       ///< [slots]
+  std::vector<float> spring_cut;             ///< [springs] of networks
   uint64_t revision = 0;
 
  private:
+  static FeatureSet featuresOf(const Model& model) {
+    FeatureSet features;
+    features.network = model.hasNetwork();
+    return features;
+  }
   static std::vector<Body> one(Body body) {
     std::vector<Body> bodies;
     bodies.push_back(std::move(body));

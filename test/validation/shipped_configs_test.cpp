@@ -5,8 +5,11 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <map>
 
+#include "support/gpu_fixture.h"
 #include "viscera/model/model.h"
+#include "viscera/session/session.h"
 #include "viscera/tools/strokes.h"
 
 namespace viscera {
@@ -40,15 +43,18 @@ Scene coarse(const fs::path& file) {
   return scene;
 }
 
-class ShippedScene : public ::testing::TestWithParam<fs::path> {};
+/// Is every mesh file of the scene here? Some scenes are for data that cannot be shipped.
+bool isComplete(const Scene& scene) {
+  return std::all_of(scene.bodies.begin(), scene.bodies.end(), [&](const BodyConfig& body) {
+    return body.source != TissueSource::kMesh || fs::exists(fs::path(scene.folder) / body.mesh_file);
+  });
+}
+
+class ShippedScene : public test::GpuTest, public ::testing::WithParamInterface<fs::path> {};
 
 TEST_P(ShippedScene, LoadsAndBuilds) {
   const Scene scene = coarse(GetParam());
-  for (const BodyConfig& body : scene.bodies) {
-    if (body.source == TissueSource::kMesh && !fs::exists(fs::path(scene.folder) / body.mesh_file)) {
-      GTEST_SKIP() << "mesh file " << body.mesh_file << " of " << GetParam() << " is not here";
-    }
-  }
+  if (!isComplete(scene)) GTEST_SKIP() << "a mesh file of " << GetParam() << " is not here";
   const Model model = buildModel(scene);
   EXPECT_EQ(model.bodies.size(), scene.bodies.size());
   for (const Body& body : model.bodies) {
@@ -56,20 +62,41 @@ TEST_P(ShippedScene, LoadsAndBuilds) {
     EXPECT_GT(body.skin.mesh.triangles.size(), 0u) << body.name;
   }
 }
+
+TEST_P(ShippedScene, RunsSomeTicksAsItsNameSaysWithoutATrip) {
+  const Scene scene = coarse(GetParam());
+  if (!isComplete(scene)) GTEST_SKIP() << "a mesh file of " << GetParam() << " is not here";
+  EXPECT_EQ(scene.name, GetParam().stem().string());
+  EXPECT_FALSE(scene.cameras.empty());
+  EXPECT_FALSE(scene.styluses.empty());
+  Session session(scene, context_);
+  constexpr int kTicks = 6;  // 0.1 s: long enough for what is loose to fall by 5 cm
+  for (int tick = 0; tick < kTicks; ++tick) session.step({}, {});
+  session.drain();
+  EXPECT_EQ(session.extremes().governor_trips, 0u);
+  EXPECT_EQ(session.extremes().nonfinite, 0u);
+  EXPECT_GT(session.extremes().max_speed_m_per_s, 0) << "nothing moves";
+}
 INSTANTIATE_TEST_SUITE_P(Config, ShippedScene, ::testing::ValuesIn(filesIn("scenes")), nameOf);
+
+/// The scene that a strokes file was made for.
+const std::map<std::string, std::string> kSceneOf = {{"demo", "heart"}, {"cut_cloth", "cloth_on_points"}};
 
 class ShippedStrokes : public ::testing::TestWithParam<fs::path> {};
 
-TEST_P(ShippedStrokes, LoadAndFitTheHeart) {
-  const Scene heart = coarse(kConfig / "scenes" / "heart.yaml");
+TEST_P(ShippedStrokes, LoadAndFitTheirScene) {
+  const auto found = kSceneOf.find(GetParam().stem().string());
+  ASSERT_NE(found, kSceneOf.end()) << GetParam() << " is for no scene: name it in kSceneOf";
+  const Scene scene = coarse(kConfig / "scenes" / (found->second + ".yaml"));
   Strokes strokes = loadStrokes(GetParam().string());
   for (const Stroke& stroke : strokes.strokes) {
-    EXPECT_TRUE(std::any_of(heart.styluses.begin(), heart.styluses.end(),
+    EXPECT_TRUE(std::any_of(scene.styluses.begin(), scene.styluses.end(),
                             [&](const StylusConfig& stylus) { return stylus.name == stroke.stylus; }))
-        << "the heart has no stylus " << stroke.stylus;
+        << scene.name << " has no stylus " << stroke.stylus;
   }
+  EXPECT_FALSE(strokes.marks.empty());
   for (const Mark& mark : strokes.marks) EXPECT_LE(mark.time_s, strokes.duration_s()) << mark.name << " is never seen";
-  resolveAnchors(strokes, buildModel(heart));
+  resolveAnchors(strokes, buildModel(scene));
   EXPECT_FALSE(strokes.anchored());
 }
 INSTANTIATE_TEST_SUITE_P(Config, ShippedStrokes, ::testing::ValuesIn(filesIn("strokes")), nameOf);

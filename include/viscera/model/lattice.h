@@ -43,6 +43,16 @@ struct Lattice {
   std::unordered_map<uint64_t, uint32_t> brick_index;  ///< packed brick coordinates -> brick
 };
 
+/// Calls visit(corner, slot) for the eight nodes of the cell whose lowest corner is at `lowest`.
+template <class Visit>
+void forEachCorner(const Lattice& lattice, uint32_t lowest, Visit visit) {
+  const Vector3i at = lattice.nodeAt(lowest);
+  for (int c = 0; c < 8; ++c) {
+    const Vector3i corner(c & 1, (c >> 1) & 1, (c >> 2) & 1);
+    visit(corner, static_cast<uint32_t>(lattice.slotAt(at + corner)));
+  }
+}
+
 /// Nodes of the solid's cells, weights assembled.
 /// @throws LatticeError  no filled cell
 Lattice buildLattice(const Solid& solid, Weights weights);

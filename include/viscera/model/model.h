@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "viscera/model/scene.h"
 #include "viscera/model/skin.h"
 #include "viscera/model/solid.h"
+#include "viscera/model/spring_network.h"
 
 namespace viscera {
 
@@ -18,10 +20,12 @@ struct Body {
   std::string name;
   MaterialConfig material;
   std::vector<PartConfig> parts;  ///< elasticities of their own
-  Lattice lattice;
+  Lattice lattice;                ///< of a body of structure surface or tetrahedra: only slots, bricks that lie nowhere
+  std::optional<SpringNetwork> network;  ///< explicit connections: they act instead of the lattice's
   Skin skin;
   Vector3d color = Vector3d::Ones();
-  std::vector<std::string> notes;  ///< what the preparation decided: one line each, for a person
+  Vector3d force_n = Vector3d::Zero();  ///< on the whole body
+  std::vector<std::string> notes;       ///< what the preparation decided: one line each, for a person
 };
 
 /// Everything that is simulated. Slots of body b are offset by slotOffset(b) in the solver's buffers.
@@ -34,7 +38,12 @@ struct Model {
   size_t springs() const;
   size_t skinVertices() const;
   size_t skinTriangles() const;
+  bool hasNetwork() const;  ///< some body has explicit connections
+  bool hasLattice() const;  ///< some body has implicit ones
 };
+
+/// Rest position of a node of the body [m, tissue frame].
+Vector3d restPosition(const Body& body, uint32_t slot);
 
 /// Nodes of a body with `spacing_m: auto` where nobody has measured the machine, as only a session does.
 constexpr int kUnmeasuredNodes = 20000;

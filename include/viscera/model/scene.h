@@ -13,7 +13,11 @@ namespace viscera {
 // Every field of these structs has one entry in src/model/scene_fields.h, which gives its key, unit, range and
 // sentence of documentation; the default is the initialiser here. `viscera keys` prints the table.
 
-enum class TissueSource { kPhantom, kMesh, kBox };
+enum class TissueSource { kPhantom, kMesh, kBox, kSheet, kBall };
+enum class Structure { kLattice, kExplicit, kSurface, kTetrahedra };
+enum class SpringForces { kPoint, kEdge };
+enum class CollisionSearch { kGrid, kStaggered };
+enum class ObstacleShape { kPlane, kSphere, kCapsule, kBox };
 enum class SkinSource { kAuto, kInput, kVolume };
 enum class UpAxis { kZ, kY };
 enum class FixedShape { kBox, kSphere, kPlane, kPart };
@@ -53,6 +57,7 @@ struct PartConfig {
 struct BodyConfig {
   std::string name = "tissue";
   TissueSource source = TissueSource::kPhantom;
+  Structure structure = Structure::kLattice;
   std::string mesh_file;  ///< relative to the scene file
   double unit_scale_m = 1;
   UpAxis up_axis = UpAxis::kZ;
@@ -60,6 +65,10 @@ struct BodyConfig {
   double phantom_length_m = 0.1;
   double phantom_wall_scale = 1;
   Vector3d box_size_m = Vector3d::Constant(0.05);
+  double ball_radius_m = 0.02;
+  double thickness_m = 0.001;  ///< of structure surface
+  double bending_ratio = 0;    ///< stiffness of springs that resist bending, over that of the others around
+  Vector3d force_n = Vector3d::Zero();
   double spacing_m = 0.004;   ///< 0: from target_nodes
   bool auto_spacing = false;  ///< `spacing_m: auto`: as fine as this machine can step; see autoBodies()
   int target_nodes = 0;       ///< 0: from spacing_m
@@ -101,12 +110,49 @@ struct CameraConfig {
   int supersampling = 2;
 };
 
+/// Moving air. Speed at time t: velocity (1 + gust_ratio sin(2 pi t / gust_period)).
+struct WindConfig {
+  Vector3d velocity_m_per_s = Vector3d::Zero();
+  double gust_ratio = 0;
+  double gust_period_s = 1;
+  double air_density_kg_per_m3 = 1.2;
+  double drag_coefficient = 1;
+};
+
 struct EnvironmentConfig {
   Vector3d gravity_m_per_s2 = Vector3d(0, 0, -9.81);
   std::string world_frame = "world";
   std::string tissue_frame = "tissue";
   Vector3d tissue_position_m = Vector3d::Zero();
   Vector3d tissue_rotation_deg = Vector3d::Zero();
+  WindConfig wind;
+};
+
+/// Bodies against themselves and each other.
+struct CollisionConfig {
+  bool enabled = false;
+  CollisionSearch search = CollisionSearch::kGrid;
+  double distance_m = 0;  ///< 0: from the springs
+  double friction = 0.3;
+  double restitution = 0;
+  int partitions = 4;  ///< of the staggered search
+  int window = 8;      ///< of the staggered search: neighbours in sorted order that are looked at on either side
+};
+
+/// A rigid thing that nodes do not enter.
+struct ObstacleConfig {
+  std::string name = "obstacle";
+  ObstacleShape shape = ObstacleShape::kPlane;
+  Vector3d position_m = Vector3d::Zero();
+  Vector3d rotation_deg = Vector3d::Zero();  ///< about fixed x, then y, then z
+  double radius_m = 0.02;
+  double length_m = 0.1;                           ///< capsule: between the centres of its ends, along its z
+  Vector3d size_m = Vector3d::Constant(0.05);      ///< box
+  Vector3d velocity_m_per_s = Vector3d::Zero();    ///< of its position, from the start on
+  Vector3d rotation_deg_per_s = Vector3d::Zero();  ///< rotation vector, tissue frame
+  std::string frame;                               ///< tf frame that carries it; empty: the tissue frame
+  double friction = 0.3;
+  double restitution = 0;
 };
 
 struct SolverConfig {
@@ -116,6 +162,7 @@ struct SolverConfig {
   double dt_fraction_strained = 0.5;
   int substeps = 0;     ///< 0: from dt_fraction
   int iterations = 20;  ///< of vbd and pd
+  SpringForces spring_forces = SpringForces::kPoint;
   bool governor = true;
   double recovery_s = 0.25;
   double sleep_distance_m = 1;
@@ -134,6 +181,8 @@ struct Scene {
   std::vector<BodyConfig> bodies;
   std::vector<StylusConfig> styluses;
   std::vector<CameraConfig> cameras;
+  std::vector<ObstacleConfig> obstacles;
+  CollisionConfig collision;
   EnvironmentConfig environment;
   SolverConfig solver;
   std::string folder;  ///< of the scene file: relative mesh files are looked up here

@@ -10,14 +10,26 @@
 
 namespace viscera {
 
-/// The detailed surface of a body, bound to its lattice (EGVE 3.3). Slots are those of the body's lattice.
+/// An edge of a network's surface that splits where a blade crosses its spring.
+struct SplitEdge {
+  uint32_t a = 0, b = 0;  ///< vertices, a < b, in the order of the spring's ends
+  uint32_t spring = 0;    ///< index into the network's springs
+};
+constexpr uint32_t kNoSplitEdge = UINT32_MAX;
+
+/// The detailed surface of a body, bound to its lattice (EGVE 3.3) or node by node to its network (network_skin.h).
+/// Slots are those of the body.
 struct Skin {
   TriangleMesh mesh;                          ///< rest pose [m], tissue frame
   std::vector<layout::SkinBinding> bindings;  ///< [vertices]
   std::vector<layout::Tie> ties;              ///< springs that triangles depend on beyond their vertices' own
   std::vector<uint32_t> tie_starts;           ///< [triangles + 1]
   std::vector<uint32_t> bound_slots;          ///< slots that some vertex is bound to, ascending
-  size_t deep_vertices = 0;                   ///< bound inside the body, too far from its boundary
+  std::vector<SplitEdge> split_edges;         ///< of a network that can be cut
+  /// [triangles] split edges 01, 12, 20, or kNoSplitEdge; empty unless a network's that can be cut
+  std::vector<std::array<uint32_t, 3>> triangle_edges;
+  bool two_sided = false;      ///< a sheet with borders: its back is not the inside of something
+  size_t deep_vertices = 0;    ///< bound inside the body, too far from its boundary
   size_t bridges_removed = 0;  ///< triangles left out: the lattice has no tissue along one of their edges
 };
 

@@ -15,6 +15,7 @@ namespace viscera {
 
 class TissuePainter;
 class ToolPainter;
+class ObstaclePainter;
 
 /// Triangles that are on the GPU already; buffer names are OpenGL's.
 struct MeshView {
@@ -34,7 +35,8 @@ class Renderer {
   /// rasteriser, where the time goes into the setup of small triangles, 2 x 2 costs less than multisampling with 4
   /// samples, and it smooths highlights too.
   /// @throws SceneError  a camera without a line of sight;  GpuError  a framebuffer that the driver refuses
-  Renderer(const std::vector<CameraConfig>& cameras, const std::vector<StylusConfig>& styluses);
+  Renderer(const std::vector<CameraConfig>& cameras, const std::vector<StylusConfig>& styluses,
+           const std::vector<ObstacleConfig>& obstacles = {});
   ~Renderer();
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
@@ -43,6 +45,9 @@ class Renderer {
   /// Makes no OpenGL object, and sets all the state that it depends on.
   void draw(size_t camera, const Surface& surface, const ToolMotions& motions);
   void draw(size_t camera, const MeshView& mesh, const ToolMotions& motions);
+  /// Where obstacles are in what is drawn from now on. @param poses  [obstacles] tissue frame; nowhere before the first
+  /// call
+  void placeObstacles(const std::vector<Pose>& poses) { obstacle_poses_ = poses; }
   /// Leaves the image that was drawn last bound for reading, as draw() does, without drawing.
   void bindLast(size_t camera) const;
   uint64_t renders() const { return renders_; }
@@ -53,6 +58,8 @@ class Renderer {
   std::vector<RenderTarget> targets_;
   std::unique_ptr<TissuePainter> tissue_;
   std::unique_ptr<ToolPainter> tools_;
+  std::unique_ptr<ObstaclePainter> obstacles_;  ///< null where the scene has none
+  std::vector<Pose> obstacle_poses_;
   uint64_t renders_ = 0;
 };
 

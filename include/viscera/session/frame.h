@@ -29,7 +29,7 @@ struct SurfaceFrame {
   SteadyTime pose_received{};      ///< of the newest stylus pose in that tick; 0 if there was none
   std::vector<float> positions_m;  ///< [3 * vertices] tissue frame
   std::vector<uint32_t> normals;   ///< [vertices] packed
-  std::vector<uint32_t> alive;     ///< [triangles] 1 whole, 0 torn
+  std::vector<uint32_t> alive;     ///< [triangles] as in Surface::alive(): 1 whole, 0 torn
 };
 
 /// One rendered image, RGB8, rows from the top.

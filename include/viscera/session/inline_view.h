@@ -30,6 +30,7 @@ class InlineView : public View {
     uint32_t moved_revision = 0;
     uint64_t cut_revision = 0;
     ToolMotions motions;
+    std::vector<Pose> obstacles;
   };
   struct Eye {
     CameraConfig camera;
@@ -39,7 +40,7 @@ class InlineView : public View {
   void follow(const StateView& state);
   void captureSurface(const StateView& state, uint64_t tick);
   void captureImage(size_t camera, const StateView& state, const Look& look, Pictures& out);
-  void draw(size_t camera, const StateView& state, const ToolMotions& motions);
+  void draw(size_t camera, const StateView& state, const Look& look);
   bool takeImage(size_t camera, Pictures& out, bool wait);
   bool takeSurface(Pictures& out, bool wait);
 

@@ -13,6 +13,7 @@
 #include "viscera/session/frame.h"
 #include "viscera/session/view.h"
 #include "viscera/solver/solver.h"
+#include "viscera/tools/obstacles.h"
 #include "viscera/tools/stylus.h"
 
 namespace viscera {
@@ -41,6 +42,9 @@ class Session {
   ~Session();
 
   Frame step(const StylusSamples& samples, const Wants& wants);
+  /// Where the tf frame that carries an obstacle is from now on: the obstacle goes there over the next tick; the first
+  /// pose is no motion. @param obstacle  index in the scene   @param pose  of the frame, tissue frame
+  void setObstacleFrame(size_t obstacle, const Pose& pose);
   void reset();
   /// Waits for everything asked for so far; images and surface of the last ticks.
   Frame drain();
@@ -65,6 +69,7 @@ class Session {
     std::array<SteadyTime, layout::kMaxStyluses> received{};
     SteadyTime newest() const;
   };
+  void moveObstacles();
   void notePoses(const StylusSamples& samples);
   PoseTimes posesOf(uint64_t tick) const;
   void collect(Frame& frame, bool wait);
@@ -74,6 +79,7 @@ class Session {
   Scene scene_;
   Model model_;
   Tools tools_;
+  Obstacles obstacles_;  ///< as the solver moves them, to be drawn
   std::unique_ptr<Solver> solver_;
   std::string backend_note_;
   std::unique_ptr<View> view_;

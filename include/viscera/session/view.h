@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "viscera/gpu/context.h"
 #include "viscera/model/model.h"
@@ -17,6 +18,7 @@ namespace viscera {
 struct Look {
   uint64_t tick = 0;
   ToolMotions motions;
+  std::vector<Pose> obstacles;  ///< [obstacles] at the end of the tick, tissue frame
   Wants wants;
 };
 

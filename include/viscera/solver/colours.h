@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "viscera/solver/joined_network.h"
+
 namespace viscera {
 
 /// Which nodes vbd may move at once (physics.md 2). Springs join none of the four colours 2 ((i + j) & 1) + ((j + k) &
@@ -27,7 +29,9 @@ struct Coloured {
   std::vector<Colour> colours;
 };
 
-/// @param active  [active] slots   @param volume  there is energy of volume
-Coloured byColour(const std::vector<uint32_t>& active, bool volume);
+/// Nodes with explicit connections are coloured greedily, in the order of their slots; where there is energy of volume,
+/// nodes of different parities share none of these colours either, as they might share a cell.
+/// @param active  [active] slots   @param volume  there is energy of volume   @param network  explicit connections
+Coloured byColour(const std::vector<uint32_t>& active, bool volume, const JoinedNetwork& network);
 
 }  // namespace viscera

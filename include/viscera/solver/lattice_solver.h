@@ -9,6 +9,7 @@
 #include "viscera/solver/solver.h"
 #include "viscera/solver/substep.h"
 #include "viscera/solver/substeps.h"
+#include "viscera/solver/surroundings.h"
 
 namespace viscera {
 
@@ -22,6 +23,7 @@ struct SolverOptions {
 class LatticeSolver : public Solver {
  public:
   void step(const ToolMotions& motions) final;
+  void setObstacleFrame(size_t obstacle, const Pose& pose) final;
   void reset() final;
   bool pollStats(layout::TickStats& stats, bool wait) final;
   const Health& health() const final;
@@ -52,6 +54,8 @@ class LatticeSolver : public Solver {
 
   // What a backend's own constructor asks.
   bool governed() const { return watch_.has_value(); }
+  bool staysAwake() const { return surroundings_ && surroundings_->keepsAwake(); }
+  bool hasSurroundings() const { return surroundings_.has_value(); }
   bool hasTools() const { return !styluses_.empty(); }
   double shortestSubstep_s() const { return tick_s_ / plan_.strained; }
   int mostSubsteps() const;  ///< a tick can have
@@ -75,6 +79,10 @@ class LatticeSolver : public Solver {
   /// Advances every active node by a substep; the result is the current state.
   /// @param recovery  pd without acceleration instead of the scene's integrator; only where there is a governor
   virtual void advance(const Substep& step, bool recovery) = 0;
+  /// Tells of the tick that begins, only where there are surroundings.
+  virtual void beginSurroundings(const Surroundings& /*surroundings*/) {}
+  /// What surrounds the tissue acts on the substep that advance() has just made.
+  virtual void surround(const Substep& step, const Surroundings& surroundings) = 0;
   /// Measures the current state: all of TickStats but impulse, angular and touched; these are cleared.
   virtual void measure() = 0;
   /// Sums the tick's reactions into the measurements, in ticks in which a stylus touches. @param tips  tissue frame [m]
@@ -129,7 +137,7 @@ class LatticeSolver : public Solver {
   Governor newGovernor() const;
   void chooseSubsteps();
   void changeGrips(const ToolMotions& motions);
-  void substep(const ToolMotions& motions, bool cuts, bool contacts);
+  void substep(int index, const ToolMotions& motions, bool cuts, bool contacts);
   void cutWith(const ToolMotions& motions);
   void finishStats();
   void keepStats(const layout::TickStats& stats);
@@ -149,7 +157,8 @@ class LatticeSolver : public Solver {
   double tick_s_, dt_safe_s_, push_speed_m_per_s_;
   SubstepPlan plan_;
   std::optional<Watch> watch_;
-  std::vector<layout::TickStats> finished_;  ///< taken while nobody asked, oldest first
+  std::optional<Surroundings> surroundings_;  ///< only where a scene has any
+  std::vector<layout::TickStats> finished_;   ///< taken while nobody asked, oldest first
   std::vector<layout::ToolMotion> motions_;
   uint64_t cut_revision_ = 0, substeps_done_ = 0;
   uint32_t springs_cut_ = 0;  ///< when dt_safe was last computed

@@ -4,32 +4,10 @@
 
 #include <vector>
 
+#include "viscera/model/elasticity.h"
 #include "viscera/model/model.h"
 
 namespace viscera {
-
-/// What E, nu and rho make of a cell of edge h (physics.md 1).
-struct Elasticity {
-  double spring_n_per_m;  ///< k = mu h of a full spring, axial or diagonal
-  double bulk_j;          ///< lambda_V h^3, lambda_V = lambda - mu; 0 at nu = 1/4
-  double cell_mass_kg;    ///< rho h^3
-};
-Elasticity elasticity(double young_modulus_pa, double poisson_ratio, double density_kg_per_m3, double spacing_m);
-
-/// Strengths of a body whose cells differ, as assembled from them: what a count and a body-wide constant give
-/// elsewhere. A spring between cells of two parts gets from each what it gives: it is as stiff as the cells around it
-/// together. With `weights: paper` springs and masses are those of the mean of the cells around, at full count.
-struct Strengths {
-  std::vector<float> spring_n_per_m;  ///< [9 * slots] of the spring 2 i of a node at 9 * slot + i
-  std::vector<float> mass_kg;         ///< [slots]
-  std::vector<float> bulk_j;          ///< [slots] of the cell whose lowest corner is the node
-};
-constexpr uint32_t kSpringPairs = layout::kSpringsPerNode / 2;
-
-/// Do parts of the body have elasticities of their own?
-bool isHeterogeneous(const Body& body);
-/// @throws SceneError  a part that the body has not, or that stands twice
-Strengths strengths(const Body& body);
 
 /// Material constants of a body as the kernels take them.
 layout::BodyParams bodyParams(const Body& body, double dt_safe_s);

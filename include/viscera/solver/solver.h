@@ -20,6 +20,8 @@ class Solver {
   virtual ~Solver() = default;
   /// Advances every active node by one tick: substeps() substeps of dt_s() (physics.md 2).
   virtual void step(const ToolMotions& motions) = 0;
+  /// Where the tf frame that carries an obstacle of the scene is from now on; see Surroundings.
+  virtual void setObstacleFrame(size_t /*obstacle*/, const Pose& /*pose*/) {}
   /// Back to rest: springs whole, nothing held, time 0.
   virtual void reset() = 0;
   virtual StateView state() = 0;            ///< not const: a backend may have to bring the state to the GPU first

@@ -16,6 +16,8 @@ struct StateView {
   uint32_t nodes = 0;           ///< NodeBits[slots]
   uint32_t bricks = 0;          ///< Brick[bricks]
   uint32_t bodies = 0;          ///< BodyParams[bodies]
+  uint32_t rest = 0;            ///< vec4[slots] rest positions [m]; 0 where no body has explicit connections
+  uint32_t spring_cut = 0;      ///< float[springs], see layout::kBindSpringCut; 0 likewise
   uint64_t cut_revision = 0;    ///< grows whenever springs may have been cut since the last step
   uint32_t stale_bricks = 0;    ///< uint[bricks]: `revision` at which a node of the brick or of a brick beside it last
                                 ///< moved; 0 where nobody knows: every node may have moved
@@ -28,6 +30,7 @@ struct StateSnapshot {
   std::vector<uint32_t> bricks;         ///< [shown] ascending; set by whoever asks
   std::vector<float> displacement_m;    ///< [192 * shown] of each of the bricks: 64 x, 64 y, 64 z
   std::vector<layout::NodeBits> nodes;  ///< [slots] copied only if empty, or of another cut_revision
+  std::vector<float> spring_cut;        ///< [springs] of all networks, as in HostState; copied with `nodes`
   uint64_t cut_revision = 0;            ///< as in StateView, of `nodes`
 };
 constexpr size_t kBrickFloats = size_t{3} * layout::kBrickSlots;
@@ -41,6 +44,9 @@ struct HostState {
   std::vector<layout::vec4> displacement_m;    ///< [slots]
   std::vector<layout::vec4> velocity_m_per_s;  ///< [slots]
   std::vector<layout::NodeBits> nodes;         ///< [slots]
+  /// [springs] of the networks of all bodies, in the model's order: 0 whole, else where the blade crossed it, 0..1 of
+  /// the way from a to b, or layout::kErasedShare; empty where there are none
+  std::vector<float> spring_cut;
 };
 
 }  // namespace viscera

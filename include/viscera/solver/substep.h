@@ -15,6 +15,7 @@ struct Substep {
   float push_speed_m_per_s = 0;  ///< largest speed at which a probe pushes nodes out
   bool tools = false;            ///< probe or held nodes are about: the kernel that knows them is used
   bool restarted = false;        ///< the state was written from outside since the last substep
+  int index = 0;                 ///< of the tick's substeps
 };
 
 }  // namespace viscera

@@ -45,6 +45,8 @@ class StateMirror {
   gpu::Buffer<layout::Brick> brick_buffer_;
   gpu::Buffer<layout::BodyParams> bodies_;
   gpu::Buffer<uint32_t> stale_buffer_;
+  gpu::Buffer<layout::vec4> rest_;  ///< none where no body is a network, as the next
+  gpu::Buffer<float> spring_cut_;
   uint64_t cut_revision_ = 0, moved_bricks_ = 0;
 };
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "viscera/gpu/buffer.h"
@@ -12,20 +13,25 @@
 
 namespace viscera {
 
-/// The skins of all bodies on the GPU, following the nodes (EGVE 3.3). Vertices and triangles of the bodies are
-/// concatenated in the model's order; vertex indices are global.
+class NetworkSurface;
+
+/// The skins of all bodies on the GPU, following the nodes: bound to lattices (EGVE 3.3), or one to one the nodes of
+/// networks (EGVE 3.2). Vertices and triangles of the bodies are concatenated in the model's order; vertex indices are
+/// global. A network that can be cut has two more vertices per edge behind its own, which its split triangles show.
 class Surface {
  public:
   /// Needs a current context. Positions are zero until the first follow(). @throws GpuError
   explicit Surface(const Model& model);
+  ~Surface();
 
   /// Brings positions and normals to the given state. One pass over bound nodes, one over vertices. At rest the mesh
   /// comes back to float rounding; nodes on one line or in one point still give finite vertices and unit normals.
   /// What it writes is ready to be drawn, copied or read by a kernel. Vertices none of whose nodes have moved since the
   /// last call are left as they are, where the state says which those are; that changes no bit.
   void follow(const StateView& state);
-  /// Takes out the triangles whose springs were cut (the rule is in model/skin.h), until reset(). Looks at the springs
-  /// only if state.cut_revision has changed since the last call; costs nothing otherwise.
+  /// Takes out the triangles of lattices whose springs were cut (the rule is in model/skin.h), until reset(), and
+  /// splits those of networks along the cut (the rule is in split_triangles.comp). Looks at the springs only if
+  /// state.cut_revision has changed since the last call; costs nothing otherwise.
   void tear(const StateView& state);
   /// Every triangle whole again.
   void reset();
@@ -34,24 +40,36 @@ class Surface {
   size_t triangles() const { return triangles_; }
   const gpu::Buffer<float>& positions() const { return positions_; }         ///< [3 * vertices] m, tissue frame
   const gpu::Buffer<uint32_t>& normals() const { return normals_; }          ///< [vertices] packed, see packNormal
-  const gpu::Buffer<uint32_t>& alive() const { return alive_; }              ///< [triangles] 1 whole, 0 torn
-  const gpu::Buffer<uint32_t>& liveIndices() const { return live_; }         ///< [3 * triangles] for drawing
-  const gpu::Buffer<uint32_t>& colors() const { return colors_; }            ///< [vertices] RGBA8
+  const gpu::Buffer<uint32_t>& alive() const { return alive_; }              ///< [triangles] see appendShown
+  const gpu::Buffer<uint32_t>& liveIndices() const { return live_; }         ///< for drawing; (0, 0, 0) shows nothing
+  const gpu::Buffer<uint32_t>& colors() const { return colors_; }            ///< [vertices] RGBA8, see vertexColors
   const std::vector<uint32_t>& triangleIndices() const { return indices_; }  ///< [3 * triangles], host copy
-  uint64_t mappings() const { return mappings_; }                            ///< times follow() did its work
+  const std::vector<uint32_t>& splitVertices() const { return splits_; }  ///< [6 * triangles], see appendShown, or none
+  uint64_t mappings() const { return mappings_; }                         ///< times follow() did its work
 
  private:
+  void followLattices(uint32_t since);
+
   size_t vertices_ = 0, triangles_ = 0;
   gpu::Buffer<uint32_t> surface_nodes_, normals_, triangle_buffer_, tie_starts_, alive_, live_, colors_;
   gpu::Buffer<layout::vec4> node_normals_;
   gpu::Buffer<layout::SkinBinding> bindings_;
   gpu::Buffer<layout::Tie> ties_;
   gpu::Buffer<float> positions_;
-  gpu::Program node_normal_, map_, tear_;
-  std::vector<uint32_t> indices_;
+  gpu::Program node_normal_, map_, tear_;     ///< none where every body is a network
+  std::unique_ptr<NetworkSurface> networks_;  ///< null where none is
+  std::vector<uint32_t> indices_, splits_;
   uint64_t cut_revision_ = 0, mappings_ = 0;
   uint32_t followed_revision_ = 0;  ///< of the state that positions and normals belong to; 0 if nobody knows
 };
+
+/// Appends what is shown of one triangle: three vertex indices per piece, counter-clockwise from outside.
+/// Twin of shaders/split_triangles.comp.
+/// @param corners  [3] of triangleIndices()
+/// @param splits   [6] of splitVertices(): on the edges 01, 12, 20, first the vertex beside the edge's first corner;
+///                 null where nothing can split
+/// @param alive    0 torn, 1 whole, or the pieces that are left (layout::kShownCorner, kShownRest)
+void appendShown(const uint32_t* corners, const uint32_t* splits, uint32_t alive, std::vector<uint32_t>& out);
 
 /// Unit normal <-> three signed 10-bit fractions in a uint (x in the low bits), as GL_INT_2_10_10_10_REV.
 uint32_t packNormal(const Vector3f& normal);

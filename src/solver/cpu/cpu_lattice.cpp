@@ -60,7 +60,7 @@ void clear(Values& values) {
 
 }  // namespace
 
-CpuLattice::CpuLattice(const Model& model, const std::vector<layout::BodyParams>& params, bool tools)
+CpuLattice::CpuLattice(const Model& model, const std::vector<layout::BodyParams>& params, bool tools, bool edge_by_edge)
     : bricks(allBricks(model)),
       bodies(params),
       nodes(allNodes(model)),
@@ -72,7 +72,11 @@ CpuLattice::CpuLattice(const Model& model, const std::vector<layout::BodyParams>
       mobility(nodes.size()),
       both_ends(nodes.size() * layout::kSpringsPerNode),
       uniform(bricks.size()),
-      whole_nodes_(nodes) {
+      network(joinNetworks(model)),
+      edge_forces(edge_by_edge ? orderByOwner(network) : EdgeForces{}),
+      spring_cut(network.springs.size()),
+      whole_nodes_(nodes),
+      whole_links_(network.links) {
   for (int i = 0; i < 2; ++i) {
     displacement[i].resize(3 * nodes.size());
     velocity[i].resize(3 * nodes.size());
@@ -82,6 +86,7 @@ CpuLattice::CpuLattice(const Model& model, const std::vector<layout::BodyParams>
     const layout::BodyParams& body = bodies[nodes[slot].hi >> layout::kBodyShift];
     mass[slot] = strengths_.mass_kg.empty() ? static_cast<float>(massEighths(nodes[slot])) * body.mass_eighth_kg
                                             : strengths_.mass_kg[slot];
+    if (!network.masses_kg.empty()) mass[slot] = network.masses_kg[slot];
   }
   if (hasVolumeEnergy(model)) {
     bulk.resize(nodes.size());
@@ -110,9 +115,10 @@ float CpuLattice::cellBulk(uint32_t slot) const {
 
 void CpuLattice::refresh(uint32_t slot) {
   const layout::NodeBits& bits = nodes[slot];
-  for (uint32_t pair = 0; pair < kSpringPairs; ++pair) stiffness[stiffnessAt(slot, pair)] = springStiffness(slot, pair);
   const bool stays = (bits.lo & layout::kFixedBit) != 0 || (isAlone(bits) && (bits.lo & layout::kGrabMask) == 0);
   mobility[slot] = stays ? 0 : 1 / mass[slot];
+  if (connections(slot) == layout::kNetwork) return;
+  for (uint32_t pair = 0; pair < kSpringPairs; ++pair) stiffness[stiffnessAt(slot, pair)] = springStiffness(slot, pair);
   const uint32_t brick = slot / layout::kBrickSlots, local = slot % layout::kBrickSlots;
   for (uint32_t spring = 0; spring < layout::kSpringsPerNode; ++spring) {
     const bool alive = springCount(bits, spring) != 0;
@@ -160,18 +166,28 @@ void CpuLattice::reset() {
   clear(impulses);
   clear(touched);
   current = 0;
+  writeSpringCut({});
   refreshAll();
 }
 
 HostState CpuLattice::read() const {
-  return {gathered(displacement[current], slotCount()), gathered(velocity[current], slotCount()), nodes};
+  return {gathered(displacement[current], slotCount()), gathered(velocity[current], slotCount()), nodes, spring_cut};
 }
 
 void CpuLattice::write(const HostState& state) {
   scatter(state.displacement_m, displacement[current]);
   scatter(state.velocity_m_per_s, velocity[current]);
   nodes = state.nodes;
+  writeSpringCut(state.spring_cut);
   refreshAll();
+}
+
+void CpuLattice::writeSpringCut(const std::vector<float>& cut) {
+  if (network.springs.empty()) return;
+  network.links = whole_links_;
+  clear(spring_cut);
+  std::copy(cut.begin(), cut.end(), spring_cut.begin());
+  eraseSprings(cut, network.springs, network.links);
 }
 
 }  // namespace viscera

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "solver/cpu/kernels.h"
+#include "solver/cpu/network.h"
 #include "viscera/gpu/buffer.h"
 #include "viscera/math/error.h"
 #include "viscera/math/float_bits.h"
@@ -52,6 +53,7 @@ struct CpuSolver::Work {
   std::vector<simd::BrickStats> stats;  ///< [bricks]
   std::vector<uint32_t> changed;        ///< bricks to be measured
   size_t per_job = 1;
+  std::vector<NodeReach> reaches;  ///< of probes in this substep, for nodes with explicit connections
 };
 
 struct CpuSolver::Mirror {
@@ -60,13 +62,17 @@ struct CpuSolver::Mirror {
         velocity(lattice.slotCount()),
         nodes(lattice.slotCount()),
         bricks(lattice.bricks),
-        bodies(layout::kMaxBodies) {
+        bodies(layout::kMaxBodies),
+        rest(lattice.network.rest_m),
+        spring_cut(lattice.spring_cut) {
     bodies.write(lattice.bodies);
   }
   gpu::Buffer<layout::vec4> displacement, velocity;
   gpu::Buffer<layout::NodeBits> nodes;
   gpu::Buffer<layout::Brick> bricks;
   gpu::Buffer<layout::BodyParams> bodies;
+  gpu::Buffer<layout::vec4> rest;
+  gpu::Buffer<float> spring_cut;
 };
 
 std::vector<std::string> simdTargets() {
@@ -78,9 +84,10 @@ CpuSolver::CpuSolver(const Model& model, const Scene& scene, const CpuSolverOpti
       config_(scene.solver),
       simd_(options.simd),
       params_(bodyParams(model, safeTimeStep(model))),
-      lattice_(model, params_, hasTools()),
+      lattice_(model, params_, hasTools(),
+               isLeapfrog(scene.solver.integrator) && scene.solver.spring_forces == SpringForces::kEdge),
       pool_(threadsOf(scene.solver)),
-      sleep_(lattice_, isLeapfrog(scene.solver.integrator) ? scene.solver.sleep_speed_m_per_s : 0),
+      sleep_(lattice_, isLeapfrog(scene.solver.integrator) && !staysAwake() ? scene.solver.sleep_speed_m_per_s : 0),
       work_(std::make_unique<Work>()) {
   if (!simd::useTarget(simd_)) {
     std::string known;
@@ -89,6 +96,11 @@ CpuSolver::CpuSolver(const Model& model, const Scene& scene, const CpuSolverOpti
   }
   if (isLeapfrog(config_.integrator) && isCompensated(config_, shortestSubstep_s()))
     compensation_.resize(6 * lattice_.slotCount());
+  if (model.hasNetwork()) {
+    network_ = std::make_unique<CpuNetwork>(lattice_, pool_, !compensation_.empty());
+    work_->reaches.reserve(layout::kMaxStyluses);
+  }
+  if (hasSurroundings()) surroundings_.emplace(model, scene, lattice_, pool_);
   if (!isLeapfrog(config_.integrator)) {
     stepper_ = makeCpuStepper(config_.integrator, config_.iterations, lattice_, pool_);
   }
@@ -189,7 +201,8 @@ void CpuSolver::selectMotions(size_t substep) {
 }
 
 void CpuSolver::cut(uint32_t stylus, bool particles) {
-  const uint32_t springs = cut_->run(lattice_, motion_[stylus], particles);
+  uint32_t springs = cut_->run(lattice_, motion_[stylus], particles);
+  if (network_) springs += network_->cut(lattice_, motion_[stylus], particles);
   springs_cut_ += springs;
   if (springs == 0) return;
   for (uint32_t brick : cut_->bricks()) sleep_.wake(brick);
@@ -202,28 +215,45 @@ void CpuSolver::advance(const Substep& step, bool recovery) {
     lattice_.swap();
     return;
   }
-  const size_t awake = sleep_.awake().size();
-  if (awake > 0) {
-    const size_t fair = awake / (kJobsPerThread * static_cast<size_t>(pool_.threads()));
-    work_->per_job = std::clamp<size_t>(fair, 1, kMostBricksPerJob);
-    simd::LeapfrogJob& job = work_->step;
-    job.arrays = arrays();
-    job.step = step;
-    job.reaches = 0;
-    for (size_t s = 0; step.tools && s < layout::kMaxStyluses; ++s) {
-      if (motion_[s].info.x != layout::kModeProbe) continue;
-      const layout::ToolMotion& m = motion_[s];
-      const float travel = (xyz(m.to) - xyz(m.from)).norm();
-      job.reach[job.reaches++] = {{m.to.x, m.to.y, m.to.z}, m.from.w + travel};
-    }
-    pool_((awake + work_->per_job - 1) / work_->per_job, [this, &step](size_t chunk) { stepBricks(step, chunk); });
-    lattice_.swap();
-  }
+  if (!sleep_.awake().empty()) stepAwake(step);
+  if (network_) stepNetwork(step);
+  if (!sleep_.awake().empty() || network_) lattice_.swap();
   since_look_s_ += static_cast<double>(step.dt_s);
   if (++substeps_since_look_ < Sleep::kSubsteps) return;
-  if (awake > 0) sleep_.look(lattice_, work_->speed2, since_look_s_);
+  if (!sleep_.awake().empty()) sleep_.look(lattice_, work_->speed2, since_look_s_);
   since_look_s_ = 0;
   substeps_since_look_ = 0;
+}
+
+/// One substep of the bricks that are awake.
+void CpuSolver::stepAwake(const Substep& step) {
+  const size_t awake = sleep_.awake().size();
+  const size_t fair = awake / (kJobsPerThread * static_cast<size_t>(pool_.threads()));
+  work_->per_job = std::clamp<size_t>(fair, 1, kMostBricksPerJob);
+  simd::LeapfrogJob& job = work_->step;
+  job.arrays = arrays();
+  job.step = step;
+  job.reaches = 0;
+  for (size_t s = 0; step.tools && s < layout::kMaxStyluses; ++s) {
+    if (motion_[s].info.x != layout::kModeProbe) continue;
+    const layout::ToolMotion& m = motion_[s];
+    const float travel = (xyz(m.to) - xyz(m.from)).norm();
+    job.reach[job.reaches++] = {{m.to.x, m.to.y, m.to.z}, m.from.w + travel};
+  }
+  pool_((awake + work_->per_job - 1) / work_->per_job, [this, &step](size_t chunk) { stepBricks(step, chunk); });
+}
+
+/// One substep of the nodes with explicit connections.
+void CpuSolver::stepNetwork(const Substep& step) {
+  network_->step(lattice_, step, compensation_);
+  if (!step.tools) return;
+  work_->reaches.clear();
+  for (size_t s = 0; s < layout::kMaxStyluses; ++s) {
+    const layout::ToolMotion& m = motion_[s];
+    if (m.info.x != layout::kModeProbe) continue;
+    work_->reaches.push_back({glsl::xyz(m.to), m.from.w + (xyz(m.to) - xyz(m.from)).norm()});
+  }
+  for (const uint32_t slot : network_->touched(lattice_, work_->reaches)) touchNode(step, slot);
 }
 
 void CpuSolver::stepBricks(const Substep& step, size_t chunk) {
@@ -241,18 +271,24 @@ void CpuSolver::stepBricks(const Substep& step, size_t chunk) {
 
 /// What tools do to the nodes of a brick in the substep (shaders/contact.glsl).
 void CpuSolver::touch(const Substep& step, uint32_t brick) {
+  for (uint32_t i = lattice_.first_active[brick]; i < lattice_.first_active[brick + 1]; ++i) {
+    if (lattice_.mobility[lattice_.active[i]] != 0) touchNode(step, lattice_.active[i]);
+  }
+  work_->speed2[brick] = std::numeric_limits<float>::infinity();  // stays awake
+}
+
+void CpuSolver::touchNode(const Substep& step, uint32_t slot) {
   const float* now = lattice_.displacement[lattice_.current].data();
   float* const u = lattice_.displacement[1 - lattice_.current].data();
   float* const v = lattice_.velocity[1 - lattice_.current].data();
-  for (uint32_t i = lattice_.first_active[brick]; i < lattice_.first_active[brick + 1]; ++i) {
-    const uint32_t slot = lattice_.active[i];
-    if (lattice_.mobility[slot] == 0) continue;
-    Vector3f u_next = planesAt(u, slot), v_next = planesAt(v, slot);
-    resolveContact(lattice_, slot, motion_, step.dt_s, step.push_speed_m_per_s, planesAt(now, slot), u_next, v_next);
-    setPlanes(u, slot, u_next);
-    setPlanes(v, slot, v_next);
-  }
-  work_->speed2[brick] = std::numeric_limits<float>::infinity();  // stays awake
+  Vector3f u_next = planesAt(u, slot), v_next = planesAt(v, slot);
+  resolveContact(lattice_, slot, motion_, step.dt_s, step.push_speed_m_per_s, planesAt(now, slot), u_next, v_next);
+  setPlanes(u, slot, u_next);
+  setPlanes(v, slot, v_next);
+}
+
+void CpuSolver::surround(const Substep& step, const Surroundings& surroundings) {
+  surroundings_->run(lattice_, step, surroundings);
 }
 
 void CpuSolver::measure() {
@@ -281,9 +317,10 @@ void CpuSolver::measure() {
   out.elastic_j = static_cast<float>(elastic_j);
   out.max_stretch_bits = bitsOfFloat(stretch);
   out.max_speed_bits = bitsOfFloat(speed);
-  const bool known = stats_.max_rate_bits != 0 && springs_cut_ == rate_springs_cut_;
+  const bool known = !network_ && stats_.max_rate_bits != 0 && springs_cut_ == rate_springs_cut_;
   out.max_rate_bits = known ? stats_.max_rate_bits : bitsOfFloat(largestRate());
   rate_springs_cut_ = springs_cut_;
+  if (network_) network_->measure(lattice_, out);
   stats_ = out;
 }
 
@@ -292,7 +329,7 @@ float CpuSolver::largestRate() const {
   float largest = 0;
   for (uint32_t slot : lattice_.active) {
     const layout::NodeBits& bits = lattice_.nodes[slot];
-    if (bits.lo & layout::kFixedBit) continue;
+    if ((bits.lo & layout::kFixedBit) || lattice_.connections(slot) != layout::kImplicit) continue;
     const size_t brick = slot / layout::kBrickSlots, local = slot % layout::kBrickSlots;
     float springs = 0, bulk = 0;
     for (size_t s = 0; s < layout::kSpringsPerNode; ++s) springs += lattice_.both_ends[brick * 1152 + s * 64 + local];
@@ -364,6 +401,7 @@ void CpuSolver::changeAll() {
   lattice_.displacement[1 - lattice_.current] = lattice_.displacement[lattice_.current];
   lattice_.velocity[1 - lattice_.current] = lattice_.velocity[lattice_.current];
   std::fill(compensation_.begin(), compensation_.end(), 0.0f);
+  if (network_) network_->restart(lattice_);
   std::fill(lattice_.impulses.begin(), lattice_.impulses.end(), layout::vec4{});
   std::fill(lattice_.touched.begin(), lattice_.touched.end(), uint8_t{0});
   sleep_.wakeAll(lattice_);
@@ -420,7 +458,10 @@ HostState CpuSolver::readState() const {
 
 void CpuSolver::snapshot(StateSnapshot& out) const {
   copyShown(lattice_.displacement[lattice_.current].data(), out);
-  if (out.nodes.empty() || out.cut_revision != cutRevision()) out.nodes = lattice_.nodes;
+  if (out.nodes.empty() || out.cut_revision != cutRevision()) {
+    out.nodes = lattice_.nodes;
+    out.spring_cut = lattice_.spring_cut;
+  }
   out.cut_revision = cutRevision();
 }
 
@@ -430,12 +471,15 @@ StateView CpuSolver::state() {
   mirror_->displacement.write(state.displacement_m);
   mirror_->velocity.write(state.velocity_m_per_s);
   mirror_->nodes.write(state.nodes);
+  mirror_->spring_cut.write(state.spring_cut);
   StateView view;
   view.displacement = mirror_->displacement.id();
   view.velocity = mirror_->velocity.id();
   view.nodes = mirror_->nodes.id();
   view.bricks = mirror_->bricks.id();
   view.bodies = mirror_->bodies.id();
+  view.rest = mirror_->rest.id();
+  view.spring_cut = mirror_->spring_cut.id();
   view.cut_revision = cutRevision();
   return view;
 }

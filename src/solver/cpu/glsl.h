@@ -18,6 +18,8 @@
 // The words of GLSL in C++: shaders are compiled for the CPU as members of a class that has what they find in buffers
 // and uniforms (glsl_kernel.h). Compile with -ffp-contract=off: both ends of a spring must come to the same bits.
 #pragma GCC diagnostic ignored "-Wunused-parameter"  // which are used is a matter of features
+#pragma GCC diagnostic ignored "-Wunused-variable"   // nor what FOR_EACH_LINK offers
+#pragma GCC diagnostic ignored "-Wunused-but-set-variable"
 #define precise
 #define INOUT(T) T&
 #define OUT(T) T&
@@ -29,6 +31,7 @@ using glm::dvec4;
 using glm::ivec3;
 using glm::mat3;
 using glm::uvec3;
+using glm::uvec4;
 using glm::vec2;
 using glm::vec3;
 using glm::vec4;
@@ -40,17 +43,21 @@ using glm::cross;
 using glm::distance;
 using glm::dot;
 using glm::floatBitsToUint;
-using glm::fma;  // a * b + c, both operations rounded
 using glm::greaterThanEqual;
 using glm::length;
 using glm::lessThanEqual;
 using glm::max;
 using glm::min;
 using glm::normalize;
+using glm::notEqual;
 using glm::outerProduct;
 using glm::sqrt;
 using glm::uintBitsToFloat;
 
+/// a * b + c, both operations rounded: the fused one is a call into the C library where the processor may lack it.
+inline float fma(float a, float b, float c) {
+  return a * b + c;
+}
 inline vec3 xyz(const vec4& v) {
   return vec3(v);
 }
@@ -70,6 +77,15 @@ inline void atomicMax(Word& word, uint value) {
 }
 inline void atomicAdd(uint& sum, uint value) {
   sum += value;
+}
+inline void atomicAnd(uint& bits, uint value) {
+  bits &= value;
+}
+inline void atomicOr(uint& bits, uint value) {
+  bits |= value;
+}
+inline void atomicMax(uint& word, uint value) {
+  word = max(word, value);
 }
 
 }  // namespace viscera::glsl

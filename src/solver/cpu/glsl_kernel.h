@@ -6,6 +6,10 @@
 #include "viscera/solver/cpu/cpu_lattice.h"
 #include "viscera/solver/substep.h"
 
+// Bodies of both kinds may be there: which one a node belongs to is asked at run time.
+#define LATTICE
+#define NETWORK
+
 namespace viscera::glsl {
 
 /// displacement or velocity of a CpuLattice, as a shader's buffer of vec4 (w is 0).
@@ -36,6 +40,11 @@ inline vec4 texelFetch(const Planes& planes, int slot) {
 }
 inline vec4 texelFetch(const vec4* buffer, int index) {
   return buffer[index];
+}
+
+inline uvec4 texelFetch(const SpringOwner* owners, int index) {
+  const SpringOwner& owner = owners[index];
+  return {owner.slot, owner.first, owner.end, owner.place};
 }
 
 /// layout::vec4 in memory, as a shader's buffer of vec4.
@@ -79,7 +88,11 @@ struct Kernel {
         bricks_(lattice.bricks.data()),
         stiffness_(lattice.stiffness.data()),
         mass_(lattice.mass.data()),
-        bulk_(lattice.bulk.data()) {}
+        bulk_(lattice.bulk.data()),
+        rest_(lattice.network.rest_m.data()),
+        link_starts_(lattice.network.starts.data()),
+        link_runs_(lattice.edge_forces.links.data()),
+        links_(lattice.network.links.data()) {}
 
   void tell(const Substep& step) {
     dt_s = step.dt_s;
@@ -110,6 +123,13 @@ struct Kernel {
     return {brick.coord_x, brick.coord_y, brick.coord_z};
   }
   uint brickBody(uint slot) const { return bricks_[slot >> 6].body; }
+  vec3 tabulatedRest(uint slot) const { return xyz(rest_[slot]); }
+  uvec4 linkRuns(uint slot) const {
+    if (link_runs_) return {link_runs_[slot].x, link_runs_[slot].y, link_runs_[slot].z, link_runs_[slot].w};
+    const uint end = link_starts_[slot + 1];
+    return {link_starts_[slot], end, end, end};
+  }
+  const Link& linkAt(uint link) const { return links_[link]; }
   float nodeMass(uint slot, const NodeBits&, const BodyParams&) const { return mass_[slot]; }
   float cellBulk(uint slot, const BodyParams&) const { return bulk_[slot]; }
   float springStiffness(uint slot, uint far, uint spring, uint, const BodyParams&) const {
@@ -126,6 +146,10 @@ struct Kernel {
   uint8_t* touched_;
   const Brick* bricks_;
   const float *stiffness_, *mass_, *bulk_;
+  const layout::vec4* rest_;
+  const uint* link_starts_;
+  const layout::uvec4* link_runs_;  ///< null where a node's links are in one run
+  const Link* links_;
 };
 
 }  // namespace viscera::glsl

@@ -9,15 +9,12 @@
 #define HWY_TARGET_INCLUDE "solver/cpu/kernels.cpp"
 #include "hwy/foreach_target.h"  // IWYU pragma: keep
 #include "hwy/highway.h"
+#include "solver/cpu/vectors-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace viscera::simd::HWY_NAMESPACE {
 
-namespace hn = hwy::HWY_NAMESPACE;
-using Tag = hn::CappedTag<float, 16>;
 using Row = hn::FixedTag<float, 4>;
-using V = hn::Vec<Tag>;
-using M = hn::Mask<Tag>;
 
 /// A brick and what lies around it, for each component of a vector: x is shifted by -1, 0, 1 beforehand, so that a
 /// neighbour in any direction is one load away.
@@ -27,13 +24,6 @@ constexpr int kPlane = 48, kOwn = 16;
 struct alignas(64) Tile {
   float component[3][3][6 * kPlane];
 };
-
-HWY_INLINE V load(const float* at) {
-  return hn::LoadU(Tag(), at);
-}
-HWY_INLINE V set(float value) {
-  return hn::Set(Tag(), value);
-}
 
 /// Rows of one plane of the brick, its neighbours at the left and right, shifted by -1, 0, 1.
 template <class D>
@@ -75,36 +65,6 @@ HWY_INLINE void fill(const Arrays& a, const float* values, uint32_t b, Tile& til
   }
 }
 
-struct Vec3 {
-  V x, y, z;
-};
-HWY_INLINE Vec3 operator-(const Vec3& a, const Vec3& b) {
-  return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
-}
-HWY_INLINE Vec3 operator+(const Vec3& a, const Vec3& b) {
-  return {hn::Add(a.x, b.x), hn::Add(a.y, b.y), hn::Add(a.z, b.z)};
-}
-HWY_INLINE Vec3 operator*(V a, const Vec3& b) {
-  return {hn::Mul(a, b.x), hn::Mul(a, b.y), hn::Mul(a, b.z)};
-}
-HWY_INLINE V dot(const Vec3& a, const Vec3& b) {
-  return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, hn::Mul(a.z, b.z)));
-}
-/// a + s b
-HWY_INLINE Vec3 mulAdd(V s, const Vec3& b, const Vec3& a) {
-  return {hn::MulAdd(s, b.x, a.x), hn::MulAdd(s, b.y, a.y), hn::MulAdd(s, b.z, a.z)};
-}
-HWY_INLINE Vec3 cross(const Vec3& a, const Vec3& b) {
-  return {hn::MulSub(a.y, b.z, hn::Mul(a.z, b.y)), hn::MulSub(a.z, b.x, hn::Mul(a.x, b.z)),
-          hn::MulSub(a.x, b.y, hn::Mul(a.y, b.x))};
-}
-HWY_INLINE Vec3 select(M mask, const Vec3& yes, const Vec3& no) {
-  return {hn::IfThenElse(mask, yes.x, no.x), hn::IfThenElse(mask, yes.y, no.y), hn::IfThenElse(mask, yes.z, no.z)};
-}
-HWY_INLINE Vec3 zero3() {
-  const V zero = hn::Zero(Tag());
-  return {zero, zero, zero};
-}
 /// Neighbour in direction (X, Y, Z) of the nodes at an index of the tile.
 template <int X, int Y, int Z>
 HWY_INLINE Vec3 seen(const Tile& tile, int at) {
@@ -305,24 +265,6 @@ HWY_NOINLINE void addVolumes(const Tile& u, int at, V quarter, const float* bulk
   addVolume<1, 1, 1>(u, at, quarter, load(bulk + 448), force);
 }
 
-HWY_INLINE Vec3 loadPlanes(const float* at) {
-  return {load(at), load(at + 64), load(at + 128)};
-}
-HWY_INLINE void storePlanes(const Vec3& value, float* at) {
-  hn::StoreU(value.x, Tag(), at);
-  hn::StoreU(value.y, Tag(), at + 64);
-  hn::StoreU(value.z, Tag(), at + 128);
-}
-
-/// sum + increment, with Kahan's compensation where there is memory for it (shaders/leapfrog.comp).
-HWY_INLINE Vec3 added(float* compensation, size_t at, const Vec3& sum, const Vec3& increment) {
-  if (!compensation) return sum + increment;
-  const Vec3 all_of_it = increment - loadPlanes(compensation + at);
-  const Vec3 next = sum + all_of_it;
-  storePlanes((next - sum) - all_of_it, compensation + at);
-  return next;
-}
-
 /// Rest position of a vector's nodes [m]. @param from  rest position of the brick's first slot   @param i  index of the
 /// first node
 HWY_INLINE Vec3 restOf(const float (&from)[3], float h, int i) {
@@ -335,33 +277,8 @@ HWY_INLINE Vec3 restOf(const float (&from)[3], float h, int i) {
 
 struct Stepping {
   Material material;
-  V kick, drag2, per_drag, dt, sleep2;
-  Vec3 gravity;
+  Motion motion;
 };
-
-HWY_INLINE Stepping steppingOf(const LeapfrogJob& job, const layout::BodyParams& body) {
-  const float g = 0.5f * body.drag_per_s * job.step.kick_s;
-  const float far = job.step.sleep_distance_m;
-  return {materialOf(body),
-          set(job.step.kick_s),
-          set(2 * g),
-          set(1 / (1 + g)),
-          set(job.step.dt_s),
-          set(far * far),
-          {set(job.step.gravity.x()), set(job.step.gravity.y()), set(job.step.gravity.z())}};
-}
-
-/// Fragments that fall come to lie where sleep_distance_m ends (shaders/step.glsl).
-HWY_INLINE void fallAsleep(const Stepping& s, const Vec3& u, Vec3& u_next, Vec3& v_next) {
-  const V away = dot(u_next, u_next);
-  const M beyond = hn::Gt(away, s.sleep2);
-  if (HWY_LIKELY(hn::AllFalse(Tag(), beyond))) return;
-  const Vec3 leap = u_next - u;
-  const M falls = hn::And(hn::And(beyond, hn::Gt(away, dot(u, u))),
-                          hn::Not(hn::Gt(dot(leap, leap), hn::Mul(set(0.01f), s.sleep2))));
-  u_next = select(falls, u, u_next);
-  v_next = select(falls, zero3(), v_next);
-}
 
 /// One vector of nodes. @param i  index of the first in the brick   @return |v|^2
 template <bool kUniform, bool kDashpot>
@@ -391,17 +308,9 @@ HWY_INLINE V stepVector(const LeapfrogJob& job, const Stepping& s, const Tile& u
     addVolumes(u, at, quarter, a.bulk_around + size_t{b} * 512 + i, force);
   }
   const size_t to = size_t{b} * 192 + static_cast<size_t>(i);
-  const Vec3 near = seen<0, 0, 0>(u, at), speed = loadPlanes(a.velocity + to);
-  const M moves = hn::Gt(mobility, hn::Zero(Tag()));
-  const Vec3 acceleration = mulAdd(mobility, force, s.gravity);
-  // ((1 - g) v + kick a) / (1 + g), as v and an increment (shaders/leapfrog.comp).
-  const Vec3 change = s.per_drag * mulAdd(hn::Neg(s.drag2), speed, s.kick * acceleration);
   float* const lost = a.compensation ? a.compensation + size_t{b} * 384 + static_cast<size_t>(i) : nullptr;
-  Vec3 v_next = added(lost, 192, speed, change);
-  u_next = added(lost, 0, near, s.dt * v_next);
-  fallAsleep(s, near, u_next, v_next);
-  u_next = select(moves, u_next, near);
-  v_next = select(moves, v_next, zero3());
+  Vec3 v_next;
+  move(s.motion, mobility, force, seen<0, 0, 0>(u, at), loadPlanes(a.velocity + to), lost, u_next, v_next);
   storePlanes(u_next, a.next_displacement + to);
   storePlanes(v_next, a.next_velocity + to);
   return dot(v_next, v_next);
@@ -449,7 +358,7 @@ void stepBricks(const LeapfrogJob& job, const uint32_t* bricks, size_t count) {
   for (size_t n = 0; n < count; ++n) {
     const uint32_t b = bricks[n];
     const layout::BodyParams& body = job.arrays.bodies[job.arrays.bricks[b].body];
-    const Stepping s = steppingOf(job, body);
+    const Stepping s = {materialOf(body), motionOf(job.step, body)};
     if (job.arrays.bulk_around)
       fill<true>(job.arrays, job.arrays.displacement, b, u);
     else

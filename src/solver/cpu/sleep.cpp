@@ -20,6 +20,11 @@ float largestDisplacement(const CpuLattice& lattice, uint32_t brick) {
   return std::sqrt(largest2);
 }
 
+/// Bodies with explicit connections are not stepped brick by brick (network.h).
+bool isImplicit(const CpuLattice& lattice, uint32_t brick) {
+  return lattice.bodies[lattice.bricks[brick].body].connections == layout::kImplicit;
+}
+
 }  // namespace
 
 Sleep::Sleep(const CpuLattice& lattice, double speed_m_per_s)
@@ -39,7 +44,8 @@ void Sleep::wakeAll(const CpuLattice& lattice) {
   std::fill(changed_.begin(), changed_.end(), uint8_t{1});
   for (uint32_t b = 0; b < lattice.brickCount(); ++b) {
     const float* mobility = &lattice.mobility[size_t{b} * layout::kBrickSlots];
-    moves_[b] = std::any_of(mobility, mobility + layout::kBrickSlots, [](float value) { return value > 0; });
+    moves_[b] = isImplicit(lattice, b) &&
+                std::any_of(mobility, mobility + layout::kBrickSlots, [](float value) { return value > 0; });
     is_awake_[b] = moves_[b];
     quiet_s_[b] = 0;
     if (moves_[b]) awake_.push_back(b);
@@ -75,7 +81,7 @@ void Sleep::takeChanged(const CpuLattice& lattice, std::vector<uint32_t>& out) {
   }
   out.clear();
   for (uint32_t b = 0; b < changed_.size(); ++b) {
-    if (changed_[b]) out.push_back(b);
+    if (changed_[b] && isImplicit(lattice, b)) out.push_back(b);
     changed_[b] = 0;
   }
 }

@@ -28,7 +28,7 @@ struct DescendVolumes : ImplicitKernel {
 CpuVbd::CpuVbd(const CpuLattice& lattice, const Parallel& parallel, int iterations)
     : implicit_(lattice, parallel, iterations, 1),
       parallel_(parallel),
-      coloured_(byColour(lattice.active, !lattice.bulk.empty())),
+      coloured_(byColour(lattice.active, !lattice.bulk.empty(), lattice.network)),
       iterations_(iterations) {}
 
 template <class Kernel>

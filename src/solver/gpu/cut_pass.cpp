@@ -5,20 +5,31 @@
 namespace viscera {
 
 CutPass::CutPass(const FeatureSet& features) : group_size_(features.group_size) {
-  std::vector<std::string> defines = features.defines();
-  springs_ = gpu::Program::compute("cut.comp", defines);
-  defines.push_back("PARTICLES");
-  particles_ = gpu::Program::compute("cut.comp", defines);
+  if (features.lattice) lattice_ = compiled("cut.comp", features.defines());
+  if (features.network) links_ = compiled("cut_links.comp", features.defines());
   if (features.volume) torn_cells_.emplace(features);
 }
 
-void CutPass::run(const LatticeBuffers& buffers, uint32_t stylus, bool particles) const {
-  const gpu::Program& program = particles ? particles_ : springs_;
+CutPass::Programs CutPass::compiled(const char* shader, std::vector<std::string> defines) const {
+  Programs out;
+  out.springs = gpu::Program::compute(shader, defines);
+  defines.push_back("PARTICLES");
+  out.particles = gpu::Program::compute(shader, defines);
+  return out;
+}
+
+void CutPass::runOver(const Programs& programs, size_t count, uint32_t stylus, bool particles) const {
+  const gpu::Program& program = particles ? programs.particles : programs.springs;
   program.use();
-  program.set(0, static_cast<uint32_t>(buffers.active_count));
+  program.set(0, static_cast<uint32_t>(count));
   program.set(1, stylus);
-  gpu::Program::dispatch(buffers.active_count, group_size_);
+  gpu::Program::dispatch(count, group_size_);
   gpu::Program::storageBarrier();
+}
+
+void CutPass::run(const LatticeBuffers& buffers, uint32_t stylus, bool particles) const {
+  if (lattice_) runOver(*lattice_, buffers.active_count, stylus, particles);
+  if (links_) runOver(*links_, buffers.springs.size(), stylus, particles);
   if (torn_cells_) torn_cells_->run(buffers);
 }
 

@@ -9,6 +9,9 @@ namespace viscera {
 
 std::vector<std::string> FeatureSet::defines() const {
   std::vector<std::string> out = {"GROUP_SIZE " + std::to_string(group_size), "TEXELS"};
+  if (lattice) out.push_back("LATTICE");
+  if (network) out.push_back("NETWORK");
+  if (edge_forces) out.push_back("EDGE_FORCES");
   if (dashpot) out.push_back("DASHPOT");
   if (volume) out.push_back("VOLUME");
   if (parts) out.push_back("PARTS");
@@ -21,6 +24,10 @@ FeatureSet featuresOf(const Model& model, const Scene& scene, double dt_s, uint3
   FeatureSet features;
   features.group_size = group_size;
   features.single_body = model.bodies.size() == 1;
+  features.lattice = model.hasLattice();
+  features.network = model.hasNetwork();
+  features.edge_forces = features.network && scene.solver.spring_forces == SpringForces::kEdge &&
+                         scene.solver.integrator == Integrator::kLeapfrog;
   features.volume = hasVolumeEnergy(model);
   features.parts = isHeterogeneous(model);
   features.compensated = isCompensated(scene.solver, dt_s);

@@ -25,6 +25,7 @@ GpuSolver::GpuSolver(const Model& model, const Scene& scene, const GpuSolverOpti
                                makeRecoveryStepper(kRecoveryIterations, features_, buffers_)});
     recovery_->good.save(buffers_);
   }
+  if (hasSurroundings()) surroundings_.emplace(model, scene, features_, buffers_);
   if (hasTools()) {
     const size_t rows = static_cast<size_t>(mostSubsteps()) * layout::kMaxStyluses;
     tools_.emplace(Tools{gpu::Buffer<layout::ToolMotion>(rows), GrabPass(features_), CutPass(features_),
@@ -64,6 +65,15 @@ void GpuSolver::advance(const Substep& step, bool recovery) {
   buffers_.swap();
 }
 
+void GpuSolver::beginSurroundings(const Surroundings& surroundings) {
+  surroundings_->beginTick(surroundings);
+}
+
+void GpuSolver::surround(const Substep& step, const Surroundings& surroundings) {
+  const gpu::TimedStage timed(gpu::Stage::kStep);
+  surroundings_->run(buffers_, step, surroundings);
+}
+
 void GpuSolver::measure() {
   const gpu::TimedStage timed(gpu::Stage::kMeasure);
   measure_.run(buffers_);
@@ -99,13 +109,15 @@ StateView GpuSolver::state() {
   view.nodes = buffers_.nodes.id();
   view.bricks = buffers_.bricks.id();
   view.bodies = buffers_.bodies.id();
+  view.rest = buffers_.rest.id();
+  view.spring_cut = buffers_.spring_cut.id();
   view.cut_revision = cutRevision();
   return view;
 }
 
 HostState GpuSolver::readState() const {
   return {buffers_.displacement[buffers_.current].read(), buffers_.velocity[buffers_.current].read(),
-          buffers_.nodes.read()};
+          buffers_.nodes.read(), buffers_.spring_cut.read()};
 }
 
 void GpuSolver::resetState() {
@@ -116,6 +128,7 @@ void GpuSolver::loadState(const HostState& state) {
   buffers_.displacement[buffers_.current].write(state.displacement_m);
   buffers_.velocity[buffers_.current].write(state.velocity_m_per_s);
   buffers_.nodes.write(state.nodes);
+  buffers_.writeSpringCut(state.spring_cut);
   if (buffers_.compensation.size()) buffers_.compensation.clear();
   buffers_.bind();
 }

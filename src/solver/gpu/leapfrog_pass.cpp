@@ -6,6 +6,7 @@ namespace viscera {
 
 LeapfrogPass::LeapfrogPass(const FeatureSet& features) : group_size_(features.group_size) {
   std::vector<std::string> defines = features.defines();
+  if (features.edge_forces) spring_forces_.emplace(features);
   plain_ = gpu::Program::compute("leapfrog.comp", defines);
   if (features.volume) volume_.emplace(features);
   if (!features.tools) return;
@@ -15,6 +16,7 @@ LeapfrogPass::LeapfrogPass(const FeatureSet& features) : group_size_(features.gr
 
 void LeapfrogPass::run(LatticeBuffers& buffers, const Substep& step) {
   if (volume_) volume_->run(buffers);
+  if (spring_forces_) spring_forces_->run(buffers);
   const gpu::Program& program = step.tools ? with_tools_ : plain_;
   program.use();
   setSubstep(program, buffers, step);

@@ -11,7 +11,7 @@ VbdPass::VbdPass(const FeatureSet& features, const LatticeBuffers& buffers, int 
       sweep_(gpu::Program::compute("vbd.comp", ImplicitSubstep::defines(features))),
       iterations_(iterations),
       group_size_(features.group_size) {
-  Coloured coloured = byColour(buffers.active.read(), features.volume);
+  Coloured coloured = byColour(buffers.active.read(), features.volume, buffers.network);
   by_colour_ = gpu::Buffer<uint32_t>(coloured.slots);
   colours_ = std::move(coloured.colours);
 }

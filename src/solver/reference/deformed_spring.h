@@ -18,10 +18,12 @@ inline ReferenceLattice::Spring ReferenceLattice::springAt(const Field& u_m, uin
   const Neighbor& n = neighbor(slot, spring);
   const Vector3d w = u_m[n.slot] - u_m[slot], edge = n.offset_m + w;
   const double length = edge.norm();
-  // Without cancellation (physics.md 2).
-  const double extension = (2 * n.offset_m.dot(w) + w.squaredNorm()) / (length + n.rest_m);
+  // Without cancellation (physics.md 2). The prestrain |d|^2 - l0^2 is 0 in a lattice.
+  const double prestrain = n.spring < 0 ? 0 : n.offset_m.squaredNorm() - n.rest_m * n.rest_m;
+  const double sum = length + n.rest_m;
+  const double extension = sum > 0 ? (2 * n.offset_m.dot(w) + w.squaredNorm() + prestrain) / sum : 0;
   const bool has_direction = length > kShortest * n.rest_m;
-  return {has_direction ? Vector3d(edge / length) : Vector3d(n.offset_m / n.rest_m), length, extension};
+  return {has_direction ? Vector3d(edge / length) : n.offset_m.normalized(), length, extension};
 }
 
 /// Sign of the axis at corner c of a cell: -1 or 1.

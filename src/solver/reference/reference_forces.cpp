@@ -10,12 +10,13 @@
 namespace viscera {
 
 double ReferenceLattice::strain(const Field& u_m, uint32_t slot, uint32_t spring) const {
-  return springAt(u_m, slot, spring).extension_m / neighbor(slot, spring).rest_m;
+  const double rest_m = neighbor(slot, spring).rest_m;
+  return rest_m > 0 ? springAt(u_m, slot, spring).extension_m / rest_m : 0;
 }
 
 Vector3d ReferenceLattice::springForce(const Field& u_m, uint32_t slot) const {
   Vector3d sum = Vector3d::Zero();
-  for (uint32_t s = 0; s < layout::kSpringsPerNode; ++s) {
+  for (uint32_t s = 0; s < springsOf(slot); ++s) {
     const double k = stiffness(slot, s);
     if (k == 0) continue;
     const Spring spring = springAt(u_m, slot, s);
@@ -26,7 +27,7 @@ Vector3d ReferenceLattice::springForce(const Field& u_m, uint32_t slot) const {
 
 Vector3d ReferenceLattice::dashpotForce(const Field& u_m, const Field& v_m_per_s, uint32_t slot) const {
   Vector3d sum = Vector3d::Zero();
-  for (uint32_t s = 0; s < layout::kSpringsPerNode; ++s) {
+  for (uint32_t s = 0; s < springsOf(slot); ++s) {
     const double c = dashpot(slot, s);
     if (c == 0) continue;
     const Vector3d n = springAt(u_m, slot, s).direction;
@@ -38,8 +39,8 @@ Vector3d ReferenceLattice::dashpotForce(const Field& u_m, const Field& v_m_per_s
 double ReferenceLattice::dissipation(const Field& u_m, const Field& v_m_per_s) const {
   double sum = 0;
   for (uint32_t slot : active) {
-    for (uint32_t s = 0; s < layout::kSpringsPerNode; s += 2) {  // each spring once, from its lower end
-      const double c = dashpot(slot, s);
+    for (uint32_t s = 0; s < springsOf(slot); ++s) {
+      const double c = isFirstEnd(slot, s) ? dashpot(slot, s) : 0;
       if (c == 0) continue;
       const double rate = springAt(u_m, slot, s).direction.dot(v_m_per_s[farEnd(slot, s)] - v_m_per_s[slot]);
       sum += 0.5 * c * rate * rate;
@@ -51,8 +52,8 @@ double ReferenceLattice::dissipation(const Field& u_m, const Field& v_m_per_s) c
 double ReferenceLattice::springEnergy(const Field& u_m) const {
   double sum = 0;
   for (uint32_t slot : active) {
-    for (uint32_t s = 0; s < layout::kSpringsPerNode; s += 2) {
-      const double k = stiffness(slot, s);
+    for (uint32_t s = 0; s < springsOf(slot); ++s) {
+      const double k = isFirstEnd(slot, s) ? stiffness(slot, s) : 0;
       if (k == 0) continue;
       const double extension = springAt(u_m, slot, s).extension_m;
       sum += 0.5 * k * extension * extension;
@@ -64,8 +65,8 @@ double ReferenceLattice::springEnergy(const Field& u_m) const {
 double ReferenceLattice::forceScale(const Field& u_m) const {
   double scale = 0;
   for (uint32_t slot : active) {
-    for (uint32_t s = 0; s < layout::kSpringsPerNode; s += 2) {
-      const double k = stiffness(slot, s);
+    for (uint32_t s = 0; s < springsOf(slot); ++s) {
+      const double k = isFirstEnd(slot, s) ? stiffness(slot, s) : 0;
       if (k == 0) continue;
       scale =
           std::max(scale, k * std::max(std::abs(springAt(u_m, slot, s).extension_m), 1e-6 * neighbor(slot, s).rest_m));

@@ -8,6 +8,7 @@ namespace viscera {
 
 namespace {
 
+constexpr float kLeastFraction = 1.0f / (1 << 24);  ///< of a spring's length, where a cut is noted: 0 means whole
 constexpr std::array<int, 8> kNoCells = {-1, -1, -1, -1, -1, -1, -1, -1};
 
 Vector3i cornerOffset(size_t corner) {
@@ -17,10 +18,7 @@ Vector3i cornerOffset(size_t corner) {
 }  // namespace
 
 ReferenceLattice::ReferenceLattice(const Model& model)
-    : neighbors_(model.slots() * layout::kSpringsPerNode),
-      rest_m_(model.slots(), Vector3d::Zero()),
-      place_(model.slots(), -1),
-      around_(model.slots(), kNoCells) {
+    : rest_m_(model.slots(), Vector3d::Zero()), place_(model.slots(), -1), around_(model.slots(), kNoCells) {
   const double dt_safe_s = safeTimeStep(model);
   for (size_t b = 0; b < model.bodies.size(); ++b) addBody(model, b, dt_safe_s);
   for (size_t i = 0; i < active.size(); ++i) place_[active[i]] = static_cast<int>(i);
@@ -31,23 +29,55 @@ void ReferenceLattice::addBody(const Model& model, size_t b, double dt_safe_s) {
   const Lattice& lattice = body.lattice;
   const uint32_t first = model.slotOffset(b);
   first_.push_back(first);
+  has_valences_.push_back(body.network && !body.network->of_lattice);
   params_.push_back(bodyParams(body, dt_safe_s));
   strengths_.push_back(isHeterogeneous(body) ? strengths(body) : Strengths{});
+  if (body.network) strengths_[b].mass_kg.assign(body.network->masses_kg.begin(), body.network->masses_kg.end());
   for (layout::NodeBits bits : lattice.nodes) {
     bits.hi |= static_cast<uint32_t>(b) << layout::kBodyShift;
     nodes.push_back(bits);
   }
   for (uint32_t slot : lattice.active_slots) {
     active.push_back(first + slot);
-    rest_m_[first + slot] = lattice.restPosition(slot);
+    rest_m_[first + slot] = viscera::restPosition(body, slot);
+    if (!has_valences_[b] && lattice.nodes[slot].lo & layout::kCellBit) addCell(lattice, first, slot);
+  }
+  if (body.network) {
+    addLinks(*body.network, first);
+  } else {
+    addLatticeSprings(lattice, first);
+  }
+}
+
+void ReferenceLattice::addLatticeSprings(const Lattice& lattice, uint32_t first) {
+  for (uint32_t slot = 0; slot < lattice.nodes.size(); ++slot) {
     for (uint32_t s = 0; s < layout::kSpringsPerNode; ++s) {
       const auto& o = kNeighborOffsets[s];
       const Vector3d offset = lattice.spacing_m * Vector3d(o[0], o[1], o[2]);
       const int64_t other = lattice.neighborSlot(slot, s);
-      neighbors_[(first + slot) * layout::kSpringsPerNode + s] = {other < 0 ? 0u : first + static_cast<uint32_t>(other),
-                                                                  offset, offset.norm()};
+      const uint32_t far = other < 0 ? 0u : first + static_cast<uint32_t>(other);
+      neighbors_.push_back({far, offset, offset.norm(), s % 2 == 0, s, -1, 0});
     }
-    if (lattice.nodes[slot].lo & layout::kCellBit) addCell(lattice, first, slot);
+    starts_.push_back(static_cast<uint32_t>(neighbors_.size()));
+  }
+}
+
+void ReferenceLattice::addLinks(const SpringNetwork& network, uint32_t first) {
+  const NetworkLinks links = linksOf(network);
+  const size_t base = neighbors_.size();
+  neighbors_.resize(base + links.links.size());
+  for (size_t i = 0; i < network.springs.size(); ++i) {
+    const layout::SpringEnds& ends = links.ends[i];
+    const Vector3d offset = network.positions_m[ends.b] - network.positions_m[ends.a];
+    const double rest = network.springs[i].rest_length_m;
+    const auto number = static_cast<int64_t>(spring_cut.size());
+    const layout::Link &a = links.links[ends.link_a], &b = links.links[ends.link_b];
+    neighbors_[base + ends.link_a] = {first + a.far, offset, rest, true, a.lattice_spring, number, a.stiffness};
+    neighbors_[base + ends.link_b] = {first + b.far, -offset, rest, false, b.lattice_spring, number, b.stiffness};
+    spring_cut.push_back(0);
+  }
+  for (size_t slot = 0; slot + 1 < links.starts.size(); ++slot) {
+    starts_.push_back(static_cast<uint32_t>(base) + links.starts[slot + 1]);
   }
 }
 
@@ -67,9 +97,15 @@ double ReferenceLattice::mass(uint32_t slot) const {
   return massEighths(nodes[slot]) * static_cast<double>(params_[b].mass_eighth_kg);
 }
 
+bool ReferenceLattice::isWhole(uint32_t slot, uint32_t spring) const {
+  const int64_t link = neighbor(slot, spring).spring;
+  return link < 0 ? springCount(nodes[slot], spring) != 0 : spring_cut[static_cast<size_t>(link)] == 0;
+}
+
 double ReferenceLattice::stiffness(uint32_t slot, uint32_t spring) const {
+  if (!isWhole(slot, spring)) return 0;
+  if (neighbor(slot, spring).spring >= 0) return neighbor(slot, spring).stiffness_n_per_m;
   const uint32_t count = springCount(nodes[slot], spring), b = nodes[slot].hi >> layout::kBodyShift;
-  if (count == 0) return 0;
   if (!strengths_[b].spring_n_per_m.empty()) {
     const uint32_t near = (spring % 2 ? neighbor(slot, spring).slot : slot) - first_[b];
     return strengths_[b].spring_n_per_m[near * kSpringPairs + spring / 2];
@@ -93,13 +129,31 @@ bool ReferenceLattice::isIsolated(uint32_t slot) const {
   return (nodes[slot].lo & layout::kAxialMask) == 0 && (nodes[slot].hi & layout::kDiagonalMask) == 0;
 }
 
-void ReferenceLattice::eraseSpring(uint32_t slot, uint32_t spring) {
-  const uint32_t other = neighbor(slot, spring).slot;
-  setSpringCount(nodes[slot], spring, 0);
-  setSpringCount(nodes[other], oppositeSpring(spring), 0);
-  nodes[slot].lo |= layout::kSeveredBit;
-  nodes[other].lo |= layout::kSeveredBit;
-  for (int cell : around_[slot]) {  // the cells that have both ends among their corners
+void ReferenceLattice::eraseSpring(uint32_t slot, uint32_t spring, double fraction) {
+  if (!isWhole(slot, spring)) return;
+  const Neighbor& n = neighbor(slot, spring);
+  const bool of_lattice = n.lattice_spring != layout::kNoLatticeSpring;
+  loseSpring(slot, n.lattice_spring);
+  loseSpring(n.slot, of_lattice ? oppositeSpring(n.lattice_spring) : n.lattice_spring);
+  // Rounded, it must still say that the spring is cut.
+  if (n.spring >= 0) spring_cut[static_cast<size_t>(n.spring)] = std::max(static_cast<float>(fraction), kLeastFraction);
+  if (of_lattice) killCells(slot, n.slot);
+}
+
+/// Notes in NodeBits that one end of a spring has it no longer.
+void ReferenceLattice::loseSpring(uint32_t slot, uint32_t lattice_spring) {
+  layout::NodeBits& bits = nodes[slot];
+  bits.lo |= layout::kSeveredBit;
+  if (lattice_spring != layout::kNoLatticeSpring) {
+    setSpringCount(bits, lattice_spring, 0);
+  } else if (has_valences_[bits.hi >> layout::kBodyShift]) {
+    --bits.lo;  // the valence is in the lowest bits
+  }
+}
+
+/// Takes the volume of the cells that have both nodes among their corners.
+void ReferenceLattice::killCells(uint32_t slot, uint32_t other) {
+  for (int cell : around_[slot]) {
     if (cell < 0) continue;
     const auto& corners = cells_[static_cast<size_t>(cell)].corners;
     if (std::find(corners.begin(), corners.end(), other) == corners.end()) continue;

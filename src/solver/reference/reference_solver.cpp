@@ -58,6 +58,7 @@ HostState ReferenceSolver::state() const {
   for (const Vector3d& u : u_m) out.displacement_m.push_back(rounded(u));
   for (const Vector3d& v : v_m_per_s) out.velocity_m_per_s.push_back(rounded(v));
   out.nodes = nodes;
+  out.spring_cut = spring_cut;
   return out;
 }
 

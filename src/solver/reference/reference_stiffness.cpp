@@ -49,13 +49,15 @@ Matrix9d positivePart(const Matrix9d& m) {
 
 void ReferenceLattice::addSprings(const Field& u_m, Curvature curvature, double dashpot_per_s, Triplets& out) const {
   for (uint32_t slot : active) {
-    for (uint32_t s = 0; s < layout::kSpringsPerNode; s += 2) {  // each spring once, from its lower end
-      const double k = stiffness(slot, s);
+    for (uint32_t s = 0; s < springsOf(slot); ++s) {
+      const double k = isFirstEnd(slot, s) ? stiffness(slot, s) : 0;
       if (k == 0) continue;
       const Spring spring = springAt(u_m, slot, s);
       const Eigen::Matrix3d along = spring.direction * spring.direction.transpose();
-      // Tension over length, what a spring resists turning with; negative while it is compressed.
-      double turning = k * spring.extension_m / std::max(spring.length_m, kShortest * neighbor(slot, s).rest_m);
+      // Tension over length, what a spring resists turning with; negative while it is compressed. One without rest
+      // length has k even where it has no length: its force is k times the way from end to end.
+      const double length_m = std::max(spring.length_m, kShortest * neighbor(slot, s).rest_m);
+      double turning = length_m > 0 ? k * spring.extension_m / length_m : k;
       if (curvature == Curvature::kPositive) turning = std::max(0.0, turning);
       const Eigen::Matrix3d block =
           (k + dashpot(slot, s) * dashpot_per_s) * along + turning * (Eigen::Matrix3d::Identity() - along);

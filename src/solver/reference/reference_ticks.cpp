@@ -57,8 +57,8 @@ Vector3d ReferenceTicks::impulse(uint32_t stylus) const {
 double ReferenceTicks::maxStretch() const {
   double largest = 0;
   for (uint32_t slot : solver_.active) {
-    for (uint32_t s = 0; s < layout::kSpringsPerNode; s += 2) {
-      if (springCount(solver_.nodes[slot], s) == 0) continue;
+    for (uint32_t s = 0; s < solver_.springsOf(slot); ++s) {
+      if (!solver_.isFirstEnd(slot, s) || !solver_.isWhole(slot, s)) continue;
       largest = std::max(largest, std::abs(solver_.strain(solver_.u_m, slot, s)));
     }
   }

@@ -3,12 +3,17 @@
 // What styluses do to the reference (VR05 2.7, physics.md 5).
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "viscera/solver/reference/reference_solver.h"
 
 namespace viscera {
 
 namespace {
+
+const double kErasedFraction = static_cast<double>(layout::kErasedShare);  ///< of a spring whose end was erased
+
+constexpr double kOverlap = 1e-3;  ///< of a sweep with the one before (shaders/cut_links.comp)
 
 Vector3d xyz(const layout::vec4& v) {
   return {v.x, v.y, v.z};
@@ -20,15 +25,18 @@ Vector3d nearestOnSegment(const Vector3d& a, const Vector3d& b, const Vector3d& 
   return length2 > 0 ? Vector3d(a + std::clamp((x - a).dot(ab) / length2, 0.0, 1.0) * ab) : a;
 }
 
-/// Does the segment a..b cross the triangle p q r? Borders belong to it.
-bool crosses(const Vector3d& a, const Vector3d& b, const Vector3d& p, const Vector3d& q, const Vector3d& r) {
+/// Where the segment a..b crosses the triangle p q r, 0..1 of the way from a to b, if it does. Borders belong to it.
+std::optional<double> crossing(const Vector3d& a, const Vector3d& b, const Vector3d& p, const Vector3d& q,
+                               const Vector3d& r) {
   const Vector3d normal = (q - p).cross(r - p);
-  if (normal.isZero(0)) return false;
+  if (normal.isZero(0)) return std::nullopt;
   const double da = (a - p).dot(normal), db = (b - p).dot(normal);
-  if ((da >= 0) == (db >= 0)) return false;
-  const Vector3d x = a + da / (da - db) * (b - a);
-  return (q - p).cross(x - p).dot(normal) >= 0 && (r - q).cross(x - q).dot(normal) >= 0 &&
-         (p - r).cross(x - r).dot(normal) >= 0;
+  if ((da >= 0) == (db >= 0)) return std::nullopt;
+  const double fraction = da / (da - db);
+  const Vector3d x = a + fraction * (b - a);
+  const bool inside = (q - p).cross(x - p).dot(normal) >= 0 && (r - q).cross(x - q).dot(normal) >= 0 &&
+                      (p - r).cross(x - r).dot(normal) >= 0;
+  return inside ? std::optional(fraction) : std::nullopt;
 }
 
 double distanceToTriangle(const Vector3d& x, const Vector3d& p, const Vector3d& q, const Vector3d& r) {
@@ -107,14 +115,27 @@ void ReferenceSolver::cut(const layout::ToolMotion& m) {
   const auto erased = [&](const Vector3d& x) {
     return std::min(distanceToTriangle(x, a, b, c), distanceToTriangle(x, a, c, d)) <= m.blade_from.w;
   };
+  // Where the spring from x to y, which has come `way` in the last substep, is severed, if it is.
+  const auto severed = [&](const Vector3d& x, const Vector3d& y, bool linked,
+                           const Vector3d& way) -> std::optional<double> {
+    if (m.info.x == layout::kModeCutParticles) {
+      return erased(x) || erased(y) ? std::optional(kErasedFraction) : std::nullopt;
+    }
+    const Vector3d offset = linked ? Vector3d(way - kOverlap * (d - a)) : Vector3d::Zero();
+    const std::optional<double> first = crossing(x, y, a + offset, b + offset, c);
+    return first ? first : crossing(x, y, a + offset, c, d);
+  };
   for (uint32_t slot : active) {
-    for (uint32_t s = 0; s < layout::kSpringsPerNode; s += 2) {  // each spring once, from its lower end
-      if (springCount(nodes[slot], s) == 0) continue;
-      const Vector3d x = position(slot), y = position(farEnd(slot, s));
-      const bool severed = m.info.x == layout::kModeCutParticles ? erased(x) || erased(y)
-                                                                 : crosses(x, y, a, b, c) || crosses(x, y, a, c, d);
-      if (!severed) continue;
-      eraseSpring(slot, s);
+    for (uint32_t s = 0; s < springsOf(slot); ++s) {
+      if (!isFirstEnd(slot, s) || !isWhole(slot, s)) continue;
+      const uint32_t far = farEnd(slot, s);
+      // Springs of networks only: the cut of a lattice looks at where they are.
+      const bool linked = body(slot).connections != layout::kImplicit;
+      const Vector3d way =
+          linked && !first_ ? Vector3d(0.5 * last_dt_s_ * (v_m_per_s[slot] + v_m_per_s[far])) : Vector3d::Zero();
+      const std::optional<double> fraction = severed(position(slot), position(far), linked, way);
+      if (!fraction) continue;
+      eraseSpring(slot, s, *fraction);
       ++springs_cut;
     }
   }

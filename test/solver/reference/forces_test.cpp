@@ -4,6 +4,7 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "solver/reference/derivatives.h"
 #include "solver/reference/reference_bodies.h"
 #include "viscera/solver/reference/volume_energy.h"
 
@@ -11,51 +12,6 @@ namespace viscera {
 namespace {
 
 using namespace test;
-
-constexpr double kStep = 1e-5;       ///< of numerical derivatives, in spacings: the best for central differences
-constexpr double kAgreement = 1e-6;  ///< of numerical derivatives, over the largest value
-
-/// Every force against the slope of the energy, over the largest force.
-double forceError(const ReferenceLattice& lattice, const Field& u_m, double spacing_m) {
-  const Field forces = lattice.elasticForces(u_m);
-  double error = 0, largest = 0;
-  Field moved = u_m;
-  for (uint32_t slot : lattice.active) {
-    for (int axis = 0; axis < 3; ++axis) {
-      const double step = kStep * spacing_m;
-      moved[slot][axis] = u_m[slot][axis] + step;
-      const double above = lattice.elasticEnergy(moved);
-      moved[slot][axis] = u_m[slot][axis] - step;
-      const double below = lattice.elasticEnergy(moved);
-      moved[slot][axis] = u_m[slot][axis];
-      error = std::max(error, std::abs(forces[slot][axis] + (above - below) / (2 * step)));
-      largest = std::max(largest, std::abs(forces[slot][axis]));
-    }
-  }
-  return error / largest;
-}
-
-double stiffnessError(const ReferenceLattice& lattice, const Field& u_m, double spacing_m) {
-  const Eigen::MatrixXd k = lattice.stiffnessMatrix(u_m);
-  double error = 0;
-  Field moved = u_m;
-  for (uint32_t slot : lattice.active) {
-    for (int axis = 0; axis < 3; ++axis) {
-      const double step = kStep * spacing_m;
-      moved[slot][axis] = u_m[slot][axis] + step;
-      const Field above = lattice.elasticForces(moved);
-      moved[slot][axis] = u_m[slot][axis] - step;
-      const Field below = lattice.elasticForces(moved);
-      moved[slot][axis] = u_m[slot][axis];
-      for (uint32_t other : lattice.active) {
-        const Vector3d slope = (below[other] - above[other]) / (2 * step);
-        const Vector3d column = k.col(lattice.dof(slot, axis)).segment<3>(lattice.dof(other, 0));
-        error = std::max(error, (slope - column).norm());
-      }
-    }
-  }
-  return error / k.cwiseAbs().maxCoeff();
-}
 
 /// Blows the body up: with a factor of 1.6 a cell's volume has grown by more than itself.
 Field blownUp(const ReferenceLattice& lattice, double factor, double disorder) {

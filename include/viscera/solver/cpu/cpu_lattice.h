@@ -8,6 +8,8 @@
 
 #include "viscera/math/aligned.h"
 #include "viscera/model/model.h"
+#include "viscera/solver/edge_forces.h"
+#include "viscera/solver/joined_network.h"
 #include "viscera/solver/material.h"
 #include "viscera/solver/state.h"
 
@@ -19,8 +21,9 @@ namespace viscera {
 ///   component c of slot s is at (s / 64) * 192 + c * 64 + s % 64     (vectorAt)
 struct CpuLattice {
   /// @param bodies  [bodies] material constants   @param tools  there are styluses
+  /// @param edge_by_edge  forces of explicit connections are edge-centric
   /// @throws SceneError  parts (strengths)
-  CpuLattice(const Model& model, const std::vector<layout::BodyParams>& bodies, bool tools);
+  CpuLattice(const Model& model, const std::vector<layout::BodyParams>& bodies, bool tools, bool edge_by_edge = false);
 
   /// Rest state, whole springs, nothing held.
   void reset();
@@ -31,6 +34,7 @@ struct CpuLattice {
   /// Fits what is derived from a node's bits (stiffness of its even springs, mobility) to bits that have changed.
   void refresh(uint32_t slot);
 
+  layout::uint connections(uint32_t slot) const { return bodies[nodes[slot].hi >> layout::kBodyShift].connections; }
   size_t slotCount() const { return nodes.size(); }
   size_t brickCount() const { return bricks.size(); }
 
@@ -55,6 +59,9 @@ struct CpuLattice {
   std::vector<layout::vec4> grab_offsets;  ///< [slots] m, stylus frame; empty without styluses
   std::vector<layout::vec4> impulses;  ///< [kMaxStyluses * slots] N s, w substeps of contact; empty without styluses
   std::vector<uint8_t> touched;        ///< [bricks] some of its impulses are not 0; empty without styluses
+  JoinedNetwork network;          ///< explicit connections, without stiffness where they are cut; masses are in mass
+  EdgeForces edge_forces;         ///< empty unless edge by edge
+  std::vector<float> spring_cut;  ///< [springs] as in HostState
   int current = 0;
 
  private:
@@ -64,7 +71,10 @@ struct CpuLattice {
   void refreshAll();
   void shareBulk(uint32_t slot);
 
+  void writeSpringCut(const std::vector<float>& cut);
+
   std::vector<layout::NodeBits> whole_nodes_;
+  std::vector<layout::Link> whole_links_;
   Strengths strengths_;  ///< of models with parts, whose counts only say alive or cut; else empty
 };
 

@@ -10,6 +10,7 @@
 #include "viscera/solver/cpu/cpu_lattice.h"
 #include "viscera/solver/cpu/cpu_stepper.h"
 #include "viscera/solver/cpu/sleep.h"
+#include "viscera/solver/cpu/surroundings.h"
 #include "viscera/solver/cpu/thread_pool.h"
 #include "viscera/solver/cpu/tool_passes.h"
 #include "viscera/solver/lattice_solver.h"
@@ -19,6 +20,8 @@ namespace viscera {
 namespace simd {
 struct Arrays;
 }
+
+class CpuNetwork;
 
 struct CpuSolverOptions : SolverOptions {
   std::string simd;  ///< one of simdTargets(); empty: the best that this processor has
@@ -52,6 +55,7 @@ class CpuSolver : public LatticeSolver {
   void selectMotions(size_t substep) override;
   void cut(uint32_t stylus, bool particles) override;
   void advance(const Substep& step, bool recovery) override;
+  void surround(const Substep& step, const Surroundings& surroundings) override;
   void measure() override;
   void sumReactions(const std::array<Vector3f, layout::kMaxStyluses>& tips) override;
   bool requestStats() override;
@@ -66,8 +70,11 @@ class CpuSolver : public LatticeSolver {
   struct Work;    // what only src/solver/cpu knows: the kernels' jobs
   struct Mirror;  // the state on the GPU, for whoever asks for it there
   simd::Arrays arrays();
+  void stepAwake(const Substep& step);
   void stepBricks(const Substep& step, size_t chunk);
+  void stepNetwork(const Substep& step);
   void touch(const Substep& step, uint32_t brick);
+  void touchNode(const Substep& step, uint32_t slot);
   void wakeForTools(const std::vector<layout::ToolMotion>& motions);
   void changeAll();
   void noteHeld();
@@ -82,6 +89,7 @@ class CpuSolver : public LatticeSolver {
   ThreadPool pool_;
   Sleep sleep_;
   std::unique_ptr<Work> work_;
+  std::optional<CpuSurroundings> surroundings_;
   std::unique_ptr<CpuStepper> stepper_;   ///< null: leapfrog
   std::unique_ptr<CpuStepper> recovery_;  ///< only with a governor
   std::unique_ptr<Mirror> mirror_;
@@ -89,6 +97,7 @@ class CpuSolver : public LatticeSolver {
   const layout::ToolMotion* motion_ = nullptr;
   std::vector<uint8_t> held_;  ///< [bricks] nodes held; empty without styluses
   std::optional<CpuCut> cut_;
+  std::unique_ptr<CpuNetwork> network_;  ///< null where no body has explicit connections
   layout::TickStats stats_{};
   bool has_stats_ = false;
   uint32_t springs_cut_ = 0, rate_springs_cut_ = 0;

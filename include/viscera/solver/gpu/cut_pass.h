@@ -3,6 +3,8 @@
 #pragma once
 
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "viscera/gpu/program.h"
 #include "viscera/solver/gpu/features.h"
@@ -11,7 +13,8 @@
 
 namespace viscera {
 
-/// Erases the springs that the swept blade crosses, or all springs of the nodes near it. Owner of shaders/cut.comp.
+/// Erases the springs that the swept blade crosses, or all springs of the nodes near it. Owner of shaders/cut.comp
+/// (implicit connections) and cut_links.comp (explicit ones).
 class CutPass {
  public:
   explicit CutPass(const FeatureSet& features);
@@ -20,7 +23,13 @@ class CutPass {
   void run(const LatticeBuffers& buffers, uint32_t stylus, bool particles) const;
 
  private:
-  gpu::Program springs_, particles_;
+  struct Programs {
+    gpu::Program springs, particles;
+  };
+  Programs compiled(const char* shader, std::vector<std::string> defines) const;
+  void runOver(const Programs& programs, size_t count, uint32_t stylus, bool particles) const;
+
+  std::optional<Programs> lattice_, links_;
   std::optional<TornCellsPass> torn_cells_;
   uint32_t group_size_;
 };

@@ -13,6 +13,9 @@ namespace viscera {
 
 /// What the kernels must know of; everything else is compiled out and has no buffer.
 struct FeatureSet {
+  bool lattice = true;       ///< some body has implicit connections
+  bool network = false;      ///< some body has explicit ones
+  bool edge_forces = false;  ///< leapfrog: of explicit connections edge by edge
   bool dashpot = false;
   bool volume = false;       ///< some cell has an energy of volume: nu other than 1/4
   bool parts = false;        ///< strengths differ within a body

@@ -15,6 +15,7 @@
 #include "viscera/solver/gpu/measure_pass.h"
 #include "viscera/solver/gpu/reaction_pass.h"
 #include "viscera/solver/gpu/stepper.h"
+#include "viscera/solver/gpu/surroundings_pass.h"
 #include "viscera/solver/lattice_solver.h"
 
 namespace viscera {
@@ -56,6 +57,8 @@ class GpuSolver final : public LatticeSolver {
   void selectMotions(size_t substep) override;
   void cut(uint32_t stylus, bool particles) override;
   void advance(const Substep& step, bool recovery) override;
+  void beginSurroundings(const Surroundings& surroundings) override;
+  void surround(const Substep& step, const Surroundings& surroundings) override;
   void measure() override;
   void sumReactions(const std::array<Vector3f, layout::kMaxStyluses>& tips) override;
   void guard(const Governor::Bounds& bounds, const ToolMotions& motions, double tick_s) override;
@@ -72,6 +75,7 @@ class GpuSolver final : public LatticeSolver {
   LatticeBuffers buffers_;
   std::unique_ptr<Stepper> stepper_;
   MeasurePass measure_;
+  std::optional<SurroundingsPass> surroundings_;
   std::optional<Tools> tools_;
   std::optional<Recovery> recovery_;
   gpu::ReadbackRing stats_ring_;

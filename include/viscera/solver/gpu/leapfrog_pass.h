@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "viscera/solver/gpu/spring_force_pass.h"
 #include "viscera/solver/gpu/stepper.h"
 #include "viscera/solver/gpu/volume_pass.h"
 
@@ -19,6 +20,7 @@ class LeapfrogPass : public Stepper {
  private:
   gpu::Program plain_, with_tools_;
   std::optional<VolumePass> volume_;
+  std::optional<SpringForcePass> spring_forces_;
   uint32_t group_size_;
 };
 

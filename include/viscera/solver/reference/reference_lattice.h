@@ -14,8 +14,11 @@ namespace viscera {
 /// One vector per slot: displacements [m], velocities [m/s] or forces [N]; zero where no node is.
 using Field = std::vector<Vector3d>;
 
-/// Forces, energies and stiffness of the lattice as functions of the displacement, in float64. The constants are the
-/// float32 ones that the kernels take, so a difference to a kernel is its arithmetic and nothing else.
+/// Forces, energies and stiffness of lattices and networks as functions of the displacement, in float64. The constants
+/// are the float32 ones that the kernels take, so a difference to a kernel is its arithmetic and nothing else; geometry
+/// is that of the model.
+/// A spring is named by one of its ends and its place there: in an implicit lattice the 18 spring indices
+/// (neighbors.h), whether or not a spring is there; with explicit connections (VR05 2.5.1, GW 4) the node's links.
 class ReferenceLattice {
  public:
   /// Which second derivative: the true one, or its nearest that has no negative eigenvalue, term by term.
@@ -25,11 +28,19 @@ class ReferenceLattice {
   explicit ReferenceLattice(const Model& model);
 
   std::vector<uint32_t> active;         ///< [active] slots
-  std::vector<layout::NodeBits> nodes;  ///< [slots]; counts of heterogeneous bodies only say alive or cut
+  std::vector<layout::NodeBits> nodes;  ///< [slots]; counts of heterogeneous bodies and of explicit lattices only say
+                                        ///< alive or cut, those of networks how many links are whole
+  std::vector<float> spring_cut;        ///< [springs] of all networks, as in HostState: 0 whole
 
   size_t slots() const { return nodes.size(); }
   Vector3d restPosition(uint32_t slot) const { return rest_m_[slot]; }
-  double mass(uint32_t slot) const;                        ///< [kg]
+  double mass(uint32_t slot) const;  ///< [kg]
+  /// Places for springs at a node: 18 in an implicit lattice, else its links, cut ones too.
+  uint32_t springsOf(uint32_t slot) const { return starts_[slot + 1] - starts_[slot]; }
+  bool isWhole(uint32_t slot, uint32_t spring) const;  ///< a spring is there and not cut
+  /// Is this the end from which the spring is looked at where each is looked at once? The lower one in an implicit
+  /// lattice, else the one with the lower slot.
+  bool isFirstEnd(uint32_t slot, uint32_t spring) const { return neighbor(slot, spring).first_end; }
   double stiffness(uint32_t slot, uint32_t spring) const;  ///< k [N/m], 0 where there is none
   double dashpot(uint32_t slot, uint32_t spring) const;    ///< c [N s/m]
   double drag_per_s(uint32_t slot) const { return body(slot).drag_per_s; }
@@ -39,7 +50,7 @@ class ReferenceLattice {
   /// 0 free, else 1 + stylus.
   uint32_t heldBy(uint32_t slot) const { return (nodes[slot].lo & layout::kGrabMask) >> layout::kGrabShift; }
 
-  /// (L - l0) / l0 of a spring.
+  /// (L - l0) / l0 of a spring; 0 where l0 is.
   double strain(const Field& u_m, uint32_t slot, uint32_t spring) const;
   /// Springs and volume, on one node and on all [N].
   Vector3d elasticForce(const Field& u_m, uint32_t slot) const;
@@ -64,14 +75,23 @@ class ReferenceLattice {
                                               double dashpot_per_s = 0) const;
 
   /// Erases a spring from both ends, and with it the volume of every cell that it belongs to.
-  void eraseSpring(uint32_t slot, uint32_t spring);
+  /// @param fraction  of explicit connections: where it was cut, in (0, 1] of the way from its end with the lower slot,
+  ///                  or layout::kErasedShare
+  void eraseSpring(uint32_t slot, uint32_t spring, double fraction = 1);
   uint32_t farEnd(uint32_t slot, uint32_t spring) const { return neighbor(slot, spring).slot; }
+
+ protected:
+  const layout::BodyParams& body(uint32_t slot) const { return params_[nodes[slot].hi >> layout::kBodyShift]; }
 
  private:
   struct Neighbor {
     uint32_t slot = 0;
     Vector3d offset_m = Vector3d::Zero();  ///< rest offset
-    double rest_m = 0;                     ///< its length
+    double rest_m = 0;                     ///< rest length; of explicit connections not always that of the offset
+    bool first_end = false;
+    uint32_t lattice_spring = layout::kNoLatticeSpring;  ///< its index in the lattice, 0..17
+    int64_t spring = -1;                                 ///< explicit connection: place in spring_cut
+    double stiffness_n_per_m = 0;                        ///< of an explicit connection
   };
   struct Spring;  ///< direction, length and extension of one deformed spring
   struct Cell {
@@ -79,12 +99,13 @@ class ReferenceLattice {
     double spacing_m;
   };
   void addBody(const Model& model, size_t b, double dt_safe_s);
+  void addLatticeSprings(const Lattice& lattice, uint32_t first);
+  void addLinks(const SpringNetwork& network, uint32_t first);
   void addCell(const Lattice& lattice, uint32_t first, uint32_t local);
-  const Neighbor& neighbor(uint32_t slot, uint32_t spring) const {
-    return neighbors_[slot * layout::kSpringsPerNode + spring];
-  }
-  const layout::BodyParams& body(uint32_t slot) const { return params_[nodes[slot].hi >> layout::kBodyShift]; }
+  const Neighbor& neighbor(uint32_t slot, uint32_t spring) const { return neighbors_[starts_[slot] + spring]; }
   Spring springAt(const Field& u_m, uint32_t slot, uint32_t spring) const;
+  void loseSpring(uint32_t slot, uint32_t lattice_spring);
+  void killCells(uint32_t slot, uint32_t other);
   Eigen::Matrix3d cellGradient(const Field& u_m, const Cell& cell) const;
   Eigen::Matrix3d cellStress(const Field& u_m, size_t cell) const;
   Vector3d springForce(const Field& u_m, uint32_t slot) const;
@@ -95,9 +116,11 @@ class ReferenceLattice {
   void addVolumes(const Field& u_m, Curvature curvature, std::vector<Eigen::Triplet<double>>& out) const;
 
   std::vector<layout::BodyParams> params_;
-  std::vector<Strengths> strengths_;        ///< [bodies] empty where a body has one material
+  std::vector<Strengths> strengths_;        ///< [bodies] empty where a body has one material; masses of networks
   std::vector<uint32_t> first_;             ///< [bodies] slot offsets
-  std::vector<Neighbor> neighbors_;         ///< [slots * 18]
+  std::vector<bool> has_valences_;          ///< [bodies] NodeBits hold valences, not the counts of a lattice
+  std::vector<uint32_t> starts_ = {0};      ///< [slots + 1] into neighbors_
+  std::vector<Neighbor> neighbors_;         ///< node by node
   Field rest_m_;                            ///< [slots]
   std::vector<int> place_;                  ///< [slots] place in `active`, or -1
   std::vector<Cell> cells_;                 ///< [cells]

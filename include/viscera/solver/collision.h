@@ -1,0 +1,42 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "viscera/model/model.h"
+
+namespace viscera {
+
+// Contacts between nodes, of one body or of two (GW 5; physics.md 8). Two nodes touch where they are nearer than
+//   D_ij = max(D_a, D_b)                             nodes of bodies a and b
+//   D_ij = min(D_a, half of their distance at rest)  nodes of one body, so that nothing repels at rest
+// with D = collision.distance_m, or the mean length of a body's springs where that is 0.
+// What passes through what: a sheet whose nodes are no farther apart than D has no hole that a node could slip through
+// within one substep as long as the two move less than D/2 relative to each other in it. The cell of the complete
+// search is the largest D, so that is half a cell. Contact is found at the end of the substep and undoes the approach
+// that led to it, so nodes come no nearer than where they were before; they are then pushed apart to D slowly, which
+// makes no velocity.
+
+/// Slots a < b of two nodes that touch.
+using CollisionPair = std::array<uint32_t, 2>;
+
+/// Mean length of a body's springs [m]: of a lattice its spacing.
+double collisionDistance(const Body& body, const CollisionConfig& config);
+/// Largest distance of all bodies [m].
+double collisionReach(const Model& model, const CollisionConfig& config);
+/// Edge of a cell [m]: the reach in the complete search, twice that in GW's staggered partitions.
+double collisionCell(const Model& model, const CollisionConfig& config);
+
+/// Bit slot % 32 of word slot / 32 is set for nodes that may touch others from the start on: all of a network, and
+/// those on the outside of a lattice. (Nodes that lose a spring join them.)
+std::vector<uint32_t> collidableNodes(const Model& model);
+
+/// Buckets of the hashed grid: the power of 2 that is at least twice the nodes.
+uint32_t bucketCount(size_t nodes);
+/// Items of a staggered partition: the power of 2 that is at least the nodes.
+uint32_t sortedCount(size_t nodes);
+
+}  // namespace viscera

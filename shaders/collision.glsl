@@ -1,0 +1,140 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Contacts between nodes: which may touch, which are near, and what two that touch do to each other (solver/collision.h,
+// physics.md 8). After lattice.glsl and elastic.glsl.
+// Feature: STAGGERED (GW's partitions instead of the complete grid).
+#ifndef __cplusplus
+layout(location = 0) uniform uint active_count;
+layout(location = 1) uniform float dt_s;
+layout(location = 2) uniform float push_speed;     // m/s
+layout(location = 3) uniform float resting_speed;  // m/s: nothing that comes slower bounces
+layout(location = 4) uniform float cell_m;
+layout(location = 5) uniform uint bucket_count;    // power of 2
+layout(location = 6) uniform float friction;
+layout(location = 7) uniform float restitution;
+layout(location = 8) uniform uint partitions;
+layout(location = 9) uniform uint window;
+layout(location = 10) uniform uint sorted_count;   // items per partition, power of 2
+layout(location = 11) uniform uint slot_count;
+layout(std430, binding = kBindActive) readonly buffer ActiveBuffer { uint active_nodes[]; };
+layout(std430, binding = kBindNodes) readonly buffer NodesBuffer { NodeBits nodes[]; };
+layout(std430, binding = kBindDisplacementOut) readonly buffer DisplacementOut { vec4 next_displacement[]; };  // before the substep
+layout(std430, binding = kBindCollidable) readonly buffer CollidableBuffer { uint collidable[]; };
+layout(std140, binding = kBindBodyInfluences) uniform BodyInfluencesBlock { vec4 body_influences[kMaxBodies]; };  // w distance [m]
+layout(std430, binding = kBindContacts) buffer ContactsBuffer { vec4 contacts[]; };
+layout(std430, binding = kBindCorrections) buffer CorrectionsBuffer { vec4 corrections[]; };
+#ifdef STAGGERED
+layout(std430, binding = kBindSortItems) buffer SortItemsBuffer { uvec2 items[]; };
+layout(std430, binding = kBindRanks) buffer RanksBuffer { uint ranks[]; };
+#else
+layout(std430, binding = kBindBuckets) buffer BucketsBuffer { uint buckets[]; };
+layout(std430, binding = kBindUnsorted) buffer UnsortedBuffer { uint unsorted[]; };
+layout(std430, binding = kBindEntries) buffer EntriesBuffer { uvec4 entries[]; };
+layout(std430, binding = kBindEntriesBefore) buffer EntriesBeforeBuffer { vec4 entries_before[]; };
+#endif
+#endif
+
+/// A node that may touch others.
+struct Entry {
+  uint slot;
+  vec3 x;       // at the end of the substep [m]
+  vec3 before;  // at its start [m]
+};
+
+vec3 positionOf(uint slot) { return restPosition(slot) + xyz(texelFetch(displacement, int(slot))); }
+vec3 positionBefore(uint slot) { return restPosition(slot) + xyz(next_displacement[slot]); }
+
+/// May this node touch others? Not one that is gone too far to have a cell, or to nowhere.
+bool collides(uint slot, NodeBits bits, vec3 x) {
+  if (isIsolated(bits)) return false;
+  if ((bits.lo & kSeveredBit) == 0u && (collidable[slot >> 5] & (1u << (slot & 31u))) == 0u) return false;
+  const float most_cells = 1e9f;  // either way: coordinates of cells are 32-bit integers
+  return all(lessThanEqual(floatBitsToUint(abs(x)), uvec3(floatBitsToUint(most_cells * cell_m))));
+}
+
+ivec3 cellOf(vec3 x, float shift) { return ivec3(floor(x / cell_m + shift)); }
+
+uint hashOf(ivec3 cell) {
+  uint h = uint(cell.x) * 73856093u ^ uint(cell.y) * 19349663u ^ uint(cell.z) * 83492791u;
+  return h ^ (h >> 15);
+}
+
+/// D_ij of collision.h [m], the same number for both.
+float contactDistance(uint a, uint b) {
+  uint body_a = bodyOf(nodes[a]), body_b = bodyOf(nodes[b]);
+  float wanted = max(body_influences[body_a].w, body_influences[body_b].w);
+  return body_a == body_b ? min(wanted, 0.5f * distance(restPosition(a), restPosition(b))) : wanted;
+}
+
+/// D_ij where two nodes touch, else 0 [m].
+float touchDistance(Entry a, Entry b) {
+  precise vec3 apart = a.x - b.x;
+  float d2 = dot(apart, apart);
+  float wanted = max(body_influences[bodyOf(nodes[a.slot])].w, body_influences[bodyOf(nodes[b.slot])].w);
+  if (d2 >= wanted * wanted) return 0.0f;
+  wanted = contactDistance(a.slot, b.slot);
+  return d2 < wanted * wanted ? wanted : 0.0f;
+}
+
+/// From b to a, where they were before the substep: who has slipped past somebody in it is sent back.
+/// @param a  of the lower slot, so that both see the same
+vec3 directionBetween(Entry a, Entry b) {
+  vec3 d = a.before - b.before;
+  float l = length(d);
+  if (l > 0.0f) return d / l;
+  d = a.x - b.x;
+  l = length(d);
+  return l > 0.0f ? d / l : vec3(0.0f, 0.0f, 1.0f);
+}
+
+/// 1/kg; 0 of nodes that nothing moves.
+float inverseMass(uint slot) {
+  NodeBits bits = nodes[slot];
+  return (bits.lo & (kFixedBit | kGrabMask)) != 0u ? 0.0f : 1.0f / nodeMass(slot, bits, bodies[bodyOf(bits)]);
+}
+
+/// The normal of a contact is that of the sheet which one of the two lies on: of the one with more contacts the mean of their
+/// directions; else it is the line through both. @param dir  directionBetween   @param sum_a, sum_b  contacts[]
+vec3 contactNormal(vec3 dir, vec4 sum_a, vec4 sum_b) {
+  vec3 sum = vec3(0.0f);
+  if (sum_a.w >= sum_b.w) sum += xyz(sum_a);
+  if (sum_b.w >= sum_a.w) sum -= xyz(sum_b);
+  float l = length(sum);
+  const float least = 0.05f;  // cosine: a mean that goes past this contact says nothing about it
+  return l > 0.0f && dot(sum, dir) > least * l ? sum / l : dir;
+}
+
+/// What two nodes that touch do to the one of the lower slot, a [N s] and [kg m].
+struct Push {
+  vec3 impulse;
+  vec3 shift;  // times the inverse mass: how far it is moved
+};
+
+Push pushOf(vec3 impulse, vec3 shift) {
+  Push push = {impulse, shift};
+  return push;
+}
+
+/// Jacobi by mass splitting: each node meets each of its n contacts with 1/n of its mass, so that all together neither
+/// overshoot nor add energy, and momenta add up to nothing.
+Push pushBetween(Entry a, Entry b, float wanted) {
+  float inverse_a = inverseMass(a.slot), inverse_b = inverseMass(b.slot);
+  vec4 sum_a = contacts[a.slot], sum_b = contacts[b.slot];
+  float inverse = sum_a.w * inverse_a + sum_b.w * inverse_b;
+  if (inverse == 0.0f) return pushOf(vec3(0.0f), vec3(0.0f));
+  vec3 normal = contactNormal(directionBetween(a, b), sum_a, sum_b);
+  const float relaxation = 0.25f;  // share of the depth that goes in a substep
+  // Depth before the substep: what the substep added is undone with the approach.
+  float depth = max(0.0f, wanted - distance(a.before, b.before));
+  vec3 shift = (min(relaxation * depth, push_speed * dt_s) / inverse) * normal;
+  vec3 v = xyz(texelFetch(velocity, int(a.slot))) - xyz(texelFetch(velocity, int(b.slot)));
+  float approach = dot(v, normal);
+  if (approach >= 0.0f) return pushOf(vec3(0.0f), shift);
+  float change = -approach * (-approach > resting_speed ? 1.0f + restitution : 1.0f);
+  vec3 sliding = v - approach * normal;
+  float speed = length(sliding);
+  vec3 impulse = (change / inverse) * normal;
+  if (speed > 0.0f) impulse -= (min(friction * change, speed) / (inverse * speed)) * sliding;
+  return pushOf(impulse, shift);
+}

@@ -1,0 +1,79 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// cut_links.comp - erase the explicit connections that the swept blade crosses, from both ends.   Owner: solver/gpu/cut_pass.h
+// in  displacement, tool motions     in/out  links (stiffness), spring_cut, nodes (valence or counts), stats.springs_cut
+// One invocation per spring, so the two ends cannot disagree. No node is lost, and no mass.
+// Feature: PARTICLES erases the springs of the nodes near the blade instead.
+#include "layout.h"
+#include "lattice.glsl"
+#include "blade.glsl"
+
+#ifndef __cplusplus
+layout(std430, binding = kBindSprings) readonly buffer SpringsBuffer { SpringEnds springs[]; };
+layout(std430, binding = kBindLinks) buffer LinksBuffer { Link links[]; };
+layout(std430, binding = kBindSpringCut) buffer SpringCutBuffer { float spring_cut[]; };
+layout(std430, binding = kBindNodes) buffer NodesBuffer { NodeBits nodes[]; };
+layout(std430, binding = kBindDisplacementIn) readonly buffer DisplacementIn { vec4 displacement[]; };
+layout(std430, binding = kBindVelocityIn) readonly buffer VelocityIn { vec4 velocity[]; };
+layout(std140, binding = kBindToolMotions) uniform ToolMotionsBlock { ToolMotion tool_motions[kMaxStyluses]; };
+layout(std430, binding = kBindStats) buffer StatsBuffer { TickStats stats; };
+
+layout(location = 0) uniform uint spring_count;
+layout(location = 1) uniform uint stylus;
+#endif
+
+/// Position relative to the blade's first tip [m].
+vec3 seenFromBlade(uint slot, ToolMotion m) {
+  precise vec3 x = (restPosition(slot) - xyz(m.from)) + xyz(displacement[slot]);
+  return x;
+}
+
+const float kOverlap = 1e-3f;  // of a sweep: it begins that much before the end of the last one, whatever is rounded
+
+/// What the start of the sweep is moved by for a spring that has come `way` since the last one: there the last sweep ended, as the
+/// spring saw it. Without this, one that slips past the blade's edge between two substeps would be in neither sweep.
+vec3 startOffset(ToolMotion m, vec3 way) { return way - kOverlap * (xyz(m.to) - xyz(m.from)); }
+
+ToolMotion startingAt(ToolMotion m, vec3 offset) {
+  m.from.x += offset.x;
+  m.from.y += offset.y;
+  m.from.z += offset.z;
+  m.blade_from.x += offset.x;
+  m.blade_from.y += offset.y;
+  m.blade_from.z += offset.z;
+  return m;
+}
+
+/// One link less at a node: of its valence, or of a lattice's counts.
+void loseLink(uint slot, uint lattice_spring) {
+  if (bodies[bodyOf(nodes[slot])].connections == kNetwork) {
+    atomicAdd(nodes[slot].lo, 0xffffffffu);
+  } else if (lattice_spring < kAxialSprings) {
+    atomicAnd(nodes[slot].lo, ~(7u << (3u * lattice_spring)));
+  } else if (lattice_spring < kSpringsPerNode) {
+    atomicAnd(nodes[slot].hi, ~(3u << (2u * (lattice_spring - kAxialSprings))));
+  }
+  atomicOr(nodes[slot].lo, kSeveredBit);
+}
+
+void main() {
+  uint i = globalIndex();
+  if (i >= spring_count || spring_cut[i] != 0.0f) return;
+  SpringEnds ends = springs[i];
+  ToolMotion m = tool_motions[stylus];
+  vec3 x = seenFromBlade(ends.a, m), y = seenFromBlade(ends.b, m);
+#ifdef PARTICLES
+  float share = erased(x, m) || erased(y, m) ? kErasedShare : 0.0f;
+#else
+  vec3 offset = startOffset(m, (0.5f * m.timing.x) * (xyz(velocity[ends.a]) + xyz(velocity[ends.b])));
+  float share = crossing(x - offset, y - offset, startingAt(m, offset));
+#endif
+  if (share == 0.0f) return;
+  spring_cut[i] = share;
+  links[ends.link_a].stiffness = 0.0f;
+  links[ends.link_b].stiffness = 0.0f;
+  loseLink(ends.a, links[ends.link_a].lattice_spring & kLatticeSpringMask);
+  loseLink(ends.b, links[ends.link_b].lattice_spring & kLatticeSpringMask);
+  atomicAdd(stats.springs_cut, 1u);
+}

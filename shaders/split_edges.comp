@@ -1,0 +1,66 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// split_edges.comp - the two vertices that appear where a blade crossed an edge of a network's skin: one on either side,
+// each carried by the node on its side as if the piece between them were still there.   Owner: surface/network_surface.h
+// in  split_edges[count], spring_cut[springs], ring_vertices[], rings[], displacement[slots] m, rest[slots] m
+// in, out  positions[3 * vertices] m, normals[vertices] packed: those of the nodes are in place
+// A whole edge has both in its middle; nobody sees them, so they are placed once. From then on the kernel runs over the
+// crossed edges alone (crossed_edges.comp): work follows the length of the cut.
+#include "layout.h"
+layout(local_size_x = GROUP_SIZE) in;  // before globalIndex(), which asks for it
+#include "lattice.glsl"
+#include "skin_basis.glsl"
+#include "ring.glsl"
+
+layout(location = 2) uniform uint placed;  // the vertices of whole edges are where they belong: only crossed ones
+layout(std430, binding = kBindSplitEdges) readonly buffer SplitEdgesBuffer { SplitEdge split_edges[]; };
+layout(std430, binding = kBindSpringCut) readonly buffer SpringCutBuffer { float spring_cut[]; };
+layout(std430, binding = kBindCrossedEdges) readonly buffer CrossedEdgesBuffer { uint crossed_edges[]; };
+layout(std430, binding = kBindSkinPositions) writeonly buffer PositionsBuffer { float positions[]; };
+layout(std430, binding = kBindSkinNormals) buffer NormalsBuffer { uint normals[]; };
+
+/// The rest offset d as the triangle carries it that is next to it: turned as this is, but not stretched.
+vec3 turned(RingVertex v, vec3 d) {
+  float nearest = -2.0;
+  uint best = v.ring_end;
+  for (uint i = v.ring_begin; i < v.ring_end; ++i) {
+    if (!isWhole(rings[i])) continue;
+    vec3 middle = restEdge(v.slot, rings[i].slot1) + restEdge(v.slot, rings[i].slot2);
+    float cosine = dot(direction(middle, vec3(0.0)), direction(d, vec3(0.0)));
+    if (cosine > nearest) {
+      nearest = cosine;
+      best = i;
+    }
+  }
+  if (best == v.ring_end) return d;
+  uint slot1 = rings[best].slot1, slot2 = rings[best].slot2;
+  Basis rest;
+  rest.t = direction(restEdge(v.slot, slot1), vec3(0.0));
+  rest.n = direction(cross(rest.t, restEdge(v.slot, slot2)), vec3(0.0));
+  if (dot(rest.n, rest.n) == 0.0) return d;  // no area at rest, so nothing to turn with
+  rest.b = cross(rest.n, rest.t);
+  Basis now = triangleBasis(edge(v.slot, slot1), edge(v.slot, slot2), rest.t, rest.b);
+  return inSpace(now, vec3(dot(d, rest.t), dot(d, rest.n), dot(d, rest.b)));
+}
+
+void place(uint vertex, RingVertex v, vec3 d) {
+  vec3 position = tabulatedRest(v.slot) + (displacement[v.slot].xyz + turned(v, d));
+  positions[3u * vertex] = position.x;
+  positions[3u * vertex + 1u] = position.y;
+  positions[3u * vertex + 2u] = position.z;
+  normals[vertex] = normals[v.vertex];
+}
+
+void main() {
+  uint index = globalIndex();
+  if (index >= (placed != 0u ? crossed_edges[3] : count)) return;
+  SplitEdge e = split_edges[placed != 0u ? crossed_edges[4u + index] : index];
+  float crossed = spring_cut[e.spring];
+  RingVertex a = ring_vertices[e.a], b = ring_vertices[e.b];
+  if (!isStale(a) && !isStale(b)) return;
+  float share = crossed == 0.0 ? 0.5 : min(crossed, 1.0);
+  vec3 d = restEdge(a.slot, b.slot);
+  place(e.vertex, a, share * d);
+  place(e.vertex + 1u, b, (share - 1.0) * d);
+}

@@ -1,0 +1,69 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// split_triangles.comp - what is shown of the triangles of a network's skin whose edges a blade has crossed.
+// Owner: surface/network_surface.h   Twin of appendShown (surface/surface.h).
+// in  triangles[3 * triangles], split_triangles[count], spring_cut[springs], nodes[slots]
+// out  alive[triangles], live[3 * (triangles + 2 count)]
+// With one edge crossed the cut ends inside: the triangle stays. With two, the corner between them is parted from the
+// other two; with three, every corner from every other, and the piece in the middle, which hangs on no node, is left out.
+// So is a corner whose node hangs on nothing, and a triangle at a node that was erased (kErasedShare).
+#include "layout.h"
+layout(local_size_x = GROUP_SIZE) in;  // before globalIndex(), which asks for it
+#include "lattice.glsl"
+
+layout(location = 0) uniform uint count;
+layout(location = 1) uniform uint triangle_count;  // of all bodies
+layout(std430, binding = kBindNodes) readonly buffer NodesBuffer { NodeBits nodes[]; };
+layout(std430, binding = kBindSkinTriangles) readonly buffer TrianglesBuffer { uint triangles[]; };
+layout(std430, binding = kBindSplitTriangles) readonly buffer SplitTrianglesBuffer { SplitTriangle split_triangles[]; };
+layout(std430, binding = kBindSpringCut) readonly buffer SpringCutBuffer { float spring_cut[]; };
+layout(std430, binding = kBindSkinAlive) writeonly buffer AliveBuffer { uint alive[]; };
+layout(std430, binding = kBindSkinLive) writeonly buffer LiveBuffer { uint live[]; };
+
+float cutOf(uint spring) { return spring == kNoSpring ? 0.0 : spring_cut[spring]; }
+
+/// The corner, where it still hangs on something.
+uint cornerOf(SplitTriangle t, uint corner) {
+  return (nodes[t.slots[corner]].lo & kValenceMask) != 0u ? kShownCorner << corner : 0u;
+}
+
+uint shownOf(SplitTriangle t) {
+  float cut01 = cutOf(t.springs[0]), cut12 = cutOf(t.springs[1]), cut20 = cutOf(t.springs[2]);
+  if (max(cut01, max(cut12, cut20)) >= kErasedShare) return 0u;
+  uint cuts = uint(cut01 != 0.0) + uint(cut12 != 0.0) + uint(cut20 != 0.0);
+  if (cuts < 2u) return kShownWhole;
+  if (cuts == 3u) return cornerOf(t, 0u) | cornerOf(t, 1u) | cornerOf(t, 2u);
+  uint corner = cut12 == 0.0 ? 0u : cut20 == 0.0 ? 1u : 2u;  // the one across the whole edge
+  return cornerOf(t, corner) | kShownRest << corner;
+}
+
+/// Writes one of the up to three triangles that are drawn instead of a split one.
+void show(uint entry, uint index, SplitTriangle t, uint a, uint b, uint c) {
+  uint first = entry == 0u ? 3u * t.triangle : 3u * (triangle_count + 2u * index + entry - 1u);
+  live[first] = a;
+  live[first + 1u] = b;
+  live[first + 2u] = c;
+}
+
+void main() {
+  uint index = globalIndex();
+  if (index >= count) return;
+  SplitTriangle t = split_triangles[index];
+  uint corners[3] = uint[3](triangles[3u * t.triangle], triangles[3u * t.triangle + 1u], triangles[3u * t.triangle + 2u]);
+  uint shown = shownOf(t), entry = 0u;
+  alive[t.triangle] = shown;
+  if (shown == kShownWhole) show(entry++, index, t, corners[0], corners[1], corners[2]);
+  for (uint i = 0u; i < 3u; ++i) {
+    uint j = (i + 1u) % 3u, k = (i + 2u) % 3u;
+    uint behind_j = t.vertices[2u * i + 1u], behind_k = t.vertices[2u * k];  // of the edges to j and to k, at their ends
+    if ((shown & kShownCorner << i) != 0u) {
+      show(entry++, index, t, corners[i], t.vertices[2u * i], t.vertices[2u * k + 1u]);
+    }
+    if ((shown & kShownRest << i) != 0u) {
+      show(entry++, index, t, behind_j, corners[j], corners[k]);
+      show(entry++, index, t, behind_j, corners[k], behind_k);
+    }
+  }
+  for (; entry < 3u; ++entry) show(entry, index, t, 0u, 0u, 0u);
+}

@@ -1,0 +1,100 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// surroundings.comp - what acts on nodes from outside, after an integrator's substep.   physics.md 8
+// Owner: solver/gpu/surroundings_pass.h
+// in  displacement, velocity [slots] after the integrator; displacement before it in the buffer that is written
+// out displacement, velocity [slots]
+// Features: WIND, BODY_FORCES, OBSTACLES, COLLISIONS (corrections of collision.comp).
+#include "layout.h"
+#include "lattice.glsl"
+#include "elastic.glsl"
+#include "surroundings.glsl"
+
+#ifndef __cplusplus
+layout(location = 4) uniform uint obstacle_count;
+layout(location = 5) uniform vec4 air;  // xyz wind [m/s]; w density times drag coefficient over 2 [kg/m3]
+layout(std430, binding = kBindActive) readonly buffer ActiveBuffer { uint active_nodes[]; };
+layout(std430, binding = kBindNodes) readonly buffer NodesBuffer { NodeBits nodes[]; };
+layout(std430, binding = kBindDisplacementOut) buffer DisplacementOut { vec4 next_displacement[]; };
+layout(std430, binding = kBindVelocityOut) writeonly buffer VelocityOut { vec4 next_velocity[]; };
+#ifdef BODY_FORCES
+layout(std140, binding = kBindBodyInfluences) uniform BodyInfluencesBlock { vec4 body_influences[kMaxBodies]; };  // xyz m/s2
+#endif
+#ifdef OBSTACLES
+layout(std140, binding = kBindObstacles) uniform ObstaclesBlock { ObstacleMotion obstacles[kMaxObstacles]; };
+#endif
+#ifdef COLLISIONS
+layout(std430, binding = kBindCorrections) readonly buffer CorrectionsBuffer { vec4 corrections[]; };
+#endif
+#ifdef WIND
+layout(std430, binding = kBindWindStarts) readonly buffer RingStartsBuffer { uint ring_starts[]; };
+layout(std430, binding = kBindWindTriangles) readonly buffer RingsBuffer { WindTriangle rings[]; };
+layout(std430, binding = kBindSpringCut) readonly buffer SpringCutBuffer { float spring_cut[]; };
+#endif
+#endif
+
+#ifdef WIND
+bool isTorn(WindTriangle t) {
+  for (int e = 0; e < 3; ++e) {
+    if (t.springs[e] != kNoSpring && spring_cut[t.springs[e]] > 0.0f) return true;
+  }
+  return false;
+}
+
+/// A third of the triangles around a node, as normal times area [m2].
+vec3 areaOf(uint slot, vec3 u) {
+  vec3 sum = vec3(0.0f), rest = restPosition(slot);
+  for (uint i = ring_starts[slot]; i < ring_starts[slot + 1u]; ++i) {
+    WindTriangle t = rings[i];
+    if (isTorn(t)) continue;
+    vec3 b = (restPosition(t.b) - rest) + (xyz(texelFetch(displacement, int(t.b))) - u);
+    vec3 c = (restPosition(t.c) - rest) + (xyz(texelFetch(displacement, int(t.c))) - u);
+    sum += cross(b, c);
+  }
+  return sum / 6.0f;
+}
+#endif
+
+void main() {
+  uint i = globalIndex();
+  if (i >= active_count) return;
+  uint slot = active_nodes[i];
+  NodeBits bits = nodes[slot];
+  vec3 u = xyz(texelFetch(displacement, int(slot))), v = xyz(texelFetch(velocity, int(slot)));
+  if (isIsolated(bits) || (bits.lo & (kFixedBit | kGrabMask)) != 0u) {
+    next_displacement[slot] = vec4(u, 0.0f);
+    next_velocity[slot] = vec4(v, 0.0f);
+    return;
+  }
+  vec3 u_next = u, v_next = v;
+#ifdef COLLISIONS
+  vec3 contact_kick = xyz(corrections[2u * slot]);
+  v_next += contact_kick;
+  u_next += dt_s * contact_kick + xyz(corrections[2u * slot + 1u]);
+#endif
+#if defined(WIND) || defined(BODY_FORCES)
+  vec3 kick = vec3(0.0f);
+#ifdef BODY_FORCES
+  kick += dt_s * xyz(body_influences[bodyOf(bits)]);
+#endif
+#ifdef WIND
+  if (ring_starts[slot] != ring_starts[slot + 1u]) {
+    kick += windKick(areaOf(slot, u), air, v_next, nodeMass(slot, bits, bodies[bodyOf(bits)]));
+  }
+#endif
+  v_next += kick;
+  u_next += dt_s * kick;
+#endif
+#ifdef OBSTACLES
+  vec3 rest = restPosition(slot);
+  vec3 x = rest + xyz(next_displacement[slot]), x_next = rest + u_next;
+  bool touched = false;
+  for (uint o = 0u; o < obstacle_count; ++o) {
+    if (meetObstacle(obstacles[o], x, x_next, v_next)) touched = true;
+  }
+  if (touched) u_next = x_next - rest;
+#endif
+  next_displacement[slot] = vec4(u_next, 0.0f);
+  next_velocity[slot] = vec4(v_next, 0.0f);
+}

@@ -1,0 +1,340 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solver/cpu/network.h"
+
+#include <algorithm>
+
+#include "solver/cpu/implicit_substep.h"
+#include "viscera/math/float_bits.h"
+
+namespace viscera {
+
+namespace glsl {
+
+namespace {
+
+struct NetworkKernel : Kernel {
+  explicit NetworkKernel(CpuLattice& lattice)
+      : Kernel(lattice),
+        compensation(none_),
+        owners(lattice.edge_forces.owners.data()),
+        force_starts(lattice.edge_forces.starts.data()),
+        owner_count(static_cast<uint>(lattice.edge_forces.owners.size())) {}
+  uint forceStart(uint slot) const { return force_starts[slot]; }
+  std::vector<layout::vec4> none_;
+  Vectors compensation;
+  const SpringOwner* owners;
+  const uint* force_starts;
+  uint owner_count, cell_count = 0;
+  vec4 *link_forces = nullptr, *cell_forces_out = nullptr;
+};
+
+#define DASHPOT
+struct SpringForces : NetworkKernel {
+  using NetworkKernel::NetworkKernel;
+#include "spring_forces.comp"
+};
+
+struct Step : NetworkKernel {
+  using NetworkKernel::NetworkKernel;
+#include "leapfrog.comp"
+};
+
+struct StepEdges : NetworkKernel {
+  using NetworkKernel::NetworkKernel;
+#define EDGE_FORCES
+#include "leapfrog.comp"
+};
+
+struct StepEdgesCompensated : NetworkKernel {
+  using NetworkKernel::NetworkKernel;
+#define COMPENSATED
+#include "leapfrog.comp"
+};
+
+struct StepCompensated : NetworkKernel {
+  using NetworkKernel::NetworkKernel;
+#undef EDGE_FORCES
+#include "leapfrog.comp"
+};
+
+// With volumes.
+#define VOLUME
+struct StepVolumesCompensated : NetworkKernel {
+  using NetworkKernel::NetworkKernel;
+#include "leapfrog.comp"
+};
+
+struct StepVolumes : NetworkKernel {
+  using NetworkKernel::NetworkKernel;
+#undef COMPENSATED
+#include "leapfrog.comp"
+};
+
+struct StepEdgesVolumes : NetworkKernel {
+  using NetworkKernel::NetworkKernel;
+#define EDGE_FORCES
+#include "leapfrog.comp"
+};
+
+struct StepEdgesVolumesCompensated : NetworkKernel {
+  using NetworkKernel::NetworkKernel;
+#define COMPENSATED
+#include "leapfrog.comp"
+};
+#undef COMPENSATED
+#undef EDGE_FORCES
+
+struct Volumes : NetworkKernel {
+  using NetworkKernel::NetworkKernel;
+#include "volume.comp"
+};
+
+struct Place : Kernel {
+  using Kernel::Kernel;
+#include "lattice.glsl"
+};
+
+/// Where an invocation puts a node's energies, whatever its index.
+struct OneNode {
+  vec2 sum = vec2(0);
+  vec2& operator[](uint) { return sum; }
+};
+
+struct MeasureVolumes : NetworkKernel {
+  using NetworkKernel::NetworkKernel;
+  uint count = 0;
+  TickStats stats{};
+  OneNode energies;
+#include "measure.comp"
+};
+#undef VOLUME
+
+struct Measure : NetworkKernel {
+  using NetworkKernel::NetworkKernel;
+  uint count = 0;
+  TickStats stats{};
+  OneNode energies;
+#include "measure.comp"
+};
+#undef DASHPOT
+
+struct CutKernel : Kernel {
+  explicit CutKernel(CpuLattice& lattice)
+      : Kernel(lattice),
+        springs(lattice.network.springs.data()),
+        links(lattice.network.links.data()),
+        spring_cut(lattice.spring_cut.data()),
+        spring_count(static_cast<uint>(lattice.network.springs.size())) {}
+  const SpringEnds* springs;
+  Link* links;
+  float* spring_cut;
+  uint spring_count, stylus = 0;
+  struct {
+    uint springs_cut = 0;
+  } stats;
+};
+
+struct CutLinks : CutKernel {
+  using CutKernel::CutKernel;
+#include "cut_links.comp"
+};
+
+struct CutLinksOfParticles : CutKernel {
+  using CutKernel::CutKernel;
+#define PARTICLES
+#include "cut_links.comp"
+};
+#undef PARTICLES
+
+}  // namespace
+
+}  // namespace glsl
+
+namespace {
+
+template <class Kernel>
+uint32_t cutWith(CpuLattice& lattice, const layout::ToolMotion& motion) {
+  Kernel kernel(lattice);
+  kernel.tool_motions = &motion;
+  runRange(kernel, 0, lattice.network.springs.size());
+  return kernel.stats.springs_cut;
+}
+
+void takeLarger(uint32_t& bits, uint32_t other) {
+  bits = std::max(bits, other);  // positive floats order like their bits
+}
+
+template <class Kernel>
+void measureWith(CpuLattice& lattice, const std::vector<uint32_t>& slots, layout::TickStats& stats) {
+  Kernel kernel(lattice);
+  kernel.active_nodes = slots.data();
+  kernel.count = static_cast<uint32_t>(slots.size());
+  double kinetic_j = 0, elastic_j = 0;
+  for (size_t i = 0; i < slots.size(); ++i) {
+    runRange(kernel, i, i + 1);
+    kinetic_j += static_cast<double>(kernel.energies.sum.x);
+    elastic_j += static_cast<double>(kernel.energies.sum.y);
+  }
+  stats.kinetic_j += static_cast<float>(kinetic_j);
+  stats.elastic_j += static_cast<float>(elastic_j);
+  stats.nonfinite += kernel.stats.nonfinite;
+  stats.collapsed += kernel.stats.collapsed;
+  stats.inverted += kernel.stats.inverted;
+  takeLarger(stats.max_stretch_bits, kernel.stats.max_stretch_bits);
+  takeLarger(stats.max_speed_bits, kernel.stats.max_speed_bits);
+  takeLarger(stats.max_rate_bits, kernel.stats.max_rate_bits);
+}
+
+}  // namespace
+
+namespace {
+
+constexpr size_t kGroupsPerJob = 16;  // of a substep: some 10 us of work
+
+std::vector<uint32_t> groupsOf(const std::vector<uint32_t>& slots) {
+  std::vector<uint32_t> out;
+  for (const uint32_t slot : slots) {
+    const auto group = static_cast<uint32_t>(slot / simd::kGroupNodes);
+    if (out.empty() || out.back() != group) out.push_back(group);
+  }
+  return out;
+}
+
+}  // namespace
+
+CpuNetwork::CpuNetwork(const CpuLattice& lattice, const Parallel& parallel, bool compensated)
+    : parallel_(parallel), edge_forces_(!lattice.edge_forces.starts.empty()) {
+  if (lattice.network.starts.empty()) return;
+  for (const uint32_t slot : lattice.active) {
+    if (lattice.connections(slot) != layout::kImplicit) slots_.push_back(slot);
+  }
+  touched_.reserve(slots_.size());
+  dashpot_ = std::any_of(lattice.bodies.begin(), lattice.bodies.end(), [](const auto& b) { return b.dashpot_s > 0; });
+  if (!edge_forces_ && lattice.bulk.empty()) {
+    rows_ = simd::LinkRows(lattice.network, groupsOf(slots_));
+    return;
+  }
+  if (compensated) compensation_.resize(2 * lattice.slotCount());
+  link_forces_.resize(lattice.edge_forces.places());
+  if (lattice.bulk.empty()) return;
+  for (const uint32_t cell : lattice.cells) {
+    if (lattice.connections(cell) == layout::kExplicitLattice) cells_.push_back(cell);
+  }
+  cell_forces_.assign(3 * lattice.slotCount(), glsl::vec4(0));
+}
+
+void CpuNetwork::restart(const CpuLattice& lattice) {
+  rows_.writeStiffness(lattice.network.links);
+  std::fill(compensation_.begin(), compensation_.end(), layout::vec4{});
+}
+
+template <class Kernel>
+Kernel CpuNetwork::kernel(CpuLattice& lattice, const Substep& step) {
+  Kernel out(lattice);
+  out.tell(step);
+  out.active_nodes = slots_.data();
+  out.active_count = static_cast<uint32_t>(slots_.size());
+  out.compensation = glsl::Vectors(compensation_);
+  out.link_forces = link_forces_.data();
+  out.cell_forces = out.cell_forces_out = cell_forces_.data();
+  return out;
+}
+
+template <class Plain, class Compensated>
+void CpuNetwork::stepWith(CpuLattice& lattice, const Substep& step) {
+  if (compensation_.empty()) {
+    runCount(parallel_, slots_.size(), kernel<Plain>(lattice, step));
+  } else {
+    runCount(parallel_, slots_.size(), kernel<Compensated>(lattice, step));
+  }
+}
+
+void CpuNetwork::findVolumes(CpuLattice& lattice) {
+  auto volumes = kernel<glsl::Volumes>(lattice, {});
+  volumes.cells = cells_.data();
+  volumes.cell_count = static_cast<uint32_t>(cells_.size());
+  runCount(parallel_, cells_.size(), volumes);
+}
+
+void CpuNetwork::step(CpuLattice& lattice, const Substep& step, AlignedVector<float>& compensation) {
+  if (rows_.groups.empty()) {
+    stepInText(lattice, step);
+  } else {
+    stepInRows(lattice, step, compensation);
+  }
+}
+
+void CpuNetwork::stepInRows(CpuLattice& lattice, const Substep& step, AlignedVector<float>& compensation) const {
+  simd::NetworkJob job{};
+  job.rows = &rows_;
+  job.step = step;
+  job.dashpot = dashpot_;
+  job.bricks = lattice.bricks.data();
+  job.bodies = lattice.bodies.data();
+  job.displacement = lattice.displacement[lattice.current].data();
+  job.velocity = lattice.velocity[lattice.current].data();
+  job.next_displacement = lattice.displacement[1 - lattice.current].data();
+  job.next_velocity = lattice.velocity[1 - lattice.current].data();
+  job.compensation = compensation.empty() ? nullptr : compensation.data();
+  job.mobility = lattice.mobility.data();
+  const size_t groups = rows_.groups.size();
+  parallel_((groups + kGroupsPerJob - 1) / kGroupsPerJob, [&](size_t chunk) {
+    simd::leapfrogNetwork(job, chunk * kGroupsPerJob, std::min((chunk + 1) * kGroupsPerJob, groups));
+  });
+}
+
+void CpuNetwork::stepInText(CpuLattice& lattice, const Substep& step) {
+  if (edge_forces_) runCount(parallel_, lattice.edge_forces.owners.size(), kernel<glsl::SpringForces>(lattice, step));
+  if (cells_.empty()) {
+    if (edge_forces_) {
+      stepWith<glsl::StepEdges, glsl::StepEdgesCompensated>(lattice, step);
+    } else {
+      stepWith<glsl::Step, glsl::StepCompensated>(lattice, step);
+    }
+    return;
+  }
+  findVolumes(lattice);
+  if (edge_forces_) {
+    stepWith<glsl::StepEdgesVolumes, glsl::StepEdgesVolumesCompensated>(lattice, step);
+  } else {
+    stepWith<glsl::StepVolumes, glsl::StepVolumesCompensated>(lattice, step);
+  }
+}
+
+const std::vector<uint32_t>& CpuNetwork::touched(CpuLattice& lattice, const std::vector<NodeReach>& reaches) {
+  touched_.clear();
+  glsl::Place place(lattice);
+  for (uint32_t slot : slots_) {
+    if (lattice.mobility[slot] == 0) continue;
+    bool near = (lattice.nodes[slot].lo & layout::kGrabMask) != 0;
+    if (!near) {
+      const glsl::vec3 x = place.restPosition(slot) + glsl::xyz(place.next_displacement[slot]);
+      for (const NodeReach& reach : reaches) {
+        const glsl::vec3 away = x - reach.center_m;
+        near |= glsl::dot(away, away) < reach.radius_m * reach.radius_m;
+      }
+    }
+    if (near) touched_.push_back(slot);
+  }
+  return touched_;
+}
+
+void CpuNetwork::measure(CpuLattice& lattice, layout::TickStats& stats) const {
+  if (lattice.bulk.empty()) {
+    measureWith<glsl::Measure>(lattice, slots_, stats);
+  } else {
+    measureWith<glsl::MeasureVolumes>(lattice, slots_, stats);
+  }
+}
+
+uint32_t CpuNetwork::cut(CpuLattice& lattice, const layout::ToolMotion& motion, bool particles) {
+  const uint32_t springs =
+      particles ? cutWith<glsl::CutLinksOfParticles>(lattice, motion) : cutWith<glsl::CutLinks>(lattice, motion);
+  if (springs == 0) return 0;
+  for (const uint32_t slot : slots_) lattice.refresh(slot);
+  rows_.writeStiffness(lattice.network.links);
+  return springs;
+}
+
+}  // namespace viscera

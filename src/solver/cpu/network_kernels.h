@@ -1,0 +1,53 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "layout.h"
+#include "viscera/math/aligned.h"
+#include "viscera/solver/joined_network.h"
+#include "viscera/solver/substep.h"
+
+namespace viscera::simd {
+
+constexpr size_t kGroupNodes = 16;  ///< slots on end that are stepped together; a brick has four such groups
+
+/// The links of a network in rows: row r of a group has the r-th link of each of its 16 nodes, filled up where a node
+/// has fewer. As wide as its node of most links, so nodes of like valence should lie together.
+struct LinkRows {
+  LinkRows() = default;
+  /// @param groups  of slots, ascending, that have explicit connections
+  LinkRows(const JoinedNetwork& network, const std::vector<uint32_t>& groups);
+  /// Takes over the stiffness of links that were cut, or made whole.
+  void writeStiffness(const std::vector<layout::Link>& links);
+
+  std::vector<uint32_t> groups;    ///< [groups] first slot / 16
+  std::vector<uint32_t> starts;    ///< [groups + 1] rows
+  std::vector<uint32_t> link;      ///< [16 * rows] index of the link, or kNone
+  AlignedVector<int32_t> far;      ///< [16 * rows] vectorAt() of the far end; of the near one where there is no link
+  AlignedVector<float> constants;  ///< [16 * 6 * rows] x, y, z of the rest offset, l0, prestrain, k; 16 of each in turn
+  static constexpr uint32_t kNone = 0xffffffffu;
+};
+
+struct NetworkJob {
+  const LinkRows* rows;
+  Substep step;
+  bool dashpot;  ///< some body has one
+  const layout::Brick* bricks;
+  const layout::BodyParams* bodies;
+  const float* displacement;  ///< [3 * slots] m
+  const float* velocity;      ///< [3 * slots] m/s
+  float* next_displacement;
+  float* next_velocity;
+  float* compensation;    ///< [6 * slots], as in Arrays (kernels.h); or null
+  const float* mobility;  ///< [slots] 1/kg
+};
+
+/// One substep of leapfrog, point-centric, as in shaders/leapfrog.comp without contacts and volumes, of groups
+/// first..last - 1 of the rows.
+void leapfrogNetwork(const NetworkJob& job, size_t first, size_t last);
+
+}  // namespace viscera::simd

@@ -1,0 +1,145 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "viscera/solver/gpu/collision_pass.h"
+
+#include <algorithm>
+
+#include "viscera/solver/surroundings.h"
+
+namespace viscera {
+
+CollisionPass::CollisionPass(const Model& model, const Scene& scene, const FeatureSet& features,
+                             const LatticeBuffers& buffers)
+    : config_(scene.collision),
+      cell_m_(static_cast<float>(collisionCell(model, scene.collision))),
+      collidable_(collidableNodes(model)),
+      contacts_(buffers.slot_count),
+      corrections_(2 * buffers.slot_count),
+      group_size_(features.group_size) {
+  const auto stage = [&features, this](const char* name) {
+    std::vector<std::string> defines = features.defines();
+    if (config_.search == CollisionSearch::kStaggered) defines.push_back("STAGGERED");
+    defines.push_back(name);
+    return gpu::Program::compute("collision.comp", defines);
+  };
+  const size_t nodes = buffers.active_count;
+  if (config_.search == CollisionSearch::kGrid) {
+    count_ = stage("COUNT");
+    place_ = stage("PLACE");
+    scatter_ = stage("SCATTER");
+    order_ = stage("ORDER");
+    bucket_count_ = bucketCount(nodes);
+    buckets_ = gpu::Buffer<uint32_t>(3 * size_t{bucket_count_} + 1);
+    unsorted_ = gpu::Buffer<uint32_t>(nodes);
+    entries_ = gpu::Buffer<layout::uvec4>(nodes);
+    before_ = gpu::Buffer<layout::vec4>(nodes);
+  } else {
+    list_ = stage("LIST");
+    exchange_ = stage("EXCHANGE");
+    rank_ = stage("RANK");
+    sorted_ = sortedCount(nodes);
+    items_ = gpu::Buffer<std::array<uint32_t, 2>>(static_cast<size_t>(config_.partitions) * sorted_);
+    ranks_ = gpu::Buffer<uint32_t>(static_cast<size_t>(config_.partitions) * buffers.slot_count);
+  }
+  meet_ = stage("MEET");
+  push_ = stage("PUSH");
+  pairs_ = stage("PAIRS");
+}
+
+void CollisionPass::bind() const {
+  collidable_.bindStorage(layout::kBindCollidable);
+  contacts_.bindStorage(layout::kBindContacts);
+  corrections_.bindStorage(layout::kBindCorrections);
+  if (config_.search == CollisionSearch::kGrid) {
+    buckets_.bindStorage(layout::kBindBuckets);
+    unsorted_.bindStorage(layout::kBindUnsorted);
+    entries_.bindStorage(layout::kBindEntries);
+    before_.bindStorage(layout::kBindEntriesBefore);
+  } else {
+    items_.bindStorage(layout::kBindSortItems);
+    ranks_.bindStorage(layout::kBindRanks);
+  }
+}
+
+void CollisionPass::tell(const gpu::Program& program, const LatticeBuffers& buffers, const Substep& step) const {
+  program.use();
+  program.set(0, static_cast<uint32_t>(buffers.active_count));
+  program.set(1, step.dt_s);
+  program.set(2, step.push_speed_m_per_s);
+  program.set(3, restingSpeed(step));
+  program.set(4, cell_m_);
+  program.set(5, bucket_count_);
+  program.set(6, static_cast<float>(config_.friction));
+  program.set(7, static_cast<float>(config_.restitution));
+  program.set(8, static_cast<uint32_t>(config_.partitions));
+  program.set(9, static_cast<uint32_t>(config_.window));
+  program.set(10, sorted_);
+  program.set(11, static_cast<uint32_t>(buffers.slot_count));
+}
+
+void CollisionPass::dispatch(size_t count) const {
+  gpu::Program::dispatch(count, group_size_);
+  gpu::Program::storageBarrier();
+}
+
+void CollisionPass::searchGrid(const LatticeBuffers& buffers, const Substep& step) const {
+  buckets_.clear();
+  for (const gpu::Program* stage : {&count_, &place_, &scatter_, &order_}) {
+    tell(*stage, buffers, step);
+    dispatch(stage == &place_ ? bucket_count_ : buffers.active_count);
+  }
+}
+
+/// Bitonic: runs of 2, 4, ... are sorted by comparing at half their length, a quarter, ... 1.
+void CollisionPass::searchStaggered(const LatticeBuffers& buffers, const Substep& step) const {
+  const size_t items = items_.size();
+  tell(list_, buffers, step);
+  dispatch(items);
+  tell(exchange_, buffers, step);
+  for (uint32_t run = 2; run <= sorted_; run *= 2) {
+    for (uint32_t away = run / 2; away > 0; away /= 2) {
+      exchange_.set(12, run);
+      exchange_.set(13, away);
+      dispatch(items / 2);
+    }
+  }
+  tell(rank_, buffers, step);
+  dispatch(items);
+}
+
+size_t CollisionPass::search(const LatticeBuffers& buffers, const Substep& step) const {
+  if (config_.search == CollisionSearch::kGrid) {
+    searchGrid(buffers, step);
+    return buffers.active_count;
+  }
+  searchStaggered(buffers, step);
+  return sorted_;
+}
+
+void CollisionPass::run(const LatticeBuffers& buffers, const Substep& step) const {
+  const size_t entries = search(buffers, step);
+  for (const gpu::Program* stage : {&meet_, &push_}) {
+    tell(*stage, buffers, step);
+    dispatch(entries);
+  }
+}
+
+std::vector<CollisionPair> CollisionPass::findPairs(const LatticeBuffers& buffers) const {
+  constexpr size_t kPerNode = 64;
+  const size_t most = kPerNode * buffers.active_count;
+  const gpu::Buffer<uint32_t> found(1 + 2 * most);
+  buffers.bind();
+  bind();
+  found.bindStorage(layout::kBindPairs);
+  const size_t entries = search(buffers, {});
+  tell(pairs_, buffers, {});
+  pairs_.set(14, static_cast<uint32_t>(most));
+  dispatch(entries);
+  const std::vector<uint32_t> words = found.read();
+  std::vector<CollisionPair> out(std::min<size_t>(words[0], most));
+  for (size_t i = 0; i < out.size(); ++i) out[i] = {words[1 + 2 * i], words[2 + 2 * i]};
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+}  // namespace viscera

@@ -1,0 +1,69 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "viscera/solver/gpu/surroundings_pass.h"
+
+namespace viscera {
+
+SurroundingsPass::SurroundingsPass(const Model& model, const Scene& scene, const FeatureSet& features,
+                                   const LatticeBuffers& buffers)
+    : kinds_(surroundingsOf(model, scene)),
+      wind_(scene.environment.wind),
+      influences_(layout::kMaxBodies),
+      group_size_(features.group_size) {
+  std::vector<std::string> defines = features.defines();
+  if (kinds_.wind) defines.push_back("WIND");
+  if (kinds_.forces) defines.push_back("BODY_FORCES");
+  if (kinds_.obstacles) defines.push_back("OBSTACLES");
+  if (kinds_.collisions) defines.push_back("COLLISIONS");
+  program_ = gpu::Program::compute("surroundings.comp", defines);
+  influences_.write(bodyInfluences(model, scene));
+  if (kinds_.wind) {
+    const Rings rings = joinRings(model);
+    ring_starts_ = gpu::Buffer<uint32_t>(rings.starts);
+    rings_ = gpu::Buffer<layout::WindTriangle>(rings.triangles);
+  }
+  if (kinds_.collisions) collisions_.emplace(model, scene, features, buffers);
+}
+
+void SurroundingsPass::beginTick(const Surroundings& surroundings) {
+  influences_.bindUniform(layout::kBindBodyInfluences);
+  if (kinds_.wind) {
+    ring_starts_.bindStorage(layout::kBindWindStarts);
+    rings_.bindStorage(layout::kBindWindTriangles);
+  }
+  if (collisions_) collisions_->bind();
+  if (!kinds_.obstacles) return;
+  const std::vector<layout::ObstacleMotion>& motions = surroundings.obstacleMotions();
+  if (motions.size() > obstacles_.size()) {
+    obstacles_ = gpu::Buffer<layout::ObstacleMotion>(motions);
+  } else if (surroundings.obstaclesMoved()) {
+    obstacles_.write(motions);
+  }
+}
+
+void SurroundingsPass::run(LatticeBuffers& buffers, const Substep& step, const Surroundings& surroundings) {
+  if (collisions_) collisions_->run(buffers, step);
+  const SubstepSurroundings now = surroundings.at(step.index);
+  if (kinds_.obstacles) {
+    obstacles_.bindUniform(layout::kBindObstacles, static_cast<size_t>(step.index) * layout::kMaxObstacles,
+                           layout::kMaxObstacles);
+  }
+  program_.use();
+  program_.set(0, static_cast<uint32_t>(buffers.active_count));
+  program_.set(1, step.dt_s);
+  program_.set(2, step.push_speed_m_per_s);
+  program_.set(3, restingSpeed(step));
+  program_.set(4, static_cast<uint32_t>(surroundings.obstacleCount()));
+  const float air = 0.5f * static_cast<float>(wind_.air_density_kg_per_m3 * wind_.drag_coefficient);
+  program_.set(5, {now.wind_m_per_s.x(), now.wind_m_per_s.y(), now.wind_m_per_s.z(), air});
+  gpu::Program::dispatch(buffers.active_count, group_size_);
+  gpu::Program::storageBarrier();
+  buffers.swap();
+}
+
+std::vector<CollisionPair> SurroundingsPass::findPairs(const LatticeBuffers& buffers) const {
+  influences_.bindUniform(layout::kBindBodyInfluences);
+  return collisions_->findPairs(buffers);
+}
+
+}  // namespace viscera

@@ -1,0 +1,158 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "viscera/solver/surroundings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string>
+
+#include "viscera/math/error.h"
+#include "viscera/solver/collision.h"
+#include "viscera/solver/material.h"
+
+namespace viscera {
+
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+bool isPushed(const Body& body) {
+  return body.force_n != Vector3d::Zero();
+}
+
+bool hasSurface(const Body& body) {
+  return body.network && !body.network->triangles.empty();
+}
+
+double massOf(const Body& body) {
+  double mass = 0;
+  if (body.network) {
+    for (const double node : body.network->masses_kg) mass += node;
+    return mass;
+  }
+  const bool differs = isHeterogeneous(body);
+  const Strengths table = differs ? strengths(body) : Strengths{};
+  const double eighth = bodyParams(body, 0).mass_eighth_kg;
+  for (const uint32_t slot : body.lattice.active_slots) {
+    mass += differs ? table.mass_kg[slot] : massEighths(body.lattice.nodes[slot]) * eighth;
+  }
+  return mass;
+}
+
+/// Springs of a body by their ends, the lower slot first.
+using SpringIndex = std::map<std::array<uint32_t, 2>, uint32_t>;
+
+SpringIndex springsByEnds(const SpringNetwork& network) {
+  SpringIndex out;
+  for (uint32_t s = 0; s < network.springs.size(); ++s) out.insert({{network.springs[s].a, network.springs[s].b}, s});
+  return out;
+}
+
+/// Of a body; slots and springs numbered over all.
+void appendRings(const SpringNetwork& network, uint32_t first_slot, uint32_t first_spring, Rings& rings) {
+  const SpringIndex index = springsByEnds(network);
+  const auto springAt = [&](uint32_t a, uint32_t b) {
+    const auto found = index.find({std::min(a, b), std::max(a, b)});
+    return found == index.end() ? layout::kNoSpring : first_spring + found->second;
+  };
+  std::vector<std::vector<layout::WindTriangle>> around(network.positions_m.size());
+  for (const std::array<uint32_t, 3>& t : network.triangles) {
+    for (size_t i = 0; i < 3; ++i) {
+      const uint32_t a = t[i], b = t[(i + 1) % 3], c = t[(i + 2) % 3];
+      around[a].push_back({first_slot + b, first_slot + c, {springAt(a, b), springAt(b, c), springAt(c, a)}, 0});
+    }
+  }
+  for (const std::vector<layout::WindTriangle>& ring : around) {
+    rings.triangles.insert(rings.triangles.end(), ring.begin(), ring.end());
+    rings.starts.push_back(static_cast<uint32_t>(rings.triangles.size()));
+  }
+}
+
+}  // namespace
+
+std::string surroundingKeys(const SurroundingsFeatures& features) {
+  std::string out;
+  const auto add = [&out](bool there, const char* key) {
+    if (there) out += (out.empty() ? "" : ", ") + std::string(key);
+  };
+  add(features.wind, "environment.wind");
+  add(features.forces, "bodies[].force_n");
+  add(features.obstacles, "obstacles");
+  add(features.collisions, "collision.enabled");
+  return out;
+}
+
+SurroundingsFeatures surroundingsOf(const Model& model, const Scene& scene) {
+  const WindConfig& wind = scene.environment.wind;
+  SurroundingsFeatures out;
+  out.wind = wind.velocity_m_per_s != Vector3d::Zero() && wind.air_density_kg_per_m3 * wind.drag_coefficient > 0 &&
+             std::any_of(model.bodies.begin(), model.bodies.end(), hasSurface);
+  out.forces = std::any_of(model.bodies.begin(), model.bodies.end(), isPushed);
+  out.obstacles = !scene.obstacles.empty();
+  out.collisions = scene.collision.enabled;
+  out.search = scene.collision.search;
+  return out;
+}
+
+Surroundings::Surroundings(const Model& model, const Scene& scene)
+    : features_(surroundingsOf(model, scene)), wind_(scene.environment.wind), obstacles_(scene.obstacles) {
+  if (features_.any() && scene.solver.integrator == Integrator::kVerletPaper) {
+    throw SceneError("solver.integrator: verlet_paper keeps positions of its own and knows nothing of " +
+                     surroundingKeys(features_) + ": use leapfrog, vbd or pd");
+  }
+}
+
+void Surroundings::beginTick(double tick_s, int substeps) {
+  tick_s_ = tick_s;
+  const bool moved = obstacles_.advance(time_s_, tick_s);
+  moved_ = moved || substeps != substeps_;
+  substeps_ = substeps;
+  if (features_.obstacles && moved_) interpolateObstacles(obstacles_, substeps, tick_s, motions_);
+  time_s_ += tick_s;
+}
+
+SubstepSurroundings Surroundings::at(int substep) const {
+  SubstepSurroundings out;
+  const double time_s = time_s_ - tick_s_ + (substep + 0.5) * tick_s_ / substeps_;
+  const double strength = 1 + wind_.gust_ratio * std::sin(2 * kPi * time_s / wind_.gust_period_s);
+  out.wind_m_per_s = (strength * wind_.velocity_m_per_s).cast<float>();
+  if (features_.obstacles) out.obstacles = &motions_[static_cast<size_t>(substep) * layout::kMaxObstacles];
+  return out;
+}
+
+void Surroundings::reset() {
+  time_s_ = 0;
+  obstacles_.reset();
+  moved_ = true;
+}
+
+float restingSpeed(const Substep& step) {
+  constexpr float kSubsteps = 4;  // of fall
+  return kSubsteps * step.dt_s * step.gravity.norm();
+}
+
+std::vector<layout::vec4> bodyInfluences(const Model& model, const Scene& scene) {
+  std::vector<layout::vec4> out;
+  for (const Body& body : model.bodies) {
+    const Vector3f a = isPushed(body) ? Vector3f((body.force_n / massOf(body)).cast<float>()) : Vector3f::Zero();
+    out.push_back({a.x(), a.y(), a.z(), static_cast<float>(collisionDistance(body, scene.collision))});
+  }
+  return out;
+}
+
+Rings joinRings(const Model& model) {
+  Rings out;
+  out.starts.push_back(0);
+  uint32_t springs = 0;
+  for (size_t b = 0; b < model.bodies.size(); ++b) {
+    const Body& body = model.bodies[b];
+    const uint32_t first = model.slotOffset(b);
+    if (hasSurface(body)) appendRings(*body.network, first, springs, out);
+    if (body.network) springs += static_cast<uint32_t>(body.network->springs.size());
+    out.starts.resize(first + body.lattice.nodes.size() + 1, static_cast<uint32_t>(out.triangles.size()));
+  }
+  return out;
+}
+
+}  // namespace viscera

@@ -1,0 +1,117 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "viscera/tools/obstacles.h"
+
+namespace viscera {
+
+namespace {
+
+constexpr double kRadian = 3.14159265358979323846 / 180;
+
+/// The turn that a rotation vector [rad] stands for.
+Quaterniond turned(const Vector3d& by) {
+  const double angle = by.norm();
+  return angle > 0 ? Quaterniond(Eigen::AngleAxisd(angle, by / angle)) : Quaterniond::Identity();
+}
+
+/// The rotation vector [rad] of the shorter turn from a to b.
+Vector3d turnBetween(const Quaterniond& a, const Quaterniond& b) {
+  const Eigen::AngleAxisd turn(b * a.conjugate());
+  constexpr double kPi = 180 * kRadian;
+  return (turn.angle() > kPi ? turn.angle() - 2 * kPi : turn.angle()) * turn.axis();
+}
+
+layout::vec4 packed(const Vector3d& v, double w) {
+  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z()), static_cast<float>(w)};
+}
+
+layout::vec4 packed(const Quaterniond& q) {
+  return {static_cast<float>(q.x()), static_cast<float>(q.y()), static_cast<float>(q.z()), static_cast<float>(q.w())};
+}
+
+bool isSame(const Pose& a, const Pose& b) {
+  return a.position_m == b.position_m && a.orientation.coeffs() == b.orientation.coeffs();
+}
+
+double radiusOf(const ObstacleConfig& config) {
+  return config.shape == ObstacleShape::kSphere || config.shape == ObstacleShape::kCapsule ? config.radius_m : 0;
+}
+
+layout::ObstacleMotion motionOf(const ObstacleConfig& config, const Obstacles::Motion& tick, int substep, int substeps,
+                                double tick_s) {
+  const double half_length = config.shape == ObstacleShape::kCapsule ? 0.5 * config.length_m : 0;
+  const Pose from = interpolate(tick.from, tick.to, static_cast<double>(substep) / substeps);
+  const Pose to = interpolate(tick.from, tick.to, static_cast<double>(substep + 1) / substeps);
+  layout::ObstacleMotion out{};
+  out.from = packed(from.position_m, radiusOf(config));
+  out.to = packed(to.position_m, half_length);
+  out.from_orientation = packed(from.orientation);
+  out.to_orientation = packed(to.orientation);
+  out.velocity = packed((tick.to.position_m - tick.from.position_m) / tick_s, config.friction);
+  out.spin = packed(turnBetween(tick.from.orientation, tick.to.orientation) / tick_s, config.restitution);
+  out.half_size = packed(0.5 * config.size_m, 0);
+  out.info.x = static_cast<uint32_t>(config.shape);
+  return out;
+}
+
+}  // namespace
+
+static_assert(static_cast<uint32_t>(ObstacleShape::kPlane) == layout::kShapePlane);
+static_assert(static_cast<uint32_t>(ObstacleShape::kSphere) == layout::kShapeSphere);
+static_assert(static_cast<uint32_t>(ObstacleShape::kCapsule) == layout::kShapeCapsule);
+static_assert(static_cast<uint32_t>(ObstacleShape::kBox) == layout::kShapeBox);
+
+Obstacles::Obstacles(const std::vector<ObstacleConfig>& configs)
+    : configs_(configs), frames_(configs.size()), frames_before_(configs.size()), motions_(configs.size()) {
+  reset();
+}
+
+void Obstacles::setFrame(size_t obstacle, const Pose& frame) {
+  if (obstacle >= frames_.size()) return;
+  frames_[obstacle] = {frame.position_m, frame.orientation.normalized()};
+}
+
+/// Where an obstacle is at a time, its frame being where it is.
+Pose Obstacles::placed(size_t obstacle, double time_s, const Pose& frame) const {
+  const ObstacleConfig& config = configs_[obstacle];
+  Pose pose = frame * Pose{config.position_m, rotationFromDegrees(config.rotation_deg)};
+  pose.position_m += time_s * config.velocity_m_per_s;
+  pose.orientation = (turned(time_s * kRadian * config.rotation_deg_per_s) * pose.orientation).normalized();
+  return pose;
+}
+
+bool Obstacles::advance(double time_s, double tick_s) {
+  const bool moved_before = moved_;
+  moved_ = false;
+  for (size_t i = 0; i < configs_.size(); ++i) {
+    const Pose now = frames_[i].value_or(Pose{});
+    const Pose before = frames_before_[i].value_or(now);
+    const Motion next{placed(i, time_s, before), placed(i, time_s + tick_s, now)};
+    moved_ |= !isSame(next.from, next.to) || !isSame(next.to, motions_[i].to);
+    motions_[i] = next;
+    frames_before_[i] = frames_[i];
+  }
+  return moved_ || moved_before;
+}
+
+void Obstacles::reset() {
+  frames_before_ = frames_;
+  for (size_t i = 0; i < configs_.size(); ++i) {
+    const Pose start = placed(i, 0, frames_[i].value_or(Pose{}));
+    motions_[i] = {start, start};
+  }
+  moved_ = true;
+}
+
+void interpolateObstacles(const Obstacles& obstacles, int substeps, double tick_s,
+                          std::vector<layout::ObstacleMotion>& out) {
+  out.assign(static_cast<size_t>(substeps) * layout::kMaxObstacles, layout::ObstacleMotion{});
+  for (int s = 0; s < substeps; ++s) {
+    for (size_t i = 0; i < obstacles.count(); ++i) {
+      out[static_cast<size_t>(s) * layout::kMaxObstacles + i] =
+          motionOf(obstacles.configs()[i], obstacles.motions()[i], s, substeps, tick_s);
+    }
+  }
+}
+
+}  // namespace viscera

@@ -1,0 +1,63 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include "viscera/session/session.h"
+
+using namespace viscera;
+
+namespace {
+
+/// A weightless block over a plate on a frame, with a camera.
+Scene liftScene(Backend backend) {
+  Scene scene;
+  scene.bodies.resize(1);
+  scene.bodies[0].source = TissueSource::kBox;
+  scene.bodies[0].box_size_m = Vector3d::Constant(0.02);
+  scene.bodies[0].spacing_m = 0.005;
+  scene.obstacles.resize(1);
+  scene.obstacles[0].shape = ObstacleShape::kBox;
+  scene.obstacles[0].size_m = Vector3d(0.1, 0.1, 0.01);
+  scene.obstacles[0].frame = "lift";
+  scene.environment.gravity_m_per_s2 = Vector3d::Zero();
+  scene.cameras.resize(1);
+  scene.cameras[0].width_px = 64;
+  scene.cameras[0].height_px = 48;
+  scene.solver.backend = backend;
+  return scene;
+}
+
+Pose at(double height_m) {
+  return {Vector3d(0, 0, height_m), Quaterniond::Identity()};
+}
+
+std::vector<uint8_t> picture(Session& session) {
+  Wants wants;
+  wants.cameras = {true};
+  wants.every_image = true;
+  Frame frame = session.step({}, wants);
+  if (frame.images.empty()) frame = session.drain();
+  return frame.images.empty() ? std::vector<uint8_t>{} : frame.images.back().rgb;
+}
+
+}  // namespace
+
+TEST(ObstaclesOfASession, GoWhereTheirFrameGoesInTissueAndPictures) {
+  for (const Backend backend : {Backend::kGpu, Backend::kCpu}) {
+    gpu::Context context;
+    Session session(liftScene(backend), context);
+    session.setObstacleFrame(0, at(-0.05));
+    session.step({}, {});
+    const uint64_t rest = session.stateHash();
+    const std::vector<uint8_t> below = picture(session);
+    ASSERT_FALSE(below.empty());
+    EXPECT_EQ(session.stateHash(), rest);
+    session.setObstacleFrame(0, at(-0.03));
+    EXPECT_NE(picture(session), below);
+    EXPECT_EQ(session.stateHash(), rest);
+    session.setObstacleFrame(0, at(-0.013));
+    session.step({}, {});
+    session.step({}, {});
+    EXPECT_NE(session.stateHash(), rest);
+  }
+}

@@ -1,0 +1,143 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cstring>
+#include <limits>
+
+#include "support/backends.h"
+#include "support/loose_cloth.h"
+#include "viscera/solver/cpu/surroundings.h"
+#include "viscera/solver/cpu/thread_pool.h"
+#include "viscera/solver/substeps.h"
+
+using namespace viscera;
+using namespace viscera::test;
+
+namespace {
+
+constexpr double kSpacing_m = 0.01;
+constexpr int kSubsteps = 300;
+constexpr float kDt_s = 1e-3f;
+
+/// A sheet that drops crumpled onto another one and a block, all nodes with velocities of their own, without springs'
+/// forces: only contacts act.
+struct Crowd {
+  Crowd()
+      : model(
+            modelOf({looseCloth(16, 16, kSpacing_m), looseCloth(12, 12, kSpacing_m), boxBody({4, 4, 4}, kSpacing_m)})),
+        scene(sceneFor(model, 1)),
+        surroundings((scene.collision.enabled = true, model), scene) {
+    surroundings.beginTick(kDt_s, 1);
+  }
+  HostState start() const {
+    std::mt19937 random(17);
+    HostState state = restState(model);
+    for (size_t b = 0; b < model.bodies.size(); ++b) {
+      for (const uint32_t local : model.bodies[b].lattice.active_slots) {
+        const uint32_t slot = model.slotOffset(b) + local;
+        const Vector3d fall(0, 0, b == 0 ? -0.4 : 0);
+        state.displacement_m[slot] =
+            vec4(Vector3d(0, 0, b == 0 ? 0.03 : -0.03 * double(b)) + randomVector(random, 0.004));
+        state.velocity_m_per_s[slot] = vec4(fall + randomVector(random, 0.2));
+      }
+    }
+    return state;
+  }
+  Model model;
+  Scene scene;
+  Surroundings surroundings;
+};
+
+/// The crowd with lists of a margin of its own.
+class Trial {
+ public:
+  Trial(const Crowd& crowd, const Parallel& parallel, double margin)
+      : crowd_(crowd),
+        lattice_(crowd.model, bodyParams(crowd.model, kDt_s), false),
+        contacts_(crowd.model, crowd.scene, lattice_, parallel, margin) {
+    lattice_.write(crowd.start());
+  }
+  /// What an integrator without forces does, then contacts.
+  void substep() {
+    const AlignedVector<float>&u = lattice_.displacement[lattice_.current], &v = lattice_.velocity[lattice_.current];
+    for (size_t i = 0; i < u.size(); ++i) lattice_.displacement[1 - lattice_.current][i] = u[i] + kDt_s * v[i];
+    lattice_.velocity[1 - lattice_.current] = v;
+    lattice_.swap();
+    Substep step;
+    step.dt_s = step.kick_s = kDt_s;
+    step.push_speed_m_per_s = 0.1f;
+    contacts_.run(lattice_, step, crowd_.surroundings);
+  }
+  /// What happens to tissue in the course of a scene.
+  void disturb(int substep) {
+    const uint32_t box = crowd_.model.slotOffset(2), cloth = crowd_.model.slotOffset(1);
+    if (substep == 60) lattice_.nodes[box + inside()].lo |= layout::kSeveredBit;
+    if (substep == 90) {
+      lattice_.nodes[cloth + 7].lo &= ~layout::kAxialMask;  // alone
+      lattice_.nodes[cloth + 7].hi &= ~layout::kDiagonalMask;
+    }
+    if (substep == 120) move(9, 0.02f);
+    if (substep == 150) move(11, std::numeric_limits<float>::quiet_NaN());
+  }
+  std::vector<CollisionPair> pairs() { return contacts_.findPairs(lattice_); }
+  bool sameBitsAs(const Trial& other) const {
+    return sameBits(lattice_.displacement[lattice_.current], other.lattice_.displacement[other.lattice_.current]) &&
+           sameBits(lattice_.velocity[lattice_.current], other.lattice_.velocity[other.lattice_.current]);
+  }
+  size_t searches() const { return contacts_.searches(); }
+
+ private:
+  uint32_t inside() const { return static_cast<uint32_t>(crowd_.model.bodies[2].lattice.slotAt({2, 2, 2})); }
+  void move(uint32_t slot, float by_m) { lattice_.displacement[lattice_.current][vectorAt(slot)] += by_m; }
+  static bool sameBits(const AlignedVector<float>& a, const AlignedVector<float>& b) {
+    return std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
+  }
+  const Crowd& crowd_;
+  CpuLattice lattice_;
+  CpuSurroundings contacts_;
+};
+
+}  // namespace
+
+TEST(ContactLists, ChangeNoBitAgainstASearchInEverySubstep) {
+  const Crowd crowd;
+  const Serial serial;
+  const ThreadPool pool(3);
+  Trial every(crowd, serial, 0), listed(crowd, serial, CpuSurroundings::kListMargin), wide(crowd, pool, 2);
+  size_t most_pairs = 0;
+  for (int s = 0; s < kSubsteps; ++s) {
+    for (Trial* run : {&every, &listed, &wide}) {
+      run->disturb(s);
+      run->substep();
+    }
+    most_pairs = std::max(most_pairs, every.pairs().size());
+    ASSERT_TRUE(listed.sameBitsAs(every)) << s;
+    ASSERT_TRUE(wide.sameBitsAs(every)) << s;
+  }
+  EXPECT_GT(most_pairs, 50u);
+}
+
+TEST(ContactLists, HoldTheSamePairsAsASearchInEverySubstep) {
+  const Crowd crowd;
+  const Serial serial;
+  Trial every(crowd, serial, 0), listed(crowd, serial, CpuSurroundings::kListMargin);
+  for (int s = 0; s < kSubsteps; ++s) {
+    for (Trial* run : {&every, &listed}) {
+      run->disturb(s);
+      run->substep();
+    }
+    ASSERT_EQ(listed.pairs(), every.pairs()) << s;
+  }
+}
+
+TEST(ContactLists, AreMadeAnewOnlyNowAndThen) {
+  const Crowd crowd;
+  const Serial serial;
+  Trial every(crowd, serial, 0), listed(crowd, serial, CpuSurroundings::kListMargin);
+  for (int s = 0; s < kSubsteps; ++s) {
+    every.substep();
+    listed.substep();
+  }
+  EXPECT_EQ(every.searches(), static_cast<size_t>(kSubsteps));
+  EXPECT_LT(listed.searches(), static_cast<size_t>(kSubsteps) / 3);
+  EXPECT_GT(listed.searches(), 5u);
+}

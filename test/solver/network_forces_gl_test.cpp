@@ -1,0 +1,263 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Forces of explicit connections (VR05 2.5.1, GW 4) and leapfrog with them.
+#include <cstring>
+
+#include "solver/network_rig.h"
+
+using namespace viscera;
+using namespace viscera::test;
+
+namespace {
+
+// Relative to the largest value.
+constexpr double kForce = 1e-6;           // issue 5
+constexpr double kDisplacement = 1e-6;    // as for lattices (leapfrog_gl_test.cpp): ten substeps of twenty roundings
+constexpr double kVelocity = 5e-6;        // likewise
+constexpr double kSum = 1e-6;             // |sum F| / sum |F|: roundings of single forces
+constexpr double kCompensatedSum = 5e-7;  // four roundings per substep that nothing sums up
+constexpr int kSubsteps = 10;
+
+class NetworkForces : public OnBackend {
+ protected:
+  void expectTrueForces(const Model& model, const HostState& state) {
+    const std::vector<Vector3d> truth = trueForces(model, state);
+    const auto point = forcesOf(GetParam(), model, state, SpringForces::kPoint);
+    const auto edge = forcesOf(GetParam(), model, state, SpringForces::kEdge);
+    EXPECT_LT(forceDifference(point, truth), kForce);
+    EXPECT_LT(forceDifference(edge, truth), kForce);
+    EXPECT_LT(forceDifference(edge, point), kForce) << "the two schemes";
+  }
+  void expectLikeReference(const Model& model, const Scene& scene, double displacement = kDisplacement) {
+    const auto solver = make(model, scene);
+    const HostState start = scatteredState(model, 1e-3, 0.1, 7);
+    solver->writeState(start);
+    const Vector3d& gravity = scene.environment.gravity_m_per_s2;
+    ReferenceSolver reference(model, gravity, static_cast<float>(solver->dt_s()));
+    load(reference, start);
+    solver->step({});
+    for (int s = 0; s < solver->substeps(); ++s) reference.substep();
+    const HostState end = solver->readState();
+    EXPECT_LT(relativeError(end.displacement_m, reference.u_m, reference.active), displacement);
+    EXPECT_LT(relativeError(end.velocity_m_per_s, reference.v_m_per_s, reference.active), kVelocity);
+  }
+};
+
+INSTANTIATE_TEST_SUITE_P(Backends, NetworkForces, ::testing::ValuesIn(backendNames()), backendSuffix);
+
+GraphOptions strained() {
+  GraphOptions options;
+  options.prestrain = 0.1;
+  return options;
+}
+
+}  // namespace
+
+TEST_P(NetworkForces, AreThoseOfTheReferenceOnRandomGraphsOfEverySize) {
+  for (size_t size : kSizes) {
+    SCOPED_TRACE(size);
+    const Model model = modelOf({undamped(graphBody(size, 4 * size, 3, strained()))});
+    expectTrueForces(model, scatteredState(model, 0.02, 0, 7));
+    expectTrueForces(model, scatteredState(model, 1e-4, 0, 8));
+  }
+}
+
+/// Springs at rest: nothing is left of a force but what 2 d.w + w.w gives, whose rounding is that of w.
+TEST_P(NetworkForces, OfSmallStrainsHaveAllTheirDigits) {
+  const Model model = modelOf({undamped(graphBody(300, 900, 4))});
+  for (double size_m : {1e-3, 1e-5, 1e-7}) {
+    SCOPED_TRACE(size_m);
+    expectTrueForces(model, scatteredState(model, size_m, 0, 9));
+  }
+}
+
+TEST_P(NetworkForces, VanishAtRest) {
+  const Model model = modelOf({undamped(clothBody(12, 9, 0.01, 0.1)), undamped(graphBody(200, 500, 2))});
+  for (SpringForces scheme : kSchemes) {
+    for (const Vector3d& force : forcesOf(GetParam(), model, restState(model), scheme)) {
+      // Rest lengths are roundings of the distances: a prestrain of 1e-16 of l0^2 in springs of 20 N/m and 0.1 m.
+      EXPECT_LT(force.norm(), 1e-13);
+    }
+  }
+}
+
+TEST_P(NetworkForces, OfALatticeOfLinksAreTheImplicitOnes) {
+  Body box = undamped(boxBody({6, 5, 7}, 0.01)), full = box;
+  full.material.poisson_ratio = 0.45;
+  for (const Body& body : {box, full, undamped(twoPartBody())}) {
+    const Model implicit = modelOf({body}), links = modelOf({withLinks(body)});
+    const HostState state = scatteredState(implicit, 1e-3, 0, 11);
+    HostState of_links = restState(links);
+    of_links.displacement_m = state.displacement_m;
+    const std::vector<Vector3d> truth = forcesOf(GetParam(), implicit, state, SpringForces::kPoint);
+    for (SpringForces scheme : kSchemes) {
+      EXPECT_LT(forceDifference(forcesOf(GetParam(), links, of_links, scheme), truth), kForce) << nameOf(scheme);
+    }
+  }
+}
+
+TEST_P(NetworkForces, OfAPairAreAntisymmetricToTheBitAndAllOfThemSumToNothing) {
+  std::mt19937 random(3);
+  SpringNetwork pair;
+  pair.masses_kg = {1, 1};
+  pair.springs = {{0, 1, 20, 0.01}};
+  for (int trial = 0; trial < 20; ++trial) {
+    pair.positions_m = {randomVector(random, 0.01), randomVector(random, 0.01)};
+    Body body;
+    adoptNetwork(pair, body);
+    const Model model = modelOf({undamped(body)});
+    for (SpringForces scheme : kSchemes) {
+      const auto forces = forcesOf(GetParam(), model, scatteredState(model, 0.01, 0, 12), scheme);
+      ASSERT_NE(forces[0], Vector3d::Zero().eval());
+      EXPECT_EQ(forces[0], (-forces[1]).eval());
+    }
+  }
+  const Model model = modelOf({undamped(graphBody(500, 2000, 4, strained()))});
+  for (SpringForces scheme : kSchemes) {
+    Vector3d sum = Vector3d::Zero();
+    double sizes = 0;
+    for (const Vector3d& force : forcesOf(GetParam(), model, scatteredState(model, 0.01, 0, 13), scheme)) {
+      sum += force;
+      sizes += force.norm();
+    }
+    EXPECT_LT(sum.norm() / sizes, kSum) << nameOf(scheme);
+  }
+}
+
+/// A lattice beside networks: none feels another, whatever the kernels have to tell apart.
+TEST_P(NetworkForces, OfBodiesOfEveryKindAtOnceAreThoseOfTheReference) {
+  Model model = mixedModel();
+  for (Body& body : model.bodies) body = undamped(body);
+  expectTrueForces(model, scatteredState(model, 1e-3, 0, 14));
+}
+
+TEST_P(NetworkForces, MoveNodesLikeTheReferenceWithDragDashpotAndGravity) {
+  const Vector3d gravity(0.3, -0.2, -9.81);
+  for (SpringForces scheme : kSchemes) {
+    SCOPED_TRACE(nameOf(scheme));
+    for (const Model& model : {mixedModel(), modelOf({graphBody(65, 200, 3, strained())}),
+                               modelOf({clothBody(17, 13, 0.01, 0.3)}), modelOf({graphBody(1, 0, 1)})}) {
+      Scene scene = sceneFor(model, kSubsteps, {}, gravity);
+      scene.solver.spring_forces = scheme;
+      expectLikeReference(model, scene);
+      scene.solver.compensated = true;
+      expectLikeReference(model, scene, kCompensatedSum);
+    }
+  }
+}
+
+TEST_P(NetworkForces, ExtraSpringsAgainstBendingAreAmongThem) {
+  const Body sheet = undamped(boxBody({5, 6, 1}, 0.01));
+  const Model plain = modelOf({withLinks(sheet)}), stiffened = modelOf({withLinks(sheet, 0.5)});
+  ASSERT_GT(stiffened.springs(), plain.springs());
+  expectTrueForces(stiffened, scatteredState(stiffened, 1e-3, 0, 15));
+}
+
+TEST_P(NetworkForces, ResetRestoresTheHash) {
+  const Model model = mixedModel();
+  const auto solver = make(model, sceneFor(model, 10, {}, Vector3d(0, 0, -9.81)));
+  const auto run = [&] {
+    for (int t = 0; t < 5; ++t) solver->step({});
+    return stateHash(model, solver->readState());
+  };
+  const uint64_t rest = stateHash(model, solver->readState());
+  const uint64_t first = run();
+  EXPECT_NE(first, rest);
+  solver->reset();
+  EXPECT_EQ(stateHash(model, solver->readState()), rest);
+  EXPECT_EQ(run(), first);
+}
+
+/// Energies, largest stretch, and the stable substep that is left (physics.md 2, 3).
+TEST_P(NetworkForces, AreMeasuredLikeTheReferences) {
+  constexpr double kSums = 1e-5;  // float32 sums over nodes
+  const std::vector<Model> models = {modelOf({graphBody(300, 900, 6, strained())}), mixedModel()};
+  for (const auto& [of, scheme] : {std::pair(0, SpringForces::kPoint),
+                                   {1, SpringForces::kPoint},
+                                   {0, SpringForces::kEdge},
+                                   {1, SpringForces::kEdge}}) {
+    SCOPED_TRACE(nameOf(scheme));
+    const Model& model = models[of];
+    Scene scene = sceneFor(model, 1);
+    scene.solver.governor = true;
+    scene.solver.spring_forces = scheme;
+    const auto solver = make(model, scene);
+    const HostState start = scatteredState(model, 1e-3, 0.5, 8);
+    solver->writeState(start);
+    ReferenceSolver reference(model, Vector3d::Zero(), static_cast<float>(solver->dt_s()));
+    load(reference, start);
+    EXPECT_NEAR(solver->health().kinetic_j, reference.kineticEnergy(), kSums * reference.kineticEnergy());
+    EXPECT_NEAR(solver->health().elastic_j, reference.elasticEnergy(), kSums * reference.elasticEnergy());
+    solver->step({});
+    reference.substep();
+    layout::TickStats stats;
+    ASSERT_TRUE(solver->pollStats(stats, true));
+    float rate, stretch;
+    std::memcpy(&rate, &stats.max_rate_bits, sizeof rate);
+    std::memcpy(&stretch, &stats.max_stretch_bits, sizeof stretch);
+    EXPECT_NEAR(2 / std::sqrt(rate), safeTimeStep(model), kSums * safeTimeStep(model));
+    double largest = 0;
+    for (uint32_t slot : reference.active) {
+      for (uint32_t s = 0; s < reference.springsOf(slot); ++s) {
+        if (reference.isWhole(slot, s)) largest = std::max(largest, std::abs(reference.strain(reference.u_m, slot, s)));
+      }
+    }
+    EXPECT_NEAR(stretch, largest, kSums * largest);
+    EXPECT_EQ(stats.nonfinite, 0u);
+  }
+}
+
+TEST_P(NetworkForces, ShortenedSpringsAreCountedAsCollapsed) {
+  const Body body = undamped(clothBody(5, 5, 0.01));
+  const Model model = modelOf({body});
+  const auto solver = make(model, sceneWith(Integrator::kLeapfrog, model, 1, 0.05));  // what is measured is the end
+  HostState state = restState(model);
+  for (uint32_t slot : body.lattice.active_slots) {  // the whole sheet to a fifth of its size
+    state.displacement_m[slot] = vec4(-0.8 * restPosition(body, slot));
+  }
+  solver->writeState(state);
+  layout::TickStats stats;
+  solver->step({});
+  ASSERT_TRUE(solver->pollStats(stats, true));
+  EXPECT_EQ(stats.collapsed, body.network->springs.size());
+}
+
+class NetworkHash : public GpuTest {};
+
+TEST_F(NetworkHash, IsTheSameForEveryGroupSizeAndEveryRun) {
+  const Model model = mixedModel();
+  for (Integrator integrator : {Integrator::kLeapfrog, Integrator::kVerletPaper, Integrator::kVbd, Integrator::kPd}) {
+    for (SpringForces scheme : kSchemes) {
+      if (scheme == SpringForces::kEdge && integrator != Integrator::kLeapfrog) continue;
+      uint64_t first = 0;
+      for (uint32_t group_size : {32u, 64u, 128u, 256u, 64u}) {
+        Scene scene = sceneWith(integrator, model, 4, 0.5, 6, {}, Vector3d(0, 0, -9.81));
+        scene.solver.spring_forces = scheme;
+        GpuSolver solver(model, scene, {{}, group_size});
+        solver.writeState(scatteredState(model, 1e-3, 0.5, 11));
+        for (int t = 0; t < 2; ++t) solver.step({});
+        const uint64_t hash = stateHash(model, solver.readState());
+        if (first == 0) first = hash;
+        EXPECT_EQ(hash, first) << "group size " << group_size << ", integrator " << static_cast<int>(integrator) << ", "
+                               << nameOf(scheme);
+      }
+    }
+  }
+}
+
+TEST(NetworkOnThreads, HasTheSameHashHoweverManyThereAre) {
+  const Model model = mixedModel();
+  for (const std::string& simd : simdTargets()) {
+    for (Integrator integrator : {Integrator::kLeapfrog, Integrator::kVerletPaper, Integrator::kVbd, Integrator::kPd}) {
+      uint64_t first = 0;
+      for (int threads : {1, 2, 3, 2}) {
+        const auto solver = makeCpu(simd, model, sceneWith(integrator, model, 4, 0.5, 6), threads);
+        solver->writeState(scatteredState(model, 1e-3, 0.5, 11));
+        for (int t = 0; t < 2; ++t) solver->step({});
+        const uint64_t hash = stateHash(model, solver->readState());
+        if (first == 0) first = hash;
+        EXPECT_EQ(hash, first) << simd << ", " << threads << " threads, integrator " << static_cast<int>(integrator);
+      }
+    }
+  }
+}

@@ -1,0 +1,384 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Styluses and the governor on explicit connections (VR05 2.7, physics.md 3, 5).
+#include "solver/network_rig.h"
+
+using namespace viscera;
+using namespace viscera::test;
+
+namespace {
+
+// Relative to the largest value; contact projections add roundings of absolute positions (6e-8 of ~0.1 m on u of ~1e-3
+// m).
+constexpr double kContactFloat32 = 1e-4;
+// Of where a blade crosses a spring: float32 positions of 0.1 m (6e-9 m) over springs of 1 cm, at a slant.
+constexpr double kFraction = 1e-4;
+// A cut is noted no nearer to an end than this share of the spring (kLeastShare of blade.glsl).
+constexpr double kLeastShare = 0.02;
+constexpr int kSubsteps = 10;
+
+StylusConfig stylusConfig() {
+  StylusConfig config;
+  config.probe_radius_m = 0.012;
+  config.grab_radius_m = 0.012;
+  config.blade_length_m = 0.2;
+  config.eraser_radius_m = 0.004;
+  config.release_speed_m_per_s = 0.05;
+  return config;
+}
+
+StylusMotion motion(ToolMode mode, const Vector3d& from, const Vector3d& to) {
+  StylusMotion out;
+  out.mode = mode;
+  out.present = true;
+  out.from.position_m = from;
+  out.to.position_m = to;
+  return out;
+}
+
+/// A blade down along -z that sweeps along y in the plane x = `x_m`.
+StylusMotion sweep(double x_m, ToolMode mode = ToolMode::kCut) {
+  return motion(mode, {x_m, -0.2, 0.1}, {x_m, 0.2, 0.1});
+}
+
+/// Both solvers side by side on a cloth of 13 x 13 nodes in z = 0 that is held at its corners.
+class ToolsOnNetwork : public OnBackend {
+ protected:
+  ToolsOnNetwork() : styluses_{stylusConfig(), stylusConfig()} {
+    Body cloth = clothBody(13, 13, 0.01);
+    fixNearest(cloth, {{-1, -1, 0}, {1, -1, 0}, {-1, 1, 0}, {1, 1, 0}});
+    use(modelOf({cloth}));
+  }
+  void use(Model model, SpringForces scheme = SpringForces::kPoint) {
+    model_ = std::move(model);
+    Scene scene = sceneFor(model_, kSubsteps, styluses_);
+    scene.solver.spring_forces = scheme;
+    solver_ = make(model_, scene);
+    renewReference();
+  }
+  void renewReference() {
+    ReferenceOptions options;
+    options.push_speed_m_per_s = pushSpeed(model_);
+    reference_.emplace(model_, Vector3d::Zero(), static_cast<float>(solver_->dt_s()), options);
+  }
+  const Body& body() const { return model_.bodies[0]; }
+
+  /// One tick of both solvers.
+  void tick(const ToolMotions& motions) {
+    solver_->step(motions);
+    for (uint32_t s = 0; s < 2; ++s) {
+      if (motions[s].grab_ends) reference_->letGo(s, styluses_[s].release_speed_m_per_s);
+      if (motions[s].grab_begins) reference_->takeHold(s, motions[s].from, styluses_[s].grab_radius_m);
+    }
+    std::vector<layout::ToolMotion> rows;
+    interpolateMotions(motions, styluses_, kSubsteps, rows);
+    for (size_t s = 0; s < kSubsteps; ++s) reference_->substep({rows[2 * s], rows[2 * s + 1]});
+  }
+  layout::TickStats stats() {
+    layout::TickStats stats{};
+    while (solver_->pollStats(stats, true)) {
+    }
+    return stats;
+  }
+  void expectSameDisplacement() {
+    EXPECT_LT(relativeError(solver_->readState().displacement_m, reference_->u_m, reference_->active), kContactFloat32);
+  }
+  /// Every spring is whole or cut, and cut at the same place, as in the reference; so are valences.
+  void expectSameCuts() {
+    const HostState state = solver_->readState();
+    const std::vector<float>& truth = reference_->spring_cut;
+    ASSERT_EQ(state.spring_cut.size(), truth.size());
+    for (size_t i = 0; i < truth.size(); ++i) {
+      ASSERT_EQ(state.spring_cut[i] == 0, truth[i] == 0) << "spring " << i;
+      if (truth[i] == 0) continue;
+      const bool erased = truth[i] == layout::kErasedShare;
+      const double shown = erased ? truth[i] : std::clamp<double>(truth[i], kLeastShare, 1 - kLeastShare);
+      EXPECT_NEAR(state.spring_cut[i], shown, kFraction) << "spring " << i;
+    }
+    for (uint32_t slot : reference_->active) {
+      EXPECT_EQ(state.nodes[slot].lo & layout::kAxialMask, reference_->nodes[slot].lo & layout::kAxialMask) << slot;
+      EXPECT_EQ(state.nodes[slot].hi & layout::kDiagonalMask, reference_->nodes[slot].hi & layout::kDiagonalMask);
+    }
+    EXPECT_EQ(stats().springs_cut, reference_->springs_cut);
+  }
+
+  Model model_;
+  std::vector<StylusConfig> styluses_;
+  std::unique_ptr<LatticeSolver> solver_;
+  std::optional<ReferenceSolver> reference_;
+};
+
+INSTANTIATE_TEST_SUITE_P(Backends, ToolsOnNetwork, ::testing::ValuesIn(backendNames()), backendSuffix);
+
+}  // namespace
+
+TEST_P(ToolsOnNetwork, ProbeDentsAndIsToldTheMomentumLikeTheReference) {
+  ToolMotions motions;
+  Vector3d before = Vector3d::Zero();
+  for (int t = 0; t < 8; ++t) {
+    before = reference_->impulse_n_s[0];
+    const double z = 0.015 - 0.001 * t;
+    motions[0] = motion(ToolMode::kProbe, {0.003, 0.001, z}, {0.003, 0.001, z - 0.001});
+    tick(motions);
+  }
+  expectSameDisplacement();
+  const Vector3d truth = reference_->impulse_n_s[0] - before;
+  const layout::TickStats s = stats();
+  EXPECT_LT((xyz(s.impulse[0]) - truth).norm(), 1e-3 * truth.norm());  // roundings of contact positions
+  EXPECT_LT(s.impulse[0].z, 0);                                        // cloth is pushed down
+  EXPECT_GT(s.touched[0], 0u);
+}
+
+TEST_P(ToolsOnNetwork, HeldNodesFollowThePoseAndAreLetGoLikeTheReference) {
+  ToolMotions motions;
+  motions[1] = motion(ToolMode::kGrab, {0, 0, 0}, {0, 0, 0.002});
+  motions[1].grab_begins = true;
+  tick(motions);
+  EXPECT_GT(stats().grabbed[1], 3u);
+  motions[1] = motion(ToolMode::kGrab, {0, 0, 0.002}, {0.002, 0, 0.01});
+  motions[1].to.orientation = rotationFromDegrees({10, 20, 90});
+  tick(motions);
+  expectSameDisplacement();
+  motions[1] = motion(ToolMode::kNone, motions[1].to.position_m, motions[1].to.position_m);
+  motions[1].grab_ends = true;
+  tick(motions);
+  expectSameDisplacement();
+  EXPECT_EQ(stats().grabbed[1], 0u);
+}
+
+TEST_P(ToolsOnNetwork, BladeCutsTheSpringsItCrossesFromBothEndsAndNotesWhere) {
+  ToolMotions motions;
+  motions[0] = sweep(0.0037);
+  tick(motions);
+  const HostState state = solver_->readState();
+  std::vector<uint32_t> lost(model_.slots(), 0);
+  size_t crossing = 0;
+  for (size_t i = 0; i < body().network->springs.size(); ++i) {
+    const NetworkSpring& spring = body().network->springs[i];
+    const double a = restPosition(body(), spring.a).x(), b = restPosition(body(), spring.b).x();
+    const bool crosses = (a < 0.0037) != (b < 0.0037);
+    EXPECT_EQ(state.spring_cut[i] > 0, crosses) << "spring " << i;
+    if (!crosses) continue;
+    ++crossing;
+    ++lost[spring.a];
+    ++lost[spring.b];
+    EXPECT_NEAR(state.spring_cut[i], std::clamp((0.0037 - a) / (b - a), kLeastShare, 1 - kLeastShare), kFraction);
+  }
+  ASSERT_GT(crossing, 12u);
+  for (uint32_t slot : body().lattice.active_slots) {
+    const uint32_t whole = body().lattice.nodes[slot].lo & layout::kValenceMask;
+    EXPECT_EQ(state.nodes[slot].lo & layout::kValenceMask, whole - lost[slot]);
+    EXPECT_EQ((state.nodes[slot].lo & layout::kSeveredBit) != 0, lost[slot] > 0);
+  }
+  EXPECT_EQ(stats().springs_cut, crossing);
+}
+
+/// Where springs move, the sweeps of two substeps leave room between them unless each is taken as its spring sees it.
+TEST_P(ToolsOnNetwork, BladeMissesNoSpringThatComesTowardsIt) {
+  const double x_m = 0.0013, way_m = 0.01;  // of the blade's plane; of the cloth in a substep, the blade goes 0.04
+  use(modelOf({undamped(clothBody(13, 13, 0.01))}));
+  HostState state = restState(model_);
+  for (uint32_t slot : reference_->active) state.velocity_m_per_s[slot] = vec4({0, -way_m / solver_->dt_s(), 0});
+  solver_->writeState(state);
+  load(*reference_, state);
+  tick({sweep(x_m), {}});
+  expectSameCuts();
+  const HostState after = solver_->readState();
+  const SpringNetwork& network = *body().network;
+  for (size_t i = 0; i < network.springs.size(); ++i) {
+    const double a = network.positions_m[network.springs[i].a].x() - x_m;
+    const double b = network.positions_m[network.springs[i].b].x() - x_m;
+    EXPECT_EQ(after.spring_cut[i] != 0, (a > 0) != (b > 0)) << "spring " << i;
+  }
+}
+
+TEST_P(ToolsOnNetwork, CutAndErasedGraphsLoseWhatTheReferenceLoses) {
+  std::mt19937 random(9);
+  std::uniform_real_distribution<double> angle(-180, 180);
+  GraphOptions options;
+  options.size_m = 0.06;
+  const Model model =
+      modelOf({graphBody(300, 900, 3, options), withLinks(boxBody({4, 4, 4}, 0.01)), boxBody({3, 4, 2}, 0.01)});
+  for (const auto& [mode, scheme] : {std::pair(ToolMode::kCut, SpringForces::kPoint),
+                                     {ToolMode::kCutParticles, SpringForces::kPoint},
+                                     {ToolMode::kCut, SpringForces::kEdge}}) {
+    SCOPED_TRACE(nameOf(scheme));
+    use(model, scheme);
+    size_t cut = 0;
+    for (int t = 0; t < 10; ++t) {
+      solver_->reset();
+      renewReference();
+      ToolMotions motions;
+      motions[0] = motion(mode, Vector3d::Constant(0.03) + randomVector(random, 0.05),
+                          Vector3d::Constant(0.03) + randomVector(random, 0.05));
+      motions[0].to.orientation = motions[0].from.orientation =
+          rotationFromDegrees({angle(random), angle(random), angle(random)});
+      tick(motions);
+      expectSameCuts();
+      cut += reference_->springs_cut;
+    }
+    EXPECT_GT(cut, 0u);
+  }
+}
+
+TEST_P(ToolsOnNetwork, ErasedNodesAreAloneAndRest) {
+  ToolMotions motions;
+  motions[0] = sweep(0.005, ToolMode::kCutParticles);
+  tick(motions);
+  expectSameCuts();
+  size_t alone = 0;
+  const HostState state = solver_->readState();
+  for (uint32_t slot : body().lattice.active_slots) alone += (state.nodes[slot].lo & layout::kValenceMask) == 0;
+  EXPECT_GT(alone, 5u);
+  HostState moving = state;
+  for (uint32_t slot : body().lattice.active_slots) moving.velocity_m_per_s[slot] = {0, 0, 1, 0};
+  solver_->writeState(moving);
+  solver_->step({});
+  const HostState after = solver_->readState();
+  for (uint32_t slot : body().lattice.active_slots) {
+    if ((state.nodes[slot].lo & layout::kValenceMask) != 0) continue;
+    EXPECT_EQ(after.displacement_m[slot].z, state.displacement_m[slot].z) << slot;
+  }
+}
+
+TEST_P(ToolsOnNetwork, SeveredHalvesExertNoForceOnEachOther) {
+  ToolMotions motions;
+  motions[0] = sweep(0.0037);
+  tick(motions);
+  for (SpringForces scheme : kSchemes) {
+    HostState state = solver_->readState();
+    for (uint32_t slot : body().lattice.active_slots) {  // the half beyond the cut goes away by a centimetre
+      state.velocity_m_per_s[slot] = {};
+      state.displacement_m[slot] = {};
+      if (restPosition(body(), slot).x() > 0.0037) state.displacement_m[slot].x = 0.01f;
+      state.nodes[slot].lo &= ~layout::kFixedBit;
+    }
+    Scene scene = sceneFor(model_, 1, styluses_);
+    scene.solver.spring_forces = scheme;
+    const auto solver = make(model_, scene);
+    solver->writeState(state);
+    solver->step({});
+    const HostState after = solver->readState();
+    const double unit = 1e-3 / solver->dt_s();  // an uncut spring would move its ends by millimetres in the substep
+    for (uint32_t slot : body().lattice.active_slots) {
+      EXPECT_LT(xyz(after.velocity_m_per_s[slot]).norm(), 1e-4 * unit) << nameOf(scheme);
+    }
+  }
+}
+
+/// Of the squared distance float32 makes an infinity, of which nothing may be left, not even times no stiffness.
+TEST_P(ToolsOnNetwork, SeveredHalvesDoNotSpoilEachOtherHoweverFarApartEdgeByEdge) {
+  ToolMotions motions;
+  motions[0] = sweep(0.0037);
+  tick(motions);
+  HostState state = solver_->readState();
+  for (uint32_t slot : body().lattice.active_slots) {
+    state.nodes[slot].lo &= ~layout::kFixedBit;
+    if (restPosition(body(), slot).x() > 0.0037) state.displacement_m[slot].x = 1e25f;
+  }
+  Scene scene = sceneFor(model_, 1, styluses_);
+  scene.solver.spring_forces = SpringForces::kEdge;
+  const auto solver = make(model_, scene);
+  solver->writeState(state);
+  solver->step({});
+  const HostState after = solver->readState();
+  for (uint32_t slot : body().lattice.active_slots) {
+    if (restPosition(body(), slot).x() > 0.0037) continue;
+    EXPECT_TRUE(xyz(after.velocity_m_per_s[slot]).allFinite()) << slot;
+  }
+}
+
+TEST_P(ToolsOnNetwork, CutClothMovesLikeTheReference) {
+  for (SpringForces scheme : kSchemes) {
+    SCOPED_TRACE(nameOf(scheme));
+    use(Model(model_), scheme);
+    ToolMotions motions;
+    motions[1] = motion(ToolMode::kGrab, {-0.03, 0, 0}, {-0.03, 0, 0.004});
+    motions[1].grab_begins = true;
+    tick(motions);
+    motions[0] = sweep(0.0037);
+    motions[1] = motion(ToolMode::kGrab, {-0.03, 0, 0.004}, {-0.03, 0, 0.01});
+    tick(motions);
+    expectSameCuts();
+    expectSameDisplacement();
+  }
+}
+
+TEST_P(ToolsOnNetwork, ResetMakesWhatWasCutWholeAgain) {
+  const uint64_t whole = stateHash(model_, solver_->readState());
+  ToolMotions motions;
+  motions[0] = sweep(0.0037);
+  tick(motions);
+  EXPECT_NE(stateHash(model_, solver_->readState()), whole);
+  solver_->reset();
+  EXPECT_EQ(stateHash(model_, solver_->readState()), whole);
+  const HostState stretched = scatteredState(model_, 1e-3, 0, 5);
+  solver_->writeState(stretched);
+  renewReference();
+  load(*reference_, stretched);
+  tick({});
+  expectSameDisplacement();
+}
+
+TEST_P(ToolsOnNetwork, WrittenStateBringsItsCutsWithIt) {
+  HostState state = scatteredState(model_, 1e-3, 0, 5);
+  ToolMotions motions;
+  motions[0] = sweep(0.0037);
+  tick(motions);
+  const HostState cut = solver_->readState();
+  state.nodes = cut.nodes;
+  state.spring_cut = cut.spring_cut;
+  solver_->reset();
+  solver_->writeState(state);
+  renewReference();
+  load(*reference_, state);
+  tick({});
+  expectSameDisplacement();
+}
+
+TEST_P(ToolsOnNetwork, BladeAtRestCutsNothing) {
+  ToolMotions motions;
+  motions[0] = motion(ToolMode::kCut, {0.0037, 0, 0.1}, {0.0037, 0, 0.1});
+  tick(motions);
+  EXPECT_EQ(stats().springs_cut, 0u);
+}
+
+TEST_P(ToolsOnNetwork, NodesDraggedToNoPlaceAtAllAreRolledBack) {
+  Scene scene = sceneFor(model_, kSubsteps, styluses_);
+  scene.solver.governor = true;
+  const auto solver = make(model_, scene);
+  ToolMotions motions;
+  motions[0] = motion(ToolMode::kGrab, {0, 0, 0}, {0, 0, 0});
+  motions[0].grab_begins = true;
+  solver->step(motions);
+  const uint64_t before = stateHash(model_, solver->readState());
+  motions[0].grab_begins = false;
+  motions[0].to.position_m.x() = std::numeric_limits<double>::quiet_NaN();
+  solver->step(motions);
+  EXPECT_EQ(stateHash(model_, solver->readState()), before);
+  for (int t = 0; t < 10; ++t) solver->step({});
+  EXPECT_EQ(solver->health().trips, 1u);  // a GPU tells of it a tick later
+  EXPECT_TRUE(isFinite(solver->readState().displacement_m));
+}
+
+TEST_P(ToolsOnNetwork, ExplosionIsRolledBackAndRecoveredFrom) {
+  constexpr double kEnergyBound = 1.01;  // of the start's energy, at the end of any tick
+  for (SpringForces scheme : kSchemes) {
+    Scene scene = sceneWith(Integrator::kLeapfrog, model_, 10, 10);
+    scene.solver.governor = true;
+    scene.solver.spring_forces = scheme;
+    SolverOptions unstable;
+    unstable.allow_unstable = true;
+    const auto solver = make(model_, scene, unstable);
+    const HostState start = scatteredState(model_, 3e-3, 0.1, 5);
+    const double start_j = energyOf(model_, start);
+    solver->writeState(start);
+    for (int t = 0; t < 20; ++t) {
+      solver->step({});
+      const HostState state = solver->readState();
+      ASSERT_TRUE(isFinite(state.displacement_m) && isFinite(state.velocity_m_per_s)) << "tick " << t;
+      ASSERT_LT(energyOf(model_, state), kEnergyBound * start_j) << "tick " << t;
+    }
+    EXPECT_GT(solver->health().trips, 0u);
+  }
+}

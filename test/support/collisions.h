@@ -1,0 +1,36 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "support/backends.h"
+#include "viscera/solver/cpu/surroundings.h"
+#include "viscera/solver/gpu/surroundings_pass.h"
+#include "viscera/solver/reference/collision.h"
+#include "viscera/solver/substeps.h"
+
+namespace viscera::test {
+
+/// Pairs that a backend's search finds in a state. @param backend  "gpu", which needs a context, or another
+inline std::vector<CollisionPair> pairsOf(const std::string& backend, const Model& model, const Scene& scene,
+                                          const HostState& state, uint32_t group_size = layout::kGroupSize) {
+  const double dt_s = safeTimeStep(model);
+  const std::vector<layout::BodyParams> params = bodyParams(model, dt_s);
+  if (backend == "gpu") {
+    const FeatureSet features = featuresOf(model, scene, 1, group_size);
+    LatticeBuffers buffers(model, params, features);
+    buffers.displacement[buffers.current].write(state.displacement_m);
+    buffers.nodes.write(state.nodes);
+    const SurroundingsPass pass(model, scene, features, buffers);
+    return pass.findPairs(buffers);
+  }
+  CpuLattice lattice(model, params, false);
+  lattice.write(state);
+  const Serial serial;
+  CpuSurroundings surroundings(model, scene, lattice, serial);
+  return surroundings.findPairs(lattice);
+}
+
+}  // namespace viscera::test
