@@ -130,7 +130,7 @@ void ContactLists::sortIntoCells() {
   std::fill(bucket_starts_.begin(), bucket_starts_.end(), 0);
   for (size_t e = 0; e < count_; ++e) ++bucket_starts_[bucketOf(cell_[e])];
   uint32_t sum = 0;
-  for (uint32_t& start : bucket_starts_) start = sum += start;  // for now where a bucket ends
+  for (uint32_t& start : bucket_starts_) start = sum += start;  // where a bucket ends, until its nodes are in
   for (size_t e = count_; e-- > 0;) {
     const uint32_t place = --bucket_starts_[bucketOf(cell_[e])];
     in_bucket_[place] = static_cast<uint32_t>(e);

@@ -30,8 +30,10 @@ class PdAlone {
     buffers_.bind();
     pass.run(buffers_, step_);
     buffers_.swap();
-    return {buffers_.displacement[buffers_.current].read(), buffers_.velocity[buffers_.current].read(),
-            buffers_.nodes.read(), {}};
+    return {buffers_.displacement[buffers_.current].read(),
+            buffers_.velocity[buffers_.current].read(),
+            buffers_.nodes.read(),
+            {}};
   }
   float dt_s() const { return step_.dt_s; }
   const LatticeBuffers& buffers() const { return buffers_; }
