@@ -8,9 +8,9 @@ import unittest
 
 import rospy
 import rostest
-import tf2_ros
 from geometry_msgs.msg import TransformStamped
 from simulator_watch import Latest, SimulatorWatch, wait_until
+from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import Marker
 
 BELOW_M, ABOVE_M = -0.03, 0.01  # heights of the plate's top
@@ -23,7 +23,7 @@ class MovingObstacleTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         rospy.init_node("moving_obstacle_test")
-        cls.broadcaster = tf2_ros.TransformBroadcaster()
+        cls.frames = rospy.Publisher("/tf", TFMessage, queue_size=10)
         cls.watch = SimulatorWatch()
         cls.watch.wait_ready()
         cls.marker = Latest("surface_marker", Marker)
@@ -35,7 +35,7 @@ class MovingObstacleTest(unittest.TestCase):
         transform.child_frame_id = "lift"
         transform.transform.translation.z = top_m - TOP_M
         transform.transform.rotation.w = 1
-        self.broadcaster.sendTransform(transform)
+        self.frames.publish([transform])
 
     def lowest(self):
         message = self.marker.message
