@@ -186,10 +186,6 @@ void measureWith(CpuLattice& lattice, const std::vector<uint32_t>& slots, layout
   takeLarger(stats.max_rate_bits, kernel.stats.max_rate_bits);
 }
 
-}  // namespace
-
-namespace {
-
 constexpr size_t kGroupsPerJob = 16;  // of a substep: some 10 us of work
 
 std::vector<uint32_t> groupsOf(const std::vector<uint32_t>& slots) {
@@ -211,17 +207,16 @@ CpuNetwork::CpuNetwork(const CpuLattice& lattice, const Parallel& parallel, bool
   }
   touched_.reserve(slots_.size());
   dashpot_ = std::any_of(lattice.bodies.begin(), lattice.bodies.end(), [](const auto& b) { return b.dashpot_s > 0; });
-  if (!edge_forces_ && lattice.bulk.empty()) {
+  for (const uint32_t cell : lattice.cells) {
+    if (!lattice.bulk.empty() && lattice.connections(cell) == layout::kExplicitLattice) cells_.push_back(cell);
+  }
+  if (!edge_forces_ && cells_.empty()) {
     rows_ = simd::LinkRows(lattice.network, groupsOf(slots_));
     return;
   }
   if (compensated) compensation_.resize(2 * lattice.slotCount());
   link_forces_.resize(lattice.edge_forces.places());
-  if (lattice.bulk.empty()) return;
-  for (const uint32_t cell : lattice.cells) {
-    if (lattice.connections(cell) == layout::kExplicitLattice) cells_.push_back(cell);
-  }
-  cell_forces_.assign(3 * lattice.slotCount(), glsl::vec4(0));
+  if (!cells_.empty()) cell_forces_.assign(3 * lattice.slotCount(), glsl::vec4(0));
 }
 
 void CpuNetwork::restart(const CpuLattice& lattice) {

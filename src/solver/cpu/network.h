@@ -24,9 +24,6 @@ class CpuNetwork {
   /// @param lattice  whether forces are edge-centric (GW 4) is its choice   @param compensated  Kahan's sums
   CpuNetwork(const CpuLattice& lattice, const Parallel& parallel, bool compensated);
 
-  bool empty() const { return slots_.empty(); }
-  const std::vector<uint32_t>& slots() const { return slots_; }  ///< nodes with explicit connections, ascending
-
   /// One substep of all of them, without contacts, from the current state into the other one.
   /// @param compensation  [6 * slots] of the lattice's kernels; empty without compensation
   void step(CpuLattice& lattice, const Substep& step, AlignedVector<float>& compensation);
