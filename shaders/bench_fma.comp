@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// bench_fma.comp - how many multiply-adds the renderer does in registers.   Owner: bench/machine_gpu.cpp
+// bench_fma.comp - how many multiply-adds the renderer does in registers.   Owner: bench/harness/machine_gpu.cpp
 // out  results [invocations]
 layout(local_size_x = GROUP_SIZE) in;
 layout(std430, binding = 0) writeonly buffer Results { vec4 results[]; };

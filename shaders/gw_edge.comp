@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// gw_edge.comp - edge-centric forces (GW 4.2), first pass: each spring once.   Owner: bench/gw_kernels.h
+// gw_edge.comp - edge-centric forces (GW 4.2), first pass: each spring once.   Owner: bench/gw/gw_kernels.h
 // in  displacement [nodes], springs, links
 // out  PER_LINK, as the solver does it: link_forces [links] N, both signs, a node's one behind the other; else, as
 // GW's force texture: spring_forces [springs] N on end a

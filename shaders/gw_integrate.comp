@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// gw_integrate.comp - a leapfrog substep from forces that are there already (physics.md 2).   Owner: bench/gw_kernels.h
+// gw_integrate.comp - a leapfrog substep from forces that are there already (physics.md 2).   Owner: bench/gw/gw_kernels.h
 // in  displacement, velocity, forces [nodes]     out  the next ones
 // Features: TARGET (forces are in a texture that was blended into), HALF (the state is kept in 16-bit floats).
 #include "gw_mesh.glsl"

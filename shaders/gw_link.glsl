@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What the shaders of GW's experiments have in common (bench/gw_kernels.h): a network in the solver's own buffers,
+// What the shaders of GW's experiments have in common (bench/gw/gw_kernels.h): a network in the solver's own buffers,
 // read by texel fetches. They are not the solver's kernels: those integrate in the same pass; here each stage is timed
 // by itself.
 #include "layout.h"

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // gw_owned.comp - edge-centric forces (GW 4.2), first pass: each spring once, by the end that owns it, as the solver does it
-// (spring_forces.comp).   Owner: bench/gw_kernels.h
+// (spring_forces.comp).   Owner: bench/gw/gw_kernels.h
 // in  displacement [nodes], owners, links     out  link_forces [springs + owners] N (SpringOwner)
 #include "gw_mesh.glsl"
 

@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// gw_point.comp - point-centric forces (GW 4.1): every node gathers over its links.   Owner: bench/gw_kernels.h
+// gw_point.comp - point-centric forces (GW 4.1): every node gathers over its links.   Owner: bench/gw/gw_kernels.h
 // in  displacement [nodes], links     out  forces [nodes] N
 // Feature ONE_NEIGHBOUR: GW's own way with a mesh of varying valence, a pass per neighbour over the nodes that have so
 // many; nodes are listed by falling valence, passes hand their sums on.

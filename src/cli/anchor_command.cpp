@@ -3,6 +3,7 @@
 #include <fstream>
 
 #include "cli/commands.h"
+#include "cli/scene_lookup.h"
 #include "viscera/math/error.h"
 #include "viscera/model/model.h"
 #include "viscera/tools/strokes.h"

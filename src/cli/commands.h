@@ -6,9 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/suites.h"
-#include "viscera/model/scene.h"
-#include "viscera/model/solid.h"
+#include "viscera/model/scene/scene.h"
 
 namespace viscera::cli {
 
@@ -29,30 +27,11 @@ struct RunOptions {
 /// `viscera run`: a session without ROS.
 int run(const RunOptions& options);
 
-struct BenchStepOptions {
-  std::vector<int> nodes;
-  std::string scene;
-  std::string csv = "-";
-  bool stages = false;  ///< of the GPU, in place of whole substeps
-  Overrides overrides;
-};
-/// `viscera bench step`: time of a substep, or of each of its stages.
-int benchStep(const BenchStepOptions& options);
-
-struct BenchSuiteOptions {
-  bench::SuiteOptions suite;
-  int device = -1;
-  bool strict = false;  ///< a missed limit is exit status 1
-};
-/// `viscera bench material` and its like: a suite of measurements.
-int benchSuite(const bench::Suite& suite, const BenchSuiteOptions& options);
+/// `viscera bench`: runs the program viscera-bench that stands beside this one. @param arguments  of the command line,
+/// from "bench" on, ended by null   @throws Error  it is not there   @return only if it could not be started
+int bench(char** arguments);
 
 /// `viscera anchor`: anchored strokes as absolute ones.
 int anchor(const RunOptions& options);
-
-/// The file itself, or the shipped scene of that name. @throws SceneError naming where it was looked for
-std::string findScene(const std::string& name);
-/// Reports preparation on standard error: one line per stage, refreshed where it is a terminal.
-Progress consoleProgress();
 
 }  // namespace viscera::cli

@@ -16,25 +16,11 @@ struct Options {
   int device = -1;
   cli::RunOptions run;
   double seconds = 0;
-  cli::BenchStepOptions step;
-  cli::BenchSuiteOptions suite;
 };
 
 void addOverrides(CLI::App* command, Overrides& overrides) {
   command->add_option("--set", overrides, "key=value: replaces one value of the scene, as in bodies[0].spacing_m=0.003")
       ->allow_extra_args(false);
-}
-
-/// One command per suite; `chosen` is the one that is given.
-void addSuites(CLI::App* bench, cli::BenchSuiteOptions& options, const bench::Suite*& chosen) {
-  for (const bench::Suite& suite : bench::suites()) {
-    CLI::App* command = bench->add_subcommand(suite.name, suite.what);
-    command->add_option("--out", options.suite.out, "folder for tables (CSV) and plots (PNG); default out/bench");
-    command->add_flag("--short", options.suite.short_form, "fewer and smaller cases: seconds");
-    command->add_flag("--strict", options.strict, "exit status 1 if a limit is missed");
-    command->add_option("--device", options.device, "EGL device, as `viscera check` lists them");
-    command->callback([&suite, &chosen] { chosen = &suite; });
-  }
 }
 
 int dispatch(int argc, char** argv) {
@@ -65,19 +51,7 @@ int dispatch(int argc, char** argv) {
   anchor->add_option("--out", o.run.out, "strokes file to write")->required();
   addOverrides(anchor, o.run.overrides);
 
-  CLI::App* bench = app.add_subcommand("bench", "measure");
-  bench->require_subcommand(1);
-  CLI::App* step = bench->add_subcommand("step", "time per substep of a cube and a heart");
-  step->add_option("--nodes", o.step.nodes, "node counts; default 10000 42745 100000")->check(CLI::Range(8, 20000000));
-  step->add_option("--scene", o.step.scene, "measure this scene instead");
-  step->add_option("--csv", o.step.csv, "file to write; - is standard output");
-  step->add_flag("--stages", o.step.stages, "time of each stage on the GPU, by its own clock");
-  addOverrides(step, o.step.overrides);
-  step->get_option("--scene")->excludes("--nodes");
-  step->get_option("--set")->needs("--scene");
-
-  const bench::Suite* suite = nullptr;
-  addSuites(bench, o.suite, suite);
+  app.add_subcommand("bench", "measure: `viscera bench --help` lists what");  // main() has taken it
 
   CLI::App* keys = app.add_subcommand("keys", "print the table of scene keys");
   try {
@@ -87,8 +61,6 @@ int dispatch(int argc, char** argv) {
   }
   if (*check) return cli::check(o.device);
   if (*anchor) return cli::anchor(o.run);
-  if (*step) return cli::benchStep(o.step);
-  if (suite) return cli::benchSuite(*suite, o.suite);
   if (*keys) {
     std::cout << sceneKeysTable();
     return 0;
@@ -102,7 +74,8 @@ int dispatch(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   try {
-    return dispatch(argc, argv);
+    const bool measures = argc > 1 && std::string(argv[1]) == "bench";
+    return measures ? cli::bench(argv + 1) : dispatch(argc, argv);
   } catch (const std::exception& e) {
     std::fflush(stdout);
     std::cerr << "viscera: error: " << e.what() << '\n';

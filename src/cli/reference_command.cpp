@@ -7,10 +7,11 @@
 
 #include "cli/run_metrics.h"
 #include "cli/run_plan.h"
+#include "cli/scene_lookup.h"
+#include "solver/gpu/gpu_solver.h"
+#include "solver/reference/reference_ticks.h"
+#include "solver/surroundings.h"
 #include "viscera/math/error.h"
-#include "viscera/solver/gpu/gpu_solver.h"
-#include "viscera/solver/reference/reference_ticks.h"
-#include "viscera/solver/surroundings.h"
 
 namespace viscera::cli {
 

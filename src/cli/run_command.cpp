@@ -9,6 +9,7 @@
 #include "cli/commands.h"
 #include "cli/run_metrics.h"
 #include "cli/run_plan.h"
+#include "cli/scene_lookup.h"
 #include "viscera/math/error.h"
 #include "viscera/session/session.h"
 #include "viscera/tools/strokes.h"

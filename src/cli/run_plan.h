@@ -3,7 +3,7 @@
 #pragma once
 
 #include "cli/commands.h"
-#include "viscera/model/scene.h"
+#include "viscera/model/scene/scene.h"
 #include "viscera/tools/strokes.h"
 
 namespace viscera::cli {

@@ -1,11 +1,12 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include "cli/scene_lookup.h"
+
 #include <unistd.h>
 
 #include <filesystem>
 #include <iostream>
 
-#include "cli/commands.h"
 #include "viscera/math/error.h"
 
 namespace viscera::cli {

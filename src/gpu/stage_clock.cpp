@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "viscera/gpu/stage_clock.h"
+#include "gpu/stage_clock.h"
 
 #include "gpu/gl.h"
 #include "viscera/math/error.h"

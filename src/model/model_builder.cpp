@@ -3,15 +3,15 @@
 #include <algorithm>
 #include <limits>
 
-#include "model/body_notes.h"
-#include "model/fixed_nodes.h"
-#include "model/network_body.h"
-#include "model/spacing_search.h"
-#include "model/structure_rules.h"
-#include "model/tissue.h"
+#include "model/body/body_notes.h"
+#include "model/body/fixed_nodes.h"
+#include "model/body/network_body.h"
+#include "model/body/network_builder.h"
+#include "model/body/network_skin.h"
+#include "model/body/spacing_search.h"
+#include "model/scene/structure_rules.h"
+#include "model/shape/tissue.h"
 #include "viscera/math/error.h"
-#include "viscera/model/network_builder.h"
-#include "viscera/model/network_skin.h"
 
 namespace viscera {
 namespace {

@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-#include "viscera/render/renderer.h"
+#include "render/renderer.h"
 
 namespace viscera::nodes {
 namespace {

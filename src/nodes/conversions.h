@@ -16,7 +16,7 @@
 #include "viscera/SurfaceTopology.h"
 #include "viscera/SurfaceVertices.h"
 #include "viscera/math/types.h"
-#include "viscera/model/scene.h"
+#include "viscera/model/scene/scene.h"
 #include "viscera/session/session.h"
 #include "viscera/tools/stylus.h"
 

@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "viscera/render/renderer.h"
+#include "render/renderer.h"
 
 namespace viscera::nodes {
 FramePublisher::FramePublisher(ros::NodeHandle node, const Scene& scene,

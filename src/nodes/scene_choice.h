@@ -5,7 +5,7 @@
 #include <string>
 
 #include "nodes/parameters.h"
-#include "viscera/model/scene.h"
+#include "viscera/model/scene/scene.h"
 
 namespace viscera::nodes {
 

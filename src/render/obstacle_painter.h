@@ -4,10 +4,10 @@
 
 #include <vector>
 
+#include "render/obstacle_shape.h"
 #include "render/vertex_array.h"
 #include "viscera/gpu/buffer.h"
 #include "viscera/gpu/program.h"
-#include "viscera/render/obstacle_shape.h"
 
 namespace viscera {
 

@@ -1,14 +1,14 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "viscera/render/renderer.h"
+#include "render/renderer.h"
 
 #include <cassert>
 
 #include "gpu/gl.h"
+#include "gpu/stage_clock.h"
 #include "render/obstacle_painter.h"
 #include "render/tissue_painter.h"
 #include "render/tool_painter.h"
-#include "viscera/gpu/stage_clock.h"
 
 namespace viscera {
 

@@ -5,10 +5,10 @@
 #include <array>
 #include <vector>
 
+#include "render/tool_shape.h"
 #include "render/vertex_array.h"
 #include "viscera/gpu/buffer.h"
 #include "viscera/gpu/program.h"
-#include "viscera/render/tool_shape.h"
 #include "viscera/tools/stylus.h"
 
 namespace viscera {

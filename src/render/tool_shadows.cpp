@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "viscera/render/tool_shape.h"
+#include "render/tool_shape.h"
 
 namespace viscera {
 

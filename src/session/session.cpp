@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "viscera/math/float_bits.h"
-#include "viscera/session/auto_spacing.h"
-#include "viscera/solver/make_solver.h"
+#include "math/float_bits.h"
+#include "solver/make_solver.h"
+#include "viscera/calibration/auto_spacing.h"
 
 namespace viscera {
 

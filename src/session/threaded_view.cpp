@@ -1,14 +1,14 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "viscera/session/threaded_view.h"
+#include "session/threaded_view.h"
 
 #include <algorithm>
 #include <iterator>
 #include <utility>
 
+#include "session/inline_view.h"
+#include "surface/state_mirror.h"
 #include "viscera/math/error.h"
-#include "viscera/session/inline_view.h"
-#include "viscera/surface/state_mirror.h"
 
 namespace viscera {
 

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "viscera/session/inline_view.h"
-#include "viscera/session/threaded_view.h"
+#include "session/inline_view.h"
+#include "session/threaded_view.h"
 
 namespace viscera {
 

@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "viscera/solver/colours.h"
+#include "solver/colours.h"
 
 #include <algorithm>
 

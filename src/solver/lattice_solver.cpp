@@ -1,11 +1,11 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "viscera/solver/lattice_solver.h"
+#include "solver/lattice_solver.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "viscera/math/float_bits.h"
+#include "math/float_bits.h"
 
 namespace viscera {
 

@@ -1,9 +1,9 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "viscera/solver/make_solver.h"
+#include "solver/make_solver.h"
 
-#include "viscera/solver/cpu/cpu_solver.h"
-#include "viscera/solver/gpu/gpu_solver.h"
+#include "solver/cpu/cpu_solver.h"
+#include "solver/gpu/gpu_solver.h"
 
 namespace viscera {
 

@@ -1,14 +1,14 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "viscera/solver/surroundings.h"
+#include "solver/surroundings.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <string>
 
+#include "solver/collision.h"
 #include "viscera/math/error.h"
-#include "viscera/solver/collision.h"
 #include "viscera/solver/material.h"
 
 namespace viscera {

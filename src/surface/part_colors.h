@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "viscera/math/types.h"
-#include "viscera/model/triangle_mesh.h"
+#include "viscera/model/shape/triangle_mesh.h"
 
 namespace viscera {
 

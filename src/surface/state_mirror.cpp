@@ -1,13 +1,13 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "viscera/surface/state_mirror.h"
+#include "surface/state_mirror.h"
 
 #include <algorithm>
 #include <cassert>
 #include <cstring>
 
-#include "viscera/solver/joined_lattice.h"
-#include "viscera/solver/joined_network.h"
+#include "solver/joined_lattice.h"
+#include "solver/joined_network.h"
 #include "viscera/solver/material.h"
 
 namespace viscera {

@@ -9,9 +9,9 @@
 #include <utility>
 
 #include "gpu/gl.h"
+#include "gpu/stage_clock.h"
 #include "surface/network_surface.h"
 #include "surface/part_colors.h"
-#include "viscera/gpu/stage_clock.h"
 
 namespace viscera {
 

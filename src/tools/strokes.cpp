@@ -7,7 +7,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "model/yaml_reader.h"
+#include "model/scene/yaml_reader.h"
 #include "viscera/math/error.h"
 
 namespace viscera {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "bench/experiment.h"
+#include "bench/harness/experiment.h"
 #include "support/process.h"
 #include "support/text.h"
 

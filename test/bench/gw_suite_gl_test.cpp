@@ -6,14 +6,14 @@
 #include <random>
 #include <set>
 
-#include "bench/experiment.h"
-#include "bench/gw_kernels.h"
-#include "bench/gw_network.h"
-#include "bench/gw_triangulation.h"
+#include "bench/gw/gw_kernels.h"
+#include "bench/gw/gw_network.h"
+#include "bench/gw/gw_triangulation.h"
+#include "bench/harness/experiment.h"
+#include "solver/reference/reference_solver.h"
 #include "support/process.h"
 #include "support/text.h"
 #include "viscera/gpu/context.h"
-#include "viscera/solver/reference/reference_solver.h"
 
 namespace viscera::bench {
 namespace {

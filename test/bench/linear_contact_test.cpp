@@ -1,12 +1,12 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bench/linear_contact.h"
+#include "bench/harness/linear_contact.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "bench/block.h"
+#include "bench/harness/block.h"
 
 namespace viscera::bench {
 namespace {

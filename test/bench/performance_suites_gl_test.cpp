@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
-#include "bench/suites.h"
+#include "bench/suites/suites.h"
 #include "support/process.h"
 #include "support/text.h"
 

@@ -1,13 +1,13 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bench/rate.h"
+#include "bench/harness/rate.h"
 
 #include <gtest/gtest.h>
 
 #include <chrono>
 #include <thread>
 
-#include "bench/machine.h"
+#include "bench/harness/machine.h"
 
 namespace viscera::bench {
 namespace {

@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bench/report.h"
+#include "bench/harness/report.h"
 
 #include <gtest/gtest.h>
 #include <stdlib.h>

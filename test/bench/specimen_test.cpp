@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bench/specimen.h"
+#include "bench/harness/specimen.h"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "bench/stability_trial.h"
+#include "bench/suites/stability_trial.h"
 #include "support/process.h"
 #include "support/text.h"
 #include "viscera/gpu/context.h"

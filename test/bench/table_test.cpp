@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bench/table.h"
+#include "bench/harness/table.h"
 
 #include <gtest/gtest.h>
 

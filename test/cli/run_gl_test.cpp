@@ -8,7 +8,7 @@
 
 #include "cli/small_scene.h"
 #include "support/text.h"
-#include "viscera/model/scene.h"
+#include "viscera/model/scene/scene.h"
 
 namespace viscera {
 namespace {

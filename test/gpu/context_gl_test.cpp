@@ -6,9 +6,9 @@
 
 #include <thread>
 
+#include "gpu/readback.h"
 #include "viscera/gpu/buffer.h"
 #include "viscera/gpu/program.h"
-#include "viscera/gpu/readback.h"
 #include "viscera/math/error.h"
 
 using namespace viscera;

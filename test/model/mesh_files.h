@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "viscera/model/triangle_mesh.h"
+#include "viscera/model/shape/triangle_mesh.h"
 
 namespace viscera::test {
 

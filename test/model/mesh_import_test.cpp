@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "viscera/model/mesh_import.h"
+#include "viscera/model/shape/mesh_import.h"
 
 #include <limits>
 

@@ -11,7 +11,7 @@
 #include <map>
 #include <string>
 
-#include "viscera/model/triangle_mesh.h"
+#include "viscera/model/shape/triangle_mesh.h"
 
 namespace viscera::test {
 

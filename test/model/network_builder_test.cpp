@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "viscera/model/network_builder.h"
+#include "model/body/network_builder.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include "mesh_samples.h"
 #include "support/lattices.h"
 #include "support/networks.h"
-#include "viscera/model/elasticity.h"
+#include "viscera/model/body/elasticity.h"
 
 namespace viscera::test {
 namespace {

@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "body_samples.h"
-#include "viscera/model/network_builder.h"
+#include "model/body/network_builder.h"
 
 namespace viscera::test {
 namespace {

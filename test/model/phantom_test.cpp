@@ -1,13 +1,13 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "viscera/model/phantom.h"
+#include "model/shape/phantom.h"
 
 #include <limits>
 #include <numeric>
 #include <set>
 
 #include "mesh_samples.h"
-#include "model/spacing_search.h"
+#include "model/body/spacing_search.h"
 #include "solid_probe.h"
 #include "viscera/math/error.h"
 

@@ -7,7 +7,7 @@
 #include <set>
 #include <sstream>
 
-#include "viscera/model/scene.h"
+#include "viscera/model/scene/scene.h"
 
 namespace viscera {
 namespace {

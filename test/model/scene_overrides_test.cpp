@@ -4,7 +4,7 @@
 
 #include "support/text.h"
 #include "viscera/math/error.h"
-#include "viscera/model/scene.h"
+#include "viscera/model/scene/scene.h"
 
 namespace viscera {
 namespace {

@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "viscera/model/scene.h"
+#include "viscera/model/scene/scene.h"
 
 #include <gtest/gtest.h>
 

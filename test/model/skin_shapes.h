@@ -7,9 +7,9 @@
 #include <cmath>
 #include <limits>
 
-#include "viscera/model/lattice.h"
-#include "viscera/model/skin.h"
-#include "viscera/model/triangle_mesh.h"
+#include "viscera/model/body/lattice.h"
+#include "viscera/model/body/skin.h"
+#include "viscera/model/shape/triangle_mesh.h"
 
 namespace viscera::testing {
 

@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "viscera/model/skin.h"
+#include "viscera/model/body/skin.h"
 
 #include <gtest/gtest.h>
 
@@ -8,10 +8,10 @@
 #include <fstream>
 #include <random>
 
-#include "model/skin_anchor.h"
+#include "model/body/skin_anchor.h"
 #include "model/skin_shapes.h"
 #include "surface/reference_mapping.h"
-#include "viscera/model/mesh_import.h"
+#include "viscera/model/shape/mesh_import.h"
 
 using namespace viscera;
 using namespace viscera::testing;

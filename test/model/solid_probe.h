@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "viscera/model/solid.h"
+#include "viscera/model/shape/solid.h"
 
 namespace viscera::test {
 

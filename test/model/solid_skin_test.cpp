@@ -4,7 +4,7 @@
 
 #include "mesh_samples.h"
 #include "viscera/math/error.h"
-#include "viscera/model/solid.h"
+#include "viscera/model/shape/solid.h"
 
 namespace viscera::test {
 namespace {

@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "viscera/model/spacing_choice.h"
+#include "viscera/model/body/spacing_choice.h"
 
 #include <cmath>
 

@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "viscera/model/triangle_mesh.h"
+#include "viscera/model/shape/triangle_mesh.h"
 
 #include "mesh_samples.h"
 

@@ -4,8 +4,8 @@
 
 #include "mesh_samples.h"
 #include "solid_probe.h"
-#include "viscera/model/mesh_import.h"
-#include "viscera/model/solid.h"
+#include "viscera/model/shape/mesh_import.h"
+#include "viscera/model/shape/solid.h"
 
 namespace viscera::test {
 namespace {

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "gpu/gl.h"
+#include "render/renderer.h"
 #include "viscera/gpu/buffer.h"
 #include "viscera/gpu/context.h"
-#include "viscera/render/renderer.h"
 
 namespace viscera {
 

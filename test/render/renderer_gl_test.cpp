@@ -1,11 +1,11 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "viscera/render/renderer.h"
+#include "render/renderer.h"
 
 #include <algorithm>
 
+#include "gpu/readback.h"
 #include "render/drawing.h"
-#include "viscera/gpu/readback.h"
 #include "viscera/math/error.h"
 
 using namespace viscera;

@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "viscera/session/threaded_view.h"
+#include "session/threaded_view.h"
 
 #include <gtest/gtest.h>
 
@@ -9,10 +9,10 @@
 #include <thread>
 
 #include "session/block_session.h"
+#include "session/inline_view.h"
+#include "solver/joined_lattice.h"
 #include "support/gpu_fixture.h"
 #include "viscera/math/error.h"
-#include "viscera/session/inline_view.h"
-#include "viscera/solver/joined_lattice.h"
 
 namespace viscera {
 namespace {

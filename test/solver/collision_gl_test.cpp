@@ -1,9 +1,9 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include "solver/collision.h"
 #include "support/backends.h"
 #include "support/loose_cloth.h"
 #include "support/random_state.h"
-#include "viscera/solver/collision.h"
 
 using namespace viscera;
 using namespace viscera::test;

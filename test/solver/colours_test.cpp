@@ -1,12 +1,12 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "viscera/solver/colours.h"
+#include "solver/colours.h"
 
 #include <gtest/gtest.h>
 
+#include "solver/joined_lattice.h"
 #include "support/lattices.h"
 #include "support/networks.h"
-#include "viscera/solver/joined_lattice.h"
 
 using namespace viscera;
 using namespace viscera::test;

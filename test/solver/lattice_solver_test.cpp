@@ -1,12 +1,12 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// What a backend that lags behind the host, as a GPU does, must not change (include/viscera/solver/lattice_solver.h).
-#include "viscera/solver/lattice_solver.h"
+// What a backend that lags behind the host, as a GPU does, must not change (src/solver/lattice_solver.h).
+#include "solver/lattice_solver.h"
 
 #include <deque>
 
+#include "solver/cpu/cpu_solver.h"
 #include "support/random_state.h"
-#include "viscera/solver/cpu/cpu_solver.h"
 
 using namespace viscera;
 using namespace viscera::test;

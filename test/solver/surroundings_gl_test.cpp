@@ -1,9 +1,9 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include "solver/surroundings.h"
 #include "support/backends.h"
 #include "support/loose_cloth.h"
 #include "viscera/math/error.h"
-#include "viscera/solver/surroundings.h"
 
 using namespace viscera;
 using namespace viscera::test;

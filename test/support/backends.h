@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
+#include "solver/cpu/cpu_solver.h"
+#include "solver/gpu/gpu_solver.h"
 #include "support/gpu_fixture.h"
-#include "viscera/solver/cpu/cpu_solver.h"
-#include "viscera/solver/gpu/gpu_solver.h"
 
 namespace viscera::test {
 

@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "solver/cpu/surroundings.h"
+#include "solver/gpu/surroundings_pass.h"
+#include "solver/reference/collision.h"
+#include "solver/substeps.h"
 #include "support/backends.h"
-#include "viscera/solver/cpu/surroundings.h"
-#include "viscera/solver/gpu/surroundings_pass.h"
-#include "viscera/solver/reference/collision.h"
-#include "viscera/solver/substeps.h"
 
 namespace viscera::test {
 

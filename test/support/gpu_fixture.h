@@ -7,10 +7,10 @@
 #include <cmath>
 #include <random>
 
+#include "solver/gpu/gpu_solver.h"
+#include "solver/reference/reference_solver.h"
 #include "support/lattices.h"
 #include "viscera/gpu/context.h"
-#include "viscera/solver/gpu/gpu_solver.h"
-#include "viscera/solver/reference/reference_solver.h"
 
 namespace viscera::test {
 

@@ -6,8 +6,8 @@
 #include <random>
 #include <vector>
 
-#include "viscera/model/network_builder.h"
-#include "viscera/model/plain_meshes.h"
+#include "model/body/network_builder.h"
+#include "model/shape/plain_meshes.h"
 
 namespace viscera::test {
 

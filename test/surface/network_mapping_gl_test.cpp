@@ -7,9 +7,9 @@
 #include <random>
 
 #include "support/networks.h"
+#include "surface/state_mirror.h"
 #include "surface/surface_rig.h"
 #include "viscera/gpu/context.h"
-#include "viscera/surface/state_mirror.h"
 
 namespace viscera {
 namespace {

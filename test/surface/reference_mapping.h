@@ -9,7 +9,7 @@
 #include <unordered_set>
 #include <vector>
 
-#include "viscera/model/skin.h"
+#include "viscera/model/body/skin.h"
 
 namespace viscera::testing {
 

@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "viscera/surface/state_mirror.h"
+#include "surface/state_mirror.h"
 
 #include <gtest/gtest.h>
 
@@ -10,10 +10,10 @@
 
 #include "gpu/gl.h"
 
+#include "model/body/neighbors.h"
 #include "surface/cloth_cuts.h"
 #include "surface/surface_rig.h"
 #include "viscera/gpu/context.h"
-#include "viscera/model/neighbors.h"
 
 namespace viscera {
 namespace {

@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
+#include "model/body/network_skin.h"
 #include "model/skin_shapes.h"
-#include "viscera/model/network_skin.h"
-#include "viscera/solver/gpu/lattice_buffers.h"
+#include "solver/gpu/lattice_buffers.h"
 #include "viscera/solver/solver.h"
 #include "viscera/surface/surface.h"
 

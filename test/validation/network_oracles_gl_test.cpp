@@ -4,7 +4,7 @@
 #include <numeric>
 
 #include "solver/network_rig.h"
-#include "viscera/solver/reference/statics.h"
+#include "solver/reference/statics.h"
 
 using namespace viscera;
 using namespace viscera::test;

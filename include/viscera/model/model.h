@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "viscera/model/lattice.h"
-#include "viscera/model/mesh_import.h"
-#include "viscera/model/scene.h"
-#include "viscera/model/skin.h"
-#include "viscera/model/solid.h"
-#include "viscera/model/spring_network.h"
+#include "viscera/model/body/lattice.h"
+#include "viscera/model/body/skin.h"
+#include "viscera/model/body/spring_network.h"
+#include "viscera/model/scene/scene.h"
+#include "viscera/model/shape/mesh_import.h"
+#include "viscera/model/shape/solid.h"
 
 namespace viscera {
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "viscera/math/types.h"
-#include "viscera/model/scene.h"
+#include "viscera/model/scene/scene.h"
 
 namespace viscera {
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "viscera/model/elasticity.h"
+#include "viscera/model/body/elasticity.h"
 #include "viscera/model/model.h"
 
 namespace viscera {

@@ -7,7 +7,7 @@
 
 #include "layout.h"
 #include "viscera/math/types.h"
-#include "viscera/model/scene.h"
+#include "viscera/model/scene/scene.h"
 
 namespace viscera {
 

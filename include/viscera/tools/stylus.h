@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "viscera/math/types.h"
-#include "viscera/model/scene.h"
+#include "viscera/model/scene/scene.h"
 
 namespace viscera {
 

@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solver/cpu/glsl_kernel.h"
-#include "viscera/solver/cpu/tool_passes.h"
+#include "solver/cpu/tool_passes.h"
 
 namespace viscera {
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "viscera/solver/collision.h"
+#include "solver/collision.h"
 
 namespace viscera {
 

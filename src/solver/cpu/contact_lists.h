@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "solver/cpu/collision_kernel.h"
-#include "viscera/solver/cpu/parallel.h"
+#include "solver/cpu/parallel.h"
 
 namespace viscera {
 

@@ -1,11 +1,11 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "viscera/solver/cpu/cpu_lattice.h"
+#include "solver/cpu/cpu_lattice.h"
 
 #include <algorithm>
 #include <array>
 
-#include "viscera/solver/joined_lattice.h"
+#include "solver/joined_lattice.h"
 
 namespace viscera {
 

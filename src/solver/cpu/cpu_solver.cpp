@@ -1,16 +1,16 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "viscera/solver/cpu/cpu_solver.h"
+#include "solver/cpu/cpu_solver.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "math/float_bits.h"
 #include "solver/cpu/kernels.h"
 #include "solver/cpu/network.h"
 #include "viscera/gpu/buffer.h"
 #include "viscera/math/error.h"
-#include "viscera/math/float_bits.h"
 
 namespace viscera {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "solver/cpu/glsl_kernel.h"
-#include "viscera/solver/cpu/tool_passes.h"
+#include "solver/cpu/tool_passes.h"
 
 namespace viscera {
 

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "solver/cpu/cpu_lattice.h"
 #include "solver/cpu/glsl.h"
-#include "viscera/solver/cpu/cpu_lattice.h"
-#include "viscera/solver/substep.h"
+#include "solver/substep.h"
 
 // Bodies of both kinds may be there: which one a node belongs to is asked at run time.
 #define LATTICE

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <array>
 
+#include "solver/cpu/cpu_stepper.h"
 #include "solver/cpu/glsl_kernel.h"
-#include "viscera/solver/cpu/cpu_stepper.h"
 
 namespace viscera {
 

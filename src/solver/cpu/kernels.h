@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "layout.h"
-#include "viscera/solver/substep.h"
+#include "solver/substep.h"
 
 // The SIMD kernels of the CPU backend, compiled for several instruction sets and chosen at run time. They work on
 // bricks; a vector is the 4x4 nodes of a plane, or as many rows of them as it has lanes for.

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
+#include "math/float_bits.h"
 #include "solver/cpu/implicit_substep.h"
-#include "viscera/math/float_bits.h"
 
 namespace viscera {
 

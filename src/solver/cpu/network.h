@@ -6,7 +6,7 @@
 
 #include "solver/cpu/glsl_kernel.h"
 #include "solver/cpu/network_kernels.h"
-#include "viscera/solver/cpu/parallel.h"
+#include "solver/cpu/parallel.h"
 
 namespace viscera {
 

@@ -88,7 +88,7 @@ void leapfrogNetworkOf(const NetworkJob& job, size_t first, size_t last) {
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-#include "viscera/solver/cpu/cpu_lattice.h"
+#include "solver/cpu/cpu_lattice.h"
 
 namespace viscera::simd {
 

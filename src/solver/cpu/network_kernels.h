@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "layout.h"
-#include "viscera/math/aligned.h"
-#include "viscera/solver/joined_network.h"
-#include "viscera/solver/substep.h"
+#include "math/aligned.h"
+#include "solver/joined_network.h"
+#include "solver/substep.h"
 
 namespace viscera::simd {
 

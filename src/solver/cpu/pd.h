@@ -3,7 +3,7 @@
 #pragma once
 
 #include "solver/cpu/implicit_substep.h"
-#include "viscera/solver/jacobi.h"
+#include "solver/jacobi.h"
 
 namespace viscera {
 

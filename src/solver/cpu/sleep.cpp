@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "viscera/solver/cpu/sleep.h"
+#include "solver/cpu/sleep.h"
 
 #include <algorithm>
 #include <cmath>

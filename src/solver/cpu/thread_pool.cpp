@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "viscera/solver/cpu/thread_pool.h"
+#include "solver/cpu/thread_pool.h"
 
 #include <chrono>
 

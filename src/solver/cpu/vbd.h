@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "solver/colours.h"
 #include "solver/cpu/implicit_substep.h"
-#include "viscera/solver/colours.h"
 
 namespace viscera {
 

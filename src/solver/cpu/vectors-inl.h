@@ -11,7 +11,7 @@
 
 #include "hwy/highway.h"
 #include "layout.h"
-#include "viscera/solver/substep.h"
+#include "solver/substep.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace viscera::simd::HWY_NAMESPACE {

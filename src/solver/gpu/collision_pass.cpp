@@ -1,10 +1,10 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "viscera/solver/gpu/collision_pass.h"
+#include "solver/gpu/collision_pass.h"
 
 #include <algorithm>
 
-#include "viscera/solver/surroundings.h"
+#include "solver/surroundings.h"
 
 namespace viscera {
 

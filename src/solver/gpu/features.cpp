@@ -1,9 +1,9 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "viscera/solver/gpu/features.h"
+#include "solver/gpu/features.h"
 
+#include "solver/substeps.h"
 #include "viscera/solver/material.h"
-#include "viscera/solver/substeps.h"
 
 namespace viscera {
 

@@ -1,10 +1,10 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "viscera/solver/gpu/gpu_solver.h"
+#include "solver/gpu/gpu_solver.h"
 
 #include <cstring>
 
-#include "viscera/gpu/stage_clock.h"
+#include "gpu/stage_clock.h"
 #include "viscera/math/error.h"
 
 namespace viscera {

@@ -1,9 +1,9 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "viscera/solver/gpu/implicit_substep.h"
+#include "solver/gpu/implicit_substep.h"
 
+#include "gpu/stage_clock.h"
 #include "solver/gpu/sum_tree.h"
-#include "viscera/gpu/stage_clock.h"
 
 namespace viscera {
 

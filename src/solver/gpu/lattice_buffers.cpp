@@ -1,10 +1,10 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "viscera/solver/gpu/lattice_buffers.h"
+#include "solver/gpu/lattice_buffers.h"
 
 #include <utility>
 
-#include "viscera/solver/joined_lattice.h"
+#include "solver/joined_lattice.h"
 
 namespace viscera {
 

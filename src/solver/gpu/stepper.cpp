@@ -1,11 +1,11 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "viscera/solver/gpu/stepper.h"
+#include "solver/gpu/stepper.h"
 
-#include "viscera/solver/gpu/leapfrog_pass.h"
-#include "viscera/solver/gpu/pd_pass.h"
-#include "viscera/solver/gpu/vbd_pass.h"
-#include "viscera/solver/gpu/verlet_paper_pass.h"
+#include "solver/gpu/leapfrog_pass.h"
+#include "solver/gpu/pd_pass.h"
+#include "solver/gpu/vbd_pass.h"
+#include "solver/gpu/verlet_paper_pass.h"
 
 namespace viscera {
 

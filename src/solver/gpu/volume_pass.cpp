@@ -1,8 +1,8 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "viscera/solver/gpu/volume_pass.h"
+#include "solver/gpu/volume_pass.h"
 
-#include "viscera/gpu/stage_clock.h"
+#include "gpu/stage_clock.h"
 
 namespace viscera {
 

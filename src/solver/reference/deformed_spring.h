@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "viscera/solver/reference/reference_lattice.h"
+#include "solver/reference/reference_lattice.h"
 
 namespace viscera {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "solver/reference/newton.h"
-#include "viscera/solver/reference/reference_solver.h"
+#include "solver/reference/reference_solver.h"
 
 namespace viscera {
 

@@ -4,8 +4,8 @@
 
 #include <Eigen/SparseCholesky>
 
-#include "viscera/solver/reference/reference_lattice.h"
-#include "viscera/solver/reference/statics.h"
+#include "solver/reference/reference_lattice.h"
+#include "solver/reference/statics.h"
 
 namespace viscera {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "solver/reference/deformed_spring.h"
-#include "viscera/solver/reference/volume_energy.h"
+#include "solver/reference/volume_energy.h"
 
 namespace viscera {
 

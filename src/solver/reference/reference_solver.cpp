@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "viscera/solver/reference/reference_solver.h"
+#include "solver/reference/reference_solver.h"
 
 #include <cmath>
 

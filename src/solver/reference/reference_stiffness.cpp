@@ -4,7 +4,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "solver/reference/deformed_spring.h"
-#include "viscera/solver/reference/volume_energy.h"
+#include "solver/reference/volume_energy.h"
 
 namespace viscera {
 

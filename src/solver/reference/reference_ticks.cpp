@@ -1,10 +1,10 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "viscera/solver/reference/reference_ticks.h"
+#include "solver/reference/reference_ticks.h"
 
 #include <algorithm>
 
-#include "viscera/solver/substeps.h"
+#include "solver/substeps.h"
 
 namespace viscera {
 

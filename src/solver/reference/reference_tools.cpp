@@ -5,7 +5,7 @@
 #include <cmath>
 #include <optional>
 
-#include "viscera/solver/reference/reference_solver.h"
+#include "solver/reference/reference_solver.h"
 
 namespace viscera {
 

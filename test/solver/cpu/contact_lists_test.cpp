@@ -3,11 +3,11 @@
 #include <cstring>
 #include <limits>
 
+#include "solver/cpu/surroundings.h"
+#include "solver/cpu/thread_pool.h"
+#include "solver/substeps.h"
 #include "support/backends.h"
 #include "support/loose_cloth.h"
-#include "viscera/solver/cpu/surroundings.h"
-#include "viscera/solver/cpu/thread_pool.h"
-#include "viscera/solver/substeps.h"
 
 using namespace viscera;
 using namespace viscera::test;

@@ -1,12 +1,12 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "viscera/solver/cpu/cpu_solver.h"
+#include "solver/cpu/cpu_solver.h"
 
+#include "solver/joined_lattice.h"
 #include "support/backends.h"
 #include "support/implicit.h"
 #include "support/text.h"
 #include "viscera/math/error.h"
-#include "viscera/solver/joined_lattice.h"
 
 using namespace viscera;
 using namespace viscera::test;

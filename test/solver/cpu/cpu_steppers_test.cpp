@@ -1,12 +1,12 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "viscera/solver/cpu/cpu_stepper.h"
+#include "solver/cpu/cpu_stepper.h"
 
 #include <thread>
 
 #include "solver/cpu/pd.h"
+#include "solver/cpu/tool_passes.h"
 #include "support/implicit.h"
-#include "viscera/solver/cpu/tool_passes.h"
 
 using namespace viscera;
 using namespace viscera::test;

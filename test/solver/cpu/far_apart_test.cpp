@@ -4,9 +4,9 @@
 
 #include <cmath>
 
+#include "solver/cpu/cpu_solver.h"
+#include "solver/joined_lattice.h"
 #include "support/lattices.h"
-#include "viscera/solver/cpu/cpu_solver.h"
-#include "viscera/solver/joined_lattice.h"
 
 namespace viscera {
 namespace {

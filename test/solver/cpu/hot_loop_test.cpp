@@ -8,8 +8,8 @@
 #include <fstream>
 #include <new>
 
+#include "solver/cpu/cpu_solver.h"
 #include "support/lattices.h"
-#include "viscera/solver/cpu/cpu_solver.h"
 
 namespace {
 

@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Bricks at rest sleep, and wake when something happens to them.
-#include "viscera/solver/cpu/sleep.h"
+#include "solver/cpu/sleep.h"
 
 #include "support/backends.h"
 #include "support/random_state.h"

@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 // PdPass by itself, and what only the GPU has; the rest is in solver/pd_gl_test.cpp.
-#include "viscera/solver/gpu/pd_pass.h"
+#include "solver/gpu/pd_pass.h"
 
 #include "support/implicit.h"
 

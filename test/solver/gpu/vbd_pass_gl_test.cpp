@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 // What only the GPU has; the rest is in solver/vbd_gl_test.cpp.
-#include "viscera/solver/gpu/vbd_pass.h"
+#include "solver/gpu/vbd_pass.h"
 
 #include "support/implicit.h"
 

@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 // What only the GPU has; the rest is in solver/verlet_paper_gl_test.cpp.
-#include "viscera/solver/gpu/verlet_paper_pass.h"
+#include "solver/gpu/verlet_paper_pass.h"
 
 #include "support/random_state.h"
 

@@ -6,7 +6,7 @@
 
 #include "solver/reference/derivatives.h"
 #include "solver/reference/reference_bodies.h"
-#include "viscera/solver/reference/volume_energy.h"
+#include "solver/reference/volume_energy.h"
 
 namespace viscera {
 namespace {

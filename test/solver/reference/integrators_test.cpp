@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "solver/reference/reference_bodies.h"
-#include "viscera/solver/reference/statics.h"
+#include "solver/reference/statics.h"
 
 namespace viscera {
 namespace {

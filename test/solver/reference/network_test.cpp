@@ -4,10 +4,10 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "model/body/network_builder.h"
 #include "solver/reference/derivatives.h"
 #include "solver/reference/reference_bodies.h"
-#include "viscera/model/network_builder.h"
-#include "viscera/solver/reference/statics.h"
+#include "solver/reference/statics.h"
 
 namespace viscera {
 namespace {

@@ -6,7 +6,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "solver/reference/reference_bodies.h"
-#include "viscera/solver/reference/statics.h"
+#include "solver/reference/statics.h"
 
 namespace viscera {
 namespace {

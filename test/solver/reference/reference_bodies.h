@@ -4,8 +4,8 @@
 
 #include <random>
 
+#include "solver/reference/reference_solver.h"
 #include "support/lattices.h"
-#include "viscera/solver/reference/reference_solver.h"
 
 namespace viscera::test {
 

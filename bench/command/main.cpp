@@ -1,0 +1,75 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <CLI/CLI.hpp>
+#include <iostream>
+
+#include "bench/command/step.h"
+#include "bench/suites/suites.h"
+
+// `viscera bench`: a program of its own, so that whoever only runs scenes need not build the suites.
+
+using namespace viscera;
+
+namespace {
+
+struct SuiteOptions {
+  bench::SuiteOptions suite;
+  int device = -1;
+  bool strict = false;  ///< a missed limit is exit status 1
+};
+
+/// One command per suite; `chosen` is the one that is given.
+void addSuites(CLI::App& bench, SuiteOptions& options, const bench::Suite*& chosen) {
+  for (const bench::Suite& suite : bench::suites()) {
+    CLI::App* command = bench.add_subcommand(suite.name, suite.what);
+    command->add_option("--out", options.suite.out, "folder for tables (CSV) and plots (PNG); default out/bench");
+    command->add_flag("--short", options.suite.short_form, "fewer and smaller cases: seconds");
+    command->add_flag("--strict", options.strict, "exit status 1 if a limit is missed");
+    command->add_option("--device", options.device, "EGL device, as `viscera check` lists them");
+    command->callback([&suite, &chosen] { chosen = &suite; });
+  }
+}
+
+CLI::App* addStep(CLI::App& bench, bench::StepOptions& options) {
+  CLI::App* step = bench.add_subcommand("step", "time per substep of a cube and a heart");
+  step->add_option("--nodes", options.nodes, "node counts; default 10000 42745 100000")->check(CLI::Range(8, 20000000));
+  step->add_option("--scene", options.scene, "measure this scene instead");
+  step->add_option("--csv", options.csv, "file to write; - is standard output");
+  step->add_flag("--stages", options.stages, "time of each stage on the GPU, by its own clock");
+  step->add_option("--set", options.overrides,
+                   "key=value: replaces one value of the scene, as in bodies[0].spacing_m=0.003")
+      ->allow_extra_args(false);
+  step->get_option("--scene")->excludes("--nodes");
+  step->get_option("--set")->needs("--scene");
+  return step;
+}
+
+int dispatch(int argc, char** argv) {
+  CLI::App app("measure", "viscera bench");
+  app.require_subcommand(1);
+  bench::StepOptions step_options;
+  SuiteOptions suite_options;
+  const bench::Suite* suite = nullptr;
+  addStep(app, step_options);
+  addSuites(app, suite_options, suite);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    return app.exit(e);
+  }
+  if (!suite) return bench::step(step_options);
+  const int missed = bench::runSuite(*suite, suite_options.suite, suite_options.device, std::cout);
+  return suite_options.strict && missed > 0 ? 1 : 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return dispatch(argc, argv);
+  } catch (const std::exception& e) {
+    std::cout.flush();
+    std::cerr << "viscera: error: " << e.what() << '\n';
+    return 1;
+  }
+}

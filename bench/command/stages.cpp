@@ -1,0 +1,82 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bench/command/stages.h"
+
+#include <ostream>
+
+#include "gpu/stage_clock.h"
+#include "session/inline_view.h"
+#include "solver/gpu/gpu_solver.h"
+
+namespace viscera::bench {
+
+namespace {
+
+constexpr int kWarmUpTicks = 2;
+constexpr int kTicks = 24;
+
+/// Middle of the first body's side at +x, where a probe touches the cube.
+Vector3d sideOf(const Body& body) {
+  Vector3d lowest = Vector3d::Constant(1e9), highest = -lowest;
+  for (uint32_t slot : body.lattice.active_slots) {
+    lowest = lowest.cwiseMin(body.lattice.restPosition(slot));
+    highest = highest.cwiseMax(body.lattice.restPosition(slot));
+  }
+  Vector3d side = 0.5 * (lowest + highest);
+  side.x() = highest.x();
+  return side;
+}
+
+/// A probe that rests against the body and a blade that cuts air, which costs what cutting does.
+ToolMotions probeAndBlade(const Model& model) {
+  ToolMotions motions;
+  for (StylusMotion& motion : motions) {
+    motion.present = true;
+    motion.from.position_m = motion.to.position_m = sideOf(model.bodies[0]);
+  }
+  motions[0].mode = ToolMode::kProbe;
+  motions[1].mode = ToolMode::kCut;
+  motions[1].from.position_m.x() += 1;
+  motions[1].to.position_m.x() += 1;
+  return motions;
+}
+
+}  // namespace
+
+void printStageNames(std::ostream& out) {
+  out << "scene,nodes,stage,times_per_tick,ms_per_tick,ns_per_node_update\n";
+}
+
+void printStages(std::ostream& out, const Model& model, Scene scene) {
+  scene.styluses.resize(layout::kMaxStyluses);
+  if (scene.cameras.empty()) scene.cameras.emplace_back();
+  GpuSolver solver(model, scene);
+  InlineView view(model, scene);
+  Look look;
+  look.motions = probeAndBlade(model);
+  look.wants.surface = look.wants.every_image = true;
+  look.wants.cameras.assign(scene.cameras.size(), false);
+  look.wants.cameras[0] = true;
+  const auto tick = [&] {
+    Pictures pictures;
+    layout::TickStats stats;
+    solver.step(look.motions);
+    view.capture(solver.state(), look, pictures);
+    view.collect(pictures, true);
+    solver.pollStats(stats, true);
+  };
+  for (int t = 0; t < kWarmUpTicks; ++t) tick();
+  gpu::StageClock clock;
+  for (int t = 0; t < kTicks; ++t) tick();
+  const auto& times = clock.collect(true);
+  const double updates = static_cast<double>(model.activeNodes()) * solver.substeps();  // in a tick
+  for (size_t s = 0; s < gpu::kStages; ++s) {
+    if (times[s].count == 0) continue;
+    const double per_tick_s = times[s].seconds / kTicks;
+    out << scene.name << ',' << model.activeNodes() << ',' << gpu::stageName(static_cast<gpu::Stage>(s)) << ','
+        << static_cast<double>(times[s].count) / kTicks << ',' << 1e3 * per_tick_s << ',' << 1e9 * per_tick_s / updates
+        << std::endl;
+  }
+}
+
+}  // namespace viscera::bench

@@ -1,0 +1,62 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "bench/gw/gw_network.h"
+#include "viscera/gpu/buffer.h"
+#include "viscera/gpu/program.h"
+
+namespace viscera::bench {
+
+/// A buffer seen through texel fetches, in any of OpenGL's formats. Move-only.
+class TexelArray {
+ public:
+  TexelArray() = default;
+  TexelArray(uint32_t buffer, uint32_t format);
+  ~TexelArray();
+  TexelArray(TexelArray&& other) noexcept;
+  TexelArray& operator=(TexelArray&& other) noexcept;
+  void bind(uint32_t unit) const;
+
+ private:
+  uint32_t id_ = 0;
+};
+
+/// What forces are blended into.
+enum class BlendFormat { kFixed8, kFloat16, kFloat32 };
+const char* nameOf(BlendFormat format);
+
+/// A render target with a pixel per slot, in which blending adds up the forces of springs (GW 4.2).
+class BlendTarget {
+ public:
+  /// @param slots  pixels wanted   @param scale_n  force that 1 stands for; see scaleOf()   @throws GpuError
+  BlendTarget(BlendFormat format, size_t slots, double scale_n);
+  ~BlendTarget();
+  BlendTarget(const BlendTarget&) = delete;
+  BlendTarget& operator=(const BlendTarget&) = delete;
+
+  /// Draws every spring at both of its ends. The views with springs and their forces are bound.
+  void add(size_t springs);
+  void bindTexture(uint32_t unit) const;
+  double scale_n() const { return scale_n_; }
+  double zero() const;   ///< value that stands for no force
+  Field forces() const;  ///< [slots, N] waits
+
+ private:
+  void draw(size_t springs, uint32_t end, double sign) const;
+
+  BlendFormat format_;
+  size_t slots_;
+  double scale_n_;
+  uint32_t width_, height_;
+  uint32_t texture_ = 0, framebuffer_ = 0, vertices_ = 0;
+  gpu::Program program_;
+};
+
+/// Scale for forces of which no partial sum exceeds a value: a power of two, so that scaling rounds nothing. What is
+/// stored stays within -1/2 and 1/2: a target of fixed point knows 0 to 1 and has no force at 128/255.
+double scaleOf(double largest_sum_n);
+
+}  // namespace viscera::bench

@@ -1,0 +1,204 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <functional>
+#include <memory>
+
+#include "bench/gw/gw_kernels.h"
+#include "bench/gw/gw_parts.h"
+#include "bench/harness/experiment.h"
+#include "solver/reference/reference_solver.h"
+
+namespace viscera::bench {
+
+namespace {
+
+constexpr double kAgreement = 1e-6;   ///< point- against edge-centric, of the largest force
+constexpr double kBlending32 = 1e-5;  ///< 32-bit blending against float64, of the largest force
+constexpr double kDtFraction = 0.5;   ///< of the largest stable substep
+constexpr double kHeadroom = 2;       ///< a target holds as many times the largest sum of the true motion
+constexpr double kMotion = 1e-5;      ///< ways in 32 bit floats against float64, of the largest u
+const Vector3d kGravity_m_per_s2(0, 0, -9.81);
+
+/// Gathers forces in one of the ways. @return the target they are in, if any
+using Gather = std::function<const BlendTarget*(GwKernels&)>;
+struct Way {
+  std::string name;
+  StateFormat state;
+  Gather gather;
+};
+
+Way edgeWay(const std::string& name, EdgeLayout layout) {
+  return {name, StateFormat::kFloat32, [layout](GwKernels& kernels) -> const BlendTarget* {
+            kernels.springForces(layout);
+            kernels.sumForces(layout);
+            return nullptr;
+          }};
+}
+
+Way pointWay(const std::string& name, StateFormat state) {
+  return {name, state, [](GwKernels& kernels) -> const BlendTarget* {
+            kernels.pointForces();
+            return nullptr;
+          }};
+}
+
+Way blendWay(BlendFormat format, size_t slots, double scale_n) {
+  auto target = std::make_shared<BlendTarget>(format, slots, scale_n);
+  return {std::string("blending, ") + nameOf(format), StateFormat::kFloat32,
+          [target](GwKernels& kernels) -> const BlendTarget* {
+            kernels.forceTexture();
+            kernels.scatterForces(*target);
+            return target.get();
+          }};
+}
+
+enum { kPoint32, kPoint16, kRuns, kOwned, kBlend8, kBlend16, kBlend32 };
+std::vector<Way> waysOf(size_t slots, double largest_sum_n) {
+  const double scale_n = scaleOf(largest_sum_n);
+  return {pointWay("point-centric, 32 bit state", StateFormat::kFloat32),
+          pointWay("point-centric, 16 bit state", StateFormat::kFloat16),
+          edgeWay("edge-centric, runs", EdgeLayout::kRuns),
+          edgeWay("edge-centric, owned", EdgeLayout::kOwned),
+          blendWay(BlendFormat::kFixed8, slots, scale_n),
+          blendWay(BlendFormat::kFloat16, slots, scale_n),
+          blendWay(BlendFormat::kFloat32, slots, scale_n)};
+}
+
+Misfit errorOf(const GwNetwork& network, const Field& measured, const Field& truth) {
+  return misfit(network.model, {{measured}, 0}, {{truth}, 0});
+}
+
+/// As kernels hold it, so that only their arithmetic is compared; 16-bit states round once more.
+Field asFloats(const Field& field) {
+  Field out;
+  for (const Vector3d& v : field) out.emplace_back(v.cast<float>().cast<double>());
+  return out;
+}
+
+void compareForces(Report& report, const GwNetwork& network, Table& table) {
+  report.stage("forces, " + network.name);
+  const Field u_m = asFloats(deformed(network));
+  const Field truth_n = ReferenceLattice(network.model).elasticForces(u_m);
+  const std::vector<Way> ways = waysOf(network.slots(), largestSum_n(network, u_m));
+  std::vector<Field> forces_n;
+  for (const Way& way : ways) {
+    GwKernels kernels(network, way.state);
+    kernels.start(u_m);
+    const BlendTarget* target = way.gather(kernels);
+    forces_n.push_back(target ? target->forces() : kernels.forces());
+    const Misfit error = errorOf(network, forces_n.back(), truth_n);
+    table.add({network.name, static_cast<double>(network.nodes()), way.name, error.max, error.rms});
+  }
+  for (size_t edge : {kRuns, kOwned}) {
+    report.checkAtMost(network.name + ": point- against " + ways[edge].name + ", largest difference of a force",
+                       errorOf(network, forces_n[edge], forces_n[kPoint32]).max, kAgreement);
+  }
+  report.checkAtMost(network.name + ": blending into 32 bit floats, error of a force",
+                     errorOf(network, forces_n[kBlend32], truth_n).max, kBlending32);
+}
+
+/// Displacements of the true motion at some moments, and what a target must hold on the way.
+struct TrueMotion {
+  GwMotion motion;
+  std::vector<int> substeps;  ///< [checkpoints]
+  std::vector<Field> u_m;     ///< [checkpoints]
+  double largest_sum_n = 0;
+};
+
+TrueMotion trueMotion(const GwNetwork& network, const std::vector<int>& substeps) {
+  TrueMotion out;
+  out.substeps = substeps;
+  // Rounded as the kernels take it.
+  out.motion.dt_s = static_cast<double>(static_cast<float>(kDtFraction * safeTimeStep(network.model)));
+  out.motion.gravity_m_per_s2 = kGravity_m_per_s2.cast<float>().cast<double>();
+  ReferenceSolver solver(network.model, out.motion.gravity_m_per_s2, out.motion.dt_s);
+  int done = 0;
+  for (int until : substeps) {
+    for (; done < until; ++done) {
+      solver.substep();
+      if (done % 10 == 0) out.largest_sum_n = std::max(out.largest_sum_n, largestSum_n(network, solver.u_m));
+    }
+    out.u_m.push_back(solver.u_m);
+  }
+  return out;
+}
+
+/// [checkpoints]
+std::vector<Misfit> errorsOf(const GwNetwork& network, const TrueMotion& truth, const Way& way) {
+  GwKernels kernels(network, way.state);
+  kernels.start(Field(network.slots(), Vector3d::Zero()));
+  std::vector<Misfit> out;
+  int done = 0;
+  for (size_t c = 0; c < truth.substeps.size(); ++c) {
+    for (; done < truth.substeps[c]; ++done) kernels.integrate(truth.motion, way.gather(kernels));
+    out.push_back(errorOf(network, kernels.displacements(), truth.u_m[c]));
+  }
+  return out;
+}
+
+double largest(const Field& field) {
+  double most = 0;
+  for (const Vector3d& v : field) most = std::max(most, v.norm());
+  return most;
+}
+
+void compareMotions(Report& report, const GwNetwork& network, const std::vector<int>& substeps, Table& table) {
+  report.stage("motion, " + network.name + ", float64");
+  const TrueMotion truth = trueMotion(network, substeps);
+  double worst = 0;  // of what is in 32 bit floats throughout
+  const std::vector<Way> ways = waysOf(network.slots(), kHeadroom * truth.largest_sum_n);
+  Plot plot{"Error of u over its largest, " + network.name,
+            "substeps of dt_safe/2",
+            "largest error / largest u",
+            true,
+            true,
+            {}};
+  for (size_t w = 0; w < ways.size(); ++w) {
+    const Way& way = ways[w];
+    report.stage("motion, " + network.name + ", " + way.name);
+    const std::vector<Misfit> errors = errorsOf(network, truth, way);
+    Series series{way.name, {}, {}};
+    for (size_t c = 0; c < errors.size(); ++c) {
+      const double time_s = substeps[c] * truth.motion.dt_s;
+      table.add({network.name, static_cast<double>(network.nodes()), way.name, substeps[c], time_s,
+                 largest(truth.u_m[c]), errors[c].max, errors[c].rms});
+      series.x.push_back(substeps[c]);
+      series.y.push_back(errors[c].max);
+      if (w != kPoint16 && w != kBlend8 && w != kBlend16) worst = worse(worst, errors[c].max);
+    }
+    plot.series.push_back(std::move(series));
+  }
+  report.add(plot, "motion_" + network.name);
+  report.checkAtMost(network.name + ": motion in 32 bit floats, whatever the way, largest error of u", worst, kMotion);
+}
+
+}  // namespace
+
+void measureForceErrors(Report& report) {
+  Table table("Forces of a deformed state against float64, over the largest of them",
+              {{"mesh"}, {"nodes", "", 8}, {"way"}, {"largest error", "", 3}, {"rms error", "", 3}});
+  const uint32_t edge = report.isShort() ? 48 : 128;
+  compareForces(report, regularSheet(edge), table);
+  compareForces(report, irregularSheet(edge), table);
+  report.add(table, "force_errors");
+}
+
+void measureMotionErrors(Report& report) {
+  Table table("Motion from rest under gravity against float64 with the same substep, over the largest u",
+              {{"scene"},
+               {"nodes", "", 8},
+               {"way"},
+               {"substeps", "", 6},
+               {"t", "s", 3},
+               {"largest u", "m", 3},
+               {"largest error", "", 3},
+               {"rms error", "", 3}});
+  const std::vector<int> substeps =
+      report.isShort() ? std::vector<int>{10, 30, 100} : std::vector<int>{10, 30, 100, 300, 1000, 3000};
+  compareMotions(report, hangingCloth(report.isShort() ? 16 : 32), substeps, table);
+  compareMotions(report, hangingHeart(report.isShort() ? 600 : 1500), substeps, table);
+  report.add(table, "motion_errors");
+}
+
+}  // namespace viscera::bench

@@ -1,0 +1,202 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <GL/glew.h>
+
+#include <algorithm>
+#include <functional>
+#include <map>
+#include <memory>
+
+#include "bench/gw/gw_kernels.h"
+#include "bench/gw/gw_parts.h"
+#include "bench/harness/rate.h"
+
+namespace viscera::bench {
+
+namespace {
+
+constexpr double kStill_s = 1e-9;  // substep that leaves a state as it is: every round has the same work
+constexpr double kMilli = 1e3;
+
+/// GW Table 2 [ms]; no accumulation of its own in the point-centric way.
+struct Printed {
+  uint32_t edge;
+  double point_force, edge_force, edge_sum, integration;
+};
+constexpr Printed kPaper[] = {
+    {128, 0.54, 0.40, 0.12, 0.20}, {256, 2.34, 1.76, 0.52, 0.74}, {512, 9.82, 7.34, 2.08, 3.18}};
+constexpr double kPaperIrregular = 1.6;  // of its text: point- over edge-centric, valences 3 to 12
+
+/// One way to go a substep, in stages. Those without work are empty.
+struct Way {
+  std::string name;
+  std::function<void()> force, accumulate, integrate;
+};
+
+/// Ways and what they run on.
+struct Course {
+  std::unique_ptr<GwKernels> kernels;
+  std::unique_ptr<BlendTarget> target;
+  std::vector<Way> ways;
+};
+enum { kPoint, kPasses, kRuns, kOwned, kBlended };
+
+Course courseOf(const GwNetwork& network) {
+  Course out;
+  const Field u_m = deformed(network);
+  out.kernels = std::make_unique<GwKernels>(network);
+  out.target =
+      std::make_unique<BlendTarget>(BlendFormat::kFloat32, network.slots(), scaleOf(largestSum_n(network, u_m)));
+  out.kernels->start(u_m);
+  GwKernels* k = out.kernels.get();
+  BlendTarget* target = out.target.get();
+  const GwMotion still{kStill_s, Vector3d::Zero()};
+  const auto integrate = [k, still] { k->integrate(still); };
+  const auto edgeWay = [&](const std::string& name, EdgeLayout layout) {
+    return Way{name, [k, layout] { k->springForces(layout); }, [k, layout] { k->sumForces(layout); }, integrate};
+  };
+  out.ways = {{"point-centric", [k] { k->pointForces(); }, {}, integrate},
+              {"point-centric, a pass per neighbour", [k] { k->pointPasses(); }, {}, integrate},
+              edgeWay("edge-centric, runs", EdgeLayout::kRuns),
+              edgeWay("edge-centric, owned", EdgeLayout::kOwned),
+              {"edge-centric, blending", [k] { k->forceTexture(); }, [k, target] { k->scatterForces(*target); },
+               [k, still, target] { k->integrate(still, target); }}};
+  return out;
+}
+
+Candidate candidateOf(const GwNetwork& network, std::function<void()> work) {
+  return {"", static_cast<double>(network.nodes()), [work = std::move(work)] {
+            work();
+            glFinish();
+            return 1.0;
+          }};
+}
+
+/// [ms] of the stages of a way; 0 where there is none.
+struct Times {
+  double force = 0, accumulate = 0, integrate = 0, total = 0, spread = 0;
+};
+
+/// All stages of all ways in turn.
+std::vector<Times> timesOf(const GwNetwork& network, double seconds) {
+  const Course course = courseOf(network);
+  std::vector<Candidate> candidates;
+  std::vector<std::pair<size_t, double Times::*>> places;
+  for (size_t w = 0; w < course.ways.size(); ++w) {
+    const Way& way = course.ways[w];
+    const auto add = [&](const std::function<void()>& work, double Times::*place) {
+      if (!work) return;
+      candidates.push_back(candidateOf(network, work));
+      places.emplace_back(w, place);
+    };
+    add(way.force, &Times::force);
+    add(way.accumulate, &Times::accumulate);
+    add(way.integrate, &Times::integrate);
+    add(
+        [way] {
+          way.force();
+          if (way.accumulate) way.accumulate();
+          way.integrate();
+        },
+        &Times::total);
+  }
+  const std::vector<Rate> rates = measureRates(candidates, seconds);
+  std::vector<Times> out(course.ways.size());
+  for (size_t c = 0; c < rates.size(); ++c) {
+    out[places[c].first].*places[c].second = kMilli / rates[c].substeps_per_s;
+    if (places[c].second == &Times::total) out[places[c].first].spread = rates[c].spread;
+  }
+  return out;
+}
+
+Cell orNone(double value) {
+  return value > 0 ? Cell(value) : Cell("");
+}
+
+/// GW's figures for a way; none for what is not GW's.
+Times printedFor(const Printed& row, size_t way) {
+  Times out;
+  if (way == kPoint) out = {row.point_force, 0, row.integration};
+  if (way == kBlended) out = {row.edge_force, row.edge_sum, row.integration};
+  out.total = out.force + out.accumulate + out.integrate;
+  return out;
+}
+
+const std::vector<std::string>& wayNames() {
+  static const std::vector<std::string> names = {"point-centric", "point-centric, a pass per neighbour",
+                                                 "edge-centric, runs", "edge-centric, owned", "edge-centric, blending"};
+  return names;
+}
+
+Table stageTable(const std::string& title, std::vector<Column> more) {
+  std::vector<Column> columns = {{"nodes"},
+                                 {"way"},
+                                 {"force", "ms", 3},
+                                 {"accumulation", "ms", 3},
+                                 {"integration", "ms", 3},
+                                 {"total", "ms", 3},
+                                 {"point-centric over this", "", 3},
+                                 {"spread", "", 2}};
+  columns.insert(columns.end(), more.begin(), more.end());
+  return Table(title, columns);
+}
+
+std::vector<Cell> cellsOf(const GwNetwork& network, size_t way, const std::vector<Times>& times) {
+  const Times& t = times[way];
+  return {static_cast<double>(network.nodes()), wayNames()[way], t.force, orNone(t.accumulate), t.integrate, t.total,
+          times[kPoint].total / t.total,        t.spread};
+}
+
+void measureRegular(Report& report, double seconds) {
+  Table table =
+      stageTable("GW Table 2: a regular mesh of valence 6. Times are of this machine and this moment: compare ratios",
+                 {{"GW force", "ms"},
+                  {"GW accumulation", "ms"},
+                  {"GW integration", "ms"},
+                  {"GW total", "ms"},
+                  {"GW ratio", "", 3}});
+  for (const Printed& row : kPaper) {
+    if (report.isShort() && row.edge > 128) continue;
+    report.stage("stages, " + std::to_string(row.edge) + " x " + std::to_string(row.edge) + " nodes");
+    const GwNetwork network = regularSheet(row.edge);
+    const std::vector<Times> times = timesOf(network, seconds);
+    for (size_t w = 0; w < times.size(); ++w) {
+      const Times gw = printedFor(row, w);
+      std::vector<Cell> cells = cellsOf(network, w, times);
+      for (double value : {gw.force, gw.accumulate, gw.integrate, gw.total}) cells.push_back(orNone(value));
+      cells.push_back(gw.total > 0 ? Cell(printedFor(row, kPoint).total / gw.total) : Cell(""));
+      table.add(std::move(cells));
+    }
+  }
+  report.add(table, "stages");
+}
+
+void measureIrregular(Report& report, double seconds) {
+  const GwNetwork network = irregularSheet(report.isShort() ? 128 : 256);
+  const Valences valences = valencesOf(network);
+  report.stage("stages, valences 3 to 12");
+  const std::vector<Times> times = timesOf(network, seconds);
+  Table table = stageTable("GW 5: an irregular mesh of valences " + std::to_string(valences.least) + " to " +
+                               std::to_string(valences.most) + ", mean " + Cell(valences.mean).text(3),
+                           {{"a pass per neighbour over this", "", 3}, {"GW ratio", "", 3}});
+  for (size_t w = 0; w < times.size(); ++w) {
+    std::vector<Cell> cells = cellsOf(network, w, times);
+    cells.emplace_back(times[kPasses].total / times[w].total);
+    cells.push_back(w == kBlended ? Cell(kPaperIrregular) : Cell(""));
+    table.add(std::move(cells));
+  }
+  report.add(table, "valences");
+  const double edge_ms = std::min(times[kRuns].total, times[kOwned].total);
+  report.checkAtLeast("valences 3 to 12: point-centric in a pass per neighbour as GW's, over edge-centric time",
+                      times[kPasses].total / edge_ms, 1);
+}
+
+}  // namespace
+
+void measureStages(Report& report) {
+  const double seconds = report.isShort() ? 0.03 : 0.1;
+  measureRegular(report, seconds);
+  measureIrregular(report, seconds);
+}
+
+}  // namespace viscera::bench

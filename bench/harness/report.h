@@ -1,0 +1,63 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "bench/harness/plot.h"
+#include "bench/harness/table.h"
+
+namespace viscera::bench {
+
+struct SuiteOptions {
+  std::string out = "out/bench";  ///< folder of CSV files and plots; made if it is not there
+  bool short_form = false;        ///< the form that scripts/test runs: under 20 s on two cores
+};
+
+/// One number that must be reached.
+struct Check {
+  std::string name;
+  double measured, limit;
+  bool at_least;  ///< the limit is a lower one
+  bool ok;
+};
+
+/// What a suite finds: tables and plots as they come, checks at the end.
+class Report {
+ public:
+  /// @param suite  its name: first word of every file name   @param text  tables are printed there
+  /// @throws Error  the folder cannot be made
+  Report(std::string suite, SuiteOptions options, std::ostream& text);
+
+  bool isShort() const { return options_.short_form; }
+  const std::string& suite() const { return suite_; }
+  /// Says on standard error what is measured next.
+  void stage(const std::string& what) const;
+  /// One line of text, such as what a table does not say.
+  void note(const std::string& line);
+  /// Prints the table and writes <out>/<suite>_<stem>.csv. @throws Error  it cannot be written
+  void add(const Table& table, const std::string& stem);
+  /// Writes <out>/<suite>_<stem>.gp and has gnuplot draw <suite>_<stem>.png; without gnuplot it says so, once.
+  void add(const Plot& plot, const std::string& stem);
+  /// |measured| <= limit; what is not a number misses.
+  void checkAtMost(const std::string& name, double measured, double limit);
+  void checkAtLeast(const std::string& name, double measured, double limit);
+  /// Prints all checks and writes <out>/<suite>_checks.csv.
+  void finish();
+  const std::vector<Check>& checks() const { return checks_; }
+  int missed() const;
+
+ private:
+  std::string fileName(const std::string& stem, const std::string& extension) const;
+  std::ofstream open(const std::string& file_name) const;
+
+  std::string suite_;
+  SuiteOptions options_;
+  std::ostream& text_;
+  std::vector<Check> checks_;
+  bool said_no_gnuplot_ = false;
+};
+
+}  // namespace viscera::bench

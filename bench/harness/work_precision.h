@@ -1,0 +1,19 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "bench/harness/experiment.h"
+#include "bench/harness/report.h"
+
+namespace viscera::bench {
+
+/// Work-precision diagram: runs every method, prints a row each, plots error against sweeps and against wall time per
+/// simulated second, one curve per integrator and
+/// number of iterations: of these 2, 10 and 50, or all in the short form.
+/// @param stem  of the file names   @param title  of table and plots
+/// @return errors, in the order of the methods
+std::vector<Misfit> drawWorkPrecision(Report& report, const Experiment& experiment, const Track& truth,
+                                      const std::vector<Method>& methods, const std::string& stem,
+                                      const std::string& title);
+
+}  // namespace viscera::bench

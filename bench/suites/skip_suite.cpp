@@ -1,0 +1,15 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bench/suites/performance_suites.h"
+#include "bench/suites/skip_parts.h"
+
+namespace viscera::bench {
+
+void skipSuite(Report& report, gpu::Context& context) {
+  measureFeatures(report);
+  measureEmptySpace(report);
+  measureSleep(report);
+  measureViews(report, context);
+}
+
+}  // namespace viscera::bench

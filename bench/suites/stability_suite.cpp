@@ -1,0 +1,138 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bench/suites/stability_suite.h"
+
+#include <algorithm>
+#include <map>
+
+#include "bench/suites/stability_trial.h"
+
+namespace viscera::bench {
+
+namespace {
+
+constexpr int kTicks = 60;
+constexpr double kEnergyBound = 1.01;  // of the start's energy
+constexpr double kSpacing_m = 0.005;
+
+Model blockOf(int cells, double poisson_ratio) {
+  MaterialConfig material;
+  material.poisson_ratio = poisson_ratio;
+  return blockModel(Vector3i::Constant(cells), kSpacing_m, material);
+}
+
+/// The worst of the cells that one check is about.
+struct Worst {
+  int not_finite = 0;
+  double energy_ratio = 0, over_bound = 0;
+
+  void add(const Outcome& outcome) {
+    not_finite += outcome.finite ? 0 : 1;
+    energy_ratio = std::max(energy_ratio, outcome.energy_ratio);
+    over_bound = std::max(over_bound, outcome.over_bound);
+  }
+};
+
+Table startsTable(const std::string& title) {
+  return Table(title, {{"start"},
+                       {"integrator"},
+                       {"dt over limit"},
+                       {"finite"},
+                       {"max energy over start", "", 5},
+                       {"energy left"},
+                       {"recovered"},
+                       {"governor trips"},
+                       {"frames to recover"},
+                       {"ticks"}});
+}
+
+void addRow(Table& table, const Start& start, Integrator integrator, double ratio, const Outcome& o) {
+  table.add({start.name, nameOf(integrator), ratio, o.finite ? "yes" : "NO", o.energy_ratio, o.energy_left,
+             o.frames_to_recover >= 0 ? "yes" : "bounded", static_cast<double>(o.trips),
+             o.frames_to_recover >= 0 ? Cell(o.frames_to_recover) : Cell(""), o.ticks});
+}
+
+/// Energy over time.
+Series curve(const Outcome& outcome, Integrator integrator, double ratio) {
+  Series out{nameOf(integrator) + ", dt " + Cell(ratio).text(3) + " x limit", {}, {}, Series::Style::kLines};
+  for (size_t t = 0; t < outcome.energies.size(); ++t) {
+    out.x.push_back(static_cast<double>(t + 1));
+    out.y.push_back(outcome.energies[t]);
+  }
+  return out;
+}
+
+void tryAll(Report& report, double poisson_ratio, const std::vector<double>& ratios, const std::string& stem) {
+  const Model model = blockOf(report.isShort() ? 4 : 6, poisson_ratio);
+  std::vector<Start> starts = extremeStarts(model);
+  if (report.isShort()) starts = {starts[0], starts[1], starts[5], starts[6]};
+  Plot plot{
+      "energy after the start '" + starts[0].name + "', governor on", "ticks", "energy over start", true, true, {}};
+  Table table = startsTable("extreme starts, Poisson's ratio " + Cell(poisson_ratio).text(3));
+  Worst stable, above;
+  for (Integrator integrator : {Integrator::kLeapfrog, Integrator::kVerletPaper, Integrator::kVbd, Integrator::kPd}) {
+    report.stage("starts, " + nameOf(integrator));
+    for (double ratio : ratios) {
+      const Scene scene = sceneAt(model, integrator, ratio);
+      for (const Start& start : starts) {
+        const Outcome outcome = tryStart(model, scene, start, report.isShort() ? 20 : kTicks);
+        const bool promised = integrator != Integrator::kVerletPaper && (!isExplicit(integrator) || ratio <= 1);
+        (promised ? stable : above).add(outcome);
+        addRow(table, start, integrator, ratio, outcome);
+        if (&start == &starts[0]) plot.series.push_back(curve(outcome, integrator, ratio));
+      }
+    }
+  }
+  report.add(table, stem);
+  report.add(plot, stem);
+  report.checkAtMost(stem + ": cells with a value that is not finite", stable.not_finite + above.not_finite, 0);
+  report.checkAtMost(stem + ": energy over start, leapfrog within its limit, vbd, pd", stable.energy_ratio,
+                     kEnergyBound);
+  report.checkAtMost(stem + ": energy over the governor's bound, explicit above the limit and verlet_paper",
+                     above.over_bound, kEnergyBound);
+}
+
+}  // namespace
+
+void startsOfStability(Report& report) {
+  tryAll(report, 0.25, report.isShort() ? std::vector<double>{1, 10} : std::vector<double>{0.1, 1, 10, 100}, "starts");
+  if (!report.isShort()) tryAll(report, 0.45, {1, 10}, "starts_volume");
+}
+
+void fractionsOfStability(Report& report) {
+  const Model model = blockOf(report.isShort() ? 4 : 6, 0.25);
+  std::vector<Start> starts = extremeStarts(model);
+  if (report.isShort()) starts.resize(2);
+  Table table("leapfrog without governor: largest energy over the start's, by substep over dt_safe",
+              {{"start"},
+               {"0.5", "", 5},
+               {"0.6", "", 5},
+               {"0.7", "", 5},
+               {"0.75", "", 5},
+               {"0.8", "", 5},
+               {"0.9 (no dashpot)", "", 5}});
+  Model undamped = model;
+  undamped.bodies[0].material.dashpot_ratio = 0;
+  for (const Start& start : starts) {
+    std::vector<Cell> row = {start.name};
+    for (double fraction : {0.5, 0.6, 0.7, 0.75, 0.8, 0.9}) {
+      const Model& tried = fraction > 0.82 ? undamped : model;
+      const double xi = tried.bodies[0].material.dashpot_ratio;
+      Scene scene = sceneAt(tried, Integrator::kLeapfrog, fraction / (0.999 * largestFraction(xi)));
+      scene.solver.governor = false;
+      const Outcome outcome = tryStart(tried, scene, start, report.isShort() ? 20 : kTicks);
+      row.push_back(outcome.finite ? Cell(outcome.energy_ratio) : Cell("not finite"));
+    }
+    table.add(row);
+  }
+  report.add(table, "fractions");
+}
+
+void stabilitySuite(Report& report) {
+  startsOfStability(report);
+  fractionsOfStability(report);
+  toolsOfStability(report);
+  extremesOfStability(report);
+}
+
+}  // namespace viscera::bench

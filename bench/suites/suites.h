@@ -1,0 +1,28 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <iosfwd>
+#include <vector>
+
+#include "bench/harness/report.h"
+#include "viscera/gpu/context.h"
+
+namespace viscera::bench {
+
+/// One suite of measurements.
+struct Suite {
+  const char* name;
+  const char* what;                                    ///< one line for --help
+  void (*run)(Report& report, gpu::Context& context);  ///< the context is current
+};
+
+/// All suites: a new one is an include and a line in suites.cpp.
+const std::vector<Suite>& suites();
+
+/// Runs a suite from its first line to its checks.
+/// @param device  EGL device, or -1: the best   @return checks that were missed
+/// @throws Error
+int runSuite(const Suite& suite, const SuiteOptions& options, int device, std::ostream& out);
+
+}  // namespace viscera::bench

@@ -1,0 +1,16 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "viscera/calibration/step_time.h"
+
+namespace viscera {
+
+/// The scene with a number in place of every `spacing_m: auto`: one spacing for all of these bodies, the finest that
+/// this machine steps solver.real_time_factor times as fast as the clock. A line that tells the choice and its reason
+/// becomes a note of the first of them. Other scenes come back as they are, and nothing is measured.
+/// @throws MeshError, LatticeError, SceneError  as buildModel()
+Scene withChosenSpacing(const Scene& scene, const gpu::Context& context, const Progress& progress = {},
+                        const StepTimeCache& cache = StepTimeCache::ofUser());
+
+}  // namespace viscera

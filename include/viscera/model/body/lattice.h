@@ -1,0 +1,60 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "layout.h"
+#include "model/body/neighbors.h"
+#include "viscera/model/shape/solid.h"
+
+namespace viscera {
+
+/// How spring and mass weights are assembled (physics.md 1).
+enum class Weights {
+  kCell,  ///< each solid cell adds k/4 to its edges, k/2 to its face diagonals, m/8 to its nodes
+  kPaper  ///< every spring and every node counts in full (VR05)
+};
+
+/// Implicitly connected lattice of one body: nodes at the corners of the solid's cells, in 4x4x4 bricks.
+struct Lattice {
+  double spacing_m = 0;
+  Vector3d origin_m = Vector3d::Zero();  ///< rest position of node (0,0,0), tissue frame
+  Vector3i nodes_per_axis = Vector3i::Zero();
+  std::vector<layout::Brick> bricks;    ///< [bricks] ordered by (z, y, x); body is 0 here
+  std::vector<layout::NodeBits> nodes;  ///< [64 * bricks] all-zero where no node is
+  std::vector<uint16_t> labels;         ///< [64 * bricks] 0 no node, else 1 + part of a cell around it
+  std::vector<uint16_t> cell_labels;    ///< [64 * bricks] of the cell whose lowest corner is the node: 0 none, else
+                                        ///< 1 + part
+  std::vector<uint32_t> active_slots;   ///< [active] slots of nodes, ascending
+  std::vector<std::string> part_names;
+
+  /// Slot of the node at integer coordinates, or -1 where there is none.
+  int64_t slotAt(const Vector3i& node) const;
+  /// Slot of the neighbour along a spring index, whether or not a spring is there; -1 where there is no node.
+  int64_t neighborSlot(uint32_t slot, uint32_t spring) const;
+  Vector3i nodeAt(uint32_t slot) const;
+  Vector3d restPosition(uint32_t slot) const;  ///< [m], tissue frame
+  size_t springs() const;                      ///< each spring once
+
+  std::unordered_map<uint64_t, uint32_t> brick_index;  ///< packed brick coordinates -> brick
+};
+
+/// Calls visit(corner, slot) for the eight nodes of the cell whose lowest corner is at `lowest`.
+template <class Visit>
+void forEachCorner(const Lattice& lattice, uint32_t lowest, Visit visit) {
+  const Vector3i at = lattice.nodeAt(lowest);
+  for (int c = 0; c < 8; ++c) {
+    const Vector3i corner(c & 1, (c >> 1) & 1, (c >> 2) & 1);
+    visit(corner, static_cast<uint32_t>(lattice.slotAt(at + corner)));
+  }
+}
+
+/// Nodes of the solid's cells, weights assembled.
+/// @throws LatticeError  no filled cell
+Lattice buildLattice(const Solid& solid, Weights weights);
+
+}  // namespace viscera

@@ -1,0 +1,212 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "viscera/math/types.h"
+#include "viscera/model/body/lattice.h"
+
+namespace viscera {
+
+// Every field of these structs has one entry in src/model/scene/scene_fields.h, which gives its key, unit, range and
+// sentence of documentation; the default is the initialiser here. `viscera keys` prints the table.
+
+enum class TissueSource { kPhantom, kMesh, kBox, kSheet, kBall };
+enum class Structure { kLattice, kExplicit, kSurface, kTetrahedra };
+enum class SpringForces { kPoint, kEdge };
+enum class CollisionSearch { kGrid, kStaggered };
+enum class ObstacleShape { kPlane, kSphere, kCapsule, kBox };
+enum class SkinSource { kAuto, kInput, kVolume };
+enum class UpAxis { kZ, kY };
+enum class FixedShape { kBox, kSphere, kPlane, kPart };
+enum class Integrator { kLeapfrog, kVerletPaper, kVbd, kPd };
+enum class Backend { kAuto, kGpu, kCpu };
+enum class ToolMode { kNone = 0, kProbe = 1, kGrab = 2, kCut = 3, kCutParticles = 4 };
+
+/// Nodes that are held in space. Coordinates are in the body's frame, before its pose is applied.
+struct FixedConfig {
+  FixedShape shape = FixedShape::kBox;
+  Vector3d min_m = Vector3d::Zero();
+  Vector3d max_m = Vector3d::Zero();
+  Vector3d center_m = Vector3d::Zero();
+  double radius_m = 0.01;
+  Vector3d point_m = Vector3d::Zero();
+  Vector3d normal = Vector3d::UnitZ();  ///< nodes on its negative side are fixed
+  std::string part;
+};
+
+struct MaterialConfig {
+  double young_modulus_pa = 20e3;
+  double poisson_ratio = 0.25;  ///< 1/4 is what springs give alone; else cells have an energy of volume
+  double density_kg_per_m3 = 1060;
+  double drag_per_s = 4;
+  double dashpot_ratio = 0.2;
+  Weights weights = Weights::kCell;
+};
+
+/// Elasticity of one part of a body, such as a valve. In a scene file, what is left out is as in the body's material.
+struct PartConfig {
+  std::string part;
+  double young_modulus_pa = 20e3;
+  double poisson_ratio = 0.25;
+  double density_kg_per_m3 = 1060;
+};
+
+struct BodyConfig {
+  std::string name = "tissue";
+  TissueSource source = TissueSource::kPhantom;
+  Structure structure = Structure::kLattice;
+  std::string mesh_file;  ///< relative to the scene file
+  double unit_scale_m = 1;
+  UpAxis up_axis = UpAxis::kZ;
+  bool centered = false;
+  double phantom_length_m = 0.1;
+  double phantom_wall_scale = 1;
+  Vector3d box_size_m = Vector3d::Constant(0.05);
+  double ball_radius_m = 0.02;
+  double thickness_m = 0.001;  ///< of structure surface
+  double bending_ratio = 0;    ///< stiffness of springs that resist bending, over that of the others around
+  Vector3d force_n = Vector3d::Zero();
+  double spacing_m = 0.004;   ///< 0: from target_nodes
+  bool auto_spacing = false;  ///< `spacing_m: auto`: as fine as this machine can step; see autoBodies()
+  int target_nodes = 0;       ///< 0: from spacing_m
+  SkinSource skin = SkinSource::kAuto;
+  Vector3d position_m = Vector3d::Zero();
+  Vector3d rotation_deg = Vector3d::Zero();  ///< about fixed x, then y, then z
+  Vector3d color = Vector3d(0.72, 0.25, 0.22);
+  MaterialConfig material;
+  std::vector<PartConfig> parts;  ///< cells of other parts have `material`
+  std::vector<FixedConfig> fixed;
+  std::string spacing_note;  ///< no key: why spacing_m is what it is, where it was chosen
+};
+
+struct StylusConfig {
+  std::string name = "stylus";
+  ToolMode idle = ToolMode::kProbe;
+  ToolMode button1 = ToolMode::kGrab;
+  ToolMode button2 = ToolMode::kCut;
+  double probe_radius_m = 0.006;
+  double grab_radius_m = 0.008;
+  double blade_length_m = 0.02;
+  double eraser_radius_m = 0.002;
+  double release_speed_m_per_s = 0.5;
+  double max_force_n = 5;
+  double max_force_rate_n_per_s = 500;
+  double stale_after_s = 0.2;
+  double workspace_m = 1;
+};
+
+struct CameraConfig {
+  std::string name = "camera";
+  Vector3d position_m = Vector3d(0, -0.3, 0.1);
+  Vector3d target_m = Vector3d::Zero();
+  Vector3d up = Vector3d::UnitZ();
+  double vertical_fov_deg = 35;
+  int width_px = 640;
+  int height_px = 480;
+  double rate_hz = 30;
+  int supersampling = 2;
+};
+
+/// Moving air. Speed at time t: velocity (1 + gust_ratio sin(2 pi t / gust_period)).
+struct WindConfig {
+  Vector3d velocity_m_per_s = Vector3d::Zero();
+  double gust_ratio = 0;
+  double gust_period_s = 1;
+  double air_density_kg_per_m3 = 1.2;
+  double drag_coefficient = 1;
+};
+
+struct EnvironmentConfig {
+  Vector3d gravity_m_per_s2 = Vector3d(0, 0, -9.81);
+  std::string world_frame = "world";
+  std::string tissue_frame = "tissue";
+  Vector3d tissue_position_m = Vector3d::Zero();
+  Vector3d tissue_rotation_deg = Vector3d::Zero();
+  WindConfig wind;
+};
+
+/// Bodies against themselves and each other.
+struct CollisionConfig {
+  bool enabled = false;
+  CollisionSearch search = CollisionSearch::kGrid;
+  double distance_m = 0;  ///< 0: from the springs
+  double friction = 0.3;
+  double restitution = 0;
+  int partitions = 4;  ///< of the staggered search
+  int window = 8;      ///< of the staggered search: neighbours in sorted order that are looked at on either side
+};
+
+/// A rigid thing that nodes do not enter.
+struct ObstacleConfig {
+  std::string name = "obstacle";
+  ObstacleShape shape = ObstacleShape::kPlane;
+  Vector3d position_m = Vector3d::Zero();
+  Vector3d rotation_deg = Vector3d::Zero();  ///< about fixed x, then y, then z
+  double radius_m = 0.02;
+  double length_m = 0.1;                           ///< capsule: between the centres of its ends, along its z
+  Vector3d size_m = Vector3d::Constant(0.05);      ///< box
+  Vector3d velocity_m_per_s = Vector3d::Zero();    ///< of its position, from the start on
+  Vector3d rotation_deg_per_s = Vector3d::Zero();  ///< rotation vector, tissue frame
+  std::string frame;                               ///< tf frame that carries it; empty: the tissue frame
+  double friction = 0.3;
+  double restitution = 0;
+};
+
+struct SolverConfig {
+  double tick_hz = 60;
+  Integrator integrator = Integrator::kLeapfrog;
+  double dt_fraction = 0.75;
+  double dt_fraction_strained = 0.5;
+  int substeps = 0;     ///< 0: from dt_fraction
+  int iterations = 20;  ///< of vbd and pd
+  SpringForces spring_forces = SpringForces::kPoint;
+  bool governor = true;
+  double recovery_s = 0.25;
+  double sleep_distance_m = 1;
+  double sleep_speed_m_per_s = 1e-5;  ///< 0: tissue never sleeps
+  bool compensated = false;
+  int max_substeps = 2000;
+  double real_time_factor = 1.2;  ///< of bodies with auto_spacing
+  int device = -1;
+  Backend backend = Backend::kAuto;
+  int threads = 0;  ///< of the CPU backend; 0: as many as there are processors
+};
+
+/// WHAT is simulated: bodies, tools, cameras and an environment.
+struct Scene {
+  std::string name = "scene";
+  std::vector<BodyConfig> bodies;
+  std::vector<StylusConfig> styluses;
+  std::vector<CameraConfig> cameras;
+  std::vector<ObstacleConfig> obstacles;
+  CollisionConfig collision;
+  EnvironmentConfig environment;
+  SolverConfig solver;
+  std::string folder;  ///< of the scene file: relative mesh files are looked up here
+};
+
+/// "key=value" as given on the command line or in a launch file; the key is a path such as bodies[0].spacing_m.
+using Overrides = std::vector<std::string>;
+
+/// Overrides that make a mesh file, relative to the working directory, the tissue of the first body: centred on the
+/// body's origin, upright (glTF's y up is turned to z). None for an empty name. Overrides that come later go before
+/// them.
+Overrides meshOverrides(const std::string& mesh_file);
+
+/// Reads and checks a scene file.
+/// @throws SceneError  file, line, key and accepted range, for an unknown key, a wrong type, a value out of range, NaN
+Scene loadScene(const std::string& path, const Overrides& overrides = {});
+
+/// The same from text, for tests; `name` stands for the file in messages.
+Scene parseScene(const std::string& yaml, const std::string& name, const Overrides& overrides = {});
+
+/// Indices of the bodies whose spacing is to be chosen: `spacing_m: auto` and no target_nodes.
+std::vector<size_t> autoBodies(const Scene& scene);
+
+/// Markdown table of every scene key: key, type and unit, default, range, meaning.
+std::string sceneKeysTable();
+
+}  // namespace viscera

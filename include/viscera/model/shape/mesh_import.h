@@ -1,0 +1,27 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "viscera/model/shape/triangle_mesh.h"
+
+namespace viscera {
+
+/// What an import left out, part by part in sum.
+struct ImportReport {
+  int parts = 0;
+  int stray_points = 0;          ///< point primitives dropped
+  int stray_lines = 0;           ///< line primitives dropped
+  int degenerate_triangles = 0;  ///< triangles without area or with a repeated vertex dropped
+  int parts_dropped = 0;         ///< parts that hold no triangle
+  std::string text() const;      ///< one line for a person
+};
+
+/// Reads a triangle mesh (OBJ, STL, PLY, glTF, GLB, and what else assimp reads). Vertices with equal positions within a
+/// part are welded; node transforms are applied; every mesh of the file becomes a part named after its node or mesh.
+/// @param unit_scale_m  metres per file unit, > 0
+/// @throws MeshError  missing or corrupt file, no triangle at all, a non-finite coordinate
+TriangleMesh importMesh(const std::string& path, double unit_scale_m, ImportReport* report = nullptr);
+
+}  // namespace viscera

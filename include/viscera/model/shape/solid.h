@@ -1,0 +1,81 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "viscera/math/types.h"
+#include "viscera/model/shape/triangle_mesh.h"
+
+namespace viscera {
+
+/// Told how far a long preparation has come: stage name and fraction 0..1.
+using Progress = std::function<void(const std::string& stage, double fraction)>;
+
+/// A solid as labelled cubic cells on a regular grid, x fastest. Cell (i,j,k) spans origin + h*[i,i+1] x ...
+struct Solid {
+  double spacing_m = 0;
+  Vector3d origin_m = Vector3d::Zero();  ///< corner of cell (0,0,0), tissue frame
+  Vector3i cells = Vector3i::Zero();     ///< cells along x, y, z
+  std::vector<uint16_t> labels;          ///< [cells.prod()] 0 empty, else 1 + index into part_names
+  std::vector<std::string> part_names;
+
+  size_t index(int x, int y, int z) const {
+    return static_cast<size_t>(x) + static_cast<size_t>(cells.x()) * (y + static_cast<size_t>(cells.y()) * z);
+  }
+  /// Label of a cell; 0 outside the grid.
+  uint16_t label(int x, int y, int z) const;
+  size_t filledCells() const;
+  double volumeM3() const { return static_cast<double>(filledCells()) * spacing_m * spacing_m * spacing_m; }
+};
+
+/// What voxelising had to decide, for a person to read.
+struct VoxelReport {
+  double mesh_volume_m3 = 0;    ///< sum of |signed volume| of the parts
+  double filled_volume_m3 = 0;  ///< volume of the solid's cells
+  int holes_closed = 0;         ///< boundary loops that were capped
+  int thin_cells = 0;           ///< cells filled because a wall is thinner than a cell
+  int crumbs_removed = 0;       ///< tiny pieces apart from all others that were emptied
+  int parts_dropped = 0;        ///< parts that filled no cell
+  std::vector<std::string> dropped_names;
+  std::string text() const;
+};
+
+/// Fills the inside of a mesh with cells. docs/fill_rule.md states which cells, whatever the state of the mesh.
+/// @param spacing_m  cell edge [m], > 0
+/// @throws LatticeError  spacing out of range: the grid would not fit in memory, or no cell is inside
+/// @throws MeshError     the mesh encloses no volume
+Solid voxelise(const TriangleMesh& mesh, double spacing_m, VoxelReport* report = nullptr,
+               const Progress& progress = {});
+
+/// Signed distance [m] (negative inside) with a part index, at a point [m].
+struct LabelledDistance {
+  double distance_m;
+  uint16_t part;
+};
+using DistanceField = std::function<LabelledDistance(const Vector3d& point_m)>;
+
+/// Fills the cells whose centre is inside a distance field.
+/// @throws LatticeError  spacing out of range: the grid would not fit in memory, or no cell is inside
+Solid voxelise(const DistanceField& field, const std::vector<std::string>& part_names, const Vector3d& min_m,
+               const Vector3d& max_m, double spacing_m, const Progress& progress = {});
+
+/// A solid box whose lower corner is at `min_m`; sizes are rounded to whole cells, at least one.
+/// @throws LatticeError  spacing out of range
+Solid boxSolid(const Vector3d& min_m, const Vector3d& size_m, double spacing_m);
+
+/// Outer surface of a solid. With a field: isosurface of the field by OpenVDB (smooth); without: of the cells.
+/// Triangles carry the part of the nearest cell. Closed, outward-oriented.
+TriangleMesh extractSkin(const Solid& solid);
+TriangleMesh extractSkin(const DistanceField& field, const std::vector<std::string>& part_names, const Vector3d& min_m,
+                         const Vector3d& max_m, double spacing_m);
+
+/// @param cells  wanted along x, y, z, however many
+/// @throws LatticeError  a grid of `cells` cells needs more memory than the machine has free; names the spacing that
+/// fits
+void requireGridMemory(const Eigen::Array3d& cells, double spacing_m);
+
+}  // namespace viscera

@@ -1,0 +1,131 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "viscera/calibration/auto_spacing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+#include "solver/make_solver.h"
+#include "solver/substeps.h"
+#include "viscera/solver/material.h"
+
+namespace viscera {
+namespace {
+
+/// Share of the clock that steps may take. Tools, measurements and hand-over of the surface take the rest of a tick.
+constexpr double kShareOfSteps = 0.8;
+/// The same where a software rasteriser draws images: it takes as many processors as there are while it does.
+constexpr double kShareBesideDrawing = 0.5;
+/// Nodes of the lattice that the stable substep is taken from; it is in proportion to the spacing.
+constexpr size_t kRuleNodes = 4000;
+
+double shareOfSteps(const Scene& scene, const gpu::Context& context) {
+  return context.isSoftware() && !scene.cameras.empty() ? kShareBesideDrawing : kShareOfSteps;
+}
+
+/// Substeps that the solver will have, as the spacing decides.
+class SubstepRule {
+ public:
+  SubstepRule(const UndividedBodies& bodies, const Model& others, const Scene& scene)
+      : config_(scene.solver), others_dt_s_(safeTimeStep(others)) {
+    spacing_m_ = bodies.spacingOf(kRuleNodes);
+    sample_ = bodies.lattices(spacing_m_);
+    s_per_m_ = safeTimeStep(sample_) / spacing_m_;
+    config_.max_substeps = std::numeric_limits<int>::max();
+  }
+
+  double sampleSpacing_m() const { return spacing_m_; }
+
+  /// Per second, while the tissue is strained: that is when a hand is in it.
+  double perSecond(double spacing_m) const {
+    const double dt_safe_s = std::min(s_per_m_ * spacing_m, others_dt_s_);
+    const SubstepPlan plan = planSubsteps(sample_, config_, dt_safe_s, true);
+    return config_.tick_hz * std::max(plan.calm, plan.strained);
+  }
+
+  /// Finest spacing that the solver does not refuse: max_substeps, or substeps that are given and must be stable.
+  double finest_m(const SolverConfig& asked) const {
+    constexpr double kClear = 1 + 1e-6;
+    if (asked.substeps == 0) {
+      const double fine_m = 1e-2 * spacing_m_;  // so many substeps that rounding up to whole ones does not count
+      return fine_m * perSecond(fine_m) / (asked.tick_hz * asked.max_substeps);
+    }
+    if (!isExplicit(asked.integrator)) return 0;
+    double xi = 0;
+    for (const Body& body : sample_.bodies) xi = std::max(xi, body.material.dashpot_ratio);
+    if (asked.integrator != Integrator::kLeapfrog) xi = 0;
+    return kClear / (asked.tick_hz * asked.substeps * largestFraction(xi) * s_per_m_);
+  }
+
+ private:
+  SolverConfig config_;
+  double others_dt_s_, spacing_m_, s_per_m_;
+  Model sample_;
+};
+
+std::string reason(const SpacingChoice& choice) {
+  switch (choice.bound) {
+    case SpacingBound::kSpeed:
+      return "the finest that leaves time for all else";
+    case SpacingBound::kNodes:
+      return "more nodes take too long to prepare, the machine could step more";
+    case SpacingBound::kSolver:
+      return "the finest that solver.max_substeps or solver.substeps allows, the machine could step more";
+    case SpacingBound::kMemory:
+      return "the finest that fits in memory, the machine could step more";
+    case SpacingBound::kTooSlow:
+      return "as coarse as tissue can be, and this machine is still too slow for it";
+  }
+  return "";
+}
+
+std::string noteOf(const SpacingChoice& choice, const StepTime& step, const Scene& scene, double share,
+                   const std::string& source) {
+  const double nodes = static_cast<double>(choice.nodes);
+  std::ostringstream out;
+  out.precision(3);
+  out << "spacing_m: auto: " << choice.spacing_m << " m, " << choice.nodes << " nodes, at most "
+      << std::lround(choice.substeps_per_s) << " substeps per second; this machine steps "
+      << nodes / step.of(nodes) * 1e-6 << " M nodes/s (" << source << ") in " << share * 100
+      << " % of its time, real-time factor " << scene.solver.real_time_factor / std::max(choice.load, 1e-9) << " of "
+      << scene.solver.real_time_factor << " wanted: " << reason(choice);
+  return out.str();
+}
+
+}  // namespace
+
+Scene withChosenSpacing(const Scene& scene, const gpu::Context& context, const Progress& progress,
+                        const StepTimeCache& cache) {
+  const std::vector<size_t> chosen = autoBodies(scene);
+  if (chosen.empty()) return scene;
+  if (progress) progress("measure this machine", 0);
+  const UndividedBodies bodies(scene);
+  const Model others = bodies.others();
+  const SubstepRule rule(bodies, others, scene);
+  const std::string key = stepTimeKey(scene, context);
+  const std::optional<StepTime> known = cache.find(key);
+  SpacingLimits limits;
+  limits.step = known ? *known : measureStepTime(bodies, scene, context);
+  if (!known) cache.keep(key, limits.step);
+  if (progress) progress("measure this machine", 1);
+  const double share = shareOfSteps(scene, context);
+  limits.stepping_share = share / scene.solver.real_time_factor;
+  limits.substeps_per_s = [&rule](double spacing_m) { return rule.perSecond(spacing_m); };
+  limits.other_nodes = others.activeNodes();
+  limits.whole_m = bodies.wholeEdge_m();
+  limits.finest_m = rule.finest_m(scene.solver);
+  const SpacingChoice choice =
+      chooseSpacing([&](double h) { return bodies.nodes(h); }, rule.sampleSpacing_m(), limits, progress);
+  Scene out = scene;
+  for (const size_t b : chosen) {
+    out.bodies[b].auto_spacing = false;
+    out.bodies[b].spacing_m = choice.spacing_m;
+  }
+  out.bodies[chosen[0]].spacing_note =
+      noteOf(choice, limits.step, scene, share, known ? "measured before, " + cache.file() : "measured now");
+  return out;
+}
+
+}  // namespace viscera

@@ -1,0 +1,162 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "viscera/calibration/step_time.h"
+
+#include <algorithm>
+#include <chrono>
+#include <fstream>
+#include <limits>
+#include <sstream>
+#include <thread>
+
+#include "solver/make_solver.h"
+#include "solver/substeps.h"
+#include "viscera/solver/material.h"
+
+namespace viscera {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Nodes of the smaller lattice; the larger one has half its spacing. A GPU is busy with a launch alone below some
+/// 200,000 nodes.
+constexpr size_t kSmallOnCpu = 4000, kSmallOnGpu = 60000;
+constexpr double kGrowth = 8;                                 ///< of the nodes from one to the other
+constexpr int kExplicitSubsteps = 20, kImplicitSubsteps = 4;  ///< per tick: one round of measurements among so many
+constexpr int kWarmUpTicks = 2, kLeastTicks = 5, kMostTicks = 200;
+constexpr double kWatch_s = 0.15;     ///< clock time per lattice: longer than a hiccup of the machine
+constexpr double kUndisturbed = 0.1;  ///< quantile of the ticks that counts: the speed is kept, the disturbance passes
+constexpr double kPatience_s = 1;     ///< a larger lattice that would take longer is not measured
+constexpr double kTouch = 0.9;  ///< of a probe's radius from the tissue's topmost node: it touches and hardly dents
+
+double secondsSince(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+int substepsPerTick(const SolverConfig& solver) {
+  return isExplicit(solver.integrator) ? kExplicitSubsteps : kImplicitSubsteps;
+}
+
+/// The same work per substep, in ticks of a fixed number of them; tissue that neither falls nor falls asleep.
+Scene measuredScene(Scene scene, const Model& model) {
+  SolverConfig& solver = scene.solver;
+  solver.substeps = 0;
+  solver.max_substeps = std::numeric_limits<int>::max();
+  solver.tick_hz = 1 / (substepsPerTick(solver) * solver.dt_fraction * safeTimeStep(model)) * (1 + 1e-9);
+  solver.sleep_speed_m_per_s = 0;
+  scene.environment.gravity_m_per_s2.setZero();
+  return scene;
+}
+
+Vector3d topmost(const Lattice& lattice) {
+  Vector3d top(0, 0, -std::numeric_limits<double>::infinity());
+  for (const uint32_t slot : lattice.active_slots) {
+    const Vector3d at = lattice.restPosition(slot);
+    if (at.z() > top.z()) top = at;
+  }
+  return top;
+}
+
+/// All styluses at the top of the first body, doing what they do with no button pressed.
+StylusSamples touching(const Model& model, const Scene& scene) {
+  StylusSamples samples;
+  const Vector3d top = topmost(model.bodies.at(0).lattice);
+  for (size_t s = 0; s < scene.styluses.size(); ++s) {
+    samples[s].valid = true;
+    samples[s].pose.position_m = top + kTouch * scene.styluses[s].probe_radius_m * Vector3d::UnitZ();
+  }
+  return samples;
+}
+
+TimedSubstep timeSubstep(const Model& model, const Scene& asked, const gpu::Context& context) {
+  const Scene scene = measuredScene(asked, model);
+  const std::unique_ptr<Solver> solver = makeSolver(model, scene, context);
+  Tools tools(scene.styluses);
+  const StylusSamples samples = touching(model, scene);
+  std::vector<double> seconds;
+  layout::TickStats stats;
+  const Clock::time_point begun = Clock::now();
+  for (int t = 0; t < kMostTicks; ++t) {
+    const Clock::time_point start = Clock::now();
+    const uint64_t before = solver->substepsDone();
+    solver->step(tools.advance(samples));
+    while (solver->pollStats(stats, true)) {
+    }
+    const double substeps = static_cast<double>(solver->substepsDone() - before);
+    if (t >= kWarmUpTicks) seconds.push_back(secondsSince(start) / substeps);
+    if (seconds.size() >= kLeastTicks && secondsSince(begun) > kWatch_s) break;
+  }
+  const auto quick = seconds.begin() + static_cast<std::ptrdiff_t>(kUndisturbed * static_cast<double>(seconds.size()));
+  std::nth_element(seconds.begin(), quick, seconds.end());
+  return {static_cast<double>(model.activeNodes()), *quick};
+}
+
+/// What /proc/cpuinfo calls the processor.
+std::string processorName() {
+  std::ifstream file("/proc/cpuinfo");
+  for (std::string line; std::getline(file, line);) {
+    if (line.rfind("model name", 0) == 0) return line.substr(std::min(line.size(), line.find(':') + 2));
+  }
+  return "processor";
+}
+
+std::string integratorText(const SolverConfig& solver) {
+  std::ostringstream out;
+  out << "integrator " << static_cast<int>(solver.integrator);
+  if (solver.integrator == Integrator::kVbd || solver.integrator == Integrator::kPd) out << 'x' << solver.iterations;
+  if (solver.compensated) out << ", compensated";
+  if (solver.governor) out << ", governor";
+  return out.str();
+}
+
+/// What decides how full the bricks are and which terms a body has.
+std::string bodyText(const BodyConfig& body) {
+  std::ostringstream out;
+  if (body.source == TissueSource::kMesh) out << body.mesh_file;
+  if (body.source == TissueSource::kPhantom) out << "phantom " << body.phantom_wall_scale;
+  if (body.source == TissueSource::kBox) out << "box " << body.box_size_m.transpose();
+  out << (body.material.dashpot_ratio > 0 ? ", dashpot" : "") << ", nu " << body.material.poisson_ratio << ", "
+      << body.parts.size() << " parts";
+  return out.str();
+}
+
+}  // namespace
+
+StepTime stepTimeThrough(const TimedSubstep& small, const TimedSubstep& large) {
+  const double slope = (large.seconds - small.seconds) / (large.nodes - small.nodes);
+  const double overhead = small.seconds - slope * small.nodes;
+  if (large.nodes <= small.nodes || slope <= 0 || overhead < 0) return {0, large.seconds / large.nodes};
+  return {overhead, slope};
+}
+
+StepTime measureStepTime(const UndividedBodies& bodies, const Scene& scene, const gpu::Context& context) {
+  const bool on_gpu = chooseBackend(scene.solver, context) == Backend::kGpu && !context.isSoftware();
+  const double spacing_m = bodies.spacingOf(on_gpu ? kSmallOnGpu : kSmallOnCpu);
+  const TimedSubstep small = timeSubstep(bodies.lattices(spacing_m), scene, context);
+  const double expected_s = small.seconds * kGrowth * substepsPerTick(scene.solver) * (kWarmUpTicks + kLeastTicks);
+  if (expected_s > kPatience_s) return {0, small.seconds / small.nodes};
+  return stepTimeThrough(small, timeSubstep(bodies.lattices(spacing_m / 2), scene, context));
+}
+
+std::string stepTimeKey(const Scene& scene, const gpu::Context& context) {
+  const SolverConfig& solver = scene.solver;
+  const bool on_cpu = chooseBackend(solver, context) == Backend::kCpu;
+  const unsigned threads =
+      solver.threads > 0 ? static_cast<unsigned>(solver.threads) : std::thread::hardware_concurrency();
+  std::ostringstream out;
+  out << VISCERA_VERSION << "; " << processorName();
+  if (on_cpu) {
+    out << "; cpu, " << threads << " threads";
+  } else {
+    out << "; gpu, " << context.renderer() << ", " << context.version();
+  }
+  out << "; " << integratorText(solver) << "; styluses";
+  for (const StylusConfig& stylus : scene.styluses) out << ' ' << static_cast<int>(stylus.idle);
+  for (const size_t b : autoBodies(scene)) out << "; " << bodyText(scene.bodies[b]);
+  std::string key = out.str();
+  std::replace_if(
+      key.begin(), key.end(), [](char c) { return c == '\t' || c == '\n'; }, ' ');
+  return key;
+}
+
+}  // namespace viscera

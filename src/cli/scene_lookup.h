@@ -1,0 +1,16 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "viscera/model/shape/solid.h"
+
+namespace viscera::cli {
+
+/// The file itself, or the shipped scene of that name. @throws SceneError naming where it was looked for
+std::string findScene(const std::string& name);
+/// Reports preparation on standard error: one line per stage, refreshed where it is a terminal.
+Progress consoleProgress();
+
+}  // namespace viscera::cli

@@ -1,0 +1,98 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "model/body/body_notes.h"
+
+#include <algorithm>
+#include <sstream>
+
+namespace viscera {
+namespace {
+
+/// Sizes of the pieces that springs hold together, largest first.
+/// @param for_each_neighbor  (slot, visit) calls visit(neighbour) for the other end of every spring of a node
+template <class ForEachNeighbor>
+std::vector<size_t> pieces(const Lattice& lattice, ForEachNeighbor for_each_neighbor) {
+  std::vector<bool> seen(lattice.nodes.size(), false);
+  std::vector<size_t> sizes;
+  for (const uint32_t seed : lattice.active_slots) {
+    if (seen[seed]) continue;
+    std::vector<uint32_t> piece = {seed};
+    seen[seed] = true;
+    for (size_t next = 0; next < piece.size(); ++next) {
+      for_each_neighbor(piece[next], [&](uint32_t neighbor) {
+        if (seen[neighbor]) return;
+        seen[neighbor] = true;
+        piece.push_back(neighbor);
+      });
+    }
+    sizes.push_back(piece.size());
+  }
+  std::sort(sizes.rbegin(), sizes.rend());
+  return sizes;
+}
+
+std::vector<size_t> pieces(const SpringNetwork& network, const Lattice& lattice) {
+  const NetworkLinks links = linksOf(network);
+  return pieces(lattice, [&](uint32_t slot, auto visit) {
+    for (uint32_t l = links.starts[slot]; l < links.starts[slot + 1]; ++l) visit(links.links[l].far);
+  });
+}
+
+std::vector<size_t> pieces(const Lattice& lattice) {
+  return pieces(lattice, [&](uint32_t slot, auto visit) {
+    for (uint32_t spring = 0; spring < layout::kSpringsPerNode; ++spring) {
+      if (springCount(lattice.nodes[slot], spring) == 0) continue;
+      visit(static_cast<uint32_t>(lattice.neighborSlot(slot, spring)));
+    }
+  });
+}
+
+}  // namespace
+
+std::string latticeNote(const Lattice& lattice, size_t fixed_nodes) {
+  std::ostringstream out;
+  out << "lattice: " << lattice.active_slots.size() << " nodes (" << fixed_nodes << " fixed), " << lattice.springs()
+      << " springs, spacing " << lattice.spacing_m * 1e3 << " mm";
+  return out.str();
+}
+
+std::string networkNote(const Body& body, size_t fixed_nodes) {
+  uint32_t least = UINT32_MAX, most = 0;
+  for (const uint32_t slot : body.lattice.active_slots) {
+    const uint32_t valence = body.lattice.nodes[slot].lo & layout::kValenceMask;
+    least = std::min(least, valence);
+    most = std::max(most, valence);
+  }
+  std::ostringstream out;
+  out << "network: " << body.lattice.active_slots.size() << " nodes (" << fixed_nodes << " fixed), "
+      << body.network->springs.size() << " springs, valence " << least << ".." << most << ", mean length "
+      << body.network->meanLength() * 1e3 << " mm";
+  return out.str();
+}
+
+std::string linksNote(const SpringNetwork& network) {
+  const auto bending = std::count_if(network.springs.begin(), network.springs.end(),
+                                     [](const NetworkSpring& spring) { return spring.against_bending; });
+  std::ostringstream out;
+  out << "explicit: its springs as " << 2 * network.springs.size() << " links, " << bending
+      << " springs against bending among them";
+  return out.str();
+}
+
+std::string piecesNote(const Body& body) {
+  const std::vector<size_t> sizes = body.network ? pieces(*body.network, body.lattice) : pieces(body.lattice);
+  if (sizes.size() < 2) return "";
+  std::ostringstream out;
+  out << "the " << (body.network && !body.network->of_lattice ? "network" : "lattice") << " falls into " << sizes.size()
+      << " pieces; the largest has " << sizes[0] << " nodes, the next " << sizes[1];
+  return out.str();
+}
+
+std::string skinNote(const Skin& skin) {
+  std::ostringstream out;
+  out << "skin: " << skin.mesh.triangles.size() << " faces, " << skin.mesh.positions_m.size() << " vertices ("
+      << skin.deep_vertices << " inside the tissue, " << skin.bridges_removed << " faces across gaps left out)";
+  return out.str();
+}
+
+}  // namespace viscera

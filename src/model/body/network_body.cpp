@@ -1,0 +1,86 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "model/body/network_body.h"
+
+#include <sstream>
+
+#include "model/body/network_builder.h"
+#include "model/body/spacing_search.h"
+#include "viscera/math/error.h"
+
+namespace viscera {
+namespace {
+
+/// The slots of a mesh's parts, once its vertices have become nodes.
+PartNodes partsOf(const TriangleMesh& mesh, const std::vector<uint32_t>& slot_of_vertex) {
+  const auto slots = [mesh, slot_of_vertex](uint16_t label) {
+    std::vector<uint32_t> out;
+    for (size_t t = 0; t < mesh.triangles.size(); ++t) {
+      if (mesh.parts[t] + 1 != label) continue;
+      for (const uint32_t vertex : mesh.triangles[t]) {
+        if (slot_of_vertex[vertex] != UINT32_MAX) out.push_back(slot_of_vertex[vertex]);
+      }
+    }
+    return out;
+  };
+  return {mesh.part_names, slots};
+}
+
+PartNodes noParts() {
+  return {{}, [](uint16_t) { return std::vector<uint32_t>(); }};
+}
+
+void addMembrane(const BodyConfig& config, const Tissue& tissue, Body& body, PartNodes* parts) {
+  const TriangleMesh mesh =
+      config.target_nodes > 0 ? shellToNodes(tissue, config.target_nodes) : tissue.shell(config.spacing_m);
+  size_t degenerate = 0;
+  const SpringNetwork network =
+      membraneNetwork(mesh, config.material, config.thickness_m, config.bending_ratio, &degenerate);
+  if (network.triangles.empty()) throw LatticeError("its surface has no triangle with an area");
+  const std::vector<uint32_t> slot_of_vertex = adoptNetwork(network, body);
+  if (parts) *parts = partsOf(mesh, slot_of_vertex);
+  std::ostringstream note;
+  note << "surface: " << network.triangles.size() << " triangles as springs, " << config.thickness_m * 1e3
+       << " mm thick; " << degenerate << " without area left out";
+  body.notes.push_back(note.str());
+}
+
+void addTetrahedra(const BodyConfig& config, const Tissue& tissue, const Progress& progress, Body& body) {
+  const TetrahedraMesh* given = tissue.tetrahedra();
+  TetrahedraMesh made;
+  if (!given) {
+    const Filling filling = fill(tissue, config, progress);
+    if (!filling.note.empty()) body.notes.push_back(filling.note);
+    made = tetrahedraOf(filling.solid);
+  }
+  const TetrahedraMesh& mesh = given ? *given : made;
+  adoptNetwork(tetrahedraNetwork(mesh, config.material), body);
+  body.notes.push_back("tetrahedra: " + std::to_string(mesh.tetrahedra.size()) + " as springs");
+}
+
+}  // namespace
+
+Body plainBody(const BodyConfig& config) {
+  Body body;
+  body.name = config.name;
+  body.material = config.material;
+  body.parts = config.parts;
+  body.color = config.color;
+  body.force_n = config.force_n;
+  return body;
+}
+
+Body networkBody(const BodyConfig& config, const Tissue& tissue, const Progress& progress, PartNodes* parts) {
+  Body body = plainBody(config);
+  if (progress) progress("build network", 0);
+  if (parts) *parts = noParts();
+  if (config.structure == Structure::kSurface) {
+    addMembrane(config, tissue, body, parts);
+  } else {
+    addTetrahedra(config, tissue, progress, body);
+  }
+  body.lattice.part_names = {config.name};
+  return body;
+}
+
+}  // namespace viscera

@@ -1,0 +1,18 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "model/body/fixed_nodes.h"
+#include "model/shape/tissue.h"
+
+namespace viscera {
+
+/// Name, material and colour of a body as configured.
+Body plainBody(const BodyConfig& config);
+
+/// A body of structure surface or tetrahedra, with notes on how it came about; nothing fixed, no skin.
+/// @param parts  set to the parts of its surface, if wanted
+/// @throws LatticeError  spacing_m or target_nodes out of reach, no triangle with an area
+Body networkBody(const BodyConfig& config, const Tissue& tissue, const Progress& progress, PartNodes* parts = nullptr);
+
+}  // namespace viscera

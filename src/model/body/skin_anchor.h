@@ -1,0 +1,44 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+
+#include "viscera/model/shape/solid.h"
+
+namespace viscera {
+
+/// Half of a face of a solid cell, to which a skin vertex is bound, and where on it (EGVE eq 4).
+/// Node 0 is the right angle, so edges 0-1 and 2-0 are axial springs and edge 1-2 is a face diagonal.
+struct Anchor {
+  std::array<Vector3i, 3> nodes;    ///< counter-clockwise seen from outside the cell
+  double weight1 = 0, weight2 = 0;  ///< of nodes 1 and 2, 0..1; node 0 has the rest
+  bool deep = false;                ///< on a face of the vertex's own cell, not on the boundary of the solid
+};
+
+/// Finds anchors on the faces of a solid's cells.
+class AnchorFinder {
+ public:
+  explicit AnchorFinder(const Solid& solid) : solid_(solid) {}
+
+  /// Nearest place on the boundary of the solid; or on the vertex's own cell where the boundary is farther than a cell.
+  /// In walls of about a cell both sides are near: a boundary face that looks away from `outward` counts as farther,
+  /// up to one spacing.
+  /// @param point_m  tissue frame  @param outward  unit normal of the skin there
+  Anchor find(const Vector3d& point_m, const Vector3d& outward) const;
+
+ private:
+  struct Face {
+    Vector3i cell = Vector3i::Zero();
+    int axis = 0, side = 0;  // side 1 looks along +axis
+    double distance2 = 0;    // from the point, in cells squared
+  };
+  Face nearestBoundary(const Vector3d& point, const Vector3d& outward) const;
+  template <class Visit>
+  void forEachCellOfShell(const Vector3i& center, int radius, Visit visit) const;
+  bool filled(const Vector3i& cell) const { return solid_.label(cell.x(), cell.y(), cell.z()) != 0; }
+
+  const Solid& solid_;
+};
+
+}  // namespace viscera

@@ -1,0 +1,201 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "viscera/model/scene/scene.h"
+
+#include <cctype>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "model/scene/structure_rules.h"
+#include "model/scene/yaml_reader.h"
+#include "viscera/math/error.h"
+
+namespace viscera {
+
+namespace {
+
+struct PathStep {
+  std::string key;
+  int index = -1;  ///< -1: no [index]
+};
+
+/// "bodies[0].material.density_kg_per_m3" -> steps.
+std::vector<PathStep> splitPath(const std::string& path, const std::string& override_text) {
+  std::vector<PathStep> steps;
+  std::istringstream parts(path);
+  std::string part;
+  while (std::getline(parts, part, '.')) {
+    PathStep step;
+    const size_t open = part.find('[');
+    step.key = part.substr(0, open);
+    if (open != std::string::npos) {
+      const std::string digits = part.substr(open + 1, part.size() - open - 2);
+      if (part.back() != ']' || digits.empty() || digits.size() > 4 ||
+          digits.find_first_not_of("0123456789") != std::string::npos) {
+        throw SceneError("override '" + override_text + "': '" + part + "' must be name[index]");
+      }
+      step.index = std::stoi(digits);
+    }
+    if (step.key.empty()) throw SceneError("override '" + override_text + "': empty name in the key");
+    steps.push_back(step);
+  }
+  return steps;
+}
+
+void applyOverride(YAML::Node root, const std::string& text, YamlSource& source) {
+  const size_t equals = text.find('=');
+  if (equals == std::string::npos || equals == 0) {
+    throw SceneError("override '" + text + "' must be key=value, as in bodies[0].spacing_m=0.003");
+  }
+  const std::string path = text.substr(0, equals);
+  const std::vector<PathStep> steps = splitPath(path, text);
+  YAML::Node value;
+  try {
+    value = YAML::Load(text.substr(equals + 1));
+  } catch (const YAML::Exception& e) {
+    throw SceneError("override '" + text + "': " + e.msg);
+  }
+  YAML::Node at = root;
+  for (size_t i = 0; i < steps.size(); ++i) {
+    const bool last = i + 1 == steps.size();
+    YAML::Node next = at[steps[i].key];
+    if (steps[i].index >= 0) {
+      if (!next.IsSequence() || static_cast<size_t>(steps[i].index) >= next.size()) {
+        throw SceneError("override '" + text + "': the scene has no " + steps[i].key + "[" +
+                         std::to_string(steps[i].index) + "]");
+      }
+      next.reset(next[steps[i].index]);
+    }
+    if (next.IsDefined() && !next.IsNull() && !last && !next.IsMap()) {
+      throw SceneError("override '" + text + "': '" + steps[i].key + "' holds no keys");
+    }
+    if (last) next = value;
+    at.reset(next);
+  }
+  source.overridden.insert(path);
+}
+
+bool isRosName(const std::string& name) {
+  if (name.empty() || !std::isalpha(static_cast<unsigned char>(name[0]))) return false;
+  for (char c : name) {
+    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '_') return false;
+  }
+  return true;
+}
+
+template <class List>
+void requireNames(const std::string& file, const char* list, const List& items) {
+  std::set<std::string> seen;
+  for (const auto& item : items) {
+    if (!isRosName(item.name)) {
+      throw SceneError(file + ": name '" + item.name + "' in '" + list +
+                       "' must start with a letter and hold letters, digits and _ only");
+    }
+    if (!seen.insert(item.name).second)
+      throw SceneError(file + ": name '" + item.name + "' stands twice in '" + list + "'");
+  }
+}
+
+void requireFixed(const std::string& where, const FixedConfig& fixed) {
+  if (fixed.shape == FixedShape::kBox && (fixed.min_m.array() > fixed.max_m.array()).any()) {
+    throw SceneError(where + ": 'min_m' must not exceed 'max_m' on any axis");
+  }
+  if (fixed.shape == FixedShape::kPlane && fixed.normal.norm() == 0)
+    throw SceneError(where + ": 'normal' must not be zero");
+  if (fixed.shape == FixedShape::kPart && fixed.part.empty()) throw SceneError(where + ": 'part' must name a part");
+}
+
+/// The dashpot acts on velocities of half a substep ago and so lowers the stable step: f^2 + 2 xi f must stay below 1
+/// for f = dt / dt_safe (physics.md 2).
+void requireStableSubstep(const std::string& file, const SolverConfig& solver, const BodyConfig& body) {
+  if (solver.integrator != Integrator::kLeapfrog && solver.integrator != Integrator::kVerletPaper) return;
+  if (solver.substeps > 0) return;  // checked against the lattice when it is known
+  const double dt_fraction = solver.dt_fraction;
+  const double xi = body.material.dashpot_ratio;
+  const double largest = std::sqrt(1 + xi * xi) - xi;
+  if (dt_fraction < largest) return;
+  throw SceneError(file + ": solver.dt_fraction = " + numberText(dt_fraction) +
+                   " is not stable with the dashpot_ratio of body '" + body.name + "', " + numberText(xi) +
+                   ": use less than " + numberText(largest) + ", or a smaller dashpot_ratio");
+}
+
+/// What no single key can tell.
+void requireConsistent(const std::string& file, const Scene& scene) {
+  if (scene.bodies.empty()) throw SceneError(file + ": 'bodies' must hold at least one body");
+  requireNames(file, "bodies", scene.bodies);
+  requireNames(file, "styluses", scene.styluses);
+  requireNames(file, "cameras", scene.cameras);
+  requireNames(file, "obstacles", scene.obstacles);
+  for (const BodyConfig& body : scene.bodies) {
+    if (body.source == TissueSource::kMesh && body.mesh_file.empty()) {
+      throw SceneError(file + ": body '" + body.name + "' has source mesh and needs 'mesh_file'");
+    }
+    const std::string fault = structureFault(body);
+    if (!fault.empty()) throw SceneError(file + ": body '" + body.name + "': " + fault);
+    for (size_t i = 0; i < body.fixed.size(); ++i) {
+      requireFixed(file + ": body '" + body.name + "' fixed[" + std::to_string(i) + "]", body.fixed[i]);
+    }
+  }
+  for (const BodyConfig& body : scene.bodies) requireStableSubstep(file, scene.solver, body);
+  for (const CameraConfig& camera : scene.cameras) {
+    const Vector3d sight = camera.target_m - camera.position_m;
+    if (sight.cross(camera.up).norm() <= 1e-9 * camera.up.norm()) {
+      throw SceneError(file + ": camera '" + camera.name +
+                       "': 'up' must not be zero or along the line of sight, nor 'target_m' equal 'position_m'");
+    }
+  }
+}
+
+}  // namespace
+
+Overrides meshOverrides(const std::string& mesh_file) {
+  if (mesh_file.empty()) return {};
+  std::string quoted = "'";
+  for (char c : std::filesystem::absolute(mesh_file).string())
+    quoted += c == '\'' ? std::string("''") : std::string(1, c);
+  std::string extension = std::filesystem::path(mesh_file).extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const bool gltf = extension == ".glb" || extension == ".gltf";  // glTF 2.0: +y is up
+  return {"bodies[0].source=mesh", "bodies[0].mesh_file=" + quoted + "'", "bodies[0].centered=true",
+          std::string("bodies[0].up_axis=") + (gltf ? "y" : "z")};
+}
+
+std::vector<size_t> autoBodies(const Scene& scene) {
+  std::vector<size_t> out;
+  for (size_t b = 0; b < scene.bodies.size(); ++b) {
+    if (scene.bodies[b].auto_spacing && scene.bodies[b].target_nodes == 0) out.push_back(b);
+  }
+  return out;
+}
+
+Scene parseScene(const std::string& yaml, const std::string& name, const Overrides& overrides) {
+  YamlSource source{name, {}};
+  Scene scene;
+  try {
+    YAML::Node root = YAML::Load(yaml);
+    if (!root.IsMap())
+      throw SceneError(name + ": a scene is a map of keys, with 'bodies' at least; the file holds none");
+    for (const std::string& text : overrides) applyOverride(root, text, source);
+    YamlReader::readMap(root, "", source, scene);
+  } catch (const YAML::Exception& e) {
+    throw SceneError(name + ":" + std::to_string(e.mark.line + 1) + ": " + e.msg);
+  }
+  requireConsistent(name, scene);
+  return scene;
+}
+
+Scene loadScene(const std::string& path, const Overrides& overrides) {
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error)) throw SceneError(path + ": is a folder, not a scene file");
+  std::ifstream file(path);
+  if (!file) throw SceneError(path + ": cannot be read (does the file exist?)");
+  std::ostringstream text;
+  text << file.rdbuf();
+  Scene scene = parseScene(text.str(), path, overrides);
+  scene.folder = std::filesystem::path(path).parent_path().string();
+  return scene;
+}
+
+}  // namespace viscera

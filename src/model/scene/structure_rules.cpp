@@ -1,0 +1,71 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "model/scene/structure_rules.h"
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+
+#include "model/scene/yaml_reader.h"
+
+namespace viscera {
+namespace {
+
+bool isMsh(const std::string& mesh_file) {
+  std::string extension = std::filesystem::path(mesh_file).extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return extension == ".msh";
+}
+
+std::string sourceFault(const BodyConfig& body) {
+  if (body.source == TissueSource::kSheet && body.structure != Structure::kSurface) {
+    return "source sheet has no volume: it needs structure surface";
+  }
+  if (body.skin == SkinSource::kInput && body.source != TissueSource::kMesh) {
+    return "skin: input needs source: mesh; use auto or volume";
+  }
+  if (body.source != TissueSource::kMesh) return "";
+  const bool is_msh = isMsh(body.mesh_file);
+  if (is_msh && body.structure != Structure::kTetrahedra) {
+    return "mesh_file '" + body.mesh_file + "' holds tetrahedra: it needs structure tetrahedra";
+  }
+  if (!is_msh && body.structure == Structure::kTetrahedra) {
+    return "structure tetrahedra needs a Gmsh .msh file as mesh_file, not '" + body.mesh_file +
+           "', or source box, ball or phantom";
+  }
+  if (is_msh && body.target_nodes > 0) return "target_nodes must be 0: the nodes are those of the .msh file";
+  return "";
+}
+
+/// Keys that only lattices have.
+std::string networkFault(const BodyConfig& body) {
+  const std::string name = body.structure == Structure::kSurface ? "surface" : "tetrahedra";
+  const std::string nature = body.structure == Structure::kSurface ? "1/3 in a sheet" : "1/4 in a solid";
+  if (body.material.poisson_ratio != MaterialConfig{}.poisson_ratio) {
+    return "material.poisson_ratio = " + numberText(body.material.poisson_ratio) + " does not go with structure " +
+           name + ", whose springs give what they give (" + nature + "): leave it out";
+  }
+  if (!body.parts.empty()) return "parts need structure lattice or explicit, not " + name;
+  if (body.material.weights != Weights::kCell) return "material.weights: paper needs structure lattice or explicit";
+  if (body.skin != SkinSource::kAuto) return "skin must be auto with structure " + name + ": the skin is its surface";
+  if (body.auto_spacing && body.target_nodes == 0) {
+    return "spacing_m: auto needs structure lattice or explicit; give " + name + " a number or target_nodes";
+  }
+  return "";
+}
+
+}  // namespace
+
+std::string structureFault(const BodyConfig& body) {
+  const std::string fault = sourceFault(body);
+  if (!fault.empty()) return fault;
+  if (isNetwork(body.structure)) {
+    const std::string network_fault = networkFault(body);
+    if (!network_fault.empty()) return network_fault;
+  }
+  const bool can_bend = body.structure == Structure::kSurface || body.structure == Structure::kExplicit;
+  if (body.bending_ratio > 0 && !can_bend) return "bending_ratio must be 0 unless structure is surface or explicit";
+  return "";
+}
+
+}  // namespace viscera

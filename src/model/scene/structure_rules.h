@@ -1,0 +1,19 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "viscera/model/scene/scene.h"
+
+namespace viscera {
+
+/// Nodes of its own instead of a lattice's?
+inline bool isNetwork(Structure structure) {
+  return structure == Structure::kSurface || structure == Structure::kTetrahedra;
+}
+
+/// What a body's structure does not go with, for a person; empty: nothing.
+std::string structureFault(const BodyConfig& body);
+
+}  // namespace viscera

@@ -1,0 +1,142 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "model/scene/yaml_reader.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "viscera/math/error.h"
+
+namespace viscera {
+
+namespace {
+
+std::string shown(const YAML::Node& node) {
+  if (node.IsScalar()) return "'" + node.Scalar() + "'";
+  if (node.IsSequence()) return "a list of " + std::to_string(node.size());
+  return node.IsMap() ? "a map" : "nothing";
+}
+
+std::string rangeText(Range range, const std::string& unit) {
+  return numberText(range.min) + " .. " + numberText(range.max) + (unit.empty() || unit == "1" ? "" : " " + unit);
+}
+
+}  // namespace
+
+std::string numberText(double value) {
+  std::ostringstream out;
+  out << value;
+  return out.str();
+}
+
+std::string whereIs(const YamlSource& source, const std::string& path, const YAML::Node& node) {
+  for (const std::string& set : source.overridden) {
+    if (path == set || path.rfind(set + ".", 0) == 0 || path.rfind(set + "[", 0) == 0) return "override: ";
+  }
+  if (node.Mark().is_null() && !source.overridden.empty())
+    return "override: ";  // made to hold a value set from outside
+  return source.name + ":" + std::to_string(node.Mark().line + 1) + ": ";
+}
+
+YamlReader::YamlReader(const YAML::Node& map, const std::string& path, const YamlSource& source)
+    : map_(map), path_(path), source_(source) {
+  if (!map.IsMap()) {
+    throw SceneError(whereIs(source, path, map) + (path.empty() ? "the file" : "'" + path + "'") +
+                     " must be a map of keys, not " + shown(map));
+  }
+  std::set<std::string> seen;
+  for (const auto& entry : map) {
+    if (!seen.insert(entry.first.Scalar()).second) {
+      throw SceneError(whereIs(source, path, entry.first) + "key '" + child(entry.first.Scalar()) + "' is given twice");
+    }
+  }
+}
+
+YAML::Node YamlReader::take(const char* key) {
+  known_.push_back(key);
+  const YAML::Node node = map_[key];
+  if (!node.IsDefined()) return YAML::Node(YAML::NodeType::Undefined);
+  return node;
+}
+
+YAML::Node YamlReader::keyNode(const std::string& key) const {
+  for (const auto& entry : map_) {
+    if (entry.first.Scalar() == key) return entry.first;
+  }
+  return map_;
+}
+
+void YamlReader::fail(const std::string& key, const YAML::Node& node, const std::string& accepted) const {
+  const YAML::Node place = node.IsNull() ? keyNode(key) : node;  // an empty value has the line of what comes after it
+  throw SceneError(whereIs(source_, child(key), place) + "'" + child(key) + "' " + accepted + "; found " + shown(node));
+}
+
+double YamlReader::scalar(const char* key, const YAML::Node& node, Range range, const std::string& unit,
+                          const std::string& more) const {
+  double value = 0;
+  const bool is_number = node.IsScalar() && YAML::convert<double>::decode(node, value);
+  if (!is_number || !std::isfinite(value) || value < range.min || value > range.max) {
+    fail(key, node, "is a number, " + rangeText(range, unit) + more);
+  }
+  return value;
+}
+
+void YamlReader::number(const char* key, double& value, Range range, const char* unit, const char*) {
+  const YAML::Node node = take(key);
+  if (node) value = scalar(key, node, range, unit);
+}
+
+void YamlReader::numberOrAuto(const char* key, double& value, bool& is_auto, Range range, const char* unit,
+                              const char*) {
+  const YAML::Node node = take(key);
+  if (!node) return;
+  is_auto = node.IsScalar() && node.Scalar() == "auto";
+  if (!is_auto) value = scalar(key, node, range, unit, ", or auto");
+}
+
+void YamlReader::integer(const char* key, int& value, Range range, const char*) {
+  const YAML::Node node = take(key);
+  if (!node) return;
+  const double number = scalar(key, node, range, "");
+  if (number != std::floor(number)) fail(key, node, "is a whole number, " + rangeText(range, ""));
+  value = static_cast<int>(number);
+}
+
+void YamlReader::boolean(const char* key, bool& value, const char*) {
+  const YAML::Node node = take(key);
+  if (node && (!node.IsScalar() || !YAML::convert<bool>::decode(node, value))) fail(key, node, "is true or false");
+}
+
+void YamlReader::text(const char* key, std::string& value, const char*) {
+  const YAML::Node node = take(key);
+  if (!node) return;
+  if (!node.IsScalar() || node.Scalar().empty()) fail(key, node, "is a text that is not empty");
+  value = node.Scalar();
+}
+
+void YamlReader::vector(const char* key, Vector3d& value, Range range, const char* unit, const char*) {
+  const YAML::Node node = take(key);
+  if (!node) return;
+  if (!node.IsSequence() || node.size() != 3) fail(key, node, "is a list of 3 numbers, " + rangeText(range, unit));
+  for (size_t i = 0; i < 3; ++i) value[static_cast<Eigen::Index>(i)] = scalar(key, node[i], range, unit);
+}
+
+void YamlReader::requireList(const char* key, const YAML::Node& node, double max_count) const {
+  if (!node.IsSequence() || static_cast<double>(node.size()) > max_count) {
+    fail(key, node, "is a list of at most " + numberText(max_count));
+  }
+}
+
+void YamlReader::finish() const {
+  for (const auto& entry : map_) {
+    const std::string key = entry.first.Scalar();
+    if (std::find(known_.begin(), known_.end(), key) != known_.end()) continue;
+    std::string accepted;
+    for (const std::string& k : known_) accepted += (accepted.empty() ? "" : ", ") + k;
+    throw SceneError(whereIs(source_, child(key), entry.first) + "unknown key '" + child(key) +
+                     "'; accepted here: " + accepted);
+  }
+}
+
+}  // namespace viscera

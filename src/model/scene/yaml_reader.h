@@ -1,0 +1,103 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <yaml-cpp/yaml.h>
+
+#include <set>
+#include <string>
+#include <vector>
+
+#include "model/scene/scene_fields.h"
+
+namespace viscera {
+
+/// Where a YAML document came from, so that every complaint can say so.
+struct YamlSource {
+  std::string name;                  ///< of the file
+  std::set<std::string> overridden;  ///< key paths that were set from outside the file
+};
+
+/// Reads one map strictly: it is a field visitor that takes what is there and finish() refuses what it never asked for.
+/// @throws SceneError  file, line, key and what is accepted
+class YamlReader {
+ public:
+  YamlReader(const YAML::Node& map, const std::string& path, const YamlSource& source);
+
+  void number(const char* key, double& value, Range range, const char* unit, const char* text);
+  void numberOrAuto(const char* key, double& value, bool& is_auto, Range range, const char* unit, const char* text);
+  void integer(const char* key, int& value, Range range, const char* text);
+  void boolean(const char* key, bool& value, const char* text);
+  void text(const char* key, std::string& value, const char* text);
+  void vector(const char* key, Vector3d& value, Range range, const char* unit, const char* text);
+
+  template <class E, class List>
+  void choice(const char* key, E& value, const List& names, const char*) {
+    const YAML::Node node = take(key);
+    if (!node) return;
+    std::string accepted;
+    for (const auto& n : names) {
+      if (node.IsScalar() && node.Scalar() == n.name) {
+        value = n.value;
+        return;
+      }
+      accepted += std::string(accepted.empty() ? "" : ", ") + n.name;
+    }
+    fail(key, node, "is one of " + accepted);
+  }
+  template <class E>
+  void choice(const char* key, E& value, Choices<E> names, const char* text) {
+    choice<E, Choices<E>>(key, value, names, text);
+  }
+  template <class Struct>
+  void group(const char* key, Struct& value, const char*) {
+    const YAML::Node node = take(key);
+    if (node) readMap(node, child(key), source_, value);
+  }
+  template <class Struct>
+  void list(const char* key, std::vector<Struct>& values, double max_count, const char*, const Struct& prototype = {}) {
+    const YAML::Node node = take(key);
+    if (!node) return;
+    requireList(key, node, max_count);
+    values.clear();
+    for (size_t i = 0; i < node.size(); ++i) {
+      values.push_back(prototype);
+      readMap(node[i], child(key) + "[" + std::to_string(i) + "]", source_, values.back());
+    }
+  }
+  /// @throws SceneError if the map holds a key that was never asked for
+  void finish() const;
+  bool has(const char* key) const { return map_[key].IsDefined(); }
+  /// Line of the file where the map begins, from 1.
+  int line() const { return map_.Mark().line + 1; }
+
+  template <class Struct>
+  static void readMap(const YAML::Node& map, const std::string& path, const YamlSource& source, Struct& value) {
+    YamlReader reader(map, path, source);
+    visitFields(reader, value);
+    reader.finish();
+  }
+
+ private:
+  YAML::Node take(const char* key);
+  /// @param more  what is accepted besides the number, for the error
+  double scalar(const char* key, const YAML::Node& node, Range range, const std::string& unit,
+                const std::string& more = "") const;
+  void requireList(const char* key, const YAML::Node& node, double max_count) const;
+  std::string child(const std::string& key) const { return path_.empty() ? key : path_ + "." + key; }
+  YAML::Node keyNode(const std::string& key) const;
+  [[noreturn]] void fail(const std::string& key, const YAML::Node& node, const std::string& accepted) const;
+
+  const YAML::Node map_;
+  std::string path_;
+  const YamlSource& source_;
+  std::vector<std::string> known_;
+};
+
+/// "file:line: " of a node; "override: " for one that was set from outside.
+std::string whereIs(const YamlSource& source, const std::string& path, const YAML::Node& node);
+
+/// A number as a person would write it.
+std::string numberText(double value);
+
+}  // namespace viscera

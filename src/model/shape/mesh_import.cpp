@@ -1,0 +1,239 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "viscera/model/shape/mesh_import.h"
+
+#include <assimp/mesh.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+
+#include <algorithm>
+#include <assimp/Importer.hpp>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <set>
+#include <sstream>
+
+#include "model/shape/ply_reader.h"
+#include "viscera/math/error.h"
+
+namespace viscera {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr size_t kMostParts = UINT16_MAX - 1;  // labels are 16 bits wide, and 0 means empty
+
+[[noreturn]] void fail(const std::string& path, const std::string& what) {
+  std::string reason = what;  // assimp quotes from the file, which may be binary
+  std::replace_if(
+      reason.begin(), reason.end(), [](unsigned char c) { return c < ' ' || c > '~'; }, '?');
+  throw MeshError("mesh file '" + path + "': " + reason);
+}
+
+void requireReadableFile(const std::string& path) {
+  std::error_code code;
+  const fs::file_status status = fs::status(path, code);
+  if (!fs::exists(status)) fail(path, "no such file");
+  if (fs::is_directory(status)) fail(path, "is a directory; give a mesh file (OBJ, STL, PLY, glTF or GLB)");
+  if (!fs::is_regular_file(status)) fail(path, "is not a regular file");
+  if (fs::file_size(path, code) == 0) fail(path, "is empty (0 bytes)");
+}
+
+Eigen::Matrix4d toEigen(const aiMatrix4x4& m) {
+  Eigen::Matrix4d out;
+  for (unsigned row = 0; row < 4; ++row) {
+    for (unsigned col = 0; col < 4; ++col) out(row, col) = static_cast<double>(m[row][col]);
+  }
+  return out;
+}
+
+/// Orders positions by their exact value, so that equal ones become one vertex.
+struct LessPosition {
+  bool operator()(const Vector3f& a, const Vector3f& b) const {
+    return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
+  }
+};
+
+/// Walks the node tree of a file and gathers its triangles, part by part.
+class Gatherer {
+ public:
+  Gatherer(const std::string& path, double unit_scale_m) : path_(path), unit_scale_m_(unit_scale_m) {}
+
+  void visit(const aiScene& scene, const aiNode& node, const Eigen::Matrix4d& parent) {
+    const Eigen::Matrix4d pose = parent * toEigen(node.mTransformation);
+    for (unsigned i = 0; i < node.mNumMeshes; ++i) addPart(*scene.mMeshes[node.mMeshes[i]], node, pose);
+    for (unsigned i = 0; i < node.mNumChildren; ++i) visit(scene, *node.mChildren[i], pose);
+  }
+
+  TriangleMesh mesh;
+  ImportReport report;
+
+ private:
+  void addPart(const aiMesh& source, const aiNode& node, const Eigen::Matrix4d& pose) {
+    const std::string name = partName(source, node);
+    const std::vector<uint32_t> vertices = weld(source, pose, name);
+    const bool mirrored = pose.topLeftCorner<3, 3>().determinant() < 0;
+    const size_t before = mesh.triangles.size();
+    for (unsigned f = 0; f < source.mNumFaces; ++f) addFace(source.mFaces[f], vertices, mirrored);
+    if (mesh.triangles.size() == before) {
+      ++report.parts_dropped;
+      return;
+    }
+    if (mesh.part_names.size() == kMostParts) fail(path_, "has more than " + std::to_string(kMostParts) + " parts");
+    mesh.parts.resize(mesh.triangles.size(), static_cast<uint16_t>(mesh.part_names.size()));
+    mesh.part_names.push_back(uniqueName(name));
+    ++report.parts;
+  }
+
+  /// A node that holds one mesh names it; where it holds several, the meshes' own names tell them apart.
+  static std::string partName(const aiMesh& source, const aiNode& node) {
+    const std::string of_node = node.mName.C_Str(), of_mesh = source.mName.C_Str();
+    const bool node_first = node.mNumMeshes == 1 && node.mParent != nullptr && !of_node.empty();
+    const std::string& name = node_first || of_mesh.empty() ? of_node : of_mesh;
+    return name.empty() ? "part" : name;
+  }
+
+  std::string uniqueName(const std::string& name) {
+    std::string unique = name;
+    for (int copy = 2; !names_.insert(unique).second; ++copy) unique = name + "_" + std::to_string(copy);
+    return unique;
+  }
+
+  /// Appends the distinct positions of a part; returns the mesh's vertex for every vertex of the source.
+  std::vector<uint32_t> weld(const aiMesh& source, const Eigen::Matrix4d& pose, const std::string& name) {
+    std::map<Vector3f, uint32_t, LessPosition> known;
+    std::vector<uint32_t> vertices(source.mNumVertices);
+    for (unsigned v = 0; v < source.mNumVertices; ++v) {
+      const aiVector3D& p = source.mVertices[v];
+      const Vector3d moved = (pose * Eigen::Vector4d(p.x, p.y, p.z, 1)).head<3>() * unit_scale_m_;
+      const Vector3f position = moved.cast<float>();
+      if (!position.allFinite()) {
+        fail(path_, "vertex " + std::to_string(v) + " of part '" + name + "' has a non-finite coordinate");
+      }
+      const auto next = static_cast<uint32_t>(mesh.positions_m.size());
+      const auto [found, is_new] = known.try_emplace(position, next);
+      if (is_new) mesh.positions_m.push_back(position);
+      vertices[v] = found->second;
+    }
+    return vertices;
+  }
+
+  void addFace(const aiFace& face, const std::vector<uint32_t>& vertices, bool mirrored) {
+    if (face.mNumIndices == 1) ++report.stray_points;
+    if (face.mNumIndices == 2) ++report.stray_lines;
+    if (face.mNumIndices != 3) return;
+    std::array<uint32_t, 3> triangle;
+    for (int c = 0; c < 3; ++c) {
+      if (face.mIndices[c] >= vertices.size()) fail(path_, "a face refers to a vertex that does not exist");
+      triangle[c] = vertices[face.mIndices[c]];
+    }
+    if (mirrored) std::swap(triangle[1], triangle[2]);
+    if (hasArea(triangle)) {
+      mesh.triangles.push_back(triangle);
+    } else {
+      ++report.degenerate_triangles;
+    }
+  }
+
+  bool hasArea(const std::array<uint32_t, 3>& t) const {
+    const Vector3d a = mesh.positions_m[t[0]].cast<double>();
+    const Vector3d ab = mesh.positions_m[t[1]].cast<double>() - a;
+    const Vector3d ac = mesh.positions_m[t[2]].cast<double>() - a;
+    return ab.cross(ac).norm() > kFlat * std::max(ab.squaredNorm(), ac.squaredNorm());
+  }
+
+  /// Height over length below which three single-precision points lie on one line.
+  static constexpr double kFlat = 1e-12;
+
+  std::string path_;
+  double unit_scale_m_;
+  std::set<std::string> names_;
+};
+
+/// Removes the vertices that only stray points, lines and degenerate triangles used.
+void dropUnusedVertices(TriangleMesh& mesh) {
+  constexpr uint32_t kUnused = UINT32_MAX;
+  std::vector<uint32_t> moved(mesh.positions_m.size(), kUnused);
+  std::vector<Vector3f> kept;
+  for (auto& triangle : mesh.triangles) {
+    for (uint32_t& vertex : triangle) {
+      if (moved[vertex] == kUnused) {
+        moved[vertex] = static_cast<uint32_t>(kept.size());
+        kept.push_back(mesh.positions_m[vertex]);
+      }
+      vertex = moved[vertex];
+    }
+  }
+  mesh.positions_m.swap(kept);
+}
+
+/// A truncated file can leave faces without vertices, at which assimp's own triangulation would abort the process.
+void requireVerticesInFaces(const aiScene& scene, const std::string& path) {
+  for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
+    const aiMesh& mesh = *scene.mMeshes[m];
+    const bool corrupt = std::any_of(mesh.mFaces, mesh.mFaces + mesh.mNumFaces,
+                                     [](const aiFace& face) { return face.mNumIndices == 0; });
+    if (corrupt) fail(path, "is corrupt or cut short: a face has no vertices");
+  }
+}
+
+/// The scene that assimp makes of a file, polygons as triangles; it belongs to the importer.
+const aiScene& readScene(Assimp::Importer& importer, const std::string& path) {
+  const aiScene* scene = nullptr;
+  try {
+    scene = importer.ReadFile(path, 0);
+  } catch (const std::exception& error) {
+    fail(path, std::string("cannot be read: ") + error.what());
+  }
+  if (scene != nullptr) {
+    requireVerticesInFaces(*scene, path);
+    scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
+  }
+  if (scene == nullptr) fail(path, std::string("cannot be read: ") + importer.GetErrorString());
+  if (scene->mRootNode == nullptr) fail(path, "holds no scene");
+  return *scene;
+}
+
+void gather(const std::string& path, Gatherer& gatherer) {
+  const Eigen::Matrix4d identity = Eigen::Matrix4d::Identity();
+  if (isPly(path)) {
+    std::unique_ptr<aiScene> scene;
+    try {
+      scene = readPly(path);
+    } catch (const MeshError& error) {
+      fail(path, std::string("is corrupt or cut short: ") + error.what());
+    }
+    gatherer.visit(*scene, *scene->mRootNode, identity);
+    return;
+  }
+  Assimp::Importer importer;
+  const aiScene& scene = readScene(importer, path);
+  gatherer.visit(scene, *scene.mRootNode, identity);
+}
+
+}  // namespace
+
+std::string ImportReport::text() const {
+  std::ostringstream out;
+  out << parts << (parts == 1 ? " part" : " parts") << " imported; dropped: " << stray_points << " points, "
+      << stray_lines << " lines, " << degenerate_triangles << " degenerate triangles, " << parts_dropped
+      << " parts without triangles";
+  return out.str();
+}
+
+TriangleMesh importMesh(const std::string& path, double unit_scale_m, ImportReport* report) {
+  if (!std::isfinite(unit_scale_m) || unit_scale_m <= 0) {
+    fail(path, "unit_scale_m must be a finite number > 0, not " + std::to_string(unit_scale_m));
+  }
+  requireReadableFile(path);
+  Gatherer gatherer(path, unit_scale_m);
+  gather(path, gatherer);
+  if (gatherer.mesh.triangles.empty()) fail(path, "holds no triangle (" + gatherer.report.text() + ")");
+  dropUnusedVertices(gatherer.mesh);
+  if (report != nullptr) *report = gatherer.report;
+  return std::move(gatherer.mesh);
+}
+
+}  // namespace viscera

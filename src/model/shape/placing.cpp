@@ -1,0 +1,17 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "model/shape/placing.h"
+
+namespace viscera {
+
+Eigen::AlignedBox3d movedBox(const Vector3d& min_m, const Vector3d& max_m, const Pose& pose) {
+  const Vector3d half = 0.5 * (max_m - min_m), center = pose * (0.5 * (min_m + max_m));
+  const Vector3d reach = pose.orientation.toRotationMatrix().cwiseAbs() * half;
+  return {center - reach, center + reach};
+}
+
+DistanceField movedField(const DistanceField& field, const Pose& pose) {
+  return [field, to_body = pose.inverse()](const Vector3d& point_m) { return field(to_body * point_m); };
+}
+
+}  // namespace viscera

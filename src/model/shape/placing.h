@@ -1,0 +1,44 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "model/shape/tetrahedra_mesh.h"
+#include "model/shape/tissue.h"
+
+namespace viscera {
+
+// Steps from a file's or a shape's own coordinates to the tissue frame.
+
+template <class Vector>
+void move(std::vector<Vector>& points_m, const Pose& pose) {
+  for (Vector& p : points_m) {
+    const Vector3d moved = pose * p.template cast<double>();
+    p = moved.cast<typename Vector::Scalar>();
+  }
+}
+
+/// Turns the file's upward axis to z and moves the middle of its bounding box to the origin, where asked to.
+template <class Vector>
+void toBodyFrame(std::vector<Vector>& points_m, const BodyConfig& config) {
+  if (config.up_axis == UpAxis::kY) {
+    for (Vector& p : points_m) p = Vector(p.x(), -p.z(), p.y());
+  }
+  if (!config.centered) return;
+  Eigen::AlignedBox<typename Vector::Scalar, 3> box;
+  for (const Vector& p : points_m) box.extend(p);
+  const Vector middle = box.center();
+  for (Vector& p : points_m) p -= middle;
+}
+
+template <class Vector>
+Eigen::AlignedBox3d boundsOf(const std::vector<Vector>& points_m) {
+  Eigen::AlignedBox3d box;
+  for (const Vector& p : points_m) box.extend(p.template cast<double>());
+  return box;
+}
+
+/// Box around a box that is turned and moved.
+Eigen::AlignedBox3d movedBox(const Vector3d& min_m, const Vector3d& max_m, const Pose& pose);
+DistanceField movedField(const DistanceField& field, const Pose& pose);
+
+}  // namespace viscera

@@ -1,0 +1,28 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "viscera/model/shape/solid.h"
+
+namespace viscera {
+
+/// An empty solid whose cells cover a box; the cells are centred on the box, so that a box of whole cells fits exactly.
+/// @throws LatticeError  spacing not a finite number > 0, larger than the box, or the grid would not fit in memory
+Solid emptySolid(const Vector3d& min_m, const Vector3d& max_m, double spacing_m,
+                 const std::vector<std::string>& part_names);
+
+/// @throws LatticeError  spacing not a finite number > 0
+void requireSpacing(double spacing_m);
+
+/// @throws LatticeError  spacing not a finite number > 0, or larger than a body of this size in every direction
+void requireSpacingWithin(const Vector3d& size_m, double spacing_m);
+
+/// For a spacing at which no cell was filled: looks for a finer one with which fills(spacing_m) is true.
+/// @throws LatticeError  there is one; names it
+void requireFinerSpacing(double spacing_m, const std::function<bool(double)>& fills);
+
+}  // namespace viscera

@@ -1,0 +1,38 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "viscera/model/shape/triangle_mesh.h"
+
+namespace viscera {
+
+/// One part of a mesh, made into a closed surface: every point off it has a whole winding number.
+struct Shell {
+  std::vector<Vector3d> positions_m;
+  std::vector<std::array<uint32_t, 3>> triangles;  ///< the part's own first, then the caps
+  std::vector<bool> turned;  ///< [own triangles] whether it was turned to agree with its neighbours
+  int holes_closed = 0;      ///< boundary loops that were capped with some area
+  double own_area_m2 = 0;
+  double cap_area_m2 = 0;
+  double volume_m3 = 0;  ///< signed; negative where the part is inside out
+
+  /// A surface that is more hole than wall, such as a plane or a shallow bowl, has no inside.
+  bool isOpenSheet() const { return cap_area_m2 > kMostCapArea * own_area_m2; }
+  Vector3d min() const;
+  Vector3d max() const;
+
+  /// Area of the caps over area of the part up to which its holes count as damage; a half sphere has 0.5.
+  static constexpr double kMostCapArea = 0.6;
+};
+
+/// Orients the triangles of one part alike across shared edges and caps its boundary loops.
+Shell closePart(const TriangleMesh& mesh, uint16_t part);
+
+/// The mesh with its triangles turned to be counter-clockwise seen from outside, part by part.
+TriangleMesh facingOutward(const TriangleMesh& mesh);
+
+}  // namespace viscera

@@ -1,0 +1,133 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "model/shape/tissue.h"
+
+#include <filesystem>
+
+#include "model/scene/structure_rules.h"
+#include "model/shape/msh_reader.h"
+#include "model/shape/phantom.h"
+#include "model/shape/placing.h"
+#include "model/shape/plain_tissue.h"
+#include "model/shape/solid_shell.h"
+#include "viscera/math/error.h"
+#include "viscera/model/shape/mesh_import.h"
+
+namespace viscera {
+namespace {
+
+TriangleMesh refined(const TriangleMesh& mesh, double longest_edge_m) {
+  double area_m2 = 0;
+  for (const auto& t : mesh.triangles) {
+    const Vector3d a = mesh.positions_m[t[0]].cast<double>();
+    area_m2 +=
+        0.5 * (mesh.positions_m[t[1]].cast<double>() - a).cross(mesh.positions_m[t[2]].cast<double>() - a).norm();
+  }
+  requireShell(area_m2, longest_edge_m);
+  return refine(mesh, longest_edge_m);
+}
+
+class MeshTissue : public Tissue {
+ public:
+  MeshTissue(const BodyConfig& config, const std::string& folder) {
+    path_ = (std::filesystem::path(folder) / config.mesh_file).string();
+    ImportReport report;
+    mesh_ = facingOutward(importMesh(path_, config.unit_scale_m, &report));
+    toBodyFrame(mesh_.positions_m, config);
+    move(mesh_.positions_m, bodyPose(config));
+    notes.push_back(path_ + ": " + report.text());
+  }
+
+  Filling fill(double spacing_m, const Progress& progress) const override {
+    VoxelReport report;
+    try {
+      Solid solid = voxelise(mesh_, spacing_m, &report, progress);
+      return {std::move(solid), report.text()};
+    } catch (const MeshError& error) {
+      throw MeshError("mesh file '" + path_ + "': " + error.what());
+    }
+  }
+
+  TriangleMesh surface(const Solid&) const override { return mesh_; }
+  TriangleMesh shell(double spacing_m) const override { return refined(mesh_, spacing_m); }
+  Eigen::AlignedBox3d bounds() const override { return boundsOf(mesh_.positions_m); }
+
+ private:
+  std::string path_;
+  TriangleMesh mesh_;
+};
+
+class PhantomTissue : public Tissue {
+ public:
+  explicit PhantomTissue(const BodyConfig& config)
+      : phantom_(heartPhantom(config.phantom_length_m, config.phantom_wall_scale)) {
+    const Pose pose = bodyPose(config);
+    const Eigen::AlignedBox3d box = movedBox(phantom_.min_m, phantom_.max_m, pose);
+    phantom_.min_m = box.min();
+    phantom_.max_m = box.max();
+    phantom_.field = movedField(phantom_.field, pose);
+  }
+
+  Filling fill(double spacing_m, const Progress& progress) const override {
+    return {voxelise(phantom_.field, phantom_.part_names, phantom_.min_m, phantom_.max_m, spacing_m, progress), ""};
+  }
+
+  TriangleMesh surface(const Solid& solid) const override { return shell(solid.spacing_m); }
+  TriangleMesh shell(double spacing_m) const override {
+    return extractSkin(phantom_.field, phantom_.part_names, phantom_.min_m, phantom_.max_m, spacing_m);
+  }
+
+  Eigen::AlignedBox3d bounds() const override { return {phantom_.min_m, phantom_.max_m}; }
+
+ private:
+  Phantom phantom_;
+};
+
+/// A tetrahedral mesh: it is what it is, no surface and no solid is made of it.
+class TetrahedraTissue : public Tissue {
+ public:
+  TetrahedraTissue(const BodyConfig& config, const std::string& folder) {
+    const std::string path = (std::filesystem::path(folder) / config.mesh_file).string();
+    MshReport report;
+    mesh_ = readMsh(path, config.unit_scale_m, &report);
+    toBodyFrame(mesh_.positions_m, config);
+    move(mesh_.positions_m, bodyPose(config));
+    notes.push_back(path + ": " + report.text());
+  }
+
+  Filling fill(double, const Progress&) const override { throw LatticeError("a .msh file makes no lattice"); }
+  TriangleMesh surface(const Solid&) const override { throw LatticeError("a .msh file makes no lattice"); }
+  TriangleMesh shell(double) const override { throw LatticeError("a .msh file makes no membrane"); }
+  const TetrahedraMesh* tetrahedra() const override { return &mesh_; }
+  Eigen::AlignedBox3d bounds() const override { return boundsOf(mesh_.positions_m); }
+
+ private:
+  TetrahedraMesh mesh_;
+};
+
+}  // namespace
+
+Pose bodyPose(const BodyConfig& config) {
+  return {config.position_m, rotationFromDegrees(config.rotation_deg)};
+}
+
+std::unique_ptr<Tissue> makeTissue(const BodyConfig& config, const std::string& folder) {
+  const std::string fault = structureFault(config);
+  if (!fault.empty()) throw SceneError("body '" + config.name + "': " + fault);
+  switch (config.source) {
+    case TissueSource::kMesh:
+      if (config.structure == Structure::kTetrahedra) return std::make_unique<TetrahedraTissue>(config, folder);
+      return std::make_unique<MeshTissue>(config, folder);
+    case TissueSource::kPhantom:
+      return std::make_unique<PhantomTissue>(config);
+    case TissueSource::kSheet:
+      return sheetTissue(config);
+    case TissueSource::kBall:
+      return ballTissue(config);
+    case TissueSource::kBox:
+      return boxTissue(config);
+  }
+  throw SceneError("body '" + config.name + "': unknown source");
+}
+
+}  // namespace viscera

@@ -1,0 +1,66 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "render/render_target.h"
+#include "viscera/render/camera.h"
+#include "viscera/surface/surface.h"
+#include "viscera/tools/stylus.h"
+
+namespace viscera {
+
+class TissuePainter;
+class ToolPainter;
+class ObstaclePainter;
+
+/// Triangles that are on the GPU already; buffer names are OpenGL's.
+struct MeshView {
+  uint32_t positions = 0;  ///< float[3 * vertices] m, tissue frame
+  uint32_t normals = 0;    ///< uint[vertices] packed as packNormal(); a null normal is shaded flat
+  uint32_t colors = 0;     ///< uint[vertices] sRGB, red in the lowest byte
+  uint32_t indices = 0;    ///< uint[index_count], counter-clockwise seen from outside; (0, 0, 0) draws nothing
+  size_t index_count = 0;
+};
+
+/// Off-screen colour images of the surface and the tools, one framebuffer per camera. Draws only when asked.
+///
+/// Images are 8-bit sRGB. Their first row is OpenGL's bottom row: rows read back come top first (see clipFromOptical).
+class Renderer {
+ public:
+  /// Antialiasing is CameraConfig::supersampling: every pixel is the mean of n x n drawn ones. On a software
+  /// rasteriser, where the time goes into the setup of small triangles, 2 x 2 costs less than multisampling with 4
+  /// samples, and it smooths highlights too.
+  /// @throws SceneError  a camera without a line of sight;  GpuError  a framebuffer that the driver refuses
+  Renderer(const std::vector<CameraConfig>& cameras, const std::vector<StylusConfig>& styluses,
+           const std::vector<ObstacleConfig>& obstacles = {});
+  ~Renderer();
+  Renderer(const Renderer&) = delete;
+  Renderer& operator=(const Renderer&) = delete;
+
+  /// Draws one camera's view and leaves its single-sample colour attachment bound for reading (for ReadbackRing).
+  /// Makes no OpenGL object, and sets all the state that it depends on.
+  void draw(size_t camera, const Surface& surface, const ToolMotions& motions);
+  void draw(size_t camera, const MeshView& mesh, const ToolMotions& motions);
+  /// Where obstacles are in what is drawn from now on. @param poses  [obstacles] tissue frame; nowhere before the first
+  /// call
+  void placeObstacles(const std::vector<Pose>& poses) { obstacle_poses_ = poses; }
+  /// Leaves the image that was drawn last bound for reading, as draw() does, without drawing.
+  void bindLast(size_t camera) const;
+  uint64_t renders() const { return renders_; }
+
+ private:
+  std::vector<CameraConfig> cameras_;
+  std::vector<StylusConfig> styluses_;
+  std::vector<RenderTarget> targets_;
+  std::unique_ptr<TissuePainter> tissue_;
+  std::unique_ptr<ToolPainter> tools_;
+  std::unique_ptr<ObstaclePainter> obstacles_;  ///< null where the scene has none
+  std::vector<Pose> obstacle_poses_;
+  uint64_t renders_ = 0;
+};
+
+}  // namespace viscera

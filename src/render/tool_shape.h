@@ -1,0 +1,36 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "viscera/math/types.h"
+#include "viscera/model/scene/scene.h"
+
+namespace viscera {
+
+/// A stylus of the usual size.
+constexpr double kShaftLength_m = 0.12, kShaftRadius_m = 0.003;
+
+/// Vertex of a drawn tool, as the GPU takes it.
+struct ToolVertex {
+  std::array<float, 3> position_m;  ///< stylus frame
+  std::array<float, 3> normal;      ///< unit, outwards
+  std::array<uint8_t, 4> color;     ///< sRGB; alpha 255 is solid, less is an outline that the tissue shows through
+};
+
+/// Triangles of a drawn tool, counter-clockwise seen from outside.
+struct ToolShape {
+  std::vector<ToolVertex> vertices;
+  std::vector<uint32_t> indices;  ///< solid triangles, then translucent ones
+  size_t solid_indices = 0;
+};
+
+/// What a person sees of a stylus in a mode: a shaft from the tip backwards (+z), a collar in the mode's colour, and
+/// what acts on tissue in its true size: the probe's sphere, jaws within the sphere that they grab, the blade (-z), the
+/// capsule of the particle eraser. kNone is the shaft alone.
+ToolShape toolShape(const StylusConfig& stylus, ToolMode mode);
+
+}  // namespace viscera

@@ -1,0 +1,55 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "gpu/readback.h"
+#include "render/renderer.h"
+#include "viscera/session/view.h"
+
+namespace viscera {
+
+/// A view that lives on the thread that made it: queues its work on the GPU and never waits for it unless asked to.
+class InlineView : public View {
+ public:
+  /// Needs a current context. @throws GpuError; SceneError  a camera without a line of sight
+  InlineView(const Model& model, const Scene& scene);
+
+  void capture(Solver& solver, const Look& look, Pictures& out) override { capture(solver.state(), look, out); }
+  void capture(const StateView& state, const Look& look, Pictures& out);
+  void collect(Pictures& out, bool wait) override;
+  void reset() override;
+  ViewCounters counters() const override;
+  const Surface& surface() const override { return surface_; }
+
+ private:
+  struct Drawn {  ///< what the last image of a camera shows, if it is known when the state moved
+    uint32_t moved_revision = 0;
+    uint64_t cut_revision = 0;
+    ToolMotions motions;
+    std::vector<Pose> obstacles;
+  };
+  struct Eye {
+    CameraConfig camera;
+    std::unique_ptr<gpu::ReadbackRing> ring;
+    std::optional<Drawn> drawn;
+  };
+  void follow(const StateView& state);
+  void captureSurface(const StateView& state, uint64_t tick);
+  void captureImage(size_t camera, const StateView& state, const Look& look, Pictures& out);
+  void draw(size_t camera, const StateView& state, const Look& look);
+  bool takeImage(size_t camera, Pictures& out, bool wait);
+  bool takeSurface(Pictures& out, bool wait);
+
+  Surface surface_;
+  Renderer renderer_;
+  gpu::ReadbackRing surface_ring_;
+  std::vector<Eye> eyes_;  ///< [cameras]
+  ViewCounters counters_;
+  bool followed_ = false;  ///< the surface shows the state of this capture
+};
+
+}  // namespace viscera

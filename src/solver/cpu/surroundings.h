@@ -1,0 +1,47 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "solver/collision.h"
+#include "solver/cpu/cpu_lattice.h"
+#include "solver/cpu/parallel.h"
+#include "solver/substep.h"
+#include "solver/surroundings.h"
+
+namespace viscera {
+
+/// Wind, forces on bodies, contacts and obstacles on the CPU: the text of shaders/surroundings.comp and collision.comp,
+/// compiled as C++. See gpu/surroundings_pass.h.
+class CpuSurroundings {
+ public:
+  /// Of collision.h's reach: how far two nodes may move relative to each other before the complete search begins anew.
+  static constexpr double kListMargin = 0.4;
+
+  /// @param parallel  must outlive it   @param list_margin  0: searches in every substep; changes no bit
+  CpuSurroundings(const Model& model, const Scene& scene, const CpuLattice& lattice, const Parallel& parallel,
+                  double list_margin = kListMargin);
+  ~CpuSurroundings();
+  /// current state -> other state, which becomes the current one. The other one must hold the state before the substep.
+  void run(CpuLattice& lattice, const Substep& step, const Surroundings& surroundings);
+  /// For tests: slots a < b of all pairs that the search finds in the current state, ascending.
+  std::vector<CollisionPair> findPairs(CpuLattice& lattice);
+  size_t searches() const;  ///< complete ones for candidates so far
+
+ private:
+  struct Work;
+  void searchStaggered(CpuLattice& lattice);
+  void collide(CpuLattice& lattice, const Substep& step);
+  void collideStaggered(CpuLattice& lattice, const Substep& step);
+  void collideListed(CpuLattice& lattice, const Substep& step);
+  template <class Kernel>
+  void apply(CpuLattice& lattice, const Substep& step, const Surroundings& surroundings);
+
+  const Parallel& parallel_;
+  SurroundingsFeatures kinds_;
+  std::unique_ptr<Work> work_;
+};
+
+}  // namespace viscera

@@ -1,0 +1,59 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "solver/cpu/cpu_lattice.h"
+
+namespace viscera {
+
+// What styluses do to a CpuLattice (VR05 2.7, physics.md 5). The equations are the text of shaders/grab.comp, cut.comp,
+// volume.comp and contact.glsl, compiled as C++. On one thread, except where it says otherwise.
+
+/// Takes hold of free nodes within a radius around the tip.
+/// @param stylus  index, < kMaxStyluses   @param pose  of the stylus, tissue frame   @param radius_m  of the grip
+void takeHold(CpuLattice& lattice, uint32_t stylus, const Pose& pose, double radius_m);
+
+/// Lets go what a stylus holds. @param release_speed_m_per_s  faster nodes are slowed to this
+void letGo(CpuLattice& lattice, uint32_t stylus, double release_speed_m_per_s);
+
+/// Erases the springs that a swept blade crosses, from both ends, and with them the volumes of their cells. Most nodes
+/// are passed over by loops that vector units run: allocates nothing once it has cut.
+class CpuCut {
+ public:
+  explicit CpuCut(const CpuLattice& lattice);
+  /// @param particles  all springs of the nodes near the blade instead
+  /// @return springs cut
+  uint32_t run(CpuLattice& lattice, const layout::ToolMotion& motion, bool particles);
+  /// [looked at] in the last run: bricks with a node, or a place for one, within the sphere that the blade may cut in.
+  const std::vector<uint32_t>& bricks() const { return near_; }
+
+ private:
+  void findBricks(const CpuLattice& lattice, const layout::ToolMotion& motion);
+  void placeNodes(const CpuLattice& lattice, const layout::ToolMotion& motion, float grown_m);
+  bool mayCross(const layout::Brick& brick) const;
+  template <class Kernel>
+  uint32_t cutWith(CpuLattice& lattice, const layout::ToolMotion& motion);
+  void tearCells(CpuLattice& lattice) const;
+
+  std::vector<uint32_t> near_;     ///< bricks
+  std::vector<uint8_t> outside_;   ///< [slots] of near bricks: on which sides of the box around the sweep, a bit each
+  std::vector<uint8_t> common_;    ///< [bricks] the sides on which all places of a near brick are; 255 elsewhere
+  std::vector<uint32_t> changed_;  ///< slots that lost springs
+};
+
+/// What all styluses do to a node in a substep: pushed out of probes, or where its stylus holds it. May run for nodes
+/// of different bricks at the same time.
+/// @param motions  [kMaxStyluses] of the substep   @param push_speed_m_per_s  a probe pushes a node out no faster
+/// @param u_m  before the substep   @param u_next_m, v_next_m_per_s  after it, without styluses; changed
+void resolveContact(CpuLattice& lattice, uint32_t slot, const layout::ToolMotion* motions, float dt_s,
+                    float push_speed_m_per_s, const Vector3f& u_m, Vector3f& u_next_m, Vector3f& v_next_m_per_s);
+
+/// Sums what styluses gave to nodes in a tick into impulse, angular and touched, always in the same order, in float64,
+/// and clears it. @param tips  of the styluses at the end of the tick, tissue frame [m]
+void sumReactions(CpuLattice& lattice, const std::array<Vector3f, layout::kMaxStyluses>& tips,
+                  layout::TickStats& stats);
+
+}  // namespace viscera

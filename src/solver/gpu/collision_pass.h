@@ -1,0 +1,52 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "solver/collision.h"
+#include "solver/gpu/features.h"
+#include "solver/gpu/lattice_buffers.h"
+#include "solver/substep.h"
+#include "viscera/gpu/program.h"
+
+namespace viscera {
+
+/// Contacts between nodes: finds pairs and says what they do to either node (collision.h). Owner of
+/// shaders/collision.comp.
+class CollisionPass {
+ public:
+  CollisionPass(const Model& model, const Scene& scene, const FeatureSet& features, const LatticeBuffers& buffers);
+  /// Pairs of the current state and their impulses, into `corrections`. The other state must be the one before the
+  /// substep.
+  void run(const LatticeBuffers& buffers, const Substep& step) const;
+  void bind() const;
+
+  /// For tests: slots a < b of all pairs that the search finds in the current state, ascending, 64 per node at most.
+  /// Waits.
+  std::vector<CollisionPair> findPairs(const LatticeBuffers& buffers) const;
+
+ private:
+  void tell(const gpu::Program& program, const LatticeBuffers& buffers, const Substep& step) const;
+  void dispatch(size_t count) const;
+  size_t search(const LatticeBuffers& buffers, const Substep& step) const;
+  void searchGrid(const LatticeBuffers& buffers, const Substep& step) const;
+  void searchStaggered(const LatticeBuffers& buffers, const Substep& step) const;
+
+  CollisionConfig config_;
+  float cell_m_;
+  gpu::Program count_, place_, scatter_, order_;  ///< grid
+  gpu::Program list_, exchange_, rank_;           ///< staggered
+  gpu::Program meet_, push_, pairs_;
+  gpu::Buffer<uint32_t> collidable_;       ///< collidableNodes()
+  mutable gpu::Buffer<uint32_t> buckets_;  ///< see layout::kBindBuckets, and so on
+  gpu::Buffer<uint32_t> unsorted_, ranks_;
+  gpu::Buffer<layout::uvec4> entries_;
+  gpu::Buffer<layout::vec4> before_, contacts_, corrections_;
+  gpu::Buffer<std::array<uint32_t, 2>> items_;
+  uint32_t bucket_count_ = 0, sorted_ = 0;
+  uint32_t group_size_;
+};
+
+}  // namespace viscera

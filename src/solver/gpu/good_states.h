@@ -1,0 +1,36 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "solver/gpu/lattice_buffers.h"
+
+namespace viscera {
+
+/// Ring of the last good states, on the GPU: displacements and velocities. Cuts are not undone.
+class GoodStates {
+ public:
+  /// @param depth  states that are kept, > 0
+  GoodStates(size_t slots, int depth);
+  void clear() { kept_ = 0; }
+  /// Keeps the current state; the oldest is forgotten.
+  void save(const LatticeBuffers& buffers);
+  /// Puts back the state saved `back` saves before the last one (0: the last), or the oldest there is, and forgets the
+  /// younger ones. At the oldest, velocities are put to zero: nothing else is left to try. One state must have been
+  /// saved.
+  void restore(LatticeBuffers& buffers, int back);
+
+  /// Binds the state saved last, for GuardPass.
+  void bindLast() const;
+
+ private:
+  struct State {
+    gpu::Buffer<layout::vec4> displacement, velocity;
+  };
+  const State& last() const { return ring_[(static_cast<size_t>(next_) + ring_.size() - 1) % ring_.size()]; }
+  std::vector<State> ring_;
+  int next_ = 0, kept_ = 0;
+};
+
+}  // namespace viscera

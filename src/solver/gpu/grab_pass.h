@@ -1,0 +1,26 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "solver/gpu/features.h"
+#include "solver/gpu/lattice_buffers.h"
+#include "viscera/gpu/program.h"
+
+namespace viscera {
+
+/// Takes hold of nodes around a stylus tip and lets them go (VR05 2.7.2). Owner of shaders/grab.comp.
+class GrabPass {
+ public:
+  explicit GrabPass(const FeatureSet& features);
+  /// @param stylus  index, < kMaxStyluses   @param pose  of the stylus, tissue frame   @param radius_m  reach of the
+  /// grip
+  void takeHold(const LatticeBuffers& buffers, uint32_t stylus, const Pose& pose, double radius_m) const;
+  /// @param release_speed_m_per_s  faster nodes are slowed to this
+  void letGo(const LatticeBuffers& buffers, uint32_t stylus, double release_speed_m_per_s) const;
+
+ private:
+  gpu::Program take_, release_;
+  uint32_t group_size_;
+};
+
+}  // namespace viscera

@@ -1,0 +1,50 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "solver/gpu/stepper.h"
+
+namespace viscera {
+
+/// Start and end of a substep of implicit Euler and the increments du = u+ - u in between, which vbd and pd iterate
+/// (shaders/implicit.glsl has the equations). Owner of shaders/implicit.comp.
+class ImplicitSubstep {
+ public:
+  /// @param iterations  at most, in a substep   @param iterates  that are kept: 1 (vbd, in place) or 2 (pd)
+  ImplicitSubstep(const FeatureSet& features, const LatticeBuffers& buffers, int iterations, int iterates);
+
+  /// First iterate: held nodes are where their tools have them; the others at the best share of the motion that no
+  /// force would change, the one of 0, 1/2, 3/4, 1 with the lowest incremental potential.
+  void begin(const LatticeBuffers& buffers, const Substep& step);
+  /// State = displacement + last iterate, v = du/dt; tools, sleep. The last iterate is taken in the largest share of 0,
+  /// 1/2, 3/4, 1 that does not end with more kinetic + elastic energy than there was before the substep and gravity
+  /// added, so energy cannot grow, whatever the state, dt and the number of iterations. Where tools act, which may
+  /// bring energy in, only the incremental potential must not be above that of no motion. Held nodes: their tool gives
+  /// them the difference to the velocity that drag, gravity and the lattice's force at the end of the substep would
+  /// have given them.
+  void end(const LatticeBuffers& buffers, const Substep& step) const;
+
+  /// With two iterates the next one is where the last but one was; swap() makes it the current one.
+  void swap();
+  /// Forces and majorisers of the cells in the current iterate, where there are any, for the iteration that follows.
+  void updateVolumes(const LatticeBuffers& buffers, const Substep& step, int iteration) const;
+
+  static std::vector<std::string> defines(const FeatureSet& features, const char* more = nullptr);
+
+  gpu::Buffer<uint32_t> guard;  ///< [1 + 2 iterations], see shaders/implicit.glsl
+
+ private:
+  void bindIncrements() const;
+  void runStage(const gpu::Program& stage, const LatticeBuffers& buffers, const Substep& step) const;
+  void keepBestShare(const LatticeBuffers& buffers, const Substep& step, bool bound_energy) const;
+  void chooseShare(const LatticeBuffers& buffers, bool bound_energy) const;
+
+  gpu::Program begin_, begin_with_tools_, guess_, fold_, scale_, cells_, end_, end_with_tools_;
+  gpu::Buffer<layout::vec4> increments_[2];  ///< [slots] xyz m; w 1 where prescribed; the second with two iterates
+  gpu::TexelView increment_texels_[2];
+  gpu::Buffer<layout::vec4> energies_;  ///< [2 * (active + tree)] J
+  int current_ = 0;
+  uint32_t group_size_;
+};
+
+}  // namespace viscera

@@ -1,0 +1,27 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+
+#include "solver/gpu/spring_force_pass.h"
+#include "solver/gpu/stepper.h"
+#include "solver/gpu/volume_pass.h"
+
+namespace viscera {
+
+/// Leapfrog on (u, v) with symmetric drag (physics.md 2). Owner of shaders/leapfrog.comp.
+class LeapfrogPass : public Stepper {
+ public:
+  /// Compiles the kernel, with tools too where there are any.
+  explicit LeapfrogPass(const FeatureSet& features);
+  void run(LatticeBuffers& buffers, const Substep& step) override;
+
+ private:
+  gpu::Program plain_, with_tools_;
+  std::optional<VolumePass> volume_;
+  std::optional<SpringForcePass> spring_forces_;
+  uint32_t group_size_;
+};
+
+}  // namespace viscera

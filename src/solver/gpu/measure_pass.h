@@ -1,0 +1,28 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+
+#include "solver/gpu/features.h"
+#include "solver/gpu/lattice_buffers.h"
+#include "viscera/gpu/program.h"
+
+namespace viscera {
+
+/// Non-finite nodes, largest stretch and speed, energies, held nodes, once a tick. Owner of shaders/measure.comp.
+class MeasurePass {
+ public:
+  MeasurePass(const FeatureSet& features, size_t active_count);
+  /// Clears what belongs to one tick (all but springs_cut), then measures the current state.
+  void run(const LatticeBuffers& buffers) const;
+
+ private:
+  void sumEnergies(const LatticeBuffers& buffers) const;
+
+  gpu::Program measure_, fold_;
+  gpu::Buffer<std::array<float, 2>> energies_;  ///< of nodes, then of the runs of each level
+  uint32_t group_size_;
+};
+
+}  // namespace viscera

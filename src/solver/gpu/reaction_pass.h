@@ -1,0 +1,26 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+
+#include "solver/gpu/features.h"
+#include "solver/gpu/lattice_buffers.h"
+#include "viscera/gpu/program.h"
+
+namespace viscera {
+
+/// Sums the momentum that each stylus gave over a tick, in a fixed order. Owner of shaders/sum_impulses.comp.
+class ReactionPass {
+ public:
+  ReactionPass(const FeatureSet& features, size_t active_count);
+  /// Leaves impulse, angular and touched in the stats; clears the impulses. @param tips  [styluses] tissue frame
+  void run(const LatticeBuffers& buffers, const std::array<Vector3f, layout::kMaxStyluses>& tips) const;
+
+ private:
+  gpu::Program leaves_, fold_;
+  gpu::Buffer<std::array<layout::vec4, 2 * layout::kMaxStyluses>> partials_;
+  uint32_t group_size_;
+};
+
+}  // namespace viscera

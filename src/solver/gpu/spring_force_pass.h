@@ -1,0 +1,24 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "solver/gpu/features.h"
+#include "solver/gpu/lattice_buffers.h"
+#include "viscera/gpu/program.h"
+
+namespace viscera {
+
+/// Edge-centric forces of explicit connections (GW 4.2), for leapfrog to sum. Owner of shaders/spring_forces.comp.
+/// Exists only where a scene asks for solver.spring_forces: edge.
+class SpringForcePass {
+ public:
+  explicit SpringForcePass(const FeatureSet& features);
+  /// Leaves in buffers.link_forces what the springs do to each node, in parts (EdgeForces).
+  void run(const LatticeBuffers& buffers) const;
+
+ private:
+  gpu::Program forces_;
+  uint32_t group_size_;
+};
+
+}  // namespace viscera

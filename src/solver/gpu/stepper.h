@@ -1,0 +1,33 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+
+#include "solver/gpu/features.h"
+#include "solver/gpu/lattice_buffers.h"
+#include "solver/substep.h"
+#include "viscera/gpu/program.h"
+
+namespace viscera {
+
+/// An integrator: one substep of every active node (physics.md 2).
+class Stepper {
+ public:
+  virtual ~Stepper() = default;
+  /// state -> other state; the caller swaps. buffers must be bound.
+  virtual void run(LatticeBuffers& buffers, const Substep& step) = 0;
+};
+
+/// The integrator's kernels, compiled. @param iterations  of vbd and pd
+/// @throws GpuError with file, line and the driver's log
+std::unique_ptr<Stepper> makeStepper(Integrator integrator, int iterations, const FeatureSet& features,
+                                     const LatticeBuffers& buffers);
+
+/// pd without acceleration, so that every sweep lowers the energy, for the governor's recoveries.
+std::unique_ptr<Stepper> makeRecoveryStepper(int iterations, const FeatureSet& features, const LatticeBuffers& buffers);
+
+/// Sets the uniforms of shaders/step.glsl.
+void setSubstep(const gpu::Program& program, const LatticeBuffers& buffers, const Substep& step);
+
+}  // namespace viscera

@@ -1,0 +1,43 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "solver/gpu/collision_pass.h"
+#include "solver/gpu/features.h"
+#include "solver/gpu/lattice_buffers.h"
+#include "solver/substep.h"
+#include "solver/surroundings.h"
+#include "viscera/gpu/program.h"
+
+namespace viscera {
+
+/// Wind, forces on bodies, contacts and obstacles act on what an integrator has made of a substep (physics.md 8).
+/// Owner of shaders/surroundings.comp.
+class SurroundingsPass {
+ public:
+  SurroundingsPass(const Model& model, const Scene& scene, const FeatureSet& features, const LatticeBuffers& buffers);
+  /// After Surroundings::beginTick(), and after buffers.bind().
+  void beginTick(const Surroundings& surroundings);
+  /// current state -> other state, which becomes the current one. The other one must hold the state before the substep.
+  /// @param step  its index says which of the tick's substeps it is
+  void run(LatticeBuffers& buffers, const Substep& step, const Surroundings& surroundings);
+  /// For tests, only where there are collisions: CollisionPass::findPairs().
+  std::vector<CollisionPair> findPairs(const LatticeBuffers& buffers) const;
+
+ private:
+  gpu::Program program_;
+  SurroundingsFeatures kinds_;
+  WindConfig wind_;
+  gpu::Buffer<layout::ObstacleMotion> obstacles_;  ///< [substeps * kMaxObstacles]
+  gpu::Buffer<layout::vec4> influences_;           ///< [kMaxBodies] bodyInfluences()
+  gpu::Buffer<uint32_t> ring_starts_;
+  gpu::Buffer<layout::WindTriangle> rings_;
+  std::optional<CollisionPass> collisions_;
+  uint32_t group_size_;
+};
+
+}  // namespace viscera

@@ -1,0 +1,31 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "solver/collision.h"
+#include "viscera/solver/state.h"
+
+namespace viscera {
+
+/// Two nodes that touch, or nearly.
+struct ReferencePair {
+  CollisionPair slots;  ///< a < b
+  double depth_m;       ///< D_ij minus their distance (collision.h); below 0 where they are near without touching
+};
+
+/// All pairs of nodes that may touch (collidableNodes, or severed; not alone) and are no farther apart than
+/// D_ij + margin, found by looking at every pair, in float64. Ascending.
+std::vector<ReferencePair> referencePairs(const Model& model, const Scene& scene, const HostState& state,
+                                          double margin_m = 0);
+
+/// How a search did. @param tolerance_m  pairs whose depth is within it may go either way
+struct Recall {
+  size_t there = 0, found = 0;  ///< pairs deeper than the tolerance, and those of them that were found
+  size_t wrong = 0;             ///< that were found and do not touch, or were found twice
+  double share() const { return there > 0 ? static_cast<double>(found) / static_cast<double>(there) : 1; }
+};
+Recall recallOf(const std::vector<CollisionPair>& found, const std::vector<ReferencePair>& truth, double tolerance_m);
+
+}  // namespace viscera

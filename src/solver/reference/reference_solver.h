@@ -1,0 +1,88 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <limits>
+#include <vector>
+
+#include "solver/reference/reference_lattice.h"
+#include "viscera/solver/solver.h"
+
+namespace viscera {
+
+/// Time integration of the reference (physics.md 2).
+enum class ReferenceIntegrator {
+  kLeapfrog,      ///< (u, v) half a substep apart, symmetric drag
+  kVerletPaper,   ///< position Verlet with backward-difference drag, without dashpot (VR05, GW)
+  kImplicitEuler  ///< solved to convergence: the truth for vbd and pd
+};
+
+struct ReferenceOptions {
+  ReferenceIntegrator integrator = ReferenceIntegrator::kLeapfrog;
+  /// Speed at which a probe pushes a node out of itself, at most.
+  double push_speed_m_per_s = std::numeric_limits<double>::infinity();
+  /// A free node farther than this from its place at rest, and leaving, is stopped.
+  double sleep_distance_m = std::numeric_limits<double>::infinity();
+};
+
+/// Motions of all styluses in one substep.
+using SubstepMotions = std::array<layout::ToolMotion, layout::kMaxStyluses>;
+
+/// The lattice in float64 on one thread, written to be obviously right: the truth that backends are held to.
+/// Slots are those of the model; physics.md 1, 2 and 5.
+class ReferenceSolver : public ReferenceLattice {
+ public:
+  /// @param model  must outlive the solver   @param gravity_m_per_s2  tissue frame   @param dt_s  substep, > 0
+  ReferenceSolver(const Model& model, const Vector3d& gravity_m_per_s2, double dt_s,
+                  const ReferenceOptions& options = {});
+
+  /// One substep with what the styluses do in it: cut, then integrate with probes and held nodes.
+  /// @throws ConvergenceError  implicit Euler found no solution
+  void substep(const SubstepMotions& motions = {});
+  /// Substep from now on [s]; leapfrog's next kick is the mean of the old and the new one.
+  void setSubstep(double dt_s);
+  double dt_s() const { return dt_s_; }
+  /// Time starts anew: the velocities belong to the same moment as the displacements, the next kick is half a one.
+  void restart() { first_ = true; }
+  void takeHold(uint32_t stylus, const Pose& pose, double radius_m);
+  void letGo(uint32_t stylus, double release_speed_m_per_s);
+
+  /// Sum of spring, dashpot and volume forces on a node in the current state [N]; gravity and drag are not in it.
+  Vector3d force(uint32_t slot) const;
+  /// Kinetic plus elastic plus gravitational energy [J] of the current u and v.
+  double energy() const;
+  double kineticEnergy() const;
+  double elasticEnergy() const { return elasticEnergy(u_m); }
+  double gravityEnergy() const;
+  Vector3d momentum() const;  ///< [N s] of all nodes
+  /// At the current u; see ReferenceLattice.
+  Eigen::SparseMatrix<double> stiffnessMatrix() const { return stiffnessMatrix(u_m); }
+  using ReferenceLattice::elasticEnergy;
+  using ReferenceLattice::stiffnessMatrix;
+  const Vector3d& gravity() const { return gravity_; }
+  /// The state rounded to float32, as a kernel would hold it.
+  HostState state() const;
+
+  Field u_m, v_m_per_s;                                    ///< [slots]
+  std::array<Vector3d, layout::kMaxStyluses> impulse_n_s;  ///< momentum given by each stylus so far
+  uint32_t springs_cut = 0;
+
+ private:
+  bool rests(uint32_t slot) const;  ///< fixed, or alone and not held
+  void cut(const layout::ToolMotion& motion);
+  void leapfrog(Field& u_next, Field& v_next) const;
+  void verletPaper(Field& u_next, Field& v_next) const;
+  void implicitEuler(const SubstepMotions& motions, Field& u_next, Field& v_next) const;
+  void applyTools(const SubstepMotions& motions, uint32_t slot, Vector3d& u_next, Vector3d& v_next);
+  void sleep(uint32_t slot, Vector3d& u_next, Vector3d& v_next) const;
+  Vector3d heldDisplacement(const layout::ToolMotion& motion, uint32_t slot) const;
+
+  Vector3d gravity_;
+  double dt_s_, last_dt_s_;
+  ReferenceOptions options_;
+  bool first_ = true;
+  Field grab_offsets_;  ///< [slots] position of a held node in the stylus frame [m]
+};
+
+}  // namespace viscera

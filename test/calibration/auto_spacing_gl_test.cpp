@@ -1,0 +1,169 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "viscera/calibration/auto_spacing.h"
+
+#include <gtest/gtest.h>
+#include <stdlib.h>
+
+#include "session/block_session.h"
+#include "solver/substeps.h"
+#include "support/gpu_fixture.h"
+#include "support/temporary_folder.h"
+#include "support/text.h"
+#include "viscera/math/error.h"
+
+namespace viscera {
+namespace {
+
+using namespace test;
+
+constexpr StepTime kMachine{5e-7, 4e-9};  ///< 250 M nodes/s once busy: given, so that the choice is always the same
+constexpr double kMostLoad = 1.02;  ///< the rule of substeps is taken from a coarse lattice, whole ones are counted
+
+/// The block of other tests with spacing_m: auto, on a machine whose speed is known.
+class AutoSpacing : public GpuTest {
+ protected:
+  AutoSpacing() {
+    setenv("XDG_CACHE_HOME", folder_.path().c_str(), 1);
+    cache_ = StepTimeCache::ofUser();
+    scene_.bodies[0].auto_spacing = true;
+    scene_.solver.backend = Backend::kCpu;
+  }
+  ~AutoSpacing() override { unsetenv("XDG_CACHE_HOME"); }
+  Scene chosen() {
+    cache_.keep(stepTimeKey(scene_, context_), kMachine);
+    return withChosenSpacing(scene_, context_, {}, cache_);
+  }
+  double chosenSpacing_m() { return chosen().bodies[0].spacing_m; }
+
+  Scene scene_ = blockScene();
+  TemporaryFolder folder_;
+  StepTimeCache cache_{""};
+};
+
+/// Clock time that stepping a second of a scene takes on the known machine, while the tissue is strained [s].
+double seconds(const Scene& scene) {
+  const Model model = buildModel(scene);
+  const SubstepPlan plan = planSubsteps(model, scene.solver, safeTimeStep(model));
+  return std::max(plan.calm, plan.strained) * scene.solver.tick_hz *
+         kMachine.of(static_cast<double>(model.activeNodes()));
+}
+
+TEST_F(AutoSpacing, IsTheFinestLatticeThatTheMachineStepsInTime) {
+  const Scene scene = chosen();
+  EXPECT_FALSE(scene.bodies[0].auto_spacing);
+  const double share = 0.5;  // beside a software rasteriser
+  const double load = seconds(scene) * scene.solver.real_time_factor / (context_.isSoftware() ? share : 0.8);
+  EXPECT_LT(load, kMostLoad);
+  EXPECT_GT(load, 0.8);  // the block has some 20 layers: one more is a sixth more nodes
+}
+
+TEST_F(AutoSpacing, FollowsTheFactorTheStiffnessAndTheCameras) {
+  const double usual_m = chosenSpacing_m();
+  EXPECT_EQ(chosenSpacing_m(), usual_m);
+  scene_.solver.real_time_factor *= 16;
+  EXPECT_NEAR(chosenSpacing_m(), 2 * usual_m, 0.2 * usual_m);
+  scene_.solver.real_time_factor /= 16;
+  scene_.bodies[0].material.young_modulus_pa *= 9;  // three times the substeps
+  EXPECT_NEAR(chosenSpacing_m(), std::pow(3, 0.25) * usual_m, 0.1 * usual_m);
+  scene_.bodies[0].material.young_modulus_pa /= 9;
+  scene_.cameras.clear();
+  if (context_.isSoftware()) {
+    EXPECT_LT(chosenSpacing_m(), 0.95 * usual_m);
+  }
+}
+
+TEST_F(AutoSpacing, NoteTellsTheChoiceAndWhy) {
+  const std::string note = chosen().bodies[0].spacing_note;
+  EXPECT_TRUE(says(note, {"spacing_m: auto: 0.00", " nodes, at most ", " substeps per second", " M nodes/s",
+                          "measured before, " + cache_.file(), "of 1.2 wanted: the finest that"}));
+  EXPECT_EQ(note.find('\n'), std::string::npos);
+}
+
+TEST_F(AutoSpacing, IsAcceptedByTheSolverWhereItsLimitsDecide) {
+  scene_.solver.real_time_factor = 0.01;
+  scene_.solver.max_substeps = 40;
+  Scene scene = chosen();
+  EXPECT_TRUE(says(scene.bodies[0].spacing_note, {"solver.max_substeps"}));
+  const Model model = buildModel(scene);
+  EXPECT_GE(planSubsteps(model, scene.solver, safeTimeStep(model)).strained, 34);  // one cell less; throws above 40
+  scene_.solver.substeps = 30;
+  scene = chosen();
+  const Model given = buildModel(scene);
+  EXPECT_EQ(planSubsteps(given, scene.solver, safeTimeStep(given)).calm, 30);  // throws if not stable
+  EXPECT_LT(1 / (30 * scene.solver.tick_hz), safeTimeStep(given));
+}
+
+TEST_F(AutoSpacing, OfSeveralBodiesIsOneAndOthersKeepTheirs) {
+  scene_.bodies.resize(3, scene_.bodies[0]);
+  scene_.bodies[1].name = "second";
+  scene_.bodies[2].name = "third";
+  scene_.bodies[2].auto_spacing = false;
+  const double alone_m = chosenSpacing_m();
+  const Scene scene = chosen();
+  EXPECT_EQ(scene.bodies[0].spacing_m, scene.bodies[1].spacing_m);
+  EXPECT_EQ(scene.bodies[2].spacing_m, 0.005);
+  EXPECT_TRUE(scene.bodies[1].spacing_note.empty());
+  scene_.bodies[2].spacing_m = 0.0025;  // leaves less for the two
+  EXPECT_GT(chosenSpacing_m(), alone_m);
+}
+
+TEST_F(AutoSpacing, SceneWithoutItComesBackAsItIsAndNothingIsMeasured) {
+  scene_.bodies[0].auto_spacing = false;
+  int stages = 0;
+  const Scene scene = withChosenSpacing(
+      scene_, context_, [&](const std::string&, double) { ++stages; }, cache_);
+  EXPECT_EQ(scene.bodies[0].spacing_m, 0.005);
+  EXPECT_EQ(stages, 0);
+  EXPECT_TRUE(readFile(cache_.file()).empty());
+}
+
+TEST_F(AutoSpacing, MeasuresOnceAndThenRemembers) {
+  scene_.solver.real_time_factor = 50;  // a small lattice: the measurement is what is tested
+  const std::string first = withChosenSpacing(scene_, context_, {}, cache_).bodies[0].spacing_note;
+  const std::string second = withChosenSpacing(scene_, context_, {}, cache_).bodies[0].spacing_note;
+  EXPECT_TRUE(says(first, {"measured now"}));
+  EXPECT_TRUE(says(second, {"measured before"}));
+  const std::optional<StepTime> kept = cache_.find(stepTimeKey(scene_, context_));
+  ASSERT_TRUE(kept.has_value());
+  EXPECT_GT(kept->per_node_s, 1e-12);  // a million million nodes per second is beyond any machine
+}
+
+TEST_F(AutoSpacing, EveryBackendCanBeMeasured) {
+  const UndividedBodies bodies(scene_);
+  for (const Backend backend : {Backend::kCpu, Backend::kGpu}) {
+    scene_.solver.backend = backend;
+    EXPECT_GT(measureStepTime(bodies, scene_, context_).of(1000), 0);
+  }
+}
+
+TEST_F(AutoSpacing, MeasurementIsOfAnotherKeyWhereItWouldDiffer) {
+  const std::string usual = stepTimeKey(scene_, context_);
+  const auto keyWith = [&](const std::function<void(Scene&)>& change) {
+    Scene scene = scene_;
+    change(scene);
+    return stepTimeKey(scene, context_);
+  };
+  EXPECT_NE(keyWith([](Scene& s) { s.solver.backend = Backend::kGpu; }), usual);
+  EXPECT_NE(keyWith([](Scene& s) { s.solver.threads = 77; }), usual);
+  EXPECT_NE(keyWith([](Scene& s) { s.solver.integrator = Integrator::kVbd; }), usual);
+  EXPECT_NE(keyWith([](Scene& s) { s.styluses.clear(); }), usual);
+  EXPECT_NE(keyWith([](Scene& s) { s.bodies[0].material.dashpot_ratio = 0; }), usual);
+  EXPECT_NE(keyWith([](Scene& s) { s.bodies[0].material.poisson_ratio = 0.4; }), usual);
+  EXPECT_NE(keyWith([](Scene& s) { s.bodies[0].source = TissueSource::kPhantom; }), usual);
+  EXPECT_EQ(keyWith([](Scene& s) { s.bodies[0].material.young_modulus_pa = 5; }), usual);
+}
+
+TEST_F(AutoSpacing, SessionHasTheLatticeThatWasChosen) {
+  scene_.solver.real_time_factor = 400;
+  cache_.keep(stepTimeKey(scene_, context_), kMachine);
+  Session session(scene_, context_);
+  const double spacing_m = session.model().bodies[0].lattice.spacing_m;
+  EXPECT_EQ(spacing_m, session.scene().bodies[0].spacing_m);
+  EXPECT_EQ(spacing_m, chosenSpacing_m());
+  EXPECT_TRUE(says(session.model().bodies[0].notes.at(0), {"spacing_m: auto"}));
+  EXPECT_TRUE(std::isfinite(session.step({}, {}).health.kinetic_j));
+}
+
+}  // namespace
+}  // namespace viscera
