@@ -72,6 +72,7 @@ CpuLattice::CpuLattice(const Model& model, const std::vector<layout::BodyParams>
       mobility(nodes.size()),
       both_ends(nodes.size() * layout::kSpringsPerNode),
       uniform(bricks.size()),
+      idle_rows(bricks.size()),
       network(joinNetworks(model)),
       edge_forces(edge_by_edge ? orderByOwner(network) : EdgeForces{}),
       spring_cut(network.springs.size()),
@@ -96,6 +97,7 @@ CpuLattice::CpuLattice(const Model& model, const std::vector<layout::BodyParams>
     grab_offsets.resize(nodes.size());
     impulses.resize(nodes.size() * layout::kMaxStyluses);
     touched.resize(bricks.size());
+    held.resize(bricks.size());
   }
   refreshAll();
 }
@@ -154,6 +156,19 @@ bool CpuLattice::isFull(uint32_t slot) const {
 void CpuLattice::refreshAll() {
   for (size_t b = 0; b < bricks.size(); ++b) uniform[b] = first_active[b + 1] - first_active[b] == layout::kBrickSlots;
   for (uint32_t slot : active) refresh(slot);
+  noteIdleRows();
+}
+
+void CpuLattice::noteIdleRows() {
+  for (size_t b = 0; b < bricks.size(); ++b) {
+    idle_rows[b] = 0;
+    for (size_t row = 0; row < 16; ++row) {
+      const float* of_row = &mobility[b * layout::kBrickSlots + 4 * row];
+      if (std::all_of(of_row, of_row + 4, [](float value) { return value == 0; })) {
+        idle_rows[b] = static_cast<uint16_t>(idle_rows[b] | 1u << row);
+      }
+    }
+  }
 }
 
 void CpuLattice::reset() {

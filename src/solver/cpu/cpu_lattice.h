@@ -9,6 +9,7 @@
 #include "math/aligned.h"
 #include "solver/edge_forces.h"
 #include "solver/joined_network.h"
+#include "viscera/math/types.h"
 #include "viscera/model/model.h"
 #include "viscera/solver/material.h"
 #include "viscera/solver/state.h"
@@ -55,10 +56,12 @@ struct CpuLattice {
                                      ///< (i / 64) * 1152 + s * 64 + i % 64
   AlignedVector<float> bulk_around;  ///< [8 * slots] J of the cells in which a slot is corner c (bits x, y, z), at
                                      ///< (slot / 64) * 512 + c * 64 + slot % 64; empty without volumes
-  std::vector<uint8_t> uniform;  ///< [bricks] all springs of all its nodes are whole and of the body's full strength
+  std::vector<uint8_t> uniform;     ///< [bricks] all springs of all its nodes are whole and of the body's full strength
+  std::vector<uint16_t> idle_rows;  ///< [bricks] bit r: none of the four nodes from 4 r on will ever move
   std::vector<layout::vec4> grab_offsets;  ///< [slots] m, stylus frame; empty without styluses
   std::vector<layout::vec4> impulses;  ///< [kMaxStyluses * slots] N s, w substeps of contact; empty without styluses
   std::vector<uint8_t> touched;        ///< [bricks] some of its impulses are not 0; empty without styluses
+  std::vector<uint8_t> held;           ///< [bricks] nodes of it are held; empty without styluses
   JoinedNetwork network;          ///< explicit connections, without stiffness where they are cut; masses are in mass
   EdgeForces edge_forces;         ///< empty unless edge by edge
   std::vector<float> spring_cut;  ///< [springs] as in HostState
@@ -69,6 +72,7 @@ struct CpuLattice {
   float cellBulk(uint32_t slot) const;
   bool isFull(uint32_t slot) const;
   void refreshAll();
+  void noteIdleRows();
   void shareBulk(uint32_t slot);
 
   void writeSpringCut(const std::vector<float>& cut);
@@ -81,6 +85,18 @@ struct CpuLattice {
 /// Index of component 0 of a slot in displacement and velocity; components are 64 apart.
 constexpr size_t vectorAt(uint32_t slot) {
   return size_t{slot >> 6} * 192 + (slot & 63);
+}
+
+/// The vector of a slot in displacement or velocity.
+inline Vector3f planesAt(const float* planes, uint32_t slot) {
+  const float* at = planes + vectorAt(slot);
+  return {at[0], at[64], at[128]};
+}
+inline void setPlanes(float* planes, uint32_t slot, const Vector3f& value) {
+  float* at = planes + vectorAt(slot);
+  at[0] = value.x();
+  at[64] = value.y();
+  at[128] = value.z();
 }
 
 /// Index of spring 2 * pair of a slot in stiffness.

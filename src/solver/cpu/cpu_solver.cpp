@@ -4,10 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "math/float_bits.h"
-#include "solver/cpu/kernels.h"
+#include "solver/cpu/lattice_arrays.h"
 #include "solver/cpu/network.h"
 #include "viscera/gpu/buffer.h"
 #include "viscera/math/error.h"
@@ -16,8 +15,7 @@ namespace viscera {
 
 namespace {
 
-constexpr size_t kMostBricksPerJob = 16;  // of a substep: about 10 us of work
-constexpr size_t kJobsPerThread = 8;      // at least, where there are bricks enough: whoever is free takes the next
+constexpr size_t kBricksPerJob = 16;  // of a measurement
 
 int threadsOf(const SolverConfig& config) {
   return config.threads > 0 ? config.threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
@@ -31,29 +29,11 @@ Vector3f xyz(const layout::vec4& v) {
   return {v.x, v.y, v.z};
 }
 
-Vector3f planesAt(const float* planes, uint32_t slot) {
-  const float* at = planes + vectorAt(slot);
-  return {at[0], at[64], at[128]};
-}
-void setPlanes(float* planes, uint32_t slot, const Vector3f& value) {
-  float* at = planes + vectorAt(slot);
-  at[0] = value.x();
-  at[64] = value.y();
-  at[128] = value.z();
-}
-
 }  // namespace
 
 struct CpuSolver::Work {
-  simd::LeapfrogJob step{};
-  std::vector<uint8_t> near;            ///< [bricks]
-  std::vector<uint16_t> idle;           ///< [bricks]
-  std::vector<uint16_t> strained;       ///< [bricks]
-  std::vector<float> speed2;            ///< [bricks]
   std::vector<simd::BrickStats> stats;  ///< [bricks]
   std::vector<uint32_t> changed;        ///< bricks to be measured
-  size_t per_job = 1;
-  std::vector<NodeReach> reaches;  ///< of probes in this substep, for nodes with explicit connections
 };
 
 struct CpuSolver::Mirror {
@@ -94,33 +74,17 @@ CpuSolver::CpuSolver(const Model& model, const Scene& scene, const CpuSolverOpti
     for (const std::string& name : simdTargets()) known += (known.empty() ? "" : ", ") + name;
     throw SceneError("no instruction set '" + simd_ + "' on this processor: " + known);
   }
-  if (isLeapfrog(config_.integrator) && isCompensated(config_, shortestSubstep_s()))
-    compensation_.resize(6 * lattice_.slotCount());
-  if (model.hasNetwork()) {
-    network_ = std::make_unique<CpuNetwork>(lattice_, pool_, !compensation_.empty());
-    work_->reaches.reserve(layout::kMaxStyluses);
-  }
+  const bool compensated = isLeapfrog(config_.integrator) && isCompensated(config_, shortestSubstep_s());
+  if (model.hasNetwork()) network_ = std::make_unique<CpuNetwork>(lattice_, pool_, compensated);
   if (hasSurroundings()) surroundings_.emplace(model, scene, lattice_, pool_);
-  if (!isLeapfrog(config_.integrator)) {
-    stepper_ = makeCpuStepper(config_.integrator, config_.iterations, lattice_, pool_);
-  }
-  work_->near.resize(bricks());
-  work_->idle.resize(bricks());
-  work_->strained.resize(bricks());
-  work_->speed2.resize(bricks());
+  stepper_ =
+      makeCpuStepper(config_.integrator, config_.iterations, lattice_, {pool_, sleep_, network_.get(), compensated});
   work_->stats.resize(bricks());
-  simd::LeapfrogJob& job = work_->step;
-  job.dashpot = std::any_of(params_.begin(), params_.end(), [](const auto& body) { return body.dashpot_s > 0; });
-  job.near = work_->near.data();
-  job.strained = work_->strained.data();
-  job.speed2 = work_->speed2.data();
   work_->changed.reserve(bricks());
   if (hasTools()) {
     cut_.emplace(lattice_);
-    held_.resize(bricks());
     motions_.reserve(static_cast<size_t>(mostSubsteps()) * layout::kMaxStyluses);
   }
-  noteIdleRows();
   if (!governed()) return;
   recovery_ = makeCpuRecoveryStepper(kRecoveryIterations, lattice_, pool_);
   for (int i = 0; i < kGoodStates; ++i) good_.push_back({lattice_.displacement[0], lattice_.velocity[0]});
@@ -159,14 +123,14 @@ void CpuSolver::letGo(uint32_t stylus, double release_speed_m_per_s) {
 
 /// Bricks with held nodes are awake, and looked at node by node.
 void CpuSolver::noteHeld() {
-  std::fill(held_.begin(), held_.end(), uint8_t{0});
+  std::fill(lattice_.held.begin(), lattice_.held.end(), uint8_t{0});
   stats_.grabbed[0] = stats_.grabbed[1] = 0;
   for (uint32_t slot : lattice_.active) {
     const uint32_t by = (lattice_.nodes[slot].lo & layout::kGrabMask) >> layout::kGrabShift;
     if (by == 0) continue;
     ++stats_.grabbed[by - 1];
-    if (held_.empty()) continue;
-    held_[slot / layout::kBrickSlots] = 1;
+    if (lattice_.held.empty()) continue;
+    lattice_.held[slot / layout::kBrickSlots] = 1;
     sleep_.wake(slot / layout::kBrickSlots);
   }
 }
@@ -209,82 +173,9 @@ void CpuSolver::cut(uint32_t stylus, bool particles) {
 }
 
 void CpuSolver::advance(const Substep& step, bool recovery) {
-  if (recovery || stepper_) {
-    if (recovery && step.restarted) sleep_.wakeAll(lattice_);
-    (recovery ? *recovery_ : *stepper_).run(lattice_, step, motion_);
-    lattice_.swap();
-    return;
-  }
-  if (!sleep_.awake().empty()) stepAwake(step);
-  if (network_) stepNetwork(step);
-  if (!sleep_.awake().empty() || network_) lattice_.swap();
-  since_look_s_ += static_cast<double>(step.dt_s);
-  if (++substeps_since_look_ < Sleep::kSubsteps) return;
-  if (!sleep_.awake().empty()) sleep_.look(lattice_, work_->speed2, since_look_s_);
-  since_look_s_ = 0;
-  substeps_since_look_ = 0;
-}
-
-/// One substep of the bricks that are awake.
-void CpuSolver::stepAwake(const Substep& step) {
-  const size_t awake = sleep_.awake().size();
-  const size_t fair = awake / (kJobsPerThread * static_cast<size_t>(pool_.threads()));
-  work_->per_job = std::clamp<size_t>(fair, 1, kMostBricksPerJob);
-  simd::LeapfrogJob& job = work_->step;
-  job.arrays = arrays();
-  job.step = step;
-  job.reaches = 0;
-  for (size_t s = 0; step.tools && s < layout::kMaxStyluses; ++s) {
-    if (motion_[s].info.x != layout::kModeProbe) continue;
-    const layout::ToolMotion& m = motion_[s];
-    const float travel = (xyz(m.to) - xyz(m.from)).norm();
-    job.reach[job.reaches++] = {{m.to.x, m.to.y, m.to.z}, m.from.w + travel};
-  }
-  pool_((awake + work_->per_job - 1) / work_->per_job, [this, &step](size_t chunk) { stepBricks(step, chunk); });
-}
-
-/// One substep of the nodes with explicit connections.
-void CpuSolver::stepNetwork(const Substep& step) {
-  network_->step(lattice_, step, compensation_);
-  if (!step.tools) return;
-  work_->reaches.clear();
-  for (size_t s = 0; s < layout::kMaxStyluses; ++s) {
-    const layout::ToolMotion& m = motion_[s];
-    if (m.info.x != layout::kModeProbe) continue;
-    work_->reaches.push_back({glsl::xyz(m.to), m.from.w + (xyz(m.to) - xyz(m.from)).norm()});
-  }
-  for (const uint32_t slot : network_->touched(lattice_, work_->reaches)) touchNode(step, slot);
-}
-
-void CpuSolver::stepBricks(const Substep& step, size_t chunk) {
-  const std::vector<uint32_t>& awake = sleep_.awake();
-  const size_t first = chunk * work_->per_job, count = std::min(work_->per_job, awake.size() - first);
-  simd::leapfrog(work_->step, &awake[first], count);
-  if (!step.tools) return;
-  for (size_t i = first; i < first + count; ++i) {
-    const uint32_t brick = awake[i];
-    if (!work_->near[brick] && !held_[brick]) continue;
-    work_->near[brick] = 0;
-    touch(step, brick);
-  }
-}
-
-/// What tools do to the nodes of a brick in the substep (shaders/contact.glsl).
-void CpuSolver::touch(const Substep& step, uint32_t brick) {
-  for (uint32_t i = lattice_.first_active[brick]; i < lattice_.first_active[brick + 1]; ++i) {
-    if (lattice_.mobility[lattice_.active[i]] != 0) touchNode(step, lattice_.active[i]);
-  }
-  work_->speed2[brick] = std::numeric_limits<float>::infinity();  // stays awake
-}
-
-void CpuSolver::touchNode(const Substep& step, uint32_t slot) {
-  const float* now = lattice_.displacement[lattice_.current].data();
-  float* const u = lattice_.displacement[1 - lattice_.current].data();
-  float* const v = lattice_.velocity[1 - lattice_.current].data();
-  Vector3f u_next = planesAt(u, slot), v_next = planesAt(v, slot);
-  resolveContact(lattice_, slot, motion_, step.dt_s, step.push_speed_m_per_s, planesAt(now, slot), u_next, v_next);
-  setPlanes(u, slot, u_next);
-  setPlanes(v, slot, v_next);
+  if (recovery && step.restarted) sleep_.wakeAll(lattice_);
+  (recovery ? *recovery_ : *stepper_).run(lattice_, step, motion_);
+  lattice_.swap();
 }
 
 void CpuSolver::surround(const Substep& step, const Surroundings& surroundings) {
@@ -292,12 +183,12 @@ void CpuSolver::surround(const Substep& step, const Surroundings& surroundings) 
 }
 
 void CpuSolver::measure() {
-  simd::MeasureJob job{arrays(), lattice_.nodes.data(), lattice_.mass.data(), work_->stats.data()};
+  simd::MeasureJob job{arraysOf(lattice_), lattice_.nodes.data(), lattice_.mass.data(), work_->stats.data()};
   std::vector<uint32_t>& changed = work_->changed;
   sleep_.takeChanged(lattice_, changed);
-  pool_((changed.size() + kMostBricksPerJob - 1) / kMostBricksPerJob, [&](size_t i) {
-    const size_t first = i * kMostBricksPerJob;
-    simd::measure(job, &changed[first], std::min(kMostBricksPerJob, changed.size() - first));
+  pool_((changed.size() + kBricksPerJob - 1) / kBricksPerJob, [&](size_t i) {
+    const size_t first = i * kBricksPerJob;
+    simd::measure(job, &changed[first], std::min(kBricksPerJob, changed.size() - first));
   });
   layout::TickStats out{};
   out.springs_cut = springs_cut_;
@@ -361,36 +252,6 @@ bool CpuSolver::takeStats(layout::TickStats& stats, bool) {
 
 // ---- state as a whole ----
 
-simd::Arrays CpuSolver::arrays() {
-  simd::Arrays a{};
-  a.bricks = lattice_.bricks.data();
-  a.bodies = lattice_.bodies.data();
-  a.displacement = lattice_.displacement[lattice_.current].data();
-  a.velocity = lattice_.velocity[lattice_.current].data();
-  a.next_displacement = lattice_.displacement[1 - lattice_.current].data();
-  a.next_velocity = lattice_.velocity[1 - lattice_.current].data();
-  a.compensation = compensation_.empty() ? nullptr : compensation_.data();
-  a.spring_stiffness = lattice_.both_ends.data();
-  a.mobility = lattice_.mobility.data();
-  a.bulk_around = lattice_.bulk_around.empty() ? nullptr : lattice_.bulk_around.data();
-  a.uniform = lattice_.uniform.data();
-  a.idle_rows = work_->idle.data();
-  return a;
-}
-
-/// Rows of four nodes that will never move: the kernel leaves them out.
-void CpuSolver::noteIdleRows() {
-  for (size_t b = 0; b < bricks(); ++b) {
-    work_->idle[b] = 0;
-    for (size_t row = 0; row < 16; ++row) {
-      const float* mobility = &lattice_.mobility[b * layout::kBrickSlots + 4 * row];
-      if (std::all_of(mobility, mobility + 4, [](float value) { return value == 0; })) {
-        work_->idle[b] = static_cast<uint16_t>(work_->idle[b] | 1u << row);
-      }
-    }
-  }
-}
-
 /// After the state was written from outside: both states the same and without velocity where nothing moves, everything
 /// awake and measured anew.
 void CpuSolver::changeAll() {
@@ -400,7 +261,7 @@ void CpuSolver::changeAll() {
   }
   lattice_.displacement[1 - lattice_.current] = lattice_.displacement[lattice_.current];
   lattice_.velocity[1 - lattice_.current] = lattice_.velocity[lattice_.current];
-  std::fill(compensation_.begin(), compensation_.end(), 0.0f);
+  stepper_->restart();
   if (network_) network_->restart(lattice_);
   std::fill(lattice_.impulses.begin(), lattice_.impulses.end(), layout::vec4{});
   std::fill(lattice_.touched.begin(), lattice_.touched.end(), uint8_t{0});
@@ -412,18 +273,15 @@ void CpuSolver::resetState() {
   stats_ = {};
   has_stats_ = false;
   springs_cut_ = 0;
-  since_look_s_ = 0;
-  substeps_since_look_ = 0;
+  sleep_.restart();
   changeAll();
-  noteIdleRows();
-  if (!held_.empty()) noteHeld();
+  if (!lattice_.held.empty()) noteHeld();
 }
 
 void CpuSolver::loadState(const HostState& state) {
   lattice_.write(state);
   stats_.max_rate_bits = 0;
   changeAll();
-  noteIdleRows();
   noteHeld();
 }
 

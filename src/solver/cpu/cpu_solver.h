@@ -17,10 +17,6 @@
 
 namespace viscera {
 
-namespace simd {
-struct Arrays;
-}
-
 class CpuNetwork;
 
 struct CpuSolverOptions : SolverOptions {
@@ -69,40 +65,29 @@ class CpuSolver : public LatticeSolver {
  private:
   struct Work;    // what only src/solver/cpu knows: the kernels' jobs
   struct Mirror;  // the state on the GPU, for whoever asks for it there
-  simd::Arrays arrays();
-  void stepAwake(const Substep& step);
-  void stepBricks(const Substep& step, size_t chunk);
-  void stepNetwork(const Substep& step);
-  void touch(const Substep& step, uint32_t brick);
-  void touchNode(const Substep& step, uint32_t slot);
   void wakeForTools(const std::vector<layout::ToolMotion>& motions);
   void changeAll();
   void noteHeld();
-  void noteIdleRows();
   float largestRate() const;
 
   SolverConfig config_;
   std::string simd_;
   std::vector<layout::BodyParams> params_;
   CpuLattice lattice_;
-  AlignedVector<float> compensation_;  ///< [6 * slots], see src/solver/cpu/kernels.h; empty without compensation
   ThreadPool pool_;
   Sleep sleep_;
   std::unique_ptr<Work> work_;
   std::optional<CpuSurroundings> surroundings_;
-  std::unique_ptr<CpuStepper> stepper_;   ///< null: leapfrog
+  std::unique_ptr<CpuStepper> stepper_;
   std::unique_ptr<CpuStepper> recovery_;  ///< only with a governor
   std::unique_ptr<Mirror> mirror_;
   std::vector<layout::ToolMotion> motions_;  ///< of this tick
   const layout::ToolMotion* motion_ = nullptr;
-  std::vector<uint8_t> held_;  ///< [bricks] nodes held; empty without styluses
   std::optional<CpuCut> cut_;
   std::unique_ptr<CpuNetwork> network_;  ///< null where no body has explicit connections
   layout::TickStats stats_{};
   bool has_stats_ = false;
   uint32_t springs_cut_ = 0, rate_springs_cut_ = 0;
-  double since_look_s_ = 0;
-  int substeps_since_look_ = 0;
 
   struct Good {
     AlignedVector<float> displacement, velocity;

@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solver/cpu/cpu_stepper.h"
 
-#include <cassert>
-
+#include "solver/cpu/leapfrog.h"
 #include "solver/cpu/pd.h"
 #include "solver/cpu/vbd.h"
 #include "solver/cpu/verlet_paper.h"
@@ -11,11 +10,18 @@
 namespace viscera {
 
 std::unique_ptr<CpuStepper> makeCpuStepper(Integrator integrator, int iterations, CpuLattice& lattice,
-                                           const Parallel& parallel) {
-  assert(integrator != Integrator::kLeapfrog);
-  if (integrator == Integrator::kVerletPaper) return std::make_unique<CpuVerletPaper>(lattice, parallel);
-  if (integrator == Integrator::kVbd) return std::make_unique<CpuVbd>(lattice, parallel, iterations);
-  return std::make_unique<CpuPd>(lattice, parallel, PdOptions{iterations});
+                                           const CpuParts& parts) {
+  switch (integrator) {
+    case Integrator::kVerletPaper:
+      return std::make_unique<CpuVerletPaper>(lattice, parts.parallel);
+    case Integrator::kVbd:
+      return std::make_unique<CpuVbd>(lattice, parts.parallel, iterations);
+    case Integrator::kPd:
+      return std::make_unique<CpuPd>(lattice, parts.parallel, PdOptions{iterations});
+    case Integrator::kLeapfrog:
+      break;
+  }
+  return std::make_unique<CpuLeapfrog>(lattice, parts);
 }
 
 std::unique_ptr<CpuStepper> makeCpuRecoveryStepper(int iterations, CpuLattice& lattice, const Parallel& parallel) {

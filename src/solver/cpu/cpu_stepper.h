@@ -6,9 +6,12 @@
 
 #include "solver/cpu/cpu_lattice.h"
 #include "solver/cpu/parallel.h"
+#include "solver/cpu/sleep.h"
 #include "solver/substep.h"
 
 namespace viscera {
+
+class CpuNetwork;
 
 /// An integrator on the CPU: one substep of every active node (physics.md 2).
 class CpuStepper {
@@ -17,13 +20,22 @@ class CpuStepper {
   /// state -> other state; the caller swaps.
   /// @param motions  [kMaxStyluses] of this substep; looked at where step.tools
   virtual void run(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions) = 0;
+  /// The state was written from outside: sums of rounding errors start at 0. (substep.h says of a new start in time.)
+  virtual void restart() {}
 };
 
-/// vbd, pd and verlet_paper: the text of their shaders, compiled as C++. (Leapfrog is another's affair.)
-/// @param iterations  of vbd and pd   @param lattice  that it will be run on   @param parallel  must outlive the
-/// stepper
+/// What integrators work with besides the lattice. All of it must outlive them.
+struct CpuParts {
+  const Parallel& parallel;
+  Sleep& sleep;         ///< of the lattice: who can leave bricks out, does
+  CpuNetwork* network;  ///< of the lattice; null where no body has explicit connections
+  bool compensated;     ///< u and v are summed with Kahan's compensation, by who can
+};
+
+/// Leapfrog: SIMD kernels. vbd, pd and verlet_paper: the text of their shaders, compiled as C++.
+/// @param iterations  of vbd and pd   @param lattice  that it will be run on
 std::unique_ptr<CpuStepper> makeCpuStepper(Integrator integrator, int iterations, CpuLattice& lattice,
-                                           const Parallel& parallel);
+                                           const CpuParts& parts);
 
 /// pd without acceleration, so that every sweep lowers the energy, for the governor's recoveries.
 std::unique_ptr<CpuStepper> makeCpuRecoveryStepper(int iterations, CpuLattice& lattice, const Parallel& parallel);

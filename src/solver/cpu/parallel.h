@@ -16,6 +16,8 @@ class Parallel {
     run(
         count, [](const void* of, size_t index) { (*static_cast<const Job*>(of))(index); }, &job);
   }
+  /// That may be at work at the same time, the caller's included.
+  virtual int threads() const { return 1; }
 
  protected:
   using Call = void (*)(const void* job, size_t index);

@@ -86,12 +86,24 @@ void Sleep::takeChanged(const CpuLattice& lattice, std::vector<uint32_t>& out) {
   }
 }
 
-void Sleep::look(CpuLattice& lattice, const std::vector<float>& speed2, double elapsed_s) {
+void Sleep::restart() {
+  since_look_s_ = 0;
+  substeps_since_look_ = 0;
+}
+
+void Sleep::passed(CpuLattice& lattice, float dt_s, const std::vector<float>& speed2) {
+  since_look_s_ += static_cast<double>(dt_s);
+  if (++substeps_since_look_ < kSubsteps) return;
+  if (!awake_.empty()) look(lattice, speed2);
+  restart();
+}
+
+void Sleep::look(CpuLattice& lattice, const std::vector<float>& speed2) {
   if (speed2_ <= 0) return;
   size_t restless = 0;
   for (uint32_t b : awake_) {
     // Written so that what is not a number counts as fast.
-    quiet_s_[b] = !(speed2[b] <= speed2_) ? 0 : quiet_s_[b] + static_cast<float>(elapsed_s);
+    quiet_s_[b] = !(speed2[b] <= speed2_) ? 0 : quiet_s_[b] + static_cast<float>(since_look_s_);
     restless += quiet_s_[b] < kQuiet_s;
   }
   if (restless < moving_bricks_) list(lattice);

@@ -25,9 +25,11 @@ class Sleep {
   /// Wakes bricks with a node in a box. @param low, high  tissue frame [m]
   void wakeNear(const CpuLattice& lattice, const Vector3f& low, const Vector3f& high);
   void wake(uint32_t brick);
-  /// A look: who was fast, who falls asleep, who is woken.
-  /// @param speed2  [bricks] largest |v|^2 of those awake [m2/s2]   @param elapsed_s  since the last look
-  void look(CpuLattice& lattice, const std::vector<float>& speed2, double elapsed_s);
+  /// Those awake have made a substep. After every kSubsteps there is a look: who was fast, who falls asleep, who is
+  /// woken. @param speed2  [bricks] largest |v|^2 of those awake [m2/s2]
+  void passed(CpuLattice& lattice, float dt_s, const std::vector<float>& speed2);
+  /// Substeps are counted anew.
+  void restart();
 
   const std::vector<uint32_t>& awake() const { return awake_; }  ///< ascending
   /// Bricks with springs that may have changed since the last call: of the awake, of those beside them, whose springs
@@ -35,6 +37,7 @@ class Sleep {
   void takeChanged(const CpuLattice& lattice, std::vector<uint32_t>& out);
 
  private:
+  void look(CpuLattice& lattice, const std::vector<float>& speed2);
   void list(CpuLattice& lattice);
   void freeze(CpuLattice& lattice, uint32_t brick);
 
@@ -46,6 +49,8 @@ class Sleep {
   std::vector<uint8_t> changed_;  ///< [bricks] beside those awake now
   std::vector<uint32_t> awake_;
   size_t moving_bricks_ = 0;
+  double since_look_s_ = 0;
+  int substeps_since_look_ = 0;
 };
 
 }  // namespace viscera

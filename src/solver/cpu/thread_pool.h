@@ -23,7 +23,7 @@ class ThreadPool : public Parallel {
   ~ThreadPool() override;
   ThreadPool(const ThreadPool&) = delete;
   ThreadPool& operator=(const ThreadPool&) = delete;
-  int threads() const { return static_cast<int>(workers_.size()) + 1; }
+  int threads() const override { return static_cast<int>(workers_.size()) + 1; }
 
  protected:
   void run(size_t count, Call call, const void* job) const override;

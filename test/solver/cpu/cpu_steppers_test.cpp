@@ -43,12 +43,15 @@ class Rig {
     step.sleep_distance_m = 1e6;
     step.push_speed_m_per_s = static_cast<float>(pushSpeed(model));
     step.restarted = true;
+    step.kick_s = 0.5f * step.dt_s;
   }
   void run(CpuStepper& stepper, const layout::ToolMotion* motions = nullptr) {
     stepper.run(lattice, step, motions);
     lattice.swap();
     step.restarted = false;
+    step.kick_s = step.dt_s;
   }
+  CpuParts with(const Parallel& parallel) { return {parallel, sleep, nullptr, false}; }
   ReferenceSolver reference(ReferenceIntegrator integrator) const {
     ReferenceOptions options;
     options.integrator = integrator;
@@ -63,6 +66,7 @@ class Rig {
 
  public:
   CpuLattice lattice;
+  Sleep sleep{lattice, 0};
   Substep step;
 };
 
@@ -72,7 +76,7 @@ void expectLikeReference(Integrator integrator, const Model& model, const Vector
   rig.lattice.write(randomState(model, 0.05 * model.bodies[0].lattice.spacing_m, 0.1, 7));
   ReferenceSolver reference = rig.reference(ReferenceIntegrator::kImplicitEuler);
   const Serial serial;
-  const auto stepper = makeCpuStepper(integrator, kIterations, rig.lattice, serial);
+  const auto stepper = makeCpuStepper(integrator, kIterations, rig.lattice, rig.with(serial));
   for (int s = 0; s < kSubsteps; ++s) {
     rig.run(*stepper);
     reference.substep();
@@ -109,7 +113,7 @@ uint64_t hashAfterTools(Integrator integrator, const Model& model, const Paralle
   Rig rig(model, isExplicit(integrator) ? 0.5 : 3);
   rig.lattice.write(randomState(model, 1e-3, 0.5, 11));
   rig.step.tools = true;
-  const auto stepper = makeCpuStepper(integrator, 6, rig.lattice, parallel);
+  const auto stepper = makeCpuStepper(integrator, 6, rig.lattice, rig.with(parallel));
   for (int t = 0; t < 3; ++t) {
     const ToolMotions motions = tools.motions(t, 0.07);
     if (t == 0) takeHold(rig.lattice, 0, motions[0].from, tools.styluses[0].grab_radius_m);
@@ -159,7 +163,7 @@ TEST(CpuImplicit, KeepsEnergyBelowItsStartWhateverTheStart) {
       Rig rig(model, fraction);
       for (const Abuse abuse : kAbuses) {
         for (const Integrator integrator : kImplicit)
-          expectEnergyBelowStart(*makeCpuStepper(integrator, 20, rig.lattice, serial), rig, model, abuse);
+          expectEnergyBelowStart(*makeCpuStepper(integrator, 20, rig.lattice, rig.with(serial)), rig, model, abuse);
         expectEnergyBelowStart(*makeCpuRecoveryStepper(20, rig.lattice, serial), rig, model, abuse);
       }
     }
@@ -175,7 +179,7 @@ TEST(CpuImplicit, KeepsEnergyBelowItsStartWithTooFewIterations) {
   const Model model = modelOf({body});
   Rig rig(model, 0.2);
   for (const Abuse abuse : kAbuses)
-    expectEnergyBelowStart(*makeCpuStepper(Integrator::kPd, 1, rig.lattice, serial), rig, model, abuse);
+    expectEnergyBelowStart(*makeCpuStepper(Integrator::kPd, 1, rig.lattice, rig.with(serial)), rig, model, abuse);
 }
 
 TEST(CpuImplicit, ToolsActLikeTheReferences) {
@@ -188,7 +192,7 @@ TEST(CpuImplicit, ToolsActLikeTheReferences) {
       Rig rig(model, 2);
       rig.step.tools = true;
       ReferenceSolver reference = rig.reference(ReferenceIntegrator::kImplicitEuler);
-      const auto stepper = makeCpuStepper(integrator, kIterations, rig.lattice, serial);
+      const auto stepper = makeCpuStepper(integrator, kIterations, rig.lattice, rig.with(serial));
       for (int t = 0; t < 3; ++t) {
         const ToolMotions motions = tools.motions(t, 0.04);
         if (t == 0) {
@@ -259,6 +263,30 @@ TEST(CpuPd, AccelerationThatGoesWrongIsGivenUpAndStartsAnew) {
     EXPECT_LT((xyz(wrong[slot]) - xyz(plain[slot])).norm(), 1e-3 * 5e-4);
 }
 
+TEST(CpuLeapfrog, MatchesReferenceAsOneOfTheSteppers) {
+  constexpr double kRounding = 1e-5;  // relative to the largest value, after kTimes substeps
+  constexpr int kTimes = 10;
+  const Serial serial;
+  Body body = boxBody({5, 4, 6}, 0.01);
+  body.material.dashpot_ratio = 0.1;
+  Body rubber = body;
+  rubber.material.poisson_ratio = 0.45;
+  for (const Body& each : {body, rubber}) {
+    const Model model = modelOf({each});
+    Rig rig(model, 0.5, Vector3d(0, 0, -9.81));
+    rig.lattice.write(randomState(model, 5e-4, 0.1, 7));
+    ReferenceSolver reference = rig.reference(ReferenceIntegrator::kLeapfrog);
+    const auto stepper = makeCpuStepper(Integrator::kLeapfrog, 1, rig.lattice, rig.with(serial));
+    for (int s = 0; s < kTimes; ++s) {
+      rig.run(*stepper);
+      reference.substep();
+    }
+    const HostState end = rig.lattice.read();
+    EXPECT_LT(relativeError(end.displacement_m, reference.u_m, reference.active), kRounding);
+    EXPECT_LT(relativeError(end.velocity_m_per_s, reference.v_m_per_s, reference.active), kRounding);
+  }
+}
+
 TEST(CpuVerletPaper, MatchesReferenceWithVolumesAndParts) {
   constexpr int kTimes = 10;
   // As for the GPU: four roundings of a position of 0.06 m per substep, each carried on as a velocity.
@@ -274,7 +302,7 @@ TEST(CpuVerletPaper, MatchesReferenceWithVolumesAndParts) {
     Rig rig(model, 0.5, Vector3d(0, 0, -9.81));
     rig.lattice.write(randomState(model, 5e-4, 0.1, 7));
     ReferenceSolver reference = rig.reference(ReferenceIntegrator::kVerletPaper);
-    const auto stepper = makeCpuStepper(Integrator::kVerletPaper, 1, rig.lattice, serial);
+    const auto stepper = makeCpuStepper(Integrator::kVerletPaper, 1, rig.lattice, rig.with(serial));
     for (int s = 0; s < kTimes; ++s) {
       rig.run(*stepper);
       reference.substep();

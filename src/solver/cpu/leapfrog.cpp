@@ -1,0 +1,113 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solver/cpu/leapfrog.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "solver/cpu/lattice_arrays.h"
+#include "solver/cpu/tool_passes.h"
+
+namespace viscera {
+
+namespace {
+
+constexpr size_t kMostBricksPerJob = 16;  // of a substep: about 10 us of work
+constexpr size_t kJobsPerThread = 8;      // at least, where there are bricks enough: whoever is free takes the next
+
+/// What tools do to a node in the substep that was just made (shaders/contact.glsl).
+void touchNode(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions, uint32_t slot) {
+  const float* now = lattice.displacement[lattice.current].data();
+  float* const u = lattice.displacement[1 - lattice.current].data();
+  float* const v = lattice.velocity[1 - lattice.current].data();
+  Vector3f u_next = planesAt(u, slot), v_next = planesAt(v, slot);
+  resolveContact(lattice, slot, motions, step.dt_s, step.push_speed_m_per_s, planesAt(now, slot), u_next, v_next);
+  setPlanes(u, slot, u_next);
+  setPlanes(v, slot, v_next);
+}
+
+/// How far a probe reaches in a substep, around where it is at the end [m].
+float reachOf(const layout::ToolMotion& m) {
+  const Vector3f travel(m.to.x - m.from.x, m.to.y - m.from.y, m.to.z - m.from.z);
+  return m.from.w + travel.norm();
+}
+
+}  // namespace
+
+CpuLeapfrog::CpuLeapfrog(const CpuLattice& lattice, const CpuParts& parts)
+    : parallel_(parts.parallel),
+      sleep_(parts.sleep),
+      network_(parts.network),
+      near_(lattice.brickCount()),
+      strained_(lattice.brickCount()),
+      speed2_(lattice.brickCount()) {
+  if (parts.compensated) compensation_.resize(6 * lattice.slotCount());
+  if (network_) reaches_.reserve(layout::kMaxStyluses);
+  job_.dashpot =
+      std::any_of(lattice.bodies.begin(), lattice.bodies.end(), [](const auto& b) { return b.dashpot_s > 0; });
+  job_.near = near_.data();
+  job_.strained = strained_.data();
+  job_.speed2 = speed2_.data();
+}
+
+void CpuLeapfrog::restart() {
+  std::fill(compensation_.begin(), compensation_.end(), 0.0f);
+}
+
+void CpuLeapfrog::run(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions) {
+  if (!sleep_.awake().empty()) stepAwake(lattice, step, motions);
+  if (network_) stepNetwork(lattice, step, motions);
+  sleep_.passed(lattice, step.dt_s, speed2_);
+}
+
+/// One substep of the bricks that are awake.
+void CpuLeapfrog::stepAwake(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions) {
+  const size_t awake = sleep_.awake().size();
+  const size_t fair = awake / (kJobsPerThread * static_cast<size_t>(parallel_.threads()));
+  per_job_ = std::clamp<size_t>(fair, 1, kMostBricksPerJob);
+  job_.arrays = arraysOf(lattice);
+  job_.arrays.compensation = compensation_.empty() ? nullptr : compensation_.data();
+  job_.step = step;
+  job_.reaches = 0;
+  for (size_t s = 0; step.tools && s < layout::kMaxStyluses; ++s) {
+    const layout::ToolMotion& m = motions[s];
+    if (m.info.x == layout::kModeProbe) job_.reach[job_.reaches++] = {{m.to.x, m.to.y, m.to.z}, reachOf(m)};
+  }
+  parallel_((awake + per_job_ - 1) / per_job_, [&](size_t chunk) { stepBricks(lattice, step, motions, chunk); });
+}
+
+void CpuLeapfrog::stepBricks(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions,
+                             size_t chunk) {
+  const std::vector<uint32_t>& awake = sleep_.awake();
+  const size_t first = chunk * per_job_, count = std::min(per_job_, awake.size() - first);
+  simd::leapfrog(job_, &awake[first], count);
+  if (!step.tools) return;
+  for (size_t i = first; i < first + count; ++i) {
+    const uint32_t brick = awake[i];
+    if (!near_[brick] && !lattice.held[brick]) continue;
+    near_[brick] = 0;
+    touch(lattice, step, motions, brick);
+  }
+}
+
+/// What tools do to the nodes of a brick in the substep.
+void CpuLeapfrog::touch(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions, uint32_t brick) {
+  for (uint32_t i = lattice.first_active[brick]; i < lattice.first_active[brick + 1]; ++i) {
+    if (lattice.mobility[lattice.active[i]] != 0) touchNode(lattice, step, motions, lattice.active[i]);
+  }
+  speed2_[brick] = std::numeric_limits<float>::infinity();  // stays awake
+}
+
+/// One substep of the nodes with explicit connections.
+void CpuLeapfrog::stepNetwork(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions) {
+  network_->step(lattice, step, compensation_);
+  if (!step.tools) return;
+  reaches_.clear();
+  for (size_t s = 0; s < layout::kMaxStyluses; ++s) {
+    const layout::ToolMotion& m = motions[s];
+    if (m.info.x == layout::kModeProbe) reaches_.push_back({glsl::xyz(m.to), reachOf(m)});
+  }
+  for (const uint32_t slot : network_->touched(lattice, reaches_)) touchNode(lattice, step, motions, slot);
+}
+
+}  // namespace viscera

@@ -1,0 +1,38 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "solver/cpu/cpu_stepper.h"
+#include "solver/cpu/kernels.h"
+#include "solver/cpu/network.h"
+
+namespace viscera {
+
+/// Leapfrog, brick by brick where they are awake: SIMD kernels (kernels.h), and network.h for explicit connections.
+class CpuLeapfrog : public CpuStepper {
+ public:
+  CpuLeapfrog(const CpuLattice& lattice, const CpuParts& parts);
+  void run(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions) override;
+  void restart() override;
+
+ private:
+  void stepAwake(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions);
+  void stepBricks(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions, size_t chunk);
+  void stepNetwork(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions);
+  void touch(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions, uint32_t brick);
+
+  const Parallel& parallel_;
+  Sleep& sleep_;
+  CpuNetwork* network_;
+  AlignedVector<float> compensation_;  ///< [6 * slots], see kernels.h; empty without compensation
+  simd::LeapfrogJob job_{};
+  std::vector<uint8_t> near_;       ///< [bricks]
+  std::vector<uint16_t> strained_;  ///< [bricks]
+  std::vector<float> speed2_;       ///< [bricks]
+  std::vector<NodeReach> reaches_;  ///< of probes in this substep, for nodes with explicit connections
+  size_t per_job_ = 1;
+};
+
+}  // namespace viscera
