@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <iostream>
+#include <iterator>
 #include <utility>
 
 #include "cli/png_writer.h"
@@ -14,7 +15,7 @@
 namespace viscera::cli {
 
 Album::Album(const std::string& folder, const Scene& scene, const Strokes& strokes, uint64_t ticks, bool live)
-    : folder_(folder), scene_(scene), live_(live) {
+    : folder_(folder), scene_(scene), live_(live), ticks_(ticks) {
   if (folder_.empty()) return;
   std::error_code error;
   std::filesystem::create_directories(folder_ + "/frames", error);
@@ -43,17 +44,19 @@ Wants Album::wants(const Session& session) const {
   Wants out;
   if (folder_.empty()) return out;
   const bool marked = marks_.count(session.tick() + 1) > 0;
-  out.every_image = !live_ || marked;
+  out.surface = session.tick() + 1 == ticks_;
+  out.every_image = !live_ || marked || out.surface;
   for (size_t c = 0; c < scene_.cameras.size(); ++c) out.cameras.push_back(session.imageDue(c) || marked);
   return out;
 }
 
-void Album::add(const Frame& frame) {
+void Album::add(Frame&& frame) {
+  if (frame.surface) surface_ = std::move(frame.surface);
   if (frame.images.empty()) return;
   std::unique_lock<std::mutex> lock(mutex_);
   changed_.wait(lock, [this] { return waiting_.size() < kWaiting || error_; });
   rethrow();
-  waiting_.insert(waiting_.end(), frame.images.begin(), frame.images.end());
+  std::move(frame.images.begin(), frame.images.end(), std::back_inserter(waiting_));
   changed_.notify_all();
 }
 
@@ -65,6 +68,7 @@ void Album::finish() {
   changed_.notify_all();
   if (writer_.joinable()) writer_.join();
   rethrow();
+  if (surface_) writePly(*surface_, folder_ + "/surface.ply");
 }
 
 void Album::rethrow() {

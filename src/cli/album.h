@@ -6,6 +6,7 @@
 #include <deque>
 #include <exception>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <string>
 #include <thread>
@@ -15,8 +16,8 @@
 
 namespace viscera::cli {
 
-/// Where pictures go: a numbered series per camera, and a named one for every mark of the strokes. A thread of its own
-/// packs and writes them.
+/// Where pictures go: a numbered series per camera, and a named one for every mark of the strokes; and the skin at the
+/// end. A thread of its own packs and writes the pictures.
 class Album {
  public:
   /// @param folder  empty: no pictures   @param live  the series may have gaps where drawing falls behind
@@ -29,8 +30,8 @@ class Album {
   /// What the session's next step should show.
   Wants wants(const Session& session) const;
   /// Waits only where more pictures wait to be written than kWaiting. @throws ImageError  of an earlier picture
-  void add(const Frame& frame);
-  /// Waits until all are written. @throws ImageError
+  void add(Frame&& frame);
+  /// Waits until all are written. @throws ImageError; Error  the skin cannot be written
   void finish();
 
  private:
@@ -42,6 +43,8 @@ class Album {
   std::string folder_;
   const Scene& scene_;
   bool live_;
+  uint64_t ticks_;
+  std::unique_ptr<SurfaceFrame> surface_;
   std::multimap<uint64_t, std::string> marks_;  ///< tick -> names
   std::mutex mutex_;
   std::condition_variable changed_;

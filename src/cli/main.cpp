@@ -36,7 +36,8 @@ int dispatch(int argc, char** argv) {
   run->add_option("--strokes", o.run.strokes, "recorded strokes to replay");
   CLI::Option* seconds = run->add_option("--seconds", o.seconds, "simulated time; default: the strokes' length, or 1")
                              ->check(CLI::Range(0.0, 86400.0));
-  CLI::Option* out = run->add_option("--out", o.run.out, "folder for pictures and metrics.json");
+  CLI::Option* out =
+      run->add_option("--out", o.run.out, "folder for pictures, metrics.json and surface.ply, the skin at the end");
   run->add_flag("--live", o.run.live,
                 "leave pictures out rather than wait for them, as a live session does; but for marks")
       ->needs(out);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <fstream>
 #include <iostream>
+#include <utility>
 
 #include "cli/album.h"
 #include "cli/commands.h"
@@ -97,12 +98,13 @@ int run(const RunOptions& options) {
     album.add(session.step(strokes.at(time_s, scene.styluses), album.wants(session)));
     progress("simulating", static_cast<double>(t + 1) / static_cast<double>(ticks));
   }
-  const Frame last = session.drain();
+  Frame last = session.drain();
   const double wall_s = secondsSince(start);
-  album.add(last);
+  const layout::TickStats stats = last.stats;
+  album.add(std::move(last));
   album.finish();
 
-  const Json metrics = metricsOf(session, last.stats, context.renderer(), wall_s);
+  const Json metrics = metricsOf(session, stats, context.renderer(), wall_s);
   if (!options.out.empty()) {
     std::ofstream file(options.out + "/metrics.json");
     file << metrics.dump(2) << '\n';

@@ -41,7 +41,7 @@ std_msgs::Header header(const std::string& frame, const ros::Time& stamp) {
   return out;
 }
 
-visualization_msgs::Marker emptyMarker(const SkinLayout::BodySkin& body, size_t id) {
+visualization_msgs::Marker emptyMarker(const ShownBody& body, size_t id) {
   visualization_msgs::Marker marker;
   marker.ns = body.name;
   marker.id = static_cast<int32_t>(id);
@@ -53,6 +53,19 @@ visualization_msgs::Marker emptyMarker(const SkinLayout::BodySkin& body, size_t 
   marker.color.b = static_cast<float>(body.color.z());
   marker.color.a = 1;
   return marker;
+}
+
+/// The corners of a patch's triangles, but of those with one that is not finite.
+void addPoints(const ShownMesh& skin, const ShownPatch& patch, visualization_msgs::Marker& marker) {
+  marker.points.reserve(marker.points.size() + 3 * patch.count);
+  for (size_t t = patch.first; t < patch.first + patch.count; ++t) {
+    const float* corner[3];
+    for (size_t i = 0; i < 3; ++i) {
+      corner[i] = &skin.positions_m[3 * static_cast<size_t>(skin.topology->triangles[3 * t + i])];
+    }
+    if (!finite(corner[0]) || !finite(corner[1]) || !finite(corner[2])) continue;
+    for (const float* xyz_m : corner) marker.points.push_back(toPoint(xyz_m));
+  }
 }
 
 }  // namespace
@@ -98,34 +111,16 @@ geometry_msgs::WrenchStamped toWrench(const Reaction& reaction, const Quaternion
   return out;
 }
 
-SkinLayout skinLayout(const Session& session) {
-  SkinLayout skin;
-  skin.vertices = session.surface().vertices();
-  skin.indices = session.surface().triangleIndices();
-  skin.splits = session.surface().splitVertices();
-  for (const Body& body : session.model().bodies)
-    skin.bodies.push_back({body.name, body.skin.mesh.triangles.size(), body.color});
-  return skin;
-}
-
-void SkinLayout::appendShown(size_t triangle, uint32_t alive, std::vector<uint32_t>& out) const {
-  viscera::appendShown(&indices[3 * triangle], splits.empty() ? nullptr : &splits[6 * triangle], alive, out);
-}
-
-SurfaceTopology toTopology(const SkinLayout& skin, const std::vector<uint32_t>& alive, uint32_t version,
-                           const std::string& frame, const ros::Time& stamp) {
+SurfaceTopology toTopology(const ShownTopology& skin, uint32_t version, const std::string& frame,
+                           const ros::Time& stamp) {
   SurfaceTopology out;
   out.header = header(frame, stamp);
   out.version = version;
   out.vertices = static_cast<uint32_t>(skin.vertices);
-  size_t triangle = 0;
-  for (const auto& body : skin.bodies) {
-    const size_t before = out.triangles.size();
-    for (const size_t end = triangle + body.triangles; triangle < end; ++triangle)
-      skin.appendShown(triangle, alive.empty() ? layout::kShownWhole : alive[triangle], out.triangles);
-    out.bodies.push_back(body.name);
-    out.body_triangles.push_back(static_cast<uint32_t>((out.triangles.size() - before) / 3));
-  }
+  out.triangles = skin.triangles;
+  for (const ShownBody& body : skin.bodies) out.bodies.push_back(body.name);
+  out.body_triangles.assign(skin.bodies.size(), 0);
+  for (const ShownPatch& patch : skin.patches) out.body_triangles[patch.body] += static_cast<uint32_t>(patch.count);
   return out;
 }
 
@@ -140,25 +135,16 @@ SurfaceVertices toVertices(const SurfaceFrame& frame, uint32_t topology_version,
   return out;
 }
 
-std::vector<visualization_msgs::Marker> toMarkers(const SkinLayout& skin, const SurfaceFrame& frame,
-                                                  const std::string& frame_id, const ros::Time& stamp) {
+std::vector<visualization_msgs::Marker> toMarkers(const ShownMesh& skin, const std::string& frame_id,
+                                                  const ros::Time& stamp) {
   std::vector<visualization_msgs::Marker> markers;
-  size_t triangle = 0;
-  for (const auto& body : skin.bodies) {
-    visualization_msgs::Marker marker = emptyMarker(body, markers.size());
-    marker.header = header(frame_id, stamp);
-    marker.points.reserve(3 * body.triangles);
-    std::vector<uint32_t> shown;
-    for (const size_t end = triangle + body.triangles; triangle < end; ++triangle)
-      skin.appendShown(triangle, frame.alive[triangle], shown);
-    for (size_t first = 0; first < shown.size(); first += 3) {
-      const float* corner[3];
-      for (size_t i = 0; i < 3; ++i) corner[i] = &frame.positions_m[3 * static_cast<size_t>(shown[first + i])];
-      if (!finite(corner[0]) || !finite(corner[1]) || !finite(corner[2])) continue;
-      for (const float* xyz_m : corner) marker.points.push_back(toPoint(xyz_m));
-    }
+  for (const ShownBody& body : skin.topology->bodies) {
+    markers.push_back(emptyMarker(body, markers.size()));
+    markers.back().header = header(frame_id, stamp);
+  }
+  for (const ShownPatch& patch : skin.topology->patches) addPoints(skin, patch, markers[patch.body]);
+  for (visualization_msgs::Marker& marker : markers) {
     if (marker.points.empty()) marker.action = visualization_msgs::Marker::DELETE;
-    markers.push_back(std::move(marker));
   }
   return markers;
 }

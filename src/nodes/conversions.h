@@ -17,7 +17,7 @@
 #include "viscera/SurfaceVertices.h"
 #include "viscera/math/types.h"
 #include "viscera/model/scene/scene.h"
-#include "viscera/session/session.h"
+#include "viscera/session/frame.h"
 #include "viscera/tools/stylus.h"
 
 namespace viscera::nodes {
@@ -39,33 +39,15 @@ bool isFinite(const Pose& pose);
 geometry_msgs::WrenchStamped toWrench(const Reaction& reaction, const Quaterniond& frame_from_tissue,
                                       const std::string& frame, const ros::Time& stamp);
 
-/// The part of the skin that does not change from tick to tick: triangles of all bodies, concatenated.
-struct SkinLayout {
-  struct BodySkin {
-    std::string name;
-    size_t triangles = 0;
-    Vector3d color = Vector3d::Ones();
-  };
-  size_t vertices = 0;
-  std::vector<uint32_t> indices;  ///< [3 * triangles]
-  std::vector<uint32_t> splits;   ///< Surface::splitVertices()
-
-  /// Appends the vertex indices of what is shown of a triangle. @param alive  as in Surface::alive()
-  void appendShown(size_t triangle, uint32_t alive, std::vector<uint32_t>& out) const;
-  std::vector<BodySkin> bodies;
-};
-SkinLayout skinLayout(const Session& session);
-
-/// @param alive  [triangles] as in Surface::alive(); empty means all whole
-SurfaceTopology toTopology(const SkinLayout& skin, const std::vector<uint32_t>& alive, uint32_t version,
-                           const std::string& frame, const ros::Time& stamp);
+SurfaceTopology toTopology(const ShownTopology& skin, uint32_t version, const std::string& frame,
+                           const ros::Time& stamp);
 SurfaceVertices toVertices(const SurfaceFrame& frame, uint32_t topology_version, const std::string& frame_id,
                            const ros::Time& stamp);
 
 /// One marker per body, for stock rviz: TRIANGLE_LIST of what is shown of it, or DELETE if none is left. Triangles with
 /// a coordinate that is not finite are left out, since rviz would crash on them.
-std::vector<visualization_msgs::Marker> toMarkers(const SkinLayout& skin, const SurfaceFrame& frame,
-                                                  const std::string& frame_id, const ros::Time& stamp);
+std::vector<visualization_msgs::Marker> toMarkers(const ShownMesh& skin, const std::string& frame_id,
+                                                  const ros::Time& stamp);
 
 /// Takes the pixels out of `frame`.
 sensor_msgs::Image toImage(ImageFrame&& frame, const std::string& optical_frame, const ros::Time& stamp);

@@ -45,10 +45,10 @@ void FramePublisher::broadcastStaticFrames(const Scene& scene) {
   static_frames_.sendTransform(frames);
 }
 
-void FramePublisher::start(SkinLayout&& skin) {
+void FramePublisher::start(const std::shared_ptr<const ShownTopology>& skin) {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    slots_.skin = {ros::Time::now(), std::move(skin)};
+    slots_.skin = {ros::Time::now(), skin};
     any_ = true;
   }
   filled_.notify_one();
@@ -105,7 +105,7 @@ FramePublisher::Slots FramePublisher::emptySlots() const {
 }
 
 void FramePublisher::send(Slots&& slots) {
-  if (slots.skin) surface_.start(std::move(slots.skin->value), slots.skin->stamp);
+  if (slots.skin) surface_.start(slots.skin->value, slots.skin->stamp);
   if (slots.hands)
     for (size_t i = 0; i < styluses_.size(); ++i) {
       const Hand& hand = slots.hands->value[i];

@@ -42,7 +42,7 @@ class FramePublisher {
   Latencies takeLatencies();
 
   // For the simulation's thread:
-  void start(SkinLayout&& skin);
+  void start(const std::shared_ptr<const ShownTopology>& skin);
   /// What subscribers want of the tick that begins now; the tick's stamp is taken here.
   Wants beginTick();
   void deliver(Frame&& frame, const StylusSamples& samples);
@@ -60,7 +60,7 @@ class FramePublisher {
   };
   using Hands = std::array<Hand, layout::kMaxStyluses>;
   struct Slots {
-    std::optional<Stamped<SkinLayout>> skin;
+    std::optional<Stamped<std::shared_ptr<const ShownTopology>>> skin;
     std::optional<Stamped<Hands>> hands;
     std::optional<Stamped<std::unique_ptr<SurfaceFrame>>> surface;
     std::vector<std::optional<Stamped<ImageFrame>>> images;  ///< [cameras]

@@ -57,7 +57,7 @@ LoopPorts Simulator::ports() {
     ROS_INFO("%s", session.backendNote().c_str());
     for (const Body& body : session.model().bodies)
       for (const std::string& note : body.notes) ROS_INFO("%s: %s", body.name.c_str(), note.c_str());
-    publisher_.start(skinLayout(session));
+    publisher_.start(session.wholeSkin());
     ready_ = true;
   };
   ports.deliver = [this](Frame&& frame) { publisher_.deliver(std::move(frame), samples_); };

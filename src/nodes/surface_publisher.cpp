@@ -4,8 +4,6 @@
 
 #include <ros/console.h>
 
-#include <utility>
-
 namespace viscera::nodes {
 namespace {
 
@@ -24,29 +22,28 @@ bool SurfacePublisher::isWanted() const {
   return vertices_.getNumSubscribers() > 0 || marker_.getNumSubscribers() > 0;
 }
 
-void SurfacePublisher::start(SkinLayout&& skin, const ros::Time& stamp) {
-  skin_ = std::move(skin);
-  publishTopology(std::vector<uint32_t>(skin_.indices.size() / 3, 1u), stamp);
+void SurfacePublisher::start(const std::shared_ptr<const ShownTopology>& skin, const ros::Time& stamp) {
+  publishTopology(*skin, stamp);
 }
 
-void SurfacePublisher::publishTopology(const std::vector<uint32_t>& alive, const ros::Time& stamp) {
-  alive_ = alive;
-  topology_.publish(toTopology(skin_, alive_, ++version_, frame_, stamp));
+void SurfacePublisher::publishTopology(const ShownTopology& topology, const ros::Time& stamp) {
+  revision_ = topology.revision;
+  topology_.publish(toTopology(topology, ++version_, frame_, stamp));
 }
 
 void SurfacePublisher::publish(const SurfaceFrame& frame, const ros::Time& stamp) {
-  if (frame.alive != alive_) publishTopology(frame.alive, stamp);
+  if (frame.topology->revision != revision_) publishTopology(*frame.topology, stamp);
   if (vertices_.getNumSubscribers() > 0) vertices_.publish(toVertices(frame, version_, frame_, stamp));
   if (marker_.getNumSubscribers() > 0) publishMarkers(frame, stamp);
 }
 
 void SurfacePublisher::publishMarkers(const SurfaceFrame& frame, const ros::Time& stamp) {
-  if (skin_.indices.size() / 3 > kMaxMarkerTriangles) {
+  if (frame.topology->triangleCount() > kMaxMarkerTriangles) {
     ROS_WARN_ONCE("surface_marker: more than %zu triangles do not fit in a message; use `surface`",
                   kMaxMarkerTriangles);
     return;
   }
-  for (const visualization_msgs::Marker& marker : toMarkers(skin_, frame, frame_, stamp)) marker_.publish(marker);
+  for (const visualization_msgs::Marker& marker : toMarkers(frame, frame_, stamp)) marker_.publish(marker);
 }
 
 }  // namespace viscera::nodes

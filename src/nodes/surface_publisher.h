@@ -4,8 +4,8 @@
 
 #include <ros/node_handle.h>
 
+#include <memory>
 #include <string>
-#include <vector>
 
 #include "nodes/conversions.h"
 
@@ -19,19 +19,18 @@ class SurfacePublisher {
   /// Somebody subscribes to the moving surface. From any thread.
   bool isWanted() const;
   /// Sends the topology of the whole skin.
-  void start(SkinLayout&& skin, const ros::Time& stamp);
+  void start(const std::shared_ptr<const ShownTopology>& skin, const ros::Time& stamp);
   /// Sends a frame to whom it may concern; the topology first, if it has changed.
   void publish(const SurfaceFrame& frame, const ros::Time& stamp);
 
  private:
-  void publishTopology(const std::vector<uint32_t>& alive, const ros::Time& stamp);
+  void publishTopology(const ShownTopology& topology, const ros::Time& stamp);
   void publishMarkers(const SurfaceFrame& frame, const ros::Time& stamp);
 
   const std::string frame_;
   ros::Publisher topology_, vertices_, marker_;
-  SkinLayout skin_;
-  std::vector<uint32_t> alive_;
-  uint32_t version_ = 0;
+  uint64_t revision_ = 0;  ///< of the topology sent last
+  uint32_t version_ = 0;   ///< how many were sent
 };
 
 }  // namespace viscera::nodes

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "render/render_target.h"
+#include "surface/surface.h"
 #include "viscera/render/camera.h"
-#include "viscera/surface/surface.h"
 #include "viscera/tools/stylus.h"
 
 namespace viscera {

@@ -128,7 +128,8 @@ bool InlineView::takeSurface(Pictures& out, bool wait) {
   out.surface->tick = tick;
   take(out.surface->positions_m, 3 * surface_.vertices());
   take(out.surface->normals, surface_.vertices());
-  take(out.surface->alive, surface_.triangles());
+  take(alive_, surface_.triangles());
+  out.surface->topology = surface_.skin().shown(alive_.data());
   surface_ring_.release();
   return true;
 }

@@ -8,7 +8,8 @@
 
 #include "gpu/readback.h"
 #include "render/renderer.h"
-#include "viscera/session/view.h"
+#include "session/view.h"
+#include "surface/surface.h"
 
 namespace viscera {
 
@@ -23,7 +24,7 @@ class InlineView : public View {
   void collect(Pictures& out, bool wait) override;
   void reset() override;
   ViewCounters counters() const override;
-  const Surface& surface() const override { return surface_; }
+  std::shared_ptr<const ShownTopology> wholeSkin() const override { return surface_.skin().whole(); }
 
  private:
   struct Drawn {  ///< what the last image of a camera shows, if it is known when the state moved
@@ -47,7 +48,8 @@ class InlineView : public View {
   Surface surface_;
   Renderer renderer_;
   gpu::ReadbackRing surface_ring_;
-  std::vector<Eye> eyes_;  ///< [cameras]
+  std::vector<Eye> eyes_;        ///< [cameras]
+  std::vector<uint32_t> alive_;  ///< of the surface taken last
   ViewCounters counters_;
   bool followed_ = false;  ///< the surface shows the state of this capture
 };

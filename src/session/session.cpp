@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "math/float_bits.h"
+#include "session/view.h"
 #include "solver/make_solver.h"
 #include "viscera/calibration/auto_spacing.h"
 
@@ -144,6 +145,10 @@ Frame Session::drain() {
 
 uint64_t Session::stateHash() const {
   return viscera::stateHash(model_, solver_->readState());
+}
+
+std::shared_ptr<const ShownTopology> Session::wholeSkin() const {
+  return view_->wholeSkin();
 }
 
 Counters Session::counters() const {

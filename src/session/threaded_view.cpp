@@ -173,7 +173,7 @@ void ThreadedView::run(const Model& model, const Scene& scene) {
 void ThreadedView::announce(const InlineView& view, const StateMirror& mirror) {
   {
     const Lock lock(mutex_);
-    surface_ = &view.surface();
+    whole_skin_ = view.wholeSkin();
     snapshot_.bricks = mirror.shownBricks();
     snapshot_.displacement_m.reserve(kBrickFloats * snapshot_.bricks.size());
     busy_ = false;

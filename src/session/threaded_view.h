@@ -7,7 +7,7 @@
 #include <mutex>
 #include <thread>
 
-#include "viscera/session/view.h"
+#include "session/view.h"
 
 namespace viscera {
 
@@ -33,7 +33,7 @@ class ThreadedView : public View {
   void collect(Pictures& out, bool wait) override;
   void reset() override;
   ViewCounters counters() const override;
-  const Surface& surface() const override { return *surface_; }
+  std::shared_ptr<const ShownTopology> wholeSkin() const override { return whole_skin_; }
 
  private:
   using Lock = std::unique_lock<std::mutex>;
@@ -50,7 +50,7 @@ class ThreadedView : public View {
   void await(Lock& lock, Condition condition);
 
   gpu::Context& context_;
-  const Surface* surface_ = nullptr;
+  std::shared_ptr<const ShownTopology> whole_skin_;
 
   // The slot: the stepping thread's while order_ is kNone, the view's from kTaken to kNone; in between it waits.
   StateSnapshot snapshot_;

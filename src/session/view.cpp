@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "viscera/session/view.h"
+#include "session/view.h"
 
 #include <algorithm>
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "viscera/surface/surface.h"
+#include "viscera/surface/shown_mesh.h"
 
 namespace viscera {
 

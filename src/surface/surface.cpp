@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "viscera/surface/surface.h"
+#include "surface/surface.h"
 
 #include <algorithm>
 #include <iterator>
@@ -126,7 +126,7 @@ std::vector<uint32_t> splitsOf(const NetworkSkins& networks, size_t triangles) {
 Surface::Surface(const Model& model) {
   JoinedSkins skins = join(model);
   vertices_ = skins.bindings.size();
-  triangles_ = skins.triangles.size() / 3;
+  const size_t triangles = skins.triangles.size() / 3;
   surface_nodes_ = gpu::Buffer<uint32_t>(skins.surface_nodes);
   node_normals_ = gpu::Buffer<layout::vec4>(skins.any_bound ? model.slots() : 0);
   bindings_ = gpu::Buffer<layout::SkinBinding>(skins.bindings);
@@ -136,10 +136,9 @@ Surface::Surface(const Model& model) {
   triangle_buffer_ = gpu::Buffer<uint32_t>(skins.triangles);
   ties_ = gpu::Buffer<layout::Tie>(skins.ties);
   tie_starts_ = gpu::Buffer<uint32_t>(skins.tie_starts);
-  alive_ = gpu::Buffer<uint32_t>(triangles_);
-  live_ = gpu::Buffer<uint32_t>(3 * (triangles_ + 2 * skins.networks.triangles.size()));
-  splits_ = splitsOf(skins.networks, triangles_);
-  indices_ = std::move(skins.triangles);
+  alive_ = gpu::Buffer<uint32_t>(triangles);
+  live_ = gpu::Buffer<uint32_t>(3 * (triangles + 2 * skins.networks.triangles.size()));
+  shown_ = ShownTriangles(model, vertices_, std::move(skins.triangles), splitsOf(skins.networks, triangles));
   if (skins.any_bound) {
     const std::vector<std::string> features(skins.any_one_to_one ? 1 : 0, "MIXED");
     node_normal_ = kernel("node_normal.comp");
@@ -195,19 +194,19 @@ void Surface::tear(const StateView& state) {
     bindings_.bindStorage(layout::kBindSkinBindings);
     ties_.bindStorage(layout::kBindSkinTies);
     tie_starts_.bindStorage(layout::kBindSkinTieStarts);
-    run(tear_, triangles_);
+    run(tear_, triangles());
   }
   if (networks_) {
-    networks_->split(state, triangles_);
+    networks_->split(state, triangles());
     followed_revision_ = 0;  // normals depend on what is whole
   }
   publish();
 }
 
 void Surface::reset() {
-  alive_.write(std::vector<uint32_t>(triangles_, layout::kShownWhole));
+  alive_.write(std::vector<uint32_t>(triangles(), layout::kShownWhole));
   live_.clear();
-  live_.write(indices_);
+  live_.write(shown_.indices());
   cut_revision_ = 0;
   if (!networks_) return;
   networks_->reset();

@@ -9,6 +9,7 @@
 #include "cli/small_scene.h"
 #include "support/text.h"
 #include "viscera/model/scene/scene.h"
+#include "viscera/model/shape/mesh_import.h"
 
 namespace viscera {
 namespace {
@@ -166,6 +167,25 @@ TEST_F(Run, PicturesAndMetricsGoToTheFolder) {
   expectPng(out + "/half way_eye.png", 64, 48);
   EXPECT_EQ(readFile(out + "/half way_eye.png"), readFile(out + "/frames/eye_000006.png"));
   EXPECT_NE(readFile(out + "/frames/eye_000002.png"), readFile(out + "/frames/eye_000012.png"));
+}
+
+TEST_F(Run, SkinAtTheEndGoesToTheFolderAndLacksWhatWasCut) {
+  const auto skinAfter = [&](std::vector<std::string> options) {
+    const std::string out = folder_.file("skin_" + std::to_string(options.size()));
+    options.insert(options.end(), {"--out", out, "--set", "environment.gravity_m_per_s2=[0, 0, 0]"});
+    metricsOf(run(options));
+    return importMesh(out + "/surface.ply", 1);
+  };
+  const TriangleMesh whole = skinAfter({"--seconds", "0.05", "--live"}), torn = skinAfter({"--strokes", strokes_});
+  Vector3f lowest = Vector3f::Zero(), highest = Vector3f::Zero();
+  for (const Vector3f& p : whole.positions_m) {
+    lowest = lowest.cwiseMin(p);
+    highest = highest.cwiseMax(p);
+  }
+  EXPECT_LT((lowest - Vector3f::Constant(-0.02f)).norm(), 1e-6f);  // the block, which nothing pulls
+  EXPECT_LT((highest - Vector3f::Constant(0.02f)).norm(), 1e-6f);
+  EXPECT_GT(torn.triangles.size(), whole.triangles.size() / 2);
+  EXPECT_LT(torn.triangles.size(), whole.triangles.size());
 }
 
 TEST_F(Run, PicturesDoNotChangeTheState) {

@@ -11,21 +11,26 @@ namespace {
 
 constexpr double kRounding = 1e-12;  // [m], [N] double rounding of a few operations
 
-/// Two bodies: a square of two triangles, and a single triangle.
-SkinLayout twoBodies() {
-  SkinLayout skin;
-  skin.vertices = 7;
-  skin.indices = {0, 1, 2, 2, 1, 3, 4, 5, 6};
-  skin.bodies = {{"square", 2, Vector3d(1, 0, 0)}, {"flap", 1, Vector3d(0, 1, 0)}};
+/// Two bodies: a square of two triangles, and a single triangle. @param shown  vertices of what is left of each
+ShownTopology twoBodies(const std::vector<uint32_t>& square = {0, 1, 2, 2, 1, 3},
+                        const std::vector<uint32_t>& flap = {4, 5, 6}) {
+  ShownTopology skin;
+  skin.revision = 1;
+  skin.vertices = 13;
+  skin.triangles = square;
+  skin.triangles.insert(skin.triangles.end(), flap.begin(), flap.end());
+  skin.bodies = {{"square", Vector3d(1, 0, 0)}, {"flap", Vector3d(0, 1, 0)}};
+  skin.patches = {{0, ShownKind::kSkin, 0, square.size() / 3},
+                  {1, ShownKind::kSkin, square.size() / 3, flap.size() / 3}};
   return skin;
 }
 
-SurfaceFrame frameOf(const SkinLayout& skin) {
+SurfaceFrame frameOf(const ShownTopology& skin) {
   SurfaceFrame frame;
   frame.tick = 12;
   for (size_t i = 0; i < 3 * skin.vertices; ++i) frame.positions_m.push_back(0.25f * static_cast<float>(i));
   frame.normals.assign(skin.vertices, 7u);
-  frame.alive.assign(skin.indices.size() / 3, 1u);
+  frame.topology = std::make_shared<ShownTopology>(skin);
   return frame;
 }
 
@@ -83,30 +88,36 @@ TEST(Conversions, WrenchThatIsNotFiniteBecomesZero) {
   EXPECT_EQ(message.wrench.torque.z, 0);
 }
 
-TEST(Conversions, TopologyLeavesOutTornTrianglesAndCountsPerBody) {
-  const SkinLayout skin = twoBodies();
-  const auto whole = toTopology(skin, {}, 1, "tissue", ros::Time(1));
-  EXPECT_EQ(whole.triangles, skin.indices);
-  EXPECT_EQ(whole.vertices, 7u);
-  const auto torn = toTopology(skin, {0, 1, 1}, 2, "tissue", ros::Time(1));
+TEST(Conversions, TopologyTellsWhatIsShownAndCountsPerBody) {
+  const ShownTopology skin = twoBodies();
+  const auto whole = toTopology(skin, 1, "tissue", ros::Time(1));
+  EXPECT_EQ(whole.triangles, skin.triangles);
+  EXPECT_EQ(whole.vertices, 13u);
+  const auto torn = toTopology(twoBodies({2, 1, 3}), 2, "tissue", ros::Time(1));
   EXPECT_EQ(torn.version, 2u);
   EXPECT_EQ(torn.triangles, (std::vector<uint32_t>{2, 1, 3, 4, 5, 6}));
   EXPECT_EQ(torn.bodies, (std::vector<std::string>{"square", "flap"}));
   EXPECT_EQ(torn.body_triangles, (std::vector<uint32_t>{1, 1}));
 }
 
+TEST(Conversions, PatchesOfABodyAreToldTogether) {
+  ShownTopology skin = twoBodies();
+  skin.triangles.insert(skin.triangles.end(), {7, 8, 9});
+  skin.patches.push_back({1, ShownKind::kWound, 3, 1});
+  EXPECT_EQ(toTopology(skin, 1, "tissue", ros::Time(1)).body_triangles, (std::vector<uint32_t>{2, 2}));
+  const auto markers = toMarkers(frameOf(skin), "tissue", ros::Time(1));
+  ASSERT_EQ(markers.size(), 2u);
+  EXPECT_EQ(markers[0].points.size(), 6u);
+  EXPECT_EQ(markers[1].points.size(), 6u);
+}
+
 TEST(Conversions, SplitTrianglesAreToldInPieces) {
-  SkinLayout skin = twoBodies();
-  skin.vertices = 13;
-  skin.splits.assign(18, 0);
-  for (uint32_t i = 0; i < 6; ++i)
-    skin.splits[12 + i] = 7 + i;  // of the flap: 7, 8 on 4-5; 9, 10 on 5-6; 11, 12 on 6-4
-  SurfaceFrame frame = frameOf(skin);
-  frame.alive = {0, 1, layout::kShownCorner << 1 | layout::kShownRest << 1};
-  const auto topology = toTopology(skin, frame.alive, 2, "tissue", ros::Time(1));
+  const std::vector<uint32_t> pieces = {5, 9, 8, 10, 6, 4, 10, 4, 7};
+  const SurfaceFrame frame = frameOf(twoBodies({2, 1, 3}, pieces));
+  const auto topology = toTopology(*frame.topology, 2, "tissue", ros::Time(1));
   EXPECT_EQ(topology.triangles, (std::vector<uint32_t>{2, 1, 3, 5, 9, 8, 10, 6, 4, 10, 4, 7}));
   EXPECT_EQ(topology.body_triangles, (std::vector<uint32_t>{1, 3}));
-  const auto markers = toMarkers(skin, frame, "tissue", ros::Time(1));
+  const auto markers = toMarkers(frame, "tissue", ros::Time(1));
   ASSERT_EQ(markers.size(), 2u);
   EXPECT_EQ(markers[0].points.size(), 3u);
   ASSERT_EQ(markers[1].points.size(), 9u);
@@ -123,10 +134,8 @@ TEST(Conversions, VerticesCarryTickAndTopologyVersion) {
 }
 
 TEST(Conversions, MarkersHoldTheCornersOfWholeTrianglesOfOneBodyEach) {
-  const SkinLayout skin = twoBodies();
-  SurfaceFrame frame = frameOf(skin);
-  frame.alive = {1, 0, 1};
-  const auto markers = toMarkers(skin, frame, "tissue", ros::Time(2));
+  const SurfaceFrame frame = frameOf(twoBodies({0, 1, 2}));
+  const auto markers = toMarkers(frame, "tissue", ros::Time(2));
   ASSERT_EQ(markers.size(), 2u);
   ASSERT_EQ(markers[0].points.size(), 3u);
   EXPECT_EQ(markers[0].points[1].x, frame.positions_m[3]);
@@ -138,19 +147,16 @@ TEST(Conversions, MarkersHoldTheCornersOfWholeTrianglesOfOneBodyEach) {
 }
 
 TEST(Conversions, MarkerOfATornBodyIsDeletedRatherThanEmpty) {
-  const SkinLayout skin = twoBodies();
-  SurfaceFrame frame = frameOf(skin);
-  frame.alive = {1, 1, 0};
-  const auto markers = toMarkers(skin, frame, "tissue", ros::Time(2));
+  const SurfaceFrame frame = frameOf(twoBodies({0, 1, 2, 2, 1, 3}, {}));
+  const auto markers = toMarkers(frame, "tissue", ros::Time(2));
   EXPECT_EQ(markers[0].action, visualization_msgs::Marker::ADD);
   EXPECT_EQ(markers[1].action, visualization_msgs::Marker::DELETE);
 }
 
 TEST(Conversions, MarkerNeverHoldsACoordinateThatIsNotFinite) {
-  const SkinLayout skin = twoBodies();
-  SurfaceFrame frame = frameOf(skin);
+  SurfaceFrame frame = frameOf(twoBodies());
   frame.positions_m[0] = std::numeric_limits<float>::quiet_NaN();
-  const auto markers = toMarkers(skin, frame, "tissue", ros::Time(2));
+  const auto markers = toMarkers(frame, "tissue", ros::Time(2));
   ASSERT_EQ(markers[0].points.size(), 3u);
   EXPECT_EQ(markers[0].points[0].x, frame.positions_m[6]);
 }

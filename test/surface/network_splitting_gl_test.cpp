@@ -70,7 +70,7 @@ TEST_F(NetworkSplitting, NothingIsSplitAtFirst) {
   apply(rig);
   const std::vector<uint32_t> alive = rig.surface.alive().read(), live = rig.surface.liveIndices().read();
   EXPECT_EQ(std::count(alive.begin(), alive.end(), layout::kShownWhole), static_cast<long>(alive.size()));
-  const std::vector<uint32_t>& all = rig.surface.triangleIndices();
+  const std::vector<uint32_t>& all = rig.surface.skin().indices();
   ASSERT_EQ(live.size(), 3 * all.size());
   EXPECT_TRUE(std::equal(all.begin(), all.end(), live.begin()));
   EXPECT_EQ(drawnTriangles(rig.surface).size(), alive.size());
@@ -80,7 +80,7 @@ TEST_F(NetworkSplitting, ClothThatCannotBeCutHasNoVerticesForIt) {
   const SurfaceRig rig(withNetworkSkin(clothBody(20, 17, kSpacing_m), false));
   EXPECT_EQ(rig.surface.vertices(), 20u * 17);
   EXPECT_EQ(rig.surface.liveIndices().size(), 3 * rig.surface.triangles());
-  EXPECT_TRUE(rig.surface.splitVertices().empty());
+  EXPECT_TRUE(rig.surface.skin().splits().empty());
 }
 
 TEST_F(NetworkSplitting, CutThroughKeepsTheShownAreaAndMakesTwoPieces) {
@@ -167,7 +167,7 @@ TEST_F(NetworkSplitting, TwoCrossedEdgesPartTheCornerBetweenThem) {
     EXPECT_EQ(rig.surface.alive().read()[index], layout::kShownCorner << corner | layout::kShownRest << corner);
     const std::vector<Vector3d> at = rig.positions();
     std::vector<uint32_t> shown;
-    appendShown(t.data(), &rig.surface.splitVertices()[6 * index], rig.surface.alive().read()[index], shown);
+    appendShown(t.data(), &rig.surface.skin().splits()[6 * index], rig.surface.alive().read()[index], shown);
     ASSERT_EQ(shown.size(), 9u);
     const std::vector<Vector3d> wanted = {at[i],
                                           0.75 * at[i] + 0.25 * at[j],
@@ -193,7 +193,7 @@ TEST_F(NetworkSplitting, ThreeCrossedEdgesLeaveThreeCorners) {
   EXPECT_EQ(rig.surface.alive().read()[index], 7 * layout::kShownCorner);
   const double whole_m2 = std::sqrt(3) / 4 * kSpacing_m * kSpacing_m;
   std::vector<uint32_t> shown;
-  appendShown(t.data(), &rig.surface.splitVertices()[6 * index], 7 * layout::kShownCorner, shown);
+  appendShown(t.data(), &rig.surface.skin().splits()[6 * index], 7 * layout::kShownCorner, shown);
   ASSERT_EQ(shown.size(), 9u);
   for (size_t n = 0; n < 9; n += 3) {
     EXPECT_NEAR(areaOf({{shown[n], shown[n + 1], shown[n + 2]}}, rig.positions()), whole_m2 / 4, kPlace_m * kSpacing_m);
@@ -282,10 +282,10 @@ TEST_F(NetworkSplitting, WhatIsDrawnIsWhatIsTold) {
   cutThrough(rig, 1, [](const Vector3d& x) { return x.y() - 0.7 * x.x() + 0.011; });
   cutThrough(rig, 2, [](const Vector3d& x) { return x.y() + 0.004; });
   apply(rig);
-  const std::vector<uint32_t> alive = rig.surface.alive().read(), &indices = rig.surface.triangleIndices();
+  const std::vector<uint32_t> alive = rig.surface.alive().read(), &indices = rig.surface.skin().indices();
   std::vector<uint32_t> told;
   for (size_t t = 0; t < alive.size(); ++t) {
-    appendShown(&indices[3 * t], &rig.surface.splitVertices()[6 * t], alive[t], told);
+    appendShown(&indices[3 * t], &rig.surface.skin().splits()[6 * t], alive[t], told);
   }
   std::vector<Corners> expected;
   for (size_t i = 0; i < told.size(); i += 3) expected.push_back({told[i], told[i + 1], told[i + 2]});

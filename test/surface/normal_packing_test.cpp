@@ -4,7 +4,7 @@
 
 #include <random>
 
-#include "viscera/surface/surface.h"
+#include "viscera/surface/shown_mesh.h"
 
 using namespace viscera;
 

@@ -11,8 +11,8 @@
 #include "model/body/network_skin.h"
 #include "model/skin_shapes.h"
 #include "solver/gpu/lattice_buffers.h"
+#include "surface/surface.h"
 #include "viscera/solver/solver.h"
-#include "viscera/surface/surface.h"
 
 namespace viscera::testing {
 

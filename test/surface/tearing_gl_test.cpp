@@ -32,7 +32,7 @@ long count(const std::vector<uint32_t>& values, uint32_t wanted) {
 /// Live indices must be those of the mesh where a triangle is whole and (0, 0, 0) where it is torn.
 void expectLiveIndicesMatch(const Surface& surface) {
   const std::vector<uint32_t> alive = surface.alive().read(), live = surface.liveIndices().read();
-  const std::vector<uint32_t>& all = surface.triangleIndices();
+  const std::vector<uint32_t>& all = surface.skin().indices();
   ASSERT_EQ(live.size(), 3 * alive.size());
   for (size_t i = 0; i < live.size(); ++i) ASSERT_EQ(live[i], alive[i / 3] ? all[i] : 0u);
 }
@@ -46,10 +46,10 @@ bool beyondPlane(const Vector3d& x) {
 TEST_F(SkinTearing, NothingIsTornAtFirst) {
   SurfaceRig rig(ballBody());
   EXPECT_EQ(count(rig.surface.alive().read(), 1), static_cast<long>(rig.surface.triangles()));
-  EXPECT_EQ(rig.surface.liveIndices().read(), rig.surface.triangleIndices());
+  EXPECT_EQ(rig.surface.liveIndices().read(), rig.surface.skin().indices());
   rig.tear();
   EXPECT_EQ(count(rig.surface.alive().read(), 1), static_cast<long>(rig.surface.triangles()));
-  EXPECT_EQ(rig.surface.liveIndices().read(), rig.surface.triangleIndices());
+  EXPECT_EQ(rig.surface.liveIndices().read(), rig.surface.skin().indices());
 }
 
 TEST_F(SkinTearing, CutThroughLeavesNoTriangleAcrossAndTheRestWhole) {
@@ -161,7 +161,7 @@ TEST_F(SkinTearing, TornStaysTornUntilReset) {
   EXPECT_EQ(rig.surface.alive().read(), torn);
   rig.surface.reset();
   EXPECT_EQ(count(rig.surface.alive().read(), 0), 0);
-  EXPECT_EQ(rig.surface.liveIndices().read(), rig.surface.triangleIndices());
+  EXPECT_EQ(rig.surface.liveIndices().read(), rig.surface.skin().indices());
 }
 
 TEST_F(SkinTearing, UnchangedRevisionCostsNoPass) {

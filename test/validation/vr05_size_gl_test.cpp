@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "support/gpu_fixture.h"
-#include "viscera/surface/surface.h"
+#include "surface/surface.h"
 
 using namespace viscera;
 using namespace viscera::test;

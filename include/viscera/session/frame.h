@@ -7,7 +7,9 @@
 #include <memory>
 #include <vector>
 
+#include "viscera/math/types.h"
 #include "viscera/solver/governor.h"
+#include "viscera/surface/shown_mesh.h"
 #include "viscera/tools/stylus.h"
 
 namespace viscera {
@@ -23,13 +25,10 @@ struct Wants {
   size_t count() const;
 };
 
-/// Deformed skin as it left the GPU, some ticks late.
-struct SurfaceFrame {
+/// The deformed skin, some ticks late.
+struct SurfaceFrame : ShownMesh {
   uint64_t tick = 0;
-  SteadyTime pose_received{};      ///< of the newest stylus pose in that tick; 0 if there was none
-  std::vector<float> positions_m;  ///< [3 * vertices] tissue frame
-  std::vector<uint32_t> normals;   ///< [vertices] packed
-  std::vector<uint32_t> alive;     ///< [triangles] as in Surface::alive(): 1 whole, 0 torn
+  SteadyTime pose_received{};  ///< of the newest stylus pose in that tick; 0 if there was none
 };
 
 /// One rendered image, RGB8, rows from the top.
@@ -56,6 +55,24 @@ struct Frame : Pictures {
   bool has_stats = false;  ///< stats are those of some recent tick
   Health health;
   std::array<bool, layout::kMaxStyluses> held_back{};  ///< the stylus was faster than tissue can follow
+};
+
+/// A tick that is to be looked at.
+struct Look {
+  uint64_t tick = 0;
+  ToolMotions motions;
+  std::vector<Pose> obstacles;  ///< [obstacles] at the end of the tick, tissue frame
+  Wants wants;
+};
+
+/// Work done for the eye since the start: with no subscriber all stay zero.
+struct ViewCounters {
+  uint64_t mappings = 0;      ///< times that vertices were brought to the nodes
+  uint64_t renders = 0;       ///< images drawn
+  uint64_t readbacks = 0;     ///< surfaces and images handed over
+  uint64_t repeats = 0;       ///< ... images of these that were not drawn again: nothing had changed
+  uint64_t skipped = 0;       ///< surfaces and images that were wanted and overtaken, as too many were under way
+  uint64_t moved_bricks = 0;  ///< bricks that had changed when a state on the host was brought to the GPU
 };
 
 }  // namespace viscera

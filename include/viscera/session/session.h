@@ -11,7 +11,6 @@
 #include "viscera/gpu/context.h"
 #include "viscera/model/model.h"
 #include "viscera/session/frame.h"
-#include "viscera/session/view.h"
 #include "viscera/solver/solver.h"
 #include "viscera/tools/obstacles.h"
 #include "viscera/tools/stylus.h"
@@ -33,6 +32,8 @@ struct Extremes {
   uint64_t held_back = 0;       ///< ticks in which a stylus was faster than tissue can follow
 };
 
+class View;
+
 /// ONE loop: owns model, solver and view. All calls come from the thread that made it; steps do not wait for the view.
 class Session {
  public:
@@ -52,7 +53,8 @@ class Session {
 
   const Scene& scene() const { return scene_; }
   const Model& model() const { return model_; }
-  const Surface& surface() const { return view_->surface(); }  ///< see View::surface()
+  /// Triangles of the skin as long as nothing is cut; of a SurfaceFrame, those that are shown in its tick.
+  std::shared_ptr<const ShownTopology> wholeSkin() const;
   const Solver& solver() const { return *solver_; }
   const std::string& backendNote() const { return backend_note_; }  ///< what steps the tissue, and why
   Counters counters() const;

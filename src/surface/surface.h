@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "surface/shown_triangles.h"
 #include "viscera/gpu/buffer.h"
 #include "viscera/gpu/program.h"
 #include "viscera/model/model.h"
@@ -37,20 +38,20 @@ class Surface {
   void reset();
 
   size_t vertices() const { return vertices_; }
-  size_t triangles() const { return triangles_; }
-  const gpu::Buffer<float>& positions() const { return positions_; }         ///< [3 * vertices] m, tissue frame
-  const gpu::Buffer<uint32_t>& normals() const { return normals_; }          ///< [vertices] packed, see packNormal
-  const gpu::Buffer<uint32_t>& alive() const { return alive_; }              ///< [triangles] see appendShown
-  const gpu::Buffer<uint32_t>& liveIndices() const { return live_; }         ///< for drawing; (0, 0, 0) shows nothing
-  const gpu::Buffer<uint32_t>& colors() const { return colors_; }            ///< [vertices] RGBA8, see vertexColors
-  const std::vector<uint32_t>& triangleIndices() const { return indices_; }  ///< [3 * triangles], host copy
-  const std::vector<uint32_t>& splitVertices() const { return splits_; }  ///< [6 * triangles], see appendShown, or none
-  uint64_t mappings() const { return mappings_; }                         ///< times follow() did its work
+  size_t triangles() const { return shown_.count(); }
+  const gpu::Buffer<float>& positions() const { return positions_; }  ///< [3 * vertices] m, tissue frame
+  const gpu::Buffer<uint32_t>& normals() const { return normals_; }   ///< [vertices] packed, see packNormal
+  const gpu::Buffer<uint32_t>& alive() const { return alive_; }       ///< [triangles] see appendShown
+  const gpu::Buffer<uint32_t>& liveIndices() const { return live_; }  ///< for drawing; (0, 0, 0) shows nothing
+  const gpu::Buffer<uint32_t>& colors() const { return colors_; }     ///< [vertices] RGBA8, see vertexColors
+  const ShownTriangles& skin() const { return shown_; }
+  ShownTriangles& skin() { return shown_; }        ///< makes of alive() what is shown
+  uint64_t mappings() const { return mappings_; }  ///< times follow() did its work
 
  private:
   void followLattices(uint32_t since);
 
-  size_t vertices_ = 0, triangles_ = 0;
+  size_t vertices_ = 0;
   gpu::Buffer<uint32_t> surface_nodes_, normals_, triangle_buffer_, tie_starts_, alive_, live_, colors_;
   gpu::Buffer<layout::vec4> node_normals_;
   gpu::Buffer<layout::SkinBinding> bindings_;
@@ -58,21 +59,9 @@ class Surface {
   gpu::Buffer<float> positions_;
   gpu::Program node_normal_, map_, tear_;     ///< none where every body is a network
   std::unique_ptr<NetworkSurface> networks_;  ///< null where none is
-  std::vector<uint32_t> indices_, splits_;
+  ShownTriangles shown_;
   uint64_t cut_revision_ = 0, mappings_ = 0;
   uint32_t followed_revision_ = 0;  ///< of the state that positions and normals belong to; 0 if nobody knows
 };
-
-/// Appends what is shown of one triangle: three vertex indices per piece, counter-clockwise from outside.
-/// Twin of shaders/split_triangles.comp.
-/// @param corners  [3] of triangleIndices()
-/// @param splits   [6] of splitVertices(): on the edges 01, 12, 20, first the vertex beside the edge's first corner;
-///                 null where nothing can split
-/// @param alive    0 torn, 1 whole, or the pieces that are left (layout::kShownCorner, kShownRest)
-void appendShown(const uint32_t* corners, const uint32_t* splits, uint32_t alive, std::vector<uint32_t>& out);
-
-/// Unit normal <-> three signed 10-bit fractions in a uint (x in the low bits), as GL_INT_2_10_10_10_REV.
-uint32_t packNormal(const Vector3f& normal);
-Vector3f unpackNormal(uint32_t packed);
 
 }  // namespace viscera
