@@ -8,12 +8,16 @@
 
 namespace viscera {
 
-// The one list of scene keys. A visitor offers
-//   number(key, double&, Range, unit, text)   numberOrAuto(key, double&, bool& is_auto, Range, unit, text) integer(key,
-//   int&, Range, text)   text(key, std::string&, text) boolean(key, bool&, text) vector(key, Vector3d&, Range, unit,
-//   text) choice(key, Enum&, {{name, value}...}, text) group(key, Struct&, text)                 list(key,
-//   std::vector<Struct>&, max_count, text, defaults of an item =
-//   {})
+// The one list of scene keys. A visitor offers, for each kind of key, one of
+// * number(key, double&, Range, unit, text)
+// * numberOrAuto(key, double&, bool& is_auto, Range, unit, text)
+// * integer(key, int&, Range, text)
+// * text(key, std::string&, text)
+// * boolean(key, bool&, text)
+// * vector(key, Vector3d&, Range, unit, text)
+// * choice(key, Enum&, {{name, value}...}, text)
+// * group(key, Struct&, text)
+// * list(key, std::vector<Struct>&, max_count, text, defaults of an item = {})
 
 /// Accepted values, both ends included.
 struct Range {

@@ -16,10 +16,10 @@ namespace viscera::simd::HWY_NAMESPACE {
 
 using Row = hn::FixedTag<float, 4>;
 
-/// A brick and what lies around it, for each component of a vector: x is shifted by -1, 0, 1 beforehand, so that a
-/// neighbour in any direction is one load away.
-///   value of the node at (x, y, z), x 0..3, y and z -1..4, seen dx aside: at[dx + 1][(z + 1) * kPlane + kOwn + 4 y +
-///   x]
+/// A brick and what lies around it, for each component of a vector. Rows are stored three times, shifted by -1, 0 and 1
+/// along x, so that a neighbour in any direction is one load away.
+/// The value of the node at (x, y, z), with x in 0..3 and y, z in -1..4, seen from dx aside, is
+/// at[dx + 1][(z + 1) * kPlane + kOwn + 4 * y + x].
 constexpr int kPlane = 48, kOwn = 16;
 struct alignas(64) Tile {
   float component[3][3][6 * kPlane];
