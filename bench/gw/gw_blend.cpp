@@ -7,7 +7,6 @@
 #include <cmath>
 #include <utility>
 
-#include "layout.h"
 #include "viscera/gpu/context.h"
 #include "viscera/math/error.h"
 

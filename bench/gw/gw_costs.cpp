@@ -21,7 +21,7 @@ Printed printedEdge(double nodes, double springs) {
   return {springs, springs + nodes, springs, 2 * springs, 14 * springs};
 }
 
-/// What the kernels of shaders/gw_*.comp do for all forces. A fetch is a texel; a dependent one has its address from
+/// What the kernels of bench/gw/gw_*.comp do for all forces. A fetch is a texel; a dependent one has its address from
 /// another fetch.
 struct Counted {
   double bytes, fetches, dependent, stores, operations;

@@ -8,14 +8,15 @@
 #include <numeric>
 #include <string>
 
-#include "layout.h"
+#include "bench/gw/gw_units.h"
+#include "layout/bindings.h"
+#include "layout/edge_forces.h"
 #include "solver/edge_forces.h"
 
 namespace viscera::bench {
 
 namespace {
 
-constexpr uint32_t kUnitForces = 14, kUnitInverseMass = 15;  // as in shaders/gw_*.comp
 constexpr int kCountUniform = 0, kNeighbourUniform = 1;
 constexpr int kDtUniform = 1, kKickUniform = 2, kDragUniform = 3, kGravityUniform = 4, kDecodingUniform = 5;
 
@@ -208,11 +209,11 @@ void GwKernels::scatterForces(BlendTarget& target) {
 void GwKernels::integrate(const GwMotion& motion, const BlendTarget* target) {
   const State& next = states_[1 - current_];
   bindMesh();
-  mass_view_.bind(kUnitInverseMass);
+  mass_view_.bind(layout::kUnitInverseMass);
   if (target) {
-    target->bindTexture(kUnitForces);
+    target->bindTexture(layout::kUnitForces);
   } else {
-    forces_view_.bind(kUnitForces);
+    forces_view_.bind(layout::kUnitForces);
   }
   gpu::bindStorages(0, {next.u.id(), next.v.id()});
   const gpu::Program& program = target ? integrate_target_ : integrate_;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "bench/gw/gw_blend.h"
+#include "layout/edge_forces.h"
 #include "viscera/gpu/buffer.h"
 #include "viscera/gpu/program.h"
 

@@ -7,9 +7,9 @@
 #include <string>
 
 #include "bench/harness/machine.h"
-#include "layout.h"
 #include "viscera/gpu/buffer.h"
 #include "viscera/gpu/program.h"
+#include "viscera/layout/limits.h"
 
 namespace viscera::bench {
 
@@ -17,7 +17,7 @@ namespace {
 
 constexpr int kRepeats = 5;
 constexpr size_t kInvocations = size_t{1} << 16;
-constexpr double kOperations = 16;  // of a round of an invocation (shaders/bench_fma.comp)
+constexpr double kOperations = 16;  // of a round of an invocation (bench_fma.comp)
 
 template <class Work>
 double secondsOnGpu(const Work& work) {

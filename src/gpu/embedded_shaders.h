@@ -4,7 +4,7 @@
 
 namespace viscera::gpu {
 
-/// A file of shaders/, carried inside the program.
+/// A shader, or a header that is GLSL too, carried inside the program. Its name is without folder.
 struct EmbeddedShader {
   const char* name;
   const char* text;

@@ -33,11 +33,14 @@ int fileNumber(Files& files, const std::string& name) {
   return static_cast<int>(files.size()) - 1;
 }
 
+/// What an #include line names, without its folder: that is for C++.
 std::string includedName(const std::string& line) {
   if (line.rfind("#include", 0) != 0) return "";
   const size_t open = line.find('"');
   const size_t close = line.rfind('"');
-  return open != std::string::npos && close > open ? line.substr(open + 1, close - open - 1) : "";
+  if (open == std::string::npos || close == open) return "";
+  const std::string path = line.substr(open + 1, close - open - 1);
+  return path.substr(path.rfind('/') + 1);
 }
 
 void expand(const std::string& name, const std::string& from, Files& files, std::ostringstream& out) {

@@ -8,7 +8,7 @@
 
 namespace viscera {
 
-/// Sets the uniforms of shaders/mesh.vert.
+/// Sets the uniforms of shaders/draw/mesh.vert.
 inline void setMeshMatrices(const gpu::Program& program, const Pose& optical_from_mesh,
                             const Eigen::Matrix4f& clip_from_optical) {
   constexpr GLint kOpticalFromMesh = 0, kClipFromOptical = 1;  // locations in mesh.vert

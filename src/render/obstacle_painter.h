@@ -11,7 +11,7 @@
 
 namespace viscera {
 
-/// Draws the obstacles of a scene, with shaders/mesh.vert and tool.frag.
+/// Draws the obstacles of a scene, with shaders/draw/mesh.vert and tool.frag.
 class ObstaclePainter {
  public:
   explicit ObstaclePainter(const std::vector<ObstacleConfig>& obstacles);

@@ -9,8 +9,8 @@
 
 namespace viscera {
 
-/// Draws the skin: lit, wet, two-sided, with the shadows of tools. Owner of shaders/tissue.frag, with
-/// shaders/mesh.vert.
+/// Draws the skin: lit, wet, two-sided, with the shadows of tools. Owner of shaders/draw/tissue.frag, with
+/// shaders/draw/mesh.vert.
 class TissuePainter {
  public:
   TissuePainter();  ///< @throws GpuError  file, line and driver log of a shader that does not compile

@@ -13,7 +13,7 @@
 
 namespace viscera {
 
-/// Draws the styluses that are present, each in its mode. Owner of shaders/tool.frag, with shaders/mesh.vert.
+/// Draws the styluses that are present, each in its mode. Owner of shaders/draw/tool.frag, with shaders/draw/mesh.vert.
 class ToolPainter {
  public:
   explicit ToolPainter(const std::vector<StylusConfig>& styluses);

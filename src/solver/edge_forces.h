@@ -2,14 +2,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "layout/edge_forces.h"
 #include "solver/joined_network.h"
 
 namespace viscera {
 
-/// Edge-centric forces (GW 4.2), as shaders/spring_forces.comp finds them and the integrator sums them: every spring is
-/// owned by one of its ends, which computes it once. Each node owns about as many, half of its springs, so that
-/// processors that work on several nodes at once wait for none of them. An owner adds up what its own springs do to it
-/// and stores that sum, and a force for each far end: half of what a store for either end of every spring would take.
+/// Edge-centric forces (GW 4.2), as shaders/solver/spring_forces.comp finds them and the integrator sums them: every
+/// spring is owned by one of its ends, which computes it once. Each node owns about as many, half of its springs, so
+/// that processors that work on several nodes at once wait for none of them. An owner adds up what its own springs do
+/// to it and stores that sum, and a force for each far end: half of what a store for either end of every spring would
+/// take.
 struct EdgeForces {
   std::vector<layout::SpringOwner> owners;  ///< [nodes that own springs] by slot
   /// [slots] its links: first and end of those of springs that it owns, which come node by node before all others, so

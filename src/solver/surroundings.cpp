@@ -7,6 +7,7 @@
 #include <map>
 #include <string>
 
+#include "layout/wind.h"
 #include "solver/collision.h"
 #include "viscera/math/error.h"
 #include "viscera/solver/material.h"

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "layout/wind.h"
 #include "solver/substep.h"
 #include "viscera/model/model.h"
 #include "viscera/tools/obstacles.h"

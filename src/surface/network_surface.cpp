@@ -8,6 +8,8 @@
 #include <string>
 
 #include "gpu/gl.h"
+#include "layout/bindings.h"
+#include "layout/network_skin.h"
 
 namespace viscera {
 namespace {

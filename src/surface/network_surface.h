@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "layout/network_skin.h"
 #include "viscera/gpu/buffer.h"
 #include "viscera/gpu/program.h"
 #include "viscera/model/model.h"
@@ -33,7 +34,7 @@ struct NetworkSkins {
   void appendSplits(const Skin& skin, const Place& place, uint32_t first_ring_vertex);
 };
 
-/// What Surface does for networks. Owner of shaders/network_skin.comp, split_edges.comp,
+/// What Surface does for networks. Owner of shaders/surface/network_skin.comp, split_edges.comp,
 /// crossed_edges.comp and split_triangles.comp.
 class NetworkSurface {
  public:

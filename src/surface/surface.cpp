@@ -10,6 +10,7 @@
 
 #include "gpu/gl.h"
 #include "gpu/stage_clock.h"
+#include "layout/bindings.h"
 #include "surface/network_surface.h"
 #include "surface/part_colors.h"
 

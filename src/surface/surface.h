@@ -9,6 +9,7 @@
 #include "surface/shown_triangles.h"
 #include "viscera/gpu/buffer.h"
 #include "viscera/gpu/program.h"
+#include "viscera/layout/skin.h"
 #include "viscera/model/model.h"
 #include "viscera/solver/state.h"
 

@@ -16,9 +16,13 @@ namespace {
 std::vector<std::string> shadersThatSay(const std::string& pattern) {
   const std::regex comment("//[^\n]*"), wanted(pattern);
   std::vector<std::string> out;
-  for (const auto& file : std::filesystem::directory_iterator(VISCERA_SOURCE_DIR "/shaders")) {
-    const std::string code = std::regex_replace(test::readFile(file.path().string()), comment, "");
-    if (std::regex_search(code, wanted)) out.push_back(file.path().filename().string());
+  for (const char* folder : {"/shaders", "/bench", "/include/viscera/layout"}) {
+    for (const auto& file : std::filesystem::recursive_directory_iterator(std::string(VISCERA_SOURCE_DIR) + folder)) {
+      const std::string kind = file.path().extension().string();
+      if (kind != ".comp" && kind != ".vert" && kind != ".frag" && kind != ".glsl" && kind != ".h") continue;
+      const std::string code = std::regex_replace(test::readFile(file.path().string()), comment, "");
+      if (std::regex_search(code, wanted)) out.push_back(file.path().filename().string());
+    }
   }
   return out;
 }
@@ -26,7 +30,11 @@ std::vector<std::string> shadersThatSay(const std::string& pattern) {
 using Names = std::vector<std::string>;
 
 TEST(ShaderSources, AreFound) {
-  EXPECT_GT(shadersThatSay("void main").size(), 10u);
+  const Names kernels = shadersThatSay("void main");
+  EXPECT_GT(kernels.size(), 40u);
+  for (const char* name : {"leapfrog.comp", "map_skin.comp", "tissue.frag", "gw_edge.comp", "bench_fma.comp"}) {
+    EXPECT_EQ(std::count(kernels.begin(), kernels.end(), name), 1) << name;
+  }
 }
 
 /// Drivers may flush or quieten bits that are no ordinary float: a packed normal stays a uint (EGVE 3.2, VR05 2.6).

@@ -54,7 +54,7 @@ void bindStorages(uint32_t first, std::initializer_list<uint32_t> buffers);
 /// Several texel views at units first, first + 1, ... in one call. @param views  ids
 void bindTexels(uint32_t first, std::initializer_list<uint32_t> views);
 
-/// Move-only array of T on the GPU. T must have the std430 layout of its twin in shaders/layout.h.
+/// Move-only array of T on the GPU. T must have the std430 layout of its twin in GLSL (layout/).
 template <class T>
 class Buffer {
  public:

@@ -18,9 +18,10 @@ std::string shaderSource(const std::string& name, const std::vector<std::string>
 class Program {
  public:
   Program() = default;
-  /// Compute program from shaders/`name`. @param defines  "NAME" or "NAME value", one #define each
+  /// Compute program from the shader `name`, without its folder. @param defines  "NAME" or "NAME value", one #define
+  /// each
   static Program compute(const std::string& name, const std::vector<std::string>& defines = {});
-  /// Vertex and fragment program from shaders/`vertex` and shaders/`fragment`.
+  /// Vertex and fragment program from two shaders.
   static Program graphics(const std::string& vertex, const std::string& fragment,
                           const std::vector<std::string>& defines = {});
   ~Program();

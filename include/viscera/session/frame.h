@@ -7,6 +7,8 @@
 #include <memory>
 #include <vector>
 
+#include "viscera/layout/limits.h"
+#include "viscera/layout/tick_stats.h"
 #include "viscera/math/types.h"
 #include "viscera/solver/governor.h"
 #include "viscera/surface/shown_mesh.h"

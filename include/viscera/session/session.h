@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "viscera/gpu/context.h"
+#include "viscera/layout/limits.h"
+#include "viscera/layout/tick_stats.h"
 #include "viscera/model/model.h"
 #include "viscera/session/frame.h"
 #include "viscera/solver/solver.h"

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "viscera/layout/tick_stats.h"
 #include "viscera/model/model.h"
 
 namespace viscera {

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "viscera/layout/nodes.h"
 #include "viscera/model/body/elasticity.h"
 #include "viscera/model/model.h"
 

@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 
+#include "viscera/layout/tick_stats.h"
 #include "viscera/model/model.h"
 #include "viscera/solver/governor.h"
 #include "viscera/solver/material.h"

@@ -5,7 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "layout.h"
+#include "viscera/layout/limits.h"
+#include "viscera/layout/nodes.h"
 
 namespace viscera {
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "layout.h"
+#include "viscera/layout/obstacle_motion.h"
 #include "viscera/math/types.h"
 #include "viscera/model/scene/scene.h"
 

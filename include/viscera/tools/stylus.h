@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "viscera/layout/limits.h"
+#include "viscera/layout/tool_motion.h"
 #include "viscera/math/types.h"
 #include "viscera/model/scene/scene.h"
 

@@ -5,13 +5,14 @@
 #include <array>
 #include <cstdint>
 
-#include "layout.h"
+#include "viscera/layout/limits.h"
+#include "viscera/layout/nodes.h"
 #include "viscera/math/types.h"
 
 namespace viscera {
 
 /// The 18 neighbours of a lattice node in the order of the spring index: six axial, then twelve face-diagonal.
-/// The opposite of spring s, seen from its other end, is s ^ 1. shaders/lattice.glsl lists the same order.
+/// The opposite of spring s, seen from its other end, is s ^ 1. shaders/solver/lattice.glsl lists the same order.
 constexpr std::array<std::array<int, 3>, layout::kSpringsPerNode> kNeighborOffsets = {{
     {1, 0, 0},
     {-1, 0, 0},

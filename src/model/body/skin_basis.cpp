@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "model/body/skin_basis.h"
 
+#include "viscera/layout/skin.h"
+
 namespace viscera {
 
 namespace {

@@ -14,7 +14,7 @@ struct Item {
   bool operator<(const Item& other) const { return x != other.x ? x < other.x : y < other.y; }
 };
 
-/// What the text of shaders/collision.comp finds in buffers and uniforms.
+/// What the text of shaders/solver/collision.comp finds in buffers and uniforms.
 struct CollisionKernel : Kernel {
   using Kernel::Kernel;
   float resting_speed = 0, cell_m = 1, friction = 0, restitution = 0;
@@ -31,7 +31,7 @@ struct CollisionKernel : Kernel {
 /// Which nodes may touch others, and how near: no stage of the shader, only its functions.
 struct CollisionRules : CollisionKernel {
   using CollisionKernel::CollisionKernel;
-#include "collision.comp"
+#include "shaders/solver/collision.comp"
 };
 
 }  // namespace viscera::glsl

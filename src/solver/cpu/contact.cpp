@@ -11,8 +11,8 @@ namespace {
 
 struct Contact : Kernel {
   using Kernel::Kernel;
-#include "contact.glsl"
-#include "lattice.glsl"
+#include "shaders/solver/contact.glsl"
+#include "shaders/solver/lattice.glsl"
 };
 
 }  // namespace

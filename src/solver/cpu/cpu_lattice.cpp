@@ -22,7 +22,7 @@ std::vector<uint32_t> firstOfBricks(const std::vector<uint32_t>& active, size_t 
   return out;
 }
 
-/// Slot of the neighbour at an offset, whose brick must be there (shaders/lattice.glsl).
+/// Slot of the neighbour at an offset, whose brick must be there (shaders/solver/lattice.glsl).
 uint32_t neighborSlot(const std::vector<layout::Brick>& bricks, uint32_t slot, const std::array<int, 3>& offset) {
   int direction = 0, inside = 0;
   constexpr int kDirection[3] = {1, 3, 9}, kShift[3] = {0, 2, 4};

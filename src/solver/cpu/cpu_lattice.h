@@ -17,7 +17,7 @@
 namespace viscera {
 
 /// The lattices of all bodies and their state in host memory: what every part of the CPU backend works on. Slots are
-/// those of the GPU backend (shaders/layout.h); vectors are stored brick by brick, one component after the other, so
+/// those of the GPU backend (viscera/layout/); vectors are stored brick by brick, one component after the other, so
 /// that a plane of 4x4 nodes is 16 floats on end:
 ///   component c of slot s is at (s / 64) * 192 + c * 64 + s % 64     (vectorAt)
 struct CpuLattice {

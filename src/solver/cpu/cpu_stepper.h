@@ -8,6 +8,7 @@
 #include "solver/cpu/parallel.h"
 #include "solver/cpu/sleep.h"
 #include "solver/substep.h"
+#include "viscera/layout/tool_motion.h"
 
 namespace viscera {
 

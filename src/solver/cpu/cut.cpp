@@ -19,7 +19,7 @@ struct CutSprings : Kernel {
   using Kernel::Kernel;
   uint stylus = 0;
   CutStats stats;
-#include "cut.comp"
+#include "shaders/solver/cut.comp"
 };
 
 struct CutParticles : Kernel {
@@ -27,11 +27,11 @@ struct CutParticles : Kernel {
   uint stylus = 0;
   CutStats stats;
 #define PARTICLES
-#include "cut.comp"
+#include "shaders/solver/cut.comp"
 };
 
 struct Blade {
-#include "blade.glsl"
+#include "shaders/solver/blade.glsl"
 };
 
 struct TearCell : Kernel {
@@ -39,7 +39,7 @@ struct TearCell : Kernel {
   uint cell_count = 0;
 #define CUT
 #define VOLUME
-#include "volume.comp"
+#include "shaders/solver/volume.comp"
 };
 
 }  // namespace

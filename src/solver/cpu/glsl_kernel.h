@@ -67,9 +67,9 @@ class Vectors {
   layout::vec4* first_;
 };
 
-/// What kernels find in buffers and uniforms on the GPU (shaders/lattice.glsl, elastic.glsl, step.glsl, contact.glsl),
-/// under the names that they have there. A kernel is a class derived from this one with a shader's text as its body;
-/// main() is one invocation, that of `index`.
+/// What kernels find in buffers and uniforms on the GPU (shaders/solver/lattice.glsl, elastic.glsl, step.glsl,
+/// contact.glsl), under the names that they have there. A kernel is a class derived from this one with a shader's text
+/// as its body; main() is one invocation, that of `index`.
 struct Kernel {
   explicit Kernel(CpuLattice& lattice)
       : active_nodes(lattice.active.data()),

@@ -14,7 +14,7 @@ struct TakeHold : Kernel {
   uint stylus = 0;
   vec4 tip = vec4(0), orientation = vec4(0);
   float release_speed = 0;
-#include "grab.comp"
+#include "shaders/solver/grab.comp"
 };
 
 struct LetGo : Kernel {
@@ -23,7 +23,7 @@ struct LetGo : Kernel {
   vec4 tip = vec4(0), orientation = vec4(0);
   float release_speed = 0;
 #define RELEASE
-#include "grab.comp"
+#include "shaders/solver/grab.comp"
 };
 
 }  // namespace

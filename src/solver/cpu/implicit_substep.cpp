@@ -13,48 +13,48 @@ namespace {
 struct Begin : ImplicitKernel {
   using ImplicitKernel::ImplicitKernel;
 #define BEGIN
-#include "implicit.comp"
+#include "shaders/solver/implicit.comp"
 };
 
 struct Choose : ImplicitKernel {
   using ImplicitKernel::ImplicitKernel;
 #undef BEGIN
 #define FOLD
-#include "implicit.comp"
+#include "shaders/solver/implicit.comp"
 };
 
 struct Scale : ImplicitKernel {
   using ImplicitKernel::ImplicitKernel;
 #undef FOLD
 #define SCALE
-#include "implicit.comp"
+#include "shaders/solver/implicit.comp"
 };
 
 struct Guess : ImplicitKernel {
   using ImplicitKernel::ImplicitKernel;
 #undef SCALE
 #define GUESS
-#include "implicit.comp"
+#include "shaders/solver/implicit.comp"
 };
 
 struct End : ImplicitKernel {
   using ImplicitKernel::ImplicitKernel;
 #undef GUESS
 #define END
-#include "implicit.comp"
+#include "shaders/solver/implicit.comp"
 };
 
 struct EndWithTools : ImplicitKernel {
   using ImplicitKernel::ImplicitKernel;
 #define TOOLS
-#include "implicit.comp"
+#include "shaders/solver/implicit.comp"
 };
 
 struct BeginWithTools : ImplicitKernel {
   using ImplicitKernel::ImplicitKernel;
 #undef END
 #define BEGIN
-#include "implicit.comp"
+#include "shaders/solver/implicit.comp"
 };
 
 // With volumes.
@@ -63,7 +63,7 @@ struct EndWithToolsVolumes : ImplicitKernel {
   using ImplicitKernel::ImplicitKernel;
 #undef BEGIN
 #define END
-#include "implicit.comp"
+#include "shaders/solver/implicit.comp"
 };
 
 struct Cells : ImplicitKernel {
@@ -71,14 +71,14 @@ struct Cells : ImplicitKernel {
 #undef TOOLS
 #undef END
 #define CELLS
-#include "implicit.comp"
+#include "shaders/solver/implicit.comp"
 };
 
 struct GuessVolumes : ImplicitKernel {
   using ImplicitKernel::ImplicitKernel;
 #undef CELLS
 #define GUESS
-#include "implicit.comp"
+#include "shaders/solver/implicit.comp"
 };
 
 }  // namespace

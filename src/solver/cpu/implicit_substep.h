@@ -19,7 +19,7 @@ struct Window {
   vec4& operator[](size_t index) const { return at[index - first]; }
 };
 
-/// What kernels of implicit Euler find in buffers and uniforms (shaders/implicit.glsl, implicit.comp, pd.comp,
+/// What kernels of implicit Euler find in buffers and uniforms (shaders/solver/implicit.glsl, implicit.comp, pd.comp,
 /// vbd.comp).
 struct ImplicitKernel : Kernel {
   using Kernel::Kernel;
@@ -78,7 +78,7 @@ void runCount(const Parallel& parallel, size_t count, const Kernel& kernel) {
 }
 
 /// Start and end of a substep of implicit Euler and the increments du = u+ - u in between, which vbd and pd iterate:
-/// shaders/implicit.comp on the CPU. See gpu/implicit_substep.h for what the stages promise.
+/// shaders/solver/implicit.comp on the CPU. See gpu/implicit_substep.h for what the stages promise.
 class CpuImplicitSubstep {
  public:
   /// @param iterations  at most, in a substep   @param iterates  that are kept: 1 (vbd, in place) or 2 (pd)
@@ -104,7 +104,7 @@ class CpuImplicitSubstep {
     return out;
   }
 
-  std::vector<glsl::Word> guard;  ///< [1 + 2 iterations], see shaders/implicit.glsl
+  std::vector<glsl::Word> guard;  ///< [1 + 2 iterations], see shaders/solver/implicit.glsl
 
  private:
   template <class Guess>
@@ -114,7 +114,7 @@ class CpuImplicitSubstep {
   using Energies = std::array<double, 8>;  ///< [J] as two vectors of implicit.comp
   const Parallel& parallel_;
   std::vector<glsl::vec4> increments_[2];  ///< [slots] xyz m; w 1 where prescribed; the second with two iterates
-  std::vector<glsl::vec4> cell_forces_;    ///< [3 * slots] N, see shaders/volume.comp; empty without volumes
+  std::vector<glsl::vec4> cell_forces_;    ///< [3 * slots] N, see shaders/solver/volume.comp; empty without volumes
   std::vector<Energies> energies_;         ///< [jobs]
   int current_ = 0;
 };

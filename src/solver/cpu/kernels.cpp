@@ -10,6 +10,7 @@
 #include "hwy/foreach_target.h"  // IWYU pragma: keep
 #include "hwy/highway.h"
 #include "solver/cpu/vectors-inl.h"
+#include "viscera/layout/tick_stats.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace viscera::simd::HWY_NAMESPACE {
@@ -108,7 +109,7 @@ HWY_INLINE Material materialOf(const layout::BodyParams& body) {
 // Below |q| = kMild phi is a polynomial of degree 5, with a relative error of 5.2e-8 at most.
 constexpr float kMild = 0.125f;
 constexpr float kPhi[6] = {0.500000026f, -0.375000048f, 0.312470624f, -0.273403791f, 0.251082405f, -0.230579299f};
-// Below kShortest of its length at rest a spring has no direction of its own (shaders/spring.glsl).
+// Below kShortest of its length at rest a spring has no direction of its own (shaders/solver/spring.glsl).
 constexpr float kShortest2 = 1e-12f;
 
 HWY_INLINE V mildPhi(V q) {
@@ -197,7 +198,7 @@ HWY_NOINLINE Vec3 anySpringForce(const Tile& u, const Tile& v, int at, const Mat
   return springForce<false, true, kDashpot>(u, v, at, m, k, mild);
 }
 
-/// Shape of cells from the displacements of their corners (shaders/volume.glsl).
+/// Shape of cells from the displacements of their corners (shaders/solver/volume.glsl).
 struct Shape {
   Vec3 bc, ca, ab;
   V e;
@@ -217,7 +218,7 @@ HWY_INLINE Shape shapeOf(const Vec3 (&n)[8], V quarter) {
   return {cross(b, c), cross(c, a), cross(a, b), hn::Add(trace, hn::Add(minors, dot(da, cross(db, dc))))};
 }
 
-/// dW/de (shaders/volume.glsl).
+/// dW/de (shaders/solver/volume.glsl).
 HWY_INLINE V pressureOf(V bulk, V e) {
   const V one = set(1), clamped = hn::Min(hn::Max(e, set(-1)), one);
   const V q = hn::MulAdd(e, e, one), e2 = hn::Mul(e, e);

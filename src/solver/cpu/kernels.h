@@ -7,8 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "layout.h"
 #include "solver/substep.h"
+#include "viscera/layout/limits.h"
+#include "viscera/layout/nodes.h"
 
 // The SIMD kernels of the CPU backend, compiled for several instruction sets and chosen at run time. They work on
 // bricks; a vector is the 4x4 nodes of a plane, or as many rows of them as it has lanes for.
@@ -30,7 +31,7 @@ struct Arrays {
   const uint16_t* idle_rows;      ///< [bricks] bit r: none of the four nodes from 4 r on will ever move
 };
 
-/// A probe in a substep: nodes that reach into this sphere are looked at one by one (shaders/contact.glsl).
+/// A probe in a substep: nodes that reach into this sphere are looked at one by one (shaders/solver/contact.glsl).
 struct Reach {
   float center_m[3];
   float radius_m;
@@ -47,10 +48,10 @@ struct LeapfrogJob {
   float* speed2;       ///< [bricks] largest |v|^2 after the substep [m2/s2]
 };
 
-/// One substep of leapfrog, as in shaders/leapfrog.comp without its contacts, of the nodes of some bricks.
+/// One substep of leapfrog, as in shaders/solver/leapfrog.comp without its contacts, of the nodes of some bricks.
 void leapfrog(const LeapfrogJob& job, const uint32_t* bricks, size_t count);
 
-/// What is measured of a brick (shaders/measure.comp).
+/// What is measured of a brick (shaders/solver/measure.comp).
 struct BrickStats {
   float max_stretch, max_speed;
   double kinetic_j, elastic_j;

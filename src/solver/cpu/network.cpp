@@ -32,67 +32,67 @@ struct NetworkKernel : Kernel {
 #define DASHPOT
 struct SpringForces : NetworkKernel {
   using NetworkKernel::NetworkKernel;
-#include "spring_forces.comp"
+#include "shaders/solver/spring_forces.comp"
 };
 
 struct Step : NetworkKernel {
   using NetworkKernel::NetworkKernel;
-#include "leapfrog.comp"
+#include "shaders/solver/leapfrog.comp"
 };
 
 struct StepEdges : NetworkKernel {
   using NetworkKernel::NetworkKernel;
 #define EDGE_FORCES
-#include "leapfrog.comp"
+#include "shaders/solver/leapfrog.comp"
 };
 
 struct StepEdgesCompensated : NetworkKernel {
   using NetworkKernel::NetworkKernel;
 #define COMPENSATED
-#include "leapfrog.comp"
+#include "shaders/solver/leapfrog.comp"
 };
 
 struct StepCompensated : NetworkKernel {
   using NetworkKernel::NetworkKernel;
 #undef EDGE_FORCES
-#include "leapfrog.comp"
+#include "shaders/solver/leapfrog.comp"
 };
 
 // With volumes.
 #define VOLUME
 struct StepVolumesCompensated : NetworkKernel {
   using NetworkKernel::NetworkKernel;
-#include "leapfrog.comp"
+#include "shaders/solver/leapfrog.comp"
 };
 
 struct StepVolumes : NetworkKernel {
   using NetworkKernel::NetworkKernel;
 #undef COMPENSATED
-#include "leapfrog.comp"
+#include "shaders/solver/leapfrog.comp"
 };
 
 struct StepEdgesVolumes : NetworkKernel {
   using NetworkKernel::NetworkKernel;
 #define EDGE_FORCES
-#include "leapfrog.comp"
+#include "shaders/solver/leapfrog.comp"
 };
 
 struct StepEdgesVolumesCompensated : NetworkKernel {
   using NetworkKernel::NetworkKernel;
 #define COMPENSATED
-#include "leapfrog.comp"
+#include "shaders/solver/leapfrog.comp"
 };
 #undef COMPENSATED
 #undef EDGE_FORCES
 
 struct Volumes : NetworkKernel {
   using NetworkKernel::NetworkKernel;
-#include "volume.comp"
+#include "shaders/solver/volume.comp"
 };
 
 struct Place : Kernel {
   using Kernel::Kernel;
-#include "lattice.glsl"
+#include "shaders/solver/lattice.glsl"
 };
 
 /// Where an invocation puts a node's energies, whatever its index.
@@ -106,7 +106,7 @@ struct MeasureVolumes : NetworkKernel {
   uint count = 0;
   TickStats stats{};
   OneNode energies;
-#include "measure.comp"
+#include "shaders/solver/measure.comp"
 };
 #undef VOLUME
 
@@ -115,7 +115,7 @@ struct Measure : NetworkKernel {
   uint count = 0;
   TickStats stats{};
   OneNode energies;
-#include "measure.comp"
+#include "shaders/solver/measure.comp"
 };
 #undef DASHPOT
 
@@ -137,13 +137,13 @@ struct CutKernel : Kernel {
 
 struct CutLinks : CutKernel {
   using CutKernel::CutKernel;
-#include "cut_links.comp"
+#include "shaders/solver/cut_links.comp"
 };
 
 struct CutLinksOfParticles : CutKernel {
   using CutKernel::CutKernel;
 #define PARTICLES
-#include "cut_links.comp"
+#include "shaders/solver/cut_links.comp"
 };
 #undef PARTICLES
 

@@ -10,15 +10,15 @@
 
 namespace viscera {
 
-/// A probe in a substep: nodes that come into this sphere are looked at one by one (shaders/contact.glsl).
+/// A probe in a substep: nodes that come into this sphere are looked at one by one (shaders/solver/contact.glsl).
 struct NodeReach {
   glsl::vec3 center_m;
   float radius_m;
 };
 
-/// Leapfrog, measurements and cuts of bodies with explicit connections: shaders/leapfrog.comp, spring_forces.comp,
-/// measure.comp and cut_links.comp on the CPU. Leapfrog node by node and without energies of volume is a SIMD kernel
-/// (network_kernels.h), the rest the shaders' text.
+/// Leapfrog, measurements and cuts of bodies with explicit connections: shaders/solver/leapfrog.comp,
+/// spring_forces.comp, measure.comp and cut_links.comp on the CPU. Leapfrog node by node and without energies of volume
+/// is a SIMD kernel (network_kernels.h), the rest the shaders' text.
 class CpuNetwork {
  public:
   /// @param lattice  whether forces are edge-centric (GW 4) is its choice   @param compensated  Kahan's sums
@@ -53,7 +53,7 @@ class CpuNetwork {
   std::vector<uint32_t> cells_;             ///< of explicit lattices with energy of volume
   std::vector<layout::vec4> compensation_;  ///< [2 * slots] m, m/s; empty without compensation
   std::vector<glsl::vec4> link_forces_;     ///< [springs + owners] N, see EdgeForces; empty unless edge by edge
-  std::vector<glsl::vec4> cell_forces_;     ///< [3 * slots] N, see shaders/volume.comp; empty without volumes
+  std::vector<glsl::vec4> cell_forces_;     ///< [3 * slots] N, see shaders/solver/volume.comp; empty without volumes
 };
 
 }  // namespace viscera

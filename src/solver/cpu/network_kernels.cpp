@@ -13,7 +13,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace viscera::simd::HWY_NAMESPACE {
 
-constexpr float kCollapsedShare = 1e-6f;  // of the rest length: kShortest of shaders/spring.glsl
+constexpr float kCollapsedShare = 1e-6f;  // of the rest length: kShortest of shaders/solver/spring.glsl
 constexpr size_t kRun = 8;                // links that are summed before they are added to the others
 constexpr float kLeast = 1e-30f;          // far below any length: nothing is divided by 0
 
@@ -22,7 +22,7 @@ HWY_INLINE Vec3 gathered(const float* planes, hn::Vec<hn::RebindToSigned<Tag>> a
   return {hn::GatherIndex(d, planes, at), hn::GatherIndex(d, planes + 64, at), hn::GatherIndex(d, planes + 128, at)};
 }
 
-/// What a row of links adds to the force on its nodes (shaders/spring.glsl, springBetween).
+/// What a row of links adds to the force on its nodes (shaders/solver/spring.glsl, springBetween).
 /// @param constants, far  of the row's first lane
 template <bool kDashpot>
 HWY_INLINE void addRow(const NetworkJob& job, const float* constants, const int32_t* far, const Vec3& u, const Vec3& v,

@@ -6,10 +6,11 @@
 #include <cstdint>
 #include <vector>
 
-#include "layout.h"
 #include "math/aligned.h"
 #include "solver/joined_network.h"
 #include "solver/substep.h"
+#include "viscera/layout/links.h"
+#include "viscera/layout/nodes.h"
 
 namespace viscera::simd {
 
@@ -46,7 +47,7 @@ struct NetworkJob {
   const float* mobility;  ///< [slots] 1/kg
 };
 
-/// One substep of leapfrog, point-centric, as in shaders/leapfrog.comp without contacts and volumes, of groups
+/// One substep of leapfrog, point-centric, as in shaders/solver/leapfrog.comp without contacts and volumes, of groups
 /// first..last - 1 of the rows.
 void leapfrogNetwork(const NetworkJob& job, size_t first, size_t last);
 

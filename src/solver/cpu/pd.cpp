@@ -12,26 +12,26 @@ namespace {
 
 struct Sweep : ImplicitKernel {
   using ImplicitKernel::ImplicitKernel;
-#include "pd.comp"
+#include "shaders/solver/pd.comp"
 };
 
 struct Rate : ImplicitKernel {
   using ImplicitKernel::ImplicitKernel;
 #define RATE
-#include "pd.comp"
+#include "shaders/solver/pd.comp"
 };
 
 // With volumes.
 #define VOLUME
 struct RateVolumes : ImplicitKernel {
   using ImplicitKernel::ImplicitKernel;
-#include "pd.comp"
+#include "shaders/solver/pd.comp"
 };
 
 struct SweepVolumes : ImplicitKernel {
   using ImplicitKernel::ImplicitKernel;
 #undef RATE
-#include "pd.comp"
+#include "shaders/solver/pd.comp"
 };
 
 }  // namespace

@@ -35,24 +35,24 @@ struct ListedKernel : CollisionKernel {
 #define MEET
 struct MeetListed : ListedKernel {
   using ListedKernel::ListedKernel;
-#include "collision.comp"
+#include "shaders/solver/collision.comp"
   VISIT_LISTED
 };
 #define STAGGERED
 struct MeetStaggered : CollisionKernel {
   using CollisionKernel::CollisionKernel;
-#include "collision.comp"
+#include "shaders/solver/collision.comp"
 };
 #undef MEET
 #define PUSH
 struct PushStaggered : CollisionKernel {
   using CollisionKernel::CollisionKernel;
-#include "collision.comp"
+#include "shaders/solver/collision.comp"
 };
 #undef STAGGERED
 struct PushListed : ListedKernel {
   using ListedKernel::ListedKernel;
-#include "collision.comp"
+#include "shaders/solver/collision.comp"
   VISIT_LISTED
 };
 #undef PUSH
@@ -63,7 +63,7 @@ struct PairsStaggered : CollisionKernel {
   using CollisionKernel::CollisionKernel;
   std::vector<CollisionPair>* found = nullptr;
   void addPair(uint a, uint b) { found->push_back({a, b}); }
-#include "collision.comp"
+#include "shaders/solver/collision.comp"
 };
 #undef STAGGERED
 #undef PAIRS
@@ -87,12 +87,12 @@ struct SurroundingsKernel : Kernel {
 #define OBSTACLES
 struct Surround : SurroundingsKernel {
   using SurroundingsKernel::SurroundingsKernel;
-#include "surroundings.comp"
+#include "shaders/solver/surroundings.comp"
 };
 #define COLLISIONS
 struct SurroundAndCollide : SurroundingsKernel {
   using SurroundingsKernel::SurroundingsKernel;
-#include "surroundings.comp"
+#include "shaders/solver/surroundings.comp"
 };
 
 }  // namespace

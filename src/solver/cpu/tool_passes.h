@@ -6,11 +6,13 @@
 #include <vector>
 
 #include "solver/cpu/cpu_lattice.h"
+#include "viscera/layout/tick_stats.h"
+#include "viscera/layout/tool_motion.h"
 
 namespace viscera {
 
-// What styluses do to a CpuLattice (VR05 2.7, physics.md 5). The equations are the text of shaders/grab.comp, cut.comp,
-// volume.comp and contact.glsl, compiled as C++. On one thread, except where it says otherwise.
+// What styluses do to a CpuLattice (VR05 2.7, physics.md 5). The equations are the text of shaders/solver/grab.comp,
+// cut.comp, volume.comp and contact.glsl, compiled as C++. On one thread, except where it says otherwise.
 
 /// Takes hold of free nodes within a radius around the tip.
 /// @param stylus  index, < kMaxStyluses   @param pose  of the stylus, tissue frame   @param radius_m  of the grip

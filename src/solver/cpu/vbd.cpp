@@ -12,13 +12,13 @@ namespace {
 
 struct Descend : ImplicitKernel {
   using ImplicitKernel::ImplicitKernel;
-#include "vbd.comp"
+#include "shaders/solver/vbd.comp"
 };
 
 #define VOLUME
 struct DescendVolumes : ImplicitKernel {
   using ImplicitKernel::ImplicitKernel;
-#include "vbd.comp"
+#include "shaders/solver/vbd.comp"
 };
 
 }  // namespace

@@ -10,8 +10,8 @@
 #endif
 
 #include "hwy/highway.h"
-#include "layout.h"
 #include "solver/substep.h"
+#include "viscera/layout/nodes.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace viscera::simd::HWY_NAMESPACE {
@@ -67,7 +67,7 @@ HWY_INLINE void storePlanes(const Vec3& value, float* at) {
   hn::StoreU(value.z, Tag(), at + 128);
 }
 
-/// sum + increment, with Kahan's compensation where there is memory for it (shaders/leapfrog.comp).
+/// sum + increment, with Kahan's compensation where there is memory for it (shaders/solver/leapfrog.comp).
 HWY_INLINE Vec3 added(float* compensation, size_t at, const Vec3& sum, const Vec3& increment) {
   if (!compensation) return sum + increment;
   const Vec3 all_of_it = increment - loadPlanes(compensation + at);
@@ -89,7 +89,7 @@ HWY_INLINE Motion motionOf(const Substep& step, const layout::BodyParams& body) 
           set(step.dt_s),   set(far * far), {set(step.gravity.x()), set(step.gravity.y()), set(step.gravity.z())}};
 }
 
-/// Fragments that fall come to lie where sleep_distance_m ends (shaders/step.glsl).
+/// Fragments that fall come to lie where sleep_distance_m ends (shaders/solver/step.glsl).
 HWY_INLINE void fallAsleep(const Motion& s, const Vec3& u, Vec3& u_next, Vec3& v_next) {
   const V away = dot(u_next, u_next);
   const M beyond = hn::Gt(away, s.sleep2);
@@ -101,7 +101,8 @@ HWY_INLINE void fallAsleep(const Motion& s, const Vec3& u, Vec3& u_next, Vec3& v
   v_next = select(falls, zero3(), v_next);
 }
 
-/// Leapfrog (shaders/leapfrog.comp). @param mobility  1/kg, 0 where nothing moves   @param near, speed  u and v before
+/// Leapfrog (shaders/solver/leapfrog.comp). @param mobility  1/kg, 0 where nothing moves   @param near, speed  u and v
+/// before
 /// @param lost  compensation of u, that of v 192 farther; or null
 HWY_INLINE void move(const Motion& s, V mobility, const Vec3& force, const Vec3& near, const Vec3& speed, float* lost,
                      Vec3& u_next, Vec3& v_next) {

@@ -18,37 +18,37 @@ struct PositionKernel : Kernel {
 struct Rebuild : PositionKernel {
   using PositionKernel::PositionKernel;
 #define REBUILD
-#include "verlet_paper.comp"
+#include "shaders/solver/verlet_paper.comp"
 };
 
 struct Advance : PositionKernel {
   using PositionKernel::PositionKernel;
 #undef REBUILD
-#include "verlet_paper.comp"
+#include "shaders/solver/verlet_paper.comp"
 };
 
 struct AdvanceWithTools : PositionKernel {
   using PositionKernel::PositionKernel;
 #define TOOLS
-#include "verlet_paper.comp"
+#include "shaders/solver/verlet_paper.comp"
 };
 
 // With volumes.
 #define VOLUME
 struct AdvanceWithToolsVolumes : PositionKernel {
   using PositionKernel::PositionKernel;
-#include "verlet_paper.comp"
+#include "shaders/solver/verlet_paper.comp"
 };
 
 struct AdvanceVolumes : PositionKernel {
   using PositionKernel::PositionKernel;
 #undef TOOLS
-#include "verlet_paper.comp"
+#include "shaders/solver/verlet_paper.comp"
 };
 
 struct Volumes : PositionKernel {
   using PositionKernel::PositionKernel;
-#include "volume.comp"
+#include "shaders/solver/volume.comp"
 };
 
 }  // namespace

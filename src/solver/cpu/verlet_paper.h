@@ -6,7 +6,7 @@
 
 namespace viscera {
 
-/// Position Verlet as VR05 and GW print it: shaders/verlet_paper.comp on the CPU, see gpu/verlet_paper_pass.h.
+/// Position Verlet as VR05 and GW print it: shaders/solver/verlet_paper.comp on the CPU, see gpu/verlet_paper_pass.h.
 class CpuVerletPaper : public CpuStepper {
  public:
   CpuVerletPaper(const CpuLattice& lattice, const Parallel& parallel);
@@ -20,7 +20,7 @@ class CpuVerletPaper : public CpuStepper {
 
   const Parallel& parallel_;
   std::vector<glsl::vec4> positions_[2];  ///< [slots] m: x at current_, x_prev at the other, which x+ overwrites
-  std::vector<glsl::vec4> cell_forces_;   ///< [3 * slots] N, see shaders/volume.comp; empty without volumes
+  std::vector<glsl::vec4> cell_forces_;   ///< [3 * slots] N, see shaders/solver/volume.comp; empty without volumes
   int current_ = 0;
   float last_dt_s_ = 0;
 };

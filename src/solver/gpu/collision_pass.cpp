@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "layout/bindings.h"
 #include "solver/surroundings.h"
 
 namespace viscera {

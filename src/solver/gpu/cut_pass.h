@@ -13,8 +13,8 @@
 
 namespace viscera {
 
-/// Erases the springs that the swept blade crosses, or all springs of the nodes near it. Owner of shaders/cut.comp
-/// (implicit connections) and cut_links.comp (explicit ones).
+/// Erases the springs that the swept blade crosses, or all springs of the nodes near it. Owner of
+/// shaders/solver/cut.comp (implicit connections) and cut_links.comp (explicit ones).
 class CutPass {
  public:
   explicit CutPass(const FeatureSet& features);

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "layout.h"
+#include "viscera/layout/limits.h"
 #include "viscera/model/model.h"
 
 namespace viscera {

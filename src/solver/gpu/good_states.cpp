@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "layout/bindings.h"
+
 namespace viscera {
 
 GoodStates::GoodStates(size_t slots, int depth) {

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "gpu/stage_clock.h"
+#include "layout/bindings.h"
 #include "viscera/math/error.h"
 
 namespace viscera {

@@ -8,7 +8,7 @@
 
 namespace viscera {
 
-/// Takes hold of nodes around a stylus tip and lets them go (VR05 2.7.2). Owner of shaders/grab.comp.
+/// Takes hold of nodes around a stylus tip and lets them go (VR05 2.7.2). Owner of shaders/solver/grab.comp.
 class GrabPass {
  public:
   explicit GrabPass(const FeatureSet& features);

@@ -11,7 +11,7 @@
 namespace viscera {
 
 /// Puts a good state in the place of a bad one before anybody sees it, without asking the host: the governor, which
-/// judges a tick later, then only says how to go on (physics.md 3). Owner of shaders/guard.comp.
+/// judges a tick later, then only says how to go on (physics.md 3). Owner of shaders/solver/guard.comp.
 class GuardPass {
  public:
   explicit GuardPass(const FeatureSet& features);

@@ -3,6 +3,7 @@
 #include "solver/gpu/implicit_substep.h"
 
 #include "gpu/stage_clock.h"
+#include "layout/bindings.h"
 #include "solver/gpu/sum_tree.h"
 
 namespace viscera {

@@ -7,7 +7,7 @@
 namespace viscera {
 
 /// Start and end of a substep of implicit Euler and the increments du = u+ - u in between, which vbd and pd iterate
-/// (shaders/implicit.glsl has the equations). Owner of shaders/implicit.comp.
+/// (shaders/solver/implicit.glsl has the equations). Owner of shaders/solver/implicit.comp.
 class ImplicitSubstep {
  public:
   /// @param iterations  at most, in a substep   @param iterates  that are kept: 1 (vbd, in place) or 2 (pd)
@@ -31,7 +31,7 @@ class ImplicitSubstep {
 
   static std::vector<std::string> defines(const FeatureSet& features, const char* more = nullptr);
 
-  gpu::Buffer<uint32_t> guard;  ///< [1 + 2 iterations], see shaders/implicit.glsl
+  gpu::Buffer<uint32_t> guard;  ///< [1 + 2 iterations], see shaders/solver/implicit.glsl
 
  private:
   void bindIncrements() const;

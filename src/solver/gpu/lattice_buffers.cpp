@@ -4,6 +4,8 @@
 
 #include <utility>
 
+#include "layout/bindings.h"
+#include "layout/edge_forces.h"
 #include "solver/joined_lattice.h"
 
 namespace viscera {

@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "layout/edge_forces.h"
 #include "solver/edge_forces.h"
 #include "solver/gpu/features.h"
 #include "solver/joined_network.h"
 #include "viscera/gpu/buffer.h"
+#include "viscera/layout/tick_stats.h"
 #include "viscera/model/model.h"
 
 namespace viscera {
@@ -35,7 +37,7 @@ struct LatticeBuffers {
   gpu::Buffer<layout::vec4> impulses;         ///< [kMaxStyluses * slots] N s
   gpu::Buffer<layout::TickStats> stats;       ///< [1]
   gpu::Buffer<uint32_t> cells;                ///< [cells] slots of their lowest corners; feature volume
-  gpu::Buffer<layout::vec4> cell_forces;      ///< [3 * slots] N, see shaders/volume.comp; feature volume
+  gpu::Buffer<layout::vec4> cell_forces;      ///< [3 * slots] N, see shaders/solver/volume.comp; feature volume
   gpu::Buffer<layout::vec4> compensation;     ///< [2 * slots] m, m/s; feature compensated
   gpu::Buffer<float> spring_stiffness;        ///< [9 * slots] N/m; feature parts
   gpu::Buffer<float> node_mass;               ///< [slots] kg; features parts, network

@@ -10,7 +10,7 @@
 
 namespace viscera {
 
-/// Leapfrog on (u, v) with symmetric drag (physics.md 2). Owner of shaders/leapfrog.comp.
+/// Leapfrog on (u, v) with symmetric drag (physics.md 2). Owner of shaders/solver/leapfrog.comp.
 class LeapfrogPass : public Stepper {
  public:
   /// Compiles the kernel, with tools too where there are any.

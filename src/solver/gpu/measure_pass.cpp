@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "gpu/gl.h"
+#include "layout/bindings.h"
 #include "solver/gpu/sum_tree.h"
 
 namespace viscera {

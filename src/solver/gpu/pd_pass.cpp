@@ -4,6 +4,8 @@
 
 #include <cstring>
 
+#include "layout/bindings.h"
+
 namespace viscera {
 
 PdPass::PdPass(const FeatureSet& features, const LatticeBuffers& buffers, const PdOptions& options)

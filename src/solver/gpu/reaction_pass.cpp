@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solver/gpu/reaction_pass.h"
 
+#include "layout/bindings.h"
 #include "solver/gpu/sum_tree.h"
 
 namespace viscera {

@@ -10,7 +10,7 @@
 
 namespace viscera {
 
-/// Sums the momentum that each stylus gave over a tick, in a fixed order. Owner of shaders/sum_impulses.comp.
+/// Sums the momentum that each stylus gave over a tick, in a fixed order. Owner of shaders/solver/sum_impulses.comp.
 class ReactionPass {
  public:
   ReactionPass(const FeatureSet& features, size_t active_count);

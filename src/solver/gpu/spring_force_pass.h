@@ -8,8 +8,8 @@
 
 namespace viscera {
 
-/// Edge-centric forces of explicit connections (GW 4.2), for leapfrog to sum. Owner of shaders/spring_forces.comp.
-/// Exists only where a scene asks for solver.spring_forces: edge.
+/// Edge-centric forces of explicit connections (GW 4.2), for leapfrog to sum. Owner of
+/// shaders/solver/spring_forces.comp. Exists only where a scene asks for solver.spring_forces: edge.
 class SpringForcePass {
  public:
   explicit SpringForcePass(const FeatureSet& features);

@@ -27,7 +27,7 @@ std::unique_ptr<Stepper> makeStepper(Integrator integrator, int iterations, cons
 /// pd without acceleration, so that every sweep lowers the energy, for the governor's recoveries.
 std::unique_ptr<Stepper> makeRecoveryStepper(int iterations, const FeatureSet& features, const LatticeBuffers& buffers);
 
-/// Sets the uniforms of shaders/step.glsl.
+/// Sets the uniforms of shaders/solver/step.glsl.
 void setSubstep(const gpu::Program& program, const LatticeBuffers& buffers, const Substep& step);
 
 }  // namespace viscera

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solver/gpu/surroundings_pass.h"
 
+#include "layout/bindings.h"
+#include "layout/wind.h"
+
 namespace viscera {
 
 SurroundingsPass::SurroundingsPass(const Model& model, const Scene& scene, const FeatureSet& features,

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "layout/wind.h"
 #include "solver/gpu/collision_pass.h"
 #include "solver/gpu/features.h"
 #include "solver/gpu/lattice_buffers.h"
@@ -16,7 +17,7 @@
 namespace viscera {
 
 /// Wind, forces on bodies, contacts and obstacles act on what an integrator has made of a substep (physics.md 8).
-/// Owner of shaders/surroundings.comp.
+/// Owner of shaders/solver/surroundings.comp.
 class SurroundingsPass {
  public:
   SurroundingsPass(const Model& model, const Scene& scene, const FeatureSet& features, const LatticeBuffers& buffers);

@@ -4,6 +4,8 @@
 
 #include <utility>
 
+#include "layout/bindings.h"
+
 namespace viscera {
 
 VbdPass::VbdPass(const FeatureSet& features, const LatticeBuffers& buffers, int iterations)

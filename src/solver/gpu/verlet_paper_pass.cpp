@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solver/gpu/verlet_paper_pass.h"
 
+#include "layout/bindings.h"
+
 namespace viscera {
 
 VerletPaperPass::VerletPaperPass(const FeatureSet& features, const LatticeBuffers& buffers)

@@ -8,8 +8,8 @@
 
 namespace viscera {
 
-/// Forces of the cells' energy of volume, for the integrators to gather (physics.md 1). Owner of shaders/volume.comp.
-/// Exists only where some cell's Poisson's ratio is not 1/4.
+/// Forces of the cells' energy of volume, for the integrators to gather (physics.md 1). Owner of
+/// shaders/solver/volume.comp. Exists only where some cell's Poisson's ratio is not 1/4.
 class VolumePass {
  public:
   explicit VolumePass(const FeatureSet& features);
@@ -21,7 +21,7 @@ class VolumePass {
   uint32_t group_size_;
 };
 
-/// Takes the energy of volume from cells that have lost a spring. Owner of shaders/volume.comp (feature CUT).
+/// Takes the energy of volume from cells that have lost a spring. Owner of shaders/solver/volume.comp (feature CUT).
 class TornCellsPass {
  public:
   explicit TornCellsPass(const FeatureSet& features);

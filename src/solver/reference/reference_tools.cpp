@@ -13,7 +13,7 @@ namespace {
 
 const double kErasedFraction = static_cast<double>(layout::kErasedShare);  ///< of a spring whose end was erased
 
-constexpr double kOverlap = 1e-3;  ///< of a sweep with the one before (shaders/cut_links.comp)
+constexpr double kOverlap = 1e-3;  ///< of a sweep with the one before (shaders/solver/cut_links.comp)
 
 Vector3d xyz(const layout::vec4& v) {
   return {v.x, v.y, v.z};

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "viscera/layout/limits.h"
 #include "viscera/model/model.h"
 
 namespace viscera {

@@ -7,8 +7,8 @@
 #include <unordered_map>
 #include <vector>
 
-#include "layout.h"
 #include "model/body/neighbors.h"
+#include "viscera/layout/nodes.h"
 #include "viscera/model/shape/solid.h"
 
 namespace viscera {

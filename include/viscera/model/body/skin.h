@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "layout.h"
+#include "viscera/layout/skin.h"
 #include "viscera/model/body/lattice.h"
 #include "viscera/model/shape/triangle_mesh.h"
 

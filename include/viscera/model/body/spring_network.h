@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "layout.h"
+#include "viscera/layout/links.h"
 #include "viscera/math/types.h"
 
 namespace viscera {

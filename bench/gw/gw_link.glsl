@@ -5,6 +5,7 @@
 // read by texel fetches. They are not the solver's kernels: those integrate in the same pass; here each stage is timed
 // by itself.
 #include "layout.h"
+#include "bench/gw/gw_units.h"
 #include "spring.glsl"
 #include "network.glsl"
 

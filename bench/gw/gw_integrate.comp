@@ -7,7 +7,6 @@
 #include "gw_mesh.glsl"
 
 layout(binding = kUnitVelocity) uniform samplerBuffer velocity;  // in the format of displacement
-const uint kUnitForces = 14u, kUnitInverseMass = 15u;
 layout(binding = kUnitInverseMass) uniform samplerBuffer inverse_mass;  // r32f [nodes] 1/kg; 0 where fixed
 layout(location = 1) uniform float dt_s;
 layout(location = 2) uniform float kick_s;

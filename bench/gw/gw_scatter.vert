@@ -5,6 +5,7 @@
 // them up there (GW 4.2).   Owner: bench/gw_blend.h
 // in  springs, spring_forces [springs] N     out  colour
 #include "layout.h"
+#include "bench/gw/gw_units.h"
 
 layout(binding = kUnitSprings) uniform usamplerBuffer springs;  // SpringEnds
 layout(binding = kUnitLinkForces) uniform samplerBuffer spring_forces;

@@ -1,0 +1,61 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+// clang-format off
+// Nodes, the bricks that they are stored in, and what all nodes of a body share.
+#ifndef VISCERA_LAYOUT_NODES_H
+#define VISCERA_LAYOUT_NODES_H
+#include "viscera/layout/types.h"
+#include "viscera/layout/limits.h"
+
+#ifdef __cplusplus
+namespace viscera::layout {
+#endif
+
+// NodeBits.lo: six axial counts of 3 bits (quarters of the axial stiffness, 0..4), then:
+const uint kMassShift = 18u;     // 4 bits: solid cells around the node, 1..8 eighths of a cell's mass
+const uint kFixedBit = 1u << 22; // fixed in space
+const uint kGrabShift = 23u;     // 2 bits: 0 free, 1 + stylus index while held
+const uint kGrabMask = 3u << 23;
+const uint kSeveredBit = 1u << 25; // at least one spring of this node was cut
+const uint kCellBit = 1u << 26;  // the cell whose lowest corner is this node is filled and whole
+const uint kAxialMask = (1u << 18) - 1u;
+// NodeBits.hi: twelve diagonal counts of 2 bits (halves of the diagonal stiffness, 0..2), then the body index:
+const uint kBodyShift = 24u;
+const uint kDiagonalMask = (1u << 24) - 1u;
+
+struct NodeBits {
+  uint lo;
+  uint hi;
+};
+
+struct Brick {
+  int coord_x, coord_y, coord_z;  // of the brick, in bricks from its body's node (0, 0, 0)
+  uint body;
+  uint neighbors[27];  // brick index at (dx+1) + 3 (dy+1) + 9 (dz+1); this brick itself where there is none
+  uint pad;
+};
+const uint kBrickWords = 32u;
+const uint kBrickNeighborWord = 4u;  // word of Brick.neighbors[0]
+
+struct BodyParams {
+  vec4 origin_spacing;      // xyz: rest position of node (0, 0, 0) [m, tissue frame]; w: spacing h [m]
+  float axial_quarter_n_per_m;  // a quarter of the axial stiffness: what one solid cell gives an edge
+  float diagonal_half_n_per_m;  // half of the diagonal stiffness: what one solid cell gives a face diagonal
+  float mass_eighth_kg;
+  float drag_per_s;         // gamma
+  float dashpot_s;          // axial dashpot coefficient over spring stiffness, c/k [s]
+  float bulk_j;             // lambda_V h^3: a cell of volume V has the energy volumeEnergy(bulk_j, V/V0 - 1)
+  uint connections;         // kImplicit, kExplicitLattice or kNetwork
+  float pad;
+};
+// Connections of a body: springs of a lattice by offset and counts in NodeBits; the same lattice with its springs as links;
+// or any graph of links, where the low 18 bits of NodeBits.lo say how many of a node's links are whole.
+const uint kImplicit = 0u;
+const uint kExplicitLattice = 1u;
+const uint kNetwork = 2u;
+const uint kValenceMask = kAxialMask;
+
+#ifdef __cplusplus
+}  // namespace viscera::layout
+#endif
+#endif

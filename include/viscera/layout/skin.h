@@ -1,0 +1,48 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+// clang-format off
+// How a skin follows its nodes.
+#ifndef VISCERA_LAYOUT_SKIN_H
+#define VISCERA_LAYOUT_SKIN_H
+#include "viscera/layout/types.h"
+
+#ifdef __cplusplus
+namespace viscera::layout {
+#endif
+
+// A skin vertex bound to the lattice (EGVE eqs 4 to 9).
+struct SkinBinding {
+  uint slot0, slot1, slot2;
+  uint springs;            // spring index of edges 01, 12, 20 (5 bits each); bit 31: interpolated basis is defined
+  vec4 weights;            // xyz barycentric weights; w unused
+  vec4 offset_constant;    // xyz offset in (T, N, B) of the triangle [m]
+  vec4 offset_interpolated;  // xyz offset in (T_c, N_c, B_c) [m]
+  vec4 normal_constant;      // xyz shading normal in (T, N, B)
+  vec4 normal_interpolated;  // xyz shading normal in (T_c, N_c, B_c)
+};
+const uint kInterpolatedBit = 1u << 31;
+// Of SkinBinding.springs: a vertex of a network's skin, which is its node slot0; normal_constant is its normal at rest.
+const uint kOneToOneBit = 1u << 30;
+
+// What is shown of a triangle.
+const uint kShownWhole = 1u;
+const uint kShownCorner = 2u;  // << corner 0, 1, 2: the piece at a corner that a cut has parted from the others
+const uint kShownRest = 16u;   // << corner: the two triangles that are left without that corner
+
+// A spring that a skin triangle depends on. Ties come in groups: a group holds while one of its springs is alive,
+// a triangle is whole while all of its groups hold.
+struct Tie {
+  uint slot;
+  uint spring;  // index 0..17; kTieEndBit closes the group
+};
+const uint kTieEndBit = 1u << 8;
+
+// An approximate normal is a sum of unit vectors (VR05 eq 5): 0 inside the body, 1 on a concave edge, 3.8 on a flat
+// face. Trust in it grows from 0 to 1 between these two lengths of the sum.
+const float kNormalSumNone = 0.25f;
+const float kNormalSumFull = 0.75f;
+
+#ifdef __cplusplus
+}  // namespace viscera::layout
+#endif
+#endif

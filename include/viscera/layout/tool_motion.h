@@ -1,0 +1,35 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+// clang-format off
+// What styluses do in a substep.
+#ifndef VISCERA_LAYOUT_TOOL_MOTION_H
+#define VISCERA_LAYOUT_TOOL_MOTION_H
+#include "viscera/layout/types.h"
+
+#ifdef __cplusplus
+namespace viscera::layout {
+#endif
+
+// Tool modes, as in ToolMotion.info.x
+const uint kModeNone = 0u;
+const uint kModeProbe = 1u;
+const uint kModeGrab = 2u;
+const uint kModeCut = 3u;
+const uint kModeCutParticles = 4u;
+
+// One stylus over one substep, tissue frame.
+struct ToolMotion {
+  vec4 from;         // xyz tip at the start [m]; w contact radius [m]
+  vec4 to;           // xyz tip at the end [m]; w largest node speed after release [m/s]
+  vec4 orientation;  // quaternion xyzw at the end
+  vec4 blade_from;   // xyz far end of the blade at the start [m]; w half thickness of the particle eraser [m]
+  vec4 blade_to;     // xyz far end of the blade at the end [m]
+  uvec4 info;        // x mode
+  vec4 timing;       // x length of the substep before [s]; 0 where there was none
+  uvec4 pad;         // two styluses make 256 bytes, the coarsest alignment of a uniform block
+};
+
+#ifdef __cplusplus
+}  // namespace viscera::layout
+#endif
+#endif

@@ -1,0 +1,95 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+// clang-format off
+// Numbers of buffers and texture units, one each: what they are bound to by their owners and declared with in shaders.
+#ifndef VISCERA_LAYOUT_BINDINGS_H
+#define VISCERA_LAYOUT_BINDINGS_H
+#include "viscera/layout/types.h"
+
+#ifdef __cplusplus
+namespace viscera::layout {
+#endif
+
+// Storage buffer bindings, the same in every kernel
+const uint kBindActive = 0u;        // uint[active]: slots of active nodes, brick by brick
+const uint kBindBricks = 1u;        // Brick[bricks]
+const uint kBindBodies = 2u;        // BodyParams[bodies]
+const uint kBindNodes = 3u;         // NodeBits[slots]
+const uint kBindDisplacementIn = 4u;  // vec4[slots]: xyz m
+const uint kBindVelocityIn = 5u;      // vec4[slots]: xyz m/s
+const uint kBindDisplacementOut = 6u;
+const uint kBindVelocityOut = 7u;
+const uint kBindToolMotions = 8u;   // uniform block ToolMotion[kMaxStyluses]: one substep of the tick's
+const uint kBindGrabOffsets = 9u;   // vec4[slots]: position of a held node in the stylus frame [m]
+const uint kBindImpulses = 10u;     // vec4[kMaxStyluses * slots]: momentum given to the node this tick [N s]
+const uint kBindStats = 11u;        // TickStats[1]
+const uint kBindPartials = 12u;     // scratch of the reductions
+const uint kBindSurfaceNodes = 13u;   // uint[]: slots to which skin vertices are bound
+const uint kBindNodeNormals = 14u;    // vec4[slots]: xyz approximate normal, w trust in it 0..1
+const uint kBindSkinBindings = 15u;   // SkinBinding[vertices]
+const uint kBindSkinPositions = 16u;  // float[3 * vertices] [m]
+const uint kBindSkinNormals = 17u;    // uint[vertices]: packed normals
+const uint kBindSkinTriangles = 18u;  // uint[3 * triangles]: vertex indices
+const uint kBindSkinTies = 19u;       // Tie[]
+const uint kBindSkinTieStarts = 20u;  // uint[triangles + 1]
+const uint kBindSkinAlive = 21u;      // uint[triangles]: 0 torn, kShownWhole, or the parts that are left of a split one
+const uint kBindSkinLive = 22u;       // uint[3 * (triangles + 2 split)]: indices drawn; a torn triangle is (0, 0, 0)
+const uint kBindSkinColors = 23u;     // uint[vertices]: RGBA8
+const uint kBindCells = 24u;          // uint[cells]: slots of the lowest corners
+const uint kBindCellForces = 25u;     // vec4[3 * slots]: what a cell's volume does to its corners, see volume.comp
+const uint kBindCompensation = 26u;   // vec4[2 * slots]: what the sums of displacement [m] and velocity [m/s] have lost
+const uint kBindIncrement = 27u;      // vec4[slots]: implicit integrators: displacement gained in this substep [m]
+const uint kBindIncrementOut = 28u;   // the same, next iterate; holds the last but one until then
+const uint kBindStaleBricks = 29u;    // uint[bricks]: StateView::stale_bricks
+const uint kBindGuard = 30u;          // uint[1 + 2 iterations]: see implicit.glsl
+const uint kBindPositions = 31u;      // vec4[slots]: verlet_paper: x [m]
+const uint kBindPositionsBefore = 32u;  // vec4[slots]: verlet_paper: x one substep ago [m]; written with the next x
+const uint kBindSavedDisplacement = 33u;  // vec4[slots]: a good state of the governor's ring
+const uint kBindSavedVelocity = 34u;      // vec4[slots]
+const uint kBindLinks = 35u;         // Link[links]: explicit connections, node by node
+const uint kBindSprings = 36u;       // SpringEnds[springs]: each explicit connection once
+const uint kBindSpringCut = 37u;     // float[springs]: 0 whole, else where the blade crossed it, 0..1 of the way from a to b
+const uint kBindLinkForces = 38u;    // vec4[springs + owners]: edge-centric forces [N], see SpringOwner
+const uint kBindRest = 39u;          // vec4[slots]: xyz rest position [m, tissue frame]
+// Surroundings (surroundings.comp, collision.comp)
+const uint kBindObstacles = 40u;        // uniform block ObstacleMotion[kMaxObstacles]: one substep of the tick's
+const uint kBindBodyInfluences = 41u;   // uniform block vec4[kMaxBodies]: see surroundings.glsl
+const uint kBindWindStarts = 42u;       // uint[slots + 1]: first ring triangle of a node
+const uint kBindWindTriangles = 43u;    // WindTriangle[]
+const uint kBindCollidable = 44u;       // uint[slots / 32 + 1]: bit slot % 32 of a node that may touch others from the start on
+const uint kBindBuckets = 45u;          // uint[3 * buckets + 1]: entries, first entry, cursor of a bucket; then: entries in all
+const uint kBindUnsorted = 46u;         // uint[active]: slots, bucket by bucket
+const uint kBindEntries = 47u;          // uvec4[active]: float bits of xyz position [m], slot; bucket by bucket, ascending slots
+const uint kBindEntriesBefore = 48u;    // vec4[active]: xyz position before the substep [m]
+const uint kBindContacts = 49u;         // vec4[slots]: xyz sum of directions weighted by depth [m]; w number of contacts
+const uint kBindCorrections = 50u;      // vec4[2 * slots]: change of velocity [m/s], then of position beside it [m]
+const uint kBindPairs = 51u;            // uint[1 + 2 * most]: number of pairs, then their slots; for tests
+const uint kBindSortItems = 52u;        // uvec2[partitions * sorted]: key, slot; staggered search
+const uint kBindRanks = 53u;            // uint[partitions * slots]: place of a node in a partition's order
+const uint kBindRingVertices = 54u;    // RingVertex[]: vertices of the skins of networks
+const uint kBindRings = 55u;           // RingTriangle[]
+const uint kBindSplitEdges = 56u;      // SplitEdge[]
+const uint kBindSplitTriangles = 57u;  // SplitTriangle[]
+const uint kBindCrossedEdges = 58u;    // uint[4 + split edges]: groups to dispatch (3), how many, which SplitEdges
+
+// Texture units: buffers seen through texel fetches. OpenGL promises 16 of them.
+const uint kUnitDisplacement = 0u;  // rgba32f, as kBindDisplacementIn
+const uint kUnitVelocity = 1u;      // rgba32f, as kBindVelocityIn
+const uint kUnitBricks = 2u;        // r32ui, as kBindBricks
+const uint kUnitSpringStiffness = 3u;  // r32f [9 * slots]: N/m of a node's even springs; bodies with parts
+const uint kUnitNodeMass = 4u;         // r32f [slots]: kg
+const uint kUnitCellBulk = 5u;         // r32f [slots]: J
+const uint kUnitCellForces = 6u;       // rgba32f, as kBindCellForces
+const uint kUnitIncrement = 7u;        // rgba32f, as kBindIncrement
+const uint kUnitPositions = 8u;        // rgba32f, as kBindPositions
+const uint kUnitLinks = 9u;            // rgba32ui, two per Link of kBindLinks
+const uint kUnitLinkStarts = 10u;      // r32ui [slots + 1]: first link of a node; edge-centric: rgba32ui, see EdgeForces
+const uint kUnitSpringOwners = 11u;    // rgba32ui: SpringOwner[owners]
+const uint kUnitLinkForces = 12u;      // rgba32f, as kBindLinkForces
+const uint kUnitRest = 13u;            // rgba32f, as kBindRest
+const uint kUnitForceStarts = 14u;     // r32ui [slots + 1]: first place of the forces on a node
+
+#ifdef __cplusplus
+}  // namespace viscera::layout
+#endif
+#endif
