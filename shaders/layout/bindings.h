@@ -51,7 +51,7 @@ const uint kBindSprings = 36u;       // SpringEnds[springs]: each explicit conne
 const uint kBindSpringCut = 37u;     // float[springs]: 0 whole, else where the blade crossed it, 0..1 of the way from a to b
 const uint kBindLinkForces = 38u;    // vec4[springs + owners]: edge-centric forces [N], see SpringOwner
 const uint kBindRest = 39u;          // vec4[slots]: xyz rest position [m, tissue frame]
-// Surroundings (surroundings.comp, collision.comp)
+// Surroundings (surroundings.comp, collision_*.comp)
 const uint kBindObstacles = 40u;        // uniform block ObstacleMotion[kMaxObstacles]: one substep of the tick's
 const uint kBindBodyInfluences = 41u;   // uniform block vec4[kMaxBodies]: see surroundings.glsl
 const uint kBindWindStarts = 42u;       // uint[slots + 1]: first ring triangle of a node

@@ -32,6 +32,7 @@ void main() {
 }
 #else
 #include "elastic.glsl"
+#include "corners.glsl"
 #ifndef __cplusplus
 layout(std430, binding = kBindActive) readonly buffer ActiveBuffer { uint active_nodes[]; };
 layout(std430, binding = kBindNodes) readonly buffer NodesBuffer { NodeBits nodes[]; };
@@ -44,8 +45,6 @@ bool finite(vec3 v) {
 }
 
 vec3 u(uint slot) { return xyz(texelFetch(displacement, int(slot))); }
-
-uint cornerSlot(uint slot, uint c) { return neighborSlot(slot, ivec3(c & 1u, (c >> 1) & 1u, (c >> 2) & 1u)); }
 
 /// V/V0 - 1 of the cell whose lowest corner is this node.
 float dilation(uint slot, BodyParams body) {

@@ -5,7 +5,7 @@
 // Owner: solver/gpu/surroundings_pass.h
 // in  displacement, velocity [slots] after the integrator; displacement before it in the buffer that is written
 // out displacement, velocity [slots]
-// Features: WIND, BODY_FORCES, OBSTACLES, COLLISIONS (corrections of collision.comp).
+// Features: WIND, BODY_FORCES, OBSTACLES, COLLISIONS (corrections of collision_push.comp).
 #include "layout.h"
 #include "lattice.glsl"
 #include "elastic.glsl"

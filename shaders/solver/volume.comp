@@ -3,7 +3,7 @@
 //
 // volume.comp - forces of every cell's energy of volume.   Owner: solver/gpu/volume_pass.h   physics.md 1
 // in  displacement, nodes     out  cell forces [3 * slots]
-// Per cell three vectors p/(4h) (b x c, c x a, a x b): corner (sx, sy, sz) of the cell feels minus their sum, signed. (implicit.comp
+// Per cell three vectors p/(4h) (b x c, c x a, a x b): corner (sx, sy, sz) of the cell feels minus their sum, signed. (implicit_cells.comp
 // writes the same for its iterates, with a majoriser in w of the first.) Feature CUT drops the cells that lost a spring instead.
 #include "layout.h"
 #include "lattice.glsl"

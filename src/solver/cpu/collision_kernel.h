@@ -14,7 +14,7 @@ struct Item {
   bool operator<(const Item& other) const { return x != other.x ? x < other.x : y < other.y; }
 };
 
-/// What the text of shaders/solver/collision.comp finds in buffers and uniforms.
+/// What the texts of shaders/solver/collision_*.comp find in buffers and uniforms.
 struct CollisionKernel : Kernel {
   using Kernel::Kernel;
   float resting_speed = 0, cell_m = 1, friction = 0, restitution = 0;
@@ -28,10 +28,10 @@ struct CollisionKernel : Kernel {
   const Item* items = nullptr;
 };
 
-/// Which nodes may touch others, and how near: no stage of the shader, only its functions.
-struct CollisionRules : CollisionKernel {
-  using CollisionKernel::CollisionKernel;
-#include "shaders/solver/collision.comp"
-};
+/// Which nodes may touch others, and how near: no stage, only what all of them know.
+#define VARIANT_NAME CollisionRules
+#define VARIANT_BASE CollisionKernel
+#define VARIANT_TEXT "shaders/solver/collision_search.glsl"
+#include "solver/cpu/glsl_variant.inc"
 
 }  // namespace viscera::glsl

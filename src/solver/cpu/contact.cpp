@@ -9,11 +9,15 @@ namespace glsl {
 
 namespace {
 
-struct Contact : Kernel {
-  using Kernel::Kernel;
-#include "shaders/solver/contact.glsl"
-#include "shaders/solver/lattice.glsl"
-};
+#define VARIANT_NAME Place
+#define VARIANT_BASE Kernel
+#define VARIANT_TEXT "shaders/solver/lattice.glsl"
+#include "solver/cpu/glsl_variant.inc"
+
+#define VARIANT_NAME Contact
+#define VARIANT_BASE Place
+#define VARIANT_TEXT "shaders/solver/contact.glsl"
+#include "solver/cpu/glsl_variant.inc"
 
 }  // namespace
 

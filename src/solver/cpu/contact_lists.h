@@ -46,8 +46,8 @@ class ContactLists {
   }
   const ListedContact* end(size_t entry) const { return begin(entry) + runs_[entry].contacts; }
 
-  const glsl::uvec4* entries() const { return entries_.data(); }  ///< as in collision.comp
-  const glsl::vec4* before() const { return before_.data(); }     ///< as in collision.comp
+  const glsl::uvec4* entries() const { return entries_.data(); }  ///< as in collision_order.comp
+  const glsl::vec4* before() const { return before_.data(); }     ///< as in collision_order.comp
   size_t searches() const { return searches_; }                   ///< so far
 
  private:

@@ -15,32 +15,54 @@ struct CutStats {
   uint springs_cut = 0;
 };
 
-struct CutSprings : Kernel {
+struct CutKernel : Kernel {
   using Kernel::Kernel;
   uint stylus = 0;
   CutStats stats;
-#include "shaders/solver/cut.comp"
 };
 
-struct CutParticles : Kernel {
-  using Kernel::Kernel;
-  uint stylus = 0;
-  CutStats stats;
-#define PARTICLES
-#include "shaders/solver/cut.comp"
-};
+/// May a node lose a spring? Not if all of them have both ends beyond the same side. @param outside  [slots]
+#define LOOK(spring, offset) may |= (here & outside[neighborSlot(slot, offset)]) == 0;
+#define MAY_LOSE                                    \
+  bool mayLose(uint slot, const uint8_t* outside) { \
+    const uint8_t here = outside[slot];             \
+    bool may = false;                               \
+    FOR_EACH_SPRING(LOOK)                           \
+    return may;                                     \
+  }
 
-struct Blade {
-#include "shaders/solver/blade.glsl"
-};
+#define VARIANT_NAME CutSprings
+#define VARIANT_BASE CutKernel
+#define VARIANT_TEXT "shaders/solver/cut.comp"
+#define VARIANT_MEMBERS MAY_LOSE
+#include "solver/cpu/glsl_variant.inc"
 
-struct TearCell : Kernel {
+#define VARIANT_NAME CutParticles
+#define VARIANT_BASE CutKernel
+#define VARIANT_TEXT "shaders/solver/cut.comp"
+#define VARIANT_FEATURES WITH_PARTICLES
+#define VARIANT_MEMBERS MAY_LOSE
+#include "solver/cpu/glsl_variant.inc"
+#undef MAY_LOSE
+#undef LOOK
+
+struct NoKernel {};
+
+#define VARIANT_NAME Blade
+#define VARIANT_BASE NoKernel
+#define VARIANT_TEXT "shaders/solver/blade.glsl"
+#include "solver/cpu/glsl_variant.inc"
+
+struct CellKernel : Kernel {
   using Kernel::Kernel;
   uint cell_count = 0;
-#define CUT
-#define VOLUME
-#include "shaders/solver/volume.comp"
 };
+
+#define VARIANT_NAME TearCell
+#define VARIANT_BASE CellKernel
+#define VARIANT_TEXT "shaders/solver/volume.comp"
+#define VARIANT_FEATURES WITH_CUT | WITH_VOLUME
+#include "solver/cpu/glsl_variant.inc"
 
 }  // namespace
 
@@ -171,20 +193,11 @@ template <class Kernel>
 uint32_t CpuCut::cutWith(CpuLattice& lattice, const layout::ToolMotion& motion) {
   Kernel kernel(lattice);
   kernel.tool_motions = &motion;
-  const auto mayLose = [&](uint32_t slot) {
-    const uint8_t here = outside_[slot];
-    bool may = false;
-#define LOOK(spring, offset) may |= (here & outside_[kernel.neighborSlot(slot, offset)]) == 0;
-    using glsl::ivec3;
-    FOR_EACH_SPRING(LOOK)
-#undef LOOK
-    return may;
-  };
   for (uint32_t brick : near_) {
     if (!mayCross(lattice.bricks[brick])) continue;
     for (uint32_t i = lattice.first_active[brick]; i < lattice.first_active[brick + 1]; ++i) {
       const uint32_t slot = lattice.active[i];
-      if (!mayLose(slot)) continue;
+      if (!kernel.mayLose(slot, outside_.data())) continue;
       const layout::NodeBits before = lattice.nodes[slot];
       kernel.index = i;
       kernel.main();

@@ -16,13 +16,8 @@
 #include "layout.h"
 
 // The words of GLSL in C++: shaders are compiled for the CPU as members of a class that has what they find in buffers
-// and uniforms (glsl_kernel.h). Compile with -ffp-contract=off: both ends of a spring must come to the same bits.
-#pragma GCC diagnostic ignored "-Wunused-parameter"  // which are used is a matter of features
-#pragma GCC diagnostic ignored "-Wunused-variable"   // nor what FOR_EACH_LINK offers
-#pragma GCC diagnostic ignored "-Wunused-but-set-variable"
-#define precise
-#define INOUT(T) T&
-#define OUT(T) T&
+// and uniforms (glsl_kernel.h, glsl_variant.inc). Compile with -ffp-contract=off: both ends of a spring must come to
+// the same bits.
 
 namespace viscera::glsl {
 

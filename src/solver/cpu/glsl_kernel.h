@@ -4,11 +4,8 @@
 
 #include "solver/cpu/cpu_lattice.h"
 #include "solver/cpu/glsl.h"
+#include "solver/cpu/glsl_features.h"
 #include "solver/substep.h"
-
-// Bodies of both kinds may be there: which one a node belongs to is asked at run time.
-#define LATTICE
-#define NETWORK
 
 namespace viscera::glsl {
 

@@ -9,22 +9,23 @@ namespace glsl {
 
 namespace {
 
-struct TakeHold : Kernel {
+struct GrabKernel : Kernel {
   using Kernel::Kernel;
   uint stylus = 0;
   vec4 tip = vec4(0), orientation = vec4(0);
   float release_speed = 0;
-#include "shaders/solver/grab.comp"
 };
 
-struct LetGo : Kernel {
-  using Kernel::Kernel;
-  uint stylus = 0;
-  vec4 tip = vec4(0), orientation = vec4(0);
-  float release_speed = 0;
-#define RELEASE
-#include "shaders/solver/grab.comp"
-};
+#define VARIANT_NAME TakeHold
+#define VARIANT_BASE GrabKernel
+#define VARIANT_TEXT "shaders/solver/grab.comp"
+#include "solver/cpu/glsl_variant.inc"
+
+#define VARIANT_NAME LetGo
+#define VARIANT_BASE GrabKernel
+#define VARIANT_TEXT "shaders/solver/grab.comp"
+#define VARIANT_FEATURES WITH_RELEASE
+#include "solver/cpu/glsl_variant.inc"
 
 }  // namespace
 

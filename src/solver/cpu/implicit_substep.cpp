@@ -2,84 +2,70 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solver/cpu/implicit_substep.h"
 
-#define DASHPOT
-
 namespace viscera {
 
 namespace glsl {
 
 namespace {
 
-struct Begin : ImplicitKernel {
-  using ImplicitKernel::ImplicitKernel;
-#define BEGIN
-#include "shaders/solver/implicit.comp"
-};
+#define VARIANT_NAME Begin
+#define VARIANT_BASE ImplicitKernel
+#define VARIANT_TEXT "shaders/solver/implicit_begin.comp"
+#define VARIANT_FEATURES WITH_DASHPOT
+#include "solver/cpu/glsl_variant.inc"
 
-struct Choose : ImplicitKernel {
-  using ImplicitKernel::ImplicitKernel;
-#undef BEGIN
-#define FOLD
-#include "shaders/solver/implicit.comp"
-};
+#define VARIANT_NAME BeginWithTools
+#define VARIANT_BASE ImplicitKernel
+#define VARIANT_TEXT "shaders/solver/implicit_begin.comp"
+#define VARIANT_FEATURES WITH_DASHPOT | WITH_TOOLS
+#include "solver/cpu/glsl_variant.inc"
 
-struct Scale : ImplicitKernel {
-  using ImplicitKernel::ImplicitKernel;
-#undef FOLD
-#define SCALE
-#include "shaders/solver/implicit.comp"
-};
+#define VARIANT_NAME Guess
+#define VARIANT_BASE ImplicitKernel
+#define VARIANT_TEXT "shaders/solver/implicit_guess.comp"
+#define VARIANT_FEATURES WITH_DASHPOT
+#include "solver/cpu/glsl_variant.inc"
 
-struct Guess : ImplicitKernel {
-  using ImplicitKernel::ImplicitKernel;
-#undef SCALE
-#define GUESS
-#include "shaders/solver/implicit.comp"
-};
+#define VARIANT_NAME GuessVolumes
+#define VARIANT_BASE ImplicitKernel
+#define VARIANT_TEXT "shaders/solver/implicit_guess.comp"
+#define VARIANT_FEATURES WITH_DASHPOT | WITH_VOLUME
+#include "solver/cpu/glsl_variant.inc"
 
-struct End : ImplicitKernel {
-  using ImplicitKernel::ImplicitKernel;
-#undef GUESS
-#define END
-#include "shaders/solver/implicit.comp"
-};
+#define VARIANT_NAME Choose
+#define VARIANT_BASE ImplicitKernel
+#define VARIANT_TEXT "shaders/solver/implicit_fold.comp"
+#include "solver/cpu/glsl_variant.inc"
 
-struct EndWithTools : ImplicitKernel {
-  using ImplicitKernel::ImplicitKernel;
-#define TOOLS
-#include "shaders/solver/implicit.comp"
-};
+#define VARIANT_NAME Scale
+#define VARIANT_BASE ImplicitKernel
+#define VARIANT_TEXT "shaders/solver/implicit_scale.comp"
+#define VARIANT_FEATURES WITH_DASHPOT
+#include "solver/cpu/glsl_variant.inc"
 
-struct BeginWithTools : ImplicitKernel {
-  using ImplicitKernel::ImplicitKernel;
-#undef END
-#define BEGIN
-#include "shaders/solver/implicit.comp"
-};
+#define VARIANT_NAME Cells
+#define VARIANT_BASE ImplicitKernel
+#define VARIANT_TEXT "shaders/solver/implicit_cells.comp"
+#define VARIANT_FEATURES WITH_DASHPOT | WITH_VOLUME
+#include "solver/cpu/glsl_variant.inc"
 
-// With volumes.
-#define VOLUME
-struct EndWithToolsVolumes : ImplicitKernel {
-  using ImplicitKernel::ImplicitKernel;
-#undef BEGIN
-#define END
-#include "shaders/solver/implicit.comp"
-};
+#define VARIANT_NAME End
+#define VARIANT_BASE ImplicitKernel
+#define VARIANT_TEXT "shaders/solver/implicit_end.comp"
+#define VARIANT_FEATURES WITH_DASHPOT
+#include "solver/cpu/glsl_variant.inc"
 
-struct Cells : ImplicitKernel {
-  using ImplicitKernel::ImplicitKernel;
-#undef TOOLS
-#undef END
-#define CELLS
-#include "shaders/solver/implicit.comp"
-};
+#define VARIANT_NAME EndWithTools
+#define VARIANT_BASE ImplicitKernel
+#define VARIANT_TEXT "shaders/solver/implicit_end.comp"
+#define VARIANT_FEATURES WITH_DASHPOT | WITH_TOOLS
+#include "solver/cpu/glsl_variant.inc"
 
-struct GuessVolumes : ImplicitKernel {
-  using ImplicitKernel::ImplicitKernel;
-#undef CELLS
-#define GUESS
-#include "shaders/solver/implicit.comp"
-};
+#define VARIANT_NAME EndWithToolsVolumes
+#define VARIANT_BASE ImplicitKernel
+#define VARIANT_TEXT "shaders/solver/implicit_end.comp"
+#define VARIANT_FEATURES WITH_DASHPOT | WITH_TOOLS | WITH_VOLUME
+#include "solver/cpu/glsl_variant.inc"
 
 }  // namespace
 

@@ -19,7 +19,7 @@ struct Window {
   vec4& operator[](size_t index) const { return at[index - first]; }
 };
 
-/// What kernels of implicit Euler find in buffers and uniforms (shaders/solver/implicit.glsl, implicit.comp, pd.comp,
+/// What kernels of implicit Euler find in buffers and uniforms (shaders/solver/implicit.glsl, implicit_*.comp, pd.comp,
 /// vbd.comp).
 struct ImplicitKernel : Kernel {
   using Kernel::Kernel;
@@ -78,7 +78,7 @@ void runCount(const Parallel& parallel, size_t count, const Kernel& kernel) {
 }
 
 /// Start and end of a substep of implicit Euler and the increments du = u+ - u in between, which vbd and pd iterate:
-/// shaders/solver/implicit.comp on the CPU. See gpu/implicit_substep.h for what the stages promise.
+/// shaders/solver/implicit_*.comp on the CPU. See gpu/implicit_substep.h for what the stages promise.
 class CpuImplicitSubstep {
  public:
   /// @param iterations  at most, in a substep   @param iterates  that are kept: 1 (vbd, in place) or 2 (pd)
@@ -111,7 +111,7 @@ class CpuImplicitSubstep {
   void sumEnergies(CpuLattice& lattice, const Substep& step);
   void keepBestShare(CpuLattice& lattice, const Substep& step, bool bound_energy);
 
-  using Energies = std::array<double, 8>;  ///< [J] as two vectors of implicit.comp
+  using Energies = std::array<double, 8>;  ///< [J] as two vectors of implicit_guess.comp
   const Parallel& parallel_;
   std::vector<glsl::vec4> increments_[2];  ///< [slots] xyz m; w 1 where prescribed; the second with two iterates
   std::vector<glsl::vec4> cell_forces_;    ///< [3 * slots] N, see shaders/solver/volume.comp; empty without volumes

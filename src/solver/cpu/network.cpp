@@ -29,71 +29,70 @@ struct NetworkKernel : Kernel {
   vec4 *link_forces = nullptr, *cell_forces_out = nullptr;
 };
 
-#define DASHPOT
-struct SpringForces : NetworkKernel {
-  using NetworkKernel::NetworkKernel;
-#include "shaders/solver/spring_forces.comp"
-};
+#define VARIANT_NAME SpringForces
+#define VARIANT_BASE NetworkKernel
+#define VARIANT_TEXT "shaders/solver/spring_forces.comp"
+#define VARIANT_FEATURES WITH_DASHPOT
+#include "solver/cpu/glsl_variant.inc"
 
-struct Step : NetworkKernel {
-  using NetworkKernel::NetworkKernel;
-#include "shaders/solver/leapfrog.comp"
-};
+#define VARIANT_NAME Step
+#define VARIANT_BASE NetworkKernel
+#define VARIANT_TEXT "shaders/solver/leapfrog.comp"
+#define VARIANT_FEATURES WITH_DASHPOT
+#include "solver/cpu/glsl_variant.inc"
 
-struct StepEdges : NetworkKernel {
-  using NetworkKernel::NetworkKernel;
-#define EDGE_FORCES
-#include "shaders/solver/leapfrog.comp"
-};
+#define VARIANT_NAME StepCompensated
+#define VARIANT_BASE NetworkKernel
+#define VARIANT_TEXT "shaders/solver/leapfrog.comp"
+#define VARIANT_FEATURES WITH_DASHPOT | WITH_COMPENSATED
+#include "solver/cpu/glsl_variant.inc"
 
-struct StepEdgesCompensated : NetworkKernel {
-  using NetworkKernel::NetworkKernel;
-#define COMPENSATED
-#include "shaders/solver/leapfrog.comp"
-};
+#define VARIANT_NAME StepEdges
+#define VARIANT_BASE NetworkKernel
+#define VARIANT_TEXT "shaders/solver/leapfrog.comp"
+#define VARIANT_FEATURES WITH_DASHPOT | WITH_EDGE_FORCES
+#include "solver/cpu/glsl_variant.inc"
 
-struct StepCompensated : NetworkKernel {
-  using NetworkKernel::NetworkKernel;
-#undef EDGE_FORCES
-#include "shaders/solver/leapfrog.comp"
-};
+#define VARIANT_NAME StepEdgesCompensated
+#define VARIANT_BASE NetworkKernel
+#define VARIANT_TEXT "shaders/solver/leapfrog.comp"
+#define VARIANT_FEATURES WITH_DASHPOT | WITH_EDGE_FORCES | WITH_COMPENSATED
+#include "solver/cpu/glsl_variant.inc"
 
-// With volumes.
-#define VOLUME
-struct StepVolumesCompensated : NetworkKernel {
-  using NetworkKernel::NetworkKernel;
-#include "shaders/solver/leapfrog.comp"
-};
+#define VARIANT_NAME StepVolumes
+#define VARIANT_BASE NetworkKernel
+#define VARIANT_TEXT "shaders/solver/leapfrog.comp"
+#define VARIANT_FEATURES WITH_DASHPOT | WITH_VOLUME
+#include "solver/cpu/glsl_variant.inc"
 
-struct StepVolumes : NetworkKernel {
-  using NetworkKernel::NetworkKernel;
-#undef COMPENSATED
-#include "shaders/solver/leapfrog.comp"
-};
+#define VARIANT_NAME StepVolumesCompensated
+#define VARIANT_BASE NetworkKernel
+#define VARIANT_TEXT "shaders/solver/leapfrog.comp"
+#define VARIANT_FEATURES WITH_DASHPOT | WITH_VOLUME | WITH_COMPENSATED
+#include "solver/cpu/glsl_variant.inc"
 
-struct StepEdgesVolumes : NetworkKernel {
-  using NetworkKernel::NetworkKernel;
-#define EDGE_FORCES
-#include "shaders/solver/leapfrog.comp"
-};
+#define VARIANT_NAME StepEdgesVolumes
+#define VARIANT_BASE NetworkKernel
+#define VARIANT_TEXT "shaders/solver/leapfrog.comp"
+#define VARIANT_FEATURES WITH_DASHPOT | WITH_EDGE_FORCES | WITH_VOLUME
+#include "solver/cpu/glsl_variant.inc"
 
-struct StepEdgesVolumesCompensated : NetworkKernel {
-  using NetworkKernel::NetworkKernel;
-#define COMPENSATED
-#include "shaders/solver/leapfrog.comp"
-};
-#undef COMPENSATED
-#undef EDGE_FORCES
+#define VARIANT_NAME StepEdgesVolumesCompensated
+#define VARIANT_BASE NetworkKernel
+#define VARIANT_TEXT "shaders/solver/leapfrog.comp"
+#define VARIANT_FEATURES WITH_DASHPOT | WITH_EDGE_FORCES | WITH_VOLUME | WITH_COMPENSATED
+#include "solver/cpu/glsl_variant.inc"
 
-struct Volumes : NetworkKernel {
-  using NetworkKernel::NetworkKernel;
-#include "shaders/solver/volume.comp"
-};
+#define VARIANT_NAME Volumes
+#define VARIANT_BASE NetworkKernel
+#define VARIANT_TEXT "shaders/solver/volume.comp"
+#define VARIANT_FEATURES WITH_DASHPOT | WITH_VOLUME
+#include "solver/cpu/glsl_variant.inc"
 
-struct Place : Kernel {
-  using Kernel::Kernel;
-#include "shaders/solver/lattice.glsl"
-};
+#define VARIANT_NAME Place
+#define VARIANT_BASE Kernel
+#define VARIANT_TEXT "shaders/solver/lattice.glsl"
+#include "solver/cpu/glsl_variant.inc"
 
 /// Where an invocation puts a node's energies, whatever its index.
 struct OneNode {
@@ -101,23 +100,24 @@ struct OneNode {
   vec2& operator[](uint) { return sum; }
 };
 
-struct MeasureVolumes : NetworkKernel {
+struct MeasuringKernel : NetworkKernel {
   using NetworkKernel::NetworkKernel;
   uint count = 0;
   TickStats stats{};
   OneNode energies;
-#include "shaders/solver/measure.comp"
 };
-#undef VOLUME
 
-struct Measure : NetworkKernel {
-  using NetworkKernel::NetworkKernel;
-  uint count = 0;
-  TickStats stats{};
-  OneNode energies;
-#include "shaders/solver/measure.comp"
-};
-#undef DASHPOT
+#define VARIANT_NAME Measure
+#define VARIANT_BASE MeasuringKernel
+#define VARIANT_TEXT "shaders/solver/measure.comp"
+#define VARIANT_FEATURES WITH_DASHPOT
+#include "solver/cpu/glsl_variant.inc"
+
+#define VARIANT_NAME MeasureVolumes
+#define VARIANT_BASE MeasuringKernel
+#define VARIANT_TEXT "shaders/solver/measure.comp"
+#define VARIANT_FEATURES WITH_DASHPOT | WITH_VOLUME
+#include "solver/cpu/glsl_variant.inc"
 
 struct CutKernel : Kernel {
   explicit CutKernel(CpuLattice& lattice)
@@ -135,17 +135,16 @@ struct CutKernel : Kernel {
   } stats;
 };
 
-struct CutLinks : CutKernel {
-  using CutKernel::CutKernel;
-#include "shaders/solver/cut_links.comp"
-};
+#define VARIANT_NAME CutLinks
+#define VARIANT_BASE CutKernel
+#define VARIANT_TEXT "shaders/solver/cut_links.comp"
+#include "solver/cpu/glsl_variant.inc"
 
-struct CutLinksOfParticles : CutKernel {
-  using CutKernel::CutKernel;
-#define PARTICLES
-#include "shaders/solver/cut_links.comp"
-};
-#undef PARTICLES
+#define VARIANT_NAME CutLinksOfParticles
+#define VARIANT_BASE CutKernel
+#define VARIANT_TEXT "shaders/solver/cut_links.comp"
+#define VARIANT_FEATURES WITH_PARTICLES
+#include "solver/cpu/glsl_variant.inc"
 
 }  // namespace
 

@@ -2,37 +2,35 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solver/cpu/pd.h"
 
-#define DASHPOT
-
 namespace viscera {
 
 namespace glsl {
 
 namespace {
 
-struct Sweep : ImplicitKernel {
-  using ImplicitKernel::ImplicitKernel;
-#include "shaders/solver/pd.comp"
-};
+#define VARIANT_NAME Sweep
+#define VARIANT_BASE ImplicitKernel
+#define VARIANT_TEXT "shaders/solver/pd.comp"
+#define VARIANT_FEATURES WITH_DASHPOT
+#include "solver/cpu/glsl_variant.inc"
 
-struct Rate : ImplicitKernel {
-  using ImplicitKernel::ImplicitKernel;
-#define RATE
-#include "shaders/solver/pd.comp"
-};
+#define VARIANT_NAME SweepVolumes
+#define VARIANT_BASE ImplicitKernel
+#define VARIANT_TEXT "shaders/solver/pd.comp"
+#define VARIANT_FEATURES WITH_DASHPOT | WITH_VOLUME
+#include "solver/cpu/glsl_variant.inc"
 
-// With volumes.
-#define VOLUME
-struct RateVolumes : ImplicitKernel {
-  using ImplicitKernel::ImplicitKernel;
-#include "shaders/solver/pd.comp"
-};
+#define VARIANT_NAME Rate
+#define VARIANT_BASE ImplicitKernel
+#define VARIANT_TEXT "shaders/solver/pd.comp"
+#define VARIANT_FEATURES WITH_DASHPOT | WITH_RATE
+#include "solver/cpu/glsl_variant.inc"
 
-struct SweepVolumes : ImplicitKernel {
-  using ImplicitKernel::ImplicitKernel;
-#undef RATE
-#include "shaders/solver/pd.comp"
-};
+#define VARIANT_NAME RateVolumes
+#define VARIANT_BASE ImplicitKernel
+#define VARIANT_TEXT "shaders/solver/pd.comp"
+#define VARIANT_FEATURES WITH_DASHPOT | WITH_RATE | WITH_VOLUME
+#include "solver/cpu/glsl_variant.inc"
 
 }  // namespace
 

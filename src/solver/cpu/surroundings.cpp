@@ -32,41 +32,42 @@ struct ListedKernel : CollisionKernel {
     }                                                                         \
     end(me.slot);                                                             \
   }
-#define MEET
-struct MeetListed : ListedKernel {
-  using ListedKernel::ListedKernel;
-#include "shaders/solver/collision.comp"
-  VISIT_LISTED
-};
-#define STAGGERED
-struct MeetStaggered : CollisionKernel {
-  using CollisionKernel::CollisionKernel;
-#include "shaders/solver/collision.comp"
-};
-#undef MEET
-#define PUSH
-struct PushStaggered : CollisionKernel {
-  using CollisionKernel::CollisionKernel;
-#include "shaders/solver/collision.comp"
-};
-#undef STAGGERED
-struct PushListed : ListedKernel {
-  using ListedKernel::ListedKernel;
-#include "shaders/solver/collision.comp"
-  VISIT_LISTED
-};
-#undef PUSH
+#define VARIANT_NAME MeetListed
+#define VARIANT_BASE ListedKernel
+#define VARIANT_TEXT "shaders/solver/collision_meet.comp"
+#define VARIANT_MEMBERS VISIT_LISTED
+#include "solver/cpu/glsl_variant.inc"
 
-#define PAIRS
-#define STAGGERED
-struct PairsStaggered : CollisionKernel {
+#define VARIANT_NAME PushListed
+#define VARIANT_BASE ListedKernel
+#define VARIANT_TEXT "shaders/solver/collision_push.comp"
+#define VARIANT_MEMBERS VISIT_LISTED
+#include "solver/cpu/glsl_variant.inc"
+#undef VISIT_LISTED
+
+#define VARIANT_NAME MeetStaggered
+#define VARIANT_BASE CollisionKernel
+#define VARIANT_TEXT "shaders/solver/collision_meet.comp"
+#define VARIANT_FEATURES WITH_STAGGERED
+#include "solver/cpu/glsl_variant.inc"
+
+#define VARIANT_NAME PushStaggered
+#define VARIANT_BASE CollisionKernel
+#define VARIANT_TEXT "shaders/solver/collision_push.comp"
+#define VARIANT_FEATURES WITH_STAGGERED
+#include "solver/cpu/glsl_variant.inc"
+
+struct PairsKernel : CollisionKernel {
   using CollisionKernel::CollisionKernel;
   std::vector<CollisionPair>* found = nullptr;
   void addPair(uint a, uint b) { found->push_back({a, b}); }
-#include "shaders/solver/collision.comp"
 };
-#undef STAGGERED
-#undef PAIRS
+
+#define VARIANT_NAME PairsStaggered
+#define VARIANT_BASE PairsKernel
+#define VARIANT_TEXT "shaders/solver/collision_pairs.comp"
+#define VARIANT_FEATURES WITH_STAGGERED
+#include "solver/cpu/glsl_variant.inc"
 
 struct SurroundingsKernel : Kernel {
   using Kernel::Kernel;
@@ -82,18 +83,17 @@ struct SurroundingsKernel : Kernel {
 };
 
 // What a scene does not have does nothing here: no forces, no obstacles, no rings, no corrections.
-#define WIND
-#define BODY_FORCES
-#define OBSTACLES
-struct Surround : SurroundingsKernel {
-  using SurroundingsKernel::SurroundingsKernel;
-#include "shaders/solver/surroundings.comp"
-};
-#define COLLISIONS
-struct SurroundAndCollide : SurroundingsKernel {
-  using SurroundingsKernel::SurroundingsKernel;
-#include "shaders/solver/surroundings.comp"
-};
+#define VARIANT_NAME Surround
+#define VARIANT_BASE SurroundingsKernel
+#define VARIANT_TEXT "shaders/solver/surroundings.comp"
+#define VARIANT_FEATURES WITH_WIND | WITH_BODY_FORCES | WITH_OBSTACLES
+#include "solver/cpu/glsl_variant.inc"
+
+#define VARIANT_NAME SurroundAndCollide
+#define VARIANT_BASE SurroundingsKernel
+#define VARIANT_TEXT "shaders/solver/surroundings.comp"
+#define VARIANT_FEATURES WITH_WIND | WITH_BODY_FORCES | WITH_OBSTACLES | WITH_COLLISIONS
+#include "solver/cpu/glsl_variant.inc"
 
 }  // namespace
 

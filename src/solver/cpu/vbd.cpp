@@ -2,24 +2,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solver/cpu/vbd.h"
 
-#define DASHPOT
-
 namespace viscera {
 
 namespace glsl {
 
 namespace {
 
-struct Descend : ImplicitKernel {
-  using ImplicitKernel::ImplicitKernel;
-#include "shaders/solver/vbd.comp"
-};
+#define VARIANT_NAME Descend
+#define VARIANT_BASE ImplicitKernel
+#define VARIANT_TEXT "shaders/solver/vbd.comp"
+#define VARIANT_FEATURES WITH_DASHPOT
+#include "solver/cpu/glsl_variant.inc"
 
-#define VOLUME
-struct DescendVolumes : ImplicitKernel {
-  using ImplicitKernel::ImplicitKernel;
-#include "shaders/solver/vbd.comp"
-};
+#define VARIANT_NAME DescendVolumes
+#define VARIANT_BASE ImplicitKernel
+#define VARIANT_TEXT "shaders/solver/vbd.comp"
+#define VARIANT_FEATURES WITH_DASHPOT | WITH_VOLUME
+#include "solver/cpu/glsl_variant.inc"
 
 }  // namespace
 

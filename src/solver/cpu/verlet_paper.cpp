@@ -15,41 +15,40 @@ struct PositionKernel : Kernel {
   uint cell_count = 0;
 };
 
-struct Rebuild : PositionKernel {
-  using PositionKernel::PositionKernel;
-#define REBUILD
-#include "shaders/solver/verlet_paper.comp"
-};
+#define VARIANT_NAME Rebuild
+#define VARIANT_BASE PositionKernel
+#define VARIANT_TEXT "shaders/solver/verlet_paper.comp"
+#define VARIANT_FEATURES WITH_REBUILD
+#include "solver/cpu/glsl_variant.inc"
 
-struct Advance : PositionKernel {
-  using PositionKernel::PositionKernel;
-#undef REBUILD
-#include "shaders/solver/verlet_paper.comp"
-};
+#define VARIANT_NAME Advance
+#define VARIANT_BASE PositionKernel
+#define VARIANT_TEXT "shaders/solver/verlet_paper.comp"
+#include "solver/cpu/glsl_variant.inc"
 
-struct AdvanceWithTools : PositionKernel {
-  using PositionKernel::PositionKernel;
-#define TOOLS
-#include "shaders/solver/verlet_paper.comp"
-};
+#define VARIANT_NAME AdvanceWithTools
+#define VARIANT_BASE PositionKernel
+#define VARIANT_TEXT "shaders/solver/verlet_paper.comp"
+#define VARIANT_FEATURES WITH_TOOLS
+#include "solver/cpu/glsl_variant.inc"
 
-// With volumes.
-#define VOLUME
-struct AdvanceWithToolsVolumes : PositionKernel {
-  using PositionKernel::PositionKernel;
-#include "shaders/solver/verlet_paper.comp"
-};
+#define VARIANT_NAME AdvanceVolumes
+#define VARIANT_BASE PositionKernel
+#define VARIANT_TEXT "shaders/solver/verlet_paper.comp"
+#define VARIANT_FEATURES WITH_VOLUME
+#include "solver/cpu/glsl_variant.inc"
 
-struct AdvanceVolumes : PositionKernel {
-  using PositionKernel::PositionKernel;
-#undef TOOLS
-#include "shaders/solver/verlet_paper.comp"
-};
+#define VARIANT_NAME AdvanceWithToolsVolumes
+#define VARIANT_BASE PositionKernel
+#define VARIANT_TEXT "shaders/solver/verlet_paper.comp"
+#define VARIANT_FEATURES WITH_TOOLS | WITH_VOLUME
+#include "solver/cpu/glsl_variant.inc"
 
-struct Volumes : PositionKernel {
-  using PositionKernel::PositionKernel;
-#include "shaders/solver/volume.comp"
-};
+#define VARIANT_NAME Volumes
+#define VARIANT_BASE PositionKernel
+#define VARIANT_TEXT "shaders/solver/volume.comp"
+#define VARIANT_FEATURES WITH_VOLUME
+#include "solver/cpu/glsl_variant.inc"
 
 }  // namespace
 

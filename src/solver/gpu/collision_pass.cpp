@@ -20,31 +20,30 @@ CollisionPass::CollisionPass(const Model& model, const Scene& scene, const Featu
   const auto stage = [&features, this](const char* name) {
     std::vector<std::string> defines = features.defines();
     if (config_.search == CollisionSearch::kStaggered) defines.push_back("STAGGERED");
-    defines.push_back(name);
-    return gpu::Program::compute("collision.comp", defines);
+    return gpu::Program::compute(name, defines);
   };
   const size_t nodes = buffers.active_count;
   if (config_.search == CollisionSearch::kGrid) {
-    count_ = stage("COUNT");
-    place_ = stage("PLACE");
-    scatter_ = stage("SCATTER");
-    order_ = stage("ORDER");
+    count_ = stage("collision_count.comp");
+    place_ = stage("collision_place.comp");
+    scatter_ = stage("collision_scatter.comp");
+    order_ = stage("collision_order.comp");
     bucket_count_ = bucketCount(nodes);
     buckets_ = gpu::Buffer<uint32_t>(3 * size_t{bucket_count_} + 1);
     unsorted_ = gpu::Buffer<uint32_t>(nodes);
     entries_ = gpu::Buffer<layout::uvec4>(nodes);
     before_ = gpu::Buffer<layout::vec4>(nodes);
   } else {
-    list_ = stage("LIST");
-    exchange_ = stage("EXCHANGE");
-    rank_ = stage("RANK");
+    list_ = stage("collision_list.comp");
+    exchange_ = stage("collision_exchange.comp");
+    rank_ = stage("collision_rank.comp");
     sorted_ = sortedCount(nodes);
     items_ = gpu::Buffer<std::array<uint32_t, 2>>(static_cast<size_t>(config_.partitions) * sorted_);
     ranks_ = gpu::Buffer<uint32_t>(static_cast<size_t>(config_.partitions) * buffers.slot_count);
   }
-  meet_ = stage("MEET");
-  push_ = stage("PUSH");
-  pairs_ = stage("PAIRS");
+  meet_ = stage("collision_meet.comp");
+  push_ = stage("collision_push.comp");
+  pairs_ = stage("collision_pairs.comp");
 }
 
 void CollisionPass::bind() const {

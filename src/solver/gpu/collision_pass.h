@@ -14,7 +14,7 @@
 namespace viscera {
 
 /// Contacts between nodes: finds pairs and says what they do to either node (collision.h). Owner of
-/// shaders/solver/collision.comp.
+/// shaders/solver/collision_*.comp.
 class CollisionPass {
  public:
   CollisionPass(const Model& model, const Scene& scene, const FeatureSet& features, const LatticeBuffers& buffers);

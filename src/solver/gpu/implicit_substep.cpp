@@ -10,7 +10,7 @@ namespace viscera {
 
 namespace {
 
-constexpr size_t kEnergiesPerNode = 2;  // implicit.comp: ENERGIES_PER_NODE
+constexpr size_t kEnergiesPerNode = 2;  // shares.glsl: ENERGIES_PER_NODE
 
 }  // namespace
 
@@ -27,20 +27,18 @@ ImplicitSubstep::ImplicitSubstep(const FeatureSet& features, const LatticeBuffer
       energies_(kEnergiesPerNode * (buffers.active_count + sumTreeSize(buffers.active_count))),
       group_size_(features.group_size) {
   const auto stage = [&](const char* name, bool tools = false) {
-    std::vector<std::string> all = defines(features, name);
-    if (tools) all.push_back("TOOLS");
-    return gpu::Program::compute("implicit.comp", all);
+    return gpu::Program::compute(name, defines(features, tools ? "TOOLS" : nullptr));
   };
-  begin_ = stage("BEGIN");
-  guess_ = stage("GUESS");
-  fold_ = stage("FOLD");
-  scale_ = stage("SCALE");
-  end_ = stage("END");
+  begin_ = stage("implicit_begin.comp");
+  guess_ = stage("implicit_guess.comp");
+  fold_ = stage("implicit_fold.comp");
+  scale_ = stage("implicit_scale.comp");
+  end_ = stage("implicit_end.comp");
   if (features.tools) {
-    begin_with_tools_ = stage("BEGIN", true);
-    end_with_tools_ = stage("END", true);
+    begin_with_tools_ = stage("implicit_begin.comp", true);
+    end_with_tools_ = stage("implicit_end.comp", true);
   }
-  if (features.volume) cells_ = stage("CELLS");
+  if (features.volume) cells_ = stage("implicit_cells.comp");
   for (int i = 0; i < iterates; ++i) {
     increments_[i] = gpu::Buffer<layout::vec4>(buffers.slot_count);
     increment_texels_[i] = gpu::TexelView(increments_[i].raw(), gpu::TexelFormat::kRgba32f);

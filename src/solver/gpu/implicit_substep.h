@@ -7,7 +7,7 @@
 namespace viscera {
 
 /// Start and end of a substep of implicit Euler and the increments du = u+ - u in between, which vbd and pd iterate
-/// (shaders/solver/implicit.glsl has the equations). Owner of shaders/solver/implicit.comp.
+/// (shaders/solver/implicit.glsl has the equations). Owner of shaders/solver/implicit_*.comp.
 class ImplicitSubstep {
  public:
   /// @param iterations  at most, in a substep   @param iterates  that are kept: 1 (vbd, in place) or 2 (pd)

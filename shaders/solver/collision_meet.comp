@@ -1,0 +1,25 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// collision_meet.comp - sums each node's contacts, whichever search found them.
+// Owner: solver/gpu/collision_pass.h   physics.md 8
+// out  contacts [slots]
+#include "collision_search.glsl"
+
+vec3 direction_sum = vec3(0.0f);
+float contact_count = 0.0f;
+
+void visit(Entry me, Entry other, float wanted) {
+  bool first = me.slot < other.slot;
+  vec3 direction = first ? directionBetween(me, other) : -directionBetween(other, me);
+  direction_sum += (wanted - distance(me.x, other.x)) * direction;
+  contact_count += 1.0f;
+}
+bool isAlone(uint slot) { return false; }
+void begin() {
+  direction_sum = vec3(0.0f);
+  contact_count = 0.0f;
+}
+void end(uint slot) { contacts[slot] = vec4(direction_sum, contact_count); }
+
+#include "collision_visit.glsl"

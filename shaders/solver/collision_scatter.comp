@@ -1,0 +1,17 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// collision_scatter.comp - complete search, third: nodes into their buckets.
+// Owner: solver/gpu/collision_pass.h   physics.md 8
+// in  buckets     out  unsorted
+#include "collision_search.glsl"
+
+void main() {
+  uint i = globalIndex();
+  if (i >= active_count) return;
+  uint slot = active_nodes[i];
+  vec3 x = positionOf(slot);
+  if (!collides(slot, nodes[slot], x)) return;
+  uint b = bucketOf(x);
+  unsorted[buckets[3u * b + 1u] + atomicAdd(buckets[3u * b + 2u], 1u)] = slot;
+}

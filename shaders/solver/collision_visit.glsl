@@ -1,0 +1,61 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// main() of the kernels that go through each node's contacts: after collision_search.glsl and
+//   bool isAlone(uint slot)  nobody need be searched for
+//   void begin()   void visit(Entry me, Entry other, float wanted)  of every contact   void end(uint slot)
+void consider(Entry me, Entry other) {
+  float wanted = touchDistance(me, other);
+  if (wanted > 0.0f) visit(me, other, wanted);
+}
+
+#ifndef STAGGERED
+/// Different cells may share a bucket: whoever is in one says which cell it is in.
+void visitCell(Entry me, ivec3 cell) {
+  uint b = hashOf(cell) & (bucket_count - 1u);
+  uint first = buckets[3u * b + 1u], end = first + buckets[3u * b];
+  for (uint e = first; e < end; ++e) {
+    uvec4 at = entries[e];
+    vec3 x = uintBitsToFloat(uvec3(at.x, at.y, at.z)), apart = me.x - x;
+    if (at.w == me.slot || dot(apart, apart) >= cell_m * cell_m) continue;  // most of them
+    if (cellOf(x, 0.0f) == cell) consider(me, entryAt(e));
+  }
+}
+
+void visitCells(Entry me) {
+  ivec3 cell = cellOf(me.x, 0.0f);
+  for (int z = -1; z <= 1; ++z) {
+    for (int y = -1; y <= 1; ++y) {
+      for (int x = -1; x <= 1; ++x) visitCell(me, cell + ivec3(x, y, z));
+    }
+  }
+}
+
+void main() {
+  uint e = globalIndex();
+  if (e >= buckets[3u * bucket_count]) return;
+  Entry me = entryAt(e);
+  begin();
+  if (!isAlone(me.slot)) visitCells(me);
+  end(me.slot);
+}
+#else
+void main() {
+  uint e = globalIndex();
+  if (e >= sorted_count) return;
+  if (items[e].y == 0xffffffffu) return;
+  Entry me = entryOf(items[e].y);
+  begin();
+  uint searched = isAlone(me.slot) ? 0u : partitions;
+  for (uint p = 0u; p < searched; ++p) {
+    int rank = int(ranks[p * slot_count + me.slot]), last = int(sorted_count) - 1;
+    for (int r = max(rank - int(window), 0); r <= min(rank + int(window), last); ++r) {
+      uint slot = items[p * sorted_count + uint(r)].y;
+      if (slot == 0xffffffffu || slot == me.slot) continue;
+      Entry other = entryOf(slot);
+      if (near(p, me.slot, me.x, slot, other.x) && !foundBefore(p, me, other)) consider(me, other);
+    }
+  }
+  end(me.slot);
+}
+#endif

@@ -1,0 +1,84 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// implicit_guess.comp - per node, for four shares of the increments at once: the incremental potential P, and kinetic + elastic
+// energy less the work of gravity.   Owner: solver/gpu/implicit_substep.h   physics.md 2
+// in  displacement, velocity, increments [slots]     out  energies [2 * active], which implicit_fold.comp sums
+#include "layout.h"
+#include "lattice.glsl"
+#include "elastic.glsl"
+#include "step.glsl"
+#include "implicit.glsl"
+#include "shares.glsl"
+#ifdef VOLUME
+#include "corners.glsl"
+#endif
+
+#ifndef __cplusplus
+layout(std430, binding = kBindPartials) writeonly buffer PartialsBuffer { vec4 energies[]; };
+#endif
+
+vec3 share(vec4 du, int c) { return du.w != 0.0f ? xyz(du) : kShares[c] * xyz(du); }
+
+#ifdef VOLUME
+/// Energy of a cell for the four shares.
+vec4 cellEnergies(uint slot, BodyParams body) {
+  vec3 u[8];
+  vec4 du[8];
+  for (uint c = 0u; c < 8u; ++c) {
+    int corner = int(cornerSlot(slot, c));
+    u[c] = xyz(texelFetch(displacement, corner));
+    du[c] = texelFetch(increment, corner);
+  }
+  vec4 sum = vec4(0.0f);
+  for (int g = 0; g < 4; ++g) {
+    vec3 at[8], edge_lengths;
+    for (int c = 0; c < 8; ++c) at[c] = u[c] + share(du[c], g);
+    sum[g] = volumeEnergy(cellBulk(slot, body), shapeOf(at, body.origin_spacing.w, edge_lengths).e);
+  }
+  return sum;
+}
+#endif
+
+/// Adds a spring's elastic energy and what its dashpot adds to P, for the four shares.
+/// @param near, far  increments of its ends   @param w  u_far - u_near   @param d, l0, prestrain  at rest
+void addSpring(vec4 near, vec4 far, vec3 w, vec3 d, float l0, float prestrain, float k, float damping, INOUT(vec4) elastic, INOUT(vec4) damped) {
+  for (int c = 0; c < 4; ++c) {
+    vec3 along = share(far, c) - share(near, c);
+    Spring s = springBetween(d, l0, prestrain, w + along);
+    float rate = dot(s.direction, along);
+    elastic[c] += 0.5f * k * s.extension * s.extension;
+    damped[c] += 0.5f * damping * rate * rate;
+  }
+}
+
+void main() {
+  uint i = globalIndex();
+  if (i >= active_count) return;
+  uint slot = active_nodes[i];
+  NodeBits bits = nodes[slot];
+  BodyParams body = bodies[bodyOf(bits)];
+  float mass = nodeMass(slot, bits, body);
+  vec4 du = texelFetch(increment, int(slot));
+  vec3 u = xyz(texelFetch(displacement, int(slot)));
+  vec4 elastic = vec4(0.0f), potential = vec4(0.0f), motion = vec4(0.0f);
+  if (du.w == 0.0f) {
+    vec3 y = freeIncrement(slot, body), v = xyz(texelFetch(velocity, int(slot)));
+    for (int c = 0; c < 4; ++c) {
+      vec3 way = share(du, c), off = way - y;
+      potential[c] = 0.5f * inertia(mass, body) * dot(off, off);
+      motion[c] = 0.5f * mass * dot(way, way) / (dt_s * dt_s) - mass * dot(gravity, way);
+    }
+    motion[0] = 0.5f * mass * dot(v, v);
+  }
+#define VISIT_LINK                                                                                              \
+  if (counted) addSpring(du, texelFetch(increment, int(n)), xyz(texelFetch(displacement, int(n))) - u, d, l0,     \
+                         prestrain, k, damping(k, body), elastic, potential);
+  FOR_EACH_LINK
+#undef VISIT_LINK
+#ifdef VOLUME
+  if ((bits.lo & kCellBit) != 0u) elastic += cellEnergies(slot, body);
+#endif
+  energies[ENERGIES_PER_NODE * i] = potential + elastic;
+  energies[ENERGIES_PER_NODE * i + 1u] = motion + elastic;
+}

@@ -1,0 +1,23 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// Features of shaders that are compiled as C++, as VARIANT_FEATURES of
+// glsl_variant.inc: bits, as the preprocessor can ask for them, that C++ knows
+// too, so that one that is not there is an error. WITH_X defines X.
+#define WITH_NOTHING 0
+#define WITH_BODY_FORCES (1 << 0)
+#define WITH_COLLISIONS (1 << 1)
+#define WITH_COMPENSATED (1 << 2)
+#define WITH_CUT (1 << 3)
+#define WITH_DASHPOT (1 << 4)
+#define WITH_EDGE_FORCES (1 << 5)
+#define WITH_OBSTACLES (1 << 6)
+#define WITH_PARTICLES (1 << 7)
+#define WITH_RATE (1 << 8)
+#define WITH_REBUILD (1 << 9)
+#define WITH_RELEASE (1 << 10)
+#define WITH_STAGGERED (1 << 11)
+#define WITH_TOOLS (1 << 12)
+#define WITH_VOLUME (1 << 13)
+#define WITH_WIND (1 << 14)
