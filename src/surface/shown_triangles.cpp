@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "layout.h"
+#include "viscera/layout/skin.h"
 
 namespace viscera {
 

@@ -12,7 +12,7 @@
 namespace viscera {
 
 /// Appends what is shown of one triangle: three vertex indices per piece, counter-clockwise from outside.
-/// Twin of shaders/split_triangles.comp.
+/// Twin of shaders/surface/split_triangles.comp.
 /// @param corners  [3] its vertices
 /// @param splits   [6] split vertices on the edges 01, 12, 20, first the one beside the edge's first corner; null where
 ///                 nothing can split

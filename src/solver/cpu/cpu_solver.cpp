@@ -215,7 +215,7 @@ void CpuSolver::measure() {
   stats_ = out;
 }
 
-/// Largest (2 sum k + volume) / m of a node that is not fixed [1/s2] (physics.md 2; shaders/measure.comp).
+/// Largest (2 sum k + volume) / m of a node that is not fixed [1/s2] (physics.md 2; shaders/solver/measure.comp).
 float CpuSolver::largestRate() const {
   float largest = 0;
   for (uint32_t slot : lattice_.active) {

@@ -15,7 +15,7 @@ namespace {
 constexpr size_t kMostBricksPerJob = 16;  // of a substep: about 10 us of work
 constexpr size_t kJobsPerThread = 8;      // at least, where there are bricks enough: whoever is free takes the next
 
-/// What tools do to a node in the substep that was just made (shaders/contact.glsl).
+/// What tools do to a node in the substep that was just made (shaders/solver/contact.glsl).
 void touchNode(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions, uint32_t slot) {
   const float* now = lattice.displacement[lattice.current].data();
   float* const u = lattice.displacement[1 - lattice.current].data();
