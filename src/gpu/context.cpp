@@ -94,6 +94,49 @@ Context::Context(int only) {
   throw GpuError(message);
 }
 
+namespace {
+
+/// A context that is current, on a display that is initialised; EGL_NO_CONTEXT, the display closed and `reason` told
+/// otherwise.
+EGLContext openContext(EGLDisplay display, std::string& reason) {
+  const EGLint config_wishes[] = {EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
+  const EGLint context_wishes[] = {
+      EGL_CONTEXT_MAJOR_VERSION,           4,       EGL_CONTEXT_MINOR_VERSION, 5, EGL_CONTEXT_OPENGL_PROFILE_MASK,
+      EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
+  EGLConfig config = nullptr;
+  EGLint configs = 0;
+  EGLContext context = EGL_NO_CONTEXT;
+  if (!eglBindAPI(EGL_OPENGL_API)) {
+    reason = eglFailure("eglBindAPI(EGL_OPENGL_API)");
+  } else if (!eglChooseConfig(display, config_wishes, &config, 1, &configs) || configs == 0) {
+    reason = eglFailure("eglChooseConfig");
+  } else if ((context = eglCreateContext(display, config, EGL_NO_CONTEXT, context_wishes)) == EGL_NO_CONTEXT) {
+    reason = eglFailure("eglCreateContext(OpenGL 4.5 core)");
+  } else if (!eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context)) {
+    reason = eglFailure("eglMakeCurrent(no surface)");
+    eglDestroyContext(display, context);
+    context = EGL_NO_CONTEXT;
+  }
+  if (context == EGL_NO_CONTEXT) eglTerminate(display);
+  return context;
+}
+
+/// Loads the functions of the current context. @return what is wrong; empty: nothing
+std::string loadFunctions() {
+  glewExperimental = GL_TRUE;
+  const GLenum glew = glewInit();
+  // GLEW 2.2 asks GLX for a display after it has loaded the entry points; on EGL there is none, and that is all right.
+  if (glew != GLEW_OK && glew != GLEW_ERROR_NO_GLX_DISPLAY) {
+    return std::string("glewInit failed: ") + reinterpret_cast<const char*>(glewGetErrorString(glew));
+  }
+  if (!glDispatchCompute || !glCreateBuffers || !glBufferStorage) return "the driver lacks OpenGL 4.5 entry points";
+  while (glGetError() != GL_NO_ERROR) {
+  }  // glewInit may leave GL_INVALID_ENUM behind on a core context
+  return "";
+}
+
+}  // namespace
+
 bool Context::open(int index, void* device, DeviceAttempt& attempt) {
   (void)index;
   auto platform_display = eglFunction<PFNEGLGETPLATFORMDISPLAYEXTPROC>("eglGetPlatformDisplayEXT");
@@ -107,44 +150,15 @@ bool Context::open(int index, void* device, DeviceAttempt& attempt) {
     attempt.reason = eglFailure("eglInitialize");
     return false;
   }
-  const EGLint config_wishes[] = {EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
-  const EGLint context_wishes[] = {
-      EGL_CONTEXT_MAJOR_VERSION,           4,       EGL_CONTEXT_MINOR_VERSION, 5, EGL_CONTEXT_OPENGL_PROFILE_MASK,
-      EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
-  EGLConfig config = nullptr;
-  EGLint configs = 0;
-  EGLContext context = EGL_NO_CONTEXT;
-  if (!eglBindAPI(EGL_OPENGL_API)) {
-    attempt.reason = eglFailure("eglBindAPI(EGL_OPENGL_API)");
-  } else if (!eglChooseConfig(display, config_wishes, &config, 1, &configs) || configs == 0) {
-    attempt.reason = eglFailure("eglChooseConfig");
-  } else if ((context = eglCreateContext(display, config, EGL_NO_CONTEXT, context_wishes)) == EGL_NO_CONTEXT) {
-    attempt.reason = eglFailure("eglCreateContext(OpenGL 4.5 core)");
-  } else if (!eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context)) {
-    attempt.reason = eglFailure("eglMakeCurrent(no surface)");
-    eglDestroyContext(display, context);
-    context = EGL_NO_CONTEXT;
-  }
-  if (context == EGL_NO_CONTEXT) {
-    eglTerminate(display);
-    return false;
-  }
-  glewExperimental = GL_TRUE;
-  const GLenum glew = glewInit();
-  // GLEW 2.2 asks GLX for a display after it has loaded the entry points; on EGL there is none, and that is all right.
-  if (glew != GLEW_OK && glew != GLEW_ERROR_NO_GLX_DISPLAY) {
-    attempt.reason = std::string("glewInit failed: ") + reinterpret_cast<const char*>(glewGetErrorString(glew));
-  } else if (!glDispatchCompute || !glCreateBuffers || !glBufferStorage) {
-    attempt.reason = "the driver lacks OpenGL 4.5 entry points";
-  }
+  const EGLContext context = openContext(display, attempt.reason);
+  if (context == EGL_NO_CONTEXT) return false;
+  attempt.reason = loadFunctions();
   if (!attempt.reason.empty()) {
     eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
     eglDestroyContext(display, context);
     eglTerminate(display);
     return false;
   }
-  while (glGetError() != GL_NO_ERROR) {
-  }  // glewInit may leave GL_INVALID_ENUM behind on a core context
   display_ = display;
   context_ = context;
   renderer_ = reinterpret_cast<const char*>(glGetString(GL_RENDERER));

@@ -1,0 +1,32 @@
+# Copyright (c) 2026, the viscera authors
+# SPDX-License-Identifier: BSD-3-Clause
+# The catkin package: messages, services, what other packages find. Only where catkin and roscpp are; everything else builds
+# without them. Before any target: what catkin puts on a whole folder (definitions, include paths, output folders) is
+# taken off again and given to the nodes alone, so that the core is compiled alike with and without ROS.
+# ROS's Python modules belong to the distribution's interpreter; a pyenv or conda that comes first in PATH lacks them.
+find_program(PYTHON_EXECUTABLE python3 PATHS /usr/bin NO_DEFAULT_PATH)
+set(Python3_EXECUTABLE ${PYTHON_EXECUTABLE})
+find_package(catkin QUIET)
+find_package(roscpp QUIET)
+if(NOT catkin_FOUND OR NOT roscpp_FOUND)
+  message(STATUS "catkin or roscpp not found: the ROS nodes are left out")
+  return()
+endif()
+set(VISCERA_ROS_DEPENDS diagnostic_updater geometry_msgs image_transport roscpp roslib sensor_msgs std_msgs std_srvs
+    tf2_ros visualization_msgs)
+find_package(catkin REQUIRED COMPONENTS message_generation ${VISCERA_ROS_DEPENDS})
+
+add_message_files(FILES SurfaceTopology.msg SurfaceVertices.msg)
+add_service_files(FILES Step.srv)
+generate_messages(DEPENDENCIES std_msgs)
+set(EIGEN3_INCLUDE_DIRS ${EIGEN3_INCLUDE_DIR})
+# What the nodes use besides is not asked of whoever uses the library or the messages.
+catkin_package(INCLUDE_DIRS include LIBRARIES viscera_core CATKIN_DEPENDS message_runtime std_msgs
+               DEPENDS EIGEN3 CFG_EXTRAS viscera-extras.cmake)
+
+get_directory_property(VISCERA_ROS_DEFINITIONS COMPILE_DEFINITIONS)
+set(VISCERA_NODE_FOLDER ${CMAKE_RUNTIME_OUTPUT_DIRECTORY})
+unset(CMAKE_RUNTIME_OUTPUT_DIRECTORY)
+unset(CMAKE_LIBRARY_OUTPUT_DIRECTORY)
+unset(CMAKE_ARCHIVE_OUTPUT_DIRECTORY)
+set(VISCERA_WITH_ROS ON)
