@@ -15,7 +15,6 @@ namespace viscera::bench {
 namespace {
 
 constexpr double kFixedZero = 128.0 / 255;
-constexpr uint32_t kEndUniform = 0, kSizeUniform = 1, kFactorUniform = 2;
 
 GLenum internalFormat(BlendFormat format) {
   switch (format) {
@@ -99,8 +98,8 @@ void BlendTarget::bindTexture(uint32_t unit) const {
 
 void BlendTarget::draw(size_t springs, uint32_t end, double sign) const {
   const double at_end = end == 0 ? 1 : -1;  // what pulls a one way pulls b the other
-  glUniform1ui(kEndUniform, end);
-  glUniform1f(kFactorUniform, static_cast<float>(at_end * sign / scale_n_));
+  program_.set("end", end);
+  program_.set("factor", static_cast<float>(at_end * sign / scale_n_));
   glBlendEquation(sign > 0 ? GL_FUNC_ADD : GL_FUNC_REVERSE_SUBTRACT);
   glDrawArrays(GL_POINTS, 0, static_cast<GLsizei>(springs));
 }
@@ -113,7 +112,7 @@ void BlendTarget::add(size_t springs) {
   glClearBufferfv(GL_COLOR, 0, clear);
   glBindVertexArray(vertices_);
   program_.use();
-  glUniform2ui(kSizeUniform, width_, height_);
+  program_.set("size", width_, height_);
   glEnable(GL_BLEND);
   glEnable(GL_PROGRAM_POINT_SIZE);
   glBlendFunc(GL_ONE, GL_ONE);

@@ -8,12 +8,12 @@
 
 layout(binding = kUnitVelocity) uniform samplerBuffer velocity;  // in the format of displacement
 layout(binding = kUnitInverseMass) uniform samplerBuffer inverse_mass;  // r32f [nodes] 1/kg; 0 where fixed
-layout(location = 1) uniform float dt_s;
-layout(location = 2) uniform float kick_s;
-layout(location = 3) uniform float drag_per_s;
-layout(location = 4) uniform vec3 gravity;
+uniform float dt_s;
+uniform float kick_s;
+uniform float drag_per_s;
+uniform vec3 gravity;
 #ifdef TARGET
-layout(location = 5) uniform vec2 decoding;  // x force of the value 1 [N]; y value that stands for no force
+uniform vec2 decoding;  // x force of the value 1 [N]; y value that stands for no force
 layout(binding = kUnitForces) uniform sampler2D target;
 vec3 forceOn(uint node) {
   uint width = uint(textureSize(target, 0).x);

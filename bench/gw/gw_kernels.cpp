@@ -17,9 +17,6 @@ namespace viscera::bench {
 
 namespace {
 
-constexpr int kCountUniform = 0, kNeighbourUniform = 1;
-constexpr int kDtUniform = 1, kKickUniform = 2, kDragUniform = 3, kGravityUniform = 4, kDecodingUniform = 5;
-
 gpu::Program compile(const std::string& name, std::vector<std::string> defines = {}) {
   defines.push_back("GROUP_SIZE " + std::to_string(layout::kGroupSize));
   defines.emplace_back("NETWORK");
@@ -28,7 +25,7 @@ gpu::Program compile(const std::string& name, std::vector<std::string> defines =
 
 void run(const gpu::Program& program, size_t invocations) {
   program.use();
-  program.set(kCountUniform, static_cast<uint32_t>(invocations));
+  program.set("count", static_cast<uint32_t>(invocations));
   gpu::Program::dispatch(invocations, layout::kGroupSize);
   gpu::Program::storageBarrier();
 }
@@ -164,7 +161,7 @@ void GwKernels::pointPasses() {
   forces_.bindStorage(0);
   order_.bindStorage(1);
   for (uint32_t pass = 0; pass < with_valence_above_.size(); ++pass) {
-    point_pass_.set(kNeighbourUniform, pass);
+    point_pass_.set("neighbour", pass);
     run(point_pass_, with_valence_above_[pass]);
   }
 }
@@ -219,14 +216,11 @@ void GwKernels::integrate(const GwMotion& motion, const BlendTarget* target) {
   const gpu::Program& program = target ? integrate_target_ : integrate_;
   const auto dt_s = static_cast<float>(motion.dt_s);
   const Eigen::Vector3f gravity = motion.gravity_m_per_s2.cast<float>();
-  program.set(kDtUniform, dt_s);
-  program.set(kKickUniform, first_ ? 0.5F * dt_s : dt_s);
-  program.set(kDragUniform, static_cast<float>(network_.body().material.drag_per_s));
-  program.set(kGravityUniform, {gravity.x(), gravity.y(), gravity.z()});
-  if (target) {
-    glProgramUniform2f(program.id(), kDecodingUniform, static_cast<float>(target->scale_n()),
-                       static_cast<float>(target->zero()));
-  }
+  program.set("dt_s", dt_s);
+  program.set("kick_s", first_ ? 0.5F * dt_s : dt_s);
+  program.set("drag_per_s", static_cast<float>(network_.body().material.drag_per_s));
+  program.set("gravity", {gravity.x(), gravity.y(), gravity.z()});
+  if (target) program.set("decoding", {static_cast<float>(target->scale_n()), static_cast<float>(target->zero())});
   run(program, network_.slots());
   current_ = 1 - current_;
   first_ = false;

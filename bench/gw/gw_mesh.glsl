@@ -5,7 +5,7 @@
 #include "gw_link.glsl"
 
 layout(local_size_x = GROUP_SIZE) in;
-layout(location = 0) uniform uint count;  // invocations wanted
+uniform uint count;  // invocations wanted
 
 /// Index of this invocation over all groups (gpu/program.cpp folds many groups into rows).
 uint globalIndex() {

@@ -10,7 +10,7 @@
 layout(std430, binding = 0) buffer Forces { vec4 forces[]; };
 #ifdef ONE_NEIGHBOUR
 layout(std430, binding = 1) readonly buffer Order { uint by_valence[]; };
-layout(location = 1) uniform uint neighbour;  // number of this pass
+uniform uint neighbour;  // number of this pass
 #endif
 
 void main() {

@@ -9,9 +9,9 @@
 
 layout(binding = kUnitSprings) uniform usamplerBuffer springs;  // SpringEnds
 layout(binding = kUnitLinkForces) uniform samplerBuffer spring_forces;
-layout(location = 0) uniform uint end;      // 0: a, 1: b
-layout(location = 1) uniform uvec2 size;    // of the target [px]
-layout(location = 2) uniform float factor;  // of the force in the colour [1/N], with the sign
+uniform uint end;      // 0: a, 1: b
+uniform uvec2 size;    // of the target [px]
+uniform float factor;  // of the force in the colour [1/N], with the sign
 out vec3 color;
 
 void main() {

@@ -5,7 +5,7 @@
 // out  results [invocations]
 layout(local_size_x = GROUP_SIZE) in;
 layout(std430, binding = 0) writeonly buffer Results { vec4 results[]; };
-layout(location = 0) uniform int rounds;
+uniform int rounds;
 
 void main() {
   // Eight chains side by side hide the latency of one.

@@ -51,8 +51,8 @@ double gpuFmaRate(double seconds) {
   gpu::Buffer<layout::vec4> out(kInvocations);
   program.use();
   out.bindStorage(0);
-  const auto run = [](int rounds) {
-    glUniform1i(0, rounds);
+  const auto run = [&program](int rounds) {
+    program.set("rounds", rounds);
     gpu::Program::dispatch(kInvocations, layout::kGroupSize);
   };
   int rounds = 64;

@@ -6,8 +6,8 @@
 layout(location = 0) in vec3 mesh_position_m;
 layout(location = 1) in vec3 mesh_normal;
 layout(location = 2) in vec4 mesh_color;
-layout(location = 0) uniform mat4 optical_from_mesh;
-layout(location = 1) uniform mat4 clip_from_optical;
+uniform mat4 optical_from_mesh;
+uniform mat4 clip_from_optical;
 out vec3 position_m;
 out vec3 normal;
 out vec4 color;

@@ -5,9 +5,9 @@
 #include "layout.h"
 #include "shading.glsl"
 
-layout(location = 2) uniform int shafts;  // tools that cast a shadow
-layout(location = 3) uniform vec4 shaft_tips[kMaxStyluses];  // xyz m; w radius of a ball at the tip [m]
-layout(location = 3 + kMaxStyluses) uniform vec4 shaft_ends[kMaxStyluses];  // xyz m; w radius of the shaft [m]
+uniform int shafts;  // tools that cast a shadow
+uniform vec4 shaft_tips[kMaxStyluses];  // xyz m; w radius of a ball at the tip [m]
+uniform vec4 shaft_ends[kMaxStyluses];  // xyz m; w radius of the shaft [m]
 in vec3 position_m;
 in vec3 normal;
 in vec4 color;

@@ -5,18 +5,18 @@
 // physics.md 8). After lattice.glsl and elastic.glsl.
 // Feature: STAGGERED (GW's partitions instead of the complete grid).
 #ifndef __cplusplus
-layout(location = 0) uniform uint active_count;
-layout(location = 1) uniform float dt_s;
-layout(location = 2) uniform float push_speed;     // m/s
-layout(location = 3) uniform float resting_speed;  // m/s: nothing that comes slower bounces
-layout(location = 4) uniform float cell_m;
-layout(location = 5) uniform uint bucket_count;    // power of 2
-layout(location = 6) uniform float friction;
-layout(location = 7) uniform float restitution;
-layout(location = 8) uniform uint partitions;
-layout(location = 9) uniform uint window;
-layout(location = 10) uniform uint sorted_count;   // items per partition, power of 2
-layout(location = 11) uniform uint slot_count;
+uniform uint active_count;
+uniform float dt_s;
+uniform float push_speed;     // m/s
+uniform float resting_speed;  // m/s: nothing that comes slower bounces
+uniform float cell_m;
+uniform uint bucket_count;    // power of 2
+uniform float friction;
+uniform float restitution;
+uniform uint partitions;
+uniform uint window;
+uniform uint sorted_count;   // items per partition, power of 2
+uniform uint slot_count;
 layout(std430, binding = kBindActive) readonly buffer ActiveBuffer { uint active_nodes[]; };
 layout(std430, binding = kBindNodes) readonly buffer NodesBuffer { NodeBits nodes[]; };
 layout(std430, binding = kBindDisplacementOut) readonly buffer DisplacementOut { vec4 next_displacement[]; };  // before the substep

@@ -6,8 +6,8 @@
 // in, out  items
 #include "collision_search.glsl"
 
-layout(location = 12) uniform uint run;   // length of runs that are sorted after this pass over the distances
-layout(location = 13) uniform uint away;  // distance of the two that are compared
+uniform uint run;   // length of runs that are sorted after this pass over the distances
+uniform uint away;  // distance of the two that are compared
 
 void main() {
   uint i = globalIndex();

@@ -7,7 +7,7 @@
 #include "collision_search.glsl"
 
 #ifndef __cplusplus
-layout(location = 14) uniform uint most_pairs;
+uniform uint most_pairs;
 layout(std430, binding = kBindPairs) buffer PairsBuffer { uint pairs[]; };  // their number, then two slots each
 void addPair(uint a, uint b) {
   uint place = atomicAdd(pairs[0], 1u);

@@ -18,8 +18,8 @@ layout(std430, binding = kBindDisplacementIn) readonly buffer DisplacementIn { v
 layout(std140, binding = kBindToolMotions) uniform ToolMotionsBlock { ToolMotion tool_motions[kMaxStyluses]; };
 layout(std430, binding = kBindStats) buffer StatsBuffer { TickStats stats; };
 
-layout(location = 0) uniform uint active_count;
-layout(location = 1) uniform uint stylus;
+uniform uint active_count;
+uniform uint stylus;
 #endif
 
 /// Position relative to the blade's first tip [m].

@@ -19,8 +19,8 @@ layout(std430, binding = kBindVelocityIn) readonly buffer VelocityIn { vec4 velo
 layout(std140, binding = kBindToolMotions) uniform ToolMotionsBlock { ToolMotion tool_motions[kMaxStyluses]; };
 layout(std430, binding = kBindStats) buffer StatsBuffer { TickStats stats; };
 
-layout(location = 0) uniform uint spring_count;
-layout(location = 1) uniform uint stylus;
+uniform uint spring_count;
+uniform uint stylus;
 #endif
 
 /// Position relative to the blade's first tip [m].

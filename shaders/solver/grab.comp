@@ -15,11 +15,11 @@ layout(std430, binding = kBindDisplacementIn) readonly buffer DisplacementIn { v
 layout(std430, binding = kBindVelocityIn) buffer VelocityIn { vec4 velocity[]; };
 layout(std430, binding = kBindGrabOffsets) writeonly buffer GrabOffsetsBuffer { vec4 grab_offsets[]; };
 
-layout(location = 0) uniform uint active_count;
-layout(location = 1) uniform uint stylus;
-layout(location = 2) uniform vec4 tip;          // xyz tip [m], w grab radius [m]
-layout(location = 3) uniform vec4 orientation;  // of the stylus, quaternion xyzw
-layout(location = 4) uniform float release_speed;  // largest |v| after release [m/s]
+uniform uint active_count;
+uniform uint stylus;
+uniform vec4 tip;          // xyz tip [m], w grab radius [m]
+uniform vec4 orientation;  // of the stylus, quaternion xyzw
+uniform float release_speed;  // largest |v| after release [m/s]
 #endif
 
 void takeHold(uint slot, NodeBits bits) {

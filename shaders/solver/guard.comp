@@ -17,11 +17,11 @@ layout(std430, binding = kBindVelocityIn) writeonly buffer VelocityBuffer { vec4
 layout(std430, binding = kBindCompensation) writeonly buffer CompensationBuffer { vec4 compensation[]; };
 #endif
 
-layout(location = 0) uniform uint active_count;
-layout(location = 1) uniform float most_speed;     // m/s; infinite where the integrator may be fast
-layout(location = 2) uniform float most_energy_j;  // without the work of the tick's tools
-layout(location = 3) uniform float energy_margin;  // of that work
-layout(location = 4) uniform vec3 tip_speed[kMaxStyluses];  // of the tools, mean over the tick [m/s]
+uniform uint active_count;
+uniform float most_speed;     // m/s; infinite where the integrator may be fast
+uniform float most_energy_j;  // without the work of the tick's tools
+uniform float energy_margin;  // of that work
+uniform vec3 tip_speed[kMaxStyluses];  // of the tools, mean over the tick [m/s]
 
 bool isBad() {
   float work = 0.0;

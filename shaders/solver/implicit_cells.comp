@@ -14,7 +14,7 @@
 #ifndef __cplusplus
 layout(std430, binding = kBindCells) readonly buffer CellsBuffer { uint cells[]; };
 layout(std430, binding = kBindCellForces) writeonly buffer CellForcesBuffer { vec4 cell_forces_out[]; };
-layout(location = 7) uniform uint iteration;
+uniform uint iteration;
 #endif
 
 void main() {

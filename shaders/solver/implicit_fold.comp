@@ -12,11 +12,11 @@
 const uint kRun = 64u;
 layout(std430, binding = kBindPartials) buffer PartialsBuffer { vec4 energies[]; };
 layout(std430, binding = kBindGuard) buffer GuardBuffer { uint guard[]; };
-layout(location = 0) uniform uint count;
-layout(location = 1) uniform uint input_first;
-layout(location = 2) uniform uint output_first;
-layout(location = 3) uniform uint last_level;
-layout(location = 4) uniform uint bound_energy;  // 1: a share that ends with more energy than there was is not taken
+uniform uint count;
+uniform uint input_first;
+uniform uint output_first;
+uniform uint last_level;
+uniform uint bound_energy;  // 1: a share that ends with more energy than there was is not taken
 #endif
 
 bool atMost(float a, float b) { return a <= b + kRounding * abs(b); }

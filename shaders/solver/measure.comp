@@ -10,14 +10,14 @@
 #ifndef __cplusplus
 layout(std430, binding = kBindStats) buffer StatsBuffer { TickStats stats; };
 layout(std430, binding = kBindPartials) buffer PartialsBuffer { vec2 energies[]; };  // kinetic, elastic [J]
-layout(location = 0) uniform uint count;  // active nodes; FOLD: terms of this level
+uniform uint count;  // active nodes; FOLD: terms of this level
 #endif
 
 #ifdef FOLD
 const uint kRun = 64u;
-layout(location = 1) uniform uint input_first;
-layout(location = 2) uniform uint output_first;
-layout(location = 3) uniform uint last_level;
+uniform uint input_first;
+uniform uint output_first;
+uniform uint last_level;
 
 void main() {
   uint run = globalIndex();

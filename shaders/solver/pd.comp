@@ -41,8 +41,8 @@ void main() {
 #else
 #ifndef __cplusplus
 layout(std430, binding = kBindIncrementOut) buffer IncrementOut { vec4 next_increments[]; };  // holds the last but one
-layout(location = 7) uniform uint iteration;
-layout(location = 8) uniform float omega;  // Chebyshev's weight; 1 is plain Jacobi
+uniform uint iteration;
+uniform float omega;  // Chebyshev's weight; 1 is plain Jacobi
 #endif
 
 /// Has the last sweep moved a node farther than the first did, by more than the norms' difference? Modes within the spectrum

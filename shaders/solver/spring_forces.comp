@@ -14,7 +14,7 @@
 #ifndef __cplusplus
 layout(binding = kUnitSpringOwners) uniform usamplerBuffer owners;  // SpringOwner
 layout(std430, binding = kBindLinkForces) writeonly buffer LinkForcesBuffer { vec4 link_forces[]; };
-layout(location = 0) uniform uint owner_count;
+uniform uint owner_count;
 #endif
 
 void main() {

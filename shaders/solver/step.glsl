@@ -3,15 +3,15 @@
 //
 // What every integrator is told of a substep, and which nodes do not take part (physics.md 2, 5). After elastic.glsl.
 #ifndef __cplusplus
-layout(location = 0) uniform uint active_count;
-layout(location = 1) uniform float dt_s;              // drift: how long u moves on
-layout(location = 2) uniform float kick_s;            // leapfrog's kick: half the substep before, half this one; half in the first
-layout(location = 3) uniform vec3 gravity;            // m/s2
-layout(location = 4) uniform float sleep_distance_m;  // a free node is stopped this far from its rest place
+uniform uint active_count;
+uniform float dt_s;              // drift: how long u moves on
+uniform float kick_s;            // leapfrog's kick: half the substep before, half this one; half in the first
+uniform vec3 gravity;            // m/s2
+uniform float sleep_distance_m;  // a free node is stopped this far from its rest place
 
 #ifdef TOOLS
-layout(location = 5) uniform uint slot_count;
-layout(location = 6) uniform float push_speed;        // m/s: a probe pushes a node out no faster
+uniform uint slot_count;
+uniform float push_speed;        // m/s: a probe pushes a node out no faster
 #endif
 #endif
 

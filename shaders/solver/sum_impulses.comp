@@ -17,14 +17,14 @@ layout(std430, binding = kBindPartials) buffer PartialsBuffer { Partial partials
 layout(std430, binding = kBindStats) buffer StatsBuffer { TickStats stats; };
 
 const uint kRun = 64u;
-layout(location = 0) uniform uint input_count;
-layout(location = 1) uniform uint input_first;   // of the partial sums
-layout(location = 2) uniform uint output_first;
-layout(location = 3) uniform uint last_level;
+uniform uint input_count;
+uniform uint input_first;   // of the partial sums
+uniform uint output_first;
+uniform uint last_level;
 
 #ifdef LEAVES
-layout(location = 4) uniform uint slot_count;
-layout(location = 5) uniform vec3 tips[2];  // stylus tips at the end of the tick [m]
+uniform uint slot_count;
+uniform vec3 tips[2];  // stylus tips at the end of the tick [m]
 layout(std430, binding = kBindActive) readonly buffer ActiveBuffer { uint active_nodes[]; };
 layout(std430, binding = kBindDisplacementIn) readonly buffer DisplacementIn { vec4 displacement[]; };
 layout(std430, binding = kBindImpulses) buffer ImpulsesBuffer { vec4 impulses[]; };

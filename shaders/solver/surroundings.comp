@@ -12,8 +12,8 @@
 #include "surroundings.glsl"
 
 #ifndef __cplusplus
-layout(location = 4) uniform uint obstacle_count;
-layout(location = 5) uniform vec4 air;  // xyz wind [m/s]; w density times drag coefficient over 2 [kg/m3]
+uniform uint obstacle_count;
+uniform vec4 air;  // xyz wind [m/s]; w density times drag coefficient over 2 [kg/m3]
 layout(std430, binding = kBindActive) readonly buffer ActiveBuffer { uint active_nodes[]; };
 layout(std430, binding = kBindNodes) readonly buffer NodesBuffer { NodeBits nodes[]; };
 layout(std430, binding = kBindDisplacementOut) buffer DisplacementOut { vec4 next_displacement[]; };

@@ -5,10 +5,10 @@
 #include "quaternion.glsl"
 
 #ifndef __cplusplus
-layout(location = 0) uniform uint active_count;
-layout(location = 1) uniform float dt_s;
-layout(location = 2) uniform float push_speed;     // m/s: nodes deep in an obstacle leave it no faster
-layout(location = 3) uniform float resting_speed;  // m/s: nothing that comes slower bounces
+uniform uint active_count;
+uniform float dt_s;
+uniform float push_speed;     // m/s: nodes deep in an obstacle leave it no faster
+uniform float resting_speed;  // m/s: nothing that comes slower bounces
 #endif
 
 /// Where a node touches an obstacle, in the obstacle's frame.

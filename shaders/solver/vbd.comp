@@ -15,7 +15,7 @@
 
 #ifndef __cplusplus
 layout(std430, binding = kBindIncrement) writeonly buffer IncrementBuffer { vec4 increments[]; };
-layout(location = 7) uniform uint colour_first;  // of this colour in active_nodes, which holds active_count of them
+uniform uint colour_first;  // of this colour in active_nodes, which holds active_count of them
 #endif
 
 /// Newton's step is sure to descend if |s| <= kLongest L and r.s >= kSteep sum of k |s|^3 / L, L the shortest spring: what the

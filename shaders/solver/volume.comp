@@ -11,7 +11,7 @@
 
 #ifndef __cplusplus
 layout(std430, binding = kBindCells) readonly buffer CellsBuffer { uint cells[]; };
-layout(location = 0) uniform uint cell_count;
+uniform uint cell_count;
 #endif
 
 uint cornerSlot(uint slot, uint c) { return neighborSlot(slot, ivec3(c & 1u, (c >> 1) & 1u, (c >> 2) & 1u)); }

@@ -8,7 +8,7 @@
 layout(local_size_x = GROUP_SIZE) in;  // before globalIndex(), which asks for it
 #include "lattice.glsl"
 
-layout(location = 0) uniform uint count;
+uniform uint count;
 layout(std430, binding = kBindSplitEdges) readonly buffer SplitEdgesBuffer { SplitEdge split_edges[]; };
 layout(std430, binding = kBindSpringCut) readonly buffer SpringCutBuffer { float spring_cut[]; };
 layout(std430, binding = kBindCrossedEdges) buffer CrossedEdgesBuffer { uint crossed_edges[]; };

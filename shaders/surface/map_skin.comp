@@ -11,8 +11,8 @@ layout(local_size_x = GROUP_SIZE) in;  // before globalIndex(), which asks for i
 #include "pack.glsl"
 #include "skin_basis.glsl"
 
-layout(location = 0) uniform uint vertex_count;
-layout(location = 1) uniform uint followed_revision;  // what moved no later is in place; 0: nothing is
+uniform uint count;  // of vertices
+uniform uint followed_revision;  // what moved no later is in place; 0: nothing is
 layout(std430, binding = kBindStaleBricks) readonly buffer StaleBricksBuffer { uint stale_bricks[]; };
 layout(std430, binding = kBindDisplacementIn) readonly buffer DisplacementBuffer { vec4 displacement[]; };
 layout(std430, binding = kBindNodeNormals) readonly buffer NodeNormalsBuffer { vec4 node_normals[]; };
@@ -32,7 +32,7 @@ bool isStale(uint slot) { return stale_bricks[slot >> 6] > followed_revision; }
 
 void main() {
   uint vertex = globalIndex();
-  if (vertex >= vertex_count) return;
+  if (vertex >= count) return;
   SkinBinding s = skin[vertex];
 #ifdef MIXED
   if ((s.springs & kOneToOneBit) != 0u) return;

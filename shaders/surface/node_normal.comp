@@ -9,8 +9,8 @@ layout(local_size_x = GROUP_SIZE) in;  // before globalIndex(), which asks for i
 #include "lattice.glsl"
 #include "skin_basis.glsl"
 
-layout(location = 0) uniform uint surface_node_count;
-layout(location = 1) uniform uint followed_revision;  // what moved no later is in place; 0: nothing is
+uniform uint count;  // of surface nodes
+uniform uint followed_revision;  // what moved no later is in place; 0: nothing is
 layout(std430, binding = kBindStaleBricks) readonly buffer StaleBricksBuffer { uint stale_bricks[]; };
 layout(std430, binding = kBindSurfaceNodes) readonly buffer SurfaceNodesBuffer { uint surface_nodes[]; };
 layout(std430, binding = kBindNodes) readonly buffer NodesBuffer { NodeBits nodes[]; };
@@ -19,7 +19,7 @@ layout(std430, binding = kBindNodeNormals) writeonly buffer NodeNormalsBuffer { 
 
 void main() {
   uint index = globalIndex();
-  if (index >= surface_node_count) return;
+  if (index >= count) return;
   uint slot = surface_nodes[index];
   if (followed_revision != 0u && stale_bricks[slot >> 6] <= followed_revision) return;
   NodeBits bits = nodes[slot];

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // The ring of triangles around a vertex of a network's skin. After lattice.glsl (feature NETWORK) and skin_basis.glsl.
-layout(location = 0) uniform uint count;
-layout(location = 1) uniform uint followed_revision;  // what moved no later is in place; 0: nothing is
+uniform uint count;
+uniform uint followed_revision;  // what moved no later is in place; 0: nothing is
 layout(std430, binding = kBindStaleBricks) readonly buffer StaleBricksBuffer { uint stale_bricks[]; };
 layout(std430, binding = kBindDisplacementIn) readonly buffer DisplacementBuffer { vec4 displacement[]; };
 layout(std430, binding = kBindRingVertices) readonly buffer RingVerticesBuffer { RingVertex ring_vertices[]; };

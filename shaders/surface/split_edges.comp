@@ -13,7 +13,7 @@ layout(local_size_x = GROUP_SIZE) in;  // before globalIndex(), which asks for i
 #include "skin_basis.glsl"
 #include "ring.glsl"
 
-layout(location = 2) uniform uint placed;  // the vertices of whole edges are where they belong: only crossed ones
+uniform uint placed;  // the vertices of whole edges are where they belong: only crossed ones
 layout(std430, binding = kBindSplitEdges) readonly buffer SplitEdgesBuffer { SplitEdge split_edges[]; };
 layout(std430, binding = kBindSpringCut) readonly buffer SpringCutBuffer { float spring_cut[]; };
 layout(std430, binding = kBindCrossedEdges) readonly buffer CrossedEdgesBuffer { uint crossed_edges[]; };

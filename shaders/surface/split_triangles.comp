@@ -12,8 +12,8 @@
 layout(local_size_x = GROUP_SIZE) in;  // before globalIndex(), which asks for it
 #include "lattice.glsl"
 
-layout(location = 0) uniform uint count;
-layout(location = 1) uniform uint triangle_count;  // of all bodies
+uniform uint count;
+uniform uint triangle_count;  // of all bodies
 layout(std430, binding = kBindNodes) readonly buffer NodesBuffer { NodeBits nodes[]; };
 layout(std430, binding = kBindSkinTriangles) readonly buffer TrianglesBuffer { uint triangles[]; };
 layout(std430, binding = kBindSplitTriangles) readonly buffer SplitTrianglesBuffer { SplitTriangle split_triangles[]; };

@@ -9,7 +9,7 @@
 layout(local_size_x = GROUP_SIZE) in;  // before globalIndex(), which asks for it
 #include "lattice.glsl"
 
-layout(location = 0) uniform uint triangle_count;
+uniform uint count;  // of triangles
 layout(std430, binding = kBindNodes) readonly buffer NodesBuffer { NodeBits nodes[]; };
 layout(std430, binding = kBindSkinBindings) readonly buffer SkinBuffer { SkinBinding skin[]; };
 layout(std430, binding = kBindSkinTriangles) readonly buffer TrianglesBuffer { uint triangles[]; };
@@ -43,7 +43,7 @@ bool tiesHold(uint triangle) {
 
 void main() {
   uint triangle = globalIndex();
-  if (triangle >= triangle_count || alive[triangle] == 0u) return;
+  if (triangle >= count || alive[triangle] == 0u) return;
   uint first = 3u * triangle;
 #ifdef MIXED
   if ((skin[triangles[first]].springs & kOneToOneBit) != 0u) return;

@@ -3,12 +3,17 @@
 #include "viscera/gpu/program.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cstring>
+#include <map>
+#include <mutex>
+#include <set>
 #include <sstream>
 #include <utility>
 
 #include "gpu/embedded_shaders.h"
 #include "gpu/gl.h"
+#include "gpu/reflection.h"
 #include "viscera/math/error.h"
 
 namespace viscera::gpu {
@@ -77,9 +82,11 @@ std::string filesLegend(const Files& files) {
   return out;
 }
 
-uint32_t compileStage(GLenum stage, const std::string& name, const std::vector<std::string>& defines) {
+uint32_t compileStage(GLenum stage, const std::string& name, const std::vector<std::string>& defines,
+                      std::vector<std::string>& uniforms) {
   Files files;
   const std::string source = expanded(name, defines, files);
+  for (std::string& uniform : declaredUniforms(source)) uniforms.push_back(std::move(uniform));
   const char* text = source.c_str();
   const uint32_t shader = glCreateShader(stage);
   countObject();
@@ -95,20 +102,44 @@ uint32_t compileStage(GLenum stage, const std::string& name, const std::vector<s
   throw GpuError("shader '" + name + "' does not compile (files: " + filesLegend(files) + "):\n" + log.c_str());
 }
 
-uint32_t link(const std::vector<uint32_t>& stages, const std::string& name) {
-  const uint32_t program = glCreateProgram();
-  countObject();
-  for (uint32_t stage : stages) glAttachShader(program, stage);
-  glLinkProgram(program);
-  for (uint32_t stage : stages) glDeleteShader(stage);
-  GLint ok = 0, length = 0;
-  glGetProgramiv(program, GL_LINK_STATUS, &ok);
-  if (ok) return program;
-  glGetProgramiv(program, GL_INFO_LOG_LENGTH, &length);
-  std::string log(static_cast<size_t>(length) + 1, '\0');
-  glGetProgramInfoLog(program, length, nullptr, log.data());
-  glDeleteProgram(program);
-  throw GpuError("program '" + name + "' does not link:\n" + log.c_str());
+uint32_t keyOf(const std::string& name) {
+  uint32_t key = UniformName::kKeyStart;
+  for (const char c : name) key = UniformName::keyStep(key, c);
+  return key;
+}
+
+/// 32-bit words of one element of a uniform.
+size_t wordsOf(GLenum type) {
+  switch (type) {
+    case GL_FLOAT_VEC2:
+    case GL_UNSIGNED_INT_VEC2:
+      return 2;
+    case GL_FLOAT_VEC3:
+      return 3;
+    case GL_FLOAT_VEC4:
+      return 4;
+    case GL_FLOAT_MAT4:
+      return 16;
+    default:
+      return 1;
+  }
+}
+
+/// Programs that are to be looked at when they first run; only used where tests ask for it.
+std::atomic<bool> checks_dispatches{false};
+std::mutex unchecked_mutex;
+std::set<uint32_t> unchecked;
+
+void refuseUnbound() {
+  GLint program = 0;
+  glGetIntegerv(GL_CURRENT_PROGRAM, &program);
+  {
+    const std::lock_guard<std::mutex> lock(unchecked_mutex);
+    if (unchecked.erase(static_cast<uint32_t>(program)) == 0) return;
+  }
+  std::string missing;
+  for (const std::string& name : unboundNow(bindingsOf(static_cast<uint32_t>(program)))) missing += " " + name;
+  if (!missing.empty()) throw GpuError("a kernel runs with nothing bound to:" + missing);
 }
 
 }  // namespace
@@ -120,27 +151,76 @@ std::string shaderSource(const std::string& name, const std::vector<std::string>
 
 Program Program::compute(const std::string& name, const std::vector<std::string>& defines) {
   Program out;
-  out.id_ = link({compileStage(GL_COMPUTE_SHADER, name, defines)}, name);
+  out.name_ = name;
+  std::vector<std::string> uniforms;
+  const uint32_t stage = compileStage(GL_COMPUTE_SHADER, name, defines, uniforms);
+  out.linkStages({stage}, uniforms);
   return out;
 }
 
 Program Program::graphics(const std::string& vertex, const std::string& fragment,
                           const std::vector<std::string>& defines) {
-  const uint32_t first = compileStage(GL_VERTEX_SHADER, vertex, defines);
   Program out;
-  out.id_ = link({first, compileStage(GL_FRAGMENT_SHADER, fragment, defines)}, vertex + " + " + fragment);
+  out.name_ = vertex + " + " + fragment;
+  std::vector<std::string> uniforms;
+  const uint32_t first = compileStage(GL_VERTEX_SHADER, vertex, defines, uniforms);
+  out.linkStages({first, compileStage(GL_FRAGMENT_SHADER, fragment, defines, uniforms)}, uniforms);
   return out;
+}
+
+/// @param declared  names of uniforms, as often as they like
+void Program::linkStages(const std::vector<uint32_t>& stages, const std::vector<std::string>& declared) {
+  id_ = glCreateProgram();
+  countObject();
+  for (uint32_t stage : stages) glAttachShader(id_, stage);
+  glLinkProgram(id_);
+  for (uint32_t stage : stages) glDeleteShader(stage);
+  GLint ok = 0, length = 0;
+  glGetProgramiv(id_, GL_LINK_STATUS, &ok);
+  if (!ok) {
+    glGetProgramiv(id_, GL_INFO_LOG_LENGTH, &length);
+    std::string log(static_cast<size_t>(length) + 1, '\0');
+    glGetProgramInfoLog(id_, length, nullptr, log.data());
+    throw GpuError("program '" + name_ + "' does not link:\n" + log.c_str());
+  }
+  refuseSharedNumbers(bindingsOf(id_), name_);
+  if (checks_dispatches) {
+    const std::lock_guard<std::mutex> lock(unchecked_mutex);
+    unchecked.insert(id_);
+  }
+  std::map<std::string, Uniform> by_name;
+  for (const std::string& name : declared) by_name[name] = {keyOf(name), -1, 0, 0, 0};
+  size_t words = 0;
+  for (const ActiveUniform& active : activeUniforms(id_)) {
+    const size_t own = wordsOf(active.type) * static_cast<size_t>(active.count);
+    by_name[active.name] = {keyOf(active.name), active.location, active.type, words, own};
+    words += own;
+  }
+  values_.assign(words, 0);
+  for (const auto& [name, uniform] : by_name) {
+    for (const Uniform& other : uniforms_) {
+      if (other.key == uniform.key)
+        throw GpuError("program '" + name_ + "': uniform '" + name + "' needs another name");
+    }
+    uniforms_.push_back(uniform);
+  }
 }
 
 Program::~Program() {
   if (id_) glDeleteProgram(id_);
 }
 
-Program::Program(Program&& other) noexcept : id_(std::exchange(other.id_, 0)), uniforms_(std::move(other.uniforms_)) {}
+Program::Program(Program&& other) noexcept
+    : id_(std::exchange(other.id_, 0)),
+      name_(std::move(other.name_)),
+      uniforms_(std::move(other.uniforms_)),
+      values_(std::move(other.values_)) {}
 
 Program& Program::operator=(Program&& other) noexcept {
   std::swap(id_, other.id_);
+  name_.swap(other.name_);
   uniforms_.swap(other.uniforms_);
+  values_.swap(other.values_);
   return *this;
 }
 
@@ -150,6 +230,7 @@ void Program::use() const {
 
 void Program::dispatch(size_t invocations, uint32_t group_size) {
   if (invocations == 0) return;
+  if (checks_dispatches) refuseUnbound();
   // One dimension of groups holds at least 65,535; more are folded into the second, which kernels undo (globalIndex()).
   constexpr size_t kMaxGroups = 65535;
   const size_t groups = (invocations + group_size - 1) / group_size;
@@ -161,30 +242,55 @@ void Program::storageBarrier() {
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
 }
 
-int Program::location(const char* uniform) const {
-  return glGetUniformLocation(id_, uniform);
+/// Notes a value. OpenGL's own start, zero, is known too. @return null: nothing is to be done
+const Program::Uniform* Program::changed(UniformName name, uint32_t type, const void* value, size_t words) const {
+  for (const Uniform& uniform : uniforms_) {
+    if (uniform.key != name.key()) continue;
+    if (uniform.location < 0) return nullptr;
+    if (uniform.type != type)
+      throw GpuError("program '" + name_ + "': uniform '" + name.text() + "' is of another type");
+    const size_t bytes =
+        std::min(words, uniform.words) * sizeof(uint32_t);  // of an array the driver keeps what is used
+    if (std::memcmp(&values_[uniform.first], value, bytes) == 0) return nullptr;
+    std::memcpy(&values_[uniform.first], value, bytes);
+    return &uniform;
+  }
+  throw GpuError("program '" + name_ + "' has no uniform '" + name.text() + "'");
 }
 
-/// Notes the value. OpenGL's own start, zero, is known too.
-bool Program::changes(int location, const void* value, size_t bytes) const {
-  const size_t at = static_cast<size_t>(location);
-  if (at >= uniforms_.size()) uniforms_.resize(at + 1);
-  if (std::memcmp(uniforms_[at].data(), value, bytes) == 0) return false;
-  std::memcpy(uniforms_[at].data(), value, bytes);
-  return true;
+void Program::set(UniformName name, uint32_t value) const {
+  if (const Uniform* u = changed(name, GL_UNSIGNED_INT, &value, 1)) glProgramUniform1ui(id_, u->location, value);
 }
 
-void Program::set(int location, uint32_t value) const {
-  if (changes(location, &value, sizeof value)) glProgramUniform1ui(id_, location, value);
+void Program::set(UniformName name, int32_t value) const {
+  if (const Uniform* u = changed(name, GL_INT, &value, 1)) glProgramUniform1i(id_, u->location, value);
 }
 
-void Program::set(int location, float value) const {
-  if (changes(location, &value, sizeof value)) glProgramUniform1f(id_, location, value);
+void Program::set(UniformName name, float value) const {
+  if (const Uniform* u = changed(name, GL_FLOAT, &value, 1)) glProgramUniform1f(id_, u->location, value);
 }
 
-void Program::setVector(int location, const float* value, size_t components) const {
-  if (!changes(location, value, components * sizeof *value)) return;
-  (components == 3 ? glProgramUniform3fv : glProgramUniform4fv)(id_, location, 1, value);
+void Program::set(UniformName name, uint32_t x, uint32_t y) const {
+  const uint32_t value[] = {x, y};
+  if (const Uniform* u = changed(name, GL_UNSIGNED_INT_VEC2, value, 2))
+    glProgramUniform2uiv(id_, u->location, 1, value);
+}
+
+void Program::setMatrix(UniformName name, const float* values) const {
+  const Uniform* u = changed(name, GL_FLOAT_MAT4, values, 16);
+  if (u) glProgramUniformMatrix4fv(id_, u->location, 1, GL_FALSE, values);
+}
+
+void Program::setVectors(UniformName name, const float* values, size_t components, size_t count) const {
+  const GLenum type = components == 2 ? GL_FLOAT_VEC2 : components == 3 ? GL_FLOAT_VEC3 : GL_FLOAT_VEC4;
+  const Uniform* u = changed(name, type, values, components * count);
+  if (!u) return;
+  const auto set = components == 2 ? glProgramUniform2fv : components == 3 ? glProgramUniform3fv : glProgramUniform4fv;
+  set(id_, u->location, static_cast<GLsizei>(count), values);
+}
+
+void checkDispatches(bool check) {
+  checks_dispatches = check;
 }
 
 }  // namespace viscera::gpu

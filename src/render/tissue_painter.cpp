@@ -6,11 +6,6 @@
 
 namespace viscera {
 
-namespace {
-// Uniform locations in tissue.frag.
-constexpr GLint kShafts = 2, kShaftTips = 3, kShaftEnds = kShaftTips + static_cast<GLint>(layout::kMaxStyluses);
-}  // namespace
-
 TissuePainter::TissuePainter() : program_(gpu::Program::graphics("mesh.vert", "tissue.frag")) {
   inputs_.describe(kPositionInput, kPositionInput, 3, GL_FLOAT, GL_FALSE, 0);
   inputs_.describe(kNormalInput, kNormalInput, 4, GL_INT_2_10_10_10_REV, GL_TRUE, 0);
@@ -27,10 +22,11 @@ void TissuePainter::draw(const MeshView& mesh, const ToolShadows& shadows, const
   glBindVertexArray(inputs_.id());
   program_.use();
   setMeshMatrices(program_, optical_from_tissue, clip_from_optical);
-  glProgramUniform1i(program_.id(), kShafts, shadows.count);
+  program_.set("shafts", shadows.count);
   if (shadows.count > 0) {
-    glProgramUniform4fv(program_.id(), kShaftTips, shadows.count, shadows.tips[0].data());
-    glProgramUniform4fv(program_.id(), kShaftEnds, shadows.count, shadows.ends[0].data());
+    const auto count = static_cast<size_t>(shadows.count);
+    program_.setVectors("shaft_tips", shadows.tips[0].data(), 4, count);
+    program_.setVectors("shaft_ends", shadows.ends[0].data(), 4, count);
   }
   glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(mesh.index_count), GL_UNSIGNED_INT, nullptr);
   glBindVertexArray(0);

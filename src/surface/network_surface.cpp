@@ -14,11 +14,6 @@
 namespace viscera {
 namespace {
 
-// Uniform locations in the kernels.
-constexpr GLint kCount = 0;
-constexpr GLint kFollowed = 1, kPlaced = 2;  // of those that follow
-constexpr GLint kTriangles = 1;              // of split_triangles.comp
-
 gpu::Program kernel(const std::string& name) {
   return gpu::Program::compute(name, {"GROUP_SIZE " + std::to_string(layout::kGroupSize), "NETWORK"});
 }
@@ -28,7 +23,7 @@ void bind(uint32_t binding, uint32_t buffer) {
 }
 
 void run(const gpu::Program& kernel, size_t count) {
-  kernel.set(kCount, static_cast<uint32_t>(count));
+  kernel.set("count", static_cast<uint32_t>(count));
   kernel.use();
   gpu::Program::dispatch(count, layout::kGroupSize);
 }
@@ -123,7 +118,7 @@ void NetworkSurface::follow(const StateView& state, uint32_t since) {
   bind(layout::kBindRest, state.rest);
   vertices_.bindStorage(layout::kBindRingVertices);
   rings_.bindStorage(layout::kBindRings);
-  follow_.set(kFollowed, since);
+  follow_.set("followed_revision", since);
   run(follow_, vertices_.size());
   if (edges_.size() > 0 && (torn_ || !placed_)) placeSplits(state, since);
 }
@@ -134,8 +129,8 @@ void NetworkSurface::placeSplits(const StateView& state, uint32_t since) {
   bind(layout::kBindSpringCut, state.spring_cut);
   edges_.bindStorage(layout::kBindSplitEdges);
   crossed_.bindStorage(layout::kBindCrossedEdges);
-  split_edges_.set(kFollowed, placed_ ? since : 0u);
-  split_edges_.set(kPlaced, placed_ ? 1u : 0u);
+  split_edges_.set("followed_revision", placed_ ? since : 0u);
+  split_edges_.set("placed", placed_ ? 1u : 0u);
   if (placed_) {
     split_edges_.use();
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, crossed_.id());
@@ -151,7 +146,7 @@ void NetworkSurface::split(const StateView& state, size_t triangles) {
   assert(state.spring_cut != 0);
   bind(layout::kBindSpringCut, state.spring_cut);
   triangles_.bindStorage(layout::kBindSplitTriangles);
-  split_triangles_.set(kTriangles, static_cast<uint32_t>(triangles));
+  split_triangles_.set("triangle_count", static_cast<uint32_t>(triangles));
   run(split_triangles_, triangles_.size());
   edges_.bindStorage(layout::kBindSplitEdges);
   crossed_.bindStorage(layout::kBindCrossedEdges);

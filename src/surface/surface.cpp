@@ -18,9 +18,6 @@ namespace viscera {
 
 namespace {
 
-constexpr GLint kCountUniform = 0;     // layout(location = 0) of all three kernels
-constexpr GLint kFollowedUniform = 1;  // of those that follow
-
 void bind(uint32_t binding, uint32_t buffer) {
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, buffer);
 }
@@ -33,13 +30,12 @@ gpu::Program kernel(const std::string& name, const std::vector<std::string>& fea
 
 void run(const gpu::Program& kernel, size_t count) {
   kernel.use();
-  glUniform1ui(kCountUniform, static_cast<GLuint>(count));
+  kernel.set("count", static_cast<uint32_t>(count));
   gpu::Program::dispatch(count, layout::kGroupSize);
 }
 
 void runSince(const gpu::Program& kernel, size_t count, uint32_t followed_revision) {
-  kernel.use();
-  glUniform1ui(kFollowedUniform, followed_revision);
+  kernel.set("followed_revision", followed_revision);
   run(kernel, count);
 }
 

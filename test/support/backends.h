@@ -48,7 +48,9 @@ inline std::unique_ptr<LatticeSolver> makeBackend(const std::string& name, const
 class OnBackend : public ::testing::TestWithParam<std::string> {
  protected:
   OnBackend() {
-    if (GetParam() == "gpu") context_.emplace();
+    if (GetParam() != "gpu") return;
+    context_.emplace();
+    gpu::checkDispatches(true);
   }
   std::unique_ptr<LatticeSolver> make(const Model& model, const Scene& scene, const SolverOptions& options = {}) const {
     return makeBackend(GetParam(), model, scene, options);

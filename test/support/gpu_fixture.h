@@ -11,12 +11,14 @@
 #include "solver/reference/reference_solver.h"
 #include "support/lattices.h"
 #include "viscera/gpu/context.h"
+#include "viscera/gpu/program.h"
 
 namespace viscera::test {
 
 /// Gives every test an EGL context; a machine without one fails, it does not skip.
 class GpuTest : public ::testing::Test {
  protected:
+  GpuTest() { gpu::checkDispatches(true); }
   gpu::Context context_;
 };
 

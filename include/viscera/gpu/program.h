@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace viscera::gpu {
@@ -14,12 +14,36 @@ namespace viscera::gpu {
 /// @throws GpuError  no such shader
 std::string shaderSource(const std::string& name, const std::vector<std::string>& defines = {});
 
+/// Name of a uniform, which the compiler turns into a number: to set one by its name compares no strings.
+class UniformName {
+ public:
+  template <size_t N>
+  constexpr UniformName(const char (&name)[N])  // implicit: set("dt_s", dt_s)
+      : text_(name), key_(keyOf(name, std::make_index_sequence<N - 1>())) {}
+  constexpr uint32_t key() const { return key_; }
+  constexpr const char* text() const { return text_; }
+
+  static constexpr uint32_t kKeyStart = 2166136261u;  // FNV-1a
+  static constexpr uint32_t keyStep(uint32_t key, char c) { return (key ^ static_cast<unsigned char>(c)) * 16777619u; }
+
+ private:
+  template <size_t... I>
+  static constexpr uint32_t keyOf(const char* name, std::index_sequence<I...>) {
+    uint32_t key = kKeyStart;
+    ((key = keyStep(key, name[I])), ...);
+    return key;
+  }
+
+  const char* text_;
+  uint32_t key_;
+};
+
 /// A linked program. Compile and link errors throw GpuError with file, line and the driver's log.
 class Program {
  public:
   Program() = default;
-  /// Compute program from the shader `name`, without its folder. @param defines  "NAME" or "NAME value", one #define
-  /// each
+  /// Compute program from the shader `name`, without its folder. No two blocks or textures may have the same binding.
+  /// @param defines  "NAME" or "NAME value", one #define each
   static Program compute(const std::string& name, const std::vector<std::string>& defines = {});
   /// Vertex and fragment program from two shaders.
   static Program graphics(const std::string& vertex, const std::string& fragment,
@@ -33,28 +57,46 @@ class Program {
   static void dispatch(size_t invocations, uint32_t group_size);
   /// Makes storage writes of earlier dispatches visible to later ones.
   static void storageBarrier();
-  int location(const char* uniform) const;  ///< -1 where the compiler removed it
-  /// @name Uniforms by location; a value that the program has already costs no OpenGL call
-  /// Only for programs whose uniforms nobody sets in another way. The program need not be in use.
+  /// @name Uniforms by name
+  /// A value that the program has already costs no OpenGL call, nor does one that the driver found unused. The program
+  /// need not be in use. @throws GpuError  the shaders declare no such uniform, whatever their features, or of another
+  /// type
   /// @{
-  void set(int location, uint32_t value) const;
-  void set(int location, float value) const;
+  void set(UniformName name, uint32_t value) const;
+  void set(UniformName name, int32_t value) const;
+  void set(UniformName name, float value) const;
+  void set(UniformName name, uint32_t x, uint32_t y) const;  ///< uvec2
   template <size_t N>
-  void set(int location, const float (&value)[N]) const {  ///< vec3, vec4
-    static_assert(N == 3 || N == 4);
-    setVector(location, value, N);
+  void set(UniformName name, const float (&value)[N]) const {  ///< vec2, vec3, vec4
+    static_assert(N >= 2 && N <= 4);
+    setVectors(name, value, N, 1);
   }
+  void setMatrix(UniformName name, const float* values) const;  ///< mat4: [16] column by column
+  /// An array of vectors, or its first ones. @param values  [count][components]
+  void setVectors(UniformName name, const float* values, size_t components, size_t count) const;
   /// @}
   explicit operator bool() const { return id_ != 0; }
   uint32_t id() const { return id_; }
 
  private:
-  void setVector(int location, const float* value, size_t components) const;
-  using Words = std::array<uint32_t, 4>;
-  bool changes(int location, const void* value, size_t bytes) const;
+  /// Of a name that the sources declare.
+  struct Uniform {
+    uint32_t key;
+    int location;  ///< -1: unused
+    uint32_t type;
+    size_t first, words;  ///< of its value in values_
+  };
+  void linkStages(const std::vector<uint32_t>& stages, const std::vector<std::string>& declared);
+  const Uniform* changed(UniformName name, uint32_t type, const void* value, size_t words) const;
 
   uint32_t id_ = 0;
-  mutable std::vector<Words> uniforms_;  ///< their values, by location, as far as they were set
+  std::string name_;
+  std::vector<Uniform> uniforms_;
+  mutable std::vector<uint32_t> values_;
 };
+
+/// For tests: the first dispatch() of each program that is made from now on asks OpenGL whether something is bound to
+/// all blocks and textures of the program in use, and throws GpuError with the names of those where nothing is.
+void checkDispatches(bool check);
 
 }  // namespace viscera::gpu

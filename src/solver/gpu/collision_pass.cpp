@@ -63,18 +63,18 @@ void CollisionPass::bind() const {
 
 void CollisionPass::tell(const gpu::Program& program, const LatticeBuffers& buffers, const Substep& step) const {
   program.use();
-  program.set(0, static_cast<uint32_t>(buffers.active_count));
-  program.set(1, step.dt_s);
-  program.set(2, step.push_speed_m_per_s);
-  program.set(3, restingSpeed(step));
-  program.set(4, cell_m_);
-  program.set(5, bucket_count_);
-  program.set(6, static_cast<float>(config_.friction));
-  program.set(7, static_cast<float>(config_.restitution));
-  program.set(8, static_cast<uint32_t>(config_.partitions));
-  program.set(9, static_cast<uint32_t>(config_.window));
-  program.set(10, sorted_);
-  program.set(11, static_cast<uint32_t>(buffers.slot_count));
+  program.set("active_count", static_cast<uint32_t>(buffers.active_count));
+  program.set("dt_s", step.dt_s);
+  program.set("push_speed", step.push_speed_m_per_s);
+  program.set("resting_speed", restingSpeed(step));
+  program.set("cell_m", cell_m_);
+  program.set("bucket_count", bucket_count_);
+  program.set("friction", static_cast<float>(config_.friction));
+  program.set("restitution", static_cast<float>(config_.restitution));
+  program.set("partitions", static_cast<uint32_t>(config_.partitions));
+  program.set("window", static_cast<uint32_t>(config_.window));
+  program.set("sorted_count", sorted_);
+  program.set("slot_count", static_cast<uint32_t>(buffers.slot_count));
 }
 
 void CollisionPass::dispatch(size_t count) const {
@@ -98,8 +98,8 @@ void CollisionPass::searchStaggered(const LatticeBuffers& buffers, const Substep
   tell(exchange_, buffers, step);
   for (uint32_t run = 2; run <= sorted_; run *= 2) {
     for (uint32_t away = run / 2; away > 0; away /= 2) {
-      exchange_.set(12, run);
-      exchange_.set(13, away);
+      exchange_.set("run", run);
+      exchange_.set("away", away);
       dispatch(items / 2);
     }
   }
@@ -133,7 +133,7 @@ std::vector<CollisionPair> CollisionPass::findPairs(const LatticeBuffers& buffer
   found.bindStorage(layout::kBindPairs);
   const size_t entries = search(buffers, {});
   tell(pairs_, buffers, {});
-  pairs_.set(14, static_cast<uint32_t>(most));
+  pairs_.set("most_pairs", static_cast<uint32_t>(most));
   dispatch(entries);
   const std::vector<uint32_t> words = found.read();
   std::vector<CollisionPair> out(std::min<size_t>(words[0], most));

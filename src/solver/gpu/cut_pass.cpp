@@ -18,18 +18,19 @@ CutPass::Programs CutPass::compiled(const char* shader, std::vector<std::string>
   return out;
 }
 
-void CutPass::runOver(const Programs& programs, size_t count, uint32_t stylus, bool particles) const {
+void CutPass::runOver(const Programs& programs, gpu::UniformName what, size_t count, uint32_t stylus,
+                      bool particles) const {
   const gpu::Program& program = particles ? programs.particles : programs.springs;
   program.use();
-  program.set(0, static_cast<uint32_t>(count));
-  program.set(1, stylus);
+  program.set(what, static_cast<uint32_t>(count));
+  program.set("stylus", stylus);
   gpu::Program::dispatch(count, group_size_);
   gpu::Program::storageBarrier();
 }
 
 void CutPass::run(const LatticeBuffers& buffers, uint32_t stylus, bool particles) const {
-  if (lattice_) runOver(*lattice_, buffers.active_count, stylus, particles);
-  if (links_) runOver(*links_, buffers.springs.size(), stylus, particles);
+  if (lattice_) runOver(*lattice_, "active_count", buffers.active_count, stylus, particles);
+  if (links_) runOver(*links_, "spring_count", buffers.springs.size(), stylus, particles);
   if (torn_cells_) torn_cells_->run(buffers);
 }
 

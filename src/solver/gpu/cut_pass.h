@@ -27,7 +27,7 @@ class CutPass {
     gpu::Program springs, particles;
   };
   Programs compiled(const char* shader, std::vector<std::string> defines) const;
-  void runOver(const Programs& programs, size_t count, uint32_t stylus, bool particles) const;
+  void runOver(const Programs& programs, gpu::UniformName what, size_t count, uint32_t stylus, bool particles) const;
 
   std::optional<Programs> lattice_, links_;
   std::optional<TornCellsPass> torn_cells_;

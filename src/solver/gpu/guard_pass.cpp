@@ -10,14 +10,15 @@ GuardPass::GuardPass(const FeatureSet& features)
 void GuardPass::run(const LatticeBuffers& buffers, const Governor::Bounds& bounds, const ToolMotions& motions,
                     double tick_s) const {
   guard_.use();
-  guard_.set(0, static_cast<uint32_t>(buffers.active_count));
-  guard_.set(1, static_cast<float>(bounds.speed_m_per_s));
-  guard_.set(2, static_cast<float>(bounds.energy_j));
-  guard_.set(3, static_cast<float>(Governor::kEnergyMargin));
+  guard_.set("active_count", static_cast<uint32_t>(buffers.active_count));
+  guard_.set("most_speed", static_cast<float>(bounds.speed_m_per_s));
+  guard_.set("most_energy_j", static_cast<float>(bounds.energy_j));
+  guard_.set("energy_margin", static_cast<float>(Governor::kEnergyMargin));
+  std::array<Vector3f, layout::kMaxStyluses> tip_speed;
   for (size_t s = 0; s < motions.size(); ++s) {
-    const Vector3f speed = ((motions[s].to.position_m - motions[s].from.position_m) / tick_s).cast<float>();
-    guard_.set(4 + static_cast<int>(s), {speed.x(), speed.y(), speed.z()});
+    tip_speed[s] = ((motions[s].to.position_m - motions[s].from.position_m) / tick_s).cast<float>();
   }
+  guard_.setVectors("tip_speed", tip_speed[0].data(), 3, tip_speed.size());
   gpu::Program::dispatch(buffers.active_count, group_size_);
   gpu::Program::storageBarrier();
 }

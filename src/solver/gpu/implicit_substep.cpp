@@ -60,9 +60,9 @@ void ImplicitSubstep::updateVolumes(const LatticeBuffers& buffers, const Substep
   if (!cells_) return;
   const gpu::TimedStage timed(gpu::Stage::kVolume);
   cells_.use();
-  cells_.set(0, static_cast<uint32_t>(buffers.cells.size()));
-  cells_.set(1, step.dt_s);
-  cells_.set(7, static_cast<uint32_t>(iteration));
+  cells_.set("active_count", static_cast<uint32_t>(buffers.cells.size()));
+  cells_.set("dt_s", step.dt_s);
+  cells_.set("iteration", static_cast<uint32_t>(iteration));
   gpu::Program::dispatch(buffers.cells.size(), group_size_);
   gpu::Program::storageBarrier();
 }
@@ -94,11 +94,11 @@ void ImplicitSubstep::keepBestShare(const LatticeBuffers& buffers, const Substep
 void ImplicitSubstep::chooseShare(const LatticeBuffers& buffers, bool bound_energy) const {
   fold_.use();
   forEachSumLevel(buffers.active_count, [&](size_t inputs, size_t input_first, size_t output_first, bool last) {
-    fold_.set(0, static_cast<uint32_t>(inputs));
-    fold_.set(1, static_cast<uint32_t>(input_first));
-    fold_.set(2, static_cast<uint32_t>(output_first));
-    fold_.set(3, last ? 1u : 0u);
-    fold_.set(4, bound_energy ? 1u : 0u);
+    fold_.set("count", static_cast<uint32_t>(inputs));
+    fold_.set("input_first", static_cast<uint32_t>(input_first));
+    fold_.set("output_first", static_cast<uint32_t>(output_first));
+    fold_.set("last_level", last ? 1u : 0u);
+    fold_.set("bound_energy", bound_energy ? 1u : 0u);
     gpu::Program::dispatch(sumRuns(inputs), group_size_);
     gpu::Program::storageBarrier();
   });

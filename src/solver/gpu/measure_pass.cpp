@@ -28,7 +28,7 @@ void MeasurePass::run(const LatticeBuffers& buffers) const {
   clear(offsetof(layout::TickStats, nonfinite), sizeof(layout::TickStats));
   energies_.bindStorage(layout::kBindPartials);
   measure_.use();
-  measure_.set(0, static_cast<uint32_t>(buffers.active_count));
+  measure_.set("count", static_cast<uint32_t>(buffers.active_count));
   gpu::Program::dispatch(buffers.active_count, group_size_);
   gpu::Program::storageBarrier();
   sumEnergies(buffers);
@@ -37,10 +37,10 @@ void MeasurePass::run(const LatticeBuffers& buffers) const {
 void MeasurePass::sumEnergies(const LatticeBuffers& buffers) const {
   fold_.use();
   forEachSumLevel(buffers.active_count, [&](size_t inputs, size_t input_first, size_t output_first, bool last) {
-    fold_.set(0, static_cast<uint32_t>(inputs));
-    fold_.set(1, static_cast<uint32_t>(input_first));
-    fold_.set(2, static_cast<uint32_t>(output_first));
-    fold_.set(3, last ? 1u : 0u);
+    fold_.set("count", static_cast<uint32_t>(inputs));
+    fold_.set("input_first", static_cast<uint32_t>(input_first));
+    fold_.set("output_first", static_cast<uint32_t>(output_first));
+    fold_.set("last_level", last ? 1u : 0u);
     gpu::Program::dispatch(sumRuns(inputs), group_size_);
     gpu::Program::storageBarrier();
   });

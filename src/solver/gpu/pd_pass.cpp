@@ -22,7 +22,7 @@ void PdPass::findRates(const FeatureSet& features, const LatticeBuffers& buffers
   buffers.bind();
   rates.bindStorage(layout::kBindGuard);
   rate.use();
-  rate.set(0, static_cast<uint32_t>(buffers.active_count));
+  rate.set("active_count", static_cast<uint32_t>(buffers.active_count));
   gpu::Program::dispatch(buffers.active_count, group_size_);
   const std::vector<float> found = rates.read();
   stiffness_rate_per_s2_ = found[0];
@@ -45,8 +45,8 @@ void PdPass::run(LatticeBuffers& buffers, const Substep& step) {
     weight = options_.accelerated ? chebyshevWeight(iteration, weight, rho) : 1;
     sweep_.use();
     setSubstep(sweep_, buffers, plain);
-    sweep_.set(7, static_cast<uint32_t>(iteration));
-    sweep_.set(8, static_cast<float>(weight));
+    sweep_.set("iteration", static_cast<uint32_t>(iteration));
+    sweep_.set("omega", static_cast<float>(weight));
     gpu::Program::dispatch(buffers.active_count, group_size_);
     gpu::Program::storageBarrier();
     implicit_.swap();

@@ -22,15 +22,13 @@ void ReactionPass::run(const LatticeBuffers& buffers, const std::array<Vector3f,
     const size_t outputs = sumRuns(inputs);
     const gpu::Program& program = first ? leaves_ : fold_;
     program.use();
-    program.set(0, static_cast<uint32_t>(inputs));
-    program.set(1, static_cast<uint32_t>(input_first));
-    program.set(2, static_cast<uint32_t>(output_first));
-    program.set(3, outputs == 1 ? 1u : 0u);
+    program.set("input_count", static_cast<uint32_t>(inputs));
+    program.set("input_first", static_cast<uint32_t>(input_first));
+    program.set("output_first", static_cast<uint32_t>(output_first));
+    program.set("last_level", outputs == 1 ? 1u : 0u);
     if (first) {
-      program.set(4, static_cast<uint32_t>(buffers.slot_count));
-      for (size_t s = 0; s < tips.size(); ++s) {
-        program.set(5 + static_cast<int>(s), {tips[s].x(), tips[s].y(), tips[s].z()});
-      }
+      program.set("slot_count", static_cast<uint32_t>(buffers.slot_count));
+      program.setVectors("tips", tips[0].data(), 3, tips.size());
     }
     gpu::Program::dispatch(outputs, group_size_);
     gpu::Program::storageBarrier();

@@ -33,14 +33,14 @@ std::unique_ptr<Stepper> makeRecoveryStepper(int iterations, const FeatureSet& f
 }
 
 void setSubstep(const gpu::Program& program, const LatticeBuffers& buffers, const Substep& step) {
-  program.set(0, static_cast<uint32_t>(buffers.active_count));
-  program.set(1, step.dt_s);
-  program.set(2, step.kick_s);
-  program.set(3, {step.gravity.x(), step.gravity.y(), step.gravity.z()});
-  program.set(4, step.sleep_distance_m);
+  program.set("active_count", static_cast<uint32_t>(buffers.active_count));
+  program.set("dt_s", step.dt_s);
+  program.set("kick_s", step.kick_s);
+  program.set("gravity", {step.gravity.x(), step.gravity.y(), step.gravity.z()});
+  program.set("sleep_distance_m", step.sleep_distance_m);
   if (!step.tools) return;
-  program.set(5, static_cast<uint32_t>(buffers.slot_count));
-  program.set(6, step.push_speed_m_per_s);
+  program.set("slot_count", static_cast<uint32_t>(buffers.slot_count));
+  program.set("push_speed", step.push_speed_m_per_s);
 }
 
 }  // namespace viscera

@@ -27,8 +27,8 @@ void VbdPass::run(LatticeBuffers& buffers, const Substep& step) {
   by_colour_.bindStorage(layout::kBindActive);
   for (int iteration = 0; iteration < iterations_; ++iteration) {
     for (const Coloured::Colour& colour : colours_) {
-      sweep_.set(0, colour.count);
-      sweep_.set(7, colour.first);
+      sweep_.set("active_count", colour.count);
+      sweep_.set("colour_first", colour.first);
       gpu::Program::dispatch(colour.count, group_size_);
       gpu::Program::storageBarrier();
     }

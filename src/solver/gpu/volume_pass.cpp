@@ -10,7 +10,7 @@ namespace {
 
 void dispatchCells(const gpu::Program& program, const LatticeBuffers& buffers, uint32_t group_size) {
   program.use();
-  program.set(0, static_cast<uint32_t>(buffers.cells.size()));
+  program.set("cell_count", static_cast<uint32_t>(buffers.cells.size()));
   gpu::Program::dispatch(buffers.cells.size(), group_size);
   gpu::Program::storageBarrier();
 }
