@@ -154,7 +154,7 @@ void Surface::follow(const StateView& state) {
   const gpu::TimedStage timed(gpu::Stage::kSurface);
   const uint32_t since = known ? followed_revision_ : 0;
   followed_revision_ = known ? state.revision : 0;
-  if (known) bind(layout::kBindStaleBricks, state.stale_bricks);
+  bind(layout::kBindStaleBricks, known ? state.stale_bricks : unknown_.id());
   bind(layout::kBindBricks, state.bricks);
   bind(layout::kBindBodies, state.bodies);
   bind(layout::kBindNodes, state.nodes);

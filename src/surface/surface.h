@@ -58,6 +58,7 @@ class Surface {
   gpu::Buffer<layout::SkinBinding> bindings_;
   gpu::Buffer<layout::Tie> ties_;
   gpu::Buffer<float> positions_;
+  gpu::Buffer<uint32_t> unknown_{size_t{1}};  ///< in place of StateView::stale_bricks; nobody reads it
   gpu::Program node_normal_, map_, tear_;     ///< none where every body is a network
   std::unique_ptr<NetworkSurface> networks_;  ///< null where none is
   ShownTriangles shown_;
