@@ -6,6 +6,8 @@
 #include <chrono>
 #include <cmath>
 
+#include "tools/motion_packing.h"
+
 namespace viscera::bench {
 
 namespace {
@@ -25,14 +27,6 @@ Field fieldOf(const std::vector<layout::vec4>& values) {
   out.reserve(values.size());
   for (const layout::vec4& v : values) out.push_back(xyz(v));
   return out;
-}
-
-void changeGrips(const Experiment& experiment, const ToolMotions& motions, ReferenceSolver& solver) {
-  const std::vector<StylusConfig>& styluses = experiment.scene.styluses;
-  for (uint32_t s = 0; s < styluses.size(); ++s) {
-    if (motions[s].grab_ends) solver.letGo(s, styluses[s].release_speed_m_per_s);
-    if (motions[s].grab_begins) solver.takeHold(s, motions[s].from, styluses[s].grab_radius_m);
-  }
 }
 
 }  // namespace
@@ -89,13 +83,16 @@ Track runReference(const Experiment& experiment, int substeps, ReferenceIntegrat
   solver.u_m = fieldOf(experiment.start.displacement_m);
   solver.v_m_per_s = fieldOf(experiment.start.velocity_m_per_s);
   Track track;
+  const ToolActs acts(experiment.scene.styluses, 1 / experiment.scene.solver.tick_hz);
   std::vector<layout::ToolMotion> tools;
   for (const ToolMotions& motions : experiment.motions) {
-    changeGrips(experiment, motions, solver);
+    solver.markTick();
+    acts.beginTick(solver, motions);
     interpolateMotions(motions, experiment.scene.styluses, substeps, tools);
     for (size_t s = 0; s < static_cast<size_t>(substeps); ++s) {
       solver.substep({tools[s * layout::kMaxStyluses], tools[s * layout::kMaxStyluses + 1]});
     }
+    acts.endTick(solver, motions);
     track.u_m.push_back(solver.u_m);
   }
   return track;

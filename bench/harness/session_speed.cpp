@@ -58,7 +58,7 @@ Pressing::Pressing(Session& session) : session_(session) {
   while (static_cast<double>(session.tick()) * session.tick_s() < kSag_s) session.step({}, {});
   start_tick_ = session.tick();
   touching_m_ = farthestNode(session.model(), session.solver().readState(), Vector3d::UnitX()) +
-                session.scene().styluses[0].probe_radius_m * Vector3d::UnitX();
+                session.scene().styluses[0].probe.radius_m * Vector3d::UnitX();
   while (static_cast<double>(session.tick() - start_tick_) * session.tick_s() < kPress_s) session.step(now(), {});
 }
 

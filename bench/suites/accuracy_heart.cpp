@@ -6,6 +6,7 @@
 #include "bench/harness/beam.h"
 #include "bench/harness/work_precision.h"
 #include "bench/suites/accuracy_parts.h"
+#include "viscera/tools/hands.h"
 
 namespace viscera::bench {
 
@@ -34,9 +35,9 @@ Scene heartScene(bool short_form) {
   top.normal = -Vector3d::UnitZ();
   heart.fixed.push_back(top);
   StylusConfig probe, grab;
-  probe.probe_radius_m = kProbeRadius_m;
+  probe.probe.radius_m = kProbeRadius_m;
   grab.idle = ToolMode::kNone;
-  grab.grab_radius_m = kGrabRadius * heart.spacing_m;
+  grab.grab.radius_m = kGrabRadius * heart.spacing_m;
   Scene scene;
   scene.bodies.push_back(heart);
   scene.styluses = {probe, grab};

@@ -89,7 +89,7 @@ class GpuIndenter {
   Scene scene(const Model& model, int substeps) const {
     Scene out = plainScene(model, substeps);
     StylusConfig stylus;
-    stylus.probe_radius_m = press_.radius;
+    stylus.probe.radius_m = press_.radius;
     out.styluses = {stylus};
     return out;
   }

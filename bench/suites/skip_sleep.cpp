@@ -29,7 +29,7 @@ Specimen restingCube(int edge, bool sleeps, double gravity_m_per_s2) {
   out.scene.environment.gravity_m_per_s2 = Vector3d(0, 0, -gravity_m_per_s2);
   out.scene.solver.sleep_speed_m_per_s = sleeps ? SolverConfig{}.sleep_speed_m_per_s : 0;
   out.scene.styluses.resize(1);
-  out.scene.styluses[0].probe_radius_m = kProbeRadius_m;
+  out.scene.styluses[0].probe.radius_m = kProbeRadius_m;
   return out;
 }
 

@@ -9,6 +9,7 @@
 
 #include "bench/suites/stability_suite.h"
 #include "bench/suites/stability_trial.h"
+#include "viscera/tools/hands.h"
 
 namespace viscera::bench {
 
@@ -71,7 +72,7 @@ class Stage {
     Scene scene;
     StylusConfig stylus;
     stylus.idle = mode;
-    stylus.blade_length_m = 0.05;
+    stylus.cut.blade_length_m = 0.05;
     scene.styluses.push_back(stylus);
     scene.environment.gravity_m_per_s2 = Vector3d::Zero();
     scene.solver.tick_hz = kTicksPerSecond;

@@ -32,7 +32,7 @@ struct PressedHeart {
 Vector3d pressIn(LatticeSolver& solver, const Specimen& heart) {
   for (int t = 0; t < kSagTicks; ++t) solver.step({});
   const Vector3d touching_m = farthestNode(heart.model, solver.readState(), Vector3d::UnitX()) +
-                              heart.scene.styluses[0].probe_radius_m * Vector3d::UnitX();
+                              heart.scene.styluses[0].probe.radius_m * Vector3d::UnitX();
   ToolMotions motions = probeAt(touching_m);
   for (int t = 1; t <= kPressTicks; ++t) {
     motions[0].from = motions[0].to;

@@ -49,7 +49,7 @@ void resolveContacts(uint slot, NodeBits bits, float mass, vec3 u, INOUT(vec3) u
   vec3 rest = restPosition(slot);
   uint held_by = (bits.lo & kGrabMask) >> kGrabShift;
   for (uint s = 0u; s < kMaxStyluses; ++s) {
-    if (tool_motions[s].info.x != kModeProbe && held_by != s + 1u) continue;
+    if ((tool_motions[s].info.y & kToolPushes) == 0u && held_by != s + 1u) continue;
     ToolMotion motion = tool_motions[s];
     vec3 v_before = v_next;
     if (held_by == s + 1u) {

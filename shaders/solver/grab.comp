@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // grab.comp - take hold of the nodes around a stylus tip, or let them go.   Owner: solver/gpu/grab_pass.h   VR05 2.7.2
-// in  displacement     in/out  nodes (grab bits), velocity     out  grab offsets
+// in  displacement, stats     in/out  nodes (grab bits), velocity     out  grab offsets
 // Feature: RELEASE lets go; without it the pass takes hold.
 #include "layout.h"
 #include "lattice.glsl"
@@ -20,6 +20,10 @@ uniform uint stylus;
 uniform vec4 tip;          // xyz tip [m], w grab radius [m]
 uniform vec4 orientation;  // of the stylus, quaternion xyzw
 uniform float release_speed;  // largest |v| after release [m/s]
+#ifdef RELEASE
+uniform float above;  // let go only if the stylus gave more than this in the tick [N s]; below 0: in any case
+layout(std430, binding = kBindStats) readonly buffer StatsBuffer { TickStats stats; };
+#endif
 #endif
 
 void takeHold(uint slot, NodeBits bits) {
@@ -43,6 +47,7 @@ void main() {
   if (i >= active_count) return;
   uint slot = active_nodes[i];
 #ifdef RELEASE
+  if (length(xyz(stats.impulse[stylus])) <= above) return;
   letGo(slot, nodes[slot]);
 #else
   takeHold(slot, nodes[slot]);

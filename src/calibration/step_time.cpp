@@ -12,6 +12,7 @@
 #include "solver/make_solver.h"
 #include "solver/substeps.h"
 #include "viscera/solver/material.h"
+#include "viscera/tools/hands.h"
 
 namespace viscera {
 namespace {
@@ -63,7 +64,7 @@ StylusSamples touching(const Model& model, const Scene& scene) {
   const Vector3d top = topmost(model.bodies.at(0).lattice);
   for (size_t s = 0; s < scene.styluses.size(); ++s) {
     samples[s].valid = true;
-    samples[s].pose.position_m = top + kTouch * scene.styluses[s].probe_radius_m * Vector3d::UnitZ();
+    samples[s].pose.position_m = top + kTouch * scene.styluses[s].probe.radius_m * Vector3d::UnitZ();
   }
   return samples;
 }

@@ -12,6 +12,7 @@
 #include "solver/reference/reference_ticks.h"
 #include "solver/surroundings.h"
 #include "viscera/math/error.h"
+#include "viscera/tools/hands.h"
 
 namespace viscera::cli {
 

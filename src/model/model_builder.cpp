@@ -10,6 +10,7 @@
 #include "model/body/network_skin.h"
 #include "model/body/spacing_search.h"
 #include "model/scene/structure_rules.h"
+#include "model/scene/tool_kinds.h"
 #include "model/shape/tissue.h"
 #include "viscera/math/error.h"
 
@@ -81,9 +82,8 @@ Body buildBody(const BodyConfig& config, const std::string& folder, bool can_be_
 }
 
 bool canCut(const Scene& scene) {
-  const auto cuts = [](ToolMode mode) { return mode == ToolMode::kCut || mode == ToolMode::kCutParticles; };
-  return std::any_of(scene.styluses.begin(), scene.styluses.end(), [&](const StylusConfig& stylus) {
-    return cuts(stylus.idle) || cuts(stylus.button1) || cuts(stylus.button2);
+  return std::any_of(scene.styluses.begin(), scene.styluses.end(), [](const StylusConfig& stylus) {
+    return kindOf(stylus.idle).severs() || kindOf(stylus.button1).severs() || kindOf(stylus.button2).severs();
   });
 }
 

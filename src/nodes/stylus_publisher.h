@@ -8,6 +8,7 @@
 #include <string>
 
 #include "nodes/stylus_mailbox.h"
+#include "viscera/tools/force_limiter.h"
 #include "viscera/tools/stylus.h"
 
 namespace viscera::nodes {

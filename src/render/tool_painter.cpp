@@ -15,9 +15,9 @@ ToolPainter::ToolPainter(const std::vector<StylusConfig>& styluses)
   std::vector<uint32_t> indices;
   for (const StylusConfig& stylus : styluses) {
     ranges_.emplace_back();
-    for (size_t mode = 0; mode < kModes; ++mode) {
-      const ToolShape shape = toolShape(stylus, static_cast<ToolMode>(mode));
-      ranges_.back()[mode] = {indices.size(), shape.solid_indices, shape.indices.size() - shape.solid_indices};
+    for (const ToolKind& kind : kToolKinds) {
+      const ToolShape shape = toolShape(stylus, kind.mode);
+      ranges_.back()[kind.number] = {indices.size(), shape.solid_indices, shape.indices.size() - shape.solid_indices};
       const uint32_t first_vertex = static_cast<uint32_t>(vertices.size());
       for (uint32_t index : shape.indices) indices.push_back(first_vertex + index);
       vertices.insert(vertices.end(), shape.vertices.begin(), shape.vertices.end());
@@ -55,7 +55,7 @@ void ToolPainter::drawPart(Part part, const ToolMotions& motions, const Pose& op
                            const Eigen::Matrix4f& clip_from_optical) {
   for (size_t stylus = 0; stylus < std::min(motions.size(), ranges_.size()); ++stylus) {
     const StylusMotion& motion = motions[stylus];
-    const Range& range = ranges_[stylus][static_cast<size_t>(motion.mode)];
+    const Range& range = ranges_[stylus][kindOf(motion.mode).number];
     const bool solid = part == Part::kSolid;
     const size_t count = solid ? range.solid_indices : range.translucent_indices;
     if (!motion.present || count == 0) continue;

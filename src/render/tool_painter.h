@@ -5,6 +5,7 @@
 #include <array>
 #include <vector>
 
+#include "model/scene/tool_kinds.h"
 #include "render/tool_shape.h"
 #include "render/vertex_array.h"
 #include "viscera/gpu/buffer.h"
@@ -21,7 +22,6 @@ class ToolPainter {
   void draw(const ToolMotions& motions, const Pose& optical_from_tissue, const Eigen::Matrix4f& clip_from_optical);
 
  private:
-  static constexpr size_t kModes = 5;
   struct Range {
     size_t first_index = 0, solid_indices = 0, translucent_indices = 0;
   };
@@ -33,7 +33,7 @@ class ToolPainter {
   VertexArray inputs_;
   gpu::Buffer<ToolVertex> vertices_;
   gpu::Buffer<uint32_t> indices_;
-  std::vector<std::array<Range, kModes>> ranges_;  ///< [styluses][ToolMode]
+  std::vector<std::array<Range, kToolKindCount>> ranges_;  ///< [styluses][kinds]
 };
 
 }  // namespace viscera

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "model/scene/tool_kinds.h"
 #include "render/tool_shape.h"
 
 namespace viscera {
@@ -22,7 +23,8 @@ ToolShadows toolShadows(const ToolMotions& motions, const std::vector<StylusConf
     const StylusMotion& motion = motions[stylus];
     if (!motion.present) continue;
     const Pose optical_from_stylus = optical_from_tissue * motion.to;
-    const double ball_m = motion.mode == ToolMode::kProbe ? styluses[stylus].probe_radius_m : 0;
+    const ToolKind& kind = kindOf(motion.mode);
+    const double ball_m = kind.tip == ToolTip::kBall ? kind.reach_m(styluses[stylus]) : 0;
     const size_t at = static_cast<size_t>(shadows.count++);
     shadows.tips[at] = withRadius(optical_from_stylus.position_m, ball_m);
     shadows.ends[at] = withRadius(optical_from_stylus * Vector3d(0, 0, kShaftLength_m), kShaftRadius_m);

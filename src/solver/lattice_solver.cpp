@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "math/float_bits.h"
+#include "tools/motion_packing.h"
 
 namespace viscera {
 
@@ -13,19 +14,6 @@ namespace {
 
 constexpr size_t kFinishedKept = 3;   // ticks whose measurements wait for somebody who asks
 constexpr double kWorthwhile = 1.01;  // a stable substep must have grown by this factor to be taken
-
-bool isCut(ToolMode mode) {
-  return mode == ToolMode::kCut || mode == ToolMode::kCutParticles;
-}
-bool isContact(ToolMode mode) {
-  return mode == ToolMode::kProbe || mode == ToolMode::kGrab;
-}
-
-/// Does one of the first `styluses` do that?
-bool any(const ToolMotions& motions, size_t styluses, bool (*does)(ToolMode)) {
-  return std::any_of(motions.begin(), motions.begin() + static_cast<std::ptrdiff_t>(styluses),
-                     [does](const StylusMotion& motion) { return does(motion.mode); });
-}
 
 /// Work on the tissue [J]: the force of each tool, mean over the tick, along its way. Exact where all nodes that it
 /// moves go its way at one speed.
@@ -44,7 +32,7 @@ double workOfTools(const layout::TickStats& stats, const ToolMotions& motions, d
 LatticeSolver::LatticeSolver(const Model& model, const Scene& scene, const SolverOptions& options)
     : model_(model),
       config_(scene.solver),
-      styluses_(scene.styluses),
+      acts_(scene.styluses, 1 / scene.solver.tick_hz),
       gravity_(scene.environment.gravity_m_per_s2.cast<float>()),
       tick_s_(1 / scene.solver.tick_hz),
       dt_safe_s_(safeTimeStep(model)),
@@ -65,16 +53,16 @@ int LatticeSolver::mostSubsteps() const {
 }
 
 void LatticeSolver::step(const ToolMotions& motions) {
-  const bool contacts = any(motions, styluses_.size(), isContact), cuts = any(motions, styluses_.size(), isCut);
+  const bool contacts = acts_.touch(motions), cuts = acts_.sever(motions);
   chooseSubsteps();
   beginTick();
-  changeGrips(motions);
+  acts_.beginTick(*this, motions);
   if (surroundings_) {
     surroundings_->beginTick(tick_s_, n_);
     beginSurroundings(*surroundings_);
   }
   if (contacts || cuts) {
-    interpolateMotions(motions, styluses_, n_, motions_);
+    interpolateMotions(motions, acts_.styluses(), n_, motions_);
     for (layout::ToolMotion& motion : motions_) motion.timing.x = static_cast<float>(tick_s_ / n_);
     for (size_t s = 0; s < layout::kMaxStyluses; ++s)
       motions_[s].timing.x = static_cast<float>(restarted_ ? 0 : last_dt_s_);
@@ -94,7 +82,10 @@ void LatticeSolver::step(const ToolMotions& motions) {
 
 void LatticeSolver::measureTick(const ToolMotions& motions, bool contacts) {
   measure();
-  if (contacts) sumReactions({motions[0].to.position_m.cast<float>(), motions[1].to.position_m.cast<float>()});
+  if (contacts) {
+    sumReactions({motions[0].to.position_m.cast<float>(), motions[1].to.position_m.cast<float>()});
+    acts_.endTick(*this, motions);
+  }
   if (watch_ && lag() > 0) guard(watch_->governor.bounds(isImplicit(recovering_)), motions, tick_s_);
 }
 
@@ -106,15 +97,8 @@ void LatticeSolver::chooseSubsteps() {
   n_ = recover ? watch_->recovery_substeps : strained ? plan_.strained : plan_.calm;
 }
 
-void LatticeSolver::changeGrips(const ToolMotions& motions) {
-  for (uint32_t s = 0; s < styluses_.size(); ++s) {
-    if (motions[s].grab_ends) letGo(s, styluses_[s].release_speed_m_per_s);
-    if (motions[s].grab_begins) takeHold(s, motions[s].from, styluses_[s].grab_radius_m);
-  }
-}
-
 void LatticeSolver::substep(int index, const ToolMotions& motions, bool cuts, bool contacts) {
-  if (cuts) cutWith(motions);
+  if (cuts) acts_.beforeSubstep(*this, motions);
   const double dt_s = tick_s_ / n_;
   Substep step;
   step.dt_s = static_cast<float>(dt_s);
@@ -129,12 +113,6 @@ void LatticeSolver::substep(int index, const ToolMotions& motions, bool cuts, bo
   if (surroundings_) surround(step, *surroundings_);
   restarted_ = false;
   last_dt_s_ = dt_s;
-}
-
-void LatticeSolver::cutWith(const ToolMotions& motions) {
-  for (uint32_t s = 0; s < styluses_.size(); ++s) {
-    if (isCut(motions[s].mode)) cut(s, motions[s].mode == ToolMode::kCutParticles);
-  }
 }
 
 void LatticeSolver::setObstacleFrame(size_t obstacle, const Pose& pose) {

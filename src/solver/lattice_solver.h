@@ -9,6 +9,7 @@
 #include "solver/substep.h"
 #include "solver/substeps.h"
 #include "solver/surroundings.h"
+#include "solver/tool_acts.h"
 #include "viscera/solver/solver.h"
 
 namespace viscera {
@@ -20,7 +21,7 @@ struct SolverOptions {
 /// What a tick is on any backend: which substeps it has, what tools do in them, what is measured and how the governor
 /// judges it (physics.md 2, 3, 5). A backend holds the state and gives the operations; they are called in the order of
 /// a tick, and none of them during construction.
-class LatticeSolver : public Solver {
+class LatticeSolver : public Solver, protected ToolTarget {
  public:
   void step(const ToolMotions& motions) final;
   void setObstacleFrame(size_t obstacle, const Pose& pose) final;
@@ -56,26 +57,20 @@ class LatticeSolver : public Solver {
   bool governed() const { return watch_.has_value(); }
   bool staysAwake() const { return surroundings_ && surroundings_->keepsAwake(); }
   bool hasSurroundings() const { return surroundings_.has_value(); }
-  bool hasTools() const { return !styluses_.empty(); }
+  bool hasTools() const { return !acts_.styluses().empty(); }
   double shortestSubstep_s() const { return tick_s_ / plan_.strained; }
   int mostSubsteps() const;  ///< a tick can have
   uint64_t cutRevision() const { return cut_revision_; }
 
-  /// @name Operations of a tick
+  /// @name Operations of a tick, besides those of ToolTarget
   /// @{
   /// Before the first of them: what the backend shares with others, such as OpenGL's bindings, is its own again.
   virtual void beginTick() = 0;
-  /// @param stylus  index, < kMaxStyluses   @param pose  of the stylus, tissue frame   @param radius_m  of the grip
-  virtual void takeHold(uint32_t stylus, const Pose& pose, double radius_m) = 0;
-  /// @param release_speed_m_per_s  faster nodes are slowed to this
-  virtual void letGo(uint32_t stylus, double release_speed_m_per_s) = 0;
   /// Motions of all styluses in this tick's substeps, in ticks in which one cuts or touches.
   /// @param motions  [substeps * kMaxStyluses] substep-major; stays as it is until the tick ends
   virtual void writeMotions(const std::vector<layout::ToolMotion>& motions) = 0;
   /// From now on cut() and advance() see the motions of this substep of the tick.
   virtual void selectMotions(size_t substep) = 0;
-  /// @param particles  erase nodes instead of single springs
-  virtual void cut(uint32_t stylus, bool particles) = 0;
   /// Advances every active node by a substep; the result is the current state.
   /// @param recovery  pd without acceleration instead of the scene's integrator; only where there is a governor
   virtual void advance(const Substep& step, bool recovery) = 0;
@@ -136,9 +131,7 @@ class LatticeSolver : public Solver {
   };
   Governor newGovernor() const;
   void chooseSubsteps();
-  void changeGrips(const ToolMotions& motions);
   void substep(int index, const ToolMotions& motions, bool cuts, bool contacts);
-  void cutWith(const ToolMotions& motions);
   void finishStats();
   void keepStats(const layout::TickStats& stats);
   void measureTick(const ToolMotions& motions, bool contacts);
@@ -152,7 +145,7 @@ class LatticeSolver : public Solver {
 
   const Model& model_;
   SolverConfig config_;
-  std::vector<StylusConfig> styluses_;
+  ToolActs acts_;
   Vector3f gravity_;
   double tick_s_, dt_safe_s_, push_speed_m_per_s_;
   SubstepPlan plan_;

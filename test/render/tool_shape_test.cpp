@@ -51,10 +51,10 @@ TEST(ToolShape, NormalsAreUnit) {
 
 TEST(ToolShape, ActingPartsHaveTheSizesOfTheStylus) {
   StylusConfig stylus;
-  stylus.probe_radius_m = 0.011;
-  stylus.grab_radius_m = 0.016;
-  stylus.blade_length_m = 0.031;
-  stylus.eraser_radius_m = 0.004;
+  stylus.probe.radius_m = 0.011;
+  stylus.grab.radius_m = 0.016;
+  stylus.cut.blade_length_m = 0.031;
+  stylus.cut_particles.eraser_radius_m = 0.004;
   EXPECT_NEAR(lowestZ(toolShape(stylus, ToolMode::kNone)), 0, kTight_m);
   EXPECT_NEAR(lowestZ(toolShape(stylus, ToolMode::kProbe)), -0.011, kTight_m);
   EXPECT_NEAR(lowestZ(toolShape(stylus, ToolMode::kGrab)), -0.016, kTight_m);

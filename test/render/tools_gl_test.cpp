@@ -69,10 +69,10 @@ TEST_F(ToolsGl, EveryModeLooksDifferent) {
 
 TEST_F(ToolsGl, ActingPartsAreDrawnInTheirTrueSize) {
   constexpr double kWithin_px = 2;
-  styluses_[0].probe_radius_m = 0.01;
-  styluses_[0].grab_radius_m = 0.015;
-  styluses_[0].blade_length_m = 0.03;
-  styluses_[0].eraser_radius_m = 0.005;
+  styluses_[0].probe.radius_m = 0.01;
+  styluses_[0].grab.radius_m = 0.015;
+  styluses_[0].cut.blade_length_m = 0.03;
+  styluses_[0].cut_particles.eraser_radius_m = 0.005;
   const double middle = camera_.height_px / 2.0;
   auto reach_px = [&](ToolMode mode) { return drawnRows(draw(nothing_, tool(mode))).second + 1 - middle; };
   EXPECT_NEAR(reach_px(ToolMode::kProbe), 0.010 * pixelsPerMetre(), kWithin_px);

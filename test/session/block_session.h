@@ -41,7 +41,7 @@ inline Scene blockScene() {
   scene.styluses[0].name = "left";
   scene.styluses[1].name = "right";
   for (StylusConfig& stylus : scene.styluses) {
-    stylus.probe_radius_m = kProbeRadiusM;
+    stylus.probe.radius_m = kProbeRadiusM;
     stylus.max_force_rate_n_per_s = 1e6;
   }
   scene.cameras = {cameraOf("eye")};

@@ -113,10 +113,10 @@ TEST_P(Governed, TissueThatIsDraggedToNoPlaceAtAllIsRolledBack) {
   const auto solver = make(model_, scene);
   ToolMotions motions;
   motions[0].mode = ToolMode::kGrab;
-  motions[0].present = motions[0].grab_begins = true;
+  motions[0].present = motions[0].hold_begins = true;
   solver->step(motions);
   const uint64_t before = stateHash(model_, solver->readState());
-  motions[0].grab_begins = false;
+  motions[0].hold_begins = false;
   motions[0].to.position_m.x() = std::numeric_limits<double>::quiet_NaN();
   solver->step(motions);
   EXPECT_EQ(stateHash(model_, solver->readState()), before);

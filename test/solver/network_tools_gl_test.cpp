@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Styluses and the governor on explicit connections (VR05 2.7, physics.md 3, 5).
 #include "solver/network_rig.h"
+#include "tools/motion_packing.h"
 
 using namespace viscera;
 using namespace viscera::test;
@@ -19,11 +20,11 @@ constexpr int kSubsteps = 10;
 
 StylusConfig stylusConfig() {
   StylusConfig config;
-  config.probe_radius_m = 0.012;
-  config.grab_radius_m = 0.012;
-  config.blade_length_m = 0.2;
-  config.eraser_radius_m = 0.004;
-  config.release_speed_m_per_s = 0.05;
+  config.probe.radius_m = 0.012;
+  config.grab.radius_m = 0.012;
+  config.cut.blade_length_m = 0.2;
+  config.cut_particles.eraser_radius_m = 0.004;
+  config.grab.release_speed_m_per_s = 0.05;
   return config;
 }
 
@@ -66,13 +67,13 @@ class ToolsOnNetwork : public OnBackend {
   /// One tick of both solvers.
   void tick(const ToolMotions& motions) {
     solver_->step(motions);
-    for (uint32_t s = 0; s < 2; ++s) {
-      if (motions[s].grab_ends) reference_->letGo(s, styluses_[s].release_speed_m_per_s);
-      if (motions[s].grab_begins) reference_->takeHold(s, motions[s].from, styluses_[s].grab_radius_m);
-    }
+    const ToolActs acts(styluses_, kSubsteps * solver_->dt_s());
+    reference_->markTick();
+    acts.beginTick(*reference_, motions);
     std::vector<layout::ToolMotion> rows;
     interpolateMotions(motions, styluses_, kSubsteps, rows);
     for (size_t s = 0; s < kSubsteps; ++s) reference_->substep({rows[2 * s], rows[2 * s + 1]});
+    acts.endTick(*reference_, motions);
   }
   layout::TickStats stats() {
     layout::TickStats stats{};
@@ -132,7 +133,7 @@ TEST_P(ToolsOnNetwork, ProbeDentsAndIsToldTheMomentumLikeTheReference) {
 TEST_P(ToolsOnNetwork, HeldNodesFollowThePoseAndAreLetGoLikeTheReference) {
   ToolMotions motions;
   motions[1] = motion(ToolMode::kGrab, {0, 0, 0}, {0, 0, 0.002});
-  motions[1].grab_begins = true;
+  motions[1].hold_begins = true;
   tick(motions);
   EXPECT_GT(stats().grabbed[1], 3u);
   motions[1] = motion(ToolMode::kGrab, {0, 0, 0.002}, {0.002, 0, 0.01});
@@ -140,7 +141,7 @@ TEST_P(ToolsOnNetwork, HeldNodesFollowThePoseAndAreLetGoLikeTheReference) {
   tick(motions);
   expectSameDisplacement();
   motions[1] = motion(ToolMode::kNone, motions[1].to.position_m, motions[1].to.position_m);
-  motions[1].grab_ends = true;
+  motions[1].hold_ended = ToolMode::kGrab;
   tick(motions);
   expectSameDisplacement();
   EXPECT_EQ(stats().grabbed[1], 0u);
@@ -294,7 +295,7 @@ TEST_P(ToolsOnNetwork, CutClothMovesLikeTheReference) {
     use(Model(model_), scheme);
     ToolMotions motions;
     motions[1] = motion(ToolMode::kGrab, {-0.03, 0, 0}, {-0.03, 0, 0.004});
-    motions[1].grab_begins = true;
+    motions[1].hold_begins = true;
     tick(motions);
     motions[0] = sweep(0.0037);
     motions[1] = motion(ToolMode::kGrab, {-0.03, 0, 0.004}, {-0.03, 0, 0.01});
@@ -349,10 +350,10 @@ TEST_P(ToolsOnNetwork, NodesDraggedToNoPlaceAtAllAreRolledBack) {
   const auto solver = make(model_, scene);
   ToolMotions motions;
   motions[0] = motion(ToolMode::kGrab, {0, 0, 0}, {0, 0, 0});
-  motions[0].grab_begins = true;
+  motions[0].hold_begins = true;
   solver->step(motions);
   const uint64_t before = stateHash(model_, solver->readState());
-  motions[0].grab_begins = false;
+  motions[0].hold_begins = false;
   motions[0].to.position_m.x() = std::numeric_limits<double>::quiet_NaN();
   solver->step(motions);
   EXPECT_EQ(stateHash(model_, solver->readState()), before);

@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "support/backends.h"
+#include "tools/motion_packing.h"
 
 using namespace viscera;
 using namespace viscera::test;
@@ -14,11 +15,11 @@ constexpr int kSubsteps = 20;
 
 StylusConfig stylusConfig() {
   StylusConfig config;
-  config.probe_radius_m = 0.012;
-  config.grab_radius_m = 0.012;
-  config.blade_length_m = 0.2;
-  config.eraser_radius_m = 0.004;
-  config.release_speed_m_per_s = 0.05;
+  config.probe.radius_m = 0.012;
+  config.grab.radius_m = 0.012;
+  config.cut.blade_length_m = 0.2;
+  config.cut_particles.eraser_radius_m = 0.004;
+  config.grab.release_speed_m_per_s = 0.05;
   return config;
 }
 
@@ -38,14 +39,14 @@ class ToolsOnTissue : public OnBackend {
   /// One tick of both solvers.
   void tick(const ToolMotions& motions) {
     solver_->step(motions);
-    for (uint32_t s = 0; s < 2; ++s) {
-      if (motions[s].grab_ends) reference_->letGo(s, styluses_[s].release_speed_m_per_s);
-      if (motions[s].grab_begins) reference_->takeHold(s, motions[s].from, styluses_[s].grab_radius_m);
-    }
+    const ToolActs acts(styluses_, kSubsteps * solver_->dt_s());
+    reference_->markTick();
+    acts.beginTick(*reference_, motions);
     std::vector<layout::ToolMotion> rows;
     interpolateMotions(motions, styluses_, kSubsteps, rows);
     for (int s = 0; s < kSubsteps; ++s)
       reference_->substep({rows[2 * static_cast<size_t>(s)], rows[2 * static_cast<size_t>(s) + 1]});
+    acts.endTick(*reference_, motions);
   }
   layout::TickStats stats() {
     layout::TickStats stats{};
@@ -137,7 +138,7 @@ TEST_P(ToolsOnTissue, ProbeThatJumpsLeavesNoNodeInsideIt) {
     const Vector3d x = lattice().restPosition(slot) + xyz(state.displacement_m[slot]);
     EXPECT_TRUE(x.allFinite());
     if (isFixed(lattice().nodes[slot])) continue;
-    EXPECT_GT((x - motions[0].to.position_m).norm(), 0.99 * styluses_[0].probe_radius_m);
+    EXPECT_GT((x - motions[0].to.position_m).norm(), 0.99 * styluses_[0].probe.radius_m);
   }
 }
 
@@ -166,7 +167,7 @@ TEST_P(ToolsOnTissue, SecondHandTakesNeitherWhatTheFirstHoldsNorWhatIsFixed) {
   const Vector3d low(0.03, 0.03, 0.005);  // among fixed nodes (z = 0) and free ones
   for (uint32_t s = 0; s < 2; ++s) {
     motions[s] = motion(ToolMode::kGrab, low, low);
-    motions[s].grab_begins = true;
+    motions[s].hold_begins = true;
   }
   tick(motions);
   const layout::TickStats held = stats();
@@ -182,7 +183,7 @@ TEST_P(ToolsOnTissue, SecondHandTakesNeitherWhatTheFirstHoldsNorWhatIsFixed) {
 TEST_P(ToolsOnTissue, HeldNodesFollowTheFullPose) {
   ToolMotions motions;
   motions[1] = motion(ToolMode::kGrab, {0.03, 0.03, 0.06}, {0.03, 0.03, 0.062});
-  motions[1].grab_begins = true;
+  motions[1].hold_begins = true;
   tick(motions);
   const layout::TickStats held = stats();
   EXPECT_GT(held.grabbed[1], 0u);
@@ -203,10 +204,10 @@ TEST_P(ToolsOnTissue, HeldNodesFollowTheFullPose) {
 TEST_P(ToolsOnTissue, ReleaseClampsTheVelocity) {
   ToolMotions motions;
   motions[0] = motion(ToolMode::kGrab, {0.03, 0.03, 0.06}, {0.03, 0.03, 0.08});
-  motions[0].grab_begins = true;
+  motions[0].hold_begins = true;
   tick(motions);
   motions[0] = motion(ToolMode::kNone, {0.03, 0.03, 0.08}, {0.03, 0.03, 0.08});
-  motions[0].grab_ends = true;
+  motions[0].hold_ended = ToolMode::kGrab;
   tick(motions);
   expectSameDisplacement();
   EXPECT_EQ(stats().grabbed[0], 0u);

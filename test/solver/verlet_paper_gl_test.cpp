@@ -85,8 +85,8 @@ TEST_P(VerletPaper, DashpotsAreUnknownToIt) {
 TEST_P(VerletPaper, GrabbedNodesFollowTheToolAndAreLetGoAtTheReleaseSpeed) {
   const Model model = modelOf({boxBody({4, 4, 4}, 0.01)});
   StylusConfig config;
-  config.grab_radius_m = 0.005;
-  config.release_speed_m_per_s = 0.01;
+  config.grab.radius_m = 0.005;
+  config.grab.release_speed_m_per_s = 0.01;
   const auto solver = make(model, sceneWith(Integrator::kVerletPaper, model, 1, 0.1, 1, {config}));
   const uint32_t corner = static_cast<uint32_t>(model.bodies[0].lattice.slotAt({0, 0, 0}));
   const double way_m = 0.5 * solver->dt_s();  // half a metre per second
@@ -94,7 +94,7 @@ TEST_P(VerletPaper, GrabbedNodesFollowTheToolAndAreLetGoAtTheReleaseSpeed) {
   motions[0].mode = ToolMode::kGrab;
   motions[0].present = true;
   for (int t = 0; t < 3; ++t) {
-    motions[0].grab_begins = t == 0;
+    motions[0].hold_begins = t == 0;
     motions[0].from.position_m = Vector3d(-t * way_m, 0, 0);
     motions[0].to.position_m = Vector3d(-(t + 1) * way_m, 0, 0);
     solver->step(motions);
@@ -102,11 +102,11 @@ TEST_P(VerletPaper, GrabbedNodesFollowTheToolAndAreLetGoAtTheReleaseSpeed) {
     EXPECT_NEAR(solver->readState().displacement_m[corner].x, -(t + 1) * way_m, 4 * kRounding * 0.01);
   }
   motions[0].mode = ToolMode::kNone;
-  motions[0].grab_ends = true;
+  motions[0].hold_ended = ToolMode::kGrab;
   solver->step(motions);
   // The springs pull it back, so it moves on by less than the release speed carries it.
   const double moved_m = -3 * way_m - solver->readState().displacement_m[corner].x;
-  EXPECT_LT(moved_m, config.release_speed_m_per_s * solver->dt_s());
+  EXPECT_LT(moved_m, config.grab.release_speed_m_per_s * solver->dt_s());
 }
 
 TEST_P(VerletPaper, GoesOnFromAStateThatWasSaved) {

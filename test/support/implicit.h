@@ -6,6 +6,7 @@
 
 #include "support/backends.h"
 #include "support/random_state.h"
+#include "tools/motion_packing.h"
 
 namespace viscera::test {
 
@@ -79,8 +80,8 @@ inline void expectEnergyBound(const std::string& backend, Integrator integrator,
 struct PullAndProbe {
   PullAndProbe() {
     StylusConfig grab, probe;
-    grab.grab_radius_m = 0.008;
-    probe.probe_radius_m = 0.012;
+    grab.grab.radius_m = 0.008;
+    probe.probe.radius_m = 0.012;
     styluses = {grab, probe};
   }
   /// Motions of a tick, held corner at (0, 0, 0), probe above the face at `height_m`.
@@ -92,7 +93,7 @@ struct PullAndProbe {
     };
     ToolMotions out;
     out[0].mode = ToolMode::kGrab;
-    out[0].grab_begins = tick == 0;
+    out[0].hold_begins = tick == 0;
     out[0].from = at(-0.001 * tick, 0, 0);
     out[0].to = at(-0.001 * (tick + 1), 0, 0);
     out[1].mode = ToolMode::kProbe;
@@ -128,7 +129,7 @@ inline void expectToolsLikeReference(const std::string& backend, Integrator inte
     const ToolMotions motions = tools.motions(t, 0.04);
     before = reference.impulse_n_s;
     solver->step(motions);
-    if (motions[0].grab_begins) reference.takeHold(0, motions[0].from, tools.styluses[0].grab_radius_m);
+    if (motions[0].hold_begins) reference.takeHold(0, motions[0].from, tools.styluses[0].grab.radius_m);
     std::vector<layout::ToolMotion> rows;
     interpolateMotions(motions, tools.styluses, kSubsteps, rows);
     for (size_t s = 0; s < kSubsteps; ++s) reference.substep({rows[2 * s], rows[2 * s + 1]});

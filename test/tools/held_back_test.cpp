@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
-#include "viscera/tools/stylus.h"
+#include "viscera/tools/hands.h"
 
 namespace viscera {
 namespace {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include "tools/motion_packing.h"
 #include "viscera/tools/stylus.h"
 
 namespace viscera {
@@ -73,8 +74,8 @@ TEST(Interpolation, OrientationTakesTheShortWayWhateverTheSignOfItsQuaternion) {
 
 TEST(Interpolation, BladeReachesFromTheTipAlongMinusZOfTheStylus) {
   StylusConfig config;
-  config.blade_length_m = 0.05;
-  config.eraser_radius_m = 0.003;
+  config.cut.blade_length_m = 0.05;
+  config.cut_particles.eraser_radius_m = 0.003;
   ToolMotions motions = movingAndTurning();
   motions[0].mode = ToolMode::kCutParticles;
   const auto all = substepsOf(motions, {config});
@@ -86,18 +87,18 @@ TEST(Interpolation, BladeReachesFromTheTipAlongMinusZOfTheStylus) {
 
 TEST(Interpolation, EachModeBringsItsOwnRadius) {
   StylusConfig config;
-  config.probe_radius_m = 0.011;
-  config.grab_radius_m = 0.022;
-  config.release_speed_m_per_s = 0.33;
+  config.probe.radius_m = 0.011;
+  config.grab.radius_m = 0.022;
+  config.grab.release_speed_m_per_s = 0.33;
   ToolMotions motions = movingAndTurning();
   const auto probing = substepsOf(motions, {config});
   EXPECT_EQ(at(probing, 0).info.x, layout::kModeProbe);
   EXPECT_FLOAT_EQ(at(probing, 0).from.w, 0.011f);
-  EXPECT_FLOAT_EQ(at(probing, 0).to.w, 0.33f);
   motions[0].mode = ToolMode::kGrab;
   const auto grabbing = substepsOf(motions, {config});
   EXPECT_EQ(at(grabbing, 0).info.x, layout::kModeGrab);
   EXPECT_FLOAT_EQ(at(grabbing, 0).from.w, 0.022f);
+  EXPECT_FLOAT_EQ(at(grabbing, 0).to.w, 0.33f);
 }
 
 TEST(Interpolation, StylusThatDoesNothingHasModeNoneInEverySubstep) {

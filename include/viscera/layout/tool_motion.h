@@ -17,14 +17,20 @@ const uint kModeGrab = 2u;
 const uint kModeCut = 3u;
 const uint kModeCutParticles = 4u;
 
+// What a kind of tool does to tissue, bits of ToolMotion.info.y
+const uint kToolPushes = 1u;  // nodes out of a swept sphere at the tip
+const uint kToolHolds = 2u;   // the nodes that it took when it began
+const uint kToolCuts = 4u;    // springs that its blade crosses
+const uint kToolErases = 8u;  // springs of the nodes near its blade
+
 // One stylus over one substep, tissue frame.
 struct ToolMotion {
-  vec4 from;         // xyz tip at the start [m]; w contact radius [m]
-  vec4 to;           // xyz tip at the end [m]; w largest node speed after release [m/s]
+  vec4 from;         // xyz tip at the start [m]; w reach around the tip [m]
+  vec4 to;           // xyz tip at the end [m]; w of tools that hold: largest node speed after release [m/s]
   vec4 orientation;  // quaternion xyzw at the end
   vec4 blade_from;   // xyz far end of the blade at the start [m]; w half thickness of the particle eraser [m]
   vec4 blade_to;     // xyz far end of the blade at the end [m]
-  uvec4 info;        // x mode
+  uvec4 info;        // x mode; y what it does: kTool... bits
   vec4 timing;       // x length of the substep before [s]; 0 where there was none
   uvec4 pad;         // two styluses make 256 bytes, the coarsest alignment of a uniform block
 };

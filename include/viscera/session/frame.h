@@ -12,6 +12,7 @@
 #include "viscera/math/types.h"
 #include "viscera/solver/governor.h"
 #include "viscera/surface/shown_mesh.h"
+#include "viscera/tools/force_limiter.h"
 #include "viscera/tools/stylus.h"
 
 namespace viscera {

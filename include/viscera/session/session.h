@@ -14,8 +14,9 @@
 #include "viscera/model/model.h"
 #include "viscera/session/frame.h"
 #include "viscera/solver/solver.h"
+#include "viscera/tools/force_limiter.h"
+#include "viscera/tools/hands.h"
 #include "viscera/tools/obstacles.h"
-#include "viscera/tools/stylus.h"
 
 namespace viscera {
 

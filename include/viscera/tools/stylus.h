@@ -3,10 +3,6 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
-#include <limits>
-#include <string>
-#include <vector>
 
 #include "viscera/layout/limits.h"
 #include "viscera/layout/tool_motion.h"
@@ -31,54 +27,11 @@ struct StylusMotion {
   ToolMode mode = ToolMode::kNone;
   bool present = false;  ///< a valid pose is known, whatever the mode
   Pose from, to;
-  bool grab_begins = false;  ///< this tick is the first of a grab
-  bool held_back = false;    ///< the tip was faster than tissue can follow: `to` lags behind the pose, and catches up
-  bool grab_ends = false;    ///< a grab was let go, or the stylus was lost, at the start of this tick
+  bool hold_begins = false;  ///< this tick is the first of a mode that holds
+  ToolMode hold_ended =
+      ToolMode::kNone;     ///< a mode that held was left, or the stylus was lost, at the start of this tick
+  bool held_back = false;  ///< the tip was faster than tissue can follow: `to` lags behind the pose, and catches up
 };
 using ToolMotions = std::array<StylusMotion, layout::kMaxStyluses>;
-
-/// Turns stylus samples into motions, tick by tick: modes from buttons, jumps that are no motion (first sample).
-class Tools {
- public:
-  /// @param max_travel_m  how far a tip may move in a tick: what tissue could follow, the speed of its waves times the
-  ///                      tick. A tip that is faster, or jumps, follows its pose at that speed (physics.md 5).
-  explicit Tools(const std::vector<StylusConfig>& styluses,
-                 double max_travel_m = std::numeric_limits<double>::infinity());
-  ToolMotions advance(const StylusSamples& samples);
-  void reset();
-  const std::vector<StylusConfig>& configs() const { return configs_; }
-
- private:
-  void holdBack(StylusMotion& motion) const;
-
-  std::vector<StylusConfig> configs_;
-  double max_travel_m_;
-  std::array<StylusSample, layout::kMaxStyluses> last_{};
-  std::array<ToolMode, layout::kMaxStyluses> mode_{};
-};
-
-/// Motions cut into substeps for the solver: [substeps * kMaxStyluses], substep-major (physics.md 2: tool poses are
-/// interpolated over the substeps of a tick).
-void interpolateMotions(const ToolMotions& motions, const std::vector<StylusConfig>& configs, int substeps,
-                        std::vector<layout::ToolMotion>& out);
-
-/// Reaction force and torque on a stylus, tissue frame, acting at the tip.
-struct Reaction {
-  Vector3d force_n = Vector3d::Zero();
-  Vector3d torque_nm = Vector3d::Zero();
-  bool saturated = false;
-};
-
-/// Saturates a force and limits its slew from one tick to the next (physics.md 5).
-class ForceLimiter {
- public:
-  ForceLimiter(double max_force_n, double max_rate_n_per_s);
-  Reaction limit(const Reaction& raw, double tick_s);
-  void reset() { last_ = Reaction{}; }
-
- private:
-  double max_force_n_, max_rate_n_per_s_;
-  Reaction last_;
-};
 
 }  // namespace viscera

@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "model/scene/tool_kinds.h"
 #include "viscera/model/scene/scene.h"
 
 namespace viscera {
@@ -18,6 +19,7 @@ namespace viscera {
 // * choice(key, Enum&, {{name, value}...}, text)
 // * group(key, Struct&, text)
 // * list(key, std::vector<Struct>&, max_count, text, defaults of an item = {})
+// * formerNumber(old key, group, key, double&, Range, unit): what `group.key` was called before; after that group
 
 /// Accepted values, both ends included.
 struct Range {
@@ -31,10 +33,20 @@ struct Choice {
 template <class E>
 using Choices = std::initializer_list<Choice<E>>;
 
+/// The tool kinds by their names.
+inline std::vector<Choice<ToolMode>> toolChoices() {
+  std::vector<Choice<ToolMode>> choices;
+  for (const ToolKind& kind : kToolKinds) choices.push_back({kind.name, kind.mode});
+  return choices;
+}
+
 constexpr Range kLength{0, 10};         // m: organs and rooms
 constexpr Range kCoordinate{-10, 10};   // m
 constexpr Range kDirection{-1e3, 1e3};  // any length but zero
 constexpr Range kAngle{-360, 360};      // degrees
+constexpr Range kTipReach{1e-4, 1};     // m: of a tool
+constexpr Range kEraserReach{1e-5, 1};  // m
+constexpr Range kReleaseSpeed{0, 100};  // m/s
 
 template <class V>
 void visitFields(V& v, FixedConfig& c) {
@@ -129,22 +141,45 @@ void visitFields(V& v, BodyConfig& c) {
 }
 
 template <class V>
+void visitFields(V& v, ProbeConfig& c) {
+  v.number("radius_m", c.radius_m, kTipReach, "m", "radius of the tip's sphere");
+}
+
+template <class V>
+void visitFields(V& v, GrabConfig& c) {
+  v.number("radius_m", c.radius_m, kTipReach, "m", "nodes within this distance of the tip are held");
+  v.number("release_speed_m_per_s", c.release_speed_m_per_s, kReleaseSpeed, "m/s", "largest node speed after release");
+}
+
+template <class V>
+void visitFields(V& v, CutConfig& c) {
+  v.number("blade_length_m", c.blade_length_m, kTipReach, "m", "blade from the tip along -z of the stylus");
+}
+
+template <class V>
+void visitFields(V& v, CutParticlesConfig& c) {
+  v.number("eraser_radius_m", c.eraser_radius_m, kEraserReach, "m",
+           "nodes within this distance of the blade are erased");
+}
+
+template <class V>
 void visitFields(V& v, StylusConfig& c) {
-  const Choices<ToolMode> modes = {{"none", ToolMode::kNone},
-                                   {"probe", ToolMode::kProbe},
-                                   {"grab", ToolMode::kGrab},
-                                   {"cut", ToolMode::kCut},
-                                   {"cut_particles", ToolMode::kCutParticles}};
+  const std::vector<Choice<ToolMode>> modes = toolChoices();
   v.text("name", c.name, "name: its topics are `<name>/measured_cp` and so on");
   v.choice("idle", c.idle, modes, "what it does with no button pressed");
   v.choice("button1", c.button1, modes, "what it does while button 1 is pressed");
   v.choice("button2", c.button2, modes, "what it does while button 2 is pressed; goes before button 1");
-  v.number("probe_radius_m", c.probe_radius_m, {1e-4, 1}, "m", "probe: radius of the tip's sphere");
-  v.number("grab_radius_m", c.grab_radius_m, {1e-4, 1}, "m", "grab: nodes within this distance of the tip are held");
-  v.number("blade_length_m", c.blade_length_m, {1e-4, 1}, "m", "cut: blade from the tip along -z of the stylus");
-  v.number("eraser_radius_m", c.eraser_radius_m, {1e-5, 1}, "m",
-           "cut_particles: nodes within this distance of the blade are erased");
-  v.number("release_speed_m_per_s", c.release_speed_m_per_s, {0, 100}, "m/s", "grab: largest node speed after release");
+  v.group("probe", c.probe, "probe: a sphere at the tip pushes nodes out of its way");
+  v.group("grab", c.grab, "grab: takes the nodes around the tip when it begins and holds them");
+  v.group("cut", c.cut, "cut: a blade cuts the springs that it crosses");
+  v.group("cut_particles", c.cut_particles, "cut_particles: the same blade erases the springs of nodes near it");
+  v.formerNumber("probe_radius_m", "probe", "radius_m", c.probe.radius_m, kTipReach, "m");
+  v.formerNumber("grab_radius_m", "grab", "radius_m", c.grab.radius_m, kTipReach, "m");
+  v.formerNumber("blade_length_m", "cut", "blade_length_m", c.cut.blade_length_m, kTipReach, "m");
+  v.formerNumber("eraser_radius_m", "cut_particles", "eraser_radius_m", c.cut_particles.eraser_radius_m, kEraserReach,
+                 "m");
+  v.formerNumber("release_speed_m_per_s", "grab", "release_speed_m_per_s", c.grab.release_speed_m_per_s, kReleaseSpeed,
+                 "m/s");
   v.number("max_force_n", c.max_force_n, {0, 1e3}, "N", "reaction force is saturated here");
   v.number("max_force_rate_n_per_s", c.max_force_rate_n_per_s, {0, 1e6}, "N/s", "reaction force changes no faster");
   v.number("stale_after_s", c.stale_after_s, {0.001, 60}, "s", "a pose older than this is no pose: no tool, no force");

@@ -20,6 +20,9 @@ class KeyTable {
   void numberOrAuto(const char* key, double& value, bool&, Range range, const char* unit, const char* text) {
     row(key, withUnit("number or auto", unit), numberText(value), span(range), text);
   }
+  void formerNumber(const char* old_key, const char* group, const char* key, double&, Range range, const char* unit) {
+    row(old_key, withUnit("number", unit), "", span(range), std::string("older name of `") + group + "." + key + "`");
+  }
   void integer(const char* key, int& value, Range range, const char* text) {
     row(key, "integer", std::to_string(value), span(range), text);
   }
@@ -34,6 +37,10 @@ class KeyTable {
   }
   template <class E>
   void choice(const char* key, E& value, Choices<E> names, const char* text) {
+    choice<E, Choices<E>>(key, value, names, text);
+  }
+  template <class E, class List>
+  void choice(const char* key, E& value, const List& names, const char* text) {
     std::string all, chosen;
     for (const auto& n : names) {
       all += std::string(all.empty() ? "" : ", ") + n.name;

@@ -30,10 +30,14 @@ std::string numberText(double value) {
   return out.str();
 }
 
+bool YamlSource::sets(const std::string& path) const {
+  return std::any_of(overridden.begin(), overridden.end(), [&](const std::string& set) {
+    return path == set || path.rfind(set + ".", 0) == 0 || path.rfind(set + "[", 0) == 0;
+  });
+}
+
 std::string whereIs(const YamlSource& source, const std::string& path, const YAML::Node& node) {
-  for (const std::string& set : source.overridden) {
-    if (path == set || path.rfind(set + ".", 0) == 0 || path.rfind(set + "[", 0) == 0) return "override: ";
-  }
+  if (source.sets(path)) return "override: ";
   if (node.Mark().is_null() && !source.overridden.empty())
     return "override: ";  // made to hold a value set from outside
   return source.name + ":" + std::to_string(node.Mark().line + 1) + ": ";
@@ -120,6 +124,21 @@ void YamlReader::vector(const char* key, Vector3d& value, Range range, const cha
   if (!node) return;
   if (!node.IsSequence() || node.size() != 3) fail(key, node, "is a list of 3 numbers, " + rangeText(range, unit));
   for (size_t i = 0; i < 3; ++i) value[static_cast<Eigen::Index>(i)] = scalar(key, node[i], range, unit);
+}
+
+void YamlReader::formerNumber(const char* old_key, const char* group, const char* key, double& value, Range range,
+                              const char* unit) {
+  const YAML::Node node = take(old_key), inside = map_[group];
+  if (!node) return;
+  const double old = scalar(old_key, node, range, unit);
+  const bool both = inside.IsDefined() && inside[key].IsDefined();
+  const std::string path = child(std::string(group) + "." + key);
+  const bool old_is_set = source_.sets(child(old_key)), new_is_set = source_.sets(path);
+  if (both && old != value && old_is_set == new_is_set) {
+    throw SceneError(whereIs(source_, child(old_key), node) + "'" + child(old_key) + "' is the older name of '" + path +
+                     "', and they differ: " + numberText(old) + " and " + numberText(value) + "; give one of them");
+  }
+  if (!both || old_is_set) value = old;
 }
 
 void YamlReader::requireList(const char* key, const YAML::Node& node, double max_count) const {

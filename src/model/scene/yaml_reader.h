@@ -16,6 +16,8 @@ namespace viscera {
 struct YamlSource {
   std::string name;                  ///< of the file
   std::set<std::string> overridden;  ///< key paths that were set from outside the file
+
+  bool sets(const std::string& path) const;  ///< was the key, or what holds it, set from outside the file?
 };
 
 /// Reads one map strictly: it is a field visitor that takes what is there and finish() refuses what it never asked for.
@@ -30,6 +32,10 @@ class YamlReader {
   void boolean(const char* key, bool& value, const char* text);
   void text(const char* key, std::string& value, const char* text);
   void vector(const char* key, Vector3d& value, Range range, const char* unit, const char* text);
+  /// The older name of a key that a group has now. Where both are given and differ, the one that was set from outside
+  /// the file goes before the other. @throws SceneError  naming both, where neither or both were
+  void formerNumber(const char* old_key, const char* group, const char* key, double& value, Range range,
+                    const char* unit);
 
   template <class E, class List>
   void choice(const char* key, E& value, const List& names, const char*) {

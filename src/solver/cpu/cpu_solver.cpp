@@ -116,8 +116,8 @@ void CpuSolver::takeHold(uint32_t stylus, const Pose& pose, double radius_m) {
   noteHeld();
 }
 
-void CpuSolver::letGo(uint32_t stylus, double release_speed_m_per_s) {
-  viscera::letGo(lattice_, stylus, release_speed_m_per_s);
+void CpuSolver::letGo(uint32_t stylus, const Release& release) {
+  viscera::letGo(lattice_, stylus, release, stats_);
   noteHeld();
 }
 
@@ -144,10 +144,10 @@ void CpuSolver::writeMotions(const std::vector<layout::ToolMotion>& motions) {
 void CpuSolver::wakeForTools(const std::vector<layout::ToolMotion>& motions) {
   for (size_t s = 0; s < layout::kMaxStyluses; ++s) {
     const layout::ToolMotion &first = motions[s], &last = motions[motions.size() - layout::kMaxStyluses + s];
-    if (first.info.x == layout::kModeNone) continue;
+    if (first.info.y == 0) continue;
     Vector3f low = xyz(first.from).cwiseMin(xyz(last.to)), high = xyz(first.from).cwiseMax(xyz(last.to));
     float reach = first.from.w;
-    if (first.info.x == layout::kModeCut || first.info.x == layout::kModeCutParticles) {
+    if (first.info.y & (layout::kToolCuts | layout::kToolErases)) {
       low = low.cwiseMin(xyz(first.blade_from)).cwiseMin(xyz(last.blade_to));
       high = high.cwiseMax(xyz(first.blade_from)).cwiseMax(xyz(last.blade_to));
       reach = first.blade_from.w;

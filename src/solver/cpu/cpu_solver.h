@@ -46,7 +46,7 @@ class CpuSolver : public LatticeSolver {
  protected:
   void beginTick() override;
   void takeHold(uint32_t stylus, const Pose& pose, double radius_m) override;
-  void letGo(uint32_t stylus, double release_speed_m_per_s) override;
+  void letGo(uint32_t stylus, const Release& release) override;
   void writeMotions(const std::vector<layout::ToolMotion>& motions) override;
   void selectMotions(size_t substep) override;
   void cut(uint32_t stylus, bool particles) override;

@@ -13,7 +13,8 @@ struct GrabKernel : Kernel {
   using Kernel::Kernel;
   uint stylus = 0;
   vec4 tip = vec4(0), orientation = vec4(0);
-  float release_speed = 0;
+  float release_speed = 0, above = -1;
+  TickStats stats{};
 };
 
 #define VARIANT_NAME TakeHold
@@ -56,10 +57,12 @@ void takeHold(CpuLattice& lattice, uint32_t stylus, const Pose& pose, double rad
   runOnAll(lattice, kernel);
 }
 
-void letGo(CpuLattice& lattice, uint32_t stylus, double release_speed_m_per_s) {
+void letGo(CpuLattice& lattice, uint32_t stylus, const Release& release, const layout::TickStats& stats) {
   glsl::LetGo kernel(lattice);
   kernel.stylus = stylus;
-  kernel.release_speed = static_cast<float>(release_speed_m_per_s);
+  kernel.release_speed = static_cast<float>(release.speed_m_per_s);
+  kernel.above = static_cast<float>(release.above_n_s);
+  kernel.stats = stats;
   runOnAll(lattice, kernel);
 }
 

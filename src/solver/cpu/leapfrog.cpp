@@ -71,7 +71,7 @@ void CpuLeapfrog::stepAwake(CpuLattice& lattice, const Substep& step, const layo
   job_.reaches = 0;
   for (size_t s = 0; step.tools && s < layout::kMaxStyluses; ++s) {
     const layout::ToolMotion& m = motions[s];
-    if (m.info.x == layout::kModeProbe) job_.reach[job_.reaches++] = {{m.to.x, m.to.y, m.to.z}, reachOf(m)};
+    if (m.info.y & layout::kToolPushes) job_.reach[job_.reaches++] = {{m.to.x, m.to.y, m.to.z}, reachOf(m)};
   }
   parallel_((awake + per_job_ - 1) / per_job_, [&](size_t chunk) { stepBricks(lattice, step, motions, chunk); });
 }
@@ -105,7 +105,7 @@ void CpuLeapfrog::stepNetwork(CpuLattice& lattice, const Substep& step, const la
   reaches_.clear();
   for (size_t s = 0; s < layout::kMaxStyluses; ++s) {
     const layout::ToolMotion& m = motions[s];
-    if (m.info.x == layout::kModeProbe) reaches_.push_back({glsl::xyz(m.to), reachOf(m)});
+    if (m.info.y & layout::kToolPushes) reaches_.push_back({glsl::xyz(m.to), reachOf(m)});
   }
   for (const uint32_t slot : network_->touched(lattice, reaches_)) touchNode(lattice, step, motions, slot);
 }

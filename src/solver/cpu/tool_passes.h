@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "solver/cpu/cpu_lattice.h"
+#include "solver/tool_acts.h"
 #include "viscera/layout/tick_stats.h"
 #include "viscera/layout/tool_motion.h"
 
@@ -18,8 +19,8 @@ namespace viscera {
 /// @param stylus  index, < kMaxStyluses   @param pose  of the stylus, tissue frame   @param radius_m  of the grip
 void takeHold(CpuLattice& lattice, uint32_t stylus, const Pose& pose, double radius_m);
 
-/// Lets go what a stylus holds. @param release_speed_m_per_s  faster nodes are slowed to this
-void letGo(CpuLattice& lattice, uint32_t stylus, double release_speed_m_per_s);
+/// Lets go what a stylus holds. @param stats  of the tick, with what the stylus gave in it
+void letGo(CpuLattice& lattice, uint32_t stylus, const Release& release, const layout::TickStats& stats);
 
 /// Erases the springs that a swept blade crosses, from both ends, and with them the volumes of their cells. Most nodes
 /// are passed over by loops that vector units run: allocates nothing once it has cut.

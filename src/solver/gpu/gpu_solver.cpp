@@ -42,8 +42,8 @@ void GpuSolver::takeHold(uint32_t stylus, const Pose& pose, double radius_m) {
   tools_->grab.takeHold(buffers_, stylus, pose, radius_m);
 }
 
-void GpuSolver::letGo(uint32_t stylus, double release_speed_m_per_s) {
-  tools_->grab.letGo(buffers_, stylus, release_speed_m_per_s);
+void GpuSolver::letGo(uint32_t stylus, const Release& release) {
+  tools_->grab.letGo(buffers_, stylus, release);
 }
 
 void GpuSolver::writeMotions(const std::vector<layout::ToolMotion>& motions) {

@@ -23,11 +23,12 @@ void GrabPass::takeHold(const LatticeBuffers& buffers, uint32_t stylus, const Po
   gpu::Program::storageBarrier();
 }
 
-void GrabPass::letGo(const LatticeBuffers& buffers, uint32_t stylus, double release_speed_m_per_s) const {
+void GrabPass::letGo(const LatticeBuffers& buffers, uint32_t stylus, const Release& release) const {
   release_.use();
   release_.set("active_count", static_cast<uint32_t>(buffers.active_count));
   release_.set("stylus", stylus);
-  release_.set("release_speed", static_cast<float>(release_speed_m_per_s));
+  release_.set("release_speed", static_cast<float>(release.speed_m_per_s));
+  release_.set("above", static_cast<float>(release.above_n_s));
   gpu::Program::dispatch(buffers.active_count, group_size_);
   gpu::Program::storageBarrier();
 }

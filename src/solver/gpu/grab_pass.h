@@ -4,6 +4,7 @@
 
 #include "solver/gpu/features.h"
 #include "solver/gpu/lattice_buffers.h"
+#include "solver/tool_acts.h"
 #include "viscera/gpu/program.h"
 
 namespace viscera {
@@ -15,8 +16,8 @@ class GrabPass {
   /// @param stylus  index, < kMaxStyluses   @param pose  of the stylus, tissue frame   @param radius_m  reach of the
   /// grip
   void takeHold(const LatticeBuffers& buffers, uint32_t stylus, const Pose& pose, double radius_m) const;
-  /// @param release_speed_m_per_s  faster nodes are slowed to this
-  void letGo(const LatticeBuffers& buffers, uint32_t stylus, double release_speed_m_per_s) const;
+  /// What the stylus gave in the tick is read from the stats, where they are bound.
+  void letGo(const LatticeBuffers& buffers, uint32_t stylus, const Release& release) const;
 
  private:
   gpu::Program take_, release_;

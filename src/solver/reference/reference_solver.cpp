@@ -25,6 +25,7 @@ ReferenceSolver::ReferenceSolver(const Model& model, const Vector3d& gravity_m_p
       options_(options),
       grab_offsets_(model.slots(), Vector3d::Zero()) {
   impulse_n_s.fill(Vector3d::Zero());
+  markTick();
 }
 
 Vector3d ReferenceSolver::force(uint32_t slot) const {
@@ -71,8 +72,10 @@ void ReferenceSolver::setSubstep(double dt_s) {
 }
 
 void ReferenceSolver::substep(const SubstepMotions& motions) {
-  for (const layout::ToolMotion& motion : motions) {
-    if (motion.info.x == layout::kModeCut || motion.info.x == layout::kModeCutParticles) cut(motion);
+  motions_ = motions;
+  for (uint32_t s = 0; s < layout::kMaxStyluses; ++s) {
+    const uint32_t effects = motions[s].info.y;
+    if (effects & (layout::kToolCuts | layout::kToolErases)) cut(s, (effects & layout::kToolErases) != 0);
   }
   Field u_next = u_m, v_next(slots(), Vector3d::Zero());
   if (options_.integrator == ReferenceIntegrator::kLeapfrog) leapfrog(u_next, v_next);

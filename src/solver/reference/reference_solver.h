@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "solver/reference/reference_lattice.h"
+#include "solver/tool_acts.h"
 #include "viscera/solver/solver.h"
 
 namespace viscera {
@@ -31,7 +32,7 @@ using SubstepMotions = std::array<layout::ToolMotion, layout::kMaxStyluses>;
 
 /// The lattice in float64 on one thread, written to be obviously right: the truth that backends are held to.
 /// Slots are those of the model; physics.md 1, 2 and 5.
-class ReferenceSolver : public ReferenceLattice {
+class ReferenceSolver : public ReferenceLattice, public ToolTarget {
  public:
   /// @param model  must outlive the solver   @param gravity_m_per_s2  tissue frame   @param dt_s  substep, > 0
   ReferenceSolver(const Model& model, const Vector3d& gravity_m_per_s2, double dt_s,
@@ -45,8 +46,12 @@ class ReferenceSolver : public ReferenceLattice {
   double dt_s() const { return dt_s_; }
   /// Time starts anew: the velocities belong to the same moment as the displacements, the next kick is half a one.
   void restart() { first_ = true; }
-  void takeHold(uint32_t stylus, const Pose& pose, double radius_m);
-  void letGo(uint32_t stylus, double release_speed_m_per_s);
+  /// What styluses have given is counted anew for Release and tickImpulse().
+  void markTick() { impulse_before_n_s_ = impulse_n_s; }
+  Vector3d tickImpulse(uint32_t stylus) const { return impulse_n_s[stylus] - impulse_before_n_s_[stylus]; }
+  void takeHold(uint32_t stylus, const Pose& pose, double radius_m) override;
+  void letGo(uint32_t stylus, const Release& release) override;
+  void cut(uint32_t stylus, bool particles) override;
 
   /// Sum of spring, dashpot and volume forces on a node in the current state [N]; gravity and drag are not in it.
   Vector3d force(uint32_t slot) const;
@@ -70,7 +75,6 @@ class ReferenceSolver : public ReferenceLattice {
 
  private:
   bool rests(uint32_t slot) const;  ///< fixed, or alone and not held
-  void cut(const layout::ToolMotion& motion);
   void leapfrog(Field& u_next, Field& v_next) const;
   void verletPaper(Field& u_next, Field& v_next) const;
   void implicitEuler(const SubstepMotions& motions, Field& u_next, Field& v_next) const;
@@ -82,6 +86,8 @@ class ReferenceSolver : public ReferenceLattice {
   double dt_s_, last_dt_s_;
   ReferenceOptions options_;
   bool first_ = true;
+  SubstepMotions motions_{};                                       ///< of the substep
+  std::array<Vector3d, layout::kMaxStyluses> impulse_before_n_s_;  ///< momentum given when the tick began
   Field grab_offsets_;  ///< [slots] position of a held node in the stylus frame [m]
 };
 

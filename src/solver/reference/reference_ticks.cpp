@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "solver/substeps.h"
+#include "tools/motion_packing.h"
 
 namespace viscera {
 
@@ -28,30 +29,27 @@ ReferenceOptions optionsFor(const Model& model, const SolverConfig& config) {
 
 // Substep, gravity and limits are the float32 numbers that the kernels get: what differs is the arithmetic alone.
 ReferenceTicks::ReferenceTicks(const Model& model, const Scene& scene)
-    : styluses_(scene.styluses),
+    : acts_(scene.styluses, 1 / scene.solver.tick_hz),
       tick_hz_(scene.solver.tick_hz),
       dt_safe_s_(safeTimeStep(model)),
       substeps_(planSubsteps(model, ungoverned(scene.solver), dt_safe_s_).calm),
       solver_(model, scene.environment.gravity_m_per_s2.cast<float>().cast<double>(), static_cast<float>(dt_s()),
-              optionsFor(model, scene.solver)),
-      impulse_before_(solver_.impulse_n_s) {}
+              optionsFor(model, scene.solver)) {}
 
 void ReferenceTicks::step(const ToolMotions& motions) {
-  impulse_before_ = solver_.impulse_n_s;
-  for (uint32_t s = 0; s < styluses_.size(); ++s) {
-    if (motions[s].grab_ends) solver_.letGo(s, styluses_[s].release_speed_m_per_s);
-    if (motions[s].grab_begins) solver_.takeHold(s, motions[s].from, styluses_[s].grab_radius_m);
-  }
-  interpolateMotions(motions, styluses_, substeps_, motions_);
+  solver_.markTick();
+  acts_.beginTick(solver_, motions);
+  interpolateMotions(motions, acts_.styluses(), substeps_, motions_);
   for (int n = 0; n < substeps_; ++n) {
     SubstepMotions substep;
     std::copy_n(motions_.begin() + n * static_cast<int>(layout::kMaxStyluses), layout::kMaxStyluses, substep.begin());
     solver_.substep(substep);
   }
+  acts_.endTick(solver_, motions);
 }
 
 Vector3d ReferenceTicks::impulse(uint32_t stylus) const {
-  return solver_.impulse_n_s[stylus] - impulse_before_[stylus];
+  return solver_.tickImpulse(stylus);
 }
 
 double ReferenceTicks::maxStretch() const {

@@ -30,11 +30,10 @@ class ReferenceTicks {
   uint64_t nonfinite() const;                 ///< nodes whose u or v is not finite
 
  private:
-  std::vector<StylusConfig> styluses_;
+  ToolActs acts_;
   double tick_hz_, dt_safe_s_;
   int substeps_;
   ReferenceSolver solver_;
-  std::array<Vector3d, layout::kMaxStyluses> impulse_before_;
   std::vector<layout::ToolMotion> motions_;
 };
 

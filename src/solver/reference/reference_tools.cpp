@@ -81,7 +81,7 @@ void ReferenceSolver::applyTools(const SubstepMotions& motions, uint32_t slot, V
     if (held_by == s + 1) {
       u_next = heldDisplacement(m, slot);
       v_next = (u_next - u_m[slot]) / dt_s_;
-    } else if (held_by == 0 && m.info.x == layout::kModeProbe) {
+    } else if (held_by == 0 && (m.info.y & layout::kToolPushes)) {
       Vector3d x_next = restPosition(slot) + u_next;
       probe(m, dt_s_, options_.push_speed_m_per_s * dt_s_, restPosition(slot) + u_m[slot], x_next, v_next);
       u_next = x_next - restPosition(slot);
@@ -100,16 +100,18 @@ void ReferenceSolver::takeHold(uint32_t stylus, const Pose& pose, double radius_
   }
 }
 
-void ReferenceSolver::letGo(uint32_t stylus, double release_speed_m_per_s) {
+void ReferenceSolver::letGo(uint32_t stylus, const Release& release) {
+  if (tickImpulse(stylus).norm() <= release.above_n_s) return;
   for (uint32_t slot : active) {
     if (heldBy(slot) != stylus + 1) continue;
     nodes[slot].lo &= ~layout::kGrabMask;
     const double speed = v_m_per_s[slot].norm();
-    if (speed > release_speed_m_per_s) v_m_per_s[slot] *= release_speed_m_per_s / speed;
+    if (speed > release.speed_m_per_s) v_m_per_s[slot] *= release.speed_m_per_s / speed;
   }
 }
 
-void ReferenceSolver::cut(const layout::ToolMotion& m) {
+void ReferenceSolver::cut(uint32_t stylus, bool particles) {
+  const layout::ToolMotion& m = motions_[stylus];
   const Vector3d a = xyz(m.from), b = xyz(m.blade_from), c = xyz(m.blade_to), d = xyz(m.to);
   const auto position = [&](uint32_t slot) { return Vector3d(restPosition(slot) + u_m[slot]); };
   const auto erased = [&](const Vector3d& x) {
@@ -118,7 +120,7 @@ void ReferenceSolver::cut(const layout::ToolMotion& m) {
   // Where the spring from x to y, which has come `way` in the last substep, is severed, if it is.
   const auto severed = [&](const Vector3d& x, const Vector3d& y, bool linked,
                            const Vector3d& way) -> std::optional<double> {
-    if (m.info.x == layout::kModeCutParticles) {
+    if (particles) {
       return erased(x) || erased(y) ? std::optional(kErasedFraction) : std::nullopt;
     }
     const Vector3d offset = linked ? Vector3d(way - kOverlap * (d - a)) : Vector3d::Zero();

@@ -7,6 +7,7 @@
 #include "solver/cpu/pd.h"
 #include "solver/cpu/tool_passes.h"
 #include "support/implicit.h"
+#include "tools/motion_packing.h"
 
 using namespace viscera;
 using namespace viscera::test;
@@ -116,7 +117,7 @@ uint64_t hashAfterTools(Integrator integrator, const Model& model, const Paralle
   const auto stepper = makeCpuStepper(integrator, 6, rig.lattice, rig.with(parallel));
   for (int t = 0; t < 3; ++t) {
     const ToolMotions motions = tools.motions(t, 0.07);
-    if (t == 0) takeHold(rig.lattice, 0, motions[0].from, tools.styluses[0].grab_radius_m);
+    if (t == 0) takeHold(rig.lattice, 0, motions[0].from, tools.styluses[0].grab.radius_m);
     std::vector<layout::ToolMotion> rows;
     interpolateMotions(motions, tools.styluses, 1, rows);
     rig.run(*stepper, rows.data());
@@ -196,8 +197,8 @@ TEST(CpuImplicit, ToolsActLikeTheReferences) {
       for (int t = 0; t < 3; ++t) {
         const ToolMotions motions = tools.motions(t, 0.04);
         if (t == 0) {
-          takeHold(rig.lattice, 0, motions[0].from, tools.styluses[0].grab_radius_m);
-          reference.takeHold(0, motions[0].from, tools.styluses[0].grab_radius_m);
+          takeHold(rig.lattice, 0, motions[0].from, tools.styluses[0].grab.radius_m);
+          reference.takeHold(0, motions[0].from, tools.styluses[0].grab.radius_m);
         }
         std::vector<layout::ToolMotion> rows;
         interpolateMotions(motions, tools.styluses, 1, rows);

@@ -91,8 +91,8 @@ class HotLoop : public ::testing::Test {
     motions[0].present = true;
     motions[0].from.position_m = place(tick - 1);
     motions[0].to.position_m = place(tick);
-    motions[0].grab_begins = mode == ToolMode::kGrab && tick % 100 == 0;
-    motions[0].grab_ends = mode == ToolMode::kGrab && tick % 100 == 90;
+    motions[0].hold_begins = mode == ToolMode::kGrab && tick % 100 == 0;
+    if (mode == ToolMode::kGrab && tick % 100 == 90) motions[0].hold_ended = mode;
     return motions;
   }
 

@@ -31,8 +31,8 @@ class Sleeping : public ::testing::Test {
   std::unique_ptr<CpuSolver> make(double sleep_speed_m_per_s = kSleepSpeed_m_per_s, double gravity_m_per_s2 = 0,
                                   bool governor = false) const {
     StylusConfig stylus;
-    stylus.grab_radius_m = 0.008;
-    stylus.blade_length_m = 0.1;
+    stylus.grab.radius_m = 0.008;
+    stylus.cut.blade_length_m = 0.1;
     Scene scene = sceneFor(model_, 1, {stylus}, {0, 0, -gravity_m_per_s2});
     scene.solver.tick_hz = 1 / kTick_s;
     scene.solver.dt_fraction = scene.solver.dt_fraction_strained = 0.75;
@@ -163,7 +163,7 @@ TEST_F(Sleeping, GripWakesWhatItHoldsAndTheTissueFollows) {
   const auto solver = make();
   settle(*solver);
   ToolMotions motions = tool(ToolMode::kGrab, kCorner_m, kCorner_m + Vector3d(-0.002, 0, 0));
-  motions[0].grab_begins = true;
+  motions[0].hold_begins = true;
   solver->step(motions);
   EXPECT_GT(solver->awakeBricks(), 0u);
   EXPECT_LT(solver->awakeBricks(), solver->bricks());
@@ -174,7 +174,7 @@ TEST_F(Sleeping, GripWakesWhatItHoldsAndTheTissueFollows) {
   for (int t = 0; t < 200; ++t) solver->step(motions);
   EXPECT_GT(solver->awakeBricks(), 0u);
   motions[0].mode = ToolMode::kNone;
-  motions[0].grab_ends = true;
+  motions[0].hold_ended = ToolMode::kGrab;
   solver->step(motions);
   EXPECT_LT(settle(*solver), 500);
   EXPECT_LT(difference(solver->readState(), restState(model_)), 1e-5);
@@ -211,9 +211,9 @@ TEST_F(Sleeping, GovernorsRollbackWakesAll) {
   settle(*solver);
   EXPECT_EQ(solver->awakeBricks(), 0u);
   ToolMotions motions = tool(ToolMode::kGrab, kCorner_m, kCorner_m);
-  motions[0].grab_begins = true;
+  motions[0].hold_begins = true;
   solver->step(motions);
-  motions[0].grab_begins = false;
+  motions[0].hold_begins = false;
   motions[0].to.position_m = Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
   solver->step(motions);
   EXPECT_EQ(solver->health().trips, 1u);

@@ -3,6 +3,7 @@
 #include "solver/cpu/tool_passes.h"
 
 #include "support/random_state.h"
+#include "tools/motion_packing.h"
 
 using namespace viscera;
 using namespace viscera::test;
@@ -18,13 +19,13 @@ Vector3f single(const Vector3d& v) {
   return v.cast<float>();
 }
 
-layout::ToolMotion row(uint32_t mode, const Pose& from, const Pose& to) {
+layout::ToolMotion row(ToolMode mode, const Pose& from, const Pose& to) {
   StylusConfig config;
-  config.probe_radius_m = 0.012;
-  config.blade_length_m = 0.08;
-  config.eraser_radius_m = 0.004;
+  config.probe.radius_m = 0.012;
+  config.cut.blade_length_m = 0.08;
+  config.cut_particles.eraser_radius_m = 0.004;
   ToolMotions motions;
-  motions[0].mode = static_cast<ToolMode>(mode);
+  motions[0].mode = mode;
   motions[0].present = true;
   motions[0].from = from;
   motions[0].to = to;
@@ -122,8 +123,8 @@ TEST_F(CpuTools, ProbesPushNodesLikeTheReferences) {
     write(drifting(randomVector(random, 0.01), randomVector(random, 1)));
     const Vector3d a = Vector3d(0.03, 0.03, 0.05) + randomVector(random, 0.03);
     const Vector3d b = Vector3d(0.02, 0.04, 0.05) + randomVector(random, 0.03);
-    moved += expectSameSubstep({row(layout::kModeProbe, at(a), at(a + randomVector(random, 2e-3))),
-                                row(layout::kModeProbe, at(b), at(b + randomVector(random, 0.03)))});
+    moved += expectSameSubstep({row(ToolMode::kProbe, at(a), at(a + randomVector(random, 2e-3))),
+                                row(ToolMode::kProbe, at(b), at(b + randomVector(random, 0.03)))});
     const layout::TickStats stats = reactions(a, b);
     for (size_t s = 0; s < 2; ++s) {
       const Vector3d truth = reference_.impulse_n_s[s];
@@ -148,7 +149,7 @@ TEST_F(CpuTools, HeldNodesFollowTheirStylusLikeTheReferences) {
     EXPECT_GT(lattice_.mobility[slot], 0);
   }
   EXPECT_GT(held, 3u);
-  const layout::ToolMotion motion = row(layout::kModeGrab, start, at({0.032, 0.03, 0.07}, {20, 20, 50}));
+  const layout::ToolMotion motion = row(ToolMode::kGrab, start, at({0.032, 0.03, 0.07}, {20, 20, 50}));
   EXPECT_EQ(expectSameSubstep({{}, motion}), held);
   const layout::TickStats stats = reactions(Vector3d::Zero(), {0.032, 0.03, 0.07});
   EXPECT_EQ(stats.touched[1], held);
@@ -160,9 +161,9 @@ TEST_F(CpuTools, ReleasedNodesAreFreeAndNoFasterThanTheReleaseSpeed) {
   const Pose pose = at({0.03, 0.03, 0.06});
   takeHold(lattice_, 0, pose, 0.012);
   const std::vector<layout::NodeBits> held = lattice_.nodes;
-  letGo(lattice_, 1, 0.1);  // the other stylus holds nothing
+  letGo(lattice_, 1, {0.1}, {});  // the other stylus holds nothing
   EXPECT_EQ(lattice_.nodes[lattice_.active[0]].lo, held[lattice_.active[0]].lo);
-  letGo(lattice_, 0, 0.1);
+  letGo(lattice_, 0, {0.1}, {});
   const HostState state = lattice_.read();
   size_t slowed = 0;
   for (uint32_t slot : lattice_.active) {
@@ -198,7 +199,7 @@ TEST_F(CpuTools, CutTheSpringsAndCellsThatTheReferenceCuts) {
     write(state);
     const Vector3d turns(angle(random), angle(random), angle(random));
     const Vector3d from = Vector3d::Constant(0.03) + randomVector(random, 0.08);
-    const uint32_t mode = t % 5 == 4 ? layout::kModeCutParticles : layout::kModeCut;
+    const ToolMode mode = t % 5 == 4 ? ToolMode::kCutParticles : ToolMode::kCut;
     cut += cutBoth(row(mode, at(from, turns), at(from + randomVector(random, 0.05), turns + randomVector(random, 20))));
     const CpuLattice fresh = [&] {
       CpuLattice out(model_, lattice_.bodies, true);
@@ -221,7 +222,7 @@ TEST_F(CpuTools, LookOnlyAtBricksThatTheBladeMayReach) {
   const Model model = modelOf({boxBody({63, 3, 3}, 0.001)});
   CpuLattice lattice(model, bodyParams(model, safeTimeStep(model)), true);
   CpuCut cut(lattice);
-  const layout::ToolMotion motion = row(layout::kModeCut, at({0.0005, -0.001, 0.005}), at({0.0005, 0.004, 0.005}));
+  const layout::ToolMotion motion = row(ToolMode::kCut, at({0.0005, -0.001, 0.005}), at({0.0005, 0.004, 0.005}));
   EXPECT_EQ(cut.run(lattice, motion, false), 4u * 4 + 2 * (2 * 3 * 4));  // all springs between two layers of 4 x 4
   // The blade is 80 mm long and points down: its sphere has a radius of 40 mm and 12 mm for long springs.
   EXPECT_GT(cut.bricks().size(), 0u);
@@ -238,7 +239,7 @@ TEST_F(CpuTools, CutWhatTheReferenceCutsHoweverTheBladeMoves) {
   const Pose here = at({0.031, 0.032, 0.05}, {10, 20, 30}), turned = at({0.031, 0.032, 0.05}, {15, 20, 60});
   const Pose along = {here * Vector3d(0, 0, -0.02), here.orientation};
   for (const Pose& to : {here, turned, along}) {
-    for (const uint32_t mode : {layout::kModeCut, layout::kModeCutParticles}) {
+    for (const ToolMode mode : {ToolMode::kCut, ToolMode::kCutParticles}) {
       for (const bool short_blade : {false, true}) {
         write(restState(model_));
         layout::ToolMotion motion = row(mode, here, to);
@@ -249,7 +250,7 @@ TEST_F(CpuTools, CutWhatTheReferenceCutsHoweverTheBladeMoves) {
         const uint32_t before = reference_.springs_cut;
         const uint32_t cut = cutBoth(motion);
         EXPECT_EQ(cut, reference_.springs_cut - before);
-        EXPECT_TRUE(cut > 0 || mode == layout::kModeCut);
+        EXPECT_TRUE(cut > 0 || mode == ToolMode::kCut);
       }
     }
   }
@@ -258,7 +259,7 @@ TEST_F(CpuTools, CutWhatTheReferenceCutsHoweverTheBladeMoves) {
 TEST_F(CpuTools, ReactionsAreSummedOnceAndThenForgotten) {
   write(drifting(Vector3d::Zero(), Vector3d(0, 0, 1)));
   const Vector3d tip(0.03, 0.03, 0.07);
-  expectSameSubstep({row(layout::kModeProbe, at(tip), at(tip)), {}});
+  expectSameSubstep({row(ToolMode::kProbe, at(tip), at(tip)), {}});
   const std::vector<layout::vec4> given = lattice_.impulses;
   const HostState state = lattice_.read();
   Vector3d impulse = Vector3d::Zero(), angular = Vector3d::Zero();

@@ -42,7 +42,7 @@ class PaperErrors : public GpuTest {
 
 StylusConfig thinProbe(double radius_m) {
   StylusConfig config;
-  config.probe_radius_m = radius_m;
+  config.probe.radius_m = radius_m;
   return config;
 }
 
@@ -102,8 +102,8 @@ TEST_F(PaperErrors, CutsTakeSpringsAndNoMassSoTheStableSubstepNeverShrinks) {
   const Model model = block({5, 5, 5});
   const Lattice& lattice = model.bodies[0].lattice;
   StylusConfig config;
-  config.blade_length_m = 0.2;
-  config.eraser_radius_m = 0.6 * kSpacing_m;
+  config.cut.blade_length_m = 0.2;
+  config.cut_particles.eraser_radius_m = 0.6 * kSpacing_m;
   for (const ToolMode mode : {ToolMode::kCut, ToolMode::kCutParticles}) {
     GpuSolver solver(model, sceneFor(model, 4, {config}));
     solver.step({});

@@ -4,6 +4,7 @@
 
 #include "solver/reference/reference_bodies.h"
 #include "solver/reference/statics.h"
+#include "tools/motion_packing.h"
 
 namespace viscera {
 namespace {
@@ -78,7 +79,7 @@ SubstepMotions probeAt(const Vector3d& from, const Vector3d& to, double radius_m
                      static_cast<float>(radius_m)};
   motions[0].to = {static_cast<float>(to.x()), static_cast<float>(to.y()), static_cast<float>(to.z()), 1};
   motions[0].orientation = {0, 0, 0, 1};
-  motions[0].info.x = layout::kModeProbe;
+  motions[0].info = toolInfo(ToolMode::kProbe);
   return motions;
 }
 
@@ -187,7 +188,7 @@ TEST(ReferenceTools, ToolsGiveAllTheMomentumThereIs) {
       SubstepMotions motions = probeAt({x, 1.5, 1.5}, {x + 0.02, 1.5, 1.5}, 1.2);
       grip.position_m.z() += 0.02;
       motions[1] = probeAt(grip.position_m, grip.position_m, 1.2)[0];
-      motions[1].info.x = layout::kModeGrab;
+      motions[1].info = toolInfo(ToolMode::kGrab);
       solver.substep(motions);
     }
     const Vector3d given = solver.impulse_n_s[0] + solver.impulse_n_s[1];
@@ -244,7 +245,7 @@ TEST(ReferenceSolver, CutThroughTheMiddleKillsTheCellsBetween) {
   motions[0].blade_from = {1.5f, -1, -1, 0};
   motions[0].to = {1.5f, 3.1f, 3, 0};
   motions[0].blade_to = {1.5f, 3.1f, -1, 0};
-  motions[0].info.x = layout::kModeCut;
+  motions[0].info = toolInfo(ToolMode::kCut);
   solver.substep(motions);
   EXPECT_EQ(solver.springs_cut, 9u + 2 * 12);  // 3 x 3 along x; two diagonals on each of 2 x 3 + 3 x 2 faces
   for (uint32_t slot : solver.active) {

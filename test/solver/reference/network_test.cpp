@@ -8,6 +8,7 @@
 #include "solver/reference/derivatives.h"
 #include "solver/reference/reference_bodies.h"
 #include "solver/reference/statics.h"
+#include "tools/motion_packing.h"
 
 namespace viscera {
 namespace {
@@ -68,14 +69,14 @@ uint32_t slotNear(const Body& body, const Vector3d& at) {
 }
 
 /// A blade that points along -z from z = 2 and sweeps along y in the plane x = `x`, far beyond everything.
-SubstepMotions sweepAt(float x, uint32_t mode = layout::kModeCut) {
+SubstepMotions sweepAt(float x, ToolMode mode = ToolMode::kCut) {
   SubstepMotions motions{};
   motions[0].from = {x, -5, 5, 0.1f};
   motions[0].to = {x, 5, 5, 1};
   motions[0].blade_from = {x, -5, -5, 0.05f};
   motions[0].blade_to = {x, 5, -5, 0};
   motions[0].orientation = {0, 0, 0, 1};
-  motions[0].info.x = mode;
+  motions[0].info = toolInfo(mode);
   return motions;
 }
 
@@ -157,8 +158,8 @@ TEST(ReferenceNetwork, CutLatticeOfLinksLosesTheSpringsAndCellsOfTheImplicitOne)
   body.network = latticeNetwork(body);
   const Model links = modelOf({body});
   ReferenceSolver a(implicit, Vector3d::Zero(), 1e-3), b(links, Vector3d::Zero(), 1e-3);
-  for (const uint32_t mode : {layout::kModeCut, layout::kModeCutParticles}) {
-    const float at = mode == layout::kModeCut ? 0.6f : 3.0f;
+  for (const ToolMode mode : {ToolMode::kCut, ToolMode::kCutParticles}) {
+    const float at = mode == ToolMode::kCut ? 0.6f : 3.0f;
     a.substep(sweepAt(at, mode));
     b.substep(sweepAt(at, mode));
     EXPECT_GT(a.springs_cut, 0u);

@@ -82,16 +82,30 @@ struct BodyConfig {
   std::string spacing_note;  ///< no key: why spacing_m is what it is, where it was chosen
 };
 
+// What the kinds of tools are told, each in a group of its own.
+struct ProbeConfig {
+  double radius_m = 0.006;
+};
+struct GrabConfig {
+  double radius_m = 0.008;
+  double release_speed_m_per_s = 0.5;
+};
+struct CutConfig {
+  double blade_length_m = 0.02;
+};
+struct CutParticlesConfig {
+  double eraser_radius_m = 0.002;
+};
+
 struct StylusConfig {
   std::string name = "stylus";
   ToolMode idle = ToolMode::kProbe;
   ToolMode button1 = ToolMode::kGrab;
   ToolMode button2 = ToolMode::kCut;
-  double probe_radius_m = 0.006;
-  double grab_radius_m = 0.008;
-  double blade_length_m = 0.02;
-  double eraser_radius_m = 0.002;
-  double release_speed_m_per_s = 0.5;
+  ProbeConfig probe;
+  GrabConfig grab;
+  CutConfig cut;  ///< its blade is that of cut_particles too
+  CutParticlesConfig cut_particles;
   double max_force_n = 5;
   double max_force_rate_n_per_s = 500;
   double stale_after_s = 0.2;

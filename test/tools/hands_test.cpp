@@ -1,10 +1,8 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "viscera/tools/stylus.h"
+#include "viscera/tools/hands.h"
 
 #include <gtest/gtest.h>
-
-#include <limits>
 
 namespace viscera {
 namespace {
@@ -39,7 +37,7 @@ TEST(Tools, StylusWithoutAPoseIsAbsentAndDoesNothing) {
   const StylusMotion motion = tools.advance(lost)[0];
   EXPECT_FALSE(motion.present);
   EXPECT_EQ(motion.mode, ToolMode::kNone);
-  EXPECT_FALSE(motion.grab_begins);
+  EXPECT_FALSE(motion.hold_begins);
 }
 
 TEST(Tools, StylusIsPresentEvenWhereItsModeIsNone) {
@@ -81,25 +79,25 @@ TEST(Tools, FirstPoseAfterALossIsNoJump) {
 
 TEST(Tools, GrabBeginsOnceAndEndsOnce) {
   Tools tools = oneStylus();
-  EXPECT_TRUE(tools.advance(one(0, true))[0].grab_begins);
+  EXPECT_TRUE(tools.advance(one(0, true))[0].hold_begins);
   const StylusMotion held = tools.advance(one(0, true))[0];
-  EXPECT_FALSE(held.grab_begins);
-  EXPECT_FALSE(held.grab_ends);
+  EXPECT_FALSE(held.hold_begins);
+  EXPECT_EQ(held.hold_ended, ToolMode::kNone);
   const StylusMotion released = tools.advance(one(0))[0];
-  EXPECT_TRUE(released.grab_ends);
-  EXPECT_FALSE(released.grab_begins);
-  EXPECT_FALSE(tools.advance(one(0))[0].grab_ends);
+  EXPECT_EQ(released.hold_ended, ToolMode::kGrab);
+  EXPECT_FALSE(released.hold_begins);
+  EXPECT_EQ(tools.advance(one(0))[0].hold_ended, ToolMode::kNone);
 }
 
 TEST(Tools, LostStylusEndsItsGrabWhereItWas) {
   Tools tools = oneStylus();
   tools.advance(one(3, true));
   const StylusMotion lost = tools.advance({})[0];
-  EXPECT_TRUE(lost.grab_ends);
+  EXPECT_EQ(lost.hold_ended, ToolMode::kGrab);
   EXPECT_EQ(lost.mode, ToolMode::kNone);
   EXPECT_EQ(lost.to.position_m.x(), 3);
-  EXPECT_FALSE(tools.advance({})[0].grab_ends);
-  EXPECT_TRUE(tools.advance(one(3, true))[0].grab_begins);  // still pressed when it comes back: a new grab
+  EXPECT_EQ(tools.advance({})[0].hold_ended, ToolMode::kNone);
+  EXPECT_TRUE(tools.advance(one(3, true))[0].hold_begins);  // still pressed when it comes back: a new grab
 }
 
 TEST(Tools, CutEndsAGrab) {
@@ -107,7 +105,7 @@ TEST(Tools, CutEndsAGrab) {
   tools.advance(one(0, true));
   const StylusMotion motion = tools.advance(one(0, true, true))[0];
   EXPECT_EQ(motion.mode, ToolMode::kCut);
-  EXPECT_TRUE(motion.grab_ends);
+  EXPECT_EQ(motion.hold_ended, ToolMode::kGrab);
 }
 
 TEST(Tools, ResetForgetsPosesAndGrabs) {
@@ -116,54 +114,17 @@ TEST(Tools, ResetForgetsPosesAndGrabs) {
   tools.reset();
   const StylusMotion motion = tools.advance(one(2, true))[0];
   EXPECT_EQ(motion.from.position_m.x(), 2);
-  EXPECT_TRUE(motion.grab_begins);
+  EXPECT_TRUE(motion.hold_begins);
 }
 
-TEST(ForceLimiter, PassesAForceWithinItsLimits) {
-  ForceLimiter limiter(5, 1000);
-  const Reaction out = limiter.limit({Vector3d(1, 2, 2), Vector3d(0, 0, 0.1), false}, 0.01);
-  EXPECT_EQ(out.force_n, Vector3d(1, 2, 2));
-  EXPECT_EQ(out.torque_nm, Vector3d(0, 0, 0.1));
-  EXPECT_FALSE(out.saturated);
-}
-
-TEST(ForceLimiter, SaturatesTheForceAndScalesTheTorqueWithIt) {
-  ForceLimiter limiter(5, 1e6);
-  const Reaction out = limiter.limit({Vector3d(0, 30, 40), Vector3d(2, 0, 0), false}, 0.01);
-  EXPECT_TRUE(out.force_n.isApprox(Vector3d(0, 3, 4)));
-  EXPECT_TRUE(out.torque_nm.isApprox(Vector3d(0.2, 0, 0)));
-  EXPECT_TRUE(out.saturated);
-}
-
-TEST(ForceLimiter, ForceRisesAndFallsNoFasterThanItsRate) {
-  ForceLimiter limiter(5, 100);
-  const Reaction push{Vector3d(0, 0, 2.5), Vector3d(0, 0.5, 0), false};
-  for (double expected_n : {1.0, 2.0, 2.5}) {
-    const Reaction out = limiter.limit(push, 0.01);
-    EXPECT_NEAR(out.force_n.z(), expected_n, 1e-12);
-    EXPECT_NEAR(out.torque_nm.y(), expected_n / 5, 1e-12);
-    EXPECT_EQ(out.saturated, expected_n < 2.5);
-  }
-  for (double expected_n : {1.5, 0.5, 0.0}) EXPECT_NEAR(limiter.limit({}, 0.01).force_n.z(), expected_n, 1e-12);
-}
-
-TEST(ForceLimiter, StartsFromZeroAfterReset) {
-  ForceLimiter limiter(5, 100);
-  limiter.limit({Vector3d(1, 0, 0), Vector3d::Zero(), false}, 0.01);
-  limiter.reset();
-  EXPECT_NEAR(limiter.limit({Vector3d(-3, 0, 0), Vector3d::Zero(), false}, 0.01).force_n.x(), -1, 1e-12);
-}
-
-TEST(ForceLimiter, ForceThatIsNotFiniteIsNoForceAtAll) {
-  ForceLimiter limiter(5, 1000);
-  limiter.limit({Vector3d(3, 0, 0), Vector3d::Zero(), false}, 0.01);
-  for (double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
-    const Reaction out = limiter.limit({Vector3d(bad, 0, 0), Vector3d(0, bad, 0), false}, 0.01);
-    EXPECT_EQ(out.force_n, Vector3d::Zero());
-    EXPECT_EQ(out.torque_nm, Vector3d::Zero());
-    EXPECT_TRUE(out.saturated);
-  }
-  EXPECT_EQ(limiter.limit({Vector3d(2, 0, 0), Vector3d::Zero(), false}, 0.01).force_n.x(), 2);
+TEST(Tools, TheSameModeByAnotherButtonIsTheSameHold) {
+  StylusConfig config;
+  config.button1 = config.button2 = ToolMode::kGrab;
+  Tools tools({config});
+  tools.advance(one(0, true));
+  const StylusMotion same = tools.advance(one(0, false, true))[0];
+  EXPECT_FALSE(same.hold_begins);
+  EXPECT_EQ(same.hold_ended, ToolMode::kNone);
 }
 
 }  // namespace

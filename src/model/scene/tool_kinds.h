@@ -1,0 +1,87 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+#include "viscera/layout/tool_motion.h"
+#include "viscera/model/scene/scene.h"
+
+namespace viscera {
+
+/// What a kind of tool does to tissue: bits. Kernels ask for these and know no kinds.
+enum ToolEffect : uint32_t {
+  kPushes = layout::kToolPushes,  ///< nodes out of a swept sphere at the tip
+  kHolds = layout::kToolHolds,    ///< the nodes that it took when it began
+  kCuts = layout::kToolCuts,      ///< springs that its blade crosses
+  kErases = layout::kToolErases,  ///< springs of the nodes near its blade
+};
+
+/// What is drawn of a tool in front of its shaft.
+enum class ToolTip { kBare, kBall, kJaws, kBlade, kCapsule };
+
+/// How a tool that holds lets go.
+struct Grip {
+  double release_speed_m_per_s;  ///< faster nodes are slowed to this
+  /// The reaction over a tick above which it lets go what it has; it holds nothing again until it begins anew.
+  double max_force_n = std::numeric_limits<double>::infinity();
+};
+
+/// One kind of tool: all that the rest of the program asks of it. Whoever needs to know what a stylus does asks its row
+/// here, and nobody asks which kind it is.
+struct ToolKind {
+  ToolMode mode;
+  uint32_t number;   ///< of the mode, as kernels have it in ToolMotion.info.x
+  const char* name;  ///< in scene files
+  uint32_t effects;  ///< of ToolEffect
+  ToolTip tip;
+  std::array<uint8_t, 3> color;                 ///< sRGB of what acts, and of the collar on the shaft
+  double (*reach_m)(const StylusConfig&);       ///< of what acts, around the tip or around the blade
+  Grip (*grip)(const StylusConfig&) = nullptr;  ///< of kinds that hold
+
+  constexpr bool does(uint32_t some) const { return (effects & some) != 0; }
+  /// It moves nodes: contact kernels run, and their reactions are summed.
+  constexpr bool touches() const { return does(kPushes | kHolds); }
+  /// It parts springs, along the whole blade: kernels of cuts run, the skin is looked at anew.
+  constexpr bool severs() const { return does(kCuts | kErases); }
+};
+
+/// The table. Colours after Okabe and Ito, told apart by colour-blind people too, and all of them from red tissue.
+// clang-format off
+inline constexpr ToolKind kToolKinds[] = {
+    {ToolMode::kNone, layout::kModeNone, "none", 0, ToolTip::kBare, {190, 195, 202},
+     [](const StylusConfig&) { return 0.0; }},
+    {ToolMode::kProbe, layout::kModeProbe, "probe", kPushes, ToolTip::kBall, {86, 180, 233},
+     [](const StylusConfig& c) { return c.probe.radius_m; }},
+    {ToolMode::kGrab, layout::kModeGrab, "grab", kHolds, ToolTip::kJaws, {0, 178, 130},
+     [](const StylusConfig& c) { return c.grab.radius_m; },
+     [](const StylusConfig& c) { return Grip{c.grab.release_speed_m_per_s}; }},
+    {ToolMode::kCut, layout::kModeCut, "cut", kCuts, ToolTip::kBlade, {240, 228, 66},
+     [](const StylusConfig&) { return 0.0; }},
+    {ToolMode::kCutParticles, layout::kModeCutParticles, "cut_particles", kErases, ToolTip::kCapsule, {214, 126, 184},
+     [](const StylusConfig& c) { return c.cut_particles.eraser_radius_m; }},
+};
+// clang-format on
+inline constexpr size_t kToolKindCount = sizeof(kToolKinds) / sizeof(kToolKinds[0]);
+
+/// Is the row of each mode where kindOf() looks for it, is its number that of the kernels, and does each kind that
+/// holds say how it lets go?
+constexpr bool toolKindsAreWhole() {
+  for (size_t i = 0; i < kToolKindCount; ++i) {
+    if (static_cast<size_t>(kToolKinds[i].mode) != i || kToolKinds[i].number != i) return false;
+    if (kToolKinds[i].does(kHolds) != (kToolKinds[i].grip != nullptr)) return false;
+  }
+  return true;
+}
+static_assert(
+    toolKindsAreWhole(),
+    "rows of kToolKinds stand in the order of ToolMode, numbers are those of kernels, those that hold have a grip");
+
+constexpr const ToolKind& kindOf(ToolMode mode) {
+  return kToolKinds[static_cast<size_t>(mode)];
+}
+
+}  // namespace viscera

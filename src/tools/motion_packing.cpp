@@ -1,0 +1,48 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/motion_packing.h"
+
+#include "model/scene/tool_kinds.h"
+
+namespace viscera {
+
+namespace {
+
+layout::vec4 pack(const Vector3d& v, double w) {
+  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z()), static_cast<float>(w)};
+}
+
+layout::ToolMotion substep(const StylusMotion& motion, const StylusConfig& config, double begin, double end) {
+  const Pose from = interpolate(motion.from, motion.to, begin);
+  const Pose to = interpolate(motion.from, motion.to, end);
+  const Vector3d blade_tip(0, 0, -config.cut.blade_length_m);
+  const ToolKind& kind = kindOf(motion.mode);
+  layout::ToolMotion out;
+  out.from = pack(from.position_m, kind.reach_m(config));
+  out.to = pack(to.position_m, kind.grip ? kind.grip(config).release_speed_m_per_s : 0);
+  out.orientation = pack(to.orientation.vec(), to.orientation.w());
+  out.blade_from = pack(from * blade_tip, config.cut_particles.eraser_radius_m);
+  out.blade_to = pack(to * blade_tip, 0);
+  out.info = toolInfo(motion.mode);
+  return out;
+}
+
+}  // namespace
+
+layout::uvec4 toolInfo(ToolMode mode) {
+  return {kindOf(mode).number, kindOf(mode).effects, 0, 0};
+}
+
+void interpolateMotions(const ToolMotions& motions, const std::vector<StylusConfig>& configs, int substeps,
+                        std::vector<layout::ToolMotion>& out) {
+  out.assign(static_cast<size_t>(substeps) * layout::kMaxStyluses, layout::ToolMotion{});
+  for (size_t i = 0; i < configs.size(); ++i) {
+    if (motions[i].mode == ToolMode::kNone) continue;
+    for (int s = 0; s < substeps; ++s) {
+      out[static_cast<size_t>(s) * layout::kMaxStyluses + i] =
+          substep(motions[i], configs[i], static_cast<double>(s) / substeps, static_cast<double>(s + 1) / substeps);
+    }
+  }
+}
+
+}  // namespace viscera

@@ -1,0 +1,20 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "viscera/layout/tool_motion.h"
+#include "viscera/tools/stylus.h"
+
+namespace viscera {
+
+/// ToolMotion.info of a mode: its number, and what it does to tissue (ToolEffect).
+layout::uvec4 toolInfo(ToolMode mode);
+
+/// Motions cut into substeps for the solver: [substeps * kMaxStyluses], substep-major (physics.md 2: tool poses are
+/// interpolated over the substeps of a tick).
+void interpolateMotions(const ToolMotions& motions, const std::vector<StylusConfig>& configs, int substeps,
+                        std::vector<layout::ToolMotion>& out);
+
+}  // namespace viscera
