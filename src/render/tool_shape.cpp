@@ -69,6 +69,15 @@ void addCapsule(float radius, float length, const Color& color, ToolShape& shape
   addLathe(capsule, Eigen::Affine3f::Identity(), color, shape);
 }
 
+/// A bell that opens towards -z, its rim around the tip.
+void addCup(float radius, const Color& color, ToolShape& shape) {
+  const Profile bell = Profile()
+                           .line(0, 0.5f * radius, radius, 0)
+                           .line(radius, 0, 0.6f * radius, 0.7f * radius)
+                           .line(0.6f * radius, 0.7f * radius, 0, radius);
+  addLathe(bell, Eigen::Affine3f::Identity(), color, shape);
+}
+
 /// What acts on tissue, in its true size.
 void addTip(const StylusConfig& stylus, const ToolKind& kind, ToolShape& shape) {
   const float reach = static_cast<float>(kind.reach_m(stylus)), blade = static_cast<float>(stylus.cut.blade_length_m);
@@ -87,6 +96,9 @@ void addTip(const StylusConfig& stylus, const ToolKind& kind, ToolShape& shape) 
       break;
     case ToolTip::kCapsule:
       addCapsule(reach, blade, color, shape);
+      break;
+    case ToolTip::kCup:
+      addCup(reach, color, shape);
       break;
   }
 }

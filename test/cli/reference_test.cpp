@@ -25,6 +25,14 @@ constexpr const char* kTouch =
     "      - {t_s: 0.25, position_m: [0, -0.025, 0.002], button1: true}\n"
     "      - {t_s: 0.3, position_m: [0, -0.04, 0]}\n";
 
+/// A hand that takes the block's free end with button 1 and pulls it down.
+constexpr const char* kPull =
+    "strokes:\n"
+    "  - stylus: left\n"
+    "    keys:\n"
+    "      - {t_s: 0, position_m: [0, 0, -0.02], button1: true}\n"
+    "      - {t_s: 0.3, position_m: [0, 0, -0.03], button1: true}\n";
+
 class RunReference : public ::testing::Test {
  protected:
   static Json lastLine(const Ending& ending) {
@@ -67,6 +75,24 @@ TEST_F(RunReference, GpuIsCloseToIt) {
   constexpr double kTouched = 1e-5;  // of the largest displacement: float32 while a tool presses, grabs and lets go
   EXPECT_LT(gpuError({}), kTouched);
   EXPECT_LT(gpuError({"bodies[0].material.poisson_ratio=0.4"}), kTouched);
+}
+
+TEST_F(RunReference, SuctionLetsGoAboveItsForceOnEveryBackend) {
+  const std::string pull = folder_.write("pull.yaml", kPull);
+  const auto stretch = [&](const std::string& max_force_n, const std::vector<std::string>& backend) {
+    std::vector<std::string> options = {
+        "--strokes", pull,
+        "--set",     "styluses[0].button1=suction",
+        "--set",     "styluses[0].suction={radius_m: 0.012, max_force_n: " + max_force_n + "}"};
+    options.insert(options.end(), backend.begin(), backend.end());
+    return lastLine(run(options))["max_stretch"].get<double>();
+  };
+  const std::vector<std::vector<std::string>> backends = {
+      {"--reference"}, {"--set", "solver.backend=gpu"}, {"--set", "solver.backend=cpu"}};
+  for (const std::vector<std::string>& backend : backends) {
+    SCOPED_TRACE(backend.back());
+    EXPECT_GT(stretch("1000", backend), 2 * stretch("0.05", backend));
+  }
 }
 
 TEST_F(RunReference, RefusesPictures) {

@@ -59,6 +59,7 @@ styluses:
     grab: {radius_m: 0.0062, release_speed_m_per_s: 0.65}
     cut: {blade_length_m: 0.063}
     cut_particles: {eraser_radius_m: 0.0064}
+    suction: {radius_m: 0.0066, max_force_n: 6.7, release_speed_m_per_s: 0.651}
     probe_radius_m: 0.0061
     grab_radius_m: 0.0062
     blade_length_m: 0.063
@@ -186,6 +187,9 @@ TEST(SceneKeys, EveryOtherKeyReachesItsField) {
   EXPECT_EQ(stylus.cut.blade_length_m, 0.063);
   EXPECT_EQ(stylus.cut_particles.eraser_radius_m, 0.0064);
   EXPECT_EQ(stylus.grab.release_speed_m_per_s, 0.65);
+  EXPECT_EQ(stylus.suction.radius_m, 0.0066);
+  EXPECT_EQ(stylus.suction.max_force_n, 6.7);
+  EXPECT_EQ(stylus.suction.release_speed_m_per_s, 0.651);
   EXPECT_EQ(stylus.max_force_n, 6.6);
   EXPECT_EQ(stylus.max_force_rate_n_per_s, 670);
   EXPECT_EQ(stylus.stale_after_s, 0.68);

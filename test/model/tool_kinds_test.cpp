@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <set>
 #include <string>
 
@@ -32,9 +33,18 @@ TEST(ToolKinds, EachKindReachesAsFarAsItsOwnKeySays) {
   stylus.probe.radius_m = 0.011;
   stylus.grab.radius_m = 0.022;
   stylus.cut_particles.eraser_radius_m = 0.003;
+  stylus.suction.radius_m = 0.004;
   EXPECT_EQ(kindOf(ToolMode::kProbe).reach_m(stylus), 0.011);
   EXPECT_EQ(kindOf(ToolMode::kGrab).reach_m(stylus), 0.022);
   EXPECT_EQ(kindOf(ToolMode::kCutParticles).reach_m(stylus), 0.003);
+  EXPECT_EQ(kindOf(ToolMode::kSuction).reach_m(stylus), 0.004);
+}
+
+TEST(ToolKinds, OnlySuctionLetsGoAboveAForce) {
+  StylusConfig stylus;
+  stylus.suction.max_force_n = 0.7;
+  EXPECT_EQ(kindOf(ToolMode::kSuction).grip(stylus).max_force_n, 0.7);
+  EXPECT_TRUE(std::isinf(kindOf(ToolMode::kGrab).grip(stylus).max_force_n));
 }
 
 TEST(ToolKinds, AKindThatTouchesIsNotOneThatSevers) {

@@ -8,8 +8,8 @@ using namespace viscera;
 
 namespace {
 
-constexpr ToolMode kModes[] = {ToolMode::kNone, ToolMode::kProbe, ToolMode::kGrab, ToolMode::kCut,
-                               ToolMode::kCutParticles};
+constexpr ToolMode kModes[] = {ToolMode::kNone, ToolMode::kProbe,        ToolMode::kGrab,
+                               ToolMode::kCut,  ToolMode::kCutParticles, ToolMode::kSuction};
 constexpr float kTight_m = 1e-6f;  // of float coordinates of some centimetres
 
 Vector3f position(const ToolVertex& vertex) {
@@ -55,11 +55,13 @@ TEST(ToolShape, ActingPartsHaveTheSizesOfTheStylus) {
   stylus.grab.radius_m = 0.016;
   stylus.cut.blade_length_m = 0.031;
   stylus.cut_particles.eraser_radius_m = 0.004;
+  stylus.suction.radius_m = 0.005;
   EXPECT_NEAR(lowestZ(toolShape(stylus, ToolMode::kNone)), 0, kTight_m);
   EXPECT_NEAR(lowestZ(toolShape(stylus, ToolMode::kProbe)), -0.011, kTight_m);
   EXPECT_NEAR(lowestZ(toolShape(stylus, ToolMode::kGrab)), -0.016, kTight_m);
   EXPECT_NEAR(lowestZ(toolShape(stylus, ToolMode::kCut)), -0.031, kTight_m);
   EXPECT_NEAR(lowestZ(toolShape(stylus, ToolMode::kCutParticles)), -0.035, kTight_m);
+  EXPECT_NEAR(lowestZ(toolShape(stylus, ToolMode::kSuction)), -0.005, kTight_m);
 }
 
 TEST(ToolShape, ShaftEndsTwelveCentimetresBehindTheTip) {
@@ -72,10 +74,10 @@ TEST(ToolShape, ShaftEndsTwelveCentimetresBehindTheTip) {
   }
 }
 
-TEST(ToolShape, OnlyTheGraspersSphereIsTranslucent) {
+TEST(ToolShape, OnlyTheSphereOfWhatHoldsIsTranslucent) {
   for (ToolMode mode : kModes) {
     const ToolShape shape = toolShape(StylusConfig(), mode);
-    EXPECT_EQ(shape.solid_indices < shape.indices.size(), mode == ToolMode::kGrab);
+    EXPECT_EQ(shape.solid_indices < shape.indices.size(), mode == ToolMode::kGrab || mode == ToolMode::kSuction);
     for (size_t i = 0; i < shape.indices.size(); ++i) {
       EXPECT_EQ(shape.vertices[shape.indices[i]].color[3] == 255, i < shape.solid_indices);
     }

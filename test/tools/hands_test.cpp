@@ -127,5 +127,16 @@ TEST(Tools, TheSameModeByAnotherButtonIsTheSameHold) {
   EXPECT_EQ(same.hold_ended, ToolMode::kNone);
 }
 
+TEST(Tools, AHoldThatFollowsOneOfAnotherKindEndsItAndBegins) {
+  StylusConfig config;
+  config.button2 = ToolMode::kSuction;
+  Tools tools({config});
+  tools.advance(one(0, true));
+  const StylusMotion motion = tools.advance(one(0, true, true))[0];
+  EXPECT_EQ(motion.mode, ToolMode::kSuction);
+  EXPECT_EQ(motion.hold_ended, ToolMode::kGrab);
+  EXPECT_TRUE(motion.hold_begins);
+}
+
 }  // namespace
 }  // namespace viscera

@@ -16,6 +16,7 @@ const uint kModeProbe = 1u;
 const uint kModeGrab = 2u;
 const uint kModeCut = 3u;
 const uint kModeCutParticles = 4u;
+const uint kModeSuction = 5u;
 
 // What a kind of tool does to tissue, bits of ToolMotion.info.y
 const uint kToolPushes = 1u;  // nodes out of a swept sphere at the tip

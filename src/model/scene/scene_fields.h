@@ -163,6 +163,14 @@ void visitFields(V& v, CutParticlesConfig& c) {
 }
 
 template <class V>
+void visitFields(V& v, SuctionConfig& c) {
+  v.number("radius_m", c.radius_m, kTipReach, "m", "of the cup: nodes within this distance of the tip are held");
+  v.number("max_force_n", c.max_force_n, {0, 1e3}, "N",
+           "it lets go after a tick whose reaction force is larger, and holds nothing until it is switched off and on");
+  v.number("release_speed_m_per_s", c.release_speed_m_per_s, kReleaseSpeed, "m/s", "largest node speed after release");
+}
+
+template <class V>
 void visitFields(V& v, StylusConfig& c) {
   const std::vector<Choice<ToolMode>> modes = toolChoices();
   v.text("name", c.name, "name: its topics are `<name>/measured_cp` and so on");
@@ -173,6 +181,7 @@ void visitFields(V& v, StylusConfig& c) {
   v.group("grab", c.grab, "grab: takes the nodes around the tip when it begins and holds them");
   v.group("cut", c.cut, "cut: a blade cuts the springs that it crosses");
   v.group("cut_particles", c.cut_particles, "cut_particles: the same blade erases the springs of nodes near it");
+  v.group("suction", c.suction, "suction: holds the nodes around the tip as grab does, up to a force");
   v.formerNumber("probe_radius_m", "probe", "radius_m", c.probe.radius_m, kTipReach, "m");
   v.formerNumber("grab_radius_m", "grab", "radius_m", c.grab.radius_m, kTipReach, "m");
   v.formerNumber("blade_length_m", "cut", "blade_length_m", c.cut.blade_length_m, kTipReach, "m");

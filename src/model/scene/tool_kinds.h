@@ -21,7 +21,7 @@ enum ToolEffect : uint32_t {
 };
 
 /// What is drawn of a tool in front of its shaft.
-enum class ToolTip { kBare, kBall, kJaws, kBlade, kCapsule };
+enum class ToolTip { kBare, kBall, kJaws, kBlade, kCapsule, kCup };
 
 /// How a tool that holds lets go.
 struct Grip {
@@ -63,6 +63,9 @@ inline constexpr ToolKind kToolKinds[] = {
      [](const StylusConfig&) { return 0.0; }},
     {ToolMode::kCutParticles, layout::kModeCutParticles, "cut_particles", kErases, ToolTip::kCapsule, {214, 126, 184},
      [](const StylusConfig& c) { return c.cut_particles.eraser_radius_m; }},
+    {ToolMode::kSuction, layout::kModeSuction, "suction", kHolds, ToolTip::kCup, {230, 159, 0},
+     [](const StylusConfig& c) { return c.suction.radius_m; },
+     [](const StylusConfig& c) { return Grip{c.suction.release_speed_m_per_s, c.suction.max_force_n}; }},
 };
 // clang-format on
 inline constexpr size_t kToolKindCount = sizeof(kToolKinds) / sizeof(kToolKinds[0]);

@@ -23,7 +23,7 @@ enum class UpAxis { kZ, kY };
 enum class FixedShape { kBox, kSphere, kPlane, kPart };
 enum class Integrator { kLeapfrog, kVerletPaper, kVbd, kPd };
 enum class Backend { kAuto, kGpu, kCpu };
-enum class ToolMode { kNone = 0, kProbe = 1, kGrab = 2, kCut = 3, kCutParticles = 4 };
+enum class ToolMode { kNone = 0, kProbe = 1, kGrab = 2, kCut = 3, kCutParticles = 4, kSuction = 5 };
 
 /// Nodes that are held in space. Coordinates are in the body's frame, before its pose is applied.
 struct FixedConfig {
@@ -97,6 +97,12 @@ struct CutParticlesConfig {
   double eraser_radius_m = 0.002;
 };
 
+struct SuctionConfig {
+  double radius_m = 0.006;
+  double max_force_n = 1;
+  double release_speed_m_per_s = 0.5;
+};
+
 struct StylusConfig {
   std::string name = "stylus";
   ToolMode idle = ToolMode::kProbe;
@@ -106,6 +112,7 @@ struct StylusConfig {
   GrabConfig grab;
   CutConfig cut;  ///< its blade is that of cut_particles too
   CutParticlesConfig cut_particles;
+  SuctionConfig suction;
   double max_force_n = 5;
   double max_force_rate_n_per_s = 500;
   double stale_after_s = 0.2;
