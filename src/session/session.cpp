@@ -40,8 +40,8 @@ Session::~Session() = default;
 
 Frame Session::step(const StylusSamples& samples, const Wants& wants) {
   moveObstacles();
-  look_.motions = tools_.advance(samples);  // VR05 2.7: probe, grab, cut
-  solver_->step(look_.motions);             // VR05 2.4: n substeps
+  look_.motions = tools_.advance(samples);             // VR05 2.7: probe, grab, cut
+  solver_->step(look_.motions, obstacles_.motions());  // VR05 2.4: n substeps
   look_.tick = ++tick_;
   look_.wants = wants;
   ++ticks_;
@@ -55,11 +55,11 @@ Frame Session::step(const StylusSamples& samples, const Wants& wants) {
 
 void Session::setObstacleFrame(size_t obstacle, const Pose& pose) {
   obstacles_.setFrame(obstacle, pose);
-  solver_->setObstacleFrame(obstacle, pose);
 }
 
 void Session::moveObstacles() {
-  obstacles_.advance(static_cast<double>(tick_) * tick_s(), tick_s());
+  obstacles_.advance(time_s_, tick_s());
+  time_s_ += tick_s();
   look_.obstacles.clear();
   for (size_t i = 0; i < obstacles_.count(); ++i) look_.obstacles.push_back(obstacles_.pose(i));
 }
@@ -134,6 +134,7 @@ void Session::reset() {
   has_stats_ = false;
   extremes_ = {};
   tick_ = judged_ = 0;
+  time_s_ = 0;
   std::fill(pose_times_.begin(), pose_times_.end(), PoseTimes{});
 }
 

@@ -52,13 +52,13 @@ int LatticeSolver::mostSubsteps() const {
   return watch_ ? std::max(plan_.strained, watch_->recovery_substeps) : plan_.strained;
 }
 
-void LatticeSolver::step(const ToolMotions& motions) {
+void LatticeSolver::step(const ToolMotions& motions, const ObstacleMotions& obstacles) {
   const bool contacts = acts_.touch(motions), cuts = acts_.sever(motions);
   chooseSubsteps();
   beginTick();
   acts_.beginTick(*this, motions);
   if (surroundings_) {
-    surroundings_->beginTick(tick_s_, n_);
+    surroundings_->beginTick(tick_s_, n_, obstacles);
     beginSurroundings(*surroundings_);
   }
   if (contacts || cuts) {
@@ -113,10 +113,6 @@ void LatticeSolver::substep(int index, const ToolMotions& motions, bool cuts, bo
   if (surroundings_) surround(step, *surroundings_);
   restarted_ = false;
   last_dt_s_ = dt_s;
-}
-
-void LatticeSolver::setObstacleFrame(size_t obstacle, const Pose& pose) {
-  if (surroundings_) surroundings_->setObstacleFrame(obstacle, pose);
 }
 
 void LatticeSolver::reset() {

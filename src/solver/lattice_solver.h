@@ -23,8 +23,8 @@ struct SolverOptions {
 /// a tick, and none of them during construction.
 class LatticeSolver : public Solver, protected ToolTarget {
  public:
-  void step(const ToolMotions& motions) final;
-  void setObstacleFrame(size_t obstacle, const Pose& pose) final;
+  using Solver::step;
+  void step(const ToolMotions& motions, const ObstacleMotions& obstacles) final;
   void reset() final;
   bool pollStats(layout::TickStats& stats, bool wait) final;
   const Health& health() const final;

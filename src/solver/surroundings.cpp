@@ -3,6 +3,7 @@
 #include "solver/surroundings.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <map>
 #include <string>
@@ -70,6 +71,18 @@ void appendRings(const SpringNetwork& network, uint32_t first_slot, uint32_t fir
   }
 }
 
+bool isSame(const Pose& a, const Pose& b) {
+  return a.position_m == b.position_m && a.orientation.coeffs() == b.orientation.coeffs();
+}
+bool isSame(const RigidMotion& a, const RigidMotion& b) {
+  return isSame(a.from, b.from) && isSame(a.to, b.to);
+}
+
+/// Goes no further.
+RigidMotion resting(const RigidMotion& before) {
+  return {before.to, before.to};
+}
+
 }  // namespace
 
 std::string surroundingKeys(const SurroundingsFeatures& features) {
@@ -97,19 +110,29 @@ SurroundingsFeatures surroundingsOf(const Model& model, const Scene& scene) {
 }
 
 Surroundings::Surroundings(const Model& model, const Scene& scene)
-    : features_(surroundingsOf(model, scene)), wind_(scene.environment.wind), obstacles_(scene.obstacles) {
+    : features_(surroundingsOf(model, scene)),
+      wind_(scene.environment.wind),
+      obstacles_(scene.obstacles),
+      at_start_(Obstacles(scene.obstacles).motions()),
+      tick_motions_(at_start_) {
   if (features_.any() && scene.solver.integrator == Integrator::kVerletPaper) {
     throw SceneError("solver.integrator: verlet_paper keeps positions of its own and knows nothing of " +
                      surroundingKeys(features_) + ": use leapfrog, vbd or pd");
   }
 }
 
-void Surroundings::beginTick(double tick_s, int substeps) {
+void Surroundings::beginTick(double tick_s, int substeps, const ObstacleMotions& obstacles) {
+  assert(obstacles.empty() || obstacles.size() == obstacles_.size());
   tick_s_ = tick_s;
-  const bool moved = obstacles_.advance(time_s_, tick_s);
-  moved_ = moved || substeps != substeps_;
+  moved_ = false;
+  for (size_t i = 0; i < obstacles_.size(); ++i) {
+    const RigidMotion next = obstacles.empty() ? resting(tick_motions_[i]) : obstacles[i];
+    moved_ |= !isSame(next, tick_motions_[i]);
+    tick_motions_[i] = next;
+  }
+  moved_ |= substeps != substeps_;
   substeps_ = substeps;
-  if (features_.obstacles && moved_) interpolateObstacles(obstacles_, substeps, tick_s, motions_);
+  if (features_.obstacles && moved_) interpolateObstacles(obstacles_, tick_motions_, substeps, tick_s, motions_);
   time_s_ += tick_s;
 }
 
@@ -124,8 +147,8 @@ SubstepSurroundings Surroundings::at(int substep) const {
 
 void Surroundings::reset() {
   time_s_ = 0;
-  obstacles_.reset();
-  moved_ = true;
+  tick_motions_ = at_start_;
+  substeps_ = 0;
 }
 
 float restingSpeed(const Substep& step) {

@@ -32,7 +32,7 @@ struct SubstepSurroundings {
 };
 
 /// What acts on the tissue from outside: wind, forces on bodies, obstacles, contacts between nodes (physics.md 8).
-/// Host side, the same for every backend: keeps the time, moves the obstacles, tells substeps of them.
+/// Host side, the same for every backend: keeps the time, tells substeps where the obstacles are.
 class Surroundings {
  public:
   /// @throws SceneError  verlet_paper, which keeps positions of its own
@@ -41,12 +41,12 @@ class Surroundings {
   const SurroundingsFeatures& features() const { return features_; }
   /// May nodes be moved that are at rest? Then none may sleep.
   bool keepsAwake() const { return features_.any(); }
-  size_t obstacleCount() const { return obstacles_.count(); }
+  size_t obstacleCount() const { return obstacles_.size(); }
 
-  /// Where the tf frame that carries an obstacle is from now on; the first is no motion. @param pose  tissue frame
-  void setObstacleFrame(size_t obstacle, const Pose& pose) { obstacles_.setFrame(obstacle, pose); }
   /// Goes on by a tick: at() is about its substeps.
-  void beginTick(double tick_s, int substeps);
+  /// @param obstacles  over the tick, all of the scene's; empty: they stand where they were last, at first where they
+  /// are at time 0
+  void beginTick(double tick_s, int substeps, const ObstacleMotions& obstacles);
   SubstepSurroundings at(int substep) const;
   const std::vector<layout::ObstacleMotion>& obstacleMotions() const {
     return motions_;
@@ -57,7 +57,8 @@ class Surroundings {
  private:
   SurroundingsFeatures features_;
   WindConfig wind_;
-  Obstacles obstacles_;
+  std::vector<ObstacleConfig> obstacles_;
+  ObstacleMotions at_start_, tick_motions_;  ///< at time 0; over the tick
   std::vector<layout::ObstacleMotion> motions_;
   double time_s_ = 0, tick_s_ = 0;
   int substeps_ = 0;

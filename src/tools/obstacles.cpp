@@ -29,15 +29,11 @@ layout::vec4 packed(const Quaterniond& q) {
   return {static_cast<float>(q.x()), static_cast<float>(q.y()), static_cast<float>(q.z()), static_cast<float>(q.w())};
 }
 
-bool isSame(const Pose& a, const Pose& b) {
-  return a.position_m == b.position_m && a.orientation.coeffs() == b.orientation.coeffs();
-}
-
 double radiusOf(const ObstacleConfig& config) {
   return config.shape == ObstacleShape::kSphere || config.shape == ObstacleShape::kCapsule ? config.radius_m : 0;
 }
 
-layout::ObstacleMotion motionOf(const ObstacleConfig& config, const Obstacles::Motion& tick, int substep, int substeps,
+layout::ObstacleMotion motionOf(const ObstacleConfig& config, const RigidMotion& tick, int substep, int substeps,
                                 double tick_s) {
   const double half_length = config.shape == ObstacleShape::kCapsule ? 0.5 * config.length_m : 0;
   const Pose from = interpolate(tick.from, tick.to, static_cast<double>(substep) / substeps);
@@ -80,18 +76,13 @@ Pose Obstacles::placed(size_t obstacle, double time_s, const Pose& frame) const 
   return pose;
 }
 
-bool Obstacles::advance(double time_s, double tick_s) {
-  const bool moved_before = moved_;
-  moved_ = false;
+void Obstacles::advance(double time_s, double tick_s) {
   for (size_t i = 0; i < configs_.size(); ++i) {
     const Pose now = frames_[i].value_or(Pose{});
     const Pose before = frames_before_[i].value_or(now);
-    const Motion next{placed(i, time_s, before), placed(i, time_s + tick_s, now)};
-    moved_ |= !isSame(next.from, next.to) || !isSame(next.to, motions_[i].to);
-    motions_[i] = next;
+    motions_[i] = {placed(i, time_s, before), placed(i, time_s + tick_s, now)};
     frames_before_[i] = frames_[i];
   }
-  return moved_ || moved_before;
 }
 
 void Obstacles::reset() {
@@ -100,16 +91,14 @@ void Obstacles::reset() {
     const Pose start = placed(i, 0, frames_[i].value_or(Pose{}));
     motions_[i] = {start, start};
   }
-  moved_ = true;
 }
 
-void interpolateObstacles(const Obstacles& obstacles, int substeps, double tick_s,
-                          std::vector<layout::ObstacleMotion>& out) {
+void interpolateObstacles(const std::vector<ObstacleConfig>& configs, const ObstacleMotions& motions, int substeps,
+                          double tick_s, std::vector<layout::ObstacleMotion>& out) {
   out.assign(static_cast<size_t>(substeps) * layout::kMaxObstacles, layout::ObstacleMotion{});
   for (int s = 0; s < substeps; ++s) {
-    for (size_t i = 0; i < obstacles.count(); ++i) {
-      out[static_cast<size_t>(s) * layout::kMaxObstacles + i] =
-          motionOf(obstacles.configs()[i], obstacles.motions()[i], s, substeps, tick_s);
+    for (size_t i = 0; i < configs.size(); ++i) {
+      out[static_cast<size_t>(s) * layout::kMaxObstacles + i] = motionOf(configs[i], motions[i], s, substeps, tick_s);
     }
   }
 }

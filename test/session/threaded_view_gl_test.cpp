@@ -25,7 +25,7 @@ class SwayingTissue : public Solver {
  public:
   explicit SwayingTissue(const Model& model) : model_(model), state_(restState(model)) {}
 
-  void step(const ToolMotions&) override {
+  void step(const ToolMotions&, const ObstacleMotions&) override {
     ++tick_;
     if (still) return;
     const float sway_m = 0.002f * std::sin(0.3f * static_cast<float>(tick_));
@@ -96,7 +96,7 @@ class ThreadedViewTest : public GpuTest {
     look.motions[0].mode = ToolMode::kProbe;
     look.motions[0].present = true;
     look.motions[0].to.position_m = Vector3d(0.0005 * static_cast<double>(tick_), 0, kHalfM + kProbeRadiusM);
-    tissue_.step(look.motions);
+    tissue_.step(look.motions, {});
     return look;
   }
   Pictures show(View& view, const Look& look) {

@@ -35,13 +35,18 @@ class Surround : public OnBackend {
   void begin(const Model& model, const Scene& scene, const HostState& state) {
     solver_ = make(model, scene);
     solver_->writeState(state);
+    obstacles_ = Obstacles(scene.obstacles);
   }
   HostState after(double time_s, int substeps = 1) {
     const double tick_s = solver_->dt_s() * substeps;
-    for (int t = 0; t < std::lround(time_s / tick_s); ++t) solver_->step({});
+    for (int t = 0; t < std::lround(time_s / tick_s); ++t) {
+      obstacles_.advance(t * tick_s, tick_s);
+      solver_->step({}, obstacles_.motions());
+    }
     return solver_->readState();
   }
   std::unique_ptr<LatticeSolver> solver_;
+  Obstacles obstacles_{{}};
 };
 
 INSTANTIATE_TEST_SUITE_P(Backends, Surround, ::testing::ValuesIn(backendKinds()), backendSuffix);
@@ -207,11 +212,15 @@ TEST_P(Surround, AFrameThatAppearsIsNoMotionAndOneThatMovesPushesEvenly) {
   scene.obstacles = {plate(0.01)};
   scene.obstacles[0].frame = "lift";
   begin(model, scene, restState(model));
-  solver_->setObstacleFrame(0, {Vector3d(0, 0, -0.05), Quaterniond::Identity()});
-  solver_->step({});
+  Obstacles obstacles(scene.obstacles);
+  const double tick_s = kSubsteps * solver_->dt_s();
+  obstacles.setFrame(0, {Vector3d(0, 0, -0.05), Quaterniond::Identity()});
+  obstacles.advance(0, tick_s);
+  solver_->step({}, obstacles.motions());
   EXPECT_EQ(highest(model, solver_->readState()), 0);
-  solver_->setObstacleFrame(0, {Vector3d(0, 0, 0.002), Quaterniond::Identity()});
-  solver_->step({});
+  obstacles.setFrame(0, {Vector3d(0, 0, 0.002), Quaterniond::Identity()});
+  obstacles.advance(tick_s, tick_s);
+  solver_->step({}, obstacles.motions());
   const HostState end = solver_->readState();
   EXPECT_NEAR(lowest(model, end), 0.002, 1e-6);
   EXPECT_NEAR(meanVelocity(model, end).z(), 0.052 / (kSubsteps * solver_->dt_s()), 1e-3);

@@ -11,9 +11,10 @@ namespace {
 constexpr double kExact = 1e-12;  // m, float64
 constexpr double kFloat = 1e-6;   // m/s and rad/s, float32
 
-std::vector<layout::ObstacleMotion> cut(const Obstacles& obstacles, int substeps, double tick_s) {
+std::vector<layout::ObstacleMotion> cut(const ObstacleConfig& config, const Obstacles& obstacles, int substeps,
+                                        double tick_s) {
   std::vector<layout::ObstacleMotion> out;
-  interpolateObstacles(obstacles, substeps, tick_s, out);
+  interpolateObstacles({config}, obstacles.motions(), substeps, tick_s, out);
   return out;
 }
 
@@ -29,7 +30,7 @@ TEST(Obstacles, MoveAndTurnByTheirKeysFromTheStartOn) {
   obstacles.advance(0.5, 0.5);
   EXPECT_LT((obstacles.pose(0).position_m - Vector3d(1, 2, 0)).norm(), kExact);
   EXPECT_LT((obstacles.pose(0).orientation * Vector3d::UnitX() - Vector3d::UnitY()).norm(), kExact);
-  const auto motions = cut(obstacles, 2, 0.5);
+  const auto motions = cut(config, obstacles, 2, 0.5);
   EXPECT_NEAR(motions[0].velocity.y, 2, kFloat);
   EXPECT_NEAR(motions[0].spin.z, M_PI / 2, kFloat);
   EXPECT_NEAR(motions[0].to.y, 1.5, kFloat);
@@ -50,21 +51,9 @@ TEST(Obstacles, AFrameCarriesThemAndItsFirstPoseIsNoMotion) {
   obstacles.advance(0.1, 0.1);
   EXPECT_EQ(obstacles.motions()[0].from.position_m, Vector3d(5, 0, 1));
   EXPECT_LT((obstacles.motions()[0].to.position_m - Vector3d(6, -1, 0)).norm(), kExact);
-  EXPECT_NEAR(cut(obstacles, 1, 0.1)[0].spin.x, M_PI / 2 / 0.1, 1e-5);
+  EXPECT_NEAR(cut(config, obstacles, 1, 0.1)[0].spin.x, M_PI / 2 / 0.1, 1e-5);
   obstacles.advance(0.2, 0.1);  // the frame is silent: it stands still
   EXPECT_EQ(obstacles.motions()[0].from.position_m, obstacles.motions()[0].to.position_m);
-}
-
-TEST(Obstacles, SayWhetherTheyMovedSoThatWhoDoesNotIsNotToldAnew) {
-  ObstacleConfig still, moving;
-  moving.velocity_m_per_s = Vector3d(1, 0, 0);
-  Obstacles one({still}), two({still, moving});
-  one.advance(0, 0.1);
-  EXPECT_FALSE(one.advance(0.1, 0.1));
-  two.advance(0, 0.1);
-  EXPECT_TRUE(two.advance(0.1, 0.1));
-  one.setFrame(0, {Vector3d(0, 0, 1), Quaterniond::Identity()});
-  EXPECT_TRUE(one.advance(0.2, 0.1));
 }
 
 TEST(Obstacles, AfterAResetTheyAreWhereTheyWereAtTheStart) {

@@ -84,7 +84,7 @@ class Session {
   Scene scene_;
   Model model_;
   Tools tools_;
-  Obstacles obstacles_;  ///< as the solver moves them, to be drawn
+  Obstacles obstacles_;
   std::unique_ptr<Solver> solver_;
   std::string backend_note_;
   std::unique_ptr<View> view_;
@@ -95,6 +95,7 @@ class Session {
   Extremes extremes_;
   bool has_stats_ = false;
   uint64_t tick_ = 0, ticks_ = 0;
+  double time_s_ = 0;                  ///< since the start or the last reset
   uint64_t judged_ = 0;                ///< ticks since the start or reset whose measurements have come back
   std::vector<PoseTimes> pose_times_;  ///< of the last ticks, at tick % size
 };

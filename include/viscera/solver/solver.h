@@ -11,6 +11,7 @@
 #include "viscera/solver/governor.h"
 #include "viscera/solver/material.h"
 #include "viscera/solver/state.h"
+#include "viscera/tools/obstacles.h"
 #include "viscera/tools/stylus.h"
 
 namespace viscera {
@@ -20,9 +21,9 @@ class Solver {
  public:
   virtual ~Solver() = default;
   /// Advances every active node by one tick: substeps() substeps of dt_s() (physics.md 2).
-  virtual void step(const ToolMotions& motions) = 0;
-  /// Where the tf frame that carries an obstacle of the scene is from now on; see Surroundings.
-  virtual void setObstacleFrame(size_t /*obstacle*/, const Pose& /*pose*/) {}
+  /// @param obstacles  of the scene, over the tick; empty: they stand where they were last
+  virtual void step(const ToolMotions& motions, const ObstacleMotions& obstacles) = 0;
+  void step(const ToolMotions& motions) { step(motions, ObstacleMotions{}); }
   /// Back to rest: springs whole, nothing held, time 0.
   virtual void reset() = 0;
   virtual StateView state() = 0;            ///< not const: a backend may have to bring the state to the GPU first
