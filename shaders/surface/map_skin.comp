@@ -6,11 +6,14 @@
 // in  skin[count], displacement[slots] m, node_normals[slots], stale_bricks[bricks]     out  positions[3 * count] m, normals[count] packed
 // Feature: MIXED (some vertices belong to networks: network_skin.comp places them).
 #include "layout.h"
+#ifndef __cplusplus
 layout(local_size_x = GROUP_SIZE) in;  // before globalIndex(), which asks for it
+#endif
 #include "lattice.glsl"
 #include "pack.glsl"
 #include "skin_basis.glsl"
 
+#ifndef __cplusplus
 uniform uint count;  // of vertices
 uniform uint followed_revision;  // what moved no later is in place; 0: nothing is
 layout(std430, binding = kBindStaleBricks) readonly buffer StaleBricksBuffer { uint stale_bricks[]; };
@@ -19,11 +22,12 @@ layout(std430, binding = kBindNodeNormals) readonly buffer NodeNormalsBuffer { v
 layout(std430, binding = kBindSkinBindings) readonly buffer SkinBuffer { SkinBinding skin[]; };
 layout(std430, binding = kBindSkinPositions) writeonly buffer PositionsBuffer { float positions[]; };
 layout(std430, binding = kBindSkinNormals) writeonly buffer NormalsBuffer { uint normals[]; };
+#endif
 
 /// Direction of an axial spring at rest. Edges 0-1 and 2-0 of every binding are axial (model/skin_anchor.h).
 vec3 axialDirection(uint spring) {
-  vec3 axis = vec3(0.0);
-  axis[spring >> 1] = (spring & 1u) == 0u ? 1.0 : -1.0;
+  vec3 axis = vec3(0.0f);
+  axis[spring >> 1] = (spring & 1u) == 0u ? 1.0f : -1.0f;
   return axis;
 }
 
@@ -41,20 +45,20 @@ void main() {
   float spacing = bodies[bricks[s.slot0 >> 6].body].origin_spacing.w;
   vec3 rest1 = axialDirection(s.springs & 31u);
   vec3 rest2 = -axialDirection((s.springs >> 10) & 31u);
-  vec3 u0 = displacement[s.slot0].xyz;
+  vec3 u0 = xyz(displacement[s.slot0]);
   // Edges as rest offset plus difference of displacements: exact at rest, wherever the body is.
-  vec3 edge1 = spacing * rest1 + (displacement[s.slot1].xyz - u0);
-  vec3 edge2 = spacing * rest2 + (displacement[s.slot2].xyz - u0);
+  vec3 edge1 = spacing * rest1 + (xyz(displacement[s.slot1]) - u0);
+  vec3 edge2 = spacing * rest2 + (xyz(displacement[s.slot2]) - u0);
 
   Basis constant = triangleBasis(edge1, edge2, rest1, rest2);
-  vec3 offset = inSpace(constant, s.offset_constant.xyz);
-  vec3 normal = inSpace(constant, s.normal_constant.xyz);
+  vec3 offset = inSpace(constant, xyz(s.offset_constant));
+  vec3 normal = inSpace(constant, xyz(s.normal_constant));
   if ((s.springs & kInterpolatedBit) != 0u) {
     vec4 n0 = node_normals[s.slot0], n1 = node_normals[s.slot1], n2 = node_normals[s.slot2];
     float trust = min(n0.w, min(n1.w, n2.w));
-    Basis curved = interpolatedBasis(s.weights.x * n0.xyz + s.weights.y * n1.xyz + s.weights.z * n2.xyz, constant);
-    offset = mix(offset, inSpace(curved, s.offset_interpolated.xyz), trust);
-    normal = mix(normal, inSpace(curved, s.normal_interpolated.xyz), trust);
+    Basis curved = interpolatedBasis(s.weights.x * xyz(n0) + s.weights.y * xyz(n1) + s.weights.z * xyz(n2), constant);
+    offset = mix(offset, inSpace(curved, xyz(s.offset_interpolated)), trust);
+    normal = mix(normal, inSpace(curved, xyz(s.normal_interpolated)), trust);
   }
   vec3 position = restPosition(s.slot0) + (u0 + (s.weights.y * edge1 + s.weights.z * edge2 + offset));
   positions[3u * vertex] = position.x;

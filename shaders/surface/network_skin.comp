@@ -7,24 +7,28 @@
 // out  positions[3 * vertices] m, normals[vertices] packed
 // A normal is the mean of the whole triangles around the vertex, weighted by area; without one, the normal at rest.
 #include "layout.h"
+#ifndef __cplusplus
 layout(local_size_x = GROUP_SIZE) in;  // before globalIndex(), which asks for it
+#endif
 #include "lattice.glsl"
 #include "pack.glsl"
 #include "skin_basis.glsl"
 #include "ring.glsl"
 
+#ifndef __cplusplus
 layout(std430, binding = kBindSkinPositions) writeonly buffer PositionsBuffer { float positions[]; };
 layout(std430, binding = kBindSkinNormals) writeonly buffer NormalsBuffer { uint normals[]; };
+#endif
 
 vec3 ringNormal(RingVertex v) {
-  vec3 sum = vec3(0.0);
+  vec3 sum = vec3(0.0f);
   for (uint i = v.ring_begin; i < v.ring_end; ++i) {
     RingTriangle t = rings[i];
     vec3 normal = cross(edge(v.slot, t.slot1), edge(v.slot, t.slot2));
-    sum += isWhole(t) ? normal : vec3(0.0);  // a branch around the cross product costs llvmpipe three times as much
+    sum += isWhole(t) ? normal : vec3(0.0f);  // a branch around the cross product costs llvmpipe three times as much
   }
-  vec3 normal = direction(sum, v.rest_normal.xyz);
-  return dot(normal, normal) < 2.0 ? normal : v.rest_normal.xyz;  // of a sum that is not a number
+  vec3 normal = direction(sum, xyz(v.rest_normal));
+  return dot(normal, normal) < 2.0f ? normal : xyz(v.rest_normal);  // of a sum that is not a number
 }
 
 void main() {
@@ -32,7 +36,7 @@ void main() {
   if (index >= count) return;
   RingVertex v = ring_vertices[index];
   if (!isStale(v)) return;
-  vec3 position = tabulatedRest(v.slot) + displacement[v.slot].xyz;
+  vec3 position = tabulatedRest(v.slot) + xyz(displacement[v.slot]);
   positions[3u * v.vertex] = position.x;
   positions[3u * v.vertex + 1u] = position.y;
   positions[3u * v.vertex + 2u] = position.z;

@@ -5,10 +5,13 @@
 // Owner: surface/surface.h   physics.md 4
 // in  surface_nodes[count], displacement[slots] m, nodes[slots], stale_bricks[bricks]     out  node_normals[slots] xyz unit, w trust 0..1
 #include "layout.h"
+#ifndef __cplusplus
 layout(local_size_x = GROUP_SIZE) in;  // before globalIndex(), which asks for it
+#endif
 #include "lattice.glsl"
 #include "skin_basis.glsl"
 
+#ifndef __cplusplus
 uniform uint count;  // of surface nodes
 uniform uint followed_revision;  // what moved no later is in place; 0: nothing is
 layout(std430, binding = kBindStaleBricks) readonly buffer StaleBricksBuffer { uint stale_bricks[]; };
@@ -16,6 +19,7 @@ layout(std430, binding = kBindSurfaceNodes) readonly buffer SurfaceNodesBuffer {
 layout(std430, binding = kBindNodes) readonly buffer NodesBuffer { NodeBits nodes[]; };
 layout(std430, binding = kBindDisplacementIn) readonly buffer DisplacementBuffer { vec4 displacement[]; };
 layout(std430, binding = kBindNodeNormals) writeonly buffer NodeNormalsBuffer { vec4 node_normals[]; };
+#endif
 
 void main() {
   uint index = globalIndex();
@@ -24,16 +28,16 @@ void main() {
   if (followed_revision != 0u && stale_bricks[slot >> 6] <= followed_revision) return;
   NodeBits bits = nodes[slot];
   float spacing = bodies[bricks[slot >> 6].body].origin_spacing.w;
-  vec3 here = displacement[slot].xyz;
-  vec3 sum = vec3(0.0);
+  vec3 here = xyz(displacement[slot]);
+  vec3 sum = vec3(0.0f);
 #define ADD_AWAY_FROM_NEIGHBOR(SPRING, OFFSET)                                   \
   if (springCount(bits, SPRING) != 0u) {                                         \
-    vec3 there = displacement[neighborSlot(slot, OFFSET)].xyz;                   \
-    sum -= direction(spacing * vec3(OFFSET) + (there - here), vec3(0.0));        \
+    vec3 there = xyz(displacement[neighborSlot(slot, OFFSET)]);                   \
+    sum -= direction(spacing * vec3(OFFSET) + (there - here), vec3(0.0f));        \
   }
   FOR_EACH_SPRING(ADD_AWAY_FROM_NEIGHBOR)
   // A cut takes neighbours away and would turn the normal towards the wound at once, so it is not trusted after one.
   bool severed = (bits.lo & kSeveredBit) != 0u;
-  float clear = clamp((length(sum) - kNormalSumNone) / (kNormalSumFull - kNormalSumNone), 0.0, 1.0);
-  node_normals[slot] = vec4(direction(sum, vec3(0.0)), severed ? 0.0 : clear);
+  float clear = clamp((length(sum) - kNormalSumNone) / (kNormalSumFull - kNormalSumNone), 0.0f, 1.0f);
+  node_normals[slot] = vec4(direction(sum, vec3(0.0f)), severed ? 0.0f : clear);
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // The ring of triangles around a vertex of a network's skin. After lattice.glsl (feature NETWORK) and skin_basis.glsl.
+#ifndef __cplusplus
 uniform uint count;
 uniform uint followed_revision;  // what moved no later is in place; 0: nothing is
 layout(std430, binding = kBindStaleBricks) readonly buffer StaleBricksBuffer { uint stale_bricks[]; };
@@ -9,6 +10,7 @@ layout(std430, binding = kBindDisplacementIn) readonly buffer DisplacementBuffer
 layout(std430, binding = kBindRingVertices) readonly buffer RingVerticesBuffer { RingVertex ring_vertices[]; };
 layout(std430, binding = kBindRings) readonly buffer RingsBuffer { RingTriangle rings[]; };
 layout(std430, binding = kBindSkinAlive) readonly buffer AliveBuffer { uint alive[]; };
+#endif
 
 bool hasMoved(uint slot) { return stale_bricks[slot >> 6] > followed_revision; }
 

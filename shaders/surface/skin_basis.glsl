@@ -3,9 +3,9 @@
 //
 // Orthonormal bases that carry skin vertices (EGVE eqs 6 and 8, corrected as in physics.md 4). Every function returns
 // finite unit vectors for any finite input: nodes may lie on one line or in one point. Twin of model/skin_basis.h.
-const float kShortest = 1e-30;  // shorter vectors have no direction; far below any length that occurs
-const float kLongest = 1e30;    // longer ones would overflow when squared
-const float kLeastSine = 1e-4;  // edges closer to parallel give no normal: rounding would be 1e-3 of it
+const float kShortest = 1e-30f;  // shorter vectors have no direction; far below any length that occurs
+const float kLongest = 1e30f;    // longer ones would overflow when squared
+const float kLeastSine = 1e-4f;  // edges closer to parallel give no normal: rounding would be 1e-3 of it
 
 struct Basis {
   vec3 t, n, b;
@@ -23,7 +23,7 @@ vec3 direction(vec3 v, vec3 otherwise) {
 /// wanted and second are unit vectors at right angles to each other.
 vec3 rightAngleTo(vec3 axis, vec3 wanted, vec3 second) {
   vec3 first_try = wanted - dot(wanted, axis) * axis;
-  if (dot(first_try, first_try) > 0.25) return direction(first_try, wanted);
+  if (dot(first_try, first_try) > 0.25f) return direction(first_try, wanted);
   return direction(second - dot(second, axis) * axis, second);
 }
 
@@ -32,7 +32,7 @@ vec3 rightAngleTo(vec3 axis, vec3 wanted, vec3 second) {
 Basis triangleBasis(vec3 edge1, vec3 edge2, vec3 rest1, vec3 rest2) {
   Basis basis;
   basis.t = direction(edge1, rest1);
-  vec3 normal = cross(basis.t, direction(edge2, vec3(0.0)));
+  vec3 normal = cross(basis.t, direction(edge2, vec3(0.0f)));
   basis.n = dot(normal, normal) > kLeastSine * kLeastSine ? direction(normal, basis.t)
                                                           : rightAngleTo(basis.t, cross(rest1, rest2), rest2);
   basis.b = cross(basis.n, basis.t);

@@ -8,26 +8,30 @@
 // A whole edge has both in its middle; nobody sees them, so they are placed once. From then on the kernel runs over the
 // crossed edges alone (crossed_edges.comp): work follows the length of the cut.
 #include "layout.h"
+#ifndef __cplusplus
 layout(local_size_x = GROUP_SIZE) in;  // before globalIndex(), which asks for it
+#endif
 #include "lattice.glsl"
 #include "skin_basis.glsl"
 #include "ring.glsl"
 
+#ifndef __cplusplus
 uniform uint placed;  // the vertices of whole edges are where they belong: only crossed ones
 layout(std430, binding = kBindSplitEdges) readonly buffer SplitEdgesBuffer { SplitEdge split_edges[]; };
 layout(std430, binding = kBindSpringCut) readonly buffer SpringCutBuffer { float spring_cut[]; };
 layout(std430, binding = kBindCrossedEdges) readonly buffer CrossedEdgesBuffer { uint crossed_edges[]; };
 layout(std430, binding = kBindSkinPositions) writeonly buffer PositionsBuffer { float positions[]; };
 layout(std430, binding = kBindSkinNormals) buffer NormalsBuffer { uint normals[]; };
+#endif
 
 /// The rest offset d as the triangle carries it that is next to it: turned as this is, but not stretched.
 vec3 turned(RingVertex v, vec3 d) {
-  float nearest = -2.0;
+  float nearest = -2.0f;
   uint best = v.ring_end;
   for (uint i = v.ring_begin; i < v.ring_end; ++i) {
     if (!isWhole(rings[i])) continue;
     vec3 middle = restEdge(v.slot, rings[i].slot1) + restEdge(v.slot, rings[i].slot2);
-    float cosine = dot(direction(middle, vec3(0.0)), direction(d, vec3(0.0)));
+    float cosine = dot(direction(middle, vec3(0.0f)), direction(d, vec3(0.0f)));
     if (cosine > nearest) {
       nearest = cosine;
       best = i;
@@ -36,16 +40,16 @@ vec3 turned(RingVertex v, vec3 d) {
   if (best == v.ring_end) return d;
   uint slot1 = rings[best].slot1, slot2 = rings[best].slot2;
   Basis rest;
-  rest.t = direction(restEdge(v.slot, slot1), vec3(0.0));
-  rest.n = direction(cross(rest.t, restEdge(v.slot, slot2)), vec3(0.0));
-  if (dot(rest.n, rest.n) == 0.0) return d;  // no area at rest, so nothing to turn with
+  rest.t = direction(restEdge(v.slot, slot1), vec3(0.0f));
+  rest.n = direction(cross(rest.t, restEdge(v.slot, slot2)), vec3(0.0f));
+  if (dot(rest.n, rest.n) == 0.0f) return d;  // no area at rest, so nothing to turn with
   rest.b = cross(rest.n, rest.t);
   Basis now = triangleBasis(edge(v.slot, slot1), edge(v.slot, slot2), rest.t, rest.b);
   return inSpace(now, vec3(dot(d, rest.t), dot(d, rest.n), dot(d, rest.b)));
 }
 
 void place(uint vertex, RingVertex v, vec3 d) {
-  vec3 position = tabulatedRest(v.slot) + (displacement[v.slot].xyz + turned(v, d));
+  vec3 position = tabulatedRest(v.slot) + (xyz(displacement[v.slot]) + turned(v, d));
   positions[3u * vertex] = position.x;
   positions[3u * vertex + 1u] = position.y;
   positions[3u * vertex + 2u] = position.z;
@@ -59,8 +63,8 @@ void main() {
   float crossed = spring_cut[e.spring];
   RingVertex a = ring_vertices[e.a], b = ring_vertices[e.b];
   if (!isStale(a) && !isStale(b)) return;
-  float share = crossed == 0.0 ? 0.5 : min(crossed, 1.0);
+  float share = crossed == 0.0f ? 0.5f : min(crossed, 1.0f);
   vec3 d = restEdge(a.slot, b.slot);
   place(e.vertex, a, share * d);
-  place(e.vertex + 1u, b, (share - 1.0) * d);
+  place(e.vertex + 1u, b, (share - 1.0f) * d);
 }

@@ -9,9 +9,12 @@
 // other two; with three, every corner from every other, and the piece in the middle, which hangs on no node, is left out.
 // So is a corner whose node hangs on nothing, and a triangle at a node that was erased (kErasedShare).
 #include "layout.h"
+#ifndef __cplusplus
 layout(local_size_x = GROUP_SIZE) in;  // before globalIndex(), which asks for it
+#endif
 #include "lattice.glsl"
 
+#ifndef __cplusplus
 uniform uint count;
 uniform uint triangle_count;  // of all bodies
 layout(std430, binding = kBindNodes) readonly buffer NodesBuffer { NodeBits nodes[]; };
@@ -20,6 +23,7 @@ layout(std430, binding = kBindSplitTriangles) readonly buffer SplitTrianglesBuff
 layout(std430, binding = kBindSpringCut) readonly buffer SpringCutBuffer { float spring_cut[]; };
 layout(std430, binding = kBindSkinAlive) writeonly buffer AliveBuffer { uint alive[]; };
 layout(std430, binding = kBindSkinLive) writeonly buffer LiveBuffer { uint live[]; };
+#endif
 
 float cutOf(uint spring) { return spring == kNoSpring ? 0.0 : spring_cut[spring]; }
 
@@ -31,10 +35,10 @@ uint cornerOf(SplitTriangle t, uint corner) {
 uint shownOf(SplitTriangle t) {
   float cut01 = cutOf(t.springs[0]), cut12 = cutOf(t.springs[1]), cut20 = cutOf(t.springs[2]);
   if (max(cut01, max(cut12, cut20)) >= kErasedShare) return 0u;
-  uint cuts = uint(cut01 != 0.0) + uint(cut12 != 0.0) + uint(cut20 != 0.0);
+  uint cuts = uint(cut01 != 0.0f) + uint(cut12 != 0.0f) + uint(cut20 != 0.0f);
   if (cuts < 2u) return kShownWhole;
   if (cuts == 3u) return cornerOf(t, 0u) | cornerOf(t, 1u) | cornerOf(t, 2u);
-  uint corner = cut12 == 0.0 ? 0u : cut20 == 0.0 ? 1u : 2u;  // the one across the whole edge
+  uint corner = cut12 == 0.0f ? 0u : cut20 == 0.0f ? 1u : 2u;  // the one across the whole edge
   return cornerOf(t, corner) | kShownRest << corner;
 }
 
@@ -50,7 +54,7 @@ void main() {
   uint index = globalIndex();
   if (index >= count) return;
   SplitTriangle t = split_triangles[index];
-  uint corners[3] = uint[3](triangles[3u * t.triangle], triangles[3u * t.triangle + 1u], triangles[3u * t.triangle + 2u]);
+  uint corners[3] = {triangles[3u * t.triangle], triangles[3u * t.triangle + 1u], triangles[3u * t.triangle + 2u]};
   uint shown = shownOf(t), entry = 0u;
   alive[t.triangle] = shown;
   if (shown == kShownWhole) show(entry++, index, t, corners[0], corners[1], corners[2]);

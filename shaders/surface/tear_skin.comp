@@ -6,9 +6,12 @@
 // in  triangles[3 * count], skin[vertices], ties[], nodes[slots]     in, out  alive[count], live[3 * count]
 // Feature: MIXED (some triangles belong to networks: split_triangles.comp shows them).
 #include "layout.h"
+#ifndef __cplusplus
 layout(local_size_x = GROUP_SIZE) in;  // before globalIndex(), which asks for it
+#endif
 #include "lattice.glsl"
 
+#ifndef __cplusplus
 uniform uint count;  // of triangles
 layout(std430, binding = kBindNodes) readonly buffer NodesBuffer { NodeBits nodes[]; };
 layout(std430, binding = kBindSkinBindings) readonly buffer SkinBuffer { SkinBinding skin[]; };
@@ -17,6 +20,7 @@ layout(std430, binding = kBindSkinTies) readonly buffer TiesBuffer { Tie ties[];
 layout(std430, binding = kBindSkinTieStarts) readonly buffer TieStartsBuffer { uint tie_starts[]; };
 layout(std430, binding = kBindSkinAlive) buffer AliveBuffer { uint alive[]; };
 layout(std430, binding = kBindSkinLive) writeonly buffer LiveBuffer { uint live[]; };
+#endif
 
 uint isAlive(uint slot, uint spring) {
   return springCount(nodes[slot], spring) != 0u ? 1u : 0u;

@@ -3,36 +3,14 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include "layout/network_skin.h"
+#include "surface/joined_skins.h"
 #include "viscera/gpu/buffer.h"
 #include "viscera/gpu/program.h"
-#include "viscera/model/model.h"
 #include "viscera/solver/state.h"
 
 namespace viscera {
-
-/// The skin of a body is its network's: a vertex is a node (EGVE 3.2).
-bool isOneToOne(const Body& body);
-
-/// The skins of all networks of a model as one, numbered through as the vertices and triangles of Surface are.
-struct NetworkSkins {
-  std::vector<layout::RingVertex> vertices;
-  std::vector<layout::RingTriangle> rings;
-  std::vector<layout::SplitEdge> edges;
-  std::vector<layout::SplitTriangle> triangles;  ///< of bodies that can be cut
-
-  /// Where the buffers of Surface begin for the body. Its split vertices follow its own.
-  struct Place {
-    uint32_t slot = 0, vertex = 0, triangle = 0, spring = 0;
-  };
-  void append(const Body& body, const Place& place);
-
- private:
-  void appendRings(const Skin& skin, const Place& place);
-  void appendSplits(const Skin& skin, const Place& place, uint32_t first_ring_vertex);
-};
 
 /// What Surface does for networks. Owner of shaders/surface/network_skin.comp, split_edges.comp,
 /// crossed_edges.comp and split_triangles.comp.

@@ -8,33 +8,10 @@
 
 #include "solver/joined_lattice.h"
 #include "solver/joined_network.h"
+#include "surface/joined_skins.h"
 #include "viscera/solver/material.h"
 
 namespace viscera {
-
-namespace {
-
-std::vector<uint32_t> shownBricks(const Model& model) {
-  std::vector<bool> shown(model.slots() / layout::kBrickSlots);
-  for (size_t b = 0; b < model.bodies.size(); ++b) {
-    const Lattice& lattice = model.bodies[b].lattice;
-    const size_t first = model.slotOffset(b) / layout::kBrickSlots;
-    for (uint32_t slot : model.bodies[b].skin.bound_slots) {
-      shown[first + slot / layout::kBrickSlots] = true;
-      for (uint32_t spring = 0; spring < layout::kSpringsPerNode; ++spring) {
-        const int64_t neighbor = lattice.neighborSlot(slot, spring);
-        if (neighbor >= 0) shown[first + static_cast<size_t>(neighbor) / layout::kBrickSlots] = true;
-      }
-    }
-  }
-  std::vector<uint32_t> out;
-  for (uint32_t brick = 0; brick < shown.size(); ++brick) {
-    if (shown[brick]) out.push_back(brick);
-  }
-  return out;
-}
-
-}  // namespace
 
 StateMirror::StateMirror(const Model& model)
     : bricks_(allBricks(model)),

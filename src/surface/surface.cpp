@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "surface/surface.h"
 
-#include <algorithm>
-#include <iterator>
 #include <memory>
 #include <string>
 #include <utility>
@@ -11,8 +9,8 @@
 #include "gpu/gl.h"
 #include "gpu/stage_clock.h"
 #include "layout/bindings.h"
+#include "surface/joined_skins.h"
 #include "surface/network_surface.h"
-#include "surface/part_colors.h"
 
 namespace viscera {
 
@@ -45,83 +43,10 @@ void publish() {
                   GL_BUFFER_UPDATE_BARRIER_BIT);
 }
 
-/// The skins of all bodies as one: slots and vertices numbered through. Split vertices of a network follow its own.
-struct JoinedSkins {
-  std::vector<uint32_t> surface_nodes, triangles, tie_starts = {0}, colors;
-  std::vector<layout::SkinBinding> bindings;
-  std::vector<layout::Tie> ties;
-  NetworkSkins networks;
-  bool any_bound = false, any_one_to_one = false;
-
-  void append(const Body& body, const NetworkSkins::Place& place) {
-    const Skin& skin = body.skin;
-    if (isOneToOne(body)) {
-      any_one_to_one = true;
-      networks.append(body, place);
-    } else {
-      any_bound = true;
-      for (uint32_t slot : skin.bound_slots) surface_nodes.push_back(slot + place.slot);
-    }
-    appendBindings(skin, place.slot);
-    appendTriangles(skin, place);
-    const std::vector<uint32_t> own_colors = vertexColors(skin.mesh, body.color, skin.two_sided);
-    colors.insert(colors.end(), own_colors.begin(), own_colors.end());
-    for (const SplitEdge& edge : skin.split_edges) {
-      colors.push_back(own_colors[edge.a]);
-      colors.push_back(own_colors[edge.b]);
-    }
-  }
-
- private:
-  void appendBindings(const Skin& skin, uint32_t slot_offset) {
-    for (layout::SkinBinding binding : skin.bindings) {
-      binding.slot0 += slot_offset;
-      binding.slot1 += slot_offset;
-      binding.slot2 += slot_offset;
-      bindings.push_back(binding);
-    }
-    layout::SkinBinding split{};  // only says that none of the kernels for lattices may touch it
-    split.springs = layout::kOneToOneBit;
-    bindings.insert(bindings.end(), 2 * skin.split_edges.size(), split);
-  }
-
-  void appendTriangles(const Skin& skin, const NetworkSkins::Place& place) {
-    const auto first_tie = static_cast<uint32_t>(ties.size());
-    for (layout::Tie tie : skin.ties) ties.push_back({tie.slot + place.slot, tie.spring});
-    for (size_t t = 0; t < skin.mesh.triangles.size(); ++t) {
-      for (uint32_t v : skin.mesh.triangles[t]) triangles.push_back(v + place.vertex);
-      tie_starts.push_back(skin.tie_starts[t + 1] + first_tie);
-    }
-  }
-};
-
-JoinedSkins join(const Model& model) {
-  JoinedSkins joined;
-  uint32_t springs = 0;
-  for (size_t b = 0; b < model.bodies.size(); ++b) {
-    const Body& body = model.bodies[b];
-    const auto vertices = static_cast<uint32_t>(joined.bindings.size());
-    const auto triangles = static_cast<uint32_t>(joined.triangles.size() / 3);
-    joined.append(body, {model.slotOffset(b), vertices, triangles, springs});
-    if (body.network) springs += static_cast<uint32_t>(body.network->springs.size());
-  }
-  return joined;
-}
-
-/// [6 * triangles]; empty where no triangle can split.
-std::vector<uint32_t> splitsOf(const NetworkSkins& networks, size_t triangles) {
-  std::vector<uint32_t> out;
-  if (!networks.triangles.empty()) out.assign(6 * triangles, 0);
-  for (const layout::SplitTriangle& t : networks.triangles) {
-    std::copy(std::begin(t.vertices), std::end(t.vertices), out.begin() + 6 * size_t{t.triangle});
-  }
-  return out;
-}
-
 }  // namespace
 
 Surface::Surface(const Model& model) {
-  JoinedSkins skins = join(model);
+  JoinedSkins skins = joinSkins(model);
   vertices_ = skins.bindings.size();
   const size_t triangles = skins.triangles.size() / 3;
   surface_nodes_ = gpu::Buffer<uint32_t>(skins.surface_nodes);
@@ -135,7 +60,8 @@ Surface::Surface(const Model& model) {
   tie_starts_ = gpu::Buffer<uint32_t>(skins.tie_starts);
   alive_ = gpu::Buffer<uint32_t>(triangles);
   live_ = gpu::Buffer<uint32_t>(3 * (triangles + 2 * skins.networks.triangles.size()));
-  shown_ = ShownTriangles(model, vertices_, std::move(skins.triangles), splitsOf(skins.networks, triangles));
+  std::vector<uint32_t> splits = splitsOf(skins);
+  shown_ = ShownTriangles(model, vertices_, std::move(skins.triangles), std::move(splits));
   if (skins.any_bound) {
     const std::vector<std::string> features(skins.any_one_to_one ? 1 : 0, "MIXED");
     node_normal_ = kernel("node_normal.comp");

@@ -1,0 +1,39 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "session/host_view.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "viscera/math/error.h"
+
+namespace viscera {
+
+HostView::HostView(const Model& model) : surface_(model) {
+  snapshot_.bricks = surface_.shownBricks();
+}
+
+void HostView::capture(Solver& solver, const Look& look, Pictures&) {
+  const std::vector<bool>& cameras = look.wants.cameras;
+  if (std::find(cameras.begin(), cameras.end(), true) != cameras.end()) {
+    throw GpuError(
+        "an image is wanted of a session without an OpenGL context: give it one, or ask for its surface only");
+  }
+  if (!look.wants.surface) return;
+  solver.snapshot(snapshot_);
+  taken_ = std::make_unique<SurfaceFrame>();
+  taken_->tick = look.tick;
+  surface_.show(snapshot_, *taken_);
+}
+
+void HostView::collect(Pictures& out, bool) {
+  if (taken_) out.surface = std::move(taken_);
+}
+
+ViewCounters HostView::counters() const {
+  ViewCounters out;
+  out.mappings = out.readbacks = surface_.mappings();
+  return out;
+}
+
+}  // namespace viscera

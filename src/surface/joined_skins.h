@@ -1,0 +1,56 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "layout/network_skin.h"
+#include "viscera/model/model.h"
+
+namespace viscera {
+
+/// The skin of a body is its network's: a vertex is a node (EGVE 3.2).
+bool isOneToOne(const Body& body);
+
+/// The skins of all networks of a model as one, numbered through as the vertices and triangles of Surface are.
+struct NetworkSkins {
+  std::vector<layout::RingVertex> vertices;
+  std::vector<layout::RingTriangle> rings;
+  std::vector<layout::SplitEdge> edges;
+  std::vector<layout::SplitTriangle> triangles;  ///< of bodies that can be cut
+
+  /// Where the buffers of Surface begin for the body. Its split vertices follow its own.
+  struct Place {
+    uint32_t slot = 0, vertex = 0, triangle = 0, spring = 0;
+  };
+  void append(const Body& body, const Place& place);
+
+ private:
+  void appendRings(const Skin& skin, const Place& place);
+  void appendSplits(const Skin& skin, const Place& place, uint32_t first_ring_vertex);
+};
+
+/// The skins of all bodies as one: slots and vertices numbered through. Split vertices of a network follow its own.
+struct JoinedSkins {
+  std::vector<uint32_t> surface_nodes, triangles, tie_starts = {0}, colors;
+  std::vector<layout::SkinBinding> bindings;
+  std::vector<layout::Tie> ties;
+  NetworkSkins networks;
+  bool any_bound = false, any_one_to_one = false;
+
+  void append(const Body& body, const NetworkSkins::Place& place);
+
+ private:
+  void appendBindings(const Skin& skin, uint32_t slot_offset);
+  void appendTriangles(const Skin& skin, const NetworkSkins::Place& place);
+};
+JoinedSkins joinSkins(const Model& model);
+
+/// Split vertices of every triangle, as appendShown takes them: [6 * triangles]; empty where no triangle can split.
+std::vector<uint32_t> splitsOf(const JoinedSkins& skins);
+
+/// Bricks of the nodes to which skins are bound and of their neighbours, ascending: all that showing a state looks at.
+std::vector<uint32_t> shownBricks(const Model& model);
+
+}  // namespace viscera
