@@ -9,6 +9,7 @@
 
 #include "solver/make_solver.h"
 #include "solver/substeps.h"
+#include "viscera/gpu/context.h"
 #include "viscera/solver/material.h"
 
 namespace viscera {
@@ -21,8 +22,8 @@ constexpr double kShareBesideDrawing = 0.5;
 /// Nodes of the lattice that the stable substep is taken from; it is in proportion to the spacing.
 constexpr size_t kRuleNodes = 4000;
 
-double shareOfSteps(const Scene& scene, const gpu::Context& context) {
-  return context.isSoftware() && !scene.cameras.empty() ? kShareBesideDrawing : kShareOfSteps;
+double shareOfSteps(const Scene& scene, const gpu::Context* context) {
+  return context && context->isSoftware() && !scene.cameras.empty() ? kShareBesideDrawing : kShareOfSteps;
 }
 
 /// Substeps that the solver will have, as the spacing decides.
@@ -96,7 +97,7 @@ std::string noteOf(const SpacingChoice& choice, const StepTime& step, const Scen
 
 }  // namespace
 
-Scene withChosenSpacing(const Scene& scene, const gpu::Context& context, const Progress& progress,
+Scene withChosenSpacing(const Scene& scene, const gpu::Context* context, const Progress& progress,
                         const StepTimeCache& cache) {
   const std::vector<size_t> chosen = autoBodies(scene);
   if (chosen.empty()) return scene;

@@ -11,6 +11,7 @@
 
 #include "solver/make_solver.h"
 #include "solver/substeps.h"
+#include "viscera/gpu/context.h"
 #include "viscera/solver/material.h"
 #include "viscera/tools/hands.h"
 
@@ -69,7 +70,7 @@ StylusSamples touching(const Model& model, const Scene& scene) {
   return samples;
 }
 
-TimedSubstep timeSubstep(const Model& model, const Scene& asked, const gpu::Context& context) {
+TimedSubstep timeSubstep(const Model& model, const Scene& asked, const gpu::Context* context) {
   const Scene scene = measuredScene(asked, model);
   const std::unique_ptr<Solver> solver = makeSolver(model, scene, context);
   Tools tools(scene.styluses);
@@ -130,8 +131,8 @@ StepTime stepTimeThrough(const TimedSubstep& small, const TimedSubstep& large) {
   return {overhead, slope};
 }
 
-StepTime measureStepTime(const UndividedBodies& bodies, const Scene& scene, const gpu::Context& context) {
-  const bool on_gpu = chooseBackend(scene.solver, context) == Backend::kGpu && !context.isSoftware();
+StepTime measureStepTime(const UndividedBodies& bodies, const Scene& scene, const gpu::Context* context) {
+  const bool on_gpu = chooseBackend(scene.solver, context) == Backend::kGpu && context && !context->isSoftware();
   const double spacing_m = bodies.spacingOf(on_gpu ? kSmallOnGpu : kSmallOnCpu);
   const TimedSubstep small = timeSubstep(bodies.lattices(spacing_m), scene, context);
   const double expected_s = small.seconds * kGrowth * substepsPerTick(scene.solver) * (kWarmUpTicks + kLeastTicks);
@@ -139,17 +140,17 @@ StepTime measureStepTime(const UndividedBodies& bodies, const Scene& scene, cons
   return stepTimeThrough(small, timeSubstep(bodies.lattices(spacing_m / 2), scene, context));
 }
 
-std::string stepTimeKey(const Scene& scene, const gpu::Context& context) {
+std::string stepTimeKey(const Scene& scene, const gpu::Context* context) {
   const SolverConfig& solver = scene.solver;
   const bool on_cpu = chooseBackend(solver, context) == Backend::kCpu;
   const unsigned threads =
       solver.threads > 0 ? static_cast<unsigned>(solver.threads) : std::thread::hardware_concurrency();
   std::ostringstream out;
   out << VISCERA_VERSION << "; " << processorName();
-  if (on_cpu) {
+  if (on_cpu || !context) {
     out << "; cpu, " << threads << " threads";
   } else {
-    out << "; gpu, " << context.renderer() << ", " << context.version();
+    out << "; gpu, " << context->renderer() << ", " << context->version();
   }
   out << "; " << integratorText(solver) << "; styluses";
   for (const StylusConfig& stylus : scene.styluses) out << ' ' << static_cast<int>(stylus.idle);

@@ -14,12 +14,13 @@
 
 namespace viscera::cli {
 
-Album::Album(const std::string& folder, const Scene& scene, const Strokes& strokes, uint64_t ticks, bool live)
-    : folder_(folder), scene_(scene), live_(live), ticks_(ticks) {
+Album::Album(const std::string& folder, const Scene& scene, const Strokes& strokes, uint64_t ticks, Pictures pictures)
+    : folder_(folder), scene_(scene), pictures_(pictures), ticks_(ticks) {
   if (folder_.empty()) return;
   std::error_code error;
-  std::filesystem::create_directories(folder_ + "/frames", error);
+  std::filesystem::create_directories(pictures_ == Pictures::kNone ? folder_ : folder_ + "/frames", error);
   if (error) throw Error(folder_ + ": cannot be made into a folder for pictures: " + error.message());
+  if (pictures_ == Pictures::kNone) return;
   for (const Mark& mark : strokes.marks) {
     const double tick = std::max(1.0, std::round(mark.time_s * scene.solver.tick_hz));
     if (tick > static_cast<double>(ticks)) {
@@ -45,7 +46,8 @@ Wants Album::wants(const Session& session) const {
   if (folder_.empty()) return out;
   const bool marked = marks_.count(session.tick() + 1) > 0;
   out.surface = session.tick() + 1 == ticks_;
-  out.every_image = !live_ || marked || out.surface;
+  if (pictures_ == Pictures::kNone) return out;
+  out.every_image = pictures_ == Pictures::kAll || marked || out.surface;
   for (size_t c = 0; c < scene_.cameras.size(); ++c) out.cameras.push_back(session.imageDue(c) || marked);
   return out;
 }

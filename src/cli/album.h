@@ -20,9 +20,14 @@ namespace viscera::cli {
 /// end. A thread of its own packs and writes the pictures.
 class Album {
  public:
-  /// @param folder  empty: no pictures   @param live  the series may have gaps where drawing falls behind
-  /// @throws Error  the folder cannot be made
-  Album(const std::string& folder, const Scene& scene, const Strokes& strokes, uint64_t ticks, bool live);
+  /// What is shown of a run.
+  enum class Pictures {
+    kAll,
+    kLive,  ///< the series may have gaps where drawing falls behind
+    kNone,  ///< only the skin at the end
+  };
+  /// @param folder  empty: neither pictures nor skin   @throws Error  the folder cannot be made
+  Album(const std::string& folder, const Scene& scene, const Strokes& strokes, uint64_t ticks, Pictures pictures);
   ~Album();
   Album(const Album&) = delete;
   Album& operator=(const Album&) = delete;
@@ -42,7 +47,7 @@ class Album {
 
   std::string folder_;
   const Scene& scene_;
-  bool live_;
+  Pictures pictures_;
   uint64_t ticks_;
   std::unique_ptr<SurfaceFrame> surface_;
   std::multimap<uint64_t, std::string> marks_;  ///< tick -> names

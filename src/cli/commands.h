@@ -19,6 +19,7 @@ struct RunOptions {
   std::string strokes;  ///< empty: nobody touches the tissue
   std::optional<double> seconds;
   std::string out;         ///< empty: no pictures, no metrics.json
+  bool no_view = false;    ///< without OpenGL: on the processor, no pictures
   bool live = false;       ///< pictures may be left out where drawing falls behind, but for marks
   bool reference = false;  ///< in float64 on the CPU
   bool compare = false;    ///< with --reference: and the GPU beside it

@@ -42,6 +42,8 @@ int dispatch(int argc, char** argv) {
                 "leave pictures out rather than wait for them, as a live session does; but for marks")
       ->needs(out);
   CLI::Option* reference = run->add_flag("--reference", o.run.reference, "the plain float64 solver instead of the GPU");
+  run->add_flag("--no-view", o.run.no_view, "without OpenGL: on the processor, and without pictures")
+      ->excludes(reference);
   run->add_flag("--compare", o.run.compare, "the GPU's error against the reference, as gpu_error")->needs(reference);
   addOverrides(run, o.run.overrides);
 

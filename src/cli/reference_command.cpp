@@ -11,6 +11,7 @@
 #include "solver/gpu/gpu_solver.h"
 #include "solver/reference/reference_ticks.h"
 #include "solver/surroundings.h"
+#include "viscera/gpu/context.h"
 #include "viscera/math/error.h"
 #include "viscera/tools/hands.h"
 

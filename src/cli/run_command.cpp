@@ -4,6 +4,7 @@
 #include <cmath>
 #include <fstream>
 #include <iostream>
+#include <memory>
 #include <utility>
 
 #include "cli/album.h"
@@ -11,6 +12,7 @@
 #include "cli/run_metrics.h"
 #include "cli/run_plan.h"
 #include "cli/scene_lookup.h"
+#include "viscera/gpu/context.h"
 #include "viscera/math/error.h"
 #include "viscera/session/session.h"
 #include "viscera/tools/strokes.h"
@@ -58,6 +60,21 @@ void requireStyluses(const Strokes& strokes, const Scene& scene, const std::stri
   }
 }
 
+/// The context of a run, or none. @throws GpuError  with a way out
+std::unique_ptr<gpu::Context> contextFor(const RunOptions& options, const Scene& scene) {
+  if (options.no_view) return nullptr;
+  try {
+    return std::make_unique<gpu::Context>(scene.solver.device);
+  } catch (const GpuError& error) {
+    throw GpuError(std::string(error.what()) + "; --no-view does without, on the processor and without pictures");
+  }
+}
+
+Album::Pictures picturesOf(const RunOptions& options) {
+  if (options.no_view) return Album::Pictures::kNone;
+  return options.live ? Album::Pictures::kLive : Album::Pictures::kAll;
+}
+
 }  // namespace
 
 RunPlan planRun(const RunOptions& options) {
@@ -83,15 +100,17 @@ int run(const RunOptions& options) {
   const Scene& scene = plan.scene;
   Strokes& strokes = plan.strokes;
 
-  gpu::Context context(scene.solver.device);
+  const std::unique_ptr<gpu::Context> context = contextFor(options, scene);
   const Progress progress = consoleProgress();
-  Session session(scene, context, progress);
+  const auto made =
+      context ? std::make_unique<Session>(scene, *context, progress) : std::make_unique<Session>(scene, progress);
+  Session& session = *made;
   resolveAnchors(strokes, session.model());
   for (const Body& body : session.model().bodies) {
     for (const std::string& note : body.notes) std::cout << body.name << ": " << note << '\n';
   }
   std::cout << session.backendNote() << '\n';
-  Album album(options.out, session.scene(), strokes, ticks, options.live);
+  Album album(options.out, session.scene(), strokes, ticks, picturesOf(options));
   const Clock::time_point start = Clock::now();
   for (uint64_t t = 0; t < ticks; ++t) {
     const double time_s = static_cast<double>(t + 1) * session.tick_s();
@@ -104,7 +123,7 @@ int run(const RunOptions& options) {
   album.add(std::move(last));
   album.finish();
 
-  const Json metrics = metricsOf(session, stats, context.renderer(), wall_s);
+  const Json metrics = metricsOf(session, stats, context ? context->renderer() : "none", wall_s);
   if (!options.out.empty()) {
     std::ofstream file(options.out + "/metrics.json");
     file << metrics.dump(2) << '\n';

@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "viscera/gpu/context.h"
 #include "viscera/math/state_hash.h"
 
 namespace viscera::nodes {

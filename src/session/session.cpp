@@ -23,6 +23,12 @@ Vector3d xyz(const layout::vec4& v) {
 }  // namespace
 
 Session::Session(const Scene& scene, gpu::Context& context, const Progress& progress)
+    : Session(scene, &context, progress) {}
+
+Session::Session(const Scene& scene, const Progress& progress) : Session(scene, nullptr, progress) {}
+
+/// @param context  null: there is none
+Session::Session(const Scene& scene, gpu::Context* context, const Progress& progress)
     : scene_(withChosenSpacing(scene, context, progress)),
       model_(buildModel(scene_, progress)),
       tools_(scene.styluses, waveSpeed(model_) / scene.solver.tick_hz),

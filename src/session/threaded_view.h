@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "session/view.h"
+#include "viscera/gpu/context.h"
 
 namespace viscera {
 

@@ -4,12 +4,15 @@
 
 #include <memory>
 
-#include "viscera/gpu/context.h"
 #include "viscera/model/model.h"
 #include "viscera/session/frame.h"
 #include "viscera/solver/solver.h"
 
 namespace viscera {
+
+namespace gpu {
+class Context;
+}
 
 /// The viewing half of a session: skin and images for those who want them (EGVE 3.3), beside the stepping.
 class View {
@@ -28,7 +31,9 @@ class View {
 };
 
 /// On this thread if the solver's state is on the GPU, which it must not leave; on one of its own if it is on the host.
-/// @param model  must outlive the view   @param context  current on this thread, and again when the view is gone
-std::unique_ptr<View> makeView(const Solver& solver, const Model& model, const Scene& scene, gpu::Context& context);
+/// Without a context: the skin only, by HostView.
+/// @param model  must outlive the view
+/// @param context  current on this thread, and again when the view is gone; null: there is none
+std::unique_ptr<View> makeView(const Solver& solver, const Model& model, const Scene& scene, gpu::Context* context);
 
 }  // namespace viscera

@@ -4,23 +4,27 @@
 
 #include "solver/cpu/cpu_solver.h"
 #include "solver/gpu/gpu_solver.h"
+#include "viscera/gpu/context.h"
+#include "viscera/math/error.h"
 
 namespace viscera {
 
-Backend chooseBackend(const SolverConfig& config, const gpu::Context& context) {
+Backend chooseBackend(const SolverConfig& config, const gpu::Context* context) {
   if (config.backend != Backend::kAuto) return config.backend;
-  return context.isSoftware() ? Backend::kCpu : Backend::kGpu;
+  return !context || context->isSoftware() ? Backend::kCpu : Backend::kGpu;
 }
 
-std::string backendNote(const SolverConfig& config, const gpu::Context& context, const Solver& solver) {
+std::string backendNote(const SolverConfig& config, const gpu::Context* context, const Solver& solver) {
   const std::string taken = "stepped by: " + solver.backend();
   if (config.backend != Backend::kAuto) return taken + ", as solver.backend asks";
-  return taken + (context.isSoftware() ? ", as OpenGL is a software rasteriser: " : ", as OpenGL has a GPU: ") +
-         context.renderer();
+  if (!context) return taken + ", as there is no OpenGL context";
+  return taken + (context->isSoftware() ? ", as OpenGL is a software rasteriser: " : ", as OpenGL has a GPU: ") +
+         context->renderer();
 }
 
-std::unique_ptr<Solver> makeSolver(const Model& model, const Scene& scene, const gpu::Context& context) {
+std::unique_ptr<Solver> makeSolver(const Model& model, const Scene& scene, const gpu::Context* context) {
   if (chooseBackend(scene.solver, context) == Backend::kCpu) return std::make_unique<CpuSolver>(model, scene);
+  if (!context) throw GpuError("solver.backend: gpu needs an OpenGL context, and there is none: use cpu or auto");
   return std::make_unique<GpuSolver>(model, scene);
 }
 

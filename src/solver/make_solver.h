@@ -5,18 +5,24 @@
 #include <memory>
 #include <string>
 
-#include "viscera/gpu/context.h"
 #include "viscera/solver/solver.h"
 
 namespace viscera {
 
+namespace gpu {
+class Context;
+}
+
+// Where a context is asked for, null means that there is none: then only the CPU is left.
+
 /// The backend that a scene asks for. kAuto: the GPU if the context's renderer is a real one, else the CPU.
-Backend chooseBackend(const SolverConfig& config, const gpu::Context& context);
+Backend chooseBackend(const SolverConfig& config, const gpu::Context* context);
 
 /// One line for a person: which backend steps the tissue, and why.
-std::string backendNote(const SolverConfig& config, const gpu::Context& context, const Solver& solver);
+std::string backendNote(const SolverConfig& config, const gpu::Context* context, const Solver& solver);
 
 /// The solver on the backend that the scene asks for. @param model  must outlive it
-std::unique_ptr<Solver> makeSolver(const Model& model, const Scene& scene, const gpu::Context& context);
+/// @throws GpuError  the scene asks for the GPU, and there is no context
+std::unique_ptr<Solver> makeSolver(const Model& model, const Scene& scene, const gpu::Context* context);
 
 }  // namespace viscera

@@ -115,7 +115,8 @@ TEST_F(BadInput, PlaceToWriteTo) {
 TEST_F(BadInput, MachineWithoutADevice) {
   expectSetRefusal("solver.device=31", {"EGL", "31"});
   expectRefusal({"check"}, {"EGL"}, {kNoDevice});
-  expectRefusal({"run", scene_}, {"EGL"}, {kNoDevice});
+  expectRefusal({"run", scene_}, {"EGL", "--no-view"}, {kNoDevice});
+  expectRefusal({"run", scene_, "--no-view", "--set", "solver.backend=gpu"}, {"solver.backend", "OpenGL"});
 }
 
 TEST_F(BadInput, CommandLineIsExplainedNotCrashedOn) {

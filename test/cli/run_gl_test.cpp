@@ -188,6 +188,23 @@ TEST_F(Run, SkinAtTheEndGoesToTheFolderAndLacksWhatWasCut) {
   EXPECT_LT(torn.triangles.size(), whole.triangles.size());
 }
 
+TEST_F(Run, WithoutAViewNoDeviceIsNeededAndTheStateIsTheSame) {
+  const std::vector<std::string> cpu = {"--strokes", strokes_, "--set", "solver.backend=cpu"};
+  const Json seen = metricsOf(run(cpu));
+  std::vector<std::string> options = {"run", scene_, "--no-view", "--out", folder_.file("unseen")};
+  options.insert(options.end(), cpu.begin(), cpu.end());
+  const Json unseen = metricsOf(viscera(options, {kNoDevice}));
+  EXPECT_EQ(unseen["state_hash"], seen["state_hash"]);
+  EXPECT_EQ(unseen["springs_cut"], seen["springs_cut"]);
+  EXPECT_EQ(unseen["renderer"], "none");
+  EXPECT_EQ(unseen["images"], 0);
+  std::set<std::string> files;
+  for (const auto& entry : fs::directory_iterator(folder_.file("unseen")))
+    files.insert(entry.path().filename().string());
+  EXPECT_EQ(files, (std::set<std::string>{"metrics.json", "surface.ply"}));
+  EXPECT_GT(importMesh(folder_.file("unseen/surface.ply"), 1).triangles.size(), 0u);
+}
+
 TEST_F(Run, PicturesDoNotChangeTheState) {
   const Json seen = metricsOf(run({"--strokes", strokes_, "--out", folder_.file("out")}));
   EXPECT_EQ(seen["state_hash"], metricsOf(run({"--strokes", strokes_}))["state_hash"]);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include "viscera/gpu/context.h"
 #include "viscera/session/session.h"
 
 using namespace viscera;

@@ -9,8 +9,9 @@ namespace viscera {
 /// The scene with a number in place of every `spacing_m: auto`: one spacing for all of these bodies, the finest that
 /// this machine steps solver.real_time_factor times as fast as the clock. A line that tells the choice and its reason
 /// becomes a note of the first of them. Other scenes come back as they are, and nothing is measured.
+/// @param context  current on this thread, or null: there is none
 /// @throws MeshError, LatticeError, SceneError  as buildModel()
-Scene withChosenSpacing(const Scene& scene, const gpu::Context& context, const Progress& progress = {},
+Scene withChosenSpacing(const Scene& scene, const gpu::Context* context, const Progress& progress = {},
                         const StepTimeCache& cache = StepTimeCache::ofUser());
 
 }  // namespace viscera

@@ -5,10 +5,13 @@
 #include <optional>
 #include <string>
 
-#include "viscera/gpu/context.h"
 #include "viscera/model/body/spacing_choice.h"
 
 namespace viscera {
+
+namespace gpu {
+class Context;
+}
 
 /// What a substep took of a lattice of so many nodes.
 struct TimedSubstep {
@@ -21,12 +24,12 @@ StepTime stepTimeThrough(const TimedSubstep& small, const TimedSubstep& large);
 
 /// How fast this machine steps the bodies of a scene whose spacing is `auto`, with the scene's backend, integrator,
 /// tools and governor, measured on coarse lattices of theirs in some tenths of a second.
-/// @param context  current on this thread
-StepTime measureStepTime(const UndividedBodies& bodies, const Scene& scene, const gpu::Context& context);
+/// @param context  current on this thread, or null: there is none, and the CPU is measured
+StepTime measureStepTime(const UndividedBodies& bodies, const Scene& scene, const gpu::Context* context);
 
 /// All that the measurement depends on, in one line: version, machine, backend, threads, features, shapes of the
 /// bodies.
-std::string stepTimeKey(const Scene& scene, const gpu::Context& context);
+std::string stepTimeKey(const Scene& scene, const gpu::Context* context);
 
 /// Measurements that are kept from one process to the next: lines of key, overhead_s and per_node_s in a small file. A
 /// folder that cannot be written or a file that makes no sense is no error: then it is measured again.

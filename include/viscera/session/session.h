@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "viscera/gpu/context.h"
 #include "viscera/layout/limits.h"
 #include "viscera/layout/tick_stats.h"
 #include "viscera/model/model.h"
@@ -35,14 +34,21 @@ struct Extremes {
   uint64_t held_back = 0;       ///< ticks in which a stylus was faster than tissue can follow
 };
 
+namespace gpu {
+class Context;
+}
 class View;
 
-/// ONE loop: owns model, solver and view. All calls come from the thread that made it; steps do not wait for the view.
+/// ONE loop: owns model, solver and view. All calls come from one thread; steps do not wait for the view.
 class Session {
  public:
   /// @param context  current on this thread; the session's until its end, on whichever thread it needs it
   /// @throws GpuError, MeshError, LatticeError, SceneError
   Session(const Scene& scene, gpu::Context& context, const Progress& progress = {});
+  /// Without OpenGL: steps on the processor, whatever solver.backend is but gpu. There is the surface to be wanted, and
+  /// no image.
+  /// @throws MeshError, LatticeError, SceneError; GpuError  the scene asks for the GPU
+  explicit Session(const Scene& scene, const Progress& progress = {});
   ~Session();
 
   Frame step(const StylusSamples& samples, const Wants& wants);
@@ -74,6 +80,7 @@ class Session {
     std::array<SteadyTime, layout::kMaxStyluses> received{};
     SteadyTime newest() const;
   };
+  Session(const Scene& scene, gpu::Context* context, const Progress& progress);
   void moveObstacles();
   void notePoses(const StylusSamples& samples);
   PoseTimes posesOf(uint64_t tick) const;
