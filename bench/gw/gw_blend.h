@@ -5,8 +5,8 @@
 #include <string>
 
 #include "bench/gw/gw_network.h"
-#include "viscera/gpu/buffer.h"
-#include "viscera/gpu/program.h"
+#include "gpu/buffer.h"
+#include "gpu/program.h"
 
 namespace viscera::bench {
 

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "bench/gw/gw_blend.h"
+#include "gpu/buffer.h"
+#include "gpu/program.h"
 #include "layout/edge_forces.h"
-#include "viscera/gpu/buffer.h"
-#include "viscera/gpu/program.h"
 
 namespace viscera::bench {
 

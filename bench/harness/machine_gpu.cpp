@@ -7,8 +7,8 @@
 #include <string>
 
 #include "bench/harness/machine.h"
-#include "viscera/gpu/buffer.h"
-#include "viscera/gpu/program.h"
+#include "gpu/buffer.h"
+#include "gpu/program.h"
 #include "viscera/layout/limits.h"
 
 namespace viscera::bench {

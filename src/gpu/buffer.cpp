@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "viscera/gpu/buffer.h"
+#include "gpu/buffer.h"
 
 #include <algorithm>
 #include <utility>

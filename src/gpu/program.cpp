@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "viscera/gpu/program.h"
+#include "gpu/program.h"
 
 #include <algorithm>
 #include <atomic>

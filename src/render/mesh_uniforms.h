@@ -3,7 +3,7 @@
 #pragma once
 
 #include "gpu/gl.h"
-#include "viscera/gpu/program.h"
+#include "gpu/program.h"
 #include "viscera/render/camera.h"
 
 namespace viscera {

@@ -4,10 +4,10 @@
 
 #include <vector>
 
+#include "gpu/buffer.h"
+#include "gpu/program.h"
 #include "render/obstacle_shape.h"
 #include "render/vertex_array.h"
-#include "viscera/gpu/buffer.h"
-#include "viscera/gpu/program.h"
 
 namespace viscera {
 

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "gpu/program.h"
 #include "render/renderer.h"
 #include "render/tool_shadows.h"
 #include "render/vertex_array.h"
-#include "viscera/gpu/program.h"
 
 namespace viscera {
 

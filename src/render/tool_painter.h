@@ -5,11 +5,11 @@
 #include <array>
 #include <vector>
 
+#include "gpu/buffer.h"
+#include "gpu/program.h"
 #include "model/scene/tool_kinds.h"
 #include "render/tool_shape.h"
 #include "render/vertex_array.h"
-#include "viscera/gpu/buffer.h"
-#include "viscera/gpu/program.h"
 #include "viscera/tools/stylus.h"
 
 namespace viscera {

@@ -4,10 +4,10 @@
 
 #include <cstdint>
 
+#include "gpu/buffer.h"
+#include "gpu/program.h"
 #include "layout/network_skin.h"
 #include "surface/joined_skins.h"
-#include "viscera/gpu/buffer.h"
-#include "viscera/gpu/program.h"
 #include "viscera/solver/state.h"
 
 namespace viscera {

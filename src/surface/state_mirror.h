@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "viscera/gpu/buffer.h"
+#include "gpu/buffer.h"
 #include "viscera/model/model.h"
 #include "viscera/solver/state.h"
 

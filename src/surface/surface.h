@@ -6,9 +6,9 @@
 #include <memory>
 #include <vector>
 
+#include "gpu/buffer.h"
+#include "gpu/program.h"
 #include "surface/shown_triangles.h"
-#include "viscera/gpu/buffer.h"
-#include "viscera/gpu/program.h"
 #include "viscera/layout/skin.h"
 #include "viscera/model/model.h"
 #include "viscera/solver/state.h"

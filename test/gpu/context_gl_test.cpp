@@ -6,9 +6,9 @@
 
 #include <thread>
 
+#include "gpu/buffer.h"
+#include "gpu/program.h"
 #include "gpu/readback.h"
-#include "viscera/gpu/buffer.h"
-#include "viscera/gpu/program.h"
 #include "viscera/math/error.h"
 
 using namespace viscera;

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "gpu/gl.h"
+#include "gpu/program.h"
 #include "layout/network_skin.h"
 #include "viscera/gpu/context.h"
-#include "viscera/gpu/program.h"
 #include "viscera/layout/nodes.h"
 #include "viscera/layout/skin.h"
 #include "viscera/layout/tick_stats.h"

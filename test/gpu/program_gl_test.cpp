@@ -1,13 +1,13 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "viscera/gpu/program.h"
+#include "gpu/program.h"
 
 #include <gtest/gtest.h>
 
+#include "gpu/buffer.h"
 #include "gpu/gl.h"
 #include "gpu/reflection.h"
 #include "layout/bindings.h"
-#include "viscera/gpu/buffer.h"
 #include "viscera/gpu/context.h"
 #include "viscera/math/error.h"
 

@@ -8,9 +8,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "gpu/buffer.h"
 #include "gpu/gl.h"
 #include "render/renderer.h"
-#include "viscera/gpu/buffer.h"
 #include "viscera/gpu/context.h"
 
 namespace viscera {

@@ -7,11 +7,11 @@
 #include <cmath>
 #include <random>
 
+#include "gpu/program.h"
 #include "solver/gpu/gpu_solver.h"
 #include "solver/reference/reference_solver.h"
 #include "support/lattices.h"
 #include "viscera/gpu/context.h"
-#include "viscera/gpu/program.h"
 
 namespace viscera::test {
 

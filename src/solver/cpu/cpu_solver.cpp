@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gpu/buffer.h"
 #include "math/float_bits.h"
 #include "solver/cpu/lattice_arrays.h"
 #include "solver/cpu/network.h"
-#include "viscera/gpu/buffer.h"
 #include "viscera/math/error.h"
 
 namespace viscera {

@@ -5,11 +5,11 @@
 #include <array>
 #include <vector>
 
+#include "gpu/program.h"
 #include "solver/collision.h"
 #include "solver/gpu/features.h"
 #include "solver/gpu/lattice_buffers.h"
 #include "solver/substep.h"
-#include "viscera/gpu/program.h"
 
 namespace viscera {
 

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "gpu/program.h"
 #include "solver/gpu/features.h"
 #include "solver/gpu/lattice_buffers.h"
 #include "solver/gpu/volume_pass.h"
-#include "viscera/gpu/program.h"
 
 namespace viscera {
 

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "gpu/program.h"
 #include "solver/gpu/features.h"
 #include "solver/gpu/lattice_buffers.h"
 #include "solver/tool_acts.h"
-#include "viscera/gpu/program.h"
 
 namespace viscera {
 

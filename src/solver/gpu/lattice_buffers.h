@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "gpu/buffer.h"
 #include "layout/edge_forces.h"
 #include "solver/edge_forces.h"
 #include "solver/gpu/features.h"
 #include "solver/joined_network.h"
-#include "viscera/gpu/buffer.h"
 #include "viscera/layout/tick_stats.h"
 #include "viscera/model/model.h"
 

@@ -4,9 +4,9 @@
 
 #include <array>
 
+#include "gpu/program.h"
 #include "solver/gpu/features.h"
 #include "solver/gpu/lattice_buffers.h"
-#include "viscera/gpu/program.h"
 
 namespace viscera {
 

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "gpu/program.h"
 #include "solver/gpu/features.h"
 #include "solver/gpu/lattice_buffers.h"
-#include "viscera/gpu/program.h"
 
 namespace viscera {
 

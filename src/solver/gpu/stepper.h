@@ -4,10 +4,10 @@
 
 #include <memory>
 
+#include "gpu/program.h"
 #include "solver/gpu/features.h"
 #include "solver/gpu/lattice_buffers.h"
 #include "solver/substep.h"
-#include "viscera/gpu/program.h"
 
 namespace viscera {
 

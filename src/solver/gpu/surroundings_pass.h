@@ -6,13 +6,13 @@
 #include <optional>
 #include <vector>
 
+#include "gpu/program.h"
 #include "layout/wind.h"
 #include "solver/gpu/collision_pass.h"
 #include "solver/gpu/features.h"
 #include "solver/gpu/lattice_buffers.h"
 #include "solver/substep.h"
 #include "solver/surroundings.h"
-#include "viscera/gpu/program.h"
 
 namespace viscera {
 
