@@ -22,19 +22,20 @@ Vector3d xyz(const layout::vec4& v) {
 
 }  // namespace
 
-Session::Session(const Scene& scene, gpu::Context& context, const Progress& progress)
-    : Session(scene, &context, progress) {}
+Session::Session(const Scene& scene, gpu::Context& context, const Progress& progress, const SessionOptions& options)
+    : Session(scene, &context, progress, options) {}
 
-Session::Session(const Scene& scene, const Progress& progress) : Session(scene, nullptr, progress) {}
+Session::Session(const Scene& scene, const Progress& progress, const SessionOptions& options)
+    : Session(scene, nullptr, progress, options) {}
 
 /// @param context  null: there is none
-Session::Session(const Scene& scene, gpu::Context* context, const Progress& progress)
+Session::Session(const Scene& scene, gpu::Context* context, const Progress& progress, const SessionOptions& options)
     : scene_(withChosenSpacing(scene, context, progress)),
       model_(buildModel(scene_, progress)),
       tools_(scene.styluses, waveSpeed(model_) / scene.solver.tick_hz),
       obstacles_(scene.obstacles),
       pose_times_(kNotedTicks) {
-  solver_ = makeSolver(model_, scene_, context);
+  solver_ = makeSolver(model_, scene_, context, options.threads);
   backend_note_ = viscera::backendNote(scene_.solver, context, *solver_);
   view_ = makeView(*solver_, model_, scene_, context);
   for (const StylusConfig& stylus : scene_.styluses) {

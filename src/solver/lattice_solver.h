@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -11,11 +12,14 @@
 #include "solver/surroundings.h"
 #include "solver/tool_acts.h"
 #include "viscera/solver/solver.h"
+#include "viscera/solver/threads.h"
 
 namespace viscera {
 
 struct SolverOptions {
   bool allow_unstable = false;  ///< take a substep that is too long for the integrator: to study the governor
+  /// On the CPU: shared with others; null: solver.threads of its own.
+  std::shared_ptr<ThreadPool> threads = nullptr;
 };
 
 /// What a tick is on any backend: which substeps it has, what tools do in them, what is measured and how the governor

@@ -22,8 +22,13 @@ std::string backendNote(const SolverConfig& config, const gpu::Context* context,
          context->renderer();
 }
 
-std::unique_ptr<Solver> makeSolver(const Model& model, const Scene& scene, const gpu::Context* context) {
-  if (chooseBackend(scene.solver, context) == Backend::kCpu) return std::make_unique<CpuSolver>(model, scene);
+std::unique_ptr<Solver> makeSolver(const Model& model, const Scene& scene, const gpu::Context* context,
+                                   const std::shared_ptr<ThreadPool>& threads) {
+  if (chooseBackend(scene.solver, context) == Backend::kCpu) {
+    CpuSolverOptions options;
+    options.threads = threads;
+    return std::make_unique<CpuSolver>(model, scene, options);
+  }
   if (!context) throw GpuError("solver.backend: gpu needs an OpenGL context, and there is none: use cpu or auto");
   return std::make_unique<GpuSolver>(model, scene);
 }

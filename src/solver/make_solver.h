@@ -6,6 +6,7 @@
 #include <string>
 
 #include "viscera/solver/solver.h"
+#include "viscera/solver/threads.h"
 
 namespace viscera {
 
@@ -23,6 +24,8 @@ std::string backendNote(const SolverConfig& config, const gpu::Context* context,
 
 /// The solver on the backend that the scene asks for. @param model  must outlive it
 /// @throws GpuError  the scene asks for the GPU, and there is no context
-std::unique_ptr<Solver> makeSolver(const Model& model, const Scene& scene, const gpu::Context* context);
+/// @param threads  of the CPU backend, shared with others; null: solver.threads of its own
+std::unique_ptr<Solver> makeSolver(const Model& model, const Scene& scene, const gpu::Context* context,
+                                   const std::shared_ptr<ThreadPool>& threads = nullptr);
 
 }  // namespace viscera

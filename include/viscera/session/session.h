@@ -13,6 +13,7 @@
 #include "viscera/model/model.h"
 #include "viscera/session/frame.h"
 #include "viscera/solver/solver.h"
+#include "viscera/solver/threads.h"
 #include "viscera/tools/force_limiter.h"
 #include "viscera/tools/hands.h"
 #include "viscera/tools/obstacles.h"
@@ -39,16 +40,21 @@ class Context;
 }
 class View;
 
+struct SessionOptions {
+  /// Where the processor steps: threads that sessions share (makeThreadPool); null: solver.threads of its own.
+  std::shared_ptr<ThreadPool> threads = nullptr;
+};
+
 /// ONE loop: owns model, solver and view. All calls come from one thread; steps do not wait for the view.
 class Session {
  public:
   /// @param context  current on this thread; the session's until its end, on whichever thread it needs it
   /// @throws GpuError, MeshError, LatticeError, SceneError
-  Session(const Scene& scene, gpu::Context& context, const Progress& progress = {});
+  Session(const Scene& scene, gpu::Context& context, const Progress& progress = {}, const SessionOptions& options = {});
   /// Without OpenGL: steps on the processor, whatever solver.backend is but gpu. There is the surface to be wanted, and
   /// no image.
   /// @throws MeshError, LatticeError, SceneError; GpuError  the scene asks for the GPU
-  explicit Session(const Scene& scene, const Progress& progress = {});
+  explicit Session(const Scene& scene, const Progress& progress = {}, const SessionOptions& options = {});
   ~Session();
 
   Frame step(const StylusSamples& samples, const Wants& wants);
@@ -80,7 +86,7 @@ class Session {
     std::array<SteadyTime, layout::kMaxStyluses> received{};
     SteadyTime newest() const;
   };
-  Session(const Scene& scene, gpu::Context* context, const Progress& progress);
+  Session(const Scene& scene, gpu::Context* context, const Progress& progress, const SessionOptions& options);
   void moveObstacles();
   void notePoses(const StylusSamples& samples);
   PoseTimes posesOf(uint64_t tick) const;

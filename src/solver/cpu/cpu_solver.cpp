@@ -17,10 +17,6 @@ namespace {
 
 constexpr size_t kBricksPerJob = 16;  // of a measurement
 
-int threadsOf(const SolverConfig& config) {
-  return config.threads > 0 ? config.threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-}
-
 bool isLeapfrog(Integrator integrator) {
   return integrator == Integrator::kLeapfrog;
 }
@@ -66,7 +62,8 @@ CpuSolver::CpuSolver(const Model& model, const Scene& scene, const CpuSolverOpti
       params_(bodyParams(model, safeTimeStep(model))),
       lattice_(model, params_, hasTools(),
                isLeapfrog(scene.solver.integrator) && scene.solver.spring_forces == SpringForces::kEdge),
-      pool_(threadsOf(scene.solver)),
+      threads_(options.threads ? options.threads : makeThreadPool(scene.solver.threads)),
+      pool_(*threads_),
       sleep_(lattice_, isLeapfrog(scene.solver.integrator) && !staysAwake() ? scene.solver.sleep_speed_m_per_s : 0),
       work_(std::make_unique<Work>()) {
   if (!simd::useTarget(simd_)) {

@@ -74,7 +74,8 @@ class CpuSolver : public LatticeSolver {
   std::string simd_;
   std::vector<layout::BodyParams> params_;
   CpuLattice lattice_;
-  ThreadPool pool_;
+  std::shared_ptr<ThreadPool> threads_;
+  const ThreadPool& pool_;
   Sleep sleep_;
   std::unique_ptr<Work> work_;
   std::optional<CpuSurroundings> surroundings_;

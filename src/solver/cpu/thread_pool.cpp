@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solver/cpu/thread_pool.h"
 
+#include <algorithm>
 #include <chrono>
 
 #if defined(__x86_64__) || defined(__i386__)
@@ -27,6 +28,11 @@ void pause() {
 
 }  // namespace
 
+std::shared_ptr<ThreadPool> makeThreadPool(int threads) {
+  const auto there = static_cast<int>(std::thread::hardware_concurrency());
+  return std::make_shared<ThreadPool>(std::max(1, threads > 0 ? threads : there));
+}
+
 ThreadPool::ThreadPool(int threads) : tickets_(static_cast<size_t>(threads)) {
   for (size_t i = 1; i < tickets_.size(); ++i) workers_.emplace_back([this, i] { work(i); });
 }
@@ -51,6 +57,7 @@ void ThreadPool::run(size_t count, Call call, const void* job) const {
     for (size_t index = 0; index < count; ++index) call(job, index);
     return;
   }
+  const std::lock_guard<std::mutex> turn(turn_);
   // All jobs of the last round are done. None can be taken of it while the next is made ready.
   const uint64_t round = round_.load(std::memory_order_relaxed);
   for (Ticket& ticket : tickets_) ticket.next.store(round << kRoundShift | kTakenMask, std::memory_order_seq_cst);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "solver/cpu/parallel.h"
+#include "viscera/solver/threads.h"
 
 namespace viscera {
 
@@ -16,6 +17,8 @@ namespace viscera {
 /// round of as many jobs, so that what it worked on is still in its cache, and then takes from the others. Between
 /// substeps, microseconds apart, they watch for the next; after kWatch without any they sleep and cost nothing. Nobody
 /// waits for a thread that the system has put aside before it took a job: jobs are taken one by one by whoever is free.
+/// Several solvers may share a pool, on as many threads of their own: their rounds take turns. A job must not begin a
+/// round of the same pool.
 class ThreadPool : public Parallel {
  public:
   /// @param threads  the caller's included, > 0
@@ -40,6 +43,7 @@ class ThreadPool : public Parallel {
   uint64_t endOf(size_t run, uint64_t count) const;
   bool watchFor(uint64_t round) const;
 
+  mutable std::mutex turn_;  ///< of the round that is under way
   mutable std::atomic<uint64_t> round_{0};
   mutable std::vector<Ticket> tickets_;  ///< [threads]
   mutable std::atomic<uint32_t> count_{0}, done_{0};

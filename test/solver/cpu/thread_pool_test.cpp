@@ -110,3 +110,17 @@ TEST(ThreadPool, PoolsDoNotDisturbEachOther) {
   EXPECT_EQ(outer, 14000);
   EXPECT_EQ(inner, 10000);
 }
+
+TEST(ThreadPool, CallersOnSeveralThreadsTakeTurns) {
+  const ThreadPool pool(3);
+  std::vector<std::thread> callers;
+  for (int caller = 0; caller < 4; ++caller) {
+    callers.emplace_back([&, caller] { expectEveryJobOnce(pool, 2000, std::chrono::microseconds(caller)); });
+  }
+  for (std::thread& caller : callers) caller.join();
+}
+
+TEST(ThreadPool, HasTheThreadsAskedForOrThoseOfTheMachine) {
+  EXPECT_EQ(makeThreadPool(3)->threads(), 3);
+  EXPECT_GE(makeThreadPool()->threads(), 1);
+}
