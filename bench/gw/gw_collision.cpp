@@ -60,7 +60,7 @@ Scene sceneWith(CollisionSearch search, int partitions = 4) {
 }
 
 std::vector<CollisionPair> found(const Model& model, const Scene& scene, const HostState& state) {
-  CpuLattice lattice(model, bodyParams(model, safeTimeStep(model)), false);
+  CpuLattice lattice(model, bodyParams(model, safeTimeStep(model)), featuresOf(model, {}, 1));
   lattice.write(state);
   const Serial serial;
   return CpuSurroundings(model, scene, lattice, serial).findPairs(lattice);

@@ -32,16 +32,7 @@ Field fieldOf(const std::vector<layout::vec4>& values) {
 }  // namespace
 
 std::string nameOf(Integrator integrator) {
-  switch (integrator) {
-    case Integrator::kLeapfrog:
-      return "leapfrog";
-    case Integrator::kVerletPaper:
-      return "verlet_paper";
-    case Integrator::kVbd:
-      return "vbd";
-    default:
-      return "pd";
-  }
+  return traitsOf(integrator).name;
 }
 
 Experiment experimentOf(Model model, double tick_in_dt_safe, int ticks) {

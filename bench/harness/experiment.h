@@ -24,9 +24,9 @@ struct Experiment {
 struct Method {
   Integrator integrator = Integrator::kLeapfrog;
   int substeps = 1;    ///< per tick
-  int iterations = 1;  ///< per substep, of vbd and pd
+  int iterations = 1;  ///< per substep, of those who iterate
 
-  bool isImplicit() const { return integrator == Integrator::kVbd || integrator == Integrator::kPd; }
+  bool isImplicit() const { return !traitsOf(integrator).is_explicit; }
   /// Gathers over all nodes per tick: what an explicit substep and an implicit iteration cost alike.
   int sweeps() const { return substeps * (isImplicit() ? iterations : 1); }
 };

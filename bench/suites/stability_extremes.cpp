@@ -68,7 +68,7 @@ void ratios(Report& report) {
     const std::vector<Start> starts = extremeStarts(model);
     for (Integrator integrator : {Integrator::kLeapfrog, Integrator::kVbd, Integrator::kPd}) {
       report.stage(row.name + ", " + nameOf(integrator));
-      const Scene scene = sceneAt(model, integrator, isExplicit(integrator) ? 1 : 100);
+      const Scene scene = sceneAt(model, integrator, traitsOf(integrator).is_explicit ? 1 : 100);
       const Outcome outcome = tryStart(model, scene, starts[0], report.isShort() ? 12 : 40);
       not_finite += outcome.finite ? 0 : 1;
       worst = std::max(worst, outcome.energy_ratio);

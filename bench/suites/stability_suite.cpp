@@ -70,13 +70,14 @@ void tryAll(Report& report, double poisson_ratio, const std::vector<double>& rat
       "energy after the start '" + starts[0].name + "', governor on", "ticks", "energy over start", true, true, {}};
   Table table = startsTable("extreme starts, Poisson's ratio " + Cell(poisson_ratio).text(3));
   Worst stable, above;
-  for (Integrator integrator : {Integrator::kLeapfrog, Integrator::kVerletPaper, Integrator::kVbd, Integrator::kPd}) {
+  for (const IntegratorTraits& traits : kIntegrators) {
+    const Integrator integrator = traits.integrator;
     report.stage("starts, " + nameOf(integrator));
     for (double ratio : ratios) {
       const Scene scene = sceneAt(model, integrator, ratio);
       for (const Start& start : starts) {
         const Outcome outcome = tryStart(model, scene, start, report.isShort() ? 20 : kTicks);
-        const bool promised = integrator != Integrator::kVerletPaper && (!isExplicit(integrator) || ratio <= 1);
+        const bool promised = !traits.own_positions && (!traits.is_explicit || ratio <= 1);
         (promised ? stable : above).add(outcome);
         addRow(table, start, integrator, ratio, outcome);
         if (&start == &starts[0]) plot.series.push_back(curve(outcome, integrator, ratio));
@@ -118,7 +119,8 @@ void fractionsOfStability(Report& report) {
     for (double fraction : {0.5, 0.6, 0.7, 0.75, 0.8, 0.9}) {
       const Model& tried = fraction > 0.82 ? undamped : model;
       const double xi = tried.bodies[0].material.dashpot_ratio;
-      Scene scene = sceneAt(tried, Integrator::kLeapfrog, fraction / (0.999 * largestFraction(xi)));
+      Scene scene =
+          sceneAt(tried, Integrator::kLeapfrog, fraction / (0.999 * stableFraction(Integrator::kLeapfrog, xi)));
       scene.solver.governor = false;
       const Outcome outcome = tryStart(tried, scene, start, report.isShort() ? 20 : kTicks);
       row.push_back(outcome.finite ? Cell(outcome.energy_ratio) : Cell("not finite"));

@@ -16,9 +16,9 @@ constexpr int kFewest = 12;          // ticks
 constexpr double kSweeps = 25000;    // passes over all nodes that a trial may take: a few seconds
 
 double sweepsPerTick(const Scene& scene) {
-  const bool colours = scene.solver.integrator == Integrator::kVbd;
-  const int iterations = isExplicit(scene.solver.integrator) ? 1 : scene.solver.iterations;
-  return scene.solver.substeps * iterations * (colours ? 4.0 : 1.0);
+  const IntegratorTraits& traits = traitsOf(scene.solver.integrator);
+  const int iterations = traits.iterates ? scene.solver.iterations : 1;
+  return scene.solver.substeps * iterations * (traits.takes_colours ? 4.0 : 1.0);
 }
 
 bool isFinite(const Model& model, const HostState& state) {
@@ -35,8 +35,8 @@ Scene sceneAt(const Model& model, Integrator integrator, double ratio) {
   scene.environment.gravity_m_per_s2 = Vector3d::Zero();
   scene.solver.integrator = integrator;
   scene.solver.sleep_distance_m = 100;  // nothing is stopped by the edge of the world
-  const double xi = integrator == Integrator::kLeapfrog ? model.bodies[0].material.dashpot_ratio : 0;
-  const double dt_s = ratio * safeTimeStep(model) * (isExplicit(integrator) ? 0.999 * largestFraction(xi) : 1);
+  const double limit = stableFraction(integrator, model.bodies[0].material.dashpot_ratio);
+  const double dt_s = ratio * safeTimeStep(model) * (traitsOf(integrator).is_explicit ? 0.999 * limit : 1);
   scene.solver.substeps = std::max(1, static_cast<int>(std::ceil(kTick_s / dt_s)));
   scene.solver.tick_hz = 1 / (scene.solver.substeps * dt_s);
   return scene;

@@ -20,7 +20,7 @@ struct Outcome {
   std::vector<double> energies;  ///< [ticks] over that of the start
 };
 
-/// A scene whose substep is `ratio` times the integrator's limit: that of largestFraction() for explicit ones, dt_safe
+/// A scene whose substep is `ratio` times the integrator's limit: that of stableFraction() for explicit ones, dt_safe
 /// for the others; ticks of 1/60 s, or of one substep where that is longer.
 Scene sceneAt(const Model& model, Integrator integrator, double ratio);
 

@@ -53,11 +53,9 @@ class SubstepRule {
       const double fine_m = 1e-2 * spacing_m_;  // so many substeps that rounding up to whole ones does not count
       return fine_m * perSecond(fine_m) / (asked.tick_hz * asked.max_substeps);
     }
-    if (!isExplicit(asked.integrator)) return 0;
     double xi = 0;
     for (const Body& body : sample_.bodies) xi = std::max(xi, body.material.dashpot_ratio);
-    if (asked.integrator != Integrator::kLeapfrog) xi = 0;
-    return kClear / (asked.tick_hz * asked.substeps * largestFraction(xi) * s_per_m_);
+    return kClear / (asked.tick_hz * asked.substeps * stableFraction(asked.integrator, xi) * s_per_m_);
   }
 
  private:

@@ -36,7 +36,7 @@ double secondsSince(Clock::time_point start) {
 }
 
 int substepsPerTick(const SolverConfig& solver) {
-  return isExplicit(solver.integrator) ? kExplicitSubsteps : kImplicitSubsteps;
+  return traitsOf(solver.integrator).is_explicit ? kExplicitSubsteps : kImplicitSubsteps;
 }
 
 /// The same work per substep, in ticks of a fixed number of them; tissue that neither falls nor falls asleep.
@@ -105,7 +105,7 @@ std::string processorName() {
 std::string integratorText(const SolverConfig& solver) {
   std::ostringstream out;
   out << "integrator " << static_cast<int>(solver.integrator);
-  if (solver.integrator == Integrator::kVbd || solver.integrator == Integrator::kPd) out << 'x' << solver.iterations;
+  if (traitsOf(solver.integrator).iterates) out << 'x' << solver.iterations;
   if (solver.compensated) out << ", compensated";
   if (solver.governor) out << ", governor";
   return out.str();

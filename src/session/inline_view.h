@@ -16,10 +16,13 @@ namespace viscera {
 /// A view that lives on the thread that made it: queues its work on the GPU and never waits for it unless asked to.
 class InlineView : public View {
  public:
-  /// Needs a current context. @throws GpuError; SceneError  a camera without a line of sight
+  /// Of solvers whose state is on the GPU. Needs a current context. @throws GpuError; SceneError  a camera without a
+  /// line of sight
   InlineView(const Model& model, const Scene& scene);
 
-  void capture(Solver& solver, const Look& look, Pictures& out) override { capture(solver.state(), look, out); }
+  void capture(Solver& solver, const Look& look, Pictures& out) override {
+    capture(solver.stateOnGpu().value(), look, out);
+  }
   void capture(const StateView& state, const Look& look, Pictures& out);
   void collect(Pictures& out, bool wait) override;
   void reset() override;

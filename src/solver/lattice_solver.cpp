@@ -138,7 +138,7 @@ void LatticeSolver::reset() {
 void LatticeSolver::writeState(const HostState& state, bool staggered) {
   if (watch_) judgeOpen();
   loadState(state);
-  restarted_ = !staggered || config_.integrator == Integrator::kVerletPaper;  // it keeps positions of its own
+  restarted_ = !staggered || traitsOf(config_.integrator).own_positions;
   if (staggered && last_dt_s_ == 0) last_dt_s_ = dt_s();
   if (staggered) recovering_ = false;
   ++cut_revision_;
@@ -243,7 +243,7 @@ double LatticeSolver::velocityLag_s() {
     receiveOpen(true);
     if (openIsBad()) return 0;  // the state was put back already
   }
-  const bool lags = config_.integrator == Integrator::kLeapfrog && !recovering_ && !restarted_;
+  const bool lags = traitsOf(config_.integrator).staggered && !recovering_ && !restarted_;
   return lags ? 0.5 * last_dt_s_ : 0;
 }
 

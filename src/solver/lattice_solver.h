@@ -144,7 +144,7 @@ class LatticeSolver : public Solver, protected ToolTarget {
   bool openIsBad() const;
   layout::TickStats publishedOfOpen() const;
   bool judgeOpen();
-  bool isImplicit(bool recovering) const { return recovering || !isExplicit(config_.integrator); }
+  bool isImplicit(bool recovering) const { return recovering || !traitsOf(config_.integrator).is_explicit; }
   void relaxSubsteps(const layout::TickStats& stats);
 
   const Model& model_;

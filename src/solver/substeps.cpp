@@ -32,8 +32,7 @@ int count(const SolverConfig& config, double fraction, double dt_safe_s) {
 }
 
 void requireStable(const Model& model, const SolverConfig& config, double dt_safe_s) {
-  const double xi = config.integrator == Integrator::kLeapfrog ? largestDashpot(model) : 0;
-  const double limit_s = largestFraction(xi) * dt_safe_s;
+  const double limit_s = stableFraction(config.integrator, largestDashpot(model)) * dt_safe_s;
   const double dt_s = 1.0 / (config.tick_hz * config.substeps);
   if (dt_s < limit_s) return;
   throw SceneError("solver.substeps = " + std::to_string(config.substeps) + " gives substeps of " +
@@ -45,19 +44,15 @@ void requireStable(const Model& model, const SolverConfig& config, double dt_saf
 
 }  // namespace
 
-double largestFraction(double dashpot_ratio) {
-  return std::sqrt(1 + dashpot_ratio * dashpot_ratio) - dashpot_ratio;
-}
-
 SubstepPlan planSubsteps(const Model& model, const SolverConfig& config, double dt_safe_s, bool allow_unstable) {
-  const bool is_explicit = isExplicit(config.integrator);
   if (config.substeps > 0) {
-    if (is_explicit && !allow_unstable) requireStable(model, config, dt_safe_s);
+    if (!allow_unstable) requireStable(model, config, dt_safe_s);
     return {config.substeps, config.substeps};
   }
   SubstepPlan plan;
   plan.calm = plan.strained = count(config, config.dt_fraction, dt_safe_s);
-  if (config.governor && config.integrator == Integrator::kLeapfrog && config.dt_fraction_strained < config.dt_fraction)
+  const bool shortens = config.governor && traitsOf(config.integrator).shortens;
+  if (shortens && config.dt_fraction_strained < config.dt_fraction)
     plan.strained = count(config, config.dt_fraction_strained, dt_safe_s);
   return plan;
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "model/scene/integrators.h"
 #include "viscera/model/model.h"
 
 namespace viscera {
@@ -9,23 +10,15 @@ namespace viscera {
 /// How many substeps a tick has (physics.md 2).
 struct SubstepPlan {
   int calm = 1;      ///< in ordinary states
-  int strained = 1;  ///< leapfrog, while the governor finds the tissue strained: at least as many
+  int strained = 1;  ///< of who shortens them, while the governor finds the tissue strained: at least as many
 };
-
-constexpr bool isExplicit(Integrator integrator) {
-  return integrator == Integrator::kLeapfrog || integrator == Integrator::kVerletPaper;
-}
 
 /// Substeps below this lose float32 digits of u unless they are summed with compensation [s] (physics.md 2).
 constexpr double kShortSubstep_s = 50e-6;
-/// Does leapfrog sum with compensation? @param dt_s  shortest substep
+/// Are u and v summed with compensation? @param dt_s  shortest substep
 constexpr bool isCompensated(const SolverConfig& config, double dt_s) {
-  return config.compensated || dt_s < kShortSubstep_s;
+  return traitsOf(config.integrator).compensates && (config.compensated || dt_s < kShortSubstep_s);
 }
-
-/// Largest substep over dt_safe that an explicit integrator is surely stable with: f^2 + 2 xi f = 1.
-/// @param dashpot_ratio  xi
-double largestFraction(double dashpot_ratio);
 
 /// @param allow_unstable  do not refuse a substep that is too long: for those who study what happens then
 /// @throws SceneError  more substeps than max_substeps; substeps given that are too long for an explicit integrator,

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "layout/wind.h"
+#include "model/scene/integrators.h"
 #include "solver/collision.h"
 #include "viscera/math/error.h"
 #include "viscera/solver/material.h"
@@ -115,9 +116,11 @@ Surroundings::Surroundings(const Model& model, const Scene& scene)
       obstacles_(scene.obstacles),
       at_start_(Obstacles(scene.obstacles).motions()),
       tick_motions_(at_start_) {
-  if (features_.any() && scene.solver.integrator == Integrator::kVerletPaper) {
-    throw SceneError("solver.integrator: verlet_paper keeps positions of its own and knows nothing of " +
-                     surroundingKeys(features_) + ": use leapfrog, vbd or pd");
+  const IntegratorTraits& traits = traitsOf(scene.solver.integrator);
+  if (features_.any() && traits.own_positions) {
+    throw SceneError("solver.integrator: " + std::string(traits.name) +
+                     " keeps positions of its own and knows nothing of " + surroundingKeys(features_) +
+                     ": use leapfrog, vbd or pd");
   }
 }
 

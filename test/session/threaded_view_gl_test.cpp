@@ -49,9 +49,7 @@ class SwayingTissue : public Solver {
     state_ = restState(model_);
     ++cut_revision_;
   }
-  StateView state() override { return {}; }
   HostState readState() const override { return state_; }
-  bool onHost() const override { return true; }
   void snapshot(StateSnapshot& out) const override {
     ++snapshots;
     Solver::snapshot(out);

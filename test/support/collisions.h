@@ -26,7 +26,7 @@ inline std::vector<CollisionPair> pairsOf(const std::string& backend, const Mode
     const SurroundingsPass pass(model, scene, features, buffers);
     return pass.findPairs(buffers);
   }
-  CpuLattice lattice(model, params, false);
+  CpuLattice lattice(model, params, featuresOf(model, scene, 1));
   lattice.write(state);
   const Serial serial;
   CpuSurroundings surroundings(model, scene, lattice, serial);

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "viscera/layout/tick_stats.h"
@@ -26,10 +27,11 @@ class Solver {
   void step(const ToolMotions& motions) { step(motions, ObstacleMotions{}); }
   /// Back to rest: springs whole, nothing held, time 0.
   virtual void reset() = 0;
-  virtual StateView state() = 0;            ///< not const: a backend may have to bring the state to the GPU first
+  /// Buffers of the state where it is on the GPU; nothing where it is on the host: snapshot() shows it then.
+  virtual std::optional<StateView> stateOnGpu() const { return std::nullopt; }
   virtual HostState readState() const = 0;  ///< waits
   /// Does the state live in host memory? Then snapshot() is cheap, and whoever shows the state works from snapshots.
-  virtual bool onHost() const { return false; }
+  bool onHost() const { return !stateOnGpu(); }
   /// Copies what showing the current state takes; see StateSnapshot. A backend on the host makes no memory for it once
   /// `out` has had its size; others do it by way of readState().
   virtual void snapshot(StateSnapshot& out) const;

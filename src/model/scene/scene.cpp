@@ -8,6 +8,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "model/scene/integrators.h"
 #include "model/scene/structure_rules.h"
 #include "model/scene/yaml_reader.h"
 #include "viscera/math/error.h"
@@ -107,18 +108,16 @@ void requireFixed(const std::string& where, const FixedConfig& fixed) {
   if (fixed.shape == FixedShape::kPart && fixed.part.empty()) throw SceneError(where + ": 'part' must name a part");
 }
 
-/// The dashpot acts on velocities of half a substep ago and so lowers the stable step: f^2 + 2 xi f must stay below 1
-/// for f = dt / dt_safe (physics.md 2).
 void requireStableSubstep(const std::string& file, const SolverConfig& solver, const BodyConfig& body) {
-  if (solver.integrator != Integrator::kLeapfrog && solver.integrator != Integrator::kVerletPaper) return;
   if (solver.substeps > 0) return;  // checked against the lattice when it is known
-  const double dt_fraction = solver.dt_fraction;
-  const double xi = body.material.dashpot_ratio;
-  const double largest = std::sqrt(1 + xi * xi) - xi;
-  if (dt_fraction < largest) return;
-  throw SceneError(file + ": solver.dt_fraction = " + numberText(dt_fraction) +
-                   " is not stable with the dashpot_ratio of body '" + body.name + "', " + numberText(xi) +
-                   ": use less than " + numberText(largest) + ", or a smaller dashpot_ratio");
+  const double xi = body.material.dashpot_ratio, largest = stableFraction(solver.integrator, xi);
+  if (solver.dt_fraction < largest) return;
+  const std::string asked = file + ": solver.dt_fraction = " + numberText(solver.dt_fraction) + " is not stable with ";
+  const std::string less = ": use less than " + numberText(largest);
+  const IntegratorTraits& traits = traitsOf(solver.integrator);
+  if (!traits.dashpot_limits) throw SceneError(asked + "integrator " + traits.name + less);
+  throw SceneError(asked + "the dashpot_ratio of body '" + body.name + "', " + numberText(xi) + less +
+                   ", or a smaller dashpot_ratio");
 }
 
 /// What no single key can tell.

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <limits>
+#include <vector>
 
+#include "model/scene/integrators.h"
 #include "model/scene/tool_kinds.h"
 #include "viscera/model/scene/scene.h"
 
@@ -31,7 +33,7 @@ struct Choice {
   E value;
 };
 template <class E>
-using Choices = std::initializer_list<Choice<E>>;
+using Choices = std::vector<Choice<E>>;
 
 /// The tool kinds by their names.
 inline std::vector<Choice<ToolMode>> toolChoices() {
@@ -264,17 +266,19 @@ void visitFields(V& v, ObstacleConfig& c) {
   v.number("restitution", c.restitution, {0, 1}, "1", "speed after over speed before a collision");
 }
 
+inline Choices<Integrator> namesOfIntegrators() {
+  Choices<Integrator> out;
+  for (const IntegratorTraits& traits : kIntegrators) out.push_back({traits.name, traits.integrator});
+  return out;
+}
+
 template <class V>
 void visitFields(V& v, SolverConfig& c) {
   v.number("tick_hz", c.tick_hz, {1, 1000}, "Hz", "ticks per second: tools, forces and surface follow at this rate");
-  v.choice("integrator", c.integrator,
-           {{"leapfrog", Integrator::kLeapfrog},
-            {"verlet_paper", Integrator::kVerletPaper},
-            {"vbd", Integrator::kVbd},
-            {"pd", Integrator::kPd}},
+  v.choice("integrator", c.integrator, namesOfIntegrators(),
            "leapfrog: explicit, order 2; verlet_paper: as VR05 and GW print it, to compare; vbd, pd: implicit Euler");
   v.number("dt_fraction", c.dt_fraction, {0.01, 1000}, "1",
-           "substep over the largest stable one; explicit integrators with a dashpot of ratio xi need less than "
+           "substep over the largest stable one; leapfrog with a dashpot of ratio xi needs less than "
            "sqrt(1 + xi^2) - xi");
   v.number(
       "dt_fraction_strained", c.dt_fraction_strained, {0.01, 1000}, "1",

@@ -60,7 +60,7 @@ void clear(Values& values) {
 
 }  // namespace
 
-CpuLattice::CpuLattice(const Model& model, const std::vector<layout::BodyParams>& params, bool tools, bool edge_by_edge)
+CpuLattice::CpuLattice(const Model& model, const std::vector<layout::BodyParams>& params, const FeatureSet& features)
     : bricks(allBricks(model)),
       bodies(params),
       nodes(allNodes(model)),
@@ -74,7 +74,7 @@ CpuLattice::CpuLattice(const Model& model, const std::vector<layout::BodyParams>
       uniform(bricks.size()),
       idle_rows(bricks.size()),
       network(joinNetworks(model)),
-      edge_forces(edge_by_edge ? orderByOwner(network) : EdgeForces{}),
+      edge_forces(features.edge_forces ? orderByOwner(network) : EdgeForces{}),
       spring_cut(network.springs.size()),
       whole_nodes_(nodes),
       whole_links_(network.links) {
@@ -82,18 +82,18 @@ CpuLattice::CpuLattice(const Model& model, const std::vector<layout::BodyParams>
     displacement[i].resize(3 * nodes.size());
     velocity[i].resize(3 * nodes.size());
   }
-  if (isHeterogeneous(model)) strengths_ = allStrengths(model);
+  if (features.parts) strengths_ = allStrengths(model);
   for (uint32_t slot : active) {
     const layout::BodyParams& body = bodies[nodes[slot].hi >> layout::kBodyShift];
     mass[slot] = strengths_.mass_kg.empty() ? static_cast<float>(massEighths(nodes[slot])) * body.mass_eighth_kg
                                             : strengths_.mass_kg[slot];
     if (!network.masses_kg.empty()) mass[slot] = network.masses_kg[slot];
   }
-  if (hasVolumeEnergy(model)) {
+  if (features.volume) {
     bulk.resize(nodes.size());
     bulk_around.resize(nodes.size() * 8);
   }
-  if (tools) {
+  if (features.tools) {
     grab_offsets.resize(nodes.size());
     impulses.resize(nodes.size() * layout::kMaxStyluses);
     touched.resize(bricks.size());

@@ -8,6 +8,7 @@
 
 #include "math/aligned.h"
 #include "solver/edge_forces.h"
+#include "solver/features.h"
 #include "solver/joined_network.h"
 #include "viscera/math/types.h"
 #include "viscera/model/model.h"
@@ -21,10 +22,9 @@ namespace viscera {
 /// that a plane of 4x4 nodes is 16 floats on end:
 ///   component c of slot s is at (s / 64) * 192 + c * 64 + s % 64     (vectorAt)
 struct CpuLattice {
-  /// @param bodies  [bodies] material constants   @param tools  there are styluses
-  /// @param edge_by_edge  forces of explicit connections are edge-centric
+  /// @param bodies  [bodies] material constants   @param features  what has arrays beyond the state itself
   /// @throws SceneError  parts (strengths)
-  CpuLattice(const Model& model, const std::vector<layout::BodyParams>& bodies, bool tools, bool edge_by_edge = false);
+  CpuLattice(const Model& model, const std::vector<layout::BodyParams>& bodies, const FeatureSet& features);
 
   /// Rest state, whole springs, nothing held.
   void reset();

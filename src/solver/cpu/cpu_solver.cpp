@@ -17,10 +17,6 @@ namespace {
 
 constexpr size_t kBricksPerJob = 16;  // of a measurement
 
-bool isLeapfrog(Integrator integrator) {
-  return integrator == Integrator::kLeapfrog;
-}
-
 Vector3f xyz(const layout::vec4& v) {
   return {v.x, v.y, v.z};
 }
@@ -32,25 +28,6 @@ struct CpuSolver::Work {
   std::vector<uint32_t> changed;        ///< bricks to be measured
 };
 
-struct CpuSolver::Mirror {
-  explicit Mirror(const CpuLattice& lattice)
-      : displacement(lattice.slotCount()),
-        velocity(lattice.slotCount()),
-        nodes(lattice.slotCount()),
-        bricks(lattice.bricks),
-        bodies(layout::kMaxBodies),
-        rest(lattice.network.rest_m),
-        spring_cut(lattice.spring_cut) {
-    bodies.write(lattice.bodies);
-  }
-  gpu::Buffer<layout::vec4> displacement, velocity;
-  gpu::Buffer<layout::NodeBits> nodes;
-  gpu::Buffer<layout::Brick> bricks;
-  gpu::Buffer<layout::BodyParams> bodies;
-  gpu::Buffer<layout::vec4> rest;
-  gpu::Buffer<float> spring_cut;
-};
-
 std::vector<std::string> simdTargets() {
   return simd::targets();
 }
@@ -59,23 +36,24 @@ CpuSolver::CpuSolver(const Model& model, const Scene& scene, const CpuSolverOpti
     : LatticeSolver(model, scene, options),
       config_(scene.solver),
       simd_(options.simd),
+      features_(featuresOf(model, scene, shortestSubstep_s())),
       params_(bodyParams(model, safeTimeStep(model))),
-      lattice_(model, params_, hasTools(),
-               isLeapfrog(scene.solver.integrator) && scene.solver.spring_forces == SpringForces::kEdge),
+      lattice_(model, params_, features_),
       threads_(options.threads ? options.threads : makeThreadPool(scene.solver.threads)),
       pool_(*threads_),
-      sleep_(lattice_, isLeapfrog(scene.solver.integrator) && !staysAwake() ? scene.solver.sleep_speed_m_per_s : 0),
+      sleep_(lattice_, traitsOf(scene.solver.integrator).lets_bricks_sleep && !staysAwake()
+                           ? scene.solver.sleep_speed_m_per_s
+                           : 0),
       work_(std::make_unique<Work>()) {
   if (!simd::useTarget(simd_)) {
     std::string known;
     for (const std::string& name : simdTargets()) known += (known.empty() ? "" : ", ") + name;
     throw SceneError("no instruction set '" + simd_ + "' on this processor: " + known);
   }
-  const bool compensated = isLeapfrog(config_.integrator) && isCompensated(config_, shortestSubstep_s());
-  if (model.hasNetwork()) network_ = std::make_unique<CpuNetwork>(lattice_, pool_, compensated);
+  if (features_.network) network_ = std::make_unique<CpuNetwork>(lattice_, pool_, features_);
   if (hasSurroundings()) surroundings_.emplace(model, scene, lattice_, pool_);
   stepper_ =
-      makeCpuStepper(config_.integrator, config_.iterations, lattice_, {pool_, sleep_, network_.get(), compensated});
+      makeCpuStepper(config_.integrator, config_.iterations, lattice_, {pool_, sleep_, network_.get(), features_});
   work_->stats.resize(bricks());
   work_->changed.reserve(bricks());
   if (hasTools()) {
@@ -319,24 +297,4 @@ void CpuSolver::snapshot(StateSnapshot& out) const {
   }
   out.cut_revision = cutRevision();
 }
-
-StateView CpuSolver::state() {
-  if (!mirror_) mirror_ = std::make_unique<Mirror>(lattice_);
-  const HostState state = lattice_.read();
-  mirror_->displacement.write(state.displacement_m);
-  mirror_->velocity.write(state.velocity_m_per_s);
-  mirror_->nodes.write(state.nodes);
-  mirror_->spring_cut.write(state.spring_cut);
-  StateView view;
-  view.displacement = mirror_->displacement.id();
-  view.velocity = mirror_->velocity.id();
-  view.nodes = mirror_->nodes.id();
-  view.bricks = mirror_->bricks.id();
-  view.bodies = mirror_->bodies.id();
-  view.rest = mirror_->rest.id();
-  view.spring_cut = mirror_->spring_cut.id();
-  view.cut_revision = cutRevision();
-  return view;
-}
-
 }  // namespace viscera

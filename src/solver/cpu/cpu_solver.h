@@ -34,9 +34,7 @@ class CpuSolver : public LatticeSolver {
   CpuSolver(const Model& model, const Scene& scene, const CpuSolverOptions& options = {});
   ~CpuSolver() override;
 
-  StateView state() override;
   HostState readState() const override;
-  bool onHost() const override { return true; }
   void snapshot(StateSnapshot& out) const override;
   std::string backend() const override;  ///< such as "cpu (AVX3, 2 threads)"
 
@@ -63,8 +61,7 @@ class CpuSolver : public LatticeSolver {
   void clearGood() override;
 
  private:
-  struct Work;    // what only src/solver/cpu knows: the kernels' jobs
-  struct Mirror;  // the state on the GPU, for whoever asks for it there
+  struct Work;  // what only src/solver/cpu knows: the kernels' jobs
   void wakeForTools(const std::vector<layout::ToolMotion>& motions);
   void changeAll();
   void noteHeld();
@@ -72,6 +69,7 @@ class CpuSolver : public LatticeSolver {
 
   SolverConfig config_;
   std::string simd_;
+  FeatureSet features_;
   std::vector<layout::BodyParams> params_;
   CpuLattice lattice_;
   std::shared_ptr<ThreadPool> threads_;
@@ -80,8 +78,7 @@ class CpuSolver : public LatticeSolver {
   std::unique_ptr<Work> work_;
   std::optional<CpuSurroundings> surroundings_;
   std::unique_ptr<CpuStepper> stepper_;
-  std::unique_ptr<CpuStepper> recovery_;  ///< only with a governor
-  std::unique_ptr<Mirror> mirror_;
+  std::unique_ptr<CpuStepper> recovery_;     ///< only with a governor
   std::vector<layout::ToolMotion> motions_;  ///< of this tick
   const layout::ToolMotion* motion_ = nullptr;
   std::optional<CpuCut> cut_;

@@ -30,7 +30,7 @@ struct CpuParts {
   const Parallel& parallel;
   Sleep& sleep;         ///< of the lattice: who can leave bricks out, does
   CpuNetwork* network;  ///< of the lattice; null where no body has explicit connections
-  bool compensated;     ///< u and v are summed with Kahan's compensation, by who can
+  const FeatureSet& features;
 };
 
 /// Leapfrog: SIMD kernels. vbd, pd and verlet_paper: the text of their shaders, compiled as C++.

@@ -41,10 +41,9 @@ CpuLeapfrog::CpuLeapfrog(const CpuLattice& lattice, const CpuParts& parts)
       near_(lattice.brickCount()),
       strained_(lattice.brickCount()),
       speed2_(lattice.brickCount()) {
-  if (parts.compensated) compensation_.resize(6 * lattice.slotCount());
+  if (parts.features.compensated) compensation_.resize(6 * lattice.slotCount());
   if (network_) reaches_.reserve(layout::kMaxStyluses);
-  job_.dashpot =
-      std::any_of(lattice.bodies.begin(), lattice.bodies.end(), [](const auto& b) { return b.dashpot_s > 0; });
+  job_.dashpot = parts.features.dashpot;
   job_.near = near_.data();
   job_.strained = strained_.data();
   job_.speed2 = speed2_.data();

@@ -198,22 +198,21 @@ std::vector<uint32_t> groupsOf(const std::vector<uint32_t>& slots) {
 
 }  // namespace
 
-CpuNetwork::CpuNetwork(const CpuLattice& lattice, const Parallel& parallel, bool compensated)
-    : parallel_(parallel), edge_forces_(!lattice.edge_forces.starts.empty()) {
+CpuNetwork::CpuNetwork(const CpuLattice& lattice, const Parallel& parallel, const FeatureSet& features)
+    : parallel_(parallel), edge_forces_(features.edge_forces), dashpot_(features.dashpot) {
   if (lattice.network.starts.empty()) return;
   for (const uint32_t slot : lattice.active) {
     if (lattice.connections(slot) != layout::kImplicit) slots_.push_back(slot);
   }
   touched_.reserve(slots_.size());
-  dashpot_ = std::any_of(lattice.bodies.begin(), lattice.bodies.end(), [](const auto& b) { return b.dashpot_s > 0; });
   for (const uint32_t cell : lattice.cells) {
-    if (!lattice.bulk.empty() && lattice.connections(cell) == layout::kExplicitLattice) cells_.push_back(cell);
+    if (features.volume && lattice.connections(cell) == layout::kExplicitLattice) cells_.push_back(cell);
   }
   if (!edge_forces_ && cells_.empty()) {
     rows_ = simd::LinkRows(lattice.network, groupsOf(slots_));
     return;
   }
-  if (compensated) compensation_.resize(2 * lattice.slotCount());
+  if (features.compensated) compensation_.resize(2 * lattice.slotCount());
   link_forces_.resize(lattice.edge_forces.places());
   if (!cells_.empty()) cell_forces_.assign(3 * lattice.slotCount(), glsl::vec4(0));
 }

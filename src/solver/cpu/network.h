@@ -21,8 +21,8 @@ struct NodeReach {
 /// is a SIMD kernel (network_kernels.h), the rest the shaders' text.
 class CpuNetwork {
  public:
-  /// @param lattice  whether forces are edge-centric (GW 4) is its choice   @param compensated  Kahan's sums
-  CpuNetwork(const CpuLattice& lattice, const Parallel& parallel, bool compensated);
+  /// @param features  edge_forces: edge-centric (GW 4), where the lattice has them too
+  CpuNetwork(const CpuLattice& lattice, const Parallel& parallel, const FeatureSet& features);
 
   /// One substep of all of them, without contacts, from the current state into the other one.
   /// @param compensation  [6 * slots] of the lattice's kernels; empty without compensation
@@ -47,7 +47,7 @@ class CpuNetwork {
   void stepInRows(CpuLattice& lattice, const Substep& step, AlignedVector<float>& compensation) const;
 
   const Parallel& parallel_;
-  bool edge_forces_, dashpot_ = false;
+  bool edge_forces_, dashpot_;
   simd::LinkRows rows_;  ///< empty where the shaders' text steps
   std::vector<uint32_t> slots_, touched_;
   std::vector<uint32_t> cells_;             ///< of explicit lattices with energy of volume

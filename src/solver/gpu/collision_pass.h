@@ -7,7 +7,7 @@
 
 #include "gpu/program.h"
 #include "solver/collision.h"
-#include "solver/gpu/features.h"
+#include "solver/features.h"
 #include "solver/gpu/lattice_buffers.h"
 #include "solver/substep.h"
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "gpu/program.h"
-#include "solver/gpu/features.h"
+#include "solver/features.h"
 #include "solver/gpu/lattice_buffers.h"
 #include "solver/gpu/volume_pass.h"
 

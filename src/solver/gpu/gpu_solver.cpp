@@ -103,7 +103,7 @@ bool GpuSolver::takeStats(layout::TickStats& stats, bool wait) {
   return true;
 }
 
-StateView GpuSolver::state() {
+StateView GpuSolver::state() const {
   StateView view;
   view.displacement = buffers_.displacement[buffers_.current].id();
   view.velocity = buffers_.velocity[buffers_.current].id();

@@ -31,7 +31,8 @@ class GpuSolver final : public LatticeSolver {
   /// @throws GpuError  shaders, memory;  SceneError  substeps (planSubsteps), parts (strengths)
   GpuSolver(const Model& model, const Scene& scene, const GpuSolverOptions& options = {});
 
-  StateView state() override;
+  std::optional<StateView> stateOnGpu() const override { return state(); }
+  StateView state() const;
   HostState readState() const override;
   std::string backend() const override { return "gpu"; }
   /// Times that the host had to wait for measurements: of the tick before, where a governor judges it, or where nobody

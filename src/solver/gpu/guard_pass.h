@@ -3,7 +3,7 @@
 #pragma once
 
 #include "gpu/program.h"
-#include "solver/gpu/features.h"
+#include "solver/features.h"
 #include "solver/gpu/lattice_buffers.h"
 #include "viscera/solver/governor.h"
 #include "viscera/tools/stylus.h"

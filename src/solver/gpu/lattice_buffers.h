@@ -5,7 +5,7 @@
 #include "gpu/buffer.h"
 #include "layout/edge_forces.h"
 #include "solver/edge_forces.h"
-#include "solver/gpu/features.h"
+#include "solver/features.h"
 #include "solver/joined_network.h"
 #include "viscera/layout/tick_stats.h"
 #include "viscera/model/model.h"

@@ -5,7 +5,7 @@
 #include <array>
 
 #include "gpu/program.h"
-#include "solver/gpu/features.h"
+#include "solver/features.h"
 #include "solver/gpu/lattice_buffers.h"
 
 namespace viscera {

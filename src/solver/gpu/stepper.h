@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "gpu/program.h"
-#include "solver/gpu/features.h"
+#include "solver/features.h"
 #include "solver/gpu/lattice_buffers.h"
 #include "solver/substep.h"
 

@@ -8,8 +8,8 @@
 
 #include "gpu/program.h"
 #include "layout/wind.h"
+#include "solver/features.h"
 #include "solver/gpu/collision_pass.h"
-#include "solver/gpu/features.h"
 #include "solver/gpu/lattice_buffers.h"
 #include "solver/substep.h"
 #include "solver/surroundings.h"

@@ -54,6 +54,19 @@ Vector3d ReferenceSolver::momentum() const {
   return sum;
 }
 
+ReferenceIntegrator truthOf(Integrator integrator) {
+  switch (integrator) {
+    case Integrator::kVerletPaper:
+      return ReferenceIntegrator::kVerletPaper;
+    case Integrator::kVbd:
+    case Integrator::kPd:
+      return ReferenceIntegrator::kImplicitEuler;
+    case Integrator::kLeapfrog:
+      break;
+  }
+  return ReferenceIntegrator::kLeapfrog;
+}
+
 HostState ReferenceSolver::state() const {
   HostState out;
   for (const Vector3d& u : u_m) out.displacement_m.push_back(rounded(u));
@@ -78,9 +91,16 @@ void ReferenceSolver::substep(const SubstepMotions& motions) {
     if (effects & (layout::kToolCuts | layout::kToolErases)) cut(s, (effects & layout::kToolErases) != 0);
   }
   Field u_next = u_m, v_next(slots(), Vector3d::Zero());
-  if (options_.integrator == ReferenceIntegrator::kLeapfrog) leapfrog(u_next, v_next);
-  if (options_.integrator == ReferenceIntegrator::kVerletPaper) verletPaper(u_next, v_next);
-  if (options_.integrator == ReferenceIntegrator::kImplicitEuler) implicitEuler(motions, u_next, v_next);
+  switch (options_.integrator) {
+    case ReferenceIntegrator::kLeapfrog:
+      leapfrog(u_next, v_next);
+      break;
+    case ReferenceIntegrator::kVerletPaper:
+      verletPaper(u_next, v_next);
+      break;
+    case ReferenceIntegrator::kImplicitEuler:
+      implicitEuler(motions, u_next, v_next);
+  }
   for (uint32_t slot : active) {
     if (rests(slot)) continue;
     applyTools(motions, slot, u_next[slot], v_next[slot]);

@@ -19,6 +19,9 @@ enum class ReferenceIntegrator {
   kImplicitEuler  ///< solved to convergence: the truth for vbd and pd
 };
 
+/// What an integrator of the backends is held to.
+ReferenceIntegrator truthOf(Integrator integrator);
+
 struct ReferenceOptions {
   ReferenceIntegrator integrator = ReferenceIntegrator::kLeapfrog;
   /// Speed at which a probe pushes a node out of itself, at most.

@@ -18,8 +18,7 @@ SolverConfig ungoverned(SolverConfig config) {
 
 ReferenceOptions optionsFor(const Model& model, const SolverConfig& config) {
   ReferenceOptions options;
-  if (config.integrator == Integrator::kVerletPaper) options.integrator = ReferenceIntegrator::kVerletPaper;
-  if (!isExplicit(config.integrator)) options.integrator = ReferenceIntegrator::kImplicitEuler;
+  options.integrator = truthOf(config.integrator);
   options.push_speed_m_per_s = static_cast<float>(pushSpeed(model));
   options.sleep_distance_m = static_cast<float>(config.sleep_distance_m);
   return options;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solver/cpu/cpu_lattice.h"
 
+#include "support/features.h"
 #include "support/implicit.h"
 #include "support/random_state.h"
 
@@ -11,7 +12,7 @@ using namespace viscera::test;
 namespace {
 
 CpuLattice latticeOf(const Model& model, bool tools = false) {
-  return CpuLattice(model, bodyParams(model, safeTimeStep(model)), tools);
+  return CpuLattice(model, bodyParams(model, safeTimeStep(model)), featuresFor(model, tools));
 }
 
 Model twoBodies() {

@@ -6,6 +6,7 @@
 
 #include "solver/cpu/pd.h"
 #include "solver/cpu/tool_passes.h"
+#include "support/features.h"
 #include "support/implicit.h"
 #include "tools/motion_packing.h"
 
@@ -37,8 +38,9 @@ class Scattered : public Parallel {
 class Rig {
  public:
   Rig(const Model& model, double fraction, const Vector3d& gravity = Vector3d::Zero())
-      : model_(model), lattice(model, bodyParams(model, safeTimeStep(model)), true) {
+      : model_(model), lattice(model, bodyParams(model, safeTimeStep(model)), featuresFor(model, true)) {
     const double dt_safe_s = safeTimeStep(model);
+    features = featuresFor(model, true);
     step.dt_s = static_cast<float>(fraction * (std::isfinite(dt_safe_s) ? dt_safe_s : 1e-3));
     step.gravity = gravity.cast<float>();
     step.sleep_distance_m = 1e6;
@@ -52,7 +54,7 @@ class Rig {
     step.restarted = false;
     step.kick_s = step.dt_s;
   }
-  CpuParts with(const Parallel& parallel) { return {parallel, sleep, nullptr, false}; }
+  CpuParts with(const Parallel& parallel) { return {parallel, sleep, nullptr, features}; }
   ReferenceSolver reference(ReferenceIntegrator integrator) const {
     ReferenceOptions options;
     options.integrator = integrator;
@@ -68,6 +70,7 @@ class Rig {
  public:
   CpuLattice lattice;
   Sleep sleep{lattice, 0};
+  FeatureSet features;
   Substep step;
 };
 
@@ -111,7 +114,7 @@ void expectEnergyBelowStart(CpuStepper& stepper, Rig& rig, const Model& model, A
 
 uint64_t hashAfterTools(Integrator integrator, const Model& model, const Parallel& parallel) {
   const PullAndProbe tools;
-  Rig rig(model, isExplicit(integrator) ? 0.5 : 3);
+  Rig rig(model, traitsOf(integrator).is_explicit ? 0.5 : 3);
   rig.lattice.write(randomState(model, 1e-3, 0.5, 11));
   rig.step.tools = true;
   const auto stepper = makeCpuStepper(integrator, 6, rig.lattice, rig.with(parallel));

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solver/cpu/tool_passes.h"
 
+#include "support/features.h"
 #include "support/random_state.h"
 #include "tools/motion_packing.h"
 
@@ -42,7 +43,7 @@ class CpuTools : public ::testing::Test {
  protected:
   CpuTools()
       : model_(modelOf({rubberBox()})),
-        lattice_(model_, bodyParams(model_, safeTimeStep(model_)), true),
+        lattice_(model_, bodyParams(model_, safeTimeStep(model_)), featuresFor(model_, true)),
         reference_(model_, Vector3d::Zero(), static_cast<double>(kDt_s), options()) {}
 
   /// Six cells to a side, held at the bottom, with energy of volume; two bricks to a side.
@@ -202,7 +203,7 @@ TEST_F(CpuTools, CutTheSpringsAndCellsThatTheReferenceCuts) {
     const ToolMode mode = t % 5 == 4 ? ToolMode::kCutParticles : ToolMode::kCut;
     cut += cutBoth(row(mode, at(from, turns), at(from + randomVector(random, 0.05), turns + randomVector(random, 20))));
     const CpuLattice fresh = [&] {
-      CpuLattice out(model_, lattice_.bodies, true);
+      CpuLattice out(model_, lattice_.bodies, featuresFor(model_, true));
       out.write(lattice_.read());
       return out;
     }();
@@ -220,7 +221,7 @@ TEST_F(CpuTools, CutTheSpringsAndCellsThatTheReferenceCuts) {
 
 TEST_F(CpuTools, LookOnlyAtBricksThatTheBladeMayReach) {
   const Model model = modelOf({boxBody({63, 3, 3}, 0.001)});
-  CpuLattice lattice(model, bodyParams(model, safeTimeStep(model)), true);
+  CpuLattice lattice(model, bodyParams(model, safeTimeStep(model)), featuresFor(model, true));
   CpuCut cut(lattice);
   const layout::ToolMotion motion = row(ToolMode::kCut, at({0.0005, -0.001, 0.005}), at({0.0005, 0.004, 0.005}));
   EXPECT_EQ(cut.run(lattice, motion, false), 4u * 4 + 2 * (2 * 3 * 4));  // all springs between two layers of 4 x 4

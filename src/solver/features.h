@@ -11,11 +11,12 @@
 
 namespace viscera {
 
-/// What the kernels must know of; everything else is compiled out and has no buffer.
+/// What a scene has that the kernels of either backend must know of. The rest costs nothing: on the GPU it is compiled
+/// out, and nowhere does it have an array.
 struct FeatureSet {
   bool lattice = true;       ///< some body has implicit connections
   bool network = false;      ///< some body has explicit ones
-  bool edge_forces = false;  ///< leapfrog: of explicit connections edge by edge
+  bool edge_forces = false;  ///< of explicit connections, edge by edge
   bool dashpot = false;
   bool volume = false;       ///< some cell has an energy of volume: nu other than 1/4
   bool parts = false;        ///< strengths differ within a body
@@ -27,7 +28,7 @@ struct FeatureSet {
   std::vector<std::string> defines() const;
 };
 
-/// @param dt_s  shortest substep
-FeatureSet featuresOf(const Model& model, const Scene& scene, double dt_s, uint32_t group_size);
+/// @param dt_s  shortest substep   @param group_size  invocations per group, on the GPU
+FeatureSet featuresOf(const Model& model, const Scene& scene, double dt_s, uint32_t group_size = layout::kGroupSize);
 
 }  // namespace viscera

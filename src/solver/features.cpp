@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "solver/gpu/features.h"
+#include "solver/features.h"
 
 #include "solver/substeps.h"
 #include "viscera/solver/material.h"
@@ -27,7 +27,7 @@ FeatureSet featuresOf(const Model& model, const Scene& scene, double dt_s, uint3
   features.lattice = model.hasLattice();
   features.network = model.hasNetwork();
   features.edge_forces = features.network && scene.solver.spring_forces == SpringForces::kEdge &&
-                         scene.solver.integrator == Integrator::kLeapfrog;
+                         traitsOf(scene.solver.integrator).takes_edge_forces;
   features.volume = hasVolumeEnergy(model);
   features.parts = isHeterogeneous(model);
   features.compensated = isCompensated(scene.solver, dt_s);

@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "solver/gpu/features.h"
+#include "solver/features.h"
 
 #include <gtest/gtest.h>
 
@@ -52,6 +52,8 @@ TEST(Features, CompensationComesWithShortSubstepsOrWhenAskedFor) {
   SolverConfig asked;
   asked.compensated = true;
   EXPECT_TRUE(has(featuresOf(body, asked), "COMPENSATED"));
+  asked.integrator = Integrator::kVbd;  // does not sum so
+  EXPECT_FALSE(has(featuresOf(body, asked), "COMPENSATED"));
 }
 
 }  // namespace

@@ -1,0 +1,17 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "model/scene/integrators.h"
+
+#include <cmath>
+#include <limits>
+
+namespace viscera {
+
+double stableFraction(Integrator integrator, double dashpot_ratio) {
+  const IntegratorTraits& traits = traitsOf(integrator);
+  if (!traits.is_explicit) return std::numeric_limits<double>::infinity();
+  const double xi = traits.dashpot_limits ? dashpot_ratio : 0;
+  return std::sqrt(1 + xi * xi) - xi;
+}
+
+}  // namespace viscera

@@ -1,0 +1,55 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+
+#include "viscera/model/scene/scene.h"
+
+namespace viscera {
+
+/// What an integrator is: all that anybody but its own steppers may ask of it (physics.md 2).
+struct IntegratorTraits {
+  Integrator integrator;
+  const char* name;        ///< in scene files and tables
+  bool is_explicit;        ///< stable below a substep only, see stableFraction()
+  bool dashpot_limits;     ///< ... which the dashpot lowers: it acts on velocities of half a substep ago
+  bool staggered;          ///< velocities belong to half a substep before the displacements
+  bool shortens;           ///< has shorter substeps while the tissue is strained (dt_fraction_strained)
+  bool own_positions;      ///< keeps positions beside the state: who writes the state makes it start anew
+  bool iterates;           ///< solver.iterations says how often a substep goes over the nodes
+  bool takes_colours;      ///< ... colour by colour
+  bool lets_bricks_sleep;  ///< steps only bricks that move, on the CPU
+  bool compensates;        ///< can sum u and v with Kahan's compensation
+  bool takes_edge_forces;  ///< can take forces of explicit connections edge by edge (solver.spring_forces)
+};
+
+/// By the value of the enum.
+// clang-format off
+constexpr std::array<IntegratorTraits, 4> kIntegrators = {{
+    //                                        explicit dashpot stagger shorten own_pos iterate colours sleep  compens edges
+    {Integrator::kLeapfrog, "leapfrog",         true,  true,  true,  true,  false, false, false, true,  true,  true},
+    {Integrator::kVerletPaper, "verlet_paper",  true,  false, false, false, true,  false, false, false, false, false},
+    {Integrator::kVbd, "vbd",                   false, false, false, false, false, true,  true,  false, false, false},
+    {Integrator::kPd, "pd",                     false, false, false, false, false, true,  false, false, false, false},
+}};
+// clang-format on
+
+constexpr const IntegratorTraits& traitsOf(Integrator integrator) {
+  return kIntegrators[static_cast<size_t>(integrator)];
+}
+
+constexpr bool isInOrder() {
+  for (size_t i = 0; i < kIntegrators.size(); ++i) {
+    if (static_cast<size_t>(kIntegrators[i].integrator) != i) return false;
+  }
+  return true;
+}
+static_assert(isInOrder(), "kIntegrators is looked up by the value of the enum");
+
+/// Largest substep over dt_safe with which an integrator is surely stable: f^2 + 2 xi f = 1 (physics.md 2); infinite
+/// for implicit ones. The rule for all who plan, refuse or choose by it.
+/// @param dashpot_ratio  xi, the largest of all bodies
+double stableFraction(Integrator integrator, double dashpot_ratio);
+
+}  // namespace viscera

@@ -1,0 +1,16 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "solver/features.h"
+
+namespace viscera::test {
+
+/// What a scene of leapfrog has with a model, and no more. @param tools  a stylus too
+inline FeatureSet featuresFor(const Model& model, bool tools) {
+  Scene scene;
+  if (tools) scene.styluses.emplace_back();
+  return featuresOf(model, scene, 1);
+}
+
+}  // namespace viscera::test
