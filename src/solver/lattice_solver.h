@@ -69,7 +69,7 @@ class LatticeSolver : public Solver, protected ToolTarget {
   /// @name Operations of a tick, besides those of ToolTarget
   /// @{
   /// Before the first of them: what the backend shares with others, such as OpenGL's bindings, is its own again.
-  virtual void beginTick() = 0;
+  virtual void beginTick() {}
   /// Motions of all styluses in this tick's substeps, in ticks in which one cuts or touches.
   /// @param motions  [substeps * kMaxStyluses] substep-major; stays as it is until the tick ends
   virtual void writeMotions(const std::vector<layout::ToolMotion>& motions) = 0;

@@ -21,6 +21,14 @@ Vector3f xyz(const layout::vec4& v) {
   return {v.x, v.y, v.z};
 }
 
+simd::Kernels kernelsOrThrow(const std::string& target) {
+  const std::optional<simd::Kernels> kernels = simd::kernelsFor(target);
+  if (kernels) return *kernels;
+  std::string known;
+  for (const std::string& name : simd::targets()) known += (known.empty() ? "" : ", ") + name;
+  throw SceneError("no instruction set '" + target + "' on this processor: " + known);
+}
+
 }  // namespace
 
 struct CpuSolver::Work {
@@ -35,7 +43,7 @@ std::vector<std::string> simdTargets() {
 CpuSolver::CpuSolver(const Model& model, const Scene& scene, const CpuSolverOptions& options)
     : LatticeSolver(model, scene, options),
       config_(scene.solver),
-      simd_(options.simd),
+      kernels_(kernelsOrThrow(options.simd)),
       features_(featuresOf(model, scene, shortestSubstep_s())),
       params_(bodyParams(model, safeTimeStep(model))),
       lattice_(model, params_, features_),
@@ -45,15 +53,10 @@ CpuSolver::CpuSolver(const Model& model, const Scene& scene, const CpuSolverOpti
                            ? scene.solver.sleep_speed_m_per_s
                            : 0),
       work_(std::make_unique<Work>()) {
-  if (!simd::useTarget(simd_)) {
-    std::string known;
-    for (const std::string& name : simdTargets()) known += (known.empty() ? "" : ", ") + name;
-    throw SceneError("no instruction set '" + simd_ + "' on this processor: " + known);
-  }
-  if (features_.network) network_ = std::make_unique<CpuNetwork>(lattice_, pool_, features_);
+  if (features_.network) network_ = std::make_unique<CpuNetwork>(lattice_, pool_, features_, kernels_);
   if (hasSurroundings()) surroundings_.emplace(model, scene, lattice_, pool_);
-  stepper_ =
-      makeCpuStepper(config_.integrator, config_.iterations, lattice_, {pool_, sleep_, network_.get(), features_});
+  stepper_ = makeCpuStepper(config_.integrator, config_.iterations, lattice_,
+                            {pool_, sleep_, network_.get(), features_, kernels_});
   work_->stats.resize(bricks());
   work_->changed.reserve(bricks());
   if (hasTools()) {
@@ -69,9 +72,8 @@ CpuSolver::CpuSolver(const Model& model, const Scene& scene, const CpuSolverOpti
 CpuSolver::~CpuSolver() = default;
 
 std::string CpuSolver::backend() const {
-  simd::useTarget(simd_);
-  const std::string name = simd_.empty() ? simdTargets().front() : simd_;
-  return "cpu (" + name + ", " + std::to_string(pool_.threads()) + (pool_.threads() == 1 ? " thread)" : " threads)");
+  return "cpu (" + kernels_.target + ", " + std::to_string(pool_.threads()) +
+         (pool_.threads() == 1 ? " thread)" : " threads)");
 }
 
 size_t CpuSolver::awakeBricks() const {
@@ -79,10 +81,6 @@ size_t CpuSolver::awakeBricks() const {
 }
 
 // ---- a tick ----
-
-void CpuSolver::beginTick() {
-  if (!simd_.empty()) simd::useTarget(simd_);  // another solver may have taken another one
-}
 
 void CpuSolver::takeHold(uint32_t stylus, const Pose& pose, double radius_m) {
   const Vector3f tip = pose.position_m.cast<float>(), reach = Vector3f::Constant(static_cast<float>(radius_m));
@@ -163,7 +161,7 @@ void CpuSolver::measure() {
   sleep_.takeChanged(lattice_, changed);
   pool_((changed.size() + kBricksPerJob - 1) / kBricksPerJob, [&](size_t i) {
     const size_t first = i * kBricksPerJob;
-    simd::measure(job, &changed[first], std::min(kBricksPerJob, changed.size() - first));
+    kernels_.measure(job, &changed[first], std::min(kBricksPerJob, changed.size() - first));
   });
   layout::TickStats out{};
   out.springs_cut = springs_cut_;

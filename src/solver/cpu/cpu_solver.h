@@ -42,7 +42,6 @@ class CpuSolver : public LatticeSolver {
   size_t bricks() const { return lattice_.brickCount(); }
 
  protected:
-  void beginTick() override;
   void takeHold(uint32_t stylus, const Pose& pose, double radius_m) override;
   void letGo(uint32_t stylus, const Release& release) override;
   void writeMotions(const std::vector<layout::ToolMotion>& motions) override;
@@ -68,7 +67,7 @@ class CpuSolver : public LatticeSolver {
   float largestRate() const;
 
   SolverConfig config_;
-  std::string simd_;
+  simd::Kernels kernels_;
   FeatureSet features_;
   std::vector<layout::BodyParams> params_;
   CpuLattice lattice_;

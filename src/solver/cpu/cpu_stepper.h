@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "solver/cpu/cpu_lattice.h"
+#include "solver/cpu/kernels.h"
 #include "solver/cpu/parallel.h"
 #include "solver/cpu/sleep.h"
 #include "solver/substep.h"
@@ -31,6 +32,7 @@ struct CpuParts {
   Sleep& sleep;         ///< of the lattice: who can leave bricks out, does
   CpuNetwork* network;  ///< of the lattice; null where no body has explicit connections
   const FeatureSet& features;
+  const simd::Kernels& kernels;
 };
 
 /// Leapfrog: SIMD kernels. vbd, pd and verlet_paper: the text of their shaders, compiled as C++.

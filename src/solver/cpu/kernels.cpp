@@ -2,107 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solver/cpu/kernels.h"
 
-#include <algorithm>
-#include <cmath>
-
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "solver/cpu/kernels.cpp"
 #include "hwy/foreach_target.h"  // IWYU pragma: keep
 #include "hwy/highway.h"
-#include "solver/cpu/vectors-inl.h"
-#include "viscera/layout/tick_stats.h"
+#include "solver/cpu/targets.h"
+#include "solver/cpu/tiles-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace viscera::simd::HWY_NAMESPACE {
-
-using Row = hn::FixedTag<float, 4>;
-
-/// A brick and what lies around it, for each component of a vector. Rows are stored three times, shifted by -1, 0 and 1
-/// along x, so that a neighbour in any direction is one load away.
-/// The value of the node at (x, y, z), with x in 0..3 and y, z in -1..4, seen from dx aside, is
-/// at[dx + 1][(z + 1) * kPlane + kOwn + 4 * y + x].
-constexpr int kPlane = 48, kOwn = 16;
-struct alignas(64) Tile {
-  float component[3][3][6 * kPlane];
-};
-
-/// Rows of one plane of the brick, its neighbours at the left and right, shifted by -1, 0, 1.
-template <class D>
-HWY_INLINE void copyShifted(D d, const float* own, const float* left, const float* right, float* minus, float* zero,
-                            float* plus) {
-  const auto middle = hn::LoadU(d, own);
-  hn::StoreU(middle, d, zero);
-  hn::StoreU(hn::CombineShiftRightBytes<12>(d, middle, hn::LoadU(d, left)), d, minus);
-  hn::StoreU(hn::CombineShiftRightBytes<4>(d, hn::LoadU(d, right), middle), d, plus);
-}
-
-/// @param corners  opposite corners of cells are needed too: springs never join them, volumes do
-template <bool corners>
-HWY_INLINE void fill(const Arrays& a, const float* values, uint32_t b, Tile& tile) {
-  constexpr int kFloats = 64;
-  const Tag d;
-  const Row row;
-  const float* brick[27];
-  for (int i = 0; i < 27; ++i) brick[i] = values + size_t{a.bricks[b].neighbors[i]} * (3 * kFloats);
-  for (int c = 0; c < 3; ++c) {
-    float *minus = tile.component[c][0], *zero = tile.component[c][1], *plus = tile.component[c][2];
-    for (int z = -1; z <= 4; ++z) {
-      const int side = z < 0 ? 0 : z > 3 ? 18 : 9;  // of the 27 neighbours
-      const int from = c * kFloats + (z & 3) * 16, to = (z + 1) * kPlane + kOwn;
-      for (int i = 0; i < 16; i += static_cast<int>(hn::MaxLanes(d))) {
-        copyShifted(d, brick[side + 4] + from + i, brick[side + 3] + from + i, brick[side + 5] + from + i,
-                    minus + to + i, zero + to + i, plus + to + i);
-      }
-      if (corners || side == 9) {
-        copyShifted(row, brick[side + 1] + from + 12, brick[side] + from + 12, brick[side + 2] + from + 12,
-                    minus + to - 4, zero + to - 4, plus + to - 4);
-        copyShifted(row, brick[side + 7] + from, brick[side + 6] + from, brick[side + 8] + from, minus + to + 16,
-                    zero + to + 16, plus + to + 16);
-      } else {
-        hn::StoreU(hn::LoadU(row, brick[side + 1] + from + 12), row, zero + to - 4);
-        hn::StoreU(hn::LoadU(row, brick[side + 7] + from), row, zero + to + 16);
-      }
-    }
-  }
-}
-
-/// Neighbour in direction (X, Y, Z) of the nodes at an index of the tile.
-template <int X, int Y, int Z>
-HWY_INLINE Vec3 seen(const Tile& tile, int at) {
-  constexpr int kOffset = Z * kPlane + Y * 4;
-  return {load(tile.component[0][1 + X] + at + kOffset), load(tile.component[1][1 + X] + at + kOffset),
-          load(tile.component[2][1 + X] + at + kOffset)};
-}
-template <int sign>
-HWY_INLINE V shifted(V value, V by) {
-  return sign > 0 ? hn::Add(value, by) : sign < 0 ? hn::Sub(value, by) : value;
-}
-/// value + (X, Y, Z) by
-template <int X, int Y, int Z>
-HWY_INLINE Vec3 shifted(const Vec3& value, V by) {
-  return {shifted<X>(value.x, by), shifted<Y>(value.y, by), shifted<Z>(value.z, by)};
-}
-
-/// Constants of a body, in all lanes.
-struct Material {
-  V h, h2;               ///< spacing, twice
-  V per_length2[2];      ///< 1 / l0^2 of axial and diagonal springs
-  V dashpot_length2[2];  ///< c / (k l0^2)
-  V full[2];             ///< N/m of whole springs
-};
-HWY_INLINE Material materialOf(const layout::BodyParams& body) {
-  const float h = body.origin_spacing.w;
-  Material m;
-  m.h = set(h);
-  m.h2 = set(2 * h);
-  for (int kind = 0; kind < 2; ++kind) {
-    m.per_length2[kind] = set(1 / (static_cast<float>(kind + 1) * h * h));
-    m.dashpot_length2[kind] = set(body.dashpot_s / (static_cast<float>(kind + 1) * h * h));
-  }
-  m.full[0] = set(4 * body.axial_quarter_n_per_m);
-  m.full[1] = set(2 * body.diagonal_half_n_per_m);
-  return m;
-}
 
 // With q = (L^2 - l0^2) / l0^2, computed without cancellation, the force of a spring on its near end is
 //   k (L - l0)/L e = k q phi(q) e,  phi(q) = 1 / (1 + q + sqrt(1 + q)),  e = vector to the far end (physics.md 1, 2).
@@ -165,15 +73,6 @@ HWY_INLINE void addSpring(const Material& m, V k, const Vec3& w, const Vec3& dv,
   force = mulAdd(hn::Mul(k, c), e, force);
 }
 
-// clang-format off
-/// Calls APPLY(index, x, y, z) for the 18 springs in the order of model/neighbors.h.
-#define VISCERA_SPRINGS(APPLY)                                                                    \
-  APPLY(0, 1, 0, 0) APPLY(1, -1, 0, 0) APPLY(2, 0, 1, 0) APPLY(3, 0, -1, 0) APPLY(4, 0, 0, 1)     \
-  APPLY(5, 0, 0, -1) APPLY(6, 1, 1, 0) APPLY(7, -1, -1, 0) APPLY(8, 1, -1, 0) APPLY(9, -1, 1, 0)  \
-  APPLY(10, 1, 0, 1) APPLY(11, -1, 0, -1) APPLY(12, 1, 0, -1) APPLY(13, -1, 0, 1)                 \
-  APPLY(14, 0, 1, 1) APPLY(15, 0, -1, -1) APPLY(16, 0, 1, -1) APPLY(17, 0, -1, 1)
-// clang-format on
-
 /// Springs' force on the nodes of a vector.
 /// @param k  stiffness of their first spring; the next is 64 farther   @param mild  all springs are, see kMild
 template <bool kUniform, bool kAny, bool kDashpot>
@@ -198,26 +97,6 @@ HWY_NOINLINE Vec3 anySpringForce(const Tile& u, const Tile& v, int at, const Mat
   return springForce<false, true, kDashpot>(u, v, at, m, k, mild);
 }
 
-/// Shape of cells from the displacements of their corners (shaders/solver/volume.glsl).
-struct Shape {
-  Vec3 bc, ca, ab;
-  V e;
-};
-/// @param n  corners: bit 0 of the index x, bit 1 y, bit 2 z   @param quarter  0.25 / h
-HWY_INLINE Shape shapeOf(const Vec3 (&n)[8], V quarter) {
-  const Vec3 da = quarter * (((n[1] - n[0]) + (n[3] - n[2])) + ((n[5] - n[4]) + (n[7] - n[6])));
-  const Vec3 db = quarter * (((n[2] - n[0]) + (n[3] - n[1])) + ((n[6] - n[4]) + (n[7] - n[5])));
-  const Vec3 dc = quarter * (((n[4] - n[0]) + (n[5] - n[1])) + ((n[6] - n[2]) + (n[7] - n[3])));
-  const V one = set(1);
-  const Vec3 a = {hn::Add(one, da.x), da.y, da.z}, b = {db.x, hn::Add(one, db.y), db.z};
-  const Vec3 c = {dc.x, dc.y, hn::Add(one, dc.z)};
-  const V minors =
-      hn::Add(hn::Add(hn::MulSub(da.x, db.y, hn::Mul(da.y, db.x)), hn::MulSub(da.x, dc.z, hn::Mul(da.z, dc.x))),
-              hn::MulSub(db.y, dc.z, hn::Mul(db.z, dc.y)));
-  const V trace = hn::Add(hn::Add(da.x, db.y), dc.z);
-  return {cross(b, c), cross(c, a), cross(a, b), hn::Add(trace, hn::Add(minors, dot(da, cross(db, dc))))};
-}
-
 /// dW/de (shaders/solver/volume.glsl).
 HWY_INLINE V pressureOf(V bulk, V e) {
   const V one = set(1), clamped = hn::Min(hn::Max(e, set(-1)), one);
@@ -226,19 +105,6 @@ HWY_INLINE V pressureOf(V bulk, V e) {
       hn::Div(hn::Mul(hn::Add(e, e2), hn::Sub(hn::MulAdd(set(2), e, one), e2)), hn::Mul(q, hn::Mul(q, q)));
   const V soft = hn::IfThenElseZero(hn::Gt(e, set(-1)), bounded);
   return hn::Mul(bulk, hn::IfThenElse(hn::Gt(bulk, hn::Zero(Tag())), clamped, soft));
-}
-
-/// Corners of the cell in which the nodes of a vector are corner (A, B, C).
-template <int A, int B, int C>
-HWY_INLINE void cornersAround(const Tile& u, int at, Vec3 (&n)[8]) {
-  n[0] = seen<-A, -B, -C>(u, at);
-  n[1] = seen<1 - A, -B, -C>(u, at);
-  n[2] = seen<-A, 1 - B, -C>(u, at);
-  n[3] = seen<1 - A, 1 - B, -C>(u, at);
-  n[4] = seen<-A, -B, 1 - C>(u, at);
-  n[5] = seen<1 - A, -B, 1 - C>(u, at);
-  n[6] = seen<-A, 1 - B, 1 - C>(u, at);
-  n[7] = seen<1 - A, 1 - B, 1 - C>(u, at);
 }
 
 /// What the volume of one of the eight cells around adds to the force on its corner (A, B, C).
@@ -379,102 +245,6 @@ void leapfrogOf(const LeapfrogJob& job, const uint32_t* bricks, size_t count) {
     stepBricks<false>(job, bricks, count);
 }
 
-/// Lanes whose numbers are all finite.
-HWY_INLINE M finite(const Vec3& v) {
-  const hn::RebindToUnsigned<Tag> bits;
-  const auto exponent = hn::Set(bits, 0x7f800000u);
-  const auto ofLane = [&](V value) HWY_ATTR { return hn::Ne(hn::And(hn::BitCast(bits, value), exponent), exponent); };
-  return hn::RebindMask(Tag(), hn::And(hn::And(ofLane(v.x), ofLane(v.y)), ofLane(v.z)));
-}
-HWY_INLINE V sumOfLanes(V value) {
-  return hn::SumOfLanes(Tag(), value);
-}
-HWY_INLINE double sum(V value) {
-  return static_cast<double>(hn::GetLane(sumOfLanes(value)));
-}
-HWY_INLINE uint32_t count(M mask) {
-  return static_cast<uint32_t>(hn::CountTrue(Tag(), mask));
-}
-
-/// Stretch and energy of the springs that a vector's nodes own.
-template <int X, int Y, int Z>
-HWY_INLINE void measureSpring(const Tile& u, int at, const Material& m, V k, M good, V& stretch, V& elastic,
-                              uint32_t& collapsed) {
-  constexpr int kKind = X * X + Y * Y + Z * Z - 1;
-  const Vec3 far = seen<X, Y, Z>(u, at), w = far - seen<0, 0, 0>(u, at);
-  const M there = hn::And(hn::And(good, hn::Gt(k, hn::Zero(Tag()))), finite(far));
-  const V q = hn::Mul(dot(w, shifted<X, Y, Z>(w, m.h2)), m.per_length2[kKind]);
-  // extension / l0 = sqrt(1 + q) - 1
-  const V ratio = hn::Div(q, hn::Add(set(1), hn::Sqrt(hn::Max(hn::Add(set(1), q), hn::Zero(Tag())))));
-  const V strain = hn::IfThenElseZero(there, ratio);
-  stretch = hn::Max(stretch, hn::Abs(strain));
-  elastic = hn::MulAdd(hn::Mul(hn::Div(set(0.5f), m.per_length2[kKind]), k), hn::Mul(strain, strain), elastic);
-  collapsed += count(hn::Lt(strain, set(layout::kCollapsed - 1)));
-}
-
-HWY_INLINE V volumeEnergyOf(V bulk, V e) {
-  const V size = hn::Abs(e), half = hn::Mul(set(0.5f), bulk);
-  const V stiff =
-      hn::IfThenElse(hn::Le(size, set(1)), hn::Mul(half, hn::Mul(e, e)), hn::Mul(bulk, hn::Sub(size, set(0.5f))));
-  const V g = hn::IfThenElseZero(hn::Gt(e, set(-1)), hn::Div(hn::MulAdd(e, e, e), hn::MulAdd(e, e, set(1))));
-  return hn::IfThenElse(hn::Gt(bulk, hn::Zero(Tag())), stiff, hn::Mul(half, hn::Mul(g, g)));
-}
-
-HWY_INLINE M hasBits(const layout::NodeBits* nodes, uint32_t bits, uint32_t wanted) {
-  alignas(64) float flags[16];
-  for (size_t i = 0; i < hn::MaxLanes(Tag()); ++i) flags[i] = (nodes[i].lo & bits) == wanted ? 1.0f : 0.0f;
-  return hn::Gt(hn::Load(Tag(), flags), hn::Zero(Tag()));
-}
-
-void measureVector(const MeasureJob& job, const Material& m, const Tile& u, uint32_t b, int i, BrickStats& stats) {
-  const Arrays& a = job.arrays;
-  const size_t slot = size_t{b} * 64 + static_cast<size_t>(i);
-  alignas(64) float present[16];
-  for (size_t lane = 0; lane < hn::MaxLanes(Tag()); ++lane) {
-    present[lane] = job.nodes[slot + lane].lo & (15u << layout::kMassShift) ? 1.0f : 0.0f;
-  }
-  const M there = hn::Gt(hn::Load(Tag(), present), hn::Zero(Tag()));
-  if (hn::AllFalse(Tag(), there)) return;
-  const int at = ((i >> 4) + 1) * kPlane + kOwn + (i & 15);
-  const Vec3 near = seen<0, 0, 0>(u, at), v = loadPlanes(a.velocity + size_t{b} * 192 + static_cast<size_t>(i));
-  const M good = hn::And(there, hn::And(finite(near), finite(v)));
-  stats.nonfinite += count(there) - count(good);
-  V stretch = hn::Zero(Tag()), elastic = stretch;
-  const float* k = a.spring_stiffness + size_t{b} * 1152 + i;
-#define VISCERA_MEASURE(s, X, Y, Z) \
-  if ((s) % 2 == 0) measureSpring<X, Y, Z>(u, at, m, load(k + (s)*64), good, stretch, elastic, stats.collapsed);
-  VISCERA_SPRINGS(VISCERA_MEASURE)
-#undef VISCERA_MEASURE
-  Vec3 corners[8];
-  cornersAround<0, 0, 0>(u, at, corners);
-  const V e = shapeOf(corners, hn::Div(set(0.25f), m.h)).e;
-  const M cell = hn::And(good, hasBits(job.nodes + slot, layout::kCellBit, layout::kCellBit));
-  const M whole = hn::And(cell, hasBits(job.nodes + slot, layout::kSeveredBit, 0));
-  stats.inverted += count(hn::And(whole, hn::Lt(e, set(-1))));
-  if (a.bulk_around) {
-    const V energy = volumeEnergyOf(load(a.bulk_around + size_t{b} * 512 + i), e);
-    elastic = hn::Add(elastic, hn::IfThenElseZero(cell, energy));
-  }
-  const V v2 = hn::IfThenElseZero(good, dot(v, v));
-  const V kinetic = hn::Mul(hn::Mul(set(0.5f), load(job.mass + slot)), v2);
-  stats.kinetic_j += sum(kinetic);
-  stats.elastic_j += sum(elastic);
-  stats.max_stretch = std::max(stats.max_stretch, hn::GetLane(hn::MaxOfLanes(Tag(), stretch)));
-  stats.max_speed = std::max(stats.max_speed, std::sqrt(hn::GetLane(hn::MaxOfLanes(Tag(), v2))));
-}
-
-void measureOf(const MeasureJob& job, const uint32_t* bricks, size_t count) {
-  Tile u;
-  for (size_t n = 0; n < count; ++n) {
-    const uint32_t b = bricks[n];
-    const Material m = materialOf(job.arrays.bodies[job.arrays.bricks[b].body]);
-    fill<true>(job.arrays, job.arrays.displacement, b, u);
-    BrickStats stats{};
-    for (int i = 0; i < 64; i += static_cast<int>(hn::MaxLanes(Tag()))) measureVector(job, m, u, b, i, stats);
-    job.stats[b] = stats;
-  }
-}
-
 }  // namespace viscera::simd::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -482,14 +252,9 @@ HWY_AFTER_NAMESPACE();
 namespace viscera::simd {
 
 HWY_EXPORT(leapfrogOf);
-HWY_EXPORT(measureOf);
 
-void leapfrog(const LeapfrogJob& job, const uint32_t* bricks, size_t count) {
-  HWY_DYNAMIC_DISPATCH(leapfrogOf)(job, bricks, count);
-}
-
-void measure(const MeasureJob& job, const uint32_t* bricks, size_t count) {
-  HWY_DYNAMIC_DISPATCH(measureOf)(job, bricks, count);
+BrickLeapfrog leapfrogFor(int64_t target) {
+  return VISCERA_KERNEL_FOR(leapfrogOf, target);
 }
 
 }  // namespace viscera::simd

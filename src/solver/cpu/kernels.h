@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -49,7 +50,7 @@ struct LeapfrogJob {
 };
 
 /// One substep of leapfrog, as in shaders/solver/leapfrog.comp without its contacts, of the nodes of some bricks.
-void leapfrog(const LeapfrogJob& job, const uint32_t* bricks, size_t count);
+using BrickLeapfrog = void (*)(const LeapfrogJob& job, const uint32_t* bricks, size_t count);
 
 /// What is measured of a brick (shaders/solver/measure.comp).
 struct BrickStats {
@@ -64,12 +65,25 @@ struct MeasureJob {
   const float* mass;  ///< [slots] kg
   BrickStats* stats;  ///< [bricks]
 };
-void measure(const MeasureJob& job, const uint32_t* bricks, size_t count);
+using BrickMeasure = void (*)(const MeasureJob& job, const uint32_t* bricks, size_t count);
+
+struct NetworkJob;  // network_kernels.h
+/// One substep of leapfrog, point-centric, as in shaders/solver/leapfrog.comp without contacts and volumes, of groups
+/// first..last - 1 of the rows.
+using NetworkLeapfrog = void (*)(const NetworkJob& job, size_t first, size_t last);
+
+/// The kernels of one instruction set: a solver picks its own, whatever others in the process have.
+struct Kernels {
+  std::string target;  ///< such as AVX2
+  BrickLeapfrog leapfrog;
+  BrickMeasure measure;
+  NetworkLeapfrog leapfrog_network;
+};
 
 /// Instruction sets in the binary that this processor has, best first.
 std::vector<std::string> targets();
-/// Takes one of targets() from now on, in the whole process; empty: the best.
-/// @return false if it is not one of them
-bool useTarget(const std::string& name);
+/// @param target  one of targets(); empty: the best
+/// @return nothing if it is not one of them
+std::optional<Kernels> kernelsFor(const std::string& target);
 
 }  // namespace viscera::simd

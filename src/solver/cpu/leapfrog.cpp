@@ -38,6 +38,7 @@ CpuLeapfrog::CpuLeapfrog(const CpuLattice& lattice, const CpuParts& parts)
     : parallel_(parts.parallel),
       sleep_(parts.sleep),
       network_(parts.network),
+      step_bricks_(parts.kernels.leapfrog),
       near_(lattice.brickCount()),
       strained_(lattice.brickCount()),
       speed2_(lattice.brickCount()) {
@@ -79,7 +80,7 @@ void CpuLeapfrog::stepBricks(CpuLattice& lattice, const Substep& step, const lay
                              size_t chunk) {
   const std::vector<uint32_t>& awake = sleep_.awake();
   const size_t first = chunk * per_job_, count = std::min(per_job_, awake.size() - first);
-  simd::leapfrog(job_, &awake[first], count);
+  step_bricks_(job_, &awake[first], count);
   if (!step.tools) return;
   for (size_t i = first; i < first + count; ++i) {
     const uint32_t brick = awake[i];

@@ -26,6 +26,7 @@ class CpuLeapfrog : public CpuStepper {
   const Parallel& parallel_;
   Sleep& sleep_;
   CpuNetwork* network_;
+  simd::BrickLeapfrog step_bricks_;
   AlignedVector<float> compensation_;  ///< [6 * slots], see kernels.h; empty without compensation
   simd::LeapfrogJob job_{};
   std::vector<uint8_t> near_;       ///< [bricks]

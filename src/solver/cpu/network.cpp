@@ -198,8 +198,12 @@ std::vector<uint32_t> groupsOf(const std::vector<uint32_t>& slots) {
 
 }  // namespace
 
-CpuNetwork::CpuNetwork(const CpuLattice& lattice, const Parallel& parallel, const FeatureSet& features)
-    : parallel_(parallel), edge_forces_(features.edge_forces), dashpot_(features.dashpot) {
+CpuNetwork::CpuNetwork(const CpuLattice& lattice, const Parallel& parallel, const FeatureSet& features,
+                       const simd::Kernels& kernels)
+    : parallel_(parallel),
+      step_rows_(kernels.leapfrog_network),
+      edge_forces_(features.edge_forces),
+      dashpot_(features.dashpot) {
   if (lattice.network.starts.empty()) return;
   for (const uint32_t slot : lattice.active) {
     if (lattice.connections(slot) != layout::kImplicit) slots_.push_back(slot);
@@ -273,7 +277,7 @@ void CpuNetwork::stepInRows(CpuLattice& lattice, const Substep& step, AlignedVec
   job.mobility = lattice.mobility.data();
   const size_t groups = rows_.groups.size();
   parallel_((groups + kGroupsPerJob - 1) / kGroupsPerJob, [&](size_t chunk) {
-    simd::leapfrogNetwork(job, chunk * kGroupsPerJob, std::min((chunk + 1) * kGroupsPerJob, groups));
+    step_rows_(job, chunk * kGroupsPerJob, std::min((chunk + 1) * kGroupsPerJob, groups));
   });
 }
 

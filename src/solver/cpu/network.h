@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "solver/cpu/glsl_kernel.h"
+#include "solver/cpu/kernels.h"
 #include "solver/cpu/network_kernels.h"
 #include "solver/cpu/parallel.h"
 
@@ -22,7 +23,8 @@ struct NodeReach {
 class CpuNetwork {
  public:
   /// @param features  edge_forces: edge-centric (GW 4), where the lattice has them too
-  CpuNetwork(const CpuLattice& lattice, const Parallel& parallel, const FeatureSet& features);
+  CpuNetwork(const CpuLattice& lattice, const Parallel& parallel, const FeatureSet& features,
+             const simd::Kernels& kernels);
 
   /// One substep of all of them, without contacts, from the current state into the other one.
   /// @param compensation  [6 * slots] of the lattice's kernels; empty without compensation
@@ -47,6 +49,7 @@ class CpuNetwork {
   void stepInRows(CpuLattice& lattice, const Substep& step, AlignedVector<float>& compensation) const;
 
   const Parallel& parallel_;
+  simd::NetworkLeapfrog step_rows_;
   bool edge_forces_, dashpot_;
   simd::LinkRows rows_;  ///< empty where the shaders' text steps
   std::vector<uint32_t> slots_, touched_;

@@ -8,6 +8,7 @@
 #define HWY_TARGET_INCLUDE "solver/cpu/network_kernels.cpp"
 #include "hwy/foreach_target.h"  // IWYU pragma: keep
 #include "hwy/highway.h"
+#include "solver/cpu/targets.h"
 #include "solver/cpu/vectors-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -94,8 +95,8 @@ namespace viscera::simd {
 
 HWY_EXPORT(leapfrogNetworkOf);
 
-void leapfrogNetwork(const NetworkJob& job, size_t first, size_t last) {
-  HWY_DYNAMIC_DISPATCH(leapfrogNetworkOf)(job, first, last);
+NetworkLeapfrog leapfrogNetworkFor(int64_t target) {
+  return VISCERA_KERNEL_FOR(leapfrogNetworkOf, target);
 }
 
 namespace {

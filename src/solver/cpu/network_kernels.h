@@ -47,8 +47,4 @@ struct NetworkJob {
   const float* mobility;  ///< [slots] 1/kg
 };
 
-/// One substep of leapfrog, point-centric, as in shaders/solver/leapfrog.comp without contacts and volumes, of groups
-/// first..last - 1 of the rows.
-void leapfrogNetwork(const NetworkJob& job, size_t first, size_t last);
-
 }  // namespace viscera::simd

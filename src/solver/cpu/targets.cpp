@@ -1,19 +1,8 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <hwy/highway.h>
-
-#include "solver/cpu/kernels.h"
+#include "solver/cpu/targets.h"
 
 namespace viscera::simd {
-
-namespace {
-
-void choose(int64_t target) {
-  hwy::SetSupportedTargetsForTest(target);  // 0: what the processor has
-  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-}
-
-}  // namespace
 
 std::vector<std::string> targets() {
   std::vector<std::string> out;
@@ -21,15 +10,13 @@ std::vector<std::string> targets() {
   return out;
 }
 
-bool useTarget(const std::string& name) {
-  choose(0);
-  if (name.empty()) return true;
-  for (int64_t target : hwy::SupportedAndGeneratedTargets()) {
-    if (name != hwy::TargetName(target)) continue;
-    choose(target);
-    return true;
+std::optional<Kernels> kernelsFor(const std::string& target) {
+  for (const int64_t each : hwy::SupportedAndGeneratedTargets()) {
+    const std::string name = hwy::TargetName(each);
+    if (target.empty() || target == name)
+      return Kernels{name, leapfrogFor(each), measureFor(each), leapfrogNetworkFor(each)};
   }
-  return false;
+  return std::nullopt;
 }
 
 }  // namespace viscera::simd

@@ -126,6 +126,30 @@ TEST_P(Cpu, AgreesWithTheBestInstructionSet) {
   EXPECT_LT(difference_m_per_s, 4 * kFloat32Velocity * fastest);
 }
 
+TEST_P(Cpu, StepsAsAloneBesideASolverOfAnotherInstructionSet) {
+  const Model model = everything();
+  const Scene scene = sceneFor(model, 5);
+  const auto hashOf = [&](const CpuSolver& solver) { return stateHash(model, solver.readState()); };
+  const HostState start = randomState(model, 1e-4, 0.05, 3);
+  const auto alone = [&](const std::string& target) {
+    const auto solver = makeCpu(target, model, scene);
+    solver->writeState(start);
+    for (int t = 0; t < 3; ++t) solver->step({});
+    return hashOf(*solver);
+  };
+  const std::string best = simdTargets().front();
+  const auto here = makeCpu(GetParam(), model, scene), other = makeCpu(best, model, scene);
+  here->writeState(start);
+  other->writeState(start);
+  for (int t = 0; t < 3; ++t) {
+    here->step({});
+    other->step({});
+  }
+  EXPECT_EQ(hashOf(*here), alone(GetParam()));
+  EXPECT_EQ(hashOf(*other), alone(best));
+  EXPECT_TRUE(says(here->backend(), {GetParam()}));
+}
+
 TEST_P(Cpu, SaysWhatItRunsOn) {
   const Model model = modelOf({boxBody({2, 2, 2}, 0.01)});
   EXPECT_EQ(make(model, sceneFor(model, 1))->backend(), "cpu (" + GetParam() + ", 2 threads)");

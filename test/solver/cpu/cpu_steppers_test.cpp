@@ -54,7 +54,7 @@ class Rig {
     step.restarted = false;
     step.kick_s = step.dt_s;
   }
-  CpuParts with(const Parallel& parallel) { return {parallel, sleep, nullptr, features}; }
+  CpuParts with(const Parallel& parallel) { return {parallel, sleep, nullptr, features, kernels}; }
   ReferenceSolver reference(ReferenceIntegrator integrator) const {
     ReferenceOptions options;
     options.integrator = integrator;
@@ -71,6 +71,7 @@ class Rig {
   CpuLattice lattice;
   Sleep sleep{lattice, 0};
   FeatureSet features;
+  simd::Kernels kernels = simd::kernelsFor("").value();
   Substep step;
 };
 
