@@ -314,13 +314,13 @@ TEST_P(Surround, GustsSwingTheWindByTheirShare) {
   wind.gust_ratio = 0.5;
   wind.gust_period_s = 0.4;
   Surroundings surroundings(model, scene);
-  surroundings.beginTick(0.1, 1);
+  surroundings.beginTick(0.1, 1, {});
   EXPECT_NEAR(surroundings.at(0).wind_m_per_s.z(), 4 * (1 + 0.5 * std::sin(45 * kDegree)), 1e-5);
-  surroundings.beginTick(0.1, 1);
-  surroundings.beginTick(0.1, 1);
+  surroundings.beginTick(0.1, 1, {});
+  surroundings.beginTick(0.1, 1, {});
   EXPECT_NEAR(surroundings.at(0).wind_m_per_s.z(), 4 * (1 - 0.5 * std::sin(45 * kDegree)), 1e-5);
   surroundings.reset();
-  surroundings.beginTick(0.2, 2);
+  surroundings.beginTick(0.2, 2, {});
   EXPECT_NEAR(surroundings.at(1).wind_m_per_s.z(), 4 * (1 + 0.5 * std::sin(135 * kDegree)), 1e-5);
 }
 

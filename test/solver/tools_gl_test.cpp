@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "support/backends.h"
 #include "tools/motion_packing.h"
+#include "viscera/tools/hands.h"
 
 using namespace viscera;
 using namespace viscera::test;

@@ -21,8 +21,8 @@ inline std::vector<CollisionPair> pairsOf(const std::string& backend, const Mode
   if (backend == "gpu") {
     const FeatureSet features = featuresOf(model, scene, 1, group_size);
     LatticeBuffers buffers(model, params, features);
-    buffers.displacement[buffers.current].write(state.displacement_m);
-    buffers.nodes.write(state.nodes);
+    buffers.state.displacement[buffers.state.current].write(state.displacement_m);
+    buffers.store.nodes.write(state.nodes);
     const SurroundingsPass pass(model, scene, features, buffers);
     return pass.findPairs(buffers);
   }

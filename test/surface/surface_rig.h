@@ -35,8 +35,8 @@ class SurfaceRig {
   explicit SurfaceRig(std::vector<Body> bodies)
       : model{std::move(bodies)}, surface(model), buffers_(model, paramsOf(model), featuresOf(model)) {
     displacement_m.assign(model.slots(), layout::vec4{0, 0, 0, 0});
-    nodes = buffers_.nodes.read();
-    spring_cut = buffers_.spring_cut.read();
+    nodes = buffers_.store.nodes.read();
+    spring_cut = buffers_.links.spring_cut.read();
   }
   explicit SurfaceRig(Body body) : SurfaceRig(one(std::move(body))) {}
 
@@ -63,19 +63,19 @@ class SurfaceRig {
   }
   /// Writes displacement_m, nodes and spring_cut.
   void upload() {
-    buffers_.displacement[0].write(displacement_m);
-    buffers_.nodes.write(nodes);
-    buffers_.spring_cut.write(spring_cut);
+    buffers_.state.displacement[0].write(displacement_m);
+    buffers_.store.nodes.write(nodes);
+    buffers_.links.spring_cut.write(spring_cut);
   }
   StateView state() const {
     StateView view;
-    view.displacement = buffers_.displacement[0].id();
-    view.velocity = buffers_.velocity[0].id();
-    view.nodes = buffers_.nodes.id();
-    view.bricks = buffers_.bricks.id();
-    view.bodies = buffers_.bodies.id();
-    view.rest = buffers_.rest.id();
-    view.spring_cut = buffers_.spring_cut.id();
+    view.displacement = buffers_.state.displacement[0].id();
+    view.velocity = buffers_.state.velocity[0].id();
+    view.nodes = buffers_.store.nodes.id();
+    view.bricks = buffers_.store.bricks.id();
+    view.bodies = buffers_.store.bodies.id();
+    view.rest = buffers_.links.rest.id();
+    view.spring_cut = buffers_.links.spring_cut.id();
     view.cut_revision = revision;
     return view;
   }

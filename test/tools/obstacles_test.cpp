@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "viscera/tools/obstacles.h"
+#include "viscera/layout/limits.h"
 
 #include <gtest/gtest.h>
 

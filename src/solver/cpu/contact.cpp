@@ -44,9 +44,9 @@ layout::vec4 rounded(const Vector3d& v, double w) {
 
 void addBrick(CpuLattice& lattice, uint32_t brick, uint32_t stylus, const Vector3f& tip, Sum& sum) {
   glsl::Contact place(lattice);
-  for (uint32_t i = lattice.first_active[brick]; i < lattice.first_active[brick + 1]; ++i) {
-    const uint32_t slot = lattice.active[i];
-    layout::vec4& given = lattice.impulses[stylus * lattice.slotCount() + slot];
+  for (uint32_t i = lattice.store.first_active[brick]; i < lattice.store.first_active[brick + 1]; ++i) {
+    const uint32_t slot = lattice.store.active[i];
+    layout::vec4& given = lattice.hands.impulses[stylus * lattice.slotCount() + slot];
     if (given.w == 0) continue;
     const Vector3f arm = toEigen(place.restPosition(slot) + glsl::xyz(place.displacement[slot])) - tip;
     const Vector3d impulse(given.x, given.y, given.z);
@@ -66,7 +66,8 @@ void resolveContact(CpuLattice& lattice, uint32_t slot, const layout::ToolMotion
   contact.dt_s = dt_s;
   contact.push_speed = push_speed_m_per_s;
   glsl::vec3 u_next = fromEigen(u_next_m), v_next = fromEigen(v_next_m_per_s);
-  contact.resolveContacts(slot, lattice.nodes[slot], lattice.mass[slot], fromEigen(u_m), u_next, v_next);
+  contact.resolveContacts(slot, lattice.store.nodes[slot], lattice.strengths.mass[slot], fromEigen(u_m), u_next,
+                          v_next);
   u_next_m = toEigen(u_next);
   v_next_m_per_s = toEigen(v_next);
 }
@@ -74,10 +75,10 @@ void resolveContact(CpuLattice& lattice, uint32_t slot, const layout::ToolMotion
 void sumReactions(CpuLattice& lattice, const std::array<Vector3f, layout::kMaxStyluses>& tips,
                   layout::TickStats& stats) {
   std::array<Sum, layout::kMaxStyluses> sums;
-  for (uint32_t brick = 0; brick < lattice.touched.size(); ++brick) {
-    if (!lattice.touched[brick]) continue;
+  for (uint32_t brick = 0; brick < lattice.hands.touched.size(); ++brick) {
+    if (!lattice.hands.touched[brick]) continue;
     for (uint32_t s = 0; s < layout::kMaxStyluses; ++s) addBrick(lattice, brick, s, tips[s], sums[s]);
-    lattice.touched[brick] = 0;
+    lattice.hands.touched[brick] = 0;
   }
   for (uint32_t s = 0; s < layout::kMaxStyluses; ++s) {
     stats.impulse[s] = rounded(sums[s].impulse, sums[s].touched);

@@ -27,7 +27,7 @@ ContactLists::ContactLists(const CpuLattice& lattice, double reach_m, double mar
     : reach_m_(static_cast<float>(reach_m)),
       margin_m_(static_cast<float>(margin_m)),
       cell_m_(kCellMargin * (reach_m_ + margin_m_)) {
-  const size_t nodes = lattice.active.size(), jobs = (nodes + kEntriesPerJob - 1) / kEntriesPerJob;
+  const size_t nodes = lattice.store.active.size(), jobs = (nodes + kEntriesPerJob - 1) / kEntriesPerJob;
   rest_.resize(nodes);
   entry_of_.assign(nodes, kNobody);
   motions_.resize(jobs);

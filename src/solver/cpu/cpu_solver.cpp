@@ -65,7 +65,7 @@ CpuSolver::CpuSolver(const Model& model, const Scene& scene, const CpuSolverOpti
   }
   if (!governed()) return;
   recovery_ = makeCpuRecoveryStepper(kRecoveryIterations, lattice_, pool_);
-  for (int i = 0; i < kGoodStates; ++i) good_.push_back({lattice_.displacement[0], lattice_.velocity[0]});
+  for (int i = 0; i < kGoodStates; ++i) good_.push_back({lattice_.state.displacement[0], lattice_.state.velocity[0]});
   saveGood();
 }
 
@@ -96,14 +96,14 @@ void CpuSolver::letGo(uint32_t stylus, const Release& release) {
 
 /// Bricks with held nodes are awake, and looked at node by node.
 void CpuSolver::noteHeld() {
-  std::fill(lattice_.held.begin(), lattice_.held.end(), uint8_t{0});
+  std::fill(lattice_.hands.held.begin(), lattice_.hands.held.end(), uint8_t{0});
   stats_.grabbed[0] = stats_.grabbed[1] = 0;
-  for (uint32_t slot : lattice_.active) {
-    const uint32_t by = (lattice_.nodes[slot].lo & layout::kGrabMask) >> layout::kGrabShift;
+  for (uint32_t slot : lattice_.store.active) {
+    const uint32_t by = (lattice_.store.nodes[slot].lo & layout::kGrabMask) >> layout::kGrabShift;
     if (by == 0) continue;
     ++stats_.grabbed[by - 1];
-    if (lattice_.held.empty()) continue;
-    lattice_.held[slot / layout::kBrickSlots] = 1;
+    if (lattice_.hands.held.empty()) continue;
+    lattice_.hands.held[slot / layout::kBrickSlots] = 1;
     sleep_.wake(slot / layout::kBrickSlots);
   }
 }
@@ -127,7 +127,7 @@ void CpuSolver::wakeForTools(const std::vector<layout::ToolMotion>& motions) {
     }
     // The ends of springs that are cut lie up to a spring beside the blade.
     float spacing = 0;
-    for (const layout::BodyParams& body : lattice_.bodies) spacing = std::max(spacing, body.origin_spacing.w);
+    for (const layout::BodyParams& body : lattice_.store.bodies) spacing = std::max(spacing, body.origin_spacing.w);
     const Vector3f grown = Vector3f::Constant(reach + 2 * spacing);
     sleep_.wakeNear(lattice_, low - grown, high + grown);
   }
@@ -156,7 +156,8 @@ void CpuSolver::surround(const Substep& step, const Surroundings& surroundings) 
 }
 
 void CpuSolver::measure() {
-  simd::MeasureJob job{arraysOf(lattice_), lattice_.nodes.data(), lattice_.mass.data(), work_->stats.data()};
+  simd::MeasureJob job{arraysOf(lattice_), lattice_.store.nodes.data(), lattice_.strengths.mass.data(),
+                       work_->stats.data()};
   std::vector<uint32_t>& changed = work_->changed;
   sleep_.takeChanged(lattice_, changed);
   pool_((changed.size() + kBricksPerJob - 1) / kBricksPerJob, [&](size_t i) {
@@ -191,17 +192,18 @@ void CpuSolver::measure() {
 /// Largest (2 sum k + volume) / m of a node that is not fixed [1/s2] (physics.md 2; shaders/solver/measure.comp).
 float CpuSolver::largestRate() const {
   float largest = 0;
-  for (uint32_t slot : lattice_.active) {
-    const layout::NodeBits& bits = lattice_.nodes[slot];
+  for (uint32_t slot : lattice_.store.active) {
+    const layout::NodeBits& bits = lattice_.store.nodes[slot];
     if ((bits.lo & layout::kFixedBit) || lattice_.connections(slot) != layout::kImplicit) continue;
     const size_t brick = slot / layout::kBrickSlots, local = slot % layout::kBrickSlots;
     float springs = 0, bulk = 0;
-    for (size_t s = 0; s < layout::kSpringsPerNode; ++s) springs += lattice_.both_ends[brick * 1152 + s * 64 + local];
-    for (size_t c = 0; c < 8 && !lattice_.bulk_around.empty(); ++c) {
-      bulk += std::max(0.0f, lattice_.bulk_around[brick * 512 + c * 64 + local]);
+    for (size_t s = 0; s < layout::kSpringsPerNode; ++s)
+      springs += lattice_.strengths.both_ends[brick * 1152 + s * 64 + local];
+    for (size_t c = 0; c < 8 && !lattice_.strengths.bulk_around.empty(); ++c) {
+      bulk += std::max(0.0f, lattice_.strengths.bulk_around[brick * 512 + c * 64 + local]);
     }
-    const float h = lattice_.bodies[bits.hi >> layout::kBodyShift].origin_spacing.w;
-    largest = std::max(largest, (2 * springs + 1.5f * bulk / (h * h)) / lattice_.mass[slot]);
+    const float h = lattice_.store.bodies[bits.hi >> layout::kBodyShift].origin_spacing.w;
+    largest = std::max(largest, (2 * springs + 1.5f * bulk / (h * h)) / lattice_.strengths.mass[slot]);
   }
   return largest;
 }
@@ -228,16 +230,16 @@ bool CpuSolver::takeStats(layout::TickStats& stats, bool) {
 /// After the state was written from outside: both states the same and without velocity where nothing moves, everything
 /// awake and measured anew.
 void CpuSolver::changeAll() {
-  AlignedVector<float>& velocity = lattice_.velocity[lattice_.current];
-  for (uint32_t slot : lattice_.active) {
-    if (lattice_.mobility[slot] == 0) setPlanes(velocity.data(), slot, Vector3f::Zero());
+  AlignedVector<float>& velocity = lattice_.state.velocity[lattice_.state.current];
+  for (uint32_t slot : lattice_.store.active) {
+    if (lattice_.strengths.mobility[slot] == 0) setPlanes(velocity.data(), slot, Vector3f::Zero());
   }
-  lattice_.displacement[1 - lattice_.current] = lattice_.displacement[lattice_.current];
-  lattice_.velocity[1 - lattice_.current] = lattice_.velocity[lattice_.current];
+  lattice_.state.displacement[1 - lattice_.state.current] = lattice_.state.displacement[lattice_.state.current];
+  lattice_.state.velocity[1 - lattice_.state.current] = lattice_.state.velocity[lattice_.state.current];
   stepper_->restart();
   if (network_) network_->restart(lattice_);
-  std::fill(lattice_.impulses.begin(), lattice_.impulses.end(), layout::vec4{});
-  std::fill(lattice_.touched.begin(), lattice_.touched.end(), uint8_t{0});
+  std::fill(lattice_.hands.impulses.begin(), lattice_.hands.impulses.end(), layout::vec4{});
+  std::fill(lattice_.hands.touched.begin(), lattice_.hands.touched.end(), uint8_t{0});
   sleep_.wakeAll(lattice_);
 }
 
@@ -248,7 +250,7 @@ void CpuSolver::resetState() {
   springs_cut_ = 0;
   sleep_.restart();
   changeAll();
-  if (!lattice_.held.empty()) noteHeld();
+  if (!lattice_.hands.held.empty()) noteHeld();
 }
 
 void CpuSolver::loadState(const HostState& state) {
@@ -260,8 +262,8 @@ void CpuSolver::loadState(const HostState& state) {
 
 void CpuSolver::saveGood() {
   Good& good = good_[static_cast<size_t>(next_good_)];
-  good.displacement = lattice_.displacement[lattice_.current];
-  good.velocity = lattice_.velocity[lattice_.current];
+  good.displacement = lattice_.state.displacement[lattice_.state.current];
+  good.velocity = lattice_.state.velocity[lattice_.state.current];
   next_good_ = (next_good_ + 1) % kGoodStates;
   kept_good_ = std::min(kept_good_ + 1, kGoodStates);
 }
@@ -272,10 +274,11 @@ void CpuSolver::restoreGood(int back) {
   next_good_ = (next_good_ - back + kGoodStates) % kGoodStates;
   kept_good_ -= back;
   const Good& good = good_[static_cast<size_t>((next_good_ - 1 + kGoodStates) % kGoodStates)];
-  lattice_.displacement[lattice_.current] = good.displacement;
-  lattice_.velocity[lattice_.current] = good.velocity;
+  lattice_.state.displacement[lattice_.state.current] = good.displacement;
+  lattice_.state.velocity[lattice_.state.current] = good.velocity;
   if (exhausted)
-    std::fill(lattice_.velocity[lattice_.current].begin(), lattice_.velocity[lattice_.current].end(), 0.0f);
+    std::fill(lattice_.state.velocity[lattice_.state.current].begin(),
+              lattice_.state.velocity[lattice_.state.current].end(), 0.0f);
   changeAll();
 }
 
@@ -288,10 +291,10 @@ HostState CpuSolver::readState() const {
 }
 
 void CpuSolver::snapshot(StateSnapshot& out) const {
-  copyShown(lattice_.displacement[lattice_.current].data(), out);
+  copyShown(lattice_.state.displacement[lattice_.state.current].data(), out);
   if (out.nodes.empty() || out.cut_revision != cutRevision()) {
-    out.nodes = lattice_.nodes;
-    out.spring_cut = lattice_.spring_cut;
+    out.nodes = lattice_.store.nodes;
+    out.spring_cut = lattice_.links.spring_cut;
   }
   out.cut_revision = cutRevision();
 }

@@ -78,14 +78,14 @@ struct Places {
 };
 
 Places placesOf(const CpuLattice& lattice, uint32_t b, const layout::vec4& from) {
-  const layout::Brick& brick = lattice.bricks[b];
-  const layout::vec4& origin = lattice.bodies[brick.body].origin_spacing;
+  const layout::Brick& brick = lattice.store.bricks[b];
+  const layout::vec4& origin = lattice.store.bodies[brick.body].origin_spacing;
   const float edge = static_cast<float>(layout::kBrickEdge) * origin.w;
   return {{origin.x + edge * static_cast<float>(brick.coord_x) - from.x,
            origin.y + edge * static_cast<float>(brick.coord_y) - from.y,
            origin.z + edge * static_cast<float>(brick.coord_z) - from.z},
           origin.w,
-          &lattice.displacement[lattice.current][vectorAt(b * layout::kBrickSlots)]};
+          &lattice.state.displacement[lattice.state.current][vectorAt(b * layout::kBrickSlots)]};
 }
 
 /// Calls visit(slot within the brick, x, y, z) for all 64 places, in a form that compilers turn into vectors.
@@ -149,7 +149,7 @@ constexpr uint8_t kNotNear = 255;
 CpuCut::CpuCut(const CpuLattice& lattice)
     : outside_(lattice.slotCount(), kNotNear), common_(lattice.brickCount(), kNotNear) {
   near_.reserve(lattice.brickCount());
-  changed_.reserve(lattice.active.size());
+  changed_.reserve(lattice.store.active.size());
 }
 
 void CpuCut::findBricks(const CpuLattice& lattice, const layout::ToolMotion& motion) {
@@ -157,7 +157,7 @@ void CpuCut::findBricks(const CpuLattice& lattice, const layout::ToolMotion& mot
   glsl::vec4 sphere(0);
   for (uint32_t b = 0; b < lattice.brickCount(); ++b) {
     Places places = placesOf(lattice, b, motion.from);
-    if (b == 0 || lattice.bricks[b].body != lattice.bricks[b - 1].body)
+    if (b == 0 || lattice.store.bricks[b].body != lattice.store.bricks[b - 1].body)
       sphere = glsl::Blade().bladeSphere(motion, places.h);
     float size = 0;
     for (int k = 0; k < 3; ++k) size += glsl::abs(places.first[k] -= sphere[k]);
@@ -194,14 +194,14 @@ uint32_t CpuCut::cutWith(CpuLattice& lattice, const layout::ToolMotion& motion) 
   Kernel kernel(lattice);
   kernel.tool_motions = &motion;
   for (uint32_t brick : near_) {
-    if (!mayCross(lattice.bricks[brick])) continue;
-    for (uint32_t i = lattice.first_active[brick]; i < lattice.first_active[brick + 1]; ++i) {
-      const uint32_t slot = lattice.active[i];
+    if (!mayCross(lattice.store.bricks[brick])) continue;
+    for (uint32_t i = lattice.store.first_active[brick]; i < lattice.store.first_active[brick + 1]; ++i) {
+      const uint32_t slot = lattice.store.active[i];
       if (!kernel.mayLose(slot, outside_.data())) continue;
-      const layout::NodeBits before = lattice.nodes[slot];
+      const layout::NodeBits before = lattice.store.nodes[slot];
       kernel.index = i;
       kernel.main();
-      const layout::NodeBits& now = lattice.nodes[slot];
+      const layout::NodeBits& now = lattice.store.nodes[slot];
       if (now.lo == before.lo && now.hi == before.hi) continue;
       lattice.refresh(slot);
       changed_.push_back(slot);
@@ -218,7 +218,7 @@ void CpuCut::tearCells(CpuLattice& lattice) const {
     for (int c = 0; c < 8; ++c) {
       bool exists;
       const uint32_t cell = kernel.cellAt(slot, 2 * glsl::ivec3(c & 1, c >> 1 & 1, c >> 2 & 1) - 1, exists);
-      if (!exists || !(lattice.nodes[cell].lo & layout::kCellBit)) continue;
+      if (!exists || !(lattice.store.nodes[cell].lo & layout::kCellBit)) continue;
       kernel.cells = &cell;
       kernel.main();
       lattice.refresh(cell);
@@ -232,7 +232,7 @@ uint32_t CpuCut::run(CpuLattice& lattice, const layout::ToolMotion& motion, bool
   changed_.clear();
   const uint32_t springs =
       particles ? cutWith<glsl::CutParticles>(lattice, motion) : cutWith<glsl::CutSprings>(lattice, motion);
-  if (!lattice.bulk.empty()) tearCells(lattice);
+  if (!lattice.strengths.bulk.empty()) tearCells(lattice);
   for (uint32_t b : near_) {  // as if nothing had been near
     common_[b] = kNotNear;
     std::fill_n(&outside_[b * layout::kBrickSlots], layout::kBrickSlots, kNotNear);

@@ -69,27 +69,27 @@ class Vectors {
 /// as its body; main() is one invocation, that of `index`.
 struct Kernel {
   explicit Kernel(CpuLattice& lattice)
-      : active_nodes(lattice.active.data()),
-        active_count(static_cast<uint>(lattice.active.size())),
-        slot_count(static_cast<uint>(lattice.nodes.size())),
-        nodes(lattice.nodes.data()),
-        bodies(lattice.bodies.data()),
-        cells(lattice.cells.data()),
-        displacement(lattice.displacement[lattice.current]),
-        velocity(lattice.velocity[lattice.current]),
-        next_displacement(lattice.displacement[1 - lattice.current]),
-        next_velocity(lattice.velocity[1 - lattice.current]),
-        grab_offsets(lattice.grab_offsets),
-        impulses_(lattice.impulses.data()),
-        touched_(lattice.touched.data()),
-        bricks_(lattice.bricks.data()),
-        stiffness_(lattice.stiffness.data()),
-        mass_(lattice.mass.data()),
-        bulk_(lattice.bulk.data()),
-        rest_(lattice.network.rest_m.data()),
-        link_starts_(lattice.network.starts.data()),
-        link_runs_(lattice.edge_forces.links.data()),
-        links_(lattice.network.links.data()) {}
+      : active_nodes(lattice.store.active.data()),
+        active_count(static_cast<uint>(lattice.store.active.size())),
+        slot_count(static_cast<uint>(lattice.store.nodes.size())),
+        nodes(lattice.store.nodes.data()),
+        bodies(lattice.store.bodies.data()),
+        cells(lattice.store.cells.data()),
+        displacement(lattice.state.displacement[lattice.state.current]),
+        velocity(lattice.state.velocity[lattice.state.current]),
+        next_displacement(lattice.state.displacement[1 - lattice.state.current]),
+        next_velocity(lattice.state.velocity[1 - lattice.state.current]),
+        grab_offsets(lattice.hands.grab_offsets),
+        impulses_(lattice.hands.impulses.data()),
+        touched_(lattice.hands.touched.data()),
+        bricks_(lattice.store.bricks.data()),
+        stiffness_(lattice.strengths.stiffness.data()),
+        mass_(lattice.strengths.mass.data()),
+        bulk_(lattice.strengths.bulk.data()),
+        rest_(lattice.links.network.rest_m.data()),
+        link_starts_(lattice.links.network.starts.data()),
+        link_runs_(lattice.links.edge_forces.links.data()),
+        links_(lattice.links.network.links.data()) {}
 
   void tell(const Substep& step) {
     dt_s = step.dt_s;

@@ -37,11 +37,11 @@ namespace {
 /// Runs a kernel that may change the bits of any node.
 template <class Kernel>
 void runOnAll(CpuLattice& lattice, Kernel& kernel) {
-  for (uint32_t i = 0; i < lattice.active.size(); ++i) {
-    const uint32_t slot = lattice.active[i], before = lattice.nodes[slot].lo;
+  for (uint32_t i = 0; i < lattice.store.active.size(); ++i) {
+    const uint32_t slot = lattice.store.active[i], before = lattice.store.nodes[slot].lo;
     kernel.index = i;
     kernel.main();
-    if (lattice.nodes[slot].lo != before) lattice.refresh(slot);
+    if (lattice.store.nodes[slot].lo != before) lattice.refresh(slot);
   }
 }
 

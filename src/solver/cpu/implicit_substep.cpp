@@ -75,7 +75,7 @@ CpuImplicitSubstep::CpuImplicitSubstep(const CpuLattice& lattice, const Parallel
                                        int iterates)
     : guard(1 + 2 * static_cast<size_t>(iterations)), parallel_(parallel), energies_(nodeJobs(lattice)) {
   for (int i = 0; i < iterates; ++i) increments_[i].assign(lattice.slotCount(), glsl::vec4(0));
-  if (!lattice.bulk.empty()) cell_forces_.assign(3 * lattice.slotCount(), glsl::vec4(0));
+  if (!lattice.strengths.bulk.empty()) cell_forces_.assign(3 * lattice.slotCount(), glsl::vec4(0));
 }
 
 void CpuImplicitSubstep::begin(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions) {
@@ -92,8 +92,8 @@ void CpuImplicitSubstep::updateVolumes(CpuLattice& lattice, const Substep& step,
   if (cell_forces_.empty()) return;
   auto cells = kernel<glsl::Cells>(lattice, step);
   cells.iteration = static_cast<uint32_t>(iteration);
-  cells.active_count = static_cast<uint32_t>(lattice.cells.size());
-  runCount(parallel_, lattice.cells.size(), cells);
+  cells.active_count = static_cast<uint32_t>(lattice.store.cells.size());
+  runCount(parallel_, lattice.store.cells.size(), cells);
 }
 
 template <class Guess>

@@ -54,8 +54,8 @@ __attribute__((flatten)) void runRange(Kernel& kernel, size_t first, size_t end)
 
 /// Places in `active` of a job's nodes.
 inline std::array<size_t, 2> nodesOfJob(const CpuLattice& lattice, size_t job) {
-  return {lattice.first_active[job * kBricksPerJob],
-          lattice.first_active[std::min((job + 1) * kBricksPerJob, lattice.brickCount())]};
+  return {lattice.store.first_active[job * kBricksPerJob],
+          lattice.store.first_active[std::min((job + 1) * kBricksPerJob, lattice.brickCount())]};
 }
 
 /// Runs a kernel for every active node.

@@ -17,9 +17,9 @@ constexpr size_t kJobsPerThread = 8;      // at least, where there are bricks en
 
 /// What tools do to a node in the substep that was just made (shaders/solver/contact.glsl).
 void touchNode(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions, uint32_t slot) {
-  const float* now = lattice.displacement[lattice.current].data();
-  float* const u = lattice.displacement[1 - lattice.current].data();
-  float* const v = lattice.velocity[1 - lattice.current].data();
+  const float* now = lattice.state.displacement[lattice.state.current].data();
+  float* const u = lattice.state.displacement[1 - lattice.state.current].data();
+  float* const v = lattice.state.velocity[1 - lattice.state.current].data();
   Vector3f u_next = planesAt(u, slot), v_next = planesAt(v, slot);
   resolveContact(lattice, slot, motions, step.dt_s, step.push_speed_m_per_s, planesAt(now, slot), u_next, v_next);
   setPlanes(u, slot, u_next);
@@ -84,7 +84,7 @@ void CpuLeapfrog::stepBricks(CpuLattice& lattice, const Substep& step, const lay
   if (!step.tools) return;
   for (size_t i = first; i < first + count; ++i) {
     const uint32_t brick = awake[i];
-    if (!near_[brick] && !lattice.held[brick]) continue;
+    if (!near_[brick] && !lattice.hands.held[brick]) continue;
     near_[brick] = 0;
     touch(lattice, step, motions, brick);
   }
@@ -92,8 +92,9 @@ void CpuLeapfrog::stepBricks(CpuLattice& lattice, const Substep& step, const lay
 
 /// What tools do to the nodes of a brick in the substep.
 void CpuLeapfrog::touch(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions, uint32_t brick) {
-  for (uint32_t i = lattice.first_active[brick]; i < lattice.first_active[brick + 1]; ++i) {
-    if (lattice.mobility[lattice.active[i]] != 0) touchNode(lattice, step, motions, lattice.active[i]);
+  for (uint32_t i = lattice.store.first_active[brick]; i < lattice.store.first_active[brick + 1]; ++i) {
+    if (lattice.strengths.mobility[lattice.store.active[i]] != 0)
+      touchNode(lattice, step, motions, lattice.store.active[i]);
   }
   speed2_[brick] = std::numeric_limits<float>::infinity();  // stays awake
 }

@@ -17,9 +17,9 @@ struct NetworkKernel : Kernel {
   explicit NetworkKernel(CpuLattice& lattice)
       : Kernel(lattice),
         compensation(none_),
-        owners(lattice.edge_forces.owners.data()),
-        force_starts(lattice.edge_forces.starts.data()),
-        owner_count(static_cast<uint>(lattice.edge_forces.owners.size())) {}
+        owners(lattice.links.edge_forces.owners.data()),
+        force_starts(lattice.links.edge_forces.starts.data()),
+        owner_count(static_cast<uint>(lattice.links.edge_forces.owners.size())) {}
   uint forceStart(uint slot) const { return force_starts[slot]; }
   std::vector<layout::vec4> none_;
   Vectors compensation;
@@ -122,10 +122,10 @@ struct MeasuringKernel : NetworkKernel {
 struct CutKernel : Kernel {
   explicit CutKernel(CpuLattice& lattice)
       : Kernel(lattice),
-        springs(lattice.network.springs.data()),
-        links(lattice.network.links.data()),
-        spring_cut(lattice.spring_cut.data()),
-        spring_count(static_cast<uint>(lattice.network.springs.size())) {}
+        springs(lattice.links.network.springs.data()),
+        links(lattice.links.network.links.data()),
+        spring_cut(lattice.links.spring_cut.data()),
+        spring_count(static_cast<uint>(lattice.links.network.springs.size())) {}
   const SpringEnds* springs;
   Link* links;
   float* spring_cut;
@@ -156,7 +156,7 @@ template <class Kernel>
 uint32_t cutWith(CpuLattice& lattice, const layout::ToolMotion& motion) {
   Kernel kernel(lattice);
   kernel.tool_motions = &motion;
-  runRange(kernel, 0, lattice.network.springs.size());
+  runRange(kernel, 0, lattice.links.network.springs.size());
   return kernel.stats.springs_cut;
 }
 
@@ -204,25 +204,25 @@ CpuNetwork::CpuNetwork(const CpuLattice& lattice, const Parallel& parallel, cons
       step_rows_(kernels.leapfrog_network),
       edge_forces_(features.edge_forces),
       dashpot_(features.dashpot) {
-  if (lattice.network.starts.empty()) return;
-  for (const uint32_t slot : lattice.active) {
+  if (lattice.links.network.starts.empty()) return;
+  for (const uint32_t slot : lattice.store.active) {
     if (lattice.connections(slot) != layout::kImplicit) slots_.push_back(slot);
   }
   touched_.reserve(slots_.size());
-  for (const uint32_t cell : lattice.cells) {
+  for (const uint32_t cell : lattice.store.cells) {
     if (features.volume && lattice.connections(cell) == layout::kExplicitLattice) cells_.push_back(cell);
   }
   if (!edge_forces_ && cells_.empty()) {
-    rows_ = simd::LinkRows(lattice.network, groupsOf(slots_));
+    rows_ = simd::LinkRows(lattice.links.network, groupsOf(slots_));
     return;
   }
   if (features.compensated) compensation_.resize(2 * lattice.slotCount());
-  link_forces_.resize(lattice.edge_forces.places());
+  link_forces_.resize(lattice.links.edge_forces.places());
   if (!cells_.empty()) cell_forces_.assign(3 * lattice.slotCount(), glsl::vec4(0));
 }
 
 void CpuNetwork::restart(const CpuLattice& lattice) {
-  rows_.writeStiffness(lattice.network.links);
+  rows_.writeStiffness(lattice.links.network.links);
   std::fill(compensation_.begin(), compensation_.end(), layout::vec4{});
 }
 
@@ -267,14 +267,14 @@ void CpuNetwork::stepInRows(CpuLattice& lattice, const Substep& step, AlignedVec
   job.rows = &rows_;
   job.step = step;
   job.dashpot = dashpot_;
-  job.bricks = lattice.bricks.data();
-  job.bodies = lattice.bodies.data();
-  job.displacement = lattice.displacement[lattice.current].data();
-  job.velocity = lattice.velocity[lattice.current].data();
-  job.next_displacement = lattice.displacement[1 - lattice.current].data();
-  job.next_velocity = lattice.velocity[1 - lattice.current].data();
+  job.bricks = lattice.store.bricks.data();
+  job.bodies = lattice.store.bodies.data();
+  job.displacement = lattice.state.displacement[lattice.state.current].data();
+  job.velocity = lattice.state.velocity[lattice.state.current].data();
+  job.next_displacement = lattice.state.displacement[1 - lattice.state.current].data();
+  job.next_velocity = lattice.state.velocity[1 - lattice.state.current].data();
   job.compensation = compensation.empty() ? nullptr : compensation.data();
-  job.mobility = lattice.mobility.data();
+  job.mobility = lattice.strengths.mobility.data();
   const size_t groups = rows_.groups.size();
   parallel_((groups + kGroupsPerJob - 1) / kGroupsPerJob, [&](size_t chunk) {
     step_rows_(job, chunk * kGroupsPerJob, std::min((chunk + 1) * kGroupsPerJob, groups));
@@ -282,7 +282,8 @@ void CpuNetwork::stepInRows(CpuLattice& lattice, const Substep& step, AlignedVec
 }
 
 void CpuNetwork::stepInText(CpuLattice& lattice, const Substep& step) {
-  if (edge_forces_) runCount(parallel_, lattice.edge_forces.owners.size(), kernel<glsl::SpringForces>(lattice, step));
+  if (edge_forces_)
+    runCount(parallel_, lattice.links.edge_forces.owners.size(), kernel<glsl::SpringForces>(lattice, step));
   if (cells_.empty()) {
     if (edge_forces_) {
       stepWith<glsl::StepEdges, glsl::StepEdgesCompensated>(lattice, step);
@@ -303,8 +304,8 @@ const std::vector<uint32_t>& CpuNetwork::touched(CpuLattice& lattice, const std:
   touched_.clear();
   glsl::Place place(lattice);
   for (uint32_t slot : slots_) {
-    if (lattice.mobility[slot] == 0) continue;
-    bool near = (lattice.nodes[slot].lo & layout::kGrabMask) != 0;
+    if (lattice.strengths.mobility[slot] == 0) continue;
+    bool near = (lattice.store.nodes[slot].lo & layout::kGrabMask) != 0;
     if (!near) {
       const glsl::vec3 x = place.restPosition(slot) + glsl::xyz(place.next_displacement[slot]);
       for (const NodeReach& reach : reaches) {
@@ -318,7 +319,7 @@ const std::vector<uint32_t>& CpuNetwork::touched(CpuLattice& lattice, const std:
 }
 
 void CpuNetwork::measure(CpuLattice& lattice, layout::TickStats& stats) const {
-  if (lattice.bulk.empty()) {
+  if (lattice.strengths.bulk.empty()) {
     measureWith<glsl::Measure>(lattice, slots_, stats);
   } else {
     measureWith<glsl::MeasureVolumes>(lattice, slots_, stats);
@@ -330,7 +331,7 @@ uint32_t CpuNetwork::cut(CpuLattice& lattice, const layout::ToolMotion& motion, 
       particles ? cutWith<glsl::CutLinksOfParticles>(lattice, motion) : cutWith<glsl::CutLinks>(lattice, motion);
   if (springs == 0) return 0;
   for (const uint32_t slot : slots_) lattice.refresh(slot);
-  rows_.writeStiffness(lattice.network.links);
+  rows_.writeStiffness(lattice.links.network.links);
   return springs;
 }
 

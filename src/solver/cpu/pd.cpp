@@ -47,7 +47,7 @@ void CpuPd::findRates(CpuLattice& lattice) {
     kernel.guard = rates.data();
     runNodes(parallel_, lattice, kernel);
   };
-  if (lattice.bulk.empty()) {
+  if (lattice.strengths.bulk.empty()) {
     find(implicit_.kernel<glsl::Rate>(lattice, {}));
   } else {
     find(implicit_.kernel<glsl::RateVolumes>(lattice, {}));
@@ -76,7 +76,7 @@ void CpuPd::run(CpuLattice& lattice, const Substep& step, const layout::ToolMoti
   for (int iteration = 0; iteration < options_.iterations; ++iteration) {
     implicit_.updateVolumes(lattice, step, iteration);
     weight = options_.accelerated ? chebyshevWeight(iteration, weight, rho) : 1;
-    if (lattice.bulk.empty()) {
+    if (lattice.strengths.bulk.empty()) {
       sweep<glsl::Sweep>(lattice, step, iteration, weight);
     } else {
       sweep<glsl::SweepVolumes>(lattice, step, iteration, weight);

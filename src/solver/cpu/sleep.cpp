@@ -12,7 +12,7 @@ namespace {
 constexpr size_t kBrickFloats3 = 3 * size_t{layout::kBrickSlots};
 
 float largestDisplacement(const CpuLattice& lattice, uint32_t brick) {
-  const float* u = &lattice.displacement[lattice.current][brick * kBrickFloats3];
+  const float* u = &lattice.state.displacement[lattice.state.current][brick * kBrickFloats3];
   float largest2 = 0;
   for (size_t i = 0; i < layout::kBrickSlots; ++i) {
     largest2 = std::max(largest2, u[i] * u[i] + u[i + 64] * u[i + 64] + u[i + 128] * u[i + 128]);
@@ -22,7 +22,7 @@ float largestDisplacement(const CpuLattice& lattice, uint32_t brick) {
 
 /// Bodies with explicit connections are not stepped brick by brick (network.h).
 bool isImplicit(const CpuLattice& lattice, uint32_t brick) {
-  return lattice.bodies[lattice.bricks[brick].body].connections == layout::kImplicit;
+  return lattice.store.bodies[lattice.store.bricks[brick].body].connections == layout::kImplicit;
 }
 
 }  // namespace
@@ -43,7 +43,7 @@ void Sleep::wakeAll(const CpuLattice& lattice) {
   awake_.clear();
   std::fill(changed_.begin(), changed_.end(), uint8_t{1});
   for (uint32_t b = 0; b < lattice.brickCount(); ++b) {
-    const float* mobility = &lattice.mobility[size_t{b} * layout::kBrickSlots];
+    const float* mobility = &lattice.strengths.mobility[size_t{b} * layout::kBrickSlots];
     moves_[b] = isImplicit(lattice, b) &&
                 std::any_of(mobility, mobility + layout::kBrickSlots, [](float value) { return value > 0; });
     is_awake_[b] = moves_[b];
@@ -63,8 +63,8 @@ void Sleep::wake(uint32_t brick) {
 void Sleep::wakeNear(const CpuLattice& lattice, const Vector3f& low, const Vector3f& high) {
   for (uint32_t b = 0; b < lattice.brickCount(); ++b) {
     if (is_awake_[b] && quiet_s_[b] == 0) continue;
-    const layout::Brick& brick = lattice.bricks[b];
-    const layout::vec4& origin = lattice.bodies[brick.body].origin_spacing;
+    const layout::Brick& brick = lattice.store.bricks[b];
+    const layout::vec4& origin = lattice.store.bodies[brick.body].origin_spacing;
     const float edge = static_cast<float>(layout::kBrickEdge) * origin.w;
     const Vector3f first = Vector3f(origin.x, origin.y, origin.z) + edge * Vector3f(static_cast<float>(brick.coord_x),
                                                                                     static_cast<float>(brick.coord_y),
@@ -77,7 +77,7 @@ void Sleep::wakeNear(const CpuLattice& lattice, const Vector3f& low, const Vecto
 
 void Sleep::takeChanged(const CpuLattice& lattice, std::vector<uint32_t>& out) {
   for (uint32_t b : awake_) {
-    for (uint32_t neighbor : lattice.bricks[b].neighbors) changed_[neighbor] = 1;
+    for (uint32_t neighbor : lattice.store.bricks[b].neighbors) changed_[neighbor] = 1;
   }
   out.clear();
   for (uint32_t b = 0; b < changed_.size(); ++b) {
@@ -113,7 +113,7 @@ void Sleep::list(CpuLattice& lattice) {
   std::fill(wanted_.begin(), wanted_.end(), uint8_t{0});
   for (uint32_t b : awake_) {
     if (quiet_s_[b] >= kQuiet_s) continue;
-    for (uint32_t neighbor : lattice.bricks[b].neighbors) wanted_[neighbor] = 1;
+    for (uint32_t neighbor : lattice.store.bricks[b].neighbors) wanted_[neighbor] = 1;
   }
   for (uint32_t b : awake_) {
     if (!wanted_[b]) freeze(lattice, b);
@@ -130,13 +130,13 @@ void Sleep::list(CpuLattice& lattice) {
 
 void Sleep::freeze(CpuLattice& lattice, uint32_t brick) {
   const size_t first = brick * kBrickFloats3;
-  const float* now = &lattice.displacement[lattice.current][first];
-  std::copy(now, now + kBrickFloats3, &lattice.displacement[1 - lattice.current][first]);
-  for (AlignedVector<float>& velocity : lattice.velocity) {
+  const float* now = &lattice.state.displacement[lattice.state.current][first];
+  std::copy(now, now + kBrickFloats3, &lattice.state.displacement[1 - lattice.state.current][first]);
+  for (AlignedVector<float>& velocity : lattice.state.velocity) {
     std::fill(&velocity[first], &velocity[first] + kBrickFloats3, 0.0f);
   }
   farthest_m_[brick] = largestDisplacement(lattice, brick);
-  for (uint32_t neighbor : lattice.bricks[brick].neighbors) changed_[neighbor] = 1;
+  for (uint32_t neighbor : lattice.store.bricks[brick].neighbors) changed_[neighbor] = 1;
 }
 
 }  // namespace viscera

@@ -172,7 +172,7 @@ CpuSurroundings::CpuSurroundings(const Model& model, const Scene& scene, const C
     work_->lists.emplace(lattice, reach_m, list_margin * reach_m);
     return;
   }
-  work_->sorted = sortedCount(lattice.active.size());
+  work_->sorted = sortedCount(lattice.store.active.size());
   work_->items.resize(static_cast<size_t>(scene.collision.partitions) * work_->sorted);
   work_->ranks.resize(static_cast<size_t>(scene.collision.partitions) * lattice.slotCount());
 }
@@ -186,9 +186,9 @@ void CpuSurroundings::searchStaggered(CpuLattice& lattice) {
     const auto first = w.items.begin() + static_cast<std::ptrdiff_t>(p * w.sorted);
     std::fill(first, first + w.sorted, glsl::Item{glsl::kNobody, glsl::kNobody});
     auto next = first;
-    for (const uint32_t slot : lattice.active) {
+    for (const uint32_t slot : lattice.store.active) {
       const glsl::vec3 x = kernel.positionOf(slot);
-      if (!kernel.collides(slot, lattice.nodes[slot], x)) continue;
+      if (!kernel.collides(slot, lattice.store.nodes[slot], x)) continue;
       *next++ = {kernel.hashOf(kernel.cellIn(static_cast<uint32_t>(p), x)), slot};
     }
     std::sort(first, next);
@@ -237,7 +237,7 @@ void CpuSurroundings::apply(CpuLattice& lattice, const Substep& step, const Surr
   kernel.corrections = work_->corrections.data();
   kernel.ring_starts = work_->rings.starts.data();
   kernel.rings = work_->rings.triangles.data();
-  kernel.spring_cut = lattice.spring_cut.data();
+  kernel.spring_cut = lattice.links.spring_cut.data();
   runNodes(parallel_, lattice, kernel);
 }
 

@@ -27,7 +27,7 @@ namespace {
 CpuVbd::CpuVbd(const CpuLattice& lattice, const Parallel& parallel, int iterations)
     : implicit_(lattice, parallel, iterations, 1),
       parallel_(parallel),
-      coloured_(byColour(lattice.active, !lattice.bulk.empty(), lattice.network)),
+      coloured_(byColour(lattice.store.active, !lattice.strengths.bulk.empty(), lattice.links.network)),
       iterations_(iterations) {}
 
 template <class Kernel>
@@ -44,7 +44,7 @@ void CpuVbd::sweep(CpuLattice& lattice, const Substep& step) {
 void CpuVbd::run(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions) {
   implicit_.begin(lattice, step, motions);
   for (int iteration = 0; iteration < iterations_; ++iteration) {
-    if (lattice.bulk.empty()) {
+    if (lattice.strengths.bulk.empty()) {
       sweep<glsl::Descend>(lattice, step);
     } else {
       sweep<glsl::DescendVolumes>(lattice, step);

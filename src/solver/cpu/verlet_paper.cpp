@@ -56,7 +56,7 @@ struct PositionKernel : Kernel {
 
 CpuVerletPaper::CpuVerletPaper(const CpuLattice& lattice, const Parallel& parallel) : parallel_(parallel) {
   for (auto& positions : positions_) positions.assign(lattice.slotCount(), glsl::vec4(0));
-  if (!lattice.bulk.empty()) cell_forces_.assign(3 * lattice.slotCount(), glsl::vec4(0));
+  if (!lattice.strengths.bulk.empty()) cell_forces_.assign(3 * lattice.slotCount(), glsl::vec4(0));
 }
 
 template <class Kernel>
@@ -67,7 +67,7 @@ Kernel CpuVerletPaper::kernel(CpuLattice& lattice, const Substep& step) {
   out.positions = out.rebuilt_positions;
   out.positions_before = positions_[1 - current_].data();
   out.cell_forces = out.cell_forces_out = cell_forces_.data();
-  out.cell_count = static_cast<uint32_t>(lattice.cells.size());
+  out.cell_count = static_cast<uint32_t>(lattice.store.cells.size());
   return out;
 }
 
@@ -86,7 +86,7 @@ void CpuVerletPaper::run(CpuLattice& lattice, const Substep& step, const layout:
     step.tools ? advance<glsl::AdvanceWithTools>(lattice, step, motions)
                : advance<glsl::Advance>(lattice, step, motions);
   } else {
-    runCount(parallel_, lattice.cells.size(), kernel<glsl::Volumes>(lattice, step));
+    runCount(parallel_, lattice.store.cells.size(), kernel<glsl::Volumes>(lattice, step));
     step.tools ? advance<glsl::AdvanceWithToolsVolumes>(lattice, step, motions)
                : advance<glsl::AdvanceVolumes>(lattice, step, motions);
   }

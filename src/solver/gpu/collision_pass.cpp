@@ -14,15 +14,15 @@ CollisionPass::CollisionPass(const Model& model, const Scene& scene, const Featu
     : config_(scene.collision),
       cell_m_(static_cast<float>(collisionCell(model, scene.collision))),
       collidable_(collidableNodes(model)),
-      contacts_(buffers.slot_count),
-      corrections_(2 * buffers.slot_count),
+      contacts_(buffers.store.slot_count),
+      corrections_(2 * buffers.store.slot_count),
       group_size_(features.group_size) {
   const auto stage = [&features, this](const char* name) {
     std::vector<std::string> defines = features.defines();
     if (config_.search == CollisionSearch::kStaggered) defines.push_back("STAGGERED");
     return gpu::Program::compute(name, defines);
   };
-  const size_t nodes = buffers.active_count;
+  const size_t nodes = buffers.store.active_count;
   if (config_.search == CollisionSearch::kGrid) {
     count_ = stage("collision_count.comp");
     place_ = stage("collision_place.comp");
@@ -39,7 +39,7 @@ CollisionPass::CollisionPass(const Model& model, const Scene& scene, const Featu
     rank_ = stage("collision_rank.comp");
     sorted_ = sortedCount(nodes);
     items_ = gpu::Buffer<std::array<uint32_t, 2>>(static_cast<size_t>(config_.partitions) * sorted_);
-    ranks_ = gpu::Buffer<uint32_t>(static_cast<size_t>(config_.partitions) * buffers.slot_count);
+    ranks_ = gpu::Buffer<uint32_t>(static_cast<size_t>(config_.partitions) * buffers.store.slot_count);
   }
   meet_ = stage("collision_meet.comp");
   push_ = stage("collision_push.comp");
@@ -63,7 +63,7 @@ void CollisionPass::bind() const {
 
 void CollisionPass::tell(const gpu::Program& program, const LatticeBuffers& buffers, const Substep& step) const {
   program.use();
-  program.set("active_count", static_cast<uint32_t>(buffers.active_count));
+  program.set("active_count", static_cast<uint32_t>(buffers.store.active_count));
   program.set("dt_s", step.dt_s);
   program.set("push_speed", step.push_speed_m_per_s);
   program.set("resting_speed", restingSpeed(step));
@@ -74,7 +74,7 @@ void CollisionPass::tell(const gpu::Program& program, const LatticeBuffers& buff
   program.set("partitions", static_cast<uint32_t>(config_.partitions));
   program.set("window", static_cast<uint32_t>(config_.window));
   program.set("sorted_count", sorted_);
-  program.set("slot_count", static_cast<uint32_t>(buffers.slot_count));
+  program.set("slot_count", static_cast<uint32_t>(buffers.store.slot_count));
 }
 
 void CollisionPass::dispatch(size_t count) const {
@@ -86,7 +86,7 @@ void CollisionPass::searchGrid(const LatticeBuffers& buffers, const Substep& ste
   buckets_.clear();
   for (const gpu::Program* stage : {&count_, &place_, &scatter_, &order_}) {
     tell(*stage, buffers, step);
-    dispatch(stage == &place_ ? bucket_count_ : buffers.active_count);
+    dispatch(stage == &place_ ? bucket_count_ : buffers.store.active_count);
   }
 }
 
@@ -110,7 +110,7 @@ void CollisionPass::searchStaggered(const LatticeBuffers& buffers, const Substep
 size_t CollisionPass::search(const LatticeBuffers& buffers, const Substep& step) const {
   if (config_.search == CollisionSearch::kGrid) {
     searchGrid(buffers, step);
-    return buffers.active_count;
+    return buffers.store.active_count;
   }
   searchStaggered(buffers, step);
   return sorted_;
@@ -126,7 +126,7 @@ void CollisionPass::run(const LatticeBuffers& buffers, const Substep& step) cons
 
 std::vector<CollisionPair> CollisionPass::findPairs(const LatticeBuffers& buffers) const {
   constexpr size_t kPerNode = 64;
-  const size_t most = kPerNode * buffers.active_count;
+  const size_t most = kPerNode * buffers.store.active_count;
   const gpu::Buffer<uint32_t> found(1 + 2 * most);
   buffers.bind();
   bind();

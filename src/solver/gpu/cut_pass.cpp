@@ -29,8 +29,8 @@ void CutPass::runOver(const Programs& programs, gpu::UniformName what, size_t co
 }
 
 void CutPass::run(const LatticeBuffers& buffers, uint32_t stylus, bool particles) const {
-  if (lattice_) runOver(*lattice_, "active_count", buffers.active_count, stylus, particles);
-  if (links_) runOver(*links_, "spring_count", buffers.springs.size(), stylus, particles);
+  if (lattice_) runOver(*lattice_, "active_count", buffers.store.active_count, stylus, particles);
+  if (links_) runOver(*links_, "spring_count", buffers.links.springs.size(), stylus, particles);
   if (torn_cells_) torn_cells_->run(buffers);
 }
 

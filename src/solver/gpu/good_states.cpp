@@ -16,8 +16,8 @@ GoodStates::GoodStates(size_t slots, int depth) {
 
 void GoodStates::save(const LatticeBuffers& buffers) {
   State& state = ring_[static_cast<size_t>(next_)];
-  state.displacement.copyFrom(buffers.displacement[buffers.current]);
-  state.velocity.copyFrom(buffers.velocity[buffers.current]);
+  state.displacement.copyFrom(buffers.state.displacement[buffers.state.current]);
+  state.velocity.copyFrom(buffers.state.velocity[buffers.state.current]);
   next_ = (next_ + 1) % static_cast<int>(ring_.size());
   kept_ = std::min(kept_ + 1, static_cast<int>(ring_.size()));
 }
@@ -28,10 +28,10 @@ void GoodStates::restore(LatticeBuffers& buffers, int back) {
   const int depth = static_cast<int>(ring_.size());
   next_ = (next_ - back + depth) % depth;
   kept_ -= back;
-  buffers.displacement[buffers.current].copyFrom(last().displacement);
-  buffers.velocity[buffers.current].copyFrom(last().velocity);
-  if (exhausted) buffers.velocity[buffers.current].clear();
-  if (buffers.compensation.size()) buffers.compensation.clear();
+  buffers.state.displacement[buffers.state.current].copyFrom(last().displacement);
+  buffers.state.velocity[buffers.state.current].copyFrom(last().velocity);
+  if (exhausted) buffers.state.velocity[buffers.state.current].clear();
+  if (buffers.state.compensation.size()) buffers.state.compensation.clear();
 }
 
 void GoodStates::bindLast() const {

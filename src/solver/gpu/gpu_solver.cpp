@@ -19,10 +19,10 @@ GpuSolver::GpuSolver(const Model& model, const Scene& scene, const GpuSolverOpti
       features_(featuresOf(model, scene, shortestSubstep_s(), options.group_size)),
       buffers_(model, bodyParams(model, dtSafe_s()), features_),
       stepper_(makeStepper(scene.solver.integrator, scene.solver.iterations, features_, buffers_)),
-      measure_(features_, buffers_.active_count),
+      measure_(features_, buffers_.store.active_count),
       stats_ring_(sizeof(layout::TickStats), kStatsInFlight) {
   if (governed()) {
-    recovery_.emplace(Recovery{GoodStates(buffers_.slot_count, kGoodStates + lag()), GuardPass(features_),
+    recovery_.emplace(Recovery{GoodStates(buffers_.store.slot_count, kGoodStates + lag()), GuardPass(features_),
                                makeRecoveryStepper(kRecoveryIterations, features_, buffers_)});
     recovery_->good.save(buffers_);
   }
@@ -30,7 +30,7 @@ GpuSolver::GpuSolver(const Model& model, const Scene& scene, const GpuSolverOpti
   if (hasTools()) {
     const size_t rows = static_cast<size_t>(mostSubsteps()) * layout::kMaxStyluses;
     tools_.emplace(Tools{gpu::Buffer<layout::ToolMotion>(rows), GrabPass(features_), CutPass(features_),
-                         ReactionPass(features_, buffers_.active_count)});
+                         ReactionPass(features_, buffers_.store.active_count)});
   }
 }
 
@@ -105,20 +105,21 @@ bool GpuSolver::takeStats(layout::TickStats& stats, bool wait) {
 
 StateView GpuSolver::state() const {
   StateView view;
-  view.displacement = buffers_.displacement[buffers_.current].id();
-  view.velocity = buffers_.velocity[buffers_.current].id();
-  view.nodes = buffers_.nodes.id();
-  view.bricks = buffers_.bricks.id();
-  view.bodies = buffers_.bodies.id();
-  view.rest = buffers_.rest.id();
-  view.spring_cut = buffers_.spring_cut.id();
+  view.displacement = buffers_.state.displacement[buffers_.state.current].id();
+  view.velocity = buffers_.state.velocity[buffers_.state.current].id();
+  view.nodes = buffers_.store.nodes.id();
+  view.bricks = buffers_.store.bricks.id();
+  view.bodies = buffers_.store.bodies.id();
+  view.rest = buffers_.links.rest.id();
+  view.spring_cut = buffers_.links.spring_cut.id();
   view.cut_revision = cutRevision();
   return view;
 }
 
 HostState GpuSolver::readState() const {
-  return {buffers_.displacement[buffers_.current].read(), buffers_.velocity[buffers_.current].read(),
-          buffers_.nodes.read(), buffers_.spring_cut.read()};
+  return {buffers_.state.displacement[buffers_.state.current].read(),
+          buffers_.state.velocity[buffers_.state.current].read(), buffers_.store.nodes.read(),
+          buffers_.links.spring_cut.read()};
 }
 
 void GpuSolver::resetState() {
@@ -126,11 +127,11 @@ void GpuSolver::resetState() {
 }
 
 void GpuSolver::loadState(const HostState& state) {
-  buffers_.displacement[buffers_.current].write(state.displacement_m);
-  buffers_.velocity[buffers_.current].write(state.velocity_m_per_s);
-  buffers_.nodes.write(state.nodes);
+  buffers_.state.displacement[buffers_.state.current].write(state.displacement_m);
+  buffers_.state.velocity[buffers_.state.current].write(state.velocity_m_per_s);
+  buffers_.store.nodes.write(state.nodes);
   buffers_.writeSpringCut(state.spring_cut);
-  if (buffers_.compensation.size()) buffers_.compensation.clear();
+  if (buffers_.state.compensation.size()) buffers_.state.compensation.clear();
   buffers_.bind();
 }
 
@@ -141,7 +142,7 @@ void GpuSolver::saveGood() {
 
 void GpuSolver::restoreGood(int back) {
   recovery_->good.restore(buffers_, back);
-  if (buffers_.impulses.size()) buffers_.impulses.clear();
+  if (buffers_.hands.impulses.size()) buffers_.hands.impulses.clear();
 }
 
 void GpuSolver::clearGood() {

@@ -10,7 +10,7 @@ GuardPass::GuardPass(const FeatureSet& features)
 void GuardPass::run(const LatticeBuffers& buffers, const Governor::Bounds& bounds, const ToolMotions& motions,
                     double tick_s) const {
   guard_.use();
-  guard_.set("active_count", static_cast<uint32_t>(buffers.active_count));
+  guard_.set("active_count", static_cast<uint32_t>(buffers.store.active_count));
   guard_.set("most_speed", static_cast<float>(bounds.speed_m_per_s));
   guard_.set("most_energy_j", static_cast<float>(bounds.energy_j));
   guard_.set("energy_margin", static_cast<float>(Governor::kEnergyMargin));
@@ -19,7 +19,7 @@ void GuardPass::run(const LatticeBuffers& buffers, const Governor::Bounds& bound
     tip_speed[s] = ((motions[s].to.position_m - motions[s].from.position_m) / tick_s).cast<float>();
   }
   guard_.setVectors("tip_speed", tip_speed[0].data(), 3, tip_speed.size());
-  gpu::Program::dispatch(buffers.active_count, group_size_);
+  gpu::Program::dispatch(buffers.store.active_count, group_size_);
   gpu::Program::storageBarrier();
 }
 

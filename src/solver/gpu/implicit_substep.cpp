@@ -24,7 +24,7 @@ std::vector<std::string> ImplicitSubstep::defines(const FeatureSet& features, co
 ImplicitSubstep::ImplicitSubstep(const FeatureSet& features, const LatticeBuffers& buffers, int iterations,
                                  int iterates)
     : guard(1 + 2 * static_cast<size_t>(iterations)),
-      energies_(kEnergiesPerNode * (buffers.active_count + sumTreeSize(buffers.active_count))),
+      energies_(kEnergiesPerNode * (buffers.store.active_count + sumTreeSize(buffers.store.active_count))),
       group_size_(features.group_size) {
   const auto stage = [&](const char* name, bool tools = false) {
     return gpu::Program::compute(name, defines(features, tools ? "TOOLS" : nullptr));
@@ -40,7 +40,7 @@ ImplicitSubstep::ImplicitSubstep(const FeatureSet& features, const LatticeBuffer
   }
   if (features.volume) cells_ = stage("implicit_cells.comp");
   for (int i = 0; i < iterates; ++i) {
-    increments_[i] = gpu::Buffer<layout::vec4>(buffers.slot_count);
+    increments_[i] = gpu::Buffer<layout::vec4>(buffers.store.slot_count);
     increment_texels_[i] = gpu::TexelView(increments_[i].raw(), gpu::TexelFormat::kRgba32f);
   }
 }
@@ -60,17 +60,17 @@ void ImplicitSubstep::updateVolumes(const LatticeBuffers& buffers, const Substep
   if (!cells_) return;
   const gpu::TimedStage timed(gpu::Stage::kVolume);
   cells_.use();
-  cells_.set("active_count", static_cast<uint32_t>(buffers.cells.size()));
+  cells_.set("active_count", static_cast<uint32_t>(buffers.store.cells.size()));
   cells_.set("dt_s", step.dt_s);
   cells_.set("iteration", static_cast<uint32_t>(iteration));
-  gpu::Program::dispatch(buffers.cells.size(), group_size_);
+  gpu::Program::dispatch(buffers.store.cells.size(), group_size_);
   gpu::Program::storageBarrier();
 }
 
 void ImplicitSubstep::runStage(const gpu::Program& stage, const LatticeBuffers& buffers, const Substep& step) const {
   stage.use();
   setSubstep(stage, buffers, step);
-  gpu::Program::dispatch(buffers.active_count, group_size_);
+  gpu::Program::dispatch(buffers.store.active_count, group_size_);
   gpu::Program::storageBarrier();
 }
 
@@ -93,7 +93,7 @@ void ImplicitSubstep::keepBestShare(const LatticeBuffers& buffers, const Substep
 
 void ImplicitSubstep::chooseShare(const LatticeBuffers& buffers, bool bound_energy) const {
   fold_.use();
-  forEachSumLevel(buffers.active_count, [&](size_t inputs, size_t input_first, size_t output_first, bool last) {
+  forEachSumLevel(buffers.store.active_count, [&](size_t inputs, size_t input_first, size_t output_first, bool last) {
     fold_.set("count", static_cast<uint32_t>(inputs));
     fold_.set("input_first", static_cast<uint32_t>(input_first));
     fold_.set("output_first", static_cast<uint32_t>(output_first));

@@ -20,7 +20,7 @@ void LeapfrogPass::run(LatticeBuffers& buffers, const Substep& step) {
   const gpu::Program& program = step.tools ? with_tools_ : plain_;
   program.use();
   setSubstep(program, buffers, step);
-  gpu::Program::dispatch(buffers.active_count, group_size_);
+  gpu::Program::dispatch(buffers.store.active_count, group_size_);
   gpu::Program::storageBarrier();
 }
 

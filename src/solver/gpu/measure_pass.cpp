@@ -28,15 +28,15 @@ void MeasurePass::run(const LatticeBuffers& buffers) const {
   clear(offsetof(layout::TickStats, nonfinite), sizeof(layout::TickStats));
   energies_.bindStorage(layout::kBindPartials);
   measure_.use();
-  measure_.set("count", static_cast<uint32_t>(buffers.active_count));
-  gpu::Program::dispatch(buffers.active_count, group_size_);
+  measure_.set("count", static_cast<uint32_t>(buffers.store.active_count));
+  gpu::Program::dispatch(buffers.store.active_count, group_size_);
   gpu::Program::storageBarrier();
   sumEnergies(buffers);
 }
 
 void MeasurePass::sumEnergies(const LatticeBuffers& buffers) const {
   fold_.use();
-  forEachSumLevel(buffers.active_count, [&](size_t inputs, size_t input_first, size_t output_first, bool last) {
+  forEachSumLevel(buffers.store.active_count, [&](size_t inputs, size_t input_first, size_t output_first, bool last) {
     fold_.set("count", static_cast<uint32_t>(inputs));
     fold_.set("input_first", static_cast<uint32_t>(input_first));
     fold_.set("output_first", static_cast<uint32_t>(output_first));

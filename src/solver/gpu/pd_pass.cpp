@@ -22,8 +22,8 @@ void PdPass::findRates(const FeatureSet& features, const LatticeBuffers& buffers
   buffers.bind();
   rates.bindStorage(layout::kBindGuard);
   rate.use();
-  rate.set("active_count", static_cast<uint32_t>(buffers.active_count));
-  gpu::Program::dispatch(buffers.active_count, group_size_);
+  rate.set("active_count", static_cast<uint32_t>(buffers.store.active_count));
+  gpu::Program::dispatch(buffers.store.active_count, group_size_);
   const std::vector<float> found = rates.read();
   stiffness_rate_per_s2_ = found[0];
   damping_rate_per_s_ = found[1];
@@ -47,7 +47,7 @@ void PdPass::run(LatticeBuffers& buffers, const Substep& step) {
     setSubstep(sweep_, buffers, plain);
     sweep_.set("iteration", static_cast<uint32_t>(iteration));
     sweep_.set("omega", static_cast<float>(weight));
-    gpu::Program::dispatch(buffers.active_count, group_size_);
+    gpu::Program::dispatch(buffers.store.active_count, group_size_);
     gpu::Program::storageBarrier();
     implicit_.swap();
   }

@@ -17,7 +17,7 @@ ReactionPass::ReactionPass(const FeatureSet& features, size_t active_count)
 
 void ReactionPass::run(const LatticeBuffers& buffers, const std::array<Vector3f, layout::kMaxStyluses>& tips) const {
   partials_.bindStorage(layout::kBindPartials);
-  size_t inputs = buffers.active_count, input_first = 0, output_first = 0;
+  size_t inputs = buffers.store.active_count, input_first = 0, output_first = 0;
   for (bool first = true; first || inputs > 1; first = false) {
     const size_t outputs = sumRuns(inputs);
     const gpu::Program& program = first ? leaves_ : fold_;
@@ -27,7 +27,7 @@ void ReactionPass::run(const LatticeBuffers& buffers, const std::array<Vector3f,
     program.set("output_first", static_cast<uint32_t>(output_first));
     program.set("last_level", outputs == 1 ? 1u : 0u);
     if (first) {
-      program.set("slot_count", static_cast<uint32_t>(buffers.slot_count));
+      program.set("slot_count", static_cast<uint32_t>(buffers.store.slot_count));
       program.setVectors("tips", tips[0].data(), 3, tips.size());
     }
     gpu::Program::dispatch(outputs, group_size_);

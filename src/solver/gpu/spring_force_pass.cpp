@@ -9,8 +9,8 @@ SpringForcePass::SpringForcePass(const FeatureSet& features)
 
 void SpringForcePass::run(const LatticeBuffers& buffers) const {
   forces_.use();
-  forces_.set("owner_count", static_cast<uint32_t>(buffers.spring_owners.size()));
-  gpu::Program::dispatch(buffers.spring_owners.size(), group_size_);
+  forces_.set("owner_count", static_cast<uint32_t>(buffers.links.spring_owners.size()));
+  gpu::Program::dispatch(buffers.links.spring_owners.size(), group_size_);
   gpu::Program::storageBarrier();
 }
 

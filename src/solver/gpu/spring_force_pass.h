@@ -13,7 +13,7 @@ namespace viscera {
 class SpringForcePass {
  public:
   explicit SpringForcePass(const FeatureSet& features);
-  /// Leaves in buffers.link_forces what the springs do to each node, in parts (EdgeForces).
+  /// Leaves in buffers.links.link_forces what the springs do to each node, in parts (EdgeForces).
   void run(const LatticeBuffers& buffers) const;
 
  private:

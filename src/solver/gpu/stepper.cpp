@@ -33,13 +33,13 @@ std::unique_ptr<Stepper> makeRecoveryStepper(int iterations, const FeatureSet& f
 }
 
 void setSubstep(const gpu::Program& program, const LatticeBuffers& buffers, const Substep& step) {
-  program.set("active_count", static_cast<uint32_t>(buffers.active_count));
+  program.set("active_count", static_cast<uint32_t>(buffers.store.active_count));
   program.set("dt_s", step.dt_s);
   program.set("kick_s", step.kick_s);
   program.set("gravity", {step.gravity.x(), step.gravity.y(), step.gravity.z()});
   program.set("sleep_distance_m", step.sleep_distance_m);
   if (!step.tools) return;
-  program.set("slot_count", static_cast<uint32_t>(buffers.slot_count));
+  program.set("slot_count", static_cast<uint32_t>(buffers.store.slot_count));
   program.set("push_speed", step.push_speed_m_per_s);
 }
 

@@ -52,14 +52,14 @@ void SurroundingsPass::run(LatticeBuffers& buffers, const Substep& step, const S
                            layout::kMaxObstacles);
   }
   program_.use();
-  program_.set("active_count", static_cast<uint32_t>(buffers.active_count));
+  program_.set("active_count", static_cast<uint32_t>(buffers.store.active_count));
   program_.set("dt_s", step.dt_s);
   program_.set("push_speed", step.push_speed_m_per_s);
   program_.set("resting_speed", restingSpeed(step));
   program_.set("obstacle_count", static_cast<uint32_t>(surroundings.obstacleCount()));
   const float air = 0.5f * static_cast<float>(wind_.air_density_kg_per_m3 * wind_.drag_coefficient);
   program_.set("air", {now.wind_m_per_s.x(), now.wind_m_per_s.y(), now.wind_m_per_s.z(), air});
-  gpu::Program::dispatch(buffers.active_count, group_size_);
+  gpu::Program::dispatch(buffers.store.active_count, group_size_);
   gpu::Program::storageBarrier();
   buffers.swap();
 }

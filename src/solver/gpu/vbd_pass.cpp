@@ -13,7 +13,7 @@ VbdPass::VbdPass(const FeatureSet& features, const LatticeBuffers& buffers, int 
       sweep_(gpu::Program::compute("vbd.comp", ImplicitSubstep::defines(features))),
       iterations_(iterations),
       group_size_(features.group_size) {
-  Coloured coloured = byColour(buffers.active.read(), features.volume, buffers.network);
+  Coloured coloured = byColour(buffers.store.active.read(), features.volume, buffers.links.network);
   by_colour_ = gpu::Buffer<uint32_t>(coloured.slots);
   colours_ = std::move(coloured.colours);
 }
@@ -33,7 +33,7 @@ void VbdPass::run(LatticeBuffers& buffers, const Substep& step) {
       gpu::Program::storageBarrier();
     }
   }
-  buffers.active.bindStorage(layout::kBindActive);
+  buffers.store.active.bindStorage(layout::kBindActive);
   implicit_.end(buffers, step);
 }
 

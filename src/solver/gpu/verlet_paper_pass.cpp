@@ -19,7 +19,7 @@ VerletPaperPass::VerletPaperPass(const FeatureSet& features, const LatticeBuffer
   if (features.tools) with_tools_ = variant("TOOLS");
   if (features.volume) volume_.emplace(features);
   for (int i = 0; i < 2; ++i) {
-    positions_[i] = gpu::Buffer<layout::vec4>(buffers.slot_count);
+    positions_[i] = gpu::Buffer<layout::vec4>(buffers.store.slot_count);
     position_texels_[i] = gpu::TexelView(positions_[i].raw(), gpu::TexelFormat::kRgba32f);
   }
 }
@@ -31,7 +31,7 @@ void VerletPaperPass::rebuild(const LatticeBuffers& buffers, const Substep& step
   Substep plain = step;
   plain.tools = false;  // this kernel knows of none
   setSubstep(rebuild_, buffers, plain);
-  gpu::Program::dispatch(buffers.active_count, group_size_);
+  gpu::Program::dispatch(buffers.store.active_count, group_size_);
   gpu::Program::storageBarrier();
 }
 
@@ -44,7 +44,7 @@ void VerletPaperPass::run(LatticeBuffers& buffers, const Substep& step) {
   const gpu::Program& program = step.tools ? with_tools_ : plain_;
   program.use();
   setSubstep(program, buffers, step);
-  gpu::Program::dispatch(buffers.active_count, group_size_);
+  gpu::Program::dispatch(buffers.store.active_count, group_size_);
   gpu::Program::storageBarrier();
   current_ = 1 - current_;
 }

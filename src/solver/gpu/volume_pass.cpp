@@ -10,8 +10,8 @@ namespace {
 
 void dispatchCells(const gpu::Program& program, const LatticeBuffers& buffers, uint32_t group_size) {
   program.use();
-  program.set("cell_count", static_cast<uint32_t>(buffers.cells.size()));
-  gpu::Program::dispatch(buffers.cells.size(), group_size);
+  program.set("cell_count", static_cast<uint32_t>(buffers.store.cells.size()));
+  gpu::Program::dispatch(buffers.store.cells.size(), group_size);
   gpu::Program::storageBarrier();
 }
 

@@ -7,6 +7,7 @@
 #include "solver/cpu/thread_pool.h"
 #include "solver/substeps.h"
 #include "support/backends.h"
+#include "support/features.h"
 #include "support/loose_cloth.h"
 
 using namespace viscera;
@@ -26,7 +27,7 @@ struct Crowd {
             modelOf({looseCloth(16, 16, kSpacing_m), looseCloth(12, 12, kSpacing_m), boxBody({4, 4, 4}, kSpacing_m)})),
         scene(sceneFor(model, 1)),
         surroundings((scene.collision.enabled = true, model), scene) {
-    surroundings.beginTick(kDt_s, 1);
+    surroundings.beginTick(kDt_s, 1, {});
   }
   HostState start() const {
     std::mt19937 random(17);
@@ -52,15 +53,17 @@ class Trial {
  public:
   Trial(const Crowd& crowd, const Parallel& parallel, double margin)
       : crowd_(crowd),
-        lattice_(crowd.model, bodyParams(crowd.model, kDt_s), false),
+        lattice_(crowd.model, bodyParams(crowd.model, kDt_s), featuresFor(crowd.model, false)),
         contacts_(crowd.model, crowd.scene, lattice_, parallel, margin) {
     lattice_.write(crowd.start());
   }
   /// What an integrator without forces does, then contacts.
   void substep() {
-    const AlignedVector<float>&u = lattice_.displacement[lattice_.current], &v = lattice_.velocity[lattice_.current];
-    for (size_t i = 0; i < u.size(); ++i) lattice_.displacement[1 - lattice_.current][i] = u[i] + kDt_s * v[i];
-    lattice_.velocity[1 - lattice_.current] = v;
+    const AlignedVector<float>&u = lattice_.state.displacement[lattice_.state.current],
+          &v = lattice_.state.velocity[lattice_.state.current];
+    for (size_t i = 0; i < u.size(); ++i)
+      lattice_.state.displacement[1 - lattice_.state.current][i] = u[i] + kDt_s * v[i];
+    lattice_.state.velocity[1 - lattice_.state.current] = v;
     lattice_.swap();
     Substep step;
     step.dt_s = step.kick_s = kDt_s;
@@ -70,24 +73,26 @@ class Trial {
   /// What happens to tissue in the course of a scene.
   void disturb(int substep) {
     const uint32_t box = crowd_.model.slotOffset(2), cloth = crowd_.model.slotOffset(1);
-    if (substep == 60) lattice_.nodes[box + inside()].lo |= layout::kSeveredBit;
+    if (substep == 60) lattice_.store.nodes[box + inside()].lo |= layout::kSeveredBit;
     if (substep == 90) {
-      lattice_.nodes[cloth + 7].lo &= ~layout::kAxialMask;  // alone
-      lattice_.nodes[cloth + 7].hi &= ~layout::kDiagonalMask;
+      lattice_.store.nodes[cloth + 7].lo &= ~layout::kAxialMask;  // alone
+      lattice_.store.nodes[cloth + 7].hi &= ~layout::kDiagonalMask;
     }
     if (substep == 120) move(9, 0.02f);
     if (substep == 150) move(11, std::numeric_limits<float>::quiet_NaN());
   }
   std::vector<CollisionPair> pairs() { return contacts_.findPairs(lattice_); }
   bool sameBitsAs(const Trial& other) const {
-    return sameBits(lattice_.displacement[lattice_.current], other.lattice_.displacement[other.lattice_.current]) &&
-           sameBits(lattice_.velocity[lattice_.current], other.lattice_.velocity[other.lattice_.current]);
+    return sameBits(lattice_.state.displacement[lattice_.state.current],
+                    other.lattice_.state.displacement[other.lattice_.state.current]) &&
+           sameBits(lattice_.state.velocity[lattice_.state.current],
+                    other.lattice_.state.velocity[other.lattice_.state.current]);
   }
   size_t searches() const { return contacts_.searches(); }
 
  private:
   uint32_t inside() const { return static_cast<uint32_t>(crowd_.model.bodies[2].lattice.slotAt({2, 2, 2})); }
-  void move(uint32_t slot, float by_m) { lattice_.displacement[lattice_.current][vectorAt(slot)] += by_m; }
+  void move(uint32_t slot, float by_m) { lattice_.state.displacement[lattice_.state.current][vectorAt(slot)] += by_m; }
   static bool sameBits(const AlignedVector<float>& a, const AlignedVector<float>& b) {
     return std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
   }

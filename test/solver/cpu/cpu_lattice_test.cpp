@@ -24,14 +24,14 @@ Model twoBodies() {
 /// Stiffness of any spring as the kernels find it: odd ones at their far end.
 float stiffness(const CpuLattice& lattice, const ReferenceLattice& reference, uint32_t slot, uint32_t spring) {
   const uint32_t owner = spring % 2 ? reference.farEnd(slot, spring) : slot;
-  return lattice.stiffness[stiffnessAt(owner, spring / 2)];
+  return lattice.strengths.stiffness[stiffnessAt(owner, spring / 2)];
 }
 
 void expectSameStrengths(const CpuLattice& lattice, const ReferenceLattice& reference) {
-  ASSERT_EQ(lattice.active, reference.active);
+  ASSERT_EQ(lattice.store.active, reference.active);
   for (uint32_t slot : reference.active) {
-    ASSERT_FLOAT_EQ(lattice.mass[slot], static_cast<float>(reference.mass(slot)));
-    const float bulk = lattice.bulk.empty() ? 0 : lattice.bulk[slot];
+    ASSERT_FLOAT_EQ(lattice.strengths.mass[slot], static_cast<float>(reference.mass(slot)));
+    const float bulk = lattice.strengths.bulk.empty() ? 0 : lattice.strengths.bulk[slot];
     ASSERT_FLOAT_EQ(bulk, static_cast<float>(reference.bulk(slot)));
     for (uint32_t s = 0; s < layout::kSpringsPerNode; ++s) {
       const float expected = static_cast<float>(reference.stiffness(slot, s));
@@ -67,11 +67,11 @@ TEST(CpuLattice, HasVectorsOneComponentAfterTheOtherBrickByBrick) {
   CpuLattice lattice = latticeOf(model);
   const HostState state = randomState(model, 1e-3, 0.5, 3);
   lattice.write(state);
-  for (uint32_t slot : lattice.active) {
+  for (uint32_t slot : lattice.store.active) {
     const size_t first = slot / 64 * 192 + slot % 64;
-    EXPECT_EQ(lattice.displacement[0][first], state.displacement_m[slot].x);
-    EXPECT_EQ(lattice.displacement[0][first + 64], state.displacement_m[slot].y);
-    EXPECT_EQ(lattice.velocity[0][first + 128], state.velocity_m_per_s[slot].z);
+    EXPECT_EQ(lattice.state.displacement[0][first], state.displacement_m[slot].x);
+    EXPECT_EQ(lattice.state.displacement[0][first + 64], state.displacement_m[slot].y);
+    EXPECT_EQ(lattice.state.velocity[0][first + 128], state.velocity_m_per_s[slot].z);
   }
 }
 
@@ -85,18 +85,18 @@ TEST(CpuLattice, HasTheStrengthsOfCellsOfPartsAndOfOtherBodies) {
 
 TEST(CpuLattice, HasNoBulkWithoutEnergyOfVolumeAndNoRoomForStylusesThatAreNot) {
   CpuLattice lattice = latticeOf(twoBodies());
-  EXPECT_TRUE(lattice.bulk.empty());
-  EXPECT_TRUE(lattice.grab_offsets.empty() && lattice.impulses.empty() && lattice.touched.empty());
-  EXPECT_EQ(latticeOf(twoBodies(), true).impulses.size(), 2 * lattice.slotCount());
+  EXPECT_TRUE(lattice.strengths.bulk.empty());
+  EXPECT_TRUE(lattice.hands.grab_offsets.empty() && lattice.hands.impulses.empty() && lattice.hands.touched.empty());
+  EXPECT_EQ(latticeOf(twoBodies(), true).hands.impulses.size(), 2 * lattice.slotCount());
 }
 
 TEST(CpuLattice, KnowsTheNodesOfEveryBrick) {
   const CpuLattice lattice = latticeOf(twoBodies());
-  ASSERT_EQ(lattice.first_active.size(), lattice.brickCount() + 1);
-  EXPECT_EQ(lattice.first_active.back(), lattice.active.size());
+  ASSERT_EQ(lattice.store.first_active.size(), lattice.brickCount() + 1);
+  EXPECT_EQ(lattice.store.first_active.back(), lattice.store.active.size());
   for (uint32_t b = 0; b < lattice.brickCount(); ++b) {
-    for (uint32_t i = lattice.first_active[b]; i < lattice.first_active[b + 1]; ++i)
-      EXPECT_EQ(lattice.active[i] / layout::kBrickSlots, b);
+    for (uint32_t i = lattice.store.first_active[b]; i < lattice.store.first_active[b + 1]; ++i)
+      EXPECT_EQ(lattice.store.active[i] / layout::kBrickSlots, b);
   }
 }
 
@@ -114,36 +114,36 @@ TEST(CpuLattice, GivesACutSpringNoStiffnessFromBothEnds) {
       EXPECT_GT(stiffness(lattice, reference, slot, s), 0);
       reference.eraseSpring(slot, s);
       for (uint32_t end : {slot, other}) {
-        lattice.nodes[end] = reference.nodes[end];
+        lattice.store.nodes[end] = reference.nodes[end];
         lattice.refresh(end);
       }
       EXPECT_EQ(stiffness(lattice, reference, slot, s), 0);
       EXPECT_EQ(stiffness(lattice, reference, other, oppositeSpring(s)), 0);
     }
     EXPECT_GT(cut, 0u);
-    for (uint32_t other : lattice.active) {  // the cells that were torn
-      lattice.nodes[other] = reference.nodes[other];
+    for (uint32_t other : lattice.store.active) {  // the cells that were torn
+      lattice.store.nodes[other] = reference.nodes[other];
       lattice.refresh(other);
     }
     expectSameStrengths(lattice, reference);
-    EXPECT_EQ(lattice.mobility[slot], 0);  // alone now
+    EXPECT_EQ(lattice.strengths.mobility[slot], 0);  // alone now
     lattice.reset();
     expectSameStrengths(lattice, ReferenceLattice(model));
-    EXPECT_FLOAT_EQ(lattice.mobility[slot], 1 / lattice.mass[slot]);
+    EXPECT_FLOAT_EQ(lattice.strengths.mobility[slot], 1 / lattice.strengths.mass[slot]);
   }
 }
 
 TEST(CpuLattice, LetsAllButFixedNodesMove) {
   const Model model = twoBodies();
   CpuLattice lattice = latticeOf(model, true);
-  const uint32_t fixed = lattice.active[7], held = lattice.active[8];
-  lattice.nodes[held].lo |= 1u << layout::kGrabShift;
+  const uint32_t fixed = lattice.store.active[7], held = lattice.store.active[8];
+  lattice.store.nodes[held].lo |= 1u << layout::kGrabShift;
   lattice.refresh(held);
   size_t mobile = 0;
-  for (uint32_t slot = 0; slot < lattice.slotCount(); ++slot) mobile += lattice.mobility[slot] > 0;
-  EXPECT_EQ(mobile, lattice.active.size() - 1);
-  EXPECT_EQ(lattice.mobility[fixed], 0);
-  EXPECT_GT(lattice.mobility[held], 0);  // where it goes is its stylus' affair, but it feels forces
+  for (uint32_t slot = 0; slot < lattice.slotCount(); ++slot) mobile += lattice.strengths.mobility[slot] > 0;
+  EXPECT_EQ(mobile, lattice.store.active.size() - 1);
+  EXPECT_EQ(lattice.strengths.mobility[fixed], 0);
+  EXPECT_GT(lattice.strengths.mobility[held], 0);  // where it goes is its stylus' affair, but it feels forces
 }
 
 TEST(CpuLattice, IsAtRestAfterReset) {
@@ -151,14 +151,28 @@ TEST(CpuLattice, IsAtRestAfterReset) {
   CpuLattice lattice = latticeOf(model, true);
   lattice.write(randomState(model, 1e-3, 0.5, 3));
   lattice.swap();
-  lattice.impulses[5] = {1, 2, 3, 4};
-  lattice.touched[0] = 1;
+  lattice.hands.impulses[5] = {1, 2, 3, 4};
+  lattice.hands.touched[0] = 1;
   lattice.reset();
   const HostState rest = restState(model), state = lattice.read();
   for (size_t slot = 0; slot < model.slots(); ++slot) {
     EXPECT_TRUE(sameBits(state.displacement_m[slot], {}) && sameBits(state.velocity_m_per_s[slot], {}));
     EXPECT_EQ(state.nodes[slot].lo, rest.nodes[slot].lo);
   }
-  EXPECT_EQ(lattice.impulses[5].w, 0);
-  EXPECT_EQ(lattice.touched[0], 0);
+  EXPECT_EQ(lattice.hands.impulses[5].w, 0);
+  EXPECT_EQ(lattice.hands.touched[0], 0);
+}
+
+TEST(CpuLattice, StoreAndStrengthsStandWithoutAState) {  // as a level of a multigrid has them
+  const Model model = twoBodies();
+  const CpuLattice lattice = latticeOf(model);
+  CpuStore store(model, bodyParams(model, safeTimeStep(model)));
+  CpuStrengths strengths(model, store, featuresFor(model, false), {});
+  EXPECT_EQ(strengths.stiffness, lattice.strengths.stiffness);
+  EXPECT_EQ(strengths.mobility, lattice.strengths.mobility);
+  const uint32_t slot = store.active[20];
+  store.nodes[slot].lo |= layout::kFixedBit;
+  strengths.refresh(store, slot);
+  EXPECT_GT(lattice.strengths.mobility[slot], 0);
+  EXPECT_EQ(strengths.mobility[slot], 0);
 }

@@ -264,7 +264,7 @@ TEST(CpuPd, AccelerationThatGoesWrongIsGivenUpAndStartsAnew) {
     return rig.lattice.read().displacement_m;
   };
   const auto wrong = end({200, true, 1.05}, true), plain = end({200, false}, false);  // no spectrum allows 1.05
-  for (uint32_t slot : rig.lattice.active)  // it lost the few sweeps before it gave up, no more
+  for (uint32_t slot : rig.lattice.store.active)  // it lost the few sweeps before it gave up, no more
     EXPECT_LT((xyz(wrong[slot]) - xyz(plain[slot])).norm(), 1e-3 * 5e-4);
 }
 

@@ -70,7 +70,7 @@ class CpuTools : public ::testing::Test {
   /// Everything displaced and moving alike: no force acts, and a substep is what tools do in it.
   HostState drifting(const Vector3d& u_m, const Vector3d& v_m_per_s) {
     HostState state = restState(model_);
-    for (uint32_t slot : lattice_.active) {
+    for (uint32_t slot : lattice_.store.active) {
       if (isFixed(state.nodes[slot])) state.nodes[slot].lo &= ~layout::kFixedBit;
       state.displacement_m[slot] = vec4(u_m);
       state.velocity_m_per_s[slot] = vec4(v_m_per_s);
@@ -84,7 +84,7 @@ class CpuTools : public ::testing::Test {
     const HostState before = lattice_.read();
     HostState after = before;
     size_t moved = 0;
-    for (uint32_t slot : lattice_.active) {
+    for (uint32_t slot : lattice_.store.active) {
       const Vector3d u = xyz(before.displacement_m[slot]), v = xyz(before.velocity_m_per_s[slot]);
       Vector3f u_next = single(u + static_cast<double>(kDt_s) * v), v_next = single(v);
       const Vector3f v_free = v_next;
@@ -130,7 +130,8 @@ TEST_F(CpuTools, ProbesPushNodesLikeTheReferences) {
     for (size_t s = 0; s < 2; ++s) {
       const Vector3d truth = reference_.impulse_n_s[s];
       // Roundings of velocities, times the mass of a node, for every node touched.
-      const double allowed = 3 * kVelocity_m_per_s * static_cast<double>(lattice_.mass[lattice_.active[60]]);
+      const double allowed =
+          3 * kVelocity_m_per_s * static_cast<double>(lattice_.strengths.mass[lattice_.store.active[60]]);
       EXPECT_LT((xyz(stats.impulse[s]) - truth).norm(), allowed * (1 + stats.touched[s]));
     }
   }
@@ -143,11 +144,11 @@ TEST_F(CpuTools, HeldNodesFollowTheirStylusLikeTheReferences) {
   takeHold(lattice_, 1, start, 0.013);
   reference_.takeHold(1, start, 0.013);
   size_t held = 0;
-  for (uint32_t slot : lattice_.active) {
-    EXPECT_EQ(lattice_.nodes[slot].lo, reference_.nodes[slot].lo);
+  for (uint32_t slot : lattice_.store.active) {
+    EXPECT_EQ(lattice_.store.nodes[slot].lo, reference_.nodes[slot].lo);
     if (reference_.heldBy(slot) != 2) continue;
     ++held;
-    EXPECT_GT(lattice_.mobility[slot], 0);
+    EXPECT_GT(lattice_.strengths.mobility[slot], 0);
   }
   EXPECT_GT(held, 3u);
   const layout::ToolMotion motion = row(ToolMode::kGrab, start, at({0.032, 0.03, 0.07}, {20, 20, 50}));
@@ -161,15 +162,15 @@ TEST_F(CpuTools, ReleasedNodesAreFreeAndNoFasterThanTheReleaseSpeed) {
   write(drifting(Vector3d::Zero(), Vector3d(0, 0.5, 0)));
   const Pose pose = at({0.03, 0.03, 0.06});
   takeHold(lattice_, 0, pose, 0.012);
-  const std::vector<layout::NodeBits> held = lattice_.nodes;
+  const std::vector<layout::NodeBits> held = lattice_.store.nodes;
   letGo(lattice_, 1, {0.1}, {});  // the other stylus holds nothing
-  EXPECT_EQ(lattice_.nodes[lattice_.active[0]].lo, held[lattice_.active[0]].lo);
+  EXPECT_EQ(lattice_.store.nodes[lattice_.store.active[0]].lo, held[lattice_.store.active[0]].lo);
   letGo(lattice_, 0, {0.1}, {});
   const HostState state = lattice_.read();
   size_t slowed = 0;
-  for (uint32_t slot : lattice_.active) {
-    EXPECT_EQ(lattice_.nodes[slot].lo & layout::kGrabMask, 0u);
-    EXPECT_FLOAT_EQ(lattice_.mobility[slot], 1 / lattice_.mass[slot]);
+  for (uint32_t slot : lattice_.store.active) {
+    EXPECT_EQ(lattice_.store.nodes[slot].lo & layout::kGrabMask, 0u);
+    EXPECT_FLOAT_EQ(lattice_.strengths.mobility[slot], 1 / lattice_.strengths.mass[slot]);
     const bool was_held = (held[slot].lo & layout::kGrabMask) != 0;
     slowed += was_held;
     EXPECT_FLOAT_EQ(state.velocity_m_per_s[slot].y, was_held ? 0.1f : 0.5f);
@@ -181,10 +182,10 @@ TEST_F(CpuTools, HoldNeitherFixedNodesNorWhatAnotherStylusHolds) {
   write(restState(model_));
   const Pose low = at({0.03, 0.03, 0.005});
   takeHold(lattice_, 0, low, 0.012);
-  const std::vector<layout::NodeBits> first = lattice_.nodes;
+  const std::vector<layout::NodeBits> first = lattice_.store.nodes;
   takeHold(lattice_, 1, low, 0.012);
-  for (uint32_t slot : lattice_.active) {
-    EXPECT_EQ(lattice_.nodes[slot].lo, first[slot].lo);
+  for (uint32_t slot : lattice_.store.active) {
+    EXPECT_EQ(lattice_.store.nodes[slot].lo, first[slot].lo);
     EXPECT_FALSE(isFixed(first[slot]) && (first[slot].lo & layout::kGrabMask) != 0) << slot;
   }
 }
@@ -196,24 +197,25 @@ TEST_F(CpuTools, CutTheSpringsAndCellsThatTheReferenceCuts) {
   for (int t = 0; t < 60; ++t) {
     SCOPED_TRACE(t);
     HostState state = randomState(model_, 2e-3, 0, static_cast<uint32_t>(t));
-    if (t % 10 != 0) state.nodes = lattice_.nodes;  // cuts add up, then all is whole again
+    if (t % 10 != 0) state.nodes = lattice_.store.nodes;  // cuts add up, then all is whole again
     write(state);
     const Vector3d turns(angle(random), angle(random), angle(random));
     const Vector3d from = Vector3d::Constant(0.03) + randomVector(random, 0.08);
     const ToolMode mode = t % 5 == 4 ? ToolMode::kCutParticles : ToolMode::kCut;
     cut += cutBoth(row(mode, at(from, turns), at(from + randomVector(random, 0.05), turns + randomVector(random, 20))));
     const CpuLattice fresh = [&] {
-      CpuLattice out(model_, lattice_.bodies, featuresFor(model_, true));
+      CpuLattice out(model_, lattice_.store.bodies, featuresFor(model_, true));
       out.write(lattice_.read());
       return out;
     }();
-    for (uint32_t slot : lattice_.active) {
-      ASSERT_EQ(lattice_.nodes[slot].lo, reference_.nodes[slot].lo) << slot;
-      ASSERT_EQ(lattice_.nodes[slot].hi, reference_.nodes[slot].hi) << slot;
-      ASSERT_EQ(lattice_.mobility[slot], fresh.mobility[slot]);
-      ASSERT_EQ(lattice_.bulk[slot], fresh.bulk[slot]);
+    for (uint32_t slot : lattice_.store.active) {
+      ASSERT_EQ(lattice_.store.nodes[slot].lo, reference_.nodes[slot].lo) << slot;
+      ASSERT_EQ(lattice_.store.nodes[slot].hi, reference_.nodes[slot].hi) << slot;
+      ASSERT_EQ(lattice_.strengths.mobility[slot], fresh.strengths.mobility[slot]);
+      ASSERT_EQ(lattice_.strengths.bulk[slot], fresh.strengths.bulk[slot]);
     }
-    ASSERT_EQ(lattice_.stiffness, fresh.stiffness);  // what is derived from the bits was kept up with them
+    ASSERT_EQ(lattice_.strengths.stiffness,
+              fresh.strengths.stiffness);  // what is derived from the bits was kept up with them
   }
   EXPECT_GT(cut, 500u);
   EXPECT_EQ(cut, reference_.springs_cut);
@@ -229,7 +231,7 @@ TEST_F(CpuTools, LookOnlyAtBricksThatTheBladeMayReach) {
   EXPECT_GT(cut.bricks().size(), 0u);
   EXPECT_LT(cut.bricks().size(), lattice.brickCount());
   HostState state = restState(model);  // tissue that was pulled away is looked for where it is
-  for (uint32_t slot : lattice.active) state.displacement_m[slot].x = 1;
+  for (uint32_t slot : lattice.store.active) state.displacement_m[slot].x = 1;
   lattice.write(state);
   EXPECT_EQ(cut.run(lattice, motion, false), 0u);
   EXPECT_EQ(cut.bricks().size(), 0u);
@@ -261,10 +263,10 @@ TEST_F(CpuTools, ReactionsAreSummedOnceAndThenForgotten) {
   write(drifting(Vector3d::Zero(), Vector3d(0, 0, 1)));
   const Vector3d tip(0.03, 0.03, 0.07);
   expectSameSubstep({row(ToolMode::kProbe, at(tip), at(tip)), {}});
-  const std::vector<layout::vec4> given = lattice_.impulses;
+  const std::vector<layout::vec4> given = lattice_.hands.impulses;
   const HostState state = lattice_.read();
   Vector3d impulse = Vector3d::Zero(), angular = Vector3d::Zero();
-  for (uint32_t slot : lattice_.active) {
+  for (uint32_t slot : lattice_.store.active) {
     impulse += xyz(given[slot]);
     angular += (reference_.restPosition(slot) + xyz(state.displacement_m[slot]) - tip).cross(xyz(given[slot]));
   }

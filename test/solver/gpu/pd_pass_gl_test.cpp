@@ -25,14 +25,14 @@ class PdAlone {
   }
   /// From the start.
   HostState run(Stepper& pass) {
-    buffers_.displacement[buffers_.current].write(start_.displacement_m);
-    buffers_.velocity[buffers_.current].write(start_.velocity_m_per_s);
+    buffers_.state.displacement[buffers_.state.current].write(start_.displacement_m);
+    buffers_.state.velocity[buffers_.state.current].write(start_.velocity_m_per_s);
     buffers_.bind();
     pass.run(buffers_, step_);
     buffers_.swap();
-    return {buffers_.displacement[buffers_.current].read(),
-            buffers_.velocity[buffers_.current].read(),
-            buffers_.nodes.read(),
+    return {buffers_.state.displacement[buffers_.state.current].read(),
+            buffers_.state.velocity[buffers_.state.current].read(),
+            buffers_.store.nodes.read(),
             {}};
   }
   float dt_s() const { return step_.dt_s; }

@@ -1,0 +1,128 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solver/cpu/cpu_strengths.h"
+
+#include <algorithm>
+#include <array>
+
+#include "solver/joined_lattice.h"
+#include "viscera/solver/material.h"
+
+namespace viscera {
+
+namespace {
+
+bool isAlone(const layout::NodeBits& bits) {
+  return (bits.lo & layout::kAxialMask) == 0 && (bits.hi & layout::kDiagonalMask) == 0;
+}
+
+/// Slot of the neighbour at an offset, whose brick must be there (shaders/solver/lattice.glsl).
+uint32_t neighborSlot(const std::vector<layout::Brick>& bricks, uint32_t slot, const std::array<int, 3>& offset) {
+  int direction = 0, inside = 0;
+  constexpr int kDirection[3] = {1, 3, 9}, kShift[3] = {0, 2, 4};
+  for (int axis = 0; axis < 3; ++axis) {
+    const int at = static_cast<int>(slot >> kShift[axis] & 3) + offset[static_cast<size_t>(axis)];  // -1 .. 4
+    direction += kDirection[axis] * ((at + 4) >> 2);
+    inside |= (at & 3) << kShift[axis];
+  }
+  const layout::Brick& brick = bricks[slot / layout::kBrickSlots];
+  return brick.neighbors[direction] * layout::kBrickSlots + static_cast<uint32_t>(inside);
+}
+
+}  // namespace
+
+CpuStrengths::CpuStrengths(const Model& model, const CpuStore& store, const FeatureSet& features,
+                           const std::vector<float>& masses_kg)
+    : stiffness(store.slotCount() * kSpringPairs),
+      mass(store.slotCount(), 1),
+      mobility(store.slotCount()),
+      both_ends(store.slotCount() * layout::kSpringsPerNode),
+      uniform(store.brickCount()),
+      idle_rows(store.brickCount()) {
+  if (features.parts) table_ = allStrengths(model);
+  for (uint32_t slot : store.active) {
+    const layout::BodyParams& body = store.bodyOf(slot);
+    mass[slot] = table_.mass_kg.empty() ? static_cast<float>(massEighths(store.nodes[slot])) * body.mass_eighth_kg
+                                        : table_.mass_kg[slot];
+    if (!masses_kg.empty()) mass[slot] = masses_kg[slot];
+  }
+  if (features.volume) {
+    bulk.resize(store.slotCount());
+    bulk_around.resize(store.slotCount() * 8);
+  }
+  refreshAll(store);
+}
+
+float CpuStrengths::springStiffness(const CpuStore& store, uint32_t slot, uint32_t pair) const {
+  const uint32_t count = springCount(store.nodes[slot], 2 * pair);
+  if (count == 0) return 0;
+  if (!table_.spring_n_per_m.empty()) return table_.spring_n_per_m[slot * kSpringPairs + pair];
+  const layout::BodyParams& body = store.bodyOf(slot);
+  return static_cast<float>(count) * (isAxial(2 * pair) ? body.axial_quarter_n_per_m : body.diagonal_half_n_per_m);
+}
+
+float CpuStrengths::cellBulk(const CpuStore& store, uint32_t slot) const {
+  if (!(store.nodes[slot].lo & layout::kCellBit)) return 0;
+  return table_.bulk_j.empty() ? store.bodyOf(slot).bulk_j : table_.bulk_j[slot];
+}
+
+void CpuStrengths::refresh(const CpuStore& store, uint32_t slot) {
+  const layout::NodeBits& bits = store.nodes[slot];
+  const bool stays = (bits.lo & layout::kFixedBit) != 0 || (isAlone(bits) && (bits.lo & layout::kGrabMask) == 0);
+  mobility[slot] = stays ? 0 : 1 / mass[slot];
+  if (store.connections(slot) == layout::kNetwork) return;
+  for (uint32_t pair = 0; pair < kSpringPairs; ++pair)
+    stiffness[stiffnessAt(slot, pair)] = springStiffness(store, slot, pair);
+  const uint32_t brick = slot / layout::kBrickSlots, local = slot % layout::kBrickSlots;
+  for (uint32_t spring = 0; spring < layout::kSpringsPerNode; ++spring) {
+    const bool alive = springCount(bits, spring) != 0;
+    const uint32_t owner =
+        spring % 2 == 0 || !alive ? slot : neighborSlot(store.bricks, slot, kNeighborOffsets[spring]);
+    both_ends[size_t{brick} * 1152 + spring * 64 + local] = alive ? springStiffness(store, owner, spring / 2) : 0;
+  }
+  uniform[brick] = uniform[brick] && isFull(store, slot);
+  if (bulk.empty()) return;
+  bulk[slot] = cellBulk(store, slot);
+  shareBulk(store, slot);
+}
+
+/// Tells the corners of the cell above a slot of its bulk.
+void CpuStrengths::shareBulk(const CpuStore& store, uint32_t slot) {
+  if (!(store.whole_nodes[slot].lo & layout::kCellBit)) return;
+  for (int c = 0; c < 8; ++c) {
+    const uint32_t corner = neighborSlot(store.bricks, slot, {c & 1, c >> 1 & 1, c >> 2 & 1});
+    bulk_around[size_t{corner / layout::kBrickSlots} * 512 + static_cast<size_t>(c) * 64 +
+                corner % layout::kBrickSlots] = bulk[slot];
+  }
+}
+
+bool CpuStrengths::isFull(const CpuStore& store, uint32_t slot) const {
+  const layout::BodyParams& body = store.bodyOf(slot);
+  const float* k = &both_ends[size_t{slot / layout::kBrickSlots} * 1152 + slot % layout::kBrickSlots];
+  for (uint32_t spring = 0; spring < layout::kSpringsPerNode; ++spring) {
+    const float full = isAxial(spring) ? 4 * body.axial_quarter_n_per_m : 2 * body.diagonal_half_n_per_m;
+    if (k[spring * 64] != full) return false;
+  }
+  return true;
+}
+
+void CpuStrengths::refreshAll(const CpuStore& store) {
+  for (size_t b = 0; b < store.bricks.size(); ++b)
+    uniform[b] = store.first_active[b + 1] - store.first_active[b] == layout::kBrickSlots;
+  for (uint32_t slot : store.active) refresh(store, slot);
+  noteIdleRows();
+}
+
+void CpuStrengths::noteIdleRows() {
+  for (size_t b = 0; b < idle_rows.size(); ++b) {
+    idle_rows[b] = 0;
+    for (size_t row = 0; row < 16; ++row) {
+      const float* of_row = &mobility[b * layout::kBrickSlots + 4 * row];
+      if (std::all_of(of_row, of_row + 4, [](float value) { return value == 0; })) {
+        idle_rows[b] = static_cast<uint16_t>(idle_rows[b] | 1u << row);
+      }
+    }
+  }
+}
+
+}  // namespace viscera

@@ -1,0 +1,45 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "math/aligned.h"
+#include "solver/cpu/cpu_store.h"
+#include "solver/features.h"
+#include "viscera/model/body/elasticity.h"
+
+namespace viscera {
+
+/// How strong springs and cells are and how heavy the nodes, as their bits in a store say.
+struct CpuStrengths {
+  /// @param store  that it is always used with   @param masses_kg  [slots] of explicit connections; empty without
+  /// @throws SceneError  parts (strengths)
+  CpuStrengths(const Model& model, const CpuStore& store, const FeatureSet& features,
+               const std::vector<float>& masses_kg);
+
+  /// Fits what is derived from a node's bits (stiffness of its even springs, mobility) to bits that have changed.
+  void refresh(const CpuStore& store, uint32_t slot);
+  void refreshAll(const CpuStore& store);
+
+  AlignedVector<float> stiffness;    ///< [9 * slots] N/m of even springs (stiffnessAt); 0 cut or absent
+  AlignedVector<float> mass;         ///< [slots] kg; 1 where no node is
+  AlignedVector<float> mobility;     ///< [slots] 1/kg of nodes that take part in a substep, held ones too; 0: absent,
+                                     ///< fixed, alone
+  AlignedVector<float> bulk;         ///< [slots] J of the cell above the node; 0 torn or absent; empty without volumes
+  AlignedVector<float> both_ends;    ///< [18 * slots] N/m of all springs, from either end, spring s of slot i at
+                                     ///< (i / 64) * 1152 + s * 64 + i % 64
+  AlignedVector<float> bulk_around;  ///< [8 * slots] J of the cells in which a slot is corner c (bits x, y, z), at
+                                     ///< (slot / 64) * 512 + c * 64 + slot % 64; empty without volumes
+  std::vector<uint8_t> uniform;     ///< [bricks] all springs of all its nodes are whole and of the body's full strength
+  std::vector<uint16_t> idle_rows;  ///< [bricks] bit r: none of the four nodes from 4 r on will ever move
+
+ private:
+  float springStiffness(const CpuStore& store, uint32_t slot, uint32_t pair) const;
+  float cellBulk(const CpuStore& store, uint32_t slot) const;
+  bool isFull(const CpuStore& store, uint32_t slot) const;
+  void shareBulk(const CpuStore& store, uint32_t slot);
+  void noteIdleRows();
+
+  Strengths table_;  ///< of models with parts, whose counts only say alive or cut; else empty
+};
+
+}  // namespace viscera
