@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "viscera/tools/obstacles.h"
 
+#include "viscera/layout/limits.h"
+
 namespace viscera {
 
 namespace {

@@ -10,10 +10,10 @@
 
 #include "gpu/gl.h"
 
-#include "model/body/neighbors.h"
 #include "surface/cloth_cuts.h"
 #include "surface/surface_rig.h"
 #include "viscera/gpu/context.h"
+#include "viscera/model/body/neighbors.h"
 
 namespace viscera {
 namespace {

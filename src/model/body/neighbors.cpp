@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "model/body/neighbors.h"
+#include "viscera/model/body/neighbors.h"
 
 namespace viscera {
 

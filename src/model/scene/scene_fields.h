@@ -7,6 +7,7 @@
 
 #include "model/scene/integrators.h"
 #include "model/scene/tool_kinds.h"
+#include "viscera/layout/limits.h"
 #include "viscera/model/scene/scene.h"
 
 namespace viscera {

@@ -7,17 +7,12 @@
 #include <unordered_map>
 #include <vector>
 
-#include "model/body/neighbors.h"
 #include "viscera/layout/nodes.h"
+#include "viscera/model/body/neighbors.h"
+#include "viscera/model/scene/scene.h"
 #include "viscera/model/shape/solid.h"
 
 namespace viscera {
-
-/// How spring and mass weights are assembled (physics.md 1).
-enum class Weights {
-  kCell,  ///< each solid cell adds k/4 to its edges, k/2 to its face diagonals, m/8 to its nodes
-  kPaper  ///< every spring and every node counts in full (VR05)
-};
 
 /// Implicitly connected lattice of one body: nodes at the corners of the solid's cells, in 4x4x4 bricks.
 struct Lattice {

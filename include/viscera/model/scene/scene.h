@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "viscera/math/types.h"
-#include "viscera/model/body/lattice.h"
 
 namespace viscera {
 
@@ -24,6 +23,12 @@ enum class FixedShape { kBox, kSphere, kPlane, kPart };
 enum class Integrator { kLeapfrog, kVerletPaper, kVbd, kPd };
 enum class Backend { kAuto, kGpu, kCpu };
 enum class ToolMode { kNone = 0, kProbe = 1, kGrab = 2, kCut = 3, kCutParticles = 4, kSuction = 5 };
+
+/// How spring and mass weights are assembled (physics.md 1).
+enum class Weights {
+  kCell,  ///< each solid cell adds k/4 to its edges, k/2 to its face diagonals, m/8 to its nodes
+  kPaper  ///< every spring and every node counts in full (VR05)
+};
 
 /// Nodes that are held in space. Coordinates are in the body's frame, before its pose is applied.
 struct FixedConfig {
