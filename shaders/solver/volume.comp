@@ -8,13 +8,12 @@
 #include "layout.h"
 #include "lattice.glsl"
 #include "elastic.glsl"
+#include "corners.glsl"
 
 #ifndef __cplusplus
 layout(std430, binding = kBindCells) readonly buffer CellsBuffer { uint cells[]; };
 uniform uint cell_count;
 #endif
-
-uint cornerSlot(uint slot, uint c) { return neighborSlot(slot, ivec3(c & 1u, (c >> 1) & 1u, (c >> 2) & 1u)); }
 
 #ifdef CUT
 #ifndef __cplusplus
