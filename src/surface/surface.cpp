@@ -20,6 +20,13 @@ void bind(uint32_t binding, uint32_t buffer) {
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, buffer);
 }
 
+/// What shaders/solver/lattice.glsl asks for.
+void bindNodes(const StateView& state) {
+  bind(layout::kBindBricks, state.bricks);
+  bind(layout::kBindBodies, state.bodies);
+  bind(layout::kBindNodes, state.nodes);
+}
+
 gpu::Program kernel(const std::string& name, const std::vector<std::string>& features = {}) {
   std::vector<std::string> defines = features;
   defines.push_back("GROUP_SIZE " + std::to_string(layout::kGroupSize));
@@ -81,9 +88,7 @@ void Surface::follow(const StateView& state) {
   const uint32_t since = known ? followed_revision_ : 0;
   followed_revision_ = known ? state.revision : 0;
   bind(layout::kBindStaleBricks, known ? state.stale_bricks : unknown_.id());
-  bind(layout::kBindBricks, state.bricks);
-  bind(layout::kBindBodies, state.bodies);
-  bind(layout::kBindNodes, state.nodes);
+  bindNodes(state);
   bind(layout::kBindDisplacementIn, state.displacement);
   positions_.bindStorage(layout::kBindSkinPositions);
   normals_.bindStorage(layout::kBindSkinNormals);
@@ -109,7 +114,7 @@ void Surface::tear(const StateView& state) {
   if (state.cut_revision == cut_revision_) return;
   cut_revision_ = state.cut_revision;
   const gpu::TimedStage timed(gpu::Stage::kSurface);
-  bind(layout::kBindNodes, state.nodes);
+  bindNodes(state);
   triangle_buffer_.bindStorage(layout::kBindSkinTriangles);
   alive_.bindStorage(layout::kBindSkinAlive);
   live_.bindStorage(layout::kBindSkinLive);
