@@ -137,12 +137,6 @@ std::vector<Misfit> errorsOf(const GwNetwork& network, const TrueMotion& truth, 
   return out;
 }
 
-double largest(const Field& field) {
-  double most = 0;
-  for (const Vector3d& v : field) most = std::max(most, v.norm());
-  return most;
-}
-
 void compareMotions(Report& report, const GwNetwork& network, const std::vector<int>& substeps, Table& table) {
   report.stage("motion, " + network.name + ", float64");
   const TrueMotion truth = trueMotion(network, substeps);
@@ -162,7 +156,7 @@ void compareMotions(Report& report, const GwNetwork& network, const std::vector<
     for (size_t c = 0; c < errors.size(); ++c) {
       const double time_s = substeps[c] * truth.motion.dt_s;
       table.add({network.name, static_cast<double>(network.nodes()), way.name, substeps[c], time_s,
-                 largest(truth.u_m[c]), errors[c].max, errors[c].rms});
+                 largestNorm(truth.u_m[c]), errors[c].max, errors[c].rms});
       series.x.push_back(substeps[c]);
       series.y.push_back(errors[c].max);
       if (w != kPoint16 && w != kBlend8 && w != kBlend16) worst = worse(worst, errors[c].max);

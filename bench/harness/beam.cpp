@@ -13,12 +13,6 @@ namespace {
 constexpr int kInverseIterations = 8;  ///< bending modes of a beam are 40 : 1 apart in omega^2
 constexpr int kLoadSteps = 4;
 
-double largest(const Field& field) {
-  double size = 0;
-  for (const Vector3d& v : field) size = std::max(size, v.norm());
-  return size;
-}
-
 }  // namespace
 
 Model beamModel(const Vector3i& cells, const MaterialConfig& material) {
@@ -33,7 +27,7 @@ Field lowestMode(const Model& model, double largest_m) {
     Field inertia(model.slots(), Vector3d::Zero());
     for (uint32_t slot : solver.active) inertia[slot] = solver.mass(slot) * mode[slot];
     mode = solveLinear(solver, {}, inertia);
-    const double scale = largest_m / largest(mode);
+    const double scale = largest_m / largestNorm(mode);
     for (Vector3d& u : mode) u *= scale;
   }
   return mode;

@@ -91,12 +91,6 @@ std::string scientific(double value) {
   return out.str();
 }
 
-double largest(const Field& u_m) {
-  double size = 0;
-  for (const Vector3d& u : u_m) size = std::max(size, u.lpNorm<Eigen::Infinity>());
-  return size;
-}
-
 }  // namespace
 
 FreeDofs::FreeDofs(const ReferenceLattice& lattice, const std::vector<bool>& free) : lattice_(lattice) {
@@ -152,7 +146,8 @@ StaticsReport minimise(Objective& objective, const FreeDofs& free, const Statics
     const Eigen::VectorXd step = solver == LinearSolver::kCholesky
                                      ? choleskyStep(objective, free, u_m, gradient)
                                      : conjugateGradientStep(objective, free, u_m, gradient);
-    const bool rounding = step.lpNorm<Eigen::Infinity>() <= 8 * std::numeric_limits<double>::epsilon() * largest(u_m);
+    const bool rounding =
+        step.lpNorm<Eigen::Infinity>() <= 8 * std::numeric_limits<double>::epsilon() * largestComponent(u_m);
     if (rounding) return report;  // the displacements cannot be told apart any better
     if (!search(objective, free, gradient, step, u_m)) break;
   }

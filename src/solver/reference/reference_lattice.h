@@ -6,13 +6,11 @@
 #include <array>
 #include <vector>
 
+#include "solver/fields.h"
 #include "viscera/model/model.h"
 #include "viscera/solver/material.h"
 
 namespace viscera {
-
-/// One vector per slot: displacements [m], velocities [m/s] or forces [N]; zero where no node is.
-using Field = std::vector<Vector3d>;
 
 /// Forces, energies and stiffness of lattices and networks as functions of the displacement, in float64. The constants
 /// are the float32 ones that the kernels take, so a difference to a kernel is its arithmetic and nothing else; geometry
