@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "bench/harness/block.h"
@@ -29,6 +30,9 @@ struct Method {
   bool isImplicit() const { return !traitsOf(integrator).is_explicit; }
   /// Gathers over all nodes per tick: what an explicit substep and an implicit iteration cost alike.
   int sweeps() const { return substeps * (isImplicit() ? iterations : 1); }
+  bool operator==(const Method& other) const {
+    return std::tie(integrator, substeps, iterations) == std::tie(other.integrator, other.substeps, other.iterations);
+  }
 };
 std::string nameOf(Integrator integrator);
 

@@ -109,9 +109,7 @@ std::vector<Method> methods(const Experiment& experiment, bool short_form) {
       for (double dt : implicit_dt) {
         if (dt * 10 < iterations) continue;  // many iterations of short substeps: far beyond leapfrog's work
         const Method method{integrator, substepsFor(experiment, dt), iterations};
-        if (!out.empty() && out.back().integrator == integrator && out.back().iterations == iterations &&
-            out.back().substeps == method.substeps)
-          continue;
+        if (!out.empty() && out.back() == method) continue;
         out.push_back(method);
       }
     }

@@ -158,7 +158,8 @@ TEST_P(Surround, NothingPassesAThinPlateHoweverFast) {
       begin(model, scene, state);
       double top_m = 0;
       for (int s = 0; s < 5; ++s) {
-        solver_->step({});
+        obstacles_.advance(s * solver_->dt_s(), solver_->dt_s());
+        solver_->step({}, obstacles_.motions());
         top_m += plate_speed * solver_->dt_s();
         EXPECT_GT(lowest(model, solver_->readState()), top_m - 1e-6);
       }
