@@ -15,18 +15,6 @@ namespace {
 constexpr size_t kFinishedKept = 3;   // ticks whose measurements wait for somebody who asks
 constexpr double kWorthwhile = 1.01;  // a stable substep must have grown by this factor to be taken
 
-/// Work on the tissue [J]: the force of each tool, mean over the tick, along its way. Exact where all nodes that it
-/// moves go its way at one speed.
-double workOfTools(const layout::TickStats& stats, const ToolMotions& motions, double tick_s) {
-  double work = 0;
-  for (size_t s = 0; s < motions.size(); ++s) {
-    const Vector3d impulse(stats.impulse[s].x, stats.impulse[s].y, stats.impulse[s].z);
-    const double part = impulse.dot(motions[s].to.position_m - motions[s].from.position_m) / tick_s;
-    if (std::isfinite(part)) work += std::max(0.0, part);
-  }
-  return work;
-}
-
 }  // namespace
 
 LatticeSolver::LatticeSolver(const Model& model, const Scene& scene, const SolverOptions& options)
@@ -37,10 +25,12 @@ LatticeSolver::LatticeSolver(const Model& model, const Scene& scene, const Solve
       tick_s_(1 / scene.solver.tick_hz),
       dt_safe_s_(safeTimeStep(model)),
       push_speed_m_per_s_(pushSpeed(model)),
-      plan_(planSubsteps(model, scene.solver, dt_safe_s_, options.allow_unstable)) {
+      plan_(planSubsteps(model, scene.solver, dt_safe_s_, options.allow_unstable)),
+      recovery_substeps_(std::max(1, plan_.strained / kRecoveryIterations)) {
   finished_.reserve(kFinishedKept);
   if (surroundingsOf(model, scene).any()) surroundings_.emplace(model, scene);
-  if (config_.governor) watch_.emplace(Watch{newGovernor(), std::max(1, plan_.strained / kRecoveryIterations), {}, {}});
+  SolverBackend& backend = *this;
+  if (config_.governor) watch_.emplace(backend, newGovernor(), !traitsOf(config_.integrator).is_explicit, tick_s_);
   if (hasTools()) motions_.reserve(static_cast<size_t>(mostSubsteps()) * layout::kMaxStyluses);
 }
 
@@ -49,7 +39,7 @@ Governor LatticeSolver::newGovernor() const {
 }
 
 int LatticeSolver::mostSubsteps() const {
-  return watch_ ? std::max(plan_.strained, watch_->recovery_substeps) : plan_.strained;
+  return watch_ ? std::max(plan_.strained, recovery_substeps_) : plan_.strained;
 }
 
 void LatticeSolver::step(const ToolMotions& motions, const ObstacleMotions& obstacles) {
@@ -74,10 +64,10 @@ void LatticeSolver::step(const ToolMotions& motions, const ObstacleMotions& obst
   }
   substeps_done_ += static_cast<uint64_t>(n_);
   if (cuts) ++cut_revision_;
-  const bool undone = watch_ && judgeOpen();  // of the tick before, where the backend lags
+  const bool undone = watch_ && heed(watch_->judgeOpen());  // of the tick before, where the backend lags
   measureTick(motions, contacts);
   finishStats();
-  if (watch_) govern(motions, undone);
+  if (watch_) heed(watch_->endTick(motions, recovering_, undone));
 }
 
 void LatticeSolver::measureTick(const ToolMotions& motions, bool contacts) {
@@ -86,15 +76,15 @@ void LatticeSolver::measureTick(const ToolMotions& motions, bool contacts) {
     sumReactions({motions[0].to.position_m.cast<float>(), motions[1].to.position_m.cast<float>()});
     acts_.endTick(*this, motions);
   }
-  if (watch_ && lag() > 0) guard(watch_->governor.bounds(isImplicit(recovering_)), motions, tick_s_);
+  if (watch_) watch_->guard(motions, recovering_);
 }
 
 void LatticeSolver::chooseSubsteps() {
-  const bool recover = watch_ && watch_->governor.health().recovering;
-  const bool strained = watch_ && watch_->governor.health().strained;
+  const bool recover = watch_ && watch_->health().recovering;
+  const bool strained = watch_ && watch_->health().strained;
   restarted_ |= recover != recovering_;
   recovering_ = recover;
-  n_ = recover ? watch_->recovery_substeps : strained ? plan_.strained : plan_.calm;
+  n_ = recover ? recovery_substeps_ : strained ? plan_.strained : plan_.calm;
 }
 
 void LatticeSolver::substep(int index, const ToolMotions& motions, bool cuts, bool contacts) {
@@ -121,34 +111,23 @@ void LatticeSolver::reset() {
   while (takeStats(old, true)) {
   }
   finished_.clear();
-  if (watch_) watch_->open.reset();
   resetState();
   restarted_ = true;
   springs_cut_ = 0;
   dt_safe_s_ = safeTimeStep(model_);
   plan_ = planSubsteps(model_, config_, dt_safe_s_, true);
-  if (watch_) {
-    watch_->governor = newGovernor();
-    clearGood();
-    saveGood();
-  }
+  if (watch_) watch_->reset(newGovernor());
   ++cut_revision_;
 }
 
 void LatticeSolver::writeState(const HostState& state, bool staggered) {
-  if (watch_) judgeOpen();
+  if (watch_) heed(watch_->judgeOpen());
   loadState(state);
   restarted_ = !staggered || traitsOf(config_.integrator).own_positions;
   if (staggered && last_dt_s_ == 0) last_dt_s_ = dt_s();
   if (staggered) recovering_ = false;
   ++cut_revision_;
-  if (!watch_) return;
-  measure();
-  requestStats();
-  takeStats(watch_->last_good, true);
-  watch_->governor.restart(watch_->last_good);
-  clearGood();
-  saveGood();
+  if (watch_) watch_->restart();
 }
 
 /// Sends a tick's measurements on their way. Where the backend is as many ticks behind as it may be, waiting here is
@@ -167,63 +146,12 @@ void LatticeSolver::keepStats(const layout::TickStats& stats) {
   finished_.push_back(stats);
 }
 
-/// Ends a tick: keeps its state if it is good or may be. @param undone  the tick before was not, and was rolled back
-void LatticeSolver::govern(const ToolMotions& motions, bool undone) {
-  OpenTick tick;
-  tick.motions = motions;
-  tick.recovering = recovering_;
-  tick.undone = undone;
-  watch_->open = tick;
-  const bool bad = undone || (lag() == 0 && judgeOpen());
-  if (!bad) saveGood();
-}
-
-/// Have the open tick's measurements come?
-bool LatticeSolver::receiveOpen(bool wait) {
-  if (watch_->open->stats) return true;
-  layout::TickStats stats;
-  if (!takeStats(stats, wait)) return false;
-  watch_->open->stats = stats;
-  return true;
-}
-
-bool LatticeSolver::openIsBad() const {
-  const OpenTick& tick = *watch_->open;
-  const double work_j = workOfTools(*tick.stats, tick.motions, tick_s_);
-  return tick.undone ||
-         watch_->governor.inspect(*tick.stats, isImplicit(tick.recovering), work_j) != Governor::Trip::kNone;
-}
-
-/// What others are told of the open tick: nothing that is bad, and no force while the tissue is not itself.
-layout::TickStats LatticeSolver::publishedOfOpen() const {
-  const OpenTick& tick = *watch_->open;
-  const bool bad = openIsBad();
-  layout::TickStats out = bad ? watch_->last_good : *tick.stats;
-  out.springs_cut = tick.stats->springs_cut;
-  if (!bad && !tick.recovering) return out;
-  for (uint32_t s = 0; s < layout::kMaxStyluses; ++s) out.impulse[s] = out.angular[s] = {};
-  return out;
-}
-
-/// Judges the tick that is open, if one is, and closes it; rolls it back where it was bad. Waits for its measurements.
-/// @returns whether there was a rollback
-bool LatticeSolver::judgeOpen() {
-  if (!watch_->open) return false;
-  receiveOpen(true);
-  if (!watch_->open->delivered) keepStats(publishedOfOpen());
-  const OpenTick tick = *watch_->open;
-  watch_->open.reset();
-  if (tick.undone) return false;
-  Governor& governor = watch_->governor;
-  const double work_j = workOfTools(*tick.stats, tick.motions, tick_s_);
-  if (governor.judge(*tick.stats, isImplicit(tick.recovering), work_j) == Governor::Trip::kNone) {
-    watch_->last_good = *tick.stats;
-    relaxSubsteps(*tick.stats);
-    return false;
-  }
-  restoreGood(governor.setbacks() - 1 + lag());
-  restarted_ = true;
-  return true;
+/// Does what follows from a verdict. @returns whether there was a rollback
+bool LatticeSolver::heed(const Watch::Verdict& verdict) {
+  if (verdict.published) keepStats(*verdict.published);
+  if (verdict.good) relaxSubsteps(*verdict.good);
+  restarted_ |= verdict.rolled_back;
+  return verdict.rolled_back;
 }
 
 /// A cut takes springs and no mass, so the stable substep can only grow.
@@ -239,17 +167,14 @@ void LatticeSolver::relaxSubsteps(const layout::TickStats& stats) {
 }
 
 double LatticeSolver::velocityLag_s() {
-  if (watch_ && watch_->open) {
-    receiveOpen(true);
-    if (openIsBad()) return 0;  // the state was put back already
-  }
+  if (watch_ && watch_->openIsBad()) return 0;  // the state was put back already
   const bool lags = traitsOf(config_.integrator).staggered && !recovering_ && !restarted_;
   return lags ? 0.5 * last_dt_s_ : 0;
 }
 
 const Health& LatticeSolver::health() const {
   static const Health kUnwatched;
-  return watch_ ? watch_->governor.health() : kUnwatched;
+  return watch_ ? watch_->health() : kUnwatched;
 }
 
 bool LatticeSolver::pollStats(layout::TickStats& stats, bool wait) {
@@ -258,11 +183,7 @@ bool LatticeSolver::pollStats(layout::TickStats& stats, bool wait) {
     finished_.erase(finished_.begin());
     return true;
   }
-  if (!watch_) return takeStats(stats, wait);
-  if (!watch_->open || watch_->open->delivered || !receiveOpen(wait)) return false;
-  watch_->open->delivered = true;
-  stats = publishedOfOpen();
-  return true;
+  return watch_ ? watch_->poll(stats, wait) : takeStats(stats, wait);
 }
 
 }  // namespace viscera
