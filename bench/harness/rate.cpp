@@ -80,7 +80,7 @@ Candidate candidate(const std::string& name, std::shared_ptr<Solver> solver, siz
           }};
 }
 
-std::shared_ptr<LatticeSolver> onCpu(const Specimen& specimen, int threads, const std::string& simd) {
+std::shared_ptr<Ticks> onCpu(const Specimen& specimen, int threads, const std::string& simd) {
   Scene scene = specimen.scene;
   scene.solver.threads = threads;
   CpuSolverOptions options;
@@ -90,7 +90,7 @@ std::shared_ptr<LatticeSolver> onCpu(const Specimen& specimen, int threads, cons
   return solver;
 }
 
-std::shared_ptr<LatticeSolver> onGpu(const Specimen& specimen) {
+std::shared_ptr<Ticks> onGpu(const Specimen& specimen) {
   auto solver = std::make_shared<GpuSolver>(specimen.model, specimen.scene);
   solver->writeState(specimen.start);
   return solver;

@@ -39,9 +39,9 @@ Candidate candidate(const std::string& name, std::shared_ptr<Solver> solver, siz
 
 /// The specimen on the CPU backend, at its start.
 /// @param threads  0: as many as there are processors   @param simd  one of simdTargets(); empty: the best
-std::shared_ptr<LatticeSolver> onCpu(const Specimen& specimen, int threads = 0, const std::string& simd = {});
+std::shared_ptr<Ticks> onCpu(const Specimen& specimen, int threads = 0, const std::string& simd = {});
 /// The specimen on the GPU backend, at its start.
-std::shared_ptr<LatticeSolver> onGpu(const Specimen& specimen);
+std::shared_ptr<Ticks> onGpu(const Specimen& specimen);
 
 /// Both backends side by side, all threads: "cpu" and "gpu".
 std::vector<Candidate> bothBackends(const Specimen& specimen, const ToolMotions& motions = {});

@@ -29,7 +29,7 @@ void cutAtRandom(const Lattice& lattice, double share, std::vector<layout::NodeB
 /// One backend with all shares, one after the other, on one solver.
 struct Runner {
   std::string name;
-  std::shared_ptr<LatticeSolver> solver;
+  std::shared_ptr<Ticks> solver;
   std::vector<double> rates;  ///< substeps/s by share
 };
 

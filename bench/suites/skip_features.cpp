@@ -93,13 +93,13 @@ std::vector<Feature> featuresOf(int edge) {
   return out;
 }
 
-using Make = std::shared_ptr<LatticeSolver> (*)(const Specimen&);
-std::shared_ptr<LatticeSolver> cpu(const Specimen& specimen) {
+using Make = std::shared_ptr<Ticks> (*)(const Specimen&);
+std::shared_ptr<Ticks> cpu(const Specimen& specimen) {
   return onCpu(specimen);
 }
 
 HostState after(const Specimen& specimen, Make make, const ToolMotions& motions) {
-  const std::shared_ptr<LatticeSolver> solver = make(specimen);
+  const std::shared_ptr<Ticks> solver = make(specimen);
   for (int t = 0; t < kComparedTicks; ++t) solver->step(motions);
   return solver->readState();
 }

@@ -29,7 +29,7 @@ struct PressedHeart {
 };
 
 /// @return where the tip of the probe is
-Vector3d pressIn(LatticeSolver& solver, const Specimen& heart) {
+Vector3d pressIn(Ticks& solver, const Specimen& heart) {
   for (int t = 0; t < kSagTicks; ++t) solver.step({});
   const Vector3d touching_m = farthestNode(heart.model, solver.readState(), Vector3d::UnitX()) +
                               heart.scene.styluses[0].probe.radius_m * Vector3d::UnitX();
@@ -46,7 +46,7 @@ PressedHeart pressedHeart(int nodes, double dashpot_ratio) {
   Specimen heart{"heart", {}, awakeScene(nodes, dashpot_ratio), {}};
   heart.model = buildModel(heart.scene);
   heart.start = restState(heart.model);
-  const std::shared_ptr<LatticeSolver> solver = onCpu(heart);
+  const std::shared_ptr<Ticks> solver = onCpu(heart);
   const Vector3d tip_m = pressIn(*solver, heart);
   heart.start = solver->readState();
   return {std::move(heart), tip_m};
@@ -55,7 +55,7 @@ PressedHeart pressedHeart(int nodes, double dashpot_ratio) {
 /// Ticks of a pressed heart, and what the last one showed.
 struct Pressed {
   std::string name;
-  std::shared_ptr<LatticeSolver> solver;
+  std::shared_ptr<Ticks> solver;
   uint32_t touched = 0;
 
   Candidate candidateFor(const PressedHeart& pressed) {

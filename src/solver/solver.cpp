@@ -16,8 +16,7 @@ void copyShown(const float* displacement_m, StateSnapshot& out) {
   }
 }
 
-void Solver::snapshot(StateSnapshot& out) const {
-  const HostState state = readState();
+void copyShown(const HostState& state, StateSnapshot& out) {
   out.displacement_m.clear();
   for (uint32_t brick : out.bricks) {
     const layout::vec4* const first = state.displacement_m.data() + size_t{layout::kBrickSlots} * brick;
@@ -30,6 +29,10 @@ void Solver::snapshot(StateSnapshot& out) const {
   out.nodes = state.nodes;
   out.spring_cut = state.spring_cut;
   ++out.cut_revision;
+}
+
+void Solver::snapshot(StateSnapshot& out) const {
+  copyShown(readState(), out);
 }
 
 uint64_t stateHash(const Model& model, const HostState& state) {

@@ -252,7 +252,7 @@ TEST_P(Collide, TheSameSceneGivesTheSameBits) {
     const Encounter e = sheetsMeeting(0.4, 5, false);
     Scene scene = e.scene;
     scene.collision.search = search;
-    const auto hash = [&](const std::unique_ptr<LatticeSolver>& solver) {
+    const auto hash = [&](const std::unique_ptr<Ticks>& solver) {
       solver->writeState(e.state);
       for (int s = 0; s < 50; ++s) solver->step({});
       return stateHash(e.model, solver->readState());

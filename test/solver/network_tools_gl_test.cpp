@@ -105,7 +105,7 @@ class ToolsOnNetwork : public OnBackend {
 
   Model model_;
   std::vector<StylusConfig> styluses_;
-  std::unique_ptr<LatticeSolver> solver_;
+  std::unique_ptr<Ticks> solver_;
   std::optional<ReferenceSolver> reference_;
 };
 

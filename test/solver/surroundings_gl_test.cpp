@@ -45,7 +45,7 @@ class Surround : public OnBackend {
     }
     return solver_->readState();
   }
-  std::unique_ptr<LatticeSolver> solver_;
+  std::unique_ptr<Ticks> solver_;
   Obstacles obstacles_{{}};
 };
 

@@ -61,7 +61,7 @@ class ToolsOnTissue : public OnBackend {
 
   Model model_;
   std::vector<StylusConfig> styluses_;
-  std::unique_ptr<LatticeSolver> solver_;
+  std::unique_ptr<Ticks> solver_;
   std::optional<ReferenceSolver> reference_;
 };
 

@@ -37,8 +37,8 @@ inline std::unique_ptr<CpuSolver> makeCpu(const std::string& simd, const Model& 
 }
 
 /// @param name  one of backendNames(); "gpu" needs a context   @param model  must outlive the solver
-inline std::unique_ptr<LatticeSolver> makeBackend(const std::string& name, const Model& model, const Scene& scene,
-                                                  const SolverOptions& options = {}) {
+inline std::unique_ptr<Ticks> makeBackend(const std::string& name, const Model& model, const Scene& scene,
+                                          const SolverOptions& options = {}) {
   constexpr size_t kPrefix = 4;  // of "cpu "
   if (name != "gpu") return makeCpu(name.substr(kPrefix), model, scene, 2, options);
   return std::make_unique<GpuSolver>(model, scene, GpuSolverOptions{options, layout::kGroupSize});
@@ -52,7 +52,7 @@ class OnBackend : public ::testing::TestWithParam<std::string> {
     context_.emplace();
     gpu::checkDispatches(true);
   }
-  std::unique_ptr<LatticeSolver> make(const Model& model, const Scene& scene, const SolverOptions& options = {}) const {
+  std::unique_ptr<Ticks> make(const Model& model, const Scene& scene, const SolverOptions& options = {}) const {
     return makeBackend(GetParam(), model, scene, options);
   }
 

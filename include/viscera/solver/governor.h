@@ -19,7 +19,7 @@ struct Health {
   double elastic_j = 0;
 };
 
-/// The governor's judgement of ticks (physics.md 3). Host logic only: LatticeSolver does what it says.
+/// The governor's judgement of ticks (physics.md 3). Host logic only: Watch does what it says.
 class Governor {
  public:
   /// Why a tick was found bad; kNone if it was good.

@@ -51,4 +51,8 @@ struct HostState {
   std::vector<float> spring_cut;
 };
 
+/// Copies what a snapshot asks for of a state: whole tissue, nodes and springs where they differ from the snapshot's,
+/// which counts its cut_revision on then.
+void copyShown(const HostState& state, StateSnapshot& out);
+
 }  // namespace viscera

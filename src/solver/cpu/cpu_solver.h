@@ -2,95 +2,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <memory>
-#include <optional>
-#include <string>
-#include <vector>
-
-#include "solver/cpu/cpu_lattice.h"
-#include "solver/cpu/cpu_stepper.h"
-#include "solver/cpu/sleep.h"
-#include "solver/cpu/surroundings.h"
-#include "solver/cpu/thread_pool.h"
-#include "solver/cpu/tool_passes.h"
-#include "solver/lattice_solver.h"
+#include "solver/cpu/cpu_backend.h"
+#include "solver/ticks.h"
 
 namespace viscera {
 
-class CpuNetwork;
-
-struct CpuSolverOptions : SolverOptions {
-  std::string simd;  ///< one of simdTargets(); empty: the best that this processor has
-};
-
-/// Instruction sets that the kernels were compiled for and this processor has, best first, such as AVX3, AVX2, SSE4.
-std::vector<std::string> simdTargets();
-
-/// The solver whose state lives in host memory, stepped by SIMD threads. Bricks at rest sleep.
-class CpuSolver : public LatticeSolver {
+/// The solver whose state lives in host memory: ticks on a CpuBackend.
+class CpuSolver final : public Ticks {
  public:
   /// @param model  must outlive the solver
   /// @throws SceneError  substeps (planSubsteps), parts (strengths), simd of another name
   CpuSolver(const Model& model, const Scene& scene, const CpuSolverOptions& options = {});
-  ~CpuSolver() override;
 
-  HostState readState() const override;
-  void snapshot(StateSnapshot& out) const override;
-  std::string backend() const override;  ///< such as "cpu (AVX3, 2 threads)"
-
-  size_t awakeBricks() const;  ///< in the last substep
-  size_t bricks() const { return lattice_.brickCount(); }
-
- protected:
-  void takeHold(uint32_t stylus, const Pose& pose, double radius_m) override;
-  void letGo(uint32_t stylus, const Release& release) override;
-  void writeMotions(const std::vector<layout::ToolMotion>& motions) override;
-  void selectMotions(size_t substep) override;
-  void cut(uint32_t stylus, bool particles) override;
-  void advance(const Substep& step, bool recovery) override;
-  void surround(const Substep& step, const Surroundings& surroundings) override;
-  void measure() override;
-  void sumReactions(const std::array<Vector3f, layout::kMaxStyluses>& tips) override;
-  bool requestStats() override;
-  bool takeStats(layout::TickStats& stats, bool wait) override;
-  void resetState() override;
-  void loadState(const HostState& state) override;
-  void saveGood() override;
-  void restoreGood(int back) override;
-  void clearGood() override;
+  size_t awakeBricks() const { return cpu().awakeBricks(); }  ///< in the last substep
+  size_t bricks() const { return cpu().bricks(); }
 
  private:
-  struct Work;  // what only src/solver/cpu knows: the kernels' jobs
-  void wakeForTools(const std::vector<layout::ToolMotion>& motions);
-  void changeAll();
-  void noteHeld();
-  float largestRate() const;
-
-  SolverConfig config_;
-  simd::Kernels kernels_;
-  FeatureSet features_;
-  std::vector<layout::BodyParams> params_;
-  CpuLattice lattice_;
-  std::shared_ptr<ThreadPool> threads_;
-  const ThreadPool& pool_;
-  Sleep sleep_;
-  std::unique_ptr<Work> work_;
-  std::optional<CpuSurroundings> surroundings_;
-  std::unique_ptr<CpuStepper> stepper_;
-  std::unique_ptr<CpuStepper> recovery_;     ///< only with a governor
-  std::vector<layout::ToolMotion> motions_;  ///< of this tick
-  const layout::ToolMotion* motion_ = nullptr;
-  std::optional<CpuCut> cut_;
-  std::unique_ptr<CpuNetwork> network_;  ///< null where no body has explicit connections
-  layout::TickStats stats_{};
-  bool has_stats_ = false;
-  uint32_t springs_cut_ = 0, rate_springs_cut_ = 0;
-
-  struct Good {
-    AlignedVector<float> displacement, velocity;
-  };
-  std::vector<Good> good_;  ///< ring
-  int next_good_ = 0, kept_good_ = 0;
+  CpuSolver(const Model& model, const Scene& scene, const TickPlan& plan, const CpuSolverOptions& options);
+  const CpuBackend& cpu() const { return static_cast<const CpuBackend&>(ticked()); }
 };
 
 }  // namespace viscera

@@ -9,7 +9,7 @@
 
 namespace viscera {
 
-/// The reference tick by tick, as LatticeSolver goes through a scene, but always in calm substeps and without a
+/// The reference tick by tick, as Ticks goes through a scene, but always in calm substeps and without a
 /// governor. vbd and pd are implicit Euler here, solved to the end.
 class ReferenceTicks {
  public:

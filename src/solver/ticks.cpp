@@ -1,12 +1,14 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "solver/lattice_solver.h"
+#include "solver/ticks.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "math/float_bits.h"
+#include "model/scene/integrators.h"
 #include "tools/motion_packing.h"
+#include "viscera/solver/material.h"
 
 namespace viscera {
 
@@ -17,49 +19,45 @@ constexpr double kWorthwhile = 1.01;  // a stable substep must have grown by thi
 
 }  // namespace
 
-LatticeSolver::LatticeSolver(const Model& model, const Scene& scene, const SolverOptions& options)
+Ticks::Ticks(const Model& model, const Scene& scene, const TickPlan& plan, std::unique_ptr<SolverBackend> backend)
     : model_(model),
+      backend_(std::move(backend)),
       config_(scene.solver),
-      acts_(scene.styluses, 1 / scene.solver.tick_hz),
+      acts_(scene.styluses, plan.tick_s),
       gravity_(scene.environment.gravity_m_per_s2.cast<float>()),
-      tick_s_(1 / scene.solver.tick_hz),
-      dt_safe_s_(safeTimeStep(model)),
+      tick_s_(plan.tick_s),
+      dt_safe_s_(plan.dt_safe_s),
       push_speed_m_per_s_(pushSpeed(model)),
-      plan_(planSubsteps(model, scene.solver, dt_safe_s_, options.allow_unstable)),
-      recovery_substeps_(std::max(1, plan_.strained / kRecoveryIterations)) {
+      substeps_(plan.substeps),
+      recovery_substeps_(plan.recovery_substeps),
+      surroundings_(plan.surroundings) {
   finished_.reserve(kFinishedKept);
-  if (surroundingsOf(model, scene).any()) surroundings_.emplace(model, scene);
-  SolverBackend& backend = *this;
-  if (config_.governor) watch_.emplace(backend, newGovernor(), !traitsOf(config_.integrator).is_explicit, tick_s_);
-  if (hasTools()) motions_.reserve(static_cast<size_t>(mostSubsteps()) * layout::kMaxStyluses);
+  if (plan.governed()) watch_.emplace(*backend_, newGovernor(), !traitsOf(config_.integrator).is_explicit, tick_s_);
+  if (plan.tools) motions_.reserve(static_cast<size_t>(plan.mostSubsteps()) * layout::kMaxStyluses);
 }
 
-Governor LatticeSolver::newGovernor() const {
+Governor Ticks::newGovernor() const {
   return Governor(governorLimits(model_, gravity_.norm(), config_.sleep_distance_m), tick_s_, config_.recovery_s);
 }
 
-int LatticeSolver::mostSubsteps() const {
-  return watch_ ? std::max(plan_.strained, recovery_substeps_) : plan_.strained;
-}
-
-void LatticeSolver::step(const ToolMotions& motions, const ObstacleMotions& obstacles) {
+void Ticks::step(const ToolMotions& motions, const ObstacleMotions& obstacles) {
   const bool contacts = acts_.touch(motions), cuts = acts_.sever(motions);
   chooseSubsteps();
-  beginTick();
-  acts_.beginTick(*this, motions);
+  backend_->beginTick();
+  acts_.beginTick(*backend_, motions);
   if (surroundings_) {
     surroundings_->beginTick(tick_s_, n_, obstacles);
-    beginSurroundings(*surroundings_);
+    backend_->beginSurroundings(*surroundings_);
   }
   if (contacts || cuts) {
     interpolateMotions(motions, acts_.styluses(), n_, motions_);
     for (layout::ToolMotion& motion : motions_) motion.timing.x = static_cast<float>(tick_s_ / n_);
     for (size_t s = 0; s < layout::kMaxStyluses; ++s)
       motions_[s].timing.x = static_cast<float>(restarted_ ? 0 : last_dt_s_);
-    writeMotions(motions_);
+    backend_->writeMotions(motions_);
   }
   for (int s = 0; s < n_; ++s) {
-    if (contacts || cuts) selectMotions(static_cast<size_t>(s));
+    if (contacts || cuts) backend_->selectMotions(static_cast<size_t>(s));
     substep(s, motions, cuts, contacts);
   }
   substeps_done_ += static_cast<uint64_t>(n_);
@@ -70,25 +68,25 @@ void LatticeSolver::step(const ToolMotions& motions, const ObstacleMotions& obst
   if (watch_) heed(watch_->endTick(motions, recovering_, undone));
 }
 
-void LatticeSolver::measureTick(const ToolMotions& motions, bool contacts) {
-  measure();
+void Ticks::measureTick(const ToolMotions& motions, bool contacts) {
+  backend_->measure();
   if (contacts) {
-    sumReactions({motions[0].to.position_m.cast<float>(), motions[1].to.position_m.cast<float>()});
-    acts_.endTick(*this, motions);
+    backend_->sumReactions({motions[0].to.position_m.cast<float>(), motions[1].to.position_m.cast<float>()});
+    acts_.endTick(*backend_, motions);
   }
   if (watch_) watch_->guard(motions, recovering_);
 }
 
-void LatticeSolver::chooseSubsteps() {
+void Ticks::chooseSubsteps() {
   const bool recover = watch_ && watch_->health().recovering;
   const bool strained = watch_ && watch_->health().strained;
   restarted_ |= recover != recovering_;
   recovering_ = recover;
-  n_ = recover ? recovery_substeps_ : strained ? plan_.strained : plan_.calm;
+  n_ = recover ? recovery_substeps_ : strained ? substeps_.strained : substeps_.calm;
 }
 
-void LatticeSolver::substep(int index, const ToolMotions& motions, bool cuts, bool contacts) {
-  if (cuts) acts_.beforeSubstep(*this, motions);
+void Ticks::substep(int index, const ToolMotions& motions, bool cuts, bool contacts) {
+  if (cuts) acts_.beforeSubstep(*backend_, motions);
   const double dt_s = tick_s_ / n_;
   Substep step;
   step.dt_s = static_cast<float>(dt_s);
@@ -99,30 +97,30 @@ void LatticeSolver::substep(int index, const ToolMotions& motions, bool cuts, bo
   step.tools = contacts;
   step.restarted = restarted_;
   step.index = index;
-  advance(step, recovering_);
-  if (surroundings_) surround(step, *surroundings_);
+  backend_->advance(step, recovering_);
+  if (surroundings_) backend_->surround(step, *surroundings_);
   restarted_ = false;
   last_dt_s_ = dt_s;
 }
 
-void LatticeSolver::reset() {
+void Ticks::reset() {
   if (surroundings_) surroundings_->reset();
   layout::TickStats old;
-  while (takeStats(old, true)) {
+  while (backend_->takeStats(old, true)) {
   }
   finished_.clear();
-  resetState();
+  backend_->resetState();
   restarted_ = true;
   springs_cut_ = 0;
   dt_safe_s_ = safeTimeStep(model_);
-  plan_ = planSubsteps(model_, config_, dt_safe_s_, true);
+  substeps_ = planSubsteps(model_, config_, dt_safe_s_, true);
   if (watch_) watch_->reset(newGovernor());
   ++cut_revision_;
 }
 
-void LatticeSolver::writeState(const HostState& state, bool staggered) {
+void Ticks::writeState(const HostState& state, bool staggered) {
   if (watch_) heed(watch_->judgeOpen());
-  loadState(state);
+  backend_->loadState(state);
   restarted_ = !staggered || traitsOf(config_.integrator).own_positions;
   if (staggered && last_dt_s_ == 0) last_dt_s_ = dt_s();
   if (staggered) recovering_ = false;
@@ -132,22 +130,22 @@ void LatticeSolver::writeState(const HostState& state, bool staggered) {
 
 /// Sends a tick's measurements on their way. Where the backend is as many ticks behind as it may be, waiting here is
 /// what keeps the two together.
-void LatticeSolver::finishStats() {
-  if (requestStats()) return;
+void Ticks::finishStats() {
+  if (backend_->requestStats()) return;
   layout::TickStats oldest;
-  takeStats(oldest, true);
+  backend_->takeStats(oldest, true);
   keepStats(oldest);
-  requestStats();
+  backend_->requestStats();
 }
 
 /// Of more than kFinishedKept that nobody has asked for, the oldest is forgotten.
-void LatticeSolver::keepStats(const layout::TickStats& stats) {
+void Ticks::keepStats(const layout::TickStats& stats) {
   if (finished_.size() == kFinishedKept) finished_.erase(finished_.begin());
   finished_.push_back(stats);
 }
 
 /// Does what follows from a verdict. @returns whether there was a rollback
-bool LatticeSolver::heed(const Watch::Verdict& verdict) {
+bool Ticks::heed(const Watch::Verdict& verdict) {
   if (verdict.published) keepStats(*verdict.published);
   if (verdict.good) relaxSubsteps(*verdict.good);
   restarted_ |= verdict.rolled_back;
@@ -155,7 +153,7 @@ bool LatticeSolver::heed(const Watch::Verdict& verdict) {
 }
 
 /// A cut takes springs and no mass, so the stable substep can only grow.
-void LatticeSolver::relaxSubsteps(const layout::TickStats& stats) {
+void Ticks::relaxSubsteps(const layout::TickStats& stats) {
   if (stats.springs_cut == springs_cut_) return;
   springs_cut_ = stats.springs_cut;
   const float rate = floatFromBits(stats.max_rate_bits);
@@ -163,27 +161,27 @@ void LatticeSolver::relaxSubsteps(const layout::TickStats& stats) {
   const double dt_safe_s = 2 / std::sqrt(static_cast<double>(rate));
   if (dt_safe_s < kWorthwhile * dt_safe_s_) return;
   dt_safe_s_ = dt_safe_s;
-  plan_ = planSubsteps(model_, config_, dt_safe_s_, true);
+  substeps_ = planSubsteps(model_, config_, dt_safe_s_, true);
 }
 
-double LatticeSolver::velocityLag_s() {
+double Ticks::velocityLag_s() {
   if (watch_ && watch_->openIsBad()) return 0;  // the state was put back already
   const bool lags = traitsOf(config_.integrator).staggered && !recovering_ && !restarted_;
   return lags ? 0.5 * last_dt_s_ : 0;
 }
 
-const Health& LatticeSolver::health() const {
+const Health& Ticks::health() const {
   static const Health kUnwatched;
   return watch_ ? watch_->health() : kUnwatched;
 }
 
-bool LatticeSolver::pollStats(layout::TickStats& stats, bool wait) {
+bool Ticks::pollStats(layout::TickStats& stats, bool wait) {
   if (!finished_.empty()) {
     stats = finished_.front();
     finished_.erase(finished_.begin());
     return true;
   }
-  return watch_ ? watch_->poll(stats, wait) : takeStats(stats, wait);
+  return watch_ ? watch_->poll(stats, wait) : backend_->takeStats(stats, wait);
 }
 
 }  // namespace viscera

@@ -1,11 +1,11 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// What a backend that lags behind the host, as a GPU does, must not change (src/solver/lattice_solver.h).
-#include "solver/lattice_solver.h"
+// What a backend that lags behind the host, as a GPU does, must not change (src/solver/ticks.h).
+#include "solver/ticks.h"
 
 #include <deque>
 
-#include "solver/cpu/cpu_solver.h"
+#include "solver/cpu/cpu_backend.h"
 #include "support/random_state.h"
 
 using namespace viscera;
@@ -19,21 +19,20 @@ constexpr double kSpacing_m = 0.01;
 constexpr int kNever = 1000000;
 
 /// The CPU backend with the governor's lag of a GPU: measurements come some looks after they were asked for.
-class LateSolver : public CpuSolver {
+class LateBackend : public CpuBackend {
  public:
-  LateSolver(const Model& model, const Scene& scene, int looks, const CpuSolverOptions& options)
-      : CpuSolver(model, scene, options), looks_(looks) {}
+  LateBackend(const Model& model, const Scene& scene, const TickPlan& plan, int looks)
+      : CpuBackend(model, scene, plan), looks_(looks) {}
 
   int waits() const { return waits_; }
   int under_way() const { return static_cast<int>(under_way_.size()); }
 
- protected:
   int lag() const override { return 1; }
 
   bool requestStats() override {
     Late late{{}, looks_};
-    CpuSolver::requestStats();
-    CpuSolver::takeStats(late.stats, true);
+    CpuBackend::requestStats();
+    CpuBackend::takeStats(late.stats, true);
     under_way_.push_back(late);
     return true;
   }
@@ -60,6 +59,18 @@ class LateSolver : public CpuSolver {
   int looks_, waits_ = 0;
 };
 
+class LateSolver : public Ticks {
+ public:
+  LateSolver(const Model& model, const Scene& scene, const TickPlan& plan, int looks)
+      : Ticks(model, scene, plan, std::make_unique<LateBackend>(model, scene, plan, looks)) {}
+
+  int waits() const { return late().waits(); }
+  int under_way() const { return late().under_way(); }
+
+ private:
+  const LateBackend& late() const { return static_cast<const LateBackend&>(ticked()); }
+};
+
 class LaggingBackend : public ::testing::Test {
  protected:
   /// @param fraction  of the stable substep
@@ -69,9 +80,9 @@ class LaggingBackend : public ::testing::Test {
     scene.solver.threads = 1;
     scene.solver.recovery_s = 5 / scene.solver.tick_hz;
     scene.styluses = {StylusConfig{}};
-    CpuSolverOptions options;
+    SolverOptions options;
     options.allow_unstable = true;
-    return LateSolver(model_, scene, looks, options);
+    return LateSolver(model_, scene, planTicks(model_, scene, options), looks);
   }
 
   static ToolMotions probe() {

@@ -4,36 +4,36 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "solver/solver_backend.h"
-#include "solver/substeps.h"
+#include "solver/tick_plan.h"
 #include "solver/watch.h"
 #include "viscera/solver/solver.h"
-#include "viscera/solver/threads.h"
 
 namespace viscera {
 
-struct SolverOptions {
-  bool allow_unstable = false;  ///< take a substep that is too long for the integrator: to study the governor
-  /// On the CPU: shared with others; null: solver.threads of its own.
-  std::shared_ptr<ThreadPool> threads = nullptr;
-};
-
 /// What a tick is on any backend: which substeps it has, what tools do in them, what is measured and how the governor
-/// judges it (physics.md 2, 3, 5). A backend holds the state and gives the operations; they are called in the order of
-/// a tick, and none of them during construction.
-class LatticeSolver : public Solver, protected SolverBackend {
+/// judges it (physics.md 2, 3, 5). The backend holds the state and gives the operations.
+class Ticks : public Solver {
  public:
+  /// @param model  must outlive the solver   @param plan  of model and scene, for which the backend was built
+  Ticks(const Model& model, const Scene& scene, const TickPlan& plan, std::unique_ptr<SolverBackend> backend);
+
   using Solver::step;
   void step(const ToolMotions& motions, const ObstacleMotions& obstacles) final;
   void reset() final;
+  std::optional<StateView> stateOnGpu() const final { return backend_->stateOnGpu(cut_revision_); }
+  HostState readState() const final { return backend_->readState(); }
+  void snapshot(StateSnapshot& out) const final { backend_->snapshot(out, cut_revision_); }
   bool pollStats(layout::TickStats& stats, bool wait) final;
   const Health& health() const final;
-  double dt_s() const final { return tick_s_ / plan_.calm; }
+  double dt_s() const final { return tick_s_ / substeps_.calm; }
   double dtSafe_s() const final { return dt_safe_s_; }
-  int substeps() const final { return plan_.calm; }
+  int substeps() const final { return substeps_.calm; }
   uint64_t substepsDone() const final { return substeps_done_; }
+  std::string backend() const final { return backend_->name(); }
 
   /// How long before the displacements the velocities belong [s]: half a substep after leapfrog, else 0. Waits for the
   /// last tick.
@@ -46,18 +46,8 @@ class LatticeSolver : public Solver, protected SolverBackend {
   void writeState(const HostState& state, bool staggered = false);
 
  protected:
-  /// @param model  must outlive the solver
-  /// @throws SceneError  substeps (planSubsteps)
-  LatticeSolver(const Model& model, const Scene& scene, const SolverOptions& options);
-
-  // What a backend's own constructor asks.
-  bool governed() const { return watch_.has_value(); }
-  bool staysAwake() const { return surroundings_ && surroundings_->keepsAwake(); }
-  bool hasSurroundings() const { return surroundings_.has_value(); }
-  bool hasTools() const { return !acts_.styluses().empty(); }
-  double shortestSubstep_s() const { return tick_s_ / plan_.strained; }
-  int mostSubsteps() const;  ///< a tick can have
-  uint64_t cutRevision() const { return cut_revision_; }
+  /// The backend, for who made it and knows of what kind it is.
+  const SolverBackend& ticked() const { return *backend_; }
 
  private:
   Governor newGovernor() const;
@@ -70,14 +60,15 @@ class LatticeSolver : public Solver, protected SolverBackend {
   void relaxSubsteps(const layout::TickStats& stats);
 
   const Model& model_;
+  std::unique_ptr<SolverBackend> backend_;
   SolverConfig config_;
   ToolActs acts_;
   Vector3f gravity_;
   double tick_s_, dt_safe_s_, push_speed_m_per_s_;
-  SubstepPlan plan_;
+  SubstepPlan substeps_;
   int recovery_substeps_;
-  std::optional<Watch> watch_;                ///< only where a scene has a governor
   std::optional<Surroundings> surroundings_;  ///< only where a scene has any
+  std::optional<Watch> watch_;                ///< only where a scene has a governor
   std::vector<layout::TickStats> finished_;   ///< taken while nobody asked, oldest first
   std::vector<layout::ToolMotion> motions_;
   uint64_t cut_revision_ = 0, substeps_done_ = 0;

@@ -1,0 +1,301 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solver/cpu/cpu_backend.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "gpu/buffer.h"
+#include "math/float_bits.h"
+#include "solver/cpu/lattice_arrays.h"
+#include "solver/cpu/network.h"
+#include "viscera/math/error.h"
+#include "viscera/solver/material.h"
+
+namespace viscera {
+
+namespace {
+
+constexpr size_t kBricksPerJob = 16;  // of a measurement
+
+Vector3f xyz(const layout::vec4& v) {
+  return {v.x, v.y, v.z};
+}
+
+simd::Kernels kernelsOrThrow(const std::string& target) {
+  const std::optional<simd::Kernels> kernels = simd::kernelsFor(target);
+  if (kernels) return *kernels;
+  std::string known;
+  for (const std::string& name : simd::targets()) known += (known.empty() ? "" : ", ") + name;
+  throw SceneError("no instruction set '" + target + "' on this processor: " + known);
+}
+
+}  // namespace
+
+struct CpuBackend::Work {
+  std::vector<simd::BrickStats> stats;  ///< [bricks]
+  std::vector<uint32_t> changed;        ///< bricks to be measured
+};
+
+std::vector<std::string> simdTargets() {
+  return simd::targets();
+}
+
+CpuBackend::CpuBackend(const Model& model, const Scene& scene, const TickPlan& plan, const CpuSolverOptions& options)
+    : config_(scene.solver),
+      kernels_(kernelsOrThrow(options.simd)),
+      features_(featuresOf(model, scene, plan.shortestSubstep_s())),
+      params_(bodyParams(model, plan.dt_safe_s)),
+      lattice_(model, params_, features_),
+      threads_(options.threads ? options.threads : makeThreadPool(scene.solver.threads)),
+      pool_(*threads_),
+      sleep_(lattice_, traitsOf(scene.solver.integrator).lets_bricks_sleep && !plan.staysAwake()
+                           ? scene.solver.sleep_speed_m_per_s
+                           : 0),
+      work_(std::make_unique<Work>()) {
+  if (features_.network) network_ = std::make_unique<CpuNetwork>(lattice_, pool_, features_, kernels_);
+  if (plan.surroundings) surroundings_.emplace(model, scene, lattice_, pool_);
+  stepper_ = makeCpuStepper(config_.integrator, config_.iterations, lattice_,
+                            {pool_, sleep_, network_.get(), features_, kernels_});
+  work_->stats.resize(bricks());
+  work_->changed.reserve(bricks());
+  if (plan.tools) {
+    cut_.emplace(lattice_);
+    motions_.reserve(static_cast<size_t>(plan.mostSubsteps()) * layout::kMaxStyluses);
+  }
+  if (!plan.governed()) return;
+  recovery_ = makeCpuRecoveryStepper(kRecoveryIterations, lattice_, pool_);
+  for (int i = 0; i < kGoodStates; ++i) good_.push_back({lattice_.state.displacement[0], lattice_.state.velocity[0]});
+  saveGood();
+}
+
+CpuBackend::~CpuBackend() = default;
+
+std::string CpuBackend::name() const {
+  return "cpu (" + kernels_.target + ", " + std::to_string(pool_.threads()) +
+         (pool_.threads() == 1 ? " thread)" : " threads)");
+}
+
+size_t CpuBackend::awakeBricks() const {
+  return sleep_.awake().size();
+}
+
+// ---- a tick ----
+
+void CpuBackend::takeHold(uint32_t stylus, const Pose& pose, double radius_m) {
+  const Vector3f tip = pose.position_m.cast<float>(), reach = Vector3f::Constant(static_cast<float>(radius_m));
+  sleep_.wakeNear(lattice_, tip - reach, tip + reach);
+  viscera::takeHold(lattice_, stylus, pose, radius_m);
+  noteHeld();
+}
+
+void CpuBackend::letGo(uint32_t stylus, const Release& release) {
+  viscera::letGo(lattice_, stylus, release, stats_);
+  noteHeld();
+}
+
+/// Bricks with held nodes are awake, and looked at node by node.
+void CpuBackend::noteHeld() {
+  std::fill(lattice_.hands.held.begin(), lattice_.hands.held.end(), uint8_t{0});
+  stats_.grabbed[0] = stats_.grabbed[1] = 0;
+  for (uint32_t slot : lattice_.store.active) {
+    const uint32_t by = (lattice_.store.nodes[slot].lo & layout::kGrabMask) >> layout::kGrabShift;
+    if (by == 0) continue;
+    ++stats_.grabbed[by - 1];
+    if (lattice_.hands.held.empty()) continue;
+    lattice_.hands.held[slot / layout::kBrickSlots] = 1;
+    sleep_.wake(slot / layout::kBrickSlots);
+  }
+}
+
+void CpuBackend::writeMotions(const std::vector<layout::ToolMotion>& motions) {
+  motions_ = motions;
+  wakeForTools(motions);
+}
+
+/// Wakes what the tools may reach in this tick.
+void CpuBackend::wakeForTools(const std::vector<layout::ToolMotion>& motions) {
+  for (size_t s = 0; s < layout::kMaxStyluses; ++s) {
+    const layout::ToolMotion &first = motions[s], &last = motions[motions.size() - layout::kMaxStyluses + s];
+    if (first.info.y == 0) continue;
+    Vector3f low = xyz(first.from).cwiseMin(xyz(last.to)), high = xyz(first.from).cwiseMax(xyz(last.to));
+    float reach = first.from.w;
+    if (first.info.y & (layout::kToolCuts | layout::kToolErases)) {
+      low = low.cwiseMin(xyz(first.blade_from)).cwiseMin(xyz(last.blade_to));
+      high = high.cwiseMax(xyz(first.blade_from)).cwiseMax(xyz(last.blade_to));
+      reach = first.blade_from.w;
+    }
+    // The ends of springs that are cut lie up to a spring beside the blade.
+    float spacing = 0;
+    for (const layout::BodyParams& body : lattice_.store.bodies) spacing = std::max(spacing, body.origin_spacing.w);
+    const Vector3f grown = Vector3f::Constant(reach + 2 * spacing);
+    sleep_.wakeNear(lattice_, low - grown, high + grown);
+  }
+}
+
+void CpuBackend::selectMotions(size_t substep) {
+  motion_ = &motions_[substep * layout::kMaxStyluses];
+}
+
+void CpuBackend::cut(uint32_t stylus, bool particles) {
+  uint32_t springs = cut_->run(lattice_, motion_[stylus], particles);
+  if (network_) springs += network_->cut(lattice_, motion_[stylus], particles);
+  springs_cut_ += springs;
+  if (springs == 0) return;
+  for (uint32_t brick : cut_->bricks()) sleep_.wake(brick);
+}
+
+void CpuBackend::advance(const Substep& step, bool recovery) {
+  if (recovery && step.restarted) sleep_.wakeAll(lattice_);
+  (recovery ? *recovery_ : *stepper_).run(lattice_, step, motion_);
+  lattice_.swap();
+}
+
+void CpuBackend::surround(const Substep& step, const Surroundings& surroundings) {
+  surroundings_->run(lattice_, step, surroundings);
+}
+
+void CpuBackend::measure() {
+  simd::MeasureJob job{arraysOf(lattice_), lattice_.store.nodes.data(), lattice_.strengths.mass.data(),
+                       work_->stats.data()};
+  std::vector<uint32_t>& changed = work_->changed;
+  sleep_.takeChanged(lattice_, changed);
+  pool_((changed.size() + kBricksPerJob - 1) / kBricksPerJob, [&](size_t i) {
+    const size_t first = i * kBricksPerJob;
+    kernels_.measure(job, &changed[first], std::min(kBricksPerJob, changed.size() - first));
+  });
+  layout::TickStats out{};
+  out.springs_cut = springs_cut_;
+  std::copy(std::begin(stats_.grabbed), std::end(stats_.grabbed), std::begin(out.grabbed));
+  double kinetic_j = 0, elastic_j = 0;
+  float stretch = 0, speed = 0;
+  for (const simd::BrickStats& brick : work_->stats) {
+    kinetic_j += brick.kinetic_j;
+    elastic_j += brick.elastic_j;
+    stretch = std::max(stretch, brick.max_stretch);
+    speed = std::max(speed, brick.max_speed);
+    out.nonfinite += brick.nonfinite;
+    out.collapsed += brick.collapsed;
+    out.inverted += brick.inverted;
+  }
+  out.kinetic_j = static_cast<float>(kinetic_j);
+  out.elastic_j = static_cast<float>(elastic_j);
+  out.max_stretch_bits = bitsOfFloat(stretch);
+  out.max_speed_bits = bitsOfFloat(speed);
+  const bool known = !network_ && stats_.max_rate_bits != 0 && springs_cut_ == rate_springs_cut_;
+  out.max_rate_bits = known ? stats_.max_rate_bits : bitsOfFloat(largestRate());
+  rate_springs_cut_ = springs_cut_;
+  if (network_) network_->measure(lattice_, out);
+  stats_ = out;
+}
+
+/// Largest (2 sum k + volume) / m of a node that is not fixed [1/s2] (physics.md 2; shaders/solver/measure.comp).
+float CpuBackend::largestRate() const {
+  float largest = 0;
+  for (uint32_t slot : lattice_.store.active) {
+    const layout::NodeBits& bits = lattice_.store.nodes[slot];
+    if ((bits.lo & layout::kFixedBit) || lattice_.connections(slot) != layout::kImplicit) continue;
+    const size_t brick = slot / layout::kBrickSlots, local = slot % layout::kBrickSlots;
+    float springs = 0, bulk = 0;
+    for (size_t s = 0; s < layout::kSpringsPerNode; ++s)
+      springs += lattice_.strengths.both_ends[brick * 1152 + s * 64 + local];
+    for (size_t c = 0; c < 8 && !lattice_.strengths.bulk_around.empty(); ++c) {
+      bulk += std::max(0.0f, lattice_.strengths.bulk_around[brick * 512 + c * 64 + local]);
+    }
+    const float h = lattice_.store.bodies[bits.hi >> layout::kBodyShift].origin_spacing.w;
+    largest = std::max(largest, (2 * springs + 1.5f * bulk / (h * h)) / lattice_.strengths.mass[slot]);
+  }
+  return largest;
+}
+
+void CpuBackend::sumReactions(const std::array<Vector3f, layout::kMaxStyluses>& tips) {
+  viscera::sumReactions(lattice_, tips, stats_);
+}
+
+bool CpuBackend::requestStats() {
+  if (has_stats_) return false;
+  has_stats_ = true;
+  return true;
+}
+
+bool CpuBackend::takeStats(layout::TickStats& stats, bool) {
+  if (!has_stats_) return false;
+  stats = stats_;
+  has_stats_ = false;
+  return true;
+}
+
+// ---- state as a whole ----
+
+/// After the state was written from outside: both states the same and without velocity where nothing moves, everything
+/// awake and measured anew.
+void CpuBackend::changeAll() {
+  AlignedVector<float>& velocity = lattice_.state.velocity[lattice_.state.current];
+  for (uint32_t slot : lattice_.store.active) {
+    if (lattice_.strengths.mobility[slot] == 0) setPlanes(velocity.data(), slot, Vector3f::Zero());
+  }
+  lattice_.state.displacement[1 - lattice_.state.current] = lattice_.state.displacement[lattice_.state.current];
+  lattice_.state.velocity[1 - lattice_.state.current] = lattice_.state.velocity[lattice_.state.current];
+  stepper_->restart();
+  if (network_) network_->restart(lattice_);
+  std::fill(lattice_.hands.impulses.begin(), lattice_.hands.impulses.end(), layout::vec4{});
+  std::fill(lattice_.hands.touched.begin(), lattice_.hands.touched.end(), uint8_t{0});
+  sleep_.wakeAll(lattice_);
+}
+
+void CpuBackend::resetState() {
+  lattice_.reset();
+  stats_ = {};
+  has_stats_ = false;
+  springs_cut_ = 0;
+  sleep_.restart();
+  changeAll();
+  if (!lattice_.hands.held.empty()) noteHeld();
+}
+
+void CpuBackend::loadState(const HostState& state) {
+  lattice_.write(state);
+  stats_.max_rate_bits = 0;
+  changeAll();
+  noteHeld();
+}
+
+void CpuBackend::saveGood() {
+  Good& good = good_[static_cast<size_t>(next_good_)];
+  good.displacement = lattice_.state.displacement[lattice_.state.current];
+  good.velocity = lattice_.state.velocity[lattice_.state.current];
+  next_good_ = (next_good_ + 1) % kGoodStates;
+  kept_good_ = std::min(kept_good_ + 1, kGoodStates);
+}
+
+void CpuBackend::restoreGood(int back) {
+  const bool exhausted = back >= kept_good_;
+  back = std::min(back, kept_good_ - 1);
+  next_good_ = (next_good_ - back + kGoodStates) % kGoodStates;
+  kept_good_ -= back;
+  const Good& good = good_[static_cast<size_t>((next_good_ - 1 + kGoodStates) % kGoodStates)];
+  lattice_.state.displacement[lattice_.state.current] = good.displacement;
+  lattice_.state.velocity[lattice_.state.current] = good.velocity;
+  if (exhausted)
+    std::fill(lattice_.state.velocity[lattice_.state.current].begin(),
+              lattice_.state.velocity[lattice_.state.current].end(), 0.0f);
+  changeAll();
+}
+
+void CpuBackend::clearGood() {
+  kept_good_ = 0;
+}
+
+HostState CpuBackend::readState() const {
+  return lattice_.read();
+}
+
+void CpuBackend::snapshot(StateSnapshot& out, uint64_t cut_revision) const {
+  copyShown(lattice_.state.displacement[lattice_.state.current].data(), out);
+  if (out.nodes.empty() || out.cut_revision != cut_revision) {
+    out.nodes = lattice_.store.nodes;
+    out.spring_cut = lattice_.links.spring_cut;
+  }
+  out.cut_revision = cut_revision;
+}
+}  // namespace viscera

@@ -1,0 +1,100 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "solver/cpu/cpu_lattice.h"
+#include "solver/cpu/cpu_stepper.h"
+#include "solver/cpu/sleep.h"
+#include "solver/cpu/surroundings.h"
+#include "solver/cpu/thread_pool.h"
+#include "solver/cpu/tool_passes.h"
+#include "solver/solver_backend.h"
+#include "solver/tick_plan.h"
+
+namespace viscera {
+
+class CpuNetwork;
+
+struct CpuSolverOptions : SolverOptions {
+  std::string simd;  ///< one of simdTargets(); empty: the best that this processor has
+};
+
+/// Instruction sets that the kernels were compiled for and this processor has, best first, such as AVX3, AVX2, SSE4.
+std::vector<std::string> simdTargets();
+
+/// The tissue in host memory, stepped by SIMD threads. Bricks at rest sleep.
+class CpuBackend : public SolverBackend {
+ public:
+  /// @param model  must outlive the backend   @param plan  of model and scene; looked at here only
+  /// @throws SceneError  parts (strengths), simd of another name
+  CpuBackend(const Model& model, const Scene& scene, const TickPlan& plan, const CpuSolverOptions& options = {});
+  ~CpuBackend() override;
+
+  std::string name() const override;  ///< such as "cpu (AVX3, 2 threads)"
+  size_t awakeBricks() const;         ///< in the last substep
+  size_t bricks() const { return lattice_.brickCount(); }
+
+  void beginTick() override {}
+  void takeHold(uint32_t stylus, const Pose& pose, double radius_m) override;
+  void letGo(uint32_t stylus, const Release& release) override;
+  void writeMotions(const std::vector<layout::ToolMotion>& motions) override;
+  void selectMotions(size_t substep) override;
+  void cut(uint32_t stylus, bool particles) override;
+  void advance(const Substep& step, bool recovery) override;
+  void beginSurroundings(const Surroundings& /*surroundings*/) override {}
+  void surround(const Substep& step, const Surroundings& surroundings) override;
+  void measure() override;
+  void sumReactions(const std::array<Vector3f, layout::kMaxStyluses>& tips) override;
+  void guard(const Governor::Bounds& /*bounds*/, const ToolMotions& /*motions*/, double /*tick_s*/) override {}
+  int lag() const override { return 0; }
+  bool requestStats() override;
+  bool takeStats(layout::TickStats& stats, bool wait) override;
+  HostState readState() const override;
+  void snapshot(StateSnapshot& out, uint64_t cut_revision) const override;
+  std::optional<StateView> stateOnGpu(uint64_t /*cut_revision*/) const override { return std::nullopt; }
+  void resetState() override;
+  void loadState(const HostState& state) override;
+  void saveGood() final;
+  void restoreGood(int back) override;
+  void clearGood() override;
+
+ private:
+  struct Work;  // what only src/solver/cpu knows: the kernels' jobs
+  void wakeForTools(const std::vector<layout::ToolMotion>& motions);
+  void changeAll();
+  void noteHeld();
+  float largestRate() const;
+
+  SolverConfig config_;
+  simd::Kernels kernels_;
+  FeatureSet features_;
+  std::vector<layout::BodyParams> params_;
+  CpuLattice lattice_;
+  std::shared_ptr<ThreadPool> threads_;
+  const ThreadPool& pool_;
+  Sleep sleep_;
+  std::unique_ptr<Work> work_;
+  std::optional<CpuSurroundings> surroundings_;
+  std::unique_ptr<CpuStepper> stepper_;
+  std::unique_ptr<CpuStepper> recovery_;     ///< only with a governor
+  std::vector<layout::ToolMotion> motions_;  ///< of this tick
+  const layout::ToolMotion* motion_ = nullptr;
+  std::optional<CpuCut> cut_;
+  std::unique_ptr<CpuNetwork> network_;  ///< null where no body has explicit connections
+  layout::TickStats stats_{};
+  bool has_stats_ = false;
+  uint32_t springs_cut_ = 0, rate_springs_cut_ = 0;
+
+  struct Good {
+    AlignedVector<float> displacement, velocity;
+  };
+  std::vector<Good> good_;  ///< ring
+  int next_good_ = 0, kept_good_ = 0;
+};
+
+}  // namespace viscera

@@ -1,0 +1,152 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solver/gpu/gpu_backend.h"
+
+#include <cstring>
+
+#include "gpu/stage_clock.h"
+#include "layout/bindings.h"
+#include "viscera/math/error.h"
+#include "viscera/solver/material.h"
+
+namespace viscera {
+
+namespace {
+constexpr int kStatsInFlight = 3;
+}
+
+GpuBackend::GpuBackend(const Model& model, const Scene& scene, const TickPlan& plan, const GpuSolverOptions& options)
+    : features_(featuresOf(model, scene, plan.shortestSubstep_s(), options.group_size)),
+      buffers_(model, bodyParams(model, plan.dt_safe_s), features_),
+      stepper_(makeStepper(scene.solver.integrator, scene.solver.iterations, features_, buffers_)),
+      measure_(features_, buffers_.store.active_count),
+      stats_ring_(sizeof(layout::TickStats), kStatsInFlight) {
+  if (plan.governed()) {
+    recovery_.emplace(Recovery{GoodStates(buffers_.store.slot_count, kGoodStates + kLag), GuardPass(features_),
+                               makeRecoveryStepper(kRecoveryIterations, features_, buffers_)});
+    recovery_->good.save(buffers_);
+  }
+  if (plan.surroundings) surroundings_.emplace(model, scene, features_, buffers_);
+  if (plan.tools) {
+    const size_t rows = static_cast<size_t>(plan.mostSubsteps()) * layout::kMaxStyluses;
+    tools_.emplace(Tools{gpu::Buffer<layout::ToolMotion>(rows), GrabPass(features_), CutPass(features_),
+                         ReactionPass(features_, buffers_.store.active_count)});
+  }
+}
+
+void GpuBackend::beginTick() {
+  buffers_.bind();
+}
+
+void GpuBackend::takeHold(uint32_t stylus, const Pose& pose, double radius_m) {
+  tools_->grab.takeHold(buffers_, stylus, pose, radius_m);
+}
+
+void GpuBackend::letGo(uint32_t stylus, const Release& release) {
+  tools_->grab.letGo(buffers_, stylus, release);
+}
+
+void GpuBackend::writeMotions(const std::vector<layout::ToolMotion>& motions) {
+  tools_->motions.write(motions);
+}
+
+void GpuBackend::selectMotions(size_t substep) {
+  tools_->motions.bindUniform(layout::kBindToolMotions, substep * layout::kMaxStyluses, layout::kMaxStyluses);
+}
+
+void GpuBackend::cut(uint32_t stylus, bool particles) {
+  const gpu::TimedStage timed(gpu::Stage::kCut);
+  tools_->cut.run(buffers_, stylus, particles);
+}
+
+void GpuBackend::advance(const Substep& step, bool recovery) {
+  const gpu::TimedStage timed(gpu::Stage::kStep);
+  Stepper& stepper = recovery ? *recovery_->stepper : *stepper_;
+  stepper.run(buffers_, step);
+  buffers_.swap();
+}
+
+void GpuBackend::beginSurroundings(const Surroundings& surroundings) {
+  surroundings_->beginTick(surroundings);
+}
+
+void GpuBackend::surround(const Substep& step, const Surroundings& surroundings) {
+  const gpu::TimedStage timed(gpu::Stage::kStep);
+  surroundings_->run(buffers_, step, surroundings);
+}
+
+void GpuBackend::measure() {
+  const gpu::TimedStage timed(gpu::Stage::kMeasure);
+  measure_.run(buffers_);
+}
+
+void GpuBackend::sumReactions(const std::array<Vector3f, layout::kMaxStyluses>& tips) {
+  const gpu::TimedStage timed(gpu::Stage::kReaction);
+  tools_->reaction.run(buffers_, tips);
+}
+
+void GpuBackend::guard(const Governor::Bounds& bounds, const ToolMotions& motions, double tick_s) {
+  const gpu::TimedStage timed(gpu::Stage::kMeasure);
+  recovery_->good.bindLast();
+  recovery_->guard.run(buffers_, bounds, motions, tick_s);
+}
+
+bool GpuBackend::requestStats() {
+  return stats_ring_.request({buffers_.stats.id(), 0, sizeof(layout::TickStats)}, 0);
+}
+
+bool GpuBackend::takeStats(layout::TickStats& stats, bool wait) {
+  const void* memory = stats_ring_.collect(nullptr, wait);
+  if (!memory) return false;
+  std::memcpy(&stats, memory, sizeof stats);
+  stats_ring_.release();
+  return true;
+}
+
+std::optional<StateView> GpuBackend::stateOnGpu(uint64_t cut_revision) const {
+  StateView view;
+  view.displacement = buffers_.state.displacement[buffers_.state.current].id();
+  view.velocity = buffers_.state.velocity[buffers_.state.current].id();
+  view.nodes = buffers_.store.nodes.id();
+  view.bricks = buffers_.store.bricks.id();
+  view.bodies = buffers_.store.bodies.id();
+  view.rest = buffers_.links.rest.id();
+  view.spring_cut = buffers_.links.spring_cut.id();
+  view.cut_revision = cut_revision;
+  return view;
+}
+
+HostState GpuBackend::readState() const {
+  return {buffers_.state.displacement[buffers_.state.current].read(),
+          buffers_.state.velocity[buffers_.state.current].read(), buffers_.store.nodes.read(),
+          buffers_.links.spring_cut.read()};
+}
+
+void GpuBackend::resetState() {
+  buffers_.reset();
+}
+
+void GpuBackend::loadState(const HostState& state) {
+  buffers_.state.displacement[buffers_.state.current].write(state.displacement_m);
+  buffers_.state.velocity[buffers_.state.current].write(state.velocity_m_per_s);
+  buffers_.store.nodes.write(state.nodes);
+  buffers_.writeSpringCut(state.spring_cut);
+  if (buffers_.state.compensation.size()) buffers_.state.compensation.clear();
+  buffers_.bind();
+}
+
+void GpuBackend::saveGood() {
+  const gpu::TimedStage timed(gpu::Stage::kMeasure);
+  recovery_->good.save(buffers_);
+}
+
+void GpuBackend::restoreGood(int back) {
+  recovery_->good.restore(buffers_, back);
+  if (buffers_.hands.impulses.size()) buffers_.hands.impulses.clear();
+}
+
+void GpuBackend::clearGood() {
+  recovery_->good.clear();
+}
+
+}  // namespace viscera

@@ -1,0 +1,86 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "gpu/readback.h"
+#include "solver/gpu/cut_pass.h"
+#include "solver/gpu/good_states.h"
+#include "solver/gpu/grab_pass.h"
+#include "solver/gpu/guard_pass.h"
+#include "solver/gpu/lattice_buffers.h"
+#include "solver/gpu/measure_pass.h"
+#include "solver/gpu/reaction_pass.h"
+#include "solver/gpu/stepper.h"
+#include "solver/gpu/surroundings_pass.h"
+#include "solver/solver_backend.h"
+#include "solver/tick_plan.h"
+
+namespace viscera {
+
+struct GpuSolverOptions : SolverOptions {
+  uint32_t group_size = layout::kGroupSize;
+};
+
+/// The tissue on the GPU (OpenGL compute).
+class GpuBackend final : public SolverBackend {
+ public:
+  /// @param model  must outlive the backend   @param plan  of model and scene; looked at here only
+  /// @throws GpuError  shaders, memory;  SceneError  parts (strengths)
+  GpuBackend(const Model& model, const Scene& scene, const TickPlan& plan, const GpuSolverOptions& options = {});
+
+  std::string name() const override { return "gpu"; }
+  uint64_t waits() const { return stats_ring_.waits(); }  ///< of the host for measurements, see GpuSolver
+
+  void beginTick() override;
+  void takeHold(uint32_t stylus, const Pose& pose, double radius_m) override;
+  void letGo(uint32_t stylus, const Release& release) override;
+  void writeMotions(const std::vector<layout::ToolMotion>& motions) override;
+  void selectMotions(size_t substep) override;
+  void cut(uint32_t stylus, bool particles) override;
+  void advance(const Substep& step, bool recovery) override;
+  void beginSurroundings(const Surroundings& surroundings) override;
+  void surround(const Substep& step, const Surroundings& surroundings) override;
+  void measure() override;
+  void sumReactions(const std::array<Vector3f, layout::kMaxStyluses>& tips) override;
+  void guard(const Governor::Bounds& bounds, const ToolMotions& motions, double tick_s) override;
+  int lag() const override { return kLag; }
+  bool requestStats() override;
+  bool takeStats(layout::TickStats& stats, bool wait) override;
+  HostState readState() const override;
+  void snapshot(StateSnapshot& out, uint64_t /*cut_revision*/) const override { copyShown(readState(), out); }
+  std::optional<StateView> stateOnGpu(uint64_t cut_revision) const override;
+  void resetState() override;
+  void loadState(const HostState& state) override;
+  void saveGood() override;
+  void restoreGood(int back) override;
+  void clearGood() override;
+
+ private:
+  static constexpr int kLag = 1;
+  struct Tools {  ///< what only a scene with styluses needs
+    gpu::Buffer<layout::ToolMotion> motions;
+    GrabPass grab;
+    CutPass cut;
+    ReactionPass reaction;
+  };
+  struct Recovery {  ///< what only a scene with a governor needs
+    GoodStates good;
+    GuardPass guard;
+    std::unique_ptr<Stepper> stepper;  ///< pd without acceleration: every sweep descends
+  };
+
+  FeatureSet features_;
+  LatticeBuffers buffers_;
+  std::unique_ptr<Stepper> stepper_;
+  MeasurePass measure_;
+  std::optional<SurroundingsPass> surroundings_;
+  std::optional<Tools> tools_;
+  std::optional<Recovery> recovery_;
+  gpu::ReadbackRing stats_ring_;
+};
+
+}  // namespace viscera
