@@ -59,7 +59,7 @@ class CpuBackend : public SolverBackend {
   std::optional<StateView> stateOnGpu(uint64_t /*cut_revision*/) const override { return std::nullopt; }
   void resetState() override;
   void loadState(const HostState& state) override;
-  void saveGood() final;
+  void saveGood() final;  // construction saves the first
   void restoreGood(int back) override;
   void clearGood() override;
 
