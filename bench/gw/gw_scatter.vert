@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // gw_scatter.vert - a spring as a point at the pixel of one of its ends, in the colour of its force: blending adds
-// them up there (GW 4.2).   Owner: bench/gw_blend.h
+// them up there (GW 4.2).   Owner: bench/gw/gw_blend.h
 // in  springs, spring_forces [springs] N     out  colour
 #include "layout.h"
 #include "bench/gw/gw_units.h"
