@@ -6,8 +6,10 @@
 
 namespace viscera::nodes {
 
-CameraPublisher::CameraPublisher(image_transport::ImageTransport& transport, const CameraConfig& camera, double tick_hz)
+CameraPublisher::CameraPublisher(image_transport::ImageTransport& transport, const CameraConfig& camera,
+                                 const std::string& frame_prefix, double tick_hz)
     : camera_(camera),
+      optical_frame_(opticalFrame(camera, frame_prefix)),
       publisher_(transport.advertiseCamera(camera.name + "/image_raw", 1)),
       throttle_(camera.rate_hz, tick_hz) {}
 
@@ -16,8 +18,7 @@ bool CameraPublisher::pick() {
 }
 
 void CameraPublisher::publish(ImageFrame&& frame, const ros::Time& stamp) {
-  const std::string optical_frame = opticalFrame(camera_);
-  publisher_.publish(toImage(std::move(frame), optical_frame, stamp), toCameraInfo(camera_, optical_frame, stamp));
+  publisher_.publish(toImage(std::move(frame), optical_frame_, stamp), toCameraInfo(camera_, optical_frame_, stamp));
 }
 
 }  // namespace viscera::nodes

@@ -4,6 +4,8 @@
 
 #include <image_transport/image_transport.h>
 
+#include <string>
+
 #include "nodes/conversions.h"
 #include "nodes/throttle.h"
 
@@ -12,7 +14,8 @@ namespace viscera::nodes {
 /// Topics `<camera>/image_raw` and `<camera>/camera_info` of one camera.
 class CameraPublisher {
  public:
-  CameraPublisher(image_transport::ImageTransport& transport, const CameraConfig& camera, double tick_hz);
+  CameraPublisher(image_transport::ImageTransport& transport, const CameraConfig& camera,
+                  const std::string& frame_prefix, double tick_hz);
 
   /// Call once in a tick: whether somebody subscribes and the camera's rate makes an image due.
   bool pick();
@@ -20,6 +23,7 @@ class CameraPublisher {
 
  private:
   const CameraConfig camera_;
+  const std::string optical_frame_;
   image_transport::CameraPublisher publisher_;
   Throttle throttle_;
 };

@@ -111,27 +111,33 @@ geometry_msgs::WrenchStamped toWrench(const Reaction& reaction, const Quaternion
   return out;
 }
 
-SurfaceTopology toTopology(const ShownTopology& skin, uint32_t version, const std::string& frame,
-                           const ros::Time& stamp) {
+SurfaceTopology toTopology(const ShownTopology& skin, const SentVertices& sent, uint32_t version,
+                           const std::string& frame, const ros::Time& stamp) {
   SurfaceTopology out;
   out.header = header(frame, stamp);
   out.version = version;
-  out.vertices = static_cast<uint32_t>(skin.vertices);
-  out.triangles = skin.triangles;
+  out.vertices = static_cast<uint32_t>(sent.vertices().size());
+  out.triangles.reserve(skin.triangles.size());
+  for (const uint32_t vertex : skin.triangles) out.triangles.push_back(sent.numberOf(vertex));
   for (const ShownBody& body : skin.bodies) out.bodies.push_back(body.name);
   out.body_triangles.assign(skin.bodies.size(), 0);
   for (const ShownPatch& patch : skin.patches) out.body_triangles[patch.body] += static_cast<uint32_t>(patch.count);
   return out;
 }
 
-SurfaceVertices toVertices(const SurfaceFrame& frame, uint32_t topology_version, const std::string& frame_id,
-                           const ros::Time& stamp) {
+SurfaceVertices toVertices(const SurfaceFrame& frame, const SentVertices& sent, uint32_t topology_version,
+                           const std::string& frame_id, const ros::Time& stamp) {
   SurfaceVertices out;
   out.header = header(frame_id, stamp);
   out.tick = frame.tick;
   out.topology_version = topology_version;
-  out.positions_m = frame.positions_m;
-  out.normals = frame.normals;
+  out.positions_m.reserve(3 * sent.vertices().size());
+  out.normals.reserve(sent.vertices().size());
+  for (const uint32_t vertex : sent.vertices()) {
+    const float* const xyz_m = &frame.positions_m[3 * size_t{vertex}];
+    out.positions_m.insert(out.positions_m.end(), xyz_m, xyz_m + 3);
+    out.normals.push_back(frame.normals[vertex]);
+  }
   return out;
 }
 
@@ -149,8 +155,12 @@ std::vector<visualization_msgs::Marker> toMarkers(const ShownMesh& skin, const s
   return markers;
 }
 
-std::string opticalFrame(const CameraConfig& camera) {
-  return camera.name + "_optical_frame";
+std::string opticalFrame(const CameraConfig& camera, const std::string& frame_prefix) {
+  return frame_prefix + camera.name + "_optical_frame";
+}
+
+std::string toolFrame(const StylusConfig& stylus, const std::string& frame_prefix) {
+  return frame_prefix + stylus.name + "_tool";
 }
 
 sensor_msgs::Image toImage(ImageFrame&& frame, const std::string& optical_frame, const ros::Time& stamp) {
@@ -166,16 +176,18 @@ sensor_msgs::Image toImage(ImageFrame&& frame, const std::string& optical_frame,
 
 sensor_msgs::CameraInfo toCameraInfo(const CameraConfig& camera, const std::string& optical_frame,
                                      const ros::Time& stamp) {
+  constexpr double kPixelCentre = 0.5;  // of Intrinsics; in a CameraInfo the centre of the first pixel is at 0
   const Intrinsics lens = intrinsics(camera);
+  const double cx = lens.cx - kPixelCentre, cy = lens.cy - kPixelCentre;
   sensor_msgs::CameraInfo out;
   out.header = header(optical_frame, stamp);
   out.width = static_cast<uint32_t>(camera.width_px);
   out.height = static_cast<uint32_t>(camera.height_px);
   out.distortion_model = sensor_msgs::distortion_models::PLUMB_BOB;
   out.D.assign(5, 0.0);
-  out.K = {lens.fx, 0, lens.cx, 0, lens.fy, lens.cy, 0, 0, 1};
+  out.K = {lens.fx, 0, cx, 0, lens.fy, cy, 0, 0, 1};
   out.R = {1, 0, 0, 0, 1, 0, 0, 0, 1};
-  out.P = {lens.fx, 0, lens.cx, 0, 0, lens.fy, lens.cy, 0, 0, 0, 1, 0};
+  out.P = {lens.fx, 0, cx, 0, 0, lens.fy, cy, 0, 0, 0, 1, 0};
   return out;
 }
 

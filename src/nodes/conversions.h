@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "nodes/sent_vertices.h"
 #include "viscera/SurfaceTopology.h"
 #include "viscera/SurfaceVertices.h"
 #include "viscera/math/types.h"
@@ -39,10 +40,12 @@ bool isFinite(const Pose& pose);
 geometry_msgs::WrenchStamped toWrench(const Reaction& reaction, const Quaterniond& frame_from_tissue,
                                       const std::string& frame, const ros::Time& stamp);
 
-SurfaceTopology toTopology(const ShownTopology& skin, uint32_t version, const std::string& frame,
-                           const ros::Time& stamp);
-SurfaceVertices toVertices(const SurfaceFrame& frame, uint32_t topology_version, const std::string& frame_id,
-                           const ros::Time& stamp);
+/// @param sent  has followed `skin`
+SurfaceTopology toTopology(const ShownTopology& skin, const SentVertices& sent, uint32_t version,
+                           const std::string& frame, const ros::Time& stamp);
+/// @param sent  has followed the frame's topology
+SurfaceVertices toVertices(const SurfaceFrame& frame, const SentVertices& sent, uint32_t topology_version,
+                           const std::string& frame_id, const ros::Time& stamp);
 
 /// One marker per body, for stock rviz: TRIANGLE_LIST of what is shown of it, or DELETE if none is left. Triangles with
 /// a coordinate that is not finite are left out, since rviz would crash on them.
@@ -51,8 +54,10 @@ std::vector<visualization_msgs::Marker> toMarkers(const ShownMesh& skin, const s
 
 /// Takes the pixels out of `frame`.
 sensor_msgs::Image toImage(ImageFrame&& frame, const std::string& optical_frame, const ros::Time& stamp);
+/// As OpenCV counts: the centre of the first pixel is at (0, 0), half a pixel from where Intrinsics has it.
 sensor_msgs::CameraInfo toCameraInfo(const CameraConfig& camera, const std::string& optical_frame,
                                      const ros::Time& stamp);
-std::string opticalFrame(const CameraConfig& camera);
+std::string opticalFrame(const CameraConfig& camera, const std::string& frame_prefix);
+std::string toolFrame(const StylusConfig& stylus, const std::string& frame_prefix);
 
 }  // namespace viscera::nodes

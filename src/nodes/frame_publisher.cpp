@@ -8,18 +8,21 @@
 
 namespace viscera::nodes {
 FramePublisher::FramePublisher(ros::NodeHandle node, const Scene& scene,
-                               const std::vector<const StylusMailbox*>& mailboxes, double surface_rate_hz)
+                               const std::vector<const StylusMailbox*>& mailboxes, const PublishOptions& options)
     : transport_(node),
       surface_(node, scene.environment.tissue_frame),
-      surface_throttle_(surface_rate_hz, scene.solver.tick_hz) {
+      surface_throttle_(options.surface_rate_hz, scene.solver.tick_hz),
+      scene_markers_(node, scene, options) {
   for (const CameraConfig& camera : scene.cameras)
-    cameras_.push_back(std::make_unique<CameraPublisher>(transport_, camera, scene.solver.tick_hz));
+    cameras_.push_back(
+        std::make_unique<CameraPublisher>(transport_, camera, options.frame_prefix, scene.solver.tick_hz));
   for (const StylusMailbox* mailbox : mailboxes)
-    styluses_.push_back(std::make_unique<StylusPublisher>(node, *mailbox, scene.environment.tissue_frame));
+    styluses_.push_back(
+        std::make_unique<StylusPublisher>(node, *mailbox, scene.environment.tissue_frame, options.frame_prefix));
   force_latency_.resize(styluses_.size());
   image_latency_.resize(cameras_.size());
   slots_ = emptySlots();
-  broadcastStaticFrames(scene);
+  broadcastStaticFrames(scene, options.frame_prefix);
   thread_ = std::thread([this] { main(); });
 }
 
@@ -32,7 +35,7 @@ FramePublisher::~FramePublisher() {
   thread_.join();
 }
 
-void FramePublisher::broadcastStaticFrames(const Scene& scene) {
+void FramePublisher::broadcastStaticFrames(const Scene& scene, const std::string& frame_prefix) {
   const EnvironmentConfig& world = scene.environment;
   const ros::Time now = ros::Time::now();
   std::vector<geometry_msgs::TransformStamped> frames;
@@ -41,7 +44,7 @@ void FramePublisher::broadcastStaticFrames(const Scene& scene) {
     frames.push_back(toTransform(tissue, world.world_frame, world.tissue_frame, now));
   }
   for (const CameraConfig& camera : scene.cameras)
-    frames.push_back(toTransform(opticalPose(camera), world.tissue_frame, opticalFrame(camera), now));
+    frames.push_back(toTransform(opticalPose(camera), world.tissue_frame, opticalFrame(camera, frame_prefix), now));
   static_frames_.sendTransform(frames);
 }
 
@@ -75,6 +78,7 @@ void FramePublisher::deliver(Frame&& frame, const StylusSamples& samples) {
     slots_.hands->stamp = ros::Time::now();
     for (size_t i = 0; i < samples.size(); ++i)
       slots_.hands->value[i] = {frame.reactions[i], frame.poses_received[i], samples[i]};
+    if (scene_markers_.isDue()) slots_.scene = {stampOf(frame.tick), lookOf(frame)};
     if (frame.surface) {
       const ros::Time stamp = stampOf(frame.surface->tick);
       slots_.surface = {stamp, std::move(frame.surface)};
@@ -116,6 +120,7 @@ void FramePublisher::send(Slots&& slots) {
     surface_.publish(*slots.surface->value, slots.surface->stamp);
     noteLatency(surface_latency_, slots.surface->value->pose_received);
   }
+  if (slots.scene) scene_markers_.publish(slots.scene->value, slots.scene->stamp);
   for (size_t i = 0; i < slots.images.size(); ++i) {
     if (!slots.images[i]) continue;
     const SteadyTime pose_received = slots.images[i]->value.pose_received;

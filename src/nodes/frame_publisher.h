@@ -10,12 +10,15 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <string>
 #include <thread>
 #include <utility>
 #include <vector>
 
 #include "nodes/camera_publisher.h"
 #include "nodes/latency_meter.h"
+#include "nodes/publish_options.h"
+#include "nodes/scene_marker_publisher.h"
 #include "nodes/stylus_publisher.h"
 #include "nodes/surface_publisher.h"
 #include "nodes/throttle.h"
@@ -28,7 +31,7 @@ class FramePublisher {
  public:
   /// @param mailboxes  of the scene's styluses, in order; they must outlive this
   FramePublisher(ros::NodeHandle node, const Scene& scene, const std::vector<const StylusMailbox*>& mailboxes,
-                 double surface_rate_hz);
+                 const PublishOptions& options);
   ~FramePublisher();
   FramePublisher(const FramePublisher&) = delete;
   FramePublisher& operator=(const FramePublisher&) = delete;
@@ -64,9 +67,10 @@ class FramePublisher {
     std::optional<Stamped<Hands>> hands;
     std::optional<Stamped<std::unique_ptr<SurfaceFrame>>> surface;
     std::vector<std::optional<Stamped<ImageFrame>>> images;  ///< [cameras]
+    std::optional<Stamped<SceneLook>> scene;
   };
 
-  void broadcastStaticFrames(const Scene& scene);
+  void broadcastStaticFrames(const Scene& scene, const std::string& frame_prefix);
   ros::Time stampOf(uint64_t tick) const;
   Slots emptySlots() const;
   void main();
@@ -77,6 +81,7 @@ class FramePublisher {
   image_transport::ImageTransport transport_;
   SurfacePublisher surface_;
   Throttle surface_throttle_;
+  SceneMarkerPublisher scene_markers_;
   std::vector<std::unique_ptr<CameraPublisher>> cameras_;
   std::vector<std::unique_ptr<StylusPublisher>> styluses_;
 

@@ -41,6 +41,14 @@ Overrides meshChoice(Parameters& parameters) {
   return overrides;
 }
 
+/// tf2 refuses names that begin with a slash.
+std::string framePrefix(Parameters& parameters) {
+  const std::string prefix = parameters.text("frame_prefix", "");
+  if (prefix.find_first_of("/ \t\n") == 0)
+    throw ParameterError("parameter ~frame_prefix: must not begin with '/' or a space; as in left_room/");
+  return prefix;
+}
+
 }  // namespace
 
 std::string namedFile(const std::string& key, const std::string& value, const std::string& folder) {
@@ -52,13 +60,15 @@ std::string namedFile(const std::string& key, const std::string& value, const st
 }
 
 SceneChoice SceneChoice::read(Parameters& parameters, const std::string& fallback) {
-  SceneChoice choice{parameters.text("scene", fallback), meshChoice(parameters)};
+  SceneChoice choice{parameters.text("scene", fallback), meshChoice(parameters), framePrefix(parameters)};
   for (const std::string& item : parameters.texts("overrides")) choice.overrides.push_back(item);
   return choice;
 }
 
 Scene SceneChoice::load(const std::string& package_folder) const {
-  return loadScene(namedFile("scene", scene, package_folder + "/config/scenes"), overrides);
+  Scene out = loadScene(namedFile("scene", scene, package_folder + "/config/scenes"), overrides);
+  out.environment.tissue_frame = frame_prefix + out.environment.tissue_frame;
+  return out;
 }
 
 }  // namespace viscera::nodes

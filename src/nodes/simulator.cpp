@@ -24,7 +24,7 @@ Simulator::Simulator(const SimulatorOptions& options)
     : listener_(frames_),
       obstacles_(options.scene, frames_),
       inputs_(makeInputs(options.scene, frames_)),
-      publisher_(node_, options.scene, mailboxes(), options.surface_rate_hz),
+      publisher_(node_, options.scene, mailboxes(), options.publish),
       loop_(options.scene, ports(), reportProgress),
       services_(node_, loop_.commands()),
       diagnostics_(node_, options.scene, loop_, publisher_, inputs_, obstacles_) {}

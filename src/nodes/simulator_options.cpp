@@ -9,7 +9,10 @@ namespace viscera::nodes {
 SimulatorOptions simulatorOptions(Parameters& parameters, const std::string& package_folder) {
   SimulatorOptions options;
   const SceneChoice choice = SceneChoice::read(parameters, "heart");
-  options.surface_rate_hz = parameters.number("surface_rate_hz", options.surface_rate_hz, 0.1, 1000);
+  PublishOptions& publish = options.publish;
+  publish.surface_rate_hz = parameters.number("surface_rate_hz", publish.surface_rate_hz, 0.1, 1000);
+  publish.force_arrow_m_per_n = parameters.number("force_arrow_m_per_n", publish.force_arrow_m_per_n, 0, 10);
+  publish.frame_prefix = choice.frame_prefix;
   parameters.refuseOthers();
   options.scene = choice.load(package_folder);
   return options;

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "nodes/parameters.h"
+#include "nodes/publish_options.h"
 #include "viscera/model/scene/scene.h"
 
 namespace viscera::nodes {
@@ -12,7 +13,7 @@ namespace viscera::nodes {
 /// What the private parameters of the simulator say.
 struct SimulatorOptions {
   Scene scene;
-  double surface_rate_hz = 30;  ///< most often that `surface` and `surface_marker` are sent
+  PublishOptions publish;
 };
 
 /// @param package_folder  where config/scenes/<name>.yaml are looked up

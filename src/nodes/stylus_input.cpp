@@ -29,7 +29,9 @@ void StylusInput::subscribe(ros::NodeHandle& node) {
 
 void StylusInput::onPose(const geometry_msgs::PoseStamped& message) {
   const auto lookup = [this](const std::string& frame) { return inTissue(frame); };
-  warn("measured_cp", mailbox_.put(message, lookup, std::chrono::steady_clock::now()));
+  const std::optional<Drop> reason = mailbox_.put(message, lookup, std::chrono::steady_clock::now());
+  const std::string frames = ": tf does not join '" + message.header.frame_id + "' to '" + tissue_frame_ + "'";
+  warn("measured_cp", reason, reason == Drop::kNoTransform ? frames : "");
 }
 
 void StylusInput::onButton(size_t button, const sensor_msgs::Joy& message) {
@@ -47,11 +49,11 @@ std::optional<Pose> StylusInput::inTissue(const std::string& frame) const {
   }
 }
 
-void StylusInput::warn(const std::string& topic, std::optional<Drop> reason) {
+void StylusInput::warn(const std::string& topic, std::optional<Drop> reason, const std::string& detail) {
   if (!reason || warned_[static_cast<size_t>(*reason)]) return;
   warned_[static_cast<size_t>(*reason)] = true;
-  ROS_WARN("%s/%s: a message was dropped (%s); later ones are counted in /diagnostics", mailbox_.config().name.c_str(),
-           topic.c_str(), text(*reason));
+  ROS_WARN("%s/%s: a message was dropped (%s%s); later ones are counted in /diagnostics",
+           mailbox_.config().name.c_str(), topic.c_str(), text(*reason), detail.c_str());
 }
 
 }  // namespace viscera::nodes

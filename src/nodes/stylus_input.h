@@ -30,7 +30,7 @@ class StylusInput {
   void onPose(const geometry_msgs::PoseStamped& message);
   void onButton(size_t button, const sensor_msgs::Joy& message);
   std::optional<Pose> inTissue(const std::string& frame) const;
-  void warn(const std::string& topic, std::optional<Drop> reason);
+  void warn(const std::string& topic, std::optional<Drop> reason, const std::string& detail = "");
 
   const tf2_ros::Buffer& frames_;
   const std::string tissue_frame_;

@@ -42,7 +42,8 @@ std::optional<Drop> StylusMailbox::put(const geometry_msgs::PoseStamped& message
   if (!(std::abs(in_device.orientation.norm() - 1) <= kQuaternionTolerance)) return drop(Drop::kBadQuaternion);
   in_device.orientation.normalize();
 
-  const std::string frame = tf2Name(message.header.frame_id);
+  const std::string& named = message.header.frame_id;
+  const std::string frame = named.empty() ? tissue_frame_ : tf2Name(named);
   const std::optional<Pose> device_in_tissue = frame == tissue_frame_ ? Pose{} : lookup(frame);
   if (!device_in_tissue) return drop(Drop::kNoTransform);
   const Pose in_tissue = *device_in_tissue * in_device;

@@ -55,7 +55,7 @@ class StylusMailbox {
  public:
   StylusMailbox(const StylusConfig& config, const std::string& tissue_frame);
 
-  /// Checks a pose, brings it to the tissue frame and keeps it; or says why not.
+  /// Checks a pose, brings it to the tissue frame and keeps it; or says why not. No frame means the tissue frame.
   std::optional<Drop> put(const geometry_msgs::PoseStamped& message, const FrameLookup& lookup, SteadyTime now);
   /// @param button  0 or 1
   std::optional<Drop> put(size_t button, const sensor_msgs::Joy& message);

@@ -9,8 +9,9 @@
 
 namespace viscera::nodes {
 
-StylusPublisher::StylusPublisher(ros::NodeHandle& node, const StylusMailbox& mailbox, const std::string& tissue_frame)
-    : mailbox_(mailbox), tissue_frame_(tissue_frame) {
+StylusPublisher::StylusPublisher(ros::NodeHandle& node, const StylusMailbox& mailbox, const std::string& tissue_frame,
+                                 const std::string& frame_prefix)
+    : mailbox_(mailbox), tissue_frame_(tissue_frame), tool_frame_(toolFrame(mailbox.config(), frame_prefix)) {
   const std::string body = mailbox.config().name + "/body/";
   force_ = node.advertise<geometry_msgs::WrenchStamped>(body + "servo_cf", 1);
   // A CRTK device takes a body wrench in its tip's frame unless told that it is in the frame of its poses.
@@ -29,7 +30,7 @@ void StylusPublisher::publish(const Reaction& reaction, const StylusSample& samp
   // The same stamp twice, as while /clock stands still, would make every tf2 listener warn.
   if (!sample.valid || stamp == last_transform_) return;
   last_transform_ = stamp;
-  broadcaster_.sendTransform(toTransform(sample.pose, tissue_frame_, mailbox_.config().name + "_tool", stamp));
+  broadcaster_.sendTransform(toTransform(sample.pose, tissue_frame_, tool_frame_, stamp));
 }
 
 }  // namespace viscera::nodes

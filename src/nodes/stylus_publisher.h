@@ -16,12 +16,13 @@ namespace viscera::nodes {
 /// What goes back to a stylus: `<stylus>/body/servo_cf`, its companion for orientation, and the frame `<stylus>_tool`.
 class StylusPublisher {
  public:
-  StylusPublisher(ros::NodeHandle& node, const StylusMailbox& mailbox, const std::string& tissue_frame);
+  StylusPublisher(ros::NodeHandle& node, const StylusMailbox& mailbox, const std::string& tissue_frame,
+                  const std::string& frame_prefix);
   void publish(const Reaction& reaction, const StylusSample& sample, const ros::Time& stamp);
 
  private:
   const StylusMailbox& mailbox_;
-  const std::string tissue_frame_;
+  const std::string tissue_frame_, tool_frame_;
   ros::Publisher force_, absolute_;
   tf2_ros::TransformBroadcaster broadcaster_;
   ros::Time last_transform_;

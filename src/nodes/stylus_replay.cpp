@@ -49,6 +49,7 @@ ReplayOptions replayOptions(Parameters& parameters, const std::string& package_f
   options.loop = parameters.flag("loop", options.loop);
   parameters.refuseOthers();
 
+  options.frame = choice.frame_prefix + options.frame;
   options.strokes = loadStrokes(namedFile("strokes", strokes, package_folder + "/config/strokes"));
   if (!choice.scene.empty()) {
     const Scene scene = choice.load(package_folder);

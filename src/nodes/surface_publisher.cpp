@@ -19,21 +19,23 @@ SurfacePublisher::SurfacePublisher(ros::NodeHandle& node, const std::string& tis
       marker_(node.advertise<visualization_msgs::Marker>("surface_marker", kMarkerQueue)) {}
 
 bool SurfacePublisher::isWanted() const {
-  return vertices_.getNumSubscribers() > 0 || marker_.getNumSubscribers() > 0;
+  return vertices_.getNumSubscribers() > 0 || marker_.getNumSubscribers() > 0 || topology_.getNumSubscribers() > 0;
 }
 
 void SurfacePublisher::start(const std::shared_ptr<const ShownTopology>& skin, const ros::Time& stamp) {
+  sent_ = SentVertices(*skin);
   publishTopology(*skin, stamp);
 }
 
 void SurfacePublisher::publishTopology(const ShownTopology& topology, const ros::Time& stamp) {
   revision_ = topology.revision;
-  topology_.publish(toTopology(topology, ++version_, frame_, stamp));
+  sent_.follow(topology);
+  topology_.publish(toTopology(topology, sent_, ++version_, frame_, stamp));
 }
 
 void SurfacePublisher::publish(const SurfaceFrame& frame, const ros::Time& stamp) {
   if (frame.topology->revision != revision_) publishTopology(*frame.topology, stamp);
-  if (vertices_.getNumSubscribers() > 0) vertices_.publish(toVertices(frame, version_, frame_, stamp));
+  if (vertices_.getNumSubscribers() > 0) vertices_.publish(toVertices(frame, sent_, version_, frame_, stamp));
   if (marker_.getNumSubscribers() > 0) publishMarkers(frame, stamp);
 }
 

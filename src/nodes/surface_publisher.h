@@ -16,7 +16,7 @@ class SurfacePublisher {
  public:
   SurfacePublisher(ros::NodeHandle& node, const std::string& tissue_frame);
 
-  /// Somebody subscribes to the moving surface. From any thread.
+  /// Somebody subscribes to the moving surface, or to what a cut changes of it. From any thread.
   bool isWanted() const;
   /// Sends the topology of the whole skin.
   void start(const std::shared_ptr<const ShownTopology>& skin, const ros::Time& stamp);
@@ -29,6 +29,7 @@ class SurfacePublisher {
 
   const std::string frame_;
   ros::Publisher topology_, vertices_, marker_;
+  SentVertices sent_;
   uint64_t revision_ = 0;  ///< of the topology sent last
   uint32_t version_ = 0;   ///< how many were sent
 };

@@ -38,6 +38,7 @@ Session::Session(const Scene& scene, gpu::Context* context, const Progress& prog
   solver_ = makeSolver(model_, scene_, context, options.threads);
   backend_note_ = viscera::backendNote(scene_.solver, context, *solver_);
   view_ = makeView(*solver_, model_, scene_, context);
+  lookAtObstacles();
   for (const StylusConfig& stylus : scene_.styluses) {
     limiters_.emplace_back(stylus.max_force_n, stylus.max_force_rate_n_per_s);
   }
@@ -67,6 +68,10 @@ void Session::setObstacleFrame(size_t obstacle, const Pose& pose) {
 void Session::moveObstacles() {
   obstacles_.advance(time_s_, tick_s());
   time_s_ += tick_s();
+  lookAtObstacles();
+}
+
+void Session::lookAtObstacles() {
   look_.obstacles.clear();
   for (size_t i = 0; i < obstacles_.count(); ++i) look_.obstacles.push_back(obstacles_.pose(i));
 }
@@ -99,6 +104,8 @@ Session::PoseTimes Session::posesOf(uint64_t tick) const {
 
 void Session::collect(Frame& frame, bool wait) {
   frame.tick = tick_;
+  frame.tools = look_.motions;
+  frame.obstacles = look_.obstacles;
   collectStats(frame, wait);
   view_->collect(frame, wait);
   if (frame.surface) frame.surface->pose_received = posesOf(frame.surface->tick).newest();
@@ -135,6 +142,8 @@ void Session::reset() {
   view_->reset();
   tools_.reset();
   obstacles_.reset();
+  look_.motions = {};
+  lookAtObstacles();
   for (ForceLimiter& limiter : limiters_) limiter.reset();
   reactions_ = {};
   stats_ = {};

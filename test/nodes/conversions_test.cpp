@@ -25,6 +25,16 @@ ShownTopology twoBodies(const std::vector<uint32_t>& square = {0, 1, 2, 2, 1, 3}
   return skin;
 }
 
+/// Of the two bodies while they are whole; six more lie ready for cuts.
+constexpr size_t kUsedVertices = 7;
+
+/// What is sent when the triangles have become these.
+SentVertices followed(const ShownTopology& skin) {
+  SentVertices sent(twoBodies());
+  sent.follow(skin);
+  return sent;
+}
+
 SurfaceFrame frameOf(const ShownTopology& skin) {
   SurfaceFrame frame;
   frame.tick = 12;
@@ -90,10 +100,10 @@ TEST(Conversions, WrenchThatIsNotFiniteBecomesZero) {
 
 TEST(Conversions, TopologyTellsWhatIsShownAndCountsPerBody) {
   const ShownTopology skin = twoBodies();
-  const auto whole = toTopology(skin, 1, "tissue", ros::Time(1));
+  const auto whole = toTopology(skin, followed(skin), 1, "tissue", ros::Time(1));
   EXPECT_EQ(whole.triangles, skin.triangles);
-  EXPECT_EQ(whole.vertices, 13u);
-  const auto torn = toTopology(twoBodies({2, 1, 3}), 2, "tissue", ros::Time(1));
+  EXPECT_EQ(whole.vertices, kUsedVertices);
+  const auto torn = toTopology(twoBodies({2, 1, 3}), followed(twoBodies({2, 1, 3})), 2, "tissue", ros::Time(1));
   EXPECT_EQ(torn.version, 2u);
   EXPECT_EQ(torn.triangles, (std::vector<uint32_t>{2, 1, 3, 4, 5, 6}));
   EXPECT_EQ(torn.bodies, (std::vector<std::string>{"square", "flap"}));
@@ -104,7 +114,7 @@ TEST(Conversions, PatchesOfABodyAreToldTogether) {
   ShownTopology skin = twoBodies();
   skin.triangles.insert(skin.triangles.end(), {7, 8, 9});
   skin.patches.push_back({1, ShownKind::kWound, 3, 1});
-  EXPECT_EQ(toTopology(skin, 1, "tissue", ros::Time(1)).body_triangles, (std::vector<uint32_t>{2, 2}));
+  EXPECT_EQ(toTopology(skin, followed(skin), 1, "tissue", ros::Time(1)).body_triangles, (std::vector<uint32_t>{2, 2}));
   const auto markers = toMarkers(frameOf(skin), "tissue", ros::Time(1));
   ASSERT_EQ(markers.size(), 2u);
   EXPECT_EQ(markers[0].points.size(), 6u);
@@ -114,7 +124,7 @@ TEST(Conversions, PatchesOfABodyAreToldTogether) {
 TEST(Conversions, SplitTrianglesAreToldInPieces) {
   const std::vector<uint32_t> pieces = {5, 9, 8, 10, 6, 4, 10, 4, 7};
   const SurfaceFrame frame = frameOf(twoBodies({2, 1, 3}, pieces));
-  const auto topology = toTopology(*frame.topology, 2, "tissue", ros::Time(1));
+  const auto topology = toTopology(*frame.topology, followed(*frame.topology), 2, "tissue", ros::Time(1));
   EXPECT_EQ(topology.triangles, (std::vector<uint32_t>{2, 1, 3, 5, 9, 8, 10, 6, 4, 10, 4, 7}));
   EXPECT_EQ(topology.body_triangles, (std::vector<uint32_t>{1, 3}));
   const auto markers = toMarkers(frame, "tissue", ros::Time(1));
@@ -124,13 +134,27 @@ TEST(Conversions, SplitTrianglesAreToldInPieces) {
   EXPECT_EQ(markers[1].points[1].x, frame.positions_m[3 * 9]);
 }
 
+TEST(Conversions, VerticesThatACutAddsAreSentAfterTheOthersAndOnlyWhileTheyAreNeeded) {
+  const ShownTopology cut = twoBodies({2, 1, 3}, {5, 12, 8, 12, 6, 4});
+  const SurfaceFrame frame = frameOf(cut);
+  SentVertices sent = followed(cut);
+  const auto topology = toTopology(cut, sent, 2, "tissue", ros::Time(1));
+  EXPECT_EQ(topology.vertices, kUsedVertices + 2);
+  EXPECT_EQ(topology.triangles, (std::vector<uint32_t>{2, 1, 3, 5, 8, 7, 8, 6, 4}));
+  const auto vertices = toVertices(frame, sent, 2, "tissue", ros::Time(1));
+  ASSERT_EQ(vertices.positions_m.size(), 3 * (kUsedVertices + 2));
+  EXPECT_EQ(vertices.positions_m[3 * 8], frame.positions_m[3 * 12]);
+  sent.follow(twoBodies());
+  EXPECT_EQ(sent.vertices().size(), kUsedVertices);
+}
+
 TEST(Conversions, VerticesCarryTickAndTopologyVersion) {
   const SurfaceFrame frame = frameOf(twoBodies());
-  const auto message = toVertices(frame, 4, "tissue", ros::Time(2));
+  const auto message = toVertices(frame, followed(*frame.topology), 4, "tissue", ros::Time(2));
   EXPECT_EQ(message.tick, 12u);
   EXPECT_EQ(message.topology_version, 4u);
-  EXPECT_EQ(message.positions_m, frame.positions_m);
-  EXPECT_EQ(message.normals, frame.normals);
+  EXPECT_EQ(message.positions_m, std::vector<float>(frame.positions_m.begin(), frame.positions_m.begin() + 21));
+  EXPECT_EQ(message.normals, std::vector<uint32_t>(kUsedVertices, 7u));
 }
 
 TEST(Conversions, MarkersHoldTheCornersOfWholeTrianglesOfOneBodyEach) {
@@ -170,15 +194,18 @@ TEST(Conversions, ImageAndCameraInfoAgreeInStampFrameAndSize) {
   frame.width = 4;
   frame.height = 2;
   frame.rgb.assign(24, 9);
-  const auto image = toImage(std::move(frame), opticalFrame(camera), ros::Time(8));
-  const auto info = toCameraInfo(camera, opticalFrame(camera), ros::Time(8));
+  const auto image = toImage(std::move(frame), opticalFrame(camera, ""), ros::Time(8));
+  const auto info = toCameraInfo(camera, opticalFrame(camera, ""), ros::Time(8));
   EXPECT_EQ(image.header.frame_id, "left_optical_frame");
   EXPECT_EQ(image.header.frame_id, info.header.frame_id);
   EXPECT_EQ(image.header.stamp, info.header.stamp);
   EXPECT_EQ(image.step * image.height, image.data.size());
   EXPECT_EQ(image.encoding, "rgb8");
   EXPECT_EQ(info.width, image.width);
-  EXPECT_EQ(info.K[2], 2.0);
+  EXPECT_EQ(info.K[2], 1.5);  // the middle of four pixels whose centres are 0, 1, 2, 3
+  EXPECT_EQ(info.K[5], 0.5);
+  EXPECT_EQ(info.P[2], info.K[2]);
+  EXPECT_EQ(info.P[6], info.K[5]);
   EXPECT_EQ(info.P[0], info.K[0]);
   EXPECT_GT(info.K[0], 0);
 }

@@ -64,6 +64,12 @@ TEST_F(StylusMailboxTest, PoseInTheTissueFrameNeedsNoTransform) {
   EXPECT_EQ(sample.pose.position_m, Vector3d(0.1, 0, 0));
 }
 
+TEST_F(StylusMailboxTest, PoseWithoutAFrameIsInTheTissueFrame) {
+  EXPECT_EQ(mailbox_.put(poseAt(0.1, ""), nowhere, at(0)), std::nullopt);
+  EXPECT_EQ(mailbox_.take(at(0)).pose.position_m, Vector3d(0.1, 0, 0));
+  EXPECT_EQ(mailbox_.deviceFrame().name, "tissue");
+}
+
 TEST_F(StylusMailboxTest, NewerPoseOvertakesTheOlder) {
   mailbox_.put(poseAt(0.1), nowhere, at(0));
   mailbox_.put(poseAt(0.2), nowhere, at(0.01));

@@ -58,6 +58,8 @@ struct Frame : Pictures {
   bool has_stats = false;  ///< stats are those of some recent tick
   Health health;
   std::array<bool, layout::kMaxStyluses> held_back{};  ///< the stylus was faster than tissue can follow
+  ToolMotions tools;                                   ///< of the tick: `to` is where the tools are shown
+  std::vector<Pose> obstacles;                         ///< [obstacles] at the end of the tick, tissue frame
 };
 
 /// A tick that is to be looked at.

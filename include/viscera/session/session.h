@@ -88,6 +88,7 @@ class Session {
   };
   Session(const Scene& scene, gpu::Context* context, const Progress& progress, const SessionOptions& options);
   void moveObstacles();
+  void lookAtObstacles();
   void notePoses(const StylusSamples& samples);
   PoseTimes posesOf(uint64_t tick) const;
   void collect(Frame& frame, bool wait);

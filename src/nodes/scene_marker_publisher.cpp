@@ -1,0 +1,25 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/scene_marker_publisher.h"
+
+#include <algorithm>
+
+namespace viscera::nodes {
+
+SceneMarkerPublisher::SceneMarkerPublisher(ros::NodeHandle& node, const Scene& scene, const PublishOptions& options)
+    : markers_(scene, options),
+      period_(std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1 / options.surface_rate_hz))),
+      publisher_(node.advertise<visualization_msgs::MarkerArray>("scene_markers", 1)) {}
+
+bool SceneMarkerPublisher::isDue() {
+  const Clock::time_point now = Clock::now();
+  if (now < next_ || publisher_.getNumSubscribers() == 0) return false;
+  next_ = std::max(next_ + period_, now);
+  return true;
+}
+
+void SceneMarkerPublisher::publish(const SceneLook& look, const ros::Time& stamp) {
+  publisher_.publish(markers_.at(look, stamp));
+}
+
+}  // namespace viscera::nodes

@@ -1,0 +1,31 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <ros/node_handle.h>
+
+#include <chrono>
+
+#include "nodes/scene_markers.h"
+
+namespace viscera::nodes {
+
+/// Topic `scene_markers`, for rviz.
+class SceneMarkerPublisher {
+ public:
+  SceneMarkerPublisher(ros::NodeHandle& node, const Scene& scene, const PublishOptions& options);
+
+  /// Somebody subscribes, and it is time for the next. Counted on the steady clock, so that it comes while paused too.
+  bool isDue();
+  /// From any one thread.
+  void publish(const SceneLook& look, const ros::Time& stamp);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  const SceneMarkers markers_;
+  const Clock::duration period_;
+  Clock::time_point next_{};
+  ros::Publisher publisher_;
+};
+
+}  // namespace viscera::nodes

@@ -1,0 +1,169 @@
+#!/usr/bin/env python3
+# Copyright (c) 2026, the viscera authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a viewer is told: a camera_info that is right to a part of a pixel, topologies, and markers of all but tissue."""
+import sys
+import threading
+import time
+import unittest
+
+import rospy
+import rostest
+from geometry_msgs.msg import PoseStamped
+from sensor_msgs.msg import CameraInfo, Image
+from simulator_watch import Latest, SimulatorWatch, wait_until
+from std_srvs.srv import Trigger
+from tf2_msgs.msg import TFMessage
+from visualization_msgs.msg import Marker, MarkerArray
+
+from viscera.msg import SurfaceTopology, SurfaceVertices
+
+LIMIT_S = 20
+TILE_M = (0.08, 0, 0.05)  # of scene_view.yaml: a square of 4 cm that faces the camera, turned, brighter than the background
+TILE_PX = 900             # pixels of it
+PIXEL_LIMIT = 0.1         # [px] of its middle: slanted borders meet pixels anywhere; half a pixel is the error looked for
+ABOVE_M = -0.05    # over the cloth, out of its reach
+CLOTH_M = -0.1
+
+
+class Hand:
+    """Sends poses at 50 Hz until it is told another one, or to stop."""
+
+    def __init__(self, stylus):
+        self.publisher = rospy.Publisher(stylus + "/measured_cp", PoseStamped, queue_size=1)
+        self.position = None
+        thread = threading.Thread(target=self.main, daemon=True)
+        thread.start()
+
+    def main(self):
+        while not rospy.is_shutdown():
+            if self.position:
+                message = PoseStamped()
+                message.header.stamp = rospy.Time.now()
+                message.header.frame_id = "tissue"
+                message.pose.position.x, message.pose.position.y, message.pose.position.z = self.position
+                message.pose.orientation.w = 1
+                self.publisher.publish(message)
+            time.sleep(0.02)
+
+    def move(self, start, end, seconds):
+        begun = time.monotonic()
+        while time.monotonic() < begun + seconds:
+            s = (time.monotonic() - begun) / seconds
+            self.position = tuple(a + s * (b - a) for a, b in zip(start, end))
+            time.sleep(0.01)
+        self.position = end
+
+
+def light(value):
+    """Of a byte of an sRGB image."""
+    return ((value / 255 + 0.055) / 1.055) ** 2.4
+
+
+def rotated(q, v):
+    """v turned by the quaternion q."""
+    u = (q.x, q.y, q.z)
+
+    def cross(a, b):
+        return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
+
+    t = tuple(2 * c for c in cross(u, v))
+    return tuple(a + q.w * b + c for a, b, c in zip(v, t, cross(u, t)))
+
+
+class SceneViewTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        rospy.init_node("scene_view_test")
+        cls.watch = SimulatorWatch()
+        cls.left, cls.right = Hand("left"), Hand("right")
+        cls.frames = {}
+        cls.static = Latest("/tf_static", TFMessage, cls.on_tf)
+        cls.watch.wait_ready()
+
+    @classmethod
+    def on_tf(cls, message):
+        for transform in message.transforms:
+            cls.frames[transform.child_frame_id] = transform.transform
+
+    def projected(self, info):
+        """The middle of the tile, where the centre of the first pixel is (0, 0), as the messages alone say."""
+        camera = wait_until(lambda: self.frames.get(info.header.frame_id), LIMIT_S, "camera in /tf_static")
+        away = tuple(p - getattr(camera.translation, axis) for p, axis in zip(TILE_M, "xyz"))
+        back = type(camera.rotation)(-camera.rotation.x, -camera.rotation.y, -camera.rotation.z, camera.rotation.w)
+        x, y, z = rotated(back, away)
+        return (info.P[0] * x / z + info.P[2], info.P[5] * y / z + info.P[6])
+
+    def test_a_point_projected_through_camera_info_is_found_in_the_image(self):
+        image, info = Latest("camera/image_raw", Image), Latest("camera/camera_info", CameraInfo)
+        wait_until(lambda: image.count and info.count, LIMIT_S, "image")
+        u, v = self.projected(info.message)
+        pixels, step = image.message.data, image.message.step
+        share = column_sum = row_sum = 0  # of the tile in each pixel
+        dark = light(pixels[0])
+        full = 0.9 * (light(pixels[int(v) * step + 3 * int(u)]) - dark)  # its lower end is a little darker
+        for row in range(int(v) - 30, int(v) + 31):
+            for column in range(int(u) - 30, int(u) + 31):
+                at = row * step + 3 * column
+                part = min(1, (light(pixels[at]) - dark) / full)
+                share, column_sum, row_sum = share + part, column_sum + part * column, row_sum + part * row
+        image.stop()
+        info.stop()
+        self.assertAlmostEqual(share, TILE_PX, delta=0.1 * TILE_PX)
+        self.assertAlmostEqual(column_sum / share, u, delta=PIXEL_LIMIT)
+        self.assertAlmostEqual(row_sum / share, v, delta=PIXEL_LIMIT)
+
+    def test_cloth_is_sent_with_shared_vertices_alone(self):
+        topology, surface = Latest("surface_topology", SurfaceTopology), Latest("surface", SurfaceVertices)
+        wait_until(lambda: topology.count and surface.count, LIMIT_S, "surface")
+        used = set(topology.message.triangles)
+        self.assertEqual(used, set(range(topology.message.vertices)))
+        self.assertLess(topology.message.vertices, 0.6 * len(topology.message.triangles) / 3)
+        self.assertEqual(len(surface.message.positions_m), 3 * topology.message.vertices)
+        self.assertEqual(len(surface.message.normals), topology.message.vertices)
+        topology.stop()
+        surface.stop()
+
+    def test_a_cut_renews_the_topology_for_those_who_want_nothing_else(self):
+        topology = Latest("surface_topology", SurfaceTopology)
+        wait_until(lambda: topology.count, LIMIT_S, "topology")
+        whole = topology.message
+        self.right.move((0, -0.15, CLOTH_M + 0.05), (0, 0, CLOTH_M + 0.05), 1.5)
+        cut = wait_until(lambda: topology.message.version != whole.version and topology.message, LIMIT_S,
+                         "new topology after a cut")
+        self.right.position = None
+        self.assertNotEqual(cut.triangles, whole.triangles)
+        wait_until(lambda: self.watch.value("right", "input_age_s") > 0.5, LIMIT_S, "hand that is gone")
+        rospy.ServiceProxy("reset", Trigger)()
+        wait_until(lambda: topology.message.triangles == whole.triangles, LIMIT_S, "whole topology after a reset")
+        self.watch.wait_news()
+        topology.stop()
+
+    def test_markers_show_tools_obstacles_forces_and_names(self):
+        seen = {}
+
+        def on_markers(message):
+            for marker in message.markers:
+                if marker.action == Marker.ADD:
+                    seen.setdefault(marker.ns, {})[marker.id] = marker
+                else:
+                    seen.get(marker.ns, {}).pop(marker.id, None)
+
+        markers = Latest("scene_markers", MarkerArray, on_markers)
+        wait_until(lambda: "obstacles" in seen, LIMIT_S, "markers")
+        tile = list(seen["obstacles"].values())[0]
+        self.assertEqual((tile.header.frame_id, tile.pose.position.x, tile.pose.position.z), ("tissue", 0.08, 0.05))
+        self.assertFalse(seen.get("tools"))
+        self.left.move((-0.05, 0, ABOVE_M), (-0.05, 0, CLOTH_M - 0.02), 1)
+        wait_until(lambda: seen.get("tools") and seen.get("forces"), LIMIT_S, "tool and force")
+        tool, force = list(seen["tools"].values())[0], list(seen["forces"].values())[0]
+        self.assertAlmostEqual(tool.pose.position.x, -0.05, delta=1e-6)
+        self.assertGreater(force.points[1].z, force.points[0].z)  # the cloth pushes up
+        self.assertEqual({marker.text for marker in seen["names"].values()}, {"tile", "camera", "left"})
+        self.left.position = None
+        wait_until(lambda: not seen["tools"] and not seen["forces"], LIMIT_S, "end of the tool")
+        markers.stop()
+
+
+if __name__ == "__main__":
+    rostest.rosrun("viscera", "scene_view_test", SceneViewTest, sys.argv)
