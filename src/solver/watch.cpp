@@ -111,6 +111,7 @@ void Watch::restart() {
 void Watch::reset(const Governor& governor) {
   open_.reset();
   governor_ = governor;
+  last_good_ = {};
   keepOnlyCurrent();
 }
 

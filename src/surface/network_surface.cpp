@@ -71,7 +71,8 @@ void NetworkSurface::placeSplits(const StateView& state, uint32_t since) {
 
 void NetworkSurface::split(const StateView& state, size_t triangles) {
   if (triangles_.size() == 0) return;
-  assert(state.spring_cut != 0);
+  assert(state.spring_cut != 0 && state.rest != 0);
+  bind(layout::kBindRest, state.rest);
   bind(layout::kBindSpringCut, state.spring_cut);
   triangles_.bindStorage(layout::kBindSplitTriangles);
   split_triangles_.set("triangle_count", static_cast<uint32_t>(triangles));

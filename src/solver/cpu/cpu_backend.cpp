@@ -238,6 +238,7 @@ void CpuBackend::changeAll() {
   lattice_.state.velocity[1 - lattice_.state.current] = lattice_.state.velocity[lattice_.state.current];
   stepper_->restart();
   if (network_) network_->restart(lattice_);
+  if (surroundings_) surroundings_->restart();
   std::fill(lattice_.hands.impulses.begin(), lattice_.hands.impulses.end(), layout::vec4{});
   std::fill(lattice_.hands.touched.begin(), lattice_.hands.touched.end(), uint8_t{0});
   sleep_.wakeAll(lattice_);

@@ -251,6 +251,11 @@ void CpuSurroundings::run(CpuLattice& lattice, const Substep& step, const Surrou
   lattice.swap();
 }
 
+void CpuSurroundings::restart() {
+  std::fill(work_->contacts.begin(), work_->contacts.end(), glsl::vec4(0));
+  std::fill(work_->corrections.begin(), work_->corrections.end(), glsl::vec4(0));
+}
+
 std::vector<CollisionPair> CpuSurroundings::findPairs(CpuLattice& lattice) {
   std::vector<CollisionPair> out;
   if (work_->staggered()) {

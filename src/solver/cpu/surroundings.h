@@ -26,6 +26,9 @@ class CpuSurroundings {
   ~CpuSurroundings();
   /// current state -> other state, which becomes the current one. The other one must hold the state before the substep.
   void run(CpuLattice& lattice, const Substep& step, const Surroundings& surroundings);
+  /// The state was written from outside: what contacts did in the last substep is forgotten. Nodes that may touch
+  /// nobody any more, as their springs are whole again, would keep it for ever.
+  void restart();
   /// For tests: slots a < b of all pairs that the search finds in the current state, ascending.
   std::vector<CollisionPair> findPairs(CpuLattice& lattice);
   size_t searches() const;  ///< complete ones for candidates so far

@@ -61,6 +61,11 @@ void CollisionPass::bind() const {
   }
 }
 
+void CollisionPass::restart() {
+  contacts_.clear();
+  corrections_.clear();
+}
+
 void CollisionPass::tell(const gpu::Program& program, const LatticeBuffers& buffers, const Substep& step) const {
   program.use();
   program.set("active_count", static_cast<uint32_t>(buffers.store.active_count));

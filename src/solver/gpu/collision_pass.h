@@ -22,6 +22,8 @@ class CollisionPass {
   /// substep.
   void run(const LatticeBuffers& buffers, const Substep& step) const;
   void bind() const;
+  /// The state was written from outside: see CpuSurroundings::restart().
+  void restart();
 
   /// For tests: slots a < b of all pairs that the search finds in the current state, ascending, 64 per node at most.
   /// Waits.

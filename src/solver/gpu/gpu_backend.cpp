@@ -124,6 +124,7 @@ HostState GpuBackend::readState() const {
 
 void GpuBackend::resetState() {
   buffers_.reset();
+  if (surroundings_) surroundings_->restart();
 }
 
 void GpuBackend::loadState(const HostState& state) {
@@ -132,6 +133,7 @@ void GpuBackend::loadState(const HostState& state) {
   buffers_.store.nodes.write(state.nodes);
   buffers_.writeSpringCut(state.spring_cut);
   if (buffers_.state.compensation.size()) buffers_.state.compensation.clear();
+  if (surroundings_) surroundings_->restart();
   buffers_.bind();
 }
 
@@ -143,6 +145,7 @@ void GpuBackend::saveGood() {
 void GpuBackend::restoreGood(int back) {
   recovery_->good.restore(buffers_, back);
   if (buffers_.hands.impulses.size()) buffers_.hands.impulses.clear();
+  if (surroundings_) surroundings_->restart();
 }
 
 void GpuBackend::clearGood() {

@@ -64,6 +64,10 @@ void SurroundingsPass::run(LatticeBuffers& buffers, const Substep& step, const S
   buffers.swap();
 }
 
+void SurroundingsPass::restart() {
+  if (collisions_) collisions_->restart();
+}
+
 std::vector<CollisionPair> SurroundingsPass::findPairs(const LatticeBuffers& buffers) const {
   influences_.bindUniform(layout::kBindBodyInfluences);
   return collisions_->findPairs(buffers);

@@ -26,6 +26,8 @@ class SurroundingsPass {
   /// current state -> other state, which becomes the current one. The other one must hold the state before the substep.
   /// @param step  its index says which of the tick's substeps it is
   void run(LatticeBuffers& buffers, const Substep& step, const Surroundings& surroundings);
+  /// The state was written from outside: what contacts did is forgotten.
+  void restart();
   /// For tests, only where there are collisions: CollisionPass::findPairs().
   std::vector<CollisionPair> findPairs(const LatticeBuffers& buffers) const;
 

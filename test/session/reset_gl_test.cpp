@@ -1,0 +1,372 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Whatever was done to a session, after reset() it goes on as one that was just made: state, measurements, forces and
+// skin are the same to the bit.
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <limits>
+#include <memory>
+
+#include "session/block_session.h"
+#include "support/gpu_fixture.h"
+
+namespace viscera {
+namespace {
+
+using namespace test;
+
+constexpr int kAfterTicks = 12;  ///< after the reset; the first ones show what was left behind
+
+/// What a session is put through, and what must have happened by then for that to be worth anything.
+struct Disturbance {
+  std::string name;
+  std::function<Scene()> scene = blockScene;
+  Strokes strokes = press;
+  int ticks = 25;
+  std::function<bool(const Frame& last, const Session& session)> happened = [](const Frame& last, const Session&) {
+    return last.stats.touched[0] > 0;
+  };
+  std::function<void(Session&, int tick)> before = [](Session&, int) {};  ///< each tick
+};
+
+bool wasCut(const Frame& last, const Session&) {
+  return last.stats.springs_cut > 0;
+}
+bool moves(const Frame& last, const Session&) {
+  return last.stats.kinetic_j > 0;
+}
+bool holds(const Frame& last, const Session&) {
+  return last.stats.grabbed[0] > 0;
+}
+bool tripped(const Frame&, const Session& session) {
+  return session.extremes().governor_trips > 0;
+}
+
+constexpr int kPauseTicks = 3;
+
+/// Cuts, then pushes one side of the wound into the other.
+StylusSamples cutAndClose(int tick) {
+  if (tick <= kCutTicks) return cut(tick);
+  if (tick < kCutTicks + kPauseTicks) return {};  // or the hand would be held back on its way over
+  const double share = std::min(1.0, (tick - kCutTicks - kPauseTicks) / 12.0);
+  return leftAt({0, 0.034 - 0.02 * share, 0.01});
+}
+
+/// Takes hold of the top and swings it about; still holds it at the end.
+StylusSamples swing(int tick) {
+  return leftAt({0.004 * std::sin(0.7 * tick), 0.002 * tick / 10.0, kHalfM + 0.0004 * tick}, true);
+}
+
+/// Swings, and then for a tick is nowhere.
+StylusSamples swingToNoPlace(int tick) {
+  StylusSamples samples = swing(tick);
+  if (tick == 12) samples[0].pose.position_m.x() = std::numeric_limits<double>::quiet_NaN();
+  return samples;
+}
+
+StylusSamples cutAndTrip(int tick) {
+  if (tick < kCutTicks + kPauseTicks) return cutAndClose(tick);
+  return swingToNoPlace(tick - kCutTicks - kPauseTicks);
+}
+
+/// Holds with one hand, presses and cuts with the other.
+StylusSamples bothHands(int tick) {
+  StylusSamples samples = swing(tick);
+  samples[1] = cutAndClose(tick)[0];
+  return samples;
+}
+
+StylusSamples nobody(int /*tick*/) {
+  return {};
+}
+
+/// Software takes its time: coarse where the search for contacts goes with it.
+Scene coarseBlock() {
+  Scene scene = blockScene();
+  scene.bodies[0].spacing_m = 0.01;
+  return scene;
+}
+
+Scene withCollisions(Scene scene, CollisionSearch search = CollisionSearch::kGrid) {
+  scene.collision.enabled = true;
+  scene.collision.search = search;
+  scene.collision.partitions = 2;
+  return scene;
+}
+
+/// Two blocks that a force drives into each other.
+Scene meetingBlocks() {
+  Scene scene = withCollisions(coarseBlock());
+  scene.bodies.push_back(scene.bodies[0]);
+  scene.bodies[1].name = "other";
+  scene.bodies[1].fixed.clear();
+  scene.bodies[1].position_m = Vector3d(0.0505, 0.002, 0.001);
+  scene.bodies[1].force_n = Vector3d(-2, 0, 0);
+  return scene;
+}
+
+Scene withPlough() {
+  Scene scene = blockScene();
+  ObstacleConfig plough;
+  plough.shape = ObstacleShape::kCapsule;
+  plough.radius_m = 0.01;
+  plough.length_m = 0.05;
+  plough.position_m = Vector3d(-0.032, 0, 0.015);
+  plough.velocity_m_per_s = Vector3d(0.06, 0, 0);
+  plough.rotation_deg = Vector3d(90, 0, 0);
+  plough.rotation_deg_per_s = Vector3d(0, 0, 40);
+  scene.obstacles = {plough};
+  return scene;
+}
+
+/// A cloth in gusts, held at two corners, over a block.
+Scene clothScene(Structure structure = Structure::kSurface) {
+  Scene scene = withCollisions(coarseBlock());
+  scene.solver.tick_hz = 240;  // light cloth has short substeps
+  BodyConfig cloth;
+  cloth.name = "cloth";
+  cloth.source = TissueSource::kSheet;
+  cloth.structure = structure;
+  cloth.box_size_m = Vector3d(0.08, 0.08, 0.001);
+  cloth.spacing_m = 0.01;
+  cloth.bending_ratio = 0.05;
+  cloth.position_m = Vector3d(0, 0, kHalfM + 0.003);
+  cloth.material.density_kg_per_m3 = 600;
+  FixedConfig corner;
+  corner.shape = FixedShape::kSphere;
+  corner.center_m = Vector3d(-0.04, -0.04, 0);
+  cloth.fixed = {corner};
+  scene.bodies.push_back(cloth);
+  scene.environment.gravity_m_per_s2 = Vector3d(0, 0, -9.81);
+  scene.environment.wind.velocity_m_per_s = Vector3d(3, 1, 0.5);
+  scene.environment.wind.gust_ratio = 0.8;
+  return scene;
+}
+
+/// Of nearly incompressible tissue.
+Scene blockOf(Integrator integrator, double poisson_ratio = 0.4) {
+  Scene scene = blockScene();
+  scene.bodies[0].material.poisson_ratio = poisson_ratio;
+  scene.solver.integrator = integrator;
+  scene.solver.iterations = 5;
+  if (integrator == Integrator::kVbd || integrator == Integrator::kPd) scene.bodies[0].spacing_m = 0.01;
+  return scene;
+}
+
+Scene explicitBlock(SpringForces forces, double poisson_ratio) {
+  Scene scene = blockOf(Integrator::kLeapfrog, poisson_ratio);
+  scene.bodies[0].structure = Structure::kExplicit;
+  scene.solver.spring_forces = forces;
+  return scene;
+}
+
+std::vector<Disturbance> toolDisturbances() {
+  const auto suction = [] {
+    Scene scene = blockScene();
+    scene.styluses[0].button1 = ToolMode::kSuction;
+    return scene;
+  };
+  const auto particles = [] {
+    Scene scene = blockOf(Integrator::kLeapfrog);
+    scene.styluses[0].button2 = ToolMode::kCutParticles;
+    return scene;
+  };
+  const auto compensated = [] {
+    Scene scene = blockScene();
+    scene.solver.compensated = true;
+    return scene;
+  };
+  return {
+      {"probe"},
+      {"cut", blockScene, cut, kCutTicks, wasCut},
+      {"cut_particles", particles, cut, kCutTicks, wasCut},
+      {"grab", blockScene, swing, 25, holds},
+      {"suction", suction,
+       [](int t) {
+         return leftAt({0, 0, kHalfM - 0.0001 * t}, true);
+       },
+       25, holds},
+      {"both_hands", blockScene, bothHands, 30, holds},
+      {"trip", blockScene, swingToNoPlace, 14, tripped},
+      {"trip_and_recovery", blockScene, swingToNoPlace, 40, tripped},
+      {"compensated", compensated, cutAndClose, 30, wasCut},
+  };
+}
+
+std::vector<Disturbance> integratorDisturbances() {
+  const auto under = [](Integrator integrator) { return [integrator] { return blockOf(integrator); }; };
+  const auto meeting = [](Integrator integrator) {
+    return [integrator] {
+      Scene scene = meetingBlocks();
+      scene.solver.integrator = integrator;
+      scene.solver.iterations = 5;
+      return scene;
+    };
+  };
+  return {
+      {"leapfrog_volumes", under(Integrator::kLeapfrog), cutAndClose, 30, wasCut},
+      {"vbd", under(Integrator::kVbd), bothHands, 30, holds},
+      {"pd", under(Integrator::kPd), bothHands, 30, holds},
+      {"verlet_paper", under(Integrator::kVerletPaper), bothHands, 30, holds},
+      {"vbd_trip", under(Integrator::kVbd), swingToNoPlace, 14, tripped},
+      {"pd_trip", under(Integrator::kPd), swingToNoPlace, 14, tripped},
+      {"verlet_paper_trip", under(Integrator::kVerletPaper), swingToNoPlace, 14, tripped},
+      {"vbd_contacts", meeting(Integrator::kVbd), cutAndClose, 30, wasCut},
+      {"pd_contacts", meeting(Integrator::kPd), cutAndClose, 30, wasCut},
+  };
+}
+
+std::vector<Disturbance> surroundingDisturbances() {
+  const auto wound = [](CollisionSearch search) { return [search] { return withCollisions(blockScene(), search); }; };
+  const auto carried = [] {
+    Scene scene = withPlough();
+    scene.obstacles[0].frame = "arm";
+    scene.obstacles[0].velocity_m_per_s = Vector3d::Zero();
+    return scene;
+  };
+  const auto carry = [](Session& session, int tick) {
+    session.setObstacleFrame(0, {Vector3d(0.001 * tick, 0, 0), Quaterniond::Identity()});
+  };
+  const auto staggeredCloth = [] { return withCollisions(clothScene(), CollisionSearch::kStaggered); };
+  return {
+      {"wound_that_touches", wound(CollisionSearch::kGrid), cutAndClose, 30, wasCut},
+      {"wound_that_touches_staggered", wound(CollisionSearch::kStaggered), cutAndClose, 30, wasCut},
+      {"wound_and_trip", wound(CollisionSearch::kGrid), cutAndTrip, 30, tripped},
+      {"bodies_that_meet", meetingBlocks, nobody, 25, moves},
+      {"bodies_that_meet_and_are_cut", meetingBlocks, cutAndClose, 30, wasCut},
+      {"obstacle", withPlough, nobody, 25, moves},
+      {"obstacle_and_cut", withPlough, cut, 25, wasCut},
+      {"carried_obstacle", carried, nobody, 25, moves, carry},
+      {"cloth_in_wind", [] { return clothScene(); }, nobody, 25, moves},
+      {"cloth_is_cut", [] { return clothScene(); }, cutAndClose, 30, wasCut},
+      {"cloth_staggered", staggeredCloth, bothHands, 30, wasCut},
+  };
+}
+
+std::vector<Disturbance> networkDisturbances() {
+  const auto block = [](SpringForces forces, double poisson_ratio) {
+    return [forces, poisson_ratio] { return explicitBlock(forces, poisson_ratio); };
+  };
+  const auto edgeCloth = [] {
+    Scene scene = clothScene();
+    scene.solver.spring_forces = SpringForces::kEdge;
+    return scene;
+  };
+  const auto clothUnder = [](Integrator integrator) {
+    return [integrator] {
+      Scene scene = clothScene();
+      scene.solver.integrator = integrator;
+      scene.solver.iterations = 5;
+      return scene;
+    };
+  };
+  return {
+      {"explicit", block(SpringForces::kPoint, 0.25), bothHands, 30, holds},
+      {"explicit_edges", block(SpringForces::kEdge, 0.25), bothHands, 30, holds},
+      {"explicit_volumes", block(SpringForces::kPoint, 0.4), cutAndClose, 30, wasCut},
+      {"explicit_edges_volumes", block(SpringForces::kEdge, 0.4), cutAndClose, 30, wasCut},
+      {"explicit_trip", block(SpringForces::kPoint, 0.25), swingToNoPlace, 14, tripped},
+      {"cloth_edges", edgeCloth, bothHands, 30, wasCut},
+      {"cloth_vbd", clothUnder(Integrator::kVbd), bothHands, 30, wasCut},
+      {"cloth_pd", clothUnder(Integrator::kPd), bothHands, 30, wasCut},
+  };
+}
+
+std::vector<Disturbance> allDisturbances() {
+  std::vector<Disturbance> out;
+  for (auto some : {toolDisturbances, integratorDisturbances, surroundingDisturbances, networkDisturbances}) {
+    for (Disturbance& it : some()) out.push_back(std::move(it));
+  }
+  return out;
+}
+
+/// What there is to tell two sessions apart by.
+struct Trace {
+  std::vector<uint64_t> hashes;  ///< [ticks]
+  std::vector<layout::TickStats> stats;
+  std::vector<Vector3d> forces_n;
+  SurfaceFrame surface;
+};
+
+StylusSamples afterwards(int tick) {
+  return press(tick);
+}
+
+Trace traceOf(Session& session, const Disturbance& it) {
+  Trace out;
+  for (int t = 1; t <= kAfterTicks; ++t) {
+    it.before(session, kAfterTicks);  // frames are where they are, whoever is reset
+    session.step(afterwards(t), {});
+    const Frame frame = session.drain();
+    out.hashes.push_back(session.stateHash());
+    out.stats.push_back(frame.stats);
+    out.forces_n.push_back(frame.reactions[0].force_n);
+  }
+  out.surface = surfaceAfter(session, {});
+  return out;
+}
+
+std::vector<uint32_t> wordsOf(const layout::TickStats& stats) {
+  std::vector<uint32_t> out(sizeof stats / sizeof(uint32_t));
+  std::memcpy(out.data(), &stats, sizeof stats);
+  return out;
+}
+
+void expectSame(const Trace& a, const Trace& b) {
+  for (size_t t = 0; t < a.hashes.size(); ++t) {
+    ASSERT_EQ(a.hashes[t], b.hashes[t]) << "tick " << t + 1;
+    EXPECT_EQ(wordsOf(a.stats[t]), wordsOf(b.stats[t])) << "measurements of tick " << t + 1;
+    EXPECT_EQ(a.forces_n[t], b.forces_n[t]) << "tick " << t + 1;
+  }
+  EXPECT_EQ(a.surface.positions_m, b.surface.positions_m);
+  EXPECT_EQ(a.surface.normals, b.surface.normals);
+  EXPECT_EQ(a.surface.topology->triangleCount(), b.surface.topology->triangleCount());
+}
+
+class ResetAfter : public ::testing::TestWithParam<std::tuple<Disturbance, Backend>> {
+ protected:
+  ResetAfter() : context_(std::make_unique<gpu::Context>()) { gpu::checkDispatches(true); }
+  std::unique_ptr<Session> make() const {
+    Scene scene = std::get<0>(GetParam()).scene();
+    scene.solver.backend = std::get<1>(GetParam());
+    return std::make_unique<Session>(scene, *context_);
+  }
+
+ private:
+  std::unique_ptr<gpu::Context> context_;
+};
+
+std::string disturbanceName(const ::testing::TestParamInfo<std::tuple<Disturbance, Backend>>& info) {
+  return std::get<0>(info.param).name + (std::get<1>(info.param) == Backend::kCpu ? "_cpu" : "_gpu");
+}
+
+INSTANTIATE_TEST_SUITE_P(Everything, ResetAfter,
+                         ::testing::Combine(::testing::ValuesIn(allDisturbances()),
+                                            ::testing::Values(Backend::kGpu, Backend::kCpu)),
+                         disturbanceName);
+
+TEST_P(ResetAfter, GoesOnAsANewSession) {
+  const Disturbance& it = std::get<0>(GetParam());
+  Trace fresh;
+  {
+    const auto session = make();
+    it.before(*session, kAfterTicks);
+    fresh = traceOf(*session, it);
+  }
+  const auto session = make();
+  Frame last;
+  for (int t = 1; t <= it.ticks; ++t) {
+    it.before(*session, t);
+    session->step(it.strokes(t), {});
+    last = session->drain();
+  }
+  ASSERT_TRUE(it.happened(last, *session)) << "nothing was disturbed";
+  it.before(*session, kAfterTicks);
+  session->reset();
+  expectSame(fresh, traceOf(*session, it));
+}
+
+}  // namespace
+}  // namespace viscera
