@@ -88,11 +88,14 @@ vec3 directionBetween(Entry a, Entry b) {
   return l > 0.0f ? d / l : vec3(0.0f, 0.0f, 1.0f);
 }
 
-/// 1/kg; 0 of nodes that nothing moves.
-float inverseMass(uint slot) {
+/// 1/kg; 0 of nodes that have one of these bits.
+float inverseMassWithout(uint slot, uint unmoved) {
   NodeBits bits = nodes[slot];
-  return (bits.lo & (kFixedBit | kGrabMask)) != 0u ? 0.0f : 1.0f / nodeMass(slot, bits, bodies[bodyOf(bits)]);
+  return (bits.lo & unmoved) != 0u ? 0.0f : 1.0f / nodeMass(slot, bits, bodies[bodyOf(bits)]);
 }
+
+/// 1/kg; 0 of nodes that nothing moves.
+float inverseMass(uint slot) { return inverseMassWithout(slot, kFixedBit | kGrabMask); }
 
 /// The normal of a contact is that of the sheet which one of the two lies on: of the one with more contacts the mean of their
 /// directions; else it is the line through both. @param dir  directionBetween   @param sum_a, sum_b  contacts[]

@@ -22,9 +22,9 @@ void visit(Entry me, Entry other, float wanted) {
 bool isAlone(uint slot) { return contacts[slot].w == 0.0f; }  // collision_meet.comp has found nobody: no need to search again
 void begin() { impulse_sum = shift_sum = vec3(0.0f); }
 void end(uint slot) {
-  float inverse = inverseMass(slot);
-  corrections[2u * slot] = vec4(inverse * impulse_sum, 0.0f);
-  corrections[2u * slot + 1u] = vec4(inverse * shift_sum, 0.0f);
+  // A held node is not moved; the tool that holds it against this feels it (surroundings.comp).
+  corrections[2u * slot] = vec4(inverseMassWithout(slot, kFixedBit) * impulse_sum, 0.0f);
+  corrections[2u * slot + 1u] = vec4(inverseMass(slot) * shift_sum, 0.0f);
 }
 
 #include "collision_visit.glsl"

@@ -5,7 +5,7 @@
 // Owner: solver/gpu/surroundings_pass.h
 // in  displacement, velocity [slots] after the integrator; displacement before it in the buffer that is written
 // out displacement, velocity [slots]
-// Features: WIND, BODY_FORCES, OBSTACLES, COLLISIONS (corrections of collision_push.comp).
+// Features: WIND, BODY_FORCES, OBSTACLES, COLLISIONS (corrections of collision_push.comp), TOOLS (there are styluses).
 #include "layout.h"
 #include "lattice.glsl"
 #include "elastic.glsl"
@@ -26,6 +26,11 @@ layout(std140, binding = kBindObstacles) uniform ObstaclesBlock { ObstacleMotion
 #endif
 #ifdef COLLISIONS
 layout(std430, binding = kBindCorrections) readonly buffer CorrectionsBuffer { vec4 corrections[]; };
+#endif
+#ifdef TOOLS
+uniform uint slot_count;
+layout(std430, binding = kBindImpulses) buffer ImpulsesBuffer { vec4 impulses[]; };
+void giveMomentum(uint stylus, uint slot, vec3 impulse) { impulses[stylus * slot_count + slot] += vec4(impulse, 1.0f); }
 #endif
 #ifdef WIND
 layout(std430, binding = kBindWindStarts) readonly buffer RingStartsBuffer { uint ring_starts[]; };
@@ -56,33 +61,55 @@ vec3 areaOf(uint slot, vec3 u) {
 }
 #endif
 
-void main() {
-  uint i = globalIndex();
-  if (i >= active_count) return;
-  uint slot = active_nodes[i];
-  NodeBits bits = nodes[slot];
-  vec3 u = xyz(texelFetch(displacement, int(slot))), v = xyz(texelFetch(velocity, int(slot)));
-  if (isIsolated(bits) || (bits.lo & (kFixedBit | kGrabMask)) != 0u) {
-    next_displacement[slot] = vec4(u, 0.0f);
-    next_velocity[slot] = vec4(v, 0.0f);
-    return;
-  }
-  vec3 u_next = u, v_next = v;
+/// What contacts do to a node's velocity [m/s].
+vec3 contactKick(uint slot) {
 #ifdef COLLISIONS
-  vec3 contact_kick = xyz(corrections[2u * slot]);
-  v_next += contact_kick;
-  u_next += dt_s * contact_kick + xyz(corrections[2u * slot + 1u]);
+  return xyz(corrections[2u * slot]);
+#else
+  return vec3(0.0f);
 #endif
-#if defined(WIND) || defined(BODY_FORCES)
+}
+
+/// What force_n and wind do to it [m/s].
+vec3 pushKick(uint slot, NodeBits bits, vec3 u, vec3 v) {
   vec3 kick = vec3(0.0f);
 #ifdef BODY_FORCES
   kick += dt_s * xyz(body_influences[bodyOf(bits)]);
 #endif
 #ifdef WIND
   if (ring_starts[slot] != ring_starts[slot + 1u]) {
-    kick += windKick(areaOf(slot, u), air, v_next, nodeMass(slot, bits, bodies[bodyOf(bits)]));
+    kick += windKick(areaOf(slot, u), air, v, nodeMass(slot, bits, bodies[bodyOf(bits)]));
   }
 #endif
+  return kick;
+}
+
+void main() {
+  uint i = globalIndex();
+  if (i >= active_count) return;
+  uint slot = active_nodes[i];
+  NodeBits bits = nodes[slot];
+  vec3 u = xyz(texelFetch(displacement, int(slot))), v = xyz(texelFetch(velocity, int(slot)));
+  bool lone = isIsolated(bits);
+  if (lone || (bits.lo & (kFixedBit | kGrabMask)) != 0u) {
+    next_displacement[slot] = vec4(u, 0.0f);
+    next_velocity[slot] = vec4(v, 0.0f);
+#ifdef TOOLS
+    uint held_by = (bits.lo & kGrabMask) >> kGrabShift;
+    if (lone || held_by == 0u || (bits.lo & kFixedBit) != 0u) return;
+    vec3 felt = contactKick(slot) + pushKick(slot, bits, u, v);
+    if (felt != vec3(0.0f)) giveMomentum(held_by - 1u, slot, -nodeMass(slot, bits, bodies[bodyOf(bits)]) * felt);
+#endif
+    return;
+  }
+  vec3 u_next = u, v_next = v;
+#ifdef COLLISIONS
+  vec3 contact_kick = contactKick(slot);
+  v_next += contact_kick;
+  u_next += dt_s * contact_kick + xyz(corrections[2u * slot + 1u]);
+#endif
+#if defined(WIND) || defined(BODY_FORCES)
+  vec3 kick = pushKick(slot, bits, u, v_next);
   v_next += kick;
   u_next += dt_s * kick;
 #endif

@@ -86,13 +86,13 @@ struct SurroundingsKernel : Kernel {
 #define VARIANT_NAME Surround
 #define VARIANT_BASE SurroundingsKernel
 #define VARIANT_TEXT "shaders/solver/surroundings.comp"
-#define VARIANT_FEATURES WITH_WIND | WITH_BODY_FORCES | WITH_OBSTACLES
+#define VARIANT_FEATURES WITH_WIND | WITH_BODY_FORCES | WITH_OBSTACLES | WITH_TOOLS
 #include "solver/cpu/glsl_variant.inc"
 
 #define VARIANT_NAME SurroundAndCollide
 #define VARIANT_BASE SurroundingsKernel
 #define VARIANT_TEXT "shaders/solver/surroundings.comp"
-#define VARIANT_FEATURES WITH_WIND | WITH_BODY_FORCES | WITH_OBSTACLES | WITH_COLLISIONS
+#define VARIANT_FEATURES WITH_WIND | WITH_BODY_FORCES | WITH_OBSTACLES | WITH_COLLISIONS | WITH_TOOLS
 #include "solver/cpu/glsl_variant.inc"
 
 }  // namespace

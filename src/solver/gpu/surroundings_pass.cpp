@@ -12,12 +12,14 @@ SurroundingsPass::SurroundingsPass(const Model& model, const Scene& scene, const
     : kinds_(surroundingsOf(model, scene)),
       wind_(scene.environment.wind),
       influences_(layout::kMaxBodies),
-      group_size_(features.group_size) {
+      group_size_(features.group_size),
+      tools_(features.tools) {
   std::vector<std::string> defines = features.defines();
   if (kinds_.wind) defines.push_back("WIND");
   if (kinds_.forces) defines.push_back("BODY_FORCES");
   if (kinds_.obstacles) defines.push_back("OBSTACLES");
   if (kinds_.collisions) defines.push_back("COLLISIONS");
+  if (features.tools) defines.push_back("TOOLS");
   program_ = gpu::Program::compute("surroundings.comp", defines);
   influences_.write(bodyInfluences(model, scene));
   if (kinds_.wind) {
@@ -56,6 +58,7 @@ void SurroundingsPass::run(LatticeBuffers& buffers, const Substep& step, const S
   program_.set("dt_s", step.dt_s);
   program_.set("push_speed", step.push_speed_m_per_s);
   program_.set("resting_speed", restingSpeed(step));
+  if (tools_) program_.set("slot_count", static_cast<uint32_t>(buffers.store.slot_count));
   program_.set("obstacle_count", static_cast<uint32_t>(surroundings.obstacleCount()));
   const float air = 0.5f * static_cast<float>(wind_.air_density_kg_per_m3 * wind_.drag_coefficient);
   program_.set("air", {now.wind_m_per_s.x(), now.wind_m_per_s.y(), now.wind_m_per_s.z(), air});

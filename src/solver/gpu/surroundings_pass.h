@@ -41,6 +41,7 @@ class SurroundingsPass {
   gpu::Buffer<layout::WindTriangle> rings_;
   std::optional<CollisionPass> collisions_;
   uint32_t group_size_;
+  bool tools_;  ///< there are styluses, which feel what the nodes do that they hold
 };
 
 }  // namespace viscera

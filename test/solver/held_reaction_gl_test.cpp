@@ -1,0 +1,116 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// What surrounds held nodes is felt by the tool that holds them: momentum is kept.
+#include "support/backends.h"
+#include "support/loose_cloth.h"
+
+using namespace viscera;
+using namespace viscera::test;
+
+namespace {
+
+constexpr double kSpacing_m = 0.01;
+constexpr int kNodes = 6;  ///< along an edge of a cloth
+/// Of what is given: sums of float32 over some thousand contacts.
+constexpr double kRounding = 1e-4;
+
+StylusConfig wideGrip() {
+  StylusConfig out;
+  out.grab.radius_m = kNodes * kSpacing_m;
+  return out;
+}
+
+ToolMotions holding(bool begins) {
+  ToolMotions out;
+  out[0].mode = ToolMode::kGrab;
+  out[0].present = true;
+  out[0].hold_begins = begins;
+  return out;
+}
+
+class HeldReaction : public ::testing::WithParamInterface<std::tuple<std::string, Integrator>>, public GpuTest {
+ protected:
+  /// Holds a cloth that lies in z = 0 with all its nodes, in place.
+  Vector3d given(const Model& model, Scene scene, const HostState& state, int ticks) {
+    scene.solver.integrator = std::get<1>(GetParam());
+    scene.solver.iterations = 5;
+    solver_ = makeBackend(std::get<0>(GetParam()), model, scene);
+    solver_->writeState(state);
+    Vector3d sum = Vector3d::Zero();
+    layout::TickStats stats;
+    for (int t = 0; t < ticks; ++t) {
+      solver_->step(holding(t == 0));
+      while (solver_->pollStats(stats, true)) sum += xyz(stats.impulse[0]);
+    }
+    EXPECT_EQ(stats.grabbed[0], static_cast<uint32_t>(kNodes * kNodes));
+    return sum;
+  }
+  std::unique_ptr<Ticks> solver_;
+};
+
+std::string suffix(const ::testing::TestParamInfo<std::tuple<std::string, Integrator>>& info) {
+  std::string out = std::get<0>(info.param);
+  out.erase(std::remove(out.begin(), out.end(), ' '), out.end());
+  return out + (std::get<1>(info.param) == Integrator::kVbd ? "_vbd" : "_leapfrog");
+}
+
+INSTANTIATE_TEST_SUITE_P(Backends, HeldReaction,
+                         ::testing::Combine(::testing::ValuesIn(backendKinds()),
+                                            ::testing::Values(Integrator::kLeapfrog, Integrator::kVbd)),
+                         suffix);
+
+Vector3d momentum(const Model& model, const HostState& state) {
+  ReferenceSolver reference(model, Vector3d::Zero(), 1);
+  load(reference, state);
+  Vector3d sum = Vector3d::Zero();
+  for (const uint32_t slot : reference.active) sum += reference.mass(slot) * reference.v_m_per_s[slot];
+  return sum;
+}
+
+}  // namespace
+
+TEST_P(HeldReaction, AClothThatFallsOnAHeldOneIsStoppedByTheTool) {
+  constexpr double kHeight_m = 0.1, kSpeed_m_per_s = 2;
+  const Model model = modelOf({looseCloth(kNodes, kNodes, kSpacing_m), looseCloth(kNodes, kNodes, kSpacing_m)});
+  Scene scene = sceneFor(model, 10, {wideGrip()});
+  scene.collision.enabled = true;
+  HostState state = restState(model);
+  place(model, 1, {Vector3d(0, 0, kHeight_m), Quaterniond::Identity()}, Vector3d(0.1, 0, -kSpeed_m_per_s), state);
+  const Vector3d before = momentum(model, state);
+  const double tick_s = 1 / scene.solver.tick_hz;
+  const int ticks = static_cast<int>(1.5 * kHeight_m / kSpeed_m_per_s / tick_s);
+  const Vector3d sum = given(model, scene, state, ticks);
+  const Vector3d after = momentum(model, solver_->readState());
+  ASSERT_GT(after.z(), 0.5 * before.z());  // it has met the other
+  EXPECT_LT((after - before - sum).norm(), kRounding * before.norm()) << sum.transpose();
+}
+
+TEST_P(HeldReaction, AToolHoldsAClothAgainstAForceOnIt) {
+  Body body = looseCloth(kNodes, kNodes, kSpacing_m);
+  body.force_n = Vector3d(0.1, -0.2, 0.3);
+  const Model model = modelOf({body});
+  const Scene scene = sceneFor(model, 10, {wideGrip()});
+  constexpr int kTicks = 5;
+  const Vector3d sum = given(model, scene, restState(model), kTicks);
+  const Vector3d wanted = -body.force_n * kTicks / scene.solver.tick_hz;
+  EXPECT_LT((sum - wanted).norm(), kRounding * wanted.norm()) << sum.transpose();
+}
+
+TEST_P(HeldReaction, AToolHoldsAClothAgainstTheWind) {
+  const Model model = modelOf({looseCloth(kNodes, kNodes, kSpacing_m)});
+  Scene scene = sceneFor(model, 10, {wideGrip()});
+  WindConfig& wind = scene.environment.wind;
+  wind.velocity_m_per_s = Vector3d(0, 0, 3);
+  double area_m2 = 0;
+  const SpringNetwork& network = *model.bodies[0].network;
+  for (const std::array<uint32_t, 3>& t : network.triangles) {
+    const auto at = [&](size_t i) { return network.positions_m[t[i]]; };
+    area_m2 += 0.5 * (at(1) - at(0)).cross(at(2) - at(0)).norm();
+  }
+  constexpr int kTicks = 5;
+  const Vector3d sum = given(model, scene, restState(model), kTicks);
+  const double pressure_pa = 0.5 * wind.air_density_kg_per_m3 * wind.drag_coefficient * 3 * 3;
+  const Vector3d wanted(0, 0, -pressure_pa * area_m2 * kTicks / scene.solver.tick_hz);
+  EXPECT_LT((sum - wanted).norm(), kRounding * wanted.norm()) << sum.transpose() << " / " << wanted.transpose();
+}
