@@ -76,6 +76,8 @@ std::string reason(const SpacingChoice& choice) {
       return "the finest that fits in memory, the machine could step more";
     case SpacingBound::kTooSlow:
       return "as coarse as tissue can be, and this machine is still too slow for it";
+    case SpacingBound::kWalls:
+      return "as coarse as the thinnest wall allows without holes, and this machine is too slow for it";
   }
   return "";
 }
@@ -115,6 +117,7 @@ Scene withChosenSpacing(const Scene& scene, const gpu::Context* context, const P
   limits.other_nodes = others.activeNodes();
   limits.whole_m = bodies.wholeEdge_m();
   limits.finest_m = rule.finest_m(scene.solver);
+  limits.coarsest_m = bodies.thinnestWall_m();
   const SpacingChoice choice =
       chooseSpacing([&](double h) { return bodies.nodes(h); }, rule.sampleSpacing_m(), limits, progress);
   Scene out = scene;

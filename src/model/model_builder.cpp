@@ -50,6 +50,8 @@ Body buildLatticeBody(const BodyConfig& config, const Tissue& tissue, const Prog
   const auto slots = [&](uint16_t label) { return slotsOfPart(label, solid, body.lattice); };
   const size_t fixed_nodes = fixNodes(config, {solid.part_names, slots}, body);
   body.notes.push_back(latticeNote(body.lattice, fixed_nodes));
+  const std::string walls = wallsNote(tissue.walls(), solid.spacing_m);
+  if (!walls.empty()) body.notes.push_back(walls);
   addPiecesNote(body);
   if (progress) progress("extract skin", 0);
   body.skin = bindSkin(surfaceOf(tissue, config, solid), body.lattice, solid, progress);

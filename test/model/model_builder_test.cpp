@@ -133,6 +133,22 @@ TEST(BuildModel, NotesTellWhatWasDecided) {
   }
 }
 
+TEST(BuildModel, WallsThatAreThinnerThanACellAreNamed) {
+  const auto wallNotes = [](double spacing_m) {
+    std::string notes;
+    for (const std::string& note : build(phantomConfig(spacing_m)).notes) {
+      if (contains(note, "walls")) notes += note;
+    }
+    return notes;
+  };
+  EXPECT_EQ(wallNotes(0.0042), "");  // as thick as the thinnest
+  const std::string notes = wallNotes(0.006);
+  for (const char* piece : {"aorta 4.2 mm", "left_atrium 4.5 mm", "a cell of 6 mm", "a spacing_m of 0.0042"}) {
+    EXPECT_TRUE(contains(notes, piece)) << notes;
+  }
+  EXPECT_FALSE(contains(notes, "left_ventricle")) << notes;
+}
+
 TEST(BuildModel, StagesAreReportedPerBody) {
   std::set<std::string> stages;
   buildModel(sceneOf(boxConfig({0.03, 0.03, 0.03}, 0.01)), [&](const std::string& stage, double fraction) {

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kLength = 0.1;            // m
 constexpr double kLoose = 0.15 * kLength;  // m, slack of the box: its shapes are taken before corners are rounded
-constexpr double kSpacings[] = {0.002, 0.003, 0.004};
+constexpr double kSpacings[] = {0.002, 0.003, 0.004, 0.042 * kLength};  // up to the thinnest wall
 enum Chamber { kLeftVentricle, kRightVentricle, kLeftAtrium, kRightAtrium };
 
 Solid solidOf(const Phantom& phantom, double spacing_m) {
@@ -53,6 +53,16 @@ double wallThickness(const Phantom& phantom, Chamber chamber, const Vector3d& di
     if (phantom.field(p).distance_m < 0) tissue += kStep;
   }
   return tissue;
+}
+
+TEST(HeartPhantom, TellsItsWallsTheThinnestFirst) {
+  const std::vector<Wall> walls = heartPhantom(kLength, 0.5).walls;
+  ASSERT_EQ(walls.size(), 7u);  // all parts but the septum
+  EXPECT_NEAR(walls.front().thickness_m, 0.5 * 0.042 * kLength, 1e-12);
+  EXPECT_EQ(walls.front().part, "aorta");
+  EXPECT_EQ(walls.back().part, "left_ventricle");
+  const double measured_m = wallThickness(heartPhantom(kLength, 1), kLeftVentricle, {1, 0, 0});
+  EXPECT_NEAR(measured_m, 2 * walls.back().thickness_m, 0.2 * measured_m);  // met at a slant, and walls are blended
 }
 
 TEST(HeartPhantom, IsOnePiece) {

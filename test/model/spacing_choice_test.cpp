@@ -119,6 +119,20 @@ TEST(SpacingChoice, MachineThatIsTooSlowGetsACoarseLatticeAndIsToldSo) {
   EXPECT_GT(choice.nodes, 100u);
 }
 
+TEST(SpacingChoice, IsNeverCoarserThanWallsAllow) {
+  constexpr double kWall_m = 0.0042345;
+  SpacingLimits slow = limitsOf(1e4), fast = limitsOf(4e8);
+  slow.coarsest_m = fast.coarsest_m = kWall_m;
+  EXPECT_EQ(chosen(slow).bound, SpacingBound::kWalls);
+  EXPECT_LE(chosen(slow).spacing_m, kWall_m);
+  EXPECT_GT(chosen(slow).spacing_m, 0.99 * kWall_m);
+  EXPECT_GT(chosen(slow).load, 1);
+  expectFinest(chosen(fast), fast);
+  EXPECT_DOUBLE_EQ(chosen(fast).spacing_m, chosen(limitsOf(4e8)).spacing_m);
+  slow.whole_m = kEdge_m;
+  EXPECT_DOUBLE_EQ(chosen(slow).spacing_m, kEdge_m / 24);  // 23 cells would be coarser than the wall
+}
+
 TEST(SpacingChoice, CoarseLatticeWithoutACellIsNotTaken) {
   const auto nodes = [](double spacing_m) {
     if (spacing_m > 0.008) throw LatticeError("no cell inside");

@@ -88,6 +88,20 @@ std::string piecesNote(const Body& body) {
   return out.str();
 }
 
+std::string wallsNote(const std::vector<Wall>& walls, double spacing_m) {
+  constexpr double kNoise = 1 + 1e-6;  // of a spacing that is meant to be as large as a wall
+  std::ostringstream out;
+  out.precision(3);
+  for (const Wall& wall : walls) {
+    if (spacing_m > kNoise * wall.thickness_m)
+      out << (out.tellp() > 0 ? ", " : "") << wall.part << " " << wall.thickness_m * 1e3 << " mm";
+  }
+  if (out.tellp() <= 0) return "";
+  out << ": walls thinner than a cell of " << spacing_m * 1e3 << " mm, they have holes before anything touches them; "
+      << "a spacing_m of " << walls.front().thickness_m << " or less leaves none";
+  return out.str();
+}
+
 std::string skinNote(const Skin& skin) {
   std::ostringstream out;
   out << "skin: " << skin.mesh.triangles.size() << " faces, " << skin.mesh.positions_m.size() << " vertices ("

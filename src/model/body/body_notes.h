@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "model/shape/phantom.h"
 #include "viscera/model/model.h"
 
 namespace viscera {
@@ -13,8 +14,9 @@ namespace viscera {
 
 std::string latticeNote(const Lattice& lattice, size_t fixed_nodes);
 std::string networkNote(const Body& body, size_t fixed_nodes);
-std::string linksNote(const SpringNetwork& network);  ///< of an explicit lattice
-std::string piecesNote(const Body& body);             ///< empty: one piece
+std::string linksNote(const SpringNetwork& network);                      ///< of an explicit lattice
+std::string piecesNote(const Body& body);                                 ///< empty: one piece
+std::string wallsNote(const std::vector<Wall>& walls, double spacing_m);  ///< empty: none is thinner than a cell
 std::string skinNote(const Skin& skin);
 
 }  // namespace viscera

@@ -62,7 +62,7 @@ class Search {
       if (progress) progress("choose spacing", static_cast<double>(pass) / kMostPasses);
       const double h = admissible(predicted() * step_back);
       if (!tried.insert(h).second) {
-        if (best_) break;
+        if (best_ || isCoarsest(h)) break;
         step_back *= kBack;
         continue;
       }
@@ -75,6 +75,7 @@ class Search {
       if (!best_ && *nodes < kNearFewest) break;
     }
     if (progress) progress("choose spacing", 1);
+    if (!best_ && isCoarsest(last_->spacing_m)) last_->bound = SpacingBound::kWalls;
     return best_ ? *best_ : *last_;
   }
 
@@ -94,7 +95,15 @@ class Search {
     }
   }
 
-  double admissible(double h) const { return limits_.whole_m > 0 ? wholePart(limits_.whole_m, h) : roundedUp(h); }
+  /// The nearest spacing that is not finer, unless walls want one that is.
+  double admissible(double h) const {
+    constexpr double kNoise = 1e-9;
+    const double whole_m = limits_.whole_m, coarsest_m = limits_.coarsest_m;
+    const double rounded_m = whole_m > 0 ? wholePart(whole_m, h) : roundedUp(h);
+    if (!(rounded_m > coarsest_m)) return rounded_m;  // of a limit of 0 there is none
+    return whole_m > 0 ? whole_m / std::ceil(whole_m / coarsest_m - kNoise) : coarsest_m;
+  }
+  bool isCoarsest(double h) const { return std::isfinite(limits_.coarsest_m) && h >= admissible(limits_.coarsest_m); }
   double load(double h, double nodes) const {
     return limits_.substeps_per_s(h) * limits_.step.of(nodes + static_cast<double>(limits_.other_nodes)) /
            limits_.stepping_share;
@@ -102,7 +111,9 @@ class Search {
   bool tooMany(double nodes) const {
     return nodes + static_cast<double>(limits_.other_nodes) > static_cast<double>(limits_.most_nodes);
   }
-  double coarsest_m() const { return std::min(law_.spacingOf(std::min(kFewestNodes, law_.nodes)), empty_m_ / kBack); }
+  double coarsest_m() const {
+    return std::min({law_.spacingOf(std::min(kFewestNodes, law_.nodes)), empty_m_ / kBack, limits_.coarsest_m});
+  }
 
   /// Finest spacing that the law gives hope for.
   double predicted() const {

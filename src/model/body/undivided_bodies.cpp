@@ -79,6 +79,14 @@ double UndividedBodies::wholeEdge_m() const {
   return first.source == TissueSource::kBox && first.rotation_deg.isZero() ? first.box_size_m.maxCoeff() : 0;
 }
 
+double UndividedBodies::thinnestWall_m() const {
+  double thinnest_m = std::numeric_limits<double>::infinity();
+  for (const Draft& draft : auto_) {
+    for (const Wall& wall : draft.tissue->walls()) thinnest_m = std::min(thinnest_m, wall.thickness_m);
+  }
+  return thinnest_m;
+}
+
 Model UndividedBodies::lattices(double spacing_m) const {
   Model model;
   for (const Draft& draft : auto_) {

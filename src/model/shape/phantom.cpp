@@ -6,6 +6,7 @@
 // between. Lengths are fractions of the distance from the base (the plane of the valves, z = 1) to the apex (z = 0).
 #include "model/shape/phantom.h"
 
+#include <algorithm>
 #include <array>
 #include <limits>
 #include <sstream>
@@ -170,6 +171,21 @@ double reach(const Vector3d& direction, double wall_scale) {
   return farthest + wall_scale * kBlend / 2;  // blending swells the seams
 }
 
+/// The thinnest of each part, thinnest first; the septum is a wall between two of them and thicker.
+std::vector<Wall> wallsOf(const std::vector<std::string>& part_names, double scale) {
+  std::vector<Wall> walls;
+  for (const Cavity& cavity : cavities()) {
+    const std::string& part = part_names[cavity.part];
+    const double thickness_m = scale * cavity.wall;
+    auto known = std::find_if(walls.begin(), walls.end(), [&](const Wall& wall) { return wall.part == part; });
+    if (known == walls.end()) known = walls.insert(known, {part, thickness_m});
+    known->thickness_m = std::min(known->thickness_m, thickness_m);
+  }
+  std::stable_sort(walls.begin(), walls.end(),
+                   [](const Wall& a, const Wall& b) { return a.thickness_m < b.thickness_m; });
+  return walls;
+}
+
 void requireRange(const char* key, double value, double low, double high) {
   if (value >= low && value <= high) return;
   std::ostringstream out;
@@ -192,6 +208,7 @@ Phantom heartPhantom(double length_m, double wall_scale) {
   Phantom phantom;
   phantom.part_names = {"left_ventricle", "right_ventricle", "left_atrium",      "right_atrium",
                         "septum",         "aorta",           "pulmonary_artery", "vena_cava"};
+  phantom.walls = wallsOf(phantom.part_names, wall_scale * length_m);
   phantom.min_m = length_m * (low - middle);
   phantom.max_m = length_m * (high - middle);
   phantom.chamber_centers_m = {place({0.16, 0.05, 0.6}), place({-0.3, -0.25, 0.9}), place({0.22, 0.3, 1.2}),

@@ -9,6 +9,12 @@
 
 namespace viscera {
 
+/// A wall of an organ, as thick as it was made.
+struct Wall {
+  std::string part;
+  double thickness_m = 0;
+};
+
 /// Built-in organ, so that nothing has to be downloaded: a distance field with its bounds and part names.
 struct Phantom {
   DistanceField field;
@@ -17,6 +23,7 @@ struct Phantom {
   std::vector<Vector3d> chamber_centers_m;  ///< a point in each chamber: left, right ventricle, left, right atrium
   Vector3d defect_from_m, defect_to_m;      ///< axis of the septal defect, from the left into the right ventricle
   double defect_radius_m = 0;
+  std::vector<Wall> walls;  ///< one of each part that has a wall, the thinnest first
 };
 
 /// Four-chamber heart with open great-vessel stubs and a ventricular septal defect, its box centred on the origin. Seen

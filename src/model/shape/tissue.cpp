@@ -6,7 +6,6 @@
 
 #include "model/scene/structure_rules.h"
 #include "model/shape/msh_reader.h"
-#include "model/shape/phantom.h"
 #include "model/shape/placing.h"
 #include "model/shape/plain_tissue.h"
 #include "model/shape/solid_shell.h"
@@ -78,6 +77,7 @@ class PhantomTissue : public Tissue {
   }
 
   Eigen::AlignedBox3d bounds() const override { return {phantom_.min_m, phantom_.max_m}; }
+  std::vector<Wall> walls() const override { return phantom_.walls; }
 
  private:
   Phantom phantom_;

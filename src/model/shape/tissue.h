@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "model/shape/phantom.h"
 #include "model/shape/tetrahedra_mesh.h"
 #include "viscera/model/scene/scene.h"
 #include "viscera/model/shape/solid.h"
@@ -34,6 +35,9 @@ class Tissue {
   virtual const TetrahedraMesh* tetrahedra() const { return nullptr; }
   /// Box that the body lies in [m].
   virtual Eigen::AlignedBox3d bounds() const = 0;
+
+  /// Walls of known thickness, the thinnest first. Cells that are larger leave holes in them.
+  virtual std::vector<Wall> walls() const { return {}; }
 
   std::vector<std::string> notes;  ///< what reading it had to decide
 };

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -27,6 +28,9 @@ class UndividedBodies {
   /// Edge that a spacing should divide into whole cells, so that regions at the border of a box find its nodes [m]: the
   /// longest one of the first of these bodies if it is a box that is not turned, else 0.
   double wholeEdge_m() const;
+  /// Thickness of the thinnest wall that these bodies are known to have [m]: a coarser lattice has holes there.
+  /// Infinity where none is known.
+  double thinnestWall_m() const;
   /// Lattices to measure with: no skin, nothing fixed. @throws LatticeError  spacing out of range
   Model lattices(double spacing_m) const;  ///< of the bodies with `spacing_m: auto`
   Model others() const;                    ///< of all others, at their own spacings
@@ -51,19 +55,21 @@ struct SpacingLimits {
   double stepping_share = 1;                               ///< wall-clock seconds for steps, per simulated second
   std::function<double(double spacing_m)> substeps_per_s;  ///< of simulated time
   size_t other_nodes = 0;                                  ///< nodes of bodies whose spacing is given
-  double whole_m = 0;           ///< edge to divide into whole cells; 0: spacings have three digits
-  double finest_m = 0;          ///< the solver accepts none that is finer
+  double whole_m = 0;   ///< edge to divide into whole cells; 0: spacings have three digits
+  double finest_m = 0;  ///< the solver accepts none that is finer
+  double coarsest_m = std::numeric_limits<double>::infinity();  ///< tissue has holes at any that is coarser
   size_t most_nodes = 4000000;  ///< of all bodies: beyond, preparing a scene takes minutes
 };
 
-enum class SpacingBound { kSpeed, kNodes, kSolver, kMemory, kTooSlow };
+enum class SpacingBound { kSpeed, kNodes, kSolver, kMemory, kTooSlow, kWalls };
 
 struct SpacingChoice {
   double spacing_m = 0;
   size_t nodes = 0;  ///< of all bodies
   double substeps_per_s = 0;
   double load = 0;  ///< seconds that stepping takes, over those that it may take
-  /// Why it is not finer. kTooSlow: no lattice worth the name is stepped fast enough; this is the coarsest.
+  /// Why it is not finer. kTooSlow: no lattice worth the name is stepped fast enough; this is the coarsest. kWalls:
+  /// no lattice without holes is.
   SpacingBound bound = SpacingBound::kSpeed;
 };
 
