@@ -14,7 +14,7 @@ CameraPublisher::CameraPublisher(image_transport::ImageTransport& transport, con
       throttle_(camera.rate_hz, tick_hz) {}
 
 bool CameraPublisher::pick() {
-  return publisher_.getNumSubscribers() > 0 && throttle_.pick();
+  return isWanted() && throttle_.pick();
 }
 
 void CameraPublisher::publish(ImageFrame&& frame, const ros::Time& stamp) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/frame_publisher.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "render/renderer.h"
@@ -127,6 +128,11 @@ void FramePublisher::send(Slots&& slots) {
     cameras_[i]->publish(std::move(slots.images[i]->value), slots.images[i]->stamp);
     noteLatency(image_latency_[i], pose_received);
   }
+}
+
+bool FramePublisher::isViewed() const {
+  const auto watched = [](const auto& camera) { return camera->isWanted(); };
+  return surface_.isWanted() || scene_markers_.isWanted() || std::any_of(cameras_.begin(), cameras_.end(), watched);
 }
 
 void FramePublisher::noteLatency(LatencyMeter& meter, SteadyTime pose_received) {

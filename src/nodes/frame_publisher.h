@@ -43,6 +43,8 @@ class FramePublisher {
     std::vector<LatencyMeter::Reading> images;  ///< [cameras]
   };
   Latencies takeLatencies();
+  /// Somebody subscribes to the surface, to markers or to an image. From any thread.
+  bool isViewed() const;
 
   // For the simulation's thread:
   void start(const std::shared_ptr<const ShownTopology>& skin);

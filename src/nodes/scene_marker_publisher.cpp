@@ -13,7 +13,7 @@ SceneMarkerPublisher::SceneMarkerPublisher(ros::NodeHandle& node, const Scene& s
 
 bool SceneMarkerPublisher::isDue() {
   const Clock::time_point now = Clock::now();
-  if (now < next_ || publisher_.getNumSubscribers() == 0) return false;
+  if (now < next_ || !isWanted()) return false;
   next_ = std::max(next_ + period_, now);
   return true;
 }

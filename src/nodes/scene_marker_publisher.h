@@ -15,6 +15,8 @@ class SceneMarkerPublisher {
  public:
   SceneMarkerPublisher(ros::NodeHandle& node, const Scene& scene, const PublishOptions& options);
 
+  /// Somebody subscribes. From any thread.
+  bool isWanted() const { return publisher_.getNumSubscribers() > 0; }
   /// Somebody subscribes, and it is time for the next. Counted on the steady clock, so that it comes while paused too.
   bool isDue();
   /// From any one thread.

@@ -7,6 +7,7 @@
 
 #include <thread>
 
+#include "nodes/clock_watch.h"
 #include "nodes/master_watch.h"
 
 namespace viscera::nodes {
@@ -25,6 +26,7 @@ Simulator::Simulator(const SimulatorOptions& options)
       obstacles_(options.scene, frames_),
       inputs_(makeInputs(options.scene, frames_)),
       publisher_(node_, options.scene, mailboxes(), options.publish),
+      ticks_(node_, options.scene, [this] { return publisher_.isViewed(); }),
       loop_(options.scene, ports(), reportProgress),
       services_(node_, loop_.commands()),
       diagnostics_(node_, options.scene, loop_, publisher_, inputs_, obstacles_) {}
@@ -60,7 +62,10 @@ LoopPorts Simulator::ports() {
     publisher_.start(session.wholeSkin());
     ready_ = true;
   };
-  ports.deliver = [this](Frame&& frame) { publisher_.deliver(std::move(frame), samples_); };
+  ports.deliver = [this](Frame&& frame) {
+    ticks_.publish(frame.tick);
+    publisher_.deliver(std::move(frame), samples_);
+  };
   return ports;
 }
 
@@ -68,6 +73,7 @@ void Simulator::run() {
   ros::AsyncSpinner inputs_and_diagnostics(1);
   inputs_and_diagnostics.start();
   MasterWatch master;
+  ClockWatch clock;
   bool listening = false, known = true;
   while (ros::ok() && !loop_.ended() && known) {
     if (ready_ && !listening) {
@@ -76,6 +82,7 @@ void Simulator::run() {
     }
     std::this_thread::sleep_for(kWatchPeriod);
     known = master.check();
+    clock.check();
   }
   loop_.stop();
   if (!known) throw Error("the ROS master is lost, or was restarted and does not know this node: start the node again");

@@ -16,6 +16,7 @@
 #include "nodes/simulator_options.h"
 #include "nodes/simulator_services.h"
 #include "nodes/stylus_input.h"
+#include "nodes/tick_publisher.h"
 
 namespace viscera::nodes {
 
@@ -39,6 +40,7 @@ class Simulator {
   ObstacleFrames obstacles_;
   SimulatorDiagnostics::Inputs inputs_;
   FramePublisher publisher_;
+  TickPublisher ticks_;
   StylusSamples samples_;           ///< of the last tick; only the simulation's thread touches them
   std::atomic<bool> ready_{false};  ///< the session is made: devices may be listened to
   SimulationLoop loop_;

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/simulator_diagnostics.h"
 
+#include <ros/console.h>
+
 #include <cstring>
 #include <numeric>
 
@@ -25,6 +27,14 @@ void addLatency(const std::string& name, const LatencyMeter::Reading& reading,
   status.add(name + "_max_ms", 1e3 * reading.max_s);
 }
 
+void warnOfSlowness(const PaceMeter::Reading& pace, double tick_s) {
+  ROS_WARN(
+      "slower than real time: factor %.2g for 2 s, a tick of %.3g ms takes %.3g ms. Ways out: a coarser "
+      "bodies[].spacing_m, or 'auto'; a larger solver.dt_fraction, or solver.integrator 'vbd'; fewer or smaller images "
+      "(cameras[].rate_hz, width_px, height_px) and a lower ~surface_rate_hz; other programs that leave the processors",
+      pace.real_time_factor, 1e3 * tick_s, 1e3 * pace.step_mean_s);
+}
+
 }  // namespace
 
 SimulatorDiagnostics::SimulatorDiagnostics(ros::NodeHandle node, const Scene& scene, SimulationLoop& loop,
@@ -34,6 +44,7 @@ SimulatorDiagnostics::SimulatorDiagnostics(ros::NodeHandle node, const Scene& sc
       publisher_(publisher),
       inputs_(inputs),
       obstacles_(obstacles),
+      tick_s_(1 / scene.solver.tick_hz),
       dropped_before_(inputs.size(), 0),
       updater_(node) {
   for (const CameraConfig& camera : scene.cameras) cameras_.push_back(camera.name);
@@ -92,6 +103,7 @@ void SimulatorDiagnostics::pace(Status& status) {
   const PaceMeter::Reading& pace = now_->pace;
   const bool slow = !now_->paused && pace.real_time_factor < kSlow;
   status.summary(slow ? Level::WARN : Level::OK, slow ? "slower than real time" : "keeps up");
+  if (!now_->paused && slowness_.note(slow)) warnOfSlowness(pace, tick_s_);
   status.add("real_time_factor", pace.real_time_factor);
   status.add("step_mean_ms", 1e3 * pace.step_mean_s);
   status.add("step_max_ms", 1e3 * pace.step_max_s);

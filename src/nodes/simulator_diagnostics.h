@@ -13,6 +13,7 @@
 #include "nodes/frame_publisher.h"
 #include "nodes/obstacle_frames.h"
 #include "nodes/simulation_loop.h"
+#include "nodes/slowness.h"
 #include "nodes/stylus_input.h"
 
 namespace viscera::nodes {
@@ -41,6 +42,8 @@ class SimulatorDiagnostics {
   const ObstacleFrames& obstacles_;
   uint64_t missed_before_ = 0;        ///< frames of obstacles
   std::vector<std::string> cameras_;  ///< their names
+  const double tick_s_;
+  Slowness slowness_;
   std::optional<LoopStatus> now_;
   FramePublisher::Latencies latencies_;
   std::vector<uint64_t> dropped_before_;

@@ -3,10 +3,13 @@
 #include <ros/package.h>
 
 #include "nodes/node_main.h"
+#include "nodes/relaunch.h"
 #include "nodes/simulator.h"
 
 int main(int argc, char** argv) {
-  return viscera::nodes::nodeMain(argc, argv, "simulator", [] {
+  const viscera::nodes::Relaunch relaunch(argc, argv);  // roscpp takes arguments away
+  return viscera::nodes::nodeMain(argc, argv, "simulator", [&relaunch] {
+    relaunch.requireParameters();
     auto parameters = viscera::nodes::Parameters::ofThisNode();
     const auto options = viscera::nodes::simulatorOptions(parameters, ros::package::getPath("viscera"));
     viscera::nodes::Simulator(options).run();

@@ -4,14 +4,15 @@
 
 #include <geometry_msgs/PoseStamped.h>
 #include <ros/console.h>
+#include <ros/spinner.h>
 #include <sensor_msgs/Joy.h>
+#include <std_srvs/Trigger.h>
 
 #include <algorithm>
 #include <chrono>
 #include <thread>
 
 #include "nodes/conversions.h"
-#include "nodes/master_watch.h"
 #include "nodes/scene_choice.h"
 
 namespace viscera::nodes {
@@ -21,14 +22,6 @@ using Clock = std::chrono::steady_clock;
 constexpr uint32_t kButtonQueue = 16;
 constexpr std::chrono::milliseconds kWaitPeriod{50};
 constexpr std::chrono::milliseconds kFarewell{200};  ///< roscpp sends on another thread: let it finish
-
-double since(Clock::time_point begin) {
-  return std::chrono::duration<double>(Clock::now() - begin).count();
-}
-
-void requireMaster(MasterWatch& master) {
-  if (!master.check()) throw Error("the ROS master is lost: start the node again");
-}
 
 void sendButton(const ros::Publisher& publisher, bool pressed, const ros::Time& stamp) {
   sensor_msgs::Joy message;
@@ -47,6 +40,8 @@ ReplayOptions replayOptions(Parameters& parameters, const std::string& package_f
   options.rate_hz = parameters.number("rate_hz", options.rate_hz, 1, 1000);
   options.delay_s = parameters.number("delay_s", options.delay_s, 0, 3600);
   options.loop = parameters.flag("loop", options.loop);
+  options.wait_for_viewer = parameters.flag("wait_for_viewer", options.wait_for_viewer);
+  options.reset_between_rounds = parameters.flag("reset_between_rounds", options.reset_between_rounds);
   parameters.refuseOthers();
 
   options.frame = choice.frame_prefix + options.frame;
@@ -63,7 +58,8 @@ ReplayOptions replayOptions(Parameters& parameters, const std::string& package_f
   return options;
 }
 
-StylusReplay::StylusReplay(const ReplayOptions& options) : options_(options) {
+StylusReplay::StylusReplay(const ReplayOptions& options)
+    : options_(options), reset_(node_.serviceClient<std_srvs::Trigger>("reset")), simulation_(node_) {
   for (const Stroke& stroke : options_.strokes.strokes) {
     const auto same = [&](const StylusConfig& config) { return config.name == stroke.stylus; };
     if (std::any_of(styluses_.begin(), styluses_.end(), same)) continue;
@@ -86,25 +82,52 @@ bool StylusReplay::allHeard() const {
   });
 }
 
+void StylusReplay::check() {
+  if (!master_.check()) throw Error("the ROS master is lost: start the node again");
+  clock_.check();
+}
+
+void StylusReplay::waitForOthers() {
+  const auto wait = [this](const auto& condition) {
+    while (ros::ok() && !condition()) {
+      check();
+      std::this_thread::sleep_for(kWaitPeriod);
+    }
+  };
+  wait(
+      [this] { return allHeard() && !ros::Time::now().isZero(); });  // a stamp of zero would say that poses are invalid
+  if (!options_.wait_for_viewer || simulation_.isViewed()) return;
+  ROS_INFO("waiting for a viewer: a subscriber of surface, surface_marker, scene_markers or an image");
+  wait([this] { return simulation_.isViewed(); });
+}
+
 void StylusReplay::run() {
-  MasterWatch master;
-  while (ros::ok() && !allHeard()) {
-    requireMaster(master);
-    std::this_thread::sleep_for(kWaitPeriod);
-  }
+  ros::AsyncSpinner ticks(1);
+  ticks.start();
+  waitForOthers();
   ROS_INFO("playing %.1f s of strokes", options_.strokes.duration_s());
-  play(-options_.delay_s, master);
-  while (options_.loop && ros::ok()) play(0, master);
+  play(-options_.delay_s);
+  while (options_.loop && ros::ok()) {
+    if (options_.reset_between_rounds) resetSimulation();
+    play(0);
+  }
   std::this_thread::sleep_for(kFarewell);
 }
 
-void StylusReplay::play(double from_s, MasterWatch& master) {
-  const Clock::time_point begun = Clock::now();
+void StylusReplay::resetSimulation() {
+  std_srvs::Trigger call;
+  if (reset_.call(call) && call.response.success) return;
+  if (ros::ok())
+    ROS_WARN("%s: no reset between two rounds (%s)", reset_.getService().c_str(), call.response.message.c_str());
+}
+
+void StylusReplay::play(double from_s) {
   const auto period = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1 / options_.rate_hz));
   const double end_s = options_.strokes.duration_s();
-  Clock::time_point due = begun;
-  for (double now_s = from_s; ros::ok() && now_s < end_s; now_s = from_s + since(begun)) {
-    requireMaster(master);
+  Clock::time_point due = Clock::now();
+  simulation_.take();
+  for (double now_s = from_s; ros::ok() && now_s < end_s; now_s += simulation_.take()) {
+    check();
     send(now_s);
     std::this_thread::sleep_until(due += period);
   }

@@ -7,8 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "nodes/clock_watch.h"
 #include "nodes/master_watch.h"
 #include "nodes/parameters.h"
+#include "nodes/simulation_clock.h"
 #include "viscera/tools/strokes.h"
 
 namespace viscera::nodes {
@@ -20,6 +22,8 @@ struct ReplayOptions {
   double rate_hz = 100;
   double delay_s = 0;  ///< before the first pose, once the simulator listens
   bool loop = false;
+  bool wait_for_viewer = false;       ///< before the first pose, until somebody looks at what the simulator shows
+  bool reset_between_rounds = false;  ///< of a loop: calls `reset` of the simulator
 };
 
 /// Anchored strokes are brought to the skin of the scene that the parameters choose as for the simulator.
@@ -27,13 +31,15 @@ struct ReplayOptions {
 /// @throws ParameterError, StrokesError, SceneError, MeshError, LatticeError
 ReplayOptions replayOptions(Parameters& parameters, const std::string& package_folder);
 
-/// Plays recorded strokes as a device driver would: `<stylus>/measured_cp`, `button1` and `button2`.
+/// Plays recorded strokes as a device driver would: `<stylus>/measured_cp`, `button1` and `button2`. Their time is that
+/// of the simulation, where it sends `tick`: a hand that goes on while tissue is slow would meet it elsewhere.
 class StylusReplay {
  public:
   /// @throws StrokesError  more styluses than a simulator has
   explicit StylusReplay(const ReplayOptions& options);
 
-  /// Waits until every pose topic has a subscriber, then plays; returns at the end or when ROS shuts down.
+  /// Waits until every pose topic has a subscriber, and a viewer where one is asked for, then plays; returns at the end
+  /// or when ROS shuts down.
   /// @throws Error  if the master is lost
   void run();
 
@@ -44,7 +50,11 @@ class StylusReplay {
     bool begun = false;
   };
   bool allHeard() const;
-  void play(double from_s, MasterWatch& master);
+  /// @throws Error  if the master is lost
+  void check();
+  void waitForOthers();
+  void play(double from_s);
+  void resetSimulation();
   void send(double time_s);
   void send(Device& device, const StylusSample& sample) const;
 
@@ -52,6 +62,10 @@ class StylusReplay {
   ros::NodeHandle node_;
   std::vector<StylusConfig> styluses_;  ///< only their names matter
   std::vector<Device> devices_;         ///< [styluses]
+  ros::ServiceClient reset_;
+  SimulationClock simulation_;
+  MasterWatch master_;
+  ClockWatch clock_;
 };
 
 }  // namespace viscera::nodes

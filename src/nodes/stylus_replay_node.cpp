@@ -3,10 +3,13 @@
 #include <ros/package.h>
 
 #include "nodes/node_main.h"
+#include "nodes/relaunch.h"
 #include "nodes/stylus_replay.h"
 
 int main(int argc, char** argv) {
-  return viscera::nodes::nodeMain(argc, argv, "stylus_replay", [] {
+  const viscera::nodes::Relaunch relaunch(argc, argv);  // roscpp takes arguments away
+  return viscera::nodes::nodeMain(argc, argv, "stylus_replay", [&relaunch] {
+    relaunch.requireParameters();
     auto parameters = viscera::nodes::Parameters::ofThisNode();
     const auto options = viscera::nodes::replayOptions(parameters, ros::package::getPath("viscera"));
     viscera::nodes::StylusReplay(options).run();

@@ -1,0 +1,27 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <utility>
+
+namespace viscera::nodes {
+
+/// Decides when it is worth saying that a simulation is slower than real time: after two readings in a row, and again
+/// only when it has kept up for two readings since.
+class Slowness {
+ public:
+  /// A reading, once a second. @return  true: say it now
+  bool note(bool slow) {
+    in_a_row_ = slow == last_slow_ ? in_a_row_ + 1 : 1;
+    last_slow_ = slow;
+    if (in_a_row_ < kReadings) return false;
+    return slow ? !std::exchange(said_, true) : (said_ = false);
+  }
+
+ private:
+  static constexpr int kReadings = 2;
+  int in_a_row_ = 0;
+  bool last_slow_ = false, said_ = false;
+};
+
+}  // namespace viscera::nodes

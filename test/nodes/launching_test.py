@@ -1,0 +1,103 @@
+#!/usr/bin/env python3
+# Copyright (c) 2026, the viscera authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""How the nodes start: with rosrun, after another launch, again after a restart of the master, without a clock."""
+import os
+import signal
+import socket
+import sys
+import tempfile
+import unittest
+
+import rosgraph
+import roslib.packages
+import rostest
+from program import END_LIMIT_S, START_LIMIT_S, Program
+from simulator_watch import wait_until
+
+SCENE = os.path.join(roslib.packages.get_pkg_dir("viscera"), "test/nodes/scene_view.yaml")
+SCENE_NODES = "504 nodes"  # of scene_view.yaml
+
+
+class LaunchingTest(unittest.TestCase):
+    def setUp(self):
+        with socket.socket() as probe:
+            probe.bind(("localhost", 0))
+            self.port = probe.getsockname()[1]
+        self.uri = "http://localhost:%d" % self.port
+        self.master = rosgraph.Master("/launching_test", self.uri)
+        self.programs = []
+
+    def tearDown(self):
+        for program in reversed(self.programs):
+            program.end()
+
+    def start(self, *arguments):
+        self.programs.append(Program(arguments, self.uri))
+        return self.programs[-1]
+
+    def start_master(self):
+        core = self.start("roscore", "-p", str(self.port))
+        wait_until(lambda: self.has_run_id(), START_LIMIT_S, "master")
+        return core
+
+    def has_run_id(self):
+        try:
+            return self.master.hasParam("/run_id")
+        except OSError:
+            return False
+
+    def test_rosrun_finds_the_nodes(self):
+        self.start_master()
+        simulator = self.start("rosrun", "viscera", "simulator", "_scene:=" + SCENE)
+        simulator.said("ready: " + SCENE_NODES)
+        replay = self.start("rosrun", "viscera", "stylus_replay", "_strokes:=nowhere")
+        replay.said("~strokes")
+
+    def test_parameters_of_an_earlier_launch_are_cleared(self):
+        self.start_master()
+        self.master.setParam("/simulator/mesh_unit_m", 0.001)
+        simulator = self.start("roslaunch", "viscera", "training.launch", "scene:=" + SCENE)
+        simulator.said("ready: " + SCENE_NODES)
+        self.assertFalse(self.master.hasParam("/simulator/mesh_unit_m"))
+
+    def test_a_respawn_after_a_restart_of_the_master_runs_the_same_scene(self):
+        core = self.start_master()
+        simulator = self.start("roslaunch", "viscera", "training.launch", "scene:=" + SCENE, "respawn:=true")
+        simulator.said("ready: ")
+        core.end()
+        self.start_master()
+        simulator.said("master is lost")
+        simulator.said("ready: ", 2)
+        self.assertEqual(simulator.output.count("ready: " + SCENE_NODES), 2, simulator.output)
+
+    def test_a_respawn_that_has_lost_its_parameters_is_refused(self):
+        core = self.start_master()
+        file = tempfile.NamedTemporaryFile("w", suffix=".launch")
+        file.write('<launch><node name="simulator" pkg="viscera" type="simulator" output="screen" respawn="true" '
+                   'respawn_delay="1"><param name="scene" value="%s"/></node></launch>' % SCENE)
+        file.flush()
+        simulator = self.start("roslaunch", file.name)
+        simulator.said("ready: " + SCENE_NODES)
+        core.end()
+        self.start_master()
+        simulator.said("master was restarted")
+        self.assertEqual(simulator.output.count("ready: "), 1, simulator.output)
+        file.close()
+
+    def test_simulated_time_without_a_clock_is_said_and_nothing_hangs(self):
+        self.start_master()
+        self.master.setParam("/use_sim_time", True)
+        launched = self.start("roslaunch", "viscera", "training.launch", "scene:=" + SCENE,
+                              "strokes:=" + os.path.join(os.path.dirname(SCENE), "short_stroke.yaml"))
+        launched.said("ready: ")
+        launched.said("nothing comes on /clock", 2)  # of both nodes
+        tick = self.start("rostopic", "echo", "-n", "3", "/tick")
+        tick.said("viewed", 3)
+        os.kill(launched.process.pid, signal.SIGINT)
+        launched.process.wait(END_LIMIT_S)
+        self.assertEqual(launched.output.count("nothing comes on /clock"), 2, launched.output)
+
+
+if __name__ == "__main__":
+    rostest.rosrun("viscera", "launching_test", LaunchingTest, sys.argv)
