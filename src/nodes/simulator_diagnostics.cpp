@@ -136,6 +136,8 @@ void SimulatorDiagnostics::stylus(size_t index, Status& status) {
   status.summary(Level::OK, in.seen ? "tracked" : "no pose yet");
   if (in.stale) status.summary(input.hasPublisher() ? Level::WARN : Level::OK, "the last pose is stale");
   if (now_ && now_->held_back[index]) status.summary(Level::WARN, "faster than tissue can follow: held back");
+  const std::string rivals = input.rivals();
+  if (!rivals.empty()) status.summary(Level::WARN, "several nodes send poses: " + rivals);
   if (dropping) status.summary(Level::WARN, "messages are dropped");
   status.add("has_publisher", input.hasPublisher());
   status.add("input_age_s", in.input_age_s);

@@ -27,7 +27,11 @@ void StylusInput::subscribe(ros::NodeHandle& node) {
   subscribed_ = true;
 }
 
-void StylusInput::onPose(const geometry_msgs::PoseStamped& message) {
+void StylusInput::onPose(const ros::MessageEvent<const geometry_msgs::PoseStamped>& event) {
+  const geometry_msgs::PoseStamped& message = *event.getConstMessage();
+  if (senders_.note(event.getPublisherName(), std::chrono::steady_clock::now()))
+    ROS_WARN("%s/measured_cp: several nodes send poses, the tool jumps between them: %s",
+             mailbox_.config().name.c_str(), rivals().c_str());
   const auto lookup = [this](const std::string& frame) { return inTissue(frame); };
   const std::optional<Drop> reason = mailbox_.put(message, lookup, std::chrono::steady_clock::now());
   const std::string frames = ": tf does not join '" + message.header.frame_id + "' to '" + tissue_frame_ + "'";

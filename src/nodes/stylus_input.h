@@ -9,6 +9,7 @@
 #include <atomic>
 #include <string>
 
+#include "nodes/sender_watch.h"
 #include "nodes/stylus_mailbox.h"
 
 namespace viscera::nodes {
@@ -24,10 +25,12 @@ class StylusInput {
   /// Only now, when the simulation is ready, a device (or a replay that waits for a subscriber) is listened to.
   void subscribe(ros::NodeHandle& node);
   StylusMailbox& mailbox() { return mailbox_; }
+  /// Nodes that send poses at the same time, if there are several; else empty.
+  std::string rivals() const { return senders_.several(std::chrono::steady_clock::now()); }
   bool hasPublisher() const { return subscribed_ && pose_.getNumPublishers() > 0; }
 
  private:
-  void onPose(const geometry_msgs::PoseStamped& message);
+  void onPose(const ros::MessageEvent<const geometry_msgs::PoseStamped>& event);
   void onButton(size_t button, const sensor_msgs::Joy& message);
   std::optional<Pose> inTissue(const std::string& frame) const;
   void warn(const std::string& topic, std::optional<Drop> reason, const std::string& detail = "");
@@ -35,6 +38,7 @@ class StylusInput {
   const tf2_ros::Buffer& frames_;
   const std::string tissue_frame_;
   StylusMailbox mailbox_;
+  SenderWatch senders_;
   std::array<bool, kDropReasons> warned_{};
   ros::Subscriber pose_;
   std::array<ros::Subscriber, 2> buttons_;

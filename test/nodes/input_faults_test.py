@@ -2,6 +2,7 @@
 # Copyright (c) 2026, the viscera authors
 # SPDX-License-Identifier: BSD-3-Clause
 """Whatever a device sends, the session goes on: bad messages are dropped and counted by reason."""
+import subprocess
 import sys
 import unittest
 
@@ -100,6 +101,22 @@ class InputFaultsTest(unittest.TestCase):
         self.assertAccepted(pose(frame=""))  # as crtk_python_client sends it: in the tissue frame
         status = self.watch.status("simulation")
         self.assertEqual((status.level, status.message), (DiagnosticStatus.OK, "running"))
+
+    def test_two_nodes_that_send_poses_are_named(self):
+        other = subprocess.Popen(["rostopic", "pub", "-r", "20", "left/measured_cp", "geometry_msgs/PoseStamped",
+                                  "{header: {stamp: now, frame_id: tissue}, pose: {position: {x: 0.4}, orientation: {w: 1}}}"])
+        try:
+            def named():
+                self.poses.publish(pose())
+                message = self.watch.status("left").message
+                return rospy.get_name() in message and "/rostopic_" in message
+
+            wait_until(named, LIMIT_S, "warning that names both")
+            self.assertEqual(self.watch.status("left").level, DiagnosticStatus.WARN)
+        finally:
+            other.terminate()
+            other.wait()
+        wait_until(lambda: "several" not in self.watch.status("left").message, LIMIT_S, "end of the warning")
 
     def test_pose_in_the_frame_of_a_device_is_brought_to_the_tissue(self):
         static = rospy.Publisher("/tf_static", TFMessage, queue_size=1, latch=True)
