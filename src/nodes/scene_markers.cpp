@@ -21,7 +21,8 @@ constexpr double kLetterWithoutCamera_m = 0.01;
 constexpr double kLetterWidth = 0.65;  ///< of its height, the gap to the next with it
 constexpr double kLineHeight = 1.6;    ///< of a letter: rviz looks down at some 30 degrees
 constexpr double kLeastArrow_m = 1e-4;
-constexpr double kArrowWidth = 0.3, kHeadWidth = 0.7, kHeadLength = 0.9;  ///< of a letter's height
+constexpr double kArrowWidth_m = 2.5 * kShaftRadius_m;  ///< a tool is mostly pushed back along its shaft
+constexpr double kHead = 2;                             ///< width and length of an arrow's head, of its width
 
 geometry_msgs::Point toPoint(const Vector3d& p_m) {
   geometry_msgs::Point out;
@@ -152,7 +153,7 @@ void SceneMarkers::addTool(size_t stylus, const SceneLook& look, const ros::Time
 
 /// From the tip, to where the hand is pushed.
 void SceneMarkers::addForce(size_t stylus, const SceneLook& look, const ros::Time& stamp, MarkerArray& out) const {
-  constexpr std::array<uint8_t, 4> kYellow = {250, 210, 40, 255};
+  constexpr std::array<uint8_t, 4> kYellow = {250, 210, 40, 200};  // the tool is seen through it
   const Vector3d arrow_m = arrow_m_per_n_ * look.reactions[stylus].force_n;
   Marker& marker = out.markers.emplace_back(this->marker("forces", stylus, stamp));
   marker.type = Marker::ARROW;
@@ -161,9 +162,9 @@ void SceneMarkers::addForce(size_t stylus, const SceneLook& look, const ros::Tim
   marker.action = Marker::ADD;
   const Vector3d& tip_m = look.tools[stylus].to.position_m;
   marker.points = {toPoint(tip_m), toPoint(tip_m + arrow_m)};
-  marker.scale.x = kArrowWidth * letter_m_;
-  marker.scale.y = kHeadWidth * letter_m_;
-  marker.scale.z = std::min(kHeadLength * letter_m_, 0.5 * arrow_m.norm());
+  marker.scale.x = kArrowWidth_m;
+  marker.scale.y = kHead * kArrowWidth_m;
+  marker.scale.z = std::min(kHead * kArrowWidth_m, 0.5 * arrow_m.norm());
   paint(kYellow, marker);
 }
 
