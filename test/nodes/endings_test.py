@@ -64,6 +64,7 @@ class EndingsTest(unittest.TestCase):
     def test_parameter_of_the_wrong_type_is_refused(self):
         self.assertRefused("simulator", ["_surface_rate_hz:=fast"], "~surface_rate_hz")
         self.assertRefused("stylus_replay", ["_loop:=maybe"], "~loop")
+        self.assertRefused("simulator", ["_frame_prefix:=/left"], "~frame_prefix")  # as tf2 would
 
     def test_unknown_parameter_is_refused(self):
         self.assertRefused("simulator", ["_sceen:=heart"], "~sceen")
