@@ -5,6 +5,7 @@
 
 #include "bench/command/step.h"
 #include "bench/suites/suites.h"
+#include "cli/fault.h"
 
 // `viscera bench`: a program of its own, so that whoever only runs scenes need not build the suites.
 
@@ -52,11 +53,7 @@ int dispatch(int argc, char** argv) {
   const bench::Suite* suite = nullptr;
   addStep(app, step_options);
   addSuites(app, suite_options, suite);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& e) {
-    return app.exit(e);
-  }
+  if (const std::optional<int> ended = cli::parse(app, argc, argv)) return *ended;
   if (!suite) return bench::step(step_options);
   const int missed = bench::runSuite(*suite, suite_options.suite, suite_options.device, std::cout);
   return suite_options.strict && missed > 0 ? 1 : 0;
@@ -68,8 +65,6 @@ int main(int argc, char** argv) {
   try {
     return dispatch(argc, argv);
   } catch (const std::exception& e) {
-    std::cout.flush();
-    std::cerr << "viscera: error: " << e.what() << '\n';
-    return 1;
+    return cli::giveUp(e);
   }
 }

@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <CLI/CLI.hpp>
 #include <cmath>
-#include <cstdio>
 #include <iostream>
 
 #include "cli/commands.h"
+#include "cli/fault.h"
+#include "math/memory_for.h"
 #include "viscera/math/error.h"
 
 using namespace viscera;
@@ -57,20 +58,16 @@ int dispatch(int argc, char** argv) {
   app.add_subcommand("bench", "measure: `viscera bench --help` lists what");  // main() has taken it
 
   CLI::App* keys = app.add_subcommand("keys", "print the table of scene keys");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& e) {
-    return app.exit(e);
-  }
+  if (const std::optional<int> ended = cli::parse(app, argc, argv)) return *ended;
   if (*check) return cli::check(o.device);
-  if (*anchor) return cli::anchor(o.run);
+  if (*anchor) return memoryFor("anchoring in scene '" + o.run.scene + "'", [&] { return cli::anchor(o.run); });
   if (*keys) {
     std::cout << sceneKeysTable();
     return 0;
   }
   if (std::isnan(o.seconds)) throw Error("--seconds is a number, 0 .. 86400; found nan");  // passes CLI::Range
   if (*seconds) o.run.seconds = o.seconds;
-  return cli::run(o.run);
+  return memoryFor("running scene '" + o.run.scene + "'", [&] { return cli::run(o.run); });
 }
 
 }  // namespace
@@ -80,8 +77,6 @@ int main(int argc, char** argv) {
     const bool measures = argc > 1 && std::string(argv[1]) == "bench";
     return measures ? cli::bench(argv + 1) : dispatch(argc, argv);
   } catch (const std::exception& e) {
-    std::fflush(stdout);
-    std::cerr << "viscera: error: " << e.what() << '\n';
-    return 1;
+    return cli::giveUp(e);
   }
 }

@@ -8,6 +8,7 @@
 #include "cli/run_metrics.h"
 #include "cli/run_plan.h"
 #include "cli/scene_lookup.h"
+#include "math/one_line.h"
 #include "solver/gpu/gpu_solver.h"
 #include "solver/reference/reference_ticks.h"
 #include "solver/surroundings.h"
@@ -67,7 +68,7 @@ int runReference(const RunPlan& plan, bool compare) {
     throw SceneError("--reference: float64 has no " + surroundingKeys(surroundings) + "; leave them out to compare");
   }
   for (const Body& body : model.bodies) {
-    for (const std::string& note : body.notes) std::cout << body.name << ": " << note << '\n';
+    for (const std::string& note : body.notes) std::cout << body.name << ": " << oneLine(note) << '\n';
   }
   Strokes strokes = plan.strokes;
   resolveAnchors(strokes, model);
@@ -98,7 +99,7 @@ int runReference(const RunPlan& plan, bool compare) {
   metrics.renderer = "none";
   nlohmann::ordered_json out = toJson(metrics);
   if (comparison) out["gpu_error"] = comparison->error(reference.solver());
-  std::cout << out.dump() << std::endl;
+  std::cout << out.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) << std::endl;
   return 0;
 }
 

@@ -12,6 +12,7 @@
 #include "cli/run_metrics.h"
 #include "cli/run_plan.h"
 #include "cli/scene_lookup.h"
+#include "math/one_line.h"
 #include "viscera/gpu/context.h"
 #include "viscera/math/error.h"
 #include "viscera/session/session.h"
@@ -107,7 +108,7 @@ int run(const RunOptions& options) {
   Session& session = *made;
   resolveAnchors(strokes, session.model());
   for (const Body& body : session.model().bodies) {
-    for (const std::string& note : body.notes) std::cout << body.name << ": " << note << '\n';
+    for (const std::string& note : body.notes) std::cout << body.name << ": " << oneLine(note) << '\n';
   }
   std::cout << session.backendNote() << '\n';
   Album album(options.out, session.scene(), strokes, ticks, picturesOf(options));
@@ -126,10 +127,10 @@ int run(const RunOptions& options) {
   const Json metrics = metricsOf(session, stats, context ? context->renderer() : "none", wall_s);
   if (!options.out.empty()) {
     std::ofstream file(options.out + "/metrics.json");
-    file << metrics.dump(2) << '\n';
+    file << metrics.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
     if (!file) throw Error(options.out + "/metrics.json: cannot be written");
   }
-  std::cout << metrics.dump() << std::endl;
+  std::cout << metrics.dump(-1, ' ', false, Json::error_handler_t::replace) << std::endl;
   return 0;
 }
 

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <limits>
+#include <sstream>
 
+#include "math/memory_for.h"
 #include "model/body/body_notes.h"
 #include "model/body/fixed_nodes.h"
 #include "model/body/network_body.h"
@@ -75,12 +77,29 @@ Body buildNetworkBody(const BodyConfig& config, const Tissue& tissue, bool can_b
   return body;
 }
 
+/// What decides how large a body becomes, for a person.
+std::string sizeKey(const BodyConfig& config) {
+  if (config.target_nodes > 0) return "target_nodes " + std::to_string(config.target_nodes);
+  std::ostringstream out;
+  out << "spacing_m " << config.spacing_m;
+  return config.auto_spacing ? "spacing_m auto" : out.str();
+}
+
 Body buildBody(const BodyConfig& config, const std::string& folder, bool can_be_cut, const Progress& all_progress) {
-  const Progress progress = progressOf(config, all_progress);
-  if (progress) progress("read", 0);
-  const std::unique_ptr<Tissue> tissue = makeTissue(config, folder);
-  if (isNetwork(config.structure)) return buildNetworkBody(config, *tissue, can_be_cut, progress);
-  return buildLatticeBody(config, *tissue, progress);
+  const Progress told = progressOf(config, all_progress);
+  std::string stage = "read";
+  const Progress progress = [&](const std::string& name, double fraction) {
+    stage = name;
+    if (told) told(name, fraction);
+  };
+  return memoryFor<LatticeError>([&] { return "stage '" + stage + "' with " + sizeKey(config); },
+                                 [&] {
+                                   progress("read", 0);
+                                   const std::unique_ptr<Tissue> tissue = makeTissue(config, folder);
+                                   if (isNetwork(config.structure))
+                                     return buildNetworkBody(config, *tissue, can_be_cut, progress);
+                                   return buildLatticeBody(config, *tissue, progress);
+                                 });
 }
 
 bool canCut(const Scene& scene) {
@@ -102,18 +121,20 @@ bool canMove(const Model& model) {
 
 Model buildModel(const Scene& scene, const Progress& progress) {
   const bool can_be_cut = canCut(scene);
+  const std::string file = scene.file.empty() ? "" : scene.file + ": ";
   Model model;
   for (const BodyConfig& config : scene.bodies) {
     try {
       model.bodies.push_back(buildBody(config, scene.folder, can_be_cut, progress));
     } catch (const LatticeError& error) {
-      throw LatticeError("body '" + config.name + "': " + error.what());
+      throw LatticeError(file + "body '" + config.name + "': " + error.what());
     }
   }
   if (!canMove(model))
-    throw SceneError("every node of the scene is fixed: nothing can move; make a 'fixed' region smaller");
+    throw SceneError(file + "every node of the scene is fixed: nothing can move; make a 'fixed' region smaller");
   if (model.slots() > std::numeric_limits<uint32_t>::max()) {
-    throw LatticeError("the bodies need " + std::to_string(model.slots()) + " node slots together, more than 2^32");
+    throw LatticeError(file + "the bodies need " + std::to_string(model.slots()) +
+                       " node slots together, more than 2^32");
   }
   return model;
 }

@@ -9,6 +9,8 @@
 #include <cstdio>
 #include <exception>
 
+#include "math/one_line.h"
+
 namespace viscera::nodes {
 
 /// Runs the body of a node. An error becomes one line and the exit status 1.
@@ -17,7 +19,7 @@ int nodeMain(int argc, char** argv, const char* name, Body body) {
   try {
     ros::init(argc, argv, name);
   } catch (const std::exception& e) {
-    std::fprintf(stderr, "%s: %s\n", name, e.what());
+    std::fprintf(stderr, "%s: %s\n", name, oneLine(e.what()).c_str());
     return 1;
   }
   const ros::NodeHandle keep_started;  // roscpp ends with the last handle, and logging with it
@@ -25,7 +27,7 @@ int nodeMain(int argc, char** argv, const char* name, Body body) {
     body();
     return 0;
   } catch (const std::exception& e) {
-    ROS_FATAL("%s", e.what());
+    ROS_FATAL("%s", oneLine(e.what()).c_str());
     return 1;
   }
 }

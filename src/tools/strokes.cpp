@@ -3,10 +3,9 @@
 #include "viscera/tools/strokes.h"
 
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
 #include <sstream>
 
+#include "math/memory_for.h"
 #include "model/scene/yaml_reader.h"
 #include "viscera/math/error.h"
 
@@ -146,7 +145,7 @@ Strokes parseStrokes(const std::string& yaml, const std::string& name) {
   try {
     YamlReader::readMap(YAML::Load(yaml), "", source, file);
   } catch (const YAML::Exception& e) {
-    throw StrokesError(name + ":" + std::to_string(e.mark.line + 1) + ": " + e.msg);
+    throw StrokesError(yamlFault(name, e));
   } catch (const SceneError& e) {
     throw StrokesError(e.what());
   }
@@ -163,13 +162,12 @@ Strokes parseStrokes(const std::string& yaml, const std::string& name) {
 }
 
 Strokes loadStrokes(const std::string& path) {
-  std::error_code error;
-  if (std::filesystem::is_directory(path, error)) throw StrokesError(path + ": is a folder, not a strokes file");
-  std::ifstream file(path);
-  if (!file) throw StrokesError(path + ": cannot be read (does the file exist?)");
-  std::ostringstream text;
-  text << file.rdbuf();
-  return parseStrokes(text.str(), path);
+  try {
+    const std::string text = textOf(path, "strokes");
+    return memoryFor<StrokesError>(path, [&] { return parseStrokes(text, path); });
+  } catch (const SceneError& error) {
+    throw StrokesError(error.what());
+  }
 }
 
 }  // namespace viscera

@@ -5,9 +5,9 @@
 #include <cctype>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <sstream>
 
+#include "math/memory_for.h"
 #include "model/scene/integrators.h"
 #include "model/scene/structure_rules.h"
 #include "model/scene/yaml_reader.h"
@@ -179,20 +179,16 @@ Scene parseScene(const std::string& yaml, const std::string& name, const Overrid
     for (const std::string& text : overrides) applyOverride(root, text, source);
     YamlReader::readMap(root, "", source, scene);
   } catch (const YAML::Exception& e) {
-    throw SceneError(name + ":" + std::to_string(e.mark.line + 1) + ": " + e.msg);
+    throw SceneError(yamlFault(name, e));
   }
   requireConsistent(name, scene);
   return scene;
 }
 
 Scene loadScene(const std::string& path, const Overrides& overrides) {
-  std::error_code error;
-  if (std::filesystem::is_directory(path, error)) throw SceneError(path + ": is a folder, not a scene file");
-  std::ifstream file(path);
-  if (!file) throw SceneError(path + ": cannot be read (does the file exist?)");
-  std::ostringstream text;
-  text << file.rdbuf();
-  Scene scene = parseScene(text.str(), path, overrides);
+  const std::string text = textOf(path, "scene");
+  Scene scene = memoryFor<SceneError>(path, [&] { return parseScene(text, path, overrides); });
+  scene.file = path;
   scene.folder = std::filesystem::path(path).parent_path().string();
   return scene;
 }

@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <sstream>
 
+#include "math/memory_for.h"
 #include "viscera/math/error.h"
 
 namespace viscera {
@@ -28,6 +31,31 @@ std::string numberText(double value) {
   std::ostringstream out;
   out << value;
   return out.str();
+}
+
+std::string yamlFault(const std::string& file, const YAML::Exception& error) {
+  const std::string place = error.mark.is_null() ? file : file + ":" + std::to_string(error.mark.line + 1);
+  if (error.msg == YAML::ErrorMsg::BAD_FILE) return place + ": lists and maps are nested too deep";
+  return place + ": " + error.msg;
+}
+
+std::string textOf(const std::string& path, const std::string& what) {
+  constexpr size_t kMostMb = 100, kBytesPerMb = 1000000;  // some million keys of strokes
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error)) throw SceneError(path + ": is a folder, not a " + what + " file");
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw SceneError(path + ": cannot be read (does the file exist?)");
+  return memoryFor<SceneError>(path, [&] {
+    std::string text;
+    std::vector<char> piece(kBytesPerMb);
+    do {  // piece by piece: a device has no end
+      file.read(piece.data(), static_cast<std::streamsize>(piece.size()));
+      text.append(piece.data(), static_cast<size_t>(file.gcount()));
+    } while (file && text.size() <= kMostMb * kBytesPerMb);
+    if (!file) return text;
+    throw SceneError(path + ": is larger than " + std::to_string(kMostMb) + " MB, the most that a " + what +
+                     " file may have");
+  });
 }
 
 bool YamlSource::sets(const std::string& path) const {

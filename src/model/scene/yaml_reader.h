@@ -103,6 +103,13 @@ class YamlReader {
 /// "file:line: " of a node; "override: " for one that was set from outside.
 std::string whereIs(const YamlSource& source, const std::string& path, const YAML::Node& node);
 
+/// What YAML itself has against a file: file, line and what is wrong.
+std::string yamlFault(const std::string& file, const YAML::Exception& error);
+
+/// All of a text file. @param what  it should be, for errors
+/// @throws SceneError  it is a folder, cannot be read, or has no end in sight
+std::string textOf(const std::string& path, const std::string& what);
+
 /// A number as a person would write it.
 std::string numberText(double value);
 

@@ -59,12 +59,23 @@ struct PartConfig {
   double density_kg_per_m3 = 1060;
 };
 
+/// What a mesh file may hold. Files are small and what they stand for need not be: nodes that share children grow
+/// without end, and libraries that read files recurse.
+struct ImportLimits {
+  double max_file_mb = 2000;
+  int max_depth = 256;
+  int max_instances = 100000;
+  int max_triangles = 20000000;
+  bool other_formats = false;
+};
+
 struct BodyConfig {
   std::string name = "tissue";
   TissueSource source = TissueSource::kPhantom;
   Structure structure = Structure::kLattice;
   std::string mesh_file;  ///< relative to the scene file
   double unit_scale_m = 1;
+  ImportLimits import_limits;
   UpAxis up_axis = UpAxis::kZ;
   bool centered = false;
   double phantom_length_m = 0.1;
@@ -212,6 +223,7 @@ struct Scene {
   EnvironmentConfig environment;
   SolverConfig solver;
   std::string folder;  ///< of the scene file: relative mesh files are looked up here
+  std::string file;    ///< the scene file, for errors; empty for a scene that was not loaded from one
 };
 
 /// "key=value" as given on the command line or in a launch file; the key is a path such as bodies[0].spacing_m.
