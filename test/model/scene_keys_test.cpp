@@ -24,6 +24,7 @@ bodies:
     structure: explicit
     mesh_file: organ.obj
     unit_scale_m: 0.001
+    import_limits: {max_file_mb: 1.5, max_depth: 11, max_instances: 12, max_triangles: 13, other_formats: true}
     up_axis: y
     centered: true
     phantom_length_m: 0.101
@@ -137,6 +138,11 @@ TEST(SceneKeys, EveryBodyKeyReachesItsField) {
   EXPECT_EQ(body.structure, Structure::kExplicit);
   EXPECT_EQ(body.mesh_file, "organ.obj");
   EXPECT_EQ(body.unit_scale_m, 0.001);
+  EXPECT_EQ(body.import_limits.max_file_mb, 1.5);
+  EXPECT_EQ(body.import_limits.max_depth, 11);
+  EXPECT_EQ(body.import_limits.max_instances, 12);
+  EXPECT_EQ(body.import_limits.max_triangles, 13);
+  EXPECT_TRUE(body.import_limits.other_formats);
   EXPECT_EQ(body.up_axis, UpAxis::kY);
   EXPECT_TRUE(body.centered);
   EXPECT_EQ(body.phantom_length_m, 0.101);
@@ -317,7 +323,8 @@ TEST(SceneKeys, KeyEndsInItsUnit) {
   const std::map<std::string, std::string> suffixes = {{"m", "_m"},       {"Pa", "_pa"},       {"kg/m3", "_kg_per_m3"},
                                                        {"1/s", "_per_s"}, {"m/s", "_m_per_s"}, {"m/s2", "_m_per_s2"},
                                                        {"N", "_n"},       {"N/s", "_n_per_s"}, {"s", "_s"},
-                                                       {"deg", "_deg"},   {"Hz", "_hz"},       {"deg/s", "_deg_per_s"}};
+                                                       {"deg", "_deg"},   {"Hz", "_hz"},       {"deg/s", "_deg_per_s"},
+                                                       {"MB", "_mb"}};
   for (const auto& row : tableRows(sceneKeysTable())) {
     const size_t comma = row.at(2).find(", ");
     if (comma == std::string::npos) continue;

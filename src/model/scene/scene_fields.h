@@ -91,6 +91,17 @@ void visitFields(V& v, PartConfig& c) {
 }
 
 template <class V>
+void visitFields(V& v, ImportLimits& c) {
+  v.number("max_file_mb", c.max_file_mb, {0.001, 1e6}, "MB", "size of the file, and of buffers that it refers to");
+  v.integer("max_depth", c.max_depth, {1, 4000}, "glTF: nodes within nodes");
+  v.integer("max_instances", c.max_instances, {1, 1e7}, "glTF: nodes, those with several parents once for each");
+  v.integer("max_triangles", c.max_triangles, {1, 1e9}, "triangles, of each instance anew");
+  v.boolean("other_formats", c.other_formats,
+            "try formats that are not listed under `mesh_file` too, whose importers have limits of neither depth nor "
+            "instances: for files that you trust");
+}
+
+template <class V>
 void visitFields(V& v, BodyConfig& c) {
   v.text("name", c.name, "name, unique");
   v.choice("source", c.source,
@@ -110,6 +121,8 @@ void visitFields(V& v, BodyConfig& c) {
   v.text("mesh_file", c.mesh_file,
          "mesh: OBJ, STL, PLY, glTF or GLB file, for tetrahedra a Gmsh .msh file; relative to the scene file");
   v.number("unit_scale_m", c.unit_scale_m, {1e-9, 1e3}, "m", "mesh: metres per unit of the file");
+  v.group("import_limits", c.import_limits,
+          "mesh: what the file may hold; what holds more is refused before it is read");
   v.choice("up_axis", c.up_axis, {{"z", UpAxis::kZ}, {"y", UpAxis::kY}},
            "mesh: axis of the file that points up and is turned to z; y in glTF");
   v.boolean("centered", c.centered, "mesh: move the middle of its bounding box to the body's origin");

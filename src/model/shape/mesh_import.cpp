@@ -6,6 +6,7 @@
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
+#include <assimp/DefaultIOSystem.h>
 #include <algorithm>
 #include <assimp/Importer.hpp>
 #include <cmath>
@@ -15,6 +16,10 @@
 #include <set>
 #include <sstream>
 
+#include "math/memory_for.h"
+#include "math/one_line.h"
+#include "model/shape/gltf_limits.h"
+#include "model/shape/import_limits.h"
 #include "model/shape/ply_reader.h"
 #include "viscera/math/error.h"
 
@@ -26,10 +31,7 @@ namespace fs = std::filesystem;
 constexpr size_t kMostParts = UINT16_MAX - 1;  // labels are 16 bits wide, and 0 means empty
 
 [[noreturn]] void fail(const std::string& path, const std::string& what) {
-  std::string reason = what;  // assimp quotes from the file, which may be binary
-  std::replace_if(
-      reason.begin(), reason.end(), [](unsigned char c) { return c < ' ' || c > '~'; }, '?');
-  throw MeshError("mesh file '" + path + "': " + reason);
+  throw MeshError("mesh file '" + path + "': " + oneLine(what));  // assimp quotes from the file, which may be binary
 }
 
 void requireReadableFile(const std::string& path) {
@@ -59,12 +61,22 @@ struct LessPosition {
 /// Walks the node tree of a file and gathers its triangles, part by part.
 class Gatherer {
  public:
-  Gatherer(const std::string& path, double unit_scale_m) : path_(path), unit_scale_m_(unit_scale_m) {}
+  explicit Gatherer(double unit_scale_m) : unit_scale_m_(unit_scale_m) {}
 
-  void visit(const aiScene& scene, const aiNode& node, const Eigen::Matrix4d& parent) {
-    const Eigen::Matrix4d pose = parent * toEigen(node.mTransformation);
-    for (unsigned i = 0; i < node.mNumMeshes; ++i) addPart(*scene.mMeshes[node.mMeshes[i]], node, pose);
-    for (unsigned i = 0; i < node.mNumChildren; ++i) visit(scene, *node.mChildren[i], pose);
+  /// Parents before children, children in their order; without recursion, however deep they are.
+  void visit(const aiScene& scene) {
+    struct Waiting {
+      const aiNode* node;
+      Eigen::Matrix4d parent;
+    };
+    std::vector<Waiting> waiting = {{scene.mRootNode, Eigen::Matrix4d::Identity()}};
+    while (!waiting.empty()) {
+      const aiNode& node = *waiting.back().node;
+      const Eigen::Matrix4d pose = waiting.back().parent * toEigen(node.mTransformation);
+      waiting.pop_back();
+      for (unsigned i = 0; i < node.mNumMeshes; ++i) addPart(*scene.mMeshes[node.mMeshes[i]], node, pose);
+      for (unsigned i = node.mNumChildren; i > 0; --i) waiting.push_back({node.mChildren[i - 1], pose});
+    }
   }
 
   TriangleMesh mesh;
@@ -81,7 +93,7 @@ class Gatherer {
       ++report.parts_dropped;
       return;
     }
-    if (mesh.part_names.size() == kMostParts) fail(path_, "has more than " + std::to_string(kMostParts) + " parts");
+    if (mesh.part_names.size() == kMostParts) throw MeshError("has more than " + std::to_string(kMostParts) + " parts");
     mesh.parts.resize(mesh.triangles.size(), static_cast<uint16_t>(mesh.part_names.size()));
     mesh.part_names.push_back(uniqueName(name));
     ++report.parts;
@@ -97,7 +109,8 @@ class Gatherer {
 
   std::string uniqueName(const std::string& name) {
     std::string unique = name;
-    for (int copy = 2; !names_.insert(unique).second; ++copy) unique = name + "_" + std::to_string(copy);
+    int& copies = copies_[name];  // so that a thousand of a name are not each counted from 2
+    for (copies = std::max(copies, 1); !names_.insert(unique).second;) unique = name + "_" + std::to_string(++copies);
     return unique;
   }
 
@@ -110,7 +123,7 @@ class Gatherer {
       const Vector3d moved = (pose * Eigen::Vector4d(p.x, p.y, p.z, 1)).head<3>() * unit_scale_m_;
       const Vector3f position = moved.cast<float>();
       if (!position.allFinite()) {
-        fail(path_, "vertex " + std::to_string(v) + " of part '" + name + "' has a non-finite coordinate");
+        throw MeshError("vertex " + std::to_string(v) + " of part '" + name + "' has a non-finite coordinate");
       }
       const auto next = static_cast<uint32_t>(mesh.positions_m.size());
       const auto [found, is_new] = known.try_emplace(position, next);
@@ -126,7 +139,7 @@ class Gatherer {
     if (face.mNumIndices != 3) return;
     std::array<uint32_t, 3> triangle;
     for (int c = 0; c < 3; ++c) {
-      if (face.mIndices[c] >= vertices.size()) fail(path_, "a face refers to a vertex that does not exist");
+      if (face.mIndices[c] >= vertices.size()) throw MeshError("a face refers to a vertex that does not exist");
       triangle[c] = vertices[face.mIndices[c]];
     }
     if (mirrored) std::swap(triangle[1], triangle[2]);
@@ -147,9 +160,9 @@ class Gatherer {
   /// Height over length below which three single-precision points lie on one line.
   static constexpr double kFlat = 1e-12;
 
-  std::string path_;
   double unit_scale_m_;
   std::set<std::string> names_;
+  std::map<std::string, int> copies_;
 };
 
 /// Removes the vertices that only stray points, lines and degenerate triangles used.
@@ -170,47 +183,65 @@ void dropUnusedVertices(TriangleMesh& mesh) {
 }
 
 /// A truncated file can leave faces without vertices, at which assimp's own triangulation would abort the process.
-void requireVerticesInFaces(const aiScene& scene, const std::string& path) {
+void requireVerticesInFaces(const aiScene& scene) {
   for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
     const aiMesh& mesh = *scene.mMeshes[m];
     const bool corrupt = std::any_of(mesh.mFaces, mesh.mFaces + mesh.mNumFaces,
                                      [](const aiFace& face) { return face.mNumIndices == 0; });
-    if (corrupt) fail(path, "is corrupt or cut short: a face has no vertices");
+    if (corrupt) throw MeshError("is corrupt or cut short: a face has no vertices");
   }
 }
 
-/// The scene that assimp makes of a file, polygons as triangles; it belongs to the importer.
-const aiScene& readScene(Assimp::Importer& importer, const std::string& path) {
-  const aiScene* scene = nullptr;
-  try {
-    scene = importer.ReadFile(path, 0);
-  } catch (const std::exception& error) {
-    fail(path, std::string("cannot be read: ") + error.what());
+/// Opens nothing but ordinary files within the limit, whatever a file refers to: a pipe would be waited for without
+/// end.
+class BoundedFiles : public Assimp::DefaultIOSystem {
+ public:
+  explicit BoundedFiles(const ImportLimits& limits) : limits_(limits) {}
+
+  bool Exists(const char* file) const override {
+    std::error_code error;
+    return fs::is_regular_file(file, error);
   }
+  Assimp::IOStream* Open(const char* file, const char* mode) override {
+    if (!Exists(file)) return nullptr;
+    requireFileSize(file, limits_);
+    return DefaultIOSystem::Open(file, mode);
+  }
+
+ private:
+  ImportLimits limits_;
+};
+
+/// The scene that assimp makes of a file, polygons as triangles; it belongs to the importer.
+const aiScene& readScene(Assimp::Importer& importer, const std::string& path, const ImportLimits& limits) {
+  requireKnownFormat(path, limits);
+  if (looksLikeGltf(path)) requireGltfWithin(path, limits);
+  importer.SetIOHandler(new BoundedFiles(limits));  // the importer's from now on
+  const aiScene* scene = importer.ReadFile(path, 0);
   if (scene != nullptr) {
-    requireVerticesInFaces(*scene, path);
+    requireVerticesInFaces(*scene);
     scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
   }
-  if (scene == nullptr) fail(path, std::string("cannot be read: ") + importer.GetErrorString());
-  if (scene->mRootNode == nullptr) fail(path, "holds no scene");
+  if (scene == nullptr) throw MeshError(std::string("cannot be read: ") + importer.GetErrorString());
+  if (scene->mRootNode == nullptr) throw MeshError("holds no scene");
+  requireScene(*scene, limits);
   return *scene;
 }
 
-void gather(const std::string& path, Gatherer& gatherer) {
-  const Eigen::Matrix4d identity = Eigen::Matrix4d::Identity();
-  if (isPly(path)) {
-    std::unique_ptr<aiScene> scene;
-    try {
-      scene = readPly(path);
-    } catch (const MeshError& error) {
-      fail(path, std::string("is corrupt or cut short: ") + error.what());
-    }
-    gatherer.visit(*scene, *scene->mRootNode, identity);
-    return;
+void gather(const std::string& path, const ImportLimits& limits, Gatherer& gatherer) {
+  requireFileSize(path, limits);
+  if (!isPly(path)) {
+    Assimp::Importer importer;
+    return gatherer.visit(readScene(importer, path, limits));
   }
-  Assimp::Importer importer;
-  const aiScene& scene = readScene(importer, path);
-  gatherer.visit(scene, *scene.mRootNode, identity);
+  std::unique_ptr<aiScene> scene;
+  try {
+    scene = readPly(path);
+  } catch (const MeshError& error) {
+    throw MeshError(std::string("is corrupt or cut short: ") + error.what());
+  }
+  requireScene(*scene, limits);
+  gatherer.visit(*scene);
 }
 
 }  // namespace
@@ -223,13 +254,18 @@ std::string ImportReport::text() const {
   return out.str();
 }
 
-TriangleMesh importMesh(const std::string& path, double unit_scale_m, ImportReport* report) {
+TriangleMesh importMesh(const std::string& path, double unit_scale_m, ImportReport* report,
+                        const ImportLimits& limits) {
   if (!std::isfinite(unit_scale_m) || unit_scale_m <= 0) {
     fail(path, "unit_scale_m must be a finite number > 0, not " + std::to_string(unit_scale_m));
   }
   requireReadableFile(path);
-  Gatherer gatherer(path, unit_scale_m);
-  gather(path, gatherer);
+  Gatherer gatherer(unit_scale_m);
+  try {
+    memoryFor<MeshError>("reading it", [&] { gather(path, limits, gatherer); });
+  } catch (const std::exception& error) {  // assimp's own too
+    fail(path, error.what());
+  }
   if (gatherer.mesh.triangles.empty()) fail(path, "holds no triangle (" + gatherer.report.text() + ")");
   dropUnusedVertices(gatherer.mesh);
   if (report != nullptr) *report = gatherer.report;

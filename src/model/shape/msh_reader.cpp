@@ -10,6 +10,8 @@
 #include <sstream>
 #include <unordered_map>
 
+#include "math/memory_for.h"
+#include "model/shape/import_limits.h"
 #include "viscera/math/error.h"
 
 namespace viscera {
@@ -300,15 +302,22 @@ std::string MshReport::text() const {
   return out.str();
 }
 
-TetrahedraMesh readMsh(const std::string& path, double unit_scale_m, MshReport* report) {
+TetrahedraMesh readMsh(const std::string& path, double unit_scale_m, MshReport* report, const ImportLimits& limits) {
   if (!std::isfinite(unit_scale_m) || unit_scale_m <= 0) {
     throw MeshError("mesh file '" + path + "': unit_scale_m must be a finite number > 0, not " +
                     std::to_string(unit_scale_m));
   }
-  MshReader reader(path, unit_scale_m);
-  reader.read();
   MshReport own;
-  return reader.used(report ? *report : own);
+  return memoryFor<MeshError>("reading mesh file '" + path + "'", [&] {
+    try {
+      requireFileSize(path, limits);
+    } catch (const MeshError& error) {
+      throw MeshError("mesh file '" + path + "': " + error.what());
+    }
+    MshReader reader(path, unit_scale_m);
+    reader.read();
+    return reader.used(report ? *report : own);
+  });
 }
 
 }  // namespace viscera

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "model/shape/tetrahedra_mesh.h"
+#include "viscera/model/scene/scene.h"
 
 namespace viscera {
 
@@ -25,6 +26,7 @@ struct MshReport {
 /// or
 ///                    missing; counts that do not match; a node that is not there or stands twice; other elements of
 ///                    three dimensions, or of higher order; a flat tetrahedron; no tetrahedron at all
-TetrahedraMesh readMsh(const std::string& path, double unit_scale_m, MshReport* report = nullptr);
+TetrahedraMesh readMsh(const std::string& path, double unit_scale_m, MshReport* report = nullptr,
+                       const ImportLimits& limits = {});
 
 }  // namespace viscera

@@ -166,11 +166,16 @@ Vector3d Shell::max() const {
   return high;
 }
 
-Shell closePart(const TriangleMesh& mesh, uint16_t part) {
+std::vector<std::vector<uint32_t>> trianglesByPart(const TriangleMesh& mesh) {
+  std::vector<std::vector<uint32_t>> out(mesh.part_names.size());
+  for (uint32_t t = 0; t < mesh.triangles.size(); ++t) out[mesh.parts[t]].push_back(t);
+  return out;
+}
+
+Shell closePart(const TriangleMesh& mesh, const std::vector<uint32_t>& of_part) {
   Shell shell;
   std::unordered_map<uint32_t, uint32_t> local;
-  for (size_t t = 0; t < mesh.triangles.size(); ++t) {
-    if (mesh.parts[t] != part) continue;
+  for (const uint32_t t : of_part) {
     Triangle triangle;
     for (int c = 0; c < 3; ++c) {
       const uint32_t vertex = mesh.triangles[t][c];
@@ -193,11 +198,10 @@ Shell closePart(const TriangleMesh& mesh, uint16_t part) {
 
 TriangleMesh facingOutward(const TriangleMesh& mesh) {
   TriangleMesh facing = mesh;
-  for (size_t part = 0; part < mesh.part_names.size(); ++part) {
-    const Shell shell = closePart(mesh, static_cast<uint16_t>(part));
+  for (const std::vector<uint32_t>& of_part : trianglesByPart(mesh)) {
+    const Shell shell = closePart(mesh, of_part);
     size_t own = 0;  // the triangles of a shell are in the order of the mesh
-    for (size_t t = 0; t < mesh.triangles.size(); ++t) {
-      if (mesh.parts[t] != part) continue;
+    for (const uint32_t t : of_part) {
       if (shell.turned[own++] != (shell.volume_m3 < 0)) std::swap(facing.triangles[t][1], facing.triangles[t][2]);
     }
   }

@@ -29,8 +29,11 @@ struct Shell {
   static constexpr double kMostCapArea = 0.6;
 };
 
-/// Orients the triangles of one part alike across shared edges and caps its boundary loops.
-Shell closePart(const TriangleMesh& mesh, uint16_t part);
+/// The triangles of every part, in the order of the mesh.
+std::vector<std::vector<uint32_t>> trianglesByPart(const TriangleMesh& mesh);
+
+/// Orients some triangles of a mesh, those of one part, alike across shared edges and caps their boundary loops.
+Shell closePart(const TriangleMesh& mesh, const std::vector<uint32_t>& of_part);
 
 /// The mesh with its triangles turned to be counter-clockwise seen from outside, part by part.
 TriangleMesh facingOutward(const TriangleMesh& mesh);

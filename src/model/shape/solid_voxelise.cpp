@@ -28,6 +28,7 @@
 #include <sstream>
 
 #include "model/shape/solid_crumbs.h"
+#include "model/shape/solid_gaps.h"
 #include "model/shape/solid_grid.h"
 #include "model/shape/solid_lines.h"
 #include "model/shape/solid_shell.h"
@@ -85,8 +86,9 @@ int fillThinWalls(const Volume& volume, int axis, Solid& solid) {
 /// Closes every part; those that enclose nothing are left out. Smallest first.
 std::vector<Volume> closeParts(const TriangleMesh& mesh, VoxelReport& report) {
   std::vector<Volume> volumes;
+  const std::vector<std::vector<uint32_t>> triangles = trianglesByPart(mesh);
   for (size_t part = 0; part < mesh.part_names.size(); ++part) {
-    Shell shell = closePart(mesh, static_cast<uint16_t>(part));
+    Shell shell = closePart(mesh, triangles[part]);
     if (shell.triangles.empty() || shell.isOpenSheet()) continue;
     report.mesh_volume_m3 += std::abs(shell.volume_m3);
     report.holes_closed += shell.holes_closed;
@@ -107,6 +109,12 @@ void countDropped(const Solid& solid, VoxelReport& report) {
   report.parts_dropped = static_cast<int>(report.dropped_names.size());
 }
 
+std::vector<NamedShell> namedShells(const std::vector<Volume>& volumes, const TriangleMesh& mesh) {
+  std::vector<NamedShell> out;
+  for (const Volume& volume : volumes) out.push_back({&volume.shell, mesh.part_names[volume.part]});
+  return out;
+}
+
 /// The filled grid; all labels are 0 where the spacing is too large for the body.
 Solid fill(const std::vector<Volume>& volumes, const TriangleMesh& mesh, double spacing_m, VoxelReport& report,
            const Progress& progress) {
@@ -115,6 +123,7 @@ Solid fill(const std::vector<Volume>& volumes, const TriangleMesh& mesh, double 
     low = low.cwiseMin(volume.shell.min());
     high = high.cwiseMax(volume.shell.max());
   }
+  requireParted(namedShells(volumes, mesh), spacing_m);
   Solid solid = emptySolid(low, high, spacing_m, mesh.part_names);
   const double steps = 2.0 * static_cast<double>(volumes.size());
   double done = 0;
@@ -152,7 +161,11 @@ Solid voxelise(const TriangleMesh& mesh, double spacing_m, VoxelReport* report, 
   Solid solid = fill(volumes, mesh, spacing_m, found, progress);
   if (solid.filledCells() == 0) {
     VoxelReport ignored;
-    requireFinerSpacing(spacing_m, [&](double h) { return fill(volumes, mesh, h, ignored, {}).filledCells() > 0; });
+    try {
+      requireFinerSpacing(spacing_m, [&](double h) { return fill(volumes, mesh, h, ignored, {}).filledCells() > 0; });
+    } catch (const LatticeError& error) {
+      throw LatticeError(error.what() + farPartNote(namedShells(volumes, mesh)));
+    }
     throw MeshError("the mesh encloses no volume: its surfaces lie on each other");
   }
   found.crumbs_removed = removeCrumbs(solid, kCrumb);

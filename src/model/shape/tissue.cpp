@@ -31,7 +31,7 @@ class MeshTissue : public Tissue {
   MeshTissue(const BodyConfig& config, const std::string& folder) {
     path_ = (std::filesystem::path(folder) / config.mesh_file).string();
     ImportReport report;
-    mesh_ = facingOutward(importMesh(path_, config.unit_scale_m, &report));
+    mesh_ = facingOutward(importMesh(path_, config.unit_scale_m, &report, config.import_limits));
     toBodyFrame(mesh_.positions_m, config);
     move(mesh_.positions_m, bodyPose(config));
     notes.push_back(path_ + ": " + report.text());
@@ -89,7 +89,7 @@ class TetrahedraTissue : public Tissue {
   TetrahedraTissue(const BodyConfig& config, const std::string& folder) {
     const std::string path = (std::filesystem::path(folder) / config.mesh_file).string();
     MshReport report;
-    mesh_ = readMsh(path, config.unit_scale_m, &report);
+    mesh_ = readMsh(path, config.unit_scale_m, &report, config.import_limits);
     toBodyFrame(mesh_.positions_m, config);
     move(mesh_.positions_m, bodyPose(config));
     notes.push_back(path + ": " + report.text());

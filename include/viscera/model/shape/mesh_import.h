@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "viscera/model/scene/scene.h"
 #include "viscera/model/shape/triangle_mesh.h"
 
 namespace viscera {
@@ -18,10 +19,13 @@ struct ImportReport {
   std::string text() const;      ///< one line for a person
 };
 
-/// Reads a triangle mesh (OBJ, STL, PLY, glTF, GLB, and what else assimp reads). Vertices with equal positions within a
-/// part are welded; node transforms are applied; every mesh of the file becomes a part named after its node or mesh.
+/// Reads a triangle mesh (OBJ, STL, PLY, glTF, GLB; where the limits say so, what else assimp reads). Vertices with
+/// equal positions within a part are welded; node transforms are applied; every mesh of the file becomes a part named
+/// after its node or mesh.
 /// @param unit_scale_m  metres per file unit, > 0
-/// @throws MeshError  missing or corrupt file, no triangle at all, a non-finite coordinate
-TriangleMesh importMesh(const std::string& path, double unit_scale_m, ImportReport* report = nullptr);
+/// @throws MeshError  missing or corrupt file, no triangle at all, a non-finite coordinate, more than the limits accept
+/// or than memory holds
+TriangleMesh importMesh(const std::string& path, double unit_scale_m, ImportReport* report = nullptr,
+                        const ImportLimits& limits = {});
 
 }  // namespace viscera

@@ -1,0 +1,20 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "viscera/model/scene/scene.h"
+
+namespace viscera {
+
+/// Does a file begin as glTF's JSON or as GLB does, whatever its name?
+bool looksLikeGltf(const std::string& path);
+
+/// Looks at a glTF or GLB file's own tree before a library does, which would recurse into it and unroll what its nodes
+/// share. Reads the text once, without recursion, and keeps but numbers of it.
+/// @throws MeshError  it is cut short, no JSON or another version than 2; nodes are nested in a circle; or there is
+/// more than the limits accept: number found, range and key. The caller names the file.
+void requireGltfWithin(const std::string& path, const ImportLimits& limits);
+
+}  // namespace viscera
