@@ -1,0 +1,149 @@
+# Copyright (c) 2026, the viscera authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Good files of every format, small and made here: what the mutations spoil. Each list holds bytes."""
+import base64
+import json
+import struct
+
+EDGE = 0.1  # m
+CORNERS = [(x * EDGE, y * EDGE, z * EDGE) for z in (0, 1) for y in (0, 1) for x in (0, 1)]
+TRIANGLES = [(0, 2, 1), (1, 2, 3), (4, 5, 6), (5, 7, 6), (0, 1, 4), (1, 5, 4),
+             (2, 6, 3), (3, 6, 7), (0, 4, 2), (2, 4, 6), (1, 3, 5), (3, 7, 5)]
+
+
+def obj():
+    lines = ['o cube'] + ['v %g %g %g' % corner for corner in CORNERS]
+    quads = lines + ['f 1 3 4 2', 'f 5 6 8 7', 'f 1 2 6 5', 'f 3 7 8 4', 'f 1 5 7 3', 'f 2 4 8 6']
+    lines += ['f %d %d %d' % tuple(v + 1 for v in t) for t in TRIANGLES]
+    rich = ['mtllib none.mtl'] + lines[:9] + ['vt 0 0', 'vn 0 0 1', 'usemtl red', 's 1']
+    rich += ['f %d/1/1 %d/1/1 %d/1/1' % tuple(v - 8 for v in t) for t in TRIANGLES] + ['l 1 2', 'p 1']
+    return ['\n'.join(text).encode() + b'\n' for text in (lines, quads, rich)]
+
+
+def asciiStl():
+    lines = ['solid cube']
+    for triangle in TRIANGLES:
+        lines += ['facet normal 0 0 0', 'outer loop']
+        lines += ['vertex %g %g %g' % CORNERS[v] for v in triangle] + ['endloop', 'endfacet']
+    return [('\n'.join(lines + ['endsolid cube']) + '\n').encode()]
+
+
+def binaryStl():
+    out = b' ' * 80 + struct.pack('<I', len(TRIANGLES))
+    for triangle in TRIANGLES:
+        out += struct.pack('<3f', 0, 0, 0) + b''.join(struct.pack('<3f', *CORNERS[v]) for v in triangle) + b'\0\0'
+    return [out]
+
+
+def plyHeader(form):
+    return (f'ply\nformat {form} 1.0\ncomment cube\nelement vertex 8\nproperty float x\nproperty float y\n'
+            'property float z\nelement face 12\nproperty list uchar int vertex_indices\nend_header\n').encode()
+
+
+def ply():
+    lines = ['%g %g %g' % corner for corner in CORNERS] + ['3 %d %d %d' % triangle for triangle in TRIANGLES]
+    return [plyHeader('ascii') + '\n'.join(lines).encode() + b'\n']
+
+
+def binaryPly():
+    out = []
+    for form, order in (('binary_little_endian', '<'), ('binary_big_endian', '>')):
+        vertices = b''.join(struct.pack(order + '3f', *corner) for corner in CORNERS)
+        faces = b''.join(struct.pack(order + 'B3i', 3, *triangle) for triangle in TRIANGLES)
+        out.append(plyHeader(form) + vertices + faces)
+    return out
+
+
+def meshBytes():
+    return (b''.join(struct.pack('<3f', *corner) for corner in CORNERS) +
+            b''.join(struct.pack('<3I', *triangle) for triangle in TRIANGLES))
+
+
+def gltfTree(buffer):
+    """@param buffer  entries of the buffer beside its length"""
+    return {
+        'asset': {'version': '2.0'}, 'scene': 0, 'scenes': [{'nodes': [0]}],
+        'nodes': [{'name': 'organ', 'children': [1]}, {'name': 'cube', 'mesh': 0, 'translation': [0, 0, 0.1]}],
+        'meshes': [{'name': 'shape', 'primitives': [{'attributes': {'POSITION': 0}, 'indices': 1, 'mode': 4}]}],
+        'accessors': [{'bufferView': 0, 'componentType': 5126, 'type': 'VEC3', 'count': 8},
+                      {'bufferView': 1, 'componentType': 5125, 'type': 'SCALAR', 'count': 36}],
+        'bufferViews': [{'buffer': 0, 'byteLength': 96}, {'buffer': 0, 'byteOffset': 96, 'byteLength': 144}],
+        'buffers': [dict(buffer, byteLength=240)]}
+
+
+def gltf():
+    uri = 'data:application/octet-stream;base64,' + base64.b64encode(meshBytes()).decode()
+    return [json.dumps(gltfTree({'uri': uri})).encode()]
+
+
+def glbOf(text, binary):
+    text += b' ' * (-len(text) % 4)
+    chunks = struct.pack('<I', len(text)) + b'JSON' + text + struct.pack('<I', len(binary)) + b'BIN\0' + binary
+    return b'glTF' + struct.pack('<II', 2, 12 + len(chunks)) + chunks
+
+
+def glb():
+    return [glbOf(json.dumps(gltfTree({})).encode(), meshBytes())]
+
+
+def msh():
+    nodes = ['%d %g %g %g' % ((i + 1,) + corner) for i, corner in enumerate(CORNERS)]
+    cells = [(1, 4, 6, 7), (2, 1, 4, 6), (3, 4, 1, 7), (5, 6, 7, 1), (8, 7, 6, 4)]
+    old = ['$MeshFormat', '2.2 0 8', '$EndMeshFormat', '$Nodes', '8'] + nodes + ['$EndNodes', '$Elements', '6', '1 15 2 0 1 1']
+    old += ['%d 4 2 0 1 %d %d %d %d' % ((i + 2,) + cell) for i, cell in enumerate(cells)] + ['$EndElements']
+    new = ['$MeshFormat', '4.1 0 8', '$EndMeshFormat', '$Nodes', '1 8 1 8', '3 1 0 8'] + [str(i + 1) for i in range(8)]
+    new += ['%g %g %g' % corner for corner in CORNERS] + ['$EndNodes', '$Elements', '1 5 1 5', '3 1 4 5']
+    new += ['%d %d %d %d %d' % ((i + 1,) + cell) for i, cell in enumerate(cells)] + ['$EndElements']
+    return [('\n'.join(lines) + '\n').encode() for lines in (old, new)]
+
+
+BLOCK = '''name: block
+bodies:
+  - name: block
+    source: box
+    box_size_m: [0.04, 0.04, 0.04]
+    spacing_m: 0.01
+    fixed: [{shape: plane, point_m: [0, 0, 0.015], normal: [0, 0, -1]}]
+'''
+SCENE = BLOCK + 'styluses: [{name: left}]\n'
+MSH_SCENE = 'bodies: [{name: organ, source: mesh, structure: tetrahedra, mesh_file: mesh.msh}]\n'
+RICH_SCENE = BLOCK + '''    color: [0.7, 0.2, 0.2]
+    material: {young_modulus_pa: 20000, poisson_ratio: 0.3, density_kg_per_m3: 1060, drag_per_s: 4, dashpot_ratio: 0.2}
+    force_n: [0, 0, 0.01]
+  - {name: ball, source: ball, ball_radius_m: 0.02, spacing_m: 0.01, position_m: [0, 0, 0.1], rotation_deg: [0, 10, 0]}
+  - {name: cloth, source: sheet, structure: surface, box_size_m: [0.1, 0.1, 0.1], spacing_m: 0.02, thickness_m: 0.001}
+styluses:
+  - name: left
+    idle: probe
+    button1: suction
+    probe: {radius_m: 0.006}
+    max_force_n: 3
+    workspace_m: 1
+  - {name: right, idle: grab, grab: {radius_m: 0.01, release_speed_m_per_s: 0.5}}
+cameras: [{name: eye, position_m: [0, -0.2, 0.05], target_m: [0, 0, 0], width_px: 64, height_px: 48}]
+obstacles: [{name: floor, shape: plane, position_m: [0, 0, -0.1], friction: 0.3}]
+collision: {bodies: true, friction: 0.2}
+environment: {gravity_m_per_s2: [0, 0, -9.81]}
+solver: {tick_hz: 60, integrator: leapfrog, dt_fraction: 0.8, governor: true, iterations: 20}
+'''
+IMPLICIT_SCENE = BLOCK + 'solver: {integrator: pd, substeps: 2, iterations: 5, threads: 2}\n'
+STROKES_TEXT = '''strokes:
+  - stylus: left
+    keys:
+      - {t_s: 0, position_m: [0, 0, 0.05], rotation_deg: [0, 0, 0]}
+      - {t_s: 0.01, position_m: [0, 0, 0.03], button1: true}
+      - {t_s: 0.02, position_m: [0, 0, 0.01], button2: false}
+marks: [{name: deep, t_s: 0.01}]
+'''
+ANCHORED_TEXT = '''strokes:
+  - {stylus: left, anchor: {from_m: [0, 0, 1], towards_m: [0, 0, 0]}, keys: [{t_s: 0, position_m: [0, 0, 0.01]}, {t_s: 0.02}]}
+'''
+
+OBJ, ASCII_STL, BINARY_STL, PLY, BINARY_PLY, GLTF, GLB, MSH = (
+    make() for make in (obj, asciiStl, binaryStl, ply, binaryPly, gltf, glb, msh))
+SCENES = [text.encode() for text in (SCENE, RICH_SCENE, IMPLICIT_SCENE)]
+STROKES = [text.encode() for text in (STROKES_TEXT, ANCHORED_TEXT)]
+# Options whose values are spoilt, as `name value`.
+OPTIONS = [text.encode() for text in ('--seconds 0.02', '--set bodies[0].spacing_m=0.01', '--set solver.tick_hz=60',
+                                      '--mesh none.obj', '--strokes none.yaml', '--set bodies[0].fixed=[]', '--device 0',
+                                      '--out /proc/none', '--reference', '--compare', '--live', '--threads 2', 'extra')]
