@@ -126,6 +126,8 @@ Model buildModel(const Scene& scene, const Progress& progress) {
   for (const BodyConfig& config : scene.bodies) {
     try {
       model.bodies.push_back(buildBody(config, scene.folder, can_be_cut, progress));
+    } catch (const SceneError& error) {  // has the body already
+      throw SceneError(file + error.what());
     } catch (const LatticeError& error) {
       throw LatticeError(file + "body '" + config.name + "': " + error.what());
     }

@@ -70,6 +70,12 @@ TEST_F(ErrorLines, MemoryThatDoesNotSufficeSaysWhatFor) {
   EXPECT_TRUE(says(line, {scene_, "body 'block'", "spacing_m 0.0001", "memory"}));
 }
 
+TEST_F(ErrorLines, WhatIsWrongWithABodyNamesTheScene) {
+  EXPECT_TRUE(says(lineOfRun({"--set", "bodies[0].fixed=[{shape: sphere, center_m: [1, 1, 1]}]"}),
+                   {scene_ + ": body 'block'", "fixed[0]"}));
+  EXPECT_TRUE(says(lineOfRun({"--set", "bodies[0].spacing_m=5"}), {scene_ + ": body 'block'", "spacing_m 5"}));
+}
+
 TEST_F(ErrorLines, SceneWithoutEndIsNotReadToIt) {
   EXPECT_TRUE(says(lineOf(viscera({"run", "/dev/zero", "--no-view"})), {"/dev/zero", "100 MB"}));
   EXPECT_TRUE(says(lineOfRun({"--strokes", "/dev/zero"}), {"/dev/zero", "100 MB"}));
