@@ -77,7 +77,8 @@ std::string reason(const SpacingChoice& choice) {
     case SpacingBound::kTooSlow:
       return "as coarse as tissue can be, and this machine is still too slow for it";
     case SpacingBound::kWalls:
-      return "as coarse as the thinnest wall allows without holes, and this machine is too slow for it";
+      return "as coarse as the thinnest wall allows without holes, and this machine is too slow for it; thicker walls "
+             "(phantom_wall_scale) allow coarser ones";
   }
   return "";
 }

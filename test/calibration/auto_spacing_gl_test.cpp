@@ -94,6 +94,14 @@ TEST_F(AutoSpacing, IsAcceptedByTheSolverWhereItsLimitsDecide) {
   EXPECT_LT(1 / (30 * scene.solver.tick_hz), safeTimeStep(given));
 }
 
+TEST_F(AutoSpacing, IsNoCoarserThanTheWallsOfThePhantomHoweverSlowTheMachine) {
+  scene_.bodies[0].source = TissueSource::kPhantom;
+  scene_.solver.real_time_factor = 1000;
+  const Scene scene = chosen();
+  EXPECT_NEAR(scene.bodies[0].spacing_m, 0.042 * scene.bodies[0].phantom_length_m, 1e-9);
+  EXPECT_TRUE(says(scene.bodies[0].spacing_note, {"thinnest wall", "too slow", "phantom_wall_scale"}));
+}
+
 TEST_F(AutoSpacing, OfSeveralBodiesIsOneAndOthersKeepTheirs) {
   scene_.bodies.resize(3, scene_.bodies[0]);
   scene_.bodies[1].name = "second";
