@@ -16,12 +16,12 @@ set(VISCERA_ROS_DEPENDS diagnostic_updater geometry_msgs image_transport roscpp 
     tf2_ros visualization_msgs)
 find_package(catkin REQUIRED COMPONENTS message_generation ${VISCERA_ROS_DEPENDS})
 
-add_message_files(FILES SurfaceTopology.msg SurfaceVertices.msg Tick.msg)
+add_message_files(FILES StylusState.msg SurfaceTopology.msg SurfaceVertices.msg Tick.msg)
 add_service_files(FILES Step.srv)
-generate_messages(DEPENDENCIES std_msgs)
+generate_messages(DEPENDENCIES geometry_msgs std_msgs)
 set(EIGEN3_INCLUDE_DIRS ${EIGEN3_INCLUDE_DIR})
 # What the nodes use besides is not asked of whoever uses the library or the messages.
-catkin_package(INCLUDE_DIRS include LIBRARIES viscera_core CATKIN_DEPENDS message_runtime std_msgs
+catkin_package(INCLUDE_DIRS include LIBRARIES viscera_core CATKIN_DEPENDS geometry_msgs message_runtime std_msgs
                DEPENDS EIGEN3 CFG_EXTRAS viscera-extras.cmake)
 
 # rosrun looks for no node below <package>/build, and our package is the whole repository: the devel space names it in

@@ -87,7 +87,7 @@ Experiment abusedHeart(bool short_form) {
   out.dt_safe_s = safeTimeStep(out.model);
   out.start = stateOf(out.model, sag(out.model, out.scene.environment.gravity_m_per_s2));
   const Vector3d side = farthest(out, Vector3d::UnitX()), apex = farthest(out, -Vector3d::UnitZ());
-  Tools tools(out.scene.styluses, waveSpeed(out.model) / kTick_hz);
+  Tools tools(out.scene.styluses, {waveSpeed(out.model) / kTick_hz});
   tools.advance(samplesAt(0, side, apex));
   for (int t = 1; t <= kTicks; ++t) out.motions.push_back(tools.advance(samplesAt(t, side, apex)));
   return out;

@@ -31,7 +31,7 @@ class Stage {
       : model_(blockModel(cells, kSpacing_m, {}, [](const Vector3i& node) { return node.z() == 0; })),
         scene_(sceneWith(mode)),
         solver_(model_, scene_),
-        tools_(scene_.styluses, waveSpeed(model_) / scene_.solver.tick_hz) {}
+        tools_(scene_.styluses, {waveSpeed(model_) / scene_.solver.tick_hz}) {}
 
   void moveTo(const Vector3d& tip) {
     sample_[0].valid = true;

@@ -61,6 +61,10 @@ void resolveContacts(uint slot, NodeBits bits, float mass, vec3 u, INOUT(vec3) u
       vec3 travel = xyz(motion.to) - xyz(motion.from);
       float far = motion.from.w + length(travel);
       if (dot(reach, reach) >= far * far) continue;
+      if ((motion.info.y & kToolFeels) != 0u) {
+        giveMomentum(s, slot, vec3(0.0f));
+        continue;
+      }
       probe(motion, rest + u, x_next, v_next);
       u_next = x_next - rest;
       if (v_next == v_before) continue;

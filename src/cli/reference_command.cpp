@@ -73,7 +73,7 @@ int runReference(const RunPlan& plan, bool compare) {
   Strokes strokes = plan.strokes;
   resolveAnchors(strokes, model);
   const double tick_hz = plan.scene.solver.tick_hz;
-  Tools tools(plan.scene.styluses, waveSpeed(model) / tick_hz);
+  Tools tools(plan.scene.styluses, {waveSpeed(model) / tick_hz});
   ReferenceTicks reference(model, plan.scene);
   std::optional<Comparison> comparison;
   if (compare) comparison.emplace(model, plan.scene);

@@ -17,8 +17,9 @@ class CameraPublisher {
   CameraPublisher(image_transport::ImageTransport& transport, const CameraConfig& camera,
                   const std::string& frame_prefix, double tick_hz);
 
-  /// Somebody subscribes. From any thread.
-  bool isWanted() const { return publisher_.getNumSubscribers() > 0; }
+  /// Subscribers. From any thread.
+  uint32_t viewers() const { return publisher_.getNumSubscribers(); }
+  bool isWanted() const { return viewers() > 0; }
   /// Call once in a tick: whether somebody subscribes and the camera's rate makes an image due.
   bool pick();
   void publish(ImageFrame&& frame, const ros::Time& stamp);

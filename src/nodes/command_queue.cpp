@@ -15,12 +15,10 @@ CommandAnswer failure(const std::string& message) {
 
 }  // namespace
 
-CommandAnswer CommandQueue::call(Command::Kind kind, uint32_t ticks, std::chrono::milliseconds limit) {
-  Command command;
-  command.kind = kind;
-  command.ticks = ticks;
+CommandAnswer CommandQueue::call(Command&& command, std::chrono::milliseconds limit) {
   command.deadline = std::chrono::steady_clock::now() + limit;
   std::future<CommandAnswer> answer = command.answer.get_future();
+  const std::shared_ptr<std::atomic<bool>> begun = command.begun;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (closed_) return failure("the simulation has ended");
@@ -28,7 +26,8 @@ CommandAnswer CommandQueue::call(Command::Kind kind, uint32_t ticks, std::chrono
     commands_.push_back(std::move(command));
   }
   changed_.notify_one();
-  if (answer.wait_for(limit) != std::future_status::ready)
+  const bool late = answer.wait_for(limit) != std::future_status::ready;
+  if (late && (!hasBegun(*begun) || answer.wait_for(kGrace) != std::future_status::ready))
     return failure("no answer within " + std::to_string(limit.count()) + " ms");
   try {
     return answer.get();
@@ -37,12 +36,20 @@ CommandAnswer CommandQueue::call(Command::Kind kind, uint32_t ticks, std::chrono
   }
 }
 
+/// After the deadline this does not change any more.
+bool CommandQueue::hasBegun(const std::atomic<bool>& begun) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return begun;
+}
+
 std::optional<Command> CommandQueue::take() {
   const std::lock_guard<std::mutex> lock(mutex_);
   while (!commands_.empty()) {
     Command command = std::move(commands_.front());
     commands_.pop_front();
-    if (command.deadline > std::chrono::steady_clock::now()) return command;
+    if (command.deadline <= std::chrono::steady_clock::now()) continue;
+    *command.begun = true;
+    return command;
   }
   return std::nullopt;
 }

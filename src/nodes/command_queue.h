@@ -2,14 +2,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <cstdint>
 #include <deque>
 #include <future>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
+#include <vector>
+
+#include "viscera/tools/force_limiter.h"
+#include "viscera/tools/stylus.h"
 
 namespace viscera::nodes {
 
@@ -17,7 +23,8 @@ namespace viscera::nodes {
 struct CommandAnswer {
   bool success = false;
   std::string message;
-  std::string state_hash;  ///< of a step
+  std::string state_hash;           ///< of a step
+  std::vector<Reaction> reactions;  ///< of a step: [styluses] after its last tick, tissue frame
   uint64_t tick = 0;
 };
 
@@ -25,8 +32,10 @@ struct CommandAnswer {
 struct Command {
   enum class Kind { kReset, kPause, kResume, kStep };
   Kind kind = Kind::kReset;
-  uint32_t ticks = 0;                              ///< of a step
+  uint32_t ticks = 0;                    ///< of a step
+  std::optional<StylusSamples> samples;  ///< of a step: where the styluses are at its end; else as devices say
   std::chrono::steady_clock::time_point deadline;  ///< nobody waits for the answer after this
+  std::shared_ptr<std::atomic<bool>> begun = std::make_shared<std::atomic<bool>>(false);
   std::promise<CommandAnswer> answer;
 };
 
@@ -34,10 +43,12 @@ struct Command {
 class CommandQueue {
  public:
   static constexpr size_t kCapacity = 8;
+  /// How much longer than its limit a caller waits for a command that was begun in time: a tick, however slow.
+  static constexpr std::chrono::seconds kGrace{10};
 
   /// Hands a command over and waits for its answer until `limit` has passed; fails at once if the queue is full or
   /// closed. A command whose caller has given up is not executed.
-  CommandAnswer call(Command::Kind kind, uint32_t ticks, std::chrono::milliseconds limit);
+  CommandAnswer call(Command&& command, std::chrono::milliseconds limit);
 
   /// Next command, if one waits. For the simulation's thread.
   std::optional<Command> take();
@@ -47,7 +58,9 @@ class CommandQueue {
   void close();
 
  private:
-  std::mutex mutex_;
+  bool hasBegun(const std::atomic<bool>& begun) const;
+
+  mutable std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<Command> commands_;
   bool closed_ = false;

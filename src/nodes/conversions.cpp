@@ -101,13 +101,24 @@ bool isFinite(const Pose& pose) {
   return pose.position_m.allFinite() && pose.orientation.coeffs().allFinite();
 }
 
+bool isOlder(const geometry_msgs::TransformStamped& transform, double age_s) {
+  const ros::Time& stamp = transform.header.stamp;
+  return !stamp.isZero() && ros::Time::now().toSec() - stamp.toSec() > age_s;
+}
+
+geometry_msgs::Wrench toMessage(const Reaction& reaction) {
+  geometry_msgs::Wrench out;
+  out.force = toVector(reaction.force_n);
+  out.torque = toVector(reaction.torque_nm);
+  return out;
+}
+
 geometry_msgs::WrenchStamped toWrench(const Reaction& reaction, const Quaterniond& frame_from_tissue,
                                       const std::string& frame, const ros::Time& stamp) {
   geometry_msgs::WrenchStamped out;
   out.header = header(frame, stamp);
   if (!reaction.force_n.allFinite() || !reaction.torque_nm.allFinite()) return out;
-  out.wrench.force = toVector(frame_from_tissue * reaction.force_n);
-  out.wrench.torque = toVector(frame_from_tissue * reaction.torque_nm);
+  out.wrench = toMessage({frame_from_tissue * reaction.force_n, frame_from_tissue * reaction.torque_nm, false});
   return out;
 }
 

@@ -34,9 +34,12 @@ geometry_msgs::TransformStamped toTransform(const Pose& pose, const std::string&
 
 /// All seven numbers are finite.
 bool isFinite(const Pose& pose);
+/// Was a transform of something that moves true longer ago than that? Static ones have the stamp 0 and no age.
+bool isOlder(const geometry_msgs::TransformStamped& transform, double age_s);
 
 /// Force and torque in a frame that is turned by `frame_from_tissue` against the tissue frame. A reaction that is not
 /// finite becomes zero: a device must never be sent one.
+geometry_msgs::Wrench toMessage(const Reaction& reaction);
 geometry_msgs::WrenchStamped toWrench(const Reaction& reaction, const Quaterniond& frame_from_tissue,
                                       const std::string& frame, const ros::Time& stamp);
 

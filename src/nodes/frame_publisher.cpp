@@ -5,22 +5,21 @@
 #include <algorithm>
 #include <utility>
 
+#include "nodes/thread_name.h"
 #include "render/renderer.h"
 
 namespace viscera::nodes {
-FramePublisher::FramePublisher(ros::NodeHandle node, const Scene& scene,
-                               const std::vector<const StylusMailbox*>& mailboxes, const PublishOptions& options)
+FramePublisher::FramePublisher(ros::NodeHandle node, const Scene& scene, const PublishOptions& options,
+                               std::function<void(std::exception_ptr)> failed)
     : transport_(node),
       surface_(node, scene.environment.tissue_frame),
       surface_throttle_(options.surface_rate_hz, scene.solver.tick_hz),
-      scene_markers_(node, scene, options) {
+      scene_markers_(node, scene, options),
+      failed_(std::move(failed)),
+      image_viewers_(scene.cameras.size(), 0) {
   for (const CameraConfig& camera : scene.cameras)
     cameras_.push_back(
         std::make_unique<CameraPublisher>(transport_, camera, options.frame_prefix, scene.solver.tick_hz));
-  for (const StylusMailbox* mailbox : mailboxes)
-    styluses_.push_back(
-        std::make_unique<StylusPublisher>(node, *mailbox, scene.environment.tissue_frame, options.frame_prefix));
-  force_latency_.resize(styluses_.size());
   image_latency_.resize(cameras_.size());
   slots_ = emptySlots();
   broadcastStaticFrames(scene, options.frame_prefix);
@@ -71,15 +70,25 @@ ros::Time FramePublisher::stampOf(uint64_t tick) const {
   return entry.value == tick ? entry.stamp : ros::Time::now();
 }
 
-void FramePublisher::deliver(Frame&& frame, const StylusSamples& samples) {
+Wants FramePublisher::stills(bool changed) {
+  tick_stamp_ = ros::Time::now();
+  Wants wants;
+  const uint32_t before = std::exchange(surface_viewers_, surface_.viewers());
+  wants.surface = surface_viewers_ > (changed ? 0 : before);
+  for (size_t c = 0; c < cameras_.size(); ++c) {
+    const uint32_t known = std::exchange(image_viewers_[c], cameras_[c]->viewers());
+    wants.cameras.push_back(image_viewers_[c] > (changed ? 0 : known));
+  }
+  return wants;
+}
+
+void FramePublisher::deliver(Frame&& frame) {
   stamps_[frame.tick % stamps_.size()] = {tick_stamp_, frame.tick};
+  const bool scene_due = scene_markers_.isDue();
+  if (!scene_due && !frame.surface && frame.images.empty()) return;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    slots_.hands.emplace();
-    slots_.hands->stamp = ros::Time::now();
-    for (size_t i = 0; i < samples.size(); ++i)
-      slots_.hands->value[i] = {frame.reactions[i], frame.poses_received[i], samples[i]};
-    if (scene_markers_.isDue()) slots_.scene = {stampOf(frame.tick), lookOf(frame)};
+    if (scene_due) slots_.scene = {stampOf(frame.tick), lookOf(frame)};
     if (frame.surface) {
       const ros::Time stamp = stampOf(frame.surface->tick);
       slots_.surface = {stamp, std::move(frame.surface)};
@@ -91,6 +100,15 @@ void FramePublisher::deliver(Frame&& frame, const StylusSamples& samples) {
 }
 
 void FramePublisher::main() {
+  nameThread("pictures");
+  try {
+    sendUntilStopped();
+  } catch (...) {
+    failed_(std::current_exception());
+  }
+}
+
+void FramePublisher::sendUntilStopped() {
   std::unique_lock<std::mutex> lock(mutex_);
   while (true) {
     filled_.wait(lock, [this] { return any_ || stop_; });
@@ -111,12 +129,6 @@ FramePublisher::Slots FramePublisher::emptySlots() const {
 
 void FramePublisher::send(Slots&& slots) {
   if (slots.skin) surface_.start(slots.skin->value, slots.skin->stamp);
-  if (slots.hands)
-    for (size_t i = 0; i < styluses_.size(); ++i) {
-      const Hand& hand = slots.hands->value[i];
-      styluses_[i]->publish(hand.reaction, hand.sample, slots.hands->stamp);
-      noteLatency(force_latency_[i], hand.pose_received);
-    }
   if (slots.surface) {
     surface_.publish(*slots.surface->value, slots.surface->stamp);
     noteLatency(surface_latency_, slots.surface->value->pose_received);
@@ -143,7 +155,6 @@ void FramePublisher::noteLatency(LatencyMeter& meter, SteadyTime pose_received) 
 FramePublisher::Latencies FramePublisher::takeLatencies() {
   const std::lock_guard<std::mutex> lock(latency_mutex_);
   Latencies out;
-  for (LatencyMeter& meter : force_latency_) out.forces.push_back(meter.take());
   out.surface = surface_latency_.take();
   for (LatencyMeter& meter : image_latency_) out.images.push_back(meter.take());
   return out;

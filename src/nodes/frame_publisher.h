@@ -7,6 +7,8 @@
 
 #include <array>
 #include <condition_variable>
+#include <exception>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -19,7 +21,6 @@
 #include "nodes/latency_meter.h"
 #include "nodes/publish_options.h"
 #include "nodes/scene_marker_publisher.h"
-#include "nodes/stylus_publisher.h"
 #include "nodes/surface_publisher.h"
 #include "nodes/throttle.h"
 
@@ -29,16 +30,15 @@ namespace viscera::nodes {
 /// go in time is overtaken by newer data, and the simulation never waits.
 class FramePublisher {
  public:
-  /// @param mailboxes  of the scene's styluses, in order; they must outlive this
-  FramePublisher(ros::NodeHandle node, const Scene& scene, const std::vector<const StylusMailbox*>& mailboxes,
-                 const PublishOptions& options);
+  /// @param failed  called on the thread of this, once, with what ended it; from then on nothing is sent
+  FramePublisher(ros::NodeHandle node, const Scene& scene, const PublishOptions& options,
+                 std::function<void(std::exception_ptr)> failed);
   ~FramePublisher();
   FramePublisher(const FramePublisher&) = delete;
   FramePublisher& operator=(const FramePublisher&) = delete;
 
   /// From the arrival of a pose to the sending of what answers it, since they were last taken.
   struct Latencies {
-    std::vector<LatencyMeter::Reading> forces;  ///< [styluses]
     LatencyMeter::Reading surface;
     std::vector<LatencyMeter::Reading> images;  ///< [cameras]
   };
@@ -50,7 +50,11 @@ class FramePublisher {
   void start(const std::shared_ptr<const ShownTopology>& skin);
   /// What subscribers want of the tick that begins now; the tick's stamp is taken here.
   Wants beginTick();
-  void deliver(Frame&& frame, const StylusSamples& samples);
+  /// What is wanted of a state that stands still: what those want who subscribe since the last call, and the others too
+  /// if it has changed.
+  Wants stills(bool changed);
+  ros::Time tickStamp() const { return tick_stamp_; }
+  void deliver(Frame&& frame);
 
  private:
   template <class T>
@@ -58,15 +62,8 @@ class FramePublisher {
     ros::Time stamp;
     T value{};
   };
-  struct Hand {
-    Reaction reaction;
-    SteadyTime pose_received;  ///< of the pose that the reaction answers
-    StylusSample sample;
-  };
-  using Hands = std::array<Hand, layout::kMaxStyluses>;
   struct Slots {
     std::optional<Stamped<std::shared_ptr<const ShownTopology>>> skin;
-    std::optional<Stamped<Hands>> hands;
     std::optional<Stamped<std::unique_ptr<SurfaceFrame>>> surface;
     std::vector<std::optional<Stamped<ImageFrame>>> images;  ///< [cameras]
     std::optional<Stamped<SceneLook>> scene;
@@ -76,6 +73,7 @@ class FramePublisher {
   ros::Time stampOf(uint64_t tick) const;
   Slots emptySlots() const;
   void main();
+  void sendUntilStopped();
   void send(Slots&& slots);
   void noteLatency(LatencyMeter& meter, SteadyTime pose_received);
 
@@ -85,15 +83,17 @@ class FramePublisher {
   Throttle surface_throttle_;
   SceneMarkerPublisher scene_markers_;
   std::vector<std::unique_ptr<CameraPublisher>> cameras_;
-  std::vector<std::unique_ptr<StylusPublisher>> styluses_;
+  const std::function<void(std::exception_ptr)> failed_;
 
   // Of the simulation's thread: when the last ticks began, since images and surfaces come back late.
   static constexpr size_t kStampedTicks = 4096;
   ros::Time tick_stamp_;
   std::array<Stamped<uint64_t>, kStampedTicks> stamps_;
+  uint32_t surface_viewers_ = 0;         ///< when stills() was asked last
+  std::vector<uint32_t> image_viewers_;  ///< [cameras]
 
   std::mutex latency_mutex_;
-  std::vector<LatencyMeter> force_latency_, image_latency_;
+  std::vector<LatencyMeter> image_latency_;
   LatencyMeter surface_latency_;
 
   std::mutex mutex_;

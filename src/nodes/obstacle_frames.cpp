@@ -18,8 +18,8 @@ bool isPose(const Pose& pose) {
 
 }  // namespace
 
-ObstacleFrames::ObstacleFrames(const Scene& scene, const tf2_ros::Buffer& frames)
-    : frames_(frames), tissue_frame_(scene.environment.tissue_frame) {
+ObstacleFrames::ObstacleFrames(const Scene& scene, const tf2_ros::Buffer& frames, double max_transform_age_s)
+    : frames_(frames), tissue_frame_(scene.environment.tissue_frame), max_transform_age_s_(max_transform_age_s) {
   for (size_t i = 0; i < scene.obstacles.size(); ++i) {
     if (!scene.obstacles[i].frame.empty()) carried_.push_back({i, scene.obstacles[i].frame});
   }
@@ -28,7 +28,9 @@ ObstacleFrames::ObstacleFrames(const Scene& scene, const tf2_ros::Buffer& frames
 void ObstacleFrames::apply(Session& session) {
   for (const Carried& it : carried_) {
     try {
-      Pose pose = fromMessage(frames_.lookupTransform(tissue_frame_, it.frame, ros::Time(0)).transform);
+      const geometry_msgs::TransformStamped newest = frames_.lookupTransform(tissue_frame_, it.frame, ros::Time(0));
+      if (isOlder(newest, max_transform_age_s_)) throw tf2::TransformException("its newest transform is too old");
+      Pose pose = fromMessage(newest.transform);
       if (!isPose(pose)) throw tf2::TransformException("its transform is not finite");
       pose.orientation.normalize();
       session.setObstacleFrame(it.obstacle, pose);

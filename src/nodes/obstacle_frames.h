@@ -17,7 +17,8 @@ namespace viscera::nodes {
 class ObstacleFrames {
  public:
   /// @param frames  must outlive this
-  ObstacleFrames(const Scene& scene, const tf2_ros::Buffer& frames);
+  /// @param max_transform_age_s  of what tf knows of a frame that moves [s]
+  ObstacleFrames(const Scene& scene, const tf2_ros::Buffer& frames, double max_transform_age_s);
 
   /// Tells the session where the frames are now. An obstacle whose frame tf does not know stays where it was.
   void apply(Session& session);
@@ -35,6 +36,7 @@ class ObstacleFrames {
   };
   const tf2_ros::Buffer& frames_;
   const std::string tissue_frame_;
+  const double max_transform_age_s_;
   std::vector<Carried> carried_;
   std::atomic<uint64_t> found_{0}, missed_{0};
 };

@@ -4,6 +4,8 @@
 
 #include <utility>
 
+#include "nodes/thread_name.h"
+#include "nodes/wrench_schedule.h"
 #include "viscera/gpu/context.h"
 #include "viscera/math/state_hash.h"
 
@@ -15,6 +17,9 @@ constexpr std::chrono::milliseconds kIdlePeriod{20};  ///< how often forces are 
 double seconds(std::chrono::steady_clock::duration span) {
   return std::chrono::duration<double>(span).count();
 }
+
+/// The model is being made, and nobody wants it any more.
+struct Stopped {};
 
 CommandAnswer answer(bool success, const std::string& message, const Session& session) {
   CommandAnswer out;
@@ -47,10 +52,13 @@ void SimulationLoop::stop() {
 }
 
 void SimulationLoop::main() {
+  nameThread("simulation");
   try {
     run();
+  } catch (const Stopped&) {
   } catch (...) {
     error_ = std::current_exception();
+    ports_.failed();
   }
   commands_.close();
   ended_ = true;
@@ -58,7 +66,10 @@ void SimulationLoop::main() {
 
 void SimulationLoop::run() {
   gpu::Context context(scene_.solver.device);
-  Session session(scene_, context, progress_);
+  Session session(scene_, context, [this](const std::string& stage, double fraction) {
+    if (stop_) throw Stopped{};
+    progress_(stage, fraction);
+  });
   {
     const std::lock_guard<std::mutex> lock(status_mutex_);
     status_.gpu = context.renderer();
@@ -73,34 +84,36 @@ void SimulationLoop::run() {
       rest(session);
       commands_.wait(kIdlePeriod);
     } else {
-      tick(session);
+      tick(session, ports_.samples(), true);
       std::this_thread::sleep_until(pacer_.next(Clock::now()));
     }
   }
 }
 
-void SimulationLoop::tick(Session& session) {
+void SimulationLoop::tick(Session& session, const StylusSamples& samples, bool live) {
   const Clock::time_point begun = Clock::now();
   if (ports_.place) ports_.place(session);
-  Frame frame = session.step(ports_.samples(), ports_.wants());
+  Frame frame = session.step(samples, ports_.wants());
   const Clock::time_point stepped = Clock::now();
   {
     const std::lock_guard<std::mutex> lock(status_mutex_);
     pace_.add(session.tick_s(), seconds(stepped - begun), seconds(stepped - tick_ended_));
   }
   tick_ended_ = stepped;
-  deliver(session, std::move(frame));
+  deliver(session, std::move(frame), samples, live);
 }
 
 void SimulationLoop::rest(Session& session) {
   Frame frame = session.drain();
-  frame.reactions = {};  // tissue that stands still must not push
-  deliver(session, std::move(frame));
+  const Wants wants = ports_.stills(std::exchange(unseen_, false));
+  if (wants.count() > 0) static_cast<Pictures&>(frame) = session.show(wants);
+  deliver(session, std::move(frame), stepped_to_ ? *stepped_to_ : ports_.samples(), false);
   tick_ended_ = Clock::now();
   pacer_.restart(tick_ended_);
 }
 
-void SimulationLoop::deliver(const Session& session, Frame&& frame) {
+void SimulationLoop::deliver(const Session& session, Frame&& frame, const StylusSamples& samples, bool live) {
+  if (!live) frame.reactions = {};  // tissue that stands still must not push, nor one that somebody else steps
   {
     const std::lock_guard<std::mutex> lock(status_mutex_);
     ready_ = true;
@@ -113,22 +126,34 @@ void SimulationLoop::deliver(const Session& session, Frame&& frame) {
     status_.stats = frame.stats;
     status_.health = frame.health;
     status_.held_back = frame.held_back;
+    status_.inside = frame.inside;
   }
-  ports_.deliver(std::move(frame));
+  ports_.deliver(std::move(frame), samples, live);
+}
+
+/// What a hand did before, or while nobody looked, is no motion: a blade would sweep through the tissue.
+void SimulationLoop::forgetHands(Session& session) {
+  session.forgetHands();
+  stepped_to_.reset();
+  ports_.forget();
 }
 
 CommandAnswer SimulationLoop::execute(const Command& command, Session& session) {
   switch (command.kind) {
     case Command::Kind::kReset:
       session.reset();
+      forgetHands(session);
+      unseen_ = true;
       return answer(true, "back to rest", session);
     case Command::Kind::kPause:
       if (paused_) return answer(false, "already paused", session);
       paused_ = true;
+      forgetHands(session);
       return answer(true, "paused", session);
     case Command::Kind::kResume:
       if (!paused_) return answer(false, "not paused", session);
       paused_ = false;
+      forgetHands(session);
       return answer(true, "running", session);
     case Command::Kind::kStep:
       break;
@@ -136,16 +161,37 @@ CommandAnswer SimulationLoop::execute(const Command& command, Session& session) 
   return step(command, session);
 }
 
+StylusSamples SimulationLoop::samplesOf(const Command& command, uint32_t tick) const {
+  if (!command.samples) return ports_.samples();
+  StylusSamples samples = *command.samples;
+  if (!stepped_to_) return samples;
+  const double way = static_cast<double>(tick + 1) / command.ticks;
+  for (size_t s = 0; s < samples.size(); ++s) {
+    if (samples[s].valid && (*stepped_to_)[s].valid)
+      samples[s].pose = interpolate((*stepped_to_)[s].pose, samples[s].pose, way);
+  }
+  return samples;
+}
+
 CommandAnswer SimulationLoop::step(const Command& command, Session& session) {
   if (!paused_) return answer(false, "not paused: call pause first", session);
   if (command.ticks > kMaxStepTicks) return answer(false, "ticks must be 0.." + std::to_string(kMaxStepTicks), session);
-  bool in_time = true;
-  for (uint32_t i = 0; i < command.ticks && in_time; ++i) {
-    tick(session);
-    in_time = !stop_ && Clock::now() < command.deadline;
+  uint32_t done = 0;
+  StylusSamples last_samples;
+  while (done < command.ticks && !stop_ && Clock::now() < command.deadline) {
+    last_samples = samplesOf(command, done++);
+    tick(session, last_samples, false);
   }
-  CommandAnswer out = answer(in_time, in_time ? "" : "stopped at the time limit", session);
+  if (command.samples && done > 0) stepped_to_ = last_samples;
+  Frame last = session.drain();  // measurements of the last tick too
+  const Wrenches reactions = last.reactions;
+  deliver(session, std::move(last), last_samples, false);
+  unseen_ = unseen_ || done > 0;
+  const bool all = done == command.ticks;
+  CommandAnswer out =
+      answer(all, all ? "" : "stopped at the time limit after " + std::to_string(done) + " ticks", session);
   out.state_hash = StateHash::text(session.stateHash());
+  out.reactions.assign(reactions.begin(), reactions.begin() + static_cast<std::ptrdiff_t>(scene_.styluses.size()));
   return out;
 }
 

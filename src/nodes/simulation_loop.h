@@ -30,7 +30,7 @@ struct LoopStatus {
   Counters counters;
   layout::TickStats stats{};
   Health health;
-  std::array<bool, layout::kMaxStyluses> held_back{};
+  std::array<bool, layout::kMaxStyluses> held_back{}, inside{};
   std::array<Reaction, layout::kMaxStyluses> reactions;
   PaceMeter::Reading pace;  ///< since the last LoopStatus was taken
 };
@@ -41,7 +41,12 @@ struct LoopPorts {
   std::function<StylusSamples()> samples;     ///< for that tick
   std::function<Wants()> wants;               ///< of that tick
   std::function<void(const Session&)> ready;  ///< once, before the first tick
-  std::function<void(Frame&&)> deliver;       ///< what came back after a tick; while paused, a frame without forces
+  /// What came back after a tick with these samples. @param live  the tissue follows the hands: forces may go out
+  std::function<void(Frame&&, const StylusSamples&, bool live)> deliver;
+  /// What is wanted of a state that stands still. @param changed  others than newcomers have not seen it either
+  std::function<Wants(bool changed)> stills;
+  std::function<void()> forget;  ///< hands were not followed, or will not be: what devices said before is void
+  std::function<void()> failed;  ///< an error has ended the thread
 };
 
 /// Owns the thread on which the OpenGL context and the session live, and paces it by the steady clock.
@@ -69,12 +74,16 @@ class SimulationLoop {
 
   void main();
   void run();
-  void tick(Session& session);
-  /// Hands over what is still on its way from the GPU, without forces; time does not count until the next tick.
+  void tick(Session& session, const StylusSamples& samples, bool live);
+  /// Hands over what is still on its way from the GPU and what newcomers want to see, without forces; time does not
+  /// count until the next tick.
   void rest(Session& session);
-  void deliver(const Session& session, Frame&& frame);
+  void deliver(const Session& session, Frame&& frame, const StylusSamples& samples, bool live);
+  void forgetHands(Session& session);
   CommandAnswer execute(const Command& command, Session& session);
   CommandAnswer step(const Command& command, Session& session);
+  /// Of one tick of a step.
+  StylusSamples samplesOf(const Command& command, uint32_t tick) const;
 
   const Scene scene_;
   const LoopPorts ports_;
@@ -82,6 +91,8 @@ class SimulationLoop {
   CommandQueue commands_;
   Pacer pacer_;
   bool paused_ = false;
+  bool unseen_ = true;                       ///< the state changed, and no tick has shown it
+  std::optional<StylusSamples> stepped_to_;  ///< by a step whose caller said where the styluses are
   Clock::time_point tick_ended_{};
   std::atomic<bool> stop_{false}, ended_{false};
   std::exception_ptr error_;

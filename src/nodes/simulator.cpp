@@ -13,7 +13,8 @@
 namespace viscera::nodes {
 namespace {
 
-constexpr std::chrono::milliseconds kWatchPeriod{100};
+constexpr std::chrono::milliseconds kWatchPeriod{20};  ///< how soon a lost master is seen
+constexpr double kWarnPeriod_s = 5;
 
 void reportProgress(const std::string& stage, double fraction) {
   ROS_INFO_THROTTLE(1, "preparing: %s %.0f %%", stage.c_str(), 100 * fraction);
@@ -21,21 +22,37 @@ void reportProgress(const std::string& stage, double fraction) {
 
 }  // namespace
 
-Simulator::Simulator(const SimulatorOptions& options)
-    : listener_(frames_),
-      obstacles_(options.scene, frames_),
-      inputs_(makeInputs(options.scene, frames_)),
-      publisher_(node_, options.scene, mailboxes(), options.publish),
+Simulator::Simulator(const SimulatorOptions& options, EndWatch& end)
+    : end_(end),
+      listener_(frames_),
+      obstacles_(options.scene, frames_, options.max_transform_age_s),
+      inputs_(makeInputs(options, frames_)),
+      wrenches_(node_, mailboxes(), options.stall_ticks / options.scene.solver.tick_hz),
+      release_(end_, [this] { wrenches_.release(); }),
+      tool_frames_(options.scene.environment.tissue_frame, toolFrames(options.scene, options.publish.frame_prefix)),
+      publisher_(node_, options.scene, options.publish, [this](std::exception_ptr error) { fail(error); }),
       ticks_(node_, options.scene, [this] { return publisher_.isViewed(); }),
       loop_(options.scene, ports(), reportProgress),
-      services_(node_, loop_.commands()),
-      diagnostics_(node_, options.scene, loop_, publisher_, inputs_, obstacles_) {}
+      services_(node_, options.scene.styluses, loop_.commands()),
+      diagnostics_(node_, options.scene, loop_, {publisher_, wrenches_}, inputs_, obstacles_),
+      device_spinner_(1, &device_queue_) {}
 
-SimulatorDiagnostics::Inputs Simulator::makeInputs(const Scene& scene, const tf2_ros::Buffer& frames) {
+Simulator::~Simulator() {
+  wrenches_.release();
+}
+
+SimulatorDiagnostics::Inputs Simulator::makeInputs(const SimulatorOptions& options, const tf2_ros::Buffer& frames) {
   SimulatorDiagnostics::Inputs inputs;
-  for (const StylusConfig& config : scene.styluses)
-    inputs.push_back(std::make_unique<StylusInput>(config, scene.environment.tissue_frame, frames));
+  for (const StylusConfig& config : options.scene.styluses)
+    inputs.push_back(std::make_unique<StylusInput>(config, options.scene.environment.tissue_frame, frames,
+                                                   options.max_transform_age_s));
   return inputs;
+}
+
+std::vector<std::string> Simulator::toolFrames(const Scene& scene, const std::string& prefix) {
+  std::vector<std::string> out;
+  for (const StylusConfig& stylus : scene.styluses) out.push_back(toolFrame(stylus, prefix));
+  return out;
 }
 
 std::vector<const StylusMailbox*> Simulator::mailboxes() const {
@@ -49,10 +66,12 @@ LoopPorts Simulator::ports() {
   if (!obstacles_.empty()) ports.place = [this](Session& session) { obstacles_.apply(session); };
   ports.samples = [this] {
     const auto now = std::chrono::steady_clock::now();
-    for (size_t i = 0; i < inputs_.size(); ++i) samples_[i] = inputs_[i]->mailbox().take(now);
-    return samples_;
+    StylusSamples samples;
+    for (size_t i = 0; i < inputs_.size(); ++i) samples[i] = inputs_[i]->mailbox().take(now);
+    return samples;
   };
   ports.wants = [this] { return publisher_.beginTick(); };
+  ports.stills = [this](bool changed) { return publisher_.stills(changed); };
   ports.ready = [this](const Session& session) {
     ROS_INFO("ready: %zu nodes, %zu springs, %zu triangles, substep %.3g ms", session.model().activeNodes(),
              session.model().springs(), session.model().skinTriangles(), 1e3 * session.solver().dt_s());
@@ -62,29 +81,76 @@ LoopPorts Simulator::ports() {
     publisher_.start(session.wholeSkin());
     ready_ = true;
   };
-  ports.deliver = [this](Frame&& frame) {
-    ticks_.publish(frame.tick);
-    publisher_.deliver(std::move(frame), samples_);
+  ports.deliver = [this](Frame&& frame, const StylusSamples& samples, bool live) {
+    deliver(std::move(frame), samples, live);
   };
+  ports.forget = [this] {
+    for (const auto& input : inputs_) input->mailbox().forgetButtons();
+  };
+  ports.failed = [this] { wrenches_.release(); };
   return ports;
 }
 
+void Simulator::deliver(Frame&& frame, const StylusSamples& samples, bool live) {
+  if (live) {
+    WrenchPublisher::Hands hands;
+    for (size_t s = 0; s < inputs_.size(); ++s) {
+      // a hand that is not tracked must not be pushed
+      if (samples[s].valid) hands[s] = {frame.reactions[s], frame.poses_received[s]};
+    }
+    wrenches_.put(hands);
+  } else {
+    wrenches_.rest();
+  }
+  tool_frames_.put(samples, publisher_.tickStamp());
+  ticks_.publish(frame.tick);
+  publisher_.deliver(std::move(frame));
+}
+
+void Simulator::fail(std::exception_ptr error) {
+  wrenches_.release();
+  const std::lock_guard<std::mutex> lock(error_mutex_);
+  if (!error_) error_ = error;
+}
+
+void Simulator::listen() {
+  if (listening_ || !ready_) return;
+  listening_ = true;
+  ros::NodeHandle devices(node_);
+  devices.setCallbackQueue(&device_queue_);
+  for (const auto& input : inputs_) input->subscribe(devices);
+  device_spinner_.start();
+}
+
+void Simulator::warnOfStalls() {
+  const uint64_t stalls = wrenches_.stalls();
+  if (stalls == stalls_) return;
+  stalls_ = stalls;
+  ROS_WARN_THROTTLE(
+      kWarnPeriod_s,
+      "no tick in time (~stall_ticks): forces are zero until ticks come in time again; stalls so far: %lu",
+      static_cast<unsigned long>(stalls));
+}
+
 void Simulator::run() {
-  ros::AsyncSpinner inputs_and_diagnostics(1);
-  inputs_and_diagnostics.start();
+  ros::AsyncSpinner diagnostics(1);
+  diagnostics.start();
   MasterWatch master;
   ClockWatch clock;
-  bool listening = false, known = true;
-  while (ros::ok() && !loop_.ended() && known) {
-    if (ready_ && !listening) {
-      for (const auto& input : inputs_) input->subscribe(node_);
-      listening = true;
-    }
-    std::this_thread::sleep_for(kWatchPeriod);
+  bool known = true;
+  const auto failed = [this] {
+    const std::lock_guard<std::mutex> lock(error_mutex_);
+    return error_ != nullptr;
+  };
+  while (!end_.waitFor(kWatchPeriod) && !loop_.ended() && !failed() && known) {
+    listen();
+    warnOfStalls();
     known = master.check();
     clock.check();
   }
+  wrenches_.release();
   loop_.stop();
+  if (failed()) std::rethrow_exception(error_);
   if (!known) throw Error("the ROS master is lost, or was restarted and does not know this node: start the node again");
 }
 

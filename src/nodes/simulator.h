@@ -2,13 +2,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <ros/callback_queue.h>
 #include <ros/node_handle.h>
+#include <ros/spinner.h>
 #include <tf2_ros/transform_listener.h>
 
 #include <atomic>
+#include <exception>
 #include <memory>
+#include <mutex>
+#include <string>
 #include <vector>
 
+#include "nodes/end_watch.h"
 #include "nodes/frame_publisher.h"
 #include "nodes/obstacle_frames.h"
 #include "nodes/simulation_loop.h"
@@ -17,35 +23,54 @@
 #include "nodes/simulator_services.h"
 #include "nodes/stylus_input.h"
 #include "nodes/tick_publisher.h"
+#include "nodes/tool_frame_publisher.h"
+#include "nodes/wrench_publisher.h"
 
 namespace viscera::nodes {
 
 /// The node: stylus inputs -> simulation loop -> frame publisher, with services and diagnostics beside it.
 class Simulator {
  public:
-  explicit Simulator(const SimulatorOptions& options);
+  /// @param end  must outlive this
+  Simulator(const SimulatorOptions& options, EndWatch& end);
+  ~Simulator();
 
-  /// Runs until ROS shuts down.
+  /// Runs until the end begins.
   /// @throws what ends the simulation: GpuError, MeshError, ...; Error if the master is lost
   void run();
 
  private:
-  static SimulatorDiagnostics::Inputs makeInputs(const Scene& scene, const tf2_ros::Buffer& frames);
+  static SimulatorDiagnostics::Inputs makeInputs(const SimulatorOptions& options, const tf2_ros::Buffer& frames);
+  static std::vector<std::string> toolFrames(const Scene& scene, const std::string& prefix);
   std::vector<const StylusMailbox*> mailboxes() const;
   LoopPorts ports();
+  void deliver(Frame&& frame, const StylusSamples& samples, bool live);
+  /// Ends forces at once, and the node as soon as run() sees it.
+  void fail(std::exception_ptr error);
+  void listen();
+  void warnOfStalls();
 
+  EndWatch& end_;
   ros::NodeHandle node_;
   tf2_ros::Buffer frames_;
   tf2_ros::TransformListener listener_;
   ObstacleFrames obstacles_;
+  ros::CallbackQueue device_queue_;  ///< of the inputs, which it outlives
   SimulatorDiagnostics::Inputs inputs_;
+  std::mutex error_mutex_;
+  std::exception_ptr error_;  ///< of a thread that publishes
+  WrenchPublisher wrenches_;
+  EndWatch::Act release_;
+  ToolFramePublisher tool_frames_;
   FramePublisher publisher_;
   TickPublisher ticks_;
-  StylusSamples samples_;           ///< of the last tick; only the simulation's thread touches them
   std::atomic<bool> ready_{false};  ///< the session is made: devices may be listened to
+  bool listening_ = false;
+  uint64_t stalls_ = 0;  ///< that were warned of
   SimulationLoop loop_;
   SimulatorServices services_;
   SimulatorDiagnostics diagnostics_;
+  ros::AsyncSpinner device_spinner_;
 };
 
 }  // namespace viscera::nodes

@@ -38,17 +38,17 @@ void warnOfSlowness(const PaceMeter::Reading& pace, double tick_s) {
 }  // namespace
 
 SimulatorDiagnostics::SimulatorDiagnostics(ros::NodeHandle node, const Scene& scene, SimulationLoop& loop,
-                                           FramePublisher& publisher, const Inputs& inputs,
+                                           const Publishers& publishers, const Inputs& inputs,
                                            const ObstacleFrames& obstacles)
     : loop_(loop),
-      publisher_(publisher),
+      publishers_(publishers),
       inputs_(inputs),
       obstacles_(obstacles),
       tick_s_(1 / scene.solver.tick_hz),
       dropped_before_(inputs.size(), 0),
       updater_(node) {
   for (const CameraConfig& camera : scene.cameras) cameras_.push_back(camera.name);
-  latencies_ = publisher_.takeLatencies();
+  takeLatencies();
   updater_.setHardwareID("none");
   updater_.add("simulation", this, &SimulatorDiagnostics::simulation);
   updater_.add("pace", this, &SimulatorDiagnostics::pace);
@@ -62,9 +62,14 @@ SimulatorDiagnostics::SimulatorDiagnostics(ros::NodeHandle node, const Scene& sc
 
 void SimulatorDiagnostics::update() {
   now_ = loop_.takeStatus();
-  latencies_ = publisher_.takeLatencies();
+  takeLatencies();
   if (now_) updater_.setHardwareID(now_->gpu);
   updater_.force_update();
+}
+
+void SimulatorDiagnostics::takeLatencies() {
+  latencies_ = publishers_.frames.takeLatencies();
+  force_latencies_ = publishers_.wrenches.takeLatencies();
 }
 
 void SimulatorDiagnostics::simulation(Status& status) {
@@ -104,15 +109,17 @@ void SimulatorDiagnostics::pace(Status& status) {
   const bool slow = !now_->paused && pace.real_time_factor < kSlow;
   status.summary(slow ? Level::WARN : Level::OK, slow ? "slower than real time" : "keeps up");
   if (!now_->paused && slowness_.note(slow)) warnOfSlowness(pace, tick_s_);
+  if (publishers_.wrenches.stalled()) status.summary(Level::WARN, "ticks do not come in time: forces are zero");
   status.add("real_time_factor", pace.real_time_factor);
   status.add("step_mean_ms", 1e3 * pace.step_mean_s);
   status.add("step_max_ms", 1e3 * pace.step_max_s);
+  status.add("stalls", publishers_.wrenches.stalls());
 }
 
 void SimulatorDiagnostics::latency(Status& status) {
   status.summary(Level::OK, "from the arrival of a pose to the sending of what answers it");
   for (size_t i = 0; i < inputs_.size(); ++i)
-    addLatency("pose_to_force_" + inputs_[i]->mailbox().config().name, latencies_.forces[i], status);
+    addLatency("pose_to_force_" + inputs_[i]->mailbox().config().name, force_latencies_[i], status);
   addLatency("pose_to_surface", latencies_.surface, status);
   for (size_t i = 0; i < cameras_.size(); ++i) addLatency("pose_to_image_" + cameras_[i], latencies_.images[i], status);
 }
@@ -138,10 +145,13 @@ void SimulatorDiagnostics::stylus(size_t index, Status& status) {
   if (now_ && now_->held_back[index]) status.summary(Level::WARN, "faster than tissue can follow: held back");
   const std::string rivals = input.rivals();
   if (!rivals.empty()) status.summary(Level::WARN, "several nodes send poses: " + rivals);
+  if (now_ && now_->inside[index])
+    status.summary(Level::WARN, "appeared inside tissue: no force until the tip was outside");
   if (dropping) status.summary(Level::WARN, "messages are dropped");
   status.add("has_publisher", input.hasPublisher());
   status.add("input_age_s", in.input_age_s);
   status.add("poses_accepted", in.accepted);
+  status.add("presses_ignored", in.presses_ignored);
   for (size_t i = 0; i < kDropReasons; ++i)
     status.add(std::string("dropped_") + text(static_cast<Drop>(i)), in.dropped[i]);
   if (!now_) return;

@@ -15,6 +15,7 @@
 #include "nodes/simulation_loop.h"
 #include "nodes/slowness.h"
 #include "nodes/stylus_input.h"
+#include "nodes/wrench_publisher.h"
 
 namespace viscera::nodes {
 
@@ -23,13 +24,19 @@ class SimulatorDiagnostics {
  public:
   using Inputs = std::vector<std::unique_ptr<StylusInput>>;
 
-  /// @param loop, publisher, inputs, obstacles  must outlive this
-  SimulatorDiagnostics(ros::NodeHandle node, const Scene& scene, SimulationLoop& loop, FramePublisher& publisher,
+  struct Publishers {
+    FramePublisher& frames;
+    WrenchPublisher& wrenches;
+  };
+
+  /// @param loop, publishers, inputs, obstacles  must outlive this
+  SimulatorDiagnostics(ros::NodeHandle node, const Scene& scene, SimulationLoop& loop, const Publishers& publishers,
                        const Inputs& inputs, const ObstacleFrames& obstacles);
 
  private:
   using Status = diagnostic_updater::DiagnosticStatusWrapper;
   void update();
+  void takeLatencies();
   void simulation(Status& status);
   void pace(Status& status);
   void latency(Status& status);
@@ -37,7 +44,7 @@ class SimulatorDiagnostics {
   void obstacles(Status& status);
 
   SimulationLoop& loop_;
-  FramePublisher& publisher_;
+  const Publishers publishers_;
   const Inputs& inputs_;
   const ObstacleFrames& obstacles_;
   uint64_t missed_before_ = 0;        ///< frames of obstacles
@@ -46,6 +53,7 @@ class SimulatorDiagnostics {
   Slowness slowness_;
   std::optional<LoopStatus> now_;
   FramePublisher::Latencies latencies_;
+  std::vector<LatencyMeter::Reading> force_latencies_;  ///< [styluses]
   std::vector<uint64_t> dropped_before_;
   diagnostic_updater::Updater updater_;
   ros::SteadyTimer timer_;

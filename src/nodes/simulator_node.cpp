@@ -8,10 +8,10 @@
 
 int main(int argc, char** argv) {
   const viscera::nodes::Relaunch relaunch(argc, argv);  // roscpp takes arguments away
-  return viscera::nodes::nodeMain(argc, argv, "simulator", [&relaunch] {
+  return viscera::nodes::nodeMain(argc, argv, "simulator", [&relaunch](viscera::nodes::EndWatch& end) {
     relaunch.requireParameters();
     auto parameters = viscera::nodes::Parameters::ofThisNode();
     const auto options = viscera::nodes::simulatorOptions(parameters, ros::package::getPath("viscera"));
-    viscera::nodes::Simulator(options).run();
+    viscera::nodes::Simulator(options, end).run();
   });
 }

@@ -14,6 +14,8 @@ namespace viscera::nodes {
 struct SimulatorOptions {
   Scene scene;
   PublishOptions publish;
+  double stall_ticks = 3;            ///< forces are zero from so many ticks without one on
+  double max_transform_age_s = 0.5;  ///< of what tf knows of a frame that moves
 };
 
 /// @param package_folder  where config/scenes/<name>.yaml are looked up

@@ -14,16 +14,18 @@
 
 namespace viscera::nodes {
 
-/// Services `reset`, `pause`, `resume` and `step`, on a thread of their own: waiting for an answer holds up no input.
+/// Services `reset`, `pause`, `resume` and `step`, on threads of their own: waiting for an answer holds up no input,
+/// and one no other.
 class SimulatorServices {
  public:
-  /// @param commands  must outlive this
-  SimulatorServices(ros::NodeHandle node, CommandQueue& commands);
+  /// @param styluses  of the scene   @param commands  must outlive this
+  SimulatorServices(ros::NodeHandle node, const std::vector<StylusConfig>& styluses, CommandQueue& commands);
 
  private:
   void advertiseTrigger(ros::NodeHandle& node, const std::string& name, Command::Kind kind);
   bool onStep(Step::Request& request, Step::Response& response);
 
+  const std::vector<StylusConfig> styluses_;
   CommandQueue& commands_;
   ros::CallbackQueue queue_;
   std::vector<ros::ServiceServer> servers_;

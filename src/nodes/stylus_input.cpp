@@ -13,8 +13,12 @@ constexpr uint32_t kButtonQueue = 16;  ///< events, none of which may be overtak
 
 }  // namespace
 
-StylusInput::StylusInput(const StylusConfig& config, const std::string& tissue_frame, const tf2_ros::Buffer& frames)
-    : frames_(frames), tissue_frame_(tissue_frame), mailbox_(config, tissue_frame) {}
+StylusInput::StylusInput(const StylusConfig& config, const std::string& tissue_frame, const tf2_ros::Buffer& frames,
+                         double max_transform_age_s)
+    : frames_(frames),
+      tissue_frame_(tissue_frame),
+      max_transform_age_s_(max_transform_age_s),
+      mailbox_(config, tissue_frame) {}
 
 void StylusInput::subscribe(ros::NodeHandle& node) {
   const std::string& name = mailbox_.config().name;
@@ -33,23 +37,26 @@ void StylusInput::onPose(const ros::MessageEvent<const geometry_msgs::PoseStampe
     ROS_WARN("%s/measured_cp: several nodes send poses, the tool jumps between them: %s",
              mailbox_.config().name.c_str(), rivals().c_str());
   const auto lookup = [this](const std::string& frame) { return inTissue(frame); };
-  const std::optional<Drop> reason = mailbox_.put(message, lookup, std::chrono::steady_clock::now());
-  const std::string frames = ": tf does not join '" + message.header.frame_id + "' to '" + tissue_frame_ + "'";
-  warn("measured_cp", reason, reason == Drop::kNoTransform ? frames : "");
+  const Arrival now{std::chrono::steady_clock::now(), ros::Time::now()};
+  const std::optional<Drop> reason = mailbox_.put(message, lookup, now);
+  const std::string frames = ": '" + message.header.frame_id + "' to '" + tissue_frame_ + "'";
+  warn("measured_cp", reason, reason == Drop::kNoTransform || reason == Drop::kOldTransform ? frames : "");
 }
 
 void StylusInput::onButton(size_t button, const sensor_msgs::Joy& message) {
-  warn("button" + std::to_string(button + 1), mailbox_.put(button, message));
+  warn("button" + std::to_string(button + 1), mailbox_.put(button, message, std::chrono::steady_clock::now()));
 }
 
-std::optional<Pose> StylusInput::inTissue(const std::string& frame) const {
+FramePlace StylusInput::inTissue(const std::string& frame) const {
   try {
     // The newest transform: waiting for the one of the pose's stamp would delay the hand by a tf period.
-    Pose pose = fromMessage(frames_.lookupTransform(tissue_frame_, frame, ros::Time(0)).transform);
+    const geometry_msgs::TransformStamped newest = frames_.lookupTransform(tissue_frame_, frame, ros::Time(0));
+    if (isOlder(newest, max_transform_age_s_)) return {std::nullopt, true};
+    Pose pose = fromMessage(newest.transform);
     pose.orientation.normalize();
-    return pose;
+    return {pose};
   } catch (const tf2::TransformException&) {
-    return std::nullopt;
+    return {};
   }
 }
 

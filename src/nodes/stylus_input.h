@@ -18,7 +18,9 @@ namespace viscera::nodes {
 class StylusInput {
  public:
   /// @param frames  must outlive this
-  StylusInput(const StylusConfig& config, const std::string& tissue_frame, const tf2_ros::Buffer& frames);
+  /// @param max_transform_age_s  of what tf knows of a frame that moves [s]
+  StylusInput(const StylusConfig& config, const std::string& tissue_frame, const tf2_ros::Buffer& frames,
+              double max_transform_age_s);
   StylusInput(const StylusInput&) = delete;
   StylusInput& operator=(const StylusInput&) = delete;
 
@@ -32,11 +34,12 @@ class StylusInput {
  private:
   void onPose(const ros::MessageEvent<const geometry_msgs::PoseStamped>& event);
   void onButton(size_t button, const sensor_msgs::Joy& message);
-  std::optional<Pose> inTissue(const std::string& frame) const;
+  FramePlace inTissue(const std::string& frame) const;
   void warn(const std::string& topic, std::optional<Drop> reason, const std::string& detail = "");
 
   const tf2_ros::Buffer& frames_;
   const std::string tissue_frame_;
+  const double max_transform_age_s_;
   StylusMailbox mailbox_;
   SenderWatch senders_;
   std::array<bool, kDropReasons> warned_{};

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <geometry_msgs/PoseStamped.h>
+#include <ros/time.h>
 #include <sensor_msgs/Joy.h>
 
 #include <array>
@@ -23,24 +24,38 @@ enum class Drop {
   kNotFinite,         ///< NaN or Inf in the pose, or in the transform to the tissue frame
   kBadQuaternion,     ///< its length is not 1 within kQuaternionTolerance
   kNoTransform,       ///< tf2 does not know the frame
+  kOldTransform,      ///< what tf2 knows of the frame is too old
+  kRepeatedStamp,     ///< the stamp of a pose that is stale already: the driver hangs
+  kDelayed,           ///< later than StylusConfig::stale_after_s behind the swiftest pose of this device
   kOutsideWorkspace,  ///< farther than StylusConfig::workspace_m from the tissue frame's origin
   kNoButtons,         ///< Joy without a button
   kButtonValue        ///< Joy with a value other than 0, 1, 2
 };
-constexpr size_t kDropReasons = 7;
+constexpr size_t kDropReasons = 10;
 const char* text(Drop reason);  ///< snake_case, as in the diagnostics
 
 /// Some trackers send quaternions that are a few percent off unit length: those are normalised, others refused.
 constexpr double kQuaternionTolerance = 0.1;
 
-/// Pose of a named frame in the tissue frame, or nothing if it is not known.
-using FrameLookup = std::function<std::optional<Pose>(const std::string& frame)>;
+/// Where a frame is.
+struct FramePlace {
+  std::optional<Pose> in_tissue;  ///< nothing if it is not known, or known from too long ago
+  bool too_old = false;
+};
+using FrameLookup = std::function<FramePlace(const std::string& frame)>;
+
+/// When a message came, on both clocks.
+struct Arrival {
+  SteadyTime steady;
+  ros::Time ros;
+};
 
 struct StylusStatus {
-  bool seen = false;       ///< a pose was accepted at some time
-  bool stale = false;      ///< ... but too long ago
-  double input_age_s = 0;  ///< since the last accepted pose
-  uint64_t accepted = 0;   ///< poses
+  bool seen = false;             ///< a pose was accepted at some time
+  bool stale = false;            ///< ... but too long ago
+  double input_age_s = 0;        ///< since the last accepted pose
+  uint64_t accepted = 0;         ///< poses
+  uint64_t presses_ignored = 0;  ///< of buttons that were down when the hand came, or without a hand
   std::array<uint64_t, kDropReasons> dropped{};
 };
 
@@ -56,10 +71,13 @@ class StylusMailbox {
   StylusMailbox(const StylusConfig& config, const std::string& tissue_frame);
 
   /// Checks a pose, brings it to the tissue frame and keeps it; or says why not. No frame means the tissue frame.
-  std::optional<Drop> put(const geometry_msgs::PoseStamped& message, const FrameLookup& lookup, SteadyTime now);
-  /// @param button  0 or 1
-  std::optional<Drop> put(size_t button, const sensor_msgs::Joy& message);
+  std::optional<Drop> put(const geometry_msgs::PoseStamped& message, const FrameLookup& lookup, const Arrival& now);
+  /// A button ends with its hand: what was down when the poses grew stale, or is down when they begin, must be let go
+  /// before it acts. @param button  0 or 1
+  std::optional<Drop> put(size_t button, const sensor_msgs::Joy& message, SteadyTime now);
 
+  /// Nobody listened for a while, as in a pause: buttons must be let go before they act.
+  void forgetButtons();
   /// The sample for a tick that begins now. A press or click that came and went since the last tick counts for one.
   StylusSample take(SteadyTime now);
 
@@ -71,9 +89,16 @@ class StylusMailbox {
   struct Button {
     bool held = false;
     bool pressed_since = false;  ///< since the last take()
+    bool must_release = false;   ///< before it acts
+    bool heard = false;          ///< since the hand came
     bool take();
+    void end();
   };
   bool isStale(SteadyTime now) const;
+  bool isLive(SteadyTime now) const { return status_.seen && !isStale(now); }
+  void endButtons();
+  std::optional<Drop> checkStamp(const ros::Time& stamp, const Arrival& now) const;
+  void noteStamp(const ros::Time& stamp, const Arrival& now);
   std::optional<Drop> drop(Drop reason);
 
   const StylusConfig config_;
@@ -81,7 +106,11 @@ class StylusMailbox {
   mutable std::mutex mutex_;
   Pose pose_;
   DeviceFrame device_frame_;
-  SteadyTime received_{};
+  SteadyTime received_{};  ///< of the newest accepted stamp
+  SteadyTime came_{};      ///< the hand: the first pose, ever or after it was stale
+  ros::Time stamp_;        ///< the newest accepted
+  ros::Time stamp_came_;   ///< when it came
+  double swiftest_s_ = 0;  ///< least time from stamp to arrival, of this device's clock and ours
   std::array<Button, 2> buttons_;
   StylusStatus status_;
 };

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <chrono>
 #include <thread>
+#include <utility>
 
 #include "nodes/conversions.h"
 #include "nodes/scene_choice.h"
@@ -146,12 +147,16 @@ void StylusReplay::send(Device& device, const StylusSample& sample) const {
   pose.header.stamp = ros::Time::now();
   pose.pose = toMessage(sample.pose);
   device.pose.publish(pose);
-  if (!device.begun || sample.button1 != device.last.button1)
-    sendButton(device.button1, sample.button1, pose.header.stamp);
-  if (!device.begun || sample.button2 != device.last.button2)
-    sendButton(device.button2, sample.button2, pose.header.stamp);
-  device.begun = true;
-  device.last = sample;
+  const StylusSample before = std::exchange(device.last, sample);
+  if (!std::exchange(device.begun, true)) {
+    // A button that is down when the hand comes does nothing: these are let go first, and pressed with the next pose.
+    device.last.button1 = device.last.button2 = false;
+    sendButton(device.button1, false, pose.header.stamp);
+    sendButton(device.button2, false, pose.header.stamp);
+    return;
+  }
+  if (sample.button1 != before.button1) sendButton(device.button1, sample.button1, pose.header.stamp);
+  if (sample.button2 != before.button2) sendButton(device.button2, sample.button2, pose.header.stamp);
 }
 
 }  // namespace viscera::nodes

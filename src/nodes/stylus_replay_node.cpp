@@ -8,7 +8,8 @@
 
 int main(int argc, char** argv) {
   const viscera::nodes::Relaunch relaunch(argc, argv);  // roscpp takes arguments away
-  return viscera::nodes::nodeMain(argc, argv, "stylus_replay", [&relaunch] {
+  return viscera::nodes::nodeMain(argc, argv, "stylus_replay", [&relaunch](viscera::nodes::EndWatch& end) {
+    const viscera::nodes::EndWatch::Act stop(end, [] { ros::requestShutdown(); });
     relaunch.requireParameters();
     auto parameters = viscera::nodes::Parameters::ofThisNode();
     const auto options = viscera::nodes::replayOptions(parameters, ros::package::getPath("viscera"));

@@ -18,8 +18,8 @@ SurfacePublisher::SurfacePublisher(ros::NodeHandle& node, const std::string& tis
       vertices_(node.advertise<SurfaceVertices>("surface", 1)),
       marker_(node.advertise<visualization_msgs::Marker>("surface_marker", kMarkerQueue)) {}
 
-bool SurfacePublisher::isWanted() const {
-  return vertices_.getNumSubscribers() > 0 || marker_.getNumSubscribers() > 0 || topology_.getNumSubscribers() > 0;
+uint32_t SurfacePublisher::viewers() const {
+  return vertices_.getNumSubscribers() + marker_.getNumSubscribers() + topology_.getNumSubscribers();
 }
 
 void SurfacePublisher::start(const std::shared_ptr<const ShownTopology>& skin, const ros::Time& stamp) {

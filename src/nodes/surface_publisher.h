@@ -16,8 +16,9 @@ class SurfacePublisher {
  public:
   SurfacePublisher(ros::NodeHandle& node, const std::string& tissue_frame);
 
-  /// Somebody subscribes to the moving surface, or to what a cut changes of it. From any thread.
-  bool isWanted() const;
+  /// Subscribers of the moving surface, and of what a cut changes of it. From any thread.
+  uint32_t viewers() const;
+  bool isWanted() const { return viewers() > 0; }
   /// Sends the topology of the whole skin.
   void start(const std::shared_ptr<const ShownTopology>& skin, const ros::Time& stamp);
   /// Sends a frame to whom it may concern; the topology first, if it has changed.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "math/float_bits.h"
 #include "session/view.h"
@@ -14,10 +15,22 @@ namespace viscera {
 
 namespace {
 
+constexpr double kFarthestNode =
+    0.867;                            // of a lattice's spacing: no point inside is farther from all nodes, sqrt(3) / 2
 constexpr size_t kNotedTicks = 4096;  // images may come back that late
 
 Vector3d xyz(const layout::vec4& v) {
   return {v.x, v.y, v.z};
+}
+
+HandLimits handLimits(const Model& model, double tick_hz) {
+  HandLimits limits;
+  limits.max_travel_m = waveSpeed(model) / tick_hz;
+  // Sheets have no inside: the radius of the tip is enough where there is nothing else.
+  limits.feel_radius_m = std::numeric_limits<double>::min();
+  for (const Body& body : model.bodies)
+    limits.feel_radius_m = std::max(limits.feel_radius_m, kFarthestNode * body.lattice.spacing_m);
+  return limits;
 }
 
 }  // namespace
@@ -32,16 +45,14 @@ Session::Session(const Scene& scene, const Progress& progress, const SessionOpti
 Session::Session(const Scene& scene, gpu::Context* context, const Progress& progress, const SessionOptions& options)
     : scene_(withChosenSpacing(scene, context, progress)),
       model_(buildModel(scene_, progress)),
-      tools_(scene.styluses, waveSpeed(model_) / scene.solver.tick_hz),
+      tools_(scene.styluses, handLimits(model_, scene.solver.tick_hz)),
       obstacles_(scene.obstacles),
       pose_times_(kNotedTicks) {
   solver_ = makeSolver(model_, scene_, context, options.threads);
   backend_note_ = viscera::backendNote(scene_.solver, context, *solver_);
   view_ = makeView(*solver_, model_, scene_, context);
   lookAtObstacles();
-  for (const StylusConfig& stylus : scene_.styluses) {
-    limiters_.emplace_back(stylus.max_force_n, stylus.max_force_rate_n_per_s);
-  }
+  for (const StylusConfig& stylus : scene_.styluses) limiters_.emplace_back(ForceLimits::of(stylus));
 }
 
 Session::~Session() = default;
@@ -56,9 +67,41 @@ Frame Session::step(const StylusSamples& samples, const Wants& wants) {
   notePoses(samples);
   Frame frame;
   view_->capture(*solver_, look_, frame);  // EGVE 3.3: nodes -> vertices, only what is wanted
+  const bool feeling = feels(look_.motions);
   collect(frame, false);
+  if (feeling) collectStats(frame, true);
+  if (feeling) heedFeeling(frame);
   releaseUntracked(look_.motions, frame);
   return frame;
+}
+
+bool Session::feels(const ToolMotions& motions) {
+  return std::any_of(motions.begin(), motions.end(), [](const StylusMotion& motion) { return motion.feels_m > 0; });
+}
+
+/// Which styluses that may be inside tissue were not. This tick's measurements are waited for, so that the answer, and
+/// with it the state, does not depend on how fast they come.
+void Session::heedFeeling(Frame& frame) {
+  for (size_t s = 0; s < limiters_.size(); ++s) {
+    if (!(look_.motions[s].feels_m > 0)) continue;
+    frame.inside[s] = frame.health.recovering || frame.stats.touched[s] > 0;
+    if (!frame.inside[s]) tools_.foundOutside(s);
+  }
+}
+
+Pictures Session::show(const Wants& wants) {
+  look_.tick = tick_;
+  look_.wants = wants;
+  Pictures out;
+  view_->capture(*solver_, look_, out);
+  view_->collect(out, true);
+  return out;
+}
+
+void Session::forgetHands() {
+  tools_.forget();
+  for (ForceLimiter& limiter : limiters_) limiter.reset();
+  reactions_ = {};
 }
 
 void Session::setObstacleFrame(size_t obstacle, const Pose& pose) {

@@ -2,31 +2,44 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "viscera/tools/force_limiter.h"
 
+#include <algorithm>
+
 namespace viscera {
 
-ForceLimiter::ForceLimiter(double max_force_n, double max_rate_n_per_s)
-    : max_force_n_(max_force_n), max_rate_n_per_s_(max_rate_n_per_s) {}
+namespace {
 
-Reaction ForceLimiter::limit(const Reaction& raw, double tick_s) {
+/// The largest share of a vector's length that is allowed, at most all of it.
+double share(double length, double allowed) {
+  return length > allowed ? allowed / length : 1;
+}
+
+}  // namespace
+
+ForceLimits ForceLimits::of(const StylusConfig& stylus) {
+  return {stylus.max_force_n, stylus.max_force_rate_n_per_s, stylus.max_torque_nm, stylus.max_torque_rate_nm_per_s};
+}
+
+Reaction ForceLimiter::limit(const Reaction& raw, double span_s, const ForceLimits& limits) {
   Reaction out = raw;
-  if (!raw.force_n.allFinite() || !raw.torque_nm.allFinite()) {  // the tissue is lost: no force, at once
+  if (!raw.force_n.allFinite() || !raw.torque_nm.allFinite()) {
     out = Reaction{};
     out.saturated = true;
     last_ = out;
     return out;
   }
-  const double size = raw.force_n.norm();
-  if (size > max_force_n_) {
-    out.force_n *= max_force_n_ / size;
-    out.torque_nm *= max_force_n_ / size;
+  const double size =
+      std::min(share(raw.force_n.norm(), limits.force_n), share(raw.torque_nm.norm(), limits.torque_nm));
+  if (size < 1) {
+    out.force_n *= size;
+    out.torque_nm *= size;
     out.saturated = true;
   }
-  const Vector3d change = out.force_n - last_.force_n;
-  const double allowed = max_rate_n_per_s_ * tick_s;
-  if (change.norm() > allowed) {
-    const double share = allowed / change.norm();
-    out.force_n = last_.force_n + share * change;
-    out.torque_nm = last_.torque_nm + share * (out.torque_nm - last_.torque_nm);
+  const Vector3d force_change = out.force_n - last_.force_n, torque_change = out.torque_nm - last_.torque_nm;
+  const double way = std::min(share(force_change.norm(), limits.force_rate_n_per_s * span_s),
+                              share(torque_change.norm(), limits.torque_rate_nm_per_s * span_s));
+  if (way < 1) {
+    out.force_n = last_.force_n + way * force_change;
+    out.torque_nm = last_.torque_nm + way * torque_change;
     out.saturated = true;
   }
   last_ = out;

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "viscera/tools/hands.h"
 
+#include <algorithm>
+
 #include "model/scene/tool_kinds.h"
 
 namespace viscera {
@@ -16,8 +18,8 @@ ToolMode modeOf(const StylusConfig& config, const StylusSample& sample) {
 
 }  // namespace
 
-Tools::Tools(const std::vector<StylusConfig>& styluses, double max_travel_m)
-    : configs_(styluses), max_travel_m_(max_travel_m) {}
+Tools::Tools(const std::vector<StylusConfig>& styluses, const HandLimits& limits)
+    : configs_(styluses), limits_(limits) {}
 
 ToolMotions Tools::advance(const StylusSamples& samples) {
   ToolMotions motions;
@@ -28,28 +30,48 @@ ToolMotions Tools::advance(const StylusSamples& samples) {
     motion.present = now.valid;
     motion.to = now.valid ? now.pose : last_[i].pose;
     motion.from = last_[i].valid ? last_[i].pose : motion.to;
-    if (motion.mode != mode_[i]) {
-      motion.hold_begins = kindOf(motion.mode).does(kHolds);
-      if (kindOf(mode_[i]).does(kHolds)) motion.hold_ended = mode_[i];
-    }
+    if (!last_[i].valid) inside_[i] = limits_.feel_radius_m > 0;
+    changeMode(i, motion);
     holdBack(motion);
+    feel(i, motion);
     last_[i] = now;
     last_[i].pose = motion.to;
-    mode_[i] = motion.mode;
   }
   return motions;
+}
+
+void Tools::changeMode(size_t stylus, StylusMotion& motion) {
+  if (motion.mode != mode_[stylus] || forgotten_[stylus]) {
+    motion.hold_begins = kindOf(motion.mode).does(kHolds);
+    if (kindOf(mode_[stylus]).does(kHolds)) motion.hold_ended = mode_[stylus];
+  }
+  mode_[stylus] = motion.mode;
+  forgotten_[stylus] = false;
 }
 
 void Tools::holdBack(StylusMotion& motion) const {
   const Vector3d travel = motion.to.position_m - motion.from.position_m;
   const double length = travel.norm();
-  motion.held_back = length > max_travel_m_;
-  if (motion.held_back) motion.to.position_m = motion.from.position_m + max_travel_m_ / length * travel;
+  motion.held_back = length > limits_.max_travel_m;
+  if (motion.held_back) motion.to.position_m = motion.from.position_m + limits_.max_travel_m / length * travel;
+}
+
+void Tools::feel(size_t stylus, StylusMotion& motion) const {
+  const ToolKind& kind = kindOf(motion.mode);
+  if (!inside_[stylus] || !kind.does(kPushes)) return;
+  motion.feels_m = std::max(limits_.feel_radius_m, kind.reach_m(configs_[stylus]));
+}
+
+void Tools::forget() {
+  last_ = {};
+  forgotten_.fill(true);
 }
 
 void Tools::reset() {
   last_ = {};
   mode_ = {};
+  inside_ = {};
+  forgotten_ = {};
 }
 
 }  // namespace viscera

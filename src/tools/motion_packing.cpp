@@ -24,6 +24,10 @@ layout::ToolMotion substep(const StylusMotion& motion, const StylusConfig& confi
   out.blade_from = pack(from * blade_tip, config.cut_particles.eraser_radius_m);
   out.blade_to = pack(to * blade_tip, 0);
   out.info = toolInfo(motion.mode);
+  if (motion.feels_m > 0) {
+    out.info.y |= layout::kToolFeels;
+    out.from.w = static_cast<float>(motion.feels_m);
+  }
   return out;
 }
 

@@ -9,6 +9,7 @@
 namespace viscera::nodes {
 namespace {
 
+constexpr double kBegin_s = 100;       // of ROS time
 constexpr double kRounding_m = 1e-12;  // double rounding of a rotation and a sum
 const SteadyTime kStart = std::chrono::steady_clock::now();
 
@@ -26,7 +27,7 @@ StylusConfig config() {
 geometry_msgs::PoseStamped poseAt(double x_m, const std::string& frame = "tissue") {
   geometry_msgs::PoseStamped message;
   message.header.frame_id = frame;
-  message.header.stamp = ros::Time(100);
+  message.header.stamp = ros::Time(kBegin_s);
   message.pose.position.x = x_m;
   message.pose.orientation.w = 1;
   return message;
@@ -38,15 +39,27 @@ sensor_msgs::Joy joy(std::vector<int> buttons) {
   return message;
 }
 
-std::optional<Pose> nowhere(const std::string&) {
-  return std::nullopt;
+FramePlace nowhere(const std::string&) {
+  return {};
+}
+
+/// Both clocks go on together.
+Arrival arrival(double time_s) {
+  return {at(time_s), ros::Time(kBegin_s + time_s)};
+}
+
+/// A good pose, stamped when it comes.
+geometry_msgs::PoseStamped poseNow(double time_s) {
+  geometry_msgs::PoseStamped message = poseAt(0.1);
+  message.header.stamp = ros::Time(kBegin_s + time_s);
+  return message;
 }
 
 class StylusMailboxTest : public ::testing::Test {
  protected:
   /// The message is dropped for this reason, counted, and leaves no sample.
   void expectDropped(const geometry_msgs::PoseStamped& message, Drop reason) {
-    EXPECT_EQ(mailbox_.put(message, nowhere, at(0)), reason);
+    EXPECT_EQ(mailbox_.put(message, nowhere, arrival(0)), reason);
     EXPECT_EQ(mailbox_.status(at(0)).dropped[static_cast<size_t>(reason)], 1u);
     EXPECT_FALSE(mailbox_.take(at(0)).valid);
   }
@@ -58,30 +71,31 @@ TEST_F(StylusMailboxTest, HasNoSampleBeforeTheFirstPose) {
 }
 
 TEST_F(StylusMailboxTest, PoseInTheTissueFrameNeedsNoTransform) {
-  EXPECT_EQ(mailbox_.put(poseAt(0.1), nowhere, at(0)), std::nullopt);
+  EXPECT_EQ(mailbox_.put(poseAt(0.1), nowhere, arrival(0)), std::nullopt);
   const StylusSample sample = mailbox_.take(at(0.1));
   EXPECT_TRUE(sample.valid);
   EXPECT_EQ(sample.pose.position_m, Vector3d(0.1, 0, 0));
 }
 
 TEST_F(StylusMailboxTest, PoseWithoutAFrameIsInTheTissueFrame) {
-  EXPECT_EQ(mailbox_.put(poseAt(0.1, ""), nowhere, at(0)), std::nullopt);
+  EXPECT_EQ(mailbox_.put(poseAt(0.1, ""), nowhere, arrival(0)), std::nullopt);
   EXPECT_EQ(mailbox_.take(at(0)).pose.position_m, Vector3d(0.1, 0, 0));
   EXPECT_EQ(mailbox_.deviceFrame().name, "tissue");
 }
 
 TEST_F(StylusMailboxTest, NewerPoseOvertakesTheOlder) {
-  mailbox_.put(poseAt(0.1), nowhere, at(0));
-  mailbox_.put(poseAt(0.2), nowhere, at(0.01));
+  mailbox_.put(poseAt(0.1), nowhere, arrival(0));
+  mailbox_.put(poseAt(0.2), nowhere, arrival(0.01));
   EXPECT_EQ(mailbox_.take(at(0.02)).pose.position_m.x(), 0.2);
 }
 
 TEST_F(StylusMailboxTest, PoseOfADeviceIsBroughtToTheTissueFrame) {
-  const auto lookup = [](const std::string& frame) -> std::optional<Pose> {
-    if (frame != "base") return std::nullopt;
-    return Pose{{0, 0, 0.5}, Quaterniond(Eigen::AngleAxisd(M_PI / 2, Vector3d::UnitZ()))};
+  const auto lookup = [](const std::string& frame) -> FramePlace {
+    if (frame != "base") return {};
+    return {Pose{{0, 0, 0.5}, Quaterniond(Eigen::AngleAxisd(M_PI / 2, Vector3d::UnitZ()))}};
   };
-  EXPECT_EQ(mailbox_.put(poseAt(0.1, "/base"), lookup, at(0)), std::nullopt);  // drivers older than tf2 send the slash
+  EXPECT_EQ(mailbox_.put(poseAt(0.1, "/base"), lookup, arrival(0)),
+            std::nullopt);  // drivers older than tf2 send the slash
   EXPECT_LT((mailbox_.take(at(0)).pose.position_m - Vector3d(0, 0.1, 0.5)).norm(), kRounding_m);
   const DeviceFrame frame = mailbox_.deviceFrame();
   EXPECT_EQ(frame.name, "base");
@@ -103,10 +117,10 @@ TEST_F(StylusMailboxTest, NotANumberIsDropped) {
 }
 
 TEST_F(StylusMailboxTest, InfiniteTransformIsDropped) {
-  const auto lookup = [](const std::string&) -> std::optional<Pose> {
-    return Pose{{std::numeric_limits<double>::infinity(), 0, 0}, Quaterniond::Identity()};
+  const auto lookup = [](const std::string&) -> FramePlace {
+    return {Pose{{std::numeric_limits<double>::infinity(), 0, 0}, Quaterniond::Identity()}};
   };
-  EXPECT_EQ(mailbox_.put(poseAt(0.1, "base"), lookup, at(0)), Drop::kNotFinite);
+  EXPECT_EQ(mailbox_.put(poseAt(0.1, "base"), lookup, arrival(0)), Drop::kNotFinite);
 }
 
 TEST_F(StylusMailboxTest, QuaternionWithoutLengthIsDropped) {
@@ -124,58 +138,165 @@ TEST_F(StylusMailboxTest, QuaternionWhoseLengthOverflowsIsDropped) {
 TEST_F(StylusMailboxTest, QuaternionThatIsNearlyUnitIsNormalised) {
   auto message = poseAt(0.1);
   message.pose.orientation.w = 1.05;
-  EXPECT_EQ(mailbox_.put(message, nowhere, at(0)), std::nullopt);
+  EXPECT_EQ(mailbox_.put(message, nowhere, arrival(0)), std::nullopt);
   EXPECT_NEAR(mailbox_.take(at(0)).pose.orientation.norm(), 1, kRounding_m);
 }
 
 TEST_F(StylusMailboxTest, PoseOutsideTheWorkspaceIsDropped) {
   expectDropped(poseAt(1000), Drop::kOutsideWorkspace);
-  EXPECT_EQ(mailbox_.put(poseAt(0.999), nowhere, at(0)), std::nullopt);
+  EXPECT_EQ(mailbox_.put(poseAt(0.999), nowhere, arrival(0)), std::nullopt);
 }
 
 TEST_F(StylusMailboxTest, DroppedPoseLeavesTheLastGoodOne) {
-  mailbox_.put(poseAt(0.1), nowhere, at(0));
-  mailbox_.put(poseAt(1000), nowhere, at(0.1));
+  mailbox_.put(poseAt(0.1), nowhere, arrival(0));
+  mailbox_.put(poseAt(1000), nowhere, arrival(0.1));
   EXPECT_TRUE(mailbox_.take(at(0.15)).valid);
   EXPECT_FALSE(mailbox_.take(at(0.25)).valid);  // and does not keep it alive
 }
 
 TEST_F(StylusMailboxTest, PoseGoesStale) {
-  mailbox_.put(poseAt(0.1), nowhere, at(0));
+  mailbox_.put(poseAt(0.1), nowhere, arrival(0));
   EXPECT_TRUE(mailbox_.take(at(0.19)).valid);
   EXPECT_FALSE(mailbox_.take(at(0.21)).valid);
   EXPECT_TRUE(mailbox_.status(at(0.21)).stale);
-  mailbox_.put(poseAt(0.1), nowhere, at(0.3));
+  mailbox_.put(poseNow(0.3), nowhere, arrival(0.3));
   EXPECT_TRUE(mailbox_.take(at(0.31)).valid);
 }
 
-TEST_F(StylusMailboxTest, ButtonIsHeldUntilReleased) {
-  mailbox_.put(0, joy({1}));
-  EXPECT_TRUE(mailbox_.take(at(0)).button1);
-  EXPECT_TRUE(mailbox_.take(at(0)).button1);
-  EXPECT_FALSE(mailbox_.take(at(0)).button2);
-  mailbox_.put(0, joy({0}));
-  EXPECT_FALSE(mailbox_.take(at(0)).button1);
+TEST_F(StylusMailboxTest, DriverThatHangsAndRepeatsItsLastMessageGrowsStale) {
+  for (double t = 0; t < 1; t += 0.03) {
+    const std::optional<Drop> reason = mailbox_.put(poseNow(0), nowhere, arrival(t));
+    EXPECT_EQ(mailbox_.take(at(t)).valid, t <= config().stale_after_s) << t;
+    EXPECT_EQ(reason, t <= config().stale_after_s ? std::nullopt : std::optional<Drop>(Drop::kRepeatedStamp)) << t;
+  }
+  EXPECT_EQ(mailbox_.put(poseNow(1), nowhere, arrival(1)), std::nullopt);
+  EXPECT_TRUE(mailbox_.take(at(1)).valid);
 }
 
-TEST_F(StylusMailboxTest, ClickIsAPressOfOneTick) {
-  mailbox_.put(1, joy({2}));
-  EXPECT_TRUE(mailbox_.take(at(0)).button2);
-  EXPECT_FALSE(mailbox_.take(at(0)).button2);
+TEST_F(StylusMailboxTest, ClockThatStandsStillIsNoDriverThatHangs) {
+  for (double t = 0; t < 1; t += 0.1)
+    EXPECT_EQ(mailbox_.put(poseAt(0.1), nowhere, {at(t), ros::Time(kBegin_s)}), std::nullopt) << t;
+  EXPECT_TRUE(mailbox_.take(at(1)).valid);
 }
 
-TEST_F(StylusMailboxTest, PressBetweenTwoTicksIsNotLost) {
-  mailbox_.put(0, joy({1}));
-  mailbox_.put(0, joy({0}));
-  EXPECT_TRUE(mailbox_.take(at(0)).button1);
-  EXPECT_FALSE(mailbox_.take(at(0)).button1);
+TEST_F(StylusMailboxTest, PoseThatWasLongOnItsWayIsDroppedWhateverTheClockOfTheDevice) {
+  constexpr double kAhead_s = 1e6;  // the device's clock
+  const auto sent = [](double t) { return poseNow(kAhead_s + t); };
+  for (double t = 0; t < 0.5; t += 0.1) EXPECT_EQ(mailbox_.put(sent(t), nowhere, arrival(t)), std::nullopt);
+  EXPECT_EQ(mailbox_.put(sent(0.45), nowhere, arrival(0.75)), Drop::kDelayed);
+  EXPECT_EQ(mailbox_.put(sent(0.7), nowhere, arrival(0.8)), std::nullopt);
 }
 
-TEST_F(StylusMailboxTest, JoyWithoutOrWithStrangeButtonsIsDropped) {
-  EXPECT_EQ(mailbox_.put(0, joy({})), Drop::kNoButtons);
-  EXPECT_EQ(mailbox_.put(0, joy({3})), Drop::kButtonValue);
-  EXPECT_EQ(mailbox_.put(0, joy({-1})), Drop::kButtonValue);
-  EXPECT_FALSE(mailbox_.take(at(0)).button1);
+TEST_F(StylusMailboxTest, DeviceThatComesBackWithAnEarlierClockIsHeard) {
+  mailbox_.put(poseNow(50), nowhere, arrival(0));
+  EXPECT_EQ(mailbox_.put(poseNow(-50), nowhere, arrival(1)), std::nullopt);
+}
+
+TEST_F(StylusMailboxTest, StampsFarApartAreNoTrouble) {
+  geometry_msgs::PoseStamped message = poseAt(0.1);
+  message.header.stamp = ros::Time(4294967295u, 0);  // 136 years: more than a ros::Duration holds
+  EXPECT_EQ(mailbox_.put(message, nowhere, arrival(0)), std::nullopt);
+  EXPECT_EQ(mailbox_.put(poseNow(1), nowhere, arrival(1)), std::nullopt);
+}
+
+TEST_F(StylusMailboxTest, FrameWhoseTransformIsTooOldIsDropped) {
+  const auto lookup = [](const std::string&) -> FramePlace { return {std::nullopt, true}; };
+  EXPECT_EQ(mailbox_.put(poseAt(0.1, "base"), lookup, arrival(0)), Drop::kOldTransform);
+}
+
+/// A hand that has been tracked for a while.
+class StylusButtonTest : public StylusMailboxTest {
+ protected:
+  static constexpr double kNow_s = 1;
+  StylusButtonTest() { track(0, kNow_s); }
+  void track(double from_s, double to_s) {
+    for (double t = from_s; t <= to_s; t += 0.1) mailbox_.put(poseNow(t), nowhere, arrival(t));
+    mailbox_.put(poseNow(to_s), nowhere, arrival(to_s));
+  }
+  void press(size_t button, int value, double time_s = kNow_s) { mailbox_.put(button, joy({value}), at(time_s)); }
+  StylusSample take(double time_s = kNow_s) { return mailbox_.take(at(time_s)); }
+};
+
+TEST_F(StylusButtonTest, IsHeldUntilReleased) {
+  press(0, 1);
+  EXPECT_TRUE(take().button1);
+  EXPECT_TRUE(take().button1);
+  EXPECT_FALSE(take().button2);
+  press(0, 0);
+  EXPECT_FALSE(take().button1);
+}
+
+TEST_F(StylusButtonTest, ClickIsAPressOfOneTick) {
+  press(1, 2);
+  EXPECT_TRUE(take().button2);
+  EXPECT_FALSE(take().button2);
+}
+
+TEST_F(StylusButtonTest, PressBetweenTwoTicksIsNotLost) {
+  press(0, 1);
+  press(0, 0);
+  EXPECT_TRUE(take().button1);
+  EXPECT_FALSE(take().button1);
+}
+
+TEST_F(StylusButtonTest, EndsWithItsHandAndMustBeReleasedBeforeItActs) {
+  press(1, 1);
+  EXPECT_TRUE(take().button2);
+  EXPECT_FALSE(take(2).button2);  // the hand is gone
+  track(3, 4);
+  EXPECT_FALSE(take(4).button2);
+  press(1, 1, 4);
+  EXPECT_FALSE(take(4).button2);
+  EXPECT_EQ(mailbox_.status(at(4)).presses_ignored, 1u);
+  press(1, 0, 4);
+  press(1, 1, 4);
+  EXPECT_TRUE(take(4).button2);
+}
+
+TEST_F(StylusButtonTest, EndsThoughNobodyLookedWhileTheHandWasAway) {
+  press(1, 1);
+  track(3, 3.5);
+  EXPECT_FALSE(take(3.5).button2);
+}
+
+TEST_F(StylusButtonTest, PressWithoutAHandIsIgnored) {
+  press(0, 1, 2);
+  track(2.1, 3);
+  EXPECT_FALSE(take(3).button1);
+  press(0, 2, 5);  // a click too
+  track(5.1, 6);
+  EXPECT_FALSE(take(6).button1);
+}
+
+TEST_F(StylusButtonTest, ThatIsDownWhenTheHandComesMustBeReleased) {
+  track(3, 3.1);
+  press(0, 1, 3.1);  // a driver that repeats the state of its buttons
+  track(3.2, 4);
+  press(0, 1, 4);
+  EXPECT_FALSE(take(4).button1);
+}
+
+TEST_F(StylusButtonTest, FirstPressOfADriverThatTellsChangesActs) {
+  press(0, 1);  // nothing was heard of it before
+  EXPECT_TRUE(take().button1);
+}
+
+TEST_F(StylusButtonTest, ForgottenOnesMustBeReleased) {
+  press(0, 1);
+  mailbox_.forgetButtons();
+  EXPECT_FALSE(take().button1);
+  press(0, 1);
+  EXPECT_FALSE(take().button1);
+  press(0, 0);
+  press(0, 1);
+  EXPECT_TRUE(take().button1);
+}
+
+TEST_F(StylusButtonTest, JoyWithoutOrWithStrangeButtonsIsDropped) {
+  EXPECT_EQ(mailbox_.put(0, joy({}), at(1)), Drop::kNoButtons);
+  EXPECT_EQ(mailbox_.put(0, joy({3}), at(1)), Drop::kButtonValue);
+  EXPECT_EQ(mailbox_.put(0, joy({-1}), at(1)), Drop::kButtonValue);
+  EXPECT_FALSE(take().button1);
 }
 
 }  // namespace

@@ -123,7 +123,7 @@ TEST_P(ToolsOnTissue, ReactionIsTheMomentumGivenPerTick) {
 
 TEST_P(ToolsOnTissue, ProbeThatJumpsLeavesNoNodeInsideIt) {
   const double tick_s = kSubsteps * solver_->dt_s();
-  Tools tools(styluses_, waveSpeed(model_) * tick_s);
+  Tools tools(styluses_, {waveSpeed(model_) * tick_s});
   StylusSamples samples;
   samples[0].valid = true;
   samples[0].pose.position_m = Vector3d(0.03, 0.03, 0.12);

@@ -10,7 +10,7 @@ namespace viscera {
 namespace {
 
 TEST(ForceLimiter, PassesAForceWithinItsLimits) {
-  ForceLimiter limiter(5, 1000);
+  ForceLimiter limiter(ForceLimits{5, 1000});
   const Reaction out = limiter.limit({Vector3d(1, 2, 2), Vector3d(0, 0, 0.1), false}, 0.01);
   EXPECT_EQ(out.force_n, Vector3d(1, 2, 2));
   EXPECT_EQ(out.torque_nm, Vector3d(0, 0, 0.1));
@@ -18,7 +18,7 @@ TEST(ForceLimiter, PassesAForceWithinItsLimits) {
 }
 
 TEST(ForceLimiter, SaturatesTheForceAndScalesTheTorqueWithIt) {
-  ForceLimiter limiter(5, 1e6);
+  ForceLimiter limiter(ForceLimits{5, 1e6});
   const Reaction out = limiter.limit({Vector3d(0, 30, 40), Vector3d(2, 0, 0), false}, 0.01);
   EXPECT_TRUE(out.force_n.isApprox(Vector3d(0, 3, 4)));
   EXPECT_TRUE(out.torque_nm.isApprox(Vector3d(0.2, 0, 0)));
@@ -26,7 +26,7 @@ TEST(ForceLimiter, SaturatesTheForceAndScalesTheTorqueWithIt) {
 }
 
 TEST(ForceLimiter, ForceRisesAndFallsNoFasterThanItsRate) {
-  ForceLimiter limiter(5, 100);
+  ForceLimiter limiter(ForceLimits{5, 100});
   const Reaction push{Vector3d(0, 0, 2.5), Vector3d(0, 0.5, 0), false};
   for (double expected_n : {1.0, 2.0, 2.5}) {
     const Reaction out = limiter.limit(push, 0.01);
@@ -38,14 +38,14 @@ TEST(ForceLimiter, ForceRisesAndFallsNoFasterThanItsRate) {
 }
 
 TEST(ForceLimiter, StartsFromZeroAfterReset) {
-  ForceLimiter limiter(5, 100);
+  ForceLimiter limiter(ForceLimits{5, 100});
   limiter.limit({Vector3d(1, 0, 0), Vector3d::Zero(), false}, 0.01);
   limiter.reset();
   EXPECT_NEAR(limiter.limit({Vector3d(-3, 0, 0), Vector3d::Zero(), false}, 0.01).force_n.x(), -1, 1e-12);
 }
 
 TEST(ForceLimiter, ForceThatIsNotFiniteIsNoForceAtAll) {
-  ForceLimiter limiter(5, 1000);
+  ForceLimiter limiter(ForceLimits{5, 1000});
   limiter.limit({Vector3d(3, 0, 0), Vector3d::Zero(), false}, 0.01);
   for (double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     const Reaction out = limiter.limit({Vector3d(bad, 0, 0), Vector3d(0, bad, 0), false}, 0.01);

@@ -17,7 +17,7 @@ StylusSamples at(double x) {
 }
 
 TEST(HeldBack, TipThatJumpsFollowsAtTheGivenTravelUntilItIsThere) {
-  Tools tools({StylusConfig{}}, kTravel_m);
+  Tools tools({StylusConfig{}}, {kTravel_m});
   EXPECT_FALSE(tools.advance(at(0))[0].held_back);
   double reached = 0;
   for (int t = 0; t < 3; ++t) {
@@ -33,14 +33,14 @@ TEST(HeldBack, TipThatJumpsFollowsAtTheGivenTravelUntilItIsThere) {
 }
 
 TEST(HeldBack, FirstPoseIsWhereTheTipIsHoweverFarItCameFrom) {
-  Tools tools({StylusConfig{}}, kTravel_m);
+  Tools tools({StylusConfig{}}, {kTravel_m});
   const StylusMotion motion = tools.advance(at(0.5))[0];
   EXPECT_FALSE(motion.held_back);
   EXPECT_DOUBLE_EQ(motion.from.position_m.x(), 0.5);
 }
 
 TEST(HeldBack, TipWithinTheTravelIsLeftAlone) {
-  Tools tools({StylusConfig{}}, kTravel_m);
+  Tools tools({StylusConfig{}}, {kTravel_m});
   tools.advance(at(0));
   const StylusMotion motion = tools.advance(at(0.0099))[0];
   EXPECT_FALSE(motion.held_back);

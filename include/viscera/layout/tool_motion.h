@@ -23,6 +23,7 @@ const uint kToolPushes = 1u;  // nodes out of a swept sphere at the tip
 const uint kToolHolds = 2u;   // the nodes that it took when it began
 const uint kToolCuts = 4u;    // springs that its blade crosses
 const uint kToolErases = 8u;  // springs of the nodes near its blade
+const uint kToolFeels = 16u;  // a tool that pushes counts the nodes within its reach and leaves them alone
 
 // One stylus over one substep, tissue frame.
 struct ToolMotion {

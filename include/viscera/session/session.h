@@ -62,6 +62,11 @@ class Session {
   /// pose is no motion. @param obstacle  index in the scene   @param pose  of the frame, tissue frame
   void setObstacleFrame(size_t obstacle, const Pose& pose);
   void reset();
+  /// The hands were not followed for a while, as in a pause: what they hold is let go at the next step, where they
+  /// appear anew; forces begin at zero.
+  void forgetHands();
+  /// What there is to see of the last tick, without a step; waits for it.
+  Pictures show(const Wants& wants);
   /// Waits for everything asked for so far; images and surface of the last ticks.
   Frame drain();
   uint64_t stateHash() const;
@@ -89,6 +94,8 @@ class Session {
   Session(const Scene& scene, gpu::Context* context, const Progress& progress, const SessionOptions& options);
   void moveObstacles();
   void lookAtObstacles();
+  static bool feels(const ToolMotions& motions);
+  void heedFeeling(Frame& frame);
   void notePoses(const StylusSamples& samples);
   PoseTimes posesOf(uint64_t tick) const;
   void collect(Frame& frame, bool wait);

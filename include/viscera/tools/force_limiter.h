@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <limits>
+
 #include "viscera/math/types.h"
+#include "viscera/model/scene/scene.h"
 
 namespace viscera {
 
@@ -13,15 +16,32 @@ struct Reaction {
   bool saturated = false;
 };
 
-/// Saturates a force and limits its slew from one tick to the next (physics.md 5).
+/// What a device may be given: sizes, and how fast they may change.
+struct ForceLimits {
+  double force_n, force_rate_n_per_s;
+  double torque_nm = std::numeric_limits<double>::infinity();
+  double torque_rate_nm_per_s = std::numeric_limits<double>::infinity();
+
+  /// Those of a stylus's keys.
+  static ForceLimits of(const StylusConfig& stylus);
+};
+
+/// Saturates force and torque and limits their slew from one answer to the next (physics.md 5). Both shrink by one
+/// factor, and go on by one share of the way, so that the line of action stays where tissue put it.
 class ForceLimiter {
  public:
-  ForceLimiter(double max_force_n, double max_rate_n_per_s);
-  Reaction limit(const Reaction& raw, double tick_s);
+  explicit ForceLimiter(const ForceLimits& limits) : limits_(limits) {}
+  /// @param span_s  since the answer before [s]
+  /// @returns zero, at once, for a reaction that is not finite: the tissue is lost
+  Reaction limit(const Reaction& raw, double span_s) { return limit(raw, span_s, limits_); }
+  /// The same under other limits, this once.
+  Reaction limit(const Reaction& raw, double span_s, const ForceLimits& limits);
   void reset() { last_ = Reaction{}; }
+  const Reaction& last() const { return last_; }
+  const ForceLimits& limits() const { return limits_; }
 
  private:
-  double max_force_n_, max_rate_n_per_s_;
+  ForceLimits limits_;
   Reaction last_;
 };
 

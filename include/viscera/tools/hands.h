@@ -10,24 +10,39 @@
 
 namespace viscera {
 
+/// What tissue demands of the hands that move in it (physics.md 5).
+struct HandLimits {
+  /// How far a tip may move in a tick: what tissue could follow, the speed of its waves times the tick. A tip that is
+  /// faster, or jumps, follows its pose at that speed.
+  double max_travel_m = std::numeric_limits<double>::infinity();
+  /// A stylus that appears pushes nothing until tissue is nowhere within this radius, or that of its tip where that is
+  /// larger: at depth, nobody knows from which side it came. 0: it pushes at once.
+  double feel_radius_m = 0;
+};
+
 /// Turns stylus samples into motions, tick by tick: modes from buttons, jumps that are no motion (first sample).
 class Tools {
  public:
-  /// @param max_travel_m  how far a tip may move in a tick: what tissue could follow, the speed of its waves times the
-  ///                      tick. A tip that is faster, or jumps, follows its pose at that speed (physics.md 5).
-  explicit Tools(const std::vector<StylusConfig>& styluses,
-                 double max_travel_m = std::numeric_limits<double>::infinity());
+  explicit Tools(const std::vector<StylusConfig>& styluses, const HandLimits& limits = {});
   ToolMotions advance(const StylusSamples& samples);
+  /// In the tick of the last motions nothing was within the radius in which a stylus feels: it may push from now on.
+  void foundOutside(size_t stylus) { inside_[stylus] = false; }
+  /// The hands were not followed for a while: what they hold is let go, and they appear anew.
+  void forget();
   void reset();
   const std::vector<StylusConfig>& configs() const { return configs_; }
 
  private:
+  void changeMode(size_t stylus, StylusMotion& motion);
   void holdBack(StylusMotion& motion) const;
+  void feel(size_t stylus, StylusMotion& motion) const;
 
   std::vector<StylusConfig> configs_;
-  double max_travel_m_;
+  HandLimits limits_;
   std::array<StylusSample, layout::kMaxStyluses> last_{};
   std::array<ToolMode, layout::kMaxStyluses> mode_{};
+  std::array<bool, layout::kMaxStyluses> inside_{};     ///< may be: it has appeared and was not found outside yet
+  std::array<bool, layout::kMaxStyluses> forgotten_{};  ///< what it does begins anew
 };
 
 }  // namespace viscera

@@ -29,7 +29,10 @@ struct StylusMotion {
   Pose from, to;
   bool hold_begins = false;  ///< this tick is the first of a mode that holds
   ToolMode hold_ended =
-      ToolMode::kNone;     ///< a mode that held was left, or the stylus was lost, at the start of this tick
+      ToolMode::kNone;  ///< a mode that held was left, or the stylus was lost, at the start of this tick
+  /// > 0: the stylus appeared and has not been outside of tissue since. It pushes nothing, and feels for tissue within
+  /// this radius [m].
+  double feels_m = 0;
   bool held_back = false;  ///< the tip was faster than tissue can follow: `to` lags behind the pose, and catches up
 };
 using ToolMotions = std::array<StylusMotion, layout::kMaxStyluses>;

@@ -81,7 +81,7 @@ void ReferenceSolver::applyTools(const SubstepMotions& motions, uint32_t slot, V
     if (held_by == s + 1) {
       u_next = heldDisplacement(m, slot);
       v_next = (u_next - u_m[slot]) / dt_s_;
-    } else if (held_by == 0 && (m.info.y & layout::kToolPushes)) {
+    } else if (held_by == 0 && (m.info.y & layout::kToolPushes) && !(m.info.y & layout::kToolFeels)) {
       Vector3d x_next = restPosition(slot) + u_next;
       probe(m, dt_s_, options_.push_speed_m_per_s * dt_s_, restPosition(slot) + u_m[slot], x_next, v_next);
       u_next = x_next - restPosition(slot);

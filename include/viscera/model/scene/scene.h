@@ -130,7 +130,9 @@ struct StylusConfig {
   CutParticlesConfig cut_particles;
   SuctionConfig suction;
   double max_force_n = 5;
-  double max_force_rate_n_per_s = 500;
+  double max_force_rate_n_per_s = 100;
+  double max_torque_nm = 0.2;
+  double max_torque_rate_nm_per_s = 4;
   double stale_after_s = 0.2;
   double workspace_m = 1;
 };

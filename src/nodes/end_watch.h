@@ -1,0 +1,59 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <functional>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace viscera::nodes {
+
+/// How a process ends: by SIGINT, SIGTERM or SIGHUP, on the ROS master's demand (rosnode kill, a second node of the
+/// same name), by its own request, or by a crash. Whoever drives a device names here what must be done before, which
+/// happens at once, on a thread that nothing else uses. One per process, made before other threads and after
+/// ros::init() with NoSigintHandler, as roscpp's own handling would close the topics first.
+class EndWatch {
+ public:
+  /// What is done when the end begins, for as long as this object lives.
+  class Act {
+   public:
+    /// @param run  must not throw; in a crash, locks are as they were then
+    Act(EndWatch& watch, std::function<void()> run);
+    ~Act();  ///< waits for it if it is under way
+    Act(const Act&) = delete;
+    Act& operator=(const Act&) = delete;
+
+   private:
+    friend class EndWatch;
+    EndWatch& watch_;
+    const std::function<void()> run_;
+  };
+
+  EndWatch();
+  ~EndWatch();
+  EndWatch(const EndWatch&) = delete;
+  EndWatch& operator=(const EndWatch&) = delete;
+
+  /// Waits until the end has begun and what is done before is done; @returns whether it has.
+  bool waitFor(std::chrono::milliseconds limit);
+  /// From a signal or a demand the process has this long; then it is ended, with status 0, whatever it is doing.
+  static constexpr std::chrono::milliseconds kLimit{900};
+
+ private:
+  void main();
+  void runActs();
+  [[noreturn]] static void endByForce();
+
+  std::mutex acts_mutex_;
+  std::vector<const Act*> acts_;
+
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  bool begun_ = false, closing_ = false;
+  std::thread thread_;
+};
+
+}  // namespace viscera::nodes

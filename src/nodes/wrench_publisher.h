@@ -1,0 +1,66 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <ros/node_handle.h>
+
+#include <atomic>
+#include <condition_variable>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include "nodes/latency_meter.h"
+#include "nodes/stylus_mailbox.h"
+#include "nodes/wrench_schedule.h"
+
+namespace viscera::nodes {
+
+/// Forces to the devices, `<stylus>/body/servo_cf` and its companion for orientation, from a thread that waits for
+/// nobody: neither for the simulation, whose stall it notices and answers with zeros, nor for those who show pictures.
+class WrenchPublisher {
+ public:
+  /// What a tick has for a stylus.
+  struct Hand {
+    Reaction reaction;
+    SteadyTime pose_received{};  ///< of the pose that the reaction answers; 0: none
+  };
+  using Hands = std::array<Hand, layout::kMaxStyluses>;
+
+  /// @param mailboxes  of the scene's styluses, in order; they must outlive this
+  /// @param stall_s    a tick that comes later than this after the one before is a stall [s]
+  WrenchPublisher(ros::NodeHandle& node, const std::vector<const StylusMailbox*>& mailboxes, double stall_s);
+  ~WrenchPublisher();
+  WrenchPublisher(const WrenchPublisher&) = delete;
+  WrenchPublisher& operator=(const WrenchPublisher&) = delete;
+
+  void put(const Hands& hands);
+  /// There are no ticks and so no forces until the next put().
+  void rest();
+  /// Zeros go out, and nothing else ever again; waits until they are written to the devices, at most kReleaseLimit.
+  void release();
+
+  /// From the arrival of a pose to the sending of the force that answers it, since they were last taken: [styluses].
+  std::vector<LatencyMeter::Reading> takeLatencies();
+  uint64_t stalls() const { return stalls_; }
+  bool stalled() const { return stalled_; }
+
+ private:
+  void main();
+  void send(const Wrenches& wrenches);
+
+  std::vector<const StylusMailbox*> mailboxes_;
+  std::vector<ros::Publisher> forces_, absolutes_;  ///< [styluses]
+
+  std::mutex mutex_;
+  std::condition_variable changed_, sent_;
+  WrenchSchedule schedule_;
+  std::array<SteadyTime, layout::kMaxStyluses> poses_received_{};
+  bool put_ = false, stop_ = false;
+  std::vector<LatencyMeter> latencies_;
+  std::atomic<uint64_t> stalls_{0};
+  std::atomic<bool> stalled_{false};
+  std::thread thread_;
+};
+
+}  // namespace viscera::nodes

@@ -1,0 +1,11 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/node_main.h"
+#include "nodes/wrench_watchdog.h"
+
+int main(int argc, char** argv) {
+  return viscera::nodes::nodeMain(argc, argv, "wrench_watchdog", [](viscera::nodes::EndWatch& end) {
+    auto parameters = viscera::nodes::Parameters::ofThisNode();
+    viscera::nodes::WrenchWatchdog(viscera::nodes::watchdogOptions(parameters), end).run();
+  });
+}
