@@ -5,6 +5,7 @@
 #include <ros/console.h>
 #include <ros/spinner.h>
 
+#include <algorithm>
 #include <thread>
 
 #include "nodes/clock_watch.h"
@@ -15,6 +16,12 @@ namespace {
 
 constexpr std::chrono::milliseconds kWatchPeriod{20};  ///< how soon a lost master is seen
 constexpr double kWarnPeriod_s = 5;
+/// However short the ticks are: other work on the machine may hold a thread up for so long.
+constexpr double kShortestStall_s = 0.015;
+
+double stallTime_s(const SimulatorOptions& options) {
+  return std::max(options.stall_ticks / options.scene.solver.tick_hz, kShortestStall_s);
+}
 
 void reportProgress(const std::string& stage, double fraction) {
   ROS_INFO_THROTTLE(1, "preparing: %s %.0f %%", stage.c_str(), 100 * fraction);
@@ -27,7 +34,7 @@ Simulator::Simulator(const SimulatorOptions& options, EndWatch& end)
       listener_(frames_),
       obstacles_(options.scene, frames_, options.max_transform_age_s),
       inputs_(makeInputs(options, frames_)),
-      wrenches_(node_, mailboxes(), options.stall_ticks / options.scene.solver.tick_hz),
+      wrenches_(node_, mailboxes(), stallTime_s(options)),
       release_(end_, [this] { wrenches_.release(); }),
       tool_frames_(options.scene.environment.tissue_frame, toolFrames(options.scene, options.publish.frame_prefix)),
       publisher_(node_, options.scene, options.publish, [this](std::exception_ptr error) { fail(error); }),
