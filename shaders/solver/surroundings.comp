@@ -10,6 +10,7 @@
 #include "lattice.glsl"
 #include "elastic.glsl"
 #include "surroundings.glsl"
+#include "sleep.glsl"
 
 #ifndef __cplusplus
 uniform uint obstacle_count;
@@ -113,15 +114,17 @@ void main() {
   v_next += kick;
   u_next += dt_s * kick;
 #endif
+  vec3 u_before = xyz(next_displacement[slot]);
 #ifdef OBSTACLES
   vec3 rest = restPosition(slot);
-  vec3 x = rest + xyz(next_displacement[slot]), x_next = rest + u_next;
+  vec3 x = rest + u_before, x_next = rest + u_next;
   bool touched = false;
   for (uint o = 0u; o < obstacle_count; ++o) {
     if (meetObstacle(obstacles[o], x, x_next, v_next)) touched = true;
   }
   if (touched) u_next = x_next - rest;
 #endif
+  fallAsleep(bits, u_before, u_next, v_next);  // or what pushes would move on what the integrator has stopped
   next_displacement[slot] = vec4(u_next, 0.0f);
   next_velocity[slot] = vec4(v_next, 0.0f);
 }

@@ -5,22 +5,36 @@
 #include <algorithm>
 #include <utility>
 
+#include "gpu/fence.h"
 #include "gpu/gl.h"
+#include "gpu/limits.h"
+#include "viscera/gpu/context.h"
 #include "viscera/math/error.h"
 
 namespace viscera::gpu {
 
-RawBuffer::RawBuffer(size_t bytes) : bytes_(bytes) {
+namespace {
+
+std::string described(const char* name, size_t bytes) {
+  return std::string("buffer '") + name + "' of " + std::to_string(bytes) + " bytes";
+}
+
+}  // namespace
+
+RawBuffer::RawBuffer(size_t bytes, const char* name) : bytes_(bytes), name_(name) {
   constexpr size_t kSmallest = 16;  // drivers refuse storage of size 0
+  checkErrors("what came before a buffer was made");
   glCreateBuffers(1, &id_);
   countObject();
   glNamedBufferStorage(id_, static_cast<GLsizeiptr>(std::max(bytes, kSmallest)), nullptr, GL_DYNAMIC_STORAGE_BIT);
-  const GLenum code = glGetError();
-  if (code != GL_NO_ERROR) {
-    glDeleteBuffers(1, &id_);
-    throw GpuError("glNamedBufferStorage of " + std::to_string(bytes) + " bytes failed: " + glErrorText(code));
+  GLenum code = glGetError();
+  if (code == GL_NO_ERROR) {
+    clear();  // some drivers look for memory when it is first used
+    code = glGetError();
   }
-  clear();
+  if (code == GL_NO_ERROR) return;
+  glDeleteBuffers(1, &id_);
+  throw GpuError("no memory for " + described(name, bytes) + ": " + glErrorText(code) + "; use a larger spacing_m");
 }
 
 RawBuffer::~RawBuffer() {
@@ -28,11 +42,12 @@ RawBuffer::~RawBuffer() {
 }
 
 RawBuffer::RawBuffer(RawBuffer&& other) noexcept
-    : id_(std::exchange(other.id_, 0)), bytes_(std::exchange(other.bytes_, 0)) {}
+    : id_(std::exchange(other.id_, 0)), bytes_(std::exchange(other.bytes_, 0)), name_(other.name_) {}
 
 RawBuffer& RawBuffer::operator=(RawBuffer&& other) noexcept {
   std::swap(id_, other.id_);
   std::swap(bytes_, other.bytes_);
+  std::swap(name_, other.name_);
   return *this;
 }
 
@@ -42,6 +57,7 @@ void RawBuffer::write(size_t offset, size_t bytes, const void* data) {
 
 void RawBuffer::read(size_t offset, size_t bytes, void* data) const {
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+  awaitGpu(described(name_, bytes_).c_str());
   glGetNamedBufferSubData(id_, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes), data);
 }
 
@@ -80,8 +96,8 @@ TexelView::TexelView(const RawBuffer& buffer, TexelFormat format) {
   GLint most = 0;
   glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most);
   if (texels > static_cast<size_t>(most)) {
-    throw GpuError("a buffer of " + std::to_string(texels) +
-                   " texels is longer than the driver's GL_MAX_TEXTURE_BUFFER_SIZE, " + std::to_string(most) +
+    throw GpuError(described(buffer.name(), buffer.bytes()) + ", " + std::to_string(texels) +
+                   " texels, is longer than the driver's GL_MAX_TEXTURE_BUFFER_SIZE, " + std::to_string(most) +
                    ": use a larger spacing_m");
   }
   glCreateTextures(GL_TEXTURE_BUFFER, 1, &id_);
@@ -112,7 +128,15 @@ void bindTexels(uint32_t first, std::initializer_list<uint32_t> views) {
   glBindTextures(first, static_cast<GLsizei>(views.size()), views.begin());
 }
 
+void RawBuffer::requireBlock() const {
+  const size_t most = driverLimits().storage_block_bytes;
+  if (bytes_ <= most) return;
+  throw GpuError(described(name_, bytes_) + " is longer than the driver's GL_MAX_SHADER_STORAGE_BLOCK_SIZE, " +
+                 std::to_string(most) + ": use a larger spacing_m, or solver.backend: cpu");
+}
+
 void RawBuffer::bindStorage(uint32_t binding) const {
+  requireBlock();
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, id_);
 }
 

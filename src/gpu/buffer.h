@@ -13,23 +13,30 @@ namespace viscera::gpu {
 class RawBuffer {
  public:
   RawBuffer() = default;
-  explicit RawBuffer(size_t bytes);  ///< zero-filled; at least 16 bytes are allocated. @throws GpuError out of memory
+  /// Zero-filled; at least 16 bytes are allocated. @param name  for messages, of static lifetime
+  /// @throws GpuError  out of memory, with name and size
+  explicit RawBuffer(size_t bytes, const char* name = "without a name");
   ~RawBuffer();
   RawBuffer(RawBuffer&& other) noexcept;
   RawBuffer& operator=(RawBuffer&& other) noexcept;
 
   void write(size_t offset, size_t bytes, const void* data);
-  void read(size_t offset, size_t bytes, void* data) const;  ///< waits for the GPU
-  void clear();                                              ///< to zero, on the GPU
-  void copyFrom(const RawBuffer& other);                     ///< all of it, on the GPU; sizes must agree
-  void bindStorage(uint32_t binding) const;
+  /// Waits for the GPU. @throws GpuError  it does not answer (awaitGpu)
+  void read(size_t offset, size_t bytes, void* data) const;
+  void clear();                              ///< to zero, on the GPU
+  void copyFrom(const RawBuffer& other);     ///< all of it, on the GPU; sizes must agree
+  void bindStorage(uint32_t binding) const;  ///< @throws GpuError  as requireBlock()
+  /// @throws GpuError  longer than the driver lets a storage block be
+  void requireBlock() const;
   void bindUniform(uint32_t binding, size_t offset, size_t bytes) const;
   uint32_t id() const { return id_; }
   size_t bytes() const { return bytes_; }
+  const char* name() const { return name_; }
 
  private:
   uint32_t id_ = 0;
   size_t bytes_ = 0;
+  const char* name_ = "";
 };
 
 /// A buffer seen through texel fetches: the read path for gathers, several times faster than storage loads where a
@@ -59,8 +66,11 @@ template <class T>
 class Buffer {
  public:
   Buffer() = default;
-  explicit Buffer(size_t count) : raw_(count * sizeof(T)), count_(count) {}
-  explicit Buffer(const std::vector<T>& values) : Buffer(values.size()) { write(values); }
+  /// @param name  for messages, of static lifetime: a literal
+  explicit Buffer(size_t count, const char* name = "without a name") : raw_(count * sizeof(T), name), count_(count) {}
+  explicit Buffer(const std::vector<T>& values, const char* name = "without a name") : Buffer(values.size(), name) {
+    write(values);
+  }
 
   void write(const std::vector<T>& values, size_t first = 0) { write(values.data(), values.size(), first); }
   void write(const T* values, size_t count, size_t first = 0) {

@@ -10,6 +10,7 @@
 #include <cstring>
 
 #include "gpu/gl.h"
+#include "gpu/limits.h"
 #include "viscera/math/error.h"
 
 namespace viscera::gpu {
@@ -132,6 +133,13 @@ std::string loadFunctions() {
   if (!glDispatchCompute || !glCreateBuffers || !glBufferStorage) return "the driver lacks OpenGL 4.5 entry points";
   while (glGetError() != GL_NO_ERROR) {
   }  // glewInit may leave GL_INVALID_ENUM behind on a core context
+  noteErrors();
+  forgetDriverLimits();
+  try {
+    requireLimits(driverLimits(), neededLimits());
+  } catch (const GpuError& error) {
+    return error.what();
+  }
   return "";
 }
 

@@ -4,6 +4,8 @@
 
 #include <atomic>
 #include <cstdio>
+#include <cstring>
+#include <mutex>
 
 #include "viscera/gpu/context.h"
 #include "viscera/math/error.h"
@@ -35,14 +37,46 @@ std::string glErrorText(unsigned code) {
       return std::string(hex) + " (GL_INVALID_FRAMEBUFFER_OPERATION)";
     case GL_OUT_OF_MEMORY:
       return std::string(hex) + " (GL_OUT_OF_MEMORY)";
+    case GL_CONTEXT_LOST:
+      return std::string(hex) + " (GL_CONTEXT_LOST)";
     default:
       return hex;
   }
 }
 
+namespace {
+
+std::mutex said_mutex;
+std::string said;  ///< the driver's last message of an error
+
+void GLAPIENTRY note(GLenum, GLenum type, GLuint, GLenum, GLsizei length, const GLchar* text, const void*) {
+  if (type != GL_DEBUG_TYPE_ERROR) return;
+  const std::lock_guard<std::mutex> lock(said_mutex);
+  said.assign(text, length < 0 ? std::strlen(text) : static_cast<size_t>(length));
+}
+
+std::string takeSaid() {
+  const std::lock_guard<std::mutex> lock(said_mutex);
+  std::string out;
+  out.swap(said);
+  return out;
+}
+
+}  // namespace
+
+void noteErrors() {
+  glEnable(GL_DEBUG_OUTPUT);
+  glDebugMessageControl(GL_DONT_CARE, GL_DONT_CARE, GL_DONT_CARE, 0, nullptr, GL_FALSE);
+  glDebugMessageControl(GL_DONT_CARE, GL_DEBUG_TYPE_ERROR, GL_DONT_CARE, 0, nullptr, GL_TRUE);
+  glDebugMessageCallback(note, nullptr);
+}
+
 void checkErrors(const char* what) {
   const GLenum code = glGetError();
-  if (code != GL_NO_ERROR) throw GpuError(std::string("OpenGL error ") + glErrorText(code) + " in " + what);
+  if (code == GL_NO_ERROR) return;
+  const std::string more = takeSaid();
+  throw GpuError(std::string("OpenGL error ") + glErrorText(code) + " in " + what +
+                 (more.empty() ? "" : "; the driver says: " + more));
 }
 
 }  // namespace viscera::gpu

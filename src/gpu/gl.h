@@ -12,6 +12,10 @@ namespace viscera::gpu {
 /// "0x502 (GL_INVALID_OPERATION)" and the like.
 std::string glErrorText(unsigned code);
 
+/// From now on checkErrors() tells what the driver of the current context says of errors, where it says anything:
+/// asynchronously, and of nothing but errors, so that it costs nothing while there are none.
+void noteErrors();
+
 /// Counts an OpenGL object made; see objectsCreated().
 void countObject();
 

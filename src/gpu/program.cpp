@@ -13,10 +13,19 @@
 
 #include "gpu/embedded_shaders.h"
 #include "gpu/gl.h"
+#include "gpu/limits.h"
 #include "gpu/reflection.h"
+#include "viscera/gpu/context.h"
 #include "viscera/math/error.h"
 
 namespace viscera::gpu {
+
+/// What messages say of a program.
+struct ProgramLabel {
+  explicit ProgramLabel(std::string of) : name(std::move(of)) {}
+  std::string name;
+  std::atomic<bool> has_run{false};  ///< a dispatch of it has been looked at: asking after each would cost
+};
 
 namespace {
 
@@ -130,6 +139,16 @@ std::atomic<bool> checks_dispatches{false};
 std::mutex unchecked_mutex;
 std::set<uint32_t> unchecked;
 
+/// Of the program that this thread uses; kept as long as the process lives, one for each name.
+thread_local ProgramLabel* in_use = nullptr;
+
+ProgramLabel* labelOf(const std::string& name) {
+  static std::mutex mutex;
+  static std::map<std::string, ProgramLabel> labels;
+  const std::lock_guard<std::mutex> lock(mutex);
+  return &labels.try_emplace(name, name).first->second;
+}
+
 void refuseUnbound() {
   GLint program = 0;
   glGetIntegerv(GL_CURRENT_PROGRAM, &program);
@@ -181,8 +200,11 @@ void Program::linkStages(const std::vector<uint32_t>& stages, const std::vector<
     glGetProgramiv(id_, GL_INFO_LOG_LENGTH, &length);
     std::string log(static_cast<size_t>(length) + 1, '\0');
     glGetProgramInfoLog(id_, length, nullptr, log.data());
-    throw GpuError("program '" + name_ + "' does not link:\n" + log.c_str());
+    throw GpuError("program '" + name_ + "' does not link (the driver lets a kernel have " +
+                   std::to_string(driverLimits().storage_blocks) +
+                   " storage blocks, GL_MAX_COMPUTE_SHADER_STORAGE_BLOCKS):\n" + log.c_str());
   }
+  label_ = labelOf(name_);
   refuseSharedNumbers(bindingsOf(id_), name_);
   if (checks_dispatches) {
     const std::lock_guard<std::mutex> lock(unchecked_mutex);
@@ -213,12 +235,14 @@ Program::~Program() {
 Program::Program(Program&& other) noexcept
     : id_(std::exchange(other.id_, 0)),
       name_(std::move(other.name_)),
+      label_(std::exchange(other.label_, nullptr)),
       uniforms_(std::move(other.uniforms_)),
       values_(std::move(other.values_)) {}
 
 Program& Program::operator=(Program&& other) noexcept {
   std::swap(id_, other.id_);
   name_.swap(other.name_);
+  std::swap(label_, other.label_);
   uniforms_.swap(other.uniforms_);
   values_.swap(other.values_);
   return *this;
@@ -226,6 +250,7 @@ Program& Program::operator=(Program&& other) noexcept {
 
 void Program::use() const {
   glUseProgram(id_);
+  in_use = label_;
 }
 
 void Program::dispatch(size_t invocations, uint32_t group_size) {
@@ -236,6 +261,13 @@ void Program::dispatch(size_t invocations, uint32_t group_size) {
   const size_t groups = (invocations + group_size - 1) / group_size;
   const size_t rows = (groups + kMaxGroups - 1) / kMaxGroups;
   glDispatchCompute(static_cast<GLuint>(rows == 1 ? groups : kMaxGroups), static_cast<GLuint>(rows), 1);
+  if (!in_use || in_use->has_run) return;
+  in_use->has_run = true;
+  checkErrors(("the first run of kernel '" + in_use->name + "'").c_str());
+}
+
+std::string lastKernel() {
+  return in_use ? in_use->name : "none";
 }
 
 void Program::storageBarrier() {

@@ -38,6 +38,8 @@ class UniformName {
   uint32_t key_;
 };
 
+struct ProgramLabel;
+
 /// A linked program. Compile and link errors throw GpuError with file, line and the driver's log.
 class Program {
  public:
@@ -54,6 +56,7 @@ class Program {
 
   void use() const;
   /// Enough groups of `group_size` for `invocations`; none is launched for 0. The program must be in use.
+  /// @throws GpuError  the first time that this kernel runs: OpenGL has an error pending
   static void dispatch(size_t invocations, uint32_t group_size);
   /// Makes storage writes of earlier dispatches visible to later ones.
   static void storageBarrier();
@@ -91,9 +94,13 @@ class Program {
 
   uint32_t id_ = 0;
   std::string name_;
+  ProgramLabel* label_ = nullptr;
   std::vector<Uniform> uniforms_;
   mutable std::vector<uint32_t> values_;
 };
+
+/// Name of the kernel that this thread used last, for messages.
+std::string lastKernel();
 
 /// For tests: the first dispatch() of each program that is made from now on asks OpenGL whether something is bound to
 /// all blocks and textures of the program in use, and throws GpuError with the names of those where nothing is.

@@ -4,25 +4,25 @@
 
 #include <cassert>
 
+#include "gpu/fence.h"
 #include "gpu/gl.h"
 #include "viscera/math/error.h"
 
 namespace viscera::gpu {
 
-namespace {
-constexpr GLuint64 kOneSecondNs = 1000000000ull;
-}
-
-ReadbackRing::ReadbackRing(size_t bytes, int depth) : slots_(static_cast<size_t>(depth)) {
+ReadbackRing::ReadbackRing(size_t bytes, int depth, const char* name)
+    : name_(name), slots_(static_cast<size_t>(depth)) {
   const GLbitfield flags = GL_MAP_READ_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
   for (Slot& slot : slots_) {
     glCreateBuffers(1, &slot.buffer);
     countObject();
     glNamedBufferStorage(slot.buffer, static_cast<GLsizeiptr>(bytes), nullptr, flags | GL_CLIENT_STORAGE_BIT);
     slot.memory = glMapNamedBufferRange(slot.buffer, 0, static_cast<GLsizeiptr>(bytes), flags);
-    if (!slot.memory)
-      throw GpuError("glMapNamedBufferRange of " + std::to_string(bytes) +
-                     " bytes failed: " + glErrorText(glGetError()));
+    const GLenum code = glGetError();
+    if (!slot.memory || code != GL_NO_ERROR) {
+      throw GpuError(std::string("no memory to read ") + name + " back, " + std::to_string(bytes) +
+                     " bytes: " + glErrorText(code));
+    }
   }
 }
 
@@ -71,11 +71,13 @@ const void* ReadbackRing::collect(uint64_t* tag, bool wait) {
   Slot& slot = slots_[static_cast<size_t>(oldest_)];
   if (slot.fence) {
     const GLsync fence = static_cast<GLsync>(slot.fence);
-    GLenum result = glClientWaitSync(fence, GL_SYNC_FLUSH_COMMANDS_BIT, 0);
-    waits_ += wait && result == GL_TIMEOUT_EXPIRED;
-    while (wait && result == GL_TIMEOUT_EXPIRED) result = glClientWaitSync(fence, 0, kOneSecondNs);
+    const GLenum result = glClientWaitSync(fence, GL_SYNC_FLUSH_COMMANDS_BIT, 0);
     if (result == GL_WAIT_FAILED) throw GpuError("glClientWaitSync failed: " + glErrorText(glGetError()));
-    if (result == GL_TIMEOUT_EXPIRED) return nullptr;
+    if (result == GL_TIMEOUT_EXPIRED) {
+      if (!wait) return nullptr;
+      ++waits_;
+      awaitSync(fence, name_);
+    }
     glDeleteSync(fence);
     slot.fence = nullptr;
   }

@@ -12,8 +12,9 @@ namespace viscera::gpu {
 /// request() queues a copy; collect() hands over the oldest copy whose fence has passed, in order of request.
 class ReadbackRing {
  public:
-  /// @param bytes  largest copy  @param depth  copies that may be in flight
-  ReadbackRing(size_t bytes, int depth = 3);
+  /// @param bytes  largest copy  @param depth  copies that may be in flight  @param name  for messages, a literal
+  /// @throws GpuError  out of memory
+  ReadbackRing(size_t bytes, int depth = 3, const char* name = "a copy");
   ~ReadbackRing();
   ReadbackRing(const ReadbackRing&) = delete;
   ReadbackRing& operator=(const ReadbackRing&) = delete;
@@ -28,7 +29,7 @@ class ReadbackRing {
   /// Queues a copy of the bound read framebuffer's RGB bytes, from its bottom row, packed without padding. Renderer
   /// draws the image's top row there, so rows arrive top first.
   bool requestPixels(int width, int height, uint64_t tag);
-  /// Oldest finished copy, or nullptr. The memory stays valid until release().
+  /// Oldest finished copy, or nullptr. The memory stays valid until release(). @throws GpuError  it does not come
   const void* collect(uint64_t* tag, bool wait = false);
   void release();
   /// Forgets what is in flight.
@@ -44,6 +45,7 @@ class ReadbackRing {
     uint64_t tag = 0;
   };
   Slot& claim(uint64_t tag);
+  const char* name_;
   std::vector<Slot> slots_;
   int oldest_ = 0, in_flight_ = 0;
   uint64_t waits_ = 0;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "gpu/stage_clock.h"
 
+#include "gpu/fence.h"
 #include "gpu/gl.h"
 #include "viscera/math/error.h"
 
@@ -82,6 +83,7 @@ bool StageClock::readOldest(bool wait) {
 }
 
 const std::array<StageClock::Time, kStages>& StageClock::collect(bool wait) {
+  if (wait && under_way_ > 0) awaitGpu("time stamps of its stages");
   while (readOldest(wait)) {
   }
   return times_;

@@ -26,6 +26,13 @@ ObstacleFrames::ObstacleFrames(const Scene& scene, const tf2_ros::Buffer& frames
 }
 
 void ObstacleFrames::apply(Session& session) {
+  const uint64_t held_back = session.extremes().obstacles_held_back;
+  if (held_back > held_back_) {
+    ROS_WARN_THROTTLE(kWarnPeriod_s,
+                      "the frame of an obstacle is faster than tissue can follow: it is held back (%lu ticks)",
+                      static_cast<unsigned long>(held_back));
+  }
+  held_back_ = held_back;
   for (const Carried& it : carried_) {
     try {
       const geometry_msgs::TransformStamped newest = frames_.lookupTransform(tissue_frame_, it.frame, ros::Time(0));

@@ -27,6 +27,8 @@ class ObstacleFrames {
   /// @{
   uint64_t found() const { return found_; }
   uint64_t missed() const { return missed_; }
+  /// Ticks since the start or the last reset in which a frame was faster than tissue can follow.
+  uint64_t heldBack() const { return held_back_; }
   /// @}
 
  private:
@@ -38,7 +40,7 @@ class ObstacleFrames {
   const std::string tissue_frame_;
   const double max_transform_age_s_;
   std::vector<Carried> carried_;
-  std::atomic<uint64_t> found_{0}, missed_{0};
+  std::atomic<uint64_t> found_{0}, missed_{0}, held_back_{0};
 };
 
 }  // namespace viscera::nodes

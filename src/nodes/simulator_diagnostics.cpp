@@ -128,9 +128,15 @@ void SimulatorDiagnostics::obstacles(Status& status) {
   const uint64_t missed = obstacles_.missed();
   const bool missing = missed > missed_before_;
   missed_before_ = missed;
-  status.summary(missing ? Level::WARN : Level::OK, missing ? "a frame is not known: its obstacle stays" : "carried");
+  const uint64_t held_back = obstacles_.heldBack();
+  const bool jumping = held_back > held_back_before_;
+  held_back_before_ = held_back;
+  status.summary(missing || jumping ? Level::WARN : Level::OK, missing   ? "a frame is not known: its obstacle stays"
+                                                               : jumping ? "faster than tissue can follow: held back"
+                                                                         : "carried");
   status.add("frames_found", obstacles_.found());
   status.add("frames_missed", missed);
+  status.add("ticks_held_back", held_back);
 }
 
 void SimulatorDiagnostics::stylus(size_t index, Status& status) {

@@ -48,6 +48,7 @@ class SimulatorDiagnostics {
   const Inputs& inputs_;
   const ObstacleFrames& obstacles_;
   uint64_t missed_before_ = 0;        ///< frames of obstacles
+  uint64_t held_back_before_ = 0;     ///< ticks of obstacles
   std::vector<std::string> cameras_;  ///< their names
   const double tick_s_;
   Slowness slowness_;

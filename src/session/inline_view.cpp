@@ -41,9 +41,9 @@ bool isSame(const Pose& a, const Pose& b) {
 InlineView::InlineView(const Model& model, const Scene& scene)
     : surface_(model),
       renderer_(scene.cameras, scene.styluses, scene.obstacles),
-      surface_ring_(surfaceBytes(surface_), kSurfacesInFlight) {
+      surface_ring_(surfaceBytes(surface_), kSurfacesInFlight, "the surface") {
   for (const CameraConfig& camera : scene.cameras) {
-    eyes_.push_back({camera, std::make_unique<gpu::ReadbackRing>(imageBytes(camera), kImagesInFlight), {}});
+    eyes_.push_back({camera, std::make_unique<gpu::ReadbackRing>(imageBytes(camera), kImagesInFlight, "an image"), {}});
   }
 }
 

@@ -46,7 +46,7 @@ Session::Session(const Scene& scene, gpu::Context* context, const Progress& prog
     : scene_(withChosenSpacing(scene, context, progress)),
       model_(buildModel(scene_, progress)),
       tools_(scene.styluses, handLimits(model_, scene.solver.tick_hz)),
-      obstacles_(scene.obstacles),
+      obstacles_(scene.obstacles, waveSpeed(model_) / scene.solver.tick_hz),
       pose_times_(kNotedTicks) {
   solver_ = makeSolver(model_, scene_, context, options.threads);
   backend_note_ = viscera::backendNote(scene_.solver, context, *solver_);
@@ -116,7 +116,10 @@ void Session::moveObstacles() {
 
 void Session::lookAtObstacles() {
   look_.obstacles.clear();
-  for (size_t i = 0; i < obstacles_.count(); ++i) look_.obstacles.push_back(obstacles_.pose(i));
+  for (size_t i = 0; i < obstacles_.count(); ++i) {
+    look_.obstacles.push_back(obstacles_.pose(i));
+    extremes_.obstacles_held_back += obstacles_.heldBack(i);
+  }
 }
 
 /// No pose, or tissue that is not itself: no force, at once.

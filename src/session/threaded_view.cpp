@@ -57,7 +57,12 @@ ThreadedView::ThreadedView(const Model& model, const Scene& scene, gpu::Context&
   look_.wants.cameras.reserve(scene.cameras.size());
   look_.obstacles.reserve(scene.obstacles.size());
   context_.release();
-  thread_ = std::thread([&] { main(model, scene); });
+  try {
+    thread_ = std::thread([&] { main(model, scene); });
+  } catch (...) {
+    (void)context_.makeCurrent();  // the caller's again
+    throw;
+  }
   Lock lock(mutex_);
   changed_.wait(lock, [this] { return !busy_ || error_; });
   if (!error_) return;

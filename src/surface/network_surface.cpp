@@ -35,7 +35,7 @@ NetworkSurface::NetworkSurface(const NetworkSkins& skins)
       triangles_(skins.triangles),
       follow_(kernel("network_skin.comp")) {
   if (skins.edges.empty()) return;
-  crossed_ = gpu::Buffer<uint32_t>(4 + edges_.size());
+  crossed_ = gpu::Buffer<uint32_t>(4 + edges_.size(), "crossed");
   list_crossed_ = kernel("crossed_edges.comp");
   split_edges_ = kernel("split_edges.comp");
   split_triangles_ = kernel("split_triangles.comp");

@@ -18,17 +18,17 @@ StateMirror::StateMirror(const Model& model)
       shown_(viscera::shownBricks(model)),
       known_m_(kBrickFloats * shown_.size()),
       stale_(bricks_.size(), revision_),
-      displacement_(model.slots()),
-      nodes_(allNodes(model)),
-      brick_buffer_(bricks_),
+      displacement_(model.slots(), "shown displacement"),
+      nodes_(allNodes(model), "shown nodes"),
+      brick_buffer_(bricks_, "shown bricks"),
       bodies_(layout::kMaxBodies),
       stale_buffer_(stale_) {
   run_.reserve(layout::kBrickSlots * shown_.size());
   bodies_.write(bodyParams(model, 0));  // places and spacings are all that is shown of them
   if (!model.hasNetwork()) return;
   const JoinedNetwork network = joinNetworks(model);
-  rest_ = gpu::Buffer<layout::vec4>(network.rest_m);
-  spring_cut_ = gpu::Buffer<float>(network.springs.size());
+  rest_ = gpu::Buffer<layout::vec4>(network.rest_m, "rest");
+  spring_cut_ = gpu::Buffer<float>(network.springs.size(), "spring cut");
 }
 
 void StateMirror::upload(const StateSnapshot& snapshot) {

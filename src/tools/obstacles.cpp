@@ -35,6 +35,22 @@ double radiusOf(const ObstacleConfig& config) {
   return config.shape == ObstacleShape::kSphere || config.shape == ObstacleShape::kCapsule ? config.radius_m : 0;
 }
 
+/// How far a surface lies from the place that it turns about, at most [m].
+double farthestSurface(const ObstacleConfig& config) {
+  constexpr double kPlane_m = 1;  // as far as tissue is looked for: solver.sleep_distance_m, unless it is given
+  switch (config.shape) {
+    case ObstacleShape::kSphere:
+      return config.radius_m;
+    case ObstacleShape::kCapsule:
+      return config.radius_m + 0.5 * config.length_m;
+    case ObstacleShape::kBox:
+      return 0.5 * config.size_m.norm();
+    case ObstacleShape::kPlane:
+      break;
+  }
+  return kPlane_m;
+}
+
 layout::ObstacleMotion motionOf(const ObstacleConfig& config, const RigidMotion& tick, int substep, int substeps,
                                 double tick_s) {
   const double half_length = config.shape == ObstacleShape::kCapsule ? 0.5 * config.length_m : 0;
@@ -59,8 +75,13 @@ static_assert(static_cast<uint32_t>(ObstacleShape::kSphere) == layout::kShapeSph
 static_assert(static_cast<uint32_t>(ObstacleShape::kCapsule) == layout::kShapeCapsule);
 static_assert(static_cast<uint32_t>(ObstacleShape::kBox) == layout::kShapeBox);
 
-Obstacles::Obstacles(const std::vector<ObstacleConfig>& configs)
-    : configs_(configs), frames_(configs.size()), frames_before_(configs.size()), motions_(configs.size()) {
+Obstacles::Obstacles(const std::vector<ObstacleConfig>& configs, double max_travel_m)
+    : configs_(configs),
+      max_travel_m_(max_travel_m),
+      held_back_(configs.size()),
+      frames_(configs.size()),
+      frames_before_(configs.size()),
+      motions_(configs.size()) {
   reset();
 }
 
@@ -78,17 +99,32 @@ Pose Obstacles::placed(size_t obstacle, double time_s, const Pose& frame) const 
   return pose;
 }
 
+/// No farther than a surface may go in a tick.
+RigidMotion Obstacles::limited(size_t obstacle, const RigidMotion& wanted) {
+  const double turn = turnBetween(wanted.from.orientation, wanted.to.orientation).norm();
+  const double travel_m =
+      (wanted.to.position_m - wanted.from.position_m).norm() + turn * farthestSurface(configs_[obstacle]);
+  if (travel_m <= max_travel_m_) return wanted;
+  held_back_[obstacle] = true;
+  return {wanted.from, interpolate(wanted.from, wanted.to, max_travel_m_ / travel_m)};
+}
+
 void Obstacles::advance(double time_s, double tick_s) {
   for (size_t i = 0; i < configs_.size(); ++i) {
     const Pose now = frames_[i].value_or(Pose{});
-    const Pose before = frames_before_[i].value_or(now);
-    motions_[i] = {placed(i, time_s, before), placed(i, time_s + tick_s, now)};
+    held_back_[i] = false;
+    if (frames_before_[i]) {
+      motions_[i] = limited(i, {motions_[i].to, placed(i, time_s + tick_s, now)});
+    } else {
+      motions_[i] = {placed(i, time_s, now), placed(i, time_s + tick_s, now)};
+    }
     frames_before_[i] = frames_[i];
   }
 }
 
 void Obstacles::reset() {
   frames_before_ = frames_;
+  held_back_.assign(configs_.size(), false);
   for (size_t i = 0; i < configs_.size(); ++i) {
     const Pose start = placed(i, 0, frames_[i].value_or(Pose{}));
     motions_[i] = {start, start};

@@ -55,6 +55,12 @@ class MovingObstacleTest(unittest.TestCase):
         wait_until(lambda: (self.watch.value("obstacles", "frames_found") or 0) > 0, 10, "found frame")
         wait_until(lambda: (self.lowest() or BELOW_M) > ABOVE_M - TOLERANCE_M, 10, "block on the plate")
 
+    def test_2_a_frame_that_jumps_is_held_back_and_counted(self):
+        self.assertEqual(self.watch.value("obstacles", "ticks_held_back"), 0)
+        self.place(BELOW_M - 1)  # a metre in a tick is faster than any wave in tissue
+        wait_until(lambda: (self.watch.value("obstacles", "ticks_held_back") or 0) > 0, 10, "ticks held back")
+        wait_until(lambda: "held back" in self.watch.status("obstacles").message, 10, "warning")
+
 
 if __name__ == "__main__":
     rostest.rosrun("viscera", "moving_obstacle", MovingObstacleTest, sys.argv)

@@ -4,6 +4,7 @@
 
 #include "viscera/gpu/context.h"
 #include "viscera/session/session.h"
+#include "viscera/solver/material.h"
 
 using namespace viscera;
 
@@ -60,5 +61,28 @@ TEST(ObstaclesOfASession, GoWhereTheirFrameGoesInTissueAndPictures) {
     session.step({}, {});
     session.step({}, {});
     EXPECT_NE(session.stateHash(), rest);
+  }
+}
+
+/// tf's odd transform: the plate is 10 cm higher for a tick.
+TEST(ObstaclesOfASession, WhoseFrameGlitchesDoNotThrowTissue) {
+  constexpr double kOver = 1.3;  // of waves' speed: springs that were pressed together add to what pushed them
+  for (const Backend backend : {Backend::kGpu, Backend::kCpu}) {
+    gpu::Context context;
+    Scene scene = liftScene(backend);
+    scene.solver.tick_hz = 1000;
+    Session session(scene, context);
+    const auto stepAt = [&session](double height_m) {
+      session.setObstacleFrame(0, at(height_m));
+      session.step({}, {});
+    };
+    for (int t = 0; t < 10; ++t) stepAt(-0.016);
+    EXPECT_EQ(session.extremes().obstacles_held_back, 0u);
+    stepAt(-0.016 + 0.1);
+    for (int t = 0; t < 20; ++t) stepAt(-0.016);
+    session.drain();
+    EXPECT_GT(session.extremes().obstacles_held_back, 0u);
+    EXPECT_GT(session.extremes().max_speed_m_per_s, 0);  // it was touched
+    EXPECT_LT(session.extremes().max_speed_m_per_s, kOver * waveSpeed(session.model()));
   }
 }

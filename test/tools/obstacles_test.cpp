@@ -65,3 +65,41 @@ TEST(Obstacles, AfterAResetTheyAreWhereTheyWereAtTheStart) {
   obstacles.reset();
   EXPECT_EQ(obstacles.pose(0).position_m, Vector3d::Zero());
 }
+
+TEST(Obstacles, AFrameThatJumpsIsFollowedNoFasterThanTissueCan) {
+  constexpr double kMost_m = 0.01, kTick_s = 0.01;
+  for (const bool turns : {false, true}) {
+    ObstacleConfig config;
+    config.shape = ObstacleShape::kBox;
+    config.size_m = Vector3d(0.2, 0.02, 0.02);
+    config.frame = "arm";
+    Obstacles obstacles({config}, kMost_m);
+    obstacles.setFrame(0, Pose{});
+    obstacles.advance(0, kTick_s);
+    EXPECT_FALSE(obstacles.heldBack(0));
+    const Pose far{Vector3d(turns ? 0 : 0.1, 0, 0),
+                   turns ? Quaterniond(Eigen::AngleAxisd(1, Vector3d::UnitZ())) : Quaterniond::Identity()};
+    obstacles.setFrame(0, far);
+    int held_back = 0;
+    const Vector3d corner = 0.5 * config.size_m;
+    for (int t = 1; t <= 40; ++t) {
+      obstacles.advance(t * kTick_s, kTick_s);
+      const RigidMotion& motion = obstacles.motions()[0];
+      EXPECT_LE((motion.to * corner - motion.from * corner).norm(), kMost_m + kExact) << t;
+      held_back += obstacles.heldBack(0);
+    }
+    EXPECT_GE(held_back, 9) << turns;  // ten ticks of a centimetre are ten centimetres
+    EXPECT_FALSE(obstacles.heldBack(0));
+    EXPECT_LT((obstacles.pose(0).position_m - far.position_m).norm(), kExact);
+    EXPECT_LT(obstacles.pose(0).orientation.angularDistance(far.orientation), 1e-7);  // acos of nearly 1
+  }
+}
+
+TEST(Obstacles, ThatMoveByTheirKeysAreNotHeldBack) {
+  ObstacleConfig config;
+  config.velocity_m_per_s = Vector3d(10, 0, 0);
+  Obstacles obstacles({config}, 0.01);
+  obstacles.advance(0, 0.1);
+  EXPECT_FALSE(obstacles.heldBack(0));
+  EXPECT_LT((obstacles.pose(0).position_m - Vector3d(1, 0, 0)).norm(), kExact);
+}

@@ -7,7 +7,8 @@
 namespace viscera {
 
 /// Something that runs jobs side by side. parallel(count, job) calls job(0) to job(count - 1), each once, in any order
-/// and on any thread, and returns when all are done. Allocates nothing.
+/// and on any thread, and returns when all are done. Allocates nothing. What a job throws is thrown to the caller, when
+/// the others are done too; of several, one.
 class Parallel {
  public:
   virtual ~Parallel() = default;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <utility>
 
 #if defined(__x86_64__) || defined(__i386__)
 #include <immintrin.h>
@@ -80,6 +81,7 @@ void ThreadPool::run(size_t count, Call call, const void* job) const {
     if (looks % (16 * kLooksPerClock) == 0) std::this_thread::yield();
     pause();
   }
+  if (error_) std::rethrow_exception(std::exchange(error_, nullptr));
 }
 
 /// Takes jobs until none is left, of a thread's own run first.
@@ -87,6 +89,16 @@ void ThreadPool::takeJobs(size_t thread) const {
   for (size_t i = 0; i < tickets_.size(); ++i) {
     while (takeJob((thread + i) % tickets_.size())) {
     }
+  }
+}
+
+/// What a job throws is kept for the thread that steps; of several, the first.
+void ThreadPool::doJob(Call call, const void* job, size_t index) const noexcept {
+  try {
+    call(job, index);
+  } catch (...) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (!error_) error_ = std::current_exception();
   }
 }
 
@@ -102,7 +114,7 @@ bool ThreadPool::takeJob(size_t run) const {
     // Success says that the round is still the one that call, job and count were read in: it cannot end before this
     // job is done.
     if (!next.compare_exchange_weak(ticket, ticket + 1, std::memory_order_acq_rel, std::memory_order_acquire)) continue;
-    call(job, static_cast<size_t>(index));
+    doJob(call, job, static_cast<size_t>(index));
     done_.fetch_add(1, std::memory_order_acq_rel);
     return true;
   }

@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <condition_variable>
+#include <exception>
 #include <mutex>
 #include <thread>
 #include <vector>
@@ -40,6 +41,7 @@ class ThreadPool : public Parallel {
   void work(size_t thread);
   void takeJobs(size_t thread) const;
   bool takeJob(size_t run) const;
+  void doJob(Call call, const void* job, size_t index) const noexcept;
   uint64_t endOf(size_t run, uint64_t count) const;
   bool watchFor(uint64_t round) const;
 
@@ -52,6 +54,7 @@ class ThreadPool : public Parallel {
   mutable std::atomic<int> asleep_{0};
   mutable std::mutex mutex_;
   mutable std::condition_variable wake_;
+  mutable std::exception_ptr error_;  ///< of a job of this round
   std::atomic<bool> stop_{false};
   std::vector<std::thread> workers_;
 };

@@ -14,8 +14,8 @@ CollisionPass::CollisionPass(const Model& model, const Scene& scene, const Featu
     : config_(scene.collision),
       cell_m_(static_cast<float>(collisionCell(model, scene.collision))),
       collidable_(collidableNodes(model)),
-      contacts_(buffers.store.slot_count),
-      corrections_(2 * buffers.store.slot_count),
+      contacts_(buffers.store.slot_count, "contacts"),
+      corrections_(2 * buffers.store.slot_count, "corrections"),
       group_size_(features.group_size) {
   const auto stage = [&features, this](const char* name) {
     std::vector<std::string> defines = features.defines();
@@ -29,21 +29,22 @@ CollisionPass::CollisionPass(const Model& model, const Scene& scene, const Featu
     scatter_ = stage("collision_scatter.comp");
     order_ = stage("collision_order.comp");
     bucket_count_ = bucketCount(nodes);
-    buckets_ = gpu::Buffer<uint32_t>(3 * size_t{bucket_count_} + 1);
-    unsorted_ = gpu::Buffer<uint32_t>(nodes);
-    entries_ = gpu::Buffer<layout::uvec4>(nodes);
-    before_ = gpu::Buffer<layout::vec4>(nodes);
+    buckets_ = gpu::Buffer<uint32_t>(3 * size_t{bucket_count_} + 1, "buckets");
+    unsorted_ = gpu::Buffer<uint32_t>(nodes, "unsorted");
+    entries_ = gpu::Buffer<layout::uvec4>(nodes, "entries");
+    before_ = gpu::Buffer<layout::vec4>(nodes, "before");
   } else {
     list_ = stage("collision_list.comp");
     exchange_ = stage("collision_exchange.comp");
     rank_ = stage("collision_rank.comp");
     sorted_ = sortedCount(nodes);
-    items_ = gpu::Buffer<std::array<uint32_t, 2>>(static_cast<size_t>(config_.partitions) * sorted_);
-    ranks_ = gpu::Buffer<uint32_t>(static_cast<size_t>(config_.partitions) * buffers.store.slot_count);
+    items_ = gpu::Buffer<std::array<uint32_t, 2>>(static_cast<size_t>(config_.partitions) * sorted_, "items");
+    ranks_ = gpu::Buffer<uint32_t>(static_cast<size_t>(config_.partitions) * buffers.store.slot_count, "ranks");
   }
   meet_ = stage("collision_meet.comp");
   push_ = stage("collision_push.comp");
   pairs_ = stage("collision_pairs.comp");
+  bind();  // what is too large for the driver is said now
 }
 
 void CollisionPass::bind() const {

@@ -10,7 +10,8 @@ namespace viscera {
 
 GoodStates::GoodStates(size_t slots, int depth) {
   for (int i = 0; i < depth; ++i) {
-    ring_.push_back({gpu::Buffer<layout::vec4>(slots), gpu::Buffer<layout::vec4>(slots)});
+    ring_.push_back(
+        {gpu::Buffer<layout::vec4>(slots, "kept displacement"), gpu::Buffer<layout::vec4>(slots, "kept velocity")});
   }
 }
 

@@ -2,10 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solver/gpu/gpu_backend.h"
 
+#include <cmath>
 #include <cstring>
 
+#include "gpu/program.h"
 #include "gpu/stage_clock.h"
 #include "layout/bindings.h"
+#include "viscera/gpu/context.h"
 #include "viscera/math/error.h"
 #include "viscera/solver/material.h"
 
@@ -20,7 +23,8 @@ GpuBackend::GpuBackend(const Model& model, const Scene& scene, const TickPlan& p
       buffers_(model, bodyParams(model, plan.dt_safe_s), features_),
       stepper_(makeStepper(scene.solver.integrator, scene.solver.iterations, features_, buffers_)),
       measure_(features_, buffers_.store.active_count),
-      stats_ring_(sizeof(layout::TickStats), kStatsInFlight) {
+      has_springs_(std::isfinite(plan.dt_safe_s) && plan.dt_safe_s > 0),
+      stats_ring_(sizeof(layout::TickStats), kStatsInFlight, "the measurements of a tick") {
   if (plan.governed()) {
     recovery_.emplace(Recovery{GoodStates(buffers_.store.slot_count, kGoodStates + kLag), GuardPass(features_),
                                makeRecoveryStepper(kRecoveryIterations, features_, buffers_)});
@@ -29,7 +33,7 @@ GpuBackend::GpuBackend(const Model& model, const Scene& scene, const TickPlan& p
   if (plan.surroundings) surroundings_.emplace(model, scene, features_, buffers_);
   if (plan.tools) {
     const size_t rows = static_cast<size_t>(plan.mostSubsteps()) * layout::kMaxStyluses;
-    tools_.emplace(Tools{gpu::Buffer<layout::ToolMotion>(rows), GrabPass(features_), CutPass(features_),
+    tools_.emplace(Tools{gpu::Buffer<layout::ToolMotion>(rows, "tool motions"), GrabPass(features_), CutPass(features_),
                          ReactionPass(features_, buffers_.store.active_count)});
   }
 }
@@ -91,7 +95,9 @@ void GpuBackend::guard(const Governor::Bounds& bounds, const ToolMotions& motion
   recovery_->guard.run(buffers_, bounds, motions, tick_s);
 }
 
+/// The end of a tick. Here OpenGL's errors come to light: to ask after each call would cost.
 bool GpuBackend::requestStats() {
+  gpu::checkErrors("a tick of the solver");
   return stats_ring_.request({buffers_.stats.id(), 0, sizeof(layout::TickStats)}, 0);
 }
 
@@ -100,7 +106,16 @@ bool GpuBackend::takeStats(layout::TickStats& stats, bool wait) {
   if (!memory) return false;
   std::memcpy(&stats, memory, sizeof stats);
   stats_ring_.release();
+  if (has_springs_) requireSignOfLife(stats);
   return true;
+}
+
+void requireSignOfLife(const layout::TickStats& stats) {
+  if (stats.max_rate_bits != 0 || stats.springs_cut != 0 || stats.nonfinite != 0) return;
+  throw GpuError(
+      "the GPU does not step the tissue: its measurements are empty (out of memory, or a driver that gave up; last "
+      "kernel '" +
+      gpu::lastKernel() + "')");
 }
 
 std::optional<StateView> GpuBackend::stateOnGpu(uint64_t cut_revision) const {

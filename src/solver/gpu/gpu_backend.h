@@ -25,6 +25,11 @@ struct GpuSolverOptions : SolverOptions {
   uint32_t group_size = layout::kGroupSize;
 };
 
+/// Of tissue that has springs and lost none the largest rate of its nodes is not 0: where it is, the kernels did not
+/// run, or worked on memory that is not there. That looks like tissue at rest, and must not be taken for it.
+/// @throws GpuError
+void requireSignOfLife(const layout::TickStats& stats);
+
 /// The tissue on the GPU (OpenGL compute).
 class GpuBackend final : public SolverBackend {
  public:
@@ -77,6 +82,7 @@ class GpuBackend final : public SolverBackend {
   LatticeBuffers buffers_;
   std::unique_ptr<Stepper> stepper_;
   MeasurePass measure_;
+  bool has_springs_;  ///< of nodes that may move
   std::optional<SurroundingsPass> surroundings_;
   std::optional<Tools> tools_;
   std::optional<Recovery> recovery_;

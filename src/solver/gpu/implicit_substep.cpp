@@ -24,7 +24,7 @@ std::vector<std::string> ImplicitSubstep::defines(const FeatureSet& features, co
 ImplicitSubstep::ImplicitSubstep(const FeatureSet& features, const LatticeBuffers& buffers, int iterations,
                                  int iterates)
     : guard(1 + 2 * static_cast<size_t>(iterations)),
-      energies_(kEnergiesPerNode * (buffers.store.active_count + sumTreeSize(buffers.store.active_count))),
+      energies_(kEnergiesPerNode * (buffers.store.active_count + sumTreeSize(buffers.store.active_count)), "energies"),
       group_size_(features.group_size) {
   const auto stage = [&](const char* name, bool tools = false) {
     return gpu::Program::compute(name, defines(features, tools ? "TOOLS" : nullptr));
@@ -40,7 +40,7 @@ ImplicitSubstep::ImplicitSubstep(const FeatureSet& features, const LatticeBuffer
   }
   if (features.volume) cells_ = stage("implicit_cells.comp");
   for (int i = 0; i < iterates; ++i) {
-    increments_[i] = gpu::Buffer<layout::vec4>(buffers.store.slot_count);
+    increments_[i] = gpu::Buffer<layout::vec4>(buffers.store.slot_count, "increments");
     increment_texels_[i] = gpu::TexelView(increments_[i].raw(), gpu::TexelFormat::kRgba32f);
   }
 }

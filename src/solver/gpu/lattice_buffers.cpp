@@ -12,13 +12,13 @@ StoreBuffers::StoreBuffers(const Model& model, const std::vector<layout::BodyPar
                            const FeatureSet& features)
     : active_count(model.activeNodes()),
       slot_count(model.slots()),
-      active(activeSlots(model)),
-      bricks(allBricks(model)),
+      active(activeSlots(model), "active nodes"),
+      bricks(allBricks(model), "bricks"),
       bodies(layout::kMaxBodies),
-      nodes(slot_count),
+      nodes(slot_count, "nodes"),
       whole_nodes_(allNodes(model)),
       brick_texels_(bricks.raw(), gpu::TexelFormat::kR32ui) {
-  if (features.volume) cells = gpu::Buffer<uint32_t>(cellSlots(model));
+  if (features.volume) cells = gpu::Buffer<uint32_t>(cellSlots(model), "cells");
   bodies.write(params);
   nodes.write(whole_nodes_);
 }
@@ -37,12 +37,12 @@ void StoreBuffers::reset() {
 }
 
 StrengthBuffers::StrengthBuffers(const Model& model, const FeatureSet& features, const std::vector<float>& masses_kg) {
-  if (!masses_kg.empty()) node_mass = gpu::Buffer<float>(masses_kg);
+  if (!masses_kg.empty()) node_mass = gpu::Buffer<float>(masses_kg, "node mass");
   if (features.parts) {
     const Strengths table = allStrengths(model);
-    spring_stiffness = gpu::Buffer<float>(table.spring_n_per_m);
-    cell_bulk = gpu::Buffer<float>(table.bulk_j);
-    if (masses_kg.empty()) node_mass = gpu::Buffer<float>(table.mass_kg);
+    spring_stiffness = gpu::Buffer<float>(table.spring_n_per_m, "spring stiffness");
+    cell_bulk = gpu::Buffer<float>(table.bulk_j, "cell bulk");
+    if (masses_kg.empty()) node_mass = gpu::Buffer<float>(table.mass_kg, "node mass");
     spring_texels_ = gpu::TexelView(spring_stiffness.raw(), gpu::TexelFormat::kR32f);
     bulk_texels_ = gpu::TexelView(cell_bulk.raw(), gpu::TexelFormat::kR32f);
   }
@@ -59,12 +59,13 @@ void StrengthBuffers::bind() const {
 
 StateBuffers::StateBuffers(size_t slots, const FeatureSet& features) {
   for (int i = 0; i < 2; ++i) {
-    displacement[i] = gpu::Buffer<layout::vec4>(slots);
-    velocity[i] = gpu::Buffer<layout::vec4>(slots);
+    displacement[i] = gpu::Buffer<layout::vec4>(slots, "displacement");
+    velocity[i] = gpu::Buffer<layout::vec4>(slots, "velocity");
+    displacement[i].raw().requireBlock();
     displacement_texels_[i] = gpu::TexelView(displacement[i].raw(), gpu::TexelFormat::kRgba32f);
     velocity_texels_[i] = gpu::TexelView(velocity[i].raw(), gpu::TexelFormat::kRgba32f);
   }
-  if (features.compensated) compensation = gpu::Buffer<layout::vec4>(2 * slots);
+  if (features.compensated) compensation = gpu::Buffer<layout::vec4>(2 * slots, "compensation");
 }
 
 /// Two calls, as this is done after every substep.
@@ -96,8 +97,8 @@ void StateBuffers::reset() {
 
 HandBuffers::HandBuffers(size_t slots, const FeatureSet& features) {
   if (!features.tools) return;
-  grab_offsets = gpu::Buffer<layout::vec4>(slots);
-  impulses = gpu::Buffer<layout::vec4>(slots * layout::kMaxStyluses);
+  grab_offsets = gpu::Buffer<layout::vec4>(slots, "grab offsets");
+  impulses = gpu::Buffer<layout::vec4>(slots * layout::kMaxStyluses, "impulses");
 }
 
 void HandBuffers::bind() const {
@@ -117,10 +118,12 @@ LatticeBuffers::LatticeBuffers(const Model& model, const std::vector<layout::Bod
       strengths(model, features, links.network.masses_kg),
       state(store.slot_count, features),
       hands(store.slot_count, features),
-      stats(1) {
-  if (!features.volume) return;
-  cell_forces = gpu::Buffer<layout::vec4>(3 * store.slot_count);
-  cell_force_texels_ = gpu::TexelView(cell_forces.raw(), gpu::TexelFormat::kRgba32f);
+      stats(1, "measurements") {
+  if (features.volume) {
+    cell_forces = gpu::Buffer<layout::vec4>(3 * store.slot_count, "cell forces");
+    cell_force_texels_ = gpu::TexelView(cell_forces.raw(), gpu::TexelFormat::kRgba32f);
+  }
+  bind();  // what is too large for the driver is said now
 }
 
 void LatticeBuffers::bind() const {

@@ -9,11 +9,11 @@ namespace viscera {
 LinkBuffers::LinkBuffers(const Model& model, const FeatureSet& features)
     : network(joinNetworks(model)), edge_forces(features.edge_forces ? orderByOwner(network) : EdgeForces{}) {
   if (!features.network) return;
-  rest = gpu::Buffer<layout::vec4>(network.rest_m);
-  link_starts = gpu::Buffer<uint32_t>(network.starts);
-  links = gpu::Buffer<layout::Link>(network.links);
-  springs = gpu::Buffer<layout::SpringEnds>(network.springs);
-  spring_cut = gpu::Buffer<float>(network.springs.size());
+  rest = gpu::Buffer<layout::vec4>(network.rest_m, "rest");
+  link_starts = gpu::Buffer<uint32_t>(network.starts, "link starts");
+  links = gpu::Buffer<layout::Link>(network.links, "links");
+  springs = gpu::Buffer<layout::SpringEnds>(network.springs, "springs");
+  spring_cut = gpu::Buffer<float>(network.springs.size(), "spring cut");
   rest_texels_ = gpu::TexelView(rest.raw(), gpu::TexelFormat::kRgba32f);
   start_texels_ = gpu::TexelView(link_starts.raw(), gpu::TexelFormat::kR32ui);
   link_texels_ = gpu::TexelView(links.raw(), gpu::TexelFormat::kRgba32ui);
@@ -21,11 +21,11 @@ LinkBuffers::LinkBuffers(const Model& model, const FeatureSet& features)
 }
 
 void LinkBuffers::allocateEdgeForces() {
-  link_runs = gpu::Buffer<layout::uvec4>(edge_forces.links);
+  link_runs = gpu::Buffer<layout::uvec4>(edge_forces.links, "link runs");
   start_texels_ = gpu::TexelView(link_runs.raw(), gpu::TexelFormat::kRgba32ui);
-  spring_owners = gpu::Buffer<layout::SpringOwner>(edge_forces.owners);
-  force_starts = gpu::Buffer<uint32_t>(edge_forces.starts);
-  link_forces = gpu::Buffer<layout::vec4>(edge_forces.places());
+  spring_owners = gpu::Buffer<layout::SpringOwner>(edge_forces.owners, "spring owners");
+  force_starts = gpu::Buffer<uint32_t>(edge_forces.starts, "force starts");
+  link_forces = gpu::Buffer<layout::vec4>(edge_forces.places(), "link forces");
   owner_texels_ = gpu::TexelView(spring_owners.raw(), gpu::TexelFormat::kRgba32ui);
   force_start_texels_ = gpu::TexelView(force_starts.raw(), gpu::TexelFormat::kR32ui);
   link_force_texels_ = gpu::TexelView(link_forces.raw(), gpu::TexelFormat::kRgba32f);

@@ -11,7 +11,7 @@
 namespace viscera {
 
 MeasurePass::MeasurePass(const FeatureSet& features, size_t active_count)
-    : energies_(active_count + sumTreeSize(active_count)), group_size_(features.group_size) {
+    : energies_(active_count + sumTreeSize(active_count), "energies"), group_size_(features.group_size) {
   std::vector<std::string> defines = features.defines();
   measure_ = gpu::Program::compute("measure.comp", defines);
   defines.push_back("FOLD");

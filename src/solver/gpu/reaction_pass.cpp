@@ -8,7 +8,7 @@
 namespace viscera {
 
 ReactionPass::ReactionPass(const FeatureSet& features, size_t active_count)
-    : partials_(sumTreeSize(active_count)), group_size_(features.group_size) {
+    : partials_(sumTreeSize(active_count), "sums of reactions"), group_size_(features.group_size) {
   std::vector<std::string> defines = features.defines();
   fold_ = gpu::Program::compute("sum_impulses.comp", defines);
   defines.push_back("LEAVES");

@@ -24,8 +24,8 @@ SurroundingsPass::SurroundingsPass(const Model& model, const Scene& scene, const
   influences_.write(bodyInfluences(model, scene));
   if (kinds_.wind) {
     const Rings rings = joinRings(model);
-    ring_starts_ = gpu::Buffer<uint32_t>(rings.starts);
-    rings_ = gpu::Buffer<layout::WindTriangle>(rings.triangles);
+    ring_starts_ = gpu::Buffer<uint32_t>(rings.starts, "ring starts");
+    rings_ = gpu::Buffer<layout::WindTriangle>(rings.triangles, "rings");
   }
   if (kinds_.collisions) collisions_.emplace(model, scene, features, buffers);
 }
@@ -40,7 +40,7 @@ void SurroundingsPass::beginTick(const Surroundings& surroundings) {
   if (!kinds_.obstacles) return;
   const std::vector<layout::ObstacleMotion>& motions = surroundings.obstacleMotions();
   if (motions.size() > obstacles_.size()) {
-    obstacles_ = gpu::Buffer<layout::ObstacleMotion>(motions);
+    obstacles_ = gpu::Buffer<layout::ObstacleMotion>(motions, "obstacles");
   } else if (surroundings.obstaclesMoved()) {
     obstacles_.write(motions);
   }
@@ -57,6 +57,7 @@ void SurroundingsPass::run(LatticeBuffers& buffers, const Substep& step, const S
   program_.set("active_count", static_cast<uint32_t>(buffers.store.active_count));
   program_.set("dt_s", step.dt_s);
   program_.set("push_speed", step.push_speed_m_per_s);
+  program_.set("sleep_distance_m", step.sleep_distance_m);
   program_.set("resting_speed", restingSpeed(step));
   if (tools_) program_.set("slot_count", static_cast<uint32_t>(buffers.store.slot_count));
   program_.set("obstacle_count", static_cast<uint32_t>(surroundings.obstacleCount()));

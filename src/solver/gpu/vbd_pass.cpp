@@ -14,7 +14,7 @@ VbdPass::VbdPass(const FeatureSet& features, const LatticeBuffers& buffers, int 
       iterations_(iterations),
       group_size_(features.group_size) {
   Coloured coloured = byColour(buffers.store.active.read(), features.volume, buffers.links.network);
-  by_colour_ = gpu::Buffer<uint32_t>(coloured.slots);
+  by_colour_ = gpu::Buffer<uint32_t>(coloured.slots, "by colour");
   colours_ = std::move(coloured.colours);
 }
 

@@ -19,7 +19,7 @@ VerletPaperPass::VerletPaperPass(const FeatureSet& features, const LatticeBuffer
   if (features.tools) with_tools_ = variant("TOOLS");
   if (features.volume) volume_.emplace(features);
   for (int i = 0; i < 2; ++i) {
-    positions_[i] = gpu::Buffer<layout::vec4>(buffers.store.slot_count);
+    positions_[i] = gpu::Buffer<layout::vec4>(buffers.store.slot_count, "positions");
     position_texels_[i] = gpu::TexelView(positions_[i].raw(), gpu::TexelFormat::kRgba32f);
   }
 }

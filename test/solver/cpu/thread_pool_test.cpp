@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <chrono>
 #include <numeric>
+#include <stdexcept>
+#include <string>
 
 using namespace viscera;
 
@@ -123,4 +125,28 @@ TEST(ThreadPool, CallersOnSeveralThreadsTakeTurns) {
 TEST(ThreadPool, HasTheThreadsAskedForOrThoseOfTheMachine) {
   EXPECT_EQ(makeThreadPool(3)->threads(), 3);
   EXPECT_GE(makeThreadPool()->threads(), 1);
+}
+
+TEST(ThreadPool, WhatAJobThrowsIsThrownToTheCallerAndTheNextRoundIsWhole) {
+  for (const int threads : {1, 2, 4}) {
+    const ThreadPool pool(threads);
+    for (const size_t bad : {0, 37, 99}) {
+      std::atomic<uint32_t> runs{0};
+      std::string said;
+      try {
+        pool(100, [&](size_t i) {
+          ++runs;
+          if (i == bad || i == bad + 1) throw std::runtime_error("job " + std::to_string(bad));
+          rest(std::chrono::microseconds(20));  // so that every thread has some
+        });
+      } catch (const std::runtime_error& error) {
+        said = error.what();
+      }
+      EXPECT_EQ(said, "job " + std::to_string(bad)) << threads;
+      if (threads > 1) {
+        EXPECT_EQ(runs, 100u);
+      }
+      expectEveryJobOnce(pool, 20, std::chrono::microseconds(0));
+    }
+  }
 }

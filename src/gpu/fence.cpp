@@ -1,0 +1,48 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "gpu/fence.h"
+
+#include <chrono>
+#include <sstream>
+
+#include "gpu/gl.h"
+#include "viscera/math/error.h"
+
+namespace viscera::gpu {
+
+void awaitFence(const std::function<FenceState(uint64_t nanoseconds)>& poll, const char* what, double longest_s) {
+  constexpr uint64_t kOnce_ns = 1000000000;
+  const auto begun = std::chrono::steady_clock::now();
+  for (;;) {
+    const FenceState state = poll(kOnce_ns);
+    if (state == FenceState::kPassed) return;
+    if (state == FenceState::kFailed) {
+      throw GpuError(std::string("waiting for the GPU failed (") + what + "): " + glErrorText(glGetError()));
+    }
+    const std::chrono::duration<double> waited = std::chrono::steady_clock::now() - begun;
+    if (waited.count() < longest_s) continue;
+    std::ostringstream out;
+    out << "the GPU has not answered for " << longest_s << " s (" << what << "): it hangs, or was lost";
+    throw GpuError(out.str());
+  }
+}
+
+void awaitSync(void* sync, const char* what) {
+  const auto poll = [sync](uint64_t nanoseconds) {
+    const GLenum result = glClientWaitSync(static_cast<GLsync>(sync), GL_SYNC_FLUSH_COMMANDS_BIT, nanoseconds);
+    if (result == GL_WAIT_FAILED) return FenceState::kFailed;
+    return result == GL_TIMEOUT_EXPIRED ? FenceState::kPending : FenceState::kPassed;
+  };
+  awaitFence(poll, what);
+}
+
+void awaitGpu(const char* what) {
+  struct Fence {
+    GLsync sync = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+    ~Fence() { glDeleteSync(sync); }
+  } fence;
+  if (!fence.sync) throw GpuError(std::string("glFenceSync failed (") + what + "): " + glErrorText(glGetError()));
+  awaitSync(fence.sync, what);
+}
+
+}  // namespace viscera::gpu

@@ -1,0 +1,82 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "gpu/limits.h"
+
+#include <optional>
+
+#include "gpu/gl.h"
+#include "layout/bindings.h"
+#include "viscera/layout/limits.h"
+#include "viscera/math/error.h"
+
+namespace viscera::gpu {
+
+namespace {
+
+thread_local std::optional<Limits> known;
+
+size_t asked(GLenum name) {
+  GLint64 value = 0;
+  glGetInteger64v(name, &value);
+  return value < 0 ? 0 : static_cast<size_t>(value);
+}
+
+size_t groupsAlongX() {
+  GLint value = 0;
+  glGetIntegeri_v(GL_MAX_COMPUTE_WORK_GROUP_COUNT, 0, &value);
+  return value < 0 ? 0 : static_cast<size_t>(value);
+}
+
+}  // namespace
+
+Limits neededLimits() {
+  Limits out;
+  out.storage_bindings = layout::kBindCrossedEdges + 1;  // the highest number
+  out.storage_blocks = 8;
+  out.uniform_bindings = layout::kBindBodyInfluences + 1;
+  out.texture_units = layout::kUnitForceStarts + 1;
+  out.invocations_per_group = layout::kGroupSize;
+  out.groups = 65535;  // Program::dispatch folds more
+  out.storage_block_bytes = 1 << 20;
+  out.texels = 1 << 16;
+  return out;
+}
+
+const Limits& driverLimits() {
+  if (known) return *known;
+  Limits out;
+  out.storage_bindings = asked(GL_MAX_SHADER_STORAGE_BUFFER_BINDINGS);
+  out.storage_blocks = asked(GL_MAX_COMPUTE_SHADER_STORAGE_BLOCKS);
+  out.uniform_bindings = asked(GL_MAX_UNIFORM_BUFFER_BINDINGS);
+  out.texture_units = asked(GL_MAX_COMPUTE_TEXTURE_IMAGE_UNITS);
+  out.invocations_per_group = asked(GL_MAX_COMPUTE_WORK_GROUP_INVOCATIONS);
+  out.groups = groupsAlongX();
+  out.storage_block_bytes = asked(GL_MAX_SHADER_STORAGE_BLOCK_SIZE);
+  out.texels = asked(GL_MAX_TEXTURE_BUFFER_SIZE);
+  known = out;
+  return *known;
+}
+
+void forgetDriverLimits() {
+  known.reset();
+}
+
+void requireLimits(const Limits& driver, const Limits& needed) {
+  std::string small;
+  const auto look = [&small](const char* name, size_t has, size_t wants) {
+    if (has >= wants) return;
+    small += (small.empty() ? "" : ", ") + std::string(name) + " is " + std::to_string(has) + " and must be " +
+             std::to_string(wants);
+  };
+  look("GL_MAX_SHADER_STORAGE_BUFFER_BINDINGS", driver.storage_bindings, needed.storage_bindings);
+  look("GL_MAX_COMPUTE_SHADER_STORAGE_BLOCKS", driver.storage_blocks, needed.storage_blocks);
+  look("GL_MAX_UNIFORM_BUFFER_BINDINGS", driver.uniform_bindings, needed.uniform_bindings);
+  look("GL_MAX_COMPUTE_TEXTURE_IMAGE_UNITS", driver.texture_units, needed.texture_units);
+  look("GL_MAX_COMPUTE_WORK_GROUP_INVOCATIONS", driver.invocations_per_group, needed.invocations_per_group);
+  look("GL_MAX_COMPUTE_WORK_GROUP_COUNT", driver.groups, needed.groups);
+  look("GL_MAX_SHADER_STORAGE_BLOCK_SIZE", driver.storage_block_bytes, needed.storage_block_bytes);
+  look("GL_MAX_TEXTURE_BUFFER_SIZE", driver.texels, needed.texels);
+  if (!small.empty()) throw GpuError("the driver's limits are too small for the kernels: " + small);
+}
+
+}  // namespace viscera::gpu

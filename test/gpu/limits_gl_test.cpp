@@ -1,0 +1,80 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "gpu/limits.h"
+
+#include <gtest/gtest.h>
+
+#include "gpu/buffer.h"
+#include "gpu/fence.h"
+#include "gpu/gl.h"
+#include "gpu/program.h"
+#include "gpu/readback.h"
+#include "support/text.h"
+#include "viscera/gpu/context.h"
+#include "viscera/math/error.h"
+
+namespace viscera::gpu {
+namespace {
+
+using test::messageOf;
+using test::says;
+
+TEST(GpuLimits, ThatAreTooSmallAreNamedWithWhatIsNeeded) {
+  Limits driver = neededLimits();
+  EXPECT_NO_THROW(requireLimits(driver, neededLimits()));
+  driver.storage_bindings = 8;
+  driver.groups = 1024;
+  const std::string said = messageOf<GpuError>([&] { requireLimits(driver, neededLimits()); });
+  EXPECT_TRUE(
+      says(said, {"GL_MAX_SHADER_STORAGE_BUFFER_BINDINGS is 8", "59", "GL_MAX_COMPUTE_WORK_GROUP_COUNT is 1024"}));
+  EXPECT_EQ(said.find("TEXTURE"), std::string::npos) << said;
+}
+
+TEST(GpuFence, ThatNeverPassesIsWaitedForSoLongAndNoLonger) {
+  int polls = 0;
+  const auto never = [&polls](uint64_t) {
+    ++polls;
+    return FenceState::kPending;
+  };
+  const std::string said = messageOf<GpuError>([&] { awaitFence(never, "the measurements", 0.01); });
+  EXPECT_TRUE(says(said, {"0.01 s", "the measurements"}));
+  EXPECT_GT(polls, 0);
+  EXPECT_THROW(awaitFence([](uint64_t) { return FenceState::kFailed; }, "an image"), GpuError);
+  EXPECT_NO_THROW(awaitFence([](uint64_t) { return FenceState::kPassed; }, "an image"));
+}
+
+class GpuErrors : public ::testing::Test {
+ protected:
+  Context context_;
+};
+
+TEST_F(GpuErrors, OfMemoryNameTheBufferAndItsSize) {
+  constexpr size_t kTooMuch = size_t{1} << 50;
+  const std::string said = messageOf<GpuError>([] { RawBuffer(kTooMuch, "velocity"); });
+  EXPECT_TRUE(says(said, {"'velocity'", std::to_string(kTooMuch), "spacing_m"}));
+  const std::string ring = messageOf<GpuError>([] { ReadbackRing(kTooMuch, 1, "the surface"); });
+  EXPECT_TRUE(says(ring, {"the surface", std::to_string(kTooMuch)}));
+  EXPECT_NO_THROW(Buffer<uint32_t>(10));  // nothing is left pending
+}
+
+TEST_F(GpuErrors, OfBlocksThatAreTooLongNameTheBufferAndTheLimit) {
+  Limits small = driverLimits();
+  if (small.storage_block_bytes > (size_t{1} << 28)) GTEST_SUCCEED() << "such a buffer is too large for a test";
+  if (small.storage_block_bytes > (size_t{1} << 28)) return;
+  const RawBuffer buffer(small.storage_block_bytes + 16, "links");
+  const std::string said = messageOf<GpuError>([&] { buffer.bindStorage(1); });
+  EXPECT_TRUE(says(said, {"'links'", "GL_MAX_SHADER_STORAGE_BLOCK_SIZE", std::to_string(small.storage_block_bytes)}));
+}
+
+TEST_F(GpuErrors, OfAKernelNameIt) {
+  const Program fold = Program::compute("sum_impulses.comp", {"GROUP_SIZE 64"});
+  const Buffer<uint32_t> partials(64), stats(64);
+  fold.use();
+  EXPECT_EQ(lastKernel(), "sum_impulses.comp");
+  glEnable(0xffff);  // somebody's mistake
+  const std::string said = messageOf<GpuError>([] { checkErrors("a test"); });
+  EXPECT_TRUE(says(said, {"a test", "0x0500", "GL_INVALID_ENUM"}));
+}
+
+}  // namespace
+}  // namespace viscera::gpu

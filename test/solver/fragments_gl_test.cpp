@@ -1,0 +1,83 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Pieces that nothing holds come to lie where solver.sleep_distance_m ends, whatever pushes them.
+#include "math/float_bits.h"
+#include "support/backends.h"
+#include "support/loose_cloth.h"
+
+using namespace viscera;
+using namespace viscera::test;
+
+namespace {
+
+constexpr double kSleep_m = 0.05;
+constexpr double kBeyond_m = 1e-4;  ///< a node is stopped in the substep that takes it there
+constexpr double kTime_s = 2;       ///< of which a tenth would do to get there
+
+class Fragments : public ::testing::WithParamInterface<std::tuple<std::string, Integrator>>, public GpuTest {
+ protected:
+  /// Steps for kTime_s. @return measurements of the last tick
+  layout::TickStats after(const Model& model, Scene scene) {
+    scene.solver.sleep_distance_m = kSleep_m;
+    scene.solver.integrator = std::get<1>(GetParam());
+    scene.solver.iterations = 5;
+    solver_ = makeBackend(std::get<0>(GetParam()), model, scene);
+    layout::TickStats stats{};
+    for (int t = 0; t < std::lround(kTime_s * scene.solver.tick_hz); ++t) {
+      solver_->step({});
+      while (solver_->pollStats(stats, true)) {
+      }
+    }
+    return stats;
+  }
+  void expectAtRest(const Model& model, const layout::TickStats& stats, float most_m_per_s = 0) {
+    EXPECT_LE(floatFromBits(stats.max_speed_bits), most_m_per_s);
+    const HostState state = solver_->readState();
+    for (const uint32_t slot : model.bodies[0].lattice.active_slots) {
+      EXPECT_LT(xyz(state.displacement_m[slot]).norm(), kSleep_m + kBeyond_m);
+      EXPECT_GT(xyz(state.displacement_m[slot]).norm(), 0.5 * kSleep_m);
+    }
+  }
+  std::unique_ptr<Ticks> solver_;
+};
+
+std::string suffix(const ::testing::TestParamInfo<std::tuple<std::string, Integrator>>& info) {
+  std::string out = std::get<0>(info.param);
+  out.erase(std::remove(out.begin(), out.end(), ' '), out.end());
+  return out + (std::get<1>(info.param) == Integrator::kPd ? "_pd" : "_leapfrog");
+}
+
+INSTANTIATE_TEST_SUITE_P(Backends, Fragments,
+                         ::testing::Combine(::testing::ValuesIn(backendKinds()),
+                                            ::testing::Values(Integrator::kLeapfrog, Integrator::kPd)),
+                         suffix);
+
+}  // namespace
+
+TEST_P(Fragments, ThatAForcePushesLieWhereTheySleep) {
+  Body body = boxBody({2, 2, 2}, 0.01);
+  body.force_n = Vector3d(0.02, 0, 0.05);
+  const Model model = modelOf({body});
+  expectAtRest(model, after(model, sceneFor(model, 10)));
+}
+
+TEST_P(Fragments, ThatTheWindCarriesLieWhereTheySleep) {
+  const Model model = modelOf({looseCloth(3, 3, 0.01)});
+  Scene scene = sceneFor(model, 20);
+  scene.environment.wind.velocity_m_per_s = Vector3d(0, 0, 2);
+  expectAtRest(model, after(model, scene));
+}
+
+/// A slope on which they slide down and out.
+TEST_P(Fragments, ThatSlideOffAnObstacleLieWhereTheySleep) {
+  const Model model = modelOf({boxBody({2, 2, 2}, 0.01)});
+  Scene scene = sceneFor(model, 10, {}, Vector3d(0, 0, -9.81));
+  ObstacleConfig slope;
+  slope.rotation_deg = Vector3d(0, 40, 0);
+  slope.friction = 0;
+  slope.position_m = Vector3d(0, 0, -0.02);
+  scene.obstacles = {slope};
+  constexpr float kCreep_m_per_s = 1e-5f;  // what still leans on the slope settles; solver.sleep_speed_m_per_s
+  expectAtRest(model, after(model, scene), kCreep_m_per_s);
+}
