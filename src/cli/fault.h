@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <iostream>
 #include <optional>
 #include <string>
@@ -35,7 +36,7 @@ inline std::optional<int> parse(CLI::App& app, int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);
-    std::string command = app.get_name().empty() ? "viscera" : app.get_name();
+    std::string command = std::filesystem::path(app.get_name()).filename().string();  // without its folder
     for (const CLI::App* chosen : app.get_subcommands()) command += " " + chosen->get_name();
     throw CommandLineError(
         std::string("command line: ") + error.what() + "; `" + command + " --help` lists what is accepted",

@@ -8,7 +8,9 @@
 
 #include <cstdio>
 #include <exception>
+#include <string>
 
+#include "math/memory_for.h"
 #include "math/one_line.h"
 #include "nodes/end_watch.h"
 
@@ -27,7 +29,7 @@ int nodeMain(int argc, char** argv, const char* name, Body body) {
   const ros::NodeHandle keep_started;  // roscpp ends with the last handle, and logging with it
   try {
     EndWatch end;
-    body(end);
+    memoryFor(std::string("node ") + name, [&] { body(end); });
     return 0;
   } catch (const std::exception& e) {
     ROS_FATAL("%s", oneLine(e.what()).c_str());

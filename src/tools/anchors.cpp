@@ -64,8 +64,8 @@ void resolveAnchors(Strokes& strokes, const Model& model) {
     const Vector3d direction = (stroke.anchor->towards_m - stroke.anchor->from_m).normalized();
     const double distance = firstHit(model, stroke.anchor->from_m, direction);
     if (!std::isfinite(distance)) {
-      throw StrokesError("the anchor of stylus '" + stroke.stylus + "', a ray " + rayText(*stroke.anchor) +
-                         " (m), meets no tissue");
+      throw StrokesError((strokes.file.empty() ? "" : strokes.file + ": ") + "the anchor of stylus '" + stroke.stylus +
+                         "', a ray " + rayText(*stroke.anchor) + " (m), meets no tissue");
     }
     const Pose frame{stroke.anchor->from_m + distance * direction, frameAlong(-direction)};
     for (Stroke::Key& key : stroke.keys) key.pose = frame * key.pose;

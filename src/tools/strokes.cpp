@@ -150,6 +150,7 @@ Strokes parseStrokes(const std::string& yaml, const std::string& name) {
     throw StrokesError(e.what());
   }
   Strokes out;
+  out.file = name;
   for (size_t i = 0; i < file.strokes.size(); ++i) out.strokes.push_back(checked(file.strokes[i], i, name));
   for (const FileMark& mark : file.marks) {
     if (mark.name.empty() || mark.name.find('/') != std::string::npos) {

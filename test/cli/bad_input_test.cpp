@@ -102,7 +102,7 @@ TEST_F(BadInput, Strokes) {
   expectRunRefusal({"--strokes", strokes("third_hand")}, {"strokes.yaml", "'third_hand'", "left"});
   expectRunRefusal({"--strokes", strokes("left", ", speed: 3")}, {"strokes.yaml:2: ", "'strokes[0].speed'"});
   expectRunRefusal({"--strokes", strokes("left", ", anchor: {from_m: [5, 5, 5], towards_m: [5, 5, 6]}")},
-                   {"'left'", "[5, 5, 5]", "no tissue"});
+                   {"strokes.yaml: ", "'left'", "[5, 5, 5]", "no tissue"});
 }
 
 TEST_F(BadInput, PlaceToWriteTo) {

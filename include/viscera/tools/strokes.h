@@ -39,6 +39,7 @@ struct Mark {
 struct Strokes {
   std::vector<Stroke> strokes;
   std::vector<Mark> marks;
+  std::string file;  ///< where they were read, for errors; empty: nowhere
   double duration_s() const;
   bool anchored() const;  ///< some stroke still waits for resolveAnchors()
   /// Samples at a time; anchors must have been resolved: poses interpolated between keys, buttons of the last key;
