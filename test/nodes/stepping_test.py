@@ -45,18 +45,18 @@ class SteppingTest(unittest.TestCase):
 
     def test_services_in_the_wrong_state_are_refused(self):
         self.assertRefused(self.resume())
-        self.assertRefused(self.step(1))
+        self.assertRefused(self.step(ticks=1))
         self.assertDone(self.pause())
         self.assertRefused(self.pause())
-        self.assertRefused(self.step(1000000))
-        self.assertDone(self.step(1))
+        self.assertRefused(self.step(ticks=1000000))
+        self.assertDone(self.step(ticks=1))
 
     def test_step_makes_exactly_that_many_ticks(self):
         self.assertDone(self.pause())
         self.assertDone(self.reset())
-        before = self.step(0)
+        before = self.step(ticks=0)
         self.assertEqual(before.tick, 0)
-        after = self.step(5)
+        after = self.step(ticks=5)
         self.assertEqual(after.tick, 5)
         self.assertNotEqual(after.state_hash, before.state_hash)
         self.assertRegex(after.state_hash, "^[0-9a-f]{16}$")
@@ -64,10 +64,10 @@ class SteppingTest(unittest.TestCase):
     def test_reset_restores_the_state_to_the_bit(self):
         self.assertDone(self.pause())
         self.assertDone(self.reset())
-        rest, later = self.step(0).state_hash, self.step(7).state_hash
+        rest, later = self.step(ticks=0).state_hash, self.step(ticks=7).state_hash
         self.assertDone(self.reset())
-        self.assertEqual(self.step(0).state_hash, rest)
-        self.assertEqual(self.step(7).state_hash, later)
+        self.assertEqual(self.step(ticks=0).state_hash, rest)
+        self.assertEqual(self.step(ticks=7).state_hash, later)
 
     def test_time_stands_still_while_paused(self):
         self.assertDone(self.pause())
