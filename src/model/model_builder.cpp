@@ -13,6 +13,7 @@
 #include "model/body/spacing_search.h"
 #include "model/scene/structure_rules.h"
 #include "model/scene/tool_kinds.h"
+#include "model/shape/host_memory.h"
 #include "model/shape/tissue.h"
 #include "viscera/math/error.h"
 
@@ -45,6 +46,9 @@ Body buildLatticeBody(const BodyConfig& config, const Tissue& tissue, const Prog
   addNotes(tissue.notes, body);
   const Filling filling = fill(tissue, config, progress);
   const Solid& solid = filling.solid;
+  requireTissueMemory(
+      solid.labels.size() - static_cast<size_t>(std::count(solid.labels.begin(), solid.labels.end(), 0)),
+      solid.spacing_m);
   if (!config.spacing_note.empty()) body.notes.push_back(config.spacing_note);
   if (!filling.note.empty()) body.notes.push_back(filling.note);
   if (progress) progress("build lattice", 0);

@@ -3,26 +3,13 @@
 #include "model/shape/solid_grid.h"
 
 #include <cmath>
-#include <fstream>
-#include <limits>
 #include <sstream>
 
+#include "model/shape/host_memory.h"
 #include "viscera/math/error.h"
 
 namespace viscera {
 namespace {
-
-/// Memory that can be had without swapping [bytes]; unlimited where the kernel does not tell.
-double availableBytes() {
-  std::ifstream file("/proc/meminfo");
-  std::string key, unit;
-  double kibibytes = 0;
-  while (file >> key >> kibibytes) {
-    if (key == "MemAvailable:") return 1024 * kibibytes;
-    std::getline(file, unit);
-  }
-  return std::numeric_limits<double>::infinity();
-}
 
 /// A dense label, its share of the scratch, and the nodes, skin and solver state of a grid that is one third full.
 constexpr double kBytesPerCell = 48;
