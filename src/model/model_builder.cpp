@@ -10,6 +10,7 @@
 #include "model/body/network_body.h"
 #include "model/body/network_builder.h"
 #include "model/body/network_skin.h"
+#include "model/body/skin_size.h"
 #include "model/body/spacing_search.h"
 #include "model/scene/structure_rules.h"
 #include "model/scene/tool_kinds.h"
@@ -60,7 +61,9 @@ Body buildLatticeBody(const BodyConfig& config, const Tissue& tissue, const Prog
   if (!walls.empty()) body.notes.push_back(walls);
   addPiecesNote(body);
   if (progress) progress("extract skin", 0);
-  body.skin = bindSkin(surfaceOf(tissue, config, solid), body.lattice, solid, progress);
+  const TriangleMesh surface = surfaceOf(tissue, config, solid);
+  requireSkinSize(surface, solid.spacing_m, config.import_limits.max_triangles);
+  body.skin = bindSkin(surface, body.lattice, solid, progress);
   body.notes.push_back(skinNote(body.skin));
   if (config.structure != Structure::kExplicit) return body;
   body.network = latticeNetwork(body, config.bending_ratio);
