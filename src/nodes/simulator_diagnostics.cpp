@@ -131,9 +131,10 @@ void SimulatorDiagnostics::obstacles(Status& status) {
   const uint64_t held_back = obstacles_.heldBack();
   const bool jumping = held_back > held_back_before_;
   held_back_before_ = held_back;
-  status.summary(missing || jumping ? Level::WARN : Level::OK, missing   ? "a frame is not known: its obstacle stays"
-                                                               : jumping ? "faster than tissue can follow: held back"
-                                                                         : "carried");
+  status.summary(missing || jumping ? Level::WARN : Level::OK,
+                 missing   ? "a frame is not known, or from too long ago: its obstacle stays"
+                 : jumping ? "faster than tissue can follow: held back"
+                           : "carried");
   status.add("frames_found", obstacles_.found());
   status.add("frames_missed", missed);
   status.add("ticks_held_back", held_back);
