@@ -56,5 +56,18 @@ TEST(ForceLimiter, ForceThatIsNotFiniteIsNoForceAtAll) {
   EXPECT_EQ(limiter.limit({Vector3d(2, 0, 0), Vector3d::Zero(), false}, 0.01).force_n.x(), 2);
 }
 
+TEST(ForceLimiter, PureTwistIsSaturatedAndSlewsToo) {
+  ForceLimiter limiter(ForceLimits{5, 100, 0.2, 4});
+  for (double expected_nm : {0.04, 0.08, 0.12, 0.16, 0.2, 0.2})
+    EXPECT_NEAR(limiter.limit({Vector3d::Zero(), Vector3d(0, 0, 3), false}, 0.01).torque_nm.z(), expected_nm, 1e-12);
+}
+
+TEST(ForceLimiter, ForceAndTorqueShrinkByOneFactor) {
+  ForceLimiter limiter(ForceLimits{5, 1e6, 0.2, 1e6});
+  const Reaction out = limiter.limit({Vector3d(4, 0, 0), Vector3d(0, 0.8, 0), false}, 0.01);
+  EXPECT_NEAR(out.force_n.x(), 1, 1e-12);
+  EXPECT_NEAR(out.torque_nm.y(), 0.2, 1e-12);
+}
+
 }  // namespace
 }  // namespace viscera

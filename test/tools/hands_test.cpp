@@ -138,5 +138,38 @@ TEST(Tools, AHoldThatFollowsOneOfAnotherKindEndsItAndBegins) {
   EXPECT_TRUE(motion.hold_begins);
 }
 
+/// A probe of 5 mm that feels 1 cm around it when it appears.
+Tools feelingStylus() {
+  StylusConfig config;
+  config.probe.radius_m = 0.005;
+  HandLimits limits;
+  limits.feel_radius_m = 0.01;
+  return Tools({config}, limits);
+}
+
+TEST(Tools, StylusThatAppearsFeelsUntilItIsFoundOutside) {
+  Tools tools = feelingStylus();
+  EXPECT_EQ(tools.advance(one(0))[0].feels_m, 0.01);
+  EXPECT_EQ(tools.advance(one(0.1))[0].feels_m, 0.01);
+  EXPECT_EQ(tools.advance(one(0.1, true))[0].feels_m, 0);  // what holds pushes nothing
+  EXPECT_EQ(tools.advance(one(0.1))[0].feels_m, 0.01);
+  tools.foundOutside(0);
+  EXPECT_EQ(tools.advance(one(0))[0].feels_m, 0);
+  tools.advance({});
+  EXPECT_EQ(tools.advance(one(0))[0].feels_m, 0.01);
+}
+
+TEST(Tools, ForgottenHandAppearsAnewAndItsHoldBeginsAnew) {
+  Tools tools = feelingStylus();
+  tools.advance(one(0, true));
+  EXPECT_FALSE(tools.advance(one(0, true))[0].hold_begins);
+  tools.forget();
+  const StylusMotion motion = tools.advance(one(0.5, true))[0];
+  EXPECT_EQ(motion.from.position_m.x(), 0.5);
+  EXPECT_EQ(motion.hold_ended, ToolMode::kGrab);
+  EXPECT_TRUE(motion.hold_begins);
+  EXPECT_FALSE(tools.advance(one(0.5, true))[0].hold_begins);
+}
+
 }  // namespace
 }  // namespace viscera

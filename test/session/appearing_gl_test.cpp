@@ -1,0 +1,86 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+// A stylus that appears inside tissue neither pushes nor is pushed until it was outside (physics.md 5).
+#include <gtest/gtest.h>
+
+#include "session/block_session.h"
+#include "support/gpu_fixture.h"
+
+namespace viscera {
+namespace {
+
+using namespace test;
+
+constexpr double kForceN = 0.1;  ///< well below what millimetres of tissue of 20 kPa give, well above rounding
+constexpr int kGapTicks = 100;   ///< tissue comes back meanwhile
+constexpr int kHeldTicks = 20;
+
+class Appearing : public GpuTest, public ::testing::WithParamInterface<Backend> {
+ protected:
+  Appearing() : session_(scene(), context_) {}
+
+  static Scene scene() {
+    Scene scene = blockScene();
+    scene.solver.backend = GetParam();
+    return scene;
+  }
+  static StylusSamples deep(int) { return press(kPressTicks); }
+  static StylusSamples absent(int) { return {}; }
+  static StylusSamples withdrawn(int) { return leftAt({0, 0, 3 * kHalfM}); }
+
+  /// No force, no node moved, and the frame says why.
+  void expectNothingHappens() {
+    const uint64_t before = session_.stateHash();
+    for (int t = 0; t < kHeldTicks; ++t) {
+      const Frame frame = session_.step(deep(t), {});
+      EXPECT_TRUE(frame.inside[0]);
+      EXPECT_FALSE(frame.inside[1]);
+      EXPECT_EQ(frame.reactions[0].force_n, Vector3d::Zero());
+      EXPECT_GT(frame.stats.touched[0], 0u);
+    }
+    EXPECT_EQ(session_.drain().reactions[0].force_n, Vector3d::Zero());
+    EXPECT_EQ(session_.stateHash() == before, at_rest_);
+  }
+  void expectForceOutwards() {
+    play(session_, press, kPressTicks + 5);
+    EXPECT_GT(session_.drain().reactions[0].force_n.z(), kForceN);
+    EXPECT_FALSE(session_.step(deep(0), {}).inside[0]);
+  }
+
+  Session session_;
+  bool at_rest_ = true;  ///< the tissue, and so it must stay
+};
+INSTANTIATE_TEST_SUITE_P(Backends, Appearing, ::testing::Values(Backend::kGpu, Backend::kCpu),
+                         [](const ::testing::TestParamInfo<Backend>& info) {
+                           return info.param == Backend::kCpu ? "cpu" : "gpu";
+                         });
+
+TEST_P(Appearing, AtDepthDoesNothingUntilItWasOutside) {
+  expectNothingHappens();
+  play(session_, withdrawn, 1);
+  expectForceOutwards();
+}
+
+TEST_P(Appearing, AfterAGapAtDepthDoesNothingUntilItWasOutside) {
+  expectForceOutwards();
+  play(session_, absent, kGapTicks);
+  at_rest_ = false;  // it still rings
+  expectNothingHappens();
+  play(session_, withdrawn, 2);
+  expectForceOutwards();
+}
+
+TEST_P(Appearing, ForgottenHandsLetGoAndAppearAnew) {
+  const auto pull = [](int tick) { return leftAt({0, 0, kHalfM + 0.0005 * tick}, true); };
+  ASSERT_GT(play(session_, pull, kHeldTicks).stats.grabbed[0], 0u);
+  session_.forgetHands();
+  session_.step(withdrawn(0), {});
+  EXPECT_EQ(session_.drain().stats.grabbed[0], 0u);
+  expectForceOutwards();
+  session_.forgetHands();
+  at_rest_ = false;
+  expectNothingHappens();
+}
+
+}  // namespace
+}  // namespace viscera
