@@ -68,6 +68,8 @@ styluses:
     release_speed_m_per_s: 0.65
     max_force_n: 6.6
     max_force_rate_n_per_s: 670
+    max_torque_nm: 0.67
+    max_torque_rate_nm_per_s: 6.71
     stale_after_s: 0.68
     workspace_m: 0.69
 cameras:
@@ -198,6 +200,8 @@ TEST(SceneKeys, EveryOtherKeyReachesItsField) {
   EXPECT_EQ(stylus.suction.release_speed_m_per_s, 0.651);
   EXPECT_EQ(stylus.max_force_n, 6.6);
   EXPECT_EQ(stylus.max_force_rate_n_per_s, 670);
+  EXPECT_EQ(stylus.max_torque_nm, 0.67);
+  EXPECT_EQ(stylus.max_torque_rate_nm_per_s, 6.71);
   EXPECT_EQ(stylus.stale_after_s, 0.68);
   EXPECT_EQ(stylus.workspace_m, 0.69);
   const CameraConfig& camera = scene.cameras.at(0);
@@ -324,7 +328,7 @@ TEST(SceneKeys, KeyEndsInItsUnit) {
                                                        {"1/s", "_per_s"}, {"m/s", "_m_per_s"}, {"m/s2", "_m_per_s2"},
                                                        {"N", "_n"},       {"N/s", "_n_per_s"}, {"s", "_s"},
                                                        {"deg", "_deg"},   {"Hz", "_hz"},       {"deg/s", "_deg_per_s"},
-                                                       {"MB", "_mb"}};
+                                                       {"MB", "_mb"},     {"N m", "_nm"},      {"N m/s", "_nm_per_s"}};
   for (const auto& row : tableRows(sceneKeysTable())) {
     const size_t comma = row.at(2).find(", ");
     if (comma == std::string::npos) continue;

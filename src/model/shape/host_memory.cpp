@@ -86,7 +86,7 @@ void requireTissueMemory(size_t filled_cells, double spacing_m, double available
   if (needed <= available_bytes) return;
   std::ostringstream out;
   out << "spacing_m " << spacing_m << " fills " << filled_cells << " cells, which take about " << needed / kGiB
-      << " GiB with what steps and shows them, but this process can have " << available_bytes / kGiB
+      << " GiB of memory with what steps and shows them, but this process can have " << available_bytes / kGiB
       << " GiB; spacing_m >= " << spacing_m * kMargin * std::cbrt(needed / available_bytes) << " would fit";
   throw LatticeError(out.str());
 }

@@ -106,7 +106,7 @@ bool GpuBackend::takeStats(layout::TickStats& stats, bool wait) {
   if (!memory) return false;
   std::memcpy(&stats, memory, sizeof stats);
   stats_ring_.release();
-  if (has_springs_) requireSignOfLife(stats);
+  if (has_springs_ && !foreign_) requireSignOfLife(stats);
   return true;
 }
 
@@ -138,11 +138,13 @@ HostState GpuBackend::readState() const {
 }
 
 void GpuBackend::resetState() {
+  foreign_ = false;
   buffers_.reset();
   if (surroundings_) surroundings_->restart();
 }
 
 void GpuBackend::loadState(const HostState& state) {
+  foreign_ = true;
   buffers_.state.displacement[buffers_.state.current].write(state.displacement_m);
   buffers_.state.velocity[buffers_.state.current].write(state.velocity_m_per_s);
   buffers_.store.nodes.write(state.nodes);

@@ -82,7 +82,8 @@ class GpuBackend final : public SolverBackend {
   LatticeBuffers buffers_;
   std::unique_ptr<Stepper> stepper_;
   MeasurePass measure_;
-  bool has_springs_;  ///< of nodes that may move
+  const bool has_springs_;  ///< of nodes that may move, in the whole tissue
+  bool foreign_ = false;    ///< the state was written in: it may have no springs left
   std::optional<SurroundingsPass> surroundings_;
   std::optional<Tools> tools_;
   std::optional<Recovery> recovery_;
