@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/simulation_loop.h"
 
+#include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "nodes/thread_name.h"
@@ -106,7 +108,11 @@ void SimulationLoop::tick(Session& session, const StylusSamples& samples, bool l
 void SimulationLoop::rest(Session& session) {
   Frame frame = session.drain();
   const Wants wants = ports_.stills(std::exchange(unseen_, false));
-  if (wants.count() > 0) static_cast<Pictures&>(frame) = session.show(wants);
+  if (wants.count() > 0) {
+    Pictures shown = session.show(wants);
+    if (shown.surface) frame.surface = std::move(shown.surface);
+    std::move(shown.images.begin(), shown.images.end(), std::back_inserter(frame.images));
+  }
   deliver(session, std::move(frame), stepped_to_ ? *stepped_to_ : ports_.samples(), false);
   tick_ended_ = Clock::now();
   pacer_.restart(tick_ended_);

@@ -29,11 +29,11 @@ TEST(OneLine, BytesThatAreNoUtf8AreEscaped) {
 }
 
 TEST(OneLine, LongLinesKeepBeginningAndEnd) {
-  const std::string line = oneLine("scene.yaml:3: " + std::string(100000, 'x') + "; accepted: 1 .. 2");
+  const std::string line = oneLine("scene.yaml:3: " + std::string(100000, 'o') + "; accepted: 1 .. 2");
   EXPECT_LE(line.size(), kLongestLine);
-  EXPECT_EQ(line.rfind("scene.yaml:3: xxx", 0), 0u);
-  EXPECT_NE(line.find("xxx ... xxx"), std::string::npos);
-  EXPECT_EQ(line.substr(line.size() - 20), "xx; accepted: 1 .. 2");
+  EXPECT_EQ(line.rfind("scene.yaml:3: ooo", 0), 0u);
+  EXPECT_NE(line.find("ooo ... ooo"), std::string::npos);
+  EXPECT_EQ(line.substr(line.size() - 20), "oo; accepted: 1 .. 2");
   EXPECT_EQ(oneLine(line), line);
 }
 

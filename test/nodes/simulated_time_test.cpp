@@ -67,7 +67,7 @@ TEST(Slowness, IsToldAfterTwoReadingsAndAgainOnlyAfterItHasKeptUp) {
 
 TEST(Relaunch, KnowsTheRunOfRoslaunchByTheFolderOfItsLog) {
   const std::array<const char*, 3> argv = {"simulator", "__name:=simulator",
-                                           "__log:=/home/me/log/0a1b2c3d-1111-2222-3333-444455556666/simulator-1.log"};
+                                           "__log:=/var/log/ros/0a1b2c3d-1111-2222-3333-444455556666/simulator-1.log"};
   const Relaunch launched(3, argv.data());
   EXPECT_EQ(launched.runId(), "0a1b2c3d-1111-2222-3333-444455556666");
   EXPECT_FALSE(launched.hasParameters());

@@ -3,6 +3,7 @@
 #include "solver/collision.h"
 #include "support/backends.h"
 #include "support/loose_cloth.h"
+#include "support/momentum.h"
 #include "support/random_state.h"
 
 using namespace viscera;
@@ -59,14 +60,6 @@ class Passages {
   size_t nodes_, triangles_;
   std::vector<double> last_;
 };
-
-Vector3d momentum(const Model& model, const HostState& state) {
-  ReferenceSolver reference(model, Vector3d::Zero(), 1);
-  load(reference, state);
-  Vector3d sum = Vector3d::Zero();
-  for (const uint32_t slot : reference.active) sum += reference.mass(slot) * reference.v_m_per_s[slot];
-  return sum;
-}
 
 /// A sheet thrown down onto another one.
 struct Encounter {

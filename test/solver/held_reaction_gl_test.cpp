@@ -4,6 +4,7 @@
 // What surrounds held nodes is felt by the tool that holds them: momentum is kept.
 #include "support/backends.h"
 #include "support/loose_cloth.h"
+#include "support/momentum.h"
 
 using namespace viscera;
 using namespace viscera::test;
@@ -59,14 +60,6 @@ INSTANTIATE_TEST_SUITE_P(Backends, HeldReaction,
                          ::testing::Combine(::testing::ValuesIn(backendKinds()),
                                             ::testing::Values(Integrator::kLeapfrog, Integrator::kVbd)),
                          suffix);
-
-Vector3d momentum(const Model& model, const HostState& state) {
-  ReferenceSolver reference(model, Vector3d::Zero(), 1);
-  load(reference, state);
-  Vector3d sum = Vector3d::Zero();
-  for (const uint32_t slot : reference.active) sum += reference.mass(slot) * reference.v_m_per_s[slot];
-  return sum;
-}
 
 }  // namespace
 
