@@ -40,7 +40,7 @@ bodies:
     position_m: [0.051, 0.052, 0.053]
     rotation_deg: [61, 62, 63]
     color: [0.071, 0.072, 0.073]
-    material: {young_modulus_pa: 8100, poisson_ratio: 0.31, density_kg_per_m3: 820, drag_per_s: 8.3, dashpot_ratio: 0.084, weights: paper}
+    material: {young_modulus_pa: 8100, poisson_ratio: 0.31, density_kg_per_m3: 820, drag_per_s: 8.3, dashpot_ratio: 0.084, weights: paper, cells: springs}
     parts: [{part: valve, young_modulus_pa: 8101, poisson_ratio: 0.32, density_kg_per_m3: 821}]
     fixed:
       - shape: part
@@ -166,6 +166,7 @@ TEST(SceneKeys, EveryBodyKeyReachesItsField) {
   EXPECT_EQ(body.material.drag_per_s, 8.3);
   EXPECT_EQ(body.material.dashpot_ratio, 0.084);
   EXPECT_EQ(body.material.weights, Weights::kPaper);
+  EXPECT_EQ(body.material.cells, Cells::kSprings);
   const PartConfig& part = body.parts.at(0);
   EXPECT_EQ(part.part, "valve");
   EXPECT_EQ(part.young_modulus_pa, 8101);

@@ -33,6 +33,11 @@ std::vector<Elasticity> elasticityByLabel(const Body& body) {
   return out;
 }
 
+/// Of a cell of which `share` is tissue.
+Elasticity scaled(const Elasticity& e, double share) {
+  return {share * e.spring_n_per_m, share * e.bulk_j, share * e.cell_mass_kg};
+}
+
 /// Sums over the cells around each spring and node, in float64.
 struct Sums {
   std::vector<double> spring, mass;  // [9 * slots], [slots]
@@ -75,7 +80,7 @@ Elasticity elasticity(double young_modulus_pa, double poisson_ratio, double dens
 }
 
 bool isHeterogeneous(const Body& body) {
-  return !body.parts.empty();
+  return !body.parts.empty() || !body.lattice.fills.empty();
 }
 
 Strengths strengths(const Body& body) {
@@ -88,7 +93,7 @@ Strengths strengths(const Body& body) {
   out.bulk_j.resize(slots);
   for (uint32_t slot = 0; slot < slots; ++slot) {
     if (lattice.cell_labels[slot] == 0) continue;
-    const Elasticity& e = by_label[lattice.cell_labels[slot]];
+    const Elasticity e = scaled(by_label[lattice.cell_labels[slot]], fillOf(lattice, slot).share);
     out.bulk_j[slot] = static_cast<float>(e.bulk_j);
     addCell(lattice, slot, e, sums);
   }

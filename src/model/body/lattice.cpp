@@ -79,10 +79,15 @@ void linkBricks(Lattice& lattice) {
 }
 
 /// One solid cell adds a quarter to its 12 edges, a half to its 12 face diagonals, an eighth to its 8 nodes.
-void addCell(const Solid& solid, const Vector3i& cell, Lattice& lattice) {
+/// @param fill  null where it is tissue all through
+void addCell(const Solid& solid, const Vector3i& cell, const CellFill* fill, Lattice& lattice) {
   const uint16_t label = solid.label(cell.x(), cell.y(), cell.z());
   const uint32_t lowest = static_cast<uint32_t>(storedAt(lattice, cell));
   lattice.cell_labels[lowest] = label;
+  if (fill != nullptr) {
+    lattice.fills.push_back(*fill);
+    lattice.cell_fills[lowest] = static_cast<uint32_t>(lattice.fills.size());
+  }
   lattice.nodes[lowest].lo |= layout::kCellBit;
   for (int a = 0; a < 8; ++a) {
     const Vector3i node = cell + corner(a);
@@ -152,7 +157,13 @@ Lattice buildLattice(const Solid& solid, Weights weights) {
   lattice.nodes.resize(lattice.bricks.size() * layout::kBrickSlots);
   lattice.labels.resize(lattice.nodes.size());
   lattice.cell_labels.resize(lattice.nodes.size());
-  forEachCell(solid, [&](const Vector3i& cell) { addCell(solid, cell, lattice); });
+  if (!solid.partial.empty()) lattice.cell_fills.resize(lattice.nodes.size());
+  size_t next = 0;  // of the partial cells, which come in the same order
+  forEachCell(solid, [&](const Vector3i& cell) {
+    const bool partial =
+        next < solid.partial.size() && solid.partial[next].cell == solid.index(cell.x(), cell.y(), cell.z());
+    addCell(solid, cell, partial ? &solid.partial[next++].fill : nullptr, lattice);
+  });
   for (uint32_t slot = 0; slot < lattice.nodes.size(); ++slot) {
     if (massEighths(lattice.nodes[slot])) lattice.active_slots.push_back(slot);
   }

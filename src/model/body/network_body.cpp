@@ -6,6 +6,7 @@
 
 #include "model/body/network_builder.h"
 #include "model/body/spacing_search.h"
+#include "model/scene/structure_rules.h"
 #include "viscera/math/error.h"
 
 namespace viscera {
@@ -64,6 +65,7 @@ Body plainBody(const BodyConfig& config) {
   Body body;
   body.name = config.name;
   body.material = config.material;
+  body.material.cells = hasMoments(config) ? Cells::kMoments : Cells::kSprings;
   body.parts = config.parts;
   body.color = config.color;
   body.force_n = config.force_n;

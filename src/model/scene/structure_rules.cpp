@@ -47,6 +47,7 @@ std::string networkFault(const BodyConfig& body) {
   }
   if (!body.parts.empty()) return "parts need structure lattice or explicit, not " + name;
   if (body.material.weights != Weights::kCell) return "material.weights: paper needs structure lattice or explicit";
+  if (body.material.cells == Cells::kMoments) return "material.cells: moments needs structure lattice or explicit";
   if (body.skin != SkinSource::kAuto) return "skin must be auto with structure " + name + ": the skin is its surface";
   if (body.auto_spacing && body.target_nodes == 0) {
     return "spacing_m: auto needs structure lattice or explicit; give " + name + " a number or target_nodes";
@@ -64,6 +65,8 @@ std::string structureFault(const BodyConfig& body) {
     if (!network_fault.empty()) return network_fault;
   }
   const bool can_bend = body.structure == Structure::kSurface || body.structure == Structure::kExplicit;
+  if (hasMoments(body) && body.material.weights != Weights::kCell)
+    return "material.cells: moments does not go with material.weights: paper";
   if (body.bending_ratio > 0 && !can_bend) return "bending_ratio must be 0 unless structure is surface or explicit";
   return "";
 }

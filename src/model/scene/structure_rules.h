@@ -13,6 +13,11 @@ inline bool isNetwork(Structure structure) {
   return structure == Structure::kSurface || structure == Structure::kTetrahedra;
 }
 
+/// Do the body's cells resist by moments (Cells)?
+inline bool hasMoments(const BodyConfig& body) {
+  return body.material.cells == Cells::kMoments;
+}
+
 /// What a body's structure does not go with, for a person; empty: nothing.
 std::string structureFault(const BodyConfig& body);
 

@@ -27,7 +27,7 @@ struct Strengths {
 };
 constexpr uint32_t kSpringPairs = layout::kSpringsPerNode / 2;
 
-/// Do parts of the body have elasticities of their own?
+/// Do its cells differ: are there parts with elasticities of their own, or cells that are tissue in part?
 bool isHeterogeneous(const Body& body);
 /// @throws SceneError  a part that the body has not, or that stands twice
 Strengths strengths(const Body& body);

@@ -24,6 +24,9 @@ struct Lattice {
   std::vector<uint16_t> labels;         ///< [64 * bricks] 0 no node, else 1 + part of a cell around it
   std::vector<uint16_t> cell_labels;    ///< [64 * bricks] of the cell whose lowest corner is the node: 0 none, else
                                         ///< 1 + part
+  std::vector<CellFill> fills;          ///< of the cells that are tissue in part; empty where all are full
+  std::vector<uint32_t> cell_fills;     ///< [64 * bricks] of the cell whose lowest corner is the node: 0 full or none,
+                                        ///< else 1 + index into fills; empty where all are full
   std::vector<uint32_t> active_slots;   ///< [active] slots of nodes, ascending
   std::vector<std::string> part_names;
 
@@ -37,6 +40,12 @@ struct Lattice {
 
   std::unordered_map<uint64_t, uint32_t> brick_index;  ///< packed brick coordinates -> brick
 };
+
+/// How much of the cell whose lowest corner is the node is tissue, and where.
+inline CellFill fillOf(const Lattice& lattice, uint32_t lowest) {
+  const uint32_t fill = lattice.cell_fills.empty() ? 0 : lattice.cell_fills[lowest];
+  return fill == 0 ? CellFill{} : lattice.fills[fill - 1];
+}
 
 /// Calls visit(corner, slot) for the eight nodes of the cell whose lowest corner is at `lowest`.
 template <class Visit>

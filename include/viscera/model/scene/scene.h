@@ -24,6 +24,13 @@ enum class Integrator { kLeapfrog, kVerletPaper, kVbd, kPd };
 enum class Backend { kAuto, kGpu, kCpu };
 enum class ToolMode { kNone = 0, kProbe = 1, kGrab = 2, kCut = 3, kCutParticles = 4, kSuction = 5 };
 
+/// What a cell of a lattice resists its deformation with (physics.md 1).
+enum class Cells {
+  kAuto,     ///< what hasMoments() (structure_rules.h) says
+  kSprings,  ///< springs, and the energy of its volume: VR05's system; cells are filled or empty
+  kMoments   ///< springs corrected by the moments of the part that is filled: bends and twists as the solid does
+};
+
 /// How spring and mass weights are assembled (physics.md 1).
 enum class Weights {
   kCell,  ///< each solid cell adds k/4 to its edges, k/2 to its face diagonals, m/8 to its nodes
@@ -49,6 +56,7 @@ struct MaterialConfig {
   double drag_per_s = 4;
   double dashpot_ratio = 0.2;
   Weights weights = Weights::kCell;
+  Cells cells = Cells::kAuto;
 };
 
 /// Elasticity of one part of a body, such as a valve. In a scene file, what is left out is as in the body's material.

@@ -15,6 +15,23 @@ namespace viscera {
 /// Told how far a long preparation has come: stage name and fraction 0..1.
 using Progress = std::function<void(const std::string& stage, double fraction)>;
 
+/// The part of a cell that is tissue: integrals over it of 1, p and p p^T, with p the place from the cell's middle over
+/// its edge, -1/2 to 1/2 per axis.
+struct CellFill {
+  double share = 1;                              ///< integral of 1: 0 to 1
+  Vector3d first = Vector3d::Zero();             ///< of p
+  Eigen::Matrix3d second = full().asDiagonal();  ///< of p p^T; symmetric
+
+  /// Diagonal of `second` of a cell that is filled all through.
+  static Vector3d full() { return Vector3d::Constant(1.0 / 12); }
+};
+
+/// A cell that is tissue in part only.
+struct PartialCell {
+  size_t cell;  ///< Solid::index()
+  CellFill fill;
+};
+
 /// A solid as labelled cubic cells on a regular grid, x fastest. Cell (i,j,k) spans origin + h*[i,i+1] x ...
 struct Solid {
   double spacing_m = 0;
@@ -22,6 +39,7 @@ struct Solid {
   Vector3i cells = Vector3i::Zero();     ///< cells along x, y, z
   std::vector<uint16_t> labels;          ///< [cells.prod()] 0 empty, else 1 + index into part_names
   std::vector<std::string> part_names;
+  std::vector<PartialCell> partial;  ///< labelled cells that are tissue in part, ascending; all others are full
 
   size_t index(int x, int y, int z) const {
     return static_cast<size_t>(x) + static_cast<size_t>(cells.x()) * (y + static_cast<size_t>(cells.y()) * z);
