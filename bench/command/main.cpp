@@ -15,6 +15,7 @@ namespace {
 
 struct SuiteOptions {
   bench::SuiteOptions suite;
+  std::string backend = "both";
   int device = -1;
   bool strict = false;  ///< a missed limit is exit status 1
 };
@@ -27,6 +28,12 @@ void addSuites(CLI::App& bench, SuiteOptions& options, const bench::Suite*& chos
     command->add_flag("--short", options.suite.short_form, "fewer and smaller cases: seconds");
     command->add_flag("--strict", options.strict, "exit status 1 if a limit is missed");
     command->add_option("--device", options.device, "EGL device, as `viscera check` lists them");
+    if (suite.takes_backend) {
+      command
+          ->add_option("--backend", options.backend,
+                       "cpu, gpu or both: where every row is measured; both, the default, is cpu alone without EGL")
+          ->check(CLI::IsMember({"cpu", "gpu", "both"}));
+    }
     command->callback([&suite, &chosen] { chosen = &suite; });
   }
 }
@@ -55,7 +62,8 @@ int dispatch(int argc, char** argv) {
   addSuites(app, suite_options, suite);
   if (const std::optional<int> ended = cli::parse(app, argc, argv)) return *ended;
   if (!suite) return bench::step(step_options);
-  const int missed = bench::runSuite(*suite, suite_options.suite, suite_options.device, std::cout);
+  const int missed =
+      bench::runSuite(*suite, suite_options.suite, suite_options.backend, suite_options.device, std::cout);
   return suite_options.strict && missed > 0 ? 1 : 0;
 }
 

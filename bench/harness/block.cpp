@@ -37,7 +37,8 @@ Scene plainScene(const Model& model, int substeps, double dt_fraction) {
   scene.solver.dt_fraction = scene.solver.dt_fraction_strained = dt_fraction;
   scene.solver.substeps = substeps;
   scene.solver.governor = false;
-  scene.solver.sleep_distance_m = 1e9;  // nothing may step in
+  scene.solver.sleep_distance_m = 1e9;   // nothing may step in,
+  scene.solver.sleep_speed_m_per_s = 0;  // nor take a small wave at its turning point for tissue at rest
   scene.solver.tick_hz = 1 / (substeps * dt_fraction * safeTimeStep(model));
   return scene;
 }
@@ -67,17 +68,15 @@ layout::vec4 vec4(const Vector3d& v) {
   return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z()), 0};
 }
 
-Field gpuForces(const Model& model, const Field& u_m) {
-  GpuSolver solver(model, plainScene(model, 1));
-  solver.writeState(stateOf(model, u_m));
-  solver.step({});
-  const HostState after = solver.readState();
-  const Body& body = model.bodies[0];
-  const double eighth_kg = bodyParams(body, 0).mass_eighth_kg;
+Field forcesOn(Backend backend, const Model& model, const Field& u_m) {
+  const std::unique_ptr<Ticks> solver = solverOn(backend, model, plainScene(model, 1));
+  solver->writeState(stateOf(model, u_m));
+  solver->step({});
+  const HostState after = solver->readState();
+  const ReferenceLattice lattice(model);  // masses
   Field out(model.slots(), Vector3d::Zero());
-  for (uint32_t slot : body.lattice.active_slots) {
-    const double mass = massEighths(body.lattice.nodes[slot]) * eighth_kg;
-    out[slot] = mass * xyz(after.velocity_m_per_s[slot]) / (0.5 * solver.dt_s());
+  for (uint32_t slot : lattice.active) {
+    out[slot] = lattice.mass(slot) * xyz(after.velocity_m_per_s[slot]) / (0.5 * solver->dt_s());
   }
   return out;
 }

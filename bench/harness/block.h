@@ -4,7 +4,7 @@
 
 #include <functional>
 
-#include "solver/gpu/gpu_solver.h"
+#include "bench/harness/backends.h"
 #include "solver/reference/reference_solver.h"
 
 namespace viscera::bench {
@@ -16,8 +16,8 @@ Model blockModel(const Vector3i& cells, double spacing_m, const MaterialConfig& 
 /// Undamped, k = h = m = 1 for a block of spacing 1 m: E = 2.5 Pa, 1 kg/m3.
 MaterialConfig unitMaterial();
 
-/// Scene for a model that is there already: no gravity, no governor, ticks of `substeps` substeps of dt_fraction times
-/// the largest stable one.
+/// Scene for a model that is there already: no gravity, no governor, no sleep, ticks of `substeps` substeps of
+/// dt_fraction times the largest stable one.
 Scene plainScene(const Model& model, int substeps, double dt_fraction = 0.5);
 
 /// Everything at rest. [slots]
@@ -28,9 +28,9 @@ HostState stateOf(const Model& model, const Field& u_m);
 Vector3d xyz(const layout::vec4& v);
 layout::vec4 vec4(const Vector3d& v);
 
-/// Elastic forces of the GPU on every node [slots, N]: from the velocity that half a kick gives it. The solver has
+/// Elastic forces of a backend on every node [slots, N]: from the velocity that half a kick gives it. The solver has
 /// plainScene(): one substep per tick.
 /// @param model  one body without drag
-Field gpuForces(const Model& model, const Field& u_m);
+Field forcesOn(Backend backend, const Model& model, const Field& u_m);
 
 }  // namespace viscera::bench

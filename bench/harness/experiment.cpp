@@ -46,19 +46,17 @@ Experiment experimentOf(Model model, double tick_in_dt_safe, int ticks) {
   return out;
 }
 
-Track runGpu(const Experiment& experiment, const Method& method) {
-  GpuSolverOptions options;
-  options.allow_unstable = true;
-  GpuSolver solver(experiment.model, sceneFor(experiment, method), options);
-  solver.step(experiment.motions[0]);  // drivers finish compiling at the first use
-  solver.readState();
-  solver.reset();
-  solver.writeState(experiment.start);
+Track runOn(Backend backend, const Experiment& experiment, const Method& method) {
+  const std::unique_ptr<Ticks> solver = solverOn(backend, experiment.model, sceneFor(experiment, method), true);
+  solver->step(experiment.motions[0]);  // drivers finish compiling at the first use
+  solver->readState();
+  solver->reset();
+  solver->writeState(experiment.start);
   Track track;
   for (const ToolMotions& motions : experiment.motions) {
     const auto start = std::chrono::steady_clock::now();
-    solver.step(motions);
-    const HostState state = solver.readState();
+    solver->step(motions);
+    const HostState state = solver->readState();
     track.wall_s += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     track.u_m.push_back(fieldOf(state.displacement_m));
   }

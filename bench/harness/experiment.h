@@ -45,8 +45,8 @@ struct Track {
 /// No governor, no sleep. Ticks are `tick_in_dt_safe` times the largest stable substep long.
 Experiment experimentOf(Model model, double tick_in_dt_safe, int ticks);
 
-/// On the GPU.
-Track runGpu(const Experiment& experiment, const Method& method);
+/// In float32.
+Track runOn(Backend backend, const Experiment& experiment, const Method& method);
 /// In float64. @param substeps  per tick
 Track runReference(const Experiment& experiment, int substeps,
                    ReferenceIntegrator integrator = ReferenceIntegrator::kLeapfrog);

@@ -8,12 +8,15 @@
 
 #include "bench/harness/plot.h"
 #include "bench/harness/table.h"
+#include "viscera/model/scene/scene.h"
 
 namespace viscera::bench {
 
 struct SuiteOptions {
   std::string out = "out/bench";  ///< folder of CSV files and plots; made if it is not there
   bool short_form = false;        ///< the form that scripts/test runs: under 20 s on two cores
+  /// kCpu, kGpu: where the suites that judge results measure every row. One with the GPU needs a current context.
+  std::vector<Backend> backends = {Backend::kCpu, Backend::kGpu};
 };
 
 /// One number that must be reached.
@@ -32,6 +35,7 @@ class Report {
   Report(std::string suite, SuiteOptions options, std::ostream& text);
 
   bool isShort() const { return options_.short_form; }
+  const std::vector<Backend>& backends() const { return options_.backends; }
   const std::string& suite() const { return suite_; }
   /// Says on standard error what is measured next.
   void stage(const std::string& what) const;

@@ -41,10 +41,6 @@ std::string nameOf(Wanted wanted) {
   }
 }
 
-std::string nameOf(Backend backend) {
-  return backend == Backend::kCpu ? "cpu" : backend == Backend::kGpu ? "gpu" : "auto";
-}
-
 Wants wantsOf(const Session& session, Wanted wanted) {
   Wants out;
   out.surface = wanted == Wanted::kSurface || wanted == Wanted::kSurfaceAndImages;

@@ -13,7 +13,6 @@ namespace viscera::bench {
 /// What somebody who looks at a session subscribes to.
 enum class Wanted { kNothing, kSurface, kImages, kSurfaceAndImages, kEveryImage };
 std::string nameOf(Wanted wanted);
-std::string nameOf(Backend backend);
 /// The wants of the coming step: images at the rates of the cameras, or after every tick (kEveryImage).
 Wants wantsOf(const Session& session, Wanted wanted);
 

@@ -16,9 +16,7 @@ constexpr double kNumber = 0.7;       // of the wave, radians per spacing: nine 
 const Vector3d kDrift_m_per_s(0.05, 0.03, 0.02);
 
 Scene specimenScene(const Model& model) {
-  Scene scene = plainScene(model, kSpecimenSubsteps);
-  scene.solver.sleep_speed_m_per_s = 0;
-  return scene;
+  return plainScene(model, kSpecimenSubsteps);
 }
 
 Specimen specimenOf(const std::string& name, Model model) {

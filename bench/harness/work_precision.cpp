@@ -22,37 +22,51 @@ void addPoint(Plot& plot, const std::string& name, double x, double y) {
   plot.series.back().y.push_back(y);
 }
 
+Table tableOf(const std::string& title, const std::vector<Backend>& backends) {
+  std::vector<Column> columns = {{"integrator"}, {"dt", "dt_safe"}, {"iterations"}, {"sweeps per simulated s"}};
+  for (Backend backend : backends) {
+    columns.push_back({nameOf(backend) + ": wall s per simulated s", "", 3});
+    columns.push_back({nameOf(backend) + ": rms error", "", 3});
+    columns.push_back({nameOf(backend) + ": max error", "", 3});
+  }
+  return Table(title + "; error against dt -> 0 over max displacement", columns);
+}
+
 }  // namespace
 
-std::vector<Misfit> drawWorkPrecision(Report& report, const Experiment& experiment, const Track& truth,
-                                      const std::vector<Method>& methods, const std::string& stem,
-                                      const std::string& title) {
-  Table table(title + "; error against dt -> 0 over max displacement", {{"integrator"},
-                                                                        {"dt", "dt_safe"},
-                                                                        {"iterations"},
-                                                                        {"sweeps per simulated s"},
-                                                                        {"wall s per simulated s", "", 3},
-                                                                        {"rms error", "", 3},
-                                                                        {"max error", "", 3}});
-  Plot by_sweeps{title, "sweeps per simulated second", "rms error / max displacement", true, true, {}};
+std::vector<std::vector<Misfit>> drawWorkPrecision(Report& report, const Experiment& experiment, const Track& truth,
+                                                   const std::vector<Method>& methods, const std::string& stem,
+                                                   const std::string& title) {
+  const std::vector<Backend>& backends = report.backends();
+  Table table = tableOf(title, backends);
   Plot by_wall{title, "wall seconds per simulated second", "rms error / max displacement", true, true, {}};
-  std::vector<Misfit> errors;
+  std::vector<Plot> by_sweeps(backends.size(),
+                              {title, "sweeps per simulated second", "rms error / max displacement", true, true, {}});
+  std::vector<Plot> walls(backends.size());
+  std::vector<std::vector<Misfit>> errors(backends.size());
   for (const Method& method : methods) {
     const double dt = 1 / (experiment.scene.solver.tick_hz * method.substeps * experiment.dt_safe_s);
-    report.stage(stem + ", " + seriesOf(method) + ", dt " + Cell(dt).text(3) + " dt_safe");
-    const Track track = runGpu(experiment, method);
-    const Misfit error = misfit(experiment.model, track, truth);
     const double sweeps = method.sweeps() * experiment.scene.solver.tick_hz;
-    const double wall = track.wall_s / experiment.duration_s();
-    table.add({nameOf(method.integrator), dt, method.isImplicit() ? Cell(method.iterations) : Cell(""), sweeps, wall,
-               error.rms, error.max});
-    errors.push_back(error);
-    if (!isDrawn(method) && !report.isShort()) continue;
-    addPoint(by_sweeps, seriesOf(method), sweeps, error.rms);
-    addPoint(by_wall, seriesOf(method), wall, error.rms);
+    std::vector<Cell> row = {nameOf(method.integrator), dt, method.isImplicit() ? Cell(method.iterations) : Cell(""),
+                             sweeps};
+    report.stage(stem + ", " + seriesOf(method) + ", dt " + Cell(dt).text(3) + " dt_safe");
+    for (size_t b = 0; b < backends.size(); ++b) {
+      const Track track = runOn(backends[b], experiment, method);
+      const Misfit error = misfit(experiment.model, track, truth);
+      const double wall = track.wall_s / experiment.duration_s();
+      for (double value : {wall, error.rms, error.max}) row.emplace_back(value);
+      errors[b].push_back(error);
+      if (isDrawn(method) || report.isShort()) addPoint(by_sweeps[b], seriesOf(method), sweeps, error.rms);
+      if (method.isImplicit() && method.iterations != 10 && !report.isShort()) continue;
+      addPoint(walls[b], nameOf(backends[b]) + ": " + seriesOf(method), wall, error.rms);
+    }
+    table.add(row);
   }
   report.add(table, stem);
-  report.add(by_sweeps, stem + "_sweeps");
+  for (size_t b = 0; b < backends.size(); ++b) {
+    report.add(by_sweeps[b], stem + "_sweeps_" + nameOf(backends[b]));
+    by_wall.series.insert(by_wall.series.end(), walls[b].series.begin(), walls[b].series.end());
+  }
   report.add(by_wall, stem + "_wall");
   return errors;
 }

@@ -7,13 +7,13 @@
 
 namespace viscera::bench {
 
-/// Work-precision diagram: runs every method, prints a row each, plots error against sweeps and against wall time per
-/// simulated second, one curve per integrator and
-/// number of iterations: of these 2, 10 and 50, or all in the short form.
+/// Work-precision diagram: runs every method on every backend, prints a row each with the wall times side by side,
+/// plots error against sweeps, a file per backend, and against wall time per simulated second. A curve per integrator
+/// and number of iterations: of these 2, 10 and 50, or all in the short form; against wall time 10 alone.
 /// @param stem  of the file names   @param title  of table and plots
-/// @return errors, in the order of the methods
-std::vector<Misfit> drawWorkPrecision(Report& report, const Experiment& experiment, const Track& truth,
-                                      const std::vector<Method>& methods, const std::string& stem,
-                                      const std::string& title);
+/// @return errors of each backend of the report, in the order of the methods
+std::vector<std::vector<Misfit>> drawWorkPrecision(Report& report, const Experiment& experiment, const Track& truth,
+                                                   const std::vector<Method>& methods, const std::string& stem,
+                                                   const std::string& title);
 
 }  // namespace viscera::bench

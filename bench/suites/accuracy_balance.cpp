@@ -57,58 +57,72 @@ double mean(const std::vector<double>& values, size_t first, size_t last) {
   return sum / static_cast<double>(last - first);
 }
 
+/// Energy at the end of each tick [J].
+std::vector<double> energies(const Experiment& experiment, Backend backend) {
+  const std::unique_ptr<Ticks> solver = solverOn(backend, experiment.model, experiment.scene);
+  solver->writeState(experiment.start);
+  ReferenceSolver reference(experiment.model, Vector3d::Zero(), 1);
+  std::vector<double> out;
+  for (size_t t = 0; t < experiment.motions.size(); ++t) {
+    solver->step({});
+    out.push_back(energyOf(reference, solver->readState(), solver->dt_s()));
+  }
+  return out;
+}
+
 }  // namespace
 
 void measureMomentum(Report& report) {
   report.stage("momentum");
-  Table table("Sum of the forces of the GPU on a free block of 6x5x4 cells, random displacements",
-              {{"nu"}, {"displacement", "h"}, {"|sum F|/sum|F|", "", 3}});
-  double worst = 0;
-  for (double nu : {0.25, 0.45}) {
-    for (double size : {1e-3, 0.1, 1.0}) {
-      MaterialConfig material;
-      material.poisson_ratio = nu;
-      material.drag_per_s = material.dashpot_ratio = 0;
-      const Model model = blockModel({6, 5, 4}, kBeamSpacing_m, material);
-      const double found = unbalance(gpuForces(model, randomField(model, size * kBeamSpacing_m, 1)));
-      table.add({nu, size, found});
-      worst = worse(worst, found);
+  Table table("Sum of the forces on a free block of 6x5x4 cells, random displacements",
+              {{"backend"}, {"nu"}, {"displacement", "h"}, {"|sum F|/sum|F|", "", 3}});
+  for (Backend backend : report.backends()) {
+    double worst = 0;
+    for (double nu : {0.25, 0.45}) {
+      for (double size : {1e-3, 0.1, 1.0}) {
+        MaterialConfig material;
+        material.poisson_ratio = nu;
+        material.drag_per_s = material.dashpot_ratio = 0;
+        const Model model = blockModel({6, 5, 4}, kBeamSpacing_m, material);
+        const double found = unbalance(forcesOn(backend, model, randomField(model, size * kBeamSpacing_m, 1)));
+        table.add({nameOf(backend), nu, size, found});
+        worst = worse(worst, found);
+      }
     }
+    report.checkAtMost(nameOf(backend) + ": largest |sum F| / sum |F|", worst, kMomentumLimit);
   }
   report.add(table, "momentum");
-  report.checkAtMost("largest |sum F| / sum |F|", worst, kMomentumLimit);
 }
 
 void measureEnergyDrift(Report& report) {
   const int ticks = report.isShort() ? 20 : 1000, substeps = 1000;
-  report.stage("energy over " + std::to_string(ticks * substeps) + " substeps");
   MaterialConfig material;
   material.drag_per_s = material.dashpot_ratio = 0;
   Experiment experiment = experimentOf(beamModel({2, 2, 3}, material), kDrift_dt * substeps, ticks);
   experiment.start = stateOf(experiment.model, bent(experiment.model, 0.1 * kBeamSpacing_m));
   experiment.scene.solver.substeps = substeps;
-  GpuSolver solver(experiment.model, experiment.scene);
-  solver.writeState(experiment.start);
-  ReferenceSolver reference(experiment.model, Vector3d::Zero(), 1);
-  std::vector<double> energy;
-  Series series{"total energy", {}, {}, Series::Style::kLines};
-  for (int t = 1; t <= ticks; ++t) {
-    solver.step({});
-    energy.push_back(energyOf(reference, solver.readState(), solver.dt_s()));
-    series.x.push_back(t);  // substeps is a thousand
-    series.y.push_back(energy.back() / energy.front() - 1);
-  }
-  const size_t part = energy.size() / 10;
-  const double first = mean(energy, 0, part), last = mean(energy, energy.size() - part, energy.size());
-  const double drift = last / first - 1;
-  const auto [low, high] = std::minmax_element(energy.begin(), energy.end());
   Table table("Energy of a clamped block of 2x2x3 cells, leapfrog without drag and dashpot, dt_safe/2",
-              {{"substeps"}, {"drift"}, {"drift per substep"}, {"largest - smallest"}});
-  table.add({ticks * substeps, drift, drift / (0.9 * ticks * substeps), (*high - *low) / first});
+              {{"backend"}, {"substeps"}, {"drift"}, {"drift per substep"}, {"largest - smallest"}});
+  Plot plot{"Energy of an undamped block", "substeps / 1000", "energy / start - 1", false, false, {}};
+  for (Backend backend : report.backends()) {
+    report.stage("energy over " + std::to_string(ticks * substeps) + " substeps, " + nameOf(backend));
+    const std::vector<double> energy = energies(experiment, backend);
+    Series series{nameOf(backend), {}, {}, Series::Style::kLines};
+    for (size_t t = 0; t < energy.size(); ++t) {
+      series.x.push_back(static_cast<double>(t + 1));  // substeps is a thousand
+      series.y.push_back(energy[t] / energy.front() - 1);
+    }
+    plot.series.push_back(series);
+    const size_t part = energy.size() / 10;
+    const double first = mean(energy, 0, part), last = mean(energy, energy.size() - part, energy.size());
+    const double drift = last / first - 1;
+    const auto [low, high] = std::minmax_element(energy.begin(), energy.end());
+    table.add({nameOf(backend), ticks * substeps, drift, drift / (0.9 * ticks * substeps), (*high - *low) / first});
+    report.checkAtMost(nameOf(backend) + ": energy drift over " + Cell(ticks * substeps).text(7) + " substeps",
+                       std::abs(drift), kDriftLimit);
+  }
   report.add(table, "energy");
-  report.add(Plot{"Energy of an undamped block", "substeps / 1000", "energy / start - 1", false, false, {series}},
-             "energy");
-  report.checkAtMost("energy drift over " + Cell(ticks * substeps).text(7) + " substeps", std::abs(drift), kDriftLimit);
+  report.add(plot, "energy");
 }
 
 }  // namespace viscera::bench

@@ -71,62 +71,91 @@ constexpr Variant kVariants[] = {{Integrator::kLeapfrog, false, "displacement"},
                                  {Integrator::kVerletPaper, false, "position"}};
 
 /// Displacements (leapfrog) against positions (verlet_paper), near and far from the origin.
-void compareVariables(Report& report, int substeps) {
-  Table table("float32 against float64 with the same substep, after " + std::to_string(substeps) +
-                  " substeps of dt_safe/2; errors over max displacement",
-              {{"integrator"},
-               {"state"},
-               {"drag", "1/s"},
-               {"origin", "m"},
-               {"rms error", "", 3},
-               {"max error", "", 3},
-               {"fingerprint"}});
-  bool same = true;
-  for (double drag : {4.0, 0.0}) {
-    double worst = 0;
+class Variables {
+ public:
+  Variables(Report& report, int substeps)
+      : report_(report),
+        substeps_(substeps),
+        worst_(report.backends().size()),
+        same_(report.backends().size(), true),
+        table_("float32 against float64 with the same substep, after " + std::to_string(substeps) +
+                   " substeps of dt_safe/2; errors over max displacement",
+               {{"backend"},
+                {"integrator"},
+                {"state"},
+                {"drag", "1/s"},
+                {"origin", "m"},
+                {"rms error", "", 3},
+                {"max error", "", 3},
+                {"fingerprint"}}) {}
+
+  /// All variants with one drag; checks what is promised of it.
+  void run(double drag) {
+    std::fill(worst_.begin(), worst_.end(), 0);
     for (const Variant& variant : kVariants) {
-      const Integrator integrator = variant.integrator;
-      const bool promised = !traitsOf(integrator).own_positions;
-      report.stage("float32, " + nameOf(integrator) + ", drag " + Cell(drag).text(2) + " per s");
-      const Track truth = sameSubstep(letGo({drag}, substeps), truthOf(integrator));
-      uint64_t first = 0;
-      for (double origin : {0.0, 1.0, 1000.0}) {
-        const Experiment experiment = letGo({drag, origin, 0.5, variant.compensated}, substeps);
-        const Track track = runGpu(experiment, {integrator, kSubstepsPerTick});
-        const Misfit error = misfit(experiment.model, track, truth);
-        const uint64_t hash = hashOf(track);
-        if (origin == 0) first = hash;
-        table.add({nameOf(integrator), variant.state, drag, origin, error.rms, error.max, StateHash::text(hash)});
-        if (!promised) continue;
-        if (variant.compensated == (drag == 0)) worst = worse(worst, error.max);
-        same &= hash == first;
-      }
+      report_.stage("float32, " + nameOf(variant.integrator) + ", drag " + Cell(drag).text(2) + " per s");
+      const Track truth = sameSubstep(letGo({drag}, substeps_), truthOf(variant.integrator));
+      for (size_t b = 0; b < worst_.size(); ++b) runVariant(variant, drag, truth, b);
     }
-    report.checkAtMost("float32 against float64, leapfrog, drag " + Cell(drag).text(2) + " per s" +
-                           (drag == 0 ? ", compensated" : "") + ": largest error over max displacement",
-                       worst, kLimit);
+    for (size_t b = 0; b < worst_.size(); ++b) {
+      report_.checkAtMost(nameOf(report_.backends()[b]) + ": float32 against float64, leapfrog, drag " +
+                              Cell(drag).text(2) + " per s" + (drag == 0 ? ", compensated" : "") +
+                              ": largest error over max displacement",
+                          worst_[b], kLimit);
+    }
   }
-  report.add(table, "float32");
-  report.checkAtLeast("the same bits with the object at 0, 1 and 1000 m (1: yes)", same, 1);
-}
+  void finish() {
+    report_.add(table_, "float32");
+    for (size_t b = 0; b < same_.size(); ++b) {
+      report_.checkAtLeast(
+          nameOf(report_.backends()[b]) + ": the same bits with the object at 0, 1 and 1000 m (1: yes)", same_[b], 1);
+    }
+  }
+
+ private:
+  void runVariant(const Variant& variant, double drag, const Track& truth, size_t b) {
+    uint64_t first = 0;
+    for (double origin : {0.0, 1.0, 1000.0}) {
+      const Experiment experiment = letGo({drag, origin, 0.5, variant.compensated}, substeps_);
+      const Track track = runOn(report_.backends()[b], experiment, {variant.integrator, kSubstepsPerTick});
+      const Misfit error = misfit(experiment.model, track, truth);
+      const uint64_t hash = hashOf(track);
+      if (origin == 0) first = hash;
+      table_.add({nameOf(report_.backends()[b]), nameOf(variant.integrator), variant.state, drag, origin, error.rms,
+                  error.max, StateHash::text(hash)});
+      if (traitsOf(variant.integrator).own_positions) continue;  // nothing is promised
+      if (variant.compensated == (drag == 0)) worst_[b] = worse(worst_[b], error.max);
+      same_[b] = same_[b] && hash == first;
+    }
+  }
+
+  Report& report_;
+  int substeps_;
+  std::vector<double> worst_;  ///< [backends] of this drag
+  std::vector<bool> same_;     ///< [backends]
+  Table table_;
+};
 
 /// What Kahan's sums gain where substeps are short.
 void compareSums(Report& report, int substeps) {
   Table table(
       "Compensated sums of u and v (leapfrog) against plain ones, after " + std::to_string(substeps) + " substeps",
-      {{"dt", "dt_safe"},
+      {{"backend"},
+       {"dt", "dt_safe"},
        {"max error, plain", "", 3},
        {"max error, compensated", "", 3},
        {"plain/compensated", "", 3}});
-  for (double dt : {0.5, 0.125, 1.0 / 32}) {
-    report.stage("compensated sums, dt " + Cell(dt).text(3) + " dt_safe");
-    double error[2];
-    for (int i = 0; i < 2; ++i) {
-      const Experiment experiment = letGo({0, 0, dt, i == 1}, substeps);
-      const Track track = runGpu(experiment, {Integrator::kLeapfrog, kSubstepsPerTick});
-      error[i] = misfit(experiment.model, track, sameSubstep(experiment, ReferenceIntegrator::kLeapfrog)).max;
+  for (Backend backend : report.backends()) {
+    for (double dt : {0.5, 0.125, 1.0 / 32}) {
+      report.stage("compensated sums, dt " + Cell(dt).text(3) + " dt_safe, " + nameOf(backend));
+      double error[2];
+      for (int i = 0; i < 2; ++i) {
+        const Experiment experiment = letGo({0, 0, dt, i == 1}, substeps);
+        const Track track = runOn(backend, experiment, {Integrator::kLeapfrog, kSubstepsPerTick});
+        error[i] = misfit(experiment.model, track, sameSubstep(experiment, ReferenceIntegrator::kLeapfrog)).max;
+      }
+      table.add({nameOf(backend), dt, error[0], error[1], error[0] / error[1]});
     }
-    table.add({dt, error[0], error[1], error[0] / error[1]});
   }
   report.add(table, "compensation");
 }
@@ -135,7 +164,9 @@ void compareSums(Report& report, int substeps) {
 
 void measureFloat32(Report& report) {
   const int substeps = report.isShort() ? 1000 : 10000;
-  compareVariables(report, substeps);
+  Variables variables(report, substeps);
+  for (double drag : {4.0, 0.0}) variables.run(drag);
+  variables.finish();
   if (!report.isShort()) compareSums(report, substeps);
 }
 

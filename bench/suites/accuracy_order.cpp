@@ -63,14 +63,14 @@ void stagger(Experiment& experiment, int substeps) {
 }
 
 /// Errors for the longest substep and its halves.
-std::vector<double> errorsOf(const Row& row, const Experiment& experiment, const Track& truth) {
+std::vector<double> errorsOf(Backend backend, const Row& row, const Experiment& experiment, const Track& truth) {
   std::vector<double> errors;
   for (int i = 0; i <= row.halvings; ++i) {
     Method method = row.longest;
     method.substeps <<= i;
     Experiment run = experiment;
     if (!row.whole_first_kick) stagger(run, method.substeps);
-    errors.push_back(misfit(run.model, runGpu(run, method), truth).rms);
+    errors.push_back(misfit(run.model, runOn(backend, run, method), truth).rms);
   }
   return errors;
 }
@@ -101,42 +101,43 @@ constexpr size_t kColors = 8;  ///< of gnuplot; the last rows would lie on earli
 class OrderTable {
  public:
   explicit OrderTable(Report& report) : report_(report) {}
-  void add(const Row& row, const std::vector<double>& errors);
+  void add(Backend backend, const Row& row, const std::vector<double>& errors);
   void finish();
 
  private:
   Report& report_;
   Table table_{"Order: a beam swings in its lowest mode; rms error against dt -> 0 over max displacement",
-               {{"integrator"}, {"dt", "dt_safe"}, {"rms error", "", 3}, {"slope"}}};
-  Plot plot_{"Error against substep: a beam in its lowest mode",
-             "dt / dt_safe",
-             "rms error / max displacement",
-             true,
-             true,
-             {}};
+               {{"backend"}, {"integrator"}, {"dt", "dt_safe"}, {"rms error", "", 3}, {"slope"}}};
+  std::map<Backend, Plot> plots_;
 };
 
-void OrderTable::add(const Row& row, const std::vector<double>& errors) {
+void OrderTable::add(Backend backend, const Row& row, const std::vector<double>& errors) {
   Series series{row.name, {}, {}};
   double off = 0;
   for (size_t i = 0; i < errors.size(); ++i) {
     const double dt = kTickInDtSafe / (row.longest.substeps << i);
     const double found = i > 0 ? slope(errors[i - 1], errors[i]) : 0;
-    table_.add({row.name, dt, errors[i], i > 0 ? Cell(found) : Cell("")});
+    table_.add({nameOf(backend), row.name, dt, errors[i], i > 0 ? Cell(found) : Cell("")});
     series.x.push_back(dt);
     series.y.push_back(errors[i]);
     if (i > 0) off = worse(off, std::abs(found - row.order));
   }
-  if (plot_.series.size() < kColors) plot_.series.push_back(series);
+  std::vector<Series>& curves = plots_[backend].series;
+  if (curves.size() < kColors) curves.push_back(series);
   if (row.order > 0) {
-    report_.checkAtMost("order of " + row.name + ": largest |slope - " + Cell(row.order).text(2) + "|", off,
-                        kTolerance);
+    report_.checkAtMost(
+        nameOf(backend) + ": order of " + row.name + ": largest |slope - " + Cell(row.order).text(2) + "|", off,
+        kTolerance);
   }
 }
 
 void OrderTable::finish() {
   report_.add(table_, "order");
-  report_.add(plot_, "order");
+  for (const auto& [backend, plot] : plots_) {
+    report_.add(Plot{"Error against substep: a beam in its lowest mode, " + nameOf(backend), "dt / dt_safe",
+                     "rms error / max displacement", true, true, plot.series},
+                "order_" + nameOf(backend));
+  }
 }
 
 }  // namespace
@@ -151,7 +152,9 @@ void measureOrder(Report& report) {
       const Experiment experiment = swing(row.damping);
       known[key] = {experiment, truthOf(experiment, row.damping)};
     }
-    out.add(row, errorsOf(row, known[key].first, known[key].second));
+    for (Backend backend : report.backends()) {
+      out.add(backend, row, errorsOf(backend, row, known[key].first, known[key].second));
+    }
   }
   out.finish();
 }

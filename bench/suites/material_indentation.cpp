@@ -36,26 +36,27 @@ Model plateBlock(const MaterialConfig& material, int half_width) {
                     [](const Vector3i& n) { return n.z() == 0; });
 }
 
-/// A sphere that sinks into the middle of a block on a plate, on the GPU, and rests there.
-class GpuIndenter {
+/// A sphere that sinks into the middle of a block on a plate, on a backend, and rests there.
+class Indenter {
  public:
-  GpuIndenter(double nu, int half_width, const Indentation& press)
-      : model_(plateBlock(materialOf(nu), half_width)),
+  Indenter(Backend backend, double nu, int half_width, const Indentation& press)
+      : backend_(backend),
+        model_(plateBlock(materialOf(nu), half_width)),
         top_(half_width, half_width, half_width + press.radius),
         press_(press) {
     settle(nu, half_width);
     // With drag a substep's kick, which is what the probe undoes, is smaller than the force by 1 + gamma dt/2: the
     // reaction is read in a tick without.
-    GpuSolver solver(model_, scene(model_, 1));
-    solver.writeState(state_, true);
-    reaction_n_ = move(solver, 1, 1);
+    const std::unique_ptr<Ticks> solver = solverOn(backend_, model_, scene(model_, 1));
+    solver->writeState(state_, true);
+    reaction_n_ = move(*solver, 1, 1);
   }
   double reaction_n() const { return reaction_n_; }
   /// The same while the drag is on, and what the drag should make of it.
   double dragged_n() const { return dragged_n_; }
   double dragFactor() const { return drag_factor_; }
   int touched() const { return static_cast<int>(stats_.touched[0]); }
-  /// What the plate feels, by the float64 forces in the state that the GPU ended in [N].
+  /// What the plate feels, by the float64 forces in the state that the backend ended in [N].
   double plateForce() const {
     const ReferenceLattice lattice(model_);
     Field u(model_.slots(), Vector3d::Zero());
@@ -77,14 +78,14 @@ class GpuIndenter {
     const double c_s = std::sqrt(material.young_modulus_pa / (2 * (1 + nu))), period_s = 4 * height / c_s;
     material.drag_per_s = 4 * M_PI / period_s;
     const Model dragged = plateBlock(material, height);
-    GpuSolver solver(dragged, scene(dragged, kTickSubsteps));
-    const int sinking = static_cast<int>(2 * period_s / (kTickSubsteps * solver.dt_s())), ticks = 4 * sinking;
+    const std::unique_ptr<Ticks> solver = solverOn(backend_, dragged, scene(dragged, kTickSubsteps));
+    const int sinking = static_cast<int>(2 * period_s / (kTickSubsteps * solver->dt_s())), ticks = 4 * sinking;
     for (int tick = 0; tick < ticks; ++tick) {
       dragged_n_ =
-          move(solver, std::min(1.0, static_cast<double>(tick) / sinking), std::min(1.0, (tick + 1.0) / sinking));
+          move(*solver, std::min(1.0, static_cast<double>(tick) / sinking), std::min(1.0, (tick + 1.0) / sinking));
     }
-    drag_factor_ = 1 / (1 + material.drag_per_s * solver.dt_s() / 2);
-    state_ = solver.readState();
+    drag_factor_ = 1 / (1 + material.drag_per_s * solver->dt_s() / 2);
+    state_ = solver->readState();
   }
   Scene scene(const Model& model, int substeps) const {
     Scene out = plainScene(model, substeps);
@@ -94,7 +95,7 @@ class GpuIndenter {
     return out;
   }
   /// One tick. @param from, to  shares of the depth   @return reaction [N]
-  double move(GpuSolver& solver, double from, double to) {
+  double move(Ticks& solver, double from, double to) {
     ToolMotions motions{};
     motions[0].mode = ToolMode::kProbe;
     motions[0].present = true;
@@ -106,6 +107,7 @@ class GpuIndenter {
     return -stats_.impulse[0].z / (solver.substeps() * solver.dt_s());  // the nodes are pushed down
   }
 
+  Backend backend_;
   Model model_;
   Vector3d top_;
   Indentation press_;
@@ -139,11 +141,40 @@ void measureHertz(Report& report) {
   report.checkAtMost("Hertz, half-space, a >= 4 h: largest |F/F_Hertz - 1|", worst, kHertzLimit);
 }
 
+/// Rows of one Poisson's ratio on all backends. @return the worst imbalance [backends]
+std::vector<double> probeRows(Report& report, double nu, int half_width, Table& table, Plot& plot) {
+  const std::vector<Backend>& backends = report.backends();
+  std::vector<double> worst(backends.size());
+  std::vector<Series> found;
+  for (Backend backend : backends) found.push_back({nameOf(backend) + ", nu " + Cell(nu).text(3), {}, {}});
+  Series in_theory{"linear, nu " + Cell(nu).text(3), {}, {}};
+  for (int contact : report.isShort() ? std::vector<int>{2} : std::vector<int>{2, 3, 4}) {
+    const Indentation press = indentation(contact);
+    const double hertz = hertzForce(materialOf(nu), press.radius, press.depth);
+    const LinearContact block(half_width, 1, materialOf(nu), Surroundings::kBonded, 1.5 * contact + 1);
+    const double linear = block.press(press.radius, press.depth).force_n;
+    in_theory.x.push_back(contact), in_theory.y.push_back(linear / hertz);
+    for (size_t b = 0; b < backends.size(); ++b) {
+      report.stage("probe, nu " + Cell(nu).text(3) + ", a/h " + std::to_string(contact) + ", " + nameOf(backends[b]));
+      const Indenter probe(backends[b], nu, half_width, press);
+      const double force = probe.reaction_n(), balance = force / probe.plateForce() - 1;
+      table.add({nameOf(backends[b]), nu, press.radius, press.contact, probe.touched(), force / hertz, linear / hertz,
+                 force / linear - 1, balance, probe.dragged_n() / force, probe.dragFactor()});
+      worst[b] = std::max(worst[b], std::abs(balance));
+      found[b].x.push_back(contact), found[b].y.push_back(force / hertz);
+    }
+  }
+  plot.series.insert(plot.series.end(), found.begin(), found.end());
+  plot.series.push_back(in_theory);
+  return worst;
+}
+
 void measureProbe(Report& report) {
   const int half_width = report.isShort() ? 6 : 10;
-  Table table("The same sphere as a probe on the GPU, on a block of " + std::to_string(2 * half_width) + "^2 x " +
+  Table table("The same sphere as a probe, on a block of " + std::to_string(2 * half_width) + "^2 x " +
                   std::to_string(half_width) + " cells on a plate: reaction of the tick",
-              {{"nu"},
+              {{"backend"},
+               {"nu"},
                {"R/h"},
                {"a/h"},
                {"nodes touched"},
@@ -154,28 +185,17 @@ void measureProbe(Report& report) {
                {"under drag / F", "", 5},
                {"1/(1 + gamma dt/2)", "", 5}});
   Plot plot{"A probe on a block on a plate", "radius of the contact / spacing", "F / Hertz", false, false, {}};
-  double worst = 0;
+  std::vector<double> worst(report.backends().size());
   for (double nu : {0.25, 0.45}) {
-    Series on_gpu{"GPU, nu " + Cell(nu).text(3), {}, {}}, in_theory{"linear, nu " + Cell(nu).text(3), {}, {}};
-    for (int contact : report.isShort() ? std::vector<int>{2} : std::vector<int>{2, 3, 4}) {
-      report.stage("probe on the GPU, nu " + Cell(nu).text(3) + ", a/h " + std::to_string(contact));
-      const Indentation press = indentation(contact);
-      const double hertz = hertzForce(materialOf(nu), press.radius, press.depth);
-      const LinearContact block(half_width, 1, materialOf(nu), Surroundings::kBonded, 1.5 * contact + 1);
-      const double linear = block.press(press.radius, press.depth).force_n;
-      const GpuIndenter probe(nu, half_width, press);
-      const double force = probe.reaction_n(), balance = force / probe.plateForce() - 1;
-      table.add({nu, press.radius, press.contact, probe.touched(), force / hertz, linear / hertz, force / linear - 1,
-                 balance, probe.dragged_n() / force, probe.dragFactor()});
-      worst = std::max(worst, std::abs(balance));
-      on_gpu.x.push_back(contact), on_gpu.y.push_back(force / hertz);
-      in_theory.x.push_back(contact), in_theory.y.push_back(linear / hertz);
-    }
-    plot.series.insert(plot.series.end(), {on_gpu, in_theory});
+    const std::vector<double> found = probeRows(report, nu, half_width, table, plot);
+    for (size_t b = 0; b < worst.size(); ++b) worst[b] = std::max(worst[b], found[b]);
   }
   report.add(table, "probe");
   report.add(plot, "probe");
-  report.checkAtMost("probe on the GPU at rest: largest |reaction / force on the plate - 1|", worst, kReactionLimit);
+  for (size_t b = 0; b < worst.size(); ++b) {
+    report.checkAtMost(nameOf(report.backends()[b]) + ": probe at rest: largest |reaction / force on the plate - 1|",
+                       worst[b], kReactionLimit);
+  }
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "bench/harness/block.h"
@@ -45,9 +46,9 @@ double formula(double nu, const Wave& wave) {
 /// A free block of cells and the solver on it, for one nu.
 class WaveTank {
  public:
-  WaveTank(double nu, int cells)
+  WaveTank(Backend backend, double nu, int cells)
       : model_(blockModel(Vector3i::Constant(cells), 1, waveMaterial(nu))),
-        solver_(model_, plainScene(model_, 1)),
+        solver_(solverOn(backend, model_, plainScene(model_, 1))),
         middle_(cells / 2) {
     const Lattice& lattice = model_.bodies[0].lattice;
     for (uint32_t slot : lattice.active_slots) {
@@ -58,16 +59,16 @@ class WaveTank {
 
   /// Frequency of a standing wave [rad/s]. @param expected  about as much
   double measure(const Wave& wave, double expected) {
-    const double phase = phasePerSubstep(expected, solver_.dt_s());
+    const double phase = phasePerSubstep(expected, solver_->dt_s());
     const int stride = std::clamp(static_cast<int>(kPhaseStep / phase), 1, kSubsteps / 2);
     const Field start = standing(wave);
-    solver_.writeState(stateOf(model_, start));
+    solver_->writeState(stateOf(model_, start));
     std::vector<double> amplitude;
     for (int n = 0; n <= kSubsteps; ++n) {
       if (n % stride == 0) amplitude.push_back(projection(start));
-      solver_.step({});
+      solver_->step({});
     }
-    return modeFrequency(amplitude, stride, solver_.dt_s());
+    return modeFrequency(amplitude, stride, solver_->dt_s());
   }
 
  private:
@@ -81,23 +82,64 @@ class WaveTank {
     return u;
   }
   double projection(const Field& shape) const {
-    const HostState state = solver_.readState();
+    const HostState state = solver_->readState();
     double sum = 0;
     for (uint32_t slot : inner_) sum += shape[slot].dot(xyz(state.displacement_m[slot]));
     return sum;
   }
 
   Model model_;
-  GpuSolver solver_;
+  std::unique_ptr<Ticks> solver_;
   int middle_;
   std::vector<uint32_t> inner_;  ///< slots that know nothing of the surface yet
+};
+
+/// Measures waves of every kind on one backend: rows of the table, points of the diagram.
+class WaveTests {
+ public:
+  WaveTests(Report& report, Table& table) : report_(report), table_(table) {}
+
+  /// @return points of longitudinal and transverse waves
+  std::array<Series, 2> run(Backend backend) {
+    const bool brief = report_.isShort();
+    std::array<Series, 2> found = {{{nameOf(backend) + ": longitudinal, all nu", {}, {}, Series::Style::kPoints},
+                                    {nameOf(backend) + ": transverse, all nu", {}, {}, Series::Style::kPoints}}};
+    worst_ = 0;
+    for (double nu : brief ? std::vector<double>{0.25, 0.45} : std::vector<double>{0, 0.25, 0.4, 0.45, 0.49}) {
+      report_.stage("plane waves, nu " + Cell(nu).text(3) + ", " + nameOf(backend));
+      WaveTank tank(backend, nu, brief ? 2 * kSubsteps + 2 : 2 * kSubsteps + 6);
+      for (int axis : {2, 0}) {
+        for (double length : brief ? std::vector<double>{4, 12} : std::vector<double>{2, 3, 4, 6, 12}) {
+          measure(backend, nu, {axis, 2 * M_PI / length}, tank, found[axis == 2 ? 0 : 1]);
+        }
+      }
+    }
+    report_.checkAtMost(nameOf(backend) + ": plane waves: largest relative error of a frequency", worst_, kLimit);
+    return found;
+  }
+
+ private:
+  void measure(Backend backend, double nu, const Wave& wave, WaveTank& tank, Series& series) {
+    const double wanted = formula(nu, wave), omega = tank.measure(wave, wanted), error = omega / wanted - 1;
+    const double speed = omega / (wave.q * speedOf(nu, wave));
+    table_.add(
+        {nameOf(backend), wave.axis == 2 ? "longitudinal" : "transverse", nu, wave.q, wanted, omega, error, speed});
+    series.x.push_back(wave.q);
+    series.y.push_back(speed);
+    worst_ = std::max(worst_, std::abs(error));
+  }
+
+  Report& report_;
+  Table& table_;
+  double worst_ = 0;
 };
 
 }  // namespace
 
 void measurePlaneWaves(Report& report) {
-  Table table("Plane waves along an axis of the lattice on the GPU, k = m = h = 1; leapfrog's time error taken out",
-              {{"wave"},
+  Table table("Plane waves along an axis of the lattice, k = m = h = 1; leapfrog's time error taken out",
+              {{"backend"},
+               {"wave"},
                {"nu"},
                {"q h", "", 5},
                {"formula", "rad/s", 7},
@@ -110,34 +152,13 @@ void measurePlaneWaves(Report& report) {
     exact.x.push_back(q);
     exact.y.push_back(2 * std::sin(q / 2) / q);
   }
-  Series found[] = {{"longitudinal, all nu", {}, {}, Series::Style::kPoints},
-                    {"transverse, all nu", {}, {}, Series::Style::kPoints}};
-  double worst = 0;
-  const std::vector<double> ratios =
-      report.isShort() ? std::vector<double>{0.25, 0.45} : std::vector<double>{0, 0.25, 0.4, 0.45, 0.49};
-  const std::vector<double> lengths =
-      report.isShort() ? std::vector<double>{4, 12} : std::vector<double>{2, 3, 4, 6, 12};
-  for (double nu : ratios) {
-    report.stage("plane waves, nu " + Cell(nu).text(3));
-    WaveTank tank(nu, report.isShort() ? 2 * kSubsteps + 2 : 2 * kSubsteps + 6);
-    for (int axis : {2, 0}) {
-      const std::string name = axis == 2 ? "longitudinal" : "transverse";
-      Series& series = found[axis == 2 ? 0 : 1];
-      for (double length : lengths) {
-        const Wave wave{axis, 2 * M_PI / length};
-        const double wanted = formula(nu, wave), omega = tank.measure(wave, wanted), error = omega / wanted - 1;
-        const double speed = omega / (wave.q * speedOf(nu, wave));
-        table.add({name, nu, wave.q, wanted, omega, error, speed});
-        series.x.push_back(wave.q);
-        series.y.push_back(speed);
-        worst = std::max(worst, std::abs(error));
-      }
-    }
+  plot.series = {exact};
+  WaveTests tests(report, table);
+  for (Backend backend : report.backends()) {
+    for (const Series& series : tests.run(backend)) plot.series.push_back(series);
   }
-  plot.series = {exact, found[0], found[1]};
   report.add(table, "waves");
   report.add(plot, "waves");
-  report.checkAtMost("plane waves: largest relative error of a frequency", worst, kLimit);
 }
 
 }  // namespace viscera::bench

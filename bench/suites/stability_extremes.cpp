@@ -6,9 +6,12 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 
 #include "bench/suites/stability_suite.h"
 #include "bench/suites/stability_trial.h"
+#include "solver/cpu/cpu_solver.h"
+#include "solver/gpu/gpu_solver.h"
 #include "viscera/math/state_hash.h"
 
 namespace viscera::bench {
@@ -17,6 +20,8 @@ namespace {
 
 constexpr double kSpacing_m = 0.005;
 constexpr double kEnergyBound = 1.01;
+constexpr double kRestChange = 1e-5;  // of the sag: below what anyone sees
+constexpr double kUnitsSag_m = 1e-6;  // the box must have moved for that to say anything
 constexpr double kUnitsApart = 1e-6;  // of the largest displacement: float32 of the file's numbers times unit_scale_m
 
 /// A block whose cells alternate between two parts along x.
@@ -54,58 +59,69 @@ void ratios(Report& report) {
       {"both, stiff is light", part("a", 1e2, 1e5), part("b", 1e8, 1e1)},
       {"both, stiff is heavy", part("a", 1e2, 1e1), part("b", 1e8, 1e5)},
   };
-  Table table("two parts in one body, from random places", {{"ratio"},
+  Table table("two parts in one body, from random places", {{"backend"},
+                                                            {"ratio"},
                                                             {"integrator"},
                                                             {"finite"},
                                                             {"max energy over start", "", 5},
                                                             {"energy left"},
                                                             {"governor trips"},
                                                             {"ticks"}});
-  int not_finite = 0;
-  double worst = 0;
-  for (const Row& row : rows) {
-    const Model model = twoPartBlock(report.isShort() ? 3 : 5, row.first, row.second);
-    const std::vector<Start> starts = extremeStarts(model);
-    for (Integrator integrator : {Integrator::kLeapfrog, Integrator::kVbd, Integrator::kPd}) {
-      report.stage(row.name + ", " + nameOf(integrator));
-      const Scene scene = sceneAt(model, integrator, traitsOf(integrator).is_explicit ? 1 : 100);
-      const Outcome outcome = tryStart(model, scene, starts[0], report.isShort() ? 12 : 40);
-      not_finite += outcome.finite ? 0 : 1;
-      worst = std::max(worst, outcome.energy_ratio);
-      table.add({row.name, nameOf(integrator), outcome.finite ? "yes" : "NO", outcome.energy_ratio, outcome.energy_left,
-                 static_cast<double>(outcome.trips), outcome.ticks});
+  for (Backend backend : report.backends()) {
+    int not_finite = 0;
+    double worst = 0;
+    for (const Row& row : rows) {
+      const Model model = twoPartBlock(report.isShort() ? 3 : 5, row.first, row.second);
+      const std::vector<Start> starts = extremeStarts(model);
+      for (Integrator integrator : {Integrator::kLeapfrog, Integrator::kVbd, Integrator::kPd}) {
+        report.stage(row.name + ", " + nameOf(integrator) + ", " + nameOf(backend));
+        const Scene scene = sceneAt(model, integrator, traitsOf(integrator).is_explicit ? 1 : 100);
+        const Outcome outcome = tryStart(backend, model, scene, starts[0], report.isShort() ? 12 : 40);
+        not_finite += outcome.finite ? 0 : 1;
+        worst = std::max(worst, outcome.energy_ratio);
+        table.add({nameOf(backend), row.name, nameOf(integrator), outcome.finite ? "yes" : "NO", outcome.energy_ratio,
+                   outcome.energy_left, static_cast<double>(outcome.trips), outcome.ticks});
+      }
     }
+    report.checkAtMost(nameOf(backend) + ": ratios: values that are not finite", not_finite, 0);
+    report.checkAtMost(nameOf(backend) + ": ratios: energy over start", worst, kEnergyBound);
   }
   report.add(table, "ratios");
-  report.checkAtMost("ratios: values that are not finite", not_finite, 0);
-  report.checkAtMost("ratios: energy over start", worst, kEnergyBound);
+}
+
+double deepest(const Ticks& solver) {
+  double out = 0;
+  for (const layout::vec4& u : solver.readState().displacement_m) out = std::max(out, xyz(u).norm());
+  return out;
 }
 
 void longRest(Report& report) {
   const Model model = blockModel(Vector3i::Constant(3), kSpacing_m, {}, [](const Vector3i& n) { return n.z() == 3; });
   Scene scene = sceneAt(model, Integrator::kLeapfrog, 0.75 / 0.82);
   scene.environment.gravity_m_per_s2 = Vector3d(0, 0, -9.81);
-  GpuSolver solver(model, scene);
   const uint64_t total = report.isShort() ? 10000 : 1000000;
-  const auto run = [&](uint64_t substeps) {
-    while (solver.substepsDone() < substeps) solver.step({});
-  };
-  const auto sag = [&] {
-    double deepest = 0;
-    for (const layout::vec4& u : solver.readState().displacement_m) deepest = std::max(deepest, xyz(u).norm());
-    return deepest;
-  };
-  report.stage("a long rest");
-  run(total / 5);  // settled: drag_per_s acts for seconds
-  const double before = sag();
-  run(total);
-  const double after = sag();
-  Table table("hanging at rest",
-              {{"substeps"}, {"sag", "m", 7}, {"change of sag", "1"}, {"kinetic energy", "J"}, {"governor trips"}});
-  table.add({static_cast<double>(solver.substepsDone()), after, after / before - 1, solver.health().kinetic_j,
-             static_cast<double>(solver.health().trips)});
+  Table table("hanging at rest", {{"backend"},
+                                  {"substeps"},
+                                  {"sag", "m", 7},
+                                  {"change of sag", "1"},
+                                  {"kinetic energy", "J"},
+                                  {"governor trips"}});
+  for (Backend backend : report.backends()) {
+    report.stage("a long rest, " + nameOf(backend));
+    const std::unique_ptr<Ticks> solver = solverOn(backend, model, scene);
+    const auto run = [&](uint64_t substeps) {
+      while (solver->substepsDone() < substeps) solver->step({});
+    };
+    run(total / 5);  // settled: drag_per_s acts for seconds
+    const double before = deepest(*solver);
+    run(total);
+    const double after = deepest(*solver);
+    table.add({nameOf(backend), static_cast<double>(solver->substepsDone()), after, after / before - 1,
+               solver->health().kinetic_j, static_cast<double>(solver->health().trips)});
+    if (report.isShort()) continue;  // not settled yet
+    report.checkAtMost(nameOf(backend) + ": rest: change of sag", std::abs(after / before - 1), kRestChange);
+  }
   report.add(table, "rest");
-  if (!report.isShort()) report.checkAtMost("rest: change of sag", std::abs(after / before - 1), 1e-5);
 }
 
 /// A box as an OBJ file with edges of 20 mm in the file's units.
@@ -123,71 +139,108 @@ std::string boxFile(const std::string& folder, const std::string& name, double u
   return path;
 }
 
+/// The box of a file, held at its top.
+Scene boxScene(const std::string& file, double unit_m) {
+  Scene scene;
+  BodyConfig body;
+  body.source = TissueSource::kMesh;
+  body.mesh_file = file;
+  body.unit_scale_m = unit_m;
+  body.spacing_m = kSpacing_m;
+  FixedConfig top;
+  top.shape = FixedShape::kPlane;
+  top.point_m = Vector3d(0, 0, 0.019);
+  top.normal = -Vector3d::UnitZ();
+  body.fixed.push_back(top);
+  scene.bodies.push_back(body);
+  return scene;
+}
+
+struct Unit {
+  const char* name;
+  double m;
+};
+constexpr Unit kUnits[] = {{"m", 1}, {"cm", 0.01}, {"mm", 0.001}};
+
 void units(Report& report) {
   const std::string folder =
       (std::filesystem::temp_directory_path() / ("viscera_units_" + std::to_string(getpid()))).string();
   std::filesystem::create_directories(folder);
-  struct Unit {
-    const char* name;
-    double m;
-  };
   Table table("the same box from files in three units, one second under gravity",
-              {{"unit"}, {"nodes"}, {"largest displacement", "m", 7}, {"apart from m", "1"}});
-  std::vector<double> sags;
-  for (const Unit& unit : {Unit{"m", 1}, Unit{"cm", 0.01}, Unit{"mm", 0.001}}) {
-    Scene scene;
-    BodyConfig body;
-    body.source = TissueSource::kMesh;
-    body.mesh_file = boxFile(folder, unit.name, unit.m);
-    body.unit_scale_m = unit.m;
-    body.spacing_m = kSpacing_m;
-    FixedConfig top;
-    top.shape = FixedShape::kPlane;
-    top.point_m = Vector3d(0, 0, 0.019);
-    top.normal = -Vector3d::UnitZ();
-    body.fixed.push_back(top);
-    scene.bodies.push_back(body);
-    const Model model = buildModel(scene);
-    GpuSolver solver(model, scene);
-    for (int t = 0; t < (report.isShort() ? 10 : 60); ++t) solver.step({});
-    double deepest = 0;
-    for (const layout::vec4& u : solver.readState().displacement_m) deepest = std::max(deepest, xyz(u).norm());
-    sags.push_back(deepest);
-    table.add({unit.name, static_cast<double>(model.activeNodes()), deepest, deepest / sags[0] - 1});
+              {{"backend"}, {"unit"}, {"nodes"}, {"largest displacement", "m", 7}, {"apart from m", "1"}});
+  for (Backend backend : report.backends()) {
+    double in_m = 0, apart = 0;
+    for (const Unit& unit : kUnits) {
+      const Scene scene = boxScene(boxFile(folder, unit.name, unit.m), unit.m);
+      const Model model = buildModel(scene);
+      const std::unique_ptr<Ticks> solver = solverOn(backend, model, scene);
+      for (int t = 0; t < (report.isShort() ? 10 : 60); ++t) solver->step({});
+      const double sag = deepest(*solver);
+      if (unit.m == 1) in_m = sag;
+      apart = worse(apart, std::abs(sag / in_m - 1));
+      table.add({nameOf(backend), unit.name, static_cast<double>(model.activeNodes()), sag, sag / in_m - 1});
+    }
+    report.checkAtMost(nameOf(backend) + ": units: displacement in cm and mm apart from that in m", apart, kUnitsApart);
+    report.checkAtLeast(nameOf(backend) + ": units: largest displacement in m", in_m, kUnitsSag_m);
   }
   std::filesystem::remove_all(folder);
   report.add(table, "units");
-  for (double sag : sags) {
-    if (sag != sags[0]) report.checkAtMost("units: displacement apart", std::abs(sag / sags[0] - 1), kUnitsApart);
+}
+
+/// Ways of doing the same substeps on one backend, which must end in the same bits.
+struct Way {
+  std::string name;
+  std::function<std::unique_ptr<Ticks>(const Model&, const Scene&)> make;
+};
+
+std::vector<Way> waysOf(Backend backend) {
+  std::vector<Way> out;
+  if (backend == Backend::kGpu) {
+    for (uint32_t group : {32u, 64u, 128u, 256u}) {
+      out.push_back({"groups of " + std::to_string(group), [group](const Model& model, const Scene& scene) {
+                       GpuSolverOptions options;
+                       options.group_size = group;
+                       return std::make_unique<GpuSolver>(model, scene, options);
+                     }});
+    }
+    return out;
   }
-  report.checkAtLeast("units: largest displacement in m", sags[0], 1e-6);
+  for (int threads : {1, 2, 3, 5}) {
+    out.push_back({std::to_string(threads) + " threads", [threads](const Model& model, Scene scene) {
+                     scene.solver.threads = threads;
+                     return std::make_unique<CpuSolver>(model, scene);
+                   }});
+  }
+  return out;
 }
 
 void hashes(Report& report) {
   const Model model = blockModel(Vector3i::Constant(4), kSpacing_m, {}, [](const Vector3i& n) { return n.z() == 4; });
   const uint64_t substeps = report.isShort() ? 2000 : 100000;
+  Scene scene = sceneAt(model, Integrator::kLeapfrog, 0.5);
+  scene.environment.gravity_m_per_s2 = Vector3d(3, 2, -9.81);
   Table table("state hash after " + std::to_string(substeps) + " substeps",
-              {{"work group"}, {"governor"}, {"run"}, {"hash"}});
-  std::vector<std::string> all;
-  for (uint32_t group : {32u, 64u, 128u, 256u}) {
-    for (bool governor : {true, false}) {
-      for (int again = 1; again <= (group == 64 ? 2 : 1); ++again) {
-        report.stage("hashes");
-        Scene scene = sceneAt(model, Integrator::kLeapfrog, 0.5);
-        scene.environment.gravity_m_per_s2 = Vector3d(3, 2, -9.81);
-        scene.solver.governor = governor;
-        GpuSolverOptions options;
-        options.group_size = group;
-        GpuSolver solver(model, scene, options);
-        while (solver.substepsDone() < substeps) solver.step({});
-        all.push_back(StateHash::text(stateHash(model, solver.readState())));
-        table.add({static_cast<double>(group), governor ? "on" : "off", again, all.back()});
+              {{"backend"}, {"way"}, {"governor"}, {"run"}, {"hash"}});
+  for (Backend backend : report.backends()) {
+    report.stage("hashes, " + nameOf(backend));
+    std::vector<std::string> all;
+    const std::vector<Way> ways = waysOf(backend);
+    for (const Way& way : ways) {
+      for (bool governor : {true, false}) {
+        for (int again = 1; again <= (&way == &ways[1] ? 2 : 1); ++again) {
+          scene.solver.governor = governor;
+          const std::unique_ptr<Ticks> solver = way.make(model, scene);
+          while (solver->substepsDone() < substeps) solver->step({});
+          all.push_back(StateHash::text(stateHash(model, solver->readState())));
+          table.add({nameOf(backend), way.name, governor ? "on" : "off", again, all.back()});
+        }
       }
     }
+    const auto different = std::count_if(all.begin(), all.end(), [&](const std::string& h) { return h != all[0]; });
+    report.checkAtMost(nameOf(backend) + ": hashes: runs that differ from the first", static_cast<double>(different),
+                       0);
   }
   report.add(table, "hashes");
-  const auto different = std::count_if(all.begin(), all.end(), [&](const std::string& h) { return h != all[0]; });
-  report.checkAtMost("hashes: runs that differ from the first", static_cast<double>(different), 0);
 }
 
 }  // namespace

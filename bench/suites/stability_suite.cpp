@@ -34,7 +34,8 @@ struct Worst {
 };
 
 Table startsTable(const std::string& title) {
-  return Table(title, {{"start"},
+  return Table(title, {{"backend"},
+                       {"start"},
                        {"integrator"},
                        {"dt over limit"},
                        {"finite"},
@@ -46,9 +47,9 @@ Table startsTable(const std::string& title) {
                        {"ticks"}});
 }
 
-void addRow(Table& table, const Start& start, Integrator integrator, double ratio, const Outcome& o) {
-  table.add({start.name, nameOf(integrator), ratio, o.finite ? "yes" : "NO", o.energy_ratio, o.energy_left,
-             o.frames_to_recover >= 0 ? "yes" : "bounded", static_cast<double>(o.trips),
+void addRow(Table& table, Backend backend, const Start& start, Integrator integrator, double ratio, const Outcome& o) {
+  table.add({nameOf(backend), start.name, nameOf(integrator), ratio, o.finite ? "yes" : "NO", o.energy_ratio,
+             o.energy_left, o.frames_to_recover >= 0 ? "yes" : "bounded", static_cast<double>(o.trips),
              o.frames_to_recover >= 0 ? Cell(o.frames_to_recover) : Cell(""), o.ticks});
 }
 
@@ -62,35 +63,67 @@ Series curve(const Outcome& outcome, Integrator integrator, double ratio) {
   return out;
 }
 
-void tryAll(Report& report, double poisson_ratio, const std::vector<double>& ratios, const std::string& stem) {
-  const Model model = blockOf(report.isShort() ? 4 : 6, poisson_ratio);
-  std::vector<Start> starts = extremeStarts(model);
-  if (report.isShort()) starts = {starts[0], starts[1], starts[5], starts[6]};
-  Plot plot{
-      "energy after the start '" + starts[0].name + "', governor on", "ticks", "energy over start", true, true, {}};
-  Table table = startsTable("extreme starts, Poisson's ratio " + Cell(poisson_ratio).text(3));
-  Worst stable, above;
-  for (const IntegratorTraits& traits : kIntegrators) {
-    const Integrator integrator = traits.integrator;
-    report.stage("starts, " + nameOf(integrator));
-    for (double ratio : ratios) {
-      const Scene scene = sceneAt(model, integrator, ratio);
-      for (const Start& start : starts) {
-        const Outcome outcome = tryStart(model, scene, start, report.isShort() ? 20 : kTicks);
+/// All starts with all integrators on one backend.
+class Trials {
+ public:
+  Trials(Report& report, double poisson_ratio)
+      : report_(report),
+        model_(blockOf(report.isShort() ? 4 : 6, poisson_ratio)),
+        starts_(extremeStarts(model_)),
+        table_(startsTable("extreme starts, Poisson's ratio " + Cell(poisson_ratio).text(3))) {
+    if (report.isShort()) starts_ = {starts_[0], starts_[1], starts_[5], starts_[6]};
+  }
+
+  void run(Backend backend, const std::vector<double>& ratios, const std::string& stem) {
+    Plot plot{"energy after the start '" + starts_[0].name + "', governor on, " + nameOf(backend),
+              "ticks",
+              "energy over start",
+              true,
+              true,
+              {}};
+    Worst stable, above;
+    for (const IntegratorTraits& traits : kIntegrators) {
+      report_.stage("starts, " + nameOf(traits.integrator) + ", " + nameOf(backend));
+      for (double ratio : ratios) {
         const bool promised = !traits.own_positions && (!traits.is_explicit || ratio <= 1);
-        (promised ? stable : above).add(outcome);
-        addRow(table, start, integrator, ratio, outcome);
-        if (&start == &starts[0]) plot.series.push_back(curve(outcome, integrator, ratio));
+        plot.series.push_back(
+            curve(runStarts(backend, traits.integrator, ratio, promised ? stable : above), traits.integrator, ratio));
       }
     }
+    report_.add(plot, stem + "_" + nameOf(backend));
+    const std::string name = nameOf(backend) + ": " + stem;
+    report_.checkAtMost(name + ": cells with a value that is not finite", stable.not_finite + above.not_finite, 0);
+    report_.checkAtMost(name + ": energy over start, leapfrog within its limit, vbd, pd", stable.energy_ratio,
+                        kEnergyBound);
+    report_.checkAtMost(name + ": energy over the governor's bound, explicit above the limit and verlet_paper",
+                        above.over_bound, kEnergyBound);
   }
-  report.add(table, stem);
-  report.add(plot, stem);
-  report.checkAtMost(stem + ": cells with a value that is not finite", stable.not_finite + above.not_finite, 0);
-  report.checkAtMost(stem + ": energy over start, leapfrog within its limit, vbd, pd", stable.energy_ratio,
-                     kEnergyBound);
-  report.checkAtMost(stem + ": energy over the governor's bound, explicit above the limit and verlet_paper",
-                     above.over_bound, kEnergyBound);
+  const Table& table() const { return table_; }
+
+ private:
+  /// @return the outcome of the first start
+  Outcome runStarts(Backend backend, Integrator integrator, double ratio, Worst& worst) {
+    const Scene scene = sceneAt(model_, integrator, ratio);
+    Outcome first;
+    for (const Start& start : starts_) {
+      const Outcome outcome = tryStart(backend, model_, scene, start, report_.isShort() ? 20 : kTicks);
+      worst.add(outcome);
+      addRow(table_, backend, start, integrator, ratio, outcome);
+      if (&start == &starts_[0]) first = outcome;
+    }
+    return first;
+  }
+
+  Report& report_;
+  Model model_;
+  std::vector<Start> starts_;
+  Table table_;
+};
+
+void tryAll(Report& report, double poisson_ratio, const std::vector<double>& ratios, const std::string& stem) {
+  Trials trials(report, poisson_ratio);
+  for (Backend backend : report.backends()) trials.run(backend, ratios, stem);
+  report.add(trials.table(), stem);
 }
 
 }  // namespace
@@ -105,7 +138,8 @@ void fractionsOfStability(Report& report) {
   std::vector<Start> starts = extremeStarts(model);
   if (report.isShort()) starts.resize(2);
   Table table("leapfrog without governor: largest energy over the start's, by substep over dt_safe",
-              {{"start"},
+              {{"backend"},
+               {"start"},
                {"0.5", "", 5},
                {"0.6", "", 5},
                {"0.7", "", 5},
@@ -114,18 +148,21 @@ void fractionsOfStability(Report& report) {
                {"0.9 (no dashpot)", "", 5}});
   Model undamped = model;
   undamped.bodies[0].material.dashpot_ratio = 0;
-  for (const Start& start : starts) {
-    std::vector<Cell> row = {start.name};
-    for (double fraction : {0.5, 0.6, 0.7, 0.75, 0.8, 0.9}) {
-      const Model& tried = fraction > 0.82 ? undamped : model;
-      const double xi = tried.bodies[0].material.dashpot_ratio;
-      Scene scene =
-          sceneAt(tried, Integrator::kLeapfrog, fraction / (0.999 * stableFraction(Integrator::kLeapfrog, xi)));
-      scene.solver.governor = false;
-      const Outcome outcome = tryStart(tried, scene, start, report.isShort() ? 20 : kTicks);
-      row.push_back(outcome.finite ? Cell(outcome.energy_ratio) : Cell("not finite"));
+  for (Backend backend : report.backends()) {
+    report.stage("fractions of dt_safe, " + nameOf(backend));
+    for (const Start& start : starts) {
+      std::vector<Cell> row = {nameOf(backend), start.name};
+      for (double fraction : {0.5, 0.6, 0.7, 0.75, 0.8, 0.9}) {
+        const Model& tried = fraction > 0.82 ? undamped : model;
+        const double xi = tried.bodies[0].material.dashpot_ratio;
+        Scene scene =
+            sceneAt(tried, Integrator::kLeapfrog, fraction / (0.999 * stableFraction(Integrator::kLeapfrog, xi)));
+        scene.solver.governor = false;
+        const Outcome outcome = tryStart(backend, tried, scene, start, report.isShort() ? 20 : kTicks);
+        row.push_back(outcome.finite ? Cell(outcome.energy_ratio) : Cell("not finite"));
+      }
+      table.add(row);
     }
-    table.add(row);
   }
   report.add(table, "fractions");
 }

@@ -26,11 +26,11 @@ constexpr const char* kThrough = "probe through the block";
 /// A block held at its bottom and one stylus, as a session has them, without skin and pictures.
 class Stage {
  public:
-  explicit Stage(ToolMode mode) : Stage(mode, Vector3i(6, 6, 4)) {}
-  Stage(ToolMode mode, const Vector3i& cells)
+  Stage(Backend backend, ToolMode mode) : Stage(backend, mode, Vector3i(6, 6, 4)) {}
+  Stage(Backend backend, ToolMode mode, const Vector3i& cells)
       : model_(blockModel(cells, kSpacing_m, {}, [](const Vector3i& node) { return node.z() == 0; })),
         scene_(sceneWith(mode)),
-        solver_(model_, scene_),
+        solver_(solverOn(backend, model_, scene_)),
         tools_(scene_.styluses, {waveSpeed(model_) / scene_.solver.tick_hz}) {}
 
   void moveTo(const Vector3d& tip) {
@@ -53,7 +53,7 @@ class Stage {
   }
   /// Farthest node from rest, over the spacing.
   double strayed() const {
-    const HostState state = solver_.readState();
+    const HostState state = solver_->readState();
     double farthest = 0;
     for (uint32_t slot : model_.bodies[0].lattice.active_slots) {
       farthest = std::max(farthest, xyz(state.displacement_m[slot]).norm());
@@ -62,7 +62,7 @@ class Stage {
   }
   const Model& model() const { return model_; }
   const layout::TickStats& stats() const { return stats_; }
-  const GpuSolver& solver() const { return solver_; }
+  const Ticks& solver() const { return *solver_; }
   double peak_speed = 0, peak_stretch = 0;
   int held_back = 0;
   bool finite = true;
@@ -81,8 +81,8 @@ class Stage {
   void tick() {
     const ToolMotions motions = tools_.advance(sample_);
     held_back += motions[0].held_back;
-    solver_.step(motions);
-    while (solver_.pollStats(stats_, true)) {
+    solver_->step(motions);
+    while (solver_->pollStats(stats_, true)) {
     }
     const auto number = [](uint32_t bits) {
       float value;
@@ -97,7 +97,7 @@ class Stage {
 
   Model model_;
   Scene scene_;
-  GpuSolver solver_;
+  std::unique_ptr<Ticks> solver_;
   Tools tools_;
   StylusSamples sample_;
   layout::TickStats stats_{};
@@ -150,8 +150,42 @@ std::vector<Abuse> abuses(bool short_form) {
   return out;
 }
 
+/// What the checks need of all abuses on one backend.
+struct Abused {
+  int not_finite = 0, not_said = 0;
+  double worst_speed = 0;
+};
+
+/// Row by row, with the points of the plot: nodes' speeds under the probe, and their limit.
+Abused abuseOn(Backend backend, Report& report, Table& table, Series& peaks, Series& limits) {
+  Abused out;
+  for (const Abuse& abuse : abuses(report.isShort())) {
+    report.stage(abuse.name + ", " + nameOf(backend));
+    Stage stage(backend, abuse.mode);
+    abuse.act(stage);
+    stage.rest(1);
+    const double fastest = std::max(abuse.tool_speed, waveSpeed(stage.model()));
+    const double speed = stage.peak_speed / fastest, away = stage.strayed();
+    const bool back = away < kBackWithin, said = stage.solver().health().strained;
+    out.not_finite += stage.finite ? 0 : 1;
+    out.not_said += back || said ? 0 : 1;
+    out.worst_speed = worse(out.worst_speed, speed);
+    if (abuse.name == kThrough) {
+      peaks.x.push_back(abuse.tool_speed), peaks.y.push_back(stage.peak_speed);
+      limits.x.push_back(abuse.tool_speed), limits.y.push_back(kSpeedLimit * fastest);
+    }
+    table.add({nameOf(backend), abuse.name, abuse.tool_speed, stage.held_back, stage.finite ? "yes" : "NO",
+               stage.peak_speed, speed, stage.peak_stretch, static_cast<double>(stage.solver().health().trips), away,
+               back   ? "yes"
+               : said ? "bounded, strained"
+                      : "bounded"});
+  }
+  return out;
+}
+
 void abuseTissue(Report& report) {
-  Table table("what tools do to a block held at its bottom, and one second later", {{"abuse"},
+  Table table("what tools do to a block held at its bottom, and one second later", {{"backend"},
+                                                                                    {"abuse"},
                                                                                     {"tool speed", "m/s"},
                                                                                     {"ticks held back"},
                                                                                     {"finite"},
@@ -162,62 +196,53 @@ void abuseTissue(Report& report) {
                                                                                     {"away after 1 s", "h"},
                                                                                     {"back"}});
   Plot plot{"what a probe does to nodes, by its speed", "tool speed [m/s]", "peak node speed [m/s]", true, true, {}};
-  plot.series = {{"peak node speed", {}, {}}, {"5 times tool or c_p", {}, {}, Series::Style::kLines}};
-  int not_finite = 0, not_said = 0;
-  double worst_speed = 0;
-  for (const Abuse& abuse : abuses(report.isShort())) {
-    report.stage(abuse.name);
-    Stage stage(abuse.mode);
-    abuse.act(stage);
-    stage.rest(1);
-    const double speed = stage.peak_speed / std::max(abuse.tool_speed, waveSpeed(stage.model()));
-    const double away = stage.strayed();
-    not_finite += stage.finite ? 0 : 1;
-    const bool back = away < kBackWithin, said = stage.solver().health().strained;
-    not_said += back || said ? 0 : 1;
-    worst_speed = std::max(worst_speed, speed);
-    if (abuse.name == kThrough) {
-      plot.series[0].x.push_back(abuse.tool_speed);
-      plot.series[0].y.push_back(stage.peak_speed);
-      plot.series[1].x.push_back(abuse.tool_speed);
-      plot.series[1].y.push_back(kSpeedLimit * std::max(abuse.tool_speed, waveSpeed(stage.model())));
-    }
-    table.add({abuse.name, abuse.tool_speed, stage.held_back, stage.finite ? "yes" : "NO", stage.peak_speed, speed,
-               stage.peak_stretch, static_cast<double>(stage.solver().health().trips), away,
-               back   ? "yes"
-               : said ? "bounded, strained"
-                      : "bounded"});
+  Series limits;
+  for (Backend backend : report.backends()) {
+    Series peaks{nameOf(backend) + ": peak node speed", {}, {}};
+    limits = {"5 times tool or c_p", {}, {}, Series::Style::kLines};
+    const Abused found = abuseOn(backend, report, table, peaks, limits);
+    plot.series.push_back(peaks);
+    const std::string name = nameOf(backend) + ": tools: ";
+    report.checkAtMost(name + "sessions with a value that is not finite", found.not_finite, 0);
+    report.checkAtMost(name + "peak node speed over the tool's or c_p", found.worst_speed, kSpeedLimit);
+    report.checkAtMost(name + "sessions whose tissue is not back after 1 s and not reported as strained",
+                       found.not_said, 0);
   }
+  plot.series.push_back(limits);
   report.add(table, "tools");
   report.add(plot, "tools");
-  report.checkAtMost("tools: sessions with a value that is not finite", not_finite, 0);
-  report.checkAtMost("tools: peak node speed over the tool's or c_p", worst_speed, kSpeedLimit);
-  report.checkAtMost("tools: sessions whose tissue is not back after 1 s and not reported as strained", not_said, 0);
 }
 
 /// Random strokes of a blade through the block until it is in pieces.
 void cutToPieces(Report& report) {
   const int strokes = report.isShort() ? 300 : 10000;
-  std::srand(kSeed);  // of UnitRandom()
-  Stage stage(ToolMode::kCut, Vector3i(5, 5, 5));
-  std::mt19937 random(kSeed);
-  std::uniform_real_distribution<double> place(-0.005, 0.03);
-  for (int i = 0; i < strokes; ++i) {
-    stage.turn(Quaterniond::UnitRandom());
-    stage.moveTo({place(random), place(random), place(random)});
-    if (i % 1000 == 0) report.stage("random cuts, stroke " + std::to_string(i));
+  Table table("random cuts through a block", {{"backend"},
+                                              {"springs"},
+                                              {"strokes"},
+                                              {"springs cut"},
+                                              {"finite"},
+                                              {"peak node speed", "m/s"},
+                                              {"governor trips"},
+                                              {"dt_safe grew by"}});
+  for (Backend backend : report.backends()) {
+    std::srand(kSeed);  // of UnitRandom()
+    Stage stage(backend, ToolMode::kCut, Vector3i(5, 5, 5));
+    std::mt19937 random(kSeed);
+    std::uniform_real_distribution<double> place(-0.005, 0.03);
+    for (int i = 0; i < strokes; ++i) {
+      stage.turn(Quaterniond::UnitRandom());
+      stage.moveTo({place(random), place(random), place(random)});
+      if (i % 1000 == 0) report.stage("random cuts, stroke " + std::to_string(i) + ", " + nameOf(backend));
+    }
+    const double springs = static_cast<double>(stage.model().springs());
+    table.add({nameOf(backend), springs, strokes, static_cast<double>(stage.stats().springs_cut),
+               stage.finite ? "yes" : "NO", stage.peak_speed, static_cast<double>(stage.solver().health().trips),
+               stage.solver().dtSafe_s() / safeTimeStep(stage.model())});
+    report.checkAtMost(nameOf(backend) + ": cuts: values that are not finite", stage.finite ? 0 : 1, 0);
+    if (report.isShort()) continue;  // springs are left
+    report.checkAtMost(nameOf(backend) + ": cuts: springs left", springs - stage.stats().springs_cut, 0);
   }
-  const size_t springs = stage.model().springs();
-  Table table(
-      "random cuts through a block of " + std::to_string(springs) + " springs",
-      {{"strokes"}, {"springs cut"}, {"finite"}, {"peak node speed", "m/s"}, {"governor trips"}, {"dt_safe grew by"}});
-  table.add({strokes, static_cast<double>(stage.stats().springs_cut), stage.finite ? "yes" : "NO", stage.peak_speed,
-             static_cast<double>(stage.solver().health().trips),
-             stage.solver().dtSafe_s() / safeTimeStep(stage.model())});
   report.add(table, "cuts");
-  report.checkAtMost("cuts: values that are not finite", stage.finite ? 0 : 1, 0);
-  if (!report.isShort())
-    report.checkAtMost("cuts: springs left", static_cast<double>(springs) - stage.stats().springs_cut, 0);
 }
 
 }  // namespace

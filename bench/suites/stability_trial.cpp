@@ -42,10 +42,9 @@ Scene sceneAt(const Model& model, Integrator integrator, double ratio) {
   return scene;
 }
 
-Outcome tryStart(const Model& model, const Scene& scene, const Start& start, int ticks) {
-  GpuSolverOptions options;
-  options.allow_unstable = true;
-  GpuSolver solver(model, scene, options);
+Outcome tryStart(Backend backend, const Model& model, const Scene& scene, const Start& start, int ticks) {
+  const std::unique_ptr<Ticks> made = solverOn(backend, model, scene, true);
+  Ticks& solver = *made;
   ReferenceSolver reference(model, Vector3d::Zero(), solver.dt_s());
   solver.writeState(start.state);
   const double whole_j = governorLimits(model, 0, 0).energy_j;

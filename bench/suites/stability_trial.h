@@ -24,8 +24,8 @@ struct Outcome {
 /// for the others; ticks of 1/60 s, or of one substep where that is longer.
 Scene sceneAt(const Model& model, Integrator integrator, double ratio);
 
-/// Steps the model from a start and looks at it after every tick.
+/// Steps the model on a backend from a start and looks at it after every tick.
 /// @param ticks  at most; fewer where an integrator needs many sweeps per tick
-Outcome tryStart(const Model& model, const Scene& scene, const Start& start, int ticks);
+Outcome tryStart(Backend backend, const Model& model, const Scene& scene, const Start& start, int ticks);
 
 }  // namespace viscera::bench

@@ -5,6 +5,7 @@
 #include <chrono>
 
 #include "bench/gw/gw_suite.h"
+#include "bench/harness/backends.h"
 #include "bench/suites/accuracy_suite.h"
 #include "bench/suites/material_suite.h"
 #include "bench/suites/performance_suites.h"
@@ -15,37 +16,44 @@ namespace viscera::bench {
 
 namespace {
 
-/// A suite that needs the context current, and no more.
+/// A suite that needs the context current at most.
 template <void (*kRun)(Report&)>
-void run(Report& report, gpu::Context&) {
+void run(Report& report, gpu::Context* /*context*/) {
   kRun(report);
+}
+
+/// A suite about speed, which shows both backends side by side.
+template <void (*kRun)(Report&, gpu::Context&)>
+void run(Report& report, gpu::Context* context) {
+  kRun(report, *context);
 }
 
 }  // namespace
 
 const std::vector<Suite>& suites() {
   static const std::vector<Suite> all = {
-      {"material", "does the lattice have the elasticity that was asked for?", run<materialSuite>},
-      {"accuracy", "what do substeps and float32 cost in error, and error in time?", run<accuracySuite>},
-      {"stability", "does tissue stay finite and bounded whatever is done to it?", run<stabilitySuite>},
-      {"table1", "substeps per second by number of nodes, beside VR05 Table 1", table1Suite},
+      {"material", "does the lattice have the elasticity that was asked for?", run<materialSuite>, true},
+      {"accuracy", "what do substeps and float32 cost in error, and error in time?", run<accuracySuite>, true},
+      {"stability", "does tissue stay finite and bounded whatever is done to it?", run<stabilitySuite>, true},
+      {"table1", "substeps per second by number of nodes, beside VR05 Table 1", run<table1Suite>},
       {"gw", "Georgii & Westermann's tables, and the errors of their ways", run<gwSuite>},
-      {"scale", "time and memory per node, from a thousand to ten million nodes", scaleSuite},
-      {"skip", "what does not doing what a scene does not need save?", skipSuite},
-      {"cut", "rate by share of springs cut, as in VR05 figure 11", cutSuite},
-      {"latency", "from a pose to its force and its picture; how even ticks are", latencySuite},
-      {"limit", "copies and multiply-adds of this machine, and the fraction that is reached", limitSuite},
+      {"scale", "time and memory per node, from a thousand to ten million nodes", run<scaleSuite>},
+      {"skip", "what does not doing what a scene does not need save?", run<skipSuite>},
+      {"cut", "rate by share of springs cut, as in VR05 figure 11", run<cutSuite>},
+      {"latency", "from a pose to its force and its picture; how even ticks are", run<latencySuite>},
+      {"limit", "copies and multiply-adds of this machine, and the fraction that is reached", run<limitSuite>},
   };
   return all;
 }
 
-int runSuite(const Suite& suite, const SuiteOptions& options, int device, std::ostream& out) {
+int runSuite(const Suite& suite, SuiteOptions options, const std::string& backend, int device, std::ostream& out) {
   const auto start = std::chrono::steady_clock::now();
-  gpu::Context context(device);
+  const Machine machine = machineFor(suite.takes_backend ? backend : "gpu", device);
+  options.backends = machine.backends;
   Report report(suite.name, options, out);
   report.note(std::string("viscera bench ") + suite.name + (options.short_form ? " --short" : "") + ", on " +
-              context.renderer() + "\n");
-  suite.run(report, context);
+              (suite.takes_backend ? machine.note : machine.context->renderer()) + "\n");
+  suite.run(report, machine.context.get());
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
   report.note("took " + Cell(took.count()).text(3) + " s\n");
   report.finish();

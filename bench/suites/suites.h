@@ -3,6 +3,7 @@
 #pragma once
 
 #include <iosfwd>
+#include <string>
 #include <vector>
 
 #include "bench/harness/report.h"
@@ -14,15 +15,17 @@ namespace viscera::bench {
 struct Suite {
   const char* name;
   const char* what;                                    ///< one line for --help
-  void (*run)(Report& report, gpu::Context& context);  ///< the context is current
+  void (*run)(Report& report, gpu::Context* context);  ///< the context is current
+  bool takes_backend = false;  ///< measures on the report's backends; the context is null where the GPU is not one
 };
 
 /// All suites: a new one is an include and a line in suites.cpp.
 const std::vector<Suite>& suites();
 
 /// Runs a suite from its first line to its checks.
-/// @param device  EGL device, or -1: the best   @return checks that were missed
-/// @throws Error
-int runSuite(const Suite& suite, const SuiteOptions& options, int device, std::ostream& out);
+/// @param backend  cpu, gpu or both (see machineFor); of suites that take one   @param device  EGL device, or -1: the
+/// best
+/// @return checks that were missed   @throws Error
+int runSuite(const Suite& suite, SuiteOptions options, const std::string& backend, int device, std::ostream& out);
 
 }  // namespace viscera::bench

@@ -14,6 +14,8 @@ namespace {
 
 using namespace test;
 
+constexpr const char* kNoDevice = "__EGL_VENDOR_LIBRARY_FILENAMES=/dev/null";
+
 TEST(MaterialSuite, ShortFormReachesEveryLimitAndLeavesTablesAndPlots) {
   const TemporaryFolder folder;
   const Ending ending =
@@ -29,6 +31,25 @@ TEST(MaterialSuite, ShortFormReachesEveryLimitAndLeavesTablesAndPlots) {
   // Every kind of measurement has said what it found.
   const std::string checks = readFile(folder.file("out/material_checks.csv"));
   EXPECT_TRUE(says(checks, {"tension", "finite stretch", "chains", "plane waves", "cantilever", "Hertz", "probe"}));
+  for (const std::string backend : {"cpu", "gpu"}) {
+    EXPECT_TRUE(says(checks, {"tension, cell weights, forces of " + backend, "finite stretch, forces of " + backend,
+                              backend + ": chains", backend + ": plane waves", backend + ": probe at rest"}))
+        << checks;
+  }
+}
+
+TEST(MaterialSuite, WithoutADeviceTheCpuIsMeasuredAloneAndSaidSo) {
+  const TemporaryFolder folder;
+  const std::vector<std::string> command = {"bench", "material", "--short", "--strict", "--out", folder.file("out")};
+  const Ending ending = runProgram(VISCERA_COMMAND, command, {kNoDevice});
+  EXPECT_EQ(ending.status, 0) << ending.out << ending.err;
+  EXPECT_TRUE(says(ending.out, {"alone, as there is no OpenGL context", "cpu: plane waves", ", 0 missed"}));
+  EXPECT_FALSE(says(ending.out, {"gpu: "}));
+  std::vector<std::string> gpu = command;
+  gpu.insert(gpu.end(), {"--backend", "gpu"});
+  const Ending refused = runProgram(VISCERA_COMMAND, gpu, {kNoDevice});
+  EXPECT_EQ(refused.status, 1);
+  EXPECT_TRUE(says(refused.err, {"viscera: error:", "EGL"})) << refused.err;
 }
 
 TEST(MaterialSuite, RefusesAFolderThatIsAFile) {

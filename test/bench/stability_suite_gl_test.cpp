@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
-#include <filesystem>
-
 #include "bench/suites/stability_trial.h"
 #include "support/process.h"
 #include "support/text.h"
@@ -27,29 +25,38 @@ TEST(ExtremeStarts, AreEightAndDeserveTheirNames) {
   }
 }
 
-TEST(StabilityTrial, ExplosionWithoutGovernorIsSeen) {
+class StabilityTrial : public ::testing::TestWithParam<Backend> {};
+
+TEST_P(StabilityTrial, ExplosionWithoutGovernorIsSeen) {
   const gpu::Context context;
+  const Backend backend = GetParam();
   const Model model = blockModel({3, 3, 3}, 0.005, {});
   Scene scene = sceneAt(model, Integrator::kLeapfrog, 10);
   scene.solver.governor = false;
-  const Outcome wild = tryStart(model, scene, extremeStarts(model)[0], 20);
+  const Outcome wild = tryStart(backend, model, scene, extremeStarts(model)[0], 20);
   EXPECT_TRUE(!wild.finite || wild.energy_ratio > 1e6);
   scene.solver.governor = true;
-  const Outcome governed = tryStart(model, scene, extremeStarts(model)[0], 20);
+  const Outcome governed = tryStart(backend, model, scene, extremeStarts(model)[0], 20);
   EXPECT_TRUE(governed.finite);
   EXPECT_GT(governed.trips, 0u);
   EXPECT_LT(governed.over_bound, 1);
 }
 
+INSTANTIATE_TEST_SUITE_P(Backends, StabilityTrial, ::testing::Values(Backend::kCpu, Backend::kGpu),
+                         [](const auto& backend) { return nameOf(backend.param); });
+
 #ifdef VISCERA_COMMAND
 TEST(StabilitySuite, ReachesEveryLimitInItsShortForm) {
-  const test::TemporaryFolder folder;
-  const test::Ending ending =
-      test::runProgram(VISCERA_COMMAND, {"bench", "stability", "--short", "--strict", "--out", folder.path()});
-  EXPECT_EQ(ending.status, 0) << ending.out << ending.err;
-  EXPECT_TRUE(test::says(ending.out, {"extreme starts", "what tools do", "random cuts", "state hash", ", 0 missed"}));
-  for (const char* table : {"starts", "fractions", "tools", "cuts", "ratios", "rest", "units", "hashes", "checks"}) {
-    EXPECT_GT(std::filesystem::file_size(folder.file(std::string("stability_") + table + ".csv")), 0u) << table;
+  for (const std::string backend : {"cpu", "gpu"}) {  // apart: together they take too long for a program of a test
+    const test::TemporaryFolder folder;
+    const test::Ending ending = test::runProgram(
+        VISCERA_COMMAND, {"bench", "stability", "--short", "--strict", "--backend", backend, "--out", folder.path()});
+    EXPECT_EQ(ending.status, 0) << ending.out << ending.err;
+    EXPECT_TRUE(test::says(ending.out, {"extreme starts", "what tools do", "random cuts", "state hash", ", 0 missed"}));
+    for (const char* table : {"starts", "fractions", "tools", "cuts", "ratios", "rest", "units", "hashes", "checks"}) {
+      const std::string rows = test::readFile(folder.file(std::string("stability_") + table + ".csv"));
+      EXPECT_TRUE(test::says(rows, {"\n" + backend + ","})) << table << ":\n" << rows;
+    }
   }
 }
 #endif
