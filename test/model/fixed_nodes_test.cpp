@@ -20,6 +20,7 @@ std::set<std::array<double, 3>> fixedPositions(const Lattice& lattice) {
 
 TEST(FixedNodes, FixedShapesAreInTheBodysFrame) {
   BodyConfig config = boxConfig({0.04, 0.04, 0.04}, 0.01);
+  config.material.cells = Cells::kSprings;
   config.position_m = {0.5, -0.25, 0.125};
   FixedConfig plane;
   plane.shape = FixedShape::kPlane;
@@ -65,6 +66,48 @@ TEST(FixedNodes, APartIsFixedByItsName) {
   config.fixed[0].part = "tendon";
   const std::string message = errorOf<SceneError>(config);
   EXPECT_TRUE(contains(message, "body 'organ': fixed[0]: no part 'tendon'; the parts are muscle, bone")) << message;
+}
+
+FixedConfig planeAt(const Vector3d& point_m, const Vector3d& normal) {
+  FixedConfig plane;
+  plane.shape = FixedShape::kPlane;
+  plane.point_m = point_m;
+  plane.normal = normal;
+  return plane;
+}
+
+TEST(FixedNodes, NodesOfAMeshLieOnThePlaneThatHoldsIt) {
+  for (const double z : {0.0, 0.0123, 0.0277, 0.031}) {
+    BodyConfig config = meshConfig(sphereMesh(Vector3f::Zero(), 0.04f, 24), 0.01);
+    config.material.cells = Cells::kMoments;
+    config.position_m = {0.1, 0.2, 0.3};
+    config.fixed = {planeAt({0, 0, z}, {0, 0, -1})};
+    const Lattice lattice = build(config).lattice;
+    double lowest_fixed = 1, highest_free = -1;
+    for (const uint32_t slot : lattice.active_slots) {
+      const double at = lattice.restPosition(slot).z() - 0.3;
+      if (isFixed(lattice.nodes[slot])) lowest_fixed = std::min(lowest_fixed, at);
+      if (!isFixed(lattice.nodes[slot])) highest_free = std::max(highest_free, at);
+    }
+    EXPECT_NEAR(lowest_fixed, z, kRounding);
+    EXPECT_NEAR(highest_free, z - 0.01, kRounding);
+    config.fixed[0].shape = FixedShape::kBox;  // the same by a box
+    config.fixed[0].min_m = {-1, -1, z};
+    config.fixed[0].max_m = {1, 1, 1};
+    EXPECT_EQ(fixedPositions(build(config).lattice), fixedPositions(lattice));
+  }
+}
+
+TEST(FixedNodes, NodesNearerThanHalfACellToASlopingPlaneAreHeld) {
+  BodyConfig config = meshConfig(sphereMesh(Vector3f::Zero(), 0.04f, 24), 0.01);
+  config.material.cells = Cells::kMoments;
+  const Vector3d normal = Vector3d(1, 2, 3).normalized(), point(0.002, -0.01, 0.003);
+  config.fixed = {planeAt(point, normal)};
+  const Lattice lattice = build(config).lattice;
+  for (const uint32_t slot : lattice.active_slots) {
+    const double in_front = normal.dot(lattice.restPosition(slot) - point);
+    EXPECT_EQ(isFixed(lattice.nodes[slot]), in_front < 0.005) << in_front;
+  }
 }
 
 TEST(FixedNodes, AFixedShapeThatMatchesNothingIsRefused) {

@@ -14,7 +14,14 @@ namespace viscera {
 namespace {
 
 constexpr double kOnBorder = 1e-6;      ///< of a cell: rounding of the pose
+constexpr double kNearest = 0.5;        ///< of a cell; see fixNodes()
 constexpr double kOnMeshBorder = 1e-4;  ///< of a spring: rounding of single-precision meshes
+
+/// How far outside of a shape nodes are still held, in springs.
+double slackOf(const BodyConfig& config) {
+  if (isNetwork(config.structure)) return kOnMeshBorder;
+  return hasMoments(config) ? kNearest - kOnBorder : kOnBorder;
+}
 
 using Holds = std::function<bool(const Vector3d& point_m)>;
 
@@ -81,7 +88,7 @@ std::vector<uint32_t> slotsOfPart(uint16_t label, const Solid& solid, const Latt
 size_t fixNodes(const BodyConfig& config, const PartNodes& parts, Body& body) {
   const Pose to_body = bodyPose(config).inverse();
   const double spacing_m = body.lattice.spacing_m;
-  const double slack_m = spacing_m * (isNetwork(config.structure) ? kOnMeshBorder : kOnBorder);
+  const double slack_m = spacing_m * slackOf(config);
   for (size_t i = 0; i < config.fixed.size(); ++i) {
     const FixedConfig& fixed = config.fixed[i];
     const std::string where = "body '" + config.name + "': fixed[" + std::to_string(i) + "]";

@@ -5,10 +5,13 @@
 #include <cmath>
 #include <sstream>
 
+#include "model/scene/structure_rules.h"
 #include "model/shape/box_surface.h"
+#include "model/shape/clamp_planes.h"
 #include "model/shape/placing.h"
 #include "model/shape/plain_meshes.h"
 #include "model/shape/solid_grid.h"
+#include "model/shape/solid_moments.h"
 #include "viscera/math/error.h"
 
 namespace viscera {
@@ -16,9 +19,13 @@ namespace {
 
 class BoxTissue : public Tissue {
  public:
-  explicit BoxTissue(const BodyConfig& config) : size_m_(config.box_size_m), pose_(bodyPose(config)) {}
+  explicit BoxTissue(const BodyConfig& config)
+      : size_m_(config.box_size_m), pose_(bodyPose(config)), moments_(hasMoments(config)) {
+    planes_ = clampPlanes(config, bounds());
+  }
 
   Filling fill(double spacing_m, const Progress& progress) const override {
+    if (moments_ && (isTurned() || !isWhole(spacing_m).all())) return {fillByShares(spacing_m, progress), ""};
     if (isTurned()) return {fillTurned(spacing_m, progress), ""};
     requireSpacingWithin(size_m_, spacing_m);
     const Vector3d rounded_m = (size_m_ / spacing_m).array().round().max(1.0) * spacing_m;
@@ -28,7 +35,8 @@ class BoxTissue : public Tissue {
   }
 
   TriangleMesh surface(const Solid& solid) const override {
-    if (!isTurned()) return boxSurface(solid.origin_m, solid.spacing_m * solid.cells.cast<double>(), solid.cells);
+    if (!isTurned() && solid.partial.empty())
+      return boxSurface(solid.origin_m, solid.spacing_m * solid.cells.cast<double>(), solid.cells);
     const Vector3i squares = (size_m_ / solid.spacing_m).array().ceil().max(1.0).cast<int>();
     TriangleMesh mesh = boxSurface(-0.5 * size_m_, size_m_, squares);
     move(mesh.positions_m, pose_);
@@ -49,6 +57,27 @@ class BoxTissue : public Tissue {
  private:
   bool isTurned() const { return pose_.orientation.vec().norm() > kTurn; }
 
+  Eigen::Array<bool, 3, 1> isWhole(double spacing_m) const {
+    constexpr double kRounding = 1e-4;  // of a cell, as in grids
+    const Eigen::Array3d cells = size_m_.array() / spacing_m;
+    return (cells - cells.round()).abs() < kRounding && cells > 0.5;
+  }
+
+  /// Cells that are tissue in part where faces pass through them. The lower faces lie between cells, unless the box is
+  /// turned, or held by a plane across an axis along which it is no whole number of cells long.
+  Solid fillByShares(double spacing_m, const Progress& progress) const {
+    requireSpacingWithin(bounds().sizes(), spacing_m);
+    NodePlanes planes = planes_;
+    const Eigen::Array<bool, 3, 1> whole = isWhole(spacing_m);
+    for (int axis = 0; axis < 3 && !isTurned(); ++axis) {
+      if (whole[axis] || !planes[axis]) planes[axis] = bounds().min()[axis];
+    }
+    Solid solid = emptySolid(bounds().min(), bounds().max(), spacing_m, {"box"}, planes);
+    fillByMoments({{boxShell(-0.5 * size_m_, 0.5 * size_m_, pose_), 0}}, solid, progress);
+    if (solid.filledCells() == 0) throw LatticeError("the box is thinner than any cell's least share of tissue");
+    return solid;
+  }
+
   Solid fillTurned(double spacing_m, const Progress& progress) const {
     const Vector3d half_m = 0.5 * size_m_;
     const DistanceField field = [half_m](const Vector3d& point_m) {
@@ -68,6 +97,8 @@ class BoxTissue : public Tissue {
   static constexpr double kTurn = 1e-9;  ///< rounding of a full turn, in half radians
   Vector3d size_m_;
   Pose pose_;
+  bool moments_;
+  NodePlanes planes_;
 };
 
 class SheetTissue : public Tissue {
@@ -96,10 +127,15 @@ class SheetTissue : public Tissue {
 
 class BallTissue : public Tissue {
  public:
-  explicit BallTissue(const BodyConfig& config) : radius_m_(config.ball_radius_m), pose_(bodyPose(config)) {}
+  explicit BallTissue(const BodyConfig& config)
+      : radius_m_(config.ball_radius_m), pose_(bodyPose(config)), moments_(hasMoments(config)) {
+    planes_ = clampPlanes(config, bounds());
+  }
 
   Filling fill(double spacing_m, const Progress& progress) const override {
-    return {voxelise(field(), {"ball"}, bounds().min(), bounds().max(), spacing_m, progress), ""};
+    const Eigen::AlignedBox3d box = bounds();
+    if (moments_) return {voxeliseByMoments(field(), {"ball"}, box.min(), box.max(), spacing_m, planes_, progress), ""};
+    return {voxelise(field(), {"ball"}, box.min(), box.max(), spacing_m, progress), ""};
   }
 
   TriangleMesh surface(const Solid& solid) const override { return shell(solid.spacing_m); }
@@ -126,6 +162,8 @@ class BallTissue : public Tissue {
 
   double radius_m_;
   Pose pose_;
+  bool moments_;
+  NodePlanes planes_;
 };
 
 }  // namespace

@@ -30,6 +30,12 @@ size_t Solid::filledCells() const {
   return labels.size() - static_cast<size_t>(std::count(labels.begin(), labels.end(), uint16_t{0}));
 }
 
+double Solid::volumeM3() const {
+  double cells = static_cast<double>(filledCells());
+  for (const PartialCell& p : partial) cells -= 1 - p.fill.share;
+  return cells * spacing_m * spacing_m * spacing_m;
+}
+
 Solid voxelise(const DistanceField& field, const std::vector<std::string>& part_names, const Vector3d& min_m,
                const Vector3d& max_m, double spacing_m, const Progress& progress) {
   const auto fill = [&](double h, const Progress& told) {

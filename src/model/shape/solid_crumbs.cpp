@@ -25,6 +25,13 @@ std::vector<Vector3i> pieceAround(const Vector3i& seed, const Solid& solid, std:
   return piece;
 }
 
+/// Share of a labelled cell that is tissue.
+double shareOf(const Solid& solid, size_t cell) {
+  const auto found = std::lower_bound(solid.partial.begin(), solid.partial.end(), cell,
+                                      [](const PartialCell& p, size_t at) { return p.cell < at; });
+  return found != solid.partial.end() && found->cell == cell ? found->fill.share : 1;
+}
+
 }  // namespace
 
 int removeCrumbs(Solid& solid, double least_share) {
@@ -38,14 +45,21 @@ int removeCrumbs(Solid& solid, double least_share) {
       }
     }
   }
-  size_t largest = 0;
-  for (const auto& piece : pieces) largest = std::max(largest, piece.size());
-  int removed = 0;
+  std::vector<double> volumes;  // in cells
   for (const auto& piece : pieces) {
-    if (static_cast<double>(piece.size()) >= least_share * static_cast<double>(largest)) continue;
-    for (const Vector3i& cell : piece) solid.labels[solid.index(cell.x(), cell.y(), cell.z())] = 0;
+    double volume = 0;
+    for (const Vector3i& cell : piece) volume += shareOf(solid, solid.index(cell.x(), cell.y(), cell.z()));
+    volumes.push_back(volume);
+  }
+  const double largest = pieces.empty() ? 0 : *std::max_element(volumes.begin(), volumes.end());
+  int removed = 0;
+  for (size_t p = 0; p < pieces.size(); ++p) {
+    if (volumes[p] >= least_share * largest) continue;
+    for (const Vector3i& cell : pieces[p]) solid.labels[solid.index(cell.x(), cell.y(), cell.z())] = 0;
     ++removed;
   }
+  const auto emptied = [&](const PartialCell& p) { return solid.labels[p.cell] == 0; };
+  solid.partial.erase(std::remove_if(solid.partial.begin(), solid.partial.end(), emptied), solid.partial.end());
   return removed;
 }
 

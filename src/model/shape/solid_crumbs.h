@@ -6,7 +6,10 @@
 
 namespace viscera {
 
-/// Empties the pieces of a solid that touch no other, not even at a corner, and are smaller than a share of the
+/// Volume of the largest piece below which a piece apart is a crumb.
+constexpr double kCrumb = 1e-3;
+
+/// Empties the pieces of a solid that touch no other, not even at a corner, and have less tissue than a share of the
 /// largest. Returns the number of pieces removed.
 int removeCrumbs(Solid& solid, double least_share);
 

@@ -61,15 +61,23 @@ void requireGridMemory(const Eigen::Array3d& cells, double spacing_m) {
 }
 
 Solid emptySolid(const Vector3d& min_m, const Vector3d& max_m, double spacing_m,
-                 const std::vector<std::string>& part_names) {
+                 const std::vector<std::string>& part_names, const NodePlanes& planes) {
   const Vector3d size = max_m - min_m;
   requireSpacingWithin(size, spacing_m);
-  const Eigen::Array3d cells = (size.array() / spacing_m - kOverhang).ceil().max(1.0);
+  Eigen::Array3d cells = (size.array() / spacing_m - kOverhang).ceil().max(1.0);
+  Vector3d origin_m = 0.5 * (min_m + max_m) - 0.5 * spacing_m * cells.matrix();
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!planes[axis]) continue;
+    const double first = std::floor((min_m[axis] - *planes[axis]) / spacing_m + kOverhang);
+    const double end = std::ceil((max_m[axis] - *planes[axis]) / spacing_m - kOverhang);
+    cells[axis] = std::max(1.0, end - first);
+    origin_m[axis] = *planes[axis] + first * spacing_m;
+  }
   requireGridMemory(cells, spacing_m);
   Solid solid;
   solid.spacing_m = spacing_m;
   solid.cells = cells.cast<int>();
-  solid.origin_m = 0.5 * (min_m + max_m) - 0.5 * spacing_m * cells.matrix();
+  solid.origin_m = origin_m;
   solid.part_names = part_names;
   solid.labels.assign(static_cast<size_t>(cells.prod()), 0);
   return solid;

@@ -10,10 +10,11 @@
 
 namespace viscera {
 
-/// An empty solid whose cells cover a box; the cells are centred on the box, so that a box of whole cells fits exactly.
+/// An empty solid whose cells cover a box; the cells are centred on the box, so that a box of whole cells fits exactly,
+/// or lie as `planes` say.
 /// @throws LatticeError  spacing not a finite number > 0, larger than the box, or the grid would not fit in memory
 Solid emptySolid(const Vector3d& min_m, const Vector3d& max_m, double spacing_m,
-                 const std::vector<std::string>& part_names);
+                 const std::vector<std::string>& part_names, const NodePlanes& planes = {});
 
 /// @throws LatticeError  spacing not a finite number > 0
 void requireSpacing(double spacing_m);

@@ -106,12 +106,18 @@ std::vector<InsideStretch> stretchesBetween(std::vector<Crossing>& crossings) {
   std::vector<InsideStretch> stretches;
   int winding = 0;  // back to zero at the end of every line, as the shell is closed
   const Crossing* entry = nullptr;
+  bool changes = false;
   for (const Crossing& crossing : crossings) {
-    if (winding == 0) entry = &crossing;
+    if (winding == 0) {
+      entry = &crossing;
+      changes = false;
+    }
     winding += crossing.step;
+    changes = changes || winding != (winding == 0 ? 0 : entry->step);
     if (winding != 0) continue;
     const bool head_on = entry->head_on && crossing.head_on;
-    stretches.push_back({crossing.column_u, crossing.column_v, entry->at, crossing.at, head_on});
+    stretches.push_back(
+        {crossing.column_u, crossing.column_v, entry->at, crossing.at, head_on, changes ? 0 : entry->step});
   }
   return stretches;
 }

@@ -196,6 +196,20 @@ Shell closePart(const TriangleMesh& mesh, const std::vector<uint32_t>& of_part) 
   return shell;
 }
 
+Shell boxShell(const Vector3d& min_m, const Vector3d& max_m, const Pose& pose) {
+  Shell shell;
+  for (int c = 0; c < 8; ++c) {
+    const Vector3d corner(c & 1 ? max_m.x() : min_m.x(), c & 2 ? max_m.y() : min_m.y(), c & 4 ? max_m.z() : min_m.z());
+    shell.positions_m.push_back(pose * corner);
+  }
+  shell.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                     {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+  shell.turned.assign(shell.triangles.size(), false);
+  for (const Triangle& t : shell.triangles) shell.own_area_m2 += 0.5 * doubledArea(shell, t).norm();
+  shell.volume_m3 = (max_m - min_m).prod();
+  return shell;
+}
+
 TriangleMesh facingOutward(const TriangleMesh& mesh) {
   TriangleMesh facing = mesh;
   for (const std::vector<uint32_t>& of_part : trianglesByPart(mesh)) {

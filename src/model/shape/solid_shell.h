@@ -35,6 +35,9 @@ std::vector<std::vector<uint32_t>> trianglesByPart(const TriangleMesh& mesh);
 /// Orients some triangles of a mesh, those of one part, alike across shared edges and caps their boundary loops.
 Shell closePart(const TriangleMesh& mesh, const std::vector<uint32_t>& of_part);
 
+/// The surface of a box in a frame of its own.
+Shell boxShell(const Vector3d& min_m, const Vector3d& max_m, const Pose& pose);
+
 /// The mesh with its triangles turned to be counter-clockwise seen from outside, part by part.
 TriangleMesh facingOutward(const TriangleMesh& mesh);
 

@@ -28,10 +28,8 @@
 #include <sstream>
 
 #include "model/shape/solid_crumbs.h"
-#include "model/shape/solid_gaps.h"
 #include "model/shape/solid_grid.h"
-#include "model/shape/solid_lines.h"
-#include "model/shape/solid_shell.h"
+#include "model/shape/solid_volumes.h"
 #include "viscera/math/error.h"
 #include "viscera/model/shape/solid.h"
 
@@ -39,30 +37,6 @@ namespace viscera {
 namespace {
 
 constexpr double kThinnest = 1e-3;  ///< of a cell: stretches below are rounding of two coincident faces
-constexpr double kCrumb = 1e-3;     ///< of the largest piece
-
-/// A part that has an inside.
-struct Volume {
-  Shell shell;
-  uint16_t part;
-};
-
-/// First and one past the last cell of a row whose centres lie within a stretch.
-std::pair<int, int> centresWithin(const InsideStretch& stretch, int cells) {
-  const int first = static_cast<int>(std::ceil(stretch.from - 0.5));
-  const int last = static_cast<int>(std::ceil(stretch.to - 0.5));
-  return {std::clamp(first, 0, cells), std::clamp(last, 0, cells)};
-}
-
-void fillCentres(const Volume& volume, Solid& solid) {
-  for (const InsideStretch& stretch : insideStretches(volume.shell, solid, 0)) {
-    const auto [first, last] = centresWithin(stretch, solid.cells.x());
-    for (int x = first; x < last; ++x) {
-      uint16_t& label = solid.labels[solid.index(x, stretch.column_u, stretch.column_v)];
-      if (label == 0) label = volume.part + 1;
-    }
-  }
-}
 
 /// Returns the number of cells filled.
 int fillThinWalls(const Volume& volume, int axis, Solid& solid) {
@@ -83,48 +57,12 @@ int fillThinWalls(const Volume& volume, int axis, Solid& solid) {
   return filled;
 }
 
-/// Closes every part; those that enclose nothing are left out. Smallest first.
-std::vector<Volume> closeParts(const TriangleMesh& mesh, VoxelReport& report) {
-  std::vector<Volume> volumes;
-  const std::vector<std::vector<uint32_t>> triangles = trianglesByPart(mesh);
-  for (size_t part = 0; part < mesh.part_names.size(); ++part) {
-    Shell shell = closePart(mesh, triangles[part]);
-    if (shell.triangles.empty() || shell.isOpenSheet()) continue;
-    report.mesh_volume_m3 += std::abs(shell.volume_m3);
-    report.holes_closed += shell.holes_closed;
-    volumes.push_back({std::move(shell), static_cast<uint16_t>(part)});
-  }
-  std::stable_sort(volumes.begin(), volumes.end(), [](const Volume& a, const Volume& b) {
-    return std::abs(a.shell.volume_m3) < std::abs(b.shell.volume_m3);
-  });
-  return volumes;
-}
-
-void countDropped(const Solid& solid, VoxelReport& report) {
-  std::vector<bool> seen(solid.part_names.size() + 1, false);
-  for (const uint16_t label : solid.labels) seen[label] = true;
-  for (size_t part = 0; part < solid.part_names.size(); ++part) {
-    if (!seen[part + 1]) report.dropped_names.push_back(solid.part_names[part]);
-  }
-  report.parts_dropped = static_cast<int>(report.dropped_names.size());
-}
-
-std::vector<NamedShell> namedShells(const std::vector<Volume>& volumes, const TriangleMesh& mesh) {
-  std::vector<NamedShell> out;
-  for (const Volume& volume : volumes) out.push_back({&volume.shell, mesh.part_names[volume.part]});
-  return out;
-}
-
 /// The filled grid; all labels are 0 where the spacing is too large for the body.
 Solid fill(const std::vector<Volume>& volumes, const TriangleMesh& mesh, double spacing_m, VoxelReport& report,
            const Progress& progress) {
-  Vector3d low = volumes.front().shell.min(), high = volumes.front().shell.max();
-  for (const Volume& volume : volumes) {
-    low = low.cwiseMin(volume.shell.min());
-    high = high.cwiseMax(volume.shell.max());
-  }
   requireParted(namedShells(volumes, mesh), spacing_m);
-  Solid solid = emptySolid(low, high, spacing_m, mesh.part_names);
+  const Eigen::AlignedBox3d bounds = boundsOf(volumes);
+  Solid solid = emptySolid(bounds.min(), bounds.max(), spacing_m, mesh.part_names);
   const double steps = 2.0 * static_cast<double>(volumes.size());
   double done = 0;
   const auto advance = [&] {
@@ -157,16 +95,11 @@ Solid voxelise(const TriangleMesh& mesh, double spacing_m, VoxelReport* report, 
   requireSpacing(spacing_m);
   VoxelReport found;
   const std::vector<Volume> volumes = closeParts(mesh, found);
-  if (volumes.empty()) throw MeshError("the mesh encloses no volume: it is an open sheet, not the surface of a body");
   Solid solid = fill(volumes, mesh, spacing_m, found, progress);
   if (solid.filledCells() == 0) {
     VoxelReport ignored;
-    try {
-      requireFinerSpacing(spacing_m, [&](double h) { return fill(volumes, mesh, h, ignored, {}).filledCells() > 0; });
-    } catch (const LatticeError& error) {
-      throw LatticeError(error.what() + farPartNote(namedShells(volumes, mesh)));
-    }
-    throw MeshError("the mesh encloses no volume: its surfaces lie on each other");
+    refuseEmpty(volumes, mesh, spacing_m,
+                [&](double h) { return fill(volumes, mesh, h, ignored, {}).filledCells() > 0; });
   }
   found.crumbs_removed = removeCrumbs(solid, kCrumb);
   found.filled_volume_m3 = solid.volumeM3();

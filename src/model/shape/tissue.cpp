@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "model/scene/structure_rules.h"
+#include "model/shape/clamp_planes.h"
 #include "model/shape/msh_reader.h"
 #include "model/shape/placing.h"
 #include "model/shape/plain_tissue.h"
@@ -35,12 +36,15 @@ class MeshTissue : public Tissue {
     toBodyFrame(mesh_.positions_m, config);
     move(mesh_.positions_m, bodyPose(config));
     notes.push_back(path_ + ": " + report.text());
+    moments_ = hasMoments(config);
+    planes_ = clampPlanes(config, bounds());
   }
 
   Filling fill(double spacing_m, const Progress& progress) const override {
     VoxelReport report;
     try {
-      Solid solid = voxelise(mesh_, spacing_m, &report, progress);
+      Solid solid = moments_ ? voxeliseByMoments(mesh_, spacing_m, planes_, &report, progress)
+                             : voxelise(mesh_, spacing_m, &report, progress);
       return {std::move(solid), report.text()};
     } catch (const MeshError& error) {
       throw MeshError("mesh file '" + path_ + "': " + error.what());
@@ -54,21 +58,26 @@ class MeshTissue : public Tissue {
  private:
   std::string path_;
   TriangleMesh mesh_;
+  bool moments_ = false;
+  NodePlanes planes_;
 };
 
 class PhantomTissue : public Tissue {
  public:
   explicit PhantomTissue(const BodyConfig& config)
-      : phantom_(heartPhantom(config.phantom_length_m, config.phantom_wall_scale)) {
+      : phantom_(heartPhantom(config.phantom_length_m, config.phantom_wall_scale)), moments_(hasMoments(config)) {
     const Pose pose = bodyPose(config);
     const Eigen::AlignedBox3d box = movedBox(phantom_.min_m, phantom_.max_m, pose);
     phantom_.min_m = box.min();
     phantom_.max_m = box.max();
     phantom_.field = movedField(phantom_.field, pose);
+    planes_ = clampPlanes(config, bounds());
   }
 
   Filling fill(double spacing_m, const Progress& progress) const override {
-    return {voxelise(phantom_.field, phantom_.part_names, phantom_.min_m, phantom_.max_m, spacing_m, progress), ""};
+    const Phantom& p = phantom_;
+    if (moments_) return {voxeliseByMoments(p.field, p.part_names, p.min_m, p.max_m, spacing_m, planes_, progress), ""};
+    return {voxelise(p.field, p.part_names, p.min_m, p.max_m, spacing_m, progress), ""};
   }
 
   TriangleMesh surface(const Solid& solid) const override { return shell(solid.spacing_m); }
@@ -77,10 +86,13 @@ class PhantomTissue : public Tissue {
   }
 
   Eigen::AlignedBox3d bounds() const override { return {phantom_.min_m, phantom_.max_m}; }
-  std::vector<Wall> walls() const override { return phantom_.walls; }
+  /// Walls that are thinner than a cell have no holes where cells are tissue in part.
+  std::vector<Wall> walls() const override { return moments_ ? std::vector<Wall>{} : phantom_.walls; }
 
  private:
   Phantom phantom_;
+  bool moments_;
+  NodePlanes planes_;
 };
 
 /// A tetrahedral mesh: it is what it is, no surface and no solid is made of it.

@@ -36,7 +36,7 @@ class Tissue {
   /// Box that the body lies in [m].
   virtual Eigen::AlignedBox3d bounds() const = 0;
 
-  /// Walls of known thickness, the thinnest first. Cells that are larger leave holes in them.
+  /// Walls of known thickness in which cells that are larger leave holes, the thinnest first.
   virtual std::vector<Wall> walls() const { return {}; }
 
   std::vector<std::string> notes;  ///< what reading it had to decide

@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,7 +20,7 @@ using Progress = std::function<void(const std::string& stage, double fraction)>;
 /// The part of a cell that is tissue: integrals over it of 1, p and p p^T, with p the place from the cell's middle over
 /// its edge, -1/2 to 1/2 per axis.
 struct CellFill {
-  double share = 1;                              ///< integral of 1: 0 to 1
+  double share = 1;  ///< integral of 1: 0 to 1, and a little more where a sliver in the next cell was added
   Vector3d first = Vector3d::Zero();             ///< of p
   Eigen::Matrix3d second = full().asDiagonal();  ///< of p p^T; symmetric
 
@@ -47,7 +49,8 @@ struct Solid {
   /// Label of a cell; 0 outside the grid.
   uint16_t label(int x, int y, int z) const;
   size_t filledCells() const;
-  double volumeM3() const { return static_cast<double>(filledCells()) * spacing_m * spacing_m * spacing_m; }
+  /// Of the tissue: cells that are tissue in part count by their share.
+  double volumeM3() const;
 };
 
 /// What voxelising had to decide, for a person to read.
@@ -80,6 +83,20 @@ using DistanceField = std::function<LabelledDistance(const Vector3d& point_m)>;
 /// @throws LatticeError  spacing out of range: the grid would not fit in memory, or no cell is inside
 Solid voxelise(const DistanceField& field, const std::vector<std::string>& part_names, const Vector3d& min_m,
                const Vector3d& max_m, double spacing_m, const Progress& progress = {});
+
+/// Per axis, a coordinate [m] that a plane of nodes passes through; where there is none, the grid is centred on the
+/// body.
+using NodePlanes = std::array<std::optional<double>, 3>;
+
+/// Every cell that holds tissue, with the part of it that is tissue and its moments: exact but for rounding, or, where
+/// parts overlap within a cell, sampled (docs/fill_rule.md). Otherwise as voxelise().
+Solid voxeliseByMoments(const TriangleMesh& mesh, double spacing_m, const NodePlanes& planes = {},
+                        VoxelReport* report = nullptr, const Progress& progress = {});
+
+/// The same of a field, from 5^3 samples of each cell near its surface: exact for flat faces.
+Solid voxeliseByMoments(const DistanceField& field, const std::vector<std::string>& part_names, const Vector3d& min_m,
+                        const Vector3d& max_m, double spacing_m, const NodePlanes& planes = {},
+                        const Progress& progress = {});
 
 /// A solid box whose lower corner is at `min_m`; sizes are rounded to whole cells, at least one.
 /// @throws LatticeError  spacing out of range
