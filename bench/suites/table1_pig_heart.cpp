@@ -12,6 +12,7 @@ namespace {
 
 constexpr int kNodes = 42745;  // of VR05's pig heart
 constexpr double kWanted_per_s = 7000;
+constexpr double kTouchedApart = 0.1;  // of the GPU's: nodes at the rim of the contact come and go
 constexpr double kDepth_m = 0.003;
 constexpr int kSagTicks = 60, kPressTicks = 60;  // a second each
 
@@ -102,7 +103,8 @@ void measurePressedHeart(Report& report) {
     }
     if (dashpot > 0) continue;
     report.checkAtLeast("heart with a probe: substeps/s, cpu", rates[0].substeps_per_s, kWanted_per_s);
-    report.checkAtLeast("heart with a probe: nodes touched, cpu", ways[0].touched, 1);
+    report.checkAtMost("heart with a probe: nodes touched, cpu over gpu - 1",
+                       static_cast<double>(ways[0].touched) / ways[1].touched - 1, kTouchedApart);
   }
   report.add(table, "pig_heart");
 }

@@ -214,6 +214,24 @@ TEST(MembraneNetwork, OnlyBendingSpringsResistAFold) {
   EXPECT_GT(energyOf(stiff, folded), stretch_j);
 }
 
+/// Two right triangles with legs of 1 m: the corners opposite to their edge are sqrt(2) cos(angle / 2) apart.
+TEST(MembraneNetwork, AFoldTakesTheEnergyOfItsBendingSpringToTheDigit) {
+  constexpr double kRatio = 0.25;
+  const TriangleMesh mesh = twoTriangles();
+  const SpringNetwork network = membraneNetwork(mesh, rubber(), kThickness_m, kRatio);
+  const double k = kRatio * springOf(network, 1, 2).stiffness_n_per_m;
+  const Vector3d hinge = mesh.positions_m[1].cast<double>(),
+                 edge = (mesh.positions_m[2].cast<double>() - hinge).normalized();
+  for (const double angle : {0.1, M_PI / 2, 3.0}) {
+    const Eigen::AngleAxisd turn(angle, edge);
+    const Vector3d corner = mesh.positions_m[3].cast<double>();
+    const double j =
+        energyOf(network, [&](const Vector3d& p) { return p == corner ? Vector3d(hinge + turn * (p - hinge)) : p; });
+    const double shorter_m = std::sqrt(2.0) * (1 - std::cos(angle / 2));
+    EXPECT_NEAR(j / (0.5 * k * shorter_m * shorter_m), 1, 1e-9) << angle;
+  }
+}
+
 TEST(MembraneNetwork, AnEdgeOfThreeTrianglesIsOneSpringWithABendingSpringPerPair) {
   TriangleMesh mesh = twoTriangles();
   mesh.positions_m.push_back({0.5f, 0.5f, 1});
@@ -365,6 +383,26 @@ TEST(LatticeNetwork, ThickPartsGetNoSpringsAgainstBending) {
   EXPECT_EQ(latticeNetwork(block, 1).springs.size(), block.lattice.springs());
 }
 
+TEST(LatticeNetwork, ASpringAgainstBendingIsItsShareOfTheWeakerOfTheTwoItSpans) {
+  constexpr double kRatio = 0.3;
+  const SpringNetwork network = latticeNetwork(boxBody({6, 5, 1}, kSpacing_m), kRatio);
+  const auto stiffnessBetween = [&](const Vector3d& from, const Vector3d& to) {
+    for (const NetworkSpring& spring : network.springs) {
+      const Vector3d &a = network.positions_m[spring.a], &b = network.positions_m[spring.b];
+      const bool is_it = (a - from).norm() + (b - to).norm() < 1e-9 || (b - from).norm() + (a - to).norm() < 1e-9;
+      if (is_it) return spring.stiffness_n_per_m;
+    }
+    return 0.0;
+  };
+  for (const NetworkSpring& spring : network.springs) {
+    if (spring.lattice_spring != layout::kNoLatticeSpring) continue;
+    const Vector3d &a = network.positions_m[spring.a], &b = network.positions_m[spring.b], middle = 0.5 * (a + b);
+    const double weaker = std::min(stiffnessBetween(a, middle), stiffnessBetween(middle, b));
+    ASSERT_GT(weaker, 0);
+    EXPECT_DOUBLE_EQ(spring.stiffness_n_per_m, kRatio * weaker);
+  }
+}
+
 TEST(LatticeNetwork, BendingSpringsRaiseWhatFoldingASheetTakes) {
   const Body body = boxBody({6, 6, 1}, kSpacing_m);
   // Onto a cylinder around y, of ten times the thickness; the middle of the sheet keeps its length.
@@ -373,7 +411,8 @@ TEST(LatticeNetwork, BendingSpringsRaiseWhatFoldingASheetTakes) {
     const double r = kRadius_m + p.z() - 0.5 * kSpacing_m;
     return Vector3d(r * std::sin(p.x() / kRadius_m), p.y(), r * std::cos(p.x() / kRadius_m));
   };
-  EXPECT_GT(energyOf(latticeNetwork(body, 1), curved), 2 * energyOf(latticeNetwork(body), curved));
+  const SpringNetwork stiff = latticeNetwork(body, 1), plain = latticeNetwork(body);
+  EXPECT_GT(energyOf(stiff, curved), 2 * energyOf(plain, curved));
 }
 
 TEST(Renumbering, KeepsEveryNodeSpringAndTriangle) {

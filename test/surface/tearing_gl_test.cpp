@@ -190,3 +190,69 @@ TEST_F(SkinTearing, CutInOneBodyLeavesTheOtherWhole) {
   expected.insert(expected.end(), cut.begin(), cut.end());
   EXPECT_EQ(rig.surface.alive().read(), expected);
 }
+
+namespace {
+
+/// How far apart the borders of the skin on the two sides of the plane stand: nearest shown vertices, along x [m].
+double widthOfCut(const SurfaceRig& rig) {
+  const std::vector<uint32_t> alive = rig.surface.alive().read();
+  const std::vector<Vector3d> at = rig.positions();
+  const Skin& skin = rig.model.bodies[0].skin;
+  double before = -1, beyond = 1;
+  for (size_t t = 0; t < alive.size(); ++t) {
+    if (!alive[t]) continue;
+    for (const uint32_t v : skin.mesh.triangles[t]) {
+      const bool is_beyond = beyondPlane(skin.mesh.positions_m[v].cast<double>());
+      if (is_beyond) beyond = std::min(beyond, at[v].x());
+      if (!is_beyond) before = std::max(before, at[v].x());
+    }
+  }
+  return beyond - before;
+}
+
+/// What erasing particles does to the nodes of a layer: they lose every spring.
+void eraseLayer(const Lattice& lattice, double x_m, std::vector<layout::NodeBits>& nodes) {
+  const auto inLayer = [&](uint32_t slot) { return std::abs(lattice.restPosition(slot).x() - x_m) < 0.5 * kSpacing_m; };
+  for (uint32_t slot : lattice.active_slots) {
+    for (uint32_t spring = 0; spring < layout::kSpringsPerNode; ++spring) {
+      if (!springCount(nodes[slot], spring)) continue;
+      const auto other = static_cast<uint32_t>(lattice.neighborSlot(slot, spring));
+      if (!inLayer(slot) && !inLayer(other)) continue;
+      setSpringCount(nodes[slot], spring, 0);
+      nodes[slot].lo |= layout::kSeveredBit;
+      setSpringCount(nodes[other], oppositeSpring(spring), 0);
+      nodes[other].lo |= layout::kSeveredBit;
+    }
+  }
+}
+
+}  // namespace
+
+TEST_F(SkinTearing, ACutBetweenNodesShowsAGapOfUpToASpacingAndParticlesOneOfASpacingMore) {
+  constexpr double kEdge_m = 0.005;  // of the skin's triangles, at most: a border is known to that
+  const auto widthAfter = [&](const auto& cut) {
+    SurfaceRig rig(ballBody(Vector3d::Zero(), 24));
+    cut(rig);
+    rig.tear();
+    rig.follow();
+    return widthOfCut(rig);
+  };
+  const double springs_m =
+      widthAfter([](SurfaceRig& rig) { cutBetween(rig.model.bodies[0].lattice, beyondPlane, rig.nodes); });
+  const double particles_m = widthAfter([](SurfaceRig& rig) { eraseLayer(rig.model.bodies[0].lattice, 0, rig.nodes); });
+  EXPECT_GT(springs_m, 0);
+  EXPECT_LT(springs_m, kSpacing_m + kEdge_m);
+  EXPECT_NEAR(particles_m - springs_m, kSpacing_m, kEdge_m);
+}
+
+TEST_F(SkinTearing, ACutOpensByAsMuchAsItsSidesAreMoved) {
+  constexpr double kGap_m = 0.02, kRounding_m = 1e-7;
+  SurfaceRig rig(ballBody(Vector3d::Zero(), 24));
+  cutBetween(rig.model.bodies[0].lattice, beyondPlane, rig.nodes);
+  rig.tear();
+  rig.follow();
+  const double closed_m = widthOfCut(rig);
+  rig.moveNodes([](const Vector3d& x) { return Vector3d(x + (beyondPlane(x) ? kGap_m : 0) * Vector3d::UnitX()); });
+  rig.follow();
+  EXPECT_NEAR(widthOfCut(rig) - closed_m, kGap_m, kRounding_m);
+}
