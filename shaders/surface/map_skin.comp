@@ -1,9 +1,10 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// map_skin.comp - where the nodes carry the vertices and normals of the skin (EGVE eqs 4 to 9, hybrid of 3.6).
+// map_skin.comp - where the nodes carry the vertices and normals of the skin (EGVE eqs 4 to 9, hybrid of 3.6; in cells that are tissue in
+// part, where the cell's corners carry them).
 // Owner: surface/surface.h   physics.md 4
-// in  skin[count], displacement[slots] m, node_normals[slots], stale_bricks[bricks]     out  positions[3 * count] m, normals[count] packed
+// in  skin[count], nodes[slots], displacement[slots] m, node_normals[slots], stale_bricks[bricks]     out  positions[3 * count] m, normals[count] packed
 // Feature: MIXED (some vertices belong to networks: network_skin.comp places them).
 #include "layout.h"
 #ifndef __cplusplus
@@ -17,6 +18,7 @@ layout(local_size_x = GROUP_SIZE) in;  // before globalIndex(), which asks for i
 uniform uint count;  // of vertices
 uniform uint followed_revision;  // what moved no later is in place; 0: nothing is
 layout(std430, binding = kBindStaleBricks) readonly buffer StaleBricksBuffer { uint stale_bricks[]; };
+layout(std430, binding = kBindNodes) readonly buffer NodesBuffer { NodeBits nodes[]; };
 layout(std430, binding = kBindDisplacementIn) readonly buffer DisplacementBuffer { vec4 displacement[]; };
 layout(std430, binding = kBindNodeNormals) readonly buffer NodeNormalsBuffer { vec4 node_normals[]; };
 layout(std430, binding = kBindSkinBindings) readonly buffer SkinBuffer { SkinBinding skin[]; };
@@ -34,6 +36,62 @@ vec3 axialDirection(uint spring) {
 /// A node moved, or one that its approximate normal depends on.
 bool isStale(uint slot) { return stale_bricks[slot >> 6] > followed_revision; }
 
+/// Corner c of the cell that holds a vertex.
+uint cellCorner(SkinBinding s, uint c) {
+  uint own = (s.springs >> kCornerShift) & 7u;
+  return neighborSlot(s.slot0, ivec3(c & 1u, (c >> 1) & 1u, (c >> 2) & 1u) - ivec3(own & 1u, (own >> 1) & 1u, (own >> 2) & 1u));
+}
+
+/// Has a spring of one of its corners been cut? Then the triangle holds the vertex, on its own side of the cut.
+bool isCellCut(SkinBinding s) {
+  bool cut = false;
+  for (uint c = 0u; c < 8u; ++c) cut = cut || (nodes[cellCorner(s, c)].lo & kSeveredBit) != 0u;
+  return cut;
+}
+
+bool isCellStale(SkinBinding s) {
+  bool stale = false;
+  for (uint c = 0u; c < 8u; ++c) stale = stale || isStale(cellCorner(s, c));
+  return stale;
+}
+
+void put(uint vertex, vec3 position, vec3 normal) {
+  positions[3u * vertex] = position.x;
+  positions[3u * vertex + 1u] = position.y;
+  positions[3u * vertex + 2u] = position.z;
+  normals[vertex] = packNormal(normal);
+}
+
+/// A vertex goes where the eight corners carry its place in the cell; its normal as a plane does that goes with it.
+void mapInCell(uint vertex, SkinBinding s, float spacing, vec3 rest1, vec3 rest2) {
+  Basis rest = triangleBasis(rest1, rest2, rest1, rest2);
+  uint own = (s.springs >> kCornerShift) & 7u;
+  vec3 from_own = s.weights.y * rest1 + s.weights.z * rest2 + inSpace(rest, xyz(s.offset_constant)) / spacing;
+  vec3 place = vec3(float(own & 1u), float((own >> 1) & 1u), float((own >> 2) & 1u)) + from_own;
+  vec3 moved = vec3(0.0f), along_x = vec3(0.0f), along_y = vec3(0.0f), along_z = vec3(0.0f);  // du/dp
+  for (uint c = 0u; c < 8u; ++c) {
+    vec3 u = xyz(displacement[cellCorner(s, c)]);
+    float sx = (c & 1u) != 0u ? 1.0f : -1.0f, sy = (c & 2u) != 0u ? 1.0f : -1.0f, sz = (c & 4u) != 0u ? 1.0f : -1.0f;
+    float wx = (c & 1u) != 0u ? place.x : 1.0f - place.x, wy = (c & 2u) != 0u ? place.y : 1.0f - place.y;
+    float wz = (c & 4u) != 0u ? place.z : 1.0f - place.z;
+    moved += wx * wy * wz * u;
+    along_x += sx * wy * wz * u;
+    along_y += wx * sy * wz * u;
+    along_z += wx * wy * sz * u;
+  }
+  vec3 a = vec3(spacing, 0.0f, 0.0f) + along_x, b = vec3(0.0f, spacing, 0.0f) + along_y, c = vec3(0.0f, 0.0f, spacing) + along_z;
+  vec3 normal = inSpace(rest, xyz(s.normal_constant)), carried = normal;
+  vec3 sizes = abs(a) + abs(b) + abs(c);
+  float size = (sizes.x + sizes.y) + sizes.z;
+  if (size > kShortest && size < kLongest) {  // so that products neither under- nor overflow
+    a /= size;
+    b /= size;
+    c /= size;
+    carried = direction(normal.x * cross(b, c) + normal.y * cross(c, a) + normal.z * cross(a, b), normal);
+  }
+  put(vertex, restPosition(s.slot0) + (spacing * from_own + moved), carried);
+}
+
 void main() {
   uint vertex = globalIndex();
   if (vertex >= count) return;
@@ -41,10 +99,15 @@ void main() {
 #ifdef MIXED
   if ((s.springs & kOneToOneBit) != 0u) return;
 #endif
-  if (followed_revision != 0u && !isStale(s.slot0) && !isStale(s.slot1) && !isStale(s.slot2)) return;
+  bool in_cell = (s.springs & kInCellBit) != 0u;
+  if (followed_revision != 0u && !isStale(s.slot0) && !isStale(s.slot1) && !isStale(s.slot2) && !(in_cell && isCellStale(s))) return;
   float spacing = bodies[bricks[s.slot0 >> 6].body].origin_spacing.w;
   vec3 rest1 = axialDirection(s.springs & 31u);
   vec3 rest2 = -axialDirection((s.springs >> 10) & 31u);
+  if (in_cell && !isCellCut(s)) {
+    mapInCell(vertex, s, spacing, rest1, rest2);
+    return;
+  }
   vec3 u0 = xyz(displacement[s.slot0]);
   // Edges as rest offset plus difference of displacements: exact at rest, wherever the body is.
   vec3 edge1 = spacing * rest1 + (xyz(displacement[s.slot1]) - u0);
@@ -61,8 +124,5 @@ void main() {
     normal = mix(normal, inSpace(curved, xyz(s.normal_interpolated)), trust);
   }
   vec3 position = restPosition(s.slot0) + (u0 + (s.weights.y * edge1 + s.weights.z * edge2 + offset));
-  positions[3u * vertex] = position.x;
-  positions[3u * vertex + 1u] = position.y;
-  positions[3u * vertex + 2u] = position.z;
-  normals[vertex] = packNormal(direction(normal, constant.n));
+  put(vertex, position, direction(normal, constant.n));
 }

@@ -47,9 +47,8 @@ Body buildLatticeBody(const BodyConfig& config, const Tissue& tissue, const Prog
   addNotes(tissue.notes, body);
   const Filling filling = fill(tissue, config, progress);
   const Solid& solid = filling.solid;
-  requireTissueMemory(
-      solid.labels.size() - static_cast<size_t>(std::count(solid.labels.begin(), solid.labels.end(), 0)),
-      solid.spacing_m);
+  requireTissueMemory(solid.filledCells(), solid.spacing_m,
+                      availableBytes() - kBytesPerPartialCell * solid.partial.size());
   if (!config.spacing_note.empty()) body.notes.push_back(config.spacing_note);
   if (!filling.note.empty()) body.notes.push_back(filling.note);
   if (progress) progress("build lattice", 0);

@@ -287,6 +287,32 @@ TEST(Moments, EverySourceHasItsVolumeAtAnySpacingAndPlace) {
   }
 }
 
+TEST(Moments, NodesKnowHowDeepBelowTheSurfaceTheyLie) {
+  BodyConfig ball = boxConfig({0, 0, 0}, 0.005);
+  ball.source = TissueSource::kBall;
+  BodyConfig mesh = meshConfig(sphereMesh(Vector3f::Zero(), 0.02f, 64), 0.005);
+  BodyConfig box = boxConfig({0.043, 0.031, 0.022}, 0.005);
+  box.rotation_deg = {10, 20, 30};
+  for (BodyConfig config : {ball, mesh, box}) {
+    config.material.cells = Cells::kMoments;
+    config.position_m = kSomewhere;
+    const Lattice lattice = build(config).lattice;
+    ASSERT_EQ(lattice.depth_m.size(), lattice.nodes.size());
+    const Quaterniond back = Quaterniond(bodyPose(config).orientation).conjugate();
+    int outside = 0;
+    for (const uint32_t slot : lattice.active_slots) {
+      const Vector3d p = back * (lattice.restPosition(slot) - kSomewhere);
+      const Vector3d beyond = p.cwiseAbs() - 0.5 * config.box_size_m;
+      const double box_depth = -beyond.cwiseMax(0).norm() - std::min(beyond.maxCoeff(), 0.0);
+      const double depth = config.source == TissueSource::kBox ? box_depth : 0.02 - p.norm();
+      constexpr double kFacets = 3e-5;  // m, how deep the mesh's facets lie below the sphere
+      EXPECT_NEAR(lattice.depth_m[slot], std::min(depth, 0.005), kFacets);
+      outside += depth < 0 ? 1 : 0;
+    }
+    EXPECT_GT(outside, 100);
+  }
+}
+
 TEST(Moments, NodesAreCountedOfTheCellsThatWillBe) {
   BodyConfig config = phantomConfig(0);
   config.material.cells = Cells::kMoments;

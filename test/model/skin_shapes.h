@@ -4,8 +4,10 @@
 // Solids and meshes small enough to reason about, for the tests of the skin.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "viscera/model/body/lattice.h"
 #include "viscera/model/body/skin.h"
@@ -89,6 +91,26 @@ inline TriangleMesh sphereMesh(const Vector3d& center_m, double radius_m, int n)
   for (Vector3f& p : mesh.positions_m) {
     p = (center_m + radius_m * p.cast<double>().normalized()).cast<float>();
   }
+  return mesh;
+}
+
+/// The same as one closed surface.
+inline TriangleMesh weldedSphereMesh(const Vector3d& center_m, double radius_m, int n) {
+  const TriangleMesh sheets = sphereMesh(center_m, radius_m, n);
+  TriangleMesh mesh = sheets;
+  mesh.positions_m.clear();
+  std::map<std::array<int64_t, 3>, uint32_t> known;
+  const double apart_m = 1e-4 * radius_m;  // vertices are farther from each other, and rounding is less
+  std::vector<uint32_t> index;
+  for (const Vector3f& p : sheets.positions_m) {
+    const auto next = static_cast<uint32_t>(mesh.positions_m.size());
+    const Vector3d at = (p.cast<double>() - center_m) / apart_m;
+    const auto [found, is_new] =
+        known.try_emplace({std::llround(at.x()), std::llround(at.y()), std::llround(at.z())}, next);
+    if (is_new) mesh.positions_m.push_back(p);
+    index.push_back(found->second);
+  }
+  for (auto& t : mesh.triangles) t = {index[t[0]], index[t[1]], index[t[2]]};
   return mesh;
 }
 

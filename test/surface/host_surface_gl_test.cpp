@@ -36,17 +36,19 @@ double height(const Vector3d& x) {
   return x.x() + 0.4 * x.y() - 0.0123;
 }
 
-/// A cloth, a block and a cloth that cannot be cut: numbers of none begin at 0 but the first's.
+/// A cloth, a block, a cloth that cannot be cut and a ball with cells in part: numbers of none begin at 0 but the
+/// first's.
 class HostSurfaceTest : public ::testing::Test {
  protected:
   HostSurfaceTest() : rig_(bodies()), host_(rig_.model) { snapshot_.bricks = host_.shownBricks(); }
 
   void cut() {
     cutThrough(rig_, 0, height);
-    const Body& block = rig_.model.bodies[1];
-    std::vector<layout::NodeBits> nodes = rig_.ofBody(rig_.nodes, 1);
-    cutBetween(block.lattice, beyondPlane, nodes);
-    std::copy(nodes.begin(), nodes.end(), rig_.nodes.begin() + rig_.model.slotOffset(1));
+    for (const size_t b : {1, 3}) {
+      std::vector<layout::NodeBits> nodes = rig_.ofBody(rig_.nodes, b);
+      cutBetween(rig_.model.bodies[b].lattice, beyondPlane, nodes);
+      std::copy(nodes.begin(), nodes.end(), rig_.nodes.begin() + rig_.model.slotOffset(b));
+    }
   }
   ShownMesh onHost() {
     snapshot_.displacement_m.clear();
@@ -84,7 +86,7 @@ class HostSurfaceTest : public ::testing::Test {
   static std::vector<Body> bodies() {
     return {withNetworkSkin(clothBody(20, 17, 0.005)),
             makeBody(blockSolid({4, 3, 5}, kSpacing_m), boxMesh({0, 0, 0}, {0.04, 0.03, 0.05}, 9)),
-            withNetworkSkin(clothBody(5, 6, 0.005), false)};
+            withNetworkSkin(clothBody(5, 6, 0.005), false), filledBallBody({0, 0, 0}, 0.025, kSpacing_m)};
   }
 };
 
@@ -116,10 +118,11 @@ TEST_F(HostSurfaceTest, TearsAndSplitsAsTheGpuDoes) {
   const ShownMesh mesh = onHost();
   EXPECT_NE(mesh.topology->revision, host_.skin().whole()->revision);
   const std::vector<ShownPatch>&now = mesh.topology->patches, &whole = host_.skin().whole()->patches;
-  ASSERT_EQ(now.size(), 3u);
+  ASSERT_EQ(now.size(), 4u);
   EXPECT_GT(now[0].count, whole[0].count);  // in pieces
   EXPECT_LT(now[1].count, whole[1].count);  // torn
   EXPECT_EQ(now[2].count, whole[2].count);
+  EXPECT_LT(now[3].count, whole[3].count);
   EXPECT_EQ(onHost().topology, mesh.topology);
 }
 

@@ -79,6 +79,7 @@ TEST_F(SkinMapping, RestPoseComesBackToFloatRounding) {
   }
   bodies.push_back(sheetBody());
   bodies.push_back(boxBody());
+  bodies.push_back(filledBallBody({0.01, 0.02, 0.03}, kRadius_m, kSpacing_m));
   for (Body& body : bodies) {
     const double tolerance_m = kRestUlps * kUlp * largestCoordinate(body.skin.mesh);
     SurfaceRig rig(std::move(body));
@@ -100,6 +101,7 @@ TEST_F(SkinMapping, RigidMotionOfTheNodesMovesTheSkinRigidly) {
   std::vector<Body> bodies;
   bodies.push_back(ballBody({0.01, 0.02, 0.03}));
   bodies.push_back(sheetBody());
+  bodies.push_back(filledBallBody({0.01, 0.02, 0.03}, kRadius_m, kSpacing_m));
   for (Body& body : bodies) {
     SurfaceRig rig(std::move(body));
     rig.moveNodes(moved);
@@ -173,6 +175,31 @@ TEST_F(SkinMapping, SeveredNodesFallBackToTheConstantBasis) {
   expectAsReference(rig, 0, 0);
 }
 
+TEST_F(SkinMapping, CellsInPartCarryTheirSkinUntilTheyAreCut) {
+  SurfaceRig rig(filledBallBody({0, 0, 0}, kRadius_m, kSpacing_m));
+  for (const auto& s : rig.model.bodies[0].skin.bindings) ASSERT_NE(s.springs & layout::kInCellBit, 0u);
+  rig.moveNodes(deformed);
+  rig.follow();
+  expectAsReference(rig, 0, 0);
+  cutBetween(
+      rig.model.bodies[0].lattice, [](const Vector3d& x) { return x.x() > 0.005; }, rig.nodes);
+  rig.follow();
+  expectAsReference(rig, 0, 0);
+}
+
+TEST_F(SkinMapping, StretchedCellsInPartStretchTheirSkin) {
+  constexpr double kStretch = 0.3;
+  SurfaceRig rig(filledBallBody({0, 0, 0}, kRadius_m, kSpacing_m));
+  const auto moved = [&](const Vector3d& x) { return Vector3d((1 + kStretch) * x.x(), x.y() + 0.2 * x.z(), x.z()); };
+  rig.moveNodes(moved);
+  rig.follow();
+  const std::vector<Vector3d> positions = rig.positions();
+  for (size_t v = 0; v < positions.size(); ++v) {
+    const Vector3d expected = moved(rig.model.bodies[0].skin.mesh.positions_m[v].cast<double>());
+    ASSERT_LT((positions[v] - expected).norm(), kMovedUlps * kUlp * kRadius_m) << v;
+  }
+}
+
 TEST_F(SkinMapping, CollapsedNodesGiveFiniteVerticesAndUnitNormals) {
   const auto to_a_point = [](const Vector3d&) { return Vector3d(0.1, 0.2, 0.3); };
   const auto to_a_line = [](const Vector3d& x) { return Vector3d(x.sum(), 0, 0); };
@@ -182,7 +209,10 @@ TEST_F(SkinMapping, CollapsedNodesGiveFiniteVerticesAndUnitNormals) {
   const auto far_away = [](const Vector3d& x) { return Vector3d(1e25 * x); };
   const std::vector<std::function<Vector3d(const Vector3d&)>> collapses = {to_a_point, to_a_line, to_an_axis,
                                                                            mirrored,   tiny,      far_away};
-  SurfaceRig rig(ballBody({0, 0, 0}));
+  std::vector<Body> bodies;
+  bodies.push_back(ballBody({0, 0, 0}));
+  bodies.push_back(filledBallBody({0, 0, 0}, kRadius_m, kSpacing_m));
+  SurfaceRig rig(std::move(bodies));
   for (size_t c = 0; c < collapses.size(); ++c) {
     rig.moveNodes(collapses[c]);
     rig.follow();

@@ -26,6 +26,10 @@ class ReferenceMapping {
     Vector3d position_m, normal;
   };
   Vertex map(const layout::SkinBinding& s) const {
+    return (s.springs & layout::kInCellBit) && !isCellCut(s) ? mapInCell(s) : mapByTriangle(s);
+  }
+  /// As if it were not in a cell.
+  Vertex mapByTriangle(const layout::SkinBinding& s) const {
     const Vector3d p1 = position(s.slot0), p2 = position(s.slot1), p3 = position(s.slot2);
     const Vector3d t = (p2 - p1).normalized(), b_t = (p3 - p1).normalized();
     const Vector3d n = normalised(t.cross(b_t)), b = n.cross(t);
@@ -43,6 +47,39 @@ class ReferenceMapping {
   }
 
  private:
+  Vector3i lowestCorner(const layout::SkinBinding& s) const {
+    const uint32_t own = s.springs >> layout::kCornerShift & 7u;
+    return lattice_.nodeAt(s.slot0) - Vector3i(own & 1u, own >> 1 & 1u, own >> 2);
+  }
+  bool isCellCut(const layout::SkinBinding& s) const {
+    bool cut = false;
+    forEachCorner(lattice_, static_cast<uint32_t>(lattice_.slotAt(lowestCorner(s))),
+                  [&](const Vector3i&, uint32_t slot) { cut |= (nodes_[slot].lo & layout::kSeveredBit) != 0; });
+    return cut;
+  }
+  /// Trilinear interpolation; the normal by two tangents, from differences.
+  Vertex mapInCell(const layout::SkinBinding& s) const {
+    const Vector3d p1 = lattice_.restPosition(s.slot0), p2 = lattice_.restPosition(s.slot1),
+                   p3 = lattice_.restPosition(s.slot2);
+    const Vector3d t = (p2 - p1).normalized(), n = t.cross(p3 - p1).normalized(), b = n.cross(t);
+    const Vector3d place = p1 + s.weights.y * (p2 - p1) + s.weights.z * (p3 - p1) + sum(s.offset_constant, t, n, b);
+    const Vector3d normal = sum(s.normal_constant, t, n, b).normalized();
+    const Vector3d tangent = normal.unitOrthogonal() * 1e-4 * lattice_.spacing_m, other = normal.cross(tangent);
+    const auto carried = [&](const Vector3d& x) { return carriedInCell(lowestCorner(s), x); };
+    const Vector3d along = carried(place + tangent) - carried(place - tangent);
+    const Vector3d aside = carried(place + other) - carried(place - other);
+    return {carried(place), along.cross(aside).normalized()};
+  }
+  Vector3d carriedInCell(const Vector3i& lowest, const Vector3d& x) const {
+    const Vector3d p = (x - lattice_.origin_m) / lattice_.spacing_m - lowest.cast<double>();
+    Vector3d moved = Vector3d::Zero();
+    forEachCorner(lattice_, static_cast<uint32_t>(lattice_.slotAt(lowest)), [&](const Vector3i& corner, uint32_t slot) {
+      double weight = 1;
+      for (int a = 0; a < 3; ++a) weight *= corner[a] ? p[a] : 1 - p[a];
+      moved += weight * position(slot);
+    });
+    return moved;
+  }
   struct Normal {
     Vector3d unit;
     double trust;

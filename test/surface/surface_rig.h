@@ -23,6 +23,12 @@ inline Body makeBody(const Solid& solid, const TriangleMesh& mesh, Weights weigh
   return body;
 }
 
+/// A ball whose cells at the surface are tissue in part.
+inline Body filledBallBody(const Vector3d& center_m, double radius_m, double spacing_m, int n = 10) {
+  const TriangleMesh mesh = weldedSphereMesh(center_m, radius_m, n);
+  return makeBody(voxeliseByMoments(mesh, spacing_m), mesh);
+}
+
 /// The body, whose network is its own, with the skin that shows it.
 inline Body withNetworkSkin(Body body, bool can_be_cut = true) {
   body.skin = bindNetworkSkin(*body.network, can_be_cut);

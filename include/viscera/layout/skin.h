@@ -13,7 +13,7 @@ namespace viscera::layout {
 // A skin vertex bound to the lattice (EGVE eqs 4 to 9).
 struct SkinBinding {
   uint slot0, slot1, slot2;
-  uint springs;            // spring index of edges 01, 12, 20 (5 bits each); bit 31: interpolated basis is defined
+  uint springs;            // spring index of edges 01, 12, 20 (5 bits each); flags below
   vec4 weights;            // xyz barycentric weights; w unused
   vec4 offset_constant;    // xyz offset in (T, N, B) of the triangle [m]
   vec4 offset_interpolated;  // xyz offset in (T_c, N_c, B_c) [m]
@@ -21,6 +21,10 @@ struct SkinBinding {
   vec4 normal_interpolated;  // xyz shading normal in (T_c, N_c, B_c)
 };
 const uint kInterpolatedBit = 1u << 31;
+// Of SkinBinding.springs: while none of its springs is cut, the vertex moves with the eight corners of the cell that holds it, of which
+// slot0 is the one in the three bits from kCornerShift on. Where it lies in the cell follows from offset_constant.
+const uint kInCellBit = 1u << 29;
+const uint kCornerShift = 16u;
 // Of SkinBinding.springs: a vertex of a network's skin, which is its node slot0; normal_constant is its normal at rest.
 const uint kOneToOneBit = 1u << 30;
 

@@ -53,6 +53,7 @@ std::string latticeNote(const Lattice& lattice, size_t fixed_nodes) {
   std::ostringstream out;
   out << "lattice: " << lattice.active_slots.size() << " nodes (" << fixed_nodes << " fixed), " << lattice.springs()
       << " springs, spacing " << lattice.spacing_m * 1e3 << " mm";
+  if (!lattice.fills.empty()) out << ", " << lattice.fills.size() << " cells tissue in part";
   return out.str();
 }
 

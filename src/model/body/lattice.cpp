@@ -104,6 +104,14 @@ void addCell(const Solid& solid, const Vector3i& cell, const CellFill* fill, Lat
   }
 }
 
+void setDepths(const Solid& solid, Lattice& lattice) {
+  const auto deepest = static_cast<float>(lattice.spacing_m);
+  lattice.depth_m.assign(lattice.nodes.size(), deepest);
+  for (const NodeDepth& n : solid.depths) {
+    lattice.depth_m[static_cast<size_t>(storedAt(lattice, n.node))] = std::min(n.depth_m, deepest);
+  }
+}
+
 /// VR05's uniform weights: every spring that exists and every node counts in full.
 void makeUniform(Lattice& lattice) {
   for (uint32_t slot : lattice.active_slots) {
@@ -167,6 +175,7 @@ Lattice buildLattice(const Solid& solid, Weights weights) {
   for (uint32_t slot = 0; slot < lattice.nodes.size(); ++slot) {
     if (massEighths(lattice.nodes[slot])) lattice.active_slots.push_back(slot);
   }
+  if (!solid.partial.empty()) setDepths(solid, lattice);
   if (weights == Weights::kPaper) makeUniform(lattice);
   return lattice;
 }

@@ -36,6 +36,11 @@ class Binder {
       const int spring = springIndex(anchor.nodes[(edge + 1) % 3] - anchor.nodes[edge]);
       binding.springs |= static_cast<uint32_t>(spring) << (5 * edge);
     }
+    if (anchor.cell) {
+      const Vector3i corner = anchor.nodes[0] - *anchor.cell;
+      const int number = corner.x() + 2 * corner.y() + 4 * corner.z();
+      binding.springs |= layout::kInCellBit | static_cast<uint32_t>(number) << layout::kCornerShift;
+    }
     const float weight1 = static_cast<float>(anchor.weight1), weight2 = static_cast<float>(anchor.weight2);
     binding.weights = {1 - weight1 - weight2, weight1, weight2, 0};
 
@@ -101,9 +106,14 @@ void tieTriangles(const Lattice& lattice, Skin& skin) {
   skin.mesh.parts.swap(parts);
 }
 
-void listBoundSlots(Skin& skin) {
+void listBoundSlots(const Lattice& lattice, Skin& skin) {
   for (const layout::SkinBinding& b : skin.bindings) {
     skin.bound_slots.insert(skin.bound_slots.end(), {b.slot0, b.slot1, b.slot2});
+    if ((b.springs & layout::kInCellBit) == 0) continue;
+    const uint32_t corner = b.springs >> layout::kCornerShift & 7u;
+    const Vector3i lowest = lattice.nodeAt(b.slot0) - Vector3i(corner & 1u, corner >> 1 & 1u, corner >> 2);
+    forEachCorner(lattice, static_cast<uint32_t>(lattice.slotAt(lowest)),
+                  [&](const Vector3i&, uint32_t slot) { skin.bound_slots.push_back(slot); });
   }
   std::sort(skin.bound_slots.begin(), skin.bound_slots.end());
   skin.bound_slots.erase(std::unique(skin.bound_slots.begin(), skin.bound_slots.end()), skin.bound_slots.end());
@@ -115,7 +125,7 @@ Skin bindSkin(const TriangleMesh& mesh, const Lattice& lattice, const Solid& sol
   Skin skin;
   skin.mesh = refine(mesh, lattice.spacing_m);
   bindVertices(lattice, solid, progress, skin);
-  listBoundSlots(skin);
+  listBoundSlots(lattice, skin);
   tieTriangles(lattice, skin);
   if (progress) progress("bind skin", 1);
   return skin;

@@ -12,6 +12,9 @@ namespace {
 
 // All coordinates here are in cells: point (1.5, 0, 0) is the middle of an edge of cell (1, 0, 0).
 
+/// Distance from its cell up to which a vertex still moves as that one's tissue does, as if it went on.
+constexpr double kBeside = 0.5;
+
 Vector3i unit(int axis) {
   return Vector3i::Unit(axis);
 }
@@ -91,24 +94,27 @@ AnchorFinder::Face AnchorFinder::nearestBoundary(const Vector3d& point, const Ve
   return best;
 }
 
+AnchorFinder::Face AnchorFinder::nearestFaceOf(const Vector3i& cell, const Vector3d& point) const {
+  const Vector3d in_cell = point - cell.cast<double>();
+  Face nearest;
+  nearest.distance2 = std::numeric_limits<double>::infinity();
+  for (int f = 0; f < 6; ++f) {
+    const double distance = in_cell[f / 2] - f % 2;
+    if (distance * distance < nearest.distance2) nearest = {cell, f / 2, f % 2, distance * distance};
+  }
+  return nearest;
+}
+
 Anchor AnchorFinder::find(const Vector3d& point_m, const Vector3d& outward) const {
   const Vector3d point = (point_m - solid_.origin_m) / solid_.spacing_m;
   Face face = nearestBoundary(point, outward);
   const Vector3i home = point.array().floor().cast<int>();
   const bool deep = face.distance2 > 1 && filled(home);
-  if (deep) {
-    const Vector3d in_cell = point - home.cast<double>();
-    double nearest = std::numeric_limits<double>::infinity();
-    for (int f = 0; f < 6; ++f) {
-      const double distance = std::abs(in_cell[f / 2] - f % 2);
-      if (distance < nearest) {
-        nearest = distance;
-        face = {home, f / 2, f % 2, distance * distance};
-      }
-    }
-  }
+  const bool moves_with_cell = !solid_.partial.empty() && (filled(home) || face.distance2 <= kBeside * kBeside);
+  if (deep || moves_with_cell) face = nearestFaceOf(filled(home) ? home : face.cell, point);
   Anchor anchor = anchorOnFace(closestOnFace(point, face.cell, face.axis, face.side), face.cell, face.axis, face.side);
   anchor.deep = deep;
+  if (moves_with_cell) anchor.cell = face.cell;
   return anchor;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "viscera/model/shape/solid.h"
 
@@ -14,6 +15,7 @@ struct Anchor {
   std::array<Vector3i, 3> nodes;    ///< counter-clockwise seen from outside the cell
   double weight1 = 0, weight2 = 0;  ///< of nodes 1 and 2, 0..1; node 0 has the rest
   bool deep = false;                ///< on a face of the vertex's own cell, not on the boundary of the solid
+  std::optional<Vector3i> cell;     ///< that holds the vertex, where the vertex is to move as its tissue does
 };
 
 /// Finds anchors on the faces of a solid's cells.
@@ -23,7 +25,8 @@ class AnchorFinder {
 
   /// Nearest place on the boundary of the solid; or on the vertex's own cell where the boundary is farther than a cell.
   /// In walls of about a cell both sides are near: a boundary face that looks away from `outward` counts as farther,
-  /// up to one spacing.
+  /// up to one spacing. In a solid with cells that are tissue in part the boundary is not where its tissue ends: there
+  /// it is a face of the cell that holds the vertex, or of the one within half a cell of it.
   /// @param point_m  tissue frame  @param outward  unit normal of the skin there
   Anchor find(const Vector3d& point_m, const Vector3d& outward) const;
 
@@ -33,6 +36,7 @@ class AnchorFinder {
     int axis = 0, side = 0;  // side 1 looks along +axis
     double distance2 = 0;    // from the point, in cells squared
   };
+  Face nearestFaceOf(const Vector3i& cell, const Vector3d& point) const;
   Face nearestBoundary(const Vector3d& point, const Vector3d& outward) const;
   template <class Visit>
   void forEachCellOfShell(const Vector3i& center, int radius, Visit visit) const;

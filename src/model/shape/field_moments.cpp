@@ -12,18 +12,22 @@
 #include <map>
 
 #include "model/shape/cell_fill.h"
+#include "model/shape/node_depths.h"
 #include "model/shape/solid_grid.h"
 #include "viscera/math/error.h"
 
 namespace viscera {
 namespace {
 
-constexpr int kCuts = 4;        ///< small cubes along an edge of a cell
+constexpr int kCuts = 4;  ///< small cubes along an edge of a cell
+constexpr int kOctant = kCuts / 2;
 constexpr int kBlockCells = 8;  ///< along an edge of a block whose samples are kept
 constexpr int kBlockSamples = kBlockCells * kCuts + 1;
 /// Depth of samples, in cells, from which on a cell has no surface. No place of a cell is more than 0.56 from its
 /// corners and middle, so a field may be up to 1.8 times as steep as a distance.
 constexpr double kClear = 1;
+/// The same of an octant, none of whose places is more than 0.43 from its corners: for 1.4 times as steep.
+constexpr double kClearOctant = 0.6;
 /// Second difference of samples, over the distance between them, that is a crease; a ball of two cells has 0.125.
 constexpr double kCrease = 0.5;
 
@@ -123,51 +127,66 @@ class FieldCell {
   }
 
   CellFill fill() const {
-    const double shift = chordShift();
     CellFill sum = noFill();
-    for (int i = 0; i < kCuts * kCuts * kCuts; ++i) {
-      const Vector3i cube(i % kCuts, i / kCuts % kCuts, i / kCuts / kCuts);
-      std::array<double, 8> values{};
-      for (int c = 0; c < 8; ++c) values[c] = at(cube + corner(c)).distance_m + shift;
-      addCube(cube.cast<double>() / kCuts - Vector3d::Constant(0.5), values, sum);
-    }
+    for (int c = 0; c < 8; ++c) addOctant(kOctant * corner(c), sum);
     return sum;
   }
 
   /// Label of the part that most samples with tissue are in.
   uint16_t commonLabel() const {
-    std::map<uint16_t, int> counts;
-    for (int i = 0; i < (kCuts + 1) * (kCuts + 1) * (kCuts + 1); ++i) {
-      const LabelledDistance& s = at({i % (kCuts + 1), i / (kCuts + 1) % (kCuts + 1), i / (kCuts + 1) / (kCuts + 1)});
-      if (s.distance_m < 0) ++counts[s.part];
+    for (const int step : {kOctant, 1}) {  // the coarse ones are there already
+      std::map<uint16_t, int> counts;
+      const int per_axis = kCuts / step + 1;
+      for (int i = 0; i < per_axis * per_axis * per_axis; ++i) {
+        const LabelledDistance& s = at(step * Vector3i(i % per_axis, i / per_axis % per_axis, i / per_axis / per_axis));
+        if (s.distance_m < 0) ++counts[s.part];
+      }
+      const auto common = std::max_element(counts.begin(), counts.end(),
+                                           [](const auto& a, const auto& b) { return a.second < b.second; });
+      if (common != counts.end()) return common->first + 1;
     }
-    const auto common = std::max_element(counts.begin(), counts.end(),
-                                         [](const auto& a, const auto& b) { return a.second < b.second; });
-    return common == counts.end() ? 1 : common->first + 1;
+    return 1;
   }
 
  private:
   const LabelledDistance& at(const Vector3i& i) const { return samples_.at(first_ + i); }
 
-  /// What makes the mean over chords that of the field.
-  double chordShift() const {
+  /// @param first  small cube at the octant's lowest corner
+  void addOctant(const Vector3i& first, CellFill& sum) const {
+    const Vector3d low = first.cast<double>() / kCuts - Vector3d::Constant(0.5);
+    const bool inside = at(first).distance_m < 0;
+    bool uniform = true;
+    for (int c = 0; c < 8 && uniform; ++c) {
+      const double value = at(first + kOctant * corner(c)).distance_m;
+      uniform = (value < 0) == inside && std::abs(value) > kClearOctant * spacing_m_;
+    }
+    if (uniform) {
+      if (inside) add(sum, boxFill(low, low + Vector3d::Constant(0.5)));
+      return;
+    }
+    const double shift = chordShift(first);
+    for (int cube = 0; cube < 8; ++cube) {
+      std::array<double, 8> values{};
+      for (int c = 0; c < 8; ++c) values[c] = at(first + corner(cube) + corner(c)).distance_m + shift;
+      addCube(low + corner(cube).cast<double>() / kCuts, values, sum);
+    }
+  }
+
+  /// What makes the mean over chords that of the field, in an octant.
+  double chordShift(const Vector3i& first) const {
     const double step_m = spacing_m_ / kCuts;
-    double sum = 0;  // of second differences, over all lines along the three axes
-    int count = 0;
+    double sum = 0;  // of second differences, over nine lines along each axis
     for (int axis = 0; axis < 3; ++axis) {
       const Vector3i along = Vector3i::Unit(axis), u = Vector3i::Unit((axis + 1) % 3),
                      v = Vector3i::Unit((axis + 2) % 3);
-      for (int i = 0; i < (kCuts + 1) * (kCuts + 1); ++i) {
-        for (int k = 1; k < kCuts; ++k) {
-          const Vector3i here = k * along + i % (kCuts + 1) * u + i / (kCuts + 1) * v;
-          const double second = at(here - along).distance_m - 2 * at(here).distance_m + at(here + along).distance_m;
-          if (std::abs(second) > kCrease * step_m) return 0;
-          sum += second;
-          ++count;
-        }
+      for (int i = 0; i < 9; ++i) {
+        const Vector3i here = first + along + i % 3 * u + i / 3 * v;
+        const double second = at(here - along).distance_m - 2 * at(here).distance_m + at(here + along).distance_m;
+        if (std::abs(second) > kCrease * step_m) return 0;
+        sum += second;
       }
     }
-    return -3 * sum / count / 12;  // three axes; second differences are d^2 times the derivative
+    return -sum / 9 / 12;  // second differences are d^2 times the derivative
   }
 
   BlockSamples& samples_;
@@ -210,6 +229,7 @@ void fillAll(const DistanceField& field, Solid& solid, const Progress& progress)
     if (progress) progress("voxelise", std::min(1.0, static_cast<double>(z + kBlockCells) / solid.cells.z()));
   }
   giveSlivers(slivers, solid);
+  if (!solid.partial.empty()) measureDepths(field, solid);
 }
 
 }  // namespace

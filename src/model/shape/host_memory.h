@@ -17,6 +17,9 @@ double availableBytes(const std::string& root = "");
 /// the CPU, 579 on the GPU (llvmpipe, whose buffers are in the host's memory).
 constexpr double kBytesPerFilledCell = 650;
 
+/// What a cell that is tissue in part takes beyond that: its moments in the solid, the lattice and the solver.
+constexpr double kBytesPerPartialCell = 350;
+
 /// @param filled_cells  of a solid   @param available_bytes  for tests
 /// @throws LatticeError  they need more memory than there is; names the spacing that fits
 void requireTissueMemory(size_t filled_cells, double spacing_m, double available_bytes = availableBytes());

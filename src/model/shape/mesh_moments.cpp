@@ -1,5 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include "model/shape/node_depths.h"
 #include "model/shape/solid_crumbs.h"
 #include "model/shape/solid_grid.h"
 #include "model/shape/solid_moments.h"
@@ -31,6 +32,7 @@ Solid voxeliseByMoments(const TriangleMesh& mesh, double spacing_m, const NodePl
                 [&](double h) { return fill(volumes, mesh, h, planes, {}).filledCells() > 0; });
   }
   found.crumbs_removed = removeCrumbs(solid, kCrumb);
+  if (!solid.partial.empty()) measureDepths(volumes, solid);
   found.filled_volume_m3 = solid.volumeM3();
   countDropped(solid, found);
   if (report != nullptr) *report = found;

@@ -8,6 +8,7 @@
 #include "model/scene/structure_rules.h"
 #include "model/shape/box_surface.h"
 #include "model/shape/clamp_planes.h"
+#include "model/shape/node_depths.h"
 #include "model/shape/placing.h"
 #include "model/shape/plain_meshes.h"
 #include "model/shape/solid_grid.h"
@@ -73,8 +74,10 @@ class BoxTissue : public Tissue {
       if (whole[axis] || !planes[axis]) planes[axis] = bounds().min()[axis];
     }
     Solid solid = emptySolid(bounds().min(), bounds().max(), spacing_m, {"box"}, planes);
-    fillByMoments({{boxShell(-0.5 * size_m_, 0.5 * size_m_, pose_), 0}}, solid, progress);
+    const std::vector<Volume> box = {{boxShell(-0.5 * size_m_, 0.5 * size_m_, pose_), 0}};
+    fillByMoments(box, solid, progress);
     if (solid.filledCells() == 0) throw LatticeError("the box is thinner than any cell's least share of tissue");
+    measureDepths(box, solid);
     return solid;
   }
 

@@ -36,6 +36,8 @@ struct Skin {
 /// Binds every vertex to the nearest triangle of the lattice's boundary (EGVE 3.3.1; the reference point is the closest
 /// point, so weights are 0..1) and finds the ties of every triangle. A vertex deeper than one cell, as where parts of
 /// an organ meet, is bound to a face of its own cell instead, so that it moves and is cut with the tissue around it.
+/// In a lattice with cells that are tissue in part every vertex is, and while no spring of the cell's corners is cut it
+/// goes where the eight corners carry it: its boundary faces lie outside of the tissue, on light and soft nodes.
 /// Edges longer than the spacing are split first, so that a cut can open between any two lattice nodes.
 /// A triangle is whole while at least two of the three springs of each of its vertices' lattice triangles are alive
 /// and all its ties hold; hence no whole triangle joins nodes that no path of live springs joins.

@@ -34,6 +34,12 @@ struct PartialCell {
   CellFill fill;
 };
 
+/// How deep a node lies below the true surface; negative outside.
+struct NodeDepth {
+  Vector3i node;  ///< node (i,j,k) is the lowest corner of cell (i,j,k)
+  float depth_m;
+};
+
 /// A solid as labelled cubic cells on a regular grid, x fastest. Cell (i,j,k) spans origin + h*[i,i+1] x ...
 struct Solid {
   double spacing_m = 0;
@@ -42,6 +48,7 @@ struct Solid {
   std::vector<uint16_t> labels;          ///< [cells.prod()] 0 empty, else 1 + index into part_names
   std::vector<std::string> part_names;
   std::vector<PartialCell> partial;  ///< labelled cells that are tissue in part, ascending; all others are full
+  std::vector<NodeDepth> depths;     ///< where some cells are tissue in part: all nodes that are not amid full cells
 
   size_t index(int x, int y, int z) const {
     return static_cast<size_t>(x) + static_cast<size_t>(cells.x()) * (y + static_cast<size_t>(cells.y()) * z);
