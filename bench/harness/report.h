@@ -10,6 +10,10 @@
 #include "bench/harness/table.h"
 #include "viscera/model/scene/scene.h"
 
+namespace viscera::gpu {
+class Context;
+}
+
 namespace viscera::bench {
 
 struct SuiteOptions {
@@ -17,6 +21,7 @@ struct SuiteOptions {
   bool short_form = false;        ///< the form that scripts/test runs: under 20 s on two cores
   /// kCpu, kGpu: where the suites that judge results measure every row. One with the GPU needs a current context.
   std::vector<Backend> backends = {Backend::kCpu, Backend::kGpu};
+  gpu::Context* context = nullptr;  ///< that one
 };
 
 /// One number that must be reached.
@@ -36,6 +41,7 @@ class Report {
 
   bool isShort() const { return options_.short_form; }
   const std::vector<Backend>& backends() const { return options_.backends; }
+  gpu::Context* context() const { return options_.context; }  ///< null: no GPU backend
   const std::string& suite() const { return suite_; }
   /// Says on standard error what is measured next.
   void stage(const std::string& what) const;

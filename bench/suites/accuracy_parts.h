@@ -18,6 +18,8 @@ void measureMomentum(Report& report);
 void measureEnergyDrift(Report& report);
 /// Error against work, cantilever: integrator x substep x iterations.
 void measureCantileverPrecision(Report& report);
+/// Error of the heart under a probe by spacing, in cells of springs and by moments.
+void measureSpacing(Report& report);
 /// The same for the heart, pressed, grabbed, pulled and let go.
 void measureHeartPrecision(Report& report);
 

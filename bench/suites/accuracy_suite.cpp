@@ -13,6 +13,7 @@ void accuracySuite(Report& report) {
   measureEnergyDrift(report);
   measureCantileverPrecision(report);
   measureHeartPrecision(report);
+  measureSpacing(report);
 }
 
 }  // namespace viscera::bench

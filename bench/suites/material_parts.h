@@ -20,5 +20,11 @@ void measurePlaneWaves(Report& report);
 void measureCantilever(Report& report);
 /// Force on a sphere pressed into the tissue, against Hertz.
 void measureIndentation(Report& report);
+/// Compliance of beams, rings, rods, plates, tubes and shells of few cells, in cells of springs and by moments.
+void measureWalls(Report& report);
+/// A beam bent into a circle: moment over E I kappa.
+void measureCircle(Report& report);
+/// A block on slopes and sliding, against Coulomb's law; a stack of boxes.
+void measureContact(Report& report);
 
 }  // namespace viscera::bench

@@ -13,6 +13,9 @@ void materialSuite(Report& report) {
   measurePlaneWaves(report);
   measureCantilever(report);
   measureIndentation(report);
+  measureWalls(report);
+  measureCircle(report);
+  measureContact(report);
 }
 
 }  // namespace viscera::bench

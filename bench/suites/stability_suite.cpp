@@ -172,6 +172,7 @@ void stabilitySuite(Report& report) {
   startsOfStability(report);
   fractionsOfStability(report);
   toolsOfStability(report);
+  placesOfStability(report);
   extremesOfStability(report);
 }
 

@@ -13,6 +13,7 @@ void stabilitySuite(Report& report);
 void startsOfStability(Report& report);     ///< extreme starts x integrators x substeps
 void fractionsOfStability(Report& report);  ///< how far the substep may go towards its limit
 void toolsOfStability(Report& report);      ///< fast and jumping tools, a grab pulled to 10x, random cuts
+void placesOfStability(Report& report);     ///< far from the origin, with tools and skin; in other sizes
 void extremesOfStability(Report& report);   ///< stiffness and mass ratios, a long rest, units, equal hashes
 
 }  // namespace viscera::bench

@@ -50,6 +50,7 @@ int runSuite(const Suite& suite, SuiteOptions options, const std::string& backen
   const auto start = std::chrono::steady_clock::now();
   const Machine machine = machineFor(suite.takes_backend ? backend : "gpu", device);
   options.backends = machine.backends;
+  options.context = machine.context.get();
   Report report(suite.name, options, out);
   report.note(std::string("viscera bench ") + suite.name + (options.short_form ? " --short" : "") + ", on " +
               (suite.takes_backend ? machine.note : machine.context->renderer()) + "\n");

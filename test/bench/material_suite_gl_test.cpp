@@ -28,6 +28,9 @@ TEST(MaterialSuite, ShortFormReachesEveryLimitAndLeavesTablesAndPlots) {
           << stem << extension;
     }
   }
+  for (const char* stem : {"walls", "circle", "slopes", "stack"}) {
+    EXPECT_TRUE(says(readFile(folder.file(std::string("out/material_") + stem + ".csv")), {"cpu", "gpu"})) << stem;
+  }
   // Every kind of measurement has said what it found.
   const std::string checks = readFile(folder.file("out/material_checks.csv"));
   EXPECT_TRUE(says(checks, {"tension", "finite stretch", "chains", "plane waves", "cantilever", "Hertz", "probe"}));

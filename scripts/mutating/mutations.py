@@ -1,0 +1,143 @@
+# Copyright (c) 2026, the viscera authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The edits of docs/paper_errors.md, row by row, for scripts/mutate: in `file` the text `old`, which stands there once,
+becomes `new`; then the tests `tests` of `program` must fail."""
+
+from collections import namedtuple
+
+Mutation = namedtuple("Mutation", "name file old new program tests")
+
+LEAPFROG = "shaders/solver/leapfrog.comp"
+SPRING = "shaders/solver/spring.glsl"
+CONTACT = "shaders/solver/contact.glsl"
+MATERIAL = "src/model/body/elasticity.cpp"
+BASIS = "shaders/surface/skin_basis.glsl"
+CUT = "shaders/solver/cut.comp"
+
+INTEGRATE = "*Integrate.MatchesReferenceAtEverySize*"
+SKIN_REST = "SkinMapping.RestPoseComesBackToFloatRounding"
+SKIN_LIKE = "SkinMapping.AgreesWithTheReferenceAtEverySize"
+SUITES = "AccuracySuite.ReachesEveryLimitInItsShortForm"
+UPDATE = "vec3 u_next = added(2u * slot, u, dt_s * v_next);"
+
+MUTATIONS = [
+    Mutation("half_force", LEAPFROG, "force += (k * s.extension) * s.direction;",
+             "force += (0.5f * k * s.extension) * s.direction;", "test_validation", "*Oracle.FiniteUniaxialStretch*"),
+    Mutation("half_constant", MATERIAL, "return {mu * h, bulk,", "return {0.5 * mu * h, bulk,", "test_solver",
+             "ReferenceOracle.TensionTests*"),
+    Mutation("divides_by_length", SPRING, "precise vec3 direction = l > kShortest * l0 ? e / l : d / l0;",
+             "precise vec3 direction = e / l;", "test_solver", "*Vbd.EnergyStaysBelowItsStart*"),
+    Mutation("extension_by_subtraction", SPRING,
+             "precise float extension = fma(2.0f, fixedDot(d, w), fixedDot(w, w)) / (l + l0);",
+             "precise float extension = l - l0;", "test_solver", "*Vbd.MatchesReferenceAtEverySize*"),
+    Mutation("no_volume", MATERIAL, "const double bulk = nu == 0.25 ? 0 : (lambda_over_mu - 1) * mu * h * h * h;",
+             "const double bulk = 0 * lambda_over_mu * h * h * h;", "test_solver", "ReferenceOracle.TensionTests*"),
+    Mutation("positions", LEAPFROG, UPDATE,
+             "vec3 u_next = (restPosition(slot) + u) + dt_s * v_next - restPosition(slot);", "test_solver", INTEGRATE),
+    Mutation("position_differences", LEAPFROG, UPDATE,
+             "vec3 u_next = (restPosition(slot) + u) + dt_s * v_next - restPosition(slot);\n"
+             "  v_next = ((restPosition(slot) + u_next) - (restPosition(slot) + u)) / dt_s;", "test_solver", INTEGRATE),
+    Mutation("printed_order", LEAPFROG, UPDATE, "vec3 u_next = (u + dt_s * v) + dt_s * (v_next - v);", "test_solver",
+             "*PaperErrors.IncrementsAreSummed*"),
+    Mutation("velocity_differences", LEAPFROG, UPDATE,
+             "vec3 u_next = u + dt_s * v_next;\n  v_next = (u_next - u) / dt_s;", "test_solver", INTEGRATE),
+    Mutation("never_compensated", "src/solver/features.cpp",
+             "features.compensated = isCompensated(scene.solver, dt_s);",
+             "features.compensated = dt_s < 0 && scene.solver.compensated;", "test_solver",
+             "*Integrate.ShortSubstepsLoseNoDigitsOfU*"),
+    Mutation("whole_first_kick", "src/solver/ticks.cpp", "restarted_ ? 0.5 * dt_s :", "restarted_ ? dt_s :", "test_solver",
+             INTEGRATE),
+    Mutation("no_stable_limit", "src/solver/substeps.cpp", "if (dt_s < limit_s) return;", "return;", "test_solver",
+             "Substeps.ExplicitIntegratorsRefuse*"),
+    Mutation("limit_at_rest", "src/solver/material.cpp", "    fastest = std::max(fastest, stiffness / mass);",
+             "    fastest = std::max(fastest, 12 * 4 * static_cast<double>(params.axial_quarter_n_per_m) / mass);",
+             "test_solver", "StableSubstep.*"),
+    Mutation("uniform_weights", "src/model/body/lattice.cpp", "if (weights == Weights::kPaper)",
+             "if (weights == Weights::kPaper || !lattice.nodes.empty())", "test_model",
+             "Lattice.StiffnessAndMassAreThoseOfTheCells"),
+    Mutation("no_spacing", MATERIAL, "return {mu * h, bulk,", "return {mu * 0.01, bulk,", "test_solver",
+             "ReferenceOracle.TensionTests*"),
+    Mutation("plain_normalize", "shaders/surface/node_normal.comp",
+             "node_normals[slot] = vec4(direction(sum, vec3(0.0f)), severed ? 0.0f : clear);",
+             "node_normals[slot] = vec4(normalize(sum), 1.0f);", "test_surface", "SkinMapping.*"),
+    Mutation("always_trusted", "shaders/surface/node_normal.comp", "severed ? 0.0f : clear);", "1.0f);",
+             "test_surface", "SkinMapping.SeveredNodesFallBack*:" + SKIN_LIKE),
+    Mutation("normals_as_floats", "shaders/surface/map_skin.comp",
+             "normals[vertex] = packNormal(direction(normal, constant.n));",
+             "normals[vertex] = floatBitsToUint(uintBitsToFloat(packNormal(direction(normal, constant.n))));",
+             "test_gpu", "ShaderSources.KeepPackedNormalsOutOfFloats"),
+    Mutation("pose_jumps", "src/tools/motion_packing.cpp",
+             "substep(motions[i], configs[i], static_cast<double>(s) / substeps, static_cast<double>(s + 1) / substeps);",
+             "substep(motions[i], configs[i], s > 0 ? 1 : 0, 1);", "test_tools", "Interpolation.*"),
+    Mutation("never_held_back", "src/tools/hands.cpp", "motion.held_back = length > limits_.max_travel_m;",
+             "motion.held_back = false;", "test_tools", "HeldBack.*"),
+    Mutation("no_sweep", CONTACT, "nearestOnSegment(xyz(motion.from), xyz(motion.to), x_next);", "xyz(motion.to);",
+             "test_solver", "*PaperErrors.ProbeThatPassesANode*"),
+    Mutation("no_direction", CONTACT, "normalize(depth2 > 1e-12f * radius * radius ? out_of : fallback);",
+             "normalize(out_of);", "test_solver", "*PaperErrors.ProbeWithANodeExactlyAtItsCentre*"),
+    Mutation("no_push_speed", CONTACT, "x_next += min(way, push_speed * dt_s) * normal;", "x_next += way * normal;",
+             "test_solver", "*PaperErrors.ProbeThatAppearsDeepInTissue*"),
+    Mutation("way_out_is_velocity", CONTACT, "if (approach < 0.0f) v_next -= approach * normal;",
+             "v_next = (x_next - x) / dt_s + 0.0f * approach;", "test_solver", "*PaperErrors.NodeThatAProbeMovesOut*"),
+    Mutation("velocity_left", CONTACT, "if (approach < 0.0f) v_next -= approach * normal;",
+             "v_next -= 0.0f * approach * normal;", "test_solver", "*ToolsOnTissue.ProbeDentsLikeTheReference*"),
+    Mutation("grip_without_turn", CONTACT,
+             "rotated(xyzw(tool_motions[stylus].orientation), xyz(grab_offsets[slot]))", "xyz(grab_offsets[slot])",
+             "test_solver", "*ToolsOnTissue.HeldNodesFollowTheFullPose*"),
+    Mutation("release_not_slowed", "shaders/solver/grab.comp", "if (speed > release_speed) velocity[slot]",
+             "if (speed > 1e30f) velocity[slot]", "test_solver", "*ToolsOnTissue.ReleaseClampsTheVelocity*"),
+    Mutation("cut_from_one_end", CUT, "if (severs(slot, x, n, m, sphere)) {",
+             "if (slot < n && severs(slot, x, n, m, sphere)) {", "test_solver",
+             "*ToolsOnTissue.BladeCutsTheSpringsItCrossesFromBothEnds*"),
+    Mutation("cut_erases_particles", CUT,
+             "return slot < other ? crossesBlade(x, y, m) : crossesBlade(y, x, m);",
+             "return erased(x, m) || erased(y, m) || crossesBlade(x, y, m);", "test_solver",
+             "*ToolsOnTissue.ParticleErase*:*ToolsOnTissue.OneSweepCutsWhat*"),
+    Mutation("cut_takes_mass", CUT, "  nodes[slot] = bits;", "  bits.lo -= 1u << kMassShift;\n  nodes[slot] = bits;",
+             "test_solver", "*PaperErrors.CutsTakeSpringsAndNoMass*"),
+    Mutation("lone_nodes_have_no_mass", CUT, "  nodes[slot] = bits;",
+             "  if (isIsolated(bits)) bits.lo &= ~(15u << kMassShift);\n  nodes[slot] = bits;", "test_solver",
+             "*PaperErrors.CutsTakeSpringsAndNoMass*"),
+    Mutation("lone_nodes_fall", "shaders/solver/step.glsl",
+             "(bits.lo & kFixedBit) != 0u || (isIsolated(bits) && (bits.lo & kGrabMask) == 0u);",
+             "(bits.lo & kFixedBit) != 0u;", "test_solver", INTEGRATE),
+    Mutation("fragments_fall", "shaders/solver/sleep.glsl", "  u_next = u;\n  v_next = vec3(0.0f);\n",
+             "  u_next += 0.0f * u;\n", "test_solver", "*PaperErrors.FragmentsThatFall*"),
+    Mutation("weights_not_clamped", "src/model/body/skin_anchor.cpp",
+             "return point.cwiseMax(low).cwiseMin(high);", "return point;", "test_model",
+             "SkinBinding.WeightsLieInTheTriangle*:SkinBinding.ReferencePointIsTheNearest*"),
+    Mutation("normal_not_unit", BASIS, "? direction(normal, basis.t)", "? normal", "test_surface", SKIN_LIKE),
+    Mutation("collinear_normal", BASIS,
+             "basis.n = dot(normal, normal) > kLeastSine * kLeastSine ? direction(normal, basis.t)",
+             "basis.n = true ? normalize(normal)", "test_surface", "SkinMapping.Collapsed*"),
+    Mutation("average_not_unit", BASIS, "basis.n = direction(average_normal, triangle.n);", "basis.n = average_normal;",
+             "test_surface", SKIN_REST),
+    Mutation("basis_as_printed", BASIS,
+             "  basis.n = direction(average_normal, triangle.n);\n  vec3 bitangent = cross(basis.n, triangle.t);\n"
+             "  basis.b = dot(bitangent, bitangent) > kLeastSine * kLeastSine ? direction(bitangent, triangle.b) : triangle.b;\n"
+             "  basis.t = cross(basis.b, basis.n);",
+             "  basis.n = average_normal;\n  basis.b = cross(basis.n, triangle.t);\n  basis.t = triangle.t;",
+             "test_surface", SKIN_REST),
+    Mutation("rest_basis_as_printed", "src/model/body/skin_basis.cpp",
+             "  basis.n = average.normalized();\n", "  basis.n = average;\n", "test_model", "SkinBinding.RestPose*"),
+    Mutation("three_products", BASIS,
+             "return coordinates.x * basis.t + coordinates.y * basis.n + coordinates.z * basis.b;",
+             "return vec3(dot(coordinates, basis.t), dot(coordinates, basis.n), dot(coordinates, basis.b));",
+             "test_surface", SKIN_REST),
+    Mutation("no_choice_of_basis", "src/model/body/skin_basis.cpp",
+             "if (sum.norm() < layout::kNormalSumFull) return std::nullopt;", "", "test_model",
+             "SkinBinding.NodesWhoseNeighborsCancel*:SkinBinding.DeepVertices*"),
+    Mutation("backward_drag", LEAPFROG, "(kick_s * acceleration - (2.0f * g) * v) / (1.0f + g));",
+             "kick_s * acceleration - (2.0f * g) * v);", "test_validation", "*Oracle.DampedOscillator*"),
+    Mutation("forces_in_16_bits", LEAPFROG,
+             "vec3 acceleration = elasticForce(slot, bits, body, u, v) / mass + gravity;",
+             "vec3 force16 = elasticForce(slot, bits, body, u, v);\n"
+             "  vec3 acceleration = floor(force16 * 4096.0f + 0.5f) / 4096.0f / mass + gravity;", "test_validation",
+             "*Oracle.ForcesSumToNothing*:*Oracle.HangingChain*"),
+    Mutation("isnan", "shaders/solver/measure.comp",
+             "  uvec3 bits = floatBitsToUint(v) & 0x7f800000u;\n  return all(notEqual(bits, uvec3(0x7f800000u)));",
+             "  return !(isnan(v.x) || isnan(v.y) || isnan(v.z));", "test_gpu", "ShaderSources.NeverAsk*"),
+    Mutation("isnan_and_isinf", "shaders/solver/measure.comp",
+             "  uvec3 bits = floatBitsToUint(v) & 0x7f800000u;\n  return all(notEqual(bits, uvec3(0x7f800000u)));",
+             "  return !(isnan(v.x + v.y + v.z) || isinf(v.x + v.y + v.z));", "test_gpu", "ShaderSources.NeverAsk*"),
+]

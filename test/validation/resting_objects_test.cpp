@@ -1,0 +1,111 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+// What GW's figures show, run to its end: balls that lie on a cloth, a cloth that lies folded on the floor, the flap of
+// a cut that hangs. On the CPU: minutes of a software rasteriser otherwise; the backends' contacts are compared
+// elsewhere.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "viscera/session/session.h"
+#include "viscera/tools/strokes.h"
+
+namespace viscera {
+namespace {
+
+/// Root of the mean square of nodes' speeds: single nodes of a cloth that lies on round nodes tremble at 0.1 m/s; a
+/// fall of 1 cm makes 0.44.
+constexpr double kRests_m_per_s = 0.03;
+
+Scene shipped(const std::string& name) {
+  return loadScene(VISCERA_SOURCE_DIR "/config/scenes/" + name + ".yaml");
+}
+
+/// A scene that is run, and where its nodes are then.
+class Resting : public ::testing::Test {
+ protected:
+  void run(const Scene& scene, double seconds, const Strokes& strokes = {}) {
+    session_ = std::make_unique<Session>(scene);
+    const double tick_s = session_->tick_s();
+    for (int t = 1; t * tick_s <= seconds; ++t) session_->step(strokes.at(t * tick_s, scene.styluses), {});
+    state_ = session_->solver().readState();
+  }
+  const Model& model() const { return session_->model(); }
+  Vector3d at(size_t body, uint32_t slot) const {
+    const layout::vec4& u = state_.displacement_m[model().slotOffset(body) + slot];
+    return restPosition(model().bodies[body], slot) + Vector3d(u.x, u.y, u.z);
+  }
+  const std::vector<uint32_t>& nodes(size_t body) const { return model().bodies[body].lattice.active_slots; }
+  double speed(size_t body) const {
+    double sum2 = 0;
+    for (const uint32_t slot : nodes(body)) {
+      const layout::vec4& v = state_.velocity_m_per_s[model().slotOffset(body) + slot];
+      sum2 += Vector3d(v.x, v.y, v.z).squaredNorm();
+    }
+    return std::sqrt(sum2 / static_cast<double>(nodes(body).size()));
+  }
+  double lowest(size_t body) const {
+    double out = 1e9;
+    for (const uint32_t slot : nodes(body)) out = std::min(out, at(body, slot).z());
+    return out;
+  }
+  /// Nearest that a node of one body is to one of the other [m].
+  double gap(size_t a, size_t b) const {
+    double out = 1e9;
+    for (const uint32_t i : nodes(a)) {
+      for (const uint32_t j : nodes(b)) out = std::min(out, (at(a, i) - at(b, j)).norm());
+    }
+    return out;
+  }
+  std::unique_ptr<Session> session_;
+  HostState state_;
+};
+
+TEST_F(Resting, BallsFallOntoTheClothTouchItAndLieInIt) {
+  Scene scene = shipped("objects");
+  scene.environment.wind = {};  // which never lets them rest
+  for (BodyConfig& body : scene.bodies) body.force_n.setZero();
+  constexpr double kReach_m = 0.016 * 1.1;  // the cloth's spacing is how near its contacts let nodes come
+  run(scene, 6);
+  for (const size_t ball : {1u, 2u}) {
+    EXPECT_LT(gap(ball, 0), kReach_m) << "ball " << ball << " hangs in the air";
+    EXPECT_LT(speed(ball), kRests_m_per_s) << "ball " << ball;
+    EXPECT_GT(lowest(ball), lowest(0)) << "ball " << ball << " is through the cloth";
+  }
+  EXPECT_LT(speed(0), kRests_m_per_s);
+}
+
+TEST_F(Resting, AClothOnEdgeFoldsOverItselfOnTheFloor) {
+  constexpr double kFloor_m = -0.004, kSpacing_m = 0.0125, kApart = 5, kReach_m = 1.1 * kSpacing_m;
+  run(shipped("cloth_self"), 5);
+  size_t folded = 0;
+  for (const uint32_t i : nodes(0)) {
+    for (const uint32_t j : nodes(0)) {
+      const double rest_m = (restPosition(model().bodies[0], i) - restPosition(model().bodies[0], j)).norm();
+      folded += j > i && rest_m > kApart * kSpacing_m && (at(0, i) - at(0, j)).norm() < kReach_m;
+    }
+  }
+  EXPECT_GT(folded, 20u) << "it does not lie on itself";
+  EXPECT_NEAR(lowest(0), kFloor_m, 1e-3) << "it does not lie on the floor";
+  EXPECT_LT(speed(0), kRests_m_per_s);
+}
+
+TEST_F(Resting, TheLipsOfACutClothHangApartAndRest) {
+  const Scene scene = shipped("cloth_on_points");
+  const Strokes strokes = loadStrokes(VISCERA_SOURCE_DIR "/config/strokes/cut_cloth.yaml");
+  run(scene, strokes.duration_s() + 4, strokes);
+  // Nodes of the near edge on the two sides of the blade, side by side before.
+  double left = -1, right = 1;
+  Vector3d left_at = Vector3d::Zero(), right_at = left_at;
+  for (const uint32_t slot : nodes(0)) {
+    const Vector3d rest = restPosition(model().bodies[0], slot);
+    if (rest.y() > -0.24) continue;
+    if (rest.x() < 0.05 && rest.x() > left) left = rest.x(), left_at = at(0, slot);
+    if (rest.x() > 0.07 && rest.x() < right) right = rest.x(), right_at = at(0, slot);
+  }
+  EXPECT_GT((right_at - left_at).norm(), 2 * (right - left)) << "the lips do not part";
+  EXPECT_LT(speed(0), kRests_m_per_s);
+}
+
+}  // namespace
+}  // namespace viscera
