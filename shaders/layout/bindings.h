@@ -36,7 +36,7 @@ const uint kBindSkinAlive = 21u;      // uint[triangles]: 0 torn, kShownWhole, o
 const uint kBindSkinLive = 22u;       // uint[3 * (triangles + 2 split)]: indices drawn; a torn triangle is (0, 0, 0)
 const uint kBindSkinColors = 23u;     // uint[vertices]: RGBA8
 const uint kBindCells = 24u;          // uint[cells]: slots of the lowest corners
-const uint kBindCellForces = 25u;     // vec4[3 * slots]: what a cell's volume does to its corners, see volume.comp
+const uint kBindCellForces = 25u;     // vec4[kVolumeVectors or kMomentVectors times slots]: what cells do to their corners, see volume.comp
 const uint kBindCompensation = 26u;   // vec4[2 * slots]: what the sums of displacement [m] and velocity [m/s] have lost
 const uint kBindIncrement = 27u;      // vec4[slots]: implicit integrators: displacement gained in this substep [m]
 const uint kBindIncrementOut = 28u;   // the same, next iterate; holds the last but one until then
@@ -78,7 +78,7 @@ const uint kUnitVelocity = 1u;      // rgba32f, as kBindVelocityIn
 const uint kUnitBricks = 2u;        // r32ui, as kBindBricks
 const uint kUnitSpringStiffness = 3u;  // r32f [9 * slots]: N/m of a node's even springs; bodies with parts
 const uint kUnitNodeMass = 4u;         // r32f [slots]: kg
-const uint kUnitCellBulk = 5u;         // r32f [slots]: J
+const uint kUnitCellBulk = 5u;         // r32f [slots]: J; with moments rgba32f: x bulk, y rigidity [J], z which moments
 const uint kUnitCellForces = 6u;       // rgba32f, as kBindCellForces
 const uint kUnitIncrement = 7u;        // rgba32f, as kBindIncrement
 const uint kUnitPositions = 8u;        // rgba32f, as kBindPositions
@@ -87,6 +87,7 @@ const uint kUnitLinkStarts = 10u;      // r32ui [slots + 1]: first link of a nod
 const uint kUnitSpringOwners = 11u;    // rgba32ui: SpringOwner[owners]
 const uint kUnitLinkForces = 12u;      // rgba32f, as kBindLinkForces
 const uint kUnitRest = 13u;            // rgba32f, as kBindRest
+const uint kUnitCellMoments = 15u;     // rgba32f [3 * (1 + fills)]: CellMoments, those of a cell filled all through first
 const uint kUnitForceStarts = 14u;     // r32ui [slots + 1]: first place of the forces on a node
 
 #ifdef __cplusplus

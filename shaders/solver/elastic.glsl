@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // What a node, a spring and a cell are made of (physics.md 1). After lattice.glsl.
-// Features: LATTICE (some body has implicit connections), NETWORK (some body has explicit ones: network.glsl), PARTS (strengths differ within a body: tables), VOLUME (cells have an energy of volume), INCREMENT (implicit
-// integrators: the state is displacement + increment).
+// Features: LATTICE (some body has implicit connections), NETWORK (some body has explicit ones: network.glsl), PARTS (strengths differ within a body: tables), VOLUME (cells have energies of their own: of volume, by moments), MOMENTS (some have
+// the latter), INCREMENT (implicit integrators: the state is displacement + increment).
 #include "spring.glsl"
 #include "volume.glsl"
+#include "moments.glsl"
 
 #ifndef __cplusplus
 layout(binding = kUnitDisplacement) uniform samplerBuffer displacement;
@@ -22,7 +23,7 @@ float nodeMass(uint slot, NodeBits bits, BodyParams body) { return float((bits.l
 #endif
 #ifdef PARTS
 layout(binding = kUnitSpringStiffness) uniform samplerBuffer spring_stiffness;  // [9 * slots]
-layout(binding = kUnitCellBulk) uniform samplerBuffer cell_bulk;                // [slots]
+layout(binding = kUnitCellBulk) uniform samplerBuffer cell_bulk;                // [slots] with MOMENTS: y rigidity, z fill
 float cellBulk(uint slot, BodyParams body) { return texelFetch(cell_bulk, int(slot)).x; }
 /// Stiffness [N/m] of a spring that is alive, the same number from both ends. @param far  slot of the other end
 float springStiffness(uint slot, uint far, uint spring, uint count, BodyParams body) {
@@ -36,8 +37,32 @@ float springStiffness(uint slot, uint far, uint spring, uint count, BodyParams b
 }
 #endif
 #ifdef VOLUME
-layout(binding = kUnitCellForces) uniform samplerBuffer cell_forces;  // [3 * slots], of volume.comp
+layout(binding = kUnitCellForces) uniform samplerBuffer cell_forces;  // [cell_vectors * slots], of volume.comp
 #endif
+#ifdef MOMENTS
+const bool has_moments = true;
+const uint cell_vectors = kMomentVectors;
+#ifdef PARTS
+layout(binding = kUnitCellMoments) uniform samplerBuffer cell_moments;  // [3 * (1 + fills)]
+/// mu h^3 times the cell's share [J]; 0 in bodies whose cells are springs only.
+float cellRigidity(uint slot, BodyParams body) { return texelFetch(cell_bulk, int(slot)).y; }
+CellMoments cellMoments(uint slot) {
+  int fill = 3 * int(texelFetch(cell_bulk, int(slot)).z);
+  CellMoments t = {texelFetch(cell_moments, fill).xyz, texelFetch(cell_moments, fill + 1).xyz, texelFetch(cell_moments, fill + 2).xyz};
+  return t;
+}
+#else
+float cellRigidity(uint slot, BodyParams body) { return body.rigidity_j; }
+CellMoments cellMoments(uint slot) { return fullMoments(); }
+#endif
+#else
+const bool has_moments = false;
+const uint cell_vectors = kVolumeVectors;
+float cellRigidity(uint slot, BodyParams body) { return 0.0f; }
+CellMoments cellMoments(uint slot) { return fullMoments(); }
+#endif
+#else
+CellMoments cellMoments(uint slot) { return has_moments ? momentsAt<CellMoments>(slot) : fullMoments(); }
 #endif  // __cplusplus
 
 // FOR_EACH_LINK does what a kernel has put into VISIT_LINK for every live spring of the node `slot` with `bits` and `body`: with
@@ -89,17 +114,59 @@ uint cellAt(uint slot, ivec3 corner, OUT(bool) exists) {
   return brick * kBrickSlots + q.x + 4u * q.y + 16u * q.z;
 }
 
-/// Force of the volume of the cells around a node [N]; w their Jacobi majorisers [N/m].
+/// What a cell's energies do to its corners, as volume.comp and implicit_cells.comp leave it: the corner at (x, y, z), each -1
+/// or 1, feels minus x a + y b + z c + y z hx + z x hy + x y hz + x y z hxyz [N].
+struct CellForces {
+  vec3 a, b, c, hx, hy, hz, hxyz;
+};
+
+/// @param at  displacements of the corners, bit per axis, x lowest [m]   @param p  volumePressure over 4 h [N]
+/// @param rigidity  0: none by moments
+CellForces cellForces(vec3 at[8], CellShape shape, float p, float h, float bulk, float rigidity, CellMoments moments) {
+  CellForces f = {p * shape.bc, p * shape.ca, p * shape.ab, vec3(0.0f), vec3(0.0f), vec3(0.0f), vec3(0.0f)};
+  if (rigidity <= 0.0f) return f;
+  CellPull pull = cellPull(cellMotion(at, h), moments, rigidity, bulk);
+  float quarter = 0.25f / h;
+  f.a += quarter * pull.a;
+  f.b += quarter * pull.b;
+  f.c += quarter * pull.c;
+  f.hx = (2.0f * quarter) * pull.hx;
+  f.hy = (2.0f * quarter) * pull.hy;
+  f.hz = (2.0f * quarter) * pull.hz;
+  f.hxyz = (0.35355339f / h) * pull.hxyz;
+  return f;
+}
+
+/// @param s  which corner, -1 or 1 per axis
+vec3 cornerForce(CellForces f, vec3 s) {
+  return -(s.x * f.a + s.y * f.b + s.z * f.c) - (s.y * s.z * f.hx + s.z * s.x * f.hy + s.x * s.y * f.hz) - (s.x * s.y * s.z) * f.hxyz;
+}
+
+/// Energy of a cell [J].
+float cellEnergy(vec3 at[8], float e, float h, float bulk, float rigidity, CellMoments moments) {
+  float energy = volumeEnergy(bulk, e);
+  if (rigidity <= 0.0f) return energy;
+  return energy + cellPull(cellMotion(at, h), moments, rigidity, bulk).energy;
+}
+
+/// The part of a cell's forces that its hourglass motions make. @param cell  first of its vectors
+vec3 bent(int cell, vec3 s) {
+  return (s.y * s.z) * xyz(texelFetch(cell_forces, cell + 3)) + (s.z * s.x) * xyz(texelFetch(cell_forces, cell + 4)) +
+         (s.x * s.y) * xyz(texelFetch(cell_forces, cell + 5)) + (s.x * s.y * s.z) * xyz(texelFetch(cell_forces, cell + 6));
+}
+
+/// Force of the cells around a node [N]; w their Jacobi majorisers [N/m].
 vec4 volumeForce(uint slot) {
   vec4 sum = vec4(0.0f);
 #define ADD_CELL(corner)                                                                                        \
   {                                                                                                             \
     bool exists;                                                                                                \
-    int cell = 3 * int(cellAt(slot, corner, exists));                                                           \
+    int cell = int(cell_vectors * cellAt(slot, corner, exists));                                                \
     if (exists) {                                                                                               \
       vec4 pa = texelFetch(cell_forces, cell);                                                                  \
       vec3 s = vec3(corner);                                                                                    \
       sum += vec4(-(s.x * xyz(pa) + s.y * xyz(texelFetch(cell_forces, cell + 1)) + s.z * xyz(texelFetch(cell_forces, cell + 2))), pa.w); \
+      if (has_moments) sum -= vec4(bent(cell, s), 0.0f);                                                         \
     }                                                                                                           \
   }
   FOR_EACH_CELL(ADD_CELL)

@@ -3,7 +3,7 @@
 //
 // implicit_cells.comp - forces and majorisers of the cells in the current iterate, as volume.comp has them.
 // Owner: solver/gpu/implicit_substep.h   physics.md 2
-// in  displacement, increments [slots]     out  cell forces [3 * slots]
+// in  displacement, increments [slots]     out  cell forces [cell_vectors * slots]
 #include "layout.h"
 #include "lattice.glsl"
 #include "elastic.glsl"
@@ -22,7 +22,8 @@ void main() {
   if (i >= active_count) return;  // of cells
   uint slot = cells[i];
   NodeBits bits = nodes[slot];
-  vec4 pa = vec4(0.0f), pb = vec4(0.0f), pc = vec4(0.0f);
+  CellForces f = {vec3(0.0f), vec3(0.0f), vec3(0.0f), vec3(0.0f), vec3(0.0f), vec3(0.0f), vec3(0.0f)};
+  float majoriser = 0.0f;
   if ((bits.lo & kCellBit) != 0u) {
     BodyParams body = bodies[bodyOf(bits)];
     float h = body.origin_spacing.w, bulk = cellBulk(slot, body);
@@ -32,12 +33,17 @@ void main() {
       at[c] = xyz(texelFetch(displacement, corner)) + xyz(texelFetch(increment, corner));
     }
     CellShape s = shapeOf(at, h, edge_lengths);
-    float p = volumePressure(bulk, s.e) * 0.25f / h;
-    pa = vec4(p * s.bc, volumeMajoriser(bulk, s, edge_lengths, reach(h, iteration), h));
-    pb = vec4(p * s.ca, 0.0f);
-    pc = vec4(p * s.ab, 0.0f);
+    majoriser = volumeMajoriser(bulk, s, edge_lengths, reach(h, iteration), h);
+    f = cellForces(at, s, volumePressure(bulk, s.e) * 0.25f / h, h, bulk, cellRigidity(slot, body), cellMoments(slot));
   }
-  cell_forces_out[3u * slot] = pa;
-  cell_forces_out[3u * slot + 1u] = pb;
-  cell_forces_out[3u * slot + 2u] = pc;
+  uint first = cell_vectors * slot;
+  cell_forces_out[first] = vec4(f.a, majoriser);
+  cell_forces_out[first + 1u] = vec4(f.b, 0.0f);
+  cell_forces_out[first + 2u] = vec4(f.c, 0.0f);
+  if (has_moments) {
+    cell_forces_out[first + 3u] = vec4(f.hx, 0.0f);
+    cell_forces_out[first + 4u] = vec4(f.hy, 0.0f);
+    cell_forces_out[first + 5u] = vec4(f.hz, 0.0f);
+    cell_forces_out[first + 6u] = vec4(f.hxyz, 0.0f);
+  }
 }

@@ -34,7 +34,8 @@ vec4 cellEnergies(uint slot, BodyParams body) {
   for (int g = 0; g < 4; ++g) {
     vec3 at[8], edge_lengths;
     for (int c = 0; c < 8; ++c) at[c] = u[c] + share(du[c], g);
-    sum[g] = volumeEnergy(cellBulk(slot, body), shapeOf(at, body.origin_spacing.w, edge_lengths).e);
+    float h = body.origin_spacing.w;
+    sum[g] = cellEnergy(at, shapeOf(at, h, edge_lengths).e, h, cellBulk(slot, body), cellRigidity(slot, body), cellMoments(slot));
   }
   return sum;
 }

@@ -46,14 +46,12 @@ bool finite(vec3 v) {
 
 vec3 u(uint slot) { return xyz(texelFetch(displacement, int(slot))); }
 
-/// V/V0 - 1 of the cell whose lowest corner is this node.
-float dilation(uint slot, BodyParams body) {
-  vec3 n0 = u(slot), n1 = u(cornerSlot(slot, 1u)), n2 = u(cornerSlot(slot, 2u)), n3 = u(cornerSlot(slot, 3u));
-  vec3 n4 = u(cornerSlot(slot, 4u)), n5 = u(cornerSlot(slot, 5u)), n6 = u(cornerSlot(slot, 6u)), n7 = u(cornerSlot(slot, 7u));
-  float quarter = 0.25f / body.origin_spacing.w;
-  vec3 da = quarter * ((n1 - n0) + (n3 - n2) + (n5 - n4) + (n7 - n6));
-  vec3 db = quarter * ((n2 - n0) + (n3 - n1) + (n6 - n4) + (n7 - n5));
-  vec3 dc = quarter * ((n4 - n0) + (n5 - n1) + (n6 - n2) + (n7 - n3));
+/// V/V0 - 1 of a cell. @param n  displacements of its corners, bit per axis, x lowest [m]
+float dilation(vec3 n[8], float h) {
+  float quarter = 0.25f / h;
+  vec3 da = quarter * ((n[1] - n[0]) + (n[3] - n[2]) + (n[5] - n[4]) + (n[7] - n[6]));
+  vec3 db = quarter * ((n[2] - n[0]) + (n[3] - n[1]) + (n[6] - n[4]) + (n[7] - n[5]));
+  vec3 dc = quarter * ((n[4] - n[0]) + (n[5] - n[1]) + (n[6] - n[2]) + (n[7] - n[3]));
   return cellShape(da, db, dc).e;
 }
 
@@ -103,9 +101,12 @@ void main() {
   stiffness += volumeStiffness(slot, body);
 #endif
   if ((bits.lo & kCellBit) != 0u) {
-    float e = dilation(slot, body);
+    float h = body.origin_spacing.w;
+    vec3 at[8];
+    for (uint c = 0u; c < 8u; ++c) at[c] = u(cornerSlot(slot, c));
+    float e = dilation(at, h);
 #ifdef VOLUME
-    elastic += volumeEnergy(cellBulk(slot, body), e);
+    elastic += cellEnergy(at, e, h, cellBulk(slot, body), cellRigidity(slot, body), cellMoments(slot));
 #endif
     if (e < -1.0f && (bits.lo & kSeveredBit) == 0u) atomicAdd(stats.inverted, 1u);
   }

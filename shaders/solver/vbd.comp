@@ -50,7 +50,8 @@ void addSprings(uint slot, NodeBits bits, BodyParams body, vec3 u, vec3 du, INOU
 #ifdef VOLUME
 int aroundIndex(ivec3 offset) { return (offset.x + 1) + 3 * (offset.y + 1) + 9 * (offset.z + 1); }
 
-/// A cell's V/V0 is an affine function of one corner, e + g.s, so its energy's curvature is W'' g g^T, and W'' has a bound.
+/// A cell's V/V0 is an affine function of one corner, e + g.s, so its energy's curvature is W'' g g^T, and W'' has a bound. What
+/// moments add is bounded by what the block has of the springs (physics.md 1).
 void addCells(uint slot, BodyParams body, INOUT(Block) block) {
   float h = body.origin_spacing.w;
   vec3 around[27];
@@ -74,6 +75,8 @@ void addCells(uint slot, BodyParams body, INOUT(Block) block) {
     float bulk = cellBulk(cell, body);
     block.force -= volumePressure(bulk, shape.e) * g;
     block.bounded += volumeBounds(bulk, 0.0f, 0.0f).x * outerProduct(g, g);
+    float rigidity = cellRigidity(cell, body);
+    if (rigidity > 0.0f) block.force += cornerForce(cellForces(at, shape, 0.0f, h, bulk, rigidity, cellMoments(cell)), s);
   }
 }
 #endif

@@ -1,10 +1,10 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// volume.comp - forces of every cell's energy of volume.   Owner: solver/gpu/volume_pass.h   physics.md 1
-// in  displacement, nodes     out  cell forces [3 * slots]
-// Per cell three vectors p/(4h) (b x c, c x a, a x b): corner (sx, sy, sz) of the cell feels minus their sum, signed. (implicit_cells.comp
-// writes the same for its iterates, with a majoriser in w of the first.) Feature CUT drops the cells that lost a spring instead.
+// volume.comp - forces of every cell's energies: of its volume, by moments.   Owner: solver/gpu/volume_pass.h   physics.md 1
+// in  displacement, nodes     out  cell forces [cell_vectors * slots]: see CellForces in elastic.glsl
+// (implicit_cells.comp writes the same for its iterates, with a majoriser in w of the first.) Feature CUT drops the cells that
+// lost a spring instead.
 #include "layout.h"
 #include "lattice.glsl"
 #include "elastic.glsl"
@@ -57,24 +57,29 @@ void main() {
   if (i >= cell_count) return;
   uint slot = cells[i];
   NodeBits bits = nodes[slot];
-  vec4 pa = vec4(0.0f), pb = vec4(0.0f), pc = vec4(0.0f);
+  CellForces f = {vec3(0.0f), vec3(0.0f), vec3(0.0f), vec3(0.0f), vec3(0.0f), vec3(0.0f), vec3(0.0f)};
   if ((bits.lo & kCellBit) != 0u) {
     BodyParams body = bodies[bodyOf(bits)];
-    float h = body.origin_spacing.w, bulk = cellBulk(slot, body);
-    vec3 n0 = u(slot), n1 = u(cornerSlot(slot, 1u)), n2 = u(cornerSlot(slot, 2u)), n3 = u(cornerSlot(slot, 3u));
-    vec3 n4 = u(cornerSlot(slot, 4u)), n5 = u(cornerSlot(slot, 5u)), n6 = u(cornerSlot(slot, 6u)), n7 = u(cornerSlot(slot, 7u));
+    float h = body.origin_spacing.w;
+    vec3 at[8];
+    for (uint c = 0u; c < 8u; ++c) at[c] = u(cornerSlot(slot, c));
     float quarter = 0.25f / h;
-    vec3 da = quarter * ((n1 - n0) + (n3 - n2) + (n5 - n4) + (n7 - n6));
-    vec3 db = quarter * ((n2 - n0) + (n3 - n1) + (n6 - n4) + (n7 - n5));
-    vec3 dc = quarter * ((n4 - n0) + (n5 - n1) + (n6 - n2) + (n7 - n3));
+    vec3 da = quarter * ((at[1] - at[0]) + (at[3] - at[2]) + (at[5] - at[4]) + (at[7] - at[6]));
+    vec3 db = quarter * ((at[2] - at[0]) + (at[3] - at[1]) + (at[6] - at[4]) + (at[7] - at[5]));
+    vec3 dc = quarter * ((at[4] - at[0]) + (at[5] - at[1]) + (at[6] - at[2]) + (at[7] - at[3]));
     CellShape s = cellShape(da, db, dc);
-    float p = volumePressure(bulk, s.e) * quarter;
-    pa = vec4(p * s.bc, 0.0f);
-    pb = vec4(p * s.ca, 0.0f);
-    pc = vec4(p * s.ab, 0.0f);
+    float bulk = cellBulk(slot, body);
+    f = cellForces(at, s, volumePressure(bulk, s.e) * quarter, h, bulk, cellRigidity(slot, body), cellMoments(slot));
   }
-  cell_forces_out[3u * slot] = pa;
-  cell_forces_out[3u * slot + 1u] = pb;
-  cell_forces_out[3u * slot + 2u] = pc;
+  uint first = cell_vectors * slot;
+  cell_forces_out[first] = vec4(f.a, 0.0f);
+  cell_forces_out[first + 1u] = vec4(f.b, 0.0f);
+  cell_forces_out[first + 2u] = vec4(f.c, 0.0f);
+  if (has_moments) {
+    cell_forces_out[first + 3u] = vec4(f.hx, 0.0f);
+    cell_forces_out[first + 4u] = vec4(f.hy, 0.0f);
+    cell_forces_out[first + 5u] = vec4(f.hz, 0.0f);
+    cell_forces_out[first + 6u] = vec4(f.hxyz, 0.0f);
+  }
 }
 #endif

@@ -42,6 +42,7 @@ AT(BodyParams, mass_eighth_kg, 24);
 AT(BodyParams, drag_per_s, 28);
 AT(BodyParams, dashpot_s, 32);
 AT(BodyParams, bulk_j, 36);
+AT(BodyParams, rigidity_j, 44);
 AT(BodyParams, connections, 40);
 
 SIZE(Link, 32);  // two texels (solver/network.glsl)
@@ -132,10 +133,10 @@ AT(WindTriangle, springs, 8);
 #undef AT
 #undef SIZE
 
-constexpr uint kUnits[] = {kUnitDisplacement, kUnitVelocity, kUnitBricks,     kUnitSpringStiffness,
-                           kUnitNodeMass,     kUnitCellBulk, kUnitCellForces, kUnitIncrement,
-                           kUnitPositions,    kUnitLinks,    kUnitLinkStarts, kUnitSpringOwners,
-                           kUnitLinkForces,   kUnitRest,     kUnitForceStarts};
+constexpr uint kUnits[] = {kUnitDisplacement, kUnitVelocity, kUnitBricks,      kUnitSpringStiffness,
+                           kUnitNodeMass,     kUnitCellBulk, kUnitCellForces,  kUnitIncrement,
+                           kUnitPositions,    kUnitLinks,    kUnitLinkStarts,  kUnitSpringOwners,
+                           kUnitLinkForces,   kUnitRest,     kUnitForceStarts, kUnitCellMoments};
 
 constexpr bool eachOnceAndPromised() {
   uint taken = 0;

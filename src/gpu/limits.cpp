@@ -34,7 +34,7 @@ Limits neededLimits() {
   out.storage_bindings = layout::kBindCrossedEdges + 1;  // the highest number
   out.storage_blocks = 8;
   out.uniform_bindings = layout::kBindBodyInfluences + 1;
-  out.texture_units = layout::kUnitForceStarts + 1;
+  out.texture_units = layout::kUnitCellMoments + 1;
   out.invocations_per_group = layout::kGroupSize;
   out.groups = 65535;  // Program::dispatch folds more
   out.storage_block_bytes = 1 << 20;

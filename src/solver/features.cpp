@@ -14,6 +14,7 @@ std::vector<std::string> FeatureSet::defines() const {
   if (edge_forces) out.push_back("EDGE_FORCES");
   if (dashpot) out.push_back("DASHPOT");
   if (volume) out.push_back("VOLUME");
+  if (moments) out.push_back("MOMENTS");
   if (parts) out.push_back("PARTS");
   if (compensated) out.push_back("COMPENSATED");
   if (single_body) out.push_back("SINGLE_BODY");
@@ -28,7 +29,8 @@ FeatureSet featuresOf(const Model& model, const Scene& scene, double dt_s, uint3
   features.network = model.hasNetwork();
   features.edge_forces = features.network && scene.solver.spring_forces == SpringForces::kEdge &&
                          traitsOf(scene.solver.integrator).takes_edge_forces;
-  features.volume = hasVolumeEnergy(model);
+  features.moments = hasMoments(model);
+  features.volume = features.moments || hasVolumeEnergy(model);
   features.parts = isHeterogeneous(model);
   features.compensated = isCompensated(scene.solver, dt_s);
   features.tools = !scene.styluses.empty();

@@ -18,7 +18,8 @@ struct FeatureSet {
   bool network = false;      ///< some body has explicit ones
   bool edge_forces = false;  ///< of explicit connections, edge by edge
   bool dashpot = false;
-  bool volume = false;       ///< some cell has an energy of volume: nu other than 1/4
+  bool volume = false;       ///< cells have energies of their own: of volume (nu other than 1/4), by moments
+  bool moments = false;      ///< some have the latter
   bool parts = false;        ///< strengths differ within a body
   bool compensated = false;  ///< u and v are summed with Kahan's compensation
   bool tools = false;        ///< there are styluses

@@ -64,8 +64,34 @@ Strengths allStrengths(const Model& model) {
     append(out.spring_n_per_m, table.spring_n_per_m);
     append(out.mass_kg, table.mass_kg);
     append(out.bulk_j, table.bulk_j);
+    append(out.rigidity_j, table.rigidity_j);
+    out.rigidity_j.resize(out.bulk_j.size());
   }
   return out;
+}
+
+JoinedMoments allMoments(const Model& model) {
+  JoinedMoments out;
+  out.add(CellFill{});
+  for (size_t b = 0; b < model.bodies.size(); ++b) {
+    const Lattice& lattice = model.bodies[b].lattice;
+    const auto before = static_cast<uint32_t>(out.vectors.size() / kVectorsPerFill - 1);
+    for (const uint32_t fill : lattice.cell_fills) out.of_cell.push_back(fill == 0 ? 0 : before + fill);
+    out.of_cell.resize(model.slotOffset(b) + lattice.nodes.size());
+    for (const CellFill& fill : lattice.fills) out.add(fill);
+  }
+  return out;
+}
+
+void JoinedMoments::add(const CellFill& fill) {
+  const auto packed = [&](double x, double y, double z) {
+    vectors.push_back({static_cast<float>(x / fill.share), static_cast<float>(y / fill.share),
+                       static_cast<float>(z / fill.share), 0});
+  };
+  const Eigen::Matrix3d& m = fill.second;
+  packed(fill.first.x(), fill.first.y(), fill.first.z());
+  packed(m(0, 0), m(1, 1), m(2, 2));
+  packed(m(1, 2), m(2, 0), m(0, 1));
 }
 
 }  // namespace viscera

@@ -20,7 +20,18 @@ std::vector<uint32_t> cellSlots(const Model& model);
 std::vector<layout::Brick> allBricks(const Model& model);
 /// [slots] whole springs, nothing held, with the body's index
 std::vector<layout::NodeBits> allNodes(const Model& model);
-/// strengths() of all bodies: spring_n_per_m [9 * slots], mass_kg [slots], bulk_j [slots]
+/// strengths() of all bodies: spring_n_per_m [9 * slots], mass_kg [slots], bulk_j [slots], rigidity_j
+/// [slots], 0 in bodies whose cells resist by springs alone
 Strengths allStrengths(const Model& model);
+
+/// Moments of the cells of all bodies over their shares (shaders/solver/moments.glsl).
+struct JoinedMoments {
+  std::vector<uint32_t> of_cell;      ///< [slots] which moments the cell above a node has; 0: those of a full one
+  std::vector<layout::vec4> vectors;  ///< [kVectorsPerFill * fills] xyz: of p; of its squares; of yz, zx, xy
+
+  void add(const CellFill& fill);
+};
+constexpr size_t kVectorsPerFill = 3;
+JoinedMoments allMoments(const Model& model);
 
 }  // namespace viscera

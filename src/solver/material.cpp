@@ -115,6 +115,7 @@ layout::BodyParams bodyParams(const Body& body, double dt_safe_s) {
   // c = 2 xi k / omega_max with omega_max = 2 / dt_safe (physics.md 2).
   params.dashpot_s = static_cast<float>(material.dashpot_ratio * dt_safe_s);
   params.bulk_j = static_cast<float>(e.bulk_j);
+  if (material.cells == Cells::kMoments) params.rigidity_j = static_cast<float>(e.rigidity_j);
   params.connections = !body.network              ? layout::kImplicit
                        : body.network->of_lattice ? layout::kExplicitLattice
                                                   : layout::kNetwork;
@@ -134,6 +135,11 @@ bool hasVolumeEnergy(const Model& model) {
     forEachMaterial(body, [&](double, double nu, double) { any |= nu != 0.25; });
   }
   return any;
+}
+
+bool hasMoments(const Model& model) {
+  return std::any_of(model.bodies.begin(), model.bodies.end(),
+                     [](const Body& body) { return body.material.cells == Cells::kMoments; });
 }
 
 bool isHeterogeneous(const Model& model) {

@@ -23,6 +23,43 @@ inline Body boxBody(const Vector3i& cells, double spacing_m, Weights weights = W
   return body;
 }
 
+/// The cells of a grid by moments, of the part of each where `inside(point in cells)` holds, sampled at kSamples points
+/// an edge; cells with less than a hundredth are left out.
+template <class Inside>
+Body momentBody(const Vector3i& cells, double spacing_m, Inside inside) {
+  constexpr int kSamples = 6;
+  constexpr double kLeast = 0.01;
+  Body body;
+  body.name = "part";
+  body.material.cells = Cells::kMoments;
+  Solid solid;
+  solid.spacing_m = spacing_m;
+  solid.cells = cells;
+  solid.labels.assign(static_cast<size_t>(cells.prod()), 0);
+  solid.part_names = {"part"};
+  for (int z = 0; z < cells.z(); ++z)
+    for (int y = 0; y < cells.y(); ++y)
+      for (int x = 0; x < cells.x(); ++x) {
+        CellFill fill{0, Vector3d::Zero(), Eigen::Matrix3d::Zero()};
+        constexpr double kPart = 1.0 / (kSamples * kSamples * kSamples);
+        for (int i = 0; i < kSamples * kSamples * kSamples; ++i) {
+          const Vector3d p =
+              (Vector3d(i % kSamples, i / kSamples % kSamples, i / kSamples / kSamples).array() + 0.5) / kSamples - 0.5;
+          if (!inside(Vector3d(x, y, z).array() + 0.5 + p.array())) continue;
+          fill.share += kPart;
+          fill.first += kPart * p;
+          fill.second += kPart * (p * p.transpose() +
+                                  Eigen::Matrix3d(Vector3d::Constant(1.0 / (12 * kSamples * kSamples)).asDiagonal()));
+        }
+        if (fill.share < kLeast) continue;
+        const size_t cell = solid.index(x, y, z);
+        solid.labels[cell] = 1;
+        if (fill.share < 1 - kPart / 2) solid.partial.push_back({cell, fill});
+      }
+  body.lattice = buildLattice(solid, Weights::kCell);
+  return body;
+}
+
 /// A lattice of exactly `count` nodes: a random tree of touching nodes with random counts on every spring between two
 /// of them, the same from both ends. A solid's cells cannot give sizes such as 1 or 63.
 inline Body blobBody(size_t count, double spacing_m, uint32_t seed) {

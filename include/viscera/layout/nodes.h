@@ -46,13 +46,16 @@ struct BodyParams {
   float dashpot_s;          // axial dashpot coefficient over spring stiffness, c/k [s]
   float bulk_j;             // lambda_V h^3: a cell of volume V has the energy volumeEnergy(bulk_j, V/V0 - 1)
   uint connections;         // kImplicit, kExplicitLattice or kNetwork
-  float pad;
+  float rigidity_j;         // mu h^3 of cells that resist by moments too (moments.glsl); 0 where springs alone do
 };
 // Connections of a body: springs of a lattice by offset and counts in NodeBits; the same lattice with its springs as links;
 // or any graph of links, where the low 18 bits of NodeBits.lo say how many of a node's links are whole.
 const uint kImplicit = 0u;
 const uint kExplicitLattice = 1u;
 const uint kNetwork = 2u;
+// Vectors that a cell's energies leave per cell: its volume's, or by moments too (CellForces in elastic.glsl).
+const uint kVolumeVectors = 3u;
+const uint kMomentVectors = 7u;
 const uint kValenceMask = kAxialMask;
 
 #ifdef __cplusplus

@@ -17,6 +17,8 @@ std::vector<layout::BodyParams> bodyParams(const Model& model, double dt_safe_s)
 /// Has any cell of the model an energy of volume (nu other than 1/4)?
 bool hasVolumeEnergy(const Model& model);
 bool isHeterogeneous(const Model& model);
+/// Does some body's cells resist by moments (Cells)?
+bool hasMoments(const Model& model);
 
 /// Largest stable substep of a lattice without dashpot, however it is deformed [s]: 2 / omega with
 /// omega^2 = max over free nodes of (2 sum of k + 1.5 / h^2 sum of the positive bulk_j of the cells around) / m

@@ -35,7 +35,7 @@ std::vector<Elasticity> elasticityByLabel(const Body& body) {
 
 /// Of a cell of which `share` is tissue.
 Elasticity scaled(const Elasticity& e, double share) {
-  return {share * e.spring_n_per_m, share * e.bulk_j, share * e.cell_mass_kg};
+  return {share * e.spring_n_per_m, share * e.bulk_j, share * e.rigidity_j, share * e.cell_mass_kg};
 }
 
 /// Sums over the cells around each spring and node, in float64.
@@ -76,7 +76,7 @@ Elasticity elasticity(double young_modulus_pa, double poisson_ratio, double dens
   const double mu = young_modulus_pa / (2 * (1 + nu));
   const double lambda_over_mu = 2 * nu / (1 - 2 * nu);
   const double bulk = nu == 0.25 ? 0 : (lambda_over_mu - 1) * mu * h * h * h;
-  return {mu * h, bulk, density_kg_per_m3 * h * h * h};
+  return {mu * h, bulk, mu * h * h * h, density_kg_per_m3 * h * h * h};
 }
 
 bool isHeterogeneous(const Body& body) {
@@ -90,11 +90,14 @@ Strengths strengths(const Body& body) {
   Sums sums{std::vector<double>(slots * kSpringPairs), std::vector<double>(slots),
             std::vector<uint8_t>(slots * kSpringPairs), std::vector<uint8_t>(slots)};
   Strengths out;
+  const bool has_moments = body.material.cells == Cells::kMoments;
   out.bulk_j.resize(slots);
+  if (has_moments) out.rigidity_j.resize(slots);
   for (uint32_t slot = 0; slot < slots; ++slot) {
     if (lattice.cell_labels[slot] == 0) continue;
     const Elasticity e = scaled(by_label[lattice.cell_labels[slot]], fillOf(lattice, slot).share);
     out.bulk_j[slot] = static_cast<float>(e.bulk_j);
+    if (has_moments) out.rigidity_j[slot] = static_cast<float>(e.rigidity_j);
     addCell(lattice, slot, e, sums);
   }
   if (body.material.weights == Weights::kPaper) makeUniform(sums);

@@ -50,6 +50,11 @@ CpuStrengths::CpuStrengths(const Model& model, const CpuStore& store, const Feat
     bulk.resize(store.slotCount());
     bulk_around.resize(store.slotCount() * 8);
   }
+  if (features.moments) {
+    rigidity.resize(store.slotCount());
+    moments = allMoments(model);
+    spreadMoments(store);
+  }
   refreshAll(store);
 }
 
@@ -64,6 +69,11 @@ float CpuStrengths::springStiffness(const CpuStore& store, uint32_t slot, uint32
 float CpuStrengths::cellBulk(const CpuStore& store, uint32_t slot) const {
   if (!(store.nodes[slot].lo & layout::kCellBit)) return 0;
   return table_.bulk_j.empty() ? store.bodyOf(slot).bulk_j : table_.bulk_j[slot];
+}
+
+float CpuStrengths::cellRigidity(const CpuStore& store, uint32_t slot) const {
+  if (!(store.nodes[slot].lo & layout::kCellBit)) return 0;
+  return table_.rigidity_j.empty() ? store.bodyOf(slot).rigidity_j : table_.rigidity_j[slot];
 }
 
 void CpuStrengths::refresh(const CpuStore& store, uint32_t slot) {
@@ -83,7 +93,34 @@ void CpuStrengths::refresh(const CpuStore& store, uint32_t slot) {
   uniform[brick] = uniform[brick] && isFull(store, slot);
   if (bulk.empty()) return;
   bulk[slot] = cellBulk(store, slot);
+  has_volumes |= bulk[slot] != 0;
+  if (!rigidity.empty()) rigidity[slot] = cellRigidity(store, slot);
   shareBulk(store, slot);
+}
+
+/// Makes brick_moments.
+void CpuStrengths::spreadMoments(const CpuStore& store) {
+  constexpr size_t kNumbers = 9, kBrick = kNumbers * layout::kBrickSlots;
+  std::vector<uint32_t> partial;
+  for (uint32_t b = 0; b < store.brickCount(); ++b) {
+    const uint32_t* first = &moments.of_cell[size_t{b} * layout::kBrickSlots];
+    if (std::any_of(first, first + layout::kBrickSlots, [](uint32_t which) { return which != 0; }))
+      partial.push_back(b);
+  }
+  moment_planes_.resize(partial.size() * kBrick);
+  brick_moments.assign(store.brickCount(), nullptr);
+  for (size_t i = 0; i < partial.size(); ++i) {
+    float* planes = &moment_planes_[i * kBrick];
+    brick_moments[partial[i]] = planes;
+    for (size_t local = 0; local < layout::kBrickSlots; ++local) {
+      const layout::vec4* m =
+          &moments.vectors[kVectorsPerFill * moments.of_cell[partial[i] * layout::kBrickSlots + local]];
+      for (size_t v = 0; v < kVectorsPerFill; ++v) {
+        const float numbers[3] = {m[v].x, m[v].y, m[v].z};
+        for (size_t c = 0; c < 3; ++c) planes[(3 * v + c) * layout::kBrickSlots + local] = numbers[c];
+      }
+    }
+  }
 }
 
 /// Tells the corners of the cell above a slot of its bulk.

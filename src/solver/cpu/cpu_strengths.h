@@ -5,6 +5,7 @@
 #include "math/aligned.h"
 #include "solver/cpu/cpu_store.h"
 #include "solver/features.h"
+#include "solver/joined_lattice.h"
 #include "viscera/model/body/elasticity.h"
 
 namespace viscera {
@@ -19,6 +20,10 @@ struct CpuStrengths {
   /// Fits what is derived from a node's bits (stiffness of its even springs, mobility) to bits that have changed.
   void refresh(const CpuStore& store, uint32_t slot);
   void refreshAll(const CpuStore& store);
+  /// Vectors per cell of what its energies do to its corners (shaders/solver/elastic.glsl); 0 where cells have none.
+  size_t cellVectors() const {
+    return bulk.empty() ? 0 : rigidity.empty() ? layout::kVolumeVectors : layout::kMomentVectors;
+  }
 
   AlignedVector<float> stiffness;    ///< [9 * slots] N/m of even springs (stiffnessAt); 0 cut or absent
   AlignedVector<float> mass;         ///< [slots] kg; 1 where no node is
@@ -29,17 +34,26 @@ struct CpuStrengths {
                                      ///< (i / 64) * 1152 + s * 64 + i % 64
   AlignedVector<float> bulk_around;  ///< [8 * slots] J of the cells in which a slot is corner c (bits x, y, z), at
                                      ///< (slot / 64) * 512 + c * 64 + slot % 64; empty without volumes
+  AlignedVector<float> rigidity;  ///< [slots] J of the cell above the node (moments.glsl); 0 torn, absent, or springs
+                                  ///< alone; empty without moments
+  JoinedMoments moments;          ///< empty without
+  std::vector<const float*> brick_moments;  ///< [bricks] [9 * 64] moments of its cells, number by number; null where
+                                            ///< all are full; empty without moments
+  bool has_volumes = false;         ///< some bulk is not 0
   std::vector<uint8_t> uniform;     ///< [bricks] all springs of all its nodes are whole and of the body's full strength
   std::vector<uint16_t> idle_rows;  ///< [bricks] bit r: none of the four nodes from 4 r on will ever move
 
  private:
   float springStiffness(const CpuStore& store, uint32_t slot, uint32_t pair) const;
   float cellBulk(const CpuStore& store, uint32_t slot) const;
+  float cellRigidity(const CpuStore& store, uint32_t slot) const;
   bool isFull(const CpuStore& store, uint32_t slot) const;
+  void spreadMoments(const CpuStore& store);
   void shareBulk(const CpuStore& store, uint32_t slot);
   void noteIdleRows();
 
-  Strengths table_;  ///< of models with parts, whose counts only say alive or cut; else empty
+  AlignedVector<float> moment_planes_;  ///< what brick_moments points to
+  Strengths table_;                     ///< of models with parts, whose counts only say alive or cut; else empty
 };
 
 }  // namespace viscera

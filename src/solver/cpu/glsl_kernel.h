@@ -79,6 +79,8 @@ struct Kernel {
         velocity(lattice.state.velocity[lattice.state.current]),
         next_displacement(lattice.state.displacement[1 - lattice.state.current]),
         next_velocity(lattice.state.velocity[1 - lattice.state.current]),
+        has_moments(!lattice.strengths.rigidity.empty()),
+        cell_vectors(static_cast<uint>(lattice.strengths.cellVectors())),
         grab_offsets(lattice.hands.grab_offsets),
         impulses_(lattice.hands.impulses.data()),
         touched_(lattice.hands.touched.data()),
@@ -86,6 +88,8 @@ struct Kernel {
         stiffness_(lattice.strengths.stiffness.data()),
         mass_(lattice.strengths.mass.data()),
         bulk_(lattice.strengths.bulk.data()),
+        rigidity_(lattice.strengths.rigidity.data()),
+        moments_(&lattice.strengths.moments),
         rest_(lattice.links.network.rest_m.data()),
         link_starts_(lattice.links.network.starts.data()),
         link_runs_(lattice.links.edge_forces.links.data()),
@@ -108,6 +112,8 @@ struct Kernel {
   const BodyParams* bodies;
   const uint* cells;
   Planes displacement, velocity, next_displacement, next_velocity;
+  bool has_moments;
+  uint cell_vectors;
   float dt_s = 0, kick_s = 0, sleep_distance_m = 0, push_speed = 0;
   vec3 gravity = vec3(0);
   const ToolMotion* tool_motions = nullptr;
@@ -129,6 +135,13 @@ struct Kernel {
   const Link& linkAt(uint link) const { return links_[link]; }
   float nodeMass(uint slot, const NodeBits&, const BodyParams&) const { return mass_[slot]; }
   float cellBulk(uint slot, const BodyParams&) const { return bulk_[slot]; }
+  float cellRigidity(uint slot, const BodyParams&) const { return rigidity_ ? rigidity_[slot] : 0; }
+  /// @tparam Moments  CellMoments of shaders/solver/moments.glsl, which is not known here
+  template <class Moments>
+  Moments momentsAt(uint slot) const {
+    const layout::vec4* m = &moments_->vectors[kVectorsPerFill * moments_->of_cell[slot]];
+    return {xyz(m[0]), xyz(m[1]), xyz(m[2])};
+  }
   float springStiffness(uint slot, uint far, uint spring, uint, const BodyParams&) const {
     return stiffness_[stiffnessAt((spring & 1u) == 0u ? slot : far, spring >> 1)];
   }
@@ -142,7 +155,8 @@ struct Kernel {
   layout::vec4* impulses_;
   uint8_t* touched_;
   const Brick* bricks_;
-  const float *stiffness_, *mass_, *bulk_;
+  const float *stiffness_, *mass_, *bulk_, *rigidity_;
+  const JoinedMoments* moments_;
   const layout::vec4* rest_;
   const uint* link_starts_;
   const layout::uvec4* link_runs_;  ///< null where a node's links are in one run

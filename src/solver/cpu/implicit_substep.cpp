@@ -75,7 +75,8 @@ CpuImplicitSubstep::CpuImplicitSubstep(const CpuLattice& lattice, const Parallel
                                        int iterates)
     : guard(1 + 2 * static_cast<size_t>(iterations)), parallel_(parallel), energies_(nodeJobs(lattice)) {
   for (int i = 0; i < iterates; ++i) increments_[i].assign(lattice.slotCount(), glsl::vec4(0));
-  if (!lattice.strengths.bulk.empty()) cell_forces_.assign(3 * lattice.slotCount(), glsl::vec4(0));
+  if (!lattice.strengths.bulk.empty())
+    cell_forces_.assign(lattice.strengths.cellVectors() * lattice.slotCount(), glsl::vec4(0));
 }
 
 void CpuImplicitSubstep::begin(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions) {

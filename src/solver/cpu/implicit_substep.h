@@ -114,7 +114,7 @@ class CpuImplicitSubstep {
   using Energies = std::array<double, 8>;  ///< [J] as two vectors of implicit_guess.comp
   const Parallel& parallel_;
   std::vector<glsl::vec4> increments_[2];  ///< [slots] xyz m; w 1 where prescribed; the second with two iterates
-  std::vector<glsl::vec4> cell_forces_;    ///< [3 * slots] N, see shaders/solver/volume.comp; empty without volumes
+  std::vector<glsl::vec4> cell_forces_;    ///< [cellVectors() * slots] N, see shaders/solver/volume.comp; or empty
   std::vector<Energies> energies_;         ///< [jobs]
   int current_ = 0;
 };

@@ -97,16 +97,6 @@ HWY_NOINLINE Vec3 anySpringForce(const Tile& u, const Tile& v, int at, const Mat
   return springForce<false, true, kDashpot>(u, v, at, m, k, mild);
 }
 
-/// dW/de (shaders/solver/volume.glsl).
-HWY_INLINE V pressureOf(V bulk, V e) {
-  const V one = set(1), clamped = hn::Min(hn::Max(e, set(-1)), one);
-  const V q = hn::MulAdd(e, e, one), e2 = hn::Mul(e, e);
-  const V bounded =
-      hn::Div(hn::Mul(hn::Add(e, e2), hn::Sub(hn::MulAdd(set(2), e, one), e2)), hn::Mul(q, hn::Mul(q, q)));
-  const V soft = hn::IfThenElseZero(hn::Gt(e, set(-1)), bounded);
-  return hn::Mul(bulk, hn::IfThenElse(hn::Gt(bulk, hn::Zero(Tag())), clamped, soft));
-}
-
 /// What the volume of one of the eight cells around adds to the force on its corner (A, B, C).
 template <int A, int B, int C>
 HWY_INLINE void addVolume(const Tile& u, int at, V quarter, V bulk, Vec3& force) {
@@ -132,6 +122,33 @@ HWY_NOINLINE void addVolumes(const Tile& u, int at, V quarter, const float* bulk
   addVolume<1, 1, 1>(u, at, quarter, load(bulk + 448), force);
 }
 
+/// Where the sums of the cells around a brick's nodes are (cell_kernels.cpp): of the brick and of those below it along
+/// x, y and z, bit per axis. Below along x it is what left their rows, along y the fifth rows, along z the fifth
+/// planes.
+struct CellSources {
+  const float* of[8];
+};
+HWY_INLINE CellSources sourcesOf(const Arrays& a, uint32_t b) {
+  alignas(64) static constexpr float kNothing[kCellSums] = {};
+  CellSources out;
+  for (int below = 0; below < 8; ++below) {
+    const int direction = 13 - (below & 1) - 3 * (below >> 1 & 1) - 9 * (below >> 2);
+    const uint32_t brick = a.bricks[b].neighbors[direction];
+    const float* sums = brick == b && below != 0 ? kNothing : a.cell_sums + size_t{brick} * kCellSums;
+    out.of[below] = sums + sumsAt(below & 1 ? kRightSums : kOwnSums, 0, 0);
+  }
+  return out;
+}
+
+/// Adds force of the cells around to the nodes of a vector. @param i  index of the first in the brick
+HWY_INLINE void addCells(const CellSources& sources, int i, Vec3& force) {
+  for (int below = 0; below < ((i >> 4) == 0 ? 8 : 4); ++below) {
+    const int plane = below & 4 ? 4 : i >> 4, row = below & 2 ? kFifthRow : 0;
+    const float* at = sources.of[below] + sumsAt(0, plane, 0) + row + (i & 15);
+    force = force + Vec3{load(at), load(at + kSumRows), load(at + 2 * kSumRows)};
+  }
+}
+
 /// Rest position of a vector's nodes [m]. @param from  rest position of the brick's first slot   @param i  index of the
 /// first node
 HWY_INLINE Vec3 restOf(const float (&from)[3], float h, int i) {
@@ -145,6 +162,7 @@ HWY_INLINE Vec3 restOf(const float (&from)[3], float h, int i) {
 struct Stepping {
   Material material;
   Motion motion;
+  CellSources cells;  ///< where there are sums of cells
 };
 
 /// One vector of nodes. @param i  index of the first in the brick   @return |v|^2
@@ -170,7 +188,9 @@ HWY_INLINE V stepVector(const LeapfrogJob& job, const Stepping& s, const Tile& u
       job.strained[b] = static_cast<uint16_t>(job.strained[b] | bit);
     }
   }
-  if (a.bulk_around) {
+  if (a.cell_sums) {
+    addCells(s.cells, i, force);
+  } else if (a.bulk_around) {
     const V quarter = hn::Div(set(0.25f), s.material.h);
     addVolumes(u, at, quarter, a.bulk_around + size_t{b} * 512 + i, force);
   }
@@ -225,8 +245,9 @@ void stepBricks(const LeapfrogJob& job, const uint32_t* bricks, size_t count) {
   for (size_t n = 0; n < count; ++n) {
     const uint32_t b = bricks[n];
     const layout::BodyParams& body = job.arrays.bodies[job.arrays.bricks[b].body];
-    const Stepping s = {materialOf(body), motionOf(job.step, body)};
-    if (job.arrays.bulk_around)
+    Stepping s = {materialOf(body), motionOf(job.step, body), {}};
+    if (job.arrays.cell_sums) s.cells = sourcesOf(job.arrays, b);
+    if (job.arrays.bulk_around && !job.arrays.cell_sums)
       fill<true>(job.arrays, job.arrays.displacement, b, u);
     else
       fill<false>(job.arrays, job.arrays.displacement, b, u);

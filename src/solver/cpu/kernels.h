@@ -27,6 +27,7 @@ struct Arrays {
   float* compensation;            ///< [6 * slots] what sums of displacement, then of velocity have lost; or null
   const float* spring_stiffness;  ///< [18 * slots] N/m
   const float* mobility;          ///< [slots] 1/kg
+  const float* cell_sums;         ///< [kCellSums * bricks] N, of CellJob; null without moments: then bulk_around counts
   const float* bulk_around;       ///< [8 * slots] J of the cells around a node; null without volume energy
   const uint8_t* uniform;         ///< [bricks] all springs of all nodes are whole and of full strength
   const uint16_t* idle_rows;      ///< [bricks] bit r: none of the four nodes from 4 r on will ever move
@@ -52,6 +53,29 @@ struct LeapfrogJob {
 /// One substep of leapfrog, as in shaders/solver/leapfrog.comp without its contacts, of the nodes of some bricks.
 using BrickLeapfrog = void (*)(const LeapfrogJob& job, const uint32_t* bricks, size_t count);
 
+// Force of a brick's 64 cells on their corners, summed by node: on the nodes of its own rows and of the row and plane
+// behind them, and on those at the right of its rows, which only have a first one each. Per plane and component four
+// rows and, kFifthRow floats on, the fifth, then nothing; kSumRows floats in all.
+constexpr int kFifthRow = 16, kSumRows = 32;
+constexpr size_t kOwnSums = 0, kRightSums = 1;
+constexpr size_t kCellSums = 2 * 5 * 3 * kSumRows;
+constexpr size_t sumsAt(size_t part, int plane, int component) {
+  return ((part * 5 + static_cast<size_t>(plane)) * 3 + static_cast<size_t>(component)) * kSumRows;
+}
+
+/// Forces of cells with energies of their own, where some resist by moments (shaders/solver/moments.glsl).
+struct CellJob {
+  Arrays arrays;
+  const float* bulk;            ///< [slots] J of the cell above a node
+  const float* rigidity;        ///< [slots] J; both 0 where there is none
+  const float* const* moments;  ///< [bricks] [9 * 64] of its cells over their shares; null where all are full
+  bool parts;                   ///< bulk over rigidity differs within a body
+  bool volumes;                 ///< some bulk is not 0
+  float* sums;                  ///< [kCellSums * bricks] N
+};
+/// Sums of the cells of some bricks.
+using BrickCells = void (*)(const CellJob& job, const uint32_t* bricks, size_t count);
+
 /// What is measured of a brick (shaders/solver/measure.comp).
 struct BrickStats {
   float max_stretch, max_speed;
@@ -61,6 +85,7 @@ struct BrickStats {
 
 struct MeasureJob {
   Arrays arrays;
+  CellJob cells;  ///< rigidity null without moments
   const layout::NodeBits* nodes;
   const float* mass;  ///< [slots] kg
   BrickStats* stats;  ///< [bricks]
@@ -77,6 +102,7 @@ struct Kernels {
   std::string target;  ///< such as AVX2
   BrickLeapfrog leapfrog;
   BrickMeasure measure;
+  BrickCells cells;
   NetworkLeapfrog leapfrog_network;
 };
 

@@ -24,4 +24,17 @@ inline simd::Arrays arraysOf(CpuLattice& lattice) {
   return a;
 }
 
+/// Its cells, where some resist by moments; else without rigidity. Sums are the caller's.
+inline simd::CellJob cellsOf(CpuLattice& lattice, const FeatureSet& features) {
+  simd::CellJob job{};
+  if (lattice.strengths.rigidity.empty()) return job;
+  job.arrays = arraysOf(lattice);
+  job.bulk = lattice.strengths.bulk.data();
+  job.rigidity = lattice.strengths.rigidity.data();
+  job.moments = lattice.strengths.brick_moments.data();
+  job.parts = features.parts;
+  job.volumes = lattice.strengths.has_volumes;
+  return job;
+}
+
 }  // namespace viscera

@@ -39,10 +39,18 @@ CpuLeapfrog::CpuLeapfrog(const CpuLattice& lattice, const CpuParts& parts)
       sleep_(parts.sleep),
       network_(parts.network),
       step_bricks_(parts.kernels.leapfrog),
+      sum_cells_(parts.kernels.cells),
+      features_(parts.features),
       near_(lattice.brickCount()),
       strained_(lattice.brickCount()),
       speed2_(lattice.brickCount()) {
   if (parts.features.compensated) compensation_.resize(6 * lattice.slotCount());
+  if (parts.features.moments) {
+    cell_sums_.resize(simd::kCellSums * lattice.brickCount());
+    wanted_.resize(lattice.brickCount());
+    cell_bricks_.reserve(lattice.brickCount());
+    cell_bricks_awake_.reserve(lattice.brickCount());
+  }
   if (network_) reaches_.reserve(layout::kMaxStyluses);
   job_.dashpot = parts.features.dashpot;
   job_.near = near_.data();
@@ -66,6 +74,10 @@ void CpuLeapfrog::stepAwake(CpuLattice& lattice, const Substep& step, const layo
   const size_t fair = awake / (kJobsPerThread * static_cast<size_t>(parallel_.threads()));
   per_job_ = std::clamp<size_t>(fair, 1, kMostBricksPerJob);
   job_.arrays = arraysOf(lattice);
+  if (!cell_sums_.empty()) {
+    sumCells(lattice);
+    job_.arrays.cell_sums = cell_sums_.data();
+  }
   job_.arrays.compensation = compensation_.empty() ? nullptr : compensation_.data();
   job_.step = step;
   job_.reaches = 0;
@@ -74,6 +86,28 @@ void CpuLeapfrog::stepAwake(CpuLattice& lattice, const Substep& step, const layo
     if (m.info.y & layout::kToolPushes) job_.reach[job_.reaches++] = {{m.to.x, m.to.y, m.to.z}, reachOf(m)};
   }
   parallel_((awake + per_job_ - 1) / per_job_, [&](size_t chunk) { stepBricks(lattice, step, motions, chunk); });
+}
+
+/// Forces of all cells that have a corner in a brick that is awake: of its own and of the seven below it.
+void CpuLeapfrog::sumCells(CpuLattice& lattice) {
+  if (cell_bricks_awake_ != sleep_.awake()) {
+    cell_bricks_awake_ = sleep_.awake();
+    std::fill(wanted_.begin(), wanted_.end(), uint8_t{0});
+    for (const uint32_t brick : cell_bricks_awake_) {
+      for (const int direction : {0, 1, 3, 4, 9, 10, 12, 13})
+        wanted_[lattice.store.bricks[brick].neighbors[direction]] = 1;
+    }
+    cell_bricks_.clear();
+    for (uint32_t b = 0; b < wanted_.size(); ++b) {
+      if (wanted_[b]) cell_bricks_.push_back(b);
+    }
+  }
+  simd::CellJob job = cellsOf(lattice, features_);
+  job.sums = cell_sums_.data();
+  parallel_((cell_bricks_.size() + per_job_ - 1) / per_job_, [&](size_t chunk) {
+    const size_t first = chunk * per_job_;
+    sum_cells_(job, &cell_bricks_[first], std::min(per_job_, cell_bricks_.size() - first));
+  });
 }
 
 void CpuLeapfrog::stepBricks(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions,

@@ -19,6 +19,7 @@ class CpuLeapfrog : public CpuStepper {
 
  private:
   void stepAwake(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions);
+  void sumCells(CpuLattice& lattice);
   void stepBricks(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions, size_t chunk);
   void stepNetwork(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions);
   void touch(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions, uint32_t brick);
@@ -27,7 +28,13 @@ class CpuLeapfrog : public CpuStepper {
   Sleep& sleep_;
   CpuNetwork* network_;
   simd::BrickLeapfrog step_bricks_;
-  AlignedVector<float> compensation_;  ///< [6 * slots], see kernels.h; empty without compensation
+  simd::BrickCells sum_cells_;
+  FeatureSet features_;
+  AlignedVector<float> cell_sums_;           ///< [simd::kCellSums * bricks] N; empty without moments
+  std::vector<uint32_t> cell_bricks_;        ///< whose cells the nodes of those awake are corners of
+  std::vector<uint32_t> cell_bricks_awake_;  ///< those awake when they were listed
+  std::vector<uint8_t> wanted_;              ///< [bricks] while they are listed
+  AlignedVector<float> compensation_;        ///< [6 * slots], see kernels.h; empty without compensation
   simd::LeapfrogJob job_{};
   std::vector<uint8_t> near_;       ///< [bricks]
   std::vector<uint16_t> strained_;  ///< [bricks]

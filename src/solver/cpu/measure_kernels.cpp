@@ -9,6 +9,7 @@
 #define HWY_TARGET_INCLUDE "solver/cpu/measure_kernels.cpp"
 #include "hwy/foreach_target.h"  // IWYU pragma: keep
 #include "hwy/highway.h"
+#include "solver/cpu/moments-inl.h"
 #include "solver/cpu/targets.h"
 #include "solver/cpu/tiles-inl.h"
 #include "viscera/layout/tick_stats.h"
@@ -57,6 +58,19 @@ HWY_INLINE V volumeEnergyOf(V bulk, V e) {
   return hn::IfThenElse(hn::Gt(bulk, hn::Zero(Tag())), stiff, hn::Mul(half, hn::Mul(g, g)));
 }
 
+/// Energy by moments of the cells above a vector's nodes [J]. @param n  their corners
+V momentEnergyOf(const CellJob& job, const layout::BodyParams& body, size_t slot, const Vec3 (&n)[8]) {
+  const V rigidity = load(job.rigidity + slot), none = hn::Zero(Tag());
+  const M there = hn::Gt(rigidity, none);
+  if (hn::AllFalse(Tag(), there)) return none;
+  const V ratio = hn::IfThenElseZero(there, hn::Div(load(job.bulk + slot), hn::Max(rigidity, set(1e-30f))));
+  const Face low = faceOf(n[0], n[1], n[2], n[3]), high = faceOf(n[4], n[5], n[6], n[7]);
+  CellMotion q = motionBetween(low, high, set(1 / body.origin_spacing.w));
+  const float* moments = job.moments[slot / 64];
+  if (moments == nullptr) return cellPull<true>(q, Moments{zero3(), zero3(), zero3()}, rigidity, planeStress(ratio));
+  return cellPull<false>(q, loadMoments(moments + slot % 64), rigidity, planeStress(ratio));
+}
+
 HWY_INLINE M hasBits(const layout::NodeBits* nodes, uint32_t bits, uint32_t wanted) {
   alignas(64) float flags[16];
   for (size_t i = 0; i < hn::MaxLanes(Tag()); ++i) flags[i] = (nodes[i].lo & bits) == wanted ? 1.0f : 0.0f;
@@ -90,6 +104,10 @@ void measureVector(const MeasureJob& job, const Material& m, const Tile& u, uint
   stats.inverted += count(hn::And(whole, hn::Lt(e, set(-1))));
   if (a.bulk_around) {
     const V energy = volumeEnergyOf(load(a.bulk_around + size_t{b} * 512 + i), e);
+    elastic = hn::Add(elastic, hn::IfThenElseZero(cell, energy));
+  }
+  if (job.cells.rigidity) {
+    const V energy = momentEnergyOf(job.cells, a.bodies[a.bricks[b].body], slot, corners);
     elastic = hn::Add(elastic, hn::IfThenElseZero(cell, energy));
   }
   const V v2 = hn::IfThenElseZero(good, dot(v, v));

@@ -218,7 +218,7 @@ CpuNetwork::CpuNetwork(const CpuLattice& lattice, const Parallel& parallel, cons
   }
   if (features.compensated) compensation_.resize(2 * lattice.slotCount());
   link_forces_.resize(lattice.links.edge_forces.places());
-  if (!cells_.empty()) cell_forces_.assign(3 * lattice.slotCount(), glsl::vec4(0));
+  if (!cells_.empty()) cell_forces_.assign(lattice.strengths.cellVectors() * lattice.slotCount(), glsl::vec4(0));
 }
 
 void CpuNetwork::restart(const CpuLattice& lattice) {

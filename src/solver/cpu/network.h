@@ -56,7 +56,7 @@ class CpuNetwork {
   std::vector<uint32_t> cells_;             ///< of explicit lattices with energy of volume
   std::vector<layout::vec4> compensation_;  ///< [2 * slots] m, m/s; empty without compensation
   std::vector<glsl::vec4> link_forces_;     ///< [springs + owners] N, see EdgeForces; empty unless edge by edge
-  std::vector<glsl::vec4> cell_forces_;     ///< [3 * slots] N, see shaders/solver/volume.comp; empty without volumes
+  std::vector<glsl::vec4> cell_forces_;     ///< [cellVectors() * slots] N, see shaders/solver/volume.comp; or empty
 };
 
 }  // namespace viscera

@@ -29,6 +29,7 @@ static inline size_t placeOf(int64_t target) {
 // Each from the file that compiles it. @param target  Highway's bit of an instruction set
 BrickLeapfrog leapfrogFor(int64_t target);
 BrickMeasure measureFor(int64_t target);
+BrickCells cellsFor(int64_t target);
 NetworkLeapfrog leapfrogNetworkFor(int64_t target);
 
 }  // namespace viscera::simd

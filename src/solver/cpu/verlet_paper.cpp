@@ -56,7 +56,8 @@ struct PositionKernel : Kernel {
 
 CpuVerletPaper::CpuVerletPaper(const CpuLattice& lattice, const Parallel& parallel) : parallel_(parallel) {
   for (auto& positions : positions_) positions.assign(lattice.slotCount(), glsl::vec4(0));
-  if (!lattice.strengths.bulk.empty()) cell_forces_.assign(3 * lattice.slotCount(), glsl::vec4(0));
+  if (!lattice.strengths.bulk.empty())
+    cell_forces_.assign(lattice.strengths.cellVectors() * lattice.slotCount(), glsl::vec4(0));
 }
 
 template <class Kernel>

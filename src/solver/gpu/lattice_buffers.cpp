@@ -41,12 +41,28 @@ StrengthBuffers::StrengthBuffers(const Model& model, const FeatureSet& features,
   if (features.parts) {
     const Strengths table = allStrengths(model);
     spring_stiffness = gpu::Buffer<float>(table.spring_n_per_m, "spring stiffness");
-    cell_bulk = gpu::Buffer<float>(table.bulk_j, "cell bulk");
+    if (features.moments) {
+      writeMoments(model, table);
+    } else {
+      cell_bulk = gpu::Buffer<float>(table.bulk_j, "cell bulk");
+      bulk_texels_ = gpu::TexelView(cell_bulk.raw(), gpu::TexelFormat::kR32f);
+    }
     if (masses_kg.empty()) node_mass = gpu::Buffer<float>(table.mass_kg, "node mass");
     spring_texels_ = gpu::TexelView(spring_stiffness.raw(), gpu::TexelFormat::kR32f);
-    bulk_texels_ = gpu::TexelView(cell_bulk.raw(), gpu::TexelFormat::kR32f);
   }
   if (node_mass.size()) mass_texels_ = gpu::TexelView(node_mass.raw(), gpu::TexelFormat::kR32f);
+}
+
+void StrengthBuffers::writeMoments(const Model& model, const Strengths& table) {
+  const JoinedMoments moments = allMoments(model);
+  std::vector<layout::vec4> cells(table.bulk_j.size());
+  for (size_t slot = 0; slot < cells.size(); ++slot) {
+    cells[slot] = {table.bulk_j[slot], table.rigidity_j[slot], static_cast<float>(moments.of_cell[slot]), 0};
+  }
+  cell_strengths = gpu::Buffer<layout::vec4>(cells, "cell strengths");
+  cell_moments = gpu::Buffer<layout::vec4>(moments.vectors, "cell moments");
+  bulk_texels_ = gpu::TexelView(cell_strengths.raw(), gpu::TexelFormat::kRgba32f);
+  moment_texels_ = gpu::TexelView(cell_moments.raw(), gpu::TexelFormat::kRgba32f);
 }
 
 void StrengthBuffers::bind() const {
@@ -54,6 +70,7 @@ void StrengthBuffers::bind() const {
     spring_texels_.bind(layout::kUnitSpringStiffness);
     bulk_texels_.bind(layout::kUnitCellBulk);
   }
+  if (cell_moments.size()) moment_texels_.bind(layout::kUnitCellMoments);
   if (node_mass.size()) mass_texels_.bind(layout::kUnitNodeMass);
 }
 
@@ -120,7 +137,8 @@ LatticeBuffers::LatticeBuffers(const Model& model, const std::vector<layout::Bod
       hands(store.slot_count, features),
       stats(1, "measurements") {
   if (features.volume) {
-    cell_forces = gpu::Buffer<layout::vec4>(3 * store.slot_count, "cell forces");
+    const size_t vectors = features.moments ? layout::kMomentVectors : layout::kVolumeVectors;
+    cell_forces = gpu::Buffer<layout::vec4>(vectors * store.slot_count, "cell forces");
     cell_force_texels_ = gpu::TexelView(cell_forces.raw(), gpu::TexelFormat::kRgba32f);
   }
   bind();  // what is too large for the driver is said now

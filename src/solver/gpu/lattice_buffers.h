@@ -8,6 +8,7 @@
 #include "solver/features.h"
 #include "solver/joined_network.h"
 #include "viscera/layout/tick_stats.h"
+#include "viscera/model/body/elasticity.h"
 #include "viscera/model/model.h"
 
 namespace viscera {
@@ -40,10 +41,14 @@ struct StrengthBuffers {
 
   gpu::Buffer<float> spring_stiffness;  ///< [9 * slots] N/m; feature parts
   gpu::Buffer<float> node_mass;         ///< [slots] kg; features parts, network
-  gpu::Buffer<float> cell_bulk;         ///< [slots] J; feature parts
+  gpu::Buffer<float> cell_bulk;         ///< [slots] J; feature parts, without moments
+  gpu::Buffer<layout::vec4>
+      cell_strengths;                      ///< [slots] x bulk, y rigidity [J], z which moments; features parts, moments
+  gpu::Buffer<layout::vec4> cell_moments;  ///< JoinedMoments::vectors; features parts, moments
 
  private:
-  gpu::TexelView spring_texels_, mass_texels_, bulk_texels_;
+  void writeMoments(const Model& model, const Strengths& table);
+  gpu::TexelView spring_texels_, mass_texels_, bulk_texels_, moment_texels_;
 };
 
 /// How all nodes move: two states, of which one is current and the other the last or the next one.
@@ -118,7 +123,7 @@ struct LatticeBuffers {
   StateBuffers state;
   HandBuffers hands;
   gpu::Buffer<layout::TickStats> stats;   ///< [1]
-  gpu::Buffer<layout::vec4> cell_forces;  ///< [3 * slots] N, see shaders/solver/volume.comp; feature volume
+  gpu::Buffer<layout::vec4> cell_forces;  ///< [3 or 7 * slots] N, see shaders/solver/volume.comp; feature volume
 
  private:
   gpu::TexelView cell_force_texels_;

@@ -93,15 +93,42 @@ Eigen::Matrix3d ReferenceLattice::cellStress(const Field& u_m, size_t index) con
   return -volumeSlope(bulk_j, volumeStrain(g)) / (4 * cell.spacing_m) * volumeGradient(g);
 }
 
-/// @param stress_of  stress_of(cell) is cellStress() of that cell
-template <class StressOf>
-Vector3d ReferenceLattice::volumeForce(StressOf stress_of, uint32_t slot) const {
+CellMotion ReferenceLattice::motionOf(const Field& u_m, const Cell& cell) const {
+  std::array<Vector3d, 8> corners;
+  for (size_t c = 0; c < 8; ++c) corners[c] = u_m[cell.corners[c]];
+  return cellMotion(corners, cell.spacing_m);
+}
+
+/// Those of a cell that lost a spring are without rigidity.
+MomentCell ReferenceLattice::momentsOf(const Cell& cell) const {
+  return nodes[cell.corners[0]].lo & layout::kCellBit ? cell.moments : MomentCell{};
+}
+
+/// What a cell's volume and moments do to its corners [N].
+ReferenceLattice::CornerForces ReferenceLattice::cellForces(const Field& u_m, size_t index) const {
+  const Cell& cell = cells_[index];
+  const Eigen::Matrix3d stress = cellStress(u_m, index);
+  const MomentCell moments = momentsOf(cell);
+  CellMotion gradient = CellMotion::Zero();
+  if (moments.rigidity_j != 0) gradient = momentGradient(moments, motionOf(u_m, cell));
+  CornerForces out;
+  for (size_t c = 0; c < 8; ++c) {
+    out[c].setZero();
+    for (int axis = 0; axis < 3; ++axis) out[c] += cornerSign(c, axis) * stress.col(axis);
+    if (moments.rigidity_j == 0) continue;
+    const Eigen::Matrix<double, 7, 1> of_corner = motionOfCorner(c, cell.spacing_m);
+    for (int i = 0; i < 7; ++i) out[c] -= of_corner[i] * gradient.segment<3>(3 * i);
+  }
+  return out;
+}
+
+/// @param forces_of  forces_of(cell) is cellForces() of that cell
+template <class ForcesOf>
+Vector3d ReferenceLattice::cellForce(ForcesOf forces_of, uint32_t slot) const {
   Vector3d sum = Vector3d::Zero();
   for (size_t c = 0; c < 8; ++c) {
     const int cell = around_[slot][c];
-    if (cell < 0) continue;
-    const Eigen::Matrix3d stress = stress_of(static_cast<size_t>(cell));
-    for (int axis = 0; axis < 3; ++axis) sum += cornerSign(c, axis) * stress.col(axis);
+    if (cell >= 0) sum += forces_of(static_cast<size_t>(cell))[c];
   }
   return sum;
 }
@@ -115,20 +142,29 @@ double ReferenceLattice::volumeEnergy(const Field& u_m) const {
   return sum;
 }
 
+double ReferenceLattice::momentEnergy(const Field& u_m) const {
+  double sum = 0;
+  for (const Cell& cell : cells_) {
+    const MomentCell moments = momentsOf(cell);
+    if (moments.rigidity_j != 0) sum += viscera::momentEnergy(moments, motionOf(u_m, cell));
+  }
+  return sum;
+}
+
 double ReferenceLattice::elasticEnergy(const Field& u_m) const {
-  return springEnergy(u_m) + volumeEnergy(u_m);
+  return springEnergy(u_m) + volumeEnergy(u_m) + momentEnergy(u_m);
 }
 
 Vector3d ReferenceLattice::elasticForce(const Field& u_m, uint32_t slot) const {
-  return springForce(u_m, slot) + volumeForce([&](size_t cell) { return cellStress(u_m, cell); }, slot);
+  return springForce(u_m, slot) + cellForce([&](size_t cell) { return cellForces(u_m, cell); }, slot);
 }
 
 Field ReferenceLattice::elasticForces(const Field& u_m) const {
-  std::vector<Eigen::Matrix3d> stresses(cells_.size());  // each serves eight nodes
-  for (size_t c = 0; c < cells_.size(); ++c) stresses[c] = cellStress(u_m, c);
+  std::vector<CornerForces> of_cells(cells_.size());  // each serves eight nodes
+  for (size_t c = 0; c < cells_.size(); ++c) of_cells[c] = cellForces(u_m, c);
   Field forces(slots(), Vector3d::Zero());
   for (uint32_t slot : active) {
-    forces[slot] = springForce(u_m, slot) + volumeForce([&](size_t cell) { return stresses[cell]; }, slot);
+    forces[slot] = springForce(u_m, slot) + cellForce([&](size_t cell) { return of_cells[cell]; }, slot);
   }
   return forces;
 }

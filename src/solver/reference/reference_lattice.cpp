@@ -40,7 +40,7 @@ void ReferenceLattice::addBody(const Model& model, size_t b, double dt_safe_s) {
   for (uint32_t slot : lattice.active_slots) {
     active.push_back(first + slot);
     rest_m_[first + slot] = viscera::restPosition(body, slot);
-    if (!has_valences_[b] && lattice.nodes[slot].lo & layout::kCellBit) addCell(lattice, first, slot);
+    if (!has_valences_[b] && lattice.nodes[slot].lo & layout::kCellBit) addCell(body, b, slot);
   }
   if (body.network) {
     addLinks(*body.network, first);
@@ -81,12 +81,21 @@ void ReferenceLattice::addLinks(const SpringNetwork& network, uint32_t first) {
   }
 }
 
-void ReferenceLattice::addCell(const Lattice& lattice, uint32_t first, uint32_t local) {
-  Cell cell{{}, lattice.spacing_m};
+void ReferenceLattice::addCell(const Body& body, size_t b, uint32_t local) {
+  const Lattice& lattice = body.lattice;
+  const uint32_t first = first_[b];
+  Cell cell{{}, lattice.spacing_m, {}};
   const Vector3i lowest = lattice.nodeAt(local);
   for (size_t c = 0; c < 8; ++c) {
     cell.corners[c] = first + static_cast<uint32_t>(lattice.slotAt(lowest + cornerOffset(c)));
     around_[cell.corners[c]][c] = static_cast<int>(cells_.size());
+  }
+  if (body.material.cells == Cells::kMoments) {
+    const Strengths& table = strengths_[b];
+    cell.moments.rigidity_j = table.rigidity_j.empty() ? params_[b].rigidity_j : table.rigidity_j[local];
+    cell.moments.bulk_j = table.bulk_j.empty() ? params_[b].bulk_j : table.bulk_j[local];
+    const CellFill fill = fillOf(lattice, local);
+    cell.moments.fill = {1, fill.first / fill.share, fill.second / fill.share};
   }
   cells_.push_back(cell);
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "solver/fields.h"
+#include "solver/reference/moment_energy.h"
 #include "viscera/model/model.h"
 #include "viscera/solver/material.h"
 
@@ -50,7 +51,7 @@ class ReferenceLattice {
 
   /// (L - l0) / l0 of a spring; 0 where l0 is.
   double strain(const Field& u_m, uint32_t slot, uint32_t spring) const;
-  /// Springs and volume, on one node and on all [N].
+  /// Springs and cells, on one node and on all [N].
   Vector3d elasticForce(const Field& u_m, uint32_t slot) const;
   Field elasticForces(const Field& u_m) const;
   /// Axial dashpots, sum of c n (n . (v_far - v_near)) with n of u [N].
@@ -60,6 +61,8 @@ class ReferenceLattice {
   double elasticEnergy(const Field& u_m) const;  ///< [J]
   double springEnergy(const Field& u_m) const;   ///< [J]
   double volumeEnergy(const Field& u_m) const;   ///< [J]
+  /// What cells have by moments beside that, springs less what they lack: may be negative [J].
+  double momentEnergy(const Field& u_m) const;
   /// Largest force of a spring, or of one that is strained by 1e-6 where all are less [N]: what a residual is held
   /// against.
   double forceScale(const Field& u_m) const;
@@ -95,23 +98,29 @@ class ReferenceLattice {
   struct Cell {
     std::array<uint32_t, 8> corners;  ///< slots; bit per axis, x lowest
     double spacing_m;
+    MomentCell moments;  ///< while it is whole; without rigidity where springs alone resist
   };
+  using CornerForces = std::array<Vector3d, 8>;
   void addBody(const Model& model, size_t b, double dt_safe_s);
   void addLatticeSprings(const Lattice& lattice, uint32_t first);
   void addLinks(const SpringNetwork& network, uint32_t first);
-  void addCell(const Lattice& lattice, uint32_t first, uint32_t local);
+  void addCell(const Body& body, size_t b, uint32_t local);
   const Neighbor& neighbor(uint32_t slot, uint32_t spring) const { return neighbors_[starts_[slot] + spring]; }
   Spring springAt(const Field& u_m, uint32_t slot, uint32_t spring) const;
   void loseSpring(uint32_t slot, uint32_t lattice_spring);
   void killCells(uint32_t slot, uint32_t other);
   Eigen::Matrix3d cellGradient(const Field& u_m, const Cell& cell) const;
   Eigen::Matrix3d cellStress(const Field& u_m, size_t cell) const;
+  CellMotion motionOf(const Field& u_m, const Cell& cell) const;
+  MomentCell momentsOf(const Cell& cell) const;
+  CornerForces cellForces(const Field& u_m, size_t cell) const;
   Vector3d springForce(const Field& u_m, uint32_t slot) const;
-  template <class StressOf>
-  Vector3d volumeForce(StressOf stress_of, uint32_t slot) const;
+  template <class ForcesOf>
+  Vector3d cellForce(ForcesOf forces_of, uint32_t slot) const;
   void addSprings(const Field& u_m, Curvature curvature, double dashpot_per_s,
                   std::vector<Eigen::Triplet<double>>& out) const;
   void addVolumes(const Field& u_m, Curvature curvature, std::vector<Eigen::Triplet<double>>& out) const;
+  void addMoments(const Field& u_m, Curvature curvature, std::vector<Eigen::Triplet<double>>& out) const;
 
   std::vector<layout::BodyParams> params_;
   std::vector<Strengths> strengths_;        ///< [bodies] empty where a body has one material; masses of networks

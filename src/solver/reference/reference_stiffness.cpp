@@ -40,8 +40,9 @@ Matrix9d volumeCurvatureMatrix(double bulk_j, const Eigen::Matrix3d& g) {
   return out;
 }
 
-Matrix9d positivePart(const Matrix9d& m) {
-  const Eigen::SelfAdjointEigenSolver<Matrix9d> eigen(m);
+template <class Matrix>
+Matrix positivePart(const Matrix& m) {
+  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(m);
   return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).asDiagonal() * eigen.eigenvectors().transpose();
 }
 
@@ -88,11 +89,31 @@ void ReferenceLattice::addVolumes(const Field& u_m, Curvature curvature, Triplet
   }
 }
 
+void ReferenceLattice::addMoments(const Field& u_m, Curvature curvature, Triplets& out) const {
+  for (const Cell& cell : cells_) {
+    const MomentCell moments = momentsOf(cell);
+    if (moments.rigidity_j == 0) continue;
+    Eigen::Matrix<double, 21, 21> m = momentCurvature(moments, motionOf(u_m, cell));
+    if (curvature == Curvature::kPositive) m = positivePart(m);
+    for (size_t a = 0; a < 8; ++a) {
+      const Eigen::Matrix<double, 7, 1> of_a = motionOfCorner(a, cell.spacing_m);
+      for (size_t b = 0; b < 8; ++b) {
+        const Eigen::Matrix<double, 7, 1> of_b = motionOfCorner(b, cell.spacing_m);
+        Eigen::Matrix3d block = Eigen::Matrix3d::Zero();
+        for (int i = 0; i < 7; ++i)
+          for (int j = 0; j < 7; ++j) block += of_a[i] * of_b[j] * m.block<3, 3>(3 * i, 3 * j);
+        addBlock(dof(cell.corners[a], 0), dof(cell.corners[b], 0), block, out);
+      }
+    }
+  }
+}
+
 Eigen::SparseMatrix<double> ReferenceLattice::stiffnessMatrix(const Field& u_m, Curvature curvature,
                                                               double dashpot_per_s) const {
   Triplets triplets;
   addSprings(u_m, curvature, dashpot_per_s, triplets);
   addVolumes(u_m, curvature, triplets);
+  addMoments(u_m, curvature, triplets);
   Eigen::SparseMatrix<double> out(dofs(), dofs());
   out.setFromTriplets(triplets.begin(), triplets.end());
   return out;

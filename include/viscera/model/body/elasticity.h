@@ -13,6 +13,7 @@ namespace viscera {
 struct Elasticity {
   double spring_n_per_m;  ///< k = mu h of a full spring, axial or diagonal
   double bulk_j;          ///< lambda_V h^3, lambda_V = lambda - mu; 0 at nu = 1/4
+  double rigidity_j;      ///< mu h^3
   double cell_mass_kg;    ///< rho h^3
 };
 Elasticity elasticity(double young_modulus_pa, double poisson_ratio, double density_kg_per_m3, double spacing_m);
@@ -24,6 +25,7 @@ struct Strengths {
   std::vector<float> spring_n_per_m;  ///< [9 * slots] of the spring 2 i of a node at 9 * slot + i
   std::vector<float> mass_kg;         ///< [slots]
   std::vector<float> bulk_j;          ///< [slots] of the cell whose lowest corner is the node
+  std::vector<float> rigidity_j;      ///< [slots] likewise; empty where cells resist by springs alone (Cells)
 };
 constexpr uint32_t kSpringPairs = layout::kSpringsPerNode / 2;
 

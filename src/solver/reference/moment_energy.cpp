@@ -1,0 +1,149 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+// The energy of cells by moments as physics.md 1 has it: tensors, written out.
+#include "solver/reference/moment_energy.h"
+
+#include <cmath>
+#include <unsupported/Eigen/AutoDiff>
+
+namespace viscera {
+
+namespace {
+
+// See shaders/solver/moments.glsl, which has the same numbers.
+constexpr double kFadeNone = 0.5, kFadeFull = 0.95, kFadeBend = 0.5, kFadeStrain2 = 0.5;
+
+template <class T>
+using Tensor = Eigen::Matrix<T, 3, 3>;
+template <class T>
+using Vector = Eigen::Matrix<T, 3, 1>;
+
+/// Full contraction of two symmetric tensors.
+template <class A, class B>
+auto contract(const A& a, const B& b) {
+  return a.cwiseProduct(b).sum();
+}
+
+/// lambda tr(e) 1 + 2 mu e, over mu.
+template <class T>
+Tensor<T> stressOf(const Tensor<T>& strain, double lambda_over_mu) {
+  const T spherical = lambda_over_mu * strain.trace();
+  Tensor<T> out = 2.0 * strain;
+  for (int i = 0; i < 3; ++i) out(i, i) += spherical;
+  return out;
+}
+
+/// The gradient of strain along axis n: the plane across it bends in its two directions and twists, and is free to
+/// thin.
+/// @param s  s(m, l) = edge m . H_l
+template <class T>
+Tensor<T> strainGradient(const Tensor<T>& s, int n, double nu) {
+  const int a = (n + 1) % 3, b = (n + 2) % 3;
+  Tensor<T> out;
+  out.setZero();
+  out(a, a) = s(a, b);  // edge a . H of n and a, which is that of the third axis
+  out(b, b) = s(b, a);
+  out(n, n) = -nu / (1 - nu) * (out(a, a) + out(b, b));
+  out(a, b) = out(b, a) = 0.5 * (s(a, a) + s(b, b));
+  return out;
+}
+
+/// What the springs of a full cell put into hourglass motions, over mu h^3.
+template <class T>
+T springsOf(const Tensor<T>& s) {
+  T sum = s.squaredNorm() + s.trace() * s.trace();
+  for (int n = 0; n < 3; ++n) {
+    const T pair = s(n, (n + 1) % 3) + s((n + 1) % 3, n);
+    sum += pair * pair;
+  }
+  return sum / 8.0;
+}
+
+/// 1 where an edge is as long as at rest, falling to 0 as it is squeezed.
+template <class T>
+T fadeOf(const T& length) {
+  if (length >= kFadeFull) return T(1.0);
+  if (length <= kFadeNone) return T(0.0);
+  const T t = (length - kFadeNone) / (kFadeFull - kFadeNone);
+  return t * t * (3.0 - 2.0 * t);
+}
+
+template <class T>
+T energyOf(const MomentCell& cell, const Eigen::Matrix<T, 21, 1>& motion) {
+  using std::sqrt;
+  const double ratio = cell.bulk_j / cell.rigidity_j, lambda = 1 + ratio, nu = lambda / (2 * (lambda + 1));
+  Tensor<T> capped, hourglass, strain;
+  T fade(1.0);
+  for (int a = 0; a < 3; ++a) {
+    Vector<T> edge = motion.template segment<3>(3 * a);
+    edge[a] += 1.0;
+    const T length = sqrt(edge.squaredNorm()), growth = length - 1.0;
+    capped.col(a) = length > 1.0 ? Vector<T>(edge / length) : edge;
+    hourglass.col(a) = motion.template segment<3>(9 + 3 * a);
+    strain(a, a) = growth / (1.0 + growth * growth / kFadeStrain2);
+    fade *= fadeOf<T>(length);
+  }
+  const Vector<T> alternating = motion.template segment<3>(18);
+  const Tensor<T> s = capped.transpose() * hourglass;
+  for (int a = 0; a < 3; ++a) {
+    const int b = (a + 1) % 3;
+    strain(a, b) = strain(b, a) = 0.5 * capped.col(a).dot(capped.col(b));
+  }
+  std::array<Tensor<T>, 3> gradients;
+  for (int n = 0; n < 3; ++n) gradients[static_cast<size_t>(n)] = strainGradient<T>(s, n, nu);
+  T energy(0.0);
+  for (int n = 0; n < 3; ++n) {
+    const Tensor<T> stress = stressOf<T>(gradients[static_cast<size_t>(n)], lambda);
+    energy += cell.fill.first[n] * contract(stress, strain);
+    for (int j = 0; j < 3; ++j)
+      energy += 0.5 * cell.fill.second(n, j) * contract(stress, gradients[static_cast<size_t>(j)]);
+  }
+  energy -= springsOf<T>(s);
+  energy += 0.5 * (5.0 / 18 - 0.5) * alternating.squaredNorm();
+  const T bent = s.squaredNorm() / kFadeBend;
+  return cell.rigidity_j * fade / (1.0 + bent * bent) * energy;
+}
+
+}  // namespace
+
+Eigen::Matrix<double, 7, 1> motionOfCorner(size_t corner, double spacing_m) {
+  const double x = corner & 1 ? 1 : -1, y = corner & 2 ? 1 : -1, z = corner & 4 ? 1 : -1;
+  Eigen::Matrix<double, 7, 1> out;
+  out << x / 4, y / 4, z / 4, y * z / 2, z * x / 2, x * y / 2, x * y * z / std::sqrt(8.0);
+  return out / spacing_m;
+}
+
+CellMotion cellMotion(const std::array<Vector3d, 8>& u_m, double spacing_m) {
+  CellMotion out = CellMotion::Zero();
+  for (size_t c = 0; c < 8; ++c) {
+    const Eigen::Matrix<double, 7, 1> of_corner = motionOfCorner(c, spacing_m);
+    for (int i = 0; i < 7; ++i) out.segment<3>(3 * i) += of_corner[i] * u_m[c];
+  }
+  return out;
+}
+
+double momentEnergy(const MomentCell& cell, const CellMotion& motion) {
+  return cell.rigidity_j == 0 ? 0 : energyOf<double>(cell, motion);
+}
+
+CellMotion momentGradient(const MomentCell& cell, const CellMotion& motion) {
+  if (cell.rigidity_j == 0) return CellMotion::Zero();
+  using Dual = Eigen::AutoDiffScalar<CellMotion>;
+  Eigen::Matrix<Dual, 21, 1> dual;
+  for (int i = 0; i < 21; ++i) dual[i] = Dual(motion[i], 21, i);
+  return energyOf<Dual>(cell, dual).derivatives();
+}
+
+Eigen::Matrix<double, 21, 21> momentCurvature(const MomentCell& cell, const CellMotion& motion) {
+  constexpr double kStep = 1e-6;  // of the spacing: halves the digits of the gradient
+  Eigen::Matrix<double, 21, 21> out;
+  for (int i = 0; i < 21; ++i) {
+    CellMotion up = motion, down = motion;
+    up[i] += kStep;
+    down[i] -= kStep;
+    out.col(i) = (momentGradient(cell, up) - momentGradient(cell, down)) / (2 * kStep);
+  }
+  return 0.5 * (out + out.transpose());
+}
+
+}  // namespace viscera
