@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // What a probe does to a node, and where a held node goes (VR05 2.7.1, 2.7.2; physics.md 5). Included by the integrators.
-#include "quaternion.glsl"
+#include "touch.glsl"
 
 #ifndef __cplusplus
 layout(std140, binding = kBindToolMotions) uniform ToolMotionsBlock { ToolMotion tool_motions[kMaxStyluses]; };
@@ -13,31 +13,16 @@ layout(std430, binding = kBindImpulses) buffer ImpulsesBuffer { vec4 impulses[];
 void giveMomentum(uint stylus, uint slot, vec3 impulse) { impulses[stylus * slot_count + slot] += vec4(impulse, 1.0f); }
 #endif
 
-/// Point of the segment a..b that is nearest to x.
-vec3 nearestOnSegment(vec3 a, vec3 b, vec3 x) {
-  vec3 ab = b - a;
-  float length2 = dot(ab, ab);
-  return length2 > 0.0f ? a + clamp(dot(x - a, ab) / length2, 0.0f, 1.0f) * ab : a;
-}
-
 /// Swept sphere: a node inside the final sphere goes to its surface along the radius; one that the sphere has passed over
 /// goes out of the swept capsule sideways, so no sweep is too fast. Its normal velocity becomes the tool's.
 void probe(ToolMotion motion, vec3 x, INOUT(vec3) x_next, INOUT(vec3) v_next) {
-  float radius = motion.from.w;
+  ProbeSide side = sideOfProbe(motion, x, x_next);
+  if (!side.inside) return;
   vec3 travel = xyz(motion.to) - xyz(motion.from);
-  vec3 centre = distance(x_next, xyz(motion.to)) < radius ? xyz(motion.to)
-                                                         : nearestOnSegment(xyz(motion.from), xyz(motion.to), x_next);
-  vec3 out_of = x_next - centre;
-  float depth2 = dot(out_of, out_of);
-  if (depth2 >= radius * radius) return;
-  // A node at the centre has no direction: it leaves where it came from, or against the travel, or upwards.
-  vec3 fallback = distance(x, centre) > 0.0f ? x - centre : dot(travel, travel) > 0.0f ? -travel : vec3(0.0f, 0.0f, 1.0f);
-  vec3 normal = normalize(depth2 > 1e-12f * radius * radius ? out_of : fallback);
   // Out of the tool, but no faster than waves travel: a tool that appears inside the tissue must not shoot it away.
-  float way = radius - dot(out_of, normal);
-  x_next += min(way, push_speed * dt_s) * normal;
-  float approach = dot(v_next - travel / dt_s, normal);
-  if (approach < 0.0f) v_next -= approach * normal;
+  x_next += min(side.depth, push_speed * dt_s) * side.normal;
+  float approach = dot(v_next - travel / dt_s, side.normal);
+  if (approach < 0.0f) v_next -= approach * side.normal;
 }
 
 /// Where a stylus has a node that it holds at the end of the substep: displacement [m].

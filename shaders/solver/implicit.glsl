@@ -6,7 +6,7 @@
 // F has the springs, the volumes and the dashpots c/dt n n^T (du_far - du_near), n at the current iterate. A solution is a
 // stationary point of the incremental potential
 //   P(du) = sum of m (1 + gamma dt)/(2 dt^2) |du - y|^2 + E(u + du) + sum of c/(2 dt) (n . (du_far - du_near))^2
-// increment.w is 1 where du is prescribed: fixed, sleeping and held nodes.
+// increment.w is 1 where du is prescribed: fixed, sleeping and held nodes; -1 where the node has contacts (implicit_contact.glsl).
 #ifndef __cplusplus
 layout(std430, binding = kBindActive) readonly buffer ActiveBuffer { uint active_nodes[]; };
 layout(std430, binding = kBindNodes) readonly buffer NodesBuffer { NodeBits nodes[]; };
@@ -25,6 +25,9 @@ float reach(float h, uint iteration) {
   return iteration == 0u ? longest * h : clamp(2.0f * uintBitsToFloat(guard[changeWord(iteration - 1u)]), shortest * h, longest * h);
 }
 
+bool isPrescribed(vec4 du) { return du.w > 0.0f; }
+bool isInContact(vec4 du) { return du.w < 0.0f; }
+
 /// m (1 + gamma dt)/dt^2 [N/m]
 float inertia(float mass, BodyParams body) { return mass * (1.0f + body.drag_per_s * dt_s) / (dt_s * dt_s); }
 
@@ -32,6 +35,20 @@ float inertia(float mass, BodyParams body) { return mass * (1.0f + body.drag_per
 vec3 freeIncrement(uint slot, BodyParams body) {
   vec3 v = xyz(texelFetch(velocity, int(slot)));
   return (dt_s * v + (dt_s * dt_s) * gravity) / (1.0f + body.drag_per_s * dt_s);
+}
+
+/// x of (diagonal 1 + a) x = b, a symmetric and not negative, by L D L^T.
+vec3 solved(float diagonal, mat3 a, vec3 b) {
+  float dx = diagonal + a[0].x;
+  float lxy = a[0].y / dx, lxz = a[0].z / dx;
+  float dy = (diagonal + a[1].y) - lxy * a[0].y;
+  float yz = a[1].z - lxy * a[0].z;
+  float lyz = yz / dy;
+  float dz = (diagonal + a[2].z) - lxz * a[0].z - lyz * yz;
+  float by = b.y - lxy * b.x, bz = b.z - lxz * b.x - lyz * by;
+  float z = bz / dz;
+  float y = by / dy - lyz * z;
+  return vec3(b.x / dx - lxy * y - lxz * z, y, z);
 }
 
 /// c/dt of a spring's dashpot [N/m]

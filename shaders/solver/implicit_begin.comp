@@ -3,14 +3,14 @@
 //
 // implicit_begin.comp - start of a substep of implicit Euler: increments of prescribed nodes, and y for the others.
 // Owner: solver/gpu/implicit_substep.h   physics.md 2
-// in  displacement, velocity [slots]     out  increments [slots]     Feature: TOOLS
+// in  displacement, velocity [slots]     out  increments [slots]     Features: CONTACT, TOOLS, OBSTACLES
 #include "layout.h"
 #include "lattice.glsl"
 #include "elastic.glsl"
 #include "step.glsl"
 #include "implicit.glsl"
-#ifdef TOOLS
-#include "contact.glsl"
+#ifdef CONTACT
+#include "implicit_contact.glsl"
 #endif
 
 #ifndef __cplusplus
@@ -31,5 +31,14 @@ void main() {
     return;
   }
 #endif
-  increments[slot] = vec4(freeIncrement(slot, bodies[bodyOf(bits)]), 0.0f);
+  vec3 y = freeIncrement(slot, bodies[bodyOf(bits)]);
+#ifdef CONTACT
+  clearContacts(slot);
+  findContacts(slot, xyz(texelFetch(displacement, int(slot))), y);
+  if (contactCount(slot) != 0u) {
+    increments[slot] = vec4(outside(slot, y), -1.0f);
+    return;
+  }
+#endif
+  increments[slot] = vec4(y, 0.0f);
 }

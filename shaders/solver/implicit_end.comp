@@ -1,16 +1,16 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// implicit_end.comp - end of a substep of implicit Euler: state = displacement + increment; momentum of tools, sleep.
+// implicit_end.comp - end of a substep of implicit Euler: state = displacement + increment; momentum of tools and obstacles, sleep.
 // Owner: solver/gpu/implicit_substep.h   physics.md 2
-// in  displacement, velocity, increments [slots]     out  displacement, velocity [slots]     Feature: TOOLS
+// in  displacement, velocity, increments [slots]     out  displacement, velocity [slots]     Features: CONTACT, TOOLS, OBSTACLES
 #include "layout.h"
 #include "lattice.glsl"
 #include "elastic.glsl"
 #include "step.glsl"
 #include "implicit.glsl"
-#ifdef TOOLS
-#include "contact.glsl"
+#ifdef CONTACT
+#include "implicit_contact.glsl"
 #endif
 
 #ifndef __cplusplus
@@ -18,17 +18,77 @@ layout(std430, binding = kBindDisplacementOut) writeonly buffer DisplacementOut 
 layout(std430, binding = kBindVelocityOut) writeonly buffer VelocityOut { vec4 next_velocity[]; };
 #endif
 
-#ifdef TOOLS
-/// The velocity that the lattice alone would have given a held node: its tool's momentum is counted from there.
-vec3 velocityWithoutTool(uint slot, NodeBits bits, float mass, BodyParams body, vec3 u, vec3 du) {
-  vec3 force = vec3(0.0f);
-#define VISIT_LINK force += implicitSpring(n, u, du, d, l0, prestrain, k, body).force;
+#ifdef CONTACT
+/// What keeps a node where it is, if neither the lattice nor its inertia does: the force of who holds or touches it [N].
+vec3 forceFromOutside(uint slot, NodeBits bits, float mass, BodyParams body, vec3 u, vec3 du) {
+  vec3 force = inertia(mass, body) * (du - freeIncrement(slot, body));
+#define VISIT_LINK force -= implicitSpring(n, u, du, d, l0, prestrain, k, body).force;
   FOR_EACH_LINK
 #undef VISIT_LINK
 #ifdef VOLUME
-  force += xyz(volumeForce(slot));
+  force -= xyz(volumeForce(slot));
 #endif
-  return (xyz(texelFetch(velocity, int(slot))) + dt_s * (force / mass + gravity)) / (1.0f + body.drag_per_s * dt_s);
+  return force;
+}
+
+/// What the last sweep has left of a node's balance goes to the contacts that press, along their normals.
+void balanceContacts(uint slot, vec3 force) {
+  const uint rounds = 4u;
+  uint count = contactCount(slot);
+  vec3 left = force;
+  for (uint row = 0u; row < count; ++row) left -= contactOf(slot, row).force;
+  for (uint i = 0u; i < rounds * count; ++i) {
+    Contact c = contactOf(slot, i % count);
+    float pressure = dot(c.force, c.normal);
+    if (pressure <= 0.0f) continue;
+    vec3 change = max(dot(left, c.normal), -pressure) * c.normal;
+    left -= change;
+    node_contacts[contactAt(slot, i % count) + 2u] = vec4(c.force + change, c.owner);
+  }
+}
+
+#ifdef OBSTACLES
+/// What comes fast enough bounces: what it brought along the normal it gets back by the restitution. No more than the substep has
+/// taken from it, as its inelastic end lost the square of all of it. @return  change of velocity [m/s]
+vec3 bounceOf(Contact c, float restitution, vec3 v_before, vec3 v_next) {
+  vec3 surface = c.way / dt_s;
+  float approach = -dot(v_before - surface, c.normal);
+  if (approach <= resting_speed) return vec3(0.0f);
+  return max(0.0f, restitution * approach - dot(v_next - surface, c.normal)) * c.normal;
+}
+#endif
+
+/// Tells probes and obstacles what they gave a node.
+void giveContacts(uint slot, float mass, INOUT(vec3) v_next) {
+  vec3 v_before = xyz(texelFetch(velocity, int(slot)));
+  uint count = contactCount(slot);
+  for (uint row = 0u; row < count; ++row) {
+    Contact c = contactOf(slot, row);
+    if (c.force == vec3(0.0f)) continue;
+    uint owner = uint(c.owner) - 1u;
+#ifdef TOOLS
+    if (owner < kMaxStyluses) giveMomentum(owner, slot, dt_s * c.force);
+#endif
+#ifdef OBSTACLES
+    if (owner < kMaxStyluses) continue;
+    uint obstacle = owner - kMaxStyluses;
+    vec3 bounce = bounceOf(c, obstacles[obstacle].spin.w, v_before, v_next);
+    v_next += bounce;
+    giveObstacle(obstacle, slot, dt_s * c.force + mass * bounce);
+#endif
+  }
+}
+#endif
+
+#ifdef TOOLS
+/// A probe that only feels counts the nodes that it would push.
+void feel(uint slot, vec3 x) {
+  for (uint s = 0u; s < kMaxStyluses; ++s) {
+    ToolMotion motion = tool_motions[s];
+    if ((motion.info.y & kToolPushes) == 0u || (motion.info.y & kToolFeels) == 0u) continue;
+    float reach = motion.from.w + distance(xyz(motion.to), xyz(motion.from));
+    if (distance(x, xyz(motion.to)) < reach) giveMomentum(s, slot, vec3(0.0f));
+  }
 }
 #endif
 
@@ -43,13 +103,21 @@ void main() {
     next_velocity[slot] = vec4(0.0f);
     return;
   }
-  vec3 du = xyz(texelFetch(increment, int(slot)));
+  vec4 increased = texelFetch(increment, int(slot));
+  vec3 du = xyz(increased);
   vec3 u_next = u + du, v_next = du / dt_s;
-#ifdef TOOLS
+#ifdef CONTACT
   BodyParams body = bodies[bodyOf(bits)];
   float mass = nodeMass(slot, bits, body);
-  if ((bits.lo & kGrabMask) != 0u) v_next = velocityWithoutTool(slot, bits, mass, body, u, du);
-  resolveContacts(slot, bits, mass, u, u_next, v_next);
+  if (isInContact(increased)) {
+    balanceContacts(slot, forceFromOutside(slot, bits, mass, body, u, du));
+    giveContacts(slot, mass, v_next);
+  }
+#endif
+#ifdef TOOLS
+  uint held_by = (bits.lo & kGrabMask) >> kGrabShift;
+  if (held_by != 0u) giveMomentum(held_by - 1u, slot, dt_s * forceFromOutside(slot, bits, mass, body, u, du));
+  else feel(slot, restPosition(slot) + u_next);
 #endif
   fallAsleep(bits, u, u_next, v_next);
   next_displacement[slot] = vec4(u_next, 0.0f);

@@ -9,6 +9,9 @@
 #include "elastic.glsl"
 #include "step.glsl"
 #include "implicit.glsl"
+#ifdef CONTACT
+#include "implicit_contact.glsl"
+#endif
 #include "shares.glsl"
 #ifdef VOLUME
 #include "corners.glsl"
@@ -18,7 +21,14 @@
 layout(std430, binding = kBindPartials) writeonly buffer PartialsBuffer { vec4 energies[]; };
 #endif
 
-vec3 share(vec4 du, int c) { return du.w != 0.0f ? xyz(du) : kShares[c] * xyz(du); }
+/// Nodes in contact keep out of what they touch, whatever the share.
+vec3 share(uint slot, vec4 du, int c) {
+  if (isPrescribed(du)) return xyz(du);
+#ifdef CONTACT
+  if (isInContact(du)) return outside(slot, kShares[c] * xyz(du));
+#endif
+  return kShares[c] * xyz(du);
+}
 
 #ifdef VOLUME
 /// Energy of a cell for the four shares.
@@ -33,7 +43,7 @@ vec4 cellEnergies(uint slot, BodyParams body) {
   vec4 sum = vec4(0.0f);
   for (int g = 0; g < 4; ++g) {
     vec3 at[8], edge_lengths;
-    for (int c = 0; c < 8; ++c) at[c] = u[c] + share(du[c], g);
+    for (int c = 0; c < 8; ++c) at[c] = u[c] + share(cornerSlot(slot, uint(c)), du[c], g);
     float h = body.origin_spacing.w;
     sum[g] = cellEnergy(at, shapeOf(at, h, edge_lengths).e, h, cellBulk(slot, body), cellRigidity(slot, body), cellMoments(slot));
   }
@@ -42,10 +52,11 @@ vec4 cellEnergies(uint slot, BodyParams body) {
 #endif
 
 /// Adds a spring's elastic energy and what its dashpot adds to P, for the four shares.
-/// @param near, far  increments of its ends   @param w  u_far - u_near   @param d, l0, prestrain  at rest
-void addSpring(vec4 near, vec4 far, vec3 w, vec3 d, float l0, float prestrain, float k, float damping, INOUT(vec4) elastic, INOUT(vec4) damped) {
+/// @param a, b  its ends   @param near, far  their increments   @param w  u_far - u_near   @param d, l0, prestrain  at rest
+void addSpring(uint a, uint b, vec4 near, vec4 far, vec3 w, vec3 d, float l0, float prestrain, float k, float damping, INOUT(vec4) elastic,
+               INOUT(vec4) damped) {
   for (int c = 0; c < 4; ++c) {
-    vec3 along = share(far, c) - share(near, c);
+    vec3 along = share(b, far, c) - share(a, near, c);
     Spring s = springBetween(d, l0, prestrain, w + along);
     float rate = dot(s.direction, along);
     elastic[c] += 0.5f * k * s.extension * s.extension;
@@ -63,17 +74,28 @@ void main() {
   vec4 du = texelFetch(increment, int(slot));
   vec3 u = xyz(texelFetch(displacement, int(slot)));
   vec4 elastic = vec4(0.0f), potential = vec4(0.0f), motion = vec4(0.0f);
-  if (du.w == 0.0f) {
+  if (!isPrescribed(du)) {
     vec3 y = freeIncrement(slot, body), v = xyz(texelFetch(velocity, int(slot)));
     for (int c = 0; c < 4; ++c) {
-      vec3 way = share(du, c), off = way - y;
+      vec3 way = share(slot, du, c), off = way - y;
       potential[c] = 0.5f * inertia(mass, body) * dot(off, off);
       motion[c] = 0.5f * mass * dot(way, way) / (dt_s * dt_s) - mass * dot(gravity, way);
     }
+#ifdef CONTACT
+    // Before the substep with what surfaces that move may bring in: of share 0 the nodes in contact are where these put them.
+    vec3 put = share(slot, du, 0);
+    float brought = 0.5f * mass * dot(put, put) / (dt_s * dt_s);
+    if (isInContact(du)) {
+      for (int c = 0; c < 4; ++c) potential[c] += frictionOf(slot, share(slot, du, c));
+      brought += frictionOf(slot, put);
+    }
+    motion[0] = 0.5f * mass * dot(v, v) + brought;
+#else
     motion[0] = 0.5f * mass * dot(v, v);
+#endif
   }
 #define VISIT_LINK                                                                                              \
-  if (counted) addSpring(du, texelFetch(increment, int(n)), xyz(texelFetch(displacement, int(n))) - u, d, l0,     \
+  if (counted) addSpring(slot, n, du, texelFetch(increment, int(n)), xyz(texelFetch(displacement, int(n))) - u, d, l0,     \
                          prestrain, k, damping(k, body), elastic, potential);
   FOR_EACH_LINK
 #undef VISIT_LINK

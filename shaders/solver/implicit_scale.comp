@@ -9,6 +9,9 @@
 #include "elastic.glsl"
 #include "step.glsl"
 #include "implicit.glsl"
+#ifdef CONTACT
+#include "implicit_contact.glsl"
+#endif
 
 #ifndef __cplusplus
 layout(std430, binding = kBindIncrement) buffer IncrementBuffer { vec4 increments[]; };
@@ -19,5 +22,10 @@ void main() {
   if (i >= active_count) return;
   uint slot = active_nodes[i];
   vec4 du = increments[slot];
-  if (du.w == 0.0f) increments[slot] = vec4(xyz(du) * uintBitsToFloat(guard[0]), 0.0f);
+  if (isPrescribed(du)) return;
+  vec3 scaled = xyz(du) * uintBitsToFloat(guard[0]);
+#ifdef CONTACT
+  if (isInContact(du)) scaled = outside(slot, scaled);
+#endif
+  increments[slot] = vec4(scaled, du.w);
 }

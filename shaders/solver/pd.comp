@@ -10,6 +10,9 @@
 #include "elastic.glsl"
 #include "step.glsl"
 #include "implicit.glsl"
+#ifdef CONTACT
+#include "implicit_contact.glsl"
+#endif
 
 #ifdef RATE
 /// max over nodes of (sum of k + volume)/m [1/s2] and of (sum of k dashpot_s)/m [1/s], as float bits in the guard.
@@ -75,28 +78,49 @@ void recordChange(vec3 change) {
   if (bits > guard[changeWord(iteration)]) atomicMax(guard[changeWord(iteration)], bits);
 }
 
+/// Where there are volumes, their majoriser reckons with steps this long.
+vec3 notTooFar(vec3 change, BodyParams body) {
+#ifdef VOLUME
+  return change * min(1.0f, reach(body.origin_spacing.w, iteration) / max(length(change), 1e-30f));
+#else
+  return change;
+#endif
+}
+
+vec4 startedAnew(uint slot, vec3 du) {
+#ifdef CONTACT
+  if (contactCount(slot) != 0u) return vec4(outside(slot, du), -1.0f);
+#endif
+  return vec4(du, 0.0f);
+}
+
 void main() {
   uint i = globalIndex();
   if (i >= active_count) return;
   uint slot = active_nodes[i];
   bool was_plain = wasPlain(), plain = was_plain || (omega != 1.0f && wentWrong());
-  if (i == 0u && plain) guard[plainWord(iteration)] = 1u;
+  if (i == 0u && plain) {
+    guard[plainWord(iteration)] = 1u;
+    if (!was_plain) guard[changeWord(iteration)] = uint(guard[changeWord(0u)]);  // this iteration changes nothing
+  }
   vec4 now = texelFetch(increment, int(slot));
-  if (now.w != 0.0f) {
+  if (isPrescribed(now)) {
     next_increments[slot] = now;
     return;
   }
   NodeBits bits = nodes[slot];
   BodyParams body = bodies[bodyOf(bits)];
   if (plain && !was_plain) {  // what acceleration has spoilt starts anew
-    if (i == 0u) guard[changeWord(iteration)] = uint(guard[changeWord(0u)]);
-    next_increments[slot] = vec4(uintBitsToFloat(guard[0]) * freeIncrement(slot, body), 0.0f);
+    next_increments[slot] = startedAnew(slot, uintBitsToFloat(guard[0]) * freeIncrement(slot, body));
     return;
   }
-  vec4 p = pull(slot, bits, body, xyz(texelFetch(displacement, int(slot))), xyz(now));
-  vec3 change = xyz(p) / p.w;
-#ifdef VOLUME
-  change *= min(1.0f, reach(body.origin_spacing.w, iteration) / max(length(change), 1e-30f));
+  vec3 u = xyz(texelFetch(displacement, int(slot)));
+  vec4 p = pull(slot, bits, body, u, xyz(now));
+  vec3 change = notTooFar(xyz(p) / p.w, body);
+#ifdef CONTACT
+  findContacts(slot, u, xyz(now) + change);
+  bool in_contact = contactCount(slot) != 0u;
+  if (in_contact) change = notTooFar(stepInContact(slot, p.w, mat3(0.0f), xyz(now), xyz(p), true), body);
 #endif
   recordChange(change);
   vec3 next = xyz(now) + change;
@@ -104,6 +128,12 @@ void main() {
     vec3 before = xyz(next_increments[slot]);
     next = before + omega * (next - before);
   }
+#ifdef CONTACT
+  findContacts(slot, u, next);  // in which acceleration would end
+  in_contact = contactCount(slot) != 0u;
+  next_increments[slot] = in_contact ? vec4(outside(slot, next), -1.0f) : vec4(next, 0.0f);
+#else
   next_increments[slot] = vec4(next, 0.0f);
+#endif
 }
 #endif

@@ -5,7 +5,8 @@
 // Owner: solver/gpu/surroundings_pass.h
 // in  displacement, velocity [slots] after the integrator; displacement before it in the buffer that is written
 // out displacement, velocity [slots]
-// Features: WIND, BODY_FORCES, OBSTACLES, COLLISIONS (corrections of collision_push.comp), TOOLS (there are styluses).
+// Features: WIND, BODY_FORCES, OBSTACLES, COLLISIONS (corrections of collision_push.comp), TOOLS (there are styluses); BEFORE: it is
+// done before the integrator, which goes on from the velocities alone (implicit Euler; obstacles are within it).
 #include "layout.h"
 #include "lattice.glsl"
 #include "elastic.glsl"
@@ -14,6 +15,7 @@
 
 #ifndef __cplusplus
 uniform uint obstacle_count;
+uniform uint slot_count;
 uniform vec4 air;  // xyz wind [m/s]; w density times drag coefficient over 2 [kg/m3]
 layout(std430, binding = kBindActive) readonly buffer ActiveBuffer { uint active_nodes[]; };
 layout(std430, binding = kBindNodes) readonly buffer NodesBuffer { NodeBits nodes[]; };
@@ -24,12 +26,13 @@ layout(std140, binding = kBindBodyInfluences) uniform BodyInfluencesBlock { vec4
 #endif
 #ifdef OBSTACLES
 layout(std140, binding = kBindObstacles) uniform ObstaclesBlock { ObstacleMotion obstacles[kMaxObstacles]; };
+layout(std430, binding = kBindObstacleImpulses) buffer ObstacleImpulsesBuffer { vec4 obstacle_impulses[]; };
+void giveObstacle(uint obstacle, uint slot, vec3 impulse) { obstacle_impulses[obstacle * slot_count + slot] += vec4(impulse, 1.0f); }
 #endif
 #ifdef COLLISIONS
 layout(std430, binding = kBindCorrections) readonly buffer CorrectionsBuffer { vec4 corrections[]; };
 #endif
 #ifdef TOOLS
-uniform uint slot_count;
 layout(std430, binding = kBindImpulses) buffer ImpulsesBuffer { vec4 impulses[]; };
 void giveMomentum(uint stylus, uint slot, vec3 impulse) { impulses[stylus * slot_count + slot] += vec4(impulse, 1.0f); }
 #endif
@@ -112,6 +115,11 @@ void main() {
 #if defined(WIND) || defined(BODY_FORCES)
   vec3 kick = pushKick(slot, bits, u, v_next);
   v_next += kick;
+#ifdef BEFORE
+  next_displacement[slot] = vec4(u, 0.0f);
+  next_velocity[slot] = vec4(v_next, 0.0f);
+  return;
+#endif
   u_next += dt_s * kick;
 #endif
   vec3 u_before = xyz(next_displacement[slot]);
@@ -120,7 +128,13 @@ void main() {
   vec3 x = rest + u_before, x_next = rest + u_next;
   bool touched = false;
   for (uint o = 0u; o < obstacle_count; ++o) {
-    if (meetObstacle(obstacles[o], x, x_next, v_next)) touched = true;
+    vec3 v_free = v_next;
+    if (!meetObstacle(obstacles[o], x, x_next, v_next)) continue;
+    touched = true;
+    if (v_next == v_free) continue;
+    // The kick that this ends has drag in it: of the obstacle's momentum it let through 1 / (1 + gamma dt / 2).
+    BodyParams body = bodies[bodyOf(bits)];
+    giveObstacle(o, slot, (1.0f + 0.5f * body.drag_per_s * dt_s) * nodeMass(slot, bits, body) * (v_next - v_free));
   }
   if (touched) u_next = x_next - rest;
 #endif

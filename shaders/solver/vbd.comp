@@ -12,6 +12,9 @@
 #include "elastic.glsl"
 #include "step.glsl"
 #include "implicit.glsl"
+#ifdef CONTACT
+#include "implicit_contact.glsl"
+#endif
 
 #ifndef __cplusplus
 layout(std430, binding = kBindIncrement) writeonly buffer IncrementBuffer { vec4 increments[]; };
@@ -81,20 +84,6 @@ void addCells(uint slot, BodyParams body, INOUT(Block) block) {
 }
 #endif
 
-/// x of (diagonal 1 + a) x = b, a symmetric and not negative, by L D L^T.
-vec3 solved(float diagonal, mat3 a, vec3 b) {
-  float dx = diagonal + a[0].x;
-  float lxy = a[0].y / dx, lxz = a[0].z / dx;
-  float dy = (diagonal + a[1].y) - lxy * a[0].y;
-  float yz = a[1].z - lxy * a[0].z;
-  float lyz = yz / dy;
-  float dz = (diagonal + a[2].z) - lxz * a[0].z - lyz * yz;
-  float by = b.y - lxy * b.x, bz = b.z - lxz * b.x - lyz * by;
-  float z = bz / dz;
-  float y = by / dy - lyz * z;
-  return vec3(b.x / dx - lxy * y - lxz * z, y, z);
-}
-
 vec3 descent(float inertia_n_per_m, Block block) {
   vec3 s = solved(inertia_n_per_m + block.across, block.springs + block.bounded, block.force);
   float size = length(s);
@@ -104,20 +93,41 @@ vec3 descent(float inertia_n_per_m, Block block) {
   return sure ? s : solved(inertia_n_per_m + block.stiffness, block.bounded, block.force);
 }
 
+#ifdef CONTACT
+/// The same where contacts let the node be. Its model promises s H s / 2.
+vec3 descentInContact(uint slot, float inertia_n_per_m, Block block, vec3 du) {
+  float diagonal = inertia_n_per_m + block.across;
+  mat3 a = block.springs + block.bounded;
+  vec3 s = stepInContact(slot, diagonal, a, du, block.force, true);
+  float size = length(s);
+  bool sure = size <= kLongest * block.shortest &&
+              dot(s, diagonal * s + a * s) * block.shortest >= kSteep * block.stiffness * size * size * size;
+  return sure ? s : stepInContact(slot, inertia_n_per_m + block.stiffness, block.bounded, du, block.force, true);
+}
+#endif
+
 void main() {
   uint i = globalIndex();
   if (i >= active_count) return;
   uint slot = active_nodes[colour_first + i];
   vec4 start = texelFetch(increment, int(slot));
-  if (start.w != 0.0f) return;
-  vec3 du = xyz(start);
+  if (isPrescribed(start)) return;
+  vec3 du = xyz(start), u = xyz(texelFetch(displacement, int(slot)));
   NodeBits bits = nodes[slot];
   BodyParams body = bodies[bodyOf(bits)];
   float inertia_n_per_m = inertia(nodeMass(slot, bits, body), body);
   Block block = {inertia_n_per_m * (freeIncrement(slot, body) - du), mat3(0.0f), 0.0f, 0.0f, 1e30f, mat3(0.0f)};
-  addSprings(slot, bits, body, xyz(texelFetch(displacement, int(slot))), du, block);
+  addSprings(slot, bits, body, u, du, block);
 #ifdef VOLUME
   addCells(slot, body, block);
 #endif
-  increments[slot] = vec4(du + descent(inertia_n_per_m, block), 0.0f);
+  vec3 s = descent(inertia_n_per_m, block);
+#ifdef CONTACT
+  findContacts(slot, u, du + s);
+  if (contactCount(slot) != 0u) {
+    increments[slot] = vec4(du + descentInContact(slot, inertia_n_per_m, block, du), -1.0f);
+    return;
+  }
+#endif
+  increments[slot] = vec4(du + s, 0.0f);
 }

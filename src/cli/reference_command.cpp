@@ -11,10 +11,10 @@
 #include "math/one_line.h"
 #include "solver/gpu/gpu_solver.h"
 #include "solver/reference/reference_ticks.h"
-#include "solver/surroundings.h"
 #include "viscera/gpu/context.h"
 #include "viscera/math/error.h"
 #include "viscera/tools/hands.h"
+#include "viscera/tools/obstacles.h"
 
 namespace viscera::cli {
 
@@ -27,7 +27,7 @@ class Comparison {
  public:
   Comparison(const Model& model, Scene scene)
       : context_(scene.solver.device), solver_(model, ungoverned(std::move(scene))) {}
-  void step(const ToolMotions& motions) { solver_.step(motions); }
+  void step(const ToolMotions& motions, const ObstacleMotions& obstacles) { solver_.step(motions, obstacles); }
 
   /// Largest nodal error of displacement over the largest displacement.
   double error(const ReferenceSolver& truth) const {
@@ -63,10 +63,6 @@ void keepWorst(const ReferenceTicks& reference, double tick_hz, Extremes& worst)
 int runReference(const RunPlan& plan, bool compare) {
   const Progress progress = consoleProgress();
   const Model model = buildModel(plan.scene, progress);
-  const SurroundingsFeatures surroundings = surroundingsOf(model, plan.scene);
-  if (surroundings.any()) {
-    throw SceneError("--reference: float64 has no " + surroundingKeys(surroundings) + "; leave them out to compare");
-  }
   for (const Body& body : model.bodies) {
     for (const std::string& note : body.notes) std::cout << body.name << ": " << oneLine(note) << '\n';
   }
@@ -74,6 +70,7 @@ int runReference(const RunPlan& plan, bool compare) {
   resolveAnchors(strokes, model);
   const double tick_hz = plan.scene.solver.tick_hz;
   Tools tools(plan.scene.styluses, {waveSpeed(model) / tick_hz});
+  Obstacles obstacles(plan.scene.obstacles, waveSpeed(model) / tick_hz);
   ReferenceTicks reference(model, plan.scene);
   std::optional<Comparison> comparison;
   if (compare) comparison.emplace(model, plan.scene);
@@ -83,8 +80,9 @@ int runReference(const RunPlan& plan, bool compare) {
   for (uint64_t t = 0; t < plan.ticks; ++t) {
     const double time_s = static_cast<double>(t + 1) / tick_hz;
     const ToolMotions motions = tools.advance(strokes.at(time_s, plan.scene.styluses));
-    reference.step(motions);
-    if (comparison) comparison->step(motions);
+    obstacles.advance(static_cast<double>(t) / tick_hz, 1 / tick_hz);
+    reference.step(motions, obstacles.motions());
+    if (comparison) comparison->step(motions, obstacles.motions());
     keepWorst(reference, tick_hz, metrics.extremes);
     progress("simulating", static_cast<double>(t + 1) / static_cast<double>(plan.ticks));
   }

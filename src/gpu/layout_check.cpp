@@ -79,7 +79,8 @@ AT(ObstacleMotion, spin, 80);
 AT(ObstacleMotion, half_size, 96);
 AT(ObstacleMotion, info, 112);
 
-SIZE(TickStats, 128);
+SIZE(TickStats, 128 + 32 * kMaxObstacles);
+AT(TickStats, obstacle_impulse, 128);
 AT(TickStats, angular, 32);
 AT(TickStats, springs_cut, 64);
 AT(TickStats, nonfinite, 68);

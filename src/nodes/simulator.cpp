@@ -39,6 +39,7 @@ Simulator::Simulator(const SimulatorOptions& options, EndWatch& end)
       tool_frames_(options.scene.environment.tissue_frame, toolFrames(options.scene, options.publish.frame_prefix)),
       publisher_(node_, options.scene, options.publish, [this](std::exception_ptr error) { fail(error); }),
       ticks_(node_, options.scene, [this] { return publisher_.isViewed(); }),
+      obstacle_forces_(node_, options.scene),
       loop_(options.scene, ports(), reportProgress),
       services_(node_, options.scene.styluses, loop_.commands()),
       diagnostics_(node_, options.scene, loop_, {publisher_, wrenches_}, inputs_, obstacles_),
@@ -111,6 +112,7 @@ void Simulator::deliver(Frame&& frame, const StylusSamples& samples, bool live) 
   }
   tool_frames_.put(samples, publisher_.tickStamp());
   ticks_.publish(frame.tick);
+  obstacle_forces_.publish(frame, publisher_.tickStamp());
   publisher_.deliver(std::move(frame));
 }
 

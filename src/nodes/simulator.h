@@ -16,6 +16,7 @@
 
 #include "nodes/end_watch.h"
 #include "nodes/frame_publisher.h"
+#include "nodes/obstacle_force_publisher.h"
 #include "nodes/obstacle_frames.h"
 #include "nodes/simulation_loop.h"
 #include "nodes/simulator_diagnostics.h"
@@ -64,6 +65,7 @@ class Simulator {
   ToolFramePublisher tool_frames_;
   FramePublisher publisher_;
   TickPublisher ticks_;
+  ObstacleForcePublisher obstacle_forces_;
   std::atomic<bool> ready_{false};  ///< the session is made: devices may be listened to
   bool listening_ = false;
   uint64_t stalls_ = 0;  ///< that were warned of

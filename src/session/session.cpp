@@ -53,6 +53,7 @@ Session::Session(const Scene& scene, gpu::Context* context, const Progress& prog
   view_ = makeView(*solver_, model_, scene_, context);
   lookAtObstacles();
   for (const StylusConfig& stylus : scene_.styluses) limiters_.emplace_back(ForceLimits::of(stylus));
+  obstacle_forces_.resize(scene_.obstacles.size());
 }
 
 Session::~Session() = default;
@@ -168,6 +169,10 @@ void Session::collectStats(Frame& frame, bool wait) {
       extremes_.peak_force_n = std::max(extremes_.peak_force_n, raw.force_n.norm());
       reactions_[s] = limiters_[s].limit(raw, tick_s());
     }
+    for (size_t o = 0; o < obstacle_forces_.size(); ++o) {
+      obstacle_forces_[o] = {-xyz(stats_.obstacle_impulse[o]) / tick_s(), -xyz(stats_.obstacle_angular[o]) / tick_s(),
+                             false};
+    }
     extremes_.max_stretch =
         std::max(extremes_.max_stretch, static_cast<double>(floatFromBits(stats_.max_stretch_bits)));
     extremes_.max_speed_m_per_s =
@@ -179,6 +184,7 @@ void Session::collectStats(Frame& frame, bool wait) {
   frame.stats = stats_;
   frame.has_stats = has_stats_;
   frame.reactions = reactions_;
+  frame.obstacle_forces = obstacle_forces_;
   frame.poses_received = posesOf(judged_).received;
 }
 
@@ -192,6 +198,7 @@ void Session::reset() {
   lookAtObstacles();
   for (ForceLimiter& limiter : limiters_) limiter.reset();
   reactions_ = {};
+  obstacle_forces_.assign(obstacle_forces_.size(), Reaction{});
   stats_ = {};
   has_stats_ = false;
   extremes_ = {};

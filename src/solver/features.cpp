@@ -2,10 +2,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solver/features.h"
 
+#include <algorithm>
+
 #include "solver/substeps.h"
 #include "viscera/solver/material.h"
 
 namespace viscera {
+
+uint32_t contactRows(bool tools, uint32_t obstacles) {
+  return std::min<uint32_t>(layout::kMostContacts, (tools ? layout::kMaxStyluses : 0) + obstacles);
+}
 
 std::vector<std::string> FeatureSet::defines() const {
   std::vector<std::string> out = {"GROUP_SIZE " + std::to_string(group_size), "TEXELS"};
@@ -34,6 +40,7 @@ FeatureSet featuresOf(const Model& model, const Scene& scene, double dt_s, uint3
   features.parts = isHeterogeneous(model);
   features.compensated = isCompensated(scene.solver, dt_s);
   features.tools = !scene.styluses.empty();
+  features.obstacles = static_cast<uint32_t>(scene.obstacles.size());
   for (const Body& body : model.bodies) features.dashpot |= body.material.dashpot_ratio > 0;
   return features;
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "viscera/layout/limits.h"
+#include "viscera/layout/obstacle_motion.h"
 #include "viscera/model/model.h"
 
 namespace viscera {
@@ -23,11 +24,15 @@ struct FeatureSet {
   bool parts = false;        ///< strengths differ within a body
   bool compensated = false;  ///< u and v are summed with Kahan's compensation
   bool tools = false;        ///< there are styluses
+  uint32_t obstacles = 0;    ///< how many there are
   bool single_body = false;
   uint32_t group_size = layout::kGroupSize;
 
   std::vector<std::string> defines() const;
 };
+
+/// Contacts that a node may have at once with styluses and obstacles within an implicit integrator.
+uint32_t contactRows(bool tools, uint32_t obstacles);
 
 /// @param dt_s  shortest substep   @param group_size  invocations per group, on the GPU
 FeatureSet featuresOf(const Model& model, const Scene& scene, double dt_s, uint32_t group_size = layout::kGroupSize);

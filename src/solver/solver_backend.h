@@ -41,9 +41,15 @@ class SolverBackend : public ToolTarget {
   virtual void advance(const Substep& step, bool recovery) = 0;
   /// Tells of the tick that begins, only where there are surroundings.
   virtual void beginSurroundings(const Surroundings& surroundings) = 0;
-  /// What surrounds the tissue acts on the substep that advance() has just made.
+  /// Before an implicit substep: wind and forces give the velocities what they give in it. Only where there are any.
+  virtual void blow(const Substep& step, const Surroundings& surroundings) = 0;
+  /// What surrounds the tissue acts on the substep that advance() has just made; of an implicit one contacts between
+  /// nodes only: the rest was part of it.
   virtual void surround(const Substep& step, const Surroundings& surroundings) = 0;
-  /// Measures the current state: all of TickStats but impulse, angular and touched; these are cleared.
+  /// Sums what obstacles gave in the tick into the measurements. @param places  [obstacles] at its end, tissue frame
+  /// [m]
+  virtual void sumObstacles(const std::vector<Vector3f>& places) = 0;
+  /// Measures the current state: all of TickStats but what tools and obstacles gave; that is cleared.
   virtual void measure() = 0;
   /// Sums the tick's reactions into the measurements, in ticks in which a stylus touches. @param tips  tissue frame [m]
   virtual void sumReactions(const std::array<Vector3f, layout::kMaxStyluses>& tips) = 0;

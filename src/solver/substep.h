@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "viscera/layout/obstacle_motion.h"
 #include "viscera/math/types.h"
 
 namespace viscera {
@@ -16,6 +17,10 @@ struct Substep {
   bool tools = false;            ///< probe or held nodes are about: the kernel that knows them is used
   bool restarted = false;        ///< the state was written from outside since the last substep
   int index = 0;                 ///< of the tick's substeps
+  bool implicit = false;         ///< implicit Euler: what comes from outside is part of the solution
+  const layout::ObstacleMotion* obstacles = nullptr;  ///< [kMaxObstacles], of which obstacle_count are there
+  uint32_t obstacle_count = 0;
+  float resting_speed_m_per_s = 0;  ///< what comes slower at an obstacle or another node does not bounce
 };
 
 }  // namespace viscera

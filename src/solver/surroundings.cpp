@@ -115,7 +115,8 @@ Surroundings::Surroundings(const Model& model, const Scene& scene)
       wind_(scene.environment.wind),
       obstacles_(scene.obstacles),
       at_start_(Obstacles(scene.obstacles).motions()),
-      tick_motions_(at_start_) {
+      tick_motions_(at_start_),
+      places_(obstacles_.size(), Vector3f::Zero()) {
   const IntegratorTraits& traits = traitsOf(scene.solver.integrator);
   if (features_.any() && traits.own_positions) {
     throw SceneError("solver.integrator: " + std::string(traits.name) +
@@ -132,6 +133,7 @@ void Surroundings::beginTick(double tick_s, int substeps, const ObstacleMotions&
     const RigidMotion next = obstacles.empty() ? resting(tick_motions_[i]) : obstacles[i];
     moved_ |= !isSame(next, tick_motions_[i]);
     tick_motions_[i] = next;
+    places_[i] = next.to.position_m.cast<float>();
   }
   moved_ |= substeps != substeps_;
   substeps_ = substeps;

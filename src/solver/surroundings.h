@@ -41,6 +41,8 @@ class Surroundings {
   const SurroundingsFeatures& features() const { return features_; }
   /// May nodes be moved that are at rest? Then none may sleep.
   bool keepsAwake() const { return features_.any(); }
+  /// Does something blow or push at nodes, rather than meet them?
+  bool blows() const { return features_.wind || features_.forces; }
   size_t obstacleCount() const { return obstacles_.size(); }
 
   /// Goes on by a tick: at() is about its substeps.
@@ -52,7 +54,9 @@ class Surroundings {
     return motions_;
   }                                               ///< [substeps * kMaxObstacles]
   bool obstaclesMoved() const { return moved_; }  ///< obstacleMotions() is not that of the tick before
-  void reset();                                   ///< time 0
+  /// [obstacles] at the end of the tick, tissue frame [m]
+  const std::vector<Vector3f>& obstaclePlaces() const { return places_; }
+  void reset();  ///< time 0
 
  private:
   SurroundingsFeatures features_;
@@ -60,6 +64,7 @@ class Surroundings {
   std::vector<ObstacleConfig> obstacles_;
   ObstacleMotions at_start_, tick_motions_;  ///< at time 0; over the tick
   std::vector<layout::ObstacleMotion> motions_;
+  std::vector<Vector3f> places_;
   double time_s_ = 0, tick_s_ = 0;
   int substeps_ = 0;
   bool moved_ = true;

@@ -74,6 +74,7 @@ void Ticks::measureTick(const ToolMotions& motions, bool contacts) {
     backend_->sumReactions({motions[0].to.position_m.cast<float>(), motions[1].to.position_m.cast<float>()});
     acts_.endTick(*backend_, motions);
   }
+  if (surroundings_ && surroundings_->obstacleCount() > 0) backend_->sumObstacles(surroundings_->obstaclePlaces());
   if (watch_) watch_->guard(motions, recovering_);
 }
 
@@ -97,8 +98,17 @@ void Ticks::substep(int index, const ToolMotions& motions, bool cuts, bool conta
   step.tools = contacts;
   step.restarted = restarted_;
   step.index = index;
+  step.implicit = recovering_ || !traitsOf(config_.integrator).is_explicit;
+  step.resting_speed_m_per_s = restingSpeed(step);
+  if (surroundings_) {
+    step.obstacles = surroundings_->at(index).obstacles;
+    step.obstacle_count = static_cast<uint32_t>(surroundings_->obstacleCount());
+  }
+  if (surroundings_ && step.implicit && surroundings_->blows()) backend_->blow(step, *surroundings_);
   backend_->advance(step, recovering_);
-  if (surroundings_) backend_->surround(step, *surroundings_);
+  if (surroundings_ && (!step.implicit || surroundings_->features().collisions)) {
+    backend_->surround(step, *surroundings_);
+  }
   restarted_ = false;
   last_dt_s_ = dt_s;
 }

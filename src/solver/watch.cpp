@@ -65,6 +65,7 @@ layout::TickStats Watch::published() const {
   out.springs_cut = open_->stats->springs_cut;
   if (!bad && !open_->recovering) return out;
   for (uint32_t s = 0; s < layout::kMaxStyluses; ++s) out.impulse[s] = out.angular[s] = {};
+  for (uint32_t o = 0; o < layout::kMaxObstacles; ++o) out.obstacle_impulse[o] = out.obstacle_angular[o] = {};
   return out;
 }
 

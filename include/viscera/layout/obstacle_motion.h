@@ -25,6 +25,7 @@ const uint kShapePlane = 0u;
 const uint kShapeSphere = 1u;
 const uint kShapeCapsule = 2u;
 const uint kShapeBox = 3u;
+const uint kMostContacts = 3u;  // of a node with probes and obstacles at once, in implicit integrators
 
 #ifdef __cplusplus
 }  // namespace viscera::layout

@@ -4,6 +4,7 @@
 // What is measured once a tick.
 #ifndef VISCERA_LAYOUT_TICK_STATS_H
 #define VISCERA_LAYOUT_TICK_STATS_H
+#include "viscera/layout/limits.h"
 #include "viscera/layout/types.h"
 
 #ifdef __cplusplus
@@ -28,6 +29,8 @@ struct TickStats {
   float elastic_j;        // springs and volumes
   uint inverted;          // whole cells turned inside out
   uint pad[3];
+  vec4 obstacle_impulse[kMaxObstacles];  // xyz momentum given to the nodes by each obstacle over the tick [N s]; w nodes touched
+  vec4 obstacle_angular[kMaxObstacles];  // xyz its moment about the obstacle's place at the end of the tick [N m s]
 };
 
 #ifdef __cplusplus

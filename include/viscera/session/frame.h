@@ -63,6 +63,8 @@ struct Frame : Pictures {
   std::array<bool, layout::kMaxStyluses> held_back{};  ///< the stylus was faster than tissue can follow
   ToolMotions tools;                                   ///< of the tick: `to` is where the tools are shown
   std::vector<Pose> obstacles;                         ///< [obstacles] at the end of the tick, tissue frame
+  /// [obstacles] what the tissue does to each, not limited; torque about its place at the end of the tick. Of `stats`.
+  std::vector<Reaction> obstacle_forces;
 };
 
 /// A tick that is to be looked at.

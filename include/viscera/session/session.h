@@ -114,6 +114,7 @@ class Session {
   std::vector<ForceLimiter> limiters_;
   layout::TickStats stats_{};
   std::array<Reaction, layout::kMaxStyluses> reactions_;
+  std::vector<Reaction> obstacle_forces_;  ///< [obstacles]
   Extremes extremes_;
   bool has_stats_ = false;
   uint64_t tick_ = 0, ticks_ = 0;

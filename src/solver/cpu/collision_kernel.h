@@ -17,7 +17,7 @@ struct Item {
 /// What the texts of shaders/solver/collision_*.comp find in buffers and uniforms.
 struct CollisionKernel : Kernel {
   using Kernel::Kernel;
-  float resting_speed = 0, cell_m = 1, friction = 0, restitution = 0;
+  float cell_m = 1, friction = 0, restitution = 0;
   uint bucket_count = 1, partitions = 1, window = 0, sorted_count = 0;
   const uint* collidable = nullptr;
   const layout::vec4* body_influences = nullptr;

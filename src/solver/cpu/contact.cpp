@@ -32,7 +32,7 @@ Vector3f toEigen(const glsl::vec3& v) {
   return {v.x, v.y, v.z};
 }
 
-/// Momentum that one stylus gave to all nodes, and its moment about the tip.
+/// Momentum that one stylus or obstacle gave to all nodes, and its moment about the tip.
 struct Sum {
   Vector3d impulse = Vector3d::Zero(), angular = Vector3d::Zero();
   uint32_t touched = 0;
@@ -42,13 +42,15 @@ layout::vec4 rounded(const Vector3d& v, double w) {
   return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z()), static_cast<float>(w)};
 }
 
-void addBrick(CpuLattice& lattice, uint32_t brick, uint32_t stylus, const Vector3f& tip, Sum& sum) {
+/// @param impulses  [givers * slots] of which those of `giver` are summed and cleared   @param place  of the giver
+void addBrick(CpuLattice& lattice, std::vector<layout::vec4>& impulses, uint32_t brick, size_t giver,
+              const Vector3f& place_m, Sum& sum) {
   glsl::Contact place(lattice);
   for (uint32_t i = lattice.store.first_active[brick]; i < lattice.store.first_active[brick + 1]; ++i) {
     const uint32_t slot = lattice.store.active[i];
-    layout::vec4& given = lattice.hands.impulses[stylus * lattice.slotCount() + slot];
+    layout::vec4& given = impulses[giver * lattice.slotCount() + slot];
     if (given.w == 0) continue;
-    const Vector3f arm = toEigen(place.restPosition(slot) + glsl::xyz(place.displacement[slot])) - tip;
+    const Vector3f arm = toEigen(place.restPosition(slot) + glsl::xyz(place.displacement[slot])) - place_m;
     const Vector3d impulse(given.x, given.y, given.z);
     sum.impulse += impulse;
     sum.angular += arm.cast<double>().cross(impulse);
@@ -77,13 +79,29 @@ void sumReactions(CpuLattice& lattice, const std::array<Vector3f, layout::kMaxSt
   std::array<Sum, layout::kMaxStyluses> sums;
   for (uint32_t brick = 0; brick < lattice.hands.touched.size(); ++brick) {
     if (!lattice.hands.touched[brick]) continue;
-    for (uint32_t s = 0; s < layout::kMaxStyluses; ++s) addBrick(lattice, brick, s, tips[s], sums[s]);
+    for (uint32_t s = 0; s < layout::kMaxStyluses; ++s)
+      addBrick(lattice, lattice.hands.impulses, brick, s, tips[s], sums[s]);
     lattice.hands.touched[brick] = 0;
   }
   for (uint32_t s = 0; s < layout::kMaxStyluses; ++s) {
     stats.impulse[s] = rounded(sums[s].impulse, sums[s].touched);
     stats.angular[s] = rounded(sums[s].angular, 0);
     stats.touched[s] = sums[s].touched;
+  }
+}
+
+void sumObstacles(CpuLattice& lattice, const std::vector<Vector3f>& places, layout::TickStats& stats) {
+  std::array<Sum, layout::kMaxObstacles> sums;
+  for (uint32_t brick = 0; brick < lattice.hands.met.size(); ++brick) {
+    if (!lattice.hands.met[brick]) continue;
+    for (size_t o = 0; o < places.size(); ++o) {
+      addBrick(lattice, lattice.hands.obstacle_impulses, brick, o, places[o], sums[o]);
+    }
+    lattice.hands.met[brick] = 0;
+  }
+  for (size_t o = 0; o < places.size(); ++o) {
+    stats.obstacle_impulse[o] = rounded(sums[o].impulse, sums[o].touched);
+    stats.obstacle_angular[o] = rounded(sums[o].angular, 0);
   }
 }
 

@@ -151,6 +151,10 @@ void CpuBackend::advance(const Substep& step, bool recovery) {
   lattice_.swap();
 }
 
+void CpuBackend::blow(const Substep& step, const Surroundings& surroundings) {
+  surroundings_->blow(lattice_, step, surroundings);
+}
+
 void CpuBackend::surround(const Substep& step, const Surroundings& surroundings) {
   surroundings_->run(lattice_, step, surroundings);
 }
@@ -212,6 +216,10 @@ void CpuBackend::sumReactions(const std::array<Vector3f, layout::kMaxStyluses>& 
   viscera::sumReactions(lattice_, tips, stats_);
 }
 
+void CpuBackend::sumObstacles(const std::vector<Vector3f>& places) {
+  viscera::sumObstacles(lattice_, places, stats_);
+}
+
 bool CpuBackend::requestStats() {
   if (has_stats_) return false;
   has_stats_ = true;
@@ -241,6 +249,8 @@ void CpuBackend::changeAll() {
   if (surroundings_) surroundings_->restart();
   std::fill(lattice_.hands.impulses.begin(), lattice_.hands.impulses.end(), layout::vec4{});
   std::fill(lattice_.hands.touched.begin(), lattice_.hands.touched.end(), uint8_t{0});
+  std::fill(lattice_.hands.obstacle_impulses.begin(), lattice_.hands.obstacle_impulses.end(), layout::vec4{});
+  std::fill(lattice_.hands.met.begin(), lattice_.hands.met.end(), uint8_t{0});
   sleep_.wakeAll(lattice_);
 }
 

@@ -47,7 +47,9 @@ class CpuBackend : public SolverBackend {
   void cut(uint32_t stylus, bool particles) override;
   void advance(const Substep& step, bool recovery) override;
   void beginSurroundings(const Surroundings& /*surroundings*/) override {}
+  void blow(const Substep& step, const Surroundings& surroundings) override;
   void surround(const Substep& step, const Surroundings& surroundings) override;
+  void sumObstacles(const std::vector<Vector3f>& places) override;
   void measure() override;
   void sumReactions(const std::array<Vector3f, layout::kMaxStyluses>& tips) override;
   void guard(const Governor::Bounds& /*bounds*/, const ToolMotions& /*motions*/, double /*tick_s*/) override {}

@@ -41,6 +41,11 @@ CpuState::CpuState(size_t slots) {
 }
 
 CpuHands::CpuHands(const CpuStore& store, const FeatureSet& features) {
+  if (features.obstacles > 0) {
+    obstacle_impulses.resize(store.slotCount() * features.obstacles);
+    met.resize(store.brickCount());
+    obstacle_count = features.obstacles;
+  }
   if (!features.tools) return;
   grab_offsets.resize(store.slotCount());
   impulses.resize(store.slotCount() * layout::kMaxStyluses);
@@ -78,6 +83,8 @@ void CpuLattice::reset() {
   clear(hands.grab_offsets);
   clear(hands.impulses);
   clear(hands.touched);
+  clear(hands.obstacle_impulses);
+  clear(hands.met);
   state.current = 0;
   links.writeSpringCut({});
   strengths.refreshAll(store);

@@ -22,14 +22,17 @@ struct CpuState {
   int current = 0;
 };
 
-/// What styluses hold and give; all empty without any.
+/// What styluses hold and give, empty without any; and what obstacles give.
 struct CpuHands {
   CpuHands(const CpuStore& store, const FeatureSet& features);
 
-  std::vector<layout::vec4> grab_offsets;  ///< [slots] m, stylus frame
-  std::vector<layout::vec4> impulses;      ///< [kMaxStyluses * slots] N s, w substeps of contact
-  std::vector<uint8_t> touched;            ///< [bricks] some of its impulses are not 0
-  std::vector<uint8_t> held;               ///< [bricks] nodes of it are held
+  std::vector<layout::vec4> grab_offsets;       ///< [slots] m, stylus frame
+  std::vector<layout::vec4> impulses;           ///< [kMaxStyluses * slots] N s, w substeps of contact
+  std::vector<uint8_t> touched;                 ///< [bricks] some of its impulses are not 0
+  std::vector<uint8_t> held;                    ///< [bricks] nodes of it are held
+  std::vector<layout::vec4> obstacle_impulses;  ///< [obstacles * slots] N s, w substeps of contact; empty without any
+  std::vector<uint8_t> met;                     ///< [bricks] some of these are not 0
+  uint32_t obstacle_count = 0;
 };
 
 /// Explicit connections; all empty without any.

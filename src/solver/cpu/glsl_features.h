@@ -22,3 +22,5 @@
 #define WITH_TOOLS (1 << 13)
 #define WITH_VOLUME (1 << 14)
 #define WITH_WIND (1 << 15)
+#define WITH_CONTACT (1 << 20)
+#define WITH_BEFORE (1 << 21)

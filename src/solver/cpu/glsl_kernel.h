@@ -6,6 +6,7 @@
 #include "solver/cpu/glsl.h"
 #include "solver/cpu/glsl_features.h"
 #include "solver/substep.h"
+#include "viscera/layout/obstacle_motion.h"
 
 namespace viscera::glsl {
 
@@ -84,6 +85,8 @@ struct Kernel {
         grab_offsets(lattice.hands.grab_offsets),
         impulses_(lattice.hands.impulses.data()),
         touched_(lattice.hands.touched.data()),
+        obstacle_impulses_(lattice.hands.obstacle_impulses.data()),
+        met_(lattice.hands.met.data()),
         bricks_(lattice.store.bricks.data()),
         stiffness_(lattice.strengths.stiffness.data()),
         mass_(lattice.strengths.mass.data()),
@@ -101,6 +104,9 @@ struct Kernel {
     gravity = vec3(step.gravity.x(), step.gravity.y(), step.gravity.z());
     sleep_distance_m = step.sleep_distance_m;
     push_speed = step.push_speed_m_per_s;
+    resting_speed = step.resting_speed_m_per_s;
+    obstacles = step.obstacles;
+    obstacle_count = step.obstacle_count;
   }
 
   uint index = 0;
@@ -114,9 +120,11 @@ struct Kernel {
   Planes displacement, velocity, next_displacement, next_velocity;
   bool has_moments;
   uint cell_vectors;
-  float dt_s = 0, kick_s = 0, sleep_distance_m = 0, push_speed = 0;
+  float dt_s = 0, kick_s = 0, sleep_distance_m = 0, push_speed = 0, resting_speed = 0;
   vec3 gravity = vec3(0);
   const ToolMotion* tool_motions = nullptr;
+  const ObstacleMotion* obstacles = nullptr;
+  uint obstacle_count = 0;
   Vectors grab_offsets;
   vec4* cell_forces = nullptr;
 
@@ -150,10 +158,17 @@ struct Kernel {
     sum = {sum.x + impulse.x, sum.y + impulse.y, sum.z + impulse.z, sum.w + 1};
     touched_[slot >> 6] = 1;
   }
+  void giveObstacle(uint obstacle, uint slot, const vec3& impulse) {
+    layout::vec4& sum = obstacle_impulses_[obstacle * slot_count + slot];
+    sum = {sum.x + impulse.x, sum.y + impulse.y, sum.z + impulse.z, sum.w + 1};
+    met_[slot >> 6] = 1;
+  }
 
  private:
   layout::vec4* impulses_;
   uint8_t* touched_;
+  layout::vec4* obstacle_impulses_;
+  uint8_t* met_;
   const Brick* bricks_;
   const float *stiffness_, *mass_, *bulk_, *rigidity_;
   const JoinedMoments* moments_;

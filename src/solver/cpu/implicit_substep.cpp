@@ -14,10 +14,10 @@ namespace {
 #define VARIANT_FEATURES WITH_DASHPOT
 #include "solver/cpu/glsl_variant.inc"
 
-#define VARIANT_NAME BeginWithTools
+#define VARIANT_NAME BeginContact
 #define VARIANT_BASE ImplicitKernel
 #define VARIANT_TEXT "shaders/solver/implicit_begin.comp"
-#define VARIANT_FEATURES WITH_DASHPOT | WITH_TOOLS
+#define VARIANT_FEATURES WITH_DASHPOT | WITH_EVERY_CONTACT
 #include "solver/cpu/glsl_variant.inc"
 
 #define VARIANT_NAME Guess
@@ -32,6 +32,18 @@ namespace {
 #define VARIANT_FEATURES WITH_DASHPOT | WITH_VOLUME
 #include "solver/cpu/glsl_variant.inc"
 
+#define VARIANT_NAME GuessContact
+#define VARIANT_BASE ImplicitKernel
+#define VARIANT_TEXT "shaders/solver/implicit_guess.comp"
+#define VARIANT_FEATURES WITH_DASHPOT | WITH_EVERY_CONTACT
+#include "solver/cpu/glsl_variant.inc"
+
+#define VARIANT_NAME GuessContactVolumes
+#define VARIANT_BASE ImplicitKernel
+#define VARIANT_TEXT "shaders/solver/implicit_guess.comp"
+#define VARIANT_FEATURES WITH_DASHPOT | WITH_EVERY_CONTACT | WITH_VOLUME
+#include "solver/cpu/glsl_variant.inc"
+
 #define VARIANT_NAME Choose
 #define VARIANT_BASE ImplicitKernel
 #define VARIANT_TEXT "shaders/solver/implicit_fold.comp"
@@ -41,6 +53,12 @@ namespace {
 #define VARIANT_BASE ImplicitKernel
 #define VARIANT_TEXT "shaders/solver/implicit_scale.comp"
 #define VARIANT_FEATURES WITH_DASHPOT
+#include "solver/cpu/glsl_variant.inc"
+
+#define VARIANT_NAME ScaleContact
+#define VARIANT_BASE ImplicitKernel
+#define VARIANT_TEXT "shaders/solver/implicit_scale.comp"
+#define VARIANT_FEATURES WITH_DASHPOT | WITH_EVERY_CONTACT
 #include "solver/cpu/glsl_variant.inc"
 
 #define VARIANT_NAME Cells
@@ -55,25 +73,35 @@ namespace {
 #define VARIANT_FEATURES WITH_DASHPOT
 #include "solver/cpu/glsl_variant.inc"
 
-#define VARIANT_NAME EndWithTools
+#define VARIANT_NAME EndContact
 #define VARIANT_BASE ImplicitKernel
 #define VARIANT_TEXT "shaders/solver/implicit_end.comp"
-#define VARIANT_FEATURES WITH_DASHPOT | WITH_TOOLS
+#define VARIANT_FEATURES WITH_DASHPOT | WITH_EVERY_CONTACT
 #include "solver/cpu/glsl_variant.inc"
 
-#define VARIANT_NAME EndWithToolsVolumes
+#define VARIANT_NAME EndContactVolumes
 #define VARIANT_BASE ImplicitKernel
 #define VARIANT_TEXT "shaders/solver/implicit_end.comp"
-#define VARIANT_FEATURES WITH_DASHPOT | WITH_TOOLS | WITH_VOLUME
+#define VARIANT_FEATURES WITH_DASHPOT | WITH_EVERY_CONTACT | WITH_VOLUME
 #include "solver/cpu/glsl_variant.inc"
 
 }  // namespace
 
 }  // namespace glsl
 
+namespace {
+
+constexpr layout::ToolMotion kNoMotions[layout::kMaxStyluses] = {};
+
+}  // namespace
+
 CpuImplicitSubstep::CpuImplicitSubstep(const CpuLattice& lattice, const Parallel& parallel, int iterations,
                                        int iterates)
-    : guard(1 + 2 * static_cast<size_t>(iterations)), parallel_(parallel), energies_(nodeJobs(lattice)) {
+    : guard(1 + 2 * static_cast<size_t>(iterations)),
+      parallel_(parallel),
+      contact_rows_(contactRows(!lattice.hands.impulses.empty(), lattice.hands.obstacle_count)),
+      contacts_(3 * lattice.slotCount() * contact_rows_, glsl::vec4(0)),
+      energies_(nodeJobs(lattice)) {
   for (int i = 0; i < iterates; ++i) increments_[i].assign(lattice.slotCount(), glsl::vec4(0));
   if (!lattice.strengths.bulk.empty())
     cell_forces_.assign(lattice.strengths.cellVectors() * lattice.slotCount(), glsl::vec4(0));
@@ -81,8 +109,9 @@ CpuImplicitSubstep::CpuImplicitSubstep(const CpuLattice& lattice, const Parallel
 
 void CpuImplicitSubstep::begin(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions) {
   for (glsl::Word& word : guard) word = 0;
-  if (step.tools) {
-    runNodes(parallel_, lattice, kernel<glsl::BeginWithTools>(lattice, step, motions));
+  motions_ = step.tools ? motions : kNoMotions;
+  if (hasContacts(step)) {
+    runNodes(parallel_, lattice, kernel<glsl::BeginContact>(lattice, step));
   } else {
     runNodes(parallel_, lattice, kernel<glsl::Begin>(lattice, step));
   }
@@ -115,10 +144,11 @@ void CpuImplicitSubstep::sumEnergies(CpuLattice& lattice, const Substep& step) {
 }
 
 void CpuImplicitSubstep::keepBestShare(CpuLattice& lattice, const Substep& step, bool bound_energy) {
-  if (cell_forces_.empty()) {
-    sumEnergies<glsl::Guess>(lattice, step);
+  const bool volumes = !cell_forces_.empty();
+  if (hasContacts(step)) {
+    volumes ? sumEnergies<glsl::GuessContactVolumes>(lattice, step) : sumEnergies<glsl::GuessContact>(lattice, step);
   } else {
-    sumEnergies<glsl::GuessVolumes>(lattice, step);
+    volumes ? sumEnergies<glsl::GuessVolumes>(lattice, step) : sumEnergies<glsl::Guess>(lattice, step);
   }
   glsl::dvec4 potential(0), energy(0);
   for (const Energies& sum : energies_) {
@@ -129,18 +159,22 @@ void CpuImplicitSubstep::keepBestShare(CpuLattice& lattice, const Substep& step,
   choose.bound_energy = bound_energy ? 1 : 0;
   const int best = choose.bestShare(glsl::vec4(potential), glsl::vec4(energy));
   guard[0] = glsl::floatBitsToUint(choose.kShares[best]);
-  runNodes(parallel_, lattice, kernel<glsl::Scale>(lattice, step));
+  if (hasContacts(step)) {
+    runNodes(parallel_, lattice, kernel<glsl::ScaleContact>(lattice, step));
+  } else {
+    runNodes(parallel_, lattice, kernel<glsl::Scale>(lattice, step));
+  }
 }
 
-void CpuImplicitSubstep::end(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions) {
+void CpuImplicitSubstep::end(CpuLattice& lattice, const Substep& step) {
   keepBestShare(lattice, step, !step.tools);  // tools may bring energy in
-  if (!step.tools) {
+  if (!hasContacts(step)) {
     runNodes(parallel_, lattice, kernel<glsl::End>(lattice, step));
   } else if (cell_forces_.empty()) {
-    runNodes(parallel_, lattice, kernel<glsl::EndWithTools>(lattice, step, motions));
+    runNodes(parallel_, lattice, kernel<glsl::EndContact>(lattice, step));
   } else {
-    updateVolumes(lattice, step, 0);  // held nodes' momentum needs them
-    runNodes(parallel_, lattice, kernel<glsl::EndWithToolsVolumes>(lattice, step, motions));
+    updateVolumes(lattice, step, 0);  // the momentum of who holds or touches needs them
+    runNodes(parallel_, lattice, kernel<glsl::EndContactVolumes>(lattice, step));
   }
 }
 

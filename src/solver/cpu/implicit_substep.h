@@ -8,6 +8,9 @@
 #include "solver/cpu/cpu_stepper.h"
 #include "solver/cpu/glsl_kernel.h"
 
+/// Probes and obstacles: what a scene has none of does nothing.
+#define WITH_EVERY_CONTACT WITH_CONTACT | WITH_TOOLS | WITH_OBSTACLES
+
 namespace viscera {
 
 namespace glsl {
@@ -28,6 +31,8 @@ struct ImplicitKernel : Kernel {
   vec4* increments = nullptr;  // the same buffer, to write
   vec4* next_increments = nullptr;
   vec4* cell_forces_out = nullptr;
+  vec4* node_contacts = nullptr;
+  uint contact_rows = 0;
   Window energies;
   uint iteration = 0, colour_first = 0, bound_energy = 0;
   float omega = 1;
@@ -85,17 +90,21 @@ class CpuImplicitSubstep {
   CpuImplicitSubstep(const CpuLattice& lattice, const Parallel& parallel, int iterations, int iterates);
 
   void begin(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions);
-  void end(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions);
+  void end(CpuLattice& lattice, const Substep& step);
+  /// May nodes be in contact, or held, in this substep?
+  bool hasContacts(const Substep& step) const { return step.tools || step.obstacle_count > 0; }
   void swap() { current_ = 1 - current_; }
   /// Forces and majorisers of the cells in the current iterate, for the iteration that follows.
   void updateVolumes(CpuLattice& lattice, const Substep& step, int iteration);
 
   /// A kernel that works on this substep, told of it.
   template <class Kernel>
-  Kernel kernel(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions = nullptr) {
+  Kernel kernel(CpuLattice& lattice, const Substep& step) {
     Kernel out(lattice);
     out.tell(step);
-    out.tool_motions = motions;
+    out.tool_motions = motions_;
+    out.node_contacts = contacts_.data();
+    out.contact_rows = contact_rows_;
     out.guard = guard.data();
     out.increments = increments_[current_].data();
     out.increment = out.increments;
@@ -115,7 +124,10 @@ class CpuImplicitSubstep {
   const Parallel& parallel_;
   std::vector<glsl::vec4> increments_[2];  ///< [slots] xyz m; w 1 where prescribed; the second with two iterates
   std::vector<glsl::vec4> cell_forces_;    ///< [cellVectors() * slots] N, see shaders/solver/volume.comp; or empty
-  std::vector<Energies> energies_;         ///< [jobs]
+  uint32_t contact_rows_;                  ///< contacts that a node may have at once
+  std::vector<glsl::vec4> contacts_;       ///< [3 * rows * slots], see shaders/solver/implicit_contact.glsl
+  const layout::ToolMotion* motions_ = nullptr;  ///< of this substep
+  std::vector<Energies> energies_;               ///< [jobs]
   int current_ = 0;
 };
 

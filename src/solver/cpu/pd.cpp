@@ -20,6 +20,18 @@ namespace {
 #define VARIANT_FEATURES WITH_DASHPOT | WITH_VOLUME
 #include "solver/cpu/glsl_variant.inc"
 
+#define VARIANT_NAME SweepContact
+#define VARIANT_BASE ImplicitKernel
+#define VARIANT_TEXT "shaders/solver/pd.comp"
+#define VARIANT_FEATURES WITH_DASHPOT | WITH_EVERY_CONTACT
+#include "solver/cpu/glsl_variant.inc"
+
+#define VARIANT_NAME SweepContactVolumes
+#define VARIANT_BASE ImplicitKernel
+#define VARIANT_TEXT "shaders/solver/pd.comp"
+#define VARIANT_FEATURES WITH_DASHPOT | WITH_EVERY_CONTACT | WITH_VOLUME
+#include "solver/cpu/glsl_variant.inc"
+
 #define VARIANT_NAME Rate
 #define VARIANT_BASE ImplicitKernel
 #define VARIANT_TEXT "shaders/solver/pd.comp"
@@ -76,14 +88,17 @@ void CpuPd::run(CpuLattice& lattice, const Substep& step, const layout::ToolMoti
   for (int iteration = 0; iteration < options_.iterations; ++iteration) {
     implicit_.updateVolumes(lattice, step, iteration);
     weight = options_.accelerated ? chebyshevWeight(iteration, weight, rho) : 1;
-    if (lattice.strengths.bulk.empty()) {
-      sweep<glsl::Sweep>(lattice, step, iteration, weight);
+    const bool volumes = !lattice.strengths.bulk.empty();
+    if (implicit_.hasContacts(step)) {
+      volumes ? sweep<glsl::SweepContactVolumes>(lattice, step, iteration, weight)
+              : sweep<glsl::SweepContact>(lattice, step, iteration, weight);
     } else {
-      sweep<glsl::SweepVolumes>(lattice, step, iteration, weight);
+      volumes ? sweep<glsl::SweepVolumes>(lattice, step, iteration, weight)
+              : sweep<glsl::Sweep>(lattice, step, iteration, weight);
     }
     implicit_.swap();
   }
-  implicit_.end(lattice, step, motions);
+  implicit_.end(lattice, step);
 }
 
 std::vector<float> CpuPd::changes() const {

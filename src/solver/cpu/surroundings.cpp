@@ -71,11 +71,8 @@ struct PairsKernel : CollisionKernel {
 
 struct SurroundingsKernel : Kernel {
   using Kernel::Kernel;
-  float resting_speed = 0;
-  uint obstacle_count = 0;
   vec4 air = vec4(0);
   const layout::vec4* body_influences = nullptr;
-  const ObstacleMotion* obstacles = nullptr;
   const vec4* corrections = nullptr;
   const uint* ring_starts = nullptr;
   const WindTriangle* rings = nullptr;
@@ -93,6 +90,18 @@ struct SurroundingsKernel : Kernel {
 #define VARIANT_BASE SurroundingsKernel
 #define VARIANT_TEXT "shaders/solver/surroundings.comp"
 #define VARIANT_FEATURES WITH_WIND | WITH_BODY_FORCES | WITH_OBSTACLES | WITH_COLLISIONS | WITH_TOOLS
+#include "solver/cpu/glsl_variant.inc"
+
+#define VARIANT_NAME Blow
+#define VARIANT_BASE SurroundingsKernel
+#define VARIANT_TEXT "shaders/solver/surroundings.comp"
+#define VARIANT_FEATURES WITH_BEFORE | WITH_WIND | WITH_BODY_FORCES | WITH_TOOLS
+#include "solver/cpu/glsl_variant.inc"
+
+#define VARIANT_NAME Collide
+#define VARIANT_BASE SurroundingsKernel
+#define VARIANT_TEXT "shaders/solver/surroundings.comp"
+#define VARIANT_FEATURES WITH_COLLISIONS | WITH_TOOLS
 #include "solver/cpu/glsl_variant.inc"
 
 }  // namespace
@@ -130,7 +139,6 @@ struct CpuSurroundings::Work {
   Kernel kernel(CpuLattice& lattice, const Substep& step) {
     Kernel out(lattice);
     out.tell(step);
-    out.resting_speed = restingSpeed(step);
     out.cell_m = cell_m;
     out.friction = static_cast<float>(collision.friction);
     out.restitution = static_cast<float>(collision.restitution);
@@ -227,9 +235,6 @@ void CpuSurroundings::apply(CpuLattice& lattice, const Substep& step, const Surr
   const SubstepSurroundings now = surroundings.at(step.index);
   Kernel kernel(lattice);
   kernel.tell(step);
-  kernel.resting_speed = restingSpeed(step);
-  kernel.obstacle_count = static_cast<uint32_t>(surroundings.obstacleCount());
-  kernel.obstacles = now.obstacles;
   const Vector3f& wind = now.wind_m_per_s;
   const float air = 0.5f * static_cast<float>(work_->wind.air_density_kg_per_m3 * work_->wind.drag_coefficient);
   kernel.air = glsl::vec4(wind.x(), wind.y(), wind.z(), air);
@@ -241,10 +246,16 @@ void CpuSurroundings::apply(CpuLattice& lattice, const Substep& step, const Surr
   runNodes(parallel_, lattice, kernel);
 }
 
+void CpuSurroundings::blow(CpuLattice& lattice, const Substep& step, const Surroundings& surroundings) {
+  apply<glsl::Blow>(lattice, step, surroundings);
+  lattice.swap();
+}
+
 void CpuSurroundings::run(CpuLattice& lattice, const Substep& step, const Surroundings& surroundings) {
   if (kinds_.collisions) {
     collide(lattice, step);
-    apply<glsl::SurroundAndCollide>(lattice, step, surroundings);
+    step.implicit ? apply<glsl::Collide>(lattice, step, surroundings)
+                  : apply<glsl::SurroundAndCollide>(lattice, step, surroundings);
   } else {
     apply<glsl::Surround>(lattice, step, surroundings);
   }

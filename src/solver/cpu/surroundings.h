@@ -24,7 +24,10 @@ class CpuSurroundings {
   CpuSurroundings(const Model& model, const Scene& scene, const CpuLattice& lattice, const Parallel& parallel,
                   double list_margin = kListMargin);
   ~CpuSurroundings();
+  /// Before an implicit substep: wind and forces change the velocities.
+  void blow(CpuLattice& lattice, const Substep& step, const Surroundings& surroundings);
   /// current state -> other state, which becomes the current one. The other one must hold the state before the substep.
+  /// After an implicit one contacts between nodes only.
   void run(CpuLattice& lattice, const Substep& step, const Surroundings& surroundings);
   /// The state was written from outside: what contacts did in the last substep is forgotten. Nodes that may touch
   /// nobody any more, as their springs are whole again, would keep it for ever.

@@ -59,4 +59,7 @@ void resolveContact(CpuLattice& lattice, uint32_t slot, const layout::ToolMotion
 void sumReactions(CpuLattice& lattice, const std::array<Vector3f, layout::kMaxStyluses>& tips,
                   layout::TickStats& stats);
 
+/// The same of what obstacles gave. @param places  [obstacles] at the end of the tick, tissue frame [m]
+void sumObstacles(CpuLattice& lattice, const std::vector<Vector3f>& places, layout::TickStats& stats);
+
 }  // namespace viscera

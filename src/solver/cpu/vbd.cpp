@@ -20,6 +20,18 @@ namespace {
 #define VARIANT_FEATURES WITH_DASHPOT | WITH_VOLUME
 #include "solver/cpu/glsl_variant.inc"
 
+#define VARIANT_NAME DescendContact
+#define VARIANT_BASE ImplicitKernel
+#define VARIANT_TEXT "shaders/solver/vbd.comp"
+#define VARIANT_FEATURES WITH_DASHPOT | WITH_EVERY_CONTACT
+#include "solver/cpu/glsl_variant.inc"
+
+#define VARIANT_NAME DescendContactVolumes
+#define VARIANT_BASE ImplicitKernel
+#define VARIANT_TEXT "shaders/solver/vbd.comp"
+#define VARIANT_FEATURES WITH_DASHPOT | WITH_EVERY_CONTACT | WITH_VOLUME
+#include "solver/cpu/glsl_variant.inc"
+
 }  // namespace
 
 }  // namespace glsl
@@ -44,13 +56,14 @@ void CpuVbd::sweep(CpuLattice& lattice, const Substep& step) {
 void CpuVbd::run(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions) {
   implicit_.begin(lattice, step, motions);
   for (int iteration = 0; iteration < iterations_; ++iteration) {
-    if (lattice.strengths.bulk.empty()) {
-      sweep<glsl::Descend>(lattice, step);
+    const bool volumes = !lattice.strengths.bulk.empty();
+    if (implicit_.hasContacts(step)) {
+      volumes ? sweep<glsl::DescendContactVolumes>(lattice, step) : sweep<glsl::DescendContact>(lattice, step);
     } else {
-      sweep<glsl::DescendVolumes>(lattice, step);
+      volumes ? sweep<glsl::DescendVolumes>(lattice, step) : sweep<glsl::Descend>(lattice, step);
     }
   }
-  implicit_.end(lattice, step, motions);
+  implicit_.end(lattice, step);
 }
 
 }  // namespace viscera

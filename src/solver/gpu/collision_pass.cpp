@@ -72,7 +72,7 @@ void CollisionPass::tell(const gpu::Program& program, const LatticeBuffers& buff
   program.set("active_count", static_cast<uint32_t>(buffers.store.active_count));
   program.set("dt_s", step.dt_s);
   program.set("push_speed", step.push_speed_m_per_s);
-  program.set("resting_speed", restingSpeed(step));
+  program.set("resting_speed", step.resting_speed_m_per_s);
   program.set("cell_m", cell_m_);
   program.set("bucket_count", bucket_count_);
   program.set("friction", static_cast<float>(config_.friction));

@@ -31,6 +31,7 @@ GpuBackend::GpuBackend(const Model& model, const Scene& scene, const TickPlan& p
     recovery_->good.save(buffers_);
   }
   if (plan.surroundings) surroundings_.emplace(model, scene, features_, buffers_);
+  if (features_.obstacles > 0) obstacle_reaction_.emplace(features_, buffers_.store.active_count, true);
   if (plan.tools) {
     const size_t rows = static_cast<size_t>(plan.mostSubsteps()) * layout::kMaxStyluses;
     tools_.emplace(Tools{gpu::Buffer<layout::ToolMotion>(rows, "tool motions"), GrabPass(features_), CutPass(features_),
@@ -66,12 +67,23 @@ void GpuBackend::cut(uint32_t stylus, bool particles) {
 void GpuBackend::advance(const Substep& step, bool recovery) {
   const gpu::TimedStage timed(gpu::Stage::kStep);
   Stepper& stepper = recovery ? *recovery_->stepper : *stepper_;
+  if (surroundings_ && step.implicit) surroundings_->bindObstacles(step);
   stepper.run(buffers_, step);
   buffers_.swap();
 }
 
 void GpuBackend::beginSurroundings(const Surroundings& surroundings) {
   surroundings_->beginTick(surroundings);
+}
+
+void GpuBackend::blow(const Substep& step, const Surroundings& surroundings) {
+  const gpu::TimedStage timed(gpu::Stage::kStep);
+  surroundings_->blow(buffers_, step, surroundings);
+}
+
+void GpuBackend::sumObstacles(const std::vector<Vector3f>& places) {
+  const gpu::TimedStage timed(gpu::Stage::kReaction);
+  obstacle_reaction_->runObstacles(buffers_, places);
 }
 
 void GpuBackend::surround(const Substep& step, const Surroundings& surroundings) {
@@ -162,6 +174,7 @@ void GpuBackend::saveGood() {
 void GpuBackend::restoreGood(int back) {
   recovery_->good.restore(buffers_, back);
   if (buffers_.hands.impulses.size()) buffers_.hands.impulses.clear();
+  if (buffers_.hands.obstacle_impulses.size()) buffers_.hands.obstacle_impulses.clear();
   if (surroundings_) surroundings_->restart();
 }
 

@@ -48,7 +48,9 @@ class GpuBackend final : public SolverBackend {
   void cut(uint32_t stylus, bool particles) override;
   void advance(const Substep& step, bool recovery) override;
   void beginSurroundings(const Surroundings& surroundings) override;
+  void blow(const Substep& step, const Surroundings& surroundings) override;
   void surround(const Substep& step, const Surroundings& surroundings) override;
+  void sumObstacles(const std::vector<Vector3f>& places) override;
   void measure() override;
   void sumReactions(const std::array<Vector3f, layout::kMaxStyluses>& tips) override;
   void guard(const Governor::Bounds& bounds, const ToolMotions& motions, double tick_s) override;
@@ -85,6 +87,7 @@ class GpuBackend final : public SolverBackend {
   const bool has_springs_;  ///< of nodes that may move, in the whole tissue
   bool foreign_ = false;    ///< the state was written in: it may have no springs left
   std::optional<SurroundingsPass> surroundings_;
+  std::optional<ReactionPass> obstacle_reaction_;
   std::optional<Tools> tools_;
   std::optional<Recovery> recovery_;
   gpu::ReadbackRing stats_ring_;

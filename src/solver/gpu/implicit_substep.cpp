@@ -14,10 +14,12 @@ constexpr size_t kEnergiesPerNode = 2;  // shares.glsl: ENERGIES_PER_NODE
 
 }  // namespace
 
-std::vector<std::string> ImplicitSubstep::defines(const FeatureSet& features, const char* more) {
+std::vector<std::string> ImplicitSubstep::defines(const FeatureSet& features, bool tools) {
   std::vector<std::string> out = features.defines();
   out.push_back("INCREMENT");
-  if (more) out.push_back(more);
+  if (tools) out.push_back("TOOLS");
+  if (features.obstacles > 0) out.push_back("OBSTACLES");
+  if (tools || features.obstacles > 0) out.push_back("CONTACT");
   return out;
 }
 
@@ -25,20 +27,22 @@ ImplicitSubstep::ImplicitSubstep(const FeatureSet& features, const LatticeBuffer
                                  int iterates)
     : guard(1 + 2 * static_cast<size_t>(iterations)),
       energies_(kEnergiesPerNode * (buffers.store.active_count + sumTreeSize(buffers.store.active_count)), "energies"),
-      group_size_(features.group_size) {
-  const auto stage = [&](const char* name, bool tools = false) {
-    return gpu::Program::compute(name, defines(features, tools ? "TOOLS" : nullptr));
-  };
-  begin_ = stage("implicit_begin.comp");
-  guess_ = stage("implicit_guess.comp");
-  fold_ = stage("implicit_fold.comp");
-  scale_ = stage("implicit_scale.comp");
-  end_ = stage("implicit_end.comp");
-  if (features.tools) {
-    begin_with_tools_ = stage("implicit_begin.comp", true);
-    end_with_tools_ = stage("implicit_end.comp", true);
+      group_size_(features.group_size),
+      contact_rows_(contactRows(features.tools, features.obstacles)),
+      obstacles_(features.obstacles > 0) {
+  for (int tools = 0; tools < (features.tools ? 2 : 1); ++tools) {
+    const std::vector<std::string> known = defines(features, tools != 0);
+    begin_[tools] = gpu::Program::compute("implicit_begin.comp", known);
+    guess_[tools] = gpu::Program::compute("implicit_guess.comp", known);
+    scale_[tools] = gpu::Program::compute("implicit_scale.comp", known);
+    end_[tools] = gpu::Program::compute("implicit_end.comp", known);
   }
-  if (features.volume) cells_ = stage("implicit_cells.comp");
+  fold_ = gpu::Program::compute("implicit_fold.comp", defines(features));
+  if (contact_rows_ > 0) {
+    contacts_ = gpu::Buffer<layout::vec4>(size_t{3} * contact_rows_ * buffers.store.slot_count, "contacts of nodes");
+    contacts_.bindStorage(layout::kBindNodeContacts);  // what is too large for the driver is said now
+  }
+  if (features.volume) cells_ = gpu::Program::compute("implicit_cells.comp", defines(features));
   for (int i = 0; i < iterates; ++i) {
     increments_[i] = gpu::Buffer<layout::vec4>(buffers.store.slot_count, "increments");
     increment_texels_[i] = gpu::TexelView(increments_[i].raw(), gpu::TexelFormat::kRgba32f);
@@ -49,6 +53,7 @@ void ImplicitSubstep::bindIncrements() const {
   increments_[current_].bindStorage(layout::kBindIncrement);
   if (increments_[1].size()) increments_[1 - current_].bindStorage(layout::kBindIncrementOut);
   increment_texels_[current_].bind(layout::kUnitIncrement);
+  if (contacts_.size()) contacts_.bindStorage(layout::kBindNodeContacts);
 }
 
 void ImplicitSubstep::swap() {
@@ -67,9 +72,20 @@ void ImplicitSubstep::updateVolumes(const LatticeBuffers& buffers, const Substep
   gpu::Program::storageBarrier();
 }
 
+void ImplicitSubstep::tell(const gpu::Program& program, const LatticeBuffers& buffers, const Substep& step) const {
+  setSubstep(program, buffers, step);
+  if (!step.tools && !obstacles_) return;
+  program.set("slot_count", static_cast<uint32_t>(buffers.store.slot_count));
+  program.set("push_speed", step.push_speed_m_per_s);
+  program.set("contact_rows", contact_rows_);
+  if (!obstacles_) return;
+  program.set("obstacle_count", step.obstacle_count);
+  program.set("resting_speed", step.resting_speed_m_per_s);
+}
+
 void ImplicitSubstep::runStage(const gpu::Program& stage, const LatticeBuffers& buffers, const Substep& step) const {
   stage.use();
-  setSubstep(stage, buffers, step);
+  tell(stage, buffers, step);
   gpu::Program::dispatch(buffers.store.active_count, group_size_);
   gpu::Program::storageBarrier();
 }
@@ -78,17 +94,15 @@ void ImplicitSubstep::begin(const LatticeBuffers& buffers, const Substep& step) 
   guard.clear();
   guard.bindStorage(layout::kBindGuard);
   bindIncrements();
-  runStage(step.tools ? begin_with_tools_ : begin_, buffers, step);
+  runStage(begin_[step.tools], buffers, step);
   keepBestShare(buffers, step, false);
 }
 
 void ImplicitSubstep::keepBestShare(const LatticeBuffers& buffers, const Substep& step, bool bound_energy) const {
-  Substep plain = step;
-  plain.tools = false;  // unknown to these stages
   energies_.bindStorage(layout::kBindPartials);
-  runStage(guess_, buffers, plain);
+  runStage(guess_[step.tools], buffers, step);
   chooseShare(buffers, bound_energy);
-  runStage(scale_, buffers, plain);
+  runStage(scale_[step.tools], buffers, step);
 }
 
 void ImplicitSubstep::chooseShare(const LatticeBuffers& buffers, bool bound_energy) const {
@@ -105,9 +119,9 @@ void ImplicitSubstep::chooseShare(const LatticeBuffers& buffers, bool bound_ener
 }
 
 void ImplicitSubstep::end(const LatticeBuffers& buffers, const Substep& step) const {
-  keepBestShare(buffers, step, !step.tools);        // tools may bring energy in
-  if (step.tools) updateVolumes(buffers, step, 0);  // held nodes' momentum needs them
-  runStage(step.tools ? end_with_tools_ : end_, buffers, step);
+  keepBestShare(buffers, step, !step.tools);                      // tools may bring energy in
+  if (step.tools || obstacles_) updateVolumes(buffers, step, 0);  // the momentum of who holds or touches needs them
+  runStage(end_[step.tools], buffers, step);
 }
 
 }  // namespace viscera

@@ -13,15 +13,15 @@ class ImplicitSubstep {
   /// @param iterations  at most, in a substep   @param iterates  that are kept: 1 (vbd, in place) or 2 (pd)
   ImplicitSubstep(const FeatureSet& features, const LatticeBuffers& buffers, int iterations, int iterates);
 
-  /// First iterate: held nodes are where their tools have them; the others at the best share of the motion that no
-  /// force would change, the one of 0, 1/2, 3/4, 1 with the lowest incremental potential.
+  /// First iterate: held nodes are where their tools have them, none is in a probe or an obstacle; the others at the
+  /// best share of the motion that no force would change, the one of 0, 1/2, 3/4, 1 with the lowest incremental
+  /// potential.
   void begin(const LatticeBuffers& buffers, const Substep& step);
   /// State = displacement + last iterate, v = du/dt; tools, sleep. The last iterate is taken in the largest share of 0,
   /// 1/2, 3/4, 1 that does not end with more kinetic + elastic energy than there was before the substep and gravity
   /// added, so energy cannot grow, whatever the state, dt and the number of iterations. Where tools act, which may
-  /// bring energy in, only the incremental potential must not be above that of no motion. Held nodes: their tool gives
-  /// them the difference to the velocity that drag, gravity and the lattice's force at the end of the substep would
-  /// have given them.
+  /// bring energy in, only the incremental potential must not be above that of no motion. Who holds or touches nodes
+  /// gives them what their balance of forces at the end of the substep lacks.
   void end(const LatticeBuffers& buffers, const Substep& step) const;
 
   /// With two iterates the next one is where the last but one was; swap() makes it the current one.
@@ -29,7 +29,10 @@ class ImplicitSubstep {
   /// Forces and majorisers of the cells in the current iterate, where there are any, for the iteration that follows.
   void updateVolumes(const LatticeBuffers& buffers, const Substep& step, int iteration) const;
 
-  static std::vector<std::string> defines(const FeatureSet& features, const char* more = nullptr);
+  /// Sets what all kernels of a substep are told; for a program compiled with defines(features, step.tools).
+  void tell(const gpu::Program& program, const LatticeBuffers& buffers, const Substep& step) const;
+  /// @param tools  probes and held nodes are about, which the tissue's obstacles always are
+  static std::vector<std::string> defines(const FeatureSet& features, bool tools = false);
 
   gpu::Buffer<uint32_t> guard;  ///< [1 + 2 iterations], see shaders/solver/implicit.glsl
 
@@ -39,12 +42,15 @@ class ImplicitSubstep {
   void keepBestShare(const LatticeBuffers& buffers, const Substep& step, bool bound_energy) const;
   void chooseShare(const LatticeBuffers& buffers, bool bound_energy) const;
 
-  gpu::Program begin_, begin_with_tools_, guess_, fold_, scale_, cells_, end_, end_with_tools_;
+  gpu::Program begin_[2], guess_[2], scale_[2], end_[2];  ///< without and with tools
+  gpu::Program fold_, cells_;
   gpu::Buffer<layout::vec4> increments_[2];  ///< [slots] xyz m; w 1 where prescribed; the second with two iterates
   gpu::TexelView increment_texels_[2];
+  gpu::Buffer<layout::vec4> contacts_;  ///< [3 * rows * slots], see shaders/solver/implicit_contact.glsl
   gpu::Buffer<layout::vec4> energies_;  ///< [2 * (active + tree)] J
   int current_ = 0;
-  uint32_t group_size_;
+  uint32_t group_size_, contact_rows_;
+  bool obstacles_;
 };
 
 }  // namespace viscera

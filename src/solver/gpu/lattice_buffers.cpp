@@ -113,6 +113,9 @@ void StateBuffers::reset() {
 }
 
 HandBuffers::HandBuffers(size_t slots, const FeatureSet& features) {
+  if (features.obstacles > 0) {
+    obstacle_impulses = gpu::Buffer<layout::vec4>(slots * features.obstacles, "impulses of obstacles");
+  }
   if (!features.tools) return;
   grab_offsets = gpu::Buffer<layout::vec4>(slots, "grab offsets");
   impulses = gpu::Buffer<layout::vec4>(slots * layout::kMaxStyluses, "impulses");
@@ -121,11 +124,13 @@ HandBuffers::HandBuffers(size_t slots, const FeatureSet& features) {
 void HandBuffers::bind() const {
   if (grab_offsets.size()) grab_offsets.bindStorage(layout::kBindGrabOffsets);
   if (impulses.size()) impulses.bindStorage(layout::kBindImpulses);
+  if (obstacle_impulses.size()) obstacle_impulses.bindStorage(layout::kBindObstacleImpulses);
 }
 
 void HandBuffers::reset() {
   if (grab_offsets.size()) grab_offsets.clear();
   if (impulses.size()) impulses.clear();
+  if (obstacle_impulses.size()) obstacle_impulses.clear();
 }
 
 LatticeBuffers::LatticeBuffers(const Model& model, const std::vector<layout::BodyParams>& params,

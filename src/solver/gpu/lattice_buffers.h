@@ -70,14 +70,15 @@ struct StateBuffers {
   gpu::TexelView displacement_texels_[2], velocity_texels_[2];
 };
 
-/// What styluses hold and give; feature tools.
+/// What styluses hold and give, feature tools; and what obstacles give.
 struct HandBuffers {
   HandBuffers(size_t slots, const FeatureSet& features);
   void bind() const;
   void reset();
 
-  gpu::Buffer<layout::vec4> grab_offsets;  ///< [slots] m, stylus frame
-  gpu::Buffer<layout::vec4> impulses;      ///< [kMaxStyluses * slots] N s
+  gpu::Buffer<layout::vec4> grab_offsets;       ///< [slots] m, stylus frame
+  gpu::Buffer<layout::vec4> impulses;           ///< [kMaxStyluses * slots] N s
+  gpu::Buffer<layout::vec4> obstacle_impulses;  ///< [obstacles * slots] N s
 };
 
 /// Explicit connections; feature network.

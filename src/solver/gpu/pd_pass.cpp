@@ -9,15 +9,17 @@
 namespace viscera {
 
 PdPass::PdPass(const FeatureSet& features, const LatticeBuffers& buffers, const PdOptions& options)
-    : implicit_(features, buffers, options.iterations, 2),
-      sweep_(gpu::Program::compute("pd.comp", ImplicitSubstep::defines(features))),
-      options_(options),
-      group_size_(features.group_size) {
+    : implicit_(features, buffers, options.iterations, 2), options_(options), group_size_(features.group_size) {
+  for (int tools = 0; tools < (features.tools ? 2 : 1); ++tools) {
+    sweep_[tools] = gpu::Program::compute("pd.comp", ImplicitSubstep::defines(features, tools != 0));
+  }
   if (options_.accelerated && options_.spectral_radius == 0) findRates(features, buffers);
 }
 
 void PdPass::findRates(const FeatureSet& features, const LatticeBuffers& buffers) {
-  const gpu::Program rate = gpu::Program::compute("pd.comp", ImplicitSubstep::defines(features, "RATE"));
+  std::vector<std::string> defines = features.defines();
+  defines.insert(defines.end(), {"INCREMENT", "RATE"});
+  const gpu::Program rate = gpu::Program::compute("pd.comp", defines);
   gpu::Buffer<float> rates(2);
   buffers.bind();
   rates.bindStorage(layout::kBindGuard);
@@ -36,17 +38,16 @@ double PdPass::spectralRadius(double dt_s) const {
 
 void PdPass::run(LatticeBuffers& buffers, const Substep& step) {
   implicit_.begin(buffers, step);
-  Substep plain = step;
-  plain.tools = false;  // the sweeps know of none
+  const gpu::Program& sweep = sweep_[step.tools];
   const double rho = spectralRadius(step.dt_s);
   double weight = 1;
   for (int iteration = 0; iteration < options_.iterations; ++iteration) {
     implicit_.updateVolumes(buffers, step, iteration);
     weight = options_.accelerated ? chebyshevWeight(iteration, weight, rho) : 1;
-    sweep_.use();
-    setSubstep(sweep_, buffers, plain);
-    sweep_.set("iteration", static_cast<uint32_t>(iteration));
-    sweep_.set("omega", static_cast<float>(weight));
+    sweep.use();
+    implicit_.tell(sweep, buffers, step);
+    sweep.set("iteration", static_cast<uint32_t>(iteration));
+    sweep.set("omega", static_cast<float>(weight));
     gpu::Program::dispatch(buffers.store.active_count, group_size_);
     gpu::Program::storageBarrier();
     implicit_.swap();

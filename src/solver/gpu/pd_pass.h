@@ -28,7 +28,7 @@ class PdPass : public Stepper {
   void findRates(const FeatureSet& features, const LatticeBuffers& buffers);
 
   ImplicitSubstep implicit_;
-  gpu::Program sweep_;
+  gpu::Program sweep_[2];  ///< without and with tools
   PdOptions options_;
   double stiffness_rate_per_s2_ = 0, damping_rate_per_s_ = 0;  ///< max of (sum of k + volume)/m, of (sum of c)/m
   uint32_t group_size_;

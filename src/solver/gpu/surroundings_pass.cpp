@@ -14,13 +14,21 @@ SurroundingsPass::SurroundingsPass(const Model& model, const Scene& scene, const
       influences_(layout::kMaxBodies),
       group_size_(features.group_size),
       tools_(features.tools) {
-  std::vector<std::string> defines = features.defines();
-  if (kinds_.wind) defines.push_back("WIND");
-  if (kinds_.forces) defines.push_back("BODY_FORCES");
-  if (kinds_.obstacles) defines.push_back("OBSTACLES");
-  if (kinds_.collisions) defines.push_back("COLLISIONS");
-  if (features.tools) defines.push_back("TOOLS");
-  program_ = gpu::Program::compute("surroundings.comp", defines);
+  const auto compile = [&](std::vector<const char*> kinds) {
+    std::vector<std::string> defines = features.defines();
+    defines.insert(defines.end(), kinds.begin(), kinds.end());
+    if (features.tools) defines.push_back("TOOLS");
+    return gpu::Program::compute("surroundings.comp", defines);
+  };
+  std::vector<const char*> all, blowing = {"BEFORE"};
+  if (kinds_.wind) all.push_back("WIND");
+  if (kinds_.forces) all.push_back("BODY_FORCES");
+  blowing.insert(blowing.end(), all.begin(), all.end());
+  if (kinds_.obstacles) all.push_back("OBSTACLES");
+  if (kinds_.collisions) all.push_back("COLLISIONS");
+  program_ = compile(all);
+  if (blowing.size() > 1) blow_ = compile(blowing);
+  if (kinds_.collisions) collide_ = compile({"COLLISIONS"});
   influences_.write(bodyInfluences(model, scene));
   if (kinds_.wind) {
     const Rings rings = joinRings(model);
@@ -46,26 +54,38 @@ void SurroundingsPass::beginTick(const Surroundings& surroundings) {
   }
 }
 
-void SurroundingsPass::run(LatticeBuffers& buffers, const Substep& step, const Surroundings& surroundings) {
-  if (collisions_) collisions_->run(buffers, step);
+void SurroundingsPass::bindObstacles(const Substep& step) const {
+  if (!kinds_.obstacles) return;
+  obstacles_.bindUniform(layout::kBindObstacles, static_cast<size_t>(step.index) * layout::kMaxObstacles,
+                         layout::kMaxObstacles);
+}
+
+void SurroundingsPass::apply(const gpu::Program& program, LatticeBuffers& buffers, const Substep& step,
+                             const Surroundings& surroundings) const {
   const SubstepSurroundings now = surroundings.at(step.index);
-  if (kinds_.obstacles) {
-    obstacles_.bindUniform(layout::kBindObstacles, static_cast<size_t>(step.index) * layout::kMaxObstacles,
-                           layout::kMaxObstacles);
-  }
-  program_.use();
-  program_.set("active_count", static_cast<uint32_t>(buffers.store.active_count));
-  program_.set("dt_s", step.dt_s);
-  program_.set("push_speed", step.push_speed_m_per_s);
-  program_.set("sleep_distance_m", step.sleep_distance_m);
-  program_.set("resting_speed", restingSpeed(step));
-  if (tools_) program_.set("slot_count", static_cast<uint32_t>(buffers.store.slot_count));
-  program_.set("obstacle_count", static_cast<uint32_t>(surroundings.obstacleCount()));
+  program.use();
+  program.set("active_count", static_cast<uint32_t>(buffers.store.active_count));
+  program.set("dt_s", step.dt_s);
+  program.set("push_speed", step.push_speed_m_per_s);
+  program.set("sleep_distance_m", step.sleep_distance_m);
+  program.set("resting_speed", step.resting_speed_m_per_s);
+  program.set("slot_count", static_cast<uint32_t>(buffers.store.slot_count));
+  program.set("obstacle_count", step.obstacle_count);
   const float air = 0.5f * static_cast<float>(wind_.air_density_kg_per_m3 * wind_.drag_coefficient);
-  program_.set("air", {now.wind_m_per_s.x(), now.wind_m_per_s.y(), now.wind_m_per_s.z(), air});
+  program.set("air", {now.wind_m_per_s.x(), now.wind_m_per_s.y(), now.wind_m_per_s.z(), air});
   gpu::Program::dispatch(buffers.store.active_count, group_size_);
   gpu::Program::storageBarrier();
   buffers.swap();
+}
+
+void SurroundingsPass::blow(LatticeBuffers& buffers, const Substep& step, const Surroundings& surroundings) const {
+  apply(blow_, buffers, step, surroundings);
+}
+
+void SurroundingsPass::run(LatticeBuffers& buffers, const Substep& step, const Surroundings& surroundings) {
+  if (collisions_) collisions_->run(buffers, step);
+  bindObstacles(step);
+  apply(step.implicit ? collide_ : program_, buffers, step, surroundings);
 }
 
 void SurroundingsPass::restart() {

@@ -23,7 +23,12 @@ class SurroundingsPass {
   SurroundingsPass(const Model& model, const Scene& scene, const FeatureSet& features, const LatticeBuffers& buffers);
   /// After Surroundings::beginTick(), and after buffers.bind().
   void beginTick(const Surroundings& surroundings);
+  /// Before an implicit substep: the obstacles are where its kernels find them.
+  void bindObstacles(const Substep& step) const;
+  /// Before an implicit substep: wind and forces change the velocities.
+  void blow(LatticeBuffers& buffers, const Substep& step, const Surroundings& surroundings) const;
   /// current state -> other state, which becomes the current one. The other one must hold the state before the substep.
+  /// After an implicit one contacts between nodes only.
   /// @param step  its index says which of the tick's substeps it is
   void run(LatticeBuffers& buffers, const Substep& step, const Surroundings& surroundings);
   /// The state was written from outside: what contacts did is forgotten.
@@ -32,7 +37,10 @@ class SurroundingsPass {
   std::vector<CollisionPair> findPairs(const LatticeBuffers& buffers) const;
 
  private:
-  gpu::Program program_;
+  void apply(const gpu::Program& program, LatticeBuffers& buffers, const Substep& step,
+             const Surroundings& surroundings) const;
+  gpu::Program program_;         ///< all at once, after an explicit substep
+  gpu::Program blow_, collide_;  ///< before and after an implicit one, where there is something
   SurroundingsFeatures kinds_;
   WindConfig wind_;
   gpu::Buffer<layout::ObstacleMotion> obstacles_;  ///< [substeps * kMaxObstacles]

@@ -9,10 +9,10 @@
 namespace viscera {
 
 VbdPass::VbdPass(const FeatureSet& features, const LatticeBuffers& buffers, int iterations)
-    : implicit_(features, buffers, iterations, 1),
-      sweep_(gpu::Program::compute("vbd.comp", ImplicitSubstep::defines(features))),
-      iterations_(iterations),
-      group_size_(features.group_size) {
+    : implicit_(features, buffers, iterations, 1), iterations_(iterations), group_size_(features.group_size) {
+  for (int tools = 0; tools < (features.tools ? 2 : 1); ++tools) {
+    sweep_[tools] = gpu::Program::compute("vbd.comp", ImplicitSubstep::defines(features, tools != 0));
+  }
   Coloured coloured = byColour(buffers.store.active.read(), features.volume, buffers.links.network);
   by_colour_ = gpu::Buffer<uint32_t>(coloured.slots, "by colour");
   colours_ = std::move(coloured.colours);
@@ -20,15 +20,14 @@ VbdPass::VbdPass(const FeatureSet& features, const LatticeBuffers& buffers, int 
 
 void VbdPass::run(LatticeBuffers& buffers, const Substep& step) {
   implicit_.begin(buffers, step);
-  sweep_.use();
-  Substep plain = step;
-  plain.tools = false;  // the sweeps know of none
-  setSubstep(sweep_, buffers, plain);
+  const gpu::Program& sweep = sweep_[step.tools];
+  sweep.use();
+  implicit_.tell(sweep, buffers, step);
   by_colour_.bindStorage(layout::kBindActive);
   for (int iteration = 0; iteration < iterations_; ++iteration) {
     for (const Coloured::Colour& colour : colours_) {
-      sweep_.set("active_count", colour.count);
-      sweep_.set("colour_first", colour.first);
+      sweep.set("active_count", colour.count);
+      sweep.set("colour_first", colour.first);
       gpu::Program::dispatch(colour.count, group_size_);
       gpu::Program::storageBarrier();
     }

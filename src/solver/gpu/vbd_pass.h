@@ -20,7 +20,7 @@ class VbdPass : public Stepper {
 
  private:
   ImplicitSubstep implicit_;
-  gpu::Program sweep_;
+  gpu::Program sweep_[2];                  ///< without and with tools
   gpu::Buffer<uint32_t> by_colour_;        ///< [active] slots
   std::vector<Coloured::Colour> colours_;  ///< in by_colour_
   int iterations_;

@@ -26,6 +26,9 @@ class FreeDofs {
  public:
   /// @param free  [dofs]
   FreeDofs(const ReferenceLattice& lattice, const std::vector<bool>& free);
+  /// @param directions  [dofs x free] orthonormal columns: along which they may move
+  FreeDofs(const ReferenceLattice& lattice, Eigen::SparseMatrix<double> directions)
+      : lattice_(lattice), select_(std::move(directions)) {}
   int size() const { return static_cast<int>(select_.cols()); }
   Eigen::VectorXd of(const Field& field) const;
   void add(const Eigen::VectorXd& step, double share, Field& field) const;

@@ -25,6 +25,7 @@ ReferenceSolver::ReferenceSolver(const Model& model, const Vector3d& gravity_m_p
       options_(options),
       grab_offsets_(model.slots(), Vector3d::Zero()) {
   impulse_n_s.fill(Vector3d::Zero());
+  obstacle_impulse_n_s.fill(Vector3d::Zero());
   markTick();
 }
 
@@ -84,32 +85,50 @@ void ReferenceSolver::setSubstep(double dt_s) {
   dt_s_ = dt_s;
 }
 
-void ReferenceSolver::substep(const SubstepMotions& motions) {
+void ReferenceSolver::substep(const SubstepMotions& motions, const SubstepOutside& outside) {
   motions_ = motions;
+  obstacles_.clear();
+  for (const layout::ObstacleMotion& motion : outside.obstacles) obstacles_.emplace_back(motion, dt_s_);
   for (uint32_t s = 0; s < layout::kMaxStyluses; ++s) {
     const uint32_t effects = motions[s].info.y;
     if (effects & (layout::kToolCuts | layout::kToolErases)) cut(s, (effects & layout::kToolErases) != 0);
   }
+  // What blows and pushes is part of an implicit substep by the velocities that it starts from; after an explicit one
+  // it acts on its own, between contacts of nodes and obstacles.
+  const bool implicit = options_.integrator == ReferenceIntegrator::kImplicitEuler;
+  if (implicit) blow(outside, u_m, v_m_per_s, nullptr);
   Field u_next = u_m, v_next(slots(), Vector3d::Zero());
-  switch (options_.integrator) {
-    case ReferenceIntegrator::kLeapfrog:
-      leapfrog(u_next, v_next);
-      break;
-    case ReferenceIntegrator::kVerletPaper:
-      verletPaper(u_next, v_next);
-      break;
-    case ReferenceIntegrator::kImplicitEuler:
-      implicitEuler(motions, u_next, v_next);
-  }
+  integrate(u_next, v_next);
   for (uint32_t slot : active) {
     if (rests(slot)) continue;
-    applyTools(motions, slot, u_next[slot], v_next[slot]);
+    if (!implicit) applyTools(motions, slot, u_next[slot], v_next[slot]);
     sleep(slot, u_next[slot], v_next[slot]);
+  }
+  collide(u_next, v_next);
+  if (!implicit) {
+    blow(outside, u_next, v_next, &u_next);
+    meetObstacles(u_next, v_next);
+  }
+  if (options_.surroundings || !obstacles_.empty()) {
+    for (uint32_t slot : active) {
+      if (!rests(slot)) sleep(slot, u_next[slot], v_next[slot]);
+    }
   }
   u_m.swap(u_next);
   v_m_per_s.swap(v_next);
   first_ = false;
   last_dt_s_ = dt_s_;
+}
+
+void ReferenceSolver::integrate(Field& u_next, Field& v_next) {
+  switch (options_.integrator) {
+    case ReferenceIntegrator::kLeapfrog:
+      return leapfrog(u_next, v_next);
+    case ReferenceIntegrator::kVerletPaper:
+      return verletPaper(u_next, v_next);
+    case ReferenceIntegrator::kImplicitEuler:
+      return implicitEuler(u_next, v_next);
+  }
 }
 
 /// Velocities live half a substep before the displacements: a kick spans from the middle of the last substep to that of

@@ -4,13 +4,17 @@
 
 #include <array>
 #include <limits>
+#include <memory>
 #include <vector>
 
 #include "solver/reference/reference_lattice.h"
+#include "solver/reference/reference_obstacle.h"
 #include "solver/tool_acts.h"
 #include "viscera/solver/solver.h"
 
 namespace viscera {
+
+class ReferenceSurroundings;
 
 /// Time integration of the reference (physics.md 2).
 enum class ReferenceIntegrator {
@@ -28,6 +32,14 @@ struct ReferenceOptions {
   double push_speed_m_per_s = std::numeric_limits<double>::infinity();
   /// A free node farther than this from its place at rest, and leaving, is stopped.
   double sleep_distance_m = std::numeric_limits<double>::infinity();
+  /// Wind, forces on bodies and contacts between nodes; null: none.
+  std::shared_ptr<const ReferenceSurroundings> surroundings;
+};
+
+/// Where the obstacles are in one substep, and how the wind blows.
+struct SubstepOutside {
+  std::vector<layout::ObstacleMotion> obstacles;
+  Vector3d wind_m_per_s = Vector3d::Zero();
 };
 
 /// Motions of all styluses in one substep.
@@ -41,9 +53,9 @@ class ReferenceSolver : public ReferenceLattice, public ToolTarget {
   ReferenceSolver(const Model& model, const Vector3d& gravity_m_per_s2, double dt_s,
                   const ReferenceOptions& options = {});
 
-  /// One substep with what the styluses do in it: cut, then integrate with probes and held nodes.
+  /// One substep with what the styluses do in it: cut, then integrate with probes, held nodes and obstacles.
   /// @throws ConvergenceError  implicit Euler found no solution
-  void substep(const SubstepMotions& motions = {});
+  void substep(const SubstepMotions& motions = {}, const SubstepOutside& outside = {});
   /// Substep from now on [s]; leapfrog's next kick is the mean of the old and the new one.
   void setSubstep(double dt_s);
   double dt_s() const { return dt_s_; }
@@ -72,17 +84,25 @@ class ReferenceSolver : public ReferenceLattice, public ToolTarget {
   /// The state rounded to float32, as a kernel would hold it.
   HostState state() const;
 
-  Field u_m, v_m_per_s;                                    ///< [slots]
-  std::array<Vector3d, layout::kMaxStyluses> impulse_n_s;  ///< momentum given by each stylus so far
+  Field u_m, v_m_per_s;                                              ///< [slots]
+  std::array<Vector3d, layout::kMaxStyluses> impulse_n_s;            ///< momentum given by each stylus so far
+  std::array<Vector3d, layout::kMaxObstacles> obstacle_impulse_n_s;  ///< by each obstacle
   uint32_t springs_cut = 0;
 
  private:
   bool rests(uint32_t slot) const;  ///< fixed, or alone and not held
   void leapfrog(Field& u_next, Field& v_next) const;
   void verletPaper(Field& u_next, Field& v_next) const;
-  void implicitEuler(const SubstepMotions& motions, Field& u_next, Field& v_next) const;
+  void implicitEuler(Field& u_next, Field& v_next);
   void applyTools(const SubstepMotions& motions, uint32_t slot, Vector3d& u_next, Vector3d& v_next);
   void sleep(uint32_t slot, Vector3d& u_next, Vector3d& v_next) const;
+  /// What comes slower does not bounce [m/s].
+  double restingSpeed() const { return 4 * dt_s_ * gravity_.norm(); }
+  void integrate(Field& u_next, Field& v_next);
+  void blow(const SubstepOutside& outside, const Field& u_m, Field& v_m_per_s, Field* way_m);
+  void collide(Field& u_next, Field& v_next);
+  void meetObstacles(Field& u_next, Field& v_next);
+  friend class ImplicitContacts;
   Vector3d heldDisplacement(const layout::ToolMotion& motion, uint32_t slot) const;
 
   Vector3d gravity_;
@@ -90,6 +110,7 @@ class ReferenceSolver : public ReferenceLattice, public ToolTarget {
   ReferenceOptions options_;
   bool first_ = true;
   SubstepMotions motions_{};                                       ///< of the substep
+  std::vector<ReferenceObstacle> obstacles_;                       ///< in it
   std::array<Vector3d, layout::kMaxStyluses> impulse_before_n_s_;  ///< momentum given when the tick began
   Field grab_offsets_;  ///< [slots] position of a held node in the stylus frame [m]
 };

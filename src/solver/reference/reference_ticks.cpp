@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "solver/reference/reference_surroundings.h"
 #include "solver/substeps.h"
 #include "tools/motion_packing.h"
 
@@ -16,11 +17,13 @@ SolverConfig ungoverned(SolverConfig config) {
   return config;
 }
 
-ReferenceOptions optionsFor(const Model& model, const SolverConfig& config) {
+ReferenceOptions optionsFor(const Model& model, const Scene& scene) {
+  const SolverConfig& config = scene.solver;
   ReferenceOptions options;
   options.integrator = truthOf(config.integrator);
   options.push_speed_m_per_s = static_cast<float>(pushSpeed(model));
   options.sleep_distance_m = static_cast<float>(config.sleep_distance_m);
+  if (surroundingsOf(model, scene).any()) options.surroundings = std::make_shared<ReferenceSurroundings>(model, scene);
   return options;
 }
 
@@ -32,19 +35,34 @@ ReferenceTicks::ReferenceTicks(const Model& model, const Scene& scene)
       tick_hz_(scene.solver.tick_hz),
       dt_safe_s_(safeTimeStep(model)),
       substeps_(planSubsteps(model, ungoverned(scene.solver), dt_safe_s_).calm),
+      surroundings_(model, scene),
       solver_(model, scene.environment.gravity_m_per_s2.cast<float>().cast<double>(), static_cast<float>(dt_s()),
-              optionsFor(model, scene.solver)) {}
+              optionsFor(model, scene)),
+      obstacle_before_n_s_(solver_.obstacle_impulse_n_s) {}
 
-void ReferenceTicks::step(const ToolMotions& motions) {
+void ReferenceTicks::step(const ToolMotions& motions, const ObstacleMotions& obstacles) {
   solver_.markTick();
+  obstacle_before_n_s_ = solver_.obstacle_impulse_n_s;
+  surroundings_.beginTick(1 / tick_hz_, substeps_, obstacles);
   acts_.beginTick(solver_, motions);
   interpolateMotions(motions, acts_.styluses(), substeps_, motions_);
   for (int n = 0; n < substeps_; ++n) {
     SubstepMotions substep;
     std::copy_n(motions_.begin() + n * static_cast<int>(layout::kMaxStyluses), layout::kMaxStyluses, substep.begin());
-    solver_.substep(substep);
+    const SubstepSurroundings now = surroundings_.at(n);
+    SubstepOutside outside{{}, now.wind_m_per_s.cast<double>()};
+    outside.obstacles.assign(now.obstacles, now.obstacles + surroundings_.obstacleCount());
+    solver_.substep(substep, outside);
   }
   acts_.endTick(solver_, motions);
+}
+
+void ReferenceTicks::load(const std::vector<layout::vec4>& u_m, const std::vector<layout::vec4>& v_m_per_s) {
+  for (const uint32_t slot : solver_.active) {
+    solver_.u_m[slot] = {u_m[slot].x, u_m[slot].y, u_m[slot].z};
+    solver_.v_m_per_s[slot] = {v_m_per_s[slot].x, v_m_per_s[slot].y, v_m_per_s[slot].z};
+  }
+  solver_.restart();
 }
 
 Vector3d ReferenceTicks::impulse(uint32_t stylus) const {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "solver/reference/reference_solver.h"
+#include "solver/surroundings.h"
 #include "viscera/tools/stylus.h"
 
 namespace viscera {
@@ -18,22 +19,30 @@ class ReferenceTicks {
   ReferenceTicks(const Model& model, const Scene& scene);
 
   /// @throws ConvergenceError  implicit Euler found no solution
-  void step(const ToolMotions& motions);
+  /// @param obstacles  over the tick, all of the scene's; empty: they stand where they were last
+  void step(const ToolMotions& motions, const ObstacleMotions& obstacles = {});
 
+  /// Sets the state, all of one moment: time starts anew with half a kick. @param u_m, v_m_per_s  [slots]
+  void load(const std::vector<layout::vec4>& u_m, const std::vector<layout::vec4>& v_m_per_s);
   const ReferenceSolver& solver() const { return solver_; }
   double dt_s() const { return 1 / (tick_hz_ * substeps_); }
   double dtSafe_s() const { return dt_safe_s_; }
   int substeps() const { return substeps_; }  ///< per tick
   Vector3d impulse(uint32_t stylus) const;    ///< given to the nodes in the last tick [N s]
-  double maxStretch() const;                  ///< largest |L - l0| / l0 of the current state
-  double maxSpeed_m_per_s() const;            ///< of any node in the current state
-  uint64_t nonfinite() const;                 ///< nodes whose u or v is not finite
+  Vector3d obstacleImpulse(size_t obstacle) const {
+    return solver_.obstacle_impulse_n_s[obstacle] - obstacle_before_n_s_[obstacle];
+  }
+  double maxStretch() const;        ///< largest |L - l0| / l0 of the current state
+  double maxSpeed_m_per_s() const;  ///< of any node in the current state
+  uint64_t nonfinite() const;       ///< nodes whose u or v is not finite
 
  private:
   ToolActs acts_;
   double tick_hz_, dt_safe_s_;
   int substeps_;
+  Surroundings surroundings_;  ///< where and when; what they do is the solver's
   ReferenceSolver solver_;
+  std::array<Vector3d, layout::kMaxObstacles> obstacle_before_n_s_;  ///< given when the tick began
   std::vector<layout::ToolMotion> motions_;
 };
 

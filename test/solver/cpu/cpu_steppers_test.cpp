@@ -268,6 +268,22 @@ TEST(CpuPd, AccelerationThatGoesWrongIsGivenUpAndStartsAnew) {
     EXPECT_LT((xyz(wrong[slot]) - xyz(plain[slot])).norm(), 1e-3 * 5e-4);
 }
 
+/// What the iteration that gave up says of its change is what volumes allow the next ones: it must not be nothing.
+TEST(CpuPd, StartsAnewAlsoWhereTheFirstNodeIsFixed) {
+  constexpr size_t kWatched = 20;  // iterations, of which an early one gives up
+  Body body = boxBody({4, 4, 4}, 0.01);
+  body.lattice.nodes[body.lattice.active_slots[0]].lo |= layout::kFixedBit;
+  const Model model = modelOf({body});
+  Rig rig(model, 3);
+  const Serial serial;
+  rig.lattice.write(randomState(model, 5e-4, 0.1, 7));
+  CpuPd pd(rig.lattice, serial, {200, true, 1.05});  // no spectrum allows 1.05
+  rig.run(pd);
+  EXPECT_TRUE(pd.gaveUp());
+  const std::vector<float> changes = pd.changes();
+  for (size_t n = 0; n < kWatched; ++n) EXPECT_GT(changes[n], 0) << "iteration " << n;
+}
+
 TEST(CpuLeapfrog, MatchesReferenceAsOneOfTheSteppers) {
   constexpr double kRounding = 1e-5;  // relative to the largest value, after kTimes substeps
   constexpr int kTimes = 10;

@@ -1,0 +1,161 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solver/reference/reference_obstacle.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace viscera {
+
+namespace {
+
+constexpr double kShortWay = 0.25;  // of a radius: shorter chords are not looked for (1/128 of it at most)
+constexpr double kMiddle = 1e-6;    // of a radius: nearer to the axis there is no direction
+
+Vector3d xyz(const layout::vec4& v) {
+  return {v.x, v.y, v.z};
+}
+Pose poseOf(const layout::vec4& place, const layout::vec4& q) {
+  return {xyz(place), Quaterniond(q.w, q.x, q.y, q.z).normalized()};
+}
+Vector3d seenFrom(const Pose& pose, const Vector3d& x) {
+  return pose.orientation.conjugate() * (x - pose.position_m);
+}
+
+/// Smallest s >= 0 at which |a + s b| = radius, where a is outside; nothing where that never is.
+std::optional<double> firstAt(const Vector3d& a, const Vector3d& b, double radius) {
+  const double bb = b.squaredNorm(), ab = a.dot(b), c = a.squaredNorm() - radius * radius;
+  const double under = ab * ab - bb * c;
+  if (bb == 0 || under <= 0 || ab >= 0) return std::nullopt;
+  return (-ab - std::sqrt(under)) / bb;
+}
+
+}  // namespace
+
+ReferenceObstacle::ReferenceObstacle(const layout::ObstacleMotion& motion, double dt_s)
+    : shape_(motion.info.x),
+      dt_s_(dt_s),
+      radius_m_(motion.from.w),
+      half_length_m_(motion.to.w),
+      friction_(motion.velocity.w),
+      restitution_(motion.spin.w),
+      half_size_m_(xyz(motion.half_size)),
+      velocity_(xyz(motion.velocity)),
+      spin_(xyz(motion.spin)),
+      from_(poseOf(motion.from, motion.from_orientation)),
+      to_(poseOf(motion.to, motion.to_orientation)) {}
+
+std::optional<ObstacleMeeting> ReferenceObstacle::meet(const Vector3d& x_m, const Vector3d& x_next_m) const {
+  const Vector3d from = seenFrom(from_, x_m), to = seenFrom(to_, x_next_m);
+  const std::optional<Local> met = shape_ == layout::kShapePlane ? meetPlane(to)
+                                   : shape_ == layout::kShapeBox ? meetBox(from, to)
+                                                                 : meetRound(from, to);
+  if (!met) return std::nullopt;
+  return ObstacleMeeting{to_.orientation * met->normal, to_ * met->surface_m, (to - from).norm()};
+}
+
+std::optional<HalfSpace> ReferenceObstacle::outside(const Vector3d& x_m, const Vector3d& x_next_m) const {
+  const std::optional<ObstacleMeeting> met = meet(x_m, x_next_m);
+  if (!met) return std::nullopt;
+  HalfSpace out{met->normal, met->normal.dot(met->surface_m - x_m), dt_s_ * velocityAt(x_m), friction_, restitution_};
+  if (shape_ == layout::kShapePlane || shape_ == layout::kShapeBox) return out;
+  const Vector3d p = seenFrom(to_, x_m), away = p - onAxis(p);
+  if (away.norm() <= kMiddle * radius_m_) return out;
+  out.normal = to_.orientation * away.normalized();
+  out.least_m = radius_m_ - away.norm();
+  return out;
+}
+
+/// The tissue is on the +z side.
+std::optional<ReferenceObstacle::Local> ReferenceObstacle::meetPlane(const Vector3d& to) const {
+  if (to.z() >= 0) return std::nullopt;
+  return Local{Vector3d::UnitZ(), {to.x(), to.y(), 0}};
+}
+
+/// Out of the face that the way came in by, or of the nearest to who was inside.
+std::optional<ReferenceObstacle::Local> ReferenceObstacle::meetBox(const Vector3d& from, const Vector3d& to) const {
+  const auto inside = [this](const Vector3d& p) { return (p.cwiseAbs().array() < half_size_m_.array()).all(); };
+  int face = -1;
+  if (inside(from)) {
+    if (!inside(to)) return std::nullopt;
+    (half_size_m_ - from.cwiseAbs()).minCoeff(&face);
+  } else {
+    double enters = 0, leaves = 1;  // shares of the way
+    for (int k = 0; k < 3; ++k) {
+      const double way = to[k] - from[k];
+      if (way == 0 && std::abs(from[k]) >= half_size_m_[k]) return std::nullopt;
+      if (way == 0) continue;
+      const double far_side = way > 0 ? half_size_m_[k] : -half_size_m_[k];
+      const double in = (-far_side - from[k]) / way;
+      if (in >= enters) {
+        enters = in;
+        face = k;
+      }
+      leaves = std::min(leaves, (far_side - from[k]) / way);
+    }
+    if (face < 0 || enters >= leaves) return std::nullopt;
+  }
+  const double side = from[face] < 0 ? -1 : 1;
+  Local out{side * Vector3d::Unit(face), to};
+  out.surface_m[face] = side * half_size_m_[face];
+  return out;
+}
+
+/// Of a sphere its centre.
+Vector3d ReferenceObstacle::onAxis(const Vector3d& p) const {
+  return {0, 0, std::clamp(p.z(), -half_length_m_, half_length_m_)};
+}
+
+/// Share of the way at which it comes into the sphere or capsule: into its cylinder between its ends, or into one of
+/// the two spheres.
+std::optional<double> ReferenceObstacle::entry(const Vector3d& from, const Vector3d& to) const {
+  const Vector3d way = to - from;
+  double first = std::numeric_limits<double>::infinity();
+  for (const double end : {-half_length_m_, half_length_m_}) {
+    if (const auto at = firstAt(from - end * Vector3d::UnitZ(), way, radius_m_)) first = std::min(first, *at);
+  }
+  const Vector3d across(1, 1, 0);
+  const auto at = firstAt(from.cwiseProduct(across), way.cwiseProduct(across), radius_m_);
+  if (at && std::abs((from + *at * way).z()) <= half_length_m_) first = std::min(first, *at);
+  return first <= 1 ? std::optional(first) : std::nullopt;
+}
+
+/// Out along the radius; who passed through, or beyond the middle, goes to where it came in.
+std::optional<ReferenceObstacle::Local> ReferenceObstacle::meetRound(const Vector3d& from, const Vector3d& to) const {
+  const Vector3d away = to - onAxis(to), away_before = from - onAxis(from);
+  const bool inside = away.norm() < radius_m_;
+  if ((to - from).norm() > kShortWay * radius_m_ && away_before.norm() >= radius_m_) {
+    if (const auto at = entry(from, to)) {
+      const Vector3d surface = from + *at * (to - from), normal = (surface - onAxis(surface)).normalized();
+      if (!inside || normal.dot(away) < 0) return Local{normal, surface};
+    }
+  }
+  if (!inside) return std::nullopt;
+  const double middle = kMiddle * radius_m_;
+  const Vector3d normal = away.norm() > middle          ? away.normalized().eval()
+                          : away_before.norm() > middle ? away_before.normalized().eval()
+                                                        : Vector3d::UnitX().eval();
+  return Local{normal, onAxis(to) + radius_m_ * normal};
+}
+
+std::optional<HalfSpace> outsideOfProbe(const layout::ToolMotion& motion, const Vector3d& x_m,
+                                        const Vector3d& x_next_m) {
+  if ((motion.info.y & (layout::kToolPushes | layout::kToolFeels)) != layout::kToolPushes) return std::nullopt;
+  const Vector3d from = xyz(motion.from), to = xyz(motion.to), travel = to - from;
+  const double radius = motion.from.w, length2 = travel.squaredNorm();
+  // The final sphere for who is in it, else the capsule that it has swept.
+  const auto centreFor = [&](const Vector3d& x) {
+    if (length2 == 0 || (x - to).norm() < radius) return to;
+    return Vector3d(from + std::clamp((x - from).dot(travel) / length2, 0.0, 1.0) * travel);
+  };
+  if ((x_next_m - centreFor(x_next_m)).norm() >= radius) return std::nullopt;
+  const Vector3d away = x_m - centreFor(x_m);
+  const bool has_direction = away.norm() > kMiddle * radius;
+  const Vector3d normal = has_direction ? away.normalized().eval()
+                          : length2 > 0 ? (-travel).normalized().eval()
+                                        : Vector3d::UnitZ().eval();
+  return HalfSpace{normal, radius - away.dot(normal), travel};
+}
+
+}  // namespace viscera

@@ -1,0 +1,237 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solver/reference/reference_surroundings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "solver/collision.h"
+#include "solver/reference/reference_solver.h"
+#include "solver/surroundings.h"
+
+namespace viscera {
+
+ReferenceSurroundings::ReferenceSurroundings(const Model& model, const Scene& scene)
+    : wind_(scene.environment.wind),
+      collision_(scene.collision),
+      collidable_(collidableNodes(model)),
+      around_(model.slots()) {
+  const ReferenceLattice masses(model);
+  const bool blows = surroundingsOf(model, scene).wind;  // without wind there is no air: it does not brake either
+  int64_t first_spring = 0;
+  for (size_t b = 0; b < model.bodies.size(); ++b) {
+    const Body& body = model.bodies[b];
+    const uint32_t first = model.slotOffset(b);
+    double mass = 0;
+    for (const uint32_t local : body.lattice.active_slots) mass += masses.mass(first + local);
+    // The float32 numbers that kernels get.
+    const Vector3f acceleration = (body.force_n / mass).cast<float>();
+    acceleration_m_per_s2_.push_back(body.force_n == Vector3d::Zero() ? Vector3d::Zero()
+                                                                      : acceleration.cast<double>().eval());
+    distance_m_.push_back(static_cast<float>(collisionDistance(body, scene.collision)));
+    body_.insert(body_.end(), body.lattice.nodes.size(), b);
+    if (!body.network || !blows) continue;
+    std::map<std::array<uint32_t, 2>, int64_t> springs;
+    for (size_t s = 0; s < body.network->springs.size(); ++s) {
+      const auto& spring = body.network->springs[s];
+      springs.insert(
+          {{std::min(spring.a, spring.b), std::max(spring.a, spring.b)}, first_spring + static_cast<int64_t>(s)});
+    }
+    for (const std::array<uint32_t, 3>& t : body.network->triangles) {
+      Triangle triangle{{first + t[0], first + t[1], first + t[2]}, {-1, -1, -1}};
+      for (size_t e = 0; e < 3; ++e) {
+        const uint32_t p = t[e], q = t[(e + 1) % 3];
+        const auto found = springs.find({std::min(p, q), std::max(p, q)});
+        if (found != springs.end()) triangle.springs[e] = found->second;
+      }
+      for (const uint32_t corner : triangle.slots) around_[corner].push_back(triangle);
+    }
+    first_spring += static_cast<int64_t>(body.network->springs.size());
+  }
+}
+
+/// A third of the whole triangles around a node, normal times area [m2].
+Vector3d ReferenceSurroundings::areaAround(const ReferenceLattice& lattice, const Field& u_m, uint32_t slot) const {
+  const auto at = [&](uint32_t corner) { return Vector3d(lattice.restPosition(corner) + u_m[corner]); };
+  Vector3d sum = Vector3d::Zero();
+  for (const Triangle& t : around_[slot]) {
+    const bool torn = std::any_of(t.springs.begin(), t.springs.end(), [&](int64_t spring) {
+      return spring >= 0 && lattice.spring_cut[static_cast<size_t>(spring)] > 0;
+    });
+    if (torn) continue;
+    sum += (at(t.slots[1]) - at(t.slots[0])).cross(at(t.slots[2]) - at(t.slots[0])) / 6;
+  }
+  return sum;
+}
+
+Vector3d ReferenceSurroundings::kick(const ReferenceLattice& lattice, const Field& u_m, const Vector3d& v_m_per_s,
+                                     const Vector3d& wind_m_per_s, double dt_s, uint32_t slot) const {
+  Vector3d out = dt_s * acceleration_m_per_s2_[body_[slot]];
+  if (around_[slot].empty()) return out;
+  const Vector3d area = areaAround(lattice, u_m, slot);
+  if (area.norm() == 0) return out;
+  const Vector3d normal = area.normalized();
+  const double across = (wind_m_per_s - v_m_per_s).dot(normal);
+  const double pressure = 0.5 * wind_.air_density_kg_per_m3 * wind_.drag_coefficient * std::abs(across);
+  return out + std::min(1.0, pressure * area.norm() * dt_s / lattice.mass(slot)) * across * normal;
+}
+
+bool ReferenceSurroundings::mayTouch(const ReferenceLattice& lattice, uint32_t slot) const {
+  const bool outside = (collidable_[slot / 32] >> slot % 32 & 1) != 0;
+  return !lattice.isIsolated(slot) && (outside || (lattice.nodes[slot].lo & layout::kSeveredBit) != 0);
+}
+
+std::vector<ReferenceSurroundings::Pair> ReferenceSurroundings::touching(const ReferenceLattice& lattice,
+                                                                         const Field& u_m) const {
+  const double reach = *std::max_element(distance_m_.begin(), distance_m_.end());
+  using Cell = std::array<long, 3>;
+  const auto cellOf = [reach](const Vector3d& x) {
+    return Cell{std::lround(x.x() / reach), std::lround(x.y() / reach), std::lround(x.z() / reach)};
+  };
+  std::map<Cell, std::vector<uint32_t>> cells;
+  const auto at = [&](uint32_t slot) { return Vector3d(lattice.restPosition(slot) + u_m[slot]); };
+  for (const uint32_t slot : lattice.active) {
+    if (mayTouch(lattice, slot)) cells[cellOf(at(slot))].push_back(slot);
+  }
+  std::vector<Pair> out;
+  const auto visit = [&](uint32_t a, uint32_t b) {
+    if (a >= b) return;
+    double wanted = std::max(distance_m_[body_[a]], distance_m_[body_[b]]);
+    if (body_[a] == body_[b])
+      wanted = std::min(wanted, 0.5 * (lattice.restPosition(a) - lattice.restPosition(b)).norm());
+    if ((at(a) - at(b)).norm() < wanted) out.push_back({a, b, wanted});
+  };
+  for (const auto& [cell, slots] : cells) {
+    for (int i = 0; i < 27; ++i) {
+      const auto other = cells.find({cell[0] + i % 3 - 1, cell[1] + i / 3 % 3 - 1, cell[2] + i / 9 - 1});
+      if (other == cells.end()) continue;
+      for (const uint32_t a : slots) {
+        for (const uint32_t b : other->second) visit(a, b);
+      }
+    }
+  }
+  std::sort(out.begin(), out.end(), [](const Pair& p, const Pair& q) { return p.a != q.a ? p.a < q.a : p.b < q.b; });
+  return out;
+}
+
+// ---- what they do to the state ----
+
+/// @param way_m  grows by what the velocities change the way in the substep by; null: the integrator goes on from them
+void ReferenceSolver::blow(const SubstepOutside& outside, const Field& u, Field& v, Field* way_m) {
+  if (!options_.surroundings) return;
+  const Field u_now = u;
+  for (uint32_t slot : active) {
+    if (isFixed(nodes[slot]) || isIsolated(slot)) continue;
+    const Vector3d kick = options_.surroundings->kick(*this, u_now, v[slot], outside.wind_m_per_s, dt_s_, slot);
+    if (const uint32_t held_by = heldBy(slot)) {
+      impulse_n_s[held_by - 1] -= mass(slot) * kick;
+      continue;
+    }
+    v[slot] += kick;
+    if (way_m) (*way_m)[slot] += dt_s_ * kick;
+  }
+}
+
+void ReferenceSolver::meetObstacles(Field& u_next, Field& v_next) {
+  for (uint32_t slot : active) {
+    if (rests(slot) || heldBy(slot) != 0) continue;
+    const Vector3d rest = restPosition(slot), x = rest + u_m[slot];
+    for (size_t o = 0; o < obstacles_.size(); ++o) {
+      const ReferenceObstacle& obstacle = obstacles_[o];
+      const std::optional<ObstacleMeeting> met = obstacle.meet(x, rest + u_next[slot]);
+      if (!met) continue;
+      const Vector3d out = met->surface_m - (rest + u_next[slot]);
+      const double most = std::max(options_.push_speed_m_per_s * dt_s_, 1.001 * met->way_m);
+      u_next[slot] += std::min(1.0, out.norm() > 0 ? most / out.norm() : 1.0) * out;
+      const Vector3d relative = v_next[slot] - obstacle.velocityAt(rest + u_next[slot]);
+      const double approach = -relative.dot(met->normal);
+      if (approach <= 0) continue;
+      const double change = approach > restingSpeed() ? (1 + obstacle.restitution()) * approach : approach;
+      const Vector3d sliding = relative + approach * met->normal;
+      const double loses = std::min(obstacle.friction() * change, sliding.norm());
+      const Vector3d friction = sliding.norm() > 0 ? Vector3d(-loses * sliding.normalized()) : Vector3d::Zero();
+      v_next[slot] += change * met->normal + friction;
+      u_next[slot] += dt_s_ * friction;
+      // Leapfrog's drag, in the middle of the kick, lets no more of an impulse through.
+      const double through = 1 / (1 + 0.5 * drag_per_s(slot) * dt_s_);
+      obstacle_impulse_n_s[o] += mass(slot) * (change * met->normal + friction) / through;
+    }
+  }
+}
+
+namespace {
+
+/// Of a node with contacts: the sum of the directions to it, weighted by their depth, and how many there are.
+struct Touched {
+  Vector3d direction = Vector3d::Zero();
+  int contacts = 0;
+};
+
+/// That of the sheet which one of the two lies on: of whom has more contacts the mean of their directions.
+Vector3d contactNormal(const Vector3d& direction, const Touched& a, const Touched& b) {
+  constexpr double kLeast = 0.05;  // cosine to the contact's own direction: a mean that goes past it says nothing
+  Vector3d mean = Vector3d::Zero();
+  if (a.contacts >= b.contacts) mean += a.direction;
+  if (b.contacts >= a.contacts) mean -= b.direction;
+  return mean.norm() > 0 && mean.dot(direction) > kLeast * mean.norm() ? mean.normalized().eval() : direction;
+}
+
+}  // namespace
+
+void ReferenceSolver::collide(Field& u_next, Field& v_next) {
+  if (!options_.surroundings || !options_.surroundings->collides()) return;
+  const CollisionConfig& config = options_.surroundings->collision();
+  const auto pairs = options_.surroundings->touching(*this, u_next);
+  const auto apart = [this](const Field& u, uint32_t a, uint32_t b) {
+    return Vector3d(restPosition(a) + u[a] - restPosition(b) - u[b]);
+  };
+  // From b to a, as things were before the substep.
+  const auto direction = [&](uint32_t a, uint32_t b) {
+    for (const Vector3d& d : {apart(u_m, a, b), apart(u_next, a, b)}) {
+      if (d.norm() > 0) return d.normalized().eval();
+    }
+    return Vector3d::UnitZ().eval();
+  };
+  std::vector<Touched> touched(slots());
+  for (const auto& pair : pairs) {
+    const Vector3d weighted = (pair.distance_m - apart(u_next, pair.a, pair.b).norm()) * direction(pair.a, pair.b);
+    touched[pair.a].direction += weighted;
+    touched[pair.b].direction -= weighted;
+    ++touched[pair.a].contacts;
+    ++touched[pair.b].contacts;
+  }
+  const auto inverseMass = [this](uint32_t slot) {
+    return isFixed(nodes[slot]) || heldBy(slot) != 0 ? 0 : 1 / mass(slot);
+  };
+  Field impulse(slots(), Vector3d::Zero()), shift(slots(), Vector3d::Zero());
+  for (const auto& [a, b, distance] : pairs) {
+    const double inverse = touched[a].contacts * inverseMass(a) + touched[b].contacts * inverseMass(b);
+    if (inverse == 0) continue;
+    const Vector3d normal = contactNormal(direction(a, b), touched[a], touched[b]);
+    const double depth = std::max(0.0, distance - apart(u_m, a, b).norm());
+    const Vector3d moved = std::min(0.25 * depth, options_.push_speed_m_per_s * dt_s_) / inverse * normal;
+    shift[a] += moved;
+    shift[b] -= moved;
+    const Vector3d relative = v_next[a] - v_next[b];
+    const double approach = -relative.dot(normal);
+    if (approach <= 0) continue;
+    const double change = approach > restingSpeed() ? (1 + config.restitution) * approach : approach;
+    const Vector3d sliding = relative + approach * normal;
+    Vector3d push = change * normal;
+    if (sliding.norm() > 0) push -= std::min(config.friction * change, sliding.norm()) * sliding.normalized();
+    impulse[a] += push / inverse;
+    impulse[b] -= push / inverse;
+  }
+  for (uint32_t slot : active) {
+    if (isFixed(nodes[slot]) || isIsolated(slot)) continue;
+    if (const uint32_t held_by = heldBy(slot)) {
+      impulse_n_s[held_by - 1] -= impulse[slot];
+      continue;
+    }
+    v_next[slot] += impulse[slot] / mass(slot);
+    u_next[slot] += dt_s_ * impulse[slot] / mass(slot) + shift[slot] / mass(slot);
+  }
+}
+
+}  // namespace viscera

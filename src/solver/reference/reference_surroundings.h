@@ -1,0 +1,51 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "solver/fields.h"
+#include "solver/reference/reference_lattice.h"
+#include "viscera/model/model.h"
+
+namespace viscera {
+
+/// Wind, forces on bodies and contacts between nodes in float64, written from physics.md 8.
+class ReferenceSurroundings {
+ public:
+  /// @param model  must outlive this
+  ReferenceSurroundings(const Model& model, const Scene& scene);
+
+  /// What wind and force_n change a node's velocity by in dt [m/s].
+  Vector3d kick(const ReferenceLattice& lattice, const Field& u_m, const Vector3d& v_m_per_s,
+                const Vector3d& wind_m_per_s, double dt_s, uint32_t slot) const;
+
+  /// Two nodes that touch.
+  struct Pair {
+    uint32_t a, b;      ///< slots, a < b
+    double distance_m;  ///< that they keep
+  };
+  bool collides() const { return collision_.enabled; }
+  const CollisionConfig& collision() const { return collision_; }
+  /// All pairs nearer than they may be, ascending.
+  std::vector<Pair> touching(const ReferenceLattice& lattice, const Field& u_m) const;
+
+ private:
+  struct Triangle {
+    std::array<uint32_t, 3> slots;
+    std::array<int64_t, 3> springs;  ///< of its edges, in ReferenceLattice::spring_cut; -1 where there is none
+  };
+  Vector3d areaAround(const ReferenceLattice& lattice, const Field& u_m, uint32_t slot) const;
+  bool mayTouch(const ReferenceLattice& lattice, uint32_t slot) const;
+
+  WindConfig wind_;
+  CollisionConfig collision_;
+  std::vector<Vector3d> acceleration_m_per_s2_;  ///< [bodies] of force_n
+  std::vector<double> distance_m_;               ///< [bodies] that their nodes keep
+  std::vector<size_t> body_;                     ///< [slots]
+  std::vector<uint32_t> collidable_;             ///< collidableNodes()
+  std::vector<std::vector<Triangle>> around_;    ///< [slots] triangles with the node
+};
+
+}  // namespace viscera
