@@ -15,6 +15,8 @@ namespace {
 constexpr int kSlenderness = 40;       ///< length over depth: strain of the outermost fibre is pi / 40 in a circle
 constexpr int kSteps = 24;             ///< to the full circle
 constexpr double kMomentLimit = 0.03;  ///< of E I kappa: ours; fibres strained by 8 % are not linear
+constexpr double kBalanced =
+    1e-4;  ///< of the largest force: Newton's last digits cost cells by moments hundreds of steps
 constexpr double kKernelLimit = 1e-3;  ///< kernels against the reference in the same state, float32 rounding
 
 /// A beam along x, n cells deep and wide, bent about y.
@@ -41,7 +43,9 @@ class BentBeam {
         ends.push_back({slot, 2, u.z()});
         if (std::abs(rest.y() - depth_ / 2.0) < 0.6) ends.push_back({slot, 1, 0});
       }
-      solveStatics(solver_, ends);
+      StaticsOptions options;
+      options.tolerance = kBalanced;
+      solveStatics(solver_, ends, {}, options);
     }
     return momentOf(solver_.elasticForces(solver_.u_m));
   }
@@ -98,15 +102,22 @@ void measureCircle(Report& report) {
       report.stage("circle, " + name + ", depth " + std::to_string(depth));
       BentBeam beam(depth, cells);
       for (double degrees : {45.0, 180.0, 360.0}) {
-        const double moment = beam.bend(degrees * M_PI / 180);
-        std::vector<Cell> row = {name, depth, degrees, moment};
+        std::vector<Cell> row = {name, depth, degrees};
+        double moment = std::nan("");
+        try {
+          moment = beam.bend(degrees * M_PI / 180);
+        } catch (const ConvergenceError& error) {
+          report.note("circle, " + name + ", " + Cell(degrees).text(3) + " degrees: " + error.what());
+        }
+        row.push_back(std::isnan(moment) ? Cell("no equilibrium") : Cell(moment));
         for (size_t b = 0; b < worst_kernel.size(); ++b) {
-          const double on = beam.momentOn(report.backends()[b]) / moment - 1;
-          row.emplace_back(on);
+          const double on = std::isnan(moment) ? 0 : beam.momentOn(report.backends()[b]) / moment - 1;
+          row.push_back(std::isnan(moment) ? Cell("") : Cell(on));
           worst_kernel[b] = worse(worst_kernel[b], std::abs(on));
         }
         table.add(row);
         worst = worse(worst, std::abs(moment - 1));
+        if (std::isnan(moment)) break;
       }
     }
     if (cells == Cells::kMoments && !report.isShort())
