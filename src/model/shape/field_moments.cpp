@@ -7,9 +7,12 @@
 // Laplacian, is taken off all of them, unless the field has a crease there.
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
+#include <future>
 #include <limits>
 #include <map>
+#include <thread>
 
 #include "model/shape/cell_fill.h"
 #include "model/shape/node_depths.h"
@@ -194,41 +197,74 @@ class FieldCell {
   double spacing_m_;
 };
 
-void fillCell(const FieldCell& cell, size_t index, Solid& solid, std::vector<PartialCell>& slivers) {
+/// What filling a block finds beside labels.
+struct Found {
+  std::vector<PartialCell> partial, slivers;
+};
+
+void fillCell(const FieldCell& cell, size_t index, Solid& solid, Found& found) {
   const LabelledDistance& middle = cell.middle();
   if (cell.isUniform()) {
     if (middle.distance_m < 0) solid.labels[index] = middle.part + 1;
     return;
   }
   const CellFill fill = cell.fill();
-  if (fill.share < kLeastShare) return slivers.push_back({index, fill});
+  if (fill.share < kLeastShare) return found.slivers.push_back({index, fill});
   solid.labels[index] = middle.distance_m < 0 ? middle.part + 1 : cell.commonLabel();
-  if (fill.share <= 1 - kLeastGap) solid.partial.push_back({index, fill});
+  if (fill.share <= 1 - kLeastGap) found.partial.push_back({index, fill});
 }
 
-void fillBlock(const Vector3i& first, BlockSamples& samples, Solid& solid, std::vector<PartialCell>& slivers) {
+void fillBlock(const Vector3i& first, BlockSamples& samples, Solid& solid, Found& found) {
   samples.moveTo(solid.origin_m + solid.spacing_m * first.cast<double>(), solid.spacing_m / kCuts);
   const Vector3i end = (first.array() + kBlockCells).min(solid.cells.array());
   for (int z = first.z(); z < end.z(); ++z) {
     for (int y = first.y(); y < end.y(); ++y) {
       for (int x = first.x(); x < end.x(); ++x) {
         const FieldCell cell(samples, kCuts * (Vector3i(x, y, z) - first), solid.spacing_m);
-        fillCell(cell, solid.index(x, y, z), solid, slivers);
+        fillCell(cell, solid.index(x, y, z), solid, found);
       }
     }
   }
 }
 
-void fillAll(const DistanceField& field, Solid& solid, const Progress& progress) {
-  BlockSamples samples(field);
-  std::vector<PartialCell> slivers;
-  for (int z = 0; z < solid.cells.z(); z += kBlockCells) {
-    for (int y = 0; y < solid.cells.y(); y += kBlockCells) {
-      for (int x = 0; x < solid.cells.x(); x += kBlockCells) fillBlock({x, y, z}, samples, solid, slivers);
+/// A layer of blocks, shared among threads: fields are the slowest part of a phantom.
+void fillLayer(const DistanceField& field, int z, Solid& solid, Found& found) {
+  const Vector3i blocks = (solid.cells.array() + kBlockCells - 1) / kBlockCells;
+  const int count = blocks.x() * blocks.y();
+  std::atomic<int> next{0};
+  const auto work = [&] {
+    Found own;
+    BlockSamples samples(field);
+    for (int b = next++; b < count; b = next++) {
+      fillBlock({b % blocks.x() * kBlockCells, b / blocks.x() * kBlockCells, z}, samples, solid, own);
     }
+    return own;
+  };
+  std::vector<std::future<Found>> workers;
+  const int threads = std::min(count, static_cast<int>(std::max(1u, std::thread::hardware_concurrency())));
+  for (int t = 0; t < threads; ++t) workers.push_back(std::async(std::launch::async, work));
+  for (std::future<Found>& worker : workers) {
+    const Found own = worker.get();
+    found.partial.insert(found.partial.end(), own.partial.begin(), own.partial.end());
+    found.slivers.insert(found.slivers.end(), own.slivers.begin(), own.slivers.end());
+  }
+}
+
+bool isBefore(const PartialCell& a, const PartialCell& b) {
+  return a.cell < b.cell;
+}
+
+void fillAll(const DistanceField& field, Solid& solid, const Progress& progress) {
+  Found found;
+  for (int z = 0; z < solid.cells.z(); z += kBlockCells) {
+    fillLayer(field, z, solid, found);
     if (progress) progress("voxelise", std::min(1.0, static_cast<double>(z + kBlockCells) / solid.cells.z()));
   }
-  giveSlivers(slivers, solid);
+  // In one order whichever thread found them, so that sums round alike.
+  std::sort(found.partial.begin(), found.partial.end(), isBefore);
+  std::sort(found.slivers.begin(), found.slivers.end(), isBefore);
+  solid.partial = std::move(found.partial);
+  giveSlivers(found.slivers, solid);
   if (!solid.partial.empty()) measureDepths(field, solid);
 }
 
