@@ -15,8 +15,9 @@ void giveMomentum(uint stylus, uint slot, vec3 impulse) { impulses[stylus * slot
 
 /// Swept sphere: a node inside the final sphere goes to its surface along the radius; one that the sphere has passed over
 /// goes out of the swept capsule sideways, so no sweep is too fast. Its normal velocity becomes the tool's.
-void probe(ToolMotion motion, vec3 x, INOUT(vec3) x_next, INOUT(vec3) v_next) {
-  ProbeSide side = sideOfProbe(motion, x, x_next);
+/// @param below  surfaceDepth() of the node
+void probe(ToolMotion motion, float below, vec3 x, INOUT(vec3) x_next, INOUT(vec3) v_next) {
+  ProbeSide side = sideOfProbe(motion, x, x_next, below);
   if (!side.inside) return;
   vec3 travel = xyz(motion.to) - xyz(motion.from);
   // Out of the tool, but no faster than waves travel: a tool that appears inside the tissue must not shoot it away.
@@ -32,6 +33,7 @@ vec3 heldDisplacement(uint stylus, uint slot) {
 
 void resolveContacts(uint slot, NodeBits bits, float mass, vec3 u, INOUT(vec3) u_next, INOUT(vec3) v_next) {
   vec3 rest = restPosition(slot);
+  float below = surfaceDepth(slot);
   uint held_by = (bits.lo & kGrabMask) >> kGrabShift;
   for (uint s = 0u; s < kMaxStyluses; ++s) {
     if ((tool_motions[s].info.y & kToolPushes) == 0u && held_by != s + 1u) continue;
@@ -44,13 +46,14 @@ void resolveContacts(uint slot, NodeBits bits, float mass, vec3 u, INOUT(vec3) u
       vec3 x_next = rest + u_next;
       vec3 reach = x_next - xyz(motion.to);
       vec3 travel = xyz(motion.to) - xyz(motion.from);
-      float far = motion.from.w + length(travel);
+      bool feels = (motion.info.y & kToolFeels) != 0u;  // is within tissue: no node is farther from it than it would be without depths
+      float far = max(motion.from.w + (feels ? max(below, 0.0f) : below), 0.0f) + length(travel);
       if (dot(reach, reach) >= far * far) continue;
-      if ((motion.info.y & kToolFeels) != 0u) {
+      if (feels) {
         giveMomentum(s, slot, vec3(0.0f));
         continue;
       }
-      probe(motion, rest + u, x_next, v_next);
+      probe(motion, below, rest + u, x_next, v_next);
       u_next = x_next - rest;
       if (v_next == v_before) continue;
     } else {

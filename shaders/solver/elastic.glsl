@@ -16,9 +16,13 @@ layout(binding = kUnitIncrement) uniform samplerBuffer increment;
 #endif
 
 #if defined(PARTS) || defined(NETWORK)
-layout(binding = kUnitNodeMass) uniform samplerBuffer node_mass;                // [slots]
+layout(binding = kUnitNodeMass) uniform samplerBuffer node_mass;                // [slots]; y as surfaceDepth(), 0 where there is none
+/// How deep a node lies below the surface of its tissue at rest, where cells are tissue in part and it is no deeper than a cell [m];
+/// negative outside. What touches the tissue is as much nearer to the surface than to the node.
+float surfaceDepth(uint slot) { return texelFetch(node_mass, int(slot)).y; }
 float nodeMass(uint slot, NodeBits bits, BodyParams body) { return texelFetch(node_mass, int(slot)).x; }
 #else
+float surfaceDepth(uint slot) { return 0.0f; }
 float nodeMass(uint slot, NodeBits bits, BodyParams body) { return float((bits.lo >> kMassShift) & 15u) * body.mass_eighth_kg; }
 #endif
 #ifdef PARTS

@@ -73,22 +73,24 @@ void addContact(uint slot, float owner, vec4 side, vec3 way, float friction) {
 /// Gives a node a contact with everything in which an increment would end.
 void findContacts(uint slot, vec3 u, vec3 du) {
   vec3 x = restPosition(slot) + u, x_next = x + du;
+  float below = surfaceDepth(slot);
 #ifdef TOOLS
   for (uint s = 0u; s < kMaxStyluses; ++s) {
     ToolMotion motion = tool_motions[s];
     if ((motion.info.y & (kToolPushes | kToolFeels)) != kToolPushes) continue;
     vec3 travel = xyz(motion.to) - xyz(motion.from);
-    if (distance(x_next, xyz(motion.to)) >= motion.from.w + length(travel)) continue;
-    if (!sideOfProbe(motion, x, x_next).inside) continue;
-    ProbeSide side = sideOfProbe(motion, x, x);
+    if (distance(x_next, xyz(motion.to)) >= max(motion.from.w + below, 0.0f) + length(travel)) continue;
+    if (!sideOfProbe(motion, x, x_next, below).inside) continue;
+    ProbeSide side = sideOfProbe(motion, x, x, below);
     addContact(slot, float(1u + s), vec4(side.normal, side.depth), travel, 0.0f);
   }
 #endif
 #ifdef OBSTACLES
   for (uint o = 0u; o < obstacle_count; ++o) {
-    Meeting meeting = meetingOf(obstacles[o], x, x_next);
+    ObstacleMotion seen = seenFrom(below, obstacles[o]);
+    Meeting meeting = meetingOf(seen, x, x_next);
     if (!meeting.touches) continue;
-    addContact(slot, float(1u + kMaxStyluses + o), outsideOf(obstacles[o], meeting, x, x_next), wayOfSurface(obstacles[o], x, dt_s),
+    addContact(slot, float(1u + kMaxStyluses + o), outsideOf(seen, meeting, x, x_next), wayOfSurface(obstacles[o], x, dt_s),
                obstacles[o].velocity.w);
   }
 #endif

@@ -127,9 +127,10 @@ void main() {
   vec3 rest = restPosition(slot);
   vec3 x = rest + u_before, x_next = rest + u_next;
   bool touched = false;
+  float below = surfaceDepth(slot);
   for (uint o = 0u; o < obstacle_count; ++o) {
     vec3 v_free = v_next;
-    if (!meetObstacle(obstacles[o], x, x_next, v_next)) continue;
+    if (!meetObstacle(seenFrom(below, obstacles[o]), x, x_next, v_next)) continue;
     touched = true;
     if (v_next == v_free) continue;
     // The kick that this ends has drag in it: of the obstacle's momentum it let through 1 / (1 + gamma dt / 2).

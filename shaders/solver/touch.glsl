@@ -22,8 +22,9 @@ struct ProbeSide {
 
 /// A node inside the final sphere sees its surface along the radius; one that the sphere has passed over, that of the swept capsule.
 /// @param came_from  where the node was before the substep, for one at the centre, which has no direction
-ProbeSide sideOfProbe(ToolMotion motion, vec3 came_from, vec3 x) {
-  float radius = motion.from.w;
+/// @param below      surfaceDepth() of the node: for it the probe is as much larger
+ProbeSide sideOfProbe(ToolMotion motion, vec3 came_from, vec3 x, float below) {
+  float radius = max(motion.from.w + below, 0.0f);
   vec3 travel = xyz(motion.to) - xyz(motion.from);
   vec3 centre = distance(x, xyz(motion.to)) < radius ? xyz(motion.to) : nearestOnSegment(xyz(motion.from), xyz(motion.to), x);
   vec3 out_of = x - centre;
@@ -143,6 +144,28 @@ struct Meeting {
   float way;      // that it went, as seen from the obstacle [m]
 };
 
+/// An obstacle as a node sees it that lies below the surface of its tissue: as much larger. @param below  surfaceDepth() [m]
+ObstacleMotion seenFrom(float below, ObstacleMotion o) {
+  if (below == 0.0f) return o;
+  if (o.info.x == kShapePlane) {
+    vec3 from = rotated(xyzw(o.from_orientation), vec3(0.0f, 0.0f, below)), to = rotated(xyzw(o.to_orientation), vec3(0.0f, 0.0f, below));
+    o.from.x += from.x;
+    o.from.y += from.y;
+    o.from.z += from.z;
+    o.to.x += to.x;
+    o.to.y += to.y;
+    o.to.z += to.z;
+  } else if (o.info.x == kShapeBox) {
+    o.half_size.x = max(o.half_size.x + below, 0.0f);
+    o.half_size.y = max(o.half_size.y + below, 0.0f);
+    o.half_size.z = max(o.half_size.z + below, 0.0f);
+  } else {
+    o.from.w = max(o.from.w + below, 0.0f);
+  }
+  return o;
+}
+
+/// @param o  as seenFrom()
 Meeting meetingOf(ObstacleMotion o, vec3 x, vec3 x_next) {
   vec3 from = rotated(conjugate(xyzw(o.from_orientation)), x - xyz(o.from));
   vec3 to = rotated(conjugate(xyzw(o.to_orientation)), x_next - xyz(o.to));

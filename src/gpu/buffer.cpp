@@ -79,6 +79,8 @@ GLenum glName(TexelFormat format) {
       return GL_RGBA32F;
     case TexelFormat::kRgba32ui:
       return GL_RGBA32UI;
+    case TexelFormat::kRg32f:
+      return GL_RG32F;
     case TexelFormat::kR32f:
       return GL_R32F;
     case TexelFormat::kR32ui:
@@ -91,7 +93,7 @@ GLenum glName(TexelFormat format) {
 
 TexelView::TexelView(const RawBuffer& buffer, TexelFormat format) {
   const bool wide = format == TexelFormat::kRgba32f || format == TexelFormat::kRgba32ui;
-  const size_t texels = buffer.bytes() / (wide ? 16 : 4);
+  const size_t texels = buffer.bytes() / (wide ? 16 : format == TexelFormat::kRg32f ? 8 : 4);
   const GLenum name = glName(format);
   GLint most = 0;
   glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most);

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solver/joined_lattice.h"
 
+#include <algorithm>
+
 namespace viscera {
 
 namespace {
@@ -66,6 +68,21 @@ Strengths allStrengths(const Model& model) {
     append(out.bulk_j, table.bulk_j);
     append(out.rigidity_j, table.rigidity_j);
     out.rigidity_j.resize(out.bulk_j.size());
+  }
+  return out;
+}
+
+std::vector<float> surfaceDepths(const Model& model) {
+  const bool any = std::any_of(model.bodies.begin(), model.bodies.end(),
+                               [](const Body& body) { return !body.lattice.depth_m.empty(); });
+  if (!any) return {};
+  std::vector<float> out(model.slots(), 0.0f);
+  for (size_t b = 0; b < model.bodies.size(); ++b) {
+    const Lattice& lattice = model.bodies[b].lattice;
+    if (lattice.depth_m.empty()) continue;
+    for (const uint32_t slot : lattice.active_slots) {
+      if (lattice.depth_m[slot] < 0.5 * lattice.spacing_m) out[model.slotOffset(b) + slot] = lattice.depth_m[slot];
+    }
   }
   return out;
 }

@@ -34,4 +34,9 @@ struct JoinedMoments {
 constexpr size_t kVectorsPerFill = 3;
 JoinedMoments allMoments(const Model& model);
 
+/// [slots] how deep nodes lie below the surface of their tissue [m], negative outside, where tools and obstacles are to
+/// know it: in bodies with cells that are tissue in part, of nodes less than half a cell deep; 0 elsewhere. Empty
+/// without such bodies. Deeper nodes are met as they are: the tissue above them would be as if it were rigid.
+std::vector<float> surfaceDepths(const Model& model);
+
 }  // namespace viscera

@@ -35,6 +35,7 @@ CpuStrengths::CpuStrengths(const Model& model, const CpuStore& store, const Feat
                            const std::vector<float>& masses_kg)
     : stiffness(store.slotCount() * kSpringPairs),
       mass(store.slotCount(), 1),
+      surface_depth(surfaceDepths(model)),
       mobility(store.slotCount()),
       both_ends(store.slotCount() * layout::kSpringsPerNode),
       uniform(store.brickCount()),

@@ -27,6 +27,7 @@ struct CpuStrengths {
 
   AlignedVector<float> stiffness;    ///< [9 * slots] N/m of even springs (stiffnessAt); 0 cut or absent
   AlignedVector<float> mass;         ///< [slots] kg; 1 where no node is
+  std::vector<float> surface_depth;  ///< [slots] m, surfaceDepths(); empty where there are none
   AlignedVector<float> mobility;     ///< [slots] 1/kg of nodes that take part in a substep, held ones too; 0: absent,
                                      ///< fixed, alone
   AlignedVector<float> bulk;         ///< [slots] J of the cell above the node; 0 torn or absent; empty without volumes

@@ -90,6 +90,7 @@ struct Kernel {
         bricks_(lattice.store.bricks.data()),
         stiffness_(lattice.strengths.stiffness.data()),
         mass_(lattice.strengths.mass.data()),
+        depth_(lattice.strengths.surface_depth.empty() ? nullptr : lattice.strengths.surface_depth.data()),
         bulk_(lattice.strengths.bulk.data()),
         rigidity_(lattice.strengths.rigidity.data()),
         moments_(&lattice.strengths.moments),
@@ -142,6 +143,7 @@ struct Kernel {
   }
   const Link& linkAt(uint link) const { return links_[link]; }
   float nodeMass(uint slot, const NodeBits&, const BodyParams&) const { return mass_[slot]; }
+  float surfaceDepth(uint slot) const { return depth_ ? depth_[slot] : 0; }
   float cellBulk(uint slot, const BodyParams&) const { return bulk_[slot]; }
   float cellRigidity(uint slot, const BodyParams&) const { return rigidity_ ? rigidity_[slot] : 0; }
   /// @tparam Moments  CellMoments of shaders/solver/moments.glsl, which is not known here
@@ -170,7 +172,7 @@ struct Kernel {
   layout::vec4* obstacle_impulses_;
   uint8_t* met_;
   const Brick* bricks_;
-  const float *stiffness_, *mass_, *bulk_, *rigidity_;
+  const float *stiffness_, *mass_, *depth_, *bulk_, *rigidity_;
   const JoinedMoments* moments_;
   const layout::vec4* rest_;
   const uint* link_starts_;

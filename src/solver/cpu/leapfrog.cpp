@@ -27,9 +27,14 @@ void touchNode(CpuLattice& lattice, const Substep& step, const layout::ToolMotio
 }
 
 /// How far a probe reaches in a substep, around where it is at the end [m].
-float reachOf(const layout::ToolMotion& m) {
+/// @param deepest_m  that a node lies below the surface by which it is touched
+float reachOf(const layout::ToolMotion& m, float deepest_m) {
   const Vector3f travel(m.to.x - m.from.x, m.to.y - m.from.y, m.to.z - m.from.z);
-  return m.from.w + travel.norm();
+  return m.from.w + deepest_m + travel.norm();
+}
+
+float deepestOf(const std::vector<float>& depths_m) {
+  return depths_m.empty() ? 0 : std::max(0.0f, *std::max_element(depths_m.begin(), depths_m.end()));
 }
 
 }  // namespace
@@ -41,6 +46,7 @@ CpuLeapfrog::CpuLeapfrog(const CpuLattice& lattice, const CpuParts& parts)
       step_bricks_(parts.kernels.leapfrog),
       sum_cells_(parts.kernels.cells),
       features_(parts.features),
+      deepest_m_(deepestOf(lattice.strengths.surface_depth)),
       near_(lattice.brickCount()),
       strained_(lattice.brickCount()),
       speed2_(lattice.brickCount()) {
@@ -83,7 +89,7 @@ void CpuLeapfrog::stepAwake(CpuLattice& lattice, const Substep& step, const layo
   job_.reaches = 0;
   for (size_t s = 0; step.tools && s < layout::kMaxStyluses; ++s) {
     const layout::ToolMotion& m = motions[s];
-    if (m.info.y & layout::kToolPushes) job_.reach[job_.reaches++] = {{m.to.x, m.to.y, m.to.z}, reachOf(m)};
+    if (m.info.y & layout::kToolPushes) job_.reach[job_.reaches++] = {{m.to.x, m.to.y, m.to.z}, reachOf(m, deepest_m_)};
   }
   parallel_((awake + per_job_ - 1) / per_job_, [&](size_t chunk) { stepBricks(lattice, step, motions, chunk); });
 }
@@ -140,7 +146,7 @@ void CpuLeapfrog::stepNetwork(CpuLattice& lattice, const Substep& step, const la
   reaches_.clear();
   for (size_t s = 0; s < layout::kMaxStyluses; ++s) {
     const layout::ToolMotion& m = motions[s];
-    if (m.info.y & layout::kToolPushes) reaches_.push_back({glsl::xyz(m.to), reachOf(m)});
+    if (m.info.y & layout::kToolPushes) reaches_.push_back({glsl::xyz(m.to), reachOf(m, deepest_m_)});
   }
   for (const uint32_t slot : network_->touched(lattice, reaches_)) touchNode(lattice, step, motions, slot);
 }

@@ -36,6 +36,7 @@ class CpuLeapfrog : public CpuStepper {
   std::vector<uint8_t> wanted_;              ///< [bricks] while they are listed
   AlignedVector<float> compensation_;        ///< [6 * slots], see kernels.h; empty without compensation
   simd::LeapfrogJob job_{};
+  float deepest_m_;                 ///< of surface_depth
   std::vector<uint8_t> near_;       ///< [bricks]
   std::vector<uint16_t> strained_;  ///< [bricks]
   std::vector<float> speed2_;       ///< [bricks]

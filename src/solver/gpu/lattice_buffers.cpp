@@ -36,8 +36,20 @@ void StoreBuffers::reset() {
   nodes.write(whole_nodes_);
 }
 
+namespace {
+
+/// Masses and depths in turn.
+std::vector<float> inTurn(const std::vector<float>& masses_kg, const std::vector<float>& depths_m) {
+  std::vector<float> out;
+  for (size_t slot = 0; slot < masses_kg.size(); ++slot) out.insert(out.end(), {masses_kg[slot], depths_m[slot]});
+  return out;
+}
+
+}  // namespace
+
 StrengthBuffers::StrengthBuffers(const Model& model, const FeatureSet& features, const std::vector<float>& masses_kg) {
-  if (!masses_kg.empty()) node_mass = gpu::Buffer<float>(masses_kg, "node mass");
+  const std::vector<float> depths_m = surfaceDepths(model);
+  std::vector<float> masses = masses_kg;
   if (features.parts) {
     const Strengths table = allStrengths(model);
     spring_stiffness = gpu::Buffer<float>(table.spring_n_per_m, "spring stiffness");
@@ -47,10 +59,12 @@ StrengthBuffers::StrengthBuffers(const Model& model, const FeatureSet& features,
       cell_bulk = gpu::Buffer<float>(table.bulk_j, "cell bulk");
       bulk_texels_ = gpu::TexelView(cell_bulk.raw(), gpu::TexelFormat::kR32f);
     }
-    if (masses_kg.empty()) node_mass = gpu::Buffer<float>(table.mass_kg, "node mass");
+    if (masses.empty()) masses = table.mass_kg;
     spring_texels_ = gpu::TexelView(spring_stiffness.raw(), gpu::TexelFormat::kR32f);
   }
-  if (node_mass.size()) mass_texels_ = gpu::TexelView(node_mass.raw(), gpu::TexelFormat::kR32f);
+  if (masses.empty()) return;
+  node_mass = gpu::Buffer<float>(depths_m.empty() ? masses : inTurn(masses, depths_m), "node mass");
+  mass_texels_ = gpu::TexelView(node_mass.raw(), depths_m.empty() ? gpu::TexelFormat::kR32f : gpu::TexelFormat::kRg32f);
 }
 
 void StrengthBuffers::writeMoments(const Model& model, const Strengths& table) {

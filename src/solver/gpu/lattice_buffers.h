@@ -40,8 +40,8 @@ struct StrengthBuffers {
   void bind() const;
 
   gpu::Buffer<float> spring_stiffness;  ///< [9 * slots] N/m; feature parts
-  gpu::Buffer<float> node_mass;         ///< [slots] kg; features parts, network
-  gpu::Buffer<float> cell_bulk;         ///< [slots] J; feature parts, without moments
+  gpu::Buffer<float> node_mass;  ///< [slots] kg; features parts, network; [2 * slots] with surfaceDepths() in turn
+  gpu::Buffer<float> cell_bulk;  ///< [slots] J; feature parts, without moments
   gpu::Buffer<layout::vec4>
       cell_strengths;                      ///< [slots] x bulk, y rigidity [J], z which moments; features parts, moments
   gpu::Buffer<layout::vec4> cell_moments;  ///< JoinedMoments::vectors; features parts, moments

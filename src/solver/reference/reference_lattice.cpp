@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "solver/joined_lattice.h"
+
 namespace viscera {
 
 namespace {
@@ -18,7 +20,10 @@ Vector3i cornerOffset(size_t corner) {
 }  // namespace
 
 ReferenceLattice::ReferenceLattice(const Model& model)
-    : rest_m_(model.slots(), Vector3d::Zero()), place_(model.slots(), -1), around_(model.slots(), kNoCells) {
+    : rest_m_(model.slots(), Vector3d::Zero()),
+      surface_depth_m_(surfaceDepths(model)),
+      place_(model.slots(), -1),
+      around_(model.slots(), kNoCells) {
   const double dt_safe_s = safeTimeStep(model);
   for (size_t b = 0; b < model.bodies.size(); ++b) addBody(model, b, dt_safe_s);
   for (size_t i = 0; i < active.size(); ++i) place_[active[i]] = static_cast<int>(i);

@@ -34,6 +34,8 @@ class ReferenceLattice {
   size_t slots() const { return nodes.size(); }
   Vector3d restPosition(uint32_t slot) const { return rest_m_[slot]; }
   double mass(uint32_t slot) const;  ///< [kg]
+  /// surfaceDepths() [m]: for it tools and obstacles are as much larger.
+  double surfaceDepth(uint32_t slot) const { return surface_depth_m_.empty() ? 0 : surface_depth_m_[slot]; }
   /// Places for springs at a node: 18 in an implicit lattice, else its links, cut ones too.
   uint32_t springsOf(uint32_t slot) const { return starts_[slot + 1] - starts_[slot]; }
   bool isWhole(uint32_t slot, uint32_t spring) const;  ///< a spring is there and not cut
@@ -129,6 +131,7 @@ class ReferenceLattice {
   std::vector<uint32_t> starts_ = {0};      ///< [slots + 1] into neighbors_
   std::vector<Neighbor> neighbors_;         ///< node by node
   Field rest_m_;                            ///< [slots]
+  std::vector<float> surface_depth_m_;      ///< [slots] or none
   std::vector<int> place_;                  ///< [slots] place in `active`, or -1
   std::vector<Cell> cells_;                 ///< [cells]
   std::vector<std::array<int, 8>> around_;  ///< [slots] cell of which the node is corner c, or -1

@@ -46,6 +46,17 @@ ReferenceObstacle::ReferenceObstacle(const layout::ObstacleMotion& motion, doubl
       from_(poseOf(motion.from, motion.from_orientation)),
       to_(poseOf(motion.to, motion.to_orientation)) {}
 
+ReferenceObstacle ReferenceObstacle::enlarged(double below_m) const {
+  ReferenceObstacle seen = *this;
+  if (shape_ == layout::kShapePlane) {
+    seen.from_.position_m += below_m * (from_.orientation * Vector3d::UnitZ());
+    seen.to_.position_m += below_m * (to_.orientation * Vector3d::UnitZ());
+  }
+  seen.radius_m_ = std::max(0.0, radius_m_ + below_m);
+  seen.half_size_m_ = (half_size_m_.array() + below_m).max(0.0);
+  return seen;
+}
+
 std::optional<ObstacleMeeting> ReferenceObstacle::meet(const Vector3d& x_m, const Vector3d& x_next_m) const {
   const Vector3d from = seenFrom(from_, x_m), to = seenFrom(to_, x_next_m);
   const std::optional<Local> met = shape_ == layout::kShapePlane ? meetPlane(to)
@@ -139,11 +150,11 @@ std::optional<ReferenceObstacle::Local> ReferenceObstacle::meetRound(const Vecto
   return Local{normal, onAxis(to) + radius_m_ * normal};
 }
 
-std::optional<HalfSpace> outsideOfProbe(const layout::ToolMotion& motion, const Vector3d& x_m,
-                                        const Vector3d& x_next_m) {
+std::optional<HalfSpace> outsideOfProbe(const layout::ToolMotion& motion, const Vector3d& x_m, const Vector3d& x_next_m,
+                                        double below_m) {
   if ((motion.info.y & (layout::kToolPushes | layout::kToolFeels)) != layout::kToolPushes) return std::nullopt;
   const Vector3d from = xyz(motion.from), to = xyz(motion.to), travel = to - from;
-  const double radius = motion.from.w, length2 = travel.squaredNorm();
+  const double radius = std::max(0.0, motion.from.w + below_m), length2 = travel.squaredNorm();
   // The final sphere for who is in it, else the capsule that it has swept.
   const auto centreFor = [&](const Vector3d& x) {
     if (length2 == 0 || (x - to).norm() < radius) return to;

@@ -31,6 +31,8 @@ class ReferenceObstacle {
   /// @param dt_s  the substep's length
   ReferenceObstacle(const layout::ObstacleMotion& motion, double dt_s);
 
+  /// As a node sees it that lies so deep below the surface of its tissue, or outside of it: larger or smaller.
+  ReferenceObstacle enlarged(double below_m) const;
   /// Does a node that goes from x to x_next end inside, or pass through?
   std::optional<ObstacleMeeting> meet(const Vector3d& x_m, const Vector3d& x_next_m) const;
   /// The half space that a node at x must end in if its way would meet the obstacle: the tangent plane nearest to x, of
@@ -59,7 +61,8 @@ class ReferenceObstacle {
 };
 
 /// The same of a probe that pushes: where a node at x must end a substep if x_next is inside.
-std::optional<HalfSpace> outsideOfProbe(const layout::ToolMotion& motion, const Vector3d& x_m,
-                                        const Vector3d& x_next_m);
+/// @param below_m  how deep the node lies below the surface of its tissue
+std::optional<HalfSpace> outsideOfProbe(const layout::ToolMotion& motion, const Vector3d& x_m, const Vector3d& x_next_m,
+                                        double below_m);
 
 }  // namespace viscera

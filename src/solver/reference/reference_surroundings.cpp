@@ -138,7 +138,7 @@ void ReferenceSolver::meetObstacles(Field& u_next, Field& v_next) {
     if (rests(slot) || heldBy(slot) != 0) continue;
     const Vector3d rest = restPosition(slot), x = rest + u_m[slot];
     for (size_t o = 0; o < obstacles_.size(); ++o) {
-      const ReferenceObstacle& obstacle = obstacles_[o];
+      const ReferenceObstacle obstacle = obstacles_[o].enlarged(surfaceDepth(slot));
       const std::optional<ObstacleMeeting> met = obstacle.meet(x, rest + u_next[slot]);
       if (!met) continue;
       const Vector3d out = met->surface_m - (rest + u_next[slot]);

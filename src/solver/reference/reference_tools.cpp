@@ -50,9 +50,10 @@ double distanceToTriangle(const Vector3d& x, const Vector3d& p, const Vector3d& 
 
 /// Swept sphere of VR05 2.7.1: out of the final sphere along the radius, out of the swept capsule sideways, but by no
 /// more than longest_push_m.
-void probe(const layout::ToolMotion& m, double dt_s, double longest_push_m, const Vector3d& x, Vector3d& x_next,
-           Vector3d& v_next) {
-  const double radius = m.from.w;
+/// @param below_m  how deep the node lies below the surface of its tissue: for it the probe is as much larger
+void probe(const layout::ToolMotion& m, double below_m, double dt_s, double longest_push_m, const Vector3d& x,
+           Vector3d& x_next, Vector3d& v_next) {
+  const double radius = std::max(0.0, m.from.w + below_m);
   const Vector3d from = xyz(m.from), to = xyz(m.to), travel = to - from;
   const Vector3d centre = (x_next - to).norm() < radius ? to : nearestOnSegment(from, to, x_next);
   const Vector3d out = x_next - centre;
@@ -83,7 +84,8 @@ void ReferenceSolver::applyTools(const SubstepMotions& motions, uint32_t slot, V
       v_next = (u_next - u_m[slot]) / dt_s_;
     } else if (held_by == 0 && (m.info.y & layout::kToolPushes) && !(m.info.y & layout::kToolFeels)) {
       Vector3d x_next = restPosition(slot) + u_next;
-      probe(m, dt_s_, options_.push_speed_m_per_s * dt_s_, restPosition(slot) + u_m[slot], x_next, v_next);
+      probe(m, surfaceDepth(slot), dt_s_, options_.push_speed_m_per_s * dt_s_, restPosition(slot) + u_m[slot], x_next,
+            v_next);
       u_next = x_next - restPosition(slot);
     }
     impulse_n_s[s] += mass(slot) * (v_next - v_before);
