@@ -36,12 +36,10 @@ const float kAlternating = 5.0f / 18.0f - 0.5f;
 
 /// One mean edge: what strains are made of.
 struct CellEdge {
-  vec3 capped;     // edge / max(1, length)
   vec3 direction;
-  float shrink;    // 1 / max(1, length)
+  float shrink;    // 1 / length
   float strain, strain_slope;  // of its length, saturated; by the length
   float fade, fade_slope;
-  bool is_long;
 };
 
 CellEdge cellEdge(vec3 unit, vec3 change) {
@@ -49,10 +47,8 @@ CellEdge cellEdge(vec3 unit, vec3 change) {
   float growth = 2.0f * dot(unit, change) + dot(change, change);  // length^2 - 1, without cancellation
   float size = sqrt(max(1.0f + growth, 1e-12f));
   CellEdge e;
-  e.is_long = growth > 0.0f;
   e.direction = edge / size;
-  e.shrink = e.is_long ? 1.0f / size : 1.0f;
-  e.capped = e.shrink * edge;
+  e.shrink = 1.0f / size;
   float stretch = growth / (size + 1.0f), q = 1.0f + stretch * stretch / (kFadeStrain * kFadeStrain);
   e.strain = stretch / q;
   e.strain_slope = (2.0f - q) / (q * q);
@@ -62,21 +58,20 @@ CellEdge cellEdge(vec3 unit, vec3 change) {
   return e;
 }
 
-/// dV/dF of an edge from dV/d(capped edge), dV/d(strain) and dV/d(fade).
-vec3 edgePull(CellEdge e, vec3 by_capped, float by_strain, float by_fade) {
-  vec3 sum = by_capped;
-  if (e.is_long) sum = e.shrink * (sum - dot(e.direction, sum) * e.direction);
-  return sum + (by_strain * e.strain_slope + by_fade * e.fade_slope) * e.direction;
+/// dV/dF of an edge from dV/d(direction), dV/d(strain) and dV/d(fade).
+vec3 edgePull(CellEdge e, vec3 by_direction, float by_strain, float by_fade) {
+  vec3 across = by_direction - dot(e.direction, by_direction) * e.direction;
+  return e.shrink * across + (by_strain * e.strain_slope + by_fade * e.fade_slope) * e.direction;
 }
 
 /// @param rigidity  mu h^3 times the cell's share [J]   @param bulk  (lambda - mu) h^3 times the same [J]
 CellPull cellPull(CellMotion q, CellMoments t, float rigidity, float bulk) {
   CellEdge ea = cellEdge(vec3(1.0f, 0.0f, 0.0f), q.da), eb = cellEdge(vec3(0.0f, 1.0f, 0.0f), q.db);
   CellEdge ec = cellEdge(vec3(0.0f, 0.0f, 1.0f), q.dc);
-  // s_mn = edge m . H_n
-  vec3 sa = vec3(dot(ea.capped, q.hx), dot(ea.capped, q.hy), dot(ea.capped, q.hz));
-  vec3 sb = vec3(dot(eb.capped, q.hx), dot(eb.capped, q.hy), dot(eb.capped, q.hz));
-  vec3 sc = vec3(dot(ec.capped, q.hx), dot(ec.capped, q.hy), dot(ec.capped, q.hz));
+  // s_mn = direction of edge m . H_n
+  vec3 sa = vec3(dot(ea.direction, q.hx), dot(ea.direction, q.hy), dot(ea.direction, q.hz));
+  vec3 sb = vec3(dot(eb.direction, q.hx), dot(eb.direction, q.hy), dot(eb.direction, q.hz));
+  vec3 sc = vec3(dot(ec.direction, q.hx), dot(ec.direction, q.hy), dot(ec.direction, q.hz));
   // Gradient of strain along n in the plane across it: two strains that bend and one shear that twists.
   vec3 gx = vec3(sb.z, sc.y, sb.y + sc.z);  // yy, zz, 2 yz
   vec3 gy = vec3(sc.x, sa.z, sc.z + sa.x);  // zz, xx, 2 zx
@@ -120,18 +115,18 @@ CellPull cellPull(CellMotion q, CellMoments t, float rigidity, float bulk) {
   rb += turn * sb;
   rc += turn * sc;
   float scale = rigidity * fade;
-  vec3 ca = ra.x * q.hx + ra.y * q.hy + ra.z * q.hz + shears.y * ec.capped + shears.z * eb.capped;
-  vec3 cb = rb.x * q.hx + rb.y * q.hy + rb.z * q.hz + shears.z * ea.capped + shears.x * ec.capped;
-  vec3 cc = rc.x * q.hx + rc.y * q.hy + rc.z * q.hz + shears.x * eb.capped + shears.y * ea.capped;
+  vec3 ca = ra.x * q.hx + ra.y * q.hy + ra.z * q.hz + shears.y * ec.direction + shears.z * eb.direction;
+  vec3 cb = rb.x * q.hx + rb.y * q.hy + rb.z * q.hz + shears.z * ea.direction + shears.x * ec.direction;
+  vec3 cc = rc.x * q.hx + rc.y * q.hy + rc.z * q.hz + shears.x * eb.direction + shears.y * ea.direction;
   float faded = rigidity * less * energy;
   CellPull pull;
   pull.energy = scale * energy;
   pull.a = edgePull(ea, scale * ca, scale * strains.x, faded * eb.fade * ec.fade);
   pull.b = edgePull(eb, scale * cb, scale * strains.y, faded * ec.fade * ea.fade);
   pull.c = edgePull(ec, scale * cc, scale * strains.z, faded * ea.fade * eb.fade);
-  pull.hx = scale * (ra.x * ea.capped + rb.x * eb.capped + rc.x * ec.capped);
-  pull.hy = scale * (ra.y * ea.capped + rb.y * eb.capped + rc.y * ec.capped);
-  pull.hz = scale * (ra.z * ea.capped + rb.z * eb.capped + rc.z * ec.capped);
+  pull.hx = scale * (ra.x * ea.direction + rb.x * eb.direction + rc.x * ec.direction);
+  pull.hy = scale * (ra.y * ea.direction + rb.y * eb.direction + rc.y * ec.direction);
+  pull.hz = scale * (ra.z * ea.direction + rb.z * eb.direction + rc.z * ec.direction);
   pull.hxyz = (scale * kAlternating) * q.hxyz;
   return pull;
 }

@@ -60,6 +60,11 @@ Body momentBody(const Vector3i& cells, double spacing_m, Inside inside) {
   return body;
 }
 
+/// 3 x 3 x 3 cells by moments, one corner of them cut off askew: full ones and partial ones of many shapes.
+inline Body askewBody(double spacing_m) {
+  return momentBody({3, 3, 3}, spacing_m, [](const Vector3d& p) { return p.dot(Vector3d(1, 0.7, 0.4)) < 4.4; });
+}
+
 /// A lattice of exactly `count` nodes: a random tree of touching nodes with random counts on every spring between two
 /// of them, the same from both ends. A solid's cells cannot give sizes such as 1 or 63.
 inline Body blobBody(size_t count, double spacing_m, uint32_t seed) {

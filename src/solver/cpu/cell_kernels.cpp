@@ -20,21 +20,29 @@ struct alignas(64) UpTile {
   float component[3][2][5 * kUpPlane];
 };
 
-void fillUp(const Arrays& a, uint32_t b, UpTile& tile) {
+/// Rows of a plane, as they are and shifted by 1. @param right  those of the brick at the right
+template <class D>
+HWY_INLINE void copyUp(D d, const float* own, const float* right, float* zero, float* plus) {
+  const auto middle = hn::LoadU(d, own);
+  hn::StoreU(middle, d, zero);
+  hn::StoreU(hn::CombineShiftRightBytes<4>(d, hn::LoadU(d, right), middle), d, plus);
+}
+
+HWY_INLINE void fillUp(const Arrays& a, uint32_t b, UpTile& tile) {
+  const Tag d;
   const Row row;
   const uint32_t* around = a.bricks[b].neighbors;
+  const auto brick = [&](int direction) HWY_ATTR { return a.displacement + size_t{around[direction]} * 192; };
   for (int z = 0; z <= 4; ++z) {
-    for (int y = 0; y <= 4; ++y) {
-      const int at = 13 + 3 * (y >> 2) + 9 * (z >> 2);
-      const int from = (z & 3) * 16 + (y & 3) * 4, to = z * kUpPlane + 4 * y;
-      const float* own = a.displacement + size_t{around[at]} * 192 + from;
-      const float* right = a.displacement + size_t{around[at + 1]} * 192 + from;
-      for (int c = 0; c < 3; ++c) {
-        const auto middle = hn::LoadU(row, own + 64 * c);
-        hn::StoreU(middle, row, tile.component[c][0] + to);
-        hn::StoreU(hn::CombineShiftRightBytes<4>(row, hn::LoadU(row, right + 64 * c), middle), row,
-                   tile.component[c][1] + to);
+    const int layer = 13 + 9 * (z >> 2);
+    const float *own = brick(layer), *right = brick(layer + 1), *behind = brick(layer + 3), *corner = brick(layer + 4);
+    for (int c = 0; c < 3; ++c) {
+      const int from = 64 * c + (z & 3) * 16, to = z * kUpPlane;
+      float *zero = tile.component[c][0] + to, *plus = tile.component[c][1] + to;
+      for (int i = 0; i < 16; i += static_cast<int>(hn::MaxLanes(d))) {
+        copyUp(d, own + from + i, right + from + i, zero + i, plus + i);
       }
+      copyUp(row, behind + from, corner + from, zero + 16, plus + 16);
     }
   }
 }
@@ -60,31 +68,22 @@ HWY_INLINE Corners cornersOf(const Vec3& a, const Vec3& b, const Vec3& c, const 
   return {sum - even, zero3() - (odd + difference), difference - odd, zero3() - (even + sum)};
 }
 
-/// Sums by node of a brick's cells (CellSums), a plane at a time.
-class SumWriter {
- public:
-  explicit SumWriter(float* sums) : sums_(sums) {}
-
-  /// @param i  place of the vector's first cell in its plane
-  void add(int z, int i, const Corners& f) {
-    const Tag d;
-    for (int c = 0; c < 3; ++c) {
-      const auto of = [c](const Vec3& v) HWY_ATTR { return c == 0 ? v.x : c == 1 ? v.y : v.z; };
-      // Rows are blocks of four: a shift within blocks is one along x, and what leaves a row goes to the brick beside.
-      addRows(kOwnSums, z, c, i, hn::Add(of(f.n00), hn::ShiftLeftLanes<1>(d, of(f.n10))));
-      addRows(kOwnSums, z, c, i + 4, hn::Add(of(f.n01), hn::ShiftLeftLanes<1>(d, of(f.n11))));
-      addRows(kRightSums, z, c, i, hn::ShiftRightLanes<3>(d, of(f.n10)));
-      addRows(kRightSums, z, c, i + 4, hn::ShiftRightLanes<3>(d, of(f.n11)));
-    }
+/// Writes the sums by node of a plane of a brick's cells. @param i  place of the vector's first cell in its plane
+HWY_INLINE void writeSums(float* sums, int z, int i, const Corners& f) {
+  const Tag d;
+  // Rows are blocks of four: a shift within blocks is one along x, and what leaves a row goes to the brick beside.
+  const auto write = [&](size_t part, int c, V rows, V rows_behind) HWY_ATTR {
+    float* at = sums + sumsAt(part, z, c) + i;
+    hn::StoreU(i == 0 ? rows : hn::Add(load(at), rows), d, at);
+    hn::StoreU(hn::Add(load(at + 4), rows_behind), d, at + 4);
+  };
+  for (int c = 0; c < 3; ++c) {
+    const auto of = [c](const Vec3& v) HWY_ATTR { return c == 0 ? v.x : c == 1 ? v.y : v.z; };
+    write(kOwnSums, c, hn::Add(of(f.n00), hn::ShiftLeftLanes<1>(d, of(f.n10))),
+          hn::Add(of(f.n01), hn::ShiftLeftLanes<1>(d, of(f.n11))));
+    write(kRightSums, c, hn::ShiftRightLanes<3>(d, of(f.n10)), hn::ShiftRightLanes<3>(d, of(f.n11)));
   }
-
- private:
-  void addRows(size_t part, int z, int c, int i, V value) {
-    float* at = sums_ + sumsAt(part, z, c) + i;
-    hn::StoreU(hn::Add(load(at), value), Tag(), at);
-  }
-  float* sums_;
-};
+}
 
 /// Forces of a vector of cells on their corners, those below and those above.
 /// @param cell  index of the first in the brick
@@ -111,29 +110,31 @@ void sumBrick(const CellJob& job, uint32_t b, const UpTile& u) {
   PlaneStress stress = planeStress(set(body.rigidity_j > 0 ? body.bulk_j / body.rigidity_j : 0));
   float* sums = job.sums + size_t{b} * kCellSums;
   std::fill(sums, sums + kCellSums, 0.0f);
-  SumWriter writer(sums);
+  const Corners nothing = {zero3(), zero3(), zero3(), zero3()};
   for (int i = 0; i < 16; i += static_cast<int>(hn::MaxLanes(Tag()))) {
     Face below = faceAt(u, i);
+    Corners upper = nothing;  // of the cells below the plane
     for (int z = 0; z < 4; ++z) {
       const Face above = faceAt(u, (z + 1) * kUpPlane + i);
       const int cell = 16 * z + i;
       const V rigidity = load(job.rigidity + size_t{b} * 64 + static_cast<size_t>(cell));
       const V bulk = load(job.bulk + size_t{b} * 64 + static_cast<size_t>(cell));
+      Corners low = nothing, high = nothing;
       if (!hn::AllTrue(Tag(), hn::And(hn::Eq(rigidity, no), hn::Eq(bulk, no)))) {
         if (job.parts) {
           stress = planeStress(hn::IfThenElseZero(hn::Gt(rigidity, no), hn::Div(bulk, hn::Max(rigidity, set(1e-30f)))));
         }
-        Corners low, high;
         const CellMotion q = motionBetween(below, above, per_h);
         if (job.moments[b] != nullptr)
           pullOf<false>(job, b, cell, rigidity, per_h, stress, q, low, high);
         else
           pullOf<true>(job, b, cell, rigidity, per_h, stress, q, low, high);
-        writer.add(z, i, low);
-        writer.add(z + 1, i, high);
       }
+      writeSums(sums, z, i, low + upper);
+      upper = high;
       below = above;
     }
+    writeSums(sums, 4, i, upper);
   }
 }
 

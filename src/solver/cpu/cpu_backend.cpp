@@ -160,7 +160,7 @@ void CpuBackend::surround(const Substep& step, const Surroundings& surroundings)
 }
 
 void CpuBackend::measure() {
-  simd::MeasureJob job{arraysOf(lattice_), cellsOf(lattice_, features_), lattice_.store.nodes.data(),
+  simd::MeasureJob job{arraysOf(lattice_), cellsOf(lattice_), lattice_.store.nodes.data(),
                        lattice_.strengths.mass.data(), work_->stats.data()};
   std::vector<uint32_t>& changed = work_->changed;
   sleep_.takeChanged(lattice_, changed);

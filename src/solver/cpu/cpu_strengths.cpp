@@ -54,6 +54,7 @@ CpuStrengths::CpuStrengths(const Model& model, const CpuStore& store, const Feat
   if (features.moments) {
     rigidity.resize(store.slotCount());
     moments = allMoments(model);
+    for (const Body& body : model.bodies) has_parts |= !body.parts.empty();
     spreadMoments(store);
   }
   refreshAll(store);

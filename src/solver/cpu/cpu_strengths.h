@@ -40,7 +40,8 @@ struct CpuStrengths {
   JoinedMoments moments;          ///< empty without
   std::vector<const float*> brick_moments;  ///< [bricks] [9 * 64] moments of its cells, number by number; null where
                                             ///< all are full; empty without moments
-  bool has_volumes = false;         ///< some bulk is not 0
+  bool has_parts = false;                   ///< some body has parts with elasticities of their own
+  bool has_volumes = false;                 ///< some bulk is not 0
   std::vector<uint8_t> uniform;     ///< [bricks] all springs of all its nodes are whole and of the body's full strength
   std::vector<uint16_t> idle_rows;  ///< [bricks] bit r: none of the four nodes from 4 r on will ever move
 

@@ -14,17 +14,8 @@ namespace viscera::simd::HWY_NAMESPACE {
 
 // With q = (L^2 - l0^2) / l0^2, computed without cancellation, the force of a spring on its near end is
 //   k (L - l0)/L e = k q phi(q) e,  phi(q) = 1 / (1 + q + sqrt(1 + q)),  e = vector to the far end (physics.md 1, 2).
-// Below |q| = kMild phi is a polynomial of degree 5, with a relative error of 5.2e-8 at most.
-constexpr float kMild = 0.125f;
-constexpr float kPhi[6] = {0.500000026f, -0.375000048f, 0.312470624f, -0.273403791f, 0.251082405f, -0.230579299f};
 // Below kShortest of its length at rest a spring has no direction of its own (shaders/solver/spring.glsl).
 constexpr float kShortest2 = 1e-12f;
-
-HWY_INLINE V mildPhi(V q) {
-  V p = set(kPhi[5]);
-  for (int i = 4; i >= 0; --i) p = hn::MulAdd(p, q, set(kPhi[i]));
-  return p;
-}
 
 /// phi for any q > -1: one Newton step each on the processor's estimates of 1/sqrt(4 x) and of 1/(4 x + 4 sqrt(x)),
 /// x = 1 + q, where they have 12 bits at least; else exact.

@@ -25,14 +25,14 @@ inline simd::Arrays arraysOf(CpuLattice& lattice) {
 }
 
 /// Its cells, where some resist by moments; else without rigidity. Sums are the caller's.
-inline simd::CellJob cellsOf(CpuLattice& lattice, const FeatureSet& features) {
+inline simd::CellJob cellsOf(CpuLattice& lattice) {
   simd::CellJob job{};
   if (lattice.strengths.rigidity.empty()) return job;
   job.arrays = arraysOf(lattice);
   job.bulk = lattice.strengths.bulk.data();
   job.rigidity = lattice.strengths.rigidity.data();
   job.moments = lattice.strengths.brick_moments.data();
-  job.parts = features.parts;
+  job.parts = lattice.strengths.has_parts;
   job.volumes = lattice.strengths.has_volumes;
   return job;
 }

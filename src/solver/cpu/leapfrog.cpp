@@ -45,7 +45,6 @@ CpuLeapfrog::CpuLeapfrog(const CpuLattice& lattice, const CpuParts& parts)
       network_(parts.network),
       step_bricks_(parts.kernels.leapfrog),
       sum_cells_(parts.kernels.cells),
-      features_(parts.features),
       deepest_m_(deepestOf(lattice.strengths.surface_depth)),
       near_(lattice.brickCount()),
       strained_(lattice.brickCount()),
@@ -108,7 +107,7 @@ void CpuLeapfrog::sumCells(CpuLattice& lattice) {
       if (wanted_[b]) cell_bricks_.push_back(b);
     }
   }
-  simd::CellJob job = cellsOf(lattice, features_);
+  simd::CellJob job = cellsOf(lattice);
   job.sums = cell_sums_.data();
   parallel_((cell_bricks_.size() + per_job_ - 1) / per_job_, [&](size_t chunk) {
     const size_t first = chunk * per_job_;

@@ -29,7 +29,6 @@ class CpuLeapfrog : public CpuStepper {
   CpuNetwork* network_;
   simd::BrickLeapfrog step_bricks_;
   simd::BrickCells sum_cells_;
-  FeatureSet features_;
   AlignedVector<float> cell_sums_;           ///< [simd::kCellSums * bricks] N; empty without moments
   std::vector<uint32_t> cell_bricks_;        ///< whose cells the nodes of those awake are corners of
   std::vector<uint32_t> cell_bricks_awake_;  ///< those awake when they were listed

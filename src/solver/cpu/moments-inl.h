@@ -41,9 +41,8 @@ HWY_INLINE PlaneStress planeStress(V ratio) {
 }
 
 struct CellEdge {
-  Vec3 capped, direction;
+  Vec3 direction;
   V shrink, strain, strain_slope, fade, fade_slope;
-  M is_long;
 };
 
 /// @param change  of the edge, whose component along itself is `own`   @tparam kStrains  strains are wanted
@@ -53,20 +52,32 @@ HWY_INLINE CellEdge cellEdge(const Vec3& change) {
   Vec3 edge = change;
   (kAxis == 0 ? edge.x : kAxis == 1 ? edge.y : edge.z) = hn::Add(own, one);
   const V growth = hn::MulAdd(set(2), own, dot(change, change));
-  const V size = hn::Sqrt(hn::Max(hn::Add(one, growth), set(1e-12f))), per_size = hn::Div(one, size);
   CellEdge e;
-  e.is_long = hn::Gt(growth, hn::Zero(Tag()));
-  e.direction = per_size * edge;
-  e.shrink = hn::IfThenElse(e.is_long, per_size, one);
-  e.capped = e.shrink * edge;
-  if (kStrains) {
-    const V stretch = hn::Div(growth, hn::Add(size, one));
-    const V q = hn::MulAdd(hn::Mul(stretch, stretch), set(1 / kFadeStrain2), one), per = hn::Div(one, q);
-    e.strain = hn::Mul(stretch, per);
-    e.strain_slope = hn::Mul(hn::Sub(set(2), q), hn::Mul(per, per));
+  V size, per_size;
+  if (HWY_LIKELY(hn::AllTrue(Tag(), hn::Lt(hn::Abs(growth), set(kMild))))) {
+    const V share = hn::Mul(growth, mildPhi(growth));  // (length - 1) / length
+    const V stretch = hn::NegMulAdd(growth, share, hn::Sub(growth, share));
+    per_size = hn::Sub(one, share);
+    size = hn::Add(one, stretch);
+    if (kStrains) {  // 1/(1 + x) as a series, to 1e-8
+      const V x = hn::Mul(set(1 / kFadeStrain2), hn::Mul(stretch, stretch));
+      const V per = hn::NegMulAdd(x, hn::NegMulAdd(x, hn::NegMulAdd(x, hn::Sub(one, x), one), one), one);
+      e.strain = hn::Mul(stretch, per);
+      e.strain_slope = hn::Mul(hn::Sub(one, x), hn::Mul(per, per));
+    }
   } else {
-    e.strain = e.strain_slope = hn::Zero(Tag());
+    size = hn::Sqrt(hn::Max(hn::Add(one, growth), set(1e-12f)));
+    per_size = hn::Div(one, size);
+    if (kStrains) {
+      const V stretch = hn::Div(growth, hn::Add(size, one));
+      const V q = hn::MulAdd(hn::Mul(stretch, stretch), set(1 / kFadeStrain2), one), per = hn::Div(one, q);
+      e.strain = hn::Mul(stretch, per);
+      e.strain_slope = hn::Mul(hn::Sub(set(2), q), hn::Mul(per, per));
+    }
   }
+  if (!kStrains) e.strain = e.strain_slope = hn::Zero(Tag());
+  e.direction = per_size * edge;
+  e.shrink = per_size;
   e.fade = one;
   e.fade_slope = hn::Zero(Tag());
   const M squeezed = hn::Lt(size, set(kFadeFull));
@@ -79,9 +90,9 @@ HWY_INLINE CellEdge cellEdge(const Vec3& change) {
   return e;
 }
 
-HWY_INLINE Vec3 edgePull(const CellEdge& e, const Vec3& by_capped, V by_length) {
-  const Vec3 turned = e.shrink * mulAdd(hn::Neg(dot(e.direction, by_capped)), e.direction, by_capped);
-  return mulAdd(by_length, e.direction, select(e.is_long, turned, by_capped));
+HWY_INLINE Vec3 edgePull(const CellEdge& e, const Vec3& by_direction, V by_length) {
+  const Vec3 across = mulAdd(hn::Neg(dot(e.direction, by_direction)), e.direction, by_direction);
+  return mulAdd(by_length, e.direction, e.shrink * across);
 }
 
 /// Moments of cells over their shares; those of full ones are constants.
@@ -105,9 +116,9 @@ HWY_INLINE Vec3 times(const Vec3& a, const Vec3& b) {
 template <bool kFull>
 HWY_INLINE V cellPull(CellMotion& q, const Moments& t, V rigidity, const PlaneStress& stress) {
   const CellEdge ea = cellEdge<0, !kFull>(q.da), eb = cellEdge<1, !kFull>(q.db), ec = cellEdge<2, !kFull>(q.dc);
-  const Vec3 sa = {dot(ea.capped, q.hx), dot(ea.capped, q.hy), dot(ea.capped, q.hz)};
-  const Vec3 sb = {dot(eb.capped, q.hx), dot(eb.capped, q.hy), dot(eb.capped, q.hz)};
-  const Vec3 sc = {dot(ec.capped, q.hx), dot(ec.capped, q.hy), dot(ec.capped, q.hz)};
+  const Vec3 sa = {dot(ea.direction, q.hx), dot(ea.direction, q.hy), dot(ea.direction, q.hz)};
+  const Vec3 sb = {dot(eb.direction, q.hx), dot(eb.direction, q.hy), dot(eb.direction, q.hz)};
+  const Vec3 sc = {dot(ec.direction, q.hx), dot(ec.direction, q.hy), dot(ec.direction, q.hz)};
   const Vec3 gx = {sb.z, sc.y, hn::Add(sb.y, sc.z)}, gy = {sc.x, sa.z, hn::Add(sc.z, sa.x)};
   const Vec3 gz = {sa.y, sb.x, hn::Add(sa.x, sb.y)};
   const Vec3 tx = stress(gx), ty = stress(gy), tz = stress(gz);
@@ -165,9 +176,9 @@ HWY_INLINE V cellPull(CellMotion& q, const Moments& t, V rigidity, const PlaneSt
   Vec3 ca = weighted(ra.x, q.hx, ra.y, q.hy, ra.z, q.hz), cb = weighted(rb.x, q.hx, rb.y, q.hy, rb.z, q.hz);
   Vec3 cc = weighted(rc.x, q.hx, rc.y, q.hy, rc.z, q.hz);
   if (!kFull) {
-    ca = mulAdd(shears.y, ec.capped, mulAdd(shears.z, eb.capped, ca));
-    cb = mulAdd(shears.z, ea.capped, mulAdd(shears.x, ec.capped, cb));
-    cc = mulAdd(shears.x, eb.capped, mulAdd(shears.y, ea.capped, cc));
+    ca = mulAdd(shears.y, ec.direction, mulAdd(shears.z, eb.direction, ca));
+    cb = mulAdd(shears.z, ea.direction, mulAdd(shears.x, ec.direction, cb));
+    cc = mulAdd(shears.x, eb.direction, mulAdd(shears.y, ea.direction, cc));
   }
   const auto by_length = [&](const CellEdge& e, V strain, V other_fades) HWY_ATTR {
     const V of_fade = hn::Mul(hn::Mul(lost, other_fades), e.fade_slope);
@@ -176,9 +187,9 @@ HWY_INLINE V cellPull(CellMotion& q, const Moments& t, V rigidity, const PlaneSt
   q.da = edgePull(ea, scale * ca, by_length(ea, strain_a, hn::Mul(eb.fade, ec.fade)));
   q.db = edgePull(eb, scale * cb, by_length(eb, strain_b, hn::Mul(ec.fade, ea.fade)));
   q.dc = edgePull(ec, scale * cc, by_length(ec, strain_c, fade_ab));
-  q.hx = scale * weighted(ra.x, ea.capped, rb.x, eb.capped, rc.x, ec.capped);
-  q.hy = scale * weighted(ra.y, ea.capped, rb.y, eb.capped, rc.y, ec.capped);
-  q.hz = scale * weighted(ra.z, ea.capped, rb.z, eb.capped, rc.z, ec.capped);
+  q.hx = scale * weighted(ra.x, ea.direction, rb.x, eb.direction, rc.x, ec.direction);
+  q.hy = scale * weighted(ra.y, ea.direction, rb.y, eb.direction, rc.y, ec.direction);
+  q.hz = scale * weighted(ra.z, ea.direction, rb.z, eb.direction, rc.z, ec.direction);
   q.hxyz = hn::Mul(scale, set(kAlternating)) * q.hxyz;
   return hn::Mul(scale, energy);
 }

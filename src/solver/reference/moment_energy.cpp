@@ -35,13 +35,13 @@ Tensor<T> stressOf(const Tensor<T>& strain, double lambda_over_mu) {
 
 /// The gradient of strain along axis n: the plane across it bends in its two directions and twists, and is free to
 /// thin.
-/// @param s  s(m, l) = edge m . H_l
+/// @param s  s(m, l) = direction of edge m . H_l
 template <class T>
 Tensor<T> strainGradient(const Tensor<T>& s, int n, double nu) {
   const int a = (n + 1) % 3, b = (n + 2) % 3;
   Tensor<T> out;
   out.setZero();
-  out(a, a) = s(a, b);  // edge a . H of n and a, which is that of the third axis
+  out(a, a) = s(a, b);  // a . H of n and a, which is that of the third axis
   out(b, b) = s(b, a);
   out(n, n) = -nu / (1 - nu) * (out(a, a) + out(b, b));
   out(a, b) = out(b, a) = 0.5 * (s(a, a) + s(b, b));
@@ -72,22 +72,23 @@ template <class T>
 T energyOf(const MomentCell& cell, const Eigen::Matrix<T, 21, 1>& motion) {
   using std::sqrt;
   const double ratio = cell.bulk_j / cell.rigidity_j, lambda = 1 + ratio, nu = lambda / (2 * (lambda + 1));
-  Tensor<T> capped, hourglass, strain;
+  Tensor<T> directions, hourglass, strain;
   T fade(1.0);
   for (int a = 0; a < 3; ++a) {
     Vector<T> edge = motion.template segment<3>(3 * a);
     edge[a] += 1.0;
+    if (edge.squaredNorm() <= kFadeNone * kFadeNone) return T(0.0);  // it may have no direction
     const T length = sqrt(edge.squaredNorm()), growth = length - 1.0;
-    capped.col(a) = length > 1.0 ? Vector<T>(edge / length) : edge;
+    directions.col(a) = edge / length;
     hourglass.col(a) = motion.template segment<3>(9 + 3 * a);
     strain(a, a) = growth / (1.0 + growth * growth / kFadeStrain2);
     fade *= fadeOf<T>(length);
   }
   const Vector<T> alternating = motion.template segment<3>(18);
-  const Tensor<T> s = capped.transpose() * hourglass;
+  const Tensor<T> s = directions.transpose() * hourglass;
   for (int a = 0; a < 3; ++a) {
     const int b = (a + 1) % 3;
-    strain(a, b) = strain(b, a) = 0.5 * capped.col(a).dot(capped.col(b));
+    strain(a, b) = strain(b, a) = 0.5 * directions.col(a).dot(directions.col(b));
   }
   std::array<Tensor<T>, 3> gradients;
   for (int n = 0; n < 3; ++n) gradients[static_cast<size_t>(n)] = strainGradient<T>(s, n, nu);
