@@ -6,6 +6,7 @@
 #define VISCERA_LAYOUT_H
 #include "layout/bindings.h"
 #include "layout/edge_forces.h"
+#include "layout/moments.h"
 #include "layout/network_skin.h"
 #include "layout/wind.h"
 #include "viscera/layout/limits.h"

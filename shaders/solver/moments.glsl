@@ -24,16 +24,6 @@ struct CellPull {
   vec3 a, b, c, hx, hy, hz, hxyz;
 };
 
-// The energy fades out where tissue is far from any solid that it stands for, so that no start may gain by it: while one
-// of the mean edges is shorter than kFadeFull, to nothing at kFadeNone; and with the size of the hourglass motions, to a half
-// where their sum of squares is kFadeBend. The strain that their gradient is coupled to saturates at about kFadeStrain.
-const float kFadeNone = 0.5f;
-const float kFadeFull = 0.95f;
-const float kFadeBend = 0.5f;
-const float kFadeStrain = 0.70710678f;
-// What springs resist an alternating motion (hxyz) with, over what the solid does (5/18 mu h, the hexahedron's): 1/2 mu h.
-const float kAlternating = 5.0f / 18.0f - 0.5f;
-
 /// One mean edge: what strains are made of.
 struct CellEdge {
   vec3 direction;
@@ -49,7 +39,7 @@ CellEdge cellEdge(vec3 unit, vec3 change) {
   CellEdge e;
   e.direction = edge / size;
   e.shrink = 1.0f / size;
-  float stretch = growth / (size + 1.0f), q = 1.0f + stretch * stretch / (kFadeStrain * kFadeStrain);
+  float stretch = growth / (size + 1.0f), q = 1.0f + stretch * stretch / kFadeStrain2;
   e.strain = stretch / q;
   e.strain_slope = (2.0f - q) / (q * q);
   float t = clamp((size - kFadeNone) / (kFadeFull - kFadeNone), 0.0f, 1.0f);

@@ -50,14 +50,6 @@ uint32_t slotOf(const Body& body, const Vector3i& node) {
   return 0;
 }
 
-ToolMotions probeAt(const Vector3d& tip_m) {
-  ToolMotions out;
-  out[0].mode = ToolMode::kProbe;
-  out[0].present = true;
-  out[0].from.position_m = out[0].to.position_m = tip_m;
-  return out;
-}
-
 ObstacleConfig planeAt(double z_m) {
   ObstacleConfig out;
   out.shape = ObstacleShape::kPlane;

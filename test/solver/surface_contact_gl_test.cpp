@@ -66,14 +66,6 @@ ObstacleConfig boxAt(double z_m) {
   return box;
 }
 
-ToolMotions probeAt(const Vector3d& tip_m) {
-  ToolMotions out;
-  out[0].mode = ToolMode::kProbe;
-  out[0].present = true;
-  out[0].from.position_m = out[0].to.position_m = tip_m;
-  return out;
-}
-
 }  // namespace
 
 TEST_P(SurfaceContact, ObstaclesMeetTheSurfaceWhereItIs) {

@@ -38,6 +38,15 @@ inline Scene sceneFor(const Model& model, int substeps, std::vector<StylusConfig
   return scene;
 }
 
+/// The first stylus as a probe that stands at a place.
+inline ToolMotions probeAt(const Vector3d& tip_m) {
+  ToolMotions out;
+  out[0].mode = ToolMode::kProbe;
+  out[0].present = true;
+  out[0].from.position_m = out[0].to.position_m = tip_m;
+  return out;
+}
+
 inline layout::vec4 vec4(const Vector3d& v) {
   return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z()), 0};
 }

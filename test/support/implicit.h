@@ -76,6 +76,19 @@ inline void expectEnergyBound(const std::string& backend, Integrator integrator,
   }
 }
 
+/// expectEnergyBound() for cells by moments, full and partial.
+inline void expectEnergyBoundWithMoments(const std::string& backend, Integrator integrator) {
+  for (const double fraction : {1.0, 10.0, 100.0})
+    expectEnergyBound(backend, integrator, 0.25, fraction, 20, Cells::kMoments);
+}
+
+/// Full cells and partial ones, of springs' Poisson's ratio and nearly incompressible.
+inline std::vector<Body> momentBodies() {
+  std::vector<Body> out(2, askewBody(0.01));
+  out[1].material.poisson_ratio = 0.45;
+  return out;
+}
+
 /// A stylus that takes hold of the body's corner and pulls it out, and one that probes the opposite side.
 struct PullAndProbe {
   PullAndProbe() {

@@ -74,7 +74,13 @@ HWY_INLINE void writeSums(float* sums, int z, int i, const Corners& f) {
   // Rows are blocks of four: a shift within blocks is one along x, and what leaves a row goes to the brick beside.
   const auto write = [&](size_t part, int c, V rows, V rows_behind) HWY_ATTR {
     float* at = sums + sumsAt(part, z, c) + i;
-    hn::StoreU(i == 0 ? rows : hn::Add(load(at), rows), d, at);
+    if (i == 0) {  // the first vector of the plane clears the rows behind its own
+      for (int row = static_cast<int>(hn::MaxLanes(d)); row < kFifthRow + 4; row += 4)
+        hn::StoreU(hn::Zero(Row()), Row(), at + row);
+      hn::StoreU(rows, d, at);
+    } else {
+      hn::StoreU(hn::Add(load(at), rows), d, at);
+    }
     hn::StoreU(hn::Add(load(at + 4), rows_behind), d, at + 4);
   };
   for (int c = 0; c < 3; ++c) {
@@ -109,7 +115,6 @@ void sumBrick(const CellJob& job, uint32_t b, const UpTile& u) {
   const V no = hn::Zero(Tag());
   PlaneStress stress = planeStress(set(body.rigidity_j > 0 ? body.bulk_j / body.rigidity_j : 0));
   float* sums = job.sums + size_t{b} * kCellSums;
-  std::fill(sums, sums + kCellSums, 0.0f);
   const Corners nothing = {zero3(), zero3(), zero3(), zero3()};
   for (int i = 0; i < 16; i += static_cast<int>(hn::MaxLanes(Tag()))) {
     Face below = faceAt(u, i);

@@ -71,7 +71,7 @@ struct CellJob {
   const float* const* moments;  ///< [bricks] [9 * 64] of its cells over their shares; null where all are full
   bool parts;                   ///< bulk over rigidity differs within a body
   bool volumes;                 ///< some bulk is not 0
-  float* sums;                  ///< [kCellSums * bricks] N
+  float* sums;                  ///< [kCellSums * bricks] N; behind fifth rows they stay as they are: 0
 };
 /// Sums of the cells of some bricks.
 using BrickCells = void (*)(const CellJob& job, const uint32_t* bricks, size_t count);

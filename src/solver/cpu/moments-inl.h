@@ -11,15 +11,14 @@
 #endif
 
 #include "hwy/highway.h"
+#include "layout/moments.h"
 #include "solver/cpu/kernels.h"
 #include "solver/cpu/vectors-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace viscera::simd::HWY_NAMESPACE {
 
-// As in shaders/solver/moments.glsl.
-constexpr float kFadeNone = 0.5f, kFadeFull = 0.95f, kFadeBend = 0.5f, kFadeStrain2 = 0.5f;
-constexpr float kAlternating = 5.0f / 18.0f - 0.5f;
+using layout::kAlternating, layout::kFadeBend, layout::kFadeFull, layout::kFadeNone, layout::kFadeStrain2;
 
 /// Mean edges less their rest value, and hourglass motions, over h.
 struct CellMotion {
@@ -82,7 +81,7 @@ HWY_INLINE CellEdge cellEdge(const Vec3& change) {
   e.fade_slope = hn::Zero(Tag());
   const M squeezed = hn::Lt(size, set(kFadeFull));
   if (HWY_UNLIKELY(!hn::AllFalse(Tag(), squeezed))) {
-    constexpr float kPer = 1 / (kFadeFull - kFadeNone);
+    const float kPer = 1 / (kFadeFull - kFadeNone);
     const V t = hn::Min(hn::Max(hn::Mul(hn::Sub(size, set(kFadeNone)), set(kPer)), hn::Zero(Tag())), one);
     e.fade = hn::Mul(hn::Mul(t, t), hn::NegMulAdd(set(2), t, set(3)));
     e.fade_slope = hn::Mul(set(6 * kPer), hn::Mul(t, hn::Sub(one, t)));

@@ -6,12 +6,13 @@
 #include <cmath>
 #include <unsupported/Eigen/AutoDiff>
 
+#include "layout/moments.h"
+
 namespace viscera {
 
 namespace {
 
-// See shaders/solver/moments.glsl, which has the same numbers.
-constexpr double kFadeNone = 0.5, kFadeFull = 0.95, kFadeBend = 0.5, kFadeStrain2 = 0.5;
+using layout::kFadeBend, layout::kFadeFull, layout::kFadeNone, layout::kFadeStrain2;
 
 template <class T>
 using Tensor = Eigen::Matrix<T, 3, 3>;

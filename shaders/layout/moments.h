@@ -1,0 +1,27 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+// clang-format off
+// Numbers of cells by moments (physics.md 1): of shaders/solver/moments.glsl, its SIMD twin and the reference.
+#ifndef VISCERA_LAYOUT_MOMENTS_H
+#define VISCERA_LAYOUT_MOMENTS_H
+#include "viscera/layout/types.h"
+
+#ifdef __cplusplus
+namespace viscera::layout {
+#endif
+
+// The energy fades out where tissue is far from any solid that it stands for, so that no start may gain by it: while one
+// of the mean edges is shorter than kFadeFull, to nothing at kFadeNone; and with the size of the hourglass motions, to a half
+// where their sum of squares is kFadeBend. The strain that their gradient is coupled to saturates: it is halved where its square
+// is kFadeStrain2.
+const float kFadeNone = 0.5f;
+const float kFadeFull = 0.95f;
+const float kFadeBend = 0.5f;
+const float kFadeStrain2 = 0.5f;
+// What the solid resists an alternating motion (hxyz) with, 5/18 mu h, the hexahedron's, less what the springs do, 1/2 mu h.
+const float kAlternating = 5.0f / 18.0f - 0.5f;
+
+#ifdef __cplusplus
+}  // namespace viscera::layout
+#endif
+#endif
