@@ -6,148 +6,181 @@
 #define HWY_TARGET_INCLUDE "solver/cpu/cell_kernels.cpp"
 #include "hwy/foreach_target.h"  // IWYU pragma: keep
 #include "hwy/highway.h"
+#include "solver/cpu/cells-inl.h"
 #include "solver/cpu/moments-inl.h"
 #include "solver/cpu/targets.h"
-#include "solver/cpu/tiles-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace viscera::simd::HWY_NAMESPACE {
 
-/// Displacements of a brick's nodes and of those above it, rows as they are and shifted by 1 along x: the node at
-/// (x, y, z) + (dx, 0, 0), with x in 0..3 and y, z in 0..4, is at[dx][z * kUpPlane + 4 * y + x].
-constexpr int kUpPlane = 32;
-struct alignas(64) UpTile {
-  float component[3][2][5 * kUpPlane];
+/// Constants of a body.
+struct CellBody {
+  Material springs;
+  CellScale scale;
+  PlaneStress<true> full;
+  PlaneStress<false> partial;
+
+  template <bool kFull>
+  const PlaneStress<kFull>& stress() const {
+    if constexpr (kFull)
+      return full;
+    else
+      return partial;
+  }
+};
+HWY_INLINE CellBody cellBodyOf(const layout::BodyParams& body) {
+  const V ratio = set(body.rigidity_j > 0 ? body.bulk_j / body.rigidity_j : 0);
+  return {materialOf(body), cellScale(body.origin_spacing.w), planeStress<true>(ratio), planeStress<false>(ratio)};
+}
+
+/// A brick whose cells are summed.
+struct CellBrick {
+  const CellJob& job;
+  const CellBody& body;
+  const CellTiles& tiles;
+  uint32_t b;
 };
 
-/// Rows of a plane, as they are and shifted by 1. @param right  those of the brick at the right
-template <class D>
-HWY_INLINE void copyUp(D d, const float* own, const float* right, float* zero, float* plus) {
-  const auto middle = hn::LoadU(d, own);
-  hn::StoreU(middle, d, zero);
-  hn::StoreU(hn::CombineShiftRightBytes<4>(d, hn::LoadU(d, right), middle), d, plus);
+/// Springs of a vector of cells, see addSprings(). @param cell  index of the first in the brick
+template <bool kUniform, bool kAny, bool kDashpot>
+HWY_NOINLINE bool springsOf(const CellBrick& of, int cell, const Corners& below, Corners& low, Corners& high) {
+  const float* k = of.job.springs + cellSpringAt(of.b * 64, 0) + cell;
+  const int at = (cell >> 4) * kUpPlane + (cell & 15);
+  return addSprings<kUniform, kAny, kDashpot>(of.body.springs, k, of.tiles, at, below, low, high);
 }
-
-HWY_INLINE void fillUp(const Arrays& a, uint32_t b, UpTile& tile) {
-  const Tag d;
-  const Row row;
-  const uint32_t* around = a.bricks[b].neighbors;
-  const auto brick = [&](int direction) HWY_ATTR { return a.displacement + size_t{around[direction]} * 192; };
-  for (int z = 0; z <= 4; ++z) {
-    const int layer = 13 + 9 * (z >> 2);
-    const float *own = brick(layer), *right = brick(layer + 1), *behind = brick(layer + 3), *corner = brick(layer + 4);
-    for (int c = 0; c < 3; ++c) {
-      const int from = 64 * c + (z & 3) * 16, to = z * kUpPlane;
-      float *zero = tile.component[c][0] + to, *plus = tile.component[c][1] + to;
-      for (int i = 0; i < 16; i += static_cast<int>(hn::MaxLanes(d))) {
-        copyUp(d, own + from + i, right + from + i, zero + i, plus + i);
-      }
-      copyUp(row, behind + from, corner + from, zero + 16, plus + 16);
-    }
+template <bool kDashpot>
+HWY_INLINE void springsOf(const CellBrick& of, int cell, const Corners& below, Corners& low, Corners& high) {
+  // What was strained in the last substep is taken to be so still; which formula counts is the state's affair alone.
+  const uint32_t bit = 1u << (cell / 4);
+  uint16_t& strained = of.job.strained[of.b];
+  if (HWY_UNLIKELY((strained & bit) != 0)) {
+    if (!springsOf<false, true, kDashpot>(of, cell, below, low, high)) return;
+    strained = static_cast<uint16_t>(strained & ~bit);
   }
+  const bool mild = of.job.uniform[of.b] ? springsOf<true, false, kDashpot>(of, cell, below, low, high)
+                                         : springsOf<false, false, kDashpot>(of, cell, below, low, high);
+  if (HWY_LIKELY(mild)) return;
+  springsOf<false, true, kDashpot>(of, cell, below, low, high);
+  strained = static_cast<uint16_t>(strained | bit);
 }
 
-template <int kX>
-HWY_INLINE Vec3 upAt(const UpTile& tile, int at) {
-  return {load(tile.component[0][kX] + at), load(tile.component[1][kX] + at), load(tile.component[2][kX] + at)};
-}
-HWY_INLINE Face faceAt(const UpTile& tile, int at) {
-  return faceOf(upAt<0>(tile, at), upAt<1>(tile, at), upAt<0>(tile, at + 4), upAt<1>(tile, at + 4));
-}
-
-/// What four corners at one height get from a vector of cells [N], by their x and y.
-struct Corners {
-  Vec3 n00, n10, n01, n11;
-};
-HWY_INLINE Corners operator+(const Corners& a, const Corners& b) {
-  return {a.n00 + b.n00, a.n10 + b.n10, a.n01 + b.n01, a.n11 + b.n11};
-}
-/// Corner (x, y), each -1 or 1, gets minus x a + y b + c + x y d.
-HWY_INLINE Corners cornersOf(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
-  const Vec3 even = c + d, odd = c - d, sum = a + b, difference = a - b;
-  return {sum - even, zero3() - (odd + difference), difference - odd, zero3() - (even + sum)};
-}
-
-/// Writes the sums by node of a plane of a brick's cells. @param i  place of the vector's first cell in its plane
-HWY_INLINE void writeSums(float* sums, int z, int i, const Corners& f) {
-  const Tag d;
-  // Rows are blocks of four: a shift within blocks is one along x, and what leaves a row goes to the brick beside.
-  const auto write = [&](size_t part, int c, V rows, V rows_behind) HWY_ATTR {
-    float* at = sums + sumsAt(part, z, c) + i;
-    if (i == 0) {  // the first vector of the plane clears the rows behind its own
-      for (int row = static_cast<int>(hn::MaxLanes(d)); row < kFifthRow + 4; row += 4)
-        hn::StoreU(hn::Zero(Row()), Row(), at + row);
-      hn::StoreU(rows, d, at);
-    } else {
-      hn::StoreU(hn::Add(load(at), rows), d, at);
-    }
-    hn::StoreU(hn::Add(load(at + 4), rows_behind), d, at + 4);
-  };
-  for (int c = 0; c < 3; ++c) {
-    const auto of = [c](const Vec3& v) HWY_ATTR { return c == 0 ? v.x : c == 1 ? v.y : v.z; };
-    write(kOwnSums, c, hn::Add(of(f.n00), hn::ShiftLeftLanes<1>(d, of(f.n10))),
-          hn::Add(of(f.n01), hn::ShiftLeftLanes<1>(d, of(f.n11))));
-    write(kRightSums, c, hn::ShiftRightLanes<3>(d, of(f.n10)), hn::ShiftRightLanes<3>(d, of(f.n11)));
-  }
-}
-
-/// Forces of a vector of cells on their corners, those below and those above.
-/// @param cell  index of the first in the brick
+/// What a vector of cells does to its corners, by their motion.
+/// @param cell  index of the vector's first cell in the brick   @param q  forces by the motion, see cellPull()
 template <bool kFull>
-HWY_INLINE void pullOf(const CellJob& job, uint32_t b, int cell, V rigidity, V per_h, const PlaneStress& stress,
-                       CellMotion q, Corners& low, Corners& high) {
-  const size_t slot = size_t{b} * 64 + static_cast<size_t>(cell);
-  const Shape shape = shapeOfEdges(q.da, q.db, q.dc);
-  const V p = job.volumes ? pressureOf(load(job.bulk + slot), shape.e) : hn::Zero(Tag());
-  const Moments moments = kFull ? Moments{zero3(), zero3(), zero3()} : loadMoments(job.moments[b] + cell);
-  cellPull<kFull>(q, moments, rigidity, stress);
-  const V quarter = hn::Mul(set(0.25f), per_h), half = hn::Mul(set(0.5f), per_h);
-  const Vec3 a = quarter * mulAdd(p, shape.bc, q.da), bb = quarter * mulAdd(p, shape.ca, q.db);
-  const Vec3 c = quarter * mulAdd(p, shape.ab, q.dc), hx = half * q.hx, hy = half * q.hy, hz = half * q.hz;
-  const Vec3 alternating = hn::Mul(set(0.35355339f), per_h) * q.hxyz;
-  low = cornersOf(a - hy, bb - hx, zero3() - c, hz - alternating);
-  high = cornersOf(a + hy, bb + hx, c, hz + alternating);
+HWY_NOINLINE void cellForces(const CellBrick& of, int cell, V rigidity, V bulk, M absent, const Face& below,
+                             const Face& above, CellMotion& out) {
+  const CellScale& scale = of.body.scale;
+  PlaneStress<kFull> of_part;
+  const PlaneStress<kFull>* stress = &of.body.template stress<kFull>();
+  if (HWY_UNLIKELY(of.job.parts)) {
+    const M there = hn::Gt(rigidity, hn::Zero(Tag()));
+    of_part = planeStress<kFull>(hn::IfThenElseZero(there, hn::Div(bulk, hn::Max(rigidity, set(1e-30f)))));
+    stress = &of_part;
+  }
+  CellMotion q = motionBetween(below, above, hn::IfThenZeroElse(absent, scale.per_4h));
+  if (of.job.volumes) {
+    const Shape shape = shapeOfEdges(q.da, q.db, q.dc);
+    const V p = hn::Mul(scale.per_4h, pressureOf(bulk, shape.e));
+    out.da = p * shape.bc;
+    out.db = p * shape.ca;
+    out.dc = p * shape.ab;
+  }
+  const Moments moments = kFull ? Moments{zero3(), zero3(), zero3()} : loadMoments(of.job.moments[of.b] + cell);
+  cellPull<kFull>(q, moments, rigidity, *stress, scale);
+  if (of.job.volumes) {
+    q.da = q.da + out.da;
+    q.db = q.db + out.db;
+    q.dc = q.dc + out.dc;
+  }
+  out = q;
 }
 
-void sumBrick(const CellJob& job, uint32_t b, const UpTile& u) {
-  const layout::BodyParams& body = job.arrays.bodies[job.arrays.bricks[b].body];
-  const V per_h = set(1 / body.origin_spacing.w);
+HWY_INLINE Face faceAt(const UpTile& tile, int at) {
+  const Corners n = cornersAt(tile, at);
+  return faceOf(n.n00, n.n10, n.n01, n.n11);
+}
+
+/// A column of four vectors of cells, and of the five planes of their nodes.
+struct Column {
+  Corners below[5];               ///< what nodes get of the springs of the cells below them
+  Corners springs[4];             ///< and of those above them too
+  Face faces[5];                  ///< where nodes are; of cells that are there
+  CellMotion cells[4];            ///< what these do
+  const Corners* springs_at[5];   ///< of a plane of nodes
+  const CellMotion* cells_at[6];  ///< below and above a plane of nodes
+};
+
+/// What the nodes of a plane get from cells and springs.
+HWY_INLINE Corners gathered(const Corners& springs, const CellMotion& below, const CellMotion& above) {
+  const Vec3 ss = above.dc - below.dc, sd = (above.hx - above.db) - (below.hx + below.db);
+  const Vec3 ds = (above.hy - above.da) - (below.hy + below.da);
+  const Vec3 dd = (above.hxyz - above.hz) - (below.hxyz + below.hz);
+  const Vec3 even = ss + dd, odd = ss - dd, sum = sd + ds, difference = sd - ds;
+  return {springs.n00 + (even - sum), springs.n10 + (odd - difference), springs.n01 + (odd + difference),
+          springs.n11 + (even + sum)};
+}
+
+/// @param i  place of the column's vectors in their planes   @param none, nothing  0
+template <bool kDashpot>
+HWY_INLINE void stepColumn(const CellBrick& of, int i, const Corners& none, const CellMotion& nothing, Column& column) {
+  const CellJob& job = of.job;
   const V no = hn::Zero(Tag());
-  PlaneStress stress = planeStress(set(body.rigidity_j > 0 ? body.bulk_j / body.rigidity_j : 0));
-  float* sums = job.sums + size_t{b} * kCellSums;
-  const Corners nothing = {zero3(), zero3(), zero3(), zero3()};
-  for (int i = 0; i < 16; i += static_cast<int>(hn::MaxLanes(Tag()))) {
-    Face below = faceAt(u, i);
-    Corners upper = nothing;  // of the cells below the plane
-    for (int z = 0; z < 4; ++z) {
-      const Face above = faceAt(u, (z + 1) * kUpPlane + i);
-      const int cell = 16 * z + i;
-      const V rigidity = load(job.rigidity + size_t{b} * 64 + static_cast<size_t>(cell));
-      const V bulk = load(job.bulk + size_t{b} * 64 + static_cast<size_t>(cell));
-      Corners low = nothing, high = nothing;
-      if (!hn::AllTrue(Tag(), hn::And(hn::Eq(rigidity, no), hn::Eq(bulk, no)))) {
-        if (job.parts) {
-          stress = planeStress(hn::IfThenElseZero(hn::Gt(rigidity, no), hn::Div(bulk, hn::Max(rigidity, set(1e-30f)))));
-        }
-        const CellMotion q = motionBetween(below, above, per_h);
-        if (job.moments[b] != nullptr)
-          pullOf<false>(job, b, cell, rigidity, per_h, stress, q, low, high);
-        else
-          pullOf<true>(job, b, cell, rigidity, per_h, stress, q, low, high);
-      }
-      writeSums(sums, z, i, low + upper);
-      upper = high;
-      below = above;
+  const Corners* below = &none;
+  column.cells_at[0] = column.cells_at[5] = &nothing;
+  int known = -1;  // last plane whose face is
+  for (int z = 0; z < 4; ++z) {
+    const int cell = 16 * z + i, at = z * kUpPlane + i;
+    column.springs_at[z] = below;
+    column.cells_at[z + 1] = &nothing;
+    if (noRows(~uint32_t{job.idle_rows[of.b]}, cell)) {
+      below = &none;
+      continue;
     }
-    writeSums(sums, 4, i, upper);
+    springsOf<kDashpot>(of, cell, *below, column.springs[z], column.below[z + 1]);
+    column.springs_at[z] = &column.springs[z];
+    below = &column.below[z + 1];
+    const size_t slot = size_t{of.b} * 64 + static_cast<size_t>(cell);
+    const V rigidity = load(job.rigidity + slot), bulk = job.volumes ? load(job.bulk + slot) : no;
+    const M absent = hn::And(hn::Eq(rigidity, no), hn::Eq(bulk, no));
+    if (hn::AllTrue(Tag(), absent)) continue;
+    if (known < z) column.faces[z] = faceAt(of.tiles.u, at);
+    column.faces[z + 1] = faceAt(of.tiles.u, at + kUpPlane);
+    known = z + 1;
+    column.cells_at[z + 1] = &column.cells[z];
+    if (noRows(job.partial_rows[of.b], cell))
+      cellForces<true>(of, cell, rigidity, bulk, absent, column.faces[z], column.faces[z + 1], column.cells[z]);
+    else
+      cellForces<false>(of, cell, rigidity, bulk, absent, column.faces[z], column.faces[z + 1], column.cells[z]);
+  }
+  column.springs_at[4] = below;
+}
+
+template <bool kDashpot>
+HWY_INLINE void sumBrick(const CellBrick& of) {
+  const Corners none = noCorners();
+  const CellMotion nothing = {zero3(), zero3(), zero3(), zero3(), zero3(), zero3(), zero3()};
+  Column column;
+  float* sums = of.job.sums + size_t{of.b} * kCellSums;
+  Behind behind;
+  for (int i = 0; i < 16; i += static_cast<int>(hn::MaxLanes(Tag()))) {
+    stepColumn<kDashpot>(of, i, none, nothing, column);
+    for (int z = 0; z <= 4; ++z)
+      writeSums(sums, behind, z, i, gathered(*column.springs_at[z], *column.cells_at[z], *column.cells_at[z + 1]));
   }
 }
 
 void cellsOf(const CellJob& job, const uint32_t* bricks, size_t count) {
-  UpTile u;
+  CellTiles tiles;
   for (size_t n = 0; n < count; ++n) {
-    fillUp(job.arrays, bricks[n], u);
-    sumBrick(job, bricks[n], u);
+    const uint32_t b = bricks[n];
+    const CellBody body = cellBodyOf(job.arrays.bodies[job.arrays.bricks[b].body]);
+    fillUp(job.arrays, job.arrays.displacement, b, tiles.u);
+    if (job.dashpot) {
+      fillUp(job.arrays, job.arrays.velocity, b, tiles.v);
+      sumBrick<true>({job, body, tiles, b});
+    } else {
+      sumBrick<false>({job, body, tiles, b});
+    }
   }
 }
 

@@ -5,12 +5,23 @@
 #include <algorithm>
 #include <array>
 
+#include "solver/cpu/kernels.h"
 #include "solver/joined_lattice.h"
 #include "viscera/solver/material.h"
 
 namespace viscera {
 
 namespace {
+
+/// From which corner of the cell that owns it a pair's even spring goes (kCellSprings in kernels.h), and as which of
+/// nine.
+struct CellSpring {
+  std::array<int, 3> corner;
+  uint32_t index;
+};
+constexpr CellSpring kCellSpringOf[kSpringPairs] = {{{0, 0, 0}, 0}, {{0, 0, 0}, 1}, {{0, 0, 0}, 2},
+                                                    {{0, 0, 0}, 3}, {{0, 1, 0}, 4}, {{0, 0, 0}, 5},
+                                                    {{0, 0, 1}, 6}, {{0, 0, 0}, 7}, {{0, 0, 1}, 8}};
 
 bool isAlone(const layout::NodeBits& bits) {
   return (bits.lo & layout::kAxialMask) == 0 && (bits.hi & layout::kDiagonalMask) == 0;
@@ -54,6 +65,9 @@ CpuStrengths::CpuStrengths(const Model& model, const CpuStore& store, const Feat
   if (features.moments) {
     rigidity.resize(store.slotCount());
     moments = allMoments(model);
+    cell_springs.resize(store.slotCount() * simd::kCellSprings);
+    uniform_cells.resize(store.brickCount());
+    idle_cells.resize(store.brickCount());
     for (const Body& body : model.bodies) has_parts |= !body.parts.empty();
     spreadMoments(store);
   }
@@ -83,8 +97,10 @@ void CpuStrengths::refresh(const CpuStore& store, uint32_t slot) {
   const bool stays = (bits.lo & layout::kFixedBit) != 0 || (isAlone(bits) && (bits.lo & layout::kGrabMask) == 0);
   mobility[slot] = stays ? 0 : 1 / mass[slot];
   if (store.connections(slot) == layout::kNetwork) return;
-  for (uint32_t pair = 0; pair < kSpringPairs; ++pair)
+  for (uint32_t pair = 0; pair < kSpringPairs; ++pair) {
     stiffness[stiffnessAt(slot, pair)] = springStiffness(store, slot, pair);
+    if (!cell_springs.empty()) setCellSpring(store, slot, pair);
+  }
   const uint32_t brick = slot / layout::kBrickSlots, local = slot % layout::kBrickSlots;
   for (uint32_t spring = 0; spring < layout::kSpringsPerNode; ++spring) {
     const bool alive = springCount(bits, spring) != 0;
@@ -100,7 +116,19 @@ void CpuStrengths::refresh(const CpuStore& store, uint32_t slot) {
   shareBulk(store, slot);
 }
 
-/// Makes brick_moments.
+/// Tells the cell that owns a pair's even spring of its stiffness.
+void CpuStrengths::setCellSpring(const CpuStore& store, uint32_t slot, uint32_t pair) {
+  if (springCount(store.whole_nodes[slot], 2 * pair) == 0) return;
+  const auto& [corner, index] = kCellSpringOf[pair];
+  const uint32_t cell = neighborSlot(store.bricks, slot, {-corner[0], -corner[1], -corner[2]});
+  const float k = stiffness[stiffnessAt(slot, pair)];
+  cell_springs[simd::cellSpringAt(cell, index)] = k;
+  const layout::BodyParams& body = store.bodyOf(slot);
+  const float full = isAxial(2 * pair) ? 4 * body.axial_quarter_n_per_m : 2 * body.diagonal_half_n_per_m;
+  if (k != full) uniform_cells[cell / layout::kBrickSlots] = 0;
+}
+
+/// Makes brick_moments and partial_rows.
 void CpuStrengths::spreadMoments(const CpuStore& store) {
   constexpr size_t kNumbers = 9, kBrick = kNumbers * layout::kBrickSlots;
   std::vector<uint32_t> partial;
@@ -111,15 +139,19 @@ void CpuStrengths::spreadMoments(const CpuStore& store) {
   }
   moment_planes_.resize(partial.size() * kBrick);
   brick_moments.assign(store.brickCount(), nullptr);
+  partial_rows.assign(store.brickCount(), 0);
   for (size_t i = 0; i < partial.size(); ++i) {
     float* planes = &moment_planes_[i * kBrick];
     brick_moments[partial[i]] = planes;
+    const float twice_h = 2 * store.bodies[store.bricks[partial[i]].body].origin_spacing.w;
     for (size_t local = 0; local < layout::kBrickSlots; ++local) {
-      const layout::vec4* m =
-          &moments.vectors[kVectorsPerFill * moments.of_cell[partial[i] * layout::kBrickSlots + local]];
+      const uint32_t which = moments.of_cell[partial[i] * layout::kBrickSlots + local];
+      if (which != 0) partial_rows[partial[i]] = static_cast<uint16_t>(partial_rows[partial[i]] | 1u << (local / 4));
+      const layout::vec4* m = &moments.vectors[kVectorsPerFill * which];
       for (size_t v = 0; v < kVectorsPerFill; ++v) {
         const float numbers[3] = {m[v].x, m[v].y, m[v].z};
-        for (size_t c = 0; c < 3; ++c) planes[(3 * v + c) * layout::kBrickSlots + local] = numbers[c];
+        for (size_t c = 0; c < 3; ++c)
+          planes[(3 * v + c) * layout::kBrickSlots + local] = v == 0 ? twice_h * numbers[c] : numbers[c];
       }
     }
   }
@@ -150,6 +182,7 @@ void CpuStrengths::refreshAll(const CpuStore& store) {
     uniform[b] = store.first_active[b + 1] - store.first_active[b] == layout::kBrickSlots;
   for (uint32_t slot : store.active) refresh(store, slot);
   noteIdleRows();
+  if (!cell_springs.empty()) noteCells(store);
 }
 
 void CpuStrengths::noteIdleRows() {
@@ -162,6 +195,40 @@ void CpuStrengths::noteIdleRows() {
       }
     }
   }
+}
+
+/// Makes uniform_cells and idle_cells.
+void CpuStrengths::noteCells(const CpuStore& store) {
+  constexpr size_t kBrick = layout::kBrickSlots * simd::kCellSprings;
+  for (uint32_t b = 0; b < store.brickCount(); ++b) {
+    const layout::BodyParams& body = store.bodies[store.bricks[b].body];
+    bool uniform = true;
+    for (size_t i = 0; i < kBrick && uniform; ++i) {
+      const bool edge = i < size_t{3} * layout::kBrickSlots;
+      uniform =
+          cell_springs[b * kBrick + i] == (edge ? 4 * body.axial_quarter_n_per_m : 2 * body.diagonal_half_n_per_m);
+    }
+    uniform_cells[b] = uniform ? 1 : 0;
+    idle_cells[b] = 0;
+    for (uint32_t row = 0; row < 16; ++row) {
+      if (isIdleRow(store, b * layout::kBrickSlots + 4 * row))
+        idle_cells[b] = static_cast<uint16_t>(idle_cells[b] | 1u << row);
+    }
+  }
+}
+
+/// Are four cells absent, springs and all, or between nodes only that never move? @param first  slot of the first
+bool CpuStrengths::isIdleRow(const CpuStore& store, uint32_t first) const {
+  bool nothing = true, still = true;
+  for (uint32_t slot = first; slot < first + 4; ++slot) {
+    nothing = nothing && rigidity[slot] == 0 && bulk[slot] == 0;
+    for (uint32_t s = 0; s < simd::kCellSprings; ++s)
+      nothing = nothing && cell_springs[simd::cellSpringAt(slot, s)] == 0;
+    for (int c = 0; c < 8; ++c) {
+      still = still && mobility[neighborSlot(store.bricks, slot, {c & 1, c >> 1 & 1, c >> 2 & 1})] == 0;
+    }
+  }
+  return nothing || still;
 }
 
 }  // namespace viscera

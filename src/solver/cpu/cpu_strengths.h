@@ -38,8 +38,13 @@ struct CpuStrengths {
   AlignedVector<float> rigidity;  ///< [slots] J of the cell above the node (moments.glsl); 0 torn, absent, or springs
                                   ///< alone; empty without moments
   JoinedMoments moments;          ///< empty without
-  std::vector<const float*> brick_moments;  ///< [bricks] [9 * 64] moments of its cells, number by number; null where
-                                            ///< all are full; empty without moments
+  std::vector<const float*> brick_moments;  ///< [bricks] [9 * 64] moments of its cells, number by number, the
+                                            ///< first ones times 2 h; null where all are full; empty without moments
+  std::vector<uint16_t> partial_rows;       ///< [bricks] bit r: some of the four cells from 4 r on is tissue in part
+  AlignedVector<float> cell_springs;        ///< [kCellSprings * slots] N/m (kernels.h); empty without moments, as are
+  std::vector<uint8_t> uniform_cells;       ///< [bricks] all of these are whole and of the body's full strength
+  std::vector<uint16_t> idle_cells;         ///< [bricks] bit r: the four cells from 4 r on never do anything to a node
+                                            ///< that moves
   bool has_parts = false;                   ///< some body has parts with elasticities of their own
   bool has_volumes = false;                 ///< some bulk is not 0
   std::vector<uint8_t> uniform;     ///< [bricks] all springs of all its nodes are whole and of the body's full strength
@@ -52,7 +57,10 @@ struct CpuStrengths {
   bool isFull(const CpuStore& store, uint32_t slot) const;
   void spreadMoments(const CpuStore& store);
   void shareBulk(const CpuStore& store, uint32_t slot);
+  void setCellSpring(const CpuStore& store, uint32_t slot, uint32_t pair);
   void noteIdleRows();
+  void noteCells(const CpuStore& store);
+  bool isIdleRow(const CpuStore& store, uint32_t first) const;
 
   AlignedVector<float> moment_planes_;  ///< what brick_moments points to
   Strengths table_;                     ///< of models with parts, whose counts only say alive or cut; else empty

@@ -6,63 +6,13 @@
 #define HWY_TARGET_INCLUDE "solver/cpu/kernels.cpp"
 #include "hwy/foreach_target.h"  // IWYU pragma: keep
 #include "hwy/highway.h"
+#include "solver/cpu/cells-inl.h"
+#include "solver/cpu/springs-inl.h"
 #include "solver/cpu/targets.h"
 #include "solver/cpu/tiles-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace viscera::simd::HWY_NAMESPACE {
-
-// With q = (L^2 - l0^2) / l0^2, computed without cancellation, the force of a spring on its near end is
-//   k (L - l0)/L e = k q phi(q) e,  phi(q) = 1 / (1 + q + sqrt(1 + q)),  e = vector to the far end (physics.md 1, 2).
-// Below kShortest of its length at rest a spring has no direction of its own (shaders/solver/spring.glsl).
-constexpr float kShortest2 = 1e-12f;
-
-/// phi for any q > -1: one Newton step each on the processor's estimates of 1/sqrt(4 x) and of 1/(4 x + 4 sqrt(x)),
-/// x = 1 + q, where they have 12 bits at least; else exact.
-HWY_INLINE V anyPhi(V q) {
-  const V x4 = hn::Max(hn::MulAdd(q, set(4), set(4)), set(1e-24f));
-#if HWY_ARCH_X86
-  const V estimate = hn::ApproximateReciprocalSqrt(x4);
-  const V t = hn::Mul(x4, estimate);
-  const V d4 = hn::MulAdd(t, hn::NegMulAdd(t, estimate, set(3)), x4);
-  const V r = hn::ApproximateReciprocal(d4);
-  return hn::Mul(hn::Mul(set(4), r), hn::NegMulAdd(d4, r, set(2)));
-#else
-  return hn::Div(set(4), hn::MulAdd(set(2), hn::Sqrt(x4), x4));
-#endif
-}
-
-/// What a spring adds to the force on its near end.
-/// @param w  u_far - u_near   @param dv  v_far - v_near   @param largest  |q| so far
-template <int X, int Y, int Z, bool kUniform, bool kAny, bool kDashpot>
-HWY_INLINE void addSpring(const Material& m, V k, const Vec3& w, const Vec3& dv, V& largest, Vec3& force) {
-  constexpr int kKind = X * X + Y * Y + Z * Z - 1;
-  V q = hn::Mul(dot(w, shifted<X, Y, Z>(w, m.h2)), m.per_length2[kKind]);
-  // Springs that are not there have no say in whether the others are mild, and no power of q that is infinite.
-  if (!kUniform) q = hn::IfThenElseZero(hn::Gt(k, hn::Zero(Tag())), q);
-  largest = hn::Max(largest, hn::Abs(q));
-  Vec3 e = shifted<X, Y, Z>(w, m.h);
-  V phi;
-  if (kAny) {
-    phi = anyPhi(q);
-    const V x = hn::Add(set(1), q);
-    const M collapsed = hn::Lt(x, set(kShortest2));
-    if (HWY_UNLIKELY(!hn::AllFalse(Tag(), collapsed))) {  // k ext in the direction at rest
-      // So that q phi is ext / l0 and e, of length l0, stands for the direction.
-      phi = hn::IfThenElse(collapsed, set(1), phi);
-      e = select(collapsed, shifted<X, Y, Z>(zero3(), m.h), e);
-    }
-  } else {
-    phi = mildPhi(q);
-  }
-  V c = hn::Mul(q, phi);
-  if (kDashpot) {
-    V ratio = hn::NegMulAdd(q, phi, set(1));  // l0 / L; 1 where e is the direction at rest
-    if (kAny) ratio = hn::IfThenElse(hn::Lt(hn::Add(set(1), q), set(kShortest2)), set(1), ratio);
-    c = hn::MulAdd(hn::Mul(dot(dv, e), m.dashpot_length2[kKind]), hn::Mul(ratio, ratio), c);
-  }
-  force = mulAdd(hn::Mul(k, c), e, force);
-}
 
 /// Springs' force on the nodes of a vector.
 /// @param k  stiffness of their first spring; the next is 64 farther   @param mild  all springs are, see kMild
@@ -72,10 +22,13 @@ HWY_INLINE Vec3 springForce(const Tile& u, const Tile& v, int at, const Material
   const Vec3 near_v = kDashpot ? seen<0, 0, 0>(v, at) : zero3();
   Vec3 force = zero3();
   V largest = hn::Zero(Tag());
-#define VISCERA_ADD(i, X, Y, Z)                                                                          \
-  addSpring<X, Y, Z, kUniform, kAny, kDashpot>(m, kUniform ? m.full[(i) < 6 ? 0 : 1] : load(k + (i)*64), \
-                                               seen<X, Y, Z>(u, at) - near,                              \
-                                               kDashpot ? seen<X, Y, Z>(v, at) - near_v : near_v, largest, force);
+#define VISCERA_ADD(i, X, Y, Z)                                                                         \
+  {                                                                                                     \
+    const Vec3 w = seen<X, Y, Z>(u, at) - near, dv = kDashpot ? seen<X, Y, Z>(v, at) - near_v : near_v; \
+    const V stiffness = kUniform ? m.full[(i) < 6 ? 0 : 1] : load(k + (i)*64);                          \
+    const SpringPull s = springPull<X, Y, Z, kUniform, kAny, kDashpot>(m, stiffness, w, dv, largest);   \
+    force = mulAdd(s.pull, s.e, force);                                                                 \
+  }
   VISCERA_SPRINGS(VISCERA_ADD)
 #undef VISCERA_ADD
   mild = hn::AllTrue(Tag(), hn::Lt(largest, set(kMild)));
@@ -113,33 +66,6 @@ HWY_NOINLINE void addVolumes(const Tile& u, int at, V quarter, const float* bulk
   addVolume<1, 1, 1>(u, at, quarter, load(bulk + 448), force);
 }
 
-/// Where the sums of the cells around a brick's nodes are (cell_kernels.cpp): of the brick and of those below it along
-/// x, y and z, bit per axis. Below along x it is what left their rows, along y the fifth rows, along z the fifth
-/// planes.
-struct CellSources {
-  const float* of[8];
-};
-HWY_INLINE CellSources sourcesOf(const Arrays& a, uint32_t b) {
-  alignas(64) static constexpr float kNothing[kCellSums] = {};
-  CellSources out;
-  for (int below = 0; below < 8; ++below) {
-    const int direction = 13 - (below & 1) - 3 * (below >> 1 & 1) - 9 * (below >> 2);
-    const uint32_t brick = a.bricks[b].neighbors[direction];
-    const float* sums = brick == b && below != 0 ? kNothing : a.cell_sums + size_t{brick} * kCellSums;
-    out.of[below] = sums + sumsAt(below & 1 ? kRightSums : kOwnSums, 0, 0);
-  }
-  return out;
-}
-
-/// Adds force of the cells around to the nodes of a vector. @param i  index of the first in the brick
-HWY_INLINE void addCells(const CellSources& sources, int i, Vec3& force) {
-  for (int below = 0; below < ((i >> 4) == 0 ? 8 : 4); ++below) {
-    const int plane = below & 4 ? 4 : i >> 4, row = below & 2 ? kFifthRow : 0;
-    const float* at = sources.of[below] + sumsAt(0, plane, 0) + row + (i & 15);
-    force = force + Vec3{load(at), load(at + kSumRows), load(at + 2 * kSumRows)};
-  }
-}
-
 /// Rest position of a vector's nodes [m]. @param from  rest position of the brick's first slot   @param i  index of the
 /// first node
 HWY_INLINE Vec3 restOf(const float (&from)[3], float h, int i) {
@@ -150,45 +76,56 @@ HWY_INLINE Vec3 restOf(const float (&from)[3], float h, int i) {
           set(from[2] + h * static_cast<float>(i >> 4))};
 }
 
-struct Stepping {
-  Material material;
-  Motion motion;
-  CellSources cells;  ///< where there are sums of cells
+/// Forces on a brick's nodes of the springs and volumes around them.
+template <bool kUniform, bool kDashpot>
+struct ForceOfSprings {
+  const LeapfrogJob& job;
+  const Material& material;
+  const Tile &u, &v;
+  uint32_t b;
+
+  /// @param i  index of the vector's first node in the brick
+  HWY_INLINE Vec3 operator()(int i) const {
+    const Arrays& a = job.arrays;
+    const int at = ((i >> 4) + 1) * kPlane + kOwn + (i & 15);
+    const float* k = a.spring_stiffness + size_t{b} * 1152 + i;
+    // What was strained in the last substep is taken to be so still; which formula counts is the state's affair alone.
+    const uint32_t bit = 1u << (i / 4);
+    bool strained = (job.strained[b] & bit) != 0, mild;
+    Vec3 force;
+    if (HWY_UNLIKELY(strained)) {
+      force = anySpringForce<kDashpot>(u, v, at, material, k, mild);
+      strained = !mild;
+      if (mild) job.strained[b] = static_cast<uint16_t>(job.strained[b] & ~bit);
+    }
+    if (!strained) {
+      force = springForce<kUniform, false, kDashpot>(u, v, at, material, k, mild);
+      if (HWY_UNLIKELY(!mild)) {
+        force = anySpringForce<kDashpot>(u, v, at, material, k, mild);
+        job.strained[b] = static_cast<uint16_t>(job.strained[b] | bit);
+      }
+    }
+    if (a.bulk_around) {
+      const V quarter = hn::Div(set(0.25f), material.h);
+      addVolumes(u, at, quarter, a.bulk_around + size_t{b} * 512 + i, force);
+    }
+    return force;
+  }
+};
+
+/// Forces on a brick's nodes of the cells around them, springs included.
+struct ForceOfCells {
+  CellSources sources;
+  HWY_INLINE Vec3 operator()(int i) const { return forceOfCells(sources, i); }
 };
 
 /// One vector of nodes. @param i  index of the first in the brick   @return |v|^2
-template <bool kUniform, bool kDashpot>
-HWY_INLINE V stepVector(const LeapfrogJob& job, const Stepping& s, const Tile& u, const Tile& v, uint32_t b, int i,
-                        V mobility, Vec3& u_next) {
-  const Arrays& a = job.arrays;
-  const int at = ((i >> 4) + 1) * kPlane + kOwn + (i & 15);
-  const float* k = a.spring_stiffness + size_t{b} * 1152 + i;
-  // What was strained in the last substep is taken to be so still; which formula counts is the state's affair alone.
-  const uint32_t bit = 1u << (i / 4);
-  bool strained = (job.strained[b] & bit) != 0, mild;
-  Vec3 force;
-  if (HWY_UNLIKELY(strained)) {
-    force = anySpringForce<kDashpot>(u, v, at, s.material, k, mild);
-    strained = !mild;
-    if (mild) job.strained[b] = static_cast<uint16_t>(job.strained[b] & ~bit);
-  }
-  if (!strained) {
-    force = springForce<kUniform, false, kDashpot>(u, v, at, s.material, k, mild);
-    if (HWY_UNLIKELY(!mild)) {
-      force = anySpringForce<kDashpot>(u, v, at, s.material, k, mild);
-      job.strained[b] = static_cast<uint16_t>(job.strained[b] | bit);
-    }
-  }
-  if (a.cell_sums) {
-    addCells(s.cells, i, force);
-  } else if (a.bulk_around) {
-    const V quarter = hn::Div(set(0.25f), s.material.h);
-    addVolumes(u, at, quarter, a.bulk_around + size_t{b} * 512 + i, force);
-  }
+HWY_INLINE V stepVector(const Arrays& a, const Motion& motion, uint32_t b, int i, const Vec3& force, Vec3& u_next) {
+  const V mobility = load(a.mobility + size_t{b} * 64 + static_cast<size_t>(i));
   const size_t to = size_t{b} * 192 + static_cast<size_t>(i);
   float* const lost = a.compensation ? a.compensation + size_t{b} * 384 + static_cast<size_t>(i) : nullptr;
   Vec3 v_next;
-  move(s.motion, mobility, force, seen<0, 0, 0>(u, at), loadPlanes(a.velocity + to), lost, u_next, v_next);
+  move(motion, mobility, force, loadPlanes(a.displacement + to), loadPlanes(a.velocity + to), lost, u_next, v_next);
   storePlanes(u_next, a.next_displacement + to);
   storePlanes(v_next, a.next_velocity + to);
   return dot(v_next, v_next);
@@ -205,11 +142,13 @@ HWY_INLINE bool inReach(const LeapfrogJob& job, const Vec3& x) {
   return false;
 }
 
-template <bool kUniform, bool kDashpot>
-HWY_NOINLINE void stepBrick(const LeapfrogJob& job, const Stepping& s, const layout::BodyParams& body, const Tile& u,
-                            const Tile& v, uint32_t b) {
+/// @param force_of  force on the nodes of a vector [N], by the index of the first
+template <class ForceOf>
+HWY_NOINLINE void stepBrick(const LeapfrogJob& job, const layout::BodyParams& body, uint32_t b,
+                            const ForceOf& force_of) {
   const Arrays& a = job.arrays;
   const layout::Brick& brick = a.bricks[b];
+  const Motion motion = motionOf(job.step, body);
   const float h = body.origin_spacing.w, edge = 4 * h;
   const float from[3] = {body.origin_spacing.x + edge * static_cast<float>(brick.coord_x),
                          body.origin_spacing.y + edge * static_cast<float>(brick.coord_y),
@@ -219,11 +158,9 @@ HWY_NOINLINE void stepBrick(const LeapfrogJob& job, const Stepping& s, const lay
   constexpr int kLanes = static_cast<int>(hn::MaxLanes(Tag()));
   for (int i = 0; i < 64; i += kLanes) {
     // Nodes that are not there or never move: both states have their places already.
-    constexpr uint32_t kRows = (1u << (hn::MaxLanes(Tag()) / 4)) - 1;
-    if (((~uint32_t{a.idle_rows[b]} >> (i / 4)) & kRows) == 0) continue;
-    const V mobility = load(a.mobility + size_t{b} * 64 + static_cast<size_t>(i));
+    if (noRows(~uint32_t{a.idle_rows[b]}, i)) continue;
     Vec3 u_next;
-    speed2 = hn::Max(speed2, stepVector<kUniform, kDashpot>(job, s, u, v, b, i, mobility, u_next));
+    speed2 = hn::Max(speed2, stepVector(a, motion, b, i, force_of(i), u_next));
     if (job.reaches > 0 && !near) near = inReach(job, restOf(from, h, i) + u_next);
   }
   job.speed2[b] = hn::GetLane(hn::MaxOfLanes(Tag(), speed2));
@@ -236,22 +173,30 @@ void stepBricks(const LeapfrogJob& job, const uint32_t* bricks, size_t count) {
   for (size_t n = 0; n < count; ++n) {
     const uint32_t b = bricks[n];
     const layout::BodyParams& body = job.arrays.bodies[job.arrays.bricks[b].body];
-    Stepping s = {materialOf(body), motionOf(job.step, body), {}};
-    if (job.arrays.cell_sums) s.cells = sourcesOf(job.arrays, b);
-    if (job.arrays.bulk_around && !job.arrays.cell_sums)
+    const Material material = materialOf(body);
+    if (job.arrays.bulk_around)
       fill<true>(job.arrays, job.arrays.displacement, b, u);
     else
       fill<false>(job.arrays, job.arrays.displacement, b, u);
     if (kDashpot) fill<false>(job.arrays, job.arrays.velocity, b, v);
     if (job.arrays.uniform[b])
-      stepBrick<true, kDashpot>(job, s, body, u, v, b);
+      stepBrick(job, body, b, ForceOfSprings<true, kDashpot>{job, material, u, v, b});
     else
-      stepBrick<false, kDashpot>(job, s, body, u, v, b);
+      stepBrick(job, body, b, ForceOfSprings<false, kDashpot>{job, material, u, v, b});
+  }
+}
+
+void stepByCells(const LeapfrogJob& job, const uint32_t* bricks, size_t count) {
+  for (size_t n = 0; n < count; ++n) {
+    const layout::BodyParams& body = job.arrays.bodies[job.arrays.bricks[bricks[n]].body];
+    stepBrick(job, body, bricks[n], ForceOfCells{sourcesOf(job.arrays, bricks[n])});
   }
 }
 
 void leapfrogOf(const LeapfrogJob& job, const uint32_t* bricks, size_t count) {
-  if (job.dashpot)
+  if (job.arrays.cell_sums)
+    stepByCells(job, bricks, count);
+  else if (job.dashpot)
     stepBricks<true>(job, bricks, count);
   else
     stepBricks<false>(job, bricks, count);

@@ -27,7 +27,7 @@ struct Arrays {
   float* compensation;            ///< [6 * slots] what sums of displacement, then of velocity have lost; or null
   const float* spring_stiffness;  ///< [18 * slots] N/m
   const float* mobility;          ///< [slots] 1/kg
-  const float* cell_sums;         ///< [kCellSums * bricks] N, of CellJob; null without moments: then bulk_around counts
+  const float* cell_sums;         ///< [kCellSums * bricks] N, of CellJob: all forces; null without moments
   const float* bulk_around;       ///< [8 * slots] J of the cells around a node; null without volume energy
   const uint8_t* uniform;         ///< [bricks] all springs of all nodes are whole and of full strength
   const uint16_t* idle_rows;      ///< [bricks] bit r: none of the four nodes from 4 r on will ever move
@@ -53,25 +53,46 @@ struct LeapfrogJob {
 /// One substep of leapfrog, as in shaders/solver/leapfrog.comp without its contacts, of the nodes of some bricks.
 using BrickLeapfrog = void (*)(const LeapfrogJob& job, const uint32_t* bricks, size_t count);
 
-// Force of a brick's 64 cells on their corners, summed by node: on the nodes of its own rows and of the row and plane
-// behind them, and on those at the right of its rows, which only have a first one each. Per plane and component four
-// rows and, kFifthRow floats on, the fifth, then nothing; kSumRows floats in all.
-constexpr int kFifthRow = 16, kSumRows = 32;
-constexpr size_t kOwnSums = 0, kRightSums = 1;
-constexpr size_t kCellSums = 2 * 5 * 3 * kSumRows;
-constexpr size_t sumsAt(size_t part, int plane, int component) {
-  return ((part * 5 + static_cast<size_t>(plane)) * 3 + static_cast<size_t>(component)) * kSumRows;
+// Where nodes have cells by moments, each spring is evaluated once, by the cell that owns it: from the cell's lowest
+// corner the edges along x, y and z, then the two diagonals of its lowest face across z, across y and across x.
+constexpr uint32_t kCellSprings = 9;
+/// Index of a spring of the cell above a slot.
+constexpr size_t cellSpringAt(uint32_t slot, uint32_t spring) {
+  return size_t{slot >> 6} * (64 * kCellSprings) + size_t{spring} * 64 + (slot & 63);
 }
 
-/// Forces of cells with energies of their own, where some resist by moments (shaders/solver/moments.glsl).
+// Forces of a brick's 64 cells on their corners, summed by node, plane by plane of nodes (the fifth is that above the
+// brick): on the nodes of its own rows, of the row behind them, then of each row's right neighbour and of the corner
+// behind that, [x, y, z, 0] per node.
+constexpr size_t ownSumsAt(int plane, int component) {
+  return static_cast<size_t>(plane * 48 + component * 16);
+}
+constexpr size_t rightSumsAt(int plane) {
+  return 240 + static_cast<size_t>(plane) * 16;
+}
+constexpr size_t behindSumsAt(int plane, int component) {
+  return 320 + static_cast<size_t>(plane * 12 + component * 4);
+}
+constexpr size_t cornerSumsAt(int plane) {
+  return 380 + static_cast<size_t>(plane) * 4;
+}
+constexpr size_t kCellSums = 400;
+
+/// Forces of cells, where some resist by moments (shaders/solver/moments.glsl), and of all springs.
 struct CellJob {
   Arrays arrays;
-  const float* bulk;            ///< [slots] J of the cell above a node
-  const float* rigidity;        ///< [slots] J; both 0 where there is none
-  const float* const* moments;  ///< [bricks] [9 * 64] of its cells over their shares; null where all are full
-  bool parts;                   ///< bulk over rigidity differs within a body
-  bool volumes;                 ///< some bulk is not 0
-  float* sums;                  ///< [kCellSums * bricks] N; behind fifth rows they stay as they are: 0
+  const float* springs;          ///< [kCellSprings * slots] N/m (cellSpringAt)
+  const uint8_t* uniform;        ///< [bricks] all of these are of the body's full strength
+  const uint16_t* idle_rows;     ///< [bricks] bit r: the four cells from 4 r on never do anything to a node that moves
+  const float* bulk;             ///< [slots] J of the cell above a node
+  const float* rigidity;         ///< [slots] J; both 0 where there is none
+  const float* const* moments;   ///< [bricks] [9 * 64] of its cells (CpuStrengths); null where all are full
+  const uint16_t* partial_rows;  ///< [bricks] bit r: some of the four cells from 4 r on is tissue in part
+  bool parts;                    ///< bulk over rigidity differs within a body
+  bool volumes;                  ///< some bulk is not 0
+  bool dashpot;                  ///< some body has one
+  uint16_t* strained;            ///< [bricks] as in LeapfrogJob, of cells
+  float* sums;                   ///< [kCellSums * bricks] N
 };
 /// Sums of the cells of some bricks.
 using BrickCells = void (*)(const CellJob& job, const uint32_t* bricks, size_t count);

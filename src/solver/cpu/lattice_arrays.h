@@ -29,9 +29,13 @@ inline simd::CellJob cellsOf(CpuLattice& lattice) {
   simd::CellJob job{};
   if (lattice.strengths.rigidity.empty()) return job;
   job.arrays = arraysOf(lattice);
+  job.springs = lattice.strengths.cell_springs.data();
+  job.uniform = lattice.strengths.uniform_cells.data();
+  job.idle_rows = lattice.strengths.idle_cells.data();
   job.bulk = lattice.strengths.bulk.data();
   job.rigidity = lattice.strengths.rigidity.data();
   job.moments = lattice.strengths.brick_moments.data();
+  job.partial_rows = lattice.strengths.partial_rows.data();
   job.parts = lattice.strengths.has_parts;
   job.volumes = lattice.strengths.has_volumes;
   return job;

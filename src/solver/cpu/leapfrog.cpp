@@ -108,6 +108,8 @@ void CpuLeapfrog::sumCells(CpuLattice& lattice) {
     }
   }
   simd::CellJob job = cellsOf(lattice);
+  job.dashpot = job_.dashpot;
+  job.strained = strained_.data();
   job.sums = cell_sums_.data();
   parallel_((cell_bricks_.size() + per_job_ - 1) / per_job_, [&](size_t chunk) {
     const size_t first = chunk * per_job_;

@@ -65,10 +65,12 @@ V momentEnergyOf(const CellJob& job, const layout::BodyParams& body, size_t slot
   if (hn::AllFalse(Tag(), there)) return none;
   const V ratio = hn::IfThenElseZero(there, hn::Div(load(job.bulk + slot), hn::Max(rigidity, set(1e-30f))));
   const Face low = faceOf(n[0], n[1], n[2], n[3]), high = faceOf(n[4], n[5], n[6], n[7]);
-  CellMotion q = motionBetween(low, high, set(1 / body.origin_spacing.w));
+  const CellScale scale = cellScale(body.origin_spacing.w);
+  CellMotion q = motionBetween(low, high, hn::IfThenElseZero(there, scale.per_4h));
   const float* moments = job.moments[slot / 64];
-  if (moments == nullptr) return cellPull<true>(q, Moments{zero3(), zero3(), zero3()}, rigidity, planeStress(ratio));
-  return cellPull<false>(q, loadMoments(moments + slot % 64), rigidity, planeStress(ratio));
+  if (moments == nullptr)
+    return cellPull<true>(q, Moments{zero3(), zero3(), zero3()}, rigidity, planeStress<true>(ratio), scale);
+  return cellPull<false>(q, loadMoments(moments + slot % 64), rigidity, planeStress<false>(ratio), scale);
 }
 
 HWY_INLINE M hasBits(const layout::NodeBits* nodes, uint32_t bits, uint32_t wanted) {

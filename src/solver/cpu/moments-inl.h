@@ -20,23 +20,39 @@ namespace viscera::simd::HWY_NAMESPACE {
 
 using layout::kAlternating, layout::kFadeBend, layout::kFadeFull, layout::kFadeNone, layout::kFadeStrain2;
 
-/// Mean edges less their rest value, and hourglass motions, over h.
+/// Mean edges less their rest value, over h; hourglass motions as sums and differences of displacements [m], which is
+/// 2 h times those of moments.glsl and, hxyz, sqrt(8) h.
 struct CellMotion {
   Vec3 da, db, dc, hx, hy, hz, hxyz;
 };
 
-/// Plane stress of a material, over mu.
+/// Constants of a body's cells, in all lanes.
+struct CellScale {
+  V per_4h;
+  V per_4h2;     ///< 1 / (2 h)^2: of products of two hourglass motions
+  V bent, turn;  ///< of their squares, see kFadeBend
+};
+HWY_INLINE CellScale cellScale(float h) {
+  const float per = 1 / (4 * h * h);
+  return {set(0.25f / h), set(per), set(per / kFadeBend), set(-4 * per / kFadeBend)};
+}
+
+/// Plane stress of a material, over mu; of full cells, times their second moment.
+template <bool kFull>
 struct PlaneStress {
   V along, aside, poisson;
   Vec3 operator()(const Vec3& v) const {
-    return {hn::MulAdd(along, v.x, hn::Mul(aside, v.y)), hn::MulAdd(along, v.y, hn::Mul(aside, v.x)), v.z};
+    return {hn::MulAdd(along, v.x, hn::Mul(aside, v.y)), hn::MulAdd(along, v.y, hn::Mul(aside, v.x)),
+            kFull ? hn::Mul(set(1.0f / 12), v.z) : v.z};
   }
 };
 /// @param ratio  lambda/mu - 1
-HWY_INLINE PlaneStress planeStress(V ratio) {
+template <bool kFull>
+HWY_INLINE PlaneStress<kFull> planeStress(V ratio) {
+  const float moment = kFull ? 1.0f / 12 : 1;
   const V per = hn::Div(set(1), hn::Add(ratio, set(3)));
   const V poisson = hn::Mul(hn::Add(ratio, set(1)), per);
-  return {hn::Mul(set(4), hn::Mul(hn::Add(ratio, set(2)), per)), hn::Add(poisson, poisson), poisson};
+  return {hn::Mul(set(4 * moment), hn::Mul(hn::Add(ratio, set(2)), per)), hn::Mul(set(2 * moment), poisson), poisson};
 }
 
 struct CellEdge {
@@ -44,57 +60,69 @@ struct CellEdge {
   V shrink, strain, strain_slope, fade, fade_slope;
 };
 
-/// @param change  of the edge, whose component along itself is `own`   @tparam kStrains  strains are wanted
-template <int kAxis, bool kStrains>
-HWY_INLINE CellEdge cellEdge(const Vec3& change) {
-  const V one = set(1), own = kAxis == 0 ? change.x : kAxis == 1 ? change.y : change.z;
-  Vec3 edge = change;
-  (kAxis == 0 ? edge.x : kAxis == 1 ? edge.y : edge.z) = hn::Add(own, one);
-  const V growth = hn::MulAdd(set(2), own, dot(change, change));
-  CellEdge e;
-  V size, per_size;
-  if (HWY_LIKELY(hn::AllTrue(Tag(), hn::Lt(hn::Abs(growth), set(kMild))))) {
-    const V share = hn::Mul(growth, mildPhi(growth));  // (length - 1) / length
-    const V stretch = hn::NegMulAdd(growth, share, hn::Sub(growth, share));
-    per_size = hn::Sub(one, share);
-    size = hn::Add(one, stretch);
-    if (kStrains) {  // 1/(1 + x) as a series, to 1e-8
-      const V x = hn::Mul(set(1 / kFadeStrain2), hn::Mul(stretch, stretch));
-      const V per = hn::NegMulAdd(x, hn::NegMulAdd(x, hn::NegMulAdd(x, hn::Sub(one, x), one), one), one);
-      e.strain = hn::Mul(stretch, per);
-      e.strain_slope = hn::Mul(hn::Sub(one, x), hn::Mul(per, per));
-    }
-  } else {
-    size = hn::Sqrt(hn::Max(hn::Add(one, growth), set(1e-12f)));
-    per_size = hn::Div(one, size);
-    if (kStrains) {
-      const V stretch = hn::Div(growth, hn::Add(size, one));
-      const V q = hn::MulAdd(hn::Mul(stretch, stretch), set(1 / kFadeStrain2), one), per = hn::Div(one, q);
-      e.strain = hn::Mul(stretch, per);
-      e.strain_slope = hn::Mul(hn::Sub(set(2), q), hn::Mul(per, per));
-    }
-  }
-  if (!kStrains) e.strain = e.strain_slope = hn::Zero(Tag());
-  e.direction = per_size * edge;
-  e.shrink = per_size;
-  e.fade = one;
-  e.fade_slope = hn::Zero(Tag());
-  const M squeezed = hn::Lt(size, set(kFadeFull));
-  if (HWY_UNLIKELY(!hn::AllFalse(Tag(), squeezed))) {
-    const float kPer = 1 / (kFadeFull - kFadeNone);
-    const V t = hn::Min(hn::Max(hn::Mul(hn::Sub(size, set(kFadeNone)), set(kPer)), hn::Zero(Tag())), one);
-    e.fade = hn::Mul(hn::Mul(t, t), hn::NegMulAdd(set(2), t, set(3)));
-    e.fade_slope = hn::Mul(set(6 * kPer), hn::Mul(t, hn::Sub(one, t)));
-  }
-  return e;
+/// What the length of an edge does: `growth` is its square less 1. @tparam kStrains  strains are wanted
+template <bool kStrains>
+HWY_INLINE void setMildLength(CellEdge& e, V growth) {
+  const V one = set(1), phi = mildPhi(growth);
+  e.shrink = hn::NegMulAdd(growth, phi, one);
+  if (!kStrains) return;
+  const V share = hn::Mul(growth, phi);  // (length - 1) / length
+  // 1/(1 + x) as a series, to 1e-8
+  const V stretch = hn::NegMulAdd(growth, share, hn::Sub(growth, share));
+  const V x = hn::Mul(set(1 / kFadeStrain2), hn::Mul(stretch, stretch));
+  const V per = hn::NegMulAdd(x, hn::NegMulAdd(x, hn::NegMulAdd(x, hn::Sub(one, x), one), one), one);
+  e.strain = hn::Mul(stretch, per);
+  e.strain_slope = hn::Mul(hn::Sub(one, x), hn::Mul(per, per));
+}
+template <bool kStrains>
+HWY_INLINE void setAnyLength(CellEdge& e, V growth) {
+  const V one = set(1), size = hn::Sqrt(hn::Max(hn::Add(one, growth), set(1e-12f)));
+  e.shrink = hn::Div(one, size);
+  if (!kStrains) return;
+  const V stretch = hn::Div(growth, hn::Add(size, one));
+  const V q = hn::MulAdd(hn::Mul(stretch, stretch), set(1 / kFadeStrain2), one), per = hn::Div(one, q);
+  e.strain = hn::Mul(stretch, per);
+  e.strain_slope = hn::Mul(hn::Sub(set(2), q), hn::Mul(per, per));
+}
+HWY_INLINE void setFade(CellEdge& e, V growth) {
+  const float kPer = 1 / (kFadeFull - kFadeNone);
+  const V one = set(1), size = hn::Sqrt(hn::Max(hn::Add(one, growth), set(1e-12f)));
+  const V t = hn::Min(hn::Max(hn::Mul(hn::Sub(size, set(kFadeNone)), set(kPer)), hn::Zero(Tag())), one);
+  e.fade = hn::Mul(hn::Mul(t, t), hn::NegMulAdd(set(2), t, set(3)));
+  e.fade_slope = hn::Mul(set(6 * kPer), hn::Mul(t, hn::Sub(one, t)));
 }
 
-HWY_INLINE Vec3 edgePull(const CellEdge& e, const Vec3& by_direction, V by_length) {
+/// @return some edge is so short that the energy fades; else fades are not set
+template <bool kStrains>
+HWY_INLINE bool cellEdges(const CellMotion& q, CellEdge (&e)[3]) {
+  const V one = set(1);
+  e[0].direction = {hn::Add(q.da.x, one), q.da.y, q.da.z};
+  e[1].direction = {q.db.x, hn::Add(q.db.y, one), q.db.z};
+  e[2].direction = {q.dc.x, q.dc.y, hn::Add(q.dc.z, one)};
+  const V growth[3] = {hn::MulAdd(set(2), q.da.x, dot(q.da, q.da)), hn::MulAdd(set(2), q.db.y, dot(q.db, q.db)),
+                       hn::MulAdd(set(2), q.dc.z, dot(q.dc, q.dc))};
+  const V least = hn::Min(growth[0], hn::Min(growth[1], growth[2]));
+  const V most = hn::Max(growth[0], hn::Max(growth[1], growth[2]));
+  const bool mild = hn::AllTrue(Tag(), hn::Lt(hn::Max(most, hn::Neg(least)), set(kMild)));
+  for (int i = 0; i < 3; ++i) {
+    if (HWY_LIKELY(mild))
+      setMildLength<kStrains>(e[i], growth[i]);
+    else
+      setAnyLength<kStrains>(e[i], growth[i]);
+    e[i].direction = e[i].shrink * e[i].direction;
+  }
+  if (HWY_LIKELY(hn::AllFalse(Tag(), hn::Lt(least, set(kFadeFull * kFadeFull - 1))))) return false;
+  for (int i = 0; i < 3; ++i) setFade(e[i], growth[i]);
+  return true;
+}
+
+/// Of a pull by an edge's direction, its pull by the edge, over 4 h.
+HWY_INLINE Vec3 edgePull(const CellEdge& e, V per_4h, const Vec3& by_direction) {
   const Vec3 across = mulAdd(hn::Neg(dot(e.direction, by_direction)), e.direction, by_direction);
-  return mulAdd(by_length, e.direction, e.shrink * across);
+  return hn::Mul(per_4h, e.shrink) * across;
 }
 
-/// Moments of cells over their shares; those of full ones are constants.
+/// Moments of cells over their shares, the first times 2 h; those of full ones are constants.
 struct Moments {
   Vec3 first, square, mixed;
 };
@@ -110,86 +138,113 @@ HWY_INLINE Vec3 times(const Vec3& a, const Vec3& b) {
   return {hn::Mul(a.x, b.x), hn::Mul(a.y, b.y), hn::Mul(a.z, b.z)};
 }
 
-/// cellPull() of moments.glsl. @param rigidity  J, 0 where there is no cell   @param q  replaced by the derivatives by
-/// it   @return energy [J]   @tparam kFull  all are filled all through, `t` is not looked at
-template <bool kFull>
-HWY_INLINE V cellPull(CellMotion& q, const Moments& t, V rigidity, const PlaneStress& stress) {
-  const CellEdge ea = cellEdge<0, !kFull>(q.da), eb = cellEdge<1, !kFull>(q.db), ec = cellEdge<2, !kFull>(q.dc);
-  const Vec3 sa = {dot(ea.direction, q.hx), dot(ea.direction, q.hy), dot(ea.direction, q.hz)};
-  const Vec3 sb = {dot(eb.direction, q.hx), dot(eb.direction, q.hy), dot(eb.direction, q.hz)};
-  const Vec3 sc = {dot(ec.direction, q.hx), dot(ec.direction, q.hy), dot(ec.direction, q.hz)};
-  const Vec3 gx = {sb.z, sc.y, hn::Add(sb.y, sc.z)}, gy = {sc.x, sa.z, hn::Add(sc.z, sa.x)};
-  const Vec3 gz = {sa.y, sb.x, hn::Add(sa.x, sb.y)};
-  const Vec3 tx = stress(gx), ty = stress(gy), tz = stress(gz);
-  Vec3 bx, by, bz, shears;
-  V solid, strain_a = hn::Zero(Tag()), strain_b = strain_a, strain_c = strain_a;
-  if (kFull) {
-    const V twelfth = set(1.0f / 12);
-    bx = twelfth * tx;
-    by = twelfth * ty;
-    bz = twelfth * tz;
-    solid = hn::Mul(set(0.5f), hn::Add(dot(bx, gx), hn::Add(dot(by, gy), dot(bz, gz))));
-    shears = zero3();
-  } else {
-    const V minus = hn::Neg(stress.poisson);
-    const Vec3 dx = {hn::Mul(minus, hn::Add(gx.x, gx.y)), gx.x, gx.y};
-    const Vec3 dy = {gy.y, hn::Mul(minus, hn::Add(gy.x, gy.y)), gy.x};
-    const Vec3 dz = {gz.x, gz.y, hn::Mul(minus, hn::Add(gz.x, gz.y))};
-    const V yz = hn::Mul(hn::Add(hn::Add(q.dc.y, q.db.z), dot(q.db, q.dc)), hn::Mul(eb.shrink, ec.shrink));
-    const V zx = hn::Mul(hn::Add(hn::Add(q.da.z, q.dc.x), dot(q.dc, q.da)), hn::Mul(ec.shrink, ea.shrink));
-    const V xy = hn::Mul(hn::Add(hn::Add(q.db.x, q.da.y), dot(q.da, q.db)), hn::Mul(ea.shrink, eb.shrink));
-    const Vec3 mx = weighted(t.square.x, dx, t.mixed.z, dy, t.mixed.y, dz);
-    const Vec3 my = weighted(t.mixed.z, dx, t.square.y, dy, t.mixed.x, dz);
-    const Vec3 mz = weighted(t.mixed.y, dx, t.mixed.x, dy, t.square.z, dz);
-    const Vec3 ix = {mx.y, mx.z, hn::Mul(t.square.x, gx.z)}, iy = {my.z, my.x, hn::Mul(t.square.y, gy.z)};
-    const Vec3 iz = {mz.x, mz.y, hn::Mul(t.square.z, gz.z)};
-    const Vec3 wx = t.first.x * Vec3{eb.strain, ec.strain, yz}, wy = t.first.y * Vec3{ec.strain, ea.strain, zx};
-    const Vec3 wz = t.first.z * Vec3{ea.strain, eb.strain, xy};
-    const V half = set(0.5f);
-    solid =
-        hn::Add(dot(tx, mulAdd(half, ix, wx)), hn::Add(dot(ty, mulAdd(half, iy, wy)), dot(tz, mulAdd(half, iz, wz))));
-    bx = stress(wx + ix);
-    by = stress(wy + iy);
-    bz = stress(wz + iz);
-    strain_a = hn::MulAdd(t.first.y, ty.y, hn::Mul(t.first.z, tz.x));
-    strain_b = hn::MulAdd(t.first.z, tz.y, hn::Mul(t.first.x, tx.x));
-    strain_c = hn::MulAdd(t.first.x, tx.y, hn::Mul(t.first.y, ty.x));
-    shears = times(t.first, {tx.z, ty.z, tz.z});
+/// What the solid in a cell resists bending and twisting with: derivatives of the first two terms of the energy.
+struct SolidPull {
+  Vec3 bx, by, bz;  ///< by gradients of strain
+  Vec3 strains, shears;
+  V coupled;  ///< energy of what moments and the mean strain do to each other
+};
+/// @param gx, gy, gz  gradients of strain along x, y, z
+HWY_INLINE SolidPull solidPull(const CellEdge (&/*e*/)[3], const Moments& /*t*/, const PlaneStress<true>& stress,
+                               const Vec3& gx, const Vec3& gy, const Vec3& gz) {
+  return {stress(gx), stress(gy), stress(gz), zero3(), zero3(), hn::Zero(Tag())};
+}
+HWY_INLINE SolidPull solidPull(const CellEdge (&e)[3], const Moments& t, const PlaneStress<false>& stress,
+                               const Vec3& gx, const Vec3& gy, const Vec3& gz) {
+  const Vec3 strain = {e[0].strain, e[1].strain, e[2].strain};
+  const Vec3 &a = e[0].direction, &b = e[1].direction, &c = e[2].direction;
+  const Vec3 shear = {dot(b, c), dot(c, a), dot(a, b)};  // every term is small: nothing cancels
+  SolidPull out;
+  {
+    const Vec3 tx = stress(gx), ty = stress(gy), tz = stress(gz);
+    out.strains = {hn::MulAdd(t.first.y, ty.y, hn::Mul(t.first.z, tz.x)),
+                   hn::MulAdd(t.first.z, tz.y, hn::Mul(t.first.x, tx.x)),
+                   hn::MulAdd(t.first.x, tx.y, hn::Mul(t.first.y, ty.x))};
+    out.shears = times(t.first, {tx.z, ty.z, tz.z});
+    out.coupled = hn::Add(dot(out.strains, strain), dot(out.shears, shear));
   }
+  const V minus = hn::Neg(stress.poisson);
+  const Vec3 dx = {hn::Mul(minus, hn::Add(gx.x, gx.y)), gx.x, gx.y};
+  const Vec3 dy = {gy.y, hn::Mul(minus, hn::Add(gy.x, gy.y)), gy.x};
+  const Vec3 dz = {gz.x, gz.y, hn::Mul(minus, hn::Add(gz.x, gz.y))};
+  // Of a component of strain, its integral times p_n: `row` of second moments, `first` moment and mean strain.
+  const auto integral = [](V first, V mean, V xn, V along_x, V yn, V along_y, V zn, V along_z) HWY_ATTR {
+    return hn::MulAdd(xn, along_x, hn::MulAdd(yn, along_y, hn::MulAdd(zn, along_z, hn::Mul(first, mean))));
+  };
+  const Vec3 &m = t.mixed, &r = t.square;
+  out.bx = stress({integral(t.first.x, strain.y, r.x, dx.y, m.z, dy.y, m.y, dz.y),
+                   integral(t.first.x, strain.z, r.x, dx.z, m.z, dy.z, m.y, dz.z),
+                   hn::MulAdd(r.x, gx.z, hn::Mul(t.first.x, shear.x))});
+  out.by = stress({integral(t.first.y, strain.z, m.z, dx.z, r.y, dy.z, m.x, dz.z),
+                   integral(t.first.y, strain.x, m.z, dx.x, r.y, dy.x, m.x, dz.x),
+                   hn::MulAdd(r.y, gy.z, hn::Mul(t.first.y, shear.y))});
+  out.bz = stress({integral(t.first.z, strain.x, m.y, dx.x, m.x, dy.x, r.z, dz.x),
+                   integral(t.first.z, strain.y, m.y, dx.y, m.x, dy.y, r.z, dz.y),
+                   hn::MulAdd(r.z, gz.z, hn::Mul(t.first.z, shear.z))});
+  return out;
+}
+
+/// cellPull() of moments.glsl. @param rigidity  J, 0 where there is no cell   @param q  replaced by the derivatives
+/// by the motion, those by da, db and dc over 4 h [N]   @return energy [J]   @tparam kFull  all cells are full, `t` is
+/// not looked at
+template <bool kFull>
+HWY_INLINE V cellPull(CellMotion& q, const Moments& t, V rigidity, const PlaneStress<kFull>& stress,
+                      const CellScale& of) {
+  CellEdge e[3];
+  const bool fades = cellEdges<!kFull>(q, e);
+  const Vec3 &a = e[0].direction, &b = e[1].direction, &c = e[2].direction;
+  const Vec3 sa = {dot(a, q.hx), dot(a, q.hy), dot(a, q.hz)}, sb = {dot(b, q.hx), dot(b, q.hy), dot(b, q.hz)};
+  const Vec3 sc = {dot(c, q.hx), dot(c, q.hy), dot(c, q.hz)};
+  const SolidPull solid = solidPull(e, t, stress, {sb.z, sc.y, hn::Add(sb.y, sc.z)}, {sc.x, sa.z, hn::Add(sc.z, sa.x)},
+                                    {sa.y, sb.x, hn::Add(sa.x, sb.y)});
   const V size = hn::Add(dot(sa, sa), hn::Add(dot(sb, sb), dot(sc, sc)));
   const V trace = hn::Add(sa.x, hn::Add(sb.y, sc.z));
-  const Vec3 pair = {hn::Add(sb.z, sc.y), hn::Add(sc.x, sa.z), hn::Add(sa.y, sb.x)};
-  const V springs = hn::Add(size, hn::MulAdd(trace, trace, dot(pair, pair)));
-  const V energy = hn::MulAdd(set(-0.125f), springs, hn::MulAdd(set(0.5f * kAlternating), dot(q.hxyz, q.hxyz), solid));
-  const V quarter = set(-0.25f);
-  Vec3 ra = mulAdd(quarter, sa + Vec3{trace, pair.z, pair.y}, {hn::Add(by.z, bz.z), bz.x, by.y});
-  Vec3 rb = mulAdd(quarter, sb + Vec3{pair.z, trace, pair.x}, {bz.y, hn::Add(bz.z, bx.z), bx.x});
-  Vec3 rc = mulAdd(quarter, sc + Vec3{pair.y, pair.x, trace}, {by.x, bx.y, hn::Add(bx.z, by.z)});
-  const V bent = hn::Mul(size, set(1 / kFadeBend)), less = hn::Div(set(1), hn::MulAdd(bent, bent, set(1)));
-  const V turn = hn::Mul(hn::Mul(set(-4 / kFadeBend), bent), hn::Mul(less, energy));
-  ra = mulAdd(turn, sa, ra);
-  rb = mulAdd(turn, sb, rb);
-  rc = mulAdd(turn, sc, rc);
-  const V faded = hn::Mul(rigidity, less), fade_ab = hn::Mul(ea.fade, eb.fade);
-  const V scale = hn::Mul(faded, hn::Mul(fade_ab, ec.fade)), lost = hn::Mul(faded, energy);
+  // By s_mn, but for what the springs put into s_mn itself; the energy is quadratic in s.
+  const V minus = set(-0.25f), trace4 = hn::Mul(minus, trace);
+  const Vec3 pair4 = minus * Vec3{hn::Add(sb.z, sc.y), hn::Add(sc.x, sa.z), hn::Add(sa.y, sb.x)};
+  const Vec3 &bx = solid.bx, &by = solid.by, &bz = solid.bz;
+  Vec3 ra = {hn::Add(hn::Add(by.z, bz.z), trace4), hn::Add(bz.x, pair4.z), hn::Add(by.y, pair4.y)};
+  Vec3 rb = {hn::Add(bz.y, pair4.z), hn::Add(hn::Add(bz.z, bx.z), trace4), hn::Add(bx.x, pair4.x)};
+  Vec3 rc = {hn::Add(by.x, pair4.y), hn::Add(bx.y, pair4.x), hn::Add(hn::Add(bx.z, by.z), trace4)};
+  V twice = hn::Add(dot(ra, sa), hn::Add(dot(rb, sb), dot(rc, sc)));
+  if (!kFull) twice = hn::Add(twice, solid.coupled);
+  const V energy = hn::MulAdd(set(0.5f), twice,
+                              hn::MulAdd(set(-0.125f), size, hn::Mul(set(0.25f * kAlternating), dot(q.hxyz, q.hxyz))));
+  const V bent = hn::Mul(of.bent, size), less = hn::Div(set(1), hn::MulAdd(bent, bent, set(1)));
+  const V own = hn::MulAdd(hn::Mul(of.turn, bent), hn::Mul(less, energy), set(-0.25f));
+  const V faded = hn::Mul(hn::Mul(rigidity, of.per_4h2), less);
+  V scale = faded;
+  if (HWY_UNLIKELY(fades)) scale = hn::Mul(faded, hn::Mul(hn::Mul(e[0].fade, e[1].fade), e[2].fade));
+  ra = scale * mulAdd(own, sa, ra);
+  rb = scale * mulAdd(own, sb, rb);
+  rc = scale * mulAdd(own, sc, rc);
   Vec3 ca = weighted(ra.x, q.hx, ra.y, q.hy, ra.z, q.hz), cb = weighted(rb.x, q.hx, rb.y, q.hy, rb.z, q.hz);
   Vec3 cc = weighted(rc.x, q.hx, rc.y, q.hy, rc.z, q.hz);
   if (!kFull) {
-    ca = mulAdd(shears.y, ec.direction, mulAdd(shears.z, eb.direction, ca));
-    cb = mulAdd(shears.z, ea.direction, mulAdd(shears.x, ec.direction, cb));
-    cc = mulAdd(shears.x, eb.direction, mulAdd(shears.y, ea.direction, cc));
+    const Vec3 shears = scale * solid.shears;
+    ca = mulAdd(shears.y, c, mulAdd(shears.z, b, ca));
+    cb = mulAdd(shears.z, a, mulAdd(shears.x, c, cb));
+    cc = mulAdd(shears.x, b, mulAdd(shears.y, a, cc));
   }
-  const auto by_length = [&](const CellEdge& e, V strain, V other_fades) HWY_ATTR {
-    const V of_fade = hn::Mul(hn::Mul(lost, other_fades), e.fade_slope);
-    return kFull ? of_fade : hn::MulAdd(hn::Mul(scale, strain), e.strain_slope, of_fade);
-  };
-  q.da = edgePull(ea, scale * ca, by_length(ea, strain_a, hn::Mul(eb.fade, ec.fade)));
-  q.db = edgePull(eb, scale * cb, by_length(eb, strain_b, hn::Mul(ec.fade, ea.fade)));
-  q.dc = edgePull(ec, scale * cc, by_length(ec, strain_c, fade_ab));
-  q.hx = scale * weighted(ra.x, ea.direction, rb.x, eb.direction, rc.x, ec.direction);
-  q.hy = scale * weighted(ra.y, ea.direction, rb.y, eb.direction, rc.y, ec.direction);
-  q.hz = scale * weighted(ra.z, ea.direction, rb.z, eb.direction, rc.z, ec.direction);
-  q.hxyz = hn::Mul(scale, set(kAlternating)) * q.hxyz;
+  q.da = edgePull(e[0], of.per_4h, ca);
+  q.db = edgePull(e[1], of.per_4h, cb);
+  q.dc = edgePull(e[2], of.per_4h, cc);
+  if (!kFull) {
+    const Vec3 by_length = hn::Mul(of.per_4h, scale) * solid.strains;
+    q.da = mulAdd(hn::Mul(by_length.x, e[0].strain_slope), a, q.da);
+    q.db = mulAdd(hn::Mul(by_length.y, e[1].strain_slope), b, q.db);
+    q.dc = mulAdd(hn::Mul(by_length.z, e[2].strain_slope), c, q.dc);
+  }
+  if (HWY_UNLIKELY(fades)) {
+    const V lost = hn::Mul(of.per_4h, hn::Mul(faded, energy));
+    q.da = mulAdd(hn::Mul(hn::Mul(lost, e[0].fade_slope), hn::Mul(e[1].fade, e[2].fade)), a, q.da);
+    q.db = mulAdd(hn::Mul(hn::Mul(lost, e[1].fade_slope), hn::Mul(e[2].fade, e[0].fade)), b, q.db);
+    q.dc = mulAdd(hn::Mul(hn::Mul(lost, e[2].fade_slope), hn::Mul(e[0].fade, e[1].fade)), c, q.dc);
+  }
+  q.hx = weighted(ra.x, a, rb.x, b, rc.x, c);
+  q.hy = weighted(ra.y, a, rb.y, b, rc.y, c);
+  q.hz = weighted(ra.z, a, rb.z, b, rc.z, c);
+  q.hxyz = hn::Mul(scale, set(0.5f * kAlternating)) * q.hxyz;
   return hn::Mul(scale, energy);
 }
 
@@ -201,16 +256,15 @@ HWY_INLINE Face faceOf(const Vec3& n00, const Vec3& n10, const Vec3& n01, const 
   const Vec3 s0 = n00 + n10, d0 = n10 - n00, s1 = n01 + n11, d1 = n11 - n01;
   return {s0 + s1, s1 - s0, d0 + d1, d1 - d0};
 }
-/// @param per_h  1/h
-HWY_INLINE CellMotion motionBetween(const Face& low, const Face& high, V per_h) {
-  const V quarter = hn::Mul(set(0.25f), per_h), half = hn::Mul(set(0.5f), per_h);
-  return {quarter * (low.ds + high.ds),
-          quarter * (low.sd + high.sd),
-          quarter * (high.ss - low.ss),
-          half * (high.sd - low.sd),
-          half * (high.ds - low.ds),
-          half * (low.dd + high.dd),
-          hn::Mul(set(0.35355339f), per_h) * (high.dd - low.dd)};
+/// @param per_4h  1 / (4 h), 0 where there is no cell: nothing is strained there, wherever the nodes around are
+HWY_INLINE CellMotion motionBetween(const Face& low, const Face& high, V per_4h) {
+  return {per_4h * (low.ds + high.ds),
+          per_4h * (low.sd + high.sd),
+          per_4h * (high.ss - low.ss),
+          high.sd - low.sd,
+          high.ds - low.ds,
+          low.dd + high.dd,
+          high.dd - low.dd};
 }
 
 }  // namespace viscera::simd::HWY_NAMESPACE
