@@ -11,6 +11,8 @@ namespace viscera::bench {
 
 /// Features of the solver: switched on without effect against left out, results compared.
 void measureFeatures(Report& report);
+/// Cells by moments against springs alone, on the same lattice.
+void measureCells(Report& report);
 /// Space without nodes: a hollow heart against a full cube, per active node.
 void measureEmptySpace(Report& report);
 /// Tissue at rest: asleep against awake, one corner awake, what sleeping changes.

@@ -7,6 +7,7 @@ namespace viscera::bench {
 
 void skipSuite(Report& report, gpu::Context& context) {
   measureFeatures(report);
+  measureCells(report);
   measureEmptySpace(report);
   measureSleep(report);
   measureViews(report, context);

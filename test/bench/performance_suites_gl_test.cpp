@@ -59,6 +59,8 @@ TEST_F(PerformanceSuite, SkipHasARowOfEachSkipOnEachBackend) {
   for (const std::string feature : {"dashpot", "energy of volume", "strengths by part", "contacts", "cuts",
                                     "compensated sums", "governor", "cut state", "fixed nodes"})
     EXPECT_EQ(rowsWith("features", {feature}), 2u) << feature;
+  EXPECT_EQ(rowsWith("cells", {"cube, full cells"}), 3u);  // one thread, all threads, GPU
+  EXPECT_EQ(rowsWith("cells", {"heart"}), 3u);
   EXPECT_EQ(rows("space").size(), 2u);
   EXPECT_EQ(rows("sleep").size(), 3u);
   EXPECT_EQ(rows("views").size(), 14u);

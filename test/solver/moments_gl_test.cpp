@@ -4,6 +4,7 @@
 // Cells by moments on the backends, against the float64 reference.
 #include "support/backends.h"
 #include "support/random_state.h"
+#include "tools/motion_packing.h"
 
 using namespace viscera;
 using namespace viscera::test;
@@ -95,6 +96,49 @@ TEST_P(Moments, BodiesOfBothKindsMatchTheReference) {
   springs.material.poisson_ratio = 0.4;
   const Model model = modelOf({springs, ball(), block({2, 3, 2})});
   expectLikeReference(model, sceneFor(model, 10, {}, Vector3d(0.3, -0.2, -9.81)), 0.05 * kSpacing_m, 10);
+}
+
+TEST_P(Moments, DashpotsAndSpringsOfAnyLengthMatchTheReference) {
+  Body body = ball();
+  body.material.dashpot_ratio = 0.2;
+  expectLikeReference(body);
+  expectLikeReference(body, 0.3 * kSpacing_m, 1);
+}
+
+TEST_P(Moments, CellsThatABladeCutsMatchTheReference) {
+  constexpr int kSubsteps = 10;
+  const Model model = modelOf({ball()});
+  std::vector<StylusConfig> styluses(2);
+  styluses[0].cut.blade_length_m = 0.2;
+  const auto solver = make(model, sceneFor(model, kSubsteps, styluses));
+  const HostState start = randomState(model, 0.02 * kSpacing_m, 0.05, 7);
+  solver->writeState(start);
+  ReferenceSolver reference(model, Vector3d::Zero(), static_cast<float>(solver->dt_s()));
+  load(reference, start);
+  const ToolActs acts(styluses, kSubsteps * solver->dt_s());
+  ToolMotions motions;  // the blade points down and sweeps half way through the ball
+  motions[0].mode = ToolMode::kCut;
+  motions[0].present = true;
+  motions[0].from.position_m = {-0.02, 0.0452, 0.16};
+  motions[0].to.position_m = {0.043, 0.0452, 0.16};
+  size_t cut = 0;
+  for (int t = 0; t < 2; ++t) {
+    solver->step(motions);
+    acts.beginTick(reference, motions);
+    std::vector<layout::ToolMotion> rows;
+    interpolateMotions(motions, styluses, kSubsteps, rows);
+    for (size_t s = 0; s < kSubsteps; ++s) reference.substep({rows[2 * s], rows[2 * s + 1]});
+    acts.endTick(reference, motions);
+    motions[0] = {};
+  }
+  const HostState end = solver->readState();
+  for (const uint32_t slot : reference.active) {
+    const layout::NodeBits &before = start.nodes[slot], &now = end.nodes[slot];
+    cut += before.lo != now.lo || before.hi != now.hi ? 1 : 0;
+  }
+  EXPECT_GT(cut, 50u);
+  EXPECT_LT(relativeError(end.displacement_m, reference.u_m, reference.active), 2 * kFloat32Displacement);  // two ticks
+  EXPECT_LT(relativeError(end.velocity_m_per_s, reference.v_m_per_s, reference.active), 2 * kFloat32Velocity);
 }
 
 TEST_P(Moments, TheirEnergyIsMeasured) {

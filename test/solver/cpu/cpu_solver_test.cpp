@@ -24,11 +24,13 @@ constexpr double kAnyLength = 1e-5;
 constexpr double kOneRounding = 1.0 / (1 << 24);
 
 /// A kind of every feature: volumes, dashpots, drag, fixed nodes, a part; bricks that are full and that are not.
-Model everything() {
+/// @param cells  of one of two bodies: with moments all forces are summed by cells
+Model everything(Cells cells = Cells::kSprings) {
   Body body = twoPartBody();
   body.material.poisson_ratio = 0.4;
   body.material.drag_per_s = 30;
   Body other = boxBody({13, 9, 10}, 0.01);
+  other.material.cells = cells;
   other.lattice.origin_m = Vector3d(0.2, 0, 0);
   return modelOf({body, other});
 }
@@ -76,6 +78,52 @@ class Cpu : public ::testing::TestWithParam<std::string> {
   std::unique_ptr<CpuSolver> make(const Model& model, const Scene& scene) const {
     return makeCpu(GetParam(), model, scene);
   }
+  static void expectLikeTheBest(const Model& model) {
+    const HostState best = stateAfterTools(simdTargets().front(), model, 2);
+    const HostState here = stateAfterTools(GetParam(), model, 2);
+    double largest_m = 0, difference_m = 0, fastest = 0, difference_m_per_s = 0;
+    for (uint32_t slot : activeSlots(model)) {
+      const Vector3d u = xyz(best.displacement_m[slot]), v = xyz(best.velocity_m_per_s[slot]);
+      largest_m = std::max(largest_m, u.norm());
+      fastest = std::max(fastest, v.norm());
+      difference_m = std::max(difference_m, (xyz(here.displacement_m[slot]) - u).norm());
+      difference_m_per_s = std::max(difference_m_per_s, (xyz(here.velocity_m_per_s[slot]) - v).norm());
+    }
+    // Four ticks instead of one.
+    EXPECT_LT(difference_m, 4 * kFloat32Displacement * largest_m);
+    EXPECT_LT(difference_m_per_s, 4 * kFloat32Velocity * fastest);
+  }
+  void expectUndisturbedByAPieceFarAway(Cells cells) {
+    Body body = boxBody({7, 3, 3}, 0.001);
+    body.material.cells = cells;
+    for (uint32_t slot : body.lattice.active_slots) {
+      if (body.lattice.nodeAt(slot).x() != 3 && body.lattice.nodeAt(slot).x() != 4) continue;
+      for (uint32_t s = 0; s < layout::kSpringsPerNode; ++s) {
+        const int x = body.lattice.nodeAt(slot).x(), far_x = x + kNeighborOffsets[s][0];
+        if (std::min(x, far_x) == 3 && std::max(x, far_x) == 4) setSpringCount(body.lattice.nodes[slot], s, 0);
+      }
+      if (body.lattice.nodeAt(slot).x() == 3) body.lattice.nodes[slot].lo &= ~layout::kCellBit;
+    }
+    const Model model = modelOf({body});
+    const auto solver = make(model, sceneFor(model, kSubsteps));
+    HostState state = randomState(model, 5e-5, 0.1, 3);
+    for (uint32_t slot : body.lattice.active_slots) {
+      if (body.lattice.nodeAt(slot).x() >= 4) state.displacement_m[slot].x = 1000;  // a million spacings
+    }
+    solver->writeState(state);
+    ReferenceSolver reference(model, Vector3d::Zero(), static_cast<float>(solver->dt_s()));
+    load(reference, state);
+    solver->step({});
+    for (int s = 0; s < kSubsteps; ++s) reference.substep();
+    const HostState after = solver->readState();
+    double fastest = 0;
+    for (uint32_t slot : body.lattice.active_slots) fastest = std::max(fastest, reference.v_m_per_s[slot].norm());
+    for (uint32_t slot : body.lattice.active_slots) {
+      ASSERT_TRUE(xyz(after.displacement_m[slot]).allFinite());
+      if (body.lattice.nodeAt(slot).x() >= 4) continue;  // 1 km in float32: nothing is left of its strain
+      EXPECT_LT((xyz(after.velocity_m_per_s[slot]) - reference.v_m_per_s[slot]).norm(), kFloat32Velocity * fastest);
+    }
+  }
   void expectForcesLikeReference(const Body& body, HostState (*start)(const Model&)) {
     const Model model = modelOf({body});
     const auto solver = make(model, sceneFor(model, 1));
@@ -88,11 +136,15 @@ class Cpu : public ::testing::TestWithParam<std::string> {
     EXPECT_LT(relativeError(solver->readState().velocity_m_per_s, reference.v_m_per_s, reference.active), kAnyLength);
   }
   void expectForcesLikeReference(HostState (*start)(const Model&)) {
-    for (const double dashpot_ratio : {0.0, 0.2}) {
-      SCOPED_TRACE(dashpot_ratio);
-      Body body = looseBox();
-      body.material.dashpot_ratio = dashpot_ratio;
-      expectForcesLikeReference(body, start);
+    for (const Cells cells : {Cells::kSprings, Cells::kMoments}) {
+      SCOPED_TRACE(cells == Cells::kMoments ? "cells by moments" : "springs");
+      for (const double dashpot_ratio : {0.0, 0.2}) {
+        SCOPED_TRACE(dashpot_ratio);
+        Body body = looseBox();
+        body.material.cells = cells;
+        body.material.dashpot_ratio = dashpot_ratio;
+        expectForcesLikeReference(body, start);
+      }
     }
   }
 };
@@ -102,28 +154,17 @@ INSTANTIATE_TEST_SUITE_P(Targets, Cpu, ::testing::ValuesIn(simdTargets()), backe
 }  // namespace
 
 TEST_P(Cpu, SameBitsForAnyNumberOfThreadsAndEveryTime) {
-  const Model model = everything();
-  const uint64_t first = stateHash(model, stateAfterTools(GetParam(), model, 1));
-  for (int threads : {1, 2, 3, 2}) {
-    EXPECT_EQ(stateHash(model, stateAfterTools(GetParam(), model, threads)), first) << threads << " threads";
+  for (const Cells cells : {Cells::kSprings, Cells::kMoments}) {
+    const Model model = everything(cells);
+    const uint64_t first = stateHash(model, stateAfterTools(GetParam(), model, 1));
+    for (int threads : {1, 2, 3, 2}) {
+      EXPECT_EQ(stateHash(model, stateAfterTools(GetParam(), model, threads)), first) << threads << " threads";
+    }
   }
 }
 
 TEST_P(Cpu, AgreesWithTheBestInstructionSet) {
-  const Model model = everything();
-  const HostState best = stateAfterTools(simdTargets().front(), model, 2);
-  const HostState here = stateAfterTools(GetParam(), model, 2);
-  double largest_m = 0, difference_m = 0, fastest = 0, difference_m_per_s = 0;
-  for (uint32_t slot : activeSlots(model)) {
-    const Vector3d u = xyz(best.displacement_m[slot]), v = xyz(best.velocity_m_per_s[slot]);
-    largest_m = std::max(largest_m, u.norm());
-    fastest = std::max(fastest, v.norm());
-    difference_m = std::max(difference_m, (xyz(here.displacement_m[slot]) - u).norm());
-    difference_m_per_s = std::max(difference_m_per_s, (xyz(here.velocity_m_per_s[slot]) - v).norm());
-  }
-  // Four ticks instead of one.
-  EXPECT_LT(difference_m, 4 * kFloat32Displacement * largest_m);
-  EXPECT_LT(difference_m_per_s, 4 * kFloat32Velocity * fastest);
+  for (const Cells cells : {Cells::kSprings, Cells::kMoments}) expectLikeTheBest(everything(cells));
 }
 
 TEST_P(Cpu, StepsAsAloneBesideASolverOfAnotherInstructionSet) {
@@ -188,33 +229,7 @@ TEST_P(Cpu, PullsLikeTheReferenceWhereSomeSpringsAreCutAndOthersHalf) {
 
 /// Springs that are not there join nodes at any distance: no power of it may overflow, and none may slow the rest down.
 TEST_P(Cpu, PieceThatIsFarAwayDoesNotDisturbTheRest) {
-  Body body = boxBody({7, 3, 3}, 0.001);
-  for (uint32_t slot : body.lattice.active_slots) {
-    if (body.lattice.nodeAt(slot).x() != 3 && body.lattice.nodeAt(slot).x() != 4) continue;
-    for (uint32_t s = 0; s < layout::kSpringsPerNode; ++s) {
-      const int x = body.lattice.nodeAt(slot).x(), far_x = x + kNeighborOffsets[s][0];
-      if (std::min(x, far_x) == 3 && std::max(x, far_x) == 4) setSpringCount(body.lattice.nodes[slot], s, 0);
-    }
-  }
-  const Model model = modelOf({body});
-  const auto solver = make(model, sceneFor(model, kSubsteps));
-  HostState state = randomState(model, 5e-5, 0.1, 3);
-  for (uint32_t slot : body.lattice.active_slots) {
-    if (body.lattice.nodeAt(slot).x() >= 4) state.displacement_m[slot].x = 1000;  // a million spacings
-  }
-  solver->writeState(state);
-  ReferenceSolver reference(model, Vector3d::Zero(), static_cast<float>(solver->dt_s()));
-  load(reference, state);
-  solver->step({});
-  for (int s = 0; s < kSubsteps; ++s) reference.substep();
-  const HostState after = solver->readState();
-  double fastest = 0;
-  for (uint32_t slot : body.lattice.active_slots) fastest = std::max(fastest, reference.v_m_per_s[slot].norm());
-  for (uint32_t slot : body.lattice.active_slots) {
-    ASSERT_TRUE(xyz(after.displacement_m[slot]).allFinite());
-    if (body.lattice.nodeAt(slot).x() >= 4) continue;  // 1 km in float32: nothing is left of its strain
-    EXPECT_LT((xyz(after.velocity_m_per_s[slot]) - reference.v_m_per_s[slot]).norm(), kFloat32Velocity * fastest);
-  }
+  for (const Cells cells : {Cells::kSprings, Cells::kMoments}) expectUndisturbedByAPieceFarAway(cells);
 }
 
 TEST_P(Cpu, ForcesOfARandomStateSumToNothing) {
