@@ -72,8 +72,12 @@ const uint kBindSplitEdges = 56u;      // SplitEdge[]
 const uint kBindSplitTriangles = 57u;  // SplitTriangle[]
 const uint kBindCrossedEdges = 58u;    // uint[4 + split edges]: groups to dispatch (3), how many, which SplitEdges
 
+const uint kBindPairWords = 59u;         // uint[1 + 2 * slots + most]: contacts between nodes in an implicit substep, see implicit_pairs.glsl
+const uint kBindPairRows = 60u;          // vec4[2 * most]: the same
 const uint kBindNodeContacts = 61u;      // vec4[3 * rows * slots]: implicit integrators: contacts of the substep, see implicit_contact.glsl
 const uint kBindObstacleImpulses = 62u;  // vec4[obstacles * slots]: momentum that an obstacle gave the node this tick [N s]
+
+const uint kBindNodePairs = 63u;         // vec4[3 * slots]: nodes with such contacts, see implicit_pairs.glsl
 
 // Texture units: buffers seen through texel fetches. OpenGL promises 16 of them.
 const uint kUnitDisplacement = 0u;  // rgba32f, as kBindDisplacementIn

@@ -3,13 +3,15 @@
 //
 // Contacts between nodes: which may touch, which are near, and what two that touch do to each other (solver/collision.h,
 // physics.md 8). After lattice.glsl and elastic.glsl.
-// Feature: STAGGERED (GW's partitions instead of the complete grid).
+// Features: STAGGERED (GW's partitions instead of the complete grid); AHEAD (within an implicit substep: before it is now, its end is
+// where the increments lead).
 #ifndef __cplusplus
 uniform uint active_count;
 uniform float dt_s;
 uniform float push_speed;     // m/s
 uniform float resting_speed;  // m/s: nothing that comes slower bounces
 uniform float cell_m;
+uniform float widened;        // of D_ij: how near two touch
 uniform uint bucket_count;    // power of 2
 uniform float friction;
 uniform float restitution;
@@ -42,8 +44,13 @@ struct Entry {
   vec3 before;  // at its start [m]
 };
 
+#ifdef AHEAD
+vec3 positionBefore(uint slot) { return restPosition(slot) + xyz(texelFetch(displacement, int(slot))); }
+vec3 positionOf(uint slot) { return positionBefore(slot) + xyz(texelFetch(increment, int(slot))); }
+#else
 vec3 positionOf(uint slot) { return restPosition(slot) + xyz(texelFetch(displacement, int(slot))); }
 vec3 positionBefore(uint slot) { return restPosition(slot) + xyz(next_displacement[slot]); }
+#endif
 
 /// May this node touch others? Not one that is gone too far to have a cell, or to nowhere.
 bool collides(uint slot, NodeBits bits, vec3 x) {
@@ -60,18 +67,18 @@ uint hashOf(ivec3 cell) {
   return h ^ (h >> 15);
 }
 
-/// D_ij of collision.h [m], the same number for both.
+/// How near two nodes touch, D_ij of collision.h as it is widened [m]: the same number for both.
 float contactDistance(uint a, uint b) {
   uint body_a = bodyOf(nodes[a]), body_b = bodyOf(nodes[b]);
   float wanted = max(body_influences[body_a].w, body_influences[body_b].w);
-  return body_a == body_b ? min(wanted, 0.5f * distance(restPosition(a), restPosition(b))) : wanted;
+  return widened * (body_a == body_b ? min(wanted, 0.5f * distance(restPosition(a), restPosition(b))) : wanted);
 }
 
-/// D_ij where two nodes touch, else 0 [m].
+/// contactDistance() where two nodes touch, else 0 [m].
 float touchDistance(Entry a, Entry b) {
   precise vec3 apart = a.x - b.x;
   float d2 = dot(apart, apart);
-  float wanted = max(body_influences[bodyOf(nodes[a.slot])].w, body_influences[bodyOf(nodes[b.slot])].w);
+  float wanted = widened * max(body_influences[bodyOf(nodes[a.slot])].w, body_influences[bodyOf(nodes[b.slot])].w);
   if (d2 >= wanted * wanted) return 0.0f;
   wanted = contactDistance(a.slot, b.slot);
   return d2 < wanted * wanted ? wanted : 0.0f;

@@ -3,8 +3,11 @@
 //
 // collision_meet.comp - sums each node's contacts, whichever search found them.
 // Owner: solver/gpu/collision_pass.h   physics.md 8
-// out  contacts [slots]
+// out  contacts [slots]     Feature AHEAD: also room for the pairs of each node
 #include "collision_search.glsl"
+#ifdef AHEAD
+#include "implicit_pairs.glsl"
+#endif
 
 vec3 direction_sum = vec3(0.0f);
 float contact_count = 0.0f;
@@ -20,6 +23,11 @@ void begin() {
   direction_sum = vec3(0.0f);
   contact_count = 0.0f;
 }
-void end(uint slot) { contacts[slot] = vec4(direction_sum, contact_count); }
+void end(uint slot) {
+  contacts[slot] = vec4(direction_sum, contact_count);
+#ifdef AHEAD
+  reservePairs(slot, uint(contact_count));
+#endif
+}
 
 #include "collision_visit.glsl"

@@ -6,7 +6,8 @@
 // F has the springs, the volumes and the dashpots c/dt n n^T (du_far - du_near), n at the current iterate. A solution is a
 // stationary point of the incremental potential
 //   P(du) = sum of m (1 + gamma dt)/(2 dt^2) |du - y|^2 + E(u + du) + sum of c/(2 dt) (n . (du_far - du_near))^2
-// increment.w is 1 where du is prescribed: fixed, sleeping and held nodes; -1 where the node has contacts (implicit_contact.glsl).
+// increment.w is 1 where du is prescribed: fixed, sleeping and held nodes; -1 where the node has contacts (implicit_contact.glsl), -2
+// where it may touch other nodes (implicit_pairs.glsl).
 #ifndef __cplusplus
 layout(std430, binding = kBindActive) readonly buffer ActiveBuffer { uint active_nodes[]; };
 layout(std430, binding = kBindNodes) readonly buffer NodesBuffer { NodeBits nodes[]; };
@@ -27,6 +28,7 @@ float reach(float h, uint iteration) {
 
 bool isPrescribed(vec4 du) { return du.w > 0.0f; }
 bool isInContact(vec4 du) { return du.w < 0.0f; }
+bool isInPairs(vec4 du) { return du.w < -1.5f; }
 
 /// m (1 + gamma dt)/dt^2 [N/m]
 float inertia(float mass, BodyParams body) { return mass * (1.0f + body.drag_per_s * dt_s) / (dt_s * dt_s); }

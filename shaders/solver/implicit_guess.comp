@@ -12,6 +12,9 @@
 #ifdef CONTACT
 #include "implicit_contact.glsl"
 #endif
+#ifdef PAIRS
+#include "implicit_pairs.glsl"
+#endif
 #include "shares.glsl"
 #ifdef VOLUME
 #include "corners.glsl"
@@ -92,6 +95,13 @@ void main() {
     motion[0] = 0.5f * mass * dot(v, v) + brought;
 #else
     motion[0] = 0.5f * mass * dot(v, v);
+#endif
+#ifdef PAIRS
+    // What contacts with other nodes do on the way, with their last forces: so what lies on something does not fall, and what has not
+    // met anything yet goes on.
+    if (isInPairs(du)) {
+      for (int c = 0; c < 4; ++c) potential[c] -= dot(xyz(node_pairs[3u * slot + 2u]), share(slot, du, c));
+    }
 #endif
   }
 #define VISIT_LINK                                                                                              \

@@ -10,6 +10,7 @@
 #include "elastic.glsl"
 #include "step.glsl"
 #include "implicit.glsl"
+#include "implicit_pull.glsl"
 #ifdef CONTACT
 #include "implicit_contact.glsl"
 #endif
@@ -57,34 +58,10 @@ bool wentWrong() {
 }
 bool wasPlain() { return iteration > 0u && guard[plainWord(iteration - 1u)] != 0u; }
 
-/// The force on a node less its inertia [N]; w the majoriser of all that pulls it [N/m].
-vec4 pull(uint slot, NodeBits bits, BodyParams body, vec3 u, vec3 du) {
-  float inertia_n_per_m = inertia(nodeMass(slot, bits, body), body);
-  vec4 sum = vec4(inertia_n_per_m * (freeIncrement(slot, body) - du), inertia_n_per_m);
-#define VISIT_LINK                                                            \
-  ImplicitSpring s = implicitSpring(n, u, du, d, l0, prestrain, k, body);     \
-  sum += vec4(s.force, k + s.damping);
-  FOR_EACH_LINK
-#undef VISIT_LINK
-#ifdef VOLUME
-  sum += volumeForce(slot);
-#endif
-  return sum;
-}
-
 void recordChange(vec3 change) {
   uint bits = floatBitsToUint(length(change));
   // The look before the atomic only saves work: the maximum is the same.
   if (bits > guard[changeWord(iteration)]) atomicMax(guard[changeWord(iteration)], bits);
-}
-
-/// Where there are volumes, their majoriser reckons with steps this long.
-vec3 notTooFar(vec3 change, BodyParams body) {
-#ifdef VOLUME
-  return change * min(1.0f, reach(body.origin_spacing.w, iteration) / max(length(change), 1e-30f));
-#else
-  return change;
-#endif
 }
 
 vec4 startedAnew(uint slot, vec3 du) {
@@ -104,7 +81,7 @@ void main() {
     if (!was_plain) guard[changeWord(iteration)] = uint(guard[changeWord(0u)]);  // this iteration changes nothing
   }
   vec4 now = texelFetch(increment, int(slot));
-  if (isPrescribed(now)) {
+  if (isPrescribed(now) || isInPairs(now)) {  // the latter move together (implicit_pull.comp)
     next_increments[slot] = now;
     return;
   }
@@ -115,12 +92,13 @@ void main() {
     return;
   }
   vec3 u = xyz(texelFetch(displacement, int(slot)));
+  float most = longestStep(body, iteration);
   vec4 p = pull(slot, bits, body, u, xyz(now));
-  vec3 change = notTooFar(xyz(p) / p.w, body);
+  vec3 change = notTooFar(xyz(p) / p.w, most);
 #ifdef CONTACT
   findContacts(slot, u, xyz(now) + change);
   bool in_contact = contactCount(slot) != 0u;
-  if (in_contact) change = notTooFar(stepInContact(slot, p.w, mat3(0.0f), xyz(now), xyz(p), true), body);
+  if (in_contact) change = notTooFar(stepInContact(slot, p.w, mat3(0.0f), xyz(now), xyz(p), true), most);
 #endif
   recordChange(change);
   vec3 next = xyz(now) + change;

@@ -111,7 +111,7 @@ void main() {
   if (i >= active_count) return;
   uint slot = active_nodes[colour_first + i];
   vec4 start = texelFetch(increment, int(slot));
-  if (isPrescribed(start)) return;
+  if (isPrescribed(start) || isInPairs(start)) return;  // the latter move together (implicit_pull.comp)
   vec3 du = xyz(start), u = xyz(texelFetch(displacement, int(slot)));
   NodeBits bits = nodes[slot];
   BodyParams body = bodies[bodyOf(bits)];

@@ -209,13 +209,17 @@ TEST_P(Collide, RestitutionOneThrowsBackAndNoneStops) {
 /// it.
 class Sliding : public Collide {
  protected:
-  void slide(double friction) {
-    constexpr int kSubsteps = 330;
+  /// @param longer  substep over leapfrog's
+  void slide(double friction, Integrator integrator = Integrator::kLeapfrog, int longer = 1) {
+    const int substeps = 330 / longer;
     Body top = looseCloth(3, 3, kSpacing_m), bottom = looseCloth(18, 32, 0.25 * kSpacing_m);
     for (const uint32_t slot : bottom.lattice.active_slots) bottom.lattice.nodes[slot].lo |= layout::kFixedBit;
     const Model model = modelOf({top, bottom});
     Scene scene = collidingScene(model);
     scene.environment.gravity_m_per_s2 = Vector3d(0, 0, -kGravity_m_per_s2);
+    scene.solver.integrator = integrator;
+    scene.solver.tick_hz /= longer;
+    scene.solver.substeps = 1;
     scene.collision.friction = friction;
     scene.collision.distance_m = kSpacing_m;
     HostState state = restState(model);
@@ -224,7 +228,7 @@ class Sliding : public Collide {
     solver->writeState(state);
     dt_s_ = solver->dt_s();
     speeds_.clear();
-    for (int s = 0; s < kSubsteps; ++s) {
+    for (int s = 0; s < substeps; ++s) {
       solver->step({});
       Vector3d sum = Vector3d::Zero();
       forEachNode(model, 0, solver->readState(), [&](const Vector3d&, const Vector3d& v) { sum += v / 9; });
@@ -250,6 +254,15 @@ TEST_P(Sliding, ASheetOnAnotherSlowsByFrictionTimesGravityAndThenRests) {
   for (const double friction : {0.3, 0.6}) {
     slide(friction);
     EXPECT_NEAR(deceleration() / (friction * kGravity_m_per_s2), 1, kLaw) << friction;
+    EXPECT_NEAR(speeds_.back(), 0, 1e-4) << "it has not come to rest";
+  }
+}
+
+TEST_P(Sliding, WithinImplicitIntegratorsItSlowsBySoMuchToo) {
+  constexpr double kLaw = 0.1;  // as above
+  for (const Integrator integrator : {Integrator::kVbd, Integrator::kPd}) {
+    slide(0.3, integrator, 4);  // 2 dt_safe
+    EXPECT_NEAR(deceleration() / (0.3 * kGravity_m_per_s2), 1, kLaw) << static_cast<int>(integrator);
     EXPECT_NEAR(speeds_.back(), 0, 1e-4) << "it has not come to rest";
   }
 }

@@ -25,7 +25,7 @@ constexpr double kMomentum = 1e-4;
 class SurroundReference : public OnBackend {
  protected:
   /// Steps both side by side and compares them.
-  void compare(const Model& model, const Scene& scene, const HostState& start) {
+  void compare(const Model& model, const Scene& scene, const HostState& start, int ticks = 100) {
     const auto solver = make(model, scene);
     solver->writeState(start);
     ReferenceTicks reference(model, scene);
@@ -33,7 +33,7 @@ class SurroundReference : public OnBackend {
     Obstacles obstacles(scene.obstacles);
     const double tick_s = 1 / scene.solver.tick_hz;
     std::vector<Vector3d> given(scene.obstacles.size(), Vector3d::Zero()), truth = given;
-    for (int t = 0; t < 100; ++t) {
+    for (int t = 0; t < ticks; ++t) {
       obstacles.advance(t * tick_s, tick_s);
       solver->step({}, obstacles.motions());
       reference.step({}, obstacles.motions());
@@ -44,7 +44,7 @@ class SurroundReference : public OnBackend {
         given[o] += xyz(stats.obstacle_impulse[o]);
         truth[o] += reference.obstacleImpulse(o);
       }
-      if (t != 0 && t != 99) continue;
+      if (t != 0 && t != ticks - 1) continue;
       SCOPED_TRACE(t);
       const double tolerance = t == 0 ? kAfterOne : kAfterHundred;
       const HostState state = solver->readState();
@@ -53,7 +53,7 @@ class SurroundReference : public OnBackend {
       EXPECT_LT(relativeError(state.velocity_m_per_s, now.v_m_per_s, now.active), tolerance);
       for (size_t o = 0; o < given.size(); ++o) {
         EXPECT_LT((given[o] - truth[o]).norm(), tolerance * std::max(truth[o].norm(), 1e-6)) << "obstacle " << o;
-        if (t == 99) {
+        if (t == ticks - 1) {
           EXPECT_GT(truth[o].norm(), 0) << "obstacle " << o << " met nothing";
         }
       }
@@ -180,6 +180,26 @@ TEST_P(SurroundReference, ImplicitIntegratorsSolveForObstaclesLikeTheReference) 
       for (const uint32_t slot : model.bodies[0].lattice.active_slots)
         start.velocity_m_per_s[slot] = vec4({0.2, 0.1, -0.3});
       compare(model, scene, start);
+    }
+  }
+}
+
+TEST_P(SurroundReference, ImplicitIntegratorsSolveForContactsOfNodesLikeTheReference) {
+  for (const Integrator integrator : {Integrator::kVbd, Integrator::kPd}) {
+    for (const double friction : {0.0, 0.3}) {
+      SCOPED_TRACE(::testing::Message() << static_cast<int>(integrator) << " friction " << friction);
+      Body lower = boxBody({2, 2, 1}, kSpacing_m), upper = boxBody({1, 1, 1}, kSpacing_m);
+      upper.lattice.origin_m = Vector3d(0.0035, 0.004, 0.0215);
+      const Model model = modelOf({lower, upper});
+      Scene scene = sceneWith(integrator, model, 1, 3, integrator == Integrator::kVbd ? 300 : 800, {}, kGravity);
+      scene.obstacles = {obstacle(ObstacleShape::kPlane, Vector3d::Zero())};
+      scene.collision.enabled = true;
+      scene.collision.friction = friction;
+      scene.collision.restitution = 0.4;
+      HostState start = restState(model);
+      for (const uint32_t slot : model.bodies[1].lattice.active_slots)
+        start.velocity_m_per_s[model.slotOffset(1) + slot] = vec4({0.1, 0.05, -0.6});
+      compare(model, scene, start, 12);
     }
   }
 }

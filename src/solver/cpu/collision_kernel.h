@@ -14,10 +14,26 @@ struct Item {
   bool operator<(const Item& other) const { return x != other.x ? x < other.x : y < other.y; }
 };
 
+/// What the texts find that know of contacts between nodes within an implicit substep
+/// (shaders/solver/implicit_pairs.glsl).
+struct PairBuffers {
+  uint* pair_words = nullptr;
+  vec4 *pair_rows = nullptr, *node_pairs = nullptr;
+  uint pair_slots = 0, most_pairs = 0;
+  float pair_friction = 0, pair_restitution = 0, pair_bounces_from = 0;
+  uint takeRoom(uint count) const {
+    const uint first = pair_words[0];  // one thread
+    pair_words[0] += count;
+    return first;
+  }
+};
+
 /// What the texts of shaders/solver/collision_*.comp find in buffers and uniforms.
-struct CollisionKernel : Kernel {
+struct CollisionKernel : Kernel, PairBuffers {
   using Kernel::Kernel;
-  float cell_m = 1, friction = 0, restitution = 0;
+  const vec4* increment = nullptr;  // within an implicit substep: contacts are where it leads
+  vec4* increments = nullptr;       // the same, to write
+  float widened = 1, cell_m = 1, friction = 0, restitution = 0;
   uint bucket_count = 1, partitions = 1, window = 0, sorted_count = 0;
   const uint* collidable = nullptr;
   const layout::vec4* body_influences = nullptr;

@@ -72,13 +72,14 @@ void ContactLists::follow(glsl::CollisionRules& rules, size_t job) {
 
 glsl::vec3 ContactLists::positionOf(glsl::CollisionRules& rules, size_t node) const {
   const int slot = static_cast<int>(rules.active_nodes[node]);
-  return glsl::xyz(rest_[node]) + glsl::xyz(texelFetch(rules.displacement, slot));
+  const glsl::vec3 x = glsl::xyz(rest_[node]) + glsl::xyz(texelFetch(rules.displacement, slot));
+  return rules.increment ? x + glsl::xyz(rules.increment[slot]) : x;
 }
 
 void ContactLists::enter(glsl::CollisionRules& rules, size_t node, size_t entry, const glsl::vec3& x) {
   const uint32_t slot = rules.active_nodes[node];
   entries_[entry] = glsl::uvec4(glsl::floatBitsToUint(x), slot);
-  before_[entry] = rest_[node] + glsl::vec4(rules.next_displacement[slot]);
+  before_[entry] = rest_[node] + glsl::vec4(rules.increment ? rules.displacement[slot] : rules.next_displacement[slot]);
   position_[entry] = x;
   shader_cell_[entry] = rules.cellOf(x, 0);
 }

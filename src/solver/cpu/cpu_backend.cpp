@@ -9,6 +9,7 @@
 #include "math/float_bits.h"
 #include "solver/cpu/lattice_arrays.h"
 #include "solver/cpu/network.h"
+#include "solver/cpu/node_pairs.h"
 #include "viscera/math/error.h"
 #include "viscera/solver/material.h"
 
@@ -55,8 +56,9 @@ CpuBackend::CpuBackend(const Model& model, const Scene& scene, const TickPlan& p
       work_(std::make_unique<Work>()) {
   if (features_.network) network_ = std::make_unique<CpuNetwork>(lattice_, pool_, features_, kernels_);
   if (plan.surroundings) surroundings_.emplace(model, scene, lattice_, pool_);
+  if (solvesContacts(scene)) pairs_ = std::make_unique<CpuNodePairs>(model, scene, lattice_, pool_);
   stepper_ = makeCpuStepper(config_.integrator, config_.iterations, lattice_,
-                            {pool_, sleep_, network_.get(), features_, kernels_});
+                            {pool_, sleep_, network_.get(), features_, kernels_, pairs_.get()});
   work_->stats.resize(bricks());
   work_->changed.reserve(bricks());
   if (plan.tools) {
@@ -247,6 +249,7 @@ void CpuBackend::changeAll() {
   stepper_->restart();
   if (network_) network_->restart(lattice_);
   if (surroundings_) surroundings_->restart();
+  if (pairs_) pairs_->restart();
   std::fill(lattice_.hands.impulses.begin(), lattice_.hands.impulses.end(), layout::vec4{});
   std::fill(lattice_.hands.touched.begin(), lattice_.hands.touched.end(), uint8_t{0});
   std::fill(lattice_.hands.obstacle_impulses.begin(), lattice_.hands.obstacle_impulses.end(), layout::vec4{});

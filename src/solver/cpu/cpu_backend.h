@@ -82,6 +82,7 @@ class CpuBackend : public SolverBackend {
   Sleep sleep_;
   std::unique_ptr<Work> work_;
   std::optional<CpuSurroundings> surroundings_;
+  std::unique_ptr<CpuNodePairs> pairs_;  ///< null where contacts between nodes are not solved for
   std::unique_ptr<CpuStepper> stepper_;
   std::unique_ptr<CpuStepper> recovery_;     ///< only with a governor
   std::vector<layout::ToolMotion> motions_;  ///< of this tick

@@ -15,9 +15,9 @@ std::unique_ptr<CpuStepper> makeCpuStepper(Integrator integrator, int iterations
     case Integrator::kVerletPaper:
       return std::make_unique<CpuVerletPaper>(lattice, parts.parallel);
     case Integrator::kVbd:
-      return std::make_unique<CpuVbd>(lattice, parts.parallel, iterations);
+      return std::make_unique<CpuVbd>(lattice, parts.parallel, iterations, parts.pairs);
     case Integrator::kPd:
-      return std::make_unique<CpuPd>(lattice, parts.parallel, PdOptions{iterations});
+      return std::make_unique<CpuPd>(lattice, parts.parallel, PdOptions{iterations}, parts.pairs);
     case Integrator::kLeapfrog:
       break;
   }

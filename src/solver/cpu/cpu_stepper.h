@@ -14,6 +14,7 @@
 namespace viscera {
 
 class CpuNetwork;
+class CpuNodePairs;
 
 /// An integrator on the CPU: one substep of every active node (physics.md 2).
 class CpuStepper {
@@ -33,6 +34,7 @@ struct CpuParts {
   CpuNetwork* network;  ///< of the lattice; null where no body has explicit connections
   const FeatureSet& features;
   const simd::Kernels& kernels;
+  CpuNodePairs* pairs = nullptr;  ///< contacts between nodes within an implicit substep; null: none
 };
 
 /// Leapfrog: SIMD kernels. vbd, pd and verlet_paper: the text of their shaders, compiled as C++.

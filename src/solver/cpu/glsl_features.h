@@ -24,3 +24,5 @@
 #define WITH_WIND (1 << 15)
 #define WITH_CONTACT (1 << 20)
 #define WITH_BEFORE (1 << 21)
+#define WITH_AHEAD (1 << 22)
+#define WITH_PAIRS (1 << 23)

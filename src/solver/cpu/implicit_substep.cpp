@@ -23,25 +23,25 @@ namespace {
 #define VARIANT_NAME Guess
 #define VARIANT_BASE ImplicitKernel
 #define VARIANT_TEXT "shaders/solver/implicit_guess.comp"
-#define VARIANT_FEATURES WITH_DASHPOT
+#define VARIANT_FEATURES WITH_DASHPOT | WITH_PAIRS
 #include "solver/cpu/glsl_variant.inc"
 
 #define VARIANT_NAME GuessVolumes
 #define VARIANT_BASE ImplicitKernel
 #define VARIANT_TEXT "shaders/solver/implicit_guess.comp"
-#define VARIANT_FEATURES WITH_DASHPOT | WITH_VOLUME
+#define VARIANT_FEATURES WITH_DASHPOT | WITH_VOLUME | WITH_PAIRS
 #include "solver/cpu/glsl_variant.inc"
 
 #define VARIANT_NAME GuessContact
 #define VARIANT_BASE ImplicitKernel
 #define VARIANT_TEXT "shaders/solver/implicit_guess.comp"
-#define VARIANT_FEATURES WITH_DASHPOT | WITH_EVERY_CONTACT
+#define VARIANT_FEATURES WITH_DASHPOT | WITH_EVERY_CONTACT | WITH_PAIRS
 #include "solver/cpu/glsl_variant.inc"
 
 #define VARIANT_NAME GuessContactVolumes
 #define VARIANT_BASE ImplicitKernel
 #define VARIANT_TEXT "shaders/solver/implicit_guess.comp"
-#define VARIANT_FEATURES WITH_DASHPOT | WITH_EVERY_CONTACT | WITH_VOLUME
+#define VARIANT_FEATURES WITH_DASHPOT | WITH_EVERY_CONTACT | WITH_VOLUME | WITH_PAIRS
 #include "solver/cpu/glsl_variant.inc"
 
 #define VARIANT_NAME Choose
@@ -70,18 +70,47 @@ namespace {
 #define VARIANT_NAME End
 #define VARIANT_BASE ImplicitKernel
 #define VARIANT_TEXT "shaders/solver/implicit_end.comp"
-#define VARIANT_FEATURES WITH_DASHPOT
+#define VARIANT_FEATURES WITH_DASHPOT | WITH_PAIRS
 #include "solver/cpu/glsl_variant.inc"
 
 #define VARIANT_NAME EndContact
 #define VARIANT_BASE ImplicitKernel
 #define VARIANT_TEXT "shaders/solver/implicit_end.comp"
-#define VARIANT_FEATURES WITH_DASHPOT | WITH_EVERY_CONTACT
+#define VARIANT_FEATURES WITH_DASHPOT | WITH_EVERY_CONTACT | WITH_PAIRS
 #include "solver/cpu/glsl_variant.inc"
 
 #define VARIANT_NAME EndContactVolumes
 #define VARIANT_BASE ImplicitKernel
 #define VARIANT_TEXT "shaders/solver/implicit_end.comp"
+#define VARIANT_FEATURES WITH_DASHPOT | WITH_EVERY_CONTACT | WITH_VOLUME | WITH_PAIRS
+#include "solver/cpu/glsl_variant.inc"
+
+#define VARIANT_NAME Pull
+#define VARIANT_BASE ImplicitKernel
+#define VARIANT_TEXT "shaders/solver/implicit_pull.comp"
+#define VARIANT_FEATURES WITH_DASHPOT | WITH_EVERY_CONTACT
+#include "solver/cpu/glsl_variant.inc"
+
+#define VARIANT_NAME PullVolumes
+#define VARIANT_BASE ImplicitKernel
+#define VARIANT_TEXT "shaders/solver/implicit_pull.comp"
+#define VARIANT_FEATURES WITH_DASHPOT | WITH_EVERY_CONTACT | WITH_VOLUME
+#include "solver/cpu/glsl_variant.inc"
+
+#define VARIANT_NAME Meet
+#define VARIANT_BASE ImplicitKernel
+#define VARIANT_TEXT "shaders/solver/implicit_meet.comp"
+#include "solver/cpu/glsl_variant.inc"
+
+#define VARIANT_NAME Place
+#define VARIANT_BASE ImplicitKernel
+#define VARIANT_TEXT "shaders/solver/implicit_place.comp"
+#define VARIANT_FEATURES WITH_DASHPOT | WITH_EVERY_CONTACT
+#include "solver/cpu/glsl_variant.inc"
+
+#define VARIANT_NAME PlaceVolumes
+#define VARIANT_BASE ImplicitKernel
+#define VARIANT_TEXT "shaders/solver/implicit_place.comp"
 #define VARIANT_FEATURES WITH_DASHPOT | WITH_EVERY_CONTACT | WITH_VOLUME
 #include "solver/cpu/glsl_variant.inc"
 
@@ -96,9 +125,10 @@ constexpr layout::ToolMotion kNoMotions[layout::kMaxStyluses] = {};
 }  // namespace
 
 CpuImplicitSubstep::CpuImplicitSubstep(const CpuLattice& lattice, const Parallel& parallel, int iterations,
-                                       int iterates)
+                                       int iterates, CpuNodePairs* pairs)
     : guard(1 + 2 * static_cast<size_t>(iterations)),
       parallel_(parallel),
+      pairs_(pairs),
       contact_rows_(contactRows(!lattice.hands.impulses.empty(), lattice.hands.obstacle_count)),
       contacts_(3 * lattice.slotCount() * contact_rows_, glsl::vec4(0)),
       energies_(nodeJobs(lattice)) {
@@ -115,6 +145,7 @@ void CpuImplicitSubstep::begin(CpuLattice& lattice, const Substep& step, const l
   } else {
     runNodes(parallel_, lattice, kernel<glsl::Begin>(lattice, step));
   }
+  if (pairs_) pairs_->find(lattice, step, increments_[current_].data());
   keepBestShare(lattice, step, false);
 }
 
@@ -124,6 +155,37 @@ void CpuImplicitSubstep::updateVolumes(CpuLattice& lattice, const Substep& step,
   cells.iteration = static_cast<uint32_t>(iteration);
   cells.active_count = static_cast<uint32_t>(lattice.store.cells.size());
   runCount(parallel_, lattice.store.cells.size(), cells);
+}
+
+template <class Kernel>
+void CpuImplicitSubstep::runPairs(CpuLattice&, const Kernel& kernel) {
+  Kernel all = kernel;
+  all.active_nodes = pairs_->slots().data();
+  all.active_count = static_cast<uint32_t>(pairs_->slots().size());
+  runCount(parallel_, pairs_->slots().size(), all);
+}
+
+template <class Pull, class Place>
+void CpuImplicitSubstep::sweepPairs(CpuLattice& lattice, const Substep& step, int iteration) {
+  auto pull = kernel<Pull>(lattice, step);
+  auto place = kernel<Place>(lattice, step);
+  pull.first_sweep = iteration == 0 ? 1 : 0;
+  runPairs(lattice, pull);
+  for (int round = 1; round <= kPairRounds; ++round) {
+    runPairs(lattice, kernel<glsl::Meet>(lattice, step));
+    place.ends_sweep = round == kPairRounds ? 1 : 0;
+    runPairs(lattice, place);
+  }
+}
+
+void CpuImplicitSubstep::movePairs(CpuLattice& lattice, const Substep& step, int iteration) {
+  if (!pairs_ || pairs_->slots().empty()) return;
+  if (cell_forces_.empty()) {
+    sweepPairs<glsl::Pull, glsl::Place>(lattice, step, iteration);
+  } else {
+    updateVolumes(lattice, step, 0);
+    sweepPairs<glsl::PullVolumes, glsl::PlaceVolumes>(lattice, step, iteration);
+  }
 }
 
 template <class Guess>

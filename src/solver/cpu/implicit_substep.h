@@ -7,6 +7,7 @@
 
 #include "solver/cpu/cpu_stepper.h"
 #include "solver/cpu/glsl_kernel.h"
+#include "solver/cpu/node_pairs.h"
 
 /// Probes and obstacles: what a scene has none of does nothing.
 #define WITH_EVERY_CONTACT WITH_CONTACT | WITH_TOOLS | WITH_OBSTACLES
@@ -24,7 +25,7 @@ struct Window {
 
 /// What kernels of implicit Euler find in buffers and uniforms (shaders/solver/implicit.glsl, implicit_*.comp, pd.comp,
 /// vbd.comp).
-struct ImplicitKernel : Kernel {
+struct ImplicitKernel : Kernel, PairBuffers {
   using Kernel::Kernel;
   Word* guard = nullptr;
   const vec4* increment = nullptr;
@@ -34,7 +35,7 @@ struct ImplicitKernel : Kernel {
   vec4* node_contacts = nullptr;
   uint contact_rows = 0;
   Window energies;
-  uint iteration = 0, colour_first = 0, bound_energy = 0;
+  uint iteration = 0, colour_first = 0, bound_energy = 0, first_sweep = 0, ends_sweep = 0;
   float omega = 1;
 };
 
@@ -87,7 +88,9 @@ void runCount(const Parallel& parallel, size_t count, const Kernel& kernel) {
 class CpuImplicitSubstep {
  public:
   /// @param iterations  at most, in a substep   @param iterates  that are kept: 1 (vbd, in place) or 2 (pd)
-  CpuImplicitSubstep(const CpuLattice& lattice, const Parallel& parallel, int iterations, int iterates);
+  /// @param pairs  contacts between nodes that are part of the solution; null: none
+  CpuImplicitSubstep(const CpuLattice& lattice, const Parallel& parallel, int iterations, int iterates,
+                     CpuNodePairs* pairs = nullptr);
 
   void begin(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions);
   void end(CpuLattice& lattice, const Substep& step);
@@ -97,6 +100,9 @@ class CpuImplicitSubstep {
   /// Forces and majorisers of the cells in the current iterate, for the iteration that follows.
   void updateVolumes(CpuLattice& lattice, const Substep& step, int iteration);
 
+  /// The part of a sweep that moves nodes which may touch others. After the rest of it.
+  void movePairs(CpuLattice& lattice, const Substep& step, int iteration);
+
   /// A kernel that works on this substep, told of it.
   template <class Kernel>
   Kernel kernel(CpuLattice& lattice, const Substep& step) {
@@ -104,7 +110,8 @@ class CpuImplicitSubstep {
     out.tell(step);
     out.tool_motions = motions_;
     out.node_contacts = contacts_.data();
-    out.contact_rows = contact_rows_;
+    out.contact_rows = hasContacts(step) ? contact_rows_ : 0;
+    if (pairs_) pairs_->tell(out, step);
     out.guard = guard.data();
     out.increments = increments_[current_].data();
     out.increment = out.increments;
@@ -118,10 +125,15 @@ class CpuImplicitSubstep {
  private:
   template <class Guess>
   void sumEnergies(CpuLattice& lattice, const Substep& step);
+  template <class Kernel>
+  void runPairs(CpuLattice& lattice, const Kernel& kernel);
+  template <class Pull, class Place>
+  void sweepPairs(CpuLattice& lattice, const Substep& step, int iteration);
   void keepBestShare(CpuLattice& lattice, const Substep& step, bool bound_energy);
 
   using Energies = std::array<double, 8>;  ///< [J] as two vectors of implicit_guess.comp
   const Parallel& parallel_;
+  CpuNodePairs* pairs_;
   std::vector<glsl::vec4> increments_[2];  ///< [slots] xyz m; w 1 where prescribed; the second with two iterates
   std::vector<glsl::vec4> cell_forces_;    ///< [cellVectors() * slots] N, see shaders/solver/volume.comp; or empty
   uint32_t contact_rows_;                  ///< contacts that a node may have at once

@@ -48,8 +48,8 @@ namespace {
 
 }  // namespace glsl
 
-CpuPd::CpuPd(CpuLattice& lattice, const Parallel& parallel, const PdOptions& options)
-    : implicit_(lattice, parallel, options.iterations, 2), parallel_(parallel), options_(options) {
+CpuPd::CpuPd(CpuLattice& lattice, const Parallel& parallel, const PdOptions& options, CpuNodePairs* pairs)
+    : implicit_(lattice, parallel, options.iterations, 2, pairs), parallel_(parallel), options_(options) {
   if (options_.accelerated && options_.spectral_radius == 0) findRates(lattice);
 }
 
@@ -97,6 +97,7 @@ void CpuPd::run(CpuLattice& lattice, const Substep& step, const layout::ToolMoti
               : sweep<glsl::Sweep>(lattice, step, iteration, weight);
     }
     implicit_.swap();
+    implicit_.movePairs(lattice, step, iteration);
   }
   implicit_.end(lattice, step);
 }

@@ -10,7 +10,8 @@ namespace viscera {
 /// PD-Jacobi in majorise-minimise form on implicit Euler: shaders/solver/pd.comp on the CPU, see gpu/pd_pass.h.
 class CpuPd : public CpuStepper {
  public:
-  CpuPd(CpuLattice& lattice, const Parallel& parallel, const PdOptions& options);
+  /// @param pairs  as CpuImplicitSubstep
+  CpuPd(CpuLattice& lattice, const Parallel& parallel, const PdOptions& options, CpuNodePairs* pairs = nullptr);
   void run(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions) override;
 
   /// Bound on the spectral radius of the plain iteration (jacobiRadius).

@@ -5,8 +5,9 @@
 #include <algorithm>
 #include <optional>
 
-#include "solver/cpu/contact_lists.h"
 #include "solver/cpu/implicit_substep.h"
+#include "solver/cpu/listed_kernel.h"
+#include "solver/node_pairs.h"
 
 namespace viscera {
 
@@ -16,22 +17,6 @@ namespace {
 
 constexpr uint kNobody = 0xffffffffu;
 
-/// A kernel whose contacts have been found before.
-struct ListedKernel : CollisionKernel {
-  using CollisionKernel::CollisionKernel;
-  const ContactLists* lists = nullptr;
-};
-
-// Instead of the shader's search.
-#define VISIT_LISTED                                                          \
-  void visitListed(uint e) {                                                  \
-    const Entry me = entryAt(e);                                              \
-    begin();                                                                  \
-    for (const ListedContact* c = lists->begin(e); c != lists->end(e); ++c) { \
-      visit(me, entryAt(c->other), c->distance_m);                            \
-    }                                                                         \
-    end(me.slot);                                                             \
-  }
 #define VARIANT_NAME MeetListed
 #define VARIANT_BASE ListedKernel
 #define VARIANT_TEXT "shaders/solver/collision_meet.comp"
@@ -43,7 +28,6 @@ struct ListedKernel : CollisionKernel {
 #define VARIANT_TEXT "shaders/solver/collision_push.comp"
 #define VARIANT_MEMBERS VISIT_LISTED
 #include "solver/cpu/glsl_variant.inc"
-#undef VISIT_LISTED
 
 #define VARIANT_NAME MeetStaggered
 #define VARIANT_BASE CollisionKernel
@@ -108,22 +92,10 @@ struct SurroundingsKernel : Kernel {
 
 }  // namespace glsl
 
-namespace {
-
-/// What contacts do to the entries of a job.
-template <class Kernel>
-__attribute__((flatten)) void visitListed(Kernel kernel, const ContactLists& lists, size_t job) {
-  kernel.lists = &lists;
-  const auto range = lists.entriesOf(job);
-  for (size_t e = range[0]; e < range[1]; ++e) kernel.visitListed(static_cast<uint32_t>(e));
-}
-
-}  // namespace
-
 struct CpuSurroundings::Work {
   CollisionConfig collision;
   WindConfig wind;
-  float cell_m = 1;
+  float cell_m = 1, widened = 1;
   std::vector<layout::vec4> influences;  ///< bodyInfluences()
   Rings rings;
   std::vector<uint32_t> collidable;  ///< collidableNodes()
@@ -140,6 +112,7 @@ struct CpuSurroundings::Work {
     Kernel out(lattice);
     out.tell(step);
     out.cell_m = cell_m;
+    out.widened = widened;
     out.friction = static_cast<float>(collision.friction);
     out.restitution = static_cast<float>(collision.restitution);
     out.partitions = static_cast<uint32_t>(collision.partitions);
@@ -171,6 +144,7 @@ CpuSurroundings::CpuSurroundings(const Model& model, const Scene& scene, const C
     work_->rings.starts.assign(lattice.slotCount() + 1, 0);
   }
   if (!kinds_.collisions) return;
+  if (solvesContacts(scene)) work_->widened = kMissedReach;
   work_->cell_m = static_cast<float>(collisionCell(model, scene.collision));
   work_->collidable = collidableNodes(model);
   work_->contacts.assign(lattice.slotCount(), glsl::vec4(0));
@@ -220,10 +194,10 @@ void CpuSurroundings::collideListed(CpuLattice& lattice, const Substep& step) {
   const auto meet = work_->kernel<glsl::MeetListed>(lattice, step);
   parallel_(lists.jobs(), [&](size_t job) {
     lists.findContacts(job);
-    visitListed(meet, lists, job);
+    glsl::visitListed(meet, lists, job);
   });
   const auto push = work_->kernel<glsl::PushListed>(lattice, step);
-  parallel_(lists.jobs(), [&](size_t job) { visitListed(push, lists, job); });
+  parallel_(lists.jobs(), [&](size_t job) { glsl::visitListed(push, lists, job); });
 }
 
 void CpuSurroundings::collide(CpuLattice& lattice, const Substep& step) {

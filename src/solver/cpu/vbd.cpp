@@ -36,8 +36,8 @@ namespace {
 
 }  // namespace glsl
 
-CpuVbd::CpuVbd(const CpuLattice& lattice, const Parallel& parallel, int iterations)
-    : implicit_(lattice, parallel, iterations, 1),
+CpuVbd::CpuVbd(const CpuLattice& lattice, const Parallel& parallel, int iterations, CpuNodePairs* pairs)
+    : implicit_(lattice, parallel, iterations, 1, pairs),
       parallel_(parallel),
       coloured_(byColour(lattice.store.active, !lattice.strengths.bulk.empty(), lattice.links.network)),
       iterations_(iterations) {}
@@ -62,6 +62,7 @@ void CpuVbd::run(CpuLattice& lattice, const Substep& step, const layout::ToolMot
     } else {
       volumes ? sweep<glsl::DescendVolumes>(lattice, step) : sweep<glsl::Descend>(lattice, step);
     }
+    implicit_.movePairs(lattice, step, iteration);
   }
   implicit_.end(lattice, step);
 }

@@ -10,8 +10,8 @@ namespace viscera {
 /// Vertex block descent on implicit Euler: shaders/solver/vbd.comp on the CPU, see gpu/vbd_pass.h.
 class CpuVbd : public CpuStepper {
  public:
-  /// @param iterations  sweeps over all colours per substep
-  CpuVbd(const CpuLattice& lattice, const Parallel& parallel, int iterations);
+  /// @param iterations  sweeps over all colours per substep   @param pairs  as CpuImplicitSubstep
+  CpuVbd(const CpuLattice& lattice, const Parallel& parallel, int iterations, CpuNodePairs* pairs = nullptr);
   void run(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions) override;
 
  private:

@@ -5,21 +5,35 @@
 #include <algorithm>
 
 #include "layout/bindings.h"
+#include "solver/node_pairs.h"
 #include "solver/surroundings.h"
 
 namespace viscera {
 
+namespace {
+
+CollisionConfig completeSearch(CollisionConfig config) {
+  config.search = CollisionSearch::kGrid;
+  return config;
+}
+
+}  // namespace
+
 CollisionPass::CollisionPass(const Model& model, const Scene& scene, const FeatureSet& features,
-                             const LatticeBuffers& buffers)
-    : config_(scene.collision),
-      cell_m_(static_cast<float>(collisionCell(model, scene.collision))),
+                             const LatticeBuffers& buffers, bool ahead)
+    : config_(ahead ? completeSearch(scene.collision) : scene.collision),
+      widened_(ahead                   ? kPairReach
+               : solvesContacts(scene) ? kMissedReach
+                                       : 1.0f),
+      cell_m_(static_cast<float>(std::max(1.0f, widened_) * collisionCell(model, config_))),
       collidable_(collidableNodes(model)),
       contacts_(buffers.store.slot_count, "contacts"),
       corrections_(2 * buffers.store.slot_count, "corrections"),
       group_size_(features.group_size) {
-  const auto stage = [&features, this](const char* name) {
+  const auto stage = [&features, ahead, this](const char* name) {
     std::vector<std::string> defines = features.defines();
     if (config_.search == CollisionSearch::kStaggered) defines.push_back("STAGGERED");
+    if (ahead) defines.insert(defines.end(), {"AHEAD", "INCREMENT"});
     return gpu::Program::compute(name, defines);
   };
   const size_t nodes = buffers.store.active_count;
@@ -42,8 +56,12 @@ CollisionPass::CollisionPass(const Model& model, const Scene& scene, const Featu
     ranks_ = gpu::Buffer<uint32_t>(static_cast<size_t>(config_.partitions) * buffers.store.slot_count, "ranks");
   }
   meet_ = stage("collision_meet.comp");
-  push_ = stage("collision_push.comp");
-  pairs_ = stage("collision_pairs.comp");
+  if (ahead) {
+    note_ = stage("collision_note.comp");
+  } else {
+    push_ = stage("collision_push.comp");
+    pairs_ = stage("collision_pairs.comp");
+  }
   bind();  // what is too large for the driver is said now
 }
 
@@ -74,6 +92,7 @@ void CollisionPass::tell(const gpu::Program& program, const LatticeBuffers& buff
   program.set("push_speed", step.push_speed_m_per_s);
   program.set("resting_speed", step.resting_speed_m_per_s);
   program.set("cell_m", cell_m_);
+  program.set("widened", widened_);
   program.set("bucket_count", bucket_count_);
   program.set("friction", static_cast<float>(config_.friction));
   program.set("restitution", static_cast<float>(config_.restitution));
@@ -122,7 +141,18 @@ size_t CollisionPass::search(const LatticeBuffers& buffers, const Substep& step)
   return sorted_;
 }
 
+void CollisionPass::note(const LatticeBuffers& buffers, const Substep& step, const Tell& also) const {
+  bind();
+  const size_t entries = search(buffers, step);
+  for (const gpu::Program* stage : {&meet_, &note_}) {
+    tell(*stage, buffers, step);
+    also(*stage);
+    dispatch(entries);
+  }
+}
+
 void CollisionPass::run(const LatticeBuffers& buffers, const Substep& step) const {
+  bind();
   const size_t entries = search(buffers, step);
   for (const gpu::Program* stage : {&meet_, &push_}) {
     tell(*stage, buffers, step);

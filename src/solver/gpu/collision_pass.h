@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <vector>
 
 #include "gpu/program.h"
@@ -17,10 +18,15 @@ namespace viscera {
 /// shaders/solver/collision_*.comp.
 class CollisionPass {
  public:
-  CollisionPass(const Model& model, const Scene& scene, const FeatureSet& features, const LatticeBuffers& buffers);
+  /// @param ahead  within an implicit substep: note() instead of run(), from the complete search
+  CollisionPass(const Model& model, const Scene& scene, const FeatureSet& features, const LatticeBuffers& buffers,
+                bool ahead = false);
   /// Pairs of the current state and their impulses, into `corrections`. The other state must be the one before the
   /// substep.
   void run(const LatticeBuffers& buffers, const Substep& step) const;
+  /// Pairs that the increments lead to, for shaders/solver/implicit_pairs.glsl. @param also  what kernels are told too
+  using Tell = std::function<void(const gpu::Program&)>;
+  void note(const LatticeBuffers& buffers, const Substep& step, const Tell& also) const;
   void bind() const;
   /// The state was written from outside: see CpuSurroundings::restart().
   void restart();
@@ -37,10 +43,11 @@ class CollisionPass {
   void searchStaggered(const LatticeBuffers& buffers, const Substep& step) const;
 
   CollisionConfig config_;
+  float widened_;  ///< of D_ij: how near two touch
   float cell_m_;
   gpu::Program count_, place_, scatter_, order_;  ///< grid
   gpu::Program list_, exchange_, rank_;           ///< staggered
-  gpu::Program meet_, push_, pairs_;
+  gpu::Program meet_, push_, pairs_, note_;
   gpu::Buffer<uint32_t> collidable_;       ///< collidableNodes()
   mutable gpu::Buffer<uint32_t> buckets_;  ///< see layout::kBindBuckets, and so on
   gpu::Buffer<uint32_t> unsorted_, ranks_;

@@ -21,7 +21,8 @@ constexpr int kStatsInFlight = 3;
 GpuBackend::GpuBackend(const Model& model, const Scene& scene, const TickPlan& plan, const GpuSolverOptions& options)
     : features_(featuresOf(model, scene, plan.shortestSubstep_s(), options.group_size)),
       buffers_(model, bodyParams(model, plan.dt_safe_s), features_),
-      stepper_(makeStepper(scene.solver.integrator, scene.solver.iterations, features_, buffers_)),
+      pairs_(solvesContacts(scene) ? std::make_unique<NodePairs>(model, scene, features_, buffers_) : nullptr),
+      stepper_(makeStepper(scene.solver.integrator, scene.solver.iterations, features_, buffers_, pairs_.get())),
       measure_(features_, buffers_.store.active_count),
       has_springs_(std::isfinite(plan.dt_safe_s) && plan.dt_safe_s > 0),
       stats_ring_(sizeof(layout::TickStats), kStatsInFlight, "the measurements of a tick") {
@@ -153,6 +154,7 @@ void GpuBackend::resetState() {
   foreign_ = false;
   buffers_.reset();
   if (surroundings_) surroundings_->restart();
+  if (pairs_) pairs_->restart();
 }
 
 void GpuBackend::loadState(const HostState& state) {
@@ -163,6 +165,7 @@ void GpuBackend::loadState(const HostState& state) {
   buffers_.writeSpringCut(state.spring_cut);
   if (buffers_.state.compensation.size()) buffers_.state.compensation.clear();
   if (surroundings_) surroundings_->restart();
+  if (pairs_) pairs_->restart();
   buffers_.bind();
 }
 
@@ -176,6 +179,7 @@ void GpuBackend::restoreGood(int back) {
   if (buffers_.hands.impulses.size()) buffers_.hands.impulses.clear();
   if (buffers_.hands.obstacle_impulses.size()) buffers_.hands.obstacle_impulses.clear();
   if (surroundings_) surroundings_->restart();
+  if (pairs_) pairs_->restart();
 }
 
 void GpuBackend::clearGood() {

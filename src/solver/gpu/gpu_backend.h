@@ -13,6 +13,7 @@
 #include "solver/gpu/guard_pass.h"
 #include "solver/gpu/lattice_buffers.h"
 #include "solver/gpu/measure_pass.h"
+#include "solver/gpu/node_pairs.h"
 #include "solver/gpu/reaction_pass.h"
 #include "solver/gpu/stepper.h"
 #include "solver/gpu/surroundings_pass.h"
@@ -82,6 +83,7 @@ class GpuBackend final : public SolverBackend {
 
   FeatureSet features_;
   LatticeBuffers buffers_;
+  std::unique_ptr<NodePairs> pairs_;  ///< null where contacts between nodes are not solved for
   std::unique_ptr<Stepper> stepper_;
   MeasurePass measure_;
   const bool has_springs_;  ///< of nodes that may move, in the whole tissue

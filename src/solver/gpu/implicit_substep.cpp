@@ -24,19 +24,25 @@ std::vector<std::string> ImplicitSubstep::defines(const FeatureSet& features, bo
 }
 
 ImplicitSubstep::ImplicitSubstep(const FeatureSet& features, const LatticeBuffers& buffers, int iterations,
-                                 int iterates)
+                                 int iterates, const NodePairs* pairs)
     : guard(1 + 2 * static_cast<size_t>(iterations)),
       energies_(kEnergiesPerNode * (buffers.store.active_count + sumTreeSize(buffers.store.active_count)), "energies"),
+      pairs_(pairs),
       group_size_(features.group_size),
       contact_rows_(contactRows(features.tools, features.obstacles)),
       obstacles_(features.obstacles > 0) {
   for (int tools = 0; tools < (features.tools ? 2 : 1); ++tools) {
-    const std::vector<std::string> known = defines(features, tools != 0);
+    std::vector<std::string> known = defines(features, tools != 0);
+    if (pairs_) known.push_back("PAIRS");
     begin_[tools] = gpu::Program::compute("implicit_begin.comp", known);
     guess_[tools] = gpu::Program::compute("implicit_guess.comp", known);
     scale_[tools] = gpu::Program::compute("implicit_scale.comp", known);
     end_[tools] = gpu::Program::compute("implicit_end.comp", known);
+    if (!pairs_) continue;
+    pull_[tools] = gpu::Program::compute("implicit_pull.comp", known);
+    place_[tools] = gpu::Program::compute("implicit_place.comp", known);
   }
+  if (pairs_) meet_ = gpu::Program::compute("implicit_meet.comp", defines(features));
   fold_ = gpu::Program::compute("implicit_fold.comp", defines(features));
   if (contact_rows_ > 0) {
     contacts_ = gpu::Buffer<layout::vec4>(size_t{3} * contact_rows_ * buffers.store.slot_count, "contacts of nodes");
@@ -95,12 +101,37 @@ void ImplicitSubstep::begin(const LatticeBuffers& buffers, const Substep& step) 
   guard.bindStorage(layout::kBindGuard);
   bindIncrements();
   runStage(begin_[step.tools], buffers, step);
+  if (pairs_) pairs_->find(buffers, step);
   keepBestShare(buffers, step, false);
+}
+
+void ImplicitSubstep::movePairs(const LatticeBuffers& buffers, const Substep& step, int iteration) const {
+  if (!pairs_) return;
+  updateVolumes(buffers, step, 0);
+  const gpu::Program &pull = pull_[step.tools], &place = place_[step.tools];
+  pull.use();
+  pull.set("first_sweep", iteration == 0 ? 1u : 0u);
+  pairs_->tell(pull, step);
+  runStage(pull, buffers, step);
+  for (int round = 1; round <= kPairRounds; ++round) {
+    meet_.use();
+    meet_.set("active_count", static_cast<uint32_t>(buffers.store.active_count));
+    pairs_->tell(meet_, step);
+    gpu::Program::dispatch(buffers.store.active_count, group_size_);
+    gpu::Program::storageBarrier();
+    place.use();
+    place.set("ends_sweep", round == kPairRounds ? 1u : 0u);
+    pairs_->tell(place, step);
+    runStage(place, buffers, step);
+  }
 }
 
 void ImplicitSubstep::keepBestShare(const LatticeBuffers& buffers, const Substep& step, bool bound_energy) const {
   energies_.bindStorage(layout::kBindPartials);
-  runStage(guess_[step.tools], buffers, step);
+  const gpu::Program& guess = guess_[step.tools];
+  guess.use();
+  if (pairs_) pairs_->tell(guess, step);
+  runStage(guess, buffers, step);
   chooseShare(buffers, bound_energy);
   runStage(scale_[step.tools], buffers, step);
 }
@@ -121,7 +152,10 @@ void ImplicitSubstep::chooseShare(const LatticeBuffers& buffers, bool bound_ener
 void ImplicitSubstep::end(const LatticeBuffers& buffers, const Substep& step) const {
   keepBestShare(buffers, step, !step.tools);                      // tools may bring energy in
   if (step.tools || obstacles_) updateVolumes(buffers, step, 0);  // the momentum of who holds or touches needs them
-  runStage(end_[step.tools], buffers, step);
+  const gpu::Program& end = end_[step.tools];
+  end.use();
+  if (pairs_) pairs_->tell(end, step);
+  runStage(end, buffers, step);
 }
 
 }  // namespace viscera

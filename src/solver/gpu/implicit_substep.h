@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "solver/gpu/node_pairs.h"
 #include "solver/gpu/stepper.h"
 
 namespace viscera {
@@ -11,7 +12,9 @@ namespace viscera {
 class ImplicitSubstep {
  public:
   /// @param iterations  at most, in a substep   @param iterates  that are kept: 1 (vbd, in place) or 2 (pd)
-  ImplicitSubstep(const FeatureSet& features, const LatticeBuffers& buffers, int iterations, int iterates);
+  /// @param pairs  contacts between nodes that are part of the solution; null: none
+  ImplicitSubstep(const FeatureSet& features, const LatticeBuffers& buffers, int iterations, int iterates,
+                  const NodePairs* pairs = nullptr);
 
   /// First iterate: held nodes are where their tools have them, none is in a probe or an obstacle; the others at the
   /// best share of the motion that no force would change, the one of 0, 1/2, 3/4, 1 with the lowest incremental
@@ -29,6 +32,9 @@ class ImplicitSubstep {
   /// Forces and majorisers of the cells in the current iterate, where there are any, for the iteration that follows.
   void updateVolumes(const LatticeBuffers& buffers, const Substep& step, int iteration) const;
 
+  /// The part of a sweep that moves nodes which may touch others: all of them together. After the rest of it.
+  void movePairs(const LatticeBuffers& buffers, const Substep& step, int iteration) const;
+
   /// Sets what all kernels of a substep are told; for a program compiled with defines(features, step.tools).
   void tell(const gpu::Program& program, const LatticeBuffers& buffers, const Substep& step) const;
   /// @param tools  probes and held nodes are about, which the tissue's obstacles always are
@@ -44,11 +50,13 @@ class ImplicitSubstep {
 
   gpu::Program begin_[2], guess_[2], scale_[2], end_[2];  ///< without and with tools
   gpu::Program fold_, cells_;
+  gpu::Program pull_[2], place_[2], meet_;   ///< of pairs
   gpu::Buffer<layout::vec4> increments_[2];  ///< [slots] xyz m; w 1 where prescribed; the second with two iterates
   gpu::TexelView increment_texels_[2];
   gpu::Buffer<layout::vec4> contacts_;  ///< [3 * rows * slots], see shaders/solver/implicit_contact.glsl
   gpu::Buffer<layout::vec4> energies_;  ///< [2 * (active + tree)] J
   int current_ = 0;
+  const NodePairs* pairs_;
   uint32_t group_size_, contact_rows_;
   bool obstacles_;
 };

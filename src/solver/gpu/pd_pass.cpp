@@ -8,8 +8,9 @@
 
 namespace viscera {
 
-PdPass::PdPass(const FeatureSet& features, const LatticeBuffers& buffers, const PdOptions& options)
-    : implicit_(features, buffers, options.iterations, 2), options_(options), group_size_(features.group_size) {
+PdPass::PdPass(const FeatureSet& features, const LatticeBuffers& buffers, const PdOptions& options,
+               const NodePairs* pairs)
+    : implicit_(features, buffers, options.iterations, 2, pairs), options_(options), group_size_(features.group_size) {
   for (int tools = 0; tools < (features.tools ? 2 : 1); ++tools) {
     sweep_[tools] = gpu::Program::compute("pd.comp", ImplicitSubstep::defines(features, tools != 0));
   }
@@ -51,6 +52,7 @@ void PdPass::run(LatticeBuffers& buffers, const Substep& step) {
     gpu::Program::dispatch(buffers.store.active_count, group_size_);
     gpu::Program::storageBarrier();
     implicit_.swap();
+    implicit_.movePairs(buffers, step, iteration);
   }
   implicit_.end(buffers, step);
 }

@@ -14,7 +14,8 @@ namespace viscera {
 /// shaders/solver/pd.comp.
 class PdPass : public Stepper {
  public:
-  PdPass(const FeatureSet& features, const LatticeBuffers& buffers, const PdOptions& options);
+  PdPass(const FeatureSet& features, const LatticeBuffers& buffers, const PdOptions& options,
+         const NodePairs* pairs = nullptr);
   void run(LatticeBuffers& buffers, const Substep& step) override;
 
   /// Bound on the spectral radius of the plain iteration (jacobiRadius).

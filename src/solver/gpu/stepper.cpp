@@ -10,14 +10,14 @@
 namespace viscera {
 
 std::unique_ptr<Stepper> makeStepper(Integrator integrator, int iterations, const FeatureSet& features,
-                                     const LatticeBuffers& buffers) {
+                                     const LatticeBuffers& buffers, const NodePairs* pairs) {
   switch (integrator) {
     case Integrator::kVerletPaper:
       return std::make_unique<VerletPaperPass>(features, buffers);
     case Integrator::kVbd:
-      return std::make_unique<VbdPass>(features, buffers, iterations);
+      return std::make_unique<VbdPass>(features, buffers, iterations, pairs);
     case Integrator::kPd:
-      return std::make_unique<PdPass>(features, buffers, PdOptions{iterations});
+      return std::make_unique<PdPass>(features, buffers, PdOptions{iterations}, pairs);
     case Integrator::kLeapfrog:
       break;
   }

@@ -11,6 +11,8 @@
 
 namespace viscera {
 
+class NodePairs;
+
 /// An integrator: one substep of every active node (physics.md 2).
 class Stepper {
  public:
@@ -20,9 +22,10 @@ class Stepper {
 };
 
 /// The integrator's kernels, compiled. @param iterations  of vbd and pd
+/// @param pairs  contacts between nodes within an implicit substep; null: none
 /// @throws GpuError with file, line and the driver's log
 std::unique_ptr<Stepper> makeStepper(Integrator integrator, int iterations, const FeatureSet& features,
-                                     const LatticeBuffers& buffers);
+                                     const LatticeBuffers& buffers, const NodePairs* pairs = nullptr);
 
 /// pd without acceleration, so that every sweep lowers the energy, for the governor's recoveries.
 std::unique_ptr<Stepper> makeRecoveryStepper(int iterations, const FeatureSet& features, const LatticeBuffers& buffers);

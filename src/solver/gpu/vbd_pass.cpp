@@ -8,8 +8,8 @@
 
 namespace viscera {
 
-VbdPass::VbdPass(const FeatureSet& features, const LatticeBuffers& buffers, int iterations)
-    : implicit_(features, buffers, iterations, 1), iterations_(iterations), group_size_(features.group_size) {
+VbdPass::VbdPass(const FeatureSet& features, const LatticeBuffers& buffers, int iterations, const NodePairs* pairs)
+    : implicit_(features, buffers, iterations, 1, pairs), iterations_(iterations), group_size_(features.group_size) {
   for (int tools = 0; tools < (features.tools ? 2 : 1); ++tools) {
     sweep_[tools] = gpu::Program::compute("vbd.comp", ImplicitSubstep::defines(features, tools != 0));
   }
@@ -21,18 +21,19 @@ VbdPass::VbdPass(const FeatureSet& features, const LatticeBuffers& buffers, int 
 void VbdPass::run(LatticeBuffers& buffers, const Substep& step) {
   implicit_.begin(buffers, step);
   const gpu::Program& sweep = sweep_[step.tools];
-  sweep.use();
-  implicit_.tell(sweep, buffers, step);
-  by_colour_.bindStorage(layout::kBindActive);
   for (int iteration = 0; iteration < iterations_; ++iteration) {
+    sweep.use();
+    implicit_.tell(sweep, buffers, step);
+    by_colour_.bindStorage(layout::kBindActive);
     for (const Coloured::Colour& colour : colours_) {
       sweep.set("active_count", colour.count);
       sweep.set("colour_first", colour.first);
       gpu::Program::dispatch(colour.count, group_size_);
       gpu::Program::storageBarrier();
     }
+    buffers.store.active.bindStorage(layout::kBindActive);
+    implicit_.movePairs(buffers, step, iteration);
   }
-  buffers.store.active.bindStorage(layout::kBindActive);
   implicit_.end(buffers, step);
 }
 

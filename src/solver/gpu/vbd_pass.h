@@ -15,7 +15,7 @@ namespace viscera {
 class VbdPass : public Stepper {
  public:
   /// @param iterations  sweeps over all colours per substep
-  VbdPass(const FeatureSet& features, const LatticeBuffers& buffers, int iterations);
+  VbdPass(const FeatureSet& features, const LatticeBuffers& buffers, int iterations, const NodePairs* pairs = nullptr);
   void run(LatticeBuffers& buffers, const Substep& step) override;
 
  private:

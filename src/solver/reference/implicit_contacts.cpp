@@ -26,18 +26,36 @@ void ImplicitContacts::solve(Increment& increment, const Field& y_m, Field& u_m)
     if (free_[slot]) predicted[slot] = y_m[slot];
   }
   find(predicted);
+  nodes_.emplace(solver_, outside(predicted));
+  const double scale_n_per_m = nodes_->empty() ? 0 : stiffestNode(increment, u_m);
   for (int guess = 0; guess < kGuesses; ++guess) {
     place(u_m);
     increment.setDrags(drags());
+    if (!nodes_->empty()) nodes_->tell(increment, scale_n_per_m);
     balance(increment, u_m);
     scale_n_ = increment.forceScale(u_m);
-    const bool found = find(u_m);
-    if (!mend(increment, u_m) && !found) {
-      increment.setDrags({});
-      return;
-    }
+    const bool found = find(u_m), mended = mend(increment, u_m);
+    if (!nodes_->mend(increment, u_m, kSteady * scale_n_) && !mended && !found) return;
   }
   throw ConvergenceError("no set of contacts fits the substep");
+}
+
+/// Where the first iterate leads, taken out of what it would end in, as contacts between nodes are found.
+Field ImplicitContacts::outside(Field predicted_m) const {
+  constexpr int kRounds = 4;
+  for (int round = 0; round < kRounds; ++round) {
+    for (const Contact& c : contacts_) {
+      const Vector3d& n = c.space.normal;
+      const double missing_m = c.space.least_m - n.dot(predicted_m[c.slot] - solver_.u_m[c.slot]);
+      predicted_m[c.slot] += std::max(0.0, missing_m) * n;
+    }
+  }
+  return predicted_m;
+}
+
+/// Largest of a node's own stiffness and inertia [N/m].
+double ImplicitContacts::stiffestNode(const Increment& increment, const Field& u_m) const {
+  return increment.hessian(u_m, ReferenceLattice::Curvature::kPositive).diagonal().maxCoeff();
 }
 
 /// The equilibrium under the guess. Friction has a kink where sliding ends: it is rounded less and less.
@@ -133,8 +151,9 @@ std::vector<Increment::Drag> ImplicitContacts::drags() const {
   for (const Contact& c : contacts_) {
     const double limit_n = c.space.friction * c.pressure_n;
     if (!c.presses || limit_n <= 0) continue;
-    out.push_back({c.slot, c.space.normal, solver_.u_m[c.slot] + c.space.way_m, limit_n});
+    out.push_back({c.slot, c.space.normal, solver_.u_m[c.slot] + c.space.way_m, limit_n, -1, Vector3d::Zero()});
   }
+  if (nodes_) nodes_->addDrags(out);
   return out;
 }
 
@@ -173,13 +192,14 @@ bool ImplicitContacts::mend(const Increment& increment, const Field& u_m) {
     c.pressure_n = std::max(0.0, pressure_n);
     c.force_n = c.pressure_n * n;
     for (const Increment::Drag& d : increment.drags()) {
-      if (d.slot == c.slot && d.normal == n) c.force_n += d.force(u_m, increment.smoothness());
+      if (d.slot == c.slot && d.other < 0 && d.normal == n) c.force_n += d.force(u_m, increment.smoothness());
     }
   }
   return changed;
 }
 
 void ImplicitContacts::give(ReferenceSolver& solver, Field& v_next) const {
+  nodes_->bounce(free_, v_next);
   for (const Contact& c : contacts_) {
     if (!c.presses) continue;
     if (c.owner < layout::kMaxStyluses) {

@@ -2,15 +2,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "solver/reference/implicit_increment.h"
+#include "solver/reference/node_contacts.h"
 
 namespace viscera {
 
-/// Probes and obstacles in a substep of implicit Euler, by an active set: which contacts press and which of them stick
-/// is guessed, the equilibrium is found under that by Newton's method, and the guess is mended until it fits
-/// (physics.md 2, 8).
+/// Probes, obstacles and contacts between nodes in a substep of implicit Euler, by an active set: which contacts press
+/// and which of them stick is guessed, the equilibrium is found under that by Newton's method, and the guess is mended
+/// until it fits (physics.md 2, 8).
 class ImplicitContacts {
  public:
   /// @param solver  with its obstacles, must outlive this   @param free  [slots] neither held nor at rest
@@ -36,6 +38,8 @@ class ImplicitContacts {
   void place(Field& u_m) const;
   FreeDofs freeDofs() const;
   std::vector<Increment::Drag> drags() const;
+  Field outside(Field predicted_m) const;
+  double stiffestNode(const Increment& increment, const Field& u_m) const;
   void balance(Increment& increment, Field& u_m) const;
   bool mend(const Increment& increment, const Field& u_m);
   std::vector<Vector3d> fixedDirections(uint32_t slot) const;
@@ -44,6 +48,7 @@ class ImplicitContacts {
   const SubstepMotions& motions_;
   std::vector<bool> free_;
   std::vector<Contact> contacts_;
+  std::optional<NodeContacts> nodes_;
   double scale_n_ = 0;  ///< largest of the forces that balance
 };
 

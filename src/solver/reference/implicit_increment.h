@@ -18,14 +18,17 @@ class Increment : public Objective {
   Increment(const ReferenceSolver& solver, Field y_m)
       : solver_(solver), dt_s_(solver.dt_s()), y_m_(std::move(y_m)), frozen_u_m_(solver.u_m) {}
 
-  /// Friction of a contact whose pressure is given: limit_n |slip|, slip along the surface from where the surface
-  /// carries the node.
+  /// Friction of a contact whose pressure is given: limit_n |slip|, slip along the surface from where the surface, or
+  /// the other node, carries the node.
   struct Drag {
     uint32_t slot;
     Vector3d normal, carried_m;  ///< where the surface carries the node: displacement
     double limit_n;
+    int64_t other = -1;                        ///< slot of the other node, which feels the opposite; below 0: none
+    Vector3d other_from_m = Vector3d::Zero();  ///< its displacement before the substep
     Vector3d slip(const Field& u_m) const {
-      const Vector3d off = u_m[slot] - carried_m;
+      Vector3d off = u_m[slot] - carried_m;
+      if (other >= 0) off -= u_m[static_cast<size_t>(other)] - other_from_m;
       return off - off.dot(normal) * normal;
     }
     /// On the node [N]. @param smooth_m  slips below it are no sliding yet
@@ -39,6 +42,23 @@ class Increment : public Objective {
   const std::vector<Drag>& drags() const { return drags_; }
   double smoothness() const { return smooth_m_; }
 
+  /// Two nodes that come no nearer to each other than this: n . (du_a - du_b) >= -gap.
+  struct Pair {
+    uint32_t a, b;
+    Vector3d normal;  ///< from b to a
+    double gap_m;
+    double pressure_n;  ///< of the guess
+  };
+  /// @param stiffness_n_per_m  with which what they miss adds to the pressures
+  void setPairs(std::vector<Pair> pairs, double stiffness_n_per_m) {
+    pairs_ = std::move(pairs);
+    pair_stiffness_n_per_m_ = stiffness_n_per_m;
+  }
+  double pressure(const Pair& p, const Field& u_m) const {
+    const Vector3d apart = u_m[p.a] - solver_.u_m[p.a] - u_m[p.b] + solver_.u_m[p.b];
+    return std::max(0.0, p.pressure_n - pair_stiffness_n_per_m_ * (p.normal.dot(apart) + p.gap_m));
+  }
+
   /// The directions of the dashpots: a potential for them exists only while these stand still.
   void freeze(const Field& u_m) override { frozen_u_m_ = u_m; }
 
@@ -46,6 +66,7 @@ class Increment : public Objective {
     double sum = solver_.elasticEnergy(u_m) + dt_s_ * solver_.dissipation(frozen_u_m_, velocity(u_m));
     for (uint32_t slot : solver_.active) sum += 0.5 * inertia(slot) * (u_m[slot] - y_m_[slot]).squaredNorm();
     for (const Drag& d : drags_) sum += d.limit_n * std::hypot(d.slip(u_m).norm(), smooth_m_);
+    for (const Pair& p : pairs_) sum += std::pow(pressure(p, u_m), 2) / (2 * pair_stiffness_n_per_m_);
     return sum;
   }
 
@@ -55,7 +76,16 @@ class Increment : public Objective {
     for (uint32_t slot : solver_.active) {
       out[slot] = inertia(slot) * (u_m[slot] - y_m_[slot]) - out[slot] - solver_.dashpotForce(frozen_u_m_, v, slot);
     }
-    for (const Drag& d : drags_) out[d.slot] -= d.force(u_m, smooth_m_);
+    for (const Drag& d : drags_) {
+      const Vector3d force = d.force(u_m, smooth_m_);
+      out[d.slot] -= force;
+      if (d.other >= 0) out[static_cast<size_t>(d.other)] += force;
+    }
+    for (const Pair& p : pairs_) {
+      const Vector3d force = pressure(p, u_m) * p.normal;
+      out[p.a] -= force;
+      out[p.b] += force;
+    }
     return out;
   }
 
@@ -72,8 +102,10 @@ class Increment : public Objective {
       const double size = std::hypot(slip.norm(), smooth_m_);
       const Eigen::Matrix3d along = Eigen::Matrix3d::Identity() - d.normal * d.normal.transpose();
       const Eigen::Matrix3d stiff = d.limit_n / size * (along - slip * slip.transpose() / (size * size));
-      for (int i = 0; i < 9; ++i)
-        out.coeffRef(solver_.dof(d.slot, i / 3), solver_.dof(d.slot, i % 3)) += stiff(i / 3, i % 3);
+      addBetween(d.slot, d.other, stiff, out);
+    }
+    for (const Pair& p : pairs_) {
+      if (pressure(p, u_m) > 0) addBetween(p.a, p.b, pair_stiffness_n_per_m_ * p.normal * p.normal.transpose(), out);
     }
     return out;
   }
@@ -85,9 +117,27 @@ class Increment : public Objective {
   }
 
  private:
+  /// The curvature of something that depends on u_a - u_b alone. @param b  below 0: on u_a
+  void addBetween(uint32_t a, int64_t b, const Eigen::Matrix3d& stiff, Eigen::SparseMatrix<double>& out) const {
+    const auto add = [&](uint32_t row, uint32_t column, double sign) {
+      for (int i = 0; i < 9; ++i)
+        out.coeffRef(solver_.dof(row, i / 3), solver_.dof(column, i % 3)) += sign * stiff(i / 3, i % 3);
+    };
+    add(a, a, 1);
+    if (b < 0) return;
+    const auto other = static_cast<uint32_t>(b);
+    add(other, other, 1);
+    add(a, other, -1);
+    add(other, a, -1);
+  }
+
+ public:
+  /// m (1 + gamma dt)/dt^2 [N/m]
   double inertia(uint32_t slot) const {
     return solver_.mass(slot) * (1 + solver_.drag_per_s(slot) * dt_s_) / (dt_s_ * dt_s_);
   }
+
+ private:
   Field velocity(const Field& u_m) const {
     Field v(u_m.size(), Vector3d::Zero());
     for (uint32_t slot : solver_.active) v[slot] = (u_m[slot] - solver_.u_m[slot]) / dt_s_;
@@ -98,7 +148,8 @@ class Increment : public Objective {
   double dt_s_;
   Field y_m_, frozen_u_m_;
   std::vector<Drag> drags_;
-  double smooth_m_ = 0;
+  std::vector<Pair> pairs_;
+  double smooth_m_ = 0, pair_stiffness_n_per_m_ = 1;
 };
 
 }  // namespace viscera

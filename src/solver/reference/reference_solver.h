@@ -81,6 +81,7 @@ class ReferenceSolver : public ReferenceLattice, public ToolTarget {
   using ReferenceLattice::elasticEnergy;
   using ReferenceLattice::stiffnessMatrix;
   const Vector3d& gravity() const { return gravity_; }
+  const ReferenceSurroundings* surroundings() const { return options_.surroundings.get(); }
   /// The state rounded to float32, as a kernel would hold it.
   HostState state() const;
 
@@ -103,6 +104,7 @@ class ReferenceSolver : public ReferenceLattice, public ToolTarget {
   void collide(Field& u_next, Field& v_next);
   void meetObstacles(Field& u_next, Field& v_next);
   friend class ImplicitContacts;
+  friend class NodeContacts;
   Vector3d heldDisplacement(const layout::ToolMotion& motion, uint32_t slot) const;
 
   Vector3d gravity_;

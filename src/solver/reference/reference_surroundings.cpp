@@ -7,6 +7,7 @@
 #include <map>
 
 #include "solver/collision.h"
+#include "solver/node_pairs.h"
 #include "solver/reference/reference_solver.h"
 #include "solver/surroundings.h"
 
@@ -83,8 +84,8 @@ bool ReferenceSurroundings::mayTouch(const ReferenceLattice& lattice, uint32_t s
 }
 
 std::vector<ReferenceSurroundings::Pair> ReferenceSurroundings::touching(const ReferenceLattice& lattice,
-                                                                         const Field& u_m) const {
-  const double reach = *std::max_element(distance_m_.begin(), distance_m_.end());
+                                                                         const Field& u_m, double widened) const {
+  const double reach = widened * *std::max_element(distance_m_.begin(), distance_m_.end());
   using Cell = std::array<long, 3>;
   const auto cellOf = [reach](const Vector3d& x) {
     return Cell{std::lround(x.x() / reach), std::lround(x.y() / reach), std::lround(x.z() / reach)};
@@ -100,6 +101,7 @@ std::vector<ReferenceSurroundings::Pair> ReferenceSurroundings::touching(const R
     double wanted = std::max(distance_m_[body_[a]], distance_m_[body_[b]]);
     if (body_[a] == body_[b])
       wanted = std::min(wanted, 0.5 * (lattice.restPosition(a) - lattice.restPosition(b)).norm());
+    wanted *= widened;
     if ((at(a) - at(b)).norm() < wanted) out.push_back({a, b, wanted});
   };
   for (const auto& [cell, slots] : cells) {
@@ -162,54 +164,59 @@ void ReferenceSolver::meetObstacles(Field& u_next, Field& v_next) {
 
 namespace {
 
-/// Of a node with contacts: the sum of the directions to it, weighted by their depth, and how many there are.
-struct Touched {
-  Vector3d direction = Vector3d::Zero();
-  int contacts = 0;
-};
-
-/// That of the sheet which one of the two lies on: of whom has more contacts the mean of their directions.
-Vector3d contactNormal(const Vector3d& direction, const Touched& a, const Touched& b) {
-  constexpr double kLeast = 0.05;  // cosine to the contact's own direction: a mean that goes past it says nothing
-  Vector3d mean = Vector3d::Zero();
-  if (a.contacts >= b.contacts) mean += a.direction;
-  if (b.contacts >= a.contacts) mean -= b.direction;
-  return mean.norm() > 0 && mean.dot(direction) > kLeast * mean.norm() ? mean.normalized().eval() : direction;
+Vector3d apart(const ReferenceLattice& lattice, const Field& u_m, uint32_t a, uint32_t b) {
+  return lattice.restPosition(a) + u_m[a] - lattice.restPosition(b) - u_m[b];
 }
 
 }  // namespace
 
+ContactNormals::ContactNormals(const ReferenceLattice& lattice, const std::vector<ReferenceSurroundings::Pair>& pairs,
+                               const Field& before_m, const Field& now_m)
+    : lattice_(lattice), before_m_(before_m), now_m_(now_m), touched_(lattice.slots()) {
+  for (const auto& pair : pairs) {
+    const Vector3d weighted =
+        (pair.distance_m - apart(lattice, now_m, pair.a, pair.b).norm()) * direction(pair.a, pair.b);
+    touched_[pair.a].direction += weighted;
+    touched_[pair.b].direction -= weighted;
+    ++touched_[pair.a].contacts;
+    ++touched_[pair.b].contacts;
+  }
+}
+
+/// From b to a, as things were before the substep.
+Vector3d ContactNormals::direction(uint32_t a, uint32_t b) const {
+  for (const Vector3d& d : {apart(lattice_, before_m_, a, b), apart(lattice_, now_m_, a, b)}) {
+    if (d.norm() > 0) return d.normalized();
+  }
+  return Vector3d::UnitZ();
+}
+
+/// That of the sheet which one of the two lies on: of whom has more contacts the mean of their directions.
+Vector3d ContactNormals::of(const ReferenceSurroundings::Pair& pair) const {
+  constexpr double kLeast = 0.05;  // cosine to the contact's own direction: a mean that goes past it says nothing
+  const Touched &a = touched_[pair.a], &b = touched_[pair.b];
+  const Vector3d toward = direction(pair.a, pair.b);
+  Vector3d mean = Vector3d::Zero();
+  if (a.contacts >= b.contacts) mean += a.direction;
+  if (b.contacts >= a.contacts) mean -= b.direction;
+  return mean.norm() > 0 && mean.dot(toward) > kLeast * mean.norm() ? mean.normalized().eval() : toward;
+}
+
 void ReferenceSolver::collide(Field& u_next, Field& v_next) {
   if (!options_.surroundings || !options_.surroundings->collides()) return;
   const CollisionConfig& config = options_.surroundings->collision();
-  const auto pairs = options_.surroundings->touching(*this, u_next);
-  const auto apart = [this](const Field& u, uint32_t a, uint32_t b) {
-    return Vector3d(restPosition(a) + u[a] - restPosition(b) - u[b]);
-  };
-  // From b to a, as things were before the substep.
-  const auto direction = [&](uint32_t a, uint32_t b) {
-    for (const Vector3d& d : {apart(u_m, a, b), apart(u_next, a, b)}) {
-      if (d.norm() > 0) return d.normalized().eval();
-    }
-    return Vector3d::UnitZ().eval();
-  };
-  std::vector<Touched> touched(slots());
-  for (const auto& pair : pairs) {
-    const Vector3d weighted = (pair.distance_m - apart(u_next, pair.a, pair.b).norm()) * direction(pair.a, pair.b);
-    touched[pair.a].direction += weighted;
-    touched[pair.b].direction -= weighted;
-    ++touched[pair.a].contacts;
-    ++touched[pair.b].contacts;
-  }
+  const bool implicit = options_.integrator == ReferenceIntegrator::kImplicitEuler;
+  const auto pairs = options_.surroundings->touching(*this, u_next, implicit ? static_cast<double>(kMissedReach) : 1.0);
+  const ContactNormals normals(*this, pairs, u_m, u_next);
   const auto inverseMass = [this](uint32_t slot) {
     return isFixed(nodes[slot]) || heldBy(slot) != 0 ? 0 : 1 / mass(slot);
   };
   Field impulse(slots(), Vector3d::Zero()), shift(slots(), Vector3d::Zero());
   for (const auto& [a, b, distance] : pairs) {
-    const double inverse = touched[a].contacts * inverseMass(a) + touched[b].contacts * inverseMass(b);
+    const double inverse = normals.contacts(a) * inverseMass(a) + normals.contacts(b) * inverseMass(b);
     if (inverse == 0) continue;
-    const Vector3d normal = contactNormal(direction(a, b), touched[a], touched[b]);
-    const double depth = std::max(0.0, distance - apart(u_m, a, b).norm());
+    const Vector3d normal = normals.of({a, b, distance});
+    const double depth = std::max(0.0, distance - apart(*this, u_m, a, b).norm());
     const Vector3d moved = std::min(0.25 * depth, options_.push_speed_m_per_s * dt_s_) / inverse * normal;
     shift[a] += moved;
     shift[b] -= moved;

@@ -28,8 +28,8 @@ class ReferenceSurroundings {
   };
   bool collides() const { return collision_.enabled; }
   const CollisionConfig& collision() const { return collision_; }
-  /// All pairs nearer than they may be, ascending.
-  std::vector<Pair> touching(const ReferenceLattice& lattice, const Field& u_m) const;
+  /// All pairs nearer than they may be, ascending. @param widened  times the distance that they keep
+  std::vector<Pair> touching(const ReferenceLattice& lattice, const Field& u_m, double widened = 1) const;
 
  private:
   struct Triangle {
@@ -46,6 +46,28 @@ class ReferenceSurroundings {
   std::vector<size_t> body_;                     ///< [slots]
   std::vector<uint32_t> collidable_;             ///< collidableNodes()
   std::vector<std::vector<Triangle>> around_;    ///< [slots] triangles with the node
+};
+
+/// Normals of contacts: each that of the sheet which one of the two nodes lies on.
+class ContactNormals {
+ public:
+  /// @param before_m, now_m  displacements; of the first the directions are, of the second the depths
+  ContactNormals(const ReferenceLattice& lattice, const std::vector<ReferenceSurroundings::Pair>& pairs,
+                 const Field& before_m, const Field& now_m);
+  Vector3d of(const ReferenceSurroundings::Pair& pair) const;  ///< from b to a
+  int contacts(uint32_t slot) const { return touched_[slot].contacts; }
+
+ private:
+  /// Of a node with contacts: the sum of the directions to it, weighted by their depth, and how many there are.
+  struct Touched {
+    Vector3d direction = Vector3d::Zero();
+    int contacts = 0;
+  };
+  Vector3d direction(uint32_t a, uint32_t b) const;
+
+  const ReferenceLattice& lattice_;
+  const Field &before_m_, &now_m_;
+  std::vector<Touched> touched_;  ///< [slots]
 };
 
 }  // namespace viscera

@@ -1,0 +1,21 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Where a node with contacts goes in a sweep: the step of its majoriser under what pulls it and under the forces of these contacts,
+// outside of what else it touches. After implicit_pull.glsl, implicit_pairs.glsl and, where there are probes or obstacles,
+// implicit_contact.glsl.
+vec3 placeOf(uint slot, BodyParams body, vec4 pulled, vec3 u, vec3 du) {
+  float most = longestStep(body, 0u);
+  vec3 force = xyz(pulled) + xyz(node_pairs[3u * slot + 2u]);
+  vec3 change = notTooFar(force / pulled.w, most);
+#ifdef CONTACT
+  findContacts(slot, u, du + change);
+  if (contactCount(slot) != 0u) change = notTooFar(stepInContact(slot, pulled.w, mat3(0.0f), du, force, true), most);
+#endif
+  return du + change;
+}
+
+void place(uint slot, BodyParams body, vec4 pulled, vec3 u, vec3 du) {
+  float pressing = max(1.0f, node_pairs[3u * slot + 2u].w);
+  node_pairs[3u * slot + 1u] = vec4(placeOf(slot, body, pulled, u, du), pressing);
+}

@@ -1,0 +1,37 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// implicit_pull.comp - what pulls nodes that may touch others, and where that and the last forces of their contacts would bring them.
+// Owner: solver/gpu/node_pairs.h   physics.md 2
+// in  displacement, velocity, increments [slots], cell forces of this iterate     out  pairs (implicit_pairs.glsl)
+// Features: CONTACT, TOOLS, OBSTACLES
+#include "layout.h"
+#include "lattice.glsl"
+#include "elastic.glsl"
+#include "step.glsl"
+#include "implicit.glsl"
+#include "implicit_pull.glsl"
+#include "implicit_pairs.glsl"
+#ifdef CONTACT
+#include "implicit_contact.glsl"
+#endif
+#include "implicit_place.glsl"
+
+#ifndef __cplusplus
+uniform uint first_sweep;  // 1: contacts have no forces yet
+#endif
+
+void main() {
+  uint i = globalIndex();
+  if (i >= active_count) return;
+  uint slot = active_nodes[i];
+  vec4 now = texelFetch(increment, int(slot));
+  if (!isInPairs(now)) return;
+  NodeBits bits = nodes[slot];
+  BodyParams body = bodies[bodyOf(bits)];
+  vec3 u = xyz(texelFetch(displacement, int(slot))), du = xyz(now);
+  vec4 pulled = pull(slot, bits, body, u, du);
+  node_pairs[3u * slot] = pulled;
+  if (first_sweep != 0u) node_pairs[3u * slot + 2u] = vec4(0.0f, 0.0f, 0.0f, node_pairs[3u * slot + 1u].w);
+  place(slot, body, pulled, u, du);
+}

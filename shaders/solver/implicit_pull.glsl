@@ -1,0 +1,35 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// What pulls a node in an iterate of implicit Euler, as a Jacobi sweep in majorise-minimise form sees it. After implicit.glsl.
+/// The force on a node less its inertia [N]; w the majoriser of all that pulls it [N/m].
+vec4 pull(uint slot, NodeBits bits, BodyParams body, vec3 u, vec3 du) {
+  float inertia_n_per_m = inertia(nodeMass(slot, bits, body), body);
+  vec4 sum = vec4(inertia_n_per_m * (freeIncrement(slot, body) - du), inertia_n_per_m);
+#define VISIT_LINK                                                            \
+  ImplicitSpring s = implicitSpring(n, u, du, d, l0, prestrain, k, body);     \
+  sum += vec4(s.force, k + s.damping);
+  FOR_EACH_LINK
+#undef VISIT_LINK
+#ifdef VOLUME
+  sum += volumeForce(slot);
+#endif
+  return sum;
+}
+
+/// How far a node may go in a sweep [m]: where there are volumes, their majoriser reckons with steps this long.
+float longestStep(BodyParams body, uint iteration) {
+#ifdef VOLUME
+  return reach(body.origin_spacing.w, iteration);
+#else
+  return 1e30f;
+#endif
+}
+
+vec3 notTooFar(vec3 change, float most) {
+#ifdef VOLUME
+  return change * min(1.0f, most / max(length(change), 1e-30f));
+#else
+  return change;
+#endif
+}
