@@ -1,5 +1,8 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+
+#include "hwy/cache_control.h"
 #include "solver/cpu/kernels.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -38,13 +41,27 @@ struct CellBrick {
   const CellJob& job;
   const CellBody& body;
   const CellTiles& tiles;
-  uint32_t b;
+  uint32_t b, next;  ///< next: the one after it
 };
+
+/// Has what a plane of cells needs fetched: the processor does not look that far ahead by itself, as much is done with
+/// few numbers.
+HWY_INLINE void prefetchPlane(const CellJob& job, uint32_t b, int plane) {
+  const size_t in_plane = static_cast<size_t>(16 * plane);
+  for (size_t c = 0; c < 3; ++c) hwy::Prefetch(job.arrays.displacement + size_t{b} * 192 + c * 64 + in_plane);
+  if ((~uint32_t{job.idle_rows[b]} >> (4 * plane) & 15) == 0) return;
+  const uint32_t cell = static_cast<uint32_t>(16 * plane), slot = b * 64 + cell;
+  hwy::Prefetch(job.rigidity + slot);
+  if (job.volumes) hwy::Prefetch(job.bulk + slot);
+  for (uint32_t s = 0; s < kCellSprings && !job.uniform[b]; ++s) hwy::Prefetch(job.springs + cellSpringAt(slot, s));
+  if ((job.partial_rows[b] >> (4 * plane) & 15) == 0) return;
+  for (uint32_t m = 0; m < kMomentNumbers; ++m) hwy::Prefetch(job.moments[b] + cellNumberAt(cell, m, kMomentNumbers));
+}
 
 /// Springs of a vector of cells, see addSprings(). @param cell  index of the first in the brick
 template <bool kUniform, bool kAny, bool kDashpot>
 HWY_NOINLINE bool springsOf(const CellBrick& of, int cell, const Corners& below, Corners& low, Corners& high) {
-  const float* k = of.job.springs + cellSpringAt(of.b * 64, 0) + cell;
+  const float* k = of.job.springs + cellSpringAt(of.b * 64 + static_cast<uint32_t>(cell), 0);
   const int at = (cell >> 4) * kUpPlane + (cell & 15);
   return addSprings<kUniform, kAny, kDashpot>(of.body.springs, k, of.tiles, at, below, low, high);
 }
@@ -85,7 +102,7 @@ HWY_NOINLINE void cellForces(const CellBrick& of, int cell, V rigidity, V bulk, 
     out.db = p * shape.ca;
     out.dc = p * shape.ab;
   }
-  const Moments moments = kFull ? Moments{zero3(), zero3(), zero3()} : loadMoments(of.job.moments[of.b] + cell);
+  const Moments moments = kFull ? Moments{zero3(), zero3(), zero3()} : loadMoments(of.job.moments[of.b], cell);
   cellPull<kFull>(q, moments, rigidity, *stress, scale);
   if (of.job.volumes) {
     q.da = q.da + out.da;
@@ -130,6 +147,7 @@ HWY_INLINE void stepColumn(const CellBrick& of, int i, const Corners& none, cons
   int known = -1;  // last plane whose face is
   for (int z = 0; z < 4; ++z) {
     const int cell = 16 * z + i, at = z * kUpPlane + i;
+    if (i == 0) prefetchPlane(job, of.next, z);
     column.springs_at[z] = below;
     column.cells_at[z + 1] = &nothing;
     if (noRows(~uint32_t{job.idle_rows[of.b]}, cell)) {
@@ -172,14 +190,14 @@ HWY_INLINE void sumBrick(const CellBrick& of) {
 void cellsOf(const CellJob& job, const uint32_t* bricks, size_t count) {
   CellTiles tiles;
   for (size_t n = 0; n < count; ++n) {
-    const uint32_t b = bricks[n];
+    const uint32_t b = bricks[n], next = bricks[std::min(n + 1, count - 1)];
     const CellBody body = cellBodyOf(job.arrays.bodies[job.arrays.bricks[b].body]);
     fillUp(job.arrays, job.arrays.displacement, b, tiles.u);
     if (job.dashpot) {
       fillUp(job.arrays, job.arrays.velocity, b, tiles.v);
-      sumBrick<true>({job, body, tiles, b});
+      sumBrick<true>({job, body, tiles, b, next});
     } else {
-      sumBrick<false>({job, body, tiles, b});
+      sumBrick<false>({job, body, tiles, b, next});
     }
   }
 }

@@ -95,7 +95,7 @@ HWY_INLINE void addBetween(const Material& m, const float* k, SpringEnd<kDashpot
 }
 
 /// Springs of a vector of cells, nine each: those of kCellSprings (kernels.h).
-/// @param at  place of the first cell in the tiles   @param k  stiffness of the first spring; the next is 64 farther
+/// @param at  place of the first cell in the tiles   @param k  stiffness of the first spring; the next is 16 farther
 /// @param below  what corners get already   @param low  that, with what they get of these   @param high  what corners
 /// above get of these   @return all springs are mild, see kMild
 template <bool kUniform, bool kAny, bool kDashpot>
@@ -105,25 +105,25 @@ HWY_INLINE bool addSprings(const Material& m, const float* k, const CellTiles& t
   using End = SpringEnd<kDashpot>;
   V largest = hn::Zero(Tag());
   End n00 = End::template at<0>(tiles, at, below.n00), n11 = End::template at<1>(tiles, at + 4, below.n11);
-  addBetween<1, 1, 0, kUniform, kAny>(m, k + 3 * 64, n00, n11, largest);
+  addBetween<1, 1, 0, kUniform, kAny>(m, k + 3 * 16, n00, n11, largest);
   low.n11 = n11.force;
   End n10 = End::template at<1>(tiles, at, below.n10);
   addBetween<1, 0, 0, kUniform, kAny>(m, k, n00, n10, largest);
   End n01 = End::template at<0>(tiles, at + 4, below.n01);
-  addBetween<0, 1, 0, kUniform, kAny>(m, k + 64, n00, n01, largest);
-  addBetween<1, -1, 0, kUniform, kAny>(m, k + 4 * 64, n01, n10, largest);
+  addBetween<0, 1, 0, kUniform, kAny>(m, k + 16, n00, n01, largest);
+  addBetween<1, -1, 0, kUniform, kAny>(m, k + 4 * 16, n01, n10, largest);
   End up00 = End::template at<0>(tiles, at + kUpPlane, zero3());
-  addBetween<1, 0, -1, kUniform, kAny>(m, k + 6 * 64, up00, n10, largest);
+  addBetween<1, 0, -1, kUniform, kAny>(m, k + 6 * 16, up00, n10, largest);
   low.n10 = n10.force;
-  addBetween<0, 1, -1, kUniform, kAny>(m, k + 8 * 64, up00, n01, largest);
+  addBetween<0, 1, -1, kUniform, kAny>(m, k + 8 * 16, up00, n01, largest);
   low.n01 = n01.force;
-  addBetween<0, 0, 1, kUniform, kAny>(m, k + 2 * 64, n00, up00, largest);
+  addBetween<0, 0, 1, kUniform, kAny>(m, k + 2 * 16, n00, up00, largest);
   high.n00 = up00.force;
   End up10 = End::template at<1>(tiles, at + kUpPlane, zero3());
-  addBetween<1, 0, 1, kUniform, kAny>(m, k + 5 * 64, n00, up10, largest);
+  addBetween<1, 0, 1, kUniform, kAny>(m, k + 5 * 16, n00, up10, largest);
   high.n10 = up10.force;
   End up01 = End::template at<0>(tiles, at + kUpPlane + 4, zero3());
-  addBetween<0, 1, 1, kUniform, kAny>(m, k + 7 * 64, n00, up01, largest);
+  addBetween<0, 1, 1, kUniform, kAny>(m, k + 7 * 16, n00, up01, largest);
   high.n01 = up01.force;
   low.n00 = n00.force;
   high.n11 = zero3();

@@ -130,7 +130,7 @@ void CpuStrengths::setCellSpring(const CpuStore& store, uint32_t slot, uint32_t 
 
 /// Makes brick_moments and partial_rows.
 void CpuStrengths::spreadMoments(const CpuStore& store) {
-  constexpr size_t kNumbers = 9, kBrick = kNumbers * layout::kBrickSlots;
+  constexpr size_t kBrick = simd::kMomentNumbers * layout::kBrickSlots;
   std::vector<uint32_t> partial;
   for (uint32_t b = 0; b < store.brickCount(); ++b) {
     const uint32_t* first = &moments.of_cell[size_t{b} * layout::kBrickSlots];
@@ -151,7 +151,8 @@ void CpuStrengths::spreadMoments(const CpuStore& store) {
       for (size_t v = 0; v < kVectorsPerFill; ++v) {
         const float numbers[3] = {m[v].x, m[v].y, m[v].z};
         for (size_t c = 0; c < 3; ++c)
-          planes[(3 * v + c) * layout::kBrickSlots + local] = v == 0 ? twice_h * numbers[c] : numbers[c];
+          planes[simd::cellNumberAt(static_cast<uint32_t>(local), static_cast<uint32_t>(3 * v + c),
+                                    simd::kMomentNumbers)] = v == 0 ? twice_h * numbers[c] : numbers[c];
       }
     }
   }

@@ -56,10 +56,15 @@ using BrickLeapfrog = void (*)(const LeapfrogJob& job, const uint32_t* bricks, s
 // Where nodes have cells by moments, each spring is evaluated once, by the cell that owns it: from the cell's lowest
 // corner the edges along x, y and z, then the two diagonals of its lowest face across z, across y and across x.
 constexpr uint32_t kCellSprings = 9;
+// Numbers of cells, several of each, lie plane by plane of 4x4 cells, and number by number within a plane.
+constexpr size_t cellNumberAt(uint32_t slot, uint32_t number, uint32_t numbers) {
+  return size_t{slot >> 4} * (16 * numbers) + size_t{number} * 16 + (slot & 15);
+}
 /// Index of a spring of the cell above a slot.
 constexpr size_t cellSpringAt(uint32_t slot, uint32_t spring) {
-  return size_t{slot >> 6} * (64 * kCellSprings) + size_t{spring} * 64 + (slot & 63);
+  return cellNumberAt(slot, spring, kCellSprings);
 }
+constexpr uint32_t kMomentNumbers = 9;  ///< first, square, mixed (moments.glsl)
 
 // Forces of a brick's 64 cells on their corners, summed by node, plane by plane of nodes (the fifth is that above the
 // brick): on the nodes of its own rows, of the row behind them, then of each row's right neighbour and of the corner

@@ -70,7 +70,8 @@ V momentEnergyOf(const CellJob& job, const layout::BodyParams& body, size_t slot
   const float* moments = job.moments[slot / 64];
   if (moments == nullptr)
     return cellPull<true>(q, Moments{zero3(), zero3(), zero3()}, rigidity, planeStress<true>(ratio), scale);
-  return cellPull<false>(q, loadMoments(moments + slot % 64), rigidity, planeStress<false>(ratio), scale);
+  return cellPull<false>(q, loadMoments(moments, static_cast<int>(slot % 64)), rigidity, planeStress<false>(ratio),
+                         scale);
 }
 
 HWY_INLINE M hasBits(const layout::NodeBits* nodes, uint32_t bits, uint32_t wanted) {

@@ -126,9 +126,12 @@ HWY_INLINE Vec3 edgePull(const CellEdge& e, V per_4h, const Vec3& by_direction) 
 struct Moments {
   Vec3 first, square, mixed;
 };
-/// @param planes  of their brick, at the first cell of the vector
-HWY_INLINE Moments loadMoments(const float* planes) {
-  return {loadPlanes(planes), loadPlanes(planes + 192), loadPlanes(planes + 384)};
+/// @param numbers  of their brick   @param cell  index of the vector's first cell in it
+HWY_INLINE Moments loadMoments(const float* numbers, int cell) {
+  const float* at = numbers + cellNumberAt(static_cast<uint32_t>(cell), 0, kMomentNumbers);
+  return {{load(at), load(at + 16), load(at + 32)},
+          {load(at + 48), load(at + 64), load(at + 80)},
+          {load(at + 96), load(at + 112), load(at + 128)}};
 }
 
 HWY_INLINE Vec3 weighted(V x, const Vec3& a, V y, const Vec3& b, V z, const Vec3& c) {
