@@ -8,6 +8,7 @@
 #include "layout/edge_forces.h"
 #include "layout/moments.h"
 #include "layout/network_skin.h"
+#include "layout/surface_ways.h"
 #include "layout/wind.h"
 #include "viscera/layout/limits.h"
 #include "viscera/layout/links.h"

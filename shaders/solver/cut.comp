@@ -21,16 +21,11 @@ layout(std430, binding = kBindStats) buffer StatsBuffer { TickStats stats; };
 uniform uint active_count;
 uniform uint stylus;
 #endif
-
-/// Position relative to the blade's first tip [m].
-vec3 seenFromBlade(uint slot, ToolMotion m) {
-  precise vec3 x = (restPosition(slot) - xyz(m.from)) + xyz(displacement[slot]);
-  return x;
-}
+#include "surface_point.glsl"
 
 /// The near end has been found not to be far; the far end must not be either, or the two ends would disagree.
-bool severs(uint slot, vec3 x, uint other, ToolMotion m, vec4 sphere) {
-  vec3 y = seenFromBlade(other, m);
+bool severs(uint slot, vec3 x, uint other, ToolMotion m, vec4 sphere, float h) {
+  vec3 y = seenFromBlade(other, m, h);
   if (farFromBlade(y, sphere)) return false;
 #ifdef PARTICLES
   return erased(x, m) || erased(y, m);
@@ -45,18 +40,19 @@ void main() {
   uint slot = active_nodes[i];
   NodeBits bits = nodes[slot];
   ToolMotion m = tool_motions[stylus];
-  vec3 x = seenFromBlade(slot, m);
 #ifdef NETWORK
   if (bodies[bodyOf(bits)].connections != kImplicit) return;  // cut_links.comp has them
 #endif
-  vec4 sphere = bladeSphere(m, bodies[bodyOf(bits)].origin_spacing.w);
+  float h = bodies[bodyOf(bits)].origin_spacing.w;
+  vec3 x = seenFromBlade(slot, m, h);
+  vec4 sphere = bladeSphere(m, h);
   if (isIsolated(bits) || farFromBlade(x, sphere)) return;
   NodeBits whole = bits;
   uint cut = 0u;
 #define CUT_SPRING(spring, offset)                              \
   if (springCount(whole, spring) != 0u) {                       \
     uint n = neighborSlot(slot, offset);                        \
-    if (severs(slot, x, n, m, sphere)) {                        \
+    if (severs(slot, x, n, m, sphere, h)) {                     \
       bits = withoutSpring(bits, spring);                       \
       cut += slot < n ? 1u : 0u;                                \
     }                                                           \

@@ -22,12 +22,7 @@ layout(std430, binding = kBindStats) buffer StatsBuffer { TickStats stats; };
 uniform uint spring_count;
 uniform uint stylus;
 #endif
-
-/// Position relative to the blade's first tip [m].
-vec3 seenFromBlade(uint slot, ToolMotion m) {
-  precise vec3 x = (restPosition(slot) - xyz(m.from)) + xyz(displacement[slot]);
-  return x;
-}
+#include "surface_point.glsl"
 
 const float kOverlap = 1e-3f;  // of a sweep: it begins that much before the end of the last one, whatever is rounded
 
@@ -62,7 +57,8 @@ void main() {
   if (i >= spring_count || spring_cut[i] != 0.0f) return;
   SpringEnds ends = springs[i];
   ToolMotion m = tool_motions[stylus];
-  vec3 x = seenFromBlade(ends.a, m), y = seenFromBlade(ends.b, m);
+  float h = bodies[bodyOf(nodes[ends.a])].origin_spacing.w;
+  vec3 x = seenFromBlade(ends.a, m, h), y = seenFromBlade(ends.b, m, h);
 #ifdef PARTICLES
   float share = erased(x, m) || erased(y, m) ? kErasedShare : 0.0f;
 #else

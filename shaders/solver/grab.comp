@@ -26,13 +26,19 @@ layout(std430, binding = kBindStats) readonly buffer StatsBuffer { TickStats sta
 #endif
 #endif
 
+#ifndef RELEASE
+#include "surface_point.glsl"
+
+/// A node is held where its tissue is within reach.
 void takeHold(uint slot, NodeBits bits) {
   if ((bits.lo & (kFixedBit | kGrabMask)) != 0u || isIsolated(bits)) return;
   vec3 offset = restPosition(slot) + xyz(displacement[slot]) - xyz(tip);
-  if (dot(offset, offset) > tip.w * tip.w) return;
+  vec3 reach = offset + toTissue(slot, bodies[bodyOf(bits)].origin_spacing.w);
+  if (dot(reach, reach) > tip.w * tip.w) return;
   grab_offsets[slot] = vec4(rotated(conjugate(orientation), offset), 0.0f);
   nodes[slot].lo = bits.lo | ((stylus + 1u) << kGrabShift);
 }
+#endif
 
 void letGo(uint slot, NodeBits bits) {
   if ((bits.lo & kGrabMask) >> kGrabShift != stylus + 1u) return;

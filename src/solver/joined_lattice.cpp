@@ -3,6 +3,9 @@
 #include "solver/joined_lattice.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "layout/surface_ways.h"
 
 namespace viscera {
 
@@ -83,6 +86,41 @@ std::vector<float> surfaceDepths(const Model& model) {
     for (const uint32_t slot : lattice.active_slots) {
       if (lattice.depth_m[slot] < 0.5 * lattice.spacing_m) out[model.slotOffset(b) + slot] = lattice.depth_m[slot];
     }
+  }
+  return out;
+}
+
+namespace {
+
+/// A word of surface_ways.h.
+uint32_t packedWay(const Lattice& lattice, uint32_t slot) {
+  const Vector3d cells = lattice.way_to_surface_m[slot].cast<double>() / lattice.spacing_m;
+  uint32_t word = 0;
+  bool any = false;
+  for (int axis = 0; axis < 3; ++axis) {
+    const long steps =
+        std::clamp(std::lround(cells[axis] / layout::kWayStep), 1l - layout::kWayZero, layout::kWayZero - 1l);
+    word |= static_cast<uint32_t>(steps + layout::kWayZero) << (layout::kWayBits * static_cast<uint32_t>(axis));
+    if (steps == 0) continue;
+    any = true;
+    Vector3i beside = lattice.nodeAt(slot);
+    beside[axis] += steps > 0 ? 1 : -1;
+    if (lattice.slotAt(beside) >= 0) word |= layout::kWayEdgeBit << static_cast<uint32_t>(axis);
+  }
+  return any ? word : 0;
+}
+
+}  // namespace
+
+std::vector<uint32_t> surfaceWays(const Model& model) {
+  const bool any = std::any_of(model.bodies.begin(), model.bodies.end(),
+                               [](const Body& body) { return !body.lattice.way_to_surface_m.empty(); });
+  if (!any) return {};
+  std::vector<uint32_t> out(model.slots(), 0);
+  for (size_t b = 0; b < model.bodies.size(); ++b) {
+    const Lattice& lattice = model.bodies[b].lattice;
+    if (lattice.way_to_surface_m.empty()) continue;
+    for (const uint32_t slot : lattice.active_slots) out[model.slotOffset(b) + slot] = packedWay(lattice, slot);
   }
   return out;
 }

@@ -107,8 +107,11 @@ void addCell(const Solid& solid, const Vector3i& cell, const CellFill* fill, Lat
 void setDepths(const Solid& solid, Lattice& lattice) {
   const auto deepest = static_cast<float>(lattice.spacing_m);
   lattice.depth_m.assign(lattice.nodes.size(), deepest);
+  lattice.way_to_surface_m.assign(lattice.nodes.size(), Eigen::Vector3f::Zero());
   for (const NodeDepth& n : solid.depths) {
-    lattice.depth_m[static_cast<size_t>(storedAt(lattice, n.node))] = std::min(n.depth_m, deepest);
+    const auto slot = static_cast<size_t>(storedAt(lattice, n.node));
+    lattice.depth_m[slot] = std::min(n.depth_m, deepest);
+    lattice.way_to_surface_m[slot] = n.way_m;
   }
 }
 

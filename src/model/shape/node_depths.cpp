@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace viscera {
 namespace {
@@ -26,27 +25,29 @@ std::vector<NodeDepth> nodesAtSurface(const Solid& solid) {
           ++labelled;
           full += is_full[solid.index(cell.x(), cell.y(), cell.z())] ? 1 : 0;
         }
-        if (labelled > 0 && full < 8) nodes.push_back({{x, y, z}, 0});
+        if (labelled > 0 && full < 8) nodes.push_back({{x, y, z}, 0, Eigen::Vector3f::Zero()});
       }
     }
   }
   return nodes;
 }
 
-double squaredDistance(const Vector3d& p, const std::array<Vector3d, 3>& t) {
+/// From p to the nearest point of a triangle.
+Vector3d wayTo(const std::array<Vector3d, 3>& t, const Vector3d& p) {
   const Vector3d normal = (t[1] - t[0]).cross(t[2] - t[0]);
   bool above = normal.squaredNorm() > 0;
   for (int e = 0; e < 3 && above; ++e) {
     const Vector3d &a = t[e], &b = t[(e + 1) % 3];
     above = normal.cross(b - a).dot(p - a) >= 0;
   }
-  if (above) return std::pow((p - t[0]).dot(normal), 2) / normal.squaredNorm();
-  double least = std::numeric_limits<double>::infinity();
+  if (above) return (t[0] - p).dot(normal) / normal.squaredNorm() * normal;
+  Vector3d least = t[0] - p;
   for (int e = 0; e < 3; ++e) {
     const Vector3d &a = t[e], edge = t[(e + 1) % 3] - a;
     const double length2 = edge.squaredNorm();
     const double at = length2 > 0 ? std::clamp((p - a).dot(edge) / length2, 0.0, 1.0) : 0;
-    least = std::min(least, (p - a - at * edge).squaredNorm());
+    const Vector3d way = a + at * edge - p;
+    if (way.squaredNorm() < least.squaredNorm()) least = way;
   }
   return least;
 }
@@ -58,7 +59,7 @@ class NodeDistances {
       : solid_(solid),
         per_axis_(solid.cells.array() + 1),
         index_(static_cast<size_t>(per_axis_.cast<int64_t>().prod()), 0),
-        squared(nodes.size(), kReach * kReach),
+        ways(nodes.size(), Vector3d(kReach, 0, 0)),
         is_inside(nodes.size(), false) {
     for (size_t i = 0; i < nodes.size(); ++i) index_[flat(nodes[i].node)] = static_cast<uint32_t>(i + 1);
   }
@@ -103,10 +104,11 @@ class NodeDistances {
         for (int x = low.x(); x <= high.x(); ++x) {
           const uint32_t known = index_[flat({x, y, z})];
           if (known == 0) continue;
-          double& best = squared[known - 1];
+          Vector3d& best = ways[known - 1];
           const Vector3d p(x, y, z);
-          if (std::pow((p - t[0]).dot(normal), 2) >= best * length2) continue;  // its plane is too far
-          best = std::min(best, squaredDistance(p, t));
+          if (std::pow((p - t[0]).dot(normal), 2) >= best.squaredNorm() * length2) continue;  // its plane is too far
+          const Vector3d way = wayTo(t, p);
+          if (way.squaredNorm() < best.squaredNorm()) best = way;
         }
       }
     }
@@ -117,9 +119,20 @@ class NodeDistances {
   std::vector<uint32_t> index_;  ///< [nodes of the grid] 0, or 1 + index into nodes
 
  public:
-  std::vector<double> squared;
+  std::vector<Vector3d> ways;  ///< to the nearest triangle
   std::vector<bool> is_inside;
 };
+
+/// Unit vector along which the distance grows most; 0 where it grows along none.
+Vector3d outwards(const DistanceField& field, const Vector3d& place_m, double spacing_m) {
+  const double step_m = 1e-3 * spacing_m;
+  Vector3d out;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vector3d step = step_m * Vector3d::Unit(axis);
+    out[axis] = field(place_m + step).distance_m - field(place_m - step).distance_m;
+  }
+  return out.norm() > 0 ? Vector3d(out.normalized()) : out;
+}
 
 }  // namespace
 
@@ -128,8 +141,9 @@ void measureDepths(const std::vector<Volume>& volumes, Solid& solid) {
   NodeDistances distances(solid, solid.depths);
   for (const Volume& volume : volumes) distances.meet(volume.shell);
   for (size_t i = 0; i < solid.depths.size(); ++i) {
-    const double depth = distances.is_inside[i] ? 1 : -1;
-    solid.depths[i].depth_m = static_cast<float>(depth * std::sqrt(distances.squared[i]) * solid.spacing_m);
+    const Vector3d way_m = solid.spacing_m * distances.ways[i];
+    solid.depths[i].depth_m = static_cast<float>(distances.is_inside[i] ? way_m.norm() : -way_m.norm());
+    if (!distances.is_inside[i]) solid.depths[i].way_m = way_m.cast<float>();
   }
 }
 
@@ -137,7 +151,9 @@ void measureDepths(const DistanceField& field, Solid& solid) {
   solid.depths = nodesAtSurface(solid);
   for (NodeDepth& n : solid.depths) {
     const Vector3d place_m = solid.origin_m + solid.spacing_m * n.node.cast<double>();
-    n.depth_m = static_cast<float>(-field(place_m).distance_m);
+    const double distance_m = field(place_m).distance_m;
+    n.depth_m = static_cast<float>(-distance_m);
+    if (distance_m > 0) n.way_m = (-distance_m * outwards(field, place_m, solid.spacing_m)).cast<float>();
   }
 }
 

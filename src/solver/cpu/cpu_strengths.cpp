@@ -47,6 +47,7 @@ CpuStrengths::CpuStrengths(const Model& model, const CpuStore& store, const Feat
     : stiffness(store.slotCount() * kSpringPairs),
       mass(store.slotCount(), 1),
       surface_depth(surfaceDepths(model)),
+      surface_ways(surfaceWays(model)),
       mobility(store.slotCount()),
       both_ends(store.slotCount() * layout::kSpringsPerNode),
       uniform(store.brickCount()),

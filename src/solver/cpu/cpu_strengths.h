@@ -25,11 +25,12 @@ struct CpuStrengths {
     return bulk.empty() ? 0 : rigidity.empty() ? layout::kVolumeVectors : layout::kMomentVectors;
   }
 
-  AlignedVector<float> stiffness;    ///< [9 * slots] N/m of even springs (stiffnessAt); 0 cut or absent
-  AlignedVector<float> mass;         ///< [slots] kg; 1 where no node is
-  std::vector<float> surface_depth;  ///< [slots] m, surfaceDepths(); empty where there are none
-  AlignedVector<float> mobility;     ///< [slots] 1/kg of nodes that take part in a substep, held ones too; 0: absent,
-                                     ///< fixed, alone
+  AlignedVector<float> stiffness;      ///< [9 * slots] N/m of even springs (stiffnessAt); 0 cut or absent
+  AlignedVector<float> mass;           ///< [slots] kg; 1 where no node is
+  std::vector<float> surface_depth;    ///< [slots] m, surfaceDepths(); empty where there are none
+  std::vector<uint32_t> surface_ways;  ///< [slots] surfaceWays(); empty where there are none
+  AlignedVector<float> mobility;       ///< [slots] 1/kg of nodes that take part in a substep, held ones too; 0: absent,
+                                       ///< fixed, alone
   AlignedVector<float> bulk;         ///< [slots] J of the cell above the node; 0 torn or absent; empty without volumes
   AlignedVector<float> both_ends;    ///< [18 * slots] N/m of all springs, from either end, spring s of slot i at
                                      ///< (i / 64) * 1152 + s * 64 + i % 64

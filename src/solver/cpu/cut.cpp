@@ -102,6 +102,15 @@ void forEachPlace(const Places& p, Visit visit) {
 /// hand, so this is far beyond.
 constexpr float kMargin = 1e-4f;
 
+/// Tissue of a node outside is that many cells away at most: a cell's diagonal, and as much again where its edges are
+/// stretched or turned (shaders/solver/surface_point.glsl).
+constexpr float kFarthestTissue = 3.5f;
+
+/// How far from a node the cut looks for it [m].
+float tissueReach(const CpuLattice& lattice, float h) {
+  return lattice.strengths.surface_ways.empty() ? 0 : kFarthestTissue * h;
+}
+
 /// A box around the swept blade, along the blade and its way. All vectors are from the blade's first tip [m].
 struct SweepBox {
   glsl::vec3 axes[3];
@@ -161,7 +170,8 @@ void CpuCut::findBricks(const CpuLattice& lattice, const layout::ToolMotion& mot
       sphere = glsl::Blade().bladeSphere(motion, places.h);
     float size = 0;
     for (int k = 0; k < 3; ++k) size += glsl::abs(places.first[k] -= sphere[k]);
-    const float radius = sphere.w + kMargin * (sphere.w + size), radius2 = radius * radius;
+    const float reach = sphere.w + tissueReach(lattice, places.h);
+    const float radius = reach + kMargin * (reach + size), radius2 = radius * radius;
     int near = 0;
     // Written so that what is not finite is looked at more closely.
     forEachPlace(places, [&](int, float x, float y, float z) { near |= !(x * x + y * y + z * z > radius2); });
@@ -173,7 +183,7 @@ void CpuCut::placeNodes(const CpuLattice& lattice, const layout::ToolMotion& mot
   for (uint32_t b : near_) {
     const Places places = placesOf(lattice, b, motion.from);
     const float size = glsl::Blade().bladeSphere(motion, places.h).w;
-    const SweepBox box = boxAround(motion, grown_m + kMargin * size);
+    const SweepBox box = boxAround(motion, grown_m + tissueReach(lattice, places.h) + kMargin * size);
     uint8_t* const out = &outside_[b * layout::kBrickSlots];
     forEachPlace(places, [&](int i, float x, float y, float z) { out[i] = sidesBeyond(box, x, y, z); });
     uint8_t common = 255;

@@ -91,6 +91,7 @@ struct Kernel {
         stiffness_(lattice.strengths.stiffness.data()),
         mass_(lattice.strengths.mass.data()),
         depth_(lattice.strengths.surface_depth.empty() ? nullptr : lattice.strengths.surface_depth.data()),
+        ways_(lattice.strengths.surface_ways.empty() ? nullptr : lattice.strengths.surface_ways.data()),
         bulk_(lattice.strengths.bulk.data()),
         rigidity_(lattice.strengths.rigidity.data()),
         moments_(&lattice.strengths.moments),
@@ -144,6 +145,7 @@ struct Kernel {
   const Link& linkAt(uint link) const { return links_[link]; }
   float nodeMass(uint slot, const NodeBits&, const BodyParams&) const { return mass_[slot]; }
   float surfaceDepth(uint slot) const { return depth_ ? depth_[slot] : 0; }
+  uint surfaceWay(uint slot) const { return ways_ ? ways_[slot] : 0; }
   float cellBulk(uint slot, const BodyParams&) const { return bulk_[slot]; }
   float cellRigidity(uint slot, const BodyParams&) const { return rigidity_ ? rigidity_[slot] : 0; }
   /// @tparam Moments  CellMoments of shaders/solver/moments.glsl, which is not known here
@@ -172,7 +174,9 @@ struct Kernel {
   layout::vec4* obstacle_impulses_;
   uint8_t* met_;
   const Brick* bricks_;
-  const float *stiffness_, *mass_, *depth_, *bulk_, *rigidity_;
+  const float *stiffness_, *mass_, *depth_;
+  const uint* ways_;
+  const float *bulk_, *rigidity_;
   const JoinedMoments* moments_;
   const layout::vec4* rest_;
   const uint* link_starts_;

@@ -75,6 +75,9 @@ void StrengthBuffers::writeMoments(const Model& model, const Strengths& table) {
   }
   cell_strengths = gpu::Buffer<layout::vec4>(cells, "cell strengths");
   cell_moments = gpu::Buffer<layout::vec4>(moments.vectors, "cell moments");
+  std::vector<uint32_t> ways = surfaceWays(model);
+  ways.resize(model.slots(), 0);
+  surface_ways = gpu::Buffer<uint32_t>(ways, "ways to the surface");
   bulk_texels_ = gpu::TexelView(cell_strengths.raw(), gpu::TexelFormat::kRgba32f);
   moment_texels_ = gpu::TexelView(cell_moments.raw(), gpu::TexelFormat::kRgba32f);
 }
@@ -84,7 +87,10 @@ void StrengthBuffers::bind() const {
     spring_texels_.bind(layout::kUnitSpringStiffness);
     bulk_texels_.bind(layout::kUnitCellBulk);
   }
-  if (cell_moments.size()) moment_texels_.bind(layout::kUnitCellMoments);
+  if (cell_moments.size()) {
+    moment_texels_.bind(layout::kUnitCellMoments);
+    surface_ways.bindStorage(layout::kBindSurfaceWays);
+  }
   if (node_mass.size()) mass_texels_.bind(layout::kUnitNodeMass);
 }
 

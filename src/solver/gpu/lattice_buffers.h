@@ -45,6 +45,7 @@ struct StrengthBuffers {
   gpu::Buffer<layout::vec4>
       cell_strengths;                      ///< [slots] x bulk, y rigidity [J], z which moments; features parts, moments
   gpu::Buffer<layout::vec4> cell_moments;  ///< JoinedMoments::vectors; features parts, moments
+  gpu::Buffer<uint32_t> surface_ways;      ///< [slots] surfaceWays(), or 0 everywhere; features parts, moments
 
  private:
   void writeMoments(const Model& model, const Strengths& table);

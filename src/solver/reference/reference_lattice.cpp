@@ -46,6 +46,7 @@ void ReferenceLattice::addBody(const Model& model, size_t b, double dt_safe_s) {
     active.push_back(first + slot);
     rest_m_[first + slot] = viscera::restPosition(body, slot);
     if (!has_valences_[b] && lattice.nodes[slot].lo & layout::kCellBit) addCell(body, b, slot);
+    if (!lattice.way_to_surface_m.empty()) addWay(lattice, first, slot);
   }
   if (body.network) {
     addLinks(*body.network, first);
@@ -84,6 +85,32 @@ void ReferenceLattice::addLinks(const SpringNetwork& network, uint32_t first) {
   for (size_t slot = 0; slot + 1 < links.starts.size(); ++slot) {
     starts_.push_back(static_cast<uint32_t>(base) + links.starts[slot + 1]);
   }
+}
+
+void ReferenceLattice::addWay(const Lattice& lattice, uint32_t first, uint32_t local) {
+  Way way{lattice.way_to_surface_m[local].cast<double>(), lattice.spacing_m, {-1, -1, -1}};
+  if (way.way_m.isZero()) return;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (way.way_m[axis] == 0) continue;
+    const Vector3i side = (way.way_m[axis] > 0 ? 1 : -1) * Vector3i::Unit(axis);
+    const int64_t other = lattice.slotAt(lattice.nodeAt(local) + side);
+    if (other >= 0) way.to[static_cast<size_t>(axis)] = first + other;
+  }
+  ways_[first + local] = way;
+}
+
+Vector3d ReferenceLattice::wayToSurface(const Field& u_m, uint32_t slot) const {
+  const auto known = ways_.find(slot);
+  if (known == ways_.end()) return Vector3d::Zero();
+  const Way& way = known->second;
+  Vector3d out = way.way_m;
+  for (int axis = 0; axis < 3; ++axis) {
+    const int64_t other = way.to[static_cast<size_t>(axis)];
+    if (other < 0) continue;
+    const Vector3d change = u_m[static_cast<size_t>(other)] - u_m[slot];
+    if (change.norm() < way.spacing_m) out += std::abs(way.way_m[axis]) / way.spacing_m * change;
+  }
+  return out;
 }
 
 void ReferenceLattice::addCell(const Body& body, size_t b, uint32_t local) {

@@ -4,6 +4,7 @@
 
 #include <Eigen/SparseCore>
 #include <array>
+#include <map>
 #include <vector>
 
 #include "solver/fields.h"
@@ -35,6 +36,9 @@ class ReferenceLattice {
   Vector3d restPosition(uint32_t slot) const { return rest_m_[slot]; }
   double mass(uint32_t slot) const;  ///< [kg]
   /// surfaceDepths() [m]: for it tools and obstacles are as much larger.
+  /// From a node outside of its tissue to the nearest point of the surface in a state, by the edges that lie that way
+  /// [m]; 0 of all others. @param u_m  [slots]
+  Vector3d wayToSurface(const Field& u_m, uint32_t slot) const;
   double surfaceDepth(uint32_t slot) const { return surface_depth_m_.empty() ? 0 : surface_depth_m_[slot]; }
   /// Places for springs at a node: 18 in an implicit lattice, else its links, cut ones too.
   uint32_t springsOf(uint32_t slot) const { return starts_[slot + 1] - starts_[slot]; }
@@ -107,6 +111,7 @@ class ReferenceLattice {
   void addLatticeSprings(const Lattice& lattice, uint32_t first);
   void addLinks(const SpringNetwork& network, uint32_t first);
   void addCell(const Body& body, size_t b, uint32_t local);
+  void addWay(const Lattice& lattice, uint32_t first, uint32_t local);
   const Neighbor& neighbor(uint32_t slot, uint32_t spring) const { return neighbors_[starts_[slot] + spring]; }
   Spring springAt(const Field& u_m, uint32_t slot, uint32_t spring) const;
   void loseSpring(uint32_t slot, uint32_t lattice_spring);
@@ -125,13 +130,19 @@ class ReferenceLattice {
   void addMoments(const Field& u_m, Curvature curvature, std::vector<Eigen::Triplet<double>>& out) const;
 
   std::vector<layout::BodyParams> params_;
-  std::vector<Strengths> strengths_;        ///< [bodies] empty where a body has one material; masses of networks
-  std::vector<uint32_t> first_;             ///< [bodies] slot offsets
-  std::vector<bool> has_valences_;          ///< [bodies] NodeBits hold valences, not the counts of a lattice
-  std::vector<uint32_t> starts_ = {0};      ///< [slots + 1] into neighbors_
-  std::vector<Neighbor> neighbors_;         ///< node by node
-  Field rest_m_;                            ///< [slots]
-  std::vector<float> surface_depth_m_;      ///< [slots] or none
+  std::vector<Strengths> strengths_;    ///< [bodies] empty where a body has one material; masses of networks
+  std::vector<uint32_t> first_;         ///< [bodies] slot offsets
+  std::vector<bool> has_valences_;      ///< [bodies] NodeBits hold valences, not the counts of a lattice
+  std::vector<uint32_t> starts_ = {0};  ///< [slots + 1] into neighbors_
+  std::vector<Neighbor> neighbors_;     ///< node by node
+  Field rest_m_;                        ///< [slots]
+  std::vector<float> surface_depth_m_;  ///< [slots] or none
+  struct Way {
+    Vector3d way_m;  ///< at rest
+    double spacing_m;
+    std::array<int64_t, 3> to;  ///< slots of the neighbours along the axes at that side; -1 none
+  };
+  std::map<uint32_t, Way> ways_;            ///< of nodes outside of their tissue, by slot
   std::vector<int> place_;                  ///< [slots] place in `active`, or -1
   std::vector<Cell> cells_;                 ///< [cells]
   std::vector<std::array<int, 8>> around_;  ///< [slots] cell of which the node is corner c, or -1

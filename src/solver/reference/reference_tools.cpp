@@ -96,7 +96,7 @@ void ReferenceSolver::takeHold(uint32_t stylus, const Pose& pose, double radius_
   for (uint32_t slot : active) {
     if (isFixed(nodes[slot]) || heldBy(slot) != 0 || isIsolated(slot)) continue;
     const Vector3d offset = restPosition(slot) + u_m[slot] - pose.position_m;
-    if (offset.norm() > radius_m) continue;
+    if ((offset + wayToSurface(u_m, slot)).norm() > radius_m) continue;
     grab_offsets_[slot] = pose.orientation.conjugate() * offset;
     nodes[slot].lo |= (stylus + 1) << layout::kGrabShift;
   }
@@ -115,7 +115,9 @@ void ReferenceSolver::letGo(uint32_t stylus, const Release& release) {
 void ReferenceSolver::cut(uint32_t stylus, bool particles) {
   const layout::ToolMotion& m = motions_[stylus];
   const Vector3d a = xyz(m.from), b = xyz(m.blade_from), c = xyz(m.blade_to), d = xyz(m.to);
-  const auto position = [&](uint32_t slot) { return Vector3d(restPosition(slot) + u_m[slot]); };
+  const auto position = [&](uint32_t slot) {
+    return Vector3d(restPosition(slot) + u_m[slot] + wayToSurface(u_m, slot));  // of the node's tissue
+  };
   const auto erased = [&](const Vector3d& x) {
     return std::min(distanceToTriangle(x, a, b, c), distanceToTriangle(x, a, c, d)) <= m.blade_from.w;
   };

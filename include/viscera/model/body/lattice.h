@@ -30,6 +30,9 @@ struct Lattice {
   /// [64 * bricks] how deep a node lies below the true surface at rest [m], negative outside, at most spacing_m; empty
   /// where all cells are full. Exact for meshes and boxes, but too little where parts end within each other.
   std::vector<float> depth_m;
+  /// [64 * bricks] from a node outside of the true surface to the nearest point of it at rest [m], 0 of all others;
+  /// empty where all cells are full.
+  std::vector<Eigen::Vector3f> way_to_surface_m;
   std::vector<uint32_t> active_slots;  ///< [active] slots of nodes, ascending
   std::vector<std::string> part_names;
 

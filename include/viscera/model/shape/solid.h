@@ -38,6 +38,7 @@ struct PartialCell {
 struct NodeDepth {
   Vector3i node;  ///< node (i,j,k) is the lowest corner of cell (i,j,k)
   float depth_m;
+  Eigen::Vector3f way_m;  ///< to the nearest point of the surface, where the node lies outside; else 0
 };
 
 /// A solid as labelled cubic cells on a regular grid, x fastest. Cell (i,j,k) spans origin + h*[i,i+1] x ...
