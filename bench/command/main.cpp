@@ -33,6 +33,7 @@ void addSuites(CLI::App& bench, SuiteOptions& options, const bench::Suite*& chos
           ->add_option("--backend", options.backend,
                        "cpu, gpu or both: where every row is measured; both, the default, is cpu alone without EGL")
           ->check(CLI::IsMember({"cpu", "gpu", "both"}));
+      command->add_option("--only", options.suite.only, "one part of the suite; a wrong name lists them");
     }
     command->callback([&suite, &chosen] { chosen = &suite; });
   }

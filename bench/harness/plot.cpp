@@ -74,6 +74,7 @@ void Plot::writeScript(std::ostream& out, const std::string& png) const {
   out << "set terminal pngcairo noenhanced size " << kWidth_px << ',' << kHeight_px << "\nset output " << quoted(png)
       << "\nset title " << quoted(title) << "\nset xlabel " << quoted(x_label) << "\nset ylabel " << quoted(y_label)
       << "\nset grid\nset key outside right\n";
+  if (equal_axes) out << "set size ratio -1\n";
   if (log_x) out << "set logscale x\nset format x '%g'\n" << ticksOf(*this);
   if (log_y) out << "set logscale y\nset format y '%g'\n";
   std::string curves;

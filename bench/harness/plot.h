@@ -20,6 +20,7 @@ struct Plot {
   std::string title, x_label, y_label;
   bool log_x = false, log_y = false;
   std::vector<Series> series;
+  bool equal_axes = false;  ///< a unit is as long along y as along x
 
   /// Is there a point to draw?
   bool hasPoints() const;

@@ -86,4 +86,17 @@ int Report::missed() const {
   return static_cast<int>(std::count_if(checks_.begin(), checks_.end(), [](const Check& c) { return !c.ok; }));
 }
 
+void measureParts(Report& report, const std::vector<Part>& parts) {
+  std::string names;
+  bool found = report.only().empty();
+  for (const Part& part : parts) {
+    names += std::string(names.empty() ? "" : ", ") + part.name;
+    found = found || report.only() == part.name;
+  }
+  if (!found) throw Error("--only " + report.only() + ": suite " + report.suite() + " has the parts " + names);
+  for (const Part& part : parts) {
+    if (report.only().empty() || report.only() == part.name) part.measure(report);
+  }
+}
+
 }  // namespace viscera::bench

@@ -22,6 +22,7 @@ struct SuiteOptions {
   /// kCpu, kGpu: where the suites that judge results measure every row. One with the GPU needs a current context.
   std::vector<Backend> backends = {Backend::kCpu, Backend::kGpu};
   gpu::Context* context = nullptr;  ///< that one
+  std::string only;                 ///< the part to measure, of suites that have parts; empty: all
 };
 
 /// One number that must be reached.
@@ -40,6 +41,7 @@ class Report {
   Report(std::string suite, SuiteOptions options, std::ostream& text);
 
   bool isShort() const { return options_.short_form; }
+  const std::string& only() const { return options_.only; }
   const std::vector<Backend>& backends() const { return options_.backends; }
   gpu::Context* context() const { return options_.context; }  ///< null: no GPU backend
   const std::string& suite() const { return suite_; }
@@ -69,5 +71,13 @@ class Report {
   std::vector<Check> checks_;
   bool said_no_gnuplot_ = false;
 };
+
+/// A part of a suite, which may be measured alone.
+struct Part {
+  const char* name;
+  void (*measure)(Report& report);
+};
+/// Measures all parts, or the one that the report's options name. @throws Error  there is none of that name
+void measureParts(Report& report, const std::vector<Part>& parts);
 
 }  // namespace viscera::bench

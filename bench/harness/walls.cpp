@@ -49,8 +49,26 @@ class Grid {
     }
     return out;
   }
+  /// Displacement at a place in the wall's axes, in those [m]; not finite where no cell is. @param u_m  [slots]
+  Vector3d movedAt(const Lattice& lattice, const Field& u_m, const Vector3d& place_m) const {
+    const Vector3d at = placing_.turn * place_m / spacing_m_ + placing_.shift - low_.cast<double>();
+    const Vector3i cell = at.array().floor().cast<int>();
+    if (solid_.label(cell.x(), cell.y(), cell.z()) == 0) return Vector3d::Constant(std::nan(""));
+    Vector3d out = Vector3d::Zero();
+    for (int c = 0; c < 8; ++c) {
+      const Vector3i corner(c & 1, c >> 1 & 1, c >> 2 & 1);
+      out += weightOf(c, at - cell.cast<double>()) * u_m[static_cast<size_t>(lattice.slotAt(cell + corner))];
+    }
+    return placing_.turn.transpose() * out;
+  }
 
  private:
+  /// Of a corner at a place in its cell.
+  static double weightOf(int corner, const Vector3d& in_cell) {
+    double weight = 1;
+    for (int axis = 0; axis < 3; ++axis) weight *= (corner >> axis & 1) ? in_cell[axis] : 1 - in_cell[axis];
+    return weight;
+  }
   /// From a place in spacings from the corner of the cell to the wall's own axes [m].
   Vector3d own(const Vector3i& cell, const Vector3d& in_cell) const {
     return placing_.turn.transpose() * ((cell + low_).cast<double>() + in_cell - placing_.shift) * spacing_m_;
@@ -83,11 +101,7 @@ class Grid {
       out.fill.second += kShare * p * p.transpose();
       out.fill.second.diagonal().array() += kShare / (12.0 * kSamples * kSamples);
       const Vector3d force = kShare * std::pow(spacing_m_, 3) * (placing_.turn * wall_.load_n_per_m3(place));
-      for (int c = 0; c < 8; ++c) {
-        double weight = 1;
-        for (int axis = 0; axis < 3; ++axis) weight *= (c >> axis & 1) ? at[axis] : 1 - at[axis];
-        out.load_n[static_cast<size_t>(c)] += weight * force;
-      }
+      for (int c = 0; c < 8; ++c) out.load_n[static_cast<size_t>(c)] += weightOf(c, at) * force;
     }
     return out;
   }
@@ -178,7 +192,7 @@ Eigen::Matrix3d turned() {
 }
 
 BentWall bendWall(const Wall& wall, const Placing& placing, double spacing_m, Cells cells, double poisson_ratio,
-                  const std::vector<Backend>& backends) {
+                  const std::vector<Backend>& backends, const std::vector<Vector3d>& watched_m) {
   const Grid grid(wall, placing, spacing_m, cells);
   const Model model = modelOf(grid.solid(), cells, poisson_ratio);
   const ReferenceSolver solver(model, Vector3d::Zero(), 1);
@@ -193,6 +207,7 @@ BentWall bendWall(const Wall& wall, const Placing& placing, double spacing_m, Ce
     return out;  // hinges: a mechanism
   }
   out.excess = work(load, u) / wall.true_j(poisson_ratio) - 1;
+  for (const Vector3d& place_m : watched_m) out.moved_m.push_back(grid.movedAt(model.bodies[0].lattice, u, place_m));
   const double scale = kSmall * spacing_m / largestNorm(u);
   for (Vector3d& at : u) at *= scale;
   for (Backend backend : backends) {

@@ -34,12 +34,14 @@ struct BentWall {
   std::optional<double> excess;  ///< compliance over the true one, less 1; nothing where the lattice falls apart
   /// [backends] u . f of the kernels' forces in the reference's equilibrium over that of the reference, less 1.
   std::vector<double> on;
+  /// [watched] displacements in the wall's axes [m]; not finite where no cell is, empty where the lattice falls apart.
+  Field moved_m;
 };
 
 /// The wall in cells of one kind, bent by its load in float64 statics; displacements infinitesimal.
 /// @param cells  kSprings: filled where their middle is; kMoments: with share and moments, from a share of 1e-2 on
-/// @param backends  whose forces are looked at
+/// @param backends  whose forces are looked at   @param watched_m  places in the wall's axes
 BentWall bendWall(const Wall& wall, const Placing& placing, double spacing_m, Cells cells, double poisson_ratio,
-                  const std::vector<Backend>& backends = {});
+                  const std::vector<Backend>& backends = {}, const std::vector<Vector3d>& watched_m = {});
 
 }  // namespace viscera::bench

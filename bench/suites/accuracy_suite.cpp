@@ -7,13 +7,13 @@
 namespace viscera::bench {
 
 void accuracySuite(Report& report) {
-  measureOrder(report);
-  measureFloat32(report);
-  measureMomentum(report);
-  measureEnergyDrift(report);
-  measureCantileverPrecision(report);
-  measureHeartPrecision(report);
-  measureSpacing(report);
+  measureParts(report, {{"order", measureOrder},
+                        {"float32", measureFloat32},
+                        {"momentum", measureMomentum},
+                        {"energy", measureEnergyDrift},
+                        {"cantilever", measureCantileverPrecision},
+                        {"heart", measureHeartPrecision},
+                        {"spacing", measureSpacing}});
 }
 
 }  // namespace viscera::bench

@@ -7,15 +7,15 @@
 namespace viscera::bench {
 
 void materialSuite(Report& report) {
-  measureTension(report);
-  measureFiniteStretch(report);
-  measureChains(report);
-  measurePlaneWaves(report);
-  measureCantilever(report);
-  measureIndentation(report);
-  measureWalls(report);
-  measureCircle(report);
-  measureContact(report);
+  measureParts(report, {{"tension", measureTension},
+                        {"stretch", measureFiniteStretch},
+                        {"chains", measureChains},
+                        {"waves", measurePlaneWaves},
+                        {"cantilever", measureCantilever},
+                        {"indentation", measureIndentation},
+                        {"walls", measureWalls},
+                        {"circle", measureCircle},
+                        {"contact", measureContact}});
 }
 
 }  // namespace viscera::bench

@@ -269,6 +269,66 @@ class WallTests {
   std::vector<double> worst_kernel_ = std::vector<double>(report_.backends().size());
 };
 
+/// Places on the middle of a ring's wall, all around and closed.
+std::vector<Vector3d> ringMiddle() {
+  constexpr int kPlaces = 96;
+  constexpr double kRadius_m = 13;
+  std::vector<Vector3d> out;
+  for (int i = 0; i <= kPlaces; ++i) {
+    const double angle = 2 * M_PI * i / kPlaces;
+    out.emplace_back(kRadius_m * std::cos(angle), kRadius_m * std::sin(angle), 0);
+  }
+  return out;
+}
+
+/// Displacements less the motion in the plane that bends nothing.
+Field withoutTurn(const std::vector<Vector3d>& places, Field moved) {
+  Vector3d mean = Vector3d::Zero();
+  double turn = 0, count = 0;
+  for (const Vector3d& u : moved) {
+    if (!u.allFinite()) continue;
+    mean += u;
+    ++count;
+  }
+  for (size_t i = 0; i < moved.size(); ++i) {
+    moved[i] -= mean / count;
+    if (moved[i].allFinite()) turn += places[i].cross(moved[i]).z() / places[i].squaredNorm() / count;
+  }
+  for (size_t i = 0; i < moved.size(); ++i) moved[i] -= turn * Vector3d::UnitZ().cross(places[i]);
+  return moved;
+}
+
+/// What a tube of one cell looks like when it is ovalised, askew in the lattice: the finer one's motion is drawn as a
+/// fifth of the radius, all others as many times too large.
+void drawRing(Report& report) {
+  report.stage("walls, the shape of a ring");
+  const std::vector<Vector3d> places = ringMiddle();
+  const Wall wall = ring();
+  Placing placing;
+  placing.turn = turned();
+  placing.shift = Vector3d(0.3, 0.6, 0.1);
+  Plot plot{"A tube of one cell, ovalised, askew", "x", "y", false, false, {}};
+  plot.equal_axes = true;
+  double scale = 0;
+  const auto add = [&](const std::string& name, double cells, Cells kind, Series::Style style) {
+    const Field bent = bendWall(wall, placing, wall.thickness_m / cells, kind, 0.25, {}, places).moved_m;
+    if (bent.empty()) return;  // fallen apart
+    const Field moved = withoutTurn(places, bent);
+    if (scale == 0) scale = 0.2 * places[0].norm() / largestNorm(moved);
+    Series series{name, {}, {}, style};
+    for (size_t i = 0; i < places.size(); ++i) {
+      const Vector3d at = places[i] + scale * moved[i];
+      series.x.push_back(at.x());
+      series.y.push_back(at.y());
+    }
+    plot.series.push_back(series);
+  };
+  add("four cells a wall, by moments", 4, Cells::kMoments, Series::Style::kLines);
+  add("one cell, by moments", 1, Cells::kMoments, Series::Style::kPoints);
+  add("one cell, springs", 1, Cells::kSprings, Series::Style::kPoints);
+  report.add(plot, "ring_shape");
+}
+
 }  // namespace
 
 void measureWalls(Report& report) {
@@ -278,6 +338,7 @@ void measureWalls(Report& report) {
   tests.run(curved(report.isShort()), shifts);
   tests.run(rods(report.isShort()), shifts);
   tests.finish();
+  if (!report.isShort()) drawRing(report);
 }
 
 }  // namespace viscera::bench

@@ -214,15 +214,18 @@ std::vector<Way> waysOf(Backend backend) {
   return out;
 }
 
-void hashes(Report& report) {
-  const Model model = blockModel(Vector3i::Constant(4), kSpacing_m, {}, [](const Vector3i& n) { return n.z() == 4; });
+void hashes(Report& report, Cells cells, const std::string& stem) {
+  MaterialConfig material;
+  material.cells = cells;
+  const Model model =
+      blockModel(Vector3i::Constant(4), kSpacing_m, material, [](const Vector3i& n) { return n.z() == 4; });
   const uint64_t substeps = report.isShort() ? 2000 : 100000;
   Scene scene = sceneAt(model, Integrator::kLeapfrog, 0.5);
   scene.environment.gravity_m_per_s2 = Vector3d(3, 2, -9.81);
-  Table table("state hash after " + std::to_string(substeps) + " substeps",
+  Table table(stem + ": state after " + std::to_string(substeps) + " substeps",
               {{"backend"}, {"way"}, {"governor"}, {"run"}, {"hash"}});
   for (Backend backend : report.backends()) {
-    report.stage("hashes, " + nameOf(backend));
+    report.stage(stem + ", " + nameOf(backend));
     std::vector<std::string> all;
     const std::vector<Way> ways = waysOf(backend);
     for (const Way& way : ways) {
@@ -237,10 +240,10 @@ void hashes(Report& report) {
       }
     }
     const auto different = std::count_if(all.begin(), all.end(), [&](const std::string& h) { return h != all[0]; });
-    report.checkAtMost(nameOf(backend) + ": hashes: runs that differ from the first", static_cast<double>(different),
-                       0);
+    report.checkAtMost(nameOf(backend) + ": " + stem + ": runs that differ from the first",
+                       static_cast<double>(different), 0);
   }
-  report.add(table, "hashes");
+  report.add(table, stem);
 }
 
 }  // namespace
@@ -249,7 +252,8 @@ void extremesOfStability(Report& report) {
   ratios(report);
   longRest(report);
   units(report);
-  hashes(report);
+  hashes(report, Cells::kSprings, "hashes");
+  hashes(report, Cells::kMoments, "hashes_moments");
 }
 
 }  // namespace viscera::bench

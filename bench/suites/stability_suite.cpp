@@ -21,6 +21,21 @@ Model blockOf(int cells, double poisson_ratio) {
   return blockModel(Vector3i::Constant(cells), kSpacing_m, material);
 }
 
+/// A box of about as many cells by moments, askew: full ones and ones that are tissue in part, down to specks.
+Model momentsOf(int cells, double poisson_ratio) {
+  BodyConfig body;
+  body.name = "block";
+  body.source = TissueSource::kBox;
+  body.box_size_m = Vector3d::Constant((cells - 1) * kSpacing_m);
+  body.rotation_deg = Vector3d(20, 35, 10);
+  body.spacing_m = kSpacing_m;
+  body.material.cells = Cells::kMoments;
+  body.material.poisson_ratio = poisson_ratio;
+  Scene scene;
+  scene.bodies.push_back(body);
+  return buildModel(scene);
+}
+
 /// The worst of the cells that one check is about.
 struct Worst {
   int not_finite = 0;
@@ -67,11 +82,8 @@ Series curve(const Outcome& outcome, Integrator integrator, double ratio) {
 /// All starts with all integrators on one backend.
 class Trials {
  public:
-  Trials(Report& report, double poisson_ratio)
-      : report_(report),
-        model_(blockOf(report.isShort() ? 4 : 6, poisson_ratio)),
-        starts_(extremeStarts(model_)),
-        table_(startsTable("extreme starts, Poisson's ratio " + Cell(poisson_ratio).text(3))) {
+  Trials(Report& report, Model model, const std::string& title)
+      : report_(report), model_(std::move(model)), starts_(extremeStarts(model_)), table_(startsTable(title)) {
     if (report.isShort()) starts_ = {starts_[0], starts_[1], starts_[5], starts_[6]};
   }
 
@@ -121,8 +133,9 @@ class Trials {
   Table table_;
 };
 
-void tryAll(Report& report, double poisson_ratio, const std::vector<double>& ratios, const std::string& stem) {
-  Trials trials(report, poisson_ratio);
+void tryAll(Report& report, Model model, const std::string& what, const std::vector<double>& ratios,
+            const std::string& stem) {
+  Trials trials(report, std::move(model), "extreme starts, " + what);
   for (Backend backend : report.backends()) trials.run(backend, ratios, stem);
   report.add(trials.table(), stem);
 }
@@ -130,8 +143,16 @@ void tryAll(Report& report, double poisson_ratio, const std::vector<double>& rat
 }  // namespace
 
 void startsOfStability(Report& report) {
-  tryAll(report, 0.25, report.isShort() ? std::vector<double>{1, 10} : std::vector<double>{0.1, 1, 10, 100}, "starts");
-  if (!report.isShort()) tryAll(report, 0.45, {1, 10}, "starts_volume");
+  using Ratios = std::vector<double>;
+  const int cells = report.isShort() ? 4 : 6;
+  const std::string nu = "Poisson's ratio ";
+  tryAll(report, blockOf(cells, 0.25), nu + "0.25", report.isShort() ? Ratios{1, 10} : Ratios{0.1, 1, 10, 100},
+         "starts");
+  if (!report.isShort()) tryAll(report, blockOf(cells, 0.45), nu + "0.45", {1, 10}, "starts_volume");
+  tryAll(report, momentsOf(cells, 0.25), "cells by moments, " + nu + "0.25",
+         report.isShort() ? Ratios{1} : Ratios{0.1, 1, 10, 100}, "starts_moments");
+  if (!report.isShort())
+    tryAll(report, momentsOf(cells, 0.45), "cells by moments, " + nu + "0.45", {1, 10}, "starts_moments_volume");
 }
 
 void fractionsOfStability(Report& report) {
@@ -169,11 +190,11 @@ void fractionsOfStability(Report& report) {
 }
 
 void stabilitySuite(Report& report) {
-  startsOfStability(report);
-  fractionsOfStability(report);
-  toolsOfStability(report);
-  placesOfStability(report);
-  extremesOfStability(report);
+  measureParts(report, {{"starts", startsOfStability},
+                        {"fractions", fractionsOfStability},
+                        {"tools", toolsOfStability},
+                        {"places", placesOfStability},
+                        {"extremes", extremesOfStability}});
 }
 
 }  // namespace viscera::bench

@@ -46,6 +46,29 @@ TEST_F(Reporting, MissesWhatIsOverItsLimitOrNotANumber) {
   EXPECT_TRUE(test::says(text_.str(), {"suite: 6 checks, 4 missed"}));
 }
 
+int g_measured[2] = {0, 0};
+
+TEST_F(Reporting, MeasuresOnePartOrAll) {
+  const std::vector<Part> parts = {{"first", [](Report&) { ++g_measured[0]; }},
+                                   {"second", [](Report&) { ++g_measured[1]; }}};
+  SuiteOptions options = optionsFor(folder_.path());
+  Report all("suite", options, text_);
+  measureParts(all, parts);
+  options.only = "second";
+  Report one("suite", options, text_);
+  measureParts(one, parts);
+  EXPECT_EQ(g_measured[0], 1);
+  EXPECT_EQ(g_measured[1], 2);
+  options.only = "third";
+  Report none("suite", options, text_);
+  try {
+    measureParts(none, parts);
+    FAIL();
+  } catch (const Error& e) {
+    EXPECT_STREQ(e.what(), "--only third: suite suite has the parts first, second");
+  }
+}
+
 TEST_F(Reporting, MakesItsFolderAndWritesTableAndPlotSideBySide) {
   const std::string out = folder_.file("a/b");
   Report report("suite", optionsFor(out), text_);

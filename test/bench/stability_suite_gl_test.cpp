@@ -53,8 +53,8 @@ TEST(StabilitySuite, ReachesEveryLimitInItsShortForm) {
         VISCERA_COMMAND, {"bench", "stability", "--short", "--strict", "--backend", backend, "--out", folder.path()});
     EXPECT_EQ(ending.status, 0) << ending.out << ending.err;
     EXPECT_TRUE(test::says(ending.out, {"extreme starts", "what tools do", "random cuts", "state hash", ", 0 missed"}));
-    for (const char* table :
-         {"starts", "fractions", "tools", "cuts", "ratios", "rest", "units", "far", "sizes", "hashes"}) {
+    for (const char* table : {"starts", "starts_moments", "fractions", "tools", "cuts", "ratios", "rest", "units",
+                              "far", "sizes", "hashes", "hashes_moments"}) {
       const std::string rows = test::readFile(folder.file(std::string("stability_") + table + ".csv"));
       EXPECT_TRUE(test::says(rows, {"\n" + backend + ","})) << table << ":\n" << rows;
     }
