@@ -96,10 +96,19 @@ TEST_F(AutoSpacing, IsAcceptedByTheSolverWhereItsLimitsDecide) {
 
 TEST_F(AutoSpacing, IsNoCoarserThanTheWallsOfThePhantomHoweverSlowTheMachine) {
   scene_.bodies[0].source = TissueSource::kPhantom;
+  scene_.bodies[0].material.cells = Cells::kSprings;
   scene_.solver.real_time_factor = 1000;
   const Scene scene = chosen();
   EXPECT_NEAR(scene.bodies[0].spacing_m, 0.042 * scene.bodies[0].phantom_length_m, 1e-9);
   EXPECT_TRUE(says(scene.bodies[0].spacing_note, {"thinnest wall", "too slow", "phantom_wall_scale"}));
+}
+
+TEST_F(AutoSpacing, MayBeCoarserThanWallsOfCellsThatAreTissueInPart) {
+  scene_.bodies[0].source = TissueSource::kPhantom;
+  scene_.solver.real_time_factor = 1000;
+  const Scene scene = chosen();
+  EXPECT_GT(scene.bodies[0].spacing_m, 0.042 * scene.bodies[0].phantom_length_m);
+  EXPECT_FALSE(says(scene.bodies[0].spacing_note, {"thinnest wall"}));
 }
 
 TEST_F(AutoSpacing, OfSeveralBodiesIsOneAndOthersKeepTheirs) {

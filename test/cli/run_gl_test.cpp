@@ -60,10 +60,11 @@ void expectPng(const std::string& path, uint32_t width, uint32_t height) {
 }
 
 TEST_F(Run, EveryIntegratorBringsTheHangingBlockToTheSameSag) {
-  // Implicit Euler damps, and none has settled after so short a time: they agree to a few hundredths.
+  // With so much drag the block does not swing beyond its sag, which implicit Euler would damp.
+  constexpr double kApart = 1e-3;  // of the sag: what is left of the way there, and float32
   const auto stretch = [&](const std::string& integrator, const std::string& backend) {
     const Json metrics = metricsOf(
-        run({"--seconds", "0.5", "--set", "bodies[0].material.drag_per_s=40", "--set",
+        run({"--seconds", "0.5", "--set", "bodies[0].material.drag_per_s=500", "--set",
              "solver.integrator=" + integrator, "--set", "solver.substeps=40", "--set", "solver.backend=" + backend}));
     EXPECT_EQ(metrics["governor_trips"], 0) << integrator;
     return metrics["max_stretch"].get<double>();
@@ -73,7 +74,7 @@ TEST_F(Run, EveryIntegratorBringsTheHangingBlockToTheSameSag) {
   for (const std::string backend : {"gpu", "cpu"}) {
     SCOPED_TRACE(backend);
     for (const char* integrator : {"leapfrog", "verlet_paper", "vbd", "pd"})
-      EXPECT_NEAR(stretch(integrator, backend), sag, 0.05 * sag) << integrator;
+      EXPECT_NEAR(stretch(integrator, backend), sag, kApart * sag) << integrator;
   }
 }
 

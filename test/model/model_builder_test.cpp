@@ -25,8 +25,16 @@ TEST(BuildModel, ABoxIsCentredOnItsOriginWithAnExactSkin) {
   EXPECT_EQ(body.name, "slab");
 }
 
-TEST(BuildModel, ABoxOfUnevenSizeIsRoundedAndSaysSo) {
+TEST(BuildModel, ABoxOfUnevenSizeIsAsLargeAsItIs) {
   const Body body = build(boxConfig({0.05, 0.05, 0.014}, 0.01));
+  EXPECT_EQ(body.lattice.nodes_per_axis, Vector3i(6, 6, 3));
+  EXPECT_NEAR(signedVolume(body.skin.mesh), 0.05 * 0.05 * 0.014, 1e-9);
+}
+
+TEST(BuildModel, ABoxOfFullCellsOfUnevenSizeIsRoundedAndSaysSo) {
+  BodyConfig config = boxConfig({0.05, 0.05, 0.014}, 0.01);
+  config.material.cells = Cells::kSprings;
+  const Body body = build(config);
   EXPECT_EQ(body.lattice.nodes_per_axis, Vector3i(6, 6, 2));
   EXPECT_TRUE(contains(body.notes.at(0), "rounded to whole cells")) << body.notes[0];
   EXPECT_NEAR(signedVolume(body.skin.mesh), 0.05 * 0.05 * 0.01, 1e-9);
@@ -34,6 +42,7 @@ TEST(BuildModel, ABoxOfUnevenSizeIsRoundedAndSaysSo) {
 
 TEST(BuildModel, ThePoseTurnsTheGeometryAndNotTheLattice) {
   BodyConfig config = boxConfig({0.06, 0.04, 0.02}, 0.005);
+  config.material.cells = Cells::kSprings;  // cells are counted below
   config.rotation_deg = {0, 0, 90};
   EXPECT_TRUE((boundsOf(build(config).lattice).sizes() - Vector3d(0.04, 0.06, 0.02)).norm() < 0.0051);
   config.rotation_deg = {0, 0, 45};
@@ -134,9 +143,11 @@ TEST(BuildModel, NotesTellWhatWasDecided) {
 }
 
 TEST(BuildModel, WallsThatAreThinnerThanACellAreNamed) {
-  const auto wallNotes = [](double spacing_m) {
+  const auto wallNotes = [](double spacing_m, Cells cells = Cells::kSprings) {
     std::string notes;
-    for (const std::string& note : build(phantomConfig(spacing_m)).notes) {
+    BodyConfig config = phantomConfig(spacing_m);
+    config.material.cells = cells;
+    for (const std::string& note : build(config).notes) {
       if (contains(note, "walls")) notes += note;
     }
     return notes;
@@ -147,6 +158,7 @@ TEST(BuildModel, WallsThatAreThinnerThanACellAreNamed) {
     EXPECT_TRUE(contains(notes, piece)) << notes;
   }
   EXPECT_FALSE(contains(notes, "left_ventricle")) << notes;
+  EXPECT_EQ(wallNotes(0.006, Cells::kMoments), "") << "cells that are tissue in part have no holes";
 }
 
 TEST(BuildModel, StagesAreReportedPerBody) {

@@ -142,7 +142,8 @@ TEST(NetworkScene, MeshesAreRefinedToOneSpacing) {
 }
 
 TEST(NetworkScene, ABallIsFilledOrHollow) {
-  const Body solid = bodyOf("source: ball, ball_radius_m: 0.05, spacing_m: 0.005, position_m: [0.5, 0, 0]");
+  const Body solid = bodyOf(
+      "source: ball, ball_radius_m: 0.05, spacing_m: 0.005, position_m: [0.5, 0, 0], material: {cells: springs}");
   EXPECT_FALSE(solid.network.has_value());
   const double volume_m3 = 4.0 / 3 * std::acos(-1.0) * 0.05 * 0.05 * 0.05;
   size_t eighths = 0;

@@ -73,9 +73,10 @@ void visitFields(V& v, FixedConfig& c) {
 template <class V>
 void visitFields(V& v, MaterialConfig& c) {
   v.number("young_modulus_pa", c.young_modulus_pa, {1, 1e9}, "Pa", "Young's modulus E");
-  v.number("poisson_ratio", c.poisson_ratio, {0, 0.49}, "1",
-           "Poisson's ratio nu; 1/4 costs nothing, any other adds a pass over the cells; structure surface and "
-           "tetrahedra have that of their springs, 1/3 and 1/4");
+  v.number(
+      "poisson_ratio", c.poisson_ratio, {0, 0.49}, "1",
+      "Poisson's ratio nu; 1/4 costs least (with cells springs any other adds a pass over them); structure surface and "
+      "tetrahedra have that of their springs, 1/3 and 1/4");
   v.number("density_kg_per_m3", c.density_kg_per_m3, {1, 1e5}, "kg/m3", "mass density");
   v.number("drag_per_s", c.drag_per_s, {0, 1e4}, "1/s", "node drag gamma: every velocity decays at this rate");
   v.number("dashpot_ratio", c.dashpot_ratio, {0, 0.5}, "1",
@@ -84,7 +85,8 @@ void visitFields(V& v, MaterialConfig& c) {
            "assembly of springs and masses: per solid cell (exact), or VR05's uniform weights");
   v.choice("cells", c.cells, {{"auto", Cells::kAuto}, {"moments", Cells::kMoments}, {"springs", Cells::kSprings}},
            "what cells resist with: springs corrected by the moments of the part of each cell that is tissue (cells at "
-           "the surface are filled in part), or springs alone (cells are full or empty); auto is springs");
+           "the surface are filled in part), or springs alone (cells are full or empty); auto is moments in structure "
+           "lattice and explicit with weights cell, else springs");
 }
 
 template <class V>

@@ -13,9 +13,11 @@ inline bool isNetwork(Structure structure) {
   return structure == Structure::kSurface || structure == Structure::kTetrahedra;
 }
 
-/// Do the body's cells resist by moments (Cells)?
+/// Do the body's cells resist by moments (Cells)? By default those of lattices do, unless their springs are weighted as in
+/// the paper.
 inline bool hasMoments(const BodyConfig& body) {
-  return body.material.cells == Cells::kMoments;
+  if (body.material.cells != Cells::kAuto) return body.material.cells == Cells::kMoments;
+  return !isNetwork(body.structure) && body.material.weights == Weights::kCell;
 }
 
 /// What a body's structure does not go with, for a person; empty: nothing.

@@ -80,7 +80,13 @@ class PhantomTissue : public Tissue {
     return {voxelise(p.field, p.part_names, p.min_m, p.max_m, spacing_m, progress), ""};
   }
 
-  TriangleMesh surface(const Solid& solid) const override { return shell(solid.spacing_m); }
+  /// Of cells that are tissue in part walls may be thinner than a cell: the skin has them all the same.
+  TriangleMesh surface(const Solid& solid) const override {
+    double spacing_m = solid.spacing_m;
+    for (const Wall& wall : phantom_.walls)
+      if (moments_) spacing_m = std::min(spacing_m, kSkinInWall * wall.thickness_m);
+    return shell(spacing_m);
+  }
   TriangleMesh shell(double spacing_m) const override {
     return extractSkin(phantom_.field, phantom_.part_names, phantom_.min_m, phantom_.max_m, spacing_m);
   }
@@ -90,6 +96,7 @@ class PhantomTissue : public Tissue {
   std::vector<Wall> walls() const override { return moments_ ? std::vector<Wall>{} : phantom_.walls; }
 
  private:
+  static constexpr double kSkinInWall = 0.75;  ///< of a wall's thickness: no cell of the skin misses a wall, and some
   Phantom phantom_;
   bool moments_;
   NodePlanes planes_;
