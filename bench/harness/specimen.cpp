@@ -41,6 +41,7 @@ MaterialConfig specimenMaterial(double dashpot_ratio) {
   MaterialConfig material;
   material.drag_per_s = 0;  // drift goes on
   material.dashpot_ratio = dashpot_ratio;
+  material.cells = Cells::kSprings;
   return material;
 }
 

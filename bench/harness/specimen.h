@@ -20,7 +20,7 @@ struct Specimen {
 };
 constexpr int kSpecimenSubsteps = 20;  ///< per tick: one pass of measurement in 20 substeps, as live sessions have it
 
-/// Without drag and dashpot: what rates are quoted for. @param dashpot_ratio  xi
+/// Springs alone, without drag and dashpot: what rates are quoted for. @param dashpot_ratio  xi
 MaterialConfig specimenMaterial(double dashpot_ratio = 0);
 
 /// A solid cube, cell-assembled. @param nodes_per_edge  > 1
