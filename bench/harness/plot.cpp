@@ -49,7 +49,15 @@ size_t pointsOf(const Plot& plot, const Series& series) {
   return count;
 }
 
-/// Ticks of a log axis that say where the points are, or none where there are too many.
+/// Is a number short enough to be read below an axis, such as 0.75 or 10000?
+bool isShortNumber(double value) {
+  constexpr size_t kLongest = 6;
+  std::ostringstream text;
+  text << value;
+  return text.str().size() <= kLongest;
+}
+
+/// Ticks of a log axis that say where the points are; none where there are too many, or measured ones.
 std::string ticksOf(const Plot& plot) {
   std::set<double> values;
   for (const Series& s : plot.series) {
@@ -57,7 +65,7 @@ std::string ticksOf(const Plot& plot) {
       if (isDrawn(plot, s.x[i], s.y[i])) values.insert(s.x[i]);
     }
   }
-  if (values.size() > kFewValues) return "";
+  if (values.size() > kFewValues || !std::all_of(values.begin(), values.end(), isShortNumber)) return "";
   std::ostringstream out;
   for (double value : values) out << (out.tellp() > 0 ? ", " : "set xtics (") << value;
   return values.empty() ? "" : out.str() + ")\n";
