@@ -85,6 +85,7 @@ Scene pigHeartScene(int nodes, double dashpot_ratio) {
   scene.name = "pig_heart_size";
   scene.bodies.push_back(heartBody(nodes));
   scene.bodies[0].material.dashpot_ratio = dashpot_ratio;
+  scene.bodies[0].material.cells = Cells::kSprings;  // as the paper's
   FixedConfig top;
   top.shape = FixedShape::kPlane;
   top.point_m = Vector3d(0, 0, 0.03);

@@ -11,13 +11,14 @@ namespace viscera::bench {
 
 namespace {
 
-constexpr int kSamples = 6;           ///< per edge of a cell
+constexpr int kSamples = 6;       ///< per edge of a cell that is tissue all through, or not at all
+constexpr int kFineSamples = 24;  ///< of others: along a rod all cells miss the same, so that its area must be right
 constexpr double kLeastShare = 0.01;  ///< of a cell that is kept
 constexpr double kSmall = 1e-3;       ///< largest displacement over the spacing where kernels are asked: linear yet
 
 /// The part of one cell that is tissue, and the load on its corners.
 struct FilledCell {
-  int samples = 0;  ///< inside
+  double inside = 0;  ///< share of the samples
   CellFill fill;
   std::array<Vector3d, 8> load_n;
 };
@@ -75,34 +76,37 @@ class Grid {
   }
   void fillCell(const Vector3i& cell) {
     if (kind_ == Cells::kSprings && !wall_.inside(own(cell, Vector3d::Constant(0.5)))) return;
-    const FilledCell found = sampled(cell);
-    constexpr double kAll = kSamples * kSamples * kSamples;
-    if (found.samples < kLeastShare * kAll) return;
+    FilledCell found = sampled(cell, kSamples);
+    if (found.inside > 0 && found.inside < 1) found = sampled(cell, kFineSamples);
+    if (found.inside < kLeastShare) return;
     const size_t index = solid_.index(cell.x(), cell.y(), cell.z());
     solid_.labels[index] = 1;
     loads_.emplace_back(cell, found.load_n);
-    if (found.samples < kAll) solid_.partial.push_back({index, found.fill});
+    if (found.inside < 1) solid_.partial.push_back({index, found.fill});
   }
-  FilledCell sampled(const Vector3i& cell) const {
+  /// @param samples  per edge
+  FilledCell sampled(const Vector3i& cell, int samples) const {
     FilledCell out;
     out.load_n.fill(Vector3d::Zero());
     out.fill.share = 0;
     out.fill.second.setZero();
-    constexpr double kShare = 1.0 / (kSamples * kSamples * kSamples);
-    for (int s = 0; s < kSamples * kSamples * kSamples; ++s) {
-      const Vector3d at = (Vector3d(s % kSamples, s / kSamples % kSamples, s / kSamples / kSamples).array() + 0.5) /
-                          static_cast<double>(kSamples);
+    const int all = samples * samples * samples;
+    const double share = 1.0 / all;
+    int inside = 0;
+    for (int s = 0; s < all; ++s) {
+      const Vector3d at = (Vector3d(s % samples, s / samples % samples, s / samples / samples).array() + 0.5) / samples;
       const Vector3d place = own(cell, at);
       if (kind_ == Cells::kMoments && !wall_.inside(place)) continue;
       const Vector3d p = at.array() - 0.5;
-      ++out.samples;
-      out.fill.share += kShare;
-      out.fill.first += kShare * p;
-      out.fill.second += kShare * p * p.transpose();
-      out.fill.second.diagonal().array() += kShare / (12.0 * kSamples * kSamples);
-      const Vector3d force = kShare * std::pow(spacing_m_, 3) * (placing_.turn * wall_.load_n_per_m3(place));
+      ++inside;
+      out.fill.share += share;
+      out.fill.first += share * p;
+      out.fill.second += share * p * p.transpose();
+      out.fill.second.diagonal().array() += share / (12.0 * samples * samples);
+      const Vector3d force = share * std::pow(spacing_m_, 3) * (placing_.turn * wall_.load_n_per_m3(place));
       for (int c = 0; c < 8; ++c) out.load_n[static_cast<size_t>(c)] += weightOf(c, at) * force;
     }
+    out.inside = static_cast<double>(inside) / all;
     return out;
   }
 

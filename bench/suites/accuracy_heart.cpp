@@ -29,6 +29,7 @@ Scene heartScene(bool short_form) {
   heart.spacing_m = short_form ? 0.01 : 0.008;
   heart.skin = SkinSource::kVolume;
   heart.material.dashpot_ratio = 0;  // verlet_paper knows none
+  heart.material.cells = Cells::kSprings;
   FixedConfig top;
   top.shape = FixedShape::kPlane;
   top.point_m = Vector3d(0, 0, 0.03);

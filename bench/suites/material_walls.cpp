@@ -298,16 +298,17 @@ Field withoutTurn(const std::vector<Vector3d>& places, Field moved) {
   return moved;
 }
 
-/// What a tube of one cell looks like when it is ovalised, askew in the lattice: the finer one's motion is drawn as a
-/// fifth of the radius, all others as many times too large.
-void drawRing(Report& report) {
-  report.stage("walls, the shape of a ring");
+/// What a tube of one cell looks like when it is ovalised: the finer one's motion is drawn as a fifth of the radius,
+/// all others as many times too large.
+void drawRing(Report& report, bool is_turned) {
+  const std::string placed = is_turned ? "turned" : "aligned";
+  report.stage("walls, the shape of a ring, " + placed);
   const std::vector<Vector3d> places = ringMiddle();
   const Wall wall = ring();
   Placing placing;
-  placing.turn = turned();
+  if (is_turned) placing.turn = turned();
   placing.shift = Vector3d(0.3, 0.6, 0.1);
-  Plot plot{"A tube of one cell, ovalised, askew", "x", "y", false, false, {}};
+  Plot plot{"A tube of one cell, ovalised, " + placed, "x", "y", false, false, {}};
   plot.equal_axes = true;
   double scale = 0;
   const auto add = [&](const std::string& name, double cells, Cells kind, Series::Style style) {
@@ -326,7 +327,7 @@ void drawRing(Report& report) {
   add("four cells a wall, by moments", 4, Cells::kMoments, Series::Style::kLines);
   add("one cell, by moments", 1, Cells::kMoments, Series::Style::kPoints);
   add("one cell, springs", 1, Cells::kSprings, Series::Style::kPoints);
-  report.add(plot, "ring_shape");
+  report.add(plot, "ring_" + placed);
 }
 
 }  // namespace
@@ -338,7 +339,9 @@ void measureWalls(Report& report) {
   tests.run(curved(report.isShort()), shifts);
   tests.run(rods(report.isShort()), shifts);
   tests.finish();
-  if (!report.isShort()) drawRing(report);
+  if (report.isShort()) return;
+  drawRing(report, false);
+  drawRing(report, true);
 }
 
 }  // namespace viscera::bench

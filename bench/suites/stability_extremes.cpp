@@ -222,7 +222,7 @@ void hashes(Report& report, Cells cells, const std::string& stem) {
   const uint64_t substeps = report.isShort() ? 2000 : 100000;
   Scene scene = sceneAt(model, Integrator::kLeapfrog, 0.5);
   scene.environment.gravity_m_per_s2 = Vector3d(3, 2, -9.81);
-  Table table(stem + ": state after " + std::to_string(substeps) + " substeps",
+  Table table(stem + ": state hash after " + std::to_string(substeps) + " substeps",
               {{"backend"}, {"way"}, {"governor"}, {"run"}, {"hash"}});
   for (Backend backend : report.backends()) {
     report.stage(stem + ", " + nameOf(backend));
