@@ -76,9 +76,8 @@ const uint kBindPairWords = 59u;         // uint[1 + 2 * slots + most]: contacts
 const uint kBindPairRows = 60u;          // vec4[2 * most]: the same
 const uint kBindNodeContacts = 61u;      // vec4[3 * rows * slots]: implicit integrators: contacts of the substep, see implicit_contact.glsl
 const uint kBindObstacleImpulses = 62u;  // vec4[obstacles * slots]: momentum that an obstacle gave the node this tick [N s]
-const uint kBindSurfaceWays = 63u;       // uint[slots]: ways to the surface, see surface_ways.h
-
 const uint kBindNodePairs = 63u;         // vec4[3 * slots]: nodes with such contacts, see implicit_pairs.glsl
+const uint kBindSurfaceWays = 64u;       // uint[slots]: ways to the surface, see surface_ways.h
 
 // Texture units: buffers seen through texel fetches. OpenGL promises 16 of them.
 const uint kUnitDisplacement = 0u;  // rgba32f, as kBindDisplacementIn

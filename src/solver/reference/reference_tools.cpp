@@ -115,9 +115,7 @@ void ReferenceSolver::letGo(uint32_t stylus, const Release& release) {
 void ReferenceSolver::cut(uint32_t stylus, bool particles) {
   const layout::ToolMotion& m = motions_[stylus];
   const Vector3d a = xyz(m.from), b = xyz(m.blade_from), c = xyz(m.blade_to), d = xyz(m.to);
-  const auto position = [&](uint32_t slot) {
-    return Vector3d(restPosition(slot) + u_m[slot] + wayToSurface(u_m, slot));  // of the node's tissue
-  };
+  const auto position = [&](uint32_t slot) { return tissueAt(u_m, slot); };
   const auto erased = [&](const Vector3d& x) {
     return std::min(distanceToTriangle(x, a, b, c), distanceToTriangle(x, a, c, d)) <= m.blade_from.w;
   };
