@@ -103,7 +103,7 @@ void forEachPlace(const Places& p, Visit visit) {
 constexpr float kMargin = 1e-4f;
 
 /// Tissue of a node outside is that many cells away at most: a cell's diagonal, and as much again where its edges are
-/// stretched or turned (shaders/solver/surface_point.glsl).
+/// stretched or turned (shaders/solver/surface_way.glsl).
 constexpr float kFarthestTissue = 3.5f;
 
 /// How far from a node the cut looks for it [m].
