@@ -44,38 +44,13 @@ struct Entry {
   vec3 before;  // at its start [m]
 };
 
-#include "surface_way.glsl"
-
 #ifdef AHEAD
-vec3 movedBefore(uint slot) { return xyz(texelFetch(displacement, int(slot))); }
-vec3 movedNow(uint slot) { return movedBefore(slot) + xyz(texelFetch(increment, int(slot))); }
+vec3 positionBefore(uint slot) { return restPosition(slot) + xyz(texelFetch(displacement, int(slot))); }
+vec3 positionOf(uint slot) { return positionBefore(slot) + xyz(texelFetch(increment, int(slot))); }
 #else
-vec3 movedNow(uint slot) { return xyz(texelFetch(displacement, int(slot))); }
-vec3 movedBefore(uint slot) { return xyz(next_displacement[slot]); }
+vec3 positionOf(uint slot) { return restPosition(slot) + xyz(texelFetch(displacement, int(slot))); }
+vec3 positionBefore(uint slot) { return restPosition(slot) + xyz(next_displacement[slot]); }
 #endif
-
-/// Edge of the cells around a node [m].
-float cellEdge(uint slot) { return bodies[bodyOf(nodes[slot])].origin_spacing.w; }
-
-/// Where a node touches others: its tissue (surface_way.glsl), now, before and at rest [m].
-vec3 positionOf(uint slot) {
-  vec3 u = movedNow(slot), x = restPosition(slot) + u;
-  uint way = surfaceWay(slot);
-  if (way == 0u) return x;
-  return x + toTissueIn(way, cellEdge(slot), u, movedNow(wayEnd(slot, way, 0u)), movedNow(wayEnd(slot, way, 1u)),
-                        movedNow(wayEnd(slot, way, 2u)));
-}
-vec3 positionBefore(uint slot) {
-  vec3 u = movedBefore(slot), x = restPosition(slot) + u;
-  uint way = surfaceWay(slot);
-  if (way == 0u) return x;
-  return x + toTissueIn(way, cellEdge(slot), u, movedBefore(wayEnd(slot, way, 0u)), movedBefore(wayEnd(slot, way, 1u)),
-                        movedBefore(wayEnd(slot, way, 2u)));
-}
-vec3 positionAtRest(uint slot) {
-  uint way = surfaceWay(slot);
-  return way == 0u ? restPosition(slot) : restPosition(slot) + cellEdge(slot) * wayInCells(way);
-}
 
 /// May this node touch others? Not one that is gone too far to have a cell, or to nowhere.
 bool collides(uint slot, NodeBits bits, vec3 x) {
@@ -96,7 +71,7 @@ uint hashOf(ivec3 cell) {
 float contactDistance(uint a, uint b) {
   uint body_a = bodyOf(nodes[a]), body_b = bodyOf(nodes[b]);
   float wanted = max(body_influences[body_a].w, body_influences[body_b].w);
-  return widened * (body_a == body_b ? min(wanted, 0.5f * distance(positionAtRest(a), positionAtRest(b))) : wanted);
+  return widened * (body_a == body_b ? min(wanted, 0.5f * distance(restPosition(a), restPosition(b))) : wanted);
 }
 
 /// contactDistance() where two nodes touch, else 0 [m].

@@ -1,7 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Bodies whose cells are tissue in part are touched at their surface, not at the nodes outside of it.
-#include "solver/reference/reference_surroundings.h"
 #include "solver/surroundings.h"
 #include "support/backends.h"
 #include "support/random_state.h"
@@ -135,87 +134,4 @@ TEST_P(SurfaceContact, TheReferenceMeetsItThere) {
   }
   constexpr double kFloat = 1e-4;  // of the displacements, after some ten substeps of contact
   EXPECT_LT(relativeError(solver->readState().displacement_m, reference.u_m, reference.active), kFloat);
-}
-
-/// A slab of 2.75 cells, held, and another one upside down above it, `gap_m` between their surfaces. Ways to the surface
-/// are quarters and eighths of a cell, which are kept exactly.
-Scene twoSlabs(double gap_m) {
-  constexpr double kHeight_m = 0.0275;
-  Scene scene;
-  BodyConfig lower;
-  lower.source = TissueSource::kBox;
-  lower.box_size_m = {0.03, 0.03, kHeight_m};
-  lower.spacing_m = kSpacing_m;
-  lower.material.cells = Cells::kMoments;
-  lower.material.drag_per_s = 20;
-  BodyConfig upper = lower;
-  FixedConfig bottom;
-  bottom.shape = FixedShape::kPlane;
-  bottom.point_m = {0, 0, -0.5 * kHeight_m};
-  lower.fixed = {bottom};
-  upper.position_m = {0, 0, kHeight_m + gap_m};
-  upper.rotation_deg = {180, 0, 0};
-  scene.bodies = {lower, upper};
-  scene.bodies[0].name = "lower";
-  scene.bodies[1].name = "upper";
-  return scene;
-}
-
-TEST_P(SurfaceContact, BodiesTouchWhereTheirSurfacesAre) {
-  constexpr double kNear_m = kSpacing_m;  // how near nodes of such lattices touch
-  constexpr double kApart_m = 1e-4;       // what is left of the way in the time given
-  for (const Integrator integrator : kSteppers) {
-    SCOPED_TRACE(::testing::Message() << "integrator " << static_cast<int>(integrator));
-    for (const double gap_m : {kNear_m + 1e-4, kNear_m - 1e-3}) {
-      const Model model = buildModel(twoSlabs(gap_m));
-      Scene scene = sceneWith(integrator, model, 4, integrator == Integrator::kLeapfrog ? 0.5 : 3, 20);
-      scene.collision.enabled = true;
-      scene.collision.friction = 0;
-      const auto solver = make(model, scene);
-      for (double t = 0; t < 0.3; t += 1 / scene.solver.tick_hz) solver->step({});
-      ReferenceSolver reference(model, Vector3d::Zero(), static_cast<float>(solver->dt_s()));
-      load(reference, solver->readState());
-      double moved_m = 0, nearest_m = 1;
-      for (const uint32_t a : reference.active) {
-        moved_m = std::max(moved_m, reference.u_m[a].norm());
-        for (const uint32_t b : reference.active) {
-          if (a >= model.slotOffset(1) || b < model.slotOffset(1)) continue;
-          nearest_m =
-              std::min(nearest_m, (reference.tissueAt(reference.u_m, a) - reference.tissueAt(reference.u_m, b)).norm());
-        }
-      }
-      if (gap_m > kNear_m) {
-        EXPECT_EQ(moved_m, 0);
-      } else {
-        EXPECT_GT(moved_m, 5e-4);
-        EXPECT_GT(nearest_m, kNear_m - kApart_m);
-      }
-    }
-  }
-}
-
-TEST_P(SurfaceContact, TheReferenceHasThemTouchThere) {
-  const Model model = buildModel(twoSlabs(kSpacing_m - 1e-3));
-  Scene scene = sceneWith(Integrator::kLeapfrog, model, 1, 0.5);
-  scene.collision.enabled = true;
-  const auto solver = make(model, scene);
-  ReferenceOptions options;
-  options.push_speed_m_per_s = pushSpeed(model);
-  options.surroundings = std::make_shared<ReferenceSurroundings>(model, scene);
-  ReferenceSolver reference(model, Vector3d::Zero(), static_cast<float>(solver->dt_s()), options);
-  const HostState bent = randomState(model, 2e-4, 0.05, 9);
-  HostState start = solver->readState();
-  start.displacement_m = bent.displacement_m;
-  start.velocity_m_per_s = bent.velocity_m_per_s;
-  for (size_t slot = 0; slot < start.nodes.size(); ++slot) {
-    if (isFixed(start.nodes[slot])) start.velocity_m_per_s[slot] = {};
-  }
-  solver->writeState(start);
-  load(reference, start);
-  for (int t = 0; t < 6; ++t) {
-    solver->step({});
-    reference.substep();
-  }
-  constexpr double kRounded = 1e-4;  // of the displacements, after six substeps of contact in float32
-  EXPECT_LT(relativeError(solver->readState().displacement_m, reference.u_m, reference.active), kRounded);
 }

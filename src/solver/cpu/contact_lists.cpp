@@ -70,35 +70,16 @@ void ContactLists::follow(glsl::CollisionRules& rules, size_t job) {
   motions_[job] = motion;
 }
 
-namespace {
-
-/// Positions of collision.glsl in either of its forms, by whether there are increments.
-glsl::vec3 movedNow(glsl::CollisionRules& rules, uint32_t slot) {
-  const glsl::vec3 u = glsl::xyz(texelFetch(rules.displacement, static_cast<int>(slot)));
-  return rules.increment ? u + glsl::xyz(rules.increment[slot]) : u;
-}
-glsl::vec3 movedBefore(glsl::CollisionRules& rules, uint32_t slot) {
-  return glsl::xyz(glsl::vec4(rules.increment ? rules.displacement[slot] : rules.next_displacement[slot]));
-}
-template <class Moved>
-glsl::vec3 contactPlace(glsl::CollisionRules& rules, const glsl::vec3& rest, uint32_t slot, Moved moved) {
-  const glsl::vec3 u = moved(rules, slot), x = rest + u;
-  const uint32_t way = rules.surfaceWay(slot);
-  if (way == 0) return x;
-  const auto end = [&](uint32_t axis) { return moved(rules, rules.wayEnd(slot, way, axis)); };
-  return x + rules.toTissueIn(way, rules.cellEdge(slot), u, end(0), end(1), end(2));
-}
-
-}  // namespace
-
 glsl::vec3 ContactLists::positionOf(glsl::CollisionRules& rules, size_t node) const {
-  return contactPlace(rules, glsl::xyz(rest_[node]), rules.active_nodes[node], movedNow);
+  const int slot = static_cast<int>(rules.active_nodes[node]);
+  const glsl::vec3 x = glsl::xyz(rest_[node]) + glsl::xyz(texelFetch(rules.displacement, slot));
+  return rules.increment ? x + glsl::xyz(rules.increment[slot]) : x;
 }
 
 void ContactLists::enter(glsl::CollisionRules& rules, size_t node, size_t entry, const glsl::vec3& x) {
   const uint32_t slot = rules.active_nodes[node];
   entries_[entry] = glsl::uvec4(glsl::floatBitsToUint(x), slot);
-  before_[entry] = glsl::vec4(contactPlace(rules, glsl::xyz(rest_[node]), slot, movedBefore), 0);
+  before_[entry] = rest_[node] + glsl::vec4(rules.increment ? rules.displacement[slot] : rules.next_displacement[slot]);
   position_[entry] = x;
   shader_cell_[entry] = rules.cellOf(x, 0);
 }

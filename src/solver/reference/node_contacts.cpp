@@ -16,7 +16,8 @@ NodeContacts::NodeContacts(const ReferenceSolver& solver, const Field& predicted
   const auto touching = surroundings->touching(solver, predicted_m, kReach);
   const ContactNormals normals(solver, touching, solver.u_m, predicted_m);
   for (const auto& pair : touching) {
-    const double apart_m = (solver.tissueAt(solver.u_m, pair.a) - solver.tissueAt(solver.u_m, pair.b)).norm();
+    const double apart_m =
+        (solver.restPosition(pair.a) + solver.u_m[pair.a] - solver.restPosition(pair.b) - solver.u_m[pair.b]).norm();
     pairs_.push_back({pair.a, pair.b, normals.of(pair), std::max(0.0, apart_m - pair.distance_m / kReach), 0});
   }
 }

@@ -99,11 +99,6 @@ void ReferenceLattice::addWay(const Lattice& lattice, uint32_t first, uint32_t l
   ways_[first + local] = way;
 }
 
-Vector3d ReferenceLattice::tissueAtRest(uint32_t slot) const {
-  const auto known = ways_.find(slot);
-  return known == ways_.end() ? restPosition(slot) : Vector3d(restPosition(slot) + known->second.way_m);
-}
-
 Vector3d ReferenceLattice::wayToSurface(const Field& u_m, uint32_t slot) const {
   const auto known = ways_.find(slot);
   if (known == ways_.end()) return Vector3d::Zero();

@@ -43,7 +43,6 @@ class ReferenceLattice {
   Vector3d tissueAt(const Field& u_m, uint32_t slot) const {
     return restPosition(slot) + u_m[slot] + wayToSurface(u_m, slot);
   }
-  Vector3d tissueAtRest(uint32_t slot) const;
   double surfaceDepth(uint32_t slot) const { return surface_depth_m_.empty() ? 0 : surface_depth_m_[slot]; }
   /// Places for springs at a node: 18 in an implicit lattice, else its links, cut ones too.
   uint32_t springsOf(uint32_t slot) const { return starts_[slot + 1] - starts_[slot]; }

@@ -91,7 +91,7 @@ std::vector<ReferenceSurroundings::Pair> ReferenceSurroundings::touching(const R
     return Cell{std::lround(x.x() / reach), std::lround(x.y() / reach), std::lround(x.z() / reach)};
   };
   std::map<Cell, std::vector<uint32_t>> cells;
-  const auto at = [&](uint32_t slot) { return lattice.tissueAt(u_m, slot); };
+  const auto at = [&](uint32_t slot) { return Vector3d(lattice.restPosition(slot) + u_m[slot]); };
   for (const uint32_t slot : lattice.active) {
     if (mayTouch(lattice, slot)) cells[cellOf(at(slot))].push_back(slot);
   }
@@ -100,7 +100,7 @@ std::vector<ReferenceSurroundings::Pair> ReferenceSurroundings::touching(const R
     if (a >= b) return;
     double wanted = std::max(distance_m_[body_[a]], distance_m_[body_[b]]);
     if (body_[a] == body_[b])
-      wanted = std::min(wanted, 0.5 * (lattice.tissueAtRest(a) - lattice.tissueAtRest(b)).norm());
+      wanted = std::min(wanted, 0.5 * (lattice.restPosition(a) - lattice.restPosition(b)).norm());
     wanted *= widened;
     if ((at(a) - at(b)).norm() < wanted) out.push_back({a, b, wanted});
   };
@@ -165,7 +165,7 @@ void ReferenceSolver::meetObstacles(Field& u_next, Field& v_next) {
 namespace {
 
 Vector3d apart(const ReferenceLattice& lattice, const Field& u_m, uint32_t a, uint32_t b) {
-  return lattice.tissueAt(u_m, a) - lattice.tissueAt(u_m, b);
+  return lattice.restPosition(a) + u_m[a] - lattice.restPosition(b) - u_m[b];
 }
 
 }  // namespace
