@@ -153,8 +153,8 @@ struct Found {
 };
 const std::vector<double> kPlaced = {0.97, 1, 1.03};
 
-/// How far apart two responses are: of a logarithm, so that twice and half are alike. At most 1, which stands for anything
-/// beyond a factor of 2.7, as of tissue that hangs by a hinge.
+/// How far apart two responses are: of a logarithm, so that twice and half are alike. At most 1, which stands for
+/// anything beyond a factor of 2.7, as of tissue that hangs by a hinge.
 double errorOf(double response, double truth) {
   return response > 0 ? std::min(std::abs(std::log(response / truth)), 1.0) : 1.0;
 }

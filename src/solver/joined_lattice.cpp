@@ -75,21 +75,6 @@ Strengths allStrengths(const Model& model) {
   return out;
 }
 
-std::vector<float> surfaceDepths(const Model& model) {
-  const bool any = std::any_of(model.bodies.begin(), model.bodies.end(),
-                               [](const Body& body) { return !body.lattice.depth_m.empty(); });
-  if (!any) return {};
-  std::vector<float> out(model.slots(), 0.0f);
-  for (size_t b = 0; b < model.bodies.size(); ++b) {
-    const Lattice& lattice = model.bodies[b].lattice;
-    if (lattice.depth_m.empty()) continue;
-    for (const uint32_t slot : lattice.active_slots) {
-      if (lattice.depth_m[slot] < 0.5 * lattice.spacing_m) out[model.slotOffset(b) + slot] = lattice.depth_m[slot];
-    }
-  }
-  return out;
-}
-
 namespace {
 
 /// A word of surface_ways.h.
@@ -110,19 +95,30 @@ uint32_t packedWay(const Lattice& lattice, uint32_t slot) {
   return any ? word : 0;
 }
 
-}  // namespace
-
-std::vector<uint32_t> surfaceWays(const Model& model) {
-  const bool any = std::any_of(model.bodies.begin(), model.bodies.end(),
-                               [](const Body& body) { return !body.lattice.way_to_surface_m.empty(); });
-  if (!any) return {};
-  std::vector<uint32_t> out(model.slots(), 0);
+/// A number per slot, of nodes of bodies with cells that are tissue in part; 0 elsewhere, empty without such bodies.
+/// @param numberOf  lattice, its slot -> number
+template <class Number, class NumberOf>
+std::vector<Number> atSurface(const Model& model, NumberOf numberOf) {
+  std::vector<Number> out;
   for (size_t b = 0; b < model.bodies.size(); ++b) {
     const Lattice& lattice = model.bodies[b].lattice;
-    if (lattice.way_to_surface_m.empty()) continue;
-    for (const uint32_t slot : lattice.active_slots) out[model.slotOffset(b) + slot] = packedWay(lattice, slot);
+    if (lattice.depth_m.empty()) continue;
+    out.resize(model.slots(), 0);
+    for (const uint32_t slot : lattice.active_slots) out[model.slotOffset(b) + slot] = numberOf(lattice, slot);
   }
   return out;
+}
+
+}  // namespace
+
+std::vector<float> surfaceDepths(const Model& model) {
+  return atSurface<float>(model, [](const Lattice& lattice, uint32_t slot) {
+    return lattice.depth_m[slot] < 0.5 * lattice.spacing_m ? lattice.depth_m[slot] : 0.0f;
+  });
+}
+
+std::vector<uint32_t> surfaceWays(const Model& model) {
+  return atSurface<uint32_t>(model, packedWay);
 }
 
 JoinedMoments allMoments(const Model& model) {

@@ -67,6 +67,14 @@ ObstacleConfig planeAt(const Vector3d& position_m, const Vector3d& rotation_deg)
   return out;
 }
 
+/// Bodies that may touch each other, on a floor at z = 0.
+Scene onAFloor(const Way& way, const Model& model, int substeps, std::vector<StylusConfig> styluses = {}) {
+  Scene scene = sceneWith(way.integrator, model, substeps, way.fraction, kIterations, std::move(styluses), kGravity);
+  scene.collision.enabled = true;
+  scene.obstacles = {planeAt(Vector3d::Zero(), Vector3d::Zero())};
+  return scene;
+}
+
 layout::TickStats lastStats(Ticks& solver) {
   layout::TickStats stats{};
   while (solver.pollStats(stats, true)) {
@@ -105,9 +113,7 @@ TEST_P(NodeContact, ABodyBearsTheWeightOfTheOneOnItWhateverTheSubstep) {
   const double lower_n = weight(model, 0), upper_n = weight(model, 1);
   for (const Way& way : ways()) {
     SCOPED_TRACE(::testing::Message() << "integrator " << static_cast<int>(way.integrator) << " dt " << way.fraction);
-    Scene scene = sceneWith(way.integrator, model, 4, way.fraction, kIterations, {}, kGravity);
-    scene.collision.enabled = true;
-    scene.obstacles = {planeAt(Vector3d::Zero(), Vector3d::Zero())};
+    const Scene scene = onAFloor(way, model, 4);
     const auto solver = make(model, scene);
     for (double t = 0; t < 1.0; t += 1 / scene.solver.tick_hz) solver->step({});
     for (int t = 0; t < 5; ++t) {
@@ -149,9 +155,7 @@ TEST_P(NodeContact, ABoxThatIsPressedOnAnotherByAProbePassesItsForceOn) {
   const Vector3d tip(kSpacing_m, kSpacing_m, 3 * kSpacing_m - 1e-3 + 3e-3);
   for (const Way& way : ways()) {
     SCOPED_TRACE(::testing::Message() << "integrator " << static_cast<int>(way.integrator) << " dt " << way.fraction);
-    Scene scene = sceneWith(way.integrator, model, 4, way.fraction, kIterations, {stylus}, kGravity);
-    scene.collision.enabled = true;
-    scene.obstacles = {planeAt(Vector3d::Zero(), Vector3d::Zero())};
+    Scene scene = onAFloor(way, model, 4, {stylus});
     scene.obstacles[0].friction = scene.collision.friction = 1;  // or the tip slides off the node below it
     const auto solver = make(model, scene);
     for (double t = 0; t < 0.8; t += 1 / scene.solver.tick_hz) solver->step(probeAt(tip));
@@ -237,9 +241,7 @@ TEST_P(NodeContact, AClothThatFoldsOntoItselfLiesOnItself) {
   }
   for (const Way& way : ways()) {
     SCOPED_TRACE(::testing::Message() << "integrator " << static_cast<int>(way.integrator) << " dt " << way.fraction);
-    Scene scene = sceneWith(way.integrator, model, 1, way.fraction, kIterations, {}, kGravity);
-    scene.collision.enabled = true;
-    scene.obstacles = {planeAt(Vector3d::Zero(), Vector3d::Zero())};
+    const Scene scene = onAFloor(way, model, 1);
     const auto solver = make(model, scene);
     solver->writeState(start);
     for (double t = 0; t < 0.5; t += 1 / scene.solver.tick_hz) solver->step({});

@@ -13,8 +13,8 @@ inline bool isNetwork(Structure structure) {
   return structure == Structure::kSurface || structure == Structure::kTetrahedra;
 }
 
-/// Do the body's cells resist by moments (Cells)? By default those of lattices do, unless their springs are weighted as in
-/// the paper.
+/// Do the body's cells resist by moments (Cells)? By default those of lattices do, unless their springs are weighted as
+/// in the paper.
 inline bool hasMoments(const BodyConfig& body) {
   if (body.material.cells != Cells::kAuto) return body.material.cells == Cells::kMoments;
   return !isNetwork(body.structure) && body.material.weights == Weights::kCell;
