@@ -78,6 +78,7 @@ const uint kBindNodeContacts = 61u;      // vec4[3 * rows * slots]: implicit int
 const uint kBindObstacleImpulses = 62u;  // vec4[obstacles * slots]: momentum that an obstacle gave the node this tick [N s]
 const uint kBindNodePairs = 63u;         // vec4[3 * slots]: nodes with such contacts, see implicit_pairs.glsl
 const uint kBindSurfaceWays = 64u;       // uint[slots]: ways to the surface, see surface_ways.h
+const uint kBindAxialCut = 65u;          // float[3 * slots]: where springs were cut, as in HostState::axial_cut
 
 // Texture units: buffers seen through texel fetches. OpenGL promises 16 of them.
 const uint kUnitDisplacement = 0u;  // rgba32f, as kBindDisplacementIn

@@ -22,25 +22,24 @@ bool crossesTriangle(vec3 a, vec3 b, vec3 p, vec3 q, vec3 r) {
 }
 
 /// The blade sweeps a quadrilateral: tip and far end at the start, far end and tip at the end.
-bool crossesBlade(vec3 a, vec3 b, ToolMotion m) {
+/// Which of its two triangles the segment a..b crosses, 1 or 2; 0 where it crosses none.
+uint crossedPart(vec3 a, vec3 b, ToolMotion m) {
   vec3 tip = xyz(m.to) - xyz(m.from), far_from = xyz(m.blade_from) - xyz(m.from), far_to = xyz(m.blade_to) - xyz(m.from);
-  return crossesTriangle(a, b, vec3(0.0f), far_from, far_to) || crossesTriangle(a, b, vec3(0.0f), far_to, tip);
+  if (crossesTriangle(a, b, vec3(0.0f), far_from, far_to)) return 1u;
+  return crossesTriangle(a, b, vec3(0.0f), far_to, tip) ? 2u : 0u;
 }
 
 const float kLeastShare = 0.02f;  // a spring is not shown cut nearer to one of its ends than this share of it
 
-/// Share of a..b that lies on a's side of the plane through the origin.
-float shareBefore(vec3 a, vec3 b, vec3 normal) {
-  float da = dot(a, normal), db = dot(b, normal);
-  return clamp(da / (da - db), kLeastShare, 1.0f - kLeastShare);
-}
-
-/// Where the blade crosses the segment a..b: the share of it on a's side; 0 where it does not.
-float crossing(vec3 a, vec3 b, ToolMotion m) {
+/// Where the line a..b passes the plane of a part of the sweep: the share of a..b on a's side. Where a and b lie on the same
+/// side of it, at the nearer end.
+/// @param part  1 or 2, as crossedPart() says
+float shareBefore(vec3 a, vec3 b, uint part, ToolMotion m) {
   vec3 tip = xyz(m.to) - xyz(m.from), far_from = xyz(m.blade_from) - xyz(m.from), far_to = xyz(m.blade_to) - xyz(m.from);
-  if (crossesTriangle(a, b, vec3(0.0f), far_from, far_to)) return shareBefore(a, b, cross(far_from, far_to));
-  if (crossesTriangle(a, b, vec3(0.0f), far_to, tip)) return shareBefore(a, b, cross(far_to, tip));
-  return 0.0f;
+  // Of two vectors of which one is the blade and the other a way: of two blades that are almost one another little is left.
+  vec3 normal = part == 1u ? cross(far_from, xyz(m.blade_to) - xyz(m.blade_from)) : cross(far_to, tip);
+  float da = dot(a, normal), db = dot(b, normal);
+  return da == db ? 0.5f : clamp(da / (da - db), kLeastShare, 1.0f - kLeastShare);
 }
 
 float segmentDistance(vec3 a, vec3 b, vec3 x) {

@@ -3,7 +3,8 @@
 //
 // cut_links.comp - erase the explicit connections that the swept blade crosses, from both ends.   Owner: solver/gpu/cut_pass.h
 // in  displacement, tool motions     in/out  links (stiffness), spring_cut, nodes (valence or counts), stats.springs_cut
-// One invocation per spring, so the two ends cannot disagree. No node is lost, and no mass.
+// One invocation per spring, so the two ends cannot disagree. No node is lost, and no mass. Whether a spring is cut, its ends'
+// tissue decides; where, the line between its nodes says, on which skins and walls are.
 // Feature: PARTICLES erases the springs of the nodes near the blade instead.
 #include "layout.h"
 #include "lattice.glsl"
@@ -60,12 +61,15 @@ void main() {
   float h = bodies[bodyOf(nodes[ends.a])].origin_spacing.w;
   vec3 x = seenFromBlade(ends.a, m, h), y = seenFromBlade(ends.b, m, h);
 #ifdef PARTICLES
-  float share = erased(x, m) || erased(y, m) ? kErasedShare : 0.0f;
+  if (!erased(x, m) && !erased(y, m)) return;
+  float share = kErasedShare;
 #else
   vec3 offset = startOffset(m, (0.5f * m.timing.x) * (xyz(velocity[ends.a]) + xyz(velocity[ends.b])));
-  float share = crossing(x - offset, y - offset, startingAt(m, offset));
+  ToolMotion seen = startingAt(m, offset);
+  uint part = crossedPart(x - offset, y - offset, seen);
+  if (part == 0u) return;
+  float share = shareBefore(nodeFromBlade(ends.a, m) - offset, nodeFromBlade(ends.b, m) - offset, part, seen);
 #endif
-  if (share == 0.0f) return;
   spring_cut[i] = share;
   links[ends.link_a].stiffness = 0.0f;
   links[ends.link_b].stiffness = 0.0f;

@@ -12,10 +12,15 @@ vec3 toTissue(uint slot, float h) {
                     xyz(displacement[wayEnd(slot, way, 1u)]), xyz(displacement[wayEnd(slot, way, 2u)]));
 }
 
+/// Position of a node relative to the blade's first tip [m].
+vec3 nodeFromBlade(uint slot, ToolMotion m) {
+  precise vec3 x = (restPosition(slot) - xyz(m.from)) + xyz(displacement[slot]);
+  return x;
+}
+
 /// Position of a node's tissue relative to the blade's first tip [m]: a blade in the air cuts nothing, one that ends there
 /// spares nothing.
 vec3 seenFromBlade(uint slot, ToolMotion m, float h) {
-  precise vec3 x = (restPosition(slot) - xyz(m.from)) + xyz(displacement[slot]);
-  precise vec3 tissue = x + toTissue(slot, h);
+  precise vec3 tissue = nodeFromBlade(slot, m) + toTissue(slot, h);
   return tissue;
 }

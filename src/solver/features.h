@@ -24,6 +24,7 @@ struct FeatureSet {
   bool parts = false;        ///< strengths differ within a body
   bool compensated = false;  ///< u and v are summed with Kahan's compensation
   bool tools = false;        ///< there are styluses
+  bool cuts = false;         ///< one of them may cut or erase: lattices keep a record of it (CutRecord)
   uint32_t obstacles = 0;    ///< how many there are
   bool single_body = false;
   uint32_t group_size = layout::kGroupSize;

@@ -8,6 +8,15 @@
 
 namespace viscera {
 
+namespace {
+
+bool sameNodes(const std::vector<layout::NodeBits>& a, const std::vector<layout::NodeBits>& b) {
+  const auto same = [](layout::NodeBits x, layout::NodeBits y) { return x.lo == y.lo && x.hi == y.hi; };
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), same);
+}
+
+}  // namespace
+
 void copyShown(const float* displacement_m, StateSnapshot& out) {
   out.displacement_m.resize(kBrickFloats * out.bricks.size());
   float* to = out.displacement_m.data();
@@ -24,15 +33,24 @@ void copyShown(const HostState& state, StateSnapshot& out) {
       for (uint32_t i = 0; i < layout::kBrickSlots; ++i) out.displacement_m.push_back(first[i].*component);
     }
   }
-  const auto same = [](layout::NodeBits a, layout::NodeBits b) { return a.lo == b.lo && a.hi == b.hi; };
-  if (std::equal(state.nodes.begin(), state.nodes.end(), out.nodes.begin(), out.nodes.end(), same)) return;
+  if (sameNodes(state.nodes, out.nodes)) return;
   out.nodes = state.nodes;
   out.spring_cut = state.spring_cut;
+  out.axial_cut = state.axial_cut;
   ++out.cut_revision;
 }
 
 void Solver::snapshot(StateSnapshot& out) const {
   copyShown(readState(), out);
+}
+
+bool Solver::readCuts(CutState& out) const {
+  const HostState state = readState();
+  if (sameNodes(state.nodes, out.nodes) && state.axial_cut == out.axial_cut) return false;
+  out.nodes = state.nodes;
+  out.axial_cut = state.axial_cut;
+  ++out.revision;
+  return true;
 }
 
 uint64_t stateHash(const Model& model, const HostState& state) {

@@ -138,6 +138,13 @@ void Ticks::writeState(const HostState& state, bool staggered) {
   if (watch_) watch_->restart();
 }
 
+bool Ticks::readCuts(CutState& out) const {
+  if (!out.nodes.empty() && out.revision == cut_revision_) return false;
+  backend_->readCuts(out);
+  out.revision = cut_revision_;
+  return true;
+}
+
 /// Sends a tick's measurements on their way. Where the backend is as many ticks behind as it may be, waiting here is
 /// what keeps the two together.
 void Ticks::finishStats() {

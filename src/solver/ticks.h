@@ -27,6 +27,7 @@ class Ticks : public Solver {
   std::optional<StateView> stateOnGpu() const final { return backend_->stateOnGpu(cut_revision_); }
   HostState readState() const final { return backend_->readState(); }
   void snapshot(StateSnapshot& out) const final { backend_->snapshot(out, cut_revision_); }
+  bool readCuts(CutState& out) const final;
   bool pollStats(layout::TickStats& stats, bool wait) final;
   const Health& health() const final;
   double dt_s() const final { return tick_s_ / substeps_.calm; }

@@ -27,7 +27,9 @@ struct SpringEnds {
   uint a, b, link_a, link_b;
 };
 const uint kNoSpring = 0xffffffffu;
-const float kErasedShare = 2.0f;  // spring_cut of a spring that was not crossed but erased: nothing of it is shown
+// spring_cut, and axial_cut, of a spring that was not crossed but erased, as one of its ends was: nothing of it is shown. Which
+// end, NodeBits say: one that was erased has no spring left.
+const float kErasedShare = 2.0f;
 
 #ifdef __cplusplus
 }  // namespace viscera::layout

@@ -35,6 +35,11 @@ class Solver {
   /// Copies what showing the current state takes; see StateSnapshot. A backend on the host makes no memory for it once
   /// `out` has had its size; others do it by way of readState().
   virtual void snapshot(StateSnapshot& out) const;
+  /// Brings `out` up to the current state. Costs nothing where no tool may have cut since it was last brought there and
+  /// the state was neither reset nor written; else a copy on the CPU, while the GPU is waited for: ask there when
+  /// TickStats::springs_cut has changed. Makes no memory once `out` has had its size, except by way of readState().
+  /// @returns whether something was copied
+  virtual bool readCuts(CutState& out) const;
   /// Measurements of the next tick that has come back, oldest first; false if there is none (yet).
   /// @param wait  wait for the next one if one is under way
   virtual bool pollStats(layout::TickStats& stats, bool wait) = 0;

@@ -20,6 +20,7 @@ struct StateView {
   uint32_t bodies = 0;          ///< BodyParams[bodies]
   uint32_t rest = 0;            ///< vec4[slots] rest positions [m]; 0 where no body has explicit connections
   uint32_t spring_cut = 0;      ///< float[springs], see layout::kBindSpringCut; 0 likewise
+  uint32_t axial_cut = 0;       ///< float[3 * slots], as in HostState, of implicit lattices; 0 without a tool that cuts
   uint64_t cut_revision = 0;    ///< grows whenever springs may have been cut since the last step
   uint32_t stale_bricks = 0;    ///< uint[bricks]: `revision` at which a node of the brick or of a brick beside it last
                                 ///< moved; 0 where nobody knows: every node may have moved
@@ -33,6 +34,7 @@ struct StateSnapshot {
   std::vector<float> displacement_m;    ///< [192 * shown] of each of the bricks: 64 x, 64 y, 64 z
   std::vector<layout::NodeBits> nodes;  ///< [slots] copied only if empty, or of another cut_revision
   std::vector<float> spring_cut;        ///< [springs] of all networks, as in HostState; copied with `nodes`
+  std::vector<float> axial_cut;         ///< [3 * slots] or none, as in HostState; copied with `nodes`
   uint64_t cut_revision = 0;            ///< as in StateView, of `nodes`
 };
 constexpr size_t kBrickFloats = size_t{3} * layout::kBrickSlots;
@@ -49,6 +51,18 @@ struct HostState {
   /// [springs] of the networks of all bodies, in the model's order: 0 whole, else where the blade crossed it, 0..1 of
   /// the way from a to b, or layout::kErasedShare; empty where there are none
   std::vector<float> spring_cut;
+  /// [3 * slots] of lattices, implicit and explicit: where the springs from a node to its neighbours along +x, +y and
+  /// +z were first cut: 0 whole (or none there), else the share of the line between the two nodes, from the node on, at
+  /// which it passes the plane of the blade's sweep, 0.02 to 0.98; layout::kErasedShare where an end was erased: the
+  /// one that NodeBits says to have no spring left. Empty where no tool cuts, or no body is a lattice.
+  std::vector<float> axial_cut{};
+};
+
+/// Which springs of lattices are cut, and where. Whoever follows cuts keeps one (Solver::readCuts).
+struct CutState {
+  uint64_t revision = 0;                ///< of what is here; grows like StateView::cut_revision
+  std::vector<layout::NodeBits> nodes;  ///< [slots]; empty before the first reading
+  std::vector<float> axial_cut;         ///< [3 * slots] or none, as in HostState
 };
 
 /// Copies what a snapshot asks for of a state: whole tissue, nodes and springs where they differ from the snapshot's,

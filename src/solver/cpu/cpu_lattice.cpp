@@ -72,7 +72,9 @@ CpuLattice::CpuLattice(const Model& model, const std::vector<layout::BodyParams>
       links(model, features),
       strengths(model, store, features, links.network.masses_kg),
       state(store.slotCount()),
-      hands(store, features) {}
+      hands(store, features),
+      record(model, links.network, features),
+      axial_cut(record.size()) {}
 
 void CpuLattice::reset() {
   store.nodes = store.whole_nodes;
@@ -86,19 +88,32 @@ void CpuLattice::reset() {
   clear(hands.obstacle_impulses);
   clear(hands.met);
   state.current = 0;
+  clear(axial_cut);
   links.writeSpringCut({});
   strengths.refreshAll(store);
 }
 
 HostState CpuLattice::read() const {
-  return {gathered(state.displacement[state.current], slotCount()),
-          gathered(state.velocity[state.current], slotCount()), store.nodes, links.spring_cut};
+  HostState out;
+  out.displacement_m = gathered(state.displacement[state.current], slotCount());
+  out.velocity_m_per_s = gathered(state.velocity[state.current], slotCount());
+  out.spring_cut = links.spring_cut;
+  readCuts(out.nodes, out.axial_cut);
+  return out;
+}
+
+void CpuLattice::readCuts(std::vector<layout::NodeBits>& nodes, std::vector<float>& out) const {
+  nodes = store.nodes;
+  out = axial_cut;
+  record.addExplicit(links.spring_cut, out);
 }
 
 void CpuLattice::write(const HostState& from) {
   scatter(from.displacement_m, state.displacement[state.current]);
   scatter(from.velocity_m_per_s, state.velocity[state.current]);
   store.nodes = from.nodes;
+  clear(axial_cut);
+  std::copy_n(from.axial_cut.begin(), std::min(from.axial_cut.size(), axial_cut.size()), axial_cut.begin());
   links.writeSpringCut(from.spring_cut);
   strengths.refreshAll(store);
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "solver/cpu/cpu_strengths.h"
+#include "solver/cut_record.h"
 #include "solver/edge_forces.h"
 #include "solver/joined_network.h"
 #include "viscera/math/types.h"
@@ -59,6 +60,8 @@ struct CpuLattice {
   void reset();
   void swap() { state.swap(); }
   HostState read() const;
+  /// What of the state readCuts() hands out. @param axial_cut  as in HostState
+  void readCuts(std::vector<layout::NodeBits>& nodes, std::vector<float>& axial_cut) const;
   void write(const HostState& from);
   void refresh(uint32_t slot) { strengths.refresh(store, slot); }
 
@@ -71,6 +74,8 @@ struct CpuLattice {
   CpuStrengths strengths;
   CpuState state;
   CpuHands hands;
+  CutRecord record;
+  std::vector<float> axial_cut;  ///< [record.size()] as in HostState, of implicit lattices
 };
 
 /// The vector of a slot in displacement or velocity.

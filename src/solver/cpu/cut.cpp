@@ -16,7 +16,8 @@ struct CutStats {
 };
 
 struct CutKernel : Kernel {
-  using Kernel::Kernel;
+  explicit CutKernel(CpuLattice& lattice) : Kernel(lattice), axial_cut(lattice.axial_cut.data()) {}
+  float* axial_cut;
   uint stylus = 0;
   CutStats stats;
 };
@@ -34,13 +35,27 @@ struct CutKernel : Kernel {
 #define VARIANT_NAME CutSprings
 #define VARIANT_BASE CutKernel
 #define VARIANT_TEXT "shaders/solver/cut.comp"
+#define VARIANT_FEATURES WITH_RECORD
+#define VARIANT_MEMBERS MAY_LOSE
+#include "solver/cpu/glsl_variant.inc"
+
+#define VARIANT_NAME CutSpringsForgetting
+#define VARIANT_BASE CutKernel
+#define VARIANT_TEXT "shaders/solver/cut.comp"
+#define VARIANT_MEMBERS MAY_LOSE
+#include "solver/cpu/glsl_variant.inc"
+
+#define VARIANT_NAME CutParticlesForgetting
+#define VARIANT_BASE CutKernel
+#define VARIANT_TEXT "shaders/solver/cut.comp"
+#define VARIANT_FEATURES WITH_PARTICLES
 #define VARIANT_MEMBERS MAY_LOSE
 #include "solver/cpu/glsl_variant.inc"
 
 #define VARIANT_NAME CutParticles
 #define VARIANT_BASE CutKernel
 #define VARIANT_TEXT "shaders/solver/cut.comp"
-#define VARIANT_FEATURES WITH_PARTICLES
+#define VARIANT_FEATURES WITH_PARTICLES | WITH_RECORD
 #define VARIANT_MEMBERS MAY_LOSE
 #include "solver/cpu/glsl_variant.inc"
 #undef MAY_LOSE
@@ -220,6 +235,11 @@ uint32_t CpuCut::cutWith(CpuLattice& lattice, const layout::ToolMotion& motion) 
   return kernel.stats.springs_cut;
 }
 
+template <class Springs, class Particles>
+uint32_t CpuCut::cutAll(CpuLattice& lattice, const layout::ToolMotion& motion, bool particles) {
+  return particles ? cutWith<Particles>(lattice, motion) : cutWith<Springs>(lattice, motion);
+}
+
 /// Drops the volumes of cells that have lost a spring: they have a corner that has.
 void CpuCut::tearCells(CpuLattice& lattice) const {
   glsl::TearCell kernel(lattice);
@@ -240,8 +260,10 @@ uint32_t CpuCut::run(CpuLattice& lattice, const layout::ToolMotion& motion, bool
   findBricks(lattice, motion);
   placeNodes(lattice, motion, particles ? motion.blade_from.w : 0);
   changed_.clear();
+  const bool records = !lattice.axial_cut.empty();
   const uint32_t springs =
-      particles ? cutWith<glsl::CutParticles>(lattice, motion) : cutWith<glsl::CutSprings>(lattice, motion);
+      records ? cutAll<glsl::CutSprings, glsl::CutParticles>(lattice, motion, particles)
+              : cutAll<glsl::CutSpringsForgetting, glsl::CutParticlesForgetting>(lattice, motion, particles);
   if (!lattice.strengths.bulk.empty()) tearCells(lattice);
   for (uint32_t b : near_) {  // as if nothing had been near
     common_[b] = kNotNear;

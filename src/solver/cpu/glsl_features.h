@@ -26,3 +26,4 @@
 #define WITH_BEFORE (1 << 21)
 #define WITH_AHEAD (1 << 22)
 #define WITH_PAIRS (1 << 23)
+#define WITH_RECORD (1 << 24)

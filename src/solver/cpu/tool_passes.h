@@ -39,6 +39,8 @@ class CpuCut {
   bool mayCross(const layout::Brick& brick) const;
   template <class Kernel>
   uint32_t cutWith(CpuLattice& lattice, const layout::ToolMotion& motion);
+  template <class Springs, class Particles>
+  uint32_t cutAll(CpuLattice& lattice, const layout::ToolMotion& motion, bool particles);
   void tearCells(CpuLattice& lattice) const;
 
   std::vector<uint32_t> near_;     ///< bricks

@@ -140,14 +140,24 @@ std::optional<StateView> GpuBackend::stateOnGpu(uint64_t cut_revision) const {
   view.bodies = buffers_.store.bodies.id();
   view.rest = buffers_.links.rest.id();
   view.spring_cut = buffers_.links.spring_cut.id();
+  view.axial_cut = buffers_.axial_cut.id();
   view.cut_revision = cut_revision;
   return view;
 }
 
 HostState GpuBackend::readState() const {
-  return {buffers_.state.displacement[buffers_.state.current].read(),
-          buffers_.state.velocity[buffers_.state.current].read(), buffers_.store.nodes.read(),
-          buffers_.links.spring_cut.read()};
+  HostState out;
+  out.displacement_m = buffers_.state.displacement[buffers_.state.current].read();
+  out.velocity_m_per_s = buffers_.state.velocity[buffers_.state.current].read();
+  out.nodes = buffers_.store.nodes.read();
+  out.spring_cut = buffers_.links.spring_cut.read();
+  out.axial_cut = buffers_.readAxialCut(out.spring_cut);
+  return out;
+}
+
+void GpuBackend::readCuts(CutState& out) const {
+  out.nodes = buffers_.store.nodes.read();
+  out.axial_cut = buffers_.readAxialCut(buffers_.links.spring_cut.read());
 }
 
 void GpuBackend::resetState() {
@@ -163,6 +173,7 @@ void GpuBackend::loadState(const HostState& state) {
   buffers_.state.velocity[buffers_.state.current].write(state.velocity_m_per_s);
   buffers_.store.nodes.write(state.nodes);
   buffers_.writeSpringCut(state.spring_cut);
+  buffers_.writeAxialCut(state.axial_cut);
   if (buffers_.state.compensation.size()) buffers_.state.compensation.clear();
   if (surroundings_) surroundings_->restart();
   if (pairs_) pairs_->restart();

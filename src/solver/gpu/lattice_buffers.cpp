@@ -160,7 +160,9 @@ LatticeBuffers::LatticeBuffers(const Model& model, const std::vector<layout::Bod
       strengths(model, features, links.network.masses_kg),
       state(store.slot_count, features),
       hands(store.slot_count, features),
+      record(model, links.network, features),
       stats(1, "measurements") {
+  if (features.lattice && record.size() > 0) axial_cut = gpu::Buffer<float>(record.size(), "record of cuts");
   if (features.volume) {
     const size_t vectors = features.moments ? layout::kMomentVectors : layout::kVolumeVectors;
     cell_forces = gpu::Buffer<layout::vec4>(vectors * store.slot_count, "cell forces");
@@ -180,10 +182,24 @@ void LatticeBuffers::bind() const {
   strengths.bind();
   links.bind();
   hands.bind();
+  if (axial_cut.size()) axial_cut.bindStorage(layout::kBindAxialCut);
+}
+
+std::vector<float> LatticeBuffers::readAxialCut(const std::vector<float>& spring_cut) const {
+  std::vector<float> out = axial_cut.size() ? axial_cut.read() : std::vector<float>(record.size());
+  record.addExplicit(spring_cut, out);
+  return out;
+}
+
+void LatticeBuffers::writeAxialCut(const std::vector<float>& cut) {
+  if (!axial_cut.size()) return;
+  axial_cut.clear();
+  if (!cut.empty()) axial_cut.write(cut);
 }
 
 void LatticeBuffers::reset() {
   links.writeSpringCut({});
+  writeAxialCut({});
   store.reset();
   state.reset();
   hands.reset();

@@ -4,6 +4,7 @@
 
 #include "gpu/buffer.h"
 #include "layout/edge_forces.h"
+#include "solver/cut_record.h"
 #include "solver/edge_forces.h"
 #include "solver/features.h"
 #include "solver/joined_network.h"
@@ -117,6 +118,8 @@ struct LatticeBuffers {
   void swap() { state.swap(); }
   /// Rest state, whole springs, nothing held.
   void reset();
+  std::vector<float> readAxialCut(const std::vector<float>& spring_cut) const;  ///< both as in HostState; waits
+  void writeAxialCut(const std::vector<float>& cut);                            ///< as in HostState, none: whole
   void writeSpringCut(const std::vector<float>& cut) { links.writeSpringCut(cut); }
 
   StoreBuffers store;
@@ -124,6 +127,8 @@ struct LatticeBuffers {
   StrengthBuffers strengths;
   StateBuffers state;
   HandBuffers hands;
+  CutRecord record;
+  gpu::Buffer<float> axial_cut;           ///< [record.size()] of implicit lattices; features cuts, lattice
   gpu::Buffer<layout::TickStats> stats;   ///< [1]
   gpu::Buffer<layout::vec4> cell_forces;  ///< [3 or 7 * slots] N, see shaders/solver/volume.comp; feature volume
 

@@ -11,6 +11,7 @@ namespace viscera {
 namespace {
 
 constexpr float kLeastFraction = 1.0f / (1 << 24);  ///< of a spring's length, where a cut is noted: 0 means whole
+constexpr double kLeastShare = 0.02;                ///< of a spring of a lattice (shaders/solver/blade.glsl)
 constexpr std::array<int, 8> kNoCells = {-1, -1, -1, -1, -1, -1, -1, -1};
 
 Vector3i cornerOffset(size_t corner) {
@@ -20,7 +21,8 @@ Vector3i cornerOffset(size_t corner) {
 }  // namespace
 
 ReferenceLattice::ReferenceLattice(const Model& model)
-    : rest_m_(model.slots(), Vector3d::Zero()),
+    : axial_cut(3 * model.slots()),
+      rest_m_(model.slots(), Vector3d::Zero()),
       surface_depth_m_(surfaceDepths(model)),
       place_(model.slots(), -1),
       around_(model.slots(), kNoCells) {
@@ -179,6 +181,11 @@ void ReferenceLattice::eraseSpring(uint32_t slot, uint32_t spring, double fracti
   // Rounded, it must still say that the spring is cut.
   if (n.spring >= 0) spring_cut[static_cast<size_t>(n.spring)] = std::max(static_cast<float>(fraction), kLeastFraction);
   if (of_lattice) killCells(slot, n.slot);
+  if (n.lattice_spring >= layout::kAxialSprings) return;
+  const bool forward = n.lattice_spring % 2 == 0;
+  const double share = std::clamp(forward ? fraction : 1 - fraction, kLeastShare, 1 - kLeastShare);
+  const bool erased = fraction == static_cast<double>(layout::kErasedShare);
+  axial_cut[3 * (forward ? slot : n.slot) + n.lattice_spring / 2] = erased ? fraction : share;
 }
 
 /// Notes in NodeBits that one end of a spring has it no longer.

@@ -31,6 +31,7 @@ class ReferenceLattice {
   std::vector<layout::NodeBits> nodes;  ///< [slots]; counts of heterogeneous bodies and of explicit lattices only say
                                         ///< alive or cut, those of networks how many links are whole
   std::vector<float> spring_cut;        ///< [springs] of all networks, as in HostState: 0 whole
+  std::vector<double> axial_cut;        ///< [3 * slots] of lattices of either kind, as in HostState
 
   size_t slots() const { return nodes.size(); }
   Vector3d restPosition(uint32_t slot) const { return rest_m_[slot]; }
@@ -86,8 +87,8 @@ class ReferenceLattice {
                                               double dashpot_per_s = 0) const;
 
   /// Erases a spring from both ends, and with it the volume of every cell that it belongs to.
-  /// @param fraction  of explicit connections: where it was cut, in (0, 1] of the way from its end with the lower slot,
-  ///                  or layout::kErasedShare
+  /// @param fraction  where it was cut, in (0, 1] of the way from `slot`, of explicit connections from its end with the
+  ///                  lower slot; or layout::kErasedShare
   void eraseSpring(uint32_t slot, uint32_t spring, double fraction = 1);
   uint32_t farEnd(uint32_t slot, uint32_t spring) const { return neighbor(slot, spring).slot; }
 

@@ -74,6 +74,7 @@ HostState ReferenceSolver::state() const {
   for (const Vector3d& v : v_m_per_s) out.velocity_m_per_s.push_back(rounded(v));
   out.nodes = nodes;
   out.spring_cut = spring_cut;
+  out.axial_cut.assign(axial_cut.begin(), axial_cut.end());
   return out;
 }
 

@@ -25,9 +25,13 @@ Vector3d nearestOnSegment(const Vector3d& a, const Vector3d& b, const Vector3d& 
   return length2 > 0 ? Vector3d(a + std::clamp((x - a).dot(ab) / length2, 0.0, 1.0) * ab) : a;
 }
 
-/// Where the segment a..b crosses the triangle p q r, 0..1 of the way from a to b, if it does. Borders belong to it.
-std::optional<double> crossing(const Vector3d& a, const Vector3d& b, const Vector3d& p, const Vector3d& q,
-                               const Vector3d& r) {
+struct Plane {
+  Vector3d point, normal;
+};
+
+/// The plane of the triangle p q r if the segment a..b crosses the triangle. Borders belong to it.
+std::optional<Plane> crossing(const Vector3d& a, const Vector3d& b, const Vector3d& p, const Vector3d& q,
+                              const Vector3d& r) {
   const Vector3d normal = (q - p).cross(r - p);
   if (normal.isZero(0)) return std::nullopt;
   const double da = (a - p).dot(normal), db = (b - p).dot(normal);
@@ -36,7 +40,13 @@ std::optional<double> crossing(const Vector3d& a, const Vector3d& b, const Vecto
   const Vector3d x = a + fraction * (b - a);
   const bool inside = (q - p).cross(x - p).dot(normal) >= 0 && (r - q).cross(x - q).dot(normal) >= 0 &&
                       (p - r).cross(x - r).dot(normal) >= 0;
-  return inside ? std::optional(fraction) : std::nullopt;
+  return inside ? std::optional(Plane{p, normal}) : std::nullopt;
+}
+
+/// Where the line a..b passes a plane, 0..1 of the way from a to b; at the nearer end where it passes beyond.
+double fractionOf(const Vector3d& a, const Vector3d& b, const Plane& plane) {
+  const double da = (a - plane.point).dot(plane.normal), db = (b - plane.point).dot(plane.normal);
+  return da == db ? 0.5 : std::clamp(da / (da - db), 0.0, 1.0);
 }
 
 double distanceToTriangle(const Vector3d& x, const Vector3d& p, const Vector3d& q, const Vector3d& r) {
@@ -119,15 +129,18 @@ void ReferenceSolver::cut(uint32_t stylus, bool particles) {
   const auto erased = [&](const Vector3d& x) {
     return std::min(distanceToTriangle(x, a, b, c), distanceToTriangle(x, a, c, d)) <= m.blade_from.w;
   };
-  // Where the spring from x to y, which has come `way` in the last substep, is severed, if it is.
-  const auto severed = [&](const Vector3d& x, const Vector3d& y, bool linked,
-                           const Vector3d& way) -> std::optional<double> {
+  // Where a spring, which has come `way` in the last substep, is severed, if it is: its ends' tissue says whether, the
+  // line between the nodes where.
+  const auto severed = [&](uint32_t slot, uint32_t far, bool linked, const Vector3d& way) -> std::optional<double> {
+    const Vector3d x = position(slot), y = position(far);
     if (particles) {
       return erased(x) || erased(y) ? std::optional(kErasedFraction) : std::nullopt;
     }
     const Vector3d offset = linked ? Vector3d(way - kOverlap * (d - a)) : Vector3d::Zero();
-    const std::optional<double> first = crossing(x, y, a + offset, b + offset, c);
-    return first ? first : crossing(x, y, a + offset, c, d);
+    std::optional<Plane> plane = crossing(x, y, a + offset, b + offset, c);
+    if (!plane) plane = crossing(x, y, a + offset, c, d);
+    if (!plane) return std::nullopt;
+    return fractionOf(restPosition(slot) + u_m[slot], restPosition(far) + u_m[far], *plane);
   };
   for (uint32_t slot : active) {
     for (uint32_t s = 0; s < springsOf(slot); ++s) {
@@ -137,7 +150,7 @@ void ReferenceSolver::cut(uint32_t stylus, bool particles) {
       const bool linked = body(slot).connections != layout::kImplicit;
       const Vector3d way =
           linked && !first_ ? Vector3d(0.5 * last_dt_s_ * (v_m_per_s[slot] + v_m_per_s[far])) : Vector3d::Zero();
-      const std::optional<double> fraction = severed(position(slot), position(far), linked, way);
+      const std::optional<double> fraction = severed(slot, far, linked, way);
       if (!fraction) continue;
       eraseSpring(slot, s, *fraction);
       ++springs_cut;

@@ -1,0 +1,33 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "solver/features.h"
+#include "solver/joined_network.h"
+
+namespace viscera {
+
+/// The record of cuts of all lattices, HostState::axial_cut. Kernels write what implicit lattices have of it
+/// (shaders/solver/cut.comp); explicit ones have it in spring_cut, spring by spring, and it is put together on the
+/// host.
+class CutRecord {
+ public:
+  /// @param network  of the model
+  CutRecord(const Model& model, const JoinedNetwork& network, const FeatureSet& features);
+  /// [3 * slots]; 0 where no tool cuts or no body is a lattice.
+  size_t size() const { return size_; }
+  /// Puts in what explicit lattices have. @param spring_cut  [springs] as in HostState   @param axial_cut  [size()]
+  void addExplicit(const std::vector<float>& spring_cut, std::vector<float>& axial_cut) const;
+
+ private:
+  struct Place {
+    uint32_t spring, at;  ///< in spring_cut and in axial_cut
+    bool forward;         ///< leads along its axis from a to b
+  };
+  size_t size_ = 0;
+  std::vector<Place> places_;
+};
+
+}  // namespace viscera
