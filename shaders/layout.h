@@ -9,6 +9,7 @@
 #include "layout/moments.h"
 #include "layout/network_skin.h"
 #include "layout/surface_ways.h"
+#include "layout/touch_depths.h"
 #include "layout/wind.h"
 #include "viscera/layout/limits.h"
 #include "viscera/layout/links.h"

@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Contacts between nodes: which may touch, which are near, and what two that touch do to each other (solver/collision.h,
+// Contacts between nodes: which may touch, which are near, and which way they push each other (solver/collision.h,
 // physics.md 8). After lattice.glsl and elastic.glsl.
 // Features: STAGGERED (GW's partitions instead of the complete grid); AHEAD (within an implicit substep: before it is now, its end is
 // where the increments lead).
@@ -22,7 +22,7 @@ uniform uint slot_count;
 layout(std430, binding = kBindActive) readonly buffer ActiveBuffer { uint active_nodes[]; };
 layout(std430, binding = kBindNodes) readonly buffer NodesBuffer { NodeBits nodes[]; };
 layout(std430, binding = kBindDisplacementOut) readonly buffer DisplacementOut { vec4 next_displacement[]; };  // before the substep
-layout(std430, binding = kBindCollidable) readonly buffer CollidableBuffer { uint collidable[]; };
+layout(std430, binding = kBindTouchDepths) readonly buffer TouchDepthsBuffer { float touch_depths[]; };
 layout(std140, binding = kBindBodyInfluences) uniform BodyInfluencesBlock { vec4 body_influences[kMaxBodies]; };  // w distance [m]
 layout(std430, binding = kBindContacts) buffer ContactsBuffer { vec4 contacts[]; };
 layout(std430, binding = kBindCorrections) buffer CorrectionsBuffer { vec4 corrections[]; };
@@ -55,7 +55,8 @@ vec3 positionBefore(uint slot) { return restPosition(slot) + xyz(next_displaceme
 /// May this node touch others? Not one that is gone too far to have a cell, or to nowhere.
 bool collides(uint slot, NodeBits bits, vec3 x) {
   if (isIsolated(bits)) return false;
-  if ((bits.lo & kSeveredBit) == 0u && (collidable[slot >> 5] & (1u << (slot & 31u))) == 0u) return false;
+  float depth = touch_depths[slot];
+  if (depth == kNeverTouches || ((bits.lo & kSeveredBit) == 0u && depth == kTouchesOnceCut)) return false;
   const float most_cells = 1e9f;  // either way: coordinates of cells are 32-bit integers
   return all(lessThanEqual(floatBitsToUint(abs(x)), uvec3(floatBitsToUint(most_cells * cell_m))));
 }
@@ -67,18 +68,30 @@ uint hashOf(ivec3 cell) {
   return h ^ (h >> 15);
 }
 
+/// How deep a node that may touch others lies below the surface of its tissue [m].
+float touchDepth(uint slot) {
+  float depth = touch_depths[slot];
+  return depth == kTouchesOnceCut ? 0.0f : depth;
+}
+
+/// How near nodes of two bodies touch, as it is widened [m]: their surfaces are as near as the bodies want.
+float distanceBetweenBodies(uint a, uint b) {
+  float wanted = max(body_influences[bodyOf(nodes[a])].w, body_influences[bodyOf(nodes[b])].w);
+  return widened * (wanted + (touchDepth(a) + touchDepth(b)));
+}
+
 /// How near two nodes touch, D_ij of collision.h as it is widened [m]: the same number for both.
 float contactDistance(uint a, uint b) {
-  uint body_a = bodyOf(nodes[a]), body_b = bodyOf(nodes[b]);
-  float wanted = max(body_influences[body_a].w, body_influences[body_b].w);
-  return widened * (body_a == body_b ? min(wanted, 0.5f * distance(restPosition(a), restPosition(b))) : wanted);
+  float wanted = distanceBetweenBodies(a, b);
+  if (bodyOf(nodes[a]) != bodyOf(nodes[b])) return wanted;
+  return min(wanted, widened * (0.5f * distance(restPosition(a), restPosition(b))));
 }
 
 /// contactDistance() where two nodes touch, else 0 [m].
 float touchDistance(Entry a, Entry b) {
   precise vec3 apart = a.x - b.x;
   float d2 = dot(apart, apart);
-  float wanted = widened * max(body_influences[bodyOf(nodes[a.slot])].w, body_influences[bodyOf(nodes[b.slot])].w);
+  float wanted = distanceBetweenBodies(a.slot, b.slot);
   if (d2 >= wanted * wanted) return 0.0f;
   wanted = contactDistance(a.slot, b.slot);
   return d2 < wanted * wanted ? wanted : 0.0f;
@@ -113,38 +126,4 @@ vec3 contactNormal(vec3 dir, vec4 sum_a, vec4 sum_b) {
   float l = length(sum);
   const float least = 0.05f;  // cosine: a mean that goes past this contact says nothing about it
   return l > 0.0f && dot(sum, dir) > least * l ? sum / l : dir;
-}
-
-/// What two nodes that touch do to the one of the lower slot, a [N s] and [kg m].
-struct Push {
-  vec3 impulse;
-  vec3 shift;  // times the inverse mass: how far it is moved
-};
-
-Push pushOf(vec3 impulse, vec3 shift) {
-  Push push = {impulse, shift};
-  return push;
-}
-
-/// Jacobi by mass splitting: each node meets each of its n contacts with 1/n of its mass, so that all together neither
-/// overshoot nor add energy, and momenta add up to nothing.
-Push pushBetween(Entry a, Entry b, float wanted) {
-  float inverse_a = inverseMass(a.slot), inverse_b = inverseMass(b.slot);
-  vec4 sum_a = contacts[a.slot], sum_b = contacts[b.slot];
-  float inverse = sum_a.w * inverse_a + sum_b.w * inverse_b;
-  if (inverse == 0.0f) return pushOf(vec3(0.0f), vec3(0.0f));
-  vec3 normal = contactNormal(directionBetween(a, b), sum_a, sum_b);
-  const float relaxation = 0.25f;  // share of the depth that goes in a substep
-  // Depth before the substep: what the substep added is undone with the approach.
-  float depth = max(0.0f, wanted - distance(a.before, b.before));
-  vec3 shift = (min(relaxation * depth, push_speed * dt_s) / inverse) * normal;
-  vec3 v = xyz(texelFetch(velocity, int(a.slot))) - xyz(texelFetch(velocity, int(b.slot)));
-  float approach = dot(v, normal);
-  if (approach >= 0.0f) return pushOf(vec3(0.0f), shift);
-  float change = -approach * (-approach > resting_speed ? 1.0f + restitution : 1.0f);
-  vec3 sliding = v - approach * normal;
-  float speed = length(sliding);
-  vec3 impulse = (change / inverse) * normal;
-  if (speed > 0.0f) impulse -= (min(friction * change, speed) / (inverse * speed)) * sliding;
-  return pushOf(impulse, shift);
 }

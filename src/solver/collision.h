@@ -11,9 +11,15 @@
 namespace viscera {
 
 // Contacts between nodes, of one body or of two (GW 5; physics.md 8). Two nodes touch where they are nearer than
-//   D_ij = max(D_a, D_b)                             nodes of bodies a and b
-//   D_ij = min(D_a, half of their distance at rest)  nodes of one body, so that nothing repels at rest
+//   D_ij = max(D_a, D_b)                                  nodes of bodies a and b
+//   D_ij = min(the same, half of their distance at rest)  nodes of one body, so that nothing repels at rest
 // with D = collision.distance_m, or the mean length of a body's springs where that is 0.
+// Where cells are tissue in part, surfaces touch and not nodes: those that may touch lie within the tissue, less than a
+// cell deep, which is one of any row of nodes that goes through the surface, and D_ij is longer by how deep the two
+// lie. So forces stay on the nodes between which the distance is, and are those of an energy. (A point of the surface
+// that a node and its neighbours carry along would not do: what pushes that node alone may move the point the other
+// way.)
+//
 // What passes through what: a sheet whose nodes are no farther apart than D has no hole that a node could slip through
 // within one substep as long as the two move less than D/2 relative to each other in it. The cell of the complete
 // search is the largest D, so that is half a cell. Contact is found at the end of the substep and undoes the approach
@@ -25,14 +31,15 @@ using CollisionPair = std::array<uint32_t, 2>;
 
 /// Mean length of a body's springs [m]: of a lattice its spacing.
 double collisionDistance(const Body& body, const CollisionConfig& config);
-/// Largest distance of all bodies [m].
+/// Largest distance of two nodes that touch [m].
 double collisionReach(const Model& model, const CollisionConfig& config);
 /// Edge of a cell [m]: the reach in the complete search, twice that in GW's staggered partitions.
 double collisionCell(const Model& model, const CollisionConfig& config);
 
-/// Bit slot % 32 of word slot / 32 is set for nodes that may touch others from the start on: all of a network, and
-/// those on the outside of a lattice. (Nodes that lose a spring join them.)
-std::vector<uint32_t> collidableNodes(const Model& model);
+/// [slots] how deep the nodes lie that may touch others [m], or kTouchesOnceCut, or kNeverTouches
+/// (shaders/layout/touch_depths.h). All of a network may, and those on the outside of a lattice, with depth 0; where
+/// cells are tissue in part, those less than a cell below the surface, and outside of it where these leave it bare.
+std::vector<float> touchDepths(const Model& model, const CollisionConfig& config);
 
 /// Buckets of the hashed grid: the power of 2 that is at least twice the nodes.
 uint32_t bucketCount(size_t nodes);

@@ -44,16 +44,27 @@ class Resting : public ::testing::Test {
     }
     return std::sqrt(sum2 / static_cast<double>(nodes(body).size()));
   }
+  /// How deep a node lies below the surface [m]. Those outside of it have no tissue: what is measured is that within.
+  double depth(size_t body, uint32_t slot) const {
+    const std::vector<float>& depths_m = model().bodies[body].lattice.depth_m;
+    return depths_m.empty() ? 0 : depths_m[slot];
+  }
+  /// Of its tissue [m].
   double lowest(size_t body) const {
     double out = 1e9;
-    for (const uint32_t slot : nodes(body)) out = std::min(out, at(body, slot).z());
+    for (const uint32_t slot : nodes(body)) {
+      if (depth(body, slot) >= 0) out = std::min(out, at(body, slot).z() - depth(body, slot));
+    }
     return out;
   }
-  /// Nearest that a node of one body is to one of the other [m].
+  /// Nearest that the tissue of one body is to that of the other [m].
   double gap(size_t a, size_t b) const {
     double out = 1e9;
     for (const uint32_t i : nodes(a)) {
-      for (const uint32_t j : nodes(b)) out = std::min(out, (at(a, i) - at(b, j)).norm());
+      for (const uint32_t j : nodes(b)) {
+        const double deep = depth(a, i) + depth(b, j);
+        if (std::min(depth(a, i), depth(b, j)) >= 0) out = std::min(out, (at(a, i) - at(b, j)).norm() - deep);
+      }
     }
     return out;
   }

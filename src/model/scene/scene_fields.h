@@ -260,7 +260,9 @@ void visitFields(V& v, CollisionConfig& c) {
   v.choice(
       "search", c.search, {{"grid", CollisionSearch::kGrid}, {"staggered", CollisionSearch::kStaggered}},
       "how pairs are found: a uniform grid, complete; or GW's staggered partitions with a sort, which misses some");
-  v.number("distance_m", c.distance_m, {0, 1}, "m", "nodes are kept this far apart; 0: the mean length of springs");
+  v.number("distance_m", c.distance_m, {0, 1}, "m",
+           "nodes, or the surfaces of cells that are tissue in part, are kept this far apart; 0: the mean length of "
+           "springs");
   v.number("friction", c.friction, {0, 10}, "1", "Coulomb's coefficient");
   v.number("restitution", c.restitution, {0, 1}, "1", "speed after over speed before a collision");
   v.integer("partitions", c.partitions, {1, 8}, "staggered: space partitions, each shifted");

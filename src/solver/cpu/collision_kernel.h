@@ -35,7 +35,7 @@ struct CollisionKernel : Kernel, PairBuffers {
   vec4* increments = nullptr;       // the same, to write
   float widened = 1, cell_m = 1, friction = 0, restitution = 0;
   uint bucket_count = 1, partitions = 1, window = 0, sorted_count = 0;
-  const uint* collidable = nullptr;
+  const float* touch_depths = nullptr;
   const layout::vec4* body_influences = nullptr;
   vec4 *contacts = nullptr, *corrections = nullptr;
   const uint *buckets = nullptr, *ranks = nullptr;

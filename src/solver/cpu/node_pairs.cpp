@@ -43,7 +43,7 @@ CpuNodePairs::CpuNodePairs(const Model& model, const Scene& scene, const CpuLatt
       config_(scene.collision),
       cell_m_(static_cast<float>(static_cast<double>(kPairReach) * collisionCell(model, scene.collision))),
       influences_(bodyInfluences(model, scene)),
-      collidable_(collidableNodes(model)),
+      touch_depths_(touchDepths(model, scene.collision)),
       contacts_(lattice.slotCount(), glsl::vec4(0)),
       words_(1 + 2 * lattice.slotCount() + mostPairEnds(lattice.store.active.size())),
       rows_(2 * mostPairEnds(lattice.store.active.size()), glsl::vec4(0)),
@@ -75,7 +75,7 @@ Kernel CpuNodePairs::kernel(CpuLattice& lattice, const Substep& step, glsl::vec4
   tell(out, step);
   out.widened = kPairReach;
   out.cell_m = cell_m_;
-  out.collidable = collidable_.data();
+  out.touch_depths = touch_depths_.data();
   out.body_influences = influences_.data();
   out.contacts = contacts_.data();
   out.increments = increments;

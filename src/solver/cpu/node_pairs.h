@@ -33,7 +33,7 @@ class CpuNodePairs {
   CollisionConfig config_;
   float cell_m_;
   std::vector<layout::vec4> influences_;  ///< bodyInfluences()
-  std::vector<uint32_t> collidable_;      ///< collidableNodes()
+  std::vector<float> touch_depths_;       ///< touchDepths()
   std::vector<glsl::vec4> contacts_;      ///< [slots] as layout::kBindContacts
   std::vector<uint32_t> words_, paired_;
   std::vector<glsl::vec4> rows_, node_pairs_;

@@ -98,7 +98,7 @@ struct CpuSurroundings::Work {
   float cell_m = 1, widened = 1;
   std::vector<layout::vec4> influences;  ///< bodyInfluences()
   Rings rings;
-  std::vector<uint32_t> collidable;  ///< collidableNodes()
+  std::vector<float> touch_depths;  ///< touchDepths()
   std::vector<glsl::vec4> contacts, corrections;
   std::optional<ContactLists> lists;  ///< of the complete search
   std::vector<glsl::Item> items;      ///< of GW's search, as ranks
@@ -118,7 +118,7 @@ struct CpuSurroundings::Work {
     out.partitions = static_cast<uint32_t>(collision.partitions);
     out.window = static_cast<uint32_t>(collision.window);
     out.sorted_count = sorted;
-    out.collidable = collidable.data();
+    out.touch_depths = touch_depths.data();
     out.body_influences = influences.data();
     out.contacts = contacts.data();
     out.corrections = corrections.data();
@@ -146,7 +146,7 @@ CpuSurroundings::CpuSurroundings(const Model& model, const Scene& scene, const C
   if (!kinds_.collisions) return;
   if (solvesContacts(scene)) work_->widened = kMissedReach;
   work_->cell_m = static_cast<float>(collisionCell(model, scene.collision));
-  work_->collidable = collidableNodes(model);
+  work_->touch_depths = touchDepths(model, scene.collision);
   work_->contacts.assign(lattice.slotCount(), glsl::vec4(0));
   work_->corrections.assign(2 * lattice.slotCount(), glsl::vec4(0));
   if (!work_->staggered()) {

@@ -26,7 +26,7 @@ CollisionPass::CollisionPass(const Model& model, const Scene& scene, const Featu
                : solvesContacts(scene) ? kMissedReach
                                        : 1.0f),
       cell_m_(static_cast<float>(std::max(1.0f, widened_) * collisionCell(model, config_))),
-      collidable_(collidableNodes(model)),
+      touch_depths_(touchDepths(model, scene.collision)),
       contacts_(buffers.store.slot_count, "contacts"),
       corrections_(2 * buffers.store.slot_count, "corrections"),
       group_size_(features.group_size) {
@@ -66,7 +66,7 @@ CollisionPass::CollisionPass(const Model& model, const Scene& scene, const Featu
 }
 
 void CollisionPass::bind() const {
-  collidable_.bindStorage(layout::kBindCollidable);
+  touch_depths_.bindStorage(layout::kBindTouchDepths);
   contacts_.bindStorage(layout::kBindContacts);
   corrections_.bindStorage(layout::kBindCorrections);
   if (config_.search == CollisionSearch::kGrid) {

@@ -48,7 +48,7 @@ class CollisionPass {
   gpu::Program count_, place_, scatter_, order_;  ///< grid
   gpu::Program list_, exchange_, rank_;           ///< staggered
   gpu::Program meet_, push_, pairs_, note_;
-  gpu::Buffer<uint32_t> collidable_;       ///< collidableNodes()
+  gpu::Buffer<float> touch_depths_;        ///< touchDepths()
   mutable gpu::Buffer<uint32_t> buckets_;  ///< see layout::kBindBuckets, and so on
   gpu::Buffer<uint32_t> unsorted_, ranks_;
   gpu::Buffer<layout::uvec4> entries_;

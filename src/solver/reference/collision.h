@@ -15,7 +15,7 @@ struct ReferencePair {
   double depth_m;       ///< D_ij minus their distance (collision.h); below 0 where they are near without touching
 };
 
-/// All pairs of nodes that may touch (collidableNodes, or severed; not alone) and are no farther apart than
+/// All pairs of nodes that may touch (touchDepths(), or severed; not alone) and are no farther apart than
 /// D_ij + margin, found by looking at every pair, in float64. Ascending.
 std::vector<ReferencePair> referencePairs(const Model& model, const Scene& scene, const HostState& state,
                                           double margin_m = 0);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "layout/touch_depths.h"
 #include "solver/collision.h"
 #include "solver/node_pairs.h"
 #include "solver/reference/reference_solver.h"
@@ -16,7 +17,7 @@ namespace viscera {
 ReferenceSurroundings::ReferenceSurroundings(const Model& model, const Scene& scene)
     : wind_(scene.environment.wind),
       collision_(scene.collision),
-      collidable_(collidableNodes(model)),
+      touch_depths_m_(touchDepths(model, scene.collision)),
       around_(model.slots()) {
   const ReferenceLattice masses(model);
   const bool blows = surroundingsOf(model, scene).wind;  // without wind there is no air: it does not brake either
@@ -79,13 +80,28 @@ Vector3d ReferenceSurroundings::kick(const ReferenceLattice& lattice, const Fiel
 }
 
 bool ReferenceSurroundings::mayTouch(const ReferenceLattice& lattice, uint32_t slot) const {
-  const bool outside = (collidable_[slot / 32] >> slot % 32 & 1) != 0;
-  return !lattice.isIsolated(slot) && (outside || (lattice.nodes[slot].lo & layout::kSeveredBit) != 0);
+  const float depth_m = touch_depths_m_[slot];
+  if (lattice.isIsolated(slot) || depth_m == layout::kNeverTouches) return false;
+  return depth_m != layout::kTouchesOnceCut || (lattice.nodes[slot].lo & layout::kSeveredBit) != 0;
+}
+
+/// That two nodes keep which may touch [m]: surfaces keep that of their bodies, and the nodes lie below them.
+double ReferenceSurroundings::distanceBetween(const ReferenceLattice& lattice, uint32_t a, uint32_t b) const {
+  double out = std::max(distance_m_[body_[a]], distance_m_[body_[b]]);
+  for (const uint32_t slot : {a, b}) {
+    if (touch_depths_m_[slot] != layout::kTouchesOnceCut) out += touch_depths_m_[slot];
+  }
+  if (body_[a] != body_[b]) return out;
+  return std::min(out, (lattice.restPosition(a) - lattice.restPosition(b)).norm() / 2);
 }
 
 std::vector<ReferenceSurroundings::Pair> ReferenceSurroundings::touching(const ReferenceLattice& lattice,
                                                                          const Field& u_m, double widened) const {
-  const double reach = widened * *std::max_element(distance_m_.begin(), distance_m_.end());
+  double deepest = 0;
+  for (const float depth_m : touch_depths_m_) {
+    if (depth_m != layout::kTouchesOnceCut) deepest = std::max<double>(deepest, depth_m);
+  }
+  const double reach = widened * (*std::max_element(distance_m_.begin(), distance_m_.end()) + 2 * deepest);
   using Cell = std::array<long, 3>;
   const auto cellOf = [reach](const Vector3d& x) {
     return Cell{std::lround(x.x() / reach), std::lround(x.y() / reach), std::lround(x.z() / reach)};
@@ -98,10 +114,7 @@ std::vector<ReferenceSurroundings::Pair> ReferenceSurroundings::touching(const R
   std::vector<Pair> out;
   const auto visit = [&](uint32_t a, uint32_t b) {
     if (a >= b) return;
-    double wanted = std::max(distance_m_[body_[a]], distance_m_[body_[b]]);
-    if (body_[a] == body_[b])
-      wanted = std::min(wanted, 0.5 * (lattice.restPosition(a) - lattice.restPosition(b)).norm());
-    wanted *= widened;
+    const double wanted = widened * distanceBetween(lattice, a, b);
     if ((at(a) - at(b)).norm() < wanted) out.push_back({a, b, wanted});
   };
   for (const auto& [cell, slots] : cells) {
@@ -223,7 +236,9 @@ void ReferenceSolver::collide(Field& u_next, Field& v_next) {
     const Vector3d relative = v_next[a] - v_next[b];
     const double approach = -relative.dot(normal);
     if (approach <= 0) continue;
-    const double change = approach > restingSpeed() ? (1 + config.restitution) * approach : approach;
+    const double came =
+        -(v_m_per_s[a] - v_m_per_s[b]).dot(normal);  // before the substep: its forces throw nothing back
+    const double change = came > restingSpeed() ? approach + config.restitution * came : approach;
     const Vector3d sliding = relative + approach * normal;
     Vector3d push = change * normal;
     if (sliding.norm() > 0) push -= std::min(config.friction * change, sliding.norm()) * sliding.normalized();

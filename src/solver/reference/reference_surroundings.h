@@ -38,13 +38,14 @@ class ReferenceSurroundings {
   };
   Vector3d areaAround(const ReferenceLattice& lattice, const Field& u_m, uint32_t slot) const;
   bool mayTouch(const ReferenceLattice& lattice, uint32_t slot) const;
+  double distanceBetween(const ReferenceLattice& lattice, uint32_t a, uint32_t b) const;
 
   WindConfig wind_;
   CollisionConfig collision_;
   std::vector<Vector3d> acceleration_m_per_s2_;  ///< [bodies] of force_n
   std::vector<double> distance_m_;               ///< [bodies] that their nodes keep
   std::vector<size_t> body_;                     ///< [slots]
-  std::vector<uint32_t> collidable_;             ///< collidableNodes()
+  std::vector<float> touch_depths_m_;            ///< touchDepths()
   std::vector<std::vector<Triangle>> around_;    ///< [slots] triangles with the node
 };
 
