@@ -42,12 +42,12 @@ void addNotes(const std::vector<std::string>& notes, Body& body) {
   body.notes.insert(body.notes.begin(), notes.begin(), notes.end());
 }
 
-Body buildLatticeBody(const BodyConfig& config, const Tissue& tissue, const Progress& progress) {
+Body buildLatticeBody(const BodyConfig& config, const Scene& scene, const Tissue& tissue, const Progress& progress) {
   Body body = plainBody(config);
   addNotes(tissue.notes, body);
   const Filling filling = fill(tissue, config, progress);
   const Solid& solid = filling.solid;
-  requireTissueMemory(solid.filledCells(), solid.spacing_m,
+  requireTissueMemory(solid.filledCells(), solid.spacing_m, bytesPerFilledCell(scene),
                       availableBytes() - kBytesPerPartialCell * solid.partial.size());
   if (!config.spacing_note.empty()) body.notes.push_back(config.spacing_note);
   if (!filling.note.empty()) body.notes.push_back(filling.note);
@@ -91,7 +91,7 @@ std::string sizeKey(const BodyConfig& config) {
   return config.auto_spacing ? "spacing_m auto" : out.str();
 }
 
-Body buildBody(const BodyConfig& config, const std::string& folder, bool can_be_cut, const Progress& all_progress) {
+Body buildBody(const BodyConfig& config, const Scene& scene, bool can_be_cut, const Progress& all_progress) {
   const Progress told = progressOf(config, all_progress);
   std::string stage = "read";
   const Progress progress = [&](const std::string& name, double fraction) {
@@ -101,10 +101,10 @@ Body buildBody(const BodyConfig& config, const std::string& folder, bool can_be_
   return memoryFor<LatticeError>([&] { return "stage '" + stage + "' with " + sizeKey(config); },
                                  [&] {
                                    progress("read", 0);
-                                   const std::unique_ptr<Tissue> tissue = makeTissue(config, folder);
+                                   const std::unique_ptr<Tissue> tissue = makeTissue(config, scene.folder);
                                    if (isNetwork(config.structure))
                                      return buildNetworkBody(config, *tissue, can_be_cut, progress);
-                                   return buildLatticeBody(config, *tissue, progress);
+                                   return buildLatticeBody(config, scene, *tissue, progress);
                                  });
 }
 
@@ -131,7 +131,7 @@ Model buildModel(const Scene& scene, const Progress& progress) {
   Model model;
   for (const BodyConfig& config : scene.bodies) {
     try {
-      model.bodies.push_back(buildBody(config, scene.folder, can_be_cut, progress));
+      model.bodies.push_back(buildBody(config, scene, can_be_cut, progress));
     } catch (const SceneError& error) {  // has the body already
       throw SceneError(file + error.what());
     } catch (const LatticeError& error) {

@@ -62,8 +62,26 @@ TEST_F(HostMemory, IsWhatAGroupOfVersion1Leaves) {
 TEST(TissueMemory, ThatIsNotThereIsRefusedWithTheSpacingThatFits) {
   constexpr size_t kCells = 8000000;
   constexpr double kTaken = kCells * kBytesPerFilledCell;
-  EXPECT_NO_THROW(requireTissueMemory(kCells, 0.001, kTaken));
-  const std::string said =
-      test::messageOf<LatticeError>([] { requireTissueMemory(kCells, 0.001, kTaken / 8); });  // half as many each way
+  EXPECT_NO_THROW(requireTissueMemory(kCells, 0.001, kBytesPerFilledCell, kTaken));
+  const std::string said = test::messageOf<LatticeError>(
+      [] { requireTissueMemory(kCells, 0.001, kBytesPerFilledCell, kTaken / 8); });  // half as many each way
   EXPECT_TRUE(test::says(said, {"8000000 cells", "spacing_m >= 0.0021"}));
+}
+
+TEST(TissueMemory, CountsWhatContactsTakeWhereTheyAreSolvedForToo) {
+  Scene scene;
+  const double alone = bytesPerFilledCell(scene);
+  EXPECT_EQ(alone, kBytesPerFilledCell);
+  scene.solver.integrator = Integrator::kVbd;
+  EXPECT_EQ(bytesPerFilledCell(scene), alone);
+  scene.collision.enabled = true;
+  // 16 ends of pairs a node, each with two rows of 16 bytes and a word; three rows and two words a node.
+  constexpr double kPairs = 16 * (2 * 16 + 4) + 3 * 16 + 2 * 4;
+  EXPECT_GT(bytesPerFilledCell(scene), alone + kPairs);
+  constexpr size_t kCells = 1000000;
+  const double left = kCells * (alone + kPairs);
+  EXPECT_THROW(requireTissueMemory(kCells, 0.001, bytesPerFilledCell(scene), left), LatticeError);
+  scene.solver.integrator = Integrator::kLeapfrog;
+  EXPECT_GT(bytesPerFilledCell(scene), alone);
+  EXPECT_NO_THROW(requireTissueMemory(kCells, 0.001, bytesPerFilledCell(scene), left));
 }

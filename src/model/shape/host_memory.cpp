@@ -8,6 +8,7 @@
 #include <limits>
 #include <sstream>
 
+#include "model/scene/integrators.h"
 #include "viscera/math/error.h"
 
 namespace viscera {
@@ -80,9 +81,15 @@ double availableBytes(const std::string& root) {
   return std::min(1024 * kibibytes, leftByGroups(root));
 }
 
-void requireTissueMemory(size_t filled_cells, double spacing_m, double available_bytes) {
+double bytesPerFilledCell(const Scene& scene) {
+  if (!scene.collision.enabled) return kBytesPerFilledCell;
+  const bool solved = !traitsOf(scene.solver.integrator).is_explicit;
+  return kBytesPerFilledCell + (solved ? kBytesPerCellOfSolvedContacts : kBytesPerCellOfContacts);
+}
+
+void requireTissueMemory(size_t filled_cells, double spacing_m, double bytes_per_cell, double available_bytes) {
   constexpr double kGiB = 1 << 30, kMargin = 1.05;
-  const double needed = kBytesPerFilledCell * static_cast<double>(filled_cells);
+  const double needed = bytes_per_cell * static_cast<double>(filled_cells);
   if (needed <= available_bytes) return;
   std::ostringstream out;
   out << "spacing_m " << spacing_m << " fills " << filled_cells << " cells, which take about " << needed / kGiB
