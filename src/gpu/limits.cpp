@@ -61,6 +61,17 @@ void forgetDriverLimits() {
   known.reset();
 }
 
+void pretendDriverLimits(const Limits& limits) {
+  known = limits;
+}
+
+void requireStorageBlocks(const Limits& driver, const std::string& kernel, size_t blocks) {
+  if (blocks <= driver.storage_blocks) return;
+  throw GpuError("the driver's limits are too small for what this scene has: GL_MAX_COMPUTE_SHADER_STORAGE_BLOCKS is " +
+                 std::to_string(driver.storage_blocks) + " and must be " + std::to_string(blocks) + " for kernel '" +
+                 kernel + "'; with solver.backend: cpu the scene needs no such kernel to step");
+}
+
 void requireLimits(const Limits& driver, const Limits& needed) {
   std::string small;
   const auto look = [&small](const char* name, size_t has, size_t wants) {

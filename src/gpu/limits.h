@@ -20,16 +20,21 @@ struct Limits {
   size_t texels = 0;                 ///< GL_MAX_TEXTURE_BUFFER_SIZE
 };
 
-/// What every scene needs; of sizes, what a scene of some thousand nodes does. Kernels with more blocks say so when
-/// they are linked (program.h), larger buffers when they are made or first bound (buffer.h).
+/// What every scene needs; of sizes, what a scene of some thousand nodes does. Kernels with more blocks say so before
+/// they are linked (requireStorageBlocks), larger buffers when they are made or first bound (buffer.h).
 Limits neededLimits();
 
 /// Of the current context's driver; asked once for each thread that has one.
 const Limits& driverLimits();
 /// Asks anew: another context may be another driver's.
 void forgetDriverLimits();
+/// For tests: as if the driver had said so, on this thread and until that.
+void pretendDriverLimits(const Limits& limits);
 
 /// @throws GpuError  names every limit that is too small, with what it is and what is needed
 void requireLimits(const Limits& driver, const Limits& needed);
+/// Of one kernel, where a scene needs one that has more blocks than OpenGL promises.
+/// @throws GpuError  names the kernel, the limit, what it is and what is needed, and what can be done
+void requireStorageBlocks(const Limits& driver, const std::string& kernel, size_t blocks);
 
 }  // namespace viscera::gpu

@@ -15,6 +15,7 @@
 #include "gpu/gl.h"
 #include "gpu/limits.h"
 #include "gpu/reflection.h"
+#include "gpu/storage_blocks.h"
 #include "viscera/gpu/context.h"
 #include "viscera/math/error.h"
 
@@ -172,6 +173,7 @@ Program Program::compute(const std::string& name, const std::vector<std::string>
   Program out;
   out.name_ = name;
   std::vector<std::string> uniforms;
+  requireStorageBlocks(driverLimits(), name, declaredStorageBlocks(shaderSource(name, defines)));
   const uint32_t stage = compileStage(GL_COMPUTE_SHADER, name, defines, uniforms);
   out.linkStages({stage}, uniforms);
   return out;
@@ -200,9 +202,7 @@ void Program::linkStages(const std::vector<uint32_t>& stages, const std::vector<
     glGetProgramiv(id_, GL_INFO_LOG_LENGTH, &length);
     std::string log(static_cast<size_t>(length) + 1, '\0');
     glGetProgramInfoLog(id_, length, nullptr, log.data());
-    throw GpuError("program '" + name_ + "' does not link (the driver lets a kernel have " +
-                   std::to_string(driverLimits().storage_blocks) +
-                   " storage blocks, GL_MAX_COMPUTE_SHADER_STORAGE_BLOCKS):\n" + log.c_str());
+    throw GpuError("program '" + name_ + "' does not link:\n" + log.c_str());
   }
   label_ = labelOf(name_);
   refuseSharedNumbers(bindingsOf(id_), name_);

@@ -9,6 +9,7 @@
 #include "gpu/gl.h"
 #include "gpu/program.h"
 #include "gpu/readback.h"
+#include "gpu/storage_blocks.h"
 #include "support/text.h"
 #include "viscera/gpu/context.h"
 #include "viscera/math/error.h"
@@ -43,10 +44,47 @@ TEST(GpuFence, ThatNeverPassesIsWaitedForSoLongAndNoLonger) {
   EXPECT_NO_THROW(awaitFence([](uint64_t) { return FenceState::kPassed; }, "an image"));
 }
 
+TEST(GpuLimits, OfAKernelsBlocksAreNamedWithItAndWhatItNeeds) {
+  Limits driver = neededLimits();
+  EXPECT_NO_THROW(requireStorageBlocks(driver, "x.comp", driver.storage_blocks));
+  const std::string said = messageOf<GpuError>([&] { requireStorageBlocks(driver, "x.comp", 15); });
+  EXPECT_TRUE(
+      says(said, {"GL_MAX_COMPUTE_SHADER_STORAGE_BLOCKS is 8 and must be 15", "'x.comp'", "solver.backend: cpu"}));
+}
+
 class GpuErrors : public ::testing::Test {
  protected:
+  ~GpuErrors() override { forgetDriverLimits(); }
   Context context_;
 };
+
+/// Kernels of contacts that vbd and pd solve for, with and without features that have blocks of their own.
+const std::vector<std::string> kAhead = {"GROUP_SIZE 64", "LATTICE", "AHEAD", "INCREMENT"};
+
+TEST_F(GpuErrors, ComeBeforeAKernelHasMoreBlocksThanTheDriverAllows) {
+  Limits small = driverLimits();
+  EXPECT_NO_THROW(Program::compute("collision_note.comp", kAhead));
+  small.storage_blocks = 8;
+  pretendDriverLimits(small);
+  const std::string said = messageOf<GpuError>([] { Program::compute("collision_note.comp", kAhead); });
+  EXPECT_TRUE(says(said, {"GL_MAX_COMPUTE_SHADER_STORAGE_BLOCKS is 8 and must be 1", "'collision_note.comp'"}));
+}
+
+TEST_F(GpuErrors, OfBlocksCountAsTheDriverDoes) {
+  std::vector<std::string> tabulated = kAhead, texels = kAhead, staggered = {"GROUP_SIZE 64", "LATTICE", "STAGGERED"};
+  tabulated.insert(tabulated.end(), {"NETWORK", "PARTS", "MOMENTS", "VOLUME"});
+  texels.push_back("TEXELS");
+  for (const auto& defines : {kAhead, tabulated, texels, staggered}) {
+    for (const char* kernel : {"collision_meet.comp", "measure.comp"}) {
+      const Program program = Program::compute(kernel, defines);
+      program.use();
+      GLint id = 0, active = 0;
+      glGetIntegerv(GL_CURRENT_PROGRAM, &id);
+      glGetProgramInterfaceiv(static_cast<GLuint>(id), GL_SHADER_STORAGE_BLOCK, GL_ACTIVE_RESOURCES, &active);
+      EXPECT_EQ(declaredStorageBlocks(shaderSource(kernel, defines)), static_cast<size_t>(active)) << kernel;
+    }
+  }
+}
 
 TEST_F(GpuErrors, OfMemoryNameTheBufferAndItsSize) {
   constexpr size_t kTooMuch = size_t{1} << 50;
