@@ -122,9 +122,24 @@ constexpr float kMargin = 1e-4f;
 /// stretched or turned (shaders/solver/surface_way.glsl).
 constexpr float kFarthestTissue = 3.5f;
 
-/// How far from a node the cut looks for it [m].
+/// How far from a node the cut may look for it [m].
 float tissueReach(const CpuLattice& lattice, float h) {
   return lattice.strengths.surface_ways.empty() ? 0 : kFarthestTissue * h;
+}
+
+/// [slots] how far from each node its tissue is at most, whatever moves [m]: the way at rest, and as much along every
+/// axis where its edge is stretched or turned (shaders/solver/surface_way.glsl).
+std::vector<float> tissueReaches(CpuLattice& lattice) {
+  std::vector<float> out(lattice.slotCount());
+  glsl::CutSprings kernel(lattice);
+  for (const uint32_t slot : lattice.store.active) {
+    const uint32_t way = kernel.surfaceWay(slot);
+    if (way == 0) continue;
+    const glsl::vec3 cells = kernel.wayInCells(way);
+    const float along_axes = std::abs(cells.x) + std::abs(cells.y) + std::abs(cells.z);
+    out[slot] = lattice.store.bodyOf(slot).origin_spacing.w * (glsl::length(cells) + along_axes);
+  }
+  return out;
 }
 
 /// A box around the swept blade, along the blade and its way. All vectors are from the blade's first tip [m].
@@ -157,12 +172,13 @@ SweepBox boxAround(const layout::ToolMotion& m, float grown_m) {
   return box;
 }
 
-/// Sides of the box beyond which a point is. Two points that have one in common have no point of the box between them.
-uint8_t sidesBeyond(const SweepBox& box, float x, float y, float z) {
+/// Sides of the box beyond which all is that lies within `reach` of a point. Where two have one in common, no point of
+/// the box is between them.
+uint8_t sidesBeyond(const SweepBox& box, float x, float y, float z, float reach) {
   int sides = 0;  // what is not finite is beyond none
   for (int k = 0; k < 3; ++k) {
     const float along = box.axes[k].x * x + box.axes[k].y * y + box.axes[k].z * z;
-    sides |= (along < box.low[k]) << (2 * k) | (along > box.high[k]) << (2 * k + 1);
+    sides |= (along < box.low[k] - reach) << (2 * k) | (along > box.high[k] + reach) << (2 * k + 1);
   }
   return static_cast<uint8_t>(sides);
 }
@@ -171,8 +187,10 @@ constexpr uint8_t kNotNear = 255;
 
 }  // namespace
 
-CpuCut::CpuCut(const CpuLattice& lattice)
-    : outside_(lattice.slotCount(), kNotNear), common_(lattice.brickCount(), kNotNear) {
+CpuCut::CpuCut(CpuLattice& lattice)
+    : reach_m_(tissueReaches(lattice)),
+      outside_(lattice.slotCount(), kNotNear),
+      common_(lattice.brickCount(), kNotNear) {
   near_.reserve(lattice.brickCount());
   changed_.reserve(lattice.store.active.size());
 }
@@ -214,9 +232,10 @@ void CpuCut::placeNodes(const CpuLattice& lattice, const layout::ToolMotion& mot
   for (uint32_t b : near_) {
     const Places places = placesOf(lattice, b, motion.from);
     const float size = glsl::Blade().bladeSphere(motion, places.h).w;
-    const SweepBox box = boxAround(motion, grown_m + tissueReach(lattice, places.h) + kMargin * size);
+    const SweepBox box = boxAround(motion, grown_m + kMargin * size);
     uint8_t* const out = &outside_[b * layout::kBrickSlots];
-    forEachPlace(places, [&](int i, float x, float y, float z) { out[i] = sidesBeyond(box, x, y, z); });
+    const float* const reach = &reach_m_[b * layout::kBrickSlots];
+    forEachPlace(places, [&](int i, float x, float y, float z) { out[i] = sidesBeyond(box, x, y, z, reach[i]); });
     uint8_t common = 255;
     for (uint32_t i = 0; i < layout::kBrickSlots; ++i) common &= out[i];
     common_[b] = common;

@@ -26,7 +26,7 @@ void letGo(CpuLattice& lattice, uint32_t stylus, const Release& release, const l
 /// are passed over by loops that vector units run: allocates nothing once it has cut.
 class CpuCut {
  public:
-  explicit CpuCut(const CpuLattice& lattice);
+  explicit CpuCut(CpuLattice& lattice);
   /// @param particles  all springs of the nodes near the blade instead
   /// @return springs cut
   uint32_t run(CpuLattice& lattice, const layout::ToolMotion& motion, bool particles);
@@ -44,6 +44,7 @@ class CpuCut {
   uint32_t cutAll(CpuLattice& lattice, const layout::ToolMotion& motion, bool particles);
   void tearCells(CpuLattice& lattice) const;
 
+  std::vector<float> reach_m_;     ///< [slots] how far from a node its tissue may be
   std::vector<uint32_t> near_;     ///< bricks
   std::vector<uint8_t> outside_;   ///< [slots] of near bricks: on which sides of the box around the sweep, a bit each
   std::vector<uint8_t> common_;    ///< [bricks] the sides on which all places of a near brick are; 255 elsewhere
