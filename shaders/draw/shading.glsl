@@ -8,12 +8,17 @@ const vec3 kKeyLight = vec3(1.42, 1.36, 1.30);
 const vec3 kSkyLight = vec3(0.24, 0.25, 0.28);
 const vec3 kGroundLight = vec3(0.06, 0.045, 0.045);
 
+/// Unit normal of the flat triangle that a fragment is of, on the side that is seen.
+vec3 flatNormal(vec3 position_m) {
+  vec3 normal = normalize(cross(dFdx(position_m), dFdy(position_m)));
+  return dot(normal, position_m) < 0.0 ? normal : -normal;
+}
+
 /// Unit normal of a fragment, or of its flat triangle where the mesh has none (torn borders, one-node sheets).
 /// Either way it is the normal of the side that is seen.
 vec3 seenNormal(vec3 mesh_normal, vec3 position_m, bool front) {
   if (dot(mesh_normal, mesh_normal) > 0.01) return normalize(front ? mesh_normal : -mesh_normal);
-  vec3 flat_normal = normalize(cross(dFdx(position_m), dFdy(position_m)));
-  return dot(flat_normal, position_m) < 0.0 ? flat_normal : -flat_normal;
+  return flatNormal(position_m);
 }
 
 /// Light from all around a direction: bright above, dim below.

@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// tissue.frag - wet, slightly translucent tissue; a back face is the raw inside, except of a sheet (alpha 0).   Owner: render/tissue_painter.h
+// tissue.frag - wet, slightly translucent tissue; a back face is the raw inside, except of a sheet (alpha 0); alpha 0.63: a wound's wall.   Owner: render/tissue_painter.h
 #include "layout.h"
 #include "shading.glsl"
 
@@ -18,6 +18,7 @@ const vec3 kGrazingTint = vec3(0.50, 0.28, 0.30);  // deeper where the line of s
 const vec3 kRawTint = vec3(0.36, 0.13, 0.13);      // of the inside, on top of the tissue's own colour
 const float kFilm = 0.035;                         // reflectance of the fluid film, seen straight on
 const float kLampSize = 0.10;                      // of the key lamp, seen from the tissue [rad]: softness of shadows
+const float kTurnedAway = 0.2;                     // cosine between a wall's smooth normal and the line of sight below which it is not taken
 const float kDeepest = 0.25;                       // share of the key light that reaches a full shadow
 
 /// Share of the key light that passes a tool: the gap between the ray to the lamp and the shaft or the ball at its tip.
@@ -36,6 +37,8 @@ float passing(vec4 tip, vec4 end) {
 void main() {
   vec3 n = seenNormal(normal, position_m, gl_FrontFacing);
   vec3 to_eye = -normalize(position_m);
+  bool wall = color.a > 0.55 && color.a < 0.75;  // of a wound (surface/wounds.cpp): few, large triangles, whose smooth normals may look away
+  if (wall && dot(n, to_eye) < kTurnedAway) n = flatNormal(position_m);
   float n_v = clamp(dot(n, to_eye), 0.0, 1.0);
   float n_h = max(dot(n, normalize(kToKey + to_eye)), 0.0);
   vec3 key = kKeyLight;

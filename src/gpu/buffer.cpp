@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "gpu/buffer.h"
 
+#include <cassert>
+
 #include <algorithm>
 #include <utility>
 
@@ -67,8 +69,9 @@ void RawBuffer::clear() {
 }
 
 void RawBuffer::copyFrom(const RawBuffer& other) {
+  assert(other.bytes_ <= bytes_);
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-  glCopyNamedBufferSubData(other.id_, id_, 0, 0, static_cast<GLsizeiptr>(bytes_));
+  glCopyNamedBufferSubData(other.id_, id_, 0, 0, static_cast<GLsizeiptr>(other.bytes_));
 }
 
 namespace {

@@ -23,8 +23,8 @@ class RawBuffer {
   void write(size_t offset, size_t bytes, const void* data);
   /// Waits for the GPU. @throws GpuError  it does not answer (awaitGpu)
   void read(size_t offset, size_t bytes, void* data) const;
-  void clear();                              ///< to zero, on the GPU
-  void copyFrom(const RawBuffer& other);     ///< all of it, on the GPU; sizes must agree
+  void clear();                           ///< to zero, on the GPU
+  void copyFrom(const RawBuffer& other);  ///< all of it, on the GPU, to the beginning of this one, which is no shorter
   void bindStorage(uint32_t binding) const;  ///< @throws GpuError  as requireBlock()
   /// @throws GpuError  longer than the driver lets a storage block be
   void requireBlock() const;
@@ -82,7 +82,7 @@ class Buffer {
     return out;
   }
   void clear() { raw_.clear(); }
-  void copyFrom(const Buffer& other) { raw_.copyFrom(other.raw_); }
+  void copyFrom(const Buffer& other) { raw_.copyFrom(other.raw_); }  ///< to the beginning of this one
   void bindStorage(uint32_t binding) const { raw_.bindStorage(binding); }
   void bindUniform(uint32_t binding) const { bindUniform(binding, 0, count_); }
   /// @param first  its bytes must be a multiple of GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT (256 is always enough)

@@ -42,7 +42,8 @@ void addNotes(const std::vector<std::string>& notes, Body& body) {
   body.notes.insert(body.notes.begin(), notes.begin(), notes.end());
 }
 
-Body buildLatticeBody(const BodyConfig& config, const Scene& scene, const Tissue& tissue, const Progress& progress) {
+Body buildLatticeBody(const BodyConfig& config, const Scene& scene, const Tissue& tissue, bool can_be_cut,
+                      const Progress& progress) {
   Body body = plainBody(config);
   addNotes(tissue.notes, body);
   const Filling filling = fill(tissue, config, progress);
@@ -63,6 +64,7 @@ Body buildLatticeBody(const BodyConfig& config, const Scene& scene, const Tissue
   const TriangleMesh surface = surfaceOf(tissue, config, solid);
   requireSkinSize(surface, solid.spacing_m, config.import_limits.max_triangles);
   body.skin = bindSkin(surface, body.lattice, solid, progress);
+  body.skin.can_be_cut = can_be_cut;
   body.notes.push_back(skinNote(body.skin));
   if (config.structure != Structure::kExplicit) return body;
   body.network = latticeNetwork(body, config.bending_ratio);
@@ -79,6 +81,7 @@ Body buildNetworkBody(const BodyConfig& config, const Tissue& tissue, bool can_b
   addPiecesNote(body);
   if (progress) progress("extract skin", 0);
   body.skin = bindNetworkSkin(*body.network, can_be_cut);
+  body.skin.can_be_cut = can_be_cut;
   body.notes.push_back(skinNote(body.skin));
   return body;
 }
@@ -104,7 +107,7 @@ Body buildBody(const BodyConfig& config, const Scene& scene, bool can_be_cut, co
                                    const std::unique_ptr<Tissue> tissue = makeTissue(config, scene.folder);
                                    if (isNetwork(config.structure))
                                      return buildNetworkBody(config, *tissue, can_be_cut, progress);
-                                   return buildLatticeBody(config, scene, *tissue, progress);
+                                   return buildLatticeBody(config, scene, *tissue, can_be_cut, progress);
                                  });
 }
 

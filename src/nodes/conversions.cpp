@@ -41,6 +41,15 @@ std_msgs::Header header(const std::string& frame, const ros::Time& stamp) {
   return out;
 }
 
+std_msgs::ColorRGBA toColor(const Vector3d& color) {
+  std_msgs::ColorRGBA out;
+  out.r = static_cast<float>(color.x());
+  out.g = static_cast<float>(color.y());
+  out.b = static_cast<float>(color.z());
+  out.a = 1;
+  return out;
+}
+
 visualization_msgs::Marker emptyMarker(const ShownBody& body, size_t id) {
   visualization_msgs::Marker marker;
   marker.ns = body.name;
@@ -48,10 +57,7 @@ visualization_msgs::Marker emptyMarker(const ShownBody& body, size_t id) {
   marker.type = visualization_msgs::Marker::TRIANGLE_LIST;
   marker.pose.orientation.w = 1;
   marker.scale.x = marker.scale.y = marker.scale.z = 1;
-  marker.color.r = static_cast<float>(body.color.x());
-  marker.color.g = static_cast<float>(body.color.y());
-  marker.color.b = static_cast<float>(body.color.z());
-  marker.color.a = 1;
+  marker.color = toColor(body.color);
   return marker;
 }
 
@@ -132,7 +138,11 @@ SurfaceTopology toTopology(const ShownTopology& skin, const SentVertices& sent, 
   for (const uint32_t vertex : skin.triangles) out.triangles.push_back(sent.numberOf(vertex));
   for (const ShownBody& body : skin.bodies) out.bodies.push_back(body.name);
   out.body_triangles.assign(skin.bodies.size(), 0);
-  for (const ShownPatch& patch : skin.patches) out.body_triangles[patch.body] += static_cast<uint32_t>(patch.count);
+  out.wound_triangles.assign(skin.bodies.size(), 0);
+  for (const ShownPatch& patch : skin.patches) {
+    out.body_triangles[patch.body] += static_cast<uint32_t>(patch.count);
+    if (patch.kind == ShownKind::kWound) out.wound_triangles[patch.body] += static_cast<uint32_t>(patch.count);
+  }
   return out;
 }
 
@@ -154,13 +164,18 @@ SurfaceVertices toVertices(const SurfaceFrame& frame, const SentVertices& sent, 
 
 std::vector<visualization_msgs::Marker> toMarkers(const ShownMesh& skin, const std::string& frame_id,
                                                   const ros::Time& stamp) {
+  const std::vector<ShownBody>& bodies = skin.topology->bodies;
   std::vector<visualization_msgs::Marker> markers;
-  for (const ShownBody& body : skin.topology->bodies) {
-    markers.push_back(emptyMarker(body, markers.size()));
-    markers.back().header = header(frame_id, stamp);
+  for (const ShownBody& body : bodies) markers.push_back(emptyMarker(body, markers.size()));
+  for (const ShownBody& body : bodies) {
+    const ShownBody wounds = {body.name + " wounds", woundColor(body.color)};
+    markers.push_back(emptyMarker(wounds, markers.size()));
   }
-  for (const ShownPatch& patch : skin.topology->patches) addPoints(skin, patch, markers[patch.body]);
+  for (const ShownPatch& patch : skin.topology->patches) {
+    addPoints(skin, patch, markers[patch.body + (patch.kind == ShownKind::kWound ? bodies.size() : 0)]);
+  }
   for (visualization_msgs::Marker& marker : markers) {
+    marker.header = header(frame_id, stamp);
     if (marker.points.empty()) marker.action = visualization_msgs::Marker::DELETE;
   }
   return markers;

@@ -50,8 +50,9 @@ SurfaceTopology toTopology(const ShownTopology& skin, const SentVertices& sent, 
 SurfaceVertices toVertices(const SurfaceFrame& frame, const SentVertices& sent, uint32_t topology_version,
                            const std::string& frame_id, const ros::Time& stamp);
 
-/// One marker per body, for stock rviz: TRIANGLE_LIST of what is shown of it, or DELETE if none is left. Triangles with
-/// a coordinate that is not finite are left out, since rviz would crash on them.
+/// Two markers per body, for stock rviz: TRIANGLE_LIST of its skin, then, behind those of all bodies, of its wounds'
+/// walls, in a colour of their own (with a colour per point rviz would switch lighting off); or DELETE if there is
+/// none. Triangles with a coordinate that is not finite are left out, since rviz would crash on them.
 std::vector<visualization_msgs::Marker> toMarkers(const ShownMesh& skin, const std::string& frame_id,
                                                   const ros::Time& stamp);
 

@@ -19,6 +19,7 @@ SentVertices::SentVertices(const ShownTopology& whole) : numbers_(whole.vertices
 void SentVertices::follow(const ShownTopology& topology) {
   for (size_t i = whole_; i < vertices_.size(); ++i) numbers_[vertices_[i]] = kNotSent;
   vertices_.resize(whole_);
+  numbers_.resize(std::max(numbers_.size(), topology.vertices), kNotSent);
   append(topology.triangles);
 }
 

@@ -45,7 +45,16 @@ void SurfacePublisher::publishMarkers(const SurfaceFrame& frame, const ros::Time
                   kMaxMarkerTriangles);
     return;
   }
-  for (const visualization_msgs::Marker& marker : toMarkers(frame, frame_, stamp)) marker_.publish(marker);
+  const std::vector<visualization_msgs::Marker> markers = toMarkers(frame, frame_, stamp);
+  const size_t bodies = markers.size() / 2;
+  wounds_sent_.resize(bodies);
+  for (size_t b = 0; b < bodies; ++b) {  // of wounds only what has to be: whoever keeps the last message has a skin
+    const visualization_msgs::Marker& wounds = markers[bodies + b];
+    const bool any = wounds.action != visualization_msgs::Marker::DELETE;
+    if (any || wounds_sent_[b]) marker_.publish(wounds);
+    wounds_sent_[b] = any;
+  }
+  for (size_t b = 0; b < bodies; ++b) marker_.publish(markers[b]);
 }
 
 }  // namespace viscera::nodes

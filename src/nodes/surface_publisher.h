@@ -6,6 +6,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "nodes/conversions.h"
 
@@ -31,8 +32,9 @@ class SurfacePublisher {
   const std::string frame_;
   ros::Publisher topology_, vertices_, marker_;
   SentVertices sent_;
-  uint64_t revision_ = 0;  ///< of the topology sent last
-  uint32_t version_ = 0;   ///< how many were sent
+  std::vector<bool> wounds_sent_;  ///< [bodies] viewers have a marker of its wounds
+  uint64_t revision_ = 0;          ///< of the topology sent last
+  uint32_t version_ = 0;           ///< how many were sent
 };
 
 }  // namespace viscera::nodes

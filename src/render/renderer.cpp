@@ -52,7 +52,7 @@ Renderer::~Renderer() = default;
 
 void Renderer::draw(size_t camera, const Surface& surface, const ToolMotions& motions) {
   const MeshView mesh = {surface.positions().id(), surface.normals().id(), surface.colors().id(),
-                         surface.liveIndices().id(), surface.liveIndices().size()};
+                         surface.liveIndices().id(), surface.liveCount()};
   draw(camera, mesh, motions);
 }
 

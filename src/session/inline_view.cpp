@@ -14,7 +14,11 @@ constexpr int kImagesInFlight = 3;
 constexpr int kSurfacesInFlight = 3;
 
 size_t surfaceBytes(const Surface& surface) {
-  return surface.vertices() * (3 * sizeof(float) + sizeof(uint32_t)) + surface.triangles() * sizeof(uint32_t);
+  return surface.capacity() * (3 * sizeof(float) + sizeof(uint32_t)) + surface.triangles() * sizeof(uint32_t);
+}
+
+std::unique_ptr<gpu::ReadbackRing> makeRing(const Surface& surface) {
+  return std::make_unique<gpu::ReadbackRing>(surfaceBytes(surface), kSurfacesInFlight, "the surface");
 }
 
 size_t imageBytes(const CameraConfig& camera) {
@@ -39,11 +43,27 @@ bool isSame(const Pose& a, const Pose& b) {
 }  // namespace
 
 InlineView::InlineView(const Model& model, const Scene& scene)
-    : surface_(model),
-      renderer_(scene.cameras, scene.styluses, scene.obstacles),
-      surface_ring_(surfaceBytes(surface_), kSurfacesInFlight, "the surface") {
+    : surface_(model), renderer_(scene.cameras, scene.styluses, scene.obstacles), surface_ring_(makeRing(surface_)) {
   for (const CameraConfig& camera : scene.cameras) {
     eyes_.push_back({camera, std::make_unique<gpu::ReadbackRing>(imageBytes(camera), kImagesInFlight, "an image"), {}});
+  }
+}
+
+void InlineView::capture(Solver& solver, const Look& look, Pictures& out) {
+  const StateView state = solver.stateOnGpu().value();
+  if (look.wants.count() > 0 && surface_.canBeWounded() && solver.readCuts(cuts_)) {
+    wound(cuts_.nodes.data(), cuts_.axial_cut.data(), cuts_.revision);
+  }
+  capture(state, look, out);
+}
+
+void InlineView::wound(const layout::NodeBits* nodes, const float* axial_cut, uint64_t revision) {
+  const size_t capacity = surface_.capacity();
+  surface_.wound(nodes, axial_cut, revision);
+  if (surface_.capacity() > capacity) {  // a larger ring; what is in flight is overtaken
+    surface_ring_->drop();
+    wounds_in_flight_.clear();
+    surface_ring_ = makeRing(surface_);
   }
 }
 
@@ -63,16 +83,16 @@ void InlineView::follow(const StateView& state) {
 }
 
 void InlineView::captureSurface(const StateView& state, uint64_t tick) {
-  if (surface_ring_.inFlight() == kSurfacesInFlight) {
+  if (surface_ring_->inFlight() == kSurfacesInFlight) {
     ++counters_.skipped;
     return;
   }
   follow(state);
-  const gpu::ReadbackRing::Source sources[] = {
-      {surface_.positions().id(), 0, surface_.positions().size() * sizeof(float)},
-      {surface_.normals().id(), 0, surface_.normals().size() * sizeof(uint32_t)},
-      {surface_.alive().id(), 0, surface_.alive().size() * sizeof(uint32_t)}};
-  surface_ring_.request(sources, 3, tick);
+  const gpu::ReadbackRing::Source sources[] = {{surface_.positions().id(), 0, 3 * surface_.vertices() * sizeof(float)},
+                                               {surface_.normals().id(), 0, surface_.vertices() * sizeof(uint32_t)},
+                                               {surface_.alive().id(), 0, surface_.alive().size() * sizeof(uint32_t)}};
+  surface_ring_->request(sources, 3, tick);
+  wounds_in_flight_.push_back(surface_.wounds());
   ++counters_.readbacks;
 }
 
@@ -117,7 +137,7 @@ void InlineView::collect(Pictures& out, bool wait) {
 
 bool InlineView::takeSurface(Pictures& out, bool wait) {
   uint64_t tick = 0;
-  const char* at = static_cast<const char*>(surface_ring_.collect(&tick, wait));
+  const char* at = static_cast<const char*>(surface_ring_->collect(&tick, wait));
   if (!at) return false;
   const auto take = [&at](auto& values, size_t count) {
     values.resize(count);
@@ -126,11 +146,14 @@ bool InlineView::takeSurface(Pictures& out, bool wait) {
   };
   out.surface = std::make_unique<SurfaceFrame>();  // an older one of the same call is overtaken
   out.surface->tick = tick;
-  take(out.surface->positions_m, 3 * surface_.vertices());
-  take(out.surface->normals, surface_.vertices());
+  const std::shared_ptr<const ShownWounds> wounds = std::move(wounds_in_flight_.front());
+  wounds_in_flight_.pop_front();
+  const size_t vertices = wounds ? wounds->vertices : surface_.vertices();
+  take(out.surface->positions_m, 3 * vertices);
+  take(out.surface->normals, vertices);
   take(alive_, surface_.triangles());
-  out.surface->topology = surface_.skin().shown(alive_.data());
-  surface_ring_.release();
+  out.surface->topology = surface_.skin().shown(alive_.data(), wounds.get());
+  surface_ring_->release();
   return true;
 }
 

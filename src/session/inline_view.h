@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <deque>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -20,10 +21,10 @@ class InlineView : public View {
   /// line of sight
   InlineView(const Model& model, const Scene& scene);
 
-  void capture(Solver& solver, const Look& look, Pictures& out) override {
-    capture(solver.stateOnGpu().value(), look, out);
-  }
+  void capture(Solver& solver, const Look& look, Pictures& out) override;
   void capture(const StateView& state, const Look& look, Pictures& out);
+  /// Wounds of the states that are captured from now on, see Surface::wound().
+  void wound(const layout::NodeBits* nodes, const float* axial_cut, uint64_t revision);
   void collect(Pictures& out, bool wait) override;
   void reset() override;
   ViewCounters counters() const override;
@@ -50,9 +51,11 @@ class InlineView : public View {
 
   Surface surface_;
   Renderer renderer_;
-  gpu::ReadbackRing surface_ring_;
-  std::vector<Eye> eyes_;        ///< [cameras]
-  std::vector<uint32_t> alive_;  ///< of the surface taken last
+  CutState cuts_;
+  std::unique_ptr<gpu::ReadbackRing> surface_ring_;
+  std::deque<std::shared_ptr<const ShownWounds>> wounds_in_flight_;  ///< of the surfaces in the ring, oldest first
+  std::vector<Eye> eyes_;                                            ///< [cameras]
+  std::vector<uint32_t> alive_;                                      ///< of the surface taken last
   ViewCounters counters_;
   bool followed_ = false;  ///< the surface shows the state of this capture
 };

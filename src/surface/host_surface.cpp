@@ -138,7 +138,7 @@ struct HostSurface::Buffers : glsl::SkinKernel {
     nodes = snapshot.nodes.data();
     displacement = {snapshot.displacement_m.data(), of.brick_places_.data()};
     node_normals = {of.node_normals_.data()};
-    skin = of.skins_.bindings.data();
+    skin = of.wounds_ ? of.wounds_->bindings().data() : of.skins_.bindings.data();
     ties = of.skins_.ties.data();
     tie_starts = of.skins_.tie_starts.data();
     triangles = of.shown_.indices().data();
@@ -161,6 +161,7 @@ HostSurface::HostSurface(const Model& model)
       bodies_(bodyParams(model, 0)),  // places and spacings are all that is shown of them
       node_normals_(skins_.any_bound ? model.slots() : 0) {
   if (model.hasNetwork()) rest_m_ = joinNetworks(model).rest_m;
+  if (Wounds::possible(model)) wounds_ = std::make_unique<Wounds>(model, skins_);
   std::vector<uint32_t> splits = splitsOf(skins_);
   shown_ = ShownTriangles(model, vertices(), std::move(skins_.triangles), std::move(splits));
   alive_.assign(shown_.count(), layout::kShownWhole);
@@ -171,13 +172,15 @@ HostSurface::HostSurface(const Model& model)
 void HostSurface::reset() {
   alive_.assign(alive_.size(), layout::kShownWhole);
   cut_revision_ = 0;
+  if (wounds_) wounds_->reset();
 }
 
 void HostSurface::tear(const StateSnapshot& snapshot) {
   if (snapshot.cut_revision == cut_revision_) return;
   cut_revision_ = snapshot.cut_revision;
+  if (wounds_) wounds_->update(snapshot.nodes.data(), snapshot.axial_cut.data());
   const Buffers buffers(*this, snapshot);
-  if (skins_.any_bound) glsl::run<glsl::TearSkin>(buffers, shown_.count());
+  if (skins_.any_bound && !wounds_) glsl::run<glsl::TearSkin>(buffers, shown_.count());
   glsl::run<glsl::SplitTriangles>(buffers, skins_.networks.triangles.size());
 }
 
@@ -195,7 +198,7 @@ void HostSurface::show(const StateSnapshot& snapshot, ShownMesh& out) {
   }
   glsl::run<glsl::NetworkSkin>(buffers, skins_.networks.vertices.size());
   glsl::run<glsl::SplitEdges>(buffers, skins_.networks.edges.size());
-  out.topology = shown_.shown(alive_.data());
+  out.topology = shown_.shown(alive_.data(), wounds_ ? wounds_->shown().get() : nullptr);
   ++mappings_;
 }
 

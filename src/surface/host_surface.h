@@ -8,6 +8,7 @@
 
 #include "surface/joined_skins.h"
 #include "surface/shown_triangles.h"
+#include "surface/wounds.h"
 #include "viscera/model/model.h"
 #include "viscera/solver/state.h"
 
@@ -27,7 +28,7 @@ class HostSurface {
   /// Every triangle whole again.
   void reset();
 
-  size_t vertices() const { return skins_.bindings.size(); }
+  size_t vertices() const { return wounds_ ? wounds_->bindings().size() : skins_.bindings.size(); }
   const ShownTriangles& skin() const { return shown_; }
   uint64_t mappings() const { return mappings_; }  ///< times show() was called
 
@@ -36,6 +37,7 @@ class HostSurface {
   void tear(const StateSnapshot& snapshot);
 
   JoinedSkins skins_;
+  std::unique_ptr<Wounds> wounds_;  ///< null where no body on a lattice can be cut
   ShownTriangles shown_;
   std::vector<uint32_t> shown_bricks_, brick_places_, alive_;
   std::vector<layout::Brick> bricks_;

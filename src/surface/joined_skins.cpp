@@ -151,6 +151,8 @@ std::vector<uint32_t> shownBricks(const Model& model) {
   for (size_t b = 0; b < model.bodies.size(); ++b) {
     const Lattice& lattice = model.bodies[b].lattice;
     const size_t first = model.slotOffset(b) / layout::kBrickSlots;
+    if (model.bodies[b].skin.can_be_cut)
+      std::fill_n(shown.begin() + static_cast<ptrdiff_t>(first), lattice.bricks.size(), true);
     for (uint32_t slot : model.bodies[b].skin.bound_slots) {
       shown[first + slot / layout::kBrickSlots] = true;
       for (uint32_t spring = 0; spring < layout::kSpringsPerNode; ++spring) {

@@ -50,7 +50,8 @@ JoinedSkins joinSkins(const Model& model);
 /// Split vertices of every triangle, as appendShown takes them: [6 * triangles]; empty where no triangle can split.
 std::vector<uint32_t> splitsOf(const JoinedSkins& skins);
 
-/// Bricks of the nodes to which skins are bound and of their neighbours, ascending: all that showing a state looks at.
+/// Bricks of the nodes to which skins are bound and of their neighbours, ascending, and all of bodies that can be cut:
+/// all that showing a state looks at.
 std::vector<uint32_t> shownBricks(const Model& model);
 
 }  // namespace viscera

@@ -68,6 +68,11 @@ void addFaces(const ShownTopology& topology, Bytes& out) {
 
 }  // namespace
 
+Vector3d woundColor(const Vector3d& skin) {
+  static const Vector3d kLeft(0.80, 0.50, 0.46);  // of each primary in wet muscle
+  return skin.cwiseProduct(kLeft);
+}
+
 const ShownPatch& ShownTopology::patchOf(size_t triangle) const {
   assert(triangle < triangleCount());
   const auto behind = std::upper_bound(patches.begin(), patches.end(), triangle,

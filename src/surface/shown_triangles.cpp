@@ -42,23 +42,47 @@ ShownTriangles::ShownTriangles(const Model& model, size_t vertices, std::vector<
   whole_ = shown_ = std::move(whole);
 }
 
-const std::shared_ptr<const ShownTopology>& ShownTriangles::shown(const uint32_t* alive) {
-  if (std::equal(alive_.begin(), alive_.end(), alive)) return shown_;
+void ShownTriangles::appendBody(size_t body, size_t first_triangle, const ShownWounds* wounds,
+                                ShownTopology& out) const {
+  const size_t first = out.triangleCount();
+  const auto patch = [&](ShownKind kind, size_t from) {
+    out.patches.push_back({static_cast<uint32_t>(body), kind, from, out.triangleCount() - from});
+  };
+  if (wounds && wounds->bodies[body].wounded) {
+    const ShownWounds::OfBody& wounded = wounds->bodies[body];
+    out.triangles.insert(out.triangles.end(), wounded.skin.begin(), wounded.skin.end());
+    patch(ShownKind::kSkin, first);
+    const size_t walls = out.triangleCount();
+    out.triangles.insert(out.triangles.end(), wounded.walls.begin(), wounded.walls.end());
+    if (!wounded.walls.empty()) patch(ShownKind::kWound, walls);
+    return;
+  }
+  for (size_t triangle = first_triangle; triangle < first_triangle + body_triangles_[body]; ++triangle) {
+    const uint32_t* const splits = splits_.empty() ? nullptr : &splits_[6 * triangle];
+    appendShown(&indices_[3 * triangle], splits, alive_[triangle], out.triangles);
+  }
+  patch(ShownKind::kSkin, first);
+}
+
+const std::shared_ptr<const ShownTopology>& ShownTriangles::shown(const uint32_t* alive, const ShownWounds* wounds) {
+  const uint64_t wounds_revision = wounds ? wounds->revision : 0;
+  if (wounds_revision == wounds_revision_ && std::equal(alive_.begin(), alive_.end(), alive)) return shown_;
+  wounds_revision_ = wounds_revision;
   std::copy_n(alive, alive_.size(), alive_.begin());
   const auto is_whole = [](uint32_t code) { return code == layout::kShownWhole; };
-  if (std::all_of(alive_.begin(), alive_.end(), is_whole)) return shown_ = whole_;
+  const auto is_wounded = [](const ShownWounds::OfBody& body) { return body.wounded; };
+  if (std::all_of(alive_.begin(), alive_.end(), is_whole) &&
+      !(wounds && std::any_of(wounds->bodies.begin(), wounds->bodies.end(), is_wounded))) {
+    return shown_ = whole_;
+  }
   auto next = std::make_shared<ShownTopology>();
   next->revision = ++revisions_;
-  next->vertices = whole_->vertices;
+  next->vertices = wounds ? wounds->vertices : whole_->vertices;
   next->bodies = whole_->bodies;
   size_t triangle = 0;
   for (size_t b = 0; b < body_triangles_.size(); ++b) {
-    const size_t first = next->triangleCount();
-    for (const size_t end = triangle + body_triangles_[b]; triangle < end; ++triangle) {
-      const uint32_t* const splits = splits_.empty() ? nullptr : &splits_[6 * triangle];
-      appendShown(&indices_[3 * triangle], splits, alive_[triangle], next->triangles);
-    }
-    next->patches.push_back({static_cast<uint32_t>(b), ShownKind::kSkin, first, next->triangleCount() - first});
+    appendBody(b, triangle, wounds, *next);
+    triangle += body_triangles_[b];
   }
   return shown_ = std::move(next);
 }

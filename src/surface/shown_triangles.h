@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "surface/wounds.h"
 #include "viscera/model/model.h"
 #include "viscera/surface/shown_mesh.h"
 
@@ -28,18 +29,22 @@ class ShownTriangles {
   ShownTriangles(const Model& model, size_t vertices, std::vector<uint32_t> indices, std::vector<uint32_t> splits);
 
   size_t count() const { return indices_.size() / 3; }
+  size_t trianglesOf(size_t body) const { return body_triangles_[body]; }
   const std::vector<uint32_t>& indices() const { return indices_; }
   const std::vector<uint32_t>& splits() const { return splits_; }
   /// All triangles.
   const std::shared_ptr<const ShownTopology>& whole() const { return whole_; }
-  /// What is shown: the same topology as the last time while the codes are the same.
-  /// @param alive  [triangles] codes as in appendShown
-  const std::shared_ptr<const ShownTopology>& shown(const uint32_t* alive);
+  /// What is shown: the same topology as the last time while the codes and the wounds are the same.
+  /// @param alive  [triangles] codes as in appendShown, of bodies without wounds   @param wounds  null where none can
+  /// be
+  const std::shared_ptr<const ShownTopology>& shown(const uint32_t* alive, const ShownWounds* wounds = nullptr);
 
  private:
   std::vector<uint32_t> indices_, splits_, alive_;
   std::vector<size_t> body_triangles_;  ///< [bodies]
+  void appendBody(size_t body, size_t first_triangle, const ShownWounds* wounds, ShownTopology& out) const;
   std::shared_ptr<const ShownTopology> whole_, shown_;
+  uint64_t wounds_revision_ = 0;
   uint64_t revisions_ = 1;
 };
 

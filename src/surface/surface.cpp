@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "surface/surface.h"
 
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <utility>
@@ -50,6 +51,8 @@ void publish() {
                   GL_BUFFER_UPDATE_BARRIER_BIT);
 }
 
+constexpr size_t kRoomForWounds = 2;  // times the vertices and triangles of the skins: beyond it a tick makes buffers
+
 }  // namespace
 
 Surface::Surface(const Model& model) {
@@ -66,7 +69,10 @@ Surface::Surface(const Model& model) {
   ties_ = gpu::Buffer<layout::Tie>(skins.ties, "ties");
   tie_starts_ = gpu::Buffer<uint32_t>(skins.tie_starts, "tie starts");
   alive_ = gpu::Buffer<uint32_t>(triangles, "alive");
-  live_ = gpu::Buffer<uint32_t>(3 * (triangles + 2 * skins.networks.triangles.size()), "live");
+  live_count_ = first_wound_index_ = 3 * (triangles + 2 * skins.networks.triangles.size());
+  live_ = gpu::Buffer<uint32_t>(live_count_, "live");
+  if (Wounds::possible(model)) wounds_ = std::make_unique<Wounds>(model, skins);
+  was_wounded_.resize(model.bodies.size());
   std::vector<uint32_t> splits = splitsOf(skins);
   shown_ = ShownTriangles(model, vertices_, std::move(skins.triangles), std::move(splits));
   if (skins.any_bound) {
@@ -76,6 +82,7 @@ Surface::Surface(const Model& model) {
     tear_ = kernel("tear_skin.comp", features);
   }
   if (skins.any_one_to_one) networks_ = std::make_unique<NetworkSurface>(skins.networks);
+  if (wounds_) makeRoom(kRoomForWounds * vertices_, live_count_ + 3 * kRoomForWounds * triangles);
   reset();
 }
 
@@ -118,7 +125,7 @@ void Surface::tear(const StateView& state) {
   triangle_buffer_.bindStorage(layout::kBindSkinTriangles);
   alive_.bindStorage(layout::kBindSkinAlive);
   live_.bindStorage(layout::kBindSkinLive);
-  if (tear_) {
+  if (tear_ && !wounds_) {
     bindings_.bindStorage(layout::kBindSkinBindings);
     ties_.bindStorage(layout::kBindSkinTies);
     tie_starts_.bindStorage(layout::kBindSkinTieStarts);
@@ -131,11 +138,70 @@ void Surface::tear(const StateView& state) {
   publish();
 }
 
+void Surface::makeRoom(size_t vertices, size_t indices) {
+  if (vertices > capacity()) {
+    bindings_ = gpu::Buffer<layout::SkinBinding>(vertices, "bindings");
+    positions_ = gpu::Buffer<float>(3 * vertices, "positions");
+    normals_ = gpu::Buffer<uint32_t>(vertices, "normals");
+    colors_ = gpu::Buffer<uint32_t>(vertices, "colors");
+  }
+  if (indices <= live_.size()) return;
+  gpu::Buffer<uint32_t> more(indices, "live");
+  more.copyFrom(live_);
+  live_ = std::move(more);
+}
+
+/// Triangles of a wounded body take the place of its whole ones; those that find no room there follow all others.
+void Surface::showWounds() {
+  const ShownWounds& shown = *wounds_->shown();
+  vertices_ = shown.vertices;
+  size_t beyond = 0;
+  for (const ShownWounds::OfBody& body : shown.bodies) beyond += body.skin.size() + body.walls.size();
+  const auto roomFor = [](size_t needed, size_t there) { return needed > there ? needed + needed / 2 : there; };
+  makeRoom(roomFor(vertices_, capacity()), roomFor(first_wound_index_ + beyond, live_.size()));
+  bindings_.write(wounds_->bindings());
+  colors_.write(wounds_->colors());
+  wound_indices_.clear();
+  size_t first = 0;
+  for (size_t b = 0; b < shown.bodies.size(); ++b) {
+    const size_t count = 3 * shown_.trianglesOf(b);
+    const ShownWounds::OfBody& body = shown.bodies[b];
+    if (body.wounded) {
+      const size_t inside = std::min(count, body.skin.size());
+      live_.write(body.skin.data(), inside, first);
+      if (inside < count) live_.write(std::vector<uint32_t>(count - inside), first + inside);
+      wound_indices_.insert(wound_indices_.end(), body.skin.begin() + static_cast<ptrdiff_t>(inside), body.skin.end());
+      wound_indices_.insert(wound_indices_.end(), body.walls.begin(), body.walls.end());
+    } else if (was_wounded_[b]) {
+      live_.write(shown_.indices().data() + first, count, first);
+    }
+    was_wounded_[b] = body.wounded;
+    first += count;
+  }
+  live_.write(wound_indices_, first_wound_index_);
+  live_count_ = first_wound_index_ + wound_indices_.size();
+  followed_revision_ = 0;  // vertices are bound anew
+}
+
+void Surface::wound(const layout::NodeBits* nodes, const float* axial_cut, uint64_t revision) {
+  if (!wounds_ || revision == wound_revision_) return;
+  wound_revision_ = revision;
+  const gpu::TimedStage timed(gpu::Stage::kSurface);
+  if (!wounds_->update(nodes, axial_cut)) return;
+  showWounds();
+  publish();
+}
+
 void Surface::reset() {
   alive_.write(std::vector<uint32_t>(triangles(), layout::kShownWhole));
   live_.clear();
   live_.write(shown_.indices());
-  cut_revision_ = 0;
+  cut_revision_ = wound_revision_ = 0;
+  live_count_ = first_wound_index_;
+  if (wounds_) {
+    wounds_->reset();
+    showWounds();
+  }
   if (!networks_) return;
   networks_->reset();
   followed_revision_ = 0;

@@ -9,6 +9,7 @@
 #include "gpu/buffer.h"
 #include "gpu/program.h"
 #include "surface/shown_triangles.h"
+#include "surface/wounds.h"
 #include "viscera/layout/skin.h"
 #include "viscera/model/model.h"
 #include "viscera/solver/state.h"
@@ -35,15 +36,25 @@ class Surface {
   /// splits those of networks along the cut (the rule is in split_triangles.comp). Looks at the springs only if
   /// state.cut_revision has changed since the last call; costs nothing otherwise.
   void tear(const StateView& state);
+  /// Shows the wounds of bodies on lattices that can be cut (surface/wounds.h), until reset(). tear() leaves their
+  /// skins alone. Makes buffers only where wounds outgrow those that are there.
+  /// @param nodes, axial_cut  [slots], [3 * slots] see CutState   @param revision  of them; the last one again costs
+  /// nothing
+  void wound(const layout::NodeBits* nodes, const float* axial_cut, uint64_t revision);
   /// Every triangle whole again.
   void reset();
 
-  size_t vertices() const { return vertices_; }
+  size_t vertices() const { return vertices_; }        ///< of the skins and of what wounds have added
+  size_t capacity() const { return normals_.size(); }  ///< of vertices; grows with wounds
+  bool canBeWounded() const { return wounds_ != nullptr; }
+  /// Null where no body on a lattice can be cut.
+  std::shared_ptr<const ShownWounds> wounds() const { return wounds_ ? wounds_->shown() : nullptr; }
   size_t triangles() const { return shown_.count(); }
   const gpu::Buffer<float>& positions() const { return positions_; }  ///< [3 * vertices] m, tissue frame
   const gpu::Buffer<uint32_t>& normals() const { return normals_; }   ///< [vertices] packed, see packNormal
   const gpu::Buffer<uint32_t>& alive() const { return alive_; }       ///< [triangles] see appendShown
   const gpu::Buffer<uint32_t>& liveIndices() const { return live_; }  ///< for drawing; (0, 0, 0) shows nothing
+  size_t liveCount() const { return live_count_; }                    ///< how many of them are to be drawn
   const gpu::Buffer<uint32_t>& colors() const { return colors_; }     ///< [vertices] RGBA8, see vertexColors
   const ShownTriangles& skin() const { return shown_; }
   ShownTriangles& skin() { return shown_; }        ///< makes of alive() what is shown
@@ -51,8 +62,10 @@ class Surface {
 
  private:
   void followLattices(uint32_t since);
+  void showWounds();
+  void makeRoom(size_t vertices, size_t indices);
 
-  size_t vertices_ = 0;
+  size_t vertices_ = 0, live_count_ = 0, first_wound_index_ = 0;
   gpu::Buffer<uint32_t> surface_nodes_, normals_, triangle_buffer_, tie_starts_, alive_, live_, colors_;
   gpu::Buffer<layout::vec4> node_normals_;
   gpu::Buffer<layout::SkinBinding> bindings_;
@@ -61,8 +74,11 @@ class Surface {
   gpu::Buffer<uint32_t> unknown_{size_t{1}};  ///< in place of StateView::stale_bricks; nobody reads it
   gpu::Program node_normal_, map_, tear_;     ///< none where every body is a network
   std::unique_ptr<NetworkSurface> networks_;  ///< null where none is
+  std::unique_ptr<Wounds> wounds_;            ///< null where no body on a lattice can be cut
   ShownTriangles shown_;
-  uint64_t cut_revision_ = 0, mappings_ = 0;
+  std::vector<uint32_t> wound_indices_;
+  std::vector<bool> was_wounded_;  ///< [bodies]
+  uint64_t cut_revision_ = 0, wound_revision_ = 0, mappings_ = 0;
   uint32_t followed_revision_ = 0;  ///< of the state that positions and normals belong to; 0 if nobody knows
 };
 

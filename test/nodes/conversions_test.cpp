@@ -114,11 +114,17 @@ TEST(Conversions, PatchesOfABodyAreToldTogether) {
   ShownTopology skin = twoBodies();
   skin.triangles.insert(skin.triangles.end(), {7, 8, 9});
   skin.patches.push_back({1, ShownKind::kWound, 3, 1});
-  EXPECT_EQ(toTopology(skin, followed(skin), 1, "tissue", ros::Time(1)).body_triangles, (std::vector<uint32_t>{2, 2}));
+  const auto topology = toTopology(skin, followed(skin), 1, "tissue", ros::Time(1));
+  EXPECT_EQ(topology.body_triangles, (std::vector<uint32_t>{2, 2}));
+  EXPECT_EQ(topology.wound_triangles, (std::vector<uint32_t>{0, 1}));
   const auto markers = toMarkers(frameOf(skin), "tissue", ros::Time(1));
-  ASSERT_EQ(markers.size(), 2u);
+  ASSERT_EQ(markers.size(), 4u);
   EXPECT_EQ(markers[0].points.size(), 6u);
-  EXPECT_EQ(markers[1].points.size(), 6u);
+  EXPECT_EQ(markers[1].points.size(), 3u);
+  EXPECT_EQ(markers[2].action, visualization_msgs::Marker::DELETE);
+  ASSERT_EQ(markers[3].points.size(), 3u);  // the wound
+  EXPECT_EQ(markers[3].ns, "flap wounds");
+  EXPECT_LT(markers[3].color.g, markers[1].color.g);
 }
 
 TEST(Conversions, SplitTrianglesAreToldInPieces) {
@@ -128,7 +134,7 @@ TEST(Conversions, SplitTrianglesAreToldInPieces) {
   EXPECT_EQ(topology.triangles, (std::vector<uint32_t>{2, 1, 3, 5, 9, 8, 10, 6, 4, 10, 4, 7}));
   EXPECT_EQ(topology.body_triangles, (std::vector<uint32_t>{1, 3}));
   const auto markers = toMarkers(frame, "tissue", ros::Time(1));
-  ASSERT_EQ(markers.size(), 2u);
+  ASSERT_EQ(markers.size(), 4u);
   EXPECT_EQ(markers[0].points.size(), 3u);
   ASSERT_EQ(markers[1].points.size(), 9u);
   EXPECT_EQ(markers[1].points[1].x, frame.positions_m[3 * 9]);
@@ -160,7 +166,7 @@ TEST(Conversions, VerticesCarryTickAndTopologyVersion) {
 TEST(Conversions, MarkersHoldTheCornersOfWholeTrianglesOfOneBodyEach) {
   const SurfaceFrame frame = frameOf(twoBodies({0, 1, 2}));
   const auto markers = toMarkers(frame, "tissue", ros::Time(2));
-  ASSERT_EQ(markers.size(), 2u);
+  ASSERT_EQ(markers.size(), 4u);
   ASSERT_EQ(markers[0].points.size(), 3u);
   EXPECT_EQ(markers[0].points[1].x, frame.positions_m[3]);
   EXPECT_EQ(markers[0].color.r, 1);

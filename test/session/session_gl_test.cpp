@@ -97,8 +97,8 @@ TEST_P(SessionWithTools, CutSeversSpringsAndOpensTheSkin) {
   EXPECT_GT(after.stats.springs_cut, 0u);
   EXPECT_LT(after.stats.springs_cut, session_.model().springs());
   const size_t all = session_.wholeSkin()->triangleCount(), shown = surface.topology->triangleCount();
-  EXPECT_LT(shown, all);
-  EXPECT_GT(shown, all / 2);
+  EXPECT_GT(shown, all);  // lips are split, and walls are there
+  EXPECT_LT(shown, 2 * all);
   EXPECT_NE(surface.topology->revision, session_.wholeSkin()->revision);
   EXPECT_EQ(after.stats.nonfinite, 0u);
 }

@@ -14,13 +14,16 @@ namespace viscera {
 /// What a shown triangle is a part of.
 enum class ShownKind : uint8_t {
   kSkin,   ///< the surface that the tissue came with
-  kWound,  ///< what a cut has laid open; nothing makes any yet
+  kWound,  ///< walls that a cut has laid open
 };
 
 struct ShownBody {
   std::string name;
   Vector3d color = Vector3d::Ones();  ///< RGB, 0..1
 };
+
+/// Colour of the walls of a wound, deep under the skin: darker and redder. @param skin  RGB, 0..1
+Vector3d woundColor(const Vector3d& skin);
 
 /// Triangles that lie one behind the other, belong to one body and are of one kind.
 struct ShownPatch {
@@ -33,7 +36,7 @@ struct ShownPatch {
 /// only when a cut or a reset changes it, and then never changed: whoever shows the skin shares it.
 struct ShownTopology {
   uint64_t revision = 0;            ///< another one where other triangles are shown; 1: the whole skin
-  size_t vertices = 0;              ///< of every mesh of this model, shown or not
+  size_t vertices = 0;              ///< of the meshes that it belongs to, shown or not; wounds add some
   std::vector<uint32_t> triangles;  ///< [3 * n] vertex indices, counter-clockwise from outside
   std::vector<ShownBody> bodies;    ///< in the model's order
   std::vector<ShownPatch> patches;  ///< in the order of their triangles, at least one per body; covers them all

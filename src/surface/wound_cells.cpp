@@ -1,0 +1,260 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "surface/wound_cells.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace viscera {
+
+namespace {
+
+constexpr float kMargin =
+    0.02F;  // of a cell: centres keep this far from its faces, so that every tetrahedron has a volume
+constexpr float kNowhere = 1e-6F;  // a point nearer to a centre than this lies on every side
+
+constexpr int kEdge = static_cast<int>(layout::kBrickEdge);
+
+/// The other two axes of a face, ascending.
+std::array<int, 2> axesOf(int normal) {
+  return {normal == 0 ? 1 : 0, normal == 2 ? 1 : 2};
+}
+
+/// Edge of a cell along `axis` at the corner bits of the other two axes.
+int edgeAt(int axis, int corner) {
+  const auto [u, v] = axesOf(axis);
+  return 4 * axis + (corner >> u & 1) + 2 * (corner >> v & 1);
+}
+
+Vector3f placeOnEdge(int edge, float share) {
+  const int low = edgeCorners(edge)[0];
+  Vector3f place(static_cast<float>(low & 1), static_cast<float>(low >> 1 & 1), static_cast<float>(low >> 2));
+  place[edge / 4] = share;
+  return place;
+}
+
+float inside(float value) {
+  return std::clamp(value, kMargin, 1 - kMargin);
+}
+
+}  // namespace
+
+int CutCell::cornerOf(uint32_t slot) const {
+  const auto found = std::find(slots.begin(), slots.end(), slot);
+  return found == slots.end() ? -1 : static_cast<int>(found - slots.begin());
+}
+
+bool CutCell::isCut(int from, int to) const {
+  const int difference = from ^ to;
+  const int axis = difference == 1 ? 0 : difference == 2 ? 1 : 2;
+  return (cut >> edgeAt(axis, from) & 1U) != 0;
+}
+
+int CutCell::cornerAt(const Vector3f& place) const {
+  const Vector3f way = place - centre;
+  int normal = 0;
+  float reach = std::numeric_limits<float>::infinity();
+  for (int axis = 0; axis < 3; ++axis) {
+    if (std::abs(way[axis]) < kNowhere) continue;
+    const float to_face = ((way[axis] > 0 ? 1.0F : 0.0F) - centre[axis]) / way[axis];
+    if (to_face < reach) {
+      reach = to_face;
+      normal = axis;
+    }
+  }
+  if (std::isinf(reach)) return 0;
+  const int side = way[normal] > 0 ? 1 : 0;
+  const auto axes = axesOf(normal);
+  const Eigen::Vector2f on_face(centre[axes[0]] + reach * way[axes[0]], centre[axes[1]] + reach * way[axes[1]]);
+  const Eigen::Vector2f& middle = face_centre[2 * static_cast<size_t>(normal) + static_cast<size_t>(side)];
+  const Eigen::Vector2f along = on_face - middle;
+  int across = -1;
+  reach = std::numeric_limits<float>::infinity();
+  for (int i = 0; i < 2; ++i) {
+    if (std::abs(along[i]) < kNowhere) continue;
+    const float to_edge = ((along[i] > 0 ? 1.0F : 0.0F) - middle[i]) / along[i];
+    if (to_edge < reach) {
+      reach = to_edge;
+      across = i;
+    }
+  }
+  int corner = side << normal;
+  if (across < 0) return corner;
+  const int other = 1 - across, last = axes[static_cast<size_t>(other)];
+  corner |= (along[across] > 0 ? 1 : 0) << axes[static_cast<size_t>(across)];
+  const float on_edge = middle[other] + reach * along[other];
+  return corner | (on_edge > crossed[static_cast<size_t>(edgeAt(last, corner))] ? 1 : 0) << last;
+}
+
+CutCells::CutCells(const Lattice& lattice) : lattice_(lattice), nodes_(lattice.nodes), numbers_(lattice.nodes.size()) {
+  bricks_per_axis_ = (lattice.nodes_per_axis.array() + kEdge - 1) / kEdge;
+  brick_at_.assign(static_cast<size_t>(bricks_per_axis_.prod()), 0);
+  for (size_t b = 0; b < lattice.bricks.size(); ++b) {
+    const layout::Brick& brick = lattice.bricks[b];
+    brick_at_[static_cast<size_t>(brick.coord_x +
+                                  bricks_per_axis_.x() * (brick.coord_y + bricks_per_axis_.y() * brick.coord_z))] =
+        static_cast<uint32_t>(b) + 1;
+  }
+}
+
+int64_t CutCells::slotAt(const Vector3i& node) const {
+  if ((node.array() < 0).any() || (node.array() >= lattice_.nodes_per_axis.array()).any()) return -1;
+  const Vector3i brick = node / kEdge, local = node - kEdge * brick;
+  const uint32_t found =
+      brick_at_[static_cast<size_t>(brick.x() + bricks_per_axis_.x() * (brick.y() + bricks_per_axis_.y() * brick.z()))];
+  if (found == 0) return -1;
+  const int64_t slot = int64_t{layout::kBrickSlots} * (found - 1) + local.x() + kEdge * (local.y() + kEdge * local.z());
+  return lattice_.labels[static_cast<size_t>(slot)] != 0 ? slot : -1;
+}
+
+bool CutCells::isCell(const Vector3i& at) const {
+  const int64_t slot = slotAt(at);
+  return slot >= 0 && lattice_.cell_labels[static_cast<size_t>(slot)] != 0;
+}
+
+bool CutCells::isGone(uint32_t slot) const {
+  const layout::NodeBits& bits = nodes_[slot];
+  return (bits.lo & layout::kSeveredBit) != 0 && (bits.lo & layout::kAxialMask) == 0 &&
+         (bits.hi & layout::kDiagonalMask) == 0;
+}
+
+void CutCells::addAround(uint32_t slot, int axis) {
+  const Vector3i at = lattice_.nodeAt(slot);
+  const auto [u, v] = axesOf(axis);
+  for (int k = 0; k < 4; ++k) {
+    const Vector3i lowest = at - (k & 1) * Vector3i::Unit(u) - (k >> 1) * Vector3i::Unit(v);
+    if (!isCell(lowest)) continue;
+    const auto cell = static_cast<size_t>(slotAt(lowest));
+    if (numbers_[cell] == 0) {
+      cells_.emplace_back();
+      cells_.back().at = lowest;
+      numbers_[cell] = static_cast<uint32_t>(cells_.size());
+    }
+    cells_[numbers_[cell] - 1].cut |= 1U << (4 * axis + k);
+  }
+}
+
+void CutCells::complete(CutCell& cell, const float* axial_cut) const {
+  for (int c = 0; c < 8; ++c) {
+    cell.slots[static_cast<size_t>(c)] = static_cast<uint32_t>(slotAt(cell.at + Vector3i(c & 1, c >> 1 & 1, c >> 2)));
+    cell.component[static_cast<size_t>(c)] = static_cast<uint8_t>(c);
+  }
+  cell.crossed.fill(0.5F);
+  Vector3f sum = Vector3f::Zero();
+  std::array<Eigen::Vector2f, 6> face_sum;
+  face_sum.fill(Eigen::Vector2f::Zero());
+  std::array<int, 6> on_face{};
+  int count = 0;
+  for (int e = 0; e < 12; ++e) {
+    const auto [low, high] = edgeCorners(e);
+    if ((cell.cut >> e & 1U) == 0) {  // joins two components
+      const uint8_t a = cell.component[static_cast<size_t>(low)], b = cell.component[static_cast<size_t>(high)];
+      for (uint8_t& component : cell.component) component = component == std::max(a, b) ? std::min(a, b) : component;
+      continue;
+    }
+    const float share = axial_cut[3 * size_t{cell.slots[static_cast<size_t>(low)]} + static_cast<size_t>(e / 4)];
+    if (share > 0 && share < 1) cell.crossed[static_cast<size_t>(e)] = share;
+    const Vector3f place = placeOnEdge(e, cell.crossed[static_cast<size_t>(e)]);
+    sum += place;
+    ++count;
+    for (const int axis : axesOf(e / 4)) {
+      const auto face = static_cast<size_t>(2 * axis + (low >> axis & 1));
+      const auto axes = axesOf(axis);
+      face_sum[face] += Eigen::Vector2f(place[axes[0]], place[axes[1]]);
+      ++on_face[face];
+    }
+  }
+  cell.centre = (sum / static_cast<float>(count)).unaryExpr(&inside);
+  for (size_t f = 0; f < 6; ++f) {
+    cell.face_centre[f] = on_face[f] == 0
+                              ? Eigen::Vector2f::Constant(0.5F)
+                              : Eigen::Vector2f((face_sum[f] / static_cast<float>(on_face[f])).unaryExpr(&inside));
+  }
+}
+
+void CutCells::update(const layout::NodeBits* nodes, const float* axial_cut) {
+  for (const CutCell& cell : cells_) numbers_[static_cast<size_t>(slotAt(cell.at))] = 0;
+  cells_.clear();
+  std::copy_n(nodes, nodes_.size(), nodes_.begin());
+  for (const uint32_t slot : lattice_.active_slots) {
+    if ((nodes_[slot].lo & layout::kSeveredBit) == 0) continue;
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto spring = static_cast<uint32_t>(2 * axis);
+      if (springCount(lattice_.nodes[slot], spring) == 0 || isAlive(slot, spring)) continue;
+      if (!(isGone(slot) && isGone(static_cast<uint32_t>(slotAt(lattice_.nodeAt(slot) + Vector3i::Unit(axis))))))
+        addAround(slot, axis);
+    }
+  }
+  for (CutCell& cell : cells_) complete(cell, axial_cut);
+}
+
+WoundPlace CutCells::placeOf(const Vector3d& point) const {
+  Vector3i home = point.array().floor().cast<int>();
+  if (!isCell(home)) {  // the nearest one; shells of cells around, until one is found that nothing nearer can follow
+    double best = std::numeric_limits<double>::infinity();
+    Vector3i nearest = home;
+    for (int radius = 1; radius <= 3 && best > (radius - 1.0) * (radius - 1.0); ++radius) {
+      for (int z = -radius; z <= radius; ++z)
+        for (int y = -radius; y <= radius; ++y)
+          for (int x = -radius; x <= radius; ++x) {
+            if (std::max({std::abs(x), std::abs(y), std::abs(z)}) != radius) continue;
+            const Vector3i at = home + Vector3i(x, y, z);
+            if (!isCell(at)) continue;
+            const Vector3d low = at.cast<double>(), high = low + Vector3d::Ones();
+            const double distance2 = (point - point.cwiseMax(low).cwiseMin(high)).squaredNorm();
+            if (distance2 < best) {
+              best = distance2;
+              nearest = at;
+            }
+          }
+    }
+    home = nearest;
+  }
+  WoundPlace place;
+  const int64_t lowest = slotAt(home);
+  if (lowest < 0) return place;  // nothing within three cells: whoever asks has no skin there
+  place.cell = static_cast<uint32_t>(lowest);
+  place.within = (point - home.cast<double>()).cwiseMax(0.0).cwiseMin(1.0).cast<float>();
+  if (const CutCell* const cell = find(place.cell)) {
+    place.node = cell->slots[static_cast<size_t>(cell->cornerAt(place.within))];
+    return place;
+  }
+  const Vector3i corner = home + Vector3i(place.within.x() > 0.5F, place.within.y() > 0.5F, place.within.z() > 0.5F);
+  place.node = static_cast<uint32_t>(slotAt(corner));
+  return place;
+}
+
+bool CutCells::areParted(uint32_t node, uint32_t other) const {
+  if (node == other) return false;
+  const Vector3i a = lattice_.nodeAt(node), b = lattice_.nodeAt(other);
+  if ((a - b).cwiseAbs().maxCoeff() > 1) return false;
+  if ((a - b).cwiseAbs().sum() == 1) {
+    for (uint32_t spring = 0; spring < layout::kAxialSprings; ++spring) {
+      const auto& o = kNeighborOffsets[spring];
+      if (b - a == Vector3i(o[0], o[1], o[2])) return !isAlive(node, spring);
+    }
+  }
+  // A cell that holds both: one of up to four.
+  const Vector3i low = a.cwiseMin(b), span = (a - b).cwiseAbs();
+  bool shared = false;
+  for (int k = 0; k < 8; ++k) {
+    const Vector3i shift(k & 1, k >> 1 & 1, k >> 2);
+    if ((shift.array() * span.array()).any()) continue;
+    const int64_t lowest = slotAt(low - shift);
+    if (lowest < 0) continue;
+    const CutCell* const cell = find(static_cast<uint32_t>(lowest));
+    if (cell == nullptr) {
+      if (isCell(low - shift)) return false;
+      continue;
+    }
+    shared = true;
+    if (cell->component[static_cast<size_t>(cell->cornerOf(node))] ==
+        cell->component[static_cast<size_t>(cell->cornerOf(other))]) {
+      return false;
+    }
+  }
+  return shared;
+}
+
+}  // namespace viscera

@@ -1,0 +1,68 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "surface/body_wound.h"
+#include "surface/joined_skins.h"
+#include "viscera/model/model.h"
+
+namespace viscera {
+
+/// What cuts have made of the skins of bodies on lattices: never changed once it is there, so that who shows it shares
+/// it.
+struct ShownWounds {
+  /// Triangles of one body, [3 * n] vertex indices as in JoinedSkins, and beyond its vertices those that cuts have
+  /// added.
+  struct OfBody {
+    bool wounded = false;  ///< else its skin is whole, and the lists are empty
+    std::vector<uint32_t> skin, walls;
+  };
+  uint64_t revision = 0;
+  size_t vertices = 0;         ///< of the whole skins and added ones
+  std::vector<OfBody> bodies;  ///< in the model's order
+};
+
+/// The wounds of a model's bodies on lattices that can be cut (docs/wounds.md). Vertices and slots are numbered through
+/// as in JoinedSkins.
+class Wounds {
+ public:
+  /// @param model  must outlive this   @param skins  of this model
+  Wounds(const Model& model, const JoinedSkins& skins);
+  /// Can any body get one?
+  static bool possible(const Model& model);
+
+  /// @param nodes, axial_cut  [slots], [3 * slots] of all bodies, see CutState
+  /// @returns whether anything is cut now that was not: else nothing has changed
+  bool update(const layout::NodeBits* nodes, const float* axial_cut);
+  void reset();
+
+  const std::shared_ptr<const ShownWounds>& shown() const { return shown_; }
+  const std::vector<layout::SkinBinding>& bindings() const { return bindings_; }  ///< [shown()->vertices]
+  const std::vector<uint32_t>& colors() const { return colors_; }                 ///< [shown()->vertices] RGBA8
+
+ private:
+  struct Place {
+    std::unique_ptr<BodyWound> wound;  ///< none where the body is no lattice or cannot be cut
+    uint32_t slot = 0, vertex = 0;     ///< where the body's begin
+    Vector3d color;
+  };
+  void append(const Place& place, ShownWounds::OfBody& out);
+  uint32_t wallColor(const Place& place, const WoundVertex& vertex) const;
+
+  void showWhole();
+  bool isKnown(const layout::NodeBits* nodes);
+
+  size_t slots_ = 0;
+  std::vector<Place> places_;              ///< [bodies]
+  std::vector<layout::NodeBits> springs_;  ///< [slots] of the last update; empty before the first one
+  std::vector<layout::SkinBinding> whole_bindings_, bindings_;
+  std::vector<uint32_t> whole_colors_, colors_;
+  std::shared_ptr<const ShownWounds> shown_;
+  uint64_t revisions_ = 1;
+};
+
+}  // namespace viscera

@@ -1,0 +1,131 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Wounds that tools cut in sessions, on every backend (docs/wounds.md).
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "session/block_session.h"
+#include "viscera/gpu/context.h"
+
+namespace viscera {
+namespace {
+
+using namespace test;
+
+constexpr double kVolume = 1e-3;  // share, of a body that the blade has passed and that springs back to rest
+constexpr float kAlikeM =
+    2e-5f;  // between backends after some hundred substeps in float32, of vertices of a block of 4 cm
+constexpr int kRestTicks = 30;  // after which the block lies still
+
+Scene cutScene(Backend backend, Structure structure) {
+  Scene scene = blockScene();
+  scene.solver.backend = backend;
+  scene.bodies[0].structure = structure;
+  return scene;
+}
+
+SurfaceFrame cutOnce(Session& session) {
+  play(session, cut, kCutTicks);
+  play(
+      session, [](int) { return StylusSamples{}; }, kRestTicks);
+  return surfaceAfter(session, {});
+}
+
+/// Edges, welded by place, that have not one triangle on either hand.
+size_t openEdges(const ShownMesh& mesh) {
+  using Point = std::array<float, 3>;
+  std::map<std::pair<Point, Point>, int> balance;
+  const auto at = [&](uint32_t v) {
+    return Point{mesh.positions_m[3 * v], mesh.positions_m[3 * v + 1], mesh.positions_m[3 * v + 2]};
+  };
+  const std::vector<uint32_t>& triangles = mesh.topology->triangles;
+  for (size_t t = 0; t < triangles.size(); t += 3) {
+    for (size_t i = 0; i < 3; ++i) {
+      const Point a = at(triangles[t + i]), b = at(triangles[t + (i + 1) % 3]);
+      if (a != b) balance[std::minmax(a, b)] += a < b ? 1 : -1;
+    }
+  }
+  size_t open = 0;
+  for (const auto& [edge, sum] : balance) open += sum != 0 ? 1 : 0;
+  return open;
+}
+
+double volume(const ShownMesh& mesh) {
+  double sum = 0;
+  const std::vector<uint32_t>& triangles = mesh.topology->triangles;
+  for (size_t t = 0; t < triangles.size(); t += 3) {
+    const Vector3d a = mesh.position_m(triangles[t]).cast<double>(),
+                   b = mesh.position_m(triangles[t + 1]).cast<double>(),
+                   c = mesh.position_m(triangles[t + 2]).cast<double>();
+    sum += a.dot(b.cross(c)) / 6;
+  }
+  return sum;
+}
+
+bool hasWalls(const ShownTopology& topology) {
+  for (const ShownPatch& patch : topology.patches) {
+    if (patch.kind == ShownKind::kWound && patch.count > 0) return true;
+  }
+  return false;
+}
+
+class WoundOn : public ::testing::TestWithParam<std::pair<Backend, Structure>> {};
+INSTANTIATE_TEST_SUITE_P(Backends, WoundOn,
+                         ::testing::Values(std::make_pair(Backend::kCpu, Structure::kLattice),
+                                           std::make_pair(Backend::kGpu, Structure::kLattice),
+                                           std::make_pair(Backend::kCpu, Structure::kExplicit),
+                                           std::make_pair(Backend::kGpu, Structure::kExplicit)));
+
+TEST_P(WoundOn, IsClosedAndKeepsTheVolumeUntilAReset) {
+  gpu::Context context;
+  Session session(cutScene(GetParam().first, GetParam().second), context);
+  const SurfaceFrame before = surfaceAfter(session, {});
+  EXPECT_EQ(before.topology, session.wholeSkin());
+  const SurfaceFrame wounded = cutOnce(session);
+  ASSERT_TRUE(hasWalls(*wounded.topology));
+  EXPECT_EQ(openEdges(wounded), 0u);
+  EXPECT_NEAR(volume(wounded) / volume(before), 1, kVolume);
+  session.reset();
+  const SurfaceFrame after = surfaceAfter(session, {});
+  EXPECT_EQ(after.topology, session.wholeSkin());
+  EXPECT_EQ(after.positions_m, before.positions_m);
+}
+
+SurfaceFrame cutWithContext(Backend backend) {
+  gpu::Context context;
+  Session session(cutScene(backend, Structure::kLattice), context);
+  return cutOnce(session);
+}
+
+TEST(Wounds, AreTheSameOnTheGpuTheCpuAndWithoutAContext) {
+  Session without(cutScene(Backend::kCpu, Structure::kLattice));
+  const SurfaceFrame a = cutOnce(without), b = cutWithContext(Backend::kCpu), c = cutWithContext(Backend::kGpu);
+  EXPECT_EQ(a.topology->triangles, b.topology->triangles);
+  EXPECT_EQ(a.topology->triangles, c.topology->triangles);
+  ASSERT_EQ(a.vertices(), b.vertices());
+  ASSERT_EQ(a.vertices(), c.vertices());
+  for (size_t v = 0; v < a.vertices(); ++v) {
+    ASSERT_LT((a.position_m(v) - b.position_m(v)).norm(), kAlikeM) << v;
+    ASSERT_LT((a.position_m(v) - c.position_m(v)).norm(), kAlikeM) << v;
+  }
+}
+
+TEST(Wounds, MakeNoGpuObjectWhileThereIsRoom) {
+  gpu::Context context;
+  Session session(cutScene(Backend::kGpu, Structure::kLattice), context);
+  (void)surfaceAfter(session, {});
+  const uint64_t made = gpu::objectsCreated();
+  Wants wants;
+  wants.surface = true;
+  wants.cameras = {true};
+  play(session, cut, kCutTicks, wants);
+  EXPECT_EQ(gpu::objectsCreated(), made);
+}
+
+}  // namespace
+}  // namespace viscera
