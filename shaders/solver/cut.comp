@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // cut.comp - erase the springs that the swept blade crosses, from both ends.   Owner: solver/gpu/cut_pass.h   VR05 2.7.3
-// in  displacement, velocity, tool motions     in/out  nodes (spring counts), stats.springs_cut; RECORD: axial_cut[3 * slots]
+// in  displacement, tool motions     in/out  nodes (spring counts), stats.springs_cut; RECORD: axial_cut[3 * slots]
 // Features: PARTICLES erases every spring of the nodes near the blade instead (VR05's simple scheme). RECORD: axial springs
 // remember where they were cut. Whether a spring is, its ends' tissue decides; where, the line between its nodes says.
 //
 // Each end decides for itself. That both come to the same verdict rests on this: the test sees the two ends in the order of
-// their slots, and every position and every way comes from the same `precise` expression.
+// their slots and every position comes from the same `precise` expression.
 #include "layout.h"
 #include "lattice.glsl"
 #include "blade.glsl"
@@ -16,9 +16,6 @@
 layout(std430, binding = kBindActive) readonly buffer ActiveBuffer { uint active_nodes[]; };
 layout(std430, binding = kBindNodes) buffer NodesBuffer { NodeBits nodes[]; };
 layout(std430, binding = kBindDisplacementIn) readonly buffer DisplacementIn { vec4 displacement[]; };
-#ifndef PARTICLES
-layout(std430, binding = kBindVelocityIn) readonly buffer VelocityIn { vec4 velocity[]; };
-#endif
 layout(std140, binding = kBindToolMotions) uniform ToolMotionsBlock { ToolMotion tool_motions[kMaxStyluses]; };
 layout(std430, binding = kBindStats) buffer StatsBuffer { TickStats stats; };
 #ifdef RECORD
@@ -30,17 +27,6 @@ uniform uint stylus;
 #endif
 #include "surface_point.glsl"
 
-#ifndef PARTICLES
-/// The part of the sweep that a segment between two nodes crosses, which came to where it is in the last substep; 0 none.
-/// @param first, second  the nodes, in the order of their slots   @param a, b  the ends
-uint crossedOnTheWay(uint first, uint second, vec3 a, vec3 b, ToolMotion m) {
-  vec3 offset = startOffset(m, xyz(velocity[first]), xyz(velocity[second]));
-  precise vec3 from = a - offset;
-  precise vec3 to = b - offset;
-  return crossedPart(from, to, startingAt(m, offset));
-}
-#endif
-
 /// Which part of the sweep severs a spring; 0 where none does. The near end has been found not to be far; the far end must not
 /// be either, or the two ends would disagree.
 uint severingPart(uint slot, vec3 x, uint other, ToolMotion m, vec4 sphere, float h) {
@@ -49,7 +35,7 @@ uint severingPart(uint slot, vec3 x, uint other, ToolMotion m, vec4 sphere, floa
 #ifdef PARTICLES
   return erased(x, m) || erased(y, m) ? 1u : 0u;
 #else
-  return slot < other ? crossedOnTheWay(slot, other, x, y, m) : crossedOnTheWay(other, slot, y, x, m);
+  return slot < other ? crossedPart(x, y, m) : crossedPart(y, x, m);
 #endif
 }
 
@@ -60,9 +46,7 @@ void record(uint slot, uint spring, uint other, uint part, ToolMotion m) {
 #ifdef PARTICLES
   axial_cut[3u * slot + (spring >> 1)] = kErasedShare;
 #else
-  vec3 offset = startOffset(m, xyz(velocity[slot]), xyz(velocity[other]));
-  axial_cut[3u * slot + (spring >> 1)] =
-      shareBefore(nodeFromBlade(slot, m) - offset, nodeFromBlade(other, m) - offset, part, startingAt(m, offset));
+  axial_cut[3u * slot + (spring >> 1)] = shareBefore(nodeFromBlade(slot, m), nodeFromBlade(other, m), part, m);
 #endif
 }
 #else

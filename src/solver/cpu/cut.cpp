@@ -1,7 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
-#include <cmath>
 
 #include "solver/cpu/glsl_kernel.h"
 #include "solver/cpu/tool_passes.h"
@@ -213,21 +212,6 @@ void CpuCut::findBricks(const CpuLattice& lattice, const layout::ToolMotion& mot
   }
 }
 
-/// How far the start of the sweep may be from where some spring of the near bricks sees it [m] (startOffset in
-/// blade.glsl).
-float CpuCut::farthestOffset(const CpuLattice& lattice, const layout::ToolMotion& motion) const {
-  const float* const velocity = lattice.state.velocity[lattice.state.current].data();
-  float most2 = 0;  // what is not finite crosses nothing
-  for (uint32_t b : near_) {
-    const float* const v = velocity + vectorAt(b * layout::kBrickSlots);
-    for (uint32_t i = 0; i < layout::kBrickSlots; ++i) {
-      most2 = std::max(most2, v[i] * v[i] + v[i + 64] * v[i + 64] + v[i + 128] * v[i + 128]);
-    }
-  }
-  const float overlap = glsl::Blade().kOverlap * glsl::distance(glsl::xyz(motion.to), glsl::xyz(motion.from));
-  return (1 + kMargin) * (motion.timing.x * std::sqrt(most2) + overlap);
-}
-
 void CpuCut::placeNodes(const CpuLattice& lattice, const layout::ToolMotion& motion, float grown_m) {
   for (uint32_t b : near_) {
     const Places places = placesOf(lattice, b, motion.from);
@@ -293,7 +277,7 @@ void CpuCut::tearCells(CpuLattice& lattice) const {
 
 uint32_t CpuCut::run(CpuLattice& lattice, const layout::ToolMotion& motion, bool particles) {
   findBricks(lattice, motion);
-  placeNodes(lattice, motion, particles ? motion.blade_from.w : farthestOffset(lattice, motion));
+  placeNodes(lattice, motion, particles ? motion.blade_from.w : 0);
   changed_.clear();
   const bool records = !lattice.axial_cut.empty();
   const uint32_t springs =

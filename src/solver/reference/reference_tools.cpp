@@ -13,7 +13,7 @@ namespace {
 
 const double kErasedFraction = static_cast<double>(layout::kErasedShare);  ///< of a spring whose end was erased
 
-constexpr double kOverlap = 1e-3;  ///< of a sweep with the one before (shaders/solver/blade.glsl)
+constexpr double kOverlap = 1e-3;  ///< of a sweep with the one before (shaders/solver/cut_links.comp)
 
 Vector3d xyz(const layout::vec4& v) {
   return {v.x, v.y, v.z};
@@ -131,12 +131,12 @@ void ReferenceSolver::cut(uint32_t stylus, bool particles) {
   };
   // Where a spring, which has come `way` in the last substep, is severed, if it is: its ends' tissue says whether, the
   // line between the nodes where.
-  const auto severed = [&](uint32_t slot, uint32_t far, const Vector3d& way) -> std::optional<double> {
+  const auto severed = [&](uint32_t slot, uint32_t far, bool linked, const Vector3d& way) -> std::optional<double> {
     const Vector3d x = position(slot), y = position(far);
     if (particles) {
       return erased(x) || erased(y) ? std::optional(kErasedFraction) : std::nullopt;
     }
-    const Vector3d offset = way - kOverlap * (d - a);
+    const Vector3d offset = linked ? Vector3d(way - kOverlap * (d - a)) : Vector3d::Zero();
     std::optional<Plane> plane = crossing(x, y, a + offset, b + offset, c);
     if (!plane) plane = crossing(x, y, a + offset, c, d);
     if (!plane) return std::nullopt;
@@ -146,8 +146,11 @@ void ReferenceSolver::cut(uint32_t stylus, bool particles) {
     for (uint32_t s = 0; s < springsOf(slot); ++s) {
       if (!isFirstEnd(slot, s) || !isWhole(slot, s)) continue;
       const uint32_t far = farEnd(slot, s);
-      const Vector3d way = first_ ? Vector3d::Zero() : Vector3d(0.5 * last_dt_s_ * (v_m_per_s[slot] + v_m_per_s[far]));
-      const std::optional<double> fraction = severed(slot, far, way);
+      // Springs of networks only: the cut of a lattice looks at where they are.
+      const bool linked = body(slot).connections != layout::kImplicit;
+      const Vector3d way =
+          linked && !first_ ? Vector3d(0.5 * last_dt_s_ * (v_m_per_s[slot] + v_m_per_s[far])) : Vector3d::Zero();
+      const std::optional<double> fraction = severed(slot, far, linked, way);
       if (!fraction) continue;
       eraseSpring(slot, s, *fraction);
       ++springs_cut;
