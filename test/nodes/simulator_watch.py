@@ -24,11 +24,12 @@ def wait_until(condition, limit_s, what):
 class Latest:
     """Keeps the newest message of a topic and counts them."""
 
-    def __init__(self, topic, message_type, on_message=None):
+    def __init__(self, topic, message_type, on_message=None, queue_size=1):
         self.message = None
         self.count = 0
         self._on_message = on_message
-        self._subscriber = rospy.Subscriber(topic, message_type, self._receive, queue_size=1, buff_size=2**24)
+        self._subscriber = rospy.Subscriber(topic, message_type, self._receive, queue_size=queue_size,
+                                            buff_size=2**24)
 
     def _receive(self, message):
         self.message = message
