@@ -7,7 +7,7 @@
 namespace viscera::nodes {
 namespace {
 
-constexpr uint32_t kMarkerQueue = 16;             ///< one message per body and frame
+constexpr uint32_t kMarkerQueue = 32;             ///< two messages per body and frame: skin and wounds
 constexpr size_t kMaxMarkerTriangles = 10000000;  ///< TCPROS refuses messages of 1 GB; a triangle takes 72 bytes
 
 }  // namespace

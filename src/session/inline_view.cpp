@@ -61,6 +61,7 @@ void InlineView::wound(const layout::NodeBits* nodes, const float* axial_cut, ui
   const size_t capacity = surface_.capacity();
   surface_.wound(nodes, axial_cut, revision);
   if (surface_.capacity() > capacity) {  // a larger ring; what is in flight is overtaken
+    counters_.skipped += static_cast<uint64_t>(surface_ring_->inFlight());
     surface_ring_->drop();
     wounds_in_flight_.clear();
     surface_ring_ = makeRing(surface_);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace viscera {
 
@@ -34,6 +35,20 @@ Vector3f placeOnEdge(int edge, float share) {
   return place;
 }
 
+/// The axis by whose face a way from a point leaves the unit cube (of two dimensions: square), and how many times the
+/// way it is to there; -1 where there is no way to speak of.
+template <int Dimensions>
+std::pair<int, float> wayOut(const Eigen::Matrix<float, Dimensions, 1>& from,
+                             const Eigen::Matrix<float, Dimensions, 1>& way) {
+  std::pair<int, float> out(-1, std::numeric_limits<float>::infinity());
+  for (int axis = 0; axis < Dimensions; ++axis) {
+    if (std::abs(way[axis]) < kNowhere) continue;
+    const float reach = ((way[axis] > 0 ? 1.0F : 0.0F) - from[axis]) / way[axis];
+    if (reach < out.second) out = {axis, reach};
+  }
+  return out;
+}
+
 float inside(float value) {
   return std::clamp(value, kMargin, 1 - kMargin);
 }
@@ -45,45 +60,21 @@ int CutCell::cornerOf(uint32_t slot) const {
   return found == slots.end() ? -1 : static_cast<int>(found - slots.begin());
 }
 
-bool CutCell::isCut(int from, int to) const {
-  const int difference = from ^ to;
-  const int axis = difference == 1 ? 0 : difference == 2 ? 1 : 2;
-  return (cut >> edgeAt(axis, from) & 1U) != 0;
-}
-
 int CutCell::cornerAt(const Vector3f& place) const {
+  const auto [normal, to_face] = wayOut<3>(centre, place - centre);
+  if (normal < 0) return 0;
   const Vector3f way = place - centre;
-  int normal = 0;
-  float reach = std::numeric_limits<float>::infinity();
-  for (int axis = 0; axis < 3; ++axis) {
-    if (std::abs(way[axis]) < kNowhere) continue;
-    const float to_face = ((way[axis] > 0 ? 1.0F : 0.0F) - centre[axis]) / way[axis];
-    if (to_face < reach) {
-      reach = to_face;
-      normal = axis;
-    }
-  }
-  if (std::isinf(reach)) return 0;
   const int side = way[normal] > 0 ? 1 : 0;
   const auto axes = axesOf(normal);
-  const Eigen::Vector2f on_face(centre[axes[0]] + reach * way[axes[0]], centre[axes[1]] + reach * way[axes[1]]);
   const Eigen::Vector2f& middle = face_centre[2 * static_cast<size_t>(normal) + static_cast<size_t>(side)];
-  const Eigen::Vector2f along = on_face - middle;
-  int across = -1;
-  reach = std::numeric_limits<float>::infinity();
-  for (int i = 0; i < 2; ++i) {
-    if (std::abs(along[i]) < kNowhere) continue;
-    const float to_edge = ((along[i] > 0 ? 1.0F : 0.0F) - middle[i]) / along[i];
-    if (to_edge < reach) {
-      reach = to_edge;
-      across = i;
-    }
-  }
+  const Eigen::Vector2f along =
+      Eigen::Vector2f(centre[axes[0]] + to_face * way[axes[0]], centre[axes[1]] + to_face * way[axes[1]]) - middle;
+  const auto [across, to_edge] = wayOut<2>(middle, along);
   int corner = side << normal;
   if (across < 0) return corner;
   const int other = 1 - across, last = axes[static_cast<size_t>(other)];
   corner |= (along[across] > 0 ? 1 : 0) << axes[static_cast<size_t>(across)];
-  const float on_edge = middle[other] + reach * along[other];
+  const float on_edge = middle[other] + to_edge * along[other];
   return corner | (on_edge > crossed[static_cast<size_t>(edgeAt(last, corner))] ? 1 : 0) << last;
 }
 

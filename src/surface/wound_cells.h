@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "viscera/model/body/lattice.h"
@@ -29,8 +28,7 @@ struct CutCell {
   /// same on both sides of a face that two cells share. @param place  0..1 within the cell
   int cornerAt(const Vector3f& place) const;
   bool holds(uint32_t slot) const { return cornerOf(slot) >= 0; }
-  int cornerOf(uint32_t slot) const;   ///< -1 where the slot is none of its corners
-  bool isCut(int from, int to) const;  ///< of corners beside each other: is the edge between them cut?
+  int cornerOf(uint32_t slot) const;  ///< -1 where the slot is none of its corners
 };
 
 /// The two corners of an edge of a cell.

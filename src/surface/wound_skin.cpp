@@ -21,7 +21,7 @@ uint64_t pairOf(uint32_t a, uint32_t b) {
 }  // namespace
 
 WoundSkin::WoundSkin(const Skin& skin, const Lattice& lattice)
-    : skin_(skin), lattice_(lattice), own_(static_cast<uint32_t>(skin.bindings.size())) {
+    : skin_(skin), own_(static_cast<uint32_t>(skin.bindings.size())) {
   for (const Vector3f& at : skin.mesh.positions_m) {
     points_.push_back((at.cast<double>() - lattice.origin_m) / lattice.spacing_m);
   }

@@ -40,7 +40,7 @@ struct WoundVertex {
 /// middle.
 class WoundSkin {
  public:
-  /// @param skin, lattice  of one body; must outlive this
+  /// @param skin, lattice  of one body; the skin must outlive this
   WoundSkin(const Skin& skin, const Lattice& lattice);
 
   void update(const CutCells& cells);
@@ -85,7 +85,6 @@ class WoundSkin {
   bool isShown(const CutCells& cells, uint32_t vertex) const { return !cells.isGone(placeOf(vertex).node); }
 
   const Skin& skin_;
-  const Lattice& lattice_;
   uint32_t own_ = 0;
   std::vector<Vector3d> points_;
   std::vector<Vector3f> normals_;
