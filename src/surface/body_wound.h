@@ -27,7 +27,9 @@ class BodyWound {
   const std::vector<layout::SkinBinding>& bindings() const { return bindings_; }
   size_t ownVertices() const { return own_bindings_.size(); }
   const std::vector<uint32_t>& skinTriangles() const { return skin_.triangles(); }  ///< [3 * n]
-  const std::vector<uint32_t>& wallTriangles() const { return wall_triangles_; }    ///< [3 * n]
+  /// [n] which triangle of the uncut skin each of skinTriangles() is a piece of.
+  const std::vector<uint32_t>& skinSources() const { return skin_.sources(); }
+  const std::vector<uint32_t>& wallTriangles() const { return wall_triangles_; }  ///< [3 * n]
   /// Added vertices follow the skin's own: first those of the skin's lips, then those of walls.
   const std::vector<WoundVertex>& lipVertices() const { return skin_.added(); }
   const std::vector<WoundVertex>& wallVertices() const { return walls_.vertices(); }

@@ -49,7 +49,10 @@ WoundSkin::WoundSkin(const Skin& skin, const Lattice& lattice)
   }
   for (const Vector3d& point : points_) places_.push_back(whole.placeOf(point));
   copies_.assign(edges_.size(), kNoEdge);
-  for (const auto& corners : skin.mesh.triangles) triangles_.insert(triangles_.end(), corners.begin(), corners.end());
+  for (uint32_t t = 0; t < skin.mesh.triangles.size(); ++t) {
+    triangles_.insert(triangles_.end(), skin.mesh.triangles[t].begin(), skin.mesh.triangles[t].end());
+    sources_.push_back(t);
+  }
 }
 
 void WoundSkin::findPlaces(const CutCells& cells) {
@@ -106,10 +109,13 @@ uint32_t WoundSkin::copyAt(uint32_t edge, uint32_t vertex) const {
   return copies_[edge] + (edges_[edge][0] == vertex ? 0 : 1);
 }
 
-void WoundSkin::addPiece(const CutCells& cells, std::initializer_list<uint32_t> vertices) {
+void WoundSkin::addPiece(const CutCells& cells, uint32_t triangle, std::initializer_list<uint32_t> vertices) {
   const uint32_t* const v = vertices.begin();
   if (!isShown(cells, v[0])) return;
-  for (size_t i = 2; i < vertices.size(); ++i) triangles_.insert(triangles_.end(), {v[0], v[i - 1], v[i]});
+  for (size_t i = 2; i < vertices.size(); ++i) {
+    triangles_.insert(triangles_.end(), {v[0], v[i - 1], v[i]});
+    sources_.push_back(triangle);
+  }
 }
 
 void WoundSkin::addLip(const CutCells& cells, uint32_t triangle, uint32_t from, uint32_t to, uint32_t corner) {
@@ -139,9 +145,9 @@ void WoundSkin::showTapered(const CutCells& cells, uint32_t triangle, uint32_t f
   const auto& corners = skin_.mesh.triangles[triangle];
   const uint32_t v = corners[first], w = corners[(first + 1) % 3], tip = corners[(first + 2) % 3];
   const uint32_t edge = triangle_edges_[triangle][first], of_v = copyAt(edge, v), of_w = copyAt(edge, w);
-  addPiece(cells, {v, of_v, tip});
+  addPiece(cells, triangle, {v, of_v, tip});
   addLip(cells, triangle, of_v, tip, v);
-  addPiece(cells, {w, tip, of_w});
+  addPiece(cells, triangle, {w, tip, of_w});
   addLip(cells, triangle, tip, of_w, w);
 }
 
@@ -150,9 +156,9 @@ void WoundSkin::showParted(const CutCells& cells, uint32_t triangle, uint32_t co
   const auto& edges = triangle_edges_[triangle];
   const uint32_t a = corners[corner], b = corners[(corner + 1) % 3], c = corners[(corner + 2) % 3];
   const uint32_t ab = edges[corner], ca = edges[(corner + 2) % 3];
-  addPiece(cells, {a, copyAt(ab, a), copyAt(ca, a)});
+  addPiece(cells, triangle, {a, copyAt(ab, a), copyAt(ca, a)});
   addLip(cells, triangle, copyAt(ab, a), copyAt(ca, a), a);
-  addPiece(cells, {b, c, copyAt(ca, c), copyAt(ab, b)});
+  addPiece(cells, triangle, {b, c, copyAt(ca, c), copyAt(ab, b)});
   addLip(cells, triangle, copyAt(ca, c), copyAt(ab, b), b);
 }
 
@@ -169,7 +175,7 @@ void WoundSkin::showStar(const CutCells& cells, uint32_t triangle) {
     const auto centre = own_ + static_cast<uint32_t>(added_.size());
     added_.push_back({middle, normal.stableNormalized(), placeOf(to_next), a});
     edge_of_.push_back(kNoEdge);
-    addPiece(cells, {a, to_next, centre, to_last});
+    addPiece(cells, triangle, {a, to_next, centre, to_last});
     addLip(cells, triangle, to_next, centre, a);
     addLip(cells, triangle, centre, to_last, a);
   }
@@ -184,7 +190,7 @@ void WoundSkin::show(const CutCells& cells, uint32_t triangle) {
     (is_split ? split : whole) = i;
     crossed |= (is_split ? 1U : 0U) << i;
   }
-  if (count == 0) addPiece(cells, {corners[0], corners[1], corners[2]});
+  if (count == 0) addPiece(cells, triangle, {corners[0], corners[1], corners[2]});
   if (count == 1) showTapered(cells, triangle, split);
   if (count == 2) showParted(cells, triangle, (whole + 2) % 3);  // the corner across the whole edge
   if (count == 3) showStar(cells, triangle);
@@ -195,6 +201,7 @@ void WoundSkin::update(const CutCells& cells) {
   edge_of_.clear();
   lips_.clear();
   triangles_.clear();
+  sources_.clear();
   slivers_ = 0;
   std::fill(copies_.begin(), copies_.end(), kNoEdge);
   findPlaces(cells);

@@ -47,6 +47,8 @@ class WoundSkin {
 
   /// [3 * n] vertices: below bindings().size() of the skin they are its own, the others follow in added().
   const std::vector<uint32_t>& triangles() const { return triangles_; }
+  /// [n] which triangle of the uncut skin each of triangles() is a piece of.
+  const std::vector<uint32_t>& sources() const { return sources_; }
   const std::vector<Lip>& lips() const { return lips_; }
   const std::vector<WoundVertex>& added() const { return added_; }
   /// The skin's own vertices that have to be bound anew: their triangle of nodes lies on two sides, or on the other
@@ -80,7 +82,7 @@ class WoundSkin {
   void showParted(const CutCells& cells, uint32_t triangle, uint32_t corner);
   void showStar(const CutCells& cells, uint32_t triangle);
   uint32_t copyAt(uint32_t edge, uint32_t vertex) const;
-  void addPiece(const CutCells& cells, std::initializer_list<uint32_t> vertices);
+  void addPiece(const CutCells& cells, uint32_t triangle, std::initializer_list<uint32_t> vertices);
   void addLip(const CutCells& cells, uint32_t triangle, uint32_t from, uint32_t to, uint32_t corner);
   bool isShown(const CutCells& cells, uint32_t vertex) const { return !cells.isGone(placeOf(vertex).node); }
 
@@ -94,7 +96,7 @@ class WoundSkin {
   std::vector<WoundPlace> places_;                       ///< [own] of vertices
   std::vector<uint32_t> copies_;                         ///< [edges] the first of its two added vertices, or kNoEdge
   std::vector<uint32_t> edge_of_;
-  std::vector<uint32_t> triangles_;
+  std::vector<uint32_t> triangles_, sources_;
   std::vector<Lip> lips_;
   std::vector<WoundVertex> added_;
   std::vector<std::pair<uint32_t, WoundVertex>> rebound_;

@@ -84,7 +84,7 @@ void Wounds::append(const Place& place, ShownWounds::OfBody& out) {
     for (uint32_t& vertex : all) vertex = vertex < own ? place.vertex + vertex : first_added + (vertex - own);
     return all;
   };
-  out = {true, numbered(wound.skinTriangles()), numbered(wound.wallTriangles())};
+  out = {true, numbered(wound.skinTriangles()), numbered(wound.wallTriangles()), wound.skinSources()};
   for (size_t v = 0; v < wound.bindings().size(); ++v) {
     layout::SkinBinding binding = wound.bindings()[v];
     binding.slot0 += place.slot;

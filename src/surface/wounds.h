@@ -20,6 +20,7 @@ struct ShownWounds {
   struct OfBody {
     bool wounded = false;  ///< else its skin is whole, and the lists are empty
     std::vector<uint32_t> skin, walls;
+    std::vector<uint32_t> skin_sources;  ///< [n] which triangle of the body's whole skin each of `skin` is a piece of
   };
   uint64_t revision = 0;
   size_t vertices = 0;         ///< of the whole skins and added ones

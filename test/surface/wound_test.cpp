@@ -278,6 +278,33 @@ TEST(Wound, CutsThatCrossLeaveClosedPieces) {
   }
 }
 
+TEST(Wound, PiecesSayWhichTriangleTheyAreOf) {
+  constexpr double kOff_m = 1e-6;  // rounding of float bindings and of crossings, far below the skin's edges of 1 cm
+  Wounded box = viscera::testing::box();
+  box.cut({0.0403, 0.0352, 0.0304}, Vector3d(1, 2, 3).normalized());
+  box.cut({0.0381, 0.0333, 0.0299}, Vector3d(3, -1, 1).normalized());
+  box.update();
+  const std::vector<uint32_t>&skin = box.wound.skinTriangles(), &sources = box.wound.skinSources();
+  ASSERT_EQ(3 * sources.size(), skin.size());
+  const TriangleMesh& whole = box.body.skin.mesh;
+  const Lattice& lattice = box.body.lattice;
+  const auto rest = [&](size_t v) -> Vector3d {
+    const size_t own = box.wound.ownVertices();
+    if (v < own) return whole.positions_m[v].cast<double>();
+    return lattice.origin_m + lattice.spacing_m * box.wound.lipVertices()[v - own].point;
+  };
+  for (size_t i = 0; i < skin.size(); ++i) {
+    const auto& corners = whole.triangles[sources[i / 3]];
+    const Vector3d a = whole.positions_m[corners[0]].cast<double>();
+    const Vector3d ab = whole.positions_m[corners[1]].cast<double>() - a,
+                   ac = whole.positions_m[corners[2]].cast<double>() - a, ap = rest(skin[i]) - a;
+    const Vector3d normal = ab.cross(ac).normalized();
+    EXPECT_NEAR(normal.dot(ap), 0, kOff_m);
+    EXPECT_GE(normal.dot(ab.cross(ap)) / ab.norm(), -kOff_m);
+    EXPECT_LE(normal.dot(ac.cross(ap)) / ac.norm(), kOff_m);
+  }
+}
+
 TEST(Wound, BallOfPartialCellsIsClosed) {
   const Vector3d centre(0.051, 0.049, 0.0505);
   const TriangleMesh mesh = weldedSphereMesh(centre, 0.04, 40);
