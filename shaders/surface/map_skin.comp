@@ -1,11 +1,12 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// map_skin.comp - where the nodes carry the vertices and normals of the skin (EGVE eqs 4 to 9, hybrid of 3.6; in cells that are tissue in
-// part, where the cell's corners carry them).
-// Owner: surface/surface.h   physics.md 4
+// map_skin.comp - where the nodes carry the vertices and normals of the skin (EGVE 3.2 to 3.6; in cells that are tissue in part, where
+// the cell's corners carry them).
+// Owner: surface/surface.h   physics.md 4, mappings.md
 // in  skin[count], nodes[slots], displacement[slots] m, node_normals[slots], stale_bricks[bricks]     out  positions[3 * count] m, normals[count] packed
-// Feature: MIXED (some vertices belong to networks: network_skin.comp places them).
+// Features: MIXED (some vertices belong to networks: network_skin.comp places them), and which bindings there are beside those with
+// the constant basis: CURVED (kInterpolatedBit), IN_CELL, ONE_NODE, ALONG_NORMAL; NORMALS with any that asks for approximate normals.
 #include "layout.h"
 #ifndef __cplusplus
 layout(local_size_x = GROUP_SIZE) in;  // before globalIndex(), which asks for it
@@ -18,9 +19,13 @@ layout(local_size_x = GROUP_SIZE) in;  // before globalIndex(), which asks for i
 uniform uint count;  // of vertices
 uniform uint followed_revision;  // what moved no later is in place; 0: nothing is
 layout(std430, binding = kBindStaleBricks) readonly buffer StaleBricksBuffer { uint stale_bricks[]; };
-layout(std430, binding = kBindNodes) readonly buffer NodesBuffer { NodeBits nodes[]; };
 layout(std430, binding = kBindDisplacementIn) readonly buffer DisplacementBuffer { vec4 displacement[]; };
+#ifdef IN_CELL
+layout(std430, binding = kBindNodes) readonly buffer NodesBuffer { NodeBits nodes[]; };
+#endif
+#ifdef NORMALS
 layout(std430, binding = kBindNodeNormals) readonly buffer NodeNormalsBuffer { vec4 node_normals[]; };
+#endif
 layout(std430, binding = kBindSkinBindings) readonly buffer SkinBuffer { SkinBinding skin[]; };
 layout(std430, binding = kBindSkinPositions) writeonly buffer PositionsBuffer { float positions[]; };
 layout(std430, binding = kBindSkinNormals) writeonly buffer NormalsBuffer { uint normals[]; };
@@ -36,6 +41,31 @@ vec3 axialDirection(uint spring) {
 /// A node moved, or one that its approximate normal depends on.
 bool isStale(uint slot) { return stale_bricks[slot >> 6] > followed_revision; }
 
+void put(uint vertex, vec3 position, vec3 normal) {
+  positions[3u * vertex] = position.x;
+  positions[3u * vertex + 1u] = position.y;
+  positions[3u * vertex + 2u] = position.z;
+  normals[vertex] = packNormal(normal);
+}
+
+#ifdef ALONG_NORMAL
+/// A vertex lies along the approximate normal (EGVE 3.5); where that is not clear, its offset turns with the triangle.
+void mapAlongNormal(uint vertex, SkinBinding s, vec3 reference, vec3 edge1, vec3 edge2, vec3 rest1, vec3 rest2) {
+  vec4 n0 = node_normals[s.slot0], n1 = node_normals[s.slot1], n2 = node_normals[s.slot2];
+  float trust = min(n0.w, min(n1.w, n2.w));
+  vec3 normal = direction(s.weights.x * xyz(n0) + s.weights.y * xyz(n1) + s.weights.z * xyz(n2), vec3(0.0f));
+  vec3 offset = s.weights.w * normal;
+  bool own = (s.springs & kOwnNormalBit) != 0u;
+  if (own || !(trust >= 1.0f)) {
+    Basis constant = triangleBasis(edge1, edge2, rest1, rest2);
+    offset = mix(inSpace(constant, xyz(s.offset_constant)), offset, trust);
+    normal = direction(mix(inSpace(constant, xyz(s.normal_constant)), normal, own ? 0.0f : trust), constant.n);
+  }
+  put(vertex, reference + offset, normal);
+}
+#endif
+
+#ifdef IN_CELL
 /// Corner c of the cell that holds a vertex.
 uint cellCorner(SkinBinding s, uint c) {
   uint own = (s.springs >> kCornerShift) & 7u;
@@ -53,13 +83,6 @@ bool isCellStale(SkinBinding s) {
   bool stale = false;
   for (uint c = 0u; c < 8u; ++c) stale = stale || isStale(cellCorner(s, c));
   return stale;
-}
-
-void put(uint vertex, vec3 position, vec3 normal) {
-  positions[3u * vertex] = position.x;
-  positions[3u * vertex + 1u] = position.y;
-  positions[3u * vertex + 2u] = position.z;
-  normals[vertex] = packNormal(normal);
 }
 
 /// A vertex goes where the eight corners carry its place in the cell; its normal as a plane does that goes with it.
@@ -92,6 +115,26 @@ void mapInCell(uint vertex, SkinBinding s, float spacing, vec3 rest1, vec3 rest2
   put(vertex, restPosition(s.slot0) + (spacing * from_own + moved), carried);
 }
 
+#endif
+
+#ifdef ONE_NODE
+/// A vertex goes with its node and keeps its offset (EGVE 3.2). Where the node has no clear normal, that of the vertex turns with the
+/// triangle.
+void mapByNode(uint vertex, SkinBinding s, float spacing, vec3 rest1, vec3 rest2) {
+  vec3 u0 = xyz(displacement[s.slot0]);
+  vec4 approximate = node_normals[s.slot0];
+  vec3 normal = xyz(approximate);
+  float trust = (s.springs & kOwnNormalBit) != 0u ? 0.0f : approximate.w;
+  if (!(trust >= 1.0f)) {
+    vec3 edge1 = spacing * rest1 + (xyz(displacement[s.slot1]) - u0), edge2 = spacing * rest2 + (xyz(displacement[s.slot2]) - u0);
+    Basis constant = triangleBasis(edge1, edge2, rest1, rest2);
+    normal = direction(mix(inSpace(constant, xyz(s.normal_constant)), normal, trust), constant.n);
+  }
+  Basis rest = triangleBasis(rest1, rest2, rest1, rest2);
+  put(vertex, restPosition(s.slot0) + (u0 + inSpace(rest, xyz(s.offset_constant))), normal);
+}
+#endif
+
 void main() {
   uint vertex = globalIndex();
   if (vertex >= count) return;
@@ -99,23 +142,42 @@ void main() {
 #ifdef MIXED
   if ((s.springs & kOneToOneBit) != 0u) return;
 #endif
+  bool stale = followed_revision == 0u || isStale(s.slot0) || isStale(s.slot1) || isStale(s.slot2);
+#ifdef IN_CELL
   bool in_cell = (s.springs & kInCellBit) != 0u;
-  if (followed_revision != 0u && !isStale(s.slot0) && !isStale(s.slot1) && !isStale(s.slot2) && !(in_cell && isCellStale(s))) return;
+  stale = stale || (in_cell && isCellStale(s));
+#endif
+  if (!stale) return;
   float spacing = bodies[bricks[s.slot0 >> 6].body].origin_spacing.w;
   vec3 rest1 = axialDirection(s.springs & 31u);
   vec3 rest2 = -axialDirection((s.springs >> 10) & 31u);
+#ifdef IN_CELL
   if (in_cell && !isCellCut(s)) {
     mapInCell(vertex, s, spacing, rest1, rest2);
     return;
   }
+#endif
+#ifdef ONE_NODE
+  if ((s.springs & kOneNodeBit) != 0u) {
+    mapByNode(vertex, s, spacing, rest1, rest2);
+    return;
+  }
+#endif
   vec3 u0 = xyz(displacement[s.slot0]);
   // Edges as rest offset plus difference of displacements: exact at rest, wherever the body is.
   vec3 edge1 = spacing * rest1 + (xyz(displacement[s.slot1]) - u0);
   vec3 edge2 = spacing * rest2 + (xyz(displacement[s.slot2]) - u0);
 
+#ifdef ALONG_NORMAL
+  if ((s.springs & kAlongNormalBit) != 0u) {
+    mapAlongNormal(vertex, s, restPosition(s.slot0) + (u0 + (s.weights.y * edge1 + s.weights.z * edge2)), edge1, edge2, rest1, rest2);
+    return;
+  }
+#endif
   Basis constant = triangleBasis(edge1, edge2, rest1, rest2);
   vec3 offset = inSpace(constant, xyz(s.offset_constant));
   vec3 normal = inSpace(constant, xyz(s.normal_constant));
+#ifdef CURVED
   if ((s.springs & kInterpolatedBit) != 0u) {
     vec4 n0 = node_normals[s.slot0], n1 = node_normals[s.slot1], n2 = node_normals[s.slot2];
     float trust = min(n0.w, min(n1.w, n2.w));
@@ -123,6 +185,7 @@ void main() {
     offset = mix(offset, inSpace(curved, xyz(s.offset_interpolated)), trust);
     normal = mix(normal, inSpace(curved, xyz(s.normal_interpolated)), trust);
   }
+#endif
   vec3 position = restPosition(s.slot0) + (u0 + (s.weights.y * edge1 + s.weights.z * edge2 + offset));
   put(vertex, position, direction(normal, constant.n));
 }

@@ -63,7 +63,7 @@ Body buildLatticeBody(const BodyConfig& config, const Scene& scene, const Tissue
   if (progress) progress("extract skin", 0);
   const TriangleMesh surface = surfaceOf(tissue, config, solid);
   requireSkinSize(surface, solid.spacing_m, config.import_limits.max_triangles);
-  body.skin = bindSkin(surface, body.lattice, solid, progress);
+  body.skin = bindSkin(surface, body.lattice, solid, config.mapping, progress);
   body.skin.can_be_cut = can_be_cut;
   body.notes.push_back(skinNote(body.skin));
   if (config.structure != Structure::kExplicit) return body;

@@ -94,7 +94,7 @@ struct SkinKernel {
 #define VARIANT_NAME MapSkin
 #define VARIANT_BASE SkinKernel
 #define VARIANT_TEXT "shaders/surface/map_skin.comp"
-#define VARIANT_FEATURES WITH_MIXED
+#define VARIANT_FEATURES WITH_MIXED | WITH_SKINS
 #include "solver/cpu/glsl_variant.inc"
 
 #define VARIANT_NAME TearSkin

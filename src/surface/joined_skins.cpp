@@ -91,7 +91,7 @@ void JoinedSkins::append(const Body& body, const NetworkSkins::Place& place) {
     networks.append(body, place);
   } else {
     any_bound = true;
-    for (uint32_t slot : skin.bound_slots) surface_nodes.push_back(slot + place.slot);
+    appendNormalNodes(skin, place.slot);
   }
   appendBindings(skin, place.slot);
   appendTriangles(skin, place);
@@ -113,6 +113,20 @@ void JoinedSkins::appendBindings(const Skin& skin, uint32_t slot_offset) {
   layout::SkinBinding split{};  // only says that none of the kernels for lattices may touch it
   split.springs = layout::kOneToOneBit;
   bindings.insert(bindings.end(), 2 * skin.split_edges.size(), split);
+}
+
+void JoinedSkins::appendNormalNodes(const Skin& skin, uint32_t slot_offset) {
+  const size_t first = surface_nodes.size();
+  for (const layout::SkinBinding& b : skin.bindings) {
+    kinds |= b.springs;
+    if (b.springs & (layout::kInterpolatedBit | layout::kAlongNormalBit | layout::kOneNodeBit))
+      surface_nodes.push_back(b.slot0 + slot_offset);
+    if (b.springs & (layout::kInterpolatedBit | layout::kAlongNormalBit))
+      surface_nodes.insert(surface_nodes.end(), {b.slot1 + slot_offset, b.slot2 + slot_offset});
+  }
+  const auto begin = surface_nodes.begin() + static_cast<ptrdiff_t>(first);
+  std::sort(begin, surface_nodes.end());
+  surface_nodes.erase(std::unique(begin, surface_nodes.end()), surface_nodes.end());
 }
 
 void JoinedSkins::appendTriangles(const Skin& skin, const NetworkSkins::Place& place) {

@@ -33,16 +33,19 @@ struct NetworkSkins {
 
 /// The skins of all bodies as one: slots and vertices numbered through. Split vertices of a network follow its own.
 struct JoinedSkins {
-  std::vector<uint32_t> surface_nodes, triangles, tie_starts = {0}, colors;
+  std::vector<uint32_t> surface_nodes;  ///< whose approximate normals some vertex follows, ascending
+  std::vector<uint32_t> triangles, tie_starts = {0}, colors;
   std::vector<layout::SkinBinding> bindings;
   std::vector<layout::Tie> ties;
   NetworkSkins networks;
   bool any_bound = false, any_one_to_one = false;
+  uint32_t kinds = 0;  ///< bits of SkinBinding.springs that some vertex of a lattice's skin has
 
   void append(const Body& body, const NetworkSkins::Place& place);
 
  private:
   void appendBindings(const Skin& skin, uint32_t slot_offset);
+  void appendNormalNodes(const Skin& skin, uint32_t slot_offset);
   void appendTriangles(const Skin& skin, const NetworkSkins::Place& place);
 };
 JoinedSkins joinSkins(const Model& model);

@@ -34,6 +34,18 @@ gpu::Program kernel(const std::string& name, const std::vector<std::string>& fea
   return gpu::Program::compute(name, defines);
 }
 
+/// What map_skin.comp is compiled for.
+std::vector<std::string> mapFeatures(const JoinedSkins& skins) {
+  std::vector<std::string> features;
+  if (skins.any_one_to_one) features.push_back("MIXED");
+  if (skins.kinds & layout::kInterpolatedBit) features.push_back("CURVED");
+  if (skins.kinds & layout::kInCellBit) features.push_back("IN_CELL");
+  if (skins.kinds & layout::kOneNodeBit) features.push_back("ONE_NODE");
+  if (skins.kinds & layout::kAlongNormalBit) features.push_back("ALONG_NORMAL");
+  if (!skins.surface_nodes.empty()) features.push_back("NORMALS");
+  return features;
+}
+
 void run(const gpu::Program& kernel, size_t count) {
   kernel.use();
   kernel.set("count", static_cast<uint32_t>(count));
@@ -60,7 +72,7 @@ Surface::Surface(const Model& model) {
   vertices_ = skins.bindings.size();
   const size_t triangles = skins.triangles.size() / 3;
   surface_nodes_ = gpu::Buffer<uint32_t>(skins.surface_nodes, "surface nodes");
-  node_normals_ = gpu::Buffer<layout::vec4>(skins.any_bound ? model.slots() : 0, "node normals");
+  node_normals_ = gpu::Buffer<layout::vec4>(skins.surface_nodes.empty() ? 0 : model.slots(), "node normals");
   bindings_ = gpu::Buffer<layout::SkinBinding>(skins.bindings, "bindings");
   positions_ = gpu::Buffer<float>(3 * vertices_, "positions");
   normals_ = gpu::Buffer<uint32_t>(vertices_, "normals");
@@ -76,10 +88,9 @@ Surface::Surface(const Model& model) {
   std::vector<uint32_t> splits = splitsOf(skins);
   shown_ = ShownTriangles(model, vertices_, std::move(skins.triangles), std::move(splits));
   if (skins.any_bound) {
-    const std::vector<std::string> features(skins.any_one_to_one ? 1 : 0, "MIXED");
-    node_normal_ = kernel("node_normal.comp");
-    map_ = kernel("map_skin.comp", features);
-    tear_ = kernel("tear_skin.comp", features);
+    if (!skins.surface_nodes.empty()) node_normal_ = kernel("node_normal.comp");
+    map_ = kernel("map_skin.comp", mapFeatures(skins));
+    tear_ = kernel("tear_skin.comp", std::vector<std::string>(skins.any_one_to_one ? 1 : 0, "MIXED"));
   }
   if (skins.any_one_to_one) networks_ = std::make_unique<NetworkSurface>(skins.networks);
   if (wounds_) makeRoom(kRoomForWounds * vertices_, live_count_ + 3 * kRoomForWounds * triangles);
@@ -109,11 +120,13 @@ void Surface::follow(const StateView& state) {
 }
 
 void Surface::followLattices(uint32_t since) {
-  surface_nodes_.bindStorage(layout::kBindSurfaceNodes);
-  node_normals_.bindStorage(layout::kBindNodeNormals);
   bindings_.bindStorage(layout::kBindSkinBindings);
-  runSince(node_normal_, surface_nodes_.size(), since);
-  gpu::Program::storageBarrier();
+  if (node_normal_) {
+    surface_nodes_.bindStorage(layout::kBindSurfaceNodes);
+    node_normals_.bindStorage(layout::kBindNodeNormals);
+    runSince(node_normal_, surface_nodes_.size(), since);
+    gpu::Program::storageBarrier();
+  }
   runSince(map_, vertices_, since);
 }
 

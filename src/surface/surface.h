@@ -72,7 +72,7 @@ class Surface {
   gpu::Buffer<layout::Tie> ties_;
   gpu::Buffer<float> positions_;
   gpu::Buffer<uint32_t> unknown_{size_t{1}};  ///< in place of StateView::stale_bricks; nobody reads it
-  gpu::Program node_normal_, map_, tear_;     ///< none where every body is a network
+  gpu::Program node_normal_, map_, tear_;  ///< none where every body is a network; no normals where none follows them
   std::unique_ptr<NetworkSurface> networks_;  ///< null where none is
   std::unique_ptr<Wounds> wounds_;            ///< null where no body on a lattice can be cut
   ShownTriangles shown_;

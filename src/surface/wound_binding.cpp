@@ -139,6 +139,7 @@ layout::SkinBinding bindToSide(const CutCells& cells, const Vector3d& point, con
 void setNormal(const Vector3d& normal, layout::SkinBinding& binding) {
   binding.normal_constant = packed(basisOf(binding).coordinates(normal));
   binding.normal_interpolated = binding.normal_constant;
+  if (binding.springs & (layout::kOneNodeBit | layout::kAlongNormalBit)) binding.springs |= layout::kOwnNormalBit;
 }
 
 }  // namespace viscera

@@ -218,6 +218,7 @@ TEST(NetworkScene, WhatDoesNotGoTogetherIsRefused) {
   expectRefused<SceneError>(ball + ", parts: [{part: a}]", {"parts need structure lattice or explicit"});
   expectRefused<SceneError>(ball + ", skin: volume", {"skin must be auto"});
   expectRefused<SceneError>(ball + ", spacing_m: auto", {"spacing_m: auto needs structure lattice"});
+  expectRefused<SceneError>(ball + ", mapping: constant", {"mapping must be auto with structure"});
   expectRefused<SceneError>("bending_ratio: 0.1", {"bending_ratio must be 0"});
   expectRefused<SceneError>("source: ball, structure: tetrahedra, bending_ratio: 0.1", {"bending_ratio must be 0"});
   expectRefused<LatticeError>(ball + ", spacing_m: 1", {"body 'tissue'", "larger than the whole body"});

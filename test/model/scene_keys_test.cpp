@@ -37,6 +37,7 @@ bodies:
     spacing_m: 0.0041
     target_nodes: 4200
     skin: volume
+    mapping: constant
     position_m: [0.051, 0.052, 0.053]
     rotation_deg: [61, 62, 63]
     color: [0.071, 0.072, 0.073]
@@ -157,6 +158,7 @@ TEST(SceneKeys, EveryBodyKeyReachesItsField) {
   EXPECT_EQ(body.spacing_m, 0.0041);
   EXPECT_EQ(body.target_nodes, 4200);
   EXPECT_EQ(body.skin, SkinSource::kVolume);
+  EXPECT_EQ(body.mapping, Mapping::kConstant);
   EXPECT_EQ(body.position_m, Vector3d(0.051, 0.052, 0.053));
   EXPECT_EQ(body.rotation_deg, Vector3d(61, 62, 63));
   EXPECT_EQ(body.color, Vector3d(0.071, 0.072, 0.073));

@@ -216,7 +216,7 @@ TEST(SkinBinding, BoundSlotsListsEverySlotOnceInOrder) {
 TEST(SkinBinding, ProgressRunsFromZeroToOne) {
   const Solid solid = ballSolid(kCenter_m, 0.05, kSpacing_m);
   std::vector<double> fractions;
-  bindSkin(sphereMesh(kCenter_m, 0.05, 12), buildLattice(solid, Weights::kCell), solid,
+  bindSkin(sphereMesh(kCenter_m, 0.05, 12), buildLattice(solid, Weights::kCell), solid, Mapping::kAuto,
            [&](const std::string&, double fraction) { fractions.push_back(fraction); });
   ASSERT_GE(fractions.size(), 2u);
   EXPECT_TRUE(std::is_sorted(fractions.begin(), fractions.end()));

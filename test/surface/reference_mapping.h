@@ -43,10 +43,30 @@ class ReferenceMapping {
       normal += trust * (sum(s.normal_interpolated, t_c, n_c, b_c) - normal);
     }
     const double w[3] = {1.0 - s.weights.y - s.weights.z, s.weights.y, s.weights.z};
+    const double own = s.springs & layout::kOwnNormalBit ? 0 : 1;
+    if (s.springs & layout::kOneNodeBit) {
+      const Normal a = approximate(s.slot0);
+      normal += own * a.trust * (a.unit - normal);
+      return {p1 + atRest(s), normal.normalized()};
+    }
+    if (s.springs & layout::kAlongNormalBit) {
+      const std::array<Normal, 3> a = {approximate(s.slot0), approximate(s.slot1), approximate(s.slot2)};
+      const double trust = std::min({a[0].trust, a[1].trust, a[2].trust});
+      const Vector3d along = normalised(w[0] * a[0].unit + w[1] * a[1].unit + w[2] * a[2].unit);
+      offset += trust * (s.weights.w * along - offset);
+      normal += own * trust * (along - normal);
+    }
     return {w[0] * p1 + w[1] * p2 + w[2] * p3 + offset, normal.normalized()};
   }
 
  private:
+  /// The offset as it is at rest.
+  Vector3d atRest(const layout::SkinBinding& s) const {
+    const Vector3d p1 = lattice_.restPosition(s.slot0);
+    const Vector3d t = (lattice_.restPosition(s.slot1) - p1).normalized();
+    const Vector3d n = t.cross(lattice_.restPosition(s.slot2) - p1).normalized();
+    return sum(s.offset_constant, t, n, n.cross(t));
+  }
   Vector3i lowestCorner(const layout::SkinBinding& s) const {
     const uint32_t own = s.springs >> layout::kCornerShift & 7u;
     return lattice_.nodeAt(s.slot0) - Vector3i(own & 1u, own >> 1 & 1u, own >> 2);

@@ -14,7 +14,7 @@ namespace viscera::layout {
 struct SkinBinding {
   uint slot0, slot1, slot2;
   uint springs;            // spring index of edges 01, 12, 20 (5 bits each); flags below
-  vec4 weights;            // xyz barycentric weights; w unused
+  vec4 weights;            // xyz barycentric weights; w offset along the approximate normal [m], with kAlongNormalBit
   vec4 offset_constant;    // xyz offset in (T, N, B) of the triangle [m]
   vec4 offset_interpolated;  // xyz offset in (T_c, N_c, B_c) [m]
   vec4 normal_constant;      // xyz shading normal in (T, N, B)
@@ -27,6 +27,13 @@ const uint kInCellBit = 1u << 29;
 const uint kCornerShift = 16u;
 // Of SkinBinding.springs: a vertex of a network's skin, which is its node slot0; normal_constant is its normal at rest.
 const uint kOneToOneBit = 1u << 30;
+// Of SkinBinding.springs: a vertex that goes with the node slot0 of a lattice (EGVE 3.2). Its offset stays as it is at rest; it is shaded
+// by the node's approximate normal.
+const uint kOneNodeBit = 1u << 28;
+// Of SkinBinding.springs: a vertex that lies along the interpolated approximate normal, which also shades it (EGVE 3.5).
+const uint kAlongNormalBit = 1u << 27;
+// Of SkinBinding.springs, with one of these two: shaded by its own normal in (T, N, B) all the same, as the walls of a wound are.
+const uint kOwnNormalBit = 1u << 26;
 
 // What is shown of a triangle.
 const uint kShownWhole = 1u;

@@ -107,6 +107,8 @@ std::string skinNote(const Skin& skin) {
   std::ostringstream out;
   out << "skin: " << skin.mesh.triangles.size() << " faces, " << skin.mesh.positions_m.size() << " vertices ("
       << skin.deep_vertices << " inside the tissue, " << skin.bridges_removed << " faces across gaps left out)";
+  if (skin.constant_vertices > 0)
+    out << "; " << skin.constant_vertices << " vertices without clear normals have the constant mapping";
   return out.str();
 }
 

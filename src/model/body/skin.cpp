@@ -6,7 +6,7 @@
 #include <array>
 
 #include "model/body/skin_anchor.h"
-#include "model/body/skin_basis.h"
+#include "model/body/skin_binder.h"
 #include "model/body/skin_ties.h"
 
 namespace viscera {
@@ -16,68 +16,18 @@ namespace {
 constexpr size_t kVerticesPerReport = 4096;
 constexpr double kShareOfBinding = 0.7;  // of the whole time; the ties take the rest
 
-layout::vec4 packed(const Vector3d& v) {
-  const Vector3f f = v.cast<float>();
-  return {f.x(), f.y(), f.z(), 0};
-}
-
-/// Binds the vertices of one skin to one lattice, one at a time.
-class Binder {
- public:
-  explicit Binder(const Lattice& lattice) : lattice_(lattice) {}
-
-  layout::SkinBinding bind(const Anchor& anchor, const Vector3d& position_m, const Vector3d& normal) const {
-    layout::SkinBinding binding{};
-    const std::array<uint32_t, 3> slots = {slotOf(anchor.nodes[0]), slotOf(anchor.nodes[1]), slotOf(anchor.nodes[2])};
-    binding.slot0 = slots[0];
-    binding.slot1 = slots[1];
-    binding.slot2 = slots[2];
-    for (int edge = 0; edge < 3; ++edge) {
-      const int spring = springIndex(anchor.nodes[(edge + 1) % 3] - anchor.nodes[edge]);
-      binding.springs |= static_cast<uint32_t>(spring) << (5 * edge);
-    }
-    if (anchor.cell) {
-      const Vector3i corner = anchor.nodes[0] - *anchor.cell;
-      const int number = corner.x() + 2 * corner.y() + 4 * corner.z();
-      binding.springs |= layout::kInCellBit | static_cast<uint32_t>(number) << layout::kCornerShift;
-    }
-    const float weight1 = static_cast<float>(anchor.weight1), weight2 = static_cast<float>(anchor.weight2);
-    binding.weights = {1 - weight1 - weight2, weight1, weight2, 0};
-
-    const Vector3d edge1 = (anchor.nodes[1] - anchor.nodes[0]).cast<double>();
-    const Vector3d edge2 = (anchor.nodes[2] - anchor.nodes[0]).cast<double>();
-    // The offset is taken from where the rounded weights put the reference point, so that the sum comes out right.
-    const Vector3d reference =
-        lattice_.restPosition(slots[0]) + lattice_.spacing_m * (weight1 * edge1 + weight2 * edge2);
-    const Vector3d offset = position_m - reference;
-    const SkinBasis constant = triangleBasis(edge1, edge2);
-    binding.offset_constant = packed(constant.coordinates(offset));
-    binding.normal_constant = packed(constant.coordinates(normal));
-    if (const auto curved = interpolatedBasis(lattice_, slots, binding.weights, constant)) {
-      binding.springs |= layout::kInterpolatedBit;
-      binding.offset_interpolated = packed(curved->coordinates(offset));
-      binding.normal_interpolated = packed(curved->coordinates(normal));
-    }
-    return binding;
-  }
-
- private:
-  uint32_t slotOf(const Vector3i& node) const { return static_cast<uint32_t>(lattice_.slotAt(node)); }
-
-  const Lattice& lattice_;
-};
-
-void bindVertices(const Lattice& lattice, const Solid& solid, const Progress& progress, Skin& skin) {
+void bindVertices(const Lattice& lattice, const Solid& solid, Mapping mapping, const Progress& progress, Skin& skin) {
   const AnchorFinder finder(solid);
-  const Binder binder(lattice);
+  const SkinBinder binder(lattice, mapping);
   const std::vector<Vector3f> normals = vertexNormals(skin.mesh);
   const size_t count = skin.mesh.positions_m.size();
   skin.bindings.reserve(count);
   for (size_t v = 0; v < count; ++v) {
     const Vector3d position = skin.mesh.positions_m[v].cast<double>(), normal = normals[v].cast<double>();
-    const Anchor anchor = finder.find(position, normal);
+    const Anchor anchor = finder.find(position, normal, mapping == Mapping::kAuto);
     skin.deep_vertices += anchor.deep ? 1 : 0;
     skin.bindings.push_back(binder.bind(anchor, position, normal));
+    skin.constant_vertices += binder.isAsAsked(skin.bindings.back()) ? 0 : 1;
     if (progress && v % kVerticesPerReport == 0) progress("bind skin", kShareOfBinding * v / count);
   }
 }
@@ -121,10 +71,11 @@ void listBoundSlots(const Lattice& lattice, Skin& skin) {
 
 }  // namespace
 
-Skin bindSkin(const TriangleMesh& mesh, const Lattice& lattice, const Solid& solid, const Progress& progress) {
+Skin bindSkin(const TriangleMesh& mesh, const Lattice& lattice, const Solid& solid, Mapping mapping,
+              const Progress& progress) {
   Skin skin;
   skin.mesh = refine(mesh, lattice.spacing_m);
-  bindVertices(lattice, solid, progress, skin);
+  bindVertices(lattice, solid, mapping, progress, skin);
   listBoundSlots(lattice, skin);
   tieTriangles(lattice, skin);
   if (progress) progress("bind skin", 1);

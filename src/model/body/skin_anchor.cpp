@@ -105,12 +105,23 @@ AnchorFinder::Face AnchorFinder::nearestFaceOf(const Vector3i& cell, const Vecto
   return nearest;
 }
 
-Anchor AnchorFinder::find(const Vector3d& point_m, const Vector3d& outward) const {
+Anchor atNearestNode(const Anchor& anchor) {
+  Anchor out = anchor;
+  out.weight1 = out.weight2 = 0;
+  const auto& [angle, next, previous] = anchor.nodes;
+  const Vector3i opposite = next + previous - angle;
+  if (anchor.weight1 > 0.5) out.nodes = {next, opposite, angle};
+  if (anchor.weight2 > 0.5) out.nodes = {previous, angle, opposite};
+  return out;
+}
+
+Anchor AnchorFinder::find(const Vector3d& point_m, const Vector3d& outward, bool in_cells) const {
   const Vector3d point = (point_m - solid_.origin_m) / solid_.spacing_m;
   Face face = nearestBoundary(point, outward);
   const Vector3i home = point.array().floor().cast<int>();
   const bool deep = face.distance2 > 1 && filled(home);
-  const bool moves_with_cell = !solid_.partial.empty() && (filled(home) || face.distance2 <= kBeside * kBeside);
+  const bool moves_with_cell =
+      in_cells && !solid_.partial.empty() && (filled(home) || face.distance2 <= kBeside * kBeside);
   if (deep || moves_with_cell) face = nearestFaceOf(filled(home) ? home : face.cell, point);
   Anchor anchor = anchorOnFace(closestOnFace(point, face.cell, face.axis, face.side), face.cell, face.axis, face.side);
   anchor.deep = deep;

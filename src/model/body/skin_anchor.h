@@ -18,6 +18,9 @@ struct Anchor {
   std::optional<Vector3i> cell;     ///< that holds the vertex, where the vertex is to move as its tissue does
 };
 
+/// The same place's face, cut in two so that the node nearest to the place is node 0, and that node as the place.
+Anchor atNearestNode(const Anchor& anchor);
+
 /// Finds anchors on the faces of a solid's cells.
 class AnchorFinder {
  public:
@@ -28,7 +31,8 @@ class AnchorFinder {
   /// up to one spacing. In a solid with cells that are tissue in part the boundary is not where its tissue ends: there
   /// it is a face of the cell that holds the vertex, or of the one within half a cell of it.
   /// @param point_m  tissue frame  @param outward  unit normal of the skin there
-  Anchor find(const Vector3d& point_m, const Vector3d& outward) const;
+  /// @param in_cells  false: on the boundary in such a solid too
+  Anchor find(const Vector3d& point_m, const Vector3d& outward, bool in_cells = true) const;
 
  private:
   struct Face {

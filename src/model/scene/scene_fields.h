@@ -154,6 +154,15 @@ void visitFields(V& v, BodyConfig& c) {
   v.choice("skin", c.skin,
            {{"auto", SkinSource::kAuto}, {"input", SkinSource::kInput}, {"volume", SkinSource::kVolume}},
            "detailed surface: the input mesh, or extracted from the volume; auto takes the mesh where there is one");
+  v.choice("mapping", c.mapping,
+           {{"auto", Mapping::kAuto},
+            {"one_to_one", Mapping::kOneToOne},
+            {"constant", Mapping::kConstant},
+            {"interpolated", Mapping::kInterpolated},
+            {"along_normal", Mapping::kAlongNormal}},
+           "how the skin follows the lattice (docs/mappings.md): each vertex one node (EGVE 3.2), a triangle of nodes "
+           "(eqs 4 to 7), that turned by approximate normals (eq 8), or moved along these alone (3.5); auto: the "
+           "corners of the cell where cells are tissue in part, else interpolated");
   v.vector("position_m", c.position_m, kCoordinate, "m", "origin of the body in the tissue frame");
   v.vector("rotation_deg", c.rotation_deg, kAngle, "deg", "turns about the fixed x, then y, then z axis");
   v.vector("color", c.color, {0, 1}, "1", "red, green, blue");

@@ -49,6 +49,9 @@ std::string networkFault(const BodyConfig& body) {
   if (body.material.weights != Weights::kCell) return "material.weights: paper needs structure lattice or explicit";
   if (body.material.cells == Cells::kMoments) return "material.cells: moments needs structure lattice or explicit";
   if (body.skin != SkinSource::kAuto) return "skin must be auto with structure " + name + ": the skin is its surface";
+  if (body.mapping != Mapping::kAuto) {
+    return "mapping must be auto with structure " + name + ": each vertex of its skin is one of its nodes already";
+  }
   if (body.auto_spacing && body.target_nodes == 0) {
     return "spacing_m: auto needs structure lattice or explicit; give " + name + " a number or target_nodes";
   }

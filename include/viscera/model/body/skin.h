@@ -6,6 +6,7 @@
 
 #include "viscera/layout/skin.h"
 #include "viscera/model/body/lattice.h"
+#include "viscera/model/scene/scene.h"
 #include "viscera/model/shape/triangle_mesh.h"
 
 namespace viscera {
@@ -28,10 +29,11 @@ struct Skin {
   std::vector<SplitEdge> split_edges;         ///< of a network that can be cut
   /// [triangles] split edges 01, 12, 20, or kNoSplitEdge; empty unless a network's that can be cut
   std::vector<std::array<uint32_t, 3>> triangle_edges;
-  bool can_be_cut = false;     ///< some tool of the scene may: wounds get ready (surface/wounds.h)
-  bool two_sided = false;      ///< a sheet with borders: its back is not the inside of something
-  size_t deep_vertices = 0;    ///< bound inside the body, too far from its boundary
-  size_t bridges_removed = 0;  ///< triangles left out: the lattice has no tissue along one of their edges
+  bool can_be_cut = false;       ///< some tool of the scene may: wounds get ready (surface/wounds.h)
+  bool two_sided = false;        ///< a sheet with borders: its back is not the inside of something
+  size_t deep_vertices = 0;      ///< bound inside the body, too far from its boundary
+  size_t constant_vertices = 0;  ///< that the mapping asked for cannot carry, so that the constant one does
+  size_t bridges_removed = 0;    ///< triangles left out: the lattice has no tissue along one of their edges
 };
 
 /// Binds every vertex to the nearest triangle of the lattice's boundary (EGVE 3.3.1; the reference point is the closest
@@ -42,7 +44,10 @@ struct Skin {
 /// Edges longer than the spacing are split first, so that a cut can open between any two lattice nodes.
 /// A triangle is whole while at least two of the three springs of each of its vertices' lattice triangles are alive
 /// and all its ties hold; hence no whole triangle joins nodes that no path of live springs joins.
+/// That is Mapping::kAuto. The others (docs/mappings.md) bind to the boundary everywhere, and to a cell's face where a
+/// vertex is deep.
 /// @param solid  the one that `lattice` was built from
-Skin bindSkin(const TriangleMesh& mesh, const Lattice& lattice, const Solid& solid, const Progress& progress = {});
+Skin bindSkin(const TriangleMesh& mesh, const Lattice& lattice, const Solid& solid, Mapping mapping = Mapping::kAuto,
+              const Progress& progress = {});
 
 }  // namespace viscera

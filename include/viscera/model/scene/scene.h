@@ -18,6 +18,7 @@ enum class SpringForces { kPoint, kEdge };
 enum class CollisionSearch { kGrid, kStaggered };
 enum class ObstacleShape { kPlane, kSphere, kCapsule, kBox };
 enum class SkinSource { kAuto, kInput, kVolume };
+enum class Mapping { kAuto, kOneToOne, kConstant, kInterpolated, kAlongNormal };  ///< see docs/mappings.md
 enum class UpAxis { kZ, kY };
 enum class FixedShape { kBox, kSphere, kPlane, kPart };
 enum class Integrator { kLeapfrog, kVerletPaper, kVbd, kPd };
@@ -97,6 +98,7 @@ struct BodyConfig {
   bool auto_spacing = false;  ///< `spacing_m: auto`: as fine as this machine can step; see autoBodies()
   int target_nodes = 0;       ///< 0: from spacing_m
   SkinSource skin = SkinSource::kAuto;
+  Mapping mapping = Mapping::kAuto;
   Vector3d position_m = Vector3d::Zero();
   Vector3d rotation_deg = Vector3d::Zero();  ///< about fixed x, then y, then z
   Vector3d color = Vector3d(0.72, 0.25, 0.22);
