@@ -3,6 +3,7 @@
 //
 // mesh.vert - places a vertex in a camera's optical frame.   Owners: render/tissue_painter.h, render/tool_painter.h
 // in  position m, normal (null where undefined), sRGB colour     out  the same in the optical frame, linear colour
+#include "srgb.glsl"
 layout(location = 0) in vec3 mesh_position_m;
 layout(location = 1) in vec3 mesh_normal;
 layout(location = 2) in vec4 mesh_color;
@@ -11,10 +12,6 @@ uniform mat4 clip_from_optical;
 out vec3 position_m;
 out vec3 normal;
 out vec4 color;
-
-vec3 linearFromSrgb(vec3 c) {
-  return mix(pow((c + 0.055) / 1.055, vec3(2.4)), c / 12.92, lessThan(c, vec3(0.04045)));
-}
 
 void main() {
   position_m = (optical_from_mesh * vec4(mesh_position_m, 1.0)).xyz;

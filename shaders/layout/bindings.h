@@ -80,6 +80,16 @@ const uint kBindNodePairs = 63u;         // vec4[3 * slots]: nodes with such con
 const uint kBindSurfaceWays = 64u;       // uint[slots]: ways to the surface, see surface_ways.h
 const uint kBindAxialCut = 65u;          // float[3 * slots]: where springs were cut, as in HostState::axial_cut
 
+// Overlays (surface/node_overlay.h)
+const uint kBindOverlayNodes = 66u;       // vec4[slots]: xyz position [m], w strain
+const uint kBindOverlayLinkStarts = 67u;  // uint[slots + 1]: first OverlayLink of a node
+const uint kBindOverlayLinks = 68u;       // OverlayLink[]
+const uint kBindOverlayLines = 69u;       // OverlayLine[]
+const uint kBindOverlayIndices = 70u;     // uint[2 * lines]: slots of their ends, twice the same where the spring is cut
+const uint kBindOverlaySpikes = 71u;      // OverlaySpike[]
+const uint kBindOverlayEnds = 72u;        // vec4[2 * spikes]: xyz of both ends [m]
+const uint kBindStrainColors = 73u;       // uint[vertices]: RGBA8 by strain
+
 // Texture units: buffers seen through texel fetches. OpenGL promises 16 of them.
 const uint kUnitDisplacement = 0u;  // rgba32f, as kBindDisplacementIn
 const uint kUnitVelocity = 1u;      // rgba32f, as kBindVelocityIn

@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "viscera/model/scene/overlays.h"
 #include "viscera/tools/force_limiter.h"
 #include "viscera/tools/stylus.h"
 
@@ -30,10 +31,12 @@ struct CommandAnswer {
 
 /// Something that a service asks of the simulation's thread.
 struct Command {
-  enum class Kind { kReset, kPause, kResume, kStep };
+  enum class Kind { kReset, kPause, kResume, kStep, kOverlays };
   Kind kind = Kind::kReset;
   uint32_t ticks = 0;                    ///< of a step
   std::optional<StylusSamples> samples;  ///< of a step: where the styluses are at its end; else as devices say
+  std::string camera;                    ///< of overlays: by name; empty: all
+  Overlays overlays;
   std::chrono::steady_clock::time_point deadline;  ///< nobody waits for the answer after this
   std::shared_ptr<std::atomic<bool>> begun = std::make_shared<std::atomic<bool>>(false);
   std::promise<CommandAnswer> answer;

@@ -161,10 +161,25 @@ CommandAnswer SimulationLoop::execute(const Command& command, Session& session) 
       paused_ = false;
       forgetHands(session);
       return answer(true, "running", session);
+    case Command::Kind::kOverlays:
+      return setOverlays(command, session);
     case Command::Kind::kStep:
       break;
   }
   return step(command, session);
+}
+
+CommandAnswer SimulationLoop::setOverlays(const Command& command, Session& session) {
+  const std::vector<CameraConfig>& cameras = session.scene().cameras;
+  bool found = false;
+  for (size_t c = 0; c < cameras.size(); ++c) {
+    if (!command.camera.empty() && cameras[c].name != command.camera) continue;
+    session.setOverlays(c, command.overlays);
+    found = true;
+  }
+  if (!found) return answer(false, "camera: the scene has no camera '" + command.camera + "'", session);
+  unseen_ = true;
+  return answer(true, "from the next picture on", session);
 }
 
 StylusSamples SimulationLoop::samplesOf(const Command& command, uint32_t tick) const {

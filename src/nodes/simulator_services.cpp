@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::chrono::seconds kTriggerLimit{10};  ///< a tick, however slow, and a reset
 constexpr std::chrono::seconds kStepLimit{60};
-constexpr uint32_t kServices = 4;  ///< one thread each
+constexpr uint32_t kServices = 5;  ///< one thread each
 
 /// Where a step takes the styluses. @throws Error  a name that the scene does not have, or twice; no pose
 StylusSamples samplesOf(const std::vector<StylusState>& states, const std::vector<StylusConfig>& styluses) {
@@ -46,6 +46,7 @@ SimulatorServices::SimulatorServices(ros::NodeHandle node, const std::vector<Sty
   advertiseTrigger(node, "pause", Command::Kind::kPause);
   advertiseTrigger(node, "resume", Command::Kind::kResume);
   servers_.push_back(node.advertiseService("step", &SimulatorServices::onStep, this));
+  servers_.push_back(node.advertiseService("set_overlays", &SimulatorServices::onSetOverlays, this));
   spinner_.start();
 }
 
@@ -61,6 +62,22 @@ void SimulatorServices::advertiseTrigger(ros::NodeHandle& node, const std::strin
     return true;
   };
   servers_.push_back(node.advertiseService<Request, Response>(name, serve));
+}
+
+bool SimulatorServices::onSetOverlays(SetOverlays::Request& request, SetOverlays::Response& response) {
+  Command command;
+  command.kind = Command::Kind::kOverlays;
+  command.camera = request.camera;
+  try {
+    command.overlays = overlaysOf(request.overlays);
+  } catch (const SceneError& error) {
+    response.message = std::string("overlays: ") + error.what();
+    return true;
+  }
+  const CommandAnswer answer = commands_.call(std::move(command), kTriggerLimit);
+  response.success = answer.success;
+  response.message = answer.message;
+  return true;
 }
 
 bool SimulatorServices::onStep(Step::Request& request, Step::Response& response) {

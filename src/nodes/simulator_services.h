@@ -10,12 +10,13 @@
 #include <vector>
 
 #include "nodes/command_queue.h"
+#include "viscera/SetOverlays.h"
 #include "viscera/Step.h"
 
 namespace viscera::nodes {
 
-/// Services `reset`, `pause`, `resume` and `step`, on threads of their own: waiting for an answer holds up no input,
-/// and one no other.
+/// Services `reset`, `pause`, `resume`, `step` and `set_overlays`, on threads of their own: waiting for an answer holds
+/// up no input, and one no other.
 class SimulatorServices {
  public:
   /// @param styluses  of the scene   @param commands  must outlive this
@@ -23,6 +24,7 @@ class SimulatorServices {
 
  private:
   void advertiseTrigger(ros::NodeHandle& node, const std::string& name, Command::Kind kind);
+  bool onSetOverlays(SetOverlays::Request& request, SetOverlays::Response& response);
   bool onStep(Step::Request& request, Step::Response& response);
 
   const std::vector<StylusConfig> styluses_;

@@ -7,6 +7,7 @@
 #include "gpu/gl.h"
 #include "gpu/stage_clock.h"
 #include "render/obstacle_painter.h"
+#include "render/overlay_painter.h"
 #include "render/tissue_painter.h"
 #include "render/tool_painter.h"
 
@@ -33,6 +34,11 @@ void prepareImage() {
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 }
 
+MeshView viewOf(const Surface& surface) {
+  return {surface.positions().id(), surface.normals().id(), surface.colors().id(), surface.liveIndices().id(),
+          surface.liveCount()};
+}
+
 }  // namespace
 
 Renderer::Renderer(const std::vector<CameraConfig>& cameras, const std::vector<StylusConfig>& styluses,
@@ -51,21 +57,45 @@ Renderer::Renderer(const std::vector<CameraConfig>& cameras, const std::vector<S
 Renderer::~Renderer() = default;
 
 void Renderer::draw(size_t camera, const Surface& surface, const ToolMotions& motions) {
-  const MeshView mesh = {surface.positions().id(), surface.normals().id(), surface.colors().id(),
-                         surface.liveIndices().id(), surface.liveCount()};
-  draw(camera, mesh, motions);
+  draw(camera, viewOf(surface), motions);
 }
 
 void Renderer::draw(size_t camera, const MeshView& mesh, const ToolMotions& motions) {
+  const auto drawTissue = [&](const Pose& pose, const Eigen::Matrix4f& clip) {
+    tissue_->draw(mesh, toolShadows(motions, styluses_, pose), pose, clip);
+  };
+  drawImage(camera, motions, drawTissue, [](const Pose&, const Eigen::Matrix4f&) {});
+}
+
+void Renderer::draw(size_t camera, const Model& model, const OverlayLook& look, const ToolMotions& motions) {
+  if (!overlays_) overlays_ = std::make_unique<OverlayPainter>(model);
+  overlays_->follow(look);
+  const MeshView mesh = viewOf(*look.surface);
+  const auto drawTissue = [&](const Pose& pose, const Eigen::Matrix4f& clip) {
+    if (look.shown.has(Overlay::kStrain)) {
+      overlays_->drawStrain(look, mesh, pose, clip);
+    } else {
+      tissue_->draw(mesh, toolShadows(motions, styluses_, pose), pose, clip);
+    }
+  };
+  drawImage(camera, motions, drawTissue, [&](const Pose& pose, const Eigen::Matrix4f& clip) {
+    overlays_->draw(look, cameras_[camera].supersampling, pose, clip);
+  });
+}
+
+/// @param drawTissue, drawOver  (optical_from_tissue, clip_from_optical): before and after obstacles and tools
+template <class DrawTissue, class DrawOver>
+void Renderer::drawImage(size_t camera, const ToolMotions& motions, DrawTissue drawTissue, DrawOver drawOver) {
   assert(camera < cameras_.size());
   const gpu::TimedStage timed(gpu::Stage::kRender);
   const Pose optical_from_tissue = opticalPose(cameras_[camera]).inverse();
   const Eigen::Matrix4f clip_from_optical = clipFromOptical(cameras_[camera]);
   targets_[camera].bindForDrawing();
   prepareImage();
-  tissue_->draw(mesh, toolShadows(motions, styluses_, optical_from_tissue), optical_from_tissue, clip_from_optical);
+  drawTissue(optical_from_tissue, clip_from_optical);
   if (obstacles_) obstacles_->draw(obstacle_poses_, optical_from_tissue, clip_from_optical);
   tools_->draw(motions, optical_from_tissue, clip_from_optical);
+  drawOver(optical_from_tissue, clip_from_optical);
   targets_[camera].resolve();
   ++renders_;
 }

@@ -16,6 +16,8 @@ namespace viscera {
 class TissuePainter;
 class ToolPainter;
 class ObstaclePainter;
+class OverlayPainter;
+struct OverlayLook;
 
 /// Triangles that are on the GPU already; buffer names are OpenGL's.
 struct MeshView {
@@ -45,6 +47,8 @@ class Renderer {
   /// Makes no OpenGL object, and sets all the state that it depends on.
   void draw(size_t camera, const Surface& surface, const ToolMotions& motions);
   void draw(size_t camera, const MeshView& mesh, const ToolMotions& motions);
+  /// As draw(), with overlays; makes what they need at the first time. @param model  of look.surface, must outlive this
+  void draw(size_t camera, const Model& model, const OverlayLook& look, const ToolMotions& motions);
   /// Where obstacles are in what is drawn from now on. @param poses  [obstacles] tissue frame; nowhere before the first
   /// call
   void placeObstacles(const std::vector<Pose>& poses) { obstacle_poses_ = poses; }
@@ -53,12 +57,16 @@ class Renderer {
   uint64_t renders() const { return renders_; }
 
  private:
+  template <class DrawTissue, class DrawOver>
+  void drawImage(size_t camera, const ToolMotions& motions, DrawTissue drawTissue, DrawOver drawOver);
+
   std::vector<CameraConfig> cameras_;
   std::vector<StylusConfig> styluses_;
   std::vector<RenderTarget> targets_;
   std::unique_ptr<TissuePainter> tissue_;
   std::unique_ptr<ToolPainter> tools_;
   std::unique_ptr<ObstaclePainter> obstacles_;  ///< null where the scene has none
+  std::unique_ptr<OverlayPainter> overlays_;    ///< null until somebody wants one
   std::vector<Pose> obstacle_poses_;
   uint64_t renders_ = 0;
 };

@@ -6,6 +6,8 @@
 #include <cstring>
 #include <utility>
 
+#include "render/overlay_painter.h"
+
 namespace viscera {
 
 namespace {
@@ -43,7 +45,10 @@ bool isSame(const Pose& a, const Pose& b) {
 }  // namespace
 
 InlineView::InlineView(const Model& model, const Scene& scene)
-    : surface_(model), renderer_(scene.cameras, scene.styluses, scene.obstacles), surface_ring_(makeRing(surface_)) {
+    : model_(model),
+      surface_(model),
+      renderer_(scene.cameras, scene.styluses, scene.obstacles),
+      surface_ring_(makeRing(surface_)) {
   for (const CameraConfig& camera : scene.cameras) {
     eyes_.push_back({camera, std::make_unique<gpu::ReadbackRing>(imageBytes(camera), kImagesInFlight, "an image"), {}});
   }
@@ -112,19 +117,28 @@ void InlineView::captureImage(size_t camera, const StateView& state, const Look&
 /// Leaves the image bound for reading; draws it if it would differ from the last one.
 void InlineView::draw(size_t camera, const StateView& state, const Look& look) {
   std::optional<Drawn>& drawn = eyes_[camera].drawn;
+  const Overlays overlays = look.overlays[camera];
   if (drawn && state.moved_revision == drawn->moved_revision && state.cut_revision == drawn->cut_revision &&
       looksTheSame(look.motions, drawn->motions) &&
       std::equal(look.obstacles.begin(), look.obstacles.end(), drawn->obstacles.begin(), drawn->obstacles.end(),
-                 isSame)) {
+                 isSame) &&
+      overlays == drawn->overlays && (!overlays.any() || look.arrows == drawn->arrows)) {
     renderer_.bindLast(camera);
     ++counters_.repeats;
     return;
   }
   follow(state);
   renderer_.placeObstacles(look.obstacles);
-  renderer_.draw(camera, surface_, look.motions);
+  if (overlays.any()) {
+    const OverlayLook over = {overlays, eyes_[camera].camera.strain_range, state, &surface_, &look.arrows};
+    renderer_.draw(camera, model_, over, look.motions);
+  } else {
+    renderer_.draw(camera, surface_, look.motions);
+  }
   drawn.reset();
-  if (state.moved_revision) drawn = Drawn{state.moved_revision, state.cut_revision, look.motions, look.obstacles};
+  if (state.moved_revision) {
+    drawn = Drawn{state.moved_revision, state.cut_revision, look.motions, look.obstacles, overlays, look.arrows};
+  }
 }
 
 void InlineView::collect(Pictures& out, bool wait) {

@@ -36,6 +36,8 @@ class InlineView : public View {
     uint64_t cut_revision = 0;
     ToolMotions motions;
     std::vector<Pose> obstacles;
+    Overlays overlays;
+    std::vector<Arrow> arrows;
   };
   struct Eye {
     CameraConfig camera;
@@ -49,6 +51,7 @@ class InlineView : public View {
   bool takeImage(size_t camera, Pictures& out, bool wait);
   bool takeSurface(Pictures& out, bool wait);
 
+  const Model& model_;
   Surface surface_;
   Renderer renderer_;
   CutState cuts_;

@@ -7,8 +7,10 @@
 #include <limits>
 
 #include "math/float_bits.h"
+#include "session/arrows.h"
 #include "session/view.h"
 #include "solver/make_solver.h"
+#include "solver/surroundings.h"
 #include "viscera/calibration/auto_spacing.h"
 
 namespace viscera {
@@ -52,6 +54,7 @@ Session::Session(const Scene& scene, gpu::Context* context, const Progress& prog
   backend_note_ = viscera::backendNote(scene_.solver, context, *solver_);
   view_ = makeView(*solver_, model_, scene_, context);
   lookAtObstacles();
+  for (const CameraConfig& camera : scene_.cameras) look_.overlays.push_back(camera.overlays);
   for (const StylusConfig& stylus : scene_.styluses) limiters_.emplace_back(ForceLimits::of(stylus));
   obstacle_forces_.resize(scene_.obstacles.size());
 }
@@ -64,6 +67,7 @@ Frame Session::step(const StylusSamples& samples, const Wants& wants) {
   solver_->step(look_.motions, obstacles_.motions());  // VR05 2.4: n substeps
   look_.tick = ++tick_;
   look_.wants = wants;
+  lookAtArrows();
   ++ticks_;
   notePoses(samples);
   Frame frame;
@@ -93,6 +97,7 @@ void Session::heedFeeling(Frame& frame) {
 Pictures Session::show(const Wants& wants) {
   look_.tick = tick_;
   look_.wants = wants;
+  lookAtArrows();
   Pictures out;
   view_->capture(*solver_, look_, out);
   view_->collect(out, true);
@@ -121,6 +126,18 @@ void Session::lookAtObstacles() {
     look_.obstacles.push_back(obstacles_.pose(i));
     extremes_.obstacles_held_back += obstacles_.heldBack(i);
   }
+}
+
+/// Forces of the last tick whose measurements are there, and the wind of this moment.
+void Session::lookAtArrows() {
+  look_.arrows.clear();
+  bool forces = false, wind = false;
+  for (size_t c = 0; c < look_.overlays.size(); ++c) {
+    forces |= look_.wants.image(c) && look_.overlays[c].has(Overlay::kForces);
+    wind |= look_.wants.image(c) && look_.overlays[c].has(Overlay::kWind);
+  }
+  if (forces) addForceArrows(look_.motions, reactions_, look_.arrows);
+  if (wind) addWindArrows(windAt(scene_.environment.wind, time_s_), model_, look_.arrows);
 }
 
 /// No pose, or tissue that is not itself: no force, at once.

@@ -96,6 +96,8 @@ void ThreadedView::capture(Solver& solver, const Look& look, Pictures&) {
   look_.tick = look.tick;
   look_.motions = look.motions;
   look_.obstacles = look.obstacles;
+  look_.overlays = look.overlays;
+  look_.arrows = look.arrows;
   {
     Lock lock(mutex_);
     order_ = Order::kShow;

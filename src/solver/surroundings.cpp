@@ -141,11 +141,14 @@ void Surroundings::beginTick(double tick_s, int substeps, const ObstacleMotions&
   time_s_ += tick_s;
 }
 
+Vector3d windAt(const WindConfig& wind, double time_s) {
+  return (1 + wind.gust_ratio * std::sin(2 * kPi * time_s / wind.gust_period_s)) * wind.velocity_m_per_s;
+}
+
 SubstepSurroundings Surroundings::at(int substep) const {
   SubstepSurroundings out;
   const double time_s = time_s_ - tick_s_ + (substep + 0.5) * tick_s_ / substeps_;
-  const double strength = 1 + wind_.gust_ratio * std::sin(2 * kPi * time_s / wind_.gust_period_s);
-  out.wind_m_per_s = (strength * wind_.velocity_m_per_s).cast<float>();
+  out.wind_m_per_s = windAt(wind_, time_s).cast<float>();
   if (features_.obstacles) out.obstacles = &motions_[static_cast<size_t>(substep) * layout::kMaxObstacles];
   return out;
 }

@@ -12,6 +12,9 @@
 
 namespace viscera {
 
+/// Velocity of the air with its gusts [m/s]. @param time_s  since the start
+Vector3d windAt(const WindConfig& wind, double time_s);
+
 /// What acts on the tissue from outside in a scene, and so which passes and buffers there are.
 struct SurroundingsFeatures {
   bool wind = false;

@@ -110,9 +110,15 @@ void JoinedSkins::appendBindings(const Skin& skin, uint32_t slot_offset) {
     binding.slot2 += slot_offset;
     bindings.push_back(binding);
   }
-  layout::SkinBinding split{};  // only says that none of the kernels for lattices may touch it
-  split.springs = layout::kOneToOneBit;
-  bindings.insert(bindings.end(), 2 * skin.split_edges.size(), split);
+  for (const SplitEdge& edge : skin.split_edges) {  // none of the kernels for lattices touches these
+    for (const uint32_t end : {edge.a, edge.b}) {
+      layout::SkinBinding split{};
+      split.slot0 = slot_offset + skin.bindings[end].slot0;
+      split.springs = layout::kOneToOneBit;
+      split.weights.x = 1;
+      bindings.push_back(split);
+    }
+  }
 }
 
 void JoinedSkins::appendNormalNodes(const Skin& skin, uint32_t slot_offset) {

@@ -83,6 +83,8 @@ cameras:
     height_px: 222
     rate_hz: 12
     supersampling: 1
+    overlays: [springs, wind]
+    strain_range: 0.82
 environment:
   gravity_m_per_s2: [1.1, 1.2, 1.3]
   world_frame: room
@@ -217,6 +219,8 @@ TEST(SceneKeys, EveryOtherKeyReachesItsField) {
   EXPECT_EQ(camera.height_px, 222);
   EXPECT_EQ(camera.rate_hz, 12);
   EXPECT_EQ(camera.supersampling, 1);
+  EXPECT_TRUE(camera.overlays == overlaysOf({"wind", "springs"}));
+  EXPECT_EQ(camera.strain_range, 0.82);
   EXPECT_EQ(scene.environment.gravity_m_per_s2, Vector3d(1.1, 1.2, 1.3));
   EXPECT_EQ(scene.environment.world_frame, "room");
   EXPECT_EQ(scene.environment.tissue_frame, "table");

@@ -17,6 +17,7 @@ from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import Marker, MarkerArray
 
 from viscera.msg import SurfaceTopology, SurfaceVertices
+from viscera.srv import SetOverlays
 
 LIMIT_S = 20
 TILE_M = (0.08, 0, 0.05)  # of scene_view.yaml: a square of 4 cm that faces the camera, turned, brighter than the background
@@ -112,6 +113,30 @@ class SceneViewTest(unittest.TestCase):
         self.assertAlmostEqual(share, TILE_PX, delta=0.1 * TILE_PX)
         self.assertAlmostEqual(column_sum / share, u, delta=PIXEL_LIMIT)
         self.assertAlmostEqual(row_sum / share, v, delta=PIXEL_LIMIT)
+
+    def test_overlays_are_drawn_when_a_service_asks_and_go_again(self):
+        set_overlays = rospy.ServiceProxy("set_overlays", SetOverlays)
+        image = Latest("camera/image_raw", Image)
+        plain = wait_until(lambda: image.message, LIMIT_S, "image").data
+        answer = set_overlays("camera", ["strain", "lattice"])
+        self.assertTrue(answer.success, answer.message)
+        wait_until(lambda: image.message.data != plain and self.legend(image.message), LIMIT_S, "legend")
+        self.assertTrue(set_overlays("", []).success)
+        wait_until(lambda: image.message.data == plain, LIMIT_S, "the first image again")
+        answer = set_overlays("camera", ["latice"])
+        self.assertFalse(answer.success)
+        self.assertEqual(answer.message, "overlays: there is no overlay 'latice'; there are lattice, springs, normals, "
+                                         "strain, forces, wind")
+        answer = set_overlays("nobody", [])
+        self.assertFalse(answer.success)
+        self.assertEqual(answer.message, "camera: the scene has no camera 'nobody'")
+        image.stop()
+
+    @staticmethod
+    def legend(message):
+        """Is there the bright yellow of a scale's end in the image?"""
+        pixels = message.data
+        return any(pixels[i] > 230 and 200 < pixels[i + 1] < 245 and pixels[i + 2] < 80 for i in range(0, len(pixels), 3))
 
     def test_cloth_is_sent_with_shared_vertices_alone(self):
         topology, surface = Latest("surface_topology", SurfaceTopology), Latest("surface", SurfaceVertices)

@@ -10,6 +10,8 @@
 #include "viscera/layout/limits.h"
 #include "viscera/layout/tick_stats.h"
 #include "viscera/math/types.h"
+#include "viscera/model/scene/overlays.h"
+#include "viscera/render/arrow.h"
 #include "viscera/solver/governor.h"
 #include "viscera/surface/shown_mesh.h"
 #include "viscera/tools/force_limiter.h"
@@ -73,6 +75,8 @@ struct Look {
   ToolMotions motions;
   std::vector<Pose> obstacles;  ///< [obstacles] at the end of the tick, tissue frame
   Wants wants;
+  std::vector<Overlays> overlays;  ///< [cameras]
+  std::vector<Arrow> arrows;       ///< forces and wind, where some camera shows them
 };
 
 /// Work done for the eye since the start: with no subscriber all stay zero.

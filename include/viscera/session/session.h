@@ -62,6 +62,9 @@ class Session {
   /// Where the tf frame that carries an obstacle is from now on: the obstacle goes there over the next tick; the first
   /// pose is no motion. @param obstacle  index in the scene   @param pose  of the frame, tissue frame
   void setObstacleFrame(size_t obstacle, const Pose& pose);
+  /// What a camera's pictures show beside the tissue from now on; at first, its CameraConfig::overlays.
+  /// @param camera  < scene().cameras.size()
+  void setOverlays(size_t camera, const Overlays& overlays) { look_.overlays[camera] = overlays; }
   void reset();
   /// The hands were not followed for a while, as in a pause: what they hold is let go at the next step, where they
   /// appear anew; forces begin at zero.
@@ -95,6 +98,7 @@ class Session {
   Session(const Scene& scene, gpu::Context* context, const Progress& progress, const SessionOptions& options);
   void moveObstacles();
   void lookAtObstacles();
+  void lookAtArrows();
   static bool feels(const ToolMotions& motions);
   void heedFeeling(Frame& frame);
   void notePoses(const StylusSamples& samples);

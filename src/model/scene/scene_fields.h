@@ -241,6 +241,8 @@ void visitFields(V& v, CameraConfig& c) {
   v.integer("height_px", c.height_px, {16, 4096}, "image height");
   v.number("rate_hz", c.rate_hz, {0.1, 240}, "Hz", "images per second of simulated time, at most one per tick");
   v.integer("supersampling", c.supersampling, {1, 2}, "antialiasing: pixels drawn per image pixel along each axis");
+  v.names("overlays", c.overlays, "what is drawn over the tissue; changed at run time by the service set_overlays");
+  v.number("strain_range", c.strain_range, {0.001, 10}, "1", "overlay strain: what the end of the legend stands for");
 }
 
 template <class V>

@@ -48,6 +48,7 @@ class KeyTable {
     }
     row(key, "choice", chosen, all, text);
   }
+  void names(const char* key, Overlays&, const char* text) { row(key, "list of names", "[]", overlayNames(), text); }
   template <class Struct>
   void group(const char* key, Struct& value, const char* text) {
     row(key, "map", "", "", text);

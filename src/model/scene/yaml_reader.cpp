@@ -154,6 +154,23 @@ void YamlReader::vector(const char* key, Vector3d& value, Range range, const cha
   for (size_t i = 0; i < 3; ++i) value[static_cast<Eigen::Index>(i)] = scalar(key, node[i], range, unit);
 }
 
+void YamlReader::names(const char* key, Overlays& value, const char*) {
+  const YAML::Node node = take(key);
+  if (!node) return;
+  const std::string accepted = "is a list of some of " + overlayNames();
+  if (!node.IsSequence()) fail(key, node, accepted);
+  std::vector<std::string> names;
+  for (const YAML::Node& name : node) {
+    if (!name.IsScalar()) fail(key, name, accepted);
+    names.push_back(name.Scalar());
+  }
+  try {
+    value = overlaysOf(names);
+  } catch (const SceneError& error) {
+    throw SceneError(whereIs(source_, child(key), node) + "'" + child(key) + "': " + error.what());
+  }
+}
+
 void YamlReader::formerNumber(const char* old_key, const char* group, const char* key, double& value, Range range,
                               const char* unit) {
   const YAML::Node node = take(old_key), inside = map_[group];

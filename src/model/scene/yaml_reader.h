@@ -32,6 +32,7 @@ class YamlReader {
   void boolean(const char* key, bool& value, const char* text);
   void text(const char* key, std::string& value, const char* text);
   void vector(const char* key, Vector3d& value, Range range, const char* unit, const char* text);
+  void names(const char* key, Overlays& value, const char* text);
   /// The older name of a key that a group has now. Where both are given and differ, the one that was set from outside
   /// the file goes before the other. @throws SceneError  naming both, where neither or both were
   void formerNumber(const char* old_key, const char* group, const char* key, double& value, Range range,

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "viscera/math/types.h"
+#include "viscera/model/scene/overlays.h"
 
 namespace viscera {
 
@@ -157,6 +158,8 @@ struct CameraConfig {
   int height_px = 480;
   double rate_hz = 30;
   int supersampling = 2;
+  Overlays overlays;
+  double strain_range = 0.3;
 };
 
 /// Moving air. Speed at time t: velocity (1 + gust_ratio sin(2 pi t / gust_period)).

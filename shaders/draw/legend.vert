@@ -1,0 +1,11 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// legend.vert - a rectangle of the image.   Owner: render/overlay_painter.h
+uniform vec4 place;  // left, top, right, bottom in clip coordinates, which have the image's first row at -1
+out vec2 at;         // (0, 0) its left upper corner, (1, 1) its right lower one
+
+void main() {
+  at = vec2(float(gl_VertexID & 1), float(gl_VertexID >> 1));
+  gl_Position = vec4(mix(place.xy, place.zw, at), 0.0, 1.0);
+}

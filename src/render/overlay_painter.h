@@ -1,0 +1,61 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "render/render_target.h"
+#include "render/tool_shape.h"
+#include "render/vertex_array.h"
+#include "surface/node_overlay.h"
+#include "viscera/model/scene/overlays.h"
+#include "viscera/render/arrow.h"
+#include "viscera/render/camera.h"
+
+namespace viscera {
+
+struct MeshView;
+
+/// What is drawn over a picture, and what of.
+struct OverlayLook {
+  Overlays shown;
+  double strain_range = 1;  ///< the end of the scale
+  StateView state;
+  const Surface* surface = nullptr;  ///< that follows the state
+  const std::vector<Arrow>* arrows = nullptr;
+};
+
+/// Draws overlays: strain in place of the tissue's colours, lines that show through the tissue faintly, arrows, and a
+/// legend.
+class OverlayPainter {
+ public:
+  /// Needs a current context. @param model  must outlive this   @throws GpuError
+  explicit OverlayPainter(const Model& model);
+
+  /// Brings nodes to the state, before anything is drawn.
+  void follow(const OverlayLook& look) { nodes_.follow(look.state, *look.surface); }
+  /// The surface in the colours of strain: in place of the tissue's. @param mesh  of look.surface
+  void drawStrain(const OverlayLook& look, const MeshView& mesh, const Pose& optical_from_tissue,
+                  const Eigen::Matrix4f& clip_from_optical);
+  /// All others, over what is there. @param supersampling  of the image, for the width of lines
+  void draw(const OverlayLook& look, int supersampling, const Pose& optical_from_tissue,
+            const Eigen::Matrix4f& clip_from_optical);
+
+ private:
+  using Color = std::array<float, 4>;
+  template <class DrawLines>
+  void drawThrough(const Color& color, DrawLines drawLines);
+  void drawSprings(const OverlayLook& look);
+  void drawSpikes(const Color& color);
+  void drawArrows(const OverlayLook& look, const Pose& optical_from_tissue, const Eigen::Matrix4f& clip_from_optical);
+  void drawLegend(double strain_range);
+
+  NodeOverlay nodes_;
+  gpu::Program line_, strain_, arrow_, legend_;
+  VertexArray mesh_inputs_, line_inputs_, arrow_inputs_, no_inputs_;
+  gpu::Buffer<ToolVertex> arrow_vertices_;
+  gpu::Buffer<uint32_t> arrow_indices_;
+  size_t indices_per_arrow_ = 0;
+};
+
+}  // namespace viscera

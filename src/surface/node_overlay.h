@@ -1,0 +1,60 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "gpu/buffer.h"
+#include "gpu/program.h"
+#include "layout/overlay.h"
+#include "surface/surface.h"
+#include "viscera/model/model.h"
+#include "viscera/solver/state.h"
+
+namespace viscera {
+
+/// What overlays show of nodes and springs, made on the GPU of the state there: lines, normals, forces and strains.
+/// Owner of shaders/surface/overlay_*.comp. Made when somebody first asks for an overlay.
+class NodeOverlay {
+ public:
+  /// Needs a current context. @param model  must outlive this   @throws GpuError
+  explicit NodeOverlay(const Model& model);
+
+  /// Positions and strains of the nodes of a state; what follows is of it.
+  /// @param surface  of the same model, that follows the state
+  void follow(const StateView& state, const Surface& surface);
+  /// Springs between nodes that skins are bound to; what is cut is no line. @param all  diagonal ones too
+  /// @returns how many indices are to be drawn
+  size_t makeLines(const StateView& state, bool all);
+  void makeNormals(const Surface& surface);
+  void makeForces(const Surface& surface);
+  /// @param strain_range  the end of the scale
+  void makeColors(const Surface& surface, double strain_range);
+
+  const gpu::Buffer<layout::vec4>& nodes() const { return nodes_; }  ///< [slots] xyz m, w strain
+  const gpu::Buffer<uint32_t>& lines() const { return indices_; }    ///< indices of slots, in pairs
+  const gpu::Buffer<layout::vec4>& spikes() const { return ends_; }  ///< [2 * n] xyz m, in pairs
+  const gpu::Buffer<uint32_t>& colors() const { return colors_; }    ///< [vertices] RGBA8
+  bool anyForces() const { return any_forces_; }                     ///< has some body a force of its own?
+
+ private:
+  void addLattice(const Body& body, uint32_t slot);
+  void addNetwork(const Body& body, uint32_t slot, uint32_t first_spring, uint32_t first_vertex);
+  void makeSpikes(const Surface& surface, uint32_t kind, const std::vector<float>& of_bodies);
+
+  std::vector<layout::OverlayLine> axial_, diagonal_;  ///< until they are on the GPU
+  std::vector<layout::OverlaySpike> spike_list_;
+  std::vector<float> normal_lengths_, force_spikes_;  ///< [4 * kMaxBodies] see overlay_spikes.comp
+  size_t slots_ = 0, axial_count_ = 0;
+  bool any_forces_ = false;
+  gpu::Buffer<layout::vec4> nodes_, ends_;
+  gpu::Buffer<uint32_t> link_starts_, indices_, colors_;
+  gpu::Buffer<layout::OverlayLink> links_;
+  gpu::Buffer<layout::OverlayLine> lines_;
+  gpu::Buffer<layout::OverlaySpike> spikes_;
+  gpu::Program place_, draw_lines_, draw_spikes_, color_;
+};
+
+}  // namespace viscera
