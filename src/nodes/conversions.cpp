@@ -6,7 +6,9 @@
 #include <sensor_msgs/image_encodings.h>
 
 #include <cmath>
+#include <utility>
 
+#include "nodes/topology_change.h"
 #include "render/renderer.h"
 
 namespace viscera::nodes {
@@ -143,6 +145,21 @@ SurfaceTopology toTopology(const ShownTopology& skin, const SentVertices& sent, 
     out.body_triangles[patch.body] += static_cast<uint32_t>(patch.count);
     if (patch.kind == ShownKind::kWound) out.wound_triangles[patch.body] += static_cast<uint32_t>(patch.count);
   }
+  return out;
+}
+
+SurfaceTopologyChange toChange(const SurfaceTopology& before, const SurfaceTopology& after) {
+  SurfaceTopologyChange out;
+  out.header = after.header;
+  out.version = after.version;
+  out.vertices = after.vertices;
+  out.body_triangles = after.body_triangles;
+  out.wound_triangles = after.wound_triangles;
+  TriangleEdits edits = editsBetween(before.triangles, after.triangles);
+  out.kept = std::move(edits.kept);
+  out.removed = std::move(edits.removed);
+  out.added = std::move(edits.added);
+  out.triangles = std::move(edits.triangles);
   return out;
 }
 

@@ -15,6 +15,7 @@
 
 #include "nodes/sent_vertices.h"
 #include "viscera/SurfaceTopology.h"
+#include "viscera/SurfaceTopologyChange.h"
 #include "viscera/SurfaceVertices.h"
 #include "viscera/math/types.h"
 #include "viscera/model/scene/scene.h"
@@ -46,6 +47,8 @@ geometry_msgs::WrenchStamped toWrench(const Reaction& reaction, const Quaternion
 /// @param sent  has followed `skin`
 SurfaceTopology toTopology(const ShownTopology& skin, const SentVertices& sent, uint32_t version,
                            const std::string& frame, const ros::Time& stamp);
+/// What turns one topology into the next.
+SurfaceTopologyChange toChange(const SurfaceTopology& before, const SurfaceTopology& after);
 /// @param sent  has followed the frame's topology
 SurfaceVertices toVertices(const SurfaceFrame& frame, const SentVertices& sent, uint32_t topology_version,
                            const std::string& frame_id, const ros::Time& stamp);

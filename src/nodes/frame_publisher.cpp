@@ -111,7 +111,12 @@ void FramePublisher::main() {
 void FramePublisher::sendUntilStopped() {
   std::unique_lock<std::mutex> lock(mutex_);
   while (true) {
-    filled_.wait(lock, [this] { return any_ || stop_; });
+    const auto ready = [this] { return any_ || stop_; };
+    if (const auto due = surface_.due()) {
+      filled_.wait_until(lock, *due, ready);
+    } else {
+      filled_.wait(lock, ready);
+    }
     if (stop_) return;
     Slots slots = std::exchange(slots_, emptySlots());
     any_ = false;
@@ -133,6 +138,7 @@ void FramePublisher::send(Slots&& slots) {
     surface_.publish(*slots.surface->value, slots.surface->stamp);
     noteLatency(surface_latency_, slots.surface->value->pose_received);
   }
+  surface_.publishDue();
   if (slots.scene) scene_markers_.publish(slots.scene->value, slots.scene->stamp);
   for (size_t i = 0; i < slots.images.size(); ++i) {
     if (!slots.images[i]) continue;

@@ -16,7 +16,7 @@ from std_srvs.srv import Trigger
 from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import Marker, MarkerArray
 
-from viscera.msg import SurfaceTopology, SurfaceVertices
+from viscera.msg import SurfaceTopology, SurfaceTopologyChange, SurfaceVertices
 from viscera.srv import SetOverlays
 
 LIMIT_S = 20
@@ -163,6 +163,32 @@ class SceneViewTest(unittest.TestCase):
         wait_until(lambda: topology.message.triangles == whole.triangles, LIMIT_S, "whole topology after a reset")
         self.watch.wait_news()
         topology.stop()
+
+    def test_changes_make_of_the_first_topology_the_last_one(self):
+        changes = []
+        topology = Latest("surface_topology", SurfaceTopology)
+        change = Latest("surface_topology_change", SurfaceTopologyChange, changes.append, queue_size=None)
+        wait_until(lambda: topology.count and self.watch.wait_news() is None, LIMIT_S, "topology")
+        start = topology.message
+        self.right.move((0.03, -0.15, CLOTH_M + 0.05), (0.03, 0, CLOTH_M + 0.05), 1.5)
+        self.right.position = None
+        wait_until(lambda: self.watch.value("right", "input_age_s") > 0.5, LIMIT_S, "hand that is gone")
+        wait_until(lambda: changes and topology.message.version == changes[-1].version, LIMIT_S, "whole topology")
+        triangles = list(start.triangles)
+        for message in [c for c in changes if c.version > start.version]:
+            after, at, added = [], 0, 0
+            for kept, removed, more in zip(message.kept, message.removed, message.added):
+                after += triangles[3 * at:3 * (at + kept)] + list(message.triangles[3 * added:3 * (added + more)])
+                at, added = at + kept + removed, added + more
+            triangles = after + triangles[3 * at:]
+        self.assertEqual([c.version for c in changes if c.version > start.version],
+                         list(range(start.version + 1, topology.message.version + 1)))
+        self.assertGreater(topology.message.version, start.version)
+        self.assertEqual(triangles, list(topology.message.triangles))
+        self.assertEqual(changes[-1].body_triangles, topology.message.body_triangles)
+        change.stop()
+        topology.stop()
+        rospy.ServiceProxy("reset", Trigger)()
 
     def test_markers_show_tools_obstacles_forces_and_names(self):
         seen = {}
