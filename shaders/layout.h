@@ -9,6 +9,7 @@
 #include "layout/moments.h"
 #include "layout/network_skin.h"
 #include "layout/overlay.h"
+#include "layout/surface_node.h"
 #include "layout/surface_ways.h"
 #include "layout/touch_depths.h"
 #include "layout/wind.h"

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "bench/harness/rate.h"
+#include "bench/suites/cut_parts.h"
 #include "bench/suites/performance_suites.h"
 
 namespace viscera::bench {
@@ -60,7 +61,8 @@ void addCurve(Plot& plot, const Specimen& specimen, const std::vector<double>& s
 
 }  // namespace
 
-void cutSuite(Report& report, gpu::Context&) {
+void cutSuite(Report& report, gpu::Context& context) {
+  measureIncision(report, context);
   const double size = report.isShort() ? 5000 : 42745;
   const std::vector<double> shares =
       report.isShort() ? std::vector<double>{0, 0.1, 1} : std::vector<double>{0, 0.001, 0.01, 0.1, 0.25, 0.5, 0.75, 1};

@@ -15,7 +15,7 @@ void table1Suite(Report& report, gpu::Context& context);
 void scaleSuite(Report& report, gpu::Context& context);
 /// What is skipped where a scene does not need it: what that saves, and that the result is the same.
 void skipSuite(Report& report, gpu::Context& context);
-/// VR05 figure 11: rate by share of springs cut.
+/// VR05 figure 11: pictures per second by length of an incision; rate by share of springs cut at random.
 void cutSuite(Report& report, gpu::Context& context);
 /// From a stylus pose to its force and to its picture; how even ticks are.
 void latencySuite(Report& report, gpu::Context& context);

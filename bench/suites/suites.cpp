@@ -7,6 +7,7 @@
 #include "bench/gw/gw_suite.h"
 #include "bench/harness/backends.h"
 #include "bench/suites/accuracy_suite.h"
+#include "bench/suites/egve_suite.h"
 #include "bench/suites/material_suite.h"
 #include "bench/suites/performance_suites.h"
 #include "bench/suites/stability_suite.h"
@@ -39,7 +40,8 @@ const std::vector<Suite>& suites() {
       {"gw", "Georgii & Westermann's tables, and the errors of their ways", run<gwSuite>},
       {"scale", "time and memory per node, from a thousand to ten million nodes", run<scaleSuite>},
       {"skip", "what does not doing what a scene does not need save?", run<skipSuite>},
-      {"cut", "rate by share of springs cut, as in VR05 figure 11", run<cutSuite>},
+      {"egve", "what do the mappings of the skin cost, and how far off are they (EGVE 3.4)?", run<egveSuite>, true},
+      {"cut", "pictures per second by length of an incision (VR05 figure 11), rate by share of springs cut", run<cutSuite>},
       {"latency", "from a pose to its force and its picture; how even ticks are", run<latencySuite>},
       {"limit", "copies and multiply-adds of this machine, and the fraction that is reached", run<limitSuite>},
   };

@@ -7,6 +7,7 @@
 // in  skin[count], nodes[slots], displacement[slots] m, node_normals[slots], stale_bricks[bricks]     out  positions[3 * count] m, normals[count] packed
 // Features: MIXED (some vertices belong to networks: network_skin.comp places them), and which bindings there are beside those with
 // the constant basis: CURVED (kInterpolatedBit), IN_CELL, ONE_NODE, ALONG_NORMAL; NORMALS with any that asks for approximate normals.
+// BRANCHES: where a branch that is not taken costs nothing (compiled as C++; software rasterisers run both sides).
 #include "layout.h"
 #ifndef __cplusplus
 layout(local_size_x = GROUP_SIZE) in;  // before globalIndex(), which asks for it
@@ -47,6 +48,24 @@ void put(uint vertex, vec3 position, vec3 normal) {
   positions[3u * vertex + 2u] = position.z;
   normals[vertex] = packNormal(normal);
 }
+
+#if defined(CURVED) && defined(BRANCHES)
+/// What main() comes to where normals are trusted, to the bit, without the constant basis. @return false: they are not, or edges are
+/// collapsed
+bool mapCurved(uint vertex, SkinBinding s, vec3 u0, vec3 edge1, vec3 edge2) {
+  vec4 n0 = node_normals[s.slot0], n1 = node_normals[s.slot1], n2 = node_normals[s.slot2];
+  Basis curved;
+  curved.n = direction(s.weights.x * xyz(n0) + s.weights.y * xyz(n1) + s.weights.z * xyz(n2), vec3(0.0f));
+  vec3 bitangent = cross(curved.n, direction(edge1, vec3(0.0f)));
+  if (!(min(n0.w, min(n1.w, n2.w)) >= 1.0f && dot(bitangent, bitangent) > kLeastSine * kLeastSine)) return false;
+  curved.b = direction(bitangent, bitangent);
+  curved.t = cross(curved.b, curved.n);
+  vec3 offset = inSpace(curved, xyz(s.offset_interpolated));
+  vec3 position = restPosition(s.slot0) + (u0 + (s.weights.y * edge1 + s.weights.z * edge2 + offset));
+  put(vertex, position, direction(inSpace(curved, xyz(s.normal_interpolated)), curved.n));
+  return true;
+}
+#endif
 
 #ifdef ALONG_NORMAL
 /// A vertex lies along the approximate normal (EGVE 3.5); where that is not clear, its offset turns with the triangle.
@@ -173,6 +192,9 @@ void main() {
     mapAlongNormal(vertex, s, restPosition(s.slot0) + (u0 + (s.weights.y * edge1 + s.weights.z * edge2)), edge1, edge2, rest1, rest2);
     return;
   }
+#endif
+#if defined(CURVED) && defined(BRANCHES)
+  if ((s.springs & kInterpolatedBit) != 0u && mapCurved(vertex, s, u0, edge1, edge2)) return;
 #endif
   Basis constant = triangleBasis(edge1, edge2, rest1, rest2);
   vec3 offset = inSpace(constant, xyz(s.offset_constant));

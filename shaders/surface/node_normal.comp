@@ -1,7 +1,9 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// node_normal.comp - approximate normals of the nodes that the skin is bound to (VR05 eq 5).
+// node_normal.comp - approximate normals of the nodes that the skin is bound to: at rest those of VR05 eq 5, and in motion carried as a
+// plane of tissue is, by the gradient that a node's axial neighbours give. With SUMMED eq 5 in motion too, as the paper has it: that one
+// is turned by mere stretch, where neighbours are not the same on all sides (mappings.md).
 // Owner: surface/surface.h   physics.md 4
 // in  surface_nodes[count], displacement[slots] m, nodes[slots], stale_bricks[bricks]     out  node_normals[slots] xyz unit, w trust 0..1
 #include "layout.h"
@@ -15,20 +17,34 @@ layout(local_size_x = GROUP_SIZE) in;  // before globalIndex(), which asks for i
 uniform uint count;  // of surface nodes
 uniform uint followed_revision;  // what moved no later is in place; 0: nothing is
 layout(std430, binding = kBindStaleBricks) readonly buffer StaleBricksBuffer { uint stale_bricks[]; };
-layout(std430, binding = kBindSurfaceNodes) readonly buffer SurfaceNodesBuffer { uint surface_nodes[]; };
+layout(std430, binding = kBindSurfaceNodes) readonly buffer SurfaceNodesBuffer { SurfaceNode surface_nodes[]; };
 layout(std430, binding = kBindNodes) readonly buffer NodesBuffer { NodeBits nodes[]; };
 layout(std430, binding = kBindDisplacementIn) readonly buffer DisplacementBuffer { vec4 displacement[]; };
 layout(std430, binding = kBindNodeNormals) writeonly buffer NodeNormalsBuffer { vec4 node_normals[]; };
 #endif
 
+#ifndef SUMMED
+/// What displacement gains along an axis in a spacing, by the neighbours that there are. A node that was not cut has one at least.
+vec3 slopeAlong(uint slot, NodeBits bits, uint spring, ivec3 offset, vec3 here) {
+  bool ahead = springCount(bits, spring) != 0u, behind = springCount(bits, spring + 1u) != 0u;
+  vec3 from = behind ? xyz(displacement[neighborSlot(slot, -offset)]) : here;
+  vec3 to = ahead ? xyz(displacement[neighborSlot(slot, offset)]) : here;
+  return ahead && behind ? 0.5f * (to - from) : to - from;
+}
+#endif
+
 void main() {
   uint index = globalIndex();
   if (index >= count) return;
-  uint slot = surface_nodes[index];
+  SurfaceNode node = surface_nodes[index];
+  uint slot = node.slot;
   if (followed_revision != 0u && stale_bricks[slot >> 6] <= followed_revision) return;
   NodeBits bits = nodes[slot];
+  // A cut takes neighbours away and would turn the normal towards the wound at once, so it is not trusted after one.
+  bool severed = (bits.lo & kSeveredBit) != 0u;
   float spacing = bodies[bricks[slot >> 6].body].origin_spacing.w;
   vec3 here = xyz(displacement[slot]);
+#ifdef SUMMED
   vec3 sum = vec3(0.0f);
 #define ADD_AWAY_FROM_NEIGHBOR(SPRING, OFFSET)                                   \
   if (springCount(bits, SPRING) != 0u) {                                         \
@@ -36,8 +52,21 @@ void main() {
     sum -= direction(spacing * vec3(OFFSET) + (there - here), vec3(0.0f));        \
   }
   FOR_EACH_SPRING(ADD_AWAY_FROM_NEIGHBOR)
-  // A cut takes neighbours away and would turn the normal towards the wound at once, so it is not trusted after one.
-  bool severed = (bits.lo & kSeveredBit) != 0u;
   float clear = clamp((length(sum) - kNormalSumNone) / (kNormalSumFull - kNormalSumNone), 0.0f, 1.0f);
+#else
+  vec3 a = vec3(spacing, 0.0f, 0.0f) + slopeAlong(slot, bits, 0u, ivec3(1, 0, 0), here);
+  vec3 b = vec3(0.0f, spacing, 0.0f) + slopeAlong(slot, bits, 2u, ivec3(0, 1, 0), here);
+  vec3 c = vec3(0.0f, 0.0f, spacing) + slopeAlong(slot, bits, 4u, ivec3(0, 0, 1), here);
+  vec3 sizes = abs(a) + abs(b) + abs(c);
+  float size = (sizes.x + sizes.y) + sizes.z;
+  vec3 sum = vec3(0.0f);
+  if (size > kShortest && size < kLongest) {  // so that products neither under- nor overflow
+    a /= size;
+    b /= size;
+    c /= size;
+    sum = node.normal_x * cross(b, c) + node.normal_y * cross(c, a) + node.normal_z * cross(a, b);
+  }
+  float clear = 1.0f;  // at rest, or no vertex would follow it
+#endif
   node_normals[slot] = vec4(direction(sum, vec3(0.0f)), severed ? 0.0f : clear);
 }

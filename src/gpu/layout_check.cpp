@@ -7,6 +7,7 @@
 #include "layout/bindings.h"
 #include "layout/edge_forces.h"
 #include "layout/network_skin.h"
+#include "layout/surface_node.h"
 #include "layout/wind.h"
 #include "viscera/layout/limits.h"
 #include "viscera/layout/links.h"
@@ -107,6 +108,10 @@ AT(SkinBinding, normal_interpolated, 80);
 SIZE(Tie, 8);
 AT(Tie, spring, 4);
 
+SIZE(SurfaceNode, 16);
+AT(SurfaceNode, normal_x, 4);
+AT(SurfaceNode, normal_y, 8);
+AT(SurfaceNode, normal_z, 12);
 SIZE(RingVertex, 32);
 AT(RingVertex, slot, 4);
 AT(RingVertex, ring_begin, 8);

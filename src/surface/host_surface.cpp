@@ -70,7 +70,8 @@ struct SkinKernel {
   NodeNormals node_normals;
   const SkinBinding* skin = nullptr;
   const Tie* ties = nullptr;
-  const uint *tie_starts = nullptr, *triangles = nullptr, *surface_nodes = nullptr;
+  const uint *tie_starts = nullptr, *triangles = nullptr;
+  const SurfaceNode* surface_nodes = nullptr;
   uint count = 0;
   uint triangle_count = 0;  // of all bodies
   const RingVertex* ring_vertices = nullptr;
@@ -86,9 +87,15 @@ struct SkinKernel {
   uint* normals = nullptr;
 };
 
-#define VARIANT_NAME NodeNormal
+#define VARIANT_NAME CarriedNormal
 #define VARIANT_BASE SkinKernel
 #define VARIANT_TEXT "shaders/surface/node_normal.comp"
+#include "solver/cpu/glsl_variant.inc"
+
+#define VARIANT_NAME SummedNormal
+#define VARIANT_BASE SkinKernel
+#define VARIANT_TEXT "shaders/surface/node_normal.comp"
+#define VARIANT_FEATURES WITH_SUMMED
 #include "solver/cpu/glsl_variant.inc"
 
 #define VARIANT_NAME MapSkin
@@ -143,7 +150,6 @@ struct HostSurface::Buffers : glsl::SkinKernel {
     tie_starts = of.skins_.tie_starts.data();
     triangles = of.shown_.indices().data();
     triangle_count = static_cast<uint32_t>(of.shown_.count());
-    surface_nodes = of.skins_.surface_nodes.data();
     const NetworkSkins& networks = of.skins_.networks;
     ring_vertices = networks.vertices.data();
     rings = networks.rings.data();
@@ -154,8 +160,8 @@ struct HostSurface::Buffers : glsl::SkinKernel {
   }
 };
 
-HostSurface::HostSurface(const Model& model)
-    : skins_(joinSkins(model)),
+HostSurface::HostSurface(const Model& model, MovedNormals normals)
+    : skins_(joinSkins(model, normals)),
       shown_bricks_(viscera::shownBricks(model)),
       bricks_(allBricks(model)),
       bodies_(bodyParams(model, 0)),  // places and spacings are all that is shown of them
@@ -193,7 +199,10 @@ void HostSurface::show(const StateSnapshot& snapshot, ShownMesh& out) {
   buffers.positions = out.positions_m.data();
   buffers.normals = out.normals.data();
   if (skins_.any_bound) {
-    glsl::run<glsl::NodeNormal>(buffers, skins_.surface_nodes.size());
+    buffers.surface_nodes = skins_.carried_nodes.data();
+    glsl::run<glsl::CarriedNormal>(buffers, skins_.carried_nodes.size());
+    buffers.surface_nodes = skins_.summed_nodes.data();
+    glsl::run<glsl::SummedNormal>(buffers, skins_.summed_nodes.size());
     glsl::run<glsl::MapSkin>(buffers, vertices());
   }
   glsl::run<glsl::NetworkSkin>(buffers, skins_.networks.vertices.size());

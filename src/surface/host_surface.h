@@ -18,7 +18,7 @@ namespace viscera {
 /// by cuts. The kernels are the text of the same shaders compiled as C++, so the two differ by rounding only.
 class HostSurface {
  public:
-  explicit HostSurface(const Model& model);
+  explicit HostSurface(const Model& model, MovedNormals normals = MovedNormals::kCarried);
 
   /// Bricks that a snapshot must hold, as those of StateMirror.
   const std::vector<uint32_t>& shownBricks() const { return shown_bricks_; }

@@ -7,6 +7,7 @@
 #include <iterator>
 #include <numeric>
 
+#include "model/body/skin_basis.h"
 #include "surface/part_colors.h"
 
 namespace viscera {
@@ -84,14 +85,14 @@ void NetworkSkins::appendSplits(const Skin& skin, const Place& place, uint32_t f
   for (uint32_t t = 0; t < skin.triangle_edges.size(); ++t) triangles.push_back(splitTriangle(skin, place, t));
 }
 
-void JoinedSkins::append(const Body& body, const NetworkSkins::Place& place) {
+void JoinedSkins::append(const Body& body, const NetworkSkins::Place& place, MovedNormals normals) {
   const Skin& skin = body.skin;
   if (isOneToOne(body)) {
     any_one_to_one = true;
     networks.append(body, place);
   } else {
     any_bound = true;
-    appendNormalNodes(skin, place.slot);
+    appendNormalNodes(body, place.slot, normals);
   }
   appendBindings(skin, place.slot);
   appendTriangles(skin, place);
@@ -121,18 +122,22 @@ void JoinedSkins::appendBindings(const Skin& skin, uint32_t slot_offset) {
   }
 }
 
-void JoinedSkins::appendNormalNodes(const Skin& skin, uint32_t slot_offset) {
-  const size_t first = surface_nodes.size();
-  for (const layout::SkinBinding& b : skin.bindings) {
+void JoinedSkins::appendNormalNodes(const Body& body, uint32_t slot_offset, MovedNormals normals) {
+  std::vector<uint32_t> slots;
+  bool summed = normals == MovedNormals::kSummed;
+  for (const layout::SkinBinding& b : body.skin.bindings) {
     kinds |= b.springs;
+    summed = summed || (b.springs & (layout::kAlongNormalBit | layout::kOneNodeBit)) != 0;
     if (b.springs & (layout::kInterpolatedBit | layout::kAlongNormalBit | layout::kOneNodeBit))
-      surface_nodes.push_back(b.slot0 + slot_offset);
-    if (b.springs & (layout::kInterpolatedBit | layout::kAlongNormalBit))
-      surface_nodes.insert(surface_nodes.end(), {b.slot1 + slot_offset, b.slot2 + slot_offset});
+      slots.push_back(b.slot0);
+    if (b.springs & (layout::kInterpolatedBit | layout::kAlongNormalBit)) slots.insert(slots.end(), {b.slot1, b.slot2});
   }
-  const auto begin = surface_nodes.begin() + static_cast<ptrdiff_t>(first);
-  std::sort(begin, surface_nodes.end());
-  surface_nodes.erase(std::unique(begin, surface_nodes.end()), surface_nodes.end());
+  std::sort(slots.begin(), slots.end());
+  slots.erase(std::unique(slots.begin(), slots.end()), slots.end());
+  for (const uint32_t slot : slots) {
+    const Vector3f normal = neighborSum(body.lattice, slot).stableNormalized().cast<float>();
+    (summed ? summed_nodes : carried_nodes).push_back({slot + slot_offset, normal.x(), normal.y(), normal.z()});
+  }
 }
 
 void JoinedSkins::appendTriangles(const Skin& skin, const NetworkSkins::Place& place) {
@@ -144,14 +149,14 @@ void JoinedSkins::appendTriangles(const Skin& skin, const NetworkSkins::Place& p
   }
 }
 
-JoinedSkins joinSkins(const Model& model) {
+JoinedSkins joinSkins(const Model& model, MovedNormals normals) {
   JoinedSkins joined;
   uint32_t springs = 0;
   for (size_t b = 0; b < model.bodies.size(); ++b) {
     const Body& body = model.bodies[b];
     const auto vertices = static_cast<uint32_t>(joined.bindings.size());
     const auto triangles = static_cast<uint32_t>(joined.triangles.size() / 3);
-    joined.append(body, {model.slotOffset(b), vertices, triangles, springs});
+    joined.append(body, {model.slotOffset(b), vertices, triangles, springs}, normals);
     if (body.network) springs += static_cast<uint32_t>(body.network->springs.size());
   }
   return joined;

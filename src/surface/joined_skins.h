@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "layout/network_skin.h"
+#include "layout/surface_node.h"
 #include "viscera/model/model.h"
 
 namespace viscera {
@@ -31,9 +32,14 @@ struct NetworkSkins {
   void appendSplits(const Skin& skin, const Place& place, uint32_t first_ring_vertex);
 };
 
+/// How approximate normals follow where vertices are turned by them (docs/mappings.md): carried as planes of the tissue
+/// are, or, to compare, summed anew as VR05's eq 5 is. One_to_one and along_normal sum in any case.
+enum class MovedNormals { kCarried, kSummed };
+
 /// The skins of all bodies as one: slots and vertices numbered through. Split vertices of a network follow its own.
 struct JoinedSkins {
-  std::vector<uint32_t> surface_nodes;  ///< whose approximate normals some vertex follows, ascending
+  /// Whose approximate normals some vertex follows: carried from rest, and summed in every state.
+  std::vector<layout::SurfaceNode> carried_nodes, summed_nodes;
   std::vector<uint32_t> triangles, tie_starts = {0}, colors;
   std::vector<layout::SkinBinding> bindings;
   std::vector<layout::Tie> ties;
@@ -41,14 +47,14 @@ struct JoinedSkins {
   bool any_bound = false, any_one_to_one = false;
   uint32_t kinds = 0;  ///< bits of SkinBinding.springs that some vertex of a lattice's skin has
 
-  void append(const Body& body, const NetworkSkins::Place& place);
+  void append(const Body& body, const NetworkSkins::Place& place, MovedNormals normals);
 
  private:
   void appendBindings(const Skin& skin, uint32_t slot_offset);
-  void appendNormalNodes(const Skin& skin, uint32_t slot_offset);
+  void appendNormalNodes(const Body& body, uint32_t slot_offset, MovedNormals normals);
   void appendTriangles(const Skin& skin, const NetworkSkins::Place& place);
 };
-JoinedSkins joinSkins(const Model& model);
+JoinedSkins joinSkins(const Model& model, MovedNormals normals = MovedNormals::kCarried);
 
 /// Split vertices of every triangle, as appendShown takes them: [6 * triangles]; empty where no triangle can split.
 std::vector<uint32_t> splitsOf(const JoinedSkins& skins);

@@ -42,7 +42,7 @@ std::vector<std::string> mapFeatures(const JoinedSkins& skins) {
   if (skins.kinds & layout::kInCellBit) features.push_back("IN_CELL");
   if (skins.kinds & layout::kOneNodeBit) features.push_back("ONE_NODE");
   if (skins.kinds & layout::kAlongNormalBit) features.push_back("ALONG_NORMAL");
-  if (!skins.surface_nodes.empty()) features.push_back("NORMALS");
+  if (!skins.carried_nodes.empty() || !skins.summed_nodes.empty()) features.push_back("NORMALS");
   return features;
 }
 
@@ -71,8 +71,10 @@ Surface::Surface(const Model& model) {
   JoinedSkins skins = joinSkins(model);
   vertices_ = skins.bindings.size();
   const size_t triangles = skins.triangles.size() / 3;
-  surface_nodes_ = gpu::Buffer<uint32_t>(skins.surface_nodes, "surface nodes");
-  node_normals_ = gpu::Buffer<layout::vec4>(skins.surface_nodes.empty() ? 0 : model.slots(), "node normals");
+  carried_nodes_ = gpu::Buffer<layout::SurfaceNode>(skins.carried_nodes, "surface nodes");
+  summed_nodes_ = gpu::Buffer<layout::SurfaceNode>(skins.summed_nodes, "surface nodes");
+  const bool normals = carried_nodes_.size() + summed_nodes_.size() > 0;
+  node_normals_ = gpu::Buffer<layout::vec4>(normals ? model.slots() : 0, "node normals");
   bindings_ = gpu::Buffer<layout::SkinBinding>(skins.bindings, "bindings");
   positions_ = gpu::Buffer<float>(3 * vertices_, "positions");
   normals_ = gpu::Buffer<uint32_t>(vertices_, "normals");
@@ -88,7 +90,8 @@ Surface::Surface(const Model& model) {
   std::vector<uint32_t> splits = splitsOf(skins);
   shown_ = ShownTriangles(model, vertices_, std::move(skins.triangles), std::move(splits));
   if (skins.any_bound) {
-    if (!skins.surface_nodes.empty()) node_normal_ = kernel("node_normal.comp");
+    if (carried_nodes_.size() > 0) carried_normal_ = kernel("node_normal.comp");
+    if (summed_nodes_.size() > 0) summed_normal_ = kernel("node_normal.comp", {"SUMMED"});
     map_ = kernel("map_skin.comp", mapFeatures(skins));
     tear_ = kernel("tear_skin.comp", std::vector<std::string>(skins.any_one_to_one ? 1 : 0, "MIXED"));
   }
@@ -121,12 +124,16 @@ void Surface::follow(const StateView& state) {
 
 void Surface::followLattices(uint32_t since) {
   bindings_.bindStorage(layout::kBindSkinBindings);
-  if (node_normal_) {
-    surface_nodes_.bindStorage(layout::kBindSurfaceNodes);
-    node_normals_.bindStorage(layout::kBindNodeNormals);
-    runSince(node_normal_, surface_nodes_.size(), since);
-    gpu::Program::storageBarrier();
+  node_normals_.bindStorage(layout::kBindNodeNormals);
+  if (carried_normal_) {
+    carried_nodes_.bindStorage(layout::kBindSurfaceNodes);
+    runSince(carried_normal_, carried_nodes_.size(), since);
   }
+  if (summed_normal_) {
+    summed_nodes_.bindStorage(layout::kBindSurfaceNodes);
+    runSince(summed_normal_, summed_nodes_.size(), since);
+  }
+  gpu::Program::storageBarrier();
   runSince(map_, vertices_, since);
 }
 

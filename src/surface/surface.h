@@ -68,15 +68,17 @@ class Surface {
   void makeRoom(size_t vertices, size_t indices);
 
   size_t vertices_ = 0, live_count_ = 0, first_wound_index_ = 0;
-  gpu::Buffer<uint32_t> surface_nodes_, normals_, triangle_buffer_, tie_starts_, alive_, live_, colors_;
+  gpu::Buffer<layout::SurfaceNode> carried_nodes_, summed_nodes_;
+  gpu::Buffer<uint32_t> normals_, triangle_buffer_, tie_starts_, alive_, live_, colors_;
   gpu::Buffer<layout::vec4> node_normals_;
   gpu::Buffer<layout::SkinBinding> bindings_;
   gpu::Buffer<layout::Tie> ties_;
   gpu::Buffer<float> positions_;
-  gpu::Buffer<uint32_t> unknown_{size_t{1}};  ///< in place of StateView::stale_bricks; nobody reads it
-  gpu::Program node_normal_, map_, tear_;  ///< none where every body is a network; no normals where none follows them
-  std::unique_ptr<NetworkSurface> networks_;  ///< null where none is
-  std::unique_ptr<Wounds> wounds_;            ///< null where no body on a lattice can be cut
+  gpu::Buffer<uint32_t> unknown_{size_t{1}};     ///< in place of StateView::stale_bricks; nobody reads it
+  gpu::Program map_, tear_;                      ///< none where every body is a network
+  gpu::Program carried_normal_, summed_normal_;  ///< none where nobody follows such normals
+  std::unique_ptr<NetworkSurface> networks_;     ///< null where none is
+  std::unique_ptr<Wounds> wounds_;               ///< null where no body on a lattice can be cut
   ShownTriangles shown_;
   std::vector<uint32_t> wound_indices_;
   std::vector<bool> was_wounded_;  ///< [bodies]

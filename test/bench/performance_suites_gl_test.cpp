@@ -71,7 +71,21 @@ TEST_F(PerformanceSuite, SkipHasARowOfEachSkipOnEachBackend) {
 
 TEST_F(PerformanceSuite, CutHasEveryShareOnEachBackend) {
   run("cut");
-  EXPECT_EQ(rows("shares").size(), 12u);  // two bodies, two backends, three shares
+  EXPECT_EQ(rows("shares").size(), 12u);           // two bodies, two backends, three shares
+  EXPECT_EQ(rows("incision").size(), 6u);          // two backends, whole and two lengths
+  EXPECT_EQ(rowsWith("incision", {",0,0,"}), 2u);  // the others cut something
+}
+
+TEST_F(PerformanceSuite, EgveHasTimeAndErrorOfEachMapping) {
+  run("egve");
+  for (const std::string mapping : {"one_to_one", "constant", "interpolated", "along_normal", "auto"}) {
+    EXPECT_EQ(rowsWith("times", {"," + mapping + ","}), 4u) << mapping;    // two bodies, two backends
+    EXPECT_EQ(rowsWith("errors", {"," + mapping + ","}), 12u) << mapping;  // two fillings, three motions, two lattices
+    EXPECT_EQ(rowsWith("finer", {"," + mapping + ","}), 3u) << mapping;
+  }
+  EXPECT_EQ(rowsWith("times", {"6.67"}), 0u);  // of bodies of the paper's size only
+  EXPECT_EQ(rows("checks").size(), 4u);
+  EXPECT_EQ(rowsWith("checks", {"MISSED"}), 0u);
 }
 
 TEST_F(PerformanceSuite, LatencyHasForceSurfaceAndImageOnEachBackend) {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // The mappings that a scene can ask for (docs/mappings.md), each held to a float64 formula written from EGVE's
-// equations: of a binding only its nodes are taken.
+// equations, with normals that are carried in the interpolated one: of a binding only its nodes are taken.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -125,12 +125,35 @@ class Egve {
     }
     return sum;
   }
-  /// Eq 8, first line, made a unit vector.
+  /// Eq 8, first line, made a unit vector: of the sums of eq 3.
   Vector3d normalAt(const std::vector<Vector3d>& p, const std::array<uint32_t, 3>& n, double w1, double w2) const {
     const std::array<double, 3> w = {1 - w1 - w2, w1, w2};
     Vector3d sum = Vector3d::Zero();
     for (size_t i = 0; i < 3; ++i) sum += w[i] * sumAt(p, n[i]).normalized();
     return sum.normalized();
+  }
+  /// The same of eq 3 at rest, carried as a plane is: two of its tangents go where the node's axial neighbours say.
+  Vector3d carriedAt(const std::vector<Vector3d>& p, const std::array<uint32_t, 3>& n, double w1, double w2) const {
+    const std::array<double, 3> w = {1 - w1 - w2, w1, w2};
+    Vector3d sum = Vector3d::Zero();
+    for (size_t i = 0; i < 3; ++i) {
+      const Vector3d normal = sumAt(rest_, n[i]).normalized(), tangent = normal.unitOrthogonal();
+      sum += w[i] * alongAt(p, n[i], tangent).cross(alongAt(p, n[i], normal.cross(tangent))).normalized();
+    }
+    return sum.normalized();
+  }
+  Vector3d alongAt(const std::vector<Vector3d>& p, uint32_t slot, const Vector3d& way) const {
+    Vector3d out = Vector3d::Zero();
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto spring = static_cast<uint32_t>(2 * axis);
+      const auto end = [&](uint32_t s) {
+        return springCount(body_.lattice.nodes[slot], s) ? static_cast<size_t>(body_.lattice.neighborSlot(slot, s))
+                                                         : slot;
+      };
+      const size_t ahead = end(spring), behind = end(spring + 1);
+      out += way[axis] * (p[ahead] - p[behind]) / (rest_[ahead] - rest_[behind]).norm();
+    }
+    return out;
   }
   const std::vector<Vector3d>& rest() const { return rest_; }
 
@@ -141,7 +164,7 @@ class Egve {
     const Vector3d t = (p[n[1]] - p[n[0]]).normalized(), b_t = (p[n[2]] - p[n[0]]).normalized();
     const Vector3d normal = t.cross(b_t).normalized();
     if (mapping == Mapping::kConstant) return {t, normal, normal.cross(t)};
-    const Vector3d n_c = normalAt(p, n, w1, w2), b_c = n_c.cross(t).normalized();
+    const Vector3d n_c = carriedAt(p, n, w1, w2), b_c = n_c.cross(t).normalized();
     return {b_c.cross(n_c), n_c, b_c};
   }
 

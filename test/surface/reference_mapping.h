@@ -19,8 +19,13 @@ enum class Bases { kOrthonormal, kAsPrinted };
 class ReferenceMapping {
  public:
   ReferenceMapping(const Lattice& lattice, const std::vector<layout::vec4>& displacement_m,
-                   const std::vector<layout::NodeBits>& nodes, Bases bases = Bases::kOrthonormal)
-      : lattice_(lattice), displacement_m_(displacement_m), nodes_(nodes), bases_(bases) {}
+                   const std::vector<layout::NodeBits>& nodes, Bases bases = Bases::kOrthonormal,
+                   bool normals_by_sum = false)
+      : lattice_(lattice),
+        displacement_m_(displacement_m),
+        nodes_(nodes),
+        bases_(bases),
+        normals_by_sum_(normals_by_sum) {}
 
   struct Vertex {
     Vector3d position_m, normal;
@@ -113,14 +118,25 @@ class ReferenceMapping {
     return c.x * t + c.y * n + c.z * b;
   }
   Normal approximate(uint32_t slot) const {
-    Vector3d total = Vector3d::Zero();
+    Vector3d total = Vector3d::Zero(), at_rest = Vector3d::Zero();
+    Eigen::Matrix3d gradient = Eigen::Matrix3d::Zero();
     for (uint32_t spring = 0; spring < layout::kSpringsPerNode; ++spring) {
       if (!springCount(nodes_[slot], spring)) continue;
       const auto neighbor = static_cast<uint32_t>(lattice_.neighborSlot(slot, spring));
-      total += (position(slot) - position(neighbor)).normalized();
+      const Vector3d rest = lattice_.restPosition(slot) - lattice_.restPosition(neighbor);
+      const Vector3d now = position(slot) - position(neighbor);
+      total += now.normalized();
+      at_rest += rest.normalized();
+      if (spring >= layout::kAxialSprings) continue;
+      const bool both = springCount(nodes_[slot], spring ^ 1u) != 0;
+      gradient += (both ? 0.5 : 1) * now * rest.transpose() / rest.squaredNorm();
+    }
+    const bool severed = (nodes_[slot].lo & layout::kSeveredBit) != 0;
+    if (!normals_by_sum_) {
+      const Vector3d carried = gradient.determinant() * gradient.inverse().transpose() * at_rest;
+      return {carried.normalized(), severed ? 0.0 : 1.0};
     }
     const double clear = (total.norm() - layout::kNormalSumNone) / (layout::kNormalSumFull - layout::kNormalSumNone);
-    const bool severed = (nodes_[slot].lo & layout::kSeveredBit) != 0;
     return {total.normalized(), severed ? 0.0 : std::clamp(clear, 0.0, 1.0)};
   }
 
@@ -128,6 +144,7 @@ class ReferenceMapping {
   const std::vector<layout::vec4>& displacement_m_;
   const std::vector<layout::NodeBits>& nodes_;
   Bases bases_;
+  bool normals_by_sum_;
 };
 
 /// 1 for every triangle of a skin that is whole (the rule in model/skin.h), 0 for a torn one.

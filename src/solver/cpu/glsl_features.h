@@ -27,4 +27,5 @@
 #define WITH_AHEAD (1 << 22)
 #define WITH_PAIRS (1 << 23)
 #define WITH_RECORD (1 << 24)
+#define WITH_SUMMED (1 << 26)
 #define WITH_SKINS (1 << 25)  // every kind of binding that map_skin.comp knows
