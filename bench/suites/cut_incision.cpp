@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kSubsteps = 4;         // per picture, as the paper's
 constexpr double kLongest_m = 0.08;  // of the incision: from below the held top to the apex
-constexpr double kDeep_m = 0.025;    // of the blade, from the front of the heart inwards
+constexpr double kDeep_m = 0.045;    // of the blade, from the front of the heart inwards
 constexpr double kSlowest = 2;       // a picture of a wounded heart over one of the whole heart, blade away
 
 Scene incisionScene(int nodes, Backend backend) {

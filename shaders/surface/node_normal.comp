@@ -1,8 +1,8 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// node_normal.comp - approximate normals of the nodes that the skin is bound to: at rest those of VR05 eq 5, and in motion carried as a
-// plane of tissue is, by the gradient that a node's axial neighbours give. With SUMMED eq 5 in motion too, as the paper has it: that one
+// node_normal.comp - approximate normals of the nodes that the skin is bound to: at rest those of VR05 eq 5, and in motion turned as
+// the tissue is, by the gradient that a node's axial neighbours give. With SUMMED eq 5 in motion too, as the paper has it: that one
 // is turned by mere stretch, where neighbours are not the same on all sides (mappings.md).
 // Owner: surface/surface.h   physics.md 4
 // in  surface_nodes[count], displacement[slots] m, nodes[slots], stale_bricks[bricks]     out  node_normals[slots] xyz unit, w trust 0..1
@@ -64,7 +64,9 @@ void main() {
     a /= size;
     b /= size;
     c /= size;
-    sum = node.normal_x * cross(b, c) + node.normal_y * cross(c, a) + node.normal_z * cross(a, b);
+    // Stretch turns a plane's normal one way and a fibre along it the other: between them is what the tissue turned by.
+    sum = direction(node.normal_x * cross(b, c) + node.normal_y * cross(c, a) + node.normal_z * cross(a, b), vec3(0.0f)) +
+          direction(node.normal_x * a + node.normal_y * b + node.normal_z * c, vec3(0.0f));
   }
   float clear = 1.0f;  // at rest, or no vertex would follow it
 #endif

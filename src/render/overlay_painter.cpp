@@ -105,7 +105,7 @@ void OverlayPainter::draw(const OverlayLook& look, int supersampling, const Pose
   setMeshMatrices(line_, optical_from_tissue, clip_from_optical);
   if (look.shown.has(Overlay::kLattice) || look.shown.has(Overlay::kSprings)) drawSprings(look);
   if (look.shown.has(Overlay::kNormals)) {
-    nodes_.makeNormals(*look.surface);
+    nodes_.makeNormals(look.state, *look.surface);
     drawSpikes(kNormalColor);
   }
   if (look.shown.has(Overlay::kForces) && nodes_.anyForces()) {

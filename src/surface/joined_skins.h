@@ -32,8 +32,8 @@ struct NetworkSkins {
   void appendSplits(const Skin& skin, const Place& place, uint32_t first_ring_vertex);
 };
 
-/// How approximate normals follow where vertices are turned by them (docs/mappings.md): carried as planes of the tissue
-/// are, or, to compare, summed anew as VR05's eq 5 is. One_to_one and along_normal sum in any case.
+/// How approximate normals follow where vertices are turned by them (docs/mappings.md): turned as the tissue is, or, to
+/// compare, summed anew as VR05's eq 5 is. One_to_one and along_normal sum in any case.
 enum class MovedNormals { kCarried, kSummed };
 
 /// The skins of all bodies as one: slots and vertices numbered through. Split vertices of a network follow its own.

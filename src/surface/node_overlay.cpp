@@ -23,9 +23,9 @@ void bind(uint32_t binding, uint32_t buffer) {
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, buffer);
 }
 
-gpu::Program kernel(const std::string& name, bool network) {
-  std::vector<std::string> defines = {"GROUP_SIZE " + std::to_string(layout::kGroupSize)};
-  if (network) defines.push_back("NETWORK");
+gpu::Program kernel(const std::string& name, const std::vector<std::string>& features = {}) {
+  std::vector<std::string> defines = features;
+  defines.push_back("GROUP_SIZE " + std::to_string(layout::kGroupSize));
   return gpu::Program::compute(name, defines);
 }
 
@@ -98,10 +98,19 @@ NodeOverlay::NodeOverlay(const Model& model)
     link_starts_ = gpu::Buffer<uint32_t>(links.starts, "overlay link starts");
     links_ = gpu::Buffer<layout::OverlayLink>(links.links, "overlay links");
   }
-  place_ = kernel("overlay_nodes.comp", network);
-  draw_lines_ = kernel("overlay_lines.comp", network);
-  draw_spikes_ = kernel("overlay_spikes.comp", false);
-  color_ = kernel("overlay_colors.comp", false);
+  const std::vector<std::string> features(network ? 1 : 0, "NETWORK");
+  place_ = kernel("overlay_nodes.comp", features);
+  draw_lines_ = kernel("overlay_lines.comp", features);
+  draw_spikes_ = kernel("overlay_spikes.comp");
+  color_ = kernel("overlay_colors.comp");
+  std::vector<layout::SurfaceNode> bound;
+  for (const layout::OverlaySpike& spike : spike_list_) {
+    if (spike.vertex == 0) bound.push_back({spike.slot, 0, 0, 0});
+  }
+  if (bound.empty()) return;
+  bound_nodes_ = gpu::Buffer<layout::SurfaceNode>(bound, "overlay bound nodes");
+  node_normals_ = gpu::Buffer<layout::vec4>(slots_, "overlay node normals");
+  sum_normals_ = kernel("node_normal.comp", {"SUMMED"});
 }
 
 /// Springs between nodes that the skin is bound to, each once, and normals of these nodes.
@@ -111,7 +120,8 @@ void NodeOverlay::addLattice(const Body& body, uint32_t slot) {
     spike_list_.push_back({slot + node, 0});
     for (uint32_t spring = 0; spring < layout::kSpringsPerNode; spring += 2) {
       const int64_t other = body.lattice.neighborSlot(node, spring);
-      if (springCount(body.lattice.nodes[node], spring) == 0 || bound.count(static_cast<uint32_t>(other)) == 0) continue;
+      if (springCount(body.lattice.nodes[node], spring) == 0 || bound.count(static_cast<uint32_t>(other)) == 0)
+        continue;
       const layout::OverlayLine line = {slot + node, slot + static_cast<uint32_t>(other), spring, 0};
       (spring < layout::kAxialSprings ? axial_ : diagonal_).push_back(line);
     }
@@ -155,7 +165,19 @@ size_t NodeOverlay::makeLines(const StateView& state, bool all) {
   return 2 * count;
 }
 
-void NodeOverlay::makeNormals(const Surface& surface) {
+void NodeOverlay::makeNormals(const StateView& state, const Surface& surface) {
+  if (sum_normals_) {
+    bind(layout::kBindBricks, state.bricks);
+    bind(layout::kBindBodies, state.bodies);
+    bind(layout::kBindNodes, state.nodes);
+    bind(layout::kBindDisplacementIn, state.displacement);
+    bind(layout::kBindStaleBricks, bound_nodes_.id());  // nobody reads it: every node is summed
+    bound_nodes_.bindStorage(layout::kBindSurfaceNodes);
+    node_normals_.bindStorage(layout::kBindNodeNormals);
+    sum_normals_.set("followed_revision", 0U);
+    run(sum_normals_, bound_nodes_.size());
+    gpu::Program::storageBarrier();
+  }
   makeSpikes(surface, layout::kSpikesAreNormals, normal_lengths_);
 }
 
@@ -164,8 +186,8 @@ void NodeOverlay::makeForces(const Surface& surface) {
 }
 
 void NodeOverlay::makeSpikes(const Surface& surface, uint32_t kind, const std::vector<float>& of_bodies) {
-  const bool lattices = surface.nodeNormals().size() > 0;
-  bind(layout::kBindNodeNormals, lattices ? surface.nodeNormals().id() : nodes_.id());  // nobody reads the latter
+  const bool lattices = node_normals_.size() > 0;
+  bind(layout::kBindNodeNormals, lattices ? node_normals_.id() : nodes_.id());  // nobody reads the latter
   surface.normals().bindStorage(layout::kBindSkinNormals);
   spikes_.bindStorage(layout::kBindOverlaySpikes);
   ends_.bindStorage(layout::kBindOverlayEnds);

@@ -9,6 +9,7 @@
 #include "gpu/buffer.h"
 #include "gpu/program.h"
 #include "layout/overlay.h"
+#include "layout/surface_node.h"
 #include "surface/surface.h"
 #include "viscera/model/model.h"
 #include "viscera/solver/state.h"
@@ -28,7 +29,9 @@ class NodeOverlay {
   /// Springs between nodes that skins are bound to; what is cut is no line. @param all  diagonal ones too
   /// @returns how many indices are to be drawn
   size_t makeLines(const StateView& state, bool all);
-  void makeNormals(const Surface& surface);
+  /// Approximate normals of the nodes that skins are bound to, VR05's eq 5 whatever the mapping; of networks the
+  /// skin's.
+  void makeNormals(const StateView& state, const Surface& surface);
   void makeForces(const Surface& surface);
   /// @param strain_range  the end of the scale
   void makeColors(const Surface& surface, double strain_range);
@@ -49,12 +52,14 @@ class NodeOverlay {
   std::vector<float> normal_lengths_, force_spikes_;  ///< [4 * kMaxBodies] see overlay_spikes.comp
   size_t slots_ = 0, axial_count_ = 0;
   bool any_forces_ = false;
-  gpu::Buffer<layout::vec4> nodes_, ends_;
+  gpu::Buffer<layout::vec4> nodes_, ends_, node_normals_;
+  gpu::Buffer<layout::SurfaceNode> bound_nodes_;  ///< of lattices
   gpu::Buffer<uint32_t> link_starts_, indices_, colors_;
   gpu::Buffer<layout::OverlayLink> links_;
   gpu::Buffer<layout::OverlayLine> lines_;
   gpu::Buffer<layout::OverlaySpike> spikes_;
   gpu::Program place_, draw_lines_, draw_spikes_, color_;
+  gpu::Program sum_normals_;  ///< none without lattices
 };
 
 }  // namespace viscera

@@ -57,7 +57,6 @@ class Surface {
   size_t liveCount() const { return live_count_; }                    ///< how many of them are to be drawn
   const gpu::Buffer<uint32_t>& colors() const { return colors_; }     ///< [vertices] RGBA8, see vertexColors
   const gpu::Buffer<layout::SkinBinding>& bindings() const { return bindings_; }  ///< [vertices]
-  const gpu::Buffer<layout::vec4>& nodeNormals() const { return node_normals_; }  ///< [slots]; empty without lattices
   const ShownTriangles& skin() const { return shown_; }
   ShownTriangles& skin() { return shown_; }        ///< makes of alive() what is shown
   uint64_t mappings() const { return mappings_; }  ///< times follow() did its work

@@ -132,13 +132,15 @@ class Egve {
     for (size_t i = 0; i < 3; ++i) sum += w[i] * sumAt(p, n[i]).normalized();
     return sum.normalized();
   }
-  /// The same of eq 3 at rest, carried as a plane is: two of its tangents go where the node's axial neighbours say.
+  /// The same of eq 3 at rest, turned as the tissue is: half way between where the normal of a plane goes, two of whose
+  /// tangents go where the node's axial neighbours say, and where a fibre along it goes.
   Vector3d carriedAt(const std::vector<Vector3d>& p, const std::array<uint32_t, 3>& n, double w1, double w2) const {
     const std::array<double, 3> w = {1 - w1 - w2, w1, w2};
     Vector3d sum = Vector3d::Zero();
     for (size_t i = 0; i < 3; ++i) {
       const Vector3d normal = sumAt(rest_, n[i]).normalized(), tangent = normal.unitOrthogonal();
-      sum += w[i] * alongAt(p, n[i], tangent).cross(alongAt(p, n[i], normal.cross(tangent))).normalized();
+      const Vector3d plane = alongAt(p, n[i], tangent).cross(alongAt(p, n[i], normal.cross(tangent)));
+      sum += w[i] * (plane.normalized() + alongAt(p, n[i], normal).normalized()).normalized();
     }
     return sum.normalized();
   }

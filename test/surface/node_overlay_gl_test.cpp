@@ -90,7 +90,7 @@ TEST_F(NodeOverlays, NormalsStandOnTheBallAndPointAwayFromItsMiddle) {
   rig.follow();
   NodeOverlay overlay(rig.model);
   overlay.follow(rig.state(), rig.surface);
-  overlay.makeNormals(rig.surface);
+  overlay.makeNormals(rig.state(), rig.surface);
   const std::vector<layout::vec4> ends = overlay.spikes().read();
   ASSERT_EQ(ends.size(), 2 * rig.model.bodies[0].skin.bound_slots.size());
   for (size_t i = 0; i < ends.size(); i += 2) {
@@ -117,7 +117,7 @@ TEST_F(NodeOverlays, AClothIsShownWithItsStrainAndTheLinksThatAreLeft) {
   rig.upload();
   overlay.makeLines(rig.state(), true);
   EXPECT_EQ(linesThatJoin(overlay.lines().read(), count), rig.model.bodies[0].network->springs.size() - 1);
-  overlay.makeNormals(rig.surface);
+  overlay.makeNormals(rig.state(), rig.surface);
   const std::vector<layout::vec4> ends = overlay.spikes().read();
   const std::vector<Vector3d> normals = rig.normals();
   for (size_t v = 0; v < rig.model.bodies[0].skin.bindings.size(); ++v) {

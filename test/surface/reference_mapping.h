@@ -133,8 +133,8 @@ class ReferenceMapping {
     }
     const bool severed = (nodes_[slot].lo & layout::kSeveredBit) != 0;
     if (!normals_by_sum_) {
-      const Vector3d carried = gradient.determinant() * gradient.inverse().transpose() * at_rest;
-      return {carried.normalized(), severed ? 0.0 : 1.0};
+      const Vector3d plane = gradient.determinant() * gradient.inverse().transpose() * at_rest;
+      return {(plane.normalized() + (gradient * at_rest).normalized()).normalized(), severed ? 0.0 : 1.0};
     }
     const double clear = (total.norm() - layout::kNormalSumNone) / (layout::kNormalSumFull - layout::kNormalSumNone);
     return {total.normalized(), severed ? 0.0 : std::clamp(clear, 0.0, 1.0)};
