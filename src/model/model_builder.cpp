@@ -6,11 +6,11 @@
 
 #include "math/memory_for.h"
 #include "model/body/body_notes.h"
+#include "model/body/detailed_surface.h"
 #include "model/body/fixed_nodes.h"
 #include "model/body/network_body.h"
 #include "model/body/network_builder.h"
 #include "model/body/network_skin.h"
-#include "model/body/skin_size.h"
 #include "model/body/spacing_search.h"
 #include "model/scene/structure_rules.h"
 #include "model/scene/tool_kinds.h"
@@ -61,8 +61,9 @@ Body buildLatticeBody(const BodyConfig& config, const Scene& scene, const Tissue
   if (!walls.empty()) body.notes.push_back(walls);
   addPiecesNote(body);
   if (progress) progress("extract skin", 0);
-  const TriangleMesh surface = surfaceOf(tissue, config, solid);
-  requireSkinSize(surface, solid.spacing_m, config.import_limits.max_triangles);
+  const TriangleMesh surface =
+      detailedSurface(surfaceOf(tissue, config, solid),
+                      {config, scene.folder, tissue.file_pose, solid.spacing_m, tissue.paint()}, body.notes, progress);
   body.skin = bindSkin(surface, body.lattice, solid, config.mapping, progress);
   body.skin.can_be_cut = can_be_cut;
   body.notes.push_back(skinNote(body.skin));

@@ -33,6 +33,15 @@ bodies:
     ball_radius_m: 0.034
     thickness_m: 0.0035
     bending_ratio: 0.36
+    textures: false
+    detail_mesh: fine.obj
+    skin_faces: 4321
+    detail_px: 777
+    skin_spacing_m: 0.0007
+    roughness: 0.41
+    mottling: 0.42
+    layers:
+      - {depth_m: 0.0043, color: [0.44, 0.45, 0.46]}
     force_n: [0.37, 0.38, 0.39]
     spacing_m: 0.0041
     target_nodes: 4200
@@ -156,6 +165,16 @@ TEST(SceneKeys, EveryBodyKeyReachesItsField) {
   EXPECT_EQ(body.ball_radius_m, 0.034);
   EXPECT_EQ(body.thickness_m, 0.0035);
   EXPECT_EQ(body.bending_ratio, 0.36);
+  EXPECT_FALSE(body.textures);
+  EXPECT_EQ(body.detail_mesh, "fine.obj");
+  EXPECT_EQ(body.skin_faces, 4321);
+  EXPECT_EQ(body.detail_px, 777);
+  EXPECT_EQ(body.skin_spacing_m, 0.0007);
+  EXPECT_EQ(body.roughness, 0.41);
+  EXPECT_EQ(body.mottling, 0.42);
+  ASSERT_EQ(body.layers.size(), 1u);
+  EXPECT_EQ(body.layers[0].depth_m, 0.0043);
+  EXPECT_EQ(body.layers[0].color, Vector3d(0.44, 0.45, 0.46));
   EXPECT_EQ(body.force_n, Vector3d(0.37, 0.38, 0.39));
   EXPECT_EQ(body.spacing_m, 0.0041);
   EXPECT_EQ(body.target_nodes, 4200);

@@ -35,6 +35,9 @@ const uint kAlongNormalBit = 1u << 27;
 // Of SkinBinding.springs, with one of these two: shaded by its own normal in (T, N, B) all the same, as the walls of a wound are.
 const uint kOwnNormalBit = 1u << 26;
 
+// Of a triangle on which no texture lies.
+const uint kNoTextureChart = 0xffffffffu;
+
 // What is shown of a triangle.
 const uint kShownWhole = 1u;
 const uint kShownCorner = 2u;  // << corner 0, 1, 2: the piece at a corner that a cut has parted from the others

@@ -68,6 +68,9 @@ Body plainBody(const BodyConfig& config) {
   body.material.cells = hasMoments(config) ? Cells::kMoments : Cells::kSprings;
   body.parts = config.parts;
   body.color = config.color;
+  body.roughness = config.roughness;
+  body.mottling = config.mottling;
+  body.layers = config.layers;
   body.force_n = config.force_n;
   return body;
 }

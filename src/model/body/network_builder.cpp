@@ -201,6 +201,7 @@ SpringNetwork membraneNetwork(const TriangleMesh& mesh, const MaterialConfig& ma
   SpringNetwork network;
   for (const Vector3f& position : mesh.positions_m) network.positions_m.push_back(position.cast<double>());
   network.masses_kg.resize(mesh.positions_m.size());
+  network.detail = mesh.detail;
   std::vector<EdgeShare> shares;
   for (const auto& t : mesh.triangles) {
     if (isDegenerate(network.positions_m, t)) {
@@ -213,6 +214,7 @@ SpringNetwork membraneNetwork(const TriangleMesh& mesh, const MaterialConfig& ma
       network.masses_kg[t[e]] += material.density_kg_per_m3 * thickness_m * area_m2 / 3;
     }
     network.triangles.push_back(t);
+    if (!mesh.charts.empty()) network.charts.push_back(mesh.charts[static_cast<size_t>(&t - mesh.triangles.data())]);
   }
   addSprings(std::move(shares), material.young_modulus_pa * thickness_m, bending_ratio, network);
   return network;
@@ -280,6 +282,8 @@ SpringNetwork renumbered(const SpringNetwork& network, std::vector<uint32_t>* sl
   }
   sortByEnds(out.springs);
   for (const auto& t : network.triangles) out.triangles.push_back({slot_of[t[0]], slot_of[t[1]], slot_of[t[2]]});
+  out.charts = network.charts;
+  out.detail = network.detail;
   if (slot_of_node) *slot_of_node = std::move(slot_of);
   return out;
 }

@@ -33,6 +33,8 @@ TriangleMesh meshOf(const SpringNetwork& network, const std::vector<uint32_t>& s
   for (const auto& t : network.triangles) mesh.triangles.push_back({vertex_of[t[0]], vertex_of[t[1]], vertex_of[t[2]]});
   mesh.parts.assign(mesh.triangles.size(), 0);
   mesh.part_names = {"surface"};
+  mesh.charts = network.charts;
+  mesh.detail = network.detail;
   return mesh;
 }
 

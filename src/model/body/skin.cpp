@@ -36,6 +36,7 @@ void tieTriangles(const Lattice& lattice, Skin& skin) {
   TieFinder finder(lattice, skin.bindings);
   std::vector<std::array<uint32_t, 3>> whole;
   std::vector<uint16_t> parts;
+  std::vector<uint32_t> charts;
   skin.tie_starts.push_back(0);
   for (size_t t = 0; t < skin.mesh.triangles.size(); ++t) {
     const auto& corners = skin.mesh.triangles[t];
@@ -51,9 +52,11 @@ void tieTriangles(const Lattice& lattice, Skin& skin) {
     skin.tie_starts.push_back(static_cast<uint32_t>(skin.ties.size()));
     whole.push_back(corners);
     parts.push_back(skin.mesh.parts[t]);
+    if (!skin.mesh.charts.empty()) charts.push_back(skin.mesh.charts[t]);
   }
   skin.mesh.triangles.swap(whole);
   skin.mesh.parts.swap(parts);
+  skin.mesh.charts.swap(charts);
 }
 
 void listBoundSlots(const Lattice& lattice, Skin& skin) {

@@ -43,6 +43,7 @@ inline std::vector<Choice<ToolMode>> toolChoices() {
   return choices;
 }
 
+constexpr int kMostLayers = 4;
 constexpr Range kLength{0, 10};         // m: organs and rooms
 constexpr Range kCoordinate{-10, 10};   // m
 constexpr Range kDirection{-1e3, 1e3};  // any length but zero
@@ -109,6 +110,12 @@ void visitFields(V& v, ImportLimits& c) {
 }
 
 template <class V>
+void visitFields(V& v, LayerConfig& c) {
+  v.number("depth_m", c.depth_m, kLength, "m", "below the skin, to which it reaches");
+  v.vector("color", c.color, {0, 1}, "1", "red, green, blue");
+}
+
+template <class V>
 void visitFields(V& v, BodyConfig& c) {
   v.text("name", c.name, "name, unique");
   v.choice("source", c.source,
@@ -133,6 +140,16 @@ void visitFields(V& v, BodyConfig& c) {
   v.choice("up_axis", c.up_axis, {{"z", UpAxis::kZ}, {"y", UpAxis::kY}},
            "mesh: axis of the file that points up and is turned to z; y in glTF");
   v.boolean("centered", c.centered, "mesh: move the middle of its bounding box to the body's origin");
+  v.boolean("textures", c.textures,
+            "mesh: take the colours, textures, normal maps and roughness that the file gives (docs/detail.md)");
+  v.text(
+      "detail_mesh", c.detail_mesh,
+      "a finer mesh of the same surface, of any number of faces, placed as mesh_file is: its normals and colours are "
+      "baked onto the skin once, and kept in the user's cache; structure lattice and explicit");
+  v.integer("skin_faces", c.skin_faces, {0, 20e6},
+            "above 0: the surface is simplified to about so many faces, and what it was is baked onto them as by "
+            "detail_mesh; the lattice is made of all of it");
+  v.integer("detail_px", c.detail_px, {64, 16384}, "side of the square of texels that detail is baked to, at most");
   v.number("phantom_length_m", c.phantom_length_m, {0.01, 1}, "m", "phantom: base to apex");
   v.number("phantom_wall_scale", c.phantom_wall_scale, {0.1, 2}, "1", "phantom: multiplies every wall thickness");
   v.vector("box_size_m", c.box_size_m, {1e-4, 10}, "m",
@@ -163,9 +180,16 @@ void visitFields(V& v, BodyConfig& c) {
            "how the skin follows the lattice (docs/mappings.md): each vertex one node (EGVE 3.2), a triangle of nodes "
            "(eqs 4 to 7), that turned by approximate normals (eq 8), or moved along these alone (3.5); auto: the "
            "corners of the cell where cells are tissue in part, else interpolated");
+  v.number("skin_spacing_m", c.skin_spacing_m, kLength, "m",
+           "phantom, ball: edge length of the skin where it is to be finer than the lattice; 0: the lattice's");
   v.vector("position_m", c.position_m, kCoordinate, "m", "origin of the body in the tissue frame");
   v.vector("rotation_deg", c.rotation_deg, kAngle, "deg", "turns about the fixed x, then y, then z axis");
-  v.vector("color", c.color, {0, 1}, "1", "red, green, blue");
+  v.vector("color", c.color, {0, 1}, "1", "red, green, blue; of what a mesh file gives no colour");
+  v.number("roughness", c.roughness, {0, 1}, "1", "of the wet surface: 0 mirrors lamps, 1 is dull");
+  v.number("mottling", c.mottling, {0, 3}, "1", "how much lightness, hue and relief vary from place to place; 0: even");
+  v.list("layers", c.layers, kMostLayers,
+         "what a wound's wall shows below the skin, from the surface down; beyond the "
+         "last one: the flesh of `color`");
   v.group("material", c.material, "elastic material");
   const PartConfig as_material{"", c.material.young_modulus_pa, c.material.poisson_ratio, c.material.density_kg_per_m3};
   v.list("parts", c.parts, 64, "parts whose elasticity differs; what is left out is as in `material`", as_material);

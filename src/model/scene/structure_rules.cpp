@@ -52,6 +52,10 @@ std::string networkFault(const BodyConfig& body) {
   if (body.mapping != Mapping::kAuto) {
     return "mapping must be auto with structure " + name + ": each vertex of its skin is one of its nodes already";
   }
+  for (const char* key : {body.detail_mesh.empty() ? "" : "detail_mesh", body.skin_faces > 0 ? "skin_faces" : ""}) {
+    if (*key != 0)
+      return key + std::string(" needs structure lattice or explicit: the skin of ") + name + " is its nodes";
+  }
   if (body.auto_spacing && body.target_nodes == 0) {
     return "spacing_m: auto needs structure lattice or explicit; give " + name + " a number or target_nodes";
   }

@@ -20,6 +20,7 @@
 #include "math/one_line.h"
 #include "model/shape/gltf_limits.h"
 #include "model/shape/import_limits.h"
+#include "model/shape/mesh_look.h"
 #include "model/shape/ply_reader.h"
 #include "viscera/math/error.h"
 
@@ -61,7 +62,8 @@ struct LessPosition {
 /// Walks the node tree of a file and gathers its triangles, part by part.
 class Gatherer {
  public:
-  explicit Gatherer(double unit_scale_m) : unit_scale_m_(unit_scale_m) {}
+  Gatherer(double unit_scale_m, std::string path, const ImportLimits& limits, bool with_look)
+      : unit_scale_m_(unit_scale_m), path_(std::move(path)), limits_(limits), with_look_(with_look) {}
 
   /// Parents before children, children in their order; without recursion, however deep they are.
   void visit(const aiScene& scene) {
@@ -69,6 +71,8 @@ class Gatherer {
       const aiNode* node;
       Eigen::Matrix4d parent;
     };
+    MeshLook look(path_, with_look_ ? &scene : nullptr, limits_);
+    look_ = &look;
     std::vector<Waiting> waiting = {{scene.mRootNode, Eigen::Matrix4d::Identity()}};
     while (!waiting.empty()) {
       const aiNode& node = *waiting.back().node;
@@ -77,6 +81,9 @@ class Gatherer {
       for (unsigned i = 0; i < node.mNumMeshes; ++i) addPart(*scene.mMeshes[node.mMeshes[i]], node, pose);
       for (unsigned i = node.mNumChildren; i > 0; --i) waiting.push_back({node.mChildren[i - 1], pose});
     }
+    look.giveTo(mesh);
+    report.look_notes = look.notes();
+    look_ = nullptr;
   }
 
   TriangleMesh mesh;
@@ -88,8 +95,10 @@ class Gatherer {
     const std::vector<uint32_t> vertices = weld(source, pose, name);
     const bool mirrored = pose.topLeftCorner<3, 3>().determinant() < 0;
     const size_t before = mesh.triangles.size();
-    for (unsigned f = 0; f < source.mNumFaces; ++f) addFace(source.mFaces[f], vertices, mirrored);
+    look_->addPart(source, name);
+    for (unsigned f = 0; f < source.mNumFaces; ++f) addFace(source, source.mFaces[f], vertices, mirrored);
     if (mesh.triangles.size() == before) {
+      look_->dropPart();
       ++report.parts_dropped;
       return;
     }
@@ -133,18 +142,21 @@ class Gatherer {
     return vertices;
   }
 
-  void addFace(const aiFace& face, const std::vector<uint32_t>& vertices, bool mirrored) {
+  void addFace(const aiMesh& source, const aiFace& face, const std::vector<uint32_t>& vertices, bool mirrored) {
     if (face.mNumIndices == 1) ++report.stray_points;
     if (face.mNumIndices == 2) ++report.stray_lines;
     if (face.mNumIndices != 3) return;
     std::array<uint32_t, 3> triangle;
+    std::array<Vector3d, 3> corners_m;
     for (int c = 0; c < 3; ++c) {
       if (face.mIndices[c] >= vertices.size()) throw MeshError("a face refers to a vertex that does not exist");
       triangle[c] = vertices[face.mIndices[c]];
+      corners_m[c] = mesh.positions_m[triangle[c]].cast<double>();
     }
     if (mirrored) std::swap(triangle[1], triangle[2]);
     if (hasArea(triangle)) {
       mesh.triangles.push_back(triangle);
+      look_->addTriangle(source, corners_m, {face.mIndices[0], face.mIndices[1], face.mIndices[2]});
     } else {
       ++report.degenerate_triangles;
     }
@@ -161,6 +173,10 @@ class Gatherer {
   static constexpr double kFlat = 1e-12;
 
   double unit_scale_m_;
+  std::string path_;
+  ImportLimits limits_;
+  bool with_look_;
+  MeshLook* look_ = nullptr;  ///< while visit() runs
   std::set<std::string> names_;
   std::map<std::string, int> copies_;
 };
@@ -254,13 +270,13 @@ std::string ImportReport::text() const {
   return out.str();
 }
 
-TriangleMesh importMesh(const std::string& path, double unit_scale_m, ImportReport* report,
-                        const ImportLimits& limits) {
+TriangleMesh importMesh(const std::string& path, double unit_scale_m, ImportReport* report, const ImportLimits& limits,
+                        bool with_look) {
   if (!std::isfinite(unit_scale_m) || unit_scale_m <= 0) {
     fail(path, "unit_scale_m must be a finite number > 0, not " + std::to_string(unit_scale_m));
   }
   requireReadableFile(path);
-  Gatherer gatherer(unit_scale_m);
+  Gatherer gatherer(unit_scale_m, path, limits, with_look);
   try {
     memoryFor<MeshError>("reading it", [&] { gather(path, limits, gatherer); });
   } catch (const std::exception& error) {  // assimp's own too

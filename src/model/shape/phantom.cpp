@@ -9,8 +9,10 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <memory>
 #include <sstream>
 
+#include "model/shape/heart_vessels.h"
 #include "model/shape/phantom_shapes.h"
 #include "viscera/math/error.h"
 
@@ -193,18 +195,38 @@ void requireRange(const char* key, double value, double low, double high) {
   throw SceneError(out.str());
 }
 
-}  // namespace
-
-Phantom heartPhantom(double length_m, double wall_scale) {
-  requireRange("phantom_length_m", length_m, 0.01, 1);
-  requireRange("phantom_wall_scale", wall_scale, 0.1, 2);
+/// Box around the tilted heart, in fractions of its length.
+std::pair<Vector3d, Vector3d> extent(double wall_scale) {
   Vector3d low, high;
   for (int i = 0; i < 3; ++i) {
     high[i] = reach(Vector3d::Unit(i), wall_scale);
     low[i] = -reach(-Vector3d::Unit(i), wall_scale);
   }
+  return {low, high};
+}
+
+}  // namespace
+
+SurfacePaint heartPaint(double length_m, double wall_scale) {
+  const Heart heart(wall_scale);
+  const auto right = [heart](const Vector3d& p) { return heart.at(p).part == kRightVentricle; };
+  const auto vessels =
+      std::make_shared<const HeartVessels>([heart](const Vector3d& p) { return heart.at(p).distance_m; }, right);
+  const auto [low, high] = extent(wall_scale);
+  return [vessels, upright = tilt().conjugate(), middle = Vector3d(0.5 * (low + high)), length_m](const Vector3f& at,
+                                                                                                  const Vector3f& n) {
+    PaintedSpot spot = vessels->at(upright * (at.cast<double>() / length_m + middle), upright * n.cast<double>());
+    spot.height_m *= static_cast<float>(length_m);
+    return spot;
+  };
+}
+
+Phantom heartPhantom(double length_m, double wall_scale) {
+  requireRange("phantom_length_m", length_m, 0.01, 1);
+  requireRange("phantom_wall_scale", wall_scale, 0.1, 2);
+  const auto [low, high] = extent(wall_scale);
   const Vector3d middle = 0.5 * (low + high);
-  const auto place = [=](const Vector3d& p) -> Vector3d { return length_m * (tilt() * p - middle); };
+  const auto place = [length_m, middle](const Vector3d& p) -> Vector3d { return length_m * (tilt() * p - middle); };
   Phantom phantom;
   phantom.part_names = {"left_ventricle", "right_ventricle", "left_atrium",      "right_atrium",
                         "septum",         "aorta",           "pulmonary_artery", "vena_cava"};

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "model/shape/detail_paint.h"
 #include "viscera/model/shape/solid.h"
 
 namespace viscera {
@@ -34,5 +35,8 @@ struct Phantom {
 /// @param wall_scale  multiplies every wall thickness, 0.1..2. At 1 the thinnest wall is 0.042 length_m
 /// @throws SceneError  a parameter out of its range
 Phantom heartPhantom(double length_m, double wall_scale);
+
+/// Its coronary vessels, in grooves with fat, for a skin of that heart (heart_vessels.h).
+SurfacePaint heartPaint(double length_m, double wall_scale);
 
 }  // namespace viscera

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <memory>
+
 #include "model/shape/tetrahedra_mesh.h"
 #include "model/shape/tissue.h"
 
@@ -18,17 +20,25 @@ void move(std::vector<Vector>& points_m, const Pose& pose) {
 }
 
 /// Turns the file's upward axis to z and moves the middle of its bounding box to the origin, where asked to.
+/// @returns the body's frame in the file's, so that others can be placed alike
 template <class Vector>
-void toBodyFrame(std::vector<Vector>& points_m, const BodyConfig& config) {
+Pose toBodyFrame(std::vector<Vector>& points_m, const BodyConfig& config) {
+  Pose placed;
   if (config.up_axis == UpAxis::kY) {
     for (Vector& p : points_m) p = Vector(p.x(), -p.z(), p.y());
+    placed.orientation = rotationFromDegrees({90, 0, 0});
   }
-  if (!config.centered) return;
+  if (!config.centered) return placed;
   Eigen::AlignedBox<typename Vector::Scalar, 3> box;
   for (const Vector& p : points_m) box.extend(p);
   const Vector middle = box.center();
   for (Vector& p : points_m) p -= middle;
+  placed.position_m = -middle.template cast<double>();
+  return placed;
 }
+
+/// What lies on a mesh goes where its points went.
+void moveDetail(TriangleMesh& mesh, const Pose& pose);
 
 template <class Vector>
 Eigen::AlignedBox3d boundsOf(const std::vector<Vector>& points_m) {

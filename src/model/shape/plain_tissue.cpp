@@ -131,7 +131,10 @@ class SheetTissue : public Tissue {
 class BallTissue : public Tissue {
  public:
   explicit BallTissue(const BodyConfig& config)
-      : radius_m_(config.ball_radius_m), pose_(bodyPose(config)), moments_(hasMoments(config)) {
+      : radius_m_(config.ball_radius_m),
+        pose_(bodyPose(config)),
+        moments_(hasMoments(config)),
+        skin_spacing_m_(config.skin_spacing_m) {
     planes_ = clampPlanes(config, bounds());
   }
 
@@ -141,7 +144,9 @@ class BallTissue : public Tissue {
     return {voxelise(field(), {"ball"}, box.min(), box.max(), spacing_m, progress), ""};
   }
 
-  TriangleMesh surface(const Solid& solid) const override { return shell(solid.spacing_m); }
+  TriangleMesh surface(const Solid& solid) const override {
+    return shell(skin_spacing_m_ > 0 ? std::min(skin_spacing_m_, solid.spacing_m) : solid.spacing_m);
+  }
 
   TriangleMesh shell(double spacing_m) const override {
     requireSpacingWithin(bounds().sizes(), spacing_m);
@@ -166,6 +171,7 @@ class BallTissue : public Tissue {
   double radius_m_;
   Pose pose_;
   bool moments_;
+  double skin_spacing_m_;
   NodePlanes planes_;
 };
 

@@ -32,10 +32,13 @@ class MeshTissue : public Tissue {
   MeshTissue(const BodyConfig& config, const std::string& folder) {
     path_ = (std::filesystem::path(folder) / config.mesh_file).string();
     ImportReport report;
-    mesh_ = facingOutward(importMesh(path_, config.unit_scale_m, &report, config.import_limits));
-    toBodyFrame(mesh_.positions_m, config);
+    mesh_ = facingOutward(importMesh(path_, config.unit_scale_m, &report, config.import_limits, config.textures));
+    const Pose placed = toBodyFrame(mesh_.positions_m, config);
     move(mesh_.positions_m, bodyPose(config));
+    file_pose = bodyPose(config) * placed;
+    moveDetail(mesh_, file_pose);
     notes.push_back(path_ + ": " + report.text());
+    notes.insert(notes.end(), report.look_notes.begin(), report.look_notes.end());
     moments_ = hasMoments(config);
     planes_ = clampPlanes(config, bounds());
   }
@@ -65,8 +68,13 @@ class MeshTissue : public Tissue {
 class PhantomTissue : public Tissue {
  public:
   explicit PhantomTissue(const BodyConfig& config)
-      : phantom_(heartPhantom(config.phantom_length_m, config.phantom_wall_scale)), moments_(hasMoments(config)) {
-    const Pose pose = bodyPose(config);
+      : phantom_(heartPhantom(config.phantom_length_m, config.phantom_wall_scale)),
+        moments_(hasMoments(config)),
+        skin_spacing_m_(config.skin_spacing_m) {
+    const Pose pose = pose_ = bodyPose(config);
+    has_vessels_ = config.textures && config.skin_spacing_m > 0;
+    length_m_ = config.phantom_length_m;
+    wall_scale_ = config.phantom_wall_scale;
     const Eigen::AlignedBox3d box = movedBox(phantom_.min_m, phantom_.max_m, pose);
     phantom_.min_m = box.min();
     phantom_.max_m = box.max();
@@ -83,12 +91,21 @@ class PhantomTissue : public Tissue {
   /// Of cells that are tissue in part walls may be thinner than a cell: the skin has them all the same.
   TriangleMesh surface(const Solid& solid) const override {
     double spacing_m = solid.spacing_m;
+    if (skin_spacing_m_ > 0) spacing_m = std::min(spacing_m, skin_spacing_m_);
     for (const Wall& wall : phantom_.walls)
       if (moments_) spacing_m = std::min(spacing_m, kSkinInWall * wall.thickness_m);
     return shell(spacing_m);
   }
   TriangleMesh shell(double spacing_m) const override {
     return extractSkin(phantom_.field, phantom_.part_names, phantom_.min_m, phantom_.max_m, spacing_m);
+  }
+
+  SurfacePaint paint() const override {
+    if (!has_vessels_) return {};
+    return [paint = heartPaint(length_m_, wall_scale_), to_body = pose_.inverse()](const Vector3f& at,
+                                                                                   const Vector3f& n) {
+      return paint((to_body * at.cast<double>()).cast<float>(), (to_body.orientation * n.cast<double>()).cast<float>());
+    };
   }
 
   Eigen::AlignedBox3d bounds() const override { return {phantom_.min_m, phantom_.max_m}; }
@@ -99,6 +116,9 @@ class PhantomTissue : public Tissue {
   static constexpr double kSkinInWall = 0.75;  ///< of a wall's thickness: no cell of the skin misses a wall, and some
   Phantom phantom_;
   bool moments_;
+  double skin_spacing_m_, length_m_ = 1, wall_scale_ = 1;
+  bool has_vessels_ = false;
+  Pose pose_;
   NodePlanes planes_;
 };
 
@@ -130,9 +150,9 @@ Pose bodyPose(const BodyConfig& config) {
   return {config.position_m, rotationFromDegrees(config.rotation_deg)};
 }
 
-std::unique_ptr<Tissue> makeTissue(const BodyConfig& config, const std::string& folder) {
-  const std::string fault = structureFault(config);
-  if (!fault.empty()) throw SceneError("body '" + config.name + "': " + fault);
+namespace {
+
+std::unique_ptr<Tissue> tissueOf(const BodyConfig& config, const std::string& folder) {
   switch (config.source) {
     case TissueSource::kMesh:
       if (config.structure == Structure::kTetrahedra) return std::make_unique<TetrahedraTissue>(config, folder);
@@ -147,6 +167,18 @@ std::unique_ptr<Tissue> makeTissue(const BodyConfig& config, const std::string& 
       return boxTissue(config);
   }
   throw SceneError("body '" + config.name + "': unknown source");
+}
+
+}  // namespace
+
+std::unique_ptr<Tissue> makeTissue(const BodyConfig& config, const std::string& folder) {
+  const std::string fault = structureFault(config);
+  if (!fault.empty()) throw SceneError("body '" + config.name + "': " + fault);
+  std::unique_ptr<Tissue> tissue = tissueOf(config, folder);
+  if (config.source == TissueSource::kMesh) return tissue;
+  const double turn_deg = config.up_axis == UpAxis::kY ? 90 : 0;
+  tissue->file_pose = bodyPose(config) * Pose{Vector3d::Zero(), rotationFromDegrees({turn_deg, 0, 0})};
+  return tissue;
 }
 
 }  // namespace viscera

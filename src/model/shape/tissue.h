@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "model/shape/detail_paint.h"
 #include "model/shape/phantom.h"
 #include "model/shape/tetrahedra_mesh.h"
 #include "viscera/model/scene/scene.h"
@@ -39,7 +40,11 @@ class Tissue {
   /// Walls of known thickness in which cells that are larger leave holes, the thinnest first.
   virtual std::vector<Wall> walls() const { return {}; }
 
+  /// What is painted on its skin; empty: nothing.
+  virtual SurfacePaint paint() const { return {}; }
+
   std::vector<std::string> notes;  ///< what reading it had to decide
+  Pose file_pose;                  ///< of what mesh files of this body hold, in the tissue frame
 };
 
 /// @param folder  where a relative mesh_file is looked up

@@ -24,9 +24,14 @@ class SplitPass {
   bool run() {
     std::vector<std::array<uint32_t, 3>> old_triangles;
     std::vector<uint16_t> old_parts;
+    std::vector<uint32_t> old_charts;
     old_triangles.swap(mesh_.triangles);
     old_parts.swap(mesh_.parts);
-    for (size_t t = 0; t < old_triangles.size(); ++t) split(old_triangles[t], old_parts[t]);
+    old_charts.swap(mesh_.charts);
+    for (size_t t = 0; t < old_triangles.size(); ++t) {
+      split(old_triangles[t], old_parts[t]);
+      if (!old_charts.empty()) mesh_.charts.resize(mesh_.triangles.size(), old_charts[t]);
+    }
     return !midpoints_.empty();
   }
 

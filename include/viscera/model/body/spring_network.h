@@ -4,10 +4,12 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "viscera/layout/links.h"
 #include "viscera/math/types.h"
+#include "viscera/model/shape/surface_detail.h"
 
 namespace viscera {
 
@@ -26,6 +28,8 @@ struct SpringNetwork {
   std::vector<double> masses_kg;                   ///< [slots] > 0 where a node is, else 0
   std::vector<NetworkSpring> springs;              ///< ordered by (a, b)
   std::vector<std::array<uint32_t, 3>> triangles;  ///< its surface: slots, counter-clockwise seen from outside
+  std::vector<uint32_t> charts;                    ///< of these, as in TriangleMesh
+  std::shared_ptr<const SurfaceDetail> detail;     ///< the same
   bool of_lattice = false;                         ///< the nodes are those of the body's lattice, with bricks in space
 
   /// Mean rest length of the springs but those against bending [m]; 0 without any.

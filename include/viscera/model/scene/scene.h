@@ -79,6 +79,12 @@ struct ImportLimits {
   bool other_formats = false;
 };
 
+/// What of a wound's wall is seen down to a depth below the skin.
+struct LayerConfig {
+  double depth_m = 0.001;
+  Vector3d color = Vector3d(0.86, 0.66, 0.34);
+};
+
 struct BodyConfig {
   std::string name = "tissue";
   TissueSource source = TissueSource::kPhantom;
@@ -88,6 +94,11 @@ struct BodyConfig {
   ImportLimits import_limits;
   UpAxis up_axis = UpAxis::kZ;
   bool centered = false;
+  bool textures = true;
+  std::string detail_mesh;  ///< relative to the scene file; empty: none, or with skin_faces the mesh itself
+  int skin_faces = 0;       ///< 0: as many as there are
+  int detail_px = 2048;
+  double skin_spacing_m = 0;  ///< 0: as the lattice
   double phantom_length_m = 0.1;
   double phantom_wall_scale = 1;
   Vector3d box_size_m = Vector3d::Constant(0.05);
@@ -103,6 +114,9 @@ struct BodyConfig {
   Vector3d position_m = Vector3d::Zero();
   Vector3d rotation_deg = Vector3d::Zero();  ///< about fixed x, then y, then z
   Vector3d color = Vector3d(0.72, 0.25, 0.22);
+  double roughness = 0.25;
+  double mottling = 1;
+  std::vector<LayerConfig> layers = {{0.0004, Vector3d(0.80, 0.50, 0.42)}, {0.0016, Vector3d(0.86, 0.66, 0.34)}};
   MaterialConfig material;
   std::vector<PartConfig> parts;  ///< cells of other parts have `material`
   std::vector<FixedConfig> fixed;

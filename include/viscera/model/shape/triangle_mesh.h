@@ -4,10 +4,12 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "viscera/math/types.h"
+#include "viscera/model/shape/surface_detail.h"
 
 namespace viscera {
 
@@ -17,6 +19,8 @@ struct TriangleMesh {
   std::vector<std::array<uint32_t, 3>> triangles;  ///< [triangles] vertex indices
   std::vector<uint16_t> parts;                     ///< [triangles] index into part_names
   std::vector<std::string> part_names;
+  std::vector<uint32_t> charts;  ///< [triangles] index into detail->charts, or kNoChart; empty: no triangle has one
+  std::shared_ptr<const SurfaceDetail> detail;  ///< null: nothing beyond its triangles
 };
 
 /// Signed volume [m3] by the divergence theorem; exact for closed, outward-oriented meshes.

@@ -1,0 +1,74 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "model/body/detailed_surface.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "model/body/skin_size.h"
+#include "model/shape/detail_bake.h"
+#include "model/shape/detail_paint.h"
+#include "model/shape/fewer_faces.h"
+#include "model/shape/placing.h"
+#include "model/shape/solid_shell.h"
+#include "viscera/math/error.h"
+#include "viscera/model/shape/mesh_import.h"
+
+namespace viscera {
+
+namespace {
+
+constexpr double kElsewhere = 0.9;  // share of the skin that a mesh may miss before it is a mesh of something else
+
+TriangleMesh readDetail(const std::string& path, const DetailWanted& wanted, std::vector<std::string>& notes) {
+  const BodyConfig& config = wanted.config;
+  ImportReport report;
+  TriangleMesh mesh =
+      facingOutward(importMesh(path, config.unit_scale_m, &report, config.import_limits, config.textures));
+  move(mesh.positions_m, wanted.file_pose);
+  moveDetail(mesh, wanted.file_pose);
+  notes.push_back("detail_mesh " + path + ": " + report.text());
+  notes.insert(notes.end(), report.look_notes.begin(), report.look_notes.end());
+  return mesh;
+}
+
+bool anyMaterial(const TriangleMesh& mesh, bool textured) {
+  if (!mesh.detail) return false;
+  const auto& all = mesh.detail->materials;
+  return std::any_of(all.begin(), all.end(), [&](const SurfaceMaterial& of) {
+    return textured ? of.color_texture.image >= 0 : of.has_color || of.color_texture.image >= 0;
+  });
+}
+
+}  // namespace
+
+TriangleMesh detailedSurface(TriangleMesh surface, const DetailWanted& wanted, std::vector<std::string>& notes,
+                             const Progress& progress) {
+  const BodyConfig& config = wanted.config;
+  const size_t faces = surface.triangles.size();
+  const bool fewer = config.skin_faces > 0 && static_cast<size_t>(config.skin_faces) < faces;
+  TriangleMesh skin = fewer ? withFewerFaces(surface, static_cast<size_t>(config.skin_faces)) : surface;
+  if (fewer) {
+    notes.push_back("skin: " + std::to_string(faces) + " faces simplified to " + std::to_string(skin.triangles.size()));
+  }
+  requireSkinSize(skin, wanted.longest_edge_m, config.import_limits.max_triangles);
+  if (!fewer && config.detail_mesh.empty() && !wanted.paint) return skin;
+  // Refined before it is baked: the shading normals between its vertices are those that will be bound.
+  skin = refine(skin, wanted.longest_edge_m);
+  if (!fewer && config.detail_mesh.empty()) return paintDetail(skin, wanted.paint, config.detail_px, progress);
+  const std::string path = (std::filesystem::path(wanted.folder) / config.detail_mesh).string();
+  const bool own = config.detail_mesh.empty();
+  const TriangleMesh detailed = own ? std::move(surface) : readDetail(path, wanted, notes);
+  skin.charts.clear();
+  BakeReport report;
+  TriangleMesh baked = bakeDetail({skin, detailed, anyMaterial(detailed, own), config.detail_px}, &report, progress);
+  if (report.uncovered_share > kElsewhere) {
+    throw MeshError("detail_mesh '" + path + "' lies elsewhere: it is not near " +
+                    std::to_string(static_cast<int>(100 * report.uncovered_share)) +
+                    " % of the skin; it is placed as mesh_file is, with unit_scale_m, up_axis and the body's pose");
+  }
+  notes.push_back(report.text());
+  return baked;
+}
+
+}  // namespace viscera

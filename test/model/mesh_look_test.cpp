@@ -1,0 +1,203 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Colours, textures and texture coordinates that mesh files bring, and what happens where they are bad.
+#include <gtest/gtest.h>
+#include <png.h>
+#include <turbojpeg.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "support/temporary_folder.h"
+#include "viscera/model/shape/mesh_import.h"
+
+namespace viscera {
+namespace {
+
+using test::TemporaryFolder;
+
+constexpr float kTexel = 1e-4F;  // of a coordinate: rounding of charts in float32, for pictures of up to 5000 texels
+
+/// Two texels beside each other, red and green; below them blue and white.
+std::string pngBytes() {
+  const std::vector<uint8_t> rgb = {255, 0, 0, 0, 255, 0, 0, 0, 255, 255, 255, 255};
+  png_image image{};
+  image.version = PNG_IMAGE_VERSION;
+  image.width = image.height = 2;
+  image.format = PNG_FORMAT_RGB;
+  png_alloc_size_t size = 0;
+  png_image_write_to_memory(&image, nullptr, &size, 0, rgb.data(), 0, nullptr);
+  std::string out(size, 0);
+  png_image_write_to_memory(&image, out.data(), &size, 0, rgb.data(), 0, nullptr);
+  return out.substr(0, size);
+}
+
+std::string jpegBytes() {
+  const std::vector<uint8_t> gray(3 * 16 * 16, 128);
+  unsigned char* bytes = nullptr;
+  unsigned long size = 0;
+  const tjhandle compressor = tjInitCompress();
+  tjCompress2(compressor, gray.data(), 16, 0, 16, TJPF_RGB, &bytes, &size, TJSAMP_444, 90, 0);
+  std::string out(reinterpret_cast<char*>(bytes), size);
+  tjFree(bytes);
+  tjDestroy(compressor);
+  return out;
+}
+
+/// A tetrahedron with coordinates, whose first face has u = x and v = y.
+std::string obj(const std::string& coordinates = "vt 0 0\nvt 1 0\nvt 0 1\nvt 1 1\n") {
+  return "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n" + coordinates +
+         "o part\nusemtl m\nf 1/1 3/3 2/2\nf 1/1 2/2 4/4\nf 2/2 3/3 4/4\nf 3/3 1/1 4/4\n";
+}
+
+TriangleMesh import(const TemporaryFolder& folder, ImportReport& report, bool with_look = true) {
+  return importMesh(folder.file("a.obj"), 1, &report, {}, with_look);
+}
+
+std::string joined(const ImportReport& report) {
+  std::string out;
+  for (const std::string& note : report.look_notes) out += note + "\n";
+  return out;
+}
+
+TEST(MeshLook, CoordinatesAreFunctionsOfTheRestPosition) {
+  const TemporaryFolder folder;
+  folder.write("a.obj", obj());
+  folder.write("a.mtl", "newmtl m\nKd 0.5 0.5 0.5\nmap_Kd picture.png\n");
+  folder.write("picture.png", pngBytes());
+  ImportReport report;
+  const TriangleMesh mesh = import(folder, report);
+  EXPECT_EQ(joined(report), "");
+  ASSERT_TRUE(mesh.detail);
+  ASSERT_EQ(mesh.charts.size(), mesh.triangles.size());
+  const TextureChart& chart = mesh.detail->charts[mesh.charts[0]];
+  for (const Vector3f& p : {Vector3f(0, 0, 0), Vector3f(1, 0, 0), Vector3f(0, 1, 0), Vector3f(0.25F, 0.5F, 0)}) {
+    EXPECT_NEAR(chart.u.head<3>().dot(p) + chart.u[3], p.x(), kTexel);
+    EXPECT_NEAR(chart.v.head<3>().dot(p) + chart.v[3], p.y(), kTexel);
+  }
+  ASSERT_EQ(mesh.detail->images.size(), 1u);
+  const std::vector<uint8_t> first(mesh.detail->images[0].rgba.begin(), mesh.detail->images[0].rgba.begin() + 4);
+  EXPECT_EQ(first, (std::vector<uint8_t>{0, 0, 255, 255}));  // v = 0 is the picture's last row
+}
+
+TEST(MeshLook, RefinedTrianglesKeepTheirCoordinates) {
+  const TemporaryFolder folder;
+  folder.write("a.obj", obj());
+  folder.write("a.mtl", "newmtl m\nmap_Kd picture.png\n");
+  folder.write("picture.png", pngBytes());
+  ImportReport report;
+  const TriangleMesh mesh = import(folder, report), fine = refine(mesh, 0.3);
+  ASSERT_GT(fine.triangles.size(), 4 * mesh.triangles.size());
+  ASSERT_EQ(fine.charts.size(), fine.triangles.size());
+  EXPECT_EQ(fine.detail, mesh.detail);
+  for (size_t t = 0; t < fine.triangles.size(); ++t) {
+    if (fine.charts[t] != mesh.charts[0]) continue;
+    for (const uint32_t v : fine.triangles[t]) EXPECT_EQ(fine.positions_m[v].z(), 0);  // all in the first face
+  }
+}
+
+TEST(MeshLook, ColorsOfMaterialsWithoutPictures) {
+  const TemporaryFolder folder;
+  folder.write("a.obj", obj());
+  folder.write("a.mtl", "newmtl m\nKd 1 0.5 0\n");
+  ImportReport report;
+  const TriangleMesh mesh = import(folder, report);
+  ASSERT_TRUE(mesh.detail);
+  EXPECT_TRUE(mesh.charts.empty());
+  ASSERT_EQ(mesh.detail->part_materials, std::vector<uint32_t>{0});
+  EXPECT_TRUE(mesh.detail->materials[0].has_color);
+  EXPECT_NEAR(mesh.detail->materials[0].color[1], 0.214, 0.001);  // 0.5 on a screen
+  EXPECT_FALSE(import(folder, report, false).detail);
+}
+
+TEST(MeshLook, FileWithoutMaterialsHasNoLook) {
+  const TemporaryFolder folder;
+  folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
+  ImportReport report;
+  EXPECT_FALSE(import(folder, report).detail);
+}
+
+TEST(MeshLook, NormalMapsAreRead) {
+  for (const char* key : {"norm", "map_Kn"}) {
+    SCOPED_TRACE(key);
+    const TemporaryFolder folder;
+    folder.write("a.obj", obj());
+    folder.write("a.mtl", std::string("newmtl m\nmap_Kd picture.png\n") + key + " normals.png\n");
+    folder.write("picture.png", pngBytes());
+    folder.write("normals.png", pngBytes());
+    ImportReport report;
+    const TriangleMesh mesh = import(folder, report);
+    EXPECT_EQ(joined(report), "");
+    ASSERT_EQ(mesh.detail->images.size(), 2u);
+    EXPECT_EQ(mesh.detail->materials[mesh.detail->charts[0].material].normal_texture.image, 1);
+  }
+}
+
+TEST(MeshLook, JpegIsRead) {
+  const TemporaryFolder folder;
+  folder.write("a.obj", obj());
+  folder.write("a.mtl", "newmtl m\nmap_Kd picture.jpg\n");
+  folder.write("picture.jpg", jpegBytes());
+  ImportReport report;
+  const TriangleMesh mesh = import(folder, report);
+  EXPECT_EQ(joined(report), "");
+  ASSERT_EQ(mesh.detail->images.size(), 1u);
+  EXPECT_EQ(mesh.detail->images[0].width_px, 16);
+  EXPECT_NEAR(mesh.detail->images[0].rgba[0], 128, 2);
+}
+
+/// Each bad picture: one note with file and key, and the mesh in its base colour.
+TEST(MeshLook, BadPicturesAreNotedByNameAndLeftOut) {
+  const std::string whole = pngBytes(), jpeg = jpegBytes();
+  const struct {
+    const char* name;
+    std::string bytes, note;
+  } cases[] = {{"missing.png", "", "no such file"},
+               {"cut.png", whole.substr(0, whole.size() / 2), "no PNG that can be read"},
+               {"cut.jpg", jpeg.substr(0, jpeg.size() / 2), "no JPEG that can be read"},
+               {"other.webp", "RIFF1234WEBP", "neither PNG nor JPEG; it begins with 'RIFF1234'"},
+               {"empty.png", "empty", "neither PNG nor JPEG"}};
+  for (const auto& of : cases) {
+    SCOPED_TRACE(of.name);
+    const TemporaryFolder folder;
+    folder.write("a.obj", obj());
+    folder.write("a.mtl", std::string("newmtl skin\nKd 1 0 0\nmap_Kd ") + of.name + "\nnewmtl m\nKd 0 1 0\nmap_Kd " +
+                              of.name + "\n");
+    if (!of.bytes.empty()) folder.write(of.name, of.bytes);
+    ImportReport report;
+    const TriangleMesh mesh = import(folder, report);
+    const std::string notes = joined(report);
+    EXPECT_EQ(report.look_notes.size(), 1u) << notes;
+    for (const std::string& part :
+         {std::string("a.obj"), std::string("baseColorTexture of material 'm'"), std::string(of.name), of.note})
+      EXPECT_NE(notes.find(part), std::string::npos) << part << " in " << notes;
+    EXPECT_TRUE(mesh.charts.empty());
+    ASSERT_TRUE(mesh.detail);
+    EXPECT_GT(mesh.detail->materials[mesh.detail->part_materials[0]].color[1], 0.9F);
+  }
+}
+
+TEST(MeshLook, AbsentAndWildCoordinatesAreNoted) {
+  const TemporaryFolder folder;
+  folder.write("a.mtl", "newmtl m\nmap_Kd picture.png\n");
+  folder.write("picture.png", pngBytes());
+  folder.write(
+      "a.obj",
+      "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\no part\nusemtl m\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
+  ImportReport report;
+  EXPECT_TRUE(import(folder, report).charts.empty());
+  EXPECT_NE(joined(report).find("part 'part' has no texture coordinates"), std::string::npos) << joined(report);
+  folder.write("a.obj", obj("vt 0 0\nvt 1e30 0\nvt 0 1\nvt 1 1\n"));
+  const TriangleMesh wild = import(folder, report);
+  EXPECT_NE(joined(report).find("texture coordinates that are no number within"), std::string::npos) << joined(report);
+  EXPECT_EQ(std::count(wild.charts.begin(), wild.charts.end(), kNoChart), 3);  // the faces at that corner
+  folder.write("a.obj", obj("vt 0 0\nvt 7.5 0\nvt 0 -3\nvt 1 1\n"));           // pictures repeat
+  const TriangleMesh repeated = import(folder, report);
+  EXPECT_EQ(joined(report), "");
+  EXPECT_EQ(std::count(repeated.charts.begin(), repeated.charts.end(), kNoChart), 0);
+}
+
+}  // namespace
+}  // namespace viscera
