@@ -7,6 +7,10 @@
 layout(location = 0) in vec3 mesh_position_m;
 layout(location = 1) in vec3 mesh_normal;
 layout(location = 2) in vec4 mesh_color;
+#ifdef REST
+layout(location = 3) in vec4 mesh_rest;  // xyz m at rest, w depth below the skin [m]
+out vec4 rest;
+#endif
 uniform mat4 optical_from_mesh;
 uniform mat4 clip_from_optical;
 out vec3 position_m;
@@ -16,6 +20,9 @@ out vec4 color;
 void main() {
   position_m = (optical_from_mesh * vec4(mesh_position_m, 1.0)).xyz;
   normal = mat3(optical_from_mesh) * mesh_normal;
+#ifdef REST
+  rest = mesh_rest;
+#endif
   color = vec4(linearFromSrgb(mesh_color.rgb), mesh_color.a);
   gl_Position = clip_from_optical * vec4(position_m, 1.0);
 }

@@ -1,9 +1,18 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// tissue.frag - wet, slightly translucent tissue; a back face is the raw inside, except of a sheet (alpha 0); alpha 0.63: a wound's wall.   Owner: render/tissue_painter.h
+// tissue.frag - wet, slightly translucent tissue; a back face is the raw inside, except of a sheet.   Owner: render/tissue_painter.h
+// Colour's alpha tells them apart (surface/part_colors.h): a sheet, the wall of a wound, or skin; and the body.
+// REST: vertices know their place at rest. GRAIN: what varies from place to place, and layers of walls (grain.glsl). DETAIL: textures
+// (detail.glsl).
 #include "layout.h"
 #include "shading.glsl"
+#ifdef DETAIL
+#include "detail.glsl"
+#endif
+#ifdef GRAIN
+#include "grain.glsl"
+#endif
 
 uniform int shafts;  // tools that cast a shadow
 uniform vec4 shaft_tips[kMaxStyluses];  // xyz m; w radius of a ball at the tip [m]
@@ -11,12 +20,17 @@ uniform vec4 shaft_ends[kMaxStyluses];  // xyz m; w radius of the shaft [m]
 in vec3 position_m;
 in vec3 normal;
 in vec4 color;
+#ifdef REST
+in vec4 rest;  // xyz place at rest [m], w depth below the skin [m]
+#endif
 layout(location = 0) out vec4 image;
 
 const vec3 kWrap = vec3(0.42, 0.14, 0.10);         // red light travels furthest
 const vec3 kGrazingTint = vec3(0.50, 0.28, 0.30);  // deeper where the line of sight passes through more tissue
 const vec3 kRawTint = vec3(0.36, 0.13, 0.13);      // of the inside, on top of the tissue's own colour
 const float kFilm = 0.035;                         // reflectance of the fluid film, seen straight on
+const float kRoughness = 0.25;                     // of tissue of which nothing else is said
+const float kSmoothest = 0.08;                     // a lamp is no point
 const float kLampSize = 0.10;                      // of the key lamp, seen from the tissue [rad]: softness of shadows
 const float kTurnedAway = 0.2;                     // cosine between a wall's smooth normal and the line of sight below which it is not taken
 const float kDeepest = 0.25;                       // share of the key light that reaches a full shadow
@@ -35,19 +49,35 @@ float passing(vec4 tip, vec4 end) {
 }
 
 void main() {
-  vec3 n = seenNormal(normal, position_m, gl_FrontFacing);
+  bool wall = color.a > 0.55 && color.a < 0.75;  // of a wound: few, large triangles, whose smooth normals may look away
+  vec3 albedo = color.rgb, outward = normal;
+  float roughness = kRoughness, shade = 1.0;
+#ifdef REST
+  vec3 rest_x = dFdx(rest.xyz), rest_y = dFdy(rest.xyz), position_x = dFdx(position_m), position_y = dFdy(position_m);
+#endif
+#ifdef GRAIN
+  vec4 grain = grainAt(rest.xyz, rest_x, rest_y);
+  roughness = body_finish[bodyOf(color.a)].x;
+#endif
+#ifdef DETAIL
+  if (dot(normal, normal) > 0.01) outward = normalize(normal);
+  addDetail(rest.xyz, rest_x, rest_y, position_x, position_y, albedo, outward, roughness);
+#endif
+  vec3 n = seenNormal(outward, position_m, gl_FrontFacing);
   vec3 to_eye = -normalize(position_m);
-  bool wall = color.a > 0.55 && color.a < 0.75;  // of a wound (surface/wounds.cpp): few, large triangles, whose smooth normals may look away
   if (wall && dot(n, to_eye) < kTurnedAway) n = flatNormal(position_m);
+#ifdef GRAIN
+  addGrain(grain, color.a, wall, rest.w, position_x, position_y, albedo, n, roughness, shade);
+#endif
   float n_v = clamp(dot(n, to_eye), 0.0, 1.0);
   float n_h = max(dot(n, normalize(kToKey + to_eye)), 0.0);
   vec3 key = kKeyLight;
   for (int i = 0; i < shafts; ++i) key *= passing(shaft_tips[i], shaft_ends[i]);
 
   bool skin = gl_FrontFacing || color.a < 0.5;
-  vec3 albedo = color.rgb * mix(kGrazingTint, vec3(1.0), n_v) * (skin ? vec3(1.0) : kRawTint);
-  vec3 diffuse = albedo * (key * wrappedDiffuse(dot(n, kToKey), kWrap) + fill(n));
-  float wet = 0.6 * highlight(n_h, 0.25) + 0.3 * highlight(n_h, 0.48);
+  albedo *= mix(kGrazingTint, vec3(1.0), n_v) * (skin ? vec3(1.0) : kRawTint);
+  vec3 diffuse = shade * albedo * (key * wrappedDiffuse(dot(n, kToKey), kWrap) + fill(n));
+  float wet = 0.6 * highlight(n_h, max(roughness, kSmoothest)) + 0.3 * highlight(n_h, min(roughness + 0.23, 1.0));
   vec3 gloss = kFilm * wet * key + 0.6 * fresnel(n_v, kFilm) * fill(reflect(-to_eye, n));
-  image = vec4(shoulder(diffuse + (skin ? 1.0 : 0.4) * gloss), 1.0);
+  image = vec4(shoulder(diffuse + (skin ? shade : 0.4) * gloss), 1.0);
 }

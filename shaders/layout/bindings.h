@@ -107,6 +107,13 @@ const uint kUnitLinkForces = 12u;      // rgba32f, as kBindLinkForces
 const uint kUnitRest = 13u;            // rgba32f, as kBindRest
 const uint kUnitCellMoments = 15u;     // rgba32f [3 * (1 + fills)]: CellMoments, those of a cell filled all through first
 const uint kUnitForceStarts = 14u;     // r32ui [slots + 1]: first place of the forces on a node
+// Of drawing: beyond those of kernels, which share the context.
+const uint kUnitShownCharts = 16u;     // r32ui [triangles drawn]: see Surface::liveCharts
+const uint kUnitCharts = 17u;          // rgba32f, 3 per TextureChart
+const uint kUnitMaterials = 18u;       // rgba32f, 3 per SurfaceMaterial
+const uint kUnitColors = 19u;          // pictures, an array: colours
+const uint kUnitReliefs = 20u;         // pictures, an array: normals and roughness
+const uint kUnitGrain = 21u;           // a picture in three dimensions: what tissue has of irregular
 
 #ifdef __cplusplus
 }  // namespace viscera::layout

@@ -143,11 +143,17 @@ constexpr uint kUnits[] = {kUnitDisplacement, kUnitVelocity, kUnitBricks,      k
                            kUnitNodeMass,     kUnitCellBulk, kUnitCellForces,  kUnitIncrement,
                            kUnitPositions,    kUnitLinks,    kUnitLinkStarts,  kUnitSpringOwners,
                            kUnitLinkForces,   kUnitRest,     kUnitForceStarts, kUnitCellMoments};
+constexpr uint kDrawingUnits[] = {kUnitShownCharts, kUnitCharts, kUnitMaterials, kUnitColors, kUnitReliefs, kUnitGrain};
 
+/// OpenGL promises 16 units to a stage, and 80 to all stages together.
 constexpr bool eachOnceAndPromised() {
   uint taken = 0;
   for (const uint unit : kUnits) {
     if (unit >= 16 || (taken & 1u << unit) != 0) return false;
+    taken |= 1u << unit;
+  }
+  for (const uint unit : kDrawingUnits) {
+    if (unit < 16 || unit >= 32 || (taken & 1u << unit) != 0) return false;
     taken |= 1u << unit;
   }
   return true;

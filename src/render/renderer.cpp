@@ -35,17 +35,17 @@ void prepareImage() {
 }
 
 MeshView viewOf(const Surface& surface) {
-  return {surface.positions().id(), surface.normals().id(), surface.colors().id(), surface.liveIndices().id(),
-          surface.liveCount()};
+  return {surface.positions().id(), surface.normals().id(), surface.colors().id(),   surface.liveIndices().id(),
+          surface.liveCount(),      surface.rests().id(),   surface.liveChartsView()};
 }
 
 }  // namespace
 
 Renderer::Renderer(const std::vector<CameraConfig>& cameras, const std::vector<StylusConfig>& styluses,
-                   const std::vector<ObstacleConfig>& obstacles)
+                   const std::vector<ObstacleConfig>& obstacles, const Model* model)
     : cameras_(cameras),
       styluses_(styluses),
-      tissue_(std::make_unique<TissuePainter>()),
+      tissue_(std::make_unique<TissuePainter>(model)),
       tools_(std::make_unique<ToolPainter>(styluses)) {
   if (!obstacles.empty()) obstacles_ = std::make_unique<ObstaclePainter>(obstacles);
   for (const CameraConfig& camera : cameras) {

@@ -26,6 +26,8 @@ struct MeshView {
   uint32_t colors = 0;     ///< uint[vertices] sRGB, red in the lowest byte
   uint32_t indices = 0;    ///< uint[index_count], counter-clockwise seen from outside; (0, 0, 0) draws nothing
   size_t index_count = 0;
+  uint32_t rests = 0;   ///< vec4[vertices] see JoinedSkins::rests; 0: none, and no detail
+  uint32_t charts = 0;  ///< texel view of uint[index_count / 3] texture charts (JoinedSkins::charts); 0: none
 };
 
 /// Off-screen colour images of the surface and the tools, one framebuffer per camera. Draws only when asked.
@@ -37,8 +39,9 @@ class Renderer {
   /// rasteriser, where the time goes into the setup of small triangles, 2 x 2 costs less than multisampling with 4
   /// samples, and it smooths highlights too.
   /// @throws SceneError  a camera without a line of sight;  GpuError  a framebuffer that the driver refuses
+  /// @param model  whose surface is drawn: its textures are; null: none are
   Renderer(const std::vector<CameraConfig>& cameras, const std::vector<StylusConfig>& styluses,
-           const std::vector<ObstacleConfig>& obstacles = {});
+           const std::vector<ObstacleConfig>& obstacles = {}, const Model* model = nullptr);
   ~Renderer();
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;

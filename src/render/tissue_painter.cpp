@@ -2,34 +2,97 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "render/tissue_painter.h"
 
+#include <algorithm>
+#include <cmath>
+
+#include "layout/bindings.h"
 #include "render/mesh_uniforms.h"
 
 namespace viscera {
 
-TissuePainter::TissuePainter() : program_(gpu::Program::graphics("mesh.vert", "tissue.frag")) {
-  inputs_.describe(kPositionInput, kPositionInput, 3, GL_FLOAT, GL_FALSE, 0);
-  inputs_.describe(kNormalInput, kNormalInput, 4, GL_INT_2_10_10_10_REV, GL_TRUE, 0);
-  inputs_.describe(kColorInput, kColorInput, 4, GL_UNSIGNED_BYTE, GL_TRUE, 0);
+namespace {
+
+void describe(VertexArray& inputs) {
+  inputs.describe(kPositionInput, kPositionInput, 3, GL_FLOAT, GL_FALSE, 0);
+  inputs.describe(kNormalInput, kNormalInput, 4, GL_INT_2_10_10_10_REV, GL_TRUE, 0);
+  inputs.describe(kColorInput, kColorInput, 4, GL_UNSIGNED_BYTE, GL_TRUE, 0);
+}
+
+Vector3f linear(const Vector3d& srgb) {
+  const auto one = [](double c) { return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4); };
+  return Vector3d(one(srgb.x()), one(srgb.y()), one(srgb.z())).cast<float>();
+}
+
+/// Tells shaders/draw/grain.glsl how the bodies look.
+void setFinishes(const gpu::Program& program, const Model& model) {
+  constexpr size_t kLayers = 4;  // of a body in grain.glsl, and at most in a scene
+  std::vector<float> finishes(4 * layout::kMaxBodies), layers(4 * kLayers * layout::kMaxBodies);
+  for (size_t b = 0; b < model.bodies.size(); ++b) {
+    const Body& body = model.bodies[b];
+    const size_t count = std::min(body.layers.size(), kLayers);
+    finishes[4 * b] = static_cast<float>(body.roughness);
+    finishes[4 * b + 1] = static_cast<float>(body.mottling);
+    finishes[4 * b + 2] = static_cast<float>(count);
+    for (size_t i = 0; i < count; ++i) {
+      const Vector3f color = linear(body.layers[i].color);
+      std::copy_n(color.data(), 3, &layers[4 * (kLayers * b + i)]);
+      layers[4 * (kLayers * b + i) + 3] = static_cast<float>(body.layers[i].depth_m);
+    }
+  }
+  program.setVectors("body_finish", finishes.data(), 4, layout::kMaxBodies);
+  program.setVectors("body_layers", layers.data(), 4, kLayers * layout::kMaxBodies);
+}
+
+}  // namespace
+
+TissuePainter::TissuePainter(const Model* model) : program_(gpu::Program::graphics("mesh.vert", "tissue.frag")) {
+  describe(inputs_);
+  if (model == nullptr) return;
+  const auto is_tissue = [](const Body& body) { return !body.skin.two_sided; };
+  if (std::any_of(model->bodies.begin(), model->bodies.end(), is_tissue)) grain_ = std::make_unique<GrainTexture>();
+  detail_ = std::make_unique<DetailTextures>(*model);
+  if (!detail_->any()) detail_.reset();
+  if (!grain_ && !detail_) return;
+  describe(tissue_inputs_);
+  tissue_inputs_.describe(kRestInput, kRestInput, 4, GL_FLOAT, GL_FALSE, 0);
+  std::vector<std::string> features = {"REST"};
+  if (grain_) features.emplace_back("GRAIN");
+  if (detail_) features.emplace_back("DETAIL");
+  tissue_program_ = gpu::Program::graphics("mesh.vert", "tissue.frag", features);
+  if (grain_) setFinishes(tissue_program_, *model);
 }
 
 void TissuePainter::draw(const MeshView& mesh, const ToolShadows& shadows, const Pose& optical_from_tissue,
                          const Eigen::Matrix4f& clip_from_optical) {
   glMemoryBarrier(GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_ELEMENT_ARRAY_BARRIER_BIT);  // kernels wrote these buffers
-  glVertexArrayVertexBuffer(inputs_.id(), kPositionInput, mesh.positions, 0, 3 * sizeof(float));
-  glVertexArrayVertexBuffer(inputs_.id(), kNormalInput, mesh.normals, 0, sizeof(uint32_t));
-  glVertexArrayVertexBuffer(inputs_.id(), kColorInput, mesh.colors, 0, sizeof(uint32_t));
-  glVertexArrayElementBuffer(inputs_.id(), mesh.indices);
-  glBindVertexArray(inputs_.id());
-  program_.use();
-  setMeshMatrices(program_, optical_from_tissue, clip_from_optical);
-  program_.set("shafts", shadows.count);
+  const bool at_rest = tissue_program_ && mesh.rests != 0;
+  const VertexArray& inputs = at_rest ? tissue_inputs_ : inputs_;
+  glVertexArrayVertexBuffer(inputs.id(), kPositionInput, mesh.positions, 0, 3 * sizeof(float));
+  glVertexArrayVertexBuffer(inputs.id(), kNormalInput, mesh.normals, 0, sizeof(uint32_t));
+  glVertexArrayVertexBuffer(inputs.id(), kColorInput, mesh.colors, 0, sizeof(uint32_t));
+  glVertexArrayElementBuffer(inputs.id(), mesh.indices);
+  if (at_rest) glVertexArrayVertexBuffer(inputs.id(), kRestInput, mesh.rests, 0, 4 * sizeof(float));
+  if (at_rest && grain_) grain_->bind();
+  if (at_rest && detail_) {
+    glBindTextureUnit(layout::kUnitShownCharts, mesh.charts);
+    detail_->bind();
+  }
+  glBindVertexArray(inputs.id());
+  drawWith(at_rest ? tissue_program_ : program_, mesh, shadows, optical_from_tissue, clip_from_optical);
+  glBindVertexArray(0);
+}
+
+void TissuePainter::drawWith(const gpu::Program& program, const MeshView& mesh, const ToolShadows& shadows,
+                             const Pose& optical_from_tissue, const Eigen::Matrix4f& clip_from_optical) {
+  program.use();
+  setMeshMatrices(program, optical_from_tissue, clip_from_optical);
+  program.set("shafts", shadows.count);
   if (shadows.count > 0) {
     const auto count = static_cast<size_t>(shadows.count);
-    program_.setVectors("shaft_tips", shadows.tips[0].data(), 4, count);
-    program_.setVectors("shaft_ends", shadows.ends[0].data(), 4, count);
+    program.setVectors("shaft_tips", shadows.tips[0].data(), 4, count);
+    program.setVectors("shaft_ends", shadows.ends[0].data(), 4, count);
   }
   glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(mesh.index_count), GL_UNSIGNED_INT, nullptr);
-  glBindVertexArray(0);
 }
 
 }  // namespace viscera

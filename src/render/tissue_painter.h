@@ -3,6 +3,8 @@
 #pragma once
 
 #include "gpu/program.h"
+#include "render/detail_textures.h"
+#include "render/grain_texture.h"
 #include "render/renderer.h"
 #include "render/tool_shadows.h"
 #include "render/vertex_array.h"
@@ -13,14 +15,21 @@ namespace viscera {
 /// shaders/draw/mesh.vert.
 class TissuePainter {
  public:
-  TissuePainter();  ///< @throws GpuError  file, line and driver log of a shader that does not compile
+  /// @param model  whose textures are drawn; null: none are
+  /// @throws GpuError  file, line and driver log of a shader that does not compile
+  explicit TissuePainter(const Model* model);
   /// Draws into the bound framebuffer; depth test, front face and blending are the caller's.
   void draw(const MeshView& mesh, const ToolShadows& shadows, const Pose& optical_from_tissue,
             const Eigen::Matrix4f& clip_from_optical);
 
  private:
-  gpu::Program program_;
-  VertexArray inputs_;
+  void drawWith(const gpu::Program& program, const MeshView& mesh, const ToolShadows& shadows,
+                const Pose& optical_from_tissue, const Eigen::Matrix4f& clip_from_optical);
+
+  std::unique_ptr<DetailTextures> detail_;  ///< null where no skin has any
+  std::unique_ptr<GrainTexture> grain_;     ///< null where all is cloth
+  gpu::Program program_, tissue_program_;   ///< the latter for all that has a place at rest
+  VertexArray inputs_, tissue_inputs_;
 };
 
 }  // namespace viscera

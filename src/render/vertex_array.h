@@ -7,7 +7,7 @@
 namespace viscera {
 
 /// Inputs of shaders/draw/mesh.vert.
-enum MeshInput : GLuint { kPositionInput = 0, kNormalInput = 1, kColorInput = 2 };
+enum MeshInput : GLuint { kPositionInput = 0, kNormalInput = 1, kColorInput = 2, kRestInput = 3 };
 
 /// How vertex inputs are read from buffers; the buffers themselves are bound when drawing.
 class VertexArray {

@@ -47,7 +47,7 @@ bool isSame(const Pose& a, const Pose& b) {
 InlineView::InlineView(const Model& model, const Scene& scene)
     : model_(model),
       surface_(model),
-      renderer_(scene.cameras, scene.styluses, scene.obstacles),
+      renderer_(scene.cameras, scene.styluses, scene.obstacles, &model),
       surface_ring_(makeRing(surface_)) {
   for (const CameraConfig& camera : scene.cameras) {
     eyes_.push_back({camera, std::make_unique<gpu::ReadbackRing>(imageBytes(camera), kImagesInFlight, "an image"), {}});

@@ -96,7 +96,9 @@ void JoinedSkins::append(const Body& body, const NetworkSkins::Place& place, Mov
   }
   appendBindings(skin, place.slot);
   appendTriangles(skin, place);
-  const std::vector<uint32_t> own_colors = vertexColors(skin.mesh, body.color, skin.two_sided);
+  appendRests(skin);
+  appendCharts(skin, place);
+  const std::vector<uint32_t> own_colors = vertexColors(skin.mesh, body.color, skin.two_sided, bodies_++);
   colors.insert(colors.end(), own_colors.begin(), own_colors.end());
   for (const SplitEdge& edge : skin.split_edges) {
     colors.push_back(own_colors[edge.a]);
@@ -147,6 +149,28 @@ void JoinedSkins::appendTriangles(const Skin& skin, const NetworkSkins::Place& p
     for (uint32_t v : skin.mesh.triangles[t]) triangles.push_back(v + place.vertex);
     tie_starts.push_back(skin.tie_starts[t + 1] + first_tie);
   }
+}
+
+/// The vertices of a split edge begin in its middle.
+void JoinedSkins::appendRests(const Skin& skin) {
+  const auto add = [&](const Vector3f& at) { rests.push_back({at.x(), at.y(), at.z(), 0}); };
+  for (const Vector3f& at : skin.mesh.positions_m) add(at);
+  for (const SplitEdge& edge : skin.split_edges) {
+    const Vector3f middle = 0.5F * (skin.mesh.positions_m[edge.a] + skin.mesh.positions_m[edge.b]);
+    add(middle);
+    add(middle);
+  }
+}
+
+void JoinedSkins::appendCharts(const Skin& skin, const NetworkSkins::Place& place) {
+  const size_t all = place.triangle + skin.mesh.triangles.size();
+  if (!skin.mesh.charts.empty()) {
+    charts.resize(place.triangle, kNoChart);  // of bodies before, that have none
+    for (const uint32_t chart : skin.mesh.charts) charts.push_back(chart == kNoChart ? chart : chart + charts_before_);
+  } else if (!charts.empty()) {
+    charts.resize(all, kNoChart);
+  }
+  if (skin.mesh.detail) charts_before_ += static_cast<uint32_t>(skin.mesh.detail->charts.size());
 }
 
 JoinedSkins joinSkins(const Model& model, MovedNormals normals) {

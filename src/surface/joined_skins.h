@@ -42,6 +42,9 @@ struct JoinedSkins {
   std::vector<layout::SurfaceNode> carried_nodes, summed_nodes;
   std::vector<uint32_t> triangles, tie_starts = {0}, colors;
   std::vector<layout::SkinBinding> bindings;
+  std::vector<layout::vec4> rests;  ///< [vertices] xyz at rest [m, tissue frame]; w 0: on the skin
+  /// [triangles] texture charts of all bodies, numbered through, or kNoChart; empty where no body has any
+  std::vector<uint32_t> charts;
   std::vector<layout::Tie> ties;
   NetworkSkins networks;
   bool any_bound = false, any_one_to_one = false;
@@ -53,6 +56,9 @@ struct JoinedSkins {
   void appendBindings(const Skin& skin, uint32_t slot_offset);
   void appendNormalNodes(const Body& body, uint32_t slot_offset, MovedNormals normals);
   void appendTriangles(const Skin& skin, const NetworkSkins::Place& place);
+  void appendRests(const Skin& skin);
+  void appendCharts(const Skin& skin, const NetworkSkins::Place& place);
+  uint32_t charts_before_ = 0, bodies_ = 0;  ///< of the bodies so far
 };
 JoinedSkins joinSkins(const Model& model, MovedNormals normals = MovedNormals::kCarried);
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "viscera/layout/limits.h"
 #include "viscera/math/types.h"
 #include "viscera/model/shape/triangle_mesh.h"
 
@@ -13,8 +14,19 @@ namespace viscera {
 /// Colour of a part of an organ: the organ's colour, a little warmer or cooler and lighter or darker part by part.
 Vector3d partColor(const Vector3d& organ_color, size_t part);
 
-/// RGBA8 (red in the low byte) of every vertex; on a seam the colour of the lowest part. Alpha says what the back of a
-/// triangle looks like: 255 the raw inside of tissue, 0 no different from its front, as in a sheet.
-std::vector<uint32_t> vertexColors(const TriangleMesh& mesh, const Vector3d& organ_color, bool two_sided = false);
+/// The alpha of a body's vertices: shaders/draw/tissue.frag reads of it what a triangle is and whose (bodyOf()).
+constexpr uint32_t skinAlpha(uint32_t body, bool two_sided) {
+  return two_sided ? body : 255 - body;
+}
+constexpr uint32_t wallAlpha(uint32_t body) {
+  return 160 + body;
+}
+static_assert(layout::kMaxBodies <= 16);
+
+/// As the mesh's file has it (TriangleMesh::detail), where it says nothing by partColor() of the organ's colour.
+/// RGBA8 (red in the low byte) of every vertex; on a seam the colour of the lowest part. Alpha is skinAlpha(): the
+/// back of a triangle is the raw inside of tissue, or no different from its front, as in a sheet.
+std::vector<uint32_t> vertexColors(const TriangleMesh& mesh, const Vector3d& organ_color, bool two_sided = false,
+                                   uint32_t body = 0);
 
 }  // namespace viscera

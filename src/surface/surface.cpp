@@ -63,13 +63,22 @@ void publish() {
                   GL_BUFFER_UPDATE_BARRIER_BIT);
 }
 
+/// Charts of all triangles, then of those that are drawn for split ones (split_triangles.comp).
+std::vector<uint32_t> chartsOfPieces(const JoinedSkins& skins) {
+  std::vector<uint32_t> charts = skins.charts;
+  if (charts.empty()) return charts;
+  for (const layout::SplitTriangle& split : skins.networks.triangles)
+    charts.insert(charts.end(), 2, charts[split.triangle]);
+  return charts;
+}
+
 constexpr size_t kRoomForWounds = 2;  // times the vertices and triangles of the skins: beyond it a tick makes buffers
 
 }  // namespace
 
 Surface::Surface(const Model& model) {
   JoinedSkins skins = joinSkins(model);
-  vertices_ = skins.bindings.size();
+  vertices_ = whole_vertices_ = skins.bindings.size();
   const size_t triangles = skins.triangles.size() / 3;
   carried_nodes_ = gpu::Buffer<layout::SurfaceNode>(skins.carried_nodes, "surface nodes");
   summed_nodes_ = gpu::Buffer<layout::SurfaceNode>(skins.summed_nodes, "surface nodes");
@@ -79,12 +88,18 @@ Surface::Surface(const Model& model) {
   positions_ = gpu::Buffer<float>(3 * vertices_, "positions");
   normals_ = gpu::Buffer<uint32_t>(vertices_, "normals");
   colors_ = gpu::Buffer<uint32_t>(skins.colors, "colors");
+  rests_ = gpu::Buffer<layout::vec4>(skins.rests, "rests");
   triangle_buffer_ = gpu::Buffer<uint32_t>(skins.triangles, "triangle buffer");
   ties_ = gpu::Buffer<layout::Tie>(skins.ties, "ties");
   tie_starts_ = gpu::Buffer<uint32_t>(skins.tie_starts, "tie starts");
   alive_ = gpu::Buffer<uint32_t>(triangles, "alive");
   live_count_ = first_wound_index_ = 3 * (triangles + 2 * skins.networks.triangles.size());
   live_ = gpu::Buffer<uint32_t>(live_count_, "live");
+  charts_ = chartsOfPieces(skins);
+  if (!charts_.empty()) {
+    live_charts_ = gpu::Buffer<uint32_t>(charts_, "live charts");
+    live_charts_view_ = gpu::TexelView(live_charts_.raw(), gpu::TexelFormat::kR32ui);
+  }
   if (Wounds::possible(model)) wounds_ = std::make_unique<Wounds>(model, skins);
   was_wounded_.resize(model.bodies.size());
   std::vector<uint32_t> splits = splitsOf(skins);
@@ -164,11 +179,44 @@ void Surface::makeRoom(size_t vertices, size_t indices) {
     positions_ = gpu::Buffer<float>(3 * vertices, "positions");
     normals_ = gpu::Buffer<uint32_t>(vertices, "normals");
     colors_ = gpu::Buffer<uint32_t>(vertices, "colors");
+    gpu::Buffer<layout::vec4> rests(vertices, "rests");
+    rests.copyFrom(rests_);
+    rests_ = std::move(rests);
   }
   if (indices <= live_.size()) return;
   gpu::Buffer<uint32_t> more(indices, "live");
   more.copyFrom(live_);
   live_ = std::move(more);
+  if (charts_.empty()) return;
+  gpu::Buffer<uint32_t> more_charts(indices / 3, "live charts");
+  more_charts.copyFrom(live_charts_);
+  live_charts_ = std::move(more_charts);
+  live_charts_view_ = gpu::TexelView(live_charts_.raw(), gpu::TexelFormat::kR32ui);
+}
+
+/// As showWounds() has placed the triangles.
+void Surface::showWoundedCharts() {
+  if (charts_.empty()) return;
+  const ShownWounds& shown = *wounds_->shown();
+  std::vector<uint32_t> charts = charts_;
+  wound_charts_.clear();
+  size_t first = 0;
+  for (size_t b = 0; b < shown.bodies.size(); ++b) {
+    const size_t count = shown_.trianglesOf(b);
+    const ShownWounds::OfBody& body = shown.bodies[b];
+    for (size_t t = 0; t < body.skin_sources.size(); ++t) {
+      const uint32_t chart = charts_[first + body.skin_sources[t]];
+      if (t < count) {
+        charts[first + t] = chart;
+      } else {
+        wound_charts_.push_back(chart);
+      }
+    }
+    wound_charts_.insert(wound_charts_.end(), body.walls.size() / 3, kNoChart);
+    first += count;
+  }
+  live_charts_.write(charts);
+  live_charts_.write(wound_charts_, first_wound_index_ / 3);
 }
 
 /// Triangles of a wounded body take the place of its whole ones; those that find no room there follow all others.
@@ -181,6 +229,7 @@ void Surface::showWounds() {
   makeRoom(roomFor(vertices_, capacity()), roomFor(first_wound_index_ + beyond, live_.size()));
   bindings_.write(wounds_->bindings());
   colors_.write(wounds_->colors());
+  rests_.write(wounds_->addedRests(), whole_vertices_);
   wound_indices_.clear();
   size_t first = 0;
   for (size_t b = 0; b < shown.bodies.size(); ++b) {
@@ -200,6 +249,7 @@ void Surface::showWounds() {
   }
   live_.write(wound_indices_, first_wound_index_);
   live_count_ = first_wound_index_ + wound_indices_.size();
+  showWoundedCharts();
   followed_revision_ = 0;  // vertices are bound anew
 }
 

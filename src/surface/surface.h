@@ -55,6 +55,10 @@ class Surface {
   const gpu::Buffer<uint32_t>& alive() const { return alive_; }       ///< [triangles] see appendShown
   const gpu::Buffer<uint32_t>& liveIndices() const { return live_; }  ///< for drawing; (0, 0, 0) shows nothing
   size_t liveCount() const { return live_count_; }                    ///< how many of them are to be drawn
+  /// [liveIndices() / 3] texture charts (JoinedSkins::charts) of the triangles drawn; empty where no body has any.
+  const gpu::Buffer<uint32_t>& liveCharts() const { return live_charts_; }
+  uint32_t liveChartsView() const { return live_charts_view_.id(); }  ///< of texels; 0: none
+  const gpu::Buffer<layout::vec4>& rests() const { return rests_; }   ///< [vertices] see JoinedSkins::rests
   const gpu::Buffer<uint32_t>& colors() const { return colors_; }     ///< [vertices] RGBA8, see vertexColors
   const gpu::Buffer<layout::SkinBinding>& bindings() const { return bindings_; }  ///< [vertices]
   const ShownTriangles& skin() const { return shown_; }
@@ -65,11 +69,14 @@ class Surface {
   void followLattices(uint32_t since);
   void showWounds();
   void makeRoom(size_t vertices, size_t indices);
+  void showWoundedCharts();
 
   size_t vertices_ = 0, live_count_ = 0, first_wound_index_ = 0;
   gpu::Buffer<layout::SurfaceNode> carried_nodes_, summed_nodes_;
   gpu::Buffer<uint32_t> normals_, triangle_buffer_, tie_starts_, alive_, live_, colors_;
-  gpu::Buffer<layout::vec4> node_normals_;
+  gpu::Buffer<uint32_t> live_charts_;
+  gpu::TexelView live_charts_view_;
+  gpu::Buffer<layout::vec4> node_normals_, rests_;
   gpu::Buffer<layout::SkinBinding> bindings_;
   gpu::Buffer<layout::Tie> ties_;
   gpu::Buffer<float> positions_;
@@ -79,7 +86,8 @@ class Surface {
   std::unique_ptr<NetworkSurface> networks_;     ///< null where none is
   std::unique_ptr<Wounds> wounds_;               ///< null where no body on a lattice can be cut
   ShownTriangles shown_;
-  std::vector<uint32_t> wound_indices_;
+  std::vector<uint32_t> wound_indices_, charts_, wound_charts_;
+  size_t whole_vertices_ = 0;
   std::vector<bool> was_wounded_;  ///< [bodies]
   uint64_t cut_revision_ = 0, wound_revision_ = 0, mappings_ = 0;
   uint32_t followed_revision_ = 0;  ///< of the state that positions and normals belong to; 0 if nobody knows

@@ -6,30 +6,19 @@
 #include <cmath>
 #include <utility>
 
+#include "surface/part_colors.h"
 #include "viscera/surface/shown_mesh.h"
 
 namespace viscera {
 
 namespace {
 
-const Vector3d kRim(1.05, 0.95,
-                    0.80);       // what of a body's colour is left at the edge of a wall: fat and fascia under the skin
-constexpr double kGrain = 0.10;  // share by which its lightness varies from place to place
-
-constexpr uint32_t kWallAlpha = 160U << 24U;  // by which shaders/draw/tissue.frag knows it
-
-uint32_t rgba(const Vector3d& color) {
-  uint32_t out = kWallAlpha;
+uint32_t rgba(const Vector3d& color, uint32_t body) {
+  uint32_t out = wallAlpha(body) << 24U;
   for (int i = 0; i < 3; ++i) {
     out |= static_cast<uint32_t>(std::lround(255 * std::clamp(color[i], 0.0, 1.0))) << (8 * i);
   }
   return out;
-}
-
-/// -1 to 1, the same at the same place of the tissue at rest.
-double grain(const Vector3d& point) {
-  const double wave = std::sin(12.9898 * point.x() + 78.233 * point.y() + 37.719 * point.z()) * 43758.5453;
-  return 2 * (wave - std::floor(wave)) - 1;
 }
 
 bool canBeWounded(const Body& body) {
@@ -47,8 +36,12 @@ Wounds::Wounds(const Model& model, const JoinedSkins& skins)
   uint32_t vertex = 0;
   for (size_t b = 0; b < model.bodies.size(); ++b) {
     const Body& body = model.bodies[b];
-    Place place{nullptr, model.slotOffset(b), vertex, body.color};
-    if (canBeWounded(body)) place.wound = std::make_unique<BodyWound>(body.skin, body.lattice);
+    Place place{nullptr, model.slotOffset(b),     vertex, body.color, body.lattice.origin_m, body.lattice.spacing_m,
+                nullptr, static_cast<uint32_t>(b)};
+    if (canBeWounded(body)) {
+      place.wound = std::make_unique<BodyWound>(body.skin, body.lattice);
+      place.depths = std::make_unique<WoundDepths>(body.skin, body.lattice);
+    }
     places_.push_back(std::move(place));
     vertex += static_cast<uint32_t>(body.skin.bindings.size() + 2 * body.skin.split_edges.size());
   }
@@ -63,17 +56,12 @@ void Wounds::reset() {
 void Wounds::showWhole() {
   bindings_ = whole_bindings_;
   colors_ = whole_colors_;
+  added_rests_.clear();
   auto none = std::make_shared<ShownWounds>();
   none->revision = revisions_++;
   none->vertices = bindings_.size();
   none->bodies.resize(places_.size());
   shown_ = std::move(none);
-}
-
-uint32_t Wounds::wallColor(const Place& place, const WoundVertex& vertex) const {
-  const bool deep = vertex.skin_vertex == WoundVertex::kNone;
-  const Vector3d color = deep ? woundColor(place.color) : Vector3d(place.color.cwiseProduct(kRim));
-  return rgba((1 + kGrain * grain(vertex.point)) * color);
 }
 
 void Wounds::append(const Place& place, ShownWounds::OfBody& out) {
@@ -96,9 +84,20 @@ void Wounds::append(const Place& place, ShownWounds::OfBody& out) {
       bindings_.push_back(binding);
     }
   }
-  for (const WoundVertex& vertex : wound.lipVertices())
+  for (const WoundVertex& vertex : wound.lipVertices()) {
     colors_.push_back(whole_colors_[place.vertex + vertex.skin_vertex]);
-  for (const WoundVertex& vertex : wound.wallVertices()) colors_.push_back(wallColor(place, vertex));
+    addRest(place, vertex, 0);
+  }
+  const uint32_t flesh = rgba(woundColor(place.color), place.number);
+  for (const WoundVertex& vertex : wound.wallVertices()) {
+    colors_.push_back(flesh);
+    addRest(place, vertex, vertex.skin_vertex == WoundVertex::kNone ? place.depths->at(vertex.point) : 0);
+  }
+}
+
+void Wounds::addRest(const Place& place, const WoundVertex& vertex, double depth_m) {
+  const Vector3f at = (place.origin_m + place.spacing_m * vertex.point).cast<float>();
+  added_rests_.push_back({at.x(), at.y(), at.z(), static_cast<float>(depth_m)});
 }
 
 /// Are these the springs of the last update? A blade that moves through the air changes none.

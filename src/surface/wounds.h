@@ -8,6 +8,7 @@
 
 #include "surface/body_wound.h"
 #include "surface/joined_skins.h"
+#include "surface/wound_depths.h"
 #include "viscera/model/model.h"
 
 namespace viscera {
@@ -44,16 +45,21 @@ class Wounds {
   const std::shared_ptr<const ShownWounds>& shown() const { return shown_; }
   const std::vector<layout::SkinBinding>& bindings() const { return bindings_; }  ///< [shown()->vertices]
   const std::vector<uint32_t>& colors() const { return colors_; }                 ///< [shown()->vertices] RGBA8
+  /// [added] of the vertices beyond the whole skins', as JoinedSkins::rests; w: depth below the skin [m]
+  const std::vector<layout::vec4>& addedRests() const { return added_rests_; }
 
  private:
   struct Place {
     std::unique_ptr<BodyWound> wound;  ///< none where the body is no lattice or cannot be cut
     uint32_t slot = 0, vertex = 0;     ///< where the body's begin
-    Vector3d color;
+    Vector3d color, origin_m;
+    double spacing_m = 1;
+    std::unique_ptr<WoundDepths> depths;  ///< where there is a wound
+    uint32_t number = 0;                  ///< of the body
   };
   void append(const Place& place, ShownWounds::OfBody& out);
-  uint32_t wallColor(const Place& place, const WoundVertex& vertex) const;
 
+  void addRest(const Place& place, const WoundVertex& vertex, double depth_m);
   void showWhole();
   bool isKnown(const layout::NodeBits* nodes);
 
@@ -62,6 +68,7 @@ class Wounds {
   std::vector<layout::NodeBits> springs_;  ///< [slots] of the last update; empty before the first one
   std::vector<layout::SkinBinding> whole_bindings_, bindings_;
   std::vector<uint32_t> whole_colors_, colors_;
+  std::vector<layout::vec4> added_rests_;
   std::shared_ptr<const ShownWounds> shown_;
   uint64_t revisions_ = 1;
 };

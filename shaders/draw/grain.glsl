@@ -1,0 +1,64 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// grain.glsl - what makes tissue uneven: mottled colour, a relief finer than the skin, and in a wound the layers below the
+// skin. All of it is fixed to the rest position, so that it moves and stretches with the tissue, and a cut shows inside what
+// was there before.   Owner: render/grain_texture.h
+layout(binding = kUnitGrain) uniform sampler3D grain_texture;  // x coarse, y fine, z fibres; 0..1, mean 1/2, periodic
+uniform vec4 body_finish[kMaxBodies];               // x roughness, y mottling, z number of layers
+uniform vec4 body_layers[kMaxBodies * 4];           // linear colour; w depth to which the layer reaches [m]
+
+const float kPeriod_m = 0.048;        // of the texture, for patches of some 6 mm
+const float kFinePeriod_m = 0.017;    // for relief of some 2 mm, and its finest parts of a third of that
+const float kRelief_m = 0.00011;      // height of the relief
+const float kBorder_m = 0.0004;       // how far a layer's border wanders
+const vec3 kPale = vec3(1.13, 1.17, 1.14), kDeep = vec3(0.87, 0.80, 0.82);  // of colours: least and most blood
+
+int bodyOf(float alpha) {
+  int code = int(alpha * 255.0 + 0.5);
+  return code >= 240 ? 255 - code : code >= 160 ? code - 160 : code;
+}
+
+/// x coarse, y fine, z fibres: -1..1 about.
+vec4 grainAt(vec3 rest, vec3 rest_x, vec3 rest_y) {
+  vec3 coarse = textureGrad(grain_texture, rest / kPeriod_m, rest_x / kPeriod_m, rest_y / kPeriod_m).xyz;
+  vec3 fine = textureGrad(grain_texture, rest / kFinePeriod_m, rest_x / kFinePeriod_m, rest_y / kFinePeriod_m).xyz;
+  return vec4(2.0 * vec3(coarse.x, fine.y, fine.z) - 1.0, 2.0 * coarse.y - 1.0);
+}
+
+/// Turns a normal as a relief of a height [m] does that varies from pixel to pixel (Mikkelsen).
+vec3 onRelief(vec3 n, float height_m, vec3 position_x, vec3 position_y) {
+  vec3 across_x = cross(position_y, n), across_y = cross(n, position_x);
+  float area = dot(position_x, across_x);
+  vec3 slope = sign(area) * (dFdx(height_m) * across_x + dFdy(height_m) * across_y);
+  vec3 bent = abs(area) * n - slope;
+  return dot(bent, bent) > 0.0 ? normalize(bent) : n;
+}
+
+/// Layers from the skin down, with borders that wander; below the last one `flesh` stays.
+vec3 layered(vec3 flesh, int body, float depth_m, float wander) {
+  float depth = depth_m + kBorder_m * wander * smoothstep(0.0, kBorder_m, depth_m);
+  vec3 out_color = flesh;
+  for (int i = int(body_finish[body].z) - 1; i >= 0; --i) {
+    vec4 layer = body_layers[4 * body + i];
+    out_color = mix(layer.rgb, out_color, smoothstep(-0.1, 0.1, (depth - layer.w) / max(layer.w, 1e-6)));
+  }
+  return out_color;
+}
+
+/// @param shade  gets how much light reaches it: less deep inside a wound
+void addGrain(vec4 grain, float alpha, bool wall, float depth_m, vec3 position_x, vec3 position_y, inout vec3 albedo, inout vec3 n,
+              inout float roughness, inout float shade) {
+  int body = bodyOf(alpha);
+  float mottling = body_finish[body].y;
+  if (alpha < 0.5) return;  // a sheet is cloth, and even
+  if (wall) {
+    albedo = layered(albedo, body, depth_m, grain.y);
+    shade = mix(1.0, 0.55, depth_m / (depth_m + 0.006));
+  }
+  float blood = clamp(0.5 + mottling * (0.8 * grain.x + 0.35 * grain.y), 0.0, 1.0);
+  float fibres = wall ? grain.z : 0.0;
+  albedo *= mix(kPale, kDeep, blood) * (1.0 + 0.22 * mottling * fibres);
+  n = onRelief(n, mottling * kRelief_m * (grain.y + 0.6 * fibres + 0.5 * grain.w), position_x, position_y);
+  roughness = clamp(roughness + 0.08 * mottling * grain.w, 0.0, 1.0);
+}
