@@ -117,7 +117,7 @@ void InlineView::captureImage(size_t camera, const StateView& state, const Look&
 /// Leaves the image bound for reading; draws it if it would differ from the last one.
 void InlineView::draw(size_t camera, const StateView& state, const Look& look) {
   std::optional<Drawn>& drawn = eyes_[camera].drawn;
-  const Overlays overlays = look.overlays[camera];
+  const Overlays overlays = camera < look.overlays.size() ? look.overlays[camera] : Overlays{};  // none were asked for
   if (drawn && state.moved_revision == drawn->moved_revision && state.cut_revision == drawn->cut_revision &&
       looksTheSame(look.motions, drawn->motions) &&
       std::equal(look.obstacles.begin(), look.obstacles.end(), drawn->obstacles.begin(), drawn->obstacles.end(),
