@@ -40,6 +40,30 @@ TEST(BuildModel, ABoxOfFullCellsOfUnevenSizeIsRoundedAndSaysSo) {
   EXPECT_NEAR(signedVolume(body.skin.mesh), 0.05 * 0.05 * 0.01, 1e-9);
 }
 
+TEST(BuildModel, TheSkinOfEitherLatticeIsBoundByTheMappingAskedFor) {
+  constexpr uint32_t kKinds =
+      layout::kInCellBit | layout::kInterpolatedBit | layout::kOneNodeBit | layout::kAlongNormalBit;
+  const std::vector<std::pair<Mapping, uint32_t>> expected = {{Mapping::kOneToOne, layout::kOneNodeBit},
+                                                              {Mapping::kConstant, 0},
+                                                              {Mapping::kInterpolated, layout::kInterpolatedBit},
+                                                              {Mapping::kAlongNormal, layout::kAlongNormalBit}};
+  BodyConfig config = boxConfig({0.05, 0.04, 0.032}, 0.01);  // its last cells are tissue in part
+  for (config.structure = Structure::kLattice;; config.structure = Structure::kExplicit) {
+    for (const auto& [mapping, bits] : expected) {
+      config.mapping = mapping;
+      const Skin skin = build(config).skin;
+      size_t as_asked = 0;
+      for (const layout::SkinBinding& binding : skin.bindings) as_asked += (binding.springs & kKinds) == bits ? 1 : 0;
+      EXPECT_EQ(as_asked + skin.constant_vertices, skin.bindings.size()) << static_cast<int>(mapping);
+      EXPECT_GT(as_asked, skin.bindings.size() / 2) << static_cast<int>(mapping);
+    }
+    config.mapping = Mapping::kAuto;
+    for (const layout::SkinBinding& binding : build(config).skin.bindings)
+      ASSERT_NE(binding.springs & layout::kInCellBit, 0u);
+    if (config.structure == Structure::kExplicit) break;
+  }
+}
+
 TEST(BuildModel, ThePoseTurnsTheGeometryAndNotTheLattice) {
   BodyConfig config = boxConfig({0.06, 0.04, 0.02}, 0.005);
   config.material.cells = Cells::kSprings;  // cells are counted below
