@@ -29,6 +29,31 @@ uint crossedPart(vec3 a, vec3 b, ToolMotion m) {
   return crossesTriangle(a, b, vec3(0.0f), far_to, tip) ? 2u : 0u;
 }
 
+const float kOverlap = 1e-3f;  // of a sweep: it begins that much before the end of the last one, whatever is rounded
+
+/// What the start of the sweep is moved by for a spring that has come `way` since the last one: there the last sweep ended, as the
+/// spring saw it. Without this, one that slips past the blade's edge between two substeps would be in neither sweep.
+vec3 startOffset(ToolMotion m, vec3 way) { return way - kOverlap * (xyz(m.to) - xyz(m.from)); }
+
+/// The same of a blade that cuts along its edge only: what sways sideways against its flats stays whole, and what comes along its way
+/// does not; one at rest cuts nothing.
+vec3 startOffsetAlong(ToolMotion m, vec3 way) {
+  vec3 move = (xyz(m.to) - xyz(m.from)) + (xyz(m.blade_to) - xyz(m.blade_from));
+  float move2 = dot(move, move);
+  precise vec3 offset = move2 > 0.0f ? (dot(way, move) / move2) * move - kOverlap * (xyz(m.to) - xyz(m.from)) : vec3(0.0f);
+  return offset;
+}
+
+ToolMotion startingAt(ToolMotion m, vec3 offset) {
+  m.from.x += offset.x;
+  m.from.y += offset.y;
+  m.from.z += offset.z;
+  m.blade_from.x += offset.x;
+  m.blade_from.y += offset.y;
+  m.blade_from.z += offset.z;
+  return m;
+}
+
 const float kLeastShare = 0.02f;  // a spring is not shown cut nearer to one of its ends than this share of it
 
 /// Where the line a..b passes the plane of a part of the sweep: the share of a..b on a's side. Where a and b lie on the same

@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // cut.comp - erase the springs that the swept blade crosses, from both ends.   Owner: solver/gpu/cut_pass.h   VR05 2.7.3
-// in  displacement, tool motions     in/out  nodes (spring counts), stats.springs_cut; RECORD: axial_cut[3 * slots]
+// in  displacement, velocity, tool motions     in/out  nodes (spring counts), stats.springs_cut; RECORD: axial_cut[3 * slots], cut_sides[slots]
 // Features: PARTICLES erases every spring of the nodes near the blade instead (VR05's simple scheme). RECORD: axial springs
-// remember where they were cut. Whether a spring is, its ends' tissue decides; where, the line between its nodes says.
+// remember where they were cut, and nodes on which side of it. Whether a spring is, its ends' tissue decides; where, the line between its nodes says.
 //
 // Each end decides for itself. That both come to the same verdict rests on this: the test sees the two ends in the order of
-// their slots and every position comes from the same `precise` expression.
+// their slots, and every position and every way comes from the same `precise` expression.
 #include "layout.h"
 #include "lattice.glsl"
 #include "blade.glsl"
@@ -16,6 +16,9 @@
 layout(std430, binding = kBindActive) readonly buffer ActiveBuffer { uint active_nodes[]; };
 layout(std430, binding = kBindNodes) buffer NodesBuffer { NodeBits nodes[]; };
 layout(std430, binding = kBindDisplacementIn) readonly buffer DisplacementIn { vec4 displacement[]; };
+#ifndef PARTICLES
+layout(std430, binding = kBindVelocityIn) readonly buffer VelocityIn { vec4 velocity[]; };
+#endif
 layout(std140, binding = kBindToolMotions) uniform ToolMotionsBlock { ToolMotion tool_motions[kMaxStyluses]; };
 layout(std430, binding = kBindStats) buffer StatsBuffer { TickStats stats; };
 #ifdef RECORD
@@ -26,16 +29,40 @@ uniform uint active_count;
 uniform uint stylus;
 #endif
 #include "surface_point.glsl"
+#if defined(RECORD) && !defined(PARTICLES)
+#include "cut_sides.glsl"
+#else
+vec3 onItsSide(uint slot, vec3 x, ToolMotion m, float h) { return x; }
+void rememberSide(uint slot, vec3 x, ToolMotion m) {}
+#endif
+
+#ifndef PARTICLES
+vec3 wayOf(uint first, uint second, ToolMotion m) {
+  precise vec3 way = (0.5f * m.timing.x) * (xyz(velocity[first]) + xyz(velocity[second]));
+  return startOffsetAlong(m, way);
+}
+
+/// The part of the sweep that a segment between two nodes crosses, which came to where it is in the last substep; 0 none.
+/// @param first, second  the nodes, in the order of their slots   @param a, b  the ends
+uint crossedOnTheWay(uint first, uint second, vec3 a, vec3 b, ToolMotion m) {
+  vec3 offset = wayOf(first, second, m);
+  precise vec3 from = a - offset;
+  precise vec3 to = b - offset;
+  return crossedPart(from, to, startingAt(m, offset));
+}
+#endif
 
 /// Which part of the sweep severs a spring; 0 where none does. The near end has been found not to be far; the far end must not
 /// be either, or the two ends would disagree.
+/// @param x  of `slot`, on its side
 uint severingPart(uint slot, vec3 x, uint other, ToolMotion m, vec4 sphere, float h) {
   vec3 y = seenFromBlade(other, m, h);
   if (farFromBlade(y, sphere)) return 0u;
+  y = onItsSide(other, y, m, h);
 #ifdef PARTICLES
   return erased(x, m) || erased(y, m) ? 1u : 0u;
 #else
-  return slot < other ? crossedPart(x, y, m) : crossedPart(y, x, m);
+  return slot < other ? crossedOnTheWay(slot, other, x, y, m) : crossedOnTheWay(other, slot, y, x, m);
 #endif
 }
 
@@ -46,7 +73,9 @@ void record(uint slot, uint spring, uint other, uint part, ToolMotion m) {
 #ifdef PARTICLES
   axial_cut[3u * slot + (spring >> 1)] = kErasedShare;
 #else
-  axial_cut[3u * slot + (spring >> 1)] = shareBefore(nodeFromBlade(slot, m), nodeFromBlade(other, m), part, m);
+  vec3 offset = slot < other ? wayOf(slot, other, m) : wayOf(other, slot, m);
+  axial_cut[3u * slot + (spring >> 1)] =
+      shareBefore(nodeFromBlade(slot, m) - offset, nodeFromBlade(other, m) - offset, part, startingAt(m, offset));
 #endif
 }
 #else
@@ -66,12 +95,13 @@ void main() {
   vec3 x = seenFromBlade(slot, m, h);
   vec4 sphere = bladeSphere(m, h);
   if (isIsolated(bits) || farFromBlade(x, sphere)) return;
+  vec3 own = onItsSide(slot, x, m, h);
   NodeBits whole = bits;
   uint cut = 0u;
 #define CUT_SPRING(spring, offset)                              \
   if (springCount(whole, spring) != 0u) {                       \
     uint n = neighborSlot(slot, offset);                        \
-    uint part = severingPart(slot, x, n, m, sphere, h);         \
+    uint part = severingPart(slot, own, n, m, sphere, h);       \
     if (part != 0u) {                                           \
       bits = withoutSpring(bits, spring);                       \
       record(slot, spring, n, part, m);                         \
@@ -81,5 +111,6 @@ void main() {
   FOR_EACH_SPRING(CUT_SPRING)
   if (bits.lo == whole.lo && bits.hi == whole.hi) return;
   nodes[slot] = bits;
+  rememberSide(slot, x, m);
   if (cut != 0u) atomicAdd(stats.springs_cut, cut);
 }

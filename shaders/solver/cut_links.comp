@@ -25,22 +25,6 @@ uniform uint stylus;
 #endif
 #include "surface_point.glsl"
 
-const float kOverlap = 1e-3f;  // of a sweep: it begins that much before the end of the last one, whatever is rounded
-
-/// What the start of the sweep is moved by for a spring that has come `way` since the last one: there the last sweep ended, as the
-/// spring saw it. Without this, one that slips past the blade's edge between two substeps would be in neither sweep.
-vec3 startOffset(ToolMotion m, vec3 way) { return way - kOverlap * (xyz(m.to) - xyz(m.from)); }
-
-ToolMotion startingAt(ToolMotion m, vec3 offset) {
-  m.from.x += offset.x;
-  m.from.y += offset.y;
-  m.from.z += offset.z;
-  m.blade_from.x += offset.x;
-  m.blade_from.y += offset.y;
-  m.blade_from.z += offset.z;
-  return m;
-}
-
 /// One link less at a node: of its valence, or of a lattice's counts.
 void loseLink(uint slot, uint lattice_spring) {
   if (bodies[bodyOf(nodes[slot])].connections == kNetwork) {

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -83,6 +84,7 @@ inline void load(ReferenceSolver& reference, const HostState& state) {
     reference.nodes[slot] = state.nodes[slot];
   }
   if (!state.spring_cut.empty()) reference.spring_cut = state.spring_cut;
+  std::fill(reference.cut_sides.begin(), reference.cut_sides.end(), Vector3d::Zero());
 }
 
 /// Largest nodal error over the largest value of the reference.

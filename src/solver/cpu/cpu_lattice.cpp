@@ -74,7 +74,8 @@ CpuLattice::CpuLattice(const Model& model, const std::vector<layout::BodyParams>
       state(store.slotCount()),
       hands(store, features),
       record(model, links.network, features),
-      axial_cut(record.size()) {}
+      axial_cut(record.size()),
+      cut_sides(record.size() / 3) {}
 
 void CpuLattice::reset() {
   store.nodes = store.whole_nodes;
@@ -89,6 +90,7 @@ void CpuLattice::reset() {
   clear(hands.met);
   state.current = 0;
   clear(axial_cut);
+  clear(cut_sides);
   links.writeSpringCut({});
   strengths.refreshAll(store);
 }
@@ -113,6 +115,7 @@ void CpuLattice::write(const HostState& from) {
   scatter(from.velocity_m_per_s, state.velocity[state.current]);
   store.nodes = from.nodes;
   clear(axial_cut);
+  clear(cut_sides);
   std::copy_n(from.axial_cut.begin(), std::min(from.axial_cut.size(), axial_cut.size()), axial_cut.begin());
   links.writeSpringCut(from.spring_cut);
   strengths.refreshAll(store);

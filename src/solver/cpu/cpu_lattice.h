@@ -75,7 +75,8 @@ struct CpuLattice {
   CpuState state;
   CpuHands hands;
   CutRecord record;
-  std::vector<float> axial_cut;  ///< [record.size()] as in HostState, of implicit lattices
+  std::vector<float> axial_cut;         ///< [record.size()] as in HostState, of implicit lattices
+  std::vector<layout::vec4> cut_sides;  ///< [slots] where there is a record: see shaders/solver/cut_sides.glsl
 };
 
 /// The vector of a slot in displacement or velocity.

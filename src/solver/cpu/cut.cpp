@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <cmath>
 
 #include "solver/cpu/glsl_kernel.h"
 #include "solver/cpu/tool_passes.h"
@@ -16,8 +17,10 @@ struct CutStats {
 };
 
 struct CutKernel : Kernel {
-  explicit CutKernel(CpuLattice& lattice) : Kernel(lattice), axial_cut(lattice.axial_cut.data()) {}
+  explicit CutKernel(CpuLattice& lattice)
+      : Kernel(lattice), axial_cut(lattice.axial_cut.data()), cut_sides(lattice.cut_sides) {}
   float* axial_cut;
+  Vectors cut_sides;
   uint stylus = 0;
   CutStats stats;
 };
@@ -121,6 +124,9 @@ constexpr float kMargin = 1e-4f;
 /// stretched or turned (shaders/solver/surface_way.glsl).
 constexpr float kFarthestTissue = 3.5f;
 
+/// In cells: a node may be seen that far from where it is (kSway and kBeside in shaders/solver/cut_sides.glsl).
+constexpr float kFarthestSway = 0.51f;
+
 /// How far from a node the cut may look for it [m].
 float tissueReach(const CpuLattice& lattice, float h) {
   return lattice.strengths.surface_ways.empty() ? 0 : kFarthestTissue * h;
@@ -212,11 +218,26 @@ void CpuCut::findBricks(const CpuLattice& lattice, const layout::ToolMotion& mot
   }
 }
 
+/// How far the start of the sweep may be from where some spring of the near bricks sees it [m] (startOffset in
+/// blade.glsl).
+float CpuCut::farthestOffset(const CpuLattice& lattice, const layout::ToolMotion& motion) const {
+  const float* const velocity = lattice.state.velocity[lattice.state.current].data();
+  float most2 = 0;  // what is not finite crosses nothing
+  for (uint32_t b : near_) {
+    const float* const v = velocity + vectorAt(b * layout::kBrickSlots);
+    for (uint32_t i = 0; i < layout::kBrickSlots; ++i) {
+      most2 = std::max(most2, v[i] * v[i] + v[i + 64] * v[i + 64] + v[i + 128] * v[i + 128]);
+    }
+  }
+  const float overlap = glsl::Blade().kOverlap * glsl::distance(glsl::xyz(motion.to), glsl::xyz(motion.from));
+  return (1 + kMargin) * (motion.timing.x * std::sqrt(most2) + overlap);
+}
+
 void CpuCut::placeNodes(const CpuLattice& lattice, const layout::ToolMotion& motion, float grown_m) {
   for (uint32_t b : near_) {
     const Places places = placesOf(lattice, b, motion.from);
     const float size = glsl::Blade().bladeSphere(motion, places.h).w;
-    const SweepBox box = boxAround(motion, grown_m + kMargin * size);
+    const SweepBox box = boxAround(motion, grown_m + kFarthestSway * places.h + kMargin * size);
     uint8_t* const out = &outside_[b * layout::kBrickSlots];
     const float* const reach = &reach_m_[b * layout::kBrickSlots];
     forEachPlace(places, [&](int i, float x, float y, float z) { out[i] = sidesBeyond(box, x, y, z, reach[i]); });
@@ -277,7 +298,7 @@ void CpuCut::tearCells(CpuLattice& lattice) const {
 
 uint32_t CpuCut::run(CpuLattice& lattice, const layout::ToolMotion& motion, bool particles) {
   findBricks(lattice, motion);
-  placeNodes(lattice, motion, particles ? motion.blade_from.w : 0);
+  placeNodes(lattice, motion, particles ? motion.blade_from.w : farthestOffset(lattice, motion));
   changed_.clear();
   const bool records = !lattice.axial_cut.empty();
   const uint32_t springs =

@@ -35,6 +35,7 @@ class CpuCut {
 
  private:
   void findBricks(const CpuLattice& lattice, const layout::ToolMotion& motion);
+  float farthestOffset(const CpuLattice& lattice, const layout::ToolMotion& motion) const;
   void placeNodes(const CpuLattice& lattice, const layout::ToolMotion& motion, float grown_m);
   bool mayCross(const layout::Brick& brick) const;
   template <class Kernel>

@@ -162,7 +162,11 @@ LatticeBuffers::LatticeBuffers(const Model& model, const std::vector<layout::Bod
       hands(store.slot_count, features),
       record(model, links.network, features),
       stats(1, "measurements") {
-  if (features.lattice && record.size() > 0) axial_cut = gpu::Buffer<float>(record.size(), "record of cuts");
+  if (features.lattice && record.size() > 0) {
+    axial_cut = gpu::Buffer<float>(record.size(), "record of cuts");
+    cut_sides = gpu::Buffer<layout::vec4>(record.size() / 3, "sides of cuts");
+    cut_sides.clear();
+  }
   if (features.volume) {
     const size_t vectors = features.moments ? layout::kMomentVectors : layout::kVolumeVectors;
     cell_forces = gpu::Buffer<layout::vec4>(vectors * store.slot_count, "cell forces");
@@ -182,7 +186,9 @@ void LatticeBuffers::bind() const {
   strengths.bind();
   links.bind();
   hands.bind();
-  if (axial_cut.size()) axial_cut.bindStorage(layout::kBindAxialCut);
+  if (!axial_cut.size()) return;
+  axial_cut.bindStorage(layout::kBindAxialCut);
+  cut_sides.bindStorage(layout::kBindCutSides);
 }
 
 std::vector<float> LatticeBuffers::readAxialCut(const std::vector<float>& spring_cut) const {
@@ -194,6 +200,7 @@ std::vector<float> LatticeBuffers::readAxialCut(const std::vector<float>& spring
 void LatticeBuffers::writeAxialCut(const std::vector<float>& cut) {
   if (!axial_cut.size()) return;
   axial_cut.clear();
+  cut_sides.clear();
   if (!cut.empty()) axial_cut.write(cut);
 }
 

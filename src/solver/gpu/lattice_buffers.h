@@ -128,6 +128,7 @@ struct LatticeBuffers {
   StateBuffers state;
   HandBuffers hands;
   CutRecord record;
+  gpu::Buffer<layout::vec4> cut_sides;    ///< [slots] where there is axial_cut: see shaders/solver/cut_sides.glsl
   gpu::Buffer<float> axial_cut;           ///< [record.size()] of implicit lattices; features cuts, lattice
   gpu::Buffer<layout::TickStats> stats;   ///< [1]
   gpu::Buffer<layout::vec4> cell_forces;  ///< [3 or 7 * slots] N, see shaders/solver/volume.comp; feature volume

@@ -32,6 +32,8 @@ class ReferenceLattice {
                                         ///< alive or cut, those of networks how many links are whole
   std::vector<float> spring_cut;        ///< [springs] of all networks, as in HostState: 0 whole
   std::vector<double> axial_cut;        ///< [3 * slots] of lattices of either kind, as in HostState
+  std::vector<Vector3d> cut_sides;  ///< [slots] unit normal of a cut towards the node, zero where there is none: see
+                                    ///< shaders/solver/cut_sides.glsl
 
   size_t slots() const { return nodes.size(); }
   Vector3d restPosition(uint32_t slot) const { return rest_m_[slot]; }

@@ -13,7 +13,7 @@ namespace {
 
 const double kErasedFraction = static_cast<double>(layout::kErasedShare);  ///< of a spring whose end was erased
 
-constexpr double kOverlap = 1e-3;  ///< of a sweep with the one before (shaders/solver/cut_links.comp)
+constexpr double kOverlap = 1e-3;  ///< of a sweep with the one before (shaders/solver/blade.glsl)
 
 Vector3d xyz(const layout::vec4& v) {
   return {v.x, v.y, v.z};
@@ -77,6 +77,32 @@ void probe(const layout::ToolMotion& m, double below_m, double dt_s, double long
   v_next -= std::min(0.0, (v_next - travel / dt_s).dot(normal)) * normal;
 }
 
+/// The blade of one substep, as springs of lattices see it (shaders/solver/cut_sides.glsl).
+struct Sweep {
+  Vector3d from, far_from, far_to, to;
+
+  Vector3d move() const { return (to - from) + (far_to - far_from); }
+  Vector3d normal() const {
+    const Vector3d normal = ((far_from - from) + (far_to - to)).cross(move());
+    return normal.norm() > 0 ? Vector3d(normal.normalized()) : Vector3d::Zero();
+  }
+  /// The part of a way that goes along the blade's own.
+  Vector3d along(const Vector3d& way) const {
+    return move().norm() > 0 ? Vector3d(way.dot(move()) / move().squaredNorm() * move()) : Vector3d::Zero();
+  }
+};
+
+constexpr double kSameCut = 0.7, kSway = 0.5, kBeside = 1e-3;  // as there
+
+/// @param side  unit normal towards the node's side; zero: none   @param h_m  spacing
+Vector3d onItsSide(const Vector3d& side, const Vector3d& x, const Sweep& sweep, double h_m) {
+  const double same = sweep.normal().dot(side);
+  if (std::abs(same) < kSameCut) return x;
+  const Vector3d normal = same < 0 ? Vector3d(-sweep.normal()) : sweep.normal();
+  const double away = (x - sweep.from).dot(normal);
+  return away >= 0 || away < -kSway * h_m ? x : Vector3d(x + (kBeside * h_m - away) * normal);
+}
+
 }  // namespace
 
 Vector3d ReferenceSolver::heldDisplacement(const layout::ToolMotion& m, uint32_t slot) const {
@@ -129,33 +155,48 @@ void ReferenceSolver::cut(uint32_t stylus, bool particles) {
   const auto erased = [&](const Vector3d& x) {
     return std::min(distanceToTriangle(x, a, b, c), distanceToTriangle(x, a, c, d)) <= m.blade_from.w;
   };
+  const Sweep sweep = {a, b, c, d};
+  const auto seen = [&](uint32_t slot) {
+    return onItsSide(cut_sides[slot], position(slot), sweep, body(slot).origin_spacing.w);
+  };
+  const auto remember = [&](uint32_t slot) {
+    Vector3d& side = cut_sides[slot];
+    const Vector3d normal = sweep.normal();
+    if (std::abs(normal.dot(side)) >= kSameCut) return;
+    side = (position(slot) - a).dot(normal) >= 0 ? normal : Vector3d(-normal);
+  };
   // Where a spring, which has come `way` in the last substep, is severed, if it is: its ends' tissue says whether, the
   // line between the nodes where.
   const auto severed = [&](uint32_t slot, uint32_t far, bool linked, const Vector3d& way) -> std::optional<double> {
-    const Vector3d x = position(slot), y = position(far);
     if (particles) {
-      return erased(x) || erased(y) ? std::optional(kErasedFraction) : std::nullopt;
+      return erased(position(slot)) || erased(position(far)) ? std::optional(kErasedFraction) : std::nullopt;
     }
-    const Vector3d offset = linked ? Vector3d(way - kOverlap * (d - a)) : Vector3d::Zero();
+    const Vector3d x = linked ? position(slot) : seen(slot), y = linked ? position(far) : seen(far);
+    const bool rests = sweep.move().norm() == 0;
+    const Vector3d overlap = kOverlap * (d - a);
+    const Vector3d offset = linked  ? Vector3d(way - overlap)
+                            : rests ? Vector3d::Zero()
+                                    : Vector3d(sweep.along(way) - overlap);
     std::optional<Plane> plane = crossing(x, y, a + offset, b + offset, c);
     if (!plane) plane = crossing(x, y, a + offset, c, d);
     if (!plane) return std::nullopt;
     return fractionOf(restPosition(slot) + u_m[slot], restPosition(far) + u_m[far], *plane);
   };
+  std::vector<uint32_t> lost;  // nodes of lattices: seen in this pass as before it
   for (uint32_t slot : active) {
     for (uint32_t s = 0; s < springsOf(slot); ++s) {
       if (!isFirstEnd(slot, s) || !isWhole(slot, s)) continue;
       const uint32_t far = farEnd(slot, s);
-      // Springs of networks only: the cut of a lattice looks at where they are.
       const bool linked = body(slot).connections != layout::kImplicit;
-      const Vector3d way =
-          linked && !first_ ? Vector3d(0.5 * last_dt_s_ * (v_m_per_s[slot] + v_m_per_s[far])) : Vector3d::Zero();
+      const Vector3d way = first_ ? Vector3d::Zero() : Vector3d(0.5 * last_dt_s_ * (v_m_per_s[slot] + v_m_per_s[far]));
       const std::optional<double> fraction = severed(slot, far, linked, way);
       if (!fraction) continue;
       eraseSpring(slot, s, *fraction);
       ++springs_cut;
+      if (!linked && !particles) lost.insert(lost.end(), {slot, far});
     }
   }
+  for (const uint32_t slot : lost) remember(slot);
 }
 
 }  // namespace viscera

@@ -1,0 +1,178 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Blades and lattices that move at the same time: a cut goes along the blade's way as springs see it, and nodes keep
+// the side on which it met them.
+#include "support/backends.h"
+#include "support/random_state.h"
+#include "tools/motion_packing.h"
+
+using namespace viscera;
+using namespace viscera::test;
+
+namespace {
+
+constexpr double kSpacing_m = 0.01;
+constexpr int kSubsteps = 20;
+// Of where a spring is cut: float32 positions of 0.1 m (6e-9 m) over springs of 1 cm, at a slant, after some substeps.
+constexpr double kShare = 1e-4;
+
+StylusConfig stylusConfig() {
+  StylusConfig config;
+  config.cut.blade_length_m = 0.2;
+  return config;
+}
+
+/// A blade down along -z over the body's whole height.
+StylusMotion blade(const Vector3d& from, const Vector3d& to) {
+  StylusMotion out;
+  out.mode = ToolMode::kCut;
+  out.present = true;
+  out.from.position_m = from;
+  out.to.position_m = to;
+  return out;
+}
+
+class MovingCuts : public OnBackend {
+ protected:
+  MovingCuts() : model_(modelOf({freeBox()})), styluses_{stylusConfig(), stylusConfig()} {
+    solver_ = make(model_, sceneFor(model_, kSubsteps, styluses_));
+    renewReference();
+  }
+  static Body freeBox() {
+    Body body = boxBody({6, 6, 6}, kSpacing_m);
+    body.material.drag_per_s = body.material.dashpot_ratio = 0;
+    return body;
+  }
+  void renewReference() { reference_.emplace(model_, Vector3d::Zero(), static_cast<float>(solver_->dt_s())); }
+  const Lattice& lattice() const { return model_.bodies[0].lattice; }
+  double tick_s() const { return kSubsteps * solver_->dt_s(); }
+
+  void write(const HostState& state) {
+    solver_->writeState(state);
+    load(*reference_, state);
+  }
+  /// The whole body moves by so much in a tick, and no force acts.
+  HostState drifting(const Vector3d& way_m) const {
+    HostState state = restState(model_);
+    for (const uint32_t slot : lattice().active_slots) state.velocity_m_per_s[slot] = vec4(way_m / tick_s());
+    return state;
+  }
+  void tick(const ToolMotions& motions) {
+    solver_->step(motions);
+    std::vector<layout::ToolMotion> rows;
+    interpolateMotions(motions, styluses_, kSubsteps, rows);
+    for (size_t s = 0; s < kSubsteps; ++s) reference_->substep({rows[2 * s], rows[2 * s + 1]});
+  }
+  /// Both ends of every spring agree with each other and with the reference, and so does where it was cut.
+  void expectLikeTheReference() const {
+    const HostState state = solver_->readState();
+    for (const uint32_t slot : lattice().active_slots) {
+      for (uint32_t s = 0; s < layout::kSpringsPerNode; ++s) {
+        const int64_t far = lattice().neighborSlot(slot, s);
+        if (far < 0) continue;
+        const uint32_t count = springCount(state.nodes[slot], s);
+        ASSERT_EQ(count, springCount(state.nodes[static_cast<size_t>(far)], oppositeSpring(s))) << slot << ", " << s;
+        ASSERT_EQ(count, springCount(reference_->nodes[slot], s)) << slot << ", " << s;
+      }
+    }
+    for (size_t i = 0; i < state.axial_cut.size(); ++i) {
+      ASSERT_NEAR(state.axial_cut[i], reference_->axial_cut[i], kShare) << i;
+    }
+  }
+
+  Model model_;
+  std::vector<StylusConfig> styluses_;
+  std::unique_ptr<Ticks> solver_;
+  std::optional<ReferenceSolver> reference_;
+};
+
+INSTANTIATE_TEST_SUITE_P(Backends, MovingCuts, ::testing::ValuesIn(backendNames()), backendSuffix);
+
+}  // namespace
+
+/// The sweeps of two substeps leave room between them unless each is taken as its spring sees it.
+TEST_P(MovingCuts, BladeMissesNoSpringThatComesTowardsIt) {
+  const double x_m = 0.0137;
+  write(drifting({0, -0.1, 0}));  // half a spacing in a substep
+  tick({blade({x_m, -0.2, 0.16}, {x_m, 0.2, 0.16}), {}});
+  expectLikeTheReference();
+  const HostState state = solver_->readState();
+  for (const uint32_t slot : lattice().active_slots) {
+    for (uint32_t s = 0; s < layout::kSpringsPerNode; ++s) {
+      if (springCount(lattice().nodes[slot], s) == 0) continue;
+      const bool crosses = lattice().nodeAt(slot).x() == 1 && kNeighborOffsets[s][0] == 1;
+      const bool crosses_back = lattice().nodeAt(slot).x() == 2 && kNeighborOffsets[s][0] == -1;
+      EXPECT_EQ(springCount(state.nodes[slot], s) == 0, crosses || crosses_back) << slot << ", spring " << s;
+    }
+  }
+}
+
+/// A blade has no edge of its own: only along its way it cuts.
+TEST_P(MovingCuts, TissueThatSwaysAgainstABladeAtRestStaysWhole) {
+  const Vector3d tip(0.0137, 0.0251, 0.16);
+  write(drifting({0.006, 0.006, 0}));
+  tick({blade(tip, tip), {}});
+  expectLikeTheReference();
+  EXPECT_EQ(reference_->springs_cut, 0u);
+}
+
+/// A layer of nodes sways across the blade's way while the blade goes along it: each loses springs to one side.
+TEST_P(MovingCuts, NodesKeepTheSideOnWhichTheBladeMetThem) {
+  write(drifting({0.001, 0, 0}));  // the layer at 0.02 is in the plane when the blade is half way through
+  tick({blade({0.0205, -0.0093, 0.16}, {0.0205, 0.0701, 0.16}), {}});
+  expectLikeTheReference();
+  const HostState state = solver_->readState();
+  size_t near_side = 0, far_side = 0;
+  for (const uint32_t slot : lattice().active_slots) {
+    if (lattice().nodeAt(slot).x() != 2) continue;
+    bool lost[2] = {false, false};
+    for (uint32_t s = 0; s < layout::kSpringsPerNode; ++s) {
+      const int dx = kNeighborOffsets[s][0];
+      if (dx != 0 && springCount(lattice().nodes[slot], s) != springCount(state.nodes[slot], s)) lost[dx > 0] = true;
+    }
+    EXPECT_NE(lost[0], lost[1]) << lattice().nodeAt(slot).transpose();
+    near_side += lost[1];
+    far_side += lost[0];
+  }
+  EXPECT_GT(near_side, 7u);  // a row of seven nodes at least before the layer has passed, and one after it
+  EXPECT_GT(far_side, 7u);
+}
+
+TEST_P(MovingCuts, ABladeThatGoesWithTheTissueCutsNothing) {
+  write(drifting({0, 0.006, 0}));
+  solver_->step({});  // what they did before is known from the second tick on
+  std::vector<layout::ToolMotion> rows;
+  interpolateMotions({}, styluses_, kSubsteps, rows);
+  for (size_t s = 0; s < kSubsteps; ++s) reference_->substep({rows[2 * s], rows[2 * s + 1]});
+  tick({blade({0.0137, 0.0322, 0.16}, {0.0137, 0.0382, 0.16}), {}});  // 0.1 mm behind diagonals
+  expectLikeTheReference();
+  EXPECT_EQ(reference_->springs_cut, 0u);
+}
+
+TEST_P(MovingCuts, BothEndsAgreeHoweverTheirTissueMoves) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> angle(-180, 180);
+  const Vector3d middle = Vector3d::Constant(0.03);
+  uint32_t cut = 0;
+  for (int t = 0; t < 12; ++t) {
+    SCOPED_TRACE(t);
+    solver_->reset();
+    renewReference();
+    HostState state = drifting(randomVector(random, 0.03));
+    for (const uint32_t slot : lattice().active_slots) {
+      state.velocity_m_per_s[slot] =
+          vec4(xyz(state.velocity_m_per_s[slot]) + randomVector(random, 0.05 * kSpacing_m / tick_s()));
+    }
+    write(state);
+    ToolMotions motions;
+    for (StylusMotion& motion : motions) {
+      motion = blade(middle + randomVector(random, 0.08), middle + randomVector(random, 0.08));
+      motion.from.orientation = rotationFromDegrees({angle(random), angle(random), angle(random)});
+      motion.to.orientation = rotationFromDegrees({angle(random), angle(random), angle(random)});
+    }
+    tick(motions);
+    expectLikeTheReference();
+    cut += reference_->springs_cut;
+  }
+  EXPECT_GT(cut, 500u);
+}
