@@ -5,10 +5,10 @@
 // skin. All of it is fixed to the rest position, so that it moves and stretches with the tissue, and a cut shows inside what
 // was there before.   Owner: render/grain_texture.h
 layout(binding = kUnitGrain) uniform sampler3D grain_texture;  // x coarse, y fine, z fibres; 0..1, mean 1/2, periodic
+in float patches;                                  // -1..1, from vertex to vertex
 uniform vec4 body_finish[kMaxBodies];               // x roughness, y mottling, z number of layers
 uniform vec4 body_layers[kMaxBodies * 4];           // linear colour; w depth to which the layer reaches [m]
 
-const float kPeriod_m = 0.048;        // of the texture, for patches of some 6 mm
 const float kFinePeriod_m = 0.017;    // for relief of some 2 mm, and its finest parts of a third of that
 const float kRelief_m = 0.00011;      // height of the relief
 const float kBorder_m = 0.0004;       // how far a layer's border wanders
@@ -19,11 +19,10 @@ int bodyOf(float alpha) {
   return code >= 240 ? 255 - code : code >= 160 ? code - 160 : code;
 }
 
-/// x coarse, y fine, z fibres: -1..1 about.
-vec4 grainAt(vec3 rest, vec3 rest_x, vec3 rest_y) {
-  vec3 coarse = textureGrad(grain_texture, rest / kPeriod_m, rest_x / kPeriod_m, rest_y / kPeriod_m).xyz;
-  vec3 fine = textureGrad(grain_texture, rest / kFinePeriod_m, rest_x / kFinePeriod_m, rest_y / kFinePeriod_m).xyz;
-  return vec4(2.0 * vec3(coarse.x, fine.y, fine.z) - 1.0, 2.0 * coarse.y - 1.0);
+/// x patches, y relief, z fibres, w a coarser relief: -1..1 about.
+vec4 grainAt(vec3 rest) {
+  vec3 fine = 2.0 * texture(grain_texture, rest / kFinePeriod_m).xyz - 1.0;
+  return vec4(patches, fine.y, fine.z, fine.x);
 }
 
 /// Turns a normal as a relief of a height [m] does that varies from pixel to pixel (Mikkelsen).

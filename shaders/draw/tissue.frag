@@ -56,7 +56,7 @@ void main() {
   vec3 rest_x = dFdx(rest.xyz), rest_y = dFdy(rest.xyz), position_x = dFdx(position_m), position_y = dFdy(position_m);
 #endif
 #ifdef GRAIN
-  vec4 grain = grainAt(rest.xyz, rest_x, rest_y);
+  vec4 grain = grainAt(rest.xyz);
   roughness = body_finish[bodyOf(color.a)].x;
 #endif
 #ifdef DETAIL

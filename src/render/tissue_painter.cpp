@@ -59,6 +59,7 @@ TissuePainter::TissuePainter(const Model* model) : program_(gpu::Program::graphi
   if (grain_) features.emplace_back("GRAIN");
   if (detail_) features.emplace_back("DETAIL");
   tissue_program_ = gpu::Program::graphics("mesh.vert", "tissue.frag", features);
+  depth_program_ = gpu::Program::graphics("mesh.vert", "depth.frag");
   if (grain_) setFinishes(tissue_program_, *model);
 }
 
@@ -78,7 +79,14 @@ void TissuePainter::draw(const MeshView& mesh, const ToolShadows& shadows, const
     detail_->bind();
   }
   glBindVertexArray(inputs.id());
+  if (at_rest) {
+    depth_program_.use();
+    setMeshMatrices(depth_program_, optical_from_tissue, clip_from_optical);
+    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(mesh.index_count), GL_UNSIGNED_INT, nullptr);
+    glDepthFunc(GL_LEQUAL);
+  }
   drawWith(at_rest ? tissue_program_ : program_, mesh, shadows, optical_from_tissue, clip_from_optical);
+  glDepthFunc(GL_LESS);
   glBindVertexArray(0);
 }
 

@@ -29,6 +29,7 @@ class TissuePainter {
   std::unique_ptr<DetailTextures> detail_;  ///< null where no skin has any
   std::unique_ptr<GrainTexture> grain_;     ///< null where all is cloth
   gpu::Program program_, tissue_program_;   ///< the latter for all that has a place at rest
+  gpu::Program depth_program_;              ///< before it, so that what is hidden is not shaded
   VertexArray inputs_, tissue_inputs_;
 };
 
