@@ -3,6 +3,7 @@
 #include <random>
 
 #include "mesh_samples.h"
+#include "model/shape/solid_shell.h"
 #include "viscera/math/error.h"
 #include "viscera/model/shape/solid.h"
 
@@ -84,6 +85,20 @@ TEST(SolidSkin, ASphereFieldGetsItsSphere) {
     EXPECT_EQ(skin.parts[t], x < 0 ? 0 : 1);
   }
   EXPECT_THROW(extractSkin(sphere, {"left", "right"}, -corner, corner, -1), LatticeError);
+}
+
+TEST(SolidSkin, AHoleIsCappedAndASheetStaysOpen) {
+  TriangleMesh open_box = boxMesh({0, 0, 0}, {0.1F, 0.1F, 0.1F});
+  open_box.triangles.resize(10);  // two triangles of a face are gone
+  open_box.parts.resize(10);
+  const TriangleMesh closed = withCaps(facingOutward(open_box));
+  EXPECT_EQ(openEdges(closed), 0u);
+  EXPECT_EQ(closed.triangles.size(), 14u);
+  EXPECT_NEAR(signedVolume(closed), 1e-3, 1e-9);
+  TriangleMesh sheet = open_box;
+  sheet.triangles.resize(2);
+  sheet.parts.resize(2);
+  EXPECT_EQ(withCaps(sheet).triangles.size(), 2u);
 }
 
 }  // namespace

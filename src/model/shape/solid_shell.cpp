@@ -149,7 +149,9 @@ void cap(Shell& shell, const std::vector<uint32_t>& loop) {
   shell.cap_area_m2 += area;
   // A slit that a dropped sliver left behind is no hole.
   constexpr double kSlit = 1e-6;
-  if (area > kSlit * perimeter * perimeter) ++shell.holes_closed;
+  const bool is_hole = area > kSlit * perimeter * perimeter;
+  shell.closes_hole.insert(shell.closes_hole.end(), loop.size(), is_hole);
+  shell.holes_closed += is_hole;
 }
 
 }  // namespace
@@ -181,7 +183,10 @@ Shell closePart(const TriangleMesh& mesh, const std::vector<uint32_t>& of_part) 
       const uint32_t vertex = mesh.triangles[t][c];
       const auto next = static_cast<uint32_t>(shell.positions_m.size());
       const auto [found, is_new] = local.try_emplace(vertex, next);
-      if (is_new) shell.positions_m.push_back(mesh.positions_m[vertex].cast<double>());
+      if (is_new) {
+        shell.positions_m.push_back(mesh.positions_m[vertex].cast<double>());
+        shell.vertices.push_back(vertex);
+      }
       triangle[c] = found->second;
     }
     shell.triangles.push_back(triangle);
@@ -220,6 +225,29 @@ TriangleMesh facingOutward(const TriangleMesh& mesh) {
     }
   }
   return facing;
+}
+
+TriangleMesh withCaps(const TriangleMesh& mesh) {
+  TriangleMesh out = mesh;
+  for (const std::vector<uint32_t>& of_part : trianglesByPart(mesh)) {
+    const Shell shell = closePart(mesh, of_part);
+    if (shell.isOpenSheet()) continue;
+    std::unordered_map<uint32_t, uint32_t> apexes;
+    const auto numberOf = [&](uint32_t vertex) {
+      if (vertex < shell.vertices.size()) return shell.vertices[vertex];
+      const auto [found, is_new] = apexes.try_emplace(vertex, static_cast<uint32_t>(out.positions_m.size()));
+      if (is_new) out.positions_m.push_back(shell.positions_m[vertex].cast<float>());
+      return found->second;
+    };
+    for (size_t c = 0; c < shell.closes_hole.size(); ++c) {
+      if (!shell.closes_hole[c]) continue;
+      const Triangle& cap = shell.triangles[of_part.size() + c];
+      out.triangles.push_back({numberOf(cap[0]), numberOf(cap[1]), numberOf(cap[2])});
+      out.parts.push_back(mesh.parts[of_part[0]]);
+      if (!out.charts.empty()) out.charts.push_back(kNoChart);
+    }
+  }
+  return out;
 }
 
 }  // namespace viscera

@@ -14,8 +14,10 @@ namespace viscera {
 struct Shell {
   std::vector<Vector3d> positions_m;
   std::vector<std::array<uint32_t, 3>> triangles;  ///< the part's own first, then the caps
-  std::vector<bool> turned;  ///< [own triangles] whether it was turned to agree with its neighbours
-  int holes_closed = 0;      ///< boundary loops that were capped with some area
+  std::vector<bool> turned;        ///< [own triangles] whether it was turned to agree with its neighbours
+  std::vector<uint32_t> vertices;  ///< [own vertices, before those of the caps] in the mesh
+  std::vector<bool> closes_hole;   ///< [caps] whether its loop has some area: slits are closed too
+  int holes_closed = 0;            ///< boundary loops that were capped with some area
   double own_area_m2 = 0;
   double cap_area_m2 = 0;
   double volume_m3 = 0;  ///< signed; negative where the part is inside out
@@ -40,5 +42,9 @@ Shell boxShell(const Vector3d& min_m, const Vector3d& max_m, const Pose& pose);
 
 /// The mesh with its triangles turned to be counter-clockwise seen from outside, part by part.
 TriangleMesh facingOutward(const TriangleMesh& mesh);
+
+/// The mesh with the caps that closePart() puts on the holes of its parts, but of open sheets: the surface of what is
+/// filled. @param mesh  facing outward
+TriangleMesh withCaps(const TriangleMesh& mesh);
 
 }  // namespace viscera

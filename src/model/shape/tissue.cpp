@@ -54,7 +54,8 @@ class MeshTissue : public Tissue {
     }
   }
 
-  TriangleMesh surface(const Solid&) const override { return mesh_; }
+  /// Closed where the solid is: no look into it through a hole.
+  TriangleMesh surface(const Solid&) const override { return withCaps(mesh_); }
   TriangleMesh shell(double spacing_m) const override { return refined(mesh_, spacing_m); }
   Eigen::AlignedBox3d bounds() const override { return boundsOf(mesh_.positions_m); }
 
