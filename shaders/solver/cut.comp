@@ -27,6 +27,7 @@ layout(std430, binding = kBindAxialCut) writeonly buffer AxialCutBuffer { float 
 
 uniform uint active_count;
 uniform uint stylus;
+bool mayCross(uint slot, uint other) { return true; }  // C++ has looked at the box around the sweep
 #endif
 #include "surface_point.glsl"
 #if defined(RECORD) && !defined(PARTICLES)
@@ -101,7 +102,7 @@ void main() {
 #define CUT_SPRING(spring, offset)                              \
   if (springCount(whole, spring) != 0u) {                       \
     uint n = neighborSlot(slot, offset);                        \
-    uint part = severingPart(slot, own, n, m, sphere, h);       \
+    uint part = mayCross(slot, n) ? severingPart(slot, own, n, m, sphere, h) : 0u; \
     if (part != 0u) {                                           \
       bits = withoutSpring(bits, spring);                       \
       record(slot, spring, n, part, m);                         \

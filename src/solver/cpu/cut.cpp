@@ -23,16 +23,18 @@ struct CutKernel : Kernel {
   Vectors cut_sides;
   uint stylus = 0;
   CutStats stats;
+  const uint8_t* outside = nullptr;  ///< [slots] sides of the box around the sweep that a node is beyond
+  /// Two nodes beyond the same side have none of the box between them.
+  bool mayCross(uint slot, uint other) const { return (outside[slot] & outside[other]) == 0; }
 };
 
-/// May a node lose a spring? Not if all of them have both ends beyond the same side. @param outside  [slots]
-#define LOOK(spring, offset) may |= (here & outside[neighborSlot(slot, offset)]) == 0;
-#define MAY_LOSE                                    \
-  bool mayLose(uint slot, const uint8_t* outside) { \
-    const uint8_t here = outside[slot];             \
-    bool may = false;                               \
-    FOR_EACH_SPRING(LOOK)                           \
-    return may;                                     \
+/// May a node lose a spring? Not if none of them may cross the box.
+#define LOOK(spring, offset) may |= mayCross(slot, neighborSlot(slot, offset));
+#define MAY_LOSE            \
+  bool mayLose(uint slot) { \
+    bool may = false;       \
+    FOR_EACH_SPRING(LOOK)   \
+    return may;             \
   }
 
 #define VARIANT_NAME CutSprings
@@ -258,11 +260,12 @@ template <class Kernel>
 uint32_t CpuCut::cutWith(CpuLattice& lattice, const layout::ToolMotion& motion) {
   Kernel kernel(lattice);
   kernel.tool_motions = &motion;
+  kernel.outside = outside_.data();
   for (uint32_t brick : near_) {
     if (!mayCross(lattice.store.bricks[brick])) continue;
     for (uint32_t i = lattice.store.first_active[brick]; i < lattice.store.first_active[brick + 1]; ++i) {
       const uint32_t slot = lattice.store.active[i];
-      if (!kernel.mayLose(slot, outside_.data())) continue;
+      if (!kernel.mayLose(slot)) continue;
       const layout::NodeBits before = lattice.store.nodes[slot];
       kernel.index = i;
       kernel.main();
