@@ -41,7 +41,8 @@ const std::vector<Suite>& suites() {
       {"scale", "time and memory per node, from a thousand to ten million nodes", run<scaleSuite>},
       {"skip", "what does not doing what a scene does not need save?", run<skipSuite>},
       {"egve", "what do the mappings of the skin cost, and how far off are they (EGVE 3.4)?", run<egveSuite>, true},
-      {"cut", "pictures per second by length of an incision (VR05 figure 11), rate by share of springs cut", run<cutSuite>},
+      {"cut", "pictures per second by length of an incision (VR05 figure 11), rate by share of springs cut",
+       run<cutSuite>},
       {"latency", "from a pose to its force and its picture; how even ticks are", run<latencySuite>},
       {"limit", "copies and multiply-adds of this machine, and the fraction that is reached", run<limitSuite>},
   };

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "layout/bindings.h"
+#include "math/srgb.h"
 #include "render/mesh_uniforms.h"
 
 namespace viscera {
@@ -19,8 +20,7 @@ void describe(VertexArray& inputs) {
 }
 
 Vector3f linear(const Vector3d& srgb) {
-  const auto one = [](double c) { return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4); };
-  return Vector3d(one(srgb.x()), one(srgb.y()), one(srgb.z())).cast<float>();
+  return srgb.unaryExpr(&linearFromSrgb).cast<float>();
 }
 
 /// Tells shaders/draw/grain.glsl how the bodies look.

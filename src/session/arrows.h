@@ -14,7 +14,7 @@
 namespace viscera {
 
 constexpr double kArrowPerNewton_m = 0.1;  ///< length of an arrow, as in scene_markers by default
-constexpr double kArrowOfWind_s = 0.01;     ///< an arrow of the wind is the way of the air in this time
+constexpr double kArrowOfWind_s = 0.01;    ///< an arrow of the wind is the way of the air in this time
 
 /// What each stylus feels, at its tip.
 void addForceArrows(const ToolMotions& motions, const std::array<Reaction, layout::kMaxStyluses>& reactions,

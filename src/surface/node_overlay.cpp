@@ -10,6 +10,7 @@
 #include "layout/bindings.h"
 #include "solver/joined_network.h"
 #include "surface/joined_skins.h"
+#include "surface/surface_kernels.h"
 #include "viscera/model/body/neighbors.h"
 
 namespace viscera {
@@ -18,22 +19,6 @@ namespace {
 
 constexpr double kNormalInSpacings = 0.6;  // length that a normal is drawn with
 constexpr double kForceInSpacings = 2;     // length that the force on a body is drawn with: its direction alone
-
-void bind(uint32_t binding, uint32_t buffer) {
-  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, buffer);
-}
-
-gpu::Program kernel(const std::string& name, const std::vector<std::string>& features = {}) {
-  std::vector<std::string> defines = features;
-  defines.push_back("GROUP_SIZE " + std::to_string(layout::kGroupSize));
-  return gpu::Program::compute(name, defines);
-}
-
-void run(const gpu::Program& kernel, size_t count) {
-  kernel.use();
-  kernel.set("count", static_cast<uint32_t>(count));
-  gpu::Program::dispatch(count, layout::kGroupSize);
-}
 
 /// Links of every slot, as overlay_nodes.comp goes over them.
 struct Links {
@@ -99,10 +84,10 @@ NodeOverlay::NodeOverlay(const Model& model)
     links_ = gpu::Buffer<layout::OverlayLink>(links.links, "overlay links");
   }
   const std::vector<std::string> features(network ? 1 : 0, "NETWORK");
-  place_ = kernel("overlay_nodes.comp", features);
-  draw_lines_ = kernel("overlay_lines.comp", features);
-  draw_spikes_ = kernel("overlay_spikes.comp");
-  color_ = kernel("overlay_colors.comp");
+  place_ = surfaceKernel("overlay_nodes.comp", features);
+  draw_lines_ = surfaceKernel("overlay_lines.comp", features);
+  draw_spikes_ = surfaceKernel("overlay_spikes.comp");
+  color_ = surfaceKernel("overlay_colors.comp");
   std::vector<layout::SurfaceNode> bound;
   for (const layout::OverlaySpike& spike : spike_list_) {
     if (spike.vertex == 0) bound.push_back({spike.slot, 0, 0, 0});
@@ -110,7 +95,7 @@ NodeOverlay::NodeOverlay(const Model& model)
   if (bound.empty()) return;
   bound_nodes_ = gpu::Buffer<layout::SurfaceNode>(bound, "overlay bound nodes");
   node_normals_ = gpu::Buffer<layout::vec4>(slots_, "overlay node normals");
-  sum_normals_ = kernel("node_normal.comp", {"SUMMED"});
+  sum_normals_ = surfaceKernel("node_normal.comp", {"SUMMED"});
 }
 
 /// Springs between nodes that the skin is bound to, each once, and normals of these nodes.
@@ -139,43 +124,43 @@ void NodeOverlay::addNetwork(const Body& body, uint32_t slot, uint32_t first_spr
 }
 
 void NodeOverlay::follow(const StateView& state, const Surface& surface) {
-  bind(layout::kBindBricks, state.bricks);
-  bind(layout::kBindBodies, state.bodies);
-  bind(layout::kBindNodes, state.nodes);
-  bind(layout::kBindDisplacementIn, state.displacement);
+  bindStorage(layout::kBindBricks, state.bricks);
+  bindStorage(layout::kBindBodies, state.bodies);
+  bindStorage(layout::kBindNodes, state.nodes);
+  bindStorage(layout::kBindDisplacementIn, state.displacement);
   if (link_starts_.size() > 0) {
-    bind(layout::kBindRest, state.rest);
-    bind(layout::kBindSpringCut, state.spring_cut);
+    bindStorage(layout::kBindRest, state.rest);
+    bindStorage(layout::kBindSpringCut, state.spring_cut);
     link_starts_.bindStorage(layout::kBindOverlayLinkStarts);
     links_.bindStorage(layout::kBindOverlayLinks);
   }
   nodes_.bindStorage(layout::kBindOverlayNodes);
   surface.bindings().bindStorage(layout::kBindSkinBindings);
-  run(place_, slots_);
+  runOver(place_, slots_);
   gpu::Program::storageBarrier();
 }
 
 size_t NodeOverlay::makeLines(const StateView& state, bool all) {
-  bind(layout::kBindNodes, state.nodes);
-  if (link_starts_.size() > 0) bind(layout::kBindSpringCut, state.spring_cut);
+  bindStorage(layout::kBindNodes, state.nodes);
+  if (link_starts_.size() > 0) bindStorage(layout::kBindSpringCut, state.spring_cut);
   lines_.bindStorage(layout::kBindOverlayLines);
   indices_.bindStorage(layout::kBindOverlayIndices);
   const size_t count = all ? lines_.size() : axial_count_;
-  run(draw_lines_, count);
+  runOver(draw_lines_, count);
   return 2 * count;
 }
 
 void NodeOverlay::makeNormals(const StateView& state, const Surface& surface) {
   if (sum_normals_) {
-    bind(layout::kBindBricks, state.bricks);
-    bind(layout::kBindBodies, state.bodies);
-    bind(layout::kBindNodes, state.nodes);
-    bind(layout::kBindDisplacementIn, state.displacement);
-    bind(layout::kBindStaleBricks, bound_nodes_.id());  // nobody reads it: every node is summed
+    bindStorage(layout::kBindBricks, state.bricks);
+    bindStorage(layout::kBindBodies, state.bodies);
+    bindStorage(layout::kBindNodes, state.nodes);
+    bindStorage(layout::kBindDisplacementIn, state.displacement);
+    bindStorage(layout::kBindStaleBricks, bound_nodes_.id());  // nobody reads it: every node is summed
     bound_nodes_.bindStorage(layout::kBindSurfaceNodes);
     node_normals_.bindStorage(layout::kBindNodeNormals);
     sum_normals_.set("followed_revision", 0U);
-    run(sum_normals_, bound_nodes_.size());
+    runOver(sum_normals_, bound_nodes_.size());
     gpu::Program::storageBarrier();
   }
   makeSpikes(surface, layout::kSpikesAreNormals, normal_lengths_);
@@ -187,13 +172,13 @@ void NodeOverlay::makeForces(const Surface& surface) {
 
 void NodeOverlay::makeSpikes(const Surface& surface, uint32_t kind, const std::vector<float>& of_bodies) {
   const bool lattices = node_normals_.size() > 0;
-  bind(layout::kBindNodeNormals, lattices ? node_normals_.id() : nodes_.id());  // nobody reads the latter
+  bindStorage(layout::kBindNodeNormals, lattices ? node_normals_.id() : nodes_.id());  // nobody reads the latter
   surface.normals().bindStorage(layout::kBindSkinNormals);
   spikes_.bindStorage(layout::kBindOverlaySpikes);
   ends_.bindStorage(layout::kBindOverlayEnds);
   draw_spikes_.set("kind", kind);
   draw_spikes_.setVectors("body_spikes", of_bodies.data(), 4, layout::kMaxBodies);
-  run(draw_spikes_, spikes_.size());
+  runOver(draw_spikes_, spikes_.size());
 }
 
 void NodeOverlay::makeColors(const Surface& surface, double strain_range) {
@@ -201,7 +186,7 @@ void NodeOverlay::makeColors(const Surface& surface, double strain_range) {
   surface.bindings().bindStorage(layout::kBindSkinBindings);
   colors_.bindStorage(layout::kBindStrainColors);
   color_.set("strain_range", static_cast<float>(strain_range));
-  run(color_, surface.vertices());
+  runOver(color_, surface.vertices());
 }
 
 }  // namespace viscera

@@ -12,26 +12,17 @@
 #include "layout/bindings.h"
 #include "surface/joined_skins.h"
 #include "surface/network_surface.h"
+#include "surface/surface_kernels.h"
 
 namespace viscera {
 
 namespace {
 
-void bind(uint32_t binding, uint32_t buffer) {
-  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, buffer);
-}
-
 /// What shaders/solver/lattice.glsl asks for.
 void bindNodes(const StateView& state) {
-  bind(layout::kBindBricks, state.bricks);
-  bind(layout::kBindBodies, state.bodies);
-  bind(layout::kBindNodes, state.nodes);
-}
-
-gpu::Program kernel(const std::string& name, const std::vector<std::string>& features = {}) {
-  std::vector<std::string> defines = features;
-  defines.push_back("GROUP_SIZE " + std::to_string(layout::kGroupSize));
-  return gpu::Program::compute(name, defines);
+  bindStorage(layout::kBindBricks, state.bricks);
+  bindStorage(layout::kBindBodies, state.bodies);
+  bindStorage(layout::kBindNodes, state.nodes);
 }
 
 /// What map_skin.comp is compiled for.
@@ -46,15 +37,9 @@ std::vector<std::string> mapFeatures(const JoinedSkins& skins) {
   return features;
 }
 
-void run(const gpu::Program& kernel, size_t count) {
-  kernel.use();
-  kernel.set("count", static_cast<uint32_t>(count));
-  gpu::Program::dispatch(count, layout::kGroupSize);
-}
-
 void runSince(const gpu::Program& kernel, size_t count, uint32_t followed_revision) {
   kernel.set("followed_revision", followed_revision);
-  run(kernel, count);
+  runOver(kernel, count);
 }
 
 /// Whoever draws, copies or publishes next must see what was written.
@@ -105,10 +90,10 @@ Surface::Surface(const Model& model) {
   std::vector<uint32_t> splits = splitsOf(skins);
   shown_ = ShownTriangles(model, vertices_, std::move(skins.triangles), std::move(splits));
   if (skins.any_bound) {
-    if (carried_nodes_.size() > 0) carried_normal_ = kernel("node_normal.comp");
-    if (summed_nodes_.size() > 0) summed_normal_ = kernel("node_normal.comp", {"SUMMED"});
-    map_ = kernel("map_skin.comp", mapFeatures(skins));
-    tear_ = kernel("tear_skin.comp", std::vector<std::string>(skins.any_one_to_one ? 1 : 0, "MIXED"));
+    if (carried_nodes_.size() > 0) carried_normal_ = surfaceKernel("node_normal.comp");
+    if (summed_nodes_.size() > 0) summed_normal_ = surfaceKernel("node_normal.comp", {"SUMMED"});
+    map_ = surfaceKernel("map_skin.comp", mapFeatures(skins));
+    tear_ = surfaceKernel("tear_skin.comp", std::vector<std::string>(skins.any_one_to_one ? 1 : 0, "MIXED"));
   }
   if (skins.any_one_to_one) networks_ = std::make_unique<NetworkSurface>(skins.networks);
   if (wounds_) makeRoom(kRoomForWounds * vertices_, live_count_ + 3 * kRoomForWounds * triangles);
@@ -123,9 +108,9 @@ void Surface::follow(const StateView& state) {
   const gpu::TimedStage timed(gpu::Stage::kSurface);
   const uint32_t since = known ? followed_revision_ : 0;
   followed_revision_ = known ? state.revision : 0;
-  bind(layout::kBindStaleBricks, known ? state.stale_bricks : unknown_.id());
+  bindStorage(layout::kBindStaleBricks, known ? state.stale_bricks : unknown_.id());
   bindNodes(state);
-  bind(layout::kBindDisplacementIn, state.displacement);
+  bindStorage(layout::kBindDisplacementIn, state.displacement);
   positions_.bindStorage(layout::kBindSkinPositions);
   normals_.bindStorage(layout::kBindSkinNormals);
   if (map_) followLattices(since);
@@ -164,7 +149,7 @@ void Surface::tear(const StateView& state) {
     bindings_.bindStorage(layout::kBindSkinBindings);
     ties_.bindStorage(layout::kBindSkinTies);
     tie_starts_.bindStorage(layout::kBindSkinTieStarts);
-    run(tear_, triangles());
+    runOver(tear_, triangles());
   }
   if (networks_) {
     networks_->split(state, triangles());

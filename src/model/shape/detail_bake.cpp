@@ -10,6 +10,7 @@
 #include <sstream>
 #include <thread>
 
+#include "math/srgb.h"
 #include "model/shape/detail_atlas.h"
 #include "model/shape/detail_cache.h"
 #include "model/shape/triangle_tree.h"
@@ -118,16 +119,6 @@ class Baker {
   float reach_m_ = 0;
 };
 
-uint8_t srgbByte(double linear) {
-  const double c = linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
-  return static_cast<uint8_t>(std::lround(255 * std::clamp(c, 0.0, 1.0)));
-}
-
-double linearOf(uint8_t srgb) {
-  const double c = srgb / 255.0;
-  return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
-}
-
 int wrappedTexel(double coordinate, int count, TextureWrap wrap) {
   double at = coordinate;
   if (wrap == TextureWrap::kMirror) at = std::abs(std::fmod(std::fmod(at - 1, 2) + 2, 2) - 1);
@@ -155,7 +146,7 @@ void Baker::putColor(const MeshPlace& at, uint8_t* out) const {
     const int x = wrappedTexel(of.u.head<3>().dot(place) + of.u[3], image.width_px, material.color_texture.wrap_u);
     const int y = wrappedTexel(of.v.head<3>().dot(place) + of.v[3], image.height_px, material.color_texture.wrap_v);
     for (size_t i = 0; i < 3; ++i)
-      color[i] *= linearOf(image.rgba[4 * (static_cast<size_t>(y) * image.width_px + x) + i]);
+      color[i] *= linearFromSrgb(image.rgba[4 * (static_cast<size_t>(y) * image.width_px + x) + i] / 255.0);
   }
   for (size_t i = 0; i < 3; ++i) out[i] = srgbByte(color[i]);
 }

@@ -8,6 +8,7 @@
 #include <memory>
 #include <thread>
 
+#include "math/srgb.h"
 #include "model/shape/detail_atlas.h"
 
 namespace viscera {
@@ -16,11 +17,6 @@ namespace {
 
 constexpr int kLargestTile_px = 32;
 constexpr float kStep_m = 1e-4F;  // for slopes: less than a texel
-
-uint8_t srgbByte(float linear) {
-  const float c = linear <= 0.0031308F ? 12.92F * linear : 1.055F * std::pow(linear, 1 / 2.4F) - 0.055F;
-  return static_cast<uint8_t>(std::lround(255 * std::clamp(c, 0.F, 1.F)));
-}
 
 struct Canvas {
   const TriangleMesh& skin;

@@ -11,9 +11,9 @@ namespace {
 
 // Where rays to the ventricles' outer surface begin: within them, at the apex and at the base.
 const Vector3d kApex(0.16, 0.05, 0), kBase(0.02, -0.05, 1);
-constexpr double kFarthest = 0.9;      // of the surface from the axis
-constexpr double kTop = 0.955;         // of the groove below the atria
-constexpr double kVeinBeside = 2.4;    // radii of the artery from its middle to the vein's
+constexpr double kFarthest = 0.9;    // of the surface from the axis
+constexpr double kTop = 0.955;       // of the groove below the atria
+constexpr double kVeinBeside = 2.4;  // radii of the artery from its middle to the vein's
 constexpr int kPointsPerPath = 24;
 constexpr double kFacing = 0.2;                            // cosine: what faces elsewhere is the wall's other side
 constexpr double kFatHeight = 0.010, kVesselHeight = 0.8;  // of the heart's length; of a vessel's radius

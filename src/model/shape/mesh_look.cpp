@@ -11,6 +11,7 @@
 #include <iterator>
 
 #include "math/one_line.h"
+#include "math/srgb.h"
 #include "model/shape/image_decoder.h"
 #include "model/shape/import_limits.h"
 #include "viscera/math/error.h"
@@ -121,7 +122,7 @@ const MeshLook::Named& MeshLook::material(unsigned index) {
     out.material.color = {color.r, color.g, color.b};
   } else if (out.name != AI_DEFAULT_MATERIAL_NAME && source.Get(AI_MATKEY_COLOR_DIFFUSE, color) == aiReturn_SUCCESS) {
     out.material.has_color = true;  // other formats give it as it looks on a screen
-    const auto linear = [](float c) { return c <= 0.04045F ? c / 12.92F : std::pow((c + 0.055F) / 1.055F, 2.4F); };
+    const auto linear = [](float c) { return static_cast<float>(linearFromSrgb(c)); };
     out.material.color = {linear(color.r), linear(color.g), linear(color.b)};
   }
   out.material.color = out.material.color.cwiseMax(0.F).cwiseMin(1.F);
