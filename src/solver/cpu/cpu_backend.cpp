@@ -62,7 +62,7 @@ CpuBackend::CpuBackend(const Model& model, const Scene& scene, const TickPlan& p
   work_->stats.resize(bricks());
   work_->changed.reserve(bricks());
   if (plan.tools) {
-    cut_.emplace(lattice_);
+    cut_.emplace(lattice_, pool_, kernels_);
     motions_.reserve(static_cast<size_t>(plan.mostSubsteps()) * layout::kMaxStyluses);
   }
   if (!plan.governed()) return;

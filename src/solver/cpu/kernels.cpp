@@ -68,16 +68,6 @@ HWY_NOINLINE void addVolumes(const Tile& u, int at, V quarter, const float* bulk
   addVolume<1, 1, 1>(u, at, quarter, load(bulk + 448), force);
 }
 
-/// Rest position of a vector's nodes [m]. @param from  rest position of the brick's first slot   @param i  index of the
-/// first node
-HWY_INLINE Vec3 restOf(const float (&from)[3], float h, int i) {
-  alignas(64) static constexpr float kX[16] = {0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3};
-  alignas(64) static constexpr float kY[16] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
-  const V spacing = set(h);
-  return {hn::MulAdd(spacing, load(kX), set(from[0])), hn::MulAdd(spacing, load(kY + (i & 15)), set(from[1])),
-          set(from[2] + h * static_cast<float>(i >> 4))};
-}
-
 /// Forces on a brick's nodes of the springs and volumes around them.
 template <bool kUniform, bool kDashpot>
 struct ForceOfSprings {

@@ -118,6 +118,38 @@ struct MeasureJob {
 };
 using BrickMeasure = void (*)(const MeasureJob& job, const uint32_t* bricks, size_t count);
 
+/// Greater than the errors of rounding where nodes are looked for around a blade, over the sizes at hand (1e-6).
+constexpr float kSweepMargin = 1e-4f;
+
+/// A blade's sweep as the nodes of a body may be met by it: all vectors are from its first tip [m].
+struct Sweep {
+  float center_m[3], radius_m;  ///< sphere around all that may be cut
+  float axes[3][3];             ///< unit vectors of a box around the sweep itself
+  float low_m[3], high_m[3];    ///< along the axes
+};
+
+/// Where the 64 places of a brick are, from the blade's first tip; without bounds if some are not finite.
+struct BrickPlaces {
+  float low_m[3], high_m[3];
+  float speed2;  ///< largest |v|^2 [m2/s2]
+  bool near;     ///< some are in the sphere
+};
+
+struct SweepJob {
+  const layout::Brick* bricks;
+  const layout::BodyParams* bodies;
+  const float *displacement, *velocity;
+  const float* reach_m;  ///< [slots] how far from a node its tissue may be
+  float from_m[3];       ///< the blade's first tip, tissue frame
+  const Sweep* sweeps;   ///< [bodies]
+  BrickPlaces* places;   ///< [bricks]
+  uint8_t* outside;      ///< [slots] on which sides of the box a node is, with its tissue: bits 2 k low, 2 k + 1 high
+};
+/// Writes `places` of bricks first..last - 1.
+using BrickSweep = void (*)(const SweepJob& job, size_t first, size_t last);
+/// Writes `outside` of some bricks' slots.
+using BrickSides = void (*)(const SweepJob& job, const uint32_t* bricks, size_t count);
+
 struct NetworkJob;  // network_kernels.h
 /// One substep of leapfrog, point-centric, as in shaders/solver/leapfrog.comp without contacts and volumes, of groups
 /// first..last - 1 of the rows.
@@ -130,6 +162,8 @@ struct Kernels {
   BrickMeasure measure;
   BrickCells cells;
   NetworkLeapfrog leapfrog_network;
+  BrickSweep sweep;
+  BrickSides sides;
 };
 
 /// Instruction sets in the binary that this processor has, best first.

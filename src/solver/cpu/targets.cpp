@@ -14,7 +14,13 @@ std::optional<Kernels> kernelsFor(const std::string& target) {
   for (const int64_t each : hwy::SupportedAndGeneratedTargets()) {
     const std::string name = hwy::TargetName(each);
     if (target.empty() || target == name)
-      return Kernels{name, leapfrogFor(each), measureFor(each), cellsFor(each), leapfrogNetworkFor(each)};
+      return Kernels{name,
+                     leapfrogFor(each),
+                     measureFor(each),
+                     cellsFor(each),
+                     leapfrogNetworkFor(each),
+                     findPlacesFor(each),
+                     findSidesFor(each)};
   }
   return std::nullopt;
 }

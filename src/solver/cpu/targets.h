@@ -31,5 +31,7 @@ BrickLeapfrog leapfrogFor(int64_t target);
 BrickMeasure measureFor(int64_t target);
 BrickCells cellsFor(int64_t target);
 NetworkLeapfrog leapfrogNetworkFor(int64_t target);
+BrickSweep findPlacesFor(int64_t target);
+BrickSides findSidesFor(int64_t target);
 
 }  // namespace viscera::simd

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "solver/cpu/cpu_lattice.h"
+#include "solver/cpu/near_blade.h"
 #include "solver/tool_acts.h"
 #include "viscera/layout/tick_stats.h"
 #include "viscera/layout/tool_motion.h"
@@ -22,32 +23,26 @@ void takeHold(CpuLattice& lattice, uint32_t stylus, const Pose& pose, double rad
 /// Lets go what a stylus holds. @param stats  of the tick, with what the stylus gave in it
 void letGo(CpuLattice& lattice, uint32_t stylus, const Release& release, const layout::TickStats& stats);
 
-/// Erases the springs that a swept blade crosses, from both ends, and with them the volumes of their cells. Most nodes
-/// are passed over by loops that vector units run: allocates nothing once it has cut.
+/// Erases the springs that a swept blade crosses, from both ends, and with them the volumes of their cells. Allocates
+/// nothing once it has cut.
 class CpuCut {
  public:
-  explicit CpuCut(CpuLattice& lattice);
+  /// @param parallel  on which it looks for nodes near the blade; must outlive this
+  CpuCut(CpuLattice& lattice, const Parallel& parallel, const simd::Kernels& kernels);
   /// @param particles  all springs of the nodes near the blade instead
   /// @return springs cut
   uint32_t run(CpuLattice& lattice, const layout::ToolMotion& motion, bool particles);
-  /// [looked at] in the last run: bricks with a node, or a place for one, within the sphere that the blade may cut in.
-  const std::vector<uint32_t>& bricks() const { return near_; }
+  /// Looked at in the last run.
+  const std::vector<uint32_t>& bricks() const { return near_.bricks(); }
 
  private:
-  void findBricks(const CpuLattice& lattice, const layout::ToolMotion& motion);
-  float farthestOffset(const CpuLattice& lattice, const layout::ToolMotion& motion) const;
-  void placeNodes(const CpuLattice& lattice, const layout::ToolMotion& motion, float grown_m);
-  bool mayCross(const layout::Brick& brick) const;
   template <class Kernel>
   uint32_t cutWith(CpuLattice& lattice, const layout::ToolMotion& motion);
   template <class Springs, class Particles>
   uint32_t cutAll(CpuLattice& lattice, const layout::ToolMotion& motion, bool particles);
   void tearCells(CpuLattice& lattice) const;
 
-  std::vector<float> reach_m_;     ///< [slots] how far from a node its tissue may be
-  std::vector<uint32_t> near_;     ///< bricks
-  std::vector<uint8_t> outside_;   ///< [slots] of near bricks: on which sides of the box around the sweep, a bit each
-  std::vector<uint8_t> common_;    ///< [bricks] the sides on which all places of a near brick are; 255 elsewhere
+  NearBlade near_;
   std::vector<uint32_t> changed_;  ///< slots that lost springs
 };
 

@@ -77,6 +77,16 @@ HWY_INLINE void storePlanes(const Vec3& value, float* at) {
   hn::StoreU(value.z, Tag(), at + 128);
 }
 
+/// Rest position of a vector's nodes [m]. @param from  rest position of the brick's first slot   @param i  index of the
+/// first node
+HWY_INLINE Vec3 restOf(const float (&from)[3], float h, int i) {
+  alignas(64) static constexpr float kX[16] = {0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3};
+  alignas(64) static constexpr float kY[16] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
+  const V spacing = set(h);
+  return {hn::MulAdd(spacing, load(kX), set(from[0])), hn::MulAdd(spacing, load(kY + (i & 15)), set(from[1])),
+          set(from[2] + h * static_cast<float>(i >> 4))};
+}
+
 /// sum + increment, with Kahan's compensation where there is memory for it (shaders/solver/leapfrog.comp).
 HWY_INLINE Vec3 added(float* compensation, size_t at, const Vec3& sum, const Vec3& increment) {
   if (!compensation) return sum + increment;

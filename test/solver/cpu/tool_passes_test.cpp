@@ -110,7 +110,8 @@ class CpuTools : public ::testing::Test {
 
   Model model_;
   CpuLattice lattice_;
-  CpuCut cut_{lattice_};
+  Serial serial_;
+  CpuCut cut_{lattice_, serial_, *simd::kernelsFor({})};
   ReferenceSolver reference_;
 };
 
@@ -224,7 +225,8 @@ TEST_F(CpuTools, CutTheSpringsAndCellsThatTheReferenceCuts) {
 TEST_F(CpuTools, LookOnlyAtBricksThatTheBladeMayReach) {
   const Model model = modelOf({boxBody({63, 3, 3}, 0.001)});
   CpuLattice lattice(model, bodyParams(model, safeTimeStep(model)), featuresFor(model, true));
-  CpuCut cut(lattice);
+  const Serial serial;
+  CpuCut cut(lattice, serial, *simd::kernelsFor({}));
   const layout::ToolMotion motion = row(ToolMode::kCut, at({0.0005, -0.001, 0.005}), at({0.0005, 0.004, 0.005}));
   EXPECT_EQ(cut.run(lattice, motion, false), 4u * 4 + 2 * (2 * 3 * 4));  // all springs between two layers of 4 x 4
   // The blade is 80 mm long and points down: its sphere has a radius of 40 mm and 12 mm for long springs.
