@@ -90,6 +90,7 @@ const uint kBindOverlaySpikes = 71u;      // OverlaySpike[]
 const uint kBindOverlayEnds = 72u;        // vec4[2 * spikes]: xyz of both ends [m]
 const uint kBindStrainColors = 73u;       // uint[vertices]: RGBA8 by strain
 const uint kBindCutSides = 74u;           // vec4[slots]: see cut_sides.glsl
+const uint kBindPicked = 75u;             // uint[]: which items a kernel of the surface goes over, see surface/grouped_items.h
 
 // Texture units: buffers seen through texel fetches. OpenGL promises 16 of them.
 const uint kUnitDisplacement = 0u;  // rgba32f, as kBindDisplacementIn

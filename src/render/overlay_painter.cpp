@@ -8,6 +8,7 @@
 #include <cstdio>
 
 #include "render/lathe.h"
+#include "render/mesh_parts.h"
 #include "render/mesh_uniforms.h"
 #include "render/renderer.h"
 
@@ -83,11 +84,10 @@ void OverlayPainter::drawStrain(const OverlayLook& look, const MeshView& mesh, c
   glVertexArrayVertexBuffer(mesh_inputs_.id(), kPositionInput, mesh.positions, 0, 3 * sizeof(float));
   glVertexArrayVertexBuffer(mesh_inputs_.id(), kNormalInput, mesh.normals, 0, sizeof(uint32_t));
   glVertexArrayVertexBuffer(mesh_inputs_.id(), kColorInput, nodes_.colors().id(), 0, sizeof(uint32_t));
-  glVertexArrayElementBuffer(mesh_inputs_.id(), mesh.indices);
   glBindVertexArray(mesh_inputs_.id());
   strain_.use();
   setMeshMatrices(strain_, optical_from_tissue, clip_from_optical);
-  glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(mesh.index_count), GL_UNSIGNED_INT, nullptr);
+  drawParts(mesh, mesh_inputs_, [](const DrawnPart&) {});
   glBindVertexArray(0);
 }
 

@@ -14,6 +14,7 @@
 
 namespace viscera {
 
+class DrawnSkin;
 struct MeshView;
 
 /// What is drawn over a picture, and what of.
@@ -23,6 +24,7 @@ struct OverlayLook {
   StateView state;
   const Surface* surface = nullptr;  ///< that follows the state
   const std::vector<Arrow>* arrows = nullptr;
+  const DrawnSkin* skin = nullptr;  ///< see Renderer::draw
 };
 
 /// Draws overlays: strain in place of the tissue's colours, lines that show through the tissue faintly, arrows, and a

@@ -27,16 +27,17 @@ void prepareImage() {
   glDepthRange(0, 1);
   glEnable(GL_FRAMEBUFFER_SRGB);
   glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
-  glDisable(GL_CULL_FACE);  // tissue is seen from inside through a cut
-  glFrontFace(GL_CW);       // the image is drawn upside down, which turns every winding
+  glDisable(GL_CULL_FACE);  // tissue is seen from inside through a cut, but for what DrawnPart says
+  glCullFace(GL_BACK);
+  glFrontFace(GL_CW);  // the image is drawn upside down, which turns every winding
   glClearColor(kBackground[0], kBackground[1], kBackground[2], kBackground[3]);
   glClearDepth(1);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 }
 
-MeshView viewOf(const Surface& surface) {
-  return {surface.positions().id(), surface.normals().id(), surface.colors().id(),   surface.liveIndices().id(),
-          surface.liveCount(),      surface.rests().id(),   surface.liveChartsView()};
+MeshView viewOf(const Surface& surface, const DrawnSkin* skin) {
+  return {surface.positions().id(), surface.normals().id(), surface.colors().id(),    surface.liveIndices().id(),
+          surface.liveCount(),      surface.rests().id(),   surface.liveChartsView(), skin ? &skin->parts() : nullptr};
 }
 
 }  // namespace
@@ -56,8 +57,8 @@ Renderer::Renderer(const std::vector<CameraConfig>& cameras, const std::vector<S
 
 Renderer::~Renderer() = default;
 
-void Renderer::draw(size_t camera, const Surface& surface, const ToolMotions& motions) {
-  draw(camera, viewOf(surface), motions);
+void Renderer::draw(size_t camera, const Surface& surface, const ToolMotions& motions, const DrawnSkin* skin) {
+  draw(camera, viewOf(surface, skin), motions);
 }
 
 void Renderer::draw(size_t camera, const MeshView& mesh, const ToolMotions& motions) {
@@ -70,7 +71,7 @@ void Renderer::draw(size_t camera, const MeshView& mesh, const ToolMotions& moti
 void Renderer::draw(size_t camera, const Model& model, const OverlayLook& look, const ToolMotions& motions) {
   if (!overlays_) overlays_ = std::make_unique<OverlayPainter>(model);
   overlays_->follow(look);
-  const MeshView mesh = viewOf(*look.surface);
+  const MeshView mesh = viewOf(*look.surface, look.skin);
   const auto drawTissue = [&](const Pose& pose, const Eigen::Matrix4f& clip) {
     if (look.shown.has(Overlay::kStrain)) {
       overlays_->drawStrain(look, mesh, pose, clip);

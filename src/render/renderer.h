@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "render/drawn_skin.h"
 #include "render/render_target.h"
 #include "surface/surface.h"
 #include "viscera/render/camera.h"
@@ -28,6 +29,7 @@ struct MeshView {
   size_t index_count = 0;
   uint32_t rests = 0;   ///< vec4[vertices] see JoinedSkins::rests; 0: none, and no detail
   uint32_t charts = 0;  ///< texel view of uint[index_count / 3] texture charts (JoinedSkins::charts); 0: none
+  const std::vector<DrawnPart>* parts = nullptr;  ///< instead of all indices and charts
 };
 
 /// Off-screen colour images of the surface and the tools, one framebuffer per camera. Draws only when asked.
@@ -48,7 +50,8 @@ class Renderer {
 
   /// Draws one camera's view and leaves its single-sample colour attachment bound for reading (for ReadbackRing).
   /// Makes no OpenGL object, and sets all the state that it depends on.
-  void draw(size_t camera, const Surface& surface, const ToolMotions& motions);
+  /// @param skin  what the camera sees of the surface; null: all is drawn
+  void draw(size_t camera, const Surface& surface, const ToolMotions& motions, const DrawnSkin* skin = nullptr);
   void draw(size_t camera, const MeshView& mesh, const ToolMotions& motions);
   /// As draw(), with overlays; makes what they need at the first time. @param model  of look.surface, must outlive this
   void draw(size_t camera, const Model& model, const OverlayLook& look, const ToolMotions& motions);

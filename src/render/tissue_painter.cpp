@@ -7,6 +7,7 @@
 
 #include "layout/bindings.h"
 #include "math/srgb.h"
+#include "render/mesh_parts.h"
 #include "render/mesh_uniforms.h"
 
 namespace viscera {
@@ -71,27 +72,29 @@ void TissuePainter::draw(const MeshView& mesh, const ToolShadows& shadows, const
   glVertexArrayVertexBuffer(inputs.id(), kPositionInput, mesh.positions, 0, 3 * sizeof(float));
   glVertexArrayVertexBuffer(inputs.id(), kNormalInput, mesh.normals, 0, sizeof(uint32_t));
   glVertexArrayVertexBuffer(inputs.id(), kColorInput, mesh.colors, 0, sizeof(uint32_t));
-  glVertexArrayElementBuffer(inputs.id(), mesh.indices);
   if (at_rest) glVertexArrayVertexBuffer(inputs.id(), kRestInput, mesh.rests, 0, 4 * sizeof(float));
   if (at_rest && grain_) grain_->bind();
-  if (at_rest && detail_) {
-    glBindTextureUnit(layout::kUnitShownCharts, mesh.charts);
-    detail_->bind();
-  }
+  if (at_rest && detail_) detail_->bind();
   glBindVertexArray(inputs.id());
   if (at_rest) {
     depth_program_.use();
     setMeshMatrices(depth_program_, optical_from_tissue, clip_from_optical);
-    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(mesh.index_count), GL_UNSIGNED_INT, nullptr);
+    drawParts(mesh, inputs, [](const DrawnPart&) {});
     glDepthFunc(GL_LEQUAL);
   }
-  drawWith(at_rest ? tissue_program_ : program_, mesh, shadows, optical_from_tissue, clip_from_optical);
+  const gpu::Program& program = at_rest ? tissue_program_ : program_;
+  useWith(program, shadows, optical_from_tissue, clip_from_optical);
+  drawParts(mesh, inputs, [&](const DrawnPart& part) {
+    if (!at_rest || !detail_) return;
+    glBindTextureUnit(layout::kUnitShownCharts, part.charts);
+    program.set("first_chart", static_cast<int32_t>(part.first / 3));
+  });
   glDepthFunc(GL_LESS);
   glBindVertexArray(0);
 }
 
-void TissuePainter::drawWith(const gpu::Program& program, const MeshView& mesh, const ToolShadows& shadows,
-                             const Pose& optical_from_tissue, const Eigen::Matrix4f& clip_from_optical) {
+void TissuePainter::useWith(const gpu::Program& program, const ToolShadows& shadows, const Pose& optical_from_tissue,
+                            const Eigen::Matrix4f& clip_from_optical) {
   program.use();
   setMeshMatrices(program, optical_from_tissue, clip_from_optical);
   program.set("shafts", shadows.count);
@@ -100,7 +103,6 @@ void TissuePainter::drawWith(const gpu::Program& program, const MeshView& mesh, 
     program.setVectors("shaft_tips", shadows.tips[0].data(), 4, count);
     program.setVectors("shaft_ends", shadows.ends[0].data(), 4, count);
   }
-  glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(mesh.index_count), GL_UNSIGNED_INT, nullptr);
 }
 
 }  // namespace viscera

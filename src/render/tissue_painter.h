@@ -23,8 +23,8 @@ class TissuePainter {
             const Eigen::Matrix4f& clip_from_optical);
 
  private:
-  void drawWith(const gpu::Program& program, const MeshView& mesh, const ToolShadows& shadows,
-                const Pose& optical_from_tissue, const Eigen::Matrix4f& clip_from_optical);
+  void useWith(const gpu::Program& program, const ToolShadows& shadows, const Pose& optical_from_tissue,
+               const Eigen::Matrix4f& clip_from_optical);
 
   std::unique_ptr<DetailTextures> detail_;  ///< null where no skin has any
   std::unique_ptr<GrainTexture> grain_;     ///< null where all is cloth

@@ -50,7 +50,8 @@ InlineView::InlineView(const Model& model, const Scene& scene)
       renderer_(scene.cameras, scene.styluses, scene.obstacles, &model),
       surface_ring_(makeRing(surface_)) {
   for (const CameraConfig& camera : scene.cameras) {
-    eyes_.push_back({camera, std::make_unique<gpu::ReadbackRing>(imageBytes(camera), kImagesInFlight, "an image"), {}});
+    auto ring = std::make_unique<gpu::ReadbackRing>(imageBytes(camera), kImagesInFlight, "an image");
+    eyes_.push_back({camera, std::move(ring), SeenSkin(camera, model, surface_.groups()), false, false, {}});
   }
 }
 
@@ -73,27 +74,73 @@ void InlineView::wound(const layout::NodeBits* nodes, const float* axial_cut, ui
   }
 }
 
-void InlineView::capture(const StateView& state, const Look& look, Pictures& out) {
-  followed_ = false;
-  if (look.wants.surface) captureSurface(state, look.tick);
+void InlineView::capture(const StateView& state, const Look& look, Pictures& out,
+                         const std::optional<HostDisplacements>& displacements) {
+  const bool surface = look.wants.surface && surface_ring_->inFlight() < kSurfacesInFlight;
+  counters_.skipped += look.wants.surface && !surface ? 1 : 0;
+  bool all = surface, any = surface;  // of the skin is to be mapped
   for (size_t c = 0; c < eyes_.size(); ++c) {
-    if (look.wants.image(c)) captureImage(c, state, look, out);
+    Eye& eye = eyes_[c];
+    eye.wanted = look.wants.image(c) && makeRoom(c, look, out);
+    eye.repeated = eye.wanted && isRepeat(c, state, look);
+    if (!eye.wanted || eye.repeated) continue;
+    any = true;
+    all = all || overlaysOf(c, look).any() || !eye.skin.asks(displacements.has_value());
+  }
+  if (any) follow(state, all, displacements);
+  if (surface) captureSurface(look.tick);
+  for (size_t c = 0; c < eyes_.size(); ++c) {
+    if (eyes_[c].wanted) captureImage(c, state, look);
   }
 }
 
-/// Once per capture.
-void InlineView::follow(const StateView& state) {
-  if (std::exchange(followed_, true)) return;
+/// For another picture in a camera's ring.
+bool InlineView::makeRoom(size_t camera, const Look& look, Pictures& out) {
+  const bool full = eyes_[camera].ring->inFlight() == kImagesInFlight;
+  if (!full || (look.wants.every_image && takeImage(camera, out, true))) return true;
+  ++counters_.skipped;
+  return false;
+}
+
+Overlays InlineView::overlaysOf(size_t camera, const Look& look) {
+  return camera < look.overlays.size() ? look.overlays[camera] : Overlays{};  // none were asked for
+}
+
+/// Would the image be the last one again?
+bool InlineView::isRepeat(size_t camera, const StateView& state, const Look& look) const {
+  const std::optional<Drawn>& drawn = eyes_[camera].drawn;
+  const Overlays overlays = overlaysOf(camera, look);
+  return drawn && state.moved_revision == drawn->moved_revision && state.cut_revision == drawn->cut_revision &&
+         looksTheSame(look.motions, drawn->motions) &&
+         std::equal(look.obstacles.begin(), look.obstacles.end(), drawn->obstacles.begin(), drawn->obstacles.end(),
+                    isSame) &&
+         overlays == drawn->overlays && (!overlays.any() || look.arrows == drawn->arrows);
+}
+
+/// Brings the surface to a state, as far as the images that are to be drawn show it. @param all  the whole of it
+void InlineView::follow(const StateView& state, bool all, const std::optional<HostDisplacements>& displacements) {
   surface_.tear(state);
-  surface_.follow(state);
+  const SkinGroups& groups = surface_.groups();
+  bool placed = false;
+  seen_.assign(groups.count(), 0);
+  for (Eye& eye : eyes_) {
+    if (!eye.wanted || eye.repeated) continue;
+    const bool asks = eye.skin.asks(displacements.has_value());
+    if (asks && !std::exchange(placed, true)) {
+      if (displacements) {
+        places_.follow(groups, *displacements);
+      } else {
+        places_.follow(groups, state, model_.slots());
+      }
+    }
+    eye.skin.look(surface_, asks ? &places_ : nullptr);
+    eye.skin.addTo(seen_);
+  }
+  if (!all) groups.need(seen_, needs_);
+  surface_.follow(state, all ? nullptr : &needs_);
 }
 
-void InlineView::captureSurface(const StateView& state, uint64_t tick) {
-  if (surface_ring_->inFlight() == kSurfacesInFlight) {
-    ++counters_.skipped;
-    return;
-  }
-  follow(state);
+void InlineView::captureSurface(uint64_t tick) {
   const gpu::ReadbackRing::Source sources[] = {{surface_.positions().id(), 0, 3 * surface_.vertices() * sizeof(float)},
                                                {surface_.normals().id(), 0, surface_.vertices() * sizeof(uint32_t)},
                                                {surface_.alive().id(), 0, surface_.alive().size() * sizeof(uint32_t)}};
@@ -102,42 +149,32 @@ void InlineView::captureSurface(const StateView& state, uint64_t tick) {
   ++counters_.readbacks;
 }
 
-void InlineView::captureImage(size_t camera, const StateView& state, const Look& look, Pictures& out) {
+void InlineView::captureImage(size_t camera, const StateView& state, const Look& look) {
   Eye& eye = eyes_[camera];
-  const bool full = eye.ring->inFlight() == kImagesInFlight;
-  if (full && !(look.wants.every_image && takeImage(camera, out, true))) {
-    ++counters_.skipped;
-    return;
+  if (eye.repeated) {
+    renderer_.bindLast(camera);
+    ++counters_.repeats;
+  } else {
+    draw(camera, state, look);
   }
-  draw(camera, state, look);
   eye.ring->requestPixels(eye.camera.width_px, eye.camera.height_px, look.tick);
   ++counters_.readbacks;
 }
 
-/// Leaves the image bound for reading; draws it if it would differ from the last one.
+/// Leaves the image bound for reading.
 void InlineView::draw(size_t camera, const StateView& state, const Look& look) {
-  std::optional<Drawn>& drawn = eyes_[camera].drawn;
-  const Overlays overlays = camera < look.overlays.size() ? look.overlays[camera] : Overlays{};  // none were asked for
-  if (drawn && state.moved_revision == drawn->moved_revision && state.cut_revision == drawn->cut_revision &&
-      looksTheSame(look.motions, drawn->motions) &&
-      std::equal(look.obstacles.begin(), look.obstacles.end(), drawn->obstacles.begin(), drawn->obstacles.end(),
-                 isSame) &&
-      overlays == drawn->overlays && (!overlays.any() || look.arrows == drawn->arrows)) {
-    renderer_.bindLast(camera);
-    ++counters_.repeats;
-    return;
-  }
-  follow(state);
+  Eye& eye = eyes_[camera];
+  const Overlays overlays = overlaysOf(camera, look);
   renderer_.placeObstacles(look.obstacles);
   if (overlays.any()) {
-    const OverlayLook over = {overlays, eyes_[camera].camera.strain_range, state, &surface_, &look.arrows};
+    const OverlayLook over = {overlays, eye.camera.strain_range, state, &surface_, &look.arrows, eye.skin.drawn()};
     renderer_.draw(camera, model_, over, look.motions);
   } else {
-    renderer_.draw(camera, surface_, look.motions);
+    renderer_.draw(camera, surface_, look.motions, eye.skin.drawn());
   }
-  drawn.reset();
+  eye.drawn.reset();
   if (state.moved_revision) {
-    drawn = Drawn{state.moved_revision, state.cut_revision, look.motions, look.obstacles, overlays, look.arrows};
+    eye.drawn = Drawn{state.moved_revision, state.cut_revision, look.motions, look.obstacles, overlays, look.arrows};
   }
 }
 

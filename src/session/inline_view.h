@@ -9,6 +9,7 @@
 
 #include "gpu/readback.h"
 #include "render/renderer.h"
+#include "session/seen_skin.h"
 #include "session/view.h"
 #include "surface/surface.h"
 
@@ -22,7 +23,9 @@ class InlineView : public View {
   InlineView(const Model& model, const Scene& scene);
 
   void capture(Solver& solver, const Look& look, Pictures& out) override;
-  void capture(const StateView& state, const Look& look, Pictures& out);
+  /// @param displacements  of the same state, where it is on the host: then nothing waits to know what can be seen
+  void capture(const StateView& state, const Look& look, Pictures& out,
+               const std::optional<HostDisplacements>& displacements = {});
   /// Wounds of the states that are captured from now on, see Surface::wound().
   void wound(const layout::NodeBits* nodes, const float* axial_cut, uint64_t revision);
   void collect(Pictures& out, bool wait) override;
@@ -42,11 +45,16 @@ class InlineView : public View {
   struct Eye {
     CameraConfig camera;
     std::unique_ptr<gpu::ReadbackRing> ring;
+    SeenSkin skin;
+    bool wanted = false, repeated = false;  ///< in this capture: is handed over, without being drawn
     std::optional<Drawn> drawn;
   };
-  void follow(const StateView& state);
-  void captureSurface(const StateView& state, uint64_t tick);
-  void captureImage(size_t camera, const StateView& state, const Look& look, Pictures& out);
+  void captureSurface(uint64_t tick);
+  void captureImage(size_t camera, const StateView& state, const Look& look);
+  bool makeRoom(size_t camera, const Look& look, Pictures& out);
+  bool isRepeat(size_t camera, const StateView& state, const Look& look) const;
+  static Overlays overlaysOf(size_t camera, const Look& look);
+  void follow(const StateView& state, bool all, const std::optional<HostDisplacements>& displacements);
   void draw(size_t camera, const StateView& state, const Look& look);
   bool takeImage(size_t camera, Pictures& out, bool wait);
   bool takeSurface(Pictures& out, bool wait);
@@ -60,7 +68,9 @@ class InlineView : public View {
   std::vector<Eye> eyes_;                                            ///< [cameras]
   std::vector<uint32_t> alive_;                                      ///< of the surface taken last
   ViewCounters counters_;
-  bool followed_ = false;  ///< the surface shows the state of this capture
+  SkinPlaces places_;
+  std::vector<uint8_t> seen_;  ///< [groups] by any camera that is drawn
+  SkinGroups::Needs needs_;
 };
 
 }  // namespace viscera

@@ -210,7 +210,7 @@ void ThreadedView::show(InlineView& view, StateMirror& mirror, const Look& look)
   }
   changed_.notify_all();
   Pictures made;
-  view.capture(mirror.view(), look, made);
+  view.capture(mirror.view(), look, made, mirror.displacements());
   view.collect(made, true);
   gpu::checkErrors("view");
   ViewCounters counters = view.counters();

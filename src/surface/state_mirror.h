@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "gpu/buffer.h"
+#include "surface/skin_groups.h"
 #include "viscera/model/model.h"
 #include "viscera/solver/state.h"
 
@@ -23,6 +24,8 @@ class StateMirror {
   /// @param snapshot  of shownBricks()
   void upload(const StateSnapshot& snapshot);
   StateView view() const;
+  /// Displacements of shownBricks() as uploaded last.
+  HostDisplacements displacements() const { return HostDisplacements::ofBricks(known_m_.data(), places_.data()); }
   uint64_t movedBricks() const {
     return moved_bricks_;
   }  ///< how many bricks were found to have moved, over all uploads
@@ -36,6 +39,7 @@ class StateMirror {
   uint32_t revision_ = 1, moved_revision_ = 1;
   std::vector<layout::Brick> bricks_;
   std::vector<uint32_t> shown_;
+  std::vector<uint32_t> places_;   ///< [bricks] of a brick in known_m_
   std::vector<float> known_m_;     ///< [192 * shown] as in the last snapshot
   std::vector<layout::vec4> run_;  ///< bricks on their way to the GPU, one behind the other there
   uint32_t run_begin_ = 0, run_end_ = 0;

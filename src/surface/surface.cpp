@@ -27,7 +27,7 @@ void bindNodes(const StateView& state) {
 
 /// What map_skin.comp is compiled for.
 std::vector<std::string> mapFeatures(const JoinedSkins& skins) {
-  std::vector<std::string> features;
+  std::vector<std::string> features = {"PICKED"};
   if (skins.any_one_to_one) features.push_back("MIXED");
   if (skins.kinds & layout::kInterpolatedBit) features.push_back("CURVED");
   if (skins.kinds & layout::kInCellBit) features.push_back("IN_CELL");
@@ -37,9 +37,18 @@ std::vector<std::string> mapFeatures(const JoinedSkins& skins) {
   return features;
 }
 
-void runSince(const gpu::Program& kernel, size_t count, uint32_t followed_revision) {
-  kernel.set("followed_revision", followed_revision);
-  runOver(kernel, count);
+std::vector<uint32_t> groupsOf(const std::vector<layout::SurfaceNode>& nodes, const SkinGroups& groups) {
+  std::vector<uint32_t> out;
+  for (const layout::SurfaceNode& node : nodes) out.push_back(groups.groupOfSlot(node.slot));
+  return out;
+}
+
+/// [vertices] groups of those that lattices carry; others have none.
+std::vector<uint32_t> groupsOf(const std::vector<layout::SkinBinding>& bindings, const SkinGroups& groups) {
+  std::vector<uint32_t> out;
+  for (const layout::SkinBinding& binding : bindings)
+    out.push_back(binding.springs & layout::kOneToOneBit ? UINT32_MAX : groups.groupOfSlot(binding.slot0));
+  return out;
 }
 
 /// Whoever draws, copies or publishes next must see what was written.
@@ -85,13 +94,18 @@ Surface::Surface(const Model& model) {
     live_charts_ = gpu::Buffer<uint32_t>(charts_, "live charts");
     live_charts_view_ = gpu::TexelView(live_charts_.raw(), gpu::TexelFormat::kR32ui);
   }
+  groups_ = SkinGroups(model, skins);
+  vertex_items_ = GroupedItems(groupsOf(skins.bindings, groups_), groups_.count() + 1,
+                               Wounds::possible(model) ? kRoomForWounds * vertices_ : 0, "picked vertices");
+  carried_items_ = GroupedItems(groupsOf(skins.carried_nodes, groups_), groups_.count(), 0, "picked nodes");
+  summed_items_ = GroupedItems(groupsOf(skins.summed_nodes, groups_), groups_.count(), 0, "picked nodes");
   if (Wounds::possible(model)) wounds_ = std::make_unique<Wounds>(model, skins);
   was_wounded_.resize(model.bodies.size());
   std::vector<uint32_t> splits = splitsOf(skins);
   shown_ = ShownTriangles(model, vertices_, std::move(skins.triangles), std::move(splits));
   if (skins.any_bound) {
-    if (carried_nodes_.size() > 0) carried_normal_ = surfaceKernel("node_normal.comp");
-    if (summed_nodes_.size() > 0) summed_normal_ = surfaceKernel("node_normal.comp", {"SUMMED"});
+    if (carried_nodes_.size() > 0) carried_normal_ = surfaceKernel("node_normal.comp", {"PICKED"});
+    if (summed_nodes_.size() > 0) summed_normal_ = surfaceKernel("node_normal.comp", {"PICKED", "SUMMED"});
     map_ = surfaceKernel("map_skin.comp", mapFeatures(skins));
     tear_ = surfaceKernel("tear_skin.comp", std::vector<std::string>(skins.any_one_to_one ? 1 : 0, "MIXED"));
   }
@@ -102,39 +116,54 @@ Surface::Surface(const Model& model) {
 
 Surface::~Surface() = default;
 
-void Surface::follow(const StateView& state) {
-  const bool known = state.stale_bricks != 0;
-  if (known && state.moved_revision <= followed_revision_) return;
+void Surface::follow(const StateView& state, const SkinGroups::Needs* needs) {
   const gpu::TimedStage timed(gpu::Stage::kSurface);
-  const uint32_t since = known ? followed_revision_ : 0;
-  followed_revision_ = known ? state.revision : 0;
-  bindStorage(layout::kBindStaleBricks, known ? state.stale_bricks : unknown_.id());
+  bindStorage(layout::kBindStaleBricks, state.stale_bricks ? state.stale_bricks : unknown_.id());
   bindNodes(state);
   bindStorage(layout::kBindDisplacementIn, state.displacement);
   positions_.bindStorage(layout::kBindSkinPositions);
   normals_.bindStorage(layout::kBindSkinNormals);
-  if (map_) followLattices(since);
-  if (networks_) {
-    alive_.bindStorage(layout::kBindSkinAlive);
-    networks_->follow(state, since);
-  }
+  bool any = map_ && followLattices(state, needs);
+  if (networks_ && (!needs || needs->networks)) any = followNetworks(state) || any;
+  if (!any) return;
   publish();
   ++mappings_;
 }
 
-void Surface::followLattices(uint32_t since) {
+/// @returns whether anything was not there yet
+bool Surface::followLattices(const StateView& state, const SkinGroups::Needs* needs) {
   bindings_.bindStorage(layout::kBindSkinBindings);
   node_normals_.bindStorage(layout::kBindNodeNormals);
+  const std::vector<uint8_t>* const nodes = needs ? &needs->nodes : nullptr;
   if (carried_normal_) {
     carried_nodes_.bindStorage(layout::kBindSurfaceNodes);
-    runSince(carried_normal_, carried_nodes_.size(), since);
+    carried_items_.run(carried_normal_, state, nodes);
   }
   if (summed_normal_) {
     summed_nodes_.bindStorage(layout::kBindSurfaceNodes);
-    runSince(summed_normal_, summed_nodes_.size(), since);
+    summed_items_.run(summed_normal_, state, nodes);
   }
   gpu::Program::storageBarrier();
-  runSince(map_, vertices_, since);
+  return vertex_items_.run(map_, state, needs ? &needs->vertices : nullptr);
+}
+
+/// All of them or none: the split ones of one end where both ends are in place.
+bool Surface::followNetworks(const StateView& state) {
+  const bool known = state.stale_bricks != 0;
+  if (known && state.moved_revision <= followed_networks_) return false;
+  const uint32_t since = known ? followed_networks_ : 0;
+  followed_networks_ = known ? state.revision : 0;
+  alive_.bindStorage(layout::kBindSkinAlive);
+  networks_->follow(state, since);
+  return true;
+}
+
+/// Nothing is in place.
+void Surface::forget() {
+  vertex_items_.forget();
+  carried_items_.forget();
+  summed_items_.forget();
+  followed_networks_ = 0;
 }
 
 void Surface::tear(const StateView& state) {
@@ -150,12 +179,26 @@ void Surface::tear(const StateView& state) {
     ties_.bindStorage(layout::kBindSkinTies);
     tie_starts_.bindStorage(layout::kBindSkinTieStarts);
     runOver(tear_, triangles());
+    torn_on_gpu_ = isAnyTorn();
   }
   if (networks_) {
     networks_->split(state, triangles());
-    followed_revision_ = 0;  // normals depend on what is whole
+    followed_networks_ = 0;  // normals depend on what is whole
   }
+  ++live_revision_;
   publish();
+}
+
+/// Waits for the GPU: a lattice that no tool can cut is asked for once after the start and after a reset.
+bool Surface::isAnyTorn() const {
+  const std::vector<uint32_t> alive = alive_.read();
+  size_t triangle = 0;
+  for (size_t b = 0; b < was_wounded_.size(); ++b) {
+    for (const size_t end = triangle + shown_.trianglesOf(b); triangle < end; ++triangle) {
+      if (alive[triangle] == 0 && !groups_.isSplit(b)) return true;
+    }
+  }
+  return false;
 }
 
 void Surface::makeRoom(size_t vertices, size_t indices) {
@@ -235,7 +278,10 @@ void Surface::showWounds() {
   live_.write(wound_indices_, first_wound_index_);
   live_count_ = first_wound_index_ + wound_indices_.size();
   showWoundedCharts();
-  followed_revision_ = 0;  // vertices are bound anew
+  groups_.wound(shown, wounds_->bindings());
+  vertex_items_.setLast(static_cast<uint32_t>(whole_vertices_), static_cast<uint32_t>(vertices_));
+  forget();  // vertices are bound anew
+  ++live_revision_;
 }
 
 void Surface::wound(const layout::NodeBits* nodes, const float* axial_cut, uint64_t revision) {
@@ -253,13 +299,15 @@ void Surface::reset() {
   live_.write(shown_.indices());
   cut_revision_ = wound_revision_ = 0;
   live_count_ = first_wound_index_;
+  ++live_revision_;
+  torn_on_gpu_ = false;
   if (wounds_) {
     wounds_->reset();
     showWounds();
   }
   if (!networks_) return;
   networks_->reset();
-  followed_revision_ = 0;
+  forget();
 }
 
 }  // namespace viscera

@@ -8,7 +8,9 @@
 
 #include "gpu/buffer.h"
 #include "gpu/program.h"
+#include "surface/grouped_items.h"
 #include "surface/shown_triangles.h"
+#include "surface/skin_groups.h"
 #include "surface/wounds.h"
 #include "viscera/layout/skin.h"
 #include "viscera/model/model.h"
@@ -31,7 +33,8 @@ class Surface {
   /// comes back to float rounding; nodes on one line or in one point still give finite vertices and unit normals.
   /// What it writes is ready to be drawn, copied or read by a kernel. Vertices none of whose nodes have moved since the
   /// last call are left as they are, where the state says which those are; that changes no bit.
-  void follow(const StateView& state);
+  /// @param needs  what is asked for (SkinGroups::need); others stay as they are. Null: all
+  void follow(const StateView& state, const SkinGroups::Needs* needs = nullptr);
   /// Takes out the triangles of lattices whose springs were cut (the rule is in model/skin.h), until reset(), and
   /// splits those of networks along the cut (the rule is in split_triangles.comp). Looks at the springs only if
   /// state.cut_revision has changed since the last call; costs nothing otherwise.
@@ -55,6 +58,13 @@ class Surface {
   const gpu::Buffer<uint32_t>& alive() const { return alive_; }       ///< [triangles] see appendShown
   const gpu::Buffer<uint32_t>& liveIndices() const { return live_; }  ///< for drawing; (0, 0, 0) shows nothing
   size_t liveCount() const { return live_count_; }                    ///< how many of them are to be drawn
+  /// Of these: those of the bodies one after the other, as in skin(), then split pieces, then what wounds have beyond.
+  size_t firstWoundIndex() const { return first_wound_index_; }
+  uint64_t liveRevision() const { return live_revision_; }  ///< another one whenever what is drawn may be others
+  bool tornOnGpu() const { return torn_on_gpu_; }           ///< triangles of lattices are gone that skin() still has
+  const SkinGroups& groups() const { return groups_; }
+  /// [triangles and split pieces] charts on the host, as liveCharts() where nothing is wounded; empty where none are.
+  const std::vector<uint32_t>& charts() const { return charts_; }
   /// [liveIndices() / 3] texture charts (JoinedSkins::charts) of the triangles drawn; empty where no body has any.
   const gpu::Buffer<uint32_t>& liveCharts() const { return live_charts_; }
   uint32_t liveChartsView() const { return live_charts_view_.id(); }  ///< of texels; 0: none
@@ -66,7 +76,10 @@ class Surface {
   uint64_t mappings() const { return mappings_; }  ///< times follow() did its work
 
  private:
-  void followLattices(uint32_t since);
+  bool followLattices(const StateView& state, const SkinGroups::Needs* needs);
+  bool followNetworks(const StateView& state);
+  void forget();
+  bool isAnyTorn() const;
   void showWounds();
   void makeRoom(size_t vertices, size_t indices);
   void showWoundedCharts();
@@ -90,7 +103,11 @@ class Surface {
   size_t whole_vertices_ = 0;
   std::vector<bool> was_wounded_;  ///< [bodies]
   uint64_t cut_revision_ = 0, wound_revision_ = 0, mappings_ = 0;
-  uint32_t followed_revision_ = 0;  ///< of the state that positions and normals belong to; 0 if nobody knows
+  SkinGroups groups_;
+  GroupedItems vertex_items_, carried_items_, summed_items_;
+  uint32_t followed_networks_ = 0;  ///< revision of the state that their vertices show; 0 if nobody knows
+  uint64_t live_revision_ = 0;
+  bool torn_on_gpu_ = false;
 };
 
 }  // namespace viscera

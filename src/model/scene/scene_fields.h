@@ -267,6 +267,8 @@ void visitFields(V& v, CameraConfig& c) {
   v.integer("supersampling", c.supersampling, {1, 2}, "antialiasing: pixels drawn per image pixel along each axis");
   v.names("overlays", c.overlays, "what is drawn over the tissue; changed at run time by the service set_overlays");
   v.number("strain_range", c.strain_range, {0.001, 10}, "1", "overlay strain: what the end of the legend stands for");
+  v.boolean("draw_hidden", c.draw_hidden,
+            "work out what cannot be seen too, for comparison: pictures are the same (docs/hidden.md)");
 }
 
 template <class V>

@@ -174,6 +174,7 @@ struct CameraConfig {
   int supersampling = 2;
   Overlays overlays;
   double strain_range = 0.3;
+  bool draw_hidden = false;
 };
 
 /// Moving air. Speed at time t: velocity (1 + gust_ratio sin(2 pi t / gust_period)).

@@ -1,0 +1,31 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+
+#include "viscera/render/camera.h"
+
+namespace viscera {
+
+/// What a camera can see: six planes, tissue frame.
+class Frustum {
+ public:
+  explicit Frustum(const CameraConfig& camera);
+
+  /// Is nothing of the box in the picture? Never said of a box that may be in it; an empty box is missed.
+  bool misses(const Eigen::AlignedBox3f& box) const;
+  /// Is the eye, and all that is nearer to it than what is drawn, outside of the box?
+  bool isBeside(const Eigen::AlignedBox3f& box) const;
+
+ private:
+  struct Plane {  ///< inwards . x >= at
+    Vector3f inwards;
+    float at_m;
+  };
+  std::array<Plane, 6> planes_;
+  Vector3f eye_m_;
+  float blind_m_;  ///< what is nearer to the eye is not drawn
+};
+
+}  // namespace viscera
