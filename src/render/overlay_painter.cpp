@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdio>
+#include <utility>
 
 #include "render/lathe.h"
 #include "render/mesh_parts.h"
@@ -77,6 +78,11 @@ OverlayPainter::OverlayPainter(const Model& model)
   glVertexArrayElementBuffer(arrow_inputs_.id(), arrow_indices_.id());
 }
 
+void OverlayPainter::follow(const OverlayLook& look) {
+  if (look.capture != 0 && std::exchange(capture_, look.capture) == look.capture) return;
+  nodes_.follow(look.state, *look.surface);
+}
+
 void OverlayPainter::drawStrain(const OverlayLook& look, const MeshView& mesh, const Pose& optical_from_tissue,
                                 const Eigen::Matrix4f& clip_from_optical) {
   nodes_.makeColors(*look.surface, look.strain_range);
@@ -106,11 +112,11 @@ void OverlayPainter::draw(const OverlayLook& look, int supersampling, const Pose
   if (look.shown.has(Overlay::kLattice) || look.shown.has(Overlay::kSprings)) drawSprings(look);
   if (look.shown.has(Overlay::kNormals)) {
     nodes_.makeNormals(look.state, *look.surface);
-    drawSpikes(kNormalColor);
+    drawSpikes(nodes_.normals(), kNormalColor);
   }
   if (look.shown.has(Overlay::kForces) && nodes_.anyForces()) {
     nodes_.makeForces(*look.surface);
-    drawSpikes(kForceColor);
+    drawSpikes(nodes_.forces(), kForceColor);
   }
   if (look.shown.has(Overlay::kStrain)) drawLegend(look.strain_range);
   glLineWidth(1);
@@ -142,11 +148,11 @@ void OverlayPainter::drawSprings(const OverlayLook& look) {
   drawThrough(kSpringColor, [&] { glDrawElements(GL_LINES, static_cast<GLsizei>(count), GL_UNSIGNED_INT, nullptr); });
 }
 
-void OverlayPainter::drawSpikes(const Color& color) {
+void OverlayPainter::drawSpikes(const gpu::Buffer<layout::vec4>& ends, const Color& color) {
   glMemoryBarrier(GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT);
-  glVertexArrayVertexBuffer(line_inputs_.id(), 0, nodes_.spikes().id(), 0, sizeof(layout::vec4));
+  glVertexArrayVertexBuffer(line_inputs_.id(), 0, ends.id(), 0, sizeof(layout::vec4));
   glBindVertexArray(line_inputs_.id());
-  drawThrough(color, [&] { glDrawArrays(GL_LINES, 0, static_cast<GLsizei>(nodes_.spikes().size())); });
+  drawThrough(color, [&] { glDrawArrays(GL_LINES, 0, static_cast<GLsizei>(ends.size())); });
 }
 
 void OverlayPainter::drawArrows(const OverlayLook& look, const Pose& optical_from_tissue,

@@ -25,6 +25,7 @@ struct OverlayLook {
   const Surface* surface = nullptr;  ///< that follows the state
   const std::vector<Arrow>* arrows = nullptr;
   const DrawnSkin* skin = nullptr;  ///< see Renderer::draw
+  uint64_t capture = 0;  ///< pictures of one number are of one state: what they share is worked out once; 0: alone
 };
 
 /// Draws overlays: strain in place of the tissue's colours, lines that show through the tissue faintly, arrows, and a
@@ -35,7 +36,7 @@ class OverlayPainter {
   explicit OverlayPainter(const Model& model);
 
   /// Brings nodes to the state, before anything is drawn.
-  void follow(const OverlayLook& look) { nodes_.follow(look.state, *look.surface); }
+  void follow(const OverlayLook& look);
   /// The surface in the colours of strain: in place of the tissue's. @param mesh  of look.surface
   void drawStrain(const OverlayLook& look, const MeshView& mesh, const Pose& optical_from_tissue,
                   const Eigen::Matrix4f& clip_from_optical);
@@ -48,11 +49,12 @@ class OverlayPainter {
   template <class DrawLines>
   void drawThrough(const Color& color, DrawLines drawLines);
   void drawSprings(const OverlayLook& look);
-  void drawSpikes(const Color& color);
+  void drawSpikes(const gpu::Buffer<layout::vec4>& ends, const Color& color);
   void drawArrows(const OverlayLook& look, const Pose& optical_from_tissue, const Eigen::Matrix4f& clip_from_optical);
   void drawLegend(double strain_range);
 
   NodeOverlay nodes_;
+  uint64_t capture_ = 0;  ///< that nodes_ follow
   gpu::Program line_, strain_, arrow_, legend_;
   VertexArray mesh_inputs_, line_inputs_, arrow_inputs_, no_inputs_;
   gpu::Buffer<ToolVertex> arrow_vertices_;

@@ -76,6 +76,7 @@ void InlineView::wound(const layout::NodeBits* nodes, const float* axial_cut, ui
 
 void InlineView::capture(const StateView& state, const Look& look, Pictures& out,
                          const std::optional<HostDisplacements>& displacements) {
+  ++captures_;
   const bool surface = look.wants.surface && surface_ring_->inFlight() < kSurfacesInFlight;
   counters_.skipped += look.wants.surface && !surface ? 1 : 0;
   bool all = surface, any = surface;  // of the skin is to be mapped
@@ -167,7 +168,8 @@ void InlineView::draw(size_t camera, const StateView& state, const Look& look) {
   const Overlays overlays = overlaysOf(camera, look);
   renderer_.placeObstacles(look.obstacles);
   if (overlays.any()) {
-    const OverlayLook over = {overlays, eye.camera.strain_range, state, &surface_, &look.arrows, eye.skin.drawn()};
+    const OverlayLook over = {overlays,     eye.camera.strain_range, state,    &surface_,
+                              &look.arrows, eye.skin.drawn(),        captures_};
     renderer_.draw(camera, model_, over, look.motions);
   } else {
     renderer_.draw(camera, surface_, look.motions, eye.skin.drawn());

@@ -68,6 +68,7 @@ class InlineView : public View {
   std::vector<Eye> eyes_;                                            ///< [cameras]
   std::vector<uint32_t> alive_;                                      ///< of the surface taken last
   ViewCounters counters_;
+  uint64_t captures_ = 0;
   SkinPlaces places_;
   std::vector<uint8_t> seen_;  ///< [groups] by any camera that is drawn
   SkinGroups::Needs needs_;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <string>
 #include <unordered_set>
+#include <utility>
 
 #include "gpu/gl.h"
 #include "layout/bindings.h"
@@ -73,7 +74,8 @@ NodeOverlay::NodeOverlay(const Model& model)
   lines_ = gpu::Buffer<layout::OverlayLine>(axial_, "overlay lines");
   indices_ = gpu::Buffer<uint32_t>(2 * axial_.size(), "overlay indices");
   spikes_ = gpu::Buffer<layout::OverlaySpike>(spike_list_, "overlay spikes");
-  ends_ = gpu::Buffer<layout::vec4>(2 * spike_list_.size(), "overlay ends");
+  normal_ends_ = gpu::Buffer<layout::vec4>(2 * spike_list_.size(), "overlay normals");
+  force_ends_ = gpu::Buffer<layout::vec4>(any_forces_ ? 2 * spike_list_.size() : 0, "overlay forces");
   axial_ = {};
   diagonal_ = {};
   nodes_ = gpu::Buffer<layout::vec4>(slots_, "overlay nodes");
@@ -124,6 +126,7 @@ void NodeOverlay::addNetwork(const Body& body, uint32_t slot, uint32_t first_spr
 }
 
 void NodeOverlay::follow(const StateView& state, const Surface& surface) {
+  made_ = {};
   bindStorage(layout::kBindBricks, state.bricks);
   bindStorage(layout::kBindBodies, state.bodies);
   bindStorage(layout::kBindNodes, state.nodes);
@@ -141,16 +144,19 @@ void NodeOverlay::follow(const StateView& state, const Surface& surface) {
 }
 
 size_t NodeOverlay::makeLines(const StateView& state, bool all) {
+  const size_t count = all ? lines_.size() : axial_count_;
+  if (made_.lines >= count) return 2 * count;
+  made_.lines = count;
   bindStorage(layout::kBindNodes, state.nodes);
   if (link_starts_.size() > 0) bindStorage(layout::kBindSpringCut, state.spring_cut);
   lines_.bindStorage(layout::kBindOverlayLines);
   indices_.bindStorage(layout::kBindOverlayIndices);
-  const size_t count = all ? lines_.size() : axial_count_;
   runOver(draw_lines_, count);
   return 2 * count;
 }
 
 void NodeOverlay::makeNormals(const StateView& state, const Surface& surface) {
+  if (std::exchange(made_.normals, true)) return;
   if (sum_normals_) {
     bindStorage(layout::kBindBricks, state.bricks);
     bindStorage(layout::kBindBodies, state.bodies);
@@ -163,25 +169,28 @@ void NodeOverlay::makeNormals(const StateView& state, const Surface& surface) {
     runOver(sum_normals_, bound_nodes_.size());
     gpu::Program::storageBarrier();
   }
-  makeSpikes(surface, layout::kSpikesAreNormals, normal_lengths_);
+  makeSpikes(surface, layout::kSpikesAreNormals, normal_lengths_, normal_ends_);
 }
 
 void NodeOverlay::makeForces(const Surface& surface) {
-  makeSpikes(surface, layout::kSpikesAreForces, force_spikes_);
+  if (!std::exchange(made_.forces, true)) makeSpikes(surface, layout::kSpikesAreForces, force_spikes_, force_ends_);
 }
 
-void NodeOverlay::makeSpikes(const Surface& surface, uint32_t kind, const std::vector<float>& of_bodies) {
+void NodeOverlay::makeSpikes(const Surface& surface, uint32_t kind, const std::vector<float>& of_bodies,
+                             const gpu::Buffer<layout::vec4>& ends) {
   const bool lattices = node_normals_.size() > 0;
   bindStorage(layout::kBindNodeNormals, lattices ? node_normals_.id() : nodes_.id());  // nobody reads the latter
   surface.normals().bindStorage(layout::kBindSkinNormals);
   spikes_.bindStorage(layout::kBindOverlaySpikes);
-  ends_.bindStorage(layout::kBindOverlayEnds);
+  ends.bindStorage(layout::kBindOverlayEnds);
   draw_spikes_.set("kind", kind);
   draw_spikes_.setVectors("body_spikes", of_bodies.data(), 4, layout::kMaxBodies);
   runOver(draw_spikes_, spikes_.size());
 }
 
 void NodeOverlay::makeColors(const Surface& surface, double strain_range) {
+  if (std::exchange(made_.colors, true) && made_.strain_range == strain_range) return;
+  made_.strain_range = strain_range;
   if (colors_.size() < surface.capacity()) colors_ = gpu::Buffer<uint32_t>(surface.capacity(), "strain colors");
   surface.bindings().bindStorage(layout::kBindSkinBindings);
   colors_.bindStorage(layout::kBindStrainColors);

@@ -23,7 +23,7 @@ class NodeOverlay {
   /// Needs a current context. @param model  must outlive this   @throws GpuError
   explicit NodeOverlay(const Model& model);
 
-  /// Positions and strains of the nodes of a state; what follows is of it.
+  /// Positions and strains of the nodes of a state; what follows is of it, and made once of each.
   /// @param surface  of the same model, that follows the state
   void follow(const StateView& state, const Surface& surface);
   /// Springs between nodes that skins are bound to; what is cut is no line. @param all  diagonal ones too
@@ -36,23 +36,31 @@ class NodeOverlay {
   /// @param strain_range  the end of the scale
   void makeColors(const Surface& surface, double strain_range);
 
-  const gpu::Buffer<layout::vec4>& nodes() const { return nodes_; }  ///< [slots] xyz m, w strain
-  const gpu::Buffer<uint32_t>& lines() const { return indices_; }    ///< indices of slots, in pairs
-  const gpu::Buffer<layout::vec4>& spikes() const { return ends_; }  ///< [2 * n] xyz m, in pairs
-  const gpu::Buffer<uint32_t>& colors() const { return colors_; }    ///< [vertices] RGBA8
-  bool anyForces() const { return any_forces_; }                     ///< has some body a force of its own?
+  const gpu::Buffer<layout::vec4>& nodes() const { return nodes_; }          ///< [slots] xyz m, w strain
+  const gpu::Buffer<uint32_t>& lines() const { return indices_; }            ///< indices of slots, in pairs
+  const gpu::Buffer<layout::vec4>& normals() const { return normal_ends_; }  ///< [2 * n] xyz m, in pairs
+  const gpu::Buffer<layout::vec4>& forces() const { return force_ends_; }    ///< [2 * n] xyz m, in pairs
+  const gpu::Buffer<uint32_t>& colors() const { return colors_; }            ///< [vertices] RGBA8
+  bool anyForces() const { return any_forces_; }                             ///< has some body a force of its own?
 
  private:
   void addLattice(const Body& body, uint32_t slot);
   void addNetwork(const Body& body, uint32_t slot, uint32_t first_spring, uint32_t first_vertex);
-  void makeSpikes(const Surface& surface, uint32_t kind, const std::vector<float>& of_bodies);
+  void makeSpikes(const Surface& surface, uint32_t kind, const std::vector<float>& of_bodies,
+                  const gpu::Buffer<layout::vec4>& ends);
 
   std::vector<layout::OverlayLine> axial_, diagonal_;  ///< until they are on the GPU
   std::vector<layout::OverlaySpike> spike_list_;
   std::vector<float> normal_lengths_, force_spikes_;  ///< [4 * kMaxBodies] see overlay_spikes.comp
   size_t slots_ = 0, axial_count_ = 0;
   bool any_forces_ = false;
-  gpu::Buffer<layout::vec4> nodes_, ends_, node_normals_;
+  struct Made {  ///< of the state
+    size_t lines = 0;
+    bool normals = false, forces = false, colors = false;
+    double strain_range = 0;  ///< of the colours
+  };
+  Made made_;
+  gpu::Buffer<layout::vec4> nodes_, normal_ends_, force_ends_, node_normals_;
   gpu::Buffer<layout::SurfaceNode> bound_nodes_;  ///< of lattices
   gpu::Buffer<uint32_t> link_starts_, indices_, colors_;
   gpu::Buffer<layout::OverlayLink> links_;

@@ -81,6 +81,7 @@ TEST_F(NodeOverlays, CutSpringsAreNoLines) {
   }
   ASSERT_GT(lost, 0U);
   rig.upload();
+  overlay.follow(rig.state(), rig.surface);
   overlay.makeLines(rig.state(), true);
   EXPECT_EQ(linesThatJoin(overlay.lines().read(), count), before - lost);
 }
@@ -91,7 +92,7 @@ TEST_F(NodeOverlays, NormalsStandOnTheBallAndPointAwayFromItsMiddle) {
   NodeOverlay overlay(rig.model);
   overlay.follow(rig.state(), rig.surface);
   overlay.makeNormals(rig.state(), rig.surface);
-  const std::vector<layout::vec4> ends = overlay.spikes().read();
+  const std::vector<layout::vec4> ends = overlay.normals().read();
   ASSERT_EQ(ends.size(), 2 * rig.model.bodies[0].skin.bound_slots.size());
   for (size_t i = 0; i < ends.size(); i += 2) {
     const Vector3d from(ends[i].x, ends[i].y, ends[i].z), to(ends[i + 1].x, ends[i + 1].y, ends[i + 1].z);
@@ -100,6 +101,31 @@ TEST_F(NodeOverlays, NormalsStandOnTheBallAndPointAwayFromItsMiddle) {
     EXPECT_GE((to - from).dot(from - Vector3d(0.1, -0.2, 0.3)), 0);
     EXPECT_LT((to - from).norm(), 0.6001 * kSpacing_m);
   }
+}
+
+TEST_F(NodeOverlays, WhatCamerasShareIsWorkedOutOnceOfAState) {
+  SurfaceRig rig(ball());
+  rig.follow();
+  NodeOverlay overlay(rig.model);
+  overlay.follow(rig.state(), rig.surface);
+  const size_t all = overlay.makeLines(rig.state(), true);
+  const std::vector<uint32_t> lines = overlay.lines().read();
+  for (layout::NodeBits& bits : rig.nodes) bits.lo &= ~layout::kAxialMask;  // would be other lines
+  rig.upload();
+  EXPECT_LT(overlay.makeLines(rig.state(), false), all);
+  EXPECT_EQ(overlay.makeLines(rig.state(), true), all);
+  EXPECT_EQ(overlay.lines().read(), lines);
+  overlay.makeColors(rig.surface, 0.1);
+  const std::vector<uint32_t> colors = overlay.colors().read();
+  rig.moveNodes([](const Vector3d& rest) { return Vector3d(1.05 * rest); });
+  rig.follow();
+  overlay.makeColors(rig.surface, 0.1);
+  EXPECT_EQ(overlay.colors().read(), colors);
+  overlay.follow(rig.state(), rig.surface);
+  overlay.makeLines(rig.state(), true);
+  EXPECT_NE(overlay.lines().read(), lines);
+  overlay.makeColors(rig.surface, 0.1);
+  EXPECT_NE(overlay.colors().read(), colors);
 }
 
 TEST_F(NodeOverlays, AClothIsShownWithItsStrainAndTheLinksThatAreLeft) {
@@ -115,10 +141,11 @@ TEST_F(NodeOverlays, AClothIsShownWithItsStrainAndTheLinksThatAreLeft) {
   EXPECT_EQ(linesThatJoin(overlay.lines().read(), count), rig.model.bodies[0].network->springs.size());
   rig.spring_cut[3] = 0.5F;
   rig.upload();
+  overlay.follow(rig.state(), rig.surface);
   overlay.makeLines(rig.state(), true);
   EXPECT_EQ(linesThatJoin(overlay.lines().read(), count), rig.model.bodies[0].network->springs.size() - 1);
   overlay.makeNormals(rig.state(), rig.surface);
-  const std::vector<layout::vec4> ends = overlay.spikes().read();
+  const std::vector<layout::vec4> ends = overlay.normals().read();
   const std::vector<Vector3d> normals = rig.normals();
   for (size_t v = 0; v < rig.model.bodies[0].skin.bindings.size(); ++v) {
     const Vector3d spike(ends[2 * v + 1].x - ends[2 * v].x, ends[2 * v + 1].y - ends[2 * v].y,
