@@ -10,12 +10,14 @@
 #include <string>
 #include <vector>
 
+#include "model/mesh_files.h"
 #include "support/temporary_folder.h"
 #include "viscera/model/shape/mesh_import.h"
 
 namespace viscera {
 namespace {
 
+using test::bytesOf;
 using test::TemporaryFolder;
 
 constexpr float kTexel = 1e-4F;  // of a coordinate: rounding of charts in float32, for pictures of up to 5000 texels
@@ -176,6 +178,70 @@ TEST(MeshLook, BadPicturesAreNotedByNameAndLeftOut) {
     EXPECT_TRUE(mesh.charts.empty());
     ASSERT_TRUE(mesh.detail);
     EXPECT_GT(mesh.detail->materials[mesh.detail->part_materials[0]].color[1], 0.9F);
+  }
+}
+
+/// The first tetrahedron of obj() as a .glb with its picture embedded, by the format's own rules.
+std::string glb(const std::string& picture) {
+  std::string data;
+  for (const float x : {0.F, 0.F, 0.F, 1.F, 0.F, 0.F, 0.F, 1.F, 0.F, 0.F, 0.F, 1.F}) data += bytesOf(x);
+  for (const float x : {0.F, 0.F, 1.F, 0.F, 0.F, 1.F, 1.F, 1.F}) data += bytesOf(x);
+  for (const uint16_t i : {0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3}) data += bytesOf(i);
+  const size_t picture_begins = data.size();
+  data += picture;
+  data.resize((data.size() + 3) / 4 * 4);
+  const auto view = [](size_t offset, size_t bytes) {
+    return R"({"buffer":0,"byteOffset":)" + std::to_string(offset) + R"(,"byteLength":)" + std::to_string(bytes) + "}";
+  };
+  std::string json =
+      R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],"meshes":[{"primitives":[{)"
+      R"("attributes":{"POSITION":0,"TEXCOORD_0":1},"indices":2,"material":0}]}],)"
+      R"("materials":[{"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}}],"textures":[{"source":0}],)"
+      R"("images":[{"mimeType":"image/png","bufferView":3}],"accessors":[)"
+      R"({"bufferView":0,"componentType":5126,"count":4,"type":"VEC3","min":[0,0,0],"max":[1,1,1]},)"
+      R"({"bufferView":1,"componentType":5126,"count":4,"type":"VEC2"},)"
+      R"({"bufferView":2,"componentType":5123,"count":12,"type":"SCALAR"}],"bufferViews":[)" +
+      view(0, 48) + "," + view(48, 32) + "," + view(80, 24) + "," + view(picture_begins, picture.size()) +
+      R"(],"buffers":[{"byteLength":)" + std::to_string(data.size()) + "}]}";
+  json.resize((json.size() + 3) / 4 * 4, ' ');
+  const auto word = [](size_t value) { return bytesOf(static_cast<uint32_t>(value)); };
+  const std::string chunks = word(json.size()) + "JSON" + json + word(data.size()) + std::string("BIN\0", 4) + data;
+  return "glTF" + word(2) + word(12 + chunks.size()) + chunks;
+}
+
+TEST(MeshLook, PictureWithinAGlbIsRead) {
+  const TemporaryFolder folder;
+  folder.write("a.glb", glb(pngBytes()));
+  ImportReport report;
+  const TriangleMesh mesh = importMesh(folder.file("a.glb"), 1, &report, {}, true);
+  EXPECT_EQ(joined(report), "");
+  ASSERT_TRUE(mesh.detail);
+  ASSERT_EQ(mesh.detail->images.size(), 1u);
+  EXPECT_EQ(mesh.detail->images[0].width_px, 2);
+  ASSERT_EQ(mesh.charts.size(), mesh.triangles.size());
+  ASSERT_EQ(std::count(mesh.charts.begin(), mesh.charts.end(), kNoChart), 0);
+  const TextureChart& chart = mesh.detail->charts[mesh.charts[0]];
+  const Vector3f at(0.25F, 0.25F,
+                    0);  // u and v a quarter: in the picture's upper left, red; v goes down, unlike in OBJ
+  const auto column = static_cast<size_t>(2 * (chart.u.head<3>().dot(at) + chart.u[3]));
+  const auto row = static_cast<size_t>(2 * (chart.v.head<3>().dot(at) + chart.v[3]));
+  const auto texel = mesh.detail->images[0].rgba.begin() + static_cast<ptrdiff_t>(4 * (2 * row + column));
+  EXPECT_EQ(std::vector<uint8_t>(texel, texel + 3), (std::vector<uint8_t>{255, 0, 0}));
+}
+
+TEST(MeshLook, SpoiltPictureWithinAGlbIsNotedAndLeftOut) {
+  const std::string good = pngBytes();
+  for (const std::string& spoilt :
+       {good.substr(0, good.size() / 2), std::string("no picture"), std::string(64, '\0')}) {
+    const TemporaryFolder folder;
+    folder.write("a.glb", glb(spoilt));
+    ImportReport report;
+    const TriangleMesh mesh = importMesh(folder.file("a.glb"), 1, &report, {}, true);
+    EXPECT_EQ(mesh.triangles.size(), 4u);
+    ASSERT_EQ(report.look_notes.size(), 1u) << joined(report);
+    for (const char* const part : {"a.glb", "baseColorTexture"})
+      EXPECT_NE(joined(report).find(part), std::string::npos) << joined(report);
+    EXPECT_TRUE(!mesh.detail || mesh.detail->images.empty());
   }
 }
 
