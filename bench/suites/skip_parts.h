@@ -19,5 +19,7 @@ void measureEmptySpace(Report& report);
 void measureSleep(Report& report);
 /// Skin and pictures that nobody wants, that have not moved, that nobody will see.
 void measureViews(Report& report, gpu::Context& context);
+/// Pictures of which some or all of the skin is out, with and without work for it. Needs a current context.
+void measureHidden(Report& report);
 
 }  // namespace viscera::bench

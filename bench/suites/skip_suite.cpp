@@ -10,6 +10,7 @@ void skipSuite(Report& report, gpu::Context& context) {
   measureCells(report);
   measureEmptySpace(report);
   measureSleep(report);
+  measureHidden(report);
   measureViews(report, context);
 }
 
