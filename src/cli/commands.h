@@ -32,6 +32,9 @@ int run(const RunOptions& options);
 /// from "bench" on, ended by null   @throws Error  it is not there   @return only if it could not be started
 int bench(char** arguments);
 
+/// `viscera settle`: the static state of a scene, and what it took.
+int settle(const RunOptions& options);
+
 /// `viscera anchor`: anchored strokes as absolute ones.
 int anchor(const RunOptions& options);
 

@@ -48,6 +48,11 @@ int dispatch(int argc, char** argv) {
   run->add_flag("--compare", o.run.compare, "the GPU's error against the reference, as gpu_error")->needs(reference);
   addOverrides(run, o.run.overrides);
 
+  CLI::App* settle =
+      app.add_subcommand("settle", "find the state in which a scene hangs in its weight; one JSON object");
+  settle->add_option("scene", o.run.scene, "scene file, or name of a shipped scene")->required();
+  settle->add_option("--mesh", o.run.mesh, "mesh file that becomes the first body");
+  addOverrides(settle, o.run.overrides);
   CLI::App* anchor = app.add_subcommand("anchor", "write strokes anchored to the skin as absolute ones");
   anchor->add_option("scene", o.run.scene, "scene file, or name of a shipped scene")->required();
   anchor->add_option("--strokes", o.run.strokes, "strokes file with anchors")->required();
@@ -60,6 +65,7 @@ int dispatch(int argc, char** argv) {
   CLI::App* keys = app.add_subcommand("keys", "print the table of scene keys");
   if (const std::optional<int> ended = cli::parse(app, argc, argv)) return *ended;
   if (*check) return cli::check(o.device);
+  if (*settle) return memoryFor("settling scene '" + o.run.scene + "'", [&] { return cli::settle(o.run); });
   if (*anchor) return memoryFor("anchoring in scene '" + o.run.scene + "'", [&] { return cli::anchor(o.run); });
   if (*keys) {
     std::cout << sceneKeysTable();

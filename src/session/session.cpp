@@ -243,6 +243,7 @@ Counters Session::counters() const {
   static_cast<ViewCounters&>(out) = view_->counters();
   out.ticks = ticks_;
   out.substeps = solver_->substepsDone();
+  out.work = solver_->work();
   return out;
 }
 

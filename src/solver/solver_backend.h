@@ -12,6 +12,7 @@
 #include "solver/surroundings.h"
 #include "solver/tool_acts.h"
 #include "viscera/solver/governor.h"
+#include "viscera/solver/solver.h"
 #include "viscera/solver/state.h"
 
 namespace viscera {
@@ -21,6 +22,7 @@ namespace viscera {
 class SolverBackend : public ToolTarget {
  public:
   virtual std::string name() const = 0;  ///< for a person, such as "gpu"
+  virtual SolverWork work() const { return {}; }
 
   /// States that are kept for rollbacks, one per good tick; with them those of lag() ticks that nobody has judged.
   static constexpr int kGoodStates = 4;

@@ -126,6 +126,12 @@ void Ticks::reset() {
   substeps_ = planSubsteps(model_, config_, dt_safe_s_, true);
   if (watch_) watch_->reset(newGovernor());
   ++cut_revision_;
+  if (start_) writeState(*start_);
+}
+
+void Ticks::startFrom(HostState state) {
+  start_ = std::move(state);
+  writeState(*start_);
 }
 
 void Ticks::writeState(const HostState& state, bool staggered) {

@@ -34,7 +34,10 @@ class Ticks : public Solver {
   double dtSafe_s() const final { return dt_safe_s_; }
   int substeps() const final { return substeps_.calm; }
   uint64_t substepsDone() const final { return substeps_done_; }
+  SolverWork work() const final { return backend_->work(); }
   std::string backend() const final { return backend_->name(); }
+  /// The state that it begins in, now and after every reset.
+  void startFrom(HostState state);
 
   /// How long before the displacements the velocities belong [s]: half a substep after leapfrog, else 0. Waits for the
   /// last tick.
@@ -69,6 +72,7 @@ class Ticks : public Solver {
   SubstepPlan substeps_;
   int recovery_substeps_;
   std::optional<Surroundings> surroundings_;  ///< only where a scene has any
+  std::optional<HostState> start_;            ///< nothing: rest
   std::optional<Watch> watch_;                ///< only where a scene has a governor
   std::vector<layout::TickStats> finished_;   ///< taken while nobody asked, oldest first
   std::vector<layout::ToolMotion> motions_;

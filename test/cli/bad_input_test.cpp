@@ -54,6 +54,12 @@ TEST_F(BadInput, SceneThatIsNotThere) {
                 {folder_.file("none.yaml")});
 }
 
+TEST_F(BadInput, IntegratorThatABackendHasNot) {
+  expectRunRefusal({"--set", "solver.integrator=multigrid", "--set", "solver.backend=gpu"},
+                   {"solver.integrator: multigrid", "solver.backend"});
+  expectRefusal({"settle", folder_.file("none.yaml")}, {folder_.file("none.yaml")});
+}
+
 TEST_F(BadInput, SceneThatIsWrong) {
   expectRefusal({"run", folder_.write("key.yaml", std::string(kBlockScene) + "bodeis: 1\n")},
                 {folder_.file("key.yaml") + ":10: ", "'bodeis'"});

@@ -76,6 +76,31 @@ TEST_F(Run, EveryIntegratorBringsTheHangingBlockToTheSameSag) {
     for (const char* integrator : {"leapfrog", "verlet_paper", "vbd", "pd"})
       EXPECT_NEAR(stretch(integrator, backend), sag, kApart * sag) << integrator;
   }
+  EXPECT_NEAR(stretch("multigrid", "cpu"), sag, kApart * sag);
+}
+
+TEST_F(Run, MultigridTakesATickInOneStepAndSaysWhatItTook) {
+  const Json metrics = metricsOf(run({"--seconds", "0.2", "--no-view", "--set", "solver.integrator=multigrid"}));
+  EXPECT_EQ(metrics["steps"], 12);
+  EXPECT_GE(metrics["solver_systems"], 12);
+  EXPECT_GE(metrics["solver_iterations"], metrics["solver_systems"]);
+  EXPECT_FALSE(metricsOf(run({"--seconds", "0.05", "--no-view"})).contains("solver_iterations"));
+}
+
+TEST_F(Run, EquilibriumIsWhereTheBlockHangsFromTheFirstTickOn) {
+  constexpr double kApart = 1e-3;  // of the sag, as above
+  const Json settled = metricsOf(viscera({"settle", scene_}));
+  EXPECT_EQ(settled["settled"], true);
+  EXPECT_GT(settled["iterations"], 0);
+  EXPECT_GT(settled["max_displacement_m"], 0);
+  const Json sagged = metricsOf(run({"--seconds", "0.5", "--no-view", "--set", "bodies[0].material.drag_per_s=500"}));
+  for (const char* integrator : {"leapfrog", "multigrid"}) {
+    const Json metrics = metricsOf(run({"--seconds", "0.05", "--no-view", "--set", "solver.start=equilibrium", "--set",
+                                        std::string("solver.integrator=") + integrator}));
+    EXPECT_NEAR(metrics["max_stretch"], sagged["max_stretch"].get<double>(),
+                kApart * sagged["max_stretch"].get<double>())
+        << integrator;
+  }
 }
 
 TEST_F(Run, MaterialOfAPartAndPoissonsRatioReachTheTissue) {

@@ -119,6 +119,24 @@ inline Body chainBody(int count, double spacing_m) {
   return body;
 }
 
+/// Takes the springs between two layers of nodes, `at` and the next along `axis`, out of a box, as a cut does; of nodes
+/// from `first` on along the axis after that.
+inline void slit(Body& body, int axis, int at, int first) {
+  Lattice& lattice = body.lattice;
+  const int along = (axis + 1) % 3;
+  for (const uint32_t slot : lattice.active_slots) {
+    const Vector3i node = lattice.nodeAt(slot);
+    if (node[axis] == at && node[along] >= first - 1) lattice.nodes[slot].lo &= ~layout::kCellBit;
+    for (uint32_t s = 0; s < layout::kSpringsPerNode; ++s) {
+      const auto& offset = kNeighborOffsets[s];
+      const int d = offset[static_cast<size_t>(axis)];
+      const bool across = (node[axis] == at && d > 0) || (node[axis] == at + 1 && d < 0);
+      const int nearest = std::max(node[along], node[along] + offset[static_cast<size_t>(along)]);
+      if (across && nearest >= first) setSpringCount(lattice.nodes[slot], s, 0);
+    }
+  }
+}
+
 inline Model modelOf(std::vector<Body> bodies) {
   Model model;
   model.bodies = std::move(bodies);

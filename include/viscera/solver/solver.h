@@ -17,6 +17,11 @@
 
 namespace viscera {
 
+/// Of integrators that solve to a tolerance, since the solver was made.
+struct SolverWork {
+  uint64_t systems = 0, iterations = 0;  ///< linear systems; iterations of all of them
+};
+
 /// The seam between the session and a backend: upload, step, state.
 class Solver {
  public:
@@ -48,6 +53,7 @@ class Solver {
   virtual double dtSafe_s() const = 0;
   virtual int substeps() const = 0;           ///< per tick, in calm states
   virtual uint64_t substepsDone() const = 0;  ///< since the solver was made
+  virtual SolverWork work() const { return {}; }
   virtual std::string backend() const = 0;
 };
 

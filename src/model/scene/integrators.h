@@ -21,17 +21,20 @@ struct IntegratorTraits {
   bool takes_colours;      ///< ... colour by colour
   bool lets_bricks_sleep;  ///< steps only bricks that move, on the CPU
   bool compensates;        ///< can sum u and v with Kahan's compensation
+  bool steps_ticks;        ///< solves to a tolerance: a tick is one substep, unless solver.substeps says otherwise
+  bool cpu_only;           ///< the GPU backend has no kernels of it
   bool takes_edge_forces;  ///< can take forces of explicit connections edge by edge (solver.spring_forces)
 };
 
 /// By the value of the enum.
 // clang-format off
-constexpr std::array<IntegratorTraits, 4> kIntegrators = {{
-    //                                        explicit dashpot stagger shorten own_pos iterate colours sleep  compens edges
-    {Integrator::kLeapfrog, "leapfrog",         true,  true,  true,  true,  false, false, false, true,  true,  true},
-    {Integrator::kVerletPaper, "verlet_paper",  true,  false, false, false, true,  false, false, false, false, false},
-    {Integrator::kVbd, "vbd",                   false, false, false, false, false, true,  true,  false, false, false},
-    {Integrator::kPd, "pd",                     false, false, false, false, false, true,  false, false, false, false},
+constexpr std::array<IntegratorTraits, 5> kIntegrators = {{
+    //                                        explicit dashpot stagger shorten own_pos iterate colours sleep  compens ticks  cpu    edges
+    {Integrator::kLeapfrog, "leapfrog",         true,  true,  true,  true,  false, false, false, true,  true,  false, false, true},
+    {Integrator::kVerletPaper, "verlet_paper",  true,  false, false, false, true,  false, false, false, false, false, false, false},
+    {Integrator::kVbd, "vbd",                   false, false, false, false, false, true,  true,  false, false, false, false, false},
+    {Integrator::kPd, "pd",                     false, false, false, false, false, true,  false, false, false, false, false, false},
+    {Integrator::kMultigrid, "multigrid",       false, false, false, false, false, false, false, false, false, true,  true,  false},
 }};
 // clang-format on
 

@@ -36,7 +36,8 @@ class CpuBackend : public SolverBackend {
   ~CpuBackend() override;
 
   std::string name() const override;  ///< such as "cpu (AVX3, 2 threads)"
-  size_t awakeBricks() const;         ///< in the last substep
+  SolverWork work() const override { return stepper_->work(); }
+  size_t awakeBricks() const;  ///< in the last substep
   size_t bricks() const { return lattice_.brickCount(); }
 
   void beginTick() override {}

@@ -6,11 +6,12 @@
 #include "solver/cpu/pd.h"
 #include "solver/cpu/vbd.h"
 #include "solver/cpu/verlet_paper.h"
+#include "solver/multigrid/cpu_multigrid.h"
 
 namespace viscera {
 
-std::unique_ptr<CpuStepper> makeCpuStepper(Integrator integrator, int iterations, CpuLattice& lattice,
-                                           const CpuParts& parts) {
+std::unique_ptr<CpuStepper> makeCpuStepper(Integrator integrator, int iterations, const Model& model,
+                                           CpuLattice& lattice, const CpuParts& parts) {
   switch (integrator) {
     case Integrator::kVerletPaper:
       return std::make_unique<CpuVerletPaper>(lattice, parts.parallel);
@@ -18,6 +19,8 @@ std::unique_ptr<CpuStepper> makeCpuStepper(Integrator integrator, int iterations
       return std::make_unique<CpuVbd>(lattice, parts.parallel, iterations, parts.pairs);
     case Integrator::kPd:
       return std::make_unique<CpuPd>(lattice, parts.parallel, PdOptions{iterations}, parts.pairs);
+    case Integrator::kMultigrid:
+      return std::make_unique<CpuMultigrid>(model, lattice, parts);
     case Integrator::kLeapfrog:
       break;
   }

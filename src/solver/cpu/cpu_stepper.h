@@ -10,6 +10,7 @@
 #include "solver/cpu/sleep.h"
 #include "solver/substep.h"
 #include "viscera/layout/tool_motion.h"
+#include "viscera/solver/solver.h"
 
 namespace viscera {
 
@@ -25,6 +26,10 @@ class CpuStepper {
   virtual void run(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions) = 0;
   /// The state was written from outside: sums of rounding errors start at 0. (substep.h says of a new start in time.)
   virtual void restart() {}
+  /// Springs were cut, or are whole again.
+  virtual void springsChanged() {}
+  /// Since it was made.
+  virtual SolverWork work() const { return {}; }
 };
 
 /// What integrators work with besides the lattice. All of it must outlive them.
@@ -35,12 +40,15 @@ struct CpuParts {
   const FeatureSet& features;
   const simd::Kernels& kernels;
   CpuNodePairs* pairs = nullptr;  ///< contacts between nodes within an implicit substep; null: none
+  double dt_s = 0;                ///< of substeps in calm states, for what is built for one
 };
 
-/// Leapfrog: SIMD kernels. vbd, pd and verlet_paper: the text of their shaders, compiled as C++.
+/// Leapfrog and multigrid: SIMD kernels. vbd, pd and verlet_paper: the text of their shaders, compiled as C++.
 /// @param iterations  of vbd and pd   @param lattice  that it will be run on
-std::unique_ptr<CpuStepper> makeCpuStepper(Integrator integrator, int iterations, CpuLattice& lattice,
-                                           const CpuParts& parts);
+/// @param model  of the lattice; must outlive it
+/// @throws SceneError  what the integrator cannot step
+std::unique_ptr<CpuStepper> makeCpuStepper(Integrator integrator, int iterations, const Model& model,
+                                           CpuLattice& lattice, const CpuParts& parts);
 
 /// pd without acceleration, so that every sweep lowers the energy, for the governor's recoveries.
 std::unique_ptr<CpuStepper> makeCpuRecoveryStepper(int iterations, CpuLattice& lattice, const Parallel& parallel);

@@ -188,6 +188,16 @@ void CpuImplicitSubstep::movePairs(CpuLattice& lattice, const Substep& step, int
   }
 }
 
+std::vector<CpuContact> CpuImplicitSubstep::contactsOf(const Substep& step, uint32_t slot) const {
+  std::vector<CpuContact> out;
+  for (uint32_t row = 0; hasContacts(step) && row < contact_rows_; ++row) {
+    const glsl::vec4* at = &contacts_[3 * (size_t{slot} * contact_rows_ + row)];
+    if (at[2].w == 0) break;
+    out.push_back({{at[0].x, at[0].y, at[0].z}, {at[2].x, at[2].y, at[2].z}, at[1].w});
+  }
+  return out;
+}
+
 template <class Guess>
 void CpuImplicitSubstep::sumEnergies(CpuLattice& lattice, const Substep& step) {
   const auto guess = kernel<Guess>(lattice, step);

@@ -83,6 +83,12 @@ void runCount(const Parallel& parallel, size_t count, const Kernel& kernel) {
   });
 }
 
+/// A contact of a node in a substep (shaders/solver/implicit_contact.glsl).
+struct CpuContact {
+  Vector3f normal, force;  ///< force on the node in the last solution [N]
+  float friction;
+};
+
 /// Start and end of a substep of implicit Euler and the increments du = u+ - u in between, which vbd and pd iterate:
 /// shaders/solver/implicit_*.comp on the CPU. See gpu/implicit_substep.h for what the stages promise.
 class CpuImplicitSubstep {
@@ -97,6 +103,10 @@ class CpuImplicitSubstep {
   /// May nodes be in contact, or held, in this substep?
   bool hasContacts(const Substep& step) const { return step.tools || step.obstacle_count > 0; }
   void swap() { current_ = 1 - current_; }
+  /// [slots] xyz m; w 1 where prescribed, below 0 where the node has contacts.
+  std::vector<glsl::vec4>& increments() { return increments_[current_]; }
+  /// Contacts of a node in this substep; at most kMostContacts, the first ones are there.
+  std::vector<CpuContact> contactsOf(const Substep& step, uint32_t slot) const;
   /// Forces and majorisers of the cells in the current iterate, for the iteration that follows.
   void updateVolumes(CpuLattice& lattice, const Substep& step, int iteration);
 

@@ -152,11 +152,10 @@ HWY_INLINE SolidPull solidPull(const CellEdge (&/*e*/)[3], const Moments& /*t*/,
                                const Vec3& gx, const Vec3& gy, const Vec3& gz) {
   return {stress(gx), stress(gy), stress(gz), zero3(), zero3(), hn::Zero(Tag())};
 }
-HWY_INLINE SolidPull solidPull(const CellEdge (&e)[3], const Moments& t, const PlaneStress<false>& stress,
-                               const Vec3& gx, const Vec3& gy, const Vec3& gz) {
-  const Vec3 strain = {e[0].strain, e[1].strain, e[2].strain};
-  const Vec3 &a = e[0].direction, &b = e[1].direction, &c = e[2].direction;
-  const Vec3 shear = {dot(b, c), dot(c, a), dot(a, b)};  // every term is small: nothing cancels
+/// @param strain, shear  of the mean edges: along them, and yz, zx, xy   @param gx, gy, gz  gradients of strain along
+/// x, y, z
+HWY_INLINE SolidPull solidPullOf(const Vec3& strain, const Vec3& shear, const Moments& t,
+                                 const PlaneStress<false>& stress, const Vec3& gx, const Vec3& gy, const Vec3& gz) {
   SolidPull out;
   {
     const Vec3 tx = stress(gx), ty = stress(gy), tz = stress(gz);
@@ -185,6 +184,12 @@ HWY_INLINE SolidPull solidPull(const CellEdge (&e)[3], const Moments& t, const P
                    integral(t.first.z, strain.y, m.y, dx.y, m.x, dy.y, r.z, dz.y),
                    hn::MulAdd(r.z, gz.z, hn::Mul(t.first.z, shear.z))});
   return out;
+}
+HWY_INLINE SolidPull solidPull(const CellEdge (&e)[3], const Moments& t, const PlaneStress<false>& stress,
+                               const Vec3& gx, const Vec3& gy, const Vec3& gz) {
+  const Vec3 &a = e[0].direction, &b = e[1].direction, &c = e[2].direction;
+  // Every term of the shears is small: nothing cancels.
+  return solidPullOf({e[0].strain, e[1].strain, e[2].strain}, {dot(b, c), dot(c, a), dot(a, b)}, t, stress, gx, gy, gz);
 }
 
 /// cellPull() of moments.glsl. @param rigidity  J, 0 where there is no cell   @param q  replaced by the derivatives

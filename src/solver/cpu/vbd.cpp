@@ -53,8 +53,7 @@ void CpuVbd::sweep(CpuLattice& lattice, const Substep& step) {
   }
 }
 
-void CpuVbd::run(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions) {
-  implicit_.begin(lattice, step, motions);
+void CpuVbd::sweepAll(CpuLattice& lattice, const Substep& step) {
   for (int iteration = 0; iteration < iterations_; ++iteration) {
     const bool volumes = !lattice.strengths.bulk.empty();
     if (implicit_.hasContacts(step)) {
@@ -64,7 +63,12 @@ void CpuVbd::run(CpuLattice& lattice, const Substep& step, const layout::ToolMot
     }
     implicit_.movePairs(lattice, step, iteration);
   }
-  implicit_.end(lattice, step);
+}
+
+void CpuVbd::run(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions) {
+  begin(lattice, step, motions);
+  sweepAll(lattice, step);
+  end(lattice, step);
 }
 
 }  // namespace viscera

@@ -14,6 +14,14 @@ class CpuVbd : public CpuStepper {
   CpuVbd(const CpuLattice& lattice, const Parallel& parallel, int iterations, CpuNodePairs* pairs = nullptr);
   void run(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions) override;
 
+  // The parts of a substep, for who does more between its sweeps.
+  void begin(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions) {
+    implicit_.begin(lattice, step, motions);
+  }
+  void sweepAll(CpuLattice& lattice, const Substep& step);  ///< as often as run() does
+  void end(CpuLattice& lattice, const Substep& step) { implicit_.end(lattice, step); }
+  CpuImplicitSubstep& implicit() { return implicit_; }
+
  private:
   template <class Kernel>
   void sweep(CpuLattice& lattice, const Substep& step);

@@ -6,6 +6,7 @@
 #include "solver/gpu/pd_pass.h"
 #include "solver/gpu/vbd_pass.h"
 #include "solver/gpu/verlet_paper_pass.h"
+#include "viscera/math/error.h"
 
 namespace viscera {
 
@@ -18,6 +19,8 @@ std::unique_ptr<Stepper> makeStepper(Integrator integrator, int iterations, cons
       return std::make_unique<VbdPass>(features, buffers, iterations, pairs);
     case Integrator::kPd:
       return std::make_unique<PdPass>(features, buffers, PdOptions{iterations}, pairs);
+    case Integrator::kMultigrid:
+      throw SceneError("solver.integrator: multigrid steps on the CPU only: use solver.backend: cpu or auto");
     case Integrator::kLeapfrog:
       break;
   }

@@ -61,6 +61,7 @@ ReferenceIntegrator truthOf(Integrator integrator) {
       return ReferenceIntegrator::kVerletPaper;
     case Integrator::kVbd:
     case Integrator::kPd:
+    case Integrator::kMultigrid:
       return ReferenceIntegrator::kImplicitEuler;
     case Integrator::kLeapfrog:
       break;

@@ -22,7 +22,9 @@ enum class SkinSource { kAuto, kInput, kVolume };
 enum class Mapping { kAuto, kOneToOne, kConstant, kInterpolated, kAlongNormal };  ///< see docs/mappings.md
 enum class UpAxis { kZ, kY };
 enum class FixedShape { kBox, kSphere, kPlane, kPart };
-enum class Integrator { kLeapfrog, kVerletPaper, kVbd, kPd };
+enum class Integrator { kLeapfrog, kVerletPaper, kVbd, kPd, kMultigrid };
+/// What a simulation begins with: everything at rest, or hanging in its weight.
+enum class SolverStart { kRest, kEquilibrium };
 enum class Backend { kAuto, kGpu, kCpu };
 enum class ToolMode { kNone = 0, kProbe = 1, kGrab = 2, kCut = 3, kCutParticles = 4, kSuction = 5 };
 
@@ -225,6 +227,7 @@ struct ObstacleConfig {
 struct SolverConfig {
   double tick_hz = 60;
   Integrator integrator = Integrator::kLeapfrog;
+  SolverStart start = SolverStart::kRest;
   double dt_fraction = 0.75;
   double dt_fraction_strained = 0.5;
   int substeps = 0;     ///< 0: from dt_fraction

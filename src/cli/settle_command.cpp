@@ -1,0 +1,37 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "cli/commands.h"
+#include "cli/scene_lookup.h"
+#include "solver/multigrid/equilibrium.h"
+#include "viscera/math/state_hash.h"
+#include "viscera/solver/solver.h"
+
+namespace viscera::cli {
+
+int settle(const RunOptions& options) {
+  Overrides overrides = meshOverrides(options.mesh);
+  overrides.insert(overrides.end(), options.overrides.begin(), options.overrides.end());
+  const Scene scene = loadScene(findScene(options.scene), overrides);
+  const Model model = buildModel(scene, consoleProgress());
+  SettleReport report;
+  const HostState state = equilibriumOf(model, scene, report);
+  nlohmann::ordered_json out;
+  out["scene"] = scene.name;
+  out["nodes"] = model.activeNodes();
+  out["residual"] = report.residual;
+  out["settled"] = report.residual <= kSettled;
+  out["newton_steps"] = report.newton;
+  out["iterations"] = report.iterations;
+  out["work_units"] = report.work_units;
+  out["solve_s"] = report.seconds;
+  out["build_s"] = report.build_s;
+  out["max_displacement_m"] = report.largest_m;
+  out["state_hash"] = StateHash::text(stateHash(model, state));
+  std::cout << out.dump() << '\n';
+  return 0;
+}
+
+}  // namespace viscera::cli

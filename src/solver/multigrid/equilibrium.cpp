@@ -1,0 +1,134 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solver/multigrid/equilibrium.h"
+
+#include <chrono>
+#include <cmath>
+
+#include "solver/cpu/thread_pool.h"
+#include "solver/multigrid/stage_solver.h"
+#include "solver/surroundings.h"
+#include "viscera/math/error.h"
+#include "viscera/solver/material.h"
+
+namespace viscera {
+
+namespace {
+
+constexpr int kMostSteps = 80;      // of Newton's method
+constexpr int kMostHalvings = 12;   // of one of them
+constexpr double kGrows = 1e-6;     // of the energies that are summed: float32 leaves that much
+constexpr double kFloatLeaves = 2;  // times the rounding of forces: less is not to be had in float32
+constexpr int kTimed = 5;           // evaluations of forces, for the work unit
+
+using multigrid::StageSolver;
+using multigrid::Vectors;
+
+double secondsSince(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+void requireHeld(const Model& model) {
+  for (const Body& body : model.bodies) {
+    bool held = false;
+    for (const uint32_t slot : body.lattice.active_slots) held = held || isFixed(body.lattice.nodes[slot]);
+    if (!held)
+      throw SceneError("body '" + body.name + "' is held nowhere: it has no equilibrium. Give it 'fixed' nodes");
+    if (body.network)
+      throw SceneError("body '" + body.name +
+                       "' has explicit connections: equilibria are found of implicit lattices only");
+  }
+}
+
+/// Newton's method on elastic energy less the work of the load.
+class Settling {
+ public:
+  Settling(StageSolver& solver, SettleReport& report)
+      : solver_(solver), report_(report), increment_(solver.start.size()) {
+    for (Vectors* each : {&load_, &trial_}) each->assign(increment_.size(), 0);
+    const multigrid::FineLevel& level = solver_.level;
+    const size_t n = level.places();
+    for (size_t c = 0; c < 3; ++c) {
+      for (size_t i = 0; i < n; ++i)
+        load_[c * n + i] =
+            level.free()[i] * (level.mass()[i] * solver_.gravity[static_cast<int>(c)] + solver_.load[c * n + i]);
+    }
+  }
+
+  const Vectors& run() {
+    const double size = std::sqrt(solver_.level.dot(load_, load_));
+    double norm = solver_.residual(increment_);
+    const auto start = std::chrono::steady_clock::now();
+    for (int step = 0; step < kMostSteps; ++step) {
+      report_.residual = size > 0 ? norm / size : 0;
+      if (report_.residual <= kSettled || (step > 0 && norm <= kFloatLeaves * solver_.noise_n)) break;
+      norm = improve(norm);
+    }
+    report_.seconds = secondsSince(start);
+    return increment_;
+  }
+
+ private:
+  double potential(const Vectors& u) const { return solver_.elastic_j - solver_.level.dot(load_, u); }
+
+  /// A Newton step, as long as the energy does not grow. @return norm of the residual after it
+  double improve(double norm) {
+    multigrid::Rule rule;
+    rule.most = 60;
+    const double before_j = potential(increment_),
+                 allowed_j = before_j + kGrows * (std::abs(before_j) + solver_.elastic_j);
+    report_.iterations += solver_.solveLinear(rule, norm);
+    ++report_.newton;
+    float share = 1;
+    for (int halving = 0; halving <= kMostHalvings; ++halving, share /= 2) {
+      for (size_t i = 0; i < trial_.size(); ++i) trial_[i] = increment_[i] + share * solver_.solution()[i];
+      const double left = solver_.residual(trial_);
+      if (!(potential(trial_) <= allowed_j)) continue;
+      std::swap(trial_, increment_);
+      return left;
+    }
+    throw Error("no equilibrium was found: the energy falls in no direction that was tried");
+  }
+
+  StageSolver& solver_;
+  SettleReport& report_;
+  Vectors increment_, load_, trial_;
+};
+
+}  // namespace
+
+HostState equilibriumOf(const Model& model, const Scene& scene, SettleReport& report,
+                        const std::shared_ptr<ThreadPool>& threads) {
+  requireHeld(model);
+  report = {};
+  const CpuLattice lattice(model, bodyParams(model, safeTimeStep(model)), featuresOf(model, scene, 1));
+  const std::shared_ptr<ThreadPool> pool = threads ? threads : makeThreadPool(scene.solver.threads);
+  const auto start = std::chrono::steady_clock::now();
+  StageSolver solver(model, lattice, *pool);
+  solver.gravity = scene.environment.gravity_m_per_s2.cast<float>();
+  const std::vector<layout::vec4> pushes = bodyInfluences(model, scene);
+  const multigrid::Grid& grid = solver.level.grid();
+  const size_t n = grid.places();
+  for (uint32_t node = 0; node < grid.nodeCount(); ++node) {
+    const layout::vec4& a = pushes[grid.bodyOf(node)];
+    const uint32_t place = grid.place_of[node];
+    for (size_t c = 0; c < 3; ++c) solver.load[c * n + place] = solver.level.mass()[place] * (&a.x)[c];
+  }
+  solver.begin({});
+  report.build_s = secondsSince(start);
+  const Vectors u = Settling(solver, report).run();
+  const auto timed = std::chrono::steady_clock::now();
+  for (int i = 0; i < kTimed; ++i) solver.level.linearise(solver.displacement, solver.velocity);
+  report.work_units = report.seconds * kTimed / secondsSince(timed);
+  HostState state = lattice.read();
+  for (uint32_t node = 0; node < grid.nodeCount(); ++node) {
+    const uint32_t place = grid.place_of[node];
+    const Vector3f at(u[place], u[n + place], u[2 * n + place]);
+    state.displacement_m[grid.slots[node]] = {at.x(), at.y(), at.z(), 0};
+    report.largest_m = std::max(report.largest_m, static_cast<double>(at.norm()));
+  }
+  if (!(report.residual < 1)) throw Error("no equilibrium was found");
+  return state;
+}
+
+}  // namespace viscera

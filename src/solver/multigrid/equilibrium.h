@@ -1,0 +1,35 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+
+#include "viscera/model/model.h"
+#include "viscera/solver/state.h"
+#include "viscera/solver/threads.h"
+
+namespace viscera {
+
+/// How a static state was come by.
+struct SettleReport {
+  double residual = 0;    ///< norm of what forces lack over that of the load
+  int newton = 0;         ///< systems solved
+  int iterations = 0;     ///< of conjugate gradients
+  double seconds = 0;     ///< of all of it but the hierarchy
+  double build_s = 0;     ///< of the hierarchy
+  double work_units = 0;  ///< `seconds` over those of one evaluation of all forces
+  double largest_m = 0;   ///< displacement
+};
+
+/// Residual to which equilibria are solved.
+constexpr double kSettled = 1e-4;
+
+/// The state in which elastic forces, gravity and the forces on bodies balance, velocities 0: Newton's method with a
+/// line search on the energy, its systems solved by multigrid (physics.md 2). Obstacles, wind and tools are not part of
+/// it.
+/// @throws SceneError  a body that nothing holds, a body with explicit connections
+/// @throws Error       no balance was found
+HostState equilibriumOf(const Model& model, const Scene& scene, SettleReport& report,
+                        const std::shared_ptr<ThreadPool>& threads = nullptr);
+
+}  // namespace viscera

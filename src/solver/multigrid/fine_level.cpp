@@ -1,0 +1,215 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solver/multigrid/fine_level.h"
+
+#include <algorithm>
+
+namespace viscera::multigrid {
+
+namespace {
+
+CellKind kindOf(const CpuStrengths& strengths) {
+  if (strengths.bulk.empty()) return CellKind::kNone;
+  if (strengths.rigidity.empty()) return CellKind::kVolumes;
+  const std::vector<uint32_t>& fills = strengths.moments.of_cell;
+  const bool partial = std::any_of(fills.begin(), fills.end(), [](uint32_t fill) { return fill != 0; });
+  return partial ? CellKind::kPartialMoments : CellKind::kMoments;
+}
+
+}  // namespace
+
+FineLevel::FineLevel(const Model& model, const CpuLattice& lattice, const Parallel& parallel)
+    : lattice_(lattice),
+      parallel_(parallel),
+      grid_(model),
+      kernels_(fineKernelsFor()),
+      cells_(kindOf(lattice.strengths)),
+      boxes_(grid_.bodies),
+      held_(grid_.nodeCount()),
+      sums_((grid_.blocks.size() + kBlocksPerJob - 1) / kBlocksPerJob) {
+  const size_t n = places();
+  for (size_t b = 0; b < boxes_.size(); ++b) boxes_[b].params = lattice.store.bodies[b];
+  stiffness_.resize(kPairs * n);
+  tangent_.resize(kPairs * kTangentNumbers * n);
+  inverse_.resize(6 * n);
+  force_.resize(3 * n);
+  for (AlignedVector<float>* each : {&mass_, &free_, &diagonal_}) each->resize(n);
+  if (cells_ != CellKind::kNone) {
+    edges_.resize(9 * n);
+    resists_.resize(2 * n);
+    corners_.resize(kCornerNumbers * n);
+    bulk_.resize(n);
+    if (cells_ != CellKind::kVolumes) rigidity_.resize(n);
+    if (cells_ == CellKind::kPartialMoments) moments_.resize(9 * n);
+    loadCells();
+  }
+  for (uint32_t node = 0; node < grid_.nodeCount(); ++node)
+    mass_[grid_.place_of[node]] = lattice.strengths.mass[grid_.slots[node]];
+  refresh();
+}
+
+/// Which places have cells, and the moments of these, which never change.
+void FineLevel::loadCells() {
+  constexpr float kTwelfth = 1.0f / 12;
+  for (uint32_t node = 0; node < grid_.nodeCount(); ++node) {
+    const uint32_t slot = grid_.slots[node];
+    if (!(lattice_.store.whole_nodes[slot].lo & layout::kCellBit)) continue;
+    cell_nodes_.push_back(node);
+    const uint32_t place = grid_.place_of[node];
+    const Block block = {place / static_cast<uint32_t>(kBlock) * static_cast<uint32_t>(kBlock), grid_.bodyOf(node)};
+    if (cell_blocks_.empty() || cell_blocks_.back().at != block.at) cell_blocks_.push_back(block);
+    if (moments_.empty()) continue;
+    const JoinedMoments& joined = lattice_.strengths.moments;
+    const layout::vec4* m = &joined.vectors[kVectorsPerFill * joined.of_cell[slot]];
+    const float twice_h = 2 * lattice_.store.bodyOf(slot).origin_spacing.w;
+    const float numbers[9] = {twice_h * m[0].x, twice_h * m[0].y, twice_h * m[0].z, m[1].x, m[1].y,
+                              m[1].z,           m[2].x,           m[2].y,           m[2].z};
+    for (size_t i = 0; i < 9; ++i) moments_[i * places() + place] = numbers[i];
+    if (joined.of_cell[slot] == 0)
+      for (size_t i = 3; i < 6; ++i) moments_[i * places() + place] = kTwelfth;
+  }
+  // Slots are in the order of bricks, places in that of rows.
+  std::sort(cell_blocks_.begin(), cell_blocks_.end(), [](const Block& a, const Block& b) { return a.at < b.at; });
+  cell_blocks_.erase(std::unique(cell_blocks_.begin(), cell_blocks_.end(),
+                                 [](const Block& a, const Block& b) { return a.at == b.at; }),
+                     cell_blocks_.end());
+}
+
+void FineLevel::refresh() {
+  for (uint32_t node = 0; node < grid_.nodeCount(); ++node) {
+    const uint32_t slot = grid_.slots[node], place = grid_.place_of[node];
+    for (uint32_t pair = 0; pair < kPairs; ++pair)
+      stiffness_[pair * places() + place] = lattice_.strengths.stiffness[stiffnessAt(slot, pair)];
+    free_[place] = lattice_.strengths.mobility[slot] > 0 && !held_[node] ? 1.0f : 0.0f;
+  }
+  for (const uint32_t node : cell_nodes_) {
+    bulk_[grid_.place_of[node]] = lattice_.strengths.bulk[grid_.slots[node]];
+    if (!rigidity_.empty()) rigidity_[grid_.place_of[node]] = lattice_.strengths.rigidity[grid_.slots[node]];
+  }
+}
+
+void FineLevel::hold(const std::vector<uint32_t>& held, const std::vector<Plane>& planes) {
+  const auto nodeOf = [&](uint32_t slot) {
+    const auto at = std::lower_bound(grid_.slots.begin(), grid_.slots.end(), slot);
+    return at != grid_.slots.end() && *at == slot ? static_cast<int64_t>(at - grid_.slots.begin()) : -1;
+  };
+  std::fill(held_.begin(), held_.end(), uint8_t{0});
+  for (const uint32_t slot : held) {
+    const int64_t node = nodeOf(slot);
+    if (node >= 0) held_[static_cast<size_t>(node)] = 1;
+  }
+  planes_.clear();
+  for (const Plane& plane : planes) {
+    const int64_t node = nodeOf(plane.slot);
+    if (node >= 0) planes_.push_back({grid_.place_of[static_cast<size_t>(node)], plane.normal});
+  }
+  for (uint32_t node = 0; node < grid_.nodeCount(); ++node) {
+    free_[grid_.place_of[node]] = lattice_.strengths.mobility[grid_.slots[node]] > 0 && !held_[node] ? 1.0f : 0.0f;
+  }
+}
+
+void FineLevel::project(Vectors& x) const {
+  const size_t n = places();
+  for (const Plane& plane : planes_) {
+    float* at = &x[plane.slot];
+    const float along = plane.normal.x() * at[0] + plane.normal.y() * at[n] + plane.normal.z() * at[2 * n];
+    for (size_t c = 0; c < 3; ++c) at[c * n] -= along * plane.normal[static_cast<int>(c)];
+  }
+}
+
+void FineLevel::begin(const Stage& stage) {
+  for (Box& box : boxes_) box.damping_rate_per_s = static_cast<float>(stage.rate_per_s);
+  for (const Block& block : grid_.blocks) {
+    const double inertia =
+        stage.inertia_per_s2 + static_cast<double>(boxes_[block.body].params.drag_per_s) * stage.rate_per_s;
+    for (size_t i = block.at; i < block.at + kBlock; ++i)
+      diagonal_[i] = static_cast<float>(inertia * static_cast<double>(mass_[i]));
+  }
+}
+
+FineArrays FineLevel::arrays() const {
+  FineArrays a{};
+  a.places = places();
+  a.boxes = boxes_.data();
+  a.displacement = displacement_;
+  a.velocity = velocity_;
+  a.stiffness = stiffness_.data();
+  a.diagonal = diagonal_.data();
+  a.free = free_.data();
+  a.bulk = bulk_.data();
+  a.rigidity = rigidity_.data();
+  a.moments = moments_.data();
+  a.tangent = tangent_.data();
+  a.edges = edges_.data();
+  a.resists = resists_.data();
+  a.corners = corners_.data();
+  a.force = force_.data();
+  a.inverse = inverse_.data();
+  a.cells = cells_;
+  return a;
+}
+
+/// Calls kernel(first block, count, job).
+template <class Kernel>
+void FineLevel::runBlocks(const std::vector<Block>& blocks, const Kernel& kernel) const {
+  parallel_((blocks.size() + kBlocksPerJob - 1) / kBlocksPerJob, [&](size_t job) {
+    const size_t first = job * kBlocksPerJob;
+    kernel(&blocks[first], std::min(kBlocksPerJob, blocks.size() - first), job);
+  });
+}
+
+double FineLevel::linearise(const Vectors& displacement_m, const Vectors& velocity_m_per_s) {
+  displacement_ = displacement_m.data();
+  velocity_ = velocity_m_per_s.data();
+  const FineArrays a = arrays();
+  std::fill(sums_.begin(), sums_.end(), 0.0);
+  runBlocks(cell_blocks_, [&](const Block* blocks, size_t count, size_t job) {
+    kernels_.linearise_cells(a, blocks, count, &sums_[job]);
+  });
+  runBlocks(grid_.blocks, [&](const Block* blocks, size_t count, size_t job) {
+    kernels_.linearise_nodes(a, blocks, count, &sums_[job]);
+  });
+  double energy_j = 0;
+  for (const double each : sums_) energy_j += each;
+  return energy_j;
+}
+
+void FineLevel::apply(const Vectors& x, Vectors& y, bool subtract) const {
+  const FineArrays a = arrays();
+  runBlocks(cell_blocks_,
+            [&](const Block* blocks, size_t count, size_t) { kernels_.apply_cells(a, x.data(), blocks, count); });
+  runBlocks(grid_.blocks, [&](const Block* blocks, size_t count, size_t) {
+    kernels_.apply_nodes(a, x.data(), y.data(), subtract, blocks, count);
+  });
+  project(y);
+}
+
+void FineLevel::smooth(const Vectors& r, float a, float b, bool first, Vectors& d, Vectors& z) const {
+  const size_t n = places();
+  const float *rx = r.data(), *ry = rx + n, *rz = ry + n, *inverse = inverse_.data();
+  forPlaces([&](size_t at, size_t count, const layout::BodyParams&) {
+    for (size_t i = at; i < at + count; ++i) {
+      const float xx = inverse[i], xy = inverse[n + i], xz = inverse[2 * n + i];
+      const float yy = inverse[3 * n + i], yz = inverse[4 * n + i], zz = inverse[5 * n + i];
+      const float s[3] = {xx * rx[i] + xy * ry[i] + xz * rz[i], xy * rx[i] + yy * ry[i] + yz * rz[i],
+                          xz * rx[i] + yz * ry[i] + zz * rz[i]};
+      for (size_t c = 0; c < 3; ++c) {
+        const float next = (first ? 0 : a * d[c * n + i]) + b * s[c];
+        d[c * n + i] = next;
+        z[c * n + i] = (first ? 0 : z[c * n + i]) + next;
+      }
+    }
+  });
+  project(d);
+  project(z);
+}
+
+double FineLevel::dot(const Vectors& a, const Vectors& b) const {
+  const size_t n = places();
+  return sum([&](size_t i) {
+    return static_cast<double>(a[i] * b[i]) + static_cast<double>(a[n + i] * b[n + i]) +
+           static_cast<double>(a[2 * n + i] * b[2 * n + i]);
+  });
+}
+
+}  // namespace viscera::multigrid

@@ -1,0 +1,117 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "solver/cpu/cpu_lattice.h"
+#include "solver/cpu/parallel.h"
+#include "solver/multigrid/grid.h"
+
+namespace viscera::multigrid {
+
+/// A vector per place of a Grid: [3 * places], component by component; 0 where no node is.
+using Vectors = AlignedVector<float>;
+
+/// What a stage of a time integrator solves for a change s of displacement (physics.md 2):
+///   (m (inertia + gamma rate) + K + c rate n n^T) s = r.
+struct Stage {
+  double inertia_per_s2 = 0;  ///< a0
+  double rate_per_s = 0;      ///< d velocity / d displacement
+};
+
+/// A node that keeps to a plane: only what is across the normal is solved for.
+struct Plane {
+  uint32_t slot;
+  Vector3f normal;
+};
+
+/// The finest level: nodes and springs of the lattice itself, its forces, and their tangent as a product that needs no
+/// matrix. Springs are made positive, k (n n^T + max(0, 1 - l0/L)(1 - n n^T)); volumes count as B g g^T, moments at
+/// constant directions of the cell's edges.
+class FineLevel {
+ public:
+  /// @param lattice, parallel  must outlive it
+  FineLevel(const Model& model, const CpuLattice& lattice, const Parallel& parallel);
+
+  const Grid& grid() const { return grid_; }
+  size_t places() const { return grid_.places(); }
+  /// Takes springs, cells, masses and which nodes are free from the lattice: after cuts, and where nodes are let go.
+  void refresh();
+  /// Nodes that are prescribed beside those that never move, and nodes that keep to planes, until the next call. Before
+  /// linearise(). @param held  slots
+  void hold(const std::vector<uint32_t>& held, const std::vector<Plane>& planes = {});
+  /// Takes what is along the normals of planes out of a vector.
+  void project(Vectors& x) const;
+  void begin(const Stage& stage);
+
+  /// Forces, energy and tangent at a state. @return elastic energy [J]
+  double linearise(const Vectors& displacement_m, const Vectors& velocity_m_per_s);
+  const Vectors& force() const { return force_; }  ///< [N] of springs, dashpots and cells, on all nodes
+  /// y = A x; or y -= A x. 0 where not free. @param x  0 where not free
+  void apply(const Vectors& x, Vectors& y, bool subtract = false) const;
+  /// d = a d + b D^-1 r, z += d; both begin as 0 where `first`.
+  void smooth(const Vectors& r, float a, float b, bool first, Vectors& d, Vectors& z) const;
+
+  double dot(const Vectors& a, const Vectors& b) const;  ///< summed in float64, always in the same order
+  /// Calls each(place, count, constants of their body) for runs of places, side by side.
+  template <class Each>
+  void forPlaces(const Each& each) const {
+    parallel_(jobs(), [&](size_t job) {
+      for (size_t b = job * kBlocksPerJob; b < std::min(grid_.blocks.size(), (job + 1) * kBlocksPerJob); ++b)
+        each(size_t{grid_.blocks[b].at}, kBlock, boxes_[grid_.blocks[b].body].params);
+    });
+  }
+  /// Sum over nodes of what each(place) returns, always in the same order.
+  template <class Each>
+  double sum(const Each& each) const {
+    parallel_(jobs(), [&](size_t job) {
+      double out = 0;
+      for (size_t b = job * kBlocksPerJob; b < std::min(grid_.blocks.size(), (job + 1) * kBlocksPerJob); ++b) {
+        for (size_t i = grid_.blocks[b].at; i < grid_.blocks[b].at + kBlock; ++i) out += each(i);
+      }
+      sums_[job] = out;
+    });
+    double out = 0;
+    for (const double each_job : sums_) out += each_job;
+    return out;
+  }
+
+  const float* mass() const { return mass_.data(); }  ///< [places] kg, 0 where no node is
+  const float* free() const { return free_.data(); }  ///< [places] 1 or 0
+  const Parallel& parallel() const { return parallel_; }
+
+  // What coarse levels are made of, at rest.
+  float stiffness(size_t pair, size_t place) const { return stiffness_[pair * places() + place]; }
+  float bulk(size_t place) const { return bulk_.empty() ? 0 : bulk_[place]; }
+  float rigidity(size_t place) const { return rigidity_.empty() ? 0 : rigidity_[place]; }
+  const float* moments() const { return moments_.empty() ? nullptr : moments_.data(); }
+  float diagonal(size_t place) const { return diagonal_[place]; }
+  const Box& box(uint32_t body) const { return boxes_[body]; }
+
+ private:
+  static constexpr size_t kBlocksPerJob = 32;
+  size_t jobs() const { return sums_.size(); }
+  FineArrays arrays() const;
+  void loadCells();
+  template <class Kernel>
+  void runBlocks(const std::vector<Block>& blocks, const Kernel& kernel) const;
+
+  const CpuLattice& lattice_;
+  const Parallel& parallel_;
+  Grid grid_;
+  FineKernels kernels_;
+  CellKind cells_;
+  std::vector<Box> boxes_;
+  std::vector<Block> cell_blocks_;
+  std::vector<uint32_t> cell_nodes_;  ///< nodes above which a cell is, whole
+  std::vector<uint8_t> held_;         ///< [nodes]
+  std::vector<Plane> planes_;         ///< with places for slots
+  const float *displacement_ = nullptr, *velocity_ = nullptr;
+  mutable std::vector<double> sums_;  ///< [jobs]
+  AlignedVector<float> stiffness_, mass_, free_, diagonal_, bulk_, rigidity_, moments_;
+  mutable AlignedVector<float> tangent_, edges_, resists_, corners_, inverse_;
+  mutable Vectors force_;
+};
+
+}  // namespace viscera::multigrid

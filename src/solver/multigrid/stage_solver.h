@@ -1,0 +1,63 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+
+#include "solver/multigrid/hierarchy.h"
+#include "viscera/solver/solver.h"
+
+namespace viscera::multigrid {
+
+/// When to stop.
+struct Rule {
+  double tolerance = 0.1;    ///< of conjugate gradients: residual over the first one
+  int least = 2, most = 15;  ///< iterations
+  double again = 0.3;        ///< another Newton step while it left more of the residual
+  int newton = 3;            ///< steps at most
+};
+
+/// Solves, for the increment du of a stage (physics.md 2),
+///   m a0 (dy - du) + m g - m gamma v + F(u + du) + dashpots(v) = 0,   v = rate (du - dw),
+/// by Newton's method; its systems by conjugate gradients, with a V-cycle as preconditioner.
+class StageSolver {
+ public:
+  StageSolver(const Model& model, const CpuLattice& lattice, const Parallel& parallel);
+
+  /// Takes springs and cells anew: they were cut. The hierarchy stays until it is built anew.
+  void refresh();
+  /// The hierarchy is made for this stage, if it is not good enough for it as it is.
+  void begin(const Stage& stage);
+  void rebuild();  ///< the hierarchy, from the lattice as it is
+
+  /// Residual of an increment [N], 0 where not free; linearises there. @return its norm
+  double residual(const Vectors& increment);
+  /// Improves `increment` until the rule is met. Leaves all linearised at the end.
+  /// @return norm of the residual at the end; not finite where the state was too wild for float32
+  double solve(Vectors& increment, const Rule& rule, SolverWork& work);
+  /// One system: x of A x = residual(). @return iterations
+  int solveLinear(const Rule& rule, double norm);
+
+  FineLevel level;
+  Vectors start;   ///< u [m]
+  Vectors wanted;  ///< dy [m]
+  Vectors offset;  ///< dw [m]
+  Vectors load;    ///< N beside gravity; 0 unless somebody sets it
+  Vector3f gravity = Vector3f::Zero();
+  Stage stage;
+  Vectors displacement;  ///< u + du and rate (du - dw) where residual() was
+  Vectors velocity;
+  double elastic_j = 0;  ///< there
+  const Vectors& solution() const { return s_; }
+  const Hierarchy* hierarchy() const { return hierarchy_.get(); }
+  double noise_n = 0;  ///< norm of the rounding of forces in float32, there
+
+ private:
+  std::unique_ptr<Hierarchy> hierarchy_;
+  Stage built_for_;
+  float largest_ = 0;
+  double stiffest_n_per_m_ = 0;  ///< sum of a node's springs
+  Vectors r_, s_, p_, q_, z_, d_, work_;
+};
+
+}  // namespace viscera::multigrid
