@@ -58,8 +58,8 @@ CpuBackend::CpuBackend(const Model& model, const Scene& scene, const TickPlan& p
   if (plan.surroundings) surroundings_.emplace(model, scene, lattice_, pool_);
   if (solvesContacts(scene)) pairs_ = std::make_unique<CpuNodePairs>(model, scene, lattice_, pool_);
   stepper_ = makeCpuStepper(
-      config_.integrator, config_.iterations, model, lattice_,
-      {pool_, sleep_, network_.get(), features_, kernels_, pairs_.get(), plan.tick_s / plan.substeps.calm});
+      config_.integrator, config_.iterations, lattice_,
+      {pool_, sleep_, network_.get(), features_, kernels_, pairs_.get(), plan.tick_s / plan.substeps.calm, &model});
   work_->stats.resize(bricks());
   work_->changed.reserve(bricks());
   if (plan.tools) {

@@ -10,8 +10,8 @@
 
 namespace viscera {
 
-std::unique_ptr<CpuStepper> makeCpuStepper(Integrator integrator, int iterations, const Model& model,
-                                           CpuLattice& lattice, const CpuParts& parts) {
+std::unique_ptr<CpuStepper> makeCpuStepper(Integrator integrator, int iterations, CpuLattice& lattice,
+                                           const CpuParts& parts) {
   switch (integrator) {
     case Integrator::kVerletPaper:
       return std::make_unique<CpuVerletPaper>(lattice, parts.parallel);
@@ -20,7 +20,7 @@ std::unique_ptr<CpuStepper> makeCpuStepper(Integrator integrator, int iterations
     case Integrator::kPd:
       return std::make_unique<CpuPd>(lattice, parts.parallel, PdOptions{iterations}, parts.pairs);
     case Integrator::kMultigrid:
-      return std::make_unique<CpuMultigrid>(model, lattice, parts);
+      return std::make_unique<CpuMultigrid>(*parts.model, lattice, parts);
     case Integrator::kLeapfrog:
       break;
   }

@@ -41,14 +41,14 @@ struct CpuParts {
   const simd::Kernels& kernels;
   CpuNodePairs* pairs = nullptr;  ///< contacts between nodes within an implicit substep; null: none
   double dt_s = 0;                ///< of substeps in calm states, for what is built for one
+  const Model* model = nullptr;   ///< of the lattice; multigrid needs it while it is made
 };
 
 /// Leapfrog and multigrid: SIMD kernels. vbd, pd and verlet_paper: the text of their shaders, compiled as C++.
 /// @param iterations  of vbd and pd   @param lattice  that it will be run on
-/// @param model  of the lattice; must outlive it
 /// @throws SceneError  what the integrator cannot step
-std::unique_ptr<CpuStepper> makeCpuStepper(Integrator integrator, int iterations, const Model& model,
-                                           CpuLattice& lattice, const CpuParts& parts);
+std::unique_ptr<CpuStepper> makeCpuStepper(Integrator integrator, int iterations, CpuLattice& lattice,
+                                           const CpuParts& parts);
 
 /// pd without acceleration, so that every sweep lowers the energy, for the governor's recoveries.
 std::unique_ptr<CpuStepper> makeCpuRecoveryStepper(int iterations, CpuLattice& lattice, const Parallel& parallel);

@@ -27,10 +27,23 @@ HWY_INLINE void storeTo(const Vec3& value, float* x, size_t places, size_t at) {
   hn::StoreU(value.z, Tag(), x + 2 * places + at);
 }
 
+/// The upper half of a float32, rounded: tangents are read far more often than they are needed to more than three
+/// digits.
+HWY_INLINE void storeShort(V value, uint16_t* to) {
+  const hn::RebindToSigned<Tag> words;
+  const auto bits = hn::BitCast(words, hn::ShiftRight<16>(hn::Add(hn::BitCast(hn::RebindToUnsigned<Tag>(), value),
+                                                                  hn::Set(hn::RebindToUnsigned<Tag>(), 0x8000u))));
+  hn::StoreU(hn::DemoteTo(hn::Rebind<uint16_t, Tag>(), bits), hn::Rebind<uint16_t, Tag>(), to);
+}
+HWY_INLINE V loadShort(const uint16_t* from) {
+  const hn::RebindToUnsigned<Tag> words;
+  return hn::BitCast(Tag(), hn::ShiftLeft<16>(hn::PromoteTo(words, hn::LoadU(hn::Rebind<uint16_t, Tag>(), from))));
+}
+
 /// T d of a spring. @param of_pair  its pair's tangents
-HWY_INLINE Vec3 springTimes(const float* of_pair, size_t places, size_t at, const Vec3& d) {
-  const Vec3 s = loadOf(of_pair, places, at);
-  return mulAdd(dot(s, d), s, load(of_pair + 3 * places + at) * d);
+HWY_INLINE Vec3 springTimes(const uint16_t* of_pair, size_t places, size_t at, const Vec3& d) {
+  const Vec3 s = {loadShort(of_pair + at), loadShort(of_pair + places + at), loadShort(of_pair + 2 * places + at)};
+  return mulAdd(dot(s, d), s, loadShort(of_pair + 3 * places + at) * d);
 }
 
 /// Place of corner c (bits x, y, z) of a cell, from that of its lowest one.

@@ -101,8 +101,11 @@ void lineariseNodes(const multigrid::FineArrays& a, const multigrid::Block* bloc
     const LinearSpring own =                                                                                    \
         linearSpring<X, Y, Z>(m, rate, load(a.stiffness + (pair)*n + i), loadOf(a.displacement, n, far) - near, \
                               loadOf(a.velocity, n, far) - near_v);                                             \
-    storeTo(own.s, a.tangent + (pair)*4 * n, n, i);                                                             \
-    hn::StoreU(own.t, Tag(), a.tangent + ((pair)*4 + 3) * n + i);                                               \
+    uint16_t* const of_pair = a.tangent + (pair)*4 * n + i;                                                     \
+    storeShort(own.s.x, of_pair);                                                                               \
+    storeShort(own.s.y, of_pair + n);                                                                           \
+    storeShort(own.s.z, of_pair + 2 * n);                                                                       \
+    storeShort(own.t, of_pair + 3 * n);                                                                         \
     energy = hn::Add(energy, own.energy);                                                                       \
     const LinearSpring other = linearSpring<-(X), -(Y), -(Z)>(m, rate, load(a.stiffness + (pair)*n + before),   \
                                                               loadOf(a.displacement, n, before) - near,         \
@@ -137,7 +140,7 @@ void applyNodes(const multigrid::FineArrays& a, const float* x, float* y, bool s
   {                                                                                             \
     const ptrdiff_t away = X + Y * box.row + Z * box.layer;                                     \
     const size_t before = i - static_cast<size_t>(away);                                        \
-    const float* const of_pair = a.tangent + (pair)*4 * n;                                      \
+    const uint16_t* const of_pair = a.tangent + (pair)*4 * n;                                   \
     sum = sum + springTimes(of_pair, n, i, near - loadOf(x, n, i + static_cast<size_t>(away))); \
     sum = sum + springTimes(of_pair, n, before, near - loadOf(x, n, before));                   \
   }

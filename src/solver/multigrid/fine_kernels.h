@@ -43,7 +43,7 @@ struct FineArrays {
   const float* bulk;          ///< [1] J of the cell above a place
   const float* rigidity;      ///< [1] J
   const float* moments;       ///< [9] of cells, over their shares, the first ones times 2 h; null where all are full
-  float* tangent;             ///< [kPairs * kTangentNumbers] sqrt(N/m), N/m
+  uint16_t* tangent;          ///< [kPairs * kTangentNumbers] sqrt(N/m), N/m
   float* edges;               ///< [9] mean edges of cells less their rest value, over h
   float* resists;             ///< [2] curvature of the volume's energy [J]; what moments are times [N/m]
   float* corners;             ///< [kCornerNumbers] N, corner by corner

@@ -110,7 +110,8 @@ class FineLevel {
   const float *displacement_ = nullptr, *velocity_ = nullptr;
   mutable std::vector<double> sums_;  ///< [jobs]
   AlignedVector<float> stiffness_, mass_, free_, diagonal_, bulk_, rigidity_, moments_;
-  mutable AlignedVector<float> tangent_, edges_, resists_, corners_, inverse_;
+  mutable AlignedVector<uint16_t> tangent_;
+  mutable AlignedVector<float> edges_, resists_, corners_, inverse_;
   mutable Vectors force_;
 };
 
