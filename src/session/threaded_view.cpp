@@ -6,6 +6,7 @@
 #include <iterator>
 #include <utility>
 
+#include "gpu/background.h"
 #include "session/inline_view.h"
 #include "surface/state_mirror.h"
 #include "viscera/math/error.h"
@@ -155,6 +156,7 @@ void ThreadedView::main(const Model& model, const Scene& scene) {
 
 void ThreadedView::run(const Model& model, const Scene& scene) {
   const Current current(context_);
+  gpu::drawInBackground();
   InlineView view(model, scene);
   StateMirror mirror(model);
   Look look;

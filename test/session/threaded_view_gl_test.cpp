@@ -3,9 +3,14 @@
 #include "session/threaded_view.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <chrono>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <string>
 #include <thread>
 
 #include "session/block_session.h"
@@ -271,6 +276,33 @@ TEST_F(ThreadedViewTest, ResetMakesWoundedSkinWhole) {
   tissue_.reset();
   view.reset();
   EXPECT_EQ(added(), 0u);
+}
+
+/// Threads of this process by how much they give way [nice].
+std::map<std::string, int> niceOfThreads() {
+  std::map<std::string, int> out;
+  for (const auto& entry : std::filesystem::directory_iterator("/proc/self/task")) {
+    const std::string thread = entry.path().filename();
+    std::string name;
+    std::getline(std::ifstream(entry.path() / "comm"), name);
+    out[name + ' ' + thread] = getpriority(PRIO_PROCESS, static_cast<id_t>(std::stoul(thread)));
+  }
+  return out;
+}
+
+TEST_F(ThreadedViewTest, DrawingGivesWayToStepping) {
+  const int own = getpriority(PRIO_PROCESS, 0);
+  ThreadedView view(model_, scene_, context_);
+  show(view, lookAfterStep(everything()));
+  EXPECT_EQ(getpriority(PRIO_PROCESS, 0), own);
+  int behind = 0;
+  for (const auto& [thread, nice] : niceOfThreads()) {
+    behind += nice > own ? 1 : 0;
+    if (thread.rfind("llvmpipe-", 0) == 0) {
+      EXPECT_GT(nice, own) << thread;
+    }
+  }
+  EXPECT_GE(behind, 1);  // the view's own, whatever draws
 }
 
 TEST_F(ThreadedViewTest, ShowingMakesNoOpenGlObject) {
