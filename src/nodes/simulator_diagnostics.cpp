@@ -94,6 +94,8 @@ void SimulatorDiagnostics::simulation(Status& status) {
   status.add("springs_collapsed", now_->stats.collapsed);
   status.add("cells_inverted", now_->stats.inverted);
   status.add("springs_cut", now_->stats.springs_cut);
+  status.add("wound_holes", now_->counters.wound_holes);
+  status.add("wound_slivers", now_->counters.wound_slivers);
   status.add("ticks", now_->counters.ticks);
   status.add("substeps", now_->counters.substeps);
   status.add("solver_systems", now_->counters.work.systems);

@@ -33,6 +33,10 @@ void HostView::collect(Pictures& out, bool) {
 ViewCounters HostView::counters() const {
   ViewCounters out;
   out.mappings = out.readbacks = surface_.mappings();
+  if (const ShownWounds* const wounds = surface_.wounds()) {
+    out.wound_holes = wounds->holes;
+    out.wound_slivers = wounds->slivers;
+  }
   return out;
 }
 

@@ -236,6 +236,10 @@ ViewCounters InlineView::counters() const {
   ViewCounters out = counters_;
   out.mappings = surface_.mappings();
   out.renders = renderer_.renders();
+  if (const std::shared_ptr<const ShownWounds> wounds = surface_.wounds()) {
+    out.wound_holes = wounds->holes;
+    out.wound_slivers = wounds->slivers;
+  }
   return out;
 }
 

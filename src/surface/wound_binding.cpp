@@ -26,8 +26,11 @@ struct Fit {
 Fit fitOf(const Candidate& candidate, const CutCells& cells, const Vector3d& point) {
   const Vector3d from = point - cells.lattice().nodeAt(candidate.slot0).cast<double>();
   Fit fit;
-  fit.weight1 = std::clamp(from.dot(candidate.edge1.cast<double>()), 0.0, 1.0);
-  fit.weight2 = std::clamp(from.dot(candidate.edge2.cast<double>()), 0.0, 1.0);
+  const auto share = [&](uint32_t slot, const Vector3i& edge) {  // an edge that is none carries nothing
+    return slot == candidate.slot0 ? 0 : std::clamp(from.dot(edge.cast<double>()), 0.0, 1.0);
+  };
+  fit.weight1 = share(candidate.slot1, candidate.edge1);
+  fit.weight2 = share(candidate.slot2, candidate.edge2);
   const double beyond = fit.weight1 + fit.weight2 - 1;
   if (beyond > 0) {
     fit.weight1 = std::max(0.0, fit.weight1 - beyond / 2);
@@ -47,24 +50,32 @@ uint32_t neighborOf(const CutCells& cells, uint32_t slot, uint32_t spring) {
   return static_cast<uint32_t>(cells.slotAt(cells.lattice().nodeAt(slot) + offsetOf(spring)));
 }
 
-/// Triangles of a cell on one side of the wound.
-template <class Visit>
-void forEachOfSide(const CutCells& cells, const WoundPlace& place, Visit visit) {
+/// Triangles of a cell; `take(corner)` and `hold(slot, spring)` say which.
+template <class Take, class Hold, class Visit>
+void forEachInCell(const CutCells& cells, const WoundPlace& place, Take take, Hold hold, Visit visit) {
   const Vector3i at = cells.lattice().nodeAt(place.cell);
-  const CutCell* const cut = cells.find(place.cell);
-  const auto side = cut == nullptr ? 0 : cut->component[static_cast<size_t>(std::max(0, cut->cornerOf(place.node)))];
   for (int c = 0; c < 8; ++c) {
-    if (cut != nullptr && cut->component[static_cast<size_t>(c)] != side) continue;
+    if (!take(static_cast<size_t>(c))) continue;
     const auto slot = static_cast<uint32_t>(cells.slotAt(at + Vector3i(c & 1, c >> 1 & 1, c >> 2)));
     for (int normal = 0; normal < 3; ++normal) {
       const int u = (normal + 1) % 3, v = (normal + 2) % 3;
       const uint32_t spring1 = 2 * static_cast<uint32_t>(u) + (c >> u & 1),
                      spring2 = 2 * static_cast<uint32_t>(v) + (c >> v & 1);
-      if (!cells.isAlive(slot, spring1) || !cells.isAlive(slot, spring2)) continue;
+      if (!hold(slot, spring1) || !hold(slot, spring2)) continue;
       visit(Candidate{slot, neighborOf(cells, slot, spring1), neighborOf(cells, slot, spring2), offsetOf(spring1),
                       offsetOf(spring2)});
     }
   }
+}
+
+/// Those on one side of the wound.
+template <class Visit>
+void forEachOfSide(const CutCells& cells, const WoundPlace& place, Visit visit) {
+  const CutCell* const cut = cells.find(place.cell);
+  const auto side = cut == nullptr ? 0 : cut->component[static_cast<size_t>(std::max(0, cut->cornerOf(place.node)))];
+  forEachInCell(
+      cells, place, [&](size_t corner) { return cut == nullptr || cut->component[corner] == side; },
+      [&](uint32_t slot, uint32_t spring) { return cells.isAlive(slot, spring); }, visit);
 }
 
 /// Triangles at a node, wherever they lie; degenerate ones where the node has no two whole springs at right angles.
@@ -104,21 +115,16 @@ SkinBasis basisOf(const layout::SkinBinding& binding) {
 
 }  // namespace
 
-layout::SkinBinding bindToSide(const CutCells& cells, const Vector3d& point, const Vector3d& normal,
-                               const WoundPlace& place) {
-  Candidate best;
-  Fit fit;
-  const auto consider = [&](const Candidate& candidate) {
-    Fit next = fitOf(candidate, cells, point);
-    const bool own = candidate.slot0 == place.node || candidate.slot1 == place.node || candidate.slot2 == place.node;
-    if (!own) next.cost += kOtherNode;
-    if (next.cost >= fit.cost) return;
-    fit = next;
-    best = candidate;
-  };
-  forEachOfSide(cells, place, consider);
-  if (fit.cost == std::numeric_limits<double>::infinity()) forEachAtNode(cells, place.node, consider);
+void setNormal(const Vector3d& normal, layout::SkinBinding& binding) {
+  binding.normal_constant = packed(basisOf(binding).coordinates(normal));
+  binding.normal_interpolated = binding.normal_constant;
+  if (binding.springs & (layout::kOneNodeBit | layout::kAlongNormalBit)) binding.springs |= layout::kOwnNormalBit;
+}
 
+namespace {
+
+layout::SkinBinding bindingOf(const Candidate& best, const Fit& fit, const CutCells& cells, const Vector3d& point,
+                              const Vector3d& normal) {
   layout::SkinBinding binding{};
   binding.slot0 = best.slot0;
   binding.slot1 = best.slot1;
@@ -136,10 +142,45 @@ layout::SkinBinding bindToSide(const CutCells& cells, const Vector3d& point, con
   return binding;
 }
 
-void setNormal(const Vector3d& normal, layout::SkinBinding& binding) {
-  binding.normal_constant = packed(basisOf(binding).coordinates(normal));
-  binding.normal_interpolated = binding.normal_constant;
-  if (binding.springs & (layout::kOneNodeBit | layout::kAlongNormalBit)) binding.springs |= layout::kOwnNormalBit;
+}  // namespace
+
+layout::SkinBinding bindToSide(const CutCells& cells, const Vector3d& point, const Vector3d& normal,
+                               const WoundPlace& place) {
+  Candidate best;
+  Fit fit;
+  const auto consider = [&](const Candidate& candidate) {
+    Fit next = fitOf(candidate, cells, point);
+    const bool own = candidate.slot0 == place.node || candidate.slot1 == place.node || candidate.slot2 == place.node;
+    if (!own) next.cost += kOtherNode;
+    if (next.cost >= fit.cost) return;
+    fit = next;
+    best = candidate;
+  };
+  forEachOfSide(cells, place, consider);
+  if (fit.cost == std::numeric_limits<double>::infinity()) forEachAtNode(cells, place.node, consider);
+  return bindingOf(best, fit, cells, point, normal);
+}
+
+layout::SkinBinding bindAcross(const CutCells& cells, const Vector3d& point, const Vector3d& normal,
+                               const WoundPlace& place) {
+  Candidate best;
+  Fit fit;
+  const auto consider = [&](const Candidate& candidate) {
+    const Fit next = fitOf(candidate, cells, point);
+    if (next.cost >= fit.cost) return;
+    fit = next;
+    best = candidate;
+  };
+  forEachInCell(
+      cells, place, [](size_t) { return true; }, [](uint32_t, uint32_t) { return true; }, consider);
+  return bindingOf(best, fit, cells, point, normal);
+}
+
+layout::SkinBinding bindLike(const layout::SkinBinding& other, const CutCells& cells, const Vector3d& point,
+                             const Vector3d& normal) {
+  const Candidate same{other.slot0, other.slot1, other.slot2, offsetOf(other.springs & 31U),
+                       -offsetOf(other.springs >> 10U & 31U)};
+  return bindingOf(same, fitOf(same, cells, point), cells, point, normal);
 }
 
 }  // namespace viscera

@@ -16,6 +16,15 @@ namespace viscera {
 layout::SkinBinding bindToSide(const CutCells& cells, const Vector3d& point, const Vector3d& normal,
                                const WoundPlace& place);
 
+/// Binds the end of a wound, which belongs to both of its sides, to the nearest triangle of its cell as if it were
+/// whole.
+layout::SkinBinding bindAcross(const CutCells& cells, const Vector3d& point, const Vector3d& normal,
+                               const WoundPlace& place);
+
+/// Binds a point to the triangle of nodes that carries another one: between the two nothing can fold.
+layout::SkinBinding bindLike(const layout::SkinBinding& other, const CutCells& cells, const Vector3d& point,
+                             const Vector3d& normal);
+
 /// Changes the shading normal of a binding.
 void setNormal(const Vector3d& normal, layout::SkinBinding& binding);
 

@@ -167,9 +167,11 @@ void CutCells::complete(CutCell& cell, const float* axial_cut) const {
 void CutCells::update(const layout::NodeBits* nodes, const float* axial_cut) {
   for (const CutCell& cell : cells_) numbers_[static_cast<size_t>(slotAt(cell.at))] = 0;
   cells_.clear();
+  severed_.clear();
   std::copy_n(nodes, nodes_.size(), nodes_.begin());
   for (const uint32_t slot : lattice_.active_slots) {
     if ((nodes_[slot].lo & layout::kSeveredBit) == 0) continue;
+    severed_.push_back(slot);
     for (int axis = 0; axis < 3; ++axis) {
       const auto spring = static_cast<uint32_t>(2 * axis);
       if (springCount(lattice_.nodes[slot], spring) == 0 || isAlive(slot, spring)) continue;

@@ -56,7 +56,9 @@ class CutCells {
   const std::vector<CutCell>& cells() const { return cells_; }
   /// The cut cell of the lowest corner's slot; null where the cell is whole.
   const CutCell* find(uint32_t lowest) const { return numbers_[lowest] == 0 ? nullptr : &cells_[numbers_[lowest] - 1]; }
+  uint32_t numberOf(uint32_t lowest) const { return numbers_[lowest] - 1; }  ///< of a cut cell, in cells()
   WoundPlace placeOf(const Vector3d& point) const;
+  const std::vector<uint32_t>& severed() const { return severed_; }  ///< slots that have lost springs
   /// Has a node lost all of its springs, as erased ones have? It stays where it is, and nothing is shown of its side.
   bool isGone(uint32_t slot) const;
   bool isAlive(uint32_t slot, uint32_t spring) const { return springCount(nodes_[slot], spring) != 0; }
@@ -77,6 +79,7 @@ class CutCells {
   std::vector<layout::NodeBits> nodes_;
   std::vector<uint32_t> numbers_;  ///< [slots] of the cell whose lowest corner it is: 1 + index into cells_, or 0
   std::vector<CutCell> cells_;
+  std::vector<uint32_t> severed_;
 };
 
 }  // namespace viscera

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
-#include <map>
+
+#include "surface/keep_room.h"
 
 namespace viscera {
 
@@ -24,16 +24,35 @@ std::array<Vector3i, 4> cellsAround(const Vector3i& at, int axis) {
   return {at, at - u, at - u - v, at - v};
 }
 
+/// Across the wound, from the side of a component: the sum of its cut edges.
+Vector3d outwardOf(const CutCell& cut, uint8_t component) {
+  Vector3d outward = Vector3d::Zero();
+  for (int e = 0; e < 12; ++e) {
+    if ((cut.cut >> e & 1U) == 0) continue;
+    const auto [low, high] = edgeCorners(e);
+    outward[e / 4] += (cut.component[static_cast<size_t>(low)] == component ? 1 : 0) -
+                      (cut.component[static_cast<size_t>(high)] == component ? 1 : 0);
+  }
+  return outward;
+}
+
 }  // namespace
 
+uint32_t WoundWalls::addVertex(const WoundVertex& vertex, uint32_t cell, const Vector3d& outward) {
+  vertices_.push_back(vertex);
+  cell_of_.push_back(cell);
+  outward_.push_back(outward);
+  return static_cast<uint32_t>(vertices_.size() - 1);
+}
+
 uint32_t WoundWalls::pointVertex(uint32_t cell, uint8_t component) {
-  const auto [at, fresh] =
-      point_vertices_.try_emplace(uint64_t{cell} << 8U | component, static_cast<uint32_t>(vertices_.size()));
-  if (!fresh) return at->second;
   const CutCell& cut = *cells_->find(cell);
-  const auto point = points_.find(cell);
+  const uint32_t number = cells_->numberOf(cell);
+  uint32_t& known = point_vertices_[8 * size_t{number} + component];
+  if (known != kNone) return known;
   WoundVertex vertex;
-  vertex.point = point != points_.end() ? point->second : Vector3d(cut.at.cast<double>() + cut.centre.cast<double>());
+  const Point& point = points_[number];
+  vertex.point = point.marks > 0 ? point.at : Vector3d(cut.at.cast<double>() + cut.centre.cast<double>());
   vertex.place = {cell, Vector3f::Zero(), 0};
   double nearest = -1;
   for (size_t c = 0; c < 8; ++c) {
@@ -43,14 +62,15 @@ uint32_t WoundWalls::pointVertex(uint32_t cell, uint8_t component) {
     nearest = distance2;
     vertex.place.node = cut.slots[c];
   }
-  vertices_.push_back(vertex);
-  return at->second;
+  known = addVertex(vertex, number, outwardOf(cut, component));
+  return known;
 }
 
 uint32_t WoundWalls::lipVertex(uint32_t skin_vertex) {
-  const auto [at, fresh] = lip_vertices_.try_emplace(skin_vertex, static_cast<uint32_t>(vertices_.size()));
-  if (fresh) vertices_.push_back({skin_->pointOf(skin_vertex), Vector3d::Zero(), {}, skin_vertex});
-  return at->second;
+  uint32_t& known = lip_vertices_[skin_vertex];
+  if (known == kNone)
+    known = addVertex({skin_->pointOf(skin_vertex), Vector3d::Zero(), {}, skin_vertex}, kNone, Vector3d::Zero());
+  return known;
 }
 
 void WoundWalls::add(uint32_t a, uint32_t b, uint32_t c) {
@@ -74,11 +94,9 @@ bool WoundWalls::isInside(uint32_t slot, int axis) const {
 
 /// Means of where springs inside the tissue and the skin are cut.
 void WoundWalls::findPoints() {
-  std::unordered_map<uint32_t, double> counts;
-  const auto note = [&](uint32_t cell, const Vector3d& at) {
-    const auto [sum, fresh] = points_.try_emplace(cell, Vector3d::Zero());
-    sum->second += at;
-    counts[cell] += 1;
+  const auto note = [&](uint32_t number, const Vector3d& at) {
+    points_[number].at += at;
+    ++points_[number].marks;
   };
   for (const CutCell& cell : cells_->cells()) {
     for (int e = 0; e < 12; ++e) {
@@ -88,13 +106,16 @@ void WoundWalls::findPoints() {
       if (!isInside(slot, axis)) continue;
       Vector3d at = cells_->lattice().nodeAt(slot).cast<double>();
       at[axis] += static_cast<double>(cell.crossed[static_cast<size_t>(e)]);
-      note(cell.slots[0], at);
+      note(cells_->numberOf(cell.slots[0]), at);
     }
   }
   for (const Lip& lip : skin_->lips()) {
-    if (lip.cell != Lip::kNoCell) note(lip.cell, (skin_->pointOf(lip.from) + skin_->pointOf(lip.to)) / 2);
+    if (lip.cell != Lip::kNoCell)
+      note(cells_->numberOf(lip.cell), (skin_->pointOf(lip.from) + skin_->pointOf(lip.to)) / 2);
   }
-  for (auto& [cell, sum] : points_) sum /= counts[cell];
+  for (Point& point : points_) {
+    if (point.marks > 0) point.at /= point.marks;
+  }
 }
 
 void WoundWalls::addQuads() {
@@ -103,24 +124,36 @@ void WoundWalls::addQuads() {
       if ((cell.cut >> (4 * axis) & 1U) == 0 || !isInside(cell.slots[0], axis)) continue;
       const uint32_t low = cell.slots[0];
       const auto high = static_cast<uint32_t>(cells_->slotAt(cell.at + Vector3i::Unit(axis)));
-      std::array<uint32_t, 4> around{}, of_low{}, of_high{};
+      std::array<uint32_t, 4> of_low{}, of_high{};
       for (size_t i = 0; i < 4; ++i) {
-        around[i] = static_cast<uint32_t>(cellAt(*cells_, cellsAround(cell.at, axis)[i]));
-        const CutCell& cut = *cells_->find(around[i]);
-        of_low[i] = pointVertex(around[i], cut.component[static_cast<size_t>(cut.cornerOf(low))]);
-        of_high[i] = pointVertex(around[i], cut.component[static_cast<size_t>(cut.cornerOf(high))]);
+        const auto around = static_cast<uint32_t>(cellAt(*cells_, cellsAround(cell.at, axis)[i]));
+        of_low[i] = pointVertex(around, sideOf(around, low));
+        of_high[i] = pointVertex(around, sideOf(around, high));
       }
       if (of_low == of_high) continue;  // the cut ends around it: its sides are one
-      if (!cells_->isGone(low)) {
-        add(of_low[0], of_low[1], of_low[2]);
-        add(of_low[0], of_low[2], of_low[3]);
-      }
-      if (!cells_->isGone(high)) {
-        add(of_high[0], of_high[2], of_high[1]);
-        add(of_high[0], of_high[3], of_high[2]);
-      }
+      const bool across = isBetterAcross(of_low);
+      if (!cells_->isGone(low)) addQuad(of_low, across);
+      if (!cells_->isGone(high)) addQuad({of_high[0], of_high[3], of_high[2], of_high[1]}, across);
     }
   }
+}
+
+void WoundWalls::addQuad(const std::array<uint32_t, 4>& around, bool other_diagonal) {
+  const size_t first = other_diagonal ? 1 : 0;
+  add(around[first], around[first + 1], around[first + 2]);
+  add(around[first], around[first + 2], around[(first + 3) % 4]);
+}
+
+/// Are the triangles of a quad better shaped with the diagonal from its second corner?
+bool WoundWalls::isBetterAcross(const std::array<uint32_t, 4>& around) const {
+  std::array<Vector3d, 4> at;
+  Vector3d outward = Vector3d::Zero();
+  for (size_t i = 0; i < 4; ++i) {
+    at[i] = vertices_[around[i]].point;
+    outward += outward_[around[i]];
+  }
+  const auto area = [&](size_t a, size_t b, size_t c) { return outward.dot((at[b] - at[a]).cross(at[c] - at[a])); };
+  return std::min(area(1, 2, 3), area(1, 3, 0)) > std::min(area(0, 1, 2), area(0, 2, 3));
 }
 
 /// The component of a node in a cut cell.
@@ -137,69 +170,25 @@ void WoundWalls::addFans() {
         skin_->edgeOf(vertex) != WoundSkin::kNoEdge;  // it goes on in the triangle beside, else within its own
     return uint64_t{on_edge ? UINT32_MAX : lip.triangle} << 32U | vertex;
   };
-  std::unordered_map<uint64_t, const Lip*> ends;
-  for (const Lip& lip : skin_->lips()) {
+  const std::vector<Lip>& lips = skin_->lips();
+  for (uint32_t i = 0; i < lips.size(); ++i) {
+    if (lips[i].cell == Lip::kNoCell) continue;
+    const uint32_t to = lipVertex(lips[i].to), from = lipVertex(lips[i].from);
+    add(to, from, point_of(lips[i]));
+    outward_[to] += lips[i].outward;
+    outward_[from] += lips[i].outward;
+    lip_ends_.push_back({key(lips[i], lips[i].to), i});
+  }
+  std::sort(lip_ends_.begin(), lip_ends_.end());
+  for (const Lip& lip : lips) {
     if (lip.cell == Lip::kNoCell) continue;
-    add(lipVertex(lip.to), lipVertex(lip.from), point_of(lip));
-    ends[key(lip, lip.to)] = &lip;
+    const LipEnd begin = {key(lip, lip.from), 0};
+    const auto found = std::lower_bound(lip_ends_.begin(), lip_ends_.end(), begin);
+    if (found == lip_ends_.end() || found->key != begin.key) continue;
+    const uint32_t before = point_of(lips[found->lip]), behind = point_of(lip);
+    // Not from side to side of one cell, where a wound ends: a web would span it when it opens.
+    if (cell_of_[before] != cell_of_[behind]) add(lipVertex(lip.from), before, behind);
   }
-  for (const Lip& lip : skin_->lips()) {
-    const auto found = ends.find(key(lip, lip.from));
-    if (lip.cell == Lip::kNoCell || found == ends.end()) continue;
-    add(lipVertex(lip.from), point_of(*found->second), point_of(lip));
-  }
-}
-
-/// What is still open: where lips step from cell to cell across an edge of the lattice, where they end before the cut
-/// inside does. Such holes are rings of a few edges between points of neighbouring cells.
-void WoundWalls::closeHoles() {
-  std::map<std::pair<uint32_t, uint32_t>, int> edges;  // lower vertex first: times that way, less times the other
-  const auto note = [&](uint32_t a, uint32_t b) { a < b ? ++edges[{a, b}] : --edges[{b, a}]; };
-  for (size_t t = 0; t < triangles_.size(); t += 3) {
-    for (size_t i = 0; i < 3; ++i) note(triangles_[t + i], triangles_[t + (i + 1) % 3]);
-  }
-  for (const Lip& lip : skin_->lips()) note(lipVertex(lip.from), lipVertex(lip.to));
-  std::multimap<uint32_t, uint32_t> open;
-  for (const auto& [edge, sum] : edges) {
-    for (int i = 0; i < std::abs(sum); ++i) open.insert(sum > 0 ? edge : std::make_pair(edge.second, edge.first));
-  }
-  while (!open.empty()) {
-    std::vector<uint32_t> way = {open.begin()->first};
-    while (true) {
-      const auto next = open.find(way.back());
-      if (next == open.end()) {  // at a border of the skin: nothing closes there
-        ++holes_;
-        break;
-      }
-      const uint32_t vertex = next->second;
-      open.erase(next);
-      const auto met = std::find(way.begin(), way.end(), vertex);
-      if (met != way.end()) {
-        closeRing({met, way.end()});
-        way.erase(met + 1, way.end());
-        if (way.size() == 1) break;
-      } else {
-        way.push_back(vertex);
-      }
-    }
-  }
-}
-
-/// A fan from the ring's least point, so that the two sides of a wound are filled alike; but not from one that the
-/// other side has in the ring as well, which would span a web from lip to lip.
-void WoundWalls::closeRing(std::vector<uint32_t> ring) {
-  const auto point = [&](uint32_t vertex) -> const Vector3d& { return vertices_[vertex].point; };
-  const auto has_twin = [&](uint32_t vertex) {
-    return std::count_if(ring.begin(), ring.end(), [&](uint32_t v) { return point(v) == point(vertex); }) > 1;
-  };
-  const auto before = [&](uint32_t a, uint32_t b) {
-    const bool twin_a = has_twin(a), twin_b = has_twin(b);
-    if (twin_a != twin_b) return twin_b;
-    return std::lexicographical_compare(point(a).data(), point(a).data() + 3, point(b).data(), point(b).data() + 3);
-  };
-  const auto first = std::min_element(ring.begin(), ring.end(), before);
-  std::rotate(ring.begin(), first, ring.end());
-  for (size_t i = 2; i < ring.size(); ++i) add(ring[0], ring[i], ring[i - 1]);
 }
 
 void WoundWalls::findNormals() {
@@ -214,19 +203,31 @@ void WoundWalls::findNormals() {
         vertex.normal.squaredNorm() > 0 ? Vector3d(vertex.normal.stableNormalized()) : Vector3d(Vector3d::UnitZ());
 }
 
+void WoundWalls::begin() {
+  triangles_.clear();
+  vertices_.clear();
+  cell_of_.clear();
+  outward_.clear();
+  lip_ends_.clear();
+  const size_t cells = cells_->cells().size(), skin_vertices = skin_->own() + skin_->added().size();
+  keepRoom(points_, cells);
+  keepRoom(point_vertices_, 8 * cells);
+  keepRoom(lip_vertices_, skin_vertices);
+  points_.assign(cells, {});
+  point_vertices_.assign(8 * cells, kNone);
+  lip_vertices_.assign(skin_vertices, kNone);
+  holes_ = 0;
+}
+
 void WoundWalls::update(const CutCells& cells, const WoundSkin& skin) {
   cells_ = &cells;
   skin_ = &skin;
-  triangles_.clear();
-  vertices_.clear();
-  points_.clear();
-  point_vertices_.clear();
-  lip_vertices_.clear();
-  holes_ = 0;
+  begin();
   findPoints();
   addQuads();
   addFans();
   closeHoles();
+  relax();
   findNormals();
 }
 

@@ -3,9 +3,11 @@
 #include "surface/wounds.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <utility>
 
+#include "surface/keep_room.h"
 #include "surface/part_colors.h"
 #include "viscera/surface/shown_mesh.h"
 
@@ -32,7 +34,11 @@ bool Wounds::possible(const Model& model) {
 }
 
 Wounds::Wounds(const Model& model, const JoinedSkins& skins)
-    : slots_(model.slots()), whole_bindings_(skins.bindings), whole_colors_(skins.colors) {
+    : slots_(model.slots()),
+      whole_bindings_(skins.bindings),
+      bindings_(skins.bindings),
+      whole_colors_(skins.colors),
+      colors_(skins.colors) {
   uint32_t vertex = 0;
   for (size_t b = 0; b < model.bodies.size(); ++b) {
     const Body& body = model.bodies[b];
@@ -50,40 +56,65 @@ Wounds::Wounds(const Model& model, const JoinedSkins& skins)
 
 void Wounds::reset() {
   springs_.clear();
-  showWhole();
+  forget();
+  shown_ = next();
 }
 
-void Wounds::showWhole() {
-  bindings_ = whole_bindings_;
-  colors_ = whole_colors_;
+/// Skins are whole again.
+void Wounds::forget() {
+  for (const Place& place : places_) {
+    if (!place.wound) continue;
+    for (const uint32_t own : place.wound->rebound())
+      bindings_[place.vertex + own] = whole_bindings_[place.vertex + own];
+  }
+  bindings_.resize(whole_bindings_.size());
+  colors_.resize(whole_colors_.size());
   added_rests_.clear();
-  auto none = std::make_shared<ShownWounds>();
-  none->revision = revisions_++;
-  none->vertices = bindings_.size();
-  none->bodies.resize(places_.size());
-  shown_ = std::move(none);
+}
+
+/// One that nobody else shows any more, with its memory, or a new one; all bodies in it are whole.
+std::shared_ptr<ShownWounds> Wounds::next() {
+  const auto is_free = [](const std::shared_ptr<ShownWounds>& wounds) { return wounds.use_count() == 1; };
+  shown_.reset();
+  auto found = std::find_if(kept_.begin(), kept_.end(), is_free);
+  if (found == kept_.end()) found = kept_.insert(kept_.end(), std::make_shared<ShownWounds>());
+  std::atomic_thread_fence(std::memory_order_acquire);  // whoever let go of it has read it
+  ShownWounds& out = **found;
+  out.revision = revisions_++;
+  out.vertices = bindings_.size();
+  out.holes = out.slivers = 0;
+  out.bodies.resize(places_.size());
+  for (ShownWounds::OfBody& body : out.bodies) {
+    body.wounded = false;
+    body.skin.clear();
+    body.walls.clear();
+    body.skin_sources.clear();
+  }
+  return *found;
 }
 
 void Wounds::append(const Place& place, ShownWounds::OfBody& out) {
   const BodyWound& wound = *place.wound;
   const auto own = static_cast<uint32_t>(wound.ownVertices()), first_added = static_cast<uint32_t>(bindings_.size());
-  const auto numbered = [&](const std::vector<uint32_t>& triangles) {
-    std::vector<uint32_t> all = triangles;
+  const auto number = [&](const std::vector<uint32_t>& triangles, std::vector<uint32_t>& all) {
+    keepRoom(all, triangles.size());
+    all = triangles;
     for (uint32_t& vertex : all) vertex = vertex < own ? place.vertex + vertex : first_added + (vertex - own);
-    return all;
   };
-  out = {true, numbered(wound.skinTriangles()), numbered(wound.wallTriangles()), wound.skinSources()};
-  for (size_t v = 0; v < wound.bindings().size(); ++v) {
-    layout::SkinBinding binding = wound.bindings()[v];
+  out.wounded = true;
+  number(wound.skinTriangles(), out.skin);
+  number(wound.wallTriangles(), out.walls);
+  keepRoom(out.skin_sources, wound.skinSources().size());
+  out.skin_sources = wound.skinSources();
+  const auto numbered = [&](size_t vertex) {
+    layout::SkinBinding binding = wound.bindings()[vertex];
     binding.slot0 += place.slot;
     binding.slot1 += place.slot;
     binding.slot2 += place.slot;
-    if (v < own) {
-      bindings_[place.vertex + v] = binding;
-    } else {
-      bindings_.push_back(binding);
-    }
-  }
+    return binding;
+  };
+  for (const uint32_t vertex : wound.rebound()) bindings_[place.vertex + vertex] = numbered(vertex);
+  for (size_t v = own; v < wound.bindings().size(); ++v) bindings_.push_back(numbered(v));
   for (const WoundVertex& vertex : wound.lipVertices()) {
     colors_.push_back(whole_colors_[place.vertex + vertex.skin_vertex]);
     addRest(place, vertex, 0);
@@ -116,16 +147,19 @@ bool Wounds::isKnown(const layout::NodeBits* nodes) {
 
 bool Wounds::update(const layout::NodeBits* nodes, const float* axial_cut) {
   if (isKnown(nodes)) return false;
-  showWhole();
-  auto next = std::make_shared<ShownWounds>(*shown_);
+  forget();
+  const std::shared_ptr<ShownWounds> now = next();
   for (size_t b = 0; b < places_.size(); ++b) {
     const Place& place = places_[b];
     if (!place.wound) continue;
     place.wound->update(nodes + place.slot, axial_cut + 3 * size_t{place.slot});
-    if (place.wound->any()) append(place, next->bodies[b]);
+    if (!place.wound->any()) continue;
+    append(place, now->bodies[b]);
+    now->holes += place.wound->holes();
+    now->slivers += place.wound->slivers();
   }
-  next->vertices = bindings_.size();
-  shown_ = std::move(next);
+  now->vertices = bindings_.size();
+  shown_ = now;
   return true;
 }
 

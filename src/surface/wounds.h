@@ -13,7 +13,7 @@
 
 namespace viscera {
 
-/// What cuts have made of the skins of bodies on lattices: never changed once it is there, so that who shows it shares
+/// What cuts have made of the skins of bodies on lattices: not changed while anybody shows it, so that who does shares
 /// it.
 struct ShownWounds {
   /// Triangles of one body, [3 * n] vertex indices as in JoinedSkins, and beyond its vertices those that cuts have
@@ -25,6 +25,8 @@ struct ShownWounds {
   };
   uint64_t revision = 0;
   size_t vertices = 0;         ///< of the whole skins and added ones
+  size_t holes = 0;            ///< wounds left open, as they run out of a skin at a border of it
+  size_t slivers = 0;          ///< edges of skins of which a piece between two wounds is not shown
   std::vector<OfBody> bodies;  ///< in the model's order
 };
 
@@ -60,7 +62,8 @@ class Wounds {
   void append(const Place& place, ShownWounds::OfBody& out);
 
   void addRest(const Place& place, const WoundVertex& vertex, double depth_m);
-  void showWhole();
+  void forget();
+  std::shared_ptr<ShownWounds> next();
   bool isKnown(const layout::NodeBits* nodes);
 
   size_t slots_ = 0;
@@ -69,6 +72,7 @@ class Wounds {
   std::vector<layout::SkinBinding> whole_bindings_, bindings_;
   std::vector<uint32_t> whole_colors_, colors_;
   std::vector<layout::vec4> added_rests_;
+  std::vector<std::shared_ptr<ShownWounds>> kept_;  ///< what was shown: used again when nobody shows it any more
   std::shared_ptr<const ShownWounds> shown_;
   uint64_t revisions_ = 1;
 };

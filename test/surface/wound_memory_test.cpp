@@ -1,0 +1,59 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Wounds ask for no memory while a cut goes on, once their buffers have grown.
+#include <gtest/gtest.h>
+
+#include "model/shape/box_surface.h"
+#include "support/counted_memory.h"
+#include "surface/joined_skins.h"
+#include "surface/wound_rig.h"
+#include "surface/wounds.h"
+
+namespace viscera::testing {
+namespace {
+
+constexpr double kSpacing_m = 0.005;
+constexpr int kTicks = 40;
+constexpr uint64_t kGrowing =
+    160;  // all buffers of a first cut that doubles them; maps and copies took 40 times as many
+
+Model boxModel() {
+  const TriangleMesh mesh = boxSurface(Vector3d::Zero(), Vector3d(0.08, 0.07, 0.06), {39, 35, 31});
+  BoundSkin bound = bindTo(blockSolid({16, 14, 12}, kSpacing_m), mesh);
+  Model model;
+  Body& body = model.bodies.emplace_back();
+  body.lattice = std::move(bound.lattice);
+  body.skin = std::move(bound.skin);
+  body.skin.can_be_cut = true;
+  return model;
+}
+
+/// A slanting cut that comes a little farther with each tick. @returns what it asked for, while another shows the last
+uint64_t cutThrough(const Model& model, Wounds& wounds) {
+  Wounded box(model.bodies[0]);  // for its springs
+  const Vector3d normal = Vector3d(1, 0.3, 0.2).normalized(), middle(0.041, 0.034, 0.03);
+  std::shared_ptr<const ShownWounds> shown = wounds.shown();
+  uint64_t asked = 0;
+  for (int tick = 1; tick <= kTicks; ++tick) {
+    box.cut(middle, normal, [&](const Vector3d& at) { return at.z() > 0.06 * (1 - tick / double{kTicks}); });
+    const uint64_t before = allocations;
+    wounds.update(box.nodes.data(), box.axial_cut.data());
+    asked += allocations - before;
+    shown = wounds.shown();
+  }
+  EXPECT_TRUE(shown->bodies[0].wounded);
+  EXPECT_GT(shown->bodies[0].walls.size(), 1000u);
+  return asked;
+}
+
+TEST(WoundMemory, ACutThatGoesOnAsksForNone) {
+  const Model model = boxModel();
+  Wounds wounds(model, joinSkins(model));
+  EXPECT_LT(cutThrough(model, wounds), kGrowing);
+  wounds.reset();
+  EXPECT_EQ(cutThrough(model, wounds), 0u);
+}
+
+}  // namespace
+}  // namespace viscera::testing

@@ -1,0 +1,112 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Bodies on lattices that planes cut, with the wounds that this leaves: boxes, balls and organs alike.
+#pragma once
+
+#include <cmath>
+#include <random>
+#include <utility>
+#include <vector>
+
+#include "model/skin_shapes.h"
+#include "surface/body_wound.h"
+#include "surface/reference_mapping.h"
+#include "viscera/layout/links.h"
+#include "viscera/model/model.h"
+
+namespace viscera::testing {
+
+/// A lattice with springs that cuts have taken, as a solver records it. Stays where it was made: its wound refers to
+/// it.
+struct Wounded {
+  Lattice lattice;
+  Skin skin;
+  std::vector<layout::NodeBits> nodes;
+  std::vector<float> axial_cut;
+  BodyWound wound;
+
+  Wounded(Lattice of, Skin with)
+      : lattice(std::move(of)),
+        skin(std::move(with)),
+        nodes(lattice.nodes),
+        axial_cut(3 * nodes.size()),
+        wound(skin, lattice) {}
+  explicit Wounded(const BoundSkin& bound) : Wounded(bound.lattice, bound.skin) {}
+  explicit Wounded(const Body& body) : Wounded(body.lattice, body.skin) {}
+  Wounded(const Wounded&) = delete;
+  Wounded& operator=(const Wounded&) = delete;
+
+  /// Cuts every spring that crosses a plane where `within(point)` holds. All in metres.
+  template <class Within>
+  void cut(const Vector3d& on_plane, const Vector3d& normal, Within within) {
+    for (const uint32_t slot : lattice.active_slots) {
+      for (uint32_t spring = 0; spring < layout::kSpringsPerNode; ++spring) {
+        if (springCount(nodes[slot], spring) == 0) continue;
+        const int64_t other = lattice.neighborSlot(slot, spring);
+        if (other < 0) continue;
+        const Vector3d a = lattice.restPosition(slot), b = lattice.restPosition(static_cast<uint32_t>(other));
+        const double da = normal.dot(a - on_plane), db = normal.dot(b - on_plane);
+        if ((da >= 0) == (db >= 0)) continue;
+        const double share = da / (da - db);
+        if (!within(Vector3d(a + share * (b - a)))) continue;
+        setSpringCount(nodes[slot], spring, 0);
+        nodes[slot].lo |= layout::kSeveredBit;
+        if (spring < layout::kAxialSprings && spring % 2 == 0)
+          axial_cut[3 * slot + spring / 2] = static_cast<float>(share);
+      }
+    }
+  }
+  void cut(const Vector3d& on_plane, const Vector3d& normal) {
+    cut(on_plane, normal, [](const Vector3d&) { return true; });
+  }
+  void update() { wound.update(nodes.data(), axial_cut.data()); }
+  void makeWhole() {
+    nodes = lattice.nodes;
+    axial_cut.assign(axial_cut.size(), 0);
+    update();
+  }
+
+  std::vector<Vector3d> positions(const std::vector<layout::vec4>& displacement_m) const {
+    const ReferenceMapping mapping(lattice, displacement_m, nodes);
+    std::vector<Vector3d> out;
+    for (const layout::SkinBinding& binding : wound.bindings()) out.push_back(mapping.map(binding).position_m);
+    return out;
+  }
+  std::vector<layout::vec4> still() const { return std::vector<layout::vec4>(nodes.size(), layout::vec4{0, 0, 0, 0}); }
+  std::vector<layout::vec4> shaken(double size_m) const {
+    std::vector<layout::vec4> out = still();
+    std::mt19937 random(1);
+    std::uniform_real_distribution<float> any(-static_cast<float>(size_m), static_cast<float>(size_m));
+    for (layout::vec4& u : out) u = {any(random), any(random), any(random), 0};
+    return out;
+  }
+  /// An incision held open: either side of it pulled away from it, most in its middle, not at all at its ends.
+  std::vector<layout::vec4> heldOpen(const Vector3d& middle, const Vector3d& normal, double reach_m, double pull_m) {
+    std::vector<layout::vec4> out = still();
+    for (const uint32_t slot : lattice.active_slots) {
+      const Vector3d from = lattice.restPosition(slot) - middle;
+      const double near = std::max(0.0, 1 - from.norm() / reach_m), side = normal.dot(from) >= 0 ? 1 : -1;
+      const Vector3f u = (pull_m * near * side * normal).cast<float>();
+      out[slot] = {u.x(), u.y(), u.z(), 0};
+    }
+    return out;
+  }
+  std::vector<uint32_t> triangles() const {
+    std::vector<uint32_t> all = wound.skinTriangles();
+    all.insert(all.end(), wound.wallTriangles().begin(), wound.wallTriangles().end());
+    return all;
+  }
+};
+
+/// Ten normals of cuts: along an axis, between two and between three of them, and seven at random.
+inline std::vector<Vector3d> anglesOfCuts() {
+  std::vector<Vector3d> out = {Vector3d::UnitX(), Vector3d(1, 1, 0), Vector3d(1, 1, 1)};
+  std::mt19937 random(7);
+  std::normal_distribution<double> any;
+  while (out.size() < 10) out.push_back(Vector3d(any(random), any(random), any(random)));
+  for (Vector3d& v : out) v.normalize();
+  return out;
+}
+
+}  // namespace viscera::testing
