@@ -15,8 +15,7 @@ namespace {
 
 constexpr double kSpacing_m = 0.005;
 constexpr int kTicks = 40;
-constexpr uint64_t kGrowing =
-    160;  // all buffers of a first cut that doubles them; maps and copies took 40 times as many
+constexpr uint64_t kGrowing = 300;  // by all buffers of a first cut, most of which double a few times
 
 Model boxModel() {
   const TriangleMesh mesh = boxSurface(Vector3d::Zero(), Vector3d(0.08, 0.07, 0.06), {39, 35, 31});

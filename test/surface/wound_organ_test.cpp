@@ -57,6 +57,7 @@ void expectWoundsOf(const Body& body, size_t count) {
   const std::vector<Vector3d> whole = organ.positions(organ.still());
   const double volume_m3 = volume(organ, whole);
   const Edges whole_edges = edgesOf(organ);
+  std::vector<double> all_off_m;
   for (size_t i = 0; i < count; ++i) {
     const Incision incision = incisionsOf(organ.skin)[i];
     SCOPED_TRACE(::testing::Message() << "incision " << i);
@@ -75,7 +76,7 @@ void expectWoundsOf(const Body& body, size_t count) {
     const double closed = backs(rest), pulled = backs(open);
     ASSERT_GT(gaps_m.size(), 8u);  // there is a wound
     EXPECT_LT(gaps_m.back() / h, kGap);
-    EXPECT_LT(percentile99(off_m) / h, kOff);
+    all_off_m.insert(all_off_m.end(), off_m.begin(), off_m.end());
     EXPECT_NEAR(volume(organ, rest) / volume_m3, 1, kVolume);
     EXPECT_EQ(edgesOf(organ).open, whole_edges.open);
     EXPECT_LE(closed, kBacksAtRest);
@@ -84,6 +85,8 @@ void expectWoundsOf(const Body& body, size_t count) {
               << "), edges of more than two triangles " << whole_edges.shared << " before and " << edgesOf(organ).shared
               << " after, back faces " << closed << " shut and " << pulled << " pulled open\n";
   }
+  std::sort(all_off_m.begin(), all_off_m.end());
+  EXPECT_LT(percentile99(all_off_m) / h, kOff);
 }
 
 TEST(WoundOfOrgan, PhantomKeepsToTheChecks) {
