@@ -90,12 +90,17 @@ CutCells::CutCells(const Lattice& lattice) : lattice_(lattice), nodes_(lattice.n
 }
 
 int64_t CutCells::slotAt(const Vector3i& node) const {
-  if ((node.array() < 0).any() || (node.array() >= lattice_.nodes_per_axis.array()).any()) return -1;
-  const Vector3i brick = node / kEdge, local = node - kEdge * brick;
-  const uint32_t found =
-      brick_at_[static_cast<size_t>(brick.x() + bricks_per_axis_.x() * (brick.y() + bricks_per_axis_.y() * brick.z()))];
+  constexpr auto kSide = static_cast<uint32_t>(kEdge);  // unsigned: divisions by it are shifts
+  const auto x = static_cast<uint32_t>(node.x()), y = static_cast<uint32_t>(node.y()),
+             z = static_cast<uint32_t>(node.z());
+  const Vector3i& end = lattice_.nodes_per_axis;  // below zero is beyond it too
+  if (x >= static_cast<uint32_t>(end.x()) || y >= static_cast<uint32_t>(end.y()) || z >= static_cast<uint32_t>(end.z()))
+    return -1;
+  const auto along_x = static_cast<size_t>(bricks_per_axis_.x()), along_y = static_cast<size_t>(bricks_per_axis_.y());
+  const uint32_t found = brick_at_[x / kSide + along_x * (y / kSide + along_y * (z / kSide))];
   if (found == 0) return -1;
-  const int64_t slot = int64_t{layout::kBrickSlots} * (found - 1) + local.x() + kEdge * (local.y() + kEdge * local.z());
+  const int64_t slot =
+      int64_t{layout::kBrickSlots} * (found - 1) + x % kSide + kSide * (y % kSide + kSide * (z % kSide));
   return lattice_.labels[static_cast<size_t>(slot)] != 0 ? slot : -1;
 }
 
@@ -182,30 +187,37 @@ void CutCells::update(const layout::NodeBits* nodes, const float* axial_cut) {
   for (CutCell& cell : cells_) complete(cell, axial_cut);
 }
 
+/// The nearest cell to a point outside of all cells: shells around, until one is found that nothing nearer can follow.
+Vector3i CutCells::nearestCell(const Vector3d& point) const {
+  const Vector3i home = point.array().floor().cast<int>();
+  double best = std::numeric_limits<double>::infinity();
+  Vector3i nearest = home;
+  for (int radius = 1; radius <= 3 && best > (radius - 1.0) * (radius - 1.0); ++radius) {
+    for (int z = -radius; z <= radius; ++z)
+      for (int y = -radius; y <= radius; ++y)
+        for (int x = -radius; x <= radius; ++x) {
+          if (std::max({std::abs(x), std::abs(y), std::abs(z)}) != radius) continue;
+          const Vector3i at = home + Vector3i(x, y, z);
+          if (!isCell(at)) continue;
+          const Vector3d low = at.cast<double>(), high = low + Vector3d::Ones();
+          const double distance2 = (point - point.cwiseMax(low).cwiseMin(high)).squaredNorm();
+          if (distance2 < best) {
+            best = distance2;
+            nearest = at;
+          }
+        }
+  }
+  return nearest;
+}
+
 WoundPlace CutCells::placeOf(const Vector3d& point) const {
   Vector3i home = point.array().floor().cast<int>();
-  if (!isCell(home)) {  // the nearest one; shells of cells around, until one is found that nothing nearer can follow
-    double best = std::numeric_limits<double>::infinity();
-    Vector3i nearest = home;
-    for (int radius = 1; radius <= 3 && best > (radius - 1.0) * (radius - 1.0); ++radius) {
-      for (int z = -radius; z <= radius; ++z)
-        for (int y = -radius; y <= radius; ++y)
-          for (int x = -radius; x <= radius; ++x) {
-            if (std::max({std::abs(x), std::abs(y), std::abs(z)}) != radius) continue;
-            const Vector3i at = home + Vector3i(x, y, z);
-            if (!isCell(at)) continue;
-            const Vector3d low = at.cast<double>(), high = low + Vector3d::Ones();
-            const double distance2 = (point - point.cwiseMax(low).cwiseMin(high)).squaredNorm();
-            if (distance2 < best) {
-              best = distance2;
-              nearest = at;
-            }
-          }
-    }
-    home = nearest;
+  int64_t lowest = slotAt(home);
+  if (lowest < 0 || lattice_.cell_labels[static_cast<size_t>(lowest)] == 0) {
+    home = nearestCell(point);
+    lowest = slotAt(home);
   }
   WoundPlace place;
-  const int64_t lowest = slotAt(home);
   if (lowest < 0) return place;  // nothing within three cells: whoever asks has no skin there
   place.cell = static_cast<uint32_t>(lowest);
   place.within = (point - home.cast<double>()).cwiseMax(0.0).cwiseMin(1.0).cast<float>();

@@ -70,6 +70,7 @@ class CutCells {
   bool isCell(const Vector3i& at) const;
 
  private:
+  Vector3i nearestCell(const Vector3d& point) const;
   void addAround(uint32_t slot, int axis);
   void complete(CutCell& cell, const float* axial_cut) const;
 
