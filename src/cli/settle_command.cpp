@@ -22,7 +22,8 @@ int settle(const RunOptions& options) {
   out["scene"] = scene.name;
   out["nodes"] = model.activeNodes();
   out["residual"] = report.residual;
-  out["settled"] = report.residual <= kSettled;
+  out["last_change"] = report.last_change;
+  out["settled"] = report.settled;
   out["newton_steps"] = report.newton;
   out["iterations"] = report.iterations;
   out["work_units"] = report.work_units;

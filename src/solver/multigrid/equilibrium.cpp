@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <limits>
 
 #include "solver/cpu/thread_pool.h"
 #include "solver/multigrid/stage_solver.h"
@@ -15,11 +16,12 @@ namespace viscera {
 
 namespace {
 
-constexpr int kMostSteps = 80;      // of Newton's method
-constexpr int kMostHalvings = 12;   // of one of them
-constexpr double kGrows = 1e-6;     // of the energies that are summed: float32 leaves that much
-constexpr double kFloatLeaves = 2;  // times the rounding of forces: less is not to be had in float32
-constexpr int kTimed = 5;           // evaluations of forces, for the work unit
+constexpr int kMostSteps = 80;     // of Newton's method
+constexpr int kMostHalvings = 12;  // of one of them
+constexpr double kGrows = 1e-6;    // of the energies that are summed: float32 leaves that much
+constexpr double kProgress = 0.9;  // of the least residual so far: a step that got somewhere
+constexpr int kPatience = 6;       // steps that did not
+constexpr int kTimed = 5;          // evaluations of forces, for the work unit
 
 using multigrid::StageSolver;
 using multigrid::Vectors;
@@ -61,8 +63,11 @@ class Settling {
     const auto start = std::chrono::steady_clock::now();
     for (int step = 0; step < kMostSteps; ++step) {
       report_.residual = size > 0 ? norm / size : 0;
-      if (report_.residual <= kSettled || (step > 0 && norm <= kFloatLeaves * solver_.noise_n)) break;
+      report_.settled = report_.residual <= kSettled || report_.last_change <= kSettled;
+      if (report_.settled || stale_ > kPatience) break;
       norm = improve(norm);
+      stale_ = norm < kProgress * best_ ? 0 : stale_ + 1;
+      best_ = std::min(best_, norm);
     }
     report_.seconds = secondsSince(start);
     return increment_;
@@ -84,6 +89,9 @@ class Settling {
       for (size_t i = 0; i < trial_.size(); ++i) trial_[i] = increment_[i] + share * solver_.solution()[i];
       const double left = solver_.residual(trial_);
       if (!(potential(trial_) <= allowed_j)) continue;
+      const double size2 = solver_.level.dot(trial_, trial_);
+      const double change2 = solver_.level.dot(solver_.solution(), solver_.solution());
+      if (halving == 0 && size2 > 0) report_.last_change = std::sqrt(change2 / size2);
       std::swap(trial_, increment_);
       return left;
     }
@@ -93,6 +101,8 @@ class Settling {
   StageSolver& solver_;
   SettleReport& report_;
   Vectors increment_, load_, trial_;
+  double best_ = std::numeric_limits<double>::infinity();  ///< norm of a residual
+  int stale_ = 0;                                          ///< steps since it fell
 };
 
 }  // namespace

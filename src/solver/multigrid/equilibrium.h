@@ -12,16 +12,18 @@ namespace viscera {
 
 /// How a static state was come by.
 struct SettleReport {
-  double residual = 0;    ///< norm of what forces lack over that of the load
-  int newton = 0;         ///< systems solved
-  int iterations = 0;     ///< of conjugate gradients
-  double seconds = 0;     ///< of all of it but the hierarchy
-  double build_s = 0;     ///< of the hierarchy
-  double work_units = 0;  ///< `seconds` over those of one evaluation of all forces
-  double largest_m = 0;   ///< displacement
+  bool settled = false;    ///< to kSettled: in forces, or in displacements where float32 leaves more of forces
+  double residual = 0;     ///< norm of what forces lack over that of the load
+  double last_change = 1;  ///< of displacements in the last whole Newton step, over their norm
+  int newton = 0;          ///< systems solved
+  int iterations = 0;      ///< of conjugate gradients
+  double seconds = 0;      ///< of all of it but the hierarchy
+  double build_s = 0;      ///< of the hierarchy
+  double work_units = 0;   ///< `seconds` over those of one evaluation of all forces
+  double largest_m = 0;    ///< displacement
 };
 
-/// Residual to which equilibria are solved.
+/// To which part of load or displacements equilibria are solved.
 constexpr double kSettled = 1e-4;
 
 /// The state in which elastic forces, gravity and the forces on bodies balance, velocities 0: Newton's method with a
