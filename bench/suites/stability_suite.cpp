@@ -194,9 +194,43 @@ void fractionsOfStability(Report& report) {
   report.add(table, "fractions");
 }
 
+void measuredOfStability(Report& report) {
+  Table table("leapfrog as it is by default, substeps measured, governor on", {{"backend"},
+                                                                               {"nu"},
+                                                                               {"start"},
+                                                                               {"dt at rest", "dt_safe", 3},
+                                                                               {"limit", "dt_safe", 3},
+                                                                               {"largest energy", "start", 3},
+                                                                               {"energy left", "start", 3},
+                                                                               {"governor trips"}});
+  for (Backend backend : report.backends()) {
+    Worst worst;
+    for (const double nu : report.isShort() ? std::vector<double>{0.25} : std::vector<double>{0.25, 0.45, 0.49}) {
+      report.stage("measured substeps, nu " + Cell(nu).text(3) + ", " + nameOf(backend));
+      const Model model = blockOf(report.isShort() ? 4 : 6, nu);
+      Scene scene = sceneAt(model, Integrator::kLeapfrog, 1);
+      scene.solver.tick_hz = SolverConfig{}.tick_hz;
+      scene.solver.substeps = 0;
+      const std::unique_ptr<Ticks> solver = solverOn(backend, model, scene, false);
+      const double dt = solver->dt_s() / solver->dtSafe_s(), limit = solver->dtLimit_s() / solver->dtSafe_s();
+      for (const Start& start : extremeStarts(model)) {
+        const Outcome outcome = tryStart(backend, model, scene, start, report.isShort() ? 20 : kTicks);
+        worst.add(outcome);
+        table.add({nameOf(backend), nu, start.name, dt, limit,
+                   outcome.finite ? Cell(outcome.energy_ratio) : Cell("not finite"), outcome.energy_left,
+                   static_cast<double>(outcome.trips)});
+      }
+    }
+    report.checkAtMost(nameOf(backend) + ": measured: cells with a value that is not finite", worst.not_finite, 0);
+    report.checkAtMost(nameOf(backend) + ": measured: energy over start", worst.energy_ratio, kEnergyBound);
+  }
+  report.add(table, "measured");
+}
+
 void stabilitySuite(Report& report) {
   measureParts(report, {{"starts", startsOfStability},
                         {"fractions", fractionsOfStability},
+                        {"measured", measuredOfStability},
                         {"tools", toolsOfStability},
                         {"places", placesOfStability},
                         {"extremes", extremesOfStability}});

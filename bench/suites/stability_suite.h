@@ -12,6 +12,7 @@ void stabilitySuite(Report& report);
 // Its parts, in the order of the report.
 void startsOfStability(Report& report);     ///< extreme starts x integrators x substeps
 void fractionsOfStability(Report& report);  ///< how far the substep may go towards its limit
+void measuredOfStability(Report& report);   ///< substeps as the fastest mode allows, from extreme starts
 void toolsOfStability(Report& report);      ///< fast and jumping tools, a grab pulled to 10x, random cuts
 void placesOfStability(Report& report);     ///< far from the origin, with tools and skin; in other sizes
 void extremesOfStability(Report& report);   ///< stiffness and mass ratios, a long rest, units, equal hashes

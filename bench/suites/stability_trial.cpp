@@ -57,7 +57,7 @@ Outcome tryStart(Backend backend, const Model& model, const Scene& scene, const 
     out.finite = out.finite && isFinite(model, state);
     if (!out.finite) break;
     // Beyond the limit half a kick is no small thing, and velocities of one moment mean nothing: taken as they are.
-    const double lag_s = solver.dt_s() <= solver.dtSafe_s() ? solver.velocityLag_s() : 0;
+    const double lag_s = solver.dt_s() <= solver.dtLimit_s() ? solver.velocityLag_s() : 0;
     const double energy_j = energyOf(reference, state, lag_s);
     out.energy_left = energy_j / first_j;
     out.over_bound = std::max(out.over_bound, energy_j / (2 * (first_j + whole_j)));

@@ -53,8 +53,7 @@ class SubstepRule {
       const double fine_m = 1e-2 * spacing_m_;  // so many substeps that rounding up to whole ones does not count
       return fine_m * perSecond(fine_m) / (asked.tick_hz * asked.max_substeps);
     }
-    double xi = 0;
-    for (const Body& body : sample_.bodies) xi = std::max(xi, body.material.dashpot_ratio);
+    const double xi = largestDashpot(sample_);
     return kClear / (asked.tick_hz * asked.substeps * stableFraction(asked.integrator, xi) * s_per_m_);
   }
 

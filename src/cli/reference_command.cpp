@@ -90,7 +90,7 @@ int runReference(const RunPlan& plan, bool compare) {
   metrics.springs_cut = reference.solver().springs_cut;
   metrics.substeps = plan.ticks * static_cast<uint64_t>(reference.substeps());
   metrics.dt_s = reference.dt_s();
-  metrics.dt_safe_s = reference.dtSafe_s();
+  metrics.dt_safe_s = metrics.dt_limit_s = reference.dtSafe_s();
   metrics.simulated_s = static_cast<double>(plan.ticks) / tick_hz;
   metrics.state_hash = stateHash(model, reference.solver().state());
   metrics.backend = "reference";

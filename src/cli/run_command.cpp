@@ -37,6 +37,7 @@ Json metricsOf(const Session& session, const layout::TickStats& stats, const std
   metrics.work = counters.work;
   metrics.dt_s = session.solver().dt_s();
   metrics.dt_safe_s = session.solver().dtSafe_s();
+  metrics.dt_limit_s = session.solver().dtLimit_s();
   metrics.simulated_s = static_cast<double>(counters.ticks) * session.tick_s();
   metrics.wall_s = wall_s;
   metrics.state_hash = session.stateHash();

@@ -21,6 +21,7 @@ nlohmann::ordered_json toJson(const RunMetrics& metrics) {
   }
   out["dt_s"] = metrics.dt_s;
   out["dt_safe_s"] = metrics.dt_safe_s;
+  out["dt_limit_s"] = metrics.dt_limit_s;
   out["simulated_s"] = metrics.simulated_s;
   out["wall_s"] = metrics.wall_s;
   out["real_time_factor"] = metrics.simulated_s / metrics.wall_s;

@@ -126,6 +126,7 @@ void SimulationLoop::deliver(const Session& session, Frame&& frame, const Stylus
     status_.paused = paused_;
     status_.dt_s = session.solver().dt_s();
     status_.dt_safe_s = session.solver().dtSafe_s();
+    status_.dt_limit_s = session.solver().dtLimit_s();
     status_.tick = session.tick();
     status_.counters = session.counters();
     status_.reactions = frame.reactions;

@@ -25,7 +25,7 @@ struct LoopStatus {
   std::string gpu, backend;
   bool software_gpu = false;
   bool paused = false;
-  double dt_s = 0, dt_safe_s = 0;
+  double dt_s = 0, dt_safe_s = 0, dt_limit_s = 0;
   uint64_t tick = 0;
   Counters counters;
   layout::TickStats stats{};

@@ -83,6 +83,7 @@ void SimulatorDiagnostics::simulation(Status& status) {
   status.add("tick", now_->tick);
   status.add("dt_s", now_->dt_s);
   status.add("dt_safe_s", now_->dt_safe_s);
+  status.add("dt_limit_s", now_->dt_limit_s);
   status.add("nonfinite_nodes", now_->stats.nonfinite);
   status.add("max_stretch", fromBits(now_->stats.max_stretch_bits));
   status.add("max_speed_m_per_s", fromBits(now_->stats.max_speed_bits));

@@ -54,6 +54,8 @@ void Governor::restart(const layout::TickStats& stats) {
   owned_j_ = static_cast<double>(stats.kinetic_j) + stats.elastic_j;
   note(stats);
   setbacks_ = 0;
+  short_ticks_left_ = 0;
+  short_wanted_s_ = 0;
   recovery_ticks_left_ = 0;
   recovery_wanted_s_ = recovery_s_;
   ticks_since_recovery_ = 0;
@@ -74,12 +76,17 @@ Governor::Trip Governor::inspect(const layout::TickStats& stats, bool implicit, 
   return Trip::kNone;
 }
 
-Governor::Trip Governor::judge(const layout::TickStats& stats, bool implicit, double work_j) {
+Governor::Trip Governor::judge(const layout::TickStats& stats, bool implicit, double work_j, bool long_substeps) {
   const Trip trip = inspect(stats, implicit, work_j);
   if (trip != Trip::kNone) {
-    recover();
+    if (long_substeps)
+      shorten();
+    else
+      recover();
     return trip;
   }
+  short_ticks_left_ = std::max<int64_t>(0, short_ticks_left_ - 1);
+  ++ticks_since_short_;
   setbacks_ = 0;
   owned_j_ = std::min(owned_j_ + work_j, static_cast<double>(stats.kinetic_j) + stats.elastic_j);
   note(stats);
@@ -97,8 +104,20 @@ Governor::Trip Governor::judge(const layout::TickStats& stats, bool implicit, do
 void Governor::note(const layout::TickStats& stats) {
   health_.kinetic_j = stats.kinetic_j;
   health_.elastic_j = stats.elastic_j;
-  health_.strained = fromBits(stats.max_stretch_bits) > kStrainedStretch || stats.collapsed > 0 || stats.inverted > 0 ||
+  health_.strained = short_ticks_left_ > 0 || fromBits(stats.max_stretch_bits) > kStrainedStretch ||
+                     stats.collapsed > 0 || stats.inverted > 0 ||
                      fromBits(stats.max_speed_bits) > limits_.speed_m_per_s / kSpeedMargin;
+}
+
+/// The last good state goes on with the shorter substep; for longer where that was so not long ago.
+void Governor::shorten() {
+  const bool soon = short_wanted_s_ > 0 && static_cast<double>(ticks_since_short_) * tick_s_ < kSoon * short_wanted_s_;
+  short_wanted_s_ = soon ? std::min(2 * short_wanted_s_, kLongestRecovery * recovery_s_) : recovery_s_;
+  short_ticks_left_ = std::max<int64_t>(1, std::llround(short_wanted_s_ / tick_s_));
+  ticks_since_short_ = 0;
+  health_.strained = true;
+  ++health_.trips;
+  ++setbacks_;
 }
 
 void Governor::recover() {

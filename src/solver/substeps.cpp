@@ -13,12 +13,6 @@ namespace {
 
 constexpr double kMicro = 1e6;
 
-double largestDashpot(const Model& model) {
-  double xi = 0;
-  for (const Body& body : model.bodies) xi = std::max(xi, body.material.dashpot_ratio);
-  return xi;
-}
-
 int count(const SolverConfig& config, double fraction, double dt_safe_s) {
   const double wanted = std::ceil(1.0 / (config.tick_hz * fraction * dt_safe_s));
   if (wanted > config.max_substeps) {
@@ -43,6 +37,12 @@ void requireStable(const Model& model, const SolverConfig& config, double dt_saf
 }
 
 }  // namespace
+
+double largestDashpot(const Model& model) {
+  double xi = 0;
+  for (const Body& body : model.bodies) xi = std::max(xi, body.material.dashpot_ratio);
+  return xi;
+}
 
 SubstepPlan planSubsteps(const Model& model, const SolverConfig& config, double dt_safe_s, bool allow_unstable) {
   if (config.substeps > 0) {

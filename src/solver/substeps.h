@@ -20,6 +20,8 @@ constexpr bool isCompensated(const SolverConfig& config, double dt_s) {
   return traitsOf(config.integrator).compensates && (config.compensated || dt_s < kShortSubstep_s);
 }
 
+double largestDashpot(const Model& model);  ///< dashpot_ratio of all bodies
+
 /// @param allow_unstable  do not refuse a substep that is too long: for those who study what happens then
 /// @throws SceneError  more substeps than max_substeps; substeps given that are too long for an explicit integrator,
 /// with

@@ -7,6 +7,7 @@
 
 #include "math/float_bits.h"
 #include "model/scene/integrators.h"
+#include "solver/stable_step.h"
 #include "tools/motion_packing.h"
 #include "viscera/solver/material.h"
 
@@ -14,8 +15,9 @@ namespace viscera {
 
 namespace {
 
-constexpr size_t kFinishedKept = 3;   // ticks whose measurements wait for somebody who asks
-constexpr double kWorthwhile = 1.01;  // a stable substep must have grown by this factor to be taken
+constexpr size_t kFinishedKept = 3;    // ticks whose measurements wait for somebody who asks
+constexpr double kStretchSteps = 0.1;  // in which the substep follows the stretch
+constexpr double kWorthwhile = 1.01;   // a stable substep must have grown by this factor to be taken
 
 }  // namespace
 
@@ -28,10 +30,13 @@ Ticks::Ticks(const Model& model, const Scene& scene, const TickPlan& plan, std::
       tick_s_(plan.tick_s),
       dt_safe_s_(plan.dt_safe_s),
       push_speed_m_per_s_(pushSpeed(model)),
+      dashpot_ratio_(largestDashpot(model)),
       substeps_(plan.substeps),
       recovery_substeps_(plan.recovery_substeps),
       surroundings_(plan.surroundings) {
   finished_.reserve(kFinishedKept);
+  if (measuresLimit(model, config_)) dt_limit_s_ = measureLimit_s(*backend_, model);
+  planAnew();
   if (plan.governed()) watch_.emplace(*backend_, newGovernor(), !traitsOf(config_.integrator).is_explicit, tick_s_);
   if (plan.tools) motions_.reserve(static_cast<size_t>(plan.mostSubsteps()) * layout::kMaxStyluses);
 }
@@ -65,7 +70,7 @@ void Ticks::step(const ToolMotions& motions, const ObstacleMotions& obstacles) {
   const bool undone = watch_ && heed(watch_->judgeOpen());  // of the tick before, where the backend lags
   measureTick(motions, contacts);
   finishStats();
-  if (watch_) heed(watch_->endTick(motions, recovering_, undone));
+  if (watch_) heed(watch_->endTick(motions, recovering_, undone, hasLongSubsteps()));
 }
 
 void Ticks::measureTick(const ToolMotions& motions, bool contacts) {
@@ -83,7 +88,23 @@ void Ticks::chooseSubsteps() {
   const bool strained = watch_ && watch_->health().strained;
   restarted_ |= recover != recovering_;
   recovering_ = recover;
-  n_ = recover ? recovery_substeps_ : strained ? substeps_.strained : substeps_.calm;
+  n_ = recover ? recovery_substeps_ : strained ? substeps_.strained : calmSubsteps();
+}
+
+/// Of a tick in which the tissue is strained as little as it is now.
+int Ticks::calmSubsteps() const {
+  if (dt_limit_s_ == 0 || stretch_ == 0) return substeps_.calm;
+  const double dt_s = measuredSubstep_s(config_, dashpot_ratio_, dt_safe_s_, dt_limit_s_, stretch_);
+  return std::clamp(static_cast<int>(std::ceil(tick_s_ / dt_s)), substeps_.calm,
+                    std::max(substeps_.calm, substeps_.strained));
+}
+
+/// After dt_safe has changed.
+void Ticks::planAnew() {
+  substeps_ = planSubsteps(model_, config_, dt_safe_s_, true);
+  if (dt_limit_s_ == 0) return;
+  const double dt_s = measuredSubstep_s(config_, dashpot_ratio_, dt_safe_s_, dt_limit_s_, 0);
+  substeps_.calm = std::max(1, static_cast<int>(std::ceil(tick_s_ / dt_s)));
 }
 
 void Ticks::substep(int index, const ToolMotions& motions, bool cuts, bool contacts) {
@@ -122,8 +143,9 @@ void Ticks::reset() {
   backend_->resetState();
   restarted_ = true;
   springs_cut_ = 0;
+  stretch_ = 0;
   dt_safe_s_ = safeTimeStep(model_);
-  substeps_ = planSubsteps(model_, config_, dt_safe_s_, true);
+  planAnew();
   if (watch_) watch_->reset(newGovernor());
   ++cut_revision_;
   if (start_) writeState(*start_);
@@ -141,7 +163,7 @@ void Ticks::writeState(const HostState& state, bool staggered) {
   if (staggered && last_dt_s_ == 0) last_dt_s_ = dt_s();
   if (staggered) recovering_ = false;
   ++cut_revision_;
-  if (watch_) watch_->restart();
+  if (watch_) noteStretch(watch_->restart());
 }
 
 bool Ticks::readCuts(CutState& out) const {
@@ -170,9 +192,22 @@ void Ticks::keepStats(const layout::TickStats& stats) {
 /// Does what follows from a verdict. @returns whether there was a rollback
 bool Ticks::heed(const Watch::Verdict& verdict) {
   if (verdict.published) keepStats(*verdict.published);
-  if (verdict.good) relaxSubsteps(*verdict.good);
+  if (verdict.good) {
+    noteStretch(*verdict.good);
+    relaxSubsteps(*verdict.good);
+  }
   restarted_ |= verdict.rolled_back;
   return verdict.rolled_back;
+}
+
+/// Rounded down: substeps that changed in every tick would make small forces flicker, and there is a margin for as
+/// much.
+void Ticks::noteStretch(const layout::TickStats& stats) {
+  stretch_ = std::floor(static_cast<double>(floatFromBits(stats.max_stretch_bits)) / kStretchSteps) * kStretchSteps;
+}
+
+bool Ticks::hasLongSubsteps() const {
+  return dt_limit_s_ > 0 && !recovering_ && tick_s_ / n_ > config_.dt_fraction * dt_safe_s_;
 }
 
 /// A cut takes springs and no mass, so the stable substep can only grow.
@@ -184,7 +219,7 @@ void Ticks::relaxSubsteps(const layout::TickStats& stats) {
   const double dt_safe_s = 2 / std::sqrt(static_cast<double>(rate));
   if (dt_safe_s < kWorthwhile * dt_safe_s_) return;
   dt_safe_s_ = dt_safe_s;
-  substeps_ = planSubsteps(model_, config_, dt_safe_s_, true);
+  planAnew();
 }
 
 double Ticks::velocityLag_s() {

@@ -32,6 +32,7 @@ class Ticks : public Solver {
   const Health& health() const final;
   double dt_s() const final { return tick_s_ / substeps_.calm; }
   double dtSafe_s() const final { return dt_safe_s_; }
+  double dtLimit_s() const final { return dt_limit_s_ > 0 ? dt_limit_s_ : dt_safe_s_; }
   int substeps() const final { return substeps_.calm; }
   uint64_t substepsDone() const final { return substeps_done_; }
   SolverWork work() const final { return backend_->work(); }
@@ -55,6 +56,10 @@ class Ticks : public Solver {
 
  private:
   Governor newGovernor() const;
+  void planAnew();
+  void noteStretch(const layout::TickStats& stats);
+  bool hasLongSubsteps() const;
+  int calmSubsteps() const;
   void chooseSubsteps();
   void substep(int index, const ToolMotions& motions, bool cuts, bool contacts);
   void finishStats();
@@ -69,6 +74,9 @@ class Ticks : public Solver {
   ToolActs acts_;
   Vector3f gravity_;
   double tick_s_, dt_safe_s_, push_speed_m_per_s_;
+  double dt_limit_s_ = 0;  ///< measured at the start; 0 where it is not
+  double dashpot_ratio_;   ///< the largest
+  double stretch_ = 0;     ///< largest of the last good tick, rounded down
   SubstepPlan substeps_;
   int recovery_substeps_;
   std::optional<Surroundings> surroundings_;  ///< only where a scene has any

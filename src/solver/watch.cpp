@@ -30,11 +30,12 @@ void Watch::guard(const ToolMotions& motions, bool recovering) {
   if (backend_.lag() > 0) backend_.guard(governor_.bounds(isImplicit(recovering)), motions, tick_s_);
 }
 
-Watch::Verdict Watch::endTick(const ToolMotions& motions, bool recovering, bool undone) {
+Watch::Verdict Watch::endTick(const ToolMotions& motions, bool recovering, bool undone, bool long_substeps) {
   OpenTick tick;
   tick.motions = motions;
   tick.recovering = recovering;
   tick.undone = undone;
+  tick.long_substeps = long_substeps;
   open_ = tick;
   Verdict verdict;
   if (!undone && backend_.lag() == 0) verdict = judgeOpen();
@@ -78,7 +79,7 @@ Watch::Verdict Watch::judgeOpen() {
   open_.reset();
   if (tick.undone) return verdict;
   const double work_j = workOfTools(*tick.stats, tick.motions, tick_s_);
-  if (governor_.judge(*tick.stats, isImplicit(tick.recovering), work_j) == Governor::Trip::kNone) {
+  if (governor_.judge(*tick.stats, isImplicit(tick.recovering), work_j, tick.long_substeps) == Governor::Trip::kNone) {
     last_good_ = *tick.stats;
     verdict.good = tick.stats;
     return verdict;
@@ -101,12 +102,13 @@ bool Watch::poll(layout::TickStats& stats, bool wait) {
   return true;
 }
 
-void Watch::restart() {
+const layout::TickStats& Watch::restart() {
   backend_.measure();
   backend_.requestStats();
   backend_.takeStats(last_good_, true);
   governor_.restart(last_good_);
   keepOnlyCurrent();
+  return last_good_;
 }
 
 void Watch::reset(const Governor& governor) {

@@ -32,7 +32,8 @@ class Watch {
   void guard(const ToolMotions& motions, bool recovering);
   /// Ends a tick whose measurements are on their way: keeps its state if it is good or may be.
   /// @param undone  the tick before was not, and was rolled back: this one does not count
-  Verdict endTick(const ToolMotions& motions, bool recovering, bool undone);
+  /// @param long_substeps  it had substeps longer than proven ones (Governor::judge)
+  Verdict endTick(const ToolMotions& motions, bool recovering, bool undone, bool long_substeps);
   /// Judges the tick that is open, if one is, and closes it; rolls it back where it was bad. Waits for its
   /// measurements.
   Verdict judgeOpen();
@@ -42,7 +43,8 @@ class Watch {
   bool poll(layout::TickStats& stats, bool wait);
 
   /// The current state was written from outside, with no tick open: it is measured, and the only good one.
-  void restart();
+  /// @return what was measured
+  const layout::TickStats& restart();
   /// The current state is that of rest: no tick is open, and it is the only good one.
   void reset(const Governor& governor);
 
@@ -51,7 +53,8 @@ class Watch {
   struct OpenTick {
     ToolMotions motions;
     bool recovering = false;
-    bool undone = false;     ///< the tick before was bad: this one does not count
+    bool undone = false;  ///< the tick before was bad: this one does not count
+    bool long_substeps = false;
     bool delivered = false;  ///< somebody has asked for its measurements already
     std::optional<layout::TickStats> stats;
   };

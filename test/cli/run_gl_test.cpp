@@ -121,7 +121,7 @@ TEST_F(Run, LastLineIsAnObjectWithAllMeasurements) {
   const Json metrics = metricsOf(run({"--seconds", "0.1"}));
   ASSERT_TRUE(metrics.is_object());
   for (const char* key :
-       {"nodes", "springs", "springs_cut", "faces", "steps", "dt_s", "dt_safe_s", "real_time_factor",
+       {"nodes", "springs", "springs_cut", "faces", "steps", "dt_s", "dt_safe_s", "dt_limit_s", "real_time_factor",
         "node_updates_per_s", "max_stretch", "nonfinite", "governor_trips", "ticks_held_back", "peak_force_n"}) {
     ASSERT_TRUE(metrics.contains(key)) << key;
     EXPECT_TRUE(metrics[key].is_number()) << key;
@@ -130,7 +130,8 @@ TEST_F(Run, LastLineIsAnObjectWithAllMeasurements) {
   EXPECT_EQ(metrics["springs"], 3 * 4 * 25 + 2 * 3 * 16 * 5);  // edges and the diagonals of all faces of 64 cells
   EXPECT_EQ(metrics["springs_cut"], 0);
   EXPECT_GT(metrics["faces"], 0);
-  EXPECT_LE(metrics["dt_s"].get<double>(), SolverConfig{}.dt_fraction * metrics["dt_safe_s"].get<double>());
+  EXPECT_GT(metrics["dt_s"].get<double>(), SolverConfig{}.dt_fraction * metrics["dt_safe_s"].get<double>());
+  EXPECT_LT(metrics["dt_s"], metrics["dt_limit_s"]);
   EXPECT_NEAR(metrics["steps"].get<double>() * metrics["dt_s"].get<double>(), 0.1, 1e-9);
   EXPECT_GT(metrics["max_stretch"], 0);  // it hangs
   EXPECT_EQ(metrics["nonfinite"], 0);

@@ -181,7 +181,7 @@ class TrainingTest(unittest.TestCase):
         status = self.watch.status("simulation")
         self.assertEqual(status.level, DiagnosticStatus.OK, status.message)
         self.assertEqual(self.watch.value("simulation", "nonfinite_nodes"), 0)
-        self.assertLess(self.watch.value("simulation", "dt_s"), self.watch.value("simulation", "dt_safe_s"))
+        self.assertLess(self.watch.value("simulation", "dt_s"), self.watch.value("simulation", "dt_limit_s"))
         self.assertGreater(self.watch.value("left", "poses_accepted"), 100)
 
     def test_delays_from_pose_to_force_surface_and_image_are_told(self):

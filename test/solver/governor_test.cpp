@@ -106,6 +106,31 @@ TEST(Governor, RecoveryTakesItsTimeAndEndsInACalmState) {
   EXPECT_EQ(g.health().trips, 1u);
 }
 
+TEST(Governor, LongSubstepsThatTripAreShortenedFirstAndForLongerEachTime) {
+  const auto ticksOfShortOnes = [](Governor& g) {
+    int ticks = 0;
+    for (; g.health().strained && ticks < 1000; ++ticks) g.judge(kCalm, false, 0, false);
+    return ticks;
+  };
+  Governor g = governor();
+  g.judge(kCalm, false, 0, true);
+  int expected = 5;
+  for (int trip = 0; trip < 7; ++trip) {
+    EXPECT_EQ(g.judge(kExploded, false, 0, true), Governor::Trip::kEnergy);
+    EXPECT_FALSE(g.health().recovering);
+    EXPECT_EQ(g.setbacks(), 1);
+    EXPECT_EQ(ticksOfShortOnes(g), expected) << "trip " << trip;
+    expected = std::min(2 * expected, 16 * 5);
+  }
+  EXPECT_EQ(g.health().trips, 7u);
+  for (int t = 0; t < 400; ++t) g.judge(kCalm, false, 0, true);  // a long peace
+  g.judge(kExploded, false, 0, true);
+  EXPECT_EQ(ticksOfShortOnes(g), 5);
+  g.judge(kExploded, false, 0, true);
+  g.judge(kExploded, false, 0, false);  // the short ones trip too
+  EXPECT_TRUE(g.health().recovering);
+}
+
 TEST(Governor, RecoveryGoesOnWhileNodesAreFast) {
   Governor g = governor();
   g.judge(kCalm, false);

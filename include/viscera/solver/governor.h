@@ -44,7 +44,9 @@ class Governor {
 
   /// Judges the tick that the measurement belongs to. @param implicit  it was made by an integrator that may be fast
   /// @param work_j  that tools did on the tissue in this tick
-  Trip judge(const layout::TickStats& stats, bool implicit, double work_j = 0);
+  /// @param long_substeps  it had substeps longer than proven ones (solver.measured_limit): a trip has shorter ones for
+  /// recovery_s first, and no recovery
+  Trip judge(const layout::TickStats& stats, bool implicit, double work_j = 0, bool long_substeps = false);
   /// A state was written from outside: what is measured of it, whatever it is, is the new start.
   void restart(const layout::TickStats& stats);
   const Health& health() const { return health_; }
@@ -54,12 +56,16 @@ class Governor {
  private:
   void note(const layout::TickStats& stats);
   void recover();
+  void shorten();
 
   Limits limits_;
   double tick_s_, recovery_s_;
   Health health_;
   double owned_j_ = 0;  ///< energy that the tissue may have: the least since the start, plus what tools put in since
   int64_t recovery_ticks_left_ = 0;
+  int64_t short_ticks_left_ = 0;  ///< that are taken for strained
+  double short_wanted_s_ = 0;     ///< grows with trips that come soon after one
+  int64_t ticks_since_short_ = 0;
   double recovery_wanted_s_;  ///< grows with trips that come soon after a recovery
   int64_t ticks_since_recovery_ = 0;
   int setbacks_ = 0;

@@ -51,6 +51,9 @@ class Solver {
   virtual const Health& health() const = 0;
   virtual double dt_s() const = 0;  ///< in calm states
   virtual double dtSafe_s() const = 0;
+  /// Largest substep that is stable at rest, as measured at the start; dtSafe_s() where that is not done
+  /// (solver.measured_limit) [s].
+  virtual double dtLimit_s() const { return dtSafe_s(); }
   virtual int substeps() const = 0;           ///< per tick, in calm states
   virtual uint64_t substepsDone() const = 0;  ///< since the solver was made
   virtual SolverWork work() const { return {}; }

@@ -353,6 +353,10 @@ void visitFields(V& v, SolverConfig& c) {
   v.number(
       "dt_fraction_strained", c.dt_fraction_strained, {0.01, 1000}, "1",
       "leapfrog under the governor: the same while the tissue is strained or fast; dt_fraction where that is less");
+  v.boolean(
+      "measured_limit", c.measured_limit,
+      "leapfrog under the governor, of lattices: substeps as much longer as the fastest mode, measured at the start, "
+      "is slower than dt_fraction must assume; shorter again as tissue strains");
   v.integer("substeps", c.substeps, {0, 100000}, "substeps per tick; above 0 it decides instead of both fractions");
   v.integer("iterations", c.iterations, {1, 10000}, "vbd, pd: sweeps over all nodes per substep");
   v.boolean("compensated", c.compensated,

@@ -29,7 +29,7 @@ Body cube() {
 class Sleeping : public ::testing::Test {
  protected:
   std::unique_ptr<CpuSolver> make(double sleep_speed_m_per_s = kSleepSpeed_m_per_s, double gravity_m_per_s2 = 0,
-                                  bool governor = false) const {
+                                  bool governor = false, bool measured_limit = true) const {
     StylusConfig stylus;
     stylus.grab.radius_m = 0.008;
     stylus.cut.blade_length_m = 0.1;
@@ -38,6 +38,7 @@ class Sleeping : public ::testing::Test {
     scene.solver.dt_fraction = scene.solver.dt_fraction_strained = 0.75;
     scene.solver.sleep_speed_m_per_s = sleep_speed_m_per_s;
     scene.solver.governor = governor;
+    scene.solver.measured_limit = measured_limit;
     return makeCpu("", model_, scene);
   }
   /// @return ticks until nothing is awake, or `most`
@@ -207,21 +208,23 @@ TEST_F(Sleeping, StateThatIsWrittenWakesAll) {
 }
 
 TEST_F(Sleeping, GovernorsRollbackWakesAll) {
-  const auto solver = make(kSleepSpeed_m_per_s, 0, true);
-  settle(*solver);
-  EXPECT_EQ(solver->awakeBricks(), 0u);
-  ToolMotions motions = tool(ToolMode::kGrab, kCorner_m, kCorner_m);
-  motions[0].hold_begins = true;
-  solver->step(motions);
-  motions[0].hold_begins = false;
-  motions[0].to.position_m = Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
-  solver->step(motions);
-  EXPECT_EQ(solver->health().trips, 1u);
-  EXPECT_TRUE(solver->health().recovering);
-  EXPECT_EQ(solver->awakeBricks(), solver->bricks());
-  const HostState state = solver->readState();
-  for (uint32_t slot : model_.bodies[0].lattice.active_slots) {
-    ASSERT_TRUE(xyz(state.displacement_m[slot]).allFinite() && xyz(state.velocity_m_per_s[slot]).allFinite());
+  for (const bool measured_limit : {false, true}) {
+    const auto solver = make(kSleepSpeed_m_per_s, 0, true, measured_limit);
+    settle(*solver);
+    EXPECT_EQ(solver->awakeBricks(), 0u);
+    ToolMotions motions = tool(ToolMode::kGrab, kCorner_m, kCorner_m);
+    motions[0].hold_begins = true;
+    solver->step(motions);
+    motions[0].hold_begins = false;
+    motions[0].to.position_m = Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+    solver->step(motions);
+    EXPECT_EQ(solver->health().trips, 1u);
+    EXPECT_EQ(solver->health().recovering, !measured_limit) << "shorter substeps are tried first";
+    EXPECT_EQ(solver->awakeBricks(), solver->bricks());
+    const HostState state = solver->readState();
+    for (uint32_t slot : model_.bodies[0].lattice.active_slots) {
+      ASSERT_TRUE(xyz(state.displacement_m[slot]).allFinite() && xyz(state.velocity_m_per_s[slot]).allFinite());
+    }
   }
 }
 

@@ -230,6 +230,7 @@ struct SolverConfig {
   SolverStart start = SolverStart::kRest;
   double dt_fraction = 0.75;
   double dt_fraction_strained = 0.5;
+  bool measured_limit = true;
   int substeps = 0;     ///< 0: from dt_fraction
   int iterations = 20;  ///< of vbd and pd
   SpringForces spring_forces = SpringForces::kPoint;
