@@ -33,18 +33,27 @@ void StageSolver::refresh() {
 void StageSolver::begin(const Stage& next) {
   stage = next;
   level.begin(stage);
-  const double ratio = built_for_.inertia_per_s2 > 0 ? stage.inertia_per_s2 / built_for_.inertia_per_s2 : 0;
-  if (!hierarchy_ || ratio > kOtherStage || ratio < 1 / kOtherStage) rebuild();
+  for (now_ = 0; now_ < built_.size(); ++now_) {
+    const double of = built_[now_].stage.inertia_per_s2, wanted = stage.inertia_per_s2;
+    if (wanted <= kOtherStage * of && of <= kOtherStage * wanted) return;
+  }
+  build();
 }
 
 void StageSolver::rebuild() {
+  built_.clear();
+  build();
+}
+
+void StageSolver::build() {
   level.hold({});  // who is held today is not tomorrow: only the finest level knows
-  hierarchy_ = std::make_unique<Hierarchy>(level);
-  built_for_ = stage;
+  Built next{stage, std::make_unique<Hierarchy>(level)};
   std::fill(displacement.begin(), displacement.end(), 0.0f);
   std::fill(velocity.begin(), velocity.end(), 0.0f);
   level.linearise(displacement, velocity);
-  largest_ = largestOf(level);
+  next.largest = largestOf(level);
+  now_ = built_.size();
+  built_.push_back(std::move(next));
 }
 
 double StageSolver::residual(const Vectors& increment) {
@@ -83,7 +92,7 @@ int StageSolver::solveLinear(const Rule& rule, double norm) {
   std::fill(s_.begin(), s_.end(), 0.0f);
   int k = 0;
   while (k < rule.most) {
-    hierarchy_->cycle(level, largest_, r_, work_, d_, z_);
+    built_[now_].hierarchy->cycle(level, built_[now_].largest, r_, work_, d_, z_);
     const double rz = level.dot(r_, z_);
     if (!(rz > 0)) break;
     const float beta = k == 0 ? 0 : static_cast<float>(rz / before);

@@ -49,13 +49,20 @@ class StageSolver {
   Vectors velocity;
   double elastic_j = 0;  ///< there
   const Vectors& solution() const { return s_; }
-  const Hierarchy* hierarchy() const { return hierarchy_.get(); }
+  const Hierarchy* hierarchy() const { return built_[now_].hierarchy.get(); }
   double noise_n = 0;  ///< norm of the rounding of forces in float32, there
 
  private:
-  std::unique_ptr<Hierarchy> hierarchy_;
-  Stage built_for_;
-  float largest_ = 0;
+  /// Levels and the stage that they were built for.
+  struct Built {
+    Stage stage;
+    std::unique_ptr<Hierarchy> hierarchy;
+    float largest = 0;
+  };
+  void build();
+
+  std::vector<Built> built_;     ///< steps with and without contacts take turns: each kind has its own
+  size_t now_ = 0;               ///< which is in use
   double stiffest_n_per_m_ = 0;  ///< sum of a node's springs
   Vectors r_, s_, p_, q_, z_, d_, work_;
 };
