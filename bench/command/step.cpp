@@ -49,6 +49,7 @@ Scene hangingScene(TissueSource source, int nodes) {
 
 /// The tick is made as long as the wanted number of substeps.
 void fitTick(const Model& model, Scene& scene) {
+  scene.solver.measured_limit = false;
   scene.solver.tick_hz = 1.0 / (kSubstepsPerTick * scene.solver.dt_fraction * safeTimeStep(model)) * (1 + 1e-9);
 }
 

@@ -43,6 +43,7 @@ int substepsPerTick(const SolverConfig& solver) {
 Scene measuredScene(Scene scene, const Model& model) {
   SolverConfig& solver = scene.solver;
   solver.substeps = 0;
+  solver.measured_limit = false;
   solver.start = SolverStart::kRest;
   solver.max_substeps = std::numeric_limits<int>::max();
   solver.tick_hz = 1 / (substepsPerTick(solver) * solver.dt_fraction * safeTimeStep(model)) * (1 + 1e-9);

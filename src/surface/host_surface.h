@@ -31,7 +31,7 @@ class HostSurface {
   size_t vertices() const { return wounds_ ? wounds_->bindings().size() : skins_.bindings.size(); }
   const ShownTriangles& skin() const { return shown_; }
   const ShownWounds* wounds() const { return wounds_ ? wounds_->shown().get() : nullptr; }  ///< null where none can be
-  uint64_t mappings() const { return mappings_; }  ///< times show() was called
+  uint64_t mappings() const { return mappings_; }                                           ///< times show() was called
 
  private:
   struct Buffers;

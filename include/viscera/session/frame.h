@@ -81,14 +81,14 @@ struct Look {
 
 /// Work done for the eye since the start: with no subscriber all stay zero.
 struct ViewCounters {
-  uint64_t mappings = 0;      ///< times that vertices were brought to the nodes
-  uint64_t renders = 0;       ///< images drawn
-  uint64_t readbacks = 0;     ///< surfaces and images handed over
-  uint64_t repeats = 0;       ///< ... images of these that were not drawn again: nothing had changed
-  uint64_t skipped = 0;       ///< surfaces and images that were wanted and overtaken, as too many were under way
+  uint64_t mappings = 0;       ///< times that vertices were brought to the nodes
+  uint64_t renders = 0;        ///< images drawn
+  uint64_t readbacks = 0;      ///< surfaces and images handed over
+  uint64_t repeats = 0;        ///< ... images of these that were not drawn again: nothing had changed
+  uint64_t skipped = 0;        ///< surfaces and images that were wanted and overtaken, as too many were under way
   uint64_t wound_holes = 0;    ///< now: wounds that stay open, as they run out of a skin at a border of it
   uint64_t wound_slivers = 0;  ///< now: edges of skins of which a piece between two wounds is not shown
-  uint64_t moved_bricks = 0;  ///< bricks that had changed when a state on the host was brought to the GPU
+  uint64_t moved_bricks = 0;   ///< bricks that had changed when a state on the host was brought to the GPU
 };
 
 }  // namespace viscera
