@@ -94,6 +94,7 @@ cameras:
     supersampling: 1
     overlays: [springs, wind]
     strain_range: 0.82
+    draw_hidden: true
 environment:
   gravity_m_per_s2: [1.1, 1.2, 1.3]
   world_frame: room
@@ -115,7 +116,7 @@ obstacles:
     frame: arm
     friction: 0.409
     restitution: 0.411
-solver: {tick_hz: 90, integrator: vbd, dt_fraction: 0.91, dt_fraction_strained: 0.41, substeps: 93, iterations: 94,
+solver: {tick_hz: 90, integrator: vbd, dt_fraction: 0.91, dt_fraction_strained: 0.41, measured_limit: false, start: equilibrium, substeps: 93, iterations: 94,
          compensated: true, governor: false, recovery_s: 0.95, sleep_distance_m: 0.96, sleep_speed_m_per_s: 0.0097, max_substeps: 92,
          device: 3, backend: cpu, threads: 2, real_time_factor: 1.97, spring_forces: edge}
 )";
@@ -240,6 +241,7 @@ TEST(SceneKeys, EveryOtherKeyReachesItsField) {
   EXPECT_EQ(camera.supersampling, 1);
   EXPECT_TRUE(camera.overlays == overlaysOf({"wind", "springs"}));
   EXPECT_EQ(camera.strain_range, 0.82);
+  EXPECT_TRUE(camera.draw_hidden);
   EXPECT_EQ(scene.environment.gravity_m_per_s2, Vector3d(1.1, 1.2, 1.3));
   EXPECT_EQ(scene.environment.world_frame, "room");
   EXPECT_EQ(scene.environment.tissue_frame, "table");
@@ -249,6 +251,8 @@ TEST(SceneKeys, EveryOtherKeyReachesItsField) {
   EXPECT_EQ(scene.solver.integrator, Integrator::kVbd);
   EXPECT_EQ(scene.solver.dt_fraction, 0.91);
   EXPECT_EQ(scene.solver.dt_fraction_strained, 0.41);
+  EXPECT_FALSE(scene.solver.measured_limit);
+  EXPECT_EQ(scene.solver.start, SolverStart::kEquilibrium);
   EXPECT_EQ(scene.solver.substeps, 93);
   EXPECT_EQ(scene.solver.iterations, 94);
   EXPECT_TRUE(scene.solver.compensated);

@@ -28,7 +28,8 @@ TEST_F(Observation, NobodyWatchingMeansNothingMappedDrawnOrReadBack) {
   const Frame frame = play(session, press, 10);
   const Counters counters = session.counters();
   EXPECT_EQ(counters.ticks, 10u);
-  EXPECT_EQ(counters.substeps, 10u * static_cast<uint64_t>(session.solver().substeps()));
+  EXPECT_EQ(counters.substeps, session.solver().substepsDone());
+  EXPECT_GE(counters.substeps, 10u * static_cast<uint64_t>(session.solver().substeps()));
   EXPECT_EQ(counters.mappings, 0u);
   EXPECT_EQ(counters.renders, 0u);
   EXPECT_EQ(counters.readbacks, 0u);
