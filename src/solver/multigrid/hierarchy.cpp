@@ -34,24 +34,25 @@ float largestOfCoarse(const CoarseLevel& level, const Parallel& parallel) {
   return kEnlarged * grown;
 }
 
-void restrictTo(const Transfer& t, const Quads& fine, Quads& coarse) {
-  for (size_t node = 0; node + 1 < t.coarse_starts.size(); ++node) {
+/// Sums of what nodes of one level have at nodes of another. @param starts, others, weights  where each one's begin,
+/// and they
+void gather(const std::vector<uint32_t>& starts, const std::vector<uint32_t>& others, const std::vector<float>& weights,
+            const Quads& from, Quads& to) {
+  for (size_t node = 0; node + 1 < starts.size(); ++node) {
     float sum[3] = {};
-    for (uint32_t i = t.coarse_starts[node]; i < t.coarse_starts[node + 1]; ++i) {
-      for (size_t c = 0; c < 3; ++c) sum[c] += t.coarse_weights[i] * fine[4 * size_t{t.children[i]} + c];
+    for (uint32_t i = starts[node]; i < starts[node + 1]; ++i) {
+      for (size_t c = 0; c < 3; ++c) sum[c] += weights[i] * from[4 * size_t{others[i]} + c];
     }
-    for (size_t c = 0; c < 3; ++c) coarse[4 * node + c] = sum[c];
+    for (size_t c = 0; c < 3; ++c) to[4 * node + c] = sum[c];
   }
 }
 
+void restrictTo(const Transfer& t, const Quads& fine, Quads& coarse) {
+  gather(t.coarse_starts, t.children, t.coarse_weights, fine, coarse);
+}
+
 void interpolate(const Transfer& t, const Quads& coarse, Quads& fine) {
-  for (size_t node = 0; node + 1 < t.starts.size(); ++node) {
-    float sum[3] = {};
-    for (uint32_t i = t.starts[node]; i < t.starts[node + 1]; ++i) {
-      for (size_t c = 0; c < 3; ++c) sum[c] += t.weights[i] * coarse[4 * size_t{t.parents[i]} + c];
-    }
-    for (size_t c = 0; c < 3; ++c) fine[4 * node + c] = sum[c];
-  }
+  gather(t.starts, t.parents, t.weights, coarse, fine);
 }
 
 }  // namespace
