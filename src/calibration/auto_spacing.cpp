@@ -8,8 +8,10 @@
 #include <sstream>
 
 #include "solver/make_solver.h"
+#include "solver/stable_step.h"
 #include "solver/substeps.h"
 #include "viscera/gpu/context.h"
+#include "viscera/solver/governor.h"
 #include "viscera/solver/material.h"
 
 namespace viscera {
@@ -29,21 +31,28 @@ double shareOfSteps(const Scene& scene, const gpu::Context* context) {
 /// Substeps that the solver will have, as the spacing decides.
 class SubstepRule {
  public:
-  SubstepRule(const UndividedBodies& bodies, const Model& others, const Scene& scene)
-      : config_(scene.solver), others_dt_s_(safeTimeStep(others)) {
+  SubstepRule(const UndividedBodies& bodies, const Model& others, const Scene& scene, const gpu::Context* context)
+      : config_(scene.solver), others_(safeTimeStep(others)) {
     spacing_m_ = bodies.spacingOf(kRuleNodes);
     sample_ = bodies.lattices(spacing_m_);
-    s_per_m_ = safeTimeStep(sample_) / spacing_m_;
+    per_m_ = Stable(safeTimeStep(sample_) / spacing_m_);
     config_.max_substeps = std::numeric_limits<int>::max();
+    if (!measuresLimit(sample_, config_) || !measuresLimit(others, config_)) return;
+    per_m_.limit_s = limitOf(sample_, scene, context) / spacing_m_;
+    others_.limit_s = others.bodies.empty() ? others_.limit_s : limitOf(others, scene, context);
   }
 
   double sampleSpacing_m() const { return spacing_m_; }
 
-  /// Per second, while the tissue is strained: that is when a hand is in it.
+  /// Per second, while the tissue is strained: that is when a hand is in it. Of measured substeps, those of tissue as
+  /// strained as they are taken for.
   double perSecond(double spacing_m) const {
-    const double dt_safe_s = std::min(s_per_m_ * spacing_m, others_dt_s_);
-    const SubstepPlan plan = planSubsteps(sample_, config_, dt_safe_s, true);
-    return config_.tick_hz * std::max(plan.calm, plan.strained);
+    const double most = mostPerSecond(spacing_m);
+    const double dt_safe_s = std::min(per_m_.safe_s * spacing_m, others_.safe_s);
+    const double limit_s = std::min(per_m_.limit_s * spacing_m, others_.limit_s);
+    if (!std::isfinite(limit_s)) return most;
+    const double dt_s = measuredSubstep_s(config_, largestDashpot(sample_), dt_safe_s, limit_s, kStrainedStretch);
+    return std::min(most, config_.tick_hz * std::ceil(1 / (config_.tick_hz * dt_s)));
   }
 
   /// Finest spacing that the solver does not refuse: max_substeps, or substeps that are given and must be stable.
@@ -51,15 +60,33 @@ class SubstepRule {
     constexpr double kClear = 1 + 1e-6;
     if (asked.substeps == 0) {
       const double fine_m = 1e-2 * spacing_m_;  // so many substeps that rounding up to whole ones does not count
-      return fine_m * perSecond(fine_m) / (asked.tick_hz * asked.max_substeps);
+      return fine_m * mostPerSecond(fine_m) / (asked.tick_hz * asked.max_substeps);
     }
     const double xi = largestDashpot(sample_);
-    return kClear / (asked.tick_hz * asked.substeps * stableFraction(asked.integrator, xi) * s_per_m_);
+    return kClear / (asked.tick_hz * asked.substeps * stableFraction(asked.integrator, xi) * per_m_.safe_s);
   }
 
  private:
+  /// Longest stable substeps: as proven, and as measured (infinite where it is not).
+  struct Stable {
+    explicit Stable(double safe) : safe_s(safe) {}
+    double safe_s, limit_s = std::numeric_limits<double>::infinity();
+  };
+
+  double limitOf(const Model& model, Scene scene, const gpu::Context* context) const {
+    scene.solver = config_;
+    scene.solver.start = SolverStart::kRest;
+    return makeSolver(model, scene, context)->dtLimit_s();
+  }
+  double mostPerSecond(double spacing_m) const {
+    const double dt_safe_s = std::min(per_m_.safe_s * spacing_m, others_.safe_s);
+    const SubstepPlan plan = planSubsteps(sample_, config_, dt_safe_s, true);
+    return config_.tick_hz * std::max(plan.calm, plan.strained);
+  }
+
   SolverConfig config_;
-  double others_dt_s_, spacing_m_, s_per_m_;
+  Stable others_, per_m_{0};
+  double spacing_m_;
   Model sample_;
 };
 
@@ -104,7 +131,7 @@ Scene withChosenSpacing(const Scene& scene, const gpu::Context* context, const P
   if (progress) progress("measure this machine", 0);
   const UndividedBodies bodies(scene);
   const Model others = bodies.others();
-  const SubstepRule rule(bodies, others, scene);
+  const SubstepRule rule(bodies, others, scene, context);
   const std::string key = stepTimeKey(scene, context);
   const std::optional<StepTime> known = cache.find(key);
   SpacingLimits limits;

@@ -17,9 +17,6 @@ namespace {
 constexpr double kSpeedMargin = 5;       // of the fastest speed that physics gives: what tools may throw nodes at
 constexpr double kLongestRecovery = 16;  // times recovery_s, when trips keep coming
 constexpr double kSoon = 4;              // times recovery_s: a trip this soon after a recovery doubles the next one
-// A tick beyond one of these is strained: the shorter substep follows. Chosen by `viscera bench stability`
-// (docs/stability.md).
-constexpr double kStrainedStretch = 1.0;  // |L - l0| / l0
 
 float fromBits(uint32_t bits) {
   float value;

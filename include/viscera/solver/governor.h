@@ -9,6 +9,10 @@
 
 namespace viscera {
 
+/// |L - l0| / l0 beyond which a tick is strained: the shorter substep that is proven for any state follows. Chosen by
+/// `viscera bench stability` (docs/stability.md).
+constexpr double kStrainedStretch = 1.0;
+
 /// How a session fares: what the governor has seen and done since the last reset. On the GPU it has not yet seen the
 /// last tick.
 struct Health {
