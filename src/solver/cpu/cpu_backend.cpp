@@ -206,7 +206,7 @@ float CpuBackend::largestRate() const {
     const size_t brick = slot / layout::kBrickSlots, local = slot % layout::kBrickSlots;
     float springs = 0, bulk = 0;
     for (size_t s = 0; s < layout::kSpringsPerNode; ++s)
-      springs += lattice_.strengths.both_ends[brick * 1152 + s * 64 + local];
+      springs += lattice_.strengths.both_ends[simd::springAt(slot, s)];
     for (size_t c = 0; c < 8 && !lattice_.strengths.bulk_around.empty(); ++c) {
       bulk += std::max(0.0f, lattice_.strengths.bulk_around[brick * 512 + c * 64 + local]);
     }

@@ -102,12 +102,12 @@ void CpuStrengths::refresh(const CpuStore& store, uint32_t slot) {
     stiffness[stiffnessAt(slot, pair)] = springStiffness(store, slot, pair);
     if (!cell_springs.empty()) setCellSpring(store, slot, pair);
   }
-  const uint32_t brick = slot / layout::kBrickSlots, local = slot % layout::kBrickSlots;
+  const uint32_t brick = slot / layout::kBrickSlots;
   for (uint32_t spring = 0; spring < layout::kSpringsPerNode; ++spring) {
     const bool alive = springCount(bits, spring) != 0;
     const uint32_t owner =
         spring % 2 == 0 || !alive ? slot : neighborSlot(store.bricks, slot, kNeighborOffsets[spring]);
-    both_ends[size_t{brick} * 1152 + spring * 64 + local] = alive ? springStiffness(store, owner, spring / 2) : 0;
+    both_ends[simd::springAt(slot, spring)] = alive ? springStiffness(store, owner, spring / 2) : 0;
   }
   uniform[brick] = uniform[brick] && isFull(store, slot);
   if (bulk.empty()) return;
@@ -171,10 +171,9 @@ void CpuStrengths::shareBulk(const CpuStore& store, uint32_t slot) {
 
 bool CpuStrengths::isFull(const CpuStore& store, uint32_t slot) const {
   const layout::BodyParams& body = store.bodyOf(slot);
-  const float* k = &both_ends[size_t{slot / layout::kBrickSlots} * 1152 + slot % layout::kBrickSlots];
   for (uint32_t spring = 0; spring < layout::kSpringsPerNode; ++spring) {
     const float full = isAxial(spring) ? 4 * body.axial_quarter_n_per_m : 2 * body.diagonal_half_n_per_m;
-    if (k[spring * 64] != full) return false;
+    if (both_ends[simd::springAt(slot, spring)] != full) return false;
   }
   return true;
 }

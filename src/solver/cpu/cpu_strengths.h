@@ -32,8 +32,7 @@ struct CpuStrengths {
   AlignedVector<float> mobility;       ///< [slots] 1/kg of nodes that take part in a substep, held ones too; 0: absent,
                                        ///< fixed, alone
   AlignedVector<float> bulk;         ///< [slots] J of the cell above the node; 0 torn or absent; empty without volumes
-  AlignedVector<float> both_ends;    ///< [18 * slots] N/m of all springs, from either end, spring s of slot i at
-                                     ///< (i / 64) * 1152 + s * 64 + i % 64
+  AlignedVector<float> both_ends;    ///< [18 * slots] N/m of all springs, from either end (springAt() in kernels.h)
   AlignedVector<float> bulk_around;  ///< [8 * slots] J of the cells in which a slot is corner c (bits x, y, z), at
                                      ///< (slot / 64) * 512 + c * 64 + slot % 64; empty without volumes
   AlignedVector<float> rigidity;  ///< [slots] J of the cell above the node (moments.glsl); 0 torn, absent, or springs

@@ -8,6 +8,7 @@
 #define HWY_TARGET_INCLUDE "solver/cpu/kernels.cpp"
 #include "hwy/foreach_target.h"  // IWYU pragma: keep
 #include "hwy/highway.h"
+#include "solver/cpu/around-inl.h"
 #include "solver/cpu/cells-inl.h"
 #include "solver/cpu/springs-inl.h"
 #include "solver/cpu/targets.h"
@@ -17,19 +18,20 @@ HWY_BEFORE_NAMESPACE();
 namespace viscera::simd::HWY_NAMESPACE {
 
 /// Springs' force on the nodes of a vector.
-/// @param k  stiffness of their first spring; the next is 64 farther   @param mild  all springs are, see kMild
+/// @param k  stiffness of their first spring; the next is 16 farther   @param mild  all springs are, see kMild
 template <bool kUniform, bool kAny, bool kDashpot>
-HWY_INLINE Vec3 springForce(const Tile& u, const Tile& v, int at, const Material& m, const float* k, bool& mild) {
-  const Vec3 near = seen<0, 0, 0>(u, at);
-  const Vec3 near_v = kDashpot ? seen<0, 0, 0>(v, at) : zero3();
+HWY_INLINE Vec3 springForce(const Surroundings& u, const Surroundings& v, const Material& m, const float* k,
+                            bool& mild) {
+  const Vec3 near = seen<0, 0, 0>(u);
+  const Vec3 near_v = kDashpot ? seen<0, 0, 0>(v) : zero3();
   Vec3 force = zero3();
   V largest = hn::Zero(Tag());
-#define VISCERA_ADD(i, X, Y, Z)                                                                         \
-  {                                                                                                     \
-    const Vec3 w = seen<X, Y, Z>(u, at) - near, dv = kDashpot ? seen<X, Y, Z>(v, at) - near_v : near_v; \
-    const V stiffness = kUniform ? m.full[(i) < 6 ? 0 : 1] : load(k + (i)*64);                          \
-    const SpringPull s = springPull<X, Y, Z, kUniform, kAny, kDashpot>(m, stiffness, w, dv, largest);   \
-    force = mulAdd(s.pull, s.e, force);                                                                 \
+#define VISCERA_ADD(i, X, Y, Z)                                                                       \
+  {                                                                                                   \
+    const Vec3 w = seen<X, Y, Z>(u) - near, dv = kDashpot ? seen<X, Y, Z>(v) - near_v : near_v;       \
+    const V stiffness = kUniform ? m.full[(i) < 6 ? 0 : 1] : load(k + (i)*16);                        \
+    const SpringPull s = springPull<X, Y, Z, kUniform, kAny, kDashpot>(m, stiffness, w, dv, largest); \
+    force = mulAdd(s.pull, s.e, force);                                                               \
   }
   VISCERA_SPRINGS(VISCERA_ADD)
 #undef VISCERA_ADD
@@ -39,16 +41,17 @@ HWY_INLINE Vec3 springForce(const Tile& u, const Tile& v, int at, const Material
 
 /// The rarer case, kept out of the way of the other.
 template <bool kDashpot>
-HWY_NOINLINE Vec3 anySpringForce(const Tile& u, const Tile& v, int at, const Material& m, const float* k, bool& mild) {
-  return springForce<false, true, kDashpot>(u, v, at, m, k, mild);
+HWY_NOINLINE Vec3 anySpringForce(const Surroundings& u, const Surroundings& v, const Material& m, const float* k,
+                                 bool& mild) {
+  return springForce<false, true, kDashpot>(u, v, m, k, mild);
 }
 
 /// What the volume of one of the eight cells around adds to the force on its corner (A, B, C).
 template <int A, int B, int C>
-HWY_INLINE void addVolume(const Tile& u, int at, V quarter, V bulk, Vec3& force) {
+HWY_INLINE void addVolume(const Surroundings& u, V quarter, V bulk, Vec3& force) {
   if (hn::AllTrue(Tag(), hn::Eq(bulk, hn::Zero(Tag())))) return;
   Vec3 n[8];
-  cornersAround<A, B, C>(u, at, n);
+  cornersAround<A, B, C>(n, u);
   const Shape s = shapeOf(n, quarter);
   const V p = hn::Mul(pressureOf(bulk, s.e), quarter), minus = hn::Neg(p);
   force = mulAdd(A ? minus : p, s.bc, force);
@@ -57,15 +60,15 @@ HWY_INLINE void addVolume(const Tile& u, int at, V quarter, V bulk, Vec3& force)
 }
 
 /// Volumes' force on the nodes of a vector. @param bulk  of their first cell around; the next is 64 farther
-HWY_NOINLINE void addVolumes(const Tile& u, int at, V quarter, const float* bulk, Vec3& force) {
-  addVolume<0, 0, 0>(u, at, quarter, load(bulk), force);
-  addVolume<1, 0, 0>(u, at, quarter, load(bulk + 64), force);
-  addVolume<0, 1, 0>(u, at, quarter, load(bulk + 128), force);
-  addVolume<1, 1, 0>(u, at, quarter, load(bulk + 192), force);
-  addVolume<0, 0, 1>(u, at, quarter, load(bulk + 256), force);
-  addVolume<1, 0, 1>(u, at, quarter, load(bulk + 320), force);
-  addVolume<0, 1, 1>(u, at, quarter, load(bulk + 384), force);
-  addVolume<1, 1, 1>(u, at, quarter, load(bulk + 448), force);
+HWY_NOINLINE void addVolumes(const Surroundings& u, V quarter, const float* bulk, Vec3& force) {
+  addVolume<0, 0, 0>(u, quarter, load(bulk), force);
+  addVolume<1, 0, 0>(u, quarter, load(bulk + 64), force);
+  addVolume<0, 1, 0>(u, quarter, load(bulk + 128), force);
+  addVolume<1, 1, 0>(u, quarter, load(bulk + 192), force);
+  addVolume<0, 0, 1>(u, quarter, load(bulk + 256), force);
+  addVolume<1, 0, 1>(u, quarter, load(bulk + 320), force);
+  addVolume<0, 1, 1>(u, quarter, load(bulk + 384), force);
+  addVolume<1, 1, 1>(u, quarter, load(bulk + 448), force);
 }
 
 /// Forces on a brick's nodes of the springs and volumes around them.
@@ -73,33 +76,33 @@ template <bool kUniform, bool kDashpot>
 struct ForceOfSprings {
   const LeapfrogJob& job;
   const Material& material;
-  const Tile &u, &v;
+  const Around &u, &v;
   uint32_t b;
 
   /// @param i  index of the vector's first node in the brick
   HWY_INLINE Vec3 operator()(int i) const {
     const Arrays& a = job.arrays;
-    const int at = ((i >> 4) + 1) * kPlane + kOwn + (i & 15);
-    const float* k = a.spring_stiffness + size_t{b} * 1152 + i;
+    const Surroundings around_u = surroundings(u, i), around_v = surroundings(kDashpot ? v : u, i);
+    const float* k = a.spring_stiffness + springAt(size_t{b} * 64 + static_cast<size_t>(i), 0);
     // What was strained in the last substep is taken to be so still; which formula counts is the state's affair alone.
     const uint32_t bit = 1u << (i / 4);
     bool strained = (job.strained[b] & bit) != 0, mild;
     Vec3 force;
     if (HWY_UNLIKELY(strained)) {
-      force = anySpringForce<kDashpot>(u, v, at, material, k, mild);
+      force = anySpringForce<kDashpot>(around_u, around_v, material, k, mild);
       strained = !mild;
       if (mild) job.strained[b] = static_cast<uint16_t>(job.strained[b] & ~bit);
     }
     if (!strained) {
-      force = springForce<kUniform, false, kDashpot>(u, v, at, material, k, mild);
+      force = springForce<kUniform, false, kDashpot>(around_u, around_v, material, k, mild);
       if (HWY_UNLIKELY(!mild)) {
-        force = anySpringForce<kDashpot>(u, v, at, material, k, mild);
+        force = anySpringForce<kDashpot>(around_u, around_v, material, k, mild);
         job.strained[b] = static_cast<uint16_t>(job.strained[b] | bit);
       }
     }
     if (a.bulk_around) {
       const V quarter = hn::Div(set(0.25f), material.h);
-      addVolumes(u, at, quarter, a.bulk_around + size_t{b} * 512 + i, force);
+      addVolumes(around_u, quarter, a.bulk_around + size_t{b} * 512 + i, force);
     }
     return force;
   }
@@ -161,16 +164,13 @@ HWY_NOINLINE void stepBrick(const LeapfrogJob& job, const layout::BodyParams& bo
 
 template <bool kDashpot>
 void stepBricks(const LeapfrogJob& job, const uint32_t* bricks, size_t count) {
-  Tile u, v;
+  Around u, v;
   for (size_t n = 0; n < count; ++n) {
     const uint32_t b = bricks[n];
     const layout::BodyParams& body = job.arrays.bodies[job.arrays.bricks[b].body];
     const Material material = materialOf(body);
-    if (job.arrays.bulk_around)
-      fill<true>(job.arrays, job.arrays.displacement, b, u);
-    else
-      fill<false>(job.arrays, job.arrays.displacement, b, u);
-    if (kDashpot) fill<false>(job.arrays, job.arrays.velocity, b, v);
+    lookAround(job.arrays, job.arrays.displacement, b, job.arrays.bulk_around != nullptr, u);
+    if (kDashpot) lookAround(job.arrays, job.arrays.velocity, b, false, v);
     if (job.arrays.uniform[b])
       stepBrick(job, body, b, ForceOfSprings<true, kDashpot>{job, material, u, v, b});
     else

@@ -16,6 +16,12 @@
 // bricks; a vector is the 4x4 nodes of a plane, or as many rows of them as it has lanes for.
 namespace viscera::simd {
 
+/// Index of the stiffness of a node's spring: all springs of a plane of nodes lie together, so that they are read in
+/// the order in which they lie in memory, and none where no node of a plane is.
+constexpr size_t springAt(size_t slot, size_t spring) {
+  return (slot >> 4) * 288 + spring * 16 + (slot & 15);
+}
+
 /// Arrays of a CpuLattice, with its slots, and what is written.
 struct Arrays {
   const layout::Brick* bricks;
@@ -25,7 +31,7 @@ struct Arrays {
   float* next_displacement;       ///< [3 * slots]
   float* next_velocity;           ///< [3 * slots]
   float* compensation;            ///< [6 * slots] what sums of displacement, then of velocity have lost; or null
-  const float* spring_stiffness;  ///< [18 * slots] N/m
+  const float* spring_stiffness;  ///< [18 * slots] N/m (springAt)
   const float* mobility;          ///< [slots] 1/kg
   const float* cell_sums;         ///< [kCellSums * bricks] N, of CellJob: all forces; null without moments
   const float* bulk_around;       ///< [8 * slots] J of the cells around a node; null without volume energy

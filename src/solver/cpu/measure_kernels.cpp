@@ -94,13 +94,13 @@ void measureVector(const MeasureJob& job, const Material& m, const Tile& u, uint
   const M good = hn::And(there, hn::And(finite(near), finite(v)));
   stats.nonfinite += count(there) - count(good);
   V stretch = hn::Zero(Tag()), elastic = stretch;
-  const float* k = a.spring_stiffness + size_t{b} * 1152 + i;
+  const float* k = a.spring_stiffness + springAt(slot, 0);
 #define VISCERA_MEASURE(s, X, Y, Z) \
-  if ((s) % 2 == 0) measureSpring<X, Y, Z>(u, at, m, load(k + (s)*64), good, stretch, elastic, stats.collapsed);
+  if ((s) % 2 == 0) measureSpring<X, Y, Z>(u, at, m, load(k + (s)*16), good, stretch, elastic, stats.collapsed);
   VISCERA_SPRINGS(VISCERA_MEASURE)
 #undef VISCERA_MEASURE
   Vec3 corners[8];
-  cornersAround<0, 0, 0>(u, at, corners);
+  cornersAround<0, 0, 0>(corners, u, at);
   const V e = shapeOf(corners, hn::Div(set(0.25f), m.h)).e;
   const M cell = hn::And(good, hasBits(job.nodes + slot, layout::kCellBit, layout::kCellBit));
   const M whole = hn::And(cell, hasBits(job.nodes + slot, layout::kSeveredBit, 0));

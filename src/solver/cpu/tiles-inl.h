@@ -150,17 +150,17 @@ HWY_INLINE V pressureOf(V bulk, V e) {
   return hn::Mul(bulk, hn::IfThenElse(hn::Gt(bulk, hn::Zero(Tag())), clamped, soft));
 }
 
-/// Corners of the cell in which the nodes of a vector are corner (A, B, C).
-template <int A, int B, int C>
-HWY_INLINE void cornersAround(const Tile& u, int at, Vec3 (&n)[8]) {
-  n[0] = seen<-A, -B, -C>(u, at);
-  n[1] = seen<1 - A, -B, -C>(u, at);
-  n[2] = seen<-A, 1 - B, -C>(u, at);
-  n[3] = seen<1 - A, 1 - B, -C>(u, at);
-  n[4] = seen<-A, -B, 1 - C>(u, at);
-  n[5] = seen<1 - A, -B, 1 - C>(u, at);
-  n[6] = seen<-A, 1 - B, 1 - C>(u, at);
-  n[7] = seen<1 - A, 1 - B, 1 - C>(u, at);
+/// Corners of the cell in which the nodes of a vector are corner (A, B, C). @param where  of what seen() knows
+template <int A, int B, int C, class... Where>
+HWY_INLINE void cornersAround(Vec3 (&n)[8], const Where&... where) {
+  n[0] = seen<-A, -B, -C>(where...);
+  n[1] = seen<1 - A, -B, -C>(where...);
+  n[2] = seen<-A, 1 - B, -C>(where...);
+  n[3] = seen<1 - A, 1 - B, -C>(where...);
+  n[4] = seen<-A, -B, 1 - C>(where...);
+  n[5] = seen<1 - A, -B, 1 - C>(where...);
+  n[6] = seen<-A, 1 - B, 1 - C>(where...);
+  n[7] = seen<1 - A, 1 - B, 1 - C>(where...);
 }
 
 }  // namespace viscera::simd::HWY_NAMESPACE
