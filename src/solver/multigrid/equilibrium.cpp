@@ -20,6 +20,7 @@ constexpr int kMostSteps = 80;     // of Newton's method
 constexpr int kMostHalvings = 12;  // of one of them
 constexpr double kGrows = 1e-6;    // of the energies that are summed: float32 leaves that much
 constexpr double kProgress = 0.9;  // of the least residual so far: a step that got somewhere
+constexpr int kInexact = 2;        // first steps: far from the end positive tangents do, and never turn back
 constexpr int kPatience = 6;       // steps that did not
 constexpr int kTimed = 5;          // evaluations of forces, for the work unit
 
@@ -80,9 +81,10 @@ class Settling {
   double improve(double norm) {
     multigrid::Rule rule;
     rule.most = 60;
+    rule.exact = report_.newton >= kInexact;
     const double before_j = potential(increment_),
                  allowed_j = before_j + kGrows * (std::abs(before_j) + solver_.elastic_j);
-    report_.iterations += solver_.solveLinear(rule, norm);
+    report_.iterations += solver_.solveLinear(increment_, rule, norm);
     ++report_.newton;
     float share = 1;
     for (int halving = 0; halving <= kMostHalvings; ++halving, share /= 2) {

@@ -126,6 +126,24 @@ HWY_INLINE V momentScale(const CellMotion& q, V rigidity, const CellScale& of) {
   return scale;
 }
 
+/// How much of what moments take off the stiffness of springs counts in tangents. At rest the two fit, and all of it
+/// does. In a strained cell springs point elsewhere than its mean edges; where little tissue fills the cell, the
+/// difference of the two, which is all that there is, would be negative.
+HWY_INLINE V surenessOf(const CellMotion& q, const CellScale& of) {
+  const float kUnsure = 0.5f;  // per strain, shear or bend
+  CellMotion copy = q;
+  CellEdge e[3];
+  cellEdges<false>(copy, e);
+  V sum = hn::Zero(Tag());
+  for (int i = 0; i < 3; ++i) {
+    const Vec3 &a = e[i].direction, &b = e[(i + 1) % 3].direction;
+    const V longer = hn::Sub(e[i].shrink, set(1)), shear = dot(a, b);
+    const Vec3 bend = {dot(a, q.hx), dot(a, q.hy), dot(a, q.hz)};
+    sum = hn::MulAdd(longer, longer, hn::MulAdd(shear, shear, hn::MulAdd(of.per_4h2, dot(bend, bend), sum)));
+  }
+  return hn::Max(hn::NegMulAdd(set(kUnsure), hn::Sqrt(sum), set(1)), hn::Zero(Tag()));
+}
+
 template <bool kMoments, bool kFull>
 HWY_INLINE V lineariseCell(const multigrid::FineArrays& a, const multigrid::Box& box, const CellScale& scale,
                            size_t i) {
@@ -142,6 +160,7 @@ HWY_INLINE V lineariseCell(const multigrid::FineArrays& a, const multigrid::Box&
   const V p = hn::Mul(scale.per_4h, pressureOf(bulk, shape.e));
   if (kMoments) {
     hn::StoreU(momentScale(q, rigidity, scale), Tag(), a.resists + n + i);
+    hn::StoreU(surenessOf(q, scale), Tag(), a.resists + 2 * n + i);
     const Moments moments = kFull ? Moments{zero3(), zero3(), zero3()} : momentsAt(a, i);
     energy = hn::Add(energy, cellPull<kFull>(q, moments, rigidity, planeStress<kFull>(ratioOf(bulk, rigidity)), scale));
     q.da = mulAdd(p, shape.bc, q.da);
@@ -155,9 +174,10 @@ HWY_INLINE V lineariseCell(const multigrid::FineArrays& a, const multigrid::Box&
 }
 
 /// A cell's share of moments in the change of its pulls, for a change `x` of its motion, at constant directions.
+/// @param sure  see surenessOf()
 template <bool kFull>
 HWY_INLINE CellMotion momentTimes(const CellEdge (&e)[3], const Moments& t, const PlaneStress<kFull>& stress, V scale,
-                                  V per_4h, const CellMotion& x) {
+                                  V sure, V per_4h, const CellMotion& x) {
   const Vec3 &a = e[0].direction, &b = e[1].direction, &c = e[2].direction;
   const Vec3 sa = {dot(a, x.hx), dot(a, x.hy), dot(a, x.hz)}, sb = {dot(b, x.hx), dot(b, x.hy), dot(b, x.hz)};
   const Vec3 sc = {dot(c, x.hx), dot(c, x.hy), dot(c, x.hz)};
@@ -174,7 +194,7 @@ HWY_INLINE CellMotion momentTimes(const CellEdge (&e)[3], const Moments& t, cons
                         hn::Add(dot(a, tb), dot(b, ta))};
     solid = solidPullOf(strain, shear, t, stress, gx, gy, gz);
   }
-  const V minus = set(-0.25f), trace4 = hn::Mul(minus, hn::Add(sa.x, hn::Add(sb.y, sc.z)));
+  const V minus = hn::Mul(set(-0.25f), sure), trace4 = hn::Mul(minus, hn::Add(sa.x, hn::Add(sb.y, sc.z)));
   const Vec3 pair4 = minus * Vec3{hn::Add(sb.z, sc.y), hn::Add(sc.x, sa.z), hn::Add(sa.y, sb.x)};
   const Vec3 &bx = solid.bx, &by = solid.by, &bz = solid.bz;
   const Vec3 ra =
@@ -189,7 +209,7 @@ HWY_INLINE CellMotion momentTimes(const CellEdge (&e)[3], const Moments& t, cons
                     weighted(ra.x, a, rb.x, b, rc.x, c),
                     weighted(ra.y, a, rb.y, b, rc.y, c),
                     weighted(ra.z, a, rb.z, b, rc.z, c),
-                    hn::Mul(scale, set(0.5f * kAlternating)) * x.hxyz};
+                    hn::Mul(scale, hn::MulAdd(set(-0.25f), sure, set(0.5f * kAlternating + 0.25f))) * x.hxyz};
   if constexpr (!kFull) {
     const Vec3 shears = scale * solid.shears, strains = hn::Mul(per_4h, scale) * solid.strains;
     out.da =
@@ -221,9 +241,11 @@ HWY_INLINE void applyCell(const multigrid::FineArrays& a, const float* x, const 
   if (kMoments) {
     CellEdge e[3];
     cellEdges<!kFull>(at, e);
-    const Moments moments = kFull ? Moments{zero3(), zero3(), zero3()} : momentsAt(a, i);
+    const V sure = load(a.resists + 2 * n + i);
+    Moments moments = kFull ? Moments{zero3(), zero3(), zero3()} : momentsAt(a, i);
+    if (!kFull) moments.first = sure * moments.first;
     const V ratio = ratioOf(load(a.bulk + i), load(a.rigidity + i));
-    out = momentTimes<kFull>(e, moments, planeStress<kFull>(ratio), moment_scale, scale.per_4h, dx);
+    out = momentTimes<kFull>(e, moments, planeStress<kFull>(ratio), moment_scale, sure, scale.per_4h, dx);
   }
   if (!hn::AllTrue(Tag(), hn::Eq(curvature, none))) {
     const Shape shape = shapeOfEdges(at.da, at.db, at.dc);

@@ -45,7 +45,7 @@ struct FineArrays {
   const float* moments;       ///< [9] of cells, over their shares, the first ones times 2 h; null where all are full
   uint16_t* tangent;          ///< [kPairs * kTangentNumbers] sqrt(N/m), N/m
   float* edges;               ///< [9] mean edges of cells less their rest value, over h
-  float* resists;             ///< [2] curvature of the volume's energy [J]; what moments are times [N/m]
+  float* resists;             ///< [3] curvature of the volume's energy [J]; what moments are times [N/m], and how sure
   float* corners;             ///< [kCornerNumbers] N, corner by corner
   float* force;               ///< [3] N of springs, dashpots and cells
   float* inverse;             ///< [6] m/N of the block diagonal: xx, xy, xz, yy, yz, zz; 0 where not free

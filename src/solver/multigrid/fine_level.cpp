@@ -20,12 +20,11 @@ CellKind kindOf(const CpuStrengths& strengths) {
 
 FineLevel::FineLevel(const Model& model, const CpuLattice& lattice, const Parallel& parallel)
     : lattice_(lattice),
-      parallel_(parallel),
+      parallel_(&parallel),
       grid_(model),
       kernels_(fineKernelsFor()),
       cells_(kindOf(lattice.strengths)),
       boxes_(grid_.bodies),
-      held_(grid_.nodeCount()),
       sums_((grid_.blocks.size() + kBlocksPerJob - 1) / kBlocksPerJob) {
   const size_t n = places();
   for (size_t b = 0; b < boxes_.size(); ++b) boxes_[b].params = lattice.store.bodies[b];
@@ -33,10 +32,10 @@ FineLevel::FineLevel(const Model& model, const CpuLattice& lattice, const Parall
   tangent_.resize(kPairs * kTangentNumbers * n);
   inverse_.resize(6 * n);
   force_.resize(3 * n);
-  for (AlignedVector<float>* each : {&mass_, &free_, &diagonal_}) each->resize(n);
+  for (AlignedVector<float>* each : {&mass_, &free_, &movable_, &diagonal_}) each->resize(n);
   if (cells_ != CellKind::kNone) {
     edges_.resize(9 * n);
-    resists_.resize(2 * n);
+    resists_.resize(3 * n);
     corners_.resize(kCornerNumbers * n);
     bulk_.resize(n);
     if (cells_ != CellKind::kVolumes) rigidity_.resize(n);
@@ -80,8 +79,10 @@ void FineLevel::refresh() {
     const uint32_t slot = grid_.slots[node], place = grid_.place_of[node];
     for (uint32_t pair = 0; pair < kPairs; ++pair)
       stiffness_[pair * places() + place] = lattice_.strengths.stiffness[stiffnessAt(slot, pair)];
-    free_[place] = lattice_.strengths.mobility[slot] > 0 && !held_[node] ? 1.0f : 0.0f;
+    movable_[place] = lattice_.strengths.mobility[slot] > 0 ? 1.0f : 0.0f;
   }
+  free_ = movable_;
+  hold({});
   for (const uint32_t node : cell_nodes_) {
     bulk_[grid_.place_of[node]] = lattice_.strengths.bulk[grid_.slots[node]];
     if (!rigidity_.empty()) rigidity_[grid_.place_of[node]] = lattice_.strengths.rigidity[grid_.slots[node]];
@@ -89,29 +90,16 @@ void FineLevel::refresh() {
 }
 
 void FineLevel::hold(const std::vector<uint32_t>& held, const std::vector<Plane>& planes) {
-  const auto nodeOf = [&](uint32_t slot) {
-    const auto at = std::lower_bound(grid_.slots.begin(), grid_.slots.end(), slot);
-    return at != grid_.slots.end() && *at == slot ? static_cast<int64_t>(at - grid_.slots.begin()) : -1;
-  };
-  std::fill(held_.begin(), held_.end(), uint8_t{0});
-  for (const uint32_t slot : held) {
-    const int64_t node = nodeOf(slot);
-    if (node >= 0) held_[static_cast<size_t>(node)] = 1;
-  }
-  planes_.clear();
-  for (const Plane& plane : planes) {
-    const int64_t node = nodeOf(plane.slot);
-    if (node >= 0) planes_.push_back({grid_.place_of[static_cast<size_t>(node)], plane.normal});
-  }
-  for (uint32_t node = 0; node < grid_.nodeCount(); ++node) {
-    free_[grid_.place_of[node]] = lattice_.strengths.mobility[grid_.slots[node]] > 0 && !held_[node] ? 1.0f : 0.0f;
-  }
+  for (const uint32_t place : held_) free_[place] = movable_[place];
+  held_ = held;
+  for (const uint32_t place : held_) free_[place] = 0;
+  planes_ = planes;
 }
 
 void FineLevel::project(Vectors& x) const {
   const size_t n = places();
   for (const Plane& plane : planes_) {
-    float* at = &x[plane.slot];
+    float* at = &x[plane.place];
     const float along = plane.normal.x() * at[0] + plane.normal.y() * at[n] + plane.normal.z() * at[2 * n];
     for (size_t c = 0; c < 3; ++c) at[c * n] -= along * plane.normal[static_cast<int>(c)];
   }
@@ -152,7 +140,7 @@ FineArrays FineLevel::arrays() const {
 /// Calls kernel(first block, count, job).
 template <class Kernel>
 void FineLevel::runBlocks(const std::vector<Block>& blocks, const Kernel& kernel) const {
-  parallel_((blocks.size() + kBlocksPerJob - 1) / kBlocksPerJob, [&](size_t job) {
+  parallel()((blocks.size() + kBlocksPerJob - 1) / kBlocksPerJob, [&](size_t job) {
     const size_t first = job * kBlocksPerJob;
     kernel(&blocks[first], std::min(kBlocksPerJob, blocks.size() - first), job);
   });
@@ -161,7 +149,8 @@ void FineLevel::runBlocks(const std::vector<Block>& blocks, const Kernel& kernel
 double FineLevel::linearise(const Vectors& displacement_m, const Vectors& velocity_m_per_s) {
   displacement_ = displacement_m.data();
   velocity_ = velocity_m_per_s.data();
-  const FineArrays a = arrays();
+  FineArrays a = arrays();
+  a.free = movable_.data();  // who is held now may be free in the next system
   std::fill(sums_.begin(), sums_.end(), 0.0);
   runBlocks(cell_blocks_, [&](const Block* blocks, size_t count, size_t job) {
     kernels_.linearise_cells(a, blocks, count, &sums_[job]);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "solver/cpu/cpu_lattice.h"
@@ -22,7 +23,7 @@ struct Stage {
 
 /// A node that keeps to a plane: only what is across the normal is solved for.
 struct Plane {
-  uint32_t slot;
+  uint32_t place;
   Vector3f normal;
 };
 
@@ -34,12 +35,15 @@ class FineLevel {
   /// @param lattice, parallel  must outlive it
   FineLevel(const Model& model, const CpuLattice& lattice, const Parallel& parallel);
 
+  /// A copy of another one as it is, which works on threads of its own. The lattice is no longer looked at.
+  FineLevel(const FineLevel& other, const Parallel& parallel) : FineLevel(other) { parallel_ = &parallel; }
+
   const Grid& grid() const { return grid_; }
   size_t places() const { return grid_.places(); }
   /// Takes springs, cells, masses and which nodes are free from the lattice: after cuts, and where nodes are let go.
   void refresh();
-  /// Nodes that are prescribed beside those that never move, and nodes that keep to planes, until the next call. Before
-  /// linearise(). @param held  slots
+  /// Nodes that are prescribed beside those that never move, and nodes that keep to planes, until the next call.
+  /// @param held  places   @param planes  those of a node at right angles
   void hold(const std::vector<uint32_t>& held, const std::vector<Plane>& planes = {});
   /// Takes what is along the normals of planes out of a vector.
   void project(Vectors& x) const;
@@ -57,7 +61,7 @@ class FineLevel {
   /// Calls each(place, count, constants of their body) for runs of places, side by side.
   template <class Each>
   void forPlaces(const Each& each) const {
-    parallel_(jobs(), [&](size_t job) {
+    parallel()(jobs(), [&](size_t job) {
       for (size_t b = job * kBlocksPerJob; b < std::min(grid_.blocks.size(), (job + 1) * kBlocksPerJob); ++b)
         each(size_t{grid_.blocks[b].at}, kBlock, boxes_[grid_.blocks[b].body].params);
     });
@@ -65,7 +69,7 @@ class FineLevel {
   /// Sum over nodes of what each(place) returns, always in the same order.
   template <class Each>
   double sum(const Each& each) const {
-    parallel_(jobs(), [&](size_t job) {
+    parallel()(jobs(), [&](size_t job) {
       double out = 0;
       for (size_t b = job * kBlocksPerJob; b < std::min(grid_.blocks.size(), (job + 1) * kBlocksPerJob); ++b) {
         for (size_t i = grid_.blocks[b].at; i < grid_.blocks[b].at + kBlock; ++i) out += each(i);
@@ -77,9 +81,15 @@ class FineLevel {
     return out;
   }
 
-  const float* mass() const { return mass_.data(); }  ///< [places] kg, 0 where no node is
-  const float* free() const { return free_.data(); }  ///< [places] 1 or 0
-  const Parallel& parallel() const { return parallel_; }
+  const float* mass() const { return mass_.data(); }        ///< [places] kg, 0 where no node is
+  const float* free() const { return free_.data(); }        ///< [places] 1 of nodes that are solved for, else 0
+  const float* movable() const { return movable_.data(); }  ///< the same with those that are held
+  /// What a node gives under a force while those around it stay [m/N], the least of three directions. After
+  /// linearise().
+  float give(size_t place) const {
+    return std::min({inverse_[place], inverse_[3 * places() + place], inverse_[5 * places() + place]});
+  }
+  const Parallel& parallel() const { return *parallel_; }
 
   // What coarse levels are made of, at rest.
   float stiffness(size_t pair, size_t place) const { return stiffness_[pair * places() + place]; }
@@ -90,6 +100,7 @@ class FineLevel {
   const Box& box(uint32_t body) const { return boxes_[body]; }
 
  private:
+  FineLevel(const FineLevel&) = default;
   static constexpr size_t kBlocksPerJob = 32;
   size_t jobs() const { return sums_.size(); }
   FineArrays arrays() const;
@@ -98,18 +109,18 @@ class FineLevel {
   void runBlocks(const std::vector<Block>& blocks, const Kernel& kernel) const;
 
   const CpuLattice& lattice_;
-  const Parallel& parallel_;
+  const Parallel* parallel_;
   Grid grid_;
   FineKernels kernels_;
   CellKind cells_;
   std::vector<Box> boxes_;
   std::vector<Block> cell_blocks_;
   std::vector<uint32_t> cell_nodes_;  ///< nodes above which a cell is, whole
-  std::vector<uint8_t> held_;         ///< [nodes]
-  std::vector<Plane> planes_;         ///< with places for slots
+  std::vector<uint32_t> held_;        ///< places
+  std::vector<Plane> planes_;
   const float *displacement_ = nullptr, *velocity_ = nullptr;
   mutable std::vector<double> sums_;  ///< [jobs]
-  AlignedVector<float> stiffness_, mass_, free_, diagonal_, bulk_, rigidity_, moments_;
+  AlignedVector<float> stiffness_, mass_, free_, movable_, diagonal_, bulk_, rigidity_, moments_;
   mutable AlignedVector<uint16_t> tangent_;
   mutable AlignedVector<float> edges_, resists_, corners_, inverse_;
   mutable Vectors force_;

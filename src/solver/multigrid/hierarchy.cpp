@@ -80,7 +80,7 @@ Chebyshev::Chebyshev(float largest) {
   second = 2 * rho / half;
 }
 
-Hierarchy::Hierarchy(const FineLevel& level) : parallel_(level.parallel()) {
+Hierarchy::Hierarchy(const FineLevel& level, const Parallel& parallel) : parallel_(parallel) {
   Elements elements = elementsOf(level);
   elements_ = elements.elements.size();
   size_t above = elements.node_at.size();
@@ -89,7 +89,7 @@ Hierarchy::Hierarchy(const FineLevel& level) : parallel_(level.parallel()) {
     const size_t nodes = next.coarse.node_at.size();
     if (nodes == 0 || (!levels_.empty() && static_cast<double>(nodes) > kShrinks * static_cast<double>(above))) break;
     levels_.push_back(std::make_unique<CoarseLevel>(next.coarse));
-    levels_.back()->largest = largestOfCoarse(*levels_.back(), parallel_);
+    levels_.back()->largest = largestOfCoarse(*levels_.back(), level.parallel());
     transfers_.push_back(std::move(next.transfer));
     elements = std::move(next.coarse);
     above = nodes;

@@ -14,7 +14,8 @@ namespace viscera::multigrid {
 /// tissue moves and, less so, where it is cut. Its nodes are those of the level that it was made of.
 class Hierarchy {
  public:
-  explicit Hierarchy(const FineLevel& level);
+  /// @param parallel  its cycles work on; it is built on the level's
+  Hierarchy(const FineLevel& level, const Parallel& parallel);
 
   size_t levels() const { return levels_.size() + 1; }  ///< the finest too
   const CoarseLevel& coarse(size_t level) const { return *levels_[level]; }

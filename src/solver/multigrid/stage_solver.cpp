@@ -4,19 +4,31 @@
 
 #include <cmath>
 
+#include "viscera/model/body/neighbors.h"
+
 namespace viscera::multigrid {
 
 namespace {
 
-constexpr double kOtherStage = 4;  // times as much inertia: another hierarchy is worth its building
-constexpr double kFloat = 6e-8;    // of a displacement: its rounding in float32, which springs turn into forces
+constexpr double kOtherStage = 4;    // times as much inertia: smoothers are told of it
+constexpr double kOtherLevels = 16;  // a hierarchy is worth its building
+constexpr int kMoreTouched = 2;      // Newton steps more while contacts come and go
+constexpr float kApart = 0.3f;       // spacings: how far a step may carry a node from those around it
+constexpr float kWay = 1e-3f;        // spacings: how far forces are asked for their change
+constexpr double kFloat = 6e-8;      // of a displacement: its rounding in float32, which springs turn into forces
+
+float largestAtRest(FineLevel& level) {
+  const Vectors still(3 * level.places());
+  level.linearise(still, still);
+  return largestOf(level);
+}
 
 }  // namespace
 
 StageSolver::StageSolver(const Model& model, const CpuLattice& lattice, const Parallel& parallel)
     : level(model, lattice, parallel) {
   for (Vectors* each :
-       {&start, &wanted, &offset, &load, &displacement, &velocity, &r_, &s_, &p_, &q_, &z_, &d_, &work_})
+       {&start, &wanted, &offset, &load, &displacement, &velocity, &r_, &s_, &p_, &q_, &z_, &d_, &work_, &force_})
     each->assign(3 * level.places(), 0);
   for (uint32_t node = 0; node < level.grid().nodeCount(); ++node) {
     double k = 0;
@@ -33,30 +45,69 @@ void StageSolver::refresh() {
 void StageSolver::begin(const Stage& next) {
   stage = next;
   level.begin(stage);
+  const auto isNear = [&](const Built& built, double times) {
+    const double of = built.stage.inertia_per_s2, wanted = stage.inertia_per_s2;
+    return wanted <= times * of && of <= times * wanted;
+  };
   for (now_ = 0; now_ < built_.size(); ++now_) {
-    const double of = built_[now_].stage.inertia_per_s2, wanted = stage.inertia_per_s2;
-    if (wanted <= kOtherStage * of && of <= kOtherStage * wanted) return;
+    if (isNear(built_[now_], kOtherStage)) return;
   }
-  build();
-}
-
-void StageSolver::rebuild() {
-  built_.clear();
-  build();
-}
-
-void StageSolver::build() {
   level.hold({});  // who is held today is not tomorrow: only the finest level knows
-  Built next{stage, std::make_unique<Hierarchy>(level)};
-  std::fill(displacement.begin(), displacement.end(), 0.0f);
-  std::fill(velocity.begin(), velocity.end(), 0.0f);
-  level.linearise(displacement, velocity);
-  next.largest = largestOf(level);
-  now_ = built_.size();
-  built_.push_back(std::move(next));
+  Built built_now{stage, nullptr};
+  for (const Built& built : built_) {
+    if (isNear(built, kOtherLevels)) built_now.hierarchy = built.hierarchy;
+  }
+  if (!built_now.hierarchy) built_now.hierarchy = std::make_shared<Hierarchy>(level, level.parallel());
+  built_now.largest = largestAtRest(level);
+  built_.push_back(std::move(built_now));
+}
+
+void StageSolver::rebuildAside() {
+  static const Serial kSerial;
+  level.hold({});
+  auto copy = std::make_shared<FineLevel>(level, kSerial);
+  const Stage of = built_[0].stage;
+  const Parallel& parallel = level.parallel();
+  rebuilt_ = std::async(std::launch::async, [copy, of, &parallel] {
+    copy->begin(of);
+    Built out{of, std::make_shared<Hierarchy>(*copy, parallel)};
+    out.largest = largestAtRest(*copy);
+    return out;
+  });
+}
+
+void StageSolver::takeRebuilt() {
+  if (!rebuilt_.valid()) return;
+  built_.clear();
+  built_.push_back(rebuilt_.get());
 }
 
 double StageSolver::residual(const Vectors& increment) {
+  evaluate(increment);
+  return masked();
+}
+
+double StageSolver::residual(Vectors& increment, Touched* touched, bool* changed) {
+  if (touched) touched->place(increment);
+  evaluate(increment);
+  const bool others = touched && touched->press(r_, increment, level);
+  if (changed) *changed = others;
+  return masked();
+}
+
+/// Without those who are held.
+double StageSolver::masked() {
+  const size_t n = level.places();
+  level.forPlaces([&](size_t at, size_t count, const layout::BodyParams&) {
+    for (size_t c = 0; c < 3; ++c)
+      for (size_t i = at; i < at + count; ++i) r_[c * n + i] *= level.free()[i];
+  });
+  level.project(r_);
+  return std::sqrt(level.dot(r_, r_));
+}
+
+/// Residual of whoever can move, held or not.
+void StageSolver::evaluate(const Vectors& increment) {
   const size_t n = level.places();
   const float rate = static_cast<float>(stage.rate_per_s), inertia = static_cast<float>(stage.inertia_per_s2);
   level.forPlaces([&](size_t at, size_t count, const layout::BodyParams&) {
@@ -76,20 +127,66 @@ double StageSolver::residual(const Vectors& increment) {
       for (size_t i = at; i < at + count; ++i) {
         const size_t j = c * n + i;
         const float pull = g + inertia * (wanted[j] - increment[j]) - drag * velocity[j];
-        r_[j] = level.free()[i] * (force[j] + load[j] + level.mass()[i] * pull);
+        r_[j] = level.movable()[i] * (force[j] + load[j] + level.mass()[i] * pull);
       }
     }
   });
-  level.project(r_);
   noise_n = kFloat * stiffest_n_per_m_ * std::sqrt(level.dot(displacement, displacement));
-  return std::sqrt(level.dot(r_, r_));
 }
 
-int StageSolver::solveLinear(const Rule& rule, double norm) {
+Energy StageSolver::energy(const Vectors& u, const Vectors& v, double elastic) const {
+  const size_t n = level.places();
+  Energy out;
+  out.kinetic_j = level.sum([&](size_t i) {
+    const float speed2 = v[i] * v[i] + v[n + i] * v[n + i] + v[2 * n + i] * v[2 * n + i];
+    return static_cast<double>(0.5f * level.movable()[i] * level.mass()[i] * speed2);
+  });
+  const double fallen_j = level.sum([&](size_t i) {
+    const float mass = level.mass()[i];
+    return static_cast<double>(level.movable()[i] *
+                               ((mass * gravity.x() + load[i]) * u[i] + (mass * gravity.y() + load[n + i]) * u[n + i] +
+                                (mass * gravity.z() + load[2 * n + i]) * u[2 * n + i]));
+  });
+  out.sum_j = out.kinetic_j + elastic - fallen_j;
+  return out;
+}
+
+/// q = A p, A the change of forces at an increment: their difference over a way on which it hardly changes.
+void StageSolver::multiply(const Vectors& increment, const Vectors& p, Vectors& q) {
+  const size_t n = level.places();
+  float farthest = 0;  // over its spacing
+  for (const uint32_t place : level.grid().place_of)
+    for (size_t c = 0; c < 3; ++c) farthest = std::max(farthest, std::abs(p[c * n + place]));
+  const float way = kWay * level.box(0).params.origin_spacing.w / std::max(farthest, 1e-30f), per = 1 / way;
+  const float rate = static_cast<float>(stage.rate_per_s);
+  level.forPlaces([&](size_t at, size_t count, const layout::BodyParams&) {
+    for (size_t c = 0; c < 3; ++c) {
+      for (size_t i = c * n + at; i < c * n + at + count; ++i) {
+        const float there = increment[i] + way * p[i];
+        displacement[i] = start[i] + there;
+        velocity[i] = rate * (there - offset[i]);
+      }
+    }
+  });
+  level.linearise(displacement, velocity);
+  const Vectors& force = level.force();
+  level.forPlaces([&](size_t at, size_t count, const layout::BodyParams&) {
+    for (size_t c = 0; c < 3; ++c) {
+      for (size_t i = at; i < at + count; ++i) {
+        const size_t j = c * n + i;
+        q[j] = level.free()[i] * (per * (force_[j] - force[j]) + level.diagonal(i) * p[j]);
+      }
+    }
+  });
+  level.project(q);
+}
+
+int StageSolver::solveLinear(const Vectors& increment, const Rule& rule, double norm) {
   const size_t n = level.places();
   const double enough = rule.tolerance * norm;
   double before = 0;
   std::fill(s_.begin(), s_.end(), 0.0f);
+  if (rule.exact) force_ = level.force();
   int k = 0;
   while (k < rule.most) {
     built_[now_].hierarchy->cycle(level, built_[now_].largest, r_, work_, d_, z_);
@@ -101,9 +198,9 @@ int StageSolver::solveLinear(const Rule& rule, double norm) {
       for (size_t c = 0; c < 3; ++c)
         for (size_t i = c * n + at; i < c * n + at + count; ++i) p_[i] = z_[i] + (beta == 0 ? 0 : beta * p_[i]);
     });
-    level.apply(p_, q_);
+    rule.exact ? multiply(increment, p_, q_) : level.apply(p_, q_);
     const double curvature = level.dot(p_, q_);
-    if (!(curvature > 0)) break;  // as tangents are made positive, only rounding leads here
+    if (!(curvature > 0)) break;  // tangents are made positive: only rounding leads here, and what is exact
     const float alpha = static_cast<float>(rz / curvature);
     level.forPlaces([&](size_t at, size_t count, const layout::BodyParams&) {
       for (size_t c = 0; c < 3; ++c) {
@@ -116,26 +213,60 @@ int StageSolver::solveLinear(const Rule& rule, double norm) {
     ++k;
     if (k >= rule.least && std::sqrt(level.dot(r_, r_)) <= enough) break;
   }
+  if (rule.tame) tame();
   return k;
 }
 
-double StageSolver::solve(Vectors& increment, const Rule& rule, SolverWork& work) {
+/// A step that carries a node away from those around it is none: it hangs on few springs, which a step so long turns to
+/// where tangents knew nothing of. It goes on with the others.
+void StageSolver::tame() {
+  const Grid& grid = level.grid();
   const size_t n = level.places();
-  double norm = residual(increment);
-  for (int step = 0; step < rule.newton; ++step) {
-    if (norm <= noise_n) break;
-    work.iterations += static_cast<uint64_t>(solveLinear(rule, norm));
+  for (uint32_t node = 0; node < grid.nodeCount(); ++node) {
+    const uint32_t body = grid.bodyOf(node);
+    const size_t place = grid.place_of[node];
+    const Vector3f own(s_[place], s_[n + place], s_[2 * n + place]);
+    Vector3f around = Vector3f::Zero();
+    float stiffness = 0, apart = 0;
+    for (size_t pair = 0; pair < kPairs; ++pair) {
+      const std::array<int, 3>& o = kNeighborOffsets[2 * pair];
+      for (const int side : {1, -1}) {
+        const size_t far = grid.beside(body, place, side * o[0], side * o[1], side * o[2]);
+        const float k = level.stiffness(pair, side > 0 ? place : far);
+        if (k == 0) continue;
+        const Vector3f step(s_[far], s_[n + far], s_[2 * n + far]);
+        stiffness += k;
+        around += k * step;
+        apart += k * (step - own).norm();
+      }
+    }
+    const float far = kApart * level.box(body).params.origin_spacing.w;
+    if (apart <= far * stiffness || level.free()[place] == 0) continue;
+    const Vector3f middle = around / stiffness;
+    tamed_.push_back({static_cast<uint32_t>(place), middle + far * stiffness / apart * (own - middle)});
+  }
+  for (const Plane& each : tamed_)
+    for (size_t c = 0; c < 3; ++c) s_[c * n + each.place] = each.normal[static_cast<int>(c)];
+  tamed_.clear();
+  level.project(s_);
+}
+
+double StageSolver::solve(Vectors& increment, const Rule& rule, SolverWork& work, Touched* touched) {
+  const size_t n = level.places();
+  double norm = 0;
+  for (int step = 0;; ++step) {
+    bool changed = false;
+    const double before = norm;
+    norm = residual(increment, touched, &changed);
+    const bool done = step > 0 && !changed && norm <= rule.again * before;
+    if (done || norm <= noise_n || step >= rule.newton + (changed ? kMoreTouched : 0)) return norm;
+    work.iterations += static_cast<uint64_t>(solveLinear(increment, rule, norm));
     ++work.systems;
     level.forPlaces([&](size_t at, size_t count, const layout::BodyParams&) {
       for (size_t c = 0; c < 3; ++c)
         for (size_t i = c * n + at; i < c * n + at + count; ++i) increment[i] += s_[i];
     });
-    const double left = residual(increment);
-    const bool done = left <= rule.again * norm;
-    norm = left;
-    if (done) break;
   }
-  return norm;
 }
 
 }  // namespace viscera::multigrid

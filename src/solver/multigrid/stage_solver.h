@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <future>
 #include <memory>
 
 #include "solver/multigrid/hierarchy.h"
@@ -15,6 +16,27 @@ struct Rule {
   int least = 2, most = 15;  ///< iterations
   double again = 0.3;        ///< another Newton step while it left more of the residual
   int newton = 3;            ///< steps at most
+  /// Products with the change of forces itself rather than with the positive tangent, which preconditions only: more
+  /// iterations in a system, and each dearer, but Newton's method meets 1e-4 in a few steps.
+  bool exact = false;
+  bool tame = true;  ///< steps carry no node far from those around it
+};
+
+/// Energy of all that can move [J].
+struct Energy {
+  double kinetic_j = 0;
+  double sum_j = 0;  ///< kinetic and elastic less the work of gravity and load
+};
+
+/// What touches nodes, and holds some of them.
+class Touched {
+ public:
+  virtual ~Touched() = default;
+  /// Moves what an increment may not have, and looks for what it meets.
+  virtual void place(Vectors& increment) = 0;
+  /// Tells the level who is held. @param lacks  residual of the increment, to which friction is added
+  /// @return others than before
+  virtual bool press(Vectors& lacks, const Vectors& increment, FineLevel& level) = 0;
 };
 
 /// Solves, for the increment du of a stage (physics.md 2),
@@ -28,15 +50,22 @@ class StageSolver {
   void refresh();
   /// The hierarchy is made for this stage, if it is not good enough for it as it is.
   void begin(const Stage& stage);
-  void rebuild();  ///< the hierarchy, from the lattice as it is
+  /// Begins to build the hierarchy of the springs as they are now, on a thread of its own; takeRebuilt() waits for it
+  /// and takes it.
+  void rebuildAside();
+  void takeRebuilt();
 
   /// Residual of an increment [N], 0 where not free; linearises there. @return its norm
   double residual(const Vectors& increment);
+  /// The same where something may touch nodes, which are put where they may be.
+  /// @param changed  others are held than before
+  double residual(Vectors& increment, Touched* touched, bool* changed = nullptr);
   /// Improves `increment` until the rule is met. Leaves all linearised at the end.
   /// @return norm of the residual at the end; not finite where the state was too wild for float32
-  double solve(Vectors& increment, const Rule& rule, SolverWork& work);
-  /// One system: x of A x = residual(). @return iterations
-  int solveLinear(const Rule& rule, double norm);
+  double solve(Vectors& increment, const Rule& rule, SolverWork& work, Touched* touched = nullptr);
+  Energy energy(const Vectors& displacement_m, const Vectors& velocity_m_per_s, double elastic_j) const;
+  /// One system: x of A x = residual(increment), which was asked for last. @return iterations
+  int solveLinear(const Vectors& increment, const Rule& rule, double norm);
 
   FineLevel level;
   Vectors start;   ///< u [m]
@@ -56,15 +85,21 @@ class StageSolver {
   /// Levels and the stage that they were built for.
   struct Built {
     Stage stage;
-    std::unique_ptr<Hierarchy> hierarchy;
+    std::shared_ptr<Hierarchy> hierarchy;
     float largest = 0;
   };
-  void build();
+  void tame();
+  void evaluate(const Vectors& increment);
+  double masked();
+  void multiply(const Vectors& increment, const Vectors& p, Vectors& q);
 
-  std::vector<Built> built_;     ///< steps with and without contacts take turns: each kind has its own
+  std::vector<Built> built_;     ///< kinds of steps take turns: each has its own
   size_t now_ = 0;               ///< which is in use
   double stiffest_n_per_m_ = 0;  ///< sum of a node's springs
   Vectors r_, s_, p_, q_, z_, d_, work_;
+  std::vector<Plane> tamed_;  ///< places, with their steps
+  std::future<Built> rebuilt_;
+  Vectors force_;  ///< where the residual was, for exact products
 };
 
 }  // namespace viscera::multigrid

@@ -13,6 +13,7 @@ const double kSecond = (1 - kGamma) / (2 - kGamma);    // c / dt of BDF2
 const double kOfMiddle = 1 / (kGamma * (2 - kGamma));  // A
 const double kOfStart = kOfMiddle - 1;                 // B
 constexpr double kTakes = 0.2;      // share of the kinetic energy that may be taken to keep energy from growing
+constexpr double kGiven = 2;        // times the work of who touches, which is known by its last forces only
 constexpr double kRounding = 2e-6;  // of the energies that are summed: float32
 
 }  // namespace
@@ -24,24 +25,8 @@ Stage TrBdf2::stageOf(double dt_s) {
   return {1 / (c * c), 1 / c};
 }
 
-/// Kinetic and elastic energy less the work of gravity on what is free [J].
-double TrBdf2::energyOf(const Vectors& u, const Vectors& v, double elastic_j, double& kinetic_j) const {
-  const FineLevel& level = solver_.level;
-  const size_t n = level.places();
-  const Vector3f& g = solver_.gravity;
-  kinetic_j = level.sum([&](size_t i) {
-    const float speed2 = v[i] * v[i] + v[n + i] * v[n + i] + v[2 * n + i] * v[2 * n + i];
-    return static_cast<double>(0.5f * level.free()[i] * level.mass()[i] * speed2);
-  });
-  const double fallen_j = level.sum([&](size_t i) {
-    return static_cast<double>(level.free()[i] * level.mass()[i] *
-                               (g.x() * u[i] + g.y() * u[n + i] + g.z() * u[2 * n + i]));
-  });
-  return kinetic_j + elastic_j - fallen_j;
-}
-
 /// dy, dw and the first guess of the trapezoidal stage, from forces at its start.
-void TrBdf2::beginFirst(double dt_s, const Vectors& v) {
+void TrBdf2::beginFirst(double dt_s, const Vectors& v, const Touching* touching) {
   const FineLevel& level = solver_.level;
   const size_t n = level.places();
   const auto first = static_cast<float>(kGamma * dt_s), rate = static_cast<float>(solver_.stage.rate_per_s);
@@ -53,18 +38,27 @@ void TrBdf2::beginFirst(double dt_s, const Vectors& v) {
       for (size_t i = at; i < at + count; ++i) {
         const size_t j = axis * n + i;
         const float mass = level.mass()[i];
-        const float a = mass > 0 ? level.free()[i] * (force[j] / mass + g - body.drag_per_s * v[j]) : 0;
+        const float a =
+            mass > 0 ? level.movable()[i] * ((force[j] + solver_.load[j]) / mass + g - body.drag_per_s * v[j]) : 0;
         solver_.wanted[j] = first * v[j] + a / inertia;
         solver_.offset[j] = v[j] / rate;
         increment_[j] = first * v[j];
       }
     }
   });
+  if (!touching) return;
+  touching->forPressedBefore([&](size_t place) {  // what pressed them balanced these forces
+    for (size_t j = place; j < 3 * n; j += n) solver_.wanted[j] = first * v[j];
+  });
 }
 
 /// The same of the BDF2 stage, from the solution of the first.
-void TrBdf2::beginSecond(double dt_s, const Vectors& v) {
+void TrBdf2::beginSecond(double dt_s, const Vectors& v, Touching* touching) {
   const size_t n = solver_.level.places();
+  if (touching)
+    touching->goOnEvenly([&](size_t place) {  // a surface has stopped them, and throws nobody back
+      for (size_t j = place; j < 3 * n; j += n) even_.push_back(increment_[j] / static_cast<float>(kGamma));
+    });
   const auto rest = static_cast<float>((1 - kGamma) * dt_s), rate = static_cast<float>(solver_.stage.rate_per_s);
   const auto c = static_cast<float>(kSecond * dt_s), a = static_cast<float>(kOfMiddle),
              b = static_cast<float>(kOfStart);
@@ -78,34 +72,39 @@ void TrBdf2::beginSecond(double dt_s, const Vectors& v) {
       }
     }
   });
+  if (!touching) return;
+  const float* even = even_.data();
+  touching->goOnEvenly([&](size_t place) {
+    for (size_t j = place; j < 3 * n; j += n) solver_.wanted[j] = increment_[j] = *even++;
+  });
+  even_.clear();
 }
 
-bool TrBdf2::step(const Substep& step, Vectors& u, Vectors& v, SolverWork& work) {
+bool TrBdf2::step(const Substep& step, const Vectors& u, const Vectors& v, Touching* touching, SolverWork& work) {
   const FineLevel& level = solver_.level;
-  const size_t n = level.places();
   const double dt_s = static_cast<double>(step.dt_s);
   solver_.begin(stageOf(dt_s));
   solver_.gravity = step.gravity;
   solver_.start = u;
-  double kinetic_j = 0, moved_j = 0;
-  const double before_j = energyOf(u, v, solver_.level.linearise(u, v), kinetic_j);
-  beginFirst(dt_s, v);
-  solver_.solve(increment_, Rule(), work);
-  beginSecond(dt_s, v);
-  solver_.solve(increment_, Rule(), work);
-  const double after_j = energyOf(solver_.displacement, solver_.velocity, solver_.elastic_j, moved_j);
-  if (!std::isfinite(after_j)) return false;
-  const double excess_j = after_j - before_j - kRounding * (kinetic_j + std::abs(before_j));
-  if (excess_j > kTakes * moved_j) return false;
-  const float slowed = excess_j > 0 ? static_cast<float>(std::sqrt(1 - excess_j / moved_j)) : 1;
+  solver_.level.hold({});
+  const Energy before = solver_.energy(u, v, solver_.level.linearise(u, v));
+  beginFirst(dt_s, v, touching);
+  if (touching) touching->setShare(kGamma);
+  solver_.solve(increment_, Rule(), work, touching);
+  beginSecond(dt_s, v, touching);
+  if (touching) touching->setShare(1);
+  solver_.solve(increment_, Rule(), work, touching);
+  const Energy after = solver_.energy(solver_.displacement, solver_.velocity, solver_.elastic_j);
+  if (!std::isfinite(after.sum_j)) return false;
+  const double given_j = touching ? kGiven * std::max(0.0, touching->work(increment_)) : 0;
+  const double excess_j =
+      after.sum_j - before.sum_j - given_j - kRounding * (before.kinetic_j + std::abs(before.sum_j));
+  if (excess_j > kTakes * after.kinetic_j) return false;
+  if (excess_j <= 0) return true;
+  const float slowed = static_cast<float>(std::sqrt(1 - excess_j / after.kinetic_j));
   level.forPlaces([&](size_t at, size_t count, const layout::BodyParams&) {
-    for (size_t axis = 0; axis < 3; ++axis) {
-      for (size_t i = at; i < at + count; ++i) {
-        const size_t j = axis * n + i;
-        u[j] = solver_.displacement[j];
-        v[j] = level.free()[i] * slowed * solver_.velocity[j];
-      }
-    }
+    for (size_t c = 0; c < 3; ++c)
+      for (size_t i = c * level.places() + at; i < c * level.places() + at + count; ++i) solver_.velocity[i] *= slowed;
   });
   return true;
 }

@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "solver/multigrid/stage_solver.h"
-#include "solver/substep.h"
+#include "solver/multigrid/touching.h"
 
 namespace viscera::multigrid {
 
@@ -14,17 +13,20 @@ class TrBdf2 {
   explicit TrBdf2(StageSolver& solver);
 
   static Stage stageOf(double dt_s);
-  /// From `displacement` and `velocity` of the caller's, into the same. @return done: else nothing was changed, as
-  /// energy would have grown or something was not finite
-  bool step(const Substep& step, Vectors& displacement_m, Vectors& velocity_m_per_s, SolverWork& work);
+  /// Solves for increments and velocities at the end. @param touching  of this step, begun; null: nothing is about
+  /// @return done: else energy would have grown or something was not finite
+  bool step(const Substep& step, const Vectors& displacement_m, const Vectors& velocity_m_per_s, Touching* touching,
+            SolverWork& work);
+  Vectors& increment() { return increment_; }
+  Vectors& velocity() { return solver_.velocity; }
 
  private:
-  void beginFirst(double dt_s, const Vectors& v);
-  void beginSecond(double dt_s, const Vectors& v);
-  double energyOf(const Vectors& displacement, const Vectors& velocity, double elastic_j, double& kinetic_j) const;
+  void beginFirst(double dt_s, const Vectors& v, const Touching* touching);
+  void beginSecond(double dt_s, const Vectors& v, Touching* touching);
 
   StageSolver& solver_;
   Vectors increment_;
+  std::vector<float> even_;  ///< increments of nodes that go on evenly, three each
 };
 
 }  // namespace viscera::multigrid
