@@ -124,6 +124,36 @@ TEST(Wound, IncisionTapersAtItsEnds) {
   }
 }
 
+TEST(Wound, CountsWhereItStaysOpenInASkinWithABorder) {
+  TriangleMesh mesh = boxSurface(Vector3d::Constant(0.0), Vector3d(0.08, 0.07, 0.06), {19, 17, 15});
+  const auto on_top = [&](const std::array<uint32_t, 3>& t) {
+    return std::all_of(t.begin(), t.end(), [&](uint32_t v) { return mesh.positions_m[v].z() > 0.0599F; });
+  };
+  mesh.triangles.erase(std::remove_if(mesh.triangles.begin(), mesh.triangles.end(), on_top), mesh.triangles.end());
+  Wounded box(bindTo(blockSolid({8, 7, 6}, kSpacing_m), mesh));
+  box.update();
+  EXPECT_EQ(box.wound.holes(), 0u);
+  box.cut({0.0403, 0.0352, 0.0304}, Vector3d::UnitX());
+  box.update();
+  EXPECT_GT(box.wound.holes(), 0u);  // along the top, where there is no skin
+  box.makeWhole();
+  EXPECT_EQ(box.wound.holes(), 0u);
+}
+
+TEST(Wound, CountsEdgesThatLoseAPieceBetweenTwoCuts) {
+  // A layer of nodes between two cuts that pass through the same edges of the skin, from 0.0379 to 0.0421.
+  Wounded box = viscera::testing::box();
+  box.cut({0.0393, 0.0352, 0.0304}, Vector3d::UnitX());
+  box.update();
+  EXPECT_EQ(box.wound.slivers(), 0u);
+  box.cut({0.0407, 0.0352, 0.0304}, Vector3d::UnitX());
+  box.update();
+  EXPECT_GT(box.wound.slivers(), 0u);
+  EXPECT_EQ(openEdges(box, box.positions(box.still())), 0u);
+  box.makeWhole();
+  EXPECT_EQ(box.wound.slivers(), 0u);
+}
+
 TEST(Wound, CutsThatCrossLeaveClosedPieces) {
   const std::vector<Vector3d> normals = anglesOfCuts();
   for (size_t i = 0; i < normals.size(); ++i) {
