@@ -26,6 +26,7 @@ void addOverrides(CLI::App* command, Overrides& overrides) {
 
 int dispatch(int argc, char** argv) {
   CLI::App app("viscera: soft-tissue surgical simulator");
+  app.set_version_flag("--version", "viscera " VISCERA_VERSION);
   app.require_subcommand(1);
   Options o;
   CLI::App* check = app.add_subcommand("check", "list the EGL devices and say which is taken, and why others are not");

@@ -62,6 +62,12 @@ TEST_F(ErrorLines, CommandLineIsRefusedInOneLineToo) {
       says(lineOf(viscera({"bench", "step", "--nodes", "0"}), false), {"--nodes", "viscera bench step --help`"}));
 }
 
+TEST_F(ErrorLines, VersionIsNoError) {
+  const auto result = viscera({"--version"});
+  EXPECT_EQ(result.status, 0);
+  EXPECT_TRUE(says(result.out, {"viscera 0."}));
+}
+
 TEST_F(ErrorLines, MemoryThatDoesNotSufficeSaysWhatFor) {
   // A million cells need some 100 MB more than a program that has loaded its libraries.
   const std::string command = "ulimit -v 600000; exec " + shellQuoted(VISCERA_COMMAND) + " run " + shellQuoted(scene_) +

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <regex>
 
+#include "support/source_folder.h"
 #include "support/temporary_folder.h"
 
 namespace viscera {
@@ -17,7 +18,7 @@ std::vector<std::string> shadersThatSay(const std::string& pattern) {
   const std::regex comment("//[^\n]*"), wanted(pattern);
   std::vector<std::string> out;
   for (const char* folder : {"/shaders", "/bench", "/include/viscera/layout"}) {
-    for (const auto& file : std::filesystem::recursive_directory_iterator(std::string(VISCERA_SOURCE_DIR) + folder)) {
+    for (const auto& file : std::filesystem::recursive_directory_iterator(test::sourceFolder() + folder)) {
       const std::string kind = file.path().extension().string();
       if (kind != ".comp" && kind != ".vert" && kind != ".frag" && kind != ".glsl" && kind != ".h") continue;
       const std::string code = std::regex_replace(test::readFile(file.path().string()), comment, "");

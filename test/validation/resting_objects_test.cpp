@@ -7,6 +7,7 @@
 
 #include <algorithm>
 
+#include "support/source_folder.h"
 #include "viscera/session/session.h"
 #include "viscera/tools/strokes.h"
 
@@ -18,7 +19,7 @@ namespace {
 constexpr double kRests_m_per_s = 0.03;
 
 Scene shipped(const std::string& name) {
-  return loadScene(VISCERA_SOURCE_DIR "/config/scenes/" + name + ".yaml");
+  return loadScene(test::sourceFolder() + "/config/scenes/" + name + ".yaml");
 }
 
 /// A scene that is run, and where its nodes are then.
@@ -103,7 +104,7 @@ TEST_F(Resting, AClothOnEdgeFoldsOverItselfOnTheFloor) {
 
 TEST_F(Resting, TheLipsOfACutClothHangApartAndRest) {
   const Scene scene = shipped("cloth_on_points");
-  const Strokes strokes = loadStrokes(VISCERA_SOURCE_DIR "/config/strokes/cut_cloth.yaml");
+  const Strokes strokes = loadStrokes(test::sourceFolder() + "/config/strokes/cut_cloth.yaml");
   run(scene, strokes.duration_s() + 4, strokes);
   // Nodes of the near edge on the two sides of the blade, side by side before.
   double left = -1, right = 1;

@@ -8,6 +8,7 @@
 #include <map>
 
 #include "support/gpu_fixture.h"
+#include "support/source_folder.h"
 #include "viscera/model/model.h"
 #include "viscera/session/session.h"
 #include "viscera/tools/strokes.h"
@@ -17,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kConfig = fs::path(VISCERA_SOURCE_DIR) / "config";
+const fs::path kConfig = fs::path(test::sourceFolder()) / "config";
 constexpr double kCoarseM = 0.008;  ///< quick to build, and still fine enough for every wall of an organ to be there
 
 std::vector<fs::path> filesIn(const char* folder) {
