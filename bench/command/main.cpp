@@ -43,6 +43,10 @@ CLI::App* addStep(CLI::App& bench, bench::StepOptions& options) {
   CLI::App* step = bench.add_subcommand("step", "time per substep of a cube and a heart");
   step->add_option("--nodes", options.nodes, "node counts; default 10000 42745 100000")->check(CLI::Range(8, 20000000));
   step->add_option("--scene", options.scene, "measure this scene instead");
+  step->add_option("--backend", options.backend, "cpu (without EGL), gpu, the default, or both")
+      ->check(CLI::IsMember({"cpu", "gpu", "both"}));
+  step->add_option("--threads", options.threads, "of the CPU backend; 0, the default: as many as there are processors")
+      ->check(CLI::Range(0, 1024));
   step->add_option("--csv", options.csv, "file to write; - is standard output");
   step->add_flag("--stages", options.stages, "time of each stage on the GPU, by its own clock");
   step->add_option("--set", options.overrides,
@@ -50,6 +54,8 @@ CLI::App* addStep(CLI::App& bench, bench::StepOptions& options) {
       ->allow_extra_args(false);
   step->get_option("--scene")->excludes("--nodes");
   step->get_option("--set")->needs("--scene");
+  step->get_option("--stages")->excludes("--backend");
+  step->get_option("--threads")->needs("--backend");
   return step;
 }
 

@@ -9,9 +9,10 @@
 #include <thread>
 
 #include "bench/command/stages.h"
+#include "bench/harness/backends.h"
+#include "bench/harness/rate.h"
 #include "cli/scene_lookup.h"
-#include "solver/gpu/gpu_solver.h"
-#include "viscera/gpu/context.h"
+#include "solver/cpu/cpu_solver.h"
 #include "viscera/math/error.h"
 #include "viscera/math/state_hash.h"
 
@@ -26,6 +27,9 @@ constexpr int kSubstepsPerTick = 20;  // a rate like that of a live session: one
 struct Row {
   std::string scene;
   size_t nodes = 0;
+  Backend backend = Backend::kGpu;
+  int threads = 0;
+  std::string renderer;
   double median_ms = 0, p99_ms = 0;
   std::string hash;
 };
@@ -53,10 +57,8 @@ void fitTick(const Model& model, Scene& scene) {
   scene.solver.tick_hz = 1.0 / (kSubstepsPerTick * scene.solver.dt_fraction * safeTimeStep(model)) * (1 + 1e-9);
 }
 
-Row measure(Scene scene) {
-  const Model model = buildModel(scene, cli::consoleProgress());
-  fitTick(model, scene);
-  GpuSolver solver(model, scene);
+/// Milliseconds per substep of every timed tick.
+std::vector<double> timesOf(Ticks& solver) {
   std::vector<double> ms;
   layout::TickStats stats;
   for (int t = 0; t < kWarmUpTicks + kTicks; ++t) {
@@ -67,19 +69,32 @@ Row measure(Scene scene) {
     const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
     if (t >= kWarmUpTicks) ms.push_back(took.count() / solver.substeps());
   }
-  std::sort(ms.begin(), ms.end());
-  const size_t p99 = std::min(ms.size() - 1, static_cast<size_t>(0.99 * static_cast<double>(ms.size())));
-  return {scene.name, model.activeNodes(), ms[ms.size() / 2], ms[p99],
-          StateHash::text(stateHash(model, solver.readState()))};
+  return ms;
+}
+
+Row measure(const Model& model, const Scene& scene, Backend backend, const Machine& machine) {
+  const std::unique_ptr<Ticks> solver = solverOn(backend, model, scene);
+  const std::vector<double> ms = timesOf(*solver);
+  const auto there = static_cast<int>(std::thread::hardware_concurrency());
+  Row row;
+  row.scene = scene.name;
+  row.nodes = model.activeNodes();
+  row.backend = backend;
+  row.threads = backend == Backend::kCpu && scene.solver.threads > 0 ? scene.solver.threads : there;
+  row.renderer = backend == Backend::kCpu ? simdTargets().front() : machine.context->renderer();
+  row.median_ms = median(ms);
+  row.p99_ms = percentile(ms, 0.99);
+  row.hash = StateHash::text(stateHash(model, solver->readState()));
+  return row;
 }
 
 std::string quoted(const std::string& text) {
   return text.find(',') == std::string::npos ? text : '"' + text + '"';
 }
 
-void print(std::ostream& out, const Row& row, const gpu::Context& context) {
-  out << row.scene << ',' << row.nodes << ",gpu," << std::thread::hardware_concurrency() << ','
-      << quoted(context.renderer()) << ',' << row.median_ms << ',' << row.p99_ms << ','
+void print(std::ostream& out, const Row& row) {
+  out << row.scene << ',' << row.nodes << ',' << nameOf(row.backend) << ',' << row.threads << ','
+      << quoted(row.renderer) << ',' << row.median_ms << ',' << row.p99_ms << ','
       << static_cast<double>(row.nodes) / (row.median_ms * 1e-3) << ',' << row.hash << std::endl;
 }
 
@@ -89,6 +104,16 @@ void stagesOf(const std::vector<Scene>& scenes, std::ostream& out) {
     const Model model = buildModel(scene, cli::consoleProgress());
     fitTick(model, scene);
     printStages(out, model, scene);
+  }
+}
+
+void measureAll(const std::vector<Scene>& scenes, const Machine& machine, int threads, std::ostream& out) {
+  out << "scene,nodes,backend,threads,renderer,ms_per_step_median,ms_per_step_p99,node_updates_per_s,state_hash\n";
+  for (Scene scene : scenes) {
+    const Model model = buildModel(scene, cli::consoleProgress());
+    fitTick(model, scene);
+    if (threads > 0) scene.solver.threads = threads;
+    for (const Backend backend : machine.backends) print(out, measure(model, scene, backend, machine));
   }
 }
 
@@ -110,13 +135,12 @@ int step(const StepOptions& options) {
     if (!file) throw Error(options.csv + ": cannot be written");
   }
   std::ostream& out = options.csv == "-" ? std::cout : file;
-  gpu::Context context;
+  const Machine machine = machineFor(options.backend, -1);
   if (options.stages) {
     stagesOf(scenes, out);
     return 0;
   }
-  out << "scene,nodes,backend,threads,renderer,ms_per_step_median,ms_per_step_p99,node_updates_per_s,state_hash\n";
-  for (const Scene& scene : scenes) print(out, measure(scene), context);
+  measureAll(scenes, machine, options.threads, out);
   return 0;
 }
 

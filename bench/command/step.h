@@ -10,8 +10,10 @@
 namespace viscera::bench {
 
 struct StepOptions {
-  std::vector<int> nodes;  ///< of cube and heart; empty: the default
-  std::string scene;       ///< in their place; empty: none
+  std::vector<int> nodes;       ///< of cube and heart; empty: the default
+  std::string scene;            ///< in their place; empty: none
+  std::string backend = "gpu";  ///< cpu, gpu or both
+  int threads = 0;              ///< of the CPU backend; 0: as many as there are processors
   std::string csv = "-";
   bool stages = false;  ///< of the GPU, in place of whole substeps
   Overrides overrides;

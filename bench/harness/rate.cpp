@@ -41,6 +41,7 @@ Rate rateOf(const Candidate& candidate, const std::vector<double>& substep_s) {
   Rate rate;
   rate.substeps_per_s = 1 / middle;
   rate.node_updates_per_s = candidate.nodes / middle;
+  rate.fastest_s = *fastest;
   rate.spread = (*slowest - *fastest) / middle;
   return rate;
 }

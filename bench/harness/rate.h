@@ -22,6 +22,7 @@ struct Candidate {
 struct Rate {
   double substeps_per_s = 0;      ///< median of the rounds
   double node_updates_per_s = 0;  ///< nodes times that
+  double fastest_s = 0;           ///< of a substep, in the fastest round: what a busy machine disturbs least
   double spread = 0;              ///< of the rounds: (slowest - fastest) / median
 
   double ns_per_update() const { return 1e9 / node_updates_per_s; }

@@ -15,14 +15,6 @@ constexpr double kSameWithin = 1e-5;  // spacings: float32 rounding of sixty sub
 constexpr double kWave = 0.02;        // spacings
 constexpr double kNothing = 1e-9;     // a feature of this size is there and does nothing that float32 can hold
 
-/// A feature, switched on without effect, and the same scene without it.
-struct Feature {
-  std::string name;
-  Specimen with, without;
-  ToolMotions motions_with;  ///< those without it have none
-  bool same_result = true;   ///< without it, the result is to be the same
-};
-
 Specimen specimen(int edge, double dashpot_ratio = 0, double poisson_ratio = 0.25) {
   MaterialConfig material = specimenMaterial(dashpot_ratio);
   material.poisson_ratio = poisson_ratio;
@@ -79,6 +71,8 @@ Feature cutState(int edge) {
   return out;
 }
 
+}  // namespace
+
 std::vector<Feature> featuresOf(int edge) {
   std::vector<Feature> out;
   out.push_back({"dashpot", specimen(edge, kNothing), specimen(edge), {}});
@@ -92,6 +86,8 @@ std::vector<Feature> featuresOf(int edge) {
   out.push_back(fixedHalf(edge));
   return out;
 }
+
+namespace {
 
 using Make = std::shared_ptr<Ticks> (*)(const Specimen&);
 std::shared_ptr<Ticks> cpu(const Specimen& specimen) {

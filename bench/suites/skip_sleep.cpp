@@ -16,35 +16,9 @@ constexpr double kOfShare = 2;           // cost of a probed corner over the sha
 constexpr double kSleepError = 0.01;     // of the largest displacement
 constexpr double kSettle_s = 1.5, kDrag_per_s = 60, kProbeRadius_m = 0.006, kPress_m = 0.001;
 
-/// A cube that is held at its top and, if it hangs, sags. It settles fast, so that it is soon asleep.
-Specimen restingCube(int edge, bool sleeps, double gravity_m_per_s2) {
-  MaterialConfig material = specimenMaterial(0.2);
-  material.drag_per_s = kDrag_per_s;
-  Specimen out = cubeOf(edge, material);
-  Lattice& lattice = out.model.bodies[0].lattice;
-  for (uint32_t slot : lattice.active_slots) {
-    if (lattice.nodeAt(slot).z() == edge - 1) lattice.nodes[slot].lo |= layout::kFixedBit;
-  }
-  out.start = restState(out.model);
-  out.scene.environment.gravity_m_per_s2 = Vector3d(0, 0, -gravity_m_per_s2);
-  out.scene.solver.sleep_speed_m_per_s = sleeps ? SolverConfig{}.sleep_speed_m_per_s : 0;
-  out.scene.styluses.resize(1);
-  out.scene.styluses[0].probe.radius_m = kProbeRadius_m;
-  return out;
-}
-
 /// A probe at rest, pressed into the lowest corner.
 ToolMotions pressedCorner() {
   return probeAt(Vector3d::Constant((kPress_m - kProbeRadius_m) / std::sqrt(3.0)));
-}
-
-void settle(Solver& solver, const Scene& scene, const ToolMotions& motions, double seconds) {
-  layout::TickStats stats;
-  for (double t = 0; t < seconds; t += 1 / scene.solver.tick_hz) {
-    solver.step(motions);
-    while (solver.pollStats(stats, true)) {
-    }
-  }
 }
 
 double awakeShare(const Solver& solver) {
@@ -91,6 +65,31 @@ double sleepError(int edge) {
 }
 
 }  // namespace
+
+Specimen restingCube(int edge, bool sleeps, double gravity_m_per_s2) {
+  MaterialConfig material = specimenMaterial(0.2);
+  material.drag_per_s = kDrag_per_s;
+  Specimen out = cubeOf(edge, material);
+  Lattice& lattice = out.model.bodies[0].lattice;
+  for (uint32_t slot : lattice.active_slots) {
+    if (lattice.nodeAt(slot).z() == edge - 1) lattice.nodes[slot].lo |= layout::kFixedBit;
+  }
+  out.start = restState(out.model);
+  out.scene.environment.gravity_m_per_s2 = Vector3d(0, 0, -gravity_m_per_s2);
+  out.scene.solver.sleep_speed_m_per_s = sleeps ? SolverConfig{}.sleep_speed_m_per_s : 0;
+  out.scene.styluses.resize(1);
+  out.scene.styluses[0].probe.radius_m = kProbeRadius_m;
+  return out;
+}
+
+void settle(Solver& solver, const Scene& scene, const ToolMotions& motions, double seconds) {
+  layout::TickStats stats;
+  for (double t = 0; t < seconds; t += 1 / scene.solver.tick_hz) {
+    solver.step(motions);
+    while (solver.pollStats(stats, true)) {
+    }
+  }
+}
 
 void measureSleep(Report& report) {
   const int edge = report.isShort() ? 16 : 35;

@@ -134,6 +134,10 @@ TEST_F(BadInput, CommandLineIsExplainedNotCrashedOn) {
                                                        {"run", scene_, "--seconds", "nan"},
                                                        {"bench"},
                                                        {"bench", "step", "--nodes", "0"},
+                                                       {"bench", "step", "--backend", "fpga"},
+                                                       {"bench", "step", "--backend", "cpu", "--threads", "-1"},
+                                                       {"bench", "step", "--threads", "1"},
+                                                       {"bench", "step", "--backend", "cpu", "--stages"},
                                                        {"check", "--device", "x"}};
   for (const auto& arguments : wrong) {
     const Ending ending = viscera(arguments);

@@ -321,6 +321,25 @@ TEST(Bench, StepWritesOneRowForACubeAndOneForAHeart) {
   EXPECT_NEAR(std::stod(lines[2].substr(6)), 1000, 20);  // target_nodes is reached within 2 %
 }
 
+TEST(Bench, StepTimesTheBackendsAskedForWithAsManyThreads) {
+  const auto rowsOf = [](const std::vector<std::string>& options) {
+    std::vector<std::string> arguments = {"bench", "step", "--nodes", "1000"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const Ending ending = viscera(arguments);
+    EXPECT_EQ(ending.status, 0) << ending.err;
+    return linesOf(ending.out);
+  };
+  const auto hashOf = [](const std::string& row) { return row.substr(row.rfind(',')); };
+  const std::vector<std::string> one = rowsOf({"--backend", "cpu", "--threads", "1"});
+  const std::vector<std::string> both = rowsOf({"--backend", "both", "--threads", "3"});
+  ASSERT_EQ(one.size(), 3u);
+  EXPECT_EQ(one[1].rfind("cube,1000,cpu,1,", 0), 0u) << one[1];
+  ASSERT_EQ(both.size(), 5u);
+  EXPECT_EQ(both[1].rfind("cube,1000,cpu,3,", 0), 0u) << both[1];
+  EXPECT_EQ(both[2].rfind("cube,1000,gpu,", 0), 0u) << both[2];
+  EXPECT_EQ(hashOf(one[1]), hashOf(both[1]));  // the same motion on any number of threads
+}
+
 TEST(Bench, StagesOfAGpuStepAreTimedEach) {
   const Ending ending = viscera({"bench", "step", "--stages", "--nodes", "1000"});
   ASSERT_EQ(ending.status, 0) << ending.err;
