@@ -27,9 +27,11 @@ struct Method {
   int substeps = 1;    ///< per tick
   int iterations = 1;  ///< per substep, of those who iterate
 
-  bool isImplicit() const { return !traitsOf(integrator).is_explicit; }
+  bool iterates() const { return traitsOf(integrator).iterates; }  ///< as often as it says
+  /// Does a backend have it?
+  bool runsOn(Backend backend) const { return backend == Backend::kCpu || !traitsOf(integrator).cpu_only; }
   /// Gathers over all nodes per tick: what an explicit substep and an implicit iteration cost alike.
-  int sweeps() const { return substeps * (isImplicit() ? iterations : 1); }
+  int sweeps() const { return substeps * (iterates() ? iterations : 1); }
   bool operator==(const Method& other) const {
     return std::tie(integrator, substeps, iterations) == std::tie(other.integrator, other.substeps, other.iterations);
   }

@@ -8,12 +8,12 @@ namespace {
 
 /// Curves that are drawn: gnuplot has eight colours. The table has all.
 bool isDrawn(const Method& method) {
-  return !method.isImplicit() || method.iterations == 2 || method.iterations == 10 || method.iterations == 50;
+  return !method.iterates() || method.iterations == 2 || method.iterations == 10 || method.iterations == 50;
 }
 
 std::string seriesOf(const Method& method) {
   return nameOf(method.integrator) +
-         (method.isImplicit() ? ", " + std::to_string(method.iterations) + " iterations" : "");
+         (method.iterates() ? ", " + std::to_string(method.iterations) + " iterations" : "");
 }
 
 void addPoint(Plot& plot, const std::string& name, double x, double y) {
@@ -47,17 +47,22 @@ std::vector<std::vector<Misfit>> drawWorkPrecision(Report& report, const Experim
   for (const Method& method : methods) {
     const double dt = 1 / (experiment.scene.solver.tick_hz * method.substeps * experiment.dt_safe_s);
     const double sweeps = method.sweeps() * experiment.scene.solver.tick_hz;
-    std::vector<Cell> row = {nameOf(method.integrator), dt, method.isImplicit() ? Cell(method.iterations) : Cell(""),
+    std::vector<Cell> row = {nameOf(method.integrator), dt, method.iterates() ? Cell(method.iterations) : Cell(""),
                              sweeps};
     report.stage(stem + ", " + seriesOf(method) + ", dt " + Cell(dt).text(3) + " dt_safe");
     for (size_t b = 0; b < backends.size(); ++b) {
+      if (!method.runsOn(backends[b])) {
+        row.insert(row.end(), 3, Cell(""));
+        errors[b].emplace_back();
+        continue;
+      }
       const Track track = runOn(backends[b], experiment, method);
       const Misfit error = misfit(experiment.model, track, truth);
       const double wall = track.wall_s / experiment.duration_s();
       for (double value : {wall, error.rms, error.max}) row.emplace_back(value);
       errors[b].push_back(error);
       if (isDrawn(method) || report.isShort()) addPoint(by_sweeps[b], seriesOf(method), sweeps, error.rms);
-      if (method.isImplicit() && method.iterations != 10 && !report.isShort()) continue;
+      if (method.iterates() && method.iterations != 10 && !report.isShort()) continue;
       addPoint(walls[b], nameOf(backends[b]) + ": " + seriesOf(method), wall, error.rms);
     }
     table.add(row);

@@ -7,6 +7,7 @@
 #include <limits>
 #include <sstream>
 
+#include "model/scene/integrators.h"
 #include "solver/make_solver.h"
 #include "solver/stable_step.h"
 #include "solver/substeps.h"
@@ -124,10 +125,12 @@ std::string noteOf(const SpacingChoice& choice, const StepTime& step, const Scen
 
 }  // namespace
 
-Scene withChosenSpacing(const Scene& scene, const gpu::Context* context, const Progress& progress,
+Scene withChosenSpacing(const Scene& asked, const gpu::Context* context, const Progress& progress,
                         const StepTimeCache& cache) {
-  const std::vector<size_t> chosen = autoBodies(scene);
-  if (chosen.empty()) return scene;
+  const std::vector<size_t> chosen = autoBodies(asked);
+  if (chosen.empty()) return asked;
+  Scene scene = asked;  // an integrator that is chosen later is never slower than leapfrog
+  if (scene.solver.integrator == kAutoIntegrator) scene.solver.integrator = Integrator::kLeapfrog;
   if (progress) progress("measure this machine", 0);
   const UndividedBodies bodies(scene);
   const Model others = bodies.others();
@@ -147,7 +150,7 @@ Scene withChosenSpacing(const Scene& scene, const gpu::Context* context, const P
   limits.coarsest_m = bodies.thinnestWall_m();
   const SpacingChoice choice =
       chooseSpacing([&](double h) { return bodies.nodes(h); }, rule.sampleSpacing_m(), limits, progress);
-  Scene out = scene;
+  Scene out = asked;
   for (const size_t b : chosen) {
     out.bodies[b].auto_spacing = false;
     out.bodies[b].spacing_m = choice.spacing_m;

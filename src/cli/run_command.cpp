@@ -46,6 +46,7 @@ Json metricsOf(const Session& session, const layout::TickStats& stats, const std
   metrics.images_skipped = counters.skipped;
   metrics.backend = session.solver().backend();
   metrics.renderer = renderer;
+  metrics.stepped_by = session.backendNote();
   return toJson(metrics);
 }
 

@@ -19,6 +19,7 @@ struct RunMetrics {
   double dt_s = 0, dt_safe_s = 0, dt_limit_s = 0, simulated_s = 0, wall_s = 0;
   Extremes extremes = {};
   std::string backend = {}, renderer = {};
+  std::string stepped_by = {};  ///< Session::backendNote()
 };
 nlohmann::ordered_json toJson(const RunMetrics& metrics);
 

@@ -77,6 +77,7 @@ void SimulationLoop::run() {
     status_.gpu = context.renderer();
     status_.software_gpu = context.isSoftware();
     status_.backend = session.solver().backend();
+    status_.stepped_by = session.backendNote();
   }
   ports_.ready(session);
   rest(session);

@@ -22,7 +22,7 @@ namespace viscera::nodes {
 
 /// How the simulation does: a copy for the diagnostics.
 struct LoopStatus {
-  std::string gpu, backend;
+  std::string gpu, backend, stepped_by;
   bool software_gpu = false;
   bool paused = false;
   double dt_s = 0, dt_safe_s = 0, dt_limit_s = 0;

@@ -80,6 +80,7 @@ void SimulatorDiagnostics::simulation(Status& status) {
   status.add("gpu", now_->gpu);
   status.add("gpu_is_software", now_->software_gpu);
   status.add("backend", now_->backend);
+  status.add("stepped_by", now_->stepped_by);
   status.add("tick", now_->tick);
   status.add("dt_s", now_->dt_s);
   status.add("dt_safe_s", now_->dt_safe_s);

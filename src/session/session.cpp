@@ -50,8 +50,9 @@ Session::Session(const Scene& scene, gpu::Context* context, const Progress& prog
       tools_(scene.styluses, handLimits(model_, scene.solver.tick_hz)),
       obstacles_(scene.obstacles, waveSpeed(model_) / scene.solver.tick_hz),
       pose_times_(kNotedTicks) {
-  solver_ = makeSolver(model_, scene_, context, options.threads);
-  backend_note_ = viscera::backendNote(scene_.solver, context, *solver_);
+  std::string integrator;
+  solver_ = makeSolver(model_, scene_, context, options.threads, &integrator);
+  backend_note_ = viscera::backendNote(scene_.solver, context, *solver_, integrator);
   view_ = makeView(*solver_, model_, scene_, context);
   lookAtObstacles();
   for (const CameraConfig& camera : scene_.cameras) look_.overlays.push_back(camera.overlays);

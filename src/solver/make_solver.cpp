@@ -5,6 +5,7 @@
 #include "model/scene/integrators.h"
 #include "solver/cpu/cpu_solver.h"
 #include "solver/gpu/gpu_solver.h"
+#include "solver/integrator_choice.h"
 #include "solver/multigrid/equilibrium.h"
 #include "viscera/gpu/context.h"
 #include "viscera/math/error.h"
@@ -21,6 +22,14 @@ std::unique_ptr<Solver> started(std::unique_ptr<Ticks> solver, const Model& mode
   return solver;
 }
 
+std::unique_ptr<Ticks> ticksOf(const Model& model, const Scene& scene, Backend backend,
+                               const std::shared_ptr<ThreadPool>& threads) {
+  if (backend != Backend::kCpu) return std::make_unique<GpuSolver>(model, scene);
+  CpuSolverOptions options;
+  options.threads = threads;
+  return std::make_unique<CpuSolver>(model, scene, options);
+}
+
 }  // namespace
 
 Backend chooseBackend(const SolverConfig& config, const gpu::Context* context) {
@@ -29,8 +38,9 @@ Backend chooseBackend(const SolverConfig& config, const gpu::Context* context) {
   return !context || context->isSoftware() ? Backend::kCpu : Backend::kGpu;
 }
 
-std::string backendNote(const SolverConfig& config, const gpu::Context* context, const Solver& solver) {
-  const std::string taken = "stepped by: " + solver.backend();
+std::string backendNote(const SolverConfig& config, const gpu::Context* context, const Solver& solver,
+                        const std::string& choice) {
+  const std::string taken = (choice.empty() ? "" : "integrator: " + choice + "; ") + "stepped by: " + solver.backend();
   if (config.backend != Backend::kAuto) return taken + ", as solver.backend asks";
   if (traitsOf(config.integrator).cpu_only) return taken + ", as solver.integrator steps on the CPU only";
   if (!context) return taken + ", as there is no OpenGL context";
@@ -39,14 +49,17 @@ std::string backendNote(const SolverConfig& config, const gpu::Context* context,
 }
 
 std::unique_ptr<Solver> makeSolver(const Model& model, const Scene& scene, const gpu::Context* context,
-                                   const std::shared_ptr<ThreadPool>& threads) {
-  if (chooseBackend(scene.solver, context) == Backend::kCpu) {
-    CpuSolverOptions options;
-    options.threads = threads;
-    return started(std::make_unique<CpuSolver>(model, scene, options), model, scene, threads);
-  }
-  if (!context) throw GpuError("solver.backend: gpu needs an OpenGL context, and there is none: use cpu or auto");
-  return started(std::make_unique<GpuSolver>(model, scene), model, scene, threads);
+                                   const std::shared_ptr<ThreadPool>& threads, std::string* choice) {
+  const Backend backend = chooseBackend(scene.solver, context);
+  if (backend != Backend::kCpu && !context)
+    throw GpuError("solver.backend: gpu needs an OpenGL context, and there is none: use cpu or auto");
+  if (scene.solver.integrator != kAutoIntegrator)
+    return started(ticksOf(model, scene, backend, threads), model, scene, threads);
+  const IntegratorChoice found = chooseIntegrator(model, scene, backend, threads);
+  if (choice) *choice = found.reason;
+  Scene chosen = scene;
+  chosen.solver.integrator = found.integrator;
+  return started(ticksOf(model, chosen, backend, threads), model, chosen, threads);
 }
 
 }  // namespace viscera

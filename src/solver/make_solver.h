@@ -20,12 +20,15 @@ class Context;
 Backend chooseBackend(const SolverConfig& config, const gpu::Context* context);
 
 /// One line for a person: which backend steps the tissue, and why.
-std::string backendNote(const SolverConfig& config, const gpu::Context* context, const Solver& solver);
+/// @param choice  that makeSolver() told
+std::string backendNote(const SolverConfig& config, const gpu::Context* context, const Solver& solver,
+                        const std::string& choice = {});
 
 /// The solver on the backend that the scene asks for. @param model  must outlive it
 /// @throws GpuError  the scene asks for the GPU, and there is no context
 /// @param threads  of the CPU backend, shared with others; null: solver.threads of its own
+/// @param choice   where solver.integrator is auto, which integrator steps and why
 std::unique_ptr<Solver> makeSolver(const Model& model, const Scene& scene, const gpu::Context* context,
-                                   const std::shared_ptr<ThreadPool>& threads = nullptr);
+                                   const std::shared_ptr<ThreadPool>& threads = nullptr, std::string* choice = nullptr);
 
 }  // namespace viscera

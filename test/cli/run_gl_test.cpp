@@ -87,6 +87,25 @@ TEST_F(Run, MultigridTakesATickInOneStepAndSaysWhatItTook) {
   EXPECT_FALSE(metricsOf(run({"--seconds", "0.05", "--no-view"})).contains("solver_iterations"));
 }
 
+TEST_F(Run, AutoTakesTheFasterIntegratorSaysWhyAndLeavesNoTrace) {
+  const auto runs = [&](const std::string& integrator, const std::vector<std::string>& more) {
+    std::vector<std::string> all = {"--seconds", "0.1", "--no-view", "--set", "solver.integrator=" + integrator};
+    for (const std::string& each : more) all.insert(all.end(), {"--set", each});
+    return metricsOf(run(all));
+  };
+  // Substeps of leapfrog go with the root of E: some tens of thousands a second against sixty steps of multigrid.
+  const std::vector<std::string> stiff = {"bodies[0].material.young_modulus_pa=1e8", "solver.max_substeps=100000"};
+  const Json chosen = runs("auto", stiff);
+  EXPECT_NE(chosen["stepped_by"].get<std::string>().find("integrator: multigrid, as"), std::string::npos) << chosen;
+  EXPECT_EQ(chosen["state_hash"], runs("multigrid", stiff)["state_hash"]);
+  const std::vector<std::string> soft = {"bodies[0].material.young_modulus_pa=1000"};
+  const Json other = runs("auto", soft);
+  EXPECT_NE(other["stepped_by"].get<std::string>().find("integrator: leapfrog, as"), std::string::npos) << other;
+  EXPECT_EQ(other["state_hash"], runs("leapfrog", soft)["state_hash"]);
+  const Json refused = runs("auto", {"collision.enabled=true"});
+  EXPECT_NE(refused["stepped_by"].get<std::string>().find("contacts between nodes"), std::string::npos) << refused;
+}
+
 TEST_F(Run, EquilibriumIsWhereTheBlockHangsFromTheFirstTickOn) {
   constexpr double kApart = 1e-3;  // of the sag, as above
   const Json settled = metricsOf(viscera({"settle", scene_}));

@@ -8,6 +8,10 @@
 
 namespace viscera {
 
+/// `integrator: auto`: leapfrog or multigrid, chosen by makeSolver(), behind which it is not met. Until then what
+/// leapfrog needs is asked. Beyond the enum, whose values are what steps.
+constexpr Integrator kAutoIntegrator = static_cast<Integrator>(5);
+
 /// What an integrator is: all that anybody but its own steppers may ask of it (physics.md 2).
 struct IntegratorTraits {
   Integrator integrator;
@@ -28,13 +32,14 @@ struct IntegratorTraits {
 
 /// By the value of the enum.
 // clang-format off
-constexpr std::array<IntegratorTraits, 5> kIntegrators = {{
+constexpr std::array<IntegratorTraits, 6> kIntegrators = {{
     //                                        explicit dashpot stagger shorten own_pos iterate colours sleep  compens ticks  cpu    edges
     {Integrator::kLeapfrog, "leapfrog",         true,  true,  true,  true,  false, false, false, true,  true,  false, false, true},
     {Integrator::kVerletPaper, "verlet_paper",  true,  false, false, false, true,  false, false, false, false, false, false, false},
     {Integrator::kVbd, "vbd",                   false, false, false, false, false, true,  true,  false, false, false, false, false},
     {Integrator::kPd, "pd",                     false, false, false, false, false, true,  false, false, false, false, false, false},
     {Integrator::kMultigrid, "multigrid",       false, false, false, false, false, false, false, false, false, true,  true,  false},
+    {kAutoIntegrator, "auto",                   true,  true,  true,  true,  false, false, false, true,  true,  false, false, true},
 }};
 // clang-format on
 

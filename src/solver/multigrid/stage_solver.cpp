@@ -151,13 +151,23 @@ Energy StageSolver::energy(const Vectors& u, const Vectors& v, double elastic) c
   return out;
 }
 
+/// Largest component of a vector, over the spacing of its body.
+float StageSolver::farthest(const Vectors& x) const {
+  float out = 0;
+  for (const Block& block : level.grid().blocks) {
+    float most = 0;
+    for (size_t c = 0; c < 3; ++c)
+      for (size_t i = c * level.places() + block.at; i < c * level.places() + block.at + kBlock; ++i)
+        most = std::max(most, std::abs(x[i]));
+    out = std::max(out, most / level.box(block.body).params.origin_spacing.w);
+  }
+  return out;
+}
+
 /// q = A p, A the change of forces at an increment: their difference over a way on which it hardly changes.
 void StageSolver::multiply(const Vectors& increment, const Vectors& p, Vectors& q) {
   const size_t n = level.places();
-  float farthest = 0;  // over its spacing
-  for (const uint32_t place : level.grid().place_of)
-    for (size_t c = 0; c < 3; ++c) farthest = std::max(farthest, std::abs(p[c * n + place]));
-  const float way = kWay * level.box(0).params.origin_spacing.w / std::max(farthest, 1e-30f), per = 1 / way;
+  const float way = kWay / std::max(farthest(p), 1e-30f), per = 1 / way;
   const float rate = static_cast<float>(stage.rate_per_s);
   level.forPlaces([&](size_t at, size_t count, const layout::BodyParams&) {
     for (size_t c = 0; c < 3; ++c) {
@@ -213,7 +223,7 @@ int StageSolver::solveLinear(const Vectors& increment, const Rule& rule, double 
     ++k;
     if (k >= rule.least && std::sqrt(level.dot(r_, r_)) <= enough) break;
   }
-  if (rule.tame) tame();
+  if (rule.tame && farthest(s_) > kApart / 4) tame();
   return k;
 }
 
@@ -222,33 +232,39 @@ int StageSolver::solveLinear(const Vectors& increment, const Rule& rule, double 
 void StageSolver::tame() {
   const Grid& grid = level.grid();
   const size_t n = level.places();
-  for (uint32_t node = 0; node < grid.nodeCount(); ++node) {
-    const uint32_t body = grid.bodyOf(node);
-    const size_t place = grid.place_of[node];
-    const Vector3f own(s_[place], s_[n + place], s_[2 * n + place]);
-    Vector3f around = Vector3f::Zero();
-    float stiffness = 0, apart = 0;
-    for (size_t pair = 0; pair < kPairs; ++pair) {
-      const std::array<int, 3>& o = kNeighborOffsets[2 * pair];
-      for (const int side : {1, -1}) {
-        const size_t far = grid.beside(body, place, side * o[0], side * o[1], side * o[2]);
-        const float k = level.stiffness(pair, side > 0 ? place : far);
-        if (k == 0) continue;
-        const Vector3f step(s_[far], s_[n + far], s_[2 * n + far]);
-        stiffness += k;
-        around += k * step;
-        apart += k * (step - own).norm();
-      }
+  constexpr size_t kPerJob = 512;
+  level.parallel()((grid.nodeCount() + kPerJob - 1) / kPerJob, [&](size_t job) {
+    for (size_t node = job * kPerJob; node < std::min(grid.nodeCount(), (job + 1) * kPerJob); ++node) {
+      const Vector3f step = tamedStep(static_cast<uint32_t>(node));
+      for (size_t c = 0; c < 3; ++c) z_[c * n + grid.place_of[node]] = step[static_cast<int>(c)];
     }
-    const float far = kApart * level.box(body).params.origin_spacing.w;
-    if (apart <= far * stiffness || level.free()[place] == 0) continue;
-    const Vector3f middle = around / stiffness;
-    tamed_.push_back({static_cast<uint32_t>(place), middle + far * stiffness / apart * (own - middle)});
-  }
-  for (const Plane& each : tamed_)
-    for (size_t c = 0; c < 3; ++c) s_[c * n + each.place] = each.normal[static_cast<int>(c)];
-  tamed_.clear();
+  });
+  std::swap(s_, z_);
   level.project(s_);
+}
+
+Vector3f StageSolver::tamedStep(uint32_t node) const {
+  const uint32_t body = level.grid().bodyOf(node);
+  const size_t place = level.grid().place_of[node], n = level.places();
+  const Vector3f own(s_[place], s_[n + place], s_[2 * n + place]);
+  Vector3f around = Vector3f::Zero();
+  float stiffness = 0, apart = 0;
+  for (size_t pair = 0; pair < kPairs; ++pair) {
+    const std::array<int, 3>& o = kNeighborOffsets[2 * pair];
+    for (const int side : {1, -1}) {
+      const size_t far = level.grid().beside(body, place, side * o[0], side * o[1], side * o[2]);
+      const float k = level.stiffness(pair, side > 0 ? place : far);
+      if (k == 0) continue;
+      const Vector3f step(s_[far], s_[n + far], s_[2 * n + far]);
+      stiffness += k;
+      around += k * step;
+      apart += k * (step - own).norm();
+    }
+  }
+  const float far = kApart * level.box(body).params.origin_spacing.w;
+  if (apart <= far * stiffness || level.free()[place] == 0) return own;
+  const Vector3f middle = around / stiffness;
+  return middle + far * stiffness / apart * (own - middle);
 }
 
 double StageSolver::solve(Vectors& increment, const Rule& rule, SolverWork& work, Touched* touched) {

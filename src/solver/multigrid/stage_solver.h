@@ -88,7 +88,9 @@ class StageSolver {
     std::shared_ptr<Hierarchy> hierarchy;
     float largest = 0;
   };
+  float farthest(const Vectors& x) const;
   void tame();
+  Vector3f tamedStep(uint32_t node) const;
   void evaluate(const Vectors& increment);
   double masked();
   void multiply(const Vectors& increment, const Vectors& p, Vectors& q);
@@ -97,7 +99,6 @@ class StageSolver {
   size_t now_ = 0;               ///< which is in use
   double stiffest_n_per_m_ = 0;  ///< sum of a node's springs
   Vectors r_, s_, p_, q_, z_, d_, work_;
-  std::vector<Plane> tamed_;  ///< places, with their steps
   std::future<Built> rebuilt_;
   Vectors force_;  ///< where the residual was, for exact products
 };
