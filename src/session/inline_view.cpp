@@ -58,14 +58,14 @@ InlineView::InlineView(const Model& model, const Scene& scene)
 void InlineView::capture(Solver& solver, const Look& look, Pictures& out) {
   const StateView state = solver.stateOnGpu().value();
   if (look.wants.count() > 0 && surface_.canBeWounded() && solver.readCuts(cuts_)) {
-    wound(cuts_.nodes.data(), cuts_.axial_cut.data(), cuts_.revision);
+    wound({cuts_.nodes.data(), cuts_.axial_cut.data(), cuts_.spring_cut.data()}, cuts_.revision);
   }
   capture(state, look, out);
 }
 
-void InlineView::wound(const layout::NodeBits* nodes, const float* axial_cut, uint64_t revision) {
+void InlineView::wound(const CutSprings& cuts, uint64_t revision) {
   const size_t capacity = surface_.capacity();
-  surface_.wound(nodes, axial_cut, revision);
+  surface_.wound(cuts, revision);
   if (surface_.capacity() > capacity) {  // a larger ring; what is in flight is overtaken
     counters_.skipped += static_cast<uint64_t>(surface_ring_->inFlight());
     surface_ring_->drop();

@@ -27,7 +27,7 @@ class InlineView : public View {
   void capture(const StateView& state, const Look& look, Pictures& out,
                const std::optional<HostDisplacements>& displacements = {});
   /// Wounds of the states that are captured from now on, see Surface::wound().
-  void wound(const layout::NodeBits* nodes, const float* axial_cut, uint64_t revision);
+  void wound(const CutSprings& cuts, uint64_t revision);
   void collect(Pictures& out, bool wait) override;
   void reset() override;
   ViewCounters counters() const override;

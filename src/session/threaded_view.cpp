@@ -202,9 +202,7 @@ ThreadedView::Order ThreadedView::awaitOrder(Look& look) {
 
 void ThreadedView::show(InlineView& view, StateMirror& mirror, const Look& look) {
   mirror.upload(snapshot_);
-  if (!snapshot_.axial_cut.empty()) {
-    view.wound(snapshot_.nodes.data(), snapshot_.axial_cut.data(), snapshot_.cut_revision);
-  }
+  view.wound({snapshot_.nodes.data(), snapshot_.axial_cut.data(), snapshot_.spring_cut.data()}, snapshot_.cut_revision);
   {
     const Lock lock(mutex_);
     order_ = Order::kNone;  // the slot is free: the next state may come while this one is drawn

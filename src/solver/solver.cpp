@@ -46,9 +46,11 @@ void Solver::snapshot(StateSnapshot& out) const {
 
 bool Solver::readCuts(CutState& out) const {
   const HostState state = readState();
-  if (sameNodes(state.nodes, out.nodes) && state.axial_cut == out.axial_cut) return false;
+  if (sameNodes(state.nodes, out.nodes) && state.axial_cut == out.axial_cut && state.spring_cut == out.spring_cut)
+    return false;
   out.nodes = state.nodes;
   out.axial_cut = state.axial_cut;
+  out.spring_cut = state.spring_cut;
   ++out.revision;
   return true;
 }

@@ -36,9 +36,10 @@ class HostSurface {
  private:
   struct Buffers;
   void tear(const StateSnapshot& snapshot);
+  void noteReplaced();
 
   JoinedSkins skins_;
-  std::unique_ptr<Wounds> wounds_;  ///< null where no body on a lattice can be cut
+  std::unique_ptr<Wounds> wounds_;  ///< null where no body with an inside can be cut
   ShownTriangles shown_;
   std::vector<uint32_t> shown_bricks_, brick_places_, alive_;
   std::vector<layout::Brick> bricks_;

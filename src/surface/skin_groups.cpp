@@ -182,6 +182,10 @@ void SkinGroups::wound(const ShownWounds& shown, const std::vector<layout::SkinB
     if (!wounded_[body]) continue;
     Whole& whole = wholes_[body];
     whole.reach.offset_m = std::max(whole.reach.offset_m, lengthOf(binding.offset_constant));
+    float beyond = 0;  // of three nodes, as reachOf() has it
+    for (const float weight : {binding.weights.x, binding.weights.y, binding.weights.z})
+      beyond += std::max(0.0F, -weight);
+    whole.reach.beyond = std::max(whole.reach.beyond, beyond);
     for (const uint32_t slot : {binding.slot0, binding.slot1, binding.slot2}) {
       if (!std::exchange(seen[slot], 1)) whole.nodes.push_back({slot, restOf(slot)});
     }

@@ -101,6 +101,7 @@ Surface::Surface(const Model& model) {
   summed_items_ = GroupedItems(groupsOf(skins.summed_nodes, groups_), groups_.count(), 0, "picked nodes");
   if (Wounds::possible(model)) wounds_ = std::make_unique<Wounds>(model, skins);
   was_wounded_.resize(model.bodies.size());
+  had_replaced_.resize(model.bodies.size());
   std::vector<uint32_t> splits = splitsOf(skins);
   shown_ = ShownTriangles(model, vertices_, std::move(skins.triangles), std::move(splits));
   if (skins.any_bound) {
@@ -109,7 +110,7 @@ Surface::Surface(const Model& model) {
     map_ = surfaceKernel("map_skin.comp", mapFeatures(skins));
     tear_ = surfaceKernel("tear_skin.comp", std::vector<std::string>(skins.any_one_to_one ? 1 : 0, "MIXED"));
   }
-  if (skins.any_one_to_one) networks_ = std::make_unique<NetworkSurface>(skins.networks);
+  if (skins.any_one_to_one) networks_ = std::make_unique<NetworkSurface>(skins.networks, Wounds::ofTetrahedra(model));
   if (wounds_) makeRoom(kRoomForWounds * vertices_, live_count_ + 3 * kRoomForWounds * triangles);
   reset();
 }
@@ -155,6 +156,10 @@ bool Surface::followNetworks(const StateView& state) {
   followed_networks_ = known ? state.revision : 0;
   alive_.bindStorage(layout::kBindSkinAlive);
   networks_->follow(state, since);
+  if (vertices_ > whole_vertices_) {
+    bindings_.bindStorage(layout::kBindSkinBindings);
+    networks_->followWounds(state, whole_vertices_, vertices_);
+  }
   return true;
 }
 
@@ -273,6 +278,7 @@ void Surface::showWounds() {
       live_.write(shown_.indices().data() + first, count, first);
     }
     was_wounded_[b] = body.wounded;
+    showReplaced(b, first / 3);
     first += count;
   }
   live_.write(wound_indices_, first_wound_index_);
@@ -284,11 +290,21 @@ void Surface::showWounds() {
   ++live_revision_;
 }
 
-void Surface::wound(const layout::NodeBits* nodes, const float* axial_cut, uint64_t revision) {
+/// Normals beside a wound of tetrahedra are those of whole triangles.
+void Surface::showReplaced(size_t body, size_t first_triangle) {
+  const ShownWounds::OfBody& shown = wounds_->shown()->bodies[body];
+  if (shown.replaced.empty() && !had_replaced_[body]) return;
+  had_replaced_[body] = !shown.replaced.empty();
+  body_alive_.resize(shown_.trianglesOf(body));
+  markReplaced(shown, body_alive_.size(), body_alive_.data());
+  alive_.write(body_alive_, first_triangle);
+}
+
+void Surface::wound(const CutSprings& cuts, uint64_t revision) {
   if (!wounds_ || revision == wound_revision_) return;
   wound_revision_ = revision;
   const gpu::TimedStage timed(gpu::Stage::kSurface);
-  if (!wounds_->update(nodes, axial_cut)) return;
+  if (!wounds_->update(cuts)) return;
   showWounds();
   publish();
 }

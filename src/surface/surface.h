@@ -22,7 +22,7 @@ class NetworkSurface;
 
 /// The skins of all bodies on the GPU, following the nodes: bound to lattices (EGVE 3.3), or one to one the nodes of
 /// networks (EGVE 3.2). Vertices and triangles of the bodies are concatenated in the model's order; vertex indices are
-/// global. A network that can be cut has two more vertices per edge behind its own, which its split triangles show.
+/// global. A sheet that can be cut has two more vertices per edge behind its own, which its split triangles show.
 class Surface {
  public:
   /// Needs a current context. Positions are zero until the first follow(). @throws GpuError
@@ -39,18 +39,17 @@ class Surface {
   /// splits those of networks along the cut (the rule is in split_triangles.comp). Looks at the springs only if
   /// state.cut_revision has changed since the last call; costs nothing otherwise.
   void tear(const StateView& state);
-  /// Shows the wounds of bodies on lattices that can be cut (surface/wounds.h), until reset(). tear() leaves their
-  /// skins alone. Makes buffers only where wounds outgrow those that are there.
-  /// @param nodes, axial_cut  [slots], [3 * slots] see CutState   @param revision  of them; the last one again costs
-  /// nothing
-  void wound(const layout::NodeBits* nodes, const float* axial_cut, uint64_t revision);
+  /// Shows the wounds of bodies on lattices and of tetrahedra that can be cut (surface/wounds.h), until reset(). tear()
+  /// leaves their skins alone. Makes buffers only where wounds outgrow those that are there.
+  /// @param revision  of the cuts; the last one again costs nothing
+  void wound(const CutSprings& cuts, uint64_t revision);
   /// Every triangle whole again.
   void reset();
 
   size_t vertices() const { return vertices_; }        ///< of the skins and of what wounds have added
   size_t capacity() const { return normals_.size(); }  ///< of vertices; grows with wounds
   bool canBeWounded() const { return wounds_ != nullptr; }
-  /// Null where no body on a lattice can be cut.
+  /// Null where no body on a lattice or of tetrahedra can be cut.
   std::shared_ptr<const ShownWounds> wounds() const { return wounds_ ? wounds_->shown() : nullptr; }
   size_t triangles() const { return shown_.count(); }
   const gpu::Buffer<float>& positions() const { return positions_; }  ///< [3 * vertices] m, tissue frame
@@ -81,6 +80,7 @@ class Surface {
   void forget();
   bool isAnyTorn() const;
   void showWounds();
+  void showReplaced(size_t body, size_t first_triangle);
   void makeRoom(size_t vertices, size_t indices);
   void showWoundedCharts();
 
@@ -97,11 +97,12 @@ class Surface {
   gpu::Program map_, tear_;                      ///< none where every body is a network
   gpu::Program carried_normal_, summed_normal_;  ///< none where nobody follows such normals
   std::unique_ptr<NetworkSurface> networks_;     ///< null where none is
-  std::unique_ptr<Wounds> wounds_;               ///< null where no body on a lattice can be cut
+  std::unique_ptr<Wounds> wounds_;               ///< null where no body with an inside can be cut
   ShownTriangles shown_;
   std::vector<uint32_t> wound_indices_, charts_, wound_charts_;
   size_t whole_vertices_ = 0;
-  std::vector<bool> was_wounded_;  ///< [bodies]
+  std::vector<bool> was_wounded_, had_replaced_;  ///< [bodies]
+  std::vector<uint32_t> body_alive_;              ///< of the one whose codes are written
   uint64_t cut_revision_ = 0, wound_revision_ = 0, mappings_ = 0;
   SkinGroups groups_;
   GroupedItems vertex_items_, carried_items_, summed_items_;

@@ -23,8 +23,12 @@ uint32_t rgba(const Vector3d& color, uint32_t body) {
   return out;
 }
 
+bool hasTetrahedra(const Body& body) {
+  return isOneToOne(body) && !body.network->tetrahedra.empty();
+}
+
 bool canBeWounded(const Body& body) {
-  return body.skin.can_be_cut && !isOneToOne(body);
+  return body.skin.can_be_cut && (!isOneToOne(body) || hasTetrahedra(body));
 }
 
 }  // namespace
@@ -33,23 +37,37 @@ bool Wounds::possible(const Model& model) {
   return std::any_of(model.bodies.begin(), model.bodies.end(), canBeWounded);
 }
 
+bool Wounds::ofTetrahedra(const Model& model) {
+  return std::any_of(model.bodies.begin(), model.bodies.end(),
+                     [](const Body& body) { return hasTetrahedra(body) && canBeWounded(body); });
+}
+
 Wounds::Wounds(const Model& model, const JoinedSkins& skins)
     : slots_(model.slots()),
       whole_bindings_(skins.bindings),
       bindings_(skins.bindings),
       whole_colors_(skins.colors),
       colors_(skins.colors) {
-  uint32_t vertex = 0;
+  uint32_t vertex = 0, spring = 0;
   for (size_t b = 0; b < model.bodies.size(); ++b) {
     const Body& body = model.bodies[b];
-    Place place{nullptr, model.slotOffset(b),     vertex, body.color, body.lattice.origin_m, body.lattice.spacing_m,
-                nullptr, static_cast<uint32_t>(b)};
-    if (canBeWounded(body)) {
+    Place place;
+    place.slot = model.slotOffset(b);
+    place.vertex = vertex;
+    place.spring = spring;
+    place.color = body.color;
+    place.origin_m = body.lattice.origin_m;
+    place.spacing_m = body.lattice.spacing_m;
+    place.number = static_cast<uint32_t>(b);
+    if (canBeWounded(body) && hasTetrahedra(body)) {
+      place.tetrahedra = std::make_unique<TetrahedraWound>(body.skin, *body.network);
+    } else if (canBeWounded(body)) {
       place.wound = std::make_unique<BodyWound>(body.skin, body.lattice);
       place.depths = std::make_unique<WoundDepths>(body.skin, body.lattice);
     }
     places_.push_back(std::move(place));
     vertex += static_cast<uint32_t>(body.skin.bindings.size() + 2 * body.skin.split_edges.size());
+    if (body.network) spring += static_cast<uint32_t>(body.network->springs.size());
   }
   reset();
 }
@@ -89,12 +107,14 @@ std::shared_ptr<ShownWounds> Wounds::next() {
     body.skin.clear();
     body.walls.clear();
     body.skin_sources.clear();
+    body.replaced.clear();
   }
   return *found;
 }
 
-void Wounds::append(const Place& place, ShownWounds::OfBody& out) {
-  const BodyWound& wound = *place.wound;
+/// Vertices of a wound are the body's own, then those that it has added, which follow all others here.
+template <class Wound>
+void Wounds::appendTriangles(const Place& place, const Wound& wound, ShownWounds::OfBody& out) const {
   const auto own = static_cast<uint32_t>(wound.ownVertices()), first_added = static_cast<uint32_t>(bindings_.size());
   const auto number = [&](const std::vector<uint32_t>& triangles, std::vector<uint32_t>& all) {
     keepRoom(all, triangles.size());
@@ -106,15 +126,24 @@ void Wounds::append(const Place& place, ShownWounds::OfBody& out) {
   number(wound.wallTriangles(), out.walls);
   keepRoom(out.skin_sources, wound.skinSources().size());
   out.skin_sources = wound.skinSources();
-  const auto numbered = [&](size_t vertex) {
-    layout::SkinBinding binding = wound.bindings()[vertex];
-    binding.slot0 += place.slot;
-    binding.slot1 += place.slot;
-    binding.slot2 += place.slot;
-    return binding;
-  };
-  for (const uint32_t vertex : wound.rebound()) bindings_[place.vertex + vertex] = numbered(vertex);
-  for (size_t v = own; v < wound.bindings().size(); ++v) bindings_.push_back(numbered(v));
+}
+
+/// A binding of a body among those of all.
+layout::SkinBinding Wounds::numbered(const Place& place, layout::SkinBinding binding) const {
+  binding.slot0 += place.slot;
+  binding.slot1 += place.slot;
+  binding.slot2 += place.slot;
+  if (place.tetrahedra && (binding.springs & layout::kCopiedNormalMask) != 0) binding.springs += place.vertex;
+  return binding;
+}
+
+void Wounds::append(const Place& place, ShownWounds::OfBody& out) {
+  const BodyWound& wound = *place.wound;
+  const auto own = static_cast<uint32_t>(wound.ownVertices());
+  appendTriangles(place, wound, out);
+  for (const uint32_t vertex : wound.rebound())
+    bindings_[place.vertex + vertex] = numbered(place, wound.bindings()[vertex]);
+  for (size_t v = own; v < wound.bindings().size(); ++v) bindings_.push_back(numbered(place, wound.bindings()[v]));
   for (const WoundVertex& vertex : wound.lipVertices()) {
     colors_.push_back(whole_colors_[place.vertex + vertex.skin_vertex]);
     addRest(place, vertex, 0);
@@ -123,6 +152,21 @@ void Wounds::append(const Place& place, ShownWounds::OfBody& out) {
   for (const WoundVertex& vertex : wound.wallVertices()) {
     colors_.push_back(flesh);
     addRest(place, vertex, vertex.skin_vertex == WoundVertex::kNone ? place.depths->at(vertex.point) : 0);
+  }
+}
+
+void Wounds::appendTetrahedra(const Place& place, ShownWounds::OfBody& out) {
+  const TetrahedraWound& wound = *place.tetrahedra;
+  appendTriangles(place, wound, out);
+  keepRoom(out.replaced, wound.replaced().size());
+  out.replaced = wound.replaced();
+  const uint32_t flesh = rgba(woundColor(place.color), place.number);
+  for (const TetrahedraWound::Vertex& vertex : wound.added()) {
+    const bool is_wall = vertex.like == UINT32_MAX;
+    const Vector3f at = vertex.rest_m.cast<float>();
+    bindings_.push_back(numbered(place, vertex.binding));
+    colors_.push_back(is_wall ? flesh : whole_colors_[place.vertex + vertex.like]);
+    added_rests_.push_back({at.x(), at.y(), at.z(), is_wall ? static_cast<float>(vertex.depth_m) : 0});
   }
 }
 
@@ -145,14 +189,18 @@ bool Wounds::isKnown(const layout::NodeBits* nodes) {
   return known;
 }
 
-bool Wounds::update(const layout::NodeBits* nodes, const float* axial_cut) {
-  if (isKnown(nodes)) return false;
+bool Wounds::update(const CutSprings& cuts) {
+  if (isKnown(cuts.nodes)) return false;
   forget();
   const std::shared_ptr<ShownWounds> now = next();
   for (size_t b = 0; b < places_.size(); ++b) {
     const Place& place = places_[b];
+    if (place.tetrahedra) {
+      place.tetrahedra->update(cuts.nodes + place.slot, cuts.spring_cut + place.spring);
+      if (place.tetrahedra->any()) appendTetrahedra(place, now->bodies[b]);
+    }
     if (!place.wound) continue;
-    place.wound->update(nodes + place.slot, axial_cut + 3 * size_t{place.slot});
+    place.wound->update(cuts.nodes + place.slot, cuts.axial_cut + 3 * size_t{place.slot});
     if (!place.wound->any()) continue;
     append(place, now->bodies[b]);
     now->holes += place.wound->holes();

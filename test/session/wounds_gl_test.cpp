@@ -79,7 +79,9 @@ INSTANTIATE_TEST_SUITE_P(Backends, WoundOn,
                          ::testing::Values(std::make_pair(Backend::kCpu, Structure::kLattice),
                                            std::make_pair(Backend::kGpu, Structure::kLattice),
                                            std::make_pair(Backend::kCpu, Structure::kExplicit),
-                                           std::make_pair(Backend::kGpu, Structure::kExplicit)));
+                                           std::make_pair(Backend::kGpu, Structure::kExplicit),
+                                           std::make_pair(Backend::kCpu, Structure::kTetrahedra),
+                                           std::make_pair(Backend::kGpu, Structure::kTetrahedra)));
 
 TEST_P(WoundOn, IsClosedAndKeepsTheVolumeUntilAReset) {
   gpu::Context context;
@@ -96,15 +98,19 @@ TEST_P(WoundOn, IsClosedAndKeepsTheVolumeUntilAReset) {
   EXPECT_EQ(after.positions_m, before.positions_m);
 }
 
-SurfaceFrame cutWithContext(Backend backend) {
+SurfaceFrame cutWithContext(Backend backend, Structure structure) {
   gpu::Context context;
-  Session session(cutScene(backend, Structure::kLattice), context);
+  Session session(cutScene(backend, structure), context);
   return cutOnce(session);
 }
 
-TEST(Wounds, AreTheSameOnTheGpuTheCpuAndWithoutAContext) {
-  Session without(cutScene(Backend::kCpu, Structure::kLattice));
-  const SurfaceFrame a = cutOnce(without), b = cutWithContext(Backend::kCpu), c = cutWithContext(Backend::kGpu);
+class WoundIn : public ::testing::TestWithParam<Structure> {};
+INSTANTIATE_TEST_SUITE_P(Structures, WoundIn, ::testing::Values(Structure::kLattice, Structure::kTetrahedra));
+
+TEST_P(WoundIn, IsTheSameOnTheGpuTheCpuAndWithoutAContext) {
+  Session without(cutScene(Backend::kCpu, GetParam()));
+  const SurfaceFrame a = cutOnce(without), b = cutWithContext(Backend::kCpu, GetParam()),
+                     c = cutWithContext(Backend::kGpu, GetParam());
   EXPECT_EQ(a.topology->triangles, b.topology->triangles);
   EXPECT_EQ(a.topology->triangles, c.topology->triangles);
   ASSERT_EQ(a.vertices(), b.vertices());
@@ -115,9 +121,9 @@ TEST(Wounds, AreTheSameOnTheGpuTheCpuAndWithoutAContext) {
   }
 }
 
-TEST(Wounds, MakeNoGpuObjectWhileThereIsRoom) {
+TEST_P(WoundIn, MakesNoGpuObjectWhileThereIsRoom) {
   gpu::Context context;
-  Session session(cutScene(Backend::kGpu, Structure::kLattice), context);
+  Session session(cutScene(Backend::kGpu, GetParam()), context);
   (void)surfaceAfter(session, {});
   const uint64_t made = gpu::objectsCreated();
   Wants wants;

@@ -28,7 +28,8 @@ inline Place keyOf(const Vector3d& at) {
 }
 
 /// Edges, welded by where nodes carry their ends, that have not one triangle on either hand.
-inline size_t openEdges(const Wounded& of, const std::vector<Vector3d>& at) {
+template <class Of>
+size_t openEdges(const Of& of, const std::vector<Vector3d>& at) {
   std::map<std::pair<Place, Place>, int> balance;
   const std::vector<uint32_t> triangles = of.triangles();
   for (size_t t = 0; t < triangles.size(); t += 3) {
@@ -112,15 +113,17 @@ inline std::vector<double> lipGaps(const Wounded& of, const std::vector<Vector3d
 }
 
 /// Distances of lips and walls from the plane of a flat cut [m]; ascending.
-inline std::vector<double> distancesFromPlane(const Wounded& of, const std::vector<Vector3d>& at,
-                                              const Vector3d& on_plane, const Vector3d& normal) {
+template <class Of>
+std::vector<double> distancesFromPlane(const Of& of, const std::vector<Vector3d>& at, const Vector3d& on_plane,
+                                       const Vector3d& normal) {
   std::vector<double> out;
   for (size_t v = of.wound.ownVertices(); v < at.size(); ++v) out.push_back(std::abs(normal.dot(at[v] - on_plane)));
   std::sort(out.begin(), out.end());
   return out;
 }
 
-inline double volume(const Wounded& of, const std::vector<Vector3d>& at) {
+template <class Of>
+double volume(const Of& of, const std::vector<Vector3d>& at) {
   double sum = 0;
   const std::vector<uint32_t> triangles = of.triangles();
   for (size_t t = 0; t < triangles.size(); t += 3) {
@@ -207,8 +210,9 @@ inline double windingNumber(const std::vector<uint32_t>& triangles, const std::v
 
 /// Share of pixels that show back faces in pictures of a wound from 200 places outside of the body: half of them all
 /// around it, half of them before the wound, down to where one looks right into it.
-inline double backsSeen(const Wounded& of, const std::vector<Vector3d>& at, const Vector3d& wound_m,
-                        const Vector3d& outward, double reach_m) {
+template <class Of>
+double backsSeen(const Of& of, const std::vector<Vector3d>& at, const Vector3d& wound_m, const Vector3d& outward,
+                 double reach_m) {
   constexpr int kViews = 200;
   const std::vector<uint32_t> triangles = of.triangles();
   double size_m = 0;

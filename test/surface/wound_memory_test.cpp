@@ -7,6 +7,7 @@
 #include "model/shape/box_surface.h"
 #include "support/counted_memory.h"
 #include "surface/joined_skins.h"
+#include "surface/tetrahedra_rig.h"
 #include "surface/wound_rig.h"
 #include "surface/wounds.h"
 
@@ -37,7 +38,7 @@ uint64_t cutThrough(const Model& model, Wounds& wounds) {
   for (int tick = 1; tick <= kTicks; ++tick) {
     box.cut(middle, normal, [&](const Vector3d& at) { return at.z() > 0.06 * (1 - tick / double{kTicks}); });
     const uint64_t before = allocations;
-    wounds.update(box.nodes.data(), box.axial_cut.data());
+    wounds.update({box.nodes.data(), box.axial_cut.data()});
     asked += allocations - before;
     shown = wounds.shown();
   }
@@ -52,6 +53,33 @@ TEST(WoundMemory, ACutThatGoesOnAsksForNone) {
   EXPECT_LT(cutThrough(model, wounds), kGrowing);
   wounds.reset();
   EXPECT_EQ(cutThrough(model, wounds), 0u);
+}
+
+/// The same with tetrahedra.
+uint64_t cutThroughTetrahedra(Model& model, Wounds& wounds) {
+  WoundedTetrahedra box(model.bodies[0]);  // for its springs
+  const Vector3d normal = Vector3d(1, 0.3, 0.2).normalized(), middle(0.041, 0.034, 0.03);
+  std::shared_ptr<const ShownWounds> shown = wounds.shown();
+  uint64_t asked = 0;
+  for (int tick = 1; tick <= kTicks; ++tick) {
+    box.cut(middle, normal, [&](const Vector3d& at) { return at.z() > 0.06 * (1 - tick / double{kTicks}); });
+    const uint64_t before = allocations;
+    wounds.update({box.nodes.data(), nullptr, box.spring_cut.data()});
+    asked += allocations - before;
+    shown = wounds.shown();
+  }
+  EXPECT_TRUE(shown->bodies[0].wounded);
+  EXPECT_GT(shown->bodies[0].walls.size(), 1000u);
+  return asked;
+}
+
+TEST(WoundMemory, ACutThroughTetrahedraThatGoesOnAsksForNone) {
+  Model model;
+  model.bodies.push_back(tetrahedraBox({16, 14, 12}, kSpacing_m));
+  Wounds wounds(model, joinSkins(model));
+  EXPECT_LT(cutThroughTetrahedra(model, wounds), kGrowing);
+  wounds.reset();
+  EXPECT_EQ(cutThroughTetrahedra(model, wounds), 0u);
 }
 
 }  // namespace

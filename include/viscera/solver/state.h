@@ -58,11 +58,12 @@ struct HostState {
   std::vector<float> axial_cut{};
 };
 
-/// Which springs of lattices are cut, and where. Whoever follows cuts keeps one (Solver::readCuts).
+/// Which springs are cut, and where. Whoever follows cuts keeps one (Solver::readCuts).
 struct CutState {
   uint64_t revision = 0;                ///< of what is here; grows like StateView::cut_revision
   std::vector<layout::NodeBits> nodes;  ///< [slots]; empty before the first reading
   std::vector<float> axial_cut;         ///< [3 * slots] or none, as in HostState
+  std::vector<float> spring_cut;        ///< [springs] of all networks, as in HostState
 };
 
 /// Copies what a snapshot asks for of a state: whole tissue, nodes and springs where they differ from the snapshot's,

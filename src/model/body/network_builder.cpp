@@ -232,6 +232,9 @@ SpringNetwork tetrahedraNetwork(const TetrahedraMesh& mesh, const MaterialConfig
   }
   addSprings(std::move(shares), material.young_modulus_pa, 0, network);
   network.triangles = outerFaces(mesh);
+  network.tetrahedra = mesh.tetrahedra;
+  for (auto& tetrahedron : network.tetrahedra)
+    if (signedVolume(mesh, tetrahedron) < 0) std::swap(tetrahedron[2], tetrahedron[3]);
   return network;
 }
 
@@ -282,6 +285,8 @@ SpringNetwork renumbered(const SpringNetwork& network, std::vector<uint32_t>* sl
   }
   sortByEnds(out.springs);
   for (const auto& t : network.triangles) out.triangles.push_back({slot_of[t[0]], slot_of[t[1]], slot_of[t[2]]});
+  for (const auto& t : network.tetrahedra)
+    out.tetrahedra.push_back({slot_of[t[0]], slot_of[t[1]], slot_of[t[2]], slot_of[t[3]]});
   out.charts = network.charts;
   out.detail = network.detail;
   if (slot_of_node) *slot_of_node = std::move(slot_of);

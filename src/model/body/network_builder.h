@@ -23,7 +23,7 @@ SpringNetwork membraneNetwork(const TriangleMesh& mesh, const MaterialConfig& ma
 
 /// Springs along the edges of a tetrahedral mesh, each once: k = E V / l^2, V the volume of all tetrahedra at the edge
 /// (E and nu = 1/4 where edges point in all directions alike), and masses of rho V / 4. Its surface are the faces of
-/// one tetrahedron only, facing outward.
+/// one tetrahedron only, facing outward. The tetrahedra stay with it: wounds need them.
 SpringNetwork tetrahedraNetwork(const TetrahedraMesh& mesh, const MaterialConfig& material);
 
 /// The lattice of a body as explicit connections (VR05 2.5.1): springs and masses are, as floats, those that the

@@ -97,7 +97,7 @@ Skin bindNetworkSkin(const SpringNetwork& network, bool can_be_cut) {
   for (size_t v = 0; v < normals.size(); ++v) skin.bindings.push_back(oneToOne(skin.bound_slots[v], normals[v]));
   skin.tie_starts.assign(skin.mesh.triangles.size() + 1, 0);
   skin.two_sided = hasBorder(skin.mesh);
-  if (can_be_cut) addSplitEdges(network, skin);
+  if (can_be_cut && network.tetrahedra.empty()) addSplitEdges(network, skin);
   return skin;
 }
 

@@ -318,6 +318,7 @@ void CpuBackend::snapshot(StateSnapshot& out, uint64_t cut_revision) const {
 
 void CpuBackend::readCuts(CutState& out) const {
   lattice_.readCuts(out.nodes, out.axial_cut);
+  out.spring_cut = lattice_.links.spring_cut;
 }
 
 }  // namespace viscera

@@ -157,7 +157,8 @@ HostState GpuBackend::readState() const {
 
 void GpuBackend::readCuts(CutState& out) const {
   out.nodes = buffers_.store.nodes.read();
-  out.axial_cut = buffers_.readAxialCut(buffers_.links.spring_cut.read());
+  out.spring_cut = buffers_.links.spring_cut.read();
+  out.axial_cut = buffers_.readAxialCut(out.spring_cut);
 }
 
 void GpuBackend::resetState() {
