@@ -35,6 +35,18 @@ int bench(char** arguments);
 /// `viscera settle`: the static state of a scene, and what it took.
 int settle(const RunOptions& options);
 
+struct SweepOptions {
+  std::string plan;  ///< file (sweep_plan.h)
+  std::string out;
+  int jobs = 0;   ///< sessions side by side; 0: as many as the machine has threads
+  int tries = 2;  ///< failures after which a run is given up
+  bool retry = false;
+  int slurm = 0;       ///< > 0: submit a job array of so many workers instead
+  std::string sbatch;  ///< more options for sbatch, as one would write them in a shell
+};
+/// `viscera sweep`: many sessions, by any number of processes that share a folder. @return 1 if some were given up
+int sweep(const SweepOptions& options);
+
 /// `viscera anchor`: anchored strokes as absolute ones.
 int anchor(const RunOptions& options);
 

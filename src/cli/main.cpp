@@ -16,6 +16,7 @@ namespace {
 struct Options {
   int device = -1;
   cli::RunOptions run;
+  cli::SweepOptions sweep;
   double seconds = 0;
 };
 
@@ -61,6 +62,20 @@ int dispatch(int argc, char** argv) {
   anchor->add_option("--out", o.run.out, "strokes file to write")->required();
   addOverrides(anchor, o.run.overrides);
 
+  CLI::App* sweep = app.add_subcommand("sweep", "run many sessions that differ in scene keys; one table");
+  sweep->add_option("plan", o.sweep.plan, "file with the runs (docs/cluster.md)")->required();
+  sweep->add_option("--out", o.sweep.out, "folder for results.csv and the runs; processes that share it share the runs")
+      ->required();
+  sweep->add_option("--jobs", o.sweep.jobs, "sessions side by side; 0, the default: one per hardware thread")
+      ->check(CLI::Range(0, 1024));
+  sweep->add_option("--tries", o.sweep.tries, "failures after which a run is given up; default 2")
+      ->check(CLI::Range(1, 100));
+  CLI::Option* slurm = sweep->add_option("--slurm", o.sweep.slurm, "submit a job array of so many workers to Slurm")
+                           ->check(CLI::Range(1, 100000));
+  sweep->add_option("--sbatch", o.sweep.sbatch, "more options for Slurm's sbatch, as in '--cpus-per-task=8 --time=60'")
+      ->needs(slurm);
+  sweep->add_flag("--retry", o.sweep.retry, "try again what was given up");
+
   app.add_subcommand("bench", "measure: `viscera bench --help` lists what");  // main() has taken it
 
   CLI::App* keys = app.add_subcommand("keys", "print the table of scene keys");
@@ -68,6 +83,7 @@ int dispatch(int argc, char** argv) {
   if (*check) return cli::check(o.device);
   if (*settle) return memoryFor("settling scene '" + o.run.scene + "'", [&] { return cli::settle(o.run); });
   if (*anchor) return memoryFor("anchoring in scene '" + o.run.scene + "'", [&] { return cli::anchor(o.run); });
+  if (*sweep) return cli::sweep(o.sweep);
   if (*keys) {
     std::cout << sceneKeysTable();
     return 0;

@@ -1,0 +1,182 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fcntl.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "cli/commands.h"
+#include "cli/sweep_folder.h"
+#include "viscera/math/error.h"
+
+namespace viscera::cli {
+
+namespace {
+
+constexpr std::chrono::milliseconds kLookAgain{500};  // at runs that others have
+
+/// The last line of a file that is not empty.
+std::string lastLine(const std::string& path) {
+  std::ifstream file(path);
+  std::string last;
+  for (std::string line; std::getline(file, line);) {
+    if (!line.empty()) last = line;
+  }
+  return last;
+}
+
+std::string shellQuoted(const std::string& word) {
+  std::string out = "'";
+  for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return out + "'";
+}
+
+/// Runs a program to its end. It does not outlive the thread that calls. @param inherited  a file that it has open too
+/// @return its wait status
+int runToEnd(const std::string& program, const std::vector<std::string>& arguments, const std::string& out,
+             const std::string& err, int inherited) {
+  std::vector<char*> argv = {const_cast<char*>(program.c_str())};
+  for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
+  argv.push_back(nullptr);
+  const pid_t parent = getpid(), child = fork();
+  if (child < 0) throw Error("a session cannot be started: no process is left");
+  if (child == 0) {  // between fork and exec: system calls alone
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (getppid() != parent) _exit(127);
+    fcntl(inherited, F_SETFD, 0);
+    dup2(open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666), STDOUT_FILENO);
+    dup2(open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666), STDERR_FILENO);
+    execv(program.c_str(), argv.data());
+    _exit(127);
+  }
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  return status;
+}
+
+class Sweep {
+ public:
+  Sweep(const SweepOptions& options, const SweepPlan& plan)
+      : options_(options), plan_(plan), folder_(options.out, plan, options.tries) {
+    program_ = std::filesystem::read_symlink("/proc/self/exe").string();
+    if (options.retry) folder_.forgetFailures();
+  }
+
+  /// @return runs that were given up
+  size_t run() {
+    std::vector<std::thread> threads;
+    for (int i = 0; i < options_.jobs; ++i) threads.emplace_back([this] { work(); });
+    for (std::thread& thread : threads) thread.join();
+    if (fault_) std::rethrow_exception(fault_);
+    folder_.writeTable();
+    size_t given_up = 0;
+    for (size_t run = 0; run < plan_.runs.size(); ++run)
+      given_up += folder_.state(run) == SweepFolder::State::kGivenUp ? 1 : 0;
+    return given_up;
+  }
+
+ private:
+  /// Takes runs that nobody has, until none is open. What others have is looked at again: they may die.
+  void work() {
+    try {
+      while (!stop_) {
+        bool open = false, did = false;
+        for (size_t run = 0; run < plan_.runs.size() && !stop_; ++run) {
+          if (folder_.state(run) != SweepFolder::State::kOpen) continue;
+          open = true;
+          const std::optional<SweepFolder::Claim> claim = folder_.claim(run);
+          if (!claim) continue;
+          make(run, *claim);
+          did = true;
+        }
+        if (!open) return;
+        if (!did) std::this_thread::sleep_for(kLookAgain);
+      }
+    } catch (...) {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      if (!fault_) fault_ = std::current_exception();
+      stop_ = true;
+    }
+  }
+
+  void make(size_t run, const SweepFolder::Claim& claim) {
+    const std::string place = folder_.runFolder(run);
+    std::vector<std::string> arguments = plan_.arguments(run);
+    // Sessions side by side: a thread each. The state hash does not depend on it.
+    if (options_.jobs > 1 && !plan_.sets("solver.threads"))
+      arguments.insert(arguments.end(), {"--set", "solver.threads=1"});
+    if (plan_.keep) arguments.insert(arguments.end(), {"--out", place + "/out"});
+    const int status = runToEnd(program_, arguments, place + "/output.txt", place + "/error.txt", claim.file());
+    const std::string said = lastLine(place + "/output.txt");
+    const bool ended = WIFEXITED(status) && WEXITSTATUS(status) == 0;
+    if (ended && nlohmann::json::parse(said, nullptr, false).is_object()) {
+      folder_.keepResult(run, said);
+    } else {
+      const std::string how = WIFSIGNALED(status) ? "ended by signal " + std::to_string(WTERMSIG(status))
+                                                  : "exit status " + std::to_string(WEXITSTATUS(status));
+      folder_.keepFailure(run, how + ": " + lastLine(place + "/error.txt"));
+    }
+    const std::lock_guard<std::mutex> lock(mutex_);
+    std::cerr << "run " << run << " of " << plan_.runs.size() << (ended ? " done\n" : " failed\n");
+  }
+
+  const SweepOptions& options_;
+  const SweepPlan& plan_;
+  SweepFolder folder_;
+  std::string program_;
+  std::mutex mutex_;
+  std::exception_ptr fault_;
+  std::atomic<bool> stop_{false};
+};
+
+/// What a job of Slurm's array does: as much of the sweep as is left. One that is put back into the queue goes on.
+void submit(const SweepOptions& options) {
+  const auto absolute = [](const std::string& path) { return shellQuoted(std::filesystem::absolute(path).string()); };
+  const char* launcher = std::getenv("VISCERA_LAUNCHER");  // of a bundle, which finds the libraries of each machine
+  const std::string program = launcher ? launcher : std::filesystem::read_symlink("/proc/self/exe").string();
+  const std::string script = options.out + "/slurm.sh", jobs = options.jobs > 0 ? std::to_string(options.jobs) : "";
+  std::ofstream file(script);
+  file << "#!/bin/sh\n#SBATCH --job-name=viscera\n#SBATCH --array=0-" << options.slurm - 1
+       << "\n#SBATCH --requeue\n#SBATCH --output=" << std::filesystem::absolute(options.out).string()
+       << "/slurm-%A_%a.txt\nexec " << shellQuoted(program) << " sweep " << absolute(options.plan) << " --out "
+       << absolute(options.out) << " --tries " << options.tries << " --jobs "
+       << (jobs.empty() ? "\"${SLURM_CPUS_PER_TASK:-1}\"" : jobs) << "\n";
+  file.close();
+  if (!file) throw Error(script + ": cannot be written");
+  const int status = std::system(("sbatch " + options.sbatch + " " + absolute(script)).c_str());
+  if (WIFEXITED(status) && WEXITSTATUS(status) == 127)
+    throw Error("sbatch is not there: Slurm's command that submits jobs; " + script + " is what it would be given");
+  if (status != 0) throw Error("sbatch refused " + script);
+}
+
+}  // namespace
+
+int sweep(const SweepOptions& given) {
+  SweepOptions options = given;
+  if (options.jobs == 0) options.jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  const SweepPlan plan = readSweepPlan(options.plan);
+  if (options.slurm > 0) {
+    const SweepFolder folder(options.out, plan, options.tries);
+    if (options.retry) folder.forgetFailures();
+    submit(given);
+    return 0;
+  }
+  const size_t given_up = Sweep(options, plan).run();
+  std::cout << options.out << "/results.csv: " << plan.runs.size() << " runs, " << given_up << " given up\n";
+  return given_up > 0 ? 1 : 0;
+}
+
+}  // namespace viscera::cli

@@ -1,0 +1,171 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cli/sweep_plan.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "model/scene/yaml_reader.h"
+#include "viscera/math/error.h"
+
+namespace viscera::cli {
+
+namespace {
+
+constexpr size_t kMostRuns = 1000000;
+constexpr const char* kKeys = "scene, mesh, strokes, seconds, view, keep, set, grid, list";
+
+class PlanFile {
+ public:
+  explicit PlanFile(std::string file) : file_(std::move(file)) {
+    try {
+      root_ = YAML::Load(textOf(file_, "a sweep's plan"));
+    } catch (const YAML::Exception& error) {
+      throw SceneError(yamlFault(file_, error));
+    }
+    if (!root_.IsMap()) fail(root_, "a plan is a map of " + std::string(kKeys));
+    for (const auto& entry : root_) {
+      const std::string key = entry.first.Scalar();
+      static const std::vector<std::string> known = {"scene", "mesh", "strokes", "seconds", "view",
+                                                     "keep",  "set",  "grid",    "list"};
+      if (std::find(known.begin(), known.end(), key) == known.end())
+        fail(entry.first, "unknown key '" + key + "'; known: " + kKeys);
+    }
+  }
+
+  std::string scalar(const char* key) const {
+    const YAML::Node node = root_[key];
+    if (!node) return "";
+    if (!node.IsScalar() || node.Scalar().empty()) fail(node, std::string("'") + key + "' is one value");
+    return node.Scalar();
+  }
+  /// A file beside the plan, or as the command line takes it.
+  std::string path(const char* key) const {
+    const std::string given = scalar(key);
+    const auto beside = std::filesystem::path(file_).parent_path() / given;
+    std::error_code error;
+    return !given.empty() && std::filesystem::exists(beside, error) ? beside.string() : given;
+  }
+  bool flag(const char* key) const {
+    const std::string given = scalar(key);
+    if (given != "" && given != "true" && given != "false")
+      fail(root_[key], std::string("'") + key + "' is true or false; found '" + given + "'");
+    return given == "true";
+  }
+  KeyValues set() const { return root_["set"] ? keyValues(root_["set"], "'set'") : KeyValues{}; }
+
+  std::vector<KeyValues> list() const {
+    const YAML::Node node = root_["list"];
+    if (!node) return {{}};
+    if (!node.IsSequence() || node.size() == 0) fail(node, "'list' is a list of maps of scene keys, one per run");
+    std::vector<KeyValues> out;
+    for (const YAML::Node& run : node) out.push_back(keyValues(run, "an entry of 'list'"));
+    return out;
+  }
+  std::vector<std::pair<std::string, std::vector<std::string>>> grid() const {
+    std::vector<std::pair<std::string, std::vector<std::string>>> out;
+    const YAML::Node node = root_["grid"];
+    if (!node) return out;
+    if (!node.IsMap()) fail(node, "'grid' is a map of scene keys, each with a list of values");
+    for (const auto& entry : node) {
+      const std::string key = entry.first.Scalar();
+      if (!entry.second.IsSequence() || entry.second.size() == 0)
+        fail(entry.second.IsDefined() ? entry.second : entry.first, "'grid: " + key + "' is a list of values");
+      out.push_back({key, {}});
+      for (const YAML::Node& value : entry.second) out.back().second.push_back(valueText(value));
+    }
+    return out;
+  }
+  [[noreturn]] void fail(const YAML::Node& at, const std::string& what) const {
+    throw SceneError(file_ + ":" + std::to_string(at.Mark().line + 1) + ": " + what);
+  }
+  [[noreturn]] void failAsAWhole(const std::string& what) const { throw SceneError(file_ + ": " + what); }
+
+ private:
+  static std::string valueText(const YAML::Node& value) {
+    if (value.IsScalar()) return value.Scalar();
+    YAML::Emitter out;
+    out << YAML::Flow << value;
+    return out.c_str();
+  }
+  KeyValues keyValues(const YAML::Node& map, const std::string& what) const {
+    if (!map.IsMap()) fail(map, what + " is a map of scene keys, as in {solver.tick_hz: 500}");
+    KeyValues out;
+    for (const auto& entry : map) out.push_back({entry.first.Scalar(), valueText(entry.second)});
+    return out;
+  }
+
+  std::string file_;
+  YAML::Node root_;
+};
+
+bool holds(const KeyValues& values, const std::string& key) {
+  return std::any_of(values.begin(), values.end(), [&](const auto& value) { return value.first == key; });
+}
+
+void addValues(std::vector<std::string>& arguments, const KeyValues& values) {
+  for (const auto& [key, value] : values) arguments.insert(arguments.end(), {"--set", key + "=" + value});
+}
+
+}  // namespace
+
+bool SweepPlan::sets(const std::string& key) const {
+  return holds(set, key) || std::count(varied.begin(), varied.end(), key) > 0;
+}
+
+std::vector<std::string> SweepPlan::arguments(size_t run) const {
+  std::vector<std::string> out = {"run", scene};
+  if (!mesh.empty()) out.insert(out.end(), {"--mesh", mesh});
+  if (!strokes.empty()) out.insert(out.end(), {"--strokes", strokes});
+  if (!seconds.empty()) out.insert(out.end(), {"--seconds", seconds});
+  if (!view) out.push_back("--no-view");
+  addValues(out, set);
+  addValues(out, runs[run]);
+  return out;
+}
+
+std::string SweepPlan::text() const {
+  std::string out = std::string("keep ") + (keep ? "true" : "false") + "\n";
+  for (size_t run = 0; run < runs.size(); ++run) {
+    for (const std::string& argument : arguments(run)) out += argument + '\t';
+    out += '\n';
+  }
+  return out;
+}
+
+SweepPlan readSweepPlan(const std::string& file) {
+  const PlanFile from(file);
+  SweepPlan plan;
+  plan.scene = from.path("scene");
+  if (plan.scene.empty()) from.failAsAWhole("'scene' is missing: a scene file, or the name of a shipped scene");
+  plan.mesh = from.path("mesh");
+  plan.strokes = from.path("strokes");
+  plan.seconds = from.scalar("seconds");
+  plan.view = from.flag("view");
+  plan.keep = from.flag("keep");
+  plan.set = from.set();
+  plan.runs = from.list();
+  for (const auto& [key, values] : from.grid()) {
+    if (plan.runs.size() * values.size() > kMostRuns)
+      from.failAsAWhole("more than " + std::to_string(kMostRuns) + " runs");
+    std::vector<KeyValues> product;
+    for (const KeyValues& run : plan.runs) {
+      for (const std::string& value : values) {
+        product.push_back(run);
+        product.back().push_back({key, value});
+      }
+    }
+    plan.runs = std::move(product);
+  }
+  for (const KeyValues& run : plan.runs) {
+    for (const auto& [key, value] : run) {
+      if (std::count(plan.varied.begin(), plan.varied.end(), key) == 0) plan.varied.push_back(key);
+      const auto same = [&, name = key](const auto& other) { return other.first == name; };
+      if (holds(plan.set, key) || std::count_if(run.begin(), run.end(), same) > 1)
+        from.failAsAWhole("'" + key + "' has two values in one run: of 'set', 'list' and 'grid' one gives it");
+    }
+  }
+  return plan;
+}
+
+}  // namespace viscera::cli
