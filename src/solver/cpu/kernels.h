@@ -157,9 +157,9 @@ using BrickSweep = void (*)(const SweepJob& job, size_t first, size_t last);
 using BrickSides = void (*)(const SweepJob& job, const uint32_t* bricks, size_t count);
 
 struct NetworkJob;  // network_kernels.h
-/// One substep of leapfrog, point-centric, as in shaders/solver/leapfrog.comp without contacts and volumes, of groups
-/// first..last - 1 of the rows.
-using NetworkLeapfrog = void (*)(const NetworkJob& job, size_t first, size_t last);
+/// Something done to groups first..last - 1 of the rows: their vectors spread for others to look up; or one substep of
+/// leapfrog, point-centric, as in shaders/solver/leapfrog.comp without contacts and volumes.
+using NetworkGroups = void (*)(const NetworkJob& job, size_t first, size_t last);
 
 /// The kernels of one instruction set: a solver picks its own, whatever others in the process have.
 struct Kernels {
@@ -167,7 +167,8 @@ struct Kernels {
   BrickLeapfrog leapfrog;
   BrickMeasure measure;
   BrickCells cells;
-  NetworkLeapfrog leapfrog_network;
+  NetworkGroups spread_network;  ///< of all groups, before their leapfrog
+  NetworkGroups leapfrog_network;
   BrickSweep sweep;
   BrickSides sides;
 };

@@ -185,7 +185,8 @@ void measureWith(CpuLattice& lattice, const std::vector<uint32_t>& slots, layout
   takeLarger(stats.max_rate_bits, kernel.stats.max_rate_bits);
 }
 
-constexpr size_t kGroupsPerJob = 16;  // of a substep: some 10 us of work
+constexpr size_t kGroupsPerJob = 16;      // of a substep: some 10 us of work
+constexpr size_t kGroupsPerSpread = 512;  // the same
 
 std::vector<uint32_t> groupsOf(const std::vector<uint32_t>& slots) {
   std::vector<uint32_t> out;
@@ -201,6 +202,7 @@ std::vector<uint32_t> groupsOf(const std::vector<uint32_t>& slots) {
 CpuNetwork::CpuNetwork(const CpuLattice& lattice, const Parallel& parallel, const FeatureSet& features,
                        const simd::Kernels& kernels)
     : parallel_(parallel),
+      spread_rows_(kernels.spread_network),
       step_rows_(kernels.leapfrog_network),
       edge_forces_(features.edge_forces),
       dashpot_(features.dashpot) {
@@ -214,6 +216,8 @@ CpuNetwork::CpuNetwork(const CpuLattice& lattice, const Parallel& parallel, cons
   }
   if (!edge_forces_ && cells_.empty()) {
     rows_ = simd::LinkRows(lattice.links.network, groupsOf(slots_));
+    places_.resize(4 * lattice.slotCount());
+    if (dashpot_) speeds_.resize(4 * lattice.slotCount());
     return;
   }
   if (features.compensated) compensation_.resize(2 * lattice.slotCount());
@@ -262,7 +266,7 @@ void CpuNetwork::step(CpuLattice& lattice, const Substep& step, AlignedVector<fl
   }
 }
 
-void CpuNetwork::stepInRows(CpuLattice& lattice, const Substep& step, AlignedVector<float>& compensation) const {
+void CpuNetwork::stepInRows(CpuLattice& lattice, const Substep& step, AlignedVector<float>& compensation) {
   simd::NetworkJob job{};
   job.rows = &rows_;
   job.step = step;
@@ -275,10 +279,15 @@ void CpuNetwork::stepInRows(CpuLattice& lattice, const Substep& step, AlignedVec
   job.next_velocity = lattice.state.velocity[1 - lattice.state.current].data();
   job.compensation = compensation.empty() ? nullptr : compensation.data();
   job.mobility = lattice.strengths.mobility.data();
-  const size_t groups = rows_.groups.size();
-  parallel_((groups + kGroupsPerJob - 1) / kGroupsPerJob, [&](size_t chunk) {
-    step_rows_(job, chunk * kGroupsPerJob, std::min((chunk + 1) * kGroupsPerJob, groups));
-  });
+  job.places = places_.data();
+  job.speeds = speeds_.data();
+  const auto ofAll = [&](simd::NetworkGroups kernel, size_t per_job) {
+    const size_t groups = rows_.groups.size();
+    parallel_((groups + per_job - 1) / per_job,
+              [&](size_t chunk) { kernel(job, chunk * per_job, std::min((chunk + 1) * per_job, groups)); });
+  };
+  ofAll(spread_rows_, kGroupsPerSpread);
+  ofAll(step_rows_, kGroupsPerJob);
 }
 
 void CpuNetwork::stepInText(CpuLattice& lattice, const Substep& step) {

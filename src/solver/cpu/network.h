@@ -46,12 +46,13 @@ class CpuNetwork {
   void stepWith(CpuLattice& lattice, const Substep& step);
   void findVolumes(CpuLattice& lattice);
   void stepInText(CpuLattice& lattice, const Substep& step);
-  void stepInRows(CpuLattice& lattice, const Substep& step, AlignedVector<float>& compensation) const;
+  void stepInRows(CpuLattice& lattice, const Substep& step, AlignedVector<float>& compensation);
 
   const Parallel& parallel_;
-  simd::NetworkLeapfrog step_rows_;
+  simd::NetworkGroups spread_rows_, step_rows_;
   bool edge_forces_, dashpot_;
-  simd::LinkRows rows_;  ///< empty where the shaders' text steps
+  simd::LinkRows rows_;                   ///< empty where the shaders' text steps, as are
+  AlignedVector<float> places_, speeds_;  ///< of NetworkJob
   std::vector<uint32_t> slots_, touched_;
   std::vector<uint32_t> cells_;             ///< of explicit lattices with energy of volume
   std::vector<layout::vec4> compensation_;  ///< [2 * slots] m, m/s; empty without compensation

@@ -18,9 +18,29 @@ constexpr float kCollapsedShare = 1e-6f;  // of the rest length: kShortest of sh
 constexpr size_t kRun = 8;                // links that are summed before they are added to the others
 constexpr float kLeast = 1e-30f;          // far below any length: nothing is divided by 0
 
-HWY_INLINE Vec3 gathered(const float* planes, hn::Vec<hn::RebindToSigned<Tag>> at) {
+/// Every fourth of some vectors of four, side by side. @param at  of the first of them
+template <class D>
+HWY_INLINE hn::Vec<D> everyFourth(D d, const float* vectors, const int32_t* at) {
+  if constexpr (hn::MaxLanes(d) == 4) {
+    return hn::Load(d, vectors + *at);
+  } else {
+    const hn::Half<D> half;
+    return hn::Combine(d, everyFourth(half, vectors, at + hn::MaxLanes(half)), everyFourth(half, vectors, at));
+  }
+}
+/// The vectors of a row's far ends: whole ones and transposed, which takes a third of the time that gathering three
+/// components takes.
+HWY_INLINE Vec3 gathered(const float* vectors, const int32_t* at) {
   const Tag d;
-  return {hn::GatherIndex(d, planes, at), hn::GatherIndex(d, planes + 64, at), hn::GatherIndex(d, planes + 128, at)};
+  const hn::RepartitionToWide<Tag> pairs;  // of components
+  const V a = everyFourth(d, vectors, at), b = everyFourth(d, vectors, at + 1), c = everyFourth(d, vectors, at + 2),
+          e = everyFourth(d, vectors, at + 3);
+  const auto low = hn::BitCast(pairs, hn::InterleaveLower(d, a, b)),
+             high = hn::BitCast(pairs, hn::InterleaveLower(d, c, e));
+  const auto z_low = hn::BitCast(pairs, hn::InterleaveUpper(d, a, b)),
+             z_high = hn::BitCast(pairs, hn::InterleaveUpper(d, c, e));
+  return {hn::BitCast(d, hn::InterleaveLower(pairs, low, high)), hn::BitCast(d, hn::InterleaveUpper(pairs, low, high)),
+          hn::BitCast(d, hn::InterleaveLower(pairs, z_low, z_high))};
 }
 
 /// What a row of links adds to the force on its nodes (shaders/solver/spring.glsl, springBetween).
@@ -29,10 +49,9 @@ template <bool kDashpot>
 HWY_INLINE void addRow(const NetworkJob& job, const float* constants, const int32_t* far, const Vec3& u, const Vec3& v,
                        V dashpot_s, Vec3& force) {
   const V k = load(constants + 5 * kGroupNodes);
-  const auto at = hn::LoadU(hn::RebindToSigned<Tag>(), far);
   const Vec3 d = {load(constants), load(constants + kGroupNodes), load(constants + 2 * kGroupNodes)};
   const V l0 = load(constants + 3 * kGroupNodes), prestrain = load(constants + 4 * kGroupNodes);
-  const Vec3 w = gathered(job.displacement, at) - u, e = d + w;
+  const Vec3 w = gathered(job.places, far) - u, e = d + w;
   const V l = hn::Sqrt(dot(e, e)), least = set(kLeast);
   Vec3 direction = hn::Div(set(1), hn::Max(l, least)) * e;
   const M collapsed = hn::Le(l, hn::Max(hn::Mul(set(kCollapsedShare), l0), least));
@@ -42,7 +61,7 @@ HWY_INLINE void addRow(const NetworkJob& job, const float* constants, const int3
   }
   const V twice = hn::Add(hn::MulAdd(set(2), dot(d, w), dot(w, w)), prestrain);
   V pull = hn::Div(twice, hn::Max(hn::Add(l, l0), least));
-  if (kDashpot) pull = hn::MulAdd(dashpot_s, dot(gathered(job.velocity, at) - v, direction), pull);
+  if (kDashpot) pull = hn::MulAdd(dashpot_s, dot(gathered(job.speeds, far) - v, direction), pull);
   // A spring that is cut may join places that are not even finite.
   force = select(hn::Gt(k, hn::Zero(Tag())), mulAdd(hn::Mul(k, pull), direction, force), force);
 }
@@ -77,6 +96,21 @@ HWY_INLINE void stepGroups(const NetworkJob& job, size_t first, size_t last) {
   }
 }
 
+/// Writes `places` and `speeds`.
+void spreadNetworkOf(const NetworkJob& job, size_t first, size_t last) {
+  const auto spread = [&](const float* planes, float* vectors, size_t slot) HWY_ATTR {
+    const Vec3 each = loadPlanes(planes + slot / layout::kBrickSlots * 192 + slot % layout::kBrickSlots);
+    hn::StoreInterleaved4(each.x, each.y, each.z, hn::Zero(Tag()), Tag(), vectors + 4 * slot);
+  };
+  for (size_t g = first; g < last; ++g) {
+    for (size_t i = 0; i < kGroupNodes; i += hn::MaxLanes(Tag())) {
+      const size_t slot = size_t{job.rows->groups[g]} * kGroupNodes + i;
+      spread(job.displacement, job.places, slot);
+      if (job.dashpot) spread(job.velocity, job.speeds, slot);
+    }
+  }
+}
+
 void leapfrogNetworkOf(const NetworkJob& job, size_t first, size_t last) {
   if (job.dashpot) {
     stepGroups<true>(job, first, last);
@@ -94,9 +128,13 @@ HWY_AFTER_NAMESPACE();
 namespace viscera::simd {
 
 HWY_EXPORT(leapfrogNetworkOf);
+HWY_EXPORT(spreadNetworkOf);
 
-NetworkLeapfrog leapfrogNetworkFor(int64_t target) {
+NetworkGroups leapfrogNetworkFor(int64_t target) {
   return VISCERA_KERNEL_FOR(leapfrogNetworkOf, target);
+}
+NetworkGroups spreadNetworkFor(int64_t target) {
+  return VISCERA_KERNEL_FOR(spreadNetworkOf, target);
 }
 
 namespace {
@@ -125,13 +163,13 @@ LinkRows::LinkRows(const JoinedNetwork& network, const std::vector<uint32_t>& it
       for (size_t i = 0; i < kGroupNodes; ++i) {
         const auto slot = static_cast<uint32_t>(groups[g] * kGroupNodes + i);
         const size_t place = kGroupNodes * r + i;
-        far[place] = static_cast<int32_t>(vectorAt(slot));
+        far[place] = static_cast<int32_t>(4 * slot);
         float* const lane = &constants[6 * kGroupNodes * r + i];
         lane[0] = lane[3 * kGroupNodes] = 1;  // any length but 0
         if (r - starts[g] >= valence(network, slot)) continue;
         link[place] = network.starts[slot] + static_cast<uint32_t>(r - starts[g]);
         const layout::Link& its = network.links[link[place]];
-        far[place] = static_cast<int32_t>(vectorAt(its.far));
+        far[place] = static_cast<int32_t>(4 * its.far);
         const float values[5] = {its.offset_length.x, its.offset_length.y, its.offset_length.z, its.offset_length.w,
                                  its.prestrain_m2};
         for (size_t c = 0; c < 5; ++c) lane[c * kGroupNodes] = values[c];

@@ -25,10 +25,11 @@ struct LinkRows {
   /// Takes over the stiffness of links that were cut, or made whole.
   void writeStiffness(const std::vector<layout::Link>& links);
 
-  std::vector<uint32_t> groups;    ///< [groups] first slot / 16
-  std::vector<uint32_t> starts;    ///< [groups + 1] rows
-  std::vector<uint32_t> link;      ///< [16 * rows] index of the link, or kNone
-  AlignedVector<int32_t> far;      ///< [16 * rows] vectorAt() of the far end; of the near one where there is no link
+  std::vector<uint32_t> groups;  ///< [groups] first slot / 16
+  std::vector<uint32_t> starts;  ///< [groups + 1] rows
+  std::vector<uint32_t> link;    ///< [16 * rows] index of the link, or kNone
+  AlignedVector<int32_t>
+      far;  ///< [16 * rows] four times the slot of the far end; of the near one where there is no link
   AlignedVector<float> constants;  ///< [16 * 6 * rows] x, y, z of the rest offset, l0, prestrain, k; 16 of each in turn
   static constexpr uint32_t kNone = 0xffffffffu;
 };
@@ -41,6 +42,8 @@ struct NetworkJob {
   const layout::BodyParams* bodies;
   const float* displacement;  ///< [3 * slots] m
   const float* velocity;      ///< [3 * slots] m/s
+  float* places;              ///< [4 * slots] displacement once more, node by node, as far ends are looked up
+  float* speeds;              ///< [4 * slots] velocity; null without dashpots
   float* next_displacement;
   float* next_velocity;
   float* compensation;    ///< [6 * slots], as in Arrays (kernels.h); or null

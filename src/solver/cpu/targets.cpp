@@ -18,6 +18,7 @@ std::optional<Kernels> kernelsFor(const std::string& target) {
                      leapfrogFor(each),
                      measureFor(each),
                      cellsFor(each),
+                     spreadNetworkFor(each),
                      leapfrogNetworkFor(each),
                      findPlacesFor(each),
                      findSidesFor(each)};

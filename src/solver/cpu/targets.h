@@ -30,7 +30,8 @@ static inline size_t placeOf(int64_t target) {
 BrickLeapfrog leapfrogFor(int64_t target);
 BrickMeasure measureFor(int64_t target);
 BrickCells cellsFor(int64_t target);
-NetworkLeapfrog leapfrogNetworkFor(int64_t target);
+NetworkGroups spreadNetworkFor(int64_t target);
+NetworkGroups leapfrogNetworkFor(int64_t target);
 BrickSweep findPlacesFor(int64_t target);
 BrickSides findSidesFor(int64_t target);
 
