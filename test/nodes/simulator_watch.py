@@ -42,9 +42,10 @@ class Latest:
 
 
 class SimulatorWatch:
-    """The newest /diagnostics of the node called simulator."""
+    """The newest /diagnostics of a node, by its name in full without the first slash."""
 
-    def __init__(self):
+    def __init__(self, node="simulator"):
+        self._node = node
         self._lock = threading.Lock()
         self._statuses = {}
         self._arrays = 0
@@ -58,7 +59,7 @@ class SimulatorWatch:
 
     def status(self, part):
         with self._lock:
-            return self._statuses.get("simulator: " + part)
+            return self._statuses.get(self._node + ": " + part)
 
     def value(self, part, key):
         """A value of the diagnostics as a number, or as text where it is none; nothing if it is not there yet."""
