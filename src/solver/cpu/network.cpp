@@ -152,11 +152,16 @@ struct CutKernel : Kernel {
 
 namespace {
 
-template <class Kernel>
-uint32_t cutWith(CpuLattice& lattice, const layout::ToolMotion& motion) {
+/// @param may_lose  (slot, slot): may the spring between them be cut?
+template <class Kernel, class MayLose>
+uint32_t cutWith(CpuLattice& lattice, const layout::ToolMotion& motion, const MayLose& may_lose) {
   Kernel kernel(lattice);
   kernel.tool_motions = &motion;
-  runRange(kernel, 0, lattice.links.network.springs.size());
+  for (uint32_t i = 0; i < kernel.spring_count; ++i) {
+    if (!may_lose(kernel.springs[i].a, kernel.springs[i].b)) continue;
+    kernel.index = i;
+    kernel.main();
+  }
   return kernel.stats.springs_cut;
 }
 
@@ -205,7 +210,8 @@ CpuNetwork::CpuNetwork(const CpuLattice& lattice, const Parallel& parallel, cons
       spread_rows_(kernels.spread_network),
       step_rows_(kernels.leapfrog_network),
       edge_forces_(features.edge_forces),
-      dashpot_(features.dashpot) {
+      dashpot_(features.dashpot),
+      near_(parallel) {
   if (lattice.links.network.starts.empty()) return;
   for (const uint32_t slot : lattice.store.active) {
     if (lattice.connections(slot) != layout::kImplicit) slots_.push_back(slot);
@@ -336,8 +342,11 @@ void CpuNetwork::measure(CpuLattice& lattice, layout::TickStats& stats) const {
 }
 
 uint32_t CpuNetwork::cut(CpuLattice& lattice, const layout::ToolMotion& motion, bool particles) {
-  const uint32_t springs =
-      particles ? cutWith<glsl::CutLinksOfParticles>(lattice, motion) : cutWith<glsl::CutLinks>(lattice, motion);
+  near_.find(lattice, slots_, motion);
+  const auto may_cross = [this](uint32_t a, uint32_t b) { return near_.mayCross(a, b); };
+  const auto may_erase = [this](uint32_t a, uint32_t b) { return near_.mayErase(a, b); };
+  const uint32_t springs = particles ? cutWith<glsl::CutLinksOfParticles>(lattice, motion, may_erase)
+                                     : cutWith<glsl::CutLinks>(lattice, motion, may_cross);
   if (springs == 0) return 0;
   for (const uint32_t slot : slots_) lattice.refresh(slot);
   rows_.writeStiffness(lattice.links.network.links);

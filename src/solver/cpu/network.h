@@ -6,6 +6,7 @@
 
 #include "solver/cpu/glsl_kernel.h"
 #include "solver/cpu/kernels.h"
+#include "solver/cpu/near_links.h"
 #include "solver/cpu/network_kernels.h"
 #include "solver/cpu/parallel.h"
 
@@ -51,6 +52,7 @@ class CpuNetwork {
   const Parallel& parallel_;
   simd::NetworkGroups spread_rows_, step_rows_;
   bool edge_forces_, dashpot_;
+  NearLinks near_;
   simd::LinkRows rows_;                   ///< empty where the shaders' text steps, as are
   AlignedVector<float> places_, speeds_;  ///< of NetworkJob
   std::vector<uint32_t> slots_, touched_;
