@@ -113,7 +113,7 @@ int run(const RunOptions& options) {
   for (const Body& body : session.model().bodies) {
     for (const std::string& note : body.notes) std::cout << body.name << ": " << oneLine(note) << '\n';
   }
-  std::cout << session.backendNote() << '\n';
+  std::cout << "stepped by: " << session.backendNote() << '\n';
   Album album(options.out, session.scene(), strokes, ticks, picturesOf(options));
   const Clock::time_point start = Clock::now();
   for (uint64_t t = 0; t < ticks; ++t) {

@@ -83,7 +83,7 @@ LoopPorts Simulator::ports() {
   ports.ready = [this](const Session& session) {
     ROS_INFO("ready: %zu nodes, %zu springs, %zu triangles, substep %.3g ms", session.model().activeNodes(),
              session.model().springs(), session.model().skinTriangles(), 1e3 * session.solver().dt_s());
-    ROS_INFO("%s", session.backendNote().c_str());
+    ROS_INFO("stepped by: %s", session.backendNote().c_str());
     for (const Body& body : session.model().bodies)
       for (const std::string& note : body.notes) ROS_INFO("%s: %s", body.name.c_str(), note.c_str());
     publisher_.start(session.wholeSkin());

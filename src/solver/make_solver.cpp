@@ -40,7 +40,7 @@ Backend chooseBackend(const SolverConfig& config, const gpu::Context* context) {
 
 std::string backendNote(const SolverConfig& config, const gpu::Context* context, const Solver& solver,
                         const std::string& choice) {
-  const std::string taken = (choice.empty() ? "" : "integrator: " + choice + "; ") + "stepped by: " + solver.backend();
+  const std::string taken = (choice.empty() ? "" : "integrator: " + choice + "; ") + solver.backend();
   if (config.backend != Backend::kAuto) return taken + ", as solver.backend asks";
   if (traitsOf(config.integrator).cpu_only) return taken + ", as solver.integrator steps on the CPU only";
   if (!context) return taken + ", as there is no OpenGL context";
