@@ -94,6 +94,7 @@ int runReference(const RunPlan& plan, bool compare) {
   metrics.simulated_s = static_cast<double>(plan.ticks) / tick_hz;
   metrics.state_hash = stateHash(model, reference.solver().state());
   metrics.backend = "reference";
+  metrics.stepped_by = "reference (float64), as --reference asks";
   metrics.renderer = "none";
   nlohmann::ordered_json out = toJson(metrics);
   if (comparison) out["gpu_error"] = comparison->error(reference.solver());

@@ -37,7 +37,7 @@ nlohmann::ordered_json toJson(const RunMetrics& metrics) {
   out["images_skipped"] = metrics.images_skipped;
   out["backend"] = metrics.backend;
   out["renderer"] = metrics.renderer;
-  if (!metrics.stepped_by.empty()) out["stepped_by"] = metrics.stepped_by;
+  out["stepped_by"] = metrics.stepped_by;
   return out;
 }
 
