@@ -28,10 +28,6 @@ struct NoKernel {};
 
 namespace {
 
-/// Tissue of a node outside is that many cells away at most: a cell's diagonal, and as much again where its edges are
-/// stretched or turned (shaders/solver/surface_way.glsl).
-constexpr float kFarthestTissue = 3.5f;
-
 /// In cells: a node may be seen that far from where it is (kSway and kBeside in shaders/solver/cut_sides.glsl).
 constexpr float kFarthestSway = 0.51f;
 

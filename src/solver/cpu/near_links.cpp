@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "solver/cpu/glsl_kernel.h"
+#include "solver/cpu/near_blade.h"
 
 namespace viscera {
 
@@ -25,10 +26,6 @@ namespace {
 namespace {
 
 constexpr size_t kNodesPerJob = 512;
-
-/// Tissue of a node of an explicit lattice is that many cells away at most: a cell's diagonal, and as much again where
-/// its edges are stretched or turned (shaders/solver/surface_way.glsl).
-constexpr float kFarthestTissue = 3.5f;
 
 /// Of the box: what rounding of places may hide. Some hundred times that of a float.
 constexpr float kRounding = 1e-5f;
