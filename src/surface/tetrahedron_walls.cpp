@@ -176,6 +176,14 @@ TetrahedronWalls makeWalls(uint32_t cut) {
   return out;
 }
 
+/// For every set of edges, by their bits.
+template <size_t n, class Value>
+std::array<Value, n> tableOf(Value (*make)(uint32_t cut)) {
+  std::array<Value, n> out;
+  for (uint32_t bits = 0; bits < n; ++bits) out[bits] = make(bits);
+  return out;
+}
+
 }  // namespace
 
 size_t tetrahedronEdge(size_t a, size_t b) {
@@ -184,20 +192,12 @@ size_t tetrahedronEdge(size_t a, size_t b) {
 }
 
 const FacePieces& facePieces(uint32_t cut) {
-  static const std::array<FacePieces, 8> kPieces = [] {
-    std::array<FacePieces, 8> out;
-    for (uint32_t bits = 0; bits < 8; ++bits) out[bits] = makeFacePieces(bits);
-    return out;
-  }();
+  static const std::array<FacePieces, 8> kPieces = tableOf<8>(makeFacePieces);
   return kPieces[cut];
 }
 
 const TetrahedronWalls& tetrahedronWalls(uint32_t cut) {
-  static const std::array<TetrahedronWalls, 64> kWalls = [] {
-    std::array<TetrahedronWalls, 64> out;
-    for (uint32_t bits = 0; bits < 64; ++bits) out[bits] = makeWalls(bits);
-    return out;
-  }();
+  static const std::array<TetrahedronWalls, 64> kWalls = tableOf<64>(makeWalls);
   return kWalls[cut];
 }
 

@@ -30,56 +30,46 @@ Model boxModel() {
 }
 
 /// A slanting cut that comes a little farther with each tick. @returns what it asked for, while another shows the last
-uint64_t cutThrough(const Model& model, Wounds& wounds) {
-  Wounded box(model.bodies[0]);  // for its springs
+/// @param box  with its springs whole   @param left  (box): what a solver says of them
+template <class Body, class CutsLeft>
+uint64_t cutThrough(Body& box, Wounds& wounds, const CutsLeft& left) {
   const Vector3d normal = Vector3d(1, 0.3, 0.2).normalized(), middle(0.041, 0.034, 0.03);
   std::shared_ptr<const ShownWounds> shown = wounds.shown();
   uint64_t asked = 0;
   for (int tick = 1; tick <= kTicks; ++tick) {
     box.cut(middle, normal, [&](const Vector3d& at) { return at.z() > 0.06 * (1 - tick / double{kTicks}); });
     const uint64_t before = allocations;
-    wounds.update({box.nodes.data(), box.axial_cut.data()});
+    wounds.update(left(box));
     asked += allocations - before;
     shown = wounds.shown();
   }
   EXPECT_TRUE(shown->bodies[0].wounded);
   EXPECT_GT(shown->bodies[0].walls.size(), 1000u);
   return asked;
+}
+
+/// Twice the same cut, with a reset between: the second asks for nothing.
+template <class Body, class CutsLeft>
+void expectNoneTheSecondTime(const Model& model, const CutsLeft& left) {
+  Wounds wounds(model, joinSkins(model));
+  Body first(model.bodies[0]), second(model.bodies[0]);
+  EXPECT_LT(cutThrough(first, wounds, left), kGrowing);
+  wounds.reset();
+  EXPECT_EQ(cutThrough(second, wounds, left), 0u);
 }
 
 TEST(WoundMemory, ACutThatGoesOnAsksForNone) {
-  const Model model = boxModel();
-  Wounds wounds(model, joinSkins(model));
-  EXPECT_LT(cutThrough(model, wounds), kGrowing);
-  wounds.reset();
-  EXPECT_EQ(cutThrough(model, wounds), 0u);
-}
-
-/// The same with tetrahedra.
-uint64_t cutThroughTetrahedra(Model& model, Wounds& wounds) {
-  WoundedTetrahedra box(model.bodies[0]);  // for its springs
-  const Vector3d normal = Vector3d(1, 0.3, 0.2).normalized(), middle(0.041, 0.034, 0.03);
-  std::shared_ptr<const ShownWounds> shown = wounds.shown();
-  uint64_t asked = 0;
-  for (int tick = 1; tick <= kTicks; ++tick) {
-    box.cut(middle, normal, [&](const Vector3d& at) { return at.z() > 0.06 * (1 - tick / double{kTicks}); });
-    const uint64_t before = allocations;
-    wounds.update({box.nodes.data(), nullptr, box.spring_cut.data()});
-    asked += allocations - before;
-    shown = wounds.shown();
-  }
-  EXPECT_TRUE(shown->bodies[0].wounded);
-  EXPECT_GT(shown->bodies[0].walls.size(), 1000u);
-  return asked;
+  expectNoneTheSecondTime<Wounded>(boxModel(), [](const Wounded& box) {
+    return CutSprings{box.nodes.data(), box.axial_cut.data()};
+  });
 }
 
 TEST(WoundMemory, ACutThroughTetrahedraThatGoesOnAsksForNone) {
   Model model;
   model.bodies.push_back(tetrahedraBox({16, 14, 12}, kSpacing_m));
-  Wounds wounds(model, joinSkins(model));
-  EXPECT_LT(cutThroughTetrahedra(model, wounds), kGrowing);
-  wounds.reset();
-  EXPECT_EQ(cutThroughTetrahedra(model, wounds), 0u);
+  expectNoneTheSecondTime<WoundedTetrahedra>(model, [](const WoundedTetrahedra& box) {
+    return CutSprings{box.nodes.data(), nullptr, box.spring_cut.data()};
+  });
 }
 
 }  // namespace
