@@ -150,7 +150,7 @@ void YamlReader::text(const char* key, std::string& value, const char*) {
 void YamlReader::vector(const char* key, Vector3d& value, Range range, const char* unit, const char*) {
   const YAML::Node node = take(key);
   if (!node) return;
-  if (!node.IsSequence() || node.size() != 3) fail(key, node, "is a list of 3 numbers, " + rangeText(range, unit));
+  requireNumbers(key, node, 3, range, unit);
   for (size_t i = 0; i < 3; ++i) value[static_cast<Eigen::Index>(i)] = scalar(key, node[i], range, unit);
 }
 
@@ -184,6 +184,12 @@ void YamlReader::formerNumber(const char* old_key, const char* group, const char
                      "', and they differ: " + numberText(old) + " and " + numberText(value) + "; give one of them");
   }
   if (!both || old_is_set) value = old;
+}
+
+void YamlReader::requireNumbers(const char* key, const YAML::Node& node, size_t count, Range range,
+                                const char* unit) const {
+  if (!node.IsSequence() || node.size() != count)
+    fail(key, node, "is a list of " + std::to_string(count) + " numbers, " + rangeText(range, unit));
 }
 
 void YamlReader::requireList(const char* key, const YAML::Node& node, double max_count) const {

@@ -4,6 +4,7 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include <array>
 #include <set>
 #include <string>
 #include <vector>
@@ -32,6 +33,14 @@ class YamlReader {
   void boolean(const char* key, bool& value, const char* text);
   void text(const char* key, std::string& value, const char* text);
   void vector(const char* key, Vector3d& value, Range range, const char* unit, const char* text);
+  /// A list of as many numbers as there are values.
+  template <size_t N>
+  void numbers(const char* key, std::array<double, N>& values, Range range, const char* unit) {
+    const YAML::Node node = take(key);
+    if (!node) return;
+    requireNumbers(key, node, N, range, unit);
+    for (size_t i = 0; i < N; ++i) values[i] = scalar(key, node[i], range, unit);
+  }
   void names(const char* key, Overlays& value, const char* text);
   /// The older name of a key that a group has now. Where both are given and differ, the one that was set from outside
   /// the file goes before the other. @throws SceneError  naming both, where neither or both were
@@ -90,6 +99,7 @@ class YamlReader {
   /// @param more  what is accepted besides the number, for the error
   double scalar(const char* key, const YAML::Node& node, Range range, const std::string& unit,
                 const std::string& more = "") const;
+  void requireNumbers(const char* key, const YAML::Node& node, size_t count, Range range, const char* unit) const;
   void requireList(const char* key, const YAML::Node& node, double max_count) const;
   std::string child(const std::string& key) const { return path_.empty() ? key : path_ + "." + key; }
   YAML::Node keyNode(const std::string& key) const;

@@ -1,0 +1,23 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <iomanip>
+#include <sstream>
+#include <string>
+
+namespace viscera {
+
+/// A number with so many digits behind the point.
+inline std::string rounded(double value, int digits) {
+  std::ostringstream out;
+  out << std::fixed << std::setprecision(digits) << value;
+  return out.str();
+}
+
+/// A length for people, without its unit. @param length_m  [m]
+inline std::string millimetres(double length_m) {
+  return rounded(1e3 * length_m, 2);
+}
+
+}  // namespace viscera
