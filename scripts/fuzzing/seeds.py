@@ -139,10 +139,20 @@ ANCHORED_TEXT = '''strokes:
   - {stylus: left, anchor: {from_m: [0, 0, 1], towards_m: [0, 0, 0]}, keys: [{t_s: 0, position_m: [0, 0, 0.01]}, {t_s: 0.02}]}
 '''
 
+RECORDED_TEXT = '''tick_hz: 60
+ticks: 3
+hands_anew: [1, 3]
+strokes:
+  - stylus: left
+    samples: |
+      1 0 0 0.05 0 0 0 1 0 0
+      3 0 0 0.03 0 0.6 0 0.8 1 0
+'''
+
 OBJ, ASCII_STL, BINARY_STL, PLY, BINARY_PLY, GLTF, GLB, MSH = (
     make() for make in (obj, asciiStl, binaryStl, ply, binaryPly, gltf, glb, msh))
 SCENES = [text.encode() for text in (SCENE, RICH_SCENE, IMPLICIT_SCENE)]
-STROKES = [text.encode() for text in (STROKES_TEXT, ANCHORED_TEXT)]
+STROKES = [text.encode() for text in (STROKES_TEXT, ANCHORED_TEXT, RECORDED_TEXT)]
 # Options whose values are spoilt, as `name value`.
 OPTIONS = [text.encode() for text in ('--seconds 0.02', '--set bodies[0].spacing_m=0.01', '--set solver.tick_hz=60',
                                       '--mesh none.obj', '--strokes none.yaml', '--set bodies[0].fixed=[]', '--device 0',

@@ -79,6 +79,7 @@ int runReference(const RunPlan& plan, bool compare) {
   const Clock::time_point start = Clock::now();
   for (uint64_t t = 0; t < plan.ticks; ++t) {
     const double time_s = static_cast<double>(t + 1) / tick_hz;
+    if (strokes.handsAnew(t + 1)) tools.forget();
     const ToolMotions motions = tools.advance(strokes.at(time_s, plan.scene.styluses));
     obstacles.advance(static_cast<double>(t) / tick_hz, 1 / tick_hz);
     reference.step(motions, obstacles.motions());

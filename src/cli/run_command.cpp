@@ -88,6 +88,7 @@ RunPlan planRun(const RunOptions& options) {
   if (!options.strokes.empty()) {
     plan.strokes = loadStrokes(options.strokes);
     requireStyluses(plan.strokes, plan.scene, options.strokes);
+    plan.strokes.requireTickRate(plan.scene.solver.tick_hz);
   }
   const double seconds = options.seconds.value_or(options.strokes.empty() ? 1.0 : plan.strokes.duration_s());
   plan.ticks = static_cast<uint64_t>(std::llround(seconds * plan.scene.solver.tick_hz));
@@ -118,6 +119,7 @@ int run(const RunOptions& options) {
   const Clock::time_point start = Clock::now();
   for (uint64_t t = 0; t < ticks; ++t) {
     const double time_s = static_cast<double>(t + 1) * session.tick_s();
+    if (strokes.handsAnew(t + 1)) session.forgetHands();
     album.add(session.step(strokes.at(time_s, scene.styluses), album.wants(session)));
     progress("simulating", static_cast<double>(t + 1) / static_cast<double>(ticks));
   }

@@ -103,6 +103,7 @@ void SimulationLoop::tick(Session& session, const StylusSamples& samples, bool l
     pace_.add(session.tick_s(), seconds(stepped - begun), seconds(stepped - tick_ended_));
   }
   tick_ended_ = stepped;
+  ports_.stepped(session.tick(), samples, std::exchange(hands_anew_, false));
   deliver(session, std::move(frame), samples, live);
 }
 
@@ -142,6 +143,7 @@ void SimulationLoop::deliver(const Session& session, Frame&& frame, const Stylus
 /// What a hand did before, or while nobody looked, is no motion: a blade would sweep through the tissue.
 void SimulationLoop::forgetHands(Session& session) {
   session.forgetHands();
+  hands_anew_ = true;
   stepped_to_.reset();
   ports_.forget();
 }

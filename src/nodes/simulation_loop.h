@@ -41,6 +41,8 @@ struct LoopPorts {
   std::function<StylusSamples()> samples;     ///< for that tick
   std::function<Wants()> wants;               ///< of that tick
   std::function<void(const Session&)> ready;  ///< once, before the first tick
+  /// After every tick: what it took from the hands. @param hands_anew  they had been forgotten before it
+  std::function<void(uint64_t tick, const StylusSamples&, bool hands_anew)> stepped;
   /// What came back after a tick with these samples. @param live  the tissue follows the hands: forces may go out
   std::function<void(Frame&&, const StylusSamples&, bool live)> deliver;
   /// What is wanted of a state that stands still. @param changed  others than newcomers have not seen it either
@@ -93,6 +95,7 @@ class SimulationLoop {
   Pacer pacer_;
   bool paused_ = false;
   bool unseen_ = true;                       ///< the state changed, and no tick has shown it
+  bool hands_anew_ = false;                  ///< hands were forgotten since the last tick
   std::optional<StylusSamples> stepped_to_;  ///< by a step whose caller said where the styluses are
   Clock::time_point tick_ended_{};
   std::atomic<bool> stop_{false}, ended_{false};

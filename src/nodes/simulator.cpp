@@ -39,6 +39,7 @@ Simulator::Simulator(const SimulatorOptions& options, EndWatch& end)
       tool_frames_(options.scene.environment.tissue_frame, toolFrames(options.scene, options.publish.frame_prefix)),
       publisher_(node_, options.scene, options.publish, [this](std::exception_ptr error) { fail(error); }),
       ticks_(node_, options.scene, [this] { return publisher_.isViewed(); }),
+      samples_(node_, options.scene),
       obstacle_forces_(node_, options.scene),
       loop_(options.scene, ports(), reportProgress),
       services_(node_, options.scene.styluses, loop_.commands()),
@@ -88,6 +89,9 @@ LoopPorts Simulator::ports() {
       for (const std::string& note : body.notes) ROS_INFO("%s: %s", body.name.c_str(), note.c_str());
     publisher_.start(session.wholeSkin());
     ready_ = true;
+  };
+  ports.stepped = [this](uint64_t tick, const StylusSamples& samples, bool hands_anew) {
+    samples_.publish(tick, samples, hands_anew);
   };
   ports.deliver = [this](Frame&& frame, const StylusSamples& samples, bool live) {
     deliver(std::move(frame), samples, live);

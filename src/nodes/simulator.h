@@ -18,6 +18,7 @@
 #include "nodes/frame_publisher.h"
 #include "nodes/obstacle_force_publisher.h"
 #include "nodes/obstacle_frames.h"
+#include "nodes/samples_publisher.h"
 #include "nodes/simulation_loop.h"
 #include "nodes/simulator_diagnostics.h"
 #include "nodes/simulator_options.h"
@@ -65,6 +66,7 @@ class Simulator {
   ToolFramePublisher tool_frames_;
   FramePublisher publisher_;
   TickPublisher ticks_;
+  SamplesPublisher samples_;
   ObstacleForcePublisher obstacle_forces_;
   std::atomic<bool> ready_{false};  ///< the session is made: devices may be listened to
   bool listening_ = false;

@@ -6,6 +6,7 @@
 #include <limits>
 #include <sstream>
 
+#include "tools/stroke_samples.h"
 #include "viscera/math/error.h"
 #include "viscera/tools/strokes.h"
 
@@ -79,10 +80,22 @@ std::string strokesYaml(const Strokes& strokes) {
     out << YAML::Key << key << YAML::Value << YAML::Flow << YAML::BeginSeq << v.x() << v.y() << v.z() << YAML::EndSeq;
   };
   out.SetDoublePrecision(9);
-  out << YAML::BeginMap << YAML::Key << "strokes" << YAML::Value << YAML::BeginSeq;
+  out << YAML::BeginMap;
+  if (strokes.tick_hz > 0) {
+    out << YAML::Key << "tick_hz" << YAML::Value << YAML::DoublePrecision(std::numeric_limits<double>::max_digits10)
+        << strokes.tick_hz << YAML::Key << "ticks" << YAML::Value << strokes.ticks << YAML::Key << "hands_anew"
+        << YAML::Value << YAML::Flow << strokes.hands_anew;
+  }
+  out << YAML::Key << "strokes" << YAML::Value << YAML::BeginSeq;
   for (const Stroke& stroke : strokes.strokes) {
-    out << YAML::BeginMap << YAML::Key << "stylus" << YAML::Value << stroke.stylus << YAML::Key << "keys" << YAML::Value
-        << YAML::BeginSeq;
+    out << YAML::BeginMap << YAML::Key << "stylus" << YAML::Value << stroke.stylus;
+    if (stroke.keys.empty()) {
+      std::string lines;
+      for (const Stroke::Sample& sample : stroke.samples) lines += sampleLine(sample);
+      out << YAML::Key << "samples" << YAML::Value << YAML::Literal << lines << YAML::EndMap;
+      continue;
+    }
+    out << YAML::Key << "keys" << YAML::Value << YAML::BeginSeq;
     for (const Stroke::Key& key : stroke.keys) {
       out << YAML::Flow << YAML::BeginMap << YAML::Key << "t_s" << YAML::Value << key.time_s;
       vector("position_m", key.pose.position_m);

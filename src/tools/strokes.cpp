@@ -3,10 +3,11 @@
 #include "viscera/tools/strokes.h"
 
 #include <algorithm>
-#include <sstream>
+#include <cmath>
 
 #include "math/memory_for.h"
 #include "model/scene/yaml_reader.h"
+#include "tools/stroke_samples.h"
 #include "viscera/math/error.h"
 
 namespace viscera {
@@ -15,6 +16,9 @@ namespace {
 
 constexpr double kLongestStrokeS = 3600;
 constexpr double kMostKeys = 1e6;
+constexpr Range kTickRate{1, 1000};  // as solver.tick_hz
+constexpr double kMostTicks = kLongestStrokeS * 1000;
+constexpr double kTickRounding = 1e-6;  // of a tick: a time that was made of a tick must find it again
 
 /// A key as it stands in the file; what is left out is zero or released.
 struct FileKey {
@@ -33,6 +37,8 @@ struct FileStroke {
   FileAnchor anchor;
   bool anchored = false;
   std::vector<FileKey> keys;
+  std::string samples;
+  int samples_line = 0;  ///< 0: there are none
 };
 struct FileMark {
   int line = 0;
@@ -40,6 +46,8 @@ struct FileMark {
   double t_s = 0;
 };
 struct FileStrokes {
+  double tick_hz = 0, ticks = 0;
+  std::vector<double> hands_anew;
   std::vector<FileStroke> strokes;
   std::vector<FileMark> marks;
 };
@@ -64,6 +72,7 @@ void visitFields(YamlReader& v, FileStroke& c) {
   v.group("anchor", c.anchor, "keys are relative to where this ray meets the skin");
   v.text("stylus", c.stylus, "name of a stylus of the scene");
   v.list("keys", c.keys, kMostKeys, "");
+  v.block("samples", c.samples, c.samples_line, "recorded: a line per tick");
 }
 
 void visitFields(YamlReader& v, FileMark& c) {
@@ -73,6 +82,9 @@ void visitFields(YamlReader& v, FileMark& c) {
 }
 
 void visitFields(YamlReader& v, FileStrokes& c) {
+  v.number("tick_hz", c.tick_hz, kTickRate, "Hz", "of what was recorded");
+  v.number("ticks", c.ticks, {0, kMostTicks}, "1", "how many were recorded");
+  v.numbers("hands_anew", c.hands_anew, kMostKeys, {1, kMostTicks}, "1");
   v.list("strokes", c.strokes, 16, "recorded strokes");
   v.list("marks", c.marks, 1000, "moments worth a picture");
 }
@@ -84,8 +96,14 @@ std::string lineOf(const std::string& name, int line) {
 Stroke checked(const FileStroke& file, size_t index, const std::string& name) {
   const std::string item = ": strokes[" + std::to_string(index) + "]", where = lineOf(name, file.line) + item;
   if (file.stylus.empty()) throw StrokesError(where + ": 'stylus' must name a stylus");
+  Stroke stroke;
+  stroke.stylus = file.stylus;
+  if (file.samples_line > 0) {
+    if (!file.keys.empty() || file.anchored) throw StrokesError(where + ": 'samples' go without 'keys' and 'anchor'");
+    stroke.samples = parseSamples(file.samples, name, file.samples_line);
+    return stroke;
+  }
   if (file.keys.empty()) throw StrokesError(where + ": 'keys' must hold at least one key");
-  Stroke stroke{file.stylus, {}, {}};
   if (file.anchored) {
     if (file.anchor.from_m == file.anchor.towards_m)
       throw StrokesError(where + ": anchor: 'from_m' and 'towards_m' must differ");
@@ -103,6 +121,14 @@ Stroke checked(const FileStroke& file, size_t index, const std::string& name) {
   return stroke;
 }
 
+/// That of exactly this tick.
+StylusSample sampleOf(const Stroke& stroke, uint64_t tick) {
+  const auto found = std::lower_bound(stroke.samples.begin(), stroke.samples.end(), tick,
+                                      [](const Stroke::Sample& sample, uint64_t t) { return sample.tick < t; });
+  if (found == stroke.samples.end() || found->tick != tick) return {};
+  return {true, found->pose, found->button1, found->button2};
+}
+
 StylusSample sampleAt(const Stroke& stroke, double time_s) {
   const auto after = std::upper_bound(stroke.keys.begin(), stroke.keys.end(), time_s,
                                       [](double t, const Stroke::Key& key) { return t < key.time_s; });
@@ -118,9 +144,20 @@ StylusSample sampleAt(const Stroke& stroke, double time_s) {
 }  // namespace
 
 double Strokes::duration_s() const {
-  double end = 0;
-  for (const Stroke& stroke : strokes) end = std::max(end, stroke.keys.back().time_s);
+  double end = tick_hz > 0 ? static_cast<double>(ticks) / tick_hz : 0;
+  for (const Stroke& stroke : strokes)
+    if (!stroke.keys.empty()) end = std::max(end, stroke.keys.back().time_s);
   return end;
+}
+
+bool Strokes::handsAnew(uint64_t tick) const {
+  return std::binary_search(hands_anew.begin(), hands_anew.end(), tick);
+}
+
+void Strokes::requireTickRate(double scene_tick_hz) const {
+  if (tick_hz == 0 || tick_hz == scene_tick_hz) return;
+  throw StrokesError(file + ": 'tick_hz' is " + numberText(tick_hz) + " Hz, and the scene's 'solver.tick_hz' is " +
+                     numberText(scene_tick_hz) + " Hz: recorded ticks are replayed as they were, or not at all");
 }
 
 bool Strokes::anchored() const {
@@ -129,15 +166,38 @@ bool Strokes::anchored() const {
 
 StylusSamples Strokes::at(double time_s, const std::vector<StylusConfig>& configs) const {
   StylusSamples samples;
+  const auto tick = static_cast<uint64_t>(std::max(0.0, std::floor(time_s * tick_hz + kTickRounding)));
   for (const Stroke& stroke : strokes) {
     for (size_t i = 0; i < configs.size(); ++i) {
       if (configs[i].name != stroke.stylus) continue;
-      const StylusSample sample = sampleAt(stroke, time_s);
+      const StylusSample sample = stroke.keys.empty() ? sampleOf(stroke, tick) : sampleAt(stroke, time_s);
       if (sample.valid) samples[i] = sample;
     }
   }
   return samples;
 }
+
+namespace {
+
+/// What samples need beside them.
+void checkTicks(const FileStrokes& file, Strokes& out) {
+  out.tick_hz = file.tick_hz;
+  out.ticks = static_cast<uint64_t>(file.ticks);
+  for (const double tick : file.hands_anew) out.hands_anew.push_back(static_cast<uint64_t>(tick));
+  const bool recorded = std::any_of(file.strokes.begin(), file.strokes.end(),
+                                    [](const FileStroke& stroke) { return stroke.samples_line > 0; });
+  if (recorded != (out.tick_hz > 0) || recorded != (out.ticks > 0))
+    throw StrokesError(out.file + ": 'samples' need 'tick_hz' and 'ticks', and these need samples");
+  if (!std::is_sorted(out.hands_anew.begin(), out.hands_anew.end()))
+    throw StrokesError(out.file + ": 'hands_anew' must be increasing ticks");
+  for (const Stroke& stroke : out.strokes) {
+    if (!stroke.samples.empty() && stroke.samples.back().tick > out.ticks)
+      throw StrokesError(out.file + ": stylus '" + stroke.stylus + "' has a sample of tick " +
+                         std::to_string(stroke.samples.back().tick) + ", and 'ticks' is " + std::to_string(out.ticks));
+  }
+}
+
+}  // namespace
 
 Strokes parseStrokes(const std::string& yaml, const std::string& name) {
   const YamlSource source{name, {}};
@@ -152,6 +212,7 @@ Strokes parseStrokes(const std::string& yaml, const std::string& name) {
   Strokes out;
   out.file = name;
   for (size_t i = 0; i < file.strokes.size(); ++i) out.strokes.push_back(checked(file.strokes[i], i, name));
+  checkTicks(file, out);
   for (const FileMark& mark : file.marks) {
     if (mark.name.empty() || mark.name.find('/') != std::string::npos) {
       throw StrokesError(lineOf(name, mark.line) + ": 'marks' need a 'name' without '/'");

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "support/temporary_folder.h"
 #include "support/text.h"
 #include "viscera/math/error.h"
@@ -130,6 +132,116 @@ TEST(Strokes, LaterStrokeOfAStylusTakesOverWhenItBegins) {
       "  - {stylus: left, keys: [{t_s: 5, position_m: [2, 0, 0]}]}\n";
   EXPECT_EQ(sample(yaml, 4.9).pose.position_m.x(), 1);
   EXPECT_EQ(sample(yaml, 5).pose.position_m.x(), 2);
+}
+
+constexpr const char* kRecorded =
+    "tick_hz: 100\n"
+    "ticks: 12\n"
+    "hands_anew: [3, 9]\n"
+    "strokes:\n"
+    "  - stylus: left\n"
+    "    samples: |\n"
+    "      2 0.1 0 0 0 0 0 1 0 0\n"
+    "      3 0.2 0 0 0 0 0 1 1 0\n"
+    "      7 0.3 0 0 0 0 0 1 0 1\n";
+
+std::string recordedRefusal(const std::string& before, const std::string& after) {
+  std::string yaml = kRecorded;
+  const size_t at = yaml.find(before);
+  EXPECT_NE(at, std::string::npos) << before;
+  return refusal(yaml.replace(at, before.size(), after));
+}
+
+TEST(RecordedStrokes, AreThoseOfTheirTickAndAbsentInOthers) {
+  const auto at = [](int tick) { return sample(kRecorded, tick * 0.01); };
+  EXPECT_FALSE(at(1).valid);
+  EXPECT_EQ(at(2).pose.position_m.x(), 0.1);
+  EXPECT_EQ(at(3).pose.position_m.x(), 0.2);
+  EXPECT_TRUE(at(3).button1);
+  EXPECT_FALSE(at(4).valid);
+  EXPECT_TRUE(at(7).button2);
+  EXPECT_FALSE(at(8).valid);
+  EXPECT_EQ(sample(kRecorded, 0.0299).pose.position_m.x(), 0.1);  // between ticks: nothing is interpolated
+}
+
+TEST(RecordedStrokes, TicksAreFoundAgainByTheirTimesAtAnyRate) {
+  for (const double hz : {1.0, 30.0, 59.94, 60.0, 100.0, 333.3, 1000.0}) {
+    Strokes strokes;
+    strokes.tick_hz = hz;
+    strokes.ticks = 3600 * 30;
+    strokes.strokes.emplace_back().stylus = "left";
+    for (uint64_t tick = 1; tick <= strokes.ticks; tick += 97) {
+      strokes.strokes[0].samples = {{tick, Pose{}, false, false}};
+      const double tick_s = 1 / hz;  // as a session counts
+      ASSERT_TRUE(strokes.at(static_cast<double>(tick) * tick_s, leftAndRight())[0].valid) << tick << " at " << hz;
+    }
+  }
+}
+
+TEST(RecordedStrokes, LastAsLongAsTheyWereRecorded) {
+  const Strokes strokes = parseStrokes(kRecorded, "f.yaml");
+  EXPECT_EQ(strokes.duration_s(), 0.12);
+  EXPECT_TRUE(strokes.handsAnew(3) && strokes.handsAnew(9));
+  EXPECT_FALSE(strokes.handsAnew(4));
+}
+
+TEST(RecordedStrokes, ComeBackToTheBit) {
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> anywhere(-1, 1);
+  Strokes was;
+  was.tick_hz = 1000.0 / 7;
+  was.ticks = 400;
+  was.hands_anew = {1, 300};
+  was.strokes.resize(2);
+  was.strokes[0].stylus = "left";
+  was.strokes[1].stylus = "right";  // a hand that never came
+  for (uint64_t tick = 1; tick <= 300; ++tick) {
+    const Vector3d place(anywhere(random), 1e-9 * anywhere(random), 1e-310 * anywhere(random));
+    const Quaterniond turn = Quaterniond(anywhere(random), anywhere(random), anywhere(random), anywhere(random));
+    was.strokes[0].samples.push_back({tick, {place, turn.normalized()}, tick % 3 == 0, tick % 2 == 0});
+  }
+  const Strokes is = parseStrokes(strokesYaml(was), "f.yaml");
+  EXPECT_EQ(is.tick_hz, was.tick_hz);
+  EXPECT_EQ(is.ticks, was.ticks);
+  EXPECT_EQ(is.hands_anew, was.hands_anew);
+  ASSERT_EQ(is.strokes.size(), 2u);
+  EXPECT_TRUE(is.strokes[1].samples.empty());
+  ASSERT_EQ(is.strokes[0].samples.size(), was.strokes[0].samples.size());
+  for (size_t i = 0; i < is.strokes[0].samples.size(); ++i) {
+    const Stroke::Sample &a = was.strokes[0].samples[i], &b = is.strokes[0].samples[i];
+    EXPECT_EQ(a.tick, b.tick);
+    EXPECT_EQ(a.pose.position_m, b.pose.position_m);
+    EXPECT_EQ(a.pose.orientation.coeffs(), b.pose.orientation.coeffs());
+    EXPECT_EQ(a.button1, b.button1);
+    EXPECT_EQ(a.button2, b.button2);
+  }
+}
+
+TEST(RecordedStrokes, BadLinesAreRefusedWithTheirNumber) {
+  EXPECT_TRUE(says(recordedRefusal("7 0.3 0", "7 0.3"), {"f.yaml:9: ", "tick x y z qx qy qz qw", "found '7 0.3 0 0"}));
+  EXPECT_TRUE(says(recordedRefusal("2 0.1", "2 nan"), {"f.yaml:7: "}));
+  EXPECT_TRUE(says(recordedRefusal("2 0.1", "2 1e9"), {"f.yaml:7: ", "-100 .. 100 m"}));
+  EXPECT_TRUE(says(recordedRefusal("2 0.1", "0 0.1"), {"f.yaml:7: "}));
+  EXPECT_TRUE(says(recordedRefusal("2 0.1", "-2 0.1"), {"f.yaml:7: "}));
+  EXPECT_TRUE(says(recordedRefusal("3 0.2", "2 0.2"), {"f.yaml:8: ", "greater than the one before"}));
+  EXPECT_TRUE(says(recordedRefusal("1 1 0\n", "1 2 0\n"), {"f.yaml:8: ", "buttons 0 or 1"}));
+  EXPECT_TRUE(says(recordedRefusal("1 0 1\n", "0.9 0 1\n"), {"f.yaml:9: ", "length 1"}));
+  EXPECT_TRUE(says(recordedRefusal("1 0 1\n", "1 0 1 0\n"), {"f.yaml:9: "}));
+}
+
+TEST(RecordedStrokes, WhatDoesNotFitIsRefused) {
+  EXPECT_TRUE(says(recordedRefusal("tick_hz: 100\n", ""), {"f.yaml: ", "'tick_hz'"}));
+  EXPECT_TRUE(says(recordedRefusal("ticks: 12\n", ""), {"f.yaml: ", "'ticks'"}));
+  EXPECT_TRUE(says(recordedRefusal("ticks: 12\n", "ticks: 6\n"), {"f.yaml: ", "'left'", "tick 7", "'ticks' is 6"}));
+  EXPECT_TRUE(says(recordedRefusal("[3, 9]", "[9, 3]"), {"f.yaml: ", "'hands_anew'"}));
+  EXPECT_TRUE(says(recordedRefusal("[3, 9]", "[0]"), {"f.yaml:3: ", "'hands_anew'"}));
+  EXPECT_TRUE(says(recordedRefusal("    samples", "    keys: [{}]\n    samples"), {"f.yaml:5: ", "without 'keys'"}));
+  EXPECT_TRUE(says(recordedRefusal("samples: |", "samples: []\n    stylus2: |"),
+                   {"f.yaml:6: ", ".samples'", "a text of lines"}));
+  const Strokes strokes = parseStrokes(kRecorded, "f.yaml");
+  EXPECT_TRUE(
+      says(test::messageOf<StrokesError>([&] { strokes.requireTickRate(60); }), {"f.yaml: ", "100 Hz", "60 Hz"}));
+  EXPECT_NO_THROW(strokes.requireTickRate(100));
 }
 
 }  // namespace

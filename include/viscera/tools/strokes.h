@@ -17,16 +17,24 @@ struct Anchor {
   Vector3d from_m, towards_m;  ///< two points of the ray, tissue frame
 };
 
-/// Timed poses and buttons of one stylus: in the tissue frame, or in that of the anchor until resolveAnchors().
+/// Timed poses and buttons of one stylus: in the tissue frame, or in that of the anchor until resolveAnchors(). Either
+/// way-points (`keys`) between which poses are interpolated, or what was recorded tick by tick (`samples`).
 struct Stroke {
   struct Key {
     double time_s;
     Pose pose;
     bool button1, button2;
   };
+  /// What a simulation took from a hand in a tick, as it was recorded: replayed to the bit.
+  struct Sample {
+    uint64_t tick = 0;  ///< from 1 on
+    Pose pose;
+    bool button1 = false, button2 = false;
+  };
   std::string stylus;     ///< name of a stylus of the scene
-  std::vector<Key> keys;  ///< times strictly increasing
+  std::vector<Key> keys;  ///< times strictly increasing; empty where there are samples
   std::optional<Anchor> anchor;
+  std::vector<Sample> samples = {};  ///< ticks strictly increasing; the stylus is absent in ticks without one
 };
 
 /// A moment worth a picture: `viscera run` saves one per camera under this name.
@@ -39,11 +47,18 @@ struct Mark {
 struct Strokes {
   std::vector<Stroke> strokes;
   std::vector<Mark> marks;
-  std::string file;  ///< where they were read, for errors; empty: nowhere
+  double tick_hz = 0;                ///< of the simulation that was recorded; 0: nothing was
+  uint64_t ticks = 0;                ///< how many were recorded
+  std::vector<uint64_t> hands_anew;  ///< before these ticks it forgot where hands were, as in a pause; increasing
+  std::string file;                  ///< where they were read, for errors; empty: nowhere
   double duration_s() const;
+  /// Tools::forget() is due before this tick, the first of which is 1.
+  bool handsAnew(uint64_t tick) const;
+  /// @throws StrokesError  ticks were recorded, and a scene has others
+  void requireTickRate(double scene_tick_hz) const;
   bool anchored() const;  ///< some stroke still waits for resolveAnchors()
   /// Samples at a time; anchors must have been resolved: poses interpolated between keys, buttons of the last key;
-  /// invalid before the first key.
+  /// invalid before the first key. Of recorded ones: that of the last tick up to this time, to the bit.
   /// @param configs  the scene's styluses, in order
   StylusSamples at(double time_s, const std::vector<StylusConfig>& configs) const;
 };

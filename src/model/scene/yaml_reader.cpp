@@ -154,6 +154,23 @@ void YamlReader::vector(const char* key, Vector3d& value, Range range, const cha
   for (size_t i = 0; i < 3; ++i) value[static_cast<Eigen::Index>(i)] = scalar(key, node[i], range, unit);
 }
 
+void YamlReader::numbers(const char* key, std::vector<double>& values, double max_count, Range range,
+                         const char* unit) {
+  const YAML::Node node = take(key);
+  if (!node) return;
+  requireList(key, node, max_count);
+  values.clear();
+  for (const YAML::Node& number : node) values.push_back(scalar(key, number, range, unit));
+}
+
+void YamlReader::block(const char* key, std::string& value, int& first_line, const char*) {
+  const YAML::Node node = take(key);
+  if (!node) return;
+  if (!node.IsScalar()) fail(key, node, "is a text of lines, after a '|'");
+  value = node.Scalar();
+  first_line = keyNode(key).Mark().line + 2;
+}
+
 void YamlReader::names(const char* key, Overlays& value, const char*) {
   const YAML::Node node = take(key);
   if (!node) return;

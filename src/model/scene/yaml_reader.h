@@ -41,6 +41,10 @@ class YamlReader {
     requireNumbers(key, node, N, range, unit);
     for (size_t i = 0; i < N; ++i) values[i] = scalar(key, node[i], range, unit);
   }
+  /// A list of as many numbers as there are.
+  void numbers(const char* key, std::vector<double>& values, double max_count, Range range, const char* unit);
+  /// A text of lines, which may be empty. @param first_line  of it in the file, where it is given
+  void block(const char* key, std::string& value, int& first_line, const char* text);
   void names(const char* key, Overlays& value, const char* text);
   /// The older name of a key that a group has now. Where both are given and differ, the one that was set from outside
   /// the file goes before the other. @throws SceneError  naming both, where neither or both were

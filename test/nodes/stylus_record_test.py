@@ -1,0 +1,179 @@
+#!/usr/bin/env python3
+# Copyright (c) 2026, the viscera authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Two live hands that push, hold and cut are recorded; `viscera run` ends with the hash that the simulator had."""
+import json
+import os
+import random
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import unittest
+
+import rospy
+import rostest
+from geometry_msgs.msg import PoseStamped
+from program import Program
+from sensor_msgs.msg import Joy
+from simulator_watch import Latest, SimulatorWatch, wait_until
+from std_srvs.srv import Trigger
+from viscera.msg import Samples, StylusState
+from viscera.srv import Step
+
+LIMIT_S = 30
+SEED = 5
+LONGEST_GAP_S = 0.03               # of an irregular hand; shorter than stale_after_s
+STALE_S = 0.4                      # longer than stale_after_s of the scene
+TURN = (0.7071067811865476, 0, 0, 0.7071067811865476)   # the blade points along +y, into the tissue
+
+
+class Hand:
+    """Sends poses at irregular times, and buttons between them."""
+
+    def __init__(self, name):
+        self.poses = rospy.Publisher(name + "/measured_cp", PoseStamped, queue_size=1, tcp_nodelay=True)
+        self.buttons = [rospy.Publisher("%s/button%d" % (name, b), Joy, queue_size=10) for b in (1, 2)]
+        self.random = random.Random(SEED + len(name))
+
+    def heard(self):
+        return all(p.get_num_connections() for p in (self.poses, *self.buttons))
+
+    def send(self, at):
+        message = PoseStamped()
+        message.header.frame_id = "tissue"
+        message.header.stamp = rospy.Time.now()
+        p, q = message.pose.position, message.pose.orientation
+        p.x, p.y, p.z = at
+        q.x, q.y, q.z, q.w = TURN
+        self.poses.publish(message)
+
+    def go(self, start, to, seconds):
+        begun, way = time.monotonic(), 0
+        while way < 1:
+            way = min(1.0, (time.monotonic() - begun) / seconds)
+            self.send([a + way * (b - a) + self.random.gauss(0, 1e-5) for a, b in zip(start, to)])
+            time.sleep(self.random.uniform(0, LONGEST_GAP_S))
+
+    def press(self, button, down):
+        self.buttons[button - 1].publish(Joy(buttons=[1 if down else 0]))
+
+
+class StylusRecordTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        rospy.init_node("stylus_record_test")
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.file = os.path.join(cls.folder.name, "recorded.yaml")
+        cls.watch = SimulatorWatch()
+        cls.watch.wait_ready()
+        cls.left, cls.right = Hand("left"), Hand("right")
+        wait_until(lambda: cls.left.heard() and cls.right.heard(), LIMIT_S, "subscribers")
+        cls.call = {name: rospy.ServiceProxy(name, Trigger) for name in ("reset", "pause", "resume")}
+        cls.step = rospy.ServiceProxy("step", Step)
+
+    def command(self, *arguments):
+        if "VISCERA_COMMAND" not in os.environ:
+            self.skipTest("the command viscera is not built")
+        return subprocess.run([os.environ["VISCERA_COMMAND"], *arguments], text=True, timeout=100,
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+
+    def replayed(self, path):
+        sets = [part for key in rospy.get_param("~overrides").split(";") for part in ("--set", key)]
+        done = self.command("run", "heart", "--strokes", path, "--no-view", *sets)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return json.loads(done.stdout.splitlines()[-1])
+
+    def pull(self):
+        self.left.go((0, -0.1, -0.02), (0, -0.052, -0.02), 0.5)
+        self.left.press(1, True)
+        self.left.go((0, -0.052, -0.02), (0, -0.07, -0.02), 0.4)
+
+    def cut(self):
+        self.right.go((-0.07, -0.055, -0.02), (-0.07, -0.055, -0.02), 0.4)
+        self.right.press(2, True)
+        self.right.go((-0.07, -0.055, -0.02), (0.07, -0.055, -0.021), 0.8)
+        self.right.press(2, False)
+        self.right.go((0.07, -0.055, -0.02), (0.07, -0.1, -0.02), 0.1)
+
+    def act(self):
+        hands = [threading.Thread(target=act) for act in (self.pull, self.cut)]
+        for hand in hands:
+            hand.start()
+        for hand in hands:
+            hand.join()
+
+    def record(self, *arguments):
+        program = Program(["rosrun", "viscera", "stylus_record", "__name:=recorder",
+                           "_file:=" + self.file, *arguments])
+        self.addCleanup(program.end)
+        return program
+
+    def test_1_live_hands_are_replayed_to_the_bit(self):
+        recorder = self.record()
+        recorder.said("recording since tick 1")
+        self.act()
+        time.sleep(STALE_S)
+        self.left.go((0, -0.1, -0.02), (0, -0.09, -0.02), 0.3)
+        moving = threading.Thread(target=lambda: self.left.go((0, -0.09, -0.02), (0, -0.05, -0.02), 1.0))
+        moving.start()
+        time.sleep(0.2)
+        self.assertTrue(self.call["pause"]().success)      # hands are forgotten, what they hold is let go
+        time.sleep(0.5)
+        self.assertTrue(self.call["resume"]().success)     # the left one is inside by now, and must not push
+        moving.join()
+        self.right.go((-0.07, -0.055, -0.02), (-0.07, -0.055, -0.02), 0.1)
+        time.sleep(STALE_S)                                # both hands vanish, and time goes on
+        self.pull()
+        self.assertTrue(self.call["pause"]().success)
+        # ticks that a caller steps are recorded too
+        at = StylusState(stylus="right")
+        at.pose.position.y, at.pose.orientation.w = -0.2, 1
+        self.assertTrue(self.step(ticks=3, styluses=[at]).success)
+        live = self.step(ticks=0)
+        saved = rospy.ServiceProxy("recorder/save", Trigger)()
+        self.assertTrue(saved.success, saved.message)
+        self.assertIn("%d ticks" % live.tick, saved.message)
+        replayed = self.replayed(self.file)
+        self.assertEqual(replayed["state_hash"], live.state_hash)
+        self.assertGreater(replayed["springs_cut"], 0)
+        # a file that forgets what a pause does is another session: the check above can fail
+        with open(self.file) as file:
+            text = file.read()
+        begun = text.index("hands_anew:")
+        other = os.path.join(self.folder.name, "other.yaml")
+        with open(other, "w") as file:
+            file.write(text[:begun] + text[text.index("\n", begun) + 1:])
+        self.assertNotEqual(self.replayed(other)["state_hash"], live.state_hash)
+
+    def test_2_a_reset_begins_anew_and_the_end_saves(self):
+        self.call["resume"]()
+        recorder = self.record("_seconds:=0.5")
+        recorder.said("recording since tick 1")
+        self.left.go((0, -0.1, -0.02), (0, -0.09, -0.02), 0.2)
+        self.assertTrue(self.call["reset"]().success)
+        recorder.said("begins anew")
+        self.left.go((0, -0.1, -0.02), (0, -0.09, -0.02), 1)
+        recorder.said("ticks are in " + self.file)
+        self.assertEqual(recorder.process.wait(LIMIT_S), 0)
+        tick_hz = self.watch_samples().tick_hz
+        self.assertAlmostEqual(self.replayed(self.file)["simulated_s"], 0.5, delta=2 / tick_hz)
+        rate = self.command("run", "heart", "--strokes", self.file, "--no-view", "--set", "solver.tick_hz=50")
+        self.assertNotEqual(rate.returncode, 0)
+        self.assertIn("'tick_hz' is %g Hz" % tick_hz, rate.stderr)
+
+    def watch_samples(self):
+        samples = Latest("samples", Samples)
+        wait_until(lambda: samples.count, LIMIT_S, "samples")
+        samples.stop()
+        return samples.message
+
+    def test_3_a_file_that_cannot_be_written_is_told_at_the_start(self):
+        recorder = Program(["rosrun", "viscera", "stylus_record", "__name:=refused", "_file:=/proc/none.yaml"])
+        recorder.said("~file: /proc/none.yaml cannot be written")
+        self.assertEqual(recorder.process.wait(LIMIT_S), 1)
+
+
+if __name__ == "__main__":
+    rostest.rosrun("viscera", "stylus_record_test", StylusRecordTest, sys.argv)
