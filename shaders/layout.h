@@ -4,6 +4,7 @@
 // All that kernels and C++ share: for the text of kernels. C++ includes the parts that it needs.
 #ifndef VISCERA_LAYOUT_H
 #define VISCERA_LAYOUT_H
+#include "layout/awake_bricks.h"
 #include "layout/bindings.h"
 #include "layout/edge_forces.h"
 #include "layout/moments.h"

@@ -6,6 +6,7 @@
 #include "bench/harness/rate.h"
 #include "bench/suites/skip_parts.h"
 #include "solver/cpu/cpu_solver.h"
+#include "solver/gpu/gpu_solver.h"
 
 namespace viscera::bench {
 
@@ -22,8 +23,11 @@ ToolMotions pressedCorner() {
 }
 
 double awakeShare(const Solver& solver) {
-  const auto& cpu = dynamic_cast<const CpuSolver&>(solver);
-  return static_cast<double>(cpu.awakeBricks()) / static_cast<double>(cpu.bricks());
+  const auto share = [](const auto& known) {
+    return static_cast<double>(known.awakeBricks()) / static_cast<double>(known.bricks());
+  };
+  if (const auto* gpu = dynamic_cast<const GpuSolver*>(&solver)) return share(*gpu);
+  return share(dynamic_cast<const CpuSolver&>(solver));
 }
 
 /// Cost of a tick of two settled bodies, of which only one may sleep.
@@ -34,18 +38,19 @@ struct Cost {
 Cost costOf(int edge, const ToolMotions& motions, bool on_gpu, double seconds) {
   const Specimen wakeful = restingCube(edge, false, 0), sleepy = restingCube(edge, true, 0);
   const auto a = on_gpu ? onGpu(wakeful) : onCpu(wakeful), b = on_gpu ? onGpu(sleepy) : onCpu(sleepy);
-  const double settle_s = on_gpu ? kSettle_s / 5 : kSettle_s;
+  // What is not probed is at rest from the start, and asleep after a few tenths of a second.
+  const bool probed = motions[0].mode != ToolMode::kNone;
+  const double settle_s = on_gpu && !probed ? kSettle_s / 5 : kSettle_s;
   settle(*a, wakeful.scene, motions, on_gpu ? 0 : settle_s);
   settle(*b, sleepy.scene, motions, settle_s);
   const std::vector<Rate> rates =
       measureRates({candidate("", a, wakeful.nodes(), motions), candidate("", b, sleepy.nodes(), motions)}, seconds);
   const double us = 1e6 * kSpecimenSubsteps;
-  return {us / rates[0].substeps_per_s, us / rates[1].substeps_per_s, on_gpu ? 0 : awakeShare(*b)};
+  return {us / rates[0].substeps_per_s, us / rates[1].substeps_per_s, awakeShare(*b)};
 }
 
 void addRow(Table& table, const std::string& what, const std::string& backend, const Cost& cost) {
-  table.add({what, backend, cost.awake_us, cost.asleep_us, cost.awake_us / cost.asleep_us,
-             backend == "cpu" ? Cell(cost.share) : Cell("")});
+  table.add({what, backend, cost.awake_us, cost.asleep_us, cost.awake_us / cost.asleep_us, cost.share});
 }
 
 /// What falling asleep changes in a body that sags: largest difference over largest displacement.
@@ -109,8 +114,18 @@ void measureSleep(Report& report) {
   const Cost corner = costOf(edge, pressedCorner(), false, seconds);
   addRow(table, "one corner probed", "cpu", corner);
   report.stage("asleep, gpu");
-  addRow(table, "at rest", "gpu", costOf(edge, {}, true, seconds));
+  const Cost on_gpu = costOf(edge, {}, true, seconds);
+  addRow(table, "at rest", "gpu", on_gpu);
+  report.stage("a probe far away, gpu");
+  const Cost hovering = costOf(edge, probeAt(Vector3d::Constant(10)), true, seconds);
+  addRow(table, "a probe far away", "gpu", hovering);
+  report.stage("a probed corner, gpu");
+  addRow(table, "one corner probed", "gpu", costOf(edge, pressedCorner(), true, seconds));
   report.add(table, "sleep");
+  report.checkAtLeast("sleep: awake over asleep on the GPU backend, cost of a tick", on_gpu.awake_us / on_gpu.asleep_us,
+                      kAsleepOverAwake);
+  report.checkAtLeast("sleep: the same with a probe far away", hovering.awake_us / hovering.asleep_us,
+                      kAsleepOverAwake);
   report.checkAtLeast("sleep: awake over asleep, cost of a tick", rest.awake_us / rest.asleep_us, kAsleepOverAwake);
   report.checkAtMost("sleep: probed corner, share of cost over share of bricks awake",
                      corner.asleep_us / corner.awake_us / corner.share, kOfShare);

@@ -4,13 +4,23 @@
 // leapfrog.comp - advance every active node by one leapfrog substep.   Owner: solver/gpu/leapfrog_pass.h   physics.md 2, 5
 // in  displacement, velocity [slots]     out  displacement, velocity [slots]; impulses [kMaxStyluses * slots]
 // Features: LATTICE, NETWORK, PARTS, VOLUME (elastic.glsl), EDGE_FORCES (of explicit connections: as spring_forces.comp found
-// them), DASHPOT (axial dashpot), TOOLS (probe and held nodes), COMPENSATED (Kahan's sums of u and v).
+// them), DASHPOT (axial dashpot), TOOLS (probe and held nodes), COMPENSATED (Kahan's sums of u and v), AWAKE (only nodes of
+// bricks that are awake, as awake_bricks.comp lists them).
 #include "layout.h"
 #include "lattice.glsl"
 #include "elastic.glsl"
 
 #ifndef __cplusplus
+#ifdef AWAKE
+layout(std430, binding = kBindAwakeNodes) readonly buffer AwakeNodesBuffer {
+  uvec3 node_groups;
+  uint active_count;
+  uvec4 node_counts;
+  uint active_nodes[];
+};
+#else
 layout(std430, binding = kBindActive) readonly buffer ActiveBuffer { uint active_nodes[]; };
+#endif
 layout(std430, binding = kBindNodes) readonly buffer NodesBuffer { NodeBits nodes[]; };
 layout(std430, binding = kBindDisplacementOut) writeonly buffer DisplacementOut { vec4 next_displacement[]; };
 layout(std430, binding = kBindVelocityOut) writeonly buffer VelocityOut { vec4 next_velocity[]; };

@@ -4,7 +4,9 @@
 // What every integrator is told of a substep, and which nodes do not take part (physics.md 2, 5). After elastic.glsl.
 #include "sleep.glsl"
 #ifndef __cplusplus
+#ifndef AWAKE
 uniform uint active_count;
+#endif
 uniform float dt_s;              // drift: how long u moves on
 uniform float kick_s;            // leapfrog's kick: half the substep before, half this one; half in the first
 uniform vec3 gravity;            // m/s2

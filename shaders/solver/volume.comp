@@ -4,15 +4,24 @@
 // volume.comp - forces of every cell's energies: of its volume, by moments.   Owner: solver/gpu/volume_pass.h   physics.md 1
 // in  displacement, nodes     out  cell forces [cell_vectors * slots]: see CellForces in elastic.glsl
 // (implicit_cells.comp writes the same for its iterates, with a majoriser in w of the first.) Feature CUT drops the cells that
-// lost a spring instead.
+// lost a spring instead; AWAKE: only cells beside bricks that are awake.
 #include "layout.h"
 #include "lattice.glsl"
 #include "elastic.glsl"
 #include "corners.glsl"
 
 #ifndef __cplusplus
+#ifdef AWAKE
+layout(std430, binding = kBindAwakeCells) readonly buffer AwakeCellsBuffer {
+  uvec3 cell_groups;
+  uint cell_count;
+  uvec4 cell_counts;
+  uint cells[];
+};
+#else
 layout(std430, binding = kBindCells) readonly buffer CellsBuffer { uint cells[]; };
 uniform uint cell_count;
+#endif
 #endif
 
 #ifdef CUT

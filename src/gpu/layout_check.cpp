@@ -4,6 +4,7 @@
 // uniform blocks, what std140 does: arrays of them in steps of 16 bytes.
 #include <cstddef>
 
+#include "layout/awake_bricks.h"
 #include "layout/bindings.h"
 #include "layout/edge_forces.h"
 #include "layout/network_skin.h"
@@ -135,6 +136,13 @@ AT(SplitTriangle, slots, 40);
 SIZE(WindTriangle, 24);
 AT(WindTriangle, c, 4);
 AT(WindTriangle, springs, 8);
+
+SIZE(SleepingBrick, 48);
+AT(SleepingBrick, kind, 8);
+AT(SleepingBrick, first_node, 20);
+SIZE(AwakeList, 32);
+AT(AwakeList, count, 12);
+AT(AwakeList, bricks, 16);
 
 #undef AT
 #undef SIZE

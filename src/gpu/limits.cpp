@@ -31,7 +31,7 @@ size_t groupsAlongX() {
 
 Limits neededLimits() {
   Limits out;
-  out.storage_bindings = layout::kBindPicked + 1;  // the highest number
+  out.storage_bindings = layout::kBindAwakeCells + 1;  // the highest number
   out.storage_blocks = 8;
   out.uniform_bindings = layout::kBindBodyInfluences + 1;
   out.texture_units = layout::kUnitCellMoments + 1;

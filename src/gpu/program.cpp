@@ -11,6 +11,7 @@
 #include <sstream>
 #include <utility>
 
+#include "gpu/buffer.h"
 #include "gpu/embedded_shaders.h"
 #include "gpu/gl.h"
 #include "gpu/limits.h"
@@ -253,6 +254,16 @@ void Program::use() const {
   in_use = label_;
 }
 
+namespace {
+
+void checkFirstRun() {
+  if (!in_use || in_use->has_run) return;
+  in_use->has_run = true;
+  checkErrors(("the first run of kernel '" + in_use->name + "'").c_str());
+}
+
+}  // namespace
+
 void Program::dispatch(size_t invocations, uint32_t group_size) {
   if (invocations == 0) return;
   if (checks_dispatches) refuseUnbound();
@@ -261,9 +272,14 @@ void Program::dispatch(size_t invocations, uint32_t group_size) {
   const size_t groups = (invocations + group_size - 1) / group_size;
   const size_t rows = (groups + kMaxGroups - 1) / kMaxGroups;
   glDispatchCompute(static_cast<GLuint>(rows == 1 ? groups : kMaxGroups), static_cast<GLuint>(rows), 1);
-  if (!in_use || in_use->has_run) return;
-  in_use->has_run = true;
-  checkErrors(("the first run of kernel '" + in_use->name + "'").c_str());
+  checkFirstRun();
+}
+
+void Program::dispatchIndirect(const RawBuffer& groups) {
+  if (checks_dispatches) refuseUnbound();
+  glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, groups.id());
+  glDispatchComputeIndirect(0);
+  checkFirstRun();
 }
 
 std::string lastKernel() {
@@ -271,7 +287,8 @@ std::string lastKernel() {
 }
 
 void Program::storageBarrier() {
-  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT |
+                  GL_COMMAND_BARRIER_BIT);
 }
 
 /// Notes a value. OpenGL's own start, zero, is known too. @return null: nothing is to be done

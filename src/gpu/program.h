@@ -10,6 +10,8 @@
 
 namespace viscera::gpu {
 
+class RawBuffer;
+
 /// Source of an embedded shader with its #include lines expanded (#line kept), after `#version 450 core` and defines.
 /// @throws GpuError  no such shader
 std::string shaderSource(const std::string& name, const std::vector<std::string>& defines = {});
@@ -58,6 +60,8 @@ class Program {
   /// Enough groups of `group_size` for `invocations`; none is launched for 0. The program must be in use.
   /// @throws GpuError  the first time that this kernel runs: OpenGL has an error pending
   static void dispatch(size_t invocations, uint32_t group_size);
+  /// As many groups as the first three words of a buffer say when it is the GPU's turn. @throws GpuError  as dispatch()
+  static void dispatchIndirect(const RawBuffer& groups);
   /// Makes storage writes of earlier dispatches visible to later ones.
   static void storageBarrier();
   /// @name Uniforms by name

@@ -370,7 +370,7 @@ void visitFields(V& v, SolverConfig& c) {
   v.number("sleep_distance_m", c.sleep_distance_m, {0.01, 100}, "m",
            "a node is stopped this far from its place at rest: where fragments that fall come to lie");
   v.number("sleep_speed_m_per_s", c.sleep_speed_m_per_s, {0, 0.1}, "m/s",
-           "CPU backend: bricks of 4x4x4 nodes that are all slower for 0.1 s are not stepped until something nears or "
+           "leapfrog: bricks of 4x4x4 nodes that are all slower for 0.1 s are not stepped until something nears or "
            "moves beside them; 0: never");
   v.integer("max_substeps", c.max_substeps, {1, 100000}, "a scene that needs more substeps per tick is refused");
   v.number("real_time_factor", c.real_time_factor, {0.01, 1000}, "1",

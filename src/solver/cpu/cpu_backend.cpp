@@ -83,6 +83,12 @@ size_t CpuBackend::awakeBricks() const {
   return sleep_.awake().size();
 }
 
+std::vector<uint8_t> CpuBackend::awake() const {
+  std::vector<uint8_t> out(bricks());
+  for (const uint32_t brick : sleep_.awake()) out[brick] = 1;
+  return out;
+}
+
 // ---- a tick ----
 
 void CpuBackend::takeHold(uint32_t stylus, const Pose& pose, double radius_m) {

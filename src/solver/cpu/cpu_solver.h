@@ -14,7 +14,8 @@ class CpuSolver final : public Ticks {
   /// @throws SceneError  substeps (planSubsteps), parts (strengths), simd of another name
   CpuSolver(const Model& model, const Scene& scene, const CpuSolverOptions& options = {});
 
-  size_t awakeBricks() const { return cpu().awakeBricks(); }  ///< in the last substep
+  size_t awakeBricks() const { return cpu().awakeBricks(); }    ///< in the last substep
+  std::vector<uint8_t> awake() const { return cpu().awake(); }  ///< [bricks] 1 where awake
   size_t bricks() const { return cpu().bricks(); }
 
  private:

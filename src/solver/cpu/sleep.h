@@ -10,7 +10,7 @@
 
 namespace viscera {
 
-/// Which bricks are stepped. A brick is awake while it, or one of the 26 around it, has a node that was faster than a
+/// Which bricks are stepped (on the GPU by the same rule: solver/gpu/awake_bricks.h). A brick is awake while it, or one of the 26 around it, has a node that was faster than a
 /// speed within the last kQuiet_s, or was touched. A brick that falls asleep stands still where it is.
 class Sleep {
  public:

@@ -15,15 +15,19 @@ GoodStates::GoodStates(size_t slots, int depth) {
   }
 }
 
-void GoodStates::save(const LatticeBuffers& buffers) {
-  State& state = ring_[static_cast<size_t>(next_)];
-  state.displacement.copyFrom(buffers.state.displacement[buffers.state.current]);
-  state.velocity.copyFrom(buffers.state.velocity[buffers.state.current]);
+void GoodStates::save(const LatticeBuffers& buffers, bool same) {
+  same_ = same ? std::min(same_ + 1, static_cast<int>(ring_.size()) + 1) : 0;
+  if (same_ <= static_cast<int>(ring_.size())) {
+    State& state = ring_[static_cast<size_t>(next_)];
+    state.displacement.copyFrom(buffers.state.displacement[buffers.state.current]);
+    state.velocity.copyFrom(buffers.state.velocity[buffers.state.current]);
+  }
   next_ = (next_ + 1) % static_cast<int>(ring_.size());
   kept_ = std::min(kept_ + 1, static_cast<int>(ring_.size()));
 }
 
 void GoodStates::restore(LatticeBuffers& buffers, int back) {
+  same_ = 0;
   const bool exhausted = back >= kept_;
   back = std::min(back, kept_ - 1);
   const int depth = static_cast<int>(ring_.size());

@@ -14,8 +14,9 @@ class GoodStates {
   /// @param depth  states that are kept, > 0
   GoodStates(size_t slots, int depth);
   void clear() { kept_ = 0; }
-  /// Keeps the current state; the oldest is forgotten.
-  void save(const LatticeBuffers& buffers);
+  /// Keeps the current state; the oldest is forgotten. @param same  it is the one that was saved last: copied only
+  /// until all that is kept is that one
+  void save(const LatticeBuffers& buffers, bool same = false);
   /// Puts back the state saved `back` saves before the last one (0: the last), or the oldest there is, and forgets the
   /// younger ones. At the oldest, velocities are put to zero: nothing else is left to try. One state must have been
   /// saved.
@@ -30,7 +31,7 @@ class GoodStates {
   };
   const State& last() const { return ring_[(static_cast<size_t>(next_) + ring_.size() - 1) % ring_.size()]; }
   std::vector<State> ring_;
-  int next_ = 0, kept_ = 0;
+  int next_ = 0, kept_ = 0, same_ = 0;
 };
 
 }  // namespace viscera

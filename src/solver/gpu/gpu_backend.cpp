@@ -2,12 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solver/gpu/gpu_backend.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
 #include "gpu/program.h"
 #include "gpu/stage_clock.h"
 #include "layout/bindings.h"
+#include "model/scene/integrators.h"
+#include "solver/cpu/sleep.h"
 #include "viscera/gpu/context.h"
 #include "viscera/math/error.h"
 #include "viscera/solver/material.h"
@@ -15,17 +18,36 @@
 namespace viscera {
 
 namespace {
+
 constexpr int kStatsInFlight = 3;
+constexpr double kFarthestCut = 8 * 1.41421357;  // spacings beside a blade that it may cut in (kLongest in blade.glsl)
+
+Vector3f xyz(const layout::vec4& v) {
+  return {v.x, v.y, v.z};
 }
+
+/// Null where nothing may sleep: by another integrator, or with surroundings that move what is at rest.
+std::unique_ptr<AwakeBricks> makeAwakeBricks(const Model& model, const Scene& scene, const TickPlan& plan,
+                                             const FeatureSet& features, const LatticeBuffers& buffers) {
+  const double speed_m_per_s = scene.solver.sleep_speed_m_per_s;
+  if (!traitsOf(scene.solver.integrator).lets_bricks_sleep || plan.staysAwake() || speed_m_per_s <= 0) return nullptr;
+  if (!features.lattice || !AwakeBricks::fits(features)) return nullptr;
+  return std::make_unique<AwakeBricks>(model, features, buffers, speed_m_per_s);
+}
+
+}  // namespace
 
 GpuBackend::GpuBackend(const Model& model, const Scene& scene, const TickPlan& plan, const GpuSolverOptions& options)
     : features_(featuresOf(model, scene, plan.shortestSubstep_s(), options.group_size)),
       buffers_(model, bodyParams(model, plan.dt_safe_s), features_),
       pairs_(solvesContacts(scene) ? std::make_unique<NodePairs>(model, scene, features_, buffers_) : nullptr),
-      stepper_(makeStepper(scene.solver.integrator, scene.solver.iterations, features_, buffers_, pairs_.get())),
+      awake_(makeAwakeBricks(model, scene, plan, features_, buffers_)),
+      rest_(model, awake_ && !features_.network && plan.tick_s < Sleep::kQuiet_s),
+      stepper_(makeStepper(scene.solver.integrator, scene.solver.iterations, features_, buffers_, pairs_.get(),
+                           awake_.get())),
       measure_(features_, buffers_.store.active_count),
       has_springs_(std::isfinite(plan.dt_safe_s) && plan.dt_safe_s > 0),
-      stats_ring_(sizeof(layout::TickStats), kStatsInFlight, "the measurements of a tick") {
+      stats_ring_(sizeof(layout::TickStats) + sizeof(layout::AwakeList), kStatsInFlight, "the measurements of a tick") {
   if (plan.governed()) {
     recovery_.emplace(Recovery{GoodStates(buffers_.store.slot_count, kGoodStates + kLag), GuardPass(features_),
                                makeRecoveryStepper(kRecoveryIterations, features_, buffers_)});
@@ -33,39 +55,105 @@ GpuBackend::GpuBackend(const Model& model, const Scene& scene, const TickPlan& p
   }
   if (plan.surroundings) surroundings_.emplace(model, scene, features_, buffers_);
   if (features_.obstacles > 0) obstacle_reaction_.emplace(features_, buffers_.store.active_count, true);
+  for (const Body& body : model.bodies)
+    largest_spacing_m_ = std::max(largest_spacing_m_, static_cast<float>(body.lattice.spacing_m));
+  boxes_.reserve(layout::kMaxStyluses);
   if (plan.tools) {
     const size_t rows = static_cast<size_t>(plan.mostSubsteps()) * layout::kMaxStyluses;
     tools_.emplace(Tools{gpu::Buffer<layout::ToolMotion>(rows, "tool motions"), GrabPass(features_), CutPass(features_),
                          ReactionPass(features_, buffers_.store.active_count)});
   }
+  bind();
+}
+
+void GpuBackend::bind() const {
+  buffers_.bind();
+  if (awake_) awake_->bind();
 }
 
 void GpuBackend::beginTick() {
-  buffers_.bind();
+  rest_.beginTick();
+  if (!rest_.resting()) bind();
+}
+
+/// Something is about to happen to the tissue that may wake it.
+void GpuBackend::disturb() {
+  if (rest_.resting()) bind();
+  rest_.disturb();
+}
+
+void GpuBackend::wakeAll() {
+  disturb();
+  if (awake_) awake_->wakeAll();
 }
 
 void GpuBackend::takeHold(uint32_t stylus, const Pose& pose, double radius_m) {
+  disturb();
+  const Vector3f tip = pose.position_m.cast<float>(), reach = Vector3f::Constant(static_cast<float>(radius_m));
+  if (awake_) awake_->wakeNear({{tip - reach, tip + reach}});
   tools_->grab.takeHold(buffers_, stylus, pose, radius_m);
+  if (awake_) awake_->wakeHeld();
 }
 
+/// At the end of a tick in which nothing moved no force was too large. What is still held is seen in the measurements
+/// of this tick, not to be a disturbance of the next.
 void GpuBackend::letGo(uint32_t stylus, const Release& release) {
+  const bool in_any_case = release.above_n_s < 0;
+  if (rest_.resting() && !in_any_case) return;
+  if (in_any_case) disturb();
   tools_->grab.letGo(buffers_, stylus, release);
+  if (awake_) awake_->wakeHeld();
 }
 
+/// Where the tools may reach in this tick, as the CPU backend has it.
 void GpuBackend::writeMotions(const std::vector<layout::ToolMotion>& motions) {
+  const bool rested = rest_.resting();
+  bool cuts = false;
+  boxes_.clear();
+  for (size_t s = 0; s < layout::kMaxStyluses; ++s) {
+    const layout::ToolMotion &first = motions[s], &last = motions[motions.size() - layout::kMaxStyluses + s];
+    if (first.info.y == 0) continue;
+    Vector3f low = xyz(first.from).cwiseMin(xyz(last.to)), high = xyz(first.from).cwiseMax(xyz(last.to));
+    float reach = first.from.w;
+    if (first.info.y & (layout::kToolCuts | layout::kToolErases)) {
+      low = low.cwiseMin(xyz(first.blade_from)).cwiseMin(xyz(last.blade_to));
+      high = high.cwiseMax(xyz(first.blade_from)).cwiseMax(xyz(last.blade_to));
+      reach = first.blade_from.w;
+      cuts = true;
+    }
+    // The ends of springs that are cut lie up to a spring beside the blade.
+    const Vector3f grown = Vector3f::Constant(reach + 2 * largest_spacing_m_);
+    boxes_.push_back({low - grown, high + grown});
+  }
+  std::vector<ToolBox> disturbed = boxes_;
+  for (ToolBox& box : disturbed) {
+    const Vector3f more = Vector3f::Constant(cuts ? static_cast<float>(kFarthestCut) * largest_spacing_m_ : 0);
+    box = {box.low - more, box.high + more};
+  }
+  if (!rest_.disturbNear(disturbed) && rested) return;
+  if (rested) bind();
   tools_->motions.write(motions);
+  if (awake_) awake_->wakeNear(boxes_);
 }
 
 void GpuBackend::selectMotions(size_t substep) {
+  if (rest_.resting()) return;
   tools_->motions.bindUniform(layout::kBindToolMotions, substep * layout::kMaxStyluses, layout::kMaxStyluses);
 }
 
 void GpuBackend::cut(uint32_t stylus, bool particles) {
+  if (rest_.resting()) return;
   const gpu::TimedStage timed(gpu::Stage::kCut);
   tools_->cut.run(buffers_, stylus, particles);
+  if (awake_) awake_->wakeCut(stylus);
 }
 
 void GpuBackend::advance(const Substep& step, bool recovery) {
+  if (recovery && step.restarted) wakeAll();
+  if (rest_.resting()) {
+    awake_->slept(step);
+    return;
+  }
   const gpu::TimedStage timed(gpu::Stage::kStep);
   Stepper& stepper = recovery ? *recovery_->stepper : *stepper_;
   if (surroundings_ && step.implicit) surroundings_->bindObstacles(step);
@@ -93,16 +181,19 @@ void GpuBackend::surround(const Substep& step, const Surroundings& surroundings)
 }
 
 void GpuBackend::measure() {
+  if (rest_.resting()) return;
   const gpu::TimedStage timed(gpu::Stage::kMeasure);
   measure_.run(buffers_);
 }
 
 void GpuBackend::sumReactions(const std::array<Vector3f, layout::kMaxStyluses>& tips) {
+  if (rest_.resting()) return;
   const gpu::TimedStage timed(gpu::Stage::kReaction);
   tools_->reaction.run(buffers_, tips);
 }
 
 void GpuBackend::guard(const Governor::Bounds& bounds, const ToolMotions& motions, double tick_s) {
+  if (rest_.resting()) return;
   const gpu::TimedStage timed(gpu::Stage::kMeasure);
   recovery_->good.bindLast();
   recovery_->guard.run(buffers_, bounds, motions, tick_s);
@@ -111,13 +202,23 @@ void GpuBackend::guard(const Governor::Bounds& bounds, const ToolMotions& motion
 /// The end of a tick. Here OpenGL's errors come to light: to ask after each call would cost.
 bool GpuBackend::requestStats() {
   gpu::checkErrors("a tick of the solver");
-  return stats_ring_.request({buffers_.stats.id(), 0, sizeof(layout::TickStats)}, 0);
+  if (stats_ring_.inFlight() == kStatsInFlight) return false;
+  if (awake_ && !rest_.resting()) awake_->list();
+  const gpu::ReadbackRing::Source sources[] = {{buffers_.stats.id(), 0, sizeof(layout::TickStats)},
+                                               {awake_ ? awake_->nodes().id() : 0, 0, sizeof(layout::AwakeList)}};
+  return stats_ring_.request(sources, awake_ ? 2 : 1, rest_.send());
 }
 
 bool GpuBackend::takeStats(layout::TickStats& stats, bool wait) {
-  const void* memory = stats_ring_.collect(nullptr, wait);
+  uint64_t tick = 0;
+  const void* memory = stats_ring_.collect(&tick, wait);
   if (!memory) return false;
   std::memcpy(&stats, memory, sizeof stats);
+  if (awake_) {
+    layout::AwakeList awake;
+    std::memcpy(&awake, static_cast<const char*>(memory) + sizeof stats, sizeof awake);
+    rest_.receive(tick, awake);
+  }
   stats_ring_.release();
   if (has_springs_ && !foreign_) requireSignOfLife(stats);
   return true;
@@ -155,6 +256,13 @@ HostState GpuBackend::readState() const {
   return out;
 }
 
+std::vector<uint8_t> GpuBackend::awake() const {
+  if (!awake_) return std::vector<uint8_t>(bricks(), 1);
+  bind();
+  awake_->list();
+  return awake_->awake();
+}
+
 void GpuBackend::readCuts(CutState& out) const {
   out.nodes = buffers_.store.nodes.read();
   out.spring_cut = buffers_.links.spring_cut.read();
@@ -164,6 +272,8 @@ void GpuBackend::readCuts(CutState& out) const {
 void GpuBackend::resetState() {
   foreign_ = false;
   buffers_.reset();
+  wakeAll();
+  if (awake_) awake_->restart();
   if (surroundings_) surroundings_->restart();
   if (pairs_) pairs_->restart();
 }
@@ -178,15 +288,17 @@ void GpuBackend::loadState(const HostState& state) {
   if (buffers_.state.compensation.size()) buffers_.state.compensation.clear();
   if (surroundings_) surroundings_->restart();
   if (pairs_) pairs_->restart();
-  buffers_.bind();
+  wakeAll();
+  bind();
 }
 
 void GpuBackend::saveGood() {
   const gpu::TimedStage timed(gpu::Stage::kMeasure);
-  recovery_->good.save(buffers_);
+  recovery_->good.save(buffers_, rest_.resting());
 }
 
 void GpuBackend::restoreGood(int back) {
+  wakeAll();
   recovery_->good.restore(buffers_, back);
   if (buffers_.hands.impulses.size()) buffers_.hands.impulses.clear();
   if (buffers_.hands.obstacle_impulses.size()) buffers_.hands.obstacle_impulses.clear();

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "gpu/readback.h"
+#include "solver/gpu/awake_bricks.h"
 #include "solver/gpu/cut_pass.h"
 #include "solver/gpu/good_states.h"
 #include "solver/gpu/grab_pass.h"
@@ -15,6 +16,7 @@
 #include "solver/gpu/measure_pass.h"
 #include "solver/gpu/node_pairs.h"
 #include "solver/gpu/reaction_pass.h"
+#include "solver/gpu/rest_watch.h"
 #include "solver/gpu/stepper.h"
 #include "solver/gpu/surroundings_pass.h"
 #include "solver/solver_backend.h"
@@ -40,6 +42,10 @@ class GpuBackend final : public SolverBackend {
 
   std::string name() const override { return "gpu"; }
   uint64_t waits() const { return stats_ring_.waits(); }  ///< of the host for measurements, see GpuSolver
+
+  std::vector<uint8_t> awake() const;  ///< see GpuSolver
+  size_t bricks() const { return buffers_.store.bricks.size(); }
+  bool resting() const { return rest_.resting(); }
 
   void beginTick() override;
   void takeHold(uint32_t stylus, const Pose& pose, double radius_m) override;
@@ -70,6 +76,9 @@ class GpuBackend final : public SolverBackend {
 
  private:
   static constexpr int kLag = 1;
+  void bind() const;
+  void disturb();
+  void wakeAll();
   struct Tools {  ///< what only a scene with styluses needs
     gpu::Buffer<layout::ToolMotion> motions;
     GrabPass grab;
@@ -84,7 +93,9 @@ class GpuBackend final : public SolverBackend {
 
   FeatureSet features_;
   LatticeBuffers buffers_;
-  std::unique_ptr<NodePairs> pairs_;  ///< null where contacts between nodes are not solved for
+  std::unique_ptr<NodePairs> pairs_;    ///< null where contacts between nodes are not solved for
+  std::unique_ptr<AwakeBricks> awake_;  ///< null where nothing sleeps
+  RestWatch rest_;
   std::unique_ptr<Stepper> stepper_;
   MeasurePass measure_;
   const bool has_springs_;  ///< of nodes that may move, in the whole tissue
@@ -93,6 +104,8 @@ class GpuBackend final : public SolverBackend {
   std::optional<ReactionPass> obstacle_reaction_;
   std::optional<Tools> tools_;
   std::optional<Recovery> recovery_;
+  float largest_spacing_m_ = 0;
+  std::vector<ToolBox> boxes_;  ///< of tools, in this tick
   gpu::ReadbackRing stats_ring_;
 };
 

@@ -10,4 +10,10 @@ GpuSolver::GpuSolver(const Model& model, const Scene& scene, const GpuSolverOpti
 GpuSolver::GpuSolver(const Model& model, const Scene& scene, const TickPlan& plan, const GpuSolverOptions& options)
     : Ticks(model, scene, plan, std::make_unique<GpuBackend>(model, scene, plan, options)) {}
 
+size_t GpuSolver::awakeBricks() const {
+  size_t count = 0;
+  for (const uint8_t awake : gpu().awake()) count += awake;
+  return count;
+}
+
 }  // namespace viscera

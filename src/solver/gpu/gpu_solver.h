@@ -17,10 +17,16 @@ class GpuSolver final : public Ticks {
   StateView state() const { return *stateOnGpu(); }
   /// Times that the host had to wait for measurements: of the tick before, where a governor judges it, or where nobody
   /// governs and the GPU is more than three ticks behind.
-  uint64_t waits() const { return static_cast<const GpuBackend&>(ticked()).waits(); }
+  uint64_t waits() const { return gpu().waits(); }
+  /// [bricks] 1 where awake, for the next substep; waits.
+  std::vector<uint8_t> awake() const { return gpu().awake(); }
+  size_t awakeBricks() const;  ///< how many of them
+  size_t bricks() const { return gpu().bricks(); }
+  bool resting() const { return gpu().resting(); }  ///< the last tick was known to change nothing, and not carried out
 
  private:
   GpuSolver(const Model& model, const Scene& scene, const TickPlan& plan, const GpuSolverOptions& options);
+  const GpuBackend& gpu() const { return static_cast<const GpuBackend&>(ticked()); }
 };
 
 }  // namespace viscera

@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "solver/gpu/awake_bricks.h"
 #include "solver/gpu/spring_force_pass.h"
 #include "solver/gpu/stepper.h"
 #include "solver/gpu/volume_pass.h"
@@ -14,13 +15,15 @@ namespace viscera {
 class LeapfrogPass : public Stepper {
  public:
   /// Compiles the kernel, with tools too where there are any.
-  explicit LeapfrogPass(const FeatureSet& features);
+  /// @param awake  steps only these, and says when they were; null: steps all. Must outlive the pass
+  explicit LeapfrogPass(const FeatureSet& features, AwakeBricks* awake = nullptr);
   void run(LatticeBuffers& buffers, const Substep& step) override;
 
  private:
   gpu::Program plain_, with_tools_;
   std::optional<VolumePass> volume_;
   std::optional<SpringForcePass> spring_forces_;
+  AwakeBricks* awake_;
   uint32_t group_size_;
 };
 

@@ -11,7 +11,7 @@
 namespace viscera {
 
 std::unique_ptr<Stepper> makeStepper(Integrator integrator, int iterations, const FeatureSet& features,
-                                     const LatticeBuffers& buffers, const NodePairs* pairs) {
+                                     const LatticeBuffers& buffers, const NodePairs* pairs, AwakeBricks* awake) {
   switch (integrator) {
     case Integrator::kVerletPaper:
       return std::make_unique<VerletPaperPass>(features, buffers);
@@ -24,7 +24,7 @@ std::unique_ptr<Stepper> makeStepper(Integrator integrator, int iterations, cons
     case Integrator::kLeapfrog:
       break;
   }
-  return std::make_unique<LeapfrogPass>(features);
+  return std::make_unique<LeapfrogPass>(features, awake);
 }
 
 std::unique_ptr<Stepper> makeRecoveryStepper(int iterations, const FeatureSet& features,

@@ -11,6 +11,7 @@
 
 namespace viscera {
 
+class AwakeBricks;
 class NodePairs;
 
 /// An integrator: one substep of every active node (physics.md 2).
@@ -23,9 +24,11 @@ class Stepper {
 
 /// The integrator's kernels, compiled. @param iterations  of vbd and pd
 /// @param pairs  contacts between nodes within an implicit substep; null: none
+/// @param awake  of leapfrog: steps only these, and says when they were; null: steps all. Must outlive the stepper
 /// @throws GpuError with file, line and the driver's log
 std::unique_ptr<Stepper> makeStepper(Integrator integrator, int iterations, const FeatureSet& features,
-                                     const LatticeBuffers& buffers, const NodePairs* pairs = nullptr);
+                                     const LatticeBuffers& buffers, const NodePairs* pairs = nullptr,
+                                     AwakeBricks* awake = nullptr);
 
 /// pd without acceleration, so that every sweep lowers the energy, for the governor's recoveries.
 std::unique_ptr<Stepper> makeRecoveryStepper(int iterations, const FeatureSet& features, const LatticeBuffers& buffers);

@@ -17,12 +17,22 @@ void dispatchCells(const gpu::Program& program, const LatticeBuffers& buffers, u
 
 }  // namespace
 
-VolumePass::VolumePass(const FeatureSet& features)
-    : cells_(gpu::Program::compute("volume.comp", features.defines())), group_size_(features.group_size) {}
+VolumePass::VolumePass(const FeatureSet& features, const AwakeBricks* awake)
+    : awake_(awake), group_size_(features.group_size) {
+  std::vector<std::string> defines = features.defines();
+  if (awake) defines.push_back("AWAKE");
+  cells_ = gpu::Program::compute("volume.comp", defines);
+}
 
 void VolumePass::run(const LatticeBuffers& buffers) const {
   const gpu::TimedStage timed(gpu::Stage::kVolume);
-  dispatchCells(cells_, buffers, group_size_);
+  if (!awake_) {
+    dispatchCells(cells_, buffers, group_size_);
+    return;
+  }
+  cells_.use();
+  awake_->dispatchCells();
+  gpu::Program::storageBarrier();
 }
 
 TornCellsPass::TornCellsPass(const FeatureSet& features) : group_size_(features.group_size) {

@@ -4,6 +4,7 @@
 
 #include "gpu/program.h"
 #include "solver/features.h"
+#include "solver/gpu/awake_bricks.h"
 #include "solver/gpu/lattice_buffers.h"
 
 namespace viscera {
@@ -12,12 +13,14 @@ namespace viscera {
 /// shaders/solver/volume.comp. Exists only where some cell's Poisson's ratio is not 1/4.
 class VolumePass {
  public:
-  explicit VolumePass(const FeatureSet& features);
+  /// @param awake  of cells beside these bricks only; null: of all
+  explicit VolumePass(const FeatureSet& features, const AwakeBricks* awake = nullptr);
   /// Leaves the forces of every cell in buffers.cell_forces.
   void run(const LatticeBuffers& buffers) const;
 
  private:
   gpu::Program cells_;
+  const AwakeBricks* awake_;
   uint32_t group_size_;
 };
 

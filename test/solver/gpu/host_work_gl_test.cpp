@@ -42,7 +42,8 @@ using SubstepCalls =
     AllCounted<__glewUseProgram, __glewUniform1ui, __glewUniform1f, __glewUniform3fv, __glewUniform4fv,
                __glewProgramUniform1ui, __glewProgramUniform1f, __glewProgramUniform3fv, __glewProgramUniform4fv,
                __glewBindBufferBase, __glewBindBufferRange, __glewBindBuffersBase, __glewBindTextureUnit,
-               __glewBindTextures, __glewDispatchCompute, __glewMemoryBarrier, __glewNamedBufferSubData>;
+               __glewBindTextures, __glewBindBuffer, __glewDispatchCompute, __glewDispatchComputeIndirect,
+               __glewMemoryBarrier, __glewNamedBufferSubData>;
 
 /// A GPU that has done nothing of what it was asked since the last finishAll(), as far as fences tell.
 class SlowGpu {
@@ -74,7 +75,7 @@ class HostWork : public GpuTest {
  protected:
   /// OpenGL calls that one more substep in a tick takes, after a tick that has set up everything.
   double callsPerSubstep(Scene scene, const Model& model, const ToolMotions& motions = {}) const {
-    constexpr int kFew = 10, kMany = 30;
+    constexpr int kFew = 12, kMany = 36;  // whole looks for who sleeps
     int in_tick[2];
     for (int substeps : {kFew, kMany}) {
       scene.solver.tick_hz *= substeps == kMany ? static_cast<double>(kFew) / kMany : 1;
@@ -97,6 +98,16 @@ class HostWork : public GpuTest {
 TEST_F(HostWork, PlainSubstepTakesFiveOpenGlCalls) {
   // use, dispatch, barrier, and the state's buffers and texel views
   EXPECT_EQ(callsPerSubstep(sceneWith(Integrator::kLeapfrog, model_, 10, 0.5), model_), 5);
+}
+
+TEST_F(HostWork, SleepTakesOneMoreASubstepAndALookInEverySixth) {
+  // Which list is dispatched over; and of a look: use, number, dispatch, barrier for who is fast and for the lists,
+  // and the substep's own kernel again.
+  Scene scene = sceneWith(Integrator::kLeapfrog, model_, 10, 0.5);
+  scene.solver.sleep_speed_m_per_s = 1e-9;
+  const double calls = callsPerSubstep(scene, model_);
+  EXPECT_GT(calls, 6) << "no look was counted";
+  EXPECT_LE(calls, 6 + 10.0 / 6);
 }
 
 TEST_F(HostWork, VolumesTakeThreeMoreAndAProbeOne) {

@@ -1,0 +1,323 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Bricks at rest sleep on the GPU as they do on the CPU (solver/cpu/sleep_test.cpp), and a tick in which all do costs
+// nearly nothing.
+#include "gpu/gl.h"
+#include "solver/cpu/sleep.h"
+#include "support/backends.h"
+#include "support/networks.h"
+#include "support/random_state.h"
+
+using namespace viscera;
+using namespace viscera::test;
+
+namespace {
+
+constexpr double kSpacing_m = 0.005;
+constexpr double kTick_s = 0.005;
+constexpr double kDrag_per_s = 60;
+constexpr double kSleepSpeed_m_per_s = SolverConfig{}.sleep_speed_m_per_s;
+// Float32 on both backends: what the tissue does within the sleep speed and the time that drag leaves it, in which one
+// may fall asleep a look before the other.
+constexpr double kApart_m = 2e-7;
+
+/// 13 nodes to a side: 4 bricks to a side. Held at the bottom, and soon at rest.
+Body cube(double poisson_ratio) {
+  Body body = boxBody({12, 12, 12}, kSpacing_m);
+  body.material.drag_per_s = kDrag_per_s;
+  body.material.poisson_ratio = poisson_ratio;
+  for (uint32_t slot : body.lattice.active_slots) {
+    if (body.lattice.nodeAt(slot).z() == 0) body.lattice.nodes[slot].lo |= layout::kFixedBit;
+  }
+  return body;
+}
+
+ToolMotions tool(ToolMode mode, const Vector3d& from, const Vector3d& to) {
+  ToolMotions motions;
+  motions[0].mode = mode;
+  motions[0].present = true;
+  motions[0].from.position_m = from;
+  motions[0].to.position_m = to;
+  return motions;
+}
+const Vector3d kCorner_m(0, 0, 0.06);
+/// Stands still, 2 mm deep in the corner. The tip's radius is 6 mm.
+ToolMotions probeAtCorner() {
+  return probeAt(kCorner_m + Vector3d(0, 0, 0.004));
+}
+ToolMotions grabAtCorner() {
+  ToolMotions motions = tool(ToolMode::kGrab, kCorner_m, kCorner_m + Vector3d(-0.002, 0, 0));
+  motions[0].hold_begins = true;
+  return motions;
+}
+ToolMotions holdAtCorner() {
+  const Vector3d tip = kCorner_m + Vector3d(-0.002, 0, 0);
+  return tool(ToolMode::kGrab, tip, tip);
+}
+ToolMotions letGoAtCorner() {
+  ToolMotions motions = holdAtCorner();
+  motions[0].mode = ToolMode::kNone;
+  motions[0].hold_ended = ToolMode::kGrab;
+  return motions;
+}
+/// Along x through the whole width, blade from above, 1 cm of it in the cube.
+ToolMotions cutTop() {
+  return tool(ToolMode::kCut, {-0.02, 0.0275, 0.14}, {0.08, 0.0275, 0.14});
+}
+
+struct Kind {
+  double poisson_ratio = 0.25, sleep_speed_m_per_s = kSleepSpeed_m_per_s, gravity_m_per_s2 = 0;
+  bool governor = false;
+};
+
+class SleepingOnGpu : public GpuTest {
+ protected:
+  Scene sceneOf(const Model& model, const Kind& kind) const {
+    StylusConfig stylus;
+    stylus.grab.radius_m = 0.008;
+    stylus.cut.blade_length_m = 0.1;
+    Scene scene = sceneFor(model, 1, {stylus}, {0, 0, -kind.gravity_m_per_s2});
+    scene.solver.tick_hz = 1 / kTick_s;
+    scene.solver.dt_fraction = scene.solver.dt_fraction_strained = 0.75;
+    scene.solver.sleep_speed_m_per_s = kind.sleep_speed_m_per_s;
+    scene.solver.governor = kind.governor;
+    return scene;
+  }
+  std::unique_ptr<GpuSolver> make(const Kind& kind = {}) const {
+    return std::make_unique<GpuSolver>(model_, sceneOf(model_, kind));
+  }
+  /// @return ticks until nothing is awake, or `most`
+  static int settle(GpuSolver& solver, int most = 1000) {
+    int ticks = 0;
+    for (; ticks < most && (ticks == 0 || solver.awakeBricks() > 0); ++ticks) solver.step({});
+    return ticks;
+  }
+  /// As settle(), until the host knows.
+  static void rest(GpuSolver& solver) {
+    settle(solver);
+    layout::TickStats stats;
+    for (int t = 0; t < 4; ++t) {
+      solver.step({});
+      while (solver.pollStats(stats, true)) {
+      }
+    }
+    ASSERT_TRUE(solver.resting());
+  }
+  uint64_t hashOf(const Solver& solver) const { return stateHash(model_, solver.readState()); }
+  static double difference(const Model& model, const HostState& a, const HostState& b) {
+    double largest = 0;
+    for (uint32_t slot : model.bodies[0].lattice.active_slots) {
+      largest = std::max(largest, (xyz(a.displacement_m[slot]) - xyz(b.displacement_m[slot])).norm());
+    }
+    return largest;
+  }
+
+  const Model model_ = modelOf({cube(0.25)});
+};
+
+/// Counts the kernels that OpenGL is told to run while it lives.
+class CountedDispatches {
+ public:
+  CountedDispatches() {
+    count = 0;
+    original_ = __glewDispatchCompute;
+    original_indirect_ = __glewDispatchComputeIndirect;
+    __glewDispatchCompute = [](GLuint x, GLuint y, GLuint z) {
+      ++count;
+      original_(x, y, z);
+    };
+    __glewDispatchComputeIndirect = [](GLintptr offset) {
+      ++count;
+      original_indirect_(offset);
+    };
+  }
+  ~CountedDispatches() {
+    __glewDispatchCompute = original_;
+    __glewDispatchComputeIndirect = original_indirect_;
+  }
+  static inline int count = 0;
+
+ private:
+  static inline PFNGLDISPATCHCOMPUTEPROC original_ = nullptr;
+  static inline PFNGLDISPATCHCOMPUTEINDIRECTPROC original_indirect_ = nullptr;
+};
+
+}  // namespace
+
+TEST_F(SleepingOnGpu, BodyAtRestFallsAsleepAfterAWhileAndStaysAsItIs) {
+  const auto solver = make();
+  EXPECT_EQ(solver->awakeBricks(), solver->bricks());
+  const int quiet_ticks = static_cast<int>(Sleep::kQuiet_s / kTick_s);
+  for (int t = 0; t < quiet_ticks - 1; ++t) solver->step({});
+  EXPECT_EQ(solver->awakeBricks(), solver->bricks());
+  for (int t = 0; t < 2; ++t) solver->step({});
+  EXPECT_EQ(solver->awakeBricks(), 0u);
+  const uint64_t hash = hashOf(*solver);
+  for (int t = 0; t < 9; ++t) solver->step({});
+  EXPECT_EQ(hashOf(*solver), hash);
+}
+
+TEST_F(SleepingOnGpu, WhereNothingSleepsTheHashIsThatWithoutSleep) {
+  for (const double poisson_ratio : {0.25, 0.4}) {
+    const Model model = modelOf({cube(poisson_ratio)});
+    uint64_t hashes[2];
+    for (const bool sleeps : {false, true}) {
+      GpuSolver solver(model, sceneOf(model, {poisson_ratio, sleeps ? 1e-9 : 0, 9.81}));
+      solver.writeState(randomState(model, 1e-4, 0.05, 3));
+      for (int t = 0; t < 4; ++t) solver.step(probeAtCorner());
+      EXPECT_EQ(solver.awakeBricks(), solver.bricks());
+      hashes[sleeps] = stateHash(model, solver.readState());
+    }
+    EXPECT_EQ(hashes[0], hashes[1]) << "nu " << poisson_ratio;
+  }
+}
+
+TEST_F(SleepingOnGpu, SameBricksSleepAsOnTheCpuWhateverToolsDo) {
+  struct Part {
+    int ticks;
+    ToolMotions motions;
+  };
+  const std::vector<Part> script = {
+      {60, {}}, {15, probeAtCorner()}, {60, {}}, {1, grabAtCorner()}, {30, holdAtCorner()}, {1, letGoAtCorner()},
+      {80, {}}, {1, cutTop()},         {80, {}}};
+  for (const double poisson_ratio : {0.25, 0.4}) {
+    SCOPED_TRACE(poisson_ratio);
+    const Model model = modelOf({cube(poisson_ratio)});
+    // Fast things sleep: there is more between awake and asleep.
+    const Scene scene = sceneOf(model, {poisson_ratio, 20 * kSleepSpeed_m_per_s});
+    const auto cpu = makeCpu("", model, scene);
+    GpuSolver gpu(model, scene);
+    std::vector<uint8_t> before = cpu->awake();
+    size_t most_asleep_beside_awake = 0;
+    int tick = 0, differs = 0;
+    for (const Part& part : script) {
+      for (int t = 0; t < part.ticks; ++t, ++tick) {
+        cpu->step(part.motions);
+        gpu.step(part.motions);
+        const std::vector<uint8_t> now = cpu->awake();
+        differs += gpu.awake() != now;
+        const size_t awake = cpu->awakeBricks();
+        if (awake > 0) most_asleep_beside_awake = std::max(most_asleep_beside_awake, cpu->bricks() - awake);
+      }
+      EXPECT_EQ(gpu.awake(), cpu->awake()) << "after tick " << tick;
+      EXPECT_LT(difference(model, gpu.readState(), cpu->readState()), kApart_m) << "after tick " << tick;
+    }
+    EXPECT_GT(most_asleep_beside_awake, 0u);
+    RecordProperty("ticks_that_differ", differs);
+    EXPECT_LE(differs, tick / 50) << "of " << tick;
+  }
+}
+
+TEST_F(SleepingOnGpu, TickAsleepRunsNoKernelOnceTheHostKnows) {
+  for (const bool governor : {false, true}) {
+    const auto solver = make({0.25, kSleepSpeed_m_per_s, 0, governor});
+    rest(*solver);
+    const uint64_t hash = hashOf(*solver);
+    {
+      const CountedDispatches counted;
+      for (int t = 0; t < 20; ++t) solver->step(t < 10 ? ToolMotions{} : probeAt({0, 0, 0.2}));
+      EXPECT_EQ(CountedDispatches::count, 0);
+      EXPECT_TRUE(solver->resting());
+    }
+    EXPECT_EQ(hashOf(*solver), hash);
+    solver->step(probeAtCorner());
+    EXPECT_FALSE(solver->resting());
+    EXPECT_GT(solver->awakeBricks(), 0u);
+    EXPECT_NE(hashOf(*solver), hash);
+  }
+}
+
+TEST_F(SleepingOnGpu, ResultDoesNotDependOnWhenMeasurementsAreReadBack) {
+  for (const bool governor : {false, true}) {
+    uint64_t first = 0;
+    for (const int poll_every : {1, 3, 1000}) {
+      const auto solver = make({0.25, 20 * kSleepSpeed_m_per_s, 0, governor});
+      layout::TickStats stats;
+      int rested = 0;
+      for (int t = 0; t < 120; ++t) {
+        const bool probes = t >= 40 && t < 45;
+        solver->step(probes ? probeAtCorner() : probeAt({0.1, 0, 0.1 + 0.001 * (t % 3)}));
+        rested += solver->resting();
+        while (t % poll_every == 0 && solver->pollStats(stats, true)) {
+        }
+      }
+      EXPECT_GT(rested, 0);
+      const uint64_t hash = hashOf(*solver);
+      if (first == 0) first = hash;
+      EXPECT_EQ(hash, first) << "asked every " << poll_every << " ticks";
+    }
+  }
+}
+
+TEST_F(SleepingOnGpu, MeasurementsOfTissueAsleepAreThoseOfTissueAtRest) {
+  const auto solver = make({0.25, kSleepSpeed_m_per_s, 9.81});
+  layout::TickStats stats{};
+  for (int t = 0; t < 3; ++t) solver->step(probeAtCorner());
+  while (solver->pollStats(stats, true)) {
+  }
+  EXPECT_GT(stats.touched[0], 0u);
+  rest(*solver);
+  solver->step({});
+  ASSERT_TRUE(solver->pollStats(stats, true));
+  EXPECT_EQ(stats.max_speed_bits, 0u);
+  EXPECT_EQ(stats.kinetic_j, 0);
+  EXPECT_GT(stats.elastic_j, 0);
+  EXPECT_EQ(stats.touched[0], 0u);
+  EXPECT_EQ(stats.impulse[0].x, 0);
+}
+
+TEST_F(SleepingOnGpu, StateThatIsWrittenAndResetWakeAll) {
+  const auto solver = make();
+  rest(*solver);
+  const HostState moved = randomState(model_, 1e-4, 0, 3);
+  solver->writeState(moved);
+  EXPECT_EQ(solver->awakeBricks(), solver->bricks());
+  solver->step({});
+  EXPECT_GT(difference(model_, solver->readState(), moved), 1e-6);
+  rest(*solver);
+  solver->reset();
+  EXPECT_EQ(solver->awakeBricks(), solver->bricks());
+}
+
+TEST_F(SleepingOnGpu, GovernorsRollbackWakesAll) {
+  const auto solver = make({0.25, kSleepSpeed_m_per_s, 0, true});
+  rest(*solver);
+  solver->step(grabAtCorner());
+  ToolMotions motions = holdAtCorner();
+  motions[0].to.position_m = Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+  solver->step(motions);
+  solver->step({});  // the host learns of it
+  EXPECT_EQ(solver->health().trips, 1u);
+  EXPECT_EQ(solver->awakeBricks(), solver->bricks());
+  for (int t = 0; t < 4; ++t) solver->step({});
+  const HostState state = solver->readState();
+  for (uint32_t slot : model_.bodies[0].lattice.active_slots) {
+    ASSERT_TRUE(xyz(state.displacement_m[slot]).allFinite() && xyz(state.velocity_m_per_s[slot]).allFinite());
+  }
+}
+
+TEST_F(SleepingOnGpu, NetworksBesideALatticeGoOn) {
+  Body net = clothBody(6, 6, 0.005);
+  net.material.drag_per_s = 5;
+  const Model model = modelOf({cube(0.25), net});
+  for (const double speed_m_per_s : {0.0, kSleepSpeed_m_per_s}) {
+    GpuSolver solver(model, sceneOf(model, {0.25, speed_m_per_s}));
+    HostState start = restState(model);
+    const uint32_t slot = static_cast<uint32_t>(model.slots() - layout::kBrickSlots);
+    start.displacement_m[slot] = {0.001f, 0, 0, 0};
+    solver.writeState(start);
+    for (int t = 0; t < 40; ++t) solver.step({});
+    const HostState before = solver.readState();
+    solver.step({});
+    EXPECT_NE(before.displacement_m[slot].x, solver.readState().displacement_m[slot].x);
+    EXPECT_FALSE(solver.resting());
+  }
+}
+
+TEST_F(SleepingOnGpu, OtherIntegratorsDoNotSleep) {
+  Scene scene = sceneWith(Integrator::kPd, model_, 1, 20, 1);
+  scene.solver.sleep_speed_m_per_s = 1;
+  GpuSolver solver(model_, scene);
+  for (int t = 0; t < 5; ++t) solver.step({});
+  EXPECT_EQ(solver.awakeBricks(), solver.bricks());
+}
