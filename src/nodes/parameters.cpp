@@ -4,6 +4,7 @@
 
 #include <ros/param.h>
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -80,6 +81,30 @@ std::vector<std::string> Parameters::texts(const std::string& key) {
   std::vector<std::string> items;
   for (int i = 0; i < value->size(); ++i) items.push_back(stringOf((*value)[i], key, kAccepted));
   return items;
+}
+
+std::vector<double> Parameters::numbers(const std::string& key, const std::vector<double>& fallback, double min,
+                                        double max) {
+  const XmlRpcValue* value = find(key);
+  if (!value) return fallback;
+  std::ostringstream accepted;
+  accepted << fallback.size() << " numbers, each " << min << ".." << max
+           << ": a list, or one string with blanks between them";
+  std::vector<double> out;
+  if (value->getType() == XmlRpcValue::TypeString) {
+    std::istringstream in(static_cast<const std::string&>(*value));
+    for (double number; in >> number;) out.push_back(number);
+    if (!in.eof()) refuse(key, accepted.str());
+  } else if (value->getType() == XmlRpcValue::TypeArray) {
+    for (int i = 0; i < value->size(); ++i) {
+      const XmlRpcValue& item = (*value)[i];
+      if (item.getType() == XmlRpcValue::TypeInt) out.push_back(static_cast<const int&>(item));
+      if (item.getType() == XmlRpcValue::TypeDouble) out.push_back(static_cast<const double&>(item));
+    }
+  }
+  const auto in_range = [&](double number) { return number >= min && number <= max; };
+  if (out.size() != fallback.size() || !std::all_of(out.begin(), out.end(), in_range)) refuse(key, accepted.str());
+  return out;
 }
 
 void Parameters::refuseOthers() const {

@@ -31,6 +31,8 @@ class Parameters {
   bool flag(const std::string& key, bool fallback);
   /// A list of strings, or one string with ';' between the items. Empty items are left out.
   std::vector<std::string> texts(const std::string& key);
+  /// A list of so many numbers, or one string with blanks between them.
+  std::vector<double> numbers(const std::string& key, const std::vector<double>& fallback, double min, double max);
   bool has(const std::string& key) const;
 
   /// Call after all readers: a parameter that none of them asked for is a slip of the pen.

@@ -2,34 +2,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/stylus_replay.h"
 
-#include <geometry_msgs/PoseStamped.h>
 #include <ros/console.h>
 #include <ros/spinner.h>
-#include <sensor_msgs/Joy.h>
 #include <std_srvs/Trigger.h>
 
 #include <algorithm>
 #include <chrono>
 #include <thread>
-#include <utility>
 
-#include "nodes/conversions.h"
 #include "nodes/scene_choice.h"
 
 namespace viscera::nodes {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-constexpr uint32_t kButtonQueue = 16;
 constexpr std::chrono::milliseconds kWaitPeriod{50};
 constexpr std::chrono::milliseconds kFarewell{200};  ///< roscpp sends on another thread: let it finish
-
-void sendButton(const ros::Publisher& publisher, bool pressed, const ros::Time& stamp) {
-  sensor_msgs::Joy message;
-  message.header.stamp = stamp;
-  message.buttons = {pressed ? 1 : 0};
-  publisher.publish(message);
-}
 
 }  // namespace
 
@@ -65,11 +53,7 @@ StylusReplay::StylusReplay(const ReplayOptions& options)
     const auto same = [&](const StylusConfig& config) { return config.name == stroke.stylus; };
     if (std::any_of(styluses_.begin(), styluses_.end(), same)) continue;
     styluses_.emplace_back().name = stroke.stylus;
-    devices_.push_back({node_.advertise<geometry_msgs::PoseStamped>(stroke.stylus + "/measured_cp", 1),
-                        node_.advertise<sensor_msgs::Joy>(stroke.stylus + "/button1", kButtonQueue),
-                        node_.advertise<sensor_msgs::Joy>(stroke.stylus + "/button2", kButtonQueue),
-                        {},
-                        false});
+    devices_.emplace_back(node_, stroke.stylus);
   }
   if (styluses_.size() > layout::kMaxStyluses)
     throw StrokesError("the strokes name " + std::to_string(styluses_.size()) + " styluses; a simulator has at most " +
@@ -77,10 +61,7 @@ StylusReplay::StylusReplay(const ReplayOptions& options)
 }
 
 bool StylusReplay::allHeard() const {
-  return std::all_of(devices_.begin(), devices_.end(), [](const Device& device) {
-    return device.pose.getNumSubscribers() > 0 && device.button1.getNumSubscribers() > 0 &&
-           device.button2.getNumSubscribers() > 0;
-  });
+  return std::all_of(devices_.begin(), devices_.end(), [](const DevicePublisher& device) { return device.isHeard(); });
 }
 
 void StylusReplay::check() {
@@ -138,25 +119,7 @@ void StylusReplay::play(double from_s) {
 void StylusReplay::send(double time_s) {
   const StylusSamples samples = options_.strokes.at(time_s, styluses_);
   for (size_t i = 0; i < devices_.size(); ++i)
-    if (samples[i].valid) send(devices_[i], samples[i]);
-}
-
-void StylusReplay::send(Device& device, const StylusSample& sample) const {
-  geometry_msgs::PoseStamped pose;
-  pose.header.frame_id = options_.frame;
-  pose.header.stamp = ros::Time::now();
-  pose.pose = toMessage(sample.pose);
-  device.pose.publish(pose);
-  const StylusSample before = std::exchange(device.last, sample);
-  if (!std::exchange(device.begun, true)) {
-    // A button that is down when the hand comes does nothing: these are let go first, and pressed with the next pose.
-    device.last.button1 = device.last.button2 = false;
-    sendButton(device.button1, false, pose.header.stamp);
-    sendButton(device.button2, false, pose.header.stamp);
-    return;
-  }
-  if (sample.button1 != before.button1) sendButton(device.button1, sample.button1, pose.header.stamp);
-  if (sample.button2 != before.button2) sendButton(device.button2, sample.button2, pose.header.stamp);
+    if (samples[i].valid) devices_[i].send(samples[i], options_.frame, ros::Time::now());
 }
 
 }  // namespace viscera::nodes

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "nodes/clock_watch.h"
+#include "nodes/device_publisher.h"
 #include "nodes/master_watch.h"
 #include "nodes/parameters.h"
 #include "nodes/simulation_clock.h"
@@ -44,11 +45,6 @@ class StylusReplay {
   void run();
 
  private:
-  struct Device {
-    ros::Publisher pose, button1, button2;
-    StylusSample last;
-    bool begun = false;
-  };
   bool allHeard() const;
   /// @throws Error  if the master is lost
   void check();
@@ -56,12 +52,11 @@ class StylusReplay {
   void play(double from_s);
   void resetSimulation();
   void send(double time_s);
-  void send(Device& device, const StylusSample& sample) const;
 
   const ReplayOptions options_;
   ros::NodeHandle node_;
-  std::vector<StylusConfig> styluses_;  ///< only their names matter
-  std::vector<Device> devices_;         ///< [styluses]
+  std::vector<StylusConfig> styluses_;    ///< only their names matter
+  std::vector<DevicePublisher> devices_;  ///< [styluses]
   ros::ServiceClient reset_;
   SimulationClock simulation_;
   MasterWatch master_;

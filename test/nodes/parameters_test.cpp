@@ -47,6 +47,23 @@ TEST(Parameters, WholeNumberServesAsANumber) {
   EXPECT_EQ(parameters.number("rate_hz", 30, 1, 100), 25);
 }
 
+TEST(Parameters, NumbersAreAListOrOneString) {
+  XmlRpcValue list;
+  list[0] = 1;
+  list[1] = 2.5;
+  Parameters as_list(one("start", list)), as_text(one("start", XmlRpcValue("1 2.5"))), none{XmlRpcValue()};
+  const std::vector<double> expected = {1, 2.5};
+  EXPECT_EQ(as_list.numbers("start", {0, 0}, 0, 9), expected);
+  EXPECT_EQ(as_text.numbers("start", {0, 0}, 0, 9), expected);
+  EXPECT_EQ(none.numbers("start", expected, 0, 9), expected);
+  for (const char* text : {"1", "1 2 3", "1 x", "1 10", "1 nan", ""}) {
+    Parameters bad(one("start", XmlRpcValue(text)));
+    expectRefused([&] { bad.numbers("start", {0, 0}, 0, 9); }, {"~start", "2 numbers", "0..9"});
+  }
+  Parameters number(one("start", XmlRpcValue(1)));
+  expectRefused([&] { number.numbers("start", {0, 0}, 0, 9); }, {"~start", "2 numbers"});
+}
+
 TEST(Parameters, WrongTypeIsRefusedWithTheKey) {
   expectRefused([] { Parameters(one("rate_hz", XmlRpcValue("fast"))).number("rate_hz", 30, 1, 100); },
                 {"~rate_hz", "1..100"});
