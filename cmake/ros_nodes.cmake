@@ -18,7 +18,7 @@ target_include_directories(viscera_nodes SYSTEM PUBLIC ${catkin_INCLUDE_DIRS} ${
                            ${CATKIN_DEVEL_PREFIX}/${CATKIN_GLOBAL_INCLUDE_DESTINATION})
 target_compile_options(viscera_nodes PRIVATE ${VISCERA_CXX_FLAGS})
 target_compile_definitions(viscera_nodes PUBLIC ${VISCERA_ROS_DEFINITIONS})
-target_link_libraries(viscera_nodes PUBLIC viscera_session viscera_devices ${catkin_LIBRARIES} ${interactive_markers_LIBRARIES})
+target_link_libraries(viscera_nodes PUBLIC viscera_session viscera_devices viscera_haptics ${catkin_LIBRARIES} ${interactive_markers_LIBRARIES})
 
 set(VISCERA_NODES "")
 foreach(main ${node_mains})

@@ -8,6 +8,7 @@
 #include "bench/harness/backends.h"
 #include "bench/suites/accuracy_suite.h"
 #include "bench/suites/egve_suite.h"
+#include "bench/suites/haptics_suite.h"
 #include "bench/suites/material_suite.h"
 #include "bench/suites/performance_suites.h"
 #include "bench/suites/stability_suite.h"
@@ -43,6 +44,8 @@ const std::vector<Suite>& suites() {
       {"egve", "what do the mappings of the skin cost, and how far off are they (EGVE 3.4)?", run<egveSuite>, true},
       {"cut", "pictures per second by length of an incision (VR05 figure 11), rate by share of springs cut",
        run<cutSuite>},
+      {"haptics", "simulated devices against tissue: what is felt, limit cycles, energy, by mass, delay and stiffness",
+       run<hapticsSuite>},
       {"latency", "from a pose to its force and its picture; how even ticks are", run<latencySuite>},
       {"limit", "copies and multiply-adds of this machine, and the fraction that is reached", run<limitSuite>},
   };

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "math/float_bits.h"
+#include "model/scene/tool_kinds.h"
 #include "session/arrows.h"
 #include "session/view.h"
 #include "solver/make_solver.h"
@@ -109,6 +110,7 @@ void Session::forgetHands() {
   tools_.forget();
   for (ForceLimiter& limiter : limiters_) limiter.reset();
   reactions_ = {};
+  contacts_ = {};
 }
 
 void Session::setObstacleFrame(size_t obstacle, const Pose& pose) {
@@ -149,6 +151,7 @@ void Session::releaseUntracked(const ToolMotions& motions, Frame& frame) {
     if (motions[s].present && !frame.health.recovering) continue;
     limiters_[s].reset();
     frame.reactions[s] = Reaction{};
+    frame.contacts[s] = TickContact{};
   }
 }
 
@@ -159,6 +162,7 @@ SteadyTime Session::PoseTimes::newest() const {
 void Session::notePoses(const StylusSamples& samples) {
   PoseTimes& times = pose_times_[tick_ % kNotedTicks];
   times.tick = tick_;
+  times.motions = look_.motions;
   for (size_t s = 0; s < samples.size(); ++s) times.received[s] = samples[s].valid ? samples[s].received : SteadyTime{};
 }
 
@@ -186,6 +190,7 @@ void Session::collectStats(Frame& frame, bool wait) {
       const Reaction raw{-xyz(stats_.impulse[s]) / tick_s(), -xyz(stats_.angular[s]) / tick_s(), false};
       extremes_.peak_force_n = std::max(extremes_.peak_force_n, raw.force_n.norm());
       reactions_[s] = limiters_[s].limit(raw, tick_s());
+      contacts_[s] = contactOf(s, raw);
     }
     for (size_t o = 0; o < obstacle_forces_.size(); ++o) {
       obstacle_forces_[o] = {-xyz(stats_.obstacle_impulse[o]) / tick_s(), -xyz(stats_.obstacle_angular[o]) / tick_s(),
@@ -202,8 +207,22 @@ void Session::collectStats(Frame& frame, bool wait) {
   frame.stats = stats_;
   frame.has_stats = has_stats_;
   frame.reactions = reactions_;
+  frame.contacts = contacts_;
   frame.obstacle_forces = obstacle_forces_;
   frame.poses_received = posesOf(judged_).received;
+}
+
+/// Of the tick whose measurements came last.
+TickContact Session::contactOf(size_t stylus, const Reaction& raw) const {
+  const StylusMotion motion = posesOf(judged_).motions[stylus];
+  TickContact out;
+  out.from_m = motion.from.position_m;
+  out.to_m = motion.to.position_m;
+  const bool acts = motion.present && !(motion.feels_m > 0) && raw.force_n.allFinite() && raw.torque_nm.allFinite();
+  if (!acts || stats_.touched[stylus] + stats_.grabbed[stylus] == 0) return out;
+  out.kind = kindOf(motion.mode).does(kHolds) ? TickContact::Kind::kHolds : TickContact::Kind::kPushes;
+  out.reaction = raw;
+  return out;
 }
 
 void Session::reset() {
@@ -216,6 +235,7 @@ void Session::reset() {
   lookAtObstacles();
   for (ForceLimiter& limiter : limiters_) limiter.reset();
   reactions_ = {};
+  contacts_ = {};
   obstacle_forces_.assign(obstacle_forces_.size(), Reaction{});
   stats_ = {};
   has_stats_ = false;

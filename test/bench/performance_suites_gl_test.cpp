@@ -54,6 +54,13 @@ TEST_F(PerformanceSuite, ScaleHasCostAndMemoryOfEverySize) {
   EXPECT_EQ(rows("cubes").size(), 3u);
 }
 
+TEST_F(PerformanceSuite, HapticsHasARowOfEachCellAndMeetsItsChecks) {
+  run("haptics");
+  EXPECT_EQ(rows("matrix").size(), 8u);
+  EXPECT_EQ(rowsWith("matrix", {",no,"}), 8u);  // limit cycles
+  EXPECT_EQ(rowsWith("once_per_tick", {",yes,"}), 1u);
+}
+
 TEST_F(PerformanceSuite, SkipHasARowOfEachSkipOnEachBackend) {
   run("skip");
   for (const std::string feature : {"dashpot", "energy of volume", "strengths by part", "contacts", "cuts",

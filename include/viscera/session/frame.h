@@ -16,6 +16,7 @@
 #include "viscera/surface/shown_mesh.h"
 #include "viscera/tools/force_limiter.h"
 #include "viscera/tools/stylus.h"
+#include "viscera/tools/tick_contact.h"
 
 namespace viscera {
 
@@ -56,6 +57,8 @@ struct Frame : Pictures {
   uint64_t tick = 0;
   std::array<Reaction, layout::kMaxStyluses> reactions;
   std::array<SteadyTime, layout::kMaxStyluses> poses_received{};  ///< of the poses that the reactions answer; 0: none
+  /// The way of each tip, and what it met, in the tick that `stats` is of; kFree where it is not tracked.
+  std::array<TickContact, layout::kMaxStyluses> contacts;
   layout::TickStats stats{};
   bool has_stats = false;  ///< stats are those of some recent tick
   Health health;

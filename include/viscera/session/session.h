@@ -90,10 +90,11 @@ class Session {
   uint64_t tick() const { return tick_; }
 
  private:
-  /// When the poses of a recent tick came.
+  /// When the poses of a recent tick came, and where they led the tips.
   struct PoseTimes {
     uint64_t tick = 0;
     std::array<SteadyTime, layout::kMaxStyluses> received{};
+    ToolMotions motions;
     SteadyTime newest() const;
   };
   Session(const Scene& scene, gpu::Context* context, const Progress& progress, const SessionOptions& options);
@@ -106,6 +107,7 @@ class Session {
   PoseTimes posesOf(uint64_t tick) const;
   void collect(Frame& frame, bool wait);
   void collectStats(Frame& frame, bool wait);
+  TickContact contactOf(size_t stylus, const Reaction& raw) const;
   void releaseUntracked(const ToolMotions& motions, Frame& frame);
 
   Scene scene_;
@@ -119,6 +121,7 @@ class Session {
   std::vector<ForceLimiter> limiters_;
   layout::TickStats stats_{};
   std::array<Reaction, layout::kMaxStyluses> reactions_;
+  std::array<TickContact, layout::kMaxStyluses> contacts_;
   std::vector<Reaction> obstacle_forces_;  ///< [obstacles]
   Extremes extremes_;
   bool has_stats_ = false;

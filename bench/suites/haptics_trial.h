@@ -1,0 +1,34 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "viscera/haptics/haptic_servo.h"
+#include "viscera/haptics/simulated_device.h"
+
+namespace viscera::bench {
+
+/// One cell of the matrix: a device in a hand presses a probe into a block of tissue, holds it there, and leaves.
+struct HapticTrial {
+  double mass_kg = 0.1, delay_s = 0;
+  double young_modulus_pa = 1e4;
+  double rate_hz = 1000;  ///< of the servo; 0: forces once per tick, as they come
+};
+
+/// What came of it.
+struct HapticOutcome {
+  double depth_mm = 0;               ///< of the tip below the surface while it is held
+  double force_n = 0;                ///< of the servo, mean of the last part of the hold
+  double simulator_n = 0;            ///< of the ticks, mean of the same
+  double static_error = 0;           ///< between them, as a share
+  double stiffness_n_per_m = 0;      ///< felt: what force and depth of two holds differ by
+  double swing_n = 0, swing_mm = 0;  ///< half of peak to peak in the last part of the hold
+  double least_energy_mj = 0;        ///< that the device's motors had taken in at any time; < 0: they gave
+  double observed_mj = 0;            ///< the same as the observer has it
+  double free_n = 0;                 ///< largest force before the first touch and after the last, the hand moving
+  double share = 1;                  ///< of the stiffness that fast motion feels, at the end
+};
+
+/// @throws what Session does
+HapticOutcome runHapticTrial(const HapticTrial& trial);
+
+}  // namespace viscera::bench

@@ -1,0 +1,22 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "viscera/math/types.h"
+#include "viscera/tools/force_limiter.h"
+
+namespace viscera {
+
+/// What a tick found out about one stylus: where its tip was led and what the tissue did to it.
+struct TickContact {
+  enum class Kind {
+    kFree,    ///< touches nothing
+    kPushes,  ///< a probe in tissue: the tissue pushes it out and never pulls
+    kHolds    ///< a grip: pushed and pulled
+  };
+  Kind kind = Kind::kFree;
+  Vector3d from_m = Vector3d::Zero(), to_m = Vector3d::Zero();  ///< the tip's way in the tick, tissue frame
+  Reaction reaction;                                            ///< mean over the tick
+};
+
+}  // namespace viscera

@@ -1,0 +1,123 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "viscera/haptics/contact_model.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+
+namespace viscera {
+namespace {
+
+using Kind = TickContact::Kind;
+
+constexpr double kTick_s = 0.02;
+constexpr double kStiff_n_per_m = 300;  ///< of a wall at z = 0 that the tip presses from above
+
+/// What a tick finds of a tip that goes from one height to another above the wall.
+TickContact onWall(double from_m, double to_m, Kind kind = Kind::kPushes) {
+  TickContact out;
+  out.from_m = {0, 0, from_m};
+  out.to_m = {0, 0, to_m};
+  const double push = -kStiff_n_per_m * 0.5 * (from_m + to_m);
+  out.kind = push > 0 || kind == Kind::kHolds ? kind : Kind::kFree;
+  if (out.kind != Kind::kFree) out.reaction.force_n = {0, 0, push};
+  return out;
+}
+
+ContactModel pressed(double from_m, double to_m, int ticks, double& now_s) {
+  ContactModel model{TissueConstants{}};
+  for (int i = 0; i < ticks; ++i) {
+    const double a = from_m + (to_m - from_m) * i / ticks, b = from_m + (to_m - from_m) * (i + 1) / ticks;
+    model.put(onWall(a, b), kTick_s, now_s += kTick_s);
+  }
+  now_s += kTick_s;
+  return model;
+}
+
+TEST(ContactModel, GivesNothingInFreeMotion) {
+  ContactModel model{TissueConstants{}};
+  model.put(onWall(0.01, 0.005), kTick_s, 0);
+  for (double z : {0.01, 0.0, -0.1}) EXPECT_EQ(model.at({0, 0, z}, kTick_s).force_n, Vector3d(0, 0, 0));
+}
+
+TEST(ContactModel, GivesTheTicksForceAtTheTicksPlace) {
+  double now_s = 0;
+  const ContactModel model = pressed(0, -0.004, 8, now_s);
+  EXPECT_NEAR(model.at(model.anchor_m(), now_s).force_n.z(), -kStiff_n_per_m * model.anchor_m().z(), 1e-12);
+}
+
+TEST(ContactModel, LearnsAStiffnessFromTicks) {
+  double now_s = 0;
+  const ContactModel model = pressed(0, -0.004, 8, now_s);
+  EXPECT_NEAR(model.stiffness_n_per_m()(2, 2), kStiff_n_per_m, 0.02 * kStiff_n_per_m);
+}
+
+TEST(ContactModel, HasNoJumpWhenATickComes) {
+  double now_s = 0;
+  ContactModel model = pressed(0, -0.004, 8, now_s);
+  const Vector3d tip(0.0003, 0, -0.0041);
+  TickContact other = onWall(-0.004, -0.0035);
+  other.reaction.force_n.x() = 0.2;
+  const Vector3d before = model.at(tip, now_s).force_n;
+  model.put(other, kTick_s, now_s);
+  EXPECT_LT((model.at(tip, now_s).force_n - before).norm(), 1e-12);
+  // nor within the tick: no step of a millisecond is more than its share
+  const Vector3d after = model.at(tip, now_s + kTick_s).force_n;
+  Vector3d last = before;
+  for (int ms = 1; ms <= 20; ++ms) {
+    const Vector3d now = model.at(tip, now_s + 1e-3 * ms).force_n;
+    EXPECT_LT((now - last).norm(), 2 * (after - before).norm() / 20);
+    last = now;
+  }
+}
+
+TEST(ContactModel, NeverPullsAProbe) {
+  double now_s = 0;
+  const ContactModel model = pressed(0, -0.004, 8, now_s);
+  for (double z = -0.01; z < 0.01; z += 1e-4) EXPECT_GE(model.at({0, 0, z}, now_s).force_n.z(), 0) << z;
+  EXPECT_EQ(model.at({0, 0, 0.005}, now_s).force_n, Vector3d(0, 0, 0));
+}
+
+TEST(ContactModel, PullsAGrip) {
+  ContactModel model{TissueConstants{}};
+  model.put(onWall(-1e-3, -1e-3, Kind::kHolds), kTick_s, 0);
+  EXPECT_GT(model.at({0, 0, -0.003}, kTick_s).force_n.z(), 0);
+  EXPECT_LT(model.at({0, 0, 0.003}, kTick_s).force_n.z(), 0);
+}
+
+TEST(ContactModel, StaysPositiveAndBoundedWhateverTicksSay) {
+  ContactModel model{TissueConstants{}};
+  double now_s = 0;
+  for (int i = 0; i < 500; ++i) {
+    TickContact contact;
+    contact.kind = i % 7 == 3 ? Kind::kHolds : Kind::kPushes;
+    contact.from_m = contact.to_m = 1e-3 * Vector3d::Random();
+    contact.reaction.force_n = 2 * Vector3d::Random();
+    model.put(contact, kTick_s, now_s += kTick_s);
+    const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(model.stiffness_n_per_m());
+    EXPECT_GT(solver.eigenvalues().minCoeff(), -1e-9);
+    EXPECT_LT(solver.eigenvalues().maxCoeff(), 1e5);
+    EXPECT_LT((model.stiffness_n_per_m() - model.stiffness_n_per_m().transpose()).norm(), 1e-9);
+  }
+}
+
+TEST(ContactModel, RemembersTheSurfaceThatATipHasJustLeft) {
+  double now_s = 0;
+  ContactModel model = pressed(0, -0.004, 8, now_s);
+  model.put(onWall(0.001, 0.001), kTick_s, now_s += kTick_s);
+  now_s += kTick_s;
+  EXPECT_EQ(model.at({0, 0, 0.001}, now_s).force_n, Vector3d(0, 0, 0));
+  EXPECT_NEAR(model.at({0, 0, -0.002}, now_s).force_n.z(), 0.002 * kStiff_n_per_m, 0.05 * 0.002 * kStiff_n_per_m);
+}
+
+TEST(ContactModel, GoesToNothingWhenItIsForgotten) {
+  double now_s = 0;
+  ContactModel model = pressed(0, -0.004, 8, now_s);
+  model.forget(kTick_s, now_s);
+  EXPECT_GT(model.at({0, 0, -0.004}, now_s).force_n.z(), 1);
+  EXPECT_EQ(model.at({0, 0, -0.004}, now_s + kTick_s).force_n, Vector3d(0, 0, 0));
+}
+
+}  // namespace
+}  // namespace viscera
