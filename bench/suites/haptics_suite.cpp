@@ -50,8 +50,9 @@ Table tableOf(const std::string& title) {
 
 void add(Table& table, const HapticTrial& trial, const HapticOutcome& outcome) {
   table.add({trial.young_modulus_pa / 1e3, 1e3 * trial.delay_s, trial.mass_kg, outcome.depth_mm, outcome.force_n,
-             outcome.simulator_n, 100 * outcome.static_error, outcome.stiffness_n_per_m, outcome.swing_n,
-             outcome.swing_mm, cycles(outcome) ? "yes" : "no", outcome.least_energy_mj, outcome.free_n, outcome.share});
+             outcome.simulator_n, outcome.simulator_n > 0 ? Cell(100 * outcome.static_error) : Cell(""),
+             outcome.stiffness_n_per_m, outcome.swing_n, outcome.swing_mm, cycles(outcome) ? "yes" : "no",
+             outcome.least_energy_mj, outcome.free_n, outcome.share});
 }
 
 /// The worst of all cells.

@@ -100,7 +100,7 @@ HapticOutcome runHapticTrial(const HapticTrial& trial) {
   HapticServoConfig config;
   config.tick_s = session.tick_s();
   config.round_trip_s = trial.delay_s;
-  config.tissue = {trial.young_modulus_pa, scene.bodies[0].material.poisson_ratio, kRadius_m};
+  config.tissue = {trial.young_modulus_pa, trial.young_modulus_pa, scene.bodies[0].material.poisson_ratio, kRadius_m};
   HapticServo servo(config);
 
   HapticOutcome out;
@@ -125,7 +125,7 @@ HapticOutcome runHapticTrial(const HapticTrial& trial) {
       if (trial.rate_hz == 0) told = answer.reaction;
       answer_s = -1;
     }
-    if (trial.rate_hz > 0) told = servo.step(tip_m, now_s);
+    if (trial.rate_hz > 0) told = servo.step(tip_m, now_s, now_s);
     device.step(told.force_n, tipAt(heightAt(way, now_s)));
     out.least_energy_mj = std::min(out.least_energy_mj, 1e3 * device.energy_j());
     if (now_s < kTouches_s || now_s > way[8].time_s + kLeft_s) out.free_n = std::max(out.free_n, told.force_n.norm());
@@ -140,7 +140,7 @@ HapticOutcome runHapticTrial(const HapticTrial& trial) {
   out.depth_mm = 1e3 * holds[1].depth.mean();
   out.force_n = holds[1].force.mean();
   out.simulator_n = holds[1].ticks.mean();
-  out.static_error = std::abs(out.force_n - out.simulator_n) / out.simulator_n;
+  if (out.simulator_n > 0) out.static_error = std::abs(out.force_n - out.simulator_n) / out.simulator_n;
   out.stiffness_n_per_m =
       (holds[1].force.mean() - holds[0].force.mean()) / (holds[1].depth.mean() - holds[0].depth.mean());
   for (const Hold& hold : holds) {

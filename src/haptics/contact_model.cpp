@@ -39,14 +39,14 @@ Matrix3d within(const Matrix3d& k, double least, double most) {
 
 /// Along the normal [N/m]. Hertz: F = 4/3 E* sqrt(r) d^1.5, so dF/dd = 2 E* sqrt(r d), E* = E / (1 - nu^2). A sphere
 /// that tissue holds: 24 pi mu (1 - nu) r / (5 - 6 nu) in an infinite solid, half of it at a surface.
-double ContactModel::firstStiffness(const TickContact& contact) const {
+double ContactModel::stiffnessOf(double young_modulus_pa, const TickContact& contact) const {
   const double nu = tissue_.poisson_ratio, r = tissue_.tip_radius_m;
   if (contact.kind == Kind::kHolds) {
     constexpr double kPi = 3.14159265358979323846;
-    const double mu = tissue_.young_modulus_pa / (2 * (1 + nu));
+    const double mu = young_modulus_pa / (2 * (1 + nu));
     return 0.5 * 24 * kPi * mu * (1 - nu) * r / (5 - 6 * nu);
   }
-  const double reduced = tissue_.young_modulus_pa / (1 - nu * nu);
+  const double reduced = young_modulus_pa / (1 - nu * nu);
   const double size = reduced * std::sqrt(r);
   return 2 * size * std::cbrt(0.75 * contact.reaction.force_n.norm() / size);
 }
@@ -54,7 +54,7 @@ double ContactModel::firstStiffness(const TickContact& contact) const {
 /// What the last two ticks say, beside what was known. Powell's symmetric update: of all symmetric K with K dx = -dF
 /// the nearest to the one before.
 Matrix3d ContactModel::learnt(const TickContact& contact, const Vector3d& at_m) const {
-  const double first = firstStiffness(contact);
+  const double first = stiffnessOf(tissue_.stiffest_pa, contact);
   const Vector3d normal = directionOf(contact.reaction.force_n);
   if (contact.kind != now_.kind) {
     if (contact.kind == Kind::kHolds) return first * Matrix3d::Identity();
@@ -69,7 +69,7 @@ Matrix3d ContactModel::learnt(const TickContact& contact, const Vector3d& at_m) 
   }
   k = within(k, 0, kStiffest * first);
   const double along = normal.dot(k * normal);
-  const double least = kSoftest * first;
+  const double least = kSoftest * stiffnessOf(tissue_.softest_pa, contact);
   if (along < least) k += (least - along) * normal * normal.transpose();
   return k;
 }

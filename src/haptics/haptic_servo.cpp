@@ -49,14 +49,22 @@ void HapticServo::forget(double now_s) {
   placed_ = false;
 }
 
-void HapticServo::follow(const Vector3d& tip_m) {
-  moved_m_ = placed_ ? Vector3d(tip_m - tip_m_) : Vector3d::Zero();
-  const Vector3d before = velocity_;
+/// The velocity goes on as it was until the next place is told: a device may be slower than the loop.
+void HapticServo::follow(const Vector3d& tip_m, double told_s) {
+  moved_m_.setZero();
+  acceleration_.setZero();
   if (!placed_) velocity_.setZero();
+  const double span_s = told_s - told_s_;
+  if (placed_ && span_s > 0) {
+    moved_m_ = tip_m - tip_m_;
+    const Vector3d change = (moved_m_ - span_s * velocity_) / (span_s + kVelocityTime_s);
+    velocity_ += change;
+    acceleration_ = change / span_s;
+  }
+  if (placed_ && !(span_s > 0)) return;
   placed_ = true;
   tip_m_ = tip_m;
-  approach(velocity_, Vector3d(moved_m_ / config_.period_s), config_.period_s, kVelocityTime_s);
-  acceleration_ = (velocity_ - before) / config_.period_s;
+  told_s_ = told_s;
 }
 
 /// Does the loop feed a swing? Its damping is c = - sum(f . v) / sum(v . v), f less its slow part, over the last
@@ -92,8 +100,8 @@ Vector3d HapticServo::softened(const Vector3d& wanted_n) {
   return length > most ? Vector3d(most / length * out) : out;
 }
 
-Reaction HapticServo::step(const Vector3d& tip_m, double now_s) {
-  follow(tip_m);
+Reaction HapticServo::step(const Vector3d& tip_m, double told_s, double now_s) {
+  follow(tip_m, told_s);
   judge();
   last_ = model_.at(tip_m + lead_s_ * velocity_, now_s);
   const Vector3d wanted = softened(last_.force_n);

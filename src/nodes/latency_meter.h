@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdint>
 
@@ -14,8 +15,11 @@ namespace viscera::nodes {
 /// with the first answer: those that follow it would tell how seldom the device speaks.
 class LatencyMeter {
  public:
+  static constexpr size_t kKept = 2048;  ///< two seconds of a device of 1 kHz
+
   struct Reading {
     double mean_s = 0, max_s = 0;  ///< 0 where no pose was answered
+    double p50_s = 0, p99_s = 0;   ///< of the newest kKept of them
   };
 
   /// @param received  when the pose came; 0: there was none   @param sent  when the answer was sent
@@ -23,6 +27,7 @@ class LatencyMeter {
     if (received == SteadyTime{} || received <= last_) return;
     last_ = received;
     const double delay_s = std::chrono::duration<double>(sent - received).count();
+    kept_[count_ % kKept] = static_cast<float>(delay_s);
     ++count_;
     sum_s_ += delay_s;
     longest_s_ = std::max(longest_s_, delay_s);
@@ -30,7 +35,17 @@ class LatencyMeter {
   /// The poses since the last reading.
   Reading take() {
     Reading out;
-    if (count_) out = {sum_s_ / static_cast<double>(count_), longest_s_};
+    if (count_) {
+      out.mean_s = sum_s_ / static_cast<double>(count_);
+      out.max_s = longest_s_;
+      const auto end = kept_.begin() + static_cast<std::ptrdiff_t>(std::min<uint64_t>(count_, kKept));
+      std::sort(kept_.begin(), end);
+      const auto at = [&](double share) {
+        return kept_[static_cast<size_t>(share * static_cast<double>(end - kept_.begin() - 1))];
+      };
+      out.p50_s = at(0.5);
+      out.p99_s = at(0.99);
+    }
     count_ = 0;
     sum_s_ = longest_s_ = 0;
     return out;
@@ -39,6 +54,7 @@ class LatencyMeter {
  private:
   SteadyTime last_{};
   uint64_t count_ = 0;
+  std::array<float, kKept> kept_{};
   double sum_s_ = 0, longest_s_ = 0;
 };
 

@@ -34,7 +34,7 @@ Simulator::Simulator(const SimulatorOptions& options, EndWatch& end)
       listener_(frames_),
       obstacles_(options.scene, frames_, options.max_transform_age_s),
       inputs_(makeInputs(options, frames_)),
-      wrenches_(node_, mailboxes(), stallTime_s(options)),
+      wrenches_(node_, mailboxes(), stallTime_s(options), options.scene, options.haptics),
       release_(end_, [this] { wrenches_.release(); }),
       tool_frames_(options.scene.environment.tissue_frame, toolFrames(options.scene, options.publish.frame_prefix)),
       publisher_(node_, options.scene, options.publish, [this](std::exception_ptr error) { fail(error); }),
@@ -87,6 +87,7 @@ LoopPorts Simulator::ports() {
     ROS_INFO("stepped by: %s", session.backendNote().c_str());
     for (const Body& body : session.model().bodies)
       for (const std::string& note : body.notes) ROS_INFO("%s: %s", body.name.c_str(), note.c_str());
+    if (!wrenches_.scheduling().empty()) ROS_INFO("forces between ticks: %s", wrenches_.scheduling().c_str());
     publisher_.start(session.wholeSkin());
     ready_ = true;
   };
@@ -108,7 +109,7 @@ void Simulator::deliver(Frame&& frame, const StylusSamples& samples, bool live) 
     WrenchPublisher::Hands hands;
     for (size_t s = 0; s < inputs_.size(); ++s) {
       // a hand that is not tracked must not be pushed
-      if (samples[s].valid) hands[s] = {frame.reactions[s], frame.poses_received[s]};
+      if (samples[s].valid) hands[s] = {frame.reactions[s], frame.poses_received[s], true, frame.contacts[s]};
     }
     wrenches_.put(hands);
   } else {

@@ -6,6 +6,7 @@
 
 #include <cstring>
 #include <numeric>
+#include <utility>
 
 namespace viscera::nodes {
 namespace {
@@ -25,6 +26,8 @@ void addLatency(const std::string& name, const LatencyMeter::Reading& reading,
                 diagnostic_updater::DiagnosticStatusWrapper& status) {
   status.add(name + "_mean_ms", 1e3 * reading.mean_s);
   status.add(name + "_max_ms", 1e3 * reading.max_s);
+  status.add(name + "_p50_ms", 1e3 * reading.p50_s);
+  status.add(name + "_p99_ms", 1e3 * reading.p99_s);
 }
 
 void warnOfSlowness(const PaceMeter::Reading& pace, double tick_s) {
@@ -70,6 +73,8 @@ void SimulatorDiagnostics::update() {
 void SimulatorDiagnostics::takeLatencies() {
   latencies_ = publishers_.frames.takeLatencies();
   force_latencies_ = publishers_.wrenches.takeLatencies();
+  felt_before_ = std::move(felt_);
+  felt_ = publishers_.wrenches.felt();
 }
 
 void SimulatorDiagnostics::simulation(Status& status) {
@@ -120,6 +125,8 @@ void SimulatorDiagnostics::pace(Status& status) {
   status.add("step_mean_ms", 1e3 * pace.step_mean_s);
   status.add("step_max_ms", 1e3 * pace.step_max_s);
   status.add("stalls", publishers_.wrenches.stalls());
+  const std::string scheduling = publishers_.wrenches.scheduling();
+  status.add("haptic_scheduling", scheduling.empty() ? "none" : scheduling);
 }
 
 void SimulatorDiagnostics::latency(Status& status) {
@@ -167,6 +174,15 @@ void SimulatorDiagnostics::stylus(size_t index, Status& status) {
   status.add("presses_ignored", in.presses_ignored);
   for (size_t i = 0; i < kDropReasons; ++i)
     status.add(std::string("dropped_") + text(static_cast<Drop>(i)), in.dropped[i]);
+  if (index < felt_.size()) {
+    const HapticLoop::Felt& felt = felt_[index];
+    const uint64_t before = index < felt_before_.size() ? felt_before_[index].answers : 0;
+    status.add("haptic_answers", felt.answers);
+    status.add("haptic_rate_hz", static_cast<double>(felt.answers - before) / kPeriod_s);
+    status.add("energy_j", felt.energy_j);
+    status.add("least_energy_j", felt.least_j);
+    status.add("stiffness_share", felt.share);
+  }
   if (!now_) return;
   status.add("force_n", now_->reactions[index].force_n.norm());
   status.add("force_saturated", now_->reactions[index].saturated);

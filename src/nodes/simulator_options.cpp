@@ -6,6 +6,21 @@
 
 namespace viscera::nodes {
 
+namespace {
+
+HapticOptions hapticOptions(Parameters& parameters) {
+  constexpr double kSlowest_hz = 100, kFastest_hz = 5000;  // slower than this a tick is as good
+  HapticOptions options;
+  options.rate_hz = parameters.number("haptic_rate_hz", options.rate_hz, 0, kFastest_hz);
+  if (options.rate_hz > 0 && options.rate_hz < kSlowest_hz)
+    throw ParameterError("parameter ~haptic_rate_hz: must be 0, for forces once per tick, or 100..5000");
+  options.delay_s = parameters.number("device_delay_s", options.delay_s, 0, 0.05);
+  options.priority = static_cast<int>(parameters.number("haptic_priority", options.priority, 0, 99));
+  return options;
+}
+
+}  // namespace
+
 SimulatorOptions simulatorOptions(Parameters& parameters, const std::string& package_folder) {
   SimulatorOptions options;
   const SceneChoice choice = SceneChoice::read(parameters, "heart");
@@ -15,6 +30,7 @@ SimulatorOptions simulatorOptions(Parameters& parameters, const std::string& pac
   publish.frame_prefix = choice.frame_prefix;
   options.stall_ticks = parameters.number("stall_ticks", options.stall_ticks, 1.5, 1e6);
   options.max_transform_age_s = parameters.number("max_transform_age_s", options.max_transform_age_s, 0.01, 3600);
+  options.haptics = hapticOptions(parameters);
   parameters.refuseOthers();
   options.scene = choice.load(package_folder);
   return options;

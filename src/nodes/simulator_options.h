@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "nodes/haptic_loop.h"
 #include "nodes/parameters.h"
 #include "nodes/publish_options.h"
 #include "viscera/model/scene/scene.h"
@@ -16,6 +17,7 @@ struct SimulatorOptions {
   PublishOptions publish;
   double stall_ticks = 3;            ///< forces are zero from so many ticks without one on
   double max_transform_age_s = 0.5;  ///< of what tf knows of a frame that moves
+  HapticOptions haptics;
 };
 
 /// @param package_folder  where config/scenes/<name>.yaml are looked up

@@ -159,6 +159,15 @@ StylusSample StylusMailbox::take(SteadyTime now) {
   return sample;
 }
 
+StylusSample StylusMailbox::peek(SteadyTime now) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  StylusSample sample;
+  sample.valid = isLive(now);
+  sample.pose = pose_;
+  sample.received = received_;
+  return sample;
+}
+
 StylusStatus StylusMailbox::status(SteadyTime now) const {
   const std::lock_guard<std::mutex> lock(mutex_);
   StylusStatus out = status_;

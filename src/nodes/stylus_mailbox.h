@@ -81,6 +81,9 @@ class StylusMailbox {
   /// The sample for a tick that begins now. A press or click that came and went since the last tick counts for one.
   StylusSample take(SteadyTime now);
 
+  /// The newest pose, without taking anything: buttons are left out, and it is no tick's.
+  StylusSample peek(SteadyTime now) const;
+
   StylusStatus status(SteadyTime now) const;
   DeviceFrame deviceFrame() const;
   const StylusConfig& config() const { return config_; }

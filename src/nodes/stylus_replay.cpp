@@ -47,6 +47,17 @@ ReplayOptions replayOptions(Parameters& parameters, const std::string& package_f
   return options;
 }
 
+ReplayOptions simDeviceOptions(Parameters& parameters, const std::string& package_folder) {
+  const SimulatedDeviceConfig device = simulatedDevice(parameters);
+  const bool has_rate = parameters.has("rate_hz");
+  const int priority = static_cast<int>(parameters.number("priority", ReplayOptions{}.priority, 0, 99));
+  ReplayOptions options = replayOptions(parameters, package_folder);
+  options.device = device;
+  options.priority = priority;
+  if (!has_rate) options.rate_hz = 1 / device.period_s;
+  return options;
+}
+
 StylusReplay::StylusReplay(const ReplayOptions& options)
     : options_(options), reset_(node_.serviceClient<std_srvs::Trigger>("reset")), simulation_(node_) {
   for (const Stroke& stroke : options_.strokes.strokes) {
@@ -54,6 +65,7 @@ StylusReplay::StylusReplay(const ReplayOptions& options)
     if (std::any_of(styluses_.begin(), styluses_.end(), same)) continue;
     styluses_.emplace_back().name = stroke.stylus;
     devices_.emplace_back(node_, stroke.stylus);
+    if (options_.device) held_.push_back(std::make_unique<HeldDevice>(node_, stroke.stylus, *options_.device));
   }
   if (styluses_.size() > layout::kMaxStyluses)
     throw StrokesError("the strokes name " + std::to_string(styluses_.size()) + " styluses; a simulator has at most " +
@@ -94,6 +106,7 @@ void StylusReplay::run() {
     play(0);
   }
   std::this_thread::sleep_for(kFarewell);
+  for (const auto& device : held_) ROS_INFO("%s", device->summary().c_str());
 }
 
 void StylusReplay::resetSimulation() {
@@ -111,7 +124,8 @@ void StylusReplay::play(double from_s) {
   for (double now_s = from_s; ros::ok() && now_s < end_s; now_s += simulation_.take()) {
     check();
     send(now_s);
-    std::this_thread::sleep_until(due += period);
+    due = std::max(due + period, Clock::now() - kWaitPeriod);  // what was held up for long does not make up for it
+    std::this_thread::sleep_until(due);
   }
   send(end_s);  // the last key may let a button go
 }
@@ -119,7 +133,12 @@ void StylusReplay::play(double from_s) {
 void StylusReplay::send(double time_s) {
   const StylusSamples samples = options_.strokes.at(time_s, styluses_);
   for (size_t i = 0; i < devices_.size(); ++i)
-    if (samples[i].valid) devices_[i].send(samples[i], options_.frame, ros::Time::now());
+    if (samples[i].valid) send(i, samples[i]);
+}
+
+void StylusReplay::send(size_t stylus, StylusSample sample) {
+  if (!held_.empty()) sample.pose = held_[stylus]->follow(sample.pose);
+  devices_[stylus].send(sample, options_.frame, ros::Time::now());
 }
 
 }  // namespace viscera::nodes

@@ -4,11 +4,14 @@
 
 #include <ros/node_handle.h>
 
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "nodes/clock_watch.h"
 #include "nodes/device_publisher.h"
+#include "nodes/held_device.h"
 #include "nodes/master_watch.h"
 #include "nodes/parameters.h"
 #include "nodes/simulation_clock.h"
@@ -25,12 +28,17 @@ struct ReplayOptions {
   bool loop = false;
   bool wait_for_viewer = false;       ///< before the first pose, until somebody looks at what the simulator shows
   bool reset_between_rounds = false;  ///< of a loop: calls `reset` of the simulator
+  std::optional<SimulatedDeviceConfig> device;  ///< strokes are what hands intend that hold such devices
+  int priority = 20;                            ///< of the loop that moves them, SCHED_FIFO; 0: ordinary
 };
 
 /// Anchored strokes are brought to the skin of the scene that the parameters choose as for the simulator.
 /// @param package_folder  where config/strokes/<name>.yaml and config/scenes/<name>.yaml are looked up
 /// @throws ParameterError, StrokesError, SceneError, MeshError, LatticeError
 ReplayOptions replayOptions(Parameters& parameters, const std::string& package_folder);
+
+/// Those of node `sim_device`. @throws as replayOptions()
+ReplayOptions simDeviceOptions(Parameters& parameters, const std::string& package_folder);
 
 /// Plays recorded strokes as a device driver would: `<stylus>/measured_cp`, `button1` and `button2`. Their time is that
 /// of the simulation, where it sends `tick`: a hand that goes on while tissue is slow would meet it elsewhere.
@@ -52,11 +60,13 @@ class StylusReplay {
   void play(double from_s);
   void resetSimulation();
   void send(double time_s);
+  void send(size_t stylus, StylusSample sample);
 
   const ReplayOptions options_;
   ros::NodeHandle node_;
-  std::vector<StylusConfig> styluses_;    ///< only their names matter
-  std::vector<DevicePublisher> devices_;  ///< [styluses]
+  std::vector<StylusConfig> styluses_;             ///< only their names matter
+  std::vector<DevicePublisher> devices_;           ///< [styluses]
+  std::vector<std::unique_ptr<HeldDevice>> held_;  ///< [styluses]; none where poses are those of the strokes
   ros::ServiceClient reset_;
   SimulationClock simulation_;
   MasterWatch master_;

@@ -3,10 +3,16 @@
 #include "nodes/wrench_publisher.h"
 
 #include <geometry_msgs/WrenchStamped.h>
+#include <ros/console.h>
 #include <std_msgs/Bool.h>
+#include <std_msgs/Float64.h>
+
+#include <algorithm>
+#include <utility>
 
 #include "nodes/conversions.h"
 #include "nodes/thread_name.h"
+#include "nodes/thread_schedule.h"
 
 namespace viscera::nodes {
 namespace {
@@ -21,7 +27,7 @@ constexpr std::chrono::milliseconds kFlush{10};
 }  // namespace
 
 WrenchPublisher::WrenchPublisher(ros::NodeHandle& node, const std::vector<const StylusMailbox*>& mailboxes,
-                                 double stall_s)
+                                 double stall_s, const Scene& scene, const HapticOptions& options)
     : mailboxes_(mailboxes),
       schedule_(
           [&] {
@@ -30,6 +36,8 @@ WrenchPublisher::WrenchPublisher(ros::NodeHandle& node, const std::vector<const 
             return limits;
           }(),
           stall_s),
+      haptics_(options, scene, mailboxes),
+      priority_(options.priority),
       latencies_(mailboxes.size()) {
   for (const StylusMailbox* mailbox : mailboxes_) {
     const std::string body = mailbox->config().name + "/body/";
@@ -40,6 +48,8 @@ WrenchPublisher::WrenchPublisher(ros::NodeHandle& node, const std::vector<const 
     absolute.data = true;
     absolutes_.back().publish(absolute);
   }
+  for (const StylusMailbox* mailbox : mailboxes_)
+    if (haptics_.on()) energies_.push_back(node.advertise<std_msgs::Float64>(mailbox->config().name + "/energy", 1));
   thread_ = std::thread([this] { main(); });
 }
 
@@ -57,11 +67,15 @@ void WrenchPublisher::put(const Hands& hands) {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     Wrenches wanted;
+    const Clock::time_point now = Clock::now();
     for (size_t s = 0; s < hands.size(); ++s) {
       wanted[s] = hands[s].reaction;
-      poses_received_[s] = hands[s].pose_received;
+      if (!answering_) poses_received_[s] = hands[s].pose_received;
+      if (s < mailboxes_.size()) haptics_.put(s, hands[s].contact, hands[s].tracked, now);
     }
-    schedule_.put(wanted, Clock::now());
+    schedule_.put(wanted, now);
+    ticked_ = true;
+    if (answering_) return;  // the next period is soon enough
     put_ = true;
   }
   changed_.notify_one();
@@ -71,6 +85,7 @@ void WrenchPublisher::rest() {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     schedule_.rest(Clock::now());
+    haptics_.rest(Clock::now());
     poses_received_ = {};
     put_ = true;
   }
@@ -86,22 +101,61 @@ void WrenchPublisher::release() {
   if (sent_.wait_for(lock, kReleaseLimit, [this] { return schedule_.released(); })) std::this_thread::sleep_for(kFlush);
 }
 
+/// Late answers are worse than late ticks: the thread asks to go first.
+void WrenchPublisher::schedule() {
+  if (!haptics_.on()) return;
+  const std::string how = goFirst(priority_);
+  const std::lock_guard<std::mutex> lock(mutex_);
+  scheduling_ = how;
+}
+
+bool WrenchPublisher::isHeard() const {
+  return std::any_of(forces_.begin(), forces_.end(),
+                     [](const ros::Publisher& force) { return force.getNumSubscribers() > 0; });
+}
+
+/// When the next message is due. @param period_due  of the loop between ticks
+SteadyTime WrenchPublisher::due(SteadyTime period_due) const {
+  return answering_ ? std::min(period_due, std::max(schedule_.due(), Clock::now())) : schedule_.due();
+}
+
+/// What the local models want at the newest poses.
+void WrenchPublisher::answer(SteadyTime now) {
+  schedule_.follow(haptics_.answers(now, poses_received_));
+}
+
 void WrenchPublisher::main() {
   nameThread("wrenches");
+  schedule();
+  const auto period = std::chrono::duration_cast<Clock::duration>(
+      std::chrono::duration<double>(haptics_.on() ? haptics_.period_s() : 1));
+  Clock::time_point period_due = Clock::now();
   std::unique_lock<std::mutex> lock(mutex_);
   while (!stop_) {
-    changed_.wait_until(lock, schedule_.due(), [this] { return put_ || stop_; });
+    changed_.wait_until(lock, due(period_due), [this] { return put_ || stop_; });
     if (stop_) return;
     put_ = false;
-    const Wrenches wrenches = schedule_.next(Clock::now());
+    const Clock::time_point now = Clock::now();
+    if (answering_) {
+      answer(now);
+      period_due = std::max(period_due + period, now);
+    }
+    const Wrenches wrenches = schedule_.next(now);
+    if (answering_) haptics_.sent(wrenches);
     stalls_ = schedule_.stalls();
     stalled_ = schedule_.stalled();
+    const bool ticked = std::exchange(ticked_, false);
     lock.unlock();
     send(wrenches);
+    if (ticked) sendEnergies();
+    const bool heard = haptics_.on() && isHeard();
     lock.lock();
-    const Clock::time_point now = Clock::now();
-    for (size_t s = 0; s < latencies_.size(); ++s) latencies_[s].add(poses_received_[s], now);
+    const Clock::time_point sent = Clock::now();
+    for (size_t s = 0; s < latencies_.size(); ++s) latencies_[s].add(poses_received_[s], sent);
     if (schedule_.released()) sent_.notify_all();
+    const bool answering = heard && schedule_.live();
+    if (answering && !answering_) period_due = sent + period;
+    answering_ = answering;
   }
 }
 
@@ -112,6 +166,28 @@ void WrenchPublisher::send(const Wrenches& wrenches) {
     const DeviceFrame frame = mailboxes_[s]->deviceFrame();
     forces_[s].publish(toWrench(wrenches[s], frame.from_tissue, frame.name, stamp));
   }
+}
+
+void WrenchPublisher::sendEnergies() {
+  const std::vector<HapticLoop::Felt> all = felt();
+  for (size_t s = 0; s < energies_.size(); ++s) {
+    if (energies_[s].getNumSubscribers() == 0) continue;
+    std_msgs::Float64 energy;
+    energy.data = all[s].energy_j;
+    energies_[s].publish(energy);
+  }
+}
+
+std::vector<HapticLoop::Felt> WrenchPublisher::felt() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  std::vector<HapticLoop::Felt> out;
+  for (size_t s = 0; s < mailboxes_.size(); ++s) out.push_back(haptics_.felt(s));
+  return out;
+}
+
+std::string WrenchPublisher::scheduling() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return scheduling_;
 }
 
 std::vector<LatencyMeter::Reading> WrenchPublisher::takeLatencies() {

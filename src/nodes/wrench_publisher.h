@@ -10,6 +10,7 @@
 #include <thread>
 #include <vector>
 
+#include "nodes/haptic_loop.h"
 #include "nodes/latency_meter.h"
 #include "nodes/stylus_mailbox.h"
 #include "nodes/wrench_schedule.h"
@@ -24,12 +25,16 @@ class WrenchPublisher {
   struct Hand {
     Reaction reaction;
     SteadyTime pose_received{};  ///< of the pose that the reaction answers; 0: none
+    bool tracked = false;        ///< a hand is there
+    TickContact contact;
   };
   using Hands = std::array<Hand, layout::kMaxStyluses>;
 
   /// @param mailboxes  of the scene's styluses, in order; they must outlive this
   /// @param stall_s    a tick that comes later than this after the one before is a stall [s]
-  WrenchPublisher(ros::NodeHandle& node, const std::vector<const StylusMailbox*>& mailboxes, double stall_s);
+  /// @param options    of what is sent between two ticks
+  WrenchPublisher(ros::NodeHandle& node, const std::vector<const StylusMailbox*>& mailboxes, double stall_s,
+                  const Scene& scene, const HapticOptions& options);
   ~WrenchPublisher();
   WrenchPublisher(const WrenchPublisher&) = delete;
   WrenchPublisher& operator=(const WrenchPublisher&) = delete;
@@ -42,12 +47,21 @@ class WrenchPublisher {
 
   /// From the arrival of a pose to the sending of the force that answers it, since they were last taken: [styluses].
   std::vector<LatencyMeter::Reading> takeLatencies();
+  /// [styluses] what the loop between ticks has done so far.
+  std::vector<HapticLoop::Felt> felt();
+  /// How the thread is scheduled: "SCHED_FIFO 20", or why not.
+  std::string scheduling();
   uint64_t stalls() const { return stalls_; }
   bool stalled() const { return stalled_; }
 
  private:
   void main();
+  void schedule();
+  bool isHeard() const;
+  SteadyTime due(SteadyTime period_due) const;
+  void answer(SteadyTime now);
   void send(const Wrenches& wrenches);
+  void sendEnergies();
 
   std::vector<const StylusMailbox*> mailboxes_;
   std::vector<ros::Publisher> forces_, absolutes_;  ///< [styluses]
@@ -55,8 +69,14 @@ class WrenchPublisher {
   std::mutex mutex_;
   std::condition_variable changed_, sent_;
   WrenchSchedule schedule_;
+  HapticLoop haptics_;
+  const int priority_;
+  std::string scheduling_;
+  std::vector<ros::Publisher> energies_;  ///< [styluses]
   std::array<SteadyTime, layout::kMaxStyluses> poses_received_{};
   bool put_ = false, stop_ = false;
+  bool ticked_ = false;     ///< since the last message
+  bool answering_ = false;  ///< somebody listens and ticks come: messages go out between ticks
   std::vector<LatencyMeter> latencies_;
   std::atomic<uint64_t> stalls_{0};
   std::atomic<bool> stalled_{false};

@@ -46,6 +46,12 @@ void WrenchSchedule::put(const Wrenches& wanted, Time now) {
   reached_ = false;
 }
 
+void WrenchSchedule::follow(const Wrenches& wanted) {
+  if (mode_ != Mode::kLive) return;
+  wanted_ = wanted;
+  reached_ = false;
+}
+
 void WrenchSchedule::rest(Time now) {
   if (mode_ == Mode::kReleased) return;
   mode_ = Mode::kResting;

@@ -34,6 +34,9 @@ class WrenchSchedule {
 
   /// A tick's answer.
   void put(const Wrenches& wanted, Time now);
+  /// What is wanted at this moment between two ticks; heeded only while ticks come in time.
+  void follow(const Wrenches& wanted);
+  bool live() const { return mode_ == Mode::kLive; }
   /// There are no ticks, and no forces, until the next put(): paused, or not begun.
   void rest(Time now);
   /// Zero for ever.

@@ -25,7 +25,7 @@ Pressed press(double mass_kg, double delay_s, bool servoed) {
   HapticServoConfig config;
   config.tick_s = kTick_s;
   config.round_trip_s = delay_s;
-  config.tissue = {1e5, 0.25, 0.008};
+  config.tissue = {1e5, 1e5, 0.25, 0.008};
   HapticServo servo(config);
   Pressed out;
   TickContact contact;
@@ -49,7 +49,7 @@ Pressed press(double mass_kg, double delay_s, bool servoed) {
       answer_s = 1e9;
       if (!servoed) told = contact.reaction.force_n;
     }
-    const Reaction reaction = servo.step(tip, now_s);
+    const Reaction reaction = servo.step(tip, now_s, now_s);
     if (servoed) told = reaction.force_n;
     device.step(told, {0, 0, std::max(0.002 - 0.01 * now_s, -0.004)});
     out.least_j = std::min(out.least_j, device.energy_j());
@@ -92,9 +92,9 @@ TEST(HapticServo, ForgetsAtOnceWhatItKnew) {
   contact.kind = TickContact::Kind::kPushes;
   contact.reaction.force_n = {0, 0, 1};
   servo.put(contact, 0);
-  EXPECT_GT(servo.step(Vector3d::Zero(), kTick_s).force_n.z(), 0.9);
+  EXPECT_GT(servo.step(Vector3d::Zero(), kTick_s, kTick_s).force_n.z(), 0.9);
   servo.forget(kTick_s);
-  EXPECT_EQ(servo.step({0.1, 0.1, 0.1}, 3 * kTick_s).force_n, Vector3d(0, 0, 0));
+  EXPECT_EQ(servo.step({0.1, 0.1, 0.1}, 3 * kTick_s, 3 * kTick_s).force_n, Vector3d(0, 0, 0));
 }
 
 }  // namespace

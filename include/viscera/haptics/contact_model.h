@@ -11,9 +11,9 @@ namespace viscera {
 
 using Eigen::Matrix3d;
 
-/// What the scene says of the tissue under a tip; where the estimate of its stiffness begins.
+/// What the scene says of the tissue that a tip may meet; where the estimate of its stiffness begins, and its bounds.
 struct TissueConstants {
-  double young_modulus_pa = 1e4;
+  double softest_pa = 1e4, stiffest_pa = 1e4;  ///< Young's moduli
   double poisson_ratio = 0.25;
   double tip_radius_m = 5e-3;
 };
@@ -61,7 +61,7 @@ class ContactModel {
     Matrix3d stiffness = Matrix3d::Zero();
   };
   Affine mixed(double now_s) const;
-  double firstStiffness(const TickContact& contact) const;
+  double stiffnessOf(double young_modulus_pa, const TickContact& contact) const;
   Matrix3d learnt(const TickContact& contact, const Vector3d& at_m) const;
   Affine leftBehind(const Vector3d& at_m, double now_s) const;
   void goOver(const Affine& next, double over_s, double now_s);

@@ -24,8 +24,10 @@ class HapticServo {
   void put(const TickContact& contact, double now_s);
   /// The stylus is not tracked, or the tissue rests: forces go to nothing within a tick, and all begins anew.
   void forget(double now_s);
-  /// One period. @param tip_m  newest place of the tip, tissue frame   @param now_s  never goes back
-  Reaction step(const Vector3d& tip_m, double now_s);
+  /// One period.
+  /// @param tip_m   newest place of the tip, tissue frame   @param told_s  when it was told: a device may be slower
+  /// than the loop   @param now_s  never goes back
+  Reaction step(const Vector3d& tip_m, double told_s, double now_s);
   /// What step() returned last was held back by limits: this was sent.
   void sent(const Vector3d& force_n) { passivity_.sent(force_n); }
 
@@ -37,7 +39,7 @@ class HapticServo {
   Matrix3d damping_n_s_per_m() const { return lead_s_ * share_ * last_.stiffness_n_per_m; }
 
  private:
-  void follow(const Vector3d& tip_m);
+  void follow(const Vector3d& tip_m, double told_s);
   void judge();
   Vector3d softened(const Vector3d& wanted_n);
 
@@ -46,6 +48,7 @@ class HapticServo {
   PassivityControl passivity_;
   double lead_s_;
   bool placed_ = false;
+  double told_s_ = 0;
   Vector3d tip_m_ = Vector3d::Zero(), moved_m_ = Vector3d::Zero();
   Vector3d velocity_ = Vector3d::Zero(), acceleration_ = Vector3d::Zero();
   Vector3d slow_n_ = Vector3d::Zero(), mean_n_ = Vector3d::Zero();

@@ -1,0 +1,89 @@
+#!/usr/bin/env python3
+# Copyright (c) 2026, the viscera authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""A simulated device presses a block over ROS: forces come at the device's rate, it comes to rest, and its hand never
+gets more energy out of the tissue than it put in."""
+import math
+import statistics
+import sys
+import time
+import unittest
+
+import rospy
+import rostest
+from geometry_msgs.msg import PoseStamped, WrenchStamped
+from simulator_watch import SimulatorWatch, wait_until
+from std_msgs.msg import Float64
+
+LIMIT_S = 60
+TOP_M, RADIUS_M = 0.02, 0.008
+INTENDED_M = 0.022            # where the hand of haptics.yaml wants the tip while it holds
+HAND_N_PER_M = 300            # default of sim_device
+HELD_M = 0.001                # the tip is that deep at least while it is held
+SETTLE_S, LOOK_S = 3.0, 3.0   # of the hold, which takes 8 s
+QUIET_N, QUIET_M = 0.05, 1e-4  # a fingertip feels less than that as nothing; half of peak to peak of the middle nine tenths
+RATE_HZ = (700, 1300)         # of 1000, by counting: the machine may be busy
+PERIOD_S = (0.0005, 0.0015)   # the median
+ACTIVE_J = -1e-3
+BALANCE = 0.1                 # of force: what the hand's spring gives, less its damper
+
+
+def half_range(values):
+    ordered = sorted(values)
+    rest = len(ordered) // 20
+    return 0.5 * (ordered[-1 - rest] - ordered[rest])
+
+
+class HapticsTest(unittest.TestCase):
+    def setUp(self):
+        rospy.init_node("haptics_test")
+        self.wrenches, self.heights, self.energies = [], [], []
+        rospy.Subscriber("left/body/servo_cf", WrenchStamped, self.on_wrench, queue_size=1000, tcp_nodelay=True)
+        rospy.Subscriber("left/measured_cp", PoseStamped, self.on_pose, queue_size=1000, tcp_nodelay=True)
+        rospy.Subscriber("left/energy", Float64, lambda m: self.energies.append(m.data), queue_size=100)
+        self.watch = SimulatorWatch()
+
+    def on_wrench(self, message):
+        self.wrenches.append((message.header.stamp.to_sec(), message.wrench.force.z))
+
+    def on_pose(self, message):
+        self.heights.append((message.header.stamp.to_sec(), message.pose.position.z))
+
+    def test_a_device_settles_in_tissue(self):
+        wait_until(lambda: self.heights and self.heights[-1][1] < TOP_M + RADIUS_M - HELD_M, LIMIT_S, "contact")
+        rospy.sleep(SETTLE_S)
+        begun = rospy.get_time()
+        time.sleep(LOOK_S)
+        ended = rospy.get_time()
+        forces = [f for t, f in self.wrenches if begun <= t < ended]
+        stamps = [t for t, _ in self.wrenches if begun <= t < ended]
+        heights = [z for t, z in self.heights if begun <= t < ended]
+        spans = [b - a for a, b in zip(stamps, stamps[1:])]
+        rate_hz = len(forces) / (ended - begun)
+        force_n, height_m = statistics.median(forces), statistics.median(heights)
+        print("%.0f wrenches a second, median period %.2f ms, %.3f N +- %.4f, %.2f mm +- %.4f" % (
+            rate_hz, 1e3 * statistics.median(spans), force_n, half_range(forces), 1e3 * height_m,
+            1e3 * half_range(heights)), flush=True)
+        self.assertTrue(RATE_HZ[0] < rate_hz < RATE_HZ[1], rate_hz)
+        self.assertTrue(PERIOD_S[0] < statistics.median(spans) < PERIOD_S[1], statistics.median(spans))
+        self.assertLess(half_range(forces), QUIET_N)
+        self.assertLess(half_range(heights), QUIET_M)
+        # what the tissue gives is what the hand's spring holds against it
+        hand_n = HAND_N_PER_M * (height_m - INTENDED_M)
+        self.assertGreater(force_n, 0.2)
+        self.assertLess(abs(force_n - hand_n), BALANCE * hand_n)
+
+        wait_until(lambda: self.heights[-1][1] > TOP_M + 2 * RADIUS_M, LIMIT_S, "a hand that goes away")
+        self.watch.wait_news()
+        self.assertEqual(self.wrenches[-1][1], 0)
+        print("energy %.3f mJ, least %.3f mJ, p99 of pose to force %s ms, %s" % (
+            1e3 * self.watch.value("left", "energy_j"), 1e3 * self.watch.value("left", "least_energy_j"),
+            self.watch.value("latency", "pose_to_force_left_p99_ms"), self.watch.value("pace", "haptic_scheduling")),
+            flush=True)
+        self.assertGreaterEqual(self.watch.value("left", "least_energy_j"), ACTIVE_J)
+        self.assertGreaterEqual(min(self.energies), ACTIVE_J)
+        self.assertFalse(math.isnan(self.energies[-1]))
+
+
+if __name__ == "__main__":
+    rostest.rosrun("viscera", "haptics", HapticsTest, sys.argv)
