@@ -26,7 +26,9 @@ int settle(const RunOptions& options) {
   out["settled"] = report.settled;
   out["newton_steps"] = report.newton;
   out["iterations"] = report.iterations;
-  out["work_units"] = report.work_units;
+  out["forces"] = report.forces;
+  out["products"] = report.products;
+  out["work_units"] = report.forces + report.products;
   out["solve_s"] = report.seconds;
   out["build_s"] = report.build_s;
   out["max_displacement_m"] = report.largest_m;

@@ -142,7 +142,8 @@ TEST(Multigrid, StartsInEquilibriumAndStaysThere) {
 
 TEST(Multigrid, TheShippedHeartSettles) {
   // Thin walls by moments: what cells resist bending with is a small difference of springs and moments.
-  const Scene scene = parseScene(R"(
+  // Where next to no tissue fills them, nodes hang on next to nothing.
+  Scene scene = parseScene(R"(
 bodies:
   - name: heart
     source: phantom
@@ -151,12 +152,17 @@ bodies:
     material: {young_modulus_pa: 20000, density_kg_per_m3: 1060}
     fixed: [{shape: plane, point_m: [0, 0, 0.03], normal: [0, 0, -1]}]
 )",
-                                 "heart.yaml");
-  const Model model = buildModel(scene);
-  SettleReport report;
-  equilibriumOf(model, scene, report);
-  EXPECT_TRUE(report.settled);
-  EXPECT_LT(report.residual, kSettled);
+                           "heart.yaml");
+  constexpr double kFloat32 = 1e-3;  // of the load: what rounded displacements of nearly incompressible tissue leave
+  for (const double nu : {0.25, 0.45, 0.49}) {
+    scene.bodies[0].material.poisson_ratio = nu;
+    const Model model = buildModel(scene);
+    SettleReport report;
+    equilibriumOf(model, scene, report);
+    EXPECT_TRUE(report.settled) << "nu " << nu;
+    EXPECT_LT(report.residual, nu < 0.49 ? kSettled : kFloat32) << "nu " << nu;
+    EXPECT_GT(report.forces, 0);
+  }
 }
 
 TEST(Multigrid, NoEquilibriumOfWhatNothingHolds) {

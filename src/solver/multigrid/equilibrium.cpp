@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "solver/cpu/thread_pool.h"
+#include "solver/multigrid/soft_nodes.h"
 #include "solver/multigrid/stage_solver.h"
 #include "solver/surroundings.h"
 #include "viscera/math/error.h"
@@ -21,8 +22,10 @@ constexpr int kMostHalvings = 12;  // of one of them
 constexpr double kGrows = 1e-6;    // of the energies that are summed: float32 leaves that much
 constexpr double kProgress = 0.9;  // of the least residual so far: a step that got somewhere
 constexpr int kInexact = 2;        // first steps: far from the end positive tangents do, and never turn back
-constexpr int kPatience = 6;       // steps that did not
-constexpr int kTimed = 5;          // evaluations of forces, for the work unit
+constexpr int kPatience = 20;      // steps that did not
+constexpr int kIterations = 60;    // of a system
+constexpr double kGain = 0.2;      // of them, see Rule
+constexpr double kOfEnough = 0.3;  // of what may be left: what a system need not be better than
 
 using multigrid::StageSolver;
 using multigrid::Vectors;
@@ -47,7 +50,7 @@ void requireHeld(const Model& model) {
 class Settling {
  public:
   Settling(StageSolver& solver, SettleReport& report)
-      : solver_(solver), report_(report), increment_(solver.start.size()) {
+      : solver_(solver), soft_(solver), report_(report), increment_(solver.start.size()) {
     for (Vectors* each : {&load_, &trial_}) each->assign(increment_.size(), 0);
     const multigrid::FineLevel& level = solver_.level;
     const size_t n = level.places();
@@ -59,14 +62,19 @@ class Settling {
   }
 
   const Vectors& run() {
-    const double size = std::sqrt(solver_.level.dot(load_, load_));
+    const double size = std::sqrt(solver_.level.dot(load_, load_)), enough = kSettled * size;
     double norm = solver_.residual(increment_);
     const auto start = std::chrono::steady_clock::now();
     for (int step = 0; step < kMostSteps; ++step) {
       report_.residual = size > 0 ? norm / size : 0;
       report_.settled = report_.residual <= kSettled || report_.last_change <= kSettled;
       if (report_.settled || stale_ > kPatience) break;
-      norm = improve(norm);
+      const double before = norm;
+      norm = improve(norm, enough);
+      if (report_.newton > kInexact) {
+        soft_.learn(before, norm);
+        if (norm > enough && soft_.relax(increment_, norm, enough)) norm = solver_.residual(increment_);
+      }
       stale_ = norm < kProgress * best_ ? 0 : stale_ + 1;
       best_ = std::min(best_, norm);
     }
@@ -78,9 +86,12 @@ class Settling {
   double potential(const Vectors& u) const { return solver_.elastic_j - solver_.level.dot(load_, u); }
 
   /// A Newton step, as long as the energy does not grow. @return norm of the residual after it
-  double improve(double norm) {
+  double improve(double norm, double enough) {
     multigrid::Rule rule;
-    rule.most = 60;
+    rule.most = kIterations;
+    rule.gain = kGain;
+    rule.enough_n = kOfEnough * enough;
+    rule.stiffening = &soft_;
     rule.exact = report_.newton >= kInexact;
     const double before_j = potential(increment_),
                  allowed_j = before_j + kGrows * (std::abs(before_j) + solver_.elastic_j);
@@ -94,6 +105,7 @@ class Settling {
       const double size2 = solver_.level.dot(trial_, trial_);
       const double change2 = solver_.level.dot(solver_.solution(), solver_.solution());
       if (halving == 0 && size2 > 0) report_.last_change = std::sqrt(change2 / size2);
+      if (halving > 0) soft_.sagged();
       std::swap(trial_, increment_);
       return left;
     }
@@ -101,6 +113,7 @@ class Settling {
   }
 
   StageSolver& solver_;
+  multigrid::SoftNodes soft_;
   SettleReport& report_;
   Vectors increment_, load_, trial_;
   double best_ = std::numeric_limits<double>::infinity();  ///< norm of a residual
@@ -128,10 +141,10 @@ HostState equilibriumOf(const Model& model, const Scene& scene, SettleReport& re
   }
   solver.begin({});
   report.build_s = secondsSince(start);
+  const multigrid::FineWork before = solver.level.work();
   const Vectors u = Settling(solver, report).run();
-  const auto timed = std::chrono::steady_clock::now();
-  for (int i = 0; i < kTimed; ++i) solver.level.linearise(solver.displacement, solver.velocity);
-  report.work_units = report.seconds * kTimed / secondsSince(timed);
+  report.forces = solver.level.work().forces - before.forces;
+  report.products = solver.level.work().products - before.products;
   HostState state = lattice.read();
   for (uint32_t node = 0; node < grid.nodeCount(); ++node) {
     const uint32_t place = grid.place_of[node];

@@ -19,7 +19,8 @@ struct SettleReport {
   int iterations = 0;      ///< of conjugate gradients
   double seconds = 0;      ///< of all of it but the hierarchy
   double build_s = 0;      ///< of the hierarchy
-  double work_units = 0;   ///< `seconds` over those of one evaluation of all forces
+  double forces = 0;       ///< evaluations of all forces on the finest level; those of some nodes by their share
+  double products = 0;     ///< with the tangent there, which cost no more than these
   double largest_m = 0;    ///< displacement
 };
 

@@ -146,21 +146,59 @@ void FineLevel::runBlocks(const std::vector<Block>& blocks, const Kernel& kernel
   });
 }
 
-double FineLevel::linearise(const Vectors& displacement_m, const Vectors& velocity_m_per_s) {
-  displacement_ = displacement_m.data();
-  velocity_ = velocity_m_per_s.data();
+double FineLevel::evaluate(const std::vector<Block>& blocks, const std::vector<Block>& cell_blocks, const Vectors& u,
+                           const Vectors& v) {
+  displacement_ = u.data();
+  velocity_ = v.data();
   FineArrays a = arrays();
   a.free = movable_.data();  // who is held now may be free in the next system
   std::fill(sums_.begin(), sums_.end(), 0.0);
-  runBlocks(cell_blocks_, [&](const Block* blocks, size_t count, size_t job) {
-    kernels_.linearise_cells(a, blocks, count, &sums_[job]);
+  runBlocks(cell_blocks, [&](const Block* some, size_t count, size_t job) {
+    kernels_.linearise_cells(a, some, count, &sums_[job]);
   });
-  runBlocks(grid_.blocks, [&](const Block* blocks, size_t count, size_t job) {
-    kernels_.linearise_nodes(a, blocks, count, &sums_[job]);
+  runBlocks(blocks, [&](const Block* some, size_t count, size_t job) {
+    kernels_.linearise_nodes(a, some, count, &sums_[job]);
   });
+  done_.forces += static_cast<double>(blocks.size()) / static_cast<double>(std::max(grid_.blocks.size(), size_t{1}));
   double energy_j = 0;
   for (const double each : sums_) energy_j += each;
   return energy_j;
+}
+
+double FineLevel::linearise(const Vectors& displacement_m, const Vectors& velocity_m_per_s) {
+  return evaluate(grid_.blocks, cell_blocks_, displacement_m, velocity_m_per_s);
+}
+
+void FineLevel::lineariseIn(const Region& region, const Vectors& displacement_m, const Vectors& velocity_m_per_s) {
+  evaluate(region.blocks, region.cell_blocks, displacement_m, velocity_m_per_s);
+}
+
+Region FineLevel::around(const std::vector<uint32_t>& nodes) const {
+  const auto before = [](const Block& a, const Block& b) { return a.at < b.at; };
+  const auto blockAt = [](size_t place) { return static_cast<uint32_t>(place / kBlock * kBlock); };
+  Region out;
+  for (const uint32_t node : nodes) {
+    const uint32_t body = grid_.bodyOf(node);
+    const size_t place = grid_.place_of[node];
+    out.blocks.push_back({blockAt(place), body});
+    for (int c = 0; c < 8; ++c) {
+      const Block block = {blockAt(grid_.beside(body, place, -(c & 1), -(c >> 1 & 1), -(c >> 2))), body};
+      if (std::binary_search(cell_blocks_.begin(), cell_blocks_.end(), block, before)) out.cell_blocks.push_back(block);
+    }
+  }
+  for (std::vector<Block>* each : {&out.blocks, &out.cell_blocks}) {
+    std::sort(each->begin(), each->end(), before);
+    each->erase(std::unique(each->begin(), each->end(), [](const Block& a, const Block& b) { return a.at == b.at; }),
+                each->end());
+  }
+  return out;
+}
+
+Vector3f FineLevel::solveBlock(size_t place, const Vector3f& r) const {
+  const size_t n = places();
+  const float *i = &inverse_[place], xy = i[n], xz = i[2 * n], yz = i[4 * n];
+  return {i[0] * r.x() + xy * r.y() + xz * r.z(), xy * r.x() + i[3 * n] * r.y() + yz * r.z(),
+          xz * r.x() + yz * r.y() + i[5 * n] * r.z()};
 }
 
 void FineLevel::apply(const Vectors& x, Vectors& y, bool subtract) const {
@@ -171,6 +209,7 @@ void FineLevel::apply(const Vectors& x, Vectors& y, bool subtract) const {
     kernels_.apply_nodes(a, x.data(), y.data(), subtract, blocks, count);
   });
   project(y);
+  ++done_.products;
 }
 
 void FineLevel::smooth(const Vectors& r, float a, float b, bool first, Vectors& d, Vectors& z) const {

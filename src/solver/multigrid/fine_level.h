@@ -27,6 +27,17 @@ struct Plane {
   Vector3f normal;
 };
 
+/// Some nodes of the finest level, and what their forces hang on.
+struct Region {
+  std::vector<Block> blocks, cell_blocks;
+};
+
+/// How often the finest level was worked through.
+struct FineWork {
+  double forces = 0;    ///< evaluations of all forces with their tangents; those of regions count by their share
+  double products = 0;  ///< with the tangent
+};
+
 /// The finest level: nodes and springs of the lattice itself, its forces, and their tangent as a product that needs no
 /// matrix. Springs are made positive, k (n n^T + max(0, 1 - l0/L)(1 - n n^T)); volumes count as B g g^T, moments at
 /// constant directions of the cell's edges.
@@ -51,6 +62,9 @@ class FineLevel {
 
   /// Forces, energy and tangent at a state. @return elastic energy [J]
   double linearise(const Vectors& displacement_m, const Vectors& velocity_m_per_s);
+  /// The same where only a region's nodes matter: forces of others are not what they should be.
+  void lineariseIn(const Region& region, const Vectors& displacement_m, const Vectors& velocity_m_per_s);
+  Region around(const std::vector<uint32_t>& nodes) const;
   const Vectors& force() const { return force_; }  ///< [N] of springs, dashpots and cells, on all nodes
   /// y = A x; or y -= A x. 0 where not free. @param x  0 where not free
   void apply(const Vectors& x, Vectors& y, bool subtract = false) const;
@@ -89,7 +103,10 @@ class FineLevel {
   float give(size_t place) const {
     return std::min({inverse_[place], inverse_[3 * places() + place], inverse_[5 * places() + place]});
   }
+  /// Solution of a node's own block of the tangent, as smooth() uses it. After linearise().
+  Vector3f solveBlock(size_t place, const Vector3f& r) const;
   const Parallel& parallel() const { return *parallel_; }
+  const FineWork& work() const { return done_; }
 
   // What coarse levels are made of, at rest.
   float stiffness(size_t pair, size_t place) const { return stiffness_[pair * places() + place]; }
@@ -107,6 +124,8 @@ class FineLevel {
   void loadCells();
   template <class Kernel>
   void runBlocks(const std::vector<Block>& blocks, const Kernel& kernel) const;
+  double evaluate(const std::vector<Block>& blocks, const std::vector<Block>& cell_blocks, const Vectors& u,
+                  const Vectors& v);
 
   const CpuLattice& lattice_;
   const Parallel* parallel_;
@@ -120,6 +139,7 @@ class FineLevel {
   std::vector<Plane> planes_;
   const float *displacement_ = nullptr, *velocity_ = nullptr;
   mutable std::vector<double> sums_;  ///< [jobs]
+  mutable FineWork done_;
   AlignedVector<float> stiffness_, mass_, free_, movable_, diagonal_, bulk_, rigidity_, moments_;
   mutable AlignedVector<uint16_t> tangent_;
   mutable AlignedVector<float> edges_, resists_, corners_, inverse_;

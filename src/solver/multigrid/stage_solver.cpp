@@ -14,7 +14,6 @@ constexpr double kOtherStage = 4;    // times as much inertia: smoothers are tol
 constexpr double kOtherLevels = 16;  // a hierarchy is worth its building
 constexpr int kMoreTouched = 2;      // Newton steps more while contacts come and go
 constexpr float kApart = 0.3f;       // spacings: how far a step may carry a node from those around it
-constexpr float kWay = 1e-3f;        // spacings: how far forces are asked for their change
 constexpr double kFloat = 6e-8;      // of a displacement: its rounding in float32, which springs turn into forces
 
 float largestAtRest(FineLevel& level) {
@@ -165,9 +164,9 @@ float StageSolver::farthest(const Vectors& x) const {
 }
 
 /// q = A p, A the change of forces at an increment: their difference over a way on which it hardly changes.
-void StageSolver::multiply(const Vectors& increment, const Vectors& p, Vectors& q) {
+void StageSolver::multiply(const Vectors& increment, const Vectors& p, Vectors& q, const Stiffening* stiffening) {
   const size_t n = level.places();
-  const float way = kWay / std::max(farthest(p), 1e-30f), per = 1 / way;
+  const float way = kWayOfDifferences / std::max(farthest(p), 1e-30f), per = 1 / way;
   const float rate = static_cast<float>(stage.rate_per_s);
   level.forPlaces([&](size_t at, size_t count, const layout::BodyParams&) {
     for (size_t c = 0; c < 3; ++c) {
@@ -188,13 +187,13 @@ void StageSolver::multiply(const Vectors& increment, const Vectors& p, Vectors& 
       }
     }
   });
+  if (stiffening) stiffening->addTo(p, q);
   level.project(q);
 }
 
 int StageSolver::solveLinear(const Vectors& increment, const Rule& rule, double norm) {
   const size_t n = level.places();
-  const double enough = rule.tolerance * norm;
-  double before = 0;
+  double before = 0, fallen = 0;
   std::fill(s_.begin(), s_.end(), 0.0f);
   if (rule.exact) force_ = level.force();
   int k = 0;
@@ -208,9 +207,13 @@ int StageSolver::solveLinear(const Vectors& increment, const Rule& rule, double 
       for (size_t c = 0; c < 3; ++c)
         for (size_t i = c * n + at; i < c * n + at + count; ++i) p_[i] = z_[i] + (beta == 0 ? 0 : beta * p_[i]);
     });
-    rule.exact ? multiply(increment, p_, q_) : level.apply(p_, q_);
+    rule.exact ? multiply(increment, p_, q_, rule.stiffening) : level.apply(p_, q_);
     const double curvature = level.dot(p_, q_);
-    if (!(curvature > 0)) break;  // tangents are made positive: only rounding leads here, and what is exact
+    if (!(curvature > 0)) {  // tangents are made positive: only rounding leads here, and what is exact
+      if (rule.stiffening) rule.stiffening->sagged();
+      if (k == 0 && rule.exact) s_ = p_;  // downhill, if no more is known
+      break;
+    }
     const float alpha = static_cast<float>(rz / curvature);
     level.forPlaces([&](size_t at, size_t count, const layout::BodyParams&) {
       for (size_t c = 0; c < 3; ++c) {
@@ -221,7 +224,10 @@ int StageSolver::solveLinear(const Vectors& increment, const Rule& rule, double 
       }
     });
     ++k;
-    if (k >= rule.least && std::sqrt(level.dot(r_, r_)) <= enough) break;
+    fallen += static_cast<double>(alpha) * rz;
+    const double left = std::sqrt(level.dot(r_, r_));
+    const bool gains = k * static_cast<double>(alpha) * rz > rule.gain * fallen;
+    if (k >= rule.least && (left <= rule.enough_n || (rule.gain > 0 ? !gains : left <= rule.tolerance * norm))) break;
   }
   if (rule.tame && farthest(s_) > kApart / 4) tame();
   return k;

@@ -10,6 +10,17 @@
 
 namespace viscera::multigrid {
 
+constexpr float kWayOfDifferences = 3e-3f;  ///< spacings: how far forces are asked for their change
+
+/// What is added to exact tangents where these would not be positive.
+class Stiffening {
+ public:
+  virtual ~Stiffening() = default;
+  virtual void addTo(const Vectors& p, Vectors& q) const = 0;
+  /// The tangent was not positive with it.
+  virtual void sagged() = 0;
+};
+
 /// When to stop.
 struct Rule {
   double tolerance = 0.1;    ///< of conjugate gradients: residual over the first one
@@ -19,7 +30,13 @@ struct Rule {
   /// Products with the change of forces itself rather than with the positive tangent, which preconditions only: more
   /// iterations in a system, and each dearer, but Newton's method meets 1e-4 in a few steps.
   bool exact = false;
-  bool tame = true;  ///< steps carry no node far from those around it
+  Stiffening* stiffening = nullptr;  ///< of exact ones
+  /// Above 0, iterations end by what they gain rather than by `tolerance`: when the last one, as often as there were
+  /// any, lowers the energy by less than this share of what all did (S. G. Nash, A. Sofer, Oper. Res. Lett. 9, 1990).
+  /// Residuals of nearly incompressible tissue say little of what is wrong with it.
+  double gain = 0;
+  double enough_n = 0;  ///< residual that need not be improved on
+  bool tame = true;     ///< steps carry no node far from those around it
 };
 
 /// Energy of all that can move [J].
@@ -78,6 +95,7 @@ class StageSolver {
   Vectors velocity;
   double elastic_j = 0;  ///< there
   const Vectors& solution() const { return s_; }
+  const Vectors& lacking() const { return r_; }  ///< residual, until a system is solved
   const Hierarchy* hierarchy() const { return built_[now_].hierarchy.get(); }
   double noise_n = 0;  ///< norm of the rounding of forces in float32, there
 
@@ -93,7 +111,7 @@ class StageSolver {
   Vector3f tamedStep(uint32_t node) const;
   void evaluate(const Vectors& increment);
   double masked();
-  void multiply(const Vectors& increment, const Vectors& p, Vectors& q);
+  void multiply(const Vectors& increment, const Vectors& p, Vectors& q, const Stiffening* stiffening);
 
   std::vector<Built> built_;     ///< kinds of steps take turns: each has its own
   size_t now_ = 0;               ///< which is in use
