@@ -16,8 +16,8 @@ using visualization_msgs::InteractiveMarkerControl;
 using visualization_msgs::InteractiveMarkerFeedback;
 using visualization_msgs::Marker;
 
-constexpr float kSize_m = 0.05F;   ///< of the arrows and rings: they clear an organ of a hand's size
-constexpr double kBall_m = 0.008;  ///< what the mouse grips at the tip
+constexpr float kSize_m = 0.05F;  ///< of the arrows and rings: they clear an organ of a hand's size
+constexpr double kBall_m = 0.03;  ///< what the mouse grips: larger than the tips that are drawn in it
 constexpr const char* kName = "stylus";
 
 Marker ball() {
@@ -27,7 +27,7 @@ Marker ball() {
   marker.color.r = 1;
   marker.color.g = 0.8F;
   marker.color.b = 0.2F;
-  marker.color.a = 0.6F;
+  marker.color.a = 0.3F;
   return marker;
 }
 
