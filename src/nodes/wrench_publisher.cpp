@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "nodes/conversions.h"
+#include "nodes/impedance.h"
 #include "nodes/thread_name.h"
 #include "nodes/thread_schedule.h"
 
@@ -38,6 +39,7 @@ WrenchPublisher::WrenchPublisher(ros::NodeHandle& node, const std::vector<const 
           stall_s),
       haptics_(options, scene, mailboxes),
       priority_(options.priority),
+      tissue_frame_(scene.environment.tissue_frame),
       latencies_(mailboxes.size()) {
   for (const StylusMailbox* mailbox : mailboxes_) {
     const std::string body = mailbox->config().name + "/body/";
@@ -48,8 +50,11 @@ WrenchPublisher::WrenchPublisher(ros::NodeHandle& node, const std::vector<const 
     absolute.data = true;
     absolutes_.back().publish(absolute);
   }
-  for (const StylusMailbox* mailbox : mailboxes_)
-    if (haptics_.on()) energies_.push_back(node.advertise<std_msgs::Float64>(mailbox->config().name + "/energy", 1));
+  for (const StylusMailbox* mailbox : mailboxes_) {
+    if (!haptics_.on()) break;
+    energies_.push_back(node.advertise<std_msgs::Float64>(mailbox->config().name + "/energy", 1));
+    impedances_.push_back(node.advertise<foreign::CartesianImpedance>(mailbox->config().name + "/servo_ci", 1));
+  }
   thread_ = std::thread([this] { main(); });
 }
 
@@ -144,10 +149,11 @@ void WrenchPublisher::main() {
     if (answering_) haptics_.sent(wrenches);
     stalls_ = schedule_.stalls();
     stalled_ = schedule_.stalled();
-    const bool ticked = std::exchange(ticked_, false);
+    const bool ticked = std::exchange(ticked_, false), live = schedule_.live();
     lock.unlock();
     send(wrenches);
     if (ticked) sendEnergies();
+    if (ticked || !live) sendImpedances(live);
     const bool heard = haptics_.on() && isHeard();
     lock.lock();
     const Clock::time_point sent = Clock::now();
@@ -175,6 +181,20 @@ void WrenchPublisher::sendEnergies() {
     std_msgs::Float64 energy;
     energy.data = all[s].energy_j;
     energies_[s].publish(energy);
+  }
+}
+
+/// @param live  ticks come in time; else nothing is to be felt
+void WrenchPublisher::sendImpedances(bool live) {
+  const ros::Time stamp = ros::Time::now();
+  for (size_t s = 0; s < impedances_.size(); ++s) {
+    if (impedances_[s].getNumSubscribers() == 0) continue;
+    foreign::CartesianImpedance message = noImpedance(tissue_frame_, stamp);
+    if (live) {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      message = toImpedance(haptics_.servo(s), tissue_frame_, stamp);
+    }
+    impedances_[s].publish(message);
   }
 }
 

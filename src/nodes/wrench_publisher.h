@@ -62,6 +62,7 @@ class WrenchPublisher {
   void answer(SteadyTime now);
   void send(const Wrenches& wrenches);
   void sendEnergies();
+  void sendImpedances(bool live);
 
   std::vector<const StylusMailbox*> mailboxes_;
   std::vector<ros::Publisher> forces_, absolutes_;  ///< [styluses]
@@ -72,7 +73,8 @@ class WrenchPublisher {
   HapticLoop haptics_;
   const int priority_;
   std::string scheduling_;
-  std::vector<ros::Publisher> energies_;  ///< [styluses]
+  const std::string tissue_frame_;
+  std::vector<ros::Publisher> energies_, impedances_;  ///< [styluses]
   std::array<SteadyTime, layout::kMaxStyluses> poses_received_{};
   bool put_ = false, stop_ = false;
   bool ticked_ = false;     ///< since the last message

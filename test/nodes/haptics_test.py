@@ -9,10 +9,11 @@ import sys
 import time
 import unittest
 
+import genpy.dynamic
 import rospy
 import rostest
 from geometry_msgs.msg import PoseStamped, WrenchStamped
-from simulator_watch import SimulatorWatch, wait_until
+from simulator_watch import Latest, SimulatorWatch, wait_until
 from std_msgs.msg import Float64
 
 LIMIT_S = 60
@@ -41,6 +42,7 @@ class HapticsTest(unittest.TestCase):
         rospy.Subscriber("left/body/servo_cf", WrenchStamped, self.on_wrench, queue_size=1000, tcp_nodelay=True)
         rospy.Subscriber("left/measured_cp", PoseStamped, self.on_pose, queue_size=1000, tcp_nodelay=True)
         rospy.Subscriber("left/energy", Float64, lambda m: self.energies.append(m.data), queue_size=100)
+        self.impedance = Latest("left/servo_ci", rospy.AnyMsg)
         self.watch = SimulatorWatch()
 
     def on_wrench(self, message):
@@ -48,6 +50,24 @@ class HapticsTest(unittest.TestCase):
 
     def on_pose(self, message):
         self.heights.append((message.header.stamp.to_sec(), message.pose.position.z))
+
+    def assert_same_as_impedance(self, force_n, height_m):
+        """crtk_msgs/CartesianImpedance, of which this machine knows only what the simulator says, gives the same force."""
+        header = self.impedance.message._connection_header
+        self.assertEqual(header["type"], "crtk_msgs/CartesianImpedance")
+        kinds = genpy.dynamic.generate_dynamic(header["type"], header["message_definition"])
+        kind = kinds[header["type"]]
+        self.assertEqual(kind._md5sum, header["md5sum"])  # that of the definition's text, as rosmsg has it
+        impedance = kind().deserialize(self.impedance.message._buff)
+        self.assertEqual(impedance.header.frame_id, "tissue")
+        turn = impedance.force_orientation
+        self.assertGreater(turn.w, 0.99)  # z is the normal: upwards
+        below_m = height_m - impedance.force_position.z
+        self.assertLess(below_m, 0)
+        given_n = impedance.position_negative.p.z * below_m
+        self.assertLess(abs(given_n - force_n), BALANCE * force_n)
+        self.assertLess(impedance.position_negative.d.z, 0)
+        self.assertEqual(impedance.position_positive.p.z, 0)
 
     def test_a_device_settles_in_tissue(self):
         wait_until(lambda: self.heights and self.heights[-1][1] < TOP_M + RADIUS_M - HELD_M, LIMIT_S, "contact")
@@ -73,6 +93,7 @@ class HapticsTest(unittest.TestCase):
         self.assertGreater(force_n, 0.2)
         self.assertLess(abs(force_n - hand_n), BALANCE * hand_n)
 
+        self.assert_same_as_impedance(force_n, height_m)
         wait_until(lambda: self.heights[-1][1] > TOP_M + 2 * RADIUS_M, LIMIT_S, "a hand that goes away")
         self.watch.wait_news()
         self.assertEqual(self.wrenches[-1][1], 0)

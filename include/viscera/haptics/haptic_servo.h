@@ -33,10 +33,8 @@ class HapticServo {
 
   const ContactModel& model() const { return model_; }
   const PassivityControl& passivity() const { return passivity_; }
-  double share() const { return share_; }  ///< of the model's stiffness that fast motion feels, 0..1
-  /// What fast motion feels at the last place: stiffness and damping [N/m, N s/m].
-  Matrix3d stiffness_n_per_m() const { return share_ * last_.stiffness_n_per_m; }
-  Matrix3d damping_n_s_per_m() const { return lead_s_ * share_ * last_.stiffness_n_per_m; }
+  double share() const { return share_; }    ///< of the model's stiffness that fast motion feels, 0..1
+  double lead_s() const { return lead_s_; }  ///< how far ahead of a pose the model is asked [s]
 
  private:
   void follow(const Vector3d& tip_m, double told_s);
