@@ -112,12 +112,6 @@ Body buildBody(const BodyConfig& config, const Scene& scene, bool can_be_cut, co
                                  });
 }
 
-bool canCut(const Scene& scene) {
-  return std::any_of(scene.styluses.begin(), scene.styluses.end(), [](const StylusConfig& stylus) {
-    return kindOf(stylus.idle).severs() || kindOf(stylus.button1).severs() || kindOf(stylus.button2).severs();
-  });
-}
-
 bool canMove(const Model& model) {
   for (const Body& body : model.bodies) {
     for (const uint32_t slot : body.lattice.active_slots) {
@@ -130,7 +124,7 @@ bool canMove(const Model& model) {
 }  // namespace
 
 Model buildModel(const Scene& scene, const Progress& progress) {
-  const bool can_be_cut = canCut(scene);
+  const bool can_be_cut = maySever(scene.styluses);
   const std::string file = scene.file.empty() ? "" : scene.file + ": ";
   Model model;
   for (const BodyConfig& config : scene.bodies) {

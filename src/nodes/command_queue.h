@@ -7,6 +7,7 @@
 #include <condition_variable>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <future>
 #include <memory>
 #include <mutex>
@@ -17,6 +18,10 @@
 #include "viscera/model/scene/overlays.h"
 #include "viscera/tools/force_limiter.h"
 #include "viscera/tools/stylus.h"
+
+namespace viscera {
+class Session;
+}
 
 namespace viscera::nodes {
 
@@ -31,12 +36,14 @@ struct CommandAnswer {
 
 /// Something that a service asks of the simulation's thread.
 struct Command {
-  enum class Kind { kReset, kPause, kResume, kStep, kOverlays };
+  enum class Kind { kReset, kPause, kResume, kStep, kOverlays, kChange };
   Kind kind = Kind::kReset;
   uint32_t ticks = 0;                    ///< of a step
   std::optional<StylusSamples> samples;  ///< of a step: where the styluses are at its end; else as devices say
   std::string camera;                    ///< of overlays: by name; empty: all
   Overlays overlays;
+  /// Of a change: makes it, running or paused. @returns what to answer  @throws Error  why not
+  std::function<std::string(Session&)> change;
   std::chrono::steady_clock::time_point deadline;  ///< nobody waits for the answer after this
   std::shared_ptr<std::atomic<bool>> begun = std::make_shared<std::atomic<bool>>(false);
   std::promise<CommandAnswer> answer;

@@ -167,10 +167,20 @@ CommandAnswer SimulationLoop::execute(const Command& command, Session& session) 
       return answer(true, "running", session);
     case Command::Kind::kOverlays:
       return setOverlays(command, session);
+    case Command::Kind::kChange:
+      return change(command, session);
     case Command::Kind::kStep:
       break;
   }
   return step(command, session);
+}
+
+CommandAnswer SimulationLoop::change(const Command& command, Session& session) {
+  try {
+    return answer(true, command.change(session), session);
+  } catch (const Error& error) {
+    return answer(false, error.what(), session);
+  }
 }
 
 CommandAnswer SimulationLoop::setOverlays(const Command& command, Session& session) {

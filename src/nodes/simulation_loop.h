@@ -83,6 +83,7 @@ class SimulationLoop {
   void deliver(const Session& session, Frame&& frame, const StylusSamples& samples, bool live);
   void forgetHands(Session& session);
   CommandAnswer execute(const Command& command, Session& session);
+  CommandAnswer change(const Command& command, Session& session);
   CommandAnswer setOverlays(const Command& command, Session& session);
   CommandAnswer step(const Command& command, Session& session);
   /// Of one tick of a step.

@@ -6,23 +6,57 @@
 #include <functional>
 #include <utility>
 
+#include "model/scene/tool_kinds.h"
 #include "nodes/conversions.h"
 #include "nodes/stylus_mailbox.h"
 #include "viscera/math/error.h"
+#include "viscera/session/session.h"
 
 namespace viscera::nodes {
 namespace {
 
 constexpr std::chrono::seconds kTriggerLimit{10};  ///< a tick, however slow, and a reset
 constexpr std::chrono::seconds kStepLimit{60};
-constexpr uint32_t kServices = 5;  ///< one thread each
+constexpr uint32_t kServices = 6;  ///< one thread each
+
+size_t indexOf(const std::string& stylus, const std::vector<StylusConfig>& styluses) {
+  size_t s = 0;
+  while (s < styluses.size() && styluses[s].name != stylus) ++s;
+  return s;
+}
+
+/// @throws Error  a name that the scene does not have
+size_t stylusNamed(const std::string& name, const std::vector<StylusConfig>& styluses) {
+  const size_t s = indexOf(name, styluses);
+  if (s < styluses.size()) return s;
+  std::string known;
+  for (const StylusConfig& stylus : styluses) known += (known.empty() ? "" : ", ") + stylus.name;
+  throw Error("stylus: the scene has no stylus '" + name + "'; it has " + (known.empty() ? "none" : known));
+}
+
+/// @throws Error  another word than idle, button1, button2
+ToolSwitch switchNamed(const std::string& name) {
+  if (name == "idle") return ToolSwitch::kIdle;
+  if (name == "button1") return ToolSwitch::kButton1;
+  if (name == "button2") return ToolSwitch::kButton2;
+  throw Error("which: '" + name + "' is none of idle, button1, button2");
+}
+
+/// @throws Error  a mode that no kind of tool has
+ToolMode modeNamed(const std::string& name) {
+  std::string known;
+  for (const ToolKind& kind : kToolKinds) {
+    if (name == kind.name) return kind.mode;
+    known += (known.empty() ? "" : ", ") + std::string(kind.name);
+  }
+  throw Error("mode: '" + name + "' is none of " + known);
+}
 
 /// Where a step takes the styluses. @throws Error  a name that the scene does not have, or twice; no pose
 StylusSamples samplesOf(const std::vector<StylusState>& states, const std::vector<StylusConfig>& styluses) {
   StylusSamples samples;
   for (const StylusState& state : states) {
-    size_t s = 0;
-    while (s < styluses.size() && styluses[s].name != state.stylus) ++s;
+    const size_t s = indexOf(state.stylus, styluses);
     if (s == styluses.size()) throw Error("styluses: the scene has no stylus '" + state.stylus + "'");
     if (samples[s].valid) throw Error("styluses: '" + state.stylus + "' is there twice");
     Pose pose = fromMessage(state.pose);
@@ -47,6 +81,7 @@ SimulatorServices::SimulatorServices(ros::NodeHandle node, const std::vector<Sty
   advertiseTrigger(node, "resume", Command::Kind::kResume);
   servers_.push_back(node.advertiseService("step", &SimulatorServices::onStep, this));
   servers_.push_back(node.advertiseService("set_overlays", &SimulatorServices::onSetOverlays, this));
+  servers_.push_back(node.advertiseService("set_tool_mode", &SimulatorServices::onSetToolMode, this));
   spinner_.start();
 }
 
@@ -72,6 +107,27 @@ bool SimulatorServices::onSetOverlays(SetOverlays::Request& request, SetOverlays
     command.overlays = overlaysOf(request.overlays);
   } catch (const SceneError& error) {
     response.message = std::string("overlays: ") + error.what();
+    return true;
+  }
+  const CommandAnswer answer = commands_.call(std::move(command), kTriggerLimit);
+  response.success = answer.success;
+  response.message = answer.message;
+  return true;
+}
+
+bool SimulatorServices::onSetToolMode(SetToolMode::Request& request, SetToolMode::Response& response) {
+  Command command;
+  command.kind = Command::Kind::kChange;
+  try {
+    const size_t stylus = stylusNamed(request.stylus, styluses_);
+    const ToolSwitch when = switchNamed(request.which);
+    const ToolMode mode = modeNamed(request.mode);
+    command.change = [=](Session& session) {
+      session.setToolMode(stylus, when, mode);
+      return "from the next tick on";
+    };
+  } catch (const Error& error) {
+    response.message = error.what();
     return true;
   }
   const CommandAnswer answer = commands_.call(std::move(command), kTriggerLimit);

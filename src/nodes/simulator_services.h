@@ -11,12 +11,13 @@
 
 #include "nodes/command_queue.h"
 #include "viscera/SetOverlays.h"
+#include "viscera/SetToolMode.h"
 #include "viscera/Step.h"
 
 namespace viscera::nodes {
 
-/// Services `reset`, `pause`, `resume`, `step` and `set_overlays`, on threads of their own: waiting for an answer holds
-/// up no input, and one no other.
+/// Services `reset`, `pause`, `resume`, `step`, `set_overlays` and `set_tool_mode`, on threads of their own: waiting
+/// for an answer holds up no input, and one no other.
 class SimulatorServices {
  public:
   /// @param styluses  of the scene   @param commands  must outlive this
@@ -25,6 +26,7 @@ class SimulatorServices {
  private:
   void advertiseTrigger(ros::NodeHandle& node, const std::string& name, Command::Kind kind);
   bool onSetOverlays(SetOverlays::Request& request, SetOverlays::Response& response);
+  bool onSetToolMode(SetToolMode::Request& request, SetToolMode::Response& response);
   bool onStep(Step::Request& request, Step::Response& response);
 
   const std::vector<StylusConfig> styluses_;

@@ -113,6 +113,16 @@ void Session::forgetHands() {
   contacts_ = {};
 }
 
+void Session::setToolMode(size_t stylus, ToolSwitch when, ToolMode mode) {
+  // model and solver keep no record of cuts where no stylus had asked for any
+  if (kindOf(mode).severs() && !maySever(scene_.styluses)) {
+    throw SceneError(std::string("mode ") + kindOf(mode).name +
+                     ": the scene was made for tools that do not cut; give some stylus of it cut or cut_particles at "
+                     "the start, as in styluses[0].button2=cut");
+  }
+  tools_.setMode(stylus, when, mode);
+}
+
 void Session::setObstacleFrame(size_t obstacle, const Pose& pose) {
   obstacles_.setFrame(obstacle, pose);
 }

@@ -29,15 +29,6 @@ std::vector<std::string> FeatureSet::defines() const {
   return out;
 }
 
-namespace {
-
-/// Does a stylus cut or erase, with one button or another?
-bool maySever(const StylusConfig& config) {
-  return kindOf(config.idle).severs() || kindOf(config.button1).severs() || kindOf(config.button2).severs();
-}
-
-}  // namespace
-
 FeatureSet featuresOf(const Model& model, const Scene& scene, double dt_s, uint32_t group_size) {
   FeatureSet features;
   features.group_size = group_size;
@@ -51,7 +42,7 @@ FeatureSet featuresOf(const Model& model, const Scene& scene, double dt_s, uint3
   features.parts = isHeterogeneous(model);
   features.compensated = isCompensated(scene.solver, dt_s);
   features.tools = !scene.styluses.empty();
-  features.cuts = std::any_of(scene.styluses.begin(), scene.styluses.end(), maySever);
+  features.cuts = maySever(scene.styluses);
   features.obstacles = static_cast<uint32_t>(scene.obstacles.size());
   for (const Body& body : model.bodies) features.dashpot |= body.material.dashpot_ratio > 0;
   return features;

@@ -10,10 +10,19 @@ namespace viscera {
 
 namespace {
 
+ToolSwitch switchOf(const StylusSample& sample) {
+  if (sample.button2) return ToolSwitch::kButton2;
+  return sample.button1 ? ToolSwitch::kButton1 : ToolSwitch::kIdle;
+}
+
+template <class Config>
+auto& modeAt(Config& config, ToolSwitch when) {
+  if (when == ToolSwitch::kIdle) return config.idle;
+  return when == ToolSwitch::kButton1 ? config.button1 : config.button2;
+}
+
 ToolMode modeOf(const StylusConfig& config, const StylusSample& sample) {
-  if (!sample.valid) return ToolMode::kNone;
-  if (sample.button2) return config.button2;
-  return sample.button1 ? config.button1 : config.idle;
+  return sample.valid ? modeAt(config, switchOf(sample)) : ToolMode::kNone;
 }
 
 }  // namespace
@@ -60,6 +69,13 @@ void Tools::feel(size_t stylus, StylusMotion& motion) const {
   const ToolKind& kind = kindOf(motion.mode);
   if (!inside_[stylus] || !kind.does(kPushes)) return;
   motion.feels_m = std::max(limits_.feel_radius_m, kind.reach_m(configs_[stylus]));
+}
+
+void Tools::setMode(size_t stylus, ToolSwitch when, ToolMode mode) {
+  ToolMode& now = modeAt(configs_[stylus], when);
+  const bool begins = when == switchOf(last_[stylus]) && !kindOf(now).does(kPushes) && kindOf(mode).does(kPushes);
+  if (begins) inside_[stylus] = limits_.feel_radius_m > 0;
+  now = mode;
 }
 
 void Tools::forget() {

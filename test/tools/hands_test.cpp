@@ -108,6 +108,34 @@ TEST(Tools, CutEndsAGrab) {
   EXPECT_EQ(motion.hold_ended, ToolMode::kGrab);
 }
 
+TEST(Tools, ANewModeOfThePressedButtonEndsTheHold) {
+  Tools tools = oneStylus();
+  tools.advance(one(0, true));
+  tools.setMode(0, ToolSwitch::kButton2, ToolMode::kNone);
+  EXPECT_EQ(tools.advance(one(0, true))[0].hold_ended, ToolMode::kNone) << "the other button's mode";
+  tools.setMode(0, ToolSwitch::kButton1, ToolMode::kCut);
+  const StylusMotion motion = tools.advance(one(0, true))[0];
+  EXPECT_EQ(motion.mode, ToolMode::kCut);
+  EXPECT_EQ(motion.hold_ended, ToolMode::kGrab);
+  tools.reset();
+  EXPECT_EQ(tools.advance(one(0, true))[0].mode, ToolMode::kCut) << "modes stay over a reset";
+}
+
+TEST(Tools, AModeThatComesToPushFeelsFirst) {
+  constexpr double kFeel_m = 0.01;
+  StylusConfig config;
+  config.idle = ToolMode::kNone;
+  Tools tools({config}, HandLimits{1, kFeel_m});
+  tools.advance(one(0));
+  tools.foundOutside(0);
+  tools.advance(one(0.001));
+  tools.setMode(0, ToolSwitch::kIdle, ToolMode::kProbe);
+  EXPECT_EQ(tools.advance(one(0.001))[0].feels_m, kFeel_m);
+  tools.foundOutside(0);
+  tools.setMode(0, ToolSwitch::kIdle, ToolMode::kProbe);
+  EXPECT_EQ(tools.advance(one(0.001))[0].feels_m, 0) << "it pushed already";
+}
+
 TEST(Tools, ResetForgetsPosesAndGrabs) {
   Tools tools = oneStylus();
   tools.advance(one(1, true));

@@ -66,6 +66,10 @@ class Session {
   /// What a camera's pictures show beside the tissue from now on; at first, its CameraConfig::overlays.
   /// @param camera  < scene().cameras.size()
   void setOverlays(size_t camera, const Overlays& overlays) { look_.overlays[camera] = overlays; }
+  /// What a stylus does from the next step on with no button pressed, or while one is; stays so over a reset. What it
+  /// holds is let go. @param stylus  < scene().styluses.size()
+  /// @throws SceneError  the mode cuts or erases, and the scene was made without: no stylus of it did
+  void setToolMode(size_t stylus, ToolSwitch when, ToolMode mode);
   void reset();
   /// The hands were not followed for a while, as in a pause: what they hold is let go at the next step, where they
   /// appear anew; forces begin at zero.

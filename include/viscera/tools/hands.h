@@ -27,6 +27,9 @@ class Tools {
   ToolMotions advance(const StylusSamples& samples);
   /// In the tick of the last motions nothing was within the radius in which a stylus feels: it may push from now on.
   void foundOutside(size_t stylus) { inside_[stylus] = false; }
+  /// What a stylus does from the next tick on with no button pressed, or while one is. What it holds in another mode is
+  /// let go; one that comes to push where it may be inside tissue pushes nothing until it was outside.
+  void setMode(size_t stylus, ToolSwitch when, ToolMode mode);
   /// The hands were not followed for a while: what they hold is let go, and they appear anew.
   void forget();
   void reset();

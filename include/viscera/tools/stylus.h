@@ -22,6 +22,9 @@ struct StylusSample {
 };
 using StylusSamples = std::array<StylusSample, layout::kMaxStyluses>;
 
+/// When a stylus is in one of its modes: with no button pressed, or while one is.
+enum class ToolSwitch { kIdle, kButton1, kButton2 };
+
 /// One stylus over one tick: where it was, where it is, what it does.
 struct StylusMotion {
   ToolMode mode = ToolMode::kNone;

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <vector>
 
 #include "viscera/layout/tool_motion.h"
 #include "viscera/model/scene/scene.h"
@@ -85,6 +86,19 @@ static_assert(
 
 constexpr const ToolKind& kindOf(ToolMode mode) {
   return kToolKinds[static_cast<size_t>(mode)];
+}
+
+/// Does a stylus cut or erase, with one button or another?
+inline bool maySever(const StylusConfig& config) {
+  return kindOf(config.idle).severs() || kindOf(config.button1).severs() || kindOf(config.button2).severs();
+}
+
+/// Does some stylus? What a model and a solver keep of cuts is there only then.
+inline bool maySever(const std::vector<StylusConfig>& styluses) {
+  for (const StylusConfig& stylus : styluses) {
+    if (maySever(stylus)) return true;
+  }
+  return false;
 }
 
 }  // namespace viscera
