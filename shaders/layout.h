@@ -18,6 +18,7 @@
 #include "viscera/layout/links.h"
 #include "viscera/layout/nodes.h"
 #include "viscera/layout/obstacle_motion.h"
+#include "viscera/layout/picture_labels.h"
 #include "viscera/layout/skin.h"
 #include "viscera/layout/tick_stats.h"
 #include "viscera/layout/tool_motion.h"

@@ -14,11 +14,6 @@ const float kRelief_m = 0.00011;      // height of the relief
 const float kBorder_m = 0.0004;       // how far a layer's border wanders
 const vec3 kPale = vec3(1.13, 1.17, 1.14), kDeep = vec3(0.87, 0.80, 0.82);  // of colours: least and most blood
 
-int bodyOf(float alpha) {
-  int code = int(alpha * 255.0 + 0.5);
-  return code >= 240 ? 255 - code : code >= 160 ? code - 160 : code;
-}
-
 /// x patches, y relief, z fibres, w a coarser relief: -1..1 about.
 vec4 grainAt(vec3 rest) {
   vec3 fine = 2.0 * texture(grain_texture, rest / kFinePeriod_m).xyz - 1.0;

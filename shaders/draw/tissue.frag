@@ -7,6 +7,7 @@
 // (detail.glsl).
 #include "layout.h"
 #include "shading.glsl"
+#include "tissue_code.glsl"
 #ifdef DETAIL
 #include "detail.glsl"
 #endif
@@ -49,7 +50,7 @@ float passing(vec4 tip, vec4 end) {
 }
 
 void main() {
-  bool wall = color.a > 0.55 && color.a < 0.75;  // of a wound: few, large triangles, whose smooth normals may look away
+  bool wall = isWall(color.a);  // of a wound: few, large triangles, whose smooth normals may look away
   vec3 albedo = color.rgb, outward = normal;
   float roughness = kRoughness, shade = 1.0;
 #ifdef REST

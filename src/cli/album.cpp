@@ -9,13 +9,15 @@
 #include <iterator>
 #include <utility>
 
+#include "cli/npy_writer.h"
 #include "cli/png_writer.h"
 #include "viscera/math/error.h"
 
 namespace viscera::cli {
 
-Album::Album(const std::string& folder, const Scene& scene, const Strokes& strokes, uint64_t ticks, Pictures pictures)
-    : folder_(folder), scene_(scene), pictures_(pictures), ticks_(ticks) {
+Album::Album(const std::string& folder, const Scene& scene, const Strokes& strokes, uint64_t ticks, Pictures pictures,
+             const Kinds& kinds)
+    : folder_(folder), scene_(scene), pictures_(pictures), ticks_(ticks), kinds_(kinds) {
   if (folder_.empty()) return;
   std::error_code error;
   std::filesystem::create_directories(pictures_ == Pictures::kNone ? folder_ : folder_ + "/frames", error);
@@ -48,7 +50,13 @@ Wants Album::wants(const Session& session) const {
   out.surface = session.tick() + 1 == ticks_;
   if (pictures_ == Pictures::kNone) return out;
   out.every_image = pictures_ == Pictures::kAll || marked || out.surface;
-  for (size_t c = 0; c < scene_.cameras.size(); ++c) out.cameras.push_back(session.imageDue(c) || marked);
+  for (size_t c = 0; c < scene_.cameras.size(); ++c) {
+    const bool due = session.imageDue(c) || marked;
+    out.cameras.push_back(due);
+    out.right.push_back(due && scene_.cameras[c].stereo_baseline_m > 0);
+    out.depth.push_back(due && kinds_.depth);
+    out.labels.push_back(due && kinds_.labels);
+  }
   return out;
 }
 
@@ -101,13 +109,25 @@ void Album::write() {
 }
 
 void Album::writeOut(const ImageFrame& image) const {
+  constexpr const char* kSuffixes[kPictureKinds] = {"", "_right", "_depth", "_labels"};
   char number[32];
-  std::snprintf(number, sizeof number, "_%06llu.png", static_cast<unsigned long long>(image.tick));
-  const std::string& camera = scene_.cameras[image.camera].name;
-  writePng(folder_ + "/frames/" + camera + number, image.width, image.height, image.rgb);
+  std::snprintf(number, sizeof number, "_%06llu", static_cast<unsigned long long>(image.tick));
+  const std::string camera = scene_.cameras[image.camera].name + kSuffixes[static_cast<size_t>(image.kind)];
+  writeFile(image, folder_ + "/frames/" + camera + number);
   const auto named = marks_.equal_range(image.tick);
-  for (auto mark = named.first; mark != named.second; ++mark) {
-    writePng(folder_ + "/" + mark->second + "_" + camera + ".png", image.width, image.height, image.rgb);
+  for (auto mark = named.first; mark != named.second; ++mark)
+    writeFile(image, folder_ + "/" + mark->second + "_" + camera);
+}
+
+/// @param stem  of the path, without what says of which kind the file is
+void Album::writeFile(const ImageFrame& image, const std::string& stem) {
+  switch (image.kind) {
+    case PictureKind::kDepth:
+      return writeNpy(stem + ".npy", image.width, image.height, image.depths_m);
+    case PictureKind::kLabels:
+      return writeGreyPng(stem + ".png", image.width, image.height, image.labels);
+    default:
+      return writePng(stem + ".png", image.width, image.height, image.rgb);
   }
 }
 

@@ -26,8 +26,14 @@ class Album {
     kLive,  ///< the series may have gaps where drawing falls behind
     kNone,  ///< only the skin at the end
   };
+  /// What is taken beside what cameras see.
+  struct Kinds {
+    bool depth = false;   ///< as .npy: float32, m along the optical axis, NaN where nothing is
+    bool labels = false;  ///< as grey PNG (layout/picture_labels.h)
+  };
   /// @param folder  empty: neither pictures nor skin   @throws Error  the folder cannot be made
-  Album(const std::string& folder, const Scene& scene, const Strokes& strokes, uint64_t ticks, Pictures pictures);
+  Album(const std::string& folder, const Scene& scene, const Strokes& strokes, uint64_t ticks, Pictures pictures,
+        const Kinds& kinds);
   ~Album();
   Album(const Album&) = delete;
   Album& operator=(const Album&) = delete;
@@ -43,12 +49,14 @@ class Album {
   static constexpr size_t kWaiting = 32;  // a megabyte each
   void write();
   void writeOut(const ImageFrame& image) const;
+  static void writeFile(const ImageFrame& image, const std::string& stem);
   void rethrow();
 
   std::string folder_;
   const Scene& scene_;
   Pictures pictures_;
   uint64_t ticks_;
+  Kinds kinds_;
   std::unique_ptr<SurfaceFrame> surface_;
   std::multimap<uint64_t, std::string> marks_;  ///< tick -> names
   std::mutex mutex_;

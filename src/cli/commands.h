@@ -21,6 +21,8 @@ struct RunOptions {
   std::string out;         ///< empty: no pictures, no metrics.json
   bool no_view = false;    ///< without OpenGL: on the processor, no pictures
   bool live = false;       ///< pictures may be left out where drawing falls behind, but for marks
+  bool depth = false;      ///< depths are taken with every picture
+  bool labels = false;     ///< labels are
   bool reference = false;  ///< in float64 on the CPU
   bool compare = false;    ///< with --reference: and the GPU beside it
   Overrides overrides;

@@ -44,6 +44,10 @@ int dispatch(int argc, char** argv) {
   run->add_flag("--live", o.run.live,
                 "leave pictures out rather than wait for them, as a live session does; but for marks")
       ->needs(out);
+  run->add_flag("--depth", o.run.depth, "depths with every picture: .npy, float32, metres along the optical axis")
+      ->needs(out);
+  run->add_flag("--labels", o.run.labels, "what each pixel shows with every picture: grey .png (docs/ros_api.md)")
+      ->needs(out);
   CLI::Option* reference = run->add_flag("--reference", o.run.reference, "the plain float64 solver instead of the GPU");
   run->add_flag("--no-view", o.run.no_view, "without OpenGL: on the processor, and without pictures")
       ->excludes(reference);

@@ -6,21 +6,34 @@
 
 namespace viscera {
 
-void writePng(const std::string& path, int width, int height, const std::vector<uint8_t>& rgb) {
-  if (width < 1 || height < 1 || rgb.size() != size_t{3} * width * height) {
-    throw ImageError("cannot write '" + path + "': " + std::to_string(rgb.size()) + " bytes are no " +
-                     std::to_string(width) + " x " + std::to_string(height) + " RGB image of at least 1 x 1 pixels");
+namespace {
+
+void write(const std::string& path, int width, int height, const std::vector<uint8_t>& bytes, bool grey) {
+  if (width < 1 || height < 1 || bytes.size() != size_t{grey ? 1U : 3U} * width * height) {
+    throw ImageError("cannot write '" + path + "': " + std::to_string(bytes.size()) + " bytes are no " +
+                     std::to_string(width) + " x " + std::to_string(height) + (grey ? " grey" : " RGB") +
+                     " image of at least 1 x 1 pixels");
   }
   png_image image{};
   image.version = PNG_IMAGE_VERSION;
   image.width = static_cast<png_uint_32>(width);
   image.height = static_cast<png_uint_32>(height);
-  image.format = PNG_FORMAT_RGB;
+  image.format = grey ? PNG_FORMAT_GRAY : PNG_FORMAT_RGB;
   image.flags =
       PNG_IMAGE_FLAG_FAST;  // several times faster, somewhat larger: pictures are taken while tissue is stepped
-  if (!png_image_write_to_file(&image, path.c_str(), 0, rgb.data(), 0, nullptr)) {
+  if (!png_image_write_to_file(&image, path.c_str(), 0, bytes.data(), 0, nullptr)) {
     throw ImageError("cannot write '" + path + "': " + image.message);
   }
+}
+
+}  // namespace
+
+void writePng(const std::string& path, int width, int height, const std::vector<uint8_t>& rgb) {
+  write(path, width, height, rgb, false);
+}
+
+void writeGreyPng(const std::string& path, int width, int height, const std::vector<uint8_t>& values) {
+  write(path, width, height, values, true);
 }
 
 }  // namespace viscera

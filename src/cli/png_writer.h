@@ -20,4 +20,7 @@ struct ImageError : Error {
 /// @throws ImageError
 void writePng(const std::string& path, int width, int height, const std::vector<uint8_t>& rgb);
 
+/// The same of one value per pixel, as grey. @param values  [width * height], rows from the top
+void writeGreyPng(const std::string& path, int width, int height, const std::vector<uint8_t>& values);
+
 }  // namespace viscera

@@ -115,7 +115,7 @@ int run(const RunOptions& options) {
     for (const std::string& note : body.notes) std::cout << body.name << ": " << oneLine(note) << '\n';
   }
   std::cout << "stepped by: " << session.backendNote() << '\n';
-  Album album(options.out, session.scene(), strokes, ticks, picturesOf(options));
+  Album album(options.out, session.scene(), strokes, ticks, picturesOf(options), {options.depth, options.labels});
   const Clock::time_point start = Clock::now();
   for (uint64_t t = 0; t < ticks; ++t) {
     const double time_s = static_cast<double>(t + 1) * session.tick_s();

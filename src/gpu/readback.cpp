@@ -55,11 +55,12 @@ bool ReadbackRing::request(const Source* sources, size_t count, uint64_t tag) {
   return true;
 }
 
-bool ReadbackRing::requestPixels(int width, int height, uint64_t tag) {
+bool ReadbackRing::requestPixels(int width, int height, uint64_t tag, Pixel pixel) {
   if (in_flight_ == static_cast<int>(slots_.size())) return false;
   Slot& slot = claim(tag);
   glBindBuffer(GL_PIXEL_PACK_BUFFER, slot.buffer);
-  glReadPixels(0, 0, width, height, GL_RGB, GL_UNSIGNED_BYTE, nullptr);
+  const GLenum format = pixel == Pixel::kRgb8 ? GL_RGB : pixel == Pixel::kFloat ? GL_RED : GL_RED_INTEGER;
+  glReadPixels(0, 0, width, height, format, pixel == Pixel::kFloat ? GL_FLOAT : GL_UNSIGNED_BYTE, nullptr);
   glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
   glMemoryBarrier(GL_CLIENT_MAPPED_BUFFER_BARRIER_BIT);
   slot.fence = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);

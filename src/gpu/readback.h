@@ -26,9 +26,11 @@ class ReadbackRing {
   /// Queues copies of the sources, one after the other, under a tag of the caller's. False if every slot is in flight.
   bool request(const Source* sources, size_t count, uint64_t tag);
   bool request(const Source& source, uint64_t tag) { return request(&source, 1, tag); }
-  /// Queues a copy of the bound read framebuffer's RGB bytes, from its bottom row, packed without padding. Renderer
+  /// What a pixel is read as.
+  enum class Pixel { kRgb8, kFloat, kUint8 };
+  /// Queues a copy of the bound read framebuffer's pixels, from its bottom row, packed without padding. Renderer
   /// draws the image's top row there, so rows arrive top first.
-  bool requestPixels(int width, int height, uint64_t tag);
+  bool requestPixels(int width, int height, uint64_t tag, Pixel pixel = Pixel::kRgb8);
   /// Oldest finished copy, or nullptr. The memory stays valid until release(). @throws GpuError  it does not come
   const void* collect(uint64_t* tag, bool wait = false);
   void release();

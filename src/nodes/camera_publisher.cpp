@@ -6,19 +6,71 @@
 
 namespace viscera::nodes {
 
-CameraPublisher::CameraPublisher(image_transport::ImageTransport& transport, const CameraConfig& camera,
-                                 const std::string& frame_prefix, double tick_hz)
+CameraPublisher::Plain::Plain(ros::NodeHandle& node, const std::string& name)
+    : image(node.advertise<sensor_msgs::Image>(name + "/image_raw", 1)),
+      info(node.advertise<sensor_msgs::CameraInfo>(name + "/camera_info", 1)) {}
+
+CameraPublisher::CameraPublisher(ros::NodeHandle node, const CameraConfig& camera, const std::string& frame_prefix,
+                                 double tick_hz)
     : camera_(camera),
       optical_frame_(opticalFrame(camera, frame_prefix)),
-      publisher_(transport.advertiseCamera(camera.name + "/image_raw", 1)),
-      throttle_(camera.rate_hz, tick_hz) {}
+      transport_(node),
+      image_(transport_.advertiseCamera(camera.name + "/image_raw", 1)),
+      depth_(node, camera.name + "/depth"),
+      label_(node, camera.name + "/label"),
+      tick_hz_(tick_hz),
+      throttle_(camera.rate_hz, tick_hz) {
+  if (!(camera.stereo_baseline_m > 0)) return;
+  left_ = transport_.advertiseCamera(camera.name + "/left/image_raw", 1);
+  right_ = transport_.advertiseCamera(camera.name + "/right/image_raw", 1);
+}
 
-bool CameraPublisher::pick() {
-  return isWanted() && throttle_.pick();
+uint32_t CameraPublisher::viewers(PictureKind kind) const {
+  const bool stereo = camera_.stereo_baseline_m > 0;
+  switch (kind) {
+    case PictureKind::kColor:
+      return image_.getNumSubscribers() + (stereo ? left_.getNumSubscribers() : 0);
+    case PictureKind::kRight:
+      return stereo ? right_.getNumSubscribers() : 0;
+    case PictureKind::kDepth:
+      return depth_.viewers();
+    case PictureKind::kLabels:
+      break;
+  }
+  return label_.viewers();
+}
+
+bool CameraPublisher::isWanted() const {
+  for (size_t kind = 0; kind < kPictureKinds; ++kind) {
+    if (viewers(static_cast<PictureKind>(kind)) > 0) return true;
+  }
+  return false;
 }
 
 void CameraPublisher::publish(ImageFrame&& frame, const ros::Time& stamp) {
-  publisher_.publish(toImage(std::move(frame), optical_frame_, stamp), toCameraInfo(camera_, optical_frame_, stamp));
+  const PictureKind kind = frame.kind;
+  const auto image = boost::make_shared<const sensor_msgs::Image>(toImage(std::move(frame), optical_frame_, stamp));
+  const auto info =
+      boost::make_shared<const sensor_msgs::CameraInfo>(toCameraInfo(camera_, optical_frame_, stamp, kind));
+  const auto publishPlain = [&](const Plain& to) {
+    to.image.publish(image);
+    to.info.publish(info);
+  };
+  switch (kind) {
+    case PictureKind::kColor:
+      image_.publish(image, info);
+      if (camera_.stereo_baseline_m > 0) left_.publish(image, info);
+      break;
+    case PictureKind::kRight:
+      right_.publish(image, info);
+      break;
+    case PictureKind::kDepth:
+      publishPlain(depth_);
+      break;
+    case PictureKind::kLabels:
+      publishPlain(label_);
+      break;
+  }
 }
 
 }  // namespace viscera::nodes

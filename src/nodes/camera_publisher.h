@@ -4,6 +4,7 @@
 
 #include <image_transport/image_transport.h>
 
+#include <array>
 #include <string>
 
 #include "nodes/conversions.h"
@@ -11,23 +12,36 @@
 
 namespace viscera::nodes {
 
-/// Topics `<camera>/image_raw` and `<camera>/camera_info` of one camera.
+/// Topics of one camera: `<camera>/image_raw` and `camera_info`; of a stereo camera the same below `left` and `right`;
+/// and `<camera>/depth` and `<camera>/label`, each with an `image_raw` and a `camera_info`.
 class CameraPublisher {
  public:
-  CameraPublisher(image_transport::ImageTransport& transport, const CameraConfig& camera,
-                  const std::string& frame_prefix, double tick_hz);
+  CameraPublisher(ros::NodeHandle node, const CameraConfig& camera, const std::string& frame_prefix, double tick_hz);
 
-  /// Subscribers. From any thread.
-  uint32_t viewers() const { return publisher_.getNumSubscribers(); }
-  bool isWanted() const { return viewers() > 0; }
-  /// Call once in a tick: whether somebody subscribes and the camera's rate makes an image due.
-  bool pick();
+  /// Subscribers to pictures of a kind. From any thread.
+  uint32_t viewers(PictureKind kind) const;
+  /// Somebody subscribes to some of them.
+  bool isWanted() const;
+  /// Call once in a tick: whether somebody subscribes and the camera's rate makes pictures due.
+  bool pick() { return isWanted() && throttle_.pick(); }
+  void setRate(double rate_hz) { throttle_.setRate(rate_hz, tick_hz_); }
   void publish(ImageFrame&& frame, const ros::Time& stamp);
 
  private:
+  /// Images that are no colours: none of the plugins of image_transport are for them.
+  struct Plain {
+    ros::Publisher image, info;
+    Plain(ros::NodeHandle& node, const std::string& name);
+    uint32_t viewers() const { return std::max(image.getNumSubscribers(), info.getNumSubscribers()); }
+  };
+
   const CameraConfig camera_;
   const std::string optical_frame_;
-  image_transport::CameraPublisher publisher_;
+  image_transport::ImageTransport transport_;
+  image_transport::CameraPublisher image_;
+  image_transport::CameraPublisher left_, right_;  ///< of a stereo camera; the left picture is the camera's
+  Plain depth_, label_;
+  const double tick_hz_;
   Throttle throttle_;
 };
 

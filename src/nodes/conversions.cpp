@@ -6,6 +6,7 @@
 #include <sensor_msgs/image_encodings.h>
 
 #include <cmath>
+#include <cstring>
 #include <utility>
 
 #include "nodes/topology_change.h"
@@ -199,7 +200,7 @@ std::vector<visualization_msgs::Marker> toMarkers(const ShownMesh& skin, const s
 }
 
 std::string opticalFrame(const CameraConfig& camera, const std::string& frame_prefix) {
-  return frame_prefix + camera.name + "_optical_frame";
+  return isCarriedByOpticalFrame(camera) ? camera.frame : frame_prefix + camera.name + "_optical_frame";
 }
 
 std::string toolFrame(const StylusConfig& stylus, const std::string& frame_prefix) {
@@ -211,14 +212,28 @@ sensor_msgs::Image toImage(ImageFrame&& frame, const std::string& optical_frame,
   out.header = header(optical_frame, stamp);
   out.width = static_cast<uint32_t>(frame.width);
   out.height = static_cast<uint32_t>(frame.height);
-  out.encoding = sensor_msgs::image_encodings::RGB8;
-  out.step = 3 * out.width;
-  out.data = std::move(frame.rgb);
+  switch (frame.kind) {
+    case PictureKind::kDepth:
+      out.encoding = sensor_msgs::image_encodings::TYPE_32FC1;
+      out.step = sizeof(float) * out.width;
+      out.data.resize(sizeof(float) * frame.depths_m.size());
+      std::memcpy(out.data.data(), frame.depths_m.data(), out.data.size());
+      break;
+    case PictureKind::kLabels:
+      out.encoding = sensor_msgs::image_encodings::MONO8;
+      out.step = out.width;
+      out.data = std::move(frame.labels);
+      break;
+    default:
+      out.encoding = sensor_msgs::image_encodings::RGB8;
+      out.step = 3 * out.width;
+      out.data = std::move(frame.rgb);
+  }
   return out;
 }
 
 sensor_msgs::CameraInfo toCameraInfo(const CameraConfig& camera, const std::string& optical_frame,
-                                     const ros::Time& stamp) {
+                                     const ros::Time& stamp, PictureKind kind) {
   constexpr double kPixelCentre = 0.5;  // of Intrinsics; in a CameraInfo the centre of the first pixel is at 0
   const Intrinsics lens = intrinsics(camera);
   const double cx = lens.cx - kPixelCentre, cy = lens.cy - kPixelCentre;
@@ -230,7 +245,8 @@ sensor_msgs::CameraInfo toCameraInfo(const CameraConfig& camera, const std::stri
   out.D.assign(5, 0.0);
   out.K = {lens.fx, 0, cx, 0, lens.fy, cy, 0, 0, 1};
   out.R = {1, 0, 0, 0, 1, 0, 0, 0, 1};
-  out.P = {lens.fx, 0, cx, 0, 0, lens.fy, cy, 0, 0, 0, 1, 0};
+  const double shift = kind == PictureKind::kRight ? -lens.fx * camera.stereo_baseline_m : 0;
+  out.P = {lens.fx, 0, cx, shift, 0, lens.fy, cy, 0, 0, 0, 1, 0};
   return out;
 }
 

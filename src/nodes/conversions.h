@@ -59,11 +59,13 @@ SurfaceVertices toVertices(const SurfaceFrame& frame, const SentVertices& sent, 
 std::vector<visualization_msgs::Marker> toMarkers(const ShownMesh& skin, const std::string& frame_id,
                                                   const ros::Time& stamp);
 
-/// Takes the pixels out of `frame`.
+/// Takes the pixels out of `frame`: rgb8, of depths 32FC1 [m], of labels mono8.
 sensor_msgs::Image toImage(ImageFrame&& frame, const std::string& optical_frame, const ros::Time& stamp);
 /// As OpenCV counts: the centre of the first pixel is at (0, 0), half a pixel from where Intrinsics has it.
+/// @param kind  kRight: the projection is that of a point of the camera's own frame, the left eye's, into the right one
 sensor_msgs::CameraInfo toCameraInfo(const CameraConfig& camera, const std::string& optical_frame,
-                                     const ros::Time& stamp);
+                                     const ros::Time& stamp, PictureKind kind = PictureKind::kColor);
+/// The camera's own, or the one that carries it.
 std::string opticalFrame(const CameraConfig& camera, const std::string& frame_prefix);
 std::string toolFrame(const StylusConfig& stylus, const std::string& frame_prefix);
 

@@ -11,15 +11,15 @@
 namespace viscera::nodes {
 FramePublisher::FramePublisher(ros::NodeHandle node, const Scene& scene, const PublishOptions& options,
                                std::function<void(std::exception_ptr)> failed)
-    : transport_(node),
+    : tissue_frame_(scene.environment.tissue_frame),
       surface_(node, scene.environment.tissue_frame),
+      tick_hz_(scene.solver.tick_hz),
       surface_throttle_(options.surface_rate_hz, scene.solver.tick_hz),
       scene_markers_(node, scene, options),
       failed_(std::move(failed)),
-      image_viewers_(scene.cameras.size(), 0) {
+      image_viewers_(kPictureKinds * scene.cameras.size(), 0) {
   for (const CameraConfig& camera : scene.cameras)
-    cameras_.push_back(
-        std::make_unique<CameraPublisher>(transport_, camera, options.frame_prefix, scene.solver.tick_hz));
+    cameras_.push_back(std::make_unique<CameraPublisher>(node, camera, options.frame_prefix, scene.solver.tick_hz));
   image_latency_.resize(cameras_.size());
   slots_ = emptySlots();
   broadcastStaticFrames(scene, options.frame_prefix);
@@ -43,8 +43,15 @@ void FramePublisher::broadcastStaticFrames(const Scene& scene, const std::string
     const Pose tissue{world.tissue_position_m, rotationFromDegrees(world.tissue_rotation_deg)};
     frames.push_back(toTransform(tissue, world.world_frame, world.tissue_frame, now));
   }
-  for (const CameraConfig& camera : scene.cameras)
-    frames.push_back(toTransform(opticalPose(camera), world.tissue_frame, opticalFrame(camera, frame_prefix), now));
+  for (size_t c = 0; c < scene.cameras.size(); ++c) {
+    const CameraConfig& camera = scene.cameras[c];
+    const std::string optical_frame = opticalFrame(camera, frame_prefix);
+    if (camera.frame.empty()) {
+      frames.push_back(toTransform(opticalPose(camera), world.tissue_frame, optical_frame, now));
+    } else if (!isCarriedByOpticalFrame(camera)) {
+      carried_.push_back({c, optical_frame});
+    }
+  }
   static_frames_.sendTransform(frames);
 }
 
@@ -61,8 +68,19 @@ Wants FramePublisher::beginTick() {
   tick_stamp_ = ros::Time::now();
   Wants wants;
   wants.surface = surface_.isWanted() && surface_throttle_.pick();
-  for (const auto& camera : cameras_) wants.cameras.push_back(camera->pick());
+  for (const auto& camera : cameras_) {
+    const bool due = camera->pick();
+    for (size_t k = 0; k < kPictureKinds; ++k) {
+      const auto kind = static_cast<PictureKind>(k);
+      wants.of(kind).push_back(due && camera->viewers(kind) > 0);
+    }
+  }
   return wants;
+}
+
+void FramePublisher::setSurfaceRate(double rate_hz) {
+  surface_throttle_.setRate(rate_hz, tick_hz_);
+  scene_markers_.setRate(rate_hz);
 }
 
 ros::Time FramePublisher::stampOf(uint64_t tick) const {
@@ -70,20 +88,25 @@ ros::Time FramePublisher::stampOf(uint64_t tick) const {
   return entry.value == tick ? entry.stamp : ros::Time::now();
 }
 
-Wants FramePublisher::stills(bool changed) {
+Wants FramePublisher::stills(bool changed, bool aimed) {
   tick_stamp_ = ros::Time::now();
   Wants wants;
   const uint32_t before = std::exchange(surface_viewers_, surface_.viewers());
   wants.surface = surface_viewers_ > (changed ? 0 : before);
   for (size_t c = 0; c < cameras_.size(); ++c) {
-    const uint32_t known = std::exchange(image_viewers_[c], cameras_[c]->viewers());
-    wants.cameras.push_back(image_viewers_[c] > (changed ? 0 : known));
+    for (size_t k = 0; k < kPictureKinds; ++k) {
+      const auto kind = static_cast<PictureKind>(k);
+      uint32_t& viewers = image_viewers_[kPictureKinds * c + k];
+      const uint32_t known = std::exchange(viewers, cameras_[c]->viewers(kind));
+      wants.of(kind).push_back(viewers > (changed || aimed ? 0 : known));
+    }
   }
   return wants;
 }
 
 void FramePublisher::deliver(Frame&& frame) {
   stamps_[frame.tick % stamps_.size()] = {tick_stamp_, frame.tick};
+  putCameraFrames(frame);
   const bool scene_due = scene_markers_.isDue();
   if (!scene_due && !frame.surface && frame.images.empty()) return;
   {
@@ -93,9 +116,24 @@ void FramePublisher::deliver(Frame&& frame) {
       const ros::Time stamp = stampOf(frame.surface->tick);
       slots_.surface = {stamp, std::move(frame.surface)};
     }
-    for (ImageFrame& image : frame.images) slots_.images.at(image.camera) = {stampOf(image.tick), std::move(image)};
+    for (ImageFrame& image : frame.images) {
+      const size_t slot = kPictureKinds * image.camera + static_cast<size_t>(image.kind);
+      slots_.images.at(slot) = {stampOf(image.tick), std::move(image)};
+    }
     any_ = true;
   }
+  filled_.notify_one();
+}
+
+/// One a tick, so that there is one at the stamp of every picture; the same stamp twice, as while /clock stands still,
+/// would make every tf2 listener warn.
+void FramePublisher::putCameraFrames(const Frame& frame) {
+  if (carried_.empty() || tick_stamp_ == frames_stamp_) return;
+  frames_stamp_ = tick_stamp_;
+  const std::lock_guard<std::mutex> lock(mutex_);
+  for (const Carried& it : carried_)
+    slots_.frames.push_back(toTransform(frame.cameras[it.camera], tissue_frame_, it.optical_frame, tick_stamp_));
+  any_ = true;
   filled_.notify_one();
 }
 
@@ -128,11 +166,12 @@ void FramePublisher::sendUntilStopped() {
 
 FramePublisher::Slots FramePublisher::emptySlots() const {
   Slots slots;
-  slots.images.resize(cameras_.size());
+  slots.images.resize(kPictureKinds * cameras_.size());
   return slots;
 }
 
 void FramePublisher::send(Slots&& slots) {
+  if (!slots.frames.empty()) moving_frames_.sendTransform(slots.frames);
   if (slots.skin) surface_.start(slots.skin->value, slots.skin->stamp);
   if (slots.surface) {
     surface_.publish(*slots.surface->value, slots.surface->stamp);
@@ -143,8 +182,10 @@ void FramePublisher::send(Slots&& slots) {
   for (size_t i = 0; i < slots.images.size(); ++i) {
     if (!slots.images[i]) continue;
     const SteadyTime pose_received = slots.images[i]->value.pose_received;
-    cameras_[i]->publish(std::move(slots.images[i]->value), slots.images[i]->stamp);
-    noteLatency(image_latency_[i], pose_received);
+    const bool timed = slots.images[i]->value.kind == PictureKind::kColor;
+    const size_t camera = i / kPictureKinds;
+    cameras_[camera]->publish(std::move(slots.images[i]->value), slots.images[i]->stamp);
+    if (timed) noteLatency(image_latency_[camera], pose_received);
   }
 }
 

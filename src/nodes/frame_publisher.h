@@ -4,6 +4,7 @@
 
 #include <ros/node_handle.h>
 #include <tf2_ros/static_transform_broadcaster.h>
+#include <tf2_ros/transform_broadcaster.h>
 
 #include <array>
 #include <condition_variable>
@@ -51,8 +52,11 @@ class FramePublisher {
   /// What subscribers want of the tick that begins now; the tick's stamp is taken here.
   Wants beginTick();
   /// What is wanted of a state that stands still: what those want who subscribe since the last call, and the others too
-  /// if it has changed.
-  Wants stills(bool changed);
+  /// if it has changed. @param aimed  a camera has moved: its viewers have not seen that
+  Wants stills(bool changed, bool aimed);
+  /// How often from now on, at most.
+  void setSurfaceRate(double rate_hz);
+  void setImageRate(size_t camera, double rate_hz) { cameras_[camera]->setRate(rate_hz); }
   ros::Time tickStamp() const { return tick_stamp_; }
   void deliver(Frame&& frame);
 
@@ -65,10 +69,12 @@ class FramePublisher {
   struct Slots {
     std::optional<Stamped<std::shared_ptr<const ShownTopology>>> skin;
     std::optional<Stamped<std::unique_ptr<SurfaceFrame>>> surface;
-    std::vector<std::optional<Stamped<ImageFrame>>> images;  ///< [cameras]
+    std::vector<std::optional<Stamped<ImageFrame>>> images;  ///< [cameras * kPictureKinds]
+    std::vector<geometry_msgs::TransformStamped> frames;     ///< of cameras that are carried; none is overtaken
     std::optional<Stamped<SceneLook>> scene;
   };
 
+  void putCameraFrames(const Frame& frame);
   void broadcastStaticFrames(const Scene& scene, const std::string& frame_prefix);
   ros::Time stampOf(uint64_t tick) const;
   Slots emptySlots() const;
@@ -78,8 +84,15 @@ class FramePublisher {
   void noteLatency(LatencyMeter& meter, SteadyTime pose_received);
 
   tf2_ros::StaticTransformBroadcaster static_frames_;
-  image_transport::ImageTransport transport_;
+  tf2_ros::TransformBroadcaster moving_frames_;
+  const std::string tissue_frame_;
+  struct Carried {
+    size_t camera;
+    std::string optical_frame;
+  };
+  std::vector<Carried> carried_;  ///< cameras whose optical frame is ours and moves
   SurfacePublisher surface_;
+  const double tick_hz_;
   Throttle surface_throttle_;
   SceneMarkerPublisher scene_markers_;
   std::vector<std::unique_ptr<CameraPublisher>> cameras_;
@@ -90,7 +103,8 @@ class FramePublisher {
   ros::Time tick_stamp_;
   std::array<Stamped<uint64_t>, kStampedTicks> stamps_;
   uint32_t surface_viewers_ = 0;         ///< when stills() was asked last
-  std::vector<uint32_t> image_viewers_;  ///< [cameras]
+  std::vector<uint32_t> image_viewers_;  ///< [cameras * kPictureKinds]
+  ros::Time frames_stamp_;               ///< of the camera frames put last
 
   std::mutex latency_mutex_;
   std::vector<LatencyMeter> image_latency_;

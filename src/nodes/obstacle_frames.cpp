@@ -4,17 +4,12 @@
 
 #include <ros/console.h>
 
-#include "nodes/conversions.h"
+#include "nodes/frame_lookup.h"
 
 namespace viscera::nodes {
 namespace {
 
 constexpr double kWarnPeriod_s = 5;
-
-bool isPose(const Pose& pose) {
-  constexpr double kLeast = 1e-6;  // of a quaternion's length: below it there is no orientation
-  return pose.position_m.allFinite() && pose.orientation.coeffs().allFinite() && pose.orientation.norm() > kLeast;
-}
 
 }  // namespace
 
@@ -35,12 +30,7 @@ void ObstacleFrames::apply(Session& session) {
   held_back_ = held_back;
   for (const Carried& it : carried_) {
     try {
-      const geometry_msgs::TransformStamped newest = frames_.lookupTransform(tissue_frame_, it.frame, ros::Time(0));
-      if (isOlder(newest, max_transform_age_s_)) throw tf2::TransformException("its newest transform is too old");
-      Pose pose = fromMessage(newest.transform);
-      if (!isPose(pose)) throw tf2::TransformException("its transform is not finite");
-      pose.orientation.normalize();
-      session.setObstacleFrame(it.obstacle, pose);
+      session.setObstacleFrame(it.obstacle, newestPose(frames_, tissue_frame_, it.frame, max_transform_age_s_));
       ++found_;
     } catch (const tf2::TransformException& error) {
       ++missed_;

@@ -8,8 +8,12 @@ namespace viscera::nodes {
 
 SceneMarkerPublisher::SceneMarkerPublisher(ros::NodeHandle& node, const Scene& scene, const PublishOptions& options)
     : markers_(scene, options),
-      period_(std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1 / options.surface_rate_hz))),
+      period_(period(options.surface_rate_hz)),
       publisher_(node.advertise<visualization_msgs::MarkerArray>("scene_markers", 1)) {}
+
+SceneMarkerPublisher::Clock::duration SceneMarkerPublisher::period(double rate_hz) {
+  return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1 / rate_hz));
+}
 
 bool SceneMarkerPublisher::isDue() {
   const Clock::time_point now = Clock::now();

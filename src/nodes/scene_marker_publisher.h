@@ -19,13 +19,17 @@ class SceneMarkerPublisher {
   bool isWanted() const { return publisher_.getNumSubscribers() > 0; }
   /// Somebody subscribes, and it is time for the next. Counted on the steady clock, so that it comes while paused too.
   bool isDue();
+  /// How often from now on, at most. For the thread that asks isDue().
+  void setRate(double rate_hz) { period_ = period(rate_hz); }
   /// From any one thread.
   void publish(const SceneLook& look, const ros::Time& stamp);
 
  private:
   using Clock = std::chrono::steady_clock;
+  static Clock::duration period(double rate_hz);
+
   const SceneMarkers markers_;
-  const Clock::duration period_;
+  Clock::duration period_;
   Clock::time_point next_{};
   ros::Publisher publisher_;
 };

@@ -9,6 +9,7 @@
 #include "nodes/thread_name.h"
 #include "nodes/wrench_schedule.h"
 #include "viscera/gpu/context.h"
+#include "viscera/math/error.h"
 #include "viscera/math/state_hash.h"
 
 namespace viscera::nodes {
@@ -96,6 +97,7 @@ void SimulationLoop::run() {
 void SimulationLoop::tick(Session& session, const StylusSamples& samples, bool live) {
   const Clock::time_point begun = Clock::now();
   if (ports_.place) ports_.place(session);
+  if (ports_.aim) ports_.aim(session);
   Frame frame = session.step(samples, ports_.wants());
   const Clock::time_point stepped = Clock::now();
   {
@@ -109,7 +111,8 @@ void SimulationLoop::tick(Session& session, const StylusSamples& samples, bool l
 
 void SimulationLoop::rest(Session& session) {
   Frame frame = session.drain();
-  const Wants wants = ports_.stills(std::exchange(unseen_, false));
+  const bool aimed = ports_.aim && ports_.aim(session);
+  const Wants wants = ports_.stills(std::exchange(unseen_, false), aimed);
   if (wants.count() > 0) {
     Pictures shown = session.show(wants);
     if (shown.surface) frame.surface = std::move(shown.surface);

@@ -37,7 +37,9 @@ struct LoopStatus {
 
 /// What the loop asks of its surroundings, on its own thread. None of them may block.
 struct LoopPorts {
-  std::function<void(Session&)> place;        ///< obstacles that others carry, for a tick that begins now; may be null
+  std::function<void(Session&)> place;  ///< obstacles that others carry, for a tick that begins now; may be null
+  /// Cameras that others carry, also while the state stands still; @returns whether one has moved; may be null
+  std::function<bool(Session&)> aim;
   std::function<StylusSamples()> samples;     ///< for that tick
   std::function<Wants()> wants;               ///< of that tick
   std::function<void(const Session&)> ready;  ///< once, before the first tick
@@ -46,7 +48,8 @@ struct LoopPorts {
   /// What came back after a tick with these samples. @param live  the tissue follows the hands: forces may go out
   std::function<void(Frame&&, const StylusSamples&, bool live)> deliver;
   /// What is wanted of a state that stands still. @param changed  others than newcomers have not seen it either
-  std::function<Wants(bool changed)> stills;
+  /// @param aimed  nor has anybody the pictures of some camera, which has moved
+  std::function<Wants(bool changed, bool aimed)> stills;
   std::function<void()> forget;  ///< hands were not followed, or will not be: what devices said before is void
   std::function<void()> failed;  ///< an error has ended the thread
 };

@@ -29,10 +29,12 @@ void reportProgress(const std::string& stage, double fraction) {
 
 }  // namespace
 
-Simulator::Simulator(const SimulatorOptions& options, EndWatch& end)
+Simulator::Simulator(const SimulatorOptions& options, EndWatch& end, SceneSwitch& scenes)
     : end_(end),
+      scenes_(scenes),
       listener_(frames_),
       obstacles_(options.scene, frames_, options.max_transform_age_s),
+      camera_frames_(options.scene, frames_, options.max_transform_age_s),
       inputs_(makeInputs(options, frames_)),
       wrenches_(node_, mailboxes(), stallTime_s(options), options.scene, options.haptics),
       release_(end_, [this] { wrenches_.release(); }),
@@ -42,9 +44,13 @@ Simulator::Simulator(const SimulatorOptions& options, EndWatch& end)
       samples_(node_, options.scene),
       obstacle_forces_(node_, options.scene),
       loop_(options.scene, ports(), reportProgress),
-      services_(node_, options.scene.styluses, loop_.commands()),
-      diagnostics_(node_, options.scene, loop_, {publisher_, wrenches_}, inputs_, obstacles_),
-      device_spinner_(1, &device_queue_) {}
+#ifdef VISCERA_RECONFIGURE
+      settings_(options, loop_.commands(), {publisher_, wrenches_}),
+#endif
+      services_(node_, options.scene.styluses, loop_.commands(), modeSet()),
+      diagnostics_(node_, options.scene, loop_, {publisher_, wrenches_}, inputs_, obstacles_, camera_frames_),
+      device_spinner_(1, &device_queue_) {
+}
 
 Simulator::~Simulator() {
   wrenches_.release();
@@ -56,6 +62,14 @@ SimulatorDiagnostics::Inputs Simulator::makeInputs(const SimulatorOptions& optio
     inputs.push_back(std::make_unique<StylusInput>(config, options.scene.environment.tissue_frame, frames,
                                                    options.max_transform_age_s));
   return inputs;
+}
+
+SimulatorServices::ModeSet Simulator::modeSet() {
+#ifdef VISCERA_RECONFIGURE
+  return [this](size_t stylus, ToolSwitch when, ToolMode mode) { settings_.noteMode(stylus, when, mode); };
+#else
+  return {};
+#endif
 }
 
 std::vector<std::string> Simulator::toolFrames(const Scene& scene, const std::string& prefix) {
@@ -79,8 +93,9 @@ LoopPorts Simulator::ports() {
     for (size_t i = 0; i < inputs_.size(); ++i) samples[i] = inputs_[i]->mailbox().take(now);
     return samples;
   };
-  ports.wants = [this] { return publisher_.beginTick(); };
-  ports.stills = [this](bool changed) { return publisher_.stills(changed); };
+  if (!camera_frames_.empty()) ports.aim = [this](Session& session) { return camera_frames_.apply(session); };
+  ports.wants = [this] { return placed(publisher_.beginTick()); };
+  ports.stills = [this](bool changed, bool aimed) { return placed(publisher_.stills(changed, aimed)); };
   ports.ready = [this](const Session& session) {
     ROS_INFO("ready: %zu nodes, %zu springs, %zu triangles, substep %.3g ms", session.model().activeNodes(),
              session.model().springs(), session.model().skinTriangles(), 1e3 * session.solver().dt_s());
@@ -102,6 +117,15 @@ LoopPorts Simulator::ports() {
   };
   ports.failed = [this] { wrenches_.release(); };
   return ports;
+}
+
+/// Without pictures of cameras of which nobody knows where they are.
+Wants Simulator::placed(Wants wants) const {
+  for (size_t k = 0; k < kPictureKinds; ++k) {
+    std::vector<bool>& wanted = wants.of(static_cast<PictureKind>(k));
+    for (size_t c = 0; c < wanted.size(); ++c) wanted[c] = wanted[c] && camera_frames_.isPlaced(c);
+  }
+  return wants;
 }
 
 void Simulator::deliver(Frame&& frame, const StylusSamples& samples, bool live) {
@@ -130,6 +154,7 @@ void Simulator::fail(std::exception_ptr error) {
 void Simulator::listen() {
   if (listening_ || !ready_) return;
   listening_ = true;
+  scenes_.noteReady();
   ros::NodeHandle devices(node_);
   devices.setCallbackQueue(&device_queue_);
   for (const auto& input : inputs_) input->subscribe(devices);
@@ -156,7 +181,7 @@ void Simulator::run() {
     const std::lock_guard<std::mutex> lock(error_mutex_);
     return error_ != nullptr;
   };
-  while (!end_.waitFor(kWatchPeriod) && !loop_.ended() && !failed() && known) {
+  while (!end_.waitFor(kWatchPeriod) && !loop_.ended() && !failed() && known && !scenes_.isRequested()) {
     listen();
     warnOfStalls();
     known = master.check();

@@ -14,15 +14,20 @@
 #include <string>
 #include <vector>
 
+#include "nodes/camera_frames.h"
 #include "nodes/end_watch.h"
 #include "nodes/frame_publisher.h"
 #include "nodes/obstacle_force_publisher.h"
 #include "nodes/obstacle_frames.h"
 #include "nodes/samples_publisher.h"
+#include "nodes/scene_switch.h"
 #include "nodes/simulation_loop.h"
 #include "nodes/simulator_diagnostics.h"
 #include "nodes/simulator_options.h"
 #include "nodes/simulator_services.h"
+#ifdef VISCERA_RECONFIGURE
+#include "nodes/simulator_settings.h"
+#endif
 #include "nodes/stylus_input.h"
 #include "nodes/tick_publisher.h"
 #include "nodes/tool_frame_publisher.h"
@@ -33,19 +38,21 @@ namespace viscera::nodes {
 /// The node: stylus inputs -> simulation loop -> frame publisher, with services and diagnostics beside it.
 class Simulator {
  public:
-  /// @param end  must outlive this
-  Simulator(const SimulatorOptions& options, EndWatch& end);
+  /// @param end, scenes  must outlive this
+  Simulator(const SimulatorOptions& options, EndWatch& end, SceneSwitch& scenes);
   ~Simulator();
 
-  /// Runs until the end begins.
+  /// Runs until the end begins, or another scene waits for its place.
   /// @throws what ends the simulation: GpuError, MeshError, ...; Error if the master is lost
   void run();
 
  private:
   static SimulatorDiagnostics::Inputs makeInputs(const SimulatorOptions& options, const tf2_ros::Buffer& frames);
+  SimulatorServices::ModeSet modeSet();
   static std::vector<std::string> toolFrames(const Scene& scene, const std::string& prefix);
   std::vector<const StylusMailbox*> mailboxes() const;
   LoopPorts ports();
+  Wants placed(Wants wants) const;
   void deliver(Frame&& frame, const StylusSamples& samples, bool live);
   /// Ends forces at once, and the node as soon as run() sees it.
   void fail(std::exception_ptr error);
@@ -53,10 +60,12 @@ class Simulator {
   void warnOfStalls();
 
   EndWatch& end_;
+  SceneSwitch& scenes_;
   ros::NodeHandle node_;
   tf2_ros::Buffer frames_;
   tf2_ros::TransformListener listener_;
   ObstacleFrames obstacles_;
+  CameraFrames camera_frames_;
   ros::CallbackQueue device_queue_;  ///< of the inputs, which it outlives
   SimulatorDiagnostics::Inputs inputs_;
   std::mutex error_mutex_;
@@ -72,6 +81,9 @@ class Simulator {
   bool listening_ = false;
   uint64_t stalls_ = 0;  ///< that were warned of
   SimulationLoop loop_;
+#ifdef VISCERA_RECONFIGURE
+  SimulatorSettings settings_;
+#endif
   SimulatorServices services_;
   SimulatorDiagnostics diagnostics_;
   ros::AsyncSpinner device_spinner_;

@@ -42,11 +42,12 @@ void warnOfSlowness(const PaceMeter::Reading& pace, double tick_s) {
 
 SimulatorDiagnostics::SimulatorDiagnostics(ros::NodeHandle node, const Scene& scene, SimulationLoop& loop,
                                            const Publishers& publishers, const Inputs& inputs,
-                                           const ObstacleFrames& obstacles)
+                                           const ObstacleFrames& obstacles, const CameraFrames& camera_frames)
     : loop_(loop),
       publishers_(publishers),
       inputs_(inputs),
       obstacles_(obstacles),
+      camera_frames_(camera_frames),
       tick_s_(1 / scene.solver.tick_hz),
       dropped_before_(inputs.size(), 0),
       updater_(node) {
@@ -59,6 +60,7 @@ SimulatorDiagnostics::SimulatorDiagnostics(ros::NodeHandle node, const Scene& sc
   for (size_t i = 0; i < inputs_.size(); ++i)
     updater_.add(inputs_[i]->mailbox().config().name, [this, i](Status& status) { stylus(i, status); });
   if (!obstacles_.empty()) updater_.add("obstacles", this, &SimulatorDiagnostics::obstacles);
+  if (!camera_frames_.empty()) updater_.add("cameras", this, &SimulatorDiagnostics::cameras);
   // Forced from the steady clock, since the updater's own period follows ROS time, which may stand still.
   timer_ = node.createSteadyTimer(ros::WallDuration(kPeriod_s), [this](const ros::SteadyTimerEvent&) { update(); });
 }
@@ -151,6 +153,15 @@ void SimulatorDiagnostics::obstacles(Status& status) {
   status.add("frames_found", obstacles_.found());
   status.add("frames_missed", missed);
   status.add("ticks_held_back", held_back);
+}
+
+void SimulatorDiagnostics::cameras(Status& status) {
+  const uint64_t missed = camera_frames_.missed();
+  const bool missing = missed > std::exchange(cameras_missed_before_, missed);
+  status.summary(missing ? Level::WARN : Level::OK,
+                 missing ? "a frame is not known, or from too long ago: its camera stays" : "carried");
+  status.add("frames_found", camera_frames_.found());
+  status.add("frames_missed", missed);
 }
 
 void SimulatorDiagnostics::stylus(size_t index, Status& status) {

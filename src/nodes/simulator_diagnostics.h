@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "nodes/camera_frames.h"
 #include "nodes/frame_publisher.h"
 #include "nodes/obstacle_frames.h"
 #include "nodes/simulation_loop.h"
@@ -29,9 +30,9 @@ class SimulatorDiagnostics {
     WrenchPublisher& wrenches;
   };
 
-  /// @param loop, publishers, inputs, obstacles  must outlive this
+  /// @param loop, publishers, inputs, obstacles, camera_frames  must outlive this
   SimulatorDiagnostics(ros::NodeHandle node, const Scene& scene, SimulationLoop& loop, const Publishers& publishers,
-                       const Inputs& inputs, const ObstacleFrames& obstacles);
+                       const Inputs& inputs, const ObstacleFrames& obstacles, const CameraFrames& camera_frames);
 
  private:
   using Status = diagnostic_updater::DiagnosticStatusWrapper;
@@ -42,11 +43,14 @@ class SimulatorDiagnostics {
   void latency(Status& status);
   void stylus(size_t index, Status& status);
   void obstacles(Status& status);
+  void cameras(Status& status);
 
   SimulationLoop& loop_;
   const Publishers publishers_;
   const Inputs& inputs_;
   const ObstacleFrames& obstacles_;
+  const CameraFrames& camera_frames_;
+  uint64_t cameras_missed_before_ = 0;
   uint64_t missed_before_ = 0;        ///< frames of obstacles
   uint64_t held_back_before_ = 0;     ///< ticks of obstacles
   std::vector<std::string> cameras_;  ///< their names

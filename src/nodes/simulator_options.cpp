@@ -25,7 +25,9 @@ SimulatorOptions simulatorOptions(Parameters& parameters, const std::string& pac
   SimulatorOptions options;
   const SceneChoice choice = SceneChoice::read(parameters, "heart");
   PublishOptions& publish = options.publish;
-  publish.surface_rate_hz = parameters.number("surface_rate_hz", publish.surface_rate_hz, 0.1, 1000);
+  publish.surface_rate_hz =
+      parameters.number("surface_rate_hz", publish.surface_rate_hz, SimulatorOptions::kLeastSurfaceRate_hz,
+                        SimulatorOptions::kMostSurfaceRate_hz);
   publish.force_arrow_m_per_n = parameters.number("force_arrow_m_per_n", publish.force_arrow_m_per_n, 0, 10);
   publish.frame_prefix = choice.frame_prefix;
   options.stall_ticks = parameters.number("stall_ticks", options.stall_ticks, 1.5, 1e6);

@@ -13,6 +13,7 @@ namespace viscera::nodes {
 
 /// What the private parameters of the simulator say.
 struct SimulatorOptions {
+  static constexpr double kLeastSurfaceRate_hz = 0.1, kMostSurfaceRate_hz = 1000;
   Scene scene;
   PublishOptions publish;
   double stall_ticks = 3;            ///< forces are zero from so many ticks without one on

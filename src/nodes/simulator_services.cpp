@@ -73,8 +73,8 @@ StylusSamples samplesOf(const std::vector<StylusState>& states, const std::vecto
 }  // namespace
 
 SimulatorServices::SimulatorServices(ros::NodeHandle node, const std::vector<StylusConfig>& styluses,
-                                     CommandQueue& commands)
-    : styluses_(styluses), commands_(commands), spinner_(kServices, &queue_) {
+                                     CommandQueue& commands, ModeSet mode_set)
+    : styluses_(styluses), commands_(commands), mode_set_(std::move(mode_set)), spinner_(kServices, &queue_) {
   node.setCallbackQueue(&queue_);
   advertiseTrigger(node, "reset", Command::Kind::kReset);
   advertiseTrigger(node, "pause", Command::Kind::kPause);
@@ -126,13 +126,13 @@ bool SimulatorServices::onSetToolMode(SetToolMode::Request& request, SetToolMode
       session.setToolMode(stylus, when, mode);
       return "from the next tick on";
     };
+    const CommandAnswer answer = commands_.call(std::move(command), kTriggerLimit);
+    response.success = answer.success;
+    response.message = answer.message;
+    if (answer.success && mode_set_) mode_set_(stylus, when, mode);
   } catch (const Error& error) {
     response.message = error.what();
-    return true;
   }
-  const CommandAnswer answer = commands_.call(std::move(command), kTriggerLimit);
-  response.success = answer.success;
-  response.message = answer.message;
   return true;
 }
 

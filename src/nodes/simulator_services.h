@@ -7,6 +7,7 @@
 #include <ros/spinner.h>
 #include <std_srvs/Trigger.h>
 
+#include <functional>
 #include <vector>
 
 #include "nodes/command_queue.h"
@@ -20,8 +21,11 @@ namespace viscera::nodes {
 /// for an answer holds up no input, and one no other.
 class SimulatorServices {
  public:
-  /// @param styluses  of the scene   @param commands  must outlive this
-  SimulatorServices(ros::NodeHandle node, const std::vector<StylusConfig>& styluses, CommandQueue& commands);
+  using ModeSet = std::function<void(size_t stylus, ToolSwitch when, ToolMode mode)>;
+  /// @param styluses  of the scene   @param commands  must outlive this   @param mode_set  told of every change of a
+  /// mode
+  SimulatorServices(ros::NodeHandle node, const std::vector<StylusConfig>& styluses, CommandQueue& commands,
+                    ModeSet mode_set = {});
 
  private:
   void advertiseTrigger(ros::NodeHandle& node, const std::string& name, Command::Kind kind);
@@ -31,6 +35,7 @@ class SimulatorServices {
 
   const std::vector<StylusConfig> styluses_;
   CommandQueue& commands_;
+  const ModeSet mode_set_;
   ros::CallbackQueue queue_;
   std::vector<ros::ServiceServer> servers_;
   ros::AsyncSpinner spinner_;

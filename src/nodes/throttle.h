@@ -12,6 +12,7 @@ class Throttle {
   /// @param rate_hz  wanted, > 0   @param tick_hz  of the ticks, > 0
   Throttle(double rate_hz, double tick_hz) : share_(std::min(1.0, rate_hz / tick_hz)) {}
 
+  void setRate(double rate_hz, double tick_hz) { share_ = std::min(1.0, rate_hz / tick_hz); }
   /// Call once in a tick: whether this one is picked. The first one is.
   bool pick() {
     credit_ += share_;

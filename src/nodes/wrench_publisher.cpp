@@ -68,6 +68,14 @@ WrenchPublisher::~WrenchPublisher() {
   thread_.join();
 }
 
+void WrenchPublisher::setLimits(size_t stylus, const ForceLimits& limits) {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    schedule_.setLimits(stylus, limits);
+  }
+  changed_.notify_one();
+}
+
 void WrenchPublisher::put(const Hands& hands) {
   {
     const std::lock_guard<std::mutex> lock(mutex_);

@@ -39,6 +39,7 @@ class WrenchPublisher {
   WrenchPublisher(const WrenchPublisher&) = delete;
   WrenchPublisher& operator=(const WrenchPublisher&) = delete;
 
+  void setLimits(size_t stylus, const ForceLimits& limits);
   void put(const Hands& hands);
   /// There are no ticks and so no forces until the next put().
   void rest();

@@ -29,6 +29,11 @@ WrenchSchedule::Time WrenchSchedule::after(Time time, double span_s) {
   return time + std::chrono::duration_cast<Time::duration>(std::chrono::duration<double>(span_s));
 }
 
+void WrenchSchedule::setLimits(size_t stylus, const ForceLimits& limits) {
+  limiters_[stylus].setLimits(limits);
+  reached_ = false;
+}
+
 bool WrenchSchedule::late(Time now) const {
   return seconds(now - last_put_) > stall_s_;
 }

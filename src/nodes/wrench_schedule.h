@@ -32,6 +32,8 @@ class WrenchSchedule {
   /// @param stall_s  a tick that comes later than this after the one before is a stall [s]
   WrenchSchedule(const std::vector<ForceLimits>& limits, double stall_s);
 
+  /// Of a stylus, from the next() on: what is above them goes down by their slew.
+  void setLimits(size_t stylus, const ForceLimits& limits);
   /// A tick's answer.
   void put(const Wrenches& wanted, Time now);
   /// What is wanted at this moment between two ticks; heeded only while ticks come in time.

@@ -39,6 +39,22 @@ Pose opticalPose(const CameraConfig& camera) {
   return {camera.position_m, Quaterniond(axes)};
 }
 
+bool isCarriedByOpticalFrame(const CameraConfig& camera) {
+  const auto ends = [&](const std::string& with) {
+    const std::string& frame = camera.frame;
+    return frame.size() >= with.size() && frame.compare(frame.size() - with.size(), with.size(), with) == 0;
+  };
+  return ends("_optical") || ends("_optical_frame");
+}
+
+Pose carriedOpticalPose(const CameraConfig& camera, const Pose& frame) {
+  return isCarriedByOpticalFrame(camera) ? frame : frame * opticalPose(camera);
+}
+
+Pose rightEye(const CameraConfig& camera) {
+  return {Vector3d(camera.stereo_baseline_m, 0, 0), Quaterniond::Identity()};
+}
+
 DepthRange depthRange(const CameraConfig& camera) {
   const double distance_m = (camera.target_m - camera.position_m).norm();
   return {kNearOverDistance * distance_m, kFarOverDistance * distance_m};

@@ -10,8 +10,7 @@ namespace {
 constexpr double kMargin = 1e-4;  // of the distance to what is looked at: float32 rounds far less
 }
 
-Frustum::Frustum(const CameraConfig& camera) {
-  const Pose tissue_from_optical = opticalPose(camera);
+Frustum::Frustum(const CameraConfig& camera, const Pose& tissue_from_optical) {
   const DepthRange range = depthRange(camera);
   const Intrinsics k = intrinsics(camera);
   const double right = k.cx / k.fx, down = k.cy / k.fy;  // tangents of half the angles of view
@@ -23,7 +22,7 @@ Frustum::Frustum(const CameraConfig& camera) {
   };
   planes_ = {plane({1, 0, right}, 0), plane({-1, 0, right}, 0),       plane({0, 1, down}, 0),
              plane({0, -1, down}, 0), plane({0, 0, 1}, range.near_m), plane({0, 0, -1}, -range.far_m)};
-  eye_m_ = camera.position_m.cast<float>();
+  eye_m_ = tissue_from_optical.position_m.cast<float>();
   blind_m_ = static_cast<float>(range.near_m * std::sqrt(1 + right * right + down * down) + margin_m);
 }
 

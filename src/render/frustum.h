@@ -11,7 +11,9 @@ namespace viscera {
 /// What a camera can see: six planes, tissue frame.
 class Frustum {
  public:
-  explicit Frustum(const CameraConfig& camera);
+  explicit Frustum(const CameraConfig& camera) : Frustum(camera, opticalPose(camera)) {}
+  /// Of a camera that is elsewhere. @param tissue_from_optical  pose of its optical frame
+  Frustum(const CameraConfig& camera, const Pose& tissue_from_optical);
 
   /// Is nothing of the box in the picture? Never said of a box that may be in it; an empty box is missed.
   bool misses(const Eigen::AlignedBox3f& box) const;

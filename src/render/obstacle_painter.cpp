@@ -6,6 +6,7 @@
 #include <cstddef>
 
 #include "render/mesh_uniforms.h"
+#include "viscera/layout/picture_labels.h"
 
 namespace viscera {
 
@@ -34,21 +35,37 @@ ObstaclePainter::ObstaclePainter(const std::vector<ObstacleConfig>& obstacles)
   glVertexArrayElementBuffer(inputs_.id(), indices_.id());
 }
 
-void ObstaclePainter::draw(const std::vector<Pose>& poses, const Pose& optical_from_tissue,
-                           const Eigen::Matrix4f& clip_from_optical) {
+/// @param before  (obstacle) is called first
+template <class Before>
+void ObstaclePainter::drawWith(const gpu::Program& program, const std::vector<Pose>& poses,
+                               const Pose& optical_from_tissue, const Eigen::Matrix4f& clip_from_optical,
+                               Before before) {
   glBindVertexArray(inputs_.id());
-  program_.use();
+  program.use();
   // Tissue that lies on an obstacle is where its surface is: of the two the tissue is seen.
   glEnable(GL_POLYGON_OFFSET_FILL);
   glPolygonOffset(kBehindSlope, kBehindSteps);
   for (size_t i = 0; i < std::min(poses.size(), ends_.size()); ++i) {
     const size_t first = i == 0 ? 0 : ends_[i - 1];
-    setMeshMatrices(program_, optical_from_tissue * poses[i], clip_from_optical);
+    before(i);
+    setMeshMatrices(program, optical_from_tissue * poses[i], clip_from_optical);
     glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(ends_[i] - first), GL_UNSIGNED_INT,
                    reinterpret_cast<const void*>(first * sizeof(uint32_t)));
   }
   glDisable(GL_POLYGON_OFFSET_FILL);
   glBindVertexArray(0);
+}
+
+void ObstaclePainter::draw(const std::vector<Pose>& poses, const Pose& optical_from_tissue,
+                           const Eigen::Matrix4f& clip_from_optical) {
+  drawWith(program_, poses, optical_from_tissue, clip_from_optical, [](size_t) {});
+}
+
+void ObstaclePainter::drawGeometry(const gpu::Program& program, const std::vector<Pose>& poses,
+                                   const Pose& optical_from_tissue, const Eigen::Matrix4f& clip_from_optical) {
+  drawWith(program, poses, optical_from_tissue, clip_from_optical, [&](size_t obstacle) {
+    program.set("label", static_cast<uint32_t>(layout::kFirstObstacleLabel + obstacle));
+  });
 }
 
 }  // namespace viscera

@@ -18,7 +18,15 @@ class ObstaclePainter {
   /// Draws into the bound framebuffer. @param poses  [obstacles] tissue frame; those that are missing are not drawn
   void draw(const std::vector<Pose>& poses, const Pose& optical_from_tissue, const Eigen::Matrix4f& clip_from_optical);
 
+  /// The same with another program: geometry.frag.
+  void drawGeometry(const gpu::Program& program, const std::vector<Pose>& poses, const Pose& optical_from_tissue,
+                    const Eigen::Matrix4f& clip_from_optical);
+
  private:
+  template <class Before>
+  void drawWith(const gpu::Program& program, const std::vector<Pose>& poses, const Pose& optical_from_tissue,
+                const Eigen::Matrix4f& clip_from_optical, Before before);
+
   gpu::Program program_;
   VertexArray inputs_;
   gpu::Buffer<ToolVertex> vertices_;

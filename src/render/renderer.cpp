@@ -17,7 +17,7 @@ namespace {
 
 constexpr float kBackground[] = {0.0056f, 0.0066f, 0.0080f, 1.0f};  // linear light: a neutral, slightly cool near-black
 
-void prepareImage() {
+void prepareDrawing() {
   glDisable(GL_SCISSOR_TEST);  // clearing and resolving heed it
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   glDisable(GL_BLEND);
@@ -25,11 +25,14 @@ void prepareImage() {
   glDepthFunc(GL_LESS);
   glDepthMask(GL_TRUE);
   glDepthRange(0, 1);
-  glEnable(GL_FRAMEBUFFER_SRGB);
   glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
   glDisable(GL_CULL_FACE);  // tissue is seen from inside through a cut, but for what DrawnPart says
   glCullFace(GL_BACK);
   glFrontFace(GL_CW);  // the image is drawn upside down, which turns every winding
+}
+
+void clearImage() {
+  glEnable(GL_FRAMEBUFFER_SRGB);
   glClearColor(kBackground[0], kBackground[1], kBackground[2], kBackground[3]);
   glClearDepth(1);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
@@ -50,7 +53,8 @@ Renderer::Renderer(const std::vector<CameraConfig>& cameras, const std::vector<S
       tools_(std::make_unique<ToolPainter>(styluses)) {
   if (!obstacles.empty()) obstacles_ = std::make_unique<ObstaclePainter>(obstacles);
   for (const CameraConfig& camera : cameras) {
-    opticalPose(camera);  // throws now rather than in the loop
+    camera_poses_.push_back(opticalPose(camera));
+    geometries_.emplace_back();
     targets_.emplace_back(camera.width_px, camera.height_px, camera.supersampling);
   }
 }
@@ -89,15 +93,38 @@ template <class DrawTissue, class DrawOver>
 void Renderer::drawImage(size_t camera, const ToolMotions& motions, DrawTissue drawTissue, DrawOver drawOver) {
   assert(camera < cameras_.size());
   const gpu::TimedStage timed(gpu::Stage::kRender);
-  const Pose optical_from_tissue = opticalPose(cameras_[camera]).inverse();
+  const Pose optical_from_tissue = camera_poses_[camera].inverse();
   const Eigen::Matrix4f clip_from_optical = clipFromOptical(cameras_[camera]);
   targets_[camera].bindForDrawing();
-  prepareImage();
+  prepareDrawing();
+  clearImage();
   drawTissue(optical_from_tissue, clip_from_optical);
   if (obstacles_) obstacles_->draw(obstacle_poses_, optical_from_tissue, clip_from_optical);
   tools_->draw(motions, optical_from_tissue, clip_from_optical);
   drawOver(optical_from_tissue, clip_from_optical);
   targets_[camera].resolve();
+  ++renders_;
+}
+
+void Renderer::drawGeometry(size_t camera, const Surface& surface, const ToolMotions& motions, const DrawnSkin* skin) {
+  drawGeometry(camera, viewOf(surface, skin), motions);
+}
+
+void Renderer::drawGeometry(size_t camera, const MeshView& mesh, const ToolMotions& motions) {
+  const gpu::TimedStage timed(gpu::Stage::kRender);
+  const CameraConfig& config = cameras_[camera];
+  std::unique_ptr<GeometryTarget>& target = geometries_[camera];
+  if (!target) target = std::make_unique<GeometryTarget>(config.width_px, config.height_px);
+  if (!geometry_program_) geometry_program_ = gpu::Program::graphics("mesh.vert", "geometry.frag");
+  const Pose optical_from_tissue = camera_poses_[camera].inverse();
+  const Eigen::Matrix4f clip_from_optical = clipFromOptical(config);
+  prepareDrawing();
+  target->bindEmpty();
+  tissue_->drawGeometry(geometry_program_, mesh, optical_from_tissue, clip_from_optical);
+  if (obstacles_) {
+    obstacles_->drawGeometry(geometry_program_, obstacle_poses_, optical_from_tissue, clip_from_optical);
+  }
+  tools_->drawGeometry(geometry_program_, motions, optical_from_tissue, clip_from_optical);
   ++renders_;
 }
 

@@ -6,7 +6,9 @@
 #include <memory>
 #include <vector>
 
+#include "gpu/program.h"
 #include "render/drawn_skin.h"
+#include "render/geometry_target.h"
 #include "render/render_target.h"
 #include "surface/surface.h"
 #include "viscera/render/camera.h"
@@ -58,6 +60,14 @@ class Renderer {
   /// Where obstacles are in what is drawn from now on. @param poses  [obstacles] tissue frame; nowhere before the first
   /// call
   void placeObstacles(const std::vector<Pose>& poses) { obstacle_poses_ = poses; }
+  /// Where a camera's optical frame is in what is drawn from now on, tissue frame; at first where its keys say.
+  void placeCamera(size_t camera, const Pose& pose) { camera_poses_[camera] = pose; }
+  /// Draws how far away what a camera sees is and what it is, tools' outlines left out; makes what that needs at the
+  /// first time. Nothing is bound for reading: see geometry().
+  void drawGeometry(size_t camera, const Surface& surface, const ToolMotions& motions, const DrawnSkin* skin = nullptr);
+  void drawGeometry(size_t camera, const MeshView& mesh, const ToolMotions& motions);
+  /// What was drawn so last, of a camera of which it was.
+  const GeometryTarget& geometry(size_t camera) const { return *geometries_[camera]; }
   /// Leaves the image that was drawn last bound for reading, as draw() does, without drawing.
   void bindLast(size_t camera) const;
   uint64_t renders() const { return renders_; }
@@ -68,7 +78,10 @@ class Renderer {
 
   std::vector<CameraConfig> cameras_;
   std::vector<StylusConfig> styluses_;
+  std::vector<Pose> camera_poses_;  ///< [cameras] of the optical frames, tissue frame
   std::vector<RenderTarget> targets_;
+  std::vector<std::unique_ptr<GeometryTarget>> geometries_;  ///< [cameras] null until somebody wants one
+  gpu::Program geometry_program_;                            ///< none until then
   std::unique_ptr<TissuePainter> tissue_;
   std::unique_ptr<ToolPainter> tools_;
   std::unique_ptr<ObstaclePainter> obstacles_;  ///< null where the scene has none

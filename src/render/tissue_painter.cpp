@@ -20,6 +20,12 @@ void describe(VertexArray& inputs) {
   inputs.describe(kColorInput, kColorInput, 4, GL_UNSIGNED_BYTE, GL_TRUE, 0);
 }
 
+void bindMesh(const VertexArray& inputs, const MeshView& mesh) {
+  glVertexArrayVertexBuffer(inputs.id(), kPositionInput, mesh.positions, 0, 3 * sizeof(float));
+  glVertexArrayVertexBuffer(inputs.id(), kNormalInput, mesh.normals, 0, sizeof(uint32_t));
+  glVertexArrayVertexBuffer(inputs.id(), kColorInput, mesh.colors, 0, sizeof(uint32_t));
+}
+
 Vector3f linear(const Vector3d& srgb) {
   return srgb.unaryExpr(&linearFromSrgb).cast<float>();
 }
@@ -69,9 +75,7 @@ void TissuePainter::draw(const MeshView& mesh, const ToolShadows& shadows, const
   glMemoryBarrier(GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_ELEMENT_ARRAY_BARRIER_BIT);  // kernels wrote these buffers
   const bool at_rest = tissue_program_ && mesh.rests != 0;
   const VertexArray& inputs = at_rest ? tissue_inputs_ : inputs_;
-  glVertexArrayVertexBuffer(inputs.id(), kPositionInput, mesh.positions, 0, 3 * sizeof(float));
-  glVertexArrayVertexBuffer(inputs.id(), kNormalInput, mesh.normals, 0, sizeof(uint32_t));
-  glVertexArrayVertexBuffer(inputs.id(), kColorInput, mesh.colors, 0, sizeof(uint32_t));
+  bindMesh(inputs, mesh);
   if (at_rest) glVertexArrayVertexBuffer(inputs.id(), kRestInput, mesh.rests, 0, 4 * sizeof(float));
   if (at_rest && grain_) grain_->bind();
   if (at_rest && detail_) detail_->bind();
@@ -90,6 +94,18 @@ void TissuePainter::draw(const MeshView& mesh, const ToolShadows& shadows, const
     program.set("first_chart", static_cast<int32_t>(part.first / 3));
   });
   glDepthFunc(GL_LESS);
+  glBindVertexArray(0);
+}
+
+void TissuePainter::drawGeometry(const gpu::Program& program, const MeshView& mesh, const Pose& optical_from_tissue,
+                                 const Eigen::Matrix4f& clip_from_optical) {
+  glMemoryBarrier(GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_ELEMENT_ARRAY_BARRIER_BIT);  // kernels wrote these buffers
+  bindMesh(inputs_, mesh);
+  glBindVertexArray(inputs_.id());
+  program.use();
+  setMeshMatrices(program, optical_from_tissue, clip_from_optical);
+  program.set("label", uint32_t{0});
+  drawParts(mesh, inputs_, [](const DrawnPart&) {});
   glBindVertexArray(0);
 }
 

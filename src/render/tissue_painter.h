@@ -22,6 +22,10 @@ class TissuePainter {
   void draw(const MeshView& mesh, const ToolShadows& shadows, const Pose& optical_from_tissue,
             const Eigen::Matrix4f& clip_from_optical);
 
+  /// The same with another program: geometry.frag.
+  void drawGeometry(const gpu::Program& program, const MeshView& mesh, const Pose& optical_from_tissue,
+                    const Eigen::Matrix4f& clip_from_optical);
+
  private:
   void useWith(const gpu::Program& program, const ToolShadows& shadows, const Pose& optical_from_tissue,
                const Eigen::Matrix4f& clip_from_optical);

@@ -6,6 +6,7 @@
 #include <cstddef>
 
 #include "render/mesh_uniforms.h"
+#include "viscera/layout/picture_labels.h"
 
 namespace viscera {
 
@@ -33,26 +34,10 @@ ToolPainter::ToolPainter(const std::vector<StylusConfig>& styluses)
   glVertexArrayElementBuffer(inputs_.id(), indices_.id());
 }
 
-void ToolPainter::draw(const ToolMotions& motions, const Pose& optical_from_tissue,
-                       const Eigen::Matrix4f& clip_from_optical) {
-  glBindVertexArray(inputs_.id());
-  program_.use();
-  drawPart(Part::kSolid, motions, optical_from_tissue, clip_from_optical);
-  glEnable(GL_BLEND);
-  glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
-  glBlendEquation(GL_FUNC_ADD);
-  glDepthMask(GL_FALSE);  // an outline hides nothing
-  glEnable(GL_CULL_FACE);
-  glCullFace(GL_BACK);
-  drawPart(Part::kTranslucent, motions, optical_from_tissue, clip_from_optical);
-  glDisable(GL_BLEND);
-  glDepthMask(GL_TRUE);
-  glDisable(GL_CULL_FACE);
-  glBindVertexArray(0);
-}
-
-void ToolPainter::drawPart(Part part, const ToolMotions& motions, const Pose& optical_from_tissue,
-                           const Eigen::Matrix4f& clip_from_optical) {
+/// @param before  (stylus) is called first
+template <class Before>
+void ToolPainter::drawPart(const gpu::Program& program, Part part, const ToolMotions& motions,
+                           const Pose& optical_from_tissue, const Eigen::Matrix4f& clip_from_optical, Before before) {
   for (size_t stylus = 0; stylus < std::min(motions.size(), ranges_.size()); ++stylus) {
     const StylusMotion& motion = motions[stylus];
     const Range& range = ranges_[stylus][kindOf(motion.mode).number];
@@ -60,10 +45,38 @@ void ToolPainter::drawPart(Part part, const ToolMotions& motions, const Pose& op
     const size_t count = solid ? range.solid_indices : range.translucent_indices;
     if (!motion.present || count == 0) continue;
     const size_t first = range.first_index + (solid ? 0 : range.solid_indices);
-    setMeshMatrices(program_, optical_from_tissue * motion.to, clip_from_optical);
+    before(stylus);
+    setMeshMatrices(program, optical_from_tissue * motion.to, clip_from_optical);
     glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(count), GL_UNSIGNED_INT,
                    reinterpret_cast<const void*>(first * sizeof(uint32_t)));
   }
+}
+
+void ToolPainter::draw(const ToolMotions& motions, const Pose& optical_from_tissue,
+                       const Eigen::Matrix4f& clip_from_optical) {
+  glBindVertexArray(inputs_.id());
+  program_.use();
+  drawPart(program_, Part::kSolid, motions, optical_from_tissue, clip_from_optical, [](size_t) {});
+  glEnable(GL_BLEND);
+  glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  glBlendEquation(GL_FUNC_ADD);
+  glDepthMask(GL_FALSE);  // an outline hides nothing
+  glEnable(GL_CULL_FACE);
+  glCullFace(GL_BACK);
+  drawPart(program_, Part::kTranslucent, motions, optical_from_tissue, clip_from_optical, [](size_t) {});
+  glDisable(GL_BLEND);
+  glDepthMask(GL_TRUE);
+  glDisable(GL_CULL_FACE);
+  glBindVertexArray(0);
+}
+
+void ToolPainter::drawGeometry(const gpu::Program& program, const ToolMotions& motions, const Pose& optical_from_tissue,
+                               const Eigen::Matrix4f& clip_from_optical) {
+  glBindVertexArray(inputs_.id());
+  program.use();
+  drawPart(program, Part::kSolid, motions, optical_from_tissue, clip_from_optical,
+           [&](size_t stylus) { program.set("label", static_cast<uint32_t>(layout::kFirstToolLabel + stylus)); });
+  glBindVertexArray(0);
 }
 
 }  // namespace viscera

@@ -21,13 +21,18 @@ class ToolPainter {
   /// Draws into the bound framebuffer, where the tissue already is: the outlines of tools let it shine through.
   void draw(const ToolMotions& motions, const Pose& optical_from_tissue, const Eigen::Matrix4f& clip_from_optical);
 
+  /// Draws what is solid with another program: geometry.frag.
+  void drawGeometry(const gpu::Program& program, const ToolMotions& motions, const Pose& optical_from_tissue,
+                    const Eigen::Matrix4f& clip_from_optical);
+
  private:
   struct Range {
     size_t first_index = 0, solid_indices = 0, translucent_indices = 0;
   };
   enum class Part { kSolid, kTranslucent };
-  void drawPart(Part part, const ToolMotions& motions, const Pose& optical_from_tissue,
-                const Eigen::Matrix4f& clip_from_optical);
+  template <class Before>
+  void drawPart(const gpu::Program& program, Part part, const ToolMotions& motions, const Pose& optical_from_tissue,
+                const Eigen::Matrix4f& clip_from_optical, Before before);
 
   gpu::Program program_;
   VertexArray inputs_;

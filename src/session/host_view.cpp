@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "session/host_view.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "viscera/math/error.h"
@@ -14,8 +13,7 @@ HostView::HostView(const Model& model) : surface_(model) {
 }
 
 void HostView::capture(Solver& solver, const Look& look, Pictures&) {
-  const std::vector<bool>& cameras = look.wants.cameras;
-  if (std::find(cameras.begin(), cameras.end(), true) != cameras.end()) {
+  if (look.wants.count() > static_cast<size_t>(look.wants.surface)) {
     throw GpuError(
         "an image is wanted of a session without an OpenGL context: give it one, or ask for its surface only");
   }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 #include <utility>
 
 #include "render/overlay_painter.h"
@@ -23,8 +24,23 @@ std::unique_ptr<gpu::ReadbackRing> makeRing(const Surface& surface) {
   return std::make_unique<gpu::ReadbackRing>(surfaceBytes(surface), kSurfacesInFlight, "the surface");
 }
 
-size_t imageBytes(const CameraConfig& camera) {
-  return size_t{3} * static_cast<size_t>(camera.width_px) * static_cast<size_t>(camera.height_px);
+gpu::ReadbackRing::Pixel pixelOf(PictureKind kind) {
+  if (kind == PictureKind::kDepth) return gpu::ReadbackRing::Pixel::kFloat;
+  return kind == PictureKind::kLabels ? gpu::ReadbackRing::Pixel::kUint8 : gpu::ReadbackRing::Pixel::kRgb8;
+}
+
+size_t imageBytes(const CameraConfig& camera, PictureKind kind) {
+  const size_t of_pixel = kind == PictureKind::kDepth ? sizeof(float) : kind == PictureKind::kLabels ? 1 : 3;
+  return of_pixel * static_cast<size_t>(camera.width_px) * static_cast<size_t>(camera.height_px);
+}
+
+/// Cameras, then the right eyes of those that have one: a camera in its place, which is moved before it draws.
+std::vector<CameraConfig> eyesOf(const std::vector<CameraConfig>& cameras) {
+  std::vector<CameraConfig> out = cameras;
+  for (const CameraConfig& camera : cameras) {
+    if (camera.stereo_baseline_m > 0) out.push_back(camera);
+  }
+  return out;
 }
 
 /// Do two motions look the same? Only where the tools end up is drawn.
@@ -47,12 +63,26 @@ bool isSame(const Pose& a, const Pose& b) {
 InlineView::InlineView(const Model& model, const Scene& scene)
     : model_(model),
       surface_(model),
-      renderer_(scene.cameras, scene.styluses, scene.obstacles, &model),
+      renderer_(eyesOf(scene.cameras), scene.styluses, scene.obstacles, &model),
       surface_ring_(makeRing(surface_)) {
-  for (const CameraConfig& camera : scene.cameras) {
-    auto ring = std::make_unique<gpu::ReadbackRing>(imageBytes(camera), kImagesInFlight, "an image");
-    eyes_.push_back({camera, std::move(ring), SeenSkin(camera, model, surface_.groups()), false, false, {}});
+  const std::vector<CameraConfig>& cameras = scene.cameras;
+  for (size_t c = 0; c < cameras.size(); ++c) addEye(c, cameras[c], PictureKind::kColor);
+  for (size_t c = 0; c < cameras.size(); ++c) {
+    if (cameras[c].stereo_baseline_m > 0) addEye(c, cameras[c], PictureKind::kRight);
   }
+}
+
+void InlineView::addEye(size_t camera, const CameraConfig& config, PictureKind kind) {
+  auto ring = std::make_unique<gpu::ReadbackRing>(imageBytes(config, kind), kImagesInFlight, "an image");
+  eyes_.push_back({camera,
+                   config,
+                   SeenSkin(config, model_, surface_.groups()),
+                   opticalPose(config),
+                   {kind, std::move(ring), false},
+                   {PictureKind::kDepth, nullptr, false},
+                   {PictureKind::kLabels, nullptr, false},
+                   {},
+                   {}});
 }
 
 void InlineView::capture(Solver& solver, const Look& look, Pictures& out) {
@@ -80,26 +110,55 @@ void InlineView::capture(const StateView& state, const Look& look, Pictures& out
   const bool surface = look.wants.surface && surface_ring_->inFlight() < kSurfacesInFlight;
   counters_.skipped += look.wants.surface && !surface ? 1 : 0;
   bool all = surface, any = surface;  // of the skin is to be mapped
-  for (size_t c = 0; c < eyes_.size(); ++c) {
-    Eye& eye = eyes_[c];
-    eye.wanted = look.wants.image(c) && makeRoom(c, look, out);
-    eye.repeated = eye.wanted && isRepeat(c, state, look);
-    if (!eye.wanted || eye.repeated) continue;
+  for (size_t e = 0; e < eyes_.size(); ++e) {
+    Eye& eye = eyes_[e];
+    choose(e, state, look, out);
+    if (!eye.draws && !eye.measures) continue;
     any = true;
-    all = all || overlaysOf(c, look).any() || !eye.skin.asks(displacements.has_value());
+    all = all || (eye.draws && overlaysOf(eye.camera, look).any()) || !eye.skin.asks(displacements.has_value());
   }
   if (any) follow(state, all, displacements);
   if (surface) captureSurface(look.tick);
-  for (size_t c = 0; c < eyes_.size(); ++c) {
-    if (eyes_[c].wanted) captureImage(c, state, look);
+  for (size_t e = 0; e < eyes_.size(); ++e) {
+    if (eyes_[e].color.wanted) captureImage(e, state, look);
+    if (eyes_[e].depth.wanted || eyes_[e].labels.wanted) captureGeometry(e, state, look);
   }
 }
 
-/// For another picture in a camera's ring.
-bool InlineView::makeRoom(size_t camera, const Look& look, Pictures& out) {
-  const bool full = eyes_[camera].ring->inFlight() == kImagesInFlight;
-  if (!full || (look.wants.every_image && takeImage(camera, out, true))) return true;
+/// Brings an eye to where it is in this capture.
+void InlineView::place(size_t e, const Look& look) {
+  Eye& eye = eyes_[e];
+  eye.pose = eye.camera < look.cameras.size() ? look.cameras[eye.camera] : opticalPose(eye.config);
+  if (eye.color.kind == PictureKind::kRight) eye.pose = eye.pose * rightEye(eye.config);
+  eye.skin.place(eye.pose, surface_.groups());
+  renderer_.placeCamera(e, eye.pose);
+}
+
+/// What of an eye is wanted in this capture, and what of that is to be drawn.
+void InlineView::choose(size_t e, const StateView& state, const Look& look, Pictures& out) {
+  Eye& eye = eyes_[e];
+  const bool left = eye.color.kind == PictureKind::kColor;
+  const bool color = claim(eye.color, eye, look, out);
+  const bool depth = left && claim(eye.depth, eye, look, out), labels = left && claim(eye.labels, eye, look, out);
+  eye.draws = eye.measures = false;
+  if (!color && !depth && !labels) return;
+  place(e, look);
+  eye.draws = color && !isRepeat(eye, eye.drawn, overlaysOf(eye.camera, look), state, look);
+  eye.measures = (depth || labels) && !isRepeat(eye, eye.measured, Overlays{}, state, look);
+}
+
+/// Is a picture of that kind wanted, and is there room for another in its ring?
+bool InlineView::claim(Channel& channel, Eye& eye, const Look& look, Pictures& out) {
+  channel.wanted = look.wants.image(eye.camera, channel.kind);
+  if (!channel.wanted) return false;
+  if (!channel.ring) {
+    channel.ring =
+        std::make_unique<gpu::ReadbackRing>(imageBytes(eye.config, channel.kind), kImagesInFlight, "depths or labels");
+  }
+  const bool full = channel.ring->inFlight() == kImagesInFlight;
+  if (!full || (look.wants.every_image && takeImage(channel, eye, out, true))) return true;
   ++counters_.skipped;
+  channel.wanted = false;
   return false;
 }
 
@@ -107,12 +166,11 @@ Overlays InlineView::overlaysOf(size_t camera, const Look& look) {
   return camera < look.overlays.size() ? look.overlays[camera] : Overlays{};  // none were asked for
 }
 
-/// Would the image be the last one again?
-bool InlineView::isRepeat(size_t camera, const StateView& state, const Look& look) const {
-  const std::optional<Drawn>& drawn = eyes_[camera].drawn;
-  const Overlays overlays = overlaysOf(camera, look);
+/// Would the picture be the last one again?
+bool InlineView::isRepeat(const Eye& eye, const std::optional<Drawn>& drawn, const Overlays& overlays,
+                          const StateView& state, const Look& look) const {
   return drawn && state.moved_revision == drawn->moved_revision && state.cut_revision == drawn->cut_revision &&
-         looksTheSame(look.motions, drawn->motions) &&
+         looksTheSame(look.motions, drawn->motions) && isSame(eye.pose, drawn->pose) &&
          std::equal(look.obstacles.begin(), look.obstacles.end(), drawn->obstacles.begin(), drawn->obstacles.end(),
                     isSame) &&
          overlays == drawn->overlays && (!overlays.any() || look.arrows == drawn->arrows);
@@ -125,7 +183,7 @@ void InlineView::follow(const StateView& state, bool all, const std::optional<Ho
   bool placed = false;
   seen_.assign(groups.count(), 0);
   for (Eye& eye : eyes_) {
-    if (!eye.wanted || eye.repeated) continue;
+    if (!eye.draws && !eye.measures) continue;
     const bool asks = eye.skin.asks(displacements.has_value());
     if (asks && !std::exchange(placed, true)) {
       if (displacements) {
@@ -150,41 +208,72 @@ void InlineView::captureSurface(uint64_t tick) {
   ++counters_.readbacks;
 }
 
-void InlineView::captureImage(size_t camera, const StateView& state, const Look& look) {
-  Eye& eye = eyes_[camera];
-  if (eye.repeated) {
-    renderer_.bindLast(camera);
-    ++counters_.repeats;
+void InlineView::captureImage(size_t e, const StateView& state, const Look& look) {
+  Eye& eye = eyes_[e];
+  if (eye.draws) {
+    draw(e, state, look);
   } else {
-    draw(camera, state, look);
+    renderer_.bindLast(e);
+    ++counters_.repeats;
   }
-  eye.ring->requestPixels(eye.camera.width_px, eye.camera.height_px, look.tick);
+  request(eye.color, eye, look.tick);
+}
+
+void InlineView::captureGeometry(size_t e, const StateView& state, const Look& look) {
+  Eye& eye = eyes_[e];
+  if (eye.measures) {
+    renderer_.placeObstacles(look.obstacles);
+    renderer_.drawGeometry(e, surface_, look.motions, eye.skin.drawn());
+    eye.measured.reset();
+    if (state.moved_revision) {
+      eye.measured =
+          Drawn{state.moved_revision, state.cut_revision, look.motions, look.obstacles, eye.pose, Overlays{}, {}};
+    }
+  } else {
+    ++counters_.repeats;
+  }
+  if (eye.depth.wanted) {
+    renderer_.geometry(e).bindDepths();
+    request(eye.depth, eye, look.tick);
+  }
+  if (eye.labels.wanted) {
+    renderer_.geometry(e).bindLabels();
+    request(eye.labels, eye, look.tick);
+  }
+}
+
+/// Of what is bound for reading.
+void InlineView::request(Channel& channel, const Eye& eye, uint64_t tick) {
+  channel.ring->requestPixels(eye.config.width_px, eye.config.height_px, tick, pixelOf(channel.kind));
   ++counters_.readbacks;
 }
 
 /// Leaves the image bound for reading.
-void InlineView::draw(size_t camera, const StateView& state, const Look& look) {
-  Eye& eye = eyes_[camera];
-  const Overlays overlays = overlaysOf(camera, look);
+void InlineView::draw(size_t e, const StateView& state, const Look& look) {
+  Eye& eye = eyes_[e];
+  const Overlays overlays = overlaysOf(eye.camera, look);
   renderer_.placeObstacles(look.obstacles);
   if (overlays.any()) {
-    const OverlayLook over = {overlays,     eye.camera.strain_range, state,    &surface_,
+    const OverlayLook over = {overlays,     eye.config.strain_range, state,    &surface_,
                               &look.arrows, eye.skin.drawn(),        captures_};
-    renderer_.draw(camera, model_, over, look.motions);
+    renderer_.draw(e, model_, over, look.motions);
   } else {
-    renderer_.draw(camera, surface_, look.motions, eye.skin.drawn());
+    renderer_.draw(e, surface_, look.motions, eye.skin.drawn());
   }
   eye.drawn.reset();
   if (state.moved_revision) {
-    eye.drawn = Drawn{state.moved_revision, state.cut_revision, look.motions, look.obstacles, overlays, look.arrows};
+    eye.drawn =
+        Drawn{state.moved_revision, state.cut_revision, look.motions, look.obstacles, eye.pose, overlays, look.arrows};
   }
 }
 
 void InlineView::collect(Pictures& out, bool wait) {
   while (takeSurface(out, wait)) {
   }
-  for (size_t c = 0; c < eyes_.size(); ++c) {
-    while (takeImage(c, out, wait)) {
+  for (Eye& eye : eyes_) {
+    for (Channel* channel : {&eye.color, &eye.depth, &eye.labels}) {
+      while (takeImage(*channel, eye, out, wait)) {
+      }
     }
   }
 }
@@ -211,25 +300,37 @@ bool InlineView::takeSurface(Pictures& out, bool wait) {
   return true;
 }
 
-bool InlineView::takeImage(size_t camera, Pictures& out, bool wait) {
-  Eye& eye = eyes_[camera];
+bool InlineView::takeImage(Channel& channel, const Eye& eye, Pictures& out, bool wait) {
+  if (!channel.ring) return false;
   uint64_t tick = 0;
-  const auto* rgb = static_cast<const uint8_t*>(eye.ring->collect(&tick, wait));
-  if (!rgb) return false;
+  const void* const pixels = channel.ring->collect(&tick, wait);
+  if (!pixels) return false;
   ImageFrame image;
   image.tick = tick;
-  image.camera = camera;
-  image.width = eye.camera.width_px;
-  image.height = eye.camera.height_px;
-  image.rgb.assign(rgb, rgb + imageBytes(eye.camera));
+  image.camera = eye.camera;
+  image.kind = channel.kind;
+  image.width = eye.config.width_px;
+  image.height = eye.config.height_px;
+  const size_t bytes = imageBytes(eye.config, channel.kind);
+  if (channel.kind == PictureKind::kDepth) {
+    const auto* const depths_m = static_cast<const float*>(pixels);
+    image.depths_m.assign(depths_m, depths_m + bytes / sizeof(float));
+    std::replace(image.depths_m.begin(), image.depths_m.end(), 0.0F, std::numeric_limits<float>::quiet_NaN());
+  } else {
+    const auto* const values = static_cast<const uint8_t*>(pixels);
+    (channel.kind == PictureKind::kLabels ? image.labels : image.rgb).assign(values, values + bytes);
+  }
   out.images.push_back(std::move(image));
-  eye.ring->release();
+  channel.ring->release();
   return true;
 }
 
 void InlineView::reset() {
   surface_.reset();
-  for (Eye& eye : eyes_) eye.drawn.reset();
+  for (Eye& eye : eyes_) {
+    eye.drawn.reset();
+    eye.measured.reset();
+  }
 }
 
 ViewCounters InlineView::counters() const {

@@ -39,24 +39,39 @@ class InlineView : public View {
     uint64_t cut_revision = 0;
     ToolMotions motions;
     std::vector<Pose> obstacles;
+    Pose pose;  ///< of the optical frame
     Overlays overlays;
     std::vector<Arrow> arrows;
   };
-  struct Eye {
-    CameraConfig camera;
-    std::unique_ptr<gpu::ReadbackRing> ring;
-    SeenSkin skin;
-    bool wanted = false, repeated = false;  ///< in this capture: is handed over, without being drawn
-    std::optional<Drawn> drawn;
+  struct Channel {  ///< one kind of picture of an eye, on its way
+    PictureKind kind = PictureKind::kColor;
+    std::unique_ptr<gpu::ReadbackRing> ring;  ///< null until somebody wants one
+    bool wanted = false;                      ///< in this capture: is handed over
   };
+  struct Eye {
+    size_t camera;
+    CameraConfig config;  ///< of the camera; what differs in the right eye is its pose
+    SeenSkin skin;
+    Pose pose;                             ///< of the optical frame in this capture, tissue frame
+    Channel color, depth, labels;          ///< a right eye has the first
+    std::optional<Drawn> drawn;            ///< the last picture
+    std::optional<Drawn> measured;         ///< the last depths and labels
+    bool draws = false, measures = false;  ///< in this capture, as the last ones will not do
+  };
+  void addEye(size_t camera, const CameraConfig& config, PictureKind kind);
   void captureSurface(uint64_t tick);
-  void captureImage(size_t camera, const StateView& state, const Look& look);
-  bool makeRoom(size_t camera, const Look& look, Pictures& out);
-  bool isRepeat(size_t camera, const StateView& state, const Look& look) const;
+  void place(size_t eye, const Look& look);
+  void choose(size_t eye, const StateView& state, const Look& look, Pictures& out);
+  void captureImage(size_t eye, const StateView& state, const Look& look);
+  void captureGeometry(size_t eye, const StateView& state, const Look& look);
+  bool claim(Channel& channel, Eye& eye, const Look& look, Pictures& out);
+  bool isRepeat(const Eye& eye, const std::optional<Drawn>& drawn, const Overlays& overlays, const StateView& state,
+                const Look& look) const;
   static Overlays overlaysOf(size_t camera, const Look& look);
   void follow(const StateView& state, bool all, const std::optional<HostDisplacements>& displacements);
-  void draw(size_t camera, const StateView& state, const Look& look);
-  bool takeImage(size_t camera, Pictures& out, bool wait);
+  void draw(size_t eye, const StateView& state, const Look& look);
+  void request(Channel& channel, const Eye& eye, uint64_t tick);
+  bool takeImage(Channel& channel, const Eye& eye, Pictures& out, bool wait);
   bool takeSurface(Pictures& out, bool wait);
 
   const Model& model_;
@@ -65,8 +80,8 @@ class InlineView : public View {
   CutState cuts_;
   std::unique_ptr<gpu::ReadbackRing> surface_ring_;
   std::deque<std::shared_ptr<const ShownWounds>> wounds_in_flight_;  ///< of the surfaces in the ring, oldest first
-  std::vector<Eye> eyes_;                                            ///< [cameras]
-  std::vector<uint32_t> alive_;                                      ///< of the surface taken last
+  std::vector<Eye> eyes_;        ///< those of cameras in their order, then right ones
+  std::vector<uint32_t> alive_;  ///< of the surface taken last
   ViewCounters counters_;
   uint64_t captures_ = 0;
   SkinPlaces places_;

@@ -21,11 +21,27 @@ void SkinPlaces::follow(const SkinGroups& groups, const StateView& state, size_t
 }
 
 SeenSkin::SeenSkin(const CameraConfig& camera, const Model& model, const SkinGroups& groups)
-    : frustum_(camera), closed_(closedBodies(model)), draw_hidden_(camera.draw_hidden) {
+    : camera_(camera),
+      pose_(opticalPose(camera)),
+      frustum_(camera),
+      closed_(closedBodies(model)),
+      draw_hidden_(camera.draw_hidden) {
   SkinPlaces rest;
   rest.follow(groups, HostDisplacements::ofSlots(std::vector<layout::vec4>(model.slots(), layout::vec4{0, 0, 0, 0})));
-  see(groups, rest.groups());
+  rest_ = rest.groups();
+  lookAtRest(groups);
+}
+
+void SeenSkin::lookAtRest(const SkinGroups& groups) {
+  see(groups, rest_);
   hides_at_rest_ = !groups.areAll(shown_);
+}
+
+void SeenSkin::place(const Pose& pose, const SkinGroups& groups) {
+  if (pose.position_m == pose_.position_m && pose.orientation.coeffs() == pose_.orientation.coeffs()) return;
+  pose_ = pose;
+  frustum_ = Frustum(camera_, pose);
+  lookAtRest(groups);
 }
 
 void SeenSkin::see(const SkinGroups& groups, const std::vector<SkinBox>& boxes) {

@@ -32,6 +32,8 @@ class SeenSkin {
  public:
   SeenSkin(const CameraConfig& camera, const Model& model, const SkinGroups& groups);
 
+  /// Where the camera is from now on. @param pose  of its optical frame, tissue frame
+  void place(const Pose& pose, const SkinGroups& groups);
   /// Shall somebody say where the skin is before look()? Where nobody knows without waiting for the GPU, only for a
   /// camera that does not see all of the skin at rest.
   bool asks(bool on_host) const { return !draw_hidden_ && (on_host || hides_at_rest_); }
@@ -44,7 +46,12 @@ class SeenSkin {
  private:
   void see(const SkinGroups& groups, const std::vector<SkinBox>& boxes);
 
+  void lookAtRest(const SkinGroups& groups);
+
+  const CameraConfig camera_;
+  Pose pose_;  ///< of the optical frame, tissue frame
   Frustum frustum_;
+  std::vector<SkinBox> rest_;                  ///< [groups] where they are at rest
   std::vector<uint8_t> closed_, fronts_only_;  ///< [bodies]
   std::vector<uint8_t> shown_;                 ///< [groups]
   bool draw_hidden_, hides_at_rest_ = false;

@@ -13,6 +13,8 @@
 #include "solver/make_solver.h"
 #include "solver/surroundings.h"
 #include "viscera/calibration/auto_spacing.h"
+#include "viscera/math/error.h"
+#include "viscera/render/camera.h"
 
 namespace viscera {
 
@@ -56,7 +58,10 @@ Session::Session(const Scene& scene, gpu::Context* context, const Progress& prog
   backend_note_ = viscera::backendNote(scene_.solver, context, *solver_, integrator);
   view_ = makeView(*solver_, model_, scene_, context);
   lookAtObstacles();
-  for (const CameraConfig& camera : scene_.cameras) look_.overlays.push_back(camera.overlays);
+  for (const CameraConfig& camera : scene_.cameras) {
+    look_.overlays.push_back(camera.overlays);
+    look_.cameras.push_back(opticalPose(camera));
+  }
   for (const StylusConfig& stylus : scene_.styluses) limiters_.emplace_back(ForceLimits::of(stylus));
   obstacle_forces_.resize(scene_.obstacles.size());
 }
@@ -127,6 +132,10 @@ void Session::setObstacleFrame(size_t obstacle, const Pose& pose) {
   obstacles_.setFrame(obstacle, pose);
 }
 
+void Session::setCameraFrame(size_t camera, const Pose& pose) {
+  look_.cameras[camera] = carriedOpticalPose(scene_.cameras[camera], {pose.position_m, pose.orientation.normalized()});
+}
+
 void Session::moveObstacles() {
   obstacles_.advance(time_s_, tick_s());
   time_s_ += tick_s();
@@ -146,8 +155,9 @@ void Session::lookAtArrows() {
   look_.arrows.clear();
   bool forces = false, wind = false;
   for (size_t c = 0; c < look_.overlays.size(); ++c) {
-    forces |= look_.wants.image(c) && look_.overlays[c].has(Overlay::kForces);
-    wind |= look_.wants.image(c) && look_.overlays[c].has(Overlay::kWind);
+    const bool drawn = look_.wants.image(c) || look_.wants.image(c, PictureKind::kRight);
+    forces |= drawn && look_.overlays[c].has(Overlay::kForces);
+    wind |= drawn && look_.overlays[c].has(Overlay::kWind);
   }
   if (forces) addForceArrows(look_.motions, reactions_, look_.arrows);
   if (wind) addWindArrows(windAt(scene_.environment.wind, time_s_), model_, look_.arrows);
@@ -185,6 +195,7 @@ void Session::collect(Frame& frame, bool wait) {
   frame.tick = tick_;
   frame.tools = look_.motions;
   frame.obstacles = look_.obstacles;
+  frame.cameras = look_.cameras;
   collectStats(frame, wait);
   view_->collect(frame, wait);
   if (frame.surface) frame.surface->pose_received = posesOf(frame.surface->tick).newest();

@@ -40,14 +40,26 @@ void append(Pictures&& from, Pictures& to) {
   from.images.clear();
 }
 
+/// So that ticks ask for no memory.
+void reserve(const Scene& scene, Look& look) {
+  for (size_t kind = 0; kind < kPictureKinds; ++kind)
+    look.wants.of(static_cast<PictureKind>(kind)).reserve(scene.cameras.size());
+  look.obstacles.reserve(scene.obstacles.size());
+  look.cameras.reserve(scene.cameras.size());
+}
+
 /// @returns how much of it was wanted already
 size_t add(const Wants& wants, Wants& to) {
   size_t twice = wants.surface && to.surface;
   to.surface |= wants.surface;
-  to.cameras.resize(std::max(to.cameras.size(), wants.cameras.size()));
-  for (size_t c = 0; c < wants.cameras.size(); ++c) {
-    twice += wants.cameras[c] && to.cameras[c];
-    to.cameras[c] = to.cameras[c] || wants.cameras[c];
+  for (size_t kind = 0; kind < kPictureKinds; ++kind) {
+    const std::vector<bool>& from = wants.of(static_cast<PictureKind>(kind));
+    std::vector<bool>& into = to.of(static_cast<PictureKind>(kind));
+    into.resize(std::max(into.size(), from.size()));
+    for (size_t c = 0; c < from.size(); ++c) {
+      twice += from[c] && into[c];
+      into[c] = into[c] || from[c];
+    }
   }
   return twice;
 }
@@ -55,8 +67,7 @@ size_t add(const Wants& wants, Wants& to) {
 }  // namespace
 
 ThreadedView::ThreadedView(const Model& model, const Scene& scene, gpu::Context& context) : context_(context) {
-  look_.wants.cameras.reserve(scene.cameras.size());
-  look_.obstacles.reserve(scene.obstacles.size());
+  reserve(scene, look_);
   context_.release();
   try {
     thread_ = std::thread([&] { main(model, scene); });
@@ -97,6 +108,7 @@ void ThreadedView::capture(Solver& solver, const Look& look, Pictures&) {
   look_.tick = look.tick;
   look_.motions = look.motions;
   look_.obstacles = look.obstacles;
+  look_.cameras = look.cameras;
   look_.overlays = look.overlays;
   look_.arrows = look.arrows;
   {
@@ -160,8 +172,7 @@ void ThreadedView::run(const Model& model, const Scene& scene) {
   InlineView view(model, scene);
   StateMirror mirror(model);
   Look look;
-  look.wants.cameras.reserve(scene.cameras.size());
-  look.obstacles.reserve(scene.obstacles.size());
+  reserve(scene, look);
   announce(view, mirror);
   while (true) {
     switch (awaitOrder(look)) {

@@ -3,6 +3,7 @@
 #include "session/view.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "session/host_view.h"
 #include "session/inline_view.h"
@@ -10,8 +11,22 @@
 
 namespace viscera {
 
+const std::vector<bool>& Wants::of(PictureKind kind) const {
+  const std::vector<bool>* const all[kPictureKinds] = {&cameras, &right, &depth, &labels};
+  return *all[static_cast<size_t>(kind)];
+}
+
+std::vector<bool>& Wants::of(PictureKind kind) {
+  return const_cast<std::vector<bool>&>(std::as_const(*this).of(kind));
+}
+
 size_t Wants::count() const {
-  return static_cast<size_t>(surface) + static_cast<size_t>(std::count(cameras.begin(), cameras.end(), true));
+  size_t out = surface;
+  for (size_t kind = 0; kind < kPictureKinds; ++kind) {
+    const std::vector<bool>& wanted = of(static_cast<PictureKind>(kind));
+    out += static_cast<size_t>(std::count(wanted.begin(), wanted.end(), true));
+  }
+  return out;
 }
 
 std::unique_ptr<View> makeView(const Solver& solver, const Model& model, const Scene& scene, gpu::Context* context) {

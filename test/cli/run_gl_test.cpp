@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -213,6 +214,26 @@ TEST_F(Run, PicturesAndMetricsGoToTheFolder) {
   expectPng(out + "/half way_eye.png", 64, 48);
   EXPECT_EQ(readFile(out + "/half way_eye.png"), readFile(out + "/frames/eye_000006.png"));
   EXPECT_NE(readFile(out + "/frames/eye_000002.png"), readFile(out + "/frames/eye_000012.png"));
+}
+
+TEST_F(Run, DepthsLabelsAndRightEyesGoBesideThePictures) {
+  const std::string out = folder_.file("depths");
+  metricsOf(
+      run({"--seconds", "0.05", "--out", out, "--depth", "--labels", "--set", "cameras[0].stereo_baseline_m=0.005"}));
+  expectPng(out + "/frames/eye_000002.png", 64, 48);
+  expectPng(out + "/frames/eye_right_000002.png", 64, 48);
+  EXPECT_NE(readFile(out + "/frames/eye_000002.png"), readFile(out + "/frames/eye_right_000002.png"));
+  const std::string npy = readFile(out + "/frames/eye_depth_000002.npy");
+  constexpr size_t kValues = 64 * 48 * sizeof(float);
+  ASSERT_GT(npy.size(), kValues);
+  EXPECT_EQ((npy.size() - kValues) % 64, 0U);  // where values begin
+  EXPECT_EQ(npy.substr(1, 5), "NUMPY");
+  EXPECT_NE(npy.find("'<f4', 'fortran_order': False, 'shape': (48, 64)"), std::string::npos);
+  float middle = 0;
+  std::memcpy(&middle, &npy[npy.size() - kValues + sizeof(float) * (24 * 64 + 32)], sizeof middle);
+  EXPECT_GT(middle, 0.05F);
+  EXPECT_LT(middle, 1.0F);
+  EXPECT_TRUE(fs::exists(out + "/frames/eye_labels_000002.png"));
 }
 
 TEST_F(Run, SkinAtTheEndGoesToTheFolderWithItsWounds) {

@@ -95,6 +95,8 @@ cameras:
     overlays: [springs, wind]
     strain_range: 0.82
     draw_hidden: true
+    frame: scope
+    stereo_baseline_m: 0.004
 environment:
   gravity_m_per_s2: [1.1, 1.2, 1.3]
   world_frame: room
@@ -242,6 +244,8 @@ TEST(SceneKeys, EveryOtherKeyReachesItsField) {
   EXPECT_TRUE(camera.overlays == overlaysOf({"wind", "springs"}));
   EXPECT_EQ(camera.strain_range, 0.82);
   EXPECT_TRUE(camera.draw_hidden);
+  EXPECT_EQ(camera.frame, "scope");
+  EXPECT_EQ(camera.stereo_baseline_m, 0.004);
   EXPECT_EQ(scene.environment.gravity_m_per_s2, Vector3d(1.1, 1.2, 1.3));
   EXPECT_EQ(scene.environment.world_frame, "room");
   EXPECT_EQ(scene.environment.tissue_frame, "table");

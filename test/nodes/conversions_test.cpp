@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cstring>
+
 #include <limits>
 
 namespace viscera::nodes {
@@ -214,6 +216,45 @@ TEST(Conversions, ImageAndCameraInfoAgreeInStampFrameAndSize) {
   EXPECT_EQ(info.P[6], info.K[5]);
   EXPECT_EQ(info.P[0], info.K[0]);
   EXPECT_GT(info.K[0], 0);
+}
+
+TEST(Conversions, ARightEyeProjectsFromTheLeftOnesFrame) {
+  CameraConfig camera;
+  camera.stereo_baseline_m = 0.005;
+  const auto left = toCameraInfo(camera, "f", ros::Time(8)),
+             right = toCameraInfo(camera, "f", ros::Time(8), PictureKind::kRight);
+  EXPECT_EQ(left.P[3], 0);
+  EXPECT_DOUBLE_EQ(right.P[3], -right.P[0] * camera.stereo_baseline_m);
+}
+
+TEST(Conversions, DepthsAndLabelsHaveEncodingsOfTheirOwn) {
+  ImageFrame depths, labels;
+  depths.width = labels.width = 2;
+  depths.height = labels.height = 1;
+  depths.kind = PictureKind::kDepth;
+  depths.depths_m = {0.5F, 0.25F};
+  labels.kind = PictureKind::kLabels;
+  labels.labels = {1, 101};
+  const auto depth = toImage(std::move(depths), "f", ros::Time(8)),
+             label = toImage(std::move(labels), "f", ros::Time(8));
+  EXPECT_EQ(depth.encoding, "32FC1");
+  EXPECT_EQ(depth.step, 8u);
+  float second = 0;
+  std::memcpy(&second, &depth.data[4], sizeof second);
+  EXPECT_EQ(second, 0.25F);
+  EXPECT_EQ(label.encoding, "mono8");
+  EXPECT_EQ(label.data, (std::vector<uint8_t>{1, 101}));
+}
+
+TEST(Conversions, ACameraOnAnOpticalFrameHasNoOtherOne) {
+  CameraConfig camera;
+  camera.name = "scope";
+  camera.frame = "scope_link";
+  EXPECT_EQ(opticalFrame(camera, "or/"), "or/scope_optical_frame");
+  for (const std::string frame : {"tip_optical", "tip_optical_frame"}) {
+    camera.frame = frame;
+    EXPECT_EQ(opticalFrame(camera, "or/"), frame);
+  }
 }
 
 }  // namespace

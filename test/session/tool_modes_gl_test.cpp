@@ -49,15 +49,16 @@ TEST_P(ToolModes, AModeActsFromTheNextStepAndLetsGoWhenItIsLeft) {
 }
 
 TEST_P(ToolModes, CutsOnlyWhereTheSceneWasMadeForThem) {
-  Session session(scene(), context_);
-  session.setToolMode(0, ToolSwitch::kButton2, ToolMode::kNone);
-  play(session, cut, kCutTicks);
-  EXPECT_EQ(session.drain().stats.springs_cut, 0u);
-  session.forgetHands();
-  session.setToolMode(0, ToolSwitch::kButton2, ToolMode::kCutParticles);
-  play(session, cut, kCutTicks);
-  EXPECT_GT(session.drain().stats.springs_cut, 0u);
-
+  {
+    Session session(scene(), context_);
+    session.setToolMode(0, ToolSwitch::kButton2, ToolMode::kNone);
+    play(session, cut, kCutTicks);
+    EXPECT_EQ(session.drain().stats.springs_cut, 0u);
+    session.forgetHands();
+    session.setToolMode(0, ToolSwitch::kButton2, ToolMode::kCutParticles);
+    play(session, cut, kCutTicks);
+    EXPECT_GT(session.drain().stats.springs_cut, 0u);
+  }
   Session uncut(scene(false), context_);
   for (const ToolMode mode : {ToolMode::kCut, ToolMode::kCutParticles})
     EXPECT_THROW(uncut.setToolMode(0, ToolSwitch::kButton2, mode), SceneError);

@@ -20,6 +20,14 @@ Intrinsics intrinsics(const CameraConfig& camera);
 /// @throws SceneError  naming the camera, if the target is at its position or `up` is along the line of sight
 Pose opticalPose(const CameraConfig& camera);
 
+/// Does cameras[].frame name an optical frame itself (REP 103: `_optical`, `_optical_frame`)?
+bool isCarriedByOpticalFrame(const CameraConfig& camera);
+/// Pose of the optical frame in the tissue frame of a camera that a tf frame carries.
+/// @param frame  pose of CameraConfig::frame in the tissue frame   @throws SceneError  as above
+Pose carriedOpticalPose(const CameraConfig& camera, const Pose& frame);
+/// Of a stereo camera: the right eye in the optical frame of the camera, which is the left one.
+Pose rightEye(const CameraConfig& camera);
+
 /// Depths [m] along the optical axis between which something is drawn.
 struct DepthRange {
   double near_m, far_m;

@@ -20,13 +20,27 @@
 
 namespace viscera {
 
+/// What a picture of a camera holds.
+enum class PictureKind : uint8_t {
+  kColor,   ///< what it sees
+  kRight,   ///< what the right eye of a stereo camera sees
+  kDepth,   ///< how far along the optical axis that lies
+  kLabels,  ///< what it is (layout/picture_labels.h)
+};
+constexpr size_t kPictureKinds = 4;
+
 /// What somebody wants to see of this tick; nothing else is mapped, drawn or read back.
 struct Wants {
   bool surface = false;
   std::vector<bool> cameras;  ///< [cameras]; shorter means false
   bool every_image = false;   ///< wait rather than skip an image when too many are on their way
+  std::vector<bool> right = {}, depth = {}, labels = {};  ///< as cameras, of the other kinds; one eye has no right one
 
-  bool image(size_t camera) const { return camera < cameras.size() && cameras[camera]; }
+  bool image(size_t camera, PictureKind kind = PictureKind::kColor) const {
+    return camera < of(kind).size() && of(kind)[camera];
+  }
+  const std::vector<bool>& of(PictureKind kind) const;  ///< [cameras]
+  std::vector<bool>& of(PictureKind kind);
   /// How many images and surfaces.
   size_t count() const;
 };
@@ -37,13 +51,16 @@ struct SurfaceFrame : ShownMesh {
   SteadyTime pose_received{};  ///< of the newest stylus pose in that tick; 0 if there was none
 };
 
-/// One rendered image, RGB8, rows from the top.
+/// One rendered image, rows from the top: what its kind says is there, the rest is empty.
 struct ImageFrame {
   uint64_t tick = 0;
   size_t camera = 0;
+  PictureKind kind = PictureKind::kColor;
   int width = 0, height = 0;
-  std::vector<uint8_t> rgb;
-  SteadyTime pose_received{};  ///< as in SurfaceFrame
+  std::vector<uint8_t> rgb;     ///< of kColor and kRight: RGB8
+  std::vector<float> depths_m;  ///< of kDepth: along the optical axis; NaN where nothing is
+  std::vector<uint8_t> labels;  ///< of kLabels: layout/picture_labels.h; 0 where nothing is
+  SteadyTime pose_received{};   ///< as in SurfaceFrame
 };
 
 /// What there is to see; empty where nothing was wanted or nothing is ready yet.
@@ -68,6 +85,7 @@ struct Frame : Pictures {
   std::array<bool, layout::kMaxStyluses> held_back{};  ///< the stylus was faster than tissue can follow
   ToolMotions tools;                                   ///< of the tick: `to` is where the tools are shown
   std::vector<Pose> obstacles;                         ///< [obstacles] at the end of the tick, tissue frame
+  std::vector<Pose> cameras;                           ///< [cameras] optical frames of the tick, tissue frame
   /// [obstacles] what the tissue does to each, not limited; torque about its place at the end of the tick. Of `stats`.
   std::vector<Reaction> obstacle_forces;
 };
@@ -77,6 +95,7 @@ struct Look {
   uint64_t tick = 0;
   ToolMotions motions;
   std::vector<Pose> obstacles;  ///< [obstacles] at the end of the tick, tissue frame
+  std::vector<Pose> cameras;    ///< [cameras] optical frames, tissue frame
   Wants wants;
   std::vector<Overlays> overlays;  ///< [cameras]
   std::vector<Arrow> arrows;       ///< forces and wind, where some camera shows them

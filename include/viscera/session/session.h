@@ -63,6 +63,9 @@ class Session {
   /// Where the tf frame that carries an obstacle is from now on: the obstacle goes there over the next tick; the first
   /// pose is no motion. @param obstacle  index in the scene   @param pose  of the frame, tissue frame
   void setObstacleFrame(size_t obstacle, const Pose& pose);
+  /// Where the tf frame that carries a camera is from now on. @param camera  < scene().cameras.size(), with a frame
+  /// @param pose  of the frame, tissue frame
+  void setCameraFrame(size_t camera, const Pose& pose);
   /// What a camera's pictures show beside the tissue from now on; at first, its CameraConfig::overlays.
   /// @param camera  < scene().cameras.size()
   void setOverlays(size_t camera, const Overlays& overlays) { look_.overlays[camera] = overlays; }
@@ -70,6 +73,8 @@ class Session {
   /// holds is let go. @param stylus  < scene().styluses.size()
   /// @throws SceneError  the mode cuts or erases, and the scene was made without: no stylus of it did
   void setToolMode(size_t stylus, ToolSwitch when, ToolMode mode);
+  /// What the reactions on a stylus are limited to from the next step on. @param stylus  < scene().styluses.size()
+  void setForceLimits(size_t stylus, const ForceLimits& limits) { limiters_[stylus].setLimits(limits); }
   void reset();
   /// The hands were not followed for a while, as in a pause: what they hold is let go at the next step, where they
   /// appear anew; forces begin at zero.

@@ -38,6 +38,7 @@ class ForceLimiter {
   Reaction limit(const Reaction& raw, double span_s, const ForceLimits& limits);
   void reset() { last_ = Reaction{}; }
   const Reaction& last() const { return last_; }
+  void setLimits(const ForceLimits& limits) { limits_ = limits; }
   const ForceLimits& limits() const { return limits_; }
 
  private:

@@ -269,6 +269,13 @@ void visitFields(V& v, CameraConfig& c) {
   v.number("strain_range", c.strain_range, {0.001, 10}, "1", "overlay strain: what the end of the legend stands for");
   v.boolean("draw_hidden", c.draw_hidden,
             "work out what cannot be seen too, for comparison: pictures are the same (docs/hidden.md)");
+  v.text(
+      "frame", c.frame,
+      "tf frame that carries it, as an endoscope: `position_m`, `target_m` and `up` are then in this frame; one whose "
+      "name ends in `_optical` or `_optical_frame` is the optical frame itself (z forward, x right)");
+  v.number(
+      "stereo_baseline_m", c.stereo_baseline_m, {0, 1}, "m",
+      "distance of a right eye from this one, which is the left: topics `<name>/left` and `<name>/right`; 0: none");
 }
 
 template <class V>

@@ -177,6 +177,8 @@ struct CameraConfig {
   Overlays overlays;
   double strain_range = 0.3;
   bool draw_hidden = false;
+  std::string frame;             ///< tf frame that carries it; empty: the tissue frame
+  double stereo_baseline_m = 0;  ///< 0: one eye
 };
 
 /// Moving air. Speed at time t: velocity (1 + gust_ratio sin(2 pi t / gust_period)).

@@ -1,0 +1,132 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/scene_switch.h"
+
+#include <ros/console.h>
+
+#include <utility>
+
+#include "math/one_line.h"
+#include "nodes/scene_choice.h"
+#include "viscera/model/model.h"
+
+namespace viscera::nodes {
+namespace {
+
+/// The node ends, and nobody wants the model that is being made.
+struct Ended {};
+
+/// The request as the parameters of the same names, whose checks it goes through.
+Parameters parametersOf(const LoadScene::Request& request, const std::string& frame_prefix) {
+  XmlRpc::XmlRpcValue values;
+  values["scene"] = request.scene;
+  values["frame_prefix"] = frame_prefix;
+  if (!request.mesh.empty()) values["mesh"] = request.mesh;
+  if (request.mesh_unit_m != 0) values["mesh_unit_m"] = request.mesh_unit_m;
+  values["overrides"].setSize(0);
+  for (size_t i = 0; i < request.overrides.size(); ++i) values["overrides"][static_cast<int>(i)] = request.overrides[i];
+  return Parameters(values);
+}
+
+/// Of an error in a parameter, which was a field of the request.
+std::string asField(std::string text) {
+  const std::string prefix = "parameter ~";
+  if (text.compare(0, prefix.size(), prefix) == 0) text.erase(0, prefix.size());
+  return oneLine(text);
+}
+
+}  // namespace
+
+SceneSwitch::SceneSwitch(ros::NodeHandle node, const SimulatorOptions& running, const std::string& package_folder)
+    : package_folder_(package_folder), running_(running), spinner_(1, &queue_) {
+  node.setCallbackQueue(&queue_);
+  server_ = node.advertiseService("load_scene", &SceneSwitch::onLoadScene, this);
+  spinner_.start();
+}
+
+SceneSwitch::~SceneSwitch() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    state_ = State::kEnd;
+  }
+  changed_.notify_all();
+  server_.shutdown();
+  spinner_.stop();
+}
+
+bool SceneSwitch::isRequested() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return state_ == State::kRequested;
+}
+
+void SceneSwitch::noteReady() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (state_ != State::kStarting && state_ != State::kReturning) return;
+    state_ = State::kRunning;
+    first_ = false;
+    if (next_) running_ = *std::exchange(next_, std::nullopt);
+  }
+  changed_.notify_all();
+}
+
+std::optional<SimulatorOptions> SceneSwitch::takeNext() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (state_ == State::kReturning) return running_;
+  if (state_ != State::kRequested) return std::nullopt;
+  state_ = State::kStarting;
+  return next_;
+}
+
+bool SceneSwitch::goBack(const std::string& error) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (state_ != State::kStarting || first_) return false;
+  state_ = State::kReturning;
+  next_.reset();
+  error_ = error;
+  return true;
+}
+
+/// @throws Error  the scene cannot be simulated
+SimulatorOptions SceneSwitch::check(const LoadScene::Request& request) const {
+  if (request.scene.empty()) throw ParameterError("parameter ~scene: must be given");
+  SimulatorOptions next = running_;
+  Parameters parameters = parametersOf(request, running_.publish.frame_prefix);
+  next.scene = SceneChoice::read(parameters, "").load(package_folder_);
+  // With spacing_m: auto the model is another one in the end, of the same mesh.
+  (void)buildModel(next.scene, [this](const std::string&, double) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (state_ == State::kEnd) throw Ended{};
+  });
+  return next;
+}
+
+/// @returns why the scene did not come to run, or nothing
+std::string SceneSwitch::change(const SimulatorOptions& next) {
+  std::unique_lock<std::mutex> lock(mutex_);
+  changed_.wait(lock, [this] { return state_ == State::kRunning || state_ == State::kEnd; });
+  if (state_ == State::kEnd) return "the simulation has ended";
+  state_ = State::kRequested;
+  next_ = next;
+  error_.clear();
+  changed_.wait(lock, [this] { return state_ == State::kRunning || state_ == State::kEnd; });
+  if (state_ == State::kEnd) return "the simulation has ended";
+  return error_.empty() ? "" : "the scene that ran before was started again, at rest: " + error_;
+}
+
+bool SceneSwitch::onLoadScene(LoadScene::Request& request, LoadScene::Response& response) {
+  try {
+    const SimulatorOptions next = check(request);
+    response.message = change(next);
+    response.success = response.message.empty();
+    if (response.success) response.message = "running " + next.scene.name;
+  } catch (const Ended&) {
+    response.message = "the simulation has ended";
+  } catch (const std::exception& error) {
+    response.message = asField(error.what());
+  }
+  if (!response.success) ROS_WARN("load_scene: %s", response.message.c_str());
+  return true;
+}
+
+}  // namespace viscera::nodes

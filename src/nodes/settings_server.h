@@ -1,0 +1,55 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <dynamic_reconfigure/Reconfigure.h>
+#include <ros/node_handle.h>
+
+#include <functional>
+#include <mutex>
+#include <string>
+#include <vector>
+
+namespace viscera::nodes {
+
+/// A number or one of some words that can be changed while a node runs.
+struct Setting {
+  std::string name, meaning;
+  double min = 0, max = 0, number = 0;
+  std::vector<std::string> choices;  ///< words; none: it is a number
+  std::string word;
+
+  bool isNumber() const { return choices.empty(); }
+};
+
+/// The server's side of dynamic_reconfigure, for rqt_reconfigure and dynparam: topics `parameter_descriptions` and
+/// `parameter_updates` and the service `set_parameters` of a namespace. Unlike dynamic_reconfigure::Server it is not
+/// generated from a file, so that names, ranges and words are the scene's; it leaves nothing on the parameter server,
+/// whose values would be those of another scene at the next start; and it refuses what is out of range instead of
+/// taking the nearest.
+class SettingsServer {
+ public:
+  /// What is to hold from now on. @throws Error  why it cannot; then nothing has changed
+  using Apply = std::function<void(const std::vector<Setting>& changed)>;
+
+  /// @param node  of the namespace; its queue serves the requests, one after another
+  SettingsServer(ros::NodeHandle node, std::vector<Setting> settings, Apply apply);
+
+  /// A word was changed by another way. From any thread.
+  void noteWord(const std::string& name, const std::string& word);
+
+ private:
+  bool onSet(dynamic_reconfigure::Reconfigure::Request& request, dynamic_reconfigure::Reconfigure::Response& response);
+  std::vector<Setting> changesOf(const dynamic_reconfigure::Config& request) const;
+  const Setting& find(const std::string& name, bool number) const;
+  void keep(const std::vector<Setting>& changed);
+
+  const std::string namespace_;
+  const Apply apply_;
+  std::mutex mutex_;
+  std::vector<Setting> settings_;
+  ros::Publisher descriptions_, updates_;
+  ros::ServiceServer server_;
+};
+
+}  // namespace viscera::nodes

@@ -1,0 +1,91 @@
+#!/usr/bin/env python3
+# Copyright (c) 2026, the viscera authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""load_scene: a bad scene is refused and the running one goes on; a good one takes its place in the same node, with zero as
+the last force, topics of its own and the tick at 0, and back again."""
+import json
+import os
+import subprocess
+import sys
+import unittest
+
+import rosgraph
+import rosnode
+import rospy
+import rostest
+from simulator_watch import Latest, READY_LIMIT_S, SimulatorWatch, wait_until
+from std_srvs.srv import Trigger
+from viscera.msg import SurfaceTopology, Tick
+from viscera.srv import LoadScene
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+OTHER = os.path.join(HERE, "cameras.yaml")
+HEART = ["bodies[0].spacing_m=0.008", "environment.gravity_m_per_s2=[0,0,0]"]
+
+
+class LoadSceneTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        rospy.init_node("load_scene_test")
+        cls.watch = SimulatorWatch()
+        cls.watch.wait_ready()
+        rospy.wait_for_service("load_scene", READY_LIMIT_S)
+        cls.load = rospy.ServiceProxy("load_scene", LoadScene)
+        cls.tick = Latest("tick", Tick)
+        cls.pid = cls.pid_of_simulator()
+
+    @staticmethod
+    def pid_of_simulator():
+        return rosnode.get_api_uri(rosgraph.Master("/load_scene_test"), "/simulator")
+
+    def topics(self):
+        return {name for name, _ in rospy.get_published_topics()}
+
+    def test_0_a_bad_scene_is_refused_and_the_running_one_goes_on(self):
+        for request, said in (({"scene": ""}, "must be given"),
+                              ({"scene": "nowhere"}, "no file"),
+                              ({"scene": "heart", "overrides": ["bodies[0].spacing=1"]}, "bodies[0].spacing"),
+                              ({"scene": "heart", "mesh": "/nowhere.obj"}, "no file"),
+                              ({"scene": "heart", "mesh": OTHER}, "cameras.yaml"),
+                              ({"scene": "heart", "mesh_unit_m": 0.001}, "no meaning without"),
+                              ({"scene": "heart", "overrides": ["bodies[0].fixed=[{shape: sphere, radius_m: 1}]"]}, "")):
+            answer = self.load(**request)
+            self.assertFalse(answer.success, str(request))
+            self.assertTrue(answer.message, str(request))
+            self.assertIn(said, answer.message)
+        before = self.tick.message.tick
+        wait_until(lambda: self.tick.message.tick > before, 10, "tick of the old scene")
+        self.assertIn("/left/body/servo_cf", self.topics())
+
+    def test_1_another_scene_takes_its_place_with_zero_as_the_last_force(self):
+        hand = subprocess.Popen([sys.executable, os.path.join(HERE, "hand.py")], stdin=subprocess.PIPE,
+                                stdout=subprocess.PIPE, text=True)
+        self.assertEqual(hand.stdout.readline(), "touching\n")
+        before = self.tick.message.tick
+        answer = self.load(scene=OTHER)
+        felt = json.loads(hand.communicate(timeout=30)[0])
+        self.assertTrue(answer.success, answer.message)
+        self.assertGreater(max(force for _, force, _, _ in felt), 0)
+        self.assertEqual(felt[-1][1:3], [0, 0])
+        wait_until(lambda: self.tick.message.tick < before, 10, "tick of the new scene")
+        wait_until(lambda: "/scope/image_raw" in self.topics(), 10, "topics of the new scene")
+        for gone in ("/left/body/servo_cf", "/camera/image_raw"):
+            self.assertNotIn(gone, self.topics())
+        topology = Latest("surface_topology", SurfaceTopology)
+        wait_until(lambda: topology.message and topology.message.bodies == ["block"], 10, "its topology")
+        self.assertEqual(self.pid_of_simulator(), self.pid)
+
+    def test_2_services_stay(self):
+        for name in ("pause", "reset", "resume"):
+            answer = rospy.ServiceProxy(name, Trigger)()
+            self.assertTrue(answer.success, answer.message)
+
+    def test_3_and_back(self):
+        answer = self.load(scene="heart", overrides=HEART)
+        self.assertTrue(answer.success, answer.message)
+        wait_until(lambda: "/left/body/servo_cf" in self.topics() and "/scope/image_raw" not in self.topics(), 10,
+                   "topics of the old scene")
+
+
+if __name__ == "__main__":
+    rostest.rosrun("viscera", "load_scene_test", LoadSceneTest, sys.argv)

@@ -1,0 +1,102 @@
+#!/usr/bin/env python3
+# Copyright (c) 2026, the viscera authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Settings at run time by the stock client of dynamic_reconfigure: limits hold the force at once, modes go both ways, what
+is out of range is refused."""
+import math
+import sys
+import threading
+import time
+import unittest
+
+import rospy
+import rostest
+from dynamic_reconfigure.client import Client
+from geometry_msgs.msg import PoseStamped, WrenchStamped
+from sensor_msgs.msg import Image
+from simulator_watch import Latest, SimulatorWatch, wait_until
+from viscera.srv import SetToolMode
+
+START_LIMIT_S = 30
+OUTSIDE_Y_M, DEEP_Y_M = -0.06, -0.022  # before the block, whose face is at -0.02, and a ball of 8 mm 6 mm deep in it
+SLACK_N = 1e-6
+FEWER = 0.7  # of the pictures that came before the rate was cut to a fifteenth: room for a slow machine
+
+
+class Hand:
+    def __init__(self):
+        self.y_m = OUTSIDE_Y_M
+        self.poses = rospy.Publisher("left/measured_cp", PoseStamped, queue_size=1, tcp_nodelay=True)
+        threading.Thread(target=self.run, daemon=True).start()
+
+    def run(self):
+        at = OUTSIDE_Y_M
+        while not rospy.is_shutdown():
+            at += max(-0.0005, min(0.0005, self.y_m - at))
+            pose = PoseStamped()
+            pose.header.frame_id, pose.header.stamp = "tissue", rospy.Time.now()
+            pose.pose.position.y, pose.pose.orientation.w = at, 1
+            try:
+                self.poses.publish(pose)
+            except rospy.ROSException:  # the test ends
+                return
+            time.sleep(0.01)
+
+
+class ReconfigureTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        rospy.init_node("reconfigure_test")
+        cls.watch = SimulatorWatch()
+        cls.watch.wait_ready()
+        cls.left = Client("simulator/left", timeout=START_LIMIT_S)
+        cls.force = Latest("left/body/servo_cf", WrenchStamped)
+
+    def newtons(self):
+        f = self.force.message.wrench.force if self.force.message else None
+        return math.hypot(f.x, f.y, f.z) if f else 0
+
+    def test_0_the_scene_is_what_it_begins_with(self):
+        config = self.left.get_configuration(timeout=START_LIMIT_S)
+        self.assertEqual(config["max_force_n"], 5)
+        self.assertEqual((config["idle"], config["button1"], config["button2"]), ("probe", "grab", "cut"))
+        self.assertEqual(Client("simulator", timeout=START_LIMIT_S).get_configuration(START_LIMIT_S)["surface_rate_hz"], 30)
+
+    def test_1_a_limit_holds_the_force_and_lets_it_go_again(self):
+        hand = Hand()
+        hand.y_m = DEEP_Y_M
+        wait_until(lambda: self.newtons() > 0.1, 30, "force")
+        for limit_n in (0.05, 0.02):
+            self.assertEqual(self.left.update_configuration({"max_force_n": limit_n})["max_force_n"], limit_n)
+            wait_until(lambda: abs(self.newtons() - limit_n) < SLACK_N, 10, "force of %g N" % limit_n)
+        self.left.update_configuration({"max_force_n": 5})
+        wait_until(lambda: self.newtons() > 0.1, 10, "force beyond the old limit")
+
+    def test_2_out_of_range_is_refused(self):
+        for bad in (-1.0, 1e9, float("nan")):
+            self.assertEqual(self.left.update_configuration({"max_force_n": bad})["max_force_n"], 5)
+        self.assertEqual(self.left.update_configuration({"idle": "laser"})["idle"], "probe")
+
+    def test_3_modes_go_both_ways(self):
+        self.left.update_configuration({"idle": "none"})
+        wait_until(lambda: self.newtons() == 0, 10, "no force from a tool that does nothing")
+        answer = rospy.ServiceProxy("set_tool_mode", SetToolMode)("left", "button1", "suction")
+        self.assertTrue(answer.success, answer.message)
+        wait_until(lambda: self.left.get_configuration(timeout=1)["button1"] == "suction", 10, "news of the mode")
+
+    def test_4_the_rate_of_pictures_changes(self):
+        image = Latest("camera/image_raw", Image)
+        wait_until(lambda: image.count > 3, 30, "pictures")
+        camera = Client("simulator/cameras/camera", timeout=START_LIMIT_S)
+        before = image.count
+        time.sleep(2)
+        usual = image.count - before
+        self.assertEqual(camera.update_configuration({"rate_hz": 1.0})["rate_hz"], 1)
+        time.sleep(0.5)
+        before = image.count
+        time.sleep(2)
+        self.assertLess(image.count - before, FEWER * usual)
+
+
+if __name__ == "__main__":
+    rostest.rosrun("viscera", "reconfigure_test", ReconfigureTest, sys.argv)

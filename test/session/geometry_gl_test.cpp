@@ -1,0 +1,235 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Depths, labels and pairs of pictures say where things are: against a block, a ball and tools whose places are known.
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "session/block_session.h"
+#include "support/gpu_fixture.h"
+#include "viscera/layout/picture_labels.h"
+#include "viscera/render/camera.h"
+
+namespace viscera {
+namespace {
+
+using namespace test;
+
+constexpr double kAwayM = 0.25;   ///< of the camera from the middle of the block
+constexpr double kDepthM = 2e-6;  ///< float32 at a quarter of a metre, through two matrices
+constexpr double kFlatM = 3e-4;   ///< between a round shape and the flat faces that it is drawn with
+constexpr double kBaselineM = 0.01;
+
+class Geometry : public GpuTest, public ::testing::WithParamInterface<Backend> {
+ protected:
+  /// A camera straight before the block's front face, y = -kHalfM.
+  static Scene scene() {
+    Scene scene = blockScene();
+    scene.solver.backend = GetParam();
+    CameraConfig& camera = scene.cameras[0];
+    camera.position_m = Vector3d(0, -kAwayM, 0);
+    camera.width_px = 160;
+    camera.height_px = 120;
+    return scene;
+  }
+  static ImageFrame picture(Session& session, PictureKind kind) {
+    Wants wants;
+    wants.of(kind) = {true};
+    Pictures pictures = session.show(wants);
+    EXPECT_EQ(pictures.images.size(), 1U);
+    return pictures.images.empty() ? ImageFrame{} : std::move(pictures.images.back());
+  }
+  /// Where what a pixel shows is, tissue frame.
+  static Vector3d placeOf(const CameraConfig& camera, const ImageFrame& depths, size_t pixel) {
+    const Intrinsics k = intrinsics(camera);
+    const auto width = static_cast<size_t>(depths.width);
+    const double z = depths.depths_m[pixel], column = static_cast<double>(pixel % width) + 0.5,
+                 row = static_cast<double>(pixel / width) + 0.5;
+    return opticalPose(camera) * Vector3d((column - k.cx) / k.fx * z, (row - k.cy) / k.fy * z, z);
+  }
+  static size_t middle(const ImageFrame& image) {
+    return static_cast<size_t>(image.height / 2 * image.width + image.width / 2);
+  }
+};
+INSTANTIATE_TEST_SUITE_P(Backends, Geometry, ::testing::Values(Backend::kGpu, Backend::kCpu),
+                         [](const ::testing::TestParamInfo<Backend>& info) {
+                           return info.param == Backend::kCpu ? "cpu" : "gpu";
+                         });
+
+TEST_P(Geometry, DepthIsThatOfTheFaceBeforeTheCameraAndNothingIsNan) {
+  Session session(scene(), context_);
+  const ImageFrame depths = picture(session, PictureKind::kDepth);
+  ASSERT_EQ(depths.depths_m.size(), size_t{160} * 120);
+  EXPECT_TRUE(depths.rgb.empty());
+  EXPECT_NEAR(depths.depths_m[middle(depths)], kAwayM - kHalfM, kDepthM);
+  EXPECT_TRUE(std::isnan(depths.depths_m[0]));
+}
+
+TEST_P(Geometry, PixelsLieOnTheSurfaceWhereCameraInfoPutsThem) {
+  Scene oblique = scene();
+  oblique.cameras[0].position_m = Vector3d(0.1, -0.15, 0.12);
+  Session session(oblique, context_);
+  const ImageFrame depths = picture(session, PictureKind::kDepth), labels = picture(session, PictureKind::kLabels);
+  size_t on_block = 0;
+  for (size_t i = 0; i < labels.labels.size(); ++i) {
+    ASSERT_EQ(labels.labels[i] == 0, std::isnan(depths.depths_m[i]));
+    if (labels.labels[i] == 0) continue;
+    ASSERT_EQ(labels.labels[i], layout::kFirstBodyLabel);
+    ++on_block;
+    ASSERT_NEAR(placeOf(oblique.cameras[0], depths, i).cwiseAbs().maxCoeff(), kHalfM, kDepthM) << i;
+  }
+  EXPECT_GT(on_block, 500U);
+}
+
+TEST_P(Geometry, LabelsTellBodiesWallsToolsAndObstaclesApart) {
+  Scene with_ball = scene();
+  with_ball.cameras[0].position_m = Vector3d(0, -0.12, 0.15);
+  ObstacleConfig ball;
+  ball.shape = ObstacleShape::kSphere;
+  ball.position_m = Vector3d(0.06, 0, 0);
+  ball.radius_m = 0.01;
+  with_ball.obstacles = {ball};
+  Session session(with_ball, context_);
+  play(session, cut, kCutTicks);
+  play(
+      session,
+      [](int tick) {
+        return leftAt({-0.03, 0.0, kHalfM + 0.002 * tick});
+      },
+      5);  // the probe, beside
+  session.drain();
+  const ImageFrame labels = picture(session, PictureKind::kLabels), depths = picture(session, PictureKind::kDepth);
+  const std::set<int> seen(labels.labels.begin(), labels.labels.end());
+  const int body = layout::kFirstBodyLabel, tool = layout::kFirstToolLabel, obstacle = layout::kFirstObstacleLabel;
+  EXPECT_TRUE(seen.count(0) && seen.count(body) && seen.count(tool) && seen.count(obstacle));
+  for (size_t i = 0; i < labels.labels.size(); ++i) {
+    if (labels.labels[i] != obstacle) continue;
+    ASSERT_NEAR((placeOf(with_ball.cameras[0], depths, i) - ball.position_m).norm(), ball.radius_m, kFlatM);
+  }
+}
+
+TEST_P(Geometry, WallsOfAWoundHaveALabelOfTheirOwn) {
+  Scene pulled = scene();
+  pulled.cameras[0].position_m = Vector3d(0.01, -0.01, 0.15);
+  pulled.styluses[1].idle = ToolMode::kGrab;
+  Session session(pulled, context_);
+  play(session, cut, kCutTicks);
+  play(
+      session,
+      [](int tick) {  // the lip beyond the cut is drawn away
+        StylusSamples samples;
+        samples[1] = {true, {Vector3d(0, 0.008 + 0.001 * tick, kHalfM), Quaterniond::Identity()}, false, false};
+        return samples;
+      },
+      10);
+  session.drain();
+  const ImageFrame labels = picture(session, PictureKind::kLabels);
+  EXPECT_GT(std::count(labels.labels.begin(), labels.labels.end(), layout::kFirstWallLabel), 10);
+}
+
+double meanDrawnColumn(const ImageFrame& image) {
+  double sum = 0, count = 0;
+  for (size_t i = 0; i < image.rgb.size() / 3; ++i) {
+    if (std::equal(&image.rgb[3 * i], &image.rgb[3 * i] + 3, image.rgb.data())) continue;  // the corner is background
+    sum += static_cast<double>(i % static_cast<size_t>(image.width));
+    count += 1;
+  }
+  return sum / count;
+}
+
+TEST_P(Geometry, TheRightPictureIsShiftedByTheDisparity) {
+  Scene stereo = scene();
+  stereo.cameras[0].stereo_baseline_m = kBaselineM;  // inside the face, so that no side comes into view
+  Session session(stereo, context_);
+  const double left = meanDrawnColumn(picture(session, PictureKind::kColor)),
+               right = meanDrawnColumn(picture(session, PictureKind::kRight));
+  const double disparity = intrinsics(stereo.cameras[0]).fx * kBaselineM / (kAwayM - kHalfM);
+  EXPECT_GT(disparity, 3);
+  EXPECT_NEAR(left - right, disparity, 1);
+}
+
+TEST_P(Geometry, OnlyWhatIsWantedIsDrawnAndAStillPictureOnce) {
+  Scene stereo = scene();
+  stereo.cameras[0].stereo_baseline_m = kBaselineM;
+  Session session(stereo, context_);
+  picture(session, PictureKind::kDepth);
+  EXPECT_EQ(session.counters().renders, 1U);
+  EXPECT_EQ(session.counters().readbacks, 1U);
+  Wants all;
+  all.cameras = all.right = all.depth = all.labels = {true};
+  EXPECT_EQ(session.show(all).images.size(), 4U);
+  EXPECT_EQ(session.counters().readbacks, 5U);
+  EXPECT_LE(session.counters().renders, 4U);  // left and right, and depths with labels at most once more
+}
+
+/// A camera that is carried to a place shows what one shows that stands there.
+TEST_P(Geometry, ACarriedCameraSeesWhatOneThatStandsThereSees) {
+  const Vector3d away(0.125, -0.03125, 0.0625);  // whole in binary: no rounding
+  Scene carried = scene(), standing = scene();
+  carried.cameras[0].frame = "scope";
+  standing.cameras[0].position_m += away;
+  standing.cameras[0].target_m += away;
+  ImageFrame after;
+  {
+    Session moving(carried, context_);
+    const ImageFrame before = picture(moving, PictureKind::kColor);
+    moving.setCameraFrame(0, {away, Quaterniond::Identity()});
+    after = picture(moving, PictureKind::kColor);
+    EXPECT_NE(before.rgb, after.rgb);
+  }
+  Session fixed(standing, context_);
+  EXPECT_EQ(after.rgb, picture(fixed, PictureKind::kColor).rgb);
+}
+
+TEST_P(Geometry, AnOpticalFrameIsTheCameraItself) {
+  Scene carried = scene(), standing = scene();
+  carried.cameras[0].frame = "scope_optical";
+  carried.cameras[0].position_m = Vector3d(kAwayM, 0, 0);  // of which the distance is taken alone
+  ImageFrame seen;
+  {
+    Session moving(carried, context_);
+    moving.setCameraFrame(0, opticalPose(standing.cameras[0]));
+    seen = picture(moving, PictureKind::kColor);
+  }
+  Session fixed(standing, context_);
+  EXPECT_EQ(seen.rgb, picture(fixed, PictureKind::kColor).rgb);
+}
+
+/// docs/hidden.md, for a camera that goes over the block so closely that it never sees all of it.
+TEST_P(Geometry, WhatAMovingCameraDoesNotSeeIsLeftOutAndNoPictureDiffers) {
+  constexpr size_t kOutlineBytes = 8 * 3;  // as in hidden_gl_test.cpp
+  constexpr int kFlightTicks = 20;
+  const auto flight = [this](bool draw_hidden) {
+    Scene close = scene();
+    close.cameras[0].frame = "scope";
+    close.cameras[0].vertical_fov_deg = 12;
+    close.cameras[0].draw_hidden = draw_hidden;
+    Session session(close, context_);
+    std::vector<ImageFrame> out;
+    for (int tick = 1; tick <= kFlightTicks; ++tick) {
+      const double way = static_cast<double>(tick) / kFlightTicks;
+      const Eigen::AngleAxisd turn(0.6 * way - 0.3, Vector3d::UnitZ());
+      session.setCameraFrame(0, {Vector3d(0.04 * way - 0.02, 0.1 * way, 0.01), Quaterniond(turn)});
+      Wants wants;
+      wants.cameras = wants.depth = {true};
+      wants.every_image = true;
+      for (ImageFrame& image : session.step(press(tick), wants).images) out.push_back(std::move(image));
+      for (ImageFrame& image : session.drain().images) out.push_back(std::move(image));
+    }
+    return out;
+  };
+  const std::vector<ImageFrame> all = flight(true), seen = flight(false);
+  ASSERT_EQ(all.size(), seen.size());
+  ASSERT_GE(all.size(), size_t{kFlightTicks});
+  for (size_t i = 0; i < all.size(); ++i) {
+    size_t differ = 0;
+    for (size_t b = 0; b < all[i].rgb.size(); ++b) differ += all[i].rgb[b] != seen[i].rgb[b];
+    EXPECT_LE(differ, kOutlineBytes) << "picture " << i;
+    for (size_t d = 0; d < all[i].depths_m.size(); ++d)
+      differ += std::isnan(all[i].depths_m[d]) != std::isnan(seen[i].depths_m[d]);
+    EXPECT_LE(differ, kOutlineBytes) << "picture " << i;
+  }
+}
+
+}  // namespace
+}  // namespace viscera
