@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // What a swept blade crosses and what an eraser reaches (VR05 2.7.3). All vectors are from the blade's first tip.
-
-const float kLongest = 8.0f;  // rest lengths of a diagonal: a spring with an end farther from the blade is not cut
+// Who asks from either end of a spring asks in the same order of ends, at one place in its text (cut.comp): a compiler that makes
+// another sum of a test where it is written down again would cut the spring on one side only. All that a verdict rests on is
+// `precise`.
+#include "layout/blade.h"
 
 /// Six times the signed volume of the tetrahedron (o, a, b, c) with o at the origin of the vectors.
 float triple(vec3 a, vec3 b, vec3 c) {
@@ -13,10 +15,11 @@ float triple(vec3 a, vec3 b, vec3 c) {
 
 /// Does the segment a..b cross the triangle p q r? One end belongs to a side, so no end lies between; edges belong to it.
 bool crossesTriangle(vec3 a, vec3 b, vec3 p, vec3 q, vec3 r) {
-  vec3 normal = cross(q - p, r - p);
-  if (dot(normal, normal) == 0.0f) return false;  // the blade did not move
-  if ((dot(a - p, normal) >= 0.0f) == (dot(b - p, normal) >= 0.0f)) return false;
-  vec3 ab = b - a;
+  precise vec3 normal = cross(q - p, r - p);
+  precise float area2 = dot(normal, normal), side_a = dot(a - p, normal), side_b = dot(b - p, normal);
+  if (area2 == 0.0f) return false;  // the blade did not move
+  if ((side_a >= 0.0f) == (side_b >= 0.0f)) return false;
+  precise vec3 ab = b - a;
   float pq = triple(p - a, q - a, ab), qr = triple(q - a, r - a, ab), rp = triple(r - a, p - a, ab);
   return (pq >= 0.0f && qr >= 0.0f && rp >= 0.0f) || (pq <= 0.0f && qr <= 0.0f && rp <= 0.0f);
 }
@@ -24,22 +27,25 @@ bool crossesTriangle(vec3 a, vec3 b, vec3 p, vec3 q, vec3 r) {
 /// The blade sweeps a quadrilateral: tip and far end at the start, far end and tip at the end.
 /// Which of its two triangles the segment a..b crosses, 1 or 2; 0 where it crosses none.
 uint crossedPart(vec3 a, vec3 b, ToolMotion m) {
-  vec3 tip = xyz(m.to) - xyz(m.from), far_from = xyz(m.blade_from) - xyz(m.from), far_to = xyz(m.blade_to) - xyz(m.from);
+  precise vec3 tip = xyz(m.to) - xyz(m.from), far_from = xyz(m.blade_from) - xyz(m.from), far_to = xyz(m.blade_to) - xyz(m.from);
   if (crossesTriangle(a, b, vec3(0.0f), far_from, far_to)) return 1u;
   return crossesTriangle(a, b, vec3(0.0f), far_to, tip) ? 2u : 0u;
 }
 
-const float kOverlap = 1e-3f;  // of a sweep: it begins that much before the end of the last one, whatever is rounded
+// kOverlap (layout/blade.h) of a sweep: it begins that much before the end of the last one, whatever is rounded.
 
 /// What the start of the sweep is moved by for a spring that has come `way` since the last one: there the last sweep ended, as the
 /// spring saw it. Without this, one that slips past the blade's edge between two substeps would be in neither sweep.
-vec3 startOffset(ToolMotion m, vec3 way) { return way - kOverlap * (xyz(m.to) - xyz(m.from)); }
+vec3 startOffset(ToolMotion m, vec3 way) {
+  precise vec3 offset = way - kOverlap * (xyz(m.to) - xyz(m.from));
+  return offset;
+}
 
 /// The same of a blade that cuts along its edge only: what sways sideways against its flats stays whole, and what comes along its way
 /// does not; one at rest cuts nothing.
 vec3 startOffsetAlong(ToolMotion m, vec3 way) {
-  vec3 move = (xyz(m.to) - xyz(m.from)) + (xyz(m.blade_to) - xyz(m.blade_from));
-  float move2 = dot(move, move);
+  precise vec3 move = (xyz(m.to) - xyz(m.from)) + (xyz(m.blade_to) - xyz(m.blade_from));
+  precise float move2 = dot(move, move);
   precise vec3 offset = move2 > 0.0f ? (dot(way, move) / move2) * move - kOverlap * (xyz(m.to) - xyz(m.from)) : vec3(0.0f);
   return offset;
 }
@@ -68,18 +74,20 @@ float shareBefore(vec3 a, vec3 b, uint part, ToolMotion m) {
 }
 
 float segmentDistance(vec3 a, vec3 b, vec3 x) {
-  vec3 ab = b - a;
-  float length2 = dot(ab, ab);
-  return distance(x, length2 > 0.0f ? a + clamp(dot(x - a, ab) / length2, 0.0f, 1.0f) * ab : a);
+  precise vec3 ab = b - a;
+  precise float length2 = dot(ab, ab), along = dot(x - a, ab);
+  precise vec3 nearest = length2 > 0.0f ? a + clamp(along / length2, 0.0f, 1.0f) * ab : a;
+  precise float out_m = distance(x, nearest);
+  return out_m;
 }
 
 float planeDistanceInside(vec3 p, vec3 q, vec3 r, vec3 x, float otherwise) {
-  vec3 normal = cross(q - p, r - p);
-  float area2 = dot(normal, normal);
+  precise vec3 normal = cross(q - p, r - p);
+  precise float area2 = dot(normal, normal);
   if (area2 == 0.0f) return otherwise;
-  bool inside = dot(cross(q - p, x - p), normal) >= 0.0f && dot(cross(r - q, x - q), normal) >= 0.0f &&
-                dot(cross(p - r, x - r), normal) >= 0.0f;
-  return inside ? min(otherwise, abs(dot(x - p, normal)) / sqrt(area2)) : otherwise;
+  precise float pq = dot(cross(q - p, x - p), normal), qr = dot(cross(r - q, x - q), normal), rp = dot(cross(p - r, x - r), normal);
+  precise float away = abs(dot(x - p, normal)) / sqrt(area2);
+  return pq >= 0.0f && qr >= 0.0f && rp >= 0.0f ? min(otherwise, away) : otherwise;
 }
 
 /// Is a node within the eraser's radius of the swept blade?
@@ -103,5 +111,6 @@ vec4 bladeSphere(ToolMotion m, float h) {
 
 /// @param sphere  bladeSphere()
 bool farFromBlade(vec3 x, vec4 sphere) {
-  return distance(x, xyz(sphere)) > sphere.w;
+  precise float away = distance(x, xyz(sphere));
+  return away > sphere.w;
 }

@@ -3,12 +3,16 @@
 //
 // collision_place.comp - complete search, second: where each bucket begins.
 // Owner: solver/gpu/collision_pass.h   physics.md 8
-// in, out  buckets
+// in, out  buckets     A bucket of more than most_in_bucket nodes is left empty: what collapsed into one place would otherwise be compared
+// each with all in one dispatch. Who is in it touches nobody until it has spread; the largest such crowd is noted.
 #include "collision_search.glsl"
 
 void main() {
   uint b = globalIndex();
   if (b >= bucket_count) return;
   uint count = buckets[3u * b];
-  if (count != 0u) buckets[3u * b + 1u] = atomicAdd(buckets[3u * bucket_count], count);
+  if (count > most_in_bucket) {
+    atomicMax(buckets[3u * bucket_count + 1u], count);
+    buckets[3u * b] = 0u;
+  } else if (count != 0u) buckets[3u * b + 1u] = atomicAdd(buckets[3u * bucket_count], count);
 }

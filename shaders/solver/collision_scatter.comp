@@ -3,7 +3,7 @@
 //
 // collision_scatter.comp - complete search, third: nodes into their buckets.
 // Owner: solver/gpu/collision_pass.h   physics.md 8
-// in  buckets     out  unsorted
+// in  buckets     out  unsorted; of nodes in a crowd no corrections
 #include "collision_search.glsl"
 
 void main() {
@@ -13,5 +13,9 @@ void main() {
   vec3 x = positionOf(slot);
   if (!collides(slot, nodes[slot], x)) return;
   uint b = bucketOf(x);
+  if (buckets[3u * b] == 0u) {  // a crowd (collision_place.comp)
+    contacts[slot] = corrections[2u * slot] = corrections[2u * slot + 1u] = vec4(0.0);
+    return;
+  }
   unsorted[buckets[3u * b + 1u] + atomicAdd(buckets[3u * b + 2u], 1u)] = slot;
 }

@@ -10,6 +10,10 @@
 #include "collision.glsl"
 
 #ifndef STAGGERED
+#ifndef __cplusplus
+uniform uint most_in_bucket;
+#endif
+
 uint bucketOf(vec3 x) { return hashOf(cellOf(x, 0.0f)) & (bucket_count - 1u); }
 
 Entry entryAt(uint e) {

@@ -6,8 +6,8 @@
 // Features: PARTICLES erases every spring of the nodes near the blade instead (VR05's simple scheme). RECORD: axial springs
 // remember where they were cut, and nodes on which side of it. Whether a spring is, its ends' tissue decides; where, the line between its nodes says.
 //
-// Each end decides for itself. That both come to the same verdict rests on this: the test sees the two ends in the order of
-// their slots, and every position and every way comes from the same `precise` expression.
+// Each end decides for itself. That both come to the same verdict rests on this: the test is called at one place, with the two ends
+// in the order of their slots, and every position and every way comes from the same `precise` expression.
 #include "layout.h"
 #include "lattice.glsl"
 #include "blade.glsl"
@@ -63,7 +63,8 @@ uint severingPart(uint slot, vec3 x, uint other, ToolMotion m, vec4 sphere, floa
 #ifdef PARTICLES
   return erased(x, m) || erased(y, m) ? 1u : 0u;
 #else
-  return slot < other ? crossedOnTheWay(slot, other, x, y, m) : crossedOnTheWay(other, slot, y, x, m);
+  bool first = slot < other;  // chosen before the one call: compiled twice, the test might round in two ways
+  return crossedOnTheWay(first ? slot : other, first ? other : slot, first ? x : y, first ? y : x, m);
 #endif
 }
 
@@ -74,7 +75,7 @@ void record(uint slot, uint spring, uint other, uint part, ToolMotion m) {
 #ifdef PARTICLES
   axial_cut[3u * slot + (spring >> 1)] = kErasedShare;
 #else
-  vec3 offset = slot < other ? wayOf(slot, other, m) : wayOf(other, slot, m);
+  vec3 offset = wayOf(min(slot, other), max(slot, other), m);
   axial_cut[3u * slot + (spring >> 1)] =
       shareBefore(nodeFromBlade(slot, m) - offset, nodeFromBlade(other, m) - offset, part, startingAt(m, offset));
 #endif

@@ -16,8 +16,9 @@ vec3 sweepNormal(ToolMotion m) {
   vec3 blade = (xyz(m.blade_from) - xyz(m.from)) + (xyz(m.blade_to) - xyz(m.to));
   vec3 move = (xyz(m.to) - xyz(m.from)) + (xyz(m.blade_to) - xyz(m.blade_from));
   precise vec3 normal = cross(blade, move);
-  float size2 = dot(normal, normal);
-  return size2 > 0.0f ? normal * inversesqrt(size2) : vec3(0.0f);
+  precise float size2 = dot(normal, normal);
+  precise vec3 unit = size2 > 0.0f ? normal * inversesqrt(size2) : vec3(0.0f);
+  return unit;
 }
 
 /// Where the blade sees a node: on its own side. That both ends of a spring see the same whether or not the other one has been
@@ -27,7 +28,7 @@ vec3 onItsSide(uint slot, vec3 x, ToolMotion m, float h) {
   vec4 side = cut_sides[slot];
   if (side.w == 0.0f) return x;
   vec3 normal = sweepNormal(m);
-  float same = dot(normal, xyz(side));
+  precise float same = dot(normal, xyz(side));
   if (abs(same) < kSameCut) return x;
   if (same < 0.0f) normal = -normal;
   precise float away = dot(x, normal);

@@ -1,5 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include "solver/gpu/collision_pass.h"
 #include "support/collisions.h"
 #include "support/networks.h"
 #include "support/random_state.h"
@@ -165,5 +166,32 @@ TEST(SearchOnBothBackends, GivesTheSamePairsForEverySizeOfWorkGroup) {
     EXPECT_GT(pairs.size(), 100u);
     EXPECT_EQ(pairsOf("gpu", model, scene, state, 256), pairs);
     EXPECT_EQ(pairsOf("cpu", model, scene, state), pairs);
+  }
+}
+
+/// A body that has collapsed into one point, another that is as it was, and a sheet beside that.
+TEST(SearchOnTheGpu, PassesOverACrowdAndSeesEverybodyElse) {
+  const gpu::Context context;
+  const int edge = 70;  // 4900 nodes
+  ASSERT_GT(static_cast<uint32_t>(edge * edge), CollisionPass::kMostInBucket);
+  const Model model =
+      modelOf({clothBody(edge, edge, kSpacing_m), clothBody(9, 9, kSpacing_m), clothBody(9, 9, kSpacing_m)});
+  const Scene scene = collidingScene(model);
+  const FeatureSet features = featuresOf(model, scene, 1);
+  LatticeBuffers buffers(model, bodyParams(model, safeTimeStep(model)), features);
+  const SurroundingsPass pass(model, scene, features, buffers);
+  for (const bool collapsed : {false, true}) {
+    HostState state = restState(model);
+    for (const uint32_t slot : model.bodies[0].lattice.active_slots) {
+      const Vector3d there(5.001, 5.001, 5.001);
+      state.displacement_m[slot] = collapsed ? vec4(there - restPosition(model.bodies[0], slot)) : vec4(there);
+    }
+    for (const uint32_t slot : model.bodies[2].lattice.active_slots)
+      state.displacement_m[model.slotOffset(2) + slot] = vec4(Vector3d(0, 0, 0.2 * kSpacing_m));
+    buffers.state.displacement[buffers.state.current].write(state.displacement_m);
+    const std::vector<CollisionPair> pairs = pass.findPairs(buffers);
+    EXPECT_GE(pairs.size(), 81u) << "the two sheets that lie on each other";
+    for (const CollisionPair& pair : pairs) EXPECT_GE(pair[0], model.slotOffset(1));
+    EXPECT_EQ(pass.largestCrowd(), collapsed ? model.bodies[0].lattice.active_slots.size() : 0);
   }
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "layout/blade.h"
 #include "solver/cpu/glsl_kernel.h"
 #include "solver/cpu/tool_passes.h"
 

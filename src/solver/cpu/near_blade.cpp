@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "layout/blade.h"
 #include "solver/cpu/glsl.h"
 #include "solver/cpu/glsl_features.h"
 
@@ -170,7 +171,7 @@ void NearBlade::findBricks(const CpuLattice& lattice, const layout::ToolMotion& 
 float NearBlade::farthestOffset(const layout::ToolMotion& motion) const {
   float most2 = 0;
   for (uint32_t b : near_) most2 = std::max(most2, places_[b].speed2);
-  const float overlap = glsl::Blade().kOverlap * glsl::distance(glsl::xyz(motion.to), glsl::xyz(motion.from));
+  const float overlap = layout::kOverlap * glsl::distance(glsl::xyz(motion.to), glsl::xyz(motion.from));
   return (1 + simd::kSweepMargin) * (motion.timing.x * std::sqrt(most2) + overlap);
 }
 

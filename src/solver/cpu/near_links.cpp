@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "layout/blade.h"
 #include "solver/cpu/glsl_kernel.h"
 #include "solver/cpu/near_blade.h"
 
@@ -29,9 +30,6 @@ constexpr size_t kNodesPerJob = 512;
 
 /// Of the box: what rounding of places may hide. Some hundred times that of a float.
 constexpr float kRounding = 1e-5f;
-
-/// Beginning of the sweep of a spring is moved by that much of the tip's way (kOverlap in shaders/solver/blade.glsl).
-constexpr float kOverlap = 1e-3f;
 
 size_t jobsOf(const std::vector<uint32_t>& slots) {
   return (slots.size() + kNodesPerJob - 1) / kNodesPerJob;
@@ -71,7 +69,7 @@ void NearLinks::find(CpuLattice& lattice, const std::vector<uint32_t>& slots, co
   const glsl::vec3 low = glsl::min(glsl::min(glsl::vec3(0.0f), tip), glsl::min(far_from, far_to));
   const glsl::vec3 high = glsl::max(glsl::max(glsl::vec3(0.0f), tip), glsl::max(far_from, far_to));
   // A spring sees the sweep begin where it was itself a substep ago; an eraser reaches blade_from.w farther.
-  const float moved = m.timing.x * fastest(lattice, slots) + kOverlap * glsl::length(tip);
+  const float moved = m.timing.x * fastest(lattice, slots) + layout::kOverlap * glsl::length(tip);
   const float rounding = kRounding * (glsl::length(high - low) + glsl::length(from));
   const float grown = moved + m.blade_from.w + rounding;
   glsl::Nodes nodes(lattice);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "layout/blade.h"
 #include "math/float_bits.h"
 #include "solver/cpu/implicit_substep.h"
 

@@ -43,7 +43,7 @@ CollisionPass::CollisionPass(const Model& model, const Scene& scene, const Featu
     scatter_ = stage("collision_scatter.comp");
     order_ = stage("collision_order.comp");
     bucket_count_ = bucketCount(nodes);
-    buckets_ = gpu::Buffer<uint32_t>(3 * size_t{bucket_count_} + 1, "buckets");
+    buckets_ = gpu::Buffer<uint32_t>(3 * size_t{bucket_count_} + 2, "buckets");
     unsorted_ = gpu::Buffer<uint32_t>(nodes, "unsorted");
     entries_ = gpu::Buffer<layout::uvec4>(nodes, "entries");
     before_ = gpu::Buffer<layout::vec4>(nodes, "before");
@@ -94,6 +94,7 @@ void CollisionPass::tell(const gpu::Program& program, const LatticeBuffers& buff
   program.set("cell_m", cell_m_);
   program.set("widened", widened_);
   program.set("bucket_count", bucket_count_);
+  if (config_.search == CollisionSearch::kGrid) program.set("most_in_bucket", kMostInBucket);
   program.set("friction", static_cast<float>(config_.friction));
   program.set("restitution", static_cast<float>(config_.restitution));
   program.set("partitions", static_cast<uint32_t>(config_.partitions));
@@ -158,6 +159,10 @@ void CollisionPass::run(const LatticeBuffers& buffers, const Substep& step) cons
     tell(*stage, buffers, step);
     dispatch(entries);
   }
+}
+
+size_t CollisionPass::largestCrowd() const {
+  return buckets_.size() ? buckets_.read().back() : 0;
 }
 
 std::vector<CollisionPair> CollisionPass::findPairs(const LatticeBuffers& buffers) const {

@@ -18,6 +18,10 @@ namespace viscera {
 /// shaders/solver/collision_*.comp.
 class CollisionPass {
  public:
+  /// Nodes of a bucket that may be compared each with all: ten times as many as lie in the reach of the coarsest of two
+  /// bodies whose spacings differ tenfold. Larger crowds have collapsed (collision_place.comp).
+  static constexpr uint32_t kMostInBucket = 4096;
+
   /// @param ahead  within an implicit substep: note() instead of run(), from the complete search
   CollisionPass(const Model& model, const Scene& scene, const FeatureSet& features, const LatticeBuffers& buffers,
                 bool ahead = false);
@@ -30,6 +34,9 @@ class CollisionPass {
   void bind() const;
   /// The state was written from outside: see CpuSurroundings::restart().
   void restart();
+
+  /// Nodes of the largest crowd that the last search passed over; 0 where it saw everybody. Waits.
+  size_t largestCrowd() const;
 
   /// For tests: slots a < b of all pairs that the search finds in the current state, ascending, 64 per node at most.
   /// Waits.

@@ -9,6 +9,7 @@
 #include "gpu/program.h"
 #include "gpu/stage_clock.h"
 #include "layout/bindings.h"
+#include "layout/blade.h"
 #include "model/scene/integrators.h"
 #include "solver/cpu/sleep.h"
 #include "viscera/gpu/context.h"
@@ -20,7 +21,7 @@ namespace viscera {
 namespace {
 
 constexpr int kStatsInFlight = 3;
-constexpr double kFarthestCut = 8 * 1.41421357;  // spacings beside a blade that it may cut in (kLongest in blade.glsl)
+const float kFarthestCut = layout::kLongest * 1.41421357f;  // spacings beside a blade that it may cut in
 
 Vector3f xyz(const layout::vec4& v) {
   return {v.x, v.y, v.z};
@@ -127,7 +128,7 @@ void GpuBackend::writeMotions(const std::vector<layout::ToolMotion>& motions) {
   }
   std::vector<ToolBox> disturbed = boxes_;
   for (ToolBox& box : disturbed) {
-    const Vector3f more = Vector3f::Constant(cuts ? static_cast<float>(kFarthestCut) * largest_spacing_m_ : 0);
+    const Vector3f more = Vector3f::Constant(cuts ? kFarthestCut * largest_spacing_m_ : 0);
     box = {box.low - more, box.high + more};
   }
   if (!rest_.disturbNear(disturbed) && rested) return;

@@ -35,6 +35,7 @@ class SurroundingsPass {
   void restart();
   /// For tests, only where there are collisions: CollisionPass::findPairs().
   std::vector<CollisionPair> findPairs(const LatticeBuffers& buffers) const;
+  size_t largestCrowd() const { return collisions_->largestCrowd(); }  ///< the same
 
  private:
   void apply(const gpu::Program& program, LatticeBuffers& buffers, const Substep& step,
