@@ -8,6 +8,7 @@
 #include "bench/harness/backends.h"
 #include "bench/suites/accuracy_suite.h"
 #include "bench/suites/egve_suite.h"
+#include "bench/suites/gpu_suite.h"
 #include "bench/suites/haptics_suite.h"
 #include "bench/suites/material_suite.h"
 #include "bench/suites/performance_suites.h"
@@ -48,6 +49,8 @@ const std::vector<Suite>& suites() {
        run<hapticsSuite>},
       {"latency", "from a pose to its force and its picture; how even ticks are", run<latencySuite>},
       {"limit", "copies and multiply-adds of this machine, and the fraction that is reached", run<limitSuite>},
+      {"gpu", "sizes of work groups and ways to read neighbours on this GPU; equal states whatever the size",
+       run<gpuSuite>},
   };
   return all;
 }

@@ -69,7 +69,8 @@ TEST_F(PerformanceSuite, SkipHasARowOfEachSkipOnEachBackend) {
   EXPECT_EQ(rowsWith("cells", {"cube, full cells"}), 3u);  // one thread, all threads, GPU
   EXPECT_EQ(rowsWith("cells", {"heart"}), 3u);
   EXPECT_EQ(rows("space").size(), 2u);
-  EXPECT_EQ(rows("sleep").size(), 3u);
+  EXPECT_EQ(rowsWith("sleep", {",cpu,"}), 2u);
+  EXPECT_EQ(rowsWith("sleep", {",gpu,"}), 3u);
   EXPECT_EQ(rows("views").size(), 14u);
   // Not a matter of time: these hold on any machine.
   EXPECT_EQ(rowsWith("checks", {"largest difference", ",ok"}), 1u) << ending_.out;
@@ -101,6 +102,13 @@ TEST_F(PerformanceSuite, LatencyHasForceSurfaceAndImageOnEachBackend) {
   EXPECT_EQ(rowsWith("delays", {"pose to surface"}), 4u) << ending_.out;
   EXPECT_EQ(rowsWith("delays", {"pose to image"}), 4u) << ending_.out;
   EXPECT_EQ(rowsWith("delays", {"jitter of ticks"}), 8u) << ending_.out;
+}
+
+TEST_F(PerformanceSuite, GpuHasGroupSizesOfOneHashAndEveryWayToRead) {
+  run("gpu");
+  EXPECT_GE(rows("groups").size(), 2u);
+  EXPECT_EQ(rows("reads").size(), 5u);
+  EXPECT_EQ(rowsWith("checks", {",ok"}), 3u) << ending_.out;
 }
 
 TEST_F(PerformanceSuite, LimitHasMachineAndFractions) {
