@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "math/float_bits.h"
 #include "model/scene/integrators.h"
 #include "solver/stable_step.h"
 #include "tools/motion_packing.h"
+#include "viscera/math/error.h"
 #include "viscera/solver/material.h"
 
 namespace viscera {
@@ -37,6 +39,12 @@ Ticks::Ticks(const Model& model, const Scene& scene, const TickPlan& plan, std::
   finished_.reserve(kFinishedKept);
   if (measuresLimit(model, config_)) dt_limit_s_ = measureLimit_s(*backend_, model);
   planAnew();
+  if (dt_limit_s_ > 0 && substeps_.calm > config_.max_substeps)
+    throw SceneError("a tick of 1/" + std::to_string(config_.tick_hz) + " s needs " + std::to_string(substeps_.calm) +
+                     " substeps (measured stable substep " + std::to_string(dt_limit_s_ * 1e6) + " us, proven " +
+                     std::to_string(dt_safe_s_ * 1e6) +
+                     " us), more than solver.max_substeps = " + std::to_string(config_.max_substeps) +
+                     ": use a larger spacing_m, a softer or heavier material, or raise solver.max_substeps");
   if (plan.governed()) watch_.emplace(*backend_, newGovernor(), !traitsOf(config_.integrator).is_explicit, tick_s_);
   if (plan.tools) motions_.reserve(static_cast<size_t>(plan.mostSubsteps()) * layout::kMaxStyluses);
 }
@@ -101,7 +109,9 @@ int Ticks::calmSubsteps() const {
 
 /// After dt_safe has changed.
 void Ticks::planAnew() {
-  substeps_ = planSubsteps(model_, config_, dt_safe_s_, true);
+  SolverConfig config = config_;
+  config.max_substeps = std::numeric_limits<int>::max();  // what there may be was looked at at the start
+  substeps_ = planSubsteps(model_, config, dt_safe_s_, true);
   if (dt_limit_s_ == 0) return;
   const double dt_s = measuredSubstep_s(config_, dashpot_ratio_, dt_safe_s_, dt_limit_s_, 0);
   substeps_.calm = std::max(1, static_cast<int>(std::ceil(tick_s_ / dt_s)));

@@ -10,6 +10,7 @@
 #include "support/backends.h"
 #include "support/lattices.h"
 #include "support/random_state.h"
+#include "viscera/math/error.h"
 
 using namespace viscera;
 using namespace viscera::test;
@@ -98,6 +99,27 @@ TEST_P(MeasuredLimit, MakesSubstepsLongerByHalfAndMore) {
     scene.solver.measured_limit = false;
     EXPECT_GT(measured_s, kGain * make(model, scene)->dt_s()) << nu;
   }
+}
+
+TEST_P(MeasuredLimit, DecidesWhetherASceneNeedsTooManySubsteps) {
+  const Model model = modelOf({block(0.25, 8)});
+  Scene scene = usual();
+  scene.solver.max_substeps = 1000000;
+  scene.solver.tick_hz = 10;
+  const int measured = make(model, scene)->substeps();
+  ASSERT_LT(measured, planSubsteps(model, scene.solver, safeTimeStep(model)).calm);
+  scene.solver.max_substeps = measured;
+  EXPECT_EQ(make(model, scene)->substeps(), measured);
+  scene.solver.max_substeps = measured - 1;
+  try {
+    make(model, scene);
+    FAIL() << "accepted";
+  } catch (const SceneError& e) {
+    EXPECT_NE(std::string(e.what()).find("measured stable substep"), std::string::npos) << e.what();
+  }
+  scene.solver.max_substeps = measured;
+  scene.solver.measured_limit = false;
+  EXPECT_THROW(make(model, scene), SceneError);
 }
 
 TEST_P(MeasuredLimit, LeavesTheStateAtRest) {

@@ -379,7 +379,8 @@ void visitFields(V& v, SolverConfig& c) {
   v.number("sleep_speed_m_per_s", c.sleep_speed_m_per_s, {0, 0.1}, "m/s",
            "leapfrog: bricks of 4x4x4 nodes that are all slower for 0.1 s are not stepped until something nears or "
            "moves beside them; 0: never");
-  v.integer("max_substeps", c.max_substeps, {1, 100000}, "a scene that needs more substeps per tick is refused");
+  v.integer("max_substeps", c.max_substeps, {1, 100000},
+            "a scene that needs more substeps per tick at rest, measured ones where they are measured, is refused");
   v.number("real_time_factor", c.real_time_factor, {0.01, 1000}, "1",
            "spacing_m: auto: seconds of tissue per second of clock that it must reach");
   v.choice("backend", c.backend, {{"auto", Backend::kAuto}, {"gpu", Backend::kGpu}, {"cpu", Backend::kCpu}},
