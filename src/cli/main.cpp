@@ -6,6 +6,7 @@
 
 #include "cli/commands.h"
 #include "cli/fault.h"
+#include "devices/device_profile.h"
 #include "math/memory_for.h"
 #include "viscera/math/error.h"
 
@@ -18,6 +19,7 @@ struct Options {
   cli::RunOptions run;
   cli::SweepOptions sweep;
   double seconds = 0;
+  std::string keys_of;
 };
 
 void addOverrides(CLI::App* command, Overrides& overrides) {
@@ -82,14 +84,16 @@ int dispatch(int argc, char** argv) {
 
   app.add_subcommand("bench", "measure: `viscera bench --help` lists what");  // main() has taken it
 
-  CLI::App* keys = app.add_subcommand("keys", "print the table of scene keys");
+  CLI::App* keys = app.add_subcommand("keys", "print the table of a file's keys");
+  keys->add_option("file", o.keys_of, "scene, or device: of config/devices; default scene")
+      ->check(CLI::IsMember({"scene", "device"}));
   if (const std::optional<int> ended = cli::parse(app, argc, argv)) return *ended;
   if (*check) return cli::check(o.device);
   if (*settle) return memoryFor("settling scene '" + o.run.scene + "'", [&] { return cli::settle(o.run); });
   if (*anchor) return memoryFor("anchoring in scene '" + o.run.scene + "'", [&] { return cli::anchor(o.run); });
   if (*sweep) return cli::sweep(o.sweep);
   if (*keys) {
-    std::cout << sceneKeysTable();
+    std::cout << (o.keys_of == "device" ? deviceKeysTable() : sceneKeysTable());
     return 0;
   }
   if (std::isnan(o.seconds)) throw Error("--seconds is a number, 0 .. 86400; found nan");  // passes CLI::Range

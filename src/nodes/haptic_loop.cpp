@@ -59,7 +59,7 @@ Wrenches HapticLoop::answers(SteadyTime now, std::array<SteadyTime, layout::kMax
   received = {};
   for (size_t s = 0; s < servos_.size(); ++s) {
     const StylusSample sample = mailboxes_[s]->peek(now);
-    if (!sample.valid) {
+    if (!sample.valid || mailboxes_[s]->clutched()) {
       servos_[s].forget(seconds(now));
       continue;
     }

@@ -92,7 +92,7 @@ SimulatorOptions SceneSwitch::check(const LoadScene::Request& request) const {
   if (request.scene.empty()) throw ParameterError("parameter ~scene: must be given");
   SimulatorOptions next = running_;
   Parameters parameters = parametersOf(request, running_.publish.frame_prefix);
-  next.scene = SceneChoice::read(parameters, "").load(package_folder_);
+  next.take(SceneChoice::read(parameters, "").load(package_folder_), package_folder_);
   // With spacing_m: auto the model is another one in the end, of the same mesh.
   (void)buildModel(next.scene, [this](const std::string&, double) {
     const std::lock_guard<std::mutex> lock(mutex_);

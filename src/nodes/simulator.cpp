@@ -56,10 +56,11 @@ Simulator::~Simulator() {
   wrenches_.release();
 }
 
-SimulatorDiagnostics::Inputs Simulator::makeInputs(const SimulatorOptions& options, const tf2_ros::Buffer& frames) {
+SimulatorDiagnostics::Inputs Simulator::makeInputs(const SimulatorOptions& options, tf2_ros::Buffer& frames) {
   SimulatorDiagnostics::Inputs inputs;
-  for (const StylusConfig& config : options.scene.styluses)
-    inputs.push_back(std::make_unique<StylusInput>(config, options.scene.environment.tissue_frame, frames,
+  for (size_t s = 0; s < options.scene.styluses.size(); ++s)
+    inputs.push_back(std::make_unique<StylusInput>(options.scene.styluses[s], options.devices[s],
+                                                   options.scene.environment.tissue_frame, frames,
                                                    options.max_transform_age_s));
   return inputs;
 }
@@ -90,7 +91,10 @@ LoopPorts Simulator::ports() {
   ports.samples = [this] {
     const auto now = std::chrono::steady_clock::now();
     StylusSamples samples;
-    for (size_t i = 0; i < inputs_.size(); ++i) samples[i] = inputs_[i]->mailbox().take(now);
+    for (size_t i = 0; i < inputs_.size(); ++i) {
+      inputs_[i]->beginTick();
+      samples[i] = inputs_[i]->mailbox().take(now);
+    }
     return samples;
   };
   if (!camera_frames_.empty()) ports.aim = [this](Session& session) { return camera_frames_.apply(session); };
@@ -132,13 +136,15 @@ void Simulator::deliver(Frame&& frame, const StylusSamples& samples, bool live) 
   if (live) {
     WrenchPublisher::Hands hands;
     for (size_t s = 0; s < inputs_.size(); ++s) {
-      // a hand that is not tracked must not be pushed
-      if (samples[s].valid) hands[s] = {frame.reactions[s], frame.poses_received[s], true, frame.contacts[s]};
+      // a hand that is not tracked, or moves without the tool, must not be pushed
+      if (samples[s].valid && !inputs_[s]->mailbox().clutched())
+        hands[s] = {frame.reactions[s], frame.poses_received[s], true, frame.contacts[s]};
     }
     wrenches_.put(hands);
   } else {
     wrenches_.rest();
   }
+  for (size_t s = 0; s < inputs_.size(); ++s) inputs_[s]->endTick(frame.tools[s].to, publisher_.tickStamp());
   tool_frames_.put(samples, publisher_.tickStamp());
   ticks_.publish(frame.tick);
   obstacle_forces_.publish(frame, publisher_.tickStamp());

@@ -47,7 +47,7 @@ class Simulator {
   void run();
 
  private:
-  static SimulatorDiagnostics::Inputs makeInputs(const SimulatorOptions& options, const tf2_ros::Buffer& frames);
+  static SimulatorDiagnostics::Inputs makeInputs(const SimulatorOptions& options, tf2_ros::Buffer& frames);
   SimulatorServices::ModeSet modeSet();
   static std::vector<std::string> toolFrames(const Scene& scene, const std::string& prefix);
   std::vector<const StylusMailbox*> mailboxes() const;

@@ -179,10 +179,13 @@ void SimulatorDiagnostics::stylus(size_t index, Status& status) {
   if (now_ && now_->inside[index])
     status.summary(Level::WARN, "appeared inside tissue: no force until the tip was outside");
   if (dropping) status.summary(Level::WARN, "messages are dropped");
+  status.add("device", input.mailbox().device().about);
   status.add("has_publisher", input.hasPublisher());
   status.add("input_age_s", in.input_age_s);
   status.add("poses_accepted", in.accepted);
   status.add("presses_ignored", in.presses_ignored);
+  status.add("clutched", in.clutched);
+  status.add("base_moves", in.base_moves);
   for (size_t i = 0; i < kDropReasons; ++i)
     status.add(std::string("dropped_") + text(static_cast<Drop>(i)), in.dropped[i]);
   if (index < felt_.size()) {

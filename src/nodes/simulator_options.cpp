@@ -33,9 +33,18 @@ SimulatorOptions simulatorOptions(Parameters& parameters, const std::string& pac
   options.stall_ticks = parameters.number("stall_ticks", options.stall_ticks, 1.5, 1e6);
   options.max_transform_age_s = parameters.number("max_transform_age_s", options.max_transform_age_s, 0.01, 3600);
   options.haptics = hapticOptions(parameters);
+  options.device_choices = DeviceChoices::read(parameters);
   parameters.refuseOthers();
-  options.scene = choice.load(package_folder);
+  const Scene scene = choice.load(package_folder);
+  options.device_choices.requireKnown(scene.styluses);
+  options.take(scene, package_folder);
   return options;
+}
+
+void SimulatorOptions::take(const Scene& another, const std::string& package_folder) {
+  scene = another;
+  devices = device_choices.load(scene.styluses, package_folder);
+  for (size_t s = 0; s < devices.size(); ++s) scene.styluses[s] = withDevice(scene.styluses[s], devices[s]);
 }
 
 }  // namespace viscera::nodes

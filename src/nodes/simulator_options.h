@@ -3,7 +3,10 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
+#include "devices/device_profile.h"
+#include "nodes/device_choice.h"
 #include "nodes/haptic_loop.h"
 #include "nodes/parameters.h"
 #include "nodes/publish_options.h"
@@ -14,15 +17,21 @@ namespace viscera::nodes {
 /// What the private parameters of the simulator say.
 struct SimulatorOptions {
   static constexpr double kLeastSurfaceRate_hz = 0.1, kMostSurfaceRate_hz = 1000;
-  Scene scene;
+  Scene scene;                         ///< its styluses have the limits of their devices
+  std::vector<DeviceProfile> devices;  ///< [styluses]
+  DeviceChoices device_choices;        ///< by the styluses' names, which another scene may have too
   PublishOptions publish;
   double stall_ticks = 3;            ///< forces are zero from so many ticks without one on
   double max_transform_age_s = 0.5;  ///< of what tf knows of a frame that moves
   HapticOptions haptics;
+
+  /// Another scene, whose styluses have the devices that were chosen for those of their names.
+  /// @throws ParameterError, DeviceError, RegistrationError
+  void take(const Scene& another, const std::string& package_folder);
 };
 
-/// @param package_folder  where config/scenes/<name>.yaml are looked up
-/// @throws ParameterError, SceneError
+/// @param package_folder  where config/scenes/<name>.yaml and config/devices/<name>.yaml are looked up
+/// @throws ParameterError, SceneError, DeviceError
 SimulatorOptions simulatorOptions(Parameters& parameters, const std::string& package_folder);
 
 }  // namespace viscera::nodes

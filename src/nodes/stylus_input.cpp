@@ -2,49 +2,163 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/stylus_input.h"
 
+#include <geometry_msgs/TransformStamped.h>
 #include <ros/console.h>
+#include <sensor_msgs/Joy.h>
+
+#include <cmath>
 
 #include "nodes/conversions.h"
+#include "nodes/device_messages.h"
+#include "nodes/foreign/omni_msgs.h"
 
 namespace viscera::nodes {
 namespace {
 
 constexpr uint32_t kButtonQueue = 16;  ///< events, none of which may be overtaken by a newer one
 
+DevicePose poseOf(const geometry_msgs::Pose& message) {
+  return toDevicePose(message, ros::Time::now());
+}
+template <class Stamped>
+DevicePose poseOf(const Stamped& message) {
+  return toDevicePose(message);
+}
+
+ros::TransportHints promptly() {
+  return ros::TransportHints().tcpNoDelay();
+}
+
 }  // namespace
 
-StylusInput::StylusInput(const StylusConfig& config, const std::string& tissue_frame, const tf2_ros::Buffer& frames,
-                         double max_transform_age_s)
+StylusInput::StylusInput(const StylusConfig& config, const DeviceProfile& device, const std::string& tissue_frame,
+                         tf2_ros::Buffer& frames, double max_transform_age_s)
     : frames_(frames),
       tissue_frame_(tissue_frame),
       max_transform_age_s_(max_transform_age_s),
-      mailbox_(config, tissue_frame) {}
+      mailbox_(config, tissue_frame, device) {
+  if (device.pose.type == PoseType::kCrtkArm) arm_ = std::make_unique<CrtkArm>(mailbox_);
+}
 
 void StylusInput::subscribe(ros::NodeHandle& node) {
-  const std::string& name = mailbox_.config().name;
-  const auto hints = ros::TransportHints().tcpNoDelay();
-  for (size_t i = 0; i < buttons_.size(); ++i)
-    buttons_[i] = node.subscribe<sensor_msgs::Joy>(
-        name + "/button" + std::to_string(i + 1), kButtonQueue,
-        [this, i](const sensor_msgs::JoyConstPtr& message) { onButton(i, *message); }, ros::VoidConstPtr(), hints);
-  pose_ = node.subscribe(name + "/measured_cp", 1, &StylusInput::onPose, this, hints);
+  const PosePort& port = mailbox_.device().pose;
+  listenToButtons(node);
+  switch (port.type) {
+    case PoseType::kPoseStamped:
+      listenToPoses<geometry_msgs::PoseStamped>(node);
+      break;
+    case PoseType::kTransformStamped:
+      listenToPoses<geometry_msgs::TransformStamped>(node);
+      break;
+    case PoseType::kPose:
+      listenToPoses<geometry_msgs::Pose>(node);
+      break;
+    case PoseType::kTf:
+      follower_ = std::make_unique<FrameFollower>(frames_, port.tf_base, port.tf_frame,
+                                                  [this](const geometry_msgs::TransformStamped& newest) {
+                                                    const std::string name = mailbox_.device().pose.tf_frame;
+                                                    if (isOlder(newest, max_transform_age_s_)) {
+                                                      warn(name, mailbox_.drop(Drop::kOldTransform));
+                                                    } else {
+                                                      onPose(toDevicePose(newest), name);
+                                                    }
+                                                  });
+      break;
+    case PoseType::kCrtkArm:
+      arm_->subscribe(node, [this](const std::string& frame) { return inTissue(frame); });
+      break;
+  }
+  if (!arm_) listenToGripper(node);
   subscribed_ = true;
 }
 
-void StylusInput::onPose(const ros::MessageEvent<const geometry_msgs::PoseStamped>& event) {
-  const geometry_msgs::PoseStamped& message = *event.getConstMessage();
-  if (senders_.note(event.getPublisherName(), std::chrono::steady_clock::now()))
-    ROS_WARN("%s/measured_cp: several nodes send poses, the tool jumps between them: %s",
-             mailbox_.config().name.c_str(), rivals().c_str());
-  const auto lookup = [this](const std::string& frame) { return inTissue(frame); };
-  const Arrival now{std::chrono::steady_clock::now(), ros::Time::now()};
-  const std::optional<Drop> reason = mailbox_.put(message, lookup, now);
-  const std::string frames = ": '" + message.header.frame_id + "' to '" + tissue_frame_ + "'";
-  warn("measured_cp", reason, reason == Drop::kNoTransform || reason == Drop::kOldTransform ? frames : "");
+template <class Message>
+void StylusInput::listenToPoses(ros::NodeHandle& node) {
+  const std::string topic = mailbox_.device().pose.topic;
+  const boost::function<void(const ros::MessageEvent<const Message>&)> listen =
+      [this, topic](const ros::MessageEvent<const Message>& event) {
+        if (senders_.note(event.getPublisherName(), std::chrono::steady_clock::now()))
+          ROS_WARN("%s: several nodes send poses, the tool jumps between them: %s", topic.c_str(), rivals().c_str());
+        onPose(poseOf(*event.getConstMessage()), topic);
+      };
+  pose_ = node.subscribe<Message>(topic, 1, listen, ros::VoidConstPtr(), promptly());
 }
 
-void StylusInput::onButton(size_t button, const sensor_msgs::Joy& message) {
-  warn("button" + std::to_string(button + 1), mailbox_.put(button, message, std::chrono::steady_clock::now()));
+void StylusInput::listenToButtons(ros::NodeHandle& node) {
+  const DeviceProfile& device = mailbox_.device();
+  const auto listen = [&](const ButtonPort& port, ButtonRole role) {
+    if (port.type == ButtonType::kJoy) {
+      others_.push_back(node.subscribe<sensor_msgs::Joy>(
+          port.topic, kButtonQueue,
+          [this, &port, role](const sensor_msgs::JoyConstPtr& message) { onButtons(port, role, message->buttons); },
+          ros::VoidConstPtr(), promptly()));
+    } else if (port.type == ButtonType::kOmniButton) {
+      const boost::function<void(const boost::shared_ptr<const foreign::OmniButtonEvent>&)> heard =
+          [this, &port, role](const boost::shared_ptr<const foreign::OmniButtonEvent>& message) {
+            onButtons(port, role, {message->grey_button, message->white_button});
+          };
+      others_.push_back(
+          node.subscribe<foreign::OmniButtonEvent>(port.topic, kButtonQueue, heard, ros::VoidConstPtr(), promptly()));
+    }
+  };
+  listen(device.button1, ButtonRole::kButton1);
+  listen(device.button2, ButtonRole::kButton2);
+  listen(device.clutch, ButtonRole::kClutch);
+}
+
+void StylusInput::listenToGripper(ros::NodeHandle& node) {
+  const GripperPort& port = mailbox_.device().gripper;
+  if (port.presses == PressedButton::kNone) return;
+  others_.push_back(node.subscribe<sensor_msgs::JointState>(
+      port.topic, 1, [this](const sensor_msgs::JointStateConstPtr& message) { onGripper(*message); },
+      ros::VoidConstPtr(), promptly()));
+}
+
+void StylusInput::onPose(const DevicePose& pose, const std::string& topic) {
+  const auto lookup = [this](const std::string& frame) { return inTissue(frame); };
+  const Arrival now{std::chrono::steady_clock::now(), ros::Time::now()};
+  const std::optional<Drop> reason = mailbox_.put(pose, lookup, now);
+  const PosePort& port = mailbox_.device().pose;
+  const std::string frame = port.frame.empty() ? pose.frame : port.frame;
+  std::string detail;
+  if (reason == Drop::kNoTransform || reason == Drop::kOldTransform)
+    detail = ": '" + frame + "' to '" + tissue_frame_ + "'";
+  if (reason == Drop::kOutsideWorkspace && port.unit_m == 1)
+    detail = ": if this device sends millimetres, its profile wants pose.unit_m: 0.001";
+  warn(topic, reason, detail);
+  const uint64_t moves = mailbox_.status(now.steady).base_moves;
+  if (moves != base_moves_told_)
+    ROS_WARN_THROTTLE(5, "%s: the frame '%s' was moved; the hand appears anew, and its buttons must be let go first",
+                      topic.c_str(), frame.c_str());
+  base_moves_told_ = moves;
+}
+
+void StylusInput::onButtons(const ButtonPort& port, ButtonRole role, const std::vector<int32_t>& values) {
+  warn(port.topic, mailbox_.press(role, values, static_cast<size_t>(port.index), std::chrono::steady_clock::now()));
+}
+
+void StylusInput::onGripper(const sensor_msgs::JointState& message) {
+  const GripperPort& port = mailbox_.device().gripper;
+  const size_t joint = static_cast<size_t>(port.index);
+  if (joint >= message.position.size()) return warn(port.topic, mailbox_.drop(Drop::kNoButtons));
+  if (!std::isfinite(message.position[joint])) return warn(port.topic, mailbox_.drop(Drop::kNotFinite));
+  gripper_closed_ = message.position[joint] < (gripper_closed_ ? port.open_above : port.closed_below);
+  const ButtonRole role = port.presses == PressedButton::kButton1 ? ButtonRole::kButton1 : ButtonRole::kButton2;
+  mailbox_.press(role, {gripper_closed_ ? 1 : 0}, 0, std::chrono::steady_clock::now());
+}
+
+void StylusInput::beginTick() {
+  if (arm_) arm_->beginTick();
+}
+
+void StylusInput::endTick(const Pose& tool, const ros::Time& stamp) {
+  if (arm_ && subscribed_) arm_->endTick(tool, stamp);
+}
+
+bool StylusInput::hasPublisher() const {
+  if (!subscribed_) return false;
+  if (arm_) return arm_->hasClient();
+  return follower_ ? follower_->found() : pose_.getNumPublishers() > 0;
 }
 
 FramePlace StylusInput::inTissue(const std::string& frame) const {
@@ -63,8 +177,8 @@ FramePlace StylusInput::inTissue(const std::string& frame) const {
 void StylusInput::warn(const std::string& topic, std::optional<Drop> reason, const std::string& detail) {
   if (!reason || warned_[static_cast<size_t>(*reason)]) return;
   warned_[static_cast<size_t>(*reason)] = true;
-  ROS_WARN("%s/%s: a message was dropped (%s%s); later ones are counted in /diagnostics",
-           mailbox_.config().name.c_str(), topic.c_str(), text(*reason), detail.c_str());
+  ROS_WARN("%s: a message was dropped (%s%s); later ones are counted in /diagnostics", topic.c_str(), text(*reason),
+           detail.c_str());
 }
 
 }  // namespace viscera::nodes

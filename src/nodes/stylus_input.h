@@ -2,49 +2,69 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <geometry_msgs/PoseStamped.h>
 #include <ros/node_handle.h>
+#include <sensor_msgs/JointState.h>
 #include <tf2_ros/buffer.h>
 
 #include <array>
 #include <atomic>
+#include <memory>
 #include <string>
+#include <vector>
 
+#include "nodes/crtk_arm.h"
+#include "nodes/frame_follower.h"
 #include "nodes/sender_watch.h"
 #include "nodes/stylus_mailbox.h"
 
 namespace viscera::nodes {
 
-/// Subscriptions of one stylus, `<stylus>/measured_cp`, `button1` and `button2`, into its mailbox.
+/// What the device of one stylus sends, as its profile says, into the stylus's mailbox.
 class StylusInput {
  public:
   /// @param frames  must outlive this
   /// @param max_transform_age_s  of what tf knows of a frame that moves [s]
-  StylusInput(const StylusConfig& config, const std::string& tissue_frame, const tf2_ros::Buffer& frames,
-              double max_transform_age_s);
+  StylusInput(const StylusConfig& config, const DeviceProfile& device, const std::string& tissue_frame,
+              tf2_ros::Buffer& frames, double max_transform_age_s);
   StylusInput(const StylusInput&) = delete;
   StylusInput& operator=(const StylusInput&) = delete;
 
   /// Only now, when the simulation is ready, a device (or a replay that waits for a subscriber) is listened to.
   void subscribe(ros::NodeHandle& node);
   StylusMailbox& mailbox() { return mailbox_; }
+  /// Of a tick that begins now: where an arm is that moves by itself. Called by the thread that steps.
+  void beginTick();
+  /// What clients of an arm want to know of it after a tick.
+  /// @param tool  where it is then, tissue frame
+  void endTick(const Pose& tool, const ros::Time& stamp);
   /// Nodes that send poses at the same time, if there are several; else empty.
   std::string rivals() const { return senders_.several(std::chrono::steady_clock::now()); }
-  bool hasPublisher() const { return subscribed_ && pose_.getNumPublishers() > 0; }
+  bool hasPublisher() const;
 
  private:
-  void onPose(const ros::MessageEvent<const geometry_msgs::PoseStamped>& event);
-  void onButton(size_t button, const sensor_msgs::Joy& message);
+  template <class Message>
+  void listenToPoses(ros::NodeHandle& node);
+  void listenToButtons(ros::NodeHandle& node);
+  void listenToGripper(ros::NodeHandle& node);
+  void onPose(const DevicePose& pose, const std::string& topic);
+  void onButtons(const ButtonPort& port, ButtonRole role, const std::vector<int32_t>& values);
+  void onGripper(const sensor_msgs::JointState& message);
   FramePlace inTissue(const std::string& frame) const;
   void warn(const std::string& topic, std::optional<Drop> reason, const std::string& detail = "");
 
-  const tf2_ros::Buffer& frames_;
+  tf2_ros::Buffer& frames_;
   const std::string tissue_frame_;
   const double max_transform_age_s_;
   StylusMailbox mailbox_;
   SenderWatch senders_;
   std::array<bool, kDropReasons> warned_{};
+  uint64_t base_moves_told_ = 0;
+  bool gripper_closed_ = false;
   ros::Subscriber pose_;
-  std::array<ros::Subscriber, 2> buttons_;
+  std::vector<ros::Subscriber> others_;  ///< buttons, gripper
+  std::unique_ptr<FrameFollower> follower_;
+  std::unique_ptr<CrtkArm> arm_;
   std::atomic<bool> subscribed_{false};  ///< set after the subscribers, which the diagnostics read on another thread
 };
 

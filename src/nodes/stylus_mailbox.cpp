@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "nodes/conversions.h"
 
@@ -12,6 +13,8 @@ namespace {
 
 /// Joy messages of a driver that repeats them come within this of its first pose.
 constexpr std::chrono::milliseconds kFirstButtons{250};
+/// Between two poses nothing that stands in a room moves so far; a base that was put elsewhere did.
+constexpr double kBaseLeap_m = 0.005;
 /// A device that was silent for so long may come back with another clock.
 constexpr std::chrono::seconds kNewClock{5};
 
@@ -34,8 +37,8 @@ const char* text(Drop reason) {
   return kNames[static_cast<size_t>(reason)];
 }
 
-StylusMailbox::StylusMailbox(const StylusConfig& config, const std::string& tissue_frame)
-    : config_(config), tissue_frame_(tissue_frame) {
+StylusMailbox::StylusMailbox(const StylusConfig& config, const std::string& tissue_frame, const DeviceProfile& device)
+    : config_(config), tissue_frame_(tissue_frame), device_(device), map_(device) {
   device_frame_.name = tissue_frame;
 }
 
@@ -45,36 +48,51 @@ std::optional<Drop> StylusMailbox::drop(Drop reason) {
   return reason;
 }
 
-std::optional<Drop> StylusMailbox::put(const geometry_msgs::PoseStamped& message, const FrameLookup& lookup,
-                                       const Arrival& now) {
-  const ros::Time& stamp = message.header.stamp;
-  if (stamp.isZero()) return drop(Drop::kStampZero);
-  Pose in_device = fromMessage(message.pose);
+std::optional<Drop> StylusMailbox::put(const DevicePose& said, const FrameLookup& lookup, const Arrival& now) {
+  if (said.stamp.isZero()) return drop(Drop::kStampZero);
+  Pose in_device = said.pose;
   if (!isFinite(in_device)) return drop(Drop::kNotFinite);
   // negated, so that an overflow of the norm is refused too
   if (!(std::abs(in_device.orientation.norm() - 1) <= kQuaternionTolerance)) return drop(Drop::kBadQuaternion);
   in_device.orientation.normalize();
 
-  const std::string& named = message.header.frame_id;
+  const std::string& named = device_.pose.frame.empty() ? said.frame : device_.pose.frame;
   const std::string frame = named.empty() ? tissue_frame_ : tf2Name(named);
-  const FramePlace place = frame == tissue_frame_ ? FramePlace{Pose{}} : lookup(frame);
+  const FramePlace place = map_.base()              ? FramePlace{*map_.base()}
+                           : frame == tissue_frame_ ? FramePlace{Pose{}}
+                                                    : lookup(frame);
   if (!place.in_tissue) return drop(place.too_old ? Drop::kOldTransform : Drop::kNoTransform);
-  const Pose in_tissue = *place.in_tissue * in_device;
-  if (!isFinite(in_tissue)) return drop(Drop::kNotFinite);
-  if (!(in_tissue.position_m.norm() <= config_.workspace_m)) return drop(Drop::kOutsideWorkspace);
 
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (const std::optional<Drop> late = checkStamp(stamp, now)) {
-    ++status_.dropped[static_cast<size_t>(*late)];
-    return late;
-  }
-  noteStamp(stamp, now);
+  const auto refuse = [this](Drop reason) {
+    ++status_.dropped[static_cast<size_t>(reason)];
+    return reason;
+  };
+  const Pose in_tissue = *place.in_tissue * map_.toBase(in_device);
+  if (!isFinite(in_tissue)) return refuse(Drop::kNotFinite);
+  if (!(in_tissue.position_m.norm() <= config_.workspace_m)) return refuse(Drop::kOutsideWorkspace);
+  if (const std::optional<Drop> late = checkStamp(said.stamp, now)) return refuse(*late);
+  notePlace(frame, *place.in_tissue);
+  noteStamp(said.stamp, now);
   pose_ = in_tissue;
   pose_.orientation.normalize();
-  device_frame_ = {frame, place.in_tissue->orientation.conjugate()};
+  const Quaterniond axes = map_.axesFromBase();
+  device_frame_ = {frame, axes * place.in_tissue->orientation.conjugate(), axes * map_.leverArm(in_device),
+                   in_device.position_m};
   status_.seen = true;
   ++status_.accepted;
   return std::nullopt;
+}
+
+/// The hand did not sweep through the tissue when somebody moved the table.
+void StylusMailbox::notePlace(const std::string& frame, const Pose& base) {
+  const bool leapt =
+      status_.seen && frame == device_frame_.name && (base.position_m - base_.position_m).norm() > kBaseLeap_m;
+  base_ = base;
+  if (!leapt) return;
+  endButtons();
+  appears_anew_ = true;
+  ++status_.base_moves;
 }
 
 /// Poses of a clock that stands still (ours, where ROS time is simulated) are told from those of a driver that hangs by
@@ -105,13 +123,18 @@ void StylusMailbox::noteStamp(const ros::Time& stamp, const Arrival& now) {
   received_ = now.steady;
 }
 
-std::optional<Drop> StylusMailbox::put(size_t button, const sensor_msgs::Joy& message, SteadyTime now) {
-  if (message.buttons.empty()) return drop(Drop::kNoButtons);
-  const int value = message.buttons.front();
+std::optional<Drop> StylusMailbox::press(ButtonRole role, const std::vector<int32_t>& values, size_t index,
+                                         SteadyTime now) {
+  if (index >= values.size()) return drop(Drop::kNoButtons);
+  const int value = values[index];
   if (value < 0 || value > 2) return drop(Drop::kButtonValue);
   const std::lock_guard<std::mutex> lock(mutex_);
+  if (role == ButtonRole::kClutch) {
+    map_.setClutch(value == 1);
+    return std::nullopt;
+  }
   if (!isLive(now)) endButtons();
-  Button& state = buttons_.at(button);
+  Button& state = buttons_[role == ButtonRole::kButton2];
   // A driver that tells the state of its buttons again and again tells soon what was down when the hand came.
   const bool was_down = !isLive(now) || (!state.heard && now - came_ < kFirstButtons);
   state.heard = true;
@@ -143,15 +166,21 @@ void StylusMailbox::forgetButtons() {
   endButtons();
 }
 
+void StylusMailbox::hold(bool held) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (held_ && !held) received_ = {};
+  held_ = held;
+}
+
 bool StylusMailbox::isStale(SteadyTime now) const {
-  return std::chrono::duration<double>(now - received_).count() > config_.stale_after_s;
+  return !held_ && std::chrono::duration<double>(now - received_).count() > config_.stale_after_s;
 }
 
 StylusSample StylusMailbox::take(SteadyTime now) {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (!isLive(now)) endButtons();
   StylusSample sample;
-  sample.valid = isLive(now);
+  sample.valid = isLive(now) && !std::exchange(appears_anew_, false);
   sample.pose = pose_;
   sample.received = received_;
   sample.button1 = buttons_[0].take();
@@ -172,8 +201,19 @@ StylusStatus StylusMailbox::status(SteadyTime now) const {
   const std::lock_guard<std::mutex> lock(mutex_);
   StylusStatus out = status_;
   out.stale = out.seen && isStale(now);
+  out.clutched = map_.clutched();
   out.input_age_s = out.seen ? std::chrono::duration<double>(now - received_).count() : 0;
   return out;
+}
+
+Pose StylusMailbox::inDevice(const Pose& in_tissue) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return map_.fromBase(base_.inverse() * in_tissue);
+}
+
+bool StylusMailbox::clutched() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return map_.clutched();
 }
 
 DeviceFrame StylusMailbox::deviceFrame() const {

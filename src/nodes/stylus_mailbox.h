@@ -2,9 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <geometry_msgs/PoseStamped.h>
 #include <ros/time.h>
-#include <sensor_msgs/Joy.h>
 
 #include <array>
 #include <chrono>
@@ -13,7 +11,9 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "devices/device_map.h"
 #include "viscera/tools/stylus.h"
 
 namespace viscera::nodes {
@@ -28,14 +28,21 @@ enum class Drop {
   kRepeatedStamp,     ///< the stamp of a pose that is stale already: the driver hangs
   kDelayed,           ///< later than StylusConfig::stale_after_s behind the swiftest pose of this device
   kOutsideWorkspace,  ///< farther than StylusConfig::workspace_m from the tissue frame's origin
-  kNoButtons,         ///< Joy without a button
-  kButtonValue        ///< Joy with a value other than 0, 1, 2
+  kNoButtons,         ///< a message without the button or joint that the profile names
+  kButtonValue        ///< a button with a value other than 0, 1, 2
 };
 constexpr size_t kDropReasons = 10;
 const char* text(Drop reason);  ///< snake_case, as in the diagnostics
 
 /// Some trackers send quaternions that are a few percent off unit length: those are normalised, others refused.
 constexpr double kQuaternionTolerance = 0.1;
+
+/// What a device says of where it is, in its own units and axes.
+struct DevicePose {
+  Pose pose;
+  std::string frame;  ///< empty: the tissue frame
+  ros::Time stamp;
+};
 
 /// Where a frame is.
 struct FramePlace {
@@ -56,6 +63,8 @@ struct StylusStatus {
   double input_age_s = 0;        ///< since the last accepted pose
   uint64_t accepted = 0;         ///< poses
   uint64_t presses_ignored = 0;  ///< of buttons that were down when the hand came, or without a hand
+  uint64_t base_moves = 0;       ///< times that the device's base leapt, and the hand appeared anew
+  bool clutched = false;
   std::array<uint64_t, kDropReasons> dropped{};
 };
 
@@ -63,18 +72,27 @@ struct StylusStatus {
 struct DeviceFrame {
   std::string name;
   Quaterniond from_tissue = Quaterniond::Identity();  ///< turns a vector of the tissue frame into this frame
+  Vector3d lever_arm_m = Vector3d::Zero();            ///< from the origin of its poses to the tip, in this frame
+  Vector3d position = Vector3d::Zero();               ///< of its last pose, in its own unit
 };
+
+/// What a button of a device is for.
+enum class ButtonRole { kButton1, kButton2, kClutch };
 
 /// One slot for the latest valid pose and the buttons of a stylus, between ROS callbacks and the simulation's thread.
 class StylusMailbox {
  public:
-  StylusMailbox(const StylusConfig& config, const std::string& tissue_frame);
+  /// @param device  of this stylus; by default one that speaks CRTK
+  StylusMailbox(const StylusConfig& config, const std::string& tissue_frame, const DeviceProfile& device = {});
 
   /// Checks a pose, brings it to the tissue frame and keeps it; or says why not. No frame means the tissue frame.
-  std::optional<Drop> put(const geometry_msgs::PoseStamped& message, const FrameLookup& lookup, const Arrival& now);
+  std::optional<Drop> put(const DevicePose& said, const FrameLookup& lookup, const Arrival& now);
   /// A button ends with its hand: what was down when the poses grew stale, or is down when they begin, must be let go
-  /// before it acts. @param button  0 or 1
-  std::optional<Drop> put(size_t button, const sensor_msgs::Joy& message, SteadyTime now);
+  /// before it acts. @param values  of a message's buttons, 0 released, 1 pressed, 2 clicked   @param index  which
+  std::optional<Drop> press(ButtonRole role, const std::vector<int32_t>& values, size_t index, SteadyTime now);
+  /// Its pose does not grow stale, as that of an arm, which stays where it was sent; or does again, and is stale at
+  /// once.
+  void hold(bool held);
 
   /// Nobody listened for a while, as in a pause: buttons must be let go before they act.
   void forgetButtons();
@@ -86,7 +104,14 @@ class StylusMailbox {
 
   StylusStatus status(SteadyTime now) const;
   DeviceFrame deviceFrame() const;
+  /// A pose of the tissue frame as the device would tell it.
+  Pose inDevice(const Pose& in_tissue) const;
+  /// The hand moves without the tool: it is to feel nothing.
+  bool clutched() const;
+  /// Counts a message that somebody else found not to be usable.
+  std::optional<Drop> drop(Drop reason);
   const StylusConfig& config() const { return config_; }
+  const DeviceProfile& device() const { return device_; }
 
  private:
   struct Button {
@@ -102,11 +127,16 @@ class StylusMailbox {
   void endButtons();
   std::optional<Drop> checkStamp(const ros::Time& stamp, const Arrival& now) const;
   void noteStamp(const ros::Time& stamp, const Arrival& now);
-  std::optional<Drop> drop(Drop reason);
+  void notePlace(const std::string& frame, const Pose& base);
 
   const StylusConfig config_;
   const std::string tissue_frame_;
+  const DeviceProfile device_;
   mutable std::mutex mutex_;
+  DeviceMap map_;
+  Pose base_;                  ///< where the frame of the last pose was
+  bool appears_anew_ = false;  ///< the next sample is none: what was before it is no motion
+  bool held_ = false;
   Pose pose_;
   DeviceFrame device_frame_;
   SteadyTime received_{};  ///< of the newest accepted stamp

@@ -2,15 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/wrench_publisher.h"
 
-#include <geometry_msgs/WrenchStamped.h>
 #include <ros/console.h>
-#include <std_msgs/Bool.h>
 #include <std_msgs/Float64.h>
 
 #include <algorithm>
 #include <utility>
 
-#include "nodes/conversions.h"
 #include "nodes/impedance.h"
 #include "nodes/thread_name.h"
 #include "nodes/thread_schedule.h"
@@ -41,15 +38,7 @@ WrenchPublisher::WrenchPublisher(ros::NodeHandle& node, const std::vector<const 
       priority_(options.priority),
       tissue_frame_(scene.environment.tissue_frame),
       latencies_(mailboxes.size()) {
-  for (const StylusMailbox* mailbox : mailboxes_) {
-    const std::string body = mailbox->config().name + "/body/";
-    forces_.push_back(node.advertise<geometry_msgs::WrenchStamped>(body + "servo_cf", 1));
-    // A CRTK device takes a body wrench in its tip's frame unless told that it is in the frame of its poses.
-    absolutes_.push_back(node.advertise<std_msgs::Bool>(body + "set_cf_orientation_absolute", 1, true));
-    std_msgs::Bool absolute;
-    absolute.data = true;
-    absolutes_.back().publish(absolute);
-  }
+  for (const StylusMailbox* mailbox : mailboxes_) sinks_.emplace_back(node, mailbox->device());
   for (const StylusMailbox* mailbox : mailboxes_) {
     if (!haptics_.on()) break;
     energies_.push_back(node.advertise<std_msgs::Float64>(mailbox->config().name + "/energy", 1));
@@ -123,8 +112,7 @@ void WrenchPublisher::schedule() {
 }
 
 bool WrenchPublisher::isHeard() const {
-  return std::any_of(forces_.begin(), forces_.end(),
-                     [](const ros::Publisher& force) { return force.getNumSubscribers() > 0; });
+  return std::any_of(sinks_.begin(), sinks_.end(), [](const ForceSink& sink) { return sink.hasSubscribers(); });
 }
 
 /// When the next message is due. @param period_due  of the loop between ticks
@@ -175,10 +163,8 @@ void WrenchPublisher::main() {
 
 void WrenchPublisher::send(const Wrenches& wrenches) {
   const ros::Time stamp = ros::Time::now();
-  for (size_t s = 0; s < forces_.size(); ++s) {
-    if (forces_[s].getNumSubscribers() == 0) continue;
-    const DeviceFrame frame = mailboxes_[s]->deviceFrame();
-    forces_[s].publish(toWrench(wrenches[s], frame.from_tissue, frame.name, stamp));
+  for (size_t s = 0; s < sinks_.size(); ++s) {
+    if (sinks_[s].hasSubscribers()) sinks_[s].send(wrenches[s], mailboxes_[s]->deviceFrame(), stamp);
   }
 }
 

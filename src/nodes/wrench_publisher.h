@@ -10,6 +10,7 @@
 #include <thread>
 #include <vector>
 
+#include "nodes/force_sink.h"
 #include "nodes/haptic_loop.h"
 #include "nodes/latency_meter.h"
 #include "nodes/stylus_mailbox.h"
@@ -17,8 +18,8 @@
 
 namespace viscera::nodes {
 
-/// Forces to the devices, `<stylus>/body/servo_cf` and its companion for orientation, from a thread that waits for
-/// nobody: neither for the simulation, whose stall it notices and answers with zeros, nor for those who show pictures.
+/// Forces to the devices, each to its ForceSink, from a thread that waits for nobody: neither for the simulation, whose
+/// stall it notices and answers with zeros, nor for those who show pictures.
 class WrenchPublisher {
  public:
   /// What a tick has for a stylus.
@@ -66,7 +67,7 @@ class WrenchPublisher {
   void sendImpedances(bool live);
 
   std::vector<const StylusMailbox*> mailboxes_;
-  std::vector<ros::Publisher> forces_, absolutes_;  ///< [styluses]
+  std::vector<ForceSink> sinks_;  ///< [styluses]
 
   std::mutex mutex_;
   std::condition_variable changed_, sent_;

@@ -11,8 +11,9 @@ namespace {
 
 using namespace test;
 
-constexpr const char* kRenew =
-    "renew the table: sed -i '/^|/d' docs/scene_keys.md && build/viscera keys >> docs/scene_keys.md";
+std::string renew(const std::string& document, const std::string& command) {
+  return "renew the table: sed -i '/^|/d' " + document + " && build/viscera " + command + " >> " + document;
+}
 
 /// Lines from the head of the table to the end of the text.
 std::vector<std::string> tableOf(const std::string& text) {
@@ -20,12 +21,21 @@ std::vector<std::string> tableOf(const std::string& text) {
   return head == std::string::npos ? std::vector<std::string>() : linesOf(text.substr(head));
 }
 
-TEST(Keys, DocumentHoldsTheTableThatTheCommandPrints) {
-  const std::vector<std::string> document = tableOf(readFile(std::string(VISCERA_SOURCE_DIR) + "/docs/scene_keys.md"));
-  const std::vector<std::string> printed = tableOf(viscera({"keys"}).out);
+void expectTable(const std::string& name, const std::vector<std::string>& command) {
+  const std::vector<std::string> document = tableOf(readFile(std::string(VISCERA_SOURCE_DIR) + "/" + name));
+  const std::vector<std::string> printed = tableOf(viscera(command).out);
+  const std::string how = renew(name, command.size() > 1 ? "keys " + command[1] : "keys");
   ASSERT_FALSE(printed.empty());
-  for (size_t i = 0; i < std::min(document.size(), printed.size()); ++i) ASSERT_EQ(document[i], printed[i]) << kRenew;
-  EXPECT_EQ(document.size(), printed.size()) << kRenew;
+  for (size_t i = 0; i < std::min(document.size(), printed.size()); ++i) ASSERT_EQ(document[i], printed[i]) << how;
+  EXPECT_EQ(document.size(), printed.size()) << how;
+}
+
+TEST(Keys, DocumentHoldsTheTableThatTheCommandPrints) {
+  expectTable("docs/scene_keys.md", {"keys"});
+}
+
+TEST(Keys, DocumentOfDevicesToo) {
+  expectTable("docs/device_keys.md", {"keys", "device"});
 }
 
 }  // namespace

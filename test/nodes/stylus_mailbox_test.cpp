@@ -24,19 +24,8 @@ StylusConfig config() {
   return config;
 }
 
-geometry_msgs::PoseStamped poseAt(double x_m, const std::string& frame = "tissue") {
-  geometry_msgs::PoseStamped message;
-  message.header.frame_id = frame;
-  message.header.stamp = ros::Time(kBegin_s);
-  message.pose.position.x = x_m;
-  message.pose.orientation.w = 1;
-  return message;
-}
-
-sensor_msgs::Joy joy(std::vector<int> buttons) {
-  sensor_msgs::Joy message;
-  message.buttons.assign(buttons.begin(), buttons.end());
-  return message;
+DevicePose poseAt(double x_m, const std::string& frame = "tissue") {
+  return {{{x_m, 0, 0}, Quaterniond::Identity()}, frame, ros::Time(kBegin_s)};
 }
 
 FramePlace nowhere(const std::string&) {
@@ -49,16 +38,16 @@ Arrival arrival(double time_s) {
 }
 
 /// A good pose, stamped when it comes.
-geometry_msgs::PoseStamped poseNow(double time_s) {
-  geometry_msgs::PoseStamped message = poseAt(0.1);
-  message.header.stamp = ros::Time(kBegin_s + time_s);
+DevicePose poseNow(double time_s) {
+  DevicePose message = poseAt(0.1);
+  message.stamp = ros::Time(kBegin_s + time_s);
   return message;
 }
 
 class StylusMailboxTest : public ::testing::Test {
  protected:
   /// The message is dropped for this reason, counted, and leaves no sample.
-  void expectDropped(const geometry_msgs::PoseStamped& message, Drop reason) {
+  void expectDropped(const DevicePose& message, Drop reason) {
     EXPECT_EQ(mailbox_.put(message, nowhere, arrival(0)), reason);
     EXPECT_EQ(mailbox_.status(at(0)).dropped[static_cast<size_t>(reason)], 1u);
     EXPECT_FALSE(mailbox_.take(at(0)).valid);
@@ -108,7 +97,7 @@ TEST_F(StylusMailboxTest, UnknownFrameIsDroppedAndNeverTakenForIdentity) {
 
 TEST_F(StylusMailboxTest, ZeroStampMeansInvalid) {
   auto message = poseAt(0.1);
-  message.header.stamp = ros::Time();
+  message.stamp = ros::Time();
   expectDropped(message, Drop::kStampZero);
 }
 
@@ -125,19 +114,19 @@ TEST_F(StylusMailboxTest, InfiniteTransformIsDropped) {
 
 TEST_F(StylusMailboxTest, QuaternionWithoutLengthIsDropped) {
   auto message = poseAt(0.1);
-  message.pose.orientation.w = 0;
+  message.pose.orientation.w() = 0;
   expectDropped(message, Drop::kBadQuaternion);
 }
 
 TEST_F(StylusMailboxTest, QuaternionWhoseLengthOverflowsIsDropped) {
   auto message = poseAt(0.1);
-  message.pose.orientation.w = 1e300;
+  message.pose.orientation.w() = 1e300;
   expectDropped(message, Drop::kBadQuaternion);
 }
 
 TEST_F(StylusMailboxTest, QuaternionThatIsNearlyUnitIsNormalised) {
   auto message = poseAt(0.1);
-  message.pose.orientation.w = 1.05;
+  message.pose.orientation.w() = 1.05;
   EXPECT_EQ(mailbox_.put(message, nowhere, arrival(0)), std::nullopt);
   EXPECT_NEAR(mailbox_.take(at(0)).pose.orientation.norm(), 1, kRounding_m);
 }
@@ -193,8 +182,8 @@ TEST_F(StylusMailboxTest, DeviceThatComesBackWithAnEarlierClockIsHeard) {
 }
 
 TEST_F(StylusMailboxTest, StampsFarApartAreNoTrouble) {
-  geometry_msgs::PoseStamped message = poseAt(0.1);
-  message.header.stamp = ros::Time(4294967295u, 0);  // 136 years: more than a ros::Duration holds
+  DevicePose message = poseAt(0.1);
+  message.stamp = ros::Time(4294967295u, 0);  // 136 years: more than a ros::Duration holds
   EXPECT_EQ(mailbox_.put(message, nowhere, arrival(0)), std::nullopt);
   EXPECT_EQ(mailbox_.put(poseNow(1), nowhere, arrival(1)), std::nullopt);
 }
@@ -213,7 +202,9 @@ class StylusButtonTest : public StylusMailboxTest {
     for (double t = from_s; t <= to_s; t += 0.1) mailbox_.put(poseNow(t), nowhere, arrival(t));
     mailbox_.put(poseNow(to_s), nowhere, arrival(to_s));
   }
-  void press(size_t button, int value, double time_s = kNow_s) { mailbox_.put(button, joy({value}), at(time_s)); }
+  void press(size_t button, int value, double time_s = kNow_s) {
+    mailbox_.press(button == 0 ? ButtonRole::kButton1 : ButtonRole::kButton2, {value}, 0, at(time_s));
+  }
   StylusSample take(double time_s = kNow_s) { return mailbox_.take(at(time_s)); }
 };
 
@@ -293,10 +284,63 @@ TEST_F(StylusButtonTest, ForgottenOnesMustBeReleased) {
 }
 
 TEST_F(StylusButtonTest, JoyWithoutOrWithStrangeButtonsIsDropped) {
-  EXPECT_EQ(mailbox_.put(0, joy({}), at(1)), Drop::kNoButtons);
-  EXPECT_EQ(mailbox_.put(0, joy({3}), at(1)), Drop::kButtonValue);
-  EXPECT_EQ(mailbox_.put(0, joy({-1}), at(1)), Drop::kButtonValue);
+  EXPECT_EQ(mailbox_.press(ButtonRole::kButton1, {}, 0, at(1)), Drop::kNoButtons);
+  EXPECT_EQ(mailbox_.press(ButtonRole::kButton1, {3}, 0, at(1)), Drop::kButtonValue);
+  EXPECT_EQ(mailbox_.press(ButtonRole::kButton1, {-1}, 0, at(1)), Drop::kButtonValue);
   EXPECT_FALSE(take().button1);
+}
+
+TEST_F(StylusMailboxTest, BaseThatLeapsMakesTheHandAppearAnew) {
+  double base_x_m = 0;
+  const auto lookup = [&](const std::string&) -> FramePlace {
+    return {Pose{{base_x_m, 0, 0}, Quaterniond::Identity()}};
+  };
+  const auto said = [](double time_s) {
+    DevicePose pose = poseNow(time_s);
+    pose.frame = "table";
+    return pose;
+  };
+  mailbox_.put(said(0), lookup, arrival(0));
+  base_x_m = 0.004;  // as a base may that somebody carries
+  mailbox_.put(said(0.01), lookup, arrival(0.01));
+  EXPECT_TRUE(mailbox_.take(at(0.01)).valid);
+  EXPECT_EQ(mailbox_.status(at(0.01)).base_moves, 0u);
+  mailbox_.press(ButtonRole::kButton2, {0}, 0, at(0.3));
+  mailbox_.press(ButtonRole::kButton2, {1}, 0, at(0.01));
+  base_x_m = 0.05;
+  mailbox_.put(said(0.02), lookup, arrival(0.02));
+  EXPECT_FALSE(mailbox_.take(at(0.02)).valid);
+  const StylusSample after = mailbox_.take(at(0.03));
+  EXPECT_TRUE(after.valid);
+  EXPECT_FALSE(after.button2);
+  EXPECT_EQ(mailbox_.status(at(0.03)).base_moves, 1u);
+}
+
+TEST_F(StylusMailboxTest, HeldPoseDoesNotGrowStaleUntilItIsLetGo) {
+  mailbox_.hold(true);
+  mailbox_.put(poseNow(0), nowhere, arrival(0));
+  EXPECT_TRUE(mailbox_.take(at(100)).valid);
+  mailbox_.hold(false);
+  EXPECT_FALSE(mailbox_.take(at(100.01)).valid);
+}
+
+TEST(StylusMailboxOfADevice, ForceFrameIsTheDevicesOwn) {
+  DeviceChoice choice;
+  choice.stylus = "left";
+  choice.overrides = {"pose.axes=x -z y", "pose.unit_m=0.001", "base.position_m=[0,0,0.2]",
+                      "tip.position_m=[0,0,-0.1]"};
+  StylusMailbox mailbox(config(), "tissue", parseDevice("about: a\n", "device.yaml", choice));
+  const Quaterniond none = Quaterniond::Identity();
+  EXPECT_EQ(mailbox.put({{{10, 20, 30}, none}, "unknown to tf", ros::Time(kBegin_s)}, nowhere, arrival(0)),
+            std::nullopt);
+  // the device's -z is the tissue's y: its tip is 0.1 m along it
+  EXPECT_LT((mailbox.take(at(0)).pose.position_m - Vector3d(0.01, 0.07, 0.22)).norm(), kRounding_m);
+  const DeviceFrame frame = mailbox.deviceFrame();
+  EXPECT_LT((frame.from_tissue * Vector3d::UnitZ() - Vector3d::UnitY()).norm(), kRounding_m);
+  EXPECT_LT((frame.lever_arm_m - Vector3d(0, 0, -0.1)).norm(), kRounding_m);
+  EXPECT_EQ(frame.position, Vector3d(10, 20, 30));
+  const Pose in_tissue{{0.01, 0.07, 0.22}, Quaterniond(axesOf("x -z y", ""))};
+  EXPECT_LT((mailbox.inDevice(in_tissue).position_m - Vector3d(10, 20, 30)).norm(), 1e3 * kRounding_m);
 }
 
 }  // namespace

@@ -171,6 +171,18 @@ void YamlReader::block(const char* key, std::string& value, int& first_line, con
   first_line = keyNode(key).Mark().line + 2;
 }
 
+void YamlReader::quaternion(const char* key, Quaterniond& value, const char*) {
+  constexpr double kLengthTolerance = 0.01;  // four decimals as a person writes them
+  const YAML::Node node = take(key);
+  if (!node) return;
+  const std::string accepted = "is a list of x, y, z, w, a quaternion of length 1";
+  if (!node.IsSequence() || node.size() != 4) fail(key, node, accepted);
+  Eigen::Vector4d xyzw;
+  for (size_t i = 0; i < 4; ++i) xyzw[static_cast<Eigen::Index>(i)] = scalar(key, node[i], {-1, 1}, "");
+  if (std::abs(xyzw.norm() - 1) > kLengthTolerance) fail(key, node, accepted);
+  value = Quaterniond(xyzw[3], xyzw[0], xyzw[1], xyzw[2]).normalized();
+}
+
 void YamlReader::names(const char* key, Overlays& value, const char*) {
   const YAML::Node node = take(key);
   if (!node) return;

@@ -46,6 +46,9 @@ class YamlReader {
   /// A text of lines, which may be empty. @param first_line  of it in the file, where it is given
   void block(const char* key, std::string& value, int& first_line, const char* text);
   void names(const char* key, Overlays& value, const char* text);
+  /// A list of x, y, z, w, of length 1 within a hundredth; normalised.
+  void quaternion(const char* key, Quaterniond& value, const char* text);
+  void given(bool& value) const { value = true; }  ///< whoever reads a map has one
   /// The older name of a key that a group has now. Where both are given and differ, the one that was set from outside
   /// the file goes before the other. @throws SceneError  naming both, where neither or both were
   void formerNumber(const char* old_key, const char* group, const char* key, double& value, Range range,

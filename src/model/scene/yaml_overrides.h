@@ -1,0 +1,17 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <yaml-cpp/yaml.h>
+
+#include <string>
+
+#include "model/scene/yaml_reader.h"
+
+namespace viscera {
+
+/// Sets one key of a document from outside of its file, as `bodies[0].spacing_m=0.003` says; `source` remembers which.
+/// @throws SceneError  no such list item, not key=value, or no YAML
+void applyOverride(YAML::Node root, const std::string& text, YamlSource& source);
+
+}  // namespace viscera

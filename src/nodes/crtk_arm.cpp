@@ -1,0 +1,177 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/crtk_arm.h"
+
+#include <geometry_msgs/TwistStamped.h>
+#include <ros/console.h>
+
+#include <cmath>
+#include <utility>
+
+#include "nodes/conversions.h"
+#include "nodes/device_messages.h"
+
+namespace viscera::nodes {
+namespace {
+
+constexpr uint32_t kNewest = 1, kEvents = 16;
+
+geometry_msgs::PoseStamped stamped(const Pose& pose, const std::string& frame, const ros::Time& stamp) {
+  geometry_msgs::PoseStamped message;
+  message.header.frame_id = frame;
+  message.header.stamp = stamp;
+  message.pose = toMessage(pose);
+  return message;
+}
+
+/// Of a motion from one pose to the next in span_s, in the frame of both.
+geometry_msgs::TwistStamped twist(const Pose& from, const Pose& to, double span_s, const std::string& frame,
+                                  const ros::Time& stamp) {
+  geometry_msgs::TwistStamped message;
+  message.header.frame_id = frame;
+  message.header.stamp = stamp;
+  if (!(span_s > 0)) return message;
+  const Vector3d speed = (to.position_m - from.position_m) / span_s;
+  const Eigen::AngleAxisd turned(to.orientation * from.orientation.conjugate());
+  const Vector3d turn = turned.axis() * (turned.angle() > M_PI ? turned.angle() - 2 * M_PI : turned.angle()) / span_s;
+  message.twist.linear.x = speed.x(), message.twist.linear.y = speed.y(), message.twist.linear.z = speed.z();
+  message.twist.angular.x = turn.x(), message.twist.angular.y = turn.y(), message.twist.angular.z = turn.z();
+  return message;
+}
+
+}  // namespace
+
+CrtkArm::CrtkArm(StylusMailbox& mailbox)
+    : mailbox_(mailbox),
+      base_(mailbox.device().pose.topic),
+      motion_(mailbox.device().arm),
+      frame_(mailbox.device().pose.frame),
+      last_measured_(motion_.setpoint()) {}
+
+void CrtkArm::subscribe(ros::NodeHandle& node, FrameLookup lookup) {
+  lookup_ = std::move(lookup);
+  const std::string at = base_ + "/";
+  measured_cp_ = node.advertise<geometry_msgs::PoseStamped>(at + "measured_cp", kNewest);
+  setpoint_cp_ = node.advertise<geometry_msgs::PoseStamped>(at + "setpoint_cp", kNewest);
+  measured_cv_ = node.advertise<geometry_msgs::TwistStamped>(at + "measured_cv", kNewest);
+  operating_state_ = node.advertise<foreign::OperatingState>(at + "operating_state", kEvents, true);
+  measured_js_ = node.advertise<sensor_msgs::JointState>(at + "jaw/measured_js", kNewest);
+  setpoint_js_ = node.advertise<sensor_msgs::JointState>(at + "jaw/setpoint_js", kNewest);
+  const auto hints = ros::TransportHints().tcpNoDelay();
+  commands_ = {node.subscribe(at + "servo_cp", kNewest, &CrtkArm::onServo, this, hints),
+               node.subscribe(at + "move_cp", kNewest, &CrtkArm::onMove, this, hints),
+               node.subscribe(at + "jaw/servo_jp", kNewest, &CrtkArm::onJaw, this, hints),
+               node.subscribe(at + "state_command", kEvents, &CrtkArm::onState, this, hints)};
+  const std::lock_guard<std::mutex> lock(mutex_);
+  mailbox_.hold(true);
+  place();
+  tellState();
+}
+
+/// Commands need no stamp: clients of CRTK send none.
+bool CrtkArm::good(const geometry_msgs::PoseStamped& message, const std::string& topic) {
+  const Pose pose = fromMessage(message.pose);
+  if (!isFinite(pose)) return refuse(topic, Drop::kNotFinite), false;
+  if (!(std::abs(pose.orientation.norm() - 1) <= kQuaternionTolerance))
+    return refuse(topic, Drop::kBadQuaternion), false;
+  return true;
+}
+
+void CrtkArm::refuse(const std::string& topic, Drop reason) {
+  mailbox_.drop(reason);
+  if (std::exchange(warned_, true)) return;
+  ROS_WARN("%s/%s: a command was dropped (%s); later ones are counted in /diagnostics", base_.c_str(), topic.c_str(),
+           nodes::text(reason));
+}
+
+void CrtkArm::onServo(const geometry_msgs::PoseStamped& message) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (!good(message, "servo_cp")) return;
+  Pose pose = fromMessage(message.pose);
+  pose.orientation.normalize();
+  if (motion_.servo(pose)) place();
+}
+
+void CrtkArm::onMove(const geometry_msgs::PoseStamped& message) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (!good(message, "move_cp")) return;
+  Pose pose = fromMessage(message.pose);
+  pose.orientation.normalize();
+  if (motion_.move(pose)) tellState();
+}
+
+void CrtkArm::onJaw(const sensor_msgs::JointState& message) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (message.position.empty()) return refuse("jaw/servo_jp", Drop::kNoButtons);
+  if (!std::isfinite(message.position.front())) return refuse("jaw/servo_jp", Drop::kNotFinite);
+  if (!motion_.servoJaw(message.position.front())) return;
+  const GripperPort& port = mailbox_.device().gripper;
+  jaw_closed_ = motion_.jaw_rad() < (jaw_closed_ ? port.open_above : port.closed_below);
+  if (port.presses == PressedButton::kNone) return;
+  const ButtonRole role = port.presses == PressedButton::kButton1 ? ButtonRole::kButton1 : ButtonRole::kButton2;
+  mailbox_.press(role, {jaw_closed_ ? 1 : 0}, 0, std::chrono::steady_clock::now());
+}
+
+void CrtkArm::onState(const foreign::StringStamped& message) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (const std::optional<std::string> wrong = motion_.command(message.string))
+    ROS_WARN("%s/state_command: %s", base_.c_str(), wrong->c_str());
+  mailbox_.hold(motion_.state() != ArmMotion::State::kDisabled);
+  if (motion_.state() != ArmMotion::State::kDisabled) place();
+  tellState();
+}
+
+/// The tool goes where the arm is to be.
+void CrtkArm::place() {
+  const ros::Time now = ros::Time::now();
+  const std::optional<Drop> reason =
+      mailbox_.put({motion_.setpoint(), frame_, now}, lookup_, {std::chrono::steady_clock::now(), now});
+  if (reason) refuse("servo_cp", *reason);
+}
+
+void CrtkArm::beginTick() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const SteadyTime now = std::chrono::steady_clock::now();
+  const double span_s = ticked_ == SteadyTime{} ? 0 : std::chrono::duration<double>(now - ticked_).count();
+  ticked_ = now;
+  if (!motion_.busy()) return;
+  motion_.advance(span_s);
+  place();
+}
+
+void CrtkArm::endTick(const Pose& tool, const ros::Time& stamp) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const Pose measured = mailbox_.inDevice(tool);
+  const std::string frame = mailbox_.deviceFrame().name;
+  measured_cp_.publish(stamped(measured, frame, stamp));
+  setpoint_cp_.publish(stamped(motion_.setpoint(), frame, stamp));
+  measured_cv_.publish(twist(last_measured_, measured, (stamp - last_told_).toSec(), frame, stamp));
+  last_measured_ = measured;
+  last_told_ = stamp;
+  sensor_msgs::JointState jaw;
+  jaw.header.stamp = stamp;
+  jaw.name = {"jaw"};
+  jaw.position = {motion_.jaw_rad()};
+  measured_js_.publish(jaw);
+  setpoint_js_.publish(jaw);
+  if (motion_.busy() != told_busy_) tellState();
+}
+
+void CrtkArm::tellState() {
+  told_busy_ = motion_.busy();
+  foreign::OperatingState message;
+  message.header.stamp = ros::Time::now();
+  message.state = viscera::text(motion_.state());
+  message.is_homed = motion_.homed();
+  message.is_busy = told_busy_;
+  operating_state_.publish(message);
+}
+
+bool CrtkArm::hasClient() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  for (const ros::Subscriber& command : commands_)
+    if (command.getNumPublishers() > 0) return true;
+  return false;
+}
+
+}  // namespace viscera::nodes

@@ -1,0 +1,59 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <geometry_msgs/PoseStamped.h>
+#include <ros/node_handle.h>
+#include <sensor_msgs/JointState.h>
+
+#include <atomic>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "devices/arm_motion.h"
+#include "nodes/foreign/crtk_msgs.h"
+#include "nodes/stylus_mailbox.h"
+
+namespace viscera::nodes {
+
+/// A tool that is a CRTK arm: it takes servo_cp, move_cp, jaw/servo_jp and state_command, and tells measured_cp,
+/// setpoint_cp, measured_cv, operating_state and its jaws (docs/devices.md). What it feels is its ForceSink's.
+class CrtkArm {
+ public:
+  /// @param mailbox  of its stylus; must outlive this
+  explicit CrtkArm(StylusMailbox& mailbox);
+
+  /// @param lookup  of the frames of commands
+  void subscribe(ros::NodeHandle& node, FrameLookup lookup);
+  /// A tick begins: the arm has gone on. On the thread that steps, as endTick().
+  void beginTick();
+  /// @param tool  where it is at the end of the tick, tissue frame
+  void endTick(const Pose& tool, const ros::Time& stamp);
+  bool hasClient() const;
+
+ private:
+  void onServo(const geometry_msgs::PoseStamped& message);
+  void onMove(const geometry_msgs::PoseStamped& message);
+  void onJaw(const sensor_msgs::JointState& message);
+  void onState(const foreign::StringStamped& message);
+  bool good(const geometry_msgs::PoseStamped& message, const std::string& topic);
+  void refuse(const std::string& topic, Drop reason);
+  void place();
+  void tellState();
+
+  StylusMailbox& mailbox_;
+  FrameLookup lookup_;
+  std::string base_;  ///< topics begin with it
+  mutable std::mutex mutex_;
+  ArmMotion motion_;
+  bool jaw_closed_ = false, told_busy_ = false, warned_ = false;
+  std::string frame_;  ///< of the arm's base: that of the last command, or the profile's
+  SteadyTime ticked_{};
+  Pose last_measured_;
+  ros::Time last_told_;
+  std::vector<ros::Subscriber> commands_;
+  ros::Publisher measured_cp_, setpoint_cp_, measured_cv_, operating_state_, measured_js_, setpoint_js_;
+};
+
+}  // namespace viscera::nodes

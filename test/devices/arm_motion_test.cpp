@@ -1,0 +1,100 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "devices/arm_motion.h"
+
+#include <gtest/gtest.h>
+
+namespace viscera {
+namespace {
+
+constexpr double kRounding = 1e-12;  // m
+
+ArmConfig config() {
+  ArmConfig config;
+  config.start_m = Vector3d::Zero();
+  config.start_rotation_deg = Vector3d::Zero();
+  config.speed_m_per_s = 0.1;
+  config.turn_deg_per_s = 90;
+  return config;
+}
+
+Pose at(double x_m, double turn_deg = 0) {
+  return {{x_m, 0, 0}, rotationFromDegrees({0, 0, turn_deg})};
+}
+
+TEST(ArmMotion, ServoIsFollowedAtOnce) {
+  ArmMotion arm(config());
+  EXPECT_TRUE(arm.servo(at(0.3)));
+  EXPECT_EQ(arm.setpoint().position_m.x(), 0.3);
+  EXPECT_FALSE(arm.busy());
+}
+
+TEST(ArmMotion, MoveGoesNoFasterThanItMayAndEndsAtItsGoal) {
+  ArmMotion arm(config());
+  ASSERT_TRUE(arm.move(at(0.1)));
+  constexpr double kTick_s = 1e-3, kSecants = 1e-4;  // m/s: of a mean over a millisecond
+  double fastest = 0, time_s = 0, before_m = 0;
+  while (arm.busy()) {
+    arm.advance(kTick_s);
+    time_s += kTick_s;
+    fastest = std::max(fastest, (arm.setpoint().position_m.x() - before_m) / kTick_s);
+    before_m = arm.setpoint().position_m.x();
+  }
+  EXPECT_NEAR(fastest, 0.1, kSecants);
+  EXPECT_NEAR(time_s, 15.0 / 8 * 0.1 / 0.1, 2 * kTick_s);
+  EXPECT_LT((arm.setpoint().position_m - Vector3d(0.1, 0, 0)).norm(), kRounding);
+}
+
+TEST(ArmMotion, TurnsTakeTheirTimeToo) {
+  ArmMotion arm(config());
+  arm.move(at(0, 90));
+  arm.advance(1);
+  EXPECT_TRUE(arm.busy());
+  arm.advance(15.0 / 8 - 1 + 1e-9);
+  EXPECT_FALSE(arm.busy());
+}
+
+TEST(ArmMotion, GoalThatIsThereAlreadyIsBusyForAMoment) {
+  ArmMotion arm(config());
+  arm.move(at(0));
+  EXPECT_TRUE(arm.busy());
+  arm.advance(0.01);
+  EXPECT_FALSE(arm.busy());
+}
+
+TEST(ArmMotion, ServoEndsAMove) {
+  ArmMotion arm(config());
+  arm.move(at(0.1));
+  arm.advance(0.5);
+  arm.servo(at(0.02));
+  arm.advance(10);
+  EXPECT_EQ(arm.setpoint().position_m.x(), 0.02);
+}
+
+TEST(ArmMotion, StaysWhereItIsUnlessEnabled) {
+  ArmMotion arm(config());
+  arm.move(at(0.1));
+  EXPECT_FALSE(arm.command("pause"));
+  arm.advance(10);
+  EXPECT_EQ(arm.setpoint().position_m.x(), 0);
+  EXPECT_FALSE(arm.servo(at(0.2)));
+  EXPECT_FALSE(arm.move(at(0.2)));
+  EXPECT_FALSE(arm.servoJaw(0));
+  EXPECT_FALSE(arm.command("disable"));
+  EXPECT_STREQ(text(arm.state()), "DISABLED");
+  EXPECT_TRUE(arm.command("resume"));  // it says why not
+  EXPECT_FALSE(arm.command("enable"));
+  EXPECT_TRUE(arm.servo(at(0.2)));
+}
+
+TEST(ArmMotion, HomesAndRefusesWhatItDoesNotKnow) {
+  ArmMotion arm(config());
+  EXPECT_FALSE(arm.command("unhome"));
+  EXPECT_FALSE(arm.homed());
+  EXPECT_FALSE(arm.command("home"));
+  EXPECT_TRUE(arm.homed());
+  EXPECT_EQ(arm.command("dance"), "'dance' is none of enable, disable, pause, resume, home, unhome");
+}
+
+}  // namespace
+}  // namespace viscera

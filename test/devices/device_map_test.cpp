@@ -1,0 +1,101 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "devices/device_map.h"
+
+#include <gtest/gtest.h>
+
+namespace viscera {
+namespace {
+
+constexpr double kRounding = 1e-12;  // m, and of quaternions' numbers: a chain of rotations in double
+
+DeviceProfile profile(const Overrides& overrides) {
+  DeviceChoice choice;
+  choice.stylus = "left";
+  choice.overrides = overrides;
+  return parseDevice("about: a\n", "device.yaml", choice);
+}
+
+void expectNear(const Pose& a, const Pose& b) {
+  EXPECT_LT((a.position_m - b.position_m).norm(), kRounding);
+  EXPECT_LT(a.orientation.angularDistance(b.orientation), 1e-7);  // whose arc cosine rounds to this
+}
+
+const Pose kHand{{0.01, 0.02, 0.03}, rotationFromDegrees({20, -30, 70})};
+
+TEST(DeviceMap, LeavesACrtkDeviceAsItIs) {
+  DeviceMap map(profile({}));
+  expectNear(map.toBase(kHand), kHand);
+  EXPECT_FALSE(map.base());
+}
+
+TEST(DeviceMap, TurnsAxesAndUnits) {
+  DeviceMap map(profile({"pose.unit_m=0.001", "pose.axes=x -z y"}));
+  const Pose tip = map.toBase({{10, 20, 30}, Quaterniond::Identity()});
+  EXPECT_LT((tip.position_m - Vector3d(0.01, -0.03, 0.02)).norm(), kRounding);
+  EXPECT_LT((tip.orientation * Vector3d::UnitY() - Vector3d::UnitZ()).norm(), kRounding);
+  EXPECT_LT((map.axesFromBase() * Vector3d::UnitZ() - Vector3d::UnitY()).norm(), kRounding);  // a force upwards
+}
+
+TEST(DeviceMap, TipIsInTheFrameOfThePose) {
+  DeviceMap map(profile({"tip.position_m=[0,0,-0.1]", "pose.axes=-x -y z"}));
+  const Pose tip = map.toBase({{0, 0, 0.5}, rotationFromDegrees({90, 0, 0})});
+  EXPECT_LT((tip.position_m - Vector3d(0, -0.1, 0.5)).norm(), kRounding);
+  EXPECT_LT((map.leverArm({{0, 0, 0.5}, rotationFromDegrees({90, 0, 0})}) - Vector3d(0, -0.1, 0)).norm(), kRounding);
+}
+
+TEST(DeviceMap, ThereAndBack) {
+  DeviceMap map(profile({"pose.unit_m=0.001", "pose.axes=y z x", "pose.turn_axes=x -z y", "scale=0.5",
+                         "tip={position_m: [0.01, 0, -0.1], orientation_xyzw: [0, 0, 1, 0]}"}));
+  expectNear(map.fromBase(map.toBase(kHand)), kHand);
+}
+
+TEST(DeviceMap, ScaleIsOfTheTipsWay) {
+  DeviceMap map(profile({"scale=0.25", "tip.position_m=[0,0,-0.1]"}));
+  const Vector3d before_m = map.toBase({{0, 0, 0}, Quaterniond::Identity()}).position_m;
+  const Vector3d after_m = map.toBase({{0.04, 0, 0}, Quaterniond::Identity()}).position_m;
+  EXPECT_LT((after_m - before_m - Vector3d(0.01, 0, 0)).norm(), kRounding);
+}
+
+TEST(DeviceMap, ClutchHoldsThePlaceAndNotTheTurn) {
+  DeviceMap map(profile({"scale=2"}));
+  const Vector3d held_m = map.toBase(kHand).position_m;
+  map.setClutch(true);
+  Pose moved = kHand;
+  moved.position_m += Vector3d(0.03, 0, 0);
+  moved.orientation = Quaterniond::Identity();
+  const Pose while_clutched = map.toBase(moved);
+  EXPECT_LT((while_clutched.position_m - held_m).norm(), kRounding);
+  EXPECT_LT(while_clutched.orientation.angularDistance(moved.orientation), 1e-7);
+  map.setClutch(false);
+  EXPECT_LT((map.toBase(moved).position_m - held_m).norm(), kRounding);  // no leap
+  moved.position_m += Vector3d(0, 0.01, 0);
+  EXPECT_LT((map.toBase(moved).position_m - held_m - Vector3d(0, 0.02, 0)).norm(), kRounding);
+  map.setClutch(true);
+  map.setClutch(false);
+  expectNear(map.fromBase(map.toBase(moved)), moved);
+}
+
+TEST(DeviceMap, ClutchThatIsDownAtTheStartHoldsTheFirstPlace) {
+  DeviceMap map(profile({}));
+  map.setClutch(true);
+  const Vector3d first_m = map.toBase(kHand).position_m;
+  Pose moved = kHand;
+  moved.position_m.x() += 1;
+  EXPECT_LT((map.toBase(moved).position_m - first_m).norm(), kRounding);
+}
+
+/// As omni_common has it: the place is turned to z up, the orientation is the device's times a quarter turn about z.
+TEST(DeviceMap, OmnisStylusPointsWhereItDoesInTheHand) {
+  DeviceChoice choice;
+  choice.stylus = "left";
+  DeviceMap map(loadDevice(std::string(VISCERA_SOURCE_DIR) + "/config/devices/phantom_omni.yaml", choice));
+  const Quaterniond in_device = rotationFromDegrees({20, -30, 70});  // y up
+  const Quaterniond quarter(Eigen::AngleAxisd(-M_PI / 2, Vector3d::UnitZ()));
+  const Quaterniond up(axesOf("x -z y", ""));
+  const Pose tip = map.toBase({{0, 0, 0}, in_device * quarter});
+  EXPECT_LT(tip.orientation.angularDistance(up * in_device), 1e-6);  // eight decimals in the profile
+}
+
+}  // namespace
+}  // namespace viscera

@@ -1,0 +1,125 @@
+#!/usr/bin/env python3
+# Copyright (c) 2026, the viscera authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""A tool as a CRTK arm: clients servo and move it, wait for its state, close its jaws and read what it feels."""
+import sys
+import time
+import unittest
+
+import rospy
+import rostest
+from drivers import foreign, vector
+from geometry_msgs.msg import PoseStamped, TwistStamped, WrenchStamped
+from sensor_msgs.msg import JointState
+from simulator_watch import Latest, SimulatorWatch, wait_until
+from turns import length, plus
+
+HEADER = "=" * 80 + "\nMSG: std_msgs/Header\nuint32 seq\ntime stamp\nstring frame_id\n"
+OperatingState = foreign("crtk_msgs/OperatingState",
+                         "std_msgs/Header header\nstring state\nbool is_homed\nbool is_busy\n" + HEADER)
+StringStamped = foreign("crtk_msgs/StringStamped", "std_msgs/Header header\nstring string\n" + HEADER)
+LIMIT_S = 20
+START = (-0.03, 0, 0.05)  # of crtk_arm.test
+DEEP_M = 0.012            # the probe's centre, 6 mm in the block
+PLACE_M = 1e-6            # what rounding leaves
+SPEED = 0.05              # share by which a mean of a few ticks may differ
+FELT_N = 0.05
+
+
+class CrtkArmTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        rospy.init_node("crtk_arm_test")
+        cls.watch = SimulatorWatch()
+        cls.states = []
+        cls.at = Latest("PSM1/measured_cp", PoseStamped)
+        cls.setpoint = Latest("PSM1/setpoint_cp", PoseStamped)
+        cls.speed = Latest("PSM1/measured_cv", TwistStamped)
+        cls.force = Latest("PSM1/measured_cf", WrenchStamped)
+        cls.jaw = Latest("PSM1/jaw/measured_js", JointState)
+        cls.state = Latest("PSM1/operating_state", OperatingState, cls.states.append, queue_size=10)
+        cls.servo = rospy.Publisher("PSM1/servo_cp", PoseStamped, queue_size=1, latch=True)
+        cls.move = rospy.Publisher("PSM1/move_cp", PoseStamped, queue_size=1, latch=True)
+        cls.jaws = rospy.Publisher("PSM1/jaw/servo_jp", JointState, queue_size=1, latch=True)
+        cls.command = rospy.Publisher("PSM1/state_command", StringStamped, queue_size=1, latch=True)
+        wait_until(lambda: cls.at.message, 60, "measured_cp")
+        wait_until(lambda: all(p.get_num_connections() for p in (cls.servo, cls.move, cls.jaws, cls.command)), LIMIT_S,
+                   "subscribers of commands")
+
+    def tell(self, publisher, at):
+        """As crtk_python_client does: without a stamp and a frame."""
+        message = PoseStamped()
+        message.pose.position.x, message.pose.position.y, message.pose.position.z = at
+        message.pose.orientation.w = 1
+        publisher.publish(message)
+
+    def is_at(self, at):
+        return length(plus(vector(self.at.message.pose.position), at, -1)) < PLACE_M
+
+    def go(self, goal, steps=50):
+        start = vector(self.at.message.pose.position)
+        for step in range(1, steps + 1):
+            self.tell(self.servo, plus(start, plus(goal, start, -1), step / steps))
+            time.sleep(0.01)
+        wait_until(lambda: self.is_at(goal), LIMIT_S, "arm at %s" % (goal,))
+
+    def test_0_it_waits_where_its_profile_says_enabled_and_homed(self):
+        self.assertTrue(self.is_at(START))
+        state = wait_until(lambda: self.state.message, LIMIT_S, "operating state")
+        self.assertEqual((state.state, state.is_homed, state.is_busy), ("ENABLED", True, False))
+        self.assertEqual(self.at.message.header.frame_id, "tissue")
+
+    def test_1_servo_is_followed_at_once_and_stays(self):
+        self.go((-0.03, 0.01, 0.05))
+        time.sleep(1)  # longer than poses of a device may be old
+        self.assertTrue(self.is_at((-0.03, 0.01, 0.05)))
+
+    def test_2_move_takes_its_time_and_its_end_can_be_waited_for(self):
+        goal = (0.01, 0.01, 0.05)
+        del self.states[:]
+        begun = rospy.Time.now()
+        self.tell(self.move, goal)
+        speeds = []
+        wait_until(lambda: speeds.append(self.speed.message.twist.linear.x) or (
+            self.states and not self.states[-1].is_busy and self.states[-1].header.stamp > begun), LIMIT_S, "end of the move")
+        self.assertTrue([s for s in self.states if s.is_busy])
+        wait_until(lambda: self.is_at(goal), LIMIT_S, "arm at its goal")
+        took_s = (self.states[-1].header.stamp - begun).to_sec()
+        self.assertGreater(took_s, (1 - SPEED) * 15 / 8 * 0.04 / 0.2)  # least jerk: the peak is 15/8 of the mean speed
+        self.assertGreater(max(speeds), 0.1)
+        wait_until(lambda: abs(self.speed.message.twist.linear.x) < PLACE_M, LIMIT_S, "rest")
+
+    def test_3_it_feels_and_its_jaws_hold(self):
+        self.go((0.01, 0.01, DEEP_M))
+        wait_until(lambda: self.force.message.wrench.force.z > FELT_N, LIMIT_S, "force upwards")
+        self.jaws.publish(JointState(position=[0.0]))
+        wait_until(lambda: (self.watch.value("left", "nodes_held") or 0) > 0, LIMIT_S, "tissue in the jaws")
+        self.assertEqual(list(self.jaw.message.position), [0.0])
+        self.jaws.publish(JointState(position=[0.5]))
+        wait_until(lambda: self.watch.value("left", "nodes_held") == 0, LIMIT_S, "open jaws")
+        self.go((0.01, 0.01, 0.05))
+
+    def test_4_disabled_it_is_not_there_and_paused_it_stays(self):
+        self.command.publish(StringStamped(string="pause"))
+        wait_until(lambda: self.state.message.state == "PAUSED", LIMIT_S, "pause")
+        self.tell(self.servo, (0, 0, 0.06))
+        time.sleep(0.5)
+        self.assertTrue(self.is_at((0.01, 0.01, 0.05)))
+        self.command.publish(StringStamped(string="disable"))
+        wait_until(lambda: self.state.message.state == "DISABLED", LIMIT_S, "disabled arm")
+        self.tell(self.move, (0, 0, 0.06))
+        time.sleep(0.5)
+        self.assertFalse(self.state.message.is_busy)
+        self.command.publish(StringStamped(string="enable"))
+        wait_until(lambda: self.state.message.state == "ENABLED", LIMIT_S, "enabled arm")
+        self.go((0, 0, 0.06))
+
+    def test_5_a_command_that_is_none_is_dropped(self):
+        before = self.watch.value("left", "dropped_not_finite") or 0
+        self.tell(self.servo, (float("nan"), 0, 0))
+        wait_until(lambda: self.watch.value("left", "dropped_not_finite") == before + 1, LIMIT_S, "count")
+        self.assertTrue(self.is_at((0, 0, 0.06)))
+
+
+if __name__ == "__main__":
+    rostest.rosrun("viscera", "crtk_arm", CrtkArmTest, sys.argv)
