@@ -17,12 +17,14 @@ class SamplesPublisher {
  public:
   SamplesPublisher(ros::NodeHandle& node, const Scene& scene);
   /// After every tick, by the thread that steps.
+  /// @param tools       what the styluses did in the tick
   /// @param hands_anew  hands were forgotten since the tick before
-  void publish(uint64_t tick, const StylusSamples& samples, bool hands_anew);
+  void publish(uint64_t tick, const StylusSamples& samples, const ToolMotions& tools, bool hands_anew);
 
  private:
   const std::vector<StylusConfig> styluses_;
-  Samples message_;  ///< the last that was sent
+  std::string carried_;  ///< what moves the tissue besides, always
+  Samples message_;      ///< the last that was sent
   ros::Publisher publisher_;
 };
 

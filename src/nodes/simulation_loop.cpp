@@ -105,7 +105,7 @@ void SimulationLoop::tick(Session& session, const StylusSamples& samples, bool l
     pace_.add(session.tick_s(), seconds(stepped - begun), seconds(stepped - tick_ended_));
   }
   tick_ended_ = stepped;
-  ports_.stepped(session.tick(), samples, std::exchange(hands_anew_, false));
+  ports_.stepped(session.tick(), samples, frame.tools, std::exchange(hands_anew_, false));
   deliver(session, std::move(frame), samples, live);
 }
 

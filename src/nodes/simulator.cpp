@@ -110,8 +110,8 @@ LoopPorts Simulator::ports() {
     publisher_.start(session.wholeSkin());
     ready_ = true;
   };
-  ports.stepped = [this](uint64_t tick, const StylusSamples& samples, bool hands_anew) {
-    samples_.publish(tick, samples, hands_anew);
+  ports.stepped = [this](uint64_t tick, const StylusSamples& samples, const ToolMotions& tools, bool hands_anew) {
+    samples_.publish(tick, samples, tools, hands_anew);
   };
   ports.deliver = [this](Frame&& frame, const StylusSamples& samples, bool live) {
     deliver(std::move(frame), samples, live);

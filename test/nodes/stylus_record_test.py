@@ -20,7 +20,7 @@ from sensor_msgs.msg import Joy
 from simulator_watch import Latest, SimulatorWatch, wait_until
 from std_srvs.srv import Trigger
 from viscera.msg import Samples, StylusState
-from viscera.srv import Step
+from viscera.srv import SetToolMode, Step
 
 LIMIT_S = 30
 SEED = 5
@@ -173,6 +173,19 @@ class StylusRecordTest(unittest.TestCase):
         recorder = Program(["rosrun", "viscera", "stylus_record", "__name:=refused", "_file:=/proc/none.yaml"])
         recorder.said("~file: /proc/none.yaml cannot be written")
         self.assertEqual(recorder.process.wait(LIMIT_S), 1)
+
+    def test_4_a_mode_that_is_not_the_scenes_ends_the_recording(self):
+        self.call["resume"]()
+        set_mode = rospy.ServiceProxy("set_tool_mode", SetToolMode)
+        recorder = self.record()
+        recorder.said("recording since tick 1")
+        self.left.go((0, -0.1, -0.02), (0, -0.1, -0.02), 0.2)
+        self.assertTrue(set_mode("left", "idle", "none").success)
+        self.addCleanup(set_mode, "left", "idle", "probe")
+        self.left.go((0, -0.1, -0.02), (0, -0.1, -0.02), 0.2)
+        recorder.said("the mode of stylus 'left', which is not the scene's")
+        self.assertEqual(recorder.process.wait(LIMIT_S), 1)
+        self.assertTrue(os.path.exists(self.file))         # what was recorded before it
 
 
 if __name__ == "__main__":
