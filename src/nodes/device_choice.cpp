@@ -25,6 +25,12 @@ std::vector<std::pair<std::string, std::string>> itemsOf(Parameters& parameters,
 
 }  // namespace
 
+void setProfile(DeviceChoice& choice, const std::string& text) {
+  const size_t colon = text.find(':');
+  choice.profile = text.substr(0, colon);
+  if (colon != std::string::npos) choice.name = text.substr(colon + 1);
+}
+
 DeviceChoice& DeviceChoices::of(const std::string& stylus, const std::string& parameter) {
   for (Named& named : named_)
     if (named.choice.stylus == stylus) return named.choice;
@@ -35,12 +41,8 @@ DeviceChoice& DeviceChoices::of(const std::string& stylus, const std::string& pa
 
 DeviceChoices DeviceChoices::read(Parameters& parameters) {
   DeviceChoices out;
-  for (const auto& [stylus, device] : itemsOf(parameters, "devices", '=', "left=polhemus:2")) {
-    DeviceChoice& choice = out.of(stylus, "devices");
-    const size_t colon = device.find(':');
-    choice.profile = device.substr(0, colon);
-    if (colon != std::string::npos) choice.name = device.substr(colon + 1);
-  }
+  for (const auto& [stylus, device] : itemsOf(parameters, "devices", '=', "left=polhemus:2"))
+    setProfile(out.of(stylus, "devices"), device);
   for (const auto& [stylus, option] : itemsOf(parameters, "device_options", '.', "left.scale=0.5"))
     out.of(stylus, "device_options").overrides.push_back(option);
   for (const auto& [stylus, file] : itemsOf(parameters, "registrations", '=', "left=/path/to/registration.yaml"))

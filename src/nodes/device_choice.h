@@ -10,6 +10,9 @@
 
 namespace viscera::nodes {
 
+/// `polhemus:2`: a profile and, after a colon, the driver's name.
+void setProfile(DeviceChoice& choice, const std::string& text);
+
 /// Which device each stylus has, as the parameters say:
 /// * `~devices`: `left=polhemus:2`, a profile and, after a colon, the driver's name; by default every stylus has `crtk`
 /// * `~device_options`: `left.scale=0.5`, a key of the profile

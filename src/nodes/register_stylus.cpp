@@ -12,6 +12,9 @@
 
 #include "devices/millimetres.h"
 #include "nodes/conversions.h"
+#include "nodes/device_choice.h"
+#include "nodes/device_subscribers.h"
+#include "nodes/scene_choice.h"
 #include "nodes/stylus_mailbox.h"
 
 namespace viscera::nodes {
@@ -25,6 +28,7 @@ constexpr size_t kLeastHeldPoses = 5;            ///< of a point: fewer say noth
 constexpr double kPointWindow_s = 0.5, kPivotWindow_s = 10;
 constexpr double kMostMm = 1000;
 constexpr size_t kMostPoses = 100000;  ///< of a window: 100 s of a device of 1 kHz
+constexpr uint32_t kPoseQueue = 1000;  ///< none is to be lost while another is looked at
 constexpr int kThreads = 3;            ///< a collect that waits, another call, and the poses
 
 Clock::duration span(double seconds) {
@@ -33,14 +37,29 @@ Clock::duration span(double seconds) {
 
 }  // namespace
 
-RegisterOptions registerOptions(Parameters& parameters) {
+/// Of the device there are units and axes: what is between them and the tissue is to be found.
+DeviceProfile deviceOf(Parameters& parameters, const std::string& stylus, const std::string& package_folder) {
+  DeviceChoice choice;
+  choice.stylus = stylus;
+  setProfile(choice, parameters.text("device", "crtk"));
+  choice.overrides = parameters.texts("device_options");
+  DeviceProfile device = loadDevice(namedFile("device", choice.profile, package_folder + "/config/devices"), choice);
+  if (device.pose.type == PoseType::kCrtkArm)
+    throw ParameterError("parameter ~device: an arm is where it is told to be, and needs no registration");
+  device.tip = device.base = {};
+  device.scale = 1;
+  return device;
+}
+
+RegisterOptions registerOptions(Parameters& parameters, const std::string& package_folder) {
   RegisterOptions options;
   const std::string mode = parameters.text("mode", "");
   if (mode != "pivot" && mode != "points") throw ParameterError("parameter ~mode: must be pivot or points");
   options.mode = mode == "pivot" ? Mode::kPivot : Mode::kPoints;
   options.stylus = parameters.text("stylus", options.stylus);
-  options.tf_frame = parameters.text("tf_frame", "");
-  options.tf_base = parameters.text("tf_base", "");
+  options.device = deviceOf(parameters, options.stylus, package_folder);
+  options.tf_frame = parameters.text("tf_frame", options.device.pose.tf_frame);
+  options.tf_base = parameters.text("tf_base", options.device.pose.tf_base);
   options.file = parameters.text("file", "");
   const std::string points = parameters.text("points", "");
   options.window_s =
@@ -63,13 +82,14 @@ RegisterOptions registerOptions(Parameters& parameters) {
 }
 
 RegisterStylus::RegisterStylus(const RegisterOptions& options)
-    : options_(options), private_("~"), found_(options.known) {
+    : options_(options), private_("~"), map_(options.device), found_(options.known) {
   if (options_.tf_frame.empty())
-    pose_subscriber_ = node_.subscribe(options_.stylus + "/measured_cp", 1000, &RegisterStylus::onPose, this,
-                                       ros::TransportHints().tcpNoDelay());
+    pose_subscriber_ = listenToPoses(node_, options_.device.pose, kPoseQueue,
+                                     [this](const DevicePose& pose, const std::string&) { onPose(pose); });
   else
     listener_ = std::make_unique<tf2_ros::TransformListener>(frames_);
-  button_subscriber_ = node_.subscribe(options_.stylus + "/button1", 16, &RegisterStylus::onButton, this);
+  button_subscriber_ = listenToButtons(node_, options_.device.button1,
+                                       [this](const std::vector<int32_t>& values) { onButtons(values); });
   services_ = {private_.advertiseService("collect", &RegisterStylus::collect, this),
                private_.advertiseService("discard", &RegisterStylus::discard, this),
                private_.advertiseService("solve", &RegisterStylus::solve, this)};
@@ -109,13 +129,13 @@ std::string RegisterStylus::next() const {
          std::to_string(options_.points.size()) + "), hold still, then button 1 or `collect`";
 }
 
-void RegisterStylus::onPose(const geometry_msgs::PoseStamped& message) {
+void RegisterStylus::onPose(const DevicePose& pose) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (message.header.stamp.isZero()) {
+  if (pose.stamp.isZero()) {
     ++refused_;
     return;
   }
-  take(message.header.frame_id, fromMessage(message.pose));
+  take(pose.frame, pose.pose);
 }
 
 void RegisterStylus::lookAtTf() {
@@ -128,24 +148,26 @@ void RegisterStylus::lookAtTf() {
   }
 }
 
-void RegisterStylus::take(const std::string& frame, Pose pose) {
+void RegisterStylus::take(const std::string& frame, const Pose& said) {
   if (!is_open_) return;
-  if (!isFinite(pose) || !(std::abs(pose.orientation.norm() - 1) <= kQuaternionTolerance) ||
+  if (!isFinite(said) || !(std::abs(said.orientation.norm() - 1) <= kQuaternionTolerance) ||
       poses_.size() >= kMostPoses) {
     ++refused_;
     return;
   }
+  Pose pose = map_.toBase(said);
   pose.orientation.normalize();
   if (frame_.empty()) frame_ = frame;
   frame_changed_ = frame_changed_ || frame != frame_;
   poses_.push_back(pose);
 }
 
-void RegisterStylus::onButton(const sensor_msgs::Joy& message) {
+void RegisterStylus::onButtons(const std::vector<int32_t>& values) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  const bool down = !message.buttons.empty() && message.buttons.front() != 0;
+  const size_t index = static_cast<size_t>(options_.device.button1.index);
+  const bool down = index < values.size() && values[index] != 0;
   if (down && !std::exchange(pressed_, down)) open();
-  pressed_ = down && message.buttons.front() != 2;  // CRTK: 2 is a click, pressed and let go
+  pressed_ = down && values[index] != 2;  // CRTK: 2 is a click, pressed and let go
 }
 
 /// @return  whether it was closed before
@@ -173,7 +195,7 @@ RegisterStylus::Outcome RegisterStylus::judge() {
       refused_ ? "; " + std::to_string(refused_) + " poses were not valid and left out" : std::string();
   if (frame_changed_) return {false, "the poses changed their frame (it was '" + frame_ + "'): nothing is kept"};
   if (poses_.size() < kLeastHeldPoses) {
-    const std::string from = options_.tf_frame.empty() ? node_.resolveName(options_.stylus + "/measured_cp")
+    const std::string from = options_.tf_frame.empty() ? node_.resolveName(options_.device.pose.topic)
                                                        : "tf, " + options_.tf_base + " to " + options_.tf_frame;
     return {false, std::to_string(poses_.size()) + " poses came from " + from + " in " + rounded(options_.window_s, 1) +
                        " s, " + std::to_string(kLeastHeldPoses) + " are needed" + refused};

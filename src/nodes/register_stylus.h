@@ -2,9 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <geometry_msgs/PoseStamped.h>
 #include <ros/node_handle.h>
-#include <sensor_msgs/Joy.h>
 #include <std_srvs/Trigger.h>
 #include <tf2_ros/transform_listener.h>
 
@@ -14,9 +12,11 @@
 #include <string>
 #include <vector>
 
+#include "devices/device_map.h"
 #include "devices/registration_file.h"
 #include "nodes/master_watch.h"
 #include "nodes/parameters.h"
+#include "nodes/stylus_mailbox.h"
 
 namespace viscera::nodes {
 
@@ -25,6 +25,7 @@ struct RegisterOptions {
   enum class Mode { kPivot, kPoints };
   Mode mode = Mode::kPivot;
   std::string stylus = "left";
+  DeviceProfile device;            ///< whose units and axes poses are in; without tip, base and scale
   std::string tf_frame, tf_base;   ///< poses come from tf where both are given
   std::string file;                ///< written by `solve`
   std::vector<KnownPoint> points;  ///< of mode points
@@ -33,8 +34,9 @@ struct RegisterOptions {
   double max_residual_m = 0, max_motion_m = 0;
 };
 
-/// @throws ParameterError, RegistrationError
-RegisterOptions registerOptions(Parameters& parameters);
+/// @param package_folder  where config/devices are looked up
+/// @throws ParameterError, RegistrationError, DeviceError
+RegisterOptions registerOptions(Parameters& parameters, const std::string& package_folder);
 
 /// Finds the tip of a stylus, or the base of its device, from poses as the device sends them. `collect`, or a press of
 /// button 1, takes the poses of a span of time; `solve` fits and writes the file; `discard` forgets the last span.
@@ -53,10 +55,10 @@ class RegisterStylus {
   };
   using Trigger = std_srvs::Trigger;
 
-  void onPose(const geometry_msgs::PoseStamped& message);
-  void onButton(const sensor_msgs::Joy& message);
+  void onPose(const DevicePose& pose);
+  void onButtons(const std::vector<int32_t>& values);
   void lookAtTf();
-  void take(const std::string& frame, Pose pose);
+  void take(const std::string& frame, const Pose& said);
   bool collect(Trigger::Request&, Trigger::Response& response);
   bool discard(Trigger::Request&, Trigger::Response& response);
   bool solve(Trigger::Request&, Trigger::Response& response);
@@ -73,6 +75,7 @@ class RegisterStylus {
   tf2_ros::Buffer frames_;
   std::unique_ptr<tf2_ros::TransformListener> listener_;
   MasterWatch master_;
+  DeviceMap map_;  ///< units and axes
 
   std::mutex mutex_;
   std::condition_variable closed_;

@@ -1,5 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <ros/package.h>
+
 #include "nodes/node_main.h"
 #include "nodes/register_stylus.h"
 
@@ -7,6 +9,6 @@ int main(int argc, char** argv) {
   return viscera::nodes::nodeMain(argc, argv, "register_stylus", [](viscera::nodes::EndWatch& end) {
     const viscera::nodes::EndWatch::Act stop(end, [] { ros::requestShutdown(); });
     auto parameters = viscera::nodes::Parameters::ofThisNode();
-    viscera::nodes::RegisterStylus(viscera::nodes::registerOptions(parameters)).run();
+    viscera::nodes::RegisterStylus(viscera::nodes::registerOptions(parameters, ros::package::getPath("viscera"))).run();
   });
 }

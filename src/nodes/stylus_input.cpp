@@ -2,28 +2,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/stylus_input.h"
 
-#include <geometry_msgs/TransformStamped.h>
 #include <ros/console.h>
-#include <sensor_msgs/Joy.h>
 
 #include <cmath>
 
 #include "nodes/conversions.h"
 #include "nodes/device_messages.h"
-#include "nodes/foreign/omni_msgs.h"
+#include "nodes/device_subscribers.h"
 
 namespace viscera::nodes {
 namespace {
-
-constexpr uint32_t kButtonQueue = 16;  ///< events, none of which may be overtaken by a newer one
-
-DevicePose poseOf(const geometry_msgs::Pose& message) {
-  return toDevicePose(message, ros::Time::now());
-}
-template <class Stamped>
-DevicePose poseOf(const Stamped& message) {
-  return toDevicePose(message);
-}
 
 ros::TransportHints promptly() {
   return ros::TransportHints().tcpNoDelay();
@@ -41,69 +29,41 @@ StylusInput::StylusInput(const StylusConfig& config, const DeviceProfile& device
 }
 
 void StylusInput::subscribe(ros::NodeHandle& node) {
-  const PosePort& port = mailbox_.device().pose;
-  listenToButtons(node);
-  switch (port.type) {
-    case PoseType::kPoseStamped:
-      listenToPoses<geometry_msgs::PoseStamped>(node);
-      break;
-    case PoseType::kTransformStamped:
-      listenToPoses<geometry_msgs::TransformStamped>(node);
-      break;
-    case PoseType::kPose:
-      listenToPoses<geometry_msgs::Pose>(node);
-      break;
-    case PoseType::kTf:
-      follower_ = std::make_unique<FrameFollower>(frames_, port.tf_base, port.tf_frame,
-                                                  [this](const geometry_msgs::TransformStamped& newest) {
-                                                    const std::string name = mailbox_.device().pose.tf_frame;
-                                                    if (isOlder(newest, max_transform_age_s_)) {
-                                                      warn(name, mailbox_.drop(Drop::kOldTransform));
-                                                    } else {
-                                                      onPose(toDevicePose(newest), name);
-                                                    }
-                                                  });
-      break;
-    case PoseType::kCrtkArm:
-      arm_->subscribe(node, [this](const std::string& frame) { return inTissue(frame); });
-      break;
+  const DeviceProfile& device = mailbox_.device();
+  const PosePort& port = device.pose;
+  listenTo(node, device.button1, ButtonRole::kButton1);
+  listenTo(node, device.button2, ButtonRole::kButton2);
+  listenTo(node, device.clutch, ButtonRole::kClutch);
+  if (arm_) {
+    arm_->subscribe(node, [this](const std::string& frame) { return inTissue(frame); });
+  } else if (port.type == PoseType::kTf) {
+    follower_ =
+        std::make_unique<FrameFollower>(frames_, port.tf_base, port.tf_frame,
+                                        [this](const geometry_msgs::TransformStamped& newest) { onTransform(newest); });
+  } else {
+    pose_ = listenToPoses(node, port, 1, [this](const DevicePose& pose, const std::string& sender) {
+      const std::string& topic = mailbox_.device().pose.topic;
+      if (senders_.note(sender, std::chrono::steady_clock::now()))
+        ROS_WARN("%s: several nodes send poses, the tool jumps between them: %s", topic.c_str(), rivals().c_str());
+      onPose(pose, topic);
+    });
   }
   if (!arm_) listenToGripper(node);
   subscribed_ = true;
 }
 
-template <class Message>
-void StylusInput::listenToPoses(ros::NodeHandle& node) {
-  const std::string topic = mailbox_.device().pose.topic;
-  const boost::function<void(const ros::MessageEvent<const Message>&)> listen =
-      [this, topic](const ros::MessageEvent<const Message>& event) {
-        if (senders_.note(event.getPublisherName(), std::chrono::steady_clock::now()))
-          ROS_WARN("%s: several nodes send poses, the tool jumps between them: %s", topic.c_str(), rivals().c_str());
-        onPose(poseOf(*event.getConstMessage()), topic);
-      };
-  pose_ = node.subscribe<Message>(topic, 1, listen, ros::VoidConstPtr(), promptly());
+void StylusInput::listenTo(ros::NodeHandle& node, const ButtonPort& port, ButtonRole role) {
+  others_.push_back(listenToButtons(
+      node, port, [this, &port, role](const std::vector<int32_t>& values) { onButtons(port, role, values); }));
 }
 
-void StylusInput::listenToButtons(ros::NodeHandle& node) {
-  const DeviceProfile& device = mailbox_.device();
-  const auto listen = [&](const ButtonPort& port, ButtonRole role) {
-    if (port.type == ButtonType::kJoy) {
-      others_.push_back(node.subscribe<sensor_msgs::Joy>(
-          port.topic, kButtonQueue,
-          [this, &port, role](const sensor_msgs::JoyConstPtr& message) { onButtons(port, role, message->buttons); },
-          ros::VoidConstPtr(), promptly()));
-    } else if (port.type == ButtonType::kOmniButton) {
-      const boost::function<void(const boost::shared_ptr<const foreign::OmniButtonEvent>&)> heard =
-          [this, &port, role](const boost::shared_ptr<const foreign::OmniButtonEvent>& message) {
-            onButtons(port, role, {message->grey_button, message->white_button});
-          };
-      others_.push_back(
-          node.subscribe<foreign::OmniButtonEvent>(port.topic, kButtonQueue, heard, ros::VoidConstPtr(), promptly()));
-    }
-  };
-  listen(device.button1, ButtonRole::kButton1);
-  listen(device.button2, ButtonRole::kButton2);
-  listen(device.clutch, ButtonRole::kClutch);
+void StylusInput::onTransform(const geometry_msgs::TransformStamped& newest) {
+  const std::string& frame = mailbox_.device().pose.tf_frame;
+  if (isOlder(newest, max_transform_age_s_)) {
+    warn(frame, mailbox_.drop(Drop::kOldTransform));
+  } else {
+    onPose(toDevicePose(newest), frame);
+  }
 }
 
 void StylusInput::listenToGripper(ros::NodeHandle& node) {

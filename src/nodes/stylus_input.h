@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <geometry_msgs/PoseStamped.h>
+#include <geometry_msgs/TransformStamped.h>
 #include <ros/node_handle.h>
 #include <sensor_msgs/JointState.h>
 #include <tf2_ros/buffer.h>
@@ -43,10 +43,9 @@ class StylusInput {
   bool hasPublisher() const;
 
  private:
-  template <class Message>
-  void listenToPoses(ros::NodeHandle& node);
-  void listenToButtons(ros::NodeHandle& node);
+  void listenTo(ros::NodeHandle& node, const ButtonPort& port, ButtonRole role);
   void listenToGripper(ros::NodeHandle& node);
+  void onTransform(const geometry_msgs::TransformStamped& newest);
   void onPose(const DevicePose& pose, const std::string& topic);
   void onButtons(const ButtonPort& port, ButtonRole role, const std::vector<int32_t>& values);
   void onGripper(const sensor_msgs::JointState& message);
