@@ -99,6 +99,8 @@ void visitFields(V& v, DeviceProfile& c) {
   v.group("base", c.base, "the device's base in the tissue frame, in place of tf's; null: tf's");
   v.number("scale", c.scale, kMotionScale, "1", "metres of the tool per metre of the hand");
   v.number("stale_after_s", c.stale_after_s, {0, 10}, "s", "in place of the stylus's; 0: as the scene says");
+  v.number("delay_s", c.delay_s, {0, 0.05}, "s",
+           "from a pose measured in it to the force that answers there; 0: the node's ~device_delay_s");
   v.group("button1", c.button1, "");
   v.group("button2", c.button2, "");
   v.group("clutch", c.clutch, "while it is pressed, the hand moves and the tool stays");

@@ -81,6 +81,7 @@ struct DeviceProfile {
   ProfilePose base;  ///< of the device's base in the tissue frame (a registration finds it); not given: tf knows it
   double scale = 1;  ///< metres of the tool per metre of the hand
   double stale_after_s = 0;  ///< in place of the stylus's; 0: the stylus's
+  double delay_s = 0;        ///< from a pose measured in it to the force that answers there; 0: as the node's parameter
   ButtonPort button1, button2, clutch;
   GripperPort gripper;
   ForcePort force;

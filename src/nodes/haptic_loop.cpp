@@ -36,7 +36,7 @@ HapticLoop::HapticLoop(const HapticOptions& options, const Scene& scene,
     HapticServoConfig config;
     config.period_s = period_s();
     config.tick_s = 1 / scene.solver.tick_hz;
-    config.round_trip_s = options_.delay_s;
+    config.round_trip_s = mailbox->device().delay_s > 0 ? mailbox->device().delay_s : options_.delay_s;
     config.tissue = tissueOf(scene, mailbox->config());
     servos_.emplace_back(config);
   }

@@ -103,6 +103,7 @@ class Crtk(Driver):
 
 
 class Crtk2021(Crtk):
+    profile = "crtk_2021"
     message, at_part = TransformStamped, "transform"
 
     def name(self):

@@ -16,6 +16,7 @@ from program import END_LIMIT_S, START_LIMIT_S, Program
 from simulator_watch import wait_until
 
 SCENE = os.path.join(roslib.packages.get_pkg_dir("viscera"), "test/nodes/scene_view.yaml")
+TWO_HANDS = os.path.join(os.path.dirname(SCENE), "devices.yaml")
 SCENE_NODES = "504 nodes"  # of scene_view.yaml
 
 
@@ -60,6 +61,17 @@ class LaunchingTest(unittest.TestCase):
         simulator = self.start("roslaunch", "viscera", "training.launch", "scene:=" + SCENE)
         simulator.said("ready: " + SCENE_NODES)
         self.assertFalse(self.master.hasParam("/simulator/mesh_unit_m"))
+
+    def publishers(self, topic):
+        return dict(self.master.getSystemState()[0]).get(topic, [])
+
+    def test_hands_without_a_device_start_by_their_names(self):
+        self.start_master()
+        launched = self.start("roslaunch", "viscera", "training.launch", "scene:=" + TWO_HANDS, "device_left:=marker",
+                              "device_right:=joy")
+        launched.said("ready: ")
+        wait_until(lambda: (self.publishers("/left/measured_cp"), self.publishers("/right/measured_cp")) ==
+                   (["/marker_left"], ["/joy_right"]), START_LIMIT_S, "hands: " + launched.output)
 
     def test_a_respawn_after_a_restart_of_the_master_runs_the_same_scene(self):
         core = self.start_master()
