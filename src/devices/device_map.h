@@ -10,8 +10,8 @@ namespace viscera {
 
 /// From what a device says to where the tool's tip is, and back: units, axes, tip, scale, clutch (docs/devices.md).
 ///
-/// A pose (p, q) of the device becomes (s (A u p + B q r) + o, B q R) in the frame of its base: u metres per unit, A and B
-/// the rotations of `axes` and `turn_axes`, (r, R) the tip, s the scale, and o what clutching has added.
+/// A pose (p, q) of the device becomes (s (A u p + B q r) + o, B q R) in the frame of its base: u metres per unit, A
+/// and B the rotations of `axes` and `turn_axes`, (r, R) the tip, s the scale, and o what clutching has added.
 class DeviceMap {
  public:
   explicit DeviceMap(const DeviceProfile& device);

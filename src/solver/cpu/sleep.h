@@ -10,8 +10,9 @@
 
 namespace viscera {
 
-/// Which bricks are stepped (on the GPU by the same rule: solver/gpu/awake_bricks.h). A brick is awake while it, or one of the 26 around it, has a node that was faster than a
-/// speed within the last kQuiet_s, or was touched. A brick that falls asleep stands still where it is.
+/// Which bricks are stepped (on the GPU by the same rule: solver/gpu/awake_bricks.h). A brick is awake while it, or one
+/// of the 26 around it, has a node that was faster than a speed within the last kQuiet_s, or was touched. A brick that
+/// falls asleep stands still where it is.
 class Sleep {
  public:
   /// Substeps between two looks: disturbances cross the four cells of a brick, c_p dt <= 0.58 h each, in no fewer.
