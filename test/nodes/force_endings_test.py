@@ -214,7 +214,7 @@ class ForceEndingsTest(unittest.TestCase):
     def test_killed_simulator_behind_a_watchdog(self):
         with Session(wrenches="watched") as session:
             watchdog = session.node("wrench_watchdog", "wrench_in:=left/body/servo_cf", "wrench_out:=watched",
-                                    "_timeout_s:=0.04")
+                                    "_timeout_s:=0.03")
             session.wait_touch()
             ended = time.monotonic()
             session.simulator.kill()
