@@ -69,8 +69,10 @@ void visitFields(V& v, ForcePort& c) {
   v.text("absolute_topic", c.absolute_topic,
          "of a latched std_msgs/Bool `true`: CRTK's wrenches are in the frame of poses");
   v.text("message", c.message, "name of the message of type geomagic_feedback");
-  v.number("scale", c.scale, {0, 100}, "1", "of forces and torques, before the limits");
-  v.number("max_force_n", c.max_force_n, {0, 1000}, "N", "what the device is made for; the scene's limit may be lower");
+  v.number("scale", c.scale, {0, 100}, "1",
+           "of forces and torques; the scene's limits are of what it takes, those below of what it gives");
+  v.number("max_force_n", c.max_force_n, {0, 1000}, "N",
+           "what the device is made for: never more, whatever the scene allows");
   v.number("max_torque_nm", c.max_torque_nm, {0, 100}, "N m", "the same");
 }
 

@@ -44,11 +44,20 @@ Message feedback(const geometry_msgs::Wrench& wrench, const Vector3d& position) 
 
 }  // namespace
 
+Reaction toDevice(const Reaction& reaction, const DeviceFrame& frame, const ForcePort& port) {
+  const Vector3d force_n = frame.from_tissue * (port.scale * reaction.force_n);
+  const Vector3d torque_nm = frame.from_tissue * (port.scale * reaction.torque_nm) + frame.lever_arm_m.cross(force_n);
+  double share = 1;
+  if (force_n.norm() > port.max_force_n) share = port.max_force_n / force_n.norm();
+  if (share * torque_nm.norm() > port.max_torque_nm) share = port.max_torque_nm / torque_nm.norm();
+  return {share * force_n, share * torque_nm, reaction.saturated || share < 1};
+}
+
 ForceSink::ForceSink(ros::NodeHandle& node, const DeviceProfile& device)
-    : type_(device.force.type), scale_(device.force.scale), publisher_(publisherOf(node, device.force)) {
-  if (device.force.absolute_topic.empty()) return;
+    : port_(device.force), publisher_(publisherOf(node, port_)) {
+  if (port_.absolute_topic.empty()) return;
   // A CRTK device takes a body wrench in its tip's frame unless told that it is in the frame of its poses.
-  absolute_ = node.advertise<std_msgs::Bool>(device.force.absolute_topic, kNewest, true);
+  absolute_ = node.advertise<std_msgs::Bool>(port_.absolute_topic, kNewest, true);
   std_msgs::Bool absolute;
   absolute.data = true;
   absolute_.publish(absolute);
@@ -56,11 +65,9 @@ ForceSink::ForceSink(ros::NodeHandle& node, const DeviceProfile& device)
 
 void ForceSink::send(const Reaction& reaction, const DeviceFrame& frame, const ros::Time& stamp) {
   constexpr double kMillimetresPerMetre = 1000;  // omni_common's poses are in metres, its lock in millimetres
-  const Vector3d force_n = frame.from_tissue * (scale_ * reaction.force_n);
-  const Vector3d torque_nm = frame.from_tissue * (scale_ * reaction.torque_nm) + frame.lever_arm_m.cross(force_n);
   const geometry_msgs::WrenchStamped wrench =
-      toWrench({force_n, torque_nm, reaction.saturated}, Quaterniond::Identity(), frame.name, stamp);
-  switch (type_) {
+      toWrench(toDevice(reaction, frame, port_), Quaterniond::Identity(), frame.name, stamp);
+  switch (port_.type) {
     case ForceType::kNone:
       return;
     case ForceType::kWrenchStamped:

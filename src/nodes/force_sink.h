@@ -10,18 +10,22 @@
 
 namespace viscera::nodes {
 
+/// A reaction as a device takes it: along its axes, about the origin of its poses, times its scale, and within what it
+/// is made for, whatever the scene's limits have become meanwhile; force and torque shrink by one factor.
+/// @param reaction  on the tip, tissue frame: force, and torque about the tip
+Reaction toDevice(const Reaction& reaction, const DeviceFrame& frame, const ForcePort& port);
+
 /// Where a device takes its forces, in the message and the frame that its driver knows.
 class ForceSink {
  public:
   ForceSink(ros::NodeHandle& node, const DeviceProfile& device);
 
   bool hasSubscribers() const { return publisher_ && publisher_.getNumSubscribers() > 0; }
-  /// @param reaction  on the tip, tissue frame: force, and torque about the tip; not finite becomes zero
+  /// @param reaction  as of toDevice(); not finite becomes zero
   void send(const Reaction& reaction, const DeviceFrame& frame, const ros::Time& stamp);
 
  private:
-  ForceType type_;
-  double scale_;
+  ForcePort port_;
   ros::Publisher publisher_, absolute_;
 };
 
