@@ -114,10 +114,13 @@ void CrtkArm::onJaw(const sensor_msgs::JointState& message) {
 
 void CrtkArm::onState(const foreign::StringStamped& message) {
   const std::lock_guard<std::mutex> lock(mutex_);
+  const ArmMotion before = motion_;
   if (const std::optional<std::string> wrong = motion_.command(message.string))
     ROS_WARN("%s/state_command: %s", base_.c_str(), wrong->c_str());
   mailbox_.hold(motion_.state() != ArmMotion::State::kDisabled);
+  if (motion_.state() == before.state() && motion_.homed() == before.homed()) return;
   if (motion_.state() != ArmMotion::State::kDisabled) place();
+  // Only what is news: a client that waits for the end of its move takes any state that is not busy for it.
   tellState();
 }
 

@@ -89,6 +89,12 @@ class CrtkArmTest(unittest.TestCase):
         self.assertGreater(max(speeds), 0.1)
         wait_until(lambda: abs(self.speed.message.twist.linear.x) < PLACE_M, LIMIT_S, "rest")
 
+    def test_2b_a_state_that_is_no_news_is_not_told(self):
+        count = self.state.count
+        self.command.publish(StringStamped(string="enable"))
+        time.sleep(0.5)
+        self.assertEqual(self.state.count, count)
+
     def test_3_it_feels_and_its_jaws_hold(self):
         self.go((0.01, 0.01, DEEP_M))
         wait_until(lambda: self.force.message.wrench.force.z > FELT_N, LIMIT_S, "force upwards")
