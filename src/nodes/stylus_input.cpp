@@ -135,8 +135,7 @@ FramePlace StylusInput::inTissue(const std::string& frame) const {
 }
 
 void StylusInput::warn(const std::string& topic, std::optional<Drop> reason, const std::string& detail) {
-  if (!reason || warned_[static_cast<size_t>(*reason)]) return;
-  warned_[static_cast<size_t>(*reason)] = true;
+  if (!reason || warned_[static_cast<size_t>(*reason)].exchange(true)) return;
   ROS_WARN("%s: a message was dropped (%s%s); later ones are counted in /diagnostics", topic.c_str(), text(*reason),
            detail.c_str());
 }

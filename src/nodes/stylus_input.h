@@ -57,7 +57,7 @@ class StylusInput {
   const double max_transform_age_s_;
   StylusMailbox mailbox_;
   SenderWatch senders_;
-  std::array<bool, kDropReasons> warned_{};
+  std::array<std::atomic<bool>, kDropReasons> warned_{};  ///< by threads of topics and of tf
   uint64_t base_moves_told_ = 0;
   bool gripper_closed_ = false;
   ros::Subscriber pose_;
