@@ -15,18 +15,6 @@
 namespace viscera::nodes {
 namespace {
 
-geometry_msgs::Vector3 toVector(const Vector3d& v) {
-  geometry_msgs::Vector3 out;
-  out.x = v.x(), out.y = v.y(), out.z = v.z();
-  return out;
-}
-
-geometry_msgs::Quaternion toQuaternion(const Quaterniond& q) {
-  geometry_msgs::Quaternion out;
-  out.x = q.x(), out.y = q.y(), out.z = q.z(), out.w = q.w();
-  return out;
-}
-
 geometry_msgs::Point toPoint(const float* xyz_m) {
   geometry_msgs::Point out;
   out.x = xyz_m[0], out.y = xyz_m[1], out.z = xyz_m[2];
@@ -78,6 +66,18 @@ void addPoints(const ShownMesh& skin, const ShownPatch& patch, visualization_msg
 }
 
 }  // namespace
+
+geometry_msgs::Vector3 toVector(const Vector3d& v) {
+  geometry_msgs::Vector3 out;
+  out.x = v.x(), out.y = v.y(), out.z = v.z();
+  return out;
+}
+
+geometry_msgs::Quaternion toQuaternion(const Quaterniond& q) {
+  geometry_msgs::Quaternion out;
+  out.x = q.x(), out.y = q.y(), out.z = q.z(), out.w = q.w();
+  return out;
+}
 
 Pose fromMessage(const geometry_msgs::Pose& message) {
   const auto& q = message.orientation;

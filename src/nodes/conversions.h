@@ -33,6 +33,8 @@ Pose fromMessage(const geometry_msgs::Transform& message);
 geometry_msgs::TransformStamped toTransform(const Pose& pose, const std::string& parent, const std::string& child,
                                             const ros::Time& stamp);
 
+geometry_msgs::Vector3 toVector(const Vector3d& v);
+geometry_msgs::Quaternion toQuaternion(const Quaterniond& q);
 /// All seven numbers are finite.
 bool isFinite(const Pose& pose);
 /// Was a transform of something that moves true longer ago than that? Static ones have the stamp 0 and no age.

@@ -16,6 +16,10 @@ namespace {
 
 constexpr uint32_t kNewest = 1, kEvents = 16;
 
+bool isHeard(const ros::Publisher& publisher) {
+  return publisher.getNumSubscribers() > 0;
+}
+
 geometry_msgs::PoseStamped stamped(const Pose& pose, const std::string& frame, const ros::Time& stamp) {
   geometry_msgs::PoseStamped message;
   message.header.frame_id = frame;
@@ -34,8 +38,8 @@ geometry_msgs::TwistStamped twist(const Pose& from, const Pose& to, double span_
   const Vector3d speed = (to.position_m - from.position_m) / span_s;
   const Eigen::AngleAxisd turned(to.orientation * from.orientation.conjugate());
   const Vector3d turn = turned.axis() * (turned.angle() > M_PI ? turned.angle() - 2 * M_PI : turned.angle()) / span_s;
-  message.twist.linear.x = speed.x(), message.twist.linear.y = speed.y(), message.twist.linear.z = speed.z();
-  message.twist.angular.x = turn.x(), message.twist.angular.y = turn.y(), message.twist.angular.z = turn.z();
+  message.twist.linear = toVector(speed);
+  message.twist.angular = toVector(turn);
   return message;
 }
 
@@ -72,8 +76,7 @@ void CrtkArm::subscribe(ros::NodeHandle& node, FrameLookup lookup) {
 bool CrtkArm::good(const geometry_msgs::PoseStamped& message, const std::string& topic) {
   const Pose pose = fromMessage(message.pose);
   if (!isFinite(pose)) return refuse(topic, Drop::kNotFinite), false;
-  if (!(std::abs(pose.orientation.norm() - 1) <= kQuaternionTolerance))
-    return refuse(topic, Drop::kBadQuaternion), false;
+  if (!isUnit(pose.orientation)) return refuse(topic, Drop::kBadQuaternion), false;
   return true;
 }
 
@@ -105,11 +108,7 @@ void CrtkArm::onJaw(const sensor_msgs::JointState& message) {
   if (message.position.empty()) return refuse("jaw/servo_jp", Drop::kNoButtons);
   if (!std::isfinite(message.position.front())) return refuse("jaw/servo_jp", Drop::kNotFinite);
   if (!motion_.servoJaw(message.position.front())) return;
-  const GripperPort& port = mailbox_.device().gripper;
-  jaw_closed_ = motion_.jaw_rad() < (jaw_closed_ ? port.open_above : port.closed_below);
-  if (port.presses == PressedButton::kNone) return;
-  const ButtonRole role = port.presses == PressedButton::kButton1 ? ButtonRole::kButton1 : ButtonRole::kButton2;
-  mailbox_.press(role, {jaw_closed_ ? 1 : 0}, 0, std::chrono::steady_clock::now());
+  mailbox_.grip(message.position, 0, std::chrono::steady_clock::now());
 }
 
 void CrtkArm::onState(const foreign::StringStamped& message) {
@@ -146,18 +145,24 @@ void CrtkArm::endTick(const Pose& tool, const ros::Time& stamp) {
   const std::lock_guard<std::mutex> lock(mutex_);
   const Pose measured = mailbox_.inDevice(tool);
   const std::string frame = mailbox_.deviceFrame().name;
-  measured_cp_.publish(stamped(measured, frame, stamp));
-  setpoint_cp_.publish(stamped(motion_.setpoint(), frame, stamp));
-  measured_cv_.publish(twist(last_measured_, measured, (stamp - last_told_).toSec(), frame, stamp));
+  if (isHeard(measured_cp_)) measured_cp_.publish(stamped(measured, frame, stamp));
+  if (isHeard(setpoint_cp_)) setpoint_cp_.publish(stamped(motion_.setpoint(), frame, stamp));
+  if (isHeard(measured_cv_))
+    measured_cv_.publish(twist(last_measured_, measured, (stamp - last_told_).toSec(), frame, stamp));
   last_measured_ = measured;
   last_told_ = stamp;
+  tellJaws(stamp);
+  if (motion_.busy() != told_busy_) tellState();
+}
+
+void CrtkArm::tellJaws(const ros::Time& stamp) {
+  if (!isHeard(measured_js_) && !isHeard(setpoint_js_)) return;
   sensor_msgs::JointState jaw;
   jaw.header.stamp = stamp;
   jaw.name = {"jaw"};
   jaw.position = {motion_.jaw_rad()};
   measured_js_.publish(jaw);
   setpoint_js_.publish(jaw);
-  if (motion_.busy() != told_busy_) tellState();
 }
 
 void CrtkArm::tellState() {

@@ -40,6 +40,7 @@ class CrtkArm {
   bool good(const geometry_msgs::PoseStamped& message, const std::string& topic);
   void refuse(const std::string& topic, Drop reason);
   void place();
+  void tellJaws(const ros::Time& stamp);
   void tellState();
 
   StylusMailbox& mailbox_;
@@ -47,7 +48,7 @@ class CrtkArm {
   std::string base_;  ///< topics begin with it
   mutable std::mutex mutex_;
   ArmMotion motion_;
-  bool jaw_closed_ = false, told_busy_ = false, warned_ = false;
+  bool told_busy_ = false, warned_ = false;
   std::string frame_;  ///< of the arm's base: that of the last command, or the profile's
   SteadyTime ticked_{};
   Pose last_measured_;

@@ -38,7 +38,7 @@ template <class Message>
 Message feedback(const geometry_msgs::Wrench& wrench, const Vector3d& position) {
   Message message;
   message.force = wrench.force;
-  message.position.x = position.x(), message.position.y = position.y(), message.position.z = position.z();
+  message.position = toVector(position);
   return message;
 }
 

@@ -2,22 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/impedance.h"
 
+#include "nodes/conversions.h"
+
 namespace viscera::nodes {
-namespace {
-
-geometry_msgs::Vector3 vector(const Vector3d& v) {
-  geometry_msgs::Vector3 out;
-  out.x = v.x(), out.y = v.y(), out.z = v.z();
-  return out;
-}
-
-geometry_msgs::Quaternion quaternion(const Quaterniond& q) {
-  geometry_msgs::Quaternion out;
-  out.x = q.x(), out.y = q.y(), out.z = q.z(), out.w = q.w();
-  return out;
-}
-
-}  // namespace
 
 foreign::CartesianImpedance noImpedance(const std::string& frame, const ros::Time& stamp) {
   foreign::CartesianImpedance out;
@@ -42,11 +29,11 @@ foreign::CartesianImpedance toImpedance(const HapticServo& servo, const std::str
     bias.setZero();
     stiffness.x() = stiffness.y() = 0;
   }
-  out.force_orientation = quaternion(axes);
-  out.force_position = vector(place);
-  out.position_negative.p = vector(-stiffness);
-  out.position_negative.d = vector(-servo.lead_s() * stiffness);
-  out.position_negative.bias = vector(bias);
+  out.force_orientation = toQuaternion(axes);
+  out.force_position = toVector(place);
+  out.position_negative.p = toVector(-stiffness);
+  out.position_negative.d = toVector(-servo.lead_s() * stiffness);
+  out.position_negative.bias = toVector(bias);
   if (model.kind() == TickContact::Kind::kHolds) out.position_positive = out.position_negative;
   return out;
 }

@@ -150,8 +150,7 @@ void RegisterStylus::lookAtTf() {
 
 void RegisterStylus::take(const std::string& frame, const Pose& said) {
   if (!is_open_) return;
-  if (!isFinite(said) || !(std::abs(said.orientation.norm() - 1) <= kQuaternionTolerance) ||
-      poses_.size() >= kMostPoses) {
+  if (!isFinite(said) || !isUnit(said.orientation) || poses_.size() >= kMostPoses) {
     ++refused_;
     return;
   }

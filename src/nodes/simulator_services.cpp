@@ -60,7 +60,7 @@ StylusSamples samplesOf(const std::vector<StylusState>& states, const std::vecto
     if (s == styluses.size()) throw Error("styluses: the scene has no stylus '" + state.stylus + "'");
     if (samples[s].valid) throw Error("styluses: '" + state.stylus + "' is there twice");
     Pose pose = fromMessage(state.pose);
-    if (!isFinite(pose) || !(std::abs(pose.orientation.norm() - 1) <= kQuaternionTolerance))
+    if (!isFinite(pose) || !isUnit(pose.orientation))
       throw Error("styluses: the pose of '" + state.stylus + "' must be finite, its quaternion of length 1");
     pose.orientation.normalize();
     if (!(pose.position_m.norm() <= styluses[s].workspace_m))

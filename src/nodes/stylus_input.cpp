@@ -4,8 +4,6 @@
 
 #include <ros/console.h>
 
-#include <cmath>
-
 #include "nodes/conversions.h"
 #include "nodes/device_messages.h"
 #include "nodes/device_subscribers.h"
@@ -86,7 +84,7 @@ void StylusInput::onPose(const DevicePose& pose, const std::string& topic) {
   if (reason == Drop::kOutsideWorkspace && port.unit_m == 1)
     detail = ": if this device sends millimetres, its profile wants pose.unit_m: 0.001";
   warn(topic, reason, detail);
-  const uint64_t moves = mailbox_.status(now.steady).base_moves;
+  const uint64_t moves = mailbox_.baseMoves();
   if (moves != base_moves_told_)
     ROS_WARN_THROTTLE(5, "%s: the frame '%s' was moved; the hand appears anew, and its buttons must be let go first",
                       topic.c_str(), frame.c_str());
@@ -100,11 +98,7 @@ void StylusInput::onButtons(const ButtonPort& port, ButtonRole role, const std::
 void StylusInput::onGripper(const sensor_msgs::JointState& message) {
   const GripperPort& port = mailbox_.device().gripper;
   const size_t joint = static_cast<size_t>(port.index);
-  if (joint >= message.position.size()) return warn(port.topic, mailbox_.drop(Drop::kNoButtons));
-  if (!std::isfinite(message.position[joint])) return warn(port.topic, mailbox_.drop(Drop::kNotFinite));
-  gripper_closed_ = message.position[joint] < (gripper_closed_ ? port.open_above : port.closed_below);
-  const ButtonRole role = port.presses == PressedButton::kButton1 ? ButtonRole::kButton1 : ButtonRole::kButton2;
-  mailbox_.press(role, {gripper_closed_ ? 1 : 0}, 0, std::chrono::steady_clock::now());
+  warn(port.topic, mailbox_.grip(message.position, joint, std::chrono::steady_clock::now()));
 }
 
 void StylusInput::beginTick() {

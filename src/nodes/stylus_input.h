@@ -59,7 +59,6 @@ class StylusInput {
   SenderWatch senders_;
   std::array<std::atomic<bool>, kDropReasons> warned_{};  ///< by threads of topics and of tf
   uint64_t base_moves_told_ = 0;
-  bool gripper_closed_ = false;
   ros::Subscriber pose_;
   std::vector<ros::Subscriber> others_;  ///< buttons, gripper
   std::unique_ptr<FrameFollower> follower_;

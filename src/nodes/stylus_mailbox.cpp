@@ -52,8 +52,7 @@ std::optional<Drop> StylusMailbox::put(const DevicePose& said, const FrameLookup
   if (said.stamp.isZero()) return drop(Drop::kStampZero);
   Pose in_device = said.pose;
   if (!isFinite(in_device)) return drop(Drop::kNotFinite);
-  // negated, so that an overflow of the norm is refused too
-  if (!(std::abs(in_device.orientation.norm() - 1) <= kQuaternionTolerance)) return drop(Drop::kBadQuaternion);
+  if (!isUnit(in_device.orientation)) return drop(Drop::kBadQuaternion);
   in_device.orientation.normalize();
 
   const std::string& named = device_.pose.frame.empty() ? said.frame : device_.pose.frame;
@@ -166,6 +165,16 @@ void StylusMailbox::forgetButtons() {
   endButtons();
 }
 
+std::optional<Drop> StylusMailbox::grip(const std::vector<double>& positions, size_t index, SteadyTime now) {
+  if (index >= positions.size()) return drop(Drop::kNoButtons);
+  if (!std::isfinite(positions[index])) return drop(Drop::kNotFinite);
+  const GripperPort& port = device_.gripper;
+  gripped_ = positions[index] < (gripped_ ? port.open_above : port.closed_below);
+  if (port.presses == PressedButton::kNone) return std::nullopt;
+  const ButtonRole role = port.presses == PressedButton::kButton1 ? ButtonRole::kButton1 : ButtonRole::kButton2;
+  return press(role, {gripped_ ? 1 : 0}, 0, now);
+}
+
 void StylusMailbox::hold(bool held) {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (held_ && !held) received_ = {};
@@ -214,6 +223,11 @@ Pose StylusMailbox::inDevice(const Pose& in_tissue) const {
 bool StylusMailbox::clutched() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   return map_.clutched();
+}
+
+uint64_t StylusMailbox::baseMoves() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return status_.base_moves;
 }
 
 DeviceFrame StylusMailbox::deviceFrame() const {

@@ -5,7 +5,9 @@
 #include <ros/time.h>
 
 #include <array>
+#include <atomic>
 #include <chrono>
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <mutex>
@@ -36,6 +38,10 @@ const char* text(Drop reason);  ///< snake_case, as in the diagnostics
 
 /// Some trackers send quaternions that are a few percent off unit length: those are normalised, others refused.
 constexpr double kQuaternionTolerance = 0.1;
+/// Negated by whoever refuses: an overflow of the norm is no unit either.
+inline bool isUnit(const Quaterniond& q) {
+  return std::abs(q.norm() - 1) <= kQuaternionTolerance;
+}
 
 /// What a device says of where it is, in its own units and axes.
 struct DevicePose {
@@ -90,6 +96,9 @@ class StylusMailbox {
   /// A button ends with its hand: what was down when the poses grew stale, or is down when they begin, must be let go
   /// before it acts. @param values  of a message's buttons, 0 released, 1 pressed, 2 clicked   @param index  which
   std::optional<Drop> press(ButtonRole role, const std::vector<int32_t>& values, size_t index, SteadyTime now);
+  /// A joint of a gripper or of jaws, which presses the button that the profile says: below one position, until above
+  /// another.
+  std::optional<Drop> grip(const std::vector<double>& positions, size_t index, SteadyTime now);
   /// Its pose does not grow stale, as that of an arm, which stays where it was sent; or does again, and is stale at
   /// once.
   void hold(bool held);
@@ -103,6 +112,7 @@ class StylusMailbox {
   StylusSample peek(SteadyTime now) const;
 
   StylusStatus status(SteadyTime now) const;
+  uint64_t baseMoves() const;  ///< as of status()
   DeviceFrame deviceFrame() const;
   /// A pose of the tissue frame as the device would tell it.
   Pose inDevice(const Pose& in_tissue) const;
@@ -137,6 +147,7 @@ class StylusMailbox {
   Pose base_;                  ///< where the frame of the last pose was
   bool appears_anew_ = false;  ///< the next sample is none: what was before it is no motion
   bool held_ = false;
+  std::atomic<bool> gripped_{false};
   Pose pose_;
   DeviceFrame device_frame_;
   SteadyTime received_{};  ///< of the newest accepted stamp

@@ -108,7 +108,7 @@ void StylusMarker::run() {
 void StylusMarker::onMoved(const Feedback& feedback) {
   if (feedback->event_type != InteractiveMarkerFeedback::POSE_UPDATE) return;
   Pose pose = fromMessage(feedback->pose);
-  const bool good = isFinite(pose) && std::abs(pose.orientation.norm() - 1) <= kQuaternionTolerance;
+  const bool good = isFinite(pose) && isUnit(pose.orientation);
   if (!good || feedback->header.frame_id != options_.frame) {
     ROS_WARN_THROTTLE(5, "%s/marker/feedback: a pose was dropped: it is not finite, or its frame '%s' is not '%s'",
                       options_.stylus.c_str(), feedback->header.frame_id.c_str(), options_.frame.c_str());

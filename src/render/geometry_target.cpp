@@ -5,21 +5,10 @@
 #include <string>
 
 #include "gpu/gl.h"
+#include "render/renderbuffer.h"
 #include "viscera/math/error.h"
 
 namespace viscera {
-
-namespace {
-
-uint32_t makeRenderbuffer(GLenum format, int width, int height) {
-  uint32_t id = 0;
-  glCreateRenderbuffers(1, &id);
-  gpu::countObject();
-  glNamedRenderbufferStorage(id, format, width, height);
-  return id;
-}
-
-}  // namespace
 
 GeometryTarget::GeometryTarget(int width, int height)
     : width_(width),

@@ -7,19 +7,12 @@
 #include <utility>
 
 #include "gpu/gl.h"
+#include "render/renderbuffer.h"
 #include "viscera/math/error.h"
 
 namespace viscera {
 
 namespace {
-
-uint32_t makeRenderbuffer(GLenum format, int width, int height) {
-  uint32_t id = 0;
-  glCreateRenderbuffers(1, &id);
-  gpu::countObject();
-  glNamedRenderbufferStorage(id, format, width, height);
-  return id;
-}
 
 uint32_t makeFramebuffer(uint32_t color, uint32_t depth) {
   uint32_t id = 0;

@@ -10,6 +10,7 @@
 #include "solver/cpu/lattice_arrays.h"
 #include "solver/cpu/network.h"
 #include "solver/cpu/node_pairs.h"
+#include "solver/tool_boxes.h"
 #include "viscera/math/error.h"
 #include "viscera/solver/material.h"
 
@@ -18,10 +19,6 @@ namespace viscera {
 namespace {
 
 constexpr size_t kBricksPerJob = 16;  // of a measurement
-
-Vector3f xyz(const layout::vec4& v) {
-  return {v.x, v.y, v.z};
-}
 
 simd::Kernels kernelsOrThrow(const std::string& target) {
   const std::optional<simd::Kernels> kernels = simd::kernelsFor(target);
@@ -124,22 +121,9 @@ void CpuBackend::writeMotions(const std::vector<layout::ToolMotion>& motions) {
 
 /// Wakes what the tools may reach in this tick.
 void CpuBackend::wakeForTools(const std::vector<layout::ToolMotion>& motions) {
-  for (size_t s = 0; s < layout::kMaxStyluses; ++s) {
-    const layout::ToolMotion &first = motions[s], &last = motions[motions.size() - layout::kMaxStyluses + s];
-    if (first.info.y == 0) continue;
-    Vector3f low = xyz(first.from).cwiseMin(xyz(last.to)), high = xyz(first.from).cwiseMax(xyz(last.to));
-    float reach = first.from.w;
-    if (first.info.y & (layout::kToolCuts | layout::kToolErases)) {
-      low = low.cwiseMin(xyz(first.blade_from)).cwiseMin(xyz(last.blade_to));
-      high = high.cwiseMax(xyz(first.blade_from)).cwiseMax(xyz(last.blade_to));
-      reach = first.blade_from.w;
-    }
-    // The ends of springs that are cut lie up to a spring beside the blade.
-    float spacing = 0;
-    for (const layout::BodyParams& body : lattice_.store.bodies) spacing = std::max(spacing, body.origin_spacing.w);
-    const Vector3f grown = Vector3f::Constant(reach + 2 * spacing);
-    sleep_.wakeNear(lattice_, low - grown, high + grown);
-  }
+  float spacing_m = 0;
+  for (const layout::BodyParams& body : lattice_.store.bodies) spacing_m = std::max(spacing_m, body.origin_spacing.w);
+  for (const ToolBox& box : toolBoxes(motions, spacing_m)) sleep_.wakeNear(lattice_, box.low, box.high);
 }
 
 void CpuBackend::selectMotions(size_t substep) {

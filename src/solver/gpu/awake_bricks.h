@@ -9,13 +9,9 @@
 #include "solver/features.h"
 #include "solver/gpu/lattice_buffers.h"
 #include "solver/substep.h"
+#include "solver/tool_boxes.h"
 
 namespace viscera {
-
-/// A box in the tissue frame [m].
-struct ToolBox {
-  Vector3f low, high;
-};
 
 /// Which bricks leapfrog steps on the GPU, by the rule of the CPU's Sleep, found and listed there: kernels are
 /// dispatched over what is awake and the host need not know how much that is. Owner of

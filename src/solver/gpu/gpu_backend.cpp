@@ -23,10 +23,6 @@ namespace {
 constexpr int kStatsInFlight = 3;
 const float kFarthestCut = layout::kLongest * 1.41421357f;  // spacings beside a blade that it may cut in
 
-Vector3f xyz(const layout::vec4& v) {
-  return {v.x, v.y, v.z};
-}
-
 /// Null where nothing may sleep: by another integrator, or with surroundings that move what is at rest.
 std::unique_ptr<AwakeBricks> makeAwakeBricks(const Model& model, const Scene& scene, const TickPlan& plan,
                                              const FeatureSet& features, const LatticeBuffers& buffers) {
@@ -109,23 +105,11 @@ void GpuBackend::letGo(uint32_t stylus, const Release& release) {
 /// Where the tools may reach in this tick, as the CPU backend has it.
 void GpuBackend::writeMotions(const std::vector<layout::ToolMotion>& motions) {
   const bool rested = rest_.resting();
-  bool cuts = false;
-  boxes_.clear();
-  for (size_t s = 0; s < layout::kMaxStyluses; ++s) {
-    const layout::ToolMotion &first = motions[s], &last = motions[motions.size() - layout::kMaxStyluses + s];
-    if (first.info.y == 0) continue;
-    Vector3f low = xyz(first.from).cwiseMin(xyz(last.to)), high = xyz(first.from).cwiseMax(xyz(last.to));
-    float reach = first.from.w;
-    if (first.info.y & (layout::kToolCuts | layout::kToolErases)) {
-      low = low.cwiseMin(xyz(first.blade_from)).cwiseMin(xyz(last.blade_to));
-      high = high.cwiseMax(xyz(first.blade_from)).cwiseMax(xyz(last.blade_to));
-      reach = first.blade_from.w;
-      cuts = true;
-    }
-    // The ends of springs that are cut lie up to a spring beside the blade.
-    const Vector3f grown = Vector3f::Constant(reach + 2 * largest_spacing_m_);
-    boxes_.push_back({low - grown, high + grown});
-  }
+  const bool cuts =
+      std::any_of(motions.begin(), motions.begin() + layout::kMaxStyluses,
+                  [](const layout::ToolMotion& m) { return m.info.y & (layout::kToolCuts | layout::kToolErases); });
+  const ToolBoxes reached = toolBoxes(motions, largest_spacing_m_);
+  boxes_.assign(reached.begin(), reached.end());
   std::vector<ToolBox> disturbed = boxes_;
   for (ToolBox& box : disturbed) {
     const Vector3f more = Vector3f::Constant(cuts ? kFarthestCut * largest_spacing_m_ : 0);
