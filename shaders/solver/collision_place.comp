@@ -4,7 +4,7 @@
 // collision_place.comp - complete search, second: where each bucket begins.
 // Owner: solver/gpu/collision_pass.h   physics.md 8
 // in, out  buckets     A bucket of more than most_in_bucket nodes is left empty: what collapsed into one place would otherwise be compared
-// each with all in one dispatch. Who is in it touches nobody until it has spread; the largest such crowd is noted.
+// each with all in one dispatch. Who is in it touches nobody until it has spread; how many that are is noted.
 #include "collision_search.glsl"
 
 void main() {
@@ -12,7 +12,7 @@ void main() {
   if (b >= bucket_count) return;
   uint count = buckets[3u * b];
   if (count > most_in_bucket) {
-    atomicMax(buckets[3u * bucket_count + 1u], count);
+    atomicAdd(buckets[3u * bucket_count + 1u], count);
     buckets[3u * b] = 0u;
   } else if (count != 0u) buckets[3u * b + 1u] = atomicAdd(buckets[3u * bucket_count], count);
 }

@@ -30,6 +30,7 @@ nlohmann::ordered_json toJson(const RunMetrics& metrics) {
   out["max_stretch"] = metrics.extremes.max_stretch;
   out["max_speed_m_per_s"] = metrics.extremes.max_speed_m_per_s;
   out["nonfinite"] = metrics.extremes.nonfinite;
+  out["nodes_crowded"] = metrics.extremes.crowded;
   out["governor_trips"] = metrics.extremes.governor_trips;
   out["ticks_held_back"] = metrics.extremes.held_back;
   out["peak_force_n"] = metrics.extremes.peak_force_n;

@@ -95,6 +95,7 @@ AT(TickStats, max_rate_bits, 100);
 AT(TickStats, kinetic_j, 104);
 AT(TickStats, elastic_j, 108);
 AT(TickStats, inverted, 112);
+AT(TickStats, crowded, 116);
 
 SIZE(SkinBinding, 96);
 AT(SkinBinding, slot1, 4);

@@ -82,6 +82,9 @@ void SimulatorDiagnostics::takeLatencies() {
 void SimulatorDiagnostics::simulation(Status& status) {
   if (!now_) return status.summary(Level::OK, "preparing");
   status.summary(Level::OK, now_->paused ? "paused" : "running");
+  if (now_->stats.crowded)
+    status.summaryf(Level::WARN, "%u nodes touch nobody: too many lie in one place for collision to compare them",
+                    now_->stats.crowded);
   if (now_->health.recovering) status.summary(Level::WARN, "recovering from an instability: no forces");
   if (now_->stats.nonfinite) status.summary(Level::ERROR, "nodes are not finite: call reset");
   status.add("gpu", now_->gpu);
@@ -102,6 +105,7 @@ void SimulatorDiagnostics::simulation(Status& status) {
   status.add("elastic_energy_j", now_->stats.elastic_j);
   status.add("springs_collapsed", now_->stats.collapsed);
   status.add("cells_inverted", now_->stats.inverted);
+  status.add("nodes_crowded", now_->stats.crowded);
   status.add("springs_cut", now_->stats.springs_cut);
   status.add("wound_holes", now_->counters.wound_holes);
   status.add("wound_slivers", now_->counters.wound_slivers);

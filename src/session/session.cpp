@@ -222,6 +222,7 @@ void Session::collectStats(Frame& frame, bool wait) {
     extremes_.max_speed_m_per_s =
         std::max(extremes_.max_speed_m_per_s, static_cast<double>(floatFromBits(stats_.max_speed_bits)));
     extremes_.nonfinite = std::max<uint64_t>(extremes_.nonfinite, stats_.nonfinite);
+    extremes_.crowded = std::max<uint64_t>(extremes_.crowded, stats_.crowded);
   }
   frame.health = solver_->health();
   extremes_.governor_trips = frame.health.trips;

@@ -137,12 +137,29 @@ TEST_F(Run, MaterialOfAPartAndPoissonsRatioReachTheTissue) {
   EXPECT_NE(full["state_hash"], plain["state_hash"]);
 }
 
+/// A sheet of nodes that are to keep 0.2 m apart: one cell of the search for contacts holds them all.
+TEST_F(Run, NodesTooCrowdedForContactsAreCounted) {
+  const std::string sheet = folder_.write("crowd.yaml",
+                                          "name: crowd\n"
+                                          "bodies:\n"
+                                          "  - {name: sheet, source: sheet, structure: surface, spacing_m: 0.001,\n"
+                                          "     box_size_m: [0.07, 0.07, 0.001], position_m: [0.1, 0.1, 0.1]}\n"
+                                          "collision: {enabled: true}\n"
+                                          "solver: {backend: gpu}\n");
+  const auto crowded = [&](const std::string& distance_m) {
+    return metricsOf(viscera({"run", sheet, "--seconds", "0.02", "--set", "collision.distance_m=" + distance_m}));
+  };
+  const Json close = crowded("0.2");
+  EXPECT_EQ(close["nodes_crowded"], close["nodes"]);
+  EXPECT_EQ(crowded("0.001")["nodes_crowded"], 0);
+}
+
 TEST_F(Run, LastLineIsAnObjectWithAllMeasurements) {
   const Json metrics = metricsOf(run({"--seconds", "0.1"}));
   ASSERT_TRUE(metrics.is_object());
-  for (const char* key :
-       {"nodes", "springs", "springs_cut", "faces", "steps", "dt_s", "dt_safe_s", "dt_limit_s", "real_time_factor",
-        "node_updates_per_s", "max_stretch", "nonfinite", "governor_trips", "ticks_held_back", "peak_force_n"}) {
+  for (const char* key : {"nodes", "springs", "springs_cut", "faces", "steps", "dt_s", "dt_safe_s", "dt_limit_s",
+                          "real_time_factor", "node_updates_per_s", "max_stretch", "nonfinite", "nodes_crowded",
+                          "governor_trips", "ticks_held_back", "peak_force_n"}) {
     ASSERT_TRUE(metrics.contains(key)) << key;
     EXPECT_TRUE(metrics[key].is_number()) << key;
   }

@@ -61,7 +61,8 @@ TEST_F(Layout, OfMeasurements) {
                  {"grabbed[0]", offsetof(layout::TickStats, grabbed)},
                  {"touched[0]", offsetof(layout::TickStats, touched)},
                  MEMBER(TickStats, kinetic_j),
-                 MEMBER(TickStats, inverted)});
+                 MEMBER(TickStats, inverted),
+                 MEMBER(TickStats, crowded)});
 }
 
 TEST_F(Layout, OfSkins) {

@@ -13,6 +13,7 @@ import rosgraph
 import rosnode
 import rospy
 import rostest
+from diagnostic_msgs.msg import DiagnosticStatus
 from simulator_watch import Latest, READY_LIMIT_S, SimulatorWatch, wait_until
 from std_srvs.srv import Trigger
 from viscera.msg import SurfaceTopology, Tick
@@ -80,7 +81,15 @@ class LoadSceneTest(unittest.TestCase):
             answer = rospy.ServiceProxy(name, Trigger)()
             self.assertTrue(answer.success, answer.message)
 
-    def test_3_and_back(self):
+    def test_3_nodes_too_crowded_for_contacts_are_warned_of(self):
+        answer = self.load(scene=os.path.join(HERE, "crowd.yaml"))
+        self.assertTrue(answer.success, answer.message)
+        wait_until(lambda: self.watch.value("simulation", "nodes_crowded"), 10, "crowd")
+        status = self.watch.status("simulation")
+        self.assertEqual(status.level, DiagnosticStatus.WARN)
+        self.assertIn("%d nodes touch nobody" % self.watch.value("simulation", "nodes_crowded"), status.message)
+
+    def test_4_and_back(self):
         answer = self.load(scene="heart", overrides=HEART)
         self.assertTrue(answer.success, answer.message)
         wait_until(lambda: "/left/body/servo_cf" in self.topics() and "/scope/image_raw" not in self.topics(), 10,

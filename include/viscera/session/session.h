@@ -32,6 +32,7 @@ struct Extremes {
   double max_stretch = 0;   ///< largest |L - l0| / l0
   double max_speed_m_per_s = 0;
   uint64_t nonfinite = 0;            ///< largest number of non-finite nodes in a tick
+  uint64_t crowded = 0;              ///< most nodes that no contact acted on at the end of a tick (TickStats::crowded)
   uint64_t governor_trips = 0;       ///< ticks rolled back
   uint64_t held_back = 0;            ///< ticks in which a stylus was faster than tissue can follow
   uint64_t obstacles_held_back = 0;  ///< ticks, of all obstacles, in which the frame of one was

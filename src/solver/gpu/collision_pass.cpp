@@ -3,7 +3,9 @@
 #include "solver/gpu/collision_pass.h"
 
 #include <algorithm>
+#include <cstddef>
 
+#include "gpu/gl.h"
 #include "layout/bindings.h"
 #include "solver/node_pairs.h"
 #include "solver/surroundings.h"
@@ -161,8 +163,10 @@ void CollisionPass::run(const LatticeBuffers& buffers, const Substep& step) cons
   }
 }
 
-size_t CollisionPass::largestCrowd() const {
-  return buckets_.size() ? buckets_.read().back() : 0;
+void CollisionPass::noteCrowded(const gpu::Buffer<layout::TickStats>& stats) const {
+  if (buckets_.size() == 0) return;
+  glCopyNamedBufferSubData(buckets_.id(), stats.id(), static_cast<GLintptr>((buckets_.size() - 1) * sizeof(uint32_t)),
+                           offsetof(layout::TickStats, crowded), sizeof(uint32_t));
 }
 
 std::vector<CollisionPair> CollisionPass::findPairs(const LatticeBuffers& buffers) const {

@@ -35,8 +35,9 @@ class CollisionPass {
   /// The state was written from outside: see CpuSurroundings::restart().
   void restart();
 
-  /// Nodes of the largest crowd that the last search passed over; 0 where it saw everybody. Waits.
-  size_t largestCrowd() const;
+  /// Copies how many nodes the last search passed over, as they lie in crowds, to `crowded` of the measurements; 0
+  /// where it saw everybody. Does not wait.
+  void noteCrowded(const gpu::Buffer<layout::TickStats>& stats) const;
 
   /// For tests: slots a < b of all pairs that the search finds in the current state, ascending, 64 per node at most.
   /// Waits.

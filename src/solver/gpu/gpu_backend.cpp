@@ -169,6 +169,7 @@ void GpuBackend::measure() {
   if (rest_.resting()) return;
   const gpu::TimedStage timed(gpu::Stage::kMeasure);
   measure_.run(buffers_);
+  if (surroundings_) surroundings_->noteCrowded(buffers_.stats);
 }
 
 void GpuBackend::sumReactions(const std::array<Vector3f, layout::kMaxStyluses>& tips) {

@@ -92,6 +92,10 @@ void SurroundingsPass::restart() {
   if (collisions_) collisions_->restart();
 }
 
+void SurroundingsPass::noteCrowded(const gpu::Buffer<layout::TickStats>& stats) const {
+  if (collisions_) collisions_->noteCrowded(stats);
+}
+
 std::vector<CollisionPair> SurroundingsPass::findPairs(const LatticeBuffers& buffers) const {
   influences_.bindUniform(layout::kBindBodyInfluences);
   return collisions_->findPairs(buffers);

@@ -33,9 +33,10 @@ class SurroundingsPass {
   void run(LatticeBuffers& buffers, const Substep& step, const Surroundings& surroundings);
   /// The state was written from outside: what contacts did is forgotten.
   void restart();
+  /// To the measurements at the end of a tick: CollisionPass::noteCrowded().
+  void noteCrowded(const gpu::Buffer<layout::TickStats>& stats) const;
   /// For tests, only where there are collisions: CollisionPass::findPairs().
   std::vector<CollisionPair> findPairs(const LatticeBuffers& buffers) const;
-  size_t largestCrowd() const { return collisions_->largestCrowd(); }  ///< the same
 
  private:
   void apply(const gpu::Program& program, LatticeBuffers& buffers, const Substep& step,
