@@ -214,4 +214,16 @@ TEST(MultigridLevel, SidesOfACutAreNotMergedAndEveryNodeIsReached) {
   }
 }
 
+TEST(MultigridLevel, CoarseLevelsKnowACutUpToItsFront) {
+  // Cut at x between nodes 3 and 4, from y = 3 or 4 on: of the places at x = 4, those at y = 4, 6, 8 have two nodes on
+  // the first coarse level. Merging by cells closes the cut up to y = 4.
+  for (const int first : {3, 4}) {
+    Body cut = heldBox({8, 8, 8}, 0.25);
+    slit(cut, 0, 3, first);
+    Rig rig(cut);
+    rig.solver.begin({1e4, 100});
+    EXPECT_EQ(rig.solver.hierarchy()->coarse(0).nodes(), 5u * 25 + 3 * 5) << "front before y = " << first;
+  }
+}
+
 }  // namespace viscera::test

@@ -170,10 +170,10 @@ class Cutter {
         shares_(grid_.nodeCount()) {}
 
   Elements run() {
-    out_.node_at = grid_.at;
+    out_.nodes.at = grid_.at;
     for (uint32_t node = 0; node < grid_.nodeCount(); ++node) {
-      out_.node_body.push_back(grid_.bodyOf(node));
-      out_.node_free.push_back(level_.free()[grid_.place_of[node]] > 0 ? 1 : 0);
+      out_.nodes.body.push_back(grid_.bodyOf(node));
+      out_.free.push_back(level_.free()[grid_.place_of[node]] > 0 ? 1 : 0);
       if (isCell(node)) cells_with_tissue_.push_back(node);
     }
     for (const uint32_t cell : cells_with_tissue_) countCell(cell);

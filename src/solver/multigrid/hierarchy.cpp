@@ -81,18 +81,25 @@ Chebyshev::Chebyshev(float largest) {
 }
 
 Hierarchy::Hierarchy(const FineLevel& level, const Parallel& parallel) : parallel_(parallel) {
-  Elements elements = elementsOf(level);
-  elements_ = elements.elements.size();
-  size_t above = elements.node_at.size();
-  while (above > kFewNodes || levels_.empty()) {
-    Coarsening next = coarsened(elements);
-    const size_t nodes = next.coarse.node_at.size();
-    if (nodes == 0 || (!levels_.empty() && static_cast<double>(nodes) > kShrinks * static_cast<double>(above))) break;
-    levels_.push_back(std::make_unique<CoarseLevel>(next.coarse));
+  LevelNodes nodes;
+  size_t above = 0;
+  Coarsening next;
+  {
+    const Elements lattice = elementsOf(level);
+    elements_ = lattice.elements.size();
+    above = lattice.nodes.at.size();
+    next = coarsened(lattice);
+  }
+  for (;;) {
+    const size_t count = next.nodes.at.size();
+    if (count == 0 || (!levels_.empty() && static_cast<double>(count) > kShrinks * static_cast<double>(above))) break;
+    levels_.push_back(std::make_unique<CoarseLevel>(std::move(next.matrix)));
     levels_.back()->largest = largestOfCoarse(*levels_.back(), level.parallel());
     transfers_.push_back(std::move(next.transfer));
-    elements = std::move(next.coarse);
-    above = nodes;
+    nodes = std::move(next.nodes);
+    above = count;
+    if (count <= kFewNodes) break;
+    next = coarsened(nodes, levels_.back()->matrix());
   }
   if (levels_.empty()) return;
   std::vector<Eigen::Triplet<double>> entries;

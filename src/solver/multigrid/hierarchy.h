@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "solver/multigrid/coarse_level.h"
+#include "solver/multigrid/coarsening.h"
 
 namespace viscera::multigrid {
 
