@@ -4,23 +4,14 @@
 
 #include <cmath>
 
-#include "viscera/math/error.h"
+#include "solver/multigrid/step_rules.h"
 
 namespace viscera {
 
 namespace {
 
-constexpr int kStepsToBuild = 15;    // it takes no more than that on most machines; else the last one waits
-constexpr int kStepsToRebuild = 20;  // after a cut: while a blade moves on, the old hierarchy does
-
-const Model& latticesOnly(const Model& model, const CpuParts& parts) {
-  if (model.hasNetwork())
-    throw SceneError(
-        "solver.integrator: multigrid steps implicit lattices, not bodies with explicit connections: use leapfrog, vbd "
-        "or pd");
-  if (parts.pairs)
-    throw SceneError(
-        "solver.integrator: multigrid knows no contacts between nodes (collision.enabled): use leapfrog, vbd or pd");
+const Model& steppable(const Model& model, const CpuParts& parts) {
+  multigrid::requireSteppable(model, parts.pairs != nullptr);
   return model;
 }
 
@@ -33,7 +24,7 @@ bool isBeyond(const Substep& step, const Vector3f& u, const Vector3f& next) {
 }  // namespace
 
 CpuMultigrid::CpuMultigrid(const Model& model, const CpuLattice& lattice, const CpuParts& parts)
-    : solver_(latticesOnly(model, parts), lattice, parts.parallel),
+    : solver_(steppable(model, parts), lattice, parts.parallel),
       tr_bdf2_(solver_),
       euler_(solver_),
       touching_(solver_.level, lattice) {
@@ -76,8 +67,8 @@ void CpuMultigrid::run(CpuLattice& lattice, const Substep& step, const layout::T
 void CpuMultigrid::followSprings() {
   if (steps_since_cut_ < 0) return;
   ++steps_since_cut_;
-  if (steps_since_cut_ == kStepsToRebuild) solver_.rebuildAside();
-  if (steps_since_cut_ < kStepsToRebuild + kStepsToBuild) return;
+  if (steps_since_cut_ == multigrid::kStepsToRebuild) solver_.rebuildAside();
+  if (steps_since_cut_ < multigrid::kStepsToRebuild + multigrid::kStepsToBuild) return;
   solver_.takeRebuilt();
   steps_since_cut_ = -1;
 }

@@ -89,6 +89,16 @@ void FineLevel::refresh() {
   }
 }
 
+double FineLevel::stiffest() const {
+  double out = 0;
+  for (const uint32_t place : grid_.place_of) {
+    double k = 0;
+    for (size_t pair = 0; pair < kPairs; ++pair) k += 2 * static_cast<double>(stiffness(pair, place));
+    out = std::max(out, k);
+  }
+  return out;
+}
+
 void FineLevel::hold(const std::vector<uint32_t>& held, const std::vector<Plane>& planes) {
   for (const uint32_t place : held_) free_[place] = movable_[place];
   held_ = held;

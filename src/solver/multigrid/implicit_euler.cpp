@@ -4,18 +4,9 @@
 
 #include <cmath>
 
+#include "solver/multigrid/step_rules.h"
+
 namespace viscera::multigrid {
-
-namespace {
-
-constexpr int kNewton = 8;       // steps
-constexpr double kEnough = 0.1;  // of the largest residual
-constexpr int kHalvings = 5;     // of one
-constexpr double kGiven = 2;     // times the work of who touches, which is known by its last forces only
-constexpr float kKept[] = {1, 0.75f, 0.5f, 0.25f, 0.1f, 0};  // of the increments
-constexpr double kRounding = 1e-6;                           // of energies: float32
-
-}  // namespace
 
 ImplicitEuler::ImplicitEuler(StageSolver& solver)
     : solver_(solver), increment_(solver.start.size()), trial_(solver.start.size()) {}
@@ -46,9 +37,9 @@ double ImplicitEuler::improve(double before_j, Touching* touching, SolverWork& w
   rule.tame = false;
   trial_ = increment_;
   solver_.solve(increment_, rule, work, touching);
-  for (int halving = 0; halving < kHalvings; ++halving) {
+  for (int halving = 0; halving < kEulerHalvings; ++halving) {
     const double after_j = potential(increment_, touching);
-    if (after_j <= before_j + kRounding * std::abs(before_j)) return after_j;
+    if (after_j <= before_j + kEulerRounding * std::abs(before_j)) return after_j;
     for (size_t i = 0; i < trial_.size(); ++i) increment_[i] = trial_[i] + 0.5f * (increment_[i] - trial_[i]);
   }
   increment_ = trial_;
@@ -58,12 +49,12 @@ double ImplicitEuler::improve(double before_j, Touching* touching, SolverWork& w
 /// Keeps as much of the increments as does not raise the energy but by what tools bring in.
 void ImplicitEuler::bound(const Energy& before, Touching* touching) {
   trial_ = increment_;
-  for (const float share : kKept) {
+  for (const float share : kEulerKept) {
     for (size_t i = 0; i < trial_.size(); ++i) increment_[i] = share * trial_[i];
     solver_.residual(increment_, touching);
     const Energy after = solver_.energy(solver_.displacement, solver_.velocity, solver_.elastic_j);
-    const double given_j = touching ? std::max(0.0, kGiven * touching->work(increment_)) : 0;
-    if (after.sum_j <= before.sum_j + given_j + kRounding * (before.kinetic_j + std::abs(before.sum_j))) return;
+    const double given_j = touching ? std::max(0.0, kGivenTimes * touching->work(increment_)) : 0;
+    if (after.sum_j <= before.sum_j + given_j + kEulerRounding * (before.kinetic_j + std::abs(before.sum_j))) return;
   }
 }
 
@@ -91,11 +82,11 @@ void ImplicitEuler::step(const Substep& step, const Vectors& u, const Vectors& v
     first = false;
   }
   double most = solver_.residual(increment_, touching);
-  for (int k = 0; k < kNewton; ++k) {
+  for (int k = 0; k < kEulerNewton; ++k) {
     const double before_j = least_j;
     least_j = improve(least_j, touching, work);
     const double norm = solver_.residual(increment_, touching);
-    if (norm <= kEnough * most || !(least_j < before_j)) break;
+    if (norm <= kEulerEnough * most || !(least_j < before_j)) break;
     most = std::max(most, norm);
   }
   bound(before, touching);

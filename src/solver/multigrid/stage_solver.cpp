@@ -4,23 +4,15 @@
 
 #include <cmath>
 
+#include "solver/multigrid/step_rules.h"
+
 #include "viscera/model/body/neighbors.h"
 
 namespace viscera::multigrid {
 
 namespace {
 
-constexpr double kOtherStage = 4;    // times as much inertia: smoothers are told of it
-constexpr double kOtherLevels = 16;  // a hierarchy is worth its building
-constexpr int kMoreTouched = 2;      // Newton steps more while contacts come and go
-constexpr float kApart = 0.3f;       // spacings: how far a step may carry a node from those around it
-constexpr double kFloat = 6e-8;      // of a displacement: its rounding in float32, which springs turn into forces
-
-float largestAtRest(FineLevel& level) {
-  const Vectors still(3 * level.places());
-  level.linearise(still, still);
-  return largestOf(level);
-}
+constexpr float kApart = 0.3f;  // spacings: how far a step may carry a node from those around it
 
 }  // namespace
 
@@ -29,12 +21,7 @@ StageSolver::StageSolver(const Model& model, const CpuLattice& lattice, const Pa
   for (Vectors* each :
        {&start, &wanted, &offset, &load, &displacement, &velocity, &r_, &s_, &p_, &q_, &z_, &d_, &work_, &force_})
     each->assign(3 * level.places(), 0);
-  for (uint32_t node = 0; node < level.grid().nodeCount(); ++node) {
-    double k = 0;
-    for (size_t pair = 0; pair < kPairs; ++pair)
-      k += 2 * static_cast<double>(level.stiffness(pair, level.grid().place_of[node]));
-    stiffest_n_per_m_ = std::max(stiffest_n_per_m_, k);
-  }
+  stiffest_n_per_m_ = level.stiffest();
 }
 
 void StageSolver::refresh() {
@@ -44,41 +31,15 @@ void StageSolver::refresh() {
 void StageSolver::begin(const Stage& next) {
   stage = next;
   level.begin(stage);
-  const auto isNear = [&](const Built& built, double times) {
-    const double of = built.stage.inertia_per_s2, wanted = stage.inertia_per_s2;
-    return wanted <= times * of && of <= times * wanted;
-  };
-  for (now_ = 0; now_ < built_.size(); ++now_) {
-    if (isNear(built_[now_], kOtherStage)) return;
-  }
-  level.hold({});  // who is held today is not tomorrow: only the finest level knows
-  Built built_now{stage, nullptr};
-  for (const Built& built : built_) {
-    if (isNear(built, kOtherLevels)) built_now.hierarchy = built.hierarchy;
-  }
-  if (!built_now.hierarchy) built_now.hierarchy = std::make_shared<Hierarchy>(level, level.parallel());
-  built_now.largest = largestAtRest(level);
-  built_.push_back(std::move(built_now));
+  levels_ = built_.of(level, stage);
 }
 
 void StageSolver::rebuildAside() {
-  static const Serial kSerial;
-  level.hold({});
-  auto copy = std::make_shared<FineLevel>(level, kSerial);
-  const Stage of = built_[0].stage;
-  const Parallel& parallel = level.parallel();
-  rebuilt_ = std::async(std::launch::async, [copy, of, &parallel] {
-    copy->begin(of);
-    Built out{of, std::make_shared<Hierarchy>(*copy, parallel)};
-    out.largest = largestAtRest(*copy);
-    return out;
-  });
+  built_.rebuildAside(level);
 }
 
 void StageSolver::takeRebuilt() {
-  if (!rebuilt_.valid()) return;
-  built_.clear();
-  built_.push_back(rebuilt_.get());
+  built_.takeRebuilt();
 }
 
 double StageSolver::residual(const Vectors& increment) {
@@ -130,7 +91,7 @@ void StageSolver::evaluate(const Vectors& increment) {
       }
     }
   });
-  noise_n = kFloat * stiffest_n_per_m_ * std::sqrt(level.dot(displacement, displacement));
+  noise_n = kFloatDisplacement * stiffest_n_per_m_ * std::sqrt(level.dot(displacement, displacement));
 }
 
 Energy StageSolver::energy(const Vectors& u, const Vectors& v, double elastic) const {
@@ -198,7 +159,7 @@ int StageSolver::solveLinear(const Vectors& increment, const Rule& rule, double 
   if (rule.exact) force_ = level.force();
   int k = 0;
   while (k < rule.most) {
-    built_[now_].hierarchy->cycle(level, built_[now_].largest, r_, work_, d_, z_);
+    levels_.hierarchy->cycle(level, levels_.largest, r_, work_, d_, z_);
     const double rz = level.dot(r_, z_);
     if (!(rz > 0)) break;
     const float beta = k == 0 ? 0 : static_cast<float>(rz / before);

@@ -2,10 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <future>
-#include <memory>
-
-#include "solver/multigrid/hierarchy.h"
+#include "solver/multigrid/built_levels.h"
 #include "viscera/solver/solver.h"
 
 namespace viscera::multigrid {
@@ -96,16 +93,10 @@ class StageSolver {
   double elastic_j = 0;  ///< there
   const Vectors& solution() const { return s_; }
   const Vectors& lacking() const { return r_; }  ///< residual, until a system is solved
-  const Hierarchy* hierarchy() const { return built_[now_].hierarchy.get(); }
+  const Hierarchy* hierarchy() const { return levels_.hierarchy.get(); }
   double noise_n = 0;  ///< norm of the rounding of forces in float32, there
 
  private:
-  /// Levels and the stage that they were built for.
-  struct Built {
-    Stage stage;
-    std::shared_ptr<Hierarchy> hierarchy;
-    float largest = 0;
-  };
   float farthest(const Vectors& x) const;
   void tame();
   Vector3f tamedStep(uint32_t node) const;
@@ -113,11 +104,10 @@ class StageSolver {
   double masked();
   void multiply(const Vectors& increment, const Vectors& p, Vectors& q, const Stiffening* stiffening);
 
-  std::vector<Built> built_;     ///< kinds of steps take turns: each has its own
-  size_t now_ = 0;               ///< which is in use
+  BuiltLevels built_;
+  BuiltLevels::Built levels_;    ///< that are in use
   double stiffest_n_per_m_ = 0;  ///< sum of a node's springs
   Vectors r_, s_, p_, q_, z_, d_, work_;
-  std::future<Built> rebuilt_;
   Vectors force_;  ///< where the residual was, for exact products
 };
 

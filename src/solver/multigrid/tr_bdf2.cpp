@@ -4,19 +4,9 @@
 
 #include <cmath>
 
+#include "solver/multigrid/step_rules.h"
+
 namespace viscera::multigrid {
-
-namespace {
-
-const double kGamma = 2 - std::sqrt(2.0);              // with it both stages have one matrix
-const double kSecond = (1 - kGamma) / (2 - kGamma);    // c / dt of BDF2
-const double kOfMiddle = 1 / (kGamma * (2 - kGamma));  // A
-const double kOfStart = kOfMiddle - 1;                 // B
-constexpr double kTakes = 0.2;      // share of the kinetic energy that may be taken to keep energy from growing
-constexpr double kGiven = 2;        // times the work of who touches, which is known by its last forces only
-constexpr double kRounding = 2e-6;  // of the energies that are summed: float32
-
-}  // namespace
 
 TrBdf2::TrBdf2(StageSolver& solver) : solver_(solver), increment_(solver.start.size()) {}
 
@@ -96,9 +86,9 @@ bool TrBdf2::step(const Substep& step, const Vectors& u, const Vectors& v, Touch
   solver_.solve(increment_, Rule(), work, touching);
   const Energy after = solver_.energy(solver_.displacement, solver_.velocity, solver_.elastic_j);
   if (!std::isfinite(after.sum_j)) return false;
-  const double given_j = touching ? kGiven * std::max(0.0, touching->work(increment_)) : 0;
+  const double given_j = touching ? kGivenTimes * std::max(0.0, touching->work(increment_)) : 0;
   const double excess_j =
-      after.sum_j - before.sum_j - given_j - kRounding * (before.kinetic_j + std::abs(before.sum_j));
+      after.sum_j - before.sum_j - given_j - kTrBdf2Rounding * (before.kinetic_j + std::abs(before.sum_j));
   if (excess_j > kTakes * after.kinetic_j) return false;
   if (excess_j <= 0) return true;
   const float slowed = static_cast<float>(std::sqrt(1 - excess_j / after.kinetic_j));

@@ -1,0 +1,38 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cmath>
+
+#include "viscera/model/model.h"
+
+namespace viscera::multigrid {
+
+/// @throws SceneError  bodies with explicit connections, contacts between nodes: nobody steps them
+void requireSteppable(const Model& model, bool node_contacts);
+
+// Numbers of the steps (physics.md 2), the same on every backend.
+
+const double kGamma = 2 - std::sqrt(2.0);              // with it both stages have one matrix
+const double kSecond = (1 - kGamma) / (2 - kGamma);    // c / dt of BDF2
+const double kOfMiddle = 1 / (kGamma * (2 - kGamma));  // A
+const double kOfStart = kOfMiddle - 1;                 // B
+
+constexpr int kMoreTouched = 2;           // Newton steps more while contacts come and go
+constexpr double kTakes = 0.2;            // share of the kinetic energy that may be taken to keep energy from growing
+constexpr double kGivenTimes = 2;         // the work of who touches, which is known by its last forces only
+constexpr double kTrBdf2Rounding = 2e-6;  // of the energies that are summed: float32
+constexpr double kFloatDisplacement = 6e-8;  // its rounding in float32, which springs turn into forces
+
+// After cuts the levels are built anew.
+constexpr int kStepsToBuild = 15;    // it takes no more than that on most machines; else the last one waits
+constexpr int kStepsToRebuild = 20;  // after a cut: while a blade moves on, the old ones do
+
+// Of implicit Euler
+constexpr int kEulerNewton = 8;                                   // steps
+constexpr double kEulerEnough = 0.1;                              // of the largest residual
+constexpr int kEulerHalvings = 5;                                 // of one step
+constexpr float kEulerKept[] = {1, 0.75f, 0.5f, 0.25f, 0.1f, 0};  // of the increments
+constexpr double kEulerRounding = 1e-6;                           // of energies: float32
+
+}  // namespace viscera::multigrid
