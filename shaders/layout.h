@@ -8,6 +8,7 @@
 #include "layout/bindings.h"
 #include "layout/edge_forces.h"
 #include "layout/moments.h"
+#include "layout/multigrid.h"
 #include "layout/network_skin.h"
 #include "layout/overlay.h"
 #include "layout/surface_node.h"

@@ -85,51 +85,8 @@ void balanceContacts(uint slot, vec3 force) {
     node_contacts[contactAt(slot, i % count) + 2u] = vec4(c.force + change, c.owner);
   }
 }
-
-#ifdef OBSTACLES
-/// What comes fast enough bounces: what it brought along the normal it gets back by the restitution. No more than the substep has
-/// taken from it, as its inelastic end lost the square of all of it. @return  change of velocity [m/s]
-vec3 bounceOf(Contact c, float restitution, vec3 v_before, vec3 v_next) {
-  vec3 surface = c.way / dt_s;
-  float approach = -dot(v_before - surface, c.normal);
-  if (approach <= resting_speed) return vec3(0.0f);
-  return max(0.0f, restitution * approach - dot(v_next - surface, c.normal)) * c.normal;
-}
 #endif
-
-/// Tells probes and obstacles what they gave a node.
-void giveContacts(uint slot, float mass, INOUT(vec3) v_next) {
-  vec3 v_before = xyz(texelFetch(velocity, int(slot)));
-  uint count = contactCount(slot);
-  for (uint row = 0u; row < count; ++row) {
-    Contact c = contactOf(slot, row);
-    if (c.force == vec3(0.0f)) continue;
-    uint owner = uint(c.owner) - 1u;
-#ifdef TOOLS
-    if (owner < kMaxStyluses) giveMomentum(owner, slot, dt_s * c.force);
-#endif
-#ifdef OBSTACLES
-    if (owner < kMaxStyluses) continue;
-    uint obstacle = owner - kMaxStyluses;
-    vec3 bounce = bounceOf(c, obstacles[obstacle].spin.w, v_before, v_next);
-    v_next += bounce;
-    giveObstacle(obstacle, slot, dt_s * c.force + mass * bounce);
-#endif
-  }
-}
-#endif
-
-#ifdef TOOLS
-/// A probe that only feels counts the nodes that it would push.
-void feel(uint slot, vec3 x) {
-  for (uint s = 0u; s < kMaxStyluses; ++s) {
-    ToolMotion motion = tool_motions[s];
-    if ((motion.info.y & kToolPushes) == 0u || (motion.info.y & kToolFeels) == 0u) continue;
-    float reach = motion.from.w + distance(xyz(motion.to), xyz(motion.from));
-    if (distance(x, xyz(motion.to)) < reach) giveMomentum(s, slot, vec3(0.0f));
-  }
-}
-#endif
+#include "implicit_give.glsl"
 
 void main() {
   uint i = globalIndex();

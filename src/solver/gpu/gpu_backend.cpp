@@ -12,6 +12,7 @@
 #include "layout/blade.h"
 #include "model/scene/integrators.h"
 #include "solver/cpu/sleep.h"
+#include "solver/gpu/multigrid_pass.h"
 #include "viscera/gpu/context.h"
 #include "viscera/math/error.h"
 #include "viscera/solver/material.h"
@@ -40,8 +41,10 @@ GpuBackend::GpuBackend(const Model& model, const Scene& scene, const TickPlan& p
       pairs_(solvesContacts(scene) ? std::make_unique<NodePairs>(model, scene, features_, buffers_) : nullptr),
       awake_(makeAwakeBricks(model, scene, plan, features_, buffers_)),
       rest_(model, awake_ && !features_.network && plan.tick_s < Sleep::kQuiet_s),
-      stepper_(makeStepper(scene.solver.integrator, scene.solver.iterations, features_, buffers_, pairs_.get(),
-                           awake_.get())),
+      stepper_(scene.solver.integrator == Integrator::kMultigrid
+                   ? std::make_unique<MultigridPass>(model, scene, plan, features_, buffers_)
+                   : makeStepper(scene.solver.integrator, scene.solver.iterations, features_, buffers_, pairs_.get(),
+                                 awake_.get())),
       measure_(features_, buffers_.store.active_count),
       has_springs_(std::isfinite(plan.dt_safe_s) && plan.dt_safe_s > 0),
       stats_ring_(sizeof(layout::TickStats) + sizeof(layout::AwakeList), kStatsInFlight, "the measurements of a tick") {
@@ -130,6 +133,7 @@ void GpuBackend::cut(uint32_t stylus, bool particles) {
   if (rest_.resting()) return;
   const gpu::TimedStage timed(gpu::Stage::kCut);
   tools_->cut.run(buffers_, stylus, particles);
+  stepper_->springsChanged();
   if (awake_) awake_->wakeCut(stylus);
 }
 
@@ -258,6 +262,8 @@ void GpuBackend::readCuts(CutState& out) const {
 void GpuBackend::resetState() {
   foreign_ = false;
   buffers_.reset();
+  stepper_->restart();
+  stepper_->springsChanged();
   wakeAll();
   if (awake_) awake_->restart();
   if (surroundings_) surroundings_->restart();
@@ -266,6 +272,8 @@ void GpuBackend::resetState() {
 
 void GpuBackend::loadState(const HostState& state) {
   foreign_ = true;
+  stepper_->restart();
+  stepper_->springsChanged();
   buffers_.state.displacement[buffers_.state.current].write(state.displacement_m);
   buffers_.state.velocity[buffers_.state.current].write(state.velocity_m_per_s);
   buffers_.store.nodes.write(state.nodes);
@@ -286,6 +294,7 @@ void GpuBackend::saveGood() {
 void GpuBackend::restoreGood(int back) {
   wakeAll();
   recovery_->good.restore(buffers_, back);
+  stepper_->restart();
   if (buffers_.hands.impulses.size()) buffers_.hands.impulses.clear();
   if (buffers_.hands.obstacle_impulses.size()) buffers_.hands.obstacle_impulses.clear();
   if (surroundings_) surroundings_->restart();

@@ -6,7 +6,6 @@
 #include "solver/gpu/pd_pass.h"
 #include "solver/gpu/vbd_pass.h"
 #include "solver/gpu/verlet_paper_pass.h"
-#include "viscera/math/error.h"
 
 namespace viscera {
 
@@ -20,7 +19,6 @@ std::unique_ptr<Stepper> makeStepper(Integrator integrator, int iterations, cons
     case Integrator::kPd:
       return std::make_unique<PdPass>(features, buffers, PdOptions{iterations}, pairs);
     case Integrator::kMultigrid:
-      throw SceneError("solver.integrator: multigrid steps on the CPU only: use solver.backend: cpu or auto");
     case Integrator::kLeapfrog:
       break;
   }

@@ -8,6 +8,7 @@
 #include "solver/features.h"
 #include "solver/gpu/lattice_buffers.h"
 #include "solver/substep.h"
+#include "viscera/solver/solver.h"
 
 namespace viscera {
 
@@ -20,9 +21,15 @@ class Stepper {
   virtual ~Stepper() = default;
   /// state -> other state; the caller swaps. buffers must be bound.
   virtual void run(LatticeBuffers& buffers, const Substep& step) = 0;
+  /// The state was written from outside.
+  virtual void restart() {}
+  /// Springs may have been cut, or are whole again.
+  virtual void springsChanged() {}
+  /// Since it was made.
+  virtual SolverWork work() const { return {}; }
 };
 
-/// The integrator's kernels, compiled. @param iterations  of vbd and pd
+/// The kernels of an integrator other than multigrid (MultigridPass), compiled. @param iterations  of vbd and pd
 /// @param pairs  contacts between nodes within an implicit substep; null: none
 /// @param awake  of leapfrog: steps only these, and says when they were; null: steps all. Must outlive the stepper
 /// @throws GpuError with file, line and the driver's log

@@ -34,6 +34,9 @@ class CoarseLevel {
     }
   }
 
+  /// Inverse of a node's own block: BlockMatrix::kNumbers.
+  const float* inverseAt(size_t node) const { return &inverse_[BlockMatrix::kNumbers * node]; }
+
   float largest = 0;  ///< eigenvalue of D^-1 A, estimated from below and enlarged
 
   // Work space of a cycle.

@@ -114,6 +114,10 @@ Hierarchy::Hierarchy(const FineLevel& level, const Parallel& parallel) : paralle
   coarsest_ = std::make_unique<Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>>(matrix);
 }
 
+Eigen::MatrixXd Hierarchy::coarsestInverse() const {
+  return coarsest_->solve(Eigen::MatrixXd::Identity(coarsest_->rows(), coarsest_->rows()));
+}
+
 void Hierarchy::restrictFine(const FineLevel& level, const Vectors& r) const {
   const Transfer& t = transfers_[0];
   const size_t n = level.places();

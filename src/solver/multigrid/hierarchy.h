@@ -25,6 +25,9 @@ class Hierarchy {
     return transfers_[level];
   }  ///< from coarse(level) to the one above it
 
+  /// Of the matrix of the coarsest level, three numbers a node. There is one below the finest.
+  Eigen::MatrixXd coarsestInverse() const;
+
   /// z = one V-cycle of A z = r from 0: Chebyshev of degree 2 on blocks of 3x3 before and after. Symmetric and
   /// positive.
   /// @param r, work  0 where not free; r is left as it is, work and d are overwritten

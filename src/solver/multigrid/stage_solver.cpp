@@ -186,9 +186,7 @@ int StageSolver::solveLinear(const Vectors& increment, const Rule& rule, double 
     });
     ++k;
     fallen += static_cast<double>(alpha) * rz;
-    const double left = std::sqrt(level.dot(r_, r_));
-    const bool gains = k * static_cast<double>(alpha) * rz > rule.gain * fallen;
-    if (k >= rule.least && (left <= rule.enough_n || (rule.gain > 0 ? !gains : left <= rule.tolerance * norm))) break;
+    if (rule.ends(k, static_cast<double>(alpha) * rz, fallen, std::sqrt(level.dot(r_, r_)), norm)) break;
   }
   if (rule.tame && farthest(s_) > kApart / 4) tame();
   return k;

@@ -34,6 +34,12 @@ struct Rule {
   double gain = 0;
   double enough_n = 0;  ///< residual that need not be improved on
   bool tame = true;     ///< steps carry no node far from those around it
+  /// After a system's k-th iteration. @param lowers_j  the energy, by itself   @param lowered_j  by all of them
+  /// @param left_n, first_n  residual of the system now and at first
+  bool ends(int k, double lowers_j, double lowered_j, double left_n, double first_n) const {
+    const bool gains = k * lowers_j > gain * lowered_j;
+    return k >= least && (left_n <= enough_n || (gain > 0 ? !gains : left_n <= tolerance * first_n));
+  }
 };
 
 /// Energy of all that can move [J].
