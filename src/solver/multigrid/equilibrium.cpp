@@ -89,6 +89,7 @@ class Settling {
   double improve(double norm, double enough) {
     multigrid::Rule rule;
     rule.most = kIterations;
+    rule.tolerance = 0;
     rule.gain = kGain;
     rule.enough_n = kOfEnough * enough;
     rule.stiffening = &soft_;

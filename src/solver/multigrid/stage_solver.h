@@ -20,25 +20,27 @@ class Stiffening {
 
 /// When to stop.
 struct Rule {
-  double tolerance = 0.1;    ///< of conjugate gradients: residual over the first one
+  /// Of conjugate gradients: residual over the first one.
+  double tolerance = 0.1;
+  /// They end also by what they gain: when the last one, as often as there were any, lowers the energy by less than
+  /// this share of what all did (S. G. Nash, A. Sofer, Oper. Res. Lett. 9, 1990). Residuals of nearly incompressible
+  /// tissue say little of what is wrong with it.
+  double gain = 0.02;
   int least = 2, most = 15;  ///< iterations
-  double again = 0.3;        ///< another Newton step while it left more of the residual
+  double again = 0.5;        ///< another Newton step while it left more of the residual
   int newton = 3;            ///< steps at most
   /// Products with the change of forces itself rather than with the positive tangent, which preconditions only: more
   /// iterations in a system, and each dearer, but Newton's method meets 1e-4 in a few steps.
   bool exact = false;
   Stiffening* stiffening = nullptr;  ///< of exact ones
-  /// Above 0, iterations end by what they gain rather than by `tolerance`: when the last one, as often as there were
-  /// any, lowers the energy by less than this share of what all did (S. G. Nash, A. Sofer, Oper. Res. Lett. 9, 1990).
-  /// Residuals of nearly incompressible tissue say little of what is wrong with it.
-  double gain = 0;
-  double enough_n = 0;  ///< residual that need not be improved on
-  bool tame = true;     ///< steps carry no node far from those around it
+  double enough_n = 0;               ///< residual that need not be improved on
+  bool tame = true;                  ///< steps carry no node far from those around it
+
   /// After a system's k-th iteration. @param lowers_j  the energy, by itself   @param lowered_j  by all of them
   /// @param left_n, first_n  residual of the system now and at first
   bool ends(int k, double lowers_j, double lowered_j, double left_n, double first_n) const {
-    const bool gains = k * lowers_j > gain * lowered_j;
-    return k >= least && (left_n <= enough_n || (gain > 0 ? !gains : left_n <= tolerance * first_n));
+    const bool gains = k * lowers_j >= gain * lowered_j;
+    return k >= least && (left_n <= enough_n || !gains || left_n <= tolerance * first_n);
   }
 };
 

@@ -80,10 +80,10 @@ bool TrBdf2::step(const Substep& step, const Vectors& u, const Vectors& v, Touch
   const Energy before = solver_.energy(u, v, solver_.level.linearise(u, v));
   beginFirst(dt_s, v, touching);
   if (touching) touching->setShare(kGamma);
-  solver_.solve(increment_, Rule(), work, touching);
+  solver_.solve(increment_, rule, work, touching);
   beginSecond(dt_s, v, touching);
   if (touching) touching->setShare(1);
-  solver_.solve(increment_, Rule(), work, touching);
+  solver_.solve(increment_, rule, work, touching);
   const Energy after = solver_.energy(solver_.displacement, solver_.velocity, solver_.elastic_j);
   if (!std::isfinite(after.sum_j)) return false;
   const double given_j = touching ? kGivenTimes * std::max(0.0, touching->work(increment_)) : 0;

@@ -13,6 +13,7 @@ class TrBdf2 {
   explicit TrBdf2(StageSolver& solver);
 
   static Stage stageOf(double dt_s);
+  Rule rule;  ///< of both stages
   /// Solves for increments and velocities at the end. @param touching  of this step, begun; null: nothing is about
   /// @return done: else energy would have grown or something was not finite
   bool step(const Substep& step, const Vectors& displacement_m, const Vectors& velocity_m_per_s, Touching* touching,
