@@ -33,8 +33,9 @@ void addSuites(CLI::App& bench, SuiteOptions& options, const bench::Suite*& chos
           ->add_option("--backend", options.backend,
                        "cpu, gpu or both: where every row is measured; both, the default, is cpu alone without EGL")
           ->check(CLI::IsMember({"cpu", "gpu", "both"}));
-      command->add_option("--only", options.suite.only, "one part of the suite; a wrong name lists them");
     }
+    if (suite.has_parts)
+      command->add_option("--only", options.suite.only, "one part of the suite; a wrong name lists them");
     command->callback([&suite, &chosen] { chosen = &suite; });
   }
 }
@@ -47,6 +48,7 @@ CLI::App* addStep(CLI::App& bench, bench::StepOptions& options) {
       ->check(CLI::IsMember({"cpu", "gpu", "both"}));
   step->add_option("--threads", options.threads, "of the CPU backend; 0, the default: as many as there are processors")
       ->check(CLI::Range(0, 1024));
+  step->add_option("--device", options.device, "EGL device, as `viscera check` lists them");
   step->add_option("--csv", options.csv, "file to write; - is standard output");
   step->add_flag("--stages", options.stages, "time of each stage on the GPU, by its own clock");
   step->add_option("--set", options.overrides,

@@ -135,7 +135,7 @@ int step(const StepOptions& options) {
     if (!file) throw Error(options.csv + ": cannot be written");
   }
   std::ostream& out = options.csv == "-" ? std::cout : file;
-  const Machine machine = machineFor(options.backend, -1);
+  const Machine machine = machineFor(options.backend, options.device);
   if (options.stages) {
     stagesOf(scenes, out);
     return 0;

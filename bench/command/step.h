@@ -14,6 +14,7 @@ struct StepOptions {
   std::string scene;            ///< in their place; empty: none
   std::string backend = "gpu";  ///< cpu, gpu or both
   int threads = 0;              ///< of the CPU backend; 0: as many as there are processors
+  int device = -1;              ///< EGL device; -1: the best
   std::string csv = "-";
   bool stages = false;  ///< of the GPU, in place of whole substeps
   Overrides overrides;

@@ -11,6 +11,7 @@
 
 #include "bench/harness/machine.h"
 #include "bench/harness/specimen.h"
+#include "bench/suites/gpu_parts.h"
 #include "gpu/buffer.h"
 #include "gpu/fence.h"
 #include "gpu/gl.h"
@@ -186,8 +187,13 @@ void measureReads(Report& report) {
 }  // namespace
 
 void gpuSuite(Report& report, gpu::Context& /*context*/) {
-  measureGroupSizes(report);
-  measureReads(report);
+  measureParts(report, {{"groups", measureGroupSizes},
+                        {"reads", measureReads},
+                        {"kernels", measureKernels},
+                        {"faces", measureFaces},
+                        {"flight", measureFlight},
+                        {"live", measureLive},
+                        {"bytes", measureBytes}});
 }
 
 }  // namespace viscera::bench

@@ -7,8 +7,8 @@
 
 namespace viscera::bench {
 
-/// What kernels may be tuned by on one GPU: sizes of work groups, with equal states for all of them, and the ways in
-/// which neighbours are read (docs/gpu.md).
+/// One GPU: what kernels may be tuned by (sizes of work groups, with equal states for all of them; ways in which
+/// neighbours are read), what share of its limits they reach, large skins, read-back, memory (docs/gpu.md).
 void gpuSuite(Report& report, gpu::Context& context);
 
 }  // namespace viscera::bench

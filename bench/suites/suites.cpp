@@ -49,8 +49,8 @@ const std::vector<Suite>& suites() {
        run<hapticsSuite>},
       {"latency", "from a pose to its force and its picture; how even ticks are", run<latencySuite>},
       {"limit", "copies and multiply-adds of this machine, and the fraction that is reached", run<limitSuite>},
-      {"gpu", "sizes of work groups and ways to read neighbours on this GPU; equal states whatever the size",
-       run<gpuSuite>},
+      {"gpu", "work groups, ways to read neighbours, shares of this GPU's limits, large skins, read-back, memory",
+       run<gpuSuite>, false, true},
   };
   return all;
 }

@@ -16,7 +16,8 @@ struct Suite {
   const char* name;
   const char* what;                                    ///< one line for --help
   void (*run)(Report& report, gpu::Context* context);  ///< the context is current
-  bool takes_backend = false;  ///< measures on the report's backends; the context is null where the GPU is not one
+  bool takes_backend = false;      ///< measures on the report's backends; the context is null where the GPU is not one
+  bool has_parts = takes_backend;  ///< measureParts()
 };
 
 /// All suites: a new one is an include and a line in suites.cpp.

@@ -5,6 +5,7 @@
 #include <cassert>
 
 #include <algorithm>
+#include <atomic>
 #include <utility>
 
 #include "gpu/fence.h"
@@ -17,11 +18,17 @@ namespace viscera::gpu {
 
 namespace {
 
+std::atomic<size_t> live_bytes{0};
+
 std::string described(const char* name, size_t bytes) {
   return std::string("buffer '") + name + "' of " + std::to_string(bytes) + " bytes";
 }
 
 }  // namespace
+
+size_t bufferBytes() {
+  return live_bytes;
+}
 
 RawBuffer::RawBuffer(size_t bytes, const char* name) : bytes_(bytes), name_(name) {
   constexpr size_t kSmallest = 16;  // drivers refuse storage of size 0
@@ -34,13 +41,18 @@ RawBuffer::RawBuffer(size_t bytes, const char* name) : bytes_(bytes), name_(name
     clear();  // some drivers look for memory when it is first used
     code = glGetError();
   }
-  if (code == GL_NO_ERROR) return;
+  if (code == GL_NO_ERROR) {
+    live_bytes += bytes_;
+    return;
+  }
   glDeleteBuffers(1, &id_);
   throw GpuError("no memory for " + described(name, bytes) + ": " + glErrorText(code) + "; use a larger spacing_m");
 }
 
 RawBuffer::~RawBuffer() {
-  if (id_) glDeleteBuffers(1, &id_);
+  if (!id_) return;
+  glDeleteBuffers(1, &id_);
+  live_bytes -= bytes_;
 }
 
 RawBuffer::RawBuffer(RawBuffer&& other) noexcept

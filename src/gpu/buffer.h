@@ -56,6 +56,9 @@ class TexelView {
   uint32_t id_ = 0;
 };
 
+/// What all buffers of this process that live hold [bytes]; rings of read-back come on top.
+size_t bufferBytes();
+
 /// Several storage buffers at bindings first, first + 1, ... in one call. @param buffers  ids
 void bindStorages(uint32_t first, std::initializer_list<uint32_t> buffers);
 /// Several texel views at units first, first + 1, ... in one call. @param views  ids

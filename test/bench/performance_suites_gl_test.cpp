@@ -104,11 +104,34 @@ TEST_F(PerformanceSuite, LatencyHasForceSurfaceAndImageOnEachBackend) {
   EXPECT_EQ(rowsWith("delays", {"jitter of ticks"}), 8u) << ending_.out;
 }
 
-TEST_F(PerformanceSuite, GpuHasGroupSizesOfOneHashAndEveryWayToRead) {
+TEST_F(PerformanceSuite, GpuHasEveryPart) {
   run("gpu");
   EXPECT_GE(rows("groups").size(), 2u);
   EXPECT_EQ(rows("reads").size(), 5u);
   EXPECT_EQ(rowsWith("checks", {",ok"}), 3u) << ending_.out;
+  EXPECT_EQ(rowsWith("kernels", {"leapfrog.comp"}), 5u);  // with and without dashpot, nu, moments
+  EXPECT_EQ(rowsWith("kernels", {"volume.comp"}), 3u);
+  EXPECT_EQ(rows("faces").size(), 3u);
+  EXPECT_EQ(rowsWith("faces", {"10000000,,,,,"}), 1u) << "left out, with a reason";
+  EXPECT_EQ(rows("flight").size(), 4u);
+  EXPECT_EQ(rows("live").size(), 2u);
+  EXPECT_EQ(rows("bytes").size(), 5u);
+}
+
+TEST_F(PerformanceSuite, GpuMeasuresOnePartAloneAndNamesThemAll) {
+  const std::vector<std::string> common = {"bench", "gpu", "--short", "--out", folder_.path(), "--only"};
+  const auto only = [&](const std::string& part) {
+    std::vector<std::string> arguments = common;
+    arguments.push_back(part);
+    return test::runProgram(VISCERA_COMMAND, arguments);
+  };
+  EXPECT_EQ(only("bytes").status, 0);
+  suite_ = "gpu";
+  EXPECT_EQ(rows("bytes").size(), 5u);
+  EXPECT_EQ(rows("reads").size(), 0u);
+  const test::Ending wrong = only("everything");
+  EXPECT_NE(wrong.status, 0);
+  EXPECT_TRUE(test::says(wrong.err, {"groups", "reads", "kernels", "faces", "flight", "live", "bytes"})) << wrong.err;
 }
 
 TEST_F(PerformanceSuite, LimitHasMachineAndFractions) {

@@ -95,6 +95,17 @@ TEST_F(GpuErrors, OfMemoryNameTheBufferAndItsSize) {
   EXPECT_NO_THROW(Buffer<uint32_t>(10));  // nothing is left pending
 }
 
+TEST_F(GpuErrors, LeaveNoBytesCounted) {
+  const size_t before = bufferBytes();
+  {
+    RawBuffer kept(64, "kept");
+    const RawBuffer moved = std::move(kept);
+    messageOf<GpuError>([] { RawBuffer(size_t{1} << 50, "refused"); });
+    EXPECT_EQ(bufferBytes(), before + 64);
+  }
+  EXPECT_EQ(bufferBytes(), before);
+}
+
 TEST_F(GpuErrors, OfBlocksThatAreTooLongNameTheBufferAndTheLimit) {
   Limits small = driverLimits();
   if (small.storage_block_bytes > (size_t{1} << 28)) GTEST_SUCCEED() << "such a buffer is too large for a test";
