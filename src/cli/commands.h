@@ -43,6 +43,7 @@ struct SweepOptions {
   int jobs = 0;   ///< sessions side by side; 0: as many as the machine has threads
   int tries = 2;  ///< failures after which a run is given up
   bool retry = false;
+  bool hdf5 = false;   ///< results.h5 beside results.csv
   int slurm = 0;       ///< > 0: submit a job array of so many workers instead
   std::string sbatch;  ///< more options for sbatch, as one would write them in a shell
 };

@@ -26,9 +26,13 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-/// Written beside its place and moved there, so that nobody reads half of it.
+/// What is written is written beside its place and moved there, so that nobody reads half of it.
+std::string draftOf(const std::string& path) {
+  return path + "." + std::to_string(getpid()) + ".draft";
+}
+
 void writeWhole(const std::string& path, const std::string& text) {
-  const std::string draft = path + "." + std::to_string(getpid()) + ".draft";
+  const std::string draft = draftOf(path);
   std::ofstream file(draft, std::ios::binary);
   file << text;
   file.close();
@@ -49,18 +53,35 @@ bool exists(const std::string& path) {
   return fs::exists(path, error);
 }
 
-/// A cell of a CSV file (RFC 4180).
-std::string cell(const std::string& text) {
-  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
-  std::string out = "\"";
-  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return out + "\"";
+/// What a result says of a metric, as text; empty: nothing.
+std::string told(const Json& result, const std::string& name) {
+  const auto found = result.find(name);
+  if (found == result.end()) return "";
+  return found->is_string() ? found->get<std::string>() : found->dump();
 }
 
-std::string valueCell(const Json& json, const std::string& name) {
-  const auto found = json.find(name);
-  if (found == json.end()) return "";
-  return cell(found->is_string() ? found->get<std::string>() : found->dump());
+bool isNumberEverywhere(const std::vector<Json>& results, const std::string& name) {
+  return std::all_of(results.begin(), results.end(), [&](const Json& result) {
+    const auto found = result.find(name);
+    return found == result.end() || found->is_number();
+  });
+}
+
+/// What runs are told of, in the order in which they tell it.
+std::vector<std::string> metricsOf(const std::vector<Json>& results) {
+  std::vector<std::string> out;
+  for (const Json& result : results) {
+    for (const auto& item : result.items()) {
+      const bool scalar = item.value().is_primitive();
+      if (scalar && std::count(out.begin(), out.end(), item.key()) == 0) out.push_back(item.key());
+    }
+  }
+  return out;
+}
+
+std::string valueOf(const KeyValues& run, const std::string& key) {
+  const auto found = std::find_if(run.begin(), run.end(), [&](const auto& value) { return value.first == key; });
+  return found == run.end() ? "" : found->second;
 }
 
 }  // namespace
@@ -128,38 +149,49 @@ void SweepFolder::forgetFailures() const {
   for (size_t run = 0; run < plan_.runs.size(); ++run) fs::remove(runFolder(run) + "/failures.txt", error);
 }
 
-void SweepFolder::writeTable() const {
+SweepTable SweepFolder::table() const {
+  using Of = SweepTable::Of;
   std::vector<Json> results;
-  std::vector<std::string> metrics;
+  SweepTable out;
+  SweepTable::Column number{"run", Of::kRun, true, {}}, ended{"ended", Of::kRun, false, {}};
+  SweepTable::Column failed{"failures", Of::kRun, true, {}}, last{"last_failure", Of::kRun, false, {}};
   for (size_t run = 0; run < plan_.runs.size(); ++run) {
     results.push_back(Json::parse(readWhole(runFolder(run) + "/result.json"), nullptr, false));
     if (!results.back().is_object()) results.back() = Json::object();
-    for (const auto& item : results.back().items()) {
-      const bool scalar = item.value().is_primitive();
-      if (scalar && std::count(metrics.begin(), metrics.end(), item.key()) == 0) metrics.push_back(item.key());
-    }
-  }
-  std::string table = "run,ended,failures";
-  for (const std::string& key : plan_.varied) table += "," + cell(key);
-  for (const std::string& name : metrics) table += "," + cell(name);
-  table += ",last_failure\n";
-  for (size_t run = 0; run < plan_.runs.size(); ++run) {
     const std::vector<std::string> failures = failuresOf(run);
     const State now = state(run);
-    table += std::to_string(run) +
-             (now == State::kDone      ? ",done,"
-              : now == State::kGivenUp ? ",failed,"
-                                       : ",open,") +
-             std::to_string(failures.size());
-    for (const std::string& key : plan_.varied) {
-      const auto found = std::find_if(plan_.runs[run].begin(), plan_.runs[run].end(),
-                                      [&](const auto& value) { return value.first == key; });
-      table += "," + (found == plan_.runs[run].end() ? "" : cell(found->second));
-    }
-    for (const std::string& name : metrics) table += "," + valueCell(results[run], name);
-    table += "," + (failures.empty() ? "" : cell(failures.back())) + "\n";
+    number.cells.push_back(std::to_string(run));
+    ended.cells.emplace_back(now == State::kDone ? "done" : now == State::kGivenUp ? "failed" : "open");
+    failed.cells.push_back(std::to_string(failures.size()));
+    last.cells.push_back(failures.empty() ? "" : failures.back());
   }
-  writeWhole(folder_ + "/results.csv", table);
+  out.columns = {number, ended, failed};
+  for (const std::string& key : plan_.varied) {
+    SweepTable::Column column{key, Of::kKeys, true, {}};
+    for (const KeyValues& run : plan_.runs) {
+      column.cells.push_back(valueOf(run, key));
+      column.number = column.number && (column.cells.back().empty() || isNumber(column.cells.back()));
+    }
+    out.columns.push_back(std::move(column));
+  }
+  for (const std::string& name : metricsOf(results)) {
+    SweepTable::Column column{name, Of::kMetrics, isNumberEverywhere(results, name), {}};
+    for (const Json& result : results) column.cells.push_back(told(result, name));
+    out.columns.push_back(std::move(column));
+  }
+  out.columns.push_back(std::move(last));
+  return out;
+}
+
+void SweepFolder::writeTables(bool hdf5) const {
+  const SweepTable runs = table();
+  writeWhole(folder_ + "/results.csv", csvText(runs));
+  if (!hdf5) return;
+  const std::string path = folder_ + "/results.h5", draft = draftOf(path);
+  writeHdf5(runs, draft);
+  std::error_code error;
+  fs::rename(draft, path, error);
+  if (error) throw Error(path + ": cannot be written");
 }
 
 }  // namespace viscera::cli

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "cli/sweep_plan.h"
+#include "cli/sweep_table.h"
 
 namespace viscera::cli {
 
@@ -13,7 +14,7 @@ namespace viscera::cli {
 ///   plan.txt             the runs, so that another plan is not mixed in
 ///   runs/000042/lock     locked while somebody, or the session that it started, works on the run
 ///   runs/000042/result.json, failures.txt   how it ended: at most one result, a line per failure
-///   results.csv          all of them in one table
+///   results.csv, results.h5   all of them in one table
 /// What a process leaves behind that is killed is a lock that nobody holds, and no result: the run is done anew.
 class SweepFolder {
  public:
@@ -43,8 +44,10 @@ class SweepFolder {
   void keepResult(size_t run, const std::string& json) const;
   void keepFailure(size_t run, const std::string& line) const;
   void forgetFailures() const;  ///< of all runs: they are tried again
-  /// Writes results.csv: a line per run, its keys, how it ended, and what `viscera run` said of it.
-  void writeTable() const;
+  /// A line per run: its keys, how it ended, and what `viscera run` said of it.
+  SweepTable table() const;
+  /// Writes it to results.csv. @param hdf5  to results.h5 too
+  void writeTables(bool hdf5) const;
 
  private:
   std::vector<std::string> failuresOf(size_t run) const;
