@@ -2,9 +2,12 @@
 # Copyright (c) 2026, the viscera authors
 # SPDX-License-Identifier: BSD-3-Clause
 """fleet.launch: as many simulators as asked for, each by its own names, with the scene, threads and device of its turn."""
+import os
 import sys
 import unittest
 
+import roslaunch.config
+import roslib.packages
 import rosnode
 import rospy
 import rostest
@@ -12,6 +15,7 @@ from simulator_watch import Latest, READY_LIMIT_S, SimulatorWatch, wait_until
 
 from viscera.msg import Tick
 
+FLEET_LAUNCH = os.path.join(roslib.packages.get_pkg_dir("viscera"), "launch/fleet.launch")
 FLEET = ["sim1", "sim2", "sim3", "sim4"]
 
 
@@ -32,6 +36,27 @@ class FleetTest(unittest.TestCase):
             keys = rospy.get_param("/%s/simulator/overrides" % name).split(";")
             self.assertEqual(keys, ["solver.threads=1", "solver.device=" + ("0" if number % 2 else "-1"), "solver.tick_hz=50"])
             self.assertEqual(rospy.get_param("/%s/simulator/frame_prefix" % name), name + "/")
+
+    def machines_of(self, *arguments):
+        """Names of simulators, and their roslaunch machines, as a launch with these arguments has them."""
+        config = roslaunch.config.load_config_default([(FLEET_LAUNCH, ["n:=4"] + list(arguments))], None, verbose=False)
+        self.assertEqual(config.config_errors, [])
+        return {node.namespace.strip("/"): node.machine for node in config.nodes if node.type == "simulator"}, config
+
+    def test_hosts_take_simulators_in_turn(self):
+        machines, config = self.machines_of("hosts:=192.0.2.1 lab@192.0.2.2", "env_loader:=/opt/env.sh", "devices:=0 1", "strokes:=demo")
+        self.assertEqual([machines[name].address for name in FLEET], ["192.0.2.1", "192.0.2.2"] * 2)
+        self.assertEqual([machines[name].user for name in FLEET], [None, "lab"] * 2)
+        self.assertEqual({machines[name].env_loader for name in FLEET}, {"/opt/env.sh"})
+        devices = {node.namespace.strip("/"): node.args.split("solver.device=")[1][0] for node in config.nodes}
+        self.assertEqual([devices[name] for name in FLEET], ["0", "0", "1", "1"])
+        self.assertEqual(len(config.nodes), 8)  # replays run where their simulators do
+        for node in config.nodes:
+            self.assertEqual(node.machine, machines[node.namespace.strip("/")])
+
+    def test_without_hosts_all_run_here(self):
+        machines, _ = self.machines_of()
+        self.assertEqual([machines[name].address for name in FLEET], ["localhost"] * 4)
 
     def test_diagnostics_tell_them_apart(self):
         for name in FLEET:
