@@ -1,8 +1,11 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
+
 #include "support/backends.h"
 #include "support/random_state.h"
 #include "viscera/math/error.h"
+#include "viscera/solver/material.h"
 
 using namespace viscera;
 using namespace viscera::test;
@@ -52,6 +55,38 @@ TEST_P(Integrate, MatchesReferenceWithDashpotAndDrag) {
     body.material.drag_per_s = 50;
     expectLikeReference(modelOf({body}), Vector3d::Zero());
   }
+}
+
+/// A free cell that breathes: by symmetry a mode of its own, u = e (x - middle). Its energy falls by tau omega^2 a
+/// second, tau of the dashpots: c = tau k.
+TEST_P(Integrate, ADashpotTakesFromAModeWhatItsFrequencySays) {
+  constexpr int kTicks = 600;
+  // The velocity is half a substep old, at most z/2 = 0.02 of the energy at either end, of which more than e^2 is lost.
+  constexpr double kLogarithm = 0.04;
+  Body body = boxBody({1, 1, 1}, 0.01);
+  body.material.cells = Cells::kSprings;
+  body.material.drag_per_s = 0;
+  body.material.dashpot_ratio = 0.2;
+  const Model model = modelOf({body});
+  Scene scene = sceneFor(model, kSubsteps);
+  scene.solver.tick_hz *= 200;  // substeps so short that the time between them does not count
+  const auto solver = make(model, scene);
+  HostState state = restState(model);
+  const Vector3d middle = Vector3d::Constant(0.005) + body.lattice.origin_m;
+  for (uint32_t slot : body.lattice.active_slots)
+    state.displacement_m[slot] = vec4(1e-4 * (body.lattice.restPosition(slot) - middle));
+  solver->writeState(state);
+  ReferenceSolver reference(model, Vector3d::Zero(), solver->dt_s());
+  load(reference, state);
+  const uint32_t corner = body.lattice.active_slots[0];
+  const double omega2 = reference.force(corner).norm() / (reference.mass(corner) * reference.u_m[corner].norm());
+  const double before = reference.energy();
+  for (int t = 0; t < kTicks; ++t) solver->step({});
+  load(reference, solver->readState());
+  const double tau_s = bodyParams(model.bodies[0], safeTimeStep(model)).dashpot_s;
+  const double lost = tau_s * omega2 * kTicks * solver->substeps() * solver->dt_s();
+  ASSERT_GT(lost, 2);
+  EXPECT_NEAR(std::log(before / reference.energy()) / lost, 1, kLogarithm);
 }
 
 TEST_P(Integrate, MatchesReferenceWithVolumesOfAnyPoissonRatio) {
