@@ -11,6 +11,7 @@ namespace viscera::multigrid {
 namespace {
 
 constexpr size_t kRowsPerJob = 128;
+constexpr size_t kReadBeyond = 16 - BlockMatrix::kNumbers;  // see BlockRows
 
 /// Four floats as the compiler's vectors.
 using Quad = float __attribute__((vector_size(16)));
@@ -29,7 +30,8 @@ inline Quad plusBlock(Quad sum, const float* block, const float* x) {
 
 }  // namespace
 
-CoarseLevel::CoarseLevel(BlockMatrix matrix) : matrix_(std::move(matrix)) {
+CoarseLevel::CoarseLevel(BlockMatrix matrix) : matrix_(std::move(matrix)), multiply_(multiplyRows()) {
+  matrix_.numbers.resize(matrix_.numbers.size() + kReadBeyond);
   inverse_.assign(BlockMatrix::kNumbers * nodes(), 0);
   for (uint32_t node = 0; node < nodes(); ++node) {
     const Eigen::Matrix3d inverse = matrix_.block(matrix_.entryOf(node, node)).inverse();
@@ -41,13 +43,9 @@ CoarseLevel::CoarseLevel(BlockMatrix matrix) : matrix_(std::move(matrix)) {
 }
 
 void CoarseLevel::apply(const Parallel& parallel, const Quads& x, Quads& y, bool subtract) const {
+  const BlockRows rows = {matrix_.starts.data(), matrix_.columns.data(), matrix_.numbers.data()};
   parallel((nodes() + kRowsPerJob - 1) / kRowsPerJob, [&](size_t job) {
-    for (size_t row = job * kRowsPerJob; row < std::min(nodes(), (job + 1) * kRowsPerJob); ++row) {
-      Quad sum = {};
-      for (size_t i = matrix_.starts[row]; i < matrix_.starts[row + 1]; ++i)
-        sum = plusBlock(sum, matrix_.at(i), &x[4 * size_t{matrix_.columns[i]}]);
-      quadAt(&y[4 * row]) = subtract ? quadAt(&y[4 * row]) - sum : sum;
-    }
+    multiply_(rows, x.data(), y.data(), subtract, job * kRowsPerJob, std::min(nodes(), (job + 1) * kRowsPerJob));
   });
 }
 

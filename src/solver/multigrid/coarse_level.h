@@ -7,6 +7,7 @@
 #include "math/aligned.h"
 #include "solver/cpu/parallel.h"
 #include "solver/multigrid/block_matrix.h"
+#include "solver/multigrid/coarse_kernels.h"
 
 namespace viscera::multigrid {
 
@@ -44,6 +45,7 @@ class CoarseLevel {
 
  private:
   BlockMatrix matrix_;
+  MultiplyRows multiply_;
   AlignedVector<float> inverse_;  ///< [nodes] of its blocks, BlockMatrix::kNumbers each
 };
 

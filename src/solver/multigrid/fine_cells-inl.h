@@ -144,23 +144,27 @@ HWY_INLINE V surenessOf(const CellMotion& q, const CellScale& of) {
   return hn::Max(hn::NegMulAdd(set(kUnsure), hn::Sqrt(sum), set(1)), hn::Zero(Tag()));
 }
 
-template <bool kMoments, bool kFull>
-HWY_INLINE V lineariseCell(const multigrid::FineArrays& a, const multigrid::Box& box, const CellScale& scale,
-                           size_t i) {
+/// @return energy   kTangent: with what its tangent needs, else forces alone
+template <bool kTangent, bool kMoments, bool kFull>
+HWY_INLINE V evaluateCell(const multigrid::FineArrays& a, const multigrid::Box& box, const CellScale& scale, size_t i) {
   const size_t n = a.places;
   const V none = hn::Zero(Tag()), bulk = load(a.bulk + i), rigidity = kMoments ? load(a.rigidity + i) : none;
   const M absent = hn::And(hn::Eq(rigidity, none), hn::Eq(bulk, none));
   CellMotion q = motionAt(a.displacement, n, box, i, hn::IfThenZeroElse(absent, scale.per_4h));
-  storeTo(q.da, a.edges, n, i);
-  storeTo(q.db, a.edges + 3 * n, n, i);
-  storeTo(q.dc, a.edges + 6 * n, n, i);
   const Shape shape = shapeOfEdges(q.da, q.db, q.dc);
-  hn::StoreU(volumeCurvatureOf(bulk, shape.e), Tag(), a.resists + i);
+  if (kTangent) {
+    storeTo(q.da, a.edges, n, i);
+    storeTo(q.db, a.edges + 3 * n, n, i);
+    storeTo(q.dc, a.edges + 6 * n, n, i);
+    hn::StoreU(volumeCurvatureOf(bulk, shape.e), Tag(), a.resists + i);
+  }
   V energy = volumeEnergyOf(bulk, shape.e);
   const V p = hn::Mul(scale.per_4h, pressureOf(bulk, shape.e));
   if (kMoments) {
-    hn::StoreU(momentScale(q, rigidity, scale), Tag(), a.resists + n + i);
-    hn::StoreU(surenessOf(q, scale), Tag(), a.resists + 2 * n + i);
+    if (kTangent) {
+      hn::StoreU(momentScale(q, rigidity, scale), Tag(), a.resists + n + i);
+      hn::StoreU(surenessOf(q, scale), Tag(), a.resists + 2 * n + i);
+    }
     const Moments moments = kFull ? Moments{zero3(), zero3(), zero3()} : momentsAt(a, i);
     energy = hn::Add(energy, cellPull<kFull>(q, moments, rigidity, planeStress<kFull>(ratioOf(bulk, rigidity)), scale));
     q.da = mulAdd(p, shape.bc, q.da);
@@ -269,17 +273,26 @@ HWY_INLINE void forCells(const multigrid::FineArrays& a, const multigrid::Block*
   }
 }
 
-void lineariseCells(const multigrid::FineArrays& a, const multigrid::Block* blocks, size_t count, double* energy_j) {
+template <bool kTangent>
+HWY_INLINE void evaluateCellsOf(const multigrid::FineArrays& a, const multigrid::Block* blocks, size_t count,
+                                double* energy_j) {
   forCells(a, blocks, count, [&](const multigrid::Box& box, const CellScale& scale, size_t i) HWY_ATTR {
     V energy;
     if (a.cells == multigrid::CellKind::kVolumes)
-      energy = lineariseCell<false, true>(a, box, scale, i);
+      energy = evaluateCell<kTangent, false, true>(a, box, scale, i);
     else if (a.cells == multigrid::CellKind::kMoments)
-      energy = lineariseCell<true, true>(a, box, scale, i);
+      energy = evaluateCell<kTangent, true, true>(a, box, scale, i);
     else
-      energy = lineariseCell<true, false>(a, box, scale, i);
+      energy = evaluateCell<kTangent, true, false>(a, box, scale, i);
     *energy_j += static_cast<double>(hn::GetLane(hn::SumOfLanes(Tag(), energy)));
   });
+}
+
+void lineariseCells(const multigrid::FineArrays& a, const multigrid::Block* blocks, size_t count, double* energy_j) {
+  evaluateCellsOf<true>(a, blocks, count, energy_j);
+}
+void evaluateCells(const multigrid::FineArrays& a, const multigrid::Block* blocks, size_t count, double* energy_j) {
+  evaluateCellsOf<false>(a, blocks, count, energy_j);
 }
 
 void applyCells(const multigrid::FineArrays& a, const float* x, const multigrid::Block* blocks, size_t count) {

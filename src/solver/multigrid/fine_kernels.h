@@ -52,21 +52,52 @@ struct FineArrays {
   CellKind cells;
 };
 
-/// Cells of some blocks: edges, resists, forces on corners. @param energy_j  of all, added to
-using LineariseCells = void (*)(const FineArrays& arrays, const Block* blocks, size_t count, double* energy_j);
-/// Nodes of some blocks: tangent, force, inverse. After all cells. @param energy_j  of their springs, added to
-using LineariseNodes = void (*)(const FineArrays& arrays, const Block* blocks, size_t count, double* energy_j);
+/// Cells of some blocks: edges, resists, forces on corners, or forces alone. @param energy_j  of all, added to
+using EvaluateCells = void (*)(const FineArrays& arrays, const Block* blocks, size_t count, double* energy_j);
+/// Nodes of some blocks: tangent, force, inverse, or forces alone. After all cells. @param energy_j  of their springs,
+/// added to
+using EvaluateNodes = void (*)(const FineArrays& arrays, const Block* blocks, size_t count, double* energy_j);
 /// Forces on the corners of cells that a change of displacement makes.
 using ApplyCells = void (*)(const FineArrays& arrays, const float* x, const Block* blocks, size_t count);
 /// y = A x, or y -= A x, of the nodes of some blocks; 0 where not free. After ApplyCells of the same x.
 using ApplyNodes = void (*)(const FineArrays& arrays, const float* x, float* y, bool subtract, const Block* blocks,
                             size_t count);
 
+/// A step of a smoother: r -= A x; d = again x + by D^-1 r; z = x + d, or z += carried x + d.
+struct Smoothing {
+  const float* x;
+  float *r, *d, *z;
+  const float* with;  ///< its product with z is summed; may be null
+  float again, by, carried;
+  bool fresh;  ///< z is not read
+};
+/// Of the nodes of some blocks, after ApplyCells of the same x. @param sum  with . z, added to
+using SmoothNodes = void (*)(const FineArrays& arrays, const Smoothing& smoothing, const Block* blocks, size_t count,
+                             double* sum);
+/// copy = r, d = by D^-1 r.
+using PreconditionNodes = void (*)(const FineArrays& arrays, const float* r, float by, float* copy, float* d,
+                                   const Block* blocks, size_t count);
+/// s += alpha p, r -= alpha q. @param sum  r . r, added to
+using AdvanceNodes = void (*)(size_t places, float alpha, const float* p, const float* q, float* s, float* r,
+                              const Block* blocks, size_t count, double* sum);
+/// p = z + beta p; where beta is 0, p is not read.
+using TurnNodes = void (*)(size_t places, float beta, const float* z, float* p, const Block* blocks, size_t count);
+/// a . b, added to
+using DotNodes = void (*)(size_t places, const float* a, const float* b, const Block* blocks, size_t count,
+                          double* sum);
+
 struct FineKernels {
-  LineariseCells linearise_cells;
-  LineariseNodes linearise_nodes;
+  EvaluateCells linearise_cells;
+  EvaluateNodes linearise_nodes;
+  EvaluateCells evaluate_cells;
+  EvaluateNodes evaluate_nodes;
   ApplyCells apply_cells;
   ApplyNodes apply_nodes;
+  SmoothNodes smooth_nodes;
+  PreconditionNodes precondition_nodes;
+  AdvanceNodes advance_nodes;
+  TurnNodes turn_nodes;
+  DotNodes dot_nodes;
 };
 
 /// @param target  name of an instruction set that simd::targets() has; empty: the best

@@ -107,12 +107,14 @@ void FineLevel::hold(const std::vector<uint32_t>& held, const std::vector<Plane>
 }
 
 void FineLevel::project(Vectors& x) const {
+  for (const Plane& plane : planes_) projectAt(plane, x.data());
+}
+
+void FineLevel::projectAt(const Plane& plane, float* x) const {
   const size_t n = places();
-  for (const Plane& plane : planes_) {
-    float* at = &x[plane.place];
-    const float along = plane.normal.x() * at[0] + plane.normal.y() * at[n] + plane.normal.z() * at[2 * n];
-    for (size_t c = 0; c < 3; ++c) at[c * n] -= along * plane.normal[static_cast<int>(c)];
-  }
+  float* const at = x + plane.place;
+  const float along = plane.normal.x() * at[0] + plane.normal.y() * at[n] + plane.normal.z() * at[2 * n];
+  for (size_t c = 0; c < 3; ++c) at[c * n] -= along * plane.normal[static_cast<int>(c)];
 }
 
 void FineLevel::begin(const Stage& stage) {
@@ -156,19 +158,15 @@ void FineLevel::runBlocks(const std::vector<Block>& blocks, const Kernel& kernel
   });
 }
 
-double FineLevel::evaluate(const std::vector<Block>& blocks, const std::vector<Block>& cell_blocks, const Vectors& u,
-                           const Vectors& v) {
+double FineLevel::run(EvaluateCells cells, EvaluateNodes nodes, const std::vector<Block>& blocks,
+                      const std::vector<Block>& cell_blocks, const Vectors& u, const Vectors& v) {
   displacement_ = u.data();
   velocity_ = v.data();
   FineArrays a = arrays();
   a.free = movable_.data();  // who is held now may be free in the next system
   std::fill(sums_.begin(), sums_.end(), 0.0);
-  runBlocks(cell_blocks, [&](const Block* some, size_t count, size_t job) {
-    kernels_.linearise_cells(a, some, count, &sums_[job]);
-  });
-  runBlocks(blocks, [&](const Block* some, size_t count, size_t job) {
-    kernels_.linearise_nodes(a, some, count, &sums_[job]);
-  });
+  runBlocks(cell_blocks, [&](const Block* some, size_t count, size_t job) { cells(a, some, count, &sums_[job]); });
+  runBlocks(blocks, [&](const Block* some, size_t count, size_t job) { nodes(a, some, count, &sums_[job]); });
   done_.forces += static_cast<double>(blocks.size()) / static_cast<double>(std::max(grid_.blocks.size(), size_t{1}));
   double energy_j = 0;
   for (const double each : sums_) energy_j += each;
@@ -176,11 +174,18 @@ double FineLevel::evaluate(const std::vector<Block>& blocks, const std::vector<B
 }
 
 double FineLevel::linearise(const Vectors& displacement_m, const Vectors& velocity_m_per_s) {
-  return evaluate(grid_.blocks, cell_blocks_, displacement_m, velocity_m_per_s);
+  return run(kernels_.linearise_cells, kernels_.linearise_nodes, grid_.blocks, cell_blocks_, displacement_m,
+             velocity_m_per_s);
+}
+
+double FineLevel::evaluate(const Vectors& displacement_m, const Vectors& velocity_m_per_s) {
+  return run(kernels_.evaluate_cells, kernels_.evaluate_nodes, grid_.blocks, cell_blocks_, displacement_m,
+             velocity_m_per_s);
 }
 
 void FineLevel::lineariseIn(const Region& region, const Vectors& displacement_m, const Vectors& velocity_m_per_s) {
-  evaluate(region.blocks, region.cell_blocks, displacement_m, velocity_m_per_s);
+  run(kernels_.linearise_cells, kernels_.linearise_nodes, region.blocks, region.cell_blocks, displacement_m,
+      velocity_m_per_s);
 }
 
 Region FineLevel::around(const std::vector<uint32_t>& nodes) const {
@@ -222,31 +227,79 @@ void FineLevel::apply(const Vectors& x, Vectors& y, bool subtract) const {
   ++done_.products;
 }
 
-void FineLevel::smooth(const Vectors& r, float a, float b, bool first, Vectors& d, Vectors& z) const {
-  const size_t n = places();
-  const float *rx = r.data(), *ry = rx + n, *rz = ry + n, *inverse = inverse_.data();
-  forPlaces([&](size_t at, size_t count, const layout::BodyParams&) {
-    for (size_t i = at; i < at + count; ++i) {
-      const float xx = inverse[i], xy = inverse[n + i], xz = inverse[2 * n + i];
-      const float yy = inverse[3 * n + i], yz = inverse[4 * n + i], zz = inverse[5 * n + i];
-      const float s[3] = {xx * rx[i] + xy * ry[i] + xz * rz[i], xy * rx[i] + yy * ry[i] + yz * rz[i],
-                          xz * rx[i] + yz * ry[i] + zz * rz[i]};
-      for (size_t c = 0; c < 3; ++c) {
-        const float next = (first ? 0 : a * d[c * n + i]) + b * s[c];
-        d[c * n + i] = next;
-        z[c * n + i] = (first ? 0 : z[c * n + i]) + next;
-      }
-    }
+/// Sum of what kernel(first block, count, sum) adds.
+template <class Kernel>
+double FineLevel::sumBlocks(const Kernel& kernel) const {
+  std::fill(sums_.begin(), sums_.end(), 0.0);
+  runBlocks(grid_.blocks, [&](const Block* blocks, size_t count, size_t job) { kernel(blocks, count, &sums_[job]); });
+  double out = 0;
+  for (const double each : sums_) out += each;
+  return out;
+}
+
+void FineLevel::precondition(const Vectors& r, float by, Vectors& copy, Vectors& d) const {
+  const FineArrays a = arrays();
+  runBlocks(grid_.blocks, [&](const Block* blocks, size_t count, size_t) {
+    kernels_.precondition_nodes(a, r.data(), by, copy.data(), d.data(), blocks, count);
   });
   project(d);
-  project(z);
+}
+
+double FineLevel::smooth(const Vectors& x, float again, float by, float carried, Vectors& r, Vectors& d, Vectors& z,
+                         const Vectors* with) const {
+  return smooth({x.data(), r.data(), d.data(), z.data(), with ? with->data() : nullptr, again, by, carried, false});
+}
+
+void FineLevel::smoothFresh(const Vectors& x, float again, float by, Vectors& r, Vectors& d, Vectors& z) const {
+  smooth({x.data(), r.data(), d.data(), z.data(), nullptr, again, by, 1, true});
+}
+
+double FineLevel::smooth(const Smoothing& smoothing) const {
+  const FineArrays a = arrays();
+  runBlocks(cell_blocks_,
+            [&](const Block* blocks, size_t count, size_t) { kernels_.apply_cells(a, smoothing.x, blocks, count); });
+  const double out = sumBlocks(
+      [&](const Block* blocks, size_t count, double* sum) { kernels_.smooth_nodes(a, smoothing, blocks, count, sum); });
+  ++done_.products;
+  return out + smoothHeld(smoothing);
+}
+
+/// A smoothing of nodes that keep to planes once more, within these. @return what that adds to with . z
+double FineLevel::smoothHeld(const Smoothing& s) const {
+  const size_t n = places();
+  const auto at = [&](const float* x, size_t i) { return Vector3f(x[i], x[n + i], x[2 * n + i]); };
+  double out = 0;
+  for (size_t first = 0, end = 0; first < planes_.size(); first = end) {  // planes of a node stand together
+    const size_t i = planes_[first].place;
+    while (end < planes_.size() && planes_[end].place == i) ++end;
+    const Vector3f before = at(s.z, i), begun = before - at(s.d, i);
+    const auto set = [&](float* x, const Vector3f& value) {
+      for (size_t c = 0; c < 3; ++c) x[c * n + i] = value[static_cast<int>(c)];
+      for (size_t k = first; k < end; ++k) projectAt(planes_[k], x);
+    };
+    set(s.r, at(s.r, i));
+    set(s.d, s.again * at(s.x, i) + s.by * solveBlock(i, at(s.r, i)));
+    set(s.z, begun + at(s.d, i));
+    if (s.with) out += static_cast<double>(at(s.with, i).dot(at(s.z, i) - before));
+  }
+  return out;
+}
+
+double FineLevel::advance(float alpha, const Vectors& p, const Vectors& q, Vectors& s, Vectors& r) const {
+  return sumBlocks([&](const Block* blocks, size_t count, double* sum) {
+    kernels_.advance_nodes(places(), alpha, p.data(), q.data(), s.data(), r.data(), blocks, count, sum);
+  });
+}
+
+void FineLevel::turn(float beta, const Vectors& z, Vectors& p) const {
+  runBlocks(grid_.blocks, [&](const Block* blocks, size_t count, size_t) {
+    kernels_.turn_nodes(places(), beta, z.data(), p.data(), blocks, count);
+  });
 }
 
 double FineLevel::dot(const Vectors& a, const Vectors& b) const {
-  const size_t n = places();
-  return sum([&](size_t i) {
-    return static_cast<double>(a[i] * b[i]) + static_cast<double>(a[n + i] * b[n + i]) +
-           static_cast<double>(a[2 * n + i] * b[2 * n + i]);
+  return sumBlocks([&](const Block* blocks, size_t count, double* sum) {
+    kernels_.dot_nodes(places(), a.data(), b.data(), blocks, count, sum);
   });
 }
 

@@ -34,7 +34,8 @@ struct Region {
 
 /// How often the finest level was worked through.
 struct FineWork {
-  double forces = 0;    ///< evaluations of all forces with their tangents; those of regions count by their share
+  double forces =
+      0;  ///< evaluations of all forces with their tangents or without; those of regions count by their share
   double products = 0;  ///< with the tangent
 };
 
@@ -62,14 +63,25 @@ class FineLevel {
 
   /// Forces, energy and tangent at a state. @return elastic energy [J]
   double linearise(const Vectors& displacement_m, const Vectors& velocity_m_per_s);
-  /// The same where only a region's nodes matter: forces of others are not what they should be.
+  /// Forces and energy alone: the tangent stays where it is.
+  double evaluate(const Vectors& displacement_m, const Vectors& velocity_m_per_s);
+  /// linearise() where only a region's nodes matter: forces of others are not what they should be.
   void lineariseIn(const Region& region, const Vectors& displacement_m, const Vectors& velocity_m_per_s);
   Region around(const std::vector<uint32_t>& nodes) const;
   const Vectors& force() const { return force_; }  ///< [N] of springs, dashpots and cells, on all nodes
   /// y = A x; or y -= A x. 0 where not free. @param x  0 where not free
   void apply(const Vectors& x, Vectors& y, bool subtract = false) const;
-  /// d = a d + b D^-1 r, z += d; both begin as 0 where `first`.
-  void smooth(const Vectors& r, float a, float b, bool first, Vectors& d, Vectors& z) const;
+  /// copy = r, d = by D^-1 r.
+  void precondition(const Vectors& r, float by, Vectors& copy, Vectors& d) const;
+  /// r -= A x; d = again x + by D^-1 r; z += carried x + d. @return with . z
+  double smooth(const Vectors& x, float again, float by, float carried, Vectors& r, Vectors& d, Vectors& z,
+                const Vectors* with = nullptr) const;
+  /// The same with z = x + d.
+  void smoothFresh(const Vectors& x, float again, float by, Vectors& r, Vectors& d, Vectors& z) const;
+  /// s += alpha p, r -= alpha q. @return r . r
+  double advance(float alpha, const Vectors& p, const Vectors& q, Vectors& s, Vectors& r) const;
+  /// p = z + beta p
+  void turn(float beta, const Vectors& z, Vectors& p) const;
 
   double dot(const Vectors& a, const Vectors& b) const;  ///< summed in float64, always in the same order
   /// Calls each(place, count, constants of their body) for runs of places, side by side.
@@ -123,10 +135,15 @@ class FineLevel {
   size_t jobs() const { return sums_.size(); }
   FineArrays arrays() const;
   void loadCells();
+  double smooth(const Smoothing& smoothing) const;
+  void projectAt(const Plane& plane, float* x) const;
+  double smoothHeld(const Smoothing& smoothing) const;
+  template <class Kernel>
+  double sumBlocks(const Kernel& kernel) const;
   template <class Kernel>
   void runBlocks(const std::vector<Block>& blocks, const Kernel& kernel) const;
-  double evaluate(const std::vector<Block>& blocks, const std::vector<Block>& cell_blocks, const Vectors& u,
-                  const Vectors& v);
+  double run(EvaluateCells cells, EvaluateNodes nodes, const std::vector<Block>& blocks,
+             const std::vector<Block>& cell_blocks, const Vectors& u, const Vectors& v);
 
   const CpuLattice& lattice_;
   const Parallel* parallel_;

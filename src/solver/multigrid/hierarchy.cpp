@@ -65,7 +65,7 @@ float largestOf(const FineLevel& level) {
   float grown = 1;
   for (int k = 0; k < kPowerIterations; ++k) {
     level.apply(x, y);
-    level.smooth(y, 0, 1, true, d, x);
+    level.precondition(y, 1, d, x);
     grown = static_cast<float>(std::sqrt(level.dot(x, x)));
     for (float& each : x) each /= std::max(grown, 1e-30f);
   }
@@ -189,30 +189,18 @@ void Hierarchy::cycleAt(size_t index) const {
   level.smooth(r, cheb.again, cheb.second, false, d, z);
 }
 
-void Hierarchy::cycle(const FineLevel& level, float largest, const Vectors& r, Vectors& work, Vectors& d,
-                      Vectors& z) const {
+double Hierarchy::cycle(const FineLevel& level, float largest, const Vectors& r, Work& work, Vectors& z) const {
   const Chebyshev cheb(largest);
-  const size_t n = level.places();
-  level.forPlaces([&](size_t at, size_t count, const layout::BodyParams&) {
-    for (size_t c = 0; c < 3; ++c) std::copy_n(&r[c * n + at], count, &work[c * n + at]);
-  });
-  level.smooth(work, 0, cheb.first, true, d, z);
-  level.apply(d, work, true);
-  level.smooth(work, cheb.again, cheb.second, false, d, z);
-  if (levels_.empty()) return;
-  level.apply(d, work, true);
-  restrictFine(level, work);
+  level.precondition(r, cheb.first, work.r, work.d);
+  level.smoothFresh(work.d, cheb.again, cheb.second, work.r, work.e, z);
+  if (levels_.empty()) return level.dot(r, z);
+  level.apply(work.e, work.r, true);
+  restrictFine(level, work.r);
   cycleAt(0);
-  addToFine(level, d);
-  level.project(d);
-  level.forPlaces([&](size_t at, size_t count, const layout::BodyParams&) {
-    for (size_t c = 0; c < 3; ++c)
-      for (size_t i = c * n + at; i < c * n + at + count; ++i) z[i] += d[i];
-  });
-  level.apply(d, work, true);
-  level.smooth(work, 0, cheb.first, false, d, z);
-  level.apply(d, work, true);
-  level.smooth(work, cheb.again, cheb.second, false, d, z);
+  addToFine(level, work.d);
+  level.project(work.d);
+  level.smooth(work.d, 0, cheb.first, 1, work.r, work.e, z);
+  return level.smooth(work.e, cheb.again, cheb.second, 0, work.r, work.d, z, &r);
 }
 
 }  // namespace viscera::multigrid

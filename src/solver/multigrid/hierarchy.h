@@ -28,10 +28,13 @@ class Hierarchy {
   /// Of the matrix of the coarsest level, three numbers a node. There is one below the finest.
   Eigen::MatrixXd coarsestInverse() const;
 
+  /// Vectors that a cycle overwrites.
+  struct Work {
+    Vectors r, d, e;
+  };
   /// z = one V-cycle of A z = r from 0: Chebyshev of degree 2 on blocks of 3x3 before and after. Symmetric and
-  /// positive.
-  /// @param r, work  0 where not free; r is left as it is, work and d are overwritten
-  void cycle(const FineLevel& level, float largest, const Vectors& r, Vectors& work, Vectors& d, Vectors& z) const;
+  /// positive. @param r  0 where not free   @return r . z
+  double cycle(const FineLevel& level, float largest, const Vectors& r, Work& work, Vectors& z) const;
 
  private:
   void cycleAt(size_t level) const;

@@ -15,7 +15,7 @@ ImplicitEuler::ImplicitEuler(StageSolver& solver)
 double ImplicitEuler::potential(Vectors& increment, Touching* touching) {
   const FineLevel& level = solver_.level;
   const size_t n = level.places();
-  solver_.residual(increment, touching);
+  solver_.residual(increment, touching, nullptr, false);
   const auto inertia = static_cast<float>(solver_.stage.inertia_per_s2);
   const double lag_j = level.sum([&](size_t i) {
     double off2 = 0;
@@ -51,7 +51,7 @@ void ImplicitEuler::bound(const Energy& before, Touching* touching) {
   trial_ = increment_;
   for (const float share : kEulerKept) {
     for (size_t i = 0; i < trial_.size(); ++i) increment_[i] = share * trial_[i];
-    solver_.residual(increment_, touching);
+    solver_.residual(increment_, touching, nullptr, false);
     const Energy after = solver_.energy(solver_.displacement, solver_.velocity, solver_.elastic_j);
     const double given_j = touching ? std::max(0.0, kGivenTimes * touching->work(increment_)) : 0;
     if (after.sum_j <= before.sum_j + given_j + kEulerRounding * (before.kinetic_j + std::abs(before.sum_j))) return;
@@ -65,7 +65,7 @@ void ImplicitEuler::step(const Substep& step, const Vectors& u, const Vectors& v
   solver_.gravity = step.gravity;
   solver_.start = u;
   solver_.level.hold({});
-  const Energy before = solver_.energy(u, v, solver_.level.linearise(u, v));
+  const Energy before = solver_.energy(u, v, solver_.level.evaluate(u, v));
   for (size_t i = 0; i < v.size(); ++i) solver_.wanted[i] = step.dt_s * v[i];
   std::fill(solver_.offset.begin(), solver_.offset.end(), 0.0f);
   std::fill(increment_.begin(), increment_.end(), 0.0f);
@@ -81,11 +81,11 @@ void ImplicitEuler::step(const Substep& step, const Vectors& u, const Vectors& v
     }
     first = false;
   }
-  double most = solver_.residual(increment_, touching);
+  double most = solver_.residual(increment_, touching, nullptr, false);
   for (int k = 0; k < kEulerNewton; ++k) {
     const double before_j = least_j;
     least_j = improve(least_j, touching, work);
-    const double norm = solver_.residual(increment_, touching);
+    const double norm = solver_.residual(increment_, touching, nullptr, false);
     if (norm <= kEulerEnough * most || !(least_j < before_j)) break;
     most = std::max(most, norm);
   }

@@ -18,8 +18,8 @@ constexpr float kApart = 0.3f;  // spacings: how far a step may carry a node fro
 
 StageSolver::StageSolver(const Model& model, const CpuLattice& lattice, const Parallel& parallel)
     : level(model, lattice, parallel) {
-  for (Vectors* each :
-       {&start, &wanted, &offset, &load, &displacement, &velocity, &r_, &s_, &p_, &q_, &z_, &d_, &work_, &force_})
+  for (Vectors* each : {&start, &wanted, &offset, &load, &displacement, &velocity, &r_, &s_, &p_, &q_, &z_, &work_.r,
+                        &work_.d, &work_.e, &force_})
     each->assign(3 * level.places(), 0);
   stiffest_n_per_m_ = level.stiffest();
 }
@@ -43,13 +43,13 @@ void StageSolver::takeRebuilt() {
 }
 
 double StageSolver::residual(const Vectors& increment) {
-  evaluate(increment);
+  evaluate(increment, true);
   return masked();
 }
 
-double StageSolver::residual(Vectors& increment, Touched* touched, bool* changed) {
+double StageSolver::residual(Vectors& increment, Touched* touched, bool* changed, bool tangent) {
   if (touched) touched->place(increment);
-  evaluate(increment);
+  evaluate(increment, tangent);
   const bool others = touched && touched->press(r_, increment, level);
   if (changed) *changed = others;
   return masked();
@@ -67,7 +67,7 @@ double StageSolver::masked() {
 }
 
 /// Residual of whoever can move, held or not.
-void StageSolver::evaluate(const Vectors& increment) {
+void StageSolver::evaluate(const Vectors& increment, bool tangent) {
   const size_t n = level.places();
   const float rate = static_cast<float>(stage.rate_per_s), inertia = static_cast<float>(stage.inertia_per_s2);
   level.forPlaces([&](size_t at, size_t count, const layout::BodyParams&) {
@@ -78,7 +78,7 @@ void StageSolver::evaluate(const Vectors& increment) {
       }
     }
   });
-  elastic_j = level.linearise(displacement, velocity);
+  elastic_j = tangent ? level.linearise(displacement, velocity) : level.evaluate(displacement, velocity);
   const Vectors& force = level.force();
   level.forPlaces([&](size_t at, size_t count, const layout::BodyParams& body) {
     const float drag = body.drag_per_s;
@@ -138,7 +138,7 @@ void StageSolver::multiply(const Vectors& increment, const Vectors& p, Vectors& 
       }
     }
   });
-  level.linearise(displacement, velocity);
+  level.evaluate(displacement, velocity);
   const Vectors& force = level.force();
   level.forPlaces([&](size_t at, size_t count, const layout::BodyParams&) {
     for (size_t c = 0; c < 3; ++c) {
@@ -153,21 +153,15 @@ void StageSolver::multiply(const Vectors& increment, const Vectors& p, Vectors& 
 }
 
 int StageSolver::solveLinear(const Vectors& increment, const Rule& rule, double norm) {
-  const size_t n = level.places();
   double before = 0, fallen = 0;
   std::fill(s_.begin(), s_.end(), 0.0f);
   if (rule.exact) force_ = level.force();
   int k = 0;
   while (k < rule.most) {
-    levels_.hierarchy->cycle(level, levels_.largest, r_, work_, d_, z_);
-    const double rz = level.dot(r_, z_);
+    const double rz = levels_.hierarchy->cycle(level, levels_.largest, r_, work_, z_);
     if (!(rz > 0)) break;
-    const float beta = k == 0 ? 0 : static_cast<float>(rz / before);
+    level.turn(k == 0 ? 0 : static_cast<float>(rz / before), z_, p_);
     before = rz;
-    level.forPlaces([&](size_t at, size_t count, const layout::BodyParams&) {
-      for (size_t c = 0; c < 3; ++c)
-        for (size_t i = c * n + at; i < c * n + at + count; ++i) p_[i] = z_[i] + (beta == 0 ? 0 : beta * p_[i]);
-    });
     rule.exact ? multiply(increment, p_, q_, rule.stiffening) : level.apply(p_, q_);
     const double curvature = level.dot(p_, q_);
     if (!(curvature > 0)) {  // tangents are made positive: only rounding leads here, and what is exact
@@ -176,17 +170,10 @@ int StageSolver::solveLinear(const Vectors& increment, const Rule& rule, double 
       break;
     }
     const float alpha = static_cast<float>(rz / curvature);
-    level.forPlaces([&](size_t at, size_t count, const layout::BodyParams&) {
-      for (size_t c = 0; c < 3; ++c) {
-        for (size_t i = c * n + at; i < c * n + at + count; ++i) {
-          s_[i] += alpha * p_[i];
-          r_[i] -= alpha * q_[i];
-        }
-      }
-    });
+    const double left = std::sqrt(level.advance(alpha, p_, q_, s_, r_));
     ++k;
     fallen += static_cast<double>(alpha) * rz;
-    if (rule.ends(k, static_cast<double>(alpha) * rz, fallen, std::sqrt(level.dot(r_, r_)), norm)) break;
+    if (rule.ends(k, static_cast<double>(alpha) * rz, fallen, left, norm)) break;
   }
   if (rule.tame && farthest(s_) > kApart / 4) tame();
   return k;
@@ -238,9 +225,11 @@ double StageSolver::solve(Vectors& increment, const Rule& rule, SolverWork& work
   for (int step = 0;; ++step) {
     bool changed = false;
     const double before = norm;
-    norm = residual(increment, touched, &changed);
+    const bool tangent = step == 0 || touched;  // most often one system is enough
+    norm = residual(increment, touched, &changed, tangent);
     const bool done = step > 0 && !changed && norm <= rule.again * before;
     if (done || norm <= noise_n || step >= rule.newton + (changed ? kMoreTouched : 0)) return norm;
+    if (!tangent) level.linearise(displacement, velocity);
     work.iterations += static_cast<uint64_t>(solveLinear(increment, rule, norm));
     ++work.systems;
     level.forPlaces([&](size_t at, size_t count, const layout::BodyParams&) {

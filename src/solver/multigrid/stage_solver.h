@@ -80,9 +80,9 @@ class StageSolver {
   /// Residual of an increment [N], 0 where not free; linearises there. @return its norm
   double residual(const Vectors& increment);
   /// The same where something may touch nodes, which are put where they may be.
-  /// @param changed  others are held than before
-  double residual(Vectors& increment, Touched* touched, bool* changed = nullptr);
-  /// Improves `increment` until the rule is met. Leaves all linearised at the end.
+  /// @param changed  others are held than before   @param tangent  linearises there: else forces alone
+  double residual(Vectors& increment, Touched* touched, bool* changed = nullptr, bool tangent = true);
+  /// Improves `increment` until the rule is met. Leaves forces as they are at the end.
   /// @return norm of the residual at the end; not finite where the state was too wild for float32
   double solve(Vectors& increment, const Rule& rule, SolverWork& work, Touched* touched = nullptr);
   Energy energy(const Vectors& displacement_m, const Vectors& velocity_m_per_s, double elastic_j) const;
@@ -108,14 +108,15 @@ class StageSolver {
   float farthest(const Vectors& x) const;
   void tame();
   Vector3f tamedStep(uint32_t node) const;
-  void evaluate(const Vectors& increment);
+  void evaluate(const Vectors& increment, bool tangent);
   double masked();
   void multiply(const Vectors& increment, const Vectors& p, Vectors& q, const Stiffening* stiffening);
 
   BuiltLevels built_;
   BuiltLevels::Built levels_;    ///< that are in use
   double stiffest_n_per_m_ = 0;  ///< sum of a node's springs
-  Vectors r_, s_, p_, q_, z_, d_, work_;
+  Vectors r_, s_, p_, q_, z_;
+  Hierarchy::Work work_;
   Vectors force_;  ///< where the residual was, for exact products
 };
 

@@ -77,7 +77,7 @@ bool TrBdf2::step(const Substep& step, const Vectors& u, const Vectors& v, Touch
   solver_.gravity = step.gravity;
   solver_.start = u;
   solver_.level.hold({});
-  const Energy before = solver_.energy(u, v, solver_.level.linearise(u, v));
+  const Energy before = solver_.energy(u, v, solver_.level.evaluate(u, v));
   beginFirst(dt_s, v, touching);
   if (touching) touching->setShare(kGamma);
   solver_.solve(increment_, rule, work, touching);
