@@ -123,6 +123,7 @@ class FineLevel {
   // What coarse levels are made of, at rest.
   float stiffness(size_t pair, size_t place) const { return stiffness_[pair * places() + place]; }
   double stiffest() const;  ///< largest sum of a node's springs, each counted by its owner and twice [N/m]
+  const float* stiffnessesOf(size_t pair) const { return &stiffness_[pair * places()]; }  ///< [places] N/m
   float bulk(size_t place) const { return bulk_.empty() ? 0 : bulk_[place]; }
   float rigidity(size_t place) const { return rigidity_.empty() ? 0 : rigidity_[place]; }
   const float* moments() const { return moments_.empty() ? nullptr : moments_.data(); }

@@ -12,7 +12,8 @@ namespace viscera::multigrid {
 
 namespace {
 
-constexpr float kApart = 0.3f;  // spacings: how far a step may carry a node from those around it
+constexpr float kBelow = 0.999f;  // of a bound on that, for its rounding
+constexpr float kApart = 0.3f;    // spacings: how far a step may carry a node from those around it
 
 }  // namespace
 
@@ -179,16 +180,52 @@ int StageSolver::solveLinear(const Vectors& increment, const Rule& rule, double 
   return k;
 }
 
+/// Nodes of a block that a step may carry away from those around: a bound by squares, sum k |d| <= sqrt(sum k sum k
+/// d^2).
+/// @return a bit each
+uint32_t StageSolver::mayBeFar(const Block& block) const {
+  const size_t n = level.places();
+  const Box& box = level.box(block.body);
+  float stiffness[kBlock] = {}, apart2[kBlock] = {};
+  for (size_t pair = 0; pair < kPairs; ++pair) {
+    const std::array<int, 3>& o = kNeighborOffsets[2 * pair];
+    const ptrdiff_t away = o[0] + o[1] * box.row + o[2] * box.layer;
+    for (const bool owned : {true, false}) {
+      const float* const near = &s_[block.at];
+      const float* const far = owned ? near + away : near - away;
+      const float* const k = level.stiffnessesOf(pair) + (owned ? block.at : block.at - static_cast<size_t>(away));
+      for (size_t i = 0; i < kBlock; ++i) {
+        const float x = far[i] - near[i], y = far[n + i] - near[n + i], z = far[2 * n + i] - near[2 * n + i];
+        stiffness[i] += k[i];
+        apart2[i] += k[i] * (x * x + y * y + z * z);
+      }
+    }
+  }
+  const float most = kApart * box.params.origin_spacing.w * kBelow;
+  uint32_t out = 0;
+  for (size_t i = 0; i < kBlock; ++i) {
+    if (apart2[i] > most * most * stiffness[i]) out |= 1u << i;
+  }
+  return out;
+}
+
 /// A step that carries a node away from those around it is none: it hangs on few springs, which a step so long turns to
 /// where tangents knew nothing of. It goes on with the others.
 void StageSolver::tame() {
   const Grid& grid = level.grid();
   const size_t n = level.places();
-  constexpr size_t kPerJob = 512;
-  level.parallel()((grid.nodeCount() + kPerJob - 1) / kPerJob, [&](size_t job) {
-    for (size_t node = job * kPerJob; node < std::min(grid.nodeCount(), (job + 1) * kPerJob); ++node) {
-      const Vector3f step = tamedStep(static_cast<uint32_t>(node));
-      for (size_t c = 0; c < 3; ++c) z_[c * n + grid.place_of[node]] = step[static_cast<int>(c)];
+  constexpr size_t kPerJob = 32;
+  level.parallel()((grid.blocks.size() + kPerJob - 1) / kPerJob, [&](size_t job) {
+    for (size_t b = job * kPerJob; b < std::min(grid.blocks.size(), (job + 1) * kPerJob); ++b) {
+      const Block& block = grid.blocks[b];
+      for (size_t c = 0; c < 3; ++c) std::copy_n(&s_[c * n + block.at], kBlock, &z_[c * n + block.at]);
+      const uint32_t far = mayBeFar(block);
+      for (size_t i = 0; far >> i != 0; ++i) {
+        const int32_t node = grid.node_at[block.at + i];
+        if (!(far >> i & 1) || node < 0) continue;
+        const Vector3f step = tamedStep(static_cast<uint32_t>(node));
+        for (size_t c = 0; c < 3; ++c) z_[c * n + block.at + i] = step[static_cast<int>(c)];
+      }
     }
   });
   std::swap(s_, z_);

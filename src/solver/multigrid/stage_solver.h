@@ -107,6 +107,7 @@ class StageSolver {
  private:
   float farthest(const Vectors& x) const;
   void tame();
+  uint32_t mayBeFar(const Block& block) const;
   Vector3f tamedStep(uint32_t node) const;
   void evaluate(const Vectors& increment, bool tangent);
   double masked();
