@@ -7,7 +7,7 @@
 #include "bench/harness/mapped_body.h"
 #include "bench/harness/rate.h"
 #include "bench/suites/gpu_parts.h"
-#include "gpu/gl.h"
+#include "gpu/fence.h"
 #include "model/shape/host_memory.h"
 #include "render/renderer.h"
 #include "viscera/gpu/context.h"
@@ -90,13 +90,13 @@ Times measureSkin(Report& report, size_t faces, int cells) {
   const std::vector<Rate> rates = measureRates({{"map", 1,
                                                  [&] {
                                                    map();
-                                                   glFinish();
+                                                   gpu::awaitGpu("a measurement");
                                                    return 1.0;
                                                  }},
                                                 {"draw", 1,
                                                  [&] {
                                                    renderer.draw(0, surface, {});
-                                                   glFinish();
+                                                   gpu::awaitGpu("a measurement");
                                                    return 1.0;
                                                  }}},
                                                report.isShort() ? 0.05 : 0.3);

@@ -97,13 +97,21 @@ Context::Context(int only) {
 
 namespace {
 
+/// @param tells_of_resets  a GPU that the driver had to reset is then an error instead of results that stand still
+EGLContext createContext(EGLDisplay display, EGLConfig config, bool tells_of_resets) {
+  std::vector<EGLint> wishes = {EGL_CONTEXT_MAJOR_VERSION,       4,
+                                EGL_CONTEXT_MINOR_VERSION,       5,
+                                EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT};
+  if (tells_of_resets)
+    wishes.insert(wishes.end(), {EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY, EGL_LOSE_CONTEXT_ON_RESET});
+  wishes.push_back(EGL_NONE);
+  return eglCreateContext(display, config, EGL_NO_CONTEXT, wishes.data());
+}
+
 /// A context that is current, on a display that is initialised; EGL_NO_CONTEXT, the display closed and `reason` told
 /// otherwise.
 EGLContext openContext(EGLDisplay display, std::string& reason) {
   const EGLint config_wishes[] = {EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
-  const EGLint context_wishes[] = {
-      EGL_CONTEXT_MAJOR_VERSION,           4,       EGL_CONTEXT_MINOR_VERSION, 5, EGL_CONTEXT_OPENGL_PROFILE_MASK,
-      EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
   EGLConfig config = nullptr;
   EGLint configs = 0;
   EGLContext context = EGL_NO_CONTEXT;
@@ -111,7 +119,8 @@ EGLContext openContext(EGLDisplay display, std::string& reason) {
     reason = eglFailure("eglBindAPI(EGL_OPENGL_API)");
   } else if (!eglChooseConfig(display, config_wishes, &config, 1, &configs) || configs == 0) {
     reason = eglFailure("eglChooseConfig");
-  } else if ((context = eglCreateContext(display, config, EGL_NO_CONTEXT, context_wishes)) == EGL_NO_CONTEXT) {
+  } else if ((context = createContext(display, config, true)) == EGL_NO_CONTEXT &&
+             (context = createContext(display, config, false)) == EGL_NO_CONTEXT) {
     reason = eglFailure("eglCreateContext(OpenGL 4.5 core)");
   } else if (!eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context)) {
     reason = eglFailure("eglMakeCurrent(no surface)");

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <mutex>
 
+#include "gpu/program.h"
 #include "viscera/gpu/context.h"
 #include "viscera/math/error.h"
 
@@ -71,8 +72,20 @@ void noteErrors() {
   glDebugMessageCallback(note, nullptr);
 }
 
+void requireNoReset(unsigned status, const char* what) {
+  if (status == GL_NO_ERROR) return;
+  const char* guilt = status == GL_GUILTY_CONTEXT_RESET     ? "by what this program told it"
+                      : status == GL_INNOCENT_CONTEXT_RESET ? "by another program"
+                                                            : "nobody knows why";
+  throw GpuError(std::string("the driver has reset the GPU, ") + guilt +
+                 ": the context is lost with all its memory, in " + what + ", last kernel '" + lastKernel() +
+                 "'; start again, or use solver.backend: cpu");
+}
+
 void checkErrors(const char* what) {
   const GLenum code = glGetError();
+  if (code == GL_NO_ERROR || code == GL_CONTEXT_LOST)
+    requireNoReset(glGetGraphicsResetStatus ? glGetGraphicsResetStatus() : GL_NO_ERROR, what);
   if (code == GL_NO_ERROR) return;
   const std::string more = takeSaid();
   throw GpuError(std::string("OpenGL error ") + glErrorText(code) + " in " + what +

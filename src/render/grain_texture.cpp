@@ -8,6 +8,7 @@
 
 #include "gpu/gl.h"
 #include "layout/bindings.h"
+#include "viscera/gpu/context.h"
 
 namespace viscera {
 
@@ -86,6 +87,7 @@ GrainTexture::GrainTexture() {
   glCreateTextures(GL_TEXTURE_3D, 1, &id_);
   gpu::countObject();
   glTextureStorage3D(id_, kLevels, GL_RGBA8, kSide, kSide, kSide);
+  gpu::checkErrors("the texture of tissue's grain");
   glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
   glTextureSubImage3D(id_, 0, 0, 0, 0, kSide, kSide, kSide, GL_RGBA, GL_UNSIGNED_BYTE, texels().data());
   for (const GLenum axis : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})

@@ -115,6 +115,24 @@ TEST_F(GpuErrors, OfBlocksThatAreTooLongNameTheBufferAndTheLimit) {
   EXPECT_TRUE(says(said, {"'links'", "GL_MAX_SHADER_STORAGE_BLOCK_SIZE", std::to_string(small.storage_block_bytes)}));
 }
 
+TEST_F(GpuErrors, OfALostContextSayWhoseFaultItIs) {
+  EXPECT_NO_THROW(requireNoReset(GL_NO_ERROR, "a tick"));
+  EXPECT_TRUE(says(messageOf<GpuError>([] { requireNoReset(GL_GUILTY_CONTEXT_RESET, "a tick"); }),
+                   {"reset the GPU", "this program", "context is lost", "a tick", "solver.backend: cpu"}));
+  EXPECT_TRUE(
+      says(messageOf<GpuError>([] { requireNoReset(GL_INNOCENT_CONTEXT_RESET, "a tick"); }), {"another program"}));
+  EXPECT_TRUE(says(messageOf<GpuError>([] { requireNoReset(GL_UNKNOWN_CONTEXT_RESET, "a tick"); }), {"nobody knows"}));
+}
+
+/// Only such a context tells of a reset at all; drivers that know of none make one without.
+TEST_F(GpuErrors, ResetsAreToldOfWhereTheDriverCan) {
+  GLint strategy = 0;
+  glGetIntegerv(GL_RESET_NOTIFICATION_STRATEGY, &strategy);
+  EXPECT_TRUE(strategy == GL_LOSE_CONTEXT_ON_RESET || strategy == GL_NO_RESET_NOTIFICATION) << strategy;
+  RecordProperty("tells_of_resets", strategy == GL_LOSE_CONTEXT_ON_RESET);
+  EXPECT_NO_THROW(checkErrors("a test"));
+}
+
 TEST_F(GpuErrors, OfAKernelNameIt) {
   const Program fold = Program::compute("sum_impulses.comp", {"GROUP_SIZE 64"});
   const Buffer<uint32_t> partials(64), stats(64);

@@ -10,8 +10,11 @@
 
 #include "model/shape/detail_bake.h"
 #include "model/shape/plain_meshes.h"
+#include "render/detail_textures.h"
 #include "render/drawing.h"
 #include "support/temporary_folder.h"
+#include "support/text.h"
+#include "viscera/math/error.h"
 
 namespace viscera {
 namespace {
@@ -126,6 +129,12 @@ class DetailGl : public Drawing {
   int middle_x() const { return camera_.width_px / 2; }
   int middle_y() const { return camera_.height_px / 2; }
 };
+
+TEST_F(DetailGl, TexturesThatTheDriverRefusesNameTheirSize) {
+  const std::string said = test::messageOf<GpuError>([] { TextureArray(1 << 20, 1 << 20, 3, false); });
+  EXPECT_TRUE(test::says(said, {"3 pictures of 1048576 x 1048576 pixels", "bodies[].textures: false"}));
+  EXPECT_NO_THROW(gpu::checkErrors("what came after"));
+}
 
 TEST_F(DetailGl, PicturesLieTheRightWayUp) {
   const Image image = drawn(Detailed(square(colored(), {picture(64, quarters)})));
