@@ -7,7 +7,7 @@
 
 namespace viscera {
 
-// The one list of a device profile's keys, for the visitors of scene_fields.h, which are to offer besides
+// The one list of a device profile's keys, for the visitors of field_ranges.h, which are to offer besides
 // * quaternion(key, Quaterniond&, text)
 // * given(bool&): is there such a map in the file?
 

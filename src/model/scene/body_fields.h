@@ -1,0 +1,158 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "model/scene/field_ranges.h"
+#include "viscera/model/scene/scene.h"
+
+namespace viscera {
+
+// Scene keys of bodies (scene_fields.h).
+
+constexpr int kMostLayers = 4;
+
+template <class V>
+void visitFields(V& v, FixedConfig& c) {
+  v.choice("shape", c.shape,
+           {{"box", FixedShape::kBox},
+            {"sphere", FixedShape::kSphere},
+            {"plane", FixedShape::kPlane},
+            {"part", FixedShape::kPart}},
+           "which nodes are held in space; coordinates are the body's own, before its pose. With material.cells: "
+           "moments, nodes within half a cell of the region are held too, and nodes lie on a plane that is parallel to "
+           "the lattice (docs/fill_rule.md)");
+  v.vector("min_m", c.min_m, kCoordinate, "m", "box: lower corner");
+  v.vector("max_m", c.max_m, kCoordinate, "m", "box: upper corner");
+  v.vector("center_m", c.center_m, kCoordinate, "m", "sphere: centre");
+  v.number("radius_m", c.radius_m, kLength, "m", "sphere: radius");
+  v.vector("point_m", c.point_m, kCoordinate, "m", "plane: a point of it");
+  v.vector("normal", c.normal, kDirection, "", "plane: nodes on the side it points away from are held");
+  v.text("part", c.part, "part: name of a part of the mesh or phantom");
+}
+
+template <class V>
+void visitFields(V& v, MaterialConfig& c) {
+  v.number("young_modulus_pa", c.young_modulus_pa, {1, 1e9}, "Pa", "Young's modulus E");
+  v.number(
+      "poisson_ratio", c.poisson_ratio, {0, 0.49}, "1",
+      "Poisson's ratio nu; 1/4 costs least (with cells springs any other adds a pass over them); structure surface and "
+      "tetrahedra have that of their springs, 1/3 and 1/4");
+  v.number("density_kg_per_m3", c.density_kg_per_m3, {1, 1e5}, "kg/m3", "mass density");
+  v.number("drag_per_s", c.drag_per_s, {0, 1e4}, "1/s", "node drag gamma: every velocity decays at this rate");
+  v.number("dashpot_ratio", c.dashpot_ratio, {0, 0.5}, "1",
+           "axial dashpot: damping ratio at the highest frequency; 0 leaves it out of the kernel");
+  v.choice("weights", c.weights, {{"cell", Weights::kCell}, {"paper", Weights::kPaper}},
+           "assembly of springs and masses: per solid cell (exact), or VR05's uniform weights");
+  v.choice("cells", c.cells, {{"auto", Cells::kAuto}, {"moments", Cells::kMoments}, {"springs", Cells::kSprings}},
+           "what cells resist with: springs corrected by the moments of the part of each cell that is tissue (cells at "
+           "the surface are filled in part), or springs alone (cells are full or empty); auto is moments in structure "
+           "lattice and explicit with weights cell, else springs");
+}
+
+template <class V>
+void visitFields(V& v, PartConfig& c) {
+  v.text("part", c.part, "name of a part of the mesh or phantom");
+  v.number("young_modulus_pa", c.young_modulus_pa, {1, 1e9}, "Pa", "Young's modulus E of this part");
+  v.number("poisson_ratio", c.poisson_ratio, {0, 0.49}, "1", "Poisson's ratio nu of this part");
+  v.number("density_kg_per_m3", c.density_kg_per_m3, {1, 1e5}, "kg/m3", "mass density of this part");
+}
+
+template <class V>
+void visitFields(V& v, ImportLimits& c) {
+  v.number("max_file_mb", c.max_file_mb, {0.001, 1e6}, "MB", "size of the file, and of buffers that it refers to");
+  v.integer("max_depth", c.max_depth, {1, 4000}, "glTF: nodes within nodes");
+  v.integer("max_instances", c.max_instances, {1, 1e7}, "glTF: nodes, those with several parents once for each");
+  v.integer("max_triangles", c.max_triangles, {1, 1e9}, "triangles, of each instance anew");
+  v.boolean("other_formats", c.other_formats,
+            "try formats that are not listed under `mesh_file` too, whose importers have limits of neither depth nor "
+            "instances: for files that you trust");
+}
+
+template <class V>
+void visitFields(V& v, LayerConfig& c) {
+  v.number("depth_m", c.depth_m, kLength, "m", "below the skin, to which it reaches");
+  v.vector("color", c.color, {0, 1}, "1", "red, green, blue");
+}
+
+template <class V>
+void visitFields(V& v, BodyConfig& c) {
+  v.text("name", c.name, "name, unique");
+  v.choice("source", c.source,
+           {{"phantom", TissueSource::kPhantom},
+            {"mesh", TissueSource::kMesh},
+            {"box", TissueSource::kBox},
+            {"sheet", TissueSource::kSheet},
+            {"ball", TissueSource::kBall}},
+           "where the tissue comes from: the built-in heart, a mesh file, a box, a flat sheet, a ball");
+  v.choice("structure", c.structure,
+           {{"lattice", Structure::kLattice},
+            {"explicit", Structure::kExplicit},
+            {"surface", Structure::kSurface},
+            {"tetrahedra", Structure::kTetrahedra}},
+           "what is made of it: a solid lattice; the same with explicit connections (VR05 2.5.1); springs along the "
+           "edges of its surface (cloth, membranes, vessel walls); springs along the edges of a tetrahedral mesh");
+  v.text("mesh_file", c.mesh_file,
+         "mesh: OBJ, STL, PLY, glTF or GLB file, for tetrahedra a Gmsh .msh file; relative to the scene file");
+  v.number("unit_scale_m", c.unit_scale_m, {1e-9, 1e3}, "m", "mesh: metres per unit of the file");
+  v.group("import_limits", c.import_limits,
+          "mesh: what the file may hold; what holds more is refused before it is read");
+  v.choice("up_axis", c.up_axis, {{"z", UpAxis::kZ}, {"y", UpAxis::kY}},
+           "mesh: axis of the file that points up and is turned to z; y in glTF");
+  v.boolean("centered", c.centered, "mesh: move the middle of its bounding box to the body's origin");
+  v.boolean("textures", c.textures,
+            "mesh: take the colours, textures, normal maps and roughness that the file gives (docs/detail.md)");
+  v.text(
+      "detail_mesh", c.detail_mesh,
+      "a finer mesh of the same surface, of any number of faces, placed as mesh_file is: its normals and colours are "
+      "baked onto the skin once, and kept in the user's cache; structure lattice and explicit");
+  v.integer("skin_faces", c.skin_faces, {0, 20e6},
+            "above 0: the surface is simplified to about so many faces, and what it was is baked onto them as by "
+            "detail_mesh; the lattice is made of all of it");
+  v.integer("detail_px", c.detail_px, {64, 16384}, "side of the square of texels that detail is baked to, at most");
+  v.number("phantom_length_m", c.phantom_length_m, {0.01, 1}, "m", "phantom: base to apex");
+  v.number("phantom_wall_scale", c.phantom_wall_scale, {0.1, 2}, "1", "phantom: multiplies every wall thickness");
+  v.vector("box_size_m", c.box_size_m, {1e-4, 10}, "m",
+           "box: edge lengths, centred on the body's origin; sheet: x and y");
+  v.number("ball_radius_m", c.ball_radius_m, {1e-4, 10}, "m", "ball: radius, centred on the body's origin");
+  v.number("thickness_m", c.thickness_m, {1e-6, 1}, "m", "structure surface: of the membrane, for mass and stiffness");
+  v.number("bending_ratio", c.bending_ratio, {0, 1}, "1",
+           "stiffness of springs against bending over that of the springs around: across the edges of a surface, along "
+           "one-node-thick parts of an explicit lattice; 0: none. They shorten the stable substep");
+  v.vector("force_n", c.force_n, {-1e3, 1e3}, "N", "constant force on the body, spread over its nodes by mass");
+  v.numberOrAuto(
+      "spacing_m", c.spacing_m, c.auto_spacing, {1e-5, 10}, "m",
+      "lattice spacing h, edge length of a surface (the longest of a mesh); auto: the finest lattice that this "
+      "machine steps in real time (solver.real_time_factor)");
+  v.integer(
+      "target_nodes", c.target_nodes, {0, 20e6},
+      "node count to reach within 2 %, of surfaces as near as whole triangles come; above 0 it decides instead of "
+      "spacing_m");
+  v.choice("skin", c.skin,
+           {{"auto", SkinSource::kAuto}, {"input", SkinSource::kInput}, {"volume", SkinSource::kVolume}},
+           "detailed surface: the input mesh, or extracted from the volume; auto takes the mesh where there is one");
+  v.choice("mapping", c.mapping,
+           {{"auto", Mapping::kAuto},
+            {"one_to_one", Mapping::kOneToOne},
+            {"constant", Mapping::kConstant},
+            {"interpolated", Mapping::kInterpolated},
+            {"along_normal", Mapping::kAlongNormal}},
+           "how the skin follows the lattice (docs/mappings.md): each vertex one node (EGVE 3.2), a triangle of nodes "
+           "(eqs 4 to 7), that turned by approximate normals (eq 8), or moved along these alone (3.5); auto: the "
+           "corners of the cell where cells are tissue in part, else interpolated");
+  v.number("skin_spacing_m", c.skin_spacing_m, kLength, "m",
+           "phantom, ball: edge length of the skin where it is to be finer than the lattice; 0: the lattice's");
+  v.vector("position_m", c.position_m, kCoordinate, "m", "origin of the body in the tissue frame");
+  v.vector("rotation_deg", c.rotation_deg, kAngle, "deg", "turns about the fixed x, then y, then z axis");
+  v.vector("color", c.color, {0, 1}, "1", "red, green, blue; of what a mesh file gives no colour");
+  v.number("roughness", c.roughness, {0, 1}, "1", "of the wet surface: 0 mirrors lamps, 1 is dull");
+  v.number("mottling", c.mottling, {0, 3}, "1", "how much lightness, hue and relief vary from place to place; 0: even");
+  v.list("layers", c.layers, kMostLayers,
+         "what a wound's wall shows below the skin, from the surface down; beyond the "
+         "last one: the flesh of `color`");
+  v.group("material", c.material, "elastic material");
+  const PartConfig as_material{"", c.material.young_modulus_pa, c.material.poisson_ratio, c.material.density_kg_per_m3};
+  v.list("parts", c.parts, 64, "parts whose elasticity differs; what is left out is as in `material`", as_material);
+  v.list("fixed", c.fixed, 64, "regions whose nodes are held in space");
+}
+
+}  // namespace viscera

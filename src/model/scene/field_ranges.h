@@ -1,0 +1,38 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+namespace viscera {
+
+// What visitors of lists of keys offer, for each kind of key, one of
+// * number(key, double&, Range, unit, text)
+// * numberOrAuto(key, double&, bool& is_auto, Range, unit, text)
+// * integer(key, int&, Range, text)
+// * text(key, std::string&, text)
+// * boolean(key, bool&, text)
+// * vector(key, Vector3d&, Range, unit, text)
+// * choice(key, Enum&, {{name, value}...}, text)
+// * group(key, Struct&, text)
+// * list(key, std::vector<Struct>&, max_count, text, defaults of an item = {})
+// * formerNumber(old key, group, key, double&, Range, unit): what `group.key` was called before; after that group
+
+/// Accepted values, both ends included.
+struct Range {
+  double min, max;
+};
+template <class E>
+struct Choice {
+  const char* name;
+  E value;
+};
+template <class E>
+using Choices = std::vector<Choice<E>>;
+
+constexpr Range kLength{0, 10};         // m: organs and rooms
+constexpr Range kCoordinate{-10, 10};   // m
+constexpr Range kDirection{-1e3, 1e3};  // any length but zero
+constexpr Range kAngle{-360, 360};      // degrees
+
+}  // namespace viscera
