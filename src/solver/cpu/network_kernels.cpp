@@ -3,6 +3,8 @@
 #include "solver/cpu/network_kernels.h"
 
 #include <algorithm>
+#include <array>
+#include <map>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "solver/cpu/network_kernels.cpp"
@@ -43,27 +45,64 @@ HWY_INLINE Vec3 gathered(const float* vectors, const int32_t* at) {
           hn::BitCast(d, hn::InterleaveLower(pairs, z_low, z_high))};
 }
 
-/// What a row of links adds to the force on its nodes (shaders/solver/spring.glsl, springBetween).
-/// @param constants, far  of the row's first lane
+/// A row's links, in the lanes of a vector.
+struct Links {
+  Vec3 d;  ///< rest offset
+  V l0, prestrain, k;
+  V per_length2;  ///< 1/l0^2
+  M live;
+};
+/// @param i  of the row's first lane
+HWY_INLINE Links linksOf(const LinkRows& rows, const LinkRows::Row& row, size_t i) {
+  const float* const at = &rows.constants[row.constants];
+  const uint32_t live = row.live >> i;
+  const uint8_t bits[8] = {static_cast<uint8_t>(live), static_cast<uint8_t>(live >> 8)};
+  const M mask = hn::LoadMaskBits(Tag(), bits);
+  if (row.alike) return {{set(at[0]), set(at[1]), set(at[2])}, set(at[3]), set(at[4]), set(at[5]), set(at[6]), mask};
+  const auto each = [&](size_t c) HWY_ATTR { return load(at + c * kGroupNodes + i); };
+  const V l0 = each(3);
+  return {{each(0), each(1), each(2)}, l0, each(4), each(5), hn::Div(set(1), hn::Mul(l0, l0)), mask};
+}
+
+/// Force of links of any length (shaders/solver/spring.glsl, springBetween).
+/// @param w  u_far - u_near   @param dv  v_far - v_near   @param twice  L^2 - l0^2
 template <bool kDashpot>
-HWY_INLINE void addRow(const NetworkJob& job, const float* constants, const int32_t* far, const Vec3& u, const Vec3& v,
-                       V dashpot_s, Vec3& force) {
-  const V k = load(constants + 5 * kGroupNodes);
-  const Vec3 d = {load(constants), load(constants + kGroupNodes), load(constants + 2 * kGroupNodes)};
-  const V l0 = load(constants + 3 * kGroupNodes), prestrain = load(constants + 4 * kGroupNodes);
-  const Vec3 w = gathered(job.places, far) - u, e = d + w;
-  const V l = hn::Sqrt(dot(e, e)), least = set(kLeast);
+HWY_INLINE Vec3 anyPull(const Links& of, const Vec3& w, const Vec3& dv, V twice, V dashpot_s) {
+  const V least = set(kLeast);
+  const Vec3 e = of.d + w;
+  const V l = hn::Sqrt(dot(e, e));
   Vec3 direction = hn::Div(set(1), hn::Max(l, least)) * e;
-  const M collapsed = hn::Le(l, hn::Max(hn::Mul(set(kCollapsedShare), l0), least));
+  const M collapsed = hn::Le(l, hn::Max(hn::Mul(set(kCollapsedShare), of.l0), least));
   if (HWY_UNLIKELY(!hn::AllFalse(Tag(), collapsed))) {  // keeps its direction at rest
-    const V per_length = hn::Div(set(1), hn::Sqrt(hn::Max(dot(d, d), least)));
-    direction = select(collapsed, per_length * d, direction);
+    const V per_length = hn::Div(set(1), hn::Sqrt(hn::Max(dot(of.d, of.d), least)));
+    direction = select(collapsed, per_length * of.d, direction);
   }
-  const V twice = hn::Add(hn::MulAdd(set(2), dot(d, w), dot(w, w)), prestrain);
-  V pull = hn::Div(twice, hn::Max(hn::Add(l, l0), least));
-  if (kDashpot) pull = hn::MulAdd(dashpot_s, dot(gathered(job.speeds, far) - v, direction), pull);
-  // A spring that is cut may join places that are not even finite.
-  force = select(hn::Gt(k, hn::Zero(Tag())), mulAdd(hn::Mul(k, pull), direction, force), force);
+  V pull = hn::Div(twice, hn::Max(hn::Add(l, of.l0), least));
+  if (kDashpot) pull = hn::MulAdd(dashpot_s, dot(dv, direction), pull);
+  return hn::Mul(of.k, pull) * direction;
+}
+
+/// What a row of links adds to the force on its nodes. @param far  of the row's first lane
+template <bool kDashpot>
+HWY_INLINE void addRow(const NetworkJob& job, const Links& of, const int32_t* far, const Vec3& u, const Vec3& v,
+                       V dashpot_s, Vec3& force) {
+  const Vec3 w = gathered(job.places, far) - u;
+  const Vec3 dv = kDashpot ? gathered(job.speeds, far) - v : v;
+  const V twice = hn::Add(hn::MulAdd(set(2), dot(of.d, w), dot(w, w)), of.prestrain);
+  const V q = hn::IfThenElseZero(of.live, hn::Mul(twice, of.per_length2));
+  Vec3 added;
+  if (HWY_LIKELY(hn::AllTrue(Tag(), hn::Lt(hn::Abs(q), set(kMild))))) {
+    const Vec3 e = of.d + w;
+    V c = hn::Mul(q, mildPhi(q));  // (L - l0) / L
+    if (kDashpot) {
+      const V ratio = hn::Sub(set(1), c);  // l0 / L
+      c = hn::MulAdd(hn::Mul(dashpot_s, hn::Mul(of.per_length2, dot(dv, e))), hn::Mul(ratio, ratio), c);
+    }
+    added = hn::Mul(of.k, c) * e;
+  } else {
+    added = anyPull<kDashpot>(of, w, dv, twice, dashpot_s);
+  }
+  force = select(of.live, force + added, force);  // a spring that is cut may join places that are not even finite
 }
 
 template <bool kDashpot>
@@ -82,8 +121,7 @@ HWY_INLINE void stepGroups(const NetworkJob& job, size_t first, size_t last) {
       for (size_t r = rows.starts[g]; r < rows.starts[g + 1];) {
         Vec3 run = zero3();  // short sums of their own: hundreds of links in one would lose a digit
         for (const size_t end = std::min<size_t>(r + kRun, rows.starts[g + 1]); r < end; ++r) {
-          addRow<kDashpot>(job, &rows.constants[6 * kGroupNodes * r + i], &rows.far[kGroupNodes * r + i], u, v,
-                           dashpot_s, run);
+          addRow<kDashpot>(job, linksOf(rows, rows.rows[r], i), &rows.far[kGroupNodes * r + i], u, v, dashpot_s, run);
         }
         force = force + run;
       }
@@ -139,50 +177,105 @@ NetworkGroups spreadNetworkFor(int64_t target) {
 
 namespace {
 
-size_t valence(const JoinedNetwork& network, size_t slot) {
-  return network.starts[slot + 1] - network.starts[slot];
-}
+constexpr size_t kConstants = 6;
+constexpr size_t kAlike =
+    8;  // nodes with links that are alike get a row of their own: it is a fifth of another to read
 
-size_t widthOf(const JoinedNetwork& network, uint32_t group) {
-  size_t width = 0;
-  for (size_t i = 0; i < kGroupNodes; ++i) width = std::max(width, valence(network, group * kGroupNodes + i));
-  return width;
+std::array<float, kConstants> constantsOf(const layout::Link& link) {
+  const layout::vec4& rest = link.offset_length;
+  return {rest.x, rest.y, rest.z, rest.w, link.prestrain_m2, link.stiffness};
 }
 
 }  // namespace
 
 LinkRows::LinkRows(const JoinedNetwork& network, const std::vector<uint32_t>& its_groups) : groups(its_groups) {
   starts.push_back(0);
-  for (const uint32_t group : groups) starts.push_back(starts.back() + static_cast<uint32_t>(widthOf(network, group)));
-  const size_t places = kGroupNodes * starts.back();
-  link.assign(places, kNone);
-  far.resize(places);
-  constants.resize(6 * places);
+  for (const uint32_t group : groups) {
+    addGroup(network, group);
+    starts.push_back(static_cast<uint32_t>(rows.size()));
+  }
+  far.resize(link.size());
   for (size_t g = 0; g < groups.size(); ++g) {
-    for (size_t r = starts[g]; r < starts[g + 1]; ++r) {
-      for (size_t i = 0; i < kGroupNodes; ++i) {
-        const auto slot = static_cast<uint32_t>(groups[g] * kGroupNodes + i);
-        const size_t place = kGroupNodes * r + i;
-        far[place] = static_cast<int32_t>(4 * slot);
-        float* const lane = &constants[6 * kGroupNodes * r + i];
-        lane[0] = lane[3 * kGroupNodes] = 1;  // any length but 0
-        if (r - starts[g] >= valence(network, slot)) continue;
-        link[place] = network.starts[slot] + static_cast<uint32_t>(r - starts[g]);
-        const layout::Link& its = network.links[link[place]];
-        far[place] = static_cast<int32_t>(4 * its.far);
-        const float values[5] = {its.offset_length.x, its.offset_length.y, its.offset_length.z, its.offset_length.w,
-                                 its.prestrain_m2};
-        for (size_t c = 0; c < 5; ++c) lane[c * kGroupNodes] = values[c];
-      }
+    for (size_t place = kGroupNodes * starts[g]; place < kGroupNodes * starts[g + 1]; ++place) {
+      const auto slot = static_cast<uint32_t>(groups[g] * kGroupNodes + place % kGroupNodes);
+      far[place] = static_cast<int32_t>(4 * (link[place] == kNone ? slot : network.links[link[place]].far));
     }
   }
   writeStiffness(network.links);
 }
 
+/// Rows of 16 nodes: first those of links that are alike in many of them, then of what is left of each. Either in the
+/// order in which a node has them: sorted by direction, sums of hundreds would lose a digit.
+void LinkRows::addGroup(const JoinedNetwork& network, uint32_t group) {
+  std::map<std::array<float, kConstants>, size_t> known;
+  std::vector<std::vector<uint32_t>> kinds;  // [16] links that are alike, of each kind
+  std::array<std::vector<uint32_t>, kGroupNodes> rest;
+  const auto ofEach = [&](const auto& visit) {
+    for (size_t i = 0; i < kGroupNodes; ++i) {
+      const size_t slot = group * kGroupNodes + i;
+      for (uint32_t l = network.starts[slot]; l < network.starts[slot + 1]; ++l) visit(i, l);
+    }
+  };
+  ofEach([&](size_t i, uint32_t l) {
+    const auto [kind, is_new] = known.emplace(constantsOf(network.links[l]), kinds.size());
+    if (is_new) kinds.emplace_back(kGroupNodes, kNone);
+    uint32_t& place = kinds[kind->second][i];
+    if (place == kNone) place = l;
+  });
+  const auto isShared = [](const std::vector<uint32_t>& kind) {
+    return std::count(kind.begin(), kind.end(), kNone) <= static_cast<std::ptrdiff_t>(kGroupNodes - kAlike);
+  };
+  ofEach([&](size_t i, uint32_t l) {
+    const std::vector<uint32_t>& kind = kinds[known.at(constantsOf(network.links[l]))];
+    if (kind[i] != l || !isShared(kind)) rest[i].push_back(l);
+  });
+  for (const std::vector<uint32_t>& kind : kinds) {
+    if (isShared(kind)) addRow(network.links, kind);
+  }
+  size_t width = 0;
+  for (const std::vector<uint32_t>& each : rest) width = std::max(width, each.size());
+  for (size_t r = 0; r < width; ++r) {
+    std::vector<uint32_t> row(kGroupNodes, kNone);
+    for (size_t i = 0; i < kGroupNodes; ++i) {
+      if (r < rest[i].size()) row[i] = rest[i][r];
+    }
+    addRow(network.links, row);
+  }
+}
+
+/// @param its  [16] links
+void LinkRows::addRow(const std::vector<layout::Link>& links, const std::vector<uint32_t>& its) {
+  link.insert(link.end(), its.begin(), its.end());
+  std::array<std::array<float, kConstants>, kGroupNodes> each;
+  const std::array<float, kConstants>* first = nullptr;
+  bool alike = true;
+  for (size_t i = 0; i < kGroupNodes; ++i) {
+    each[i] = its[i] == kNone ? std::array<float, kConstants>{1, 1, 1, 1} : constantsOf(links[its[i]]);
+    if (its[i] == kNone) continue;
+    if (!first) first = &each[i];
+    alike = alike && each[i] == *first;
+  }
+  rows.push_back({static_cast<uint32_t>(constants.size()), 0, static_cast<uint16_t>(alike)});
+  if (alike) {
+    constants.insert(constants.end(), first->begin(), first->end());
+    constants.push_back(1 / ((*first)[3] * (*first)[3]));
+    constants.resize(constants.size() + kGroupNodes - kConstants -
+                     1);  // whole vectors, so that loads stay within lines
+    return;
+  }
+  for (size_t c = 0; c < kConstants; ++c) {
+    for (size_t i = 0; i < kGroupNodes; ++i) constants.push_back(each[i][c]);
+  }
+}
+
 void LinkRows::writeStiffness(const std::vector<layout::Link>& links) {
-  for (size_t place = 0; place < link.size(); ++place) {
-    const size_t at = 6 * kGroupNodes * (place / kGroupNodes) + 5 * kGroupNodes + place % kGroupNodes;
-    constants[at] = link[place] == kNone ? 0 : links[link[place]].stiffness;
+  for (size_t r = 0; r < rows.size(); ++r) {
+    uint32_t live = 0;
+    for (size_t i = 0; i < kGroupNodes; ++i) {
+      const uint32_t its = link[kGroupNodes * r + i];
+      if (its != kNone && links[its].stiffness > 0) live |= 1u << i;
+    }
+    rows[r].live = static_cast<uint16_t>(live);
   }
 }
 

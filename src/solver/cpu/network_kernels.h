@@ -17,8 +17,15 @@ namespace viscera::simd {
 constexpr size_t kGroupNodes = 16;  ///< slots on end that are stepped together; a brick has four such groups
 
 /// The links of a network in rows: row r of a group has the r-th link of each of its 16 nodes, filled up where a node
-/// has fewer. As wide as its node of most links, so nodes of like valence should lie together.
+/// has fewer. As wide as its node of most links, so nodes of like valence should lie together. What rows keep is most
+/// of what a substep reads: of links that are all alike, as within lattices and sheets, it is kept once.
 struct LinkRows {
+  struct Row {
+    uint32_t
+        constants;   ///< where they begin: x, y, z of the rest offset, l0, prestrain, k; 1/l0^2 where they are alike
+    uint16_t live;   ///< bit per node: it has a link there, which is not cut
+    uint16_t alike;  ///< each constant is there once, not 16 times
+  };
   LinkRows() = default;
   /// @param groups  of slots, ascending, that have explicit connections
   LinkRows(const JoinedNetwork& network, const std::vector<uint32_t>& groups);
@@ -30,8 +37,13 @@ struct LinkRows {
   std::vector<uint32_t> link;    ///< [16 * rows] index of the link, or kNone
   AlignedVector<int32_t>
       far;  ///< [16 * rows] four times the slot of the far end; of the near one where there is no link
-  AlignedVector<float> constants;  ///< [16 * 6 * rows] x, y, z of the rest offset, l0, prestrain, k; 16 of each in turn
+  std::vector<Row> rows;
+  AlignedVector<float> constants;  ///< of all rows
   static constexpr uint32_t kNone = 0xffffffffu;
+
+ private:
+  void addGroup(const JoinedNetwork& network, uint32_t group);
+  void addRow(const std::vector<layout::Link>& links, const std::vector<uint32_t>& its);
 };
 
 struct NetworkJob {
