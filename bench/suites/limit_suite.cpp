@@ -80,7 +80,7 @@ std::vector<Case> casesOf(bool short_form) {
 }
 
 struct Machine {
-  Limits one, all, gpu;
+  Limits one, all;
 };
 
 void measureCase(Report& report, const Case& c, const Machine& machine, Table& table) {
@@ -90,12 +90,10 @@ void measureCase(Report& report, const Case& c, const Machine& machine, Table& t
   const double flop = c.dashpot > 0 ? kFlopWithDashpot : kFlop;
   const double bytes = kBytes + kStiffnessBytes * roughShare(cube.model);
   const std::vector<Rate> rates =
-      measureRates({candidate("", onCpu(cube, 1), cube.nodes()), candidate("", onCpu(cube), cube.nodes()),
-                    candidate("", onGpu(cube), cube.nodes())},
+      measureRates({candidate("", onCpu(cube, 1), cube.nodes()), candidate("", onCpu(cube), cube.nodes())},
                    report.isShort() ? 0.02 : 0.3);
   addReached(table, "cpu, 1 thread: " + name, rates[0], flop, bytes, machine.one);
   addReached(table, "cpu, all threads: " + name, rates[1], flop, bytes, machine.all);
-  addReached(table, "gpu: " + name, rates[2], flop, bytes, machine.gpu);
 }
 
 }  // namespace
@@ -123,7 +121,7 @@ void limitSuite(Report& report, gpu::Context& context) {
                                                         {"of multiply-add rate", "", 3},
                                                         {"of copy rate", "", 3},
                                                         {"nearer limit"}});
-  for (const Case& c : casesOf(report.isShort())) measureCase(report, c, {one, all, gpu}, reached);
+  for (const Case& c : casesOf(report.isShort())) measureCase(report, c, {one, all}, reached);
   report.note("Of " + Cell(kFlop).text(4) + " operations, of which fused ones count twice, " +
               Cell(kInstructions).text(4) + " instructions are made: arithmetic alone cannot pass " +
               Cell(kFlop / (2 * kInstructions)).text(2) +
