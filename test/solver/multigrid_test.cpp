@@ -3,65 +3,16 @@
 // Integrator multigrid, as a solver steps it.
 #include <gtest/gtest.h>
 
-#include "solver/make_solver.h"
 #include "solver/multigrid/equilibrium.h"
 #include "solver/multigrid/tr_bdf2.h"
 #include "solver/reference/statics.h"
-#include "support/implicit.h"
+#include "support/held_blocks.h"
 #include "support/networks.h"
 #include "viscera/math/error.h"
 
 namespace viscera::test {
 
 namespace {
-
-const Vector3d kGravity(0, 0, -9.81);
-constexpr double kTick_s = 1.0 / 60;
-
-/// A block of 10 cm, held at one face.
-Body block(int cells, double young_modulus_pa, double nu, Cells kind = Cells::kSprings) {
-  const double h = 0.1 / cells;
-  Body body = kind == Cells::kSprings ? boxBody(Vector3i::Constant(cells), h)
-                                      : momentBody(Vector3i::Constant(cells), h, [](const Vector3d&) { return true; });
-  body.material.cells = kind;
-  body.material.young_modulus_pa = young_modulus_pa;
-  body.material.poisson_ratio = nu;
-  body.material.density_kg_per_m3 = 1060;
-  body.material.drag_per_s = 0;
-  body.material.dashpot_ratio = 0;
-  for (const uint32_t slot : body.lattice.active_slots) {
-    if (body.lattice.nodeAt(slot).x() == 0) body.lattice.nodes[slot].lo |= layout::kFixedBit;
-  }
-  return body;
-}
-
-Scene sceneOf(Integrator integrator, std::vector<StylusConfig> styluses = {}) {
-  Scene scene;
-  scene.styluses = std::move(styluses);
-  scene.environment.gravity_m_per_s2 = kGravity;
-  scene.solver.integrator = integrator;
-  scene.solver.governor = false;
-  scene.solver.sleep_speed_m_per_s = 0;
-  return scene;
-}
-
-std::unique_ptr<Ticks> solverOf(const Model& model, const Scene& scene, int threads = 2) {
-  return makeCpu("", model, scene, threads);
-}
-
-double lowest(const Model& model, const HostState& state) {
-  double out = 0;
-  for (const uint32_t slot : model.bodies[0].lattice.active_slots)
-    out = std::min(out, xyz(state.displacement_m[slot]).z());
-  return out;
-}
-
-double largestOff(const Model& model, const HostState& a, const HostState& b) {
-  double out = 0;
-  for (const uint32_t slot : model.bodies[0].lattice.active_slots)
-    out = std::max(out, (xyz(a.displacement_m[slot]) - xyz(b.displacement_m[slot])).norm());
-  return out;
-}
 
 /// Iterations per tick of the first ticks after gravity was switched on.
 double iterationsPerTick(const Model& model) {
@@ -144,74 +95,6 @@ TEST(Multigrid, FollowsLeapfrogToSecondOrder) {
       EXPECT_LT(worstOffLeapfrog(model, 4), kOfTheSwingInQuarters) << "nu " << nu;
     }
   }
-}
-
-TEST(Multigrid, StateAtRestIsTheStaticOne) {
-  constexpr double kOfTheSag = 2e-3;  // what float32 forces and a relative residual of 1e-4 leave
-  for (const Cells kind : {Cells::kSprings, Cells::kMoments}) {
-    for (const double nu : {0.25, 0.49}) {
-      Body body = block(6, 5e4, nu, kind);
-      body.material.drag_per_s = 30;
-      const Model model = modelOf({body});
-      ReferenceSolver reference(model, kGravity, 1e-3);
-      solveStatics(reference, {});
-      const Scene scene = sceneOf(Integrator::kMultigrid);
-      SettleReport report;
-      const HostState settled = equilibriumOf(model, scene, report);
-      EXPECT_TRUE(report.settled);
-      EXPECT_LT(largestOff(model, settled, reference.state()), -kOfTheSag * lowest(model, settled)) << "nu " << nu;
-      const auto solver = solverOf(model, scene);
-      for (int t = 0; t < 120; ++t) solver->step({});
-      EXPECT_LT(largestOff(model, solver->readState(), reference.state()), -kOfTheSag * lowest(model, settled))
-          << "nu " << nu;
-    }
-  }
-}
-
-TEST(Multigrid, StartsInEquilibriumAndStaysThere) {
-  constexpr double kOfTheSag = 1e-3;
-  const Model model = modelOf({block(8, 2e4, 0.45, Cells::kMoments)});
-  Scene scene = sceneOf(Integrator::kMultigrid);
-  scene.solver.start = SolverStart::kEquilibrium;
-  scene.solver.backend = Backend::kCpu;
-  const std::unique_ptr<Solver> solver = makeSolver(model, scene, nullptr, nullptr);
-  const HostState start = solver->readState();
-  ASSERT_LT(lowest(model, start), -1e-3);
-  for (int t = 0; t < 30; ++t) solver->step({});
-  EXPECT_LT(largestOff(model, solver->readState(), start), -kOfTheSag * lowest(model, start));
-  solver->reset();
-  EXPECT_EQ(stateHash(model, solver->readState()), stateHash(model, start));
-}
-
-TEST(Multigrid, TheShippedHeartSettles) {
-  // Thin walls by moments: what cells resist bending with is a small difference of springs and moments.
-  // Where next to no tissue fills them, nodes hang on next to nothing.
-  Scene scene = parseScene(R"(
-bodies:
-  - name: heart
-    source: phantom
-    spacing_m: 0.008
-    skin_spacing_m: 0.008
-    material: {young_modulus_pa: 20000, density_kg_per_m3: 1060}
-    fixed: [{shape: plane, point_m: [0, 0, 0.03], normal: [0, 0, -1]}]
-)",
-                           "heart.yaml");
-  constexpr double kFloat32 = 1e-3;  // of the load: what rounded displacements of nearly incompressible tissue leave
-  for (const double nu : {0.25, 0.45, 0.49}) {
-    scene.bodies[0].material.poisson_ratio = nu;
-    const Model model = buildModel(scene);
-    SettleReport report;
-    equilibriumOf(model, scene, report);
-    EXPECT_TRUE(report.settled) << "nu " << nu;
-    EXPECT_LT(report.residual, nu < 0.49 ? kSettled : kFloat32) << "nu " << nu;
-    EXPECT_GT(report.forces, 0);
-  }
-}
-
-TEST(Multigrid, NoEquilibriumOfWhatNothingHolds) {
-  const Model model = modelOf({boxBody({3, 3, 3}, 0.01)});
-  SettleReport report;
-  EXPECT_THROW(equilibriumOf(model, sceneOf(Integrator::kMultigrid), report), SceneError);
 }
 
 TEST(Multigrid, IterationsStayFlatAsTheLatticeIsRefined) {

@@ -17,15 +17,16 @@ namespace viscera {
 
 namespace {
 
-constexpr int kMostSteps = 80;     // of Newton's method
-constexpr int kMostHalvings = 12;  // of one of them
-constexpr double kGrows = 1e-6;    // of the energies that are summed: float32 leaves that much
-constexpr double kProgress = 0.9;  // of the least residual so far: a step that got somewhere
-constexpr int kInexact = 2;        // first steps: far from the end positive tangents do, and never turn back
-constexpr int kPatience = 20;      // steps that did not
-constexpr int kIterations = 60;    // of a system
-constexpr double kGain = 0.2;      // of them, see Rule
-constexpr double kOfEnough = 0.3;  // of what may be left: what a system need not be better than
+constexpr int kMostSteps = 80;          // of Newton's method
+constexpr int kMostHalvings = 12;       // of one of them
+constexpr double kGrows = 1e-6;         // of the energies that are summed: float32 leaves that much
+constexpr double kProgress = 0.9;       // of the least residual so far: a step that got somewhere
+constexpr int kInexact = 2;             // first steps: far from the end positive tangents do, and never turn back
+constexpr int kPatience = 20;           // steps that did not
+constexpr int kIterations = 60;         // of a system
+constexpr int kIterationsBeside = 120;  // the same with a smoother beside coarse levels
+constexpr double kGain = 0.2;           // of them, see Rule
+constexpr double kOfEnough = 0.3;       // of what may be left: what a system need not be better than
 
 using multigrid::StageSolver;
 using multigrid::Vectors;
@@ -88,7 +89,8 @@ class Settling {
   /// A Newton step, as long as the energy does not grow. @return norm of the residual after it
   double improve(double norm, double enough) {
     multigrid::Rule rule;
-    rule.most = kIterations;
+    rule.side_by_side = !soft_.any();  // slivers ask for more of a smoother
+    rule.most = rule.side_by_side ? kIterationsBeside : kIterations;
     rule.tolerance = 0;
     rule.gain = kGain;
     rule.enough_n = kOfEnough * enough;

@@ -13,6 +13,7 @@ constexpr double kShrinks = 0.8;      // a level with more of the nodes above is
 constexpr int kPowerIterations = 12;  // come within some percent of the largest eigenvalue
 constexpr float kEnlarged = 1.1f;     // for what they miss, and for what motion adds
 constexpr float kSmoothed = 6;        // largest eigenvalue over the smallest that is the smoother's affair
+constexpr float kBeside = 2.5f;       // over the largest eigenvalue: a smoother's step beside coarse levels
 
 /// A start for power iterations that has something of every mode, the same every time.
 float somethingAt(size_t i) {
@@ -201,6 +202,19 @@ double Hierarchy::cycle(const FineLevel& level, float largest, const Vectors& r,
   level.project(work.d);
   level.smooth(work.d, 0, cheb.first, 1, work.r, work.e, z);
   return level.smooth(work.e, cheb.again, cheb.second, 0, work.r, work.d, z, &r);
+}
+
+double Hierarchy::cycleSideBySide(const FineLevel& level, float largest, const Vectors& r, Work& work,
+                                  Vectors& z) const {
+  level.precondition(r, kBeside / largest, work.r, z);
+  if (!levels_.empty()) {
+    restrictFine(level, r);
+    cycleAt(0);
+    addToFine(level, work.d);
+    level.project(work.d);
+    level.turn(1, work.d, z);
+  }
+  return level.dot(r, z);
 }
 
 }  // namespace viscera::multigrid

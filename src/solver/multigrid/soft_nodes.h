@@ -20,6 +20,7 @@ class SoftNodes final : public Stiffening {
  public:
   explicit SoftNodes(StageSolver& solver);
 
+  bool any() const { return !nodes_.empty(); }
   void addTo(const Vectors& p, Vectors& q) const override;
   void sagged() override;
   /// What a step of all nodes did to the norm of the residual: where that was little, the share is what holds it up.

@@ -159,7 +159,8 @@ int StageSolver::solveLinear(const Vectors& increment, const Rule& rule, double 
   if (rule.exact) force_ = level.force();
   int k = 0;
   while (k < rule.most) {
-    const double rz = levels_.hierarchy->cycle(level, levels_.largest, r_, work_, z_);
+    const double rz = rule.side_by_side ? levels_.hierarchy->cycleSideBySide(level, levels_.largest, r_, work_, z_)
+                                        : levels_.hierarchy->cycle(level, levels_.largest, r_, work_, z_);
     if (!(rz > 0)) break;
     level.turn(k == 0 ? 0 : static_cast<float>(rz / before), z_, p_);
     before = rz;

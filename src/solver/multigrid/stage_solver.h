@@ -33,6 +33,7 @@ struct Rule {
   /// iterations in a system, and each dearer, but Newton's method meets 1e-4 in a few steps.
   bool exact = false;
   Stiffening* stiffening = nullptr;  ///< of exact ones
+  bool side_by_side = false;         ///< preconditions by Hierarchy::cycleSideBySide()
   double enough_n = 0;               ///< residual that need not be improved on
   bool tame = true;                  ///< steps carry no node far from those around it
 

@@ -1,0 +1,59 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Blocks that integrator multigrid is tested with.
+#pragma once
+
+#include "solver/make_solver.h"
+#include "support/implicit.h"
+
+namespace viscera::test {
+
+inline const Vector3d kGravity(0, 0, -9.81);
+constexpr double kTick_s = 1.0 / 60;
+
+/// A block of 10 cm, held at one face.
+inline Body block(int cells, double young_modulus_pa, double nu, Cells kind = Cells::kSprings) {
+  const double h = 0.1 / cells;
+  Body body = kind == Cells::kSprings ? boxBody(Vector3i::Constant(cells), h)
+                                      : momentBody(Vector3i::Constant(cells), h, [](const Vector3d&) { return true; });
+  body.material.cells = kind;
+  body.material.young_modulus_pa = young_modulus_pa;
+  body.material.poisson_ratio = nu;
+  body.material.density_kg_per_m3 = 1060;
+  body.material.drag_per_s = 0;
+  body.material.dashpot_ratio = 0;
+  for (const uint32_t slot : body.lattice.active_slots) {
+    if (body.lattice.nodeAt(slot).x() == 0) body.lattice.nodes[slot].lo |= layout::kFixedBit;
+  }
+  return body;
+}
+
+inline Scene sceneOf(Integrator integrator, std::vector<StylusConfig> styluses = {}) {
+  Scene scene;
+  scene.styluses = std::move(styluses);
+  scene.environment.gravity_m_per_s2 = kGravity;
+  scene.solver.integrator = integrator;
+  scene.solver.governor = false;
+  scene.solver.sleep_speed_m_per_s = 0;
+  return scene;
+}
+
+inline std::unique_ptr<Ticks> solverOf(const Model& model, const Scene& scene, int threads = 2) {
+  return makeCpu("", model, scene, threads);
+}
+
+inline double lowest(const Model& model, const HostState& state) {
+  double out = 0;
+  for (const uint32_t slot : model.bodies[0].lattice.active_slots)
+    out = std::min(out, xyz(state.displacement_m[slot]).z());
+  return out;
+}
+
+inline double largestOff(const Model& model, const HostState& a, const HostState& b) {
+  double out = 0;
+  for (const uint32_t slot : model.bodies[0].lattice.active_slots)
+    out = std::max(out, (xyz(a.displacement_m[slot]) - xyz(b.displacement_m[slot])).norm());
+  return out;
+}
+
+}  // namespace viscera::test
