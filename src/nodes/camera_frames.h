@@ -2,13 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <tf2_ros/buffer.h>
-
-#include <atomic>
 #include <cstdint>
-#include <string>
 #include <vector>
 
+#include "nodes/carried_frames.h"
 #include "viscera/session/session.h"
 
 namespace viscera::nodes {
@@ -28,22 +25,14 @@ class CameraFrames {
   bool empty() const { return carried_.empty(); }
   /// @name Lookups since the start, for the diagnostics; from any thread
   /// @{
-  uint64_t found() const { return found_; }
-  uint64_t missed() const { return missed_; }
+  uint64_t found() const { return carried_.found(); }
+  uint64_t missed() const { return carried_.missed(); }
   /// @}
 
  private:
-  struct Carried {
-    size_t camera;
-    std::string frame;
-    Pose pose;  ///< the last one
-  };
-  const tf2_ros::Buffer& frames_;
-  const std::string tissue_frame_;
-  const double max_transform_age_s_;
-  std::vector<Carried> carried_;
+  CarriedFrames carried_;
   std::vector<bool> placed_;  ///< [cameras]
-  std::atomic<uint64_t> found_{0}, missed_{0};
+  std::vector<Pose> poses_;   ///< [cameras] the last ones
 };
 
 }  // namespace viscera::nodes

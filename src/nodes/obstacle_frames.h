@@ -2,13 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <tf2_ros/buffer.h>
-
 #include <atomic>
 #include <cstdint>
-#include <string>
-#include <vector>
 
+#include "nodes/carried_frames.h"
 #include "viscera/session/session.h"
 
 namespace viscera::nodes {
@@ -25,22 +22,15 @@ class ObstacleFrames {
   bool empty() const { return carried_.empty(); }
   /// @name Lookups since the start, for the diagnostics; from any thread
   /// @{
-  uint64_t found() const { return found_; }
-  uint64_t missed() const { return missed_; }
+  uint64_t found() const { return carried_.found(); }
+  uint64_t missed() const { return carried_.missed(); }
   /// Ticks since the start or the last reset in which a frame was faster than tissue can follow.
   uint64_t heldBack() const { return held_back_; }
   /// @}
 
  private:
-  struct Carried {
-    size_t obstacle;
-    std::string frame;
-  };
-  const tf2_ros::Buffer& frames_;
-  const std::string tissue_frame_;
-  const double max_transform_age_s_;
-  std::vector<Carried> carried_;
-  std::atomic<uint64_t> found_{0}, missed_{0}, held_back_{0};
+  CarriedFrames carried_;
+  std::atomic<uint64_t> held_back_{0};
 };
 
 }  // namespace viscera::nodes
