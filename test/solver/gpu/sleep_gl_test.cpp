@@ -1,96 +1,25 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Bricks at rest sleep on the GPU as they do on the CPU (solver/cpu/sleep_test.cpp), and a tick in which all do costs
-// nearly nothing.
+// What sleep of bricks has of its own on the GPU: the same bricks as on the CPU, and a tick in which all sleep costs
+// nearly nothing. The rest is in test/solver/sleep_gl_test.cpp.
 #include "gpu/gl.h"
-#include "solver/cpu/sleep.h"
-#include "support/backends.h"
 #include "support/networks.h"
 #include "support/random_state.h"
+#include "support/sleeping.h"
 
 using namespace viscera;
 using namespace viscera::test;
 
 namespace {
 
-constexpr double kSpacing_m = 0.005;
-constexpr double kTick_s = 0.005;
-constexpr double kDrag_per_s = 60;
-constexpr double kSleepSpeed_m_per_s = SolverConfig{}.sleep_speed_m_per_s;
 // Float32 on both backends: what the tissue does within the sleep speed and the time that drag leaves it, in which one
 // may fall asleep a look before the other.
 constexpr double kApart_m = 2e-7;
 
-/// 13 nodes to a side: 4 bricks to a side. Held at the bottom, and soon at rest.
-Body cube(double poisson_ratio) {
-  Body body = boxBody({12, 12, 12}, kSpacing_m);
-  body.material.drag_per_s = kDrag_per_s;
-  body.material.poisson_ratio = poisson_ratio;
-  for (uint32_t slot : body.lattice.active_slots) {
-    if (body.lattice.nodeAt(slot).z() == 0) body.lattice.nodes[slot].lo |= layout::kFixedBit;
-  }
-  return body;
-}
-
-ToolMotions tool(ToolMode mode, const Vector3d& from, const Vector3d& to) {
-  ToolMotions motions;
-  motions[0].mode = mode;
-  motions[0].present = true;
-  motions[0].from.position_m = from;
-  motions[0].to.position_m = to;
-  return motions;
-}
-const Vector3d kCorner_m(0, 0, 0.06);
-/// Stands still, 2 mm deep in the corner. The tip's radius is 6 mm.
-ToolMotions probeAtCorner() {
-  return probeAt(kCorner_m + Vector3d(0, 0, 0.004));
-}
-ToolMotions grabAtCorner() {
-  ToolMotions motions = tool(ToolMode::kGrab, kCorner_m, kCorner_m + Vector3d(-0.002, 0, 0));
-  motions[0].hold_begins = true;
-  return motions;
-}
-ToolMotions holdAtCorner() {
-  const Vector3d tip = kCorner_m + Vector3d(-0.002, 0, 0);
-  return tool(ToolMode::kGrab, tip, tip);
-}
-ToolMotions letGoAtCorner() {
-  ToolMotions motions = holdAtCorner();
-  motions[0].mode = ToolMode::kNone;
-  motions[0].hold_ended = ToolMode::kGrab;
-  return motions;
-}
-/// Along x through the whole width, blade from above, 1 cm of it in the cube.
-ToolMotions cutTop() {
-  return tool(ToolMode::kCut, {-0.02, 0.0275, 0.14}, {0.08, 0.0275, 0.14});
-}
-
-struct Kind {
-  double poisson_ratio = 0.25, sleep_speed_m_per_s = kSleepSpeed_m_per_s, gravity_m_per_s2 = 0;
-  bool governor = false;
-};
-
 class SleepingOnGpu : public GpuTest {
  protected:
-  Scene sceneOf(const Model& model, const Kind& kind) const {
-    StylusConfig stylus;
-    stylus.grab.radius_m = 0.008;
-    stylus.cut.blade_length_m = 0.1;
-    Scene scene = sceneFor(model, 1, {stylus}, {0, 0, -kind.gravity_m_per_s2});
-    scene.solver.tick_hz = 1 / kTick_s;
-    scene.solver.dt_fraction = scene.solver.dt_fraction_strained = 0.75;
-    scene.solver.sleep_speed_m_per_s = kind.sleep_speed_m_per_s;
-    scene.solver.governor = kind.governor;
-    return scene;
-  }
-  std::unique_ptr<GpuSolver> make(const Kind& kind = {}) const {
-    return std::make_unique<GpuSolver>(model_, sceneOf(model_, kind));
-  }
-  /// @return ticks until nothing is awake, or `most`
-  static int settle(GpuSolver& solver, int most = 1000) {
-    int ticks = 0;
-    for (; ticks < most && (ticks == 0 || solver.awakeBricks() > 0); ++ticks) solver.step({});
-    return ticks;
+  std::unique_ptr<GpuSolver> make(const SleepKind& kind = {}) const {
+    return std::make_unique<GpuSolver>(model_, sleepyScene(model_, kind));
   }
   /// As settle(), until the host knows.
   static void rest(GpuSolver& solver) {
@@ -104,15 +33,8 @@ class SleepingOnGpu : public GpuTest {
     ASSERT_TRUE(solver.resting());
   }
   uint64_t hashOf(const Solver& solver) const { return stateHash(model_, solver.readState()); }
-  static double difference(const Model& model, const HostState& a, const HostState& b) {
-    double largest = 0;
-    for (uint32_t slot : model.bodies[0].lattice.active_slots) {
-      largest = std::max(largest, (xyz(a.displacement_m[slot]) - xyz(b.displacement_m[slot])).norm());
-    }
-    return largest;
-  }
 
-  const Model model_ = modelOf({cube(0.25)});
+  const Model model_ = modelOf({sleepyCube()});
 };
 
 /// Counts the kernels that OpenGL is told to run while it lives.
@@ -144,25 +66,12 @@ class CountedDispatches {
 
 }  // namespace
 
-TEST_F(SleepingOnGpu, BodyAtRestFallsAsleepAfterAWhileAndStaysAsItIs) {
-  const auto solver = make();
-  EXPECT_EQ(solver->awakeBricks(), solver->bricks());
-  const int quiet_ticks = static_cast<int>(Sleep::kQuiet_s / kTick_s);
-  for (int t = 0; t < quiet_ticks - 1; ++t) solver->step({});
-  EXPECT_EQ(solver->awakeBricks(), solver->bricks());
-  for (int t = 0; t < 2; ++t) solver->step({});
-  EXPECT_EQ(solver->awakeBricks(), 0u);
-  const uint64_t hash = hashOf(*solver);
-  for (int t = 0; t < 9; ++t) solver->step({});
-  EXPECT_EQ(hashOf(*solver), hash);
-}
-
 TEST_F(SleepingOnGpu, WhereNothingSleepsTheHashIsThatWithoutSleep) {
   for (const double poisson_ratio : {0.25, 0.4}) {
-    const Model model = modelOf({cube(poisson_ratio)});
+    const Model model = modelOf({sleepyCube(poisson_ratio)});
     uint64_t hashes[2];
     for (const bool sleeps : {false, true}) {
-      GpuSolver solver(model, sceneOf(model, {poisson_ratio, sleeps ? 1e-9 : 0, 9.81}));
+      GpuSolver solver(model, sleepyScene(model, {poisson_ratio, sleeps ? 1e-9 : 0, 9.81}));
       solver.writeState(randomState(model, 1e-4, 0.05, 3));
       for (int t = 0; t < 4; ++t) solver.step(probeAtCorner());
       EXPECT_EQ(solver.awakeBricks(), solver.bricks());
@@ -182,9 +91,9 @@ TEST_F(SleepingOnGpu, SameBricksSleepAsOnTheCpuWhateverToolsDo) {
       {80, {}}, {1, cutTop()},         {80, {}}};
   for (const double poisson_ratio : {0.25, 0.4}) {
     SCOPED_TRACE(poisson_ratio);
-    const Model model = modelOf({cube(poisson_ratio)});
+    const Model model = modelOf({sleepyCube(poisson_ratio)});
     // Fast things sleep: there is more between awake and asleep.
-    const Scene scene = sceneOf(model, {poisson_ratio, 20 * kSleepSpeed_m_per_s});
+    const Scene scene = sleepyScene(model, {poisson_ratio, 20 * kSleepSpeed_m_per_s});
     const auto cpu = makeCpu("", model, scene);
     GpuSolver gpu(model, scene);
     std::vector<uint8_t> before = cpu->awake();
@@ -200,7 +109,7 @@ TEST_F(SleepingOnGpu, SameBricksSleepAsOnTheCpuWhateverToolsDo) {
         if (awake > 0) most_asleep_beside_awake = std::max(most_asleep_beside_awake, cpu->bricks() - awake);
       }
       EXPECT_EQ(gpu.awake(), cpu->awake()) << "after tick " << tick;
-      EXPECT_LT(difference(model, gpu.readState(), cpu->readState()), kApart_m) << "after tick " << tick;
+      EXPECT_LT(farthestApart_m(model, gpu.readState(), cpu->readState()), kApart_m) << "after tick " << tick;
     }
     EXPECT_GT(most_asleep_beside_awake, 0u);
     RecordProperty("ticks_that_differ", differs);
@@ -273,7 +182,7 @@ TEST_F(SleepingOnGpu, StateThatIsWrittenAndResetWakeAll) {
   solver->writeState(moved);
   EXPECT_EQ(solver->awakeBricks(), solver->bricks());
   solver->step({});
-  EXPECT_GT(difference(model_, solver->readState(), moved), 1e-6);
+  EXPECT_GT(farthestApart_m(model_, solver->readState(), moved), 1e-6);
   rest(*solver);
   solver->reset();
   EXPECT_EQ(solver->awakeBricks(), solver->bricks());
@@ -299,9 +208,9 @@ TEST_F(SleepingOnGpu, GovernorsRollbackWakesAll) {
 TEST_F(SleepingOnGpu, NetworksBesideALatticeGoOn) {
   Body net = clothBody(6, 6, 0.005);
   net.material.drag_per_s = 5;
-  const Model model = modelOf({cube(0.25), net});
+  const Model model = modelOf({sleepyCube(), net});
   for (const double speed_m_per_s : {0.0, kSleepSpeed_m_per_s}) {
-    GpuSolver solver(model, sceneOf(model, {0.25, speed_m_per_s}));
+    GpuSolver solver(model, sleepyScene(model, {0.25, speed_m_per_s}));
     HostState start = restState(model);
     const uint32_t slot = static_cast<uint32_t>(model.slots() - layout::kBrickSlots);
     start.displacement_m[slot] = {0.001f, 0, 0, 0};
@@ -312,12 +221,4 @@ TEST_F(SleepingOnGpu, NetworksBesideALatticeGoOn) {
     EXPECT_NE(before.displacement_m[slot].x, solver.readState().displacement_m[slot].x);
     EXPECT_FALSE(solver.resting());
   }
-}
-
-TEST_F(SleepingOnGpu, OtherIntegratorsDoNotSleep) {
-  Scene scene = sceneWith(Integrator::kPd, model_, 1, 20, 1);
-  scene.solver.sleep_speed_m_per_s = 1;
-  GpuSolver solver(model_, scene);
-  for (int t = 0; t < 5; ++t) solver.step({});
-  EXPECT_EQ(solver.awakeBricks(), solver.bricks());
 }

@@ -1,0 +1,99 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include "solver/cpu/sleep.h"
+#include "support/backends.h"
+
+namespace viscera::test {
+
+// A cube whose bricks fall asleep, and what tools do to it, for the tests of sleep on either backend.
+
+constexpr double kSleepSpacing_m = 0.005;
+constexpr double kSleepTick_s = 0.005;
+constexpr double kSleepDrag_per_s = 60;  // less than twice the slowest mode's frequency: it swings, and soon settles
+constexpr double kSleepSpeed_m_per_s = SolverConfig{}.sleep_speed_m_per_s;
+
+/// 13 nodes to a side: 4 bricks to a side. Held at the bottom, and soon at rest.
+inline Body sleepyCube(double poisson_ratio = 0.25) {
+  Body body = boxBody({12, 12, 12}, kSleepSpacing_m);
+  body.material.drag_per_s = kSleepDrag_per_s;
+  body.material.poisson_ratio = poisson_ratio;
+  for (uint32_t slot : body.lattice.active_slots) {
+    if (body.lattice.nodeAt(slot).z() == 0) body.lattice.nodes[slot].lo |= layout::kFixedBit;
+  }
+  return body;
+}
+
+inline ToolMotions tool(ToolMode mode, const Vector3d& from, const Vector3d& to) {
+  ToolMotions motions;
+  motions[0].mode = mode;
+  motions[0].present = true;
+  motions[0].from.position_m = from;
+  motions[0].to.position_m = to;
+  return motions;
+}
+inline const Vector3d kCorner_m(0, 0, 0.06);
+/// Stands still, 2 mm deep in the corner. The tip's radius is 6 mm.
+inline ToolMotions probeAtCorner() {
+  return probeAt(kCorner_m + Vector3d(0, 0, 0.004));
+}
+inline ToolMotions grabAtCorner() {
+  ToolMotions motions = tool(ToolMode::kGrab, kCorner_m, kCorner_m + Vector3d(-0.002, 0, 0));
+  motions[0].hold_begins = true;
+  return motions;
+}
+inline ToolMotions holdAtCorner() {
+  const Vector3d tip = kCorner_m + Vector3d(-0.002, 0, 0);
+  return tool(ToolMode::kGrab, tip, tip);
+}
+inline ToolMotions letGoAtCorner() {
+  ToolMotions motions = holdAtCorner();
+  motions[0].mode = ToolMode::kNone;
+  motions[0].hold_ended = ToolMode::kGrab;
+  return motions;
+}
+/// Along x through the whole width, blade from above, 1 cm of it in the cube.
+inline ToolMotions cutTop() {
+  return tool(ToolMode::kCut, {-0.02, 0.0275, 0.14}, {0.08, 0.0275, 0.14});
+}
+
+struct SleepKind {
+  double poisson_ratio = 0.25, sleep_speed_m_per_s = kSleepSpeed_m_per_s, gravity_m_per_s2 = 0;
+  bool governor = false, measured_limit = true;
+};
+inline Scene sleepyScene(const Model& model, const SleepKind& kind = {}) {
+  StylusConfig stylus;
+  stylus.grab.radius_m = 0.008;
+  stylus.cut.blade_length_m = 0.1;
+  Scene scene = sceneFor(model, 1, {stylus}, {0, 0, -kind.gravity_m_per_s2});
+  scene.solver.tick_hz = 1 / kSleepTick_s;
+  scene.solver.dt_fraction = scene.solver.dt_fraction_strained = 0.75;
+  scene.solver.sleep_speed_m_per_s = kind.sleep_speed_m_per_s;
+  scene.solver.governor = kind.governor;
+  scene.solver.measured_limit = kind.measured_limit;
+  return scene;
+}
+
+/// @return ticks until nothing is awake, or `most`
+template <class Solver>
+int settle(Solver& solver, int most = 2000) {
+  int ticks = 0;
+  for (; ticks < most && (ticks == 0 || solver.awakeBricks() > 0); ++ticks) solver.step(ToolMotions{});
+  return ticks;
+}
+
+/// Largest distance of a node of the first body between two states [m].
+inline double farthestApart_m(const Model& model, const HostState& a, const HostState& b) {
+  double largest = 0;
+  for (uint32_t slot : model.bodies[0].lattice.active_slots) {
+    largest = std::max(largest, (xyz(a.displacement_m[slot]) - xyz(b.displacement_m[slot])).norm());
+  }
+  return largest;
+}
+
+}  // namespace viscera::test
