@@ -38,7 +38,7 @@ void each(uint slot) {
 #ifdef TOOLS
   NodeBits bits = nodes[slot];
   uint held_by = (bits.lo & kGrabMask) >> kGrabShift;
-  if (held_by != 0u && movable(slot) != 0.0f) {
+  if (held_by != 0u && !isAtRest(bits)) {
     what |= kTouchesHeld | kTouchesPresses;
     way = heldDisplacement(held_by - 1u, slot) - texelFetch(displacement, int(slot)).xyz;
   }

@@ -34,7 +34,7 @@ std::unique_ptr<Ticks> ticksOf(const Model& model, const Scene& scene, Backend b
 
 Backend chooseBackend(const SolverConfig& config, const gpu::Context* context) {
   if (config.backend != Backend::kAuto) return config.backend;
-  if (traitsOf(config.integrator).cpu_only) return Backend::kCpu;
+  if (traitsOf(config.integrator).prefers_cpu) return Backend::kCpu;
   return !context || context->isSoftware() ? Backend::kCpu : Backend::kGpu;
 }
 
@@ -42,7 +42,7 @@ std::string backendNote(const SolverConfig& config, const gpu::Context* context,
                         const std::string& choice) {
   const std::string taken = (choice.empty() ? "" : "integrator: " + choice + "; ") + solver.backend();
   if (config.backend != Backend::kAuto) return taken + ", as solver.backend asks";
-  if (traitsOf(config.integrator).cpu_only) return taken + ", as solver.integrator steps on the CPU only";
+  if (traitsOf(config.integrator).prefers_cpu) return taken + ", as solver.integrator is measured on the CPU only";
   if (!context) return taken + ", as there is no OpenGL context";
   return taken + (context->isSoftware() ? ", as OpenGL is a software rasteriser: " : ", as OpenGL has a GPU: ") +
          context->renderer();

@@ -54,9 +54,11 @@ TEST_F(BadInput, SceneThatIsNotThere) {
                 {folder_.file("none.yaml")});
 }
 
-TEST_F(BadInput, IntegratorThatABackendHasNot) {
-  expectRunRefusal({"--set", "solver.integrator=multigrid", "--set", "solver.backend=gpu"},
-                   {"solver.integrator: multigrid", "solver.backend"});
+TEST_F(BadInput, WhatAnIntegratorHasNot) {
+  for (const std::string backend : {"cpu", "gpu"})
+    expectRunRefusal({"--set", "solver.integrator=multigrid", "--set", "solver.backend=" + backend, "--set",
+                      "collision.enabled=true"},
+                     {"solver.integrator: multigrid", "collision.enabled"});
   expectRefusal({"settle", folder_.file("none.yaml")}, {folder_.file("none.yaml")});
 }
 

@@ -26,7 +26,7 @@ struct IntegratorTraits {
   bool lets_bricks_sleep;  ///< steps only bricks that move, on the CPU
   bool compensates;        ///< can sum u and v with Kahan's compensation
   bool steps_ticks;        ///< solves to a tolerance: a tick is one substep, unless solver.substeps says otherwise
-  bool cpu_only;           ///< the GPU backend has no kernels of it
+  bool prefers_cpu;        ///< solver.backend: auto takes the CPU, where alone it was measured
   bool takes_edge_forces;  ///< can take forces of explicit connections edge by edge (solver.spring_forces)
 };
 

@@ -174,9 +174,8 @@ void visitFields(V& v, SolverConfig& c) {
   v.choice("integrator", c.integrator, namesOfIntegrators(),
            "leapfrog: explicit, order 2; verlet_paper: as VR05 and GW print it, to compare; vbd, pd: implicit Euler; "
            "multigrid: implicit, a step per tick (TR-BDF2), solved by multigrid, for stiff and nearly incompressible "
-           "tissue; CPU "
-           "backend, lattices only; auto: leapfrog or multigrid, whichever this machine steps faster, measured at the "
-           "start");
+           "tissue; lattices only, no contacts between nodes; auto: leapfrog or, on the CPU backend, multigrid, "
+           "whichever this machine steps faster, measured at the start");
   v.choice("start", c.start, {{"rest", SolverStart::kRest}, {"equilibrium", SolverStart::kEquilibrium}},
            "the state that it begins in: all at rest, or as it hangs in its weight and the forces on bodies, without "
            "obstacles, "

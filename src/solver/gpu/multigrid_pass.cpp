@@ -59,7 +59,7 @@ void MultigridPass::run(LatticeBuffers& buffers, const Substep& step) {
   }
   stages_.bind();
   const bool touching = touch_ && MultigridTouchPass::isAbout(step);
-  if (touched_ && !touching) stages_.forgetTouched();
+  if (fresh_ || (touched_ && !touching)) stages_.forgetTouched();  // nobody knows what pressed
   touched_ = touching;
   stages_.beginStep(step, fresh_, touching ? &*touch_ : nullptr);
   fresh_ = false;

@@ -49,7 +49,7 @@ class MultigridStages final : public multigrid::StageWork {
   void slow(float times) override;
 
   void bind() const { own_.bind(); }
-  void forgetTouched();  ///< nothing is about
+  void forgetTouched();  ///< nothing is about, nor was
 
  private:
   gpu::Program compiled(const char* name, std::initializer_list<const char*> more = {}) const;

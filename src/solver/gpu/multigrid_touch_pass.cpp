@@ -16,7 +16,7 @@ MultigridTouchPass::MultigridTouchPass(const FeatureSet& features, const Lattice
   contacts_.bindStorage(layout::kBindNodeContacts);  // what is too large for the driver is said now
   for (int tools = obstacles_ ? 0 : 1; tools < (features.tools ? 2 : 1); ++tools) {
     std::vector<std::string> defines = features.defines();
-    defines.insert(defines.end(), {"INCREMENT", "CONTACT", "HELD"});
+    defines.insert(defines.end(), {"INCREMENT", "NO_SWEEPS", "CONTACT", "HELD"});
     if (tools) defines.push_back("TOOLS");
     if (obstacles_) defines.push_back("OBSTACLES");
     for (int act = 0; act < kActs; ++act) {
