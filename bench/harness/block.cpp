@@ -4,13 +4,10 @@
 
 namespace viscera::bench {
 
-Model blockModel(const Vector3i& cells, double spacing_m, const MaterialConfig& material,
-                 const std::function<bool(const Vector3i& node)>& fixed) {
-  Solid solid;
-  solid.spacing_m = spacing_m;
-  solid.cells = cells;
-  solid.labels.assign(static_cast<size_t>(cells.prod()), 1);
-  solid.part_names = {"block"};
+namespace {
+
+Model modelOf(const Solid& solid, const MaterialConfig& material,
+              const std::function<bool(const Vector3i& node)>& fixed) {
   Body body;
   body.name = "block";
   body.material = material;
@@ -21,6 +18,37 @@ Model blockModel(const Vector3i& cells, double spacing_m, const MaterialConfig& 
   Model model;
   model.bodies.push_back(std::move(body));
   return model;
+}
+
+Solid solidBlock(const Vector3i& cells, double spacing_m) {
+  Solid solid;
+  solid.spacing_m = spacing_m;
+  solid.cells = cells;
+  solid.labels.assign(static_cast<size_t>(cells.prod()), 1);
+  solid.part_names = {"block"};
+  return solid;
+}
+
+}  // namespace
+
+Model blockModel(const Vector3i& cells, double spacing_m, const MaterialConfig& material,
+                 const std::function<bool(const Vector3i& node)>& fixed) {
+  return modelOf(solidBlock(cells, spacing_m), material, fixed);
+}
+
+Model domeModel(int radius, double wall, double spacing_m, const MaterialConfig& material) {
+  const Vector3i cells(2 * radius, 2 * radius, radius);
+  Solid solid = solidBlock(cells, spacing_m);
+  size_t cell = 0;
+  for (int z = 0; z < cells.z(); ++z) {
+    for (int y = 0; y < cells.y(); ++y) {
+      for (int x = 0; x < cells.x(); ++x, ++cell) {
+        const double r = Vector3d(x + 0.5 - radius, y + 0.5 - radius, z + 0.5).norm();
+        if (r > radius || r < radius - wall) solid.labels[cell] = 0;
+      }
+    }
+  }
+  return modelOf(solid, material, [](const Vector3i& node) { return node.z() == 0; });
 }
 
 MaterialConfig unitMaterial() {

@@ -13,6 +13,10 @@ namespace viscera::bench {
 Model blockModel(const Vector3i& cells, double spacing_m, const MaterialConfig& material,
                  const std::function<bool(const Vector3i& node)>& fixed = {});
 
+/// Half of a hollow ball of whole cells, its round side up, held at its rim. @param radius, wall  in cells; a cell is
+/// there if its middle is
+Model domeModel(int radius, double wall, double spacing_m, const MaterialConfig& material);
+
 /// Undamped, k = h = m = 1 for a block of spacing 1 m: E = 2.5 Pa, 1 kg/m3.
 MaterialConfig unitMaterial();
 

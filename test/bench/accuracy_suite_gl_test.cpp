@@ -56,8 +56,8 @@ TEST(AccuracySuite, ReachesEveryLimitInItsShortForm) {
       test::runProgram(VISCERA_COMMAND, {"bench", "accuracy", "--short", "--strict", "--out", folder.path()});
   EXPECT_EQ(ending.status, 0) << ending.out << ending.err;
   EXPECT_TRUE(test::says(ending.out, {"Order", "float32 against float64", "Cantilever", "Heart", ", 0 missed"}));
-  for (const char* table :
-       {"order", "float32", "momentum", "energy", "cantilever", "heart", "spacing_heart", "spacing_ball", "checks"}) {
+  for (const char* table : {"order", "float32", "momentum", "energy", "cantilever", "shell", "heart", "spacing_heart",
+                            "spacing_ball", "checks"}) {
     const std::string file = std::string("accuracy_") + table + ".csv", text = test::readFile(folder.file(file));
     EXPECT_TRUE(test::says(text, {"cpu", "gpu"})) << file << ":\n" << text;
   }
