@@ -45,9 +45,12 @@ dvec4 each(uint slot) { return dvec4(dotOf(ofSystem(x_vector, slot), ofSystem(y_
 #endif
 #ifdef ADVANCE
 dvec4 each(uint slot) {
-  vec3 r = ofSystem(kSystemResidual, slot) - scalars.alpha * ofSystem(kSystemProduct, slot);
-  setOfSystem(kSystemSolution, slot, ofSystem(kSystemSolution, slot) + scalars.alpha * ofSystem(kSystemDirection, slot));
-  setOfSystem(kSystemResidual, slot, r);
+  vec3 r = ofSystem(kSystemResidual, slot);
+  if (scalars.alpha != 0.0f) {  // else nothing is done, whatever the direction is
+    r -= scalars.alpha * ofSystem(kSystemProduct, slot);
+    setOfSystem(kSystemSolution, slot, ofSystem(kSystemSolution, slot) + scalars.alpha * ofSystem(kSystemDirection, slot));
+    setOfSystem(kSystemResidual, slot, r);
+  }
   return dvec4(dotOf(r, r), 0.0LF, 0.0LF, 0.0LF);
 }
 #endif

@@ -54,7 +54,7 @@ Balance improve(StageWork& stages, const Balance& before, SolverWork& work) {
     stages.goBack(0.5f);
     after = stages.balance();
   }
-  stages.goBack(0);
+  stages.take(1);
   return stages.balance();
 }
 
@@ -97,15 +97,14 @@ void stepEuler(StageWork& stages, double dt_s, bool touching, SolverWork& work) 
   stages.beginEuler();
   stages.setShare(1);
   Balance least;
-  float best = 0;
   for (const float share : {0.0f, 1.0f, 0.5f}) {
     stages.guess(share);
     const Balance there = stages.balance();
     if (share != 0 && !(there.potential_j() < least.potential_j())) continue;
     least = there;
-    best = share;
+    stages.keep();
   }
-  stages.guess(best);
+  stages.take(1);
   least = stages.balance();
   double most_n = least.residual_n;
   for (int k = 0; k < kEulerNewton; ++k) {
