@@ -31,12 +31,8 @@ double ImplicitEuler::potential(Vectors& increment, Touching* touching) {
 
 /// A Newton step, or as much of it as lowers the potential. @return that
 double ImplicitEuler::improve(double before_j, Touching* touching, SolverWork& work) {
-  Rule rule;
-  rule.newton = 1;
-  rule.again = 0;
-  rule.tame = false;
   trial_ = increment_;
-  solver_.solve(increment_, rule, work, touching);
+  solver_.solve(increment_, eulerRule(), work, touching);
   for (int halving = 0; halving < kEulerHalvings; ++halving) {
     const double after_j = potential(increment_, touching);
     if (after_j <= before_j + kEulerRounding * std::abs(before_j)) return after_j;

@@ -265,8 +265,7 @@ double StageSolver::solve(Vectors& increment, const Rule& rule, SolverWork& work
     const double before = norm;
     const bool tangent = step == 0 || touched;  // most often one system is enough
     norm = residual(increment, touched, &changed, tangent);
-    const bool done = step > 0 && !changed && norm <= rule.again * before;
-    if (done || norm <= noise_n || step >= rule.newton + (changed ? kMoreTouched : 0)) return norm;
+    if (isSolved(rule, step, changed, norm, before, noise_n)) return norm;
     if (!tangent) level.linearise(displacement, velocity);
     work.iterations += static_cast<uint64_t>(solveLinear(increment, rule, norm));
     ++work.systems;

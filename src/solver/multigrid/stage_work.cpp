@@ -33,8 +33,7 @@ Balance solve(StageWork& stages, const Rule& rule, SolverWork& work) {
   for (int step = 0;; ++step) {
     const double before = now.residual_n;
     now = stages.balance();
-    const bool done = step > 0 && !now.changed && now.residual_n <= rule.again * before;
-    if (done || now.residual_n <= now.noise_n || step >= rule.newton + (now.changed ? kMoreTouched : 0)) return now;
+    if (isSolved(rule, step, now.changed, now.residual_n, before, now.noise_n)) return now;
     work.iterations += static_cast<uint64_t>(solveSystem(stages, rule, now.residual_n));
     ++work.systems;
     stages.addSolution(rule.tame);
@@ -43,12 +42,8 @@ Balance solve(StageWork& stages, const Rule& rule, SolverWork& work) {
 
 /// A Newton step, or as much of it as lowers the potential.
 Balance improve(StageWork& stages, const Balance& before, SolverWork& work) {
-  Rule rule;
-  rule.newton = 1;
-  rule.again = 0;
-  rule.tame = false;
   stages.keep();
-  Balance after = solve(stages, rule, work);
+  Balance after = solve(stages, eulerRule(), work);
   for (int halving = 0; halving < kEulerHalvings; ++halving) {
     if (after.potential_j() <= before.potential_j() + kEulerRounding * std::abs(before.potential_j())) return after;
     stages.goBack(0.5f);
@@ -81,13 +76,9 @@ bool stepTrBdf2(StageWork& stages, double dt_s, bool touching, SolverWork& work)
   stages.beginBdf2();
   stages.setShare(1);
   const Balance at = solve(stages, Rule(), work);
-  const Energy& after = at.energy;
-  if (!std::isfinite(after.sum_j)) return false;
-  const double given_j = touching ? kGivenTimes * std::max(0.0, at.given_j) : 0;
-  const double excess_j =
-      after.sum_j - before.sum_j - given_j - kTrBdf2Rounding * (before.kinetic_j + std::abs(before.sum_j));
-  if (excess_j > kTakes * after.kinetic_j) return false;
-  if (excess_j > 0) stages.slow(static_cast<float>(std::sqrt(1 - excess_j / after.kinetic_j)));
+  const float kept = keptSpeed(before, at.energy, touching ? at.given_j : 0);
+  if (kept == 0) return false;
+  if (kept < 1) stages.slow(kept);
   return true;
 }
 

@@ -4,12 +4,20 @@
 
 #include <cmath>
 
-#include "viscera/model/model.h"
+#include "solver/multigrid/stage_solver.h"
 
 namespace viscera::multigrid {
 
 /// @throws SceneError  bodies with explicit connections, contacts between nodes: nobody steps them
 void requireSteppable(const Model& model, bool node_contacts);
+/// Share of its velocities that a step of TR-BDF2 may keep, so that energy does not grow but by the work of who
+/// touches; 0: none, it is done again by implicit Euler. @param given_j  that work, by their last forces
+float keptSpeed(const Energy& before, const Energy& after, double given_j);
+/// Newton's method needs no other step. @param step  that were made   @param changed  who is held
+/// @param left_n, before_n  residual now and before the last one
+bool isSolved(const Rule& rule, int step, bool changed, double left_n, double before_n, double noise_n);
+/// Of one step of Newton's method in implicit Euler.
+Rule eulerRule();
 
 // Numbers of the steps (physics.md 2), the same on every backend.
 

@@ -85,16 +85,12 @@ bool TrBdf2::step(const Substep& step, const Vectors& u, const Vectors& v, Touch
   if (touching) touching->setShare(1);
   solver_.solve(increment_, rule, work, touching);
   const Energy after = solver_.energy(solver_.displacement, solver_.velocity, solver_.elastic_j);
-  if (!std::isfinite(after.sum_j)) return false;
-  const double given_j = touching ? kGivenTimes * std::max(0.0, touching->work(increment_)) : 0;
-  const double excess_j =
-      after.sum_j - before.sum_j - given_j - kTrBdf2Rounding * (before.kinetic_j + std::abs(before.sum_j));
-  if (excess_j > kTakes * after.kinetic_j) return false;
-  if (excess_j <= 0) return true;
-  const float slowed = static_cast<float>(std::sqrt(1 - excess_j / after.kinetic_j));
+  const float kept = keptSpeed(before, after, touching ? touching->work(increment_) : 0);
+  if (kept == 0) return false;
+  if (kept == 1) return true;
   level.forPlaces([&](size_t at, size_t count, const layout::BodyParams&) {
     for (size_t c = 0; c < 3; ++c)
-      for (size_t i = c * level.places() + at; i < c * level.places() + at + count; ++i) solver_.velocity[i] *= slowed;
+      for (size_t i = c * level.places() + at; i < c * level.places() + at + count; ++i) solver_.velocity[i] *= kept;
   });
   return true;
 }
