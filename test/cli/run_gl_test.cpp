@@ -98,7 +98,8 @@ TEST_F(Run, AutoTakesTheFasterIntegratorSaysWhyAndLeavesNoTrace) {
   const Json chosen = runs("auto", stiff);
   EXPECT_NE(chosen["stepped_by"].get<std::string>().find("integrator: multigrid, as"), std::string::npos) << chosen;
   EXPECT_EQ(chosen["state_hash"], runs("multigrid", stiff)["state_hash"]);
-  const std::vector<std::string> soft = {"bodies[0].material.young_modulus_pa=1000"};
+  // On one thread: of so few nodes a second one costs leapfrog more than it saves while the machine is busy.
+  const std::vector<std::string> soft = {"bodies[0].material.young_modulus_pa=1000", "solver.threads=1"};
   const Json other = runs("auto", soft);
   EXPECT_NE(other["stepped_by"].get<std::string>().find("integrator: leapfrog, as"), std::string::npos) << other;
   EXPECT_EQ(other["state_hash"], runs("leapfrog", soft)["state_hash"]);
