@@ -20,8 +20,33 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int kTicks = 8;              // of each: the first ones of a fall, in which multigrid has most to solve
 constexpr double kLongEnough_s = 1.5;  // of wall time, when some ticks are done
-constexpr size_t kFewest = 3;          // ticks, whatever they take
+constexpr int kUntouched = 3;          // ticks, before a probe is pressed in where the scene has styluses
+constexpr size_t kFewest = 3;          // ticks of either kind, whatever they take
+constexpr double kPress = 0.25;        // of the spacing, a tick
 constexpr double kMustGain = 0.9;      // of leapfrog's time: at less gain its smaller error decides
+
+/// Where a probe goes into the tissue: from above at the highest node that may move.
+struct Press {
+  uint32_t slot;
+  Vector3d rest_m;
+  double radius_m, spacing_m;
+  Vector3d over(const Vector3d& u_m) const { return rest_m + u_m + Vector3d(0, 0, radius_m); }
+};
+std::optional<Press> pressOf(const Model& model, const Scene& scene) {
+  std::optional<Press> out;
+  if (scene.styluses.empty()) return out;
+  const Lattice& lattice = model.bodies[0].lattice;
+  for (const uint32_t slot : lattice.active_slots) {
+    const Vector3d rest_m = lattice.restPosition(slot);
+    if (!isFixed(lattice.nodes[slot]) && (!out || rest_m.z() > out->rest_m.z()))
+      out = Press{slot, rest_m, scene.styluses[0].probe.radius_m, lattice.spacing_m};
+  }
+  return out;
+}
+
+Vector3d xyz(const layout::vec4& v) {
+  return {v.x, v.y, v.z};
+}
 
 /// A solver whose ticks are timed.
 class Trial {
@@ -33,26 +58,41 @@ class Trial {
     options.threads = threads;
     solver_ = std::make_unique<CpuSolver>(model, scene, options);
   }
-  void step() {
+  /// @param press  a probe is pressed into the tissue, farther in every tick
+  void step(const std::optional<Press>& press) {
+    ToolMotions motions;
+    if (press && !tip_m_) tip_m_ = press->over(xyz(solver_->readState().displacement_m[press->slot]));
+    if (press) {
+      motions[0].mode = ToolMode::kProbe;
+      motions[0].present = true;
+      motions[0].from.position_m = *tip_m_;
+      tip_m_->z() -= kPress * press->spacing_m;
+      motions[0].to.position_m = *tip_m_;
+    }
     const Clock::time_point start = Clock::now();
-    solver_->step({});
-    taken_s_.push_back(std::chrono::duration<double>(Clock::now() - start).count());
+    solver_->step(motions);
+    (press ? touched_s_ : free_s_).push_back(std::chrono::duration<double>(Clock::now() - start).count());
   }
-  double middle_s() {
-    std::nth_element(taken_s_.begin(), taken_s_.begin() + static_cast<std::ptrdiff_t>(taken_s_.size() / 2),
-                     taken_s_.end());
-    return taken_s_[taken_s_.size() / 2];
+  /// What a tick takes, half of them with a probe in the tissue where there are some.
+  double tick_s() {
+    const double free_s = middle(free_s_);
+    return touched_s_.empty() ? free_s : (free_s + middle(touched_s_)) / 2;
   }
-  size_t ticks() const { return taken_s_.size(); }
+  size_t ticks() const { return free_s_.size() + touched_s_.size(); }
 
  private:
+  static double middle(std::vector<double>& all) {
+    std::nth_element(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2), all.end());
+    return all[all.size() / 2];
+  }
   std::unique_ptr<Ticks> solver_;
-  std::vector<double> taken_s_;
+  std::optional<Vector3d> tip_m_;
+  std::vector<double> free_s_, touched_s_;
 };
 
 /// Why multigrid has no steps for the scene; empty: it has.
 std::string missing(const Model& model, const Scene& scene, Backend backend) {
-  if (backend != Backend::kCpu) return "the GPU backend has no multigrid";
+  if (backend != Backend::kCpu) return "multigrid is chosen on the CPU backend alone";
   if (model.hasNetwork()) return "multigrid steps implicit lattices, not bodies with explicit connections";
   if (scene.collision.enabled) return "multigrid knows no contacts between nodes";
   return "";
@@ -79,14 +119,17 @@ IntegratorChoice chooseIntegrator(const Model& model, const Scene& scene, Backen
     return {Integrator::kMultigrid, std::string("multigrid, as leapfrog cannot step this: ") + error.what()};
   }
   Trial multigrid(model, scene, Integrator::kMultigrid, threads);
+  const std::optional<Press> press = pressOf(model, scene);
+  const size_t fewest = press ? 2 * kFewest : kFewest;
   const Clock::time_point start = Clock::now();
   while (leapfrog->ticks() < kTicks) {
-    leapfrog->step();
-    multigrid.step();
+    const bool touched = press && leapfrog->ticks() >= kUntouched;
+    leapfrog->step(touched ? press : std::nullopt);
+    multigrid.step(touched ? press : std::nullopt);
     const double so_far_s = std::chrono::duration<double>(Clock::now() - start).count();
-    if (leapfrog->ticks() >= kFewest && so_far_s > kLongEnough_s) break;
+    if (leapfrog->ticks() >= fewest && so_far_s > kLongEnough_s) break;
   }
-  const double implicit_s = multigrid.middle_s(), explicit_s = leapfrog->middle_s();
+  const double implicit_s = multigrid.tick_s(), explicit_s = leapfrog->tick_s();
   if (implicit_s < kMustGain * explicit_s)
     return {Integrator::kMultigrid, compared("multigrid", implicit_s, explicit_s)};
   return {Integrator::kLeapfrog, compared("leapfrog", implicit_s, explicit_s)};

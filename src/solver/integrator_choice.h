@@ -17,8 +17,8 @@ struct IntegratorChoice {
 };
 
 /// Of leapfrog and multigrid the one whose ticks this machine steps in less time, measured on solvers of the scene that
-/// are let go in gravity and then forgotten, so that nothing of it is left in the solver that is made. Leapfrog where
-/// multigrid has no steps for the scene.
+/// are let go in gravity, pressed by a probe where it has styluses, and then forgotten, so that nothing of it is left
+/// in the solver that is made. Leapfrog where multigrid has no steps for the scene.
 /// @param backend  that will step the scene   @param threads  of the CPU backend, shared with others; may be null
 IntegratorChoice chooseIntegrator(const Model& model, const Scene& scene, Backend backend,
                                   const std::shared_ptr<ThreadPool>& threads);
