@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <numeric>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "solver/cpu/network_kernels.cpp"
@@ -178,8 +179,7 @@ NetworkGroups spreadNetworkFor(int64_t target) {
 namespace {
 
 constexpr size_t kConstants = 6;
-constexpr size_t kAlike =
-    8;  // nodes with links that are alike get a row of their own: it is a fifth of another to read
+constexpr double kAlikeCost = 0.6;  // of a row of links that are alike over another, in a box of 42,875 nodes
 
 std::array<float, kConstants> constantsOf(const layout::Link& link) {
   const layout::vec4& rest = link.offset_length;
@@ -222,15 +222,31 @@ void LinkRows::addGroup(const JoinedNetwork& network, uint32_t group) {
     uint32_t& place = kinds[kind->second][i];
     if (place == kNone) place = l;
   });
-  const auto isShared = [](const std::vector<uint32_t>& kind) {
-    return std::count(kind.begin(), kind.end(), kNone) <= static_cast<std::ptrdiff_t>(kGroupNodes - kAlike);
+  // Those shared by most nodes first: so many of them get rows of their own as cost least with the rows of the rest.
+  std::vector<size_t> by_count(kinds.size());
+  std::iota(by_count.begin(), by_count.end(), size_t{0});
+  const auto shared = [&](size_t kind) {
+    return std::count_if(kinds[kind].begin(), kinds[kind].end(), [](uint32_t l) { return l != kNone; });
   };
+  std::stable_sort(by_count.begin(), by_count.end(), [&](size_t a, size_t b) { return shared(a) > shared(b); });
+  std::array<size_t, kGroupNodes> left{};
+  ofEach([&](size_t i, uint32_t) { ++left[i]; });
+  std::vector<uint8_t> own(kinds.size());
+  double least = static_cast<double>(*std::max_element(left.begin(), left.end()));
+  for (size_t n = 0; n < by_count.size(); ++n) {
+    for (size_t i = 0; i < kGroupNodes; ++i) left[i] -= kinds[by_count[n]][i] != kNone;
+    const double cost =
+        kAlikeCost * static_cast<double>(n + 1) + static_cast<double>(*std::max_element(left.begin(), left.end()));
+    if (cost >= least) continue;
+    least = cost;
+    for (size_t m = 0; m <= n; ++m) own[by_count[m]] = 1;
+  }
   ofEach([&](size_t i, uint32_t l) {
-    const std::vector<uint32_t>& kind = kinds[known.at(constantsOf(network.links[l]))];
-    if (kind[i] != l || !isShared(kind)) rest[i].push_back(l);
+    const size_t kind = known.at(constantsOf(network.links[l]));
+    if (!own[kind] || kinds[kind][i] != l) rest[i].push_back(l);
   });
-  for (const std::vector<uint32_t>& kind : kinds) {
-    if (isShared(kind)) addRow(network.links, kind);
+  for (size_t kind = 0; kind < kinds.size(); ++kind) {
+    if (own[kind]) addRow(network.links, kinds[kind]);
   }
   size_t width = 0;
   for (const std::vector<uint32_t>& each : rest) width = std::max(width, each.size());
