@@ -11,24 +11,17 @@
 
 namespace viscera::test {
 
-TEST(MultigridEquilibrium, StateAtRestIsTheStaticOne) {
+TEST(MultigridEquilibrium, IsTheStaticState) {
   constexpr double kOfTheSag = 2e-3;  // what float32 forces and a relative residual of 1e-4 leave
   for (const Cells kind : {Cells::kSprings, Cells::kMoments}) {
     for (const double nu : {0.25, 0.49}) {
-      Body body = block(6, 5e4, nu, kind);
-      body.material.drag_per_s = 30;
-      const Model model = modelOf({body});
+      const Model model = modelOf({block(6, 5e4, nu, kind)});
       ReferenceSolver reference(model, kGravity, 1e-3);
       solveStatics(reference, {});
-      const Scene scene = sceneOf(Integrator::kMultigrid);
       SettleReport report;
-      const HostState settled = equilibriumOf(model, scene, report);
+      const HostState settled = equilibriumOf(model, sceneOf(Integrator::kMultigrid), report);
       EXPECT_TRUE(report.settled);
       EXPECT_LT(largestOff(model, settled, reference.state()), -kOfTheSag * lowest(model, settled)) << "nu " << nu;
-      const auto solver = solverOf(model, scene);
-      for (int t = 0; t < 120; ++t) solver->step({});
-      EXPECT_LT(largestOff(model, solver->readState(), reference.state()), -kOfTheSag * lowest(model, settled))
-          << "nu " << nu;
     }
   }
 }

@@ -23,7 +23,7 @@ struct IntegratorTraits {
   bool own_positions;      ///< keeps positions beside the state: who writes the state makes it start anew
   bool iterates;           ///< solver.iterations says how often a substep goes over the nodes
   bool takes_colours;      ///< ... colour by colour
-  bool lets_bricks_sleep;  ///< steps only bricks that move, on the CPU
+  bool lets_bricks_sleep;  ///< steps only bricks that move
   bool compensates;        ///< can sum u and v with Kahan's compensation
   bool steps_ticks;        ///< solves to a tolerance: a tick is one substep, unless solver.substeps says otherwise
   bool prefers_cpu;        ///< solver.backend: auto takes the CPU, where alone it was measured
