@@ -7,11 +7,23 @@
 
 namespace viscera::bench {
 
+/// What befalls a held device, in contact. None lasts longer than 0.4 s.
+enum class HapticEvent {
+  kNone,
+  kStall,   ///< no ticks for 150 ms, in which the hand goes 3 cm away
+  kLeap,    ///< the device's base is put 15 mm higher, and back
+  kClutch,  ///< the clutch is pressed, the hand goes 3 cm away, and comes back with it pressed
+  kUnheard  ///< nobody listens to forces for 150 ms: the driver was started again
+};
+const char* nameOf(HapticEvent event);
+
 /// One cell of the matrix: a device in a hand presses a probe into a block of tissue, holds it there, and leaves.
 struct HapticTrial {
   double mass_kg = 0.1, delay_s = 0;
   double young_modulus_pa = 1e4;
-  double rate_hz = 1000;  ///< of the servo; 0: forces once per tick, as they come
+  double rate_hz = 1000;   ///< of answers; 0: forces once per tick, as they come
+  double poses_hz = 1000;  ///< of its driver
+  HapticEvent event = HapticEvent::kNone;
 };
 
 /// What came of it.
@@ -24,8 +36,11 @@ struct HapticOutcome {
   double swing_n = 0, swing_mm = 0;  ///< half of peak to peak in the last part of the hold
   double least_energy_mj = 0;        ///< that the device's motors had taken in at any time; < 0: they gave
   double observed_mj = 0;            ///< the same as the observer has it
-  double free_n = 0;                 ///< largest force before the first touch and after the last, the hand moving
-  double share = 1;                  ///< of the stiffness that fast motion feels, at the end
+  /// What the force of a hold gives to a hand that leaves before the loop hears of it: force times speed times delay,
+  /// from a pose to the force that answers it. No loop that gives the simulator's force to a hand at rest can keep it.
+  double unheard_mj = 0;
+  double free_n = 0;  ///< largest force before the first touch and after the last, the hand moving
+  double share = 1;   ///< of the stiffness that fast motion feels, at the end
 };
 
 /// @throws what Session does

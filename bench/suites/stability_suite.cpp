@@ -233,6 +233,7 @@ void stabilitySuite(Report& report) {
                         {"fractions", fractionsOfStability},
                         {"measured", measuredOfStability},
                         {"tools", toolsOfStability},
+                        {"wounds", woundsOfStability},
                         {"places", placesOfStability},
                         {"extremes", extremesOfStability}});
 }

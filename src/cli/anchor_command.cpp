@@ -11,11 +11,9 @@
 namespace viscera::cli {
 
 int anchor(const RunOptions& options) {
-  Overrides overrides = meshOverrides(options.mesh);
-  overrides.insert(overrides.end(), options.overrides.begin(), options.overrides.end());
-  const Scene scene = loadScene(findScene(options.scene), overrides);
+  const Scene scene = sceneOf(options).scene;
   Strokes strokes = loadStrokes(options.strokes);
-  resolveAnchors(strokes, buildModel(scene, consoleProgress()));
+  resolveAnchors(strokes, buildModel(scene, consoleProgress()), scene.fit);
   std::ofstream file(options.out);
   file << strokesYaml(strokes);
   if (!file) throw Error(options.out + ": cannot be written");

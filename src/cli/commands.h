@@ -40,8 +40,9 @@ int settle(const RunOptions& options);
 struct SweepOptions {
   std::string plan;  ///< file (sweep_plan.h)
   std::string out;
-  int jobs = 0;   ///< sessions side by side; 0: as many as the machine has threads
-  int tries = 2;  ///< failures after which a run is given up
+  int jobs = 0;             ///< sessions side by side; 0: as many as the machine has threads
+  int tries = 2;            ///< failures after which a run is given up
+  int run_limit_s = 86400;  ///< a run that takes longer is killed, and has failed; 0: no limit
   bool retry = false;
   bool hdf5 = false;   ///< results.h5 beside results.csv
   int slurm = 0;       ///< > 0: submit a job array of so many workers instead
@@ -49,6 +50,9 @@ struct SweepOptions {
 };
 /// `viscera sweep`: many sessions, by any number of processes that share a folder. @return 1 if some were given up
 int sweep(const SweepOptions& options);
+
+/// `viscera fit`: a scene with another organ, as a file that one can edit.
+int fit(const RunOptions& options);
 
 /// `viscera anchor`: anchored strokes as absolute ones.
 int anchor(const RunOptions& options);

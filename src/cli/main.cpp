@@ -61,6 +61,11 @@ int dispatch(int argc, char** argv) {
   settle->add_option("scene", o.run.scene, "scene file, or name of a shipped scene")->required();
   settle->add_option("--mesh", o.run.mesh, "mesh file that becomes the first body");
   addOverrides(settle, o.run.overrides);
+  CLI::App* fit = app.add_subcommand("fit", "write a scene with another organ, which all in it follows, to edit");
+  fit->add_option("scene", o.run.scene, "scene file, or name of a shipped scene")->required();
+  fit->add_option("--mesh", o.run.mesh, "mesh file that becomes the first body")->required();
+  fit->add_option("--out", o.run.out, "scene file to write")->required();
+  addOverrides(fit, o.run.overrides);
   CLI::App* anchor = app.add_subcommand("anchor", "write strokes anchored to the skin as absolute ones");
   anchor->add_option("scene", o.run.scene, "scene file, or name of a shipped scene")->required();
   anchor->add_option("--strokes", o.run.strokes, "strokes file with anchors")->required();
@@ -76,6 +81,10 @@ int dispatch(int argc, char** argv) {
       ->check(CLI::Range(0, 1024));
   sweep->add_option("--tries", o.sweep.tries, "failures after which a run is given up; default 2")
       ->check(CLI::Range(1, 100));
+  sweep
+      ->add_option("--run-limit-s", o.sweep.run_limit_s,
+                   "seconds after which a run is killed and has failed; default 86400, a day; 0: never")
+      ->check(CLI::Range(0, 100'000'000));
   CLI::Option* slurm = sweep->add_option("--slurm", o.sweep.slurm, "submit a job array of so many workers to Slurm")
                            ->check(CLI::Range(1, 100000));
   sweep->add_option("--sbatch", o.sweep.sbatch, "more options for Slurm's sbatch, as in '--cpus-per-task=8 --time=60'")
@@ -91,6 +100,7 @@ int dispatch(int argc, char** argv) {
   if (const std::optional<int> ended = cli::parse(app, argc, argv)) return *ended;
   if (*check) return cli::check(o.device);
   if (*settle) return memoryFor("settling scene '" + o.run.scene + "'", [&] { return cli::settle(o.run); });
+  if (*fit) return memoryFor("fitting scene '" + o.run.scene + "'", [&] { return cli::fit(o.run); });
   if (*anchor) return memoryFor("anchoring in scene '" + o.run.scene + "'", [&] { return cli::anchor(o.run); });
   if (*sweep) return cli::sweep(o.sweep);
   if (*keys) {

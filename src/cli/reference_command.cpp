@@ -67,7 +67,7 @@ int runReference(const RunPlan& plan, bool compare) {
     for (const std::string& note : body.notes) std::cout << body.name << ": " << oneLine(note) << '\n';
   }
   Strokes strokes = plan.strokes;
-  resolveAnchors(strokes, model);
+  resolveAnchors(strokes, model, plan.scene.fit);
   const double tick_hz = plan.scene.solver.tick_hz;
   Tools tools(plan.scene.styluses, {waveSpeed(model) / tick_hz});
   Obstacles obstacles(plan.scene.obstacles, waveSpeed(model) / tick_hz);

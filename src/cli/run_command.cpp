@@ -82,9 +82,7 @@ Album::Pictures picturesOf(const RunOptions& options) {
 }  // namespace
 
 RunPlan planRun(const RunOptions& options) {
-  Overrides overrides = meshOverrides(options.mesh);
-  overrides.insert(overrides.end(), options.overrides.begin(), options.overrides.end());
-  RunPlan plan{loadScene(findScene(options.scene), overrides), {}, 0};
+  RunPlan plan{sceneOf(options).scene, {}, 0};
   if (!options.strokes.empty()) {
     plan.strokes = loadStrokes(options.strokes);
     requireStyluses(plan.strokes, plan.scene, options.strokes);
@@ -110,7 +108,7 @@ int run(const RunOptions& options) {
   const auto made =
       context ? std::make_unique<Session>(scene, *context, progress) : std::make_unique<Session>(scene, progress);
   Session& session = *made;
-  resolveAnchors(strokes, session.model());
+  resolveAnchors(strokes, session.model(), scene.fit);
   for (const Body& body : session.model().bodies) {
     for (const std::string& note : body.notes) std::cout << body.name << ": " << oneLine(note) << '\n';
   }

@@ -41,6 +41,10 @@ std::string findScene(const std::string& name) {
   throw SceneError("'" + name + "' is neither a file nor the name of a shipped scene");
 }
 
+FittedScene sceneOf(const RunOptions& options) {
+  return loadFittedScene(findScene(options.scene), meshOverrides(options.mesh), options.overrides);
+}
+
 Progress consoleProgress() {
   const bool terminal = isatty(STDERR_FILENO) != 0;
   return [terminal, stage = std::string(), shown = -1](const std::string& name, double fraction) mutable {

@@ -12,9 +12,7 @@
 namespace viscera::cli {
 
 int settle(const RunOptions& options) {
-  Overrides overrides = meshOverrides(options.mesh);
-  overrides.insert(overrides.end(), options.overrides.begin(), options.overrides.end());
-  const Scene scene = loadScene(findScene(options.scene), overrides);
+  const Scene scene = sceneOf(options).scene;
   const Model model = buildModel(scene, consoleProgress());
   SettleReport report;
   const HostState state = equilibriumOf(model, scene, report);

@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -15,6 +16,7 @@
 #include <iostream>
 #include <mutex>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <thread>
 
 #include "cli/commands.h"
@@ -43,28 +45,76 @@ std::string shellQuoted(const std::string& word) {
   return out + "'";
 }
 
-/// Runs a program to its end. It does not outlive the thread that calls. @param inherited  a file that it has open too
-/// @return its wait status
-int runToEnd(const std::string& program, const std::vector<std::string>& arguments, const std::string& out,
-             const std::string& err, int inherited) {
+/// A pipe that a program holds open while it runs.
+class LifeLine {
+ public:
+  LifeLine() {
+    if (pipe2(ends_, O_CLOEXEC) != 0) throw Error("a session cannot be started: no file is left");
+  }
+  ~LifeLine() {
+    close(ends_[0]);
+    letGo();
+  }
+  LifeLine(const LifeLine&) = delete;
+  LifeLine& operator=(const LifeLine&) = delete;
+  int held() const { return ends_[1]; }  ///< what the program inherits
+  /// From now on the program alone holds it.
+  void letGo() {
+    if (ends_[1] >= 0) close(ends_[1]);
+    ends_[1] = -1;
+  }
+  /// Waits for the program's end. @param limit_s  0: for ever   @return false: it has not ended by then
+  bool endsWithin(int limit_s) const {
+    using std::chrono::milliseconds;
+    constexpr milliseconds kLongestWait{3'600'000};  // of one call
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(limit_s);
+    for (;;) {
+      const auto left = std::chrono::ceil<milliseconds>(end - std::chrono::steady_clock::now());
+      if (limit_s > 0 && left.count() <= 0) return false;
+      pollfd closed{ends_[0], POLLIN, 0};
+      if (poll(&closed, 1, limit_s > 0 ? static_cast<int>(std::min(left, kLongestWait).count()) : -1) > 0) return true;
+    }
+  }
+
+ private:
+  int ends_[2];
+};
+
+/// Runs a program until it ends or its time is over. It does not outlive the thread that calls.
+/// @param inherited  a file that it has open too   @param limit_s  0: none
+/// @return its wait status; nothing: it was killed, as its time was over
+std::optional<int> runToEnd(const std::string& program, const std::vector<std::string>& arguments,
+                            const std::string& out, const std::string& err, int inherited, int limit_s) {
   std::vector<char*> argv = {const_cast<char*>(program.c_str())};
   for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
   argv.push_back(nullptr);
+  LifeLine life;
   const pid_t parent = getpid(), child = fork();
   if (child < 0) throw Error("a session cannot be started: no process is left");
   if (child == 0) {  // between fork and exec: system calls alone
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (getppid() != parent) _exit(127);
-    fcntl(inherited, F_SETFD, 0);
+    for (const int kept : {inherited, life.held()}) fcntl(kept, F_SETFD, 0);
     dup2(open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666), STDOUT_FILENO);
     dup2(open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666), STDERR_FILENO);
     execv(program.c_str(), argv.data());
     _exit(127);
   }
+  life.letGo();
+  const bool ended = life.endsWithin(limit_s);
+  if (!ended) kill(child, SIGKILL);
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
-  return status;
+  return ended ? std::optional<int>(status) : std::nullopt;
+}
+
+/// How a program ended that gave no result, as one says it. @param ended  of runToEnd()
+std::string howItFailed(const std::optional<int>& ended, int limit_s, const std::string& last_line) {
+  if (!ended) return "over its " + std::to_string(limit_s) + " s (--run-limit-s): killed";
+  return (WIFSIGNALED(*ended) ? "ended by signal " + std::to_string(WTERMSIG(*ended))
+                              : "exit status " + std::to_string(WEXITSTATUS(*ended))) +
+         ": " + last_line;
 }
 
 class Sweep {
@@ -119,18 +169,16 @@ class Sweep {
     if (options_.jobs > 1 && !plan_.sets("solver.threads"))
       arguments.insert(arguments.end(), {"--set", "solver.threads=1"});
     if (plan_.keep) arguments.insert(arguments.end(), {"--out", place + "/out"});
-    const int status = runToEnd(program_, arguments, place + "/output.txt", place + "/error.txt", claim.file());
+    const std::optional<int> ended =
+        runToEnd(program_, arguments, place + "/output.txt", place + "/error.txt", claim.file(), options_.run_limit_s);
     const std::string said = lastLine(place + "/output.txt");
-    const bool ended = WIFEXITED(status) && WEXITSTATUS(status) == 0;
-    if (ended && nlohmann::json::parse(said, nullptr, false).is_object()) {
+    const bool done = ended == 0 && nlohmann::json::parse(said, nullptr, false).is_object();
+    if (done)
       folder_.keepResult(run, said);
-    } else {
-      const std::string how = WIFSIGNALED(status) ? "ended by signal " + std::to_string(WTERMSIG(status))
-                                                  : "exit status " + std::to_string(WEXITSTATUS(status));
-      folder_.keepFailure(run, how + ": " + lastLine(place + "/error.txt"));
-    }
+    else
+      folder_.keepFailure(run, howItFailed(ended, options_.run_limit_s, lastLine(place + "/error.txt")));
     const std::lock_guard<std::mutex> lock(mutex_);
-    std::cerr << "run " << run << " of " << plan_.runs.size() << (ended ? " done\n" : " failed\n");
+    std::cerr << "run " << run << " of " << plan_.runs.size() << (done ? " done\n" : " failed\n");
   }
 
   const SweepOptions& options_;
@@ -152,8 +200,9 @@ void submit(const SweepOptions& options) {
   file << "#!/bin/sh\n#SBATCH --job-name=viscera\n#SBATCH --array=0-" << options.slurm - 1
        << "\n#SBATCH --requeue\n#SBATCH --output=" << std::filesystem::absolute(options.out).string()
        << "/slurm-%A_%a.txt\nexec " << shellQuoted(program) << " sweep " << absolute(options.plan) << " --out "
-       << absolute(options.out) << " --tries " << options.tries << " --jobs "
-       << (jobs.empty() ? "\"${SLURM_CPUS_PER_TASK:-1}\"" : jobs) << (options.hdf5 ? " --hdf5" : "") << "\n";
+       << absolute(options.out) << " --tries " << options.tries << " --run-limit-s " << options.run_limit_s
+       << " --jobs " << (jobs.empty() ? "\"${SLURM_CPUS_PER_TASK:-1}\"" : jobs) << (options.hdf5 ? " --hdf5" : "")
+       << "\n";
   file.close();
   if (!file) throw Error(script + ": cannot be written");
   const int status = std::system(("sbatch " + options.sbatch + " " + absolute(script)).c_str());

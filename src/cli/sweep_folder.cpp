@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <random>
 #include <sstream>
 #include <utility>
 
@@ -26,19 +27,51 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-/// What is written is written beside its place and moved there, so that nobody reads half of it.
-std::string draftOf(const std::string& path) {
-  return path + "." + std::to_string(getpid()) + ".draft";
-}
+/// What is written is written beside its place and moved there, so that nobody reads half of it. A draft has a name
+/// that nothing else has: processes of several hosts or containers that share a folder may have one number. What one
+/// leaves that is killed stays.
+class Draft {
+ public:
+  explicit Draft(const std::string& path) : path_(path) {
+    constexpr int kTries = 100;
+    char host[256] = "";
+    gethostname(host, sizeof host - 1);
+    std::random_device random;
+    for (int i = 0; i < kTries; ++i) {
+      name_ = path + "." + host + "." + std::to_string(getpid()) + "." + std::to_string(random()) + ".draft";
+      const int file = open(name_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+      if (file >= 0) {
+        close(file);
+        return;
+      }
+      if (errno != EEXIST) break;
+    }
+    throw Error(path + ": cannot be written, " + std::strerror(errno));
+  }
+  ~Draft() {
+    if (!name_.empty()) unlink(name_.c_str());
+  }
+  Draft(const Draft&) = delete;
+  Draft& operator=(const Draft&) = delete;
+  const std::string& name() const { return name_; }
+  void moveIntoPlace() {
+    std::error_code error;
+    fs::rename(name_, path_, error);
+    if (error) throw Error(path_ + ": cannot be written, " + error.message());
+    name_.clear();
+  }
+
+ private:
+  std::string path_, name_;
+};
 
 void writeWhole(const std::string& path, const std::string& text) {
-  const std::string draft = draftOf(path);
-  std::ofstream file(draft, std::ios::binary);
+  Draft draft(path);
+  std::ofstream file(draft.name(), std::ios::binary);
   file << text;
   file.close();
-  std::error_code error;
-  if (file) fs::rename(draft, path, error);
-  if (!file || error) throw Error(path + ": cannot be written");
+  if (!file) throw Error(path + ": cannot be written");
+  draft.moveIntoPlace();
 }
 
 std::string readWhole(const std::string& path) {
@@ -187,11 +220,9 @@ void SweepFolder::writeTables(bool hdf5) const {
   const SweepTable runs = table();
   writeWhole(folder_ + "/results.csv", csvText(runs));
   if (!hdf5) return;
-  const std::string path = folder_ + "/results.h5", draft = draftOf(path);
-  writeHdf5(runs, draft);
-  std::error_code error;
-  fs::rename(draft, path, error);
-  if (error) throw Error(path + ": cannot be written");
+  Draft draft(folder_ + "/results.h5");
+  writeHdf5(runs, draft.name());
+  draft.moveIntoPlace();
 }
 
 }  // namespace viscera::cli

@@ -13,25 +13,27 @@ DeviceMap::DeviceMap(const DeviceProfile& device)
   if (device.base.given) base_ = device.base.pose();
 }
 
-Pose DeviceMap::toBase(const Pose& device_pose) {
+DeviceMap::Place DeviceMap::placeOf(const Pose& device_pose) const {
   const Pose hand = Pose{axes_ * (unit_m_ * device_pose.position_m), turns_ * device_pose.orientation} * tip_;
   const Vector3d scaled_m = scale_ * hand.position_m;
-  if (clutched_) {
-    if (!held_m_) held_m_ = last_m_ ? *last_m_ : Vector3d(scaled_m + offset_m_);
-    offset_m_ = *held_m_ - scaled_m;
-  }
-  last_m_ = scaled_m + offset_m_;
-  return {*last_m_, hand.orientation};
+  if (clutched_ && last_m_) return {{*last_m_, hand.orientation}, *last_m_ - scaled_m};
+  return {{scaled_m + offset_m_, hand.orientation}, offset_m_};
+}
+
+void DeviceMap::accept(const Place& place) {
+  last_m_ = place.tip.position_m;
+  offset_m_ = place.offset_m;
+}
+
+Pose DeviceMap::toBase(const Pose& device_pose) {
+  const Place place = placeOf(device_pose);
+  accept(place);
+  return place.tip;
 }
 
 Pose DeviceMap::fromBase(const Pose& tip) const {
   const Pose hand = Pose{(tip.position_m - offset_m_) / scale_, tip.orientation} * tip_.inverse();
   return {axes_.conjugate() * hand.position_m / unit_m_, turns_.conjugate() * hand.orientation};
-}
-
-void DeviceMap::setClutch(bool pressed) {
-  clutched_ = pressed;
-  held_m_.reset();
 }
 
 }  // namespace viscera

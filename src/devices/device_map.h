@@ -16,12 +16,21 @@ class DeviceMap {
  public:
   explicit DeviceMap(const DeviceProfile& device);
 
-  /// The tip in the frame of the device's base. While the clutch is pressed it stays where it was, and turns.
+  /// What a pose of the device says, before it is known to be a good one.
+  struct Place {
+    Pose tip;                              ///< in the frame of the device's base
+    Vector3d offset_m = Vector3d::Zero();  ///< what clutching has added by then
+  };
+  /// While the clutch is pressed the tip stays where it was when a pose was accepted last, and turns.
+  Place placeOf(const Pose& device_pose) const;
+  /// The tool is there: from there a clutch goes on.
+  void accept(const Place& place);
+  /// The tip at a pose that is good: placeOf() and accept().
   Pose toBase(const Pose& device_pose);
   /// The device's pose that toBase() takes to this one.
   Pose fromBase(const Pose& tip) const;
   /// The hand moves and the tool does not from now on, or follows it again.
-  void setClutch(bool pressed);
+  void setClutch(bool pressed) { clutched_ = pressed; }
   bool clutched() const { return clutched_; }
   /// The place of the base in the tissue frame, where the profile knows it.
   const std::optional<Pose>& base() const { return base_; }
@@ -37,8 +46,7 @@ class DeviceMap {
   std::optional<Pose> base_;
   Vector3d offset_m_ = Vector3d::Zero();  ///< what clutching has added
   bool clutched_ = false;
-  std::optional<Vector3d> held_m_;  ///< where the tip is while the clutch is pressed
-  std::optional<Vector3d> last_m_;  ///< where it was last
+  std::optional<Vector3d> last_m_;  ///< where the tip was last
 };
 
 }  // namespace viscera

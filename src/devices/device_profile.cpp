@@ -152,7 +152,7 @@ DeviceProfile loadDevice(const std::string& path, const DeviceChoice& choice) {
 
 StylusConfig withDevice(StylusConfig stylus, const DeviceProfile& device) {
   stylus.max_force_n = std::min(stylus.max_force_n, device.force.max_force_n);
-  stylus.max_torque_nm = std::min(stylus.max_torque_nm, device.force.max_torque_nm);
+  stylus.max_torque_nm = hasTorque(device.force) ? std::min(stylus.max_torque_nm, device.force.max_torque_nm) : 0;
   if (device.stale_after_s > 0) stylus.stale_after_s = device.stale_after_s;
   return stylus;
 }

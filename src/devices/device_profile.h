@@ -53,8 +53,13 @@ struct ForcePort {
   std::string absolute_topic;  ///< of a latched std_msgs/Bool, true: wrenches are not in the frame of the tip
   std::string message = "geomagic_control/DeviceFeedback";  ///< name of ForceType::kGeomagicFeedback's message
   double scale = 1;
-  double max_force_n = 1000, max_torque_nm = 100;  ///< of what the device is made for; the scene may allow less
+  double max_force_n = 10, max_torque_nm = 0.5;  ///< of what the device is made for; the scene may allow less
 };
+
+/// A message of feedback is a force alone: its device has no torque, and no torque shrinks its force.
+inline bool hasTorque(const ForcePort& port) {
+  return port.type != ForceType::kOmniFeedback && port.type != ForceType::kGeomagicFeedback;
+}
 
 /// Of a tool that is driven as a CRTK arm.
 struct ArmConfig {

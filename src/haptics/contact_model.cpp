@@ -17,10 +17,10 @@ using Kind = TickContact::Kind;
 constexpr double kTellingMove_m = 5e-5;
 /// A force below this has no direction that can be trusted [N].
 constexpr double kLeastForce_n = 1e-9;
-/// What is learnt stays within these shares of what the tissue's constants say: a thin layer on bone is stiffer than a
-/// half space, a flap is softer.
 /// For so long a surface that was left is where it was [s].
 constexpr double kRemembered_s = 0.3;
+/// What is learnt stays within these shares of what the tissue's constants say: a thin layer on bone is stiffer than a
+/// half space, a flap is softer.
 constexpr double kSoftest = 0.3, kStiffest = 6;
 
 Vector3d directionOf(const Vector3d& v) {
@@ -75,6 +75,8 @@ Matrix3d ContactModel::learnt(const TickContact& contact, const Vector3d& at_m) 
 }
 
 void ContactModel::put(const TickContact& contact, double over_s, double now_s) {
+  before_ = mixed(now_s);
+  if (contact.anew) now_ = {};
   Affine next;
   next.kind = contact.kind;
   next.at_m = 0.5 * (contact.from_m + contact.to_m);
@@ -108,11 +110,12 @@ ContactModel::Affine ContactModel::leftBehind(const Vector3d& at_m, double now_s
 }
 
 void ContactModel::forget(double over_s, double now_s) {
+  before_ = mixed(now_s);
   goOver(Affine{}, over_s, now_s);
 }
 
+/// From before_.
 void ContactModel::goOver(const Affine& next, double over_s, double now_s) {
-  before_ = mixed(now_s);
   now_ = next;
   since_s_ = now_s;
   over_s_ = over_s;

@@ -21,8 +21,15 @@ constexpr double kJudged_m_per_s = 0.005;
 /// How fast stiffness is taken away while the loop feeds a swing, and comes back while it is free.
 constexpr double kSoftenTime_s = 0.02, kStiffenTime_s = 5;
 constexpr double kLeastShare = 0.1;
+/// Stiffness times delay, from a pose to the force that answers it, that fast motion may feel at all: what is more has
+/// swung before it is heard of [N s/m].
+constexpr double kBearable_n_s_per_m = 5;
 /// What is softened comes up to the whole force within some of these.
-constexpr double kCreepTime_s = 0.5;
+constexpr double kCreepTime_s = 0.5, kLongestCreep_s = 4;
+/// The time between poses is a mean of about so many.
+constexpr double kPosesLookedAt = 8;
+/// Ahead of the newest pose by no more than so many of the times between poses: one that does not come says nothing.
+constexpr double kMostPosesAhead = 1.5;
 /// Of what softened force there may be over the tissue's: it ends where the tissue's ends.
 constexpr double kMostOver = 1.5;
 
@@ -38,7 +45,8 @@ HapticServo::HapticServo(const HapticServoConfig& config)
     : config_(config),
       model_(config.tissue),
       passivity_({config.period_s, config.round_trip_s}),
-      lead_s_(0.5 * config.period_s + config.round_trip_s) {}
+      lead_s_(0.5 * config.period_s + config.round_trip_s),
+      between_poses_s_(config.period_s) {}
 
 void HapticServo::put(const TickContact& contact, double now_s) {
   model_.put(contact, config_.tick_s, now_s);
@@ -46,24 +54,38 @@ void HapticServo::put(const TickContact& contact, double now_s) {
 
 void HapticServo::forget(double now_s) {
   model_.forget(config_.tick_s, now_s);
-  placed_ = false;
+  leave();
 }
 
-/// The velocity goes on as it was until the next place is told: a device may be slower than the loop.
+void HapticServo::leave() {
+  passivity_.forget();
+  placed_ = false;
+  for (Vector3d* each : {&moved_m_, &acting_n_, &velocity_, &acceleration_, &mean_n_, &slow_n_}) each->setZero();
+  power_ = speed2_ = acceleration2_ = stored_j_ = 0;
+}
+
+/// The velocity goes on as it was until the next place is told: a device may be slower than the loop. What lies beyond
+/// a gap is no motion.
 void HapticServo::follow(const Vector3d& tip_m, double told_s) {
+  const Vector3d at_m = tip_m / config_.motion_scale;
   moved_m_.setZero();
-  acceleration_.setZero();
-  if (!placed_) velocity_.setZero();
   const double span_s = told_s - told_s_;
-  if (placed_ && span_s > 0) {
-    moved_m_ = tip_m - tip_m_;
-    const Vector3d change = (moved_m_ - span_s * velocity_) / (span_s + kVelocityTime_s);
-    velocity_ += change;
-    acceleration_ = change / span_s;
-  }
   if (placed_ && !(span_s > 0)) return;
+  const Vector3d way_m = at_m - at_m_;
+  const std::optional<Vector3d> acted_n =
+      placed_ ? passivity_.moved(way_m, told_s_, told_s) : std::optional<Vector3d>();
+  if (acted_n) {
+    moved_m_ = way_m;
+    acting_n_ = *acted_n;
+    const Vector3d change = (way_m - span_s * velocity_) / (span_s + kVelocityTime_s);
+    velocity_ += change;
+    acceleration_ = change / std::max(span_s, config_.period_s);
+    between_poses_s_ += (span_s - between_poses_s_) / kPosesLookedAt;
+  } else {
+    for (Vector3d* each : {&velocity_, &acceleration_, &acting_n_}) each->setZero();
+  }
   placed_ = true;
-  tip_m_ = tip_m;
+  at_m_ = at_m;
   told_s_ = told_s;
 }
 
@@ -72,43 +94,68 @@ void HapticServo::follow(const Vector3d& tip_m, double told_s) {
 /// damped: there what is stiff is made softer for a while.
 void HapticServo::judge() {
   const double dt = config_.period_s;
-  const Vector3d v = moved_m_ / dt;
-  const Vector3d& acting = passivity_.acting_n();
-  approach(mean_n_, acting, dt, kSwingTime_s);
-  approach(power_, -(acting - mean_n_).dot(v), dt, kLookTime_s);
+  approach(mean_n_, acting_n_, dt, kSwingTime_s);
+  approach(power_, -(acting_n_ - mean_n_).dot(moved_m_) / dt, dt, kLookTime_s);
   approach(speed2_, velocity_.squaredNorm(), dt, kLookTime_s);
   approach(acceleration2_, acceleration_.squaredNorm(), dt, kLookTime_s);
   const bool free = !(last_.force_n.squaredNorm() > 0);
   if (free) approach(share_, 1.0, dt, kStiffenTime_s);
   if (!(speed2_ > kJudged_m_per_s * kJudged_m_per_s)) return;
   const double omega2 = acceleration2_ / speed2_;
-  const double k = last_.stiffness_n_per_m.norm();
+  const double k = felt_n_per_m();
   const double allowed = kAllowed_n_s_per_m + k / (omega2 * kLookTime_s);
   if (power_ < -allowed * speed2_) share_ = std::max(share_ - dt / kSoftenTime_s * share_, kLeastShare);
 }
 
-/// The model's force, of which only a share follows fast motion.
+/// The model's force, of which only a share follows fast motion. Where the force has turned, nothing is left of the way
+/// that it had.
 Vector3d HapticServo::softened(const Vector3d& wanted_n) {
   const double size = wanted_n.norm();
   if (!(size > 0)) {
     slow_n_.setZero();
     return wanted_n;
   }
-  approach(slow_n_, wanted_n, config_.period_s, kCreepTime_s);
+  const double k = felt_n_per_m();
+  if (share_ * k * late_s() > kBearable_n_s_per_m) share_ = kBearable_n_s_per_m / (k * late_s());
+  // What creeps lags behind, which is negative damping of (1 - share) K / (omega^2 time): heavy devices swing slowly.
+  const double omega2 = speed2_ > 0 ? acceleration2_ / speed2_ : 0;
+  const double bearable_s = omega2 > 0 ? (1 - share_) * k / (omega2 * kAllowed_n_s_per_m) : 0;
+  approach(slow_n_, wanted_n, config_.period_s, std::clamp(bearable_s, kCreepTime_s, kLongestCreep_s));
+  const double along = slow_n_.dot(wanted_n) / (size * size);
+  if (along < 0) slow_n_ -= along * wanted_n;
   const Vector3d out = slow_n_ + share_ * (wanted_n - slow_n_);
   const double most = kMostOver * size, length = out.norm();
   return length > most ? Vector3d(most / length * out) : out;
 }
 
+/// At most, of the whole model.
+double HapticServo::felt_n_per_m() const {
+  return config_.motion_scale * config_.force_scale * last_.stiffness_n_per_m.norm();
+}
+
+double HapticServo::late_s() const {
+  return lead_s_ + between_poses_s_;
+}
+
 Reaction HapticServo::step(const Vector3d& tip_m, double told_s, double now_s) {
   follow(tip_m, told_s);
   judge();
-  last_ = model_.at(tip_m + lead_s_ * velocity_, now_s);
-  const Vector3d wanted = softened(last_.force_n);
+  const double age_s = std::min(now_s - told_s_, kMostPosesAhead * between_poses_s_);
+  last_ = model_.at(tip_m + (age_s + lead_s_) * config_.motion_scale * velocity_, now_s);
   const double force2 = last_.force_n.squaredNorm();
   const double k = force2 > 0 ? last_.force_n.dot(last_.stiffness_n_per_m * last_.force_n) / force2 : 0;
-  const double stored_j = k > 0 ? 0.5 * force2 / k : 0;
-  return {passivity_.step(moved_m_, velocity_, wanted, stored_j, share_), last_.torque_nm, false};
+  stored_j_ = k > 0 ? config_.force_scale / config_.motion_scale * 0.5 * force2 / k : 0;
+  return {softened(last_.force_n), last_.torque_nm, false};
+}
+
+Vector3d HapticServo::damped(const Vector3d& limited_n, double now_s) {
+  if (!(config_.force_scale > 0)) return limited_n;
+  // A damper that acts late shakes what is light: of mass m, behind t, no more than m / 2t. The swing tells m > K /
+  // omega^2.
+  const double least_kg = speed2_ > 0 && acceleration2_ > 0 ? share_ * felt_n_per_m() * speed2_ / acceleration2_ : 0;
+  const double sure = 0.5 * least_kg / late_s();
+  return passivity_.damped(velocity_, config_.force_scale * limited_n, stored_j_, told_s_, now_s, share_, sure) /
+         config_.force_scale;
 }
 
 }  // namespace viscera

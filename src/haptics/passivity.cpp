@@ -13,43 +13,72 @@ constexpr double kSlow_m_per_s = 0.01;
 /// What tissue stores is known by its stiffness at the last tick alone: with that of a sphere, which grows with depth,
 /// too low by a fifth.
 constexpr double kStoredMargin = 1.25;
+/// Forces per period: the answer, and what a limit lets through between two answers.
+constexpr double kForcesPerPeriod = 2;
 
 }  // namespace
 
+SentForces::SentForces(double span_s, double period_s)
+    : entries_(2 + static_cast<size_t>(std::ceil(kForcesPerPeriod * span_s / period_s))) {}
+
+void SentForces::add(const Vector3d& force_n, double now_s) {
+  Entry next{now_s, force_n, Vector3d::Zero()};
+  if (count_ > 0) next.sum_n_s = back(0).sum_n_s + (now_s - back(0).time_s) * back(0).force_n;
+  head_ = (head_ + 1) % entries_.size();
+  entries_[head_] = next;
+  count_ = std::min(count_ + 1, entries_.size());
+}
+
+std::optional<Vector3d> SentForces::sumAt(double time_s) const {
+  for (size_t i = 0; i < count_; ++i) {
+    const Entry& entry = back(i);
+    if (entry.time_s <= time_s) return entry.sum_n_s + (time_s - entry.time_s) * entry.force_n;
+  }
+  if (count_ == entries_.size()) return std::nullopt;
+  return Vector3d(Vector3d::Zero());  // before the first one there was none
+}
+
+std::optional<Vector3d> SentForces::between(double from_s, double to_s) const {
+  const std::optional<Vector3d> from = sumAt(from_s), to = sumAt(to_s);
+  if (!from || !to) return std::nullopt;
+  return Vector3d(*to - *from);
+}
+
 PassivityControl::PassivityControl(const PassivityLimits& limits)
-    : limits_(limits),
-      sent_n_(1 + static_cast<size_t>(std::lround(limits.round_trip_s / limits.period_s)), Vector3d::Zero()) {}
+    : limits_(limits), sent_(limits.round_trip_s + kLongestWay_s, limits.period_s) {}
 
-void PassivityControl::reset() {
-  std::fill(sent_n_.begin(), sent_n_.end(), Vector3d::Zero());
-  energy_j_ = least_j_ = budget_j_ = damping_ = 0;
+void PassivityControl::forget() {
+  sent_.clear();
+  budget_j_ = damping_ = 0;
 }
 
-/// What the forces that are on their way will give if the tip goes on as it does: work on the hand [J].
-double PassivityControl::underWay(const Vector3d& way_m) const {
-  double work_j = 0;
-  for (size_t i = 0; i < sent_n_.size(); ++i)
-    if (i != head_) work_j += sent_n_[i].dot(way_m);
-  return work_j;
-}
-
-Vector3d PassivityControl::step(const Vector3d& moved_m, const Vector3d& velocity, const Vector3d& wanted_n,
-                                double stored_j, double strength) {
-  const size_t oldest = (head_ + 1) % sent_n_.size();
-  const double given_j = -sent_n_[oldest].dot(moved_m);
+std::optional<Vector3d> PassivityControl::moved(const Vector3d& way_m, double from_s, double to_s) {
+  const std::optional<Vector3d> sum = sent_.between(from_s - limits_.round_trip_s, to_s - limits_.round_trip_s);
+  if (!sum) {
+    budget_j_ = 0;
+    return std::nullopt;
+  }
+  const Vector3d acted_n = *sum / (to_s - from_s);
+  const double given_j = -acted_n.dot(way_m);
   energy_j_ += given_j;
   least_j_ = std::min(least_j_, energy_j_);
-  budget_j_ = std::min(budget_j_ + given_j, kStoredMargin * stored_j + limits_.most_reserve_j);
-  head_ = oldest;
+  budget_j_ += given_j;
+  return acted_n;
+}
 
+Vector3d PassivityControl::damped(const Vector3d& velocity, const Vector3d& wanted_n, double stored_j, double told_s,
+                                  double now_s, double strength, double sure) {
   const double speed = velocity.norm(), stored = kStoredMargin * stored_j;
+  budget_j_ = std::min(budget_j_, stored + limits_.most_reserve_j);
   damping_ = 0;
   const double out_n = speed > 0 ? wanted_n.dot(velocity) / speed : 0;
-  const double left_j = std::max(budget_j_ - underWay(limits_.period_s * velocity), 0.0);
+  // What forces that are on their way will do to the hand if it goes on as it does.
+  const Vector3d under_way_n_s = sent_.between(told_s - limits_.round_trip_s, now_s).value_or(Vector3d::Zero());
+  const double left_j = std::max(budget_j_ - under_way_n_s.dot(velocity), 0.0);
   if (out_n > 0 && left_j < stored)
-    damping_ = strength * (1 - left_j / stored) * out_n * speed / (speed * speed + kSlow_m_per_s * kSlow_m_per_s);
-  sent_n_[head_] = wanted_n - damping_ * velocity;
-  return sent_n_[head_];
+    damping_ = (1 - left_j / stored) * out_n * speed / (speed * speed + kSlow_m_per_s * kSlow_m_per_s);
+  damping_ = std::max(strength * damping_, std::min(damping_, sure));
+  return wanted_n - damping_ * velocity;
 }
 
 }  // namespace viscera

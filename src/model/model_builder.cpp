@@ -136,6 +136,7 @@ Model buildModel(const Scene& scene, const Progress& progress) {
       throw LatticeError(file + "body '" + config.name + "': " + error.what());
     }
   }
+  if (scene.fit && !model.bodies.empty()) model.bodies[0].notes.push_back(scene.fit->text());
   if (!canMove(model))
     throw SceneError(file + "every node of the scene is fixed: nothing can move; make a 'fixed' region smaller");
   if (model.slots() > std::numeric_limits<uint32_t>::max()) {

@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
@@ -30,6 +31,8 @@ constexpr long kCrashWait_ns = 60'000'000;
 constexpr std::chrono::milliseconds kFarewell{200};
 
 int wake_pipe[2] = {-1, -1};  // what signal handlers can reach
+std::atomic_flag crashed = ATOMIC_FLAG_INIT;
+std::atomic<int> forced_status{EXIT_SUCCESS};
 
 void wake(char why) {
   const int saved = errno;
@@ -42,12 +45,18 @@ void onEnd(int) {
   wake(kEnd);
 }
 
-/// The default action was put back when this was called (SA_RESETHAND).
-void onCrash(int signal) {
-  wake(kCrash);
-  timespec left{0, kCrashWait_ns};
+void sleep(timespec left) {
   while (nanosleep(&left, &left) != 0 && errno == EINTR) {
   }
+}
+
+/// The first crash ends the process, once there was time for what is done before. Threads that crash meanwhile stand
+/// still, also the one of EndWatch: what it has begun, others may still finish.
+void onCrash(int signal) {
+  while (crashed.test_and_set()) sleep({1, 0});
+  wake(kCrash);
+  sleep({0, kCrashWait_ns});
+  std::signal(signal, SIG_DFL);
   raise(signal);
 }
 
@@ -73,9 +82,10 @@ void handle(int signal, void (*handler)(int), int flags) {
 EndWatch::EndWatch() {
   if (pipe2(wake_pipe, O_CLOEXEC) != 0) throw Error("no pipe for signals");
   fcntl(wake_pipe[1], F_SETFL, O_NONBLOCK);
+  CrashStack::give();
   thread_ = std::thread([this] { main(); });
   for (const int signal : kEndSignals) handle(signal, onEnd, SA_RESTART);
-  for (const int signal : kCrashSignals) handle(signal, onCrash, SA_RESETHAND);
+  for (const int signal : kCrashSignals) handle(signal, onCrash, SA_ONSTACK);
   ros::XMLRPCManager::instance()->unbind("shutdown");
   ros::XMLRPCManager::instance()->bind("shutdown", onMastersDemand);
 }
@@ -125,7 +135,12 @@ void EndWatch::main() {
 void EndWatch::endByForce() {
   std::thread([] { ros::shutdown(); }).detach();
   std::this_thread::sleep_for(kFarewell);
-  std::_Exit(EXIT_SUCCESS);
+  std::_Exit(forced_status);
+}
+
+void EndWatch::begin(int status) {
+  forced_status = status;
+  wake(kEnd);
 }
 
 bool EndWatch::waitFor(std::chrono::milliseconds limit) {

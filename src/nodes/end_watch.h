@@ -14,7 +14,8 @@ namespace viscera::nodes {
 /// How a process ends: by SIGINT, SIGTERM or SIGHUP, on the ROS master's demand (rosnode kill, a second node of the
 /// same name), by its own request, or by a crash. Whoever drives a device names here what must be done before, which
 /// happens at once, on a thread that nothing else uses. One per process, made before other threads and after
-/// ros::init() with NoSigintHandler, as roscpp's own handling would close the topics first.
+/// ros::init() with NoSigintHandler, as roscpp's own handling would close the topics first. It outlives
+/// ros::shutdown(), which waits for the master for ever.
 class EndWatch {
  public:
   /// What is done when the end begins, for as long as this object lives.
@@ -39,7 +40,10 @@ class EndWatch {
 
   /// Waits until the end has begun and what is done before is done; @returns whether it has.
   bool waitFor(std::chrono::milliseconds limit);
-  /// From a signal or a demand the process has this long; then it is ended, with status 0, whatever it is doing.
+  /// The end begins, at this process's own request; returns at once. @param status  of the process if it is ended by
+  /// force
+  static void begin(int status);
+  /// From a signal, a demand or a request the process has this long; then it is ended, whatever it is doing.
   static constexpr std::chrono::milliseconds kLimit{900};
 
  private:

@@ -11,7 +11,8 @@
 namespace viscera::nodes {
 
 /// A reaction as a device takes it: along its axes, about the origin of its poses, times its scale, and within what it
-/// is made for, whatever the scene's limits have become meanwhile; force and torque shrink by one factor.
+/// is made for, whatever the scene's limits have become meanwhile; force and torque shrink by one factor. No torque for
+/// one whose messages have none.
 /// @param reaction  on the tip, tissue frame: force, and torque about the tip
 Reaction toDevice(const Reaction& reaction, const DeviceFrame& frame, const ForcePort& port);
 
@@ -21,8 +22,8 @@ class ForceSink {
   ForceSink(ros::NodeHandle& node, const DeviceProfile& device);
 
   bool hasSubscribers() const { return publisher_ && publisher_.getNumSubscribers() > 0; }
-  /// @param reaction  as of toDevice(); not finite becomes zero
-  void send(const Reaction& reaction, const DeviceFrame& frame, const ros::Time& stamp);
+  /// @param reaction  as of toDevice(); not finite becomes zero   @returns what the device is told
+  Reaction send(const Reaction& reaction, const DeviceFrame& frame, const ros::Time& stamp);
 
  private:
   ForcePort port_;

@@ -21,6 +21,7 @@ FramePublisher::FramePublisher(ros::NodeHandle node, const Scene& scene, const P
   for (const CameraConfig& camera : scene.cameras)
     cameras_.push_back(std::make_unique<CameraPublisher>(node, camera, options.frame_prefix, scene.solver.tick_hz));
   image_latency_.resize(cameras_.size());
+  image_rates_.resize(cameras_.size());
   slots_ = emptySlots();
   broadcastStaticFrames(scene, options.frame_prefix);
   thread_ = std::thread([this] { main(); });
@@ -175,7 +176,7 @@ void FramePublisher::send(Slots&& slots) {
   if (slots.skin) surface_.start(slots.skin->value, slots.skin->stamp);
   if (slots.surface) {
     surface_.publish(*slots.surface->value, slots.surface->stamp);
-    noteLatency(surface_latency_, slots.surface->value->pose_received);
+    noteSent(surface_rate_, surface_latency_, slots.surface->value->pose_received);
   }
   surface_.publishDue();
   if (slots.scene) scene_markers_.publish(slots.scene->value, slots.scene->stamp);
@@ -185,7 +186,7 @@ void FramePublisher::send(Slots&& slots) {
     const bool timed = slots.images[i]->value.kind == PictureKind::kColor;
     const size_t camera = i / kPictureKinds;
     cameras_[camera]->publish(std::move(slots.images[i]->value), slots.images[i]->stamp);
-    if (timed) noteLatency(image_latency_[camera], pose_received);
+    if (timed) noteSent(image_rates_[camera], image_latency_[camera], pose_received);
   }
 }
 
@@ -194,16 +195,20 @@ bool FramePublisher::isViewed() const {
   return surface_.isWanted() || scene_markers_.isWanted() || std::any_of(cameras_.begin(), cameras_.end(), watched);
 }
 
-void FramePublisher::noteLatency(LatencyMeter& meter, SteadyTime pose_received) {
+void FramePublisher::noteSent(RateMeter& rate, LatencyMeter& latency, SteadyTime pose_received) {
   const std::lock_guard<std::mutex> lock(latency_mutex_);
-  meter.add(pose_received, std::chrono::steady_clock::now());
+  rate.add();
+  latency.add(pose_received, std::chrono::steady_clock::now());
 }
 
 FramePublisher::Latencies FramePublisher::takeLatencies() {
   const std::lock_guard<std::mutex> lock(latency_mutex_);
   Latencies out;
-  out.surface = surface_latency_.take();
-  for (LatencyMeter& meter : image_latency_) out.images.push_back(meter.take());
+  out.surface = surface_latency_.take().reading();
+  for (LatencyMeter& meter : image_latency_) out.images.push_back(meter.take().reading());
+  const auto now = std::chrono::steady_clock::now();
+  out.surface_rate_hz = surface_rate_.take(now);
+  for (RateMeter& meter : image_rates_) out.image_rates_hz.push_back(meter.take(now));
   return out;
 }
 

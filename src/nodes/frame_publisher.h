@@ -21,6 +21,7 @@
 #include "nodes/camera_publisher.h"
 #include "nodes/latency_meter.h"
 #include "nodes/publish_options.h"
+#include "nodes/rate_meter.h"
 #include "nodes/scene_marker_publisher.h"
 #include "nodes/surface_publisher.h"
 #include "nodes/throttle.h"
@@ -42,6 +43,8 @@ class FramePublisher {
   struct Latencies {
     LatencyMeter::Reading surface;
     std::vector<LatencyMeter::Reading> images;  ///< [cameras]
+    double surface_rate_hz = 0;                 ///< that they were sent, `surface_marker` and `surface` as one
+    std::vector<double> image_rates_hz;         ///< [cameras], of image_raw
   };
   Latencies takeLatencies();
   /// Somebody subscribes to the surface, to markers or to an image. From any thread.
@@ -81,7 +84,7 @@ class FramePublisher {
   void main();
   void sendUntilStopped();
   void send(Slots&& slots);
-  void noteLatency(LatencyMeter& meter, SteadyTime pose_received);
+  void noteSent(RateMeter& rate, LatencyMeter& latency, SteadyTime pose_received);
 
   tf2_ros::StaticTransformBroadcaster static_frames_;
   tf2_ros::TransformBroadcaster moving_frames_;
@@ -109,6 +112,8 @@ class FramePublisher {
   std::mutex latency_mutex_;
   std::vector<LatencyMeter> image_latency_;
   LatencyMeter surface_latency_;
+  std::vector<RateMeter> image_rates_;  ///< [cameras]
+  RateMeter surface_rate_;
 
   std::mutex mutex_;
   std::condition_variable filled_;

@@ -6,6 +6,7 @@
 #include <array>
 #include <chrono>
 #include <cstdint>
+#include <vector>
 
 #include "viscera/math/types.h"
 
@@ -32,22 +33,26 @@ class LatencyMeter {
     sum_s_ += delay_s;
     longest_s_ = std::max(longest_s_, delay_s);
   }
-  /// The poses since the last reading.
-  Reading take() {
-    Reading out;
-    if (count_) {
-      out.mean_s = sum_s_ / static_cast<double>(count_);
-      out.max_s = longest_s_;
-      const auto end = kept_.begin() + static_cast<std::ptrdiff_t>(std::min<uint64_t>(count_, kKept));
-      std::sort(kept_.begin(), end);
-      const auto at = [&](double share) {
-        return kept_[static_cast<size_t>(share * static_cast<double>(end - kept_.begin() - 1))];
-      };
-      out.p50_s = at(0.5);
-      out.p99_s = at(0.99);
-    }
+  /// The poses since they were last taken: a copy, to be read where nobody waits for it.
+  LatencyMeter take() {
+    const LatencyMeter out = *this;
     count_ = 0;
     sum_s_ = longest_s_ = 0;
+    return out;
+  }
+  Reading reading() const {
+    if (count_ == 0) return {};
+    Reading out;
+    out.mean_s = sum_s_ / static_cast<double>(count_);
+    out.max_s = longest_s_;
+    std::vector<float> sorted(kept_.begin(),
+                              kept_.begin() + static_cast<std::ptrdiff_t>(std::min<uint64_t>(count_, kKept)));
+    std::sort(sorted.begin(), sorted.end());
+    const auto at = [&](double share) {
+      return sorted[static_cast<size_t>(share * static_cast<double>(sorted.size() - 1))];
+    };
+    out.p50_s = at(0.5);
+    out.p99_s = at(0.99);
     return out;
   }
 

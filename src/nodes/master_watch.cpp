@@ -4,6 +4,7 @@
 
 #include <netdb.h>
 #include <poll.h>
+#include <ros/console.h>
 #include <ros/master.h>
 #include <ros/this_node.h>
 #include <sys/socket.h>
@@ -11,13 +12,23 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
+#include <condition_variable>
+#include <cstdlib>
+#include <mutex>
 #include <string>
+
+#include "nodes/end_watch.h"
+#include "nodes/thread_name.h"
 
 namespace viscera::nodes {
 namespace {
 
-constexpr std::chrono::seconds kPeriod{1};
-constexpr std::chrono::seconds kPatience{5};  ///< a busy master may miss a question or two
+using Clock = std::chrono::steady_clock;
+constexpr std::chrono::seconds kPeriod{1};             ///< between questions
+constexpr std::chrono::milliseconds kLook{20};         ///< how soon it is seen that nobody looks any more
+constexpr std::chrono::seconds kPatience{5};           ///< a busy master may miss a question or two
+constexpr std::chrono::milliseconds kLastAnswer{100};  ///< of a master that answers at all
 constexpr timeval kConnectLimit{1, 0};
 
 bool masterKnowsThisNode() {
@@ -51,22 +62,67 @@ bool MasterLine::open() {
   return socket_ >= 0;
 }
 
-bool MasterLine::broken() {
-  if (socket_ < 0) return false;
+bool MasterLine::broken(std::chrono::milliseconds limit) {
   pollfd at{socket_, POLLIN, 0};
-  if (poll(&at, 1, 0) <= 0) return false;
+  if (poll(&at, socket_ < 0 ? 0 : 1, static_cast<int>(limit.count())) <= 0) return false;
   char said;
   const ssize_t got = recv(socket_, &said, 1, MSG_DONTWAIT);
   return got == 0 || (got < 0 && errno != EAGAIN && errno != EINTR);
 }
 
-bool MasterWatch::check() {
-  const Clock::time_point now = Clock::now();
-  if (line_.broken()) return line_.open() && masterKnowsThisNode();
-  if (now - asked_ < kPeriod) return true;
-  asked_ = now;
-  if (masterKnowsThisNode()) known_ = now;
-  return now - known_ < kPatience;
+MasterLost::MasterLost()
+    : Error("the ROS master is lost, or was restarted and does not know this node: start the node again") {
+  EndWatch::begin(EXIT_FAILURE);
+  ROS_FATAL("%s", what());  // now: topics are unregistered before main() knows, and a master that hangs forbids that
+}
+
+struct MasterWatch::Shared {
+  std::mutex mutex;
+  std::condition_variable changed;
+  bool stop = false, ended = false;
+  bool lost = false;
+  Clock::time_point known = Clock::now();  ///< when the master has last known this node
+};
+
+MasterWatch::MasterWatch() : shared_(std::make_shared<Shared>()), thread_([shared = shared_] { ask(shared); }) {}
+
+MasterWatch::~MasterWatch() {
+  std::unique_lock<std::mutex> lock(shared_->mutex);
+  shared_->stop = true;
+  const bool ended = shared_->changed.wait_for(lock, kLastAnswer, [this] { return shared_->ended; });
+  lock.unlock();
+  if (ended)
+    thread_.join();
+  else
+    thread_.detach();
+}
+
+void MasterWatch::ask(const std::shared_ptr<Shared>& shared) {
+  nameThread("master_watch");
+  MasterLine line;
+  line.open();
+  Clock::time_point asked{};
+  std::unique_lock<std::mutex> lock(shared->mutex);
+  while (!shared->stop && !shared->lost) {
+    lock.unlock();
+    const bool broken = line.broken(kLook);
+    bool known = false, lost = false;
+    if (broken || Clock::now() - asked >= kPeriod) {
+      asked = Clock::now();
+      known = (!broken || line.open()) && masterKnowsThisNode();
+      lost = broken && !known;
+    }
+    lock.lock();
+    if (known) shared->known = Clock::now();
+    shared->lost = lost;
+  }
+  shared->ended = true;
+  shared->changed.notify_all();
+}
+
+bool MasterWatch::check() const {
+  const std::lock_guard<std::mutex> lock(shared_->mutex);
+  return !shared_->lost && Clock::now() - shared_->known < kPatience;
 }
 
 }  // namespace viscera::nodes

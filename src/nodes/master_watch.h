@@ -3,6 +3,10 @@
 #pragma once
 
 #include <chrono>
+#include <memory>
+#include <thread>
+
+#include "viscera/math/error.h"
 
 namespace viscera::nodes {
 
@@ -15,27 +19,43 @@ class MasterLine {
   MasterLine(const MasterLine&) = delete;
   MasterLine& operator=(const MasterLine&) = delete;
 
-  bool open();    ///< @returns false: nobody listens there
-  bool broken();  ///< it was open, and the other side has closed it
+  bool open();  ///< @returns false: nobody listens there
+  /// Waits so long at most. @returns whether it was open, and the other side has closed it
+  bool broken(std::chrono::milliseconds limit);
 
  private:
   void close();
   int socket_ = -1;
 };
 
-/// Notices that the ROS master is gone, or was restarted and no longer knows this node. roscpp never registers again,
-/// so that a node would go on unseen for ever.
+/// The ROS master is gone. The log has said so, and the end of the process has begun.
+struct MasterLost : Error {
+  MasterLost();
+};
+
+/// Notices that the ROS master is gone, was restarted and no longer knows this node, or does not answer. roscpp never
+/// registers again, so that a node would go on unseen for ever. The master is asked once a second, and at once when the
+/// connection to it ends, by a thread of its own: roscpp waits for an answer without limit.
 class MasterWatch {
  public:
-  MasterWatch() { line_.open(); }
-  /// Asks the master, once a second at most, and at once when the connection to it ends.
-  /// @return false once it is gone, or has not known this node for some seconds
-  bool check();
+  MasterWatch();
+  ~MasterWatch();  ///< does not wait for an answer
+  MasterWatch(const MasterWatch&) = delete;
+  MasterWatch& operator=(const MasterWatch&) = delete;
+
+  /// Does not wait for an answer either.
+  /// @return false once it is gone, or has not known this node or not answered for some seconds
+  bool check() const;
+  /// @throws MasterLost  where check() says false
+  void require() const {
+    if (!check()) throw MasterLost();
+  }
 
  private:
-  using Clock = std::chrono::steady_clock;
-  MasterLine line_;
-  Clock::time_point asked_{}, known_ = Clock::now();
+  struct Shared;
+  static void ask(const std::shared_ptr<Shared>& shared);
+  const std::shared_ptr<Shared> shared_;  ///< with a thread whose question may outlive this
+  std::thread thread_;
 };
 
 }  // namespace viscera::nodes

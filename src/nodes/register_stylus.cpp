@@ -103,7 +103,7 @@ void RegisterStylus::run() {
              options_.file.c_str());
   ROS_INFO("%s", next().c_str());
   while (ros::ok()) {
-    if (!master_.check()) throw Error("the ROS master is lost: start the node again");
+    master_.require();
     if (!options_.tf_frame.empty()) lookAtTf();
     {
       const std::lock_guard<std::mutex> lock(mutex_);

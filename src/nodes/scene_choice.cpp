@@ -6,6 +6,9 @@
 #include <set>
 #include <sstream>
 
+#include "model/shape/file_bounds.h"
+#include "viscera/model/fitted_scene.h"
+
 namespace viscera::nodes {
 namespace {
 
@@ -31,6 +34,7 @@ Overrides meshChoice(Parameters& parameters) {
     return {};
   }
   const fs::path path = fs::absolute(mesh);
+  requireWithinBounds(path.string());
   if (!fs::is_regular_file(path))
     throw ParameterError("parameter ~mesh: no file " + path.string() + "; give an absolute path");
   Overrides overrides = meshOverrides(path.string());
@@ -51,22 +55,28 @@ std::string framePrefix(Parameters& parameters) {
 
 }  // namespace
 
-std::string namedFile(const std::string& key, const std::string& value, const std::string& folder) {
+std::string namedPath(const std::string& value, const std::string& folder) {
   const bool is_path = value.find('/') != std::string::npos || fs::path(value).extension() == ".yaml";
-  const fs::path path = is_path ? fs::absolute(value) : fs::path(folder) / (value + ".yaml");
+  return is_path ? fs::absolute(value).string() : (fs::path(folder) / (value + ".yaml")).string();
+}
+
+std::string namedFile(const std::string& key, const std::string& value, const std::string& folder) {
+  const fs::path path = namedPath(value, folder);
   if (fs::is_regular_file(path)) return path.string();
   throw ParameterError("parameter ~" + key + ": no file " + path.string() + "; give an absolute path or one of" +
                        namesIn(folder));
 }
 
 SceneChoice SceneChoice::read(Parameters& parameters, const std::string& fallback) {
-  SceneChoice choice{parameters.text("scene", fallback), meshChoice(parameters), framePrefix(parameters)};
+  SceneChoice choice{parameters.text("scene", fallback), meshChoice(parameters), {}, framePrefix(parameters)};
   for (const std::string& item : parameters.texts("overrides")) choice.overrides.push_back(item);
   return choice;
 }
 
 Scene SceneChoice::load(const std::string& package_folder) const {
-  Scene out = loadScene(namedFile("scene", scene, package_folder + "/config/scenes"), overrides);
+  const std::string folder = package_folder + "/config/scenes";
+  requireWithinBounds(namedPath(scene, folder));  // or an error would tell what is there
+  Scene out = loadFittedScene(namedFile("scene", scene, folder), mesh, overrides).scene;
   out.environment.tissue_frame = frame_prefix + out.environment.tissue_frame;
   return out;
 }

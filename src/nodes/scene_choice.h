@@ -12,13 +12,15 @@ namespace viscera::nodes {
 /// The scene that private parameters choose: ~scene, ~mesh, ~mesh_unit_m, ~overrides and ~frame_prefix.
 struct SceneChoice {
   std::string scene;         ///< name or path; empty: none
-  Overrides overrides;       ///< those that ~mesh stands for, then those of ~overrides
+  Overrides mesh;            ///< overrides that ~mesh stands for; none without
+  Overrides overrides;       ///< those of ~overrides
   std::string frame_prefix;  ///< of the frames that the simulator sends, for one of several on a master
 
-  /// @param fallback  where ~scene is absent   @throws ParameterError
+  /// @param fallback  where ~scene is absent   @throws ParameterError, FileBoundError
   static SceneChoice read(Parameters& parameters, const std::string& fallback);
-  /// The scene, with the prefix before its tissue frame.
-  /// @param package_folder  where config/scenes/<name>.yaml are looked up   @throws ParameterError, SceneError
+  /// The scene, fitted to the mesh (fitted_scene.h), with the prefix before its tissue frame.
+  /// @param package_folder  where config/scenes/<name>.yaml are looked up
+  /// @throws ParameterError, SceneError, FileBoundError
   Scene load(const std::string& package_folder) const;
 };
 

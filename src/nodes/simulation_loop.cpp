@@ -6,8 +6,8 @@
 #include <iterator>
 #include <utility>
 
+#include "haptics/wrench_schedule.h"
 #include "nodes/thread_name.h"
-#include "nodes/wrench_schedule.h"
 #include "viscera/gpu/context.h"
 #include "viscera/math/error.h"
 #include "viscera/math/state_hash.h"
@@ -154,6 +154,7 @@ void SimulationLoop::forgetHands(Session& session) {
 CommandAnswer SimulationLoop::execute(const Command& command, Session& session) {
   switch (command.kind) {
     case Command::Kind::kReset:
+      ports_.rest();  // before what takes time, here and below: a picture of the state at rest, too
       session.reset();
       forgetHands(session);
       unseen_ = true;
@@ -161,6 +162,7 @@ CommandAnswer SimulationLoop::execute(const Command& command, Session& session) 
     case Command::Kind::kPause:
       if (paused_) return answer(false, "already paused", session);
       paused_ = true;
+      ports_.rest();
       forgetHands(session);
       return answer(true, "paused", session);
     case Command::Kind::kResume:

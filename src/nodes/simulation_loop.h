@@ -51,6 +51,7 @@ struct LoopPorts {
   /// What is wanted of a state that stands still. @param changed  others than newcomers have not seen it either
   /// @param aimed  nor has anybody the pictures of some camera, which has moved
   std::function<Wants(bool changed, bool aimed)> stills;
+  std::function<void()> rest;    ///< no forces, at once, until a tick is delivered that is live
   std::function<void()> forget;  ///< hands were not followed, or will not be: what devices said before is void
   std::function<void()> failed;  ///< an error has ended the thread
 };

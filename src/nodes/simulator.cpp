@@ -6,6 +6,7 @@
 #include <ros/spinner.h>
 
 #include <algorithm>
+#include <optional>
 #include <thread>
 
 #include "nodes/clock_watch.h"
@@ -14,7 +15,7 @@
 namespace viscera::nodes {
 namespace {
 
-constexpr std::chrono::milliseconds kWatchPeriod{20};  ///< how soon a lost master is seen
+constexpr std::chrono::milliseconds kWatchPeriod{10};  ///< how soon a lost master is seen
 constexpr double kWarnPeriod_s = 5;
 /// However short the ticks are: other work on the machine may hold a thread up for so long.
 constexpr double kShortestStall_s = 0.015;
@@ -116,6 +117,7 @@ LoopPorts Simulator::ports() {
   ports.deliver = [this](Frame&& frame, const StylusSamples& samples, bool live) {
     deliver(std::move(frame), samples, live);
   };
+  ports.rest = [this] { wrenches_.rest(); };
   ports.forget = [this] {
     for (const auto& input : inputs_) input->mailbox().forgetButtons();
   };
@@ -194,9 +196,11 @@ void Simulator::run() {
     clock.check();
   }
   wrenches_.release();
+  std::optional<MasterLost> lost;
+  if (!known) lost.emplace();
   loop_.stop();
   if (failed()) std::rethrow_exception(error_);
-  if (!known) throw Error("the ROS master is lost, or was restarted and does not know this node: start the node again");
+  if (lost) throw *lost;
 }
 
 }  // namespace viscera::nodes

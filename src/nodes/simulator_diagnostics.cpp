@@ -133,6 +133,8 @@ void SimulatorDiagnostics::pace(Status& status) {
   status.add("stalls", publishers_.wrenches.stalls());
   const std::string scheduling = publishers_.wrenches.scheduling();
   status.add("haptic_scheduling", scheduling.empty() ? "none" : scheduling);
+  status.add("surface_rate_hz", latencies_.surface_rate_hz);
+  for (size_t i = 0; i < cameras_.size(); ++i) status.add("image_rate_hz_" + cameras_[i], latencies_.image_rates_hz[i]);
 }
 
 void SimulatorDiagnostics::latency(Status& status) {
@@ -193,7 +195,7 @@ void SimulatorDiagnostics::stylus(size_t index, Status& status) {
   for (size_t i = 0; i < kDropReasons; ++i)
     status.add(std::string("dropped_") + text(static_cast<Drop>(i)), in.dropped[i]);
   if (index < felt_.size()) {
-    const HapticLoop::Felt& felt = felt_[index];
+    const ForceLoop::Felt& felt = felt_[index];
     const uint64_t before = index < felt_before_.size() ? felt_before_[index].answers : 0;
     status.add("haptic_answers", felt.answers);
     status.add("haptic_rate_hz", static_cast<double>(felt.answers - before) / kPeriod_s);

@@ -59,7 +59,7 @@ class SimulatorDiagnostics {
   std::optional<LoopStatus> now_;
   FramePublisher::Latencies latencies_;
   std::vector<LatencyMeter::Reading> force_latencies_;  ///< [styluses]
-  std::vector<HapticLoop::Felt> felt_, felt_before_;    ///< [styluses]
+  std::vector<ForceLoop::Felt> felt_, felt_before_;     ///< [styluses]
   std::vector<uint64_t> dropped_before_;
   diagnostic_updater::Updater updater_;
   ros::SteadyTimer timer_;

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "nodes/master_watch.h"
 #include "nodes/node_main.h"
 #include "nodes/relaunch.h"
 #include "nodes/scene_switch.h"
@@ -22,6 +23,8 @@ void runScenes(SimulatorOptions options, const std::string& package_folder, EndW
   for (;;) {
     try {
       Simulator(options, end, scenes).run();
+    } catch (const MasterLost&) {
+      throw;
     } catch (const std::exception& error) {
       if (!scenes.goBack(oneLine(error.what()))) throw;
     }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/simulator_options.h"
 
+#include "model/shape/file_bounds.h"
 #include "nodes/scene_choice.h"
 
 namespace viscera::nodes {
@@ -19,10 +20,17 @@ HapticOptions hapticOptions(Parameters& parameters) {
   return options;
 }
 
+/// To folders and what comes with the package; to none where there are no folders.
+void bindFiles(std::vector<std::string> folders, const std::string& package_folder) {
+  if (!folders.empty()) folders.push_back(package_folder + "/config");
+  bindFilesTo(folders, "parameter ~scene_folders");
+}
+
 }  // namespace
 
 SimulatorOptions simulatorOptions(Parameters& parameters, const std::string& package_folder) {
   SimulatorOptions options;
+  bindFiles(parameters.texts("scene_folders"), package_folder);
   const SceneChoice choice = SceneChoice::read(parameters, "heart");
   PublishOptions& publish = options.publish;
   publish.surface_rate_hz =

@@ -7,7 +7,7 @@
 
 #include "devices/device_profile.h"
 #include "nodes/device_choice.h"
-#include "nodes/haptic_loop.h"
+#include "nodes/haptic_options.h"
 #include "nodes/parameters.h"
 #include "nodes/publish_options.h"
 #include "viscera/model/scene/scene.h"
@@ -30,8 +30,9 @@ struct SimulatorOptions {
   void take(const Scene& another, const std::string& package_folder);
 };
 
+/// Binds this process to the files of ~scene_folders, if there are any.
 /// @param package_folder  where config/scenes/<name>.yaml and config/devices/<name>.yaml are looked up
-/// @throws ParameterError, SceneError, DeviceError
+/// @throws ParameterError, SceneError, DeviceError, FileBoundError
 SimulatorOptions simulatorOptions(Parameters& parameters, const std::string& package_folder);
 
 }  // namespace viscera::nodes

@@ -135,6 +135,8 @@ void SimulatorSettings::addStylus(size_t stylus, const StylusConfig& config) {
   ros::NodeHandle node("~" + config.name);
   node.setCallbackQueue(&queue_);
   std::vector<Setting> settings = limitsOf(styluses_[stylus]).settings;
+  // Who reaches the master may make forces smaller: the scene and the device's profile say what the hand can take.
+  for (Setting& setting : settings) setting.max = setting.number;
   const ToolMode modes[] = {config.idle, config.button1, config.button2};
   for (size_t i = 0; i < 3; ++i) settings.push_back(modeSetting(kSwitches[i], modes[i]));
   stylus_servers_.push_back(

@@ -8,6 +8,7 @@
 
 #include "nodes/clock_watch.h"
 #include "nodes/master_watch.h"
+#include "nodes/stylus_check.h"
 
 namespace viscera::nodes {
 namespace {
@@ -40,10 +41,13 @@ void playSteadily(const SteeringOptions& options, DevicePublisher& device,
   const auto period = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1 / options.rate_hz));
   MasterWatch master;
   ClockWatch clock;
+  ros::NodeHandle node;
+  StylusCheck known(node, options.stylus);
   Clock::time_point before = Clock::now(), due = before;
   while (ros::ok()) {
-    if (!master.check()) throw Error("the ROS master is lost: start the node again");
+    master.require();
     clock.check();
+    known.require();
     const Clock::time_point now = Clock::now();
     const double dt_s = std::min(std::chrono::duration<double>(now - before).count(), kLongestStepS);
     before = now;

@@ -28,7 +28,7 @@ struct SteeringOptions {
 /// Publishes, at a steady rate of the steady clock, what `next` answers; nothing where that is not valid. Until ROS
 /// shuts down.
 /// @param next  what the stylus does after another step [s]
-/// @throws Error  if the master is lost
+/// @throws Error  if the master is lost, or the simulators' scenes have no such stylus
 void playSteadily(const SteeringOptions& options, DevicePublisher& device,
                   const std::function<StylusSample(double dt_s)>& next);
 

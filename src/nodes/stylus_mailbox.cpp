@@ -13,8 +13,13 @@ namespace {
 
 /// Joy messages of a driver that repeats them come within this of its first pose.
 constexpr std::chrono::milliseconds kFirstButtons{250};
-/// Between two poses nothing that stands in a room moves so far; a base that was put elsewhere did.
+/// Between two poses nothing that stands in a room moves a tip so far; a base that was put elsewhere did.
 constexpr double kBaseLeap_m = 0.005;
+/// Nor turns it so far: the far end of a blade of 5 cm moves by kBaseLeap_m then.
+constexpr double kBaseTurn_rad = 0.1;
+/// Share of time by which clocks go apart at most: kernels correct their rate by no more. The queue of a driver that is
+/// too slow grows faster.
+constexpr double kClockDrift = 500e-6;
 /// A device that was silent for so long may come back with another clock.
 constexpr std::chrono::seconds kNewClock{5};
 
@@ -43,7 +48,7 @@ StylusMailbox::StylusMailbox(const StylusConfig& config, const std::string& tiss
 }
 
 std::optional<Drop> StylusMailbox::drop(Drop reason) {
-  const std::lock_guard<std::mutex> lock(mutex_);
+  const std::lock_guard<PriorityMutex> lock(mutex_);
   ++status_.dropped[static_cast<size_t>(reason)];
   return reason;
 }
@@ -62,35 +67,41 @@ std::optional<Drop> StylusMailbox::put(const DevicePose& said, const FrameLookup
                                                     : lookup(frame);
   if (!place.in_tissue) return drop(place.too_old ? Drop::kOldTransform : Drop::kNoTransform);
 
-  const std::lock_guard<std::mutex> lock(mutex_);
+  const std::lock_guard<PriorityMutex> lock(mutex_);
   const auto refuse = [this](Drop reason) {
     ++status_.dropped[static_cast<size_t>(reason)];
     return reason;
   };
-  const Pose in_tissue = *place.in_tissue * map_.toBase(in_device);
+  const DeviceMap::Place in_base = map_.placeOf(in_device);
+  const Pose in_tissue = *place.in_tissue * in_base.tip;
   if (!isFinite(in_tissue)) return refuse(Drop::kNotFinite);
   if (!(in_tissue.position_m.norm() <= config_.workspace_m)) return refuse(Drop::kOutsideWorkspace);
   if (const std::optional<Drop> late = checkStamp(said.stamp, now)) return refuse(*late);
-  notePlace(frame, *place.in_tissue);
+  notePlace(frame, *place.in_tissue, in_base.tip);
+  map_.accept(in_base);
   noteStamp(said.stamp, now);
   pose_ = in_tissue;
   pose_.orientation.normalize();
   const Quaterniond axes = map_.axesFromBase();
-  device_frame_ = {frame, axes * place.in_tissue->orientation.conjugate(), axes * map_.leverArm(in_device),
-                   in_device.position_m};
+  device_frame_.name = frame;
+  device_frame_.from_tissue = axes * place.in_tissue->orientation.conjugate();
+  device_frame_.lever_arm_m = axes * map_.leverArm(in_device);
+  device_frame_.position = in_device.position_m;
   status_.seen = true;
   ++status_.accepted;
   return std::nullopt;
 }
 
-/// The hand did not sweep through the tissue when somebody moved the table.
-void StylusMailbox::notePlace(const std::string& frame, const Pose& base) {
-  const bool leapt =
-      status_.seen && frame == device_frame_.name && (base.position_m - base_.position_m).norm() > kBaseLeap_m;
+/// The hand did not sweep through the tissue when somebody moved or turned the table.
+/// @param tip  in the frame of the base
+void StylusMailbox::notePlace(const std::string& frame, const Pose& base, const Pose& tip) {
+  const bool known = status_.seen && frame == device_frame_.name;
+  const bool leapt = known && ((base * tip.position_m - base_ * tip.position_m).norm() > kBaseLeap_m ||
+                               base.orientation.angularDistance(base_.orientation) > kBaseTurn_rad);
   base_ = base;
   if (!leapt) return;
   endButtons();
-  appears_anew_ = true;
+  anew_ = Anew::kToTell;
   ++status_.base_moves;
 }
 
@@ -104,8 +115,13 @@ std::optional<Drop> StylusMailbox::checkStamp(const ros::Time& stamp, const Arri
     return hangs ? std::optional<Drop>(Drop::kRepeatedStamp) : std::nullopt;
   }
   const bool clock_set_anew = stamp < stamp_ || now.steady - received_ > kNewClock;
-  const bool late = delay_s(stamp, now) - swiftest_s_ > config_.stale_after_s;
+  const bool late = delay_s(stamp, now) - swiftest_s(now.steady) > config_.stale_after_s;
   return late && !clock_set_anew ? std::optional<Drop>(Drop::kDelayed) : std::nullopt;
+}
+
+/// It creeps up: a device's clock that goes slow makes every way longer by and by.
+double StylusMailbox::swiftest_s(SteadyTime now) const {
+  return swiftest_s_ + kClockDrift * std::chrono::duration<double>(now - swiftest_came_).count();
 }
 
 void StylusMailbox::noteStamp(const ros::Time& stamp, const Arrival& now) {
@@ -116,7 +132,10 @@ void StylusMailbox::noteStamp(const ros::Time& stamp, const Arrival& now) {
   const bool repeated = status_.seen && stamp == stamp_;
   if (repeated && now.ros != stamp_came_) return;  // may be a driver that hangs: it grows stale
   const bool new_clock = !status_.seen || stamp < stamp_ || now.steady - received_ > kNewClock;
-  swiftest_s_ = new_clock ? delay_s(stamp, now) : std::min(swiftest_s_, delay_s(stamp, now));
+  if (new_clock || delay_s(stamp, now) <= swiftest_s(now.steady)) {
+    swiftest_s_ = delay_s(stamp, now);
+    swiftest_came_ = now.steady;
+  }
   stamp_ = stamp;
   stamp_came_ = now.ros;
   received_ = now.steady;
@@ -127,7 +146,7 @@ std::optional<Drop> StylusMailbox::press(ButtonRole role, const std::vector<int3
   if (index >= values.size()) return drop(Drop::kNoButtons);
   const int value = values[index];
   if (value < 0 || value > 2) return drop(Drop::kButtonValue);
-  const std::lock_guard<std::mutex> lock(mutex_);
+  const std::lock_guard<PriorityMutex> lock(mutex_);
   if (role == ButtonRole::kClutch) {
     map_.setClutch(value == 1);
     return std::nullopt;
@@ -161,7 +180,7 @@ void StylusMailbox::endButtons() {
 }
 
 void StylusMailbox::forgetButtons() {
-  const std::lock_guard<std::mutex> lock(mutex_);
+  const std::lock_guard<PriorityMutex> lock(mutex_);
   endButtons();
 }
 
@@ -176,7 +195,7 @@ std::optional<Drop> StylusMailbox::grip(const std::vector<double>& positions, si
 }
 
 void StylusMailbox::hold(bool held) {
-  const std::lock_guard<std::mutex> lock(mutex_);
+  const std::lock_guard<PriorityMutex> lock(mutex_);
   if (held_ && !held) received_ = {};
   held_ = held;
 }
@@ -186,10 +205,11 @@ bool StylusMailbox::isStale(SteadyTime now) const {
 }
 
 StylusSample StylusMailbox::take(SteadyTime now) {
-  const std::lock_guard<std::mutex> lock(mutex_);
+  const std::lock_guard<PriorityMutex> lock(mutex_);
   if (!isLive(now)) endButtons();
   StylusSample sample;
-  sample.valid = isLive(now) && !std::exchange(appears_anew_, false);
+  sample.valid = isLive(now) && anew_ != Anew::kToTell;
+  if (isLive(now)) anew_ = anew_ == Anew::kToTell ? Anew::kTold : Anew::kNo;
   sample.pose = pose_;
   sample.received = received_;
   sample.button1 = buttons_[0].take();
@@ -198,16 +218,16 @@ StylusSample StylusMailbox::take(SteadyTime now) {
 }
 
 StylusSample StylusMailbox::peek(SteadyTime now) const {
-  const std::lock_guard<std::mutex> lock(mutex_);
+  const std::lock_guard<PriorityMutex> lock(mutex_);
   StylusSample sample;
-  sample.valid = isLive(now);
+  sample.valid = isLive(now) && anew_ == Anew::kNo;
   sample.pose = pose_;
   sample.received = received_;
   return sample;
 }
 
 StylusStatus StylusMailbox::status(SteadyTime now) const {
-  const std::lock_guard<std::mutex> lock(mutex_);
+  const std::lock_guard<PriorityMutex> lock(mutex_);
   StylusStatus out = status_;
   out.stale = out.seen && isStale(now);
   out.clutched = map_.clutched();
@@ -216,22 +236,22 @@ StylusStatus StylusMailbox::status(SteadyTime now) const {
 }
 
 Pose StylusMailbox::inDevice(const Pose& in_tissue) const {
-  const std::lock_guard<std::mutex> lock(mutex_);
+  const std::lock_guard<PriorityMutex> lock(mutex_);
   return map_.fromBase(base_.inverse() * in_tissue);
 }
 
 bool StylusMailbox::clutched() const {
-  const std::lock_guard<std::mutex> lock(mutex_);
+  const std::lock_guard<PriorityMutex> lock(mutex_);
   return map_.clutched();
 }
 
 uint64_t StylusMailbox::baseMoves() const {
-  const std::lock_guard<std::mutex> lock(mutex_);
+  const std::lock_guard<PriorityMutex> lock(mutex_);
   return status_.base_moves;
 }
 
 DeviceFrame StylusMailbox::deviceFrame() const {
-  const std::lock_guard<std::mutex> lock(mutex_);
+  const std::lock_guard<PriorityMutex> lock(mutex_);
   return device_frame_;
 }
 

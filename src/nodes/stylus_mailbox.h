@@ -10,12 +10,12 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "devices/device_map.h"
+#include "nodes/priority_mutex.h"
 #include "viscera/tools/stylus.h"
 
 namespace viscera::nodes {
@@ -108,7 +108,8 @@ class StylusMailbox {
   /// The sample for a tick that begins now. A press or click that came and went since the last tick counts for one.
   StylusSample take(SteadyTime now);
 
-  /// The newest pose, without taking anything: buttons are left out, and it is no tick's.
+  /// The newest pose, without taking anything: buttons are left out, and it is no tick's. Where the hand appears anew
+  /// it is valid from the first tick on that takes it: a tick without a hand is between what was before and this.
   StylusSample peek(SteadyTime now) const;
 
   StylusStatus status(SteadyTime now) const;
@@ -137,24 +138,28 @@ class StylusMailbox {
   void endButtons();
   std::optional<Drop> checkStamp(const ros::Time& stamp, const Arrival& now) const;
   void noteStamp(const ros::Time& stamp, const Arrival& now);
-  void notePlace(const std::string& frame, const Pose& base);
+  double swiftest_s(SteadyTime now) const;
+  void notePlace(const std::string& frame, const Pose& base, const Pose& tip);
 
   const StylusConfig config_;
   const std::string tissue_frame_;
   const DeviceProfile device_;
-  mutable std::mutex mutex_;
+  mutable PriorityMutex mutex_;  ///< the thread that sends forces looks in
   DeviceMap map_;
-  Pose base_;                  ///< where the frame of the last pose was
-  bool appears_anew_ = false;  ///< the next sample is none: what was before it is no motion
+  Pose base_;  ///< where the frame of the last pose was
+  /// Of a hand whose base leapt: one tick has to be told that there is none. What was before it is no motion.
+  enum class Anew { kNo, kToTell, kTold };
+  Anew anew_ = Anew::kNo;
   bool held_ = false;
   std::atomic<bool> gripped_{false};
   Pose pose_;
   DeviceFrame device_frame_;
-  SteadyTime received_{};  ///< of the newest accepted stamp
-  SteadyTime came_{};      ///< the hand: the first pose, ever or after it was stale
-  ros::Time stamp_;        ///< the newest accepted
-  ros::Time stamp_came_;   ///< when it came
-  double swiftest_s_ = 0;  ///< least time from stamp to arrival, of this device's clock and ours
+  SteadyTime received_{};       ///< of the newest accepted stamp
+  SteadyTime came_{};           ///< the hand: the first pose, ever or after it was stale
+  ros::Time stamp_;             ///< the newest accepted
+  ros::Time stamp_came_;        ///< when it came
+  double swiftest_s_ = 0;       ///< least time from stamp to arrival, of this device's clock and ours ...
+  SteadyTime swiftest_came_{};  ///< ... of the pose that came then
   std::array<Button, 2> buttons_;
   StylusStatus status_;
 };

@@ -158,7 +158,7 @@ void StylusRecord::run() {
   bool asked = !options_.reset;
   if (asked) ROS_INFO("recording begins with the next `reset` of the simulator");
   while (ros::ok() && !isOver()) {
-    if (!master_.check()) throw Error("the ROS master is lost: start the node again");
+    master_.require();
     bool again = false;
     {
       const std::lock_guard<std::mutex> lock(mutex_);

@@ -38,7 +38,7 @@ ReplayOptions replayOptions(Parameters& parameters, const std::string& package_f
   if (!choice.scene.empty()) {
     const Scene scene = choice.load(package_folder);
     options.frame = scene.environment.tissue_frame;
-    if (options.strokes.anchored()) resolveAnchors(options.strokes, buildModel(scene));
+    if (options.strokes.anchored()) resolveAnchors(options.strokes, buildModel(scene), scene.fit);
   }
   if (options.strokes.anchored())
     throw ParameterError(
@@ -77,7 +77,7 @@ bool StylusReplay::allHeard() const {
 }
 
 void StylusReplay::check() {
-  if (!master_.check()) throw Error("the ROS master is lost: start the node again");
+  master_.require();
   clock_.check();
 }
 

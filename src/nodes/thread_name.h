@@ -4,11 +4,16 @@
 
 #include <pthread.h>
 
+#include "nodes/crash_stack.h"
+
 namespace viscera::nodes {
 
-/// Names the calling thread for top, gdb and /proc. @param name  at most 15 characters
+/// Names the calling thread for top, gdb and /proc; and as every thread of ours begins with it, gives it its
+/// CrashStack.
+/// @param name  at most 15 characters
 inline void nameThread(const char* name) {
   pthread_setname_np(pthread_self(), name);
+  CrashStack::give();
 }
 
 }  // namespace viscera::nodes

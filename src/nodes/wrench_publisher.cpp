@@ -27,20 +27,12 @@ constexpr std::chrono::milliseconds kFlush{10};
 WrenchPublisher::WrenchPublisher(ros::NodeHandle& node, const std::vector<const StylusMailbox*>& mailboxes,
                                  double stall_s, const Scene& scene, const HapticOptions& options)
     : mailboxes_(mailboxes),
-      schedule_(
-          [&] {
-            std::vector<ForceLimits> limits;
-            for (const StylusMailbox* mailbox : mailboxes) limits.push_back(ForceLimits::of(mailbox->config()));
-            return limits;
-          }(),
-          stall_s),
-      haptics_(options, scene, mailboxes),
+      loop_(forceStyluses(options, scene, mailboxes), options.rate_hz > 0, stall_s),
       priority_(options.priority),
-      tissue_frame_(scene.environment.tissue_frame),
       latencies_(mailboxes.size()) {
   for (const StylusMailbox* mailbox : mailboxes_) sinks_.emplace_back(node, mailbox->device());
   for (const StylusMailbox* mailbox : mailboxes_) {
-    if (!haptics_.on()) break;
+    if (!loop_.betweenTicks()) break;
     energies_.push_back(node.advertise<std_msgs::Float64>(mailbox->config().name + "/energy", 1));
     impedances_.push_back(node.advertise<foreign::CartesianImpedance>(mailbox->config().name + "/servo_ci", 1));
   }
@@ -50,7 +42,7 @@ WrenchPublisher::WrenchPublisher(ros::NodeHandle& node, const std::vector<const 
 WrenchPublisher::~WrenchPublisher() {
   release();
   {
-    const std::lock_guard<std::mutex> lock(mutex_);
+    const std::lock_guard<PriorityMutex> lock(mutex_);
     stop_ = true;
   }
   changed_.notify_one();
@@ -59,25 +51,24 @@ WrenchPublisher::~WrenchPublisher() {
 
 void WrenchPublisher::setLimits(size_t stylus, const ForceLimits& limits) {
   {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    schedule_.setLimits(stylus, limits);
+    const std::lock_guard<PriorityMutex> lock(mutex_);
+    loop_.setLimits(stylus, limits);
   }
   changed_.notify_one();
 }
 
 void WrenchPublisher::put(const Hands& hands) {
   {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    Wrenches wanted;
+    const std::lock_guard<PriorityMutex> lock(mutex_);
     const Clock::time_point now = Clock::now();
+    ForceLoop::Ticks ticks;
     for (size_t s = 0; s < hands.size(); ++s) {
-      wanted[s] = hands[s].reaction;
-      if (!answering_) poses_received_[s] = hands[s].pose_received;
-      if (s < mailboxes_.size()) haptics_.put(s, hands[s].contact, hands[s].tracked, now);
+      ticks[s] = {hands[s].reaction, hands[s].tracked, hands[s].contact};
+      if (!loop_.answering()) poses_received_[s] = hands[s].pose_received;
     }
-    schedule_.put(wanted, now);
+    loop_.put(ticks, handsNow(now), now);
     ticked_ = true;
-    if (answering_) return;  // the next period is soon enough
+    if (loop_.answering()) return;  // the next period is soon enough
     put_ = true;
   }
   changed_.notify_one();
@@ -85,9 +76,8 @@ void WrenchPublisher::put(const Hands& hands) {
 
 void WrenchPublisher::rest() {
   {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    schedule_.rest(Clock::now());
-    haptics_.rest(Clock::now());
+    const std::lock_guard<PriorityMutex> lock(mutex_);
+    loop_.rest(Clock::now());
     poses_received_ = {};
     put_ = true;
   }
@@ -95,81 +85,85 @@ void WrenchPublisher::rest() {
 }
 
 void WrenchPublisher::release() {
-  std::unique_lock<std::mutex> lock(mutex_);
-  if (schedule_.released()) return;
-  schedule_.release(Clock::now());
+  std::unique_lock<PriorityMutex> lock(mutex_);
+  if (loop_.schedule().released()) return;
+  loop_.release(Clock::now());
   put_ = true;
   changed_.notify_one();
-  if (sent_.wait_for(lock, kReleaseLimit, [this] { return schedule_.released(); })) std::this_thread::sleep_for(kFlush);
+  if (sent_.wait_for(lock, kReleaseLimit, [this] { return loop_.schedule().released(); }))
+    std::this_thread::sleep_for(kFlush);
 }
 
 /// Late answers are worse than late ticks: the thread asks to go first.
 void WrenchPublisher::schedule() {
-  if (!haptics_.on()) return;
+  if (!loop_.betweenTicks()) return;
   const std::string how = goFirst(priority_);
-  const std::lock_guard<std::mutex> lock(mutex_);
+  const std::lock_guard<PriorityMutex> lock(mutex_);
   scheduling_ = how;
 }
 
-bool WrenchPublisher::isHeard() const {
-  return std::any_of(sinks_.begin(), sinks_.end(), [](const ForceSink& sink) { return sink.hasSubscribers(); });
+HandsThere WrenchPublisher::listening() const {
+  HandsThere out{};
+  for (size_t s = 0; s < sinks_.size(); ++s) out[s] = sinks_[s].hasSubscribers();
+  return out;
 }
 
-/// When the next message is due. @param period_due  of the loop between ticks
-SteadyTime WrenchPublisher::due(SteadyTime period_due) const {
-  return answering_ ? std::min(period_due, std::max(schedule_.due(), Clock::now())) : schedule_.due();
-}
-
-/// What the local models want at the newest poses.
-void WrenchPublisher::answer(SteadyTime now) {
-  schedule_.follow(haptics_.answers(now, poses_received_));
+/// A hand that moves without the tool feels nothing, as one that is not tracked; one whose device does not listen must
+/// not feel a leap when it does.
+ForceLoop::Hands WrenchPublisher::handsNow(SteadyTime now) const {
+  ForceLoop::Hands out;
+  for (size_t s = 0; s < mailboxes_.size(); ++s) {
+    const StylusSample sample = mailboxes_[s]->peek(now);
+    out[s] = {sample.valid && !mailboxes_[s]->clutched(), listening_[s], sample.pose.position_m, sample.received};
+  }
+  return out;
 }
 
 void WrenchPublisher::main() {
   nameThread("wrenches");
   schedule();
-  const auto period = std::chrono::duration_cast<Clock::duration>(
-      std::chrono::duration<double>(haptics_.on() ? haptics_.period_s() : 1));
-  Clock::time_point period_due = Clock::now();
-  std::unique_lock<std::mutex> lock(mutex_);
+  std::unique_lock<PriorityMutex> lock(mutex_);
   while (!stop_) {
-    changed_.wait_until(lock, due(period_due), [this] { return put_ || stop_; });
+    changed_.wait_until(lock, loop_.due(), [this] { return put_ || stop_; });
     if (stop_) return;
     put_ = false;
     const Clock::time_point now = Clock::now();
-    if (answering_) {
-      answer(now);
-      period_due = std::max(period_due + period, now);
-    }
-    const Wrenches wrenches = schedule_.next(now);
-    if (answering_) haptics_.sent(wrenches);
-    stalls_ = schedule_.stalls();
-    stalled_ = schedule_.stalled();
-    const bool ticked = std::exchange(ticked_, false), live = schedule_.live();
+    const ForceLoop::Hands hands = handsNow(now);
+    const Wrenches wrenches = loop_.next(hands, now);
+    const bool ticked = std::exchange(ticked_, false), live = loop_.schedule().live();
+    stalls_ = loop_.schedule().stalls();
+    stalled_ = loop_.schedule().stalled();
     lock.unlock();
-    send(wrenches);
+    const auto told_n = send(wrenches);
     if (ticked) sendEnergies();
     if (ticked || !live) sendImpedances(live);
-    const bool heard = haptics_.on() && isHeard();
+    const HandsThere listening = this->listening();
     lock.lock();
+    listening_ = listening;
+    loop_.sent(told_n, now);
     const Clock::time_point sent = Clock::now();
-    for (size_t s = 0; s < latencies_.size(); ++s) latencies_[s].add(poses_received_[s], sent);
-    if (schedule_.released()) sent_.notify_all();
-    const bool answering = heard && schedule_.live();
-    if (answering && !answering_) period_due = sent + period;
-    answering_ = answering;
+    for (size_t s = 0; s < latencies_.size(); ++s) {
+      if (loop_.answering()) poses_received_[s] = hands[s].feels() ? hands[s].told : SteadyTime{};
+      latencies_[s].add(poses_received_[s], sent);
+    }
+    if (loop_.schedule().released()) sent_.notify_all();
   }
 }
 
-void WrenchPublisher::send(const Wrenches& wrenches) {
+std::array<Vector3d, layout::kMaxStyluses> WrenchPublisher::send(const Wrenches& wrenches) {
+  std::array<Vector3d, layout::kMaxStyluses> told_n;
+  told_n.fill(Vector3d::Zero());
   const ros::Time stamp = ros::Time::now();
   for (size_t s = 0; s < sinks_.size(); ++s) {
-    if (sinks_[s].hasSubscribers()) sinks_[s].send(wrenches[s], mailboxes_[s]->deviceFrame(), stamp);
+    if (!sinks_[s].hasSubscribers()) continue;
+    const DeviceFrame frame = mailboxes_[s]->deviceFrame();
+    told_n[s] = frame.from_tissue.conjugate() * sinks_[s].send(wrenches[s], frame, stamp).force_n;
   }
+  return told_n;
 }
 
 void WrenchPublisher::sendEnergies() {
-  const std::vector<HapticLoop::Felt> all = felt();
+  const std::vector<ForceLoop::Felt> all = felt();
   for (size_t s = 0; s < energies_.size(); ++s) {
     if (energies_[s].getNumSubscribers() == 0) continue;
     std_msgs::Float64 energy;
@@ -183,31 +177,35 @@ void WrenchPublisher::sendImpedances(bool live) {
   const ros::Time stamp = ros::Time::now();
   for (size_t s = 0; s < impedances_.size(); ++s) {
     if (impedances_[s].getNumSubscribers() == 0) continue;
-    foreign::CartesianImpedance message = noImpedance(tissue_frame_, stamp);
+    foreign::CartesianImpedance message = noImpedance(mailboxes_[s]->deviceFrame().name, stamp);
     if (live) {
-      const std::lock_guard<std::mutex> lock(mutex_);
-      message = toImpedance(haptics_.servo(s), tissue_frame_, stamp);
+      const std::lock_guard<PriorityMutex> lock(mutex_);
+      message = toImpedance(loop_.servo(s), *mailboxes_[s], loop_.schedule().limits(s).force_n, Clock::now(), stamp);
     }
     impedances_[s].publish(message);
   }
 }
 
-std::vector<HapticLoop::Felt> WrenchPublisher::felt() {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  std::vector<HapticLoop::Felt> out;
-  for (size_t s = 0; s < mailboxes_.size(); ++s) out.push_back(haptics_.felt(s));
+std::vector<ForceLoop::Felt> WrenchPublisher::felt() {
+  const std::lock_guard<PriorityMutex> lock(mutex_);
+  std::vector<ForceLoop::Felt> out;
+  for (size_t s = 0; s < mailboxes_.size(); ++s) out.push_back(loop_.felt(s));
   return out;
 }
 
 std::string WrenchPublisher::scheduling() {
-  const std::lock_guard<std::mutex> lock(mutex_);
+  const std::lock_guard<PriorityMutex> lock(mutex_);
   return scheduling_;
 }
 
 std::vector<LatencyMeter::Reading> WrenchPublisher::takeLatencies() {
-  const std::lock_guard<std::mutex> lock(mutex_);
+  std::vector<LatencyMeter> taken(latencies_.size());
+  {
+    const std::lock_guard<PriorityMutex> lock(mutex_);
+    for (size_t s = 0; s < taken.size(); ++s) taken[s] = latencies_[s].take();
+  }
   std::vector<LatencyMeter::Reading> out;
-  for (LatencyMeter& meter : latencies_) out.push_back(meter.take());
+  for (const LatencyMeter& meter : taken) out.push_back(meter.reading());  // which sorts: not under the lock
   return out;
 }
 

@@ -5,16 +5,15 @@
 #include <ros/node_handle.h>
 
 #include <atomic>
-#include <condition_variable>
-#include <mutex>
 #include <thread>
 #include <vector>
 
+#include "haptics/force_loop.h"
 #include "nodes/force_sink.h"
-#include "nodes/haptic_loop.h"
+#include "nodes/haptic_options.h"
 #include "nodes/latency_meter.h"
+#include "nodes/priority_mutex.h"
 #include "nodes/stylus_mailbox.h"
-#include "nodes/wrench_schedule.h"
 
 namespace viscera::nodes {
 
@@ -50,7 +49,7 @@ class WrenchPublisher {
   /// From the arrival of a pose to the sending of the force that answers it, since they were last taken: [styluses].
   std::vector<LatencyMeter::Reading> takeLatencies();
   /// [styluses] what the loop between ticks has done so far.
-  std::vector<HapticLoop::Felt> felt();
+  std::vector<ForceLoop::Felt> felt();
   /// How the thread is scheduled: "SCHED_FIFO 20", or why not.
   std::string scheduling();
   uint64_t stalls() const { return stalls_; }
@@ -59,28 +58,27 @@ class WrenchPublisher {
  private:
   void main();
   void schedule();
-  bool isHeard() const;
-  SteadyTime due(SteadyTime period_due) const;
-  void answer(SteadyTime now);
-  void send(const Wrenches& wrenches);
+  /// Which devices listen.
+  HandsThere listening() const;
+  ForceLoop::Hands handsNow(SteadyTime now) const;
+  /// @returns what hands are told by it: forces of their motors, axes of the tissue frame
+  std::array<Vector3d, layout::kMaxStyluses> send(const Wrenches& wrenches);
   void sendEnergies();
   void sendImpedances(bool live);
 
   std::vector<const StylusMailbox*> mailboxes_;
   std::vector<ForceSink> sinks_;  ///< [styluses]
 
-  std::mutex mutex_;
-  std::condition_variable changed_, sent_;
-  WrenchSchedule schedule_;
-  HapticLoop haptics_;
+  PriorityMutex mutex_;
+  PriorityCondition changed_, sent_;
+  ForceLoop loop_;
   const int priority_;
   std::string scheduling_;
-  const std::string tissue_frame_;
   std::vector<ros::Publisher> energies_, impedances_;  ///< [styluses]
   std::array<SteadyTime, layout::kMaxStyluses> poses_received_{};
   bool put_ = false, stop_ = false;
-  bool ticked_ = false;     ///< since the last message
-  bool answering_ = false;  ///< somebody listens and ticks come: messages go out between ticks
+  bool ticked_ = false;  ///< since the last message
+  HandsThere listening_{};
   std::vector<LatencyMeter> latencies_;
   std::atomic<uint64_t> stalls_{0};
   std::atomic<bool> stalled_{false};

@@ -4,77 +4,139 @@
 
 #include <ros/console.h>
 
-#include <thread>
+#include <utility>
 
+#include "nodes/device_choice.h"
+#include "nodes/force_messages.h"
 #include "nodes/master_watch.h"
+#include "nodes/scene_choice.h"
+#include "nodes/thread_name.h"
 
 namespace viscera::nodes {
 namespace {
 
-constexpr std::chrono::milliseconds kPeriod{2};   ///< how late the end of a time-out may be seen
 constexpr std::chrono::milliseconds kRepeat{20};  ///< zeros are sent again, for a driver that comes late
 /// roscpp writes to sockets on a thread of its own and tells nobody when it has: it has by then.
 constexpr std::chrono::milliseconds kFlush{10};
+constexpr std::chrono::milliseconds kLook{20};  ///< how soon a lost master is seen
 constexpr double kMinTimeout_s = 0.005, kMaxTimeout_s = 10;
 
 }  // namespace
 
-WatchdogOptions watchdogOptions(Parameters& parameters) {
+WatchdogOptions watchdogOptions(Parameters& parameters, const std::string& package_folder) {
   WatchdogOptions options;
   options.timeout_s = parameters.number("timeout_s", options.timeout_s, kMinTimeout_s, kMaxTimeout_s);
+  DeviceChoice choice;
+  setProfile(choice, parameters.text("device", choice.profile));
   parameters.refuseOthers();
+  options.port = loadDevice(namedFile("device", choice.profile, package_folder + "/config/devices"), choice).force;
+  if (options.port.type == ForceType::kNone)
+    throw ParameterError("parameter ~device: " + choice.profile + " takes no forces");
   return options;
 }
 
+/// The way of messages of one type.
+class WrenchWatchdog::Line {
+ public:
+  virtual ~Line() = default;
+  virtual void listen(ros::NodeHandle& node, WrenchWatchdog& watchdog) = 0;
+  virtual void sendZero() = 0;  ///< in place of the last that was passed on
+};
+
+template <class Message>
+class WrenchWatchdog::LineOf : public Line {
+ public:
+  LineOf(ros::NodeHandle& node, const ForcePort& port)
+      : port_(port), out_(advertiseForce<Message>(node, "wrench_out", port)) {}
+
+  void listen(ros::NodeHandle& node, WrenchWatchdog& watchdog) override {
+    const boost::function<void(const boost::shared_ptr<Message const>&)> take =
+        [this, &watchdog](const boost::shared_ptr<Message const>& message) {
+          watchdog.pass([&] {
+            last_ = *message;
+            out_.publish(last_);
+          });
+        };
+    ros::SubscribeOptions options;
+    options.init<Message>("wrench_in", 1, take);
+    options.datatype = forceDatatype<Message>(port_);
+    options.transport_hints.tcpNoDelay();
+    in_ = node.subscribe(options);
+  }
+  void sendZero() override {
+    setZero(last_);
+    out_.publish(last_);
+  }
+
+ private:
+  const ForcePort port_;
+  Message last_;
+  ros::Publisher out_;
+  ros::Subscriber in_;
+};
+
 WrenchWatchdog::WrenchWatchdog(const WatchdogOptions& options, EndWatch& end)
-    : timeout_(options.timeout_s),
+    : timeout_(std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(options.timeout_s))),
       end_(end),
-      out_(node_.advertise<geometry_msgs::WrenchStamped>("wrench_out", 1)),
+      line_([&] {
+        std::unique_ptr<Line> line;
+        withForceMessage(options.port.type, [&](auto message) {
+          line = std::make_unique<LineOf<decltype(message)>>(node_, options.port);
+        });
+        return line;
+      }()),
       act_(end, [this] { stop(); }),
+      watch_([this] { watch(); }),
       spinner_(1, &queue_) {
   ros::NodeHandle input(node_);
   input.setCallbackQueue(&queue_);
-  in_ = input.subscribe("wrench_in", 1, &WrenchWatchdog::onWrench, this, ros::TransportHints().tcpNoDelay());
+  line_->listen(input, *this);
   spinner_.start();
 }
 
 WrenchWatchdog::~WrenchWatchdog() {
   stop();
+  spinner_.stop();
+  watch_.join();
 }
 
 void WrenchWatchdog::run() {
   MasterWatch master;
-  while (!end_.waitFor(kPeriod)) {
-    zeroIfSilent();
-    if (master.check()) continue;
-    stop();
-    throw Error("the ROS master is lost: start the node again");
+  uint64_t told = 0;
+  while (!end_.waitFor(kLook)) {
+    const uint64_t silences = silences_;
+    if (std::exchange(told, silences) != silences)
+      ROS_WARN("no wrench for %.3f s: zeros go out until they come again",
+               std::chrono::duration<double>(timeout_).count());
+    master.require();
   }
 }
 
-void WrenchWatchdog::onWrench(const geometry_msgs::WrenchStamped& message) {
+void WrenchWatchdog::pass(const std::function<void()>& send) {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (stopped_) return;
-  last_ = message;
   heard_ = Clock::now();
-  silent_ = false;
-  out_.publish(message);
+  if (std::exchange(silent_, false)) changed_.notify_all();  // what is due now is a time-out
+  send();
 }
 
 void WrenchWatchdog::sendZero() {
-  last_.wrench = geometry_msgs::Wrench();
-  last_.header.stamp = ros::Time::now();
-  out_.publish(last_);
+  line_->sendZero();
   sent_ = Clock::now();
 }
 
-void WrenchWatchdog::zeroIfSilent() {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  const Clock::time_point now = Clock::now();
-  if (now - heard_ < timeout_ || (silent_ && now - sent_ < kRepeat)) return;
-  if (!silent_) ROS_WARN("no wrench for %.3f s: zeros go out until they come again", timeout_.count());
-  silent_ = true;
-  sendZero();
+void WrenchWatchdog::watch() {
+  nameThread("zeros");
+  std::unique_lock<std::mutex> lock(mutex_);
+  while (!stopped_) {
+    const Clock::time_point due = silent_ ? sent_ + kRepeat : heard_ + timeout_;
+    if (Clock::now() < due) {
+      changed_.wait_until(lock, due);
+      continue;
+    }
+    if (!std::exchange(silent_, true)) ++silences_;
+    sendZero();
+  }
 }
 
 void WrenchWatchdog::stop() {
@@ -84,6 +146,7 @@ void WrenchWatchdog::stop() {
     stopped_ = true;
     sendZero();
   }
+  changed_.notify_all();
   std::this_thread::sleep_for(kFlush);
 }
 

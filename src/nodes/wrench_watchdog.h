@@ -2,14 +2,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <geometry_msgs/WrenchStamped.h>
 #include <ros/callback_queue.h>
 #include <ros/node_handle.h>
 #include <ros/spinner.h>
 
+#include <atomic>
 #include <chrono>
+#include <condition_variable>
+#include <functional>
+#include <memory>
 #include <mutex>
+#include <string>
+#include <thread>
 
+#include "devices/device_profile.h"
 #include "nodes/end_watch.h"
 #include "nodes/parameters.h"
 
@@ -17,39 +23,48 @@ namespace viscera::nodes {
 
 struct WatchdogOptions {
   double timeout_s = 0.1;
+  ForcePort port;  ///< what the driver takes: its type and message count
 };
-/// @throws ParameterError
-WatchdogOptions watchdogOptions(Parameters& parameters);
+/// @param package_folder  where config/devices/<profile>.yaml are looked up   @throws ParameterError, DeviceError
+WatchdogOptions watchdogOptions(Parameters& parameters, const std::string& package_folder);
 
-/// Stands between a simulator and a driver that keeps the last wrench it was told: passes wrenches on, `wrench_in` to
-/// `wrench_out`, and sends zeros when they stop, for whatever reason, and when it ends itself.
+/// Stands between a simulator and a driver that keeps the last force it was told: passes messages on, `wrench_in` to
+/// `wrench_out`, and sends zeros when they stop, for whatever reason, and when it ends itself. Zeros come from a thread
+/// that waits for nobody: neither for the master nor for whoever reads the log.
 class WrenchWatchdog {
  public:
   /// @param end  must outlive this
   WrenchWatchdog(const WatchdogOptions& options, EndWatch& end);
   ~WrenchWatchdog();
+  WrenchWatchdog(const WrenchWatchdog&) = delete;
+  WrenchWatchdog& operator=(const WrenchWatchdog&) = delete;
 
-  /// Until the end begins. @throws Error  the master is lost
+  /// Until the end begins. @throws MasterLost
   void run();
 
  private:
   using Clock = std::chrono::steady_clock;
-  void onWrench(const geometry_msgs::WrenchStamped& message);
+  class Line;
+  template <class Message>
+  class LineOf;
+
+  void pass(const std::function<void()>& send);
   void sendZero();
-  void zeroIfSilent();
+  void watch();
   void stop();
 
-  const std::chrono::duration<double> timeout_;
+  const Clock::duration timeout_;
   EndWatch& end_;
   ros::CallbackQueue queue_;
   ros::NodeHandle node_;
-  ros::Publisher out_;
   std::mutex mutex_;
-  geometry_msgs::WrenchStamped last_;
+  std::condition_variable changed_;
+  std::unique_ptr<Line> line_;
   Clock::time_point heard_{}, sent_{};
   bool silent_ = true, stopped_ = false;
+  std::atomic<uint64_t> silences_{0};  ///< that have begun
   EndWatch::Act act_;
-  ros::Subscriber in_;
+  std::thread watch_;
   ros::AsyncSpinner spinner_;
 };
 

@@ -116,6 +116,7 @@ void Session::forgetHands() {
   for (ForceLimiter& limiter : limiters_) limiter.reset();
   reactions_ = {};
   contacts_ = {};
+  for (PoseTimes& times : pose_times_) times.motions = {};
 }
 
 void Session::setToolMode(size_t stylus, ToolSwitch when, ToolMode mode) {
@@ -172,6 +173,7 @@ void Session::releaseUntracked(const ToolMotions& motions, Frame& frame) {
     limiters_[s].reset();
     frame.reactions[s] = Reaction{};
     frame.contacts[s] = TickContact{};
+    frame.contacts[s].anew = true;
   }
 }
 
@@ -236,8 +238,9 @@ void Session::collectStats(Frame& frame, bool wait) {
 
 /// Of the tick whose measurements came last.
 TickContact Session::contactOf(size_t stylus, const Reaction& raw) const {
-  const StylusMotion motion = posesOf(judged_).motions[stylus];
+  const StylusMotion motion = posesOf(judged_).motions[stylus], before = posesOf(judged_ - 1).motions[stylus];
   TickContact out;
+  out.anew = !before.present || before.mode != motion.mode;
   out.from_m = motion.from.position_m;
   out.to_m = motion.to.position_m;
   const bool acts = motion.present && !(motion.feels_m > 0) && raw.force_n.allFinite() && raw.torque_nm.allFinite();

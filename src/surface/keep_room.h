@@ -16,4 +16,11 @@ void keepRoom(std::vector<Element>& in, size_t count) {
   if (in.capacity() < count) in.reserve(std::max(2 * count, kFirst));
 }
 
+/// Adds an element behind all, with room for those to come.
+template <class Element>
+void appendTo(std::vector<Element>& list, const Element& element) {
+  keepRoom(list, list.size() + 1);
+  list.push_back(element);
+}
+
 }  // namespace viscera

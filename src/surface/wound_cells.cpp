@@ -7,6 +7,8 @@
 #include <limits>
 #include <utility>
 
+#include "surface/keep_room.h"
+
 namespace viscera {
 
 namespace {
@@ -78,7 +80,12 @@ int CutCell::cornerAt(const Vector3f& place) const {
   return corner | (on_edge > crossed[static_cast<size_t>(edgeAt(last, corner))] ? 1 : 0) << last;
 }
 
-CutCells::CutCells(const Lattice& lattice) : lattice_(lattice), nodes_(lattice.nodes), numbers_(lattice.nodes.size()) {
+CutCells::CutCells(const Lattice& lattice)
+    : lattice_(lattice),
+      nodes_(lattice.nodes),
+      axial_cut_(3 * lattice.nodes.size()),
+      numbers_(lattice.nodes.size()),
+      seen_(lattice.nodes.size()) {
   bricks_per_axis_ = (lattice.nodes_per_axis.array() + kEdge - 1) / kEdge;
   brick_at_.assign(static_cast<size_t>(bricks_per_axis_.prod()), 0);
   for (size_t b = 0; b < lattice.bricks.size(); ++b) {
@@ -115,27 +122,42 @@ bool CutCells::isGone(uint32_t slot) const {
          (bits.hi & layout::kDiagonalMask) == 0;
 }
 
-void CutCells::addAround(uint32_t slot, int axis) {
-  const Vector3i at = lattice_.nodeAt(slot);
-  const auto [u, v] = axesOf(axis);
-  for (int k = 0; k < 4; ++k) {
-    const Vector3i lowest = at - (k & 1) * Vector3i::Unit(u) - (k >> 1) * Vector3i::Unit(v);
-    if (!isCell(lowest)) continue;
-    const auto cell = static_cast<size_t>(slotAt(lowest));
-    if (numbers_[cell] == 0) {
-      cells_.emplace_back();
-      cells_.back().at = lowest;
-      numbers_[cell] = static_cast<uint32_t>(cells_.size());
-    }
-    cells_[numbers_[cell] - 1].cut |= 1U << (4 * axis + k);
-  }
+/// Is a spring along an axis cut, other than between two nodes without springs?
+bool CutCells::isCut(uint32_t low, uint32_t high, int axis) const {
+  const auto spring = static_cast<uint32_t>(2 * axis);
+  return isSevered(low) && springCount(lattice_.nodes[low], spring) != 0 && !isAlive(low, spring) &&
+         !(isGone(low) && isGone(high));
 }
 
-void CutCells::complete(CutCell& cell, const float* axial_cut) const {
-  for (int c = 0; c < 8; ++c) {
+void CutCells::lookAt(uint32_t lowest) {
+  CutCell cell;
+  cell.at = lattice_.nodeAt(lowest);
+  for (int c = 0; c < 8; ++c)
     cell.slots[static_cast<size_t>(c)] = static_cast<uint32_t>(slotAt(cell.at + Vector3i(c & 1, c >> 1 & 1, c >> 2)));
-    cell.component[static_cast<size_t>(c)] = static_cast<uint8_t>(c);
+  cell.order = UINT64_MAX;
+  for (int e = 0; e < 12; ++e) {
+    const auto [low, high] = edgeCorners(e);
+    const uint32_t slot = cell.slots[static_cast<size_t>(low)];
+    if (!isCut(slot, cell.slots[static_cast<size_t>(high)], e / 4)) continue;
+    cell.cut |= 1U << e;
+    cell.order = std::min(cell.order, uint64_t{slot} * 12 + static_cast<uint64_t>(e));
   }
+  uint32_t& number = numbers_[lowest];
+  if (cell.cut == 0 && number == 0) return;
+  if (number == 0) {
+    keepRoom(cells_, cells_.size() + 1);
+    cells_.emplace_back();
+    number = static_cast<uint32_t>(cells_.size());
+  }
+  cut_cells_ += cell.cut != 0 ? 1 : 0;
+  cut_cells_ -= cells_[number - 1].cut != 0 ? 1 : 0;
+  if (cell.cut != 0) complete(cell);
+  cells_[number - 1] = cell;
+}
+
+/// Sides and centres, of what is cut.
+void CutCells::complete(CutCell& cell) const {
+  for (size_t c = 0; c < 8; ++c) cell.component[c] = static_cast<uint8_t>(c);
   cell.crossed.fill(0.5F);
   Vector3f sum = Vector3f::Zero();
   std::array<Eigen::Vector2f, 6> face_sum;
@@ -149,7 +171,7 @@ void CutCells::complete(CutCell& cell, const float* axial_cut) const {
       for (uint8_t& component : cell.component) component = component == std::max(a, b) ? std::min(a, b) : component;
       continue;
     }
-    const float share = axial_cut[3 * size_t{cell.slots[static_cast<size_t>(low)]} + static_cast<size_t>(e / 4)];
+    const float share = axial_cut_[3 * size_t{cell.slots[static_cast<size_t>(low)]} + static_cast<size_t>(e / 4)];
     if (share > 0 && share < 1) cell.crossed[static_cast<size_t>(e)] = share;
     const Vector3f place = placeOnEdge(e, cell.crossed[static_cast<size_t>(e)]);
     sum += place;
@@ -169,22 +191,59 @@ void CutCells::complete(CutCell& cell, const float* axial_cut) const {
   }
 }
 
-void CutCells::update(const layout::NodeBits* nodes, const float* axial_cut) {
+void CutCells::findChanged(const layout::NodeBits* nodes, const float* axial_cut) {
+  constexpr uint32_t kLow = layout::kAxialMask | layout::kSeveredBit, kHigh = layout::kDiagonalMask;
+  changed_slots_.clear();
+  for (const uint32_t slot : lattice_.active_slots) {
+    layout::NodeBits& known = nodes_[slot];
+    const layout::NodeBits now = nodes[slot];
+    float* const known_cut = &axial_cut_[3 * size_t{slot}];
+    const float* const from = axial_cut ? axial_cut + 3 * size_t{slot} : known_cut;
+    if (((now.lo ^ known.lo) & kLow) == 0 && ((now.hi ^ known.hi) & kHigh) == 0 &&
+        std::equal(from, from + 3, known_cut))
+      continue;
+    severed_nodes_ -= isSevered(slot) ? 1 : 0;
+    known = now;
+    severed_nodes_ += isSevered(slot) ? 1 : 0;
+    if (from != known_cut) std::copy_n(from, 3, known_cut);
+    keepRoom(changed_slots_, changed_slots_.size() + 1);
+    changed_slots_.push_back(slot);
+  }
+}
+
+void CutCells::makeWhole() {
+  nodes_ = lattice_.nodes;
+  std::fill(axial_cut_.begin(), axial_cut_.end(), 0.0F);
+  changed_slots_.clear();
+  changed_cells_.clear();
+  severed_nodes_ = 0;
+  forget();
+}
+
+void CutCells::forget() {
   for (const CutCell& cell : cells_) numbers_[static_cast<size_t>(slotAt(cell.at))] = 0;
   cells_.clear();
-  severed_.clear();
-  std::copy_n(nodes, nodes_.size(), nodes_.begin());
-  for (const uint32_t slot : lattice_.active_slots) {
-    if ((nodes_[slot].lo & layout::kSeveredBit) == 0) continue;
-    severed_.push_back(slot);
-    for (int axis = 0; axis < 3; ++axis) {
-      const auto spring = static_cast<uint32_t>(2 * axis);
-      if (springCount(lattice_.nodes[slot], spring) == 0 || isAlive(slot, spring)) continue;
-      if (!(isGone(slot) && isGone(static_cast<uint32_t>(slotAt(lattice_.nodeAt(slot) + Vector3i::Unit(axis))))))
-        addAround(slot, axis);
+  cut_cells_ = 0;
+}
+
+void CutCells::update(const layout::NodeBits* nodes, const float* axial_cut) {
+  findChanged(nodes, axial_cut);
+  changed_cells_.clear();
+  if (isWhole()) return forget();
+  ++mark_;
+  for (const uint32_t slot : changed_slots_) {
+    const Vector3i node = lattice_.nodeAt(slot);
+    for (int c = 0; c < 8; ++c) {
+      const Vector3i lowest = node - Vector3i(c & 1, c >> 1 & 1, c >> 2);
+      if (!isCell(lowest)) continue;
+      const auto cell = static_cast<uint32_t>(slotAt(lowest));
+      if (seen_[cell] == mark_) continue;
+      seen_[cell] = mark_;
+      keepRoom(changed_cells_, changed_cells_.size() + 1);
+      changed_cells_.push_back(cell);
+      lookAt(cell);
     }
   }
-  for (CutCell& cell : cells_) complete(cell, axial_cut);
 }
 
 /// The nearest cell to a point outside of all cells: shells around, until one is found that nothing nearer can follow.

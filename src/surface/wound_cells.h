@@ -17,7 +17,8 @@ struct CutCell {
   Vector3i at = Vector3i::Zero();      ///< of its lowest corner, in cells
   std::array<uint32_t, 8> slots{};     ///< of its corners
   std::array<float, 12> crossed{};     ///< where along each edge, 0..1 from its lower end; 0.5 where it is whole
-  uint32_t cut = 0;                    ///< a bit per edge
+  uint32_t cut = 0;                    ///< a bit per edge; 0: the cell is whole again
+  uint64_t order = 0;                  ///< of cells among each other, whatever was cut first
   std::array<uint8_t, 8> component{};  ///< of each corner: its lowest corner that whole edges join it to
   Vector3f centre = Vector3f::Constant(0.5F);  ///< of its wound: mean of where its edges are cut
   std::array<Eigen::Vector2f, 6>
@@ -45,22 +46,38 @@ struct WoundPlace {
   uint32_t node = 0;                   ///< slot of the node on whose side the point lies
 };
 
-/// The cut cells of one body's lattice (docs/wounds.md 1). Cells here are those that are tissue, whole or in part.
+/// The cut cells of one body's lattice (docs/wounds.md 1). Cells here are those that are tissue, whole or in part. An
+/// update looks at every node whether its springs are those of the last one, and makes anew what lies around those
+/// whose are not.
 class CutCells {
  public:
   explicit CutCells(const Lattice& lattice);
 
-  /// @param nodes  [slots] of this body   @param axial_cut  [3 * slots] see CutState
+  /// @param nodes  [slots] of this body   @param axial_cut  [3 * slots] see CutState; null: all as before
   void update(const layout::NodeBits* nodes, const float* axial_cut);
+  void makeWhole();
 
+  /// Numbers stay with their cells until the body is whole again.
   const std::vector<CutCell>& cells() const { return cells_; }
+  bool any() const { return cut_cells_ > 0; }           ///< is any axial spring cut?
+  bool isWhole() const { return severed_nodes_ == 0; }  ///< has no node lost a spring?
   /// The cut cell of the lowest corner's slot; null where the cell is whole.
-  const CutCell* find(uint32_t lowest) const { return numbers_[lowest] == 0 ? nullptr : &cells_[numbers_[lowest] - 1]; }
-  uint32_t numberOf(uint32_t lowest) const { return numbers_[lowest] - 1; }  ///< of a cut cell, in cells()
+  const CutCell* find(uint32_t lowest) const {
+    const uint32_t number = numbers_[lowest];
+    return number == 0 || cells_[number - 1].cut == 0 ? nullptr : &cells_[number - 1];
+  }
+  uint32_t numberOf(uint32_t lowest) const { return numbers_[lowest] - 1; }  ///< of a cell in cells()
+  /// Nodes whose springs, or where these are cut, the last update has found changed; ascending.
+  const std::vector<uint32_t>& changedSlots() const { return changed_slots_; }
+  /// Lowest corners' slots of the cells around them.
+  const std::vector<uint32_t>& changedCells() const { return changed_cells_; }
+  /// Visits the cells, by their lowest corner's slot, up to so many cells from those; one cell maybe more than once.
+  template <class Visit>
+  void forEachCellNear(int reach, Visit visit) const;
   WoundPlace placeOf(const Vector3d& point) const;
-  const std::vector<uint32_t>& severed() const { return severed_; }  ///< slots that have lost springs
   /// Has a node lost all of its springs, as erased ones have? It stays where it is, and nothing is shown of its side.
   bool isGone(uint32_t slot) const;
+  bool isSevered(uint32_t slot) const { return (nodes_[slot].lo & layout::kSeveredBit) != 0; }  ///< has it lost any?
   bool isAlive(uint32_t slot, uint32_t spring) const { return springCount(nodes_[slot], spring) != 0; }
   /// Do two nodes that share a cell lie on two sides of a wound?
   bool areParted(uint32_t node, uint32_t other) const;
@@ -71,16 +88,47 @@ class CutCells {
 
  private:
   Vector3i nearestCell(const Vector3d& point) const;
-  void addAround(uint32_t slot, int axis);
-  void complete(CutCell& cell, const float* axial_cut) const;
+  void findChanged(const layout::NodeBits* nodes, const float* axial_cut);
+  void forget();
+  bool isCut(uint32_t low, uint32_t high, int axis) const;
+  void lookAt(uint32_t lowest);
+  void complete(CutCell& cell) const;
 
   const Lattice& lattice_;
   Vector3i bricks_per_axis_;
-  std::vector<uint32_t> brick_at_;  ///< [bricks of the bounding box] 1 + brick, 0 where there is none
-  std::vector<layout::NodeBits> nodes_;
-  std::vector<uint32_t> numbers_;  ///< [slots] of the cell whose lowest corner it is: 1 + index into cells_, or 0
+  std::vector<uint32_t> brick_at_;       ///< [bricks of the bounding box] 1 + brick, 0 where there is none
+  std::vector<layout::NodeBits> nodes_;  ///< [slots] of the last update
+  std::vector<float> axial_cut_;         ///< [3 * slots] as well
+  std::vector<uint32_t> numbers_;        ///< [slots] of the cell whose lowest corner it is: 1 + index into cells_, or 0
   std::vector<CutCell> cells_;
-  std::vector<uint32_t> severed_;
+  std::vector<uint32_t> changed_slots_, changed_cells_;
+  std::vector<uint32_t> seen_;  ///< [slots] by their cells: the last update that has looked at it
+  uint32_t mark_ = 0;
+  size_t cut_cells_ = 0, severed_nodes_ = 0;
 };
+
+template <class Visit>
+void CutCells::forEachCellNear(int reach, Visit visit) const {
+  const size_t count = changed_slots_.size();
+  for (size_t first = 0, end = 0; first < count; first = end) {  // brick by brick: the box around what changed in it
+    Vector3i low = lattice_.nodeAt(changed_slots_[first]), high = low;
+    const auto is_here = [&](uint32_t slot) {
+      return slot / layout::kBrickSlots == changed_slots_[first] / layout::kBrickSlots;
+    };
+    for (end = first; end < count && is_here(changed_slots_[end]); ++end) {
+      const Vector3i at = lattice_.nodeAt(changed_slots_[end]);
+      low = low.cwiseMin(at);
+      high = high.cwiseMax(at);
+    }
+    low.array() -= 1 + reach;  // cells below a node
+    high.array() += reach;
+    for (int z = low.z(); z <= high.z(); ++z)
+      for (int y = low.y(); y <= high.y(); ++y)
+        for (int x = low.x(); x <= high.x(); ++x) {
+          const int64_t slot = slotAt({x, y, z});
+          if (slot >= 0 && lattice_.cell_labels[static_cast<size_t>(slot)] != 0) visit(static_cast<uint32_t>(slot));
+        }
+  }
+}
 
 }  // namespace viscera

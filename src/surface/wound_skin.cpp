@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
+#include <cmath>
+
+#include "surface/keep_room.h"
 
 namespace viscera {
 
@@ -16,20 +18,26 @@ constexpr double kFine = 1e-4;   // and a crossing is found to this
 constexpr double kLeastPiece =
     0.05;  // an edge is not crossed nearer to its end: what is thinner turns over when pulled
 constexpr double kLeastShare = 0.25;  // but as far as this of a short edge
-constexpr double kOfTheWay = 0.6;     // on which a wound goes through the triangle in which it ends
-constexpr double kOtherwise = 0.25;   // of the way to the third corner, which leads away from the blade's path
-constexpr double kLeastAlong = 0.05;  // of its longest share: a way less away from the edge is not to be trusted
-constexpr double kBeside = 0.02;      // how far from a lip its side is asked for where no node of it says so
+constexpr int kReach = 2;             // from a cell to those whose edges between nodes it may part, and one more
+constexpr double kSamples = 4;        // by which its longest edge is farther than places of a triangle from the nearest
+                                      // of those that WoundSkinIndex lists
 
 }  // namespace
 
 WoundSkin::WoundSkin(const Skin& skin, const Lattice& lattice)
     : skin_(skin), index_(skin, lattice), own_(static_cast<uint32_t>(skin.bindings.size())), places_(index_.places) {
-  seen_triangles_.marks.resize(skin.mesh.triangles.size());
+  reach_ = kReach + static_cast<int>(std::ceil(index_.longest / kSamples));
+  const size_t triangles = skin.mesh.triangles.size(), edges = index_.edges.size();
+  seen_triangles_.marks.resize(triangles);
   seen_vertices_.marks.resize(own_);
-  seen_edges_.marks.resize(index_.edges.size());
-  copies_.assign(index_.edges.size(), kNoEdge);
-  for (uint32_t t = 0; t < skin.mesh.triangles.size(); ++t) {
+  seen_edges_.marks.resize(edges);
+  judged_edges_.marks.resize(edges);
+  found_.assign(edges, kNoEdge);
+  copies_.assign(edges, kNoEdge);
+  is_sliver_.resize(edges);
+  shown_of_.assign(triangles, kNone);
+  rebound_at_.assign(own_, kNone);
+  for (uint32_t t = 0; t < triangles; ++t) {
     triangles_.insert(triangles_.end(), skin.mesh.triangles[t].begin(), skin.mesh.triangles[t].end());
     sources_.push_back(t);
   }
@@ -37,62 +45,98 @@ WoundSkin::WoundSkin(const Skin& skin, const Lattice& lattice)
 
 /// The skin is whole again.
 void WoundSkin::forget() {
-  for (const auto& [vertex, how] : rebound_) places_[vertex] = index_.places[vertex];
-  for (const uint32_t edge : crossed_) copies_[edge] = kNoEdge;
-  triangles_.resize(3 * index_.triangle_edges.size());
-  sources_.resize(index_.triangle_edges.size());
-  for (const uint32_t t : replaced_) setTriangle(t, t, skin_.mesh.triangles[t].data());
-  for (auto* list : {&near_, &gone_, &crossed_, &replaced_, &gaps_, &edge_of_}) list->clear();
-  is_end_.clear();
-  rebound_.clear();
-  added_.clear();
-  lips_.clear();
-  slivers_ = 0;
-  ++mark_;
-}
-
-void WoundSkin::findNear(const CutCells& cells) {
-  for (const CutCell& cell : cells.cells()) {
-    index_.of_cells.forEach(cell.slots[0], [&](uint32_t triangle) {
-      if (seen_triangles_.first(triangle, mark_)) near_.push_back(triangle);
-    });
+  changed_.clear();
+  near_.clear();
+  looked_at_.clear();
+  looked_at_added_.clear();
+  for (const uint32_t vertex : rebound_) {
+    places_[vertex] = index_.places[vertex];
+    rebound_at_[vertex] = kNone;
   }
-  std::sort(near_.begin(), near_.end());
+  rebound_.clear();
+  for (const Owner& owner : owners_) {
+    if (owner.edge == kNoEdge) continue;
+    found_[owner.edge] = copies_[owner.edge] = kNoEdge;
+    is_sliver_[owner.edge] = false;
+  }
+  for (const ShownPieces& pieces : shown_) {
+    if (pieces.triangle == kNone) continue;
+    shown_of_[pieces.triangle] = kNone;
+    moved_.push_back(pieces.triangle);
+  }
+  shown_.clear();
+  free_shown_.clear();
+  writeTriangles();
+  added_.clear();
+  owners_.clear();
+  is_end_.clear();
+  changed_marks_.clear();
+  looked_marks_.clear();
+  free_vertices_.clear();
+  free_pairs_.clear();
+  slivers_ = 0;
 }
 
-void WoundSkin::findGone(const CutCells& cells) {
-  for (const uint32_t slot : cells.severed()) {
-    if (!cells.isGone(slot)) continue;
-    const Vector3i node = cells.lattice().nodeAt(slot);
+/// Triangles where the cells have changed, or where what carries their vertices has.
+void WoundSkin::findNear(const CutCells& cells) {
+  near_.clear();
+  const auto note = [&](uint32_t cell) {
+    index_.of_cells.forEach(cell, [&](uint32_t triangle) {
+      if (seen_triangles_.first(triangle, mark_)) appendTo(near_, triangle);
+    });
+  };
+  cells.forEachCellNear(reach_, note);
+  for (const uint32_t slot : cells.changedSlots())
+    index_.of_slots.forEach(slot, [&](uint32_t v) { note(index_.places[v].cell); });
+}
+
+/// Does it lie in a cut cell?
+bool WoundSkin::isNear(const CutCells& cells, uint32_t triangle) const {
+  bool near = false;
+  index_.cells_of.forEach(triangle, [&](uint32_t cell) { near = near || cells.find(cell) != nullptr; });
+  return near;
+}
+
+/// Does it lie in a cell at a node that has lost all of its springs?
+bool WoundSkin::isNearGone(const CutCells& cells, uint32_t triangle) const {
+  bool gone = false;
+  index_.cells_of.forEach(triangle, [&](uint32_t cell) {
+    const Vector3i at = cells.lattice().nodeAt(cell);
     for (int c = 0; c < 8; ++c) {
-      const int64_t lowest = cells.slotAt(node - Vector3i(c & 1, c >> 1 & 1, c >> 2));
-      if (lowest < 0) continue;
-      index_.of_cells.forEach(static_cast<uint32_t>(lowest), [&](uint32_t triangle) {
-        if (seen_triangles_.first(triangle, mark_)) gone_.push_back(triangle);
-      });
+      const int64_t corner = cells.slotAt(at + Vector3i(c & 1, c >> 1 & 1, c >> 2));
+      gone = gone || (corner >= 0 && cells.isGone(static_cast<uint32_t>(corner)));
     }
+  });
+  return gone;
+}
+
+void WoundSkin::lookAtVertex(const CutCells& cells, uint32_t v) {
+  if (!seen_vertices_.first(v, mark_)) return;
+  const layout::SkinBinding& binding = skin_.bindings[v];
+  const bool in_cut = cells.find(index_.places[v].cell) != nullptr;
+  const bool torn = (cells.isSevered(binding.slot0) || cells.isSevered(binding.slot2)) &&
+                    (!cells.isAlive(binding.slot0, binding.springs & 31U) ||
+                     !cells.isAlive(binding.slot2, binding.springs >> 10U & 31U));
+  places_[v] = in_cut ? cells.placeOf(index_.points[v]) : index_.places[v];
+  const bool now = in_cut || torn, before = isRebound(v);
+  if (now || before) appendTo(looked_at_, v);
+  if (now && !before) {
+    rebound_at_[v] = static_cast<uint32_t>(rebound_.size());
+    appendTo(rebound_, v);
+  } else if (before && !now) {
+    rebound_at_[rebound_.back()] = rebound_at_[v];
+    rebound_[rebound_at_[v]] = rebound_.back();
+    rebound_.pop_back();
+    rebound_at_[v] = kNone;
   }
 }
 
 void WoundSkin::findPlaces(const CutCells& cells) {
-  const auto rebind = [&](uint32_t v) {
-    rebound_.push_back({v, {index_.points[v], index_.normals[v].cast<double>(), places_[v], v}});
-  };
-  for (const uint32_t t : near_) {
-    for (const uint32_t v : skin_.mesh.triangles[t]) {
-      if (cells.find(places_[v].cell) == nullptr || !seen_vertices_.first(v, mark_)) continue;
-      places_[v] = cells.placeOf(index_.points[v]);
-      rebind(v);
-    }
-  }
-  for (const uint32_t slot : cells.severed()) {
-    index_.of_slots.forEach(slot, [&](uint32_t v) {
-      const layout::SkinBinding& binding = skin_.bindings[v];
-      const bool torn = !cells.isAlive(binding.slot0, binding.springs & 31U) ||
-                        !cells.isAlive(binding.slot2, binding.springs >> 10U & 31U);
-      if (torn && seen_vertices_.first(v, mark_)) rebind(v);
-    });
-  }
+  looked_at_.clear();
+  for (const uint32_t t : near_)
+    for (const uint32_t v : skin_.mesh.triangles[t]) lookAtVertex(cells, v);
+  for (const uint32_t slot : cells.changedSlots())
+    index_.of_slots.forEach(slot, [&](uint32_t v) { lookAtVertex(cells, v); });
 }
 
 void WoundSkin::findSteps(const CutCells& cells, uint32_t edge, double first, const WoundPlace& from, double last,
@@ -110,61 +154,159 @@ void WoundSkin::findSteps(const CutCells& cells, uint32_t edge, double first, co
   findSteps(cells, edge, middle, at, last, to);
 }
 
-void WoundSkin::splitEdge(const CutCells& cells, uint32_t edge) {
+/// @returns whether a wound crosses an edge: where is in crossing_ then
+bool WoundSkin::findCrossing(const CutCells& cells, uint32_t edge, bool& sliver) {
   const auto [a, b] = index_.edges[edge];
   steps_.clear();
   findSteps(cells, edge, 0, places_[a], 1, places_[b]);
-  if (steps_.empty()) return;
+  if (steps_.empty()) return false;
   if (steps_.size() > 1) {
     const uint32_t from = steps_.front().from.node, to = steps_.back().to.node;
     const Vector3i apart = cells.lattice().nodeAt(from) - cells.lattice().nodeAt(to);
-    if (from == to || (apart.cwiseAbs().maxCoeff() <= 1 && !cells.areParted(from, to))) return;  // in and out again
-    ++slivers_;
+    if (from == to || (apart.cwiseAbs().maxCoeff() <= 1 && !cells.areParted(from, to))) return false;  // in and out
+    sliver = true;
   }
   // A sliver is given to what lies beyond it.
   const double least = std::min(kLeastShare, kLeastPiece / (index_.points[b] - index_.points[a]).norm());
   const double share = std::clamp((steps_.front().before + steps_.back().behind) / 2, least, 1 - least);
-  copies_[edge] = own_ + static_cast<uint32_t>(added_.size());
-  crossed_.push_back(edge);
   const Vector3d point = index_.points[a] + share * (index_.points[b] - index_.points[a]);
   const Vector3d normal =
       ((1 - share) * index_.normals[a].cast<double>() + share * index_.normals[b].cast<double>()).stableNormalized();
-  addVertex({point, normal, steps_.front().from, a}, edge, false);
-  addVertex({point, normal, steps_.back().to, b}, edge, false);
+  crossing_ = {WoundVertex{point, normal, steps_.front().from, a}, WoundVertex{point, normal, steps_.back().to, b}};
+  return true;
 }
 
-uint32_t WoundSkin::copyAt(uint32_t edge, uint32_t vertex) const {
-  return copies_[edge] + (index_.edges[edge][0] == vertex ? 0 : 1);
+void WoundSkin::lookAtEdge(const CutCells& cells, uint32_t edge) {
+  const auto near = [&](uint32_t triangle) { return triangle != WoundSkinIndex::kNone && isNear(cells, triangle); };
+  const auto [one, other] = index_.edge_triangles[edge];
+  bool sliver = false;
+  const bool crossed = (near(one) || near(other)) && findCrossing(cells, edge, sliver);
+  slivers_ += sliver ? 1 : 0;
+  slivers_ -= is_sliver_[edge] ? 1 : 0;
+  is_sliver_[edge] = sliver;
+  uint32_t& found = found_[edge];
+  if (!crossed && found == kNoEdge) return;
+  if (!crossed) {
+    for (const uint32_t vertex : {found, found + 1}) free(vertex);
+    appendTo(free_pairs_, found);
+    found = kNoEdge;
+    appendTo(changed_edges_, edge);
+    return;
+  }
+  const bool is_new = found == kNoEdge;
+  if (is_new) found = newVertices(2, free_pairs_);
+  for (uint32_t i = 0; i < 2; ++i) {
+    setVertex(found + i, crossing_[i], {edge, kNone, i}, false);
+    noteLookedAt(found + i);
+  }
+  if (is_new || changed_marks_[found - own_] == mark_ || changed_marks_[found + 1 - own_] == mark_)
+    appendTo(changed_edges_, edge);
 }
 
-/// A bit for each of a triangle's edges.
-uint32_t WoundSkin::crossedEdges(uint32_t triangle) const {
-  uint32_t crossed = 0;
-  for (uint32_t i = 0; i < 3; ++i) crossed |= (copies_[index_.triangle_edges[triangle][i]] != kNoEdge ? 1U : 0U) << i;
-  return crossed;
-}
-
-/// The edge where a wound comes into a triangle without going on; kNoEdge in others.
-uint32_t WoundSkin::onlyCrossed(uint32_t triangle) const {
-  const uint32_t crossed = crossedEdges(triangle);
-  return (crossed & (crossed - 1)) == 0 && crossed != 0 ? index_.triangle_edges[triangle][crossed >> 1U] : kNoEdge;
-}
-
-/// What comes from nowhere and goes nowhere on either side of an edge is no wound.
-void WoundSkin::dropLonely() {
+void WoundSkin::lookAtEdges(const CutCells& cells) {
+  changed_edges_.clear();
   for (const uint32_t t : near_) {
-    const uint32_t edge = onlyCrossed(t);
-    if (edge == kNoEdge) continue;
-    const auto [one, other] = index_.edge_triangles[edge];
-    if (other != WoundSkinIndex::kNone && onlyCrossed(one == t ? other : one) == edge) copies_[edge] = kNoEdge;
+    for (const uint32_t edge : index_.triangle_edges[t]) {
+      if (seen_edges_.first(edge, mark_)) lookAtEdge(cells, edge);
+    }
   }
 }
 
-uint32_t WoundSkin::addVertex(const WoundVertex& vertex, uint32_t edge, bool is_end) {
-  added_.push_back(vertex);
-  edge_of_.push_back(edge);
-  is_end_.push_back(is_end);
-  return own_ + static_cast<uint32_t>(added_.size() - 1);
+/// The edge where a wound comes into a triangle without going on; kNoEdge in others.
+uint32_t WoundSkin::onlyFound(uint32_t triangle) const {
+  uint32_t only = kNoEdge;
+  for (const uint32_t edge : index_.triangle_edges[triangle]) {
+    if (found_[edge] == kNoEdge) continue;
+    if (only != kNoEdge) return kNoEdge;
+    only = edge;
+  }
+  return only;
+}
+
+/// What comes from nowhere and goes nowhere on either side of an edge is no wound.
+bool WoundSkin::isLonely(uint32_t edge) const {
+  const auto [one, other] = index_.edge_triangles[edge];
+  return other != WoundSkinIndex::kNone && onlyFound(one) == edge && onlyFound(other) == edge;
+}
+
+/// Triangles around what changes are looked at as well: where a wound ends in one follows from those beside it.
+void WoundSkin::dropLonely() {
+  const auto visit = [&](uint32_t edge, auto of_triangle) {
+    for (const uint32_t triangle : index_.edge_triangles[edge])
+      if (triangle != WoundSkinIndex::kNone) of_triangle(triangle);
+  };
+  const auto look = [&](uint32_t triangle) {
+    if (seen_triangles_.first(triangle, mark_)) appendTo(near_, triangle);
+  };
+  const auto judge = [&](uint32_t edge) {
+    if (!judged_edges_.first(edge, mark_)) return;
+    const uint32_t now = found_[edge] == kNoEdge || isLonely(edge) ? kNoEdge : found_[edge];
+    const bool moved =
+        now != kNoEdge && (changed_marks_[now - own_] == mark_ || changed_marks_[now + 1 - own_] == mark_);
+    if (now == copies_[edge] && !moved) return;
+    copies_[edge] = now;
+    visit(edge, [&](uint32_t triangle) {
+      look(triangle);
+      for (const uint32_t beside : index_.triangle_edges[triangle]) visit(beside, look);
+    });
+  };
+  for (const uint32_t edge : changed_edges_)
+    visit(edge, [&](uint32_t triangle) {
+      for (const uint32_t other : index_.triangle_edges[triangle]) judge(other);
+    });
+}
+
+uint64_t WoundSkin::orderOf(uint32_t vertex) const {
+  const Owner& owner = owners_[vertex - own_];
+  constexpr uint64_t kInside = uint64_t{1} << 40U;
+  return owner.edge != kNoEdge ? 2 * uint64_t{owner.edge} + owner.which
+                               : kInside + 4 * uint64_t{owner.triangle} + owner.which;
+}
+
+/// @param freed  the first ones of as many that nobody has any more   @returns the first one
+uint32_t WoundSkin::newVertices(size_t count, std::vector<uint32_t>& freed) {
+  if (!freed.empty()) {
+    const uint32_t first = freed.back();
+    freed.pop_back();
+    return first;
+  }
+  const auto first = own_ + static_cast<uint32_t>(added_.size());
+  for (size_t i = 0; i < count; ++i) {
+    appendTo(added_, WoundVertex());
+    appendTo(owners_, Owner());
+    keepRoom(is_end_, is_end_.size() + 1);
+    is_end_.push_back(true);
+    appendTo(changed_marks_, 0U);
+    appendTo(looked_marks_, 0U);
+  }
+  return first;
+}
+
+void WoundSkin::setVertex(uint32_t vertex, const WoundVertex& to, const Owner& owner, bool is_end) {
+  const uint32_t i = vertex - own_;
+  WoundVertex& known = added_[i];
+  Owner& of = owners_[i];
+  const bool same = known.point == to.point && known.normal == to.normal && known.place.cell == to.place.cell &&
+                    known.place.within == to.place.within && known.place.node == to.place.node &&
+                    known.skin_vertex == to.skin_vertex && of.edge == owner.edge && of.triangle == owner.triangle &&
+                    of.which == owner.which && is_end_[i] == is_end;
+  if (same) return;
+  known = to;
+  of = owner;
+  is_end_[i] = is_end;
+  changed_marks_[i] = mark_;
+}
+
+/// Nobody has the vertex any more: it stays where it is until it is another.
+void WoundSkin::free(uint32_t vertex) {
+  is_end_[vertex - own_] = true;
+  changed_marks_[vertex - own_] = mark_;
+}
+
+void WoundSkin::noteLookedAt(uint32_t vertex) {
+  if (looked_marks_[vertex - own_] == mark_) return;
+  looked_marks_[vertex - own_] = mark_;
+  appendTo(looked_at_added_, vertex - own_);
 }
 
 void WoundSkin::setTriangle(size_t at, uint32_t source, const uint32_t* corners) {
@@ -172,21 +314,25 @@ void WoundSkin::setTriangle(size_t at, uint32_t source, const uint32_t* corners)
   sources_[at] = source;
 }
 
-void WoundSkin::addTriangle(uint32_t source, uint32_t a, uint32_t b, uint32_t c) {
-  const uint32_t corners[] = {a, b, c};
-  if (place_is_free_) {
-    setTriangle(source, source, corners);
-    place_is_free_ = false;
-    return;
+/// One piece of each triangle in its place, the others behind all.
+void WoundSkin::writeTriangles() {
+  const size_t whole = index_.triangle_edges.size();
+  triangles_.resize(3 * whole);
+  sources_.resize(whole);
+  for (const uint32_t t : moved_) setTriangle(t, t, skin_.mesh.triangles[t].data());
+  moved_.clear();
+  gaps_.clear();
+  for (const ShownPieces& pieces : shown_) {
+    if (pieces.triangle == kNone) continue;
+    if (pieces.count == 0) appendTo(gaps_, pieces.triangle);
+    if (pieces.count > 0) setTriangle(pieces.triangle, pieces.triangle, pieces.pieces[0].data());
+    keepRoom(triangles_, triangles_.size() + 3 * size_t{pieces.count});
+    for (size_t i = 1; i < pieces.count; ++i) {
+      triangles_.insert(triangles_.end(), pieces.pieces[i].begin(), pieces.pieces[i].end());
+      appendTo(sources_, pieces.triangle);
+    }
   }
-  triangles_.insert(triangles_.end(), corners, corners + 3);
-  sources_.push_back(source);
-}
-
-void WoundSkin::addPiece(const CutCells& cells, uint32_t triangle, std::initializer_list<uint32_t> vertices) {
-  const uint32_t* const v = vertices.begin();
-  if (!isShown(cells, v[0])) return;
-  for (size_t i = 2; i < vertices.size(); ++i) addTriangle(triangle, v[0], v[i - 1], v[i]);
+  closeGaps();
 }
 
 /// In the places of triangles of which nothing is shown.
@@ -196,146 +342,25 @@ void WoundSkin::closeGaps() {
     const size_t last = sources_.size() - 1;
     const std::array<uint32_t, 3> corners = {triangles_[3 * last], triangles_[3 * last + 1], triangles_[3 * last + 2]};
     const uint32_t source = sources_[last];
-    if (last < index_.triangle_edges.size()) replaced_.push_back(static_cast<uint32_t>(last));
+    if (last < index_.triangle_edges.size()) appendTo(moved_, static_cast<uint32_t>(last));
+    appendTo(moved_, *gap);
     setTriangle(*gap, source, corners.data());
     triangles_.resize(3 * last);
     sources_.resize(last);
   }
 }
 
-void WoundSkin::addLip(const CutCells& cells, uint32_t triangle, uint32_t from, uint32_t to, uint32_t corner) {
-  if (!isShown(cells, corner)) return;
-  const Vector3d middle = (pointOf(from) + pointOf(to)) / 2;
-  const CutCell* cell = cells.find(cells.placeOf(middle).cell);
-  for (const uint32_t end : {from, to}) {
-    if (cell == nullptr) cell = cells.find(placeOf(end).cell);
-  }
-  const Vector3d along = (pointOf(to) - pointOf(from)).stableNormalized(), across = middle - pointOf(corner);
-  lips_.push_back({from, to, triangle});
-  lips_.back().outward = (across - across.dot(along) * along).stableNormalized();
-  if (cell == nullptr) return;
-  Lip& lip = lips_.back();
-  lip.cell = static_cast<uint32_t>(cells.slotAt(cell->at));
-  const bool from_split = from >= own_, to_split = to >= own_;
-  if (from_split && cell->holds(placeOf(from).node)) {
-    lip.node = placeOf(from).node;
-  } else if (to_split && cell->holds(placeOf(to).node)) {
-    lip.node = placeOf(to).node;
-  } else {
-    const Vector3d beside = middle + kBeside * (pointOf(corner) - middle).stableNormalized();
-    const Vector3d within = (beside - cell->at.cast<double>()).cwiseMax(0.0).cwiseMin(1.0);
-    lip.node = cell->slots[static_cast<size_t>(cell->cornerAt(within.cast<float>()))];
-  }
-}
-
-/// Where the wound ends in a triangle into which it comes across its edge `first`: on as it ran in the triangle before.
-Vector3d WoundSkin::endOf(uint32_t triangle, uint32_t first) const {
-  const auto& corners = skin_.mesh.triangles[triangle];
-  const uint32_t edge = index_.triangle_edges[triangle][first];
-  const Vector3d &v = index_.points[corners[first]], &w = index_.points[corners[(first + 1) % 3]],
-                 &tip = index_.points[corners[(first + 2) % 3]];
-  const Vector3d at = added_[copies_[edge] - own_].point;
-  Vector3d way = tip - at;
-  const auto [one, other] = index_.edge_triangles[edge];
-  const uint32_t before = one == triangle ? other : one;
-  if (before != WoundSkinIndex::kNone) {
-    Vector3d from = Vector3d::Zero();
-    int count = 0;
-    for (const uint32_t e : index_.triangle_edges[before]) {
-      if (e == edge || copies_[e] == kNoEdge) continue;
-      from += added_[copies_[e] - own_].point;
-      ++count;
-    }
-    if (count > 0) way = at - from / count;
-  }
-  // In shares of the corners: the way ends before it leaves the triangle.
-  const Vector3d vw = w - v, vt = tip - v, normal = vw.cross(vt);
-  const double area2 = normal.squaredNorm();
-  if (area2 == 0) return at + kOtherwise * (tip - at);
-  const auto shares = [&](const Vector3d& d) {
-    return Eigen::Vector2d(normal.dot(d.cross(vt)) / area2, normal.dot(vw.cross(d)) / area2);
-  };
-  const Eigen::Vector2d here = shares(at - v), along = shares(way);
-  if (along.y() <= kLeastAlong * along.cwiseAbs().maxCoeff()) return at + kOtherwise * (tip - at);
-  double reach = std::numeric_limits<double>::infinity();
-  if (along.x() < 0) reach = std::min(reach, -here.x() / along.x());
-  const double sum = along.x() + along.y();
-  if (sum > 0) reach = std::min(reach, (1 - here.x() - here.y()) / sum);
-  const Eigen::Vector2d end = here + kOfTheWay * reach * along;
-  return v + end.x() * vw + end.y() * vt;
-}
-
-void WoundSkin::showTapered(const CutCells& cells, uint32_t triangle, uint32_t first) {
-  const auto& corners = skin_.mesh.triangles[triangle];
-  const uint32_t v = corners[first], w = corners[(first + 1) % 3], tip = corners[(first + 2) % 3];
-  const uint32_t edge = index_.triangle_edges[triangle][first], of_v = copyAt(edge, v), of_w = copyAt(edge, w);
-  const Vector3d at = endOf(triangle, first);
-  const uint32_t end = addVertex({at, added_[of_v - own_].normal, cells.placeOf(at), v}, kNoEdge, true);
-  addPiece(cells, triangle, {v, of_v, end});
-  addLip(cells, triangle, of_v, end, v);
-  addPiece(cells, triangle, {w, end, of_w});
-  addLip(cells, triangle, end, of_w, w);
-  addPiece(cells, triangle, {tip, end, w});
-  addPiece(cells, triangle, {tip, v, end});
-}
-
-void WoundSkin::showParted(const CutCells& cells, uint32_t triangle, uint32_t corner) {
-  const auto& corners = skin_.mesh.triangles[triangle];
-  const auto& edges = index_.triangle_edges[triangle];
-  const uint32_t a = corners[corner], b = corners[(corner + 1) % 3], c = corners[(corner + 2) % 3];
-  const uint32_t ab = edges[corner], ca = edges[(corner + 2) % 3];
-  addPiece(cells, triangle, {a, copyAt(ab, a), copyAt(ca, a)});
-  addLip(cells, triangle, copyAt(ab, a), copyAt(ca, a), a);
-  addPiece(cells, triangle, {b, c, copyAt(ca, c), copyAt(ab, b)});
-  addLip(cells, triangle, copyAt(ca, c), copyAt(ab, b), b);
-}
-
-void WoundSkin::showStar(const CutCells& cells, uint32_t triangle) {
-  const auto& corners = skin_.mesh.triangles[triangle];
-  const auto& edges = index_.triangle_edges[triangle];
-  Vector3d middle = Vector3d::Zero(), normal = Vector3d::Zero();
-  for (size_t i = 0; i < 3; ++i) {
-    middle += (pointOf(copyAt(edges[i], corners[i])) + pointOf(copyAt(edges[i], corners[(i + 1) % 3]))) / 6;
-    normal += index_.normals[corners[i]].cast<double>();
-  }
-  for (size_t i = 0; i < 3; ++i) {
-    const uint32_t a = corners[i], to_next = copyAt(edges[i], a), to_last = copyAt(edges[(i + 2) % 3], a);
-    const uint32_t centre = addVertex({middle, normal.stableNormalized(), placeOf(to_next), a}, kNoEdge, false);
-    addPiece(cells, triangle, {a, to_next, centre, to_last});
-    addLip(cells, triangle, to_next, centre, a);
-    addLip(cells, triangle, centre, to_last, a);
-  }
-}
-
-void WoundSkin::show(const CutCells& cells, uint32_t triangle) {
-  const auto& corners = skin_.mesh.triangles[triangle];
-  const uint32_t crossed = crossedEdges(triangle);
-  if (crossed == 0 && isShown(cells, corners[0])) return;  // it is there
-  replaced_.push_back(triangle);
-  place_is_free_ = true;
-  if (crossed == 1 || crossed == 2 || crossed == 4) showTapered(cells, triangle, crossed >> 1U);
-  if (crossed == 3) showParted(cells, triangle, 1);
-  if (crossed == 6) showParted(cells, triangle, 2);
-  if (crossed == 5) showParted(cells, triangle, 0);
-  if (crossed == 7) showStar(cells, triangle);
-  if (place_is_free_) gaps_.push_back(triangle);
-  place_is_free_ = false;
-}
-
 void WoundSkin::update(const CutCells& cells) {
-  forget();
+  if (cells.isWhole()) return forget();
+  ++mark_;
+  changed_.clear();
+  looked_at_added_.clear();
   findNear(cells);
-  findGone(cells);
   findPlaces(cells);
-  for (const uint32_t t : near_) {
-    for (const uint32_t edge : index_.triangle_edges[t]) {
-      if (seen_edges_.first(edge, mark_)) splitEdge(cells, edge);
-    }
-  }
+  lookAtEdges(cells);
   dropLonely();
   for (const uint32_t t : near_) show(cells, t);
-  for (const uint32_t t : gone_) show(cells, t);
-  closeGaps();
+  writeTriangles();
 }
 
 }  // namespace viscera

@@ -36,13 +36,26 @@ struct WoundVertex {
   static constexpr uint32_t kNone = UINT32_MAX;
 };
 
+/// What is shown of a triangle of the skin that is not whole.
+struct ShownPieces {
+  uint32_t triangle = UINT32_MAX;  ///< none: of no triangle now
+  uint8_t count = 0, lip_count = 0, inside_count = 0;
+  std::array<std::array<uint32_t, 3>, 6> pieces{};  ///< [count]
+  std::array<Lip, 6> lips;                          ///< [lip_count]
+  std::array<uint32_t, 3>
+      inside{};  ///< [inside_count] its vertices within the triangle: where a wound ends, or middles
+};
+
 /// The skin of one body, split where its edges cross from one side of a wound to the other (docs/wounds.md 2). An edge
 /// that does has two vertices at the crossing, one of either side. A triangle with two such edges is parted into a
 /// corner and the rest, one with three into three corners that meet in its middle. In one with a single crossed edge
-/// the wound ends, at a vertex of both sides in the direction in which it comes. Work follows the wound's size, and all
-/// memory is kept.
+/// the wound ends, at a vertex of both sides in the direction in which it comes. An update looks at what lies around
+/// the cells that have changed, but for copies of what is shown; what it shows does not depend on the updates before.
+/// All memory is kept.
 class WoundSkin {
  public:
+  static constexpr uint32_t kNoEdge = UINT32_MAX, kNone = UINT32_MAX;
+
   /// @param skin, lattice  of one body; the skin must outlive this
   WoundSkin(const Skin& skin, const Lattice& lattice);
 
@@ -54,53 +67,88 @@ class WoundSkin {
   const std::vector<uint32_t>& triangles() const { return triangles_; }
   /// [n] which triangle of the uncut skin each of triangles() is a piece of.
   const std::vector<uint32_t>& sources() const { return sources_; }
-  const std::vector<Lip>& lips() const { return lips_; }
+  /// Triangles that are not whole: where they are listed they stay.
+  const std::vector<ShownPieces>& shown() const { return shown_; }
+  /// Of them those whose lips, or where these lie, the last update has changed; some of no triangle any more.
+  const std::vector<uint32_t>& changed() const { return changed_; }
+  /// [triangle] index into shown(), or kNone.
+  uint32_t shownOf(uint32_t triangle) const { return shown_of_[triangle]; }
+  const std::array<uint32_t, 2>& trianglesAt(uint32_t edge) const { return index_.edge_triangles[edge]; }
+  const std::array<uint32_t, 3>& edgesOf(uint32_t triangle) const { return index_.triangle_edges[triangle]; }
+  /// Where they are listed they stay; some are of nothing any more.
   const std::vector<WoundVertex>& added() const { return added_; }
   /// The skin's own vertices that have to be bound anew: their triangle of nodes lies on two sides, or on the other
   /// one.
-  const std::vector<std::pair<uint32_t, WoundVertex>>& rebound() const { return rebound_; }
+  const std::vector<uint32_t>& rebound() const { return rebound_; }
+  bool isRebound(uint32_t own) const { return rebound_at_[own] != kNone; }
+  /// Own vertices, and added ones by their index in added(), that the last update has looked at: those of all others
+  /// are bound as they were.
+  const std::vector<uint32_t>& lookedAt() const { return looked_at_; }
+  const std::vector<uint32_t>& lookedAtAdded() const { return looked_at_added_; }
+  WoundVertex own(uint32_t vertex) const {
+    return {index_.points[vertex], index_.normals[vertex].cast<double>(), places_[vertex], vertex};
+  }
   /// Which edge's copy a vertex is, or kNoEdge: copies of an edge belong to its two triangles.
-  uint32_t edgeOf(uint32_t vertex) const { return vertex < own_ ? kNoEdge : edge_of_[vertex - own_]; }
-  /// Is it where a wound ends, a vertex of both of its sides?
+  uint32_t edgeOf(uint32_t vertex) const { return vertex < own_ ? kNoEdge : owners_[vertex - own_].edge; }
+  /// Within which triangle an added vertex lies that is no edge's copy.
+  uint32_t triangleOf(uint32_t vertex) const { return owners_[vertex - own_].triangle; }
+  /// Of an added vertex among all, whatever was cut first.
+  uint64_t orderOf(uint32_t vertex) const;
+  /// Is it where a wound ends, a vertex of both of its sides, or of nothing any more?
   bool isEnd(uint32_t vertex) const { return vertex >= own_ && is_end_[vertex - own_]; }
-  Vector3d pointOf(uint32_t vertex) const {
+  const Vector3d& pointOf(uint32_t vertex) const {
     return vertex < own_ ? index_.points[vertex] : added_[vertex - own_].point;
   }
   const WoundPlace& placeOf(uint32_t vertex) const {
     return vertex < own_ ? places_[vertex] : added_[vertex - own_].place;
   }
-  uint32_t own() const { return own_; }
-  size_t slivers() const { return slivers_; }  ///< edges of which a piece between two wounds is not shown
-
-  static constexpr uint32_t kNoEdge = UINT32_MAX;
+  uint32_t ownCount() const { return own_; }
+  size_t looks() const { return near_.size(); }  ///< triangles that the last update has looked at
+  size_t slivers() const { return slivers_; }    ///< edges of which a piece between two wounds is not shown
 
  private:
   struct Step {
     double before = 0, behind = 0;  ///< share of the edge
     WoundPlace from, to;
   };
+  /// What an added vertex belongs to.
+  struct Owner {
+    uint32_t edge = kNoEdge, triangle = kNone;
+    uint32_t which = 0;  ///< end of the edge, or place in ShownPieces::inside
+  };
   void forget();
   void findNear(const CutCells& cells);
-  void findGone(const CutCells& cells);
   void findPlaces(const CutCells& cells);
-  void splitEdge(const CutCells& cells, uint32_t edge);
+  void lookAtVertex(const CutCells& cells, uint32_t vertex);
+  bool isNear(const CutCells& cells, uint32_t triangle) const;
+  bool isNearGone(const CutCells& cells, uint32_t triangle) const;
+  void lookAtEdges(const CutCells& cells);
+  void lookAtEdge(const CutCells& cells, uint32_t edge);
+  bool findCrossing(const CutCells& cells, uint32_t edge, bool& sliver);
   void findSteps(const CutCells& cells, uint32_t edge, double first, const WoundPlace& from, double last,
                  const WoundPlace& to);
-  uint32_t crossedEdges(uint32_t triangle) const;
-  uint32_t onlyCrossed(uint32_t triangle) const;
+  uint32_t onlyFound(uint32_t triangle) const;
+  bool isLonely(uint32_t edge) const;
   void dropLonely();
+  uint32_t crossedEdges(uint32_t triangle) const;
   Vector3d endOf(uint32_t triangle, uint32_t first) const;
-  uint32_t addVertex(const WoundVertex& vertex, uint32_t edge, bool is_end);
+  uint32_t newVertices(size_t count, std::vector<uint32_t>& freed);
+  void setVertex(uint32_t vertex, const WoundVertex& to, const Owner& owner, bool is_end);
+  void free(uint32_t vertex);
+  void noteLookedAt(uint32_t vertex);
+  uint32_t addInside(ShownPieces& out, const WoundVertex& vertex, bool is_end);
   void show(const CutCells& cells, uint32_t triangle);
-  void showTapered(const CutCells& cells, uint32_t triangle, uint32_t first);
-  void showParted(const CutCells& cells, uint32_t triangle, uint32_t corner);
-  void showStar(const CutCells& cells, uint32_t triangle);
+  void cutUp(const CutCells& cells, uint32_t crossed, ShownPieces& out);
+  void showTapered(const CutCells& cells, uint32_t first, ShownPieces& out);
+  void showParted(const CutCells& cells, uint32_t corner, ShownPieces& out);
+  void showStar(const CutCells& cells, ShownPieces& out);
+  bool isOtherThan(const ShownPieces& before, const ShownPieces& now) const;
   uint32_t copyAt(uint32_t edge, uint32_t vertex) const;
-  void addPiece(const CutCells& cells, uint32_t triangle, std::initializer_list<uint32_t> vertices);
-  void addTriangle(uint32_t source, uint32_t a, uint32_t b, uint32_t c);
+  void addPiece(const CutCells& cells, std::initializer_list<uint32_t> vertices, ShownPieces& out) const;
+  void addLip(const CutCells& cells, uint32_t from, uint32_t to, uint32_t corner, ShownPieces& out) const;
+  void writeTriangles();
   void closeGaps();
   void setTriangle(size_t at, uint32_t source, const uint32_t* corners);
-  void addLip(const CutCells& cells, uint32_t triangle, uint32_t from, uint32_t to, uint32_t corner);
   bool isShown(const CutCells& cells, uint32_t vertex) const { return !cells.isGone(placeOf(vertex).node); }
 
   /// What was seen in this update: no two updates have the same mark.
@@ -112,22 +160,28 @@ class WoundSkin {
   const Skin& skin_;
   const WoundSkinIndex index_;
   uint32_t own_ = 0, mark_ = 0;
+  int reach_ = 0;                   ///< cells from what has changed to what that may change
   std::vector<WoundPlace> places_;  ///< [own] of vertices
-  std::vector<uint32_t> near_;      ///< triangles in cut cells, ascending
-  std::vector<uint32_t> gone_;      ///< other ones, around nodes that have lost all of their springs
-  Seen seen_triangles_, seen_vertices_, seen_edges_;
-  std::vector<uint32_t> crossed_;   ///< edges with copies
-  std::vector<uint32_t> copies_;    ///< [edges] the first of its two added vertices, or kNoEdge
-  std::vector<Step> steps_;         ///< of one edge
-  std::vector<uint32_t> replaced_;  ///< triangles that are not whole
-  std::vector<uint32_t> gaps_;      ///< of them those of which nothing is shown
-  bool place_is_free_ = false;      ///< of the triangle that is being shown
-  std::vector<uint32_t> edge_of_;   ///< [added_]
-  std::vector<bool> is_end_;        ///< [added_]
-  std::vector<uint32_t> triangles_, sources_;
-  std::vector<Lip> lips_;
+  std::vector<uint32_t> near_;      ///< triangles that are looked at
+  Seen seen_triangles_, seen_vertices_, seen_edges_, judged_edges_;
+  std::vector<uint32_t> found_;          ///< [edges] the first of the two vertices where it is crossed, or kNoEdge
+  std::vector<uint32_t> copies_;         ///< [edges] as well, of wounds that are more than one crossing
+  std::vector<bool> is_sliver_;          ///< [edges]
+  std::vector<uint32_t> changed_edges_;  ///< in this update
+  std::vector<Step> steps_;              ///< of one edge
+  std::array<WoundVertex, 2> crossing_;  ///< of one edge
+  std::vector<uint32_t> shown_of_;       ///< [triangles]
+  std::vector<ShownPieces> shown_;
+  std::vector<uint32_t> free_shown_, changed_;
   std::vector<WoundVertex> added_;
-  std::vector<std::pair<uint32_t, WoundVertex>> rebound_;
+  std::vector<Owner> owners_;                           ///< [added_]
+  std::vector<bool> is_end_;                            ///< [added_]
+  std::vector<uint32_t> changed_marks_, looked_marks_;  ///< [added_] the last update that has
+  std::vector<uint32_t> free_vertices_, free_pairs_;    ///< vertices; the first ones of two
+  std::vector<uint32_t> triangles_, sources_;
+  std::vector<uint32_t> moved_;  ///< whole triangles whose places are cut off or taken
+  std::vector<uint32_t> gaps_;   ///< places of triangles of which nothing is shown
+  std::vector<uint32_t> rebound_, rebound_at_, looked_at_, looked_at_added_;
   size_t slivers_ = 0;
 };
 

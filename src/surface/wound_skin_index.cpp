@@ -69,7 +69,12 @@ void WoundSkinIndex::listCells(const TriangleMesh& mesh, const CutCells& whole, 
     for (const Vector3d& at :
          {a, b, c, Vector3d((a + b) / 2), Vector3d((b + c) / 2), Vector3d((c + a) / 2), Vector3d((a + b + c) / 3)})
       touched.push_back({whole.placeOf(at).cell, t});
+    longest = std::max({longest, (b - a).norm(), (c - b).norm(), (a - c).norm()});
   }
+  std::vector<std::array<uint32_t, 2>> cells;
+  cells.reserve(touched.size());
+  for (const auto& [cell, t] : touched) cells.push_back({t, cell});
+  cells_of.fill(std::move(cells), mesh.triangles.size());
   of_cells.fill(std::move(touched), slots);
 }
 

@@ -36,7 +36,9 @@ struct WoundSkinIndex {
   std::vector<std::array<uint32_t, 3>> triangle_edges;  ///< 01, 12, 20
   std::vector<std::array<uint32_t, 2>> edge_triangles;  ///< [edges] the first two that have it, or kNone
   NumberLists of_cells;                                 ///< triangles that lie in a cell, by its lowest corner's slot
+  NumberLists cells_of;                                 ///< those cells, by triangle
   NumberLists of_slots;                                 ///< vertices that depend on springs of a slot
+  double longest = 0;                                   ///< edge, in cells
 
  private:
   void addEdges(const TriangleMesh& mesh);

@@ -11,10 +11,13 @@ namespace viscera {
 
 namespace {
 
-/// The cell beside another one.
-int64_t cellAt(const CutCells& cells, const Vector3i& at) {
+constexpr uint32_t kNone = WoundMesh::kNone;
+
+/// The number of the cut cell there, or kNone.
+uint32_t cellAt(const CutCells& cells, const Vector3i& at) {
   const int64_t lowest = cells.slotAt(at);
-  return lowest >= 0 && cells.find(static_cast<uint32_t>(lowest)) != nullptr ? lowest : -1;
+  if (lowest < 0 || cells.find(static_cast<uint32_t>(lowest)) == nullptr) return kNone;
+  return cells.numberOf(static_cast<uint32_t>(lowest));
 }
 
 /// The four cells around the spring from the lowest corner of a cell along an axis, counter-clockwise seen from its far
@@ -38,43 +41,99 @@ Vector3d outwardOf(const CutCell& cut, uint8_t component) {
 
 }  // namespace
 
-uint32_t WoundWalls::addVertex(const WoundVertex& vertex, uint32_t cell, const Vector3d& outward) {
-  vertices_.push_back(vertex);
-  cell_of_.push_back(cell);
-  outward_.push_back(outward);
-  return static_cast<uint32_t>(vertices_.size() - 1);
+void WoundWalls::Seen::note(uint32_t i, uint32_t mark) {
+  if (i >= marks.size()) {
+    keepRoom(marks, i + 1);
+    marks.resize(i + 1);
+  }
+  if (marks[i] == mark) return;
+  marks[i] = mark;
+  appendTo(list, i);
 }
 
-uint32_t WoundWalls::pointVertex(uint32_t cell, uint8_t component) {
-  const CutCell& cut = *cells_->find(cell);
-  const uint32_t number = cells_->numberOf(cell);
-  uint32_t& known = point_vertices_[8 * size_t{number} + component];
-  if (known != kNone) return known;
-  WoundVertex vertex;
-  const Point& point = points_[number];
-  vertex.point = point.marks > 0 ? point.at : Vector3d(cut.at.cast<double>() + cut.centre.cast<double>());
-  vertex.place = {cell, Vector3f::Zero(), 0};
+uint32_t WoundWalls::newVertex(const WoundVertex& vertex, uint32_t cell) {
+  if (free_vertices_.empty()) {
+    appendTo(free_vertices_, static_cast<uint32_t>(vertices_.size()));
+    appendTo(vertices_, vertex);
+    appendTo(cell_of_, cell);
+    appendTo(outward_, Vector3d(Vector3d::Zero()));
+  }
+  const uint32_t number = free_vertices_.back();
+  free_vertices_.pop_back();
+  vertices_[number] = vertex;
+  cell_of_[number] = cell;
+  outward_[number] = Vector3d::Zero();
+  to_shade_.note(number, mark_);
+  return number;
+}
+
+/// Which node's side a point's vertex lies on, and the way from there. @returns whether that has changed
+bool WoundWalls::place(uint32_t v, const CutCell& cut, uint8_t component) {
+  WoundVertex& vertex = vertices_[v];
+  const Vector3d point = firstPlace(v);
+  const WoundPlace before = vertex.place;
+  vertex.place = {cut.slots[0], Vector3f::Zero(), 0};
   double nearest = -1;
   for (size_t c = 0; c < 8; ++c) {
     if (cut.component[c] != component) continue;
-    const double distance2 = (vertex.point - cells_->lattice().nodeAt(cut.slots[c]).cast<double>()).squaredNorm();
+    const double distance2 = (point - cells_->lattice().nodeAt(cut.slots[c]).cast<double>()).squaredNorm();
     if (nearest >= 0 && distance2 >= nearest) continue;
     nearest = distance2;
     vertex.place.node = cut.slots[c];
   }
-  known = addVertex(vertex, number, outwardOf(cut, component));
+  const Vector3d outward = outwardOf(cut, component);
+  const bool same = before.cell == vertex.place.cell && before.node == vertex.place.node && outward == outward_[v];
+  outward_[v] = outward;
+  return !same;
+}
+
+uint32_t WoundWalls::pointVertex(uint32_t cell, uint8_t component) {
+  uint32_t& known = point_vertices_[8 * size_t{cell} + component];
+  if (known != kNone) return known;
+  WoundVertex vertex;
+  vertex.point = points_[cell].at[0];
+  known = newVertex(vertex, cell);
+  place(known, cells_->cells()[cell], component);
+  askAlways(cell);
   return known;
 }
 
 uint32_t WoundWalls::lipVertex(uint32_t skin_vertex) {
-  uint32_t& known = lip_vertices_[skin_vertex];
-  if (known == kNone)
-    known = addVertex({skin_->pointOf(skin_vertex), Vector3d::Zero(), {}, skin_vertex}, kNone, Vector3d::Zero());
+  uint32_t& known = lip_vertices_[skin_vertex - skin_->ownCount()];
+  if (known == kNone) known = newVertex({skin_->pointOf(skin_vertex), Vector3d::Zero(), {}, skin_vertex}, kNone);
   return known;
 }
 
-void WoundWalls::add(uint32_t a, uint32_t b, uint32_t c) {
-  if (a != b && b != c && c != a) triangles_.insert(triangles_.end(), {a, b, c});
+/// Before points give way.
+Vector3d WoundWalls::firstPlace(uint32_t vertex) const {
+  const uint32_t cell = cell_of_[vertex];
+  return cell == kNone ? vertices_[vertex].point : points_[cell].at[0];
+}
+
+/// What a triangle at these corners has to do with.
+void WoundWalls::noteCorners(uint32_t triangle) {
+  for (const uint32_t vertex : mesh_.cornersOf(triangle)) {
+    to_shade_.note(vertex, mark_);
+    if (cell_of_[vertex] != kNone) askAlways(cell_of_[vertex]);
+  }
+}
+
+void WoundWalls::dropTriangle(uint32_t& known) {
+  if (known == kNone) return;
+  noteCorners(known);
+  for (const uint32_t vertex : mesh_.cornersOf(known)) touched_.note(vertex, mark_);
+  mesh_.remove(known);
+  known = kNone;
+}
+
+/// Of quads and fans. @param known  what was there; is now, unless two corners are one
+void WoundWalls::setTriangle(const std::array<uint32_t, 3>& corners, uint64_t order, uint32_t& known) {
+  if (known != kNone && mesh_.isThis(known, corners, order)) return;
+  dropTriangle(known);
+  if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0]) return;
+  known = mesh_.add(corners, order);
+  noteCorners(known);
+  for (const uint32_t vertex : corners) touched_.note(vertex, mark_);
 }
 
 /// Does the spring from a node along an axis cross the wound inside the tissue? Not where the lattice ends: there the
@@ -83,7 +142,7 @@ bool WoundWalls::isInside(uint32_t slot, int axis) const {
   const Lattice& lattice = cells_->lattice();
   const Vector3i at = lattice.nodeAt(slot);
   for (const Vector3i& around : cellsAround(at, axis)) {
-    if (cellAt(*cells_, around) < 0) return false;
+    if (cellAt(*cells_, around) == kNone) return false;
   }
   if (lattice.depth_m.empty()) return true;
   const int edge = 4 * axis;  // of the cell that begins there
@@ -92,56 +151,114 @@ bool WoundWalls::isInside(uint32_t slot, int axis) const {
   return (1 - share) * lattice.depth_m[slot] + share * lattice.depth_m[far] > 0;
 }
 
-/// Means of where springs inside the tissue and the skin are cut.
+/// The mean of where springs inside the tissue and the skin are cut.
+void WoundWalls::findPoint(uint32_t number) {
+  const CutCell& cell = cells_->cells()[number];
+  Vector3d sum = Vector3d::Zero();
+  uint32_t marks = 0;
+  for (int e = 0; e < 12; ++e) {
+    if ((cell.cut >> e & 1U) == 0) continue;
+    const int axis = e / 4;
+    const uint32_t slot = cell.slots[static_cast<size_t>(edgeCorners(e)[0])];
+    if (!isInside(slot, axis)) continue;
+    Vector3d at = cells_->lattice().nodeAt(slot).cast<double>();
+    at[axis] += static_cast<double>(cell.crossed[static_cast<size_t>(e)]);
+    sum += at;
+    ++marks;
+  }
+  cell_lips_.clear();
+  for (uint32_t f = first_fans_[number]; f != kNone; f = fans_[f].next)
+    appendTo(cell_lips_, std::make_pair(8 * uint64_t{fans_[f].triangle} + f % 6, f));
+  std::sort(cell_lips_.begin(), cell_lips_.end());
+  for (const auto& [order, f] : cell_lips_) {
+    sum += (vertices_[fans_[f].from].point + vertices_[fans_[f].to].point) / 2;
+    ++marks;
+  }
+  if (marks > 0)
+    sum /= marks;
+  else
+    sum = cell.at.cast<double>() + cell.centre.cast<double>();
+  Point& point = points_[number];
+  const bool moved = point.at[0] != sum || point.marks != marks || point.order != cell.order;
+  point.at[0] = sum;
+  point.marks = marks;
+  point.order = cell.order;
+  if (moved) {
+    cells_changed_.note(number, mark_);
+    askAlways(number);
+  }
+  for (uint8_t component = 0; component < 8; ++component) {
+    const uint32_t vertex = point_vertices_[8 * size_t{number} + component];
+    if (vertex == kNone || (!place(vertex, cell, component) && !moved)) continue;
+    touched_.note(vertex, mark_);
+    to_bind_.note(vertex, mark_);
+    askAround(vertex);
+  }
+}
+
+/// Of cells that have changed, or in which lips have, or springs between them and such.
 void WoundWalls::findPoints() {
-  const auto note = [&](uint32_t number, const Vector3d& at) {
-    points_[number].at += at;
-    ++points_[number].marks;
-  };
-  for (const CutCell& cell : cells_->cells()) {
-    for (int e = 0; e < 12; ++e) {
-      if ((cell.cut >> e & 1U) == 0) continue;
-      const int axis = e / 4;
-      const uint32_t slot = cell.slots[static_cast<size_t>(edgeCorners(e)[0])];
-      if (!isInside(slot, axis)) continue;
-      Vector3d at = cells_->lattice().nodeAt(slot).cast<double>();
-      at[axis] += static_cast<double>(cell.crossed[static_cast<size_t>(e)]);
-      note(cells_->numberOf(cell.slots[0]), at);
+  for (const uint32_t lowest : cells_->changedCells()) {
+    if (cells_->numberOf(lowest) != kNone) cells_changed_.note(cells_->numberOf(lowest), mark_);
+    const Vector3i at = cells_->lattice().nodeAt(lowest);
+    for (int i = 0; i < 27; ++i) {
+      const uint32_t cell = cellAt(*cells_, at + Vector3i(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1));
+      if (cell != kNone) points_to_find_.note(cell, mark_);
     }
   }
-  for (const Lip& lip : skin_->lips()) {
-    if (lip.cell != Lip::kNoCell)
-      note(cells_->numberOf(lip.cell), (skin_->pointOf(lip.from) + skin_->pointOf(lip.to)) / 2);
+  for (const uint32_t cell : cells_changed_.list) {
+    for (size_t component = 0; component < 8; ++component) {
+      const uint32_t vertex = point_vertices_[8 * size_t{cell} + component];
+      if (vertex != kNone) to_bind_.note(vertex, mark_);
+    }
   }
-  for (Point& point : points_) {
-    if (point.marks > 0) point.at /= point.marks;
+  for (const uint32_t cell : points_to_find_.list) {
+    if (cells_->cells()[cell].cut != 0) findPoint(cell);
   }
 }
 
+void WoundWalls::addQuad(uint32_t number, int axis) {
+  const CutCell& cell = cells_->cells()[number];
+  std::array<std::array<uint32_t, 3>, 4> now{};  // of no area: none
+  if ((cell.cut >> (4 * axis) & 1U) != 0 && isInside(cell.slots[0], axis)) {
+    const uint32_t low = cell.slots[0];
+    const auto high = static_cast<uint32_t>(cells_->slotAt(cell.at + Vector3i::Unit(axis)));
+    std::array<uint32_t, 4> of_low{}, of_high{};
+    for (size_t i = 0; i < 4; ++i) {
+      const uint32_t around = cellAt(*cells_, cellsAround(cell.at, axis)[i]);
+      of_low[i] = pointVertex(around, sideOf(around, low));
+      of_high[i] = pointVertex(around, sideOf(around, high));
+    }
+    if (of_low != of_high) {  // else the cut ends around it: its sides are one
+      const size_t first = isBetterAcross(of_low) ? 1 : 0;
+      const auto quad = [&](const std::array<uint32_t, 4>& around, size_t at) {
+        now[at] = {around[first], around[first + 1], around[first + 2]};
+        now[at + 1] = {around[first], around[first + 2], around[(first + 3) % 4]};
+      };
+      if (!cells_->isGone(low)) quad(of_low, 0);
+      if (!cells_->isGone(high)) quad({of_high[0], of_high[3], of_high[2], of_high[1]}, 2);
+    }
+  }
+  for (size_t i = 0; i < 4; ++i) {
+    const size_t place = 4 * static_cast<size_t>(axis) + i;
+    setTriangle(now[i], cell.order << 4U | place, quads_[number][place]);
+  }
+}
+
+/// Around springs beside which cells have changed.
 void WoundWalls::addQuads() {
-  for (const CutCell& cell : cells_->cells()) {
-    for (int axis = 0; axis < 3; ++axis) {
-      if ((cell.cut >> (4 * axis) & 1U) == 0 || !isInside(cell.slots[0], axis)) continue;
-      const uint32_t low = cell.slots[0];
-      const auto high = static_cast<uint32_t>(cells_->slotAt(cell.at + Vector3i::Unit(axis)));
-      std::array<uint32_t, 4> of_low{}, of_high{};
-      for (size_t i = 0; i < 4; ++i) {
-        const auto around = static_cast<uint32_t>(cellAt(*cells_, cellsAround(cell.at, axis)[i]));
-        of_low[i] = pointVertex(around, sideOf(around, low));
-        of_high[i] = pointVertex(around, sideOf(around, high));
+  for (const uint32_t number : cells_changed_.list) {
+    const Vector3i at = cells_->cells()[number].at;
+    for (uint32_t axis = 0; axis < 3; ++axis) {
+      const Vector3i u = Vector3i::Unit((axis + 1) % 3), v = Vector3i::Unit((axis + 2) % 3);
+      for (const Vector3i& from : {at, Vector3i(at + u), Vector3i(at + v), Vector3i(at + u + v)}) {
+        const int64_t lowest = cells_->slotAt(from);
+        const uint32_t cell = lowest < 0 ? kNone : cells_->numberOf(static_cast<uint32_t>(lowest));
+        if (cell != kNone) quads_to_make_.note(3 * cell + axis, mark_);
       }
-      if (of_low == of_high) continue;  // the cut ends around it: its sides are one
-      const bool across = isBetterAcross(of_low);
-      if (!cells_->isGone(low)) addQuad(of_low, across);
-      if (!cells_->isGone(high)) addQuad({of_high[0], of_high[3], of_high[2], of_high[1]}, across);
     }
   }
-}
-
-void WoundWalls::addQuad(const std::array<uint32_t, 4>& around, bool other_diagonal) {
-  const size_t first = other_diagonal ? 1 : 0;
-  add(around[first], around[first + 1], around[first + 2]);
-  add(around[first], around[first + 2], around[(first + 3) % 4]);
+  for (const uint32_t quad : quads_to_make_.list) addQuad(quad / 3, static_cast<int>(quad % 3));
 }
 
 /// Are the triangles of a quad better shaped with the diagonal from its second corner?
@@ -149,7 +266,7 @@ bool WoundWalls::isBetterAcross(const std::array<uint32_t, 4>& around) const {
   std::array<Vector3d, 4> at;
   Vector3d outward = Vector3d::Zero();
   for (size_t i = 0; i < 4; ++i) {
-    at[i] = vertices_[around[i]].point;
+    at[i] = firstPlace(around[i]);
     outward += outward_[around[i]];
   }
   const auto area = [&](size_t a, size_t b, size_t c) { return outward.dot((at[b] - at[a]).cross(at[c] - at[a])); };
@@ -158,77 +275,59 @@ bool WoundWalls::isBetterAcross(const std::array<uint32_t, 4>& around) const {
 
 /// The component of a node in a cut cell.
 uint8_t WoundWalls::sideOf(uint32_t cell, uint32_t node) const {
-  const CutCell& cut = *cells_->find(cell);
+  const CutCell& cut = cells_->cells()[cell];
   return cut.component[static_cast<size_t>(cut.cornerOf(node))];
 }
 
-/// Every lip with its cell's point, and where a lip goes on in another cell both cells' points with the vertex between.
-void WoundWalls::addFans() {
-  const auto point_of = [&](const Lip& lip) { return pointVertex(lip.cell, sideOf(lip.cell, lip.node)); };
-  const auto key = [&](const Lip& lip, uint32_t vertex) {
-    const bool on_edge =
-        skin_->edgeOf(vertex) != WoundSkin::kNoEdge;  // it goes on in the triangle beside, else within its own
-    return uint64_t{on_edge ? UINT32_MAX : lip.triangle} << 32U | vertex;
-  };
-  const std::vector<Lip>& lips = skin_->lips();
-  for (uint32_t i = 0; i < lips.size(); ++i) {
-    if (lips[i].cell == Lip::kNoCell) continue;
-    const uint32_t to = lipVertex(lips[i].to), from = lipVertex(lips[i].from);
-    add(to, from, point_of(lips[i]));
-    outward_[to] += lips[i].outward;
-    outward_[from] += lips[i].outward;
-    lip_ends_.push_back({key(lips[i], lips[i].to), i});
-  }
-  std::sort(lip_ends_.begin(), lip_ends_.end());
-  for (const Lip& lip : lips) {
-    if (lip.cell == Lip::kNoCell) continue;
-    const LipEnd begin = {key(lip, lip.from), 0};
-    const auto found = std::lower_bound(lip_ends_.begin(), lip_ends_.end(), begin);
-    if (found == lip_ends_.end() || found->key != begin.key) continue;
-    const uint32_t before = point_of(lips[found->lip]), behind = point_of(lip);
-    // Not from side to side of one cell, where a wound ends: a web would span it when it opens.
-    if (cell_of_[before] != cell_of_[behind]) add(lipVertex(lip.from), before, behind);
-  }
-}
-
-void WoundWalls::findNormals() {
-  for (size_t t = 0; t < triangles_.size(); t += 3) {
-    std::array<WoundVertex*, 3> v = {&vertices_[triangles_[t]], &vertices_[triangles_[t + 1]],
-                                     &vertices_[triangles_[t + 2]]};
-    const Vector3d normal = (v[1]->point - v[0]->point).cross(v[2]->point - v[0]->point);
-    for (WoundVertex* vertex : v) vertex->normal += normal;
-  }
-  for (WoundVertex& vertex : vertices_)
-    vertex.normal =
-        vertex.normal.squaredNorm() > 0 ? Vector3d(vertex.normal.stableNormalized()) : Vector3d(Vector3d::UnitZ());
-}
-
-void WoundWalls::begin() {
-  triangles_.clear();
+void WoundWalls::forget() {
+  mesh_.clear();
   vertices_.clear();
   cell_of_.clear();
   outward_.clear();
-  lip_ends_.clear();
-  const size_t cells = cells_->cells().size(), skin_vertices = skin_->own() + skin_->added().size();
-  keepRoom(points_, cells);
-  keepRoom(point_vertices_, 8 * cells);
-  keepRoom(lip_vertices_, skin_vertices);
-  points_.assign(cells, {});
-  point_vertices_.assign(8 * cells, kNone);
-  lip_vertices_.assign(skin_vertices, kNone);
-  holes_ = 0;
+  points_.clear();
+  quads_.clear();
+  fans_.clear();
+  for (std::vector<uint32_t>* list : {&point_vertices_, &first_fans_, &lip_vertices_, &free_vertices_, &hole_ends_})
+    list->clear();
+}
+
+/// For as many cells and lips as there are.
+void WoundWalls::makeRoom() {
+  const auto room = [](auto& list, size_t count, const auto& with) {
+    keepRoom(list, count);
+    if (list.size() < count) list.resize(count, with);
+  };
+  constexpr std::array<uint32_t, 12> kNoQuads = {kNone, kNone, kNone, kNone, kNone, kNone,
+                                                 kNone, kNone, kNone, kNone, kNone, kNone};
+  const size_t cells = cells_->cells().size();
+  room(points_, cells, Point());
+  room(point_vertices_, 8 * cells, kNone);
+  room(quads_, cells, kNoQuads);
+  room(first_fans_, cells, kNone);
+  room(fans_, 6 * skin_->shown().size(), Fan());
+  room(lip_vertices_, skin_->added().size(), kNone);
+  for (std::vector<uint32_t>& marks : asked_marks_) room(marks, cells, 0U);
 }
 
 void WoundWalls::update(const CutCells& cells, const WoundSkin& skin) {
   cells_ = &cells;
   skin_ = &skin;
-  begin();
+  changed_.clear();
+  points_tried_ = 0;
+  if (cells.isWhole()) return forget();
+  ++mark_;
+  for (Seen* seen : {&fans_to_make_, &quads_to_make_, &points_to_find_, &cells_changed_, &touched_, &around_hole_,
+                     &to_shade_, &to_bind_})
+    seen->list.clear();
+  makeRoom();
+  takeFans();
   findPoints();
   addQuads();
   addFans();
   closeHoles();
   relax();
   findNormals();
+  for (const uint32_t vertex : to_bind_.list) appendTo(changed_, vertex);
 }
 
 }  // namespace viscera

@@ -75,6 +75,9 @@ Wounds::Wounds(const Model& model, const JoinedSkins& skins)
 void Wounds::reset() {
   springs_.clear();
   forget();
+  for (const Place& place : places_) {
+    if (place.wound) place.wound->makeWhole();
+  }
   shown_ = next();
 }
 
@@ -137,7 +140,7 @@ layout::SkinBinding Wounds::numbered(const Place& place, layout::SkinBinding bin
   return binding;
 }
 
-void Wounds::append(const Place& place, ShownWounds::OfBody& out) {
+void Wounds::append(Place& place, ShownWounds::OfBody& out) {
   const BodyWound& wound = *place.wound;
   const auto own = static_cast<uint32_t>(wound.ownVertices());
   appendTriangles(place, wound, out);
@@ -149,9 +152,14 @@ void Wounds::append(const Place& place, ShownWounds::OfBody& out) {
     addRest(place, vertex, 0);
   }
   const uint32_t flesh = rgba(woundColor(place.color), place.number);
-  for (const WoundVertex& vertex : wound.wallVertices()) {
+  const std::vector<WoundVertex>& walls = wound.wallVertices();
+  keepRoom(place.wall_depths_m, walls.size());
+  place.wall_depths_m.resize(walls.size());
+  for (const uint32_t v : wound.changedWalls())
+    place.wall_depths_m[v] = walls[v].skin_vertex == WoundVertex::kNone ? place.depths->at(walls[v].point) : 0;
+  for (size_t v = 0; v < walls.size(); ++v) {
     colors_.push_back(flesh);
-    addRest(place, vertex, vertex.skin_vertex == WoundVertex::kNone ? place.depths->at(vertex.point) : 0);
+    addRest(place, walls[v], place.wall_depths_m[v]);
   }
 }
 
@@ -194,13 +202,13 @@ bool Wounds::update(const CutSprings& cuts) {
   forget();
   const std::shared_ptr<ShownWounds> now = next();
   for (size_t b = 0; b < places_.size(); ++b) {
-    const Place& place = places_[b];
+    Place& place = places_[b];
     if (place.tetrahedra) {
       place.tetrahedra->update(cuts.nodes + place.slot, cuts.spring_cut + place.spring);
       if (place.tetrahedra->any()) appendTetrahedra(place, now->bodies[b]);
     }
     if (!place.wound) continue;
-    place.wound->update(cuts.nodes + place.slot, cuts.axial_cut + 3 * size_t{place.slot});
+    place.wound->update(cuts.nodes + place.slot, cuts.axial_cut ? cuts.axial_cut + 3 * size_t{place.slot} : nullptr);
     if (!place.wound->any()) continue;
     append(place, now->bodies[b]);
     now->holes += place.wound->holes();

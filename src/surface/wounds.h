@@ -17,7 +17,7 @@ namespace viscera {
 /// Which springs of all bodies are cut, and where, as in HostState.
 struct CutSprings {
   const layout::NodeBits* nodes = nullptr;  ///< [slots]
-  const float* axial_cut = nullptr;         ///< [3 * slots]; of no matter where no body is a lattice
+  const float* axial_cut = nullptr;         ///< [3 * slots]; null where nothing can be cut in a lattice
   const float* spring_cut = nullptr;        ///< [springs]; of no matter where no body has tetrahedra
 };
 
@@ -68,12 +68,13 @@ class Wounds {
     Vector3d color, origin_m;
     double spacing_m = 1;
     std::unique_ptr<WoundDepths> depths;  ///< where there is a wound
+    std::vector<double> wall_depths_m;    ///< [wall vertices] of it
     uint32_t number = 0;                  ///< of the body
   };
   template <class Wound>
   void appendTriangles(const Place& place, const Wound& wound, ShownWounds::OfBody& out) const;
   layout::SkinBinding numbered(const Place& place, layout::SkinBinding binding) const;
-  void append(const Place& place, ShownWounds::OfBody& out);
+  void append(Place& place, ShownWounds::OfBody& out);
   void appendTetrahedra(const Place& place, ShownWounds::OfBody& out);
 
   void addRest(const Place& place, const WoundVertex& vertex, double depth_m);

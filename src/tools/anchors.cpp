@@ -6,6 +6,7 @@
 #include <limits>
 #include <sstream>
 
+#include "tools/anchor_search.h"
 #include "tools/stroke_samples.h"
 #include "viscera/math/error.h"
 #include "viscera/tools/strokes.h"
@@ -40,16 +41,6 @@ double firstHit(const Model& model, const Vector3d& from, const Vector3d& direct
   return nearest;
 }
 
-/// z along `back`, x horizontal, y upwards.
-Quaterniond frameAlong(const Vector3d& back) {
-  const Vector3d up = std::abs(back.z()) < 1 - 1e-6 ? Vector3d::UnitZ() : Vector3d::UnitY();
-  Eigen::Matrix3d axes;
-  axes.col(2) = back;
-  axes.col(0) = up.cross(back).normalized();
-  axes.col(1) = back.cross(axes.col(0));
-  return Quaterniond(axes);
-}
-
 std::string rayText(const Anchor& anchor) {
   const Eigen::IOFormat list(6, Eigen::DontAlignCols, ", ", ", ", "", "", "[", "]");
   std::ostringstream out;
@@ -57,9 +48,42 @@ std::string rayText(const Anchor& anchor) {
   return out.str();
 }
 
+/// Where a stroke works on the skin, in its anchor's frame: keys that are not far above it.
+void addSpots(const Stroke& stroke, std::vector<Vector3d>& spots_m) {
+  constexpr double kNear = 0.2;  // of how far the stroke goes
+  double reach_m = 0;
+  for (const Stroke::Key& key : stroke.keys) reach_m = std::max(reach_m, key.pose.position_m.norm());
+  for (const Stroke::Key& key : stroke.keys)
+    if (key.pose.position_m.z() <= kNear * reach_m) spots_m.push_back(key.pose.position_m);
+}
+
+bool same(const Anchor& a, const Anchor& b) {
+  return a.from_m == b.from_m && a.towards_m == b.towards_m;
+}
+
+/// Anchored strokes on an organ in the place of another. Those with one anchor stay together.
+void follow(const OrganFit& fit, const Model& model, std::vector<Stroke>& strokes) {
+  for (Stroke& stroke : strokes) {
+    if (!stroke.anchor) continue;
+    for (Vector3d* point_m : {&stroke.anchor->from_m, &stroke.anchor->towards_m}) *point_m = fit.moved(*point_m);
+    for (Stroke::Key& key : stroke.keys) key.pose.position_m *= fit.hand_scale;
+  }
+  const std::vector<Stroke> aimed = strokes;
+  for (Stroke& stroke : strokes) {
+    if (!stroke.anchor) continue;
+    const Anchor anchor = *stroke.anchor;
+    std::vector<Vector3d> spots_m;
+    for (const Stroke& other : aimed)
+      if (other.anchor && same(*other.anchor, anchor)) addSpots(other, spots_m);
+    const Vector3d shift_m = shiftOntoSkin(model, anchor, spots_m);
+    stroke.anchor = Anchor{anchor.from_m + shift_m, anchor.towards_m + shift_m};
+  }
+}
+
 }  // namespace
 
-void resolveAnchors(Strokes& strokes, const Model& model) {
+void resolveAnchors(Strokes& strokes, const Model& model, const std::optional<OrganFit>& fit) {
+  if (fit) follow(*fit, model, strokes.strokes);
   for (Stroke& stroke : strokes.strokes) {
     if (!stroke.anchor) continue;
     const Vector3d direction = (stroke.anchor->towards_m - stroke.anchor->from_m).normalized();

@@ -13,6 +13,11 @@ double share(double length, double allowed) {
   return length > allowed ? allowed / length : 1;
 }
 
+void shrink(Vector3d& vector, double most) {
+  const double length = vector.norm();
+  if (length > most) vector *= most / length;
+}
+
 }  // namespace
 
 ForceLimits ForceLimits::of(const StylusConfig& stylus) {
@@ -27,8 +32,10 @@ Reaction ForceLimiter::limit(const Reaction& raw, double span_s, const ForceLimi
     last_ = out;
     return out;
   }
+  if (limits.force_n == 0) out.force_n.setZero();
+  if (limits.torque_nm == 0) out.torque_nm.setZero();
   const double size =
-      std::min(share(raw.force_n.norm(), limits.force_n), share(raw.torque_nm.norm(), limits.torque_nm));
+      std::min(share(out.force_n.norm(), limits.force_n), share(out.torque_nm.norm(), limits.torque_nm));
   if (size < 1) {
     out.force_n *= size;
     out.torque_nm *= size;
@@ -44,6 +51,12 @@ Reaction ForceLimiter::limit(const Reaction& raw, double span_s, const ForceLimi
   }
   last_ = out;
   return out;
+}
+
+const Reaction& ForceLimiter::shrink(double most_force_n, double most_torque_nm) {
+  viscera::shrink(last_.force_n, most_force_n);
+  viscera::shrink(last_.torque_nm, most_torque_nm);
+  return last_;
 }
 
 }  // namespace viscera

@@ -56,8 +56,10 @@ TEST_F(PerformanceSuite, ScaleHasCostAndMemoryOfEverySize) {
 
 TEST_F(PerformanceSuite, HapticsHasARowOfEachCellAndMeetsItsChecks) {
   run("haptics");
-  EXPECT_EQ(rows("matrix").size(), 8u);
-  EXPECT_EQ(rowsWith("matrix", {",no,"}), 8u);  // limit cycles
+  EXPECT_EQ(rows("matrix").size(), 16u);  // two tissues, delays, masses, drivers
+  EXPECT_EQ(rowsWith("matrix", {",no,"}), 16u);  // limit cycles
+  EXPECT_EQ(rows("events").size(), 8u);          // four, two drivers
+  EXPECT_EQ(rowsWith("events", {",no,"}), 8u);
   EXPECT_EQ(rowsWith("once_per_tick", {",yes,"}), 1u);
 }
 

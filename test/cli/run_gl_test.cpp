@@ -144,14 +144,16 @@ TEST_F(Run, NodesTooCrowdedForContactsAreCounted) {
                                           "bodies:\n"
                                           "  - {name: sheet, source: sheet, structure: surface, spacing_m: 0.001,\n"
                                           "     box_size_m: [0.07, 0.07, 0.001], position_m: [0.1, 0.1, 0.1]}\n"
-                                          "collision: {enabled: true}\n"
-                                          "solver: {backend: gpu}\n");
-  const auto crowded = [&](const std::string& distance_m) {
-    return metricsOf(viscera({"run", sheet, "--seconds", "0.02", "--set", "collision.distance_m=" + distance_m}));
-  };
-  const Json close = crowded("0.2");
-  EXPECT_EQ(close["nodes_crowded"], close["nodes"]);
-  EXPECT_EQ(crowded("0.001")["nodes_crowded"], 0);
+                                          "collision: {enabled: true}\n");
+  for (const std::string backend : {"gpu", "cpu"}) {
+    const auto crowded = [&](const std::string& distance_m) {
+      return metricsOf(viscera({"run", sheet, "--seconds", "0.02", "--set", "solver.backend=" + backend, "--set",
+                                "collision.distance_m=" + distance_m}));
+    };
+    const Json close = crowded("0.2");
+    EXPECT_EQ(close["nodes_crowded"], close["nodes"]) << backend;
+    EXPECT_EQ(crowded("0.001")["nodes_crowded"], 0) << backend;
+  }
 }
 
 TEST_F(Run, LastLineIsAnObjectWithAllMeasurements) {

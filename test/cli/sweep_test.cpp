@@ -8,6 +8,7 @@
 #include <cmath>
 #include <csignal>
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -191,6 +192,30 @@ TEST_F(Sweep, SaysThatItHasNoHdf5) {
 }
 #endif
 
+/// In containers that share a folder two workers may have one process number: a draft of one is not the other's.
+TEST_F(Sweep, LeavesDraftsOfOthersAlone) {
+  const std::string file = plan("seconds: 0.01\n"), others = "half of a table";
+  fs::create_directories(out_);
+  const pid_t child = fork();
+  if (child == 0) {  // a worker whose number is known before it starts
+    for (const char* of : {"plan.txt", "results.csv"})
+      std::ofstream(out_ + "/" + of + "." + std::to_string(getpid()) + ".draft") << others;
+    execl(VISCERA_COMMAND, VISCERA_COMMAND, "sweep", file.c_str(), "--out", out_.c_str(), nullptr);
+    _exit(127);
+  }
+  int status = -1;
+  waitpid(child, &status, 0);
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
+  EXPECT_EQ(rowsOf(out_).size(), 1u);
+  size_t drafts = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(out_)) {
+    if (entry.path().extension() != ".draft") continue;
+    ++drafts;
+    EXPECT_EQ(readFile(entry.path()), others) << entry.path();
+  }
+  EXPECT_EQ(drafts, 2u);
+}
+
 /// The stiffer, and the less compressible, the harder the pad presses back.
 TEST_F(Sweep, ShippedCalibrationTellsMaterialsApart) {
   const Ending ending = viscera({"sweep", VISCERA_SOURCE_DIR "/config/sweeps/calibration.yaml", "--out", out_});
@@ -231,18 +256,36 @@ TEST_F(Sweep, TriesAgainAndSaysWhatFailed) {
   EXPECT_TRUE(says(rowsOf(out_)[1], {"1,failed,1,7,"}));
 }
 
+TEST_F(Sweep, ARunOverItsLimitIsKilledAndTheNextIsDone) {
+  constexpr int kLimit_s = 5;        // the second run takes a quarter of a second, the first a minute or more
+  constexpr double kFarLess_s = 40;  // than the first would take
+  const std::string file = plan(
+      "seconds: 0.5\n"
+      "set: {solver.integrator: vbd}\n"
+      "grid: {solver.iterations: [10000, 1]}\n");
+  const auto start = std::chrono::steady_clock::now();
+  const Ending ending = sweep(file, {"--run-limit-s", std::to_string(kLimit_s), "--tries", "1", "--jobs", "1"});
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+  EXPECT_EQ(ending.status, 1) << ending.err;
+  EXPECT_GE(took.count(), kLimit_s);
+  EXPECT_LT(took.count(), kFarLess_s);
+  EXPECT_TRUE(says(rowsOf(out_)[0], {"0,failed,1,10000,", "over its 5 s"}));
+  EXPECT_TRUE(says(rowsOf(out_)[1], {"1,done,0,1,"}));
+}
+
 TEST_F(Sweep, IsGivenToSlurmAsAJobArray) {
   // In place of Slurm's sbatch: takes what it is given, and does what two of the array's jobs would.
   folder_.write("sbatch", "#!/bin/sh\nfor last; do :; done\necho \"$@\" > " + folder_.file("given") +
                               "\nsh \"$last\" && sh \"$last\"\n");
   fs::permissions(folder_.file("sbatch"), fs::perms::owner_all);
   const std::string file = plan("seconds: 0.02\ngrid: {solver.dt_fraction: [0.5, 0.6]}\n");
-  const std::vector<std::string> arguments = {"sweep",   file, "--out",    out_,
-                                              "--slurm", "3",  "--sbatch", "--partition=small --time=5"};
+  const std::vector<std::string> arguments = {
+      "sweep", file, "--out", out_, "--slurm", "3", "--sbatch", "--partition=small --time=5", "--run-limit-s", "600"};
   const Ending ending = viscera(arguments, {"PATH=" + folder_.path() + ":/usr/bin:/bin"});
   EXPECT_EQ(ending.status, 0) << ending.err;
   EXPECT_EQ(readFile(folder_.file("given")), "--partition=small --time=5 " + out_ + "/slurm.sh\n");
-  EXPECT_TRUE(says(readFile(out_ + "/slurm.sh"), {"#SBATCH --array=0-2\n", "#SBATCH --requeue\n"}));
+  EXPECT_TRUE(
+      says(readFile(out_ + "/slurm.sh"), {"#SBATCH --array=0-2\n", "#SBATCH --requeue\n", " --run-limit-s 600 "}));
   EXPECT_EQ(rowsOf(out_).size(), 2u);
   EXPECT_TRUE(says(rowsOf(out_)[1], {"1,done,0,0.6,"}));
   const Ending absent = viscera(arguments, {"PATH=" + folder_.file("out")});

@@ -16,6 +16,12 @@ DeviceProfile profile(const Overrides& overrides) {
   return parseDevice("about: a\n", "device.yaml", choice);
 }
 
+DeviceProfile shipped(const std::string& name) {
+  DeviceChoice choice;
+  choice.stylus = "left";
+  return loadDevice(std::string(VISCERA_SOURCE_DIR) + "/config/devices/" + name + ".yaml", choice);
+}
+
 void expectNear(const Pose& a, const Pose& b) {
   EXPECT_LT((a.position_m - b.position_m).norm(), kRounding);
   EXPECT_LT(a.orientation.angularDistance(b.orientation), 1e-7);  // whose arc cosine rounds to this
@@ -85,11 +91,43 @@ TEST(DeviceMap, ClutchThatIsDownAtTheStartHoldsTheFirstPlace) {
   EXPECT_LT((map.toBase(moved).position_m - first_m).norm(), kRounding);
 }
 
+TEST(DeviceMap, PlaceThatIsNotAcceptedMovesNoClutch) {
+  DeviceMap map(profile({}));
+  const Vector3d good_m = map.toBase(kHand).position_m;
+  Pose far = kHand;
+  far.position_m.x() = 100;
+  EXPECT_EQ(map.placeOf(far).tip.position_m.x(), 100);
+  map.setClutch(true);
+  EXPECT_LT((map.placeOf(far).tip.position_m - good_m).norm(), kRounding);
+  map.setClutch(false);
+  expectNear(map.toBase(kHand), kHand);
+}
+
+/// Of the dVRK, z of the tip's frame points out of the instrument, along its jaws; the shaft is behind it.
+TEST(DeviceMap, ToolsOfTheDvrkPointAsTheirInstrumentsDo) {
+  for (const char* name : {"dvrk_mtm", "crtk_arm"}) {
+    DeviceMap map(shipped(name));
+    const Quaterniond jaws = rotationFromDegrees({20, -30, 70});
+    const Pose tip = map.toBase({{0.01, 0.02, 0.03}, jaws});
+    EXPECT_LT((tip.position_m - Vector3d(0.01, 0.02, 0.03)).norm(), kRounding) << name;
+    const Vector3d blade = tip.orientation * -Vector3d::UnitZ();  // as docs/user_guide.md has it
+    EXPECT_LT((blade - jaws * Vector3d::UnitZ()).norm(), kRounding) << name;
+    expectNear(map.fromBase(tip), {{0.01, 0.02, 0.03}, jaws});
+  }
+}
+
+TEST(DeviceMap, ArmStartsWithItsJawsTowardsTheTissue) {
+  const DeviceProfile arm = shipped("crtk_arm");
+  const Quaterniond start = rotationFromDegrees(arm.arm.start_rotation_deg);
+  const Vector3d jaws = start * Vector3d::UnitZ(), towards_tissue = Vector3d(0, -arm.arm.start_m.y(), 0).normalized();
+  EXPECT_LT((jaws - towards_tissue).norm(), kRounding);
+  const Pose tool = DeviceMap(arm).placeOf({arm.arm.start_m, start}).tip;
+  EXPECT_LT((tool.orientation * -Vector3d::UnitZ() - towards_tissue).norm(), kRounding);
+}
+
 /// As omni_common has it: the place is turned to z up, the orientation is the device's times a quarter turn about z.
 TEST(DeviceMap, OmnisStylusPointsWhereItDoesInTheHand) {
-  DeviceChoice choice;
-  choice.stylus = "left";
-  DeviceMap map(loadDevice(std::string(VISCERA_SOURCE_DIR) + "/config/devices/phantom_omni.yaml", choice));
+  DeviceMap map(shipped("phantom_omni"));
   const Quaterniond in_device = rotationFromDegrees({20, -30, 70});  // y up
   const Quaterniond quarter(Eigen::AngleAxisd(-M_PI / 2, Vector3d::UnitZ()));
   const Quaterniond up(axesOf("x -z y", ""));

@@ -125,6 +125,11 @@ TEST(DeviceProfile, LimitsAreTheNarrower) {
   const DeviceProfile weak = parsed(kCrtk, {"force.max_force_n=3.3", "stale_after_s=0.5"});
   EXPECT_EQ(withDevice(stylus, weak).max_force_n, 3.3);
   EXPECT_EQ(withDevice(stylus, weak).stale_after_s, 0.5);
+  // A scene that asks for more than any usual device takes is held to less, until the profile says otherwise.
+  stylus.max_force_n = 1000;
+  EXPECT_EQ(withDevice(stylus, parsed(kCrtk)).max_force_n, ForcePort{}.max_force_n);
+  EXPECT_LE(ForcePort{}.max_force_n, 10);
+  EXPECT_EQ(withDevice(stylus, parsed(kCrtk, {"force.type=omni_feedback"})).max_torque_nm, 0);
 }
 
 }  // namespace

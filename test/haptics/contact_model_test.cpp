@@ -102,6 +102,17 @@ TEST(ContactModel, StaysPositiveAndBoundedWhateverTicksSay) {
   }
 }
 
+/// Of a reset, a recovery, another mode: the tissue is not where it was.
+TEST(ContactModel, RemembersNoSurfaceOfBefore) {
+  double now_s = 0;
+  ContactModel model = pressed(0, -0.004, 8, now_s);
+  TickContact free = onWall(0.001, 0.001);
+  free.anew = true;
+  model.put(free, kTick_s, now_s += kTick_s);
+  now_s += kTick_s;
+  for (double z : {0.001, -0.001, -0.004}) EXPECT_EQ(model.at({0, 0, z}, now_s).force_n, Vector3d(0, 0, 0)) << z;
+}
+
 TEST(ContactModel, RemembersTheSurfaceThatATipHasJustLeft) {
   double now_s = 0;
   ContactModel model = pressed(0, -0.004, 8, now_s);

@@ -10,6 +10,7 @@ namespace viscera {
 namespace {
 
 constexpr double kPeriod_s = 1e-3, kStiff_n_per_m = 500, kDepth_m = 3e-3;
+constexpr double kRounding = 1e-12;  // of sums of a few doubles of the order of 1
 
 /// A tip goes into a wall and out again; the wall pushes back with other shares of its force on the way in and out.
 /// @returns the energy that it has got at the end [J]
@@ -20,7 +21,9 @@ double inAndOut(double share_in, double share_out, PassivityControl& control) {
     const double next_m = kDepth_m * std::sin(3.14159265358979 * i / periods);
     const double speed = (next_m - depth_m) / kPeriod_s;
     const double force = (speed > 0 ? share_in : share_out) * kStiff_n_per_m * next_m;
-    control.step({0, 0, depth_m - next_m}, {0, 0, -speed}, {0, 0, force}, 0.5 * force * next_m);
+    control.moved({0, 0, depth_m - next_m}, (i - 1) * kPeriod_s, i * kPeriod_s);
+    const double now_s = i * kPeriod_s;
+    control.sent(control.damped({0, 0, -speed}, {0, 0, force}, 0.5 * force * next_m, now_s, now_s), now_s);
     depth_m = next_m;
   }
   return control.energy_j();
@@ -40,19 +43,31 @@ TEST(PassivityControl, KeepsAWallFromGivingMoreThanItGot) {
 
 TEST(PassivityControl, TurnsNoForceRound) {
   PassivityControl control({kPeriod_s, 0, 0});
-  for (double speed : {0.001, 0.1, 3.0})
-    EXPECT_GE(control.step({0, 0, speed * kPeriod_s}, {0, 0, speed}, {0, 0, 2}, 1).z(), 0) << speed;
+  for (double speed : {0.001, 0.1, 3.0}) EXPECT_GE(control.damped({0, 0, speed}, {0, 0, 2}, 1, 0, 0).z(), 0) << speed;
 }
 
 TEST(PassivityControl, CountsTheForceThatActedARoundTripAgo) {
   PassivityControl control({kPeriod_s, 2 * kPeriod_s, 1});
-  for (double force : {1.0, 2.0, 3.0, 4.0}) {
-    control.step(Vector3d::Zero(), Vector3d::Zero(), {0, 0, force}, 1);
-    control.sent({0, 0, force});
-  }
-  EXPECT_EQ(control.acting_n().z(), 2);  // of the way from the pose that was measured last: what was sent two before
-  control.step({0, 0, -0.001}, Vector3d::Zero(), Vector3d::Zero(), 1);
-  EXPECT_NEAR(control.energy_j(), 0.002, 1e-12);
+  for (int i = 1; i <= 4; ++i) control.sent({0, 0, static_cast<double>(i)}, i * kPeriod_s);
+  // From the pose of 4 ms to that of 5 ms there acted what was sent from 2 ms to 3 ms.
+  EXPECT_NEAR(control.moved({0, 0, -0.001}, 4 * kPeriod_s, 5 * kPeriod_s)->z(), 2, kRounding);
+  EXPECT_NEAR(control.energy_j(), 0.002, kRounding);
+}
+
+TEST(PassivityControl, BooksAWayOfManyPeriodsWithTheForcesOfAllOfThem) {
+  PassivityControl control({kPeriod_s, 0, 1});
+  for (int i = 0; i < 10; ++i) control.sent({0, 0, static_cast<double>(i)}, i * kPeriod_s);
+  EXPECT_NEAR(control.moved({0, 0, -0.001}, 0, 10 * kPeriod_s)->z(), 4.5, kRounding);
+  EXPECT_NEAR(control.energy_j(), 0.0045, kRounding);
+}
+
+TEST(PassivityControl, BooksNothingBeyondWhatItRemembers) {
+  PassivityControl control({kPeriod_s, 0, 1});
+  const int periods = static_cast<int>(10 * PassivityControl::kLongestWay_s / kPeriod_s);
+  for (int i = 0; i < periods; ++i) control.sent({0, 0, 1}, i * kPeriod_s);
+  EXPECT_FALSE(control.moved({0, 0, 0.03}, 0, periods * kPeriod_s));
+  EXPECT_EQ(control.energy_j(), 0);
+  EXPECT_TRUE(control.moved({0, 0, 0.03}, (periods - 50) * kPeriod_s, periods * kPeriod_s));
 }
 
 }  // namespace

@@ -8,11 +8,12 @@ import unittest
 
 import rospy
 import rostest
-from drivers import foreign, vector
+from drivers import JAWS, fill, foreign, vector
 from geometry_msgs.msg import PoseStamped, TwistStamped, WrenchStamped
 from sensor_msgs.msg import JointState
 from simulator_watch import Latest, SimulatorWatch, wait_until
-from turns import length, plus
+from tf2_msgs.msg import TFMessage
+from turns import length, plus, rotation, times
 
 HEADER = "=" * 80 + "\nMSG: std_msgs/Header\nuint32 seq\ntime stamp\nstring frame_id\n"
 OperatingState = foreign("crtk_msgs/OperatingState",
@@ -22,8 +23,17 @@ LIMIT_S = 20
 START = (-0.03, 0, 0.05)  # of crtk_arm.test
 DEEP_M = 0.012            # the probe's centre, 6 mm in the block
 PLACE_M = 1e-6            # what rounding leaves
+TURN = 1e-6               # of a rotation's nine numbers: the same
 SPEED = 0.05              # share by which a mean of a few ticks may differ
 FELT_N = 0.05
+
+
+def turn_of(orientation):
+    return rotation(orientation.x, orientation.y, orientation.z, orientation.w)
+
+
+def is_turned(orientation, wanted):
+    return length([a - b for rows in zip(turn_of(orientation), wanted) for a, b in zip(*rows)]) < TURN
 
 
 class CrtkArmTest(unittest.TestCase):
@@ -38,6 +48,8 @@ class CrtkArmTest(unittest.TestCase):
         cls.force = Latest("PSM1/measured_cf", WrenchStamped)
         cls.jaw = Latest("PSM1/jaw/measured_js", JointState)
         cls.state = Latest("PSM1/operating_state", OperatingState, cls.states.append, queue_size=10)
+        cls.tool = None
+        cls.tf = Latest("/tf", TFMessage, cls.on_tf)
         cls.servo = rospy.Publisher("PSM1/servo_cp", PoseStamped, queue_size=1, latch=True)
         cls.move = rospy.Publisher("PSM1/move_cp", PoseStamped, queue_size=1, latch=True)
         cls.jaws = rospy.Publisher("PSM1/jaw/servo_jp", JointState, queue_size=1, latch=True)
@@ -46,11 +58,16 @@ class CrtkArmTest(unittest.TestCase):
         wait_until(lambda: all(p.get_num_connections() for p in (cls.servo, cls.move, cls.jaws, cls.command)), LIMIT_S,
                    "subscribers of commands")
 
-    def tell(self, publisher, at):
-        """As crtk_python_client does: without a stamp and a frame."""
+    @classmethod
+    def on_tf(cls, message):
+        for transform in message.transforms:
+            if transform.child_frame_id == "left_tool":
+                cls.tool = transform.transform
+
+    def tell(self, publisher, at, jaws=JAWS):
+        """As crtk_python_client does: without a stamp and a frame. The jaws point down."""
         message = PoseStamped()
-        message.pose.position.x, message.pose.position.y, message.pose.position.z = at
-        message.pose.orientation.w = 1
+        fill(message.pose, at, jaws)
         publisher.publish(message)
 
     def is_at(self, at):
@@ -73,6 +90,16 @@ class CrtkArmTest(unittest.TestCase):
         self.go((-0.03, 0.01, 0.05))
         time.sleep(1)  # longer than poses of a device may be old
         self.assertTrue(self.is_at((-0.03, 0.01, 0.05)))
+
+    def test_1b_jaws_point_along_z_of_its_poses_as_those_of_a_dvrk_do(self):
+        self.assertTrue(is_turned(self.at.message.pose.orientation, JAWS))
+        at = vector(self.at.message.pose.position)
+        for jaws in (rotation(0.5, -0.5, 0.1, 0.7), JAWS):
+            self.tell(self.servo, at, jaws)
+            # the tool's blade lies along -z, so its shaft is behind the jaws
+            wait_until(lambda: self.tool and is_turned(self.tool.rotation, times(jaws, JAWS)), LIMIT_S, "tool turned")
+            wait_until(lambda: is_turned(self.at.message.pose.orientation, jaws) and self.is_at(at), LIMIT_S, "measured_cp")
+            wait_until(lambda: is_turned(self.setpoint.message.pose.orientation, jaws), LIMIT_S, "setpoint_cp")
 
     def test_2_move_takes_its_time_and_its_end_can_be_waited_for(self):
         goal = (0.01, 0.01, 0.05)

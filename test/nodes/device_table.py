@@ -32,6 +32,9 @@ class Arm(drivers.Crtk):
         rospy.Subscriber(self.stylus + "/measured_cf", drivers.WrenchStamped,
                          lambda m: self.feel(drivers.vector(m.wrench.force)))
 
+    def tell(self, position, rotation):
+        super().tell(position, drivers.times(rotation, drivers.JAWS))
+
 
 def circle(hand, begun):
     angle = 2 * math.pi * TURNS_HZ * (time.monotonic() - begun)

@@ -138,6 +138,10 @@ class DevicesTest(unittest.TestCase):
             wait_until(lambda: self.tool_is("right", other.at, other.turned), LIMIT_S, "tracked tool")
             other.camera = (0.2, 0.15, 0.4)  # the camera is pushed aside; the hand has not moved
             program.said("the frame 'camera' was moved")
+            wait_until(lambda: watch.value("right", "base_moves") == 1, LIMIT_S, "moved base")
+            other.camera_turned = rotation(0, 0, 0.25881905, 0.96592583)  # or turned in its place, by 30 degrees
+            wait_until(lambda: watch.value("right", "base_moves") == 2, LIMIT_S, "turned base")
+            wait_until(lambda: self.tool_is("right", other.at, other.turned), LIMIT_S, "tool that was not moved")
             self.assertEqual(watch.value("left", "base_moves"), 0)
         finally:
             hand.end(), other.end()

@@ -29,6 +29,7 @@ DeviceFeedback = foreign("geomagic_control/DeviceFeedback",
 UP = ((1, 0, 0), (0, 0, -1), (0, 1, 0))  # from a haptic device's axes, y up, to ours, z up
 DOWN = transposed(UP)
 QUARTER = ((0, -1, 0), (1, 0, 0), (0, 0, 1))  # about z
+JAWS = ((1, 0, 0), (0, -1, 0), (0, 0, -1))    # from a tool, z along its shaft, to the dVRK's tip, z along its jaws
 
 
 def vector(v):
@@ -114,7 +115,7 @@ class Crtk2021(Crtk):
 
 
 class DvrkMaster(Crtk):
-    """Its gripper is the first button: closed is pressed."""
+    """Its gripper is the first button: closed is pressed. z of its poses points along the jaws."""
     profile = "dvrk_mtm"
 
     def device(self):
@@ -127,7 +128,7 @@ class DvrkMaster(Crtk):
         self.clutch = self.joy("footpedals/clutch")
 
     def tell(self, position, rotation):
-        super().tell(position, rotation)
+        super().tell(position, times(rotation, JAWS))
         self.gripper.publish(JointState(name=["gripper"], position=[0.0 if self.down[0] else 0.5]))
 
     def press(self, button, down):
@@ -226,7 +227,7 @@ class Polhemus(Tracker):
 class TfTracker(Polhemus):
     """A frame below one that tf joins to the tissue."""
     profile, options, base, turn = "tf", ["pose.tf_base=camera"], (0, 0, 0), IDENTITY
-    camera = (0.2, 0.1, 0.4)  # in the tissue frame
+    camera, camera_turned = (0.2, 0.1, 0.4), IDENTITY  # in the tissue frame
 
     def device(self):
         return "%s=tf:scalpel" % self.stylus
@@ -238,8 +239,11 @@ class TfTracker(Polhemus):
     def tell(self, position, rotation):
         stamp = rospy.Time.now()
         out = []
-        for parent, child, place, turn in (("tissue", "camera", self.camera, IDENTITY),
-                                           ("camera", "scalpel", plus(position, self.camera, -1), rotation)):
+        camera, turned = self.camera, self.camera_turned
+        seen = transposed(turned)
+        for parent, child, place, turn in (
+            ("tissue", "camera", camera, turned),
+            ("camera", "scalpel", times(seen, plus(position, camera, -1)), times(seen, rotation))):
             transform = TransformStamped()
             transform.header.stamp, transform.header.frame_id, transform.child_frame_id = stamp, parent, child
             fill(transform.transform, place, turn)

@@ -33,5 +33,21 @@ TEST(ForceSink, NeverGivesMoreThanTheDeviceIsMadeFor) {
   EXPECT_LT((twisting.force_n - Vector3d(0, 0.2, 0)).norm(), kRounding);
 }
 
+TEST(ForceSink, NoTorqueShrinksTheForceOfADeviceThatHasNone) {
+  DeviceFrame frame;
+  frame.lever_arm_m = {0.1, 0, 0};
+  for (const ForceType type : {ForceType::kOmniFeedback, ForceType::kGeomagicFeedback}) {
+    ForcePort port;
+    port.type = type;
+    port.max_torque_nm = 0.01;
+    const Reaction out = toDevice({{0, 0, 1}, {0, 0.3, 0}, false}, frame, port);
+    EXPECT_EQ(out.force_n, Vector3d(0, 0, 1));
+    EXPECT_EQ(out.torque_nm, Vector3d::Zero());
+  }
+  ForcePort without;
+  without.max_torque_nm = 0;
+  EXPECT_EQ(toDevice({{0, 0, 1}, {0, 0.3, 0}, false}, frame, without).force_n, Vector3d(0, 0, 1));
+}
+
 }  // namespace
 }  // namespace viscera::nodes

@@ -1,15 +1,17 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026, the viscera authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""A hand with a device, as a process of its own: it presses the probe of `left` into the heart, holds it there, and notes
-every wrench that it is told. Prints `touching` once it feels a force, and, when its standard input ends, a JSON list of
-[time.monotonic(), force in N, torque in N m, the message's stamp in s]."""
+"""hand.py [WRENCHES [KIND]]: a hand with a device, as a process of its own. It presses the probe of `left` into the heart,
+holds it there, and notes every wrench that it is told. Prints `touching` once it feels a force, and, when its standard
+input ends, a JSON list of [time.monotonic(), force in N, torque in N m, the message's stamp in s]. KIND is a class of
+drivers.py, whose topics are its driver's; by default it speaks CRTK and listens to WRENCHES."""
 import json
 import math
 import sys
 import threading
 import time
 
+import drivers
 import rospy
 from geometry_msgs.msg import PoseStamped, WrenchStamped
 
@@ -32,33 +34,57 @@ class Hand:
             self.felt.append((time.monotonic(), math.hypot(f.x, f.y, f.z), math.hypot(t.x, t.y, t.z),
                               message.header.stamp.to_sec()))
 
-    def move(self, since_s):
+    def connected(self):
+        return self.poses.get_num_connections() > 0
+
+    def move(self, tip):
         pose = PoseStamped()
         pose.header.frame_id = "tissue"
         pose.header.stamp = rospy.Time.now()
-        way = min(1.0, since_s / APPROACH_S)
-        pose.pose.position.y = OUTSIDE_Y_M + way * (DEEP_Y_M - OUTSIDE_Y_M)
-        pose.pose.position.z = -0.02
+        pose.pose.position.x, pose.pose.position.y, pose.pose.position.z = tip
         pose.pose.orientation.w = 1
         self.poses.publish(pose)
 
     def play(self, stop):
-        while not stop.is_set() and not self.poses.get_num_connections():
+        while not stop.is_set() and not self.connected():
             time.sleep(0.02)
         begun, told = time.monotonic(), False
         while not stop.is_set():
             since_s = time.monotonic() - begun
-            self.move(since_s)
+            way = min(1.0, since_s / APPROACH_S)
+            self.move((0, OUTSIDE_Y_M + way * (DEEP_Y_M - OUTSIDE_Y_M), -0.02))
             if not told and since_s > 2 * APPROACH_S and self.felt and self.felt[-1][1] > FELT_N:
                 told = True
                 print("touching", flush=True)
             time.sleep(1 / RATE_HZ)
 
 
+class DriverHand(Hand):
+    """Of a driver whose messages tell a force alone."""
+
+    def __init__(self, kind):
+        self.felt = []
+        self.lock = threading.Lock()
+        self.driver = kind("left")
+        self.driver.feel = self.note
+
+    def note(self, force):
+        with self.lock:
+            self.felt.append((time.monotonic(), math.hypot(*force), 0.0, 0.0))
+
+    def connected(self):
+        return self.driver.poses.get_num_connections() > 0
+
+    def move(self, tip):
+        self.driver.at = tip
+
+
 def main():
     rospy.init_node("hand", anonymous=True, disable_signals=True)
     stop = threading.Event()
-    hand = Hand(sys.argv[1] if len(sys.argv) > 1 and ":=" not in sys.argv[1] else "left/body/servo_cf")
+    arguments = [a for a in sys.argv[1:] if ":=" not in a]
+    hand = (DriverHand(getattr(drivers, arguments[1])) if len(arguments) > 1 else
+            Hand(arguments[0] if arguments else "left/body/servo_cf"))
     player = threading.Thread(target=hand.play, args=(stop,), daemon=True)
     player.start()
     sys.stdin.read()

@@ -9,11 +9,16 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import xml.etree.ElementTree
 import xmlrpc.client
 
 import rosgraph
+import roslaunch.config
+import roslaunch.core
+import roslaunch.xmlloader
 import roslib.packages
 import rostest
+import yaml
 from program import END_LIMIT_S, START_LIMIT_S, Program
 from simulator_watch import wait_until
 
@@ -75,6 +80,63 @@ class LaunchingTest(unittest.TestCase):
         simulator = self.start("roslaunch", "viscera", "training.launch", "scene:=" + SCENE)
         simulator.said("ready: " + SCENE_NODES)
         self.assertFalse(self.master.hasParam("/simulator/mesh_unit_m"))
+
+    @staticmethod
+    def nodes_of(launch_file, **arguments):
+        """What roslaunch would start: arguments of nodes by their names."""
+        config = roslaunch.config.ROSLaunchConfig()
+        path = os.path.join(roslib.packages.get_pkg_dir("viscera"), "launch", launch_file)
+        roslaunch.xmlloader.XmlLoader().load(path, config, argv=["%s:=%s" % item for item in arguments.items()],
+                                             verbose=False)
+        return {node.namespace + node.name: node.args for node in config.nodes}
+
+    def test_arguments_that_mean_nothing_are_refused(self):
+        for file, arguments, words in (("fleet", {"n": 0}, "n:=0 is no number of simulators"),
+                                       ("fleet", {"n": 1.5}, "n:=1.5 is no number of simulators"),
+                                       ("training", {"rviz": "true", "view": "nosuch"}, "nosuch.rviz"),
+                                       ("training", {"watchdog": "true", "device_left": "/my/own.yaml"}, "by hand"),
+                                       ("training", {"watchdog": "true", "device_options": "left.force.topic=mine"},
+                                        "by hand")):
+            with self.assertRaises(roslaunch.core.RLException) as refused:
+                self.nodes_of(file + ".launch", **arguments)
+            self.assertIn(words, str(refused.exception))
+        self.assertEqual(set(self.nodes_of("fleet.launch", n=2)), {"/sim1/simulator", "/sim2/simulator"})
+        self.assertIn("/cloth.rviz", self.nodes_of("training.launch", rviz="true", view="cloth")["/rviz"])
+
+    def test_a_watchdog_stands_before_each_driver_that_takes_forces(self):
+        self.start_master()
+        launched = self.start("roslaunch", "viscera", "training.launch", "scene:=" + TWO_HANDS, "watchdog:=true",
+                              "device_left:=phantom_omni", "device_right:=polhemus")
+        launched.said("ready: ")
+        wait_until(lambda: (self.publishers("/phantom/force_feedback"), self.publishers("/left/unwatched")) ==
+                   (["/watchdog_left"], ["/simulator"]), START_LIMIT_S, "watchdog: " + launched.output)
+        self.assertNotIn("watchdog_right", launched.output)
+        self.assertEqual(self.publishers("/right/unwatched"), [])
+
+    def test_watchdogs_know_the_force_topics_of_the_shipped_profiles(self):
+        folder = os.path.join(roslib.packages.get_pkg_dir("viscera"), "config/devices")
+        watched = 0
+        for file in sorted(os.listdir(folder)):
+            with open(os.path.join(folder, file)) as text:
+                profile = yaml.safe_load(text)
+            name = os.path.splitext(file)[0]
+            nodes = self.nodes_of("training.launch", watchdog="true", device_left=name, device_right=name + ":other")
+            if profile["force"]["type"] == "none" or name == "crtk_arm":  # whose force others read
+                self.assertEqual(set(nodes), {"/simulator"}, name)
+                continue
+            topic = profile["force"]["topic"]
+            for stylus, driver in (("left", profile.get("name", "left")), ("right", "other")):
+                self.assertTrue(nodes["/watchdog_" + stylus].endswith(
+                    "wrench_in:=%s/unwatched wrench_out:=%s" % (stylus, topic.replace("{name}", driver))), name)
+                self.assertIn("%s.force.topic=%s/unwatched" % (stylus, stylus), nodes["/simulator"])
+            watched += 1
+        self.assertEqual(watched, 6)
+
+    def test_the_licence_is_named_as_spdx_names_it(self):
+        package = roslib.packages.get_pkg_dir("viscera")
+        licence = xml.etree.ElementTree.parse(os.path.join(package, "package.xml")).getroot().find("license")
+        self.assertEqual(licence.text, "BSD-3-Clause")
+        self.assertTrue(os.path.isfile(os.path.join(package, licence.get("file"))))
 
     def publishers(self, topic):
         return dict(self.master.getSystemState()[0]).get(topic, [])

@@ -46,7 +46,7 @@ class LoadSceneTest(unittest.TestCase):
         for request, said in (({"scene": ""}, "must be given"),
                               ({"scene": "nowhere"}, "no file"),
                               ({"scene": "heart", "overrides": ["bodies[0].spacing=1"]}, "bodies[0].spacing"),
-                              ({"scene": "heart", "mesh": "/nowhere.obj"}, "no file"),
+                              ({"scene": "heart", "mesh": os.path.join(HERE, "nowhere.obj")}, "no file"),
                               ({"scene": "heart", "mesh": OTHER}, "cameras.yaml"),
                               ({"scene": "heart", "mesh_unit_m": 0.001}, "no meaning without"),
                               ({"scene": "heart", "overrides": ["bodies[0].fixed=[{shape: sphere, radius_m: 1}]"]}, "")):
@@ -57,6 +57,20 @@ class LoadSceneTest(unittest.TestCase):
         before = self.tick.message.tick
         wait_until(lambda: self.tick.message.tick > before, 10, "tick of the old scene")
         self.assertIn("/left/body/servo_cf", self.topics())
+
+    def test_0_files_outside_of_the_scene_folders_are_refused_and_not_quoted(self):
+        outside = "/etc/passwd"
+        with open(outside) as file:
+            words = [word for word in file.read().split(":") if len(word) > 6 and word not in outside]
+        for path in (outside, os.path.join(HERE, "../../../../../../../../../.." + outside), "/nowhere/to/be/found"):
+            for request in ({"scene": path}, {"scene": "heart", "mesh": path},
+                            {"scene": OTHER, "overrides": ["bodies[0].source=mesh", "bodies[0].mesh_file=" + path]}):
+                answer = self.load(**request)
+                self.assertFalse(answer.success, str(request))
+                self.assertIn("~scene_folders", answer.message)
+                self.assertIn(path, answer.message)
+                for word in words:
+                    self.assertNotIn(word, answer.message)
 
     def test_1_another_scene_takes_its_place_with_zero_as_the_last_force(self):
         hand = subprocess.Popen([sys.executable, os.path.join(HERE, "hand.py")], stdin=subprocess.PIPE,

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "model/shape/file_bounds.h"
 #include "nodes/simulator_options.h"
 #include "nodes/stylus_replay.h"
 
@@ -100,7 +101,10 @@ class SimulatorOptionsTest : public ::testing::Test {
     std::ofstream(folder_ / "config/scenes/block.yaml") << "bodies: [{source: box, spacing_m: 0.01}]\n";
     std::ofstream(folder_ / "it's a mesh.obj") << "v 0 0 0\n";
   }
-  ~SimulatorOptionsTest() override { std::filesystem::remove_all(folder_); }
+  ~SimulatorOptionsTest() override {
+    bindFilesTo({}, "");
+    std::filesystem::remove_all(folder_);
+  }
 
   SimulatorOptions read(const XmlRpcValue& values) {
     Parameters parameters(values);
@@ -134,6 +138,35 @@ TEST_F(SimulatorOptionsTest, MissingMeshIsRefused) {
   XmlRpcValue values = one("scene", XmlRpcValue("block"));
   values["mesh"] = "nowhere.obj";
   expectRefused([&] { read(values); }, {"~mesh", "nowhere.obj"});
+}
+
+TEST_F(SimulatorOptionsTest, FilesOutsideOfTheSceneFoldersAreRefusedThereOrNot) {
+  std::filesystem::create_directories(folder_ / "data");
+  std::ofstream(folder_ / "secret.yaml") << "s3cret: 1\n";
+  std::ofstream(folder_ / "data/own.yaml") << "bodies: [{source: box, spacing_m: 0.01}]\n";
+  std::filesystem::create_symlink(folder_ / "secret.yaml", folder_ / "data/link.yaml");
+  XmlRpcValue values = one("scene_folders", XmlRpcValue((folder_ / "data").string()));
+  const auto reading = [&](const std::string& key, const std::string& path) {
+    XmlRpcValue all = values;
+    all[key] = path;
+    if (key != "scene") all["scene"] = "block";
+    return [this, all] { read(all); };
+  };
+  EXPECT_NO_THROW(reading("scene", (folder_ / "data/own.yaml").string())());
+  EXPECT_NO_THROW(reading("scene", "block")()) << "the package's own";
+  for (const char* name : {"secret.yaml", "absent.yaml", "data/link.yaml", "data/../secret.yaml"}) {
+    const std::string path = (folder_ / name).string();
+    expectRefused(reading("scene", path), {"~scene_folders", path});
+  }
+  for (const char* name : {"it's a mesh.obj", "absent.obj"}) {
+    const std::string path = (folder_ / name).string();
+    expectRefused(reading("mesh", path), {"~scene_folders", path});
+  }
+  for (const char* folder : {"data", "/nowhere/at/all"}) {
+    values["scene_folders"] = folder;
+    expectRefused(reading("scene", "block"), {"~scene_folders", folder, "absolute"});
+  }
+  EXPECT_NO_THROW(read(one("scene", XmlRpcValue((folder_ / "data/own.yaml").string())))) << "any file again";
 }
 
 TEST_F(SimulatorOptionsTest, OverridesReachTheScene) {

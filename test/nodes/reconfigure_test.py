@@ -73,8 +73,11 @@ class ReconfigureTest(unittest.TestCase):
         wait_until(lambda: self.newtons() > 0.1, 10, "force beyond the old limit")
 
     def test_2_out_of_range_is_refused(self):
-        for bad in (-1.0, 1e9, float("nan")):
+        for bad in (-1.0, 5.1, 1e9, float("nan")):  # more than the scene says is more than the hand can take
             self.assertEqual(self.left.update_configuration({"max_force_n": bad})["max_force_n"], 5)
+        for bad in (0.0, 100.1):  # N/s: a force that never goes away
+            now = self.left.update_configuration({"max_force_rate_n_per_s": bad})
+            self.assertEqual(now["max_force_rate_n_per_s"], 100)
         self.assertEqual(self.left.update_configuration({"idle": "laser"})["idle"], "probe")
 
     def test_3_modes_go_both_ways(self):

@@ -6,43 +6,10 @@
 
 #include <limits>
 
+#include "nodes/mailbox_poses.h"
+
 namespace viscera::nodes {
 namespace {
-
-constexpr double kBegin_s = 100;       // of ROS time
-constexpr double kRounding_m = 1e-12;  // double rounding of a rotation and a sum
-const SteadyTime kStart = std::chrono::steady_clock::now();
-
-SteadyTime at(double time_s) {
-  return kStart + std::chrono::duration_cast<SteadyTime::duration>(std::chrono::duration<double>(time_s));
-}
-
-StylusConfig config() {
-  StylusConfig config;
-  config.stale_after_s = 0.2;
-  config.workspace_m = 1;
-  return config;
-}
-
-DevicePose poseAt(double x_m, const std::string& frame = "tissue") {
-  return {{{x_m, 0, 0}, Quaterniond::Identity()}, frame, ros::Time(kBegin_s)};
-}
-
-FramePlace nowhere(const std::string&) {
-  return {};
-}
-
-/// Both clocks go on together.
-Arrival arrival(double time_s) {
-  return {at(time_s), ros::Time(kBegin_s + time_s)};
-}
-
-/// A good pose, stamped when it comes.
-DevicePose poseNow(double time_s) {
-  DevicePose message = poseAt(0.1);
-  message.stamp = ros::Time(kBegin_s + time_s);
-  return message;
-}
 
 class StylusMailboxTest : public ::testing::Test {
  protected:
@@ -168,26 +135,6 @@ TEST_F(StylusMailboxTest, ClockThatStandsStillIsNoDriverThatHangs) {
   EXPECT_TRUE(mailbox_.take(at(1)).valid);
 }
 
-TEST_F(StylusMailboxTest, PoseThatWasLongOnItsWayIsDroppedWhateverTheClockOfTheDevice) {
-  constexpr double kAhead_s = 1e6;  // the device's clock
-  const auto sent = [](double t) { return poseNow(kAhead_s + t); };
-  for (double t = 0; t < 0.5; t += 0.1) EXPECT_EQ(mailbox_.put(sent(t), nowhere, arrival(t)), std::nullopt);
-  EXPECT_EQ(mailbox_.put(sent(0.45), nowhere, arrival(0.75)), Drop::kDelayed);
-  EXPECT_EQ(mailbox_.put(sent(0.7), nowhere, arrival(0.8)), std::nullopt);
-}
-
-TEST_F(StylusMailboxTest, DeviceThatComesBackWithAnEarlierClockIsHeard) {
-  mailbox_.put(poseNow(50), nowhere, arrival(0));
-  EXPECT_EQ(mailbox_.put(poseNow(-50), nowhere, arrival(1)), std::nullopt);
-}
-
-TEST_F(StylusMailboxTest, StampsFarApartAreNoTrouble) {
-  DevicePose message = poseAt(0.1);
-  message.stamp = ros::Time(4294967295u, 0);  // 136 years: more than a ros::Duration holds
-  EXPECT_EQ(mailbox_.put(message, nowhere, arrival(0)), std::nullopt);
-  EXPECT_EQ(mailbox_.put(poseNow(1), nowhere, arrival(1)), std::nullopt);
-}
-
 TEST_F(StylusMailboxTest, FrameWhoseTransformIsTooOldIsDropped) {
   const auto lookup = [](const std::string&) -> FramePlace { return {std::nullopt, true}; };
   EXPECT_EQ(mailbox_.put(poseAt(0.1, "base"), lookup, arrival(0)), Drop::kOldTransform);
@@ -288,32 +235,6 @@ TEST_F(StylusButtonTest, JoyWithoutOrWithStrangeButtonsIsDropped) {
   EXPECT_EQ(mailbox_.press(ButtonRole::kButton1, {3}, 0, at(1)), Drop::kButtonValue);
   EXPECT_EQ(mailbox_.press(ButtonRole::kButton1, {-1}, 0, at(1)), Drop::kButtonValue);
   EXPECT_FALSE(take().button1);
-}
-
-TEST_F(StylusMailboxTest, BaseThatLeapsMakesTheHandAppearAnew) {
-  double base_x_m = 0;
-  const auto lookup = [&](const std::string&) -> FramePlace {
-    return {Pose{{base_x_m, 0, 0}, Quaterniond::Identity()}};
-  };
-  const auto said = [](double time_s) {
-    DevicePose pose = poseNow(time_s);
-    pose.frame = "table";
-    return pose;
-  };
-  mailbox_.put(said(0), lookup, arrival(0));
-  base_x_m = 0.004;  // as a base may that somebody carries
-  mailbox_.put(said(0.01), lookup, arrival(0.01));
-  EXPECT_TRUE(mailbox_.take(at(0.01)).valid);
-  EXPECT_EQ(mailbox_.status(at(0.01)).base_moves, 0u);
-  mailbox_.press(ButtonRole::kButton2, {0}, 0, at(0.3));
-  mailbox_.press(ButtonRole::kButton2, {1}, 0, at(0.01));
-  base_x_m = 0.05;
-  mailbox_.put(said(0.02), lookup, arrival(0.02));
-  EXPECT_FALSE(mailbox_.take(at(0.02)).valid);
-  const StylusSample after = mailbox_.take(at(0.03));
-  EXPECT_TRUE(after.valid);
-  EXPECT_FALSE(after.button2);
-  EXPECT_EQ(mailbox_.status(at(0.03)).base_moves, 1u);
 }
 
 TEST_F(StylusMailboxTest, HeldPoseDoesNotGrowStaleUntilItIsLetGo) {

@@ -101,6 +101,13 @@ void expectSame(const Shown& a, const Shown& b, size_t most = 0) {
   }
 }
 
+/// A grip of the top is drawn aside by up to half an edge. Farther, and the skin folds over: backs are then what there
+/// is to see, which no picture without them can show.
+StylusSamples drag(int tick) {
+  const double share = static_cast<double>(tick) / kCutTicks;
+  return leftAt({share * kHalfM / 2, 0.001, kHalfM + 0.001}, false, true);
+}
+
 /// Bytes of a picture of 160 x 120 that may differ where backs of closed bodies are left out: on an outline a back may
 /// lie before the front beside it by less than depths are rounded by, and shows as a dark dot.
 constexpr size_t kOutlineBytes = 8 * 3;
@@ -108,7 +115,7 @@ constexpr size_t kOutlineBytes = 8 * 3;
 using Setting = std::tuple<Backend, Mapping>;
 class Hidden : public GpuTest, public ::testing::WithParamInterface<Setting> {
  protected:
-  /// Presses, then cuts where that is a tool's.
+  /// Presses, then cuts where that is a tool's, or holds and drags.
   Shown played(bool draw_hidden, bool can_cut, Structure of_block = Structure::kLattice) {
     Scene scene = hiddenScene(draw_hidden, std::get<1>(GetParam()), can_cut);
     scene.solver.backend = std::get<0>(GetParam());
@@ -117,7 +124,8 @@ class Hidden : public GpuTest, public ::testing::WithParamInterface<Setting> {
     Session session(scene, context_);
     Shown out;
     for (int tick = 1; tick <= kPressTicks + 2 * kCutTicks; ++tick) {
-      const StylusSamples samples = tick <= kPressTicks ? press(tick) : cut(tick - kPressTicks);
+      const int stroke = tick - kPressTicks;
+      const StylusSamples samples = stroke <= 0 ? press(tick) : can_cut ? cut(stroke) : drag(stroke);
       add(session.step(samples, wantsOf(tick)), out);
       add(session.drain(), out);
     }

@@ -170,16 +170,20 @@ TEST(SearchOnBothBackends, GivesTheSamePairsForEverySizeOfWorkGroup) {
 }
 
 /// A body that has collapsed into one point, another that is as it was, and a sheet beside that.
-TEST(SearchOnTheGpu, PassesOverACrowdAndSeesEverybodyElse) {
+TEST(SearchOnBothBackends, PassesOverACrowdAndSeesEverybodyElse) {
   const gpu::Context context;
   const int edge = 70;  // 4900 nodes
-  ASSERT_GT(static_cast<uint32_t>(edge * edge), CollisionPass::kMostInBucket);
+  ASSERT_GT(static_cast<uint32_t>(edge * edge), kMostInBucket);
   const Model model =
       modelOf({clothBody(edge, edge, kSpacing_m), clothBody(9, 9, kSpacing_m), clothBody(9, 9, kSpacing_m)});
   const Scene scene = collidingScene(model);
   const FeatureSet features = featuresOf(model, scene, 1);
   LatticeBuffers buffers(model, bodyParams(model, safeTimeStep(model)), features);
   const SurroundingsPass pass(model, scene, features, buffers);
+  CpuLattice lattice(model, bodyParams(model, safeTimeStep(model)), features);
+  const Serial serial;
+  CpuSurroundings on_cpu(model, scene, lattice, serial);
+  size_t compared = 0;
   for (const bool collapsed : {false, true}) {
     HostState state = restState(model);
     for (const uint32_t slot : model.bodies[0].lattice.active_slots) {
@@ -194,5 +198,12 @@ TEST(SearchOnTheGpu, PassesOverACrowdAndSeesEverybodyElse) {
     for (const CollisionPair& pair : pairs) EXPECT_GE(pair[0], model.slotOffset(1));
     pass.noteCrowded(buffers.stats);
     EXPECT_EQ(buffers.stats.read()[0].crowded, collapsed ? model.bodies[0].lattice.active_slots.size() : 0);
+    lattice.write(state);
+    EXPECT_EQ(on_cpu.findPairs(lattice), pairs);
+    EXPECT_EQ(on_cpu.crowded(), buffers.stats.read()[0].crowded);
+    if (collapsed) {
+      EXPECT_LE(on_cpu.compared(), compared) << "it costs no more than where nodes lie apart";
+    }
+    compared = on_cpu.compared();
   }
 }

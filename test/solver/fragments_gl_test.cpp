@@ -3,8 +3,10 @@
 //
 // Pieces that nothing holds come to lie where solver.sleep_distance_m ends, whatever pushes them.
 #include "math/float_bits.h"
+#include "solver/reference/reference_ticks.h"
 #include "support/backends.h"
 #include "support/loose_cloth.h"
+#include "viscera/math/state_hash.h"
 
 using namespace viscera;
 using namespace viscera::test;
@@ -80,4 +82,91 @@ TEST_P(Fragments, ThatSlideOffAnObstacleLieWhereTheySleep) {
   scene.obstacles = {slope};
   constexpr float kCreep_m_per_s = 1e-5f;  // what still leans on the slope settles; solver.sleep_speed_m_per_s
   expectAtRest(model, after(model, scene), kCreep_m_per_s);
+}
+
+namespace {
+
+constexpr double kStep_m = 0.002, kWay_m = 2 * kSleep_m;  ///< of a hand, per tick and in all
+constexpr double kFloat_m = 1e-7;                         ///< float32 of kWay_m, a few times
+
+/// A block that a hand holds by all its nodes and carries along x.
+Scene carryingScene(const Model& model, double sleep_m, Integrator integrator) {
+  StylusConfig stylus;
+  stylus.grab.radius_m = 0.1;  // all of it
+  Scene scene = sceneFor(model, 10, {stylus}, Vector3d(0, 0, -9.81));
+  scene.solver.sleep_distance_m = sleep_m;
+  scene.solver.integrator = integrator;
+  scene.solver.iterations = 5;
+  return scene;
+}
+template <class Step>
+void carry(const Step& step) {
+  ToolMotions motions;
+  motions[0].mode = ToolMode::kGrab;
+  motions[0].present = true;
+  for (int t = 0; t < std::lround(kWay_m / kStep_m); ++t) {
+    motions[0].hold_begins = t == 0;
+    motions[0].from.position_m = Vector3d(kStep_m * t, 0, 0);
+    motions[0].to.position_m = Vector3d(kStep_m * (t + 1), 0, 0);
+    step(motions);
+  }
+}
+
+class HeldFragments : public ::testing::WithParamInterface<std::tuple<std::string, Integrator>>, public GpuTest {
+ protected:
+  struct Carried {
+    HostState state;
+    Vector3d given_n_s{0, 0, 0};  ///< to the tissue by the hand
+  };
+  Carried carried(const Model& model, double sleep_m) const {
+    const auto solver =
+        makeBackend(std::get<0>(GetParam()), model, carryingScene(model, sleep_m, std::get<1>(GetParam())));
+    Carried out;
+    layout::TickStats stats{};
+    carry([&](const ToolMotions& motions) {
+      solver->step(motions);
+      while (solver->pollStats(stats, true)) out.given_n_s += xyz(stats.impulse[0]);
+    });
+    EXPECT_EQ(stats.grabbed[0], model.bodies[0].lattice.active_slots.size());
+    out.state = solver->readState();
+    return out;
+  }
+};
+
+std::string heldSuffix(const ::testing::TestParamInfo<std::tuple<std::string, Integrator>>& info) {
+  const std::pair<Integrator, const char*> names[] = {{Integrator::kLeapfrog, "_leapfrog"},
+                                                      {Integrator::kVerletPaper, "_verlet_paper"},
+                                                      {Integrator::kVbd, "_vbd"},
+                                                      {Integrator::kMultigrid, "_multigrid"}};
+  std::string out = std::get<0>(info.param);
+  out.erase(std::remove(out.begin(), out.end(), ' '), out.end());
+  for (const auto& [integrator, name] : names) out += integrator == std::get<1>(info.param) ? name : "";
+  return out;
+}
+
+INSTANTIATE_TEST_SUITE_P(Backends, HeldFragments,
+                         ::testing::Combine(::testing::ValuesIn(backendKinds()),
+                                            ::testing::Values(Integrator::kLeapfrog, Integrator::kVerletPaper,
+                                                              Integrator::kVbd, Integrator::kMultigrid)),
+                         heldSuffix);
+
+}  // namespace
+
+/// Where fragments come to lie is nothing to a hand: neither to where it takes them nor to what it feels.
+TEST_P(HeldFragments, GoWithTheHandBeyondWhereTheyWouldSleep) {
+  const Model model = modelOf({boxBody({2, 2, 2}, 0.01)});
+  const Carried near = carried(model, 1e6), far = carried(model, kSleep_m);
+  for (const uint32_t slot : model.bodies[0].lattice.active_slots)
+    EXPECT_LT((xyz(far.state.displacement_m[slot]) - Vector3d(kWay_m, 0, 0)).norm(), kFloat_m) << slot;
+  EXPECT_EQ(stateHash(model, far.state), stateHash(model, near.state));
+  EXPECT_EQ(far.given_n_s, near.given_n_s);
+  EXPECT_GT(far.given_n_s.norm(), 0);
+}
+
+TEST(HeldFragmentsOfTheReference, GoWithTheHandBeyondWhereTheyWouldSleep) {
+  const Model model = modelOf({boxBody({2, 2, 2}, 0.01)});
+  ReferenceTicks reference(model, carryingScene(model, kSleep_m, Integrator::kLeapfrog));
+  carry([&](const ToolMotions& motions) { reference.step(motions); });
+  for (const uint32_t slot : model.bodies[0].lattice.active_slots)
+    EXPECT_LT((reference.solver().u_m[slot] - Vector3d(kWay_m, 0, 0)).norm(), kFloat_m) << slot;
 }

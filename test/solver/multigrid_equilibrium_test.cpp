@@ -81,6 +81,35 @@ bodies:
   }
 }
 
+/// Of loads whose squares float32 hardly has, and then has no more, systems are not solved: that is no end.
+TEST(MultigridEquilibrium, IsNotSettledWhereNothingWasSolved) {
+  constexpr double kDown = 0.25, kSmallest_m_per_s2 = 1e-24;
+  const Model model = modelOf({block(4, 2e4, 0.25)});
+  Scene scene = sceneOf(Integrator::kMultigrid);
+  int settled = 0, refused = 0;
+  for (double g = 1e-12; g > kSmallest_m_per_s2; g *= kDown) {
+    scene.environment.gravity_m_per_s2 = Vector3d(0, 0, -g);
+    SettleReport report;
+    try {
+      equilibriumOf(model, scene, report);
+    } catch (const Error&) {
+      ++refused;
+      continue;
+    }
+    if (!report.settled) continue;
+    ++settled;
+    EXPECT_LE(report.residual, kMostLeft) << g;
+    EXPECT_GT(report.iterations, 0) << g;
+    EXPECT_GT(report.last_change, 0) << g << ": the last step solved something";
+  }
+  EXPECT_GT(settled, 0);
+  EXPECT_GT(refused, 0);
+  scene.environment.gravity_m_per_s2.setZero();
+  SettleReport unloaded;
+  equilibriumOf(model, scene, unloaded);
+  EXPECT_TRUE(unloaded.settled);
+}
+
 TEST(MultigridEquilibrium, NoEquilibriumOfWhatNothingHolds) {
   const Model model = modelOf({boxBody({3, 3, 3}, 0.01)});
   SettleReport report;

@@ -100,6 +100,37 @@ TEST(Anchor, RayDoesNotSlipBetweenTwoTriangles) {
   }
 }
 
+/// A fit to the box of the tests from one `times` as large, which strokes were made for.
+OrganFit fitFrom(double times) {
+  const Eigen::AlignedBox3d box_m(Vector3d::Constant(-kHalfM), Vector3d::Constant(kHalfM));
+  return OrganFit::between({times * box_m.min(), times * box_m.max()}, box_m, Vector3d::UnitY());
+}
+
+TEST(Anchor, AndItsStrokesFollowAnOrganInThePlaceOfALargerOne) {
+  Strokes strokes = anchored({0.03, -0.3, 0.02}, {0.03, 0, 0.02}, {Vector3d(0.004, 0, 0.008), {}});
+  resolveAnchors(strokes, boxModel(), fitFrom(4));
+  const Vector3d place(0.03 / 4, -kHalfM, 0.02 / 4), key(0.004 / 4, -0.008 / 4, 0);
+  EXPECT_LT((strokes.strokes[0].keys[0].pose.position_m - place - key).norm(), kRoundingM);
+}
+
+TEST(Anchor, OfAnotherOrganMovesToWhereTheSkinIsBroadEnoughForAllStrokes) {
+  // Two steps of the search: its places and the skin are on a grid.
+  constexpr double kStepM = 2 * 2 * kHalfM / 95;
+  constexpr double kSideM = 0.012;                                    // strokes touch the skin so far to either side
+  Strokes strokes = anchored({0.015, -0.3, 0.03}, {0.015, 0, 0.03});  // a ray above the box
+  strokes.strokes[0].keys[0].pose.position_m.x() = kSideM;
+  strokes.strokes.push_back(strokes.strokes[0]);
+  strokes.strokes[1].keys[0].pose.position_m.x() = -kSideM;
+  Strokes fitted = strokes;
+  resolveAnchors(fitted, boxModel(), fitFrom(1));
+  const Vector3d right = fitted.strokes[0].keys[0].pose.position_m, left = fitted.strokes[1].keys[0].pose.position_m;
+  EXPECT_NEAR(right.x() - left.x(), 2 * kSideM, kRoundingM);  // they stay together
+  EXPECT_NEAR(right.x(), kHalfM, kStepM);                     // and go no farther than they must
+  EXPECT_NEAR(right.z(), kHalfM, kStepM);
+  EXPECT_NEAR(right.y(), -kHalfM, kRoundingM);
+  EXPECT_THROW(resolveAnchors(strokes, boxModel()), StrokesError);  // on the organ that they were made for they stay
+}
+
 TEST(Anchor, RayStopsAtTheNearestBody) {
   Scene scene;
   scene.bodies = {box("far"), box("near")};

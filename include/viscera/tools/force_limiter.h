@@ -16,7 +16,8 @@ struct Reaction {
   bool saturated = false;
 };
 
-/// What a device may be given: sizes, and how fast they may change.
+/// What a device may be given: sizes, and how fast they may change. A size of 0 leaves that part out: a device that has
+/// no torque feels the whole force.
 struct ForceLimits {
   double force_n, force_rate_n_per_s;
   double torque_nm = std::numeric_limits<double>::infinity();
@@ -37,6 +38,10 @@ class ForceLimiter {
   /// The same under other limits, this once.
   Reaction limit(const Reaction& raw, double span_s, const ForceLimits& limits);
   void reset() { last_ = Reaction{}; }
+  /// The last answer, brought down to this at most, whatever the slew.
+  const Reaction& shrink(double most_force_n, double most_torque_nm);
+  /// Less was given than the last answer.
+  void lessen(const Vector3d& force_n) { last_.force_n = force_n; }
   const Reaction& last() const { return last_; }
   void setLimits(const ForceLimits& limits) { limits_ = limits; }
   const ForceLimits& limits() const { return limits_; }

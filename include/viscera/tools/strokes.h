@@ -68,8 +68,10 @@ struct Strokes {
 Strokes loadStrokes(const std::string& path);
 Strokes parseStrokes(const std::string& yaml, const std::string& name);
 
-/// Brings anchored strokes into the tissue frame. @throws StrokesError if a ray misses every skin
-void resolveAnchors(Strokes& strokes, const Model& model);
+/// Brings anchored strokes into the tissue frame.
+/// @param fit  of a scene to an organ that neither it nor the strokes were made for: their anchors and keys follow it
+/// @throws StrokesError if a ray misses every skin
+void resolveAnchors(Strokes& strokes, const Model& model, const std::optional<OrganFit>& fit = std::nullopt);
 
 /// The strokes as a file that loadStrokes() reads; anchors must have been resolved.
 std::string strokesYaml(const Strokes& strokes);

@@ -15,6 +15,7 @@ struct TickContact {
     kHolds    ///< a grip: pushed and pulled
   };
   Kind kind = Kind::kFree;
+  bool anew = false;  ///< what ticks before it found holds no more: a reset, a recovery, another hand or another mode
   Vector3d from_m = Vector3d::Zero(), to_m = Vector3d::Zero();  ///< the tip's way in the tick, tissue frame
   Reaction reaction;                                            ///< mean over the tick
 };

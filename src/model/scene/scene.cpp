@@ -11,6 +11,7 @@
 #include "model/scene/structure_rules.h"
 #include "model/scene/yaml_overrides.h"
 #include "model/scene/yaml_reader.h"
+#include "model/shape/file_bounds.h"
 #include "viscera/math/error.h"
 
 namespace viscera {
@@ -125,6 +126,7 @@ Scene parseScene(const std::string& yaml, const std::string& name, const Overrid
 }
 
 Scene loadScene(const std::string& path, const Overrides& overrides) {
+  requireWithinBounds(path);
   const std::string text = textOf(path, "scene");
   Scene scene = memoryFor<SceneError>(path, [&] { return parseScene(text, path, overrides); });
   scene.file = path;

@@ -72,9 +72,9 @@ void visitFields(V& v, StylusConfig& c) {
   v.formerNumber("release_speed_m_per_s", "grab", "release_speed_m_per_s", c.grab.release_speed_m_per_s, kReleaseSpeed,
                  "m/s");
   v.number("max_force_n", c.max_force_n, {0, 1e3}, "N", "reaction force is saturated here");
-  v.number("max_force_rate_n_per_s", c.max_force_rate_n_per_s, {0, 1e6}, "N/s", "reaction force changes no faster");
+  v.number("max_force_rate_n_per_s", c.max_force_rate_n_per_s, {1, 1e6}, "N/s", "reaction force changes no faster");
   v.number("max_torque_nm", c.max_torque_nm, {0, 1e2}, "N m", "reaction torque is saturated here");
-  v.number("max_torque_rate_nm_per_s", c.max_torque_rate_nm_per_s, {0, 1e5}, "N m/s",
+  v.number("max_torque_rate_nm_per_s", c.max_torque_rate_nm_per_s, {0.01, 1e5}, "N m/s",
            "reaction torque changes no faster");
   v.number("stale_after_s", c.stale_after_s, {0.001, 60}, "s", "a pose older than this is no pose: no tool, no force");
   v.number("workspace_m", c.workspace_m, {0.01, 100}, "m", "a pose farther than this from the tissue frame is refused");

@@ -18,6 +18,7 @@
 
 #include "math/memory_for.h"
 #include "math/one_line.h"
+#include "model/shape/file_bounds.h"
 #include "model/shape/gltf_limits.h"
 #include "model/shape/import_limits.h"
 #include "model/shape/mesh_look.h"
@@ -215,6 +216,7 @@ class BoundedFiles : public Assimp::DefaultIOSystem {
   explicit BoundedFiles(const ImportLimits& limits) : limits_(limits) {}
 
   bool Exists(const char* file) const override {
+    requireWithinBounds(file);
     std::error_code error;
     return fs::is_regular_file(file, error);
   }
@@ -275,6 +277,7 @@ TriangleMesh importMesh(const std::string& path, double unit_scale_m, ImportRepo
   if (!std::isfinite(unit_scale_m) || unit_scale_m <= 0) {
     fail(path, "unit_scale_m must be a finite number > 0, not " + std::to_string(unit_scale_m));
   }
+  requireWithinBounds(path);
   requireReadableFile(path);
   Gatherer gatherer(unit_scale_m, path, limits, with_look);
   try {

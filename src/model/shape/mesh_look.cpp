@@ -12,6 +12,7 @@
 
 #include "math/one_line.h"
 #include "math/srgb.h"
+#include "model/shape/file_bounds.h"
 #include "model/shape/image_decoder.h"
 #include "model/shape/import_limits.h"
 #include "viscera/math/error.h"
@@ -64,6 +65,7 @@ TextureImage MeshLook::load(const std::string& name) const {
   const fs::path folder = fs::path(path_).parent_path();
   fs::path file = folder / name;
   std::error_code error;
+  for (const std::string& each : {name, unescaped(name)}) requireWithinBounds((folder / each).string());
   if (!fs::is_regular_file(file, error)) file = folder / unescaped(name);
   if (!fs::is_regular_file(file, error)) throw MeshError("no such file");
   requireFileSize(file.string(), limits_);

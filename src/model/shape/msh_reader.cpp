@@ -11,6 +11,7 @@
 #include <unordered_map>
 
 #include "math/memory_for.h"
+#include "model/shape/file_bounds.h"
 #include "model/shape/import_limits.h"
 #include "viscera/math/error.h"
 
@@ -307,6 +308,7 @@ TetrahedraMesh readMsh(const std::string& path, double unit_scale_m, MshReport* 
     throw MeshError("mesh file '" + path + "': unit_scale_m must be a finite number > 0, not " +
                     std::to_string(unit_scale_m));
   }
+  requireWithinBounds(path);
   MshReport own;
   return memoryFor<MeshError>("reading mesh file '" + path + "'", [&] {
     try {

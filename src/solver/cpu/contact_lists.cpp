@@ -3,8 +3,7 @@
 #include "solver/cpu/contact_lists.h"
 
 #include <algorithm>
-
-#include "solver/collision.h"
+#include <numeric>
 
 namespace viscera {
 
@@ -23,14 +22,17 @@ float distance2(const glsl::vec3& a, const glsl::vec3& b) {
 
 }  // namespace
 
-ContactLists::ContactLists(const CpuLattice& lattice, double reach_m, double margin_m)
+ContactLists::ContactLists(const CpuLattice& lattice, double reach_m, double margin_m, uint32_t most_in_bucket)
     : reach_m_(static_cast<float>(reach_m)),
       margin_m_(static_cast<float>(margin_m)),
-      cell_m_(kCellMargin * (reach_m_ + margin_m_)) {
+      cell_m_(kCellMargin * (reach_m_ + margin_m_)),
+      most_in_bucket_(most_in_bucket),
+      in_shader_bucket_(bucketCount(lattice.store.active.size())) {
   const size_t nodes = lattice.store.active.size(), jobs = (nodes + kEntriesPerJob - 1) / kEntriesPerJob;
   rest_.resize(nodes);
   entry_of_.assign(nodes, kNobody);
   motions_.resize(jobs);
+  shader_bucket_.assign(nodes, kNobody);
   entries_.resize(nodes);
   before_.resize(nodes);
   position_.resize(nodes);
@@ -43,6 +45,7 @@ ContactLists::ContactLists(const CpuLattice& lattice, double reach_m, double mar
   runs_.resize(nodes);
   candidates_.resize(jobs);
   contacts_.resize(jobs);
+  compared_.resize(jobs);
 }
 
 void ContactLists::update(glsl::CollisionRules& rules, const Parallel& parallel) {
@@ -50,17 +53,20 @@ void ContactLists::update(glsl::CollisionRules& rules, const Parallel& parallel)
     for (size_t i = 0; i < rest_.size(); ++i) rest_[i] = glsl::vec4(rules.restPosition(rules.active_nodes[i]), 0);
   }
   parallel(motions_.size(), [&](size_t job) { follow(rules, job); });
-  if (!stillComplete()) search(rules, parallel);
+  const bool others = noteCrowds(rules);
+  if (others || !stillComplete()) search(rules, parallel);
 }
 
 /// Moves entries to where their nodes are now.
 void ContactLists::follow(glsl::CollisionRules& rules, size_t job) {
   Motion motion;
   const size_t end = std::min((job + 1) * kEntriesPerJob, rest_.size());
+  const auto mask = static_cast<uint32_t>(in_shader_bucket_.size() - 1);
   for (size_t i = job * kEntriesPerJob; i < end; ++i) {
     const uint32_t slot = rules.active_nodes[i], entry = entry_of_[i];
     const glsl::vec3 x = positionOf(rules, i);
-    if (rules.collides(slot, rules.nodes[slot], x) != (entry != kNobody)) motion.same_nodes = false;
+    const bool collides = rules.collides(slot, rules.nodes[slot], x);
+    moveTo(i, collides ? rules.hashOf(rules.cellOf(x, 0)) & mask : kNobody, motion);
     if (entry == kNobody) continue;
     enter(rules, i, entry, x);
     const glsl::vec3 moved = x - searched_at_[entry];
@@ -68,6 +74,37 @@ void ContactLists::follow(glsl::CollisionRules& rules, size_t job) {
     motion.high = glm::max(motion.high, moved);
   }
   motions_[job] = motion;
+}
+
+/// A node is in a bucket of the shader's search, or in none.
+void ContactLists::moveTo(size_t node, uint32_t bucket, Motion& motion) {
+  const uint32_t before = shader_bucket_[node];
+  if (bucket == before) return;
+  if (before == kNobody || bucket == kNobody) motion.same_nodes = false;
+  if (before != kNobody) in_shader_bucket_[before].fetch_sub(1, std::memory_order_relaxed);
+  if (bucket != kNobody && in_shader_bucket_[bucket].fetch_add(1, std::memory_order_relaxed) >= most_in_bucket_)
+    motion.crowds = true;
+  shader_bucket_[node] = bucket;
+}
+
+/// Counts who is in a crowd now, and takes from them what contacts did (collision_place.comp, collision_scatter.comp).
+/// @return others are than at the last search
+bool ContactLists::noteCrowds(glsl::CollisionRules& rules) {
+  const bool may_be = std::any_of(motions_.begin(), motions_.end(), [](const Motion& m) { return m.crowds; });
+  if (crowded_ == 0 && !may_be) return false;
+  crowded_ = 0;
+  bool others = false;
+  for (size_t i = 0; i < shader_bucket_.size(); ++i) {
+    if (shader_bucket_[i] == kNobody) continue;
+    const bool crowded = isCrowded(i);
+    others = others || crowded == (entry_of_[i] != kNobody);
+    if (!crowded) continue;
+    ++crowded_;
+    const uint32_t slot = rules.active_nodes[i];
+    rules.contacts[slot] = glsl::vec4(0);
+    if (rules.corrections) rules.corrections[2 * slot] = rules.corrections[2 * slot + 1] = glsl::vec4(0);
+  }
+  return others;
 }
 
 glsl::vec3 ContactLists::positionOf(glsl::CollisionRules& rules, size_t node) const {
@@ -104,15 +141,14 @@ void ContactLists::search(glsl::CollisionRules& rules, const Parallel& parallel)
   parallel(jobs(), [&](size_t job) { listCandidates(rules, job); });
 }
 
-/// Entries anew, of all nodes that may touch others now.
+/// Entries anew, of all nodes that may touch others now and are in no crowd.
 void ContactLists::enterAll(glsl::CollisionRules& rules) {
   count_ = 0;
   for (size_t i = 0; i < rest_.size(); ++i) {
-    const uint32_t slot = rules.active_nodes[i];
+    const bool takes_part = shader_bucket_[i] != kNobody && !isCrowded(i);
+    entry_of_[i] = takes_part ? static_cast<uint32_t>(count_) : kNobody;
+    if (!takes_part) continue;
     const glsl::vec3 x = positionOf(rules, i);
-    const bool collides = rules.collides(slot, rules.nodes[slot], x);
-    entry_of_[i] = collides ? static_cast<uint32_t>(count_) : kNobody;
-    if (!collides) continue;
     enter(rules, i, count_, x);
     searched_at_[count_] = x;
     cell_[count_++] = glsl::ivec3(glm::floor(x / cell_m_));
@@ -142,11 +178,13 @@ void ContactLists::sortIntoCells() {
 void ContactLists::listCandidates(glsl::CollisionRules& rules, size_t job) {
   std::vector<ListedContact>& out = candidates_[job];
   out.clear();
+  compared_[job] = 0;
   const auto range = entriesOf(job);
   for (size_t e = range[0]; e < range[1]; ++e) {
     const auto first = static_cast<uint32_t>(out.size());
     for (int z = -1; z <= 1; ++z) {
-      for (int y = -1; y <= 1; ++y) listRow(rules, static_cast<uint32_t>(e), cell_[e] + glsl::ivec3(0, y, z), out);
+      for (int y = -1; y <= 1; ++y)
+        compared_[job] += listRow(rules, static_cast<uint32_t>(e), cell_[e] + glsl::ivec3(0, y, z), out);
     }
     std::sort(out.begin() + first, out.end(), [](const auto& a, const auto& b) { return a.other < b.other; });
     runs_[e] = {first, static_cast<uint32_t>(out.size()) - first, 0};
@@ -154,13 +192,20 @@ void ContactLists::listCandidates(glsl::CollisionRules& rules, size_t job) {
   contacts_[job].resize(out.size());
 }
 
-/// Lists whom an entry may meet in a cell and the two beside it along x.
-void ContactLists::listRow(glsl::CollisionRules& rules, uint32_t entry, const glsl::ivec3& middle,
-                           std::vector<ListedContact>& out) const {
+size_t ContactLists::compared() const {
+  return std::accumulate(compared_.begin(), compared_.begin() + static_cast<std::ptrdiff_t>(jobs()), size_t{0});
+}
+
+/// Lists whom an entry may meet in a cell and the two beside it along x. @return how many it looked at
+size_t ContactLists::listRow(glsl::CollisionRules& rules, uint32_t entry, const glsl::ivec3& middle,
+                             std::vector<ListedContact>& out) const {
   const size_t buckets = bucket_starts_.size() - 1;
   const size_t first = bucketOf(middle - glsl::ivec3(1, 0, 0)), end = first + 3;
-  listRun(rules, entry, middle, bucket_starts_[first], bucket_starts_[std::min(end, buckets)], out);
-  if (end > buckets) listRun(rules, entry, middle, 0, bucket_starts_[end - buckets], out);
+  const uint32_t from = bucket_starts_[first], to = bucket_starts_[std::min(end, buckets)];
+  const uint32_t wrapped = end > buckets ? bucket_starts_[end - buckets] : 0;
+  listRun(rules, entry, middle, from, to, out);
+  listRun(rules, entry, middle, 0, wrapped, out);
+  return to - from + wrapped;
 }
 
 /// Different rows may share buckets: whoever is in one says which row it is in.

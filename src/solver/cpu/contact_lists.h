@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <limits>
 #include <vector>
 
+#include "solver/collision.h"
 #include "solver/cpu/collision_kernel.h"
 #include "solver/cpu/parallel.h"
 
@@ -22,14 +24,16 @@ struct ListedContact {
 /// nearer than D_ij + margin when they were last searched for. As long as no two nodes have moved by the margin
 /// relative to each other since then, and the same nodes take part, whoever touches is among them. So every substep
 /// sees the pairs of a search of its own; and they are in the order in which the shader's search comes by them, for the
-/// same sums.
+/// same sums. Whom that passes over, as too many are in one bucket of its grid (kMostInBucket), takes no part here
+/// either: what bodies that have collapsed into one place cost is bounded.
 class ContactLists {
  public:
   /// Entries are nodes that may touch others, in ascending order of slots; jobs are runs of them.
   static constexpr size_t kEntriesPerJob = 64;
 
   /// @param reach_m  largest D_ij   @param margin_m  0: searches anew in every substep
-  ContactLists(const CpuLattice& lattice, double reach_m, double margin_m);
+  /// @param most_in_bucket  kMostInBucket; a test may lower it
+  ContactLists(const CpuLattice& lattice, double reach_m, double margin_m, uint32_t most_in_bucket = kMostInBucket);
 
   /// Makes entries of the current state, and searches for candidates if those that there are will not do.
   void update(glsl::CollisionRules& rules, const Parallel& parallel);
@@ -49,6 +53,8 @@ class ContactLists {
   const glsl::uvec4* entries() const { return entries_.data(); }  ///< as in collision_order.comp
   const glsl::vec4* before() const { return before_.data(); }     ///< as in collision_order.comp
   size_t searches() const { return searches_; }                   ///< so far
+  uint32_t crowded() const { return crowded_; }                   ///< nodes that were passed over in the last update()
+  size_t compared() const;                                        ///< pairs that the last search looked at
 
  private:
   /// Where an entry's candidates and contacts lie in those of its job.
@@ -60,32 +66,39 @@ class ContactLists {
   struct Motion {
     glsl::vec3 low = glsl::vec3(kFar_m), high = glsl::vec3(-kFar_m);  ///< box of all displacements [m]
     bool same_nodes = true;
+    bool crowds = false;  ///< a bucket of the shader's search may have become too full
   };
 
   glsl::vec3 positionOf(glsl::CollisionRules& rules, size_t node) const;
   void enter(glsl::CollisionRules& rules, size_t node, size_t entry, const glsl::vec3& x);
   void follow(glsl::CollisionRules& rules, size_t job);
+  void moveTo(size_t node, uint32_t bucket, Motion& motion);
+  bool isCrowded(size_t node) const { return in_shader_bucket_[shader_bucket_[node]] > most_in_bucket_; }
+  bool noteCrowds(glsl::CollisionRules& rules);
   bool stillComplete() const;
   void search(glsl::CollisionRules& rules, const Parallel& parallel);
   void enterAll(glsl::CollisionRules& rules);
   void sortIntoCells();
   void listCandidates(glsl::CollisionRules& rules, size_t job);
-  void listRow(glsl::CollisionRules& rules, uint32_t entry, const glsl::ivec3& middle,
-               std::vector<ListedContact>& out) const;
+  size_t listRow(glsl::CollisionRules& rules, uint32_t entry, const glsl::ivec3& middle,
+                 std::vector<ListedContact>& out) const;
   void listRun(glsl::CollisionRules& rules, uint32_t entry, const glsl::ivec3& row, size_t first, size_t end,
                std::vector<ListedContact>& out) const;
   uint32_t bucketOf(const glsl::ivec3& cell) const;
   void sortByCells(size_t entry, ListedContact* begin, ListedContact* end) const;
 
   float reach_m_, margin_m_, cell_m_;
+  uint32_t most_in_bucket_, crowded_ = 0;
   size_t count_ = 0, searches_ = 0;
-  std::vector<glsl::vec4> rest_;          ///< [active] rest positions
-  std::vector<uint32_t> entry_of_;        ///< [active] kNobody: takes no part
-  std::vector<Motion> motions_;           ///< [jobs over active]
-  std::vector<glsl::uvec4> entries_;      ///< [active]
-  std::vector<glsl::vec4> before_;        ///< [active]
-  std::vector<glsl::vec3> position_;      ///< [active] of entries, as the rest below
-  std::vector<glsl::vec3> searched_at_;   ///< positions at the last search
+  std::vector<glsl::vec4> rest_;                         ///< [active] rest positions
+  std::vector<uint32_t> entry_of_;                       ///< [active] kNobody: takes no part
+  std::vector<Motion> motions_;                          ///< [jobs over active]
+  std::vector<uint32_t> shader_bucket_;                  ///< [active] of the shader's search; kNobody: may touch nobody
+  std::vector<std::atomic<uint32_t>> in_shader_bucket_;  ///< [buckets] nodes
+  std::vector<glsl::uvec4> entries_;                     ///< [active]
+  std::vector<glsl::vec4> before_;                       ///< [active]
+  std::vector<glsl::vec3> position_;                     ///< [active] of entries, as the rest below
+  std::vector<glsl::vec3> searched_at_;                  ///< positions at the last search
   std::vector<glsl::ivec3> shader_cell_;  ///< cell of the shader's search: says where a contact is in the order
   std::vector<glsl::ivec3> cell_;         ///< at the last search
   std::vector<uint32_t> bucket_starts_;   ///< [buckets + 1] hashed grid of the last search
@@ -93,6 +106,7 @@ class ContactLists {
   std::vector<glsl::vec3> bucket_positions_;
   std::vector<Run> runs_;
   std::vector<std::vector<ListedContact>> candidates_, contacts_;  ///< [jobs]
+  std::vector<size_t> compared_;                                   ///< [jobs]
 };
 
 }  // namespace viscera

@@ -180,6 +180,7 @@ void CpuBackend::measure() {
   out.elastic_j = static_cast<float>(elastic_j);
   out.max_stretch_bits = bitsOfFloat(stretch);
   out.max_speed_bits = bitsOfFloat(speed);
+  if (surroundings_) out.crowded = surroundings_->crowded();
   const bool known = !network_ && stats_.max_rate_bits != 0 && springs_cut_ == rate_springs_cut_;
   out.max_rate_bits = known ? stats_.max_rate_bits : bitsOfFloat(largestRate());
   rate_springs_cut_ = springs_cut_;

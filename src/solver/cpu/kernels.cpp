@@ -116,11 +116,13 @@ struct ForceOfCells {
 
 /// One vector of nodes. @param i  index of the first in the brick   @return |v|^2
 HWY_INLINE V stepVector(const Arrays& a, const Motion& motion, uint32_t b, int i, const Vec3& force, Vec3& u_next) {
-  const V mobility = load(a.mobility + size_t{b} * 64 + static_cast<size_t>(i));
+  const size_t slot = size_t{b} * 64 + static_cast<size_t>(i);
+  const layout::NodeBits* const nodes = a.nodes ? a.nodes + slot : nullptr;
   const size_t to = size_t{b} * 192 + static_cast<size_t>(i);
   float* const lost = a.compensation ? a.compensation + size_t{b} * 384 + static_cast<size_t>(i) : nullptr;
   Vec3 v_next;
-  move(motion, mobility, force, loadPlanes(a.displacement + to), loadPlanes(a.velocity + to), lost, u_next, v_next);
+  move(motion, load(a.mobility + slot), nodes, force, loadPlanes(a.displacement + to), loadPlanes(a.velocity + to),
+       lost, u_next, v_next);
   storePlanes(u_next, a.next_displacement + to);
   storePlanes(v_next, a.next_velocity + to);
   return dot(v_next, v_next);

@@ -18,6 +18,7 @@ inline simd::Arrays arraysOf(CpuLattice& lattice) {
   a.next_velocity = lattice.state.velocity[1 - lattice.state.current].data();
   a.spring_stiffness = lattice.strengths.both_ends.data();
   a.mobility = lattice.strengths.mobility.data();
+  a.nodes = lattice.store.nodes.data();
   a.bulk_around = lattice.strengths.bulk_around.empty() ? nullptr : lattice.strengths.bulk_around.data();
   a.uniform = lattice.strengths.uniform.data();
   a.idle_rows = lattice.strengths.idle_rows.data();

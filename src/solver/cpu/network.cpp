@@ -286,6 +286,7 @@ void CpuNetwork::stepInRows(CpuLattice& lattice, const Substep& step, AlignedVec
   job.next_velocity = lattice.state.velocity[1 - lattice.state.current].data();
   job.compensation = compensation.empty() ? nullptr : compensation.data();
   job.mobility = lattice.strengths.mobility.data();
+  job.nodes = lattice.store.nodes.data();
   job.places = places_.data();
   job.speeds = speeds_.data();
   const auto ofAll = [&](simd::NetworkGroups kernel, size_t per_job) {

@@ -128,7 +128,8 @@ HWY_INLINE void stepGroups(const NetworkJob& job, size_t first, size_t last) {
       }
       float* const lost = job.compensation ? job.compensation + brick * 384 + inside : nullptr;
       Vec3 u_next, v_next;
-      move(motion, load(job.mobility + slot + i), force, u, v, lost, u_next, v_next);
+      move(motion, load(job.mobility + slot + i), job.nodes ? job.nodes + slot + i : nullptr, force, u, v, lost, u_next,
+           v_next);
       storePlanes(u_next, job.next_displacement + at);
       storePlanes(v_next, job.next_velocity + at);
     }

@@ -58,8 +58,9 @@ struct NetworkJob {
   float* speeds;              ///< [4 * slots] velocity; null without dashpots
   float* next_displacement;
   float* next_velocity;
-  float* compensation;    ///< [6 * slots], as in Arrays (kernels.h); or null
-  const float* mobility;  ///< [slots] 1/kg
+  float* compensation;            ///< [6 * slots], as in Arrays (kernels.h); or null
+  const float* mobility;          ///< [slots] 1/kg
+  const layout::NodeBits* nodes;  ///< [slots] as in Arrays
 };
 
 }  // namespace viscera::simd

@@ -133,7 +133,7 @@ struct CpuSurroundings::Work {
 };
 
 CpuSurroundings::CpuSurroundings(const Model& model, const Scene& scene, const CpuLattice& lattice,
-                                 const Parallel& parallel, double list_margin)
+                                 const Parallel& parallel, double list_margin, uint32_t most_in_bucket)
     : parallel_(parallel), kinds_(surroundingsOf(model, scene)), work_(std::make_unique<Work>()) {
   work_->collision = scene.collision;
   work_->wind = scene.environment.wind;
@@ -151,7 +151,7 @@ CpuSurroundings::CpuSurroundings(const Model& model, const Scene& scene, const C
   work_->corrections.assign(2 * lattice.slotCount(), glsl::vec4(0));
   if (!work_->staggered()) {
     const double reach_m = collisionReach(model, scene.collision);
-    work_->lists.emplace(lattice, reach_m, list_margin * reach_m);
+    work_->lists.emplace(lattice, reach_m, list_margin * reach_m, most_in_bucket);
     return;
   }
   work_->sorted = sortedCount(lattice.store.active.size());
@@ -266,6 +266,14 @@ std::vector<CollisionPair> CpuSurroundings::findPairs(CpuLattice& lattice) {
 
 size_t CpuSurroundings::searches() const {
   return work_->lists ? work_->lists->searches() : 0;
+}
+
+size_t CpuSurroundings::compared() const {
+  return work_->lists ? work_->lists->compared() : 0;
+}
+
+uint32_t CpuSurroundings::crowded() const {
+  return work_->lists ? work_->lists->crowded() : 0;
 }
 
 }  // namespace viscera

@@ -21,8 +21,9 @@ class CpuSurroundings {
   static constexpr double kListMargin = 0.4;
 
   /// @param parallel  must outlive it   @param list_margin  0: searches in every substep; changes no bit
+  /// @param most_in_bucket  kMostInBucket; a test may lower it
   CpuSurroundings(const Model& model, const Scene& scene, const CpuLattice& lattice, const Parallel& parallel,
-                  double list_margin = kListMargin);
+                  double list_margin = kListMargin, uint32_t most_in_bucket = kMostInBucket);
   ~CpuSurroundings();
   /// Before an implicit substep: wind and forces change the velocities.
   void blow(CpuLattice& lattice, const Substep& step, const Surroundings& surroundings);
@@ -34,7 +35,9 @@ class CpuSurroundings {
   void restart();
   /// For tests: slots a < b of all pairs that the search finds in the current state, ascending.
   std::vector<CollisionPair> findPairs(CpuLattice& lattice);
-  size_t searches() const;  ///< complete ones for candidates so far
+  size_t searches() const;   ///< complete ones for candidates so far
+  size_t compared() const;   ///< pairs that the last of these looked at
+  uint32_t crowded() const;  ///< nodes that it passed over, as they lie in crowds (TickStats::crowded)
 
  private:
   struct Work;

@@ -109,30 +109,39 @@ HWY_INLINE Motion motionOf(const Substep& step, const layout::BodyParams& body) 
           set(step.dt_s),   set(far * far), {set(step.gravity.x()), set(step.gravity.y()), set(step.gravity.z())}};
 }
 
-/// Fragments that fall come to lie where sleep_distance_m ends (shaders/solver/step.glsl).
-HWY_INLINE void fallAsleep(const Motion& s, const Vec3& u, Vec3& u_next, Vec3& v_next) {
+/// Which nodes of a vector does no hand hold?
+HWY_INLINE M areFree(const layout::NodeBits* nodes) {
+  HWY_ALIGN float free[hn::MaxLanes(Tag())];
+  for (size_t i = 0; i < hn::MaxLanes(Tag()); ++i) free[i] = (nodes[i].lo & layout::kGrabMask) != 0u ? 0.0f : 1.0f;
+  return hn::Gt(hn::Load(Tag(), free), hn::Zero(Tag()));
+}
+
+/// Fragments that fall come to lie where sleep_distance_m ends (shaders/solver/sleep.glsl).
+/// @param nodes  as of move()
+HWY_INLINE void fallAsleep(const Motion& s, const layout::NodeBits* nodes, const Vec3& u, Vec3& u_next, Vec3& v_next) {
   const V away = dot(u_next, u_next);
   const M beyond = hn::Gt(away, s.sleep2);
   if (HWY_LIKELY(hn::AllFalse(Tag(), beyond))) return;
   const Vec3 leap = u_next - u;
-  const M falls = hn::And(hn::And(beyond, hn::Gt(away, dot(u, u))),
-                          hn::Not(hn::Gt(dot(leap, leap), hn::Mul(set(0.01f), s.sleep2))));
+  M falls = hn::And(hn::And(beyond, hn::Gt(away, dot(u, u))),
+                    hn::Not(hn::Gt(dot(leap, leap), hn::Mul(set(0.01f), s.sleep2))));
+  if (nodes) falls = hn::And(falls, areFree(nodes));
   u_next = select(falls, u, u_next);
   v_next = select(falls, zero3(), v_next);
 }
 
-/// Leapfrog (shaders/solver/leapfrog.comp). @param mobility  1/kg, 0 where nothing moves   @param near, speed  u and v
-/// before
+/// Leapfrog (shaders/solver/leapfrog.comp). @param mobility  1/kg, 0 where nothing moves   @param nodes  the first of
+/// the vector; null where none can be held   @param near, speed  u and v before
 /// @param lost  compensation of u, that of v 192 farther; or null
-HWY_INLINE void move(const Motion& s, V mobility, const Vec3& force, const Vec3& near, const Vec3& speed, float* lost,
-                     Vec3& u_next, Vec3& v_next) {
+HWY_INLINE void move(const Motion& s, V mobility, const layout::NodeBits* nodes, const Vec3& force, const Vec3& near,
+                     const Vec3& speed, float* lost, Vec3& u_next, Vec3& v_next) {
   const M moves = hn::Gt(mobility, hn::Zero(Tag()));
   const Vec3 acceleration = mulAdd(mobility, force, s.gravity);
   // ((1 - g) v + kick a) / (1 + g), as v and an increment.
   const Vec3 change = s.per_drag * mulAdd(hn::Neg(s.drag2), speed, s.kick * acceleration);
   v_next = added(lost, 192, speed, change);
   u_next = added(lost, 0, near, s.dt * v_next);
-  fallAsleep(s, near, u_next, v_next);
+  fallAsleep(s, nodes, near, u_next, v_next);
   u_next = select(moves, u_next, near);
   v_next = select(moves, v_next, zero3());
 }

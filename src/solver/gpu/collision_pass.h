@@ -18,10 +18,6 @@ namespace viscera {
 /// shaders/solver/collision_*.comp.
 class CollisionPass {
  public:
-  /// Nodes of a bucket that may be compared each with all: ten times as many as lie in the reach of the coarsest of two
-  /// bodies whose spacings differ tenfold. Larger crowds have collapsed (collision_place.comp).
-  static constexpr uint32_t kMostInBucket = 4096;
-
   /// @param ahead  within an implicit substep: note() instead of run(), from the complete search
   CollisionPass(const Model& model, const Scene& scene, const FeatureSet& features, const LatticeBuffers& buffers,
                 bool ahead = false);

@@ -4,21 +4,29 @@
 
 #include <cmath>
 
+#include "solver/cpu/glsl_kernel.h"
 #include "solver/multigrid/step_rules.h"
 
 namespace viscera {
+
+namespace glsl {
+
+namespace {
+
+#define VARIANT_NAME Fragments
+#define VARIANT_BASE Kernel
+#define VARIANT_TEXT "shaders/solver/sleep.glsl"
+#include "solver/cpu/glsl_variant.inc"
+
+}  // namespace
+
+}  // namespace glsl
 
 namespace {
 
 const Model& steppable(const Model& model, const CpuParts& parts) {
   multigrid::requireSteppable(model, parts.pairs != nullptr);
   return model;
-}
-
-/// Nodes beyond sleep_distance_m stop (shaders/solver/step.glsl).
-bool isBeyond(const Substep& step, const Vector3f& u, const Vector3f& next) {
-  const float far2 = step.sleep_distance_m * step.sleep_distance_m;
-  return next.squaredNorm() > far2 && next.squaredNorm() > u.squaredNorm() && (next - u).squaredNorm() <= 0.01f * far2;
 }
 
 }  // namespace
@@ -98,17 +106,22 @@ void CpuMultigrid::scatter(CpuLattice& lattice, const Substep& step, const multi
   const size_t n = grid.places();
   float* const u = lattice.state.displacement[1 - lattice.state.current].data();
   float* const v = lattice.state.velocity[1 - lattice.state.current].data();
+  const auto at = [n](const multigrid::Vectors& x, size_t place) {
+    return glsl::vec3(x[place], x[n + place], x[2 * n + place]);
+  };
+  glsl::Fragments fragments(lattice);
+  fragments.tell(step);
   for (uint32_t node = 0; node < grid.nodeCount(); ++node) {
     const uint32_t place = grid.place_of[node], slot = grid.slots[node];
-    const Vector3f before(displacement_[place], displacement_[n + place], displacement_[2 * n + place]);
-    Vector3f next = before + Vector3f(increment[place], increment[n + place], increment[2 * n + place]);
-    Vector3f speed(velocity[place], velocity[n + place], velocity[2 * n + place]);
-    if (solver_.level.movable()[place] == 0 || isBeyond(step, before, next)) {
-      next = before;
-      speed.setZero();
+    const glsl::vec3 before = at(displacement_, place);
+    glsl::vec3 next = before, speed(0);
+    if (solver_.level.movable()[place] != 0) {
+      next += at(increment, place);
+      speed = at(velocity, place);
+      fragments.fallAsleep(lattice.store.nodes[slot], before, next, speed);
     }
-    setPlanes(u, slot, next);
-    setPlanes(v, slot, speed);
+    setPlanes(u, slot, {next.x, next.y, next.z});
+    setPlanes(v, slot, {speed.x, speed.y, speed.z});
     for (size_t c = 0; c < 3; ++c) left_[c * n + place] = speed[static_cast<int>(c)];
   }
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solver/multigrid/equilibrium.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -64,11 +65,14 @@ class Settling {
 
   const Vectors& run() {
     const double size = std::sqrt(solver_.level.dot(load_, load_)), enough = kSettled * size;
+    if (size == 0 && std::any_of(load_.begin(), load_.end(), [](float n) { return n != 0; }))
+      throw Error("no equilibrium was found: squares of so small a load are lost in float32");
     double norm = solver_.residual(increment_);
     const auto start = std::chrono::steady_clock::now();
     for (int step = 0; step < kMostSteps; ++step) {
       report_.residual = size > 0 ? norm / size : 0;
-      report_.settled = report_.residual <= kSettled || report_.last_change <= kSettled;
+      report_.settled =
+          report_.residual <= kSettled || (report_.last_change <= kSettled && report_.residual <= kMostLeft);
       if (report_.settled || stale_ > kPatience) break;
       const double before = norm;
       norm = improve(norm, enough);
@@ -98,7 +102,8 @@ class Settling {
     rule.exact = report_.newton >= kInexact;
     const double before_j = potential(increment_),
                  allowed_j = before_j + kGrows * (std::abs(before_j) + solver_.elastic_j);
-    report_.iterations += solver_.solveLinear(increment_, rule, norm);
+    const int iterations = solver_.solveLinear(increment_, rule, norm);
+    report_.iterations += iterations;
     ++report_.newton;
     float share = 1;
     for (int halving = 0; halving <= kMostHalvings; ++halving, share /= 2) {
@@ -107,7 +112,8 @@ class Settling {
       if (!(potential(trial_) <= allowed_j)) continue;
       const double size2 = solver_.level.dot(trial_, trial_);
       const double change2 = solver_.level.dot(solver_.solution(), solver_.solution());
-      if (halving == 0 && size2 > 0) report_.last_change = std::sqrt(change2 / size2);
+      // What no iteration has solved for says nothing of what is left.
+      if (halving == 0 && iterations > 0 && change2 > 0 && size2 > 0) report_.last_change = std::sqrt(change2 / size2);
       if (halving > 0) soft_.sagged();
       std::swap(trial_, increment_);
       return left;

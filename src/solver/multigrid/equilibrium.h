@@ -14,7 +14,7 @@ namespace viscera {
 struct SettleReport {
   bool settled = false;    ///< to kSettled: in forces, or in displacements where float32 leaves more of forces
   double residual = 0;     ///< norm of what forces lack over that of the load
-  double last_change = 1;  ///< of displacements in the last whole Newton step, over their norm
+  double last_change = 1;  ///< of displacements in the last whole Newton step that was solved for, over their norm
   int newton = 0;          ///< systems solved
   int iterations = 0;      ///< of conjugate gradients
   double seconds = 0;      ///< of all of it but the hierarchy
@@ -26,6 +26,8 @@ struct SettleReport {
 
 /// To which part of load or displacements equilibria are solved.
 constexpr double kSettled = 1e-4;
+/// The most that forces may lack, over the load, where displacements change no more: what float32 leaves is below.
+constexpr double kMostLeft = 1e-2;
 
 /// The state in which elastic forces, gravity and the forces on bodies balance, velocities 0: Newton's method with a
 /// line search on the energy, its systems solved by multigrid (physics.md 2). Obstacles, wind and tools are not part of

@@ -51,10 +51,10 @@ struct Crowd {
 /// The crowd with lists of a margin of its own.
 class Trial {
  public:
-  Trial(const Crowd& crowd, const Parallel& parallel, double margin)
+  Trial(const Crowd& crowd, const Parallel& parallel, double margin, uint32_t most_in_bucket = kMostInBucket)
       : crowd_(crowd),
         lattice_(crowd.model, bodyParams(crowd.model, kDt_s), featuresFor(crowd.model, false)),
-        contacts_(crowd.model, crowd.scene, lattice_, parallel, margin) {
+        contacts_(crowd.model, crowd.scene, lattice_, parallel, margin, most_in_bucket) {
     lattice_.write(crowd.start());
   }
   /// What an integrator without forces does, then contacts.
@@ -89,6 +89,7 @@ class Trial {
                     other.lattice_.state.velocity[other.lattice_.state.current]);
   }
   size_t searches() const { return contacts_.searches(); }
+  uint32_t crowded() const { return contacts_.crowded(); }
 
  private:
   uint32_t inside() const { return static_cast<uint32_t>(crowd_.model.bodies[2].lattice.slotAt({2, 2, 2})); }
@@ -119,6 +120,32 @@ TEST(ContactLists, ChangeNoBitAgainstASearchInEverySubstep) {
     ASSERT_TRUE(wide.sameBitsAs(every)) << s;
   }
   EXPECT_GT(most_pairs, 50u);
+}
+
+/// Where a bucket holds few, crowds come and go all the time.
+TEST(ContactLists, ChangeNoBitWhereNodesCrowdAndSpread) {
+  constexpr uint32_t kMost = 3;
+  const Crowd crowd;
+  const Serial serial;
+  const ThreadPool pool(3);
+  Trial every(crowd, serial, 0, kMost), listed(crowd, serial, CpuSurroundings::kListMargin, kMost);
+  Trial wide(crowd, pool, 2, kMost), whole(crowd, serial, 0);
+  uint32_t fewest = std::numeric_limits<uint32_t>::max(), most = 0;
+  for (int s = 0; s < kSubsteps; ++s) {
+    for (Trial* run : {&every, &listed, &wide, &whole}) {
+      run->disturb(s);
+      run->substep();
+    }
+    ASSERT_TRUE(listed.sameBitsAs(every)) << s;
+    ASSERT_TRUE(wide.sameBitsAs(every)) << s;
+    ASSERT_EQ(listed.crowded(), every.crowded()) << s;
+    ASSERT_EQ(wide.crowded(), every.crowded()) << s;
+    fewest = std::min(fewest, every.crowded());
+    most = std::max(most, every.crowded());
+  }
+  EXPECT_LT(fewest, most);
+  EXPECT_FALSE(whole.sameBitsAs(every));
+  EXPECT_EQ(whole.crowded(), 0u);
 }
 
 TEST(ContactLists, HoldTheSamePairsAsASearchInEverySubstep) {

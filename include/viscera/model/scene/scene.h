@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "viscera/math/types.h"
+#include "viscera/model/scene/organ_fit.h"
 #include "viscera/model/scene/overlays.h"
 
 namespace viscera {
@@ -258,8 +260,9 @@ struct Scene {
   CollisionConfig collision;
   EnvironmentConfig environment;
   SolverConfig solver;
-  std::string folder;  ///< of the scene file: relative mesh files are looked up here
-  std::string file;    ///< the scene file, for errors; empty for a scene that was not loaded from one
+  std::string folder;           ///< of the scene file: relative mesh files are looked up here
+  std::string file;             ///< the scene file, for errors; empty for a scene that was not loaded from one
+  std::optional<OrganFit> fit;  ///< no key: to an organ that the file was not made for, see fitted_scene.h
 };
 
 /// "key=value" as given on the command line or in a launch file; the key is a path such as bodies[0].spacing_m.

@@ -1,14 +1,17 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "nodes/wrench_schedule.h"
+#include "haptics/wrench_schedule.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <random>
+#include <string>
+#include <vector>
 
-namespace viscera::nodes {
+namespace viscera {
 namespace {
 
 constexpr ForceLimits kLimits{5, 100, 0.2, 4};
@@ -42,11 +45,15 @@ class WrenchScheduleTest : public ::testing::Test {
     now_ = end;
     return last;
   }
+  void put(const Wrenches& wanted) {
+    schedule_.tick(now_);
+    schedule_.want(wanted, {true}, now_);
+  }
   /// Ticks that all want this.
   Wrenches ticks(int count, const Wrenches& wanted, double tick_s = kTick_s) {
     Wrenches last;
     for (int t = 0; t < count; ++t) {
-      schedule_.put(wanted, now_);
+      put(wanted);
       last = wait(tick_s);
     }
     return last;
@@ -59,7 +66,7 @@ TEST_F(WrenchScheduleTest, SendsZeroUntilThereAreTicks) {
 }
 
 TEST_F(WrenchScheduleTest, ForceIsReachedBySmallSteps) {
-  schedule_.put(wrench(0.5), now_);
+  put(wrench(0.5));
   double before_n = schedule_.next(now_)[0].force_n.x();
   int steps = 1;
   while (before_n < 0.5) {
@@ -107,7 +114,7 @@ TEST_F(WrenchScheduleTest, ReleaseEndsForcesForEverWithinItsTime) {
 TEST_F(WrenchScheduleTest, PureTwistIsLimitedToo) {
   double before_nm = 0;
   for (int t = 0; t < 200; ++t) {
-    schedule_.put(wrench(0, 3), now_);
+    put(wrench(0, 3));
     const SteadyTime before = now_;
     now_ += span(kTick_s);
     const double torque_nm = schedule_.next(now_)[0].torque_nm.norm();
@@ -117,6 +124,75 @@ TEST_F(WrenchScheduleTest, PureTwistIsLimitedToo) {
     before_nm = torque_nm;
   }
   EXPECT_NEAR(before_nm, kLimits.torque_nm, kRounding);
+}
+
+/// What keeps a wrench up, and what is to end it: both for every slew and limit that there could be.
+struct Ending {
+  const char* name;
+  std::function<void(WrenchSchedule&, SteadyTime)> begin;
+  double within_s;
+};
+
+TEST(WrenchScheduleEndings, NothingKeepsAWrenchUpWhateverSlewAndLimitsAre) {
+  const Wrenches pushed = wrench(1.5, 0.1);
+  const std::vector<Ending> endings = {
+      {"rest", [](WrenchSchedule& it, SteadyTime now) { it.rest(now); }, WrenchSchedule::kLetGo_s},
+      {"release", [](WrenchSchedule& it, SteadyTime now) { it.release(now); }, WrenchSchedule::kRelease_s},
+      {"stall", [](WrenchSchedule&, SteadyTime) {}, kStall_s + WrenchSchedule::kRelease_s},
+      {"hand lost", [&](WrenchSchedule& it, SteadyTime now) { it.want(pushed, {false}, now); },
+       WrenchSchedule::kLetGo_s},
+      {"rest, then release",
+       [](WrenchSchedule& it, SteadyTime now) {
+         it.rest(now);
+         it.release(now);
+       },
+       WrenchSchedule::kRelease_s}};
+  const std::vector<ForceLimits> all = {{5, 0, 0.2, 0}, {5, 0.1, 0.2, 0.1}, {0, 0, 0, 0},  {0, 0.1, 0, 0.1},
+                                        {0, 100, 0, 4}, {5, 100, 0, 0},     {5, 0, 0.2, 4}};
+  const auto span = [](double span_s) {
+    return std::chrono::duration_cast<SteadyTime::duration>(std::chrono::duration<double>(span_s));
+  };
+  for (const Ending& ending : endings) {
+    for (const ForceLimits& limits : all) {
+      SCOPED_TRACE(std::string(ending.name) + ", " + std::to_string(limits.force_n) + " N, " +
+                   std::to_string(limits.force_rate_n_per_s) + " N/s, " + std::to_string(limits.torque_nm) + " N m");
+      WrenchSchedule schedule({kLimits}, kStall_s);
+      SteadyTime now(std::chrono::hours(1));
+      for (int t = 0; t < 100; ++t, now += span(WrenchSchedule::kSlewPeriod_s)) {
+        schedule.tick(now);
+        schedule.want(pushed, {true}, now);
+        schedule.next(now);
+      }
+      schedule.setLimits(0, limits);
+      const SteadyTime begun = now;
+      ending.begin(schedule, now);
+      Reaction out = schedule.next(now)[0];
+      const SteadyTime end = begun + span(ending.within_s + 2 * WrenchSchedule::kSlewPeriod_s);
+      for (const bool hand_lost = schedule.live() && ending.within_s == WrenchSchedule::kLetGo_s; now < end;) {
+        const double before_n = out.force_n.norm();
+        now = std::max(now + std::chrono::microseconds(1), std::min(schedule.due(), end));
+        if (hand_lost) schedule.tick(now);  // ticks go on
+        out = schedule.next(now)[0];
+        EXPECT_LE(out.force_n.norm(), before_n * (1 + kRounding));
+      }
+      EXPECT_EQ(out.force_n, Vector3d::Zero());
+      EXPECT_EQ(out.torque_nm, Vector3d::Zero());
+      EXPECT_EQ(schedule.released(), std::string(ending.name).find("release") != std::string::npos);
+    }
+  }
+}
+
+TEST(WrenchScheduleEndings, ALimitOfNoTorqueLeavesTheForceAsItIs) {
+  WrenchSchedule schedule({{5, 1000, 0, 4}}, kStall_s);
+  SteadyTime now(std::chrono::hours(1));
+  Reaction out;
+  for (int t = 0; t < 100; ++t, now += std::chrono::milliseconds(2)) {
+    schedule.tick(now);
+    schedule.want(wrench(1.5, 0.1), {true}, now);
+    out = schedule.next(now)[0];
+  }
+  EXPECT_EQ(out.force_n.x(), 1.5);
+  EXPECT_EQ(out.torque_nm, Vector3d::Zero());
 }
 
 /// A million ticks of a wild simulation: any wrench, pauses, late ticks and stalls. What goes out keeps the limits, in
@@ -155,7 +231,7 @@ TEST_F(WrenchScheduleTest, NoLimitIsExceededInAMillionRandomTicks) {
     if (what > 0.999) {
       schedule_.rest(now_);
     } else {
-      schedule_.put(wanted, now_);
+      put(wanted);
     }
     if (what < 0.001) {
       before = {};  // tissue that is not finite: zero at once, which is told here and not asked of the limits
@@ -176,4 +252,4 @@ TEST_F(WrenchScheduleTest, NoLimitIsExceededInAMillionRandomTicks) {
 }
 
 }  // namespace
-}  // namespace viscera::nodes
+}  // namespace viscera

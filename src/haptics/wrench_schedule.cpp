@@ -1,11 +1,11 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "nodes/wrench_schedule.h"
+#include "haptics/wrench_schedule.h"
 
 #include <algorithm>
 #include <chrono>
 
-namespace viscera::nodes {
+namespace viscera {
 namespace {
 
 /// A wrench that was held for long does not leap all the way that its slew would have allowed meanwhile.
@@ -21,7 +21,8 @@ bool same(const Reaction& a, const Reaction& b) {
 
 }  // namespace
 
-WrenchSchedule::WrenchSchedule(const std::vector<ForceLimits>& limits, double stall_s) : stall_s_(stall_s) {
+WrenchSchedule::WrenchSchedule(const std::vector<ForceLimits>& limits, double stall_s)
+    : letting_go_(limits.size()), stall_s_(stall_s) {
   for (const ForceLimits& of_one : limits) limiters_.emplace_back(of_one);
 }
 
@@ -35,10 +36,10 @@ void WrenchSchedule::setLimits(size_t stylus, const ForceLimits& limits) {
 }
 
 bool WrenchSchedule::late(Time now) const {
-  return seconds(now - last_put_) > stall_s_;
+  return seconds(now - last_tick_) > stall_s_;
 }
 
-void WrenchSchedule::put(const Wrenches& wanted, Time now) {
+void WrenchSchedule::tick(Time now) {
   if (mode_ == Mode::kReleased) return;
   noticeStall(now);
   if (mode_ == Mode::kResting) mode_ = Mode::kLive;
@@ -46,30 +47,33 @@ void WrenchSchedule::put(const Wrenches& wanted, Time now) {
     in_time_ = late(now) ? 0 : in_time_ + 1;
     if (in_time_ >= kTicksInTime) mode_ = Mode::kLive;
   }
-  last_put_ = now;
-  wanted_ = mode_ == Mode::kLive ? wanted : Wrenches{};
-  reached_ = false;
+  last_tick_ = now;
 }
 
-void WrenchSchedule::follow(const Wrenches& wanted) {
+void WrenchSchedule::want(const Wrenches& wanted, const HandsThere& there, Time now) {
   if (mode_ != Mode::kLive) return;
-  wanted_ = wanted;
+  for (size_t s = 0; s < limiters_.size(); ++s) {
+    wanted_[s] = there[s] ? wanted[s] : Reaction{};
+    if (there[s])
+      letting_go_[s].on = false;
+    else
+      letGo(s, kLetGo_s, now);
+  }
   reached_ = false;
 }
 
 void WrenchSchedule::rest(Time now) {
   if (mode_ == Mode::kReleased) return;
   mode_ = Mode::kResting;
-  last_put_ = now;
-  wanted_ = {};
-  reached_ = false;
+  last_tick_ = now;
+  letAllGo(kLetGo_s, now);
 }
 
-void WrenchSchedule::release(Time) {
+void WrenchSchedule::release(Time now) {
   if (mode_ == Mode::kReleased) return;
   mode_ = Mode::kReleased;
-  wanted_ = {};
-  reached_ = silent_ = false;
+  silent_ = false;
+  letAllGo(kRelease_s, now);
 }
 
 void WrenchSchedule::noticeStall(Time now) {
@@ -77,24 +81,44 @@ void WrenchSchedule::noticeStall(Time now) {
   mode_ = Mode::kStalled;
   in_time_ = 0;
   ++stalls_;
+  letAllGo(kRelease_s, now);
+}
+
+void WrenchSchedule::letGo(size_t stylus, double within_s, Time now) {
+  LettingGo& it = letting_go_[stylus];
+  if (it.on && it.within_s <= within_s) return;
+  const Reaction& last = limiters_[stylus].last();
+  it = {true, now, within_s, last.force_n.norm(), last.torque_nm.norm()};
+}
+
+void WrenchSchedule::letAllGo(double within_s, Time now) {
   wanted_ = {};
   reached_ = false;
+  for (size_t s = 0; s < limiters_.size(); ++s) letGo(s, within_s, now);
 }
 
 WrenchSchedule::Time WrenchSchedule::due() const {
   if (!reached_) return after(last_next_, kSlewPeriod_s);
-  if (mode_ == Mode::kLive) return after(last_put_, stall_s_);
+  if (mode_ == Mode::kLive) return after(last_tick_, stall_s_);
   return after(last_next_, kIdlePeriod_s);
 }
 
-/// In an end or a stall the slew is what it takes to be at zero within kRelease_s, or the usual one where that is
-/// faster.
+/// In an end or a stall the largest wrench that is allowed is gone within kRelease_s, and a smaller one sooner.
 ForceLimits WrenchSchedule::limitsNow(const ForceLimits& usual) const {
   ForceLimits limits = usual;
   if (mode_ != Mode::kStalled && mode_ != Mode::kReleased) return limits;
   limits.force_rate_n_per_s = std::max(usual.force_rate_n_per_s, usual.force_n / kRelease_s);
   limits.torque_rate_nm_per_s = std::max(usual.torque_rate_nm_per_s, usual.torque_nm / kRelease_s);
   return limits;
+}
+
+Reaction WrenchSchedule::next(size_t stylus, double span_s, Time now) {
+  ForceLimiter& limiter = limiters_[stylus];
+  const LettingGo& going = letting_go_[stylus];
+  const Reaction out = limiter.limit(wanted_[stylus], span_s, limitsNow(limiter.limits()));
+  if (!going.on) return out;
+  const double left = std::max(1 - seconds(now - going.since) / going.within_s, 0.0);
+  return limiter.shrink(left * going.force_n, left * going.torque_nm);
 }
 
 Wrenches WrenchSchedule::next(Time now) {
@@ -104,13 +128,13 @@ Wrenches WrenchSchedule::next(Time now) {
   reached_ = silent_ = true;
   Wrenches out;
   for (size_t s = 0; s < limiters_.size(); ++s) {
-    ForceLimiter& limiter = limiters_[s];
-    const Reaction before = limiter.last();
-    out[s] = limiter.limit(wanted_[s], span_s, limitsNow(limiter.limits()));
-    reached_ = reached_ && (!out[s].saturated || same(out[s], before));
-    silent_ = silent_ && same(out[s], Reaction{});
+    const Reaction before = limiters_[s].last();
+    out[s] = next(s, span_s, now);
+    const bool silent = same(out[s], Reaction{});
+    reached_ = reached_ && (letting_go_[s].on ? silent : !out[s].saturated || same(out[s], before));
+    silent_ = silent_ && silent;
   }
   return out;
 }
 
-}  // namespace viscera::nodes
+}  // namespace viscera

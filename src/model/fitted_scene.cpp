@@ -1,0 +1,238 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "viscera/model/fitted_scene.h"
+
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <optional>
+#include <sstream>
+
+#include "model/scene/yaml_overrides.h"
+#include "model/scene/yaml_reader.h"
+#include "model/shape/file_bounds.h"
+#include "model/shape/tissue.h"
+#include "viscera/math/error.h"
+
+namespace viscera {
+namespace {
+
+/// Collects "key=value".
+class Keys {
+ public:
+  void set(const std::string& key, double value) { add(key) << value; }
+  void set(const std::string& key, const Vector3d& v) {
+    add(key) << '[' << v.x() << ", " << v.y() << ", " << v.z() << ']';
+  }
+  Overrides take() const {
+    Overrides out;
+    for (const std::ostringstream& text : texts_) out.push_back(text.str());
+    return out;
+  }
+
+ private:
+  std::ostream& add(const std::string& key) {
+    constexpr int kDigits = 6;  // for people to read and edit: a millionth of an organ
+    std::ostringstream& text = texts_.emplace_back();
+    text.precision(kDigits);
+    text << key << '=';
+    return text;
+  }
+  std::vector<std::ostringstream> texts_;
+};
+
+std::string item(const std::string& list, size_t i) {
+  return list + "[" + std::to_string(i) + "].";
+}
+
+/// Fixed regions stand in the frame of their body, and follow in the tissue frame: however a mesh is turned, it is held
+/// from where the organ of the scene was.
+void followFixed(const OrganFit& fit, const BodyConfig& was, const BodyConfig& is, Keys& keys) {
+  const Pose from_body = bodyPose(was), to_body = bodyPose(is).inverse();
+  const auto moved = [&](const Vector3d& p) -> Vector3d { return to_body * fit.moved(from_body * p); };
+  for (size_t i = 0; i < was.fixed.size(); ++i) {
+    const FixedConfig& fixed = was.fixed[i];
+    const std::string key = "bodies[0]." + item("fixed", i);
+    if (fixed.shape == FixedShape::kPlane) {
+      const Vector3d normal = (from_body.orientation * fixed.normal).cwiseQuotient(fit.stretch).normalized();
+      keys.set(key + "point_m", moved(fixed.point_m));
+      keys.set(key + "normal", to_body.orientation * normal);
+    } else if (fixed.shape == FixedShape::kSphere) {
+      keys.set(key + "center_m", moved(fixed.center_m));
+      keys.set(key + "radius_m", fixed.radius_m * std::cbrt(fit.stretch.prod()));
+    } else if (fixed.shape == FixedShape::kBox) {
+      Eigen::AlignedBox3d box;
+      const Eigen::AlignedBox3d held(fixed.min_m, fixed.max_m);
+      for (int c = 0; c < 8; ++c) box.extend(moved(held.corner(static_cast<Eigen::AlignedBox3d::CornerType>(c))));
+      keys.set(key + "min_m", box.min());
+      keys.set(key + "max_m", box.max());
+    }
+  }
+}
+
+/// As many cells as the scene's organ has, about: tools that are smaller still find nodes.
+void followSpacing(const OrganFit& fit, const BodyConfig& was, Keys& keys) {
+  if (was.auto_spacing || was.target_nodes > 0 || was.spacing_m <= 0) return;
+  keys.set("bodies[0].spacing_m", was.spacing_m * std::cbrt(fit.stretch.prod()));
+}
+
+void followObstacles(const OrganFit& fit, const Scene& made, Keys& keys) {
+  const double scale = fit.stretch.minCoeff();  // nothing grows into the organ
+  for (size_t i = 0; i < made.obstacles.size(); ++i) {
+    const ObstacleConfig& obstacle = made.obstacles[i];
+    if (!obstacle.frame.empty()) continue;
+    const std::string key = item("obstacles", i);
+    keys.set(key + "position_m", fit.moved(obstacle.position_m));
+    if (!obstacle.velocity_m_per_s.isZero()) keys.set(key + "velocity_m_per_s", scale * obstacle.velocity_m_per_s);
+    const bool is_round = obstacle.shape == ObstacleShape::kSphere || obstacle.shape == ObstacleShape::kCapsule;
+    if (is_round) keys.set(key + "radius_m", scale * obstacle.radius_m);
+    if (obstacle.shape == ObstacleShape::kCapsule) keys.set(key + "length_m", scale * obstacle.length_m);
+    if (obstacle.shape != ObstacleShape::kBox) continue;
+    const bool is_turned = !obstacle.rotation_deg.isZero() || !obstacle.rotation_deg_per_s.isZero();
+    const Vector3d stretch = is_turned ? Vector3d::Constant(scale) : fit.stretch;
+    keys.set(key + "size_m", stretch.cwiseProduct(obstacle.size_m));
+  }
+}
+
+void followCameras(const OrganFit& fit, const Scene& made, Keys& keys) {
+  for (size_t i = 0; i < made.cameras.size(); ++i) {
+    if (!made.cameras[i].frame.empty()) continue;
+    keys.set(item("cameras", i) + "position_m", fit.viewed(made.cameras[i].position_m));
+    keys.set(item("cameras", i) + "target_m", fit.viewed(made.cameras[i].target_m));
+  }
+}
+
+bool isSet(const Overrides& own, const std::string& key) {
+  for (const std::string& text : own)
+    if (text.compare(0, key.size() + 1, key + "=") == 0) return true;
+  return false;
+}
+
+/// What a kind of tool is told of its size, and the key that told it once.
+struct ToolSize {
+  const char *key, *former_key;
+  double (*value_m)(const StylusConfig&);
+};
+constexpr std::array<ToolSize, 5> kToolSizes = {{
+    {"probe.radius_m", "probe_radius_m", [](const StylusConfig& c) { return c.probe.radius_m; }},
+    {"grab.radius_m", "grab_radius_m", [](const StylusConfig& c) { return c.grab.radius_m; }},
+    {"cut.blade_length_m", "blade_length_m", [](const StylusConfig& c) { return c.cut.blade_length_m; }},
+    {"cut_particles.eraser_radius_m", "eraser_radius_m",
+     [](const StylusConfig& c) { return c.cut_particles.eraser_radius_m; }},
+    {"suction.radius_m", nullptr, [](const StylusConfig& c) { return c.suction.radius_m; }},
+}};
+
+void followTools(const OrganFit& fit, const Scene& made, const Overrides& own, Keys& keys) {
+  for (size_t i = 0; i < made.styluses.size(); ++i) {
+    const std::string key = item("styluses", i);
+    for (const ToolSize& size : kToolSizes) {
+      if (size.former_key && isSet(own, key + size.former_key)) continue;  // both names at once would be refused
+      keys.set(key + size.key, fit.hand_scale * size.value_m(made.styluses[i]));
+    }
+  }
+}
+
+Vector3d sightOf(const Scene& scene) {
+  for (const CameraConfig& camera : scene.cameras)
+    if (camera.frame.empty()) return camera.target_m - camera.position_m;
+  return Vector3d::UnitY();
+}
+
+Eigen::AlignedBox3d boxOf(const Scene& scene) {
+  BodyConfig body = scene.bodies[0];
+  body.textures = false;  // shape alone
+  return makeTissue(body, scene.folder)->bounds();
+}
+
+/// None if one of the organs cannot be read, which whoever makes a model of it says better.
+std::optional<OrganFit> fitOf(const Scene& made, const Scene& scene) {
+  try {
+    const OrganFit fit = OrganFit::between(boxOf(made), boxOf(scene), sightOf(made));
+    if (fit.isSound()) return fit;
+  } catch (const std::exception&) {
+  }
+  return std::nullopt;
+}
+
+/// The scene as its file alone has it; none if it waits for a mesh.
+std::optional<Scene> madeScene(const std::string& path) {
+  try {
+    return loadScene(path);
+  } catch (const SceneError&) {
+    return std::nullopt;
+  }
+}
+
+Overrides joined(Overrides first, const Overrides& second) {
+  first.insert(first.end(), second.begin(), second.end());
+  return first;
+}
+
+/// A file may not say one thing under two names: what was set from outside it stays, else what followed the organ.
+void dropFormerNames(YAML::Node root, const YamlSource& source) {
+  for (size_t i = 0; i < root["styluses"].size(); ++i) {
+    YAML::Node stylus = root["styluses"][i];
+    for (const ToolSize& size : kToolSizes) {
+      if (!size.former_key || !stylus[size.former_key]) continue;
+      const std::string key = size.key;
+      YAML::Node group = stylus[key.substr(0, key.find('.'))];
+      const std::string name = key.substr(key.find('.') + 1);
+      if (!group || !group[name]) continue;
+      if (source.overridden.count(item("styluses", i) + size.former_key) > 0)
+        group.remove(name);
+      else
+        stylus.remove(size.former_key);
+    }
+  }
+}
+
+}  // namespace
+
+FittedScene loadFittedScene(const std::string& path, const Overrides& mesh, const Overrides& own) {
+  FittedScene out;
+  out.overrides = joined(mesh, own);
+  out.scene = loadScene(path, out.overrides);
+  if (mesh.empty()) return out;
+  const std::optional<Scene> made = madeScene(path);
+  const std::optional<OrganFit> fit = made ? fitOf(*made, out.scene) : std::nullopt;
+  if (!fit) return out;
+  const bool is_alone = made->bodies.size() == 1;
+  Keys keys;
+  followFixed(*fit, made->bodies[0], out.scene.bodies[0], keys);
+  followSpacing(*fit, made->bodies[0], keys);
+  if (is_alone) {
+    followObstacles(*fit, *made, keys);
+    followCameras(*fit, *made, keys);
+    followTools(*fit, *made, own, keys);
+  }
+  out.overrides = joined(joined(mesh, keys.take()), own);
+  out.scene = loadScene(path, out.overrides);
+  if (is_alone) out.scene.fit = fit;
+  return out;
+}
+
+std::string sceneYaml(const std::string& path, const Overrides& overrides, const std::string& remark) {
+  requireWithinBounds(path);
+  YamlSource source{path, {}};
+  YAML::Node root;
+  try {
+    root = YAML::Load(textOf(path, "scene"));
+    for (const std::string& text : overrides) applyOverride(root, text, source);
+  } catch (const YAML::Exception& e) {
+    throw SceneError(yamlFault(path, e));
+  }
+  dropFormerNames(root, source);
+  namespace fs = std::filesystem;
+  const fs::path folder = fs::absolute(path).parent_path();
+  for (YAML::Node body : root["bodies"]) {
+    for (const char* key : {"mesh_file", "detail_mesh"}) {
+      const std::string file = body[key] ? body[key].as<std::string>("") : "";
+      if (!file.empty()) body[key] = (folder / file).lexically_normal().string();
+    }
+  }
+  YAML::Emitter out;
+  out << root;
+  return "# " + remark + "\n" + out.c_str() + "\n";
+}
+
+}  // namespace viscera

@@ -1,0 +1,57 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "viscera/model/scene/organ_fit.h"
+
+#include <sstream>
+
+namespace viscera {
+namespace {
+
+constexpr double kLeastStretch = 1.0 / 50, kMostStretch = 20;  ///< of an organ of 0.1 m: 2 mm to 2 m
+/// An organ that fills its box needs more of a picture than one with corners that are empty, as a heart's.
+constexpr double kRoom = 1.15;
+
+std::string sizeText(const Eigen::AlignedBox3d& box_m) {
+  const Vector3d size_m = box_m.sizes();
+  std::ostringstream out;
+  out.precision(3);
+  out << size_m.x() << " x " << size_m.y() << " x " << size_m.z() << " m";
+  return out.str();
+}
+
+}  // namespace
+
+OrganFit OrganFit::between(const Eigen::AlignedBox3d& from_m, const Eigen::AlignedBox3d& to_m, const Vector3d& sight) {
+  OrganFit fit;
+  fit.from_m = from_m;
+  fit.to_m = to_m;
+  fit.stretch = to_m.sizes().cwiseQuotient(from_m.sizes());
+  fit.view_scale = kRoom * fit.stretch.maxCoeff();
+  Eigen::Index depth = 0;
+  sight.cwiseAbs().maxCoeff(&depth);
+  fit.hand_scale = std::min(fit.stretch[(depth + 1) % 3], fit.stretch[(depth + 2) % 3]);
+  return fit;
+}
+
+Vector3d OrganFit::moved(const Vector3d& point_m) const {
+  return to_m.center() + stretch.cwiseProduct(point_m - from_m.center());
+}
+
+Vector3d OrganFit::viewed(const Vector3d& point_m) const {
+  return to_m.center() + view_scale * (point_m - from_m.center());
+}
+
+bool OrganFit::isSound() const {
+  return stretch.minCoeff() >= kLeastStretch && stretch.maxCoeff() <= kMostStretch;  // false for NaN
+}
+
+std::string OrganFit::text() const {
+  std::ostringstream out;
+  out.precision(3);
+  out << "fitted to the organ's box, " << sizeText(to_m) << ", from the scene's, " << sizeText(from_m)
+      << ": cameras by " << view_scale << ", tools and strokes by " << hand_scale
+      << ", fixed regions, obstacles and anchors from box to box; keys that were set go before";
+  return out.str();
+}
+
+}  // namespace viscera

@@ -1,0 +1,101 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/anchor_search.h"
+
+#include <cmath>
+#include <limits>
+
+namespace viscera {
+namespace {
+
+constexpr double kNone = -std::numeric_limits<double>::infinity();
+
+/// How near to whoever looks along -z the skins are, on a grid of points across.
+class HeightMap {
+ public:
+  HeightMap(const Model& model, const Quaterniond& to_anchor) {
+    for (const Body& body : model.bodies)
+      for (const Vector3f& p : body.skin.mesh.positions_m) box_m_.extend(to_anchor * p.cast<double>());
+    step_m_ = std::max(box_m_.sizes().x(), box_m_.sizes().y()) / (kPoints - 1);
+    height_m_.assign(kPoints * kPoints, kNone);
+    if (step_m_ <= 0) return;
+    for (const Body& body : model.bodies) {
+      const TriangleMesh& mesh = body.skin.mesh;
+      const auto at = [&](uint32_t vertex) -> Vector3d { return to_anchor * mesh.positions_m[vertex].cast<double>(); };
+      for (const auto& t : mesh.triangles) add(at(t[0]), at(t[1]), at(t[2]));
+    }
+  }
+
+  double at(double x_m, double y_m) const {
+    const Vector3d cell = (Vector3d(x_m, y_m, 0) - box_m_.min()) / step_m_;
+    const double column = std::round(cell.x()), row = std::round(cell.y());
+    if (!(column >= 0 && row >= 0 && column < kPoints && row < kPoints)) return kNone;
+    return height_m_[static_cast<size_t>(row) * kPoints + static_cast<size_t>(column)];
+  }
+  double step_m() const { return step_m_; }
+  static constexpr int kPoints = 96;  ///< along the longer side: strokes span a quarter of an organ
+
+ private:
+  void add(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
+    const Vector3d ab = b - a, ac = c - a;
+    const double area = ab.x() * ac.y() - ab.y() * ac.x();
+    if (area == 0) return;
+    const Vector3d low = (a.cwiseMin(b).cwiseMin(c) - box_m_.min()) / step_m_;
+    const Vector3d high = (a.cwiseMax(b).cwiseMax(c) - box_m_.min()) / step_m_;
+    for (int row = static_cast<int>(std::ceil(low.y())); row <= high.y() && row < kPoints; ++row) {
+      for (int column = static_cast<int>(std::ceil(low.x())); column <= high.x() && column < kPoints; ++column) {
+        const double x = box_m_.min().x() + column * step_m_ - a.x(), y = box_m_.min().y() + row * step_m_ - a.y();
+        const double u = (x * ac.y() - y * ac.x()) / area, v = (ab.x() * y - ab.y() * x) / area;
+        if (u < 0 || v < 0 || u + v > 1) continue;
+        double& height_m = height_m_[static_cast<size_t>(row * kPoints + column)];
+        height_m = std::max(height_m, a.z() + u * ab.z() + v * ac.z());
+      }
+    }
+  }
+
+  Eigen::AlignedBox3d box_m_;
+  double step_m_ = 0;
+  std::vector<double> height_m_;  ///< [rows][columns]; kNone: no skin
+};
+
+}  // namespace
+
+Quaterniond frameAlong(const Vector3d& back) {
+  const Vector3d up = std::abs(back.z()) < 1 - 1e-6 ? Vector3d::UnitZ() : Vector3d::UnitY();
+  Eigen::Matrix3d axes;
+  axes.col(2) = back;
+  axes.col(0) = up.cross(back).normalized();
+  axes.col(1) = back.cross(axes.col(0));
+  return Quaterniond(axes);
+}
+
+Vector3d shiftOntoSkin(const Model& model, const Anchor& anchor, const std::vector<Vector3d>& spots_m) {
+  constexpr double kSlope = 0.6;  // of the spots' reach: a steeper skin is out of a blade's
+  const Quaterniond frame = frameAlong((anchor.from_m - anchor.towards_m).normalized());
+  const HeightMap map(model, frame.conjugate());
+  if (map.step_m() <= 0) return Vector3d::Zero();
+  const Vector3d origin = frame.conjugate() * anchor.from_m;
+  double reach_m = 0;
+  for (const Vector3d& spot : spots_m) reach_m = std::max(reach_m, spot.head<2>().norm());
+  const auto met = [&](double x_m, double y_m) {
+    const double height_m = map.at(x_m, y_m);
+    size_t count = height_m == kNone ? 0 : 1;
+    for (const Vector3d& spot : spots_m)
+      count += std::abs(map.at(x_m + spot.x(), y_m + spot.y()) - height_m) <= kSlope * reach_m ? 1 : 0;
+    return count;
+  };
+  size_t most = met(origin.x(), origin.y());
+  Vector3d shift = Vector3d::Zero();
+  for (int row = -HeightMap::kPoints; row <= HeightMap::kPoints; ++row) {
+    for (int column = -HeightMap::kPoints; column <= HeightMap::kPoints; ++column) {
+      const Vector3d by(column * map.step_m(), row * map.step_m(), 0);
+      const size_t count = met(origin.x() + by.x(), origin.y() + by.y());
+      if (count < most || (count == most && by.norm() >= shift.norm())) continue;
+      most = count;
+      shift = by;
+    }
+  }
+  return frame * shift;
+}
+
+}  // namespace viscera

@@ -1,0 +1,119 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// A process that is bound to folders reads no scene, no mesh and nothing that these name from elsewhere.
+#include "model/shape/file_bounds.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include "support/temporary_folder.h"
+#include "viscera/model/model.h"
+#include "viscera/model/scene/scene.h"
+#include "viscera/model/shape/mesh_import.h"
+
+namespace viscera {
+namespace {
+
+namespace fs = std::filesystem;
+using test::TemporaryFolder;
+
+/// A word of the files outside that no error may tell.
+constexpr const char* kSecret = "s3cret";
+constexpr const char* kTetrahedron =
+    "v 0 0 0\nv 0.1 0 0\nv 0 0.1 0\nv 0 0 0.1\nvt 0 0\n"
+    "usemtl m\nf 1/1 3/1 2/1\nf 1/1 2/1 4/1\nf 2/1 3/1 4/1\nf 3/1 1/1 4/1\n";
+
+class FileBounds : public ::testing::Test {
+ protected:
+  FileBounds() {
+    fs::create_directory(inside_);
+    fs::create_directory(inside_ + "_too");  // begins as the folder does
+    bindFilesTo({inside_}, "parameter ~scene_folders");
+  }
+  ~FileBounds() override { bindFilesTo({}, ""); }
+  std::string write(const std::string& name, const std::string& text) const { return folder_.write(name, text); }
+  std::string scene(const std::string& name, const std::string& keys) const {
+    return write(name, "bodies: [{name: a, spacing_m: 0.02, " + keys + "}]\n");
+  }
+  static void load(const std::string& path) { (void)buildModel(loadScene(path)); }
+  /// The call is refused for `path`, and says nothing of what is there.
+  static void expectRefused(const std::function<void()>& call, const std::string& path) {
+    try {
+      call();
+      ADD_FAILURE() << path << " was read";
+    } catch (const Error& error) {
+      const std::string text = error.what();
+      EXPECT_NE(text.find("parameter ~scene_folders"), std::string::npos) << text;
+      EXPECT_NE(text.find(path), std::string::npos) << text;
+      EXPECT_EQ(text.find(kSecret), std::string::npos) << text;
+    }
+  }
+
+  TemporaryFolder folder_;
+  std::string inside_ = folder_.file("in"), secret_ = folder_.write("secret.yaml", std::string(kSecret) + ": 1\n");
+};
+
+TEST_F(FileBounds, WhatIsInsideIsRead) {
+  write("in/a.obj", kTetrahedron);
+  load(scene("in/a.yaml", "source: mesh, mesh_file: a.obj"));
+  load(inside_ + "/../in/a.yaml");
+  fs::create_symlink(inside_, folder_.file("way_in"));
+  load(folder_.file("way_in") + "/a.yaml");
+}
+
+TEST_F(FileBounds, AnyFileIsReadWhereNobodyBinds) {
+  bindFilesTo({}, "");
+  load(scene("a.yaml", "source: box"));
+}
+
+TEST_F(FileBounds, SceneElsewhereIsRefusedThereOrNot) {
+  for (const std::string& path : {secret_, folder_.file("absent.yaml"), inside_ + "/../secret.yaml",
+                                  scene("in_too/a.yaml", "source: box"), std::string("/etc/passwd")})
+    expectRefused([&] { loadScene(path); }, path);
+}
+
+TEST_F(FileBounds, LinksThatLeadElsewhereAreRefused) {
+  fs::create_symlink(secret_, inside_ + "/link.yaml");
+  fs::create_directory_symlink(folder_.path(), inside_ + "/up");
+  for (const std::string& path : {inside_ + "/link.yaml", inside_ + "/up/secret.yaml"})
+    expectRefused([&] { loadScene(path); }, path);
+}
+
+TEST_F(FileBounds, MeshesElsewhereAreRefused) {
+  write("a.obj", kTetrahedron);
+  write("a.msh", kSecret);
+  expectRefused([&] { load(scene("in/a.yaml", "source: mesh, mesh_file: ../a.obj")); }, "../a.obj");
+  expectRefused([&] { load(scene("in/a.yaml", "source: mesh, mesh_file: " + folder_.file("no.obj"))); }, "no.obj");
+  expectRefused([&] { load(scene("in/a.yaml", "source: mesh, structure: tetrahedra, mesh_file: ../a.msh")); },
+                "../a.msh");
+  expectRefused([&] { load(scene("in/a.yaml", "source: box, detail_mesh: ../a.obj")); }, "../a.obj");
+}
+
+TEST_F(FileBounds, WhatAMeshNamesElsewhereIsRefused) {
+  write("a.mtl", "newmtl " + std::string(kSecret) + "\n");
+  const std::string mesh = write("in/a.obj", "mtllib ../a.mtl\n" + std::string(kTetrahedron));
+  expectRefused([&] { importMesh(mesh, 1); }, "../a.mtl");
+  write("in/b.mtl", "newmtl m\nmap_Kd ../secret.yaml\n");
+  const std::string textured = write("in/b.obj", "mtllib b.mtl\n" + std::string(kTetrahedron));
+  ImportReport report;
+  expectRefused([&] { importMesh(textured, 1, &report); }, "../secret.yaml");
+}
+
+TEST_F(FileBounds, FoldersAreAbsoluteAndThere) {
+  for (const std::string& folder : {std::string("."), folder_.file("absent"), secret_}) {
+    try {
+      bindFilesTo({folder}, "parameter ~scene_folders");
+      ADD_FAILURE() << folder;
+    } catch (const FileBoundError& error) {
+      EXPECT_EQ(std::string(error.what()),
+                "parameter ~scene_folders: '" + folder + "' is not the absolute path of a folder");
+    }
+  }
+}
+
+}  // namespace
+}  // namespace viscera

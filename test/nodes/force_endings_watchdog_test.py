@@ -1,0 +1,65 @@
+#!/usr/bin/env python3
+# Copyright (c) 2026, the viscera authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""What nothing in the simulator can end, kill -9 among it, a watchdog does: drivers of every kind that keep the last force
+which they were told are told zero, soon."""
+import sys
+import time
+
+import rostest
+from force_session import END_LIMIT_S, TIMEOUT, ZERO_LIMIT_S, ForceCase, Session, watched_session
+
+RESTART_LIMIT_S = 5.0
+# what the hand speaks: its profile, and the topic to which its driver listens
+DRIVERS = {"PhantomOmni": ("phantom_omni", "phantom/force_feedback"),
+           "Geomagic": ("geomagic", "Geomagic/force_feedback"),
+           "BarePose": ("pose", "left/wrench")}
+
+
+class ForceEndingsWatchdogTest(ForceCase):
+    def kill_behind(self, kind):
+        """The simulator sends to a topic of its own, and the watchdog to the driver's."""
+        profile, topic = DRIVERS[kind]
+        options = ["_devices:=left=" + profile, "_device_options:=left.force.topic=unwatched"]
+        with Session(kind=kind, options=options) as session:
+            watchdog = session.node("wrench_watchdog", "_device:=" + profile, "wrench_in:=unwatched",
+                                    "wrench_out:=" + topic, TIMEOUT)
+            session.wait_touch()
+            ended = time.monotonic()
+            session.simulator.kill()
+            self.assertZeroSoon("kill -9, %s, watchdog" % profile, session.felt(1), ended)
+            self.assertIsNone(watchdog.poll())
+
+    def test_killed_simulator(self):
+        session, watchdog = watched_session()
+        with session:
+            session.wait_touch()
+            ended = time.monotonic()
+            session.simulator.kill()
+            self.assertZeroSoon("kill -9, watchdog", session.felt(1), ended)
+            self.assertIsNone(watchdog.poll())
+
+    def test_killed_simulator_and_omni_feedback(self):
+        self.kill_behind("PhantomOmni")
+
+    def test_killed_simulator_and_geomagic_feedback(self):
+        self.kill_behind("Geomagic")
+
+    def test_killed_simulator_and_bare_wrenches(self):
+        self.kill_behind("BarePose")
+
+    def test_killed_watchdog_leaves_the_force_until_it_is_started_again(self):
+        session, watchdog = watched_session()
+        with session:
+            session.wait_touch()
+            watchdog.kill()
+            watchdog.wait(END_LIMIT_S)
+            session.simulator.kill()
+            time.sleep(ZERO_LIMIT_S)
+            again = time.monotonic()
+            session.node("wrench_watchdog", "wrench_in:=left/body/servo_cf", "wrench_out:=watched", TIMEOUT)
+            self.assertZeroSoon("watchdog started again", session.felt(RESTART_LIMIT_S), again, limit_s=RESTART_LIMIT_S)
+
+
+if __name__ == "__main__":
+    rostest.rosrun("viscera", "force_endings_watchdog_test", ForceEndingsWatchdogTest, sys.argv)

@@ -1,0 +1,112 @@
+# Copyright (c) 2026, the viscera authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""A simulator and a hand that is pressed into its tissue, for tests of what the hand is told last."""
+import itertools
+import json
+import os
+import signal
+import socket
+import subprocess
+import sys
+import time
+import unittest
+
+import roslib.packages
+
+END_LIMIT_S = 30
+ZERO_LIMIT_S = 0.05     # from the ending to the first zero, seen from outside
+FORCED_END_S = 1.2      # a second, and what this process needs to see it
+SCENE = ("_overrides:=bodies[0].spacing_m=0.008;bodies[0].material.young_modulus_pa=20000;"
+         "environment.gravity_m_per_s2=[0,0,0];styluses[0].probe.radius_m=0.012")
+TIMEOUT = "_timeout_s:=0.03"  # of watchdogs
+HERE = os.path.dirname(os.path.abspath(__file__))
+serial = itertools.count()
+
+
+def free_port():
+    with socket.socket() as probe:
+        probe.bind(("localhost", 0))
+        return probe.getsockname()[1]
+
+
+class Session:
+    """A simulator and a hand, with a master of their own where one is asked for.
+    kind: of the hand's driver, a class of drivers.py, for which options are the simulator's"""
+
+    def __init__(self, own_master=False, wrenches="left/body/servo_cf", kind=None, options=(), overrides=""):
+        self.environment = dict(os.environ, ROSCONSOLE_STDOUT_LINE_BUFFERED="1")
+        self.processes = []
+        self.master = None
+        if own_master:
+            port = free_port()
+            self.environment["ROS_MASTER_URI"] = "http://localhost:%d" % port
+            self.master = self.start(["rosmaster", "--core", "-p", str(port)])
+        self.space = "/force_endings_%d" % next(serial)
+        self.environment["ROS_NAMESPACE"] = self.space
+        self.simulator = self.node("simulator", SCENE + overrides, *options)
+        wait_ready(self.simulator)
+        self.hand = self.start([sys.executable, os.path.join(HERE, "hand.py"), wrenches] + ([kind] if kind else []),
+                               stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+
+    def start(self, command, **how):
+        process = subprocess.Popen(command, env=self.environment, **how)
+        self.processes.append(process)
+        return process
+
+    def node(self, name, *arguments):
+        path = roslib.packages.find_node("viscera", name)[0]
+        return self.start([path] + list(arguments), text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+
+    def freeze_master(self, seconds=0):
+        """It keeps its connections, and answers nothing from now on."""
+        self.master.send_signal(signal.SIGSTOP)
+        time.sleep(seconds)
+
+    def thaw_master(self):
+        self.master.send_signal(signal.SIGCONT)
+
+    def wait_touch(self):
+        line = self.hand.stdout.readline()
+        assert line == "touching\n", line
+
+    def felt(self, seconds):
+        """What the hand was told until so many seconds from now."""
+        time.sleep(seconds)
+        return json.loads(self.hand.communicate(timeout=END_LIMIT_S)[0])
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        for process in self.processes:
+            if process.poll() is None:
+                process.kill()
+            process.wait(END_LIMIT_S)
+
+
+def watched_session(**how):
+    """A session and, between its simulator and its hand, a watchdog."""
+    session = Session(wrenches="watched", **how)
+    return session, session.node("wrench_watchdog", "wrench_in:=left/body/servo_cf", "wrench_out:=watched", TIMEOUT)
+
+
+def wait_ready(process):
+    for line in process.stdout:
+        if "ready" in line:
+            return
+    raise AssertionError("the simulator ended before it was ready")
+
+
+class ForceCase(unittest.TestCase):
+    def assertZeroSoon(self, name, felt, ended, until=None, limit_s=ZERO_LIMIT_S):
+        """Forces were there before, and nothing but zero from limit_s after the ending on."""
+        before = [n for t, n, _, _ in felt if t < ended]
+        self.assertGreater(before[-1], 0, name)
+        later = [(t, n, m) for t, n, m, _ in felt if t >= ended and (until is None or t < until)]
+        pushes = [t - ended for t, n, m in later if n > 0 or m > 0]
+        zeros = [t - ended for t, n, m in later if n == 0 and m == 0]
+        self.assertTrue(zeros, name + ": no zero was sent")
+        first = min(z for z in zeros if not pushes or z > max(pushes)) if not pushes or max(zeros) > max(pushes) else None
+        self.assertIsNotNone(first, name + ": the last wrench is not zero")
+        print("%-28s last wrench before %.3f N, zero after %4.1f ms" % (name, before[-1], 1e3 * first), flush=True)
+        self.assertLess(first, limit_s, name)

@@ -1,0 +1,53 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+
+#include "session/block_session.h"
+
+namespace viscera {
+namespace {
+
+using test::leftAt;
+
+/// Some ticks in which the tip goes into the block from above and stays there.
+TickContact press(Session& session) {
+  constexpr double kAbove_m = test::kHalfM + test::kProbeRadiusM + 0.002, kDeep_m = 0.005;
+  Frame frame;
+  for (int tick = 0; tick < 40; ++tick) {
+    const double way = std::min(tick / 20.0, 1.0);
+    frame = session.step(leftAt({0, 0, kAbove_m - way * kDeep_m}), {});
+  }
+  return frame.contacts[0];
+}
+
+Scene scene() {
+  Scene out = test::blockScene();
+  out.solver.backend = Backend::kCpu;
+  return out;
+}
+
+TEST(Contacts, GoOnFromTickToTick) {
+  Session session(scene());
+  const TickContact pressed = press(session);
+  EXPECT_EQ(pressed.kind, TickContact::Kind::kPushes);
+  EXPECT_FALSE(pressed.anew);
+}
+
+/// What a surface was before is no surface now: nobody may feel its plane.
+TEST(Contacts, BeginAnewWithAResetAnotherHandAndAnotherMode) {
+  Session session(scene());
+  press(session);
+  session.reset();
+  session.forgetHands();
+  EXPECT_TRUE(session.step(leftAt({0, 0, 0.1}), {}).contacts[0].anew);
+  press(session);
+  session.setToolMode(0, ToolSwitch::kIdle, ToolMode::kNone);
+  EXPECT_TRUE(session.step(leftAt({0, 0, 0.03}), {}).contacts[0].anew);
+  session.setToolMode(0, ToolSwitch::kIdle, ToolMode::kProbe);
+  press(session);
+  EXPECT_TRUE(session.step({}, {}).contacts[0].anew);
+  EXPECT_TRUE(session.step(leftAt({0, 0, 0.03}), {}).contacts[0].anew);
+}
+
+}  // namespace
+}  // namespace viscera

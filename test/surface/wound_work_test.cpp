@@ -1,0 +1,158 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// A wound makes what has changed, tick by tick, and shows what it would if all had been cut at once.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <vector>
+
+#include "model/shape/box_surface.h"
+#include "model/skin_shapes.h"
+#include "surface/wound_rig.h"
+
+namespace viscera::testing {
+namespace {
+
+constexpr double kSpacing_m = 0.01;
+constexpr double kMostWork = 2;  // times the work of the cuts of a first stroke that those of the last one may take
+
+Wounded box() {
+  const TriangleMesh mesh = boxSurface(Vector3d::Constant(0.0), Vector3d(0.08, 0.07, 0.06), {19, 17, 15});
+  return Wounded(bindTo(blockSolid({8, 7, 6}, kSpacing_m), mesh));
+}
+
+/// A corner of a shown triangle as those who map it see it: bit by bit what carries it, and how.
+using Corner = std::array<unsigned char, sizeof(layout::SkinBinding)>;
+
+/// Triangles whatever their order and that of their vertices.
+std::vector<std::array<Corner, 3>> shownBy(const BodyWound& wound, const std::vector<uint32_t>& triangles) {
+  std::vector<std::array<Corner, 3>> out(triangles.size() / 3);
+  for (size_t i = 0; i < triangles.size(); ++i)
+    std::memcpy(out[i / 3][i % 3].data(), &wound.bindings()[triangles[i]], sizeof(layout::SkinBinding));
+  for (std::array<Corner, 3>& corners : out)
+    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+/// A body that has been cut tick by tick beside one whose cuts are shown for the first time.
+void expectTheSame(const Wounded& body) {
+  Wounded other(body.lattice, body.skin);
+  other.nodes = body.nodes;
+  other.axial_cut = body.axial_cut;
+  other.update();
+  EXPECT_TRUE(shownBy(body.wound, body.wound.skinTriangles()) == shownBy(other.wound, other.wound.skinTriangles()));
+  EXPECT_TRUE(shownBy(body.wound, body.wound.wallTriangles()) == shownBy(other.wound, other.wound.wallTriangles()));
+  EXPECT_EQ(body.wound.holes(), other.wound.holes());
+  EXPECT_EQ(body.wound.slivers(), other.wound.slivers());
+}
+
+/// Takes all of the springs of nodes in a ball.
+void erase(Wounded& body, const Vector3d& middle, double radius_m) {
+  const Lattice& lattice = body.lattice;
+  for (const uint32_t slot : lattice.active_slots) {
+    if ((lattice.restPosition(slot) - middle).norm() > radius_m) continue;
+    for (uint32_t spring = 0; spring < layout::kSpringsPerNode; ++spring) {
+      const int64_t other = lattice.neighborSlot(slot, spring);
+      setSpringCount(body.nodes[slot], spring, 0);
+      body.nodes[slot].lo |= layout::kSeveredBit;
+      if (other < 0) continue;
+      const auto far = static_cast<size_t>(other);
+      setSpringCount(body.nodes[far], oppositeSpring(spring), 0);
+      body.nodes[far].lo |= layout::kSeveredBit;
+      if (spring < layout::kAxialSprings)
+        body.axial_cut[3 * (spring % 2 == 0 ? slot : far) + spring / 2] = layout::kErasedShare;
+    }
+  }
+}
+
+TEST(WoundWork, CutsTickByTickShowWhatTheyShowAtOnce) {
+  constexpr int kTicks = 12;
+  const std::vector<Vector3d> normals = anglesOfCuts();
+  for (size_t i = 0; i < normals.size(); ++i) {
+    SCOPED_TRACE(::testing::Message() << i);
+    Wounded body = box();
+    for (int tick = 1; tick <= kTicks; ++tick) {
+      const double depth_m = 0.06 * tick / kTicks;
+      const auto within = [&](const Vector3d& at) { return at.z() > 0.061 - depth_m; };
+      body.cut({0.0403, 0.0352, 0.0304}, normals[i], within);
+      if (tick > 4) body.cut({0.0381, 0.0333, 0.0299}, normals[(i + 1) % normals.size()], within);
+      if (tick == 9) erase(body, {0.03, 0.03, 0.05}, 0.013);
+      body.update();
+      if (tick % 3 == 0) expectTheSame(body);
+    }
+    body.makeWhole();
+    body.cut({0.0441, 0.0313, 0.0279}, normals[(i + 4) % normals.size()]);
+    body.update();
+    expectTheSame(body);
+  }
+}
+
+TEST(WoundWork, OfASkinWithABorderHolesAreCountedAlike) {
+  TriangleMesh mesh = boxSurface(Vector3d::Constant(0.0), Vector3d(0.08, 0.07, 0.06), {19, 17, 15});
+  const auto on_top = [&](const std::array<uint32_t, 3>& t) {
+    return std::all_of(t.begin(), t.end(), [&](uint32_t v) { return mesh.positions_m[v].z() > 0.0599F; });
+  };
+  mesh.triangles.erase(std::remove_if(mesh.triangles.begin(), mesh.triangles.end(), on_top), mesh.triangles.end());
+  Wounded body(bindTo(blockSolid({8, 7, 6}, kSpacing_m), mesh));
+  for (int tick = 1; tick <= 7; ++tick) {
+    body.cut({0.0403, 0.0352, 0.0304}, Vector3d(1, 0.2, 0.1).normalized(),
+             [&](const Vector3d& at) { return at.y() < 0.01 * tick; });
+    body.update();
+    expectTheSame(body);
+  }
+  EXPECT_GT(body.wound.holes(), 0u);
+}
+
+/// As Wounded::cut(), of springs of nodes within two spacings of a place.
+void cutNear(Wounded& body, const Vector3d& place_m, const Vector3d& normal, double reach_m) {
+  const Lattice& lattice = body.lattice;
+  const Vector3i home = ((place_m - lattice.origin_m) / lattice.spacing_m).array().floor().cast<int>();
+  for (int i = 0; i < 125; ++i) {
+    const int64_t slot = lattice.slotAt(home + Vector3i(i % 5 - 2, i / 5 % 5 - 2, i / 25 - 2));
+    for (uint32_t spring = 0; slot >= 0 && spring < layout::kSpringsPerNode; ++spring) {
+      const auto near = static_cast<uint32_t>(slot);
+      const int64_t other = lattice.neighborSlot(near, spring);
+      if (other < 0 || springCount(body.nodes[near], spring) == 0) continue;
+      const Vector3d a = lattice.restPosition(near), b = lattice.restPosition(static_cast<uint32_t>(other));
+      const double da = normal.dot(a - place_m), db = normal.dot(b - place_m), share = da / (da - db);
+      if ((da >= 0) == (db >= 0) || (a + share * (b - a) - place_m).cwiseAbs().maxCoeff() > reach_m) continue;
+      for (const auto& [end, way] :
+           {std::make_pair(near, spring), {static_cast<uint32_t>(other), oppositeSpring(spring)}}) {
+        setSpringCount(body.nodes[end], way, 0);
+        body.nodes[end].lo |= layout::kSeveredBit;
+        if (way < layout::kAxialSprings && way % 2 == 0)
+          body.axial_cut[3 * size_t{end} + way / 2] = static_cast<float>(way == spring ? share : 1 - share);
+      }
+    }
+  }
+}
+
+TEST(WoundWork, OfALaterCutIsThatOfAnEarlyOne) {
+  constexpr int kCuts = 1500, kAlong = 25, kDeep = 6, kSome = 150;  // of one stroke
+  const Vector3i cells(28, kAlong, 12);
+  const Vector3d size_m = kSpacing_m * cells.cast<double>(), normal = Vector3d(1, 0.13, 0.07).normalized();
+  Wounded body(bindTo(blockSolid(cells, kSpacing_m), boxSurface(Vector3d::Zero(), size_m, cells + Vector3i(3, 2, 1))));
+  size_t first = 0, last = 0;
+  for (int cut = 0; cut < kCuts; ++cut) {  // strokes beside each other, each cut a patch of a spacing's size
+    const int stroke = cut / (kAlong * kDeep), along = cut / kDeep % kAlong, deep = cut % kDeep;
+    Vector3d place_m((2.53 * stroke + 2.5) * kSpacing_m, (along + 0.5) * kSpacing_m,
+                     size_m.z() - (deep + 0.5) * kSpacing_m);
+    const Vector3d from_middle = place_m - size_m / 2;
+    place_m.x() -= (normal.y() * from_middle.y() + normal.z() * from_middle.z()) / normal.x();
+    cutNear(body, place_m, normal, 0.51 * kSpacing_m);
+    body.update();
+    if (cut < kSome) first += body.wound.work().all();
+    if (cut >= kCuts - kSome) last += body.wound.work().all();
+  }
+  EXPECT_GT(first, 0u);
+  EXPECT_GT(body.wound.wallTriangles().size(), 3u * kCuts);
+  EXPECT_LT(static_cast<double>(last), kMostWork * static_cast<double>(first));
+  expectTheSame(body);
+}
+
+}  // namespace
+}  // namespace viscera::testing
