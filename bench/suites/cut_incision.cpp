@@ -29,6 +29,7 @@ Scene incisionScene(int nodes, Backend backend) {
   scene.styluses.resize(1);
   scene.styluses[0].idle = ToolMode::kCut;
   scene.styluses[0].cut.blade_length_m = 2 * kDeep_m;
+  scene.styluses[0].cut.blade_side = BladeSide::kAhead;
   return scene;
 }
 

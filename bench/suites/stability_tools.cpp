@@ -73,6 +73,7 @@ class Stage {
     StylusConfig stylus;
     stylus.idle = mode;
     stylus.cut.blade_length_m = 0.05;
+    stylus.cut.blade_side = BladeSide::kAhead;
     scene.styluses.push_back(stylus);
     scene.environment.gravity_m_per_s2 = Vector3d::Zero();
     scene.solver.tick_hz = kTicksPerSecond;

@@ -45,6 +45,7 @@ Scene sceneOf(const Block& block, Backend backend) {
   StylusConfig stylus;
   stylus.idle = ToolMode::kCut;
   stylus.cut.blade_length_m = 2 * kSpacing_m;
+  stylus.cut.blade_side = BladeSide::kAhead;
   scene.styluses = {stylus};
   return scene;
 }

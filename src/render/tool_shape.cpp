@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "render/tool_shape.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "model/scene/tool_kinds.h"
@@ -17,9 +18,10 @@ constexpr uint8_t kOutlineAlpha = 150;
 
 constexpr float kShaftLength = kShaftLength_m, kShaftRadius = kShaftRadius_m, kTipRadius = 0.0006f;
 constexpr float kTaperEnd = 0.030f;
-constexpr float kCollarFrom = 0.034f, kCollarTo = 0.042f, kCollarRadius = 0.0036f;
-constexpr float kHinge = 0.014f;    // where the jaws of a grasper meet the shaft
-constexpr float kJawSplay = 0.22f;  // of each jaw from the axis [rad]
+constexpr float kCollarGap = 0.004f, kCollarLength = 0.008f, kCollarRadius = 0.0036f;
+constexpr float kShortestShaft = 0.03f;  // of what is held, behind a blade however long
+constexpr float kHinge = 0.014f;         // where the jaws of a grasper meet the shaft
+constexpr float kJawSplay = 0.22f;       // of each jaw from the axis [rad]
 constexpr float kQuarterTurn = static_cast<float>(M_PI / 2);
 
 Color colorOf(const ToolKind& kind, uint8_t alpha = 255) {
@@ -27,17 +29,20 @@ Color colorOf(const ToolKind& kind, uint8_t alpha = 255) {
 }
 
 void addShaft(float from_z, const Color& collar, ToolShape& shape) {
-  const float from_radius = kTipRadius + (kShaftRadius - kTipRadius) * from_z / kTaperEnd;
+  constexpr float kBevel = 1e-4f;
+  const float taper_end = std::max(kTaperEnd, from_z + 2 * kBevel), collar_from = taper_end + kCollarGap;
+  const float from_radius = kTipRadius + (kShaftRadius - kTipRadius) * std::min(from_z / kTaperEnd, 1.0f);
   const Profile shaft = Profile()
-                            .line(0, from_z, from_radius, from_z + 1e-4f)
-                            .line(from_radius, from_z + 1e-4f, kShaftRadius, kTaperEnd)
-                            .line(kShaftRadius, kTaperEnd, kShaftRadius, kShaftLength - kShaftRadius)
+                            .line(0, from_z, from_radius, from_z + kBevel)
+                            .line(from_radius, from_z + kBevel, kShaftRadius, taper_end)
+                            .line(kShaftRadius, taper_end, kShaftRadius, kShaftLength - kShaftRadius)
                             .arc(kShaftRadius, kShaftLength - kShaftRadius, 0, kQuarterTurn);
   addLathe(shaft, Eigen::Affine3f::Identity(), colorOf(kindOf(ToolMode::kNone)), shape);
-  const Profile ring = Profile()
-                           .line(kShaftRadius, kCollarFrom - 0.001f, kCollarRadius, kCollarFrom)
-                           .line(kCollarRadius, kCollarFrom, kCollarRadius, kCollarTo)
-                           .line(kCollarRadius, kCollarTo, kShaftRadius, kCollarTo + 0.001f);
+  const Profile ring =
+      Profile()
+          .line(kShaftRadius, collar_from - 0.001f, kCollarRadius, collar_from)
+          .line(kCollarRadius, collar_from, kCollarRadius, collar_from + kCollarLength)
+          .line(kCollarRadius, collar_from + kCollarLength, kShaftRadius, collar_from + kCollarLength + 0.001f);
   addLathe(ring, Eigen::Affine3f::Identity(), collar, shape);
 }
 
@@ -50,9 +55,11 @@ void addJaws(const Color& color, ToolShape& shape) {
   }
 }
 
-/// A blade is a lathe pressed flat: wide along y, sharp along z.
-void addBlade(float length, const Color& color, ToolShape& shape) {
+/// A blade is a lathe pressed flat: wide along y, its point at the low end.
+void addBlade(const BladeSpan& span, const Color& color, ToolShape& shape) {
   constexpr float kFlatness = 0.12f;
+  const float length = static_cast<float>(span.high_m - span.low_m);
+  const Eigen::Translation3f root(0, 0, static_cast<float>(span.high_m));
   const float point_z = -0.75f * length, widest_z = -0.35f * length;
   const float point_radius = 0.09f * length, widest_radius = 0.12f * length, root_radius = 0.06f * length;
   const Profile outline = Profile()
@@ -60,12 +67,13 @@ void addBlade(float length, const Color& color, ToolShape& shape) {
                               .line(point_radius, point_z, widest_radius, widest_z)
                               .line(widest_radius, widest_z, root_radius, 0)
                               .line(root_radius, 0, 0, 0.1f * length);
-  addLathe(outline, Eigen::Affine3f(Eigen::Scaling(kFlatness, 1.0f, 1.0f)), color, shape);
+  addLathe(outline, root * Eigen::Affine3f(Eigen::Scaling(kFlatness, 1.0f, 1.0f)), color, shape);
 }
 
-void addCapsule(float radius, float length, const Color& color, ToolShape& shape) {
+void addCapsule(float radius, const BladeSpan& span, const Color& color, ToolShape& shape) {
+  const float low = static_cast<float>(span.low_m), high = static_cast<float>(span.high_m);
   const Profile capsule =
-      Profile().arc(radius, -length, -kQuarterTurn, 0).line(radius, -length, radius, 0).arc(radius, 0, 0, kQuarterTurn);
+      Profile().arc(radius, low, -kQuarterTurn, 0).line(radius, low, radius, high).arc(radius, high, 0, kQuarterTurn);
   addLathe(capsule, Eigen::Affine3f::Identity(), color, shape);
 }
 
@@ -78,9 +86,16 @@ void addCup(float radius, const Color& color, ToolShape& shape) {
   addLathe(bell, Eigen::Affine3f::Identity(), color, shape);
 }
 
+/// Where the shaft begins: behind what acts.
+float shaftStart(const StylusConfig& stylus, const ToolKind& kind) {
+  if (kind.tip == ToolTip::kJaws) return kHinge;
+  if (kind.tip != ToolTip::kBlade) return 0;
+  return std::min(static_cast<float>(bladeSpan(stylus.cut).high_m), kShaftLength - kShortestShaft);
+}
+
 /// What acts on tissue, in its true size.
 void addTip(const StylusConfig& stylus, const ToolKind& kind, ToolShape& shape) {
-  const float reach = static_cast<float>(kind.reach_m(stylus)), blade = static_cast<float>(stylus.cut.blade_length_m);
+  const float reach = static_cast<float>(kind.reach_m(stylus));
   const Color color = colorOf(kind);
   switch (kind.tip) {
     case ToolTip::kBare:
@@ -92,10 +107,10 @@ void addTip(const StylusConfig& stylus, const ToolKind& kind, ToolShape& shape) 
       addJaws(color, shape);
       break;
     case ToolTip::kBlade:
-      addBlade(blade, color, shape);
+      addBlade(bladeSpan(stylus.cut), color, shape);
       break;
     case ToolTip::kCapsule:
-      addCapsule(reach, blade, color, shape);
+      addCapsule(reach, bladeSpan(stylus.cut), color, shape);
       break;
     case ToolTip::kCup:
       addCup(reach, color, shape);
@@ -108,7 +123,7 @@ void addTip(const StylusConfig& stylus, const ToolKind& kind, ToolShape& shape) 
 ToolShape toolShape(const StylusConfig& stylus, ToolMode mode) {
   const ToolKind& kind = kindOf(mode);
   ToolShape shape;
-  addShaft(kind.tip == ToolTip::kJaws ? kHinge : 0, colorOf(kind), shape);
+  addShaft(shaftStart(stylus, kind), colorOf(kind), shape);
   addTip(stylus, kind, shape);
   shape.solid_indices = shape.indices.size();
   if (kind.does(kHolds)) {

@@ -29,7 +29,7 @@ struct ToolShape {
 };
 
 /// What a person sees of a stylus in a mode: a shaft from the tip backwards (+z), a collar in the mode's colour, and
-/// what acts on tissue in its true size: the probe's sphere, jaws, the blade (-z), the capsule of the particle eraser;
+/// what acts on tissue in its true size: the probe's sphere, jaws, the blade, the capsule of the particle eraser;
 /// around the tip of a tool that holds, the sphere of its reach. kNone is the shaft alone. See kToolKinds.
 ToolShape toolShape(const StylusConfig& stylus, ToolMode mode);
 

@@ -15,14 +15,15 @@ layout::vec4 pack(const Vector3d& v, double w) {
 layout::ToolMotion substep(const StylusMotion& motion, const StylusConfig& config, double begin, double end) {
   const Pose from = interpolate(motion.from, motion.to, begin);
   const Pose to = interpolate(motion.from, motion.to, end);
-  const Vector3d blade_tip(0, 0, -config.cut.blade_length_m);
   const ToolKind& kind = kindOf(motion.mode);
+  const BladeSpan blade = bladeSpan(config.cut);
+  const Vector3d near_end(0, 0, kind.severs() ? blade.high_m : 0), far_end(0, 0, blade.low_m);
   layout::ToolMotion out;
-  out.from = pack(from.position_m, kind.reach_m(config));
-  out.to = pack(to.position_m, kind.grip ? kind.grip(config).release_speed_m_per_s : 0);
+  out.from = pack(from * near_end, kind.reach_m(config));
+  out.to = pack(to * near_end, kind.grip ? kind.grip(config).release_speed_m_per_s : 0);
   out.orientation = pack(to.orientation.vec(), to.orientation.w());
-  out.blade_from = pack(from * blade_tip, config.cut_particles.eraser_radius_m);
-  out.blade_to = pack(to * blade_tip, 0);
+  out.blade_from = pack(from * far_end, config.cut_particles.eraser_radius_m);
+  out.blade_to = pack(to * far_end, 0);
   out.info = toolInfo(motion.mode);
   if (motion.feels_m > 0) {
     out.info.y |= layout::kToolFeels;

@@ -25,8 +25,8 @@ constexpr const char* kCut =
     "  - stylus: left\n"
     "    anchor: {from_m: [0.001, -0.3, 0.001], towards_m: [0.001, 0, 0.001]}\n"
     "    keys:\n"
-    "      - {t_s: 0, position_m: [-0.03, 0, 0.005], button2: true}\n"
-    "      - {t_s: 0.15, position_m: [0.03, 0, 0.005], button2: true}\n"
+    "      - {t_s: 0, position_m: [-0.03, 0, -0.015], button2: true}\n"
+    "      - {t_s: 0.15, position_m: [0.03, 0, -0.015], button2: true}\n"
     "marks: [{name: half way, t_s: 0.1}]\n";
 
 class Run : public ::testing::Test {
@@ -350,6 +350,27 @@ TEST_F(Run, ShippedClothIsPressedLiftedAndCutByItsStrokes) {
   EXPECT_LT(metrics["springs_cut"], 0.1 * metrics["springs"].get<double>());
   EXPECT_EQ(metrics["governor_trips"], 0);
   EXPECT_EQ(metrics["nonfinite"], 0);
+}
+
+TEST_F(Run, ABladeCutsAsDeepAsItsTipIsPushedIn) {
+  const auto cutAt = [&](int depth_mm) {
+    const std::string z =
+        ", -0.0" + std::string(depth_mm < 10 ? "0" : "") + std::to_string(depth_mm) + "], button2: true}\n";
+    const std::string strokes =
+        folder_.write("draw.yaml",
+                      "strokes:\n  - stylus: right\n"
+                      "    anchor: {from_m: [-0.002, -0.3, -0.015], towards_m: [-0.002, 0, -0.015]}\n    keys:\n"
+                      "      - {t_s: 0, position_m: [0, 0.015, 0.03], button2: true}\n"
+                      "      - {t_s: 0.1, position_m: [0, 0.015" +
+                          z + "      - {t_s: 0.3, position_m: [0, -0.015" + z);
+    return metricsOf(viscera({"run", "heart", "--strokes", strokes, "--no-view"}))["springs_cut"].get<int>();
+  };
+  constexpr int kThrough_mm = 14;  // the wall is 9 mm thick there
+  const int shallow = cutAt(3), deeper = cutAt(6), through = cutAt(kThrough_mm);
+  EXPECT_GT(shallow, 0);
+  EXPECT_GT(deeper, 2 * shallow);
+  EXPECT_GT(through, deeper);
+  EXPECT_EQ(cutAt(20), through) << "the blade reaches back through the skin";
 }
 
 TEST_F(Run, AnchoredStrokesWrittenOutDoTheSame) {

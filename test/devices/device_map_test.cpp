@@ -110,8 +110,8 @@ TEST(DeviceMap, ToolsOfTheDvrkPointAsTheirInstrumentsDo) {
     const Quaterniond jaws = rotationFromDegrees({20, -30, 70});
     const Pose tip = map.toBase({{0.01, 0.02, 0.03}, jaws});
     EXPECT_LT((tip.position_m - Vector3d(0.01, 0.02, 0.03)).norm(), kRounding) << name;
-    const Vector3d blade = tip.orientation * -Vector3d::UnitZ();  // as docs/user_guide.md has it
-    EXPECT_LT((blade - jaws * Vector3d::UnitZ()).norm(), kRounding) << name;
+    const Vector3d ahead = tip.orientation * -Vector3d::UnitZ();  // as docs/user_guide.md has it
+    EXPECT_LT((ahead - jaws * Vector3d::UnitZ()).norm(), kRounding) << name;
     expectNear(map.fromBase(tip), {{0.01, 0.02, 0.03}, jaws});
   }
 }

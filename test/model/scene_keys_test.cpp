@@ -68,7 +68,7 @@ styluses:
     button2: cut_particles
     probe: {radius_m: 0.0061}
     grab: {radius_m: 0.0062, release_speed_m_per_s: 0.65}
-    cut: {blade_length_m: 0.063}
+    cut: {blade_length_m: 0.063, blade_side: both}
     cut_particles: {eraser_radius_m: 0.0064}
     suction: {radius_m: 0.0066, max_force_n: 6.7, release_speed_m_per_s: 0.651}
     probe_radius_m: 0.0061
@@ -220,6 +220,7 @@ TEST(SceneKeys, EveryOtherKeyReachesItsField) {
   EXPECT_EQ(stylus.probe.radius_m, 0.0061);
   EXPECT_EQ(stylus.grab.radius_m, 0.0062);
   EXPECT_EQ(stylus.cut.blade_length_m, 0.063);
+  EXPECT_EQ(stylus.cut.blade_side, BladeSide::kBoth);
   EXPECT_EQ(stylus.cut_particles.eraser_radius_m, 0.0064);
   EXPECT_EQ(stylus.grab.release_speed_m_per_s, 0.65);
   EXPECT_EQ(stylus.suction.radius_m, 0.0066);

@@ -153,7 +153,7 @@ class SceneViewTest(unittest.TestCase):
         topology = Latest("surface_topology", SurfaceTopology)
         wait_until(lambda: topology.count, LIMIT_S, "topology")
         whole = topology.message
-        self.right.move((0, -0.15, CLOTH_M + 0.05), (0, 0, CLOTH_M + 0.05), 1.5)
+        self.right.move((0, -0.15, CLOTH_M - 0.05), (0, 0, CLOTH_M - 0.05), 1.5)
         cut = wait_until(lambda: topology.message.version != whole.version and topology.message, LIMIT_S,
                          "new topology after a cut")
         self.right.position = None
@@ -170,7 +170,7 @@ class SceneViewTest(unittest.TestCase):
         change = Latest("surface_topology_change", SurfaceTopologyChange, changes.append, queue_size=None)
         wait_until(lambda: topology.count and self.watch.wait_news() is None, LIMIT_S, "topology")
         start = topology.message
-        self.right.move((0.03, -0.15, CLOTH_M + 0.05), (0.03, 0, CLOTH_M + 0.05), 1.5)
+        self.right.move((0.03, -0.15, CLOTH_M - 0.05), (0.03, 0, CLOTH_M - 0.05), 1.5)
         self.right.position = None
         wait_until(lambda: self.watch.value("right", "input_age_s") > 0.5, LIMIT_S, "hand that is gone")
         wait_until(lambda: changes and topology.message.version == changes[-1].version, LIMIT_S, "whole topology")

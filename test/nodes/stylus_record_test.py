@@ -26,7 +26,7 @@ LIMIT_S = 30
 SEED = 5
 LONGEST_GAP_S = 0.03               # of an irregular hand; shorter than stale_after_s
 STALE_S = 0.4                      # longer than stale_after_s of the scene
-TURN = (0.7071067811865476, 0, 0, 0.7071067811865476)   # the blade points along +y, into the tissue
+TURN = (0.7071067811865476, 0, 0, 0.7071067811865476)   # the tip points along +y, into the tissue
 
 
 class Hand:
@@ -91,11 +91,11 @@ class StylusRecordTest(unittest.TestCase):
         self.left.go((0, -0.052, -0.02), (0, -0.07, -0.02), 0.4)
 
     def cut(self):
-        self.right.go((-0.07, -0.055, -0.02), (-0.07, -0.055, -0.02), 0.4)
+        self.right.go((-0.07, -0.025, -0.02), (-0.07, -0.025, -0.02), 0.4)
         self.right.press(2, True)
-        self.right.go((-0.07, -0.055, -0.02), (0.07, -0.055, -0.021), 0.8)
+        self.right.go((-0.07, -0.025, -0.02), (0.07, -0.025, -0.021), 0.8)
         self.right.press(2, False)
-        self.right.go((0.07, -0.055, -0.02), (0.07, -0.1, -0.02), 0.1)
+        self.right.go((0.07, -0.025, -0.02), (0.07, -0.1, -0.02), 0.1)
 
     def act(self):
         hands = [threading.Thread(target=act) for act in (self.pull, self.cut)]
@@ -123,7 +123,7 @@ class StylusRecordTest(unittest.TestCase):
         time.sleep(0.5)
         self.assertTrue(self.call["resume"]().success)     # the left one is inside by now, and must not push
         moving.join()
-        self.right.go((-0.07, -0.055, -0.02), (-0.07, -0.055, -0.02), 0.1)
+        self.right.go((-0.07, -0.025, -0.02), (-0.07, -0.025, -0.02), 0.1)
         time.sleep(STALE_S)                                # both hands vanish, and time goes on
         self.pull()
         self.assertTrue(self.call["pause"]().success)

@@ -54,6 +54,7 @@ TEST(ToolShape, ActingPartsHaveTheSizesOfTheStylus) {
   stylus.probe.radius_m = 0.011;
   stylus.grab.radius_m = 0.016;
   stylus.cut.blade_length_m = 0.031;
+  stylus.cut.blade_side = BladeSide::kAhead;
   stylus.cut_particles.eraser_radius_m = 0.004;
   stylus.suction.radius_m = 0.005;
   EXPECT_NEAR(lowestZ(toolShape(stylus, ToolMode::kNone)), 0, kTight_m);
@@ -62,6 +63,27 @@ TEST(ToolShape, ActingPartsHaveTheSizesOfTheStylus) {
   EXPECT_NEAR(lowestZ(toolShape(stylus, ToolMode::kCut)), -0.031, kTight_m);
   EXPECT_NEAR(lowestZ(toolShape(stylus, ToolMode::kCutParticles)), -0.035, kTight_m);
   EXPECT_NEAR(lowestZ(toolShape(stylus, ToolMode::kSuction)), -0.005, kTight_m);
+  stylus.cut.blade_side = BladeSide::kBoth;
+  EXPECT_NEAR(lowestZ(toolShape(stylus, ToolMode::kCut)), -0.031, kTight_m);
+  stylus.cut.blade_side = BladeSide::kShaft;
+  EXPECT_NEAR(lowestZ(toolShape(stylus, ToolMode::kCut)), 0, kTight_m);
+  EXPECT_NEAR(lowestZ(toolShape(stylus, ToolMode::kCutParticles)), -0.004, kTight_m);
+}
+
+TEST(ToolShape, NoShaftIsWhereABladeCutsHoweverLongItIs) {
+  constexpr float kFlat_m = 0.0005f;  // half of what a blade of 2 cm is thick, and less than the shaft is anywhere
+  StylusConfig stylus;
+  const ToolShape shape = toolShape(stylus, ToolMode::kCut);
+  for (const ToolVertex& vertex : shape.vertices) {
+    if (vertex.position_m[2] > 0.001f && vertex.position_m[2] < 0.019f) {
+      EXPECT_LT(std::abs(vertex.position_m[0]), kFlat_m);
+    }
+  }
+  stylus.cut.blade_length_m = 0.5;
+  float highest = 0;
+  for (const ToolVertex& vertex : toolShape(stylus, ToolMode::kCut).vertices)
+    highest = std::max(highest, vertex.position_m[2]);
+  EXPECT_NEAR(highest, 0.55, 1e-3);  // the blade and its root
 }
 
 TEST(ToolShape, ShaftEndsTwelveCentimetresBehindTheTip) {

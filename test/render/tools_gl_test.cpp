@@ -72,6 +72,7 @@ TEST_F(ToolsGl, ActingPartsAreDrawnInTheirTrueSize) {
   styluses_[0].probe.radius_m = 0.01;
   styluses_[0].grab.radius_m = 0.015;
   styluses_[0].cut.blade_length_m = 0.03;
+  styluses_[0].cut.blade_side = BladeSide::kAhead;
   styluses_[0].cut_particles.eraser_radius_m = 0.005;
   const double middle = camera_.height_px / 2.0;
   auto reach_px = [&](ToolMode mode) { return drawnRows(draw(nothing_, tool(mode))).second + 1 - middle; };

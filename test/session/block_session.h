@@ -70,7 +70,7 @@ constexpr int kCutTicks = 10;
 /// The blade, 2 cm long, goes through the upper half of the block along the plane y = 1 mm.
 inline StylusSamples cut(int tick) {
   const double share = static_cast<double>(tick) / kCutTicks;
-  return leftAt({-0.03 + 0.06 * share, 0.001, kHalfM + 0.001}, false, true);
+  return leftAt({-0.03 + 0.06 * share, 0.001, kHalfM + 0.001 - 0.02}, false, true);
 }
 
 /// Steps through a stroke. @returns the last frame that the session gave

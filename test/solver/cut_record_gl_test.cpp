@@ -22,6 +22,7 @@ StylusConfig stylusConfig() {
   StylusConfig config;
   config.button2 = ToolMode::kCut;
   config.cut.blade_length_m = kBlade_m;
+  config.cut.blade_side = BladeSide::kAhead;
   config.cut_particles.eraser_radius_m = 0.004;
   return config;
 }

@@ -110,6 +110,7 @@ TEST_P(Moments, CellsThatABladeCutsMatchTheReference) {
   const Model model = modelOf({ball()});
   std::vector<StylusConfig> styluses(2);
   styluses[0].cut.blade_length_m = 0.2;
+  styluses[0].cut.blade_side = BladeSide::kAhead;
   const auto solver = make(model, sceneFor(model, kSubsteps, styluses));
   const HostState start = randomState(model, 0.02 * kSpacing_m, 0.05, 7);
   solver->writeState(start);

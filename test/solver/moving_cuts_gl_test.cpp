@@ -19,6 +19,7 @@ constexpr double kShare = 1e-4;
 StylusConfig stylusConfig() {
   StylusConfig config;
   config.cut.blade_length_m = 0.2;
+  config.cut.blade_side = BladeSide::kAhead;
   return config;
 }
 

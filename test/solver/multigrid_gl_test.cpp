@@ -310,6 +310,7 @@ TEST_F(MultigridGpu, CutsAsTheCpuDoesAndBuildsItsLevelsAnew) {
   constexpr double kOfTheWay = 1e-3;  // a flap of a few springs turns with less than a block of many bends with
   StylusConfig stylus;
   stylus.cut.blade_length_m = 0.2;
+  stylus.cut.blade_side = BladeSide::kAhead;
   const Model model = modelOf({block(10, 5e4, 0.4, Cells::kMoments)});
   const Scene scene = sceneOf(Integrator::kMultigrid, {stylus});
   const std::unique_ptr<Ticks> gpu = makeBackend("gpu", model, scene), cpu = makeCpu("", model, scene);

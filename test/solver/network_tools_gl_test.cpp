@@ -23,6 +23,7 @@ StylusConfig stylusConfig() {
   config.probe.radius_m = 0.012;
   config.grab.radius_m = 0.012;
   config.cut.blade_length_m = 0.2;
+  config.cut.blade_side = BladeSide::kAhead;
   config.cut_particles.eraser_radius_m = 0.004;
   config.grab.release_speed_m_per_s = 0.05;
   return config;

@@ -20,6 +20,7 @@ INSTANTIATE_TEST_SUITE_P(Backends, SurfaceTools, ::testing::ValuesIn(backendKind
 StylusConfig stylusConfig() {
   StylusConfig config;
   config.cut.blade_length_m = kBlade_m;
+  config.cut.blade_side = BladeSide::kAhead;
   config.cut_particles.eraser_radius_m = 0.001;
   return config;
 }

@@ -70,6 +70,7 @@ inline Scene sleepyScene(const Model& model, const SleepKind& kind = {}) {
   StylusConfig stylus;
   stylus.grab.radius_m = 0.008;
   stylus.cut.blade_length_m = 0.1;
+  stylus.cut.blade_side = BladeSide::kAhead;
   Scene scene = sceneFor(model, 1, {stylus}, {0, 0, -kind.gravity_m_per_s2});
   scene.solver.tick_hz = 1 / kSleepTick_s;
   scene.solver.dt_fraction = scene.solver.dt_fraction_strained = 0.75;

@@ -72,16 +72,39 @@ TEST(Interpolation, OrientationTakesTheShortWayWhateverTheSignOfItsQuaternion) {
   EXPECT_LT(turn(at(all, kSubsteps / 2 - 1).orientation).angularDistance(half), kRoundingRad);
 }
 
-TEST(Interpolation, BladeReachesFromTheTipAlongMinusZOfTheStylus) {
+TEST(Interpolation, BladeLiesBackAlongTheShaftAheadOrOnBothSides) {
+  struct Lies {
+    BladeSide side;
+    double low_m, high_m;
+  };
+  for (const Lies& lies :
+       {Lies{BladeSide::kShaft, 0, 0.05}, {BladeSide::kAhead, -0.05, 0}, {BladeSide::kBoth, -0.05, 0.05}}) {
+    StylusConfig config;
+    config.cut.blade_length_m = 0.05;
+    config.cut.blade_side = lies.side;
+    for (const ToolMode mode : {ToolMode::kCut, ToolMode::kCutParticles}) {
+      ToolMotions motions = movingAndTurning();
+      motions[0].mode = mode;
+      const auto all = substepsOf(motions, {config});
+      const layout::ToolMotion &first = at(all, 0), &last = at(all, kSubsteps - 1);
+      EXPECT_LT((xyz(first.from) - Vector3d(0.1, 0.2, 0.3 + lies.high_m)).norm(), kRoundingM);
+      EXPECT_LT((xyz(first.blade_from) - Vector3d(0.1, 0.2, 0.3 + lies.low_m)).norm(), kRoundingM);
+      // Turned by 90 degrees about x, z points along -y.
+      EXPECT_LT((xyz(last.to) - Vector3d(0.9, 0.2 - lies.high_m, -0.1)).norm(), kRoundingM);
+      EXPECT_LT((xyz(last.blade_to) - Vector3d(0.9, 0.2 - lies.low_m, -0.1)).norm(), kRoundingM);
+    }
+    const auto probing = substepsOf(movingAndTurning(), {config});
+    EXPECT_LT((xyz(at(probing, 0).from) - Vector3d(0.1, 0.2, 0.3)).norm(), kRoundingM)
+        << "what does not cut acts at the tip";
+  }
+}
+
+TEST(Interpolation, AnEraserReachesAroundItsBlade) {
   StylusConfig config;
-  config.cut.blade_length_m = 0.05;
   config.cut_particles.eraser_radius_m = 0.003;
   ToolMotions motions = movingAndTurning();
   motions[0].mode = ToolMode::kCutParticles;
   const auto all = substepsOf(motions, {config});
-  EXPECT_LT((xyz(at(all, 0).blade_from) - Vector3d(0.1, 0.2, 0.25)).norm(), kRoundingM);
-  // Turned by 90 degrees about x, -z points along +y.
-  EXPECT_LT((xyz(at(all, kSubsteps - 1).blade_to) - Vector3d(0.9, 0.25, -0.1)).norm(), kRoundingM);
   EXPECT_FLOAT_EQ(at(all, 0).blade_from.w, 0.003f);
 }
 

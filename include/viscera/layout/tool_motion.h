@@ -27,8 +27,8 @@ const uint kToolFeels = 16u;  // a tool that pushes counts the nodes within its 
 
 // One stylus over one substep, tissue frame.
 struct ToolMotion {
-  vec4 from;         // xyz tip at the start [m]; w reach around the tip [m]
-  vec4 to;           // xyz tip at the end [m]; w of tools that hold: largest node speed after release [m/s]
+  vec4 from;         // xyz tip at the start, of tools that cut the near end of the blade [m]; w reach around it [m]
+  vec4 to;           // xyz the same at the end [m]; w of tools that hold: largest node speed after release [m/s]
   vec4 orientation;  // quaternion xyzw at the end
   vec4 blade_from;   // xyz far end of the blade at the start [m]; w half thickness of the particle eraser [m]
   vec4 blade_to;     // xyz far end of the blade at the end [m]

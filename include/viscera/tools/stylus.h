@@ -12,7 +12,7 @@
 namespace viscera {
 
 /// The latest that is known of one stylus: tip pose in the tissue frame, buttons. The shaft points along -z of the
-/// stylus frame (away from the tip is +z); the blade reaches from the tip along -z.
+/// stylus frame (away from the tip is +z); a blade lies on this axis, where `cut.blade_side` says.
 struct StylusSample {
   bool valid = false;  ///< false until a first pose has come, and again when the pose is stale
   Pose pose;

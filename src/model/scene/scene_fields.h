@@ -35,7 +35,12 @@ void visitFields(V& v, GrabConfig& c) {
 
 template <class V>
 void visitFields(V& v, CutConfig& c) {
-  v.number("blade_length_m", c.blade_length_m, kTipReach, "m", "blade from the tip along -z of the stylus");
+  v.number("blade_length_m", c.blade_length_m, kTipReach, "m", "length of the blade, from the tip");
+  v.choice(
+      "blade_side", c.blade_side,
+      {{"shaft", BladeSide::kShaft}, {"ahead", BladeSide::kAhead}, {"both", BladeSide::kBoth}},
+      "where it lies: shaft: from the tip back along the shaft (+z of the stylus), as a knife's; ahead: from the tip "
+      "on (-z), as a wire that the hand aims; both: its length on each side");
 }
 
 template <class V>

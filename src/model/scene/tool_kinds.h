@@ -88,6 +88,16 @@ constexpr const ToolKind& kindOf(ToolMode mode) {
   return kToolKinds[static_cast<size_t>(mode)];
 }
 
+/// Where the blade of a stylus begins and ends on its axis.
+struct BladeSpan {
+  double low_m, high_m;  ///< z in the stylus frame, of which the tip is the origin; low_m < high_m
+};
+
+constexpr BladeSpan bladeSpan(const CutConfig& cut) {
+  return {cut.blade_side == BladeSide::kShaft ? 0 : -cut.blade_length_m,
+          cut.blade_side == BladeSide::kAhead ? 0 : cut.blade_length_m};
+}
+
 /// Does a stylus cut or erase, with one button or another?
 inline bool maySever(const StylusConfig& config) {
   return kindOf(config.idle).severs() || kindOf(config.button1).severs() || kindOf(config.button2).severs();

@@ -24,6 +24,7 @@ layout::ToolMotion row(ToolMode mode, const Pose& from, const Pose& to) {
   StylusConfig config;
   config.probe.radius_m = 0.012;
   config.cut.blade_length_m = 0.08;
+  config.cut.blade_side = BladeSide::kAhead;
   config.cut_particles.eraser_radius_m = 0.004;
   ToolMotions motions;
   motions[0].mode = mode;

@@ -103,6 +103,7 @@ TEST_F(PaperErrors, CutsTakeSpringsAndNoMassSoTheStableSubstepNeverShrinks) {
   const Lattice& lattice = model.bodies[0].lattice;
   StylusConfig config;
   config.cut.blade_length_m = 0.2;
+  config.cut.blade_side = BladeSide::kAhead;
   config.cut_particles.eraser_radius_m = 0.6 * kSpacing_m;
   for (const ToolMode mode : {ToolMode::kCut, ToolMode::kCutParticles}) {
     GpuSolver solver(model, sceneFor(model, 4, {config}));

@@ -135,8 +135,16 @@ struct GrabConfig {
   double radius_m = 0.008;
   double release_speed_m_per_s = 0.5;
 };
+/// Where a blade lies on the axis of its stylus.
+enum class BladeSide {
+  kShaft,  ///< from the tip back along the shaft, +z
+  kAhead,  ///< from the tip on, -z
+  kBoth,   ///< on both sides of the tip, its length on each
+};
+
 struct CutConfig {
   double blade_length_m = 0.02;
+  BladeSide blade_side = BladeSide::kShaft;
 };
 struct CutParticlesConfig {
   double eraser_radius_m = 0.002;
