@@ -143,7 +143,8 @@ void WrenchPublisher::main() {
     loop_.sent(told_n, now);
     const Clock::time_point sent = Clock::now();
     for (size_t s = 0; s < latencies_.size(); ++s) {
-      if (loop_.answering()) poses_received_[s] = hands[s].feels() ? hands[s].told : SteadyTime{};
+      // What is worked out for a hand is timed whether its device listens or not.
+      if (loop_.answering()) poses_received_[s] = hands[s].tracked ? hands[s].told : SteadyTime{};
       latencies_[s].add(poses_received_[s], sent);
     }
     if (loop_.schedule().released()) sent_.notify_all();
