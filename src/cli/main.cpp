@@ -46,7 +46,8 @@ int dispatch(int argc, char** argv) {
   run->add_flag("--live", o.run.live,
                 "leave pictures out rather than wait for them, as a live session does; but for marks")
       ->needs(out);
-  run->add_flag("--depth", o.run.depth, "depths with every picture: .npy, float32, metres along the optical axis")
+  run->add_flag("--depth", o.run.depth,
+                "depths with every picture: .npy, float32, metres along the optical axis, +Inf where nothing is")
       ->needs(out);
   run->add_flag("--labels", o.run.labels, "what each pixel shows with every picture: grey .png (docs/ros_api.md)")
       ->needs(out);

@@ -2,13 +2,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/camera_publisher.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace viscera::nodes {
 
-CameraPublisher::Plain::Plain(ros::NodeHandle& node, const std::string& name)
-    : image(node.advertise<sensor_msgs::Image>(name + "/image_raw", 1)),
-      info(node.advertise<sensor_msgs::CameraInfo>(name + "/camera_info", 1)) {}
+CameraPublisher::Plain::Plain(ros::NodeHandle& node, const std::string& name, const std::vector<std::string>& images)
+    : info(node.advertise<sensor_msgs::CameraInfo>(name + "/camera_info", 1)) {
+  for (const std::string& image : images) pixels.push_back(node.advertise<sensor_msgs::Image>(name + "/" + image, 1));
+}
+
+uint32_t CameraPublisher::Plain::viewers() const {
+  uint32_t most = info.getNumSubscribers();
+  for (const ros::Publisher& image : pixels) most = std::max(most, image.getNumSubscribers());
+  return most;
+}
 
 CameraPublisher::CameraPublisher(ros::NodeHandle node, const CameraConfig& camera, const std::string& frame_prefix,
                                  double tick_hz)
@@ -16,8 +24,8 @@ CameraPublisher::CameraPublisher(ros::NodeHandle node, const CameraConfig& camer
       optical_frame_(opticalFrame(camera, frame_prefix)),
       transport_(node),
       image_(transport_.advertiseCamera(camera.name + "/image_raw", 1)),
-      depth_(node, camera.name + "/depth"),
-      label_(node, camera.name + "/label"),
+      depth_(node, camera.name + "/depth", {"image", "image_raw"}),
+      label_(node, camera.name + "/label", {"image_raw"}),
       tick_hz_(tick_hz),
       throttle_(camera.rate_hz, tick_hz) {
   if (!(camera.stereo_baseline_m > 0)) return;
@@ -53,7 +61,7 @@ void CameraPublisher::publish(ImageFrame&& frame, const ros::Time& stamp) {
   const auto info =
       boost::make_shared<const sensor_msgs::CameraInfo>(toCameraInfo(camera_, optical_frame_, stamp, kind));
   const auto publishPlain = [&](const Plain& to) {
-    to.image.publish(image);
+    for (const ros::Publisher& pixels : to.pixels) pixels.publish(image);
     to.info.publish(info);
   };
   switch (kind) {

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <string>
+#include <vector>
 
 #include "nodes/conversions.h"
 #include "nodes/throttle.h"
@@ -13,7 +14,8 @@
 namespace viscera::nodes {
 
 /// Topics of one camera: `<camera>/image_raw` and `camera_info`; of a stereo camera the same below `left` and `right`;
-/// and `<camera>/depth` and `<camera>/label`, each with an `image_raw` and a `camera_info`.
+/// and `<camera>/depth` and `<camera>/label`, each with an `image_raw` and a `camera_info`; metres are `depth/image` too,
+/// as REP 118 has it.
 class CameraPublisher {
  public:
   CameraPublisher(ros::NodeHandle node, const CameraConfig& camera, const std::string& frame_prefix, double tick_hz);
@@ -30,9 +32,10 @@ class CameraPublisher {
  private:
   /// Images that are no colours: none of the plugins of image_transport are for them.
   struct Plain {
-    ros::Publisher image, info;
-    Plain(ros::NodeHandle& node, const std::string& name);
-    uint32_t viewers() const { return std::max(image.getNumSubscribers(), info.getNumSubscribers()); }
+    ros::Publisher info;
+    std::vector<ros::Publisher> pixels;  ///< the same image under each name
+    Plain(ros::NodeHandle& node, const std::string& name, const std::vector<std::string>& images);
+    uint32_t viewers() const;
   };
 
   const CameraConfig camera_;

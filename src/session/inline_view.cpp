@@ -315,7 +315,7 @@ bool InlineView::takeImage(Channel& channel, const Eye& eye, Pictures& out, bool
   if (channel.kind == PictureKind::kDepth) {
     const auto* const depths_m = static_cast<const float*>(pixels);
     image.depths_m.assign(depths_m, depths_m + bytes / sizeof(float));
-    std::replace(image.depths_m.begin(), image.depths_m.end(), 0.0F, std::numeric_limits<float>::quiet_NaN());
+    std::replace(image.depths_m.begin(), image.depths_m.end(), 0.0F, std::numeric_limits<float>::infinity());
   } else {
     const auto* const values = static_cast<const uint8_t*>(pixels);
     (channel.kind == PictureKind::kLabels ? image.labels : image.rgb).assign(values, values + bytes);

@@ -120,7 +120,9 @@ class CamerasTest(unittest.TestCase):
                        "depth of %g m" % expected)
             depth.stop()
             both = self.pair("scope/depth/image_raw", "scope/depth/camera_info", (Image, CameraInfo))
-            self.assertTrue(math.isnan(pixels(both[0])[0]))
+            self.assertEqual(pixels(both[0])[0], math.inf)
+            canonical = self.pair("scope/depth/image", "scope/depth/camera_info", (Image, CameraInfo))[0]
+            self.assertEqual((canonical.encoding, canonical.step), (both[0].encoding, both[0].step))
             self.assertAlmostEqual(self.face_y(*both), FACE_Y_M, delta=DEPTH_M)
         self.carrier.y_m = 0.0
 
@@ -128,7 +130,7 @@ class CamerasTest(unittest.TestCase):
         labels, depth = self.pair("scope/label/image_raw", "scope/depth/image_raw")
         seen = pixels(labels)
         self.assertEqual(set(seen), {0, BODY, BALL})
-        self.assertEqual([math.isnan(z) for z in pixels(depth)], [label == 0 for label in seen])
+        self.assertEqual([math.isinf(z) for z in pixels(depth)], [label == 0 for label in seen])
 
     def test_3_a_stereo_pair_has_the_disparity_of_its_camera_info(self):
         left, right = self.pair("scope/left/image_raw", "scope/right/image_raw")

@@ -58,7 +58,7 @@ struct ImageFrame {
   PictureKind kind = PictureKind::kColor;
   int width = 0, height = 0;
   std::vector<uint8_t> rgb;     ///< of kColor and kRight: RGB8
-  std::vector<float> depths_m;  ///< of kDepth: along the optical axis; NaN where nothing is
+  std::vector<float> depths_m;  ///< of kDepth: along the optical axis; +Inf where nothing is (REP 117)
   std::vector<uint8_t> labels;  ///< of kLabels: layout/picture_labels.h; 0 where nothing is
   SteadyTime pose_received{};   ///< as in SurfaceFrame
 };
