@@ -52,7 +52,7 @@ TriangleMesh detailedSurface(TriangleMesh surface, const DetailWanted& wanted, s
     notes.push_back("skin: " + std::to_string(faces) + " faces simplified to " + std::to_string(skin.triangles.size()));
   }
   requireSkinSize(skin, wanted.longest_edge_m, config.import_limits.max_triangles);
-  if (!fewer && config.detail_mesh.empty() && !wanted.paint) return skin;
+  if (!fewer && config.detail_mesh.empty() && !wanted.paint.paint) return skin;
   // Refined before it is baked: the shading normals between its vertices are those that will be bound.
   skin = refine(skin, wanted.longest_edge_m);
   if (!fewer && config.detail_mesh.empty()) return paintDetail(skin, wanted.paint, config.detail_px, progress);

@@ -18,7 +18,7 @@ struct DetailWanted {
   const std::string& folder;  ///< where a relative detail_mesh is looked up
   Pose file_pose;             ///< Tissue::file_pose
   double longest_edge_m;      ///< of the skin: the lattice's spacing
-  SurfacePaint paint;         ///< Tissue::paint(), where there is no other detail
+  PlacedPaint paint;          ///< Tissue::paint(), where there is no other detail
 };
 
 /// The surface, with fewer faces and refined as its lattice wants it, and what it or a finer mesh had of shape and

@@ -65,9 +65,9 @@ DetailAtlas::DetailAtlas(const TriangleMesh& skin, int tile_px) : tile_(tile_px)
   }
 }
 
-Eigen::Vector3d DetailAtlas::weightsOf(int x, int y) const {
+Eigen::Vector3d DetailAtlas::weightsOf(int x, int y, int half) const {
   double u = (x + 0.5 - kBorder) / (tile_ - kLeg), v = (y + 0.5 - kBorder) / (tile_ - kLeg);
-  if (halfOf(x, y) == 1) {
+  if (half == 1) {
     u = (tile_ - kBorder - (x + 0.5)) / (tile_ - kLeg);
     v = (tile_ - kBorder - (y + 0.5)) / (tile_ - kLeg);
   }

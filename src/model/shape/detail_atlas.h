@@ -32,7 +32,8 @@ class DetailAtlas {
   /// Which of its triangles has a texel of a tile, and the barycentric coordinates of its centre there: outside of 0..1
   /// on the border.
   int halfOf(int x, int y) const { return x + y + 1 <= tile_ ? 0 : 1; }
-  Eigen::Vector3d weightsOf(int x, int y) const;
+  Eigen::Vector3d weightsOf(int x, int y) const { return weightsOf(x, y, halfOf(x, y)); }
+  Eigen::Vector3d weightsOf(int x, int y, int half) const;  ///< of that triangle, wherever the texel is
   /// Texture coordinates of a triangle's corners, 0..1.
   std::array<Eigen::Vector2d, 3> cornersOf(size_t tile, int half) const;
   /// The skin with charts of one material, and the colours of its parts as before.

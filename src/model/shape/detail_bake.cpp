@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <future>
 #include <memory>
 #include <random>
 #include <sstream>
@@ -172,10 +173,11 @@ void bakeTiles(const Baker& baker, Baked& out, const Progress& progress) {
     texels += own;
     uncovered += bare;
   };
-  std::vector<std::thread> helpers;
-  for (unsigned i = 1; i < std::max(1U, std::thread::hardware_concurrency()); ++i) helpers.emplace_back(work, false);
+  std::vector<std::future<void>> helpers;  // which are waited for where the progress throws, too
+  for (unsigned i = 1; i < std::max(1U, std::thread::hardware_concurrency()); ++i)
+    helpers.push_back(std::async(std::launch::async, work, false));
   work(true);
-  for (std::thread& helper : helpers) helper.join();
+  for (std::future<void>& helper : helpers) helper.get();
   out.report.uncovered_share = texels > 0 ? static_cast<double>(uncovered) / static_cast<double>(texels) : 0;
 }
 

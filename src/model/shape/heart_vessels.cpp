@@ -3,7 +3,11 @@
 #include "model/shape/heart_vessels.h"
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <cmath>
+#include <future>
+#include <thread>
 
 namespace viscera {
 
@@ -15,8 +19,8 @@ constexpr double kFarthest = 0.9;    // of the surface from the axis
 constexpr double kTop = 0.955;       // of the groove below the atria
 constexpr double kVeinBeside = 2.4;  // radii of the artery from its middle to the vein's
 constexpr int kPointsPerPath = 24;
-constexpr double kFacing = 0.2;                            // cosine: what faces elsewhere is the wall's other side
-constexpr double kFatHeight = 0.010, kVesselHeight = 0.8;  // of the heart's length; of a vessel's radius
+constexpr float kFacing = 0.2F;                             // cosine: what faces elsewhere is the wall's other side
+constexpr float kFatHeight = 0.010F, kVesselHeight = 0.8F;  // of the heart's length; of a vessel's radius
 
 const Vector3f kArtery(0.36F, 0.035F, 0.03F), kVein(0.13F, 0.035F, 0.075F), kFat(0.72F, 0.44F, 0.12F);  // linear
 
@@ -27,63 +31,121 @@ double hashed(uint32_t seed) {
   return static_cast<double>((h ^ h >> 15U) >> 8U) / 16777216.0;
 }
 
-/// -1..1, smooth: what makes the border of fat uneven.
-double wavy(const Vector3d& p) {
-  return (std::sin(41 * p.x() + 17 * p.y()) + std::sin(37 * p.y() + 29 * p.z() + 1) +
-          std::sin(43 * p.z() - 23 * p.x() + 2)) /
-         3;
+/// Within 4e-6 up to some hundred radians, and without branches: of many places at once.
+inline float sine(float x) {
+  constexpr float kPerTurn = 0.15915494F, kWhole = 12582912;  // 1.5 * 2^23: adding it rounds to whole numbers
+  const float turns = x * kPerTurn, part = turns - ((turns + kWhole) - kWhole), size = std::abs(part);
+  const float folded = size > 0.25F ? std::copysign(0.5F, part) - part : part, square = folded * folded;
+  constexpr std::array<float, 5> kTaylor = {6.2831853F, -41.341702F, 81.605249F, -76.705860F, 42.058694F};
+  return folded *
+         (kTaylor[0] + square * (kTaylor[1] + square * (kTaylor[2] + square * (kTaylor[3] + square * kTaylor[4]))));
 }
 
-constexpr double kCell = 0.04;  // of space, for what is near
-constexpr double kReach = 1.4;  // radii or widths of fat: what is farther does not show
+/// -1..1, smooth: what makes the border of fat uneven.
+inline float wavy(float x, float y, float z) {
+  return (sine(41 * x + 17 * y) + sine(37 * y + 29 * z + 1) + sine(43 * z - 23 * x + 2)) / 3;
+}
+
+constexpr float kCell = 0.04F;    // of space, for what is near
+constexpr float kUneven = 0.35F;  // of the border of fat
+constexpr float kRound = 1.0001F;
 
 uint64_t cellOf(const Vector3i& at) {
   const auto bits = [](int i) { return static_cast<uint64_t>(i + 1024) & 0xfffffU; };
   return bits(at.x()) | bits(at.y()) << 20U | bits(at.z()) << 40U;
 }
 
-Vector3i cellAt(const Vector3d& place) {
+Vector3i cellAt(const Vector3f& place) {
   return (place / kCell).array().floor().cast<int>();
 }
 
-double smoothStep(double from, double to, double x) {
-  const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
+// By value, for loops over lanes: std::max's references are branches to GCC.
+inline float larger(float a, float b) {
+  return a > b ? a : b;
+}
+inline float within(float x, float low, float high) {
+  const float above = x > low ? x : low;
+  return above < high ? above : high;
+}
+constexpr float kLeast = 1e-9F;   // radius that is divided by
+constexpr float kElsewhere = 10;  // farther than anything on a heart
+
+/// act(0) .. act(count - 1), on as many threads as there are.
+template <class Act>
+void inParallel(size_t count, const Act& act) {
+  std::atomic<size_t> next{0};
+  const auto work = [&] {
+    for (size_t i = next++; i < count; i = next++) act(i);
+  };
+  std::vector<std::future<void>> others;
+  for (unsigned t = 1; t < std::max(1U, std::thread::hardware_concurrency()); ++t)
+    others.push_back(std::async(std::launch::async, work));
+  work();
+  for (std::future<void>& other : others) other.get();
+}
+
+float reachOf(float radius, float fat) {
+  return kRound * std::max(radius, (1 + kUneven) * fat);
+}
+
+inline float smoothStep(float from, float to, float x) {
+  const float t = within((x - from) / (to - from), 0, 1);
   return t * t * (3 - 2 * t);
+}
+
+inline float lumps(const PaintRow& row, size_t l) {
+  constexpr float kFiner = 2.3F;
+  return 1 + 0.25F * wavy(kFiner * row.place[0][l], kFiner * row.place[1][l], kFiner * row.place[2][l]);
 }
 
 }  // namespace
 
-/// The outermost place of the tissue along a ray from the axis.
-HeartVessels::Point HeartVessels::onSurface(double z, double turn, double radius, double fat) const {
+/// Of the tissue along a ray from the axis.
+Vector3d HeartVessels::outermost(double z, double turn, int halvings) const {
   const Vector3d from = kApex + z * (kBase - kApex), way(std::cos(turn), std::sin(turn), 0);
   double outside = kFarthest, inside = 0;
   constexpr double kStep = 0.01;
-  for (double r = kFarthest; r > 0; r -= kStep) {
-    if (field_(from + r * way) < 0) {
+  // The field is nowhere kSteepest times as steep as a distance: there is no tissue on the steps that are left out.
+  constexpr double kSteepest = 4;
+  int steps = 0;
+  for (double r = kFarthest; r > 0; r -= kStep, --steps) {
+    const double distance = steps > 0 ? 0 : field_(from + r * way);
+    if (distance < 0) {
       inside = r;
       break;
     }
+    if (steps <= 0) steps = static_cast<int>(distance / (kSteepest * kStep));
     outside = r;
   }
-  for (int i = 0; i < 20; ++i) {
+  for (int i = 0; i < halvings; ++i) {
     const double middle = (inside + outside) / 2;
     (field_(from + middle * way) < 0 ? inside : outside) = middle;
   }
-  Point point{from + inside * way, Vector3d::Zero(), radius, fat};
+  return from + inside * way;
+}
+
+Vector3d HeartVessels::normalAt(const Vector3d& place) const {
   constexpr double kDifference = 1e-3;
+  Vector3d out;
   for (int i = 0; i < 3; ++i) {
     const Vector3d d = kDifference * Vector3d::Unit(i);
-    point.normal[i] = field_(point.at + d) - field_(point.at - d);
+    out[i] = field_(place + d) - field_(place - d);
   }
-  point.normal.stableNormalize();
-  return point;
+  out.stableNormalize();
+  return out;
+}
+
+HeartVessels::Point HeartVessels::onSurface(double z, double turn, double radius, double fat) const {
+  const Vector3d at = outermost(z, turn, 20);
+  return {at, normalAt(at), radius, fat};
 }
 
 /// Where the surface passes from one ventricle to the other, at a height between two turns.
 double HeartVessels::groove(double z, double from, double to) const {
+  constexpr int kHalvings = 20;
   const auto right = [&](double turn) {
-    const Point p = onSurface(z, turn, 0, 0);
-    return is_right_(p.at - 0.01 * p.normal);
+    const Vector3d at = outermost(z, turn, kHalvings);
+    return is_right_(at - 0.01 * normalAt(at));
   };
   const bool at_from = right(from);
   constexpr int kSteps = 48;
@@ -97,7 +159,14 @@ double HeartVessels::groove(double z, double from, double to) const {
 }
 
 void HeartVessels::addPath(const std::vector<Point>& points, Kind kind) {
-  for (size_t i = 1; i < points.size(); ++i) pieces_.push_back({points[i - 1], points[i], kind});
+  for (size_t i = 1; i < points.size(); ++i) {
+    const Point &a = points[i - 1], &b = points[i];
+    const Vector3d way = b.at - a.at;
+    pieces_.push_back({a.at.cast<float>(), way.cast<float>(), a.normal.cast<float>(),
+                       static_cast<float>(1 / std::max(way.squaredNorm(), 1e-12)), static_cast<float>(a.radius),
+                       static_cast<float>(b.radius - a.radius), static_cast<float>(a.fat),
+                       static_cast<float>(b.fat - a.fat), kind == Kind::kVein ? 1.0F : 0.0F});
+  }
 }
 
 void HeartVessels::addWithVein(const std::vector<Point>& points) {
@@ -142,11 +211,14 @@ HeartVessels::HeartVessels(const Field& field, const IsRight& is_right) : field_
   for (const bool anterior : {true, false}) {
     const double from = anterior ? -0.85 * kPi : 0.85 * kPi, to = anterior ? -0.1 * kPi : 0.15 * kPi;
     const double last_z = anterior ? 0.1 : 0.2, radius = anterior ? kTrunk : 0.8 * kTrunk;
+    const auto shareOf = [](int i) { return static_cast<double>(i) / (2 * kPointsPerPath); };
+    std::vector<double> grooves(2 * kPointsPerPath + 1);
+    inParallel(grooves.size(),
+               [&](size_t i) { grooves[i] = groove(kTop + (last_z - kTop) * shareOf(static_cast<int>(i)), from, to); });
     std::vector<Point> path;
     double turn = 0;
     for (int i = 0; i <= 2 * kPointsPerPath; ++i) {
-      const double s = static_cast<double>(i) / (2 * kPointsPerPath), z = kTop + (last_z - kTop) * s;
-      const double found = groove(z, from, to);
+      const double s = shareOf(i), z = kTop + (last_z - kTop) * s, found = grooves[static_cast<size_t>(i)];
       turn = i == 0 ? found : turn + std::clamp(found - turn, -0.06, 0.06);  // near the apex it jumps
       path.push_back(onSurface(z, turn + 0.02 * std::sin(9 * s), radius * (1 - 0.6 * s), kTrunkFat * (1 - 0.7 * s)));
       if (i % (2 * kPointsPerPath / (kBranches + 1)) != 4) continue;
@@ -169,58 +241,131 @@ HeartVessels::HeartVessels(const Field& field, const IsRight& is_right) : field_
     }
   }
   addWithVein(around);
-  findNear();
+  listCells();
 }
 
-void HeartVessels::findNear() {
+void HeartVessels::listCells() {
   for (uint32_t i = 0; i < pieces_.size(); ++i) {
     const Piece& piece = pieces_[i];
-    const double reach = kReach * std::max(piece.a.radius, piece.a.fat);
-    const Vector3i low = cellAt((piece.a.at.cwiseMin(piece.b.at).array() - reach).matrix());
-    const Vector3i high = cellAt((piece.a.at.cwiseMax(piece.b.at).array() + reach).matrix());
+    const float reach = reachOf(piece.radius, piece.fat);
+    const Vector3f b = piece.a + piece.way;
+    const Vector3i low = cellAt((piece.a.cwiseMin(b).array() - reach).matrix());
+    const Vector3i high = cellAt((piece.a.cwiseMax(b).array() + reach).matrix());
     for (int z = low.z(); z <= high.z(); ++z) {
       for (int y = low.y(); y <= high.y(); ++y) {
-        for (int x = low.x(); x <= high.x(); ++x) near_[cellOf({x, y, z})].push_back(i);
+        for (int x = low.x(); x <= high.x(); ++x) cells_[cellOf({x, y, z})].push_back(i);
       }
     }
   }
 }
 
-PaintedSpot HeartVessels::at(const Vector3d& place, const Vector3d& normal) const {
-  double fat = 0, best = 1, radius = 1;
-  const Piece* nearest = nullptr;
-  const auto here = near_.find(cellOf(cellAt(place)));
-  if (here == near_.end()) return {kFat, 0, 0};  // mipmaps mix colours of what does not cover, too
-  for (const uint32_t i : here->second) {
-    const Piece& piece = pieces_[i];
-    const Vector3d way = piece.b.at - piece.a.at, from = place - piece.a.at;
-    const double widest = std::max(piece.a.radius, piece.a.fat);
-    if (from.squaredNorm() > std::pow(way.norm() + kReach * widest, 2) || normal.dot(piece.a.normal) < kFacing)
-      continue;
-    const double along = std::clamp(from.dot(way) / std::max(way.squaredNorm(), 1e-12), 0.0, 1.0);
-    const double distance = (from - along * way).norm();
-    const double of_radius = piece.a.radius + along * (piece.b.radius - piece.a.radius);
-    const double of_fat = piece.a.fat + along * (piece.b.fat - piece.a.fat);
-    if (of_fat > 0) fat = std::max(fat, 1 - distance / (of_fat * (1 + 0.35 * wavy(place))));
-    if (of_radius > 0 && distance / of_radius < best) {
-      best = distance / of_radius;
-      radius = of_radius;
-      nearest = &piece;
+Vector3f HeartVessels::ground() const {
+  return kFat;
+}
+
+void HeartVessels::findNear(const Vector3f& middle, float radius, std::vector<uint32_t>& near) const {
+  near.clear();
+  const Vector3i low = cellAt((middle.array() - radius).matrix()), high = cellAt((middle.array() + radius).matrix());
+  for (int z = low.z(); z <= high.z(); ++z) {
+    for (int y = low.y(); y <= high.y(); ++y) {
+      for (int x = low.x(); x <= high.x(); ++x) {
+        const auto here = cells_.find(cellOf({x, y, z}));
+        if (here == cells_.end()) continue;
+        for (const uint32_t i : here->second) {
+          if (reaches(i, middle, radius)) near.push_back(i);
+        }
+      }
     }
   }
-  PaintedSpot spot;
-  const double cover = smoothStep(0, 0.35, fat), vessel = nearest == nullptr ? 0 : 1 - smoothStep(0.7, 1, best);
-  const double lumps = 1 + 0.25 * wavy(2.3 * place);
-  spot.height_m = static_cast<float>(kFatHeight * cover * lumps * (0.6 + 0.4 * fat));
-  if (nearest != nullptr)
-    spot.height_m += static_cast<float>(kVesselHeight * radius * std::sqrt(std::max(0.0, 1 - best * best)));
-  const Vector3f of_vessel = nearest == nullptr || nearest->kind == Kind::kArtery ? kArtery : kVein;
-  // Fat lies over the larger vessels in part, and shows through a thin film elsewhere.
-  const auto share = static_cast<float>(vessel * (1 - 0.12 * cover));
-  spot.color = share * of_vessel + (1 - share) * static_cast<float>(0.9 + 0.1 * lumps) * kFat;
-  spot.cover = static_cast<float>(std::max(0.82 * cover, 0.85 * vessel));
-  if (cover == 0 && vessel > 0) spot.color = of_vessel;
-  return spot;
+  std::sort(near.begin(), near.end());
+  near.erase(std::unique(near.begin(), near.end()), near.end());
+}
+
+bool HeartVessels::reaches(uint32_t index, const Vector3f& middle, float radius) const {
+  const Piece& piece = pieces_[index];
+  const Vector3f from = middle - piece.a;
+  const Vector3f apart = from - within(from.dot(piece.way) * piece.per_way2, 0, 1) * piece.way;
+  const float reach = radius + reachOf(piece.radius, piece.fat);
+  return apart.squaredNorm() <= reach * reach;
+}
+
+void HeartVessels::narrow(const std::vector<uint32_t>& near, const Vector3f& middle, float radius,
+                          const Vector3f& normal, float spread, std::vector<uint32_t>& nearer) const {
+  nearer.clear();
+  for (const uint32_t i : near) {
+    if (normal.dot(pieces_[i].normal) + spread >= kFacing && reaches(i, middle, radius)) nearer.push_back(i);
+  }
+}
+
+struct HeartVessels::Sums {
+  PaintRow::Lane fat{};     ///< how far within fat, 0 at its border and 1 at its middle
+  PaintRow::Lane best{};    ///< distance from the nearest vessel, in its radii
+  PaintRow::Lane radius{};  ///< of that vessel
+  PaintRow::Lane vein{};    ///< 1: it is a vein
+};
+
+HeartVessels::Sums HeartVessels::sumsOf(const std::vector<uint32_t>& near, const PaintRow& row) const {
+  const auto& [px, py, pz] = row.place;
+  const auto& [nx, ny, nz] = row.normal;
+  Sums out;
+  out.best.fill(1);
+  out.radius.fill(1);
+  PaintRow::Lane per_edge, distance, of_radius, of_fat;
+  for (size_t l = 0; l < PaintRow::kMost; ++l) per_edge[l] = 1 / (1 + kUneven * wavy(px[l], py[l], pz[l]));
+  for (const uint32_t index : near) {
+    const Piece& piece = pieces_[index];
+    const float ax = piece.a.x(), ay = piece.a.y(), az = piece.a.z(), wx = piece.way.x(), wy = piece.way.y(),
+                wz = piece.way.z(), mx = piece.normal.x(), my = piece.normal.y(), mz = piece.normal.z(),
+                per_way2 = piece.per_way2, radius = piece.radius, radius_change = piece.radius_change, fat = piece.fat,
+                fat_change = piece.fat_change, vein = piece.vein, has_fat = fat > 0 ? 1.F : 0.F;
+    for (size_t l = 0; l < PaintRow::kMost; ++l) {
+      const float x = px[l] - ax, y = py[l] - ay, z = pz[l] - az;
+      const float along = within((x * wx + y * wy + z * wz) * per_way2, 0, 1);
+      const float u = x - along * wx, v = y - along * wy, w = z - along * wz;
+      const float facing = nx[l] * mx + ny[l] * my + nz[l] * mz;
+      distance[l] = std::sqrt(u * u + v * v + w * w) + (facing < kFacing ? kElsewhere : 0.F);
+      of_radius[l] = larger(radius + along * radius_change, kLeast);
+      of_fat[l] = larger(fat + along * fat_change, kLeast);
+    }
+    for (size_t l = 0; l < PaintRow::kMost; ++l)
+      out.fat[l] = larger(out.fat[l], has_fat - distance[l] * per_edge[l] / of_fat[l]);
+    for (size_t l = 0; l < PaintRow::kMost; ++l) {
+      const float radii = distance[l] / of_radius[l], best = out.best[l];
+      const float nearer = radii < best ? 1.F : 0.F;
+      out.best[l] = radii < best ? radii : best;
+      out.radius[l] += nearer * (of_radius[l] - out.radius[l]);
+      out.vein[l] += nearer * (vein - out.vein[l]);
+    }
+  }
+  return out;
+}
+
+/// Of fat and vessels, at a place of a row.
+template <class Sums>
+static inline float height(const PaintRow& row, const Sums& sums, size_t l) {
+  const float fat = kFatHeight * smoothStep(0, 0.35F, sums.fat[l]) * lumps(row, l) * (0.6F + 0.4F * sums.fat[l]);
+  return fat + kVesselHeight * sums.radius[l] * std::sqrt(larger(0, 1 - sums.best[l] * sums.best[l]));
+}
+
+void HeartVessels::raise(const std::vector<uint32_t>& near, PaintRow& row) const {
+  const Sums sums = sumsOf(near, row);
+  for (size_t l = 0; l < PaintRow::kMost; ++l) row.height[l] = height(row, sums, l);
+}
+
+void HeartVessels::paint(const std::vector<uint32_t>& near, PaintRow& row) const {
+  const Sums sums = sumsOf(near, row);
+  for (size_t l = 0; l < PaintRow::kMost; ++l) row.height[l] = height(row, sums, l);
+  for (size_t l = 0; l < PaintRow::kMost; ++l) {
+    const float cover = smoothStep(0, 0.35F, sums.fat[l]), vessel = 1 - smoothStep(0.7F, 1, sums.best[l]);
+    // Fat lies over the larger vessels in part, and shows through a thin film elsewhere.
+    const float share = cover > 0 ? vessel * (1 - 0.12F * cover) : vessel > 0 ? 1.0F : 0.0F;
+    const float fat = (1 - share) * (0.9F + 0.1F * lumps(row, l));
+    for (int i = 0; i < 3; ++i) {
+      const float of_vessel = kArtery[i] + sums.vein[l] * (kVein[i] - kArtery[i]);
+      row.color[static_cast<size_t>(i)][l] = share * of_vessel + fat * kFat[i];
+    }
+    row.cover[l] = larger(0.82F * cover, 0.85F * vessel);
+  }
 }
 
 }  // namespace viscera

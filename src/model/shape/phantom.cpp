@@ -45,13 +45,11 @@ struct Cavity {
   double wall;     ///< thickness before scaling
   Ellipsoid dome;  ///< of a chamber
   Tube tube;       ///< of a vessel, from its root to its open end
+  Tube lumen;      ///< of a vessel, cut past that end
 
   /// Distance to the cavity grown by `margin` on all sides.
   double grown(const Vector3d& p, double margin) const {
-    if (kind == Kind::kVessel) {
-      const Vector3d past_end = tube.to + kLumenOverrun * (tube.to - tube.from).normalized();
-      return Tube{tube.from, past_end, tube.radius + margin}.distance(p);
-    }
+    if (kind == Kind::kVessel) return lumen.distance(p, margin);
     const double shell = Ellipsoid{dome.center, dome.radii + Vector3d::Constant(margin)}.distance(p);
     // Ventricles end at the plane of the valves, atria start there.
     const double floor = (kind == Kind::kVentricle ? p.z() - kBase : kBase - p.z()) - margin;
@@ -60,16 +58,16 @@ struct Cavity {
 
   /// Distance to the cavity with a wall around it; a vessel is open at its end.
   double wrapped(const Vector3d& p, double thickness) const {
-    if (kind == Kind::kVessel) return Tube{tube.from, tube.to, tube.radius + thickness}.distance(p);
+    if (kind == Kind::kVessel) return tube.distance(p, thickness);
     return grown(p, thickness);
   }
 
   /// How far the cavity with its wall reaches along a unit vector.
   double reach(const Vector3d& direction, double thickness) const {
     if (kind == Kind::kVessel) {
-      const double along = direction.dot((tube.to - tube.from).normalized());
-      const double aside = (tube.radius + thickness) * std::sqrt(std::max(0.0, 1 - along * along));
-      return std::max(direction.dot(tube.from), direction.dot(tube.to)) + aside;
+      const double along = direction.dot(tube.axis());
+      const double aside = (tube.radius() + thickness) * std::sqrt(std::max(0.0, 1 - along * along));
+      return std::max(direction.dot(tube.from()), direction.dot(tube.to())) + aside;
     }
     Vector3d radii = dome.radii + Vector3d::Constant(thickness);
     if (kind == Kind::kVentricle && direction.z() > 0) radii.z() = 0;
@@ -80,11 +78,12 @@ struct Cavity {
 
 Cavity chamber(Part part, const Vector3d& center, const Vector3d& radii, double wall) {
   const bool is_ventricle = part == kLeftVentricle || part == kRightVentricle;
-  return {part, is_ventricle ? Cavity::Kind::kVentricle : Cavity::Kind::kAtrium, wall, {center, radii}, {}};
+  return {part, is_ventricle ? Cavity::Kind::kVentricle : Cavity::Kind::kAtrium, wall, {center, radii}, {}, {}};
 }
 
 Cavity vessel(Part part, const Vector3d& root, const Vector3d& end, double radius, double wall) {
-  return {part, Cavity::Kind::kVessel, wall, {}, {root, end, radius}};
+  const Tube tube(root, end, radius);
+  return {part, Cavity::Kind::kVessel, wall, {}, tube, {root, end + kLumenOverrun * tube.axis(), radius}};
 }
 
 /// In order of precedence: where two cavities would meet, the later one gives way. +x is the patient's left, -y
@@ -119,9 +118,12 @@ class Heart {
     // The cavity in whose wall a point lies least deep gives it its part.
     double least_depth = outside;
     uint16_t part = kLeftVentricle;
-    for (size_t i = 0; i < cavities().size(); ++i) {
-      const Cavity& cavity = cavities()[i];
-      const double distance = hollowOf(i, p), depth = distance / cavity.wall;
+    const std::array<Cavity, 8>& all = cavities();
+    double ventricles[2] = {0, 0};  // to the left and the right one
+    for (size_t i = 0; i < all.size(); ++i) {
+      const Cavity& cavity = all[i];
+      const double own = cavity.grown(p, 0), distance = hollowOf(i, own, p), depth = distance / cavity.wall;
+      if (i <= kRightVentricle) ventricles[i] = own;
       outside = smoothMin(outside, cavity.wrapped(p, wall_scale_ * cavity.wall), wall_scale_ * kBlend);
       hollow = std::min(hollow, distance);
       if (depth >= least_depth) continue;
@@ -129,7 +131,7 @@ class Heart {
       part = cavity.part;
     }
     hollow = std::min(hollow, septalDefect().distance(p));
-    return {std::max(outside, -hollow), isSeptum(p) ? uint16_t{kSeptum} : part};
+    return {std::max(outside, -hollow), isSeptum(ventricles) ? uint16_t{kSeptum} : part};
   }
 
  private:
@@ -138,21 +140,19 @@ class Heart {
     return wall_scale_ * (is_septum ? kSeptumWall : std::min(a.wall, b.wall));
   }
 
-  /// Distance to a cavity after it has given way to those before it.
-  double hollowOf(size_t index, const Vector3d& p) const {
-    const Cavity& cavity = cavities()[index];
-    double distance = cavity.grown(p, 0);
+  /// Distance to a cavity after it has given way to those before it. @param distance  to the whole of it
+  double hollowOf(size_t index, double distance, const Vector3d& p) const {
+    const std::array<Cavity, 8>& all = cavities();
     for (size_t i = 0; i < index && distance < kFar; ++i) {
-      const Cavity& before = cavities()[i];
+      const Cavity &before = all[i], &cavity = all[index];
       distance = std::max(distance, -before.grown(p, wallBetween(before, cavity)));
     }
     return distance;
   }
 
   /// The wall of the left ventricle where the right one lies against it.
-  bool isSeptum(const Vector3d& p) const {
-    return cavities()[kLeftVentricle].grown(p, 0) < wall_scale_ * kSeptumWall &&
-           cavities()[kRightVentricle].grown(p, 0) < 0;
+  bool isSeptum(const double (&ventricles)[2]) const {
+    return ventricles[kLeftVentricle] < wall_scale_ * kSeptumWall && ventricles[kRightVentricle] < 0;
   }
 
   static constexpr double kFar = 0.15;  ///< farther from a cavity than any wall is thick, what shapes it has no effect
@@ -207,18 +207,17 @@ std::pair<Vector3d, Vector3d> extent(double wall_scale) {
 
 }  // namespace
 
-SurfacePaint heartPaint(double length_m, double wall_scale) {
+PlacedPaint heartPaint(double length_m, double wall_scale) {
   const Heart heart(wall_scale);
   const auto right = [heart](const Vector3d& p) { return heart.at(p).part == kRightVentricle; };
-  const auto vessels =
-      std::make_shared<const HeartVessels>([heart](const Vector3d& p) { return heart.at(p).distance_m; }, right);
   const auto [low, high] = extent(wall_scale);
-  return [vessels, upright = tilt().conjugate(), middle = Vector3d(0.5 * (low + high)), length_m](const Vector3f& at,
-                                                                                                  const Vector3f& n) {
-    PaintedSpot spot = vessels->at(upright * (at.cast<double>() / length_m + middle), upright * n.cast<double>());
-    spot.height_m *= static_cast<float>(length_m);
-    return spot;
-  };
+  PlacedPaint out;
+  out.paint =
+      std::make_shared<const HeartVessels>([heart](const Vector3d& p) { return heart.at(p).distance_m; }, right);
+  out.turn = tilt().conjugate();
+  out.shift = out.turn * (0.5 * (low + high));
+  out.unit_m = length_m;
+  return out;
 }
 
 Phantom heartPhantom(double length_m, double wall_scale) {
@@ -236,9 +235,9 @@ Phantom heartPhantom(double length_m, double wall_scale) {
   phantom.chamber_centers_m = {place({0.16, 0.05, 0.6}), place({-0.3, -0.25, 0.9}), place({0.22, 0.3, 1.2}),
                                place({-0.3, 0.1, 1.22})};
   const Tube& defect = septalDefect();
-  phantom.defect_from_m = place(defect.from);
-  phantom.defect_to_m = place(defect.to);
-  phantom.defect_radius_m = length_m * defect.radius;
+  phantom.defect_from_m = place(defect.from());
+  phantom.defect_to_m = place(defect.to());
+  phantom.defect_radius_m = length_m * defect.radius();
   phantom.field = [heart = Heart(wall_scale), upright = tilt().conjugate(), middle, length_m](const Vector3d& point_m) {
     LabelledDistance at = heart.at(upright * (point_m / length_m + middle));
     at.distance_m *= length_m;

@@ -37,6 +37,6 @@ struct Phantom {
 Phantom heartPhantom(double length_m, double wall_scale);
 
 /// Its coronary vessels, in grooves with fat, for a skin of that heart (heart_vessels.h).
-SurfacePaint heartPaint(double length_m, double wall_scale);
+PlacedPaint heartPaint(double length_m, double wall_scale);
 
 }  // namespace viscera

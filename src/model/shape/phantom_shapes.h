@@ -34,15 +34,26 @@ struct Ellipsoid {
 };
 
 /// Straight tube between two points with flat ends.
-struct Tube {
-  Vector3d from, to;
-  double radius;
+class Tube {
+ public:
+  Tube() = default;
+  Tube(const Vector3d& from, const Vector3d& to, double radius)
+      : from_(from), to_(to), axis_((to - from).normalized()), length_((to - from).norm()), radius_(radius) {}
 
-  double distance(const Vector3d& p) const {
-    const Vector3d axis = (to - from).normalized();
-    const double along = (p - from).dot(axis), aside = (p - from - along * axis).norm();
-    return std::max(aside - radius, std::max(-along, along - (to - from).norm()));
+  const Vector3d& from() const { return from_; }
+  const Vector3d& to() const { return to_; }
+  const Vector3d& axis() const { return axis_; }
+  double radius() const { return radius_; }
+
+  /// To the tube with a radius that is larger by `margin`.
+  double distance(const Vector3d& p, double margin = 0) const {
+    const double along = (p - from_).dot(axis_), aside = (p - from_ - along * axis_).norm();
+    return std::max(aside - (radius_ + margin), std::max(-along, along - length_));
   }
+
+ private:
+  Vector3d from_ = Vector3d::Zero(), to_ = Vector3d::Zero(), axis_ = Vector3d::Zero();
+  double length_ = 0, radius_ = 0;
 };
 
 }  // namespace viscera

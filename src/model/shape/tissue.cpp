@@ -101,12 +101,13 @@ class PhantomTissue : public Tissue {
     return extractSkin(phantom_.field, phantom_.part_names, phantom_.min_m, phantom_.max_m, spacing_m);
   }
 
-  SurfacePaint paint() const override {
+  PlacedPaint paint() const override {
     if (!has_vessels_) return {};
-    return [paint = heartPaint(length_m_, wall_scale_), to_body = pose_.inverse()](const Vector3f& at,
-                                                                                   const Vector3f& n) {
-      return paint((to_body * at.cast<double>()).cast<float>(), (to_body.orientation * n.cast<double>()).cast<float>());
-    };
+    PlacedPaint paint = heartPaint(length_m_, wall_scale_);
+    const Pose to_body = pose_.inverse();
+    paint.shift += paint.turn * (to_body.position_m / paint.unit_m);
+    paint.turn = paint.turn * to_body.orientation;
+    return paint;
   }
 
   Eigen::AlignedBox3d bounds() const override { return {phantom_.min_m, phantom_.max_m}; }

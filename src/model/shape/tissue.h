@@ -40,8 +40,8 @@ class Tissue {
   /// Walls of known thickness in which cells that are larger leave holes, the thinnest first.
   virtual std::vector<Wall> walls() const { return {}; }
 
-  /// What is painted on its skin; empty: nothing.
-  virtual SurfacePaint paint() const { return {}; }
+  /// What is painted on its skin; without paint: nothing.
+  virtual PlacedPaint paint() const { return {}; }
 
   std::vector<std::string> notes;  ///< what reading it had to decide
   Pose file_pose;                  ///< of what mesh files of this body hold, in the tissue frame
