@@ -12,6 +12,7 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "nodes/command_queue.h"
 #include "nodes/pace_meter.h"
@@ -32,6 +33,8 @@ struct LoopStatus {
   Health health;
   std::array<bool, layout::kMaxStyluses> held_back{}, inside{};
   std::array<Reaction, layout::kMaxStyluses> reactions;
+  /// What each stylus does with no button pressed, and while the first or the second is.
+  std::vector<std::array<ToolMode, 3>> modes;
   PaceMeter::Reading pace;  ///< since the last LoopStatus was taken
 };
 

@@ -8,6 +8,8 @@
 #include <numeric>
 #include <utility>
 
+#include "model/scene/tool_kinds.h"
+
 namespace viscera::nodes {
 namespace {
 
@@ -204,6 +206,8 @@ void SimulatorDiagnostics::stylus(size_t index, Status& status) {
     status.add("stiffness_share", felt.share);
   }
   if (!now_) return;
+  const char* const switches[] = {"idle", "button1", "button2"};
+  for (size_t i = 0; i < now_->modes[index].size(); ++i) status.add(switches[i], kindOf(now_->modes[index][i]).name);
   status.add("force_n", now_->reactions[index].force_n.norm());
   status.add("force_saturated", now_->reactions[index].saturated);
   status.add("nodes_touched", now_->stats.touched[index]);

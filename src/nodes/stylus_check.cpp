@@ -22,6 +22,13 @@ bool isStylus(const diagnostic_msgs::DiagnosticStatus& status) {
 
 }  // namespace
 
+std::string stylusTold(const diagnostic_msgs::DiagnosticStatus& status) {
+  const size_t colon = status.name.find(": ");
+  const bool ours =
+      colon != std::string::npos && isStylus(status) && namespaceOf(status.name) == ros::this_node::getNamespace();
+  return ours ? status.name.substr(colon + 2) : "";
+}
+
 StylusCheck::StylusCheck(ros::NodeHandle& node, const std::string& stylus) : stylus_(stylus) {
   const std::string topic = stylus + "/measured_cp";
   done_ = node.resolveName(topic) != node.resolveName(topic, false);
@@ -31,11 +38,10 @@ StylusCheck::StylusCheck(ros::NodeHandle& node, const std::string& stylus) : sty
 void StylusCheck::onDiagnostics(const diagnostic_msgs::DiagnosticArray& message) {
   const std::lock_guard<std::mutex> lock(mutex_);
   for (const diagnostic_msgs::DiagnosticStatus& status : message.status) {
-    const size_t colon = status.name.find(": ");
-    if (colon == std::string::npos || !isStylus(status)) continue;
-    if (namespaceOf(status.name) != ros::this_node::getNamespace()) continue;
+    const std::string stylus = stylusTold(status);
+    if (stylus.empty()) continue;
     if (!heard_) heard_ = Clock::now();
-    known_.insert(status.name.substr(colon + 2));
+    known_.insert(stylus);
   }
 }
 

@@ -20,6 +20,9 @@ struct StylusUnknown : Error {
   using Error::Error;
 };
 
+/// The stylus that a simulator in this node's namespace tells of; empty: it is told of something else.
+std::string stylusTold(const diagnostic_msgs::DiagnosticStatus& status);
+
 /// Whether simulators have the stylus that a node stands for, as the diagnostics of those in its namespace tell. Where
 /// there are none, or the stylus's topic is remapped, nobody can say.
 class StylusCheck {

@@ -88,6 +88,7 @@ class Session {
 
   const Scene& scene() const { return scene_; }
   const Model& model() const { return model_; }
+  const std::vector<StylusConfig>& styluses() const { return tools_.configs(); }  ///< with the modes that they have now
   /// Triangles of the skin as long as nothing is cut; of a SurfaceFrame, those that are shown in its tick.
   std::shared_ptr<const ShownTopology> wholeSkin() const;
   const Solver& solver() const { return *solver_; }
