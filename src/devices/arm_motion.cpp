@@ -3,6 +3,7 @@
 #include "devices/arm_motion.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace viscera {
 
@@ -50,7 +51,10 @@ std::optional<std::string> ArmMotion::command(const std::string& text) {
   } else {
     return "'" + text + "' is none of enable, disable, pause, resume, home, unhome";
   }
-  if (state_ != State::kEnabled) stop();
+  if (state_ != State::kEnabled) {
+    stop();
+    jaw_way_ = {};
+  }
   return std::nullopt;
 }
 
@@ -61,33 +65,83 @@ bool ArmMotion::servo(const Pose& setpoint) {
   return true;
 }
 
+void ArmMotion::stop() {
+  way_ = {};
+  velocity_left_s_ = 0;
+}
+
+void ArmMotion::Way::begin(double least_s) {
+  // a goal that is there already takes a moment too: who waits for the end sees a beginning
+  *this = {std::max(kPeakOverMean * least_s, 1e-3), 0};
+}
+
+double ArmMotion::Way::advance(double span_s) {
+  done_s += span_s;
+  if (done_s < duration_s) return shareOfWay(done_s / duration_s);
+  *this = {};
+  return 1;
+}
+
 bool ArmMotion::move(const Pose& goal) {
   if (state_ != State::kEnabled) return false;
+  stop();
   start_ = setpoint_;
   goal_ = goal;
-  done_s_ = 0;
   const double way_m = (goal.position_m - start_.position_m).norm();
   const double turn_rad = start_.orientation.angularDistance(goal.orientation);
-  const double longest_s = std::max(way_m / config_.speed_m_per_s, turn_rad / (kRadPerDeg * config_.turn_deg_per_s));
-  // a goal that is there already takes a moment too: who waits for the end sees a beginning
-  duration_s_ = std::max(kPeakOverMean * longest_s, 1e-3);
+  way_.begin(std::max(way_m / config_.speed_m_per_s, turn_rad / (kRadPerDeg * config_.turn_deg_per_s)));
+  return true;
+}
+
+bool ArmMotion::servoVelocity(const Vector3d& linear_m_per_s, const Vector3d& angular_rad_per_s) {
+  if (state_ != State::kEnabled) return false;
+  stop();
+  linear_m_per_s_ = linear_m_per_s;
+  angular_rad_per_s_ = angular_rad_per_s;
+  velocity_left_s_ = kVelocityHolds_s;
   return true;
 }
 
 bool ArmMotion::servoJaw(double angle_rad) {
   if (state_ != State::kEnabled) return false;
+  jaw_way_ = {};
   jaw_rad_ = angle_rad;
   return true;
 }
 
+bool ArmMotion::moveJaw(double goal_rad) {
+  if (state_ != State::kEnabled) return false;
+  jaw_start_rad_ = jaw_rad_;
+  jaw_goal_rad_ = goal_rad;
+  jaw_way_.begin(std::abs(goal_rad - jaw_rad_) / (kRadPerDeg * config_.turn_deg_per_s));
+  return true;
+}
+
+bool ArmMotion::hold() {
+  if (state_ != State::kEnabled) return false;
+  stop();
+  jaw_way_ = {};
+  return true;
+}
+
 void ArmMotion::advance(double span_s) {
-  if (!busy()) return;
-  done_s_ += span_s;
-  if (done_s_ >= duration_s_) {
-    setpoint_ = goal_;
-    stop();
-  } else {
-    setpoint_ = interpolate(start_, goal_, shareOfWay(done_s_ / duration_s_));
+  if (way_.duration_s > 0) {
+    const double share = way_.advance(span_s);
+    setpoint_ = share == 1 ? goal_ : interpolate(start_, goal_, share);
+  }
+  if (velocity_left_s_ > 0) {
+    const double for_s = std::min(span_s, velocity_left_s_);
+    velocity_left_s_ -= for_s;
+    setpoint_.position_m += for_s * linear_m_per_s_;
+    const double angle = for_s * angular_rad_per_s_.norm();
+    if (angle > 0) {
+      const Eigen::AngleAxisd turn(angle, angular_rad_per_s_.normalized());
+      setpoint_.orientation = (turn * setpoint_.orientation).normalized();
+    }
+  }
+  if (jaw_way_.duration_s > 0) {
+    const double share = jaw_way_.advance(span_s);
+    jaw_rad_ = share == 1 ? jaw_goal_rad_ : jaw_start_rad_ + share * (jaw_goal_rad_ - jaw_start_rad_);
   }
 }
 

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/crtk_arm.h"
 
-#include <geometry_msgs/TwistStamped.h>
 #include <ros/console.h>
+#include <std_msgs/Empty.h>
 
 #include <cmath>
 #include <utility>
@@ -15,6 +15,7 @@ namespace viscera::nodes {
 namespace {
 
 constexpr uint32_t kNewest = 1, kEvents = 16;
+constexpr double kSetpoints_s = 0.005;  ///< crtk_python_client takes what is older than 10 ms for old, and waits
 
 bool isHeard(const ros::Publisher& publisher) {
   return publisher.getNumSubscribers() > 0;
@@ -57,15 +58,25 @@ void CrtkArm::subscribe(ros::NodeHandle& node, FrameLookup lookup) {
   const std::string at = base_ + "/";
   measured_cp_ = node.advertise<geometry_msgs::PoseStamped>(at + "measured_cp", kNewest);
   setpoint_cp_ = node.advertise<geometry_msgs::PoseStamped>(at + "setpoint_cp", kNewest);
+  goal_cp_ = node.advertise<geometry_msgs::PoseStamped>(at + "goal_cp", kNewest);
   measured_cv_ = node.advertise<geometry_msgs::TwistStamped>(at + "measured_cv", kNewest);
   operating_state_ = node.advertise<foreign::OperatingState>(at + "operating_state", kEvents, true);
   measured_js_ = node.advertise<sensor_msgs::JointState>(at + "jaw/measured_js", kNewest);
   setpoint_js_ = node.advertise<sensor_msgs::JointState>(at + "jaw/setpoint_js", kNewest);
   const auto hints = ros::TransportHints().tcpNoDelay();
-  commands_ = {node.subscribe(at + "servo_cp", kNewest, &CrtkArm::onServo, this, hints),
-               node.subscribe(at + "move_cp", kNewest, &CrtkArm::onMove, this, hints),
-               node.subscribe(at + "jaw/servo_jp", kNewest, &CrtkArm::onJaw, this, hints),
-               node.subscribe(at + "state_command", kEvents, &CrtkArm::onState, this, hints)};
+  commands_ = {
+      node.subscribe(at + "servo_cp", kNewest, &CrtkArm::onServo, this, hints),
+      node.subscribe(at + "move_cp", kNewest, &CrtkArm::onMove, this, hints),
+      node.subscribe(at + "servo_cv", kNewest, &CrtkArm::onVelocity, this, hints),
+      node.subscribe<std_msgs::Empty>(
+          at + "hold", kEvents, [this](const std_msgs::EmptyConstPtr&) { onHold(); }, ros::VoidConstPtr(), hints),
+      node.subscribe<sensor_msgs::JointState>(
+          at + "jaw/servo_jp", kNewest, [this](const auto& told) { onJaw(*told, false); }, ros::VoidConstPtr(), hints),
+      node.subscribe<sensor_msgs::JointState>(
+          at + "jaw/move_jp", kNewest, [this](const auto& told) { onJaw(*told, true); }, ros::VoidConstPtr(), hints),
+      node.subscribe(at + "state_command", kEvents, &CrtkArm::onState, this, hints)};
+  setpoints_ = node.createSteadyTimer(ros::WallDuration(kSetpoints_s),
+                                      [this](const ros::SteadyTimerEvent&) { tellSetpoints(); });
   const std::lock_guard<std::mutex> lock(mutex_);
   mailbox_.hold(true);
   place();
@@ -103,12 +114,30 @@ void CrtkArm::onMove(const geometry_msgs::PoseStamped& message) {
   if (motion_.move(pose)) tellState();
 }
 
-void CrtkArm::onJaw(const sensor_msgs::JointState& message) {
+void CrtkArm::onVelocity(const geometry_msgs::TwistStamped& message) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (message.position.empty()) return refuse("jaw/servo_jp", Drop::kNoButtons);
-  if (!std::isfinite(message.position.front())) return refuse("jaw/servo_jp", Drop::kNotFinite);
-  if (!motion_.servoJaw(message.position.front())) return;
-  mailbox_.grip(message.position, 0, std::chrono::steady_clock::now());
+  const geometry_msgs::Vector3 &linear = message.twist.linear, &angular = message.twist.angular;
+  const Vector3d along(linear.x, linear.y, linear.z), about(angular.x, angular.y, angular.z);
+  if (!along.allFinite() || !about.allFinite()) return refuse("servo_cv", Drop::kNotFinite);
+  motion_.servoVelocity(along, about);
+}
+
+void CrtkArm::onHold() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  motion_.hold();
+}
+
+void CrtkArm::onJaw(const sensor_msgs::JointState& message, bool moves) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const char* const topic = moves ? "jaw/move_jp" : "jaw/servo_jp";
+  if (message.position.empty()) return refuse(topic, Drop::kNoButtons);
+  const double angle_rad = message.position.front();
+  if (!std::isfinite(angle_rad)) return refuse(topic, Drop::kNotFinite);
+  if (moves) {
+    if (motion_.moveJaw(angle_rad)) tellState();
+  } else if (motion_.servoJaw(angle_rad)) {
+    mailbox_.grip({angle_rad}, 0, std::chrono::steady_clock::now());
+  }
 }
 
 void CrtkArm::onState(const foreign::StringStamped& message) {
@@ -136,8 +165,10 @@ void CrtkArm::beginTick() {
   const SteadyTime now = std::chrono::steady_clock::now();
   const double span_s = ticked_ == SteadyTime{} ? 0 : std::chrono::duration<double>(now - ticked_).count();
   ticked_ = now;
-  if (!motion_.busy()) return;
+  if (!motion_.moves()) return;
+  const double jaw_rad = motion_.jaw_rad();
   motion_.advance(span_s);
+  if (motion_.jaw_rad() != jaw_rad) mailbox_.grip({motion_.jaw_rad()}, 0, now);
   place();
 }
 
@@ -146,16 +177,20 @@ void CrtkArm::endTick(const Pose& tool, const ros::Time& stamp) {
   const Pose measured = mailbox_.inDevice(tool);
   const std::string frame = mailbox_.deviceFrame().name;
   if (isHeard(measured_cp_)) measured_cp_.publish(stamped(measured, frame, stamp));
-  if (isHeard(setpoint_cp_)) setpoint_cp_.publish(stamped(motion_.setpoint(), frame, stamp));
   if (isHeard(measured_cv_))
     measured_cv_.publish(twist(last_measured_, measured, (stamp - last_told_).toSec(), frame, stamp));
   last_measured_ = measured;
   last_told_ = stamp;
-  tellJaws(stamp);
   if (motion_.busy() != told_busy_) tellState();
 }
 
-void CrtkArm::tellJaws(const ros::Time& stamp) {
+/// Where it and its jaws are told to be, and whither they go.
+void CrtkArm::tellSetpoints() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const ros::Time stamp = ros::Time::now();
+  const std::string frame = mailbox_.deviceFrame().name;
+  if (isHeard(setpoint_cp_)) setpoint_cp_.publish(stamped(motion_.setpoint(), frame, stamp));
+  if (isHeard(goal_cp_)) goal_cp_.publish(stamped(motion_.goal(), frame, stamp));
   if (!isHeard(measured_js_) && !isHeard(setpoint_js_)) return;
   sensor_msgs::JointState jaw;
   jaw.header.stamp = stamp;

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <geometry_msgs/PoseStamped.h>
+#include <geometry_msgs/TwistStamped.h>
 #include <ros/node_handle.h>
+#include <ros/steady_timer.h>
 #include <sensor_msgs/JointState.h>
 
 #include <atomic>
@@ -17,8 +19,9 @@
 
 namespace viscera::nodes {
 
-/// A tool that is a CRTK arm: it takes servo_cp, move_cp, jaw/servo_jp and state_command, and tells measured_cp,
-/// setpoint_cp, measured_cv, operating_state and its jaws (docs/devices.md). What it feels is its ForceSink's.
+/// A tool that is a CRTK arm: it takes servo_cp, servo_cv, move_cp, hold, jaw/servo_jp, jaw/move_jp and state_command,
+/// and tells measured_cp, setpoint_cp, goal_cp, measured_cv, operating_state and its jaws (docs/devices.md). What it
+/// feels is its ForceSink's. Where it is told to be is told faster than ticks come: clients wait for such messages.
 class CrtkArm {
  public:
   /// @param mailbox  of its stylus; must outlive this
@@ -35,12 +38,14 @@ class CrtkArm {
  private:
   void onServo(const geometry_msgs::PoseStamped& message);
   void onMove(const geometry_msgs::PoseStamped& message);
-  void onJaw(const sensor_msgs::JointState& message);
+  void onVelocity(const geometry_msgs::TwistStamped& message);
+  void onHold();
+  void onJaw(const sensor_msgs::JointState& message, bool moves);
   void onState(const foreign::StringStamped& message);
   bool good(const geometry_msgs::PoseStamped& message, const std::string& topic);
   void refuse(const std::string& topic, Drop reason);
   void place();
-  void tellJaws(const ros::Time& stamp);
+  void tellSetpoints();
   void tellState();
 
   StylusMailbox& mailbox_;
@@ -54,7 +59,8 @@ class CrtkArm {
   Pose last_measured_;
   ros::Time last_told_;
   std::vector<ros::Subscriber> commands_;
-  ros::Publisher measured_cp_, setpoint_cp_, measured_cv_, operating_state_, measured_js_, setpoint_js_;
+  ros::SteadyTimer setpoints_;
+  ros::Publisher measured_cp_, setpoint_cp_, goal_cp_, measured_cv_, operating_state_, measured_js_, setpoint_js_;
 };
 
 }  // namespace viscera::nodes

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace viscera {
 namespace {
 
@@ -94,6 +96,60 @@ TEST(ArmMotion, HomesAndRefusesWhatItDoesNotKnow) {
   EXPECT_FALSE(arm.command("home"));
   EXPECT_TRUE(arm.homed());
   EXPECT_EQ(arm.command("dance"), "'dance' is none of enable, disable, pause, resume, home, unhome");
+}
+
+TEST(ArmMotion, VelocityGoesOnForAMomentAndIsHeldByNothingElse) {
+  ArmMotion arm(config());
+  ASSERT_TRUE(arm.servoVelocity({0.05, 0, 0}, {0, 0, 1}));
+  EXPECT_TRUE(arm.moves());
+  EXPECT_FALSE(arm.busy());  // whoever waits for the end of a move does not wait for this
+  for (int i = 0; i < 10; ++i) {
+    arm.advance(0.01);
+    arm.servoVelocity({0.05, 0, 0}, {0, 0, 1});
+  }
+  EXPECT_NEAR(arm.setpoint().position_m.x(), 0.005, kRounding);
+  EXPECT_NEAR(arm.setpoint().orientation.angularDistance(Quaterniond::Identity()), 0.1, 1e-9);
+  arm.advance(1);  // nobody tells it to go on
+  EXPECT_NEAR(arm.setpoint().position_m.x(), 0.005 + 0.05 * ArmMotion::kVelocityHolds_s, kRounding);
+  EXPECT_FALSE(arm.moves());
+}
+
+TEST(ArmMotion, HoldStopsWhateverMoves) {
+  ArmMotion arm(config());
+  arm.move(at(0.1));
+  arm.moveJaw(0);
+  arm.advance(0.5);
+  const double there = arm.setpoint().position_m.x(), jaw = arm.jaw_rad();
+  EXPECT_EQ(arm.goal().position_m.x(), 0.1);
+  EXPECT_TRUE(arm.hold());
+  arm.advance(5);
+  EXPECT_EQ(arm.setpoint().position_m.x(), there);
+  EXPECT_EQ(arm.goal().position_m.x(), there);
+  EXPECT_EQ(arm.jaw_rad(), jaw);
+  EXPECT_FALSE(arm.busy());
+  arm.command("pause");
+  EXPECT_FALSE(arm.hold());
+  EXPECT_FALSE(arm.servoVelocity({1, 0, 0}, {0, 0, 0}));
+  EXPECT_FALSE(arm.moveJaw(0));
+}
+
+TEST(ArmMotion, JawsMoveBesideTheArmAndTakeTheirTime) {
+  ArmMotion arm(config());
+  const double open_rad = arm.jaw_rad();
+  arm.move(at(0.001));
+  ASSERT_TRUE(arm.moveJaw(0));
+  arm.advance(0.1);
+  EXPECT_TRUE(arm.busy());  // the jaws are
+  EXPECT_EQ(arm.setpoint().position_m.x(), 0.001);
+  EXPECT_LT(arm.jaw_rad(), open_rad);
+  EXPECT_GT(arm.jaw_rad(), 0);
+  arm.advance(15.0 / 8 * open_rad / (M_PI / 2));
+  EXPECT_EQ(arm.jaw_rad(), 0);
+  EXPECT_FALSE(arm.busy());
+  arm.moveJaw(1);
+  arm.servoJaw(0.2);
+  arm.advance(5);
+  EXPECT_EQ(arm.jaw_rad(), 0.2);
 }
 
 }  // namespace

@@ -12,6 +12,7 @@ from drivers import JAWS, fill, foreign, vector
 from geometry_msgs.msg import PoseStamped, TwistStamped, WrenchStamped
 from sensor_msgs.msg import JointState
 from simulator_watch import Latest, SimulatorWatch, wait_until
+from std_msgs.msg import Empty
 from tf2_msgs.msg import TFMessage
 from turns import length, plus, rotation, times
 
@@ -26,6 +27,9 @@ PLACE_M = 1e-6            # what rounding leaves
 TURN = 1e-6               # of a rotation's nine numbers: the same
 SPEED = 0.05              # share by which a mean of a few ticks may differ
 FELT_N = 0.05
+HOLDS_S = 0.1             # that a velocity is followed without news
+LATE_M = 0.003            # a tick or two at 5 cm/s, on a busy machine
+FRESH_HZ = 120            # crtk_python_client waits for what is older than 10 ms; 200 are sent, a busy machine is late
 
 
 def turn_of(orientation):
@@ -43,7 +47,7 @@ class CrtkArmTest(unittest.TestCase):
         cls.watch = SimulatorWatch()
         cls.states = []
         cls.at = Latest("PSM1/measured_cp", PoseStamped)
-        cls.setpoint = Latest("PSM1/setpoint_cp", PoseStamped)
+        cls.setpoint = Latest("PSM1/setpoint_cp", PoseStamped, queue_size=100)
         cls.speed = Latest("PSM1/measured_cv", TwistStamped)
         cls.force = Latest("PSM1/measured_cf", WrenchStamped)
         cls.jaw = Latest("PSM1/jaw/measured_js", JointState)
@@ -52,10 +56,16 @@ class CrtkArmTest(unittest.TestCase):
         cls.tf = Latest("/tf", TFMessage, cls.on_tf)
         cls.servo = rospy.Publisher("PSM1/servo_cp", PoseStamped, queue_size=1, latch=True)
         cls.move = rospy.Publisher("PSM1/move_cp", PoseStamped, queue_size=1, latch=True)
+        cls.velocity = rospy.Publisher("PSM1/servo_cv", TwistStamped, queue_size=1)
+        cls.hold = rospy.Publisher("PSM1/hold", Empty, queue_size=1)
+        cls.move_jaws = rospy.Publisher("PSM1/jaw/move_jp", JointState, queue_size=1)
+        cls.goal = Latest("PSM1/goal_cp", PoseStamped, queue_size=100)
+        cls.jaw_setpoint = Latest("PSM1/jaw/setpoint_js", JointState, queue_size=100)
         cls.jaws = rospy.Publisher("PSM1/jaw/servo_jp", JointState, queue_size=1, latch=True)
         cls.command = rospy.Publisher("PSM1/state_command", StringStamped, queue_size=1, latch=True)
         wait_until(lambda: cls.at.message, 60, "measured_cp")
-        wait_until(lambda: all(p.get_num_connections() for p in (cls.servo, cls.move, cls.jaws, cls.command)), LIMIT_S,
+        wait_until(lambda: all(p.get_num_connections() for p in (cls.servo, cls.move, cls.jaws, cls.command,
+                                                                         cls.velocity, cls.hold, cls.move_jaws)), LIMIT_S,
                    "subscribers of commands")
 
     @classmethod
@@ -152,6 +162,69 @@ class CrtkArmTest(unittest.TestCase):
         self.tell(self.servo, (float("nan"), 0, 0))
         wait_until(lambda: self.watch.value("left", "dropped_not_finite") == before + 1, LIMIT_S, "count")
         self.assertTrue(self.is_at((0, 0, 0.06)))
+
+    def wait_rest(self):
+        wait_until(lambda: not self.state.message.is_busy, LIMIT_S, "end of the move")
+
+    def test_6_velocity_is_followed_while_it_is_told(self):
+        self.go((-0.02, 0.01, 0.05))
+        begun = time.monotonic()
+        for _ in range(50):  # 200 Hz, as crtk_servo_cv_example
+            message = TwistStamped()
+            message.twist.linear.x = 0.05
+            self.velocity.publish(message)
+            time.sleep(0.005)
+        took_s = time.monotonic() - begun
+        self.assertFalse(self.state.message.is_busy)
+        time.sleep(HOLDS_S + 0.3)
+        way = self.at.message.pose.position.x + 0.02
+        self.assertGreater(way, 0.8 * 0.05 * took_s)
+        self.assertLess(way, 0.05 * (took_s + HOLDS_S) + LATE_M)
+        there = vector(self.at.message.pose.position)
+        time.sleep(0.3)
+        self.assertTrue(self.is_at(there))  # nobody tells it to go on
+        message.twist.linear.x = float("nan")
+        self.velocity.publish(message)
+        time.sleep(0.3)
+        self.assertTrue(self.is_at(there))
+
+    def test_7_hold_stops_a_move_whose_goal_was_told(self):
+        self.go((-0.02, 0.01, 0.05))
+        goal = (0.03, 0.01, 0.05)
+        self.tell(self.move, goal)
+        wait_until(lambda: self.state.message.is_busy and self.at.message.pose.position.x > -0.01, LIMIT_S, "move")
+        self.assertLess(length(plus(vector(self.goal.message.pose.position), goal, -1)), PLACE_M)
+        self.hold.publish(Empty())
+        self.wait_rest()
+        there = vector(self.setpoint.message.pose.position)
+        time.sleep(0.5)
+        self.assertLess(there[0], goal[0] - 0.005)
+        self.assertTrue(self.is_at(there))
+        self.assertLess(length(plus(vector(self.goal.message.pose.position), there, -1)), PLACE_M)
+
+    def test_8_jaws_move_and_their_end_can_be_waited_for(self):
+        self.go((0.01, 0.01, DEEP_M))
+        self.jaws.publish(JointState(position=[0.5]))
+        wait_until(lambda: list(self.jaw.message.position) == [0.5], LIMIT_S, "open jaws")
+        angles = []
+        watched = Latest("PSM1/jaw/setpoint_js", JointState, lambda m: angles.append(m.position[0]), queue_size=100)
+        self.move_jaws.publish(JointState(position=[0.0]))
+        wait_until(lambda: self.state.message.is_busy, LIMIT_S, "busy jaws")
+        self.wait_rest()
+        watched.stop()
+        self.assertTrue([a for a in angles if 0.1 < a < 0.4], angles)
+        wait_until(lambda: (self.watch.value("left", "nodes_held") or 0) > 0, LIMIT_S, "tissue in the jaws")
+        self.move_jaws.publish(JointState(position=[0.5]))
+        wait_until(lambda: self.watch.value("left", "nodes_held") == 0, LIMIT_S, "open jaws")
+        self.go((0.01, 0.01, 0.05))
+
+    def test_9_setpoints_come_so_often_that_clients_need_not_wait(self):
+        counts = {}
+        for name, latest in (("setpoint_cp", self.setpoint), ("goal_cp", self.goal), ("jaw/setpoint_js", self.jaw_setpoint)):
+            before = latest.count
+            time.sleep(2)
+            counts[name] = (latest.count - before) / 2
+        self.assertGreater(min(counts.values()), FRESH_HZ, counts)
 
 
 if __name__ == "__main__":
