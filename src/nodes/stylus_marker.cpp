@@ -24,7 +24,8 @@ constexpr std::chrono::seconds kPatience{3};         ///< without a simulator, b
 constexpr double kSizeOfOrgan = 0.3;                 ///< of the marker's arrows over the organ's longest side
 constexpr double kLeast_m = 0.015, kMost_m = 0.035;  ///< of these arrows
 constexpr double kReachOfOrgan = 1.2;                ///< over the way from the start to the organ's far end
-constexpr double kLetter_m = 0.006, kAbove = 2.2;    ///< of the text, in sizes of the marker
+constexpr double kLetter_m = 0.006;                  ///< of the text
+const Vector3d kTextAt(0, -1.1, 1.2);                ///< in sizes of the marker: beside the shaft, away from the organ
 
 /// The motion from one pose to another, made shorter, of a third one.
 Pose moved(const Pose& from, const Pose& to, double share, const Pose& start) {
@@ -276,7 +277,7 @@ visualization_msgs::Marker StylusMarker::textNow() {
   marker.header.frame_id = look_.frame;
   marker.ns = look_.stylus;
   marker.type = visualization_msgs::Marker::TEXT_VIEW_FACING;
-  marker.pose = toMessage(Pose{tip.position_m + kAbove * look_.size_m * Vector3d::UnitZ(), Quaterniond::Identity()});
+  marker.pose = toMessage(Pose{tip * (look_.size_m * kTextAt), Quaterniond::Identity()});
   marker.scale.z = kLetter_m;
   marker.color.r = marker.color.g = marker.color.b = marker.color.a = 1;
   marker.text = text;
