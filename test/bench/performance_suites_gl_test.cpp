@@ -137,6 +137,13 @@ TEST_F(PerformanceSuite, GpuMeasuresOnePartAloneAndNamesThemAll) {
   EXPECT_TRUE(test::says(wrong.err, {"groups", "reads", "kernels", "faces", "flight", "live", "bytes"})) << wrong.err;
 }
 
+TEST_F(PerformanceSuite, BusyHasEveryNumberOfThreadsBesideEachLoad) {
+  run("busy");
+  for (const std::string load : {"none", "one of lowest priority", "two of normal priority"})
+    EXPECT_EQ(rowsWith("rates", {load}), 3u) << load;  // one thread, two, auto
+  EXPECT_EQ(rows("checks").size(), 4u);
+}
+
 TEST_F(PerformanceSuite, LimitHasMachineAndFractions) {
   run("limit");
   EXPECT_EQ(rows("machine").size(), 3u);

@@ -18,7 +18,7 @@ namespace viscera {
 
 namespace {
 
-constexpr size_t kBricksPerJob = 16;  // of a measurement
+constexpr Portions kMeasuredBricks{2, 16};
 
 simd::Kernels kernelsOrThrow(const std::string& target) {
   const std::optional<simd::Kernels> kernels = simd::kernelsFor(target);
@@ -158,10 +158,8 @@ void CpuBackend::measure() {
                        lattice_.strengths.mass.data(), work_->stats.data()};
   std::vector<uint32_t>& changed = work_->changed;
   sleep_.takeChanged(lattice_, changed);
-  pool_((changed.size() + kBricksPerJob - 1) / kBricksPerJob, [&](size_t i) {
-    const size_t first = i * kBricksPerJob;
-    kernels_.measure(job, &changed[first], std::min(kBricksPerJob, changed.size() - first));
-  });
+  pool_.ranges(changed.size(), kMeasuredBricks,
+               [&](size_t first, size_t end) { kernels_.measure(job, &changed[first], end - first); });
   layout::TickStats out{};
   out.springs_cut = springs_cut_;
   std::copy(std::begin(stats_.grabbed), std::end(stats_.grabbed), std::begin(out.grabbed));

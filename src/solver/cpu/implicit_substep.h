@@ -77,9 +77,9 @@ void runNodes(const Parallel& parallel, const CpuLattice& lattice, const Kernel&
 /// Runs a kernel for the first `count` of whatever it goes through.
 template <class Kernel>
 void runCount(const Parallel& parallel, size_t count, const Kernel& kernel) {
-  parallel((count + kNodesPerJob - 1) / kNodesPerJob, [&](size_t job) {
+  parallel.ranges(count, {layout::kBrickSlots, kNodesPerJob}, [&](size_t first, size_t end) {
     Kernel mine = kernel;
-    runRange(mine, job * kNodesPerJob, std::min((job + 1) * kNodesPerJob, count));
+    runRange(mine, first, end);
   });
 }
 

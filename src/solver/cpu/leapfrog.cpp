@@ -12,8 +12,9 @@ namespace viscera {
 
 namespace {
 
-constexpr size_t kMostBricksPerJob = 16;  // of a substep: about 10 us of work
-constexpr size_t kJobsPerThread = 8;      // at least, where there are bricks enough: whoever is free takes the next
+constexpr size_t kMostBricks = 16;     // that a thread takes at a time: about 10 us of work
+constexpr size_t kLeastBricks = 2;     // towards a round's end: about 1 us, still ten times what taking them costs
+constexpr size_t kPartsPerThread = 8;  // at least, where there are bricks enough: a free thread takes the next
 
 /// What tools do to a node in the substep that was just made (shaders/solver/contact.glsl).
 void touchNode(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions, uint32_t slot) {
@@ -76,8 +77,9 @@ void CpuLeapfrog::run(CpuLattice& lattice, const Substep& step, const layout::To
 /// One substep of the bricks that are awake.
 void CpuLeapfrog::stepAwake(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions) {
   const size_t awake = sleep_.awake().size();
-  const size_t fair = awake / (kJobsPerThread * static_cast<size_t>(parallel_.threads()));
-  per_job_ = std::clamp<size_t>(fair, 1, kMostBricksPerJob);
+  const size_t fair = awake / (kPartsPerThread * static_cast<size_t>(parallel_.threads()));
+  portions_.most = std::clamp<size_t>(fair, 1, kMostBricks);
+  portions_.least = std::min(portions_.most, kLeastBricks);
   job_.arrays = arraysOf(lattice);
   if (!cell_sums_.empty()) {
     sumCells(lattice);
@@ -90,7 +92,7 @@ void CpuLeapfrog::stepAwake(CpuLattice& lattice, const Substep& step, const layo
     const layout::ToolMotion& m = motions[s];
     if (m.info.y & layout::kToolPushes) job_.reach[job_.reaches++] = {{m.to.x, m.to.y, m.to.z}, reachOf(m, deepest_m_)};
   }
-  parallel_((awake + per_job_ - 1) / per_job_, [&](size_t chunk) { stepBricks(lattice, step, motions, chunk); });
+  parallel_.ranges(awake, portions_, [&](size_t first, size_t end) { stepBricks(lattice, step, motions, first, end); });
 }
 
 /// Forces of all cells that have a corner in a brick that is awake: of its own and of the seven below it.
@@ -111,19 +113,16 @@ void CpuLeapfrog::sumCells(CpuLattice& lattice) {
   job.dashpot = job_.dashpot;
   job.strained = strained_.data();
   job.sums = cell_sums_.data();
-  parallel_((cell_bricks_.size() + per_job_ - 1) / per_job_, [&](size_t chunk) {
-    const size_t first = chunk * per_job_;
-    sum_cells_(job, &cell_bricks_[first], std::min(per_job_, cell_bricks_.size() - first));
-  });
+  parallel_.ranges(cell_bricks_.size(), portions_,
+                   [&](size_t first, size_t end) { sum_cells_(job, &cell_bricks_[first], end - first); });
 }
 
-void CpuLeapfrog::stepBricks(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions,
-                             size_t chunk) {
+void CpuLeapfrog::stepBricks(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions, size_t first,
+                             size_t end) {
   const std::vector<uint32_t>& awake = sleep_.awake();
-  const size_t first = chunk * per_job_, count = std::min(per_job_, awake.size() - first);
-  step_bricks_(job_, &awake[first], count);
+  step_bricks_(job_, &awake[first], end - first);
   if (!step.tools) return;
-  for (size_t i = first; i < first + count; ++i) {
+  for (size_t i = first; i < end; ++i) {
     const uint32_t brick = awake[i];
     if (!near_[brick] && !lattice.hands.held[brick]) continue;
     near_[brick] = 0;

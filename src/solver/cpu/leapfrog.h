@@ -20,7 +20,8 @@ class CpuLeapfrog : public CpuStepper {
  private:
   void stepAwake(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions);
   void sumCells(CpuLattice& lattice);
-  void stepBricks(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions, size_t chunk);
+  void stepBricks(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions, size_t first,
+                  size_t end);
   void stepNetwork(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions);
   void touch(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions, uint32_t brick);
 
@@ -40,7 +41,7 @@ class CpuLeapfrog : public CpuStepper {
   std::vector<uint16_t> strained_;  ///< [bricks]
   std::vector<float> speed2_;       ///< [bricks]
   std::vector<NodeReach> reaches_;  ///< of probes in this substep, for nodes with explicit connections
-  size_t per_job_ = 1;
+  Portions portions_;               ///< of bricks
 };
 
 }  // namespace viscera

@@ -191,8 +191,8 @@ void measureWith(CpuLattice& lattice, const std::vector<uint32_t>& slots, layout
   takeLarger(stats.max_rate_bits, kernel.stats.max_rate_bits);
 }
 
-constexpr size_t kGroupsPerJob = 16;      // of a substep: some 10 us of work
-constexpr size_t kGroupsPerSpread = 512;  // the same
+constexpr Portions kGroupsPerStep{2, 16};      // of a substep: some 10 us of work at most
+constexpr Portions kGroupsPerSpread{64, 512};  // the same
 
 std::vector<uint32_t> groupsOf(const std::vector<uint32_t>& slots) {
   std::vector<uint32_t> out;
@@ -289,13 +289,11 @@ void CpuNetwork::stepInRows(CpuLattice& lattice, const Substep& step, AlignedVec
   job.nodes = lattice.store.nodes.data();
   job.places = places_.data();
   job.speeds = speeds_.data();
-  const auto ofAll = [&](simd::NetworkGroups kernel, size_t per_job) {
-    const size_t groups = rows_.groups.size();
-    parallel_((groups + per_job - 1) / per_job,
-              [&](size_t chunk) { kernel(job, chunk * per_job, std::min((chunk + 1) * per_job, groups)); });
+  const auto ofAll = [&](simd::NetworkGroups kernel, Portions portions) {
+    parallel_.ranges(rows_.groups.size(), portions, [&](size_t first, size_t end) { kernel(job, first, end); });
   };
   ofAll(spread_rows_, kGroupsPerSpread);
-  ofAll(step_rows_, kGroupsPerJob);
+  ofAll(step_rows_, kGroupsPerStep);
 }
 
 void CpuNetwork::stepInText(CpuLattice& lattice, const Substep& step) {

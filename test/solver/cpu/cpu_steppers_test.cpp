@@ -24,12 +24,16 @@ constexpr int kSubsteps = 3;
 constexpr double kConvergedWithTools = 1e-5;
 constexpr Integrator kImplicit[] = {Integrator::kPd, Integrator::kVbd};
 
-/// Each job on a thread of its own, the last one first.
+/// Each job on a thread of its own, the last one first; ranges in the smallest portions.
 class Scattered : public Parallel {
  protected:
-  void run(size_t count, Call call, const void* job) const override {
+  void run(size_t count, Portions portions, Call call, const void* job) const override {
     std::vector<std::thread> threads;
-    for (size_t i = count; i-- > 0;) threads.emplace_back(call, job, i);
+    for (size_t end = count; end > 0;) {
+      const size_t first = (end - 1) / portions.least * portions.least;
+      threads.emplace_back(call, job, first, end);
+      end = first;
+    }
     for (std::thread& thread : threads) thread.join();
   }
 };

@@ -127,6 +127,57 @@ TEST(ThreadPool, HasTheThreadsAskedForOrThoseOfTheMachine) {
   EXPECT_GE(makeThreadPool()->threads(), 1);
 }
 
+TEST(ThreadPool, RangesAreEveryItemOnceInPortionsThatEndSmall) {
+  constexpr Portions kPortions{2, 16};
+  for (int threads = 1; threads <= 4; ++threads) {
+    const ThreadPool pool(threads);
+    for (const size_t count : {0, 1, 2, 15, 64, 1000}) {
+      std::vector<std::atomic<uint32_t>> runs(count);
+      std::atomic<size_t> largest{0};
+      pool.ranges(count, kPortions, [&](size_t first, size_t end) {
+        for (size_t i = first; i < end; ++i) ++runs[i];
+        for (size_t most = largest; most < end - first && !largest.compare_exchange_weak(most, end - first);) {
+        }
+      });
+      for (const auto& n : runs) ASSERT_EQ(n, 1u) << count;
+      EXPECT_LE(largest, kPortions.most);
+    }
+  }
+}
+
+TEST(ThreadPool, RunsEveryJobOnceWhileThreadsJoinAndLeave) {
+  ThreadPool pool(4);
+  std::atomic<bool> stop{false};
+  std::thread other([&] {
+    for (int i = 1; !stop; ++i) pool.limit(1 + i % 4);
+  });
+  expectEveryJobOnce(pool, 5000, std::chrono::microseconds(0));
+  expectEveryJobOnce(pool, 100, std::chrono::microseconds(500));  // some are asleep
+  stop = true;
+  other.join();
+}
+
+TEST(ThreadPool, ThreadsThatAreLeftOutTakeNoProcessorTime) {
+  constexpr double kBusy_s = 0.2, kMore = 0.1;  // share of what the caller takes
+  ThreadPool pool(3);
+  pool.limit(1);
+  const auto rounds = [&](double seconds) {
+    const auto until = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+    while (std::chrono::steady_clock::now() < until) pool(10, [](size_t) {});
+  };
+  rounds(0.01);
+  EXPECT_EQ(pool.sharing(), 1);
+  timespec own{};
+  const double before = processorTime();
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &own);
+  const double own_before = static_cast<double>(own.tv_sec) + 1e-9 * static_cast<double>(own.tv_nsec);
+  rounds(kBusy_s);
+  const double all = processorTime() - before;
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &own);
+  const double mine = static_cast<double>(own.tv_sec) + 1e-9 * static_cast<double>(own.tv_nsec) - own_before;
+  EXPECT_LT(all - mine, kMore * mine);
+}
+
 TEST(ThreadPool, WhatAJobThrowsIsThrownToTheCallerAndTheNextRoundIsWhole) {
   for (const int threads : {1, 2, 4}) {
     const ThreadPool pool(threads);

@@ -1,0 +1,103 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Results are the same to the bit on any number of threads, also where threads join and leave in the middle.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <thread>
+
+#include "solver/cpu/cpu_solver.h"
+#include "solver/cpu/thread_pool.h"
+#include "support/lattices.h"
+#include "viscera/math/state_hash.h"
+
+namespace viscera {
+namespace {
+
+constexpr int kTicks = 5, kMost = 7;
+constexpr double kSpacing_m = 0.004;
+constexpr Integrator kAllIntegrators[] = {Integrator::kLeapfrog, Integrator::kVerletPaper, Integrator::kVbd,
+                                          Integrator::kPd, Integrator::kMultigrid};
+
+/// A block held at its bottom, with energy of volume and a dashpot.
+Model heldBlock() {
+  Body body = test::boxBody({13, 13, 9}, kSpacing_m);
+  body.material.poisson_ratio = 0.3;
+  for (uint32_t slot : body.lattice.active_slots) {
+    if (body.lattice.nodeAt(slot).z() == 0) body.lattice.nodes[slot].lo |= layout::kFixedBit;
+  }
+  return test::modelOf({body});
+}
+
+Scene sceneOf(Integrator integrator) {
+  Scene scene;
+  scene.styluses.resize(1);
+  scene.solver.integrator = integrator;
+  scene.solver.tick_hz = 200;
+  scene.solver.iterations = 3;
+  scene.solver.max_substeps = 10000;
+  return scene;
+}
+
+/// A probe that goes into the block's top and along it.
+ToolMotions motionsAt(int tick) {
+  const auto place = [](int t) { return Vector3d(0.02 + 0.0005 * t, 0.024, 0.034 - 0.0004 * t); };
+  ToolMotions motions;
+  motions[0].mode = ToolMode::kProbe;
+  motions[0].present = true;
+  motions[0].from.position_m = place(tick);
+  motions[0].to.position_m = place(tick + 1);
+  return motions;
+}
+
+uint64_t hashOf(const Model& model, Integrator integrator, const std::shared_ptr<ThreadPool>& threads) {
+  CpuSolverOptions options;
+  options.threads = threads;
+  CpuSolver solver(model, sceneOf(integrator), options);
+  for (int t = 0; t < kTicks; ++t) solver.step(motionsAt(t));
+  return stateHash(model, solver.readState());
+}
+
+/// Changes the number of threads as long as it lives.
+class Restless {
+ public:
+  explicit Restless(ThreadPool& pool)
+      : thread_([this, &pool] {
+          for (int i = 0; !stop_; ++i) {
+            pool.limit(1 + (5 * i) % kMost);
+            std::this_thread::sleep_for(std::chrono::microseconds(100 + 37 * (i % 11)));
+          }
+        }) {}
+  ~Restless() {
+    stop_ = true;
+    thread_.join();
+  }
+
+ private:
+  std::atomic<bool> stop_{false};
+  std::thread thread_;
+};
+
+TEST(Threads, AnyNumberOfThemEndsInTheSameState) {
+  const Model model = heldBlock();
+  for (const Integrator integrator : kAllIntegrators) {
+    const uint64_t alone = hashOf(model, integrator, makeThreadPool(1));
+    for (const int threads : {2, 3, 4, 7})
+      EXPECT_EQ(hashOf(model, integrator, makeThreadPool(threads)), alone)
+          << static_cast<int>(integrator) << ", " << threads;
+  }
+}
+
+TEST(Threads, ThatJoinAndLeaveInTheMiddleEndInTheSameState) {
+  const Model model = heldBlock();
+  for (const Integrator integrator : kAllIntegrators) {
+    const uint64_t alone = hashOf(model, integrator, makeThreadPool(1));
+    const auto pool = makeThreadPool(kMost);
+    const Restless restless(*pool);
+    EXPECT_EQ(hashOf(model, integrator, pool), alone) << static_cast<int>(integrator);
+  }
+}
+
+}  // namespace
+}  // namespace viscera
