@@ -63,6 +63,12 @@ StepTimeCache StepTimeCache::ofUser() {
   return StepTimeCache(home.empty() ? "" : home + "/.cache/viscera");
 }
 
+StepTimeCache StepTimeCache::asItIs() const {
+  StepTimeCache out = *this;
+  out.keeps_ = false;
+  return out;
+}
+
 std::optional<StepTime> StepTimeCache::find(const std::string& key) const {
   if (file_.empty()) return std::nullopt;
   for (const Entry& entry : readEntries(file_)) {
@@ -72,7 +78,7 @@ std::optional<StepTime> StepTimeCache::find(const std::string& key) const {
 }
 
 void StepTimeCache::keep(const std::string& key, const StepTime& time) const {
-  if (file_.empty() || !makesSense(time)) return;
+  if (!keeps_ || file_.empty() || !makesSense(time)) return;
   const std::vector<Entry> others = readEntries(file_);
   const std::string draft = file_ + "." + std::to_string(getpid());  // whole or not at all, whoever reads meanwhile
   std::error_code error;

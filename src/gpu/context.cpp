@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstring>
+#include <map>
+#include <mutex>
 
 #include "gpu/gl.h"
 #include "gpu/limits.h"
@@ -33,6 +35,25 @@ template <class F>
 F eglFunction(const char* name) {
   return reinterpret_cast<F>(eglGetProcAddress(name));
 }
+
+/// Users of each display: eglTerminate() would take it from all of them.
+class Displays {
+ public:
+  static bool open(EGLDisplay display) {
+    const std::lock_guard<std::mutex> lock(mutex);
+    if (!eglInitialize(display, nullptr, nullptr)) return false;
+    ++users[display];
+    return true;
+  }
+  static void close(EGLDisplay display) {
+    const std::lock_guard<std::mutex> lock(mutex);
+    if (--users[display] == 0) eglTerminate(display);
+  }
+
+ private:
+  inline static std::mutex mutex;
+  inline static std::map<EGLDisplay, int> users;
+};
 
 struct Candidate {
   int index;
@@ -127,7 +148,7 @@ EGLContext openContext(EGLDisplay display, std::string& reason) {
     eglDestroyContext(display, context);
     context = EGL_NO_CONTEXT;
   }
-  if (context == EGL_NO_CONTEXT) eglTerminate(display);
+  if (context == EGL_NO_CONTEXT) Displays::close(display);
   return context;
 }
 
@@ -163,7 +184,7 @@ bool Context::open(int index, void* device, DeviceAttempt& attempt) {
     attempt.reason = eglFailure("eglGetPlatformDisplayEXT");
     return false;
   }
-  if (!eglInitialize(display, nullptr, nullptr)) {
+  if (!Displays::open(display)) {
     attempt.reason = eglFailure("eglInitialize");
     return false;
   }
@@ -173,7 +194,7 @@ bool Context::open(int index, void* device, DeviceAttempt& attempt) {
   if (!attempt.reason.empty()) {
     eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
     eglDestroyContext(display, context);
-    eglTerminate(display);
+    Displays::close(display);
     return false;
   }
   display_ = display;
@@ -201,7 +222,7 @@ Context::~Context() {
   if (!context_) return;
   release();
   eglDestroyContext(display_, context_);
-  eglTerminate(display_);
+  Displays::close(display_);
 }
 
 }  // namespace viscera::gpu

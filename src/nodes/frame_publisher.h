@@ -50,6 +50,9 @@ class FramePublisher {
   /// Somebody subscribes to the surface, to markers or to an image. From any thread.
   bool isViewed() const;
 
+  /// Says it in the place of the tissue, for rviz, until there are markers of a tick. Before start().
+  void tell(const std::string& text) { scene_markers_.tell(text); }
+
   // For the simulation's thread:
   void start(const std::shared_ptr<const ShownTopology>& skin);
   /// What subscribers want of the tick that begins now; the tick's stamp is taken here.

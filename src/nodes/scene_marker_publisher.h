@@ -5,12 +5,13 @@
 #include <ros/node_handle.h>
 
 #include <chrono>
+#include <string>
 
 #include "nodes/scene_markers.h"
 
 namespace viscera::nodes {
 
-/// Topic `scene_markers`, for rviz.
+/// Topic `scene_markers`, for rviz: latched, so that a viewer who comes while the scene is made, or paused, sees it.
 class SceneMarkerPublisher {
  public:
   SceneMarkerPublisher(ros::NodeHandle& node, const Scene& scene, const PublishOptions& options);
@@ -23,6 +24,8 @@ class SceneMarkerPublisher {
   void setRate(double rate_hz) { period_ = period(rate_hz); }
   /// From any one thread.
   void publish(const SceneLook& look, const ros::Time& stamp);
+  /// A text alone, in the place of all else, where it is not the last one again.
+  void tell(const std::string& text);
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -31,6 +34,7 @@ class SceneMarkerPublisher {
   const SceneMarkers markers_;
   Clock::duration period_;
   Clock::time_point next_{};
+  std::string told_;
   ros::Publisher publisher_;
 };
 

@@ -92,6 +92,7 @@ SceneMarkers::SceneMarkers(const Scene& scene, const PublishOptions& options)
     obstacles_.push_back({obstacle.name, partsOf(shape), pointsOf(shape)});
   }
   for (const CameraConfig& camera : scene.cameras) cameras_.push_back({camera.name, camera.position_m});
+  if (!scene.cameras.empty()) middle_m_ = scene.cameras[0].target_m;
 }
 
 SceneMarkers::Parts SceneMarkers::partsOf(const ToolShape& shape) {
@@ -115,6 +116,15 @@ MarkerArray SceneMarkers::at(const SceneLook& look, const ros::Time& stamp) cons
   for (size_t i = 0; i < std::min(obstacles_.size(), look.obstacles.size()); ++i)
     addParts("obstacles", kMostParts * i, obstacles_[i].parts, look.obstacles[i], stamp, out);
   addNames(look, stamp, out);
+  addText("", stamp, out);
+  return out;
+}
+
+MarkerArray SceneMarkers::telling(const std::string& text, const ros::Time& stamp) const {
+  MarkerArray out;
+  Marker& all = out.markers.emplace_back(marker("preparing", 0, stamp));
+  all.action = Marker::DELETEALL;
+  addText(text, stamp, out);
   return out;
 }
 
@@ -166,6 +176,18 @@ void SceneMarkers::addForce(size_t stylus, const SceneLook& look, const ros::Tim
   marker.scale.y = kHead * kArrowWidth_m;
   marker.scale.z = std::min(kHead * kArrowWidth_m, 0.5 * arrow_m.norm());
   paint(kYellow, marker);
+}
+
+/// @param text  empty: none
+void SceneMarkers::addText(const std::string& text, const ros::Time& stamp, MarkerArray& out) const {
+  constexpr std::array<uint8_t, 4> kWhite = {255, 255, 255, 255};
+  Marker& marker = out.markers.emplace_back(this->marker("preparing", 0, stamp));
+  marker.type = Marker::TEXT_VIEW_FACING;
+  marker.action = text.empty() ? Marker::DELETE : Marker::ADD;
+  marker.pose.position = toPoint(middle_m_);
+  marker.scale.z = letter_m_;
+  marker.text = text;
+  paint(kWhite, marker);
 }
 
 void SceneMarkers::addNames(const SceneLook& look, const ros::Time& stamp, MarkerArray& out) const {

@@ -36,12 +36,14 @@ struct Label {
 void partLabels(std::vector<Label>& labels, double height_m);
 
 /// What the camera shows beside the tissue, as markers for rviz: tools and obstacles as meshes, forces as arrows,
-/// names. Namespaces `tools`, `obstacles`, `forces`, `names`. What is not there is told as DELETE, so that any array is
-/// the whole truth.
+/// names; or, as long as there is no tissue, what is done for it. Namespaces `tools`, `obstacles`, `forces`, `names`,
+/// `preparing`. What is not there is told as DELETE, so that any array is the whole truth.
 class SceneMarkers {
  public:
   SceneMarkers(const Scene& scene, const PublishOptions& options);
   visualization_msgs::MarkerArray at(const SceneLook& look, const ros::Time& stamp) const;
+  /// A text where the first camera looks, and nothing else.
+  visualization_msgs::MarkerArray telling(const std::string& text, const ros::Time& stamp) const;
 
  private:
   /// Triangles of one colour.
@@ -63,6 +65,7 @@ class SceneMarkers {
                visualization_msgs::MarkerArray& out) const;
   void addForce(size_t stylus, const SceneLook& look, const ros::Time& stamp,
                 visualization_msgs::MarkerArray& out) const;
+  void addText(const std::string& text, const ros::Time& stamp, visualization_msgs::MarkerArray& out) const;
   void addNames(const SceneLook& look, const ros::Time& stamp, visualization_msgs::MarkerArray& out) const;
 
   const std::string frame_;
@@ -71,6 +74,7 @@ class SceneMarkers {
   std::vector<std::map<ToolMode, Parts>> tools_;  ///< [styluses]
   std::vector<Obstacle> obstacles_;
   std::vector<Label> cameras_;
+  Vector3d middle_m_ = Vector3d::Zero();  ///< of the view
 };
 
 }  // namespace viscera::nodes

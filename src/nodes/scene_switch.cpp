@@ -93,21 +93,61 @@ SimulatorOptions SceneSwitch::check(const LoadScene::Request& request) const {
   SimulatorOptions next = running_;
   Parameters parameters = parametersOf(request, running_.publish.frame_prefix);
   next.take(SceneChoice::read(parameters, "").load(package_folder_), package_folder_);
-  // With spacing_m: auto the model is another one in the end, of the same mesh.
-  (void)buildModel(next.scene, [this](const std::string&, double) {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    if (state_ == State::kEnd) throw Ended{};
-  });
   return next;
 }
 
+/// @throws Error  no model can be made of the scene
+std::unique_ptr<MadeSession> SceneSwitch::make(const Scene& scene) const {
+  const Progress progress = [this](const std::string& stage, double fraction) {
+    ROS_INFO_THROTTLE(1, "load_scene: %s %.0f %%", stage.c_str(), 100 * fraction);
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (state_ == State::kEnd) throw Ended{};
+  };
+  auto made = std::make_unique<MadeSession>(scene);
+  made->makeModel(progress);
+  try {
+    made->makeRest(progress);
+  } catch (const std::exception& error) {  // perhaps for want of memory, which the old one has
+    ROS_WARN("load_scene: the rest waits for the end of the old scene: %s", oneLine(error.what()).c_str());
+    made->session.reset();
+  }
+  made->give();
+  return made;
+}
+
+std::unique_ptr<MadeSession> SceneSwitch::takeMade() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return std::move(made_);
+}
+
+void SceneSwitch::bury(std::unique_ptr<MadeSession> ended) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (made_ && made_->session) buried_ = std::move(ended);
+}
+
+void SceneSwitch::holdTopics() {
+  auto topics = std::make_unique<HeldTopics>();
+  const std::lock_guard<std::mutex> lock(mutex_);
+  topics_ = std::move(topics);
+}
+
+/// What is left of the simulator that ran before, and takes its time to end.
+void SceneSwitch::endOld() {
+  std::unique_ptr<MadeSession> session;  // both outlive the lock
+  std::unique_ptr<HeldTopics> topics;
+  const std::lock_guard<std::mutex> lock(mutex_);
+  session.swap(buried_);
+  topics.swap(topics_);
+}
+
 /// @returns why the scene did not come to run, or nothing
-std::string SceneSwitch::change(const SimulatorOptions& next) {
+std::string SceneSwitch::change(const SimulatorOptions& next, std::unique_ptr<MadeSession> made) {
   std::unique_lock<std::mutex> lock(mutex_);
   changed_.wait(lock, [this] { return state_ == State::kRunning || state_ == State::kEnd; });
   if (state_ == State::kEnd) return "the simulation has ended";
   state_ = State::kRequested;
   next_ = next;
+  made_ = std::move(made);
   error_.clear();
   changed_.wait(lock, [this] { return state_ == State::kRunning || state_ == State::kEnd; });
   if (state_ == State::kEnd) return "the simulation has ended";
@@ -117,7 +157,8 @@ std::string SceneSwitch::change(const SimulatorOptions& next) {
 bool SceneSwitch::onLoadScene(LoadScene::Request& request, LoadScene::Response& response) {
   try {
     const SimulatorOptions next = check(request);
-    response.message = change(next);
+    response.message = change(next, make(next.scene));
+    endOld();
     response.success = response.message.empty();
     if (response.success) response.message = "running " + next.scene.name;
   } catch (const Ended&) {

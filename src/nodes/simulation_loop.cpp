@@ -34,8 +34,10 @@ CommandAnswer answer(bool success, const std::string& message, const Session& se
 
 }  // namespace
 
-SimulationLoop::SimulationLoop(const Scene& scene, LoopPorts ports, Progress progress)
+SimulationLoop::SimulationLoop(const Scene& scene, std::unique_ptr<MadeSession> made, LoopPorts ports,
+                               Progress progress)
     : scene_(scene),
+      made_(made ? std::move(made) : std::make_unique<MadeSession>(scene)),
       ports_(std::move(ports)),
       progress_(std::move(progress)),
       pacer_(1.0 / scene.solver.tick_hz),
@@ -63,16 +65,19 @@ void SimulationLoop::main() {
     error_ = std::current_exception();
     ports_.failed();
   }
+  made_->give();
   commands_.close();
   ended_ = true;
 }
 
 void SimulationLoop::run() {
-  gpu::Context context(scene_.solver.device);
-  Session session(scene_, context, [this](const std::string& stage, double fraction) {
+  made_->take();
+  made_->makeRest([this](const std::string& stage, double fraction) {
     if (stop_) throw Stopped{};
     progress_(stage, fraction);
   });
+  const gpu::Context& context = *made_->context;
+  Session& session = *made_->session;
   {
     const std::lock_guard<std::mutex> lock(status_mutex_);
     status_.gpu = context.renderer();
@@ -81,7 +86,7 @@ void SimulationLoop::run() {
     status_.stepped_by = session.backendNote();
   }
   ports_.ready(session);
-  rest(session);
+  showSkin(session);
   while (!stop_) {
     while (std::optional<Command> command = commands_.take()) command->answer.set_value(execute(*command, session));
     if (paused_) {
@@ -107,6 +112,17 @@ void SimulationLoop::tick(Session& session, const StylusSamples& samples, bool l
   tick_ended_ = stepped;
   ports_.stepped(session.tick(), samples, frame.tools, std::exchange(hands_anew_, false));
   deliver(session, std::move(frame), samples, live);
+}
+
+/// Of the state at the start. Pictures take their time: they are those of the first ticks.
+void SimulationLoop::showSkin(Session& session) {
+  Frame frame = session.drain();
+  Wants wants;
+  wants.surface = ports_.stills(true, false).surface;
+  if (wants.surface) frame.surface = session.show(wants).surface;
+  deliver(session, std::move(frame), ports_.samples(), false);
+  tick_ended_ = Clock::now();
+  pacer_.restart(tick_ended_);
 }
 
 void SimulationLoop::rest(Session& session) {

@@ -8,13 +8,16 @@
 #include <exception>
 #include <functional>
 #include <future>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "nodes/command_queue.h"
+#include "nodes/made_session.h"
 #include "nodes/pace_meter.h"
 #include "nodes/pacer.h"
 #include "viscera/session/session.h"
@@ -65,7 +68,8 @@ class SimulationLoop {
   /// Most ticks that one step command may ask for.
   static constexpr uint32_t kMaxStepTicks = 10000;
 
-  SimulationLoop(const Scene& scene, LoopPorts ports, Progress progress);
+  /// @param made  a session of the scene that was made before, or as much of it; null: none
+  SimulationLoop(const Scene& scene, std::unique_ptr<MadeSession> made, LoopPorts ports, Progress progress);
   ~SimulationLoop();
   SimulationLoop(const SimulationLoop&) = delete;
   SimulationLoop& operator=(const SimulationLoop&) = delete;
@@ -74,6 +78,8 @@ class SimulationLoop {
   bool ended() const { return ended_; }
   /// Ends the thread. @throws what ended it, if that was an error
   void stop();
+  /// Of a thread that has ended: the session, so that its end may wait for a better time.
+  std::unique_ptr<MadeSession> takeSession() { return std::move(made_); }
 
   CommandQueue& commands() { return commands_; }
   /// Nothing until the session is ready. The pace is measured anew from here.
@@ -88,6 +94,7 @@ class SimulationLoop {
   /// Hands over what is still on its way from the GPU and what newcomers want to see, without forces; time does not
   /// count until the next tick.
   void rest(Session& session);
+  void showSkin(Session& session);
   void deliver(const Session& session, Frame&& frame, const StylusSamples& samples, bool live);
   void forgetHands(Session& session);
   CommandAnswer execute(const Command& command, Session& session);
@@ -98,6 +105,7 @@ class SimulationLoop {
   StylusSamples samplesOf(const Command& command, uint32_t tick) const;
 
   const Scene scene_;
+  std::unique_ptr<MadeSession> made_;
   const LoopPorts ports_;
   const Progress progress_;
   CommandQueue commands_;

@@ -9,6 +9,7 @@
 #include <optional>
 #include <thread>
 
+#include "math/one_line.h"
 #include "nodes/clock_watch.h"
 #include "nodes/master_watch.h"
 
@@ -24,10 +25,6 @@ double stallTime_s(const SimulatorOptions& options) {
   return std::max(options.stall_ticks / options.scene.solver.tick_hz, kShortestStall_s);
 }
 
-void reportProgress(const std::string& stage, double fraction) {
-  ROS_INFO_THROTTLE(1, "preparing: %s %.0f %%", stage.c_str(), 100 * fraction);
-}
-
 }  // namespace
 
 Simulator::Simulator(const SimulatorOptions& options, EndWatch& end, SceneSwitch& scenes)
@@ -39,22 +36,31 @@ Simulator::Simulator(const SimulatorOptions& options, EndWatch& end, SceneSwitch
       inputs_(makeInputs(options, frames_)),
       wrenches_(node_, mailboxes(), stallTime_s(options), options.scene, options.haptics),
       release_(end_, [this] { wrenches_.release(); }),
+      preparation_(options.scene),
       tool_frames_(options.scene.environment.tissue_frame, toolFrames(options.scene, options.publish.frame_prefix)),
       publisher_(node_, options.scene, options.publish, [this](std::exception_ptr error) { fail(error); }),
       ticks_(node_, options.scene, [this] { return publisher_.isViewed(); }),
       samples_(node_, options.scene),
       obstacle_forces_(node_, options.scene),
-      loop_(options.scene, ports(), reportProgress),
+      loop_(options.scene, scenes.takeMade(), ports(),
+            [this](const std::string& stage, double fraction) { reportProgress(stage, fraction); }),
 #ifdef VISCERA_RECONFIGURE
-      settings_(options, loop_.commands(), {publisher_, wrenches_}),
+      settings_(std::in_place, options, loop_.commands(), SimulatorSettings::Publishers{publisher_, wrenches_}),
 #endif
-      services_(node_, options.scene.styluses, loop_.commands(), modeSet()),
-      diagnostics_(node_, options.scene, loop_, {publisher_, wrenches_}, inputs_, obstacles_, camera_frames_),
+      services_(std::in_place, node_, options.scene.styluses, loop_.commands(), modeSet()),
+      diagnostics_(std::in_place, node_, options.scene, loop_, SimulatorDiagnostics::Publishers{publisher_, wrenches_},
+                   inputs_, obstacles_, camera_frames_),
       device_spinner_(1, &device_queue_) {
 }
 
 Simulator::~Simulator() {
   wrenches_.release();
+}
+
+/// In the log, and in rviz, where there is nothing else to see.
+void Simulator::reportProgress(const std::string& stage, double fraction) {
+  ROS_INFO_THROTTLE(1, "preparing: %s %.0f %%", stage.c_str(), 100 * fraction);
+  publisher_.tell("preparing: " + std::to_string(preparation_.percentAt(stage, fraction)) + " %");
 }
 
 SimulatorDiagnostics::Inputs Simulator::makeInputs(const SimulatorOptions& options, tf2_ros::Buffer& frames) {
@@ -68,7 +74,7 @@ SimulatorDiagnostics::Inputs Simulator::makeInputs(const SimulatorOptions& optio
 
 SimulatorServices::ModeSet Simulator::modeSet() {
 #ifdef VISCERA_RECONFIGURE
-  return [this](size_t stylus, ToolSwitch when, ToolMode mode) { settings_.noteMode(stylus, when, mode); };
+  return [this](size_t stylus, ToolSwitch when, ToolMode mode) { settings_->noteMode(stylus, when, mode); };
 #else
   return {};
 #endif
@@ -179,6 +185,27 @@ void Simulator::warnOfStalls() {
       static_cast<unsigned long>(stalls));
 }
 
+void Simulator::stepAside(ros::AsyncSpinner& spinner) {
+  scenes_.holdTopics();
+  spinner.stop();
+  diagnostics_.reset();
+  services_.reset();
+#ifdef VISCERA_RECONFIGURE
+  settings_.reset();
+#endif
+  wrenches_.release();      // hands feel nothing from here on
+  device_queue_.disable();  // or the spinner would wait for a message
+  device_spinner_.stop();
+  for (const auto& input : inputs_) input->unsubscribe();
+}
+
+/// In place of the tissue that did not come to be.
+void Simulator::tellFailure(const std::string& why) {
+  constexpr std::chrono::milliseconds kFlush{50};  // roscpp writes on a thread of its own: it has by then
+  publisher_.tell(why);
+  std::this_thread::sleep_for(kFlush);
+}
+
 void Simulator::run() {
   ros::AsyncSpinner diagnostics(1);
   diagnostics.start();
@@ -195,10 +222,17 @@ void Simulator::run() {
     known = master.check();
     clock.check();
   }
+  if (known && !failed() && scenes_.isRequested()) stepAside(diagnostics);
   wrenches_.release();
   std::optional<MasterLost> lost;
   if (!known) lost.emplace();
-  loop_.stop();
+  try {
+    loop_.stop();
+  } catch (const std::exception& error) {
+    if (!ready_) tellFailure(oneLine(error.what()));
+    throw;
+  }
+  scenes_.bury(loop_.takeSession());
   if (failed()) std::rethrow_exception(error_);
   if (lost) throw *lost;
 }

@@ -11,6 +11,7 @@
 #include <exception>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,7 @@
 #include "nodes/frame_publisher.h"
 #include "nodes/obstacle_force_publisher.h"
 #include "nodes/obstacle_frames.h"
+#include "nodes/preparation.h"
 #include "nodes/samples_publisher.h"
 #include "nodes/scene_switch.h"
 #include "nodes/simulation_loop.h"
@@ -58,6 +60,10 @@ class Simulator {
   void fail(std::exception_ptr error);
   void listen();
   void warnOfStalls();
+  void reportProgress(const std::string& stage, double fraction);
+  void tellFailure(const std::string& why);
+  /// Ends all that ticks do not need, while they go on: another simulator waits for the place of this one.
+  void stepAside(ros::AsyncSpinner& spinner);
 
   EndWatch& end_;
   SceneSwitch& scenes_;
@@ -72,6 +78,7 @@ class Simulator {
   std::exception_ptr error_;  ///< of a thread that publishes
   WrenchPublisher wrenches_;
   EndWatch::Act release_;
+  Preparation preparation_;  ///< of the simulation's thread
   ToolFramePublisher tool_frames_;
   FramePublisher publisher_;
   TickPublisher ticks_;
@@ -82,10 +89,10 @@ class Simulator {
   uint64_t stalls_ = 0;  ///< that were warned of
   SimulationLoop loop_;
 #ifdef VISCERA_RECONFIGURE
-  SimulatorSettings settings_;
+  std::optional<SimulatorSettings> settings_;
 #endif
-  SimulatorServices services_;
-  SimulatorDiagnostics diagnostics_;
+  std::optional<SimulatorServices> services_;
+  std::optional<SimulatorDiagnostics> diagnostics_;
   ros::AsyncSpinner device_spinner_;
 };
 

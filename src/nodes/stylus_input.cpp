@@ -50,6 +50,12 @@ void StylusInput::subscribe(ros::NodeHandle& node) {
   subscribed_ = true;
 }
 
+void StylusInput::unsubscribe() {
+  subscribed_ = false;
+  pose_.shutdown();
+  for (ros::Subscriber& other : others_) other.shutdown();
+}
+
 void StylusInput::listenTo(ros::NodeHandle& node, const ButtonPort& port, ButtonRole role) {
   others_.push_back(listenToButtons(
       node, port, [this, &port, role](const std::vector<int32_t>& values) { onButtons(port, role, values); }));

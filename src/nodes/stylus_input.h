@@ -32,6 +32,8 @@ class StylusInput {
 
   /// Only now, when the simulation is ready, a device (or a replay that waits for a subscriber) is listened to.
   void subscribe(ros::NodeHandle& node);
+  /// Nothing is listened to any more, while all else stays.
+  void unsubscribe();
   StylusMailbox& mailbox() { return mailbox_; }
   /// Of a tick that begins now: where an arm is that moves by itself. Called by the thread that steps.
   void beginTick();

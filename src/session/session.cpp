@@ -48,15 +48,17 @@ Session::Session(const Scene& scene, const Progress& progress, const SessionOpti
 
 /// @param context  null: there is none
 Session::Session(const Scene& scene, gpu::Context* context, const Progress& progress, const SessionOptions& options)
-    : scene_(withChosenSpacing(scene, context, progress)),
-      model_(buildModel(scene_, progress)),
-      tools_(scene.styluses, handLimits(model_, scene.solver.tick_hz)),
-      obstacles_(scene.obstacles, waveSpeed(model_) / scene.solver.tick_hz),
+    : scene_(options.model ? scene : withChosenSpacing(scene, context, progress)),
+      model_(options.model ? options.model : std::make_shared<const Model>(buildModel(scene_, progress))),
+      tools_(scene.styluses, handLimits(*model_, scene.solver.tick_hz)),
+      obstacles_(scene.obstacles, waveSpeed(*model_) / scene.solver.tick_hz),
       pose_times_(kNotedTicks) {
   std::string integrator;
-  solver_ = makeSolver(model_, scene_, context, options.threads, &integrator);
+  if (progress) progress("start the solver", 0);
+  solver_ = makeSolver(*model_, scene_, context, options.threads, &integrator);
   backend_note_ = viscera::backendNote(scene_.solver, context, *solver_, integrator);
-  view_ = makeView(*solver_, model_, scene_, context);
+  if (progress) progress("prepare pictures", 0);
+  view_ = makeView(*solver_, *model_, scene_, context);
   lookAtObstacles();
   for (const CameraConfig& camera : scene_.cameras) {
     look_.overlays.push_back(camera.overlays);
@@ -161,7 +163,7 @@ void Session::lookAtArrows() {
     wind |= drawn && look_.overlays[c].has(Overlay::kWind);
   }
   if (forces) addForceArrows(look_.motions, reactions_, look_.arrows);
-  if (wind) addWindArrows(windAt(scene_.environment.wind, time_s_), model_, look_.arrows);
+  if (wind) addWindArrows(windAt(scene_.environment.wind, time_s_), *model_, look_.arrows);
 }
 
 /// No pose, or tissue that is not itself: no force, at once.
@@ -277,7 +279,7 @@ Frame Session::drain() {
 }
 
 uint64_t Session::stateHash() const {
-  return viscera::stateHash(model_, solver_->readState());
+  return viscera::stateHash(*model_, solver_->readState());
 }
 
 std::shared_ptr<const ShownTopology> Session::wholeSkin() const {

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <thread>
 
 #include "gpu/buffer.h"
@@ -110,4 +111,15 @@ TEST(GpuContext, UnknownDeviceIsRefusedWithTheListOfThoseThereAre) {
   } catch (const GpuError& e) {
     EXPECT_NE(std::string(e.what()).find("device 4711"), std::string::npos) << e.what();
   }
+}
+
+/// Two scenes, one of which takes the other's place.
+TEST(GpuContext, OutlivesAnotherOneOfTheSameDevice) {
+  auto first = std::make_unique<Context>();
+  first->release();
+  Context second;
+  second.release();
+  first.reset();
+  ASSERT_TRUE(second.makeCurrent());
+  EXPECT_NO_THROW(checkErrors("the second context"));
 }

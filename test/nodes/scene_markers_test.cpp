@@ -77,6 +77,26 @@ TEST(SceneMarkers, AModeHasItsOwnShape) {
   EXPECT_TRUE(std::any_of(tools.begin(), tools.end(), [](const Marker& tool) { return tool.color.a < 1; }));
 }
 
+TEST(SceneMarkers, ATextStandsInThePlaceOfTheTissueUntilThereIsSome) {
+  Scene seen = scene();
+  CameraConfig camera;
+  camera.target_m = {0.1, 0.2, 0.3};
+  seen.cameras = {camera};
+  const SceneMarkers markers(seen, {});
+  const auto texts = shown(markers.telling("preparing: 62 %", ros::Time(3)), "preparing");
+  ASSERT_EQ(texts.size(), 1U);
+  EXPECT_EQ(texts[0].type, Marker::TEXT_VIEW_FACING);
+  EXPECT_EQ(texts[0].text, "preparing: 62 %");
+  EXPECT_EQ(texts[0].header.frame_id, "room/tissue");
+  EXPECT_EQ(texts[0].pose.position.y, 0.2);
+  EXPECT_GT(texts[0].scale.z, 0);
+  const MarkerArray after = markers.at(look(), ros::Time(4));
+  EXPECT_TRUE(std::any_of(after.markers.begin(), after.markers.end(), [](const Marker& marker) {
+    return marker.ns == "preparing" && marker.action == Marker::DELETE;
+  }));
+  EXPECT_TRUE(shown(after, "preparing").empty());
+}
+
 TEST(SceneMarkers, ForcesAreArrowsFromTheTipInTheScaleThatIsAskedFor) {
   PublishOptions options;
   options.force_arrow_m_per_n = 0.05;

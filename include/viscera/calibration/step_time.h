@@ -39,6 +39,9 @@ class StepTimeCache {
   explicit StepTimeCache(const std::string& folder);
   /// In $XDG_CACHE_HOME/viscera, else ~/.cache/viscera.
   static StepTimeCache ofUser();
+  /// The same for someone who measures on a machine that does something else meanwhile: what is there is found, and
+  /// nothing is kept.
+  StepTimeCache asItIs() const;
 
   const std::string& file() const { return file_; }
   std::optional<StepTime> find(const std::string& key) const;
@@ -46,6 +49,7 @@ class StepTimeCache {
 
  private:
   std::string file_;
+  bool keeps_ = true;
 };
 
 }  // namespace viscera

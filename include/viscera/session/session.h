@@ -46,6 +46,8 @@ class View;
 struct SessionOptions {
   /// Where the processor steps: threads that sessions share (makeThreadPool); null: solver.threads of its own.
   std::shared_ptr<ThreadPool> threads = nullptr;
+  /// Of the scene, whose spacings are numbers then (withChosenSpacing()), made before by buildModel(); null: made here.
+  std::shared_ptr<const Model> model = nullptr;
 };
 
 /// ONE loop: owns model, solver and view. All calls come from one thread; steps do not wait for the view.
@@ -87,7 +89,7 @@ class Session {
   uint64_t stateHash() const;
 
   const Scene& scene() const { return scene_; }
-  const Model& model() const { return model_; }
+  const Model& model() const { return *model_; }
   const std::vector<StylusConfig>& styluses() const { return tools_.configs(); }  ///< with the modes that they have now
   /// Triangles of the skin as long as nothing is cut; of a SurfaceFrame, those that are shown in its tick.
   std::shared_ptr<const ShownTopology> wholeSkin() const;
@@ -122,7 +124,7 @@ class Session {
   void releaseUntracked(const ToolMotions& motions, Frame& frame);
 
   Scene scene_;
-  Model model_;
+  std::shared_ptr<const Model> model_;
   Tools tools_;
   Obstacles obstacles_;
   std::unique_ptr<Solver> solver_;
