@@ -53,6 +53,14 @@ TEST_F(StepTimeCacheTest, FindsWhatWasKeptAndNothingElse) {
   EXPECT_FALSE(cache_.find(""));
 }
 
+TEST_F(StepTimeCacheTest, AsItIsItFindsAndKeepsNothing) {
+  cache_.keep("a", time_);
+  const StepTimeCache as_it_is = cache_.asItIs();
+  expectNear(as_it_is.find("a"), time_);
+  as_it_is.keep("b", time_);
+  EXPECT_FALSE(cache_.find("b"));
+}
+
 TEST_F(StepTimeCacheTest, TheLatestOfAKeyCountsAndOthersStay) {
   cache_.keep("a", time_);
   cache_.keep("b", {0, 1e-9});

@@ -1,0 +1,60 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Sessions that another thread has made, of a model that was there.
+#include <gtest/gtest.h>
+
+#include <future>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "session/block_session.h"
+#include "viscera/gpu/context.h"
+
+namespace viscera {
+namespace {
+
+using namespace test;
+
+TEST(MadeBefore, AModelIsNotMadeAgain) {
+  const Scene scene = blockScene();
+  SessionOptions options;
+  options.model = std::make_shared<const Model>(buildModel(scene));
+  std::vector<std::string> stages;
+  Session given(
+      scene, [&](const std::string& stage, double) { stages.push_back(stage); }, options);
+  EXPECT_EQ(&given.model(), options.model.get());
+  EXPECT_EQ(stages, (std::vector<std::string>{"start the solver", "prepare pictures"}));
+  Session made(scene);
+  for (Session* session : {&given, &made}) play(*session, cut, kCutTicks);
+  EXPECT_EQ(given.stateHash(), made.stateHash());
+}
+
+TEST(MadeBefore, ASessionIsSteppedByAThreadThatDidNotMakeIt) {
+  for (const Backend backend : {Backend::kCpu, Backend::kGpu}) {
+    Scene scene = blockScene();
+    scene.solver.backend = backend;
+    std::unique_ptr<gpu::Context> context;
+    std::unique_ptr<Session> session;
+    std::async(std::launch::async, [&] {
+      context = std::make_unique<gpu::Context>();
+      session = std::make_unique<Session>(scene, *context);
+      if (!session->solver().onHost()) context->release();
+    }).get();
+    if (!session->solver().onHost()) {
+      ASSERT_TRUE(context->makeCurrent());
+    }
+    play(*session, cut, kCutTicks);
+    const uint64_t hash = session->stateHash();
+    session.reset();
+    context.reset();
+    gpu::Context own;
+    Session here(scene, own);
+    play(here, cut, kCutTicks);
+    EXPECT_EQ(hash, here.stateHash());
+  }
+}
+
+}  // namespace
+}  // namespace viscera
