@@ -8,6 +8,7 @@
 #include <fstream>
 #include <iostream>
 
+#include "cli/png_writer.h"
 #include "viscera/math/error.h"
 
 namespace viscera::bench {
@@ -63,6 +64,10 @@ void Report::add(const Plot& plot, const std::string& stem) {
     said_no_gnuplot_ = true;
   }
   if (drawn == Drawn::kFailed) std::cerr << suite_ << ": gnuplot could not draw " << script << std::endl;
+}
+
+void Report::add(const std::vector<uint8_t>& rgb, int width, int height, const std::string& stem) {
+  writePng((fs::path(options_.out) / fileName(stem, ".png")).string(), width, height, rgb);
 }
 
 void Report::checkAtMost(const std::string& name, double measured, double limit) {

@@ -53,6 +53,8 @@ class Report {
   void add(const Table& table, const std::string& stem);
   /// Writes <out>/<suite>_<stem>.gp and has gnuplot draw <suite>_<stem>.png; without gnuplot it says so, once.
   void add(const Plot& plot, const std::string& stem);
+  /// Writes <out>/<suite>_<stem>.png. @param rgb  [3 * width * height] sRGB, rows from the top
+  void add(const std::vector<uint8_t>& rgb, int width, int height, const std::string& stem);
   /// |measured| <= limit; what is not a number misses.
   void checkAtMost(const std::string& name, double measured, double limit);
   void checkAtLeast(const std::string& name, double measured, double limit);

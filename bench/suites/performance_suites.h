@@ -19,6 +19,8 @@ void skipSuite(Report& report, gpu::Context& context);
 void cutSuite(Report& report, gpu::Context& context);
 /// From a stylus pose to its force and to its picture; how even ticks are.
 void latencySuite(Report& report, gpu::Context& context);
+/// What a picture of moving tissue costs, stage by stage, by antialiasing, and how alike the pictures are.
+void pictureSuite(Report& report, gpu::Context& context);
 /// How fast the demo's heart is stepped beside processes that want the processors too, by threads.
 void busySuite(Report& report);
 /// Copy and multiply-add rates of this machine, and the fraction of them that the solver reaches.

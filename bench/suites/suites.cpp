@@ -48,6 +48,7 @@ const std::vector<Suite>& suites() {
       {"haptics", "simulated devices against tissue: what is felt, limit cycles, energy, by mass, delay and stiffness",
        run<hapticsSuite>},
       {"latency", "from a pose to its force and its picture; how even ticks are", run<latencySuite>},
+      {"picture", "what does a picture cost, stage by stage, and does the quick one look the same?", run<pictureSuite>},
       {"busy", "what do threads gain beside other busy processes, which the suite starts itself?", run<busySuite>},
       {"limit", "copies and multiply-adds of this machine, and the fraction that is reached", run<limitSuite>},
       {"gpu", "work groups, ways to read neighbours, shares of this GPU's limits, large skins, read-back, memory",

@@ -4,8 +4,6 @@
 // detail.glsl - what lies on the triangles of a skin beyond its vertices: colour, normal map and roughness (docs/detail.md).
 // Texture coordinates are affine functions of the rest position, one per triangle of the uncut skin (TextureChart), so that a
 // cut changes none of them. The tangent frame is that of the triangle as it is now.   Owner: render/detail_textures.h
-layout(binding = kUnitShownCharts) uniform usamplerBuffer shown_charts;  // of every triangle that is drawn
-uniform int first_chart;  // of this part of them
 layout(binding = kUnitCharts) uniform samplerBuffer charts;              // 3 texels each: u, v, (material, 0, 0, 0)
 layout(binding = kUnitMaterials) uniform samplerBuffer materials;        // 3 texels each, see DetailTextures
 layout(binding = kUnitColors) uniform sampler2DArray skin_colors;
@@ -39,9 +37,8 @@ vec3 reliefNormal(vec3 n, vec3 relief, vec3 position_x, vec3 position_y, vec2 uv
 }
 
 /// Puts what the fragment's triangle has upon the finish that vertices gave it. n is the outward normal.
-void addDetail(vec3 rest, vec3 rest_x, vec3 rest_y, vec3 position_x, vec3 position_y, inout vec3 albedo, inout vec3 n,
+void addDetail(uint chart, vec3 rest, vec3 rest_x, vec3 rest_y, vec3 position_x, vec3 position_y, inout vec3 albedo, inout vec3 n,
                inout float roughness) {
-  uint chart = texelFetch(shown_charts, first_chart + gl_PrimitiveID).r;
   if (chart == kNoTextureChart) return;
   vec4 u = texelFetch(charts, int(3u * chart)), v = texelFetch(charts, int(3u * chart + 1u));
   int material = 3 * int(texelFetch(charts, int(3u * chart + 2u)).x);

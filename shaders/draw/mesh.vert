@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // mesh.vert - places a vertex in a camera's optical frame.   Owners: render/tissue_painter.h, render/tool_painter.h
-// in  position m, normal (null where undefined), sRGB colour     out  the same in the optical frame, linear colour
+// in  position m, normal (null where undefined), sRGB colour     out  the same in the optical frame, linear colour (with SRGB as it is)
 #include "srgb.glsl"
 #ifdef GRAIN
 #include "layout.h"
@@ -35,6 +35,10 @@ void main() {
 #ifdef GRAIN
   patches = 2.0 * textureLod(grain_texture, mesh_rest.xyz / kPatchPeriod_m, 0.0).x - 1.0;
 #endif
+#ifdef SRGB
+  color = mesh_color;
+#else
   color = vec4(linearFromSrgb(mesh_color.rgb), mesh_color.a);
+#endif
   gl_Position = clip_from_optical * vec4(position_m, 1.0);
 }

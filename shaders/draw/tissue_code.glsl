@@ -8,3 +8,5 @@ int bodyOf(float alpha) {
 }
 
 bool isWall(float alpha) { return alpha > 0.55 && alpha < 0.75; }
+
+const float kTurnedAway = 0.2;  // cosine between a wall's smooth normal and the line of sight below which it is not taken

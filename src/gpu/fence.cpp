@@ -36,6 +36,19 @@ void awaitSync(void* sync, const char* what) {
   awaitFence(poll, what);
 }
 
+Fence::Fence() : sync_(glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0)) {
+  glFlush();
+}
+
+Fence::~Fence() {
+  glDeleteSync(static_cast<GLsync>(sync_));
+}
+
+/// A failure is told by whoever reads next.
+bool Fence::hasPassed() const {
+  return glClientWaitSync(static_cast<GLsync>(sync_), 0, 0) != GL_TIMEOUT_EXPIRED;
+}
+
 void awaitGpu(const char* what) {
   struct Fence {
     GLsync sync = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);

@@ -22,6 +22,19 @@ void awaitFence(const std::function<FenceState(uint64_t nanoseconds)>& poll, con
 /// Waits for an OpenGL fence (GLsync). @throws GpuError  as above
 void awaitSync(void* sync, const char* what);
 
+/// What the GPU was told before this was made; begins to do it.
+class Fence {
+ public:
+  Fence();
+  ~Fence();
+  Fence(const Fence&) = delete;
+  Fence& operator=(const Fence&) = delete;
+  bool hasPassed() const;
+
+ private:
+  void* sync_;
+};
+
 /// Waits until the GPU has done everything that it was told. @throws GpuError  as above
 void awaitGpu(const char* what);
 

@@ -10,8 +10,8 @@
 
 namespace viscera::gpu {
 
-ReadbackRing::ReadbackRing(size_t bytes, int depth, const char* name)
-    : name_(name), slots_(static_cast<size_t>(depth)) {
+ReadbackRing::ReadbackRing(size_t bytes, int depth, const char* name, bool at_once)
+    : name_(name), at_once_(at_once), slots_(static_cast<size_t>(depth)) {
   const GLbitfield flags = GL_MAP_READ_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
   for (Slot& slot : slots_) {
     glCreateBuffers(1, &slot.buffer);
@@ -51,7 +51,11 @@ bool ReadbackRing::request(const Source* sources, size_t count, uint64_t tag) {
     at += static_cast<GLintptr>(s->bytes);
   }
   glMemoryBarrier(GL_CLIENT_MAPPED_BUFFER_BARRIER_BIT);
-  slot.fence = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+  if (at_once_) {
+    (void)glIsBuffer(slot.buffer);  // an answer: where the driver queues calls, they have been made now
+  } else {
+    slot.fence = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+  }
   return true;
 }
 

@@ -13,8 +13,10 @@ namespace viscera::gpu {
 class ReadbackRing {
  public:
   /// @param bytes  largest copy  @param depth  copies that may be in flight  @param name  for messages, a literal
+  /// @param at_once  copies of buffers are made when they are queued, as by llvmpipe, which draws on threads of its
+  /// own: they need not wait for what is being drawn
   /// @throws GpuError  out of memory
-  ReadbackRing(size_t bytes, int depth = 3, const char* name = "a copy");
+  ReadbackRing(size_t bytes, int depth = 3, const char* name = "a copy", bool at_once = false);
   ~ReadbackRing();
   ReadbackRing(const ReadbackRing&) = delete;
   ReadbackRing& operator=(const ReadbackRing&) = delete;
@@ -48,6 +50,7 @@ class ReadbackRing {
   };
   Slot& claim(uint64_t tag);
   const char* name_;
+  const bool at_once_;
   std::vector<Slot> slots_;
   int oldest_ = 0, in_flight_ = 0;
   uint64_t waits_ = 0;

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "gpu/stage_clock.h"
 
+#include <chrono>
+
 #include "gpu/fence.h"
 #include "gpu/gl.h"
 #include "viscera/math/error.h"
@@ -18,7 +20,9 @@ thread_local StageClock* clock_of_thread = nullptr;
 }  // namespace
 
 const char* stageName(Stage stage) {
-  constexpr const char* kNames[kStages] = {"volume", "step", "cut", "measure", "reaction", "surface", "render"};
+  constexpr const char* kNames[kStages] = {"volume",  "step",    "cut",      "measure", "reaction", "upload",
+                                           "surface", "normals", "mapping",  "render",  "tissue",   "light",
+                                           "edges",   "tools",   "overlays", "resolve", "read-back"};
   return kNames[static_cast<size_t>(stage)];
 }
 
@@ -32,12 +36,29 @@ StageClock::StageClock(int marks) : marks_(static_cast<size_t>(marks)) {
   clock_of_thread = this;
 }
 
+std::unique_ptr<StageClock> StageClock::waiting() {
+  auto clock = std::make_unique<StageClock>(0);
+  clock->waits_ = true;
+  return clock;
+}
+
 StageClock::~StageClock() {
   clock_of_thread = nullptr;
   for (Mark& mark : marks_) glDeleteQueries(1, &mark.query);
 }
 
+/// Ends the stage before.
+void StageClock::waitAndCount(int next) {
+  glFinish();
+  const SteadyTime now = std::chrono::steady_clock::now();
+  if (last_stage_ != kNothing)
+    times_[static_cast<size_t>(last_stage_)].seconds += std::chrono::duration<double>(now - last_).count();
+  last_ = now;
+  last_stage_ = next;
+}
+
 void StageClock::mark(int stage) {
+  if (waits_) return waitAndCount(stage);
   Mark& mark = marks_[(oldest_ + under_way_) % marks_.size()];
   ++under_way_;
   mark.stage = stage;
@@ -46,7 +67,7 @@ void StageClock::mark(int stage) {
 
 /// False if there is no room for the marks of its beginning and end, those of the stages around it included.
 bool StageClock::enter(Stage stage) {
-  const size_t needed = stack_.size() + 2;
+  const size_t needed = waits_ ? 0 : stack_.size() + 2;
   while (marks_.size() - under_way_ < needed && readOldest(false)) {
   }
   if (marks_.size() - under_way_ < needed) {

@@ -5,13 +5,34 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
+
+#include "viscera/math/types.h"
 
 namespace viscera::gpu {
 
 /// What the GPU works on, as far as it is timed.
-enum class Stage { kVolume, kStep, kCut, kMeasure, kReaction, kSurface, kRender };
-constexpr size_t kStages = 7;
+enum class Stage {
+  kVolume,
+  kStep,
+  kCut,
+  kMeasure,
+  kReaction,
+  kUpload,   ///< of a state on the host
+  kSurface,  ///< of following the tissue what is in neither of the next two
+  kNormals,  ///< of nodes
+  kMapping,  ///< of vertices
+  kRender,   ///< of drawing what is in none of the next ones
+  kTissue,   ///< drawn; where it is lit in a pass of its own, without that
+  kLight,    ///< pixels of one surface lit
+  kEdges,    ///< pixels of several found and lit
+  kTools,    ///< and obstacles
+  kOverlays,
+  kResolve,   ///< pixels made of those that were drawn
+  kReadback,  ///< of surfaces and pictures
+};
+constexpr size_t kStages = 17;
 const char* stageName(Stage stage);
 
 /// Time that the GPU spends on each stage, from time stamps in its command stream: nobody waits for them. While a clock
@@ -21,6 +42,9 @@ class StageClock {
   /// @param marks  time stamps that may be under way; when all are, stages go untimed until some have come back
   /// @throws GpuError  another clock lives on this thread
   explicit StageClock(int marks = 8192);
+  /// A clock that waits for the GPU at both ends of every stage, and takes the time on the host: for renderers that
+  /// draw tile by tile, all stages of one picture side by side. @throws GpuError  as above
+  static std::unique_ptr<StageClock> waiting();
   ~StageClock();
   StageClock(const StageClock&) = delete;
   StageClock& operator=(const StageClock&) = delete;
@@ -43,10 +67,13 @@ class StageClock {
   bool enter(Stage stage);
   void leave();
   void mark(int stage);
+  void waitAndCount(int next);
   bool readOldest(bool wait);
 
   std::vector<Mark> marks_;  ///< ring
   size_t oldest_ = 0, under_way_ = 0;
+  bool waits_ = false;
+  SteadyTime last_{};  ///< where it waits
   uint64_t last_ns_ = 0;
   int last_stage_ = kNothing;  ///< of the mark read last
   std::vector<int> stack_;     ///< stages entered and not left

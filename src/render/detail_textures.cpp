@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <string>
 #include <utility>
 
 #include "gpu/gl.h"
+#include "gpu/software.h"
 #include "layout/bindings.h"
 #include "viscera/math/error.h"
 
@@ -19,11 +19,6 @@ namespace {
 constexpr int kLargestSide_px = 4096;  // of an array: 16 layers of it are 1.4 GB with their mipmaps
 // Texels along the line of sight where a surface is seen at a slant: sharp there. A software rasteriser pays for each.
 constexpr float kAnisotropy = 4;
-
-bool isSoftware() {
-  const auto* const name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
-  return name != nullptr && (std::strstr(name, "llvmpipe") != nullptr || std::strstr(name, "softpipe") != nullptr);
-}
 
 layout::vec4 texel(float x, float y, float z, float w) {
   return {x, y, z, w};
@@ -87,7 +82,7 @@ TextureArray::TextureArray(int width_px, int height_px, size_t layers, bool srgb
   glTextureParameteri(id_, GL_TEXTURE_WRAP_T, GL_REPEAT);
   glTextureParameteri(id_, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
   glTextureParameteri(id_, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-  if (GLEW_EXT_texture_filter_anisotropic && !isSoftware())
+  if (GLEW_EXT_texture_filter_anisotropic && !gpu::isSoftware())
     glTextureParameterf(id_, GL_TEXTURE_MAX_ANISOTROPY_EXT, kAnisotropy);
 }
 

@@ -8,6 +8,7 @@
 
 #include "gpu/gl.h"
 #include "layout/bindings.h"
+#include "layout/seen.h"
 #include "viscera/gpu/context.h"
 
 namespace viscera {
@@ -81,29 +82,76 @@ std::vector<uint8_t> GrainTexture::texels(int side) {
   return out;
 }
 
-GrainTexture::GrainTexture() {
-  constexpr GLsizei kLevels = 7;
-  static_assert(kSide == 1 << (kLevels - 1));
-  glCreateTextures(GL_TEXTURE_3D, 1, &id_);
+std::vector<uint8_t> GrainTexture::slopes(const std::vector<uint8_t>& texels, int side) {
+  const auto relief = [&](int x, int y, int z) {  // 0..1 stands for -1..1
+    const auto wrapped = [side](int i) { return static_cast<size_t>((i + side) % side); };
+    const size_t at =
+        4 * ((wrapped(z) * static_cast<size_t>(side) + wrapped(y)) * static_cast<size_t>(side) + wrapped(x));
+    return (2 * static_cast<float>(texels[at + 1]) + static_cast<float>(texels[at])) / 255;
+  };
+  const float per_texel = static_cast<float>(side) * 127 / kSteepest;
+  const auto byte = [&](int x, int y, int z, int dx, int dy,
+                        int dz) {  // of fourth order: the relief is a few texels fine
+    const auto rise = [&](int i) {
+      return relief(x + i * dx, y + i * dy, z + i * dz) - relief(x - i * dx, y - i * dy, z - i * dz);
+    };
+    const float slope = (8 * rise(1) - rise(2)) / 12;
+    return static_cast<uint8_t>(128 + std::clamp<long>(std::lround(slope * per_texel), -127, 127));
+  };
+  std::vector<uint8_t> out;
+  out.reserve(texels.size());
+  for (int z = 0; z < side; ++z) {
+    for (int y = 0; y < side; ++y) {
+      for (int x = 0; x < side; ++x) {
+        out.push_back(byte(x, y, z, 1, 0, 0));
+        out.push_back(byte(x, y, z, 0, 1, 0));
+        out.push_back(byte(x, y, z, 0, 0, 1));
+        out.push_back(255);
+      }
+    }
+  }
+  return out;
+}
+
+namespace {
+
+uint32_t makeTexture(const std::vector<uint8_t>& texels, int side) {
+  const int levels = 1 + static_cast<int>(std::lround(std::log2(side)));
+  uint32_t id = 0;
+  glCreateTextures(GL_TEXTURE_3D, 1, &id);
   gpu::countObject();
-  glTextureStorage3D(id_, kLevels, GL_RGBA8, kSide, kSide, kSide);
+  glTextureStorage3D(id, levels, GL_RGBA8, side, side, side);
   gpu::checkErrors("the texture of tissue's grain");
   glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
-  glTextureSubImage3D(id_, 0, 0, 0, 0, kSide, kSide, kSide, GL_RGBA, GL_UNSIGNED_BYTE, texels().data());
+  glTextureSubImage3D(id, 0, 0, 0, 0, side, side, side, GL_RGBA, GL_UNSIGNED_BYTE, texels.data());
   for (const GLenum axis : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})
-    glTextureParameteri(id_, axis, GL_REPEAT);
+    glTextureParameteri(id, axis, GL_REPEAT);
   // The nearer level alone: half the texels of a blend of two, on a software rasteriser half the time.
-  glTextureParameteri(id_, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);
-  glTextureParameteri(id_, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-  glGenerateTextureMipmap(id_);
+  glTextureParameteri(id, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);
+  glTextureParameteri(id, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  glGenerateTextureMipmap(id);
+  return id;
+}
+
+}  // namespace
+
+GrainTexture::GrainTexture(bool slopes) {
+  const std::vector<uint8_t> grain = texels();
+  id_ = makeTexture(grain, kSide);
+  if (slopes) slopes_ = makeTexture(GrainTexture::slopes(grain), kSide);
 }
 
 GrainTexture::~GrainTexture() {
   glDeleteTextures(1, &id_);
+  if (slopes_) glDeleteTextures(1, &slopes_);
 }
 
 void GrainTexture::bind() const {
   glBindTextureUnit(layout::kUnitGrain, id_);
+}
+
+void GrainTexture::bindSlopes() const {
+  glBindTextureUnit(layout::kUnitGrainSlopes, slopes_);
 }
 
 }  // namespace viscera

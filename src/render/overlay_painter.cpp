@@ -102,7 +102,7 @@ void OverlayPainter::draw(const OverlayLook& look, int supersampling, const Pose
   if (look.shown.has(Overlay::kForces) || look.shown.has(Overlay::kWind))
     drawArrows(look, optical_from_tissue, clip_from_optical);
   glEnable(GL_BLEND);
-  glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   glBlendEquation(GL_FUNC_ADD);
   glDepthMask(GL_FALSE);
   std::array<float, 2> widths{};

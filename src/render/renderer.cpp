@@ -2,9 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "render/renderer.h"
 
+#include <algorithm>
 #include <cassert>
+#include <type_traits>
 
 #include "gpu/gl.h"
+#include "gpu/software.h"
 #include "gpu/stage_clock.h"
 #include "render/obstacle_painter.h"
 #include "render/overlay_painter.h"
@@ -15,6 +18,7 @@ namespace viscera {
 
 namespace {
 
+constexpr int kSamples = 2;  // of a pixel along each axis, where a camera does not say
 constexpr float kBackground[] = {0.0056f, 0.0066f, 0.0080f, 1.0f};  // linear light: a neutral, slightly cool near-black
 
 void prepareDrawing() {
@@ -38,76 +42,151 @@ void clearImage() {
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 }
 
-MeshView viewOf(const Surface& surface, const DrawnSkin* skin) {
+MeshView meshOf(const Surface& surface, const DrawnSkin* skin) {
   return {surface.positions().id(), surface.normals().id(), surface.colors().id(),    surface.liveIndices().id(),
           surface.liveCount(),      surface.rests().id(),   surface.liveChartsView(), skin ? &skin->parts() : nullptr};
 }
+
+/// No overlays.
+struct Nothing {
+  template <class View>
+  void operator()(const View&, bool) const {}
+};
 
 }  // namespace
 
 Renderer::Renderer(const std::vector<CameraConfig>& cameras, const std::vector<StylusConfig>& styluses,
                    const std::vector<ObstacleConfig>& obstacles, const Model* model)
-    : cameras_(cameras),
-      styluses_(styluses),
-      tissue_(std::make_unique<TissuePainter>(model)),
-      tools_(std::make_unique<ToolPainter>(styluses)) {
+    : cameras_(cameras), styluses_(styluses), tools_(std::make_unique<ToolPainter>(styluses)) {
+  const bool software = gpu::isSoftware();
+  const auto lightsPixels = [&](const CameraConfig& camera) {
+    return camera.supersampling == 0 && software && camera.width_px * camera.height_px <= SeenTarget::kMostPixels;
+  };
+  tissue_ = std::make_unique<TissuePainter>(model, !std::all_of(cameras.begin(), cameras.end(), lightsPixels),
+                                            std::any_of(cameras.begin(), cameras.end(), lightsPixels));
   if (!obstacles.empty()) obstacles_ = std::make_unique<ObstaclePainter>(obstacles);
-  for (const CameraConfig& camera : cameras) {
+  for (CameraConfig& camera : cameras_) {
     camera_poses_.push_back(opticalPose(camera));
     geometries_.emplace_back();
-    targets_.emplace_back(camera.width_px, camera.height_px, camera.supersampling);
+    targets_.emplace_back();
+    lit_targets_.emplace_back();
+    if (lightsPixels(camera) && tissue_->lightsPixels()) {
+      lit_targets_.back() = std::make_unique<SeenTarget>(camera.width_px, camera.height_px);
+    }
+    if (camera.supersampling == 0) camera.supersampling = kSamples;
+    if (!lit_targets_.back())
+      targets_.back() = std::make_unique<RenderTarget>(camera.width_px, camera.height_px, camera.supersampling);
   }
 }
 
 Renderer::~Renderer() = default;
 
 void Renderer::draw(size_t camera, const Surface& surface, const ToolMotions& motions, const DrawnSkin* skin) {
-  draw(camera, viewOf(surface, skin), motions);
+  draw(camera, meshOf(surface, skin), motions);
 }
 
 void Renderer::draw(size_t camera, const MeshView& mesh, const ToolMotions& motions) {
-  const auto drawTissue = [&](const Pose& pose, const Eigen::Matrix4f& clip) {
-    tissue_->draw(mesh, toolShadows(motions, styluses_, pose), pose, clip);
-  };
-  drawImage(camera, motions, drawTissue, [](const Pose&, const Eigen::Matrix4f&) {});
+  drawImage(camera, mesh, motions, true, Nothing{});
 }
 
 void Renderer::draw(size_t camera, const Model& model, const OverlayLook& look, const ToolMotions& motions) {
   if (!overlays_) overlays_ = std::make_unique<OverlayPainter>(model);
   overlays_->follow(look);
-  const MeshView mesh = viewOf(*look.surface, look.skin);
-  const auto drawTissue = [&](const Pose& pose, const Eigen::Matrix4f& clip) {
-    if (look.shown.has(Overlay::kStrain)) {
-      overlays_->drawStrain(look, mesh, pose, clip);
+  const MeshView mesh = meshOf(*look.surface, look.skin);
+  const bool strain = look.shown.has(Overlay::kStrain);
+  drawImage(camera, mesh, motions, !strain, [&](const View& view, bool before_tools) {
+    if (before_tools) {
+      if (strain) overlays_->drawStrain(look, mesh, view.optical_from_tissue, view.clip_from_optical);
     } else {
-      tissue_->draw(mesh, toolShadows(motions, styluses_, pose), pose, clip);
+      overlays_->draw(look, cameras_[camera].supersampling, view.optical_from_tissue, view.clip_from_optical);
     }
-  };
-  drawImage(camera, motions, drawTissue, [&](const Pose& pose, const Eigen::Matrix4f& clip) {
-    overlays_->draw(look, cameras_[camera].supersampling, pose, clip);
   });
 }
 
-/// @param drawTissue, drawOver  (optical_from_tissue, clip_from_optical): before and after obstacles and tools
-template <class DrawTissue, class DrawOver>
-void Renderer::drawImage(size_t camera, const ToolMotions& motions, DrawTissue drawTissue, DrawOver drawOver) {
+Renderer::View Renderer::viewOf(size_t camera) const {
+  return {camera, camera_poses_[camera].inverse(), clipFromOptical(cameras_[camera])};
+}
+
+/// @param tissue  is drawn   @param drawOver  (view, is it before obstacles and tools or after them?)
+template <class DrawOver>
+void Renderer::drawImage(size_t camera, const MeshView& mesh, const ToolMotions& motions, bool tissue,
+                         DrawOver drawOver) {
   assert(camera < cameras_.size());
   const gpu::TimedStage timed(gpu::Stage::kRender);
-  const Pose optical_from_tissue = camera_poses_[camera].inverse();
-  const Eigen::Matrix4f clip_from_optical = clipFromOptical(cameras_[camera]);
-  targets_[camera].bindForDrawing();
+  const View view = viewOf(camera);
   prepareDrawing();
-  clearImage();
-  drawTissue(optical_from_tissue, clip_from_optical);
-  if (obstacles_) obstacles_->draw(obstacle_poses_, optical_from_tissue, clip_from_optical);
-  tools_->draw(motions, optical_from_tissue, clip_from_optical);
-  drawOver(optical_from_tissue, clip_from_optical);
-  targets_[camera].resolve();
+  if (lit_targets_[camera]) {
+    drawPixels(view, mesh, motions, tissue, drawOver);
+  } else {
+    drawSamples(view, mesh, motions, tissue, drawOver);
+  }
   ++renders_;
 }
 
+template <class DrawOver>
+void Renderer::drawSamples(const View& view, const MeshView& mesh, const ToolMotions& motions, bool tissue,
+                           DrawOver drawOver) {
+  const RenderTarget& target = *targets_[view.camera];
+  target.bindForDrawing();
+  clearImage();
+  if (tissue) drawTissue(view, mesh, motions);
+  drawRest(view, motions, drawOver);
+  const gpu::TimedStage resolving(gpu::Stage::kResolve);
+  target.resolve();
+}
+
+/// Tissue lit pixel by pixel, then all else, samples of which are put over it.
+template <class DrawOver>
+void Renderer::drawPixels(const View& view, const MeshView& mesh, const ToolMotions& motions, bool tissue,
+                          DrawOver drawOver) {
+  const SeenTarget& target = *lit_targets_[view.camera];
+  glEnable(GL_FRAMEBUFFER_SRGB);
+  const bool by_pixels = tissue && mesh.rests != 0;
+  if (by_pixels) {
+    tissue_->drawPixels(target, cameras_[view.camera], mesh, toolShadows(motions, styluses_, view.optical_from_tissue),
+                        view.optical_from_tissue, view.clip_from_optical, kBackground, pause_);
+  } else {
+    target.bindSeen();
+    target.bindImage();
+    glClearBufferfv(GL_COLOR, 0, kBackground);
+  }
+  const bool any_over = !by_pixels || obstacles_ || tools_->showsAny(motions) || !std::is_same_v<DrawOver, Nothing>;
+  if (any_over) {
+    if (by_pixels && pause_ && std::is_same_v<DrawOver, Nothing>) pause_();
+    target.bindOver();
+    if (tissue && !by_pixels) drawTissue(view, mesh, motions);
+    drawRest(view, motions, drawOver);
+    const gpu::TimedStage resolving(gpu::Stage::kResolve);
+    tissue_->light().putOver(target);
+  }
+  target.bindForReading();
+}
+
+/// Lit where it is drawn.
+void Renderer::drawTissue(const View& view, const MeshView& mesh, const ToolMotions& motions) {
+  const gpu::TimedStage timed(gpu::Stage::kTissue);
+  tissue_->draw(mesh, toolShadows(motions, styluses_, view.optical_from_tissue), view.optical_from_tissue,
+                view.clip_from_optical);
+}
+
+/// Everything but tissue.
+template <class DrawOver>
+void Renderer::drawRest(const View& view, const ToolMotions& motions, DrawOver drawOver) {
+  {
+    const gpu::TimedStage before(gpu::Stage::kOverlays);
+    drawOver(view, true);
+  }
+  {
+    const gpu::TimedStage tools(gpu::Stage::kTools);
+    if (obstacles_) obstacles_->draw(obstacle_poses_, view.optical_from_tissue, view.clip_from_optical);
+    tools_->draw(motions, view.optical_from_tissue, view.clip_from_optical);
+  }
+  const gpu::TimedStage after(gpu::Stage::kOverlays);
+  drawOver(view, false);
+}
+
 void Renderer::drawGeometry(size_t camera, const Surface& surface, const ToolMotions& motions, const DrawnSkin* skin) {
-  drawGeometry(camera, viewOf(surface, skin), motions);
+  drawGeometry(camera, meshOf(surface, skin), motions);
 }
 
 void Renderer::drawGeometry(size_t camera, const MeshView& mesh, const ToolMotions& motions) {
@@ -129,7 +208,11 @@ void Renderer::drawGeometry(size_t camera, const MeshView& mesh, const ToolMotio
 }
 
 void Renderer::bindLast(size_t camera) const {
-  targets_[camera].bindForReading();
+  if (lit_targets_[camera]) {
+    lit_targets_[camera]->bindForReading();
+  } else {
+    targets_[camera]->bindForReading();
+  }
 }
 
 }  // namespace viscera

@@ -3,13 +3,16 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "gpu/program.h"
 #include "render/drawn_skin.h"
 #include "render/geometry_target.h"
 #include "render/render_target.h"
+#include "render/seen_target.h"
 #include "surface/surface.h"
 #include "viscera/render/camera.h"
 #include "viscera/tools/stylus.h"
@@ -39,9 +42,9 @@ struct MeshView {
 /// Images are 8-bit sRGB. Their first row is OpenGL's bottom row: rows read back come top first (see clipFromOptical).
 class Renderer {
  public:
-  /// Antialiasing is CameraConfig::supersampling: every pixel is the mean of n x n drawn ones. On a software
-  /// rasteriser, where the time goes into the setup of small triangles, 2 x 2 costs less than multisampling with 4
-  /// samples, and it smooths highlights too.
+  /// Antialiasing is CameraConfig::supersampling: every pixel is the mean of n x n drawn ones. Where that is 0, they
+  /// are 2 x 2, and on a software rasteriser tissue is not lit where it is drawn, in fragments of small triangles, but
+  /// once per pixel of one surface, and four times at edges (SeenLight).
   /// @throws SceneError  a camera without a line of sight;  GpuError  a framebuffer that the driver refuses
   /// @param model  whose surface is drawn: its textures are; null: none are
   Renderer(const std::vector<CameraConfig>& cameras, const std::vector<StylusConfig>& styluses,
@@ -71,15 +74,32 @@ class Renderer {
   /// Leaves the image that was drawn last bound for reading, as draw() does, without drawing.
   void bindLast(size_t camera) const;
   uint64_t renders() const { return renders_; }
+  /// Is called while an image is being drawn whose pixels are lit, whenever the mesh is not needed for it any more and
+  /// a pass is at its end: it may move the mesh and run kernels. Empty: nothing is.
+  void setPause(std::function<void()> pause) { pause_ = std::move(pause); }
 
  private:
-  template <class DrawTissue, class DrawOver>
-  void drawImage(size_t camera, const ToolMotions& motions, DrawTissue drawTissue, DrawOver drawOver);
+  struct View {  ///< of one camera
+    size_t camera;
+    Pose optical_from_tissue;
+    Eigen::Matrix4f clip_from_optical;
+  };
+  View viewOf(size_t camera) const;
+  template <class DrawOver>
+  void drawImage(size_t camera, const MeshView& mesh, const ToolMotions& motions, bool tissue, DrawOver drawOver);
+  template <class DrawOver>
+  void drawSamples(const View& view, const MeshView& mesh, const ToolMotions& motions, bool tissue, DrawOver drawOver);
+  void drawTissue(const View& view, const MeshView& mesh, const ToolMotions& motions);
+  template <class DrawOver>
+  void drawRest(const View& view, const ToolMotions& motions, DrawOver drawOver);
+  template <class DrawOver>
+  void drawPixels(const View& view, const MeshView& mesh, const ToolMotions& motions, bool tissue, DrawOver drawOver);
 
   std::vector<CameraConfig> cameras_;
   std::vector<StylusConfig> styluses_;
-  std::vector<Pose> camera_poses_;  ///< [cameras] of the optical frames, tissue frame
-  std::vector<RenderTarget> targets_;
+  std::vector<Pose> camera_poses_;                           ///< [cameras] of the optical frames, tissue frame
+  std::vector<std::unique_ptr<RenderTarget>> targets_;       ///< [cameras] null where pixels are lit
+  std::vector<std::unique_ptr<SeenTarget>> lit_targets_;     ///< [cameras] null where samples are lit
   std::vector<std::unique_ptr<GeometryTarget>> geometries_;  ///< [cameras] null until somebody wants one
   gpu::Program geometry_program_;                            ///< none until then
   std::unique_ptr<TissuePainter> tissue_;
@@ -88,6 +108,7 @@ class Renderer {
   std::unique_ptr<OverlayPainter> overlays_;    ///< null until somebody wants one
   std::vector<Pose> obstacle_poses_;
   uint64_t renders_ = 0;
+  std::function<void()> pause_;
 };
 
 }  // namespace viscera

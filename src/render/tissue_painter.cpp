@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gpu/stage_clock.h"
 #include "layout/bindings.h"
 #include "math/srgb.h"
 #include "render/mesh_parts.h"
@@ -50,51 +51,105 @@ void setFinishes(const gpu::Program& program, const Model& model) {
   program.setVectors("body_layers", layers.data(), 4, kLayers * layout::kMaxBodies);
 }
 
+void setShadows(const gpu::Program& program, const ToolShadows& shadows) {
+  program.set("shafts", shadows.count);
+  if (shadows.count == 0) return;
+  const auto count = static_cast<size_t>(shadows.count);
+  program.setVectors("shaft_tips", shadows.tips[0].data(), 4, count);
+  program.setVectors("shaft_ends", shadows.ends[0].data(), 4, count);
+}
+
 }  // namespace
 
-TissuePainter::TissuePainter(const Model* model) : program_(gpu::Program::graphics("mesh.vert", "tissue.frag")) {
+TissuePainter::TissuePainter(const Model* model, bool samples, bool pixels)
+    : program_(gpu::Program::graphics("mesh.vert", "tissue.frag")) {
   describe(inputs_);
   if (model == nullptr) return;
   const auto is_tissue = [](const Body& body) { return !body.skin.two_sided; };
-  if (std::any_of(model->bodies.begin(), model->bodies.end(), is_tissue)) grain_ = std::make_unique<GrainTexture>();
+  if (std::any_of(model->bodies.begin(), model->bodies.end(), is_tissue))
+    grain_ = std::make_unique<GrainTexture>(pixels);
   detail_ = std::make_unique<DetailTextures>(*model);
   if (!detail_->any()) detail_.reset();
   if (!grain_ && !detail_) return;
   describe(tissue_inputs_);
   tissue_inputs_.describe(kRestInput, kRestInput, 4, GL_FLOAT, GL_FALSE, 0);
-  std::vector<std::string> features = {"REST"};
+  std::vector<std::string> features;
   if (grain_) features.emplace_back("GRAIN");
   if (detail_) features.emplace_back("DETAIL");
-  tissue_program_ = gpu::Program::graphics("mesh.vert", "tissue.frag", features);
-  depth_program_ = gpu::Program::graphics("mesh.vert", "depth.frag");
-  if (grain_) setFinishes(tissue_program_, *model);
+  if (pixels) {
+    light_ = std::make_unique<SeenLight>(features);
+    for (const gpu::Program* program : light_->programs()) {
+      if (!grain_) continue;
+      setFinishes(*program, *model);
+      program->set("steepest_grain", GrainTexture::kSteepest);
+    }
+  }
+  features.emplace_back("REST");
+  if (samples) {
+    tissue_program_ = gpu::Program::graphics("mesh.vert", "tissue.frag", features);
+    depth_program_ = gpu::Program::graphics("mesh.vert", "depth.frag");
+    if (grain_) setFinishes(tissue_program_, *model);
+  }
+  features.emplace_back("SRGB");
+  if (pixels) seen_program_ = gpu::Program::graphics("mesh.vert", "tissue_seen.frag", features);
+}
+
+/// With its places at rest, and textures.
+void TissuePainter::bindAtRest(const MeshView& mesh) const {
+  bindMesh(tissue_inputs_, mesh);
+  glVertexArrayVertexBuffer(tissue_inputs_.id(), kRestInput, mesh.rests, 0, 4 * sizeof(float));
+  if (grain_) grain_->bind();
+  if (detail_) detail_->bind();
+  glBindVertexArray(tissue_inputs_.id());
+}
+
+/// What bindAtRest() has bound, with the program in use.
+void TissuePainter::drawAtRest(const gpu::Program& program, const MeshView& mesh) const {
+  drawParts(mesh, tissue_inputs_, [&](const DrawnPart& part) {
+    if (!detail_) return;
+    glBindTextureUnit(layout::kUnitShownCharts, part.charts);
+    program.set("first_chart", static_cast<int32_t>(part.first / 3));
+  });
 }
 
 void TissuePainter::draw(const MeshView& mesh, const ToolShadows& shadows, const Pose& optical_from_tissue,
                          const Eigen::Matrix4f& clip_from_optical) {
   glMemoryBarrier(GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_ELEMENT_ARRAY_BARRIER_BIT);  // kernels wrote these buffers
-  const bool at_rest = tissue_program_ && mesh.rests != 0;
-  const VertexArray& inputs = at_rest ? tissue_inputs_ : inputs_;
-  bindMesh(inputs, mesh);
-  if (at_rest) glVertexArrayVertexBuffer(inputs.id(), kRestInput, mesh.rests, 0, 4 * sizeof(float));
-  if (at_rest && grain_) grain_->bind();
-  if (at_rest && detail_) detail_->bind();
-  glBindVertexArray(inputs.id());
-  if (at_rest) {
+  if (tissue_program_ && mesh.rests != 0) {
+    bindAtRest(mesh);
     depth_program_.use();
     setMeshMatrices(depth_program_, optical_from_tissue, clip_from_optical);
-    drawParts(mesh, inputs, [](const DrawnPart&) {});
+    drawParts(mesh, tissue_inputs_, [](const DrawnPart&) {});
     glDepthFunc(GL_LEQUAL);
+    useWith(tissue_program_, shadows, optical_from_tissue, clip_from_optical);
+    drawAtRest(tissue_program_, mesh);
+    glDepthFunc(GL_LESS);
+  } else {
+    bindMesh(inputs_, mesh);
+    glBindVertexArray(inputs_.id());
+    useWith(program_, shadows, optical_from_tissue, clip_from_optical);
+    drawParts(mesh, inputs_, [](const DrawnPart&) {});
   }
-  const gpu::Program& program = at_rest ? tissue_program_ : program_;
-  useWith(program, shadows, optical_from_tissue, clip_from_optical);
-  drawParts(mesh, inputs, [&](const DrawnPart& part) {
-    if (!at_rest || !detail_) return;
-    glBindTextureUnit(layout::kUnitShownCharts, part.charts);
-    program.set("first_chart", static_cast<int32_t>(part.first / 3));
-  });
-  glDepthFunc(GL_LESS);
   glBindVertexArray(0);
+}
+
+void TissuePainter::drawPixels(const SeenTarget& target, const CameraConfig& camera, const MeshView& mesh,
+                               const ToolShadows& shadows, const Pose& optical_from_tissue,
+                               const Eigen::Matrix4f& clip_from_optical, const float (&background)[4],
+                               const std::function<void()>& pause) {
+  glMemoryBarrier(GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_ELEMENT_ARRAY_BARRIER_BIT);  // kernels wrote these buffers
+  {
+    const gpu::TimedStage timed(gpu::Stage::kTissue);
+    target.bindSeen();
+    bindAtRest(mesh);
+    seen_program_.use();
+    setMeshMatrices(seen_program_, optical_from_tissue, clip_from_optical);
+    drawAtRest(seen_program_, mesh);
+  }
+  if (pause) pause();
+  for (const gpu::Program* program : light_->programs()) setShadows(*program, shadows);
+  if (grain_) grain_->bindSlopes();
+  light_->light(target, camera, optical_from_tissue, background, pause);
 }
 
 void TissuePainter::drawGeometry(const gpu::Program& program, const MeshView& mesh, const Pose& optical_from_tissue,
@@ -113,12 +168,7 @@ void TissuePainter::useWith(const gpu::Program& program, const ToolShadows& shad
                             const Eigen::Matrix4f& clip_from_optical) {
   program.use();
   setMeshMatrices(program, optical_from_tissue, clip_from_optical);
-  program.set("shafts", shadows.count);
-  if (shadows.count > 0) {
-    const auto count = static_cast<size_t>(shadows.count);
-    program.setVectors("shaft_tips", shadows.tips[0].data(), 4, count);
-    program.setVectors("shaft_ends", shadows.ends[0].data(), 4, count);
-  }
+  setShadows(program, shadows);
 }
 
 }  // namespace viscera

@@ -34,6 +34,12 @@ ToolPainter::ToolPainter(const std::vector<StylusConfig>& styluses)
   glVertexArrayElementBuffer(inputs_.id(), indices_.id());
 }
 
+bool ToolPainter::showsAny(const ToolMotions& motions) const {
+  const size_t count = std::min(motions.size(), ranges_.size());
+  return std::any_of(motions.begin(), motions.begin() + static_cast<std::ptrdiff_t>(count),
+                     [](const StylusMotion& motion) { return motion.present; });
+}
+
 /// @param before  (stylus) is called first
 template <class Before>
 void ToolPainter::drawPart(const gpu::Program& program, Part part, const ToolMotions& motions,
@@ -58,7 +64,7 @@ void ToolPainter::draw(const ToolMotions& motions, const Pose& optical_from_tiss
   program_.use();
   drawPart(program_, Part::kSolid, motions, optical_from_tissue, clip_from_optical, [](size_t) {});
   glEnable(GL_BLEND);
-  glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   glBlendEquation(GL_FUNC_ADD);
   glDepthMask(GL_FALSE);  // an outline hides nothing
   glEnable(GL_CULL_FACE);

@@ -21,6 +21,8 @@ class ToolPainter {
   /// Draws into the bound framebuffer, where the tissue already is: the outlines of tools let it shine through.
   void draw(const ToolMotions& motions, const Pose& optical_from_tissue, const Eigen::Matrix4f& clip_from_optical);
 
+  bool showsAny(const ToolMotions& motions) const;
+
   /// Draws what is solid with another program: geometry.frag.
   void drawGeometry(const gpu::Program& program, const ToolMotions& motions, const Pose& optical_from_tissue,
                     const Eigen::Matrix4f& clip_from_optical);

@@ -7,6 +7,8 @@
 #include <limits>
 #include <utility>
 
+#include "gpu/software.h"
+#include "gpu/stage_clock.h"
 #include "render/overlay_painter.h"
 
 namespace viscera {
@@ -21,7 +23,8 @@ size_t surfaceBytes(const Surface& surface) {
 }
 
 std::unique_ptr<gpu::ReadbackRing> makeRing(const Surface& surface) {
-  return std::make_unique<gpu::ReadbackRing>(surfaceBytes(surface), kSurfacesInFlight, "the surface");
+  return std::make_unique<gpu::ReadbackRing>(surfaceBytes(surface), kSurfacesInFlight, "the surface",
+                                             gpu::isSoftware());
 }
 
 gpu::ReadbackRing::Pixel pixelOf(PictureKind kind) {
@@ -64,7 +67,8 @@ InlineView::InlineView(const Model& model, const Scene& scene)
     : model_(model),
       surface_(model),
       renderer_(eyesOf(scene.cameras), scene.styluses, scene.obstacles, &model),
-      surface_ring_(makeRing(surface_)) {
+      surface_ring_(makeRing(surface_)),
+      reads_late_(gpu::isSoftware()) {
   const std::vector<CameraConfig>& cameras = scene.cameras;
   for (size_t c = 0; c < cameras.size(); ++c) addEye(c, cameras[c], PictureKind::kColor);
   for (size_t c = 0; c < cameras.size(); ++c) {
@@ -78,9 +82,9 @@ void InlineView::addEye(size_t camera, const CameraConfig& config, PictureKind k
                    config,
                    SeenSkin(config, model_, surface_.groups()),
                    opticalPose(config),
-                   {kind, std::move(ring), false},
-                   {PictureKind::kDepth, nullptr, false},
-                   {PictureKind::kLabels, nullptr, false},
+                   {kind, std::move(ring)},
+                   {PictureKind::kDepth, nullptr},
+                   {PictureKind::kLabels, nullptr},
                    {},
                    {}});
 }
@@ -119,7 +123,12 @@ void InlineView::capture(const StateView& state, const Look& look, Pictures& out
   }
   if (any) follow(state, all, displacements);
   if (surface) captureSurface(look.tick);
+  const auto last =
+      std::find_if(eyes_.rbegin(), eyes_.rend(), [](const Eye& eye) { return eye.draws || eye.measures; });
   for (size_t e = 0; e < eyes_.size(); ++e) {
+    const bool is_last = last != eyes_.rend() && &eyes_[e] == &*last;
+    const bool pauses = is_last && !last->measures && !overlaysOf(last->camera, look).any();
+    renderer_.setPause(pauses ? pause_ : std::function<void()>());
     if (eyes_[e].color.wanted) captureImage(e, state, look);
     if (eyes_[e].depth.wanted || eyes_[e].labels.wanted) captureGeometry(e, state, look);
   }
@@ -151,6 +160,7 @@ void InlineView::choose(size_t e, const StateView& state, const Look& look, Pict
 bool InlineView::claim(Channel& channel, Eye& eye, const Look& look, Pictures& out) {
   channel.wanted = look.wants.image(eye.camera, channel.kind);
   if (!channel.wanted) return false;
+  if (channel.drawn) readDrawn(channel, eye);
   if (!channel.ring) {
     channel.ring =
         std::make_unique<gpu::ReadbackRing>(imageBytes(eye.config, channel.kind), kImagesInFlight, "depths or labels");
@@ -200,6 +210,7 @@ void InlineView::follow(const StateView& state, bool all, const std::optional<Ho
 }
 
 void InlineView::captureSurface(uint64_t tick) {
+  const gpu::TimedStage timed(gpu::Stage::kReadback);
   const gpu::ReadbackRing::Source sources[] = {{surface_.positions().id(), 0, 3 * surface_.vertices() * sizeof(float)},
                                                {surface_.normals().id(), 0, surface_.vertices() * sizeof(uint32_t)},
                                                {surface_.alive().id(), 0, surface_.alive().size() * sizeof(uint32_t)}};
@@ -216,7 +227,19 @@ void InlineView::captureImage(size_t e, const StateView& state, const Look& look
     renderer_.bindLast(e);
     ++counters_.repeats;
   }
-  request(eye.color, eye, look.tick);
+  if (reads_late_) {
+    eye.color.drawn = std::make_unique<gpu::Fence>();
+    eye.color.drawn_tick = look.tick;
+  } else {
+    request(eye.color, eye, look.tick);
+  }
+}
+
+/// A software rasteriser draws on threads of its own, but who reads pixels waits for them.
+void InlineView::readDrawn(Channel& channel, const Eye& eye) {
+  renderer_.bindLast(static_cast<size_t>(&eye - eyes_.data()));
+  channel.drawn.reset();
+  request(channel, eye, channel.drawn_tick);
 }
 
 void InlineView::captureGeometry(size_t e, const StateView& state, const Look& look) {
@@ -244,6 +267,7 @@ void InlineView::captureGeometry(size_t e, const StateView& state, const Look& l
 
 /// Of what is bound for reading.
 void InlineView::request(Channel& channel, const Eye& eye, uint64_t tick) {
+  const gpu::TimedStage timed(gpu::Stage::kReadback);
   channel.ring->requestPixels(eye.config.width_px, eye.config.height_px, tick, pixelOf(channel.kind));
   ++counters_.readbacks;
 }
@@ -278,6 +302,27 @@ void InlineView::collect(Pictures& out, bool wait) {
   }
 }
 
+void InlineView::showSurface(const StateView& state, uint64_t tick, Pictures& out) {
+  if (surface_ring_->inFlight() == kSurfacesInFlight) {
+    ++counters_.skipped;
+    return;
+  }
+  surface_.tear(state);
+  surface_.follow(state, nullptr);
+  captureSurface(tick);
+  takeSurface(out, false);
+}
+
+bool InlineView::anyUnderWay() const {
+  if (surface_ring_->inFlight() > 0) return true;
+  return std::any_of(eyes_.begin(), eyes_.end(), [](const Eye& eye) {
+    const auto under_way = [](const Channel& channel) {
+      return channel.drawn || (channel.ring && channel.ring->inFlight() > 0);
+    };
+    return under_way(eye.color) || under_way(eye.depth) || under_way(eye.labels);
+  });
+}
+
 bool InlineView::takeSurface(Pictures& out, bool wait) {
   uint64_t tick = 0;
   const char* at = static_cast<const char*>(surface_ring_->collect(&tick, wait));
@@ -301,6 +346,7 @@ bool InlineView::takeSurface(Pictures& out, bool wait) {
 }
 
 bool InlineView::takeImage(Channel& channel, const Eye& eye, Pictures& out, bool wait) {
+  if (channel.drawn && (wait || channel.drawn->hasPassed())) readDrawn(channel, eye);
   if (!channel.ring) return false;
   uint64_t tick = 0;
   const void* const pixels = channel.ring->collect(&tick, wait);

@@ -3,10 +3,12 @@
 #pragma once
 
 #include <deque>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
 
+#include "gpu/fence.h"
 #include "gpu/readback.h"
 #include "render/renderer.h"
 #include "session/seen_skin.h"
@@ -26,9 +28,16 @@ class InlineView : public View {
   /// @param displacements  of the same state, where it is on the host: then nothing waits to know what can be seen
   void capture(const StateView& state, const Look& look, Pictures& out,
                const std::optional<HostDisplacements>& displacements = {});
+  /// Of the next capture of images: is called while the last of them is drawn, whenever nothing needs the surface any
+  /// more: showSurface() may be called then. Empty: nothing is.
+  void setPause(std::function<void()> pause) { pause_ = std::move(pause); }
+  /// Maps and hands over the surface alone, of a state that wound() knows.
+  void showSurface(const StateView& state, uint64_t tick, Pictures& out);
   /// Wounds of the states that are captured from now on, see Surface::wound().
   void wound(const CutSprings& cuts, uint64_t revision);
   void collect(Pictures& out, bool wait) override;
+  /// Is anything on its way that collect() has not handed over?
+  bool anyUnderWay() const;
   void reset() override;
   ViewCounters counters() const override;
   std::shared_ptr<const ShownTopology> wholeSkin() const override { return surface_.skin().whole(); }
@@ -47,6 +56,8 @@ class InlineView : public View {
     PictureKind kind = PictureKind::kColor;
     std::unique_ptr<gpu::ReadbackRing> ring;  ///< null until somebody wants one
     bool wanted = false;                      ///< in this capture: is handed over
+    std::unique_ptr<gpu::Fence> drawn = {};   ///< of a picture that is read when it is drawn; null: there is none
+    uint64_t drawn_tick = 0;
   };
   struct Eye {
     size_t camera;
@@ -71,6 +82,7 @@ class InlineView : public View {
   void follow(const StateView& state, bool all, const std::optional<HostDisplacements>& displacements);
   void draw(size_t eye, const StateView& state, const Look& look);
   void request(Channel& channel, const Eye& eye, uint64_t tick);
+  void readDrawn(Channel& channel, const Eye& eye);
   bool takeImage(Channel& channel, const Eye& eye, Pictures& out, bool wait);
   bool takeSurface(Pictures& out, bool wait);
 
@@ -84,6 +96,8 @@ class InlineView : public View {
   std::vector<uint32_t> alive_;  ///< of the surface taken last
   ViewCounters counters_;
   uint64_t captures_ = 0;
+  std::function<void()> pause_;
+  const bool reads_late_;  ///< reading would wait on this thread
   SkinPlaces places_;
   std::vector<uint8_t> seen_;  ///< [groups] by any camera that is drawn
   SkinGroups::Needs needs_;

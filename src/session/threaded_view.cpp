@@ -3,6 +3,7 @@
 #include "session/threaded_view.h"
 
 #include <algorithm>
+#include <chrono>
 #include <iterator>
 #include <utility>
 
@@ -14,6 +15,8 @@
 namespace viscera {
 
 namespace {
+
+constexpr std::chrono::milliseconds kLook{1};  // how often images that are being drawn are asked for
 
 /// The context is this thread's as long as this lives.
 class Current {
@@ -46,6 +49,12 @@ void reserve(const Scene& scene, Look& look) {
     look.wants.of(static_cast<PictureKind>(kind)).reserve(scene.cameras.size());
   look.obstacles.reserve(scene.obstacles.size());
   look.cameras.reserve(scene.cameras.size());
+}
+
+/// Nothing is wanted; keeps its memory.
+void clear(Wants& wants) {
+  wants.surface = wants.every_image = false;
+  for (size_t kind = 0; kind < kPictureKinds; ++kind) wants.of(static_cast<PictureKind>(kind)).clear();
 }
 
 /// @returns how much of it was wanted already
@@ -173,15 +182,21 @@ void ThreadedView::run(const Model& model, const Scene& scene) {
   StateMirror mirror(model);
   Look look;
   reserve(scene, look);
+  Look between;
+  reserve(scene, between);
+  view.setPause([&] { pause(view, mirror, between); });
   announce(view, mirror);
   while (true) {
     switch (awaitOrder(look)) {
       case Order::kShow:
         show(view, mirror, look);
         break;
+      case Order::kNone:
+        handOver(view, mirror, {});
+        break;
       case Order::kReset:
         view.reset();
-        finish({}, counters_);
+        finish({}, counters_, false);
         break;
       default:
         return;
@@ -201,41 +216,93 @@ void ThreadedView::announce(const InlineView& view, const StateMirror& mirror) {
   changed_.notify_all();
 }
 
-/// @param look  becomes what is to be shown
+bool ThreadedView::canTake() const {
+  return order_ == Order::kShow ? !drawing_ || look_.wants.surface : order_ == Order::kReset || order_ == Order::kEnd;
+}
+
+/// @param look  becomes what is to be shown   @returns kNone: nothing, but images are being drawn
 ThreadedView::Order ThreadedView::awaitOrder(Look& look) {
   Lock lock(mutex_);
-  changed_.wait(lock, [this] { return order_ != Order::kNone; });
-  if (order_ != Order::kShow) return order_;
+  if (drawing_) {
+    changed_.wait_for(lock, kLook, [this] { return canTake(); });
+  } else {
+    changed_.wait(lock, [this] { return canTake(); });
+  }
+  if (!canTake()) return Order::kNone;
+  if (order_ == Order::kShow) take(look);
+  return order_ == Order::kTaken ? Order::kShow : order_;
+}
+
+/// All of it, or the surface.
+void ThreadedView::take(Look& look) {
+  if (drawing_) {
+    look = look_;
+    clear(look.wants);
+    look.wants.surface = std::exchange(look_.wants.surface, false);
+  } else {
+    std::swap(look, look_);
+    clear(look_.wants);
+  }
   order_ = Order::kTaken;
-  std::swap(look, look_);
-  return Order::kShow;
 }
 
 void ThreadedView::show(InlineView& view, StateMirror& mirror, const Look& look) {
+  upload(view, mirror);
+  Pictures made;
+  Look images = look;
+  if (look.wants.surface && look.wants.count() > 1) {  // images take longer
+    view.showSurface(mirror.view(), look.tick, made);
+    finish(std::move(made), view.counters(), true);
+    made = {};
+    images.wants.surface = false;
+  }
+  view.capture(mirror.view(), images, made, mirror.displacements());
+  handOver(view, mirror, std::move(made));
+}
+
+/// Brings the state in the slot to the GPU and frees the slot: the next may come while this one is drawn. What was left
+/// of its wants is there for the taking till then.
+void ThreadedView::upload(InlineView& view, StateMirror& mirror) {
   mirror.upload(snapshot_);
   view.wound({snapshot_.nodes.data(), snapshot_.axial_cut.data(), snapshot_.spring_cut.data()}, snapshot_.cut_revision);
   {
     const Lock lock(mutex_);
-    order_ = Order::kNone;  // the slot is free: the next state may come while this one is drawn
-    busy_ = true;
+    order_ = look_.wants.count() > 0 ? Order::kShow : Order::kNone;
+    busy_ = drawing_ = true;
   }
   changed_.notify_all();
+}
+
+/// An image is being drawn; a surface does not wait for it.
+void ThreadedView::pause(InlineView& view, StateMirror& mirror, Look& look) {
+  {
+    const Lock lock(mutex_);
+    if (order_ != Order::kShow || !look_.wants.surface) return;
+    take(look);
+  }
+  upload(view, mirror);
   Pictures made;
-  view.capture(mirror.view(), look, made, mirror.displacements());
-  view.collect(made, true);
+  view.showSurface(mirror.view(), look.tick, made);
+  finish(std::move(made), view.counters(), true);
+}
+
+/// What is ready.
+void ThreadedView::handOver(InlineView& view, const StateMirror& mirror, Pictures&& made) {
+  view.collect(made, false);
   gpu::checkErrors("view");
   ViewCounters counters = view.counters();
   counters.moved_bricks = mirror.movedBricks();
-  finish(std::move(made), counters);
+  finish(std::move(made), counters, view.anyUnderWay());
 }
 
-void ThreadedView::finish(Pictures&& made, const ViewCounters& counters) {
+/// @param drawing  there is more to come
+void ThreadedView::finish(Pictures&& made, const ViewCounters& counters, bool drawing) {
   {
     const Lock lock(mutex_);
     append(std::move(made), done_);
     counters_ = counters;
     if (order_ == Order::kReset) order_ = Order::kNone;
-    busy_ = false;
+    busy_ = drawing_ = drawing;
   }
   changed_.notify_all();
 }

@@ -20,6 +20,9 @@ class StateMirror;
 /// of the state, only where something is wanted, into one slot. What is still in the slot when more is wanted is
 /// overtaken: the newer state shows what was wanted of either.
 ///
+/// A surface does not wait for images: as long as some are being drawn, the thread takes from the slot what is wanted
+/// of the surface, and leaves the rest for later, when it may be of a newer state.
+///
 /// What goes wrong on the view's thread ends it, and is thrown by every call after that.
 class ThreadedView : public View {
  public:
@@ -44,8 +47,13 @@ class ThreadedView : public View {
   void run(const Model& model, const Scene& scene);
   void announce(const InlineView& view, const StateMirror& mirror);
   Order awaitOrder(Look& look);
+  void pause(InlineView& view, StateMirror& mirror, Look& look);
+  void upload(InlineView& view, StateMirror& mirror);
+  bool canTake() const;
+  void take(Look& look);
   void show(InlineView& view, StateMirror& mirror, const Look& look);
-  void finish(Pictures&& made, const ViewCounters& counters);
+  void handOver(InlineView& view, const StateMirror& mirror, Pictures&& made);
+  void finish(Pictures&& made, const ViewCounters& counters, bool drawing);
   bool claimSlot(const Wants& wants);
   template <class Condition>
   void await(Lock& lock, Condition condition);
@@ -60,7 +68,8 @@ class ThreadedView : public View {
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   Order order_ = Order::kNone;
-  bool busy_ = true;  ///< the view works on what it has taken from the slot; at first on itself
+  bool busy_ = true;      ///< the view works on what it has taken from the slot; at first on itself
+  bool drawing_ = false;  ///< ... on images, while more may be taken
   Pictures done_;
   ViewCounters counters_;
   uint64_t skipped_ = 0;

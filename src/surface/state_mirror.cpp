@@ -6,6 +6,7 @@
 #include <cassert>
 #include <cstring>
 
+#include "gpu/stage_clock.h"
 #include "solver/joined_lattice.h"
 #include "solver/joined_network.h"
 #include "surface/joined_skins.h"
@@ -35,6 +36,7 @@ StateMirror::StateMirror(const Model& model)
 
 void StateMirror::upload(const StateSnapshot& snapshot) {
   assert(snapshot.bricks == shown_ && snapshot.displacement_m.size() == known_m_.size());
+  const gpu::TimedStage timed(gpu::Stage::kUpload);
   ++revision_;
   uploadMoved(snapshot);
   if (snapshot.cut_revision != cut_revision_) {

@@ -135,7 +135,13 @@ void Surface::follow(const StateView& state, const SkinGroups::Needs* needs) {
 bool Surface::followLattices(const StateView& state, const SkinGroups::Needs* needs) {
   bindings_.bindStorage(layout::kBindSkinBindings);
   node_normals_.bindStorage(layout::kBindNodeNormals);
-  const std::vector<uint8_t>* const nodes = needs ? &needs->nodes : nullptr;
+  followNormals(state, needs ? &needs->nodes : nullptr);
+  const gpu::TimedStage timed(gpu::Stage::kMapping);
+  return vertex_items_.run(map_, state, needs ? &needs->vertices : nullptr);
+}
+
+void Surface::followNormals(const StateView& state, const std::vector<uint8_t>* nodes) {
+  const gpu::TimedStage timed(gpu::Stage::kNormals);
   if (carried_normal_) {
     carried_nodes_.bindStorage(layout::kBindSurfaceNodes);
     carried_items_.run(carried_normal_, state, nodes);
@@ -145,7 +151,6 @@ bool Surface::followLattices(const StateView& state, const SkinGroups::Needs* ne
     summed_items_.run(summed_normal_, state, nodes);
   }
   gpu::Program::storageBarrier();
-  return vertex_items_.run(map_, state, needs ? &needs->vertices : nullptr);
 }
 
 /// All of them or none: the split ones of one end where both ends are in place.

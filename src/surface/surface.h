@@ -76,6 +76,7 @@ class Surface {
 
  private:
   bool followLattices(const StateView& state, const SkinGroups::Needs* needs);
+  void followNormals(const StateView& state, const std::vector<uint8_t>* nodes);
   bool followNetworks(const StateView& state);
   void forget();
   bool isAnyTorn() const;

@@ -56,7 +56,7 @@ TEST_F(PerformanceSuite, ScaleHasCostAndMemoryOfEverySize) {
 
 TEST_F(PerformanceSuite, HapticsHasARowOfEachCellAndMeetsItsChecks) {
   run("haptics");
-  EXPECT_EQ(rows("matrix").size(), 16u);  // two tissues, delays, masses, drivers
+  EXPECT_EQ(rows("matrix").size(), 16u);         // two tissues, delays, masses, drivers
   EXPECT_EQ(rowsWith("matrix", {",no,"}), 16u);  // limit cycles
   EXPECT_EQ(rows("events").size(), 8u);          // four, two drivers
   EXPECT_EQ(rowsWith("events", {",no,"}), 8u);
@@ -104,6 +104,17 @@ TEST_F(PerformanceSuite, LatencyHasForceSurfaceAndImageOnEachBackend) {
   EXPECT_EQ(rowsWith("delays", {"pose to surface"}), 4u) << ending_.out;
   EXPECT_EQ(rowsWith("delays", {"pose to image"}), 4u) << ending_.out;
   EXPECT_EQ(rowsWith("delays", {"jitter of ticks"}), 8u) << ending_.out;
+}
+
+TEST_F(PerformanceSuite, PictureHasEveryWayWithItsStagesAndLooksTheSame) {
+  run("picture");
+  for (const std::string tissue : {"whole", "cut"}) {
+    EXPECT_EQ(rowsWith("pictures", {tissue + ","}), 4u) << ending_.out;
+    EXPECT_EQ(rowsWith("stages", {tissue + ","}), 4u);
+  }
+  EXPECT_EQ(rowsWith("checks", {"SSIM", ",ok"}), 2u) << ending_.out;
+  EXPECT_EQ(rowsWith("checks", {"time of a picture"}), 2u);
+  EXPECT_GT(test::readFile(folder_.file("picture_whole_automatic.png")).size(), 50000u);
 }
 
 TEST_F(PerformanceSuite, GpuHasEveryPart) {

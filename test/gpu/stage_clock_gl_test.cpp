@@ -108,6 +108,18 @@ TEST_F(StageClockTest, RealTimeStampsDoNotGoBackwards) {
   EXPECT_LT(seconds, 10);
 }
 
+TEST_F(StageClockTest, AClockThatWaitsTakesTheTimeOnTheHost) {
+  const auto clock = StageClock::waiting();
+  {
+    const TimedStage render(Stage::kRender);
+    const TimedStage light(Stage::kLight);
+  }
+  EXPECT_EQ(of(clock->collect(true), Stage::kLight).count, 1u);
+  EXPECT_GE(of(clock->collect(true), Stage::kLight).seconds, 0);
+  EXPECT_EQ(of(clock->collect(true), Stage::kTools).count, 0u);
+  EXPECT_EQ(clock->untimed(), 0u);
+}
+
 TEST_F(StageClockTest, ThereIsOnePerThread) {
   const StageClock clock(4);
   EXPECT_THROW(StageClock(4), viscera::GpuError);

@@ -192,6 +192,34 @@ TEST_F(ThreadedViewTest, ShowsToTheBitWhatAViewOnTheSteppersThreadShows) {
   EXPECT_NE(shown[1].pictures.images[0].rgb, shown[2].pictures.images[0].rgb);
 }
 
+/// A large picture is being drawn; surfaces of later ticks are there before it, and are those that an idle view shows.
+TEST_F(ThreadedViewTest, SurfacesDoNotWaitForImages) {
+  if (!context_.isSoftware()) return;  // a GPU may draw any picture in the time of a tick
+  scene_.cameras.resize(1);
+  scene_.cameras[0].width_px = scene_.cameras[0].height_px = 1400;
+  scene_.cameras[0].position_m = Vector3d(0, -3 * kHalfM, 0);  // the block fills it
+  ThreadedView view(model_, scene_, context_);
+  show(view, lookAfterStep({true, {true}, false}));  // drivers compile shaders at the first picture
+  Pictures out;
+  view.capture(tissue_, lookAfterStep({false, {true}, false}), out);
+  const uint64_t image_tick = tick_;
+  std::this_thread::sleep_for(milliseconds(50));  // the view takes it
+  int surfaces = 0;
+  while (out.images.empty()) {
+    view.capture(tissue_, lookAfterStep({true, {}, false}), out);
+    const uint64_t wanted = tick_;
+    while (out.images.empty() && (!out.surface || out.surface->tick < wanted)) {
+      std::this_thread::sleep_for(milliseconds(1));
+      view.collect(out, false);
+    }
+    surfaces += out.images.empty() && out.surface && out.surface->tick > image_tick;
+    out.surface.reset();
+  }
+  EXPECT_GT(surfaces, 0);
+  ASSERT_EQ(out.images.size(), 1u);
+  EXPECT_EQ(out.images[0].tick, image_tick);
+}
+
 TEST_F(ThreadedViewTest, WithNobodyWatchingNothingIsCopied) {
   ThreadedView view(model_, scene_, context_);
   for (int t = 0; t < 10; ++t) {

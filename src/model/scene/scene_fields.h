@@ -95,7 +95,9 @@ void visitFields(V& v, CameraConfig& c) {
   v.integer("width_px", c.width_px, {16, 4096}, "image width");
   v.integer("height_px", c.height_px, {16, 4096}, "image height");
   v.number("rate_hz", c.rate_hz, {0.1, 240}, "Hz", "images per second of simulated time, at most one per tick");
-  v.integer("supersampling", c.supersampling, {1, 2}, "antialiasing: pixels drawn per image pixel along each axis");
+  v.integer("supersampling", c.supersampling, {0, 2},
+            "antialiasing: pixels drawn per image pixel along each axis; 0: 2, and with a software renderer tissue is "
+            "drawn so but lit once per pixel, four times at edges only (docs/benchmarks.md#picture)");
   v.names("overlays", c.overlays, "what is drawn over the tissue; changed at run time by the service set_overlays");
   v.number("strain_range", c.strain_range, {0.001, 10}, "1", "overlay strain: what the end of the legend stands for");
   v.boolean("draw_hidden", c.draw_hidden,

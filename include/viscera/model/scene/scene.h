@@ -183,7 +183,7 @@ struct CameraConfig {
   int width_px = 640;
   int height_px = 480;
   double rate_hz = 30;
-  int supersampling = 2;
+  int supersampling = 0;  ///< 0: as the renderer bears, see Renderer
   Overlays overlays;
   double strain_range = 0.3;
   bool draw_hidden = false;
