@@ -209,6 +209,7 @@ FramePublisher::Latencies FramePublisher::takeLatencies() {
   const auto now = std::chrono::steady_clock::now();
   out.surface_rate_hz = surface_rate_.take(now);
   for (RateMeter& meter : image_rates_) out.image_rates_hz.push_back(meter.take(now));
+  for (const auto& camera : cameras_) out.images_wanted_hz.push_back(camera->wantedRate_hz());
   return out;
 }
 

@@ -45,6 +45,7 @@ class FramePublisher {
     std::vector<LatencyMeter::Reading> images;  ///< [cameras]
     double surface_rate_hz = 0;                 ///< that they were sent, `surface_marker` and `surface` as one
     std::vector<double> image_rates_hz;         ///< [cameras], of image_raw
+    std::vector<double> images_wanted_hz;       ///< [cameras] the same as it should be; 0: nobody subscribes
   };
   Latencies takeLatencies();
   /// Somebody subscribes to the surface, to markers or to an image. From any thread.

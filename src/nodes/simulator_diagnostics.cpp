@@ -4,6 +4,7 @@
 
 #include <ros/console.h>
 
+#include <algorithm>
 #include <cstring>
 #include <numeric>
 #include <utility>
@@ -51,6 +52,7 @@ SimulatorDiagnostics::SimulatorDiagnostics(ros::NodeHandle node, const Scene& sc
       obstacles_(obstacles),
       camera_frames_(camera_frames),
       tick_s_(1 / scene.solver.tick_hz),
+      pictures_(scene.cameras),
       dropped_before_(inputs.size(), 0),
       updater_(node) {
   for (const CameraConfig& camera : scene.cameras) cameras_.push_back(camera.name);
@@ -71,7 +73,19 @@ void SimulatorDiagnostics::update() {
   now_ = loop_.takeStatus();
   takeLatencies();
   if (now_) updater_.setHardwareID(now_->gpu);
+  watchPictures();
   updater_.force_update();
+}
+
+/// Of a simulation that is slower than real time they come the more seldom; in a pause they come if something changes.
+void SimulatorDiagnostics::watchPictures() {
+  if (!now_) return;
+  if (!std::exchange(told_ways_, true)) {
+    for (const std::string& way : pictures_.ways(now_->software_gpu)) ROS_INFO("%s", way.c_str());
+  }
+  std::vector<double> wanted_hz = latencies_.images_wanted_hz;
+  for (double& rate_hz : wanted_hz) rate_hz *= now_->paused ? 0 : std::min(1.0, now_->pace.real_time_factor);
+  for (const std::string& line : pictures_.note(wanted_hz, latencies_.image_rates_hz)) ROS_WARN("%s", line.c_str());
 }
 
 void SimulatorDiagnostics::takeLatencies() {
@@ -128,6 +142,8 @@ void SimulatorDiagnostics::pace(Status& status) {
   const bool slow = !now_->paused && pace.real_time_factor < kSlow;
   status.summary(slow ? Level::WARN : Level::OK, slow ? "slower than real time" : "keeps up");
   if (!now_->paused && slowness_.note(slow)) warnOfSlowness(pace, tick_s_);
+  if (!slow && pictures_.areBehind())
+    status.summary(Level::WARN, "keeps up, but pictures come less than a third as often as wanted");
   if (publishers_.wrenches.stalled()) status.summary(Level::WARN, "ticks do not come in time: forces are zero");
   status.add("real_time_factor", pace.real_time_factor);
   status.add("step_mean_ms", 1e3 * pace.step_mean_s);

@@ -13,6 +13,7 @@
 #include "nodes/camera_frames.h"
 #include "nodes/frame_publisher.h"
 #include "nodes/obstacle_frames.h"
+#include "nodes/picture_watch.h"
 #include "nodes/simulation_loop.h"
 #include "nodes/slowness.h"
 #include "nodes/stylus_input.h"
@@ -40,6 +41,7 @@ class SimulatorDiagnostics {
   void takeLatencies();
   void simulation(Status& status);
   void pace(Status& status);
+  void watchPictures();
   void latency(Status& status);
   void stylus(size_t index, Status& status);
   void obstacles(Status& status);
@@ -56,6 +58,8 @@ class SimulatorDiagnostics {
   std::vector<std::string> cameras_;  ///< their names
   const double tick_s_;
   Slowness slowness_;
+  PictureWatch pictures_;
+  bool told_ways_ = false;  ///< how pictures are drawn
   std::optional<LoopStatus> now_;
   FramePublisher::Latencies latencies_;
   std::vector<LatencyMeter::Reading> force_latencies_;  ///< [styluses]

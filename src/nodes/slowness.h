@@ -6,20 +6,22 @@
 
 namespace viscera::nodes {
 
-/// Decides when it is worth saying that a simulation is slower than real time: after two readings in a row, and again
-/// only when it has kept up for two readings since.
+/// Decides when it is worth saying that a simulation is slower than real time, or pictures come too seldom: after some
+/// readings in a row, and again only when it has kept up for as many readings since.
 class Slowness {
  public:
+  explicit Slowness(int readings = 2) : readings_(readings) {}
+
   /// A reading, once a second. @return  true: say it now
   bool note(bool slow) {
     in_a_row_ = slow == last_slow_ ? in_a_row_ + 1 : 1;
     last_slow_ = slow;
-    if (in_a_row_ < kReadings) return false;
+    if (in_a_row_ < readings_) return false;
     return slow ? !std::exchange(said_, true) : (said_ = false);
   }
 
  private:
-  static constexpr int kReadings = 2;
+  int readings_;
   int in_a_row_ = 0;
   bool last_slow_ = false, said_ = false;
 };

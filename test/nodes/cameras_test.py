@@ -13,10 +13,13 @@ import unittest
 import rospy
 import rostest
 from geometry_msgs.msg import TransformStamped
+from rosgraph_msgs.msg import Log
 from sensor_msgs.msg import CameraInfo, Image
 from simulator_watch import Latest, SimulatorWatch, wait_until
 from std_srvs.srv import Trigger
 from tf2_msgs.msg import TFMessage
+from viscera.msg import Tick
+from viscera.srv import Step
 
 FACE_Y_M, HALF_M, BASELINE_M, AWAY_M = -0.02, 0.02, 0.01, 0.2
 DEPTH_M = 1e-5  # float32, and a transform in doubles
@@ -163,6 +166,36 @@ class CamerasTest(unittest.TestCase):
             return self.watch.value("simulation", "renders") == before
 
         wait_until(rests, 20, "end of the drawing")
+
+    def test_5_a_topic_beside_tells_the_tick_of_pictures(self):
+        image, tick = self.pair("scope/image_raw", "scope/tick", (Image, Tick))
+        self.assertEqual((tick.header.frame_id, tick.time_s), (image.header.frame_id, tick.tick * tick.tick_s))
+        self.assertTrue(rospy.ServiceProxy("pause", Trigger)().success)
+        images, ticks = {}, {}
+        topics = [Latest("scope/depth/image_raw", Image, lambda m: images.setdefault(m.header.stamp, m), queue_size=10),
+                  Latest("scope/tick", Tick, lambda m: ticks.setdefault(m.tick, m), queue_size=10)]
+        for _ in range(3):
+            done = rospy.ServiceProxy("step", Step)(ticks=4)
+            told = wait_until(lambda: ticks.get(done.tick), 20, "picture of tick %d" % done.tick)
+            wait_until(lambda: told.header.stamp in images, 20, "picture of its stamp")
+        for topic in topics:
+            topic.stop()
+        self.assertTrue(rospy.ServiceProxy("resume", Trigger)().success)
+
+    def test_6_pictures_that_come_far_too_seldom_are_told_with_ways_out(self):
+        told = []
+        log = Latest("/rosout", Log, lambda m: told.append(m.msg) if m.level == Log.WARN and "huge" in m.msg else None, 100)
+        huge = Latest("huge/image_raw", Image)
+
+        def moves():  # what stands still is not drawn again
+            self.carrier.y_m += 1e-5
+            return told
+
+        wait_until(moves, 30, "warning")
+        self.assertIn("width_px", told[0])
+        self.assertIn("pictures", self.watch.status("pace").message)
+        huge.stop()
+        log.stop()
 
 
 if __name__ == "__main__":

@@ -4,6 +4,7 @@
 
 #include "nodes/pace_meter.h"
 #include "nodes/pacer.h"
+#include "nodes/picture_watch.h"
 #include "nodes/throttle.h"
 
 namespace viscera::nodes {
@@ -54,6 +55,42 @@ TEST(PaceMeter, ReadingIsOfTheTicksSinceTheLastOne) {
   EXPECT_NEAR(reading.step_max_s, 0.004, kRounding);
   EXPECT_NEAR(reading.real_time_factor, 0.5, kRounding);
   EXPECT_EQ(meter.take().real_time_factor, 0);
+}
+
+TEST(PictureWatch, TellsOnceWhichCameraIsBehindWithItsNumbers) {
+  std::vector<CameraConfig> cameras(2);
+  cameras[0].name = "near";
+  cameras[1].name = "far";
+  PictureWatch watch(cameras);
+  for (int second = 1; second < PictureWatch::kReadings; ++second) {
+    EXPECT_TRUE(watch.note({30, 30}, {9, 11}).empty());
+    EXPECT_TRUE(watch.areBehind());
+  }
+  const std::vector<std::string> said = watch.note({30, 30}, {9, 11});
+  ASSERT_EQ(said.size(), 1u);
+  for (const char* word : {"'near'", "9 pictures", "30 wanted", "width_px", "supersampling", "rate_hz", "spacing_m"})
+    EXPECT_NE(said[0].find(word), std::string::npos) << word;
+  for (int second = 0; second < 3 * PictureWatch::kReadings; ++second)
+    EXPECT_TRUE(watch.note({30, 30}, {9, 11}).empty());
+}
+
+TEST(PictureWatch, NobodyWhoWantsNoneIsBehind) {
+  PictureWatch watch(std::vector<CameraConfig>(1));
+  for (int second = 0; second < 2 * PictureWatch::kReadings; ++second) {
+    EXPECT_TRUE(watch.note({0}, {0}).empty());
+    EXPECT_FALSE(watch.areBehind());
+  }
+}
+
+TEST(PictureWatch, SaysHowPixelsAreMade) {
+  std::vector<CameraConfig> cameras(3);
+  cameras[1].supersampling = 1;
+  cameras[2].supersampling = 2;
+  const PictureWatch watch(cameras);
+  EXPECT_NE(watch.ways(true)[0].find("lights one"), std::string::npos);
+  EXPECT_EQ(watch.ways(false)[0].find("lights one"), std::string::npos);
+  EXPECT_NE(watch.ways(true)[1].find("1 sample"), std::string::npos);
+  EXPECT_NE(watch.ways(true)[2].find("4 samples each"), std::string::npos);
 }
 
 }  // namespace
