@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <sstream>
+#include <thread>
 
 #include "model/scene/integrators.h"
 #include "solver/make_solver.h"
@@ -20,14 +21,13 @@ namespace {
 
 /// Share of the clock that steps may take. Tools, measurements and hand-over of the surface take the rest of a tick.
 constexpr double kShareOfSteps = 0.8;
-/// The same where a software rasteriser draws images: it takes as many processors as there are while it does.
-constexpr double kShareBesideDrawing = 0.5;
+// Beside a software rasteriser, in processors:
+constexpr double kPictures = 0.7;   ///< 10 pictures a second of kPixels (`viscera bench picture`)
+constexpr double kViewer = 0.5;     ///< rviz, whose own pictures are drawn the same way
+constexpr double kPixels = 307200;  ///< 640 x 480
+constexpr double kLeastShare = 0.25;
 /// Nodes of the lattice that the stable substep is taken from; it is in proportion to the spacing.
 constexpr size_t kRuleNodes = 4000;
-
-double shareOfSteps(const Scene& scene, const gpu::Context* context) {
-  return context && context->isSoftware() && !scene.cameras.empty() ? kShareBesideDrawing : kShareOfSteps;
-}
 
 /// Substeps that the solver will have, as the spacing decides.
 class SubstepRule {
@@ -125,6 +125,14 @@ std::string noteOf(const SpacingChoice& choice, const StepTime& step, const Scen
 
 }  // namespace
 
+double shareOfSteps(const Scene& scene, bool software, unsigned processors) {
+  if (!software || scene.cameras.empty()) return kShareOfSteps;
+  double pixels = 0;
+  for (const CameraConfig& camera : scene.cameras) pixels += static_cast<double>(camera.width_px) * camera.height_px;
+  const double others = kPictures * pixels / kPixels + kViewer;
+  return std::clamp(1 - others / std::max(processors, 1U), kLeastShare, kShareOfSteps);
+}
+
 Scene withChosenSpacing(const Scene& asked, const gpu::Context* context, const Progress& progress,
                         const StepTimeCache& cache) {
   const std::vector<size_t> chosen = autoBodies(asked);
@@ -141,7 +149,8 @@ Scene withChosenSpacing(const Scene& asked, const gpu::Context* context, const P
   limits.step = known ? *known : measureStepTime(bodies, scene, context);
   if (!known) cache.keep(key, limits.step);
   if (progress) progress("measure this machine", 1);
-  const double share = shareOfSteps(scene, context);
+  const double share =
+      shareOfSteps(scene, context != nullptr && context->isSoftware(), std::thread::hardware_concurrency());
   limits.stepping_share = share / scene.solver.real_time_factor;
   limits.substeps_per_s = [&rule](double spacing_m) { return rule.perSecond(spacing_m); };
   limits.other_nodes = others.activeNodes();

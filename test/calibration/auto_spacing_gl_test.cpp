@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 #include <cmath>
+#include <thread>
 
 #include "session/block_session.h"
 #include "solver/make_solver.h"
@@ -64,10 +65,21 @@ double seconds(const Scene& scene) {
 TEST_F(AutoSpacing, IsTheFinestLatticeThatTheMachineStepsInTime) {
   const Scene scene = chosen();
   EXPECT_FALSE(scene.bodies[0].auto_spacing);
-  const double share = 0.5;  // beside a software rasteriser
-  const double load = seconds(scene) * scene.solver.real_time_factor / (context_.isSoftware() ? share : 0.8);
+  const double share = shareOfSteps(scene, context_.isSoftware(), std::thread::hardware_concurrency());
+  const double load = seconds(scene) * scene.solver.real_time_factor / share;
   EXPECT_LT(load, kMostLoad);
   EXPECT_GT(load, 0.8);  // the block has some 20 layers: one more is a sixth more nodes
+}
+
+TEST(ShareOfSteps, LeavesASoftwareRasteriserWhatTenPicturesASecondTake) {
+  Scene scene;
+  EXPECT_EQ(shareOfSteps(scene, true, 2), 0.8) << "no camera";
+  scene.cameras.resize(1);
+  EXPECT_EQ(shareOfSteps(scene, false, 2), 0.8);
+  EXPECT_NEAR(shareOfSteps(scene, true, 2), 0.4, 1e-9);
+  EXPECT_EQ(shareOfSteps(scene, true, 16), 0.8);
+  scene.cameras[0].width_px *= 4;
+  EXPECT_EQ(shareOfSteps(scene, true, 2), 0.25);
 }
 
 TEST_F(AutoSpacing, IsFinerWhereSubstepsAreMeasured) {

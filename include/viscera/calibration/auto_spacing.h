@@ -14,4 +14,9 @@ namespace viscera {
 Scene withChosenSpacing(const Scene& scene, const gpu::Context* context, const Progress& progress = {},
                         const StepTimeCache& cache = StepTimeCache::ofUser());
 
+/// Share of the clock that steps may take; surface, pictures and who looks at them have the rest. On a software
+/// rasteriser that leaves time for 10 pictures a second of every camera, and for a viewer on the same processors.
+/// @param software  OpenGL is   @param processors  of the machine
+double shareOfSteps(const Scene& scene, bool software, unsigned processors);
+
 }  // namespace viscera
