@@ -106,7 +106,7 @@ class CrtkArmTest(unittest.TestCase):
         at = vector(self.at.message.pose.position)
         for jaws in (rotation(0.5, -0.5, 0.1, 0.7), JAWS):
             self.tell(self.servo, at, jaws)
-            # the tool's blade lies along -z, so its shaft is behind the jaws
+            # the tool points along -z: its shaft is behind the jaws
             wait_until(lambda: self.tool and is_turned(self.tool.rotation, times(jaws, JAWS)), LIMIT_S, "tool turned")
             wait_until(lambda: is_turned(self.at.message.pose.orientation, jaws) and self.is_at(at), LIMIT_S, "measured_cp")
             wait_until(lambda: is_turned(self.setpoint.message.pose.orientation, jaws), LIMIT_S, "setpoint_cp")
