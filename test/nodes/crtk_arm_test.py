@@ -196,6 +196,7 @@ class CrtkArmTest(unittest.TestCase):
         self.assertLess(length(plus(vector(self.goal.message.pose.position), goal, -1)), PLACE_M)
         self.hold.publish(Empty())
         self.wait_rest()
+        time.sleep(0.2)  # setpoints of before the hold are on their way
         there = vector(self.setpoint.message.pose.position)
         time.sleep(0.5)
         self.assertLess(there[0], goal[0] - 0.005)
