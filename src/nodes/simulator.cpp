@@ -25,12 +25,21 @@ double stallTime_s(const SimulatorOptions& options) {
   return std::max(options.stall_ticks / options.scene.solver.tick_hz, kShortestStall_s);
 }
 
+/// Does something follow a frame of tf? It may hang on one that this node sends, as a camera on a tool.
+bool followsFrames(const SimulatorOptions& options) {
+  const auto carried = [](const auto& item) { return !item.frame.empty(); };
+  const auto tracked = [](const DeviceProfile& device) { return !device.pose.tf_frame.empty(); };
+  return std::any_of(options.scene.obstacles.begin(), options.scene.obstacles.end(), carried) ||
+         std::any_of(options.scene.cameras.begin(), options.scene.cameras.end(), carried) ||
+         std::any_of(options.devices.begin(), options.devices.end(), tracked);
+}
+
 }  // namespace
 
 Simulator::Simulator(const SimulatorOptions& options, EndWatch& end, SceneSwitch& scenes)
     : end_(end),
       scenes_(scenes),
-      listener_(frames_),
+      listener_(frames_, !followsFrames(options)),
       obstacles_(options.scene, frames_, options.max_transform_age_s),
       camera_frames_(options.scene, frames_, options.max_transform_age_s),
       inputs_(makeInputs(options, frames_)),

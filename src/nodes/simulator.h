@@ -5,7 +5,7 @@
 #include <ros/callback_queue.h>
 #include <ros/node_handle.h>
 #include <ros/spinner.h>
-#include <tf2_ros/transform_listener.h>
+#include <tf2_ros/buffer.h>
 
 #include <atomic>
 #include <exception>
@@ -17,6 +17,7 @@
 
 #include "nodes/camera_frames.h"
 #include "nodes/end_watch.h"
+#include "nodes/frame_listener.h"
 #include "nodes/frame_publisher.h"
 #include "nodes/obstacle_force_publisher.h"
 #include "nodes/obstacle_frames.h"
@@ -69,7 +70,7 @@ class Simulator {
   SceneSwitch& scenes_;
   ros::NodeHandle node_;
   tf2_ros::Buffer frames_;
-  tf2_ros::TransformListener listener_;
+  FrameListener listener_;
   ObstacleFrames obstacles_;
   CameraFrames camera_frames_;
   ros::CallbackQueue device_queue_;  ///< of the inputs, which it outlives
