@@ -79,6 +79,17 @@ Album::Pictures picturesOf(const RunOptions& options) {
   return options.live ? Album::Pictures::kLive : Album::Pictures::kAll;
 }
 
+/// Where the whole of a recording was replayed: does it end as the recorded simulation did?
+void compareWithRecording(const Strokes& strokes, uint64_t ticks, Json& metrics) {
+  const std::string& recorded = strokes.recorded.state_hash;
+  if (recorded.empty() || ticks != strokes.ticks) return;
+  const std::string replayed = metrics["state_hash"];
+  metrics["recorded_hash_met"] = replayed == recorded;
+  if (replayed == recorded) return;
+  std::cerr << "viscera: " << strokes.file << " was recorded to state hash " << recorded << ", this run ends at "
+            << replayed << ": another scene, other overrides, or another machine\n";
+}
+
 }  // namespace
 
 RunPlan planRun(const RunOptions& options) {
@@ -114,6 +125,9 @@ int run(const RunOptions& options) {
   }
   std::cout << "stepped by: " << session.backendNote() << '\n';
   Album album(options.out, session.scene(), strokes, ticks, picturesOf(options), {options.depth, options.labels});
+  if (!strokes.recorded.scene.empty())
+    std::cout << "strokes: recorded of scene " << strokes.recorded.scene
+              << ", overrides: " << (strokes.recorded.overrides.empty() ? "none" : strokes.recorded.overrides) << '\n';
   const Clock::time_point start = Clock::now();
   for (uint64_t t = 0; t < ticks; ++t) {
     const double time_s = static_cast<double>(t + 1) * session.tick_s();
@@ -127,7 +141,8 @@ int run(const RunOptions& options) {
   album.add(std::move(last));
   album.finish();
 
-  const Json metrics = metricsOf(session, stats, context ? context->renderer() : "none", wall_s);
+  Json metrics = metricsOf(session, stats, context ? context->renderer() : "none", wall_s);
+  compareWithRecording(strokes, ticks, metrics);
   if (!options.out.empty()) {
     std::ofstream file(options.out + "/metrics.json");
     file << metrics.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';

@@ -17,9 +17,13 @@ ToolMode modeInScene(const StylusConfig& config, const StylusSample& sample) {
 
 }  // namespace
 
-SamplesPublisher::SamplesPublisher(ros::NodeHandle& node, const Scene& scene)
+SamplesPublisher::SamplesPublisher(ros::NodeHandle& node, const Scene& scene, const SceneChoice& choice)
     : styluses_(scene.styluses), publisher_(node.advertise<Samples>("samples", kQueue)) {
   message_.header.frame_id = scene.environment.tissue_frame;
+  message_.scene = choice.scene;
+  for (const Overrides* keys : {&choice.mesh, &choice.overrides}) {
+    for (const std::string& key : *keys) message_.overrides += (message_.overrides.empty() ? "" : ";") + key;
+  }
   message_.tick_hz = scene.solver.tick_hz;
   for (const ObstacleConfig& obstacle : scene.obstacles)
     if (!obstacle.frame.empty()) carried_ = "obstacle '" + obstacle.name + "', which tf carries";

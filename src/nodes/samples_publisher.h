@@ -6,6 +6,7 @@
 
 #include <string>
 
+#include "nodes/scene_choice.h"
 #include "viscera/Samples.h"
 #include "viscera/model/scene/scene.h"
 #include "viscera/tools/stylus.h"
@@ -15,7 +16,8 @@ namespace viscera::nodes {
 /// Topic `samples`, from which `stylus_record` makes a strokes file.
 class SamplesPublisher {
  public:
-  SamplesPublisher(ros::NodeHandle& node, const Scene& scene);
+  /// @param choice  what the scene was made of
+  SamplesPublisher(ros::NodeHandle& node, const Scene& scene, const SceneChoice& choice);
   /// After every tick, by the thread that steps.
   /// @param tools       what the styluses did in the tick
   /// @param hands_anew  hands were forgotten since the tick before

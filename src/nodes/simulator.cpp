@@ -49,7 +49,7 @@ Simulator::Simulator(const SimulatorOptions& options, EndWatch& end, SceneSwitch
       tool_frames_(options.scene.environment.tissue_frame, toolFrames(options.scene, options.publish.frame_prefix)),
       publisher_(node_, options.scene, options.publish, [this](std::exception_ptr error) { fail(error); }),
       ticks_(node_, options.scene, [this] { return publisher_.isViewed(); }),
-      samples_(node_, options.scene),
+      samples_(node_, options.scene, options.choice),
       obstacle_forces_(node_, options.scene),
       loop_(options.scene, scenes.takeMade(), ports(),
             [this](const std::string& stage, double fraction) { reportProgress(stage, fraction); }),

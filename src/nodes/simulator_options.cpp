@@ -43,14 +43,14 @@ SimulatorOptions simulatorOptions(Parameters& parameters, const std::string& pac
   options.haptics = hapticOptions(parameters);
   options.device_choices = DeviceChoices::read(parameters);
   parameters.refuseOthers();
-  const Scene scene = choice.load(package_folder);
-  options.device_choices.requireKnown(scene.styluses);
-  options.take(scene, package_folder);
+  options.take(choice, package_folder);
+  options.device_choices.requireKnown(options.scene.styluses);
   return options;
 }
 
-void SimulatorOptions::take(const Scene& another, const std::string& package_folder) {
-  scene = another;
+void SimulatorOptions::take(const SceneChoice& another, const std::string& package_folder) {
+  choice = another;
+  scene = choice.load(package_folder);
   devices = device_choices.load(scene.styluses, package_folder);
   for (size_t s = 0; s < devices.size(); ++s) scene.styluses[s] = withDevice(scene.styluses[s], devices[s]);
 }

@@ -10,6 +10,7 @@
 #include "nodes/haptic_options.h"
 #include "nodes/parameters.h"
 #include "nodes/publish_options.h"
+#include "nodes/scene_choice.h"
 #include "viscera/model/scene/scene.h"
 
 namespace viscera::nodes {
@@ -17,6 +18,7 @@ namespace viscera::nodes {
 /// What the private parameters of the simulator say.
 struct SimulatorOptions {
   static constexpr double kLeastSurfaceRate_hz = 0.1, kMostSurfaceRate_hz = 1000;
+  SceneChoice choice;                  ///< what the scene was made of
   Scene scene;                         ///< its styluses have the limits of their devices
   std::vector<DeviceProfile> devices;  ///< [styluses]
   DeviceChoices device_choices;        ///< by the styluses' names, which another scene may have too
@@ -27,7 +29,7 @@ struct SimulatorOptions {
 
   /// Another scene, whose styluses have the devices that were chosen for those of their names.
   /// @throws ParameterError, DeviceError, RegistrationError
-  void take(const Scene& another, const std::string& package_folder);
+  void take(const SceneChoice& choice, const std::string& package_folder);
 };
 
 /// Binds this process to the files of ~scene_folders, if there are any.

@@ -52,6 +52,8 @@ Recording::Outcome Recording::add(const Samples& message) {
   if (static_cast<double>(message.tick) > kMost_s * message.tick_hz)
     return end("an hour is recorded, the most that a strokes file holds");
   strokes_.tick_hz = message.tick_hz;
+  strokes_.recorded.scene = message.scene;
+  strokes_.recorded.overrides = message.overrides;
   strokes_.ticks = message.tick;
   if (message.hands_anew) strokes_.hands_anew.push_back(message.tick);
   for (const StylusState& state : message.styluses)
@@ -78,6 +80,7 @@ StylusRecord::StylusRecord(const RecordOptions& options)
     : options_(options),
       private_("~"),
       reset_(node_.serviceClient<std_srvs::Trigger>("reset")),
+      step_(node_.serviceClient<Step>("step")),
       save_(private_.advertiseService("save", &StylusRecord::save, this)),
       samples_(node_.subscribe("samples", kQueue, &StylusRecord::onSamples, this, ros::TransportHints().tcpNoDelay())) {
 }
@@ -102,6 +105,13 @@ void StylusRecord::onSamples(const Samples& message) {
   }
 }
 
+/// That of a simulation which stands at the last tick that was recorded; a running one tells none.
+std::string StylusRecord::stateHash(uint64_t tick) {
+  Step call;
+  const bool told = ros::ok() && step_.call(call) && call.response.success && call.response.tick == tick;
+  return told ? call.response.state_hash : "";
+}
+
 std::string StylusRecord::write() {
   Strokes strokes;
   {
@@ -110,6 +120,7 @@ std::string StylusRecord::write() {
   }
   if (strokes.ticks == 0) throw StrokesError("no tick was recorded: " + options_.file + " is not written");
   if (strokes.strokes.empty()) throw StrokesError("no hand was about: " + options_.file + " is not written");
+  strokes.recorded.state_hash = stateHash(strokes.ticks);
   const std::string part = partOf(options_.file);
   std::ofstream file(part);
   file << strokesYaml(strokes);

@@ -11,6 +11,7 @@
 #include "nodes/master_watch.h"
 #include "nodes/parameters.h"
 #include "viscera/Samples.h"
+#include "viscera/Step.h"
 #include "viscera/tools/strokes.h"
 
 namespace viscera::nodes {
@@ -61,6 +62,7 @@ class StylusRecord {
   bool save(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response);
   /// @returns how much, for people   @throws StrokesError
   std::string write();
+  std::string stateHash(uint64_t tick);
   void resetSimulation();
   bool isOver();
 
@@ -71,7 +73,7 @@ class StylusRecord {
   Recording recording_;
   ros::Time reset_at_;       ///< when a reset had been answered; 0: none was asked for
   bool want_reset_ = false;  ///< a tick was lost before the first was recorded
-  ros::ServiceClient reset_;
+  ros::ServiceClient reset_, step_;
   ros::ServiceServer save_;
   ros::Subscriber samples_;
 };

@@ -109,6 +109,15 @@ std::string strokesYaml(const Strokes& strokes) {
     out << YAML::Key << "tick_hz" << YAML::Value << YAML::DoublePrecision(std::numeric_limits<double>::max_digits10)
         << strokes.tick_hz << YAML::Key << "ticks" << YAML::Value << strokes.ticks << YAML::Key << "hands_anew"
         << YAML::Value << YAML::Flow << strokes.hands_anew;
+    const RecordedFrom& from = strokes.recorded;
+    if (!from.scene.empty()) {
+      out << YAML::Key << "recorded" << YAML::Value << YAML::BeginMap << YAML::Key << "scene" << YAML::Value
+          << YAML::DoubleQuoted << from.scene << YAML::Key << "overrides" << YAML::Value << YAML::DoubleQuoted
+          << from.overrides;
+      if (!from.state_hash.empty())
+        out << YAML::Key << "state_hash" << YAML::Value << YAML::DoubleQuoted << from.state_hash;
+      out << YAML::EndMap;
+    }
   }
   out << YAML::Key << "strokes" << YAML::Value << YAML::BeginSeq;
   for (const Stroke& stroke : strokes.strokes) {

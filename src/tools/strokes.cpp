@@ -45,8 +45,10 @@ struct FileMark {
   std::string name;
   double t_s = 0;
 };
+struct FileRecorded : RecordedFrom {};
 struct FileStrokes {
   double tick_hz = 0, ticks = 0;
+  FileRecorded recorded;
   std::vector<double> hands_anew;
   std::vector<FileStroke> strokes;
   std::vector<FileMark> marks;
@@ -81,9 +83,16 @@ void visitFields(YamlReader& v, FileMark& c) {
   v.number("t_s", c.t_s, {0, kLongestStrokeS}, "s", "time from the start");
 }
 
+void visitFields(YamlReader& v, FileRecorded& c) {
+  v.text("scene", c.scene, "name or path of the scene that was recorded");
+  v.text("overrides", c.overrides, "its overrides, between semicolons");
+  v.text("state_hash", c.state_hash, "at the end of the recording, 16 hexadecimal digits");
+}
+
 void visitFields(YamlReader& v, FileStrokes& c) {
   v.number("tick_hz", c.tick_hz, kTickRate, "Hz", "of what was recorded");
   v.number("ticks", c.ticks, {0, kMostTicks}, "1", "how many were recorded");
+  v.group("recorded", c.recorded, "what was recorded");
   v.numbers("hands_anew", c.hands_anew, kMostKeys, {1, kMostTicks}, "1");
   v.list("strokes", c.strokes, 16, "recorded strokes");
   v.list("marks", c.marks, 1000, "moments worth a picture");
@@ -183,6 +192,7 @@ namespace {
 void checkTicks(const FileStrokes& file, Strokes& out) {
   out.tick_hz = file.tick_hz;
   out.ticks = static_cast<uint64_t>(file.ticks);
+  out.recorded = file.recorded;
   for (const double tick : file.hands_anew) out.hands_anew.push_back(static_cast<uint64_t>(tick));
   const bool recorded = std::any_of(file.strokes.begin(), file.strokes.end(),
                                     [](const FileStroke& stroke) { return stroke.samples_line > 0; });

@@ -16,6 +16,8 @@ Samples tick(uint64_t number, bool hands_anew = false) {
   message.tick = number;
   message.tick_hz = 100;
   message.hands_anew = hands_anew;
+  message.scene = "heart";
+  message.overrides = "solver.tick_hz=100";
   message.styluses.emplace_back().stylus = "left";
   message.styluses[0].pose.position.x = 0.1 * static_cast<double>(number);
   message.styluses[0].pose.orientation.w = 1;
@@ -30,6 +32,8 @@ TEST(Recording, BeginsWithTheFirstTick) {
   EXPECT_EQ(recording.add(tick(2)), Outcome::kTaken);
   EXPECT_EQ(recording.strokes().hands_anew, std::vector<uint64_t>{1});
   EXPECT_EQ(recording.strokes().tick_hz, 100);
+  EXPECT_EQ(recording.strokes().recorded.scene, "heart");
+  EXPECT_EQ(recording.strokes().recorded.overrides, "solver.tick_hz=100");
   ASSERT_EQ(recording.strokes().strokes.size(), 1u);
   EXPECT_EQ(recording.strokes().strokes[0].samples.at(1).pose.position_m.x(), 0.2);
 }

@@ -137,15 +137,20 @@ class StylusRecordTest(unittest.TestCase):
         self.assertIn("%d ticks" % live.tick, saved.message)
         replayed = self.replayed(self.file)
         self.assertEqual(replayed["state_hash"], live.state_hash)
+        self.assertIs(replayed["recorded_hash_met"], True)
         self.assertGreater(replayed["springs_cut"], 0)
         # a file that forgets what a pause does is another session: the check above can fail
         with open(self.file) as file:
             text = file.read()
+        self.assertIn('scene: "heart"', text)
+        self.assertIn(rospy.get_param("~overrides") + '"', text)
         begun = text.index("hands_anew:")
         other = os.path.join(self.folder.name, "other.yaml")
         with open(other, "w") as file:
             file.write(text[:begun] + text[text.index("\n", begun) + 1:])
-        self.assertNotEqual(self.replayed(other)["state_hash"], live.state_hash)
+        replayed = self.replayed(other)
+        self.assertNotEqual(replayed["state_hash"], live.state_hash)
+        self.assertIs(replayed["recorded_hash_met"], False)
 
     def test_2_a_reset_begins_anew_and_the_end_saves(self):
         self.call["resume"]()

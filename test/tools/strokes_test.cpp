@@ -192,6 +192,7 @@ TEST(RecordedStrokes, ComeBackToTheBit) {
   was.tick_hz = 1000.0 / 7;
   was.ticks = 400;
   was.hands_anew = {1, 300};
+  was.recorded = {"heart", "bodies[0].spacing_m=0.004;environment.gravity_m_per_s2=[0,0,0]", "0000000000012345"};
   was.strokes.resize(2);
   was.strokes[0].stylus = "left";
   was.strokes[1].stylus = "right";  // a hand that never came
@@ -204,6 +205,9 @@ TEST(RecordedStrokes, ComeBackToTheBit) {
   EXPECT_EQ(is.tick_hz, was.tick_hz);
   EXPECT_EQ(is.ticks, was.ticks);
   EXPECT_EQ(is.hands_anew, was.hands_anew);
+  EXPECT_EQ(is.recorded.scene, was.recorded.scene);
+  EXPECT_EQ(is.recorded.overrides, was.recorded.overrides);
+  EXPECT_EQ(is.recorded.state_hash, was.recorded.state_hash);
   ASSERT_EQ(is.strokes.size(), 2u);
   EXPECT_TRUE(is.strokes[1].samples.empty());
   ASSERT_EQ(is.strokes[0].samples.size(), was.strokes[0].samples.size());

@@ -43,6 +43,13 @@ struct Mark {
   double time_s;
 };
 
+/// What a recording was made of, as its simulator was told; empty where that is not known.
+struct RecordedFrom {
+  std::string scene;       ///< name or path
+  std::string overrides;   ///< scene keys, as in "bodies[0].spacing_m=0.004;solver.tick_hz=100"
+  std::string state_hash;  ///< at the end, 16 hexadecimal digits
+};
+
 /// A recorded strokes file.
 struct Strokes {
   std::vector<Stroke> strokes;
@@ -50,7 +57,8 @@ struct Strokes {
   double tick_hz = 0;                ///< of the simulation that was recorded; 0: nothing was
   uint64_t ticks = 0;                ///< how many were recorded
   std::vector<uint64_t> hands_anew;  ///< before these ticks it forgot where hands were, as in a pause; increasing
-  std::string file;                  ///< where they were read, for errors; empty: nowhere
+  RecordedFrom recorded;
+  std::string file;  ///< where they were read, for errors; empty: nowhere
   double duration_s() const;
   /// Tools::forget() is due before this tick, the first of which is 1.
   bool handsAnew(uint64_t tick) const;
