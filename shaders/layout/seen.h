@@ -1,5 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
+// clang-format off
 // Texture units of what tissue_seen.frag leaves for the passes behind it (render/seen_target.h), beyond those of bindings.h.
 #ifndef VISCERA_LAYOUT_SEEN_H
 #define VISCERA_LAYOUT_SEEN_H
