@@ -1,7 +1,8 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// geometry.frag - how far along the optical axis what is seen lies, and what it is.   Owner: render/geometry_target.h
+// geometry.frag - how far along the optical axis what is seen lies, and what it is.   Owners: render/geometry_target.h, render/obstacle_painter.h
+// ROUND: of a sphere or a capsule, whose triangles are drawn a little around it; pixels beside it are dropped.
 #include "layout.h"
 #include "tissue_code.glsl"
 
@@ -12,8 +13,46 @@ in vec4 color;
 layout(location = 0) out float depth_m;
 layout(location = 1) out uint image_label;
 
+#ifdef ROUND
+uniform mat4 clip_from_optical;
+uniform vec4 first_end;  // xyz m, of the middle line, optical frame; w radius [m]
+uniform vec4 last_end;   // xyz m
+const float kBehindSlope = 2.0, kBehind = 16.0 / 16777216.0;  // as obstacles are drawn: tissue that lies on one is seen
+const float kMissed = 1e30;
+
+// Where the ray t * way, from the camera, first meets a sphere: t, or kMissed.
+float sphereAt(vec3 way, vec3 centre_m, float radius_m) {
+  float middle = dot(way, centre_m) / dot(way, way);
+  vec3 off_m = centre_m - middle * way;  // not by the difference of squares: the rim is where those cancel
+  float rest = radius_m * radius_m - dot(off_m, off_m);
+  float t = middle - sqrt(max(rest, 0.0) / dot(way, way));
+  return rest >= 0.0 && t > 0.0 ? t : kMissed;
+}
+
+// The same for the wall of the cylinder between the ends.
+float wallAt(vec3 way, vec3 from_m, vec3 along_m, float radius_m) {
+  float length2 = dot(along_m, along_m);
+  if (length2 == 0.0) return kMissed;
+  vec3 across = way - along_m * (dot(along_m, way) / length2), off_m = from_m - along_m * (dot(along_m, from_m) / length2);
+  float t = sphereAt(across, off_m, radius_m);
+  float share = dot(t * way - from_m, along_m) / length2;
+  return t < kMissed && share >= 0.0 && share <= 1.0 ? t : kMissed;
+}
+#endif
+
 void main() {
   depth_m = position_m.z;
+#ifdef ROUND
+  vec3 way = position_m / position_m.z;
+  float t = min(sphereAt(way, first_end.xyz, first_end.w), sphereAt(way, last_end.xyz, first_end.w));
+  t = min(t, wallAt(way, first_end.xyz, last_end.xyz - first_end.xyz, first_end.w));
+  depth_m = t;
+  vec4 clip = clip_from_optical * vec4(t * way, 1.0);
+  float depth = 0.5 + 0.5 * clip.z / clip.w;
+  float slope = fwidth(depth);
+  if (t == kMissed) discard;
+  gl_FragDepth = min(depth + kBehindSlope * min(slope, 1e-4) + kBehind, 1.0);
+#endif
   uint first = isWall(color.a) ? kFirstWallLabel : kFirstBodyLabel;
   image_label = label != 0u ? label : first + uint(bodyOf(color.a));
 }

@@ -18,16 +18,24 @@ class ObstaclePainter {
   /// Draws into the bound framebuffer. @param poses  [obstacles] tissue frame; those that are missing are not drawn
   void draw(const std::vector<Pose>& poses, const Pose& optical_from_tissue, const Eigen::Matrix4f& clip_from_optical);
 
-  /// The same with another program: geometry.frag.
+  /// Depths and labels, with geometry.frag: of spheres and capsules those of the shape and not of its triangles.
+  /// @param program  geometry.frag as it is for triangles
   void drawGeometry(const gpu::Program& program, const std::vector<Pose>& poses, const Pose& optical_from_tissue,
                     const Eigen::Matrix4f& clip_from_optical);
 
  private:
-  template <class Before>
-  void drawWith(const gpu::Program& program, const std::vector<Pose>& poses, const Pose& optical_from_tissue,
-                const Eigen::Matrix4f& clip_from_optical, Before before);
+  /// A sphere or a capsule, as its own frame has it; radius 0: neither.
+  struct Round {
+    float radius_m = 0, half_length_m = 0;
+  };
+  template <class Begin>
+  void drawWith(const std::vector<Pose>& poses, Begin begin);
+  const gpu::Program& beginRound(const Round& round, const Pose& optical_from_obstacle,
+                                 const Eigen::Matrix4f& clip_from_optical);
 
   gpu::Program program_;
+  gpu::Program round_program_;  ///< made when it is first needed
+  std::vector<Round> rounds_;   ///< [obstacles]
   VertexArray inputs_;
   gpu::Buffer<ToolVertex> vertices_;
   gpu::Buffer<uint32_t> indices_;

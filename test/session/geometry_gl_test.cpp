@@ -108,6 +108,56 @@ TEST_P(Geometry, LabelsTellBodiesWallsToolsAndObstaclesApart) {
   }
 }
 
+TEST_P(Geometry, DepthsOfRoundObstaclesAreThoseOfTheShapeUpToItsRim) {
+  constexpr double kRound_m = 5e-5;  // of float rays at 0.3 m, beside a rim
+  constexpr double kRim_px = 0.02;   // share of pixels: a rim of one pixel is a thirtieth
+  Scene round = scene();
+  round.bodies[0].box_size_m = Vector3d::Constant(0.004);  // out of the way
+  round.bodies[0].spacing_m = 0.001;
+  round.bodies[0].fixed = {};
+  round.styluses.clear();
+  ObstacleConfig ball, capsule;
+  ball.shape = ObstacleShape::kSphere;
+  ball.position_m = Vector3d(0.03, 0, 0.02);
+  ball.radius_m = 0.025;
+  capsule.shape = ObstacleShape::kCapsule;
+  capsule.position_m = Vector3d(-0.03, 0, 0);
+  capsule.rotation_deg = Vector3d(30, 20, 0);
+  capsule.radius_m = 0.012;
+  capsule.length_m = 0.04;
+  round.obstacles = {ball, capsule};
+  Session session(round, context_);
+  const ImageFrame labels = picture(session, PictureKind::kLabels), depths = picture(session, PictureKind::kDepth);
+  const Vector3d axis = rotationFromDegrees(capsule.rotation_deg) * Vector3d::UnitZ();
+  size_t on_ball = 0, on_capsule = 0;
+  for (size_t i = 0; i < labels.labels.size(); ++i) {
+    const int obstacle = labels.labels[i] - static_cast<int>(layout::kFirstObstacleLabel);
+    if (obstacle < 0) continue;
+    const Vector3d at =
+        placeOf(round.cameras[0], depths, i) - round.obstacles[static_cast<size_t>(obstacle)].position_m;
+    const double along = std::clamp(at.dot(axis), -0.5 * capsule.length_m, 0.5 * capsule.length_m);
+    if (obstacle == 0) {
+      ++on_ball;
+      ASSERT_NEAR(at.norm(), ball.radius_m, kRound_m) << i;
+    } else {
+      ++on_capsule;
+      ASSERT_NEAR((at - along * axis).norm(), capsule.radius_m, kRound_m) << i;
+    }
+  }
+  EXPECT_GT(on_capsule, 100U);
+  // As many pixels as the cone of rays that touches the ball has: none is missing at its rim.
+  size_t wanted = 0;
+  ImageFrame unit = depths;
+  std::fill(unit.depths_m.begin(), unit.depths_m.end(), 1.0F);
+  const Vector3d eye = round.cameras[0].position_m;
+  for (size_t i = 0; i < labels.labels.size(); ++i) {
+    const Vector3d way = (placeOf(round.cameras[0], unit, i) - eye).normalized();
+    const Vector3d to = ball.position_m - eye;
+    wanted += (to - to.dot(way) * way).norm() < ball.radius_m;
+  }
+  EXPECT_NEAR(static_cast<double>(on_ball), static_cast<double>(wanted), kRim_px * static_cast<double>(wanted));
+}
+
 TEST_P(Geometry, WallsOfAWoundHaveALabelOfTheirOwn) {
   Scene pulled = scene();
   pulled.cameras[0].position_m = Vector3d(0.01, -0.01, 0.15);
