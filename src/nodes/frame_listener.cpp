@@ -21,7 +21,7 @@ void FrameIntake::take(const tf2_msgs::TFMessage& message, const std::string& se
     frames_.clear();  // but for what is fixed
   }
   last_ = now;
-  if (!fixed && sender == left_out_) return;
+  if (!fixed && !left_out_.empty() && sender == left_out_) return;
   const ros::Duration kept = frames_.getCacheLength();  // beside a frame so far ahead all others are too old
   for (const geometry_msgs::TransformStamped& frame : message.transforms) {
     if (!fixed && frame.header.stamp > now + kept) {

@@ -40,6 +40,8 @@ TEST(FrameIntake, LeavesOutItsOwnMovingFramesAndKeepsItsFixedOnes) {
   EXPECT_TRUE(knows(frames, 1000, "tissue"));
   FrameIntake of_all(frames, "");
   of_all.take(message(1000, "left_tool"), "/simulator", ros::Time(1000), false);
+  of_all.take(message(1000, "unnamed"), "", ros::Time(1000), false);
+  EXPECT_TRUE(knows(frames, 1000, "unnamed")) << "where none is left out, a sender without a name is not";
   EXPECT_TRUE(knows(frames, 1000, "left_tool"));
 }
 
