@@ -13,6 +13,7 @@
 
 #include "gpu/gl.h"
 #include "gpu/limits.h"
+#include "gpu/software.h"
 #include "viscera/math/error.h"
 
 namespace viscera::gpu {
@@ -201,7 +202,7 @@ bool Context::open(int index, void* device, DeviceAttempt& attempt) {
   context_ = context;
   renderer_ = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
   version_ = reinterpret_cast<const char*>(glGetString(GL_VERSION));
-  software_ = renderer_.find("llvmpipe") != std::string::npos || renderer_.find("softpipe") != std::string::npos;
+  software_ = gpu::isSoftware();
   attempt.name = renderer_;
   attempt.reason = software_ ? "first that works; no hardware device before it did" : "first that works";
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
