@@ -97,7 +97,7 @@ class Trials {
               {}};
     Worst stable, above;
     for (const IntegratorTraits& traits : kIntegrators) {
-      if (traits.integrator == kAutoIntegrator) continue;  // one of the others
+      if (traits.integrator == Integrator::kAuto) continue;  // one of the others
       // Software rasterisers take long to compile implicit integrators' shaders for cells by moments.
       const bool by_moments = hasMoments(model_) && backend == Backend::kGpu;
       if (report_.isShort() && by_moments && !traits.is_explicit) continue;

@@ -53,7 +53,7 @@ std::unique_ptr<Solver> makeSolver(const Model& model, const Scene& scene, const
   const Backend backend = chooseBackend(scene.solver, context);
   if (backend != Backend::kCpu && !context)
     throw GpuError("solver.backend: gpu needs an OpenGL context, and there is none: use cpu or auto");
-  if (scene.solver.integrator != kAutoIntegrator)
+  if (scene.solver.integrator != Integrator::kAuto)
     return started(ticksOf(model, scene, backend, threads), model, scene, threads);
   const IntegratorChoice found = chooseIntegrator(model, scene, backend, threads);
   if (choice) *choice = found.reason;

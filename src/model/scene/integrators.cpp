@@ -14,4 +14,9 @@ double stableFraction(Integrator integrator, double dashpot_ratio) {
   return std::sqrt(1 + xi * xi) - xi;
 }
 
+SceneError notStepped(Integrator integrator, const std::string& by) {
+  return SceneError("solver.integrator: " + by + " knows no '" + traitsOf(integrator).name +
+                    "' ('auto' is for makeSolver() to choose, 'multigrid' has a class of its own)");
+}
+
 }  // namespace viscera

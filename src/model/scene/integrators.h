@@ -4,13 +4,10 @@
 
 #include <array>
 
+#include "viscera/math/error.h"
 #include "viscera/model/scene/scene.h"
 
 namespace viscera {
-
-/// `integrator: auto`: leapfrog or multigrid, chosen by makeSolver(), behind which it is not met. Until then what
-/// leapfrog needs is asked. Beyond the enum, whose values are what steps.
-constexpr Integrator kAutoIntegrator = static_cast<Integrator>(5);
 
 /// What an integrator is: all that anybody but its own steppers may ask of it (physics.md 2).
 struct IntegratorTraits {
@@ -30,7 +27,7 @@ struct IntegratorTraits {
   bool takes_edge_forces;  ///< can take forces of explicit connections edge by edge (solver.spring_forces)
 };
 
-/// By the value of the enum.
+/// By the value of the enum. Of `auto`, which makeSolver() makes leapfrog or multigrid, what leapfrog needs is asked.
 // clang-format off
 constexpr std::array<IntegratorTraits, 6> kIntegrators = {{
     //                                        explicit dashpot stagger shorten own_pos iterate colours sleep  compens ticks  cpu    edges
@@ -39,7 +36,7 @@ constexpr std::array<IntegratorTraits, 6> kIntegrators = {{
     {Integrator::kVbd, "vbd",                   false, false, false, false, false, true,  true,  false, false, false, false, false},
     {Integrator::kPd, "pd",                     false, false, false, false, false, true,  false, false, false, false, false, false},
     {Integrator::kMultigrid, "multigrid",       false, false, false, false, false, false, false, false, false, true,  true,  false},
-    {kAutoIntegrator, "auto",                   true,  true,  true,  true,  false, false, false, true,  true,  false, false, true},
+    {Integrator::kAuto, "auto",                 true,  true,  true,  true,  false, false, false, true,  true,  false, false, true},
 }};
 // clang-format on
 
@@ -59,5 +56,9 @@ static_assert(isInOrder(), "kIntegrators is looked up by the value of the enum")
 /// for implicit ones. The rule for all who plan, refuse or choose by it.
 /// @param dashpot_ratio  xi, the largest of all bodies
 double stableFraction(Integrator integrator, double dashpot_ratio);
+
+/// What is thrown where steppers are made, of an integrator that is none of those made there.
+/// @param by  the function
+SceneError notStepped(Integrator integrator, const std::string& by);
 
 }  // namespace viscera

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solver/cpu/cpu_stepper.h"
 
+#include "model/scene/integrators.h"
 #include "solver/cpu/leapfrog.h"
 #include "solver/cpu/pd.h"
 #include "solver/cpu/vbd.h"
@@ -22,9 +23,11 @@ std::unique_ptr<CpuStepper> makeCpuStepper(Integrator integrator, int iterations
     case Integrator::kMultigrid:
       return std::make_unique<CpuMultigrid>(*parts.model, lattice, parts);
     case Integrator::kLeapfrog:
+      return std::make_unique<CpuLeapfrog>(lattice, parts);
+    case Integrator::kAuto:
       break;
   }
-  return std::make_unique<CpuLeapfrog>(lattice, parts);
+  throw notStepped(integrator, "makeCpuStepper()");
 }
 
 std::unique_ptr<CpuStepper> makeCpuRecoveryStepper(int iterations, CpuLattice& lattice, const Parallel& parallel) {

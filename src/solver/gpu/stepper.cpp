@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solver/gpu/stepper.h"
 
+#include "model/scene/integrators.h"
 #include "solver/gpu/leapfrog_pass.h"
 #include "solver/gpu/pd_pass.h"
 #include "solver/gpu/vbd_pass.h"
@@ -18,11 +19,13 @@ std::unique_ptr<Stepper> makeStepper(Integrator integrator, int iterations, cons
       return std::make_unique<VbdPass>(features, buffers, iterations, pairs);
     case Integrator::kPd:
       return std::make_unique<PdPass>(features, buffers, PdOptions{iterations}, pairs);
-    case Integrator::kMultigrid:
     case Integrator::kLeapfrog:
+      return std::make_unique<LeapfrogPass>(features, awake);
+    case Integrator::kMultigrid:
+    case Integrator::kAuto:
       break;
   }
-  return std::make_unique<LeapfrogPass>(features, awake);
+  throw notStepped(integrator, "makeStepper()");
 }
 
 std::unique_ptr<Stepper> makeRecoveryStepper(int iterations, const FeatureSet& features,

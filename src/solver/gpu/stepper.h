@@ -32,7 +32,7 @@ class Stepper {
 /// The kernels of an integrator other than multigrid (MultigridPass), compiled. @param iterations  of vbd and pd
 /// @param pairs  contacts between nodes within an implicit substep; null: none
 /// @param awake  of leapfrog: steps only these, and says when they were; null: steps all. Must outlive the stepper
-/// @throws GpuError with file, line and the driver's log
+/// @throws GpuError with file, line and the driver's log   @throws SceneError  multigrid, auto
 std::unique_ptr<Stepper> makeStepper(Integrator integrator, int iterations, const FeatureSet& features,
                                      const LatticeBuffers& buffers, const NodePairs* pairs = nullptr,
                                      AwakeBricks* awake = nullptr);

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "model/scene/integrators.h"
+
 namespace viscera {
 
 namespace {
@@ -64,9 +66,10 @@ ReferenceIntegrator truthOf(Integrator integrator) {
     case Integrator::kMultigrid:
       return ReferenceIntegrator::kImplicitEuler;
     case Integrator::kLeapfrog:
-      break;
+    case Integrator::kAuto:
+      return ReferenceIntegrator::kLeapfrog;
   }
-  return ReferenceIntegrator::kLeapfrog;
+  throw notStepped(integrator, "truthOf()");
 }
 
 HostState ReferenceSolver::state() const {

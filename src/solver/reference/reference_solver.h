@@ -23,7 +23,7 @@ enum class ReferenceIntegrator {
   kImplicitEuler  ///< solved to convergence: the truth for vbd and pd
 };
 
-/// What an integrator of the backends is held to.
+/// What an integrator of the backends is held to; of auto leapfrog.
 ReferenceIntegrator truthOf(Integrator integrator);
 
 struct ReferenceOptions {

@@ -24,7 +24,7 @@ enum class SkinSource { kAuto, kInput, kVolume };
 enum class Mapping { kAuto, kOneToOne, kConstant, kInterpolated, kAlongNormal };  ///< see docs/mappings.md
 enum class UpAxis { kZ, kY };
 enum class FixedShape { kBox, kSphere, kPlane, kPart };
-enum class Integrator { kLeapfrog, kVerletPaper, kVbd, kPd, kMultigrid };
+enum class Integrator { kLeapfrog, kVerletPaper, kVbd, kPd, kMultigrid, kAuto };
 /// What a simulation begins with: everything at rest, or hanging in its weight.
 enum class SolverStart { kRest, kEquilibrium };
 enum class Backend { kAuto, kGpu, kCpu };
