@@ -10,7 +10,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "bench/harness/machine_fma.cpp"
 #include "hwy/foreach_target.h"  // IWYU pragma: keep
-// foreach_target.h first
+// <hwy/foreach_target.h> first
 #include "hwy/highway.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// geometry.frag - how far along the optical axis what is seen lies, and what it is.   Owners: render/geometry_target.h, render/obstacle_painter.h
+// geometry.frag - how far along the optical axis what is seen lies, and what it is.   Owners: render/renderer.h, render/obstacle_painter.h
 // ROUND: of a sphere or a capsule, whose triangles are drawn a little around it; pixels beside it are dropped.
 #include "layout.h"
 #include "tissue_code.glsl"

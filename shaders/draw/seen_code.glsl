@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// seen_code.glsl - what tissue_seen.frag says of a pixel, in few words.   Owner: render/seen_target.h
+// seen_code.glsl - what tissue_seen.frag says of a pixel, in few words.   For seen_light.frag to read.
 
 /// A unit vector in three times 10 bits, and a bit that says whether it is of a front.
 uint directionCode(vec3 n, bool front) {

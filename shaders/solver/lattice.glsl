@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The implicit lattice: bricks of 4x4x4 nodes, neighbours by offset, springs as small counts. model/neighbors.h is its twin.
+// The implicit lattice: bricks of 4x4x4 nodes, neighbours by offset, springs as small counts. model/body/neighbors.h is its twin.
 #include "layout.h"
 
 #ifndef __cplusplus  // there src/solver/cpu/glsl_kernel.h says where bricks and bodies are
@@ -41,7 +41,7 @@ uint globalIndex() {
 }
 #endif
 
-/// Calls APPLY(spring, offset) for the 18 springs in the order of model/neighbors.h; the opposite of s is s ^ 1.
+/// Calls APPLY(spring, offset) for the 18 springs in the order of model/body/neighbors.h; the opposite of s is s ^ 1.
 #define FOR_EACH_SPRING(APPLY)                                                                                  \
   APPLY(0u, ivec3(1, 0, 0)) APPLY(1u, ivec3(-1, 0, 0)) APPLY(2u, ivec3(0, 1, 0)) APPLY(3u, ivec3(0, -1, 0))     \
   APPLY(4u, ivec3(0, 0, 1)) APPLY(5u, ivec3(0, 0, -1))                                                          \

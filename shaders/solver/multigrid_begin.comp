@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // multigrid_begin.comp - a step begins: velocities, and the force that has changed them since the last one.
-// Owner: solver/gpu/multigrid_pass.h   physics.md 2
+// Owner: solver/gpu/multigrid_stages.h   physics.md 2
 // in  displacement, velocity [slots]     out  vectors of the step
 #include "layout.h"
 #include "lattice.glsl"

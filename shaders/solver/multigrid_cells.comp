@@ -3,7 +3,7 @@
 //
 // multigrid_cells.comp - what cells do to their corners where an increment leads, and the tangents of that; with PRODUCT what a
 // change of displacement makes of it, moments at constant directions of the cell's edges.
-// Owner: solver/gpu/multigrid_pass.h   physics.md 2 (src/solver/multigrid/fine_cells-inl.h is its twin)
+// Owner: solver/gpu/multigrid_stages.h   physics.md 2 (src/solver/multigrid/fine_cells-inl.h is its twin)
 // in  places of the step, or a vector of the system     out  cell forces; tangents, partial sums of energy
 #include "layout.h"
 #include "lattice.glsl"

@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// multigrid_end.comp - a step ends.   Owner: solver/gpu/multigrid_pass.h   physics.md 2
+// multigrid_end.comp - a step ends.   Owner: solver/gpu/multigrid_stages.h   physics.md 2
 // in  vectors of the step     out  displacement, velocity [slots]
 #include "layout.h"
 #include "lattice.glsl"

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // multigrid_increment.comp - what becomes of increments, and where they lead.
-// Owner: solver/gpu/multigrid_pass.h   physics.md 2
+// Owner: solver/gpu/multigrid_stages.h   physics.md 2
 // in, out  vectors of the step; solution of the system     Feature PLACE: places and velocities that increments lead to
 #include "layout.h"
 #include "lattice.glsl"

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // multigrid_linearise.comp - forces on nodes where an increment leads, their tangents, and the inverse of its block diagonal.
-// Owner: solver/gpu/multigrid_pass.h   physics.md 2
+// Owner: solver/gpu/multigrid_stages.h   physics.md 2
 // in  places, speeds; cell forces, tangents of cells     out  forces, tangents of springs, inverse; partial sums of energy
 // Springs are made positive, k (n n^T + max(0, 1 - l0/L)(1 - n n^T)); dashpots add c rate n n^T; volumes count as B g g^T.
 #include "layout.h"

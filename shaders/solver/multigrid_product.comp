@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // multigrid_product.comp - y = A x, or y = base - A x, A the tangent as multigrid_linearise.comp left it; 0 where not free.
-// Owner: solver/gpu/multigrid_pass.h   physics.md 2
+// Owner: solver/gpu/multigrid_stages.h   physics.md 2
 // in  vector x, tangents; what x makes cells do to their corners (multigrid_cells.comp)     out  vector y
 #include "layout.h"
 #include "lattice.glsl"

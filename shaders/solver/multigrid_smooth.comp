@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // multigrid_smooth.comp - a step of Chebyshev's iteration: d = a d + b D^-1 r, z += d.
-// Owner: solver/gpu/multigrid_pass.h   physics.md 2
+// Owner: solver/gpu/multigrid_stages.h   physics.md 2
 // in  a residual, inverse of the block diagonal     in, out  change, correction
 #include "layout.h"
 #include "lattice.glsl"

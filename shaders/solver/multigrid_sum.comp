@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // multigrid_sum.comp - sums partial sums, a group for each row, and what an iteration makes of them.
-// Owner: solver/gpu/multigrid_pass.h   physics.md 2
+// Owner: solver/gpu/multigrid_stages.h   physics.md 2
 // in  partials [rows * count]     out  sums from first_row on; alpha, beta
 #include "layout.h"
 #include "lattice.glsl"

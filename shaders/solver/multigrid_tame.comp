@@ -3,7 +3,7 @@
 //
 // multigrid_tame.comp - a step that carries a node away from those around it is none: it hangs on few springs, which a step so long
 // turns to where tangents knew nothing of. It goes on with the others.
-// Owner: solver/gpu/multigrid_pass.h   physics.md 2
+// Owner: solver/gpu/multigrid_stages.h   physics.md 2
 // in  solution     out  the same in the correction
 #include "layout.h"
 #include "lattice.glsl"

@@ -34,7 +34,7 @@ layout(std430, binding = kBindSkinNormals) writeonly buffer NormalsBuffer { uint
 #endif
 #include "picked.glsl"
 
-/// Direction of an axial spring at rest. Edges 0-1 and 2-0 of every binding are axial (model/skin_anchor.h).
+/// Direction of an axial spring at rest. Edges 0-1 and 2-0 of every binding are axial (model/body/skin_anchor.h).
 vec3 axialDirection(uint spring) {
   vec3 axis = vec3(0.0f);
   axis[spring >> 1] = (spring & 1u) == 0u ? 1.0f : -1.0f;

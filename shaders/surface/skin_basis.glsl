@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Orthonormal bases that carry skin vertices (EGVE eqs 6 and 8, corrected as in physics.md 4). Every function returns
-// finite unit vectors for any finite input: nodes may lie on one line or in one point. Twin of model/skin_basis.h.
+// finite unit vectors for any finite input: nodes may lie on one line or in one point. Twin of model/body/skin_basis.h.
 const float kShortest = 1e-30f;  // shorter vectors have no direction; far below any length that occurs
 const float kLongest = 1e30f;    // longer ones would overflow when squared
 const float kLeastSine = 1e-4f;  // edges closer to parallel give no normal: rounding would be 1e-3 of it

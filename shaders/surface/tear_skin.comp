@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// tear_skin.comp - takes out the triangles whose springs were cut (VR05 2.7.3; the rule is in model/skin.h).
+// tear_skin.comp - takes out the triangles whose springs were cut (VR05 2.7.3; the rule is in model/body/skin.h).
 // Owner: surface/surface.h
 // in  triangles[3 * count], skin[vertices], ties[], nodes[slots]     in, out  alive[count], live[3 * count]
 // Feature: MIXED (some triangles belong to networks: split_triangles.comp shows them).

@@ -35,7 +35,7 @@ class Surface {
   /// last call are left as they are, where the state says which those are; that changes no bit.
   /// @param needs  what is asked for (SkinGroups::need); others stay as they are. Null: all
   void follow(const StateView& state, const SkinGroups::Needs* needs = nullptr);
-  /// Takes out the triangles of lattices whose springs were cut (the rule is in model/skin.h), until reset(), and
+  /// Takes out the triangles of lattices whose springs were cut (the rule is in model/body/skin.h), until reset(), and
   /// splits those of networks along the cut (the rule is in split_triangles.comp). Looks at the springs only if
   /// state.cut_revision has changed since the last call; costs nothing otherwise.
   void tear(const StateView& state);

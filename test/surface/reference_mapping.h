@@ -147,7 +147,7 @@ class ReferenceMapping {
   bool normals_by_sum_;
 };
 
-/// 1 for every triangle of a skin that is whole (the rule in model/skin.h), 0 for a torn one.
+/// 1 for every triangle of a skin that is whole (the rule in model/body/skin.h), 0 for a torn one.
 inline std::vector<uint32_t> wholeTriangles(const Skin& skin, const Lattice& lattice,
                                             const std::vector<layout::NodeBits>& nodes) {
   const auto joined = [&](uint32_t a, uint32_t b) {

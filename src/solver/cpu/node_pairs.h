@@ -11,7 +11,7 @@
 namespace viscera {
 
 /// Contacts between nodes within an implicit substep: who may touch whom, and what they do to each other
-/// (shaders/solver/implicit_pairs.glsl) on the CPU. See gpu/node_pairs.h.
+/// (shaders/solver/implicit_pairs.glsl) on the CPU. See solver/gpu/node_pairs.h.
 class CpuNodePairs {
  public:
   CpuNodePairs(const Model& model, const Scene& scene, const CpuLattice& lattice, const Parallel& parallel);

@@ -7,7 +7,7 @@
 
 namespace viscera {
 
-/// PD-Jacobi in majorise-minimise form on implicit Euler: shaders/solver/pd.comp on the CPU, see gpu/pd_pass.h.
+/// PD-Jacobi in majorise-minimise form on implicit Euler: shaders/solver/pd.comp on the CPU, see solver/gpu/pd_pass.h.
 class CpuPd : public CpuStepper {
  public:
   /// @param pairs  as CpuImplicitSubstep

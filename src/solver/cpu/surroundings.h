@@ -14,7 +14,7 @@
 namespace viscera {
 
 /// Wind, forces on bodies, contacts and obstacles on the CPU: the text of shaders/solver/surroundings.comp and
-/// collision_*.comp, compiled as C++. See gpu/surroundings_pass.h.
+/// collision_*.comp, compiled as C++. See solver/gpu/surroundings_pass.h.
 class CpuSurroundings {
  public:
   /// Of collision.h's reach: how far two nodes may move relative to each other before the complete search begins anew.

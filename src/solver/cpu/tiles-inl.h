@@ -107,7 +107,7 @@ HWY_INLINE Material materialOf(const layout::BodyParams& body) {
 }
 
 // clang-format off
-/// Calls APPLY(index, x, y, z) for the 18 springs in the order of model/neighbors.h.
+/// Calls APPLY(index, x, y, z) for the 18 springs in the order of model/body/neighbors.h.
 #define VISCERA_SPRINGS(APPLY)                                                                    \
   APPLY(0, 1, 0, 0) APPLY(1, -1, 0, 0) APPLY(2, 0, 1, 0) APPLY(3, 0, -1, 0) APPLY(4, 0, 0, 1)     \
   APPLY(5, 0, 0, -1) APPLY(6, 1, 1, 0) APPLY(7, -1, -1, 0) APPLY(8, 1, -1, 0) APPLY(9, -1, 1, 0)  \

@@ -7,7 +7,7 @@
 
 namespace viscera {
 
-/// Vertex block descent on implicit Euler: shaders/solver/vbd.comp on the CPU, see gpu/vbd_pass.h.
+/// Vertex block descent on implicit Euler: shaders/solver/vbd.comp on the CPU, see solver/gpu/vbd_pass.h.
 class CpuVbd : public CpuStepper {
  public:
   /// @param iterations  sweeps over all colours per substep   @param pairs  as CpuImplicitSubstep

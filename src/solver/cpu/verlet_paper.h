@@ -6,7 +6,7 @@
 
 namespace viscera {
 
-/// Position Verlet as VR05 and GW print it: shaders/solver/verlet_paper.comp on the CPU, see gpu/verlet_paper_pass.h.
+/// Position Verlet as VR05 and GW print it: shaders/solver/verlet_paper.comp in C++, as solver/gpu/verlet_paper_pass.h.
 class CpuVerletPaper : public CpuStepper {
  public:
   CpuVerletPaper(const CpuLattice& lattice, const Parallel& parallel);
