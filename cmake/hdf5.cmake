@@ -1,7 +1,7 @@
 # Copyright (c) 2026, the viscera authors
 # SPDX-License-Identifier: BSD-3-Clause
 # viscera_hdf5, where HDF5 is there: `viscera sweep --hdf5`. Linked statically where it can be: Debian's shared library brings thirty more along,
-# of network protocols that nobody here speaks.
+# of network protocols not used here.
 option(VISCERA_HDF5 "viscera sweep --hdf5, where libhdf5 is there" ON)
 if(VISCERA_HDF5)
   pkg_search_module(HDF5 QUIET IMPORTED_TARGET hdf5-serial hdf5)

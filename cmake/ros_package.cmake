@@ -20,7 +20,7 @@ add_message_files(FILES Samples.msg StylusState.msg SurfaceTopology.msg SurfaceT
 add_service_files(FILES LoadScene.srv SetOverlays.srv SetToolMode.srv Step.srv)
 generate_messages(DEPENDENCIES geometry_msgs std_msgs)
 set(EIGEN3_INCLUDE_DIRS ${EIGEN3_INCLUDE_DIR})
-# What the nodes use besides is not asked of whoever uses the library or the messages.
+# What the nodes use besides is not asked of users of the library or the messages.
 catkin_package(INCLUDE_DIRS include LIBRARIES viscera_core CATKIN_DEPENDS geometry_msgs message_runtime std_msgs
                DEPENDS EIGEN3 CFG_EXTRAS viscera-extras.cmake)
 

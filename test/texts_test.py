@@ -4,9 +4,9 @@
 """What comments and pages say of the tree is so.
 
 A path begins with a folder of the root (`scripts/demo`), or has a slash and the extension of a source (`math/error.h`);
-it is relative to the root, to src, include/viscera, include, shaders or test, or to its page. A name without a slash is one of
-a file somewhere, if its extension is of C++ or GLSL or .md. A `*` stands for at least one file, `{h,cpp}` for both. What
-is not looked at: `<hwy/highway.h>`, addresses, `x` for a name (`x_pass.h`), names in capitals (`PLAN.yaml`).
+it is relative to the root, to src, include/viscera, include, shaders or test, or to its page. A name without a slash is
+one of a file somewhere, if its extension is of C++ or GLSL or .md. A `*` stands for at least one file, `{h,cpp}` for
+both. What is not looked at: `<hwy/highway.h>`, addresses, `x` for a name (`x_pass.h`), names in capitals (`PLAN.yaml`).
 """
 import fnmatch
 import glob
@@ -18,7 +18,12 @@ import unittest
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 BASES = ("", "src", "include/viscera", "include", "shaders", "test")
 MADE = ("out", "build")  # by programs
-NOT_YET = {"ARCHITECTURE.md"}  # pages that are not held to it
+NOT_YET = {  # pages that are not held to it
+    "paths": {"ARCHITECTURE.md"},
+    "words": {"ARCHITECTURE.md", "README.md", "docs/benchmarks.md", "docs/ros_api.md", "docs/user_guide.md"}}
+PLAIN = {  # what is said instead
+    "nobody": "no one, nothing, or what is not done", "somebody": "someone, or what is done", "whoever": "who, what",
+    "anew": "again"}
 CODE = {"h", "cpp", "comp", "glsl", "frag", "vert", "inc", "md"}
 SOURCES = CODE | {"cmake", "launch", "msg", "srv", "py", "test"}
 C_LIKE = {"h", "cpp", "comp", "glsl", "frag", "vert", "inc"}
@@ -51,8 +56,11 @@ def texts():
                     yield os.path.relpath(path, ROOT), file.read()
 
 
-def said(path, content):
-    """(line number, text) of what it says to its readers: pages whole, comments and docstrings of the rest."""
+def said(path, content, strings=False):
+    """(line number, text) of what it says to its readers: pages whole, comments and docstrings of the rest.
+
+    strings: of C++ those too
+    """
     kind = extension(path)
     if kind in PAGES:
         yield from enumerate(content.split("\n"), 1)
@@ -65,6 +73,8 @@ def said(path, content):
             for found in pattern.finditer(line):
                 if found.group(1):
                     yield number, found.group(1)
+                elif strings:
+                    yield number, found.group()
         if kind == "py" or "python3" in content[:40]:
             for found in re.finditer(r"^\s*\"\"\"(.*?)\"\"\"", content, re.S | re.M):
                 yield content.count("\n", 0, found.start()) + 1, found.group(1)
@@ -107,7 +117,7 @@ class Texts(unittest.TestCase):
 
     def test_paths_that_comments_and_pages_name_exist(self):
         wrong = [f"{path}:{number}: {token}" for path, content in self.files.items()
-                 if path not in NOT_YET for number, text in said(path, content) for token in named_paths(text)
+                 if path not in NOT_YET["paths"] for number, text in said(path, content) for token in named_paths(text)
                  if not self.exists(token, path)]
         self.assertEqual(wrong, [], "no such file or folder\n" + "\n".join(wrong))
 
@@ -126,6 +136,13 @@ class Texts(unittest.TestCase):
                     if not any(name in self.files.get(end, "") for end in ends):
                         wrong.append(f"{path}: {owner} does not name {name}")
         self.assertGreater(owned, 0)
+        self.assertEqual(wrong, [], "\n" + "\n".join(wrong))
+
+    def test_words_are_plain(self):
+        word = re.compile(r"(?<![\w:.])(%s)\b" % "|".join(PLAIN), re.I)
+        wrong = [f"{path}:{number}: {found}: say {PLAIN[found.lower()]}" for path, content in self.files.items()
+                 if path not in NOT_YET["words"] and path != os.path.relpath(__file__, ROOT)
+                 for number, text in said(path, content, strings=True) for found in word.findall(text)]
         self.assertEqual(wrong, [], "\n" + "\n".join(wrong))
 
     def test_wrong_paths_are_found(self):

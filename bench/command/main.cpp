@@ -7,7 +7,7 @@
 #include "bench/suites/suites.h"
 #include "cli/fault.h"
 
-// `viscera bench`: a program of its own, so that whoever only runs scenes need not build the suites.
+// `viscera bench`: a program of its own, so that to run scenes the suites need not be built.
 
 using namespace viscera;
 

@@ -44,7 +44,7 @@ class GwKernels {
   /// One leapfrog substep from the forces there are. @param target  forces are in it; else in the buffer
   void integrate(const GwMotion& motion, const BlendTarget* target = nullptr);
 
-  /// Starts anew. @param u_m  [slots]; velocities become zero
+  /// Starts again. @param u_m  [slots]; velocities become zero
   void start(const Field& u_m);
   Field forces() const;         ///< [slots, N] of the passes that leave them in a buffer
   Field displacements() const;  ///< [slots, m]

@@ -42,7 +42,7 @@ double copyAlone(size_t bytes) {
     const auto start = std::chrono::steady_clock::now();
     std::memcpy(to.data(), from.data(), bytes);
     best_s = std::min(best_s, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
-    from[static_cast<size_t>(i)] = to[bytes - 1];  // a copy that nobody looks at might be left out
+    from[static_cast<size_t>(i)] = to[bytes - 1];  // a copy that is not looked at might be left out
   }
   return 2 * static_cast<double>(bytes) / best_s;
 }

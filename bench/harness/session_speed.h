@@ -10,7 +10,7 @@
 
 namespace viscera::bench {
 
-/// What somebody who looks at a session subscribes to.
+/// What a viewer of a session subscribes to.
 enum class Wanted { kNothing, kSurface, kImages, kSurfaceAndImages, kEveryImage };
 std::string nameOf(Wanted wanted);
 /// The wants of the coming step: images at the rates of the cameras, or after every tick (kEveryImage).

@@ -13,7 +13,7 @@ enum class HapticEvent {
   kStall,   ///< no ticks for 150 ms, in which the hand goes 3 cm away
   kLeap,    ///< the device's base is put 15 mm higher, and back
   kClutch,  ///< the clutch is pressed, the hand goes 3 cm away, and comes back with it pressed
-  kUnheard  ///< nobody listens to forces for 150 ms: the driver was started again
+  kUnheard  ///< there is no listener to forces for 150 ms: the driver was started again
 };
 const char* nameOf(HapticEvent event);
 

@@ -14,7 +14,7 @@ namespace viscera::bench {
 namespace {
 
 constexpr double kDearer = 1.05;  // all in view: a picture that looks for what is hidden over one that does not
-constexpr double kSway = 0.02;    // of the body's size: every vertex is mapped anew for every picture
+constexpr double kSway = 0.02;    // of the body's size: every vertex is mapped again for every picture
 
 /// A heart, and cameras that look at all of it, at a half, past it, at its middle from nearby, and from far away.
 Scene hiddenScene(bool short_form, bool draw_hidden) {
@@ -100,7 +100,7 @@ void measureHidden(Report& report) {
   const double boxes_ms = 1e3 / measureRates({seen.boxes(places, groups)}, seconds, rounds)[0].substeps_per_s;
   Table table("pictures (640 x 480) of a heart of " + std::to_string(seen.model().skinTriangles()) + " faces on " +
                   std::to_string(seen.model().activeNodes()) +
-                  " nodes, all mapped anew; what is hidden drawn, and left out",
+                  " nodes, all mapped again; what is hidden drawn, and left out",
               {{"in the picture"},
                {"drawn", "ms", 3},
                {"left out", "ms", 3},

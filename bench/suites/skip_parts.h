@@ -34,7 +34,7 @@ void measureCells(Report& report);
 void measureEmptySpace(Report& report);
 /// Tissue at rest: asleep against awake, one corner awake, what sleeping changes.
 void measureSleep(Report& report);
-/// Skin and pictures that nobody wants, that have not moved, that nobody will see.
+/// Skin and pictures that are not wanted, have not moved, or will not be seen.
 void measureViews(Report& report, gpu::Context& context);
 /// Pictures of which some or all of the skin is out, with and without work for it. Needs a current context.
 void measureHidden(Report& report);

@@ -44,7 +44,7 @@ uint64_t work(const ViewCounters& done) {
   return done.mappings + done.renders + done.readbacks + done.moved_bricks;
 }
 
-/// Frames nobody sees are those between two images at 30 Hz: kEveryImage draws them.
+/// Frames that are not seen are those between two images at 30 Hz: kEveryImage draws them.
 void measureBackend(Report& report, gpu::Context& context, Backend backend, Table& table) {
   report.stage("views, " + nameOf(backend));
   const double seconds = report.isShort() ? 0.2 : 2;
@@ -55,7 +55,7 @@ void measureBackend(Report& report, gpu::Context& context, Backend backend, Tabl
     const SessionSpeed speed = measureSession(session, wanted, seconds, moving);
     addRow(table, session, "probed", wanted, speed);
     if (wanted == Wanted::kNothing)
-      report.checkAtMost("views: mappings, images and copies that nobody wanted, " + nameOf(backend),
+      report.checkAtMost("views: mappings, images and copies not wanted, " + nameOf(backend),
                          static_cast<double>(work(speed.work)), 0);
   }
   session.reset();

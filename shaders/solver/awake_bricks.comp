@@ -5,7 +5,7 @@
 // in  state of the nodes; what was cut; places that tools may reach     in/out  sleeping bricks     out  lists
 // An invocation per brick. Features, one each: WAKE_ALL, WAKE_NEAR (boxes), WAKE_HELD, WAKE_CUT (after a cut that took springs), LOOK
 // (who was fast in the substep that has just been made; with TOOLS also who was touched), LIST. The rule is that of src/solver/cpu/sleep.h. What makes a list out of
-// date starts it anew; LIST follows before the next substep. Its order is that in which bricks come: nodes gather, so no result
+// date starts it again; LIST follows before the next substep. Its order is that in which bricks come: nodes gather, so no result
 // depends on it.
 #include "layout.h"
 #include "lattice.glsl"

@@ -97,7 +97,7 @@ float touchDistance(Entry a, Entry b) {
   return d2 < wanted * wanted ? wanted : 0.0f;
 }
 
-/// From b to a, where they were before the substep: who has slipped past somebody in it is sent back.
+/// From b to a, where they were before the substep: a node that has slipped past another in it is sent back.
 /// @param a  of the lower slot, so that both see the same
 vec3 directionBetween(Entry a, Entry b) {
   vec3 d = a.before - b.before;

@@ -4,7 +4,7 @@
 // collision_place.comp - complete search, second: where each bucket begins.
 // Owner: solver/gpu/collision_pass.h   physics.md 8
 // in, out  buckets     A bucket of more than most_in_bucket nodes is left empty: what collapsed into one place would otherwise be compared
-// each with all in one dispatch. Who is in it touches nobody until it has spread; how many that are is noted.
+// each with all in one dispatch. A node in it touches nothing until it has spread; how many that are is noted.
 #include "collision_search.glsl"
 
 void main() {

@@ -59,7 +59,7 @@ void visit(Entry me, Entry other, float wanted) {
     shift_sum -= push.shift;
   }
 }
-bool isAlone(uint slot) { return contacts[slot].w == 0.0f; }  // collision_meet.comp has found nobody: no need to search again
+bool isAlone(uint slot) { return contacts[slot].w == 0.0f; }  // collision_meet.comp has found none: no need to search again
 void begin() { impulse_sum = shift_sum = vec3(0.0f); }
 void end(uint slot) {
   // A held node is not moved; the tool that holds it against this feels it (surroundings.comp).

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // main() of the kernels that go through each node's contacts: after collision_search.glsl and
-//   bool isAlone(uint slot)  nobody need be searched for
+//   bool isAlone(uint slot)  none need be searched for
 //   void begin()   void visit(Entry me, Entry other, float wanted)  of every contact   void end(uint slot)
 void consider(Entry me, Entry other) {
   float wanted = touchDistance(me, other);
@@ -10,7 +10,7 @@ void consider(Entry me, Entry other) {
 }
 
 #ifndef STAGGERED
-/// Different cells may share a bucket: whoever is in one says which cell it is in.
+/// Different cells may share a bucket: an entry in one says which cell it is in.
 void visitCell(Entry me, ivec3 cell) {
   uint b = hashOf(cell) & (bucket_count - 1u);
   uint first = buckets[3u * b + 1u], end = first + buckets[3u * b];

@@ -28,7 +28,7 @@ struct PairRun {
   uint first, count;
 };
 
-/// The ends of a node's pairs. Where there are more than there is room for, nobody has any: which would depend on the order of atomics.
+/// The ends of a node's pairs. Where there are more than there is room for, no node has any: which would depend on the order of atomics.
 PairRun pairsOf(uint slot) {
   PairRun run = {0u, 0u};
   if (most_pairs == 0u || pair_words[0] > most_pairs) return run;

@@ -10,7 +10,7 @@
 #include "step.glsl"
 #include "multigrid.glsl"
 
-uniform uint fresh;  // 1: nobody knows how the last step ended
+uniform uint fresh;  // 1: how the last step ended is unknown
 
 void main() {
   uint i = globalIndex();

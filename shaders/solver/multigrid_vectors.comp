@@ -3,7 +3,7 @@
 //
 // multigrid_vectors.comp - vectors of conjugate gradients.   Owner: solver/gpu/multigrid_stages.h   physics.md 2
 // Features: DOT (partial sums of x . y), DIRECTION (p = z + beta p), ADVANCE (s += alpha p, r -= alpha q; partial sums of r . r),
-// BALANCE (residual of an increment, of whoever can move), MASK (without those who are held; partial sums of energies)
+// BALANCE (residual of an increment, of nodes that can move), MASK (without those who are held; partial sums of energies)
 #include "layout.h"
 #include "lattice.glsl"
 #include "elastic.glsl"

@@ -87,7 +87,7 @@ void main() {
   }
   NodeBits bits = nodes[slot];
   BodyParams body = bodies[bodyOf(bits)];
-  if (plain && !was_plain) {  // what acceleration has spoilt starts anew
+  if (plain && !was_plain) {  // what acceleration has spoilt starts again
     next_increments[slot] = startedAnew(slot, uintBitsToFloat(guard[0]) * freeIncrement(slot, body));
     return;
   }

@@ -5,7 +5,7 @@
 // each carried by the node on its side as if the piece between them were still there.   Owner: surface/network_surface.h
 // in  split_edges[count], spring_cut[springs], ring_vertices[], rings[], displacement[slots] m, rest[slots] m
 // in, out  positions[3 * vertices] m, normals[vertices] packed: those of the nodes are in place
-// A whole edge has both in its middle; nobody sees them, so they are placed once. From then on the kernel runs over the
+// A whole edge has both in its middle; they are not seen, so they are placed once. From then on the kernel runs over the
 // crossed edges alone (crossed_edges.comp): work follows the length of the cut.
 #include "layout.h"
 #ifndef __cplusplus

@@ -80,7 +80,7 @@ std::optional<StepTime> StepTimeCache::find(const std::string& key) const {
 void StepTimeCache::keep(const std::string& key, const StepTime& time) const {
   if (!keeps_ || file_.empty() || !makesSense(time)) return;
   const std::vector<Entry> others = readEntries(file_);
-  const std::string draft = file_ + "." + std::to_string(getpid());  // whole or not at all, whoever reads meanwhile
+  const std::string draft = file_ + "." + std::to_string(getpid());  // whole or not at all for those who read meanwhile
   std::error_code error;
   fs::create_directories(fs::path(file_).parent_path(), error);
   {

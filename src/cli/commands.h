@@ -16,7 +16,7 @@ int check(int device);
 struct RunOptions {
   std::string scene;
   std::string mesh;     ///< empty: what the scene says
-  std::string strokes;  ///< empty: nobody touches the tissue
+  std::string strokes;  ///< empty: nothing touches the tissue
   std::optional<double> seconds;
   std::string out;         ///< empty: no pictures, no metrics.json
   bool no_view = false;    ///< without OpenGL: on the processor, no pictures

@@ -9,7 +9,7 @@
 
 namespace viscera::cli {
 
-/// What `viscera run` says at its end, whoever did the work.
+/// What `viscera run` says at its end, whatever did the work.
 struct RunMetrics {
   std::string scene;
   const Model& model;

@@ -139,7 +139,7 @@ class Sweep {
   }
 
  private:
-  /// Takes runs that nobody has, until none is open. What others have is looked at again: they may die.
+  /// Takes runs that are free, until none is open. What others have is looked at again: they may die.
   void work() {
     try {
       while (!stop_) {

@@ -27,7 +27,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-/// What is written is written beside its place and moved there, so that nobody reads half of it. A draft has a name
+/// What is written is written beside its place and moved there, so that half of it is never read. A draft has a name
 /// that nothing else has: processes of several hosts or containers that share a folder may have one number. What one
 /// leaves that is killed stays.
 class Draft {

@@ -12,10 +12,10 @@ namespace viscera::cli {
 
 /// Where a sweep's results are, shared by any number of processes on machines that see one file system with locks:
 ///   plan.txt             the runs, so that another plan is not mixed in
-///   runs/000042/lock     locked while somebody, or the session that it started, works on the run
+///   runs/000042/lock     locked while a process, or the session that it started, works on the run
 ///   runs/000042/result.json, failures.txt   how it ended: at most one result, a line per failure
 ///   results.csv, results.h5   all of them in one table
-/// What a process leaves behind that is killed is a lock that nobody holds, and no result: the run is done anew.
+/// What a process leaves behind that is killed is a lock without a holder, and no result: the run is done again.
 class SweepFolder {
  public:
   enum class State { kOpen, kDone, kGivenUp };
@@ -38,7 +38,7 @@ class SweepFolder {
   SweepFolder(std::string folder, const SweepPlan& plan, int tries);
 
   State state(size_t run) const;
-  /// @return nothing if somebody has it or it is not open
+  /// @return nothing if it is taken or it is not open
   std::optional<Claim> claim(size_t run) const;
   std::string runFolder(size_t run) const;  ///< there once the run was claimed
   void keepResult(size_t run, const std::string& json) const;

@@ -44,7 +44,7 @@ Fence::~Fence() {
   glDeleteSync(static_cast<GLsync>(sync_));
 }
 
-/// A failure is told by whoever reads next.
+/// A failure is told by the next read.
 bool Fence::hasPassed() const {
   return glClientWaitSync(static_cast<GLsync>(sync_), 0, 0) != GL_TIMEOUT_EXPIRED;
 }

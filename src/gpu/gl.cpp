@@ -76,7 +76,7 @@ void requireNoReset(unsigned status, const char* what) {
   if (status == GL_NO_ERROR) return;
   const char* guilt = status == GL_GUILTY_CONTEXT_RESET     ? "by what this program told it"
                       : status == GL_INNOCENT_CONTEXT_RESET ? "by another program"
-                                                            : "nobody knows why";
+                                                            : "for an unknown reason";
   throw GpuError(std::string("the driver has reset the GPU, ") + guilt +
                  ": the context is lost with all its memory, in " + what + ", last kernel '" + lastKernel() +
                  "'; start again, or use solver.backend: cpu");

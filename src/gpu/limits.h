@@ -26,7 +26,7 @@ Limits neededLimits();
 
 /// Of the current context's driver; asked once for each thread that has one.
 const Limits& driverLimits();
-/// Asks anew: another context may be another driver's.
+/// Asks again: another context may be another driver's.
 void forgetDriverLimits();
 /// For tests: as if the driver had said so, on this thread and until that.
 void pretendDriverLimits(const Limits& limits);

@@ -35,8 +35,8 @@ enum class Stage {
 constexpr size_t kStages = 17;
 const char* stageName(Stage stage);
 
-/// Time that the GPU spends on each stage, from time stamps in its command stream: nobody waits for them. While a clock
-/// lives, every TimedStage of its thread is timed by it; without one they cost a comparison.
+/// Time that the GPU spends on each stage, from time stamps in its command stream: nothing waits for them. While a
+/// clock lives, every TimedStage of its thread is timed by it; without one they cost a comparison.
 class StageClock {
  public:
   /// @param marks  time stamps that may be under way; when all are, stages go untimed until some have come back

@@ -51,7 +51,7 @@ class ForceLoop {
   void setLimits(size_t stylus, const ForceLimits& limits) { schedule_.setLimits(stylus, limits); }
   /// A tick's answers. @param hands  as of next()
   void put(const Ticks& ticks, const Hands& hands, SteadyTime now);
-  /// There are no ticks: all begins anew with the next one.
+  /// There are no ticks: all begins again with the next one.
   void rest(SteadyTime now);
   /// Zero for ever.
   void release(SteadyTime now);

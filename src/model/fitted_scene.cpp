@@ -144,7 +144,7 @@ Eigen::AlignedBox3d boxOf(const Scene& scene) {
   return makeTissue(body, scene.folder)->bounds();
 }
 
-/// None if one of the organs cannot be read, which whoever makes a model of it says better.
+/// None if one of the organs cannot be read, which making a model of it says better.
 std::optional<OrganFit> fitOf(const Scene& made, const Scene& scene) {
   try {
     const OrganFit fit = OrganFit::between(boxOf(made), boxOf(scene), sightOf(made));

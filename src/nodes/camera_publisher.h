@@ -25,15 +25,15 @@ class CameraPublisher {
 
   /// Subscribers to pictures of a kind. From any thread.
   uint32_t viewers(PictureKind kind) const;
-  /// Somebody subscribes to some of them.
+  /// Some of them have subscribers.
   bool isWanted() const;
-  /// Call once in a tick: whether somebody subscribes and the camera's rate makes pictures due.
+  /// Call once in a tick: whether it has subscribers and the camera's rate makes pictures due.
   bool pick() { return isWanted() && throttle_.pick(); }
   void setRate(double rate_hz) {
     rate_hz_ = rate_hz;
     throttle_.setRate(rate_hz, tick_hz_);
   }
-  /// How often somebody wants colours; 0 where nobody subscribes. From any thread.
+  /// How often colours are wanted; 0 without subscribers. From any thread.
   double wantedRate_hz() const { return viewers(PictureKind::kColor) > 0 ? std::min(rate_hz_.load(), tick_hz_) : 0; }
   void publish(ImageFrame&& frame, const ros::Time& stamp);
 

@@ -44,7 +44,7 @@ struct Command {
   Overlays overlays;
   /// Of a change: makes it, running or paused. @returns what to answer  @throws Error  why not
   std::function<std::string(Session&)> change;
-  std::chrono::steady_clock::time_point deadline;  ///< nobody waits for the answer after this
+  std::chrono::steady_clock::time_point deadline;  ///< the answer is not waited for after this
   std::shared_ptr<std::atomic<bool>> begun = std::make_shared<std::atomic<bool>>(false);
   std::promise<CommandAnswer> answer;
 };

@@ -34,7 +34,7 @@ constexpr std::chrono::milliseconds kLook{100};
 constexpr std::chrono::milliseconds kConnect{500};  ///< subscribers and tf have found who publishes
 constexpr double kFeel_s = 12;                      ///< for touching tissue
 constexpr int kTries = 3;
-const Vector3d kFront_m(0, -0.09, 0);  ///< where the hand is held, of devices whose base nobody knows: before the organ
+const Vector3d kFront_m(0, -0.09, 0);  ///< where the hand is held, of devices whose base is unknown: before the organ
 constexpr double kUpwards = 0.5;       ///< cosine: hands move up no straighter, axes are 90 degrees apart
 
 void say(const std::string& text) {
@@ -140,7 +140,7 @@ void DeviceCheck::chooseTopic() {
   const std::vector<PoseTopic> topics = poseTopics();
   if (topics.empty())
     throw Error(
-        "nobody publishes PoseStamped, TransformStamped or Pose: start the device's driver. Of a tracker in tf name "
+        "no node publishes PoseStamped, TransformStamped or Pose: start the device's driver. Of a tracker in tf name "
         "the "
         "profile: device_left:=tf:FRAME, device_left:=polhemus:1");
   std::vector<std::vector<Pose>> poses(topics.size());

@@ -94,7 +94,7 @@ DeviceEar::DeviceEar(ros::NodeHandle& node, const DeviceProfile& device, tf2_ros
   });
 }
 
-/// Those of the profile, and all that somebody publishes: the button may be another one.
+/// Those of the profile, and all that is published: the button may be another one.
 void DeviceEar::listenToAllButtons(ros::NodeHandle& node, const DeviceProfile& device) {
   std::set<std::string> known;
   for (const ButtonPort& port : {device.button1, device.button2, device.clutch})

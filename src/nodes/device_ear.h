@@ -30,7 +30,7 @@ class DeviceEar {
 
   void begin();
   Heard end();
-  bool hasForces() const { return forces_ && forces_.getNumPublishers() > 0; }  ///< somebody sends it some
+  bool hasForces() const { return forces_ && forces_.getNumPublishers() > 0; }  ///< a node sends it some
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -57,7 +57,7 @@ struct PoseTopic {
   PoseType type = PoseType::kPoseStamped;
   std::string profile;  ///< and the driver's name, as in geomagic:Geomagic
 };
-/// All that somebody publishes. @throws Error  the master does not answer
+/// All that is published. @throws Error  the master does not answer
 std::vector<PoseTopic> poseTopics();
 
 }  // namespace viscera::nodes

@@ -15,7 +15,7 @@ namespace viscera::nodes {
 class DevicePublisher {
  public:
   DevicePublisher(ros::NodeHandle& node, const std::string& stylus);
-  /// Somebody listens to all of it.
+  /// All of it has listeners.
   bool isHeard() const;
   /// A pose, and those buttons that have changed. With the first pose both are let go: one that is down when the hand
   /// comes does nothing, and is pressed with the next.

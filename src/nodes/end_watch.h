@@ -12,8 +12,8 @@
 namespace viscera::nodes {
 
 /// How a process ends: by SIGINT, SIGTERM or SIGHUP, on the ROS master's demand (rosnode kill, a second node of the
-/// same name), by its own request, or by a crash. Whoever drives a device names here what must be done before, which
-/// happens at once, on a thread that nothing else uses. One per process, made before other threads and after
+/// same name), by its own request, or by a crash. A node that drives a device names here what must be done before,
+/// which happens at once, on a thread that nothing else uses. One per process, made before other threads and after
 /// ros::init() with NoSigintHandler, as roscpp's own handling would close the topics first. It outlives
 /// ros::shutdown(), which waits for the master for ever.
 class EndWatch {

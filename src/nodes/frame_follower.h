@@ -13,7 +13,7 @@
 
 namespace viscera::nodes {
 
-/// Tells of a tracker that only broadcasts a frame, as soon as tf has heard of it anew.
+/// Tells of a tracker that only broadcasts a frame, as soon as tf has heard of it again.
 class FrameFollower {
  public:
   /// What was heard: on the thread that listens to tf.

@@ -45,10 +45,10 @@ class FramePublisher {
     std::vector<LatencyMeter::Reading> images;  ///< [cameras]
     double surface_rate_hz = 0;                 ///< that they were sent, `surface_marker` and `surface` as one
     std::vector<double> image_rates_hz;         ///< [cameras], of image_raw
-    std::vector<double> images_wanted_hz;       ///< [cameras] the same as it should be; 0: nobody subscribes
+    std::vector<double> images_wanted_hz;       ///< [cameras] the same as it should be; 0: no subscriber
   };
   Latencies takeLatencies();
-  /// Somebody subscribes to the surface, to markers or to an image. From any thread.
+  /// There are subscribers to the surface, to markers or to an image. From any thread.
   bool isViewed() const;
 
   /// Says it in the place of the tissue, for rviz, until there are markers of a tick. Before start().

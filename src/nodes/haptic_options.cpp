@@ -7,7 +7,7 @@
 namespace viscera::nodes {
 namespace {
 
-/// Nobody knows which body a stylus will touch.
+/// Which body a stylus will touch is unknown.
 TissueConstants tissueOf(const Scene& scene, const StylusConfig& stylus) {
   std::vector<double> moduli_pa;
   for (const BodyConfig& body : scene.bodies) {

@@ -9,7 +9,7 @@
 namespace viscera::nodes {
 namespace {
 
-/// As a driver should: motors stop when nobody has told a force for so long.
+/// As a driver should: motors stop when no force was told for so long.
 constexpr std::chrono::milliseconds kSilence{50};
 /// A loop that was held up for longer does not make up for it.
 constexpr int kMostPeriods = 50;

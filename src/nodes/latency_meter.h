@@ -12,7 +12,7 @@
 
 namespace viscera::nodes {
 
-/// Sums up how long poses took until something that answers them was sent, until somebody asks. Each pose counts once,
+/// Sums up how long poses took until something that answers them was sent, until asked. Each pose counts once,
 /// with the first answer: those that follow it would tell how seldom the device speaks.
 class LatencyMeter {
  public:
@@ -33,7 +33,7 @@ class LatencyMeter {
     sum_s_ += delay_s;
     longest_s_ = std::max(longest_s_, delay_s);
   }
-  /// The poses since they were last taken: a copy, to be read where nobody waits for it.
+  /// The poses since they were last taken: a copy, to be read where nothing waits for it.
   LatencyMeter take() {
     const LatencyMeter out = *this;
     count_ = 0;

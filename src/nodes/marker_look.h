@@ -18,7 +18,7 @@ struct MarkerLook {
   double step_m = 0;                 ///< of a click on the arrow heads
   std::array<std::string, 3> modes;  ///< what it does: idle, with button 1, with button 2; empty: not known
   bool shows(size_t button) const { return modes[button] != "none"; }
-  /// As in `grab`; `button 1` where nobody has said.
+  /// As in `grab`; `button 1` where none is said.
   std::string nameOf(size_t button) const;
   /// As in `Grab (button 1)`.
   std::string menuNameOf(size_t button) const;

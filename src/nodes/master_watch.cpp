@@ -26,7 +26,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr std::chrono::seconds kPeriod{1};             ///< between questions
-constexpr std::chrono::milliseconds kLook{20};         ///< how soon it is seen that nobody looks any more
+constexpr std::chrono::milliseconds kLook{20};         ///< how soon it is seen that no one looks any more
 constexpr std::chrono::seconds kPatience{5};           ///< a busy master may miss a question or two
 constexpr std::chrono::milliseconds kLastAnswer{100};  ///< of a master that answers at all
 constexpr timeval kConnectLimit{1, 0};

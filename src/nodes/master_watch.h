@@ -19,7 +19,7 @@ class MasterLine {
   MasterLine(const MasterLine&) = delete;
   MasterLine& operator=(const MasterLine&) = delete;
 
-  bool open();  ///< @returns false: nobody listens there
+  bool open();  ///< @returns false: no listener there
   /// Waits so long at most. @returns whether it was open, and the other side has closed it
   bool broken(std::chrono::milliseconds limit);
 

@@ -7,7 +7,7 @@
 
 namespace viscera::nodes {
 
-/// Sums up how long ticks took, until somebody asks.
+/// Sums up how long ticks took, until asked.
 class PaceMeter {
  public:
   struct Reading {

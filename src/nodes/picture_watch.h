@@ -15,7 +15,7 @@ class PictureWatch {
  public:
   explicit PictureWatch(const std::vector<CameraConfig>& cameras);
 
-  /// A reading of a second. @param wanted_hz  [cameras] 0: by nobody   @param sent_hz  [cameras]
+  /// A reading of a second. @param wanted_hz  [cameras] 0: not wanted   @param sent_hz  [cameras]
   /// @return  what is to be said now, a line each
   std::vector<std::string> note(const std::vector<double>& wanted_hz, const std::vector<double>& sent_hz);
   /// Whether any camera's pictures fell behind in the last reading.

@@ -13,7 +13,7 @@
 namespace viscera::nodes {
 namespace {
 
-/// The node ends, and nobody wants the model that is being made.
+/// The node ends, and the model that is being made is not wanted.
 struct Ended {};
 
 /// The request as the parameters of the same names, whose checks it goes through.

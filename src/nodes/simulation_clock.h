@@ -19,7 +19,7 @@ class SimulationClock {
 
   /// How far time went on since the last call, or since the start [s].
   double take();
-  /// Somebody looks at what a simulator shows.
+  /// Someone looks at what a simulator shows.
   bool isViewed() const;
 
  private:

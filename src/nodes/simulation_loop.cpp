@@ -21,7 +21,7 @@ double seconds(std::chrono::steady_clock::duration span) {
   return std::chrono::duration<double>(span).count();
 }
 
-/// The model is being made, and nobody wants it any more.
+/// The model is being made, and it is not wanted any more.
 struct Stopped {};
 
 CommandAnswer answer(bool success, const std::string& message, const Session& session) {
@@ -140,7 +140,7 @@ void SimulationLoop::rest(Session& session) {
 }
 
 void SimulationLoop::deliver(const Session& session, Frame&& frame, const StylusSamples& samples, bool live) {
-  if (!live) frame.reactions = {};  // tissue that stands still must not push, nor one that somebody else steps
+  if (!live) frame.reactions = {};  // tissue that stands still must not push, nor tissue stepped by something else
   {
     const std::lock_guard<std::mutex> lock(status_mutex_);
     ready_ = true;
@@ -162,7 +162,7 @@ void SimulationLoop::deliver(const Session& session, Frame&& frame, const Stylus
   ports_.deliver(std::move(frame), samples, live);
 }
 
-/// What a hand did before, or while nobody looked, is no motion: a blade would sweep through the tissue.
+/// What a hand did before, or while it was not looked at, is no motion: a blade would sweep through the tissue.
 void SimulationLoop::forgetHands(Session& session) {
   session.forgetHands();
   hands_anew_ = true;

@@ -82,7 +82,7 @@ class SimulationLoop {
   std::unique_ptr<MadeSession> takeSession() { return std::move(made_); }
 
   CommandQueue& commands() { return commands_; }
-  /// Nothing until the session is ready. The pace is measured anew from here.
+  /// Nothing until the session is ready. The pace is measured again from here.
   std::optional<LoopStatus> takeStatus();
 
  private:

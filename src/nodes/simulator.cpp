@@ -140,7 +140,7 @@ LoopPorts Simulator::ports() {
   return ports;
 }
 
-/// Without pictures of cameras of which nobody knows where they are.
+/// Without pictures of cameras whose places are unknown.
 Wants Simulator::placed(Wants wants) const {
   for (size_t k = 0; k < kPictureKinds; ++k) {
     std::vector<bool>& wanted = wants.of(static_cast<PictureKind>(k));

@@ -99,7 +99,7 @@ void SimulatorDiagnostics::simulation(Status& status) {
   if (!now_) return status.summary(Level::OK, "preparing");
   status.summary(Level::OK, now_->paused ? "paused" : "running");
   if (now_->stats.crowded)
-    status.summaryf(Level::WARN, "%u nodes touch nobody: too many lie in one place for collision to compare them",
+    status.summaryf(Level::WARN, "%u nodes touch nothing: too many lie in one place for collision to compare them",
                     now_->stats.crowded);
   if (now_->health.recovering) status.summary(Level::WARN, "recovering from an instability: no forces");
   if (now_->stats.nonfinite) status.summary(Level::ERROR, "nodes are not finite: call reset");

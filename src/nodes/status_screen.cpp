@@ -109,17 +109,17 @@ std::string ratesText(const ToldStatus& pace) {
     none = none || rate_hz == 0;
     out += ", pictures of " + key.substr(kImageRate.size()) + format(" %.3g /s", rate_hz);
   }
-  return none ? out + " (what nobody subscribes to is not made)" : out;
+  return none ? out + " (what has no subscriber is not made)" : out;
 }
 
 std::string handText(const ToldStatus& hand) {
   if (numberOf(hand, "poses_accepted") == 0) {
     const std::string device = " (" + textOf(hand, "device") + ")";
     return isTrue(hand, "has_publisher") ? "no pose yet, though a device is connected" + device
-                                         : "no device: nobody sends poses" + device;
+                                         : "no device: no poses arrive" + device;
   }
   std::string out = hand.message;
-  if (!isTrue(hand, "has_publisher")) out += ", nobody sends poses any more";
+  if (!isTrue(hand, "has_publisher")) out += ", no poses arrive any more";
   if (hand.values.count("force_n")) out += format("; force %.3g N", numberOf(hand, "force_n"));
   if (isTrue(hand, "force_saturated")) out += " (the limit)";
   if (isTrue(hand, "clutched")) out += "; clutched";
@@ -174,7 +174,7 @@ void sayNobody(Screen& screen, const std::vector<ToldStatus>& told, const Status
     if (std::find(others.begin(), others.end(), status.node) == others.end()) others.push_back(status.node);
   screen.title("no " + wanted);
   if (others.empty()) {
-    screen.say("WRONG", format("nobody has sent /diagnostics for %.0f s: no simulator runs on the master ", kSilent_s) +
+    screen.say("WRONG", format("no /diagnostics for %.0f s: no simulator runs on the master ", kSilent_s) +
                             view.master_uri + ", or it cannot reach this machine (ROS_IP, ROS_HOSTNAME)");
     return screen.say("", "start one: roslaunch viscera training.launch");
   }

@@ -24,7 +24,7 @@ struct StylusUnknown : Error {
 std::string stylusTold(const diagnostic_msgs::DiagnosticStatus& status);
 
 /// Whether simulators have the stylus that a node stands for, as the diagnostics of those in its namespace tell. Where
-/// there are none, or the stylus's topic is remapped, nobody can say.
+/// there are none, or the stylus's topic is remapped, it cannot be said.
 class StylusCheck {
  public:
   StylusCheck(ros::NodeHandle& node, const std::string& stylus);

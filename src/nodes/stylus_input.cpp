@@ -92,7 +92,7 @@ void StylusInput::onPose(const DevicePose& pose, const std::string& topic) {
   warn(topic, reason, detail);
   const uint64_t moves = mailbox_.baseMoves();
   if (moves != base_moves_told_)
-    ROS_WARN_THROTTLE(5, "%s: the frame '%s' was moved; the hand appears anew, and its buttons must be let go first",
+    ROS_WARN_THROTTLE(5, "%s: the frame '%s' was moved; the hand appears again, and its buttons must be let go first",
                       topic.c_str(), frame.c_str());
   base_moves_told_ = moves;
 }

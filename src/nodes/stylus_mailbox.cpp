@@ -92,7 +92,7 @@ std::optional<Drop> StylusMailbox::put(const DevicePose& said, const FrameLookup
   return std::nullopt;
 }
 
-/// The hand did not sweep through the tissue when somebody moved or turned the table.
+/// The hand did not sweep through the tissue when the table was moved or turned.
 /// @param tip  in the frame of the base
 void StylusMailbox::notePlace(const std::string& frame, const Pose& base, const Pose& tip) {
   const bool known = status_.seen && frame == device_frame_.name;

@@ -38,7 +38,7 @@ const char* text(Drop reason);  ///< snake_case, as in the diagnostics
 
 /// Some trackers send quaternions that are a few percent off unit length: those are normalised, others refused.
 constexpr double kQuaternionTolerance = 0.1;
-/// Negated by whoever refuses: an overflow of the norm is no unit either.
+/// Negated where it is refused: an overflow of the norm is no unit either.
 inline bool isUnit(const Quaterniond& q) {
   return std::abs(q.norm() - 1) <= kQuaternionTolerance;
 }
@@ -69,7 +69,7 @@ struct StylusStatus {
   double input_age_s = 0;        ///< since the last accepted pose
   uint64_t accepted = 0;         ///< poses
   uint64_t presses_ignored = 0;  ///< of buttons that were down when the hand came, or without a hand
-  uint64_t base_moves = 0;       ///< times that the device's base leapt, and the hand appeared anew
+  uint64_t base_moves = 0;       ///< times that the device's base leapt, and the hand appeared again
   bool clutched = false;
   std::array<uint64_t, kDropReasons> dropped{};
 };
@@ -103,12 +103,12 @@ class StylusMailbox {
   /// once.
   void hold(bool held);
 
-  /// Nobody listened for a while, as in a pause: buttons must be let go before they act.
+  /// There was no listener for a while, as in a pause: buttons must be let go before they act.
   void forgetButtons();
   /// The sample for a tick that begins now. A press or click that came and went since the last tick counts for one.
   StylusSample take(SteadyTime now);
 
-  /// The newest pose, without taking anything: buttons are left out, and it is no tick's. Where the hand appears anew
+  /// The newest pose, without taking anything: buttons are left out, and it is no tick's. Where the hand appears again
   /// it is valid from the first tick on that takes it: a tick without a hand is between what was before and this.
   StylusSample peek(SteadyTime now) const;
 
@@ -119,7 +119,7 @@ class StylusMailbox {
   Pose inDevice(const Pose& in_tissue) const;
   /// The hand moves without the tool: it is to feel nothing.
   bool clutched() const;
-  /// Counts a message that somebody else found not to be usable.
+  /// Counts a message that was found unusable elsewhere.
   std::optional<Drop> drop(Drop reason);
   const StylusConfig& config() const { return config_; }
   const DeviceProfile& device() const { return device_; }

@@ -84,11 +84,11 @@ void StylusMarker::onTimer() {
   }
   watchSurface(!placed || text_.getNumSubscribers() > 0);
   if (!placed) return place();
-  if (stale_ && !dragged) show();  // what is shown anew ends a drag
+  if (stale_ && !dragged) show();  // what is shown again ends a drag
   if (text_.getNumSubscribers() > 0) text_.publish(textNow());
 }
 
-/// Only while somebody wants to know: with a subscriber the simulator makes every surface.
+/// Only while there is a subscriber: with a subscriber the simulator makes every surface.
 void StylusMarker::watchSurface(bool wanted) {
   if (wanted == static_cast<bool>(surface_)) return;
   newest_.reset();

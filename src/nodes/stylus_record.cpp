@@ -44,7 +44,7 @@ Recording::Outcome Recording::add(const Samples& message) {
   if (!fault_.empty()) return Outcome::kEnded;
   if (message.tick != 1 && strokes_.ticks == 0) return Outcome::kWaiting;
   if (!message.besides.empty()) return end("strokes cannot say all that moves the tissue: " + message.besides);
-  const bool anew = message.tick == 1 && strokes_.ticks > 0;
+  const bool begins = message.tick == 1 && strokes_.ticks > 0;
   if (message.tick == 1) strokes_ = {};
   if (message.tick != strokes_.ticks + 1)
     return end("ticks " + std::to_string(strokes_.ticks + 1) + " to " + std::to_string(message.tick - 1) +
@@ -59,7 +59,7 @@ Recording::Outcome Recording::add(const Samples& message) {
   for (const StylusState& state : message.styluses)
     strokeOf(state.stylus)
         .samples.push_back({message.tick, fromMessage(state.pose), state.button1 != 0, state.button2 != 0});
-  return anew ? Outcome::kAnew : Outcome::kTaken;
+  return begins ? Outcome::kAnew : Outcome::kTaken;
 }
 
 RecordOptions recordOptions(Parameters& parameters) {
@@ -93,7 +93,7 @@ void StylusRecord::onSamples(const Samples& message) {
       if (message.tick == 1) ROS_INFO("recording since tick 1");
       break;
     case Recording::Outcome::kAnew:
-      ROS_WARN("a reset: the recording begins anew");
+      ROS_WARN("a reset: the recording begins again");
       break;
     case Recording::Outcome::kWaiting:
       // The first tick came before the subscription was heard of: once more.

@@ -26,7 +26,7 @@ struct ReplayOptions {
   double rate_hz = 100;
   double delay_s = 0;  ///< before the first pose, once the simulator listens
   bool loop = false;
-  bool wait_for_viewer = false;       ///< before the first pose, until somebody looks at what the simulator shows
+  bool wait_for_viewer = false;       ///< before the first pose, until someone looks at what the simulator shows
   bool reset_between_rounds = false;  ///< of a loop: calls `reset` of the simulator
   std::optional<SimulatedDeviceConfig> device;  ///< strokes are what hands intend that hold such devices
   int priority = 20;                            ///< of the loop that moves them, SCHED_FIFO; 0: ordinary

@@ -78,7 +78,7 @@ void SurfacePublisher::publishMarkers(const SurfaceFrame& frame, const ros::Time
   const std::vector<visualization_msgs::Marker> markers = toMarkers(frame, frame_, stamp);
   const size_t bodies = markers.size() / 2;
   wounds_sent_.resize(bodies);
-  for (size_t b = 0; b < bodies; ++b) {  // of wounds only what has to be: whoever keeps the last message has a skin
+  for (size_t b = 0; b < bodies; ++b) {  // of wounds only what has to be: who keeps the last message has a skin
     const visualization_msgs::Marker& wounds = markers[bodies + b];
     const bool any = wounds.action != visualization_msgs::Marker::DELETE;
     if (any || wounds_sent_[b]) marker_.publish(wounds);

@@ -16,7 +16,7 @@ namespace viscera::nodes {
 
 /// Topics `surface_topology` (latched), `surface_topology_change`, `surface` and `surface_marker`. Every change of the
 /// topology is sent at once as such; the whole one again when as much time has passed as it takes at
-/// kTopologyBytesPerSecond, so that a large organ is not sent anew in every tick of a cut.
+/// kTopologyBytesPerSecond, so that a large organ is not sent whole in every tick of a cut.
 class SurfacePublisher {
  public:
   SurfacePublisher(ros::NodeHandle& node, const std::string& tissue_frame);

@@ -14,7 +14,7 @@ namespace viscera::nodes {
 /// Topic `tick`, by which others keep pace with the simulation. Sent at once, behind no picture.
 class TickPublisher {
  public:
-  /// @param viewed  somebody looks at what the simulator shows
+  /// @param viewed  someone looks at what the simulator shows
   TickPublisher(ros::NodeHandle& node, const Scene& scene, std::function<bool()> viewed);
   /// After every tick, and while paused. @param tick  since the start or the last reset
   void publish(uint64_t tick);

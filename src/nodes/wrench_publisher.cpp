@@ -19,7 +19,7 @@ using Clock = std::chrono::steady_clock;
 
 /// Longer than a release takes, WrenchSchedule::kRelease_s, even on a busy machine; an end waits no longer.
 constexpr std::chrono::milliseconds kReleaseLimit{40};
-/// roscpp writes to sockets on a thread of its own and tells nobody when it has: it has by then.
+/// roscpp writes to sockets on a thread of its own and does not tell when it has: it has by then.
 constexpr std::chrono::milliseconds kFlush{10};
 
 }  // namespace

@@ -17,7 +17,7 @@
 
 namespace viscera::nodes {
 
-/// Forces to the devices, each to its ForceSink, from a thread that waits for nobody: neither for the simulation, whose
+/// Forces to the devices, each to its ForceSink, from a thread that never waits: neither for the simulation, whose
 /// stall it notices and answers with zeros, nor for those who show pictures.
 class WrenchPublisher {
  public:

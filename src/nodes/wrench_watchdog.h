@@ -30,7 +30,7 @@ WatchdogOptions watchdogOptions(Parameters& parameters, const std::string& packa
 
 /// Stands between a simulator and a driver that keeps the last force it was told: passes messages on, `wrench_in` to
 /// `wrench_out`, and sends zeros when they stop, for whatever reason, and when it ends itself. Zeros come from a thread
-/// that waits for nobody: neither for the master nor for whoever reads the log.
+/// that never waits: neither for the master nor for readers of the log.
 class WrenchWatchdog {
  public:
   /// @param end  must outlive this

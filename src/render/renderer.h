@@ -100,12 +100,12 @@ class Renderer {
   std::vector<Pose> camera_poses_;                           ///< [cameras] of the optical frames, tissue frame
   std::vector<std::unique_ptr<RenderTarget>> targets_;       ///< [cameras] null where pixels are lit
   std::vector<std::unique_ptr<SeenTarget>> lit_targets_;     ///< [cameras] null where samples are lit
-  std::vector<std::unique_ptr<GeometryTarget>> geometries_;  ///< [cameras] null until somebody wants one
+  std::vector<std::unique_ptr<GeometryTarget>> geometries_;  ///< [cameras] null until one is wanted
   gpu::Program geometry_program_;                            ///< none until then
   std::unique_ptr<TissuePainter> tissue_;
   std::unique_ptr<ToolPainter> tools_;
   std::unique_ptr<ObstaclePainter> obstacles_;  ///< null where the scene has none
-  std::unique_ptr<OverlayPainter> overlays_;    ///< null until somebody wants one
+  std::unique_ptr<OverlayPainter> overlays_;    ///< null until one is wanted
   std::vector<Pose> obstacle_poses_;
   uint64_t renders_ = 0;
   std::function<void()> pause_;

@@ -24,7 +24,7 @@ class HostView : public View {
  private:
   HostSurface surface_;
   StateSnapshot snapshot_;
-  std::unique_ptr<SurfaceFrame> taken_;  ///< of the last capture, till somebody collects it
+  std::unique_ptr<SurfaceFrame> taken_;  ///< of the last capture, till it is collected
 };
 
 }  // namespace viscera

@@ -54,7 +54,7 @@ class InlineView : public View {
   };
   struct Channel {  ///< one kind of picture of an eye, on its way
     PictureKind kind = PictureKind::kColor;
-    std::unique_ptr<gpu::ReadbackRing> ring;  ///< null until somebody wants one
+    std::unique_ptr<gpu::ReadbackRing> ring;  ///< null until one is wanted
     bool wanted = false;                      ///< in this capture: is handed over
     std::unique_ptr<gpu::Fence> drawn = {};   ///< of a picture that is read when it is drawn; null: there is none
     uint64_t drawn_tick = 0;

@@ -34,10 +34,10 @@ class SeenSkin {
 
   /// Where the camera is from now on. @param pose  of its optical frame, tissue frame
   void place(const Pose& pose, const SkinGroups& groups);
-  /// Shall somebody say where the skin is before look()? Where nobody knows without waiting for the GPU, only for a
+  /// Shall look() be told where the skin is? Where that is unknown without waiting for the GPU, only for a
   /// camera that does not see all of the skin at rest.
   bool asks(bool on_host) const { return !draw_hidden_ && (on_host || hides_at_rest_); }
-  /// @param places  null: nobody knows, and all is seen
+  /// @param places  null: unknown, and all is seen
   void look(const Surface& surface, const SkinPlaces* places);
   /// Adds what was seen. @param shown  [groups]
   void addTo(std::vector<uint8_t>& shown) const;

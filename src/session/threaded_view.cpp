@@ -101,7 +101,7 @@ ThreadedView::~ThreadedView() {
   }
   changed_.notify_all();
   thread_.join();
-  (void)context_.makeCurrent();  // where EGL refuses, whoever needs the context next fails and says so
+  (void)context_.makeCurrent();  // where EGL refuses, what needs the context next fails and says so
 }
 
 /// Waits, on the stepping thread.

@@ -43,7 +43,7 @@ std::vector<float> touchDepths(const Model& model, const CollisionConfig& config
 
 /// Nodes of a bucket of the complete search's hashed grid that may be compared each with all: ten times as many as lie
 /// in the reach of the coarsest of two bodies whose spacings differ tenfold. Larger crowds have collapsed into one
-/// place: nodes in one touch nobody until it has spread, and are counted (TickStats::crowded), on any backend.
+/// place: nodes in one touch nothing until it has spread, and are counted (TickStats::crowded), on any backend.
 constexpr uint32_t kMostInBucket = 4096;
 /// Buckets of the hashed grid: the power of 2 that is at least twice the nodes.
 uint32_t bucketCount(size_t nodes);

@@ -51,7 +51,7 @@ class Sharing {
     }
   }
 
-  /// @return whether nobody owns more
+  /// @return whether none owns more
   bool keepTo(size_t share) {
     std::fill(seen_.begin(), seen_.end(), 0);
     search_ = 0;

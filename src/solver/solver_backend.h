@@ -24,7 +24,7 @@ class SolverBackend : public ToolTarget {
   virtual std::string name() const = 0;  ///< for a person, such as "gpu"
   virtual SolverWork work() const { return {}; }
 
-  /// States that are kept for rollbacks, one per good tick; with them those of lag() ticks that nobody has judged.
+  /// States that are kept for rollbacks, one per good tick; with them those of lag() ticks not judged yet.
   static constexpr int kGoodStates = 4;
   /// Sweeps per substep of a recovery: as many in a tick as leapfrog has substeps.
   static constexpr int kRecoveryIterations = 20;
@@ -56,7 +56,7 @@ class SolverBackend : public ToolTarget {
   /// Sums the tick's reactions into the measurements, in ticks in which a stylus touches. @param tips  tissue frame [m]
   virtual void sumReactions(const std::array<Vector3f, layout::kMaxStyluses>& tips) = 0;
   /// Where the measurements exceed what the governor lets pass (Governor::inspect), puts the state that was saved last
-  /// in the place of the current one, as restoreGood(0) does. Only where there is a lag, and so that nobody need wait.
+  /// in the place of the current one, as restoreGood(0) does. Only where there is a lag, and so that nothing need wait.
   /// @param motions  of the tick   @param tick_s  its length
   virtual void guard(const Governor::Bounds& bounds, const ToolMotions& motions, double tick_s) = 0;
   /// @}

@@ -17,7 +17,7 @@ namespace viscera {
 
 namespace {
 
-constexpr size_t kFinishedKept = 3;    // ticks whose measurements wait for somebody who asks
+constexpr size_t kFinishedKept = 3;    // ticks whose measurements wait to be asked for
 constexpr double kStretchSteps = 0.1;  // in which the substep follows the stretch
 constexpr double kWorthwhile = 1.01;   // a stable substep must have grown by this factor to be taken
 
@@ -193,7 +193,7 @@ void Ticks::finishStats() {
   backend_->requestStats();
 }
 
-/// Of more than kFinishedKept that nobody has asked for, the oldest is forgotten.
+/// Of more than kFinishedKept that were not asked for, the oldest is forgotten.
 void Ticks::keepStats(const layout::TickStats& stats) {
   if (finished_.size() == kFinishedKept) finished_.erase(finished_.begin());
   finished_.push_back(stats);

@@ -46,7 +46,7 @@ class Ticks : public Solver {
 
   /// Sets the state, for tests and saved sessions.
   /// @param staggered  the velocities are those of half a substep earlier, as readState() gives them for leapfrog;
-  ///                   otherwise they belong to the same moment as the displacements and time starts anew with a half
+  ///                   otherwise they belong to the same moment as the displacements and time starts again with a half
   ///                   kick
   void writeState(const HostState& state, bool staggered = false);
 
@@ -82,13 +82,13 @@ class Ticks : public Solver {
   std::optional<Surroundings> surroundings_;  ///< only where a scene has any
   std::optional<HostState> start_;            ///< nothing: rest
   std::optional<Watch> watch_;                ///< only where a scene has a governor
-  std::vector<layout::TickStats> finished_;   ///< taken while nobody asked, oldest first
+  std::vector<layout::TickStats> finished_;   ///< taken while not asked for, oldest first
   std::vector<layout::ToolMotion> motions_;
   uint64_t cut_revision_ = 0, substeps_done_ = 0;
   uint32_t springs_cut_ = 0;  ///< when dt_safe was last computed
   int n_ = 1;                 ///< substeps of this tick
   bool recovering_ = false;   ///< in this tick
-  bool restarted_ = true;     ///< the next substep starts anew
+  bool restarted_ = true;     ///< the next substep starts again
   double last_dt_s_ = 0;
 };
 

@@ -37,7 +37,7 @@ void changeGrip(const Hand& hand) {
   hand.target.takeHold(hand.stylus, hand.motion.from, kindOf(hand.motion.mode).reach_m(hand.config));
 }
 
-/// Nothing is held again until a hold begins anew.
+/// Nothing is held again until a new hold begins.
 void letGoAboveLimit(const Hand& hand) {
   const ToolKind& kind = kindOf(hand.motion.mode);
   if (!kind.grip) return;

@@ -14,7 +14,7 @@ struct Release {
   double above_n_s = -1;  ///< only if the stylus gave more momentum than this in the tick; below 0: in any case
 };
 
-/// What tools ask of whoever has the tissue: a backend, or the reference. It is asked in the order of a tick, and may
+/// What tools ask of what holds the tissue: a backend, or the reference. It is asked in the order of a tick, and may
 /// do it later, as long as that order stays.
 class ToolTarget {
  public:

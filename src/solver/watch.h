@@ -11,14 +11,14 @@ namespace viscera {
 
 /// Carries out what a governor says of a scene's ticks (physics.md 3): a tick is open from its end until its
 /// measurements are judged, at once or, where the backend lags, after the tick that follows. Good states are kept, bad
-/// ticks are rolled back, and nobody is told of what was bad.
+/// ticks are rolled back, and what was bad is not told.
 class Watch {
  public:
-  /// What follows from having judged a tick, for whoever makes the ticks.
+  /// What follows from having judged a tick, for what makes the ticks.
   struct Verdict {
-    std::optional<layout::TickStats> published;  ///< measurements that nobody has asked for yet
+    std::optional<layout::TickStats> published;  ///< measurements not asked for yet
     std::optional<layout::TickStats> good;       ///< of the tick, as they are, if it was good
-    bool rolled_back = false;                    ///< the state is an older one: the next substep starts anew
+    bool rolled_back = false;                    ///< the state is an older one: the next substep starts again
   };
 
   /// @param backend  must outlive this   @param implicit  the scene's integrator may be fast   @param tick_s  length
@@ -55,7 +55,7 @@ class Watch {
     bool recovering = false;
     bool undone = false;  ///< the tick before was bad: this one does not count
     bool long_substeps = false;
-    bool delivered = false;  ///< somebody has asked for its measurements already
+    bool delivered = false;  ///< its measurements were asked for already
     std::optional<layout::TickStats> stats;
   };
   bool receive(bool wait);

@@ -43,7 +43,7 @@ class BodyWound {
   bool any() const { return cells_.any(); }  ///< is any axial spring cut?
   size_t slivers() const { return skin_.slivers(); }
   size_t holes() const { return walls_.holes(); }
-  /// What the last update has looked at or made anew, beyond copies of what there was: for tests and benchmarks.
+  /// What the last update has looked at or made again, beyond copies of what there was: for tests and benchmarks.
   struct Work {
     size_t cells = 0;      ///< whose springs may be others than before
     size_t pieces = 0;     ///< triangles of the skin

@@ -39,7 +39,7 @@ void GroupedItems::forget() {
   last_ = 0;
 }
 
-/// What is to be done for each group. What shows the last run's state follows from there; all others anew.
+/// What is to be done for each group. What shows the last run's state follows from there; all others from scratch.
 void GroupedItems::choose(const StateView& state, const std::vector<uint8_t>* needed) {
   const bool known = state.stale_bricks != 0;
   for (size_t g = 0; g < ways_.size(); ++g) {

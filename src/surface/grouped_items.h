@@ -16,7 +16,7 @@ namespace viscera {
 class GroupedItems {
  public:
   GroupedItems() = default;
-  /// @param item_groups  [items] group of each item; items that nobody maps have one >= `groups`
+  /// @param item_groups  [items] group of each item; items that are not mapped have one >= `groups`
   /// @param spare  items that the last group may get without a larger buffer   @param name  for messages, a literal
   GroupedItems(const std::vector<uint32_t>& item_groups, size_t groups, size_t spare, const char* name);
 
@@ -35,7 +35,7 @@ class GroupedItems {
 
   const char* name_ = "";
   std::vector<uint32_t> items_, starts_;  ///< group by group; [groups + 1]
-  std::vector<uint32_t> followed_;        ///< [groups] revision of the state that items show; 0: nobody knows
+  std::vector<uint32_t> followed_;        ///< [groups] revision of the state that items show; 0: unknown
   std::vector<Way> ways_, listed_ways_;   ///< [groups] of this run, of what is in the list
   std::vector<uint32_t> listed_;
   size_t follow_count_ = 0;

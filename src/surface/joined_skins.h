@@ -33,7 +33,7 @@ struct NetworkSkins {
 };
 
 /// How approximate normals follow where vertices are turned by them (docs/mappings.md): turned as the tissue is, or, to
-/// compare, summed anew as VR05's eq 5 is. One_to_one and along_normal sum in any case.
+/// compare, summed again as VR05's eq 5 is. One_to_one and along_normal sum in any case.
 enum class MovedNormals { kCarried, kSummed };
 
 /// The skins of all bodies as one: slots and vertices numbered through. Split vertices of a network follow its own.

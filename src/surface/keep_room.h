@@ -8,7 +8,7 @@
 
 namespace viscera {
 
-/// Makes room for `count` elements in a vector that is filled anew in every tick that cuts, and for those of the ticks
+/// Makes room for `count` elements in a vector that is filled again in every tick that cuts, and for those of the ticks
 /// to come: assignments alone would ask for as much as they need, in every tick again.
 template <class Element>
 void keepRoom(std::vector<Element>& in, size_t count) {

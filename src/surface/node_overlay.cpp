@@ -162,7 +162,7 @@ void NodeOverlay::makeNormals(const StateView& state, const Surface& surface) {
     bindStorage(layout::kBindBodies, state.bodies);
     bindStorage(layout::kBindNodes, state.nodes);
     bindStorage(layout::kBindDisplacementIn, state.displacement);
-    bindStorage(layout::kBindStaleBricks, bound_nodes_.id());  // nobody reads it: every node is summed
+    bindStorage(layout::kBindStaleBricks, bound_nodes_.id());  // never read: every node is summed
     bound_nodes_.bindStorage(layout::kBindSurfaceNodes);
     node_normals_.bindStorage(layout::kBindNodeNormals);
     sum_normals_.set("followed_revision", 0U);
@@ -179,7 +179,7 @@ void NodeOverlay::makeForces(const Surface& surface) {
 void NodeOverlay::makeSpikes(const Surface& surface, uint32_t kind, const std::vector<float>& of_bodies,
                              const gpu::Buffer<layout::vec4>& ends) {
   const bool lattices = node_normals_.size() > 0;
-  bindStorage(layout::kBindNodeNormals, lattices ? node_normals_.id() : nodes_.id());  // nobody reads the latter
+  bindStorage(layout::kBindNodeNormals, lattices ? node_normals_.id() : nodes_.id());  // the latter is never read
   surface.normals().bindStorage(layout::kBindSkinNormals);
   spikes_.bindStorage(layout::kBindOverlaySpikes);
   ends.bindStorage(layout::kBindOverlayEnds);

@@ -17,7 +17,7 @@
 namespace viscera {
 
 /// What overlays show of nodes and springs, made on the GPU of the state there: lines, normals, forces and strains.
-/// Owner of shaders/surface/overlay_*.comp. Made when somebody first asks for an overlay.
+/// Owner of shaders/surface/overlay_*.comp. Made when an overlay is first asked for.
 class NodeOverlay {
  public:
   /// Needs a current context. @param model  must outlive this   @throws GpuError

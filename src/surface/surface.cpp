@@ -51,7 +51,7 @@ std::vector<uint32_t> groupsOf(const std::vector<layout::SkinBinding>& bindings,
   return out;
 }
 
-/// Whoever draws, copies or publishes next must see what was written.
+/// What draws, copies or publishes next must see what was written.
 void publish() {
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_ELEMENT_ARRAY_BARRIER_BIT |
                   GL_BUFFER_UPDATE_BARRIER_BIT);
@@ -291,7 +291,7 @@ void Surface::showWounds() {
   showWoundedCharts();
   groups_.wound(shown, wounds_->bindings());
   vertex_items_.setLast(static_cast<uint32_t>(whole_vertices_), static_cast<uint32_t>(vertices_));
-  forget();  // vertices are bound anew
+  forget();  // vertices are bound again
   ++live_revision_;
 }
 

@@ -94,9 +94,9 @@ class Surface {
   gpu::Buffer<layout::SkinBinding> bindings_;
   gpu::Buffer<layout::Tie> ties_;
   gpu::Buffer<float> positions_;
-  gpu::Buffer<uint32_t> unknown_{size_t{1}};     ///< in place of StateView::stale_bricks; nobody reads it
+  gpu::Buffer<uint32_t> unknown_{size_t{1}};     ///< in place of StateView::stale_bricks; never read
   gpu::Program map_, tear_;                      ///< none where every body is a network
-  gpu::Program carried_normal_, summed_normal_;  ///< none where nobody follows such normals
+  gpu::Program carried_normal_, summed_normal_;  ///< none where such normals are not followed
   std::unique_ptr<NetworkSurface> networks_;     ///< null where none is
   std::unique_ptr<Wounds> wounds_;               ///< null where no body with an inside can be cut
   ShownTriangles shown_;
@@ -107,7 +107,7 @@ class Surface {
   uint64_t cut_revision_ = 0, wound_revision_ = 0, mappings_ = 0;
   SkinGroups groups_;
   GroupedItems vertex_items_, carried_items_, summed_items_;
-  uint32_t followed_networks_ = 0;  ///< revision of the state that their vertices show; 0 if nobody knows
+  uint32_t followed_networks_ = 0;  ///< revision of the state that their vertices show; 0 if unknown
   uint64_t live_revision_ = 0;
   bool torn_on_gpu_ = false;
 };

@@ -277,7 +277,7 @@ WoundPlace CutCells::placeOf(const Vector3d& point) const {
     lowest = slotAt(home);
   }
   WoundPlace place;
-  if (lowest < 0) return place;  // nothing within three cells: whoever asks has no skin there
+  if (lowest < 0) return place;  // nothing within three cells: who asks has no skin there
   place.cell = static_cast<uint32_t>(lowest);
   place.within = (point - home.cast<double>()).cwiseMax(0.0).cwiseMin(1.0).cast<float>();
   if (const CutCell* const cell = find(place.cell)) {

@@ -47,7 +47,7 @@ struct WoundPlace {
 };
 
 /// The cut cells of one body's lattice (docs/wounds.md 1). Cells here are those that are tissue, whole or in part. An
-/// update looks at every node whether its springs are those of the last one, and makes anew what lies around those
+/// update looks at every node whether its springs are those of the last one, and makes again what lies around those
 /// whose are not.
 class CutCells {
  public:

@@ -3,7 +3,7 @@
 //
 // Points of walls give way where triangles are folded, cell by cell in their order, in a few rounds. What a point comes
 // to in a round follows from where those before it have come to in that round, and the others in the last one: asked
-// anew are those of which any of that has changed.
+// again are those of which any of that has changed.
 #include <algorithm>
 #include <cmath>
 #include <functional>

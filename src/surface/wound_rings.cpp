@@ -107,7 +107,7 @@ bool WoundWalls::stepAlongHole() {
 
 /// What is still open: where lips step from cell to cell across an edge of the lattice, where they end before the cut
 /// inside does. Such holes are rings of a few edges between points of neighbouring cells. Those along which something
-/// has changed are filled anew.
+/// has changed are filled again.
 void WoundWalls::closeHoles() {
   for (const uint32_t vertex : touched_.list) around_hole_.note(vertex, mark_);
   open_.clear();

@@ -263,7 +263,7 @@ uint64_t WoundSkin::orderOf(uint32_t vertex) const {
                                : kInside + 4 * uint64_t{owner.triangle} + owner.which;
 }
 
-/// @param freed  the first ones of as many that nobody has any more   @returns the first one
+/// @param freed  the first ones of as many that are free   @returns the first one
 uint32_t WoundSkin::newVertices(size_t count, std::vector<uint32_t>& freed) {
   if (!freed.empty()) {
     const uint32_t first = freed.back();
@@ -297,7 +297,7 @@ void WoundSkin::setVertex(uint32_t vertex, const WoundVertex& to, const Owner& o
   changed_marks_[i] = mark_;
 }
 
-/// Nobody has the vertex any more: it stays where it is until it is another.
+/// The vertex is free: it stays where it is until it is another.
 void WoundSkin::free(uint32_t vertex) {
   is_end_[vertex - own_] = true;
   changed_marks_[vertex - own_] = mark_;

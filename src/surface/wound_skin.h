@@ -77,7 +77,7 @@ class WoundSkin {
   const std::array<uint32_t, 3>& edgesOf(uint32_t triangle) const { return index_.triangle_edges[triangle]; }
   /// Where they are listed they stay; some are of nothing any more.
   const std::vector<WoundVertex>& added() const { return added_; }
-  /// The skin's own vertices that have to be bound anew: their triangle of nodes lies on two sides, or on the other
+  /// The skin's own vertices that have to be bound again: their triangle of nodes lies on two sides, or on the other
   /// one.
   const std::vector<uint32_t>& rebound() const { return rebound_; }
   bool isRebound(uint32_t own) const { return rebound_at_[own] != kNone; }

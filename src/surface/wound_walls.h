@@ -18,7 +18,7 @@ namespace viscera {
 /// each side; a cut spring inside the tissue has two quads between the points of the four cells around it; a lip is
 /// joined to its cell's point, and where lips go on in another cell, both cells' points to the vertex between; small
 /// rings that this leaves are filled. Points then give way until no triangle of theirs is folded or as good as a line.
-/// Both sides are in one place at rest, and every edge has one triangle on either hand. An update makes anew what lies
+/// Both sides are in one place at rest, and every edge has one triangle on either hand. An update makes again what lies
 /// around the cells and lips that have changed, and goes on as far as that changes what is beside it; what comes of it
 /// does not depend on the updates before. All memory is kept.
 class WoundWalls {

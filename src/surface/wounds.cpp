@@ -93,13 +93,13 @@ void Wounds::forget() {
   added_rests_.clear();
 }
 
-/// One that nobody else shows any more, with its memory, or a new one; all bodies in it are whole.
+/// One that is not shown any more, with its memory, or a new one; all bodies in it are whole.
 std::shared_ptr<ShownWounds> Wounds::next() {
   const auto is_free = [](const std::shared_ptr<ShownWounds>& wounds) { return wounds.use_count() == 1; };
   shown_.reset();
   auto found = std::find_if(kept_.begin(), kept_.end(), is_free);
   if (found == kept_.end()) found = kept_.insert(kept_.end(), std::make_shared<ShownWounds>());
-  std::atomic_thread_fence(std::memory_order_acquire);  // whoever let go of it has read it
+  std::atomic_thread_fence(std::memory_order_acquire);  // who let go of it has read it
   ShownWounds& out = **found;
   out.revision = revisions_++;
   out.vertices = bindings_.size();

@@ -88,7 +88,7 @@ class Wounds {
   std::vector<layout::SkinBinding> whole_bindings_, bindings_;
   std::vector<uint32_t> whole_colors_, colors_;
   std::vector<layout::vec4> added_rests_;
-  std::vector<std::shared_ptr<ShownWounds>> kept_;  ///< what was shown: used again when nobody shows it any more
+  std::vector<std::shared_ptr<ShownWounds>> kept_;  ///< what was shown: used again when not shown any more
   std::shared_ptr<const ShownWounds> shown_;
   uint64_t revisions_ = 1;
 };

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kNone = -std::numeric_limits<double>::infinity();
 
-/// How near to whoever looks along -z the skins are, on a grid of points across.
+/// How near to a viewer along -z the skins are, on a grid of points across.
 class HeightMap {
  public:
   HeightMap(const Model& model, const Quaterniond& to_anchor) {

@@ -102,14 +102,14 @@ TEST(ArmMotion, VelocityGoesOnForAMomentAndIsHeldByNothingElse) {
   ArmMotion arm(config());
   ASSERT_TRUE(arm.servoVelocity({0.05, 0, 0}, {0, 0, 1}));
   EXPECT_TRUE(arm.moves());
-  EXPECT_FALSE(arm.busy());  // whoever waits for the end of a move does not wait for this
+  EXPECT_FALSE(arm.busy());  // what waits for the end of a move does not wait for this
   for (int i = 0; i < 10; ++i) {
     arm.advance(0.01);
     arm.servoVelocity({0.05, 0, 0}, {0, 0, 1});
   }
   EXPECT_NEAR(arm.setpoint().position_m.x(), 0.005, kRounding);
   EXPECT_NEAR(arm.setpoint().orientation.angularDistance(Quaterniond::Identity()), 0.1, 1e-9);
-  arm.advance(1);  // nobody tells it to go on
+  arm.advance(1);  // it is not told to go on
   EXPECT_NEAR(arm.setpoint().position_m.x(), 0.005 + 0.05 * ArmMotion::kVelocityHolds_s, kRounding);
   EXPECT_FALSE(arm.moves());
 }

@@ -139,7 +139,7 @@ TEST(HapticServo, BooksWhatTheHandGivesWhateverTheScales) {
   }
 }
 
-/// Nobody knows how the hand moved, nor what pushed it meanwhile.
+/// How the hand moved, and what pushed it meanwhile, is unknown.
 TEST(HapticServo, AGapIsNoMotion) {
   HapticServo servo(HapticServoConfig{});
   TickContact contact;

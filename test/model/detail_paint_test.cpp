@@ -91,7 +91,7 @@ TEST(DetailPaint, IsTheSameEveryTimeAndTurnsWithTheBody) {
   EXPECT_NEAR(shareCovered(paintDetail(away, there, kLargest_px)), covered, kOrder * covered);
 }
 
-/// Somebody who no longer wants the skin, as at the end of a program: the threads that paint end too.
+/// The skin is no longer wanted, as at the end of a program: the threads that paint end too.
 TEST(DetailPaint, IsEndedByItsProgress) {
   const TriangleMesh skin = skinOf(heartPhantom(kLength_m, 1));
   const auto ends = [](const std::string&, double) { throw 1; };

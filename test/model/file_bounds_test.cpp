@@ -65,7 +65,7 @@ TEST_F(FileBounds, WhatIsInsideIsRead) {
   load(folder_.file("way_in") + "/a.yaml");
 }
 
-TEST_F(FileBounds, AnyFileIsReadWhereNobodyBinds) {
+TEST_F(FileBounds, AnyFileIsReadWhereNothingBinds) {
   bindFilesTo({}, "");
   load(scene("a.yaml", "source: box"));
 }

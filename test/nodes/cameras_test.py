@@ -2,7 +2,7 @@
 # Copyright (c) 2026, the viscera authors
 # SPDX-License-Identifier: BSD-3-Clause
 """A stereo camera on a tf frame: nothing is shown while the frame is unknown; then depths, labels and pairs of pictures are
-where tf and camera_info say, in pauses too; each is made only while somebody subscribes."""
+where tf and camera_info say, in pauses too; each is made only for subscribers."""
 import array
 import math
 import sys

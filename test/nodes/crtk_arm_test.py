@@ -182,7 +182,7 @@ class CrtkArmTest(unittest.TestCase):
         self.assertLess(way, 0.05 * (took_s + HOLDS_S) + LATE_M)
         there = vector(self.at.message.pose.position)
         time.sleep(0.3)
-        self.assertTrue(self.is_at(there))  # nobody tells it to go on
+        self.assertTrue(self.is_at(there))  # it is not told to go on
         message.twist.linear.x = float("nan")
         self.velocity.publish(message)
         time.sleep(0.3)

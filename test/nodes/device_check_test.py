@@ -109,7 +109,7 @@ class MillimetreCrtk(Crtk):
         from drivers import fill
         message = PoseStamped()
         message.header.stamp = rospy.Time.now()
-        message.header.frame_id = "nobody_knows"
+        message.header.frame_id = "unknown_frame"
         fill(message.pose, [1000 * x for x in times(up, position)], times(up, rotation))
         self.poses.publish(message)
 
@@ -142,7 +142,7 @@ class DeviceCheckTest(unittest.TestCase):
                                    ("turn to the left: axes are swapped, the tool tilts to the right", "WRONG"),
                                    ("the device tells millimetres", "WRONG"),
                                    ("but on /foot/pedals, number 1", "WRONG"), ("but on /foot/pedals, number 2", "WRONG"),
-                                   ("tf does not join 'nobody_knows' to 'tissue'", "note")):
+                                   ("tf does not join 'unknown_frame' to 'tissue'", "note")):
                 self.assertEqual(seen.judged(words), verdict, (words, seen.said))
             self.assertIn("roslaunch viscera training.launch device_left:=" + file, seen.said)
             again = Operator(driver, "device_left:=" + file)
@@ -212,7 +212,7 @@ class DeviceCheckTest(unittest.TestCase):
             self.assertIn(words, done.stdout)
         silent = Crtk("silent")
         try:
-            seen = Operator(silent, "device_left:=crtk:nobody")
+            seen = Operator(silent, "device_left:=crtk:unknown")
             self.assertEqual(seen.status, 1, seen.said)
             self.assertEqual(seen.judged("no pose came"), "WRONG", seen.said)
             self.assertIn("there is /silent/measured_cp, as profile crtk:/silent would have it", seen.said)

@@ -139,7 +139,7 @@ class DvrkMaster(Crtk):
 
 class PhantomOmni(Driver):
     """omni_common: positions turned to z up, in metres; orientations as the device has them but for a quarter turn of the
-    stylus; a frame that nobody else knows; buttons in one message of omni_msgs."""
+    stylus; a frame that is known nowhere else; buttons in one message of omni_msgs."""
     profile, base = "phantom_omni", (0, -0.09, 0)
 
     def open(self):

@@ -76,7 +76,7 @@ class ForceEndingsTest(ForceCase):
             self.assertEqual(session.simulator.wait(END_LIMIT_S), 1)
 
     def test_exception_in_a_thread(self):
-        """Where there is no memory for pictures, whoever makes them throws."""
+        """Where there is no memory for pictures, making them throws."""
         with Session() as session:
             session.wait_touch()
             in_use = int(open("/proc/%d/statm" % session.simulator.pid).read().split()[0]) * resource.getpagesize()

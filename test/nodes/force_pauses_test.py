@@ -54,7 +54,7 @@ class ForcePausesTest(ForceCase):
             self.assertGreater(len(rises), 0)
 
     def test_pause_releases_before_a_picture_is_drawn(self):
-        """In a pause whoever looks gets a picture of the state that stands still, and here one takes long."""
+        """In a pause a viewer gets a picture of the state that stands still, and here one takes long."""
         rospy.init_node("force_pauses_test", anonymous=True, disable_signals=True)
         with Session(overrides=";cameras[0].width_px=2048;cameras[0].height_px=1536") as session:
             session.wait_touch()

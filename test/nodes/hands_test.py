@@ -175,7 +175,7 @@ class HandsTest(unittest.TestCase):
         time.sleep(0.5)
         self.assertEqual(self.force_n(), 0)
 
-    def test_steps_of_a_paused_session_push_nobody(self):
+    def test_steps_of_a_paused_session_push_no_hand(self):
         self.press_probe_in()
         self.assertTrue(self.call["pause"]().success)
         time.sleep(0.2)
@@ -211,9 +211,9 @@ class HandsTest(unittest.TestCase):
 
     def test_steps_to_where_nothing_can_be_are_refused(self):
         self.assertTrue(self.call["pause"]().success)
-        nobody, nowhere, twice = StylusState(stylus="nobody"), StylusState(stylus="left"), StylusState(stylus="left")
-        nobody.pose.orientation.w = twice.pose.orientation.w = 1
-        for states, word in (([nobody], "nobody"), ([nowhere], "quaternion"), ([twice, twice], "twice")):
+        unknown, nowhere, twice = StylusState(stylus="unknown"), StylusState(stylus="left"), StylusState(stylus="left")
+        unknown.pose.orientation.w = twice.pose.orientation.w = 1
+        for states, word in (([unknown], "unknown"), ([nowhere], "quaternion"), ([twice, twice], "twice")):
             answer = self.step(ticks=1, styluses=states)
             self.assertFalse(answer.success)
             self.assertIn(word, answer.message)

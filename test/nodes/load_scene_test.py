@@ -127,7 +127,7 @@ class LoadSceneTest(unittest.TestCase):
         wait_until(lambda: self.watch.value("simulation", "nodes_crowded"), 10, "crowd")
         status = self.watch.status("simulation")
         self.assertEqual(status.level, DiagnosticStatus.WARN)
-        self.assertIn("%d nodes touch nobody" % self.watch.value("simulation", "nodes_crowded"), status.message)
+        self.assertIn("%d nodes touch nothing" % self.watch.value("simulation", "nodes_crowded"), status.message)
 
     def test_4_and_back(self):
         answer = self.load(scene="heart", overrides=HEART)

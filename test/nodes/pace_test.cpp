@@ -74,7 +74,7 @@ TEST(PictureWatch, TellsOnceWhichCameraIsBehindWithItsNumbers) {
     EXPECT_TRUE(watch.note({30, 30}, {9, 11}).empty());
 }
 
-TEST(PictureWatch, NobodyWhoWantsNoneIsBehind) {
+TEST(PictureWatch, WhoWantsNoneIsNotBehind) {
   PictureWatch watch(std::vector<CameraConfig>(1));
   for (int second = 0; second < 2 * PictureWatch::kReadings; ++second) {
     EXPECT_TRUE(watch.note({0}, {0}).empty());

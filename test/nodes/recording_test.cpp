@@ -38,7 +38,7 @@ TEST(Recording, BeginsWithTheFirstTick) {
   EXPECT_EQ(recording.strokes().strokes[0].samples.at(1).pose.position_m.x(), 0.2);
 }
 
-TEST(Recording, AResetBeginsAnew) {
+TEST(Recording, AResetBeginsAgain) {
   Recording recording;
   for (const uint64_t number : {1, 2, 3}) recording.add(tick(number));
   EXPECT_EQ(recording.add(tick(1)), Outcome::kAnew);

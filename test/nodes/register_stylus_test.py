@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026, the viscera authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""A tracker that is not where it is said to be, with a tip that nobody has measured: `register_stylus` finds both."""
+"""A tracker that is not where it is said to be, with a tip that was not measured: `register_stylus` finds both."""
 import math
 import os
 import random

@@ -127,9 +127,9 @@ class SceneViewTest(unittest.TestCase):
         self.assertFalse(answer.success)
         self.assertEqual(answer.message, "overlays: there is no overlay 'latice'; there are lattice, springs, normals, "
                                          "strain, forces, wind")
-        answer = set_overlays("nobody", [])
+        answer = set_overlays("unknown", [])
         self.assertFalse(answer.success)
-        self.assertEqual(answer.message, "camera: the scene has no camera 'nobody'")
+        self.assertEqual(answer.message, "camera: the scene has no camera 'unknown'")
         image.stop()
 
     @staticmethod

@@ -46,10 +46,10 @@ class SlowReplayTest(unittest.TestCase):
         self.assertEqual(hand.count, 0)
 
         marker = Latest("surface_marker", Marker)
-        wait_until(lambda: hand.count, LIMIT_S, "pose once somebody looks")
+        wait_until(lambda: hand.count, LIMIT_S, "pose once someone looks")
         wait_until(lambda: tick.message.viewed, LIMIT_S, "tick that says so")  # the pose may overtake it on its way here
 
-        # The hand goes down once, the simulation starts anew, and the hand goes down again.
+        # The hand goes down once, the simulation starts again, and the hand goes down again.
         wait_until(lambda: any(a[0] < b[0] - 0.05 for a, b in zip(poses, poses[1:])), ROUND_LIMIT_S, "second round")
         second = next(i + 1 for i, (a, b) in enumerate(zip(poses, poses[1:])) if a[0] < b[0] - 0.05)
         first_round, last = poses[:second], poses[second - 1]

@@ -62,11 +62,11 @@ TEST(StatusScreen, TellsPaceRatesHandsForcesAndWhyPosesWereDropped) {
   expectSays(screen, "simulator, heard 0.3 s ago");
   expectSays(screen, "running, tick 1234, stepped by cpu, leapfrog");
   expectSays(screen, "0.98 of real time: a step takes 4.2 ms, 9.1 ms at most");
-  expectSays(screen, "surface and markers 30 /s, pictures of camera 0 /s (what nobody subscribes to is not made)");
+  expectSays(screen, "surface and markers 30 /s, pictures of camera 0 /s (what has no subscriber is not made)");
   expectSays(screen, "messages are dropped; force 0.53 N (the limit); touches 7 nodes, holds 3; 998 forces/s;");
   expectSays(screen, "41 messages dropped since the start, no_transform: tf does not join the frame");
   EXPECT_EQ(screen.find("delayed"), std::string::npos) << screen;
-  expectSays(screen, "no device: nobody sends poses (polhemus)");
+  expectSays(screen, "no device: no poses arrive (polhemus)");
   expectSays(screen, "WARNING     left: messages are dropped");
   EXPECT_EQ(screen.find("nothing"), std::string::npos) << screen;
 }
@@ -84,7 +84,7 @@ TEST(StatusScreen, SaysThatThereIsNoSimulator) {
   view.watched_s = kSilent_s;
   const std::string screen = statusScreen({}, view);
   expectSays(screen, "no simulator");
-  expectSays(screen, "nobody has sent /diagnostics for 3 s");
+  expectSays(screen, "no /diagnostics for 3 s");
   expectSays(screen, "http://lab:11311");
   expectSays(screen, "roslaunch viscera training.launch");
   EXPECT_FALSE(isSimulatorTold({}, view));

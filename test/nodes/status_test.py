@@ -18,7 +18,7 @@ from sensor_msgs.msg import Image
 from simulator_watch import Latest, SimulatorWatch, wait_until
 
 LIMIT_S = 20
-NOBODY = "http://localhost:1"  # where no master answers
+NO_MASTER = "http://localhost:1"  # where no master answers
 
 
 def status(*arguments, uri=None):
@@ -38,18 +38,18 @@ class StatusTest(unittest.TestCase):
     def test_one_screen_of_a_session(self):
         told = status("_once:=true")
         self.assertEqual(told.returncode, 0, told)
-        for words in ("simulator, heard", "running, tick", "of real time", "no device: nobody sends poses",
+        for words in ("simulator, heard", "running, tick", "of real time", "no device: no poses arrive",
                       "pictures of camera 0 /s"):
             self.assertIn(words, told.stdout)
 
     def test_no_simulator_and_no_master_are_told(self):
-        other = status("_once:=true", "_simulator:=nobody")
+        other = status("_once:=true", "_simulator:=unknown")
         self.assertEqual(other.returncode, 1, other)
-        self.assertIn("no simulator 'nobody'", other.stdout)
+        self.assertIn("no simulator 'unknown'", other.stdout)
         self.assertIn("those who send /diagnostics are: simulator", other.stdout)
-        alone = status(uri=NOBODY)
+        alone = status(uri=NO_MASTER)
         self.assertEqual(alone.returncode, 1, alone)
-        self.assertIn("no ROS master answers at " + NOBODY, alone.stdout)
+        self.assertIn("no ROS master answers at " + NO_MASTER, alone.stdout)
         wrong = status("_onec:=true")
         self.assertEqual(wrong.returncode, 1, wrong)
         self.assertIn("onec", wrong.stdout + wrong.stderr)

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026, the viscera authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Services of the simulator: wrong states are refused, a reset restores the state to the bit, nobody is served unasked."""
+"""Services of the simulator: wrong states are refused, a reset restores the state to the bit, nothing is sent unasked."""
 import sys
 import unittest
 
@@ -37,7 +37,7 @@ class SteppingTest(unittest.TestCase):
         self.assertFalse(answer.success)
         self.assertTrue(answer.message)
 
-    def test_0_nobody_subscribed_so_nothing_was_mapped_drawn_or_read_back(self):
+    def test_0_without_subscribers_nothing_was_mapped_drawn_or_read_back(self):
         self.watch.wait_news()
         self.assertGreater(self.watch.value("simulation", "ticks"), 0)
         for counter in ("mappings", "renders", "read_backs"):

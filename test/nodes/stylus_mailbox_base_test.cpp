@@ -35,9 +35,9 @@ class StylusBaseTest : public ::testing::Test {
   StylusMailbox mailbox_{config(), "tissue"};
 };
 
-TEST_F(StylusBaseTest, ThatLeapsMakesTheHandAppearAnew) {
+TEST_F(StylusBaseTest, ThatLeapsMakesTheHandAppearAgain) {
   say(hand_m_);
-  base_.position_m.x() = 0.004;  // as a base may that somebody carries
+  base_.position_m.x() = 0.004;  // as a base may that is carried
   say(hand_m_);
   EXPECT_TRUE(taken());
   EXPECT_EQ(moves(), 0u);
@@ -52,7 +52,7 @@ TEST_F(StylusBaseTest, ThatLeapsMakesTheHandAppearAnew) {
   EXPECT_EQ(moves(), 1u);
 }
 
-TEST_F(StylusBaseTest, ThatTurnsInItsPlaceMakesTheHandAppearAnew) {
+TEST_F(StylusBaseTest, ThatTurnsInItsPlaceMakesTheHandAppearAgain) {
   say(hand_m_);
   const Vector3d before_m = mailbox_.take(at(now_s_)).pose.position_m;
   base_.orientation = aboutZ(30);
@@ -96,7 +96,7 @@ TEST_F(StylusBaseTest, ThatIsCarriedAndTurnedSlowlyIsFollowed) {
 }
 
 /// Forces between ticks would answer a leap by what the tissue was like elsewhere.
-TEST_F(StylusBaseTest, ThatLeapsIsSeenByWhoeverOnlyLooks) {
+TEST_F(StylusBaseTest, ThatLeapsIsSeenByALookAlone) {
   say(hand_m_);
   EXPECT_TRUE(taken());
   EXPECT_TRUE(peeked());

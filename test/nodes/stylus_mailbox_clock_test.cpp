@@ -39,7 +39,7 @@ TEST(StylusClock, StampsFarApartAreNoTrouble) {
 /// A device whose clock goes wrong by a share of time, on a way that takes 1 .. 31 ms.
 struct DriftingDevice {
   double rate_hz, drift;
-  double ahead_s = 1e9;  // as that of a clock that nobody set
+  double ahead_s = 1e9;  // as that of a clock that was not set
   StylusMailbox mailbox{config(), "tissue"};
   std::mt19937 random{7};
   std::uniform_real_distribution<double> way_s{0.001, 0.031};

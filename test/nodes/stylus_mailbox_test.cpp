@@ -191,7 +191,7 @@ TEST_F(StylusButtonTest, EndsWithItsHandAndMustBeReleasedBeforeItActs) {
   EXPECT_TRUE(take(4).button2);
 }
 
-TEST_F(StylusButtonTest, EndsThoughNobodyLookedWhileTheHandWasAway) {
+TEST_F(StylusButtonTest, EndsThoughNotLookedAtWhileTheHandWasAway) {
   press(1, 1);
   track(3, 3.5);
   EXPECT_FALSE(take(3.5).button2);

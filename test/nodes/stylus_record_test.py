@@ -152,13 +152,13 @@ class StylusRecordTest(unittest.TestCase):
         self.assertNotEqual(replayed["state_hash"], live.state_hash)
         self.assertIs(replayed["recorded_hash_met"], False)
 
-    def test_2_a_reset_begins_anew_and_the_end_saves(self):
+    def test_2_a_reset_begins_again_and_the_end_saves(self):
         self.call["resume"]()
         recorder = self.record("_seconds:=0.5")
         recorder.said("recording since tick 1")
         self.left.go((0, -0.1, -0.02), (0, -0.09, -0.02), 0.2)
         self.assertTrue(self.call["reset"]().success)
-        recorder.said("begins anew")
+        recorder.said("begins again")
         self.left.go((0, -0.1, -0.02), (0, -0.09, -0.02), 1)
         recorder.said("ticks are in " + self.file)
         self.assertEqual(recorder.process.wait(LIMIT_S), 0)

@@ -18,7 +18,7 @@ from tf2_msgs.msg import TFMessage
 LIMIT_S = 20
 WATCHED_S = 4
 SIDES = {"a": -0.2, "b": 0.2}  # [m] x of each one's left tool
-STILL_M = 1e-6                 # a tool that nobody moves stays, but for rounding
+STILL_M = 1e-6                 # a tool that is not moved stays, but for rounding
 
 
 class TwoSimulatorsTest(unittest.TestCase):

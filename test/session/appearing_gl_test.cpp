@@ -70,7 +70,7 @@ TEST_P(Appearing, AfterAGapAtDepthDoesNothingUntilItWasOutside) {
   expectForceOutwards();
 }
 
-TEST_P(Appearing, ForgottenHandsLetGoAndAppearAnew) {
+TEST_P(Appearing, ForgottenHandsLetGoAndAppearAgain) {
   const auto pull = [](int tick) { return leftAt({0, 0, kHalfM + 0.0005 * tick}, true); };
   ASSERT_GT(play(session_, pull, kHeldTicks).stats.grabbed[0], 0u);
   session_.forgetHands();

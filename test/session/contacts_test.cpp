@@ -33,8 +33,8 @@ TEST(Contacts, GoOnFromTickToTick) {
   EXPECT_FALSE(pressed.anew);
 }
 
-/// What a surface was before is no surface now: nobody may feel its plane.
-TEST(Contacts, BeginAnewWithAResetAnotherHandAndAnotherMode) {
+/// What a surface was before is no surface now: its plane must not be felt.
+TEST(Contacts, BeginAgainWithAResetAnotherHandAndAnotherMode) {
   Session session(scene());
   press(session);
   session.reset();

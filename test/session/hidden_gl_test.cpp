@@ -220,7 +220,7 @@ TEST_F(HiddenView, PicturesAreTheSameWhenTissueComesBackIntoView) {
     expectSame(shown(true, mapping), shown(false, mapping));
 }
 
-TEST_F(HiddenView, WhatNobodySeesIsNotMapped) {
+TEST_F(HiddenView, WhatIsNotSeenIsNotMapped) {
   const Scene scene = hiddenScene(false);
   const Model model = buildModel(scene);
   PlacedTissue tissue(model);

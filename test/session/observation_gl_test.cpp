@@ -23,7 +23,7 @@ Wants everything() {
   return {true, {true, true}};
 }
 
-TEST_F(Observation, NobodyWatchingMeansNothingMappedDrawnOrReadBack) {
+TEST_F(Observation, WithoutViewersNothingIsMappedDrawnOrReadBack) {
   Session session(blockScene(), context_);
   const Frame frame = play(session, press, 10);
   const Counters counters = session.counters();
@@ -125,7 +125,7 @@ TEST_F(Observation, ForcesSurfacesAndImagesTellWhenThePoseBehindThemCame) {
 
 TEST_F(Observation, ForceThatComesLateTellsWhichPoseItAnswers) {
   Scene scene = blockScene();
-  scene.solver.governor = false;  // nobody waits for the measurements of a tick
+  scene.solver.governor = false;  // no waiting for the measurements of a tick
   Session session(scene, context_);
   const SteadyTime begin{std::chrono::hours(1)};
   SteadyTime last{};
@@ -141,7 +141,7 @@ TEST_F(Observation, ForceThatComesLateTellsWhichPoseItAnswers) {
   EXPECT_EQ(session.drain().poses_received[0], begin + std::chrono::milliseconds(kTicks));
 }
 
-TEST_F(Observation, SameInputGivesTheSameStateWhoeverWatches) {
+TEST_F(Observation, SameInputGivesTheSameStateWhateverIsWatched) {
   const auto hashOf = [&](const Wants& wants) {
     Session session(blockScene(), context_);
     play(session, pressAndCut, kTicks, wants);

@@ -78,7 +78,7 @@ StylusSamples bothHands(int tick) {
   return samples;
 }
 
-StylusSamples nobody(int /*tick*/) {
+StylusSamples noHands(int /*tick*/) {
   return {};
 }
 
@@ -234,12 +234,12 @@ std::vector<Disturbance> surroundingDisturbances() {
       {"wound_that_touches", wound(CollisionSearch::kGrid), cutAndClose, 30, wasCut},
       {"wound_that_touches_staggered", wound(CollisionSearch::kStaggered), cutAndClose, 30, wasCut},
       {"wound_and_trip", wound(CollisionSearch::kGrid), cutAndTrip, 30, tripped},
-      {"bodies_that_meet", meetingBlocks, nobody, 25, moves},
+      {"bodies_that_meet", meetingBlocks, noHands, 25, moves},
       {"bodies_that_meet_and_are_cut", meetingBlocks, cutAndClose, 30, wasCut},
-      {"obstacle", withPlough, nobody, 25, moves},
+      {"obstacle", withPlough, noHands, 25, moves},
       {"obstacle_and_cut", withPlough, cut, 25, wasCut},
-      {"carried_obstacle", carried, nobody, 25, moves, carry},
-      {"cloth_in_wind", [] { return clothScene(); }, nobody, 25, moves},
+      {"carried_obstacle", carried, noHands, 25, moves, carry},
+      {"cloth_in_wind", [] { return clothScene(); }, noHands, 25, moves},
       {"cloth_is_cut", [] { return clothScene(); }, cutAndClose, 30, wasCut},
       {"cloth_staggered", staggeredCloth, bothHands, 30, wasCut},
   };
@@ -297,7 +297,7 @@ StylusSamples afterwards(int tick) {
 Trace traceOf(Session& session, const Disturbance& it) {
   Trace out;
   for (int t = 1; t <= kAfterTicks; ++t) {
-    it.before(session, kAfterTicks);  // frames are where they are, whoever is reset
+    it.before(session, kAfterTicks);  // frames are where they are, whatever is reset
     session.step(afterwards(t), {});
     const Frame frame = session.drain();
     out.hashes.push_back(session.stateHash());

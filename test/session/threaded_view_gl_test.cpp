@@ -139,7 +139,7 @@ void expectSame(const Pictures& a, const Pictures& b) {
   }
 }
 
-/// Buffers that hold a state as a solver on the GPU would: nobody knows what moved.
+/// Buffers that hold a state as a solver on the GPU would: what moved is unknown.
 struct GpuState {
   explicit GpuState(const Model& model)
       : displacement(model.slots()), nodes(model.slots()), bricks(allBricks(model)), bodies(bodyParams(model, 0)) {}
@@ -220,7 +220,7 @@ TEST_F(ThreadedViewTest, SurfacesDoNotWaitForImages) {
   EXPECT_EQ(out.images[0].tick, image_tick);
 }
 
-TEST_F(ThreadedViewTest, WithNobodyWatchingNothingIsCopied) {
+TEST_F(ThreadedViewTest, WithoutViewersNothingIsCopied) {
   ThreadedView view(model_, scene_, context_);
   for (int t = 0; t < 10; ++t) {
     const Pictures pictures = show(view, lookAfterStep({false, {false, false}}));
@@ -369,7 +369,7 @@ class SlowView : public ThreadedViewTest {
  protected:
   SlowView() : ThreadedViewTest(slowScene()) {}
 
-  /// Ticks of a millisecond that leave the processor to whoever draws. @returns how long they took [s]
+  /// Ticks of a millisecond that leave the processor to what draws. @returns how long they took [s]
   double timeTicks(View& view, int ticks, const Wants& wants) {
     const auto begun = std::chrono::steady_clock::now();
     for (int t = 0; t < ticks; ++t) {

@@ -360,7 +360,7 @@ TEST_P(CutRecords, AreNotMadeWhereNoToolCuts) {
   for (StylusConfig& config : styluses_) config.idle = config.button1 = config.button2 = ToolMode::kProbe;
   use(model_);
   EXPECT_TRUE(record().empty());
-  tick(turned({0, 0, 0}, 0.0037));  // whoever asks for it all the same gets the cut, without a record
+  tick(turned({0, 0, 0}, 0.0037));  // asked for all the same, it gives the cut, without a record
   EXPECT_TRUE(record().empty());
   CutState cuts;
   EXPECT_TRUE(solver_->readCuts(cuts));

@@ -306,7 +306,7 @@ TEST_F(MultigridGpu, EveryRunHasTheSameBits) {
   EXPECT_EQ(hashAfter(*first), hash);
 }
 
-TEST_F(MultigridGpu, CutsAsTheCpuDoesAndBuildsItsLevelsAnew) {
+TEST_F(MultigridGpu, CutsAsTheCpuDoesAndRebuildsItsLevels) {
   constexpr double kOfTheWay = 1e-3;  // a flap of a few springs turns with less than a block of many bends with
   StylusConfig stylus;
   stylus.cut.blade_length_m = 0.2;

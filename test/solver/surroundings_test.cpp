@@ -16,7 +16,7 @@ class TickByTick : public ::testing::Test {
   explicit TickByTick(const std::vector<ObstacleConfig>& configs = {ObstacleConfig{}})
       : obstacles_(configs), surroundings_(Model{}, sceneWith(configs)) {}
 
-  /// @return whether substeps of this tick are told anew where obstacles are
+  /// @return whether substeps of this tick are told again where obstacles are
   bool moves(int substeps = kSubsteps) {
     obstacles_.advance(tick_ * kTick_s, kTick_s);
     ++tick_;
@@ -40,7 +40,7 @@ class TickByTick : public ::testing::Test {
   }
 };
 
-TEST_F(TickByTick, SubstepsAreToldAnewOnlyOfObstaclesThatMove) {
+TEST_F(TickByTick, SubstepsAreToldAgainOnlyOfObstaclesThatMove) {
   EXPECT_TRUE(moves());
   EXPECT_FALSE(moves());
   EXPECT_TRUE(moves(kSubsteps + 1));
@@ -52,7 +52,7 @@ TEST_F(TickByTick, SubstepsAreToldAnewOnlyOfObstaclesThatMove) {
   EXPECT_TRUE(moves());
 }
 
-TEST_F(TickByTick, ObstaclesThatNobodyTellsOfStandWhereTheyWere) {
+TEST_F(TickByTick, ObstaclesThatAreNotToldOfStandWhereTheyWere) {
   EXPECT_FALSE(standsStill());  // the first tick
   EXPECT_TRUE(standsStill());
   moves();

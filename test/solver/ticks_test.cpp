@@ -116,7 +116,7 @@ TEST_F(LaggingBackend, NoTickIsWaitedForBeforeTheNextOneIsUnderWay) {
   EXPECT_EQ(solver.waits() - before, 19);  // for each tick but the last
 }
 
-TEST_F(LaggingBackend, MeasurementsThatHaveComeAreWaitedForByNobody) {
+TEST_F(LaggingBackend, MeasurementsThatHaveComeAreNotWaitedFor) {
   LateSolver solver = make(0.5, 0);
   for (int t = 0; t < 20; ++t) solver.step(probe());
   EXPECT_EQ(solver.waits(), 0);

@@ -251,7 +251,7 @@ TEST_F(NetworkSplitting, FlapOfANodeWithoutAWholeTriangleIsNotTurned) {
   EXPECT_GT(seen, 0u);
 }
 
-TEST_F(NetworkSplitting, VerticesThatNobodySeesLieOnTheirEdges) {
+TEST_F(NetworkSplitting, VerticesThatAreNotSeenLieOnTheirEdges) {
   SurfaceRig rig(cloth());
   rig.follow();
   const Skin& skin = rig.model.bodies[0].skin;

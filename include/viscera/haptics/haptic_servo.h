@@ -25,9 +25,9 @@ class HapticServo {
 
   /// What a tick found out.
   void put(const TickContact& contact, double now_s);
-  /// The stylus is not tracked, or the tissue rests: forces go to nothing within a tick, and all begins anew.
+  /// The stylus is not tracked, or the tissue rests: forces go to nothing within a tick, and all begins again.
   void forget(double now_s);
-  /// Nobody is answered for a while: what was known of the hand is void, the tissue's model stays.
+  /// No force is sent for a while: what was known of the hand is void, the tissue's model stays.
   void leave();
   /// One period.
   /// @param tip_m   newest place of the tip, tissue frame   @param told_s  when it was told: a device may be slower

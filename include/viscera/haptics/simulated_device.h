@@ -13,7 +13,7 @@ namespace viscera {
 struct SimulatedDeviceConfig {
   double mass_kg = 0.1;                 ///< of the device's handle and what of the hand moves with it
   double damping_n_s_per_m = 0.2;       ///< of the device
-  double hand_stiffness_n_per_m = 300;  ///< 0: nobody holds it
+  double hand_stiffness_n_per_m = 300;  ///< 0: it is not held
   double hand_damping_n_s_per_m = 4;
   double tremor_m = 0;       ///< amplitude of physiological tremor, 8 to 12 Hz
   double delay_s = 0;        ///< from a pose to the force that answers it, half on either way

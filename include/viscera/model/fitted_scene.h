@@ -16,9 +16,9 @@ struct FittedScene {
 };
 
 /// @param mesh  overrides that make a mesh the first body, see meshOverrides(); none: the scene as its file has it
-/// @param own   keys that somebody has set, which go before what follows the organ
+/// @param own   keys that were set, which go before what follows the organ
 /// @throws SceneError, FileBoundError  as loadScene(). An organ that cannot be read or is out of all proportion is
-/// followed by nothing: whoever makes a model of it says what is wrong.
+/// followed by nothing: making a model of it says what is wrong.
 FittedScene loadFittedScene(const std::string& path, const Overrides& mesh, const Overrides& own);
 
 /// The file with its overrides as a scene file that stands anywhere: names of files in it are absolute.

@@ -47,7 +47,7 @@ struct Model {
 /// Rest position of a node of the body [m, tissue frame].
 Vector3d restPosition(const Body& body, uint32_t slot);
 
-/// Nodes of a body with `spacing_m: auto` where nobody has measured the machine, as only a session does.
+/// Nodes of a body with `spacing_m: auto` where the machine is not measured, as only a session does.
 constexpr int kUnmeasuredNodes = 20000;
 
 /// Builds every body of a scene: mesh or phantom -> solid -> lattice + skin, fixed nodes marked.

@@ -29,7 +29,7 @@ enum class PictureKind : uint8_t {
 };
 constexpr size_t kPictureKinds = 4;
 
-/// What somebody wants to see of this tick; nothing else is mapped, drawn or read back.
+/// What is wanted of this tick; nothing else is mapped, drawn or read back.
 struct Wants {
   bool surface = false;
   std::vector<bool> cameras;  ///< [cameras]; shorter means false
@@ -79,7 +79,7 @@ struct Frame : Pictures {
   layout::TickStats stats{};
   bool has_stats = false;  ///< stats are those of some recent tick
   Health health;
-  /// The stylus appeared inside tissue, from a side that nobody knows: it pushes and feels nothing until it was
+  /// The stylus appeared inside tissue, from an unknown side: it pushes and feels nothing until it was
   /// outside.
   std::array<bool, layout::kMaxStyluses> inside{};
   std::array<bool, layout::kMaxStyluses> held_back{};  ///< the stylus was faster than tissue can follow

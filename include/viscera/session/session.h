@@ -80,7 +80,7 @@ class Session {
   void setForceLimits(size_t stylus, const ForceLimits& limits) { limiters_[stylus].setLimits(limits); }
   void reset();
   /// The hands were not followed for a while, as in a pause: what they hold is let go at the next step, where they
-  /// appear anew; forces begin at zero.
+  /// appear again; forces begin at zero.
   void forgetHands();
   /// What there is to see of the last tick, without a step; waits for it.
   Pictures show(const Wants& wants);

@@ -35,7 +35,7 @@ class Solver {
   /// Buffers of the state where it is on the GPU; nothing where it is on the host: snapshot() shows it then.
   virtual std::optional<StateView> stateOnGpu() const { return std::nullopt; }
   virtual HostState readState() const = 0;  ///< waits
-  /// Does the state live in host memory? Then snapshot() is cheap, and whoever shows the state works from snapshots.
+  /// Does the state live in host memory? Then snapshot() is cheap, and what shows the state works from snapshots.
   bool onHost() const { return !stateOnGpu(); }
   /// Copies what showing the current state takes; see StateSnapshot. A backend on the host makes no memory for it once
   /// `out` has had its size; others do it by way of readState().

@@ -23,14 +23,14 @@ struct StateView {
   uint32_t axial_cut = 0;       ///< float[3 * slots], as in HostState, of implicit lattices; 0 without a tool that cuts
   uint64_t cut_revision = 0;    ///< grows whenever springs may have been cut since the last step
   uint32_t stale_bricks = 0;    ///< uint[bricks]: `revision` at which a node of the brick or of a brick beside it last
-                                ///< moved; 0 where nobody knows: every node may have moved
+                                ///< moved; 0 where unknown: every node may have moved
   uint32_t revision = 0;        ///< of the state, > 0, growing
-  uint32_t moved_revision = 0;  ///< at which some node last moved; 0 where nobody knows
+  uint32_t moved_revision = 0;  ///< at which some node last moved; 0 where unknown
 };
 
-/// What showing a state that lives on the host takes of it. Whoever shows it keeps one and says which bricks matter.
+/// What showing a state that lives on the host takes of it. What shows it keeps one and says which bricks matter.
 struct StateSnapshot {
-  std::vector<uint32_t> bricks;         ///< [shown] ascending; set by whoever asks
+  std::vector<uint32_t> bricks;         ///< [shown] ascending; set by the caller
   std::vector<float> displacement_m;    ///< [192 * shown] of each of the bricks: 64 x, 64 y, 64 z
   std::vector<layout::NodeBits> nodes;  ///< [slots] copied only if empty, or of another cut_revision
   std::vector<float> spring_cut;        ///< [springs] of all networks, as in HostState; copied with `nodes`
@@ -58,7 +58,7 @@ struct HostState {
   std::vector<float> axial_cut{};
 };
 
-/// Which springs are cut, and where. Whoever follows cuts keeps one (Solver::readCuts).
+/// Which springs are cut, and where. What follows cuts keeps one (Solver::readCuts).
 struct CutState {
   uint64_t revision = 0;                ///< of what is here; grows like StateView::cut_revision
   std::vector<layout::NodeBits> nodes;  ///< [slots]; empty before the first reading

@@ -32,8 +32,8 @@ struct ShownPatch {
   size_t first = 0, count = 0;  ///< triangles
 };
 
-/// Which vertices make the triangles that are shown: torn ones are not there, split ones are in their pieces. Made anew
-/// only when a cut or a reset changes it, and then never changed: whoever shows the skin shares it.
+/// Which vertices make the triangles that are shown: torn ones are not there, split ones are in their pieces. Made
+/// again only when a cut or a reset changes it, and then never changed: what shows the skin shares it.
 struct ShownTopology {
   uint64_t revision = 0;            ///< another one where other triangles are shown; 1: the whole skin
   size_t vertices = 0;              ///< of the meshes that it belongs to, shown or not; wounds add some

@@ -16,7 +16,7 @@ struct HandLimits {
   /// faster, or jumps, follows its pose at that speed.
   double max_travel_m = std::numeric_limits<double>::infinity();
   /// A stylus that appears pushes nothing until tissue is nowhere within this radius, or that of its tip where that is
-  /// larger: at depth, nobody knows from which side it came. 0: it pushes at once.
+  /// larger: at depth, the side from which it came is unknown. 0: it pushes at once.
   double feel_radius_m = 0;
 };
 
@@ -30,7 +30,7 @@ class Tools {
   /// What a stylus does from the next tick on with no button pressed, or while one is. What it holds in another mode is
   /// let go; one that comes to push where it may be inside tissue pushes nothing until it was outside.
   void setMode(size_t stylus, ToolSwitch when, ToolMode mode);
-  /// The hands were not followed for a while: what they hold is let go, and they appear anew.
+  /// The hands were not followed for a while: what they hold is let go, and they appear again.
   void forget();
   void reset();
   const std::vector<StylusConfig>& configs() const { return configs_; }
@@ -45,7 +45,7 @@ class Tools {
   std::array<StylusSample, layout::kMaxStyluses> last_{};
   std::array<ToolMode, layout::kMaxStyluses> mode_{};
   std::array<bool, layout::kMaxStyluses> inside_{};     ///< may be: it has appeared and was not found outside yet
-  std::array<bool, layout::kMaxStyluses> forgotten_{};  ///< what it does begins anew
+  std::array<bool, layout::kMaxStyluses> forgotten_{};  ///< what it does begins again
 };
 
 }  // namespace viscera

@@ -18,7 +18,7 @@ struct StylusSample {
   Pose pose;
   bool button1 = false;
   bool button2 = false;
-  SteadyTime received{};  ///< when the pose came, for the measurement of delays; 0 where nobody looked
+  SteadyTime received{};  ///< when the pose came, for the measurement of delays; 0 where not looked at
 };
 using StylusSamples = std::array<StylusSample, layout::kMaxStyluses>;
 

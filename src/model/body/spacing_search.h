@@ -18,7 +18,7 @@ Filling fillToNodes(const Tissue& tissue, int target_nodes, const Progress& prog
 /// The membrane whose vertex count is nearest to a target, likewise.
 TriangleMesh shellToNodes(const Tissue& tissue, int target_nodes);
 
-/// The solid of a body as its target_nodes or else its spacing_m ask for; of an automatic spacing that nobody has
+/// The solid of a body as its target_nodes or else its spacing_m ask for; of an automatic spacing that has not been
 /// chosen, with kUnmeasuredNodes nodes.
 Filling fill(const Tissue& tissue, const BodyConfig& config, const Progress& progress);
 

@@ -62,7 +62,7 @@ void visitFields(V& v, ImportLimits& c) {
   v.number("max_file_mb", c.max_file_mb, {0.001, 1e6}, "MB", "size of the file, and of buffers that it refers to");
   v.integer("max_depth", c.max_depth, {1, 4000}, "glTF: nodes within nodes");
   v.integer("max_instances", c.max_instances, {1, 1e7}, "glTF: nodes, those with several parents once for each");
-  v.integer("max_triangles", c.max_triangles, {1, 1e9}, "triangles, of each instance anew");
+  v.integer("max_triangles", c.max_triangles, {1, 1e9}, "triangles, counted for each instance");
   v.boolean("other_formats", c.other_formats,
             "try formats that are not listed under `mesh_file` too, whose importers have limits of neither depth nor "
             "instances: for files that you trust");

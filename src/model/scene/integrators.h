@@ -17,7 +17,7 @@ struct IntegratorTraits {
   bool dashpot_limits;     ///< ... which the dashpot lowers: it acts on velocities of half a substep ago
   bool staggered;          ///< velocities belong to half a substep before the displacements
   bool shortens;           ///< has shorter substeps while the tissue is strained (dt_fraction_strained)
-  bool own_positions;      ///< keeps positions beside the state: who writes the state makes it start anew
+  bool own_positions;      ///< keeps positions beside the state: writing the state makes it start again
   bool iterates;           ///< solver.iterations says how often a substep goes over the nodes
   bool takes_colours;      ///< ... colour by colour
   bool lets_bricks_sleep;  ///< steps only bricks that move

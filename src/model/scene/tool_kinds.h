@@ -27,12 +27,12 @@ enum class ToolTip { kBare, kBall, kJaws, kBlade, kCapsule, kCup };
 /// How a tool that holds lets go.
 struct Grip {
   double release_speed_m_per_s;  ///< faster nodes are slowed to this
-  /// The reaction over a tick above which it lets go what it has; it holds nothing again until it begins anew.
+  /// The reaction over a tick above which it lets go what it has; it holds nothing again until a new hold begins.
   double max_force_n = std::numeric_limits<double>::infinity();
 };
 
-/// One kind of tool: all that the rest of the program asks of it. Whoever needs to know what a stylus does asks its row
-/// here, and nobody asks which kind it is.
+/// One kind of tool: all that the rest of the program asks of it. To know what a stylus does, ask its row
+/// here, and never which kind it is.
 struct ToolKind {
   ToolMode mode;
   uint32_t number;   ///< of the mode, as kernels have it in ToolMotion.info.x
@@ -46,7 +46,7 @@ struct ToolKind {
   constexpr bool does(uint32_t some) const { return (effects & some) != 0; }
   /// It moves nodes: contact kernels run, and their reactions are summed.
   constexpr bool touches() const { return does(kPushes | kHolds); }
-  /// It parts springs, along the whole blade: kernels of cuts run, the skin is looked at anew.
+  /// It parts springs, along the whole blade: kernels of cuts run, the skin is looked at again.
   constexpr bool severs() const { return does(kCuts | kErases); }
 };
 

@@ -131,7 +131,7 @@ void DetailCache::keep(const Baked& baked) const {
   header.median = baked.report.median_deg;
   header.percentile95 = baked.report.percentile95_deg;
   header.bare = baked.report.bare_median_deg;
-  const std::string draft = file_ + "." + std::to_string(getpid());  // whole or not at all, whoever reads meanwhile
+  const std::string draft = file_ + "." + std::to_string(getpid());  // whole or not at all for those who read meanwhile
   std::error_code error;
   fs::create_directories(fs::path(file_).parent_path(), error);
   {

@@ -10,7 +10,7 @@
 namespace viscera {
 
 // Which files a process reads as scenes and meshes, and as what these name (pictures, materials, buffers): any, unless
-// somebody from outside chooses them, as over a network.
+// others choose them, as over a network.
 
 /// A file lies where none may be read. Says nothing of what is in it, nor whether it is there.
 struct FileBoundError : Error {

@@ -140,7 +140,7 @@ void requireTriangles(const GltfTree& tree, const std::vector<double>& instances
   std::vector<double> of_mesh(tree.meshes.size());
   std::transform(tree.meshes.begin(), tree.meshes.end(), of_mesh.begin(),
                  [&](const auto& mesh) { return trianglesOf(tree, mesh); });
-  const double once = std::accumulate(of_mesh.begin(), of_mesh.end(), 0.0);  // all are read, whoever shows them
+  const double once = std::accumulate(of_mesh.begin(), of_mesh.end(), 0.0);  // all are read, whatever shows them
   double shown = 0;
   for (size_t n = 0; n < tree.nodes.size(); ++n) {
     for (const uint64_t mesh : tree.nodes[n].meshes) shown += mesh < of_mesh.size() ? instances[n] * of_mesh[mesh] : 0;

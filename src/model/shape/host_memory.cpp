@@ -35,7 +35,7 @@ double numberBehind(const std::string& path, const std::string& word, double oth
   return otherwise;
 }
 
-/// What a group leaves. Pages of files that nobody uses are given back when memory is short.
+/// What a group leaves. Pages of files not in use are given back when memory is short.
 double leftOf(const std::string& folder, const char* limit, const char* usage, const char* idle) {
   const double most = numberIn(folder + "/" + limit), used = numberIn(folder + "/" + usage);
   if (most == kUnlimited || used == kUnlimited) return kUnlimited;

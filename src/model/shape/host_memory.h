@@ -10,7 +10,7 @@
 namespace viscera {
 
 /// Memory that this process can have without swapping [bytes]: what the machine has, or what its control group (of
-/// version 1 or 2, such as a container's) leaves of a limit, where that is less. Infinite where nobody tells.
+/// version 1 or 2, such as a container's) leaves of a limit, where that is less. Infinite where none is told.
 /// @param root  of the file system, for tests
 double availableBytes(const std::string& root = "");
 

@@ -13,7 +13,7 @@ namespace {
 
 /// A grid of so many cells is walked in well below a second, whatever is in it.
 constexpr double kQuickCells = 50e6;
-/// Cells of the whole grid over those of its slabs that hold something, up to which space between parts is nobody's
+/// Cells of the whole grid over those of its slabs that hold something, up to which space between parts is left out
 /// mistake. Two lungs have about 1.2.
 constexpr double kMostSpread = 8;
 

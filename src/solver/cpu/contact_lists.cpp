@@ -141,7 +141,7 @@ void ContactLists::search(glsl::CollisionRules& rules, const Parallel& parallel)
   parallel(jobs(), [&](size_t job) { listCandidates(rules, job); });
 }
 
-/// Entries anew, of all nodes that may touch others now and are in no crowd.
+/// New entries, of all nodes that may touch others now and are in no crowd.
 void ContactLists::enterAll(glsl::CollisionRules& rules) {
   count_ = 0;
   for (size_t i = 0; i < rest_.size(); ++i) {
@@ -208,7 +208,7 @@ size_t ContactLists::listRow(glsl::CollisionRules& rules, uint32_t entry, const 
   return to - from + wrapped;
 }
 
-/// Different rows may share buckets: whoever is in one says which row it is in.
+/// Different rows may share buckets: an entry in one says which row it is in.
 void ContactLists::listRun(glsl::CollisionRules& rules, uint32_t entry, const glsl::ivec3& row, size_t first,
                            size_t end, std::vector<ListedContact>& out) const {
   const glsl::vec3 x = position_[entry];
@@ -233,7 +233,7 @@ void ContactLists::findContacts(size_t job) {
     uint32_t count = 0;
     for (uint32_t c = 0; c < run.candidates; ++c) {
       const ListedContact candidate = candidates[c];
-      contacts[count] = candidate;  // without a branch that nobody could foretell
+      contacts[count] = candidate;  // without a branch that cannot be foretold
       count += distance2(x, position_[candidate.other]) < candidate.distance_m * candidate.distance_m ? 1 : 0;
     }
     run.contacts = count;

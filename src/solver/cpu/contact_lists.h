@@ -22,7 +22,7 @@ struct ListedContact {
 
 /// Complete search for contacts by lists of candidates that are kept over substeps (Verlet 1967): all pairs that were
 /// nearer than D_ij + margin when they were last searched for. As long as no two nodes have moved by the margin
-/// relative to each other since then, and the same nodes take part, whoever touches is among them. So every substep
+/// relative to each other since then, and the same nodes take part, all that touch are among them. So every substep
 /// sees the pairs of a search of its own; and they are in the order in which the shader's search comes by them, for the
 /// same sums. Whom that passes over, as too many are in one bucket of its grid (kMostInBucket), takes no part here
 /// either: what bodies that have collapsed into one place cost is bounded.
@@ -31,7 +31,7 @@ class ContactLists {
   /// Entries are nodes that may touch others, in ascending order of slots; jobs are runs of them.
   static constexpr size_t kEntriesPerJob = 64;
 
-  /// @param reach_m  largest D_ij   @param margin_m  0: searches anew in every substep
+  /// @param reach_m  largest D_ij   @param margin_m  0: searches again in every substep
   /// @param most_in_bucket  kMostInBucket; a test may lower it
   ContactLists(const CpuLattice& lattice, double reach_m, double margin_m, uint32_t most_in_bucket = kMostInBucket);
 
@@ -90,10 +90,10 @@ class ContactLists {
   float reach_m_, margin_m_, cell_m_;
   uint32_t most_in_bucket_, crowded_ = 0;
   size_t count_ = 0, searches_ = 0;
-  std::vector<glsl::vec4> rest_;                         ///< [active] rest positions
-  std::vector<uint32_t> entry_of_;                       ///< [active] kNobody: takes no part
-  std::vector<Motion> motions_;                          ///< [jobs over active]
-  std::vector<uint32_t> shader_bucket_;                  ///< [active] of the shader's search; kNobody: may touch nobody
+  std::vector<glsl::vec4> rest_;         ///< [active] rest positions
+  std::vector<uint32_t> entry_of_;       ///< [active] kNobody: takes no part
+  std::vector<Motion> motions_;          ///< [jobs over active]
+  std::vector<uint32_t> shader_bucket_;  ///< [active] of the shader's search; kNobody: may touch nothing
   std::vector<std::atomic<uint32_t>> in_shader_bucket_;  ///< [buckets] nodes
   std::vector<glsl::uvec4> entries_;                     ///< [active]
   std::vector<glsl::vec4> before_;                       ///< [active]

@@ -229,7 +229,7 @@ bool CpuBackend::takeStats(layout::TickStats& stats, bool) {
 // ---- state as a whole ----
 
 /// After the state was written from outside: both states the same and without velocity where nothing moves, everything
-/// awake and measured anew.
+/// awake and measured again.
 void CpuBackend::changeAll() {
   AlignedVector<float>& velocity = lattice_.state.velocity[lattice_.state.current];
   for (uint32_t slot : lattice_.store.active) {

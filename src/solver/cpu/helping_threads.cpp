@@ -9,7 +9,7 @@ namespace viscera {
 
 namespace {
 
-constexpr double kMeasured_s = 0.08;  // of rounds: several time slices (4 to 8 ms) of whoever else is there
+constexpr double kMeasured_s = 0.08;  // of rounds: several time slices (4 to 8 ms) of other programs that are there
 constexpr int kRounds = 200;          // at least: of all kinds that a tick has
 constexpr double kBetween_s = 0.4;    // two measurements
 constexpr double kSettle_s = 0.01;    // after a change: threads have to wake, or what they held up has to end

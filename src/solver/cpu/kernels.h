@@ -33,7 +33,7 @@ struct Arrays {
   float* compensation;            ///< [6 * slots] what sums of displacement, then of velocity have lost; or null
   const float* spring_stiffness;  ///< [18 * slots] N/m (springAt)
   const float* mobility;          ///< [slots] 1/kg
-  const layout::NodeBits* nodes;  ///< [slots] says who is held; null where nobody can be
+  const layout::NodeBits* nodes;  ///< [slots] says who is held; null where none can be
   const float* cell_sums;         ///< [kCellSums * bricks] N, of CellJob: all forces; null without moments
   const float* bulk_around;       ///< [8 * slots] J of the cells around a node; null without volume energy
   const uint8_t* uniform;         ///< [bricks] all springs of all nodes are whole and of full strength

@@ -29,7 +29,7 @@ class Sleep {
   /// Those awake have made a substep. After every kSubsteps there is a look: who was fast, who falls asleep, who is
   /// woken. @param speed2  [bricks] largest |v|^2 of those awake [m2/s2]
   void passed(CpuLattice& lattice, float dt_s, const std::vector<float>& speed2);
-  /// Substeps are counted anew.
+  /// Substeps are counted from zero.
   void restart();
 
   const std::vector<uint32_t>& awake() const { return awake_; }  ///< ascending

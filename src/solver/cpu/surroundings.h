@@ -17,7 +17,7 @@ namespace viscera {
 /// collision_*.comp, compiled as C++. See solver/gpu/surroundings_pass.h.
 class CpuSurroundings {
  public:
-  /// Of collision.h's reach: how far two nodes may move relative to each other before the complete search begins anew.
+  /// Of collision.h's reach: how far two nodes may move relative to each other before the complete search begins again.
   static constexpr double kListMargin = 0.4;
 
   /// @param parallel  must outlive it   @param list_margin  0: searches in every substep; changes no bit
@@ -31,7 +31,7 @@ class CpuSurroundings {
   /// After an implicit one contacts between nodes only.
   void run(CpuLattice& lattice, const Substep& step, const Surroundings& surroundings);
   /// The state was written from outside: what contacts did in the last substep is forgotten. Nodes that may touch
-  /// nobody any more, as their springs are whole again, would keep it for ever.
+  /// no other any more, as their springs are whole again, would keep it for ever.
   void restart();
   /// For tests: slots a < b of all pairs that the search finds in the current state, ascending.
   std::vector<CollisionPair> findPairs(CpuLattice& lattice);

@@ -22,7 +22,7 @@ constexpr int kRoundShift = 32;
 constexpr uint64_t kTakenMask = 0xffffffffu;
 // Longer than the way from one substep, or one tick, to the next: who sleeps may find its processor taken.
 constexpr std::chrono::microseconds kWatch{300};
-constexpr std::chrono::microseconds kWatchEnd{50};  // longer than the last jobs of a round, if nobody is put aside
+constexpr std::chrono::microseconds kWatchEnd{50};  // longer than the last jobs of a round, if none is put aside
 constexpr int kLooksPerClock = 64;                  // the clock is read once in so many looks
 constexpr size_t kPartsLeft = 4;                    // a thread takes this part of what is left of a run
 constexpr int kRoundsPerLook = 17;                  // at the clock, and at the processor time of all threads (1 us)

@@ -18,8 +18,8 @@ namespace viscera {
 /// Threads that share the jobs of a substep with the caller. Each begins with its own run of them, the same in every
 /// round of as many jobs, so that what it worked on is still in its cache, and then takes from the others; fewer at a
 /// time towards the end. Between substeps, microseconds apart, they watch for the next; after kWatch without any they
-/// sleep and cost nothing. Nobody waits for a thread that the system has put aside before it took a job: the others
-/// take them. Where threads are put aside so often that fewer get further, some are left out for a while
+/// sleep and cost nothing. A round does not wait for a thread that the system has put aside before it took a job: the
+/// others take them. Where threads are put aside so often that fewer get further, some are left out for a while
 /// (helping_threads.h). The caller watches for the end of the last jobs for a short time, then it sleeps too: a thread
 /// that yields gives a time slice to whatever else is there, of any priority.
 /// Several solvers may share a pool, on as many threads of their own: their rounds take turns. A job must not begin a

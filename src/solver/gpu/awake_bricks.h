@@ -42,7 +42,7 @@ class AwakeBricks {
   void passed(const Substep& step);
   /// The same where all sleep and no kernel runs.
   void slept(const Substep& step);
-  void restart();  ///< substeps are counted anew
+  void restart();  ///< substeps are counted from zero
 
   /// The first sizeof(layout::AwakeList) bytes say how much is awake.
   const gpu::RawBuffer& nodes() const { return nodes_; }

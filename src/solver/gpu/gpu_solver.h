@@ -15,7 +15,7 @@ class GpuSolver final : public Ticks {
   GpuSolver(const Model& model, const Scene& scene, const GpuSolverOptions& options = {});
 
   StateView state() const { return *stateOnGpu(); }
-  /// Times that the host had to wait for measurements: of the tick before, where a governor judges it, or where nobody
+  /// Times that the host had to wait for measurements: of the tick before, where a governor judges it, or where none
   /// governs and the GPU is more than three ticks behind.
   uint64_t waits() const { return gpu().waits(); }
   /// [bricks] 1 where awake, for the next substep; waits.

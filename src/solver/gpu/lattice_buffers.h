@@ -58,7 +58,7 @@ struct StateBuffers {
   StateBuffers(size_t slots, const FeatureSet& features);
   /// With the current state as input and the other as output.
   void bind() const;
-  /// What was output becomes the current state. Binds anew only what that changes.
+  /// What was output becomes the current state. Binds again only what that changes.
   void swap();
   void reset();
 

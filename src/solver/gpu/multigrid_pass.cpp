@@ -59,7 +59,7 @@ void MultigridPass::run(LatticeBuffers& buffers, const Substep& step) {
   }
   stages_.bind();
   const bool touching = touch_ && MultigridTouchPass::isAbout(step);
-  if (fresh_ || (touched_ && !touching)) stages_.forgetTouched();  // nobody knows what pressed
+  if (fresh_ || (touched_ && !touching)) stages_.forgetTouched();  // what pressed is unknown
   touched_ = touching;
   stages_.beginStep(step, fresh_, touching ? &*touch_ : nullptr);
   fresh_ = false;
@@ -74,7 +74,7 @@ void MultigridPass::run(LatticeBuffers& buffers, const Substep& step) {
   followSprings(buffers);
 }
 
-/// When cutting has ended, the levels are built anew beside some steps, as on the CPU.
+/// When cutting has ended, the levels are rebuilt beside some steps, as on the CPU.
 void MultigridPass::followSprings(const LatticeBuffers& buffers) {
   if (steps_since_cut_ < 0) return;
   ++steps_since_cut_;

@@ -37,7 +37,7 @@ class MultigridPass : public Stepper {
   MultigridStages stages_;
   std::optional<MultigridTouchPass> touch_;  ///< where something may touch
   bool touched_ = false;                     ///< in the last step
-  bool fresh_ = true;                        ///< nobody knows how the last step ended
+  bool fresh_ = true;                        ///< how the last step ended is unknown
   SolverWork work_;
   bool springs_changed_ = false;
   int steps_since_cut_ = -1;  ///< -1: the levels are those of the lattice as it is

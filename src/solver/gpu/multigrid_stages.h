@@ -28,7 +28,7 @@ class MultigridStages final : public multigrid::StageWork {
   using FindLevels = std::function<Levels(const multigrid::Stage&)>;
   /// @param find  asked whenever a stage begins   @param stiffest_n_per_m  sum of a node's springs
   void setLevels(FindLevels find, double stiffest_n_per_m);
-  /// @param fresh  nobody knows how the last step ended   @param touch  of this step, begun; null: nothing is about
+  /// @param fresh  how the last step ended is unknown   @param touch  of this step, begun; null: nothing is about
   void beginStep(const Substep& step, bool fresh, MultigridTouchPass* touch);
   /// The increment becomes the other state.
   void endStep();

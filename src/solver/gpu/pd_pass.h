@@ -10,7 +10,7 @@
 namespace viscera {
 
 /// PD-Jacobi in majorise-minimise form on implicit Euler (physics.md 2), with Chebyshev acceleration on request: where
-/// that goes wrong the rest of the substep starts anew without it, which the GPU decides. Owner of
+/// that goes wrong the rest of the substep starts again without it, which the GPU decides. Owner of
 /// shaders/solver/pd.comp.
 class PdPass : public Stepper {
  public:

@@ -14,7 +14,7 @@ struct Coarsening {
   BlockMatrix matrix;
 };
 
-/// Of the lattice. Nodes that do not move take from nobody.
+/// Of the lattice. Nodes that do not move take from none.
 Coarsening coarsened(const Elements& lattice);
 /// Of a coarse level.
 Coarsening coarsened(const LevelNodes& nodes, const BlockMatrix& matrix);

@@ -70,7 +70,7 @@ void CpuMultigrid::run(CpuLattice& lattice, const Substep& step, const layout::T
   followSprings();
 }
 
-/// When cutting has ended, the hierarchy is built anew beside some steps. Which they are does not depend on how long
+/// When cutting has ended, the hierarchy is rebuilt beside some steps. Which they are does not depend on how long
 /// that takes, so that results are the same on any machine.
 void CpuMultigrid::followSprings() {
   if (steps_since_cut_ < 0) return;

@@ -27,7 +27,7 @@ using Link = std::pair<uint32_t, uint32_t>;
 /// level, and coarse levels, on which the cut is shorter, would not know how its sides part.
 class Interpolation {
  public:
-  /// @param takes  [nodes] others take from nobody
+  /// @param takes  [nodes] others take from none
   Interpolation(const LevelNodes& nodes, const std::vector<uint8_t>& takes, const std::vector<Link>& links);
 
   LevelNodes coarse;  ///< in the order of bodies, z, y, x

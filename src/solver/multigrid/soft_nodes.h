@@ -27,7 +27,7 @@ class SoftNodes final : public Stiffening {
   void learn(double before_n, double after_n);
   /// Relaxes those that are out of balance. After StageSolver::residual(increment).
   /// @param norm_n  of that residual   @param enough_n  norm that theirs may have
-  /// @return something moved: forces must be asked for anew
+  /// @return something moved: forces must be asked for again
   bool relax(Vectors& increment, double norm_n, double enough_n);
 
  private:

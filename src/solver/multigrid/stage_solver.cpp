@@ -67,7 +67,7 @@ double StageSolver::masked() {
   return std::sqrt(level.dot(r_, r_));
 }
 
-/// Residual of whoever can move, held or not.
+/// Residual of nodes that can move, held or not.
 void StageSolver::evaluate(const Vectors& increment, bool tangent) {
   const size_t n = level.places();
   const float rate = static_cast<float>(stage.rate_per_s), inertia = static_cast<float>(stage.inertia_per_s2);

@@ -69,7 +69,7 @@ class StageSolver {
  public:
   StageSolver(const Model& model, const CpuLattice& lattice, const Parallel& parallel);
 
-  /// Takes springs and cells anew: they were cut. The hierarchy stays until it is built anew.
+  /// Reads springs and cells again: they were cut. The hierarchy stays until it is rebuilt.
   void refresh();
   /// The hierarchy is made for this stage, if it is not good enough for it as it is.
   void begin(const Stage& stage);
@@ -94,7 +94,7 @@ class StageSolver {
   Vectors start;   ///< u [m]
   Vectors wanted;  ///< dy [m]
   Vectors offset;  ///< dw [m]
-  Vectors load;    ///< N beside gravity; 0 unless somebody sets it
+  Vectors load;    ///< N beside gravity; 0 unless set
   Vector3f gravity = Vector3f::Zero();
   Stage stage;
   Vectors displacement;  ///< u + du and rate (du - dw) where residual() was

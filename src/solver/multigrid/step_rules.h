@@ -8,7 +8,7 @@
 
 namespace viscera::multigrid {
 
-/// @throws SceneError  bodies with explicit connections, contacts between nodes: nobody steps them
+/// @throws SceneError  bodies with explicit connections, contacts between nodes: not stepped
 void requireSteppable(const Model& model, bool node_contacts);
 /// Share of its velocities that a step of TR-BDF2 may keep, so that energy does not grow but by the work of who
 /// touches; 0: none, it is done again by implicit Euler. @param given_j  that work, by their last forces
@@ -32,7 +32,7 @@ constexpr double kGivenTimes = 2;         // the work of who touches, which is k
 constexpr double kTrBdf2Rounding = 2e-6;  // of the energies that are summed: float32
 constexpr double kFloatDisplacement = 6e-8;  // its rounding in float32, which springs turn into forces
 
-// After cuts the levels are built anew.
+// After cuts the levels are rebuilt.
 constexpr int kStepsToBuild = 15;    // it takes no more than that on most machines; else the last one waits
 constexpr int kStepsToRebuild = 20;  // after a cut: while a blade moves on, the old ones do
 

@@ -22,7 +22,7 @@ class Touching : public Touched {
 
   /// A step begins. @param motions  [kMaxStyluses] of the step; looked at where step.tools
   void begin(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions);
-  /// The state was written from outside: nobody knows what pressed.
+  /// The state was written from outside: what pressed is unknown.
   void restart() { pressed_.clear(); }
   /// Of the step that a stage ends at.
   void setShare(double share) { share_ = static_cast<float>(share); }

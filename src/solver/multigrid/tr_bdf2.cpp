@@ -46,7 +46,7 @@ void TrBdf2::beginFirst(double dt_s, const Vectors& v, const Touching* touching)
 void TrBdf2::beginSecond(double dt_s, const Vectors& v, Touching* touching) {
   const size_t n = solver_.level.places();
   if (touching)
-    touching->goOnEvenly([&](size_t place) {  // a surface has stopped them, and throws nobody back
+    touching->goOnEvenly([&](size_t place) {  // a surface has stopped them, and throws none back
       for (size_t j = place; j < 3 * n; j += n) even_.push_back(increment_[j] / static_cast<float>(kGamma));
     });
   const auto rest = static_cast<float>((1 - kGamma) * dt_s), rate = static_cast<float>(solver_.stage.rate_per_s);

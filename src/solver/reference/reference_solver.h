@@ -59,9 +59,9 @@ class ReferenceSolver : public ReferenceLattice, public ToolTarget {
   /// Substep from now on [s]; leapfrog's next kick is the mean of the old and the new one.
   void setSubstep(double dt_s);
   double dt_s() const { return dt_s_; }
-  /// Time starts anew: the velocities belong to the same moment as the displacements, the next kick is half a one.
+  /// Time starts again: the velocities belong to the same moment as the displacements, the next kick is half a one.
   void restart() { first_ = true; }
-  /// What styluses have given is counted anew for Release and tickImpulse().
+  /// What styluses have given is counted again for Release and tickImpulse().
   void markTick() { impulse_before_n_s_ = impulse_n_s; }
   Vector3d tickImpulse(uint32_t stylus) const { return impulse_n_s[stylus] - impulse_before_n_s_[stylus]; }
   void takeHold(uint32_t stylus, const Pose& pose, double radius_m) override;

@@ -22,7 +22,7 @@ class ReferenceTicks {
   /// @param obstacles  over the tick, all of the scene's; empty: they stand where they were last
   void step(const ToolMotions& motions, const ObstacleMotions& obstacles = {});
 
-  /// Sets the state, all of one moment: time starts anew with half a kick. @param u_m, v_m_per_s  [slots]
+  /// Sets the state, all of one moment: time starts again with half a kick. @param u_m, v_m_per_s  [slots]
   void load(const std::vector<layout::vec4>& u_m, const std::vector<layout::vec4>& v_m_per_s);
   const ReferenceSolver& solver() const { return solver_; }
   double dt_s() const { return 1 / (tick_hz_ * substeps_); }

@@ -161,7 +161,7 @@ TEST(ContactLists, HoldTheSamePairsAsASearchInEverySubstep) {
   }
 }
 
-TEST(ContactLists, AreMadeAnewOnlyNowAndThen) {
+TEST(ContactLists, AreMadeAgainOnlyNowAndThen) {
   const Crowd crowd;
   const Serial serial;
   Trial every(crowd, serial, 0), listed(crowd, serial, CpuSurroundings::kListMargin);

@@ -35,7 +35,7 @@ void expectSameStrengths(const CpuLattice& lattice, const ReferenceLattice& refe
     ASSERT_FLOAT_EQ(bulk, static_cast<float>(reference.bulk(slot)));
     for (uint32_t s = 0; s < layout::kSpringsPerNode; ++s) {
       const float expected = static_cast<float>(reference.stiffness(slot, s));
-      if (expected == 0 && s % 2) continue;  // nobody looks there
+      if (expected == 0 && s % 2) continue;  // never looked at
       ASSERT_FLOAT_EQ(stiffness(lattice, reference, slot, s), expected) << slot << " " << s;
     }
   }

@@ -256,7 +256,7 @@ TEST(CpuPd, SpectralRadiusIsThatOfTheLatticesStiffestNode) {
               sum_over_inertia / (1 + sum_over_inertia), 1e-6);  // float32 rates
 }
 
-TEST(CpuPd, AccelerationThatGoesWrongIsGivenUpAndStartsAnew) {
+TEST(CpuPd, AccelerationThatGoesWrongIsGivenUpAndStartsAgain) {
   const Model model = modelOf({boxBody({4, 4, 4}, 0.01)});
   Rig rig(model, 3);
   const Serial serial;
@@ -273,7 +273,7 @@ TEST(CpuPd, AccelerationThatGoesWrongIsGivenUpAndStartsAnew) {
 }
 
 /// What the iteration that gave up says of its change is what volumes allow the next ones: it must not be nothing.
-TEST(CpuPd, StartsAnewAlsoWhereTheFirstNodeIsFixed) {
+TEST(CpuPd, StartsAgainAlsoWhereTheFirstNodeIsFixed) {
   constexpr size_t kWatched = 20;  // iterations, of which an early one gives up
   Body body = boxBody({4, 4, 4}, 0.01);
   body.lattice.nodes[body.lattice.active_slots[0]].lo |= layout::kFixedBit;

@@ -132,7 +132,7 @@ TEST_F(PaperErrors, InfinitiesAreCountedAsNotFiniteLikeNan) {
     state.displacement_m[middle].x = bad;
     solver.writeState(state);
     solver.step({});
-    EXPECT_EQ(stats(solver).nonfinite, 1u) << bad;  // nobody moves, so nobody else catches it
+    EXPECT_EQ(stats(solver).nonfinite, 1u) << bad;  // nothing moves, so no other check catches it
   }
 }
 

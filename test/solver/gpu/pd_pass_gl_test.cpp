@@ -98,7 +98,7 @@ TEST_F(PdOnGpu, SpectralRadiusIsThatOfTheLatticesStiffestNode) {
   EXPECT_NEAR(pass->spectralRadius(alone.dt_s()), sum_over_inertia / (1 + sum_over_inertia), 1e-6);  // float32 rates
 }
 
-TEST_F(PdOnGpu, AccelerationThatGoesWrongIsGivenUpAndStartsAnew) {
+TEST_F(PdOnGpu, AccelerationThatGoesWrongIsGivenUpAndStartsAgain) {
   const Model model = modelOf({boxBody({4, 4, 4}, 0.01)});
   const HostState start = randomState(model, 5e-4, 0.1, 7);
   PdAlone alone(model, start, 3);
