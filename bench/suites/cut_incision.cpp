@@ -51,8 +51,7 @@ uint64_t springsOf(const Session& session) {
   return count;
 }
 
-/// Pictures per second, one after every tick, by the median of the times from a tick's start until its picture is
-/// there.
+/// Pictures per second, one after every tick, by the median time from a tick's start to its picture.
 template <class Samples>
 double picturesPerSecond(Session& session, int ticks, Samples samples) {
   Wants wants;

@@ -28,8 +28,7 @@ constexpr double kSpringFlop = 37, kDashpotFlop = 16, kNodeFlop = 32;
 // volume.comp, volume.glsl: mean edges 73, cofactors and e 59, pressure and forces 11. elastic.glsl: a node gathers
 // eight cells, 18 each. By moments (moments.glsl) 810 and 30 more.
 constexpr double kVolumeFlop = 143, kMomentsFlop = 810, kGatherFlop = 8 * 18, kBentGatherFlop = 8 * 30;
-// A list's entry, the node's bits, and vectors of four floats: u and v in and out; u in; three or seven forces of a
-// cell.
+// A list's entry, the node's bits, and vectors of four floats: u and v in and out; u in; 3 or 7 forces of a cell.
 constexpr double kListed = 4 + 8, kVector = 16;
 
 /// What the tissue is made of, besides springs.

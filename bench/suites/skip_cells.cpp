@@ -9,8 +9,7 @@ namespace {
 
 constexpr double kDearer = 1.6;  // a substep with moments over one with springs alone
 // Over spacing, of the wave that bodies start with: small enough that moments, in which light nodes outside swing
-// farther, have no springs strained so much that they need a formula of their own. What tissue does is not to be
-// compared.
+// farther, have no springs so strained that they need a formula of their own. Tissue's motion is not compared.
 constexpr double kWave = 0.002;
 
 /// A body with cells by moments, and the same lattice with springs alone.

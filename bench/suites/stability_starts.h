@@ -16,8 +16,7 @@ struct Start {
 };
 
 /// Eight starts of a model of one body: nodes anywhere in the body's box, all in its middle, flattened on a plane,
-/// mirrored, ten times as long along one axis, ten times as large, moving at up to ten times c_p, in each other's
-/// places.
+/// mirrored, ten times as long along one axis, ten times as large, moving at up to ten times c_p, swapped.
 std::vector<Start> extremeStarts(const Model& model);
 
 /// Elastic plus kinetic energy in float64 [J] of a state whose velocities are `lag_s` behind its displacements.

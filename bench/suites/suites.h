@@ -24,8 +24,7 @@ struct Suite {
 const std::vector<Suite>& suites();
 
 /// Runs a suite from its first line to its checks.
-/// @param backend  cpu, gpu or both (see machineFor); of suites that take one   @param device  EGL device, or -1: the
-/// best
+/// @param backend  cpu, gpu or both (see machineFor); of suites that take one   @param device  of EGL, or -1: the best
 /// @return checks that were missed   @throws Error
 int runSuite(const Suite& suite, SuiteOptions options, const std::string& backend, int device, std::ostream& out);
 

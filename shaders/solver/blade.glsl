@@ -3,8 +3,7 @@
 //
 // What a swept blade crosses and what an eraser reaches (VR05 2.7.3). All vectors are from the blade's first tip.
 // Who asks from either end of a spring asks in the same order of ends, at one place in its text (cut.comp): a compiler that makes
-// another sum of a test where it is written down again would cut the spring on one side only. All that a verdict rests on is
-// `precise`.
+// another sum of a test where it is written down again would cut a spring on one side only. All verdicts rest on `precise`.
 #include "layout/blade.h"
 
 /// Six times the signed volume of the tetrahedron (o, a, b, c) with o at the origin of the vectors.

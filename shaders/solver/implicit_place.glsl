@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Where a node with contacts goes in a sweep: the step of its majoriser under what pulls it and under the forces of these contacts,
-// outside of what else it touches. After implicit_pull.glsl, implicit_pairs.glsl and, where there are probes or obstacles,
-// implicit_contact.glsl.
+// outside of what else it touches. After implicit_pull.glsl, implicit_pairs.glsl and, with probes or obstacles, implicit_contact.glsl.
 vec3 placeOf(uint slot, BodyParams body, vec4 pulled, vec3 u, vec3 du) {
   float most = longestStep(body, 0u);
   vec3 force = xyz(pulled) + xyz(node_pairs[3u * slot + 2u]);

@@ -52,8 +52,7 @@ void put(uint vertex, vec3 position, vec3 normal) {
 }
 
 #if defined(CURVED) && defined(BRANCHES)
-/// What main() comes to where normals are trusted, to the bit, without the constant basis. @return false: they are not, or edges are
-/// collapsed
+/// What main() comes to where normals are trusted, to the bit, without the constant basis. @return false: not so, or edges collapsed
 bool mapCurved(uint vertex, SkinBinding s, vec3 u0, vec3 edge1, vec3 edge2) {
   vec4 n0 = node_normals[s.slot0], n1 = node_normals[s.slot1], n2 = node_normals[s.slot2];
   Basis curved;
@@ -139,8 +138,7 @@ void mapInCell(uint vertex, SkinBinding s, float spacing, vec3 rest1, vec3 rest2
 #endif
 
 #ifdef ONE_NODE
-/// A vertex goes with its node and keeps its offset (EGVE 3.2). Where the node has no clear normal, that of the vertex turns with the
-/// triangle.
+/// A vertex goes with its node and keeps its offset (EGVE 3.2). Without a clear normal of the node the vertex's turns with the triangle.
 void mapByNode(uint vertex, SkinBinding s, float spacing, vec3 rest1, vec3 rest2) {
   vec3 u0 = xyz(displacement[s.slot0]);
   vec4 approximate = node_normals[s.slot0];

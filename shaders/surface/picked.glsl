@@ -1,8 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// picked.glsl - which item an invocation stands for: the one of its number, or with PICKED one of a list
-// (surface/grouped_items.h).
+// picked.glsl - which item an invocation stands for: of its number, or with PICKED of a list (surface/grouped_items.h).
 #ifdef PICKED
 uniform uint first;  // place in the list
 layout(std430, binding = kBindPicked) readonly buffer PickedBuffer { uint picked[]; };

@@ -37,8 +37,7 @@ constexpr double kLeastSpread_m = 0.005;
 /// sqrt(3 - 6 / points).
 /// @param known    [N] tissue frame
 /// @param touched  [N] where the tip was at each, in the frame of the device's poses
-/// @throws RegistrationError  fewer than three points, points on a line, or a residual above the limit; names the worst
-/// point
+/// @throws RegistrationError  too few points, points on a line, a residual above the limit; names the worst point
 Registration solveRegistration(const std::vector<KnownPoint>& known, const std::vector<Vector3d>& touched,
                                const RegistrationLimits& limits);
 

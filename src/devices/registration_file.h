@@ -10,8 +10,7 @@
 
 namespace viscera {
 
-/// What `register_stylus` has found out about a device: a fragment of its profile, with the keys `tip`, `base` and
-/// `residual_mm`.
+/// What `register_stylus` has found out: a fragment of a device's profile, with the keys `tip`, `base`, `residual_mm`.
 struct RegistrationFile {
   std::optional<Vector3d> tip_m;  ///< offset of the tip in the frame of the device's pose
   std::optional<Pose> base;       ///< the frame of the device's poses, in the tissue frame

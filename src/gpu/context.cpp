@@ -130,8 +130,7 @@ EGLContext createContext(EGLDisplay display, EGLConfig config, bool tells_of_res
   return eglCreateContext(display, config, EGL_NO_CONTEXT, wishes.data());
 }
 
-/// A context that is current, on a display that is initialised; EGL_NO_CONTEXT, the display closed and `reason` told
-/// otherwise.
+/// A current context on an initialised display; else EGL_NO_CONTEXT, the display closed and `reason` told.
 EGLContext openContext(EGLDisplay display, std::string& reason) {
   const EGLint config_wishes[] = {EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
   EGLConfig config = nullptr;

@@ -15,8 +15,7 @@ std::string glErrorText(unsigned code);
 /// From now on checkErrors() tells what the driver of the current context says of errors, where it says anything:
 /// asynchronously, and of nothing but errors, so that it costs nothing while there are none.
 void noteErrors();
-/// @param status  of glGetGraphicsResetStatus()   @throws GpuError  the context is lost; `what` names the work just
-/// done
+/// @param status  of glGetGraphicsResetStatus()   @throws GpuError  it is lost; `what` names the work done
 void requireNoReset(unsigned status, const char* what);
 
 /// Counts an OpenGL object made; see objectsCreated().

@@ -66,8 +66,7 @@ class Program {
   static void storageBarrier();
   /// @name Uniforms by name
   /// A value that the program has already costs no OpenGL call, nor does one that the driver found unused. The program
-  /// need not be in use. @throws GpuError  the shaders declare no such uniform, whatever their features, or of another
-  /// type
+  /// need not be in use. @throws GpuError  the shaders declare no such uniform with any features, or of another type
   /// @{
   void set(UniformName name, uint32_t value) const;
   void set(UniformName name, int32_t value) const;

@@ -150,8 +150,7 @@ Reaction HapticServo::step(const Vector3d& tip_m, double told_s, double now_s) {
 
 Vector3d HapticServo::damped(const Vector3d& limited_n, double now_s) {
   if (!(config_.force_scale > 0)) return limited_n;
-  // A damper that acts late shakes what is light: of mass m, behind t, no more than m / 2t. The swing tells m > K /
-  // omega^2.
+  // A damper that acts late shakes what is light: of mass m, t late, m / 2t at most. The swing tells m > K / omega^2.
   const double least_kg = speed2_ > 0 && acceleration2_ > 0 ? share_ * felt_n_per_m() * speed2_ / acceleration2_ : 0;
   const double sure = 0.5 * least_kg / late_s();
   return passivity_.damped(velocity_, config_.force_scale * limited_n, stored_j_, told_s_, now_s, share_, sure) /

@@ -40,8 +40,7 @@ class EndWatch {
 
   /// Waits until the end has begun and what is done before is done; @returns whether it has.
   bool waitFor(std::chrono::milliseconds limit);
-  /// The end begins, at this process's own request; returns at once. @param status  of the process if it is ended by
-  /// force
+  /// The end begins, at this process's own request; returns at once. @param status  of a process ended by force
   static void begin(int status);
   /// From a signal, a demand or a request the process has this long; then it is ended, whatever it is doing.
   static constexpr std::chrono::milliseconds kLimit{900};

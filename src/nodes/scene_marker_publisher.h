@@ -18,8 +18,7 @@ class SceneMarkerPublisher {
 
   /// There are subscribers. From any thread.
   bool isWanted() const { return publisher_.getNumSubscribers() > 0; }
-  /// There are subscribers, and it is time for the next. Counted on the steady clock, so that it comes while paused
-  /// too.
+  /// There are subscribers, and it is time for the next, by the steady clock: it comes while paused too.
   bool isDue();
   /// How often from now on, at most. For the thread that asks isDue().
   void setRate(double rate_hz) { period_ = period(rate_hz); }

@@ -44,8 +44,7 @@ class SceneSwitch {
   void holdTopics();
   /// A session that ran: its end waits until the next one runs, unless that needs the room.
   void bury(std::unique_ptr<MadeSession> ended);
-  /// The simulator that was made last has ended. @returns whether it never ran and the one before is made again, by
-  /// takeNext()
+  /// The simulator made last has ended. @returns whether it never ran and takeNext() makes the one before again
   bool goBack(const std::string& error);
 
  private:

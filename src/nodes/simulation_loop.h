@@ -49,8 +49,7 @@ struct LoopPorts {
   std::function<StylusSamples()> samples;     ///< for that tick
   std::function<Wants()> wants;               ///< of that tick
   std::function<void(const Session&)> ready;  ///< once, before the first tick
-  /// After every tick: what it took from the hands, and made of it. @param hands_anew  they had been forgotten before
-  /// it
+  /// After every tick: what it took from the hands, and made of it. @param hands_anew  forgotten before it
   std::function<void(uint64_t tick, const StylusSamples&, const ToolMotions&, bool hands_anew)> stepped;
   /// What came back after a tick with these samples. @param live  the tissue follows the hands: forces may go out
   std::function<void(Frame&&, const StylusSamples&, bool live)> deliver;

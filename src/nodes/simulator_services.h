@@ -22,8 +22,7 @@ namespace viscera::nodes {
 class SimulatorServices {
  public:
   using ModeSet = std::function<void(size_t stylus, ToolSwitch when, ToolMode mode)>;
-  /// @param styluses  of the scene   @param commands  must outlive this   @param mode_set  told of every change of a
-  /// mode
+  /// @param styluses  of the scene   @param commands  must outlive this   @param mode_set  told of changes of modes
   SimulatorServices(ros::NodeHandle node, const std::vector<StylusConfig>& styluses, CommandQueue& commands,
                     ModeSet mode_set = {});
 

@@ -106,8 +106,7 @@ void StylusMailbox::notePlace(const std::string& frame, const Pose& base, const 
 }
 
 /// Poses of a clock that stands still (ours, where ROS time is simulated) are told from those of a driver that hangs by
-/// ROS time: it goes on meanwhile. A device's clock may differ from ours; its delay shows as a change of the
-/// difference.
+/// ROS time: it goes on meanwhile. A device's clock may differ from ours; its delay changes the difference.
 std::optional<Drop> StylusMailbox::checkStamp(const ros::Time& stamp, const Arrival& now) const {
   if (!status_.seen) return std::nullopt;
   if (stamp == stamp_) {

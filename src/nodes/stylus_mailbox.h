@@ -96,11 +96,9 @@ class StylusMailbox {
   /// A button ends with its hand: what was down when the poses grew stale, or is down when they begin, must be let go
   /// before it acts. @param values  of a message's buttons, 0 released, 1 pressed, 2 clicked   @param index  which
   std::optional<Drop> press(ButtonRole role, const std::vector<int32_t>& values, size_t index, SteadyTime now);
-  /// A joint of a gripper or of jaws, which presses the button that the profile says: below one position, until above
-  /// another.
+  /// A joint of a gripper or of jaws, which presses the profile's button: below one position, until above another.
   std::optional<Drop> grip(const std::vector<double>& positions, size_t index, SteadyTime now);
-  /// Its pose does not grow stale, as that of an arm, which stays where it was sent; or does again, and is stale at
-  /// once.
+  /// Its pose does not grow stale, as an arm's, which stays where it was sent; or does again, and is stale at once.
   void hold(bool held);
 
   /// There was no listener for a while, as in a pause: buttons must be let go before they act.

@@ -8,8 +8,7 @@
 
 namespace viscera::nodes {
 
-/// Names the calling thread for top, gdb and /proc; and as every thread of ours begins with it, gives it its
-/// CrashStack.
+/// Names the calling thread for top, gdb and /proc; as all our threads begin with it, gives it its CrashStack.
 /// @param name  at most 15 characters
 inline void nameThread(const char* name) {
   pthread_setname_np(pthread_self(), name);

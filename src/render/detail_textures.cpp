@@ -24,8 +24,7 @@ layout::vec4 texel(float x, float y, float z, float w) {
   return {x, y, z, w};
 }
 
-/// Texel (x, y) of a picture that is enlarged or reduced to another size: bilinear, with what lies beyond a side on the
-/// other.
+/// Texel (x, y) of a picture brought to another size: bilinear, with what lies beyond a side on the other.
 void resampled(const TextureImage& image, int width, int height, int x, int y, uint8_t* out) {
   const auto split = [](double at, int count) {
     const double lower = std::floor(at);

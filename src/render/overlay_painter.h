@@ -28,8 +28,7 @@ struct OverlayLook {
   uint64_t capture = 0;  ///< pictures of one number are of one state: what they share is worked out once; 0: alone
 };
 
-/// Draws overlays: strain in place of the tissue's colours, lines that show through the tissue faintly, arrows, and a
-/// legend.
+/// Draws overlays: strain in place of the tissue's colours, lines that show through it faintly, arrows, a legend.
 class OverlayPainter {
  public:
   /// Needs a current context. @param model  must outlive this   @throws GpuError

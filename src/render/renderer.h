@@ -60,8 +60,7 @@ class Renderer {
   void draw(size_t camera, const MeshView& mesh, const ToolMotions& motions);
   /// As draw(), with overlays; makes what they need at the first time. @param model  of look.surface, must outlive this
   void draw(size_t camera, const Model& model, const OverlayLook& look, const ToolMotions& motions);
-  /// Where obstacles are in what is drawn from now on. @param poses  [obstacles] tissue frame; nowhere before the first
-  /// call
+  /// Where obstacles are drawn from now on. @param poses  [obstacles] tissue frame; nowhere before the first call
   void placeObstacles(const std::vector<Pose>& poses) { obstacle_poses_ = poses; }
   /// Where a camera's optical frame is in what is drawn from now on, tissue frame; at first where its keys say.
   void placeCamera(size_t camera, const Pose& pose) { camera_poses_[camera] = pose; }

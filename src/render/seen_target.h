@@ -20,8 +20,7 @@ class SeenTarget {
 
   /// Makes the samples the place to draw to, with nothing in them.
   void bindSeen() const;
-  /// Makes the image the place to draw to; what has been seen can be read by shaders. Its depths part pixels, see
-  /// SeenLight.
+  /// Makes the image the place to draw to, which shaders can read. Its depths part pixels, see SeenLight.
   void bindImage() const;
   /// Makes the colours over it the place to draw to, behind what has been seen, with nothing in them.
   void bindOver() const;

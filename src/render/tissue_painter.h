@@ -14,8 +14,7 @@
 
 namespace viscera {
 
-/// Draws the skin: lit, wet, two-sided, with the shadows of tools. Owner of shaders/draw/tissue.frag, with
-/// shaders/draw/mesh.vert.
+/// Draws the skin: lit, wet, two-sided, with the tools' shadows. Owner of shaders/draw/tissue.frag, with mesh.vert.
 class TissuePainter {
  public:
   /// @param model  whose textures are drawn; null: none are   @param samples, pixels  which ways to draw are to be

@@ -10,8 +10,7 @@
 namespace viscera {
 
 /// The record of cuts of all lattices, HostState::axial_cut. Kernels write what implicit lattices have of it
-/// (shaders/solver/cut.comp); explicit ones have it in spring_cut, spring by spring, and it is put together on the
-/// host.
+/// (shaders/solver/cut.comp); explicit ones have it in spring_cut, by spring, put together on the host.
 class CutRecord {
  public:
   /// @param network  of the model

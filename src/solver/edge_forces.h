@@ -10,8 +10,7 @@ namespace viscera {
 /// Edge-centric forces (GW 4.2), as shaders/solver/spring_forces.comp finds them and the integrator sums them: every
 /// spring is owned by one of its ends, which computes it once. Each node owns about as many, half of its springs, so
 /// that processors that work on several nodes at once wait for none of them. An owner adds up what its own springs do
-/// to it and stores that sum, and a force for each far end: half of what a store for either end of every spring would
-/// take.
+/// to it and stores that sum, and a force for each far end: half of the stores for both ends.
 struct EdgeForces {
   std::vector<layout::SpringOwner> owners;  ///< [nodes that own springs] by slot
   /// [slots] its links: first and end of those of springs that it owns, which come node by node before all others, so
@@ -25,8 +24,7 @@ struct EdgeForces {
   size_t places() const { return starts.empty() ? 0 : size_t{starts.back()} + 1; }
 };
 /// Shares out the springs of a network: orders its links as EdgeForces::links says, after which its starts mean
-/// nothing, and notes in them the place of the force on the far end. @return empty where no body has explicit
-/// connections
+/// nothing, and notes in them the place of the force on the far end. @return empty without explicit connections
 EdgeForces orderByOwner(JoinedNetwork& network);
 
 /// [springs] 1 where end b is the owner. No node owns more than the mean over nodes with springs, rounded up, if that

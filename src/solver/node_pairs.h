@@ -9,8 +9,7 @@
 
 namespace viscera {
 
-// Contacts between nodes within the solution of an implicit substep (shaders/solver/implicit_pairs.glsl), on any
-// backend.
+// Contacts between nodes in the solution of an implicit substep (shaders/solver/implicit_pairs.glsl), any backend.
 
 /// Are contacts between nodes part of the solution of a substep?
 inline bool solvesContacts(const Scene& scene) {
@@ -20,8 +19,7 @@ inline bool solvesContacts(const Scene& scene) {
 /// Of D_ij: how near two nodes are, where the first iterate leads, that may touch in the substep. What lies on
 /// something is found though the iterate does not bring it nearer.
 constexpr float kPairReach = 1.1f;
-/// Of D_ij: how near two nodes are after an implicit substep that contacts still act on: those of its solution keep
-/// D_ij.
+/// Of D_ij: how near two nodes are after an implicit substep that contacts act on: its solution's keep D_ij.
 constexpr float kMissedReach = 0.999f;
 /// Ends of pairs for which there is room, per node that may touch others: what lies on something has one to four.
 constexpr size_t kPairEndsPerNode = 16;

@@ -48,8 +48,7 @@ class SolverBackend : public ToolTarget {
   /// What surrounds the tissue acts on the substep that advance() has just made; of an implicit one contacts between
   /// nodes only: the rest was part of it.
   virtual void surround(const Substep& step, const Surroundings& surroundings) = 0;
-  /// Sums what obstacles gave in the tick into the measurements. @param places  [obstacles] at its end, tissue frame
-  /// [m]
+  /// Sums what obstacles gave in the tick into measurements. @param places  [obstacles] at its end, tissue frame [m]
   virtual void sumObstacles(const std::vector<Vector3f>& places) = 0;
   /// Measures the current state: all of TickStats but what tools and obstacles gave; that is cleared.
   virtual void measure() = 0;

@@ -21,8 +21,8 @@ constexpr int kProducts = 20;
 constexpr double kAmplitude = 1e-4;
 /// Any: velocities are what forces give in it.
 constexpr double kKick_s = 1e-4;
-/// Substep over the limit, and the dt_fraction that has it. The dashpot leaves 0.87 and more (docs/physics.md 2,
-/// docs/stability.md).
+/// Substep over the limit, and its dt_fraction. The dashpot leaves 0.87 and
+/// more (docs/physics.md 2, docs/stability.md).
 constexpr double kOfLimit = 0.82, kDefaultFraction = 0.75;
 /// Of the limit that the dashpot leaves.
 constexpr double kDashpotMargin = 0.94;

@@ -210,8 +210,7 @@ bool Ticks::heed(const Watch::Verdict& verdict) {
   return verdict.rolled_back;
 }
 
-/// Rounded down: substeps that changed in every tick would make small forces flicker, and there is a margin for as
-/// much.
+/// Rounded down: substeps that change in every tick make small forces flicker, and there is a margin for that.
 void Ticks::noteStretch(const layout::TickStats& stats) {
   stretch_ = std::floor(static_cast<double>(floatFromBits(stats.max_stretch_bits)) / kStretchSteps) * kStretchSteps;
 }

@@ -34,8 +34,7 @@ class Watch {
   /// @param undone  the tick before was not, and was rolled back: this one does not count
   /// @param long_substeps  it had substeps longer than proven ones (Governor::judge)
   Verdict endTick(const ToolMotions& motions, bool recovering, bool undone, bool long_substeps);
-  /// Judges the tick that is open, if one is, and closes it; rolls it back where it was bad. Waits for its
-  /// measurements.
+  /// Judges the tick that is open, if any, and closes it; rolls it back where it was bad. Waits for measurements.
   Verdict judgeOpen();
   /// Will the open tick be rolled back, or does it not count? False if none is open. Waits for its measurements.
   bool openIsBad();

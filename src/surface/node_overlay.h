@@ -29,8 +29,7 @@ class NodeOverlay {
   /// Springs between nodes that skins are bound to; what is cut is no line. @param all  diagonal ones too
   /// @returns how many indices are to be drawn
   size_t makeLines(const StateView& state, bool all);
-  /// Approximate normals of the nodes that skins are bound to, VR05's eq 5 whatever the mapping; of networks the
-  /// skin's.
+  /// Approximate normals of nodes that skins are bound to, VR05's eq 5 in any mapping; of networks the skin's.
   void makeNormals(const StateView& state, const Surface& surface);
   void makeForces(const Surface& surface);
   /// @param strain_range  the end of the scale

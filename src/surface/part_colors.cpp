@@ -53,8 +53,7 @@ const SurfaceMaterial* materialOf(const SurfaceDetail* detail, size_t part) {
   return &detail->materials[material];
 }
 
-/// Colours of all parts. Parts of one material differ as partColor() has it, or an organ of one colour would be one
-/// lump.
+/// Colours of all parts. Parts of one material differ by partColor(), or an organ of one colour would be one lump.
 std::vector<Vector3d> partColors(const TriangleMesh& mesh, const Vector3d& organ_color) {
   std::vector<Vector3d> out;
   for (size_t part = 0; part < std::max<size_t>(mesh.part_names.size(), 1); ++part) {

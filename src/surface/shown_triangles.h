@@ -39,8 +39,7 @@ class ShownTriangles {
   /// All triangles.
   const std::shared_ptr<const ShownTopology>& whole() const { return whole_; }
   /// What is shown: the same topology as the last time while the codes and the wounds are the same.
-  /// @param alive  [triangles] codes as in appendShown, of bodies without wounds   @param wounds  null where none can
-  /// be
+  /// @param alive  [triangles] codes as in appendShown, of bodies without wounds   @param wounds  null: none can be
   const std::shared_ptr<const ShownTopology>& shown(const uint32_t* alive, const ShownWounds* wounds = nullptr);
 
  private:

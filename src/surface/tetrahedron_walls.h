@@ -31,8 +31,7 @@ struct FaceVertex {
 };
 
 /// What cuts of its edges make of a triangle (docs/wounds.md 4). With two cut, the corner between them is parted from
-/// the rest; with three, every corner from every other, by lines that meet in the middle; with one, the wound ends
-/// inside.
+/// the rest; with three, all corners, by lines that meet in the middle; with one, the wound ends inside.
 struct FacePieces {
   /// Of a piece, counter-clockwise as the triangle is; `corner` is one of the piece's.
   struct Triangle {

@@ -16,8 +16,7 @@ namespace viscera {
 layout::SkinBinding bindToSide(const CutCells& cells, const Vector3d& point, const Vector3d& normal,
                                const WoundPlace& place);
 
-/// Binds the end of a wound, which belongs to both of its sides, to the nearest triangle of its cell as if it were
-/// whole.
+/// Binds the end of a wound, which is of both its sides, to the nearest triangle of its cell as if it were whole.
 layout::SkinBinding bindAcross(const CutCells& cells, const Vector3d& point, const Vector3d& normal,
                                const WoundPlace& place);
 

@@ -17,8 +17,7 @@ namespace {
 
 // Of a triangle at a point, signed by the side that its wall faces: the sine of the angle between its shortest and
 // longest side, or if that is less how far the point is from the side across, in kTall cells. Below the first a point
-// is moved, above the second nothing is to be won. Neighbours that are carried by different nodes do not turn it over
-// then.
+// is moved, above the second nothing is to be won. Neighbours on other nodes do not turn it over then.
 constexpr double kFolded = 0.2, kWellShaped = 0.5, kTall = 0.3;
 constexpr double kNoSide = 1e-6;  // a sum of ways across a wound that are of both sides
 constexpr double kAll = 0.05;  // what the mean of all triangles counts beside the worst: ways lead out of two bad ones

@@ -13,8 +13,7 @@
 
 namespace viscera {
 
-/// A stretch of the border of a skin piece along a wound: the wall that begins there has its other end on the same
-/// nodes.
+/// A stretch of a skin piece's border along a wound: the wall that begins there has its other end on the same nodes.
 struct Lip {
   uint32_t from = 0, to = 0;  ///< vertices, in the order in which the piece has them
   uint32_t triangle = 0;      ///< of the uncut skin
@@ -77,8 +76,7 @@ class WoundSkin {
   const std::array<uint32_t, 3>& edgesOf(uint32_t triangle) const { return index_.triangle_edges[triangle]; }
   /// Where they are listed they stay; some are of nothing any more.
   const std::vector<WoundVertex>& added() const { return added_; }
-  /// The skin's own vertices that have to be bound again: their triangle of nodes lies on two sides, or on the other
-  /// one.
+  /// The skin's own vertices that have to be bound again: their triangle of nodes is on two sides, or the other.
   const std::vector<uint32_t>& rebound() const { return rebound_; }
   bool isRebound(uint32_t own) const { return rebound_at_[own] != kNone; }
   /// Own vertices, and added ones by their index in added(), that the last update has looked at: those of all others

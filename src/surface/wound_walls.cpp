@@ -20,8 +20,7 @@ uint32_t cellAt(const CutCells& cells, const Vector3i& at) {
   return cells.numberOf(static_cast<uint32_t>(lowest));
 }
 
-/// The four cells around the spring from the lowest corner of a cell along an axis, counter-clockwise seen from its far
-/// end.
+/// The four cells around the spring from a cell's lowest corner along an axis, counter-clockwise from its far end.
 std::array<Vector3i, 4> cellsAround(const Vector3i& at, int axis) {
   const Vector3i u = Vector3i::Unit((axis + 1) % 3), v = Vector3i::Unit((axis + 2) % 3);
   return {at, at - u, at - u - v, at - v};

@@ -24,8 +24,7 @@ struct CutSprings {
 /// What cuts have made of the skins of bodies with an inside, lattices and tetrahedra: not changed while anybody shows
 /// it, so that who does shares it.
 struct ShownWounds {
-  /// Triangles of one body, [3 * n] vertex indices as in JoinedSkins, and beyond its vertices those that cuts have
-  /// added.
+  /// Triangles of one body, [3 * n] vertex indices as in JoinedSkins, and beyond its vertices those added by cuts.
   struct OfBody {
     bool wounded = false;  ///< else its skin is whole, and the lists are empty
     std::vector<uint32_t> skin, walls;

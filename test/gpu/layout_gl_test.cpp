@@ -1,7 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Where the driver has the members of the structs that C++ and GLSL share (src/gpu/layout_check.cpp says where C++ has
-// them).
+// Where the driver has the members of structs that C++ and GLSL share (of C++: src/gpu/layout_check.cpp).
 #include <gtest/gtest.h>
 
 #include <cstddef>

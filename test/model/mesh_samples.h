@@ -29,8 +29,7 @@ inline TriangleMesh boxMesh(const Vector3f& low, const Vector3f& high) {
   return mesh;
 }
 
-/// Sphere of `rings` x 2 `rings` patches with triangles around two poles; its top cap of `open_rings` rings is left
-/// out.
+/// Sphere of `rings` x 2 `rings` patches with triangles around two poles, without its top `open_rings` rings.
 inline TriangleMesh sphereMesh(const Vector3f& center, float radius, int rings, int open_rings = 0) {
   TriangleMesh mesh;
   const int sectors = 2 * rings;

@@ -14,8 +14,7 @@
 namespace viscera {
 namespace {
 
-/// Every key there is, each with a value that no other number has, but for older names of a key, and that is not the
-/// default.
+/// Every key, but for older names, each with a value that no other number has and that is not the default.
 constexpr const char* kEveryKey = R"(
 name: full
 bodies:

@@ -12,8 +12,7 @@
 
 #include "nodes/thread_name.h"
 
-// What a process does in its last moments: each test is one that ends, and says "zero" as the last that a device is
-// told.
+// What a process does in its last moments: each test is one that ends, and says "zero" as a device's last.
 
 namespace viscera::nodes {
 namespace {

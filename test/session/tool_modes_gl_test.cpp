@@ -1,7 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// What styluses do is changed while the simulation runs: it acts at once, what is held is let go, runs repeat to the
-// bit.
+// What styluses do is changed while the simulation runs: it acts at once, holds end, runs repeat to the bit.
 #include <gtest/gtest.h>
 
 #include "session/block_session.h"

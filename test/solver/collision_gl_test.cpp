@@ -205,8 +205,7 @@ TEST_P(Collide, RestitutionOneThrowsBackAndNoneStops) {
   }
 }
 
-/// A sheet that lies on another one, whose nodes are so near to each other that it is all but flat, and slides along
-/// it.
+/// A sheet that lies on another one, whose nodes are so near to each other that it is nearly flat, and slides.
 class Sliding : public Collide {
  protected:
   /// @param longer  substep over leapfrog's

@@ -13,8 +13,7 @@ using namespace viscera::test;
 namespace {
 
 constexpr double kSpacing_m = 0.01;
-// Of the force of the static equilibrium: the promise. What is left is rounding of tools' positions and what the sweeps
-// leave.
+// Of the force of the static equilibrium: the promise. What is left is rounding of tools' positions, and of sweeps.
 constexpr double kForce = 0.01;
 
 struct Way {

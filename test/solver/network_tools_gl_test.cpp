@@ -9,8 +9,7 @@ using namespace viscera::test;
 
 namespace {
 
-// Relative to the largest value; contact projections add roundings of absolute positions (6e-8 of ~0.1 m on u of ~1e-3
-// m).
+// Relative to the largest value; contacts add roundings of absolute positions (6e-8 of ~0.1 m on u of ~1e-3 m).
 constexpr double kContactFloat32 = 1e-4;
 // Of where a blade crosses a spring: float32 positions of 0.1 m (6e-9 m) over springs of 1 cm, at a slant.
 constexpr double kFraction = 1e-4;

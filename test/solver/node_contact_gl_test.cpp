@@ -1,7 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Contacts between nodes are part of the solution of an implicit substep: what lies on something is borne, whatever its
-// length.
+// Contacts between nodes are part of the solution of an implicit substep of any length: what lies on others is borne.
 #include "solver/surroundings.h"
 #include "support/backends.h"
 #include "support/loose_cloth.h"

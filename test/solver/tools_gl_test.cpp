@@ -9,8 +9,7 @@ using namespace viscera::test;
 
 namespace {
 
-// Relative to the largest value; contact projections add roundings of absolute positions (6e-8 of ~0.1 m on u of ~1e-3
-// m).
+// Relative to the largest value; contacts add roundings of absolute positions (6e-8 of ~0.1 m on u of ~1e-3 m).
 constexpr double kContactFloat32 = 1e-4;
 constexpr int kSubsteps = 20;
 
@@ -217,8 +216,7 @@ TEST_P(ToolsOnTissue, ReleaseClampsTheVelocity) {
 
 TEST_P(ToolsOnTissue, BladeCutsTheSpringsItCrossesFromBothEnds) {
   ToolMotions motions;
-  // The blade points along -z from z = 0.16 to -0.04 and sweeps along x in the plane y = 0.035, between two rows of
-  // nodes.
+  // The blade points along -z from z = 0.16 to -0.04 and sweeps along x at y = 0.035, between two rows of nodes.
   motions[0] = motion(ToolMode::kCut, {-0.02, 0.035, 0.16}, {0.08, 0.035, 0.16});
   tick(motions);
   const HostState state = solver_->readState();

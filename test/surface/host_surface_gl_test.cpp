@@ -36,8 +36,7 @@ double height(const Vector3d& x) {
   return x.x() + 0.4 * x.y() - 0.0123;
 }
 
-/// A cloth, a block, a cloth that cannot be cut and a ball with cells in part: numbers of none begin at 0 but the
-/// first's.
+/// A cloth, a block, a cloth that cannot be cut, a ball with cells in part: numbers of none begin at 0 but the first's.
 class HostSurfaceTest : public ::testing::Test {
  protected:
   HostSurfaceTest() : rig_(bodies()), host_(rig_.model) { snapshot_.bricks = host_.shownBricks(); }

@@ -21,8 +21,7 @@ constexpr double kGap = 0.02;      // of the spacing: between lips at rest (docs
 constexpr double kOff = 0.1;       // of the spacing: lips and walls of a flat cut from its plane
 constexpr double kPlace_m = 1e-7;  // float rounding of bindings in a box of 0.1 m
 
-// Of 3.3 million pixels, as WoundTest's: slivers beside nodes that the blade has nearly met turn over where the pull
-// kinks.
+// Of 3.3 million pixels, as WoundTest's: slivers beside nodes that the blade nearly met turn over at kinks of the pull.
 constexpr double kBacksOfBox = 3e-4;
 
 const Vector3d kMiddle(0.0403, 0.0352, 0.0304);

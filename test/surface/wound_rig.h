@@ -17,8 +17,7 @@
 
 namespace viscera::testing {
 
-/// A lattice with springs that cuts have taken, as a solver records it. Stays where it was made: its wound refers to
-/// it.
+/// A lattice with springs that cuts have taken, as a solver records it. Stays where it is: its wound refers to it.
 struct Wounded {
   Lattice lattice;
   Skin skin;

@@ -1,8 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 // What GW's figures show, run to its end: balls that lie on a cloth, a cloth that lies folded on the floor, the flap of
-// a cut that hangs. On the CPU: minutes of a software rasteriser otherwise; the backends' contacts are compared
-// elsewhere.
+// a cut that hangs. On the CPU: minutes of a software rasteriser otherwise; backends' contacts are compared elsewhere.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -27,8 +27,7 @@ StepTime stepTimeThrough(const TimedSubstep& small, const TimedSubstep& large);
 /// @param context  current on this thread, or null: there is none, and the CPU is measured
 StepTime measureStepTime(const UndividedBodies& bodies, const Scene& scene, const gpu::Context* context);
 
-/// All that the measurement depends on, in one line: version, machine, backend, threads, features, shapes of the
-/// bodies.
+/// All that the measurement depends on, in one line: version, machine, backend, threads, features, bodies' shapes.
 std::string stepTimeKey(const Scene& scene, const gpu::Context* context);
 
 /// Measurements that are kept from one process to the next: lines of key, overhead_s and per_node_s in a small file. A

@@ -50,8 +50,7 @@ struct PassivityLimits {
 /// trip ago. Theirs takes alpha = -E / (v.v T) once E is below 0. Ours acts before: where the tissue's store U is
 /// larger than what is left of E, only the share E / U of the force may do work on the hand, so that both come to
 /// nothing together, and no force is ever turned round. What is left of E is at most U and a reserve: a loop that feeds
-/// on what tissue has dissipated would swing for long. All is in the hand's coordinates: its metres, what its motors
-/// give.
+/// on what tissue has dissipated swings for long. All is in the hand's coordinates.
 class PassivityControl {
  public:
   /// How far back forces are kept beyond a round trip [s]: poses that are farther apart tell nothing.

@@ -79,8 +79,7 @@ struct Frame : Pictures {
   layout::TickStats stats{};
   bool has_stats = false;  ///< stats are those of some recent tick
   Health health;
-  /// The stylus appeared inside tissue, from an unknown side: it pushes and feels nothing until it was
-  /// outside.
+  /// The stylus appeared inside tissue, from an unknown side: it pushes and feels nothing until it was outside.
   std::array<bool, layout::kMaxStyluses> inside{};
   std::array<bool, layout::kMaxStyluses> held_back{};  ///< the stylus was faster than tissue can follow
   ToolMotions tools;                                   ///< of the tick: `to` is where the tools are shown

@@ -22,14 +22,12 @@ using ObstacleMotions = std::vector<RigidMotion>;  ///< [obstacles] of the scene
 class Obstacles {
  public:
   /// @param max_travel_m  in a tick, of the surface of one that a frame carries, by going and turning together: faster
-  /// than waves it would throw tissue instead of pushing it. One that is held back catches up over the ticks that
-  /// follow
+  /// than waves it would throw tissue instead of pushing it. One held back catches up over later ticks
   explicit Obstacles(const std::vector<ObstacleConfig>& configs,
                      double max_travel_m = std::numeric_limits<double>::infinity());
 
   size_t count() const { return configs_.size(); }
-  /// The latest pose of the frame that carries an obstacle, tissue frame. The first is no motion: the obstacle appears
-  /// there.
+  /// The latest pose of the frame that carries an obstacle, tissue frame. The first is no motion: it appears there.
   void setFrame(size_t obstacle, const Pose& frame);
   /// Goes on by a tick.
   void advance(double time_s, double tick_s);
@@ -49,8 +47,7 @@ class Obstacles {
   ObstacleMotions motions_;
 };
 
-/// Motions cut into substeps for the solver: [substeps * kMaxObstacles], substep-major. Position and orientation go
-/// evenly.
+/// Motions cut into substeps for the solver: [substeps * kMaxObstacles], substep-major. Poses go evenly.
 void interpolateObstacles(const std::vector<ObstacleConfig>& configs, const ObstacleMotions& motions, int substeps,
                           double tick_s, std::vector<layout::ObstacleMotion>& out);
 

@@ -11,8 +11,7 @@ double refinedTriangles(const TriangleMesh& mesh, double longest_edge_m);
 
 /// A skin is divided to the lattice's spacing, so a sheet that strayed beside an organ can cost more than the organ.
 /// @param most  bodies[].import_limits.max_triangles
-/// @throws LatticeError  there would be more triangles; names how many, the part that has most of them, and the ways
-/// out
+/// @throws LatticeError  there would be more triangles; names how many, the part with most of them, the ways out
 void requireSkinSize(const TriangleMesh& mesh, double spacing_m, int most);
 
 }  // namespace viscera

@@ -10,8 +10,7 @@ namespace viscera {
 
 // Moments of pieces of one cell. Places are in cells, from the middle of the cell.
 
-/// Cells with less tissue are left empty, their neighbours have it: they would add nodes and, as calculated, no
-/// accuracy.
+/// Cells with less tissue are empty, their neighbours have it: they would add nodes but, as calculated, no accuracy.
 constexpr double kLeastShare = 1e-2;
 /// Cells with less than this missing are full: rounding of single-precision meshes is some 1e-4 of a cell.
 constexpr double kLeastGap = 1e-3;

@@ -134,8 +134,7 @@ class Half {
     return {(low + high) / 2, (high - low).norm() / 2};
   }
 
-  /// Heights a step along the tangent, or across it. The frame of shaders/draw/detail.glsl: T is the way along which u
-  /// grows.
+  /// Heights a step along the tangent, or across it. The frame of shaders/draw/detail.glsl: T is where u grows.
   PaintRow stepped(int across) const {
     PaintRow out = row_;
     const Vector3f along_u = (half_ == 0 ? 1.F : -1.F) * (at_[1] - at_[0]);

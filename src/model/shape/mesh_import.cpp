@@ -209,8 +209,7 @@ void requireVerticesInFaces(const aiScene& scene) {
   }
 }
 
-/// Opens nothing but ordinary files within the limit, whatever a file refers to: a pipe would be waited for without
-/// end.
+/// Opens nothing but ordinary files within the limit, whatever a file refers to: a pipe could be waited for for ever.
 class BoundedFiles : public Assimp::DefaultIOSystem {
  public:
   explicit BoundedFiles(const ImportLimits& limits) : limits_(limits) {}

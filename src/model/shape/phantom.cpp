@@ -86,8 +86,7 @@ Cavity vessel(Part part, const Vector3d& root, const Vector3d& end, double radiu
   return {part, Cavity::Kind::kVessel, wall, {}, tube, {root, end + kLumenOverrun * tube.axis(), radius}};
 }
 
-/// In order of precedence: where two cavities would meet, the later one gives way. +x is the patient's left, -y
-/// anterior.
+/// In order of precedence: where two cavities meet, the later one gives way. +x is the patient's left, -y anterior.
 const std::array<Cavity, 8>& cavities() {
   static const std::array<Cavity, 8> all = {
       chamber(kLeftVentricle, {0.16, 0.05, 1.0}, {0.22, 0.22, 0.88}, 0.12),

@@ -7,8 +7,7 @@
 namespace viscera {
 
 /// Sides of a sheet along y: as the shifted rows leave them, or straight: the first and last node of every row are
-/// moved by a quarter of a spacing to x = +-(columns - 1) / 2 spacings, which makes the stable substep 0.80 of what it
-/// is.
+/// moved by a quarter of a spacing to x = +-(columns - 1) / 2 spacings, which lowers the stable substep to 0.80.
 enum class SheetSides { kToothed, kStraight };
 
 /// Flat sheet in z = 0 of equilateral triangles, its middle at the origin, facing +z: rows along x, every other one

@@ -212,8 +212,7 @@ HWY_INLINE void writeSums(float* sums, Behind& behind, int z, int i, const Corne
   hn::StoreU(withBehind(right, farther, i, behind.right[z], sums + cornerSumsAt(z)), d, sums + rightSumsAt(z) + i);
 }
 
-/// Where the sums are that a brick's nodes get: its own and those of the bricks below it along x, y and z, bit per
-/// axis.
+/// Where the sums are that a brick's nodes get: its own and those of bricks below along x, y and z, bit per axis.
 struct CellSources {
   const float* of[8];
 };

@@ -14,8 +14,7 @@ struct Item {
   bool operator<(const Item& other) const { return x != other.x ? x < other.x : y < other.y; }
 };
 
-/// What the texts find that know of contacts between nodes within an implicit substep
-/// (shaders/solver/implicit_pairs.glsl).
+/// What texts that know contacts between nodes in implicit substeps find (shaders/solver/implicit_pairs.glsl).
 struct PairBuffers {
   uint* pair_words = nullptr;
   vec4 *pair_rows = nullptr, *node_pairs = nullptr;

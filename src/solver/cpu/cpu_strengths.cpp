@@ -13,8 +13,7 @@ namespace viscera {
 
 namespace {
 
-/// From which corner of the cell that owns it a pair's even spring goes (kCellSprings in kernels.h), and as which of
-/// nine.
+/// From which corner of its cell a pair's even spring goes (kCellSprings in kernels.h), and as which of nine.
 struct CellSpring {
   std::array<int, 3> corner;
   uint32_t index;

@@ -115,8 +115,7 @@ CpuCut::CpuCut(CpuLattice& lattice, const Parallel& parallel, const simd::Kernel
   changed_.reserve(lattice.store.active.size());
 }
 
-/// Whether nodes lose springs is found side by side; then they do, one after the other: they note sides that others
-/// read.
+/// Whether nodes lose springs is found side by side; then they do, one by one: they note sides that others read.
 template <class Kernel>
 uint32_t CpuCut::cutWith(CpuLattice& lattice, const layout::ToolMotion& motion) {
   Kernel kernel(lattice);

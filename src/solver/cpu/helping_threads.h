@@ -18,8 +18,7 @@ class HelpingThreads {
   /// @param most  > 0; that begin
   explicit HelpingThreads(int most);
   int now() const { return now_; }
-  /// Are rounds to be measured? Some time after each other time, and as long as one is under way. @param at_s  any
-  /// clock
+  /// Are rounds to be measured? Now and then, and as long as one is under way. @param at_s  any clock
   bool due(double at_s) const { return at_s >= next_s_; }
   /// A round that was measured: when it ended, how long it was, and how many jobs it had.
   void took(double at_s, double clock_s, double jobs);

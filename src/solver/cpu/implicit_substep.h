@@ -23,8 +23,7 @@ struct Window {
   vec4& operator[](size_t index) const { return at[index - first]; }
 };
 
-/// What kernels of implicit Euler find in buffers and uniforms (shaders/solver/implicit.glsl, implicit_*.comp, pd.comp,
-/// vbd.comp).
+/// What kernels of implicit Euler find in buffers and uniforms (implicit.glsl, implicit_*.comp, pd.comp, vbd.comp).
 struct ImplicitKernel : Kernel, PairBuffers {
   using Kernel::Kernel;
   Word* guard = nullptr;

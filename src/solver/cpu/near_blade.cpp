@@ -166,8 +166,7 @@ void NearBlade::findBricks(const CpuLattice& lattice, const layout::ToolMotion& 
   }
 }
 
-/// How far the start of the sweep may be from where some spring of the near bricks sees it [m] (startOffset in
-/// blade.glsl).
+/// How far the sweep's start may be from where a spring of near bricks sees it [m] (startOffset in blade.glsl).
 float NearBlade::farthestOffset(const layout::ToolMotion& motion) const {
   float most2 = 0;
   for (uint32_t b : near_) most2 = std::max(most2, places_[b].speed2);

@@ -1,8 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// A brick with what lies around it, and its springs and cells, for the SIMD kernels. Included once per instruction set
-// (Highway).
+// A brick with what is around it, its springs and cells, for SIMD kernels. Included per instruction set (Highway).
 #if defined(VISCERA_SOLVER_CPU_TILES_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef VISCERA_SOLVER_CPU_TILES_INL_H
 #undef VISCERA_SOLVER_CPU_TILES_INL_H

@@ -14,8 +14,8 @@
 namespace viscera {
 
 /// Which bricks leapfrog steps on the GPU, by the rule of the CPU's Sleep, found and listed there: kernels are
-/// dispatched over what is awake and the host need not know how much that is. Owner of
-/// shaders/solver/awake_bricks.comp.
+/// dispatched over what is awake and the host need not know how much that is.
+/// Owner of shaders/solver/awake_bricks.comp.
 class AwakeBricks {
  public:
   /// @param speed_m_per_s  what is slower falls asleep, > 0

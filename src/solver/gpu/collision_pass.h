@@ -14,15 +14,14 @@
 
 namespace viscera {
 
-/// Contacts between nodes: finds pairs and says what they do to either node (collision.h). Owner of
-/// shaders/solver/collision_*.comp.
+/// Contacts between nodes: finds pairs and says what they do to either node (collision.h).
+/// Owner of shaders/solver/collision_*.comp.
 class CollisionPass {
  public:
   /// @param ahead  within an implicit substep: note() instead of run(), from the complete search
   CollisionPass(const Model& model, const Scene& scene, const FeatureSet& features, const LatticeBuffers& buffers,
                 bool ahead = false);
-  /// Pairs of the current state and their impulses, into `corrections`. The other state must be the one before the
-  /// substep.
+  /// Pairs of the current state and their impulses, into `corrections`. The other state is that before the substep.
   void run(const LatticeBuffers& buffers, const Substep& step) const;
   /// Pairs that the increments lead to, for shaders/solver/implicit_pairs.glsl. @param also  what kernels are told too
   using Tell = std::function<void(const gpu::Program&)>;
@@ -35,8 +34,7 @@ class CollisionPass {
   /// where it saw everybody. Does not wait.
   void noteCrowded(const gpu::Buffer<layout::TickStats>& stats) const;
 
-  /// For tests: slots a < b of all pairs that the search finds in the current state, ascending, 64 per node at most.
-  /// Waits.
+  /// For tests: slots a < b of all pairs found in the current state, ascending, 64 per node at most. Waits.
   std::vector<CollisionPair> findPairs(const LatticeBuffers& buffers) const;
 
  private:

@@ -18,8 +18,7 @@ class GoodStates {
   /// until all that is kept is that one
   void save(const LatticeBuffers& buffers, bool same = false);
   /// Puts back the state saved `back` saves before the last one (0: the last), or the oldest there is, and forgets the
-  /// younger ones. At the oldest, velocities are put to zero: nothing else is left to try. One state must have been
-  /// saved.
+  /// younger ones. At the oldest, velocities become zero: nothing else is left to try. One must have been saved.
   void restore(LatticeBuffers& buffers, int back);
 
   /// Binds the state saved last, for GuardPass.

@@ -13,8 +13,7 @@ namespace viscera {
 class GrabPass {
  public:
   explicit GrabPass(const FeatureSet& features);
-  /// @param stylus  index, < kMaxStyluses   @param pose  of the stylus, tissue frame   @param radius_m  reach of the
-  /// grip
+  /// @param stylus  index, < kMaxStyluses   @param pose  its own, tissue frame   @param radius_m  the grip's reach
   void takeHold(const LatticeBuffers& buffers, uint32_t stylus, const Pose& pose, double radius_m) const;
   /// What the stylus gave in the tick is read from the stats, where they are bound.
   void letGo(const LatticeBuffers& buffers, uint32_t stylus, const Release& release) const;

@@ -17,8 +17,7 @@ class ImplicitSubstep {
                   const NodePairs* pairs = nullptr);
 
   /// First iterate: held nodes are where their tools have them, none is in a probe or an obstacle; the others at the
-  /// best share of the motion that no force would change, the one of 0, 1/2, 3/4, 1 with the lowest incremental
-  /// potential.
+  /// best share of the motion without forces, that of 0, 1/2, 3/4, 1 with the lowest incremental potential.
   void begin(const LatticeBuffers& buffers, const Substep& step);
   /// State = displacement + last iterate, v = du/dt; tools, sleep. The last iterate is taken in the largest share of 0,
   /// 1/2, 3/4, 1 that does not end with more kinetic + elastic energy than there was before the substep and gravity

@@ -10,8 +10,8 @@
 
 namespace viscera {
 
-/// Non-finite nodes, largest stretch and speed, energies, held nodes, once a tick. Owner of
-/// shaders/solver/measure.comp.
+/// Non-finite nodes, largest stretch and speed, energies, held nodes, once a tick.
+/// Owner of shaders/solver/measure.comp.
 class MeasurePass {
  public:
   MeasurePass(const FeatureSet& features, size_t active_count);

@@ -10,8 +10,8 @@
 namespace viscera {
 
 /// PD-Jacobi in majorise-minimise form on implicit Euler (physics.md 2), with Chebyshev acceleration on request: where
-/// that goes wrong the rest of the substep starts again without it, which the GPU decides. Owner of
-/// shaders/solver/pd.comp.
+/// that goes wrong the rest of the substep starts again without it, which the GPU decides.
+/// Owner of shaders/solver/pd.comp.
 class PdPass : public Stepper {
  public:
   PdPass(const FeatureSet& features, const LatticeBuffers& buffers, const PdOptions& options,

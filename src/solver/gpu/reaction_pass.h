@@ -11,8 +11,8 @@
 
 namespace viscera {
 
-/// Sums the momentum that each stylus, or each obstacle, gave over a tick, in a fixed order. Owner of
-/// shaders/solver/sum_impulses.comp.
+/// Sums the momentum that each stylus, or each obstacle, gave over a tick, in a fixed order.
+/// Owner of shaders/solver/sum_impulses.comp.
 class ReactionPass {
  public:
   /// @param obstacles  of obstacles instead of styluses

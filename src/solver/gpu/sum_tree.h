@@ -24,8 +24,7 @@ inline size_t sumTreeSize(size_t terms) {
   }
 }
 
-/// Calls visit(inputs, input_first, output_first, last) per level; terms lie at 0, the partial sums of level 1 behind
-/// them.
+/// Calls visit(inputs, input_first, output_first, last) per level; terms lie at 0, partial sums of level 1 behind.
 template <class Visit>
 void forEachSumLevel(size_t terms, Visit visit) {
   size_t inputs = terms, input_first = 0, output_first = terms;

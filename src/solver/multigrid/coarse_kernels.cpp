@@ -13,8 +13,7 @@ namespace viscera::simd::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Three columns of four floats and the begin of the next block, which meets the zero of x, are one vector of 16, or
-/// several.
+/// Three columns of four floats and the next block's begin, which meets x's zero, are one vector of 16, or several.
 void multiplyRowsOf(const multigrid::BlockRows& matrix, const float* x, float* y, bool subtract, size_t first,
                     size_t end) {
   constexpr size_t kBlock = 12, kColumns = 4;

@@ -30,8 +30,7 @@ constexpr double kSettled = 1e-4;
 constexpr double kMostLeft = 1e-2;
 
 /// The state in which elastic forces, gravity and the forces on bodies balance, velocities 0: Newton's method with a
-/// line search on the energy, its systems solved by multigrid (physics.md 2). Obstacles, wind and tools are not part of
-/// it.
+/// line search on the energy, its systems solved by multigrid (physics.md 2). Without obstacles, wind and tools.
 /// @throws SceneError  a body that nothing holds, a body with explicit connections
 /// @throws Error       no balance was found
 HostState equilibriumOf(const Model& model, const Scene& scene, SettleReport& report,

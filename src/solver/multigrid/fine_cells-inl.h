@@ -27,8 +27,7 @@ HWY_INLINE void storeTo(const Vec3& value, float* x, size_t places, size_t at) {
   hn::StoreU(value.z, Tag(), x + 2 * places + at);
 }
 
-/// The upper half of a float32, rounded: tangents are read far more often than they are needed to more than three
-/// digits.
+/// The upper half of a float32, rounded: tangents are read often, and three digits are enough.
 HWY_INLINE void storeShort(V value, uint16_t* to) {
   const hn::RebindToSigned<Tag> words;
   const auto bits = hn::BitCast(words, hn::ShiftRight<16>(hn::Add(hn::BitCast(hn::RebindToUnsigned<Tag>(), value),
@@ -306,8 +305,7 @@ void applyCells(const multigrid::FineArrays& a, const float* x, const multigrid:
   });
 }
 
-/// Calls add(s) with s s^T what the volumes of the cells around nodes add to their block diagonal, where that is
-/// positive.
+/// Calls add(s) with s s^T what volumes of cells around nodes add to their block diagonal, where positive.
 template <class Add>
 HWY_INLINE void addVolumes(const multigrid::FineArrays& a, const multigrid::Box& box, size_t i, const Add& add) {
   const size_t n = a.places;

@@ -110,8 +110,7 @@ class FineLevel {
   const float* mass() const { return mass_.data(); }        ///< [places] kg, 0 where no node is
   const float* free() const { return free_.data(); }        ///< [places] 1 of nodes that are solved for, else 0
   const float* movable() const { return movable_.data(); }  ///< the same with those that are held
-  /// What a node gives under a force while those around it stay [m/N], the least of three directions. After
-  /// linearise().
+  /// How a node gives under a force while others stay [m/N], the least of three directions. After linearise().
   float give(size_t place) const {
     return std::min({inverse_[place], inverse_[3 * places() + place], inverse_[5 * places() + place]});
   }

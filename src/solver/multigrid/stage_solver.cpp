@@ -181,8 +181,7 @@ int StageSolver::solveLinear(const Vectors& increment, const Rule& rule, double 
   return k;
 }
 
-/// Nodes of a block that a step may carry away from those around: a bound by squares, sum k |d| <= sqrt(sum k sum k
-/// d^2).
+/// Nodes of a block that a step may carry away from others: a bound by squares, sum k |d| <= sqrt(sum k sum k d^2).
 /// @return a bit each
 uint32_t StageSolver::mayBeFar(const Block& block) const {
   const size_t n = level.places();

@@ -36,8 +36,7 @@ class Touching : public Touched {
   void forPressedBefore(const Each& each) const {
     for (const uint32_t place : pressed_) each(size_t{place});
   }
-  /// Calls each(place) for nodes that press: in the rest of the step they go on evenly, and their inertia is not in the
-  /// balance.
+  /// Calls each(place) for nodes that press: they go on evenly to the step's end, their inertia not in the balance.
   template <class Each>
   void goOnEvenly(const Each& each) {
     for (Node& node : nodes_) {

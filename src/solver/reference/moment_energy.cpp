@@ -34,8 +34,7 @@ Tensor<T> stressOf(const Tensor<T>& strain, double lambda_over_mu) {
   return out;
 }
 
-/// The gradient of strain along axis n: the plane across it bends in its two directions and twists, and is free to
-/// thin.
+/// The gradient of strain along axis n: the plane across it bends in both directions and twists, and may thin.
 /// @param s  s(m, l) = direction of edge m . H_l
 template <class T>
 Tensor<T> strainGradient(const Tensor<T>& s, int n, double nu) {

@@ -76,8 +76,7 @@ class ReferenceLattice {
   double volumeEnergy(const Field& u_m) const;   ///< [J]
   /// What cells have by moments beside that, springs less what they lack: may be negative [J].
   double momentEnergy(const Field& u_m) const;
-  /// Largest force of a spring, or of one that is strained by 1e-6 where all are less [N]: what a residual is held
-  /// against.
+  /// Largest force of a spring, or of one strained by 1e-6 where all are less [N]: what residuals are held to.
   double forceScale(const Field& u_m) const;
 
   /// Row and column of a node's axis in stiffnessMatrix(): 3 * (place in `active`) + axis.

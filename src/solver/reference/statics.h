@@ -33,8 +33,7 @@ struct StaticsReport {
 };
 
 /// Static equilibrium of elastic energy, gravity and external forces: Newton's method with line search, from
-/// solver.u_m. Nodes with kFixedBit, held ones and lone ones stay where they are. Leaves u in solver.u_m and zero
-/// velocities.
+/// solver.u_m. Nodes that are fixed, held or lone stay where they are. Leaves u in solver.u_m and zero velocities.
 /// @param external_n  [slots] forces on nodes, or empty
 /// @throws ConvergenceError
 StaticsReport solveStatics(ReferenceSolver& solver, const std::vector<PrescribedDof>& prescribed,

@@ -152,8 +152,7 @@ TEST_F(PaperErrors, FragmentsThatFallAreStoppedWhereSleepDistanceEnds) {
 }
 
 /// Free fall in numbers that float32 holds exactly: dt^2 a is a quarter of a digit of u, which is lost whenever it is
-/// added to u alone. With what it moves on anyway it is (n - 1/2)/4 digits in the n-th substep: roundings cancel every
-/// fourth.
+/// added to u alone. With what it moves on anyway it is (n - 1/2)/4 digits in substep n: roundings cancel every fourth.
 TEST_F(PaperErrors, IncrementsAreSummedBeforeTheyAreAddedToTheDisplacement) {
   constexpr int kTicks = 8, kSubsteps = 128;
   constexpr double kDt_s = 1.0 / 8192, kGravity = 2, kStart_m = 1.25, kDigit_m = 1.0 / (1 << 23);

@@ -277,8 +277,7 @@ struct Scene {
 using Overrides = std::vector<std::string>;
 
 /// Overrides that make a mesh file, relative to the working directory, the tissue of the first body: centred on the
-/// body's origin, upright (glTF's y up is turned to z). None for an empty name. Overrides that come later go before
-/// them.
+/// body's origin, upright (glTF's y up is turned to z). None for an empty name. Later overrides go before them.
 Overrides meshOverrides(const std::string& mesh_file);
 
 /// Reads and checks a scene file.

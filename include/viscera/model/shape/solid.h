@@ -92,8 +92,7 @@ using DistanceField = std::function<LabelledDistance(const Vector3d& point_m)>;
 Solid voxelise(const DistanceField& field, const std::vector<std::string>& part_names, const Vector3d& min_m,
                const Vector3d& max_m, double spacing_m, const Progress& progress = {});
 
-/// Per axis, a coordinate [m] that a plane of nodes passes through; where there is none, the grid is centred on the
-/// body.
+/// Per axis, a coordinate [m] that a plane of nodes passes through; without one the grid is centred on the body.
 using NodePlanes = std::array<std::optional<double>, 3>;
 
 /// Every cell that holds tissue, with the part of it that is tissue and its moments: exact but for rounding, or, where
@@ -117,8 +116,7 @@ TriangleMesh extractSkin(const DistanceField& field, const std::vector<std::stri
                          const Vector3d& max_m, double spacing_m);
 
 /// @param cells  wanted along x, y, z, however many
-/// @throws LatticeError  a grid of `cells` cells needs more memory than the machine has free; names the spacing that
-/// fits
+/// @throws LatticeError  `cells` cells need more memory than the machine has free; names the spacing that fits
 void requireGridMemory(const Eigen::Array3d& cells, double spacing_m);
 
 }  // namespace viscera
