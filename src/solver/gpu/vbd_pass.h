@@ -10,8 +10,8 @@
 namespace viscera {
 
 /// Vertex block descent on implicit Euler (physics.md 2): colour by colour, every node goes to the minimum of the
-/// incremental potential over its own increment, by one step with a 3x3 block. Every step descends.
-/// Owner of shaders/solver/vbd.comp.
+/// incremental potential over its own increment, by one step with a 3x3 block. Every step descends. Owner of
+/// shaders/solver/vbd.comp.
 class VbdPass : public Stepper {
  public:
   /// @param iterations  sweeps over all colours per substep
