@@ -17,10 +17,11 @@ if(NOT DYNAMIC_RECONFIGURE_INCLUDE)
   message(STATUS "dynamic_reconfigure not found: limits and rates stay as the scene has them")
   list(FILTER node_sources EXCLUDE REGEX "_settings\\.cpp$|settings_server\\.cpp$")
 endif()
-add_library(viscera_nodes STATIC ${node_sources})
+include(cmake/foreign_messages.cmake)
+add_library(viscera_nodes STATIC ${node_sources} ${VISCERA_FOREIGN_HEADERS})
 add_dependencies(viscera_nodes ${PROJECT_NAME}_generate_messages_cpp ${catkin_EXPORTED_TARGETS})
 target_include_directories(viscera_nodes PUBLIC ${PROJECT_SOURCE_DIR}/src)
-target_include_directories(viscera_nodes SYSTEM PUBLIC ${catkin_INCLUDE_DIRS} ${interactive_markers_INCLUDE_DIRS}
+target_include_directories(viscera_nodes SYSTEM PUBLIC ${VISCERA_FOREIGN_INCLUDE} ${catkin_INCLUDE_DIRS} ${interactive_markers_INCLUDE_DIRS}
                            ${CATKIN_DEVEL_PREFIX}/${CATKIN_GLOBAL_INCLUDE_DESTINATION})
 target_compile_options(viscera_nodes PRIVATE ${VISCERA_CXX_FLAGS})
 target_compile_definitions(viscera_nodes PUBLIC ${VISCERA_ROS_DEFINITIONS})

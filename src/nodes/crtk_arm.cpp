@@ -60,7 +60,7 @@ void CrtkArm::subscribe(ros::NodeHandle& node, FrameLookup lookup) {
   setpoint_cp_ = node.advertise<geometry_msgs::PoseStamped>(at + "setpoint_cp", kNewest);
   goal_cp_ = node.advertise<geometry_msgs::PoseStamped>(at + "goal_cp", kNewest);
   measured_cv_ = node.advertise<geometry_msgs::TwistStamped>(at + "measured_cv", kNewest);
-  operating_state_ = node.advertise<foreign::OperatingState>(at + "operating_state", kEvents, true);
+  operating_state_ = node.advertise<crtk_msgs::OperatingState>(at + "operating_state", kEvents, true);
   measured_js_ = node.advertise<sensor_msgs::JointState>(at + "jaw/measured_js", kNewest);
   setpoint_js_ = node.advertise<sensor_msgs::JointState>(at + "jaw/setpoint_js", kNewest);
   const auto hints = ros::TransportHints().tcpNoDelay();
@@ -140,7 +140,7 @@ void CrtkArm::onJaw(const sensor_msgs::JointState& message, bool moves) {
   }
 }
 
-void CrtkArm::onState(const foreign::StringStamped& message) {
+void CrtkArm::onState(const crtk_msgs::StringStamped& message) {
   const std::lock_guard<std::mutex> lock(mutex_);
   const ArmMotion before = motion_;
   if (const std::optional<std::string> wrong = motion_.command(message.string))
@@ -202,7 +202,7 @@ void CrtkArm::tellSetpoints() {
 
 void CrtkArm::tellState() {
   told_busy_ = motion_.busy();
-  foreign::OperatingState message;
+  crtk_msgs::OperatingState message;
   message.header.stamp = ros::Time::now();
   message.state = viscera::text(motion_.state());
   message.is_homed = motion_.homed();

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <crtk_msgs/OperatingState.h>
+#include <crtk_msgs/StringStamped.h>
 #include <geometry_msgs/PoseStamped.h>
 #include <geometry_msgs/TwistStamped.h>
 #include <ros/node_handle.h>
@@ -14,7 +16,6 @@
 #include <vector>
 
 #include "devices/arm_motion.h"
-#include "nodes/foreign/crtk_msgs.h"
 #include "nodes/stylus_mailbox.h"
 
 namespace viscera::nodes {
@@ -41,7 +42,7 @@ class CrtkArm {
   void onVelocity(const geometry_msgs::TwistStamped& message);
   void onHold();
   void onJaw(const sensor_msgs::JointState& message, bool moves);
-  void onState(const foreign::StringStamped& message);
+  void onState(const crtk_msgs::StringStamped& message);
   bool good(const geometry_msgs::PoseStamped& message, const std::string& topic);
   void refuse(const std::string& topic, Drop reason);
   void place();

@@ -4,10 +4,10 @@
 
 #include <geometry_msgs/PoseStamped.h>
 #include <geometry_msgs/TransformStamped.h>
+#include <omni_msgs/OmniButtonEvent.h>
 #include <sensor_msgs/Joy.h>
 
 #include "nodes/device_messages.h"
-#include "nodes/foreign/omni_msgs.h"
 
 namespace viscera::nodes {
 namespace {
@@ -59,7 +59,7 @@ ros::Subscriber listenToButtons(ros::NodeHandle& node, const ButtonPort& port, c
     return node.subscribe<sensor_msgs::Joy>(port.topic, kButtonQueue, on_joy, ros::VoidConstPtr(), promptly());
   }
   if (port.type != ButtonType::kOmniButton) return {};
-  using Event = foreign::OmniButtonEvent;
+  using Event = omni_msgs::OmniButtonEvent;
   const boost::function<void(const boost::shared_ptr<const Event>&)> on_event =
       [heard](const boost::shared_ptr<const Event>& message) {
         heard({message->grey_button, message->white_button});

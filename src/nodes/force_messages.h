@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <geomagic_control/DeviceFeedback.h>
 #include <geometry_msgs/Wrench.h>
 #include <geometry_msgs/WrenchStamped.h>
+#include <omni_msgs/OmniFeedback.h>
 #include <ros/node_handle.h>
 #include <ros/time.h>
 
@@ -12,8 +14,6 @@
 
 #include "devices/device_profile.h"
 #include "nodes/conversions.h"
-#include "nodes/foreign/geomagic_control.h"
-#include "nodes/foreign/omni_msgs.h"
 
 namespace viscera::nodes {
 
@@ -27,15 +27,17 @@ inline void setForce(geometry_msgs::WrenchStamped& out, const geometry_msgs::Wre
 inline void setForce(geometry_msgs::Wrench& out, const geometry_msgs::WrenchStamped& wrench, const Vector3d&) {
   out = wrench.wrench;
 }
-inline void setForce(foreign::OmniFeedback& out, const geometry_msgs::WrenchStamped& wrench, const Vector3d& position) {
+inline void setForce(omni_msgs::OmniFeedback& out, const geometry_msgs::WrenchStamped& wrench,
+                     const Vector3d& position) {
   constexpr double kMillimetresPerMetre = 1000;  // omni_common's poses are in metres, its lock in millimetres
   out.force = wrench.wrench.force;
   out.position = toVector(kMillimetresPerMetre * position);
 }
-inline void setForce(foreign::GeomagicFeedback& out, const geometry_msgs::WrenchStamped& wrench,
+inline void setForce(geomagic_control::DeviceFeedback& out, const geometry_msgs::WrenchStamped& wrench,
                      const Vector3d& position) {
   out.force = wrench.wrench.force;
   out.position = toVector(position);
+  out.lock.assign(3, false);
 }
 
 /// Takes the force out of a message; the place of a lock stays.
@@ -46,10 +48,10 @@ inline void setZero(geometry_msgs::WrenchStamped& out) {
 inline void setZero(geometry_msgs::Wrench& out) {
   out = {};
 }
-inline void setZero(foreign::OmniFeedback& out) {
+inline void setZero(omni_msgs::OmniFeedback& out) {
   out.force = {};
 }
-inline void setZero(foreign::GeomagicFeedback& out) {
+inline void setZero(geomagic_control::DeviceFeedback& out) {
   out.force = {};
 }
 
@@ -64,16 +66,16 @@ void withForceMessage(ForceType type, const Use& use) {
     case ForceType::kWrench:
       return use(geometry_msgs::Wrench());
     case ForceType::kOmniFeedback:
-      return use(foreign::OmniFeedback());
+      return use(omni_msgs::OmniFeedback());
     case ForceType::kGeomagicFeedback:
-      return use(foreign::GeomagicFeedback());
+      return use(geomagic_control::DeviceFeedback());
   }
 }
 
 /// The name under which a driver knows the message.
 template <class Message>
 std::string forceDatatype(const ForcePort& port) {
-  if (std::is_same<Message, foreign::GeomagicFeedback>::value) return port.message;
+  if (std::is_same<Message, geomagic_control::DeviceFeedback>::value) return port.message;
   return ros::message_traits::datatype<Message>();
 }
 

@@ -19,20 +19,20 @@ double shareAt(const ContactModel& model, const Vector3d& tip_m, SteadyTime now,
 
 }  // namespace
 
-foreign::CartesianImpedance noImpedance(const std::string& frame, const ros::Time& stamp) {
-  foreign::CartesianImpedance out;
+crtk_msgs::CartesianImpedance noImpedance(const std::string& frame, const ros::Time& stamp) {
+  crtk_msgs::CartesianImpedance out;
   out.header.frame_id = frame;
   out.header.stamp = stamp;
   out.force_orientation.w = out.torque_orientation.w = 1;
   return out;
 }
 
-foreign::CartesianImpedance toImpedance(const HapticServo& servo, const StylusMailbox& mailbox, double most_n,
-                                        SteadyTime now, const ros::Time& stamp) {
+crtk_msgs::CartesianImpedance toImpedance(const HapticServo& servo, const StylusMailbox& mailbox, double most_n,
+                                          SteadyTime now, const ros::Time& stamp) {
   const DeviceFrame frame = mailbox.deviceFrame();
   const DeviceProfile& device = mailbox.device();
   const StylusSample hand = mailbox.peek(now);
-  foreign::CartesianImpedance out = noImpedance(frame.name, stamp);
+  crtk_msgs::CartesianImpedance out = noImpedance(frame.name, stamp);
   const ContactModel& model = servo.model();
   const Vector3d& normal = model.normal();
   const bool felt = hand.valid && !mailbox.clutched() && model.kind() != TickContact::Kind::kFree;

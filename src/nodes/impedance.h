@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <crtk_msgs/CartesianImpedance.h>
 #include <ros/time.h>
 
 #include <string>
 
-#include "nodes/foreign/crtk_cartesian_impedance.h"
 #include "nodes/stylus_mailbox.h"
 #include "viscera/haptics/haptic_servo.h"
 
@@ -19,9 +19,9 @@ namespace viscera::nodes {
 /// than the stylus and its device may, all shrinks by one factor. Nothing is felt by a hand that is not there, or has
 /// the clutch.
 /// @param most_n  largest force on the tip
-foreign::CartesianImpedance toImpedance(const HapticServo& servo, const StylusMailbox& mailbox, double most_n,
-                                        SteadyTime now, const ros::Time& stamp);
+crtk_msgs::CartesianImpedance toImpedance(const HapticServo& servo, const StylusMailbox& mailbox, double most_n,
+                                          SteadyTime now, const ros::Time& stamp);
 /// Nothing is felt.
-foreign::CartesianImpedance noImpedance(const std::string& frame, const ros::Time& stamp);
+crtk_msgs::CartesianImpedance noImpedance(const std::string& frame, const ros::Time& stamp);
 
 }  // namespace viscera::nodes

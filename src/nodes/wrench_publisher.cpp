@@ -34,7 +34,7 @@ WrenchPublisher::WrenchPublisher(ros::NodeHandle& node, const std::vector<const 
   for (const StylusMailbox* mailbox : mailboxes_) {
     if (!loop_.betweenTicks()) break;
     energies_.push_back(node.advertise<std_msgs::Float64>(mailbox->config().name + "/energy", 1));
-    impedances_.push_back(node.advertise<foreign::CartesianImpedance>(mailbox->config().name + "/servo_ci", 1));
+    impedances_.push_back(node.advertise<crtk_msgs::CartesianImpedance>(mailbox->config().name + "/servo_ci", 1));
   }
   thread_ = std::thread([this] { main(); });
 }
@@ -178,7 +178,7 @@ void WrenchPublisher::sendImpedances(bool live) {
   const ros::Time stamp = ros::Time::now();
   for (size_t s = 0; s < impedances_.size(); ++s) {
     if (impedances_[s].getNumSubscribers() == 0) continue;
-    foreign::CartesianImpedance message = noImpedance(mailboxes_[s]->deviceFrame().name, stamp);
+    crtk_msgs::CartesianImpedance message = noImpedance(mailboxes_[s]->deviceFrame().name, stamp);
     if (live) {
       const std::lock_guard<PriorityMutex> lock(mutex_);
       message = toImpedance(loop_.servo(s), *mailboxes_[s], loop_.schedule().limits(s).force_n, Clock::now(), stamp);

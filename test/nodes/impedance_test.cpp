@@ -45,7 +45,7 @@ void tell(StylusMailbox& mailbox, const DeviceProfile& device, double z_m) {
 }
 
 /// What a device that has this impedance gives at a place of its own, in its own axes.
-Vector3d forceAt(const foreign::CartesianImpedance& it, const Vector3d& device_m) {
+Vector3d forceAt(const crtk_msgs::CartesianImpedance& it, const Vector3d& device_m) {
   const auto vector = [](const geometry_msgs::Vector3& v) { return Vector3d(v.x, v.y, v.z); };
   const Quaterniond axes(it.force_orientation.w, it.force_orientation.x, it.force_orientation.y,
                          it.force_orientation.z);
@@ -72,7 +72,7 @@ TEST(Impedance, IsTheForceThatGoesOutWhateverStandsBetweenDeviceAndTool) {
     }
     StylusMailbox mailbox(StylusConfig{}, "tissue", device);
     tell(mailbox, device, -0.0015);
-    const foreign::CartesianImpedance out = toImpedance(servo, mailbox, 5, kNow, ros::Time(10));
+    const crtk_msgs::CartesianImpedance out = toImpedance(servo, mailbox, 5, kNow, ros::Time(10));
     EXPECT_EQ(out.header.frame_id, mailbox.deviceFrame().name);
     const Vector3d tip_m(0, 0, -0.0015);
     const Vector3d wanted_n = servo.model().at(tip_m, 3600).force_n;
@@ -87,7 +87,7 @@ TEST(Impedance, GivesNoMoreThanTheStylusMay) {
   DeviceProfile device;
   StylusMailbox mailbox(StylusConfig{}, "tissue", device);
   tell(mailbox, device, -0.0015);
-  const foreign::CartesianImpedance out = toImpedance(pressed(), mailbox, 0.1, kNow, ros::Time(10));
+  const crtk_msgs::CartesianImpedance out = toImpedance(pressed(), mailbox, 0.1, kNow, ros::Time(10));
   EXPECT_NEAR(forceAt(out, {0, 0, -0.0015}).norm(), 0.1, kRounding);
 }
 
