@@ -102,33 +102,23 @@ void followCameras(const OrganFit& fit, const Scene& made, Keys& keys) {
   }
 }
 
-bool isSet(const Overrides& own, const std::string& key) {
-  for (const std::string& text : own)
-    if (text.compare(0, key.size() + 1, key + "=") == 0) return true;
-  return false;
-}
-
-/// What a kind of tool is told of its size, and the key that told it once.
+/// What a kind of tool is told of its size.
 struct ToolSize {
-  const char *key, *former_key;
+  const char* key;
   double (*value_m)(const StylusConfig&);
 };
 constexpr std::array<ToolSize, 5> kToolSizes = {{
-    {"probe.radius_m", "probe_radius_m", [](const StylusConfig& c) { return c.probe.radius_m; }},
-    {"grab.radius_m", "grab_radius_m", [](const StylusConfig& c) { return c.grab.radius_m; }},
-    {"cut.blade_length_m", "blade_length_m", [](const StylusConfig& c) { return c.cut.blade_length_m; }},
-    {"cut_particles.eraser_radius_m", "eraser_radius_m",
-     [](const StylusConfig& c) { return c.cut_particles.eraser_radius_m; }},
-    {"suction.radius_m", nullptr, [](const StylusConfig& c) { return c.suction.radius_m; }},
+    {"probe.radius_m", [](const StylusConfig& c) { return c.probe.radius_m; }},
+    {"grab.radius_m", [](const StylusConfig& c) { return c.grab.radius_m; }},
+    {"cut.blade_length_m", [](const StylusConfig& c) { return c.cut.blade_length_m; }},
+    {"cut_particles.eraser_radius_m", [](const StylusConfig& c) { return c.cut_particles.eraser_radius_m; }},
+    {"suction.radius_m", [](const StylusConfig& c) { return c.suction.radius_m; }},
 }};
 
-void followTools(const OrganFit& fit, const Scene& made, const Overrides& own, Keys& keys) {
+void followTools(const OrganFit& fit, const Scene& made, Keys& keys) {
   for (size_t i = 0; i < made.styluses.size(); ++i) {
     const std::string key = item("styluses", i);
-    for (const ToolSize& size : kToolSizes) {
-      if (size.former_key && isSet(own, key + size.former_key)) continue;  // both names at once would be refused
-      keys.set(key + size.key, fit.hand_scale * size.value_m(made.styluses[i]));
-    }
+    for (const ToolSize& size : kToolSizes) keys.set(key + size.key, fit.hand_scale * size.value_m(made.styluses[i]));
   }
 }
 
@@ -168,24 +158,6 @@ Overrides joined(Overrides first, const Overrides& second) {
   return first;
 }
 
-/// A file may not say one thing under two names: what was set from outside it stays, else what followed the organ.
-void dropFormerNames(YAML::Node root, const YamlSource& source) {
-  for (size_t i = 0; i < root["styluses"].size(); ++i) {
-    YAML::Node stylus = root["styluses"][i];
-    for (const ToolSize& size : kToolSizes) {
-      if (!size.former_key || !stylus[size.former_key]) continue;
-      const std::string key = size.key;
-      YAML::Node group = stylus[key.substr(0, key.find('.'))];
-      const std::string name = key.substr(key.find('.') + 1);
-      if (!group || !group[name]) continue;
-      if (source.overridden.count(item("styluses", i) + size.former_key) > 0)
-        group.remove(name);
-      else
-        stylus.remove(size.former_key);
-    }
-  }
-}
-
 }  // namespace
 
 FittedScene loadFittedScene(const std::string& path, const Overrides& mesh, const Overrides& own) {
@@ -203,7 +175,7 @@ FittedScene loadFittedScene(const std::string& path, const Overrides& mesh, cons
   if (is_alone) {
     followObstacles(*fit, *made, keys);
     followCameras(*fit, *made, keys);
-    followTools(*fit, *made, own, keys);
+    followTools(*fit, *made, keys);
   }
   out.overrides = joined(joined(mesh, keys.take()), own);
   out.scene = loadScene(path, out.overrides);
@@ -221,7 +193,6 @@ std::string sceneYaml(const std::string& path, const Overrides& overrides, const
   } catch (const YAML::Exception& e) {
     throw SceneError(yamlFault(path, e));
   }
-  dropFormerNames(root, source);
   namespace fs = std::filesystem;
   const fs::path folder = fs::absolute(path).parent_path();
   for (YAML::Node body : root["bodies"]) {

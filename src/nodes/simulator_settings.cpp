@@ -38,8 +38,6 @@ class SomeKeys {
   template <class... Other>
   void names(Other&&...) {}
   template <class... Other>
-  void formerNumber(Other&&...) {}
-  template <class... Other>
   void group(Other&&...) {}
   template <class... Other>
   void choice(const char*, Other&&...) {}

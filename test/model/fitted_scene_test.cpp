@@ -19,7 +19,7 @@ constexpr const char* kScene =
     "bodies: [{name: block, source: box, box_size_m: [0.1, 0.1, 0.1], spacing_m: 0.01,\n"
     "  fixed: [{shape: plane, point_m: [0, 0, 0.03], normal: [0, 0, -1]},\n"
     "          {shape: box, min_m: [-0.05, -0.05, 0.04], max_m: [0, 0.05, 0.05]}]}]\n"
-    "styluses: [{name: left}, {name: right, blade_length_m: 0.03}]\n"
+    "styluses: [{name: left}, {name: right, cut: {blade_length_m: 0.03}}]\n"
     "cameras: [{name: eye, position_m: [0, -0.3, 0.1], target_m: [0, 0, 0.01]}]\n"
     "obstacles: [{name: floor, shape: plane, position_m: [0, 0, -0.06]}]\n";
 
@@ -78,7 +78,7 @@ TEST_F(Fit, OrgansOfAnySizeAreHeldWithoutAWord) {
 TEST_F(Fit, WhatIsSetGoesBefore) {
   const Overrides own = {"bodies[0].fixed[0].point_m=[0, 0, 0.001]", "cameras[0].target_m=[0, 0, 7]",
                          "bodies[0].spacing_m=0.003", "styluses[0].probe.radius_m=0.009",
-                         "styluses[1].blade_length_m=0.04"};
+                         "styluses[1].cut.blade_length_m=0.04"};
   const Scene scene = fitted(Vector3d::Constant(0.05), own).scene;
   EXPECT_EQ(scene.bodies[0].fixed[0].point_m, Vector3d(0, 0, 0.001));
   EXPECT_EQ(scene.cameras[0].target_m, Vector3d(0, 0, 7));

@@ -14,7 +14,7 @@
 namespace viscera {
 namespace {
 
-/// Every key, but for older names, each with a value that no other number has and that is not the default.
+/// Every key there is, each with a value that no other number has, and that is not the default.
 constexpr const char* kEveryKey = R"(
 name: full
 bodies:
@@ -70,11 +70,6 @@ styluses:
     cut: {blade_length_m: 0.063, blade_side: both}
     cut_particles: {eraser_radius_m: 0.0064}
     suction: {radius_m: 0.0066, max_force_n: 6.7, release_speed_m_per_s: 0.651}
-    probe_radius_m: 0.0061
-    grab_radius_m: 0.0062
-    blade_length_m: 0.063
-    eraser_radius_m: 0.0064
-    release_speed_m_per_s: 0.65
     max_force_n: 6.6
     max_force_rate_n_per_s: 670
     max_torque_nm: 0.67
@@ -298,45 +293,6 @@ TEST(SceneKeys, EveryKeyOfTheSurroundingsReachesItsField) {
   EXPECT_EQ(obstacle.frame, "arm");
   EXPECT_EQ(obstacle.friction, 0.409);
   EXPECT_EQ(obstacle.restitution, 0.411);
-}
-
-/// A scene whose only stylus has these keys.
-StylusConfig stylusOf(const std::string& keys, const Overrides& overrides = {}) {
-  return parseScene("bodies: [{name: a}]\nstyluses:\n  - {name: left, " + keys + "}\n", "s.yaml", overrides)
-      .styluses[0];
-}
-
-TEST(SceneKeys, OlderNamesOfAToolsKeysMeanTheSame) {
-  const StylusConfig stylus = stylusOf(
-      "probe_radius_m: 0.011, grab_radius_m: 0.012, blade_length_m: 0.013, eraser_radius_m: 0.014, "
-      "release_speed_m_per_s: 0.15");
-  EXPECT_EQ(stylus.probe.radius_m, 0.011);
-  EXPECT_EQ(stylus.grab.radius_m, 0.012);
-  EXPECT_EQ(stylus.cut.blade_length_m, 0.013);
-  EXPECT_EQ(stylus.cut_particles.eraser_radius_m, 0.014);
-  EXPECT_EQ(stylus.grab.release_speed_m_per_s, 0.15);
-  EXPECT_EQ(stylusOf("probe: {radius_m: 0.02}, probe_radius_m: 0.02").probe.radius_m, 0.02);
-}
-
-TEST(SceneKeys, OldAndNewNameThatDifferAreRefusedByBothNames) {
-  const std::string message =
-      test::messageOf<SceneError>([] { stylusOf("grab: {radius_m: 0.02}, grab_radius_m: 0.03"); });
-  EXPECT_TRUE(
-      test::says(message, {"s.yaml:3", "'styluses[0].grab_radius_m'", "'styluses[0].grab.radius_m'", "0.03", "0.02"}));
-}
-
-TEST(SceneKeys, OverrideOfOneNameGoesBeforeTheOtherInTheFile) {
-  EXPECT_EQ(stylusOf("probe: {radius_m: 0.02}", {"styluses[0].probe_radius_m=0.03"}).probe.radius_m, 0.03);
-  EXPECT_EQ(stylusOf("probe_radius_m: 0.02", {"styluses[0].probe.radius_m=0.03"}).probe.radius_m, 0.03);
-  const std::string message = test::messageOf<SceneError>([] {
-    stylusOf("idle: none", {"styluses[0].probe.radius_m=0.03", "styluses[0].probe_radius_m=0.02"});
-  });
-  EXPECT_TRUE(test::says(message, {"override", "'styluses[0].probe.radius_m'", "'styluses[0].probe_radius_m'"}));
-}
-
-TEST(SceneKeys, OlderNameOutOfRangeIsRefusedUnderTheNameThatWasGiven) {
-  const std::string message = test::messageOf<SceneError>([] { stylusOf("probe_radius_m: 5"); });
-  EXPECT_TRUE(test::says(message, {"s.yaml:3", "'styluses[0].probe_radius_m'", "0.0001 .. 1 m", "'5'"}));
 }
 
 TEST(SceneKeys, TableHoldsEveryKeyOnceAndNoOther) {

@@ -16,7 +16,6 @@ namespace viscera {
 // * choice(key, Enum&, {{name, value}...}, text)
 // * group(key, Struct&, text)
 // * list(key, std::vector<Struct>&, max_count, text, defaults of an item = {})
-// * formerNumber(old key, group, key, double&, Range, unit): what `group.key` was called before; after that group
 
 /// Accepted values, both ends included.
 struct Range {

@@ -23,9 +23,6 @@ class KeyTable {
   void numberOrAuto(const char* key, double& value, bool&, Range range, const char* unit, const char* text) {
     row(key, withUnit("number or auto", unit), numberText(value), span(range), text);
   }
-  void formerNumber(const char* old_key, const char* group, const char* key, double&, Range range, const char* unit) {
-    row(old_key, withUnit("number", unit), "", span(range), std::string("older name of `") + group + "." + key + "`");
-  }
   void integer(const char* key, int& value, Range range, const char* text) {
     row(key, "integer", std::to_string(value), span(range), text);
   }

@@ -19,7 +19,6 @@ inline std::vector<Choice<ToolMode>> toolChoices() {
 }
 
 constexpr Range kTipReach{1e-4, 1};     // m: of a tool
-constexpr Range kEraserReach{1e-5, 1};  // m
 constexpr Range kReleaseSpeed{0, 100};  // m/s
 
 template <class V>
@@ -45,8 +44,7 @@ void visitFields(V& v, CutConfig& c) {
 
 template <class V>
 void visitFields(V& v, CutParticlesConfig& c) {
-  v.number("eraser_radius_m", c.eraser_radius_m, kEraserReach, "m",
-           "nodes within this distance of the blade are erased");
+  v.number("eraser_radius_m", c.eraser_radius_m, {1e-5, 1}, "m", "nodes within this distance of the blade are erased");
 }
 
 template <class V>
@@ -69,13 +67,6 @@ void visitFields(V& v, StylusConfig& c) {
   v.group("cut", c.cut, "cut: a blade cuts the springs that it crosses");
   v.group("cut_particles", c.cut_particles, "cut_particles: the same blade erases the springs of nodes near it");
   v.group("suction", c.suction, "suction: holds the nodes around the tip as grab does, up to a force");
-  v.formerNumber("probe_radius_m", "probe", "radius_m", c.probe.radius_m, kTipReach, "m");
-  v.formerNumber("grab_radius_m", "grab", "radius_m", c.grab.radius_m, kTipReach, "m");
-  v.formerNumber("blade_length_m", "cut", "blade_length_m", c.cut.blade_length_m, kTipReach, "m");
-  v.formerNumber("eraser_radius_m", "cut_particles", "eraser_radius_m", c.cut_particles.eraser_radius_m, kEraserReach,
-                 "m");
-  v.formerNumber("release_speed_m_per_s", "grab", "release_speed_m_per_s", c.grab.release_speed_m_per_s, kReleaseSpeed,
-                 "m/s");
   v.number("max_force_n", c.max_force_n, {0, 1e3}, "N", "reaction force is saturated here");
   v.number("max_force_rate_n_per_s", c.max_force_rate_n_per_s, {1, 1e6}, "N/s", "reaction force changes no faster");
   v.number("max_torque_nm", c.max_torque_nm, {0, 1e2}, "N m", "reaction torque is saturated here");

@@ -200,21 +200,6 @@ void YamlReader::names(const char* key, Overlays& value, const char*) {
   }
 }
 
-void YamlReader::formerNumber(const char* old_key, const char* group, const char* key, double& value, Range range,
-                              const char* unit) {
-  const YAML::Node node = take(old_key), inside = map_[group];
-  if (!node) return;
-  const double old = scalar(old_key, node, range, unit);
-  const bool both = inside.IsDefined() && inside[key].IsDefined();
-  const std::string path = child(std::string(group) + "." + key);
-  const bool old_is_set = source_.sets(child(old_key)), new_is_set = source_.sets(path);
-  if (both && old != value && old_is_set == new_is_set) {
-    throw SceneError(whereIs(source_, child(old_key), node) + "'" + child(old_key) + "' is the older name of '" + path +
-                     "', and they differ: " + numberText(old) + " and " + numberText(value) + "; give one of them");
-  }
-  if (!both || old_is_set) value = old;
-}
-
 void YamlReader::requireNumbers(const char* key, const YAML::Node& node, size_t count, Range range,
                                 const char* unit) const {
   if (!node.IsSequence() || node.size() != count)

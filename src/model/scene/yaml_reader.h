@@ -49,10 +49,6 @@ class YamlReader {
   /// A list of x, y, z, w, of length 1 within a hundredth; normalised.
   void quaternion(const char* key, Quaterniond& value, const char* text);
   void given(bool& value) const { value = true; }  ///< a map that is read is there
-  /// The older name of a key that a group has now. Where both are given and differ, the one that was set from outside
-  /// the file goes before the other. @throws SceneError  naming both, where neither or both were
-  void formerNumber(const char* old_key, const char* group, const char* key, double& value, Range range,
-                    const char* unit);
 
   template <class E, class List>
   void choice(const char* key, E& value, const List& names, const char*) {
