@@ -110,16 +110,15 @@ std::string reason(const SpacingChoice& choice) {
   return "";
 }
 
-std::string noteOf(const SpacingChoice& choice, const StepTime& step, const Scene& scene, double share,
-                   const std::string& source) {
+std::string noteOf(const SpacingChoice& choice, const StepTime& step, const Scene& scene, double share) {
   const double nodes = static_cast<double>(choice.nodes);
   std::ostringstream out;
   out.precision(3);
   out << "spacing_m: auto: " << choice.spacing_m << " m, " << choice.nodes << " nodes, at most "
       << std::lround(choice.substeps_per_s) << " substeps per second; this machine steps "
-      << nodes / step.of(nodes) * 1e-6 << " M nodes/s (" << source << ") in " << share * 100
-      << " % of its time, real-time factor " << scene.solver.real_time_factor / std::max(choice.load, 1e-9) << " of "
-      << scene.solver.real_time_factor << " wanted: " << reason(choice);
+      << nodes / step.of(nodes) * 1e-6 << " M nodes/s in " << share * 100 << " % of its time, real-time factor "
+      << scene.solver.real_time_factor / std::max(choice.load, 1e-9) << " of " << scene.solver.real_time_factor
+      << " wanted: " << reason(choice);
   return out.str();
 }
 
@@ -134,7 +133,7 @@ double shareOfSteps(const Scene& scene, bool software, unsigned processors) {
 }
 
 Scene withChosenSpacing(const Scene& asked, const gpu::Context* context, const Progress& progress,
-                        const StepTimeCache& cache) {
+                        const std::optional<StepTime>& known) {
   const std::vector<size_t> chosen = autoBodies(asked);
   if (chosen.empty()) return asked;
   Scene scene = asked;  // an integrator that is chosen later is never slower than leapfrog
@@ -143,11 +142,8 @@ Scene withChosenSpacing(const Scene& asked, const gpu::Context* context, const P
   const UndividedBodies bodies(scene);
   const Model others = bodies.others();
   const SubstepRule rule(bodies, others, scene, context);
-  const std::string key = stepTimeKey(scene, context);
-  const std::optional<StepTime> known = cache.find(key);
   SpacingLimits limits;
   limits.step = known ? *known : measureStepTime(bodies, scene, context);
-  if (!known) cache.keep(key, limits.step);
   if (progress) progress("measure this machine", 1);
   const double share =
       shareOfSteps(scene, context != nullptr && context->isSoftware(), std::thread::hardware_concurrency());
@@ -164,8 +160,7 @@ Scene withChosenSpacing(const Scene& asked, const gpu::Context* context, const P
     out.bodies[b].auto_spacing = false;
     out.bodies[b].spacing_m = choice.spacing_m;
   }
-  out.bodies[chosen[0]].spacing_note =
-      noteOf(choice, limits.step, scene, share, known ? "measured before, " + cache.file() : "measured now");
+  out.bodies[chosen[0]].spacing_note = noteOf(choice, limits.step, scene, share);
   return out;
 }
 

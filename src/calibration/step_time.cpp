@@ -4,10 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
-#include <fstream>
 #include <limits>
-#include <sstream>
-#include <thread>
 
 #include "solver/make_solver.h"
 #include "solver/substeps.h"
@@ -95,35 +92,6 @@ TimedSubstep timeSubstep(const Model& model, const Scene& asked, const gpu::Cont
   return {static_cast<double>(model.activeNodes()), *quick};
 }
 
-/// What /proc/cpuinfo calls the processor.
-std::string processorName() {
-  std::ifstream file("/proc/cpuinfo");
-  for (std::string line; std::getline(file, line);) {
-    if (line.rfind("model name", 0) == 0) return line.substr(std::min(line.size(), line.find(':') + 2));
-  }
-  return "processor";
-}
-
-std::string integratorText(const SolverConfig& solver) {
-  std::ostringstream out;
-  out << "integrator " << static_cast<int>(solver.integrator);
-  if (traitsOf(solver.integrator).iterates) out << 'x' << solver.iterations;
-  if (solver.compensated) out << ", compensated";
-  if (solver.governor) out << ", governor";
-  return out.str();
-}
-
-/// What decides how full the bricks are and which terms a body has.
-std::string bodyText(const BodyConfig& body) {
-  std::ostringstream out;
-  if (body.source == TissueSource::kMesh) out << body.mesh_file;
-  if (body.source == TissueSource::kPhantom) out << "phantom " << body.phantom_wall_scale;
-  if (body.source == TissueSource::kBox) out << "box " << body.box_size_m.transpose();
-  out << (body.material.dashpot_ratio > 0 ? ", dashpot" : "") << ", nu " << body.material.poisson_ratio << ", "
-      << body.parts.size() << " parts";
-  return out.str();
-}
-
 }  // namespace
 
 StepTime stepTimeThrough(const TimedSubstep& small, const TimedSubstep& large) {
@@ -140,27 +108,6 @@ StepTime measureStepTime(const UndividedBodies& bodies, const Scene& scene, cons
   const double expected_s = small.seconds * kGrowth * substepsPerTick(scene.solver) * (kWarmUpTicks + kLeastTicks);
   if (expected_s > kPatience_s) return {0, small.seconds / small.nodes};
   return stepTimeThrough(small, timeSubstep(bodies.lattices(spacing_m / 2), scene, context));
-}
-
-std::string stepTimeKey(const Scene& scene, const gpu::Context* context) {
-  const SolverConfig& solver = scene.solver;
-  const bool on_cpu = chooseBackend(solver, context) == Backend::kCpu;
-  const unsigned threads =
-      solver.threads > 0 ? static_cast<unsigned>(solver.threads) : std::thread::hardware_concurrency();
-  std::ostringstream out;
-  out << VISCERA_VERSION << "; " << processorName();
-  if (on_cpu || !context) {
-    out << "; cpu, " << threads << " threads";
-  } else {
-    out << "; gpu, " << context->renderer() << ", " << context->version();
-  }
-  out << "; " << integratorText(solver) << "; styluses";
-  for (const StylusConfig& stylus : scene.styluses) out << ' ' << static_cast<int>(stylus.idle);
-  for (const size_t b : autoBodies(scene)) out << "; " << bodyText(scene.bodies[b]);
-  std::string key = out.str();
-  std::replace_if(
-      key.begin(), key.end(), [](char c) { return c == '\t' || c == '\n'; }, ' ');
-  return key;
 }
 
 }  // namespace viscera

@@ -28,8 +28,7 @@ MadeSession::~MadeSession() {
 
 void MadeSession::makeModel(const Progress& progress) {
   context = std::make_unique<gpu::Context>(scene.solver.device);
-  // How fast the machine is beside another simulation says little of how fast it will be.
-  scene = withChosenSpacing(scene, context.get(), progress, StepTimeCache::ofUser().asItIs());
+  scene = withChosenSpacing(scene, context.get(), progress);
   model = std::async(std::launch::async, [&] {
             giveWay();
             return std::make_shared<const Model>(buildModel(scene, progress));

@@ -3,7 +3,6 @@
 #include "viscera/calibration/auto_spacing.h"
 
 #include <gtest/gtest.h>
-#include <stdlib.h>
 
 #include <cmath>
 #include <thread>
@@ -13,7 +12,6 @@
 #include "solver/stable_step.h"
 #include "solver/substeps.h"
 #include "support/gpu_fixture.h"
-#include "support/temporary_folder.h"
 #include "support/text.h"
 #include "viscera/math/error.h"
 #include "viscera/solver/governor.h"
@@ -30,22 +28,14 @@ constexpr double kMostLoad = 1.02;  ///< the rule of substeps is taken from a co
 class AutoSpacing : public GpuTest {
  protected:
   AutoSpacing() {
-    setenv("XDG_CACHE_HOME", folder_.path().c_str(), 1);
-    cache_ = StepTimeCache::ofUser();
     scene_.bodies[0].auto_spacing = true;
     scene_.solver.backend = Backend::kCpu;
   }
-  ~AutoSpacing() override { unsetenv("XDG_CACHE_HOME"); }
-  Scene chosen() {
-    cache_.keep(stepTimeKey(scene_, &context_), kMachine);
-    return withChosenSpacing(scene_, &context_, {}, cache_);
-  }
+  Scene chosen() { return withChosenSpacing(scene_, &context_, {}, kMachine); }
   double chosenSpacing_m() { return chosen().bodies[0].spacing_m; }
   double share() { return shareOfSteps(scene_, context_.isSoftware(), std::thread::hardware_concurrency()); }
 
   Scene scene_ = blockScene();
-  TemporaryFolder folder_;
-  StepTimeCache cache_{""};
 };
 
 /// Clock time that stepping a second of a scene takes on the known machine, while the tissue is strained [s]: as far as
@@ -85,8 +75,7 @@ TEST(ShareOfSteps, LeavesASoftwareRasteriserWhatTenPicturesASecondTake) {
 TEST_F(AutoSpacing, IsFinerWhereSubstepsAreMeasured) {
   Scene proven = scene_;
   proven.solver.measured_limit = false;
-  cache_.keep(stepTimeKey(proven, &context_), kMachine);
-  const Scene without = withChosenSpacing(proven, &context_, {}, cache_), with = chosen();
+  const Scene without = withChosenSpacing(proven, &context_, {}, kMachine), with = chosen();
   EXPECT_LT(with.bodies[0].spacing_m, 0.92 * without.bodies[0].spacing_m);  // substeps 1.8 times as long: 1.8^(-1/4)
   EXPECT_LT(seconds(without), kMostLoad * share() / scene_.solver.real_time_factor);
 }
@@ -109,7 +98,7 @@ TEST_F(AutoSpacing, FollowsTheFactorTheStiffnessAndTheCameras) {
 TEST_F(AutoSpacing, NoteTellsTheChoiceAndWhy) {
   const std::string note = chosen().bodies[0].spacing_note;
   EXPECT_TRUE(says(note, {"spacing_m: auto: 0.00", " nodes, at most ", " substeps per second", " M nodes/s",
-                          "measured before, " + cache_.file(), "of 1.2 wanted: the finest that"}));
+                          "of 1.2 wanted: the finest that"}));
   EXPECT_EQ(note.find('\n'), std::string::npos);
 }
 
@@ -161,22 +150,9 @@ TEST_F(AutoSpacing, OfSeveralBodiesIsOneAndOthersKeepTheirs) {
 TEST_F(AutoSpacing, SceneWithoutItComesBackAsItIsAndNothingIsMeasured) {
   scene_.bodies[0].auto_spacing = false;
   int stages = 0;
-  const Scene scene = withChosenSpacing(
-      scene_, &context_, [&](const std::string&, double) { ++stages; }, cache_);
+  const Scene scene = withChosenSpacing(scene_, &context_, [&](const std::string&, double) { ++stages; });
   EXPECT_EQ(scene.bodies[0].spacing_m, 0.005);
   EXPECT_EQ(stages, 0);
-  EXPECT_TRUE(readFile(cache_.file()).empty());
-}
-
-TEST_F(AutoSpacing, MeasuresOnceAndThenRemembers) {
-  scene_.solver.real_time_factor = 50;  // a small lattice: the measurement is what is tested
-  const std::string first = withChosenSpacing(scene_, &context_, {}, cache_).bodies[0].spacing_note;
-  const std::string second = withChosenSpacing(scene_, &context_, {}, cache_).bodies[0].spacing_note;
-  EXPECT_TRUE(says(first, {"measured now"}));
-  EXPECT_TRUE(says(second, {"measured before"}));
-  const std::optional<StepTime> kept = cache_.find(stepTimeKey(scene_, &context_));
-  ASSERT_TRUE(kept.has_value());
-  EXPECT_GT(kept->per_node_s, 1e-12);  // a million million nodes per second is beyond any machine
 }
 
 TEST_F(AutoSpacing, EveryBackendCanBeMeasured) {
@@ -187,36 +163,16 @@ TEST_F(AutoSpacing, EveryBackendCanBeMeasured) {
   }
 }
 
-TEST_F(AutoSpacing, MeasurementIsOfAnotherKeyWhereItWouldDiffer) {
-  const std::string usual = stepTimeKey(scene_, &context_);
-  const auto keyWith = [&](const std::function<void(Scene&)>& change) {
-    Scene scene = scene_;
-    change(scene);
-    return stepTimeKey(scene, &context_);
-  };
-  EXPECT_NE(keyWith([](Scene& s) { s.solver.backend = Backend::kGpu; }), usual);
-  EXPECT_NE(keyWith([](Scene& s) { s.solver.threads = 77; }), usual);
-  EXPECT_NE(keyWith([](Scene& s) { s.solver.integrator = Integrator::kVbd; }), usual);
-  EXPECT_NE(keyWith([](Scene& s) { s.styluses.clear(); }), usual);
-  EXPECT_NE(keyWith([](Scene& s) { s.bodies[0].material.dashpot_ratio = 0; }), usual);
-  EXPECT_NE(keyWith([](Scene& s) { s.bodies[0].material.poisson_ratio = 0.4; }), usual);
-  EXPECT_NE(keyWith([](Scene& s) { s.bodies[0].source = TissueSource::kPhantom; }), usual);
-  EXPECT_EQ(keyWith([](Scene& s) { s.bodies[0].material.young_modulus_pa = 5; }), usual);
-}
-
 TEST_F(AutoSpacing, NeedsNoContextWhereTheCpuSteps) {
   scene_.solver.backend = Backend::kCpu;
-  EXPECT_EQ(stepTimeKey(scene_, nullptr), stepTimeKey(scene_, &context_));
   EXPECT_GT(measureStepTime(UndividedBodies(scene_), scene_, nullptr).of(1000), 0);
 }
 
 TEST_F(AutoSpacing, SessionHasTheLatticeThatWasChosen) {
   scene_.solver.real_time_factor = 400;
-  cache_.keep(stepTimeKey(scene_, &context_), kMachine);
   Session session(scene_, context_);
   const double spacing_m = session.model().bodies[0].lattice.spacing_m;
   EXPECT_EQ(spacing_m, session.scene().bodies[0].spacing_m);
-  EXPECT_EQ(spacing_m, chosenSpacing_m());
   EXPECT_TRUE(says(session.model().bodies[0].notes.at(0), {"spacing_m: auto"}));
   EXPECT_TRUE(std::isfinite(session.step({}, {}).health.kinetic_j));
 }

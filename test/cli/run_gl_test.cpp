@@ -300,36 +300,16 @@ TEST_F(Run, OverrideChangesTheScene) {
   EXPECT_EQ(metricsOf(run({"--seconds", "0.02", "--set", "bodies[0].spacing_m=0.02"}))["nodes"], 27);
 }
 
-/// Runs with spacing_m: auto, its measurements kept below a folder.
-class AutoSpacing : public Run {
- protected:
-  Ending runAuto(const std::string& cache, const std::string& factor = "100") const {
-    return viscera({"run", scene_, "--seconds", "0.02", "--set", "bodies[0].spacing_m=auto", "--set",
-                    "solver.real_time_factor=" + factor},
-                   {"XDG_CACHE_HOME=" + cache});
-  }
-  static std::string noteOf(const Ending& ending) {
-    for (const std::string& line : linesOf(ending.out))
-      if (line.rfind("block: spacing_m: auto: ", 0) == 0) return line;
-    return "no note";
-  }
-};
-
-TEST_F(AutoSpacing, IsMeasuredOnceAndTellsTheChoice) {
-  const Ending first = runAuto(folder_.path(), "2"), second = runAuto(folder_.path(), "2");
-  const int nodes = metricsOf(first)["nodes"];
-  EXPECT_TRUE(says(noteOf(first), {" " + std::to_string(nodes) + " nodes, ", "(measured now)", " of 2 wanted"}));
-  EXPECT_TRUE(says(noteOf(second), {" " + std::to_string(nodes) + " nodes, ", "(measured before, " + folder_.path()}));
-  EXPECT_EQ(metricsOf(second)["state_hash"], metricsOf(first)["state_hash"]);
-  EXPECT_LT(metricsOf(runAuto(folder_.path(), "1000"))["nodes"], nodes);
-}
-
-TEST_F(AutoSpacing, BrokenOrUnwritableCacheIsNoError) {
-  fs::create_directories(folder_.file("viscera"));
-  folder_.write("viscera/step_times.tsv", "\xff\tnoise\n\n");
-  EXPECT_TRUE(says(noteOf(runAuto(folder_.path())), {"(measured now)"}));
-  EXPECT_TRUE(says(noteOf(runAuto(folder_.path())), {"(measured before"}));
-  EXPECT_TRUE(says(noteOf(runAuto(scene_)), {"(measured now)"}));  // a file, in which no folder can be made
+TEST_F(Run, SpacingThatTheMachineChoosesIsToldWithItsReason) {
+  const auto nodesAt = [&](const std::string& factor) {
+    const Ending ending =
+        run({"--seconds", "0.02", "--set", "bodies[0].spacing_m=auto", "--set", "solver.real_time_factor=" + factor});
+    const int nodes = metricsOf(ending)["nodes"];
+    EXPECT_TRUE(says(ending.out, {"block: spacing_m: auto: ", " " + std::to_string(nodes) + " nodes, ",
+                                  " of " + factor + " wanted: "}));
+    return nodes;
+  };
+  EXPECT_LT(nodesAt("1000"), nodesAt("2"));
 }
 
 TEST_F(Run, MeshOfTheCommandLineBecomesTheTissue) {

@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <string>
 #include <vector>
 
@@ -15,7 +14,6 @@ namespace {
 
 /// What is told while a session is made of two bodies, one of them with a spacing to be found.
 std::vector<int> percentsOf(const Scene& scene) {
-  setenv("XDG_CACHE_HOME", "/dev/null", 1);  // nothing of it is kept
   Preparation preparation(scene);
   std::vector<int> out;
   const Session session(

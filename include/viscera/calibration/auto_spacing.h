@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
+
 #include "viscera/calibration/step_time.h"
 
 namespace viscera {
@@ -10,9 +12,10 @@ namespace viscera {
 /// this machine steps solver.real_time_factor times as fast as the clock. A line that tells the choice and its reason
 /// becomes a note of the first of them. Other scenes come back as they are, and nothing is measured.
 /// @param context  current on this thread, or null: there is none
+/// @param known  how fast this machine is; none: it is measured here
 /// @throws MeshError, LatticeError, SceneError  as buildModel()
 Scene withChosenSpacing(const Scene& scene, const gpu::Context* context, const Progress& progress = {},
-                        const StepTimeCache& cache = StepTimeCache::ofUser());
+                        const std::optional<StepTime>& known = {});
 
 /// Share of the clock that steps may take; surface, pictures and who looks at them have the rest. On a software
 /// rasteriser that leaves time for 10 pictures a second of every camera, and for a viewer on the same processors.
