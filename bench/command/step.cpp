@@ -2,15 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bench/command/step.h"
 
-#include <algorithm>
-#include <chrono>
 #include <fstream>
 #include <iostream>
 #include <thread>
 
 #include "bench/command/stages.h"
 #include "bench/harness/backends.h"
-#include "bench/harness/rate.h"
+#include "calibration/timed_ticks.h"
 #include "cli/scene_lookup.h"
 #include "solver/cpu/cpu_solver.h"
 #include "viscera/math/error.h"
@@ -20,8 +18,7 @@ namespace viscera::bench {
 
 namespace {
 
-constexpr int kWarmUpTicks = 2;
-constexpr int kTicks = 24;
+constexpr TimedTicks kTicks{24, 24, 0};
 constexpr int kSubstepsPerTick = 20;  // a rate like that of a live session: one measurement pass in 20 substeps
 
 struct Row {
@@ -51,30 +48,10 @@ Scene hangingScene(TissueSource source, int nodes) {
   return scene;
 }
 
-/// The tick is made as long as the wanted number of substeps.
-void fitTick(const Model& model, Scene& scene) {
-  scene.solver.measured_limit = false;
-  scene.solver.tick_hz = 1.0 / (kSubstepsPerTick * scene.solver.dt_fraction * safeTimeStep(model)) * (1 + 1e-9);
-}
-
-/// Milliseconds per substep of every timed tick.
-std::vector<double> timesOf(Ticks& solver) {
-  std::vector<double> ms;
-  layout::TickStats stats;
-  for (int t = 0; t < kWarmUpTicks + kTicks; ++t) {
-    const auto start = std::chrono::steady_clock::now();
-    solver.step({});
-    while (solver.pollStats(stats, true)) {
-    }
-    const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
-    if (t >= kWarmUpTicks) ms.push_back(took.count() / solver.substeps());
-  }
-  return ms;
-}
-
 Row measure(const Model& model, const Scene& scene, Backend backend, const Machine& machine) {
   const std::unique_ptr<Ticks> solver = solverOn(backend, model, scene);
-  const std::vector<double> ms = timesOf(*solver);
+  const std::vector<double> substep_s = substepTimes(
+      *solver, [] { return ToolMotions(); }, kTicks);
   const auto there = static_cast<int>(std::thread::hardware_concurrency());
   Row row;
   row.scene = scene.name;
@@ -82,8 +59,8 @@ Row measure(const Model& model, const Scene& scene, Backend backend, const Machi
   row.backend = backend;
   row.threads = backend == Backend::kCpu && scene.solver.threads > 0 ? scene.solver.threads : there;
   row.renderer = backend == Backend::kCpu ? simdTargets().front() : machine.context->renderer();
-  row.median_ms = median(ms);
-  row.p99_ms = percentile(ms, 0.99);
+  row.median_ms = 1e3 * median(substep_s);
+  row.p99_ms = 1e3 * percentile(substep_s, 0.99);
   row.hash = StateHash::text(stateHash(model, solver->readState()));
   return row;
 }
@@ -102,7 +79,7 @@ void stagesOf(const std::vector<Scene>& scenes, std::ostream& out) {
   printStageNames(out);
   for (Scene scene : scenes) {
     const Model model = buildModel(scene, cli::consoleProgress());
-    fitTick(model, scene);
+    fitTick(scene.solver, model, kSubstepsPerTick);
     printStages(out, model, scene);
   }
 }
@@ -111,7 +88,7 @@ void measureAll(const std::vector<Scene>& scenes, const Machine& machine, int th
   out << "scene,nodes,backend,threads,renderer,ms_per_step_median,ms_per_step_p99,node_updates_per_s,state_hash\n";
   for (Scene scene : scenes) {
     const Model model = buildModel(scene, cli::consoleProgress());
-    fitTick(model, scene);
+    fitTick(scene.solver, model, kSubstepsPerTick);
     if (threads > 0) scene.solver.threads = threads;
     for (const Backend backend : machine.backends) print(out, measure(model, scene, backend, machine));
   }

@@ -48,16 +48,6 @@ Rate rateOf(const Candidate& candidate, const std::vector<double>& substep_s) {
 
 }  // namespace
 
-double percentile(std::vector<double> values, double share) {
-  const size_t at = std::min(values.size() - 1, static_cast<size_t>(share * static_cast<double>(values.size())));
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(at), values.end());
-  return values[at];
-}
-
-double median(std::vector<double> values) {
-  return percentile(std::move(values), 0.5);
-}
-
 std::vector<Rate> measureRates(const std::vector<Candidate>& candidates, double seconds, int rounds) {
   std::vector<int> ticks;
   for (const Candidate& c : candidates) ticks.push_back(ticksIn(c.tick, seconds));
@@ -71,14 +61,8 @@ std::vector<Rate> measureRates(const std::vector<Candidate>& candidates, double 
 }
 
 Candidate candidate(const std::string& name, std::shared_ptr<Solver> solver, size_t nodes, const ToolMotions& motions) {
-  return {name, static_cast<double>(nodes), [solver = std::move(solver), motions] {
-            const uint64_t before = solver->substepsDone();
-            layout::TickStats stats;
-            solver->step(motions);
-            while (solver->pollStats(stats, true)) {
-            }
-            return static_cast<double>(solver->substepsDone() - before);
-          }};
+  return {name, static_cast<double>(nodes),
+          [solver = std::move(solver), motions] { return stepAndWait(*solver, motions); }};
 }
 
 std::shared_ptr<Ticks> onCpu(const Specimen& specimen, int threads, const std::string& simd) {

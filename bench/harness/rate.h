@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bench/harness/specimen.h"
+#include "calibration/timed_ticks.h"
 
 namespace viscera::bench {
 
@@ -46,10 +47,5 @@ std::shared_ptr<Ticks> onGpu(const Specimen& specimen);
 
 /// Both backends side by side, all threads: "cpu" and "gpu".
 std::vector<Candidate> bothBackends(const Specimen& specimen, const ToolMotions& motions = {});
-
-/// Middle value, the upper of two. @param values  not empty
-double median(std::vector<double> values);
-/// Value below which a share of the values lies. @param values  not empty   @param share  0..1
-double percentile(std::vector<double> values, double share);
 
 }  // namespace viscera::bench

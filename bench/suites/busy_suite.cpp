@@ -7,6 +7,7 @@
 #include "bench/harness/busy_processes.h"
 #include "bench/harness/specimen.h"
 #include "bench/suites/performance_suites.h"
+#include "calibration/timed_ticks.h"
 #include "solver/cpu/cpu_solver.h"
 
 namespace viscera::bench {
@@ -93,10 +94,7 @@ class Stepping {
     ToolMotions motions = probeAt(tip_m_);
     tip_m_ = tipAt(++ticks_ * tick_s_);
     motions[0].to.position_m = tip_m_;
-    solver_->step(motions);
-    layout::TickStats stats;
-    while (solver_->pollStats(stats, true)) {
-    }
+    stepAndWait(*solver_, motions);
   }
 
   std::string name_;

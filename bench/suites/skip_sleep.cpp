@@ -88,12 +88,7 @@ Specimen restingCube(int edge, bool sleeps, double gravity_m_per_s2) {
 }
 
 void settle(Solver& solver, const Scene& scene, const ToolMotions& motions, double seconds) {
-  layout::TickStats stats;
-  for (double t = 0; t < seconds; t += 1 / scene.solver.tick_hz) {
-    solver.step(motions);
-    while (solver.pollStats(stats, true)) {
-    }
-  }
+  for (double t = 0; t < seconds; t += 1 / scene.solver.tick_hz) stepAndWait(solver, motions);
 }
 
 void measureSleep(Report& report) {

@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "viscera/calibration/step_time.h"
 
-#include <algorithm>
-#include <chrono>
 #include <limits>
+#include <memory>
+#include <vector>
 
+#include "calibration/timed_ticks.h"
 #include "solver/make_solver.h"
 #include "solver/substeps.h"
 #include "viscera/gpu/context.h"
@@ -15,22 +16,15 @@
 namespace viscera {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 /// Nodes of the smaller lattice; the larger one has half its spacing. A GPU is busy with a launch alone below some
 /// 200,000 nodes.
 constexpr size_t kSmallOnCpu = 4000, kSmallOnGpu = 60000;
 constexpr double kGrowth = 8;                                 ///< of the nodes from one to the other
 constexpr int kExplicitSubsteps = 20, kImplicitSubsteps = 4;  ///< per tick: one round of measurements among so many
-constexpr int kWarmUpTicks = 2, kLeastTicks = 5, kMostTicks = 200;
-constexpr double kWatch_s = 0.15;     ///< clock time per lattice: longer than a hiccup of the machine
+constexpr TimedTicks kTicks{5, 198, 0.15};  ///< per lattice; watched longer than a hiccup of the machine
 constexpr double kUndisturbed = 0.1;  ///< quantile of the ticks that counts: the speed is kept, the disturbance passes
 constexpr double kPatience_s = 1;     ///< a larger lattice that would take longer is not measured
 constexpr double kTouch = 0.9;  ///< of a probe's radius from the tissue's topmost node: it touches and hardly dents
-
-double secondsSince(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 int substepsPerTick(const SolverConfig& solver) {
   return traitsOf(solver.integrator).is_explicit ? kExplicitSubsteps : kImplicitSubsteps;
@@ -40,10 +34,9 @@ int substepsPerTick(const SolverConfig& solver) {
 Scene measuredScene(Scene scene, const Model& model) {
   SolverConfig& solver = scene.solver;
   solver.substeps = 0;
-  solver.measured_limit = false;
   solver.start = SolverStart::kRest;
   solver.max_substeps = std::numeric_limits<int>::max();
-  solver.tick_hz = 1 / (substepsPerTick(solver) * solver.dt_fraction * safeTimeStep(model)) * (1 + 1e-9);
+  fitTick(solver, model, substepsPerTick(solver));
   solver.sleep_speed_m_per_s = 0;
   scene.environment.gravity_m_per_s2.setZero();
   return scene;
@@ -74,22 +67,9 @@ TimedSubstep timeSubstep(const Model& model, const Scene& asked, const gpu::Cont
   const std::unique_ptr<Solver> solver = makeSolver(model, scene, context);
   Tools tools(scene.styluses);
   const StylusSamples samples = touching(model, scene);
-  std::vector<double> seconds;
-  layout::TickStats stats;
-  const Clock::time_point begun = Clock::now();
-  for (int t = 0; t < kMostTicks; ++t) {
-    const Clock::time_point start = Clock::now();
-    const uint64_t before = solver->substepsDone();
-    solver->step(tools.advance(samples));
-    while (solver->pollStats(stats, true)) {
-    }
-    const double substeps = static_cast<double>(solver->substepsDone() - before);
-    if (t >= kWarmUpTicks) seconds.push_back(secondsSince(start) / substeps);
-    if (seconds.size() >= kLeastTicks && secondsSince(begun) > kWatch_s) break;
-  }
-  const auto quick = seconds.begin() + static_cast<std::ptrdiff_t>(kUndisturbed * static_cast<double>(seconds.size()));
-  std::nth_element(seconds.begin(), quick, seconds.end());
-  return {static_cast<double>(model.activeNodes()), *quick};
+  const std::vector<double> seconds = substepTimes(
+      *solver, [&] { return tools.advance(samples); }, kTicks);
+  return {static_cast<double>(model.activeNodes()), percentile(seconds, kUndisturbed)};
 }
 
 }  // namespace
@@ -105,7 +85,7 @@ StepTime measureStepTime(const UndividedBodies& bodies, const Scene& scene, cons
   const bool on_gpu = chooseBackend(scene.solver, context) == Backend::kGpu && context && !context->isSoftware();
   const double spacing_m = bodies.spacingOf(on_gpu ? kSmallOnGpu : kSmallOnCpu);
   const TimedSubstep small = timeSubstep(bodies.lattices(spacing_m), scene, context);
-  const double expected_s = small.seconds * kGrowth * substepsPerTick(scene.solver) * (kWarmUpTicks + kLeastTicks);
+  const double expected_s = small.seconds * kGrowth * substepsPerTick(scene.solver) * (kWarmUpTicks + kTicks.least);
   if (expected_s > kPatience_s) return {0, small.seconds / small.nodes};
   return stepTimeThrough(small, timeSubstep(bodies.lattices(spacing_m / 2), scene, context));
 }
