@@ -44,7 +44,6 @@ struct SweepOptions {
   int tries = 2;            ///< failures after which a run is given up
   int run_limit_s = 86400;  ///< a run that takes longer is killed, and has failed; 0: no limit
   bool retry = false;
-  bool hdf5 = false;   ///< results.h5 beside results.csv
   int slurm = 0;       ///< > 0: submit a job array of so many workers instead
   std::string sbatch;  ///< more options for sbatch, as one would write them in a shell
 };

@@ -90,7 +90,6 @@ int dispatch(int argc, char** argv) {
                            ->check(CLI::Range(1, 100000));
   sweep->add_option("--sbatch", o.sweep.sbatch, "more options for Slurm's sbatch, as in '--cpus-per-task=8 --time=60'")
       ->needs(slurm);
-  sweep->add_flag("--hdf5", o.sweep.hdf5, "results.h5 beside results.csv");
   sweep->add_flag("--retry", o.sweep.retry, "try again what was given up");
 
   app.add_subcommand("bench", "measure: `viscera bench --help` lists what");  // main() has taken it

@@ -131,7 +131,7 @@ class Sweep {
     for (int i = 0; i < options_.jobs; ++i) threads.emplace_back([this] { work(); });
     for (std::thread& thread : threads) thread.join();
     if (fault_) std::rethrow_exception(fault_);
-    folder_.writeTables(options_.hdf5);
+    folder_.writeTable();
     size_t given_up = 0;
     for (size_t run = 0; run < plan_.runs.size(); ++run)
       given_up += folder_.state(run) == SweepFolder::State::kGivenUp ? 1 : 0;
@@ -201,8 +201,7 @@ void submit(const SweepOptions& options) {
        << "\n#SBATCH --requeue\n#SBATCH --output=" << std::filesystem::absolute(options.out).string()
        << "/slurm-%A_%a.txt\nexec " << shellQuoted(program) << " sweep " << absolute(options.plan) << " --out "
        << absolute(options.out) << " --tries " << options.tries << " --run-limit-s " << options.run_limit_s
-       << " --jobs " << (jobs.empty() ? "\"${SLURM_CPUS_PER_TASK:-1}\"" : jobs) << (options.hdf5 ? " --hdf5" : "")
-       << "\n";
+       << " --jobs " << (jobs.empty() ? "\"${SLURM_CPUS_PER_TASK:-1}\"" : jobs) << "\n";
   file.close();
   if (!file) throw Error(script + ": cannot be written");
   const int status = std::system(("sbatch " + options.sbatch + " " + absolute(script)).c_str());
@@ -216,8 +215,6 @@ void submit(const SweepOptions& options) {
 int sweep(const SweepOptions& given) {
   SweepOptions options = given;
   if (options.jobs == 0) options.jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  if (options.hdf5 && !hasHdf5())
-    throw Error("--hdf5: this viscera was built without HDF5; results.csv, which is written in any case, has the same");
   const SweepPlan plan = readSweepPlan(options.plan);
   if (options.slurm > 0) {
     const SweepFolder folder(options.out, plan, options.tries);

@@ -93,13 +93,6 @@ std::string told(const Json& result, const std::string& name) {
   return found->is_string() ? found->get<std::string>() : found->dump();
 }
 
-bool isNumberEverywhere(const std::vector<Json>& results, const std::string& name) {
-  return std::all_of(results.begin(), results.end(), [&](const Json& result) {
-    const auto found = result.find(name);
-    return found == result.end() || found->is_number();
-  });
-}
-
 /// What runs are told of, in the order in which they tell it.
 std::vector<std::string> metricsOf(const std::vector<Json>& results) {
   std::vector<std::string> out;
@@ -183,11 +176,10 @@ void SweepFolder::forgetFailures() const {
 }
 
 SweepTable SweepFolder::table() const {
-  using Of = SweepTable::Of;
   std::vector<Json> results;
   SweepTable out;
-  SweepTable::Column number{"run", Of::kRun, true, {}}, ended{"ended", Of::kRun, false, {}};
-  SweepTable::Column failed{"failures", Of::kRun, true, {}}, last{"last_failure", Of::kRun, false, {}};
+  SweepTable::Column number{"run", {}}, ended{"ended", {}};
+  SweepTable::Column failed{"failures", {}}, last{"last_failure", {}};
   for (size_t run = 0; run < plan_.runs.size(); ++run) {
     results.push_back(Json::parse(readWhole(runFolder(run) + "/result.json"), nullptr, false));
     if (!results.back().is_object()) results.back() = Json::object();
@@ -200,15 +192,12 @@ SweepTable SweepFolder::table() const {
   }
   out.columns = {number, ended, failed};
   for (const std::string& key : plan_.varied) {
-    SweepTable::Column column{key, Of::kKeys, true, {}};
-    for (const KeyValues& run : plan_.runs) {
-      column.cells.push_back(valueOf(run, key));
-      column.number = column.number && (column.cells.back().empty() || isNumber(column.cells.back()));
-    }
+    SweepTable::Column column{key, {}};
+    for (const KeyValues& run : plan_.runs) column.cells.push_back(valueOf(run, key));
     out.columns.push_back(std::move(column));
   }
   for (const std::string& name : metricsOf(results)) {
-    SweepTable::Column column{name, Of::kMetrics, isNumberEverywhere(results, name), {}};
+    SweepTable::Column column{name, {}};
     for (const Json& result : results) column.cells.push_back(told(result, name));
     out.columns.push_back(std::move(column));
   }
@@ -216,13 +205,8 @@ SweepTable SweepFolder::table() const {
   return out;
 }
 
-void SweepFolder::writeTables(bool hdf5) const {
-  const SweepTable runs = table();
-  writeWhole(folder_ + "/results.csv", csvText(runs));
-  if (!hdf5) return;
-  Draft draft(folder_ + "/results.h5");
-  writeHdf5(runs, draft.name());
-  draft.moveIntoPlace();
+void SweepFolder::writeTable() const {
+  writeWhole(folder_ + "/results.csv", csvText(table()));
 }
 
 }  // namespace viscera::cli

@@ -14,7 +14,7 @@ namespace viscera::cli {
 ///   plan.txt             the runs, so that another plan is not mixed in
 ///   runs/000042/lock     locked while a process, or the session that it started, works on the run
 ///   runs/000042/result.json, failures.txt   how it ended: at most one result, a line per failure
-///   results.csv, results.h5   all of them in one table
+///   results.csv          all of them in one table
 /// What a process leaves behind that is killed is a lock without a holder, and no result: the run is done again.
 class SweepFolder {
  public:
@@ -46,8 +46,7 @@ class SweepFolder {
   void forgetFailures() const;  ///< of all runs: they are tried again
   /// A line per run: its keys, how it ended, and what `viscera run` said of it.
   SweepTable table() const;
-  /// Writes it to results.csv. @param hdf5  to results.h5 too
-  void writeTables(bool hdf5) const;
+  void writeTable() const;  ///< to results.csv
 
  private:
   std::vector<std::string> failuresOf(size_t run) const;

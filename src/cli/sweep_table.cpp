@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cli/sweep_table.h"
 
-#include <cstdlib>
 #include <utility>
 
 namespace viscera::cli {
@@ -38,18 +37,6 @@ constexpr std::pair<const char*, const char*> kUnits[] = {{"_kg_per_m3", "kg/m3"
 
 }  // namespace
 
-std::string csvText(const SweepTable& table) {
-  std::string out;
-  const size_t runs = table.columns.empty() ? 0 : table.columns[0].cells.size();
-  for (const SweepTable::Column& column : table.columns) out += (out.empty() ? "" : ",") + csvCell(column.name);
-  out += '\n';
-  for (size_t run = 0; run < runs; ++run) {
-    for (size_t c = 0; c < table.columns.size(); ++c) out += (c ? "," : "") + csvCell(table.columns[c].cells[run]);
-    out += '\n';
-  }
-  return out;
-}
-
 std::string unitOf(const std::string& name) {
   for (const auto& [end, unit] : kUnits) {
     if (endsWith(name, end)) return unit;
@@ -57,10 +44,18 @@ std::string unitOf(const std::string& name) {
   return {};
 }
 
-bool isNumber(const std::string& text) {
-  char* end = nullptr;
-  std::strtod(text.c_str(), &end);
-  return !text.empty() && *end == '\0';
+std::string csvText(const SweepTable& table) {
+  std::string names, units, out;
+  const size_t runs = table.columns.empty() ? 0 : table.columns[0].cells.size();
+  for (size_t c = 0; c < table.columns.size(); ++c) {
+    names += (c ? "," : "") + csvCell(table.columns[c].name);
+    units += (c ? "," : "") + csvCell(unitOf(table.columns[c].name));
+  }
+  for (size_t run = 0; run < runs; ++run) {
+    for (size_t c = 0; c < table.columns.size(); ++c) out += (c ? "," : "") + csvCell(table.columns[c].cells[run]);
+    out += '\n';
+  }
+  return names + '\n' + units + '\n' + out;
 }
 
 }  // namespace viscera::cli
