@@ -5,7 +5,6 @@
 import os
 import signal
 import socket
-import subprocess
 import sys
 import tempfile
 import unittest
@@ -61,18 +60,6 @@ class LaunchingTest(unittest.TestCase):
         simulator.said("ready: " + SCENE_NODES)
         replay = self.start("rosrun", "viscera", "stylus_replay", "_strokes:=nowhere")
         replay.said("~strokes")
-
-    def test_fleet_cost_tells_what_each_of_several_takes(self):
-        script = os.path.join(roslib.packages.get_pkg_dir("viscera"), "scripts/fleet_cost")
-        told = subprocess.run([script, "--most", "2", "--seconds", "4", "threads:=1", "scene:=" + SCENE], check=False,
-                              capture_output=True, text=True, timeout=100)
-        self.assertEqual(told.returncode, 0, told.stderr)
-        rows = [line.split(",") for line in told.stdout.split("\n")[1:-1]]
-        self.assertEqual([(row[0], row[2]) for row in rows], [("1", "sim1"), ("2", "sim1"), ("2", "sim2")])
-        for row in rows:
-            self.assertTrue(all(float(cell) > 0 for cell in row[3:]), row)
-        wrong = subprocess.run([script, "--most", "none"], check=False, capture_output=True, text=True, timeout=10)
-        self.assertIn("--most is a whole number", wrong.stderr)
 
     def test_parameters_of_an_earlier_launch_are_cleared(self):
         self.start_master()
