@@ -22,7 +22,6 @@ constexpr double kOtherNu = 2;
 constexpr double kTableLimit = 0.01;
 /// Kernels against the reference, which has their constants: rounding of float32 at strains of 1e-4.
 constexpr double kKernelLimit = 2e-3;
-constexpr size_t kKernelNodes = 4000;  ///< more of them are not asked: all cells are alike
 
 /// A square beam along x under a load across it, cos(2 pi x / length); Timoshenko's compliance.
 Wall beam(double thickness, double length) {

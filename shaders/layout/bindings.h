@@ -34,7 +34,6 @@ const uint kBindSkinTies = 19u;       // Tie[]
 const uint kBindSkinTieStarts = 20u;  // uint[triangles + 1]
 const uint kBindSkinAlive = 21u;      // uint[triangles]: 0 torn, kShownWhole, or the parts that are left of a split one
 const uint kBindSkinLive = 22u;       // uint[3 * (triangles + 2 split)]: indices drawn; a torn triangle is (0, 0, 0)
-const uint kBindSkinColors = 23u;     // uint[vertices]: RGBA8
 const uint kBindCells = 24u;          // uint[cells]: slots of the lowest corners
 const uint kBindCellForces = 25u;     // vec4[kVolumeVectors or kMomentVectors times slots]: what cells do to their corners, see volume.comp
 const uint kBindCompensation = 26u;   // vec4[2 * slots]: what the sums of displacement [m] and velocity [m/s] have lost

@@ -30,7 +30,6 @@ class SimulatedTime {
     if (!told_) return 0;
     return elapsed_s_ + std::clamp(std::chrono::duration<double>(now - advanced_).count(), 0.0, tick_s_);
   }
-  bool isTold() const { return told_; }
 
  private:
   bool told_ = false;

@@ -56,9 +56,9 @@ class Surface {
   const gpu::Buffer<uint32_t>& normals() const { return normals_; }   ///< [vertices] packed, see packNormal
   const gpu::Buffer<uint32_t>& alive() const { return alive_; }       ///< [triangles] see appendShown
   const gpu::Buffer<uint32_t>& liveIndices() const { return live_; }  ///< for drawing; (0, 0, 0) shows nothing
-  size_t liveCount() const { return live_count_; }                    ///< how many of them are to be drawn
-  /// Of these: those of the bodies one after the other, as in skin(), then split pieces, then what wounds have beyond.
-  size_t firstWoundIndex() const { return first_wound_index_; }
+  /// How many of them are to be drawn: those of the bodies one after the other, as in skin(), then split pieces, then
+  /// what wounds have beyond.
+  size_t liveCount() const { return live_count_; }
   uint64_t liveRevision() const { return live_revision_; }  ///< another one whenever what is drawn may be others
   bool tornOnGpu() const { return torn_on_gpu_; }           ///< triangles of lattices are gone that skin() still has
   const SkinGroups& groups() const { return groups_; }
