@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // multigrid_stage.comp - what a stage of TR-BDF2 or implicit Euler solves for: dy, dw, and the first guess.
-// Owner: solver/gpu/multigrid_stages.h   physics.md 2 (src/solver/multigrid/tr_bdf2.cpp has the numbers)
+// Owner: solver/gpu/multigrid_stages.h   physics.md 2 (src/solver/multigrid/step_rules.h has the numbers)
 // in, out  vectors of the step
 #include "layout.h"
 #include "lattice.glsl"

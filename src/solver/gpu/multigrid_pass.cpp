@@ -38,7 +38,7 @@ MultigridPass::MultigridPass(const Model& model, const Scene& scene, const TickP
       stages_(features, buffers) {
   if (features.tools || features.obstacles > 0) touch_.emplace(features, buffers);
   stages_.setLevels([this](const multigrid::Stage& stage) { return levelsFor(stage); }, level_.stiffest());
-  levelsFor(multigrid::TrBdf2::stageOf(plan.shortestSubstep_s()));
+  levelsFor(multigrid::trBdf2Stage(plan.shortestSubstep_s()));
 }
 
 MultigridStages::Levels MultigridPass::levelsFor(const multigrid::Stage& stage) {
@@ -65,9 +65,9 @@ void MultigridPass::run(LatticeBuffers& buffers, const Substep& step) {
   fresh_ = false;
   const double dt_s = static_cast<double>(step.dt_s);
   if (touching) touch_->begin(buffers, step);
-  if (!multigrid::stepTrBdf2(stages_, dt_s, touching, work_)) {
+  if (!multigrid::stepTrBdf2(stages_, dt_s, work_)) {
     if (touching) touch_->begin(buffers, step);
-    multigrid::stepEuler(stages_, dt_s, touching, work_);
+    multigrid::stepEuler(stages_, dt_s, work_);
   }
   if (touching) touch_->give(buffers, step);
   stages_.endStep();

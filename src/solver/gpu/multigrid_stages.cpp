@@ -109,12 +109,12 @@ void MultigridStages::linearise() const {
   sum(layout::kSumsSprings, 1, buffers_.store.active_count);
 }
 
-Energy MultigridStages::energyOf(const MultigridBuffers::Read& read) const {
-  const MultigridBuffers::Sums& balance = read.rows[layout::kSumsBalance];
+Energy MultigridStages::energy() const {
+  const MultigridBuffers::Sums& balance = read_.rows[layout::kSumsBalance];
   Energy out;
   out.kinetic_j = balance[2];
-  out.sum_j = balance[2] + read.rows[layout::kSumsSprings][0] - balance[3];
-  if (cells_) out.sum_j += read.rows[layout::kSumsCells][0];
+  out.sum_j = balance[2] + read_.rows[layout::kSumsSprings][0] - balance[3];
+  if (cells_) out.sum_j += read_.rows[layout::kSumsCells][0];
   return out;
 }
 
@@ -127,10 +127,11 @@ Energy MultigridStages::start() {
   mask_.set("inertia", static_cast<float>(of_.inertia_per_s2));
   runNodes(mask_);
   sum(layout::kSumsBalance, 2, buffers_.store.active_count);
-  return energyOf(own_.read());
+  read_ = own_.read();
+  return energy();
 }
 
-void MultigridStages::beginStage(uint32_t stage) const {
+void MultigridStages::beginStage(uint32_t stage) {
   use(stage_);
   stage_.set("stage", stage);
   stage_.set("inertia", static_cast<float>(of_.inertia_per_s2));
@@ -142,23 +143,11 @@ void MultigridStages::beginStage(uint32_t stage) const {
   runNodes(stage_);
 }
 
-void MultigridStages::beginTrapezoidal() {
-  beginStage(layout::kStageTrapezoidal);
-}
-
-void MultigridStages::beginBdf2() {
-  beginStage(layout::kStageBdf2);
-}
-
-void MultigridStages::beginEuler() {
-  beginStage(layout::kStageEuler);
-}
-
 void MultigridStages::setShare(double share) {
   if (touch_) touch_->setShare(share);
 }
 
-MultigridStages::Balance MultigridStages::balance() {
+MultigridStages::Balance MultigridStages::balance(bool /*tangent*/) {
   if (touch_) touch_->place(buffers_, step_);
   use(place_);
   place_.set("rate", static_cast<float>(of_.rate_per_s));
@@ -172,16 +161,21 @@ MultigridStages::Balance MultigridStages::balance() {
   mask_.set("inertia", static_cast<float>(of_.inertia_per_s2));
   runNodes(mask_);
   sum(layout::kSumsBalance, 2, buffers_.store.active_count);
-  const MultigridBuffers::Read read = own_.read();
-  const MultigridBuffers::Sums &row = read.rows[layout::kSumsBalance], &more = read.rows[layout::kSumsTouch];
+  read_ = own_.read();
+  const MultigridBuffers::Sums& row = read_.rows[layout::kSumsBalance];
   Balance out;
   out.residual_n = std::sqrt(row[0]);
   out.noise_n = multigrid::kFloatDisplacement * stiffest_n_per_m_ * std::sqrt(row[1]);
-  out.changed = touch_ && read.scalars.changed != 0;
-  out.energy = energyOf(read);
-  out.lag_j = more[0];
-  out.given_j = touch_ ? more[1] : 0;
+  out.changed = touch_ && read_.scalars.changed != 0;
   return out;
+}
+
+double MultigridStages::lag_j() const {
+  return read_.rows[layout::kSumsTouch][0];
+}
+
+double MultigridStages::given_j() const {
+  return touch_ ? read_.rows[layout::kSumsTouch][1] : 0;
 }
 
 void MultigridStages::multiply(uint32_t x, uint32_t y, uint32_t base, bool subtract) const {
@@ -231,7 +225,7 @@ void MultigridStages::dot(uint32_t x, uint32_t y, uint32_t row, bool first) cons
   sum(row, 1, buffers_.store.active_count, first);
 }
 
-MultigridStages::Iteration MultigridStages::iterate(bool first) {
+multigrid::Iteration MultigridStages::iterate(bool first) {
   cycle();
   dot(layout::kSystemResidual, layout::kSystemCorrection, layout::kSumsRz, first);
   use(direction_);
@@ -243,11 +237,12 @@ MultigridStages::Iteration MultigridStages::iterate(bool first) {
   runNodes(advance_);
   sum(layout::kSumsLeft, 1, buffers_.store.active_count, first);
   const MultigridBuffers::Read read = own_.read();
-  return {read.rows[layout::kSumsRz][0], read.rows[layout::kSumsCurvature][0],
-          std::sqrt(read.rows[layout::kSumsLeft][0])};
+  const double rz = read.rows[layout::kSumsRz][0], curvature = read.rows[layout::kSumsCurvature][0];
+  if (!(rz > 0) || !(curvature > 0)) return {};
+  return {true, rz * rz / curvature, std::sqrt(read.rows[layout::kSumsLeft][0])};
 }
 
-void MultigridStages::become(uint32_t what, float share) const {
+void MultigridStages::become(uint32_t what, float share) {
   use(increment_);
   increment_.set("becomes", what);
   increment_.set("share", share);
@@ -260,26 +255,6 @@ void MultigridStages::addSolution(bool tame) {
     runNodes(tame_);
   }
   become(tame ? layout::kIncrementTamed : layout::kIncrementSolve, 1);
-}
-
-void MultigridStages::keep() {
-  become(layout::kIncrementKeep, 1);
-}
-
-void MultigridStages::goBack(float share) {
-  become(layout::kIncrementBack, share);
-}
-
-void MultigridStages::take(float share) {
-  become(layout::kIncrementShare, share);
-}
-
-void MultigridStages::guess(float share) {
-  become(layout::kIncrementGuess, share);
-}
-
-void MultigridStages::slow(float times) {
-  become(layout::kIncrementSlow, times);
 }
 
 }  // namespace viscera

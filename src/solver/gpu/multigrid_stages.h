@@ -33,20 +33,19 @@ class MultigridStages final : public multigrid::StageWork {
   /// The increment becomes the other state.
   void endStep();
 
+  bool touching() const override { return touch_ != nullptr; }
   void begin(const multigrid::Stage& stage) override;
   multigrid::Energy start() override;
-  void beginTrapezoidal() override;
-  void beginBdf2() override;
-  void beginEuler() override;
+  void beginStage(uint32_t stage) override;
   void setShare(double share) override;
-  Balance balance() override;
-  Iteration iterate(bool first) override;
+  Balance balance(bool tangent) override;
+  Balance lookAgain(const Balance& known) override { return known; }
+  multigrid::Energy energy() const override;
+  double lag_j() const override;
+  double given_j() const override;
+  multigrid::Iteration iterate(bool first) override;
   void addSolution(bool tame) override;
-  void keep() override;
-  void goBack(float share) override;
-  void take(float share) override;
-  void guess(float share) override;
-  void slow(float times) override;
+  void become(uint32_t what, float share) override;
 
   void bind() const { own_.bind(); }
   void forgetTouched();  ///< nothing is about, nor was
@@ -57,14 +56,11 @@ class MultigridStages final : public multigrid::StageWork {
   void run(const gpu::Program& program, size_t count) const;
   void runNodes(const gpu::Program& program) const;
   void sum(uint32_t first_row, uint32_t rows, size_t summed, bool first = false) const;
-  void beginStage(uint32_t stage) const;
-  void become(uint32_t what, float share) const;
   void linearise() const;
   void multiply(uint32_t x, uint32_t y, uint32_t base, bool subtract) const;
   void smooth(uint32_t r, float a, float b, bool first) const;
   void cycle() const;
   void dot(uint32_t x, uint32_t y, uint32_t row, bool first) const;
-  multigrid::Energy energyOf(const MultigridBuffers::Read& read) const;
 
   const FeatureSet features_;
   const LatticeBuffers& buffers_;
@@ -80,6 +76,7 @@ class MultigridStages final : public multigrid::StageWork {
   Substep step_;
   MultigridTouchPass* touch_ = nullptr;
   bool fresh_ = true;
+  MultigridBuffers::Read read_{};  ///< of the last balance, or the start
 };
 
 }  // namespace viscera

@@ -32,12 +32,11 @@ const Model& steppable(const Model& model, const CpuParts& parts) {
 }  // namespace
 
 CpuMultigrid::CpuMultigrid(const Model& model, const CpuLattice& lattice, const CpuParts& parts)
-    : solver_(steppable(model, parts), lattice, parts.parallel),
-      tr_bdf2_(solver_),
-      euler_(solver_),
-      touching_(solver_.level, lattice) {
-  for (multigrid::Vectors* each : {&displacement_, &velocity_, &left_}) each->assign(solver_.start.size(), 0);
-  solver_.begin(multigrid::TrBdf2::stageOf(parts.dt_s));
+    : stages_(steppable(model, parts), lattice, parts.parallel),
+      solver_(stages_.solver),
+      touching_(solver_.level, lattice),
+      left_(solver_.start.size(), 0) {
+  solver_.begin(multigrid::trBdf2Stage(parts.dt_s));
 }
 
 void CpuMultigrid::restart() {
@@ -53,20 +52,16 @@ void CpuMultigrid::run(CpuLattice& lattice, const Substep& step, const layout::T
     steps_since_cut_ = 0;
   }
   gather(lattice, step.dt_s);
-  multigrid::Touching* touching = nullptr;
-  if (step.tools || step.obstacle_count > 0) {
-    touching = &touching_;
-    touching_.begin(lattice, step, motions);
+  multigrid::Touching* const touching = step.tools || step.obstacle_count > 0 ? &touching_ : nullptr;
+  if (touching) touching->begin(lattice, step, motions);
+  stages_.beginStep(step, touching);
+  const double dt_s = static_cast<double>(step.dt_s);
+  if (!multigrid::stepTrBdf2(stages_, dt_s, work_)) {
+    if (touching) touching->begin(lattice, step, motions);
+    multigrid::stepEuler(stages_, dt_s, work_);
   }
-  if (tr_bdf2_.step(step, displacement_, velocity_, touching, work_)) {
-    if (touching) touching_.give(lattice, tr_bdf2_.increment(), velocity_, tr_bdf2_.velocity());
-    scatter(lattice, step, tr_bdf2_.increment(), tr_bdf2_.velocity());
-  } else {
-    if (touching) touching_.begin(lattice, step, motions);
-    euler_.step(step, displacement_, velocity_, touching, work_);
-    if (touching) touching_.give(lattice, euler_.increment(), velocity_, solver_.velocity);
-    scatter(lattice, step, euler_.increment(), solver_.velocity);
-  }
+  if (touching) touching->give(lattice, stages_.increment, stages_.before, solver_.velocity);
+  scatter(lattice, step);
   followSprings();
 }
 
@@ -92,16 +87,15 @@ void CpuMultigrid::gather(const CpuLattice& lattice, float dt_s) {
     const uint32_t place = grid.place_of[node];
     for (size_t c = 0; c < 3; ++c) {
       const size_t to = c * n + place, from = vectorAt(grid.slots[node]) + 64 * c;
-      displacement_[to] = u[from];
-      velocity_[to] = fresh_ ? v[from] : left_[to];
-      solver_.load[to] = solver_.level.mass()[place] * (v[from] - velocity_[to]) / dt_s;
+      solver_.start[to] = u[from];
+      stages_.before[to] = fresh_ ? v[from] : left_[to];
+      solver_.load[to] = solver_.level.mass()[place] * (v[from] - stages_.before[to]) / dt_s;
     }
   }
   fresh_ = false;
 }
 
-void CpuMultigrid::scatter(CpuLattice& lattice, const Substep& step, const multigrid::Vectors& increment,
-                           const multigrid::Vectors& velocity) {
+void CpuMultigrid::scatter(CpuLattice& lattice, const Substep& step) {
   const multigrid::Grid& grid = solver_.level.grid();
   const size_t n = grid.places();
   float* const u = lattice.state.displacement[1 - lattice.state.current].data();
@@ -113,11 +107,11 @@ void CpuMultigrid::scatter(CpuLattice& lattice, const Substep& step, const multi
   fragments.tell(step);
   for (uint32_t node = 0; node < grid.nodeCount(); ++node) {
     const uint32_t place = grid.place_of[node], slot = grid.slots[node];
-    const glsl::vec3 before = at(displacement_, place);
+    const glsl::vec3 before = at(solver_.start, place);
     glsl::vec3 next = before, speed(0);
     if (solver_.level.movable()[place] != 0) {
-      next += at(increment, place);
-      speed = at(velocity, place);
+      next += at(stages_.increment, place);
+      speed = at(solver_.velocity, place);
       fragments.fallAsleep(lattice.store.nodes[slot], before, next, speed);
     }
     setPlanes(u, slot, {next.x, next.y, next.z});

@@ -3,8 +3,7 @@
 #pragma once
 
 #include "solver/cpu/cpu_stepper.h"
-#include "solver/multigrid/implicit_euler.h"
-#include "solver/multigrid/tr_bdf2.h"
+#include "solver/multigrid/cpu_stages.h"
 
 namespace viscera {
 
@@ -22,16 +21,13 @@ class CpuMultigrid : public CpuStepper {
  private:
   void followSprings();
   void gather(const CpuLattice& lattice, float dt_s);
-  void scatter(CpuLattice& lattice, const Substep& step, const multigrid::Vectors& increment,
-               const multigrid::Vectors& velocity);
+  void scatter(CpuLattice& lattice, const Substep& step);
 
-  multigrid::StageSolver solver_;
-  multigrid::TrBdf2 tr_bdf2_;
-  multigrid::ImplicitEuler euler_;
+  multigrid::CpuStages stages_;
+  multigrid::StageSolver& solver_;  ///< of them
   multigrid::Touching touching_;
-  multigrid::Vectors displacement_, velocity_;  ///< at the start of the step
-  multigrid::Vectors left_;                     ///< velocity at the end of the last one
-  bool fresh_ = true;                           ///< there was no last one
+  multigrid::Vectors left_;  ///< velocity at the end of the last step
+  bool fresh_ = true;        ///< there was no last one
   SolverWork work_;
   bool springs_changed_ = false;
   int steps_since_cut_ = -1;  ///< -1: the hierarchy is that of the lattice as it is

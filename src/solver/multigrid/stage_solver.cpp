@@ -48,15 +48,6 @@ double StageSolver::residual(const Vectors& increment) {
   return masked();
 }
 
-double StageSolver::residual(Vectors& increment, Touched* touched, bool* changed, bool tangent) {
-  if (touched) touched->place(increment);
-  evaluate(increment, tangent);
-  const bool others = touched && touched->press(r_, increment, level);
-  if (changed) *changed = others;
-  return masked();
-}
-
-/// Without those who are held.
 double StageSolver::masked() {
   const size_t n = level.places();
   level.forPlaces([&](size_t at, size_t count, const layout::BodyParams&) {
@@ -67,7 +58,6 @@ double StageSolver::masked() {
   return std::sqrt(level.dot(r_, r_));
 }
 
-/// Residual of nodes that can move, held or not.
 void StageSolver::evaluate(const Vectors& increment, bool tangent) {
   const size_t n = level.places();
   const float rate = static_cast<float>(stage.rate_per_s), inertia = static_cast<float>(stage.inertia_per_s2);
@@ -154,31 +144,31 @@ void StageSolver::multiply(const Vectors& increment, const Vectors& p, Vectors& 
 }
 
 int StageSolver::solveLinear(const Vectors& increment, const Rule& rule, double norm) {
-  double before = 0, fallen = 0;
-  std::fill(s_.begin(), s_.end(), 0.0f);
-  if (rule.exact) force_ = level.force();
-  int k = 0;
-  while (k < rule.most) {
-    const double rz = rule.side_by_side ? levels_.hierarchy->cycleSideBySide(level, levels_.largest, r_, work_, z_)
-                                        : levels_.hierarchy->cycle(level, levels_.largest, r_, work_, z_);
-    if (!(rz > 0)) break;
-    level.turn(k == 0 ? 0 : static_cast<float>(rz / before), z_, p_);
-    before = rz;
-    rule.exact ? multiply(increment, p_, q_, rule.stiffening) : level.apply(p_, q_);
-    const double curvature = level.dot(p_, q_);
-    if (!(curvature > 0)) {  // tangents are made positive: only rounding leads here, and what is exact
-      if (rule.stiffening) rule.stiffening->sagged();
-      if (k == 0 && rule.exact) s_ = p_;  // downhill, if no more is known
-      break;
-    }
-    const float alpha = static_cast<float>(rz / curvature);
-    const double left = std::sqrt(level.advance(alpha, p_, q_, s_, r_));
-    ++k;
-    fallen += static_cast<double>(alpha) * rz;
-    if (rule.ends(k, static_cast<double>(alpha) * rz, fallen, left, norm)) break;
+  const int iterations = solveSystem(rule, norm, [&](bool first) { return iterate(increment, rule, first); });
+  if (rule.tame) tame();
+  return iterations;
+}
+
+Iteration StageSolver::iterate(const Vectors& increment, const Rule& rule, bool first) {
+  if (first) {
+    std::fill(s_.begin(), s_.end(), 0.0f);
+    if (rule.exact) force_ = level.force();
   }
-  if (rule.tame && farthest(s_) > kApart / 4) tame();
-  return k;
+  const double rz = rule.side_by_side ? levels_.hierarchy->cycleSideBySide(level, levels_.largest, r_, work_, z_)
+                                      : levels_.hierarchy->cycle(level, levels_.largest, r_, work_, z_);
+  if (!(rz > 0)) return {};
+  level.turn(first ? 0 : static_cast<float>(rz / rz_), z_, p_);
+  rz_ = rz;
+  rule.exact ? multiply(increment, p_, q_, rule.stiffening) : level.apply(p_, q_);
+  const double curvature = level.dot(p_, q_);
+  if (!(curvature > 0)) {  // tangents are made positive: only rounding leads here, and what is exact
+    if (rule.stiffening) rule.stiffening->sagged();
+    if (first && rule.exact) s_ = p_;  // downhill, if no more is known
+    return {};
+  }
+  const float alpha = static_cast<float>(rz / curvature);
+  const double left = std::sqrt(level.advance(alpha, p_, q_, s_, r_));
+  return {true, static_cast<double>(alpha) * rz, left};
 }
 
 /// Nodes of a block that a step may carry away from others: a bound by squares, sum k |d| <= sqrt(sum k sum k d^2).
@@ -212,6 +202,7 @@ uint32_t StageSolver::mayBeFar(const Block& block) const {
 /// A step that carries a node away from those around it is none: it hangs on few springs, which a step so long turns to
 /// where tangents knew nothing of. It goes on with the others.
 void StageSolver::tame() {
+  if (!(farthest(s_) > kApart / 4)) return;
   const Grid& grid = level.grid();
   const size_t n = level.places();
   constexpr size_t kPerJob = 32;
@@ -254,25 +245,6 @@ Vector3f StageSolver::tamedStep(uint32_t node) const {
   if (apart <= far * stiffness || level.free()[place] == 0) return own;
   const Vector3f middle = around / stiffness;
   return middle + far * stiffness / apart * (own - middle);
-}
-
-double StageSolver::solve(Vectors& increment, const Rule& rule, SolverWork& work, Touched* touched) {
-  const size_t n = level.places();
-  double norm = 0;
-  for (int step = 0;; ++step) {
-    bool changed = false;
-    const double before = norm;
-    const bool tangent = step == 0 || touched;  // most often one system is enough
-    norm = residual(increment, touched, &changed, tangent);
-    if (isSolved(rule, step, changed, norm, before, noise_n)) return norm;
-    if (!tangent) level.linearise(displacement, velocity);
-    work.iterations += static_cast<uint64_t>(solveLinear(increment, rule, norm));
-    ++work.systems;
-    level.forPlaces([&](size_t at, size_t count, const layout::BodyParams&) {
-      for (size_t c = 0; c < 3; ++c)
-        for (size_t i = c * n + at; i < c * n + at + count; ++i) increment[i] += s_[i];
-    });
-  }
 }
 
 }  // namespace viscera::multigrid

@@ -51,20 +51,30 @@ struct Energy {
   double sum_j = 0;  ///< kinetic and elastic less the work of gravity and load
 };
 
-/// What touches nodes, and holds some of them.
-class Touched {
- public:
-  virtual ~Touched() = default;
-  /// Moves what an increment may not have, and looks for what it meets.
-  virtual void place(Vectors& increment) = 0;
-  /// Tells the level who is held. @param lacks  residual of the increment, to which friction is added
-  /// @return others than before
-  virtual bool press(Vectors& lacks, const Vectors& increment, FineLevel& level) = 0;
+/// Of conjugate gradients.
+struct Iteration {
+  bool done = false;    ///< else nothing was: the residual is 0, or a direction is not downhill
+  double lowers_j = 0;  ///< the energy, by itself
+  double left_n = 0;    ///< residual of the system
 };
 
-/// Solves, for the increment du of a stage (physics.md 2),
+/// One system: iterate(first) until the rule says so. @param norm_n  residual at first   @return iterations
+template <class Iterate>
+int solveSystem(const Rule& rule, double norm_n, const Iterate& iterate) {
+  double lowered_j = 0;
+  for (int k = 0; k < rule.most;) {
+    const Iteration each = iterate(k == 0);
+    if (!each.done) return k;
+    ++k;
+    lowered_j += each.lowers_j;
+    if (rule.ends(k, each.lowers_j, lowered_j, each.left_n, norm_n)) return k;
+  }
+  return rule.most;
+}
+
+/// Residuals and systems of Newton's method for the increment du of a stage (physics.md 2),
 ///   m a0 (dy - du) + m g - m gamma v + F(u + du) + dashpots(v) = 0,   v = rate (du - dw),
-/// by Newton's method; its systems by conjugate gradients, with a V-cycle as preconditioner.
+/// Systems are solved by conjugate gradients, with a V-cycle as preconditioner.
 class StageSolver {
  public:
   StageSolver(const Model& model, const CpuLattice& lattice, const Parallel& parallel);
@@ -80,15 +90,15 @@ class StageSolver {
 
   /// Residual of an increment [N], 0 where not free; linearises there. @return its norm
   double residual(const Vectors& increment);
-  /// The same where something may touch nodes, which are put where they may be.
-  /// @param changed  others are held than before   @param tangent  linearises there: else forces alone
-  double residual(Vectors& increment, Touched* touched, bool* changed = nullptr, bool tangent = true);
-  /// Improves `increment` until the rule is met. Leaves forces as they are at the end.
-  /// @return norm of the residual at the end; not finite where the state was too wild for float32
-  double solve(Vectors& increment, const Rule& rule, SolverWork& work, Touched* touched = nullptr);
+  /// Its two halves: residual of whoever can move, held or not, and then without those who are held. @return its norm
+  /// @param tangent  linearises there: else forces alone
+  void evaluate(const Vectors& increment, bool tangent);
+  double masked();
   Energy energy(const Vectors& displacement_m, const Vectors& velocity_m_per_s, double elastic_j) const;
   /// One system: x of A x = residual(increment), which was asked for last. @return iterations
   int solveLinear(const Vectors& increment, const Rule& rule, double norm);
+  Iteration iterate(const Vectors& increment, const Rule& rule, bool first);  ///< of it
+  void tame();  ///< the solution, where it would carry a node away from those around it
 
   FineLevel level;
   Vectors start;   ///< u [m]
@@ -101,23 +111,21 @@ class StageSolver {
   Vectors velocity;
   double elastic_j = 0;  ///< there
   const Vectors& solution() const { return s_; }
-  const Vectors& lacking() const { return r_; }  ///< residual, until a system is solved
+  Vectors& lacking() { return r_; }  ///< residual, until a system is solved
   const Hierarchy* hierarchy() const { return levels_.hierarchy.get(); }
   double noise_n = 0;  ///< norm of the rounding of forces in float32, there
 
  private:
   float farthest(const Vectors& x) const;
-  void tame();
   uint32_t mayBeFar(const Block& block) const;
   Vector3f tamedStep(uint32_t node) const;
-  void evaluate(const Vectors& increment, bool tangent);
-  double masked();
   void multiply(const Vectors& increment, const Vectors& p, Vectors& q, const Stiffening* stiffening);
 
   BuiltLevels built_;
   BuiltLevels::Built levels_;    ///< that are in use
   double stiffest_n_per_m_ = 0;  ///< sum of a node's springs
   Vectors r_, s_, p_, q_, z_;
+  double rz_ = 0;  ///< of the last iteration
   Hierarchy::Work work_;
   Vectors force_;  ///< where the residual was, for exact products
 };

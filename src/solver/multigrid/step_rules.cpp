@@ -18,6 +18,11 @@ void requireSteppable(const Model& model, bool node_contacts) {
         "solver.integrator: multigrid knows no contacts between nodes (collision.enabled): use leapfrog, vbd or pd");
 }
 
+Stage trBdf2Stage(double dt_s) {
+  const double c = kSecond * dt_s;
+  return {1 / (c * c), 1 / c};
+}
+
 float keptSpeed(const Energy& before, const Energy& after, double given_j) {
   if (!std::isfinite(after.sum_j)) return 0;
   const double excess_j = after.sum_j - before.sum_j - kGivenTimes * std::max(0.0, given_j) -

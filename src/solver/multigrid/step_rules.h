@@ -10,6 +10,8 @@ namespace viscera::multigrid {
 
 /// @throws SceneError  bodies with explicit connections, contacts between nodes: not stepped
 void requireSteppable(const Model& model, bool node_contacts);
+/// Of TR-BDF2: both of its stages have one matrix.
+Stage trBdf2Stage(double dt_s);
 /// Share of its velocities that a step of TR-BDF2 may keep, so that energy does not grow but by the work of who
 /// touches; 0: none, it is done again by implicit Euler. @param given_j  that work, by their last forces
 float keptSpeed(const Energy& before, const Energy& after, double given_j);

@@ -15,7 +15,7 @@ namespace viscera::multigrid {
 /// What grips, probes and obstacles do to nodes in a step (physics.md 2). Held nodes go where hands take them; others
 /// that would end in a probe or an obstacle get a contact, a half space n . du >= b (implicit_contact.glsl), to whose
 /// plane they keep while the balance of their forces presses them there. Only the finest level knows of either.
-class Touching : public Touched {
+class Touching {
  public:
   /// @param level, lattice  must outlive it
   Touching(const FineLevel& level, const CpuLattice& lattice);
@@ -28,8 +28,11 @@ class Touching : public Touched {
   void setShare(double share) { share_ = static_cast<float>(share); }
   bool any() const { return !nodes_.empty(); }
 
-  void place(Vectors& increment) override;
-  bool press(Vectors& lacks, const Vectors& increment, FineLevel& level) override;
+  /// Moves what an increment may not have, and looks for what it meets.
+  void place(Vectors& increment);
+  /// Tells the level who is held. @param lacks  residual of the increment, to which friction is added
+  /// @return others than before
+  bool press(Vectors& lacks, const Vectors& increment, FineLevel& level);
 
   /// Calls each(place) for nodes that were pressed or held at the end of the last step, or are in this one.
   template <class Each>
