@@ -1,6 +1,7 @@
 # Copyright (c) 2026, the viscera authors
 # SPDX-License-Identifier: BSD-3-Clause
-# The library for other programs, libviscera_core: all of the folders' libraries in one, with the headers of include/.
+# The library for other programs, libviscera_core: the folders' libraries in one, without devices and the
+# float64 reference, with the headers of include/.
 # `find_package(viscera)` finds it as viscera::core, in plain CMake and in a catkin workspace alike.
 set(empty ${PROJECT_BINARY_DIR}/library.cpp)
 if(NOT EXISTS ${empty})
