@@ -132,8 +132,7 @@ class Painting {
     Look look = moment.look;
     if (!tools_) look.motions = {};
     mirror_.upload(moment.state);
-    view_->wound({moment.state.nodes.data(), moment.state.axial_cut.data(), moment.state.spring_cut.data()},
-                 moment.state.cut_revision);
+    view_->wound(moment.state, moment.state.cut_revision);
     view_->capture(mirror_.view(), look, out, mirror_.displacements());
     view_->collect(out, true);
     return std::move(out.images.at(0).rgb);

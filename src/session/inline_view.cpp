@@ -92,7 +92,7 @@ void InlineView::addEye(size_t camera, const CameraConfig& config, PictureKind k
 void InlineView::capture(Solver& solver, const Look& look, Pictures& out) {
   const StateView state = solver.stateOnGpu().value();
   if (look.wants.count() > 0 && surface_.canBeWounded() && solver.readCuts(cuts_)) {
-    wound({cuts_.nodes.data(), cuts_.axial_cut.data(), cuts_.spring_cut.data()}, cuts_.revision);
+    wound(cuts_, cuts_.revision);
   }
   capture(state, look, out);
 }

@@ -264,7 +264,7 @@ void ThreadedView::show(InlineView& view, StateMirror& mirror, const Look& look)
 /// of its wants is there for the taking till then.
 void ThreadedView::upload(InlineView& view, StateMirror& mirror) {
   mirror.upload(snapshot_);
-  view.wound({snapshot_.nodes.data(), snapshot_.axial_cut.data(), snapshot_.spring_cut.data()}, snapshot_.cut_revision);
+  view.wound(snapshot_, snapshot_.cut_revision);
   {
     const Lock lock(mutex_);
     order_ = look_.wants.count() > 0 ? Order::kShow : Order::kNone;

@@ -9,7 +9,7 @@
 
 namespace viscera {
 
-/// The record of cuts of all lattices, HostState::axial_cut. Kernels write what implicit lattices have of it
+/// The record of cuts of all lattices, CutSprings::axial_cut. Kernels write what implicit lattices have of it
 /// (shaders/solver/cut.comp); explicit ones have it in spring_cut, by spring, put together on the host.
 class CutRecord {
  public:
@@ -17,7 +17,7 @@ class CutRecord {
   CutRecord(const Model& model, const JoinedNetwork& network, const FeatureSet& features);
   /// [3 * slots]; 0 where no tool cuts or no body is a lattice.
   size_t size() const { return size_; }
-  /// Puts in what explicit lattices have. @param spring_cut  [springs] as in HostState   @param axial_cut  [size()]
+  /// Puts in what explicit lattices have. @param spring_cut  [springs] as in CutSprings   @param axial_cut  [size()]
   void addExplicit(const std::vector<float>& spring_cut, std::vector<float>& axial_cut) const;
 
  private:

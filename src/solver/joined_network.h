@@ -20,7 +20,7 @@ struct JoinedNetwork {
 /// Empty where no body has explicit connections.
 JoinedNetwork joinNetworks(const Model& model);
 
-/// Takes the stiffness from both links of the springs that are cut. @param spring_cut  [springs] as in HostState
+/// Takes the stiffness from both links of the springs that are cut. @param spring_cut  [springs] as in CutSprings
 void eraseSprings(const std::vector<float>& spring_cut, const std::vector<layout::SpringEnds>& springs,
                   std::vector<layout::Link>& links);
 

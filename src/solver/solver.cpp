@@ -34,9 +34,7 @@ void copyShown(const HostState& state, StateSnapshot& out) {
     }
   }
   if (sameNodes(state.nodes, out.nodes)) return;
-  out.nodes = state.nodes;
-  out.spring_cut = state.spring_cut;
-  out.axial_cut = state.axial_cut;
+  static_cast<CutSprings&>(out) = state;
   ++out.cut_revision;
 }
 
@@ -45,12 +43,10 @@ void Solver::snapshot(StateSnapshot& out) const {
 }
 
 bool Solver::readCuts(CutState& out) const {
-  const HostState state = readState();
+  HostState state = readState();
   if (sameNodes(state.nodes, out.nodes) && state.axial_cut == out.axial_cut && state.spring_cut == out.spring_cut)
     return false;
-  out.nodes = state.nodes;
-  out.axial_cut = state.axial_cut;
-  out.spring_cut = state.spring_cut;
+  static_cast<CutSprings&>(out) = std::move(state);
   ++out.revision;
   return true;
 }

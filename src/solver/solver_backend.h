@@ -77,8 +77,8 @@ class SolverBackend : public ToolTarget {
   virtual HostState readState() const = 0;  ///< waits
   /// As Solver::snapshot(). @param cut_revision  grows whenever springs may have been cut or the state was written
   virtual void snapshot(StateSnapshot& out, uint64_t cut_revision) const = 0;
-  /// Nodes, axial_cut and spring_cut as they are now, as Solver::readCuts() hands them out.
-  virtual void readCuts(CutState& out) const = 0;
+  /// As they are now, as Solver::readCuts() hands them out.
+  virtual void readCuts(CutSprings& out) const = 0;
   /// As Solver::stateOnGpu(). @param cut_revision  as in snapshot()
   virtual std::optional<StateView> stateOnGpu(uint64_t cut_revision) const = 0;
   virtual void resetState() = 0;  ///< rest, whole springs, nothing held, no impulses

@@ -200,7 +200,7 @@ void HostSurface::noteReplaced() {
 void HostSurface::tear(const StateSnapshot& snapshot) {
   if (snapshot.cut_revision == cut_revision_) return;
   cut_revision_ = snapshot.cut_revision;
-  if (wounds_ && wounds_->update({snapshot.nodes.data(), snapshot.axial_cut.data(), snapshot.spring_cut.data()}))
+  if (wounds_ && wounds_->update(snapshot))
     noteReplaced();
   const Buffers buffers(*this, snapshot);
   if (skins_.any_bound && !wounds_) glsl::run<glsl::TearSkin>(buffers, shown_.count());

@@ -31,7 +31,8 @@ class TetrahedraPoints {
   /// Both must outlive this.
   TetrahedraPoints(const SpringNetwork& network, const TetrahedraIndex& index);
 
-  /// Forgets all points. @param nodes, spring_cut  [slots], [springs] of the body, as in HostState; until the next call
+  /// Forgets all points. @param nodes, spring_cut  [slots], [springs] of the body, as in CutSprings; until the next
+  /// call
   void update(const layout::NodeBits* nodes, const float* spring_cut);
   const std::vector<uint32_t>& cutSprings() const { return cut_; }  ///< ascending
   bool isCut(uint32_t spring) const { return spring_cut_[spring] != 0; }

@@ -31,7 +31,7 @@ class TetrahedraWound {
   /// @param skin, network  of one body; must outlive this
   TetrahedraWound(const Skin& skin, const SpringNetwork& network);
 
-  /// What blades have left. @param nodes, spring_cut  [slots], [springs] of the body, as in HostState
+  /// What blades have left. @param nodes, spring_cut  [slots], [springs] of the body, as in CutSprings
   void update(const layout::NodeBits* nodes, const float* spring_cut);
 
   bool any() const { return !points_.cutSprings().empty(); }

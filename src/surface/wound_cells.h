@@ -53,7 +53,7 @@ class CutCells {
  public:
   explicit CutCells(const Lattice& lattice);
 
-  /// @param nodes  [slots] of this body   @param axial_cut  [3 * slots] see CutState; null: all as before
+  /// @param nodes  [slots] of this body   @param axial_cut  [3 * slots] see CutSprings; null: all as before
   void update(const layout::NodeBits* nodes, const float* axial_cut);
   void makeWhole();
 

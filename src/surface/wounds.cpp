@@ -198,17 +198,19 @@ bool Wounds::isKnown(const layout::NodeBits* nodes) {
 }
 
 bool Wounds::update(const CutSprings& cuts) {
-  if (isKnown(cuts.nodes)) return false;
+  if (isKnown(cuts.nodes.data())) return false;
   forget();
   const std::shared_ptr<ShownWounds> now = next();
+  const float* const axial_cut = cuts.axial_cut.empty() ? nullptr : cuts.axial_cut.data();
   for (size_t b = 0; b < places_.size(); ++b) {
     Place& place = places_[b];
+    const layout::NodeBits* const nodes = cuts.nodes.data() + place.slot;
     if (place.tetrahedra) {
-      place.tetrahedra->update(cuts.nodes + place.slot, cuts.spring_cut + place.spring);
+      place.tetrahedra->update(nodes, cuts.spring_cut.data() + place.spring);
       if (place.tetrahedra->any()) appendTetrahedra(place, now->bodies[b]);
     }
     if (!place.wound) continue;
-    place.wound->update(cuts.nodes + place.slot, cuts.axial_cut ? cuts.axial_cut + 3 * size_t{place.slot} : nullptr);
+    place.wound->update(nodes, axial_cut ? axial_cut + 3 * size_t{place.slot} : nullptr);
     if (!place.wound->any()) continue;
     append(place, now->bodies[b]);
     now->holes += place.wound->holes();

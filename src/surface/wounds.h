@@ -11,15 +11,9 @@
 #include "surface/tetrahedra_wound.h"
 #include "surface/wound_depths.h"
 #include "viscera/model/model.h"
+#include "viscera/solver/state.h"
 
 namespace viscera {
-
-/// Which springs of all bodies are cut, and where, as in HostState.
-struct CutSprings {
-  const layout::NodeBits* nodes = nullptr;  ///< [slots]
-  const float* axial_cut = nullptr;         ///< [3 * slots]; null where nothing can be cut in a lattice
-  const float* spring_cut = nullptr;        ///< [springs]; of no matter where no body has tetrahedra
-};
 
 /// What cuts have made of the skins of bodies with an inside, lattices and tetrahedra: not changed while anybody shows
 /// it, so that who does shares it.

@@ -183,7 +183,7 @@ TEST_F(ThreadedViewTest, ShowsToTheBitWhatAViewOnTheSteppersThreadShows) {
   GpuState gpu(model_);
   for (const Shown& s : shown) {
     Pictures pictures;
-    view.wound({s.state.nodes.data(), s.state.axial_cut.data(), s.state.spring_cut.data()}, s.cut_revision);
+    view.wound(s.state, s.cut_revision);
     view.capture(gpu.view(s.state, s.cut_revision), s.look, pictures);
     view.collect(pictures, true);
     expectSame(s.pictures, pictures);

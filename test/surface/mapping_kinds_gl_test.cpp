@@ -342,7 +342,7 @@ TEST_F(MappingKinds, WoundsOfEachAreShutAtRestAndClosedWhenOpened) {
       if (springCount(before[slot], 0) && !springCount(rig.nodes[slot], 0))
         axial_cut[3 * slot] = static_cast<float>((0.0123 - lattice.restPosition(slot).x()) / kSpacing_m);
     }
-    rig.surface.wound({rig.nodes.data(), axial_cut.data()}, 1);
+    rig.surface.wound({rig.nodes, {}, axial_cut}, 1);
     rig.follow();
     const std::vector<Vector3d> still = rig.positions();
     for (size_t v = 0; v < rig.model.bodies[0].skin.bindings.size(); ++v)

@@ -35,7 +35,7 @@ class TetrahedraWoundOnGpu : public ::testing::Test {
     std::copy(box_.spring_cut.begin(), box_.spring_cut.end(),
               rig_.spring_cut.begin() + static_cast<long>(firstSpring(rig_.model, 1)));
     rig_.tear();
-    rig_.surface.wound({rig_.nodes.data(), nullptr, rig_.spring_cut.data()}, rig_.revision);
+    rig_.surface.wound({rig_.nodes, rig_.spring_cut, {}}, rig_.revision);
     rig_.follow();
   }
   void move(const WoundedTetrahedra::Moves& u) {

@@ -58,7 +58,7 @@ TEST(WoundDetail, PiecesKeepTheChartsOfTheirTriangles) {
     const double x = lattice.restPosition(slot).x();
     if (x < plane_m && x + kSpacing_m > plane_m) axial_cut[3 * slot] = static_cast<float>((plane_m - x) / kSpacing_m);
   }
-  surface.wound({nodes.data(), axial_cut.data()}, 1);
+  surface.wound({nodes, {}, axial_cut}, 1);
   charts = surface.liveCharts().read();
   const std::vector<uint32_t> live = surface.liveIndices().read();
   const std::vector<layout::vec4> rests = surface.rests().read();

@@ -298,16 +298,8 @@ HostState CpuBackend::readState() const {
 
 void CpuBackend::snapshot(StateSnapshot& out, uint64_t cut_revision) const {
   copyShown(lattice_.state.displacement[lattice_.state.current].data(), out);
-  if (out.nodes.empty() || out.cut_revision != cut_revision) {
-    lattice_.readCuts(out.nodes, out.axial_cut);
-    out.spring_cut = lattice_.links.spring_cut;
-  }
+  if (out.nodes.empty() || out.cut_revision != cut_revision) lattice_.readCuts(out);
   out.cut_revision = cut_revision;
-}
-
-void CpuBackend::readCuts(CutState& out) const {
-  lattice_.readCuts(out.nodes, out.axial_cut);
-  out.spring_cut = lattice_.links.spring_cut;
 }
 
 }  // namespace viscera

@@ -60,7 +60,7 @@ class CpuBackend : public SolverBackend {
   bool takeStats(layout::TickStats& stats, bool wait) override;
   HostState readState() const override;
   void snapshot(StateSnapshot& out, uint64_t cut_revision) const override;
-  void readCuts(CutState& out) const override;
+  void readCuts(CutSprings& out) const override { lattice_.readCuts(out); }
   std::optional<StateView> stateOnGpu(uint64_t /*cut_revision*/) const override { return std::nullopt; }
   void resetState() override;
   void loadState(const HostState& state) override;

@@ -99,15 +99,15 @@ HostState CpuLattice::read() const {
   HostState out;
   out.displacement_m = gathered(state.displacement[state.current], slotCount());
   out.velocity_m_per_s = gathered(state.velocity[state.current], slotCount());
-  out.spring_cut = links.spring_cut;
-  readCuts(out.nodes, out.axial_cut);
+  readCuts(out);
   return out;
 }
 
-void CpuLattice::readCuts(std::vector<layout::NodeBits>& nodes, std::vector<float>& out) const {
-  nodes = store.nodes;
-  out = axial_cut;
-  record.addExplicit(links.spring_cut, out);
+void CpuLattice::readCuts(CutSprings& out) const {
+  out.nodes = store.nodes;
+  out.spring_cut = links.spring_cut;
+  out.axial_cut = axial_cut;
+  record.addExplicit(out.spring_cut, out.axial_cut);
 }
 
 void CpuLattice::write(const HostState& from) {

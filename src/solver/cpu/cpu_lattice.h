@@ -39,12 +39,12 @@ struct CpuHands {
 /// Explicit connections; all empty without any.
 struct CpuLinks {
   CpuLinks(const Model& model, const FeatureSet& features);
-  /// Whole but for those that are cut. @param cut  [springs] as in HostState
+  /// Whole but for those that are cut. @param cut  [springs] as in CutSprings
   void writeSpringCut(const std::vector<float>& cut);
 
   JoinedNetwork network;          ///< without stiffness where springs are cut; masses are in CpuStrengths
   EdgeForces edge_forces;         ///< empty unless edge by edge
-  std::vector<float> spring_cut;  ///< [springs] as in HostState
+  std::vector<float> spring_cut;  ///< [springs] as in CutSprings
 
  private:
   std::vector<layout::Link> whole_links_;
@@ -60,8 +60,7 @@ struct CpuLattice {
   void reset();
   void swap() { state.swap(); }
   HostState read() const;
-  /// What of the state readCuts() hands out. @param axial_cut  as in HostState
-  void readCuts(std::vector<layout::NodeBits>& nodes, std::vector<float>& axial_cut) const;
+  void readCuts(CutSprings& out) const;
   void write(const HostState& from);
   void refresh(uint32_t slot) { strengths.refresh(store, slot); }
 
@@ -75,7 +74,7 @@ struct CpuLattice {
   CpuState state;
   CpuHands hands;
   CutRecord record;
-  std::vector<float> axial_cut;         ///< [record.size()] as in HostState, of implicit lattices
+  std::vector<float> axial_cut;         ///< [record.size()] as in CutSprings, of implicit lattices
   std::vector<layout::vec4> cut_sides;  ///< [slots] where there is a record: see shaders/solver/cut_sides.glsl
 };
 

@@ -240,9 +240,7 @@ HostState GpuBackend::readState() const {
   HostState out;
   out.displacement_m = buffers_.state.displacement[buffers_.state.current].read();
   out.velocity_m_per_s = buffers_.state.velocity[buffers_.state.current].read();
-  out.nodes = buffers_.store.nodes.read();
-  out.spring_cut = buffers_.links.spring_cut.read();
-  out.axial_cut = buffers_.readAxialCut(out.spring_cut);
+  readCuts(out);
   return out;
 }
 
@@ -253,7 +251,7 @@ std::vector<uint8_t> GpuBackend::awake() const {
   return awake_->awake();
 }
 
-void GpuBackend::readCuts(CutState& out) const {
+void GpuBackend::readCuts(CutSprings& out) const {
   out.nodes = buffers_.store.nodes.read();
   out.spring_cut = buffers_.links.spring_cut.read();
   out.axial_cut = buffers_.readAxialCut(out.spring_cut);

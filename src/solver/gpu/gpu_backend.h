@@ -67,7 +67,7 @@ class GpuBackend final : public SolverBackend {
   bool takeStats(layout::TickStats& stats, bool wait) override;
   HostState readState() const override;
   void snapshot(StateSnapshot& out, uint64_t /*cut_revision*/) const override { copyShown(readState(), out); }
-  void readCuts(CutState& out) const override;
+  void readCuts(CutSprings& out) const override;
   std::optional<StateView> stateOnGpu(uint64_t cut_revision) const override;
   void resetState() override;
   void loadState(const HostState& state) override;

@@ -87,7 +87,7 @@ struct HandBuffers {
 struct LinkBuffers {
   LinkBuffers(const Model& model, const FeatureSet& features);
   void bind() const;
-  /// Whole but for those that are cut. @param cut  [springs] as in HostState
+  /// Whole but for those that are cut. @param cut  [springs] as in CutSprings
   void writeSpringCut(const std::vector<float>& cut);
 
   JoinedNetwork network;                           ///< whole, as on the host; empty without
@@ -118,8 +118,8 @@ struct LatticeBuffers {
   void swap() { state.swap(); }
   /// Rest state, whole springs, nothing held.
   void reset();
-  std::vector<float> readAxialCut(const std::vector<float>& spring_cut) const;  ///< both as in HostState; waits
-  void writeAxialCut(const std::vector<float>& cut);                            ///< as in HostState, none: whole
+  std::vector<float> readAxialCut(const std::vector<float>& spring_cut) const;  ///< both as in CutSprings; waits
+  void writeAxialCut(const std::vector<float>& cut);                            ///< as in CutSprings, none: whole
   void writeSpringCut(const std::vector<float>& cut) { links.writeSpringCut(cut); }
 
   StoreBuffers store;

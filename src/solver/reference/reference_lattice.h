@@ -30,8 +30,8 @@ class ReferenceLattice {
   std::vector<uint32_t> active;         ///< [active] slots
   std::vector<layout::NodeBits> nodes;  ///< [slots]; counts of heterogeneous bodies and of explicit lattices only say
                                         ///< alive or cut, those of networks how many links are whole
-  std::vector<float> spring_cut;        ///< [springs] of all networks, as in HostState: 0 whole
-  std::vector<double> axial_cut;        ///< [3 * slots] of lattices of either kind, as in HostState
+  std::vector<float> spring_cut;        ///< [springs] of all networks, as in CutSprings: 0 whole
+  std::vector<double> axial_cut;        ///< [3 * slots] of lattices of either kind, as in CutSprings
   std::vector<Vector3d> cut_sides;  ///< [slots] unit normal of a cut towards the node, zero where there is none: see
                                     ///< shaders/solver/cut_sides.glsl
 
