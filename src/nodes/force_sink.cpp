@@ -13,9 +13,7 @@ Reaction toDevice(const Reaction& reaction, const DeviceFrame& frame, const Forc
   const Vector3d force_n = frame.from_tissue * (port.scale * reaction.force_n);
   Vector3d torque_nm = frame.from_tissue * (port.scale * reaction.torque_nm) + frame.lever_arm_m.cross(force_n);
   if (!hasTorque(port) || port.max_torque_nm == 0) torque_nm.setZero();
-  double share = 1;
-  if (force_n.norm() > port.max_force_n) share = port.max_force_n / force_n.norm();
-  if (share * torque_nm.norm() > port.max_torque_nm) share = port.max_torque_nm / torque_nm.norm();
+  const double share = shareWithin(force_n, torque_nm, port.max_force_n, port.max_torque_nm);
   return {share * force_n, share * torque_nm, reaction.saturated || share < 1};
 }
 

@@ -13,8 +13,7 @@ namespace {
 /// One factor for what the device would give at a place of the tip.
 double shareAt(const ContactModel& model, const Vector3d& tip_m, SteadyTime now, double most_n, const ForcePort& port) {
   const double size_n = model.at(tip_m, std::chrono::duration<double>(now - SteadyTime{}).count()).force_n.norm();
-  const double given_n = port.scale * size_n, most_given_n = std::min(port.scale * most_n, port.max_force_n);
-  return given_n > most_given_n ? most_given_n / given_n : 1;
+  return shareWithin(port.scale * size_n, std::min(port.scale * most_n, port.max_force_n));
 }
 
 }  // namespace

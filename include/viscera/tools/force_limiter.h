@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <limits>
 
 #include "viscera/math/types.h"
@@ -15,6 +16,18 @@ struct Reaction {
   Vector3d torque_nm = Vector3d::Zero();
   bool saturated = false;
 };
+
+/// The share of a force or torque that a limit lets through, at most all of it. All limits on the wrench of a stylus
+/// are this rule, each for its own purpose: a Session limits its answers in simulated time, so that results do not
+/// depend on how fast it runs; what devices are told is limited again in wall-clock time, in which hands feel it; and
+/// each device once more along its own axes, by what it is made for, whatever the scene allows.
+inline double shareWithin(double size, double most) {
+  return size > most ? most / size : 1;
+}
+/// The one share of both, so that the line of action stays.
+inline double shareWithin(const Vector3d& force_n, const Vector3d& torque_nm, double most_n, double most_nm) {
+  return std::min(shareWithin(force_n.norm(), most_n), shareWithin(torque_nm.norm(), most_nm));
+}
 
 /// What a device may be given: sizes, and how fast they may change. A size of 0 leaves that part out: a device that has
 /// no torque feels the whole force.
