@@ -77,10 +77,10 @@ std::vector<double> errorsOf(Backend backend, const Row& row, const Experiment& 
 
 std::vector<Row> rowsOf(bool short_form) {
   const Method leapfrog{Integrator::kLeapfrog, 40}, verlet{Integrator::kVerletPaper, 40};
-  const Method vbd{Integrator::kVbd, 40, 10}, pd{Integrator::kPd, 40, 30};
+  const Method pd{Integrator::kPd, 40, 30};
   const Damping none, drag{kDrag_per_s, 0}, dashpot{0, kDashpot};
   if (short_form) {
-    return {{"leapfrog", leapfrog, none, 1, 2}, {"vbd", vbd, none, 1, 1}, {"pd", pd, none, 1, 1}};
+    return {{"leapfrog", leapfrog, none, 1, 2}, {"pd", pd, none, 1, 1}};
   }
   return {
       {"leapfrog", leapfrog, none, 3, 2},
@@ -89,9 +89,7 @@ std::vector<Row> rowsOf(bool short_form) {
       {"verlet_paper", verlet, none, 3, 0},
       {"verlet_paper, half kick", verlet, none, 3, 0, false},
       {"verlet_paper, half kick, drag", verlet, drag, 3, 0, false},
-      {"vbd", vbd, none, 3, 1},
       {"pd", pd, none, 3, 1},
-      {"vbd, drag", vbd, drag, 2, 1},
       {"pd, drag", pd, drag, 2, 1},
   };
 }

@@ -175,7 +175,7 @@ void measureStacks(Report& report) {
                                                                           {"below its place", "m"},
                                                                           {"speed", "m/s"}});
   for (Backend backend : report.backends()) {
-    for (const Integrator integrator : {Integrator::kLeapfrog, Integrator::kVbd, Integrator::kPd}) {
+    for (const Integrator integrator : {Integrator::kLeapfrog, Integrator::kPd}) {
       if (report.isShort() && backend == Backend::kGpu && integrator != Integrator::kLeapfrog) continue;
       const std::string name = nameOf(backend) + ": stack, " + std::string(traitsOf(integrator).name);
       report.stage(name);

@@ -73,7 +73,7 @@ void ratios(Report& report) {
     for (const Row& row : rows) {
       const Model model = twoPartBlock(report.isShort() ? 3 : 5, row.first, row.second);
       const std::vector<Start> starts = extremeStarts(model);
-      for (Integrator integrator : {Integrator::kLeapfrog, Integrator::kVbd, Integrator::kPd}) {
+      for (Integrator integrator : {Integrator::kLeapfrog, Integrator::kPd}) {
         report.stage(row.name + ", " + nameOf(integrator) + ", " + nameOf(backend));
         const Scene scene = sceneAt(model, integrator, traitsOf(integrator).is_explicit ? 1 : 100);
         const Outcome outcome = tryStart(backend, model, scene, starts[0], report.isShort() ? 12 : 40);

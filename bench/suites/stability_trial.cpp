@@ -18,7 +18,7 @@ constexpr double kSweeps = 25000;    // passes over all nodes that a trial may t
 double sweepsPerTick(const Scene& scene) {
   const IntegratorTraits& traits = traitsOf(scene.solver.integrator);
   const int iterations = traits.iterates ? scene.solver.iterations : 1;
-  return scene.solver.substeps * iterations * (traits.takes_colours ? 4.0 : 1.0);
+  return scene.solver.substeps * iterations;
 }
 
 bool isFinite(const Model& model, const HostState& state) {

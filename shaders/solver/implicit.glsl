@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Implicit Euler in increments du = u+ - u, what vbd and pd solve (physics.md 2). After elastic.glsl and step.glsl.
+// Implicit Euler in increments du = u+ - u, what pd solves (physics.md 2). After elastic.glsl and step.glsl.
 //   m (1 + gamma dt)/dt^2 (du - y) = F(u + du),   y = (dt v + dt^2 g)/(1 + gamma dt),   v+ = du/dt
 // F has the springs, the volumes and the dashpots c/dt n n^T (du_far - du_near), n at the current iterate. A solution is a
 // stationary point of the incremental potential
@@ -43,20 +43,6 @@ vec3 freeIncrement(uint slot, BodyParams body) {
   return (dt_s * v + (dt_s * dt_s) * gravity) / (1.0f + body.drag_per_s * dt_s);
 }
 
-/// x of (diagonal 1 + a) x = b, a symmetric and not negative, by L D L^T.
-vec3 solved(float diagonal, mat3 a, vec3 b) {
-  float dx = diagonal + a[0].x;
-  float lxy = a[0].y / dx, lxz = a[0].z / dx;
-  float dy = (diagonal + a[1].y) - lxy * a[0].y;
-  float yz = a[1].z - lxy * a[0].z;
-  float lyz = yz / dy;
-  float dz = (diagonal + a[2].z) - lxz * a[0].z - lyz * yz;
-  float by = b.y - lxy * b.x, bz = b.z - lxz * b.x - lyz * by;
-  float z = bz / dz;
-  float y = by / dy - lyz * z;
-  return vec3(b.x / dx - lxy * y - lxz * z, y, z);
-}
-
 /// c/dt of a spring's dashpot [N/m]
 float damping(float k, BodyParams body) {
 #ifdef DASHPOT
@@ -69,7 +55,6 @@ float damping(float k, BodyParams body) {
 /// What a node knows of a spring in the current iterate.
 struct ImplicitSpring {
   Spring spring;
-  float stretch;  // max(0, 1 - l0/L): how much of k acts across the spring
   float damping;  // c/dt [N/m]
   vec3 force;     // spring and dashpot [N]
 };
@@ -79,7 +64,6 @@ ImplicitSpring implicitSpring(uint n, vec3 u, vec3 du, vec3 d, float l0, float p
   vec3 along = xyz(texelFetch(increment, int(n))) - du;
   ImplicitSpring s;
   s.spring = springBetween(d, l0, prestrain, (xyz(texelFetch(displacement, int(n))) - u) + along);
-  s.stretch = s.spring.extension > 0.0f ? s.spring.extension / (l0 + s.spring.extension) : 0.0f;
   s.damping = damping(k, body);
   s.force = (k * s.spring.extension + s.damping * dot(s.spring.direction, along)) * s.spring.direction;
   return s;

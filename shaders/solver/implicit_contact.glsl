@@ -108,22 +108,22 @@ vec3 outside(uint slot, vec3 du) {
 }
 
 /// How much a direction gives under a force along it [m/N].
-float givesAlong(vec3 direction, float diagonal, mat3 a) { return dot(direction, solved(diagonal, a, direction)); }
+float givesAlong(vec3 direction, float stiffness_n_per_m) { return dot(direction, direction / stiffness_n_per_m); }
 
-/// What a contact must do to a node that goes on by H^-1 (force + that), H = diagonal 1 + a [N]: the least push that keeps it outside;
+/// What a contact must do to a node that goes on by (force + that) / stiffness [N]: the least push that keeps it outside;
 /// with friction the last solution's force, mended: along the surface by what the node slips, up to Coulomb's limit.
-vec3 forceOfContact(Contact c, float diagonal, mat3 a, vec3 du, vec3 force) {
+vec3 forceOfContact(Contact c, float stiffness_n_per_m, vec3 du, vec3 force) {
   const int rounds = 6;
-  float give = givesAlong(c.normal, diagonal, a);
+  float give = givesAlong(c.normal, stiffness_n_per_m);
   if (c.friction == 0.0f) {
-    float missing = c.least - dot(c.normal, du + solved(diagonal, a, force));
+    float missing = c.least - dot(c.normal, du + force / stiffness_n_per_m);
     return (max(0.0f, missing) / give) * c.normal;
   }
   vec3 across = normalize(cross(c.normal, abs(c.normal.x) < 0.7f ? vec3(1.0f, 0.0f, 0.0f) : vec3(0.0f, 1.0f, 0.0f)));
-  float slip_gives = max(givesAlong(across, diagonal, a), givesAlong(cross(c.normal, across), diagonal, a));
+  float slip_gives = max(givesAlong(across, stiffness_n_per_m), givesAlong(cross(c.normal, across), stiffness_n_per_m));
   vec3 own = c.force;
   for (int i = 0; i < rounds; ++i) {
-    vec3 next = du + solved(diagonal, a, force + own);
+    vec3 next = du + (force + own) / stiffness_n_per_m;
     float pressure = max(0.0f, dot(own, c.normal) + (c.least - dot(c.normal, next)) / give);
     vec3 drag = own - (next - c.way) / slip_gives;
     drag -= dot(drag, c.normal) * c.normal;
@@ -133,9 +133,9 @@ vec3 forceOfContact(Contact c, float diagonal, mat3 a, vec3 du, vec3 force) {
   return own;
 }
 
-/// The step of a node with contacts: the least of s H s / 2 - force s where they let it be, contact by contact.
-/// @param keeps  the forces of the contacts are those of this step
-vec3 stepInContact(uint slot, float diagonal, mat3 a, vec3 du, vec3 force, bool keeps) {
+/// The step of a node with contacts: the least of stiffness s s / 2 - force s where they let it be, contact by contact. The forces of
+/// the contacts are those of this step then.
+vec3 stepInContact(uint slot, float stiffness_n_per_m, vec3 du, vec3 force) {
   const uint rounds = 8u;
   uint count = contactCount(slot);
   vec3 forces[kMostContacts], total = force;
@@ -146,14 +146,14 @@ vec3 stepInContact(uint slot, float diagonal, mat3 a, vec3 du, vec3 force, bool 
   for (uint i = 0u; i < (count > 1u ? rounds * count : count); ++i) {
     uint row = i % count;
     vec3 others = count > 1u ? total - forces[row] : force;
-    forces[row] = forceOfContact(contactOf(slot, row), diagonal, a, du, others);
+    forces[row] = forceOfContact(contactOf(slot, row), stiffness_n_per_m, du, others);
     total = others + forces[row];
   }
-  for (uint row = 0u; keeps && row < count; ++row) {
+  for (uint row = 0u; row < count; ++row) {
     uint at = contactAt(slot, row) + 2u;
     node_contacts[at] = vec4(forces[row], node_contacts[at].w);
   }
-  return outside(slot, du + solved(diagonal, a, total)) - du;  // to the last digit
+  return outside(slot, du + total / stiffness_n_per_m) - du;  // to the last digit
 }
 
 /// What friction adds to P for an increment: the pressure is that of the last solution [J].

@@ -9,7 +9,7 @@ vec3 placeOf(uint slot, BodyParams body, vec4 pulled, vec3 u, vec3 du) {
   vec3 change = notTooFar(force / pulled.w, most);
 #ifdef CONTACT
   findContacts(slot, u, du + change);
-  if (contactCount(slot) != 0u) change = notTooFar(stepInContact(slot, pulled.w, mat3(0.0f), du, force, true), most);
+  if (contactCount(slot) != 0u) change = notTooFar(stepInContact(slot, pulled.w, du, force), most);
 #endif
   return du + change;
 }

@@ -98,7 +98,7 @@ void main() {
 #ifdef CONTACT
   findContacts(slot, u, xyz(now) + change);
   bool in_contact = contactCount(slot) != 0u;
-  if (in_contact) change = notTooFar(stepInContact(slot, p.w, mat3(0.0f), xyz(now), xyz(p), true), most);
+  if (in_contact) change = notTooFar(stepInContact(slot, p.w, xyz(now), xyz(p)), most);
 #endif
   recordChange(change);
   vec3 next = xyz(now) + change;

@@ -36,7 +36,7 @@ void addLatency(const std::string& name, const LatencyMeter::Reading& reading,
 void warnOfSlowness(const PaceMeter::Reading& pace, double tick_s) {
   ROS_WARN(
       "slower than real time: factor %.2g for 2 s, a tick of %.3g ms takes %.3g ms. Ways out: a coarser "
-      "bodies[].spacing_m, or 'auto'; a larger solver.dt_fraction, or solver.integrator 'vbd'; fewer or smaller images "
+      "bodies[].spacing_m, or 'auto'; a larger solver.dt_fraction, or solver.integrator 'pd'; fewer or smaller images "
       "(cameras[].rate_hz, width_px, height_px) and a lower ~surface_rate_hz; other programs that leave the processors",
       pace.real_time_factor, 1e3 * tick_s, 1e3 * pace.step_mean_s);
 }

@@ -29,11 +29,10 @@ void requireStable(const Model& model, const SolverConfig& config, double dt_saf
   const double limit_s = stableFraction(config.integrator, largestDashpot(model)) * dt_safe_s;
   const double dt_s = 1.0 / (config.tick_hz * config.substeps);
   if (dt_s < limit_s) return;
-  throw SceneError("solver.substeps = " + std::to_string(config.substeps) + " gives substeps of " +
-                   std::to_string(dt_s * kMicro) + " us, and this integrator is stable below " +
-                   std::to_string(limit_s * kMicro) + " us: use at least " +
-                   std::to_string(std::lround(std::floor(1.0 / (config.tick_hz * limit_s)) + 1)) +
-                   " substeps, or integrator vbd or pd");
+  throw SceneError(
+      "solver.substeps = " + std::to_string(config.substeps) + " gives substeps of " + std::to_string(dt_s * kMicro) +
+      " us, and this integrator is stable below " + std::to_string(limit_s * kMicro) + " us: use at least " +
+      std::to_string(std::lround(std::floor(1.0 / (config.tick_hz * limit_s)) + 1)) + " substeps, or integrator pd");
 }
 
 }  // namespace

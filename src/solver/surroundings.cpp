@@ -121,7 +121,7 @@ Surroundings::Surroundings(const Model& model, const Scene& scene)
   if (features_.any() && traits.own_positions) {
     throw SceneError("solver.integrator: " + std::string(traits.name) +
                      " keeps positions of its own and knows nothing of " + surroundingKeys(features_) +
-                     ": use leapfrog, vbd or pd");
+                     ": use leapfrog or pd");
   }
 }
 

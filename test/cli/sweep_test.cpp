@@ -188,7 +188,7 @@ TEST_F(Sweep, ARunOverItsLimitIsKilledAndTheNextIsDone) {
   constexpr double kFarLess_s = 40;  // than the first would take
   const std::string file = plan(
       "seconds: 0.5\n"
-      "set: {solver.integrator: vbd}\n"
+      "set: {solver.integrator: pd}\n"
       "grid: {solver.iterations: [10000, 1]}\n");
   const auto start = std::chrono::steady_clock::now();
   const Ending ending = sweep(file, {"--run-limit-s", std::to_string(kLimit_s), "--tries", "1", "--jobs", "1"});

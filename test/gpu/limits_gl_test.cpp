@@ -58,7 +58,7 @@ class GpuErrors : public ::testing::Test {
   Context context_;
 };
 
-/// Kernels of contacts that vbd and pd solve for, with and without features that have blocks of their own.
+/// Kernels of contacts that pd solves for, with and without features that have blocks of their own.
 const std::vector<std::string> kAhead = {"GROUP_SIZE 64", "LATTICE", "AHEAD", "INCREMENT"};
 
 TEST_F(GpuErrors, ComeBeforeAKernelHasMoreBlocksThanTheDriverAllows) {

@@ -72,7 +72,7 @@ TEST(TissueMemory, CountsWhatContactsTakeWhereTheyAreSolvedForToo) {
   Scene scene;
   const double alone = bytesPerFilledCell(scene);
   EXPECT_EQ(alone, kBytesPerFilledCell);
-  scene.solver.integrator = Integrator::kVbd;
+  scene.solver.integrator = Integrator::kPd;
   EXPECT_EQ(bytesPerFilledCell(scene), alone);
   scene.collision.enabled = true;
   // 16 ends of pairs a node, each with two rows of 16 bytes and a word; three rows and two words a node.

@@ -112,7 +112,7 @@ obstacles:
     frame: arm
     friction: 0.409
     restitution: 0.411
-solver: {tick_hz: 90, integrator: vbd, dt_fraction: 0.91, dt_fraction_strained: 0.41, measured_limit: false, start: equilibrium, substeps: 93, iterations: 94,
+solver: {tick_hz: 90, integrator: pd, dt_fraction: 0.91, dt_fraction_strained: 0.41, measured_limit: false, start: equilibrium, substeps: 93, iterations: 94,
          compensated: true, governor: false, recovery_s: 0.95, sleep_distance_m: 0.96, sleep_speed_m_per_s: 0.0097, max_substeps: 92,
          device: 3, backend: cpu, threads: 2, real_time_factor: 1.97, spring_forces: edge}
 )";
@@ -247,7 +247,7 @@ TEST(SceneKeys, EveryOtherKeyReachesItsField) {
   EXPECT_EQ(scene.environment.tissue_position_m, Vector3d(1.4, 1.5, 1.6));
   EXPECT_EQ(scene.environment.tissue_rotation_deg, Vector3d(17, 18, 19));
   EXPECT_EQ(scene.solver.tick_hz, 90);
-  EXPECT_EQ(scene.solver.integrator, Integrator::kVbd);
+  EXPECT_EQ(scene.solver.integrator, Integrator::kPd);
   EXPECT_EQ(scene.solver.dt_fraction, 0.91);
   EXPECT_EQ(scene.solver.dt_fraction_strained, 0.41);
   EXPECT_FALSE(scene.solver.measured_limit);

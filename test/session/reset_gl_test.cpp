@@ -151,7 +151,7 @@ Scene blockOf(Integrator integrator, double poisson_ratio = 0.4) {
   scene.bodies[0].material.poisson_ratio = poisson_ratio;
   scene.solver.integrator = integrator;
   scene.solver.iterations = 5;
-  if (integrator == Integrator::kVbd || integrator == Integrator::kPd) scene.bodies[0].spacing_m = 0.01;
+  if (integrator == Integrator::kPd) scene.bodies[0].spacing_m = 0.01;
   return scene;
 }
 
@@ -207,13 +207,10 @@ std::vector<Disturbance> integratorDisturbances() {
   };
   return {
       {"leapfrog_volumes", under(Integrator::kLeapfrog), cutAndClose, 30, wasCut},
-      {"vbd", under(Integrator::kVbd), bothHands, 30, holds},
       {"pd", under(Integrator::kPd), bothHands, 30, holds},
       {"verlet_paper", under(Integrator::kVerletPaper), bothHands, 30, holds},
-      {"vbd_trip", under(Integrator::kVbd), swingToNoPlace, 14, tripped},
       {"pd_trip", under(Integrator::kPd), swingToNoPlace, 14, tripped},
       {"verlet_paper_trip", under(Integrator::kVerletPaper), swingToNoPlace, 14, tripped},
-      {"vbd_contacts", meeting(Integrator::kVbd), cutAndClose, 30, wasCut},
       {"pd_contacts", meeting(Integrator::kPd), cutAndClose, 30, wasCut},
   };
 }
@@ -269,7 +266,6 @@ std::vector<Disturbance> networkDisturbances() {
       {"explicit_edges_volumes", block(SpringForces::kEdge, 0.4), cutAndClose, 30, wasCut},
       {"explicit_trip", block(SpringForces::kPoint, 0.25), swingToNoPlace, 14, tripped},
       {"cloth_edges", edgeCloth, bothHands, 30, wasCut},
-      {"cloth_vbd", clothUnder(Integrator::kVbd), bothHands, 30, wasCut},
       {"cloth_pd", clothUnder(Integrator::kPd), bothHands, 30, wasCut},
   };
 }

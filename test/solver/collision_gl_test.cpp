@@ -257,13 +257,11 @@ TEST_P(Sliding, ASheetOnAnotherSlowsByFrictionTimesGravityAndThenRests) {
   }
 }
 
-TEST_P(Sliding, WithinImplicitIntegratorsItSlowsBySoMuchToo) {
-  constexpr double kLaw = 0.1;  // as above
-  for (const Integrator integrator : {Integrator::kVbd, Integrator::kPd}) {
-    slide(0.3, integrator, 4);  // 2 dt_safe
-    EXPECT_NEAR(deceleration() / (0.3 * kGravity_m_per_s2), 1, kLaw) << static_cast<int>(integrator);
-    EXPECT_NEAR(speeds_.back(), 0, 1e-4) << "it has not come to rest";
-  }
+TEST_P(Sliding, WithinPdItSlowsBySoMuchToo) {
+  constexpr double kLaw = 0.1;     // as above
+  slide(0.3, Integrator::kPd, 4);  // 2 dt_safe
+  EXPECT_NEAR(deceleration() / (0.3 * kGravity_m_per_s2), 1, kLaw);
+  EXPECT_NEAR(speeds_.back(), 0, 1e-4) << "it has not come to rest";
 }
 
 TEST_P(Collide, NodesTooFarFromEachOtherDoNothingAtAll) {

@@ -52,7 +52,7 @@ TEST(Features, CompensationComesWithShortSubstepsOrWhenAskedFor) {
   SolverConfig asked;
   asked.compensated = true;
   EXPECT_TRUE(has(featuresOf(body, asked), "COMPENSATED"));
-  asked.integrator = Integrator::kVbd;  // does not sum so
+  asked.integrator = Integrator::kPd;  // does not sum so
   EXPECT_FALSE(has(featuresOf(body, asked), "COMPENSATED"));
 }
 

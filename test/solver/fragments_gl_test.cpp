@@ -136,7 +136,7 @@ class HeldFragments : public ::testing::WithParamInterface<std::tuple<std::strin
 std::string heldSuffix(const ::testing::TestParamInfo<std::tuple<std::string, Integrator>>& info) {
   const std::pair<Integrator, const char*> names[] = {{Integrator::kLeapfrog, "_leapfrog"},
                                                       {Integrator::kVerletPaper, "_verlet_paper"},
-                                                      {Integrator::kVbd, "_vbd"},
+                                                      {Integrator::kPd, "_pd"},
                                                       {Integrator::kMultigrid, "_multigrid"}};
   std::string out = std::get<0>(info.param);
   out.erase(std::remove(out.begin(), out.end(), ' '), out.end());
@@ -147,7 +147,7 @@ std::string heldSuffix(const ::testing::TestParamInfo<std::tuple<std::string, In
 INSTANTIATE_TEST_SUITE_P(Backends, HeldFragments,
                          ::testing::Combine(::testing::ValuesIn(backendKinds()),
                                             ::testing::Values(Integrator::kLeapfrog, Integrator::kVerletPaper,
-                                                              Integrator::kVbd, Integrator::kMultigrid)),
+                                                              Integrator::kPd, Integrator::kMultigrid)),
                          heldSuffix);
 
 }  // namespace

@@ -53,12 +53,12 @@ class HeldReaction : public ::testing::WithParamInterface<std::tuple<std::string
 std::string suffix(const ::testing::TestParamInfo<std::tuple<std::string, Integrator>>& info) {
   std::string out = std::get<0>(info.param);
   out.erase(std::remove(out.begin(), out.end(), ' '), out.end());
-  return out + (std::get<1>(info.param) == Integrator::kVbd ? "_vbd" : "_leapfrog");
+  return out + (std::get<1>(info.param) == Integrator::kPd ? "_pd" : "_leapfrog");
 }
 
 INSTANTIATE_TEST_SUITE_P(Backends, HeldReaction,
                          ::testing::Combine(::testing::ValuesIn(backendKinds()),
-                                            ::testing::Values(Integrator::kLeapfrog, Integrator::kVbd)),
+                                            ::testing::Values(Integrator::kLeapfrog, Integrator::kPd)),
                          suffix);
 
 }  // namespace

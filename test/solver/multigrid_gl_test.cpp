@@ -132,7 +132,7 @@ TEST_P(MultigridOn, HeldNodesGoWithTheHandAndFixedOnesStay) {
 }
 
 TEST_P(MultigridOn, AHandFeelsTheForceOfWhatItHolds) {
-  constexpr double kForce = 0.01;  // of the static force: what vbd and pd are held to with probes
+  constexpr double kForce = 0.01;  // of the static force: what pd is held to with probes
   for (const Cells kind : {Cells::kSprings, Cells::kMoments}) {
     for (const double nu : {0.25, 0.45}) {
       StylusConfig stylus;

@@ -226,7 +226,7 @@ class NetworkHash : public GpuTest {};
 
 TEST_F(NetworkHash, IsTheSameForEveryGroupSizeAndEveryRun) {
   const Model model = mixedModel();
-  for (Integrator integrator : {Integrator::kLeapfrog, Integrator::kVerletPaper, Integrator::kVbd, Integrator::kPd}) {
+  for (Integrator integrator : {Integrator::kLeapfrog, Integrator::kVerletPaper, Integrator::kPd}) {
     for (SpringForces scheme : kSchemes) {
       if (scheme == SpringForces::kEdge && integrator != Integrator::kLeapfrog) continue;
       uint64_t first = 0;
@@ -248,7 +248,7 @@ TEST_F(NetworkHash, IsTheSameForEveryGroupSizeAndEveryRun) {
 TEST(NetworkOnThreads, HasTheSameHashHoweverManyThereAre) {
   const Model model = mixedModel();
   for (const std::string& simd : simdTargets()) {
-    for (Integrator integrator : {Integrator::kLeapfrog, Integrator::kVerletPaper, Integrator::kVbd, Integrator::kPd}) {
+    for (Integrator integrator : {Integrator::kLeapfrog, Integrator::kVerletPaper, Integrator::kPd}) {
       uint64_t first = 0;
       for (int threads : {1, 2, 3, 2}) {
         const auto solver = makeCpu(simd, model, sceneWith(integrator, model, 4, 0.5, 6), threads);

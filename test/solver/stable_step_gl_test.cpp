@@ -137,7 +137,7 @@ TEST_P(MeasuredLimit, IsNotTakenWhereSomethingElseDecides) {
     if (what == 0) scene.solver.measured_limit = false;
     if (what == 1) scene.solver.governor = false;
     if (what == 2) scene.solver.substeps = 100;
-    if (what == 3) scene.solver.integrator = Integrator::kVbd;
+    if (what == 3) scene.solver.integrator = Integrator::kPd;
     const auto solver = make(model, scene);
     EXPECT_EQ(solver->dtLimit_s(), solver->dtSafe_s()) << what;
     EXPECT_EQ(solver->substeps(), planSubsteps(model, scene.solver, safeTimeStep(model)).calm) << what;

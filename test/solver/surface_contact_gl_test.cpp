@@ -20,7 +20,7 @@ constexpr double kTop_m = 0.5 * 0.0273;          // of the body's surface
 constexpr double kTopNodes_m = kTop_m + 0.0027;  // the last cells are tissue to 0.73
 constexpr double kPress_m = 1e-3;
 constexpr double kPlace_m = 2e-6;  // of a node that is pressed: a substep's way of what settles, and float rounding
-constexpr Integrator kSteppers[] = {Integrator::kLeapfrog, Integrator::kVbd, Integrator::kPd};
+constexpr Integrator kSteppers[] = {Integrator::kLeapfrog, Integrator::kPd};
 
 class SurfaceContact : public OnBackend {};
 INSTANTIATE_TEST_SUITE_P(Backends, SurfaceContact, ::testing::ValuesIn(backendKinds()), backendSuffix);

@@ -353,15 +353,13 @@ TEST_P(Surround, VerletPaperIsRefusedWithTheKeysItCannotServe) {
   }
 }
 
-TEST_P(Surround, ImplicitIntegratorsMeetObstaclesToo) {
-  for (const Integrator integrator : {Integrator::kVbd, Integrator::kPd}) {
-    const Model model = modelOf({looseCloth(4, 4, kSpacing_m)});
-    Scene scene = sceneFor(model, 4, {}, kGravity);
-    scene.solver.integrator = integrator;
-    scene.obstacles = {obstacle(ObstacleShape::kPlane, Vector3d(0, 0, -0.001))};
-    begin(model, scene, restState(model));
-    const HostState end = after(0.05, 4);
-    EXPECT_NEAR(lowest(model, end), -0.001, 1e-6);
-    EXPECT_NEAR(meanVelocity(model, end).z(), 0, 1e-2);
-  }
+TEST_P(Surround, PdMeetsObstaclesToo) {
+  const Model model = modelOf({looseCloth(4, 4, kSpacing_m)});
+  Scene scene = sceneFor(model, 4, {}, kGravity);
+  scene.solver.integrator = Integrator::kPd;
+  scene.obstacles = {obstacle(ObstacleShape::kPlane, Vector3d(0, 0, -0.001))};
+  begin(model, scene, restState(model));
+  const HostState end = after(0.05, 4);
+  EXPECT_NEAR(lowest(model, end), -0.001, 1e-6);
+  EXPECT_NEAR(meanVelocity(model, end).z(), 0, 1e-2);
 }

@@ -145,7 +145,7 @@ TEST_P(SurroundReference, MomentumThatANodeGetsIsThatOfTheObstacle) {
   Scene scene = sceneFor(model, 4);
   scene.obstacles = {obstacle(ObstacleShape::kPlane, Vector3d(0, 0, -0.01))};
   const HostState start = falling(model, 0, {0, 0, 0.002}, {0.3, 0.1, -1.0}, restState(model));
-  for (const Integrator integrator : {Integrator::kLeapfrog, Integrator::kVbd, Integrator::kPd}) {
+  for (const Integrator integrator : {Integrator::kLeapfrog, Integrator::kPd}) {
     scene.solver.integrator = integrator;
     scene.solver.iterations = 200;
     const auto solver = make(model, scene);
@@ -162,44 +162,40 @@ TEST_P(SurroundReference, MomentumThatANodeGetsIsThatOfTheObstacle) {
   }
 }
 
-TEST_P(SurroundReference, ImplicitIntegratorsSolveForObstaclesLikeTheReference) {
-  for (const Integrator integrator : {Integrator::kVbd, Integrator::kPd}) {
-    for (const double friction : {0.0, 0.3}) {
-      SCOPED_TRACE(::testing::Message() << static_cast<int>(integrator) << " friction " << friction);
-      Body body = boxBody({2, 2, 2}, kSpacing_m);
-      body.material.poisson_ratio = 0.4;
-      const Model model = modelOf({body});
-      Scene scene = sceneWith(integrator, model, 1, 3, integrator == Integrator::kVbd ? 200 : 600, {}, kGravity);
-      scene.obstacles = {obstacle(ObstacleShape::kPlane, Vector3d(0, 0, -0.001)),
-                         obstacle(ObstacleShape::kSphere, Vector3d(-0.02, 0.015, 0.015))};
-      scene.obstacles[0].rotation_deg = Vector3d(4, 6, 0);
-      scene.obstacles[1].radius_m = 0.019;
-      scene.obstacles[1].velocity_m_per_s = Vector3d(0.3, 0, 0);
-      for (ObstacleConfig& o : scene.obstacles) o.friction = friction;
-      HostState start = restState(model);
-      for (const uint32_t slot : model.bodies[0].lattice.active_slots)
-        start.velocity_m_per_s[slot] = vec4({0.2, 0.1, -0.3});
-      compare(model, scene, start);
-    }
+TEST_P(SurroundReference, PdSolvesForObstaclesLikeTheReference) {
+  for (const double friction : {0.0, 0.3}) {
+    SCOPED_TRACE(friction);
+    Body body = boxBody({2, 2, 2}, kSpacing_m);
+    body.material.poisson_ratio = 0.4;
+    const Model model = modelOf({body});
+    Scene scene = sceneWith(Integrator::kPd, model, 1, 3, 600, {}, kGravity);
+    scene.obstacles = {obstacle(ObstacleShape::kPlane, Vector3d(0, 0, -0.001)),
+                       obstacle(ObstacleShape::kSphere, Vector3d(-0.02, 0.015, 0.015))};
+    scene.obstacles[0].rotation_deg = Vector3d(4, 6, 0);
+    scene.obstacles[1].radius_m = 0.019;
+    scene.obstacles[1].velocity_m_per_s = Vector3d(0.3, 0, 0);
+    for (ObstacleConfig& o : scene.obstacles) o.friction = friction;
+    HostState start = restState(model);
+    for (const uint32_t slot : model.bodies[0].lattice.active_slots)
+      start.velocity_m_per_s[slot] = vec4({0.2, 0.1, -0.3});
+    compare(model, scene, start);
   }
 }
 
-TEST_P(SurroundReference, ImplicitIntegratorsSolveForContactsOfNodesLikeTheReference) {
-  for (const Integrator integrator : {Integrator::kVbd, Integrator::kPd}) {
-    for (const double friction : {0.0, 0.3}) {
-      SCOPED_TRACE(::testing::Message() << static_cast<int>(integrator) << " friction " << friction);
-      Body lower = boxBody({2, 2, 1}, kSpacing_m), upper = boxBody({1, 1, 1}, kSpacing_m);
-      upper.lattice.origin_m = Vector3d(0.0035, 0.004, 0.0215);
-      const Model model = modelOf({lower, upper});
-      Scene scene = sceneWith(integrator, model, 1, 3, integrator == Integrator::kVbd ? 300 : 800, {}, kGravity);
-      scene.obstacles = {obstacle(ObstacleShape::kPlane, Vector3d::Zero())};
-      scene.collision.enabled = true;
-      scene.collision.friction = friction;
-      scene.collision.restitution = 0.4;
-      HostState start = restState(model);
-      for (const uint32_t slot : model.bodies[1].lattice.active_slots)
-        start.velocity_m_per_s[model.slotOffset(1) + slot] = vec4({0.1, 0.05, -0.6});
-      compare(model, scene, start, 12);
-    }
+TEST_P(SurroundReference, PdSolvesForContactsOfNodesLikeTheReference) {
+  for (const double friction : {0.0, 0.3}) {
+    SCOPED_TRACE(friction);
+    Body lower = boxBody({2, 2, 1}, kSpacing_m), upper = boxBody({1, 1, 1}, kSpacing_m);
+    upper.lattice.origin_m = Vector3d(0.0035, 0.004, 0.0215);
+    const Model model = modelOf({lower, upper});
+    Scene scene = sceneWith(Integrator::kPd, model, 1, 3, 800, {}, kGravity);
+    scene.obstacles = {obstacle(ObstacleShape::kPlane, Vector3d::Zero())};
+    scene.collision.enabled = true;
+    scene.collision.friction = friction;
+    scene.collision.restitution = 0.4;
+    HostState start = restState(model);
+    for (const uint32_t slot : model.bodies[1].lattice.active_slots)
+      start.velocity_m_per_s[model.slotOffset(1) + slot] = vec4({0.1, 0.05, -0.6});
+    compare(model, scene, start, 12);
   }
 }

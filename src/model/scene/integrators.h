@@ -19,7 +19,6 @@ struct IntegratorTraits {
   bool shortens;           ///< has shorter substeps while the tissue is strained (dt_fraction_strained)
   bool own_positions;      ///< keeps positions beside the state: writing the state makes it start again
   bool iterates;           ///< solver.iterations says how often a substep goes over the nodes
-  bool takes_colours;      ///< ... colour by colour
   bool lets_bricks_sleep;  ///< steps only bricks that move
   bool compensates;        ///< can sum u and v with Kahan's compensation
   bool steps_ticks;        ///< solves to a tolerance: a tick is one substep, unless solver.substeps says otherwise
@@ -29,14 +28,13 @@ struct IntegratorTraits {
 
 /// By the value of the enum. Of `auto`, which makeSolver() makes leapfrog or multigrid, what leapfrog needs is asked.
 // clang-format off
-constexpr std::array<IntegratorTraits, 6> kIntegrators = {{
-    //                                        explicit dashpot stagger shorten own_pos iterate colours sleep  compens ticks  cpu    edges
-    {Integrator::kLeapfrog, "leapfrog",         true,  true,  true,  true,  false, false, false, true,  true,  false, false, true},
-    {Integrator::kVerletPaper, "verlet_paper",  true,  false, false, false, true,  false, false, false, false, false, false, false},
-    {Integrator::kVbd, "vbd",                   false, false, false, false, false, true,  true,  false, false, false, false, false},
-    {Integrator::kPd, "pd",                     false, false, false, false, false, true,  false, false, false, false, false, false},
-    {Integrator::kMultigrid, "multigrid",       false, false, false, false, false, false, false, false, false, true,  true,  false},
-    {Integrator::kAuto, "auto",                 true,  true,  true,  true,  false, false, false, true,  true,  false, false, true},
+constexpr std::array<IntegratorTraits, 5> kIntegrators = {{
+    //                                        explicit dashpot stagger shorten own_pos iterate sleep  compens ticks  cpu    edges
+    {Integrator::kLeapfrog, "leapfrog",         true,  true,  true,  true,  false, false, true,  true,  false, false, true},
+    {Integrator::kVerletPaper, "verlet_paper",  true,  false, false, false, true,  false, false, false, false, false, false},
+    {Integrator::kPd, "pd",                     false, false, false, false, false, true,  false, false, false, false, false},
+    {Integrator::kMultigrid, "multigrid",       false, false, false, false, false, false, false, false, true,  true,  false},
+    {Integrator::kAuto, "auto",                  true,  true,  true,  true,  false, false, true,  true,  false, false, true},
 }};
 // clang-format on
 

@@ -170,7 +170,7 @@ template <class V>
 void visitFields(V& v, SolverConfig& c) {
   v.number("tick_hz", c.tick_hz, {1, 1000}, "Hz", "ticks per second: tools, forces and surface follow at this rate");
   v.choice("integrator", c.integrator, namesOfIntegrators(),
-           "leapfrog: explicit, order 2; verlet_paper: as VR05 and GW print it, to compare; vbd, pd: implicit Euler; "
+           "leapfrog: explicit, order 2; verlet_paper: as VR05 and GW print it, to compare; pd: implicit Euler; "
            "multigrid: implicit, a step per tick (TR-BDF2), solved by multigrid, for stiff and nearly incompressible "
            "tissue; lattices only, no contacts between nodes; auto: leapfrog or, on the CPU backend, multigrid, "
            "whichever this machine steps faster, measured at the start");
@@ -189,7 +189,7 @@ void visitFields(V& v, SolverConfig& c) {
       "leapfrog under the governor, of lattices: substeps as much longer as the fastest mode, measured at the start, "
       "is slower than dt_fraction must assume; shorter again as tissue strains");
   v.integer("substeps", c.substeps, {0, 100000}, "substeps per tick; above 0 it decides instead of both fractions");
-  v.integer("iterations", c.iterations, {1, 10000}, "vbd, pd: sweeps over all nodes per substep");
+  v.integer("iterations", c.iterations, {1, 10000}, "pd: sweeps over all nodes per substep");
   v.boolean("compensated", c.compensated,
             "leapfrog: sum displacement and velocity with compensation (Kahan); always where substeps are below 50 us");
   v.choice("spring_forces", c.spring_forces, {{"point", SpringForces::kPoint}, {"edge", SpringForces::kEdge}},

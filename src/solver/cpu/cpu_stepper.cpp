@@ -5,7 +5,6 @@
 #include "model/scene/integrators.h"
 #include "solver/cpu/leapfrog.h"
 #include "solver/cpu/pd.h"
-#include "solver/cpu/vbd.h"
 #include "solver/cpu/verlet_paper.h"
 #include "solver/multigrid/cpu_multigrid.h"
 
@@ -16,8 +15,6 @@ std::unique_ptr<CpuStepper> makeCpuStepper(Integrator integrator, int iterations
   switch (integrator) {
     case Integrator::kVerletPaper:
       return std::make_unique<CpuVerletPaper>(lattice, parts.parallel);
-    case Integrator::kVbd:
-      return std::make_unique<CpuVbd>(lattice, parts.parallel, iterations, parts.pairs);
     case Integrator::kPd:
       return std::make_unique<CpuPd>(lattice, parts.parallel, PdOptions{iterations}, parts.pairs);
     case Integrator::kMultigrid:

@@ -44,8 +44,8 @@ struct CpuParts {
   const Model* model = nullptr;   ///< of the lattice; multigrid needs it while it is made
 };
 
-/// Leapfrog and multigrid: SIMD kernels. vbd, pd and verlet_paper: the text of their shaders, compiled as C++.
-/// @param iterations  of vbd and pd   @param lattice  that it will be run on
+/// Leapfrog and multigrid: SIMD kernels. pd and verlet_paper: the text of their shaders, compiled as C++.
+/// @param iterations  of pd   @param lattice  that it will be run on
 /// @throws SceneError  what the integrator cannot step
 std::unique_ptr<CpuStepper> makeCpuStepper(Integrator integrator, int iterations, CpuLattice& lattice,
                                            const CpuParts& parts);

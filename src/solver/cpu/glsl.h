@@ -6,7 +6,6 @@
 #include <glm/common.hpp>
 #include <glm/exponential.hpp>
 #include <glm/geometric.hpp>
-#include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -24,7 +23,6 @@ namespace viscera::glsl {
 using namespace layout;  // its vectors are hidden by GLM's
 using glm::dvec4;
 using glm::ivec3;
-using glm::mat3;
 using glm::uvec3;
 using glm::uvec4;
 using glm::vec2;
@@ -48,7 +46,6 @@ using glm::min;
 using glm::mix;
 using glm::normalize;
 using glm::notEqual;
-using glm::outerProduct;
 using glm::sqrt;
 using glm::uintBitsToFloat;
 

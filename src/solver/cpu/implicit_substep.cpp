@@ -125,14 +125,14 @@ constexpr layout::ToolMotion kNoMotions[layout::kMaxStyluses] = {};
 }  // namespace
 
 CpuImplicitSubstep::CpuImplicitSubstep(const CpuLattice& lattice, const Parallel& parallel, int iterations,
-                                       int iterates, CpuNodePairs* pairs)
+                                       CpuNodePairs* pairs)
     : guard(1 + 2 * static_cast<size_t>(iterations)),
       parallel_(parallel),
       pairs_(pairs),
       contact_rows_(contactRows(!lattice.hands.impulses.empty(), lattice.hands.obstacle_count)),
       contacts_(3 * lattice.slotCount() * contact_rows_, glsl::vec4(0)),
       energies_(nodeJobs(lattice)) {
-  for (int i = 0; i < iterates; ++i) increments_[i].assign(lattice.slotCount(), glsl::vec4(0));
+  for (std::vector<glsl::vec4>& iterate : increments_) iterate.assign(lattice.slotCount(), glsl::vec4(0));
   if (!lattice.strengths.bulk.empty())
     cell_forces_.assign(lattice.strengths.cellVectors() * lattice.slotCount(), glsl::vec4(0));
 }

@@ -23,7 +23,8 @@ struct Window {
   vec4& operator[](size_t index) const { return at[index - first]; }
 };
 
-/// What kernels of implicit Euler find in buffers and uniforms (implicit.glsl, implicit_*.comp, pd.comp, vbd.comp).
+/// What kernels of implicit Euler find in buffers and uniforms (shaders/solver/implicit.glsl, implicit_*.comp,
+/// pd.comp).
 struct ImplicitKernel : Kernel, PairBuffers {
   using Kernel::Kernel;
   Word* guard = nullptr;
@@ -34,7 +35,7 @@ struct ImplicitKernel : Kernel, PairBuffers {
   vec4* node_contacts = nullptr;
   uint contact_rows = 0;
   Window energies;
-  uint iteration = 0, colour_first = 0, bound_energy = 0, first_sweep = 0, ends_sweep = 0;
+  uint iteration = 0, bound_energy = 0, first_sweep = 0, ends_sweep = 0;
   float omega = 1;
 };
 
@@ -88,13 +89,13 @@ struct CpuContact {
   float friction;
 };
 
-/// Start and end of a substep of implicit Euler and the increments du = u+ - u in between, which vbd and pd iterate:
-/// shaders/solver/implicit_*.comp on the CPU. See solver/gpu/implicit_substep.h for what the stages promise.
+/// Start and end of a substep of implicit Euler and the increments du = u+ - u in between, which pd iterates:
+/// shaders/solver/implicit_*.comp on the CPU. See gpu/implicit_substep.h for what the stages promise.
 class CpuImplicitSubstep {
  public:
-  /// @param iterations  at most, in a substep   @param iterates  that are kept: 1 (vbd, in place) or 2 (pd)
+  /// @param iterations  at most, in a substep
   /// @param pairs  contacts between nodes that are part of the solution; null: none
-  CpuImplicitSubstep(const CpuLattice& lattice, const Parallel& parallel, int iterations, int iterates,
+  CpuImplicitSubstep(const CpuLattice& lattice, const Parallel& parallel, int iterations,
                      CpuNodePairs* pairs = nullptr);
 
   void begin(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions);
@@ -143,7 +144,7 @@ class CpuImplicitSubstep {
   using Energies = std::array<double, 8>;  ///< [J] as two vectors of implicit_guess.comp
   const Parallel& parallel_;
   CpuNodePairs* pairs_;
-  std::vector<glsl::vec4> increments_[2];  ///< [slots] xyz m; w 1 where prescribed; the second with two iterates
+  std::vector<glsl::vec4> increments_[2];  ///< [slots] xyz m; w 1 where prescribed; this iterate and the last
   std::vector<glsl::vec4> cell_forces_;    ///< [cellVectors() * slots] N, see shaders/solver/volume.comp; or empty
   uint32_t contact_rows_;                  ///< contacts that a node may have at once
   std::vector<glsl::vec4> contacts_;       ///< [3 * rows * slots], see shaders/solver/implicit_contact.glsl

@@ -49,7 +49,7 @@ namespace {
 }  // namespace glsl
 
 CpuPd::CpuPd(CpuLattice& lattice, const Parallel& parallel, const PdOptions& options, CpuNodePairs* pairs)
-    : implicit_(lattice, parallel, options.iterations, 2, pairs), parallel_(parallel), options_(options) {
+    : implicit_(lattice, parallel, options.iterations, pairs), parallel_(parallel), options_(options) {
   if (options_.accelerated && options_.spectral_radius == 0) findRates(lattice);
 }
 

@@ -24,7 +24,7 @@ std::vector<std::string> ImplicitSubstep::defines(const FeatureSet& features, bo
 }
 
 ImplicitSubstep::ImplicitSubstep(const FeatureSet& features, const LatticeBuffers& buffers, int iterations,
-                                 int iterates, const NodePairs* pairs)
+                                 const NodePairs* pairs)
     : guard(1 + 2 * static_cast<size_t>(iterations)),
       energies_(kEnergiesPerNode * (buffers.store.active_count + sumTreeSize(buffers.store.active_count)), "energies"),
       pairs_(pairs),
@@ -49,7 +49,7 @@ ImplicitSubstep::ImplicitSubstep(const FeatureSet& features, const LatticeBuffer
     contacts_.bindStorage(layout::kBindNodeContacts);  // what is too large for the driver is said now
   }
   if (features.volume) cells_ = gpu::Program::compute("implicit_cells.comp", defines(features));
-  for (int i = 0; i < iterates; ++i) {
+  for (int i = 0; i < 2; ++i) {
     increments_[i] = gpu::Buffer<layout::vec4>(buffers.store.slot_count, "increments");
     increment_texels_[i] = gpu::TexelView(increments_[i].raw(), gpu::TexelFormat::kRgba32f);
   }
@@ -57,7 +57,7 @@ ImplicitSubstep::ImplicitSubstep(const FeatureSet& features, const LatticeBuffer
 
 void ImplicitSubstep::bindIncrements() const {
   increments_[current_].bindStorage(layout::kBindIncrement);
-  if (increments_[1].size()) increments_[1 - current_].bindStorage(layout::kBindIncrementOut);
+  increments_[1 - current_].bindStorage(layout::kBindIncrementOut);
   increment_texels_[current_].bind(layout::kUnitIncrement);
   if (contacts_.size()) contacts_.bindStorage(layout::kBindNodeContacts);
 }

@@ -7,13 +7,13 @@
 
 namespace viscera {
 
-/// Start and end of a substep of implicit Euler and the increments du = u+ - u in between, which vbd and pd iterate
+/// Start and end of a substep of implicit Euler and the increments du = u+ - u in between, which pd iterates
 /// (shaders/solver/implicit.glsl has the equations). Owner of shaders/solver/implicit_*.comp.
 class ImplicitSubstep {
  public:
-  /// @param iterations  at most, in a substep   @param iterates  that are kept: 1 (vbd, in place) or 2 (pd)
+  /// @param iterations  at most, in a substep
   /// @param pairs  contacts between nodes that are part of the solution; null: none
-  ImplicitSubstep(const FeatureSet& features, const LatticeBuffers& buffers, int iterations, int iterates,
+  ImplicitSubstep(const FeatureSet& features, const LatticeBuffers& buffers, int iterations,
                   const NodePairs* pairs = nullptr);
 
   /// First iterate: held nodes are where their tools have them, none is in a probe or an obstacle; the others at the
@@ -26,7 +26,7 @@ class ImplicitSubstep {
   /// gives them what their balance of forces at the end of the substep lacks.
   void end(const LatticeBuffers& buffers, const Substep& step) const;
 
-  /// With two iterates the next one is where the last but one was; swap() makes it the current one.
+  /// The next iterate is where the last but one was; swap() makes it the current one.
   void swap();
   /// Forces and majorisers of the cells in the current iterate, where there are any, for the iteration that follows.
   void updateVolumes(const LatticeBuffers& buffers, const Substep& step, int iteration) const;
@@ -50,7 +50,7 @@ class ImplicitSubstep {
   gpu::Program begin_[2], guess_[2], scale_[2], end_[2];  ///< without and with tools
   gpu::Program fold_, cells_;
   gpu::Program pull_[2], place_[2], meet_;   ///< of pairs
-  gpu::Buffer<layout::vec4> increments_[2];  ///< [slots] xyz m; w 1 where prescribed; the second with two iterates
+  gpu::Buffer<layout::vec4> increments_[2];  ///< [slots] xyz m; w 1 where prescribed; this iterate and the last
   gpu::TexelView increment_texels_[2];
   gpu::Buffer<layout::vec4> contacts_;  ///< [3 * rows * slots], see shaders/solver/implicit_contact.glsl
   gpu::Buffer<layout::vec4> energies_;  ///< [2 * (active + tree)] J

@@ -10,7 +10,7 @@ namespace viscera {
 
 PdPass::PdPass(const FeatureSet& features, const LatticeBuffers& buffers, const PdOptions& options,
                const NodePairs* pairs)
-    : implicit_(features, buffers, options.iterations, 2, pairs), options_(options), group_size_(features.group_size) {
+    : implicit_(features, buffers, options.iterations, pairs), options_(options), group_size_(features.group_size) {
   for (int tools = 0; tools < (features.tools ? 2 : 1); ++tools) {
     sweep_[tools] = gpu::Program::compute("pd.comp", ImplicitSubstep::defines(features, tools != 0));
   }

@@ -5,7 +5,6 @@
 #include "model/scene/integrators.h"
 #include "solver/gpu/leapfrog_pass.h"
 #include "solver/gpu/pd_pass.h"
-#include "solver/gpu/vbd_pass.h"
 #include "solver/gpu/verlet_paper_pass.h"
 
 namespace viscera {
@@ -15,8 +14,6 @@ std::unique_ptr<Stepper> makeStepper(Integrator integrator, int iterations, cons
   switch (integrator) {
     case Integrator::kVerletPaper:
       return std::make_unique<VerletPaperPass>(features, buffers);
-    case Integrator::kVbd:
-      return std::make_unique<VbdPass>(features, buffers, iterations, pairs);
     case Integrator::kPd:
       return std::make_unique<PdPass>(features, buffers, PdOptions{iterations}, pairs);
     case Integrator::kLeapfrog:

@@ -29,7 +29,7 @@ class Stepper {
   virtual SolverWork work() const { return {}; }
 };
 
-/// The kernels of an integrator other than multigrid (MultigridPass), compiled. @param iterations  of vbd and pd
+/// The kernels of an integrator other than multigrid (MultigridPass), compiled. @param iterations  of pd
 /// @param pairs  contacts between nodes within an implicit substep; null: none
 /// @param awake  of leapfrog: steps only these, and says when they were; null: steps all. Must outlive the stepper
 /// @throws GpuError with file, line and the driver's log   @throws SceneError  multigrid, auto

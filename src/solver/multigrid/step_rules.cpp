@@ -11,11 +11,11 @@ namespace viscera::multigrid {
 void requireSteppable(const Model& model, bool node_contacts) {
   if (model.hasNetwork())
     throw SceneError(
-        "solver.integrator: multigrid steps implicit lattices, not bodies with explicit connections: use leapfrog, vbd "
-        "or pd");
+        "solver.integrator: multigrid steps implicit lattices, not bodies with explicit connections: use leapfrog or "
+        "pd");
   if (node_contacts)
     throw SceneError(
-        "solver.integrator: multigrid knows no contacts between nodes (collision.enabled): use leapfrog, vbd or pd");
+        "solver.integrator: multigrid knows no contacts between nodes (collision.enabled): use leapfrog or pd");
 }
 
 Stage trBdf2Stage(double dt_s) {

@@ -61,7 +61,6 @@ ReferenceIntegrator truthOf(Integrator integrator) {
   switch (integrator) {
     case Integrator::kVerletPaper:
       return ReferenceIntegrator::kVerletPaper;
-    case Integrator::kVbd:
     case Integrator::kPd:
     case Integrator::kMultigrid:
       return ReferenceIntegrator::kImplicitEuler;

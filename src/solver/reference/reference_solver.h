@@ -20,7 +20,7 @@ class ReferenceSurroundings;
 enum class ReferenceIntegrator {
   kLeapfrog,      ///< (u, v) half a substep apart, symmetric drag
   kVerletPaper,   ///< position Verlet with backward-difference drag, without dashpot (VR05, GW)
-  kImplicitEuler  ///< solved to convergence: the truth for vbd and pd
+  kImplicitEuler  ///< solved to convergence: the truth for pd
 };
 
 /// What an integrator of the backends is held to; of auto leapfrog.

@@ -11,7 +11,7 @@
 namespace viscera {
 
 /// The reference tick by tick, as Ticks goes through a scene, but always in calm substeps and without a
-/// governor. vbd and pd are implicit Euler here, solved to the end.
+/// governor. pd is implicit Euler here, solved to the end.
 class ReferenceTicks {
  public:
   /// @param model  must outlive this

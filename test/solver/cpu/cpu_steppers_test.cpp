@@ -22,7 +22,6 @@ constexpr int kIterations = 160;
 constexpr int kSubsteps = 3;
 // Absolute positions of tools, rounded at 6e-8 of 0.05 m, on displacements of 3e-3 m. As for the GPU.
 constexpr double kConvergedWithTools = 1e-5;
-constexpr Integrator kImplicit[] = {Integrator::kPd, Integrator::kVbd};
 
 /// Each job on a thread of its own, the last one first; ranges in the smallest portions.
 class Scattered : public Parallel {
@@ -79,13 +78,12 @@ class Rig {
   Substep step;
 };
 
-void expectLikeReference(Integrator integrator, const Model& model, const Vector3d& gravity) {
-  SCOPED_TRACE(static_cast<int>(integrator));
+void expectLikeReference(const Model& model, const Vector3d& gravity) {
   Rig rig(model, 3, gravity);
   rig.lattice.write(randomState(model, 0.05 * model.bodies[0].lattice.spacing_m, 0.1, 7));
   ReferenceSolver reference = rig.reference(ReferenceIntegrator::kImplicitEuler);
   const Serial serial;
-  const auto stepper = makeCpuStepper(integrator, kIterations, rig.lattice, rig.with(serial));
+  const auto stepper = makeCpuStepper(Integrator::kPd, kIterations, rig.lattice, rig.with(serial));
   for (int s = 0; s < kSubsteps; ++s) {
     rig.run(*stepper);
     reference.substep();
@@ -136,28 +134,23 @@ uint64_t hashAfterTools(Integrator integrator, const Model& model, const Paralle
 }  // namespace
 
 TEST(CpuImplicit, MatchesReferenceAtEverySize) {
-  for (const Integrator integrator : kImplicit) {
-    for (size_t size : {1, 63, 64, 65}) {
-      SCOPED_TRACE(size);
-      Body body = blobBody(size, 0.01, 3);
-      body.material.drag_per_s = 50;
-      expectLikeReference(integrator, modelOf({body}), Vector3d(0.3, -0.2, -9.81));
-    }
+  for (size_t size : {1, 63, 64, 65}) {
+    SCOPED_TRACE(size);
+    Body body = blobBody(size, 0.01, 3);
+    body.material.drag_per_s = 50;
+    expectLikeReference(modelOf({body}), Vector3d(0.3, -0.2, -9.81));
   }
 }
 
 TEST(CpuImplicit, MatchesReferenceWithVolumesOfAnyPoissonRatio) {
-  for (const Integrator integrator : kImplicit) {
-    for (const double poisson_ratio : {0.0, 0.45, 0.49}) {
-      SCOPED_TRACE(poisson_ratio);
-      expectLikeReference(integrator, rubberBox({4, 4, 4}, poisson_ratio), Vector3d(0, 0, -9.81));
-    }
+  for (const double poisson_ratio : {0.0, 0.45, 0.49}) {
+    SCOPED_TRACE(poisson_ratio);
+    expectLikeReference(rubberBox({4, 4, 4}, poisson_ratio), Vector3d(0, 0, -9.81));
   }
 }
 
 TEST(CpuImplicit, MatchesReferenceWithPartsAndFixedNodes) {
-  for (const Integrator integrator : kImplicit)
-    expectLikeReference(integrator, modelOf({twoPartBody()}), Vector3d(0, 0, -9.81));
+  expectLikeReference(modelOf({twoPartBody()}), Vector3d(0, 0, -9.81));
 }
 
 TEST(CpuImplicit, KeepsEnergyBelowItsStartWhateverTheStart) {
@@ -171,8 +164,7 @@ TEST(CpuImplicit, KeepsEnergyBelowItsStartWhateverTheStart) {
       SCOPED_TRACE(::testing::Message() << poisson_ratio << " " << fraction);
       Rig rig(model, fraction);
       for (const Abuse abuse : kAbuses) {
-        for (const Integrator integrator : kImplicit)
-          expectEnergyBelowStart(*makeCpuStepper(integrator, 20, rig.lattice, rig.with(serial)), rig, model, abuse);
+        expectEnergyBelowStart(*makeCpuStepper(Integrator::kPd, 20, rig.lattice, rig.with(serial)), rig, model, abuse);
         expectEnergyBelowStart(*makeCpuRecoveryStepper(20, rig.lattice, serial), rig, model, abuse);
       }
     }
@@ -195,32 +187,30 @@ TEST(CpuImplicit, ToolsActLikeTheReferences) {
   const PullAndProbe tools;
   const Serial serial;
   for (const double poisson_ratio : {0.25, 0.4}) {
-    for (const Integrator integrator : kImplicit) {
-      SCOPED_TRACE(::testing::Message() << poisson_ratio << " " << static_cast<int>(integrator));
-      const Model model = rubberBox({4, 4, 4}, poisson_ratio);
-      Rig rig(model, 2);
-      rig.step.tools = true;
-      ReferenceSolver reference = rig.reference(ReferenceIntegrator::kImplicitEuler);
-      const auto stepper = makeCpuStepper(integrator, kIterations, rig.lattice, rig.with(serial));
-      for (int t = 0; t < 3; ++t) {
-        const ToolMotions motions = tools.motions(t, 0.04);
-        if (t == 0) {
-          takeHold(rig.lattice, 0, motions[0].from, tools.styluses[0].grab.radius_m);
-          reference.takeHold(0, motions[0].from, tools.styluses[0].grab.radius_m);
-        }
-        std::vector<layout::ToolMotion> rows;
-        interpolateMotions(motions, tools.styluses, 1, rows);
-        rig.run(*stepper, rows.data());
-        reference.substep({rows[0], rows[1]});
+    SCOPED_TRACE(poisson_ratio);
+    const Model model = rubberBox({4, 4, 4}, poisson_ratio);
+    Rig rig(model, 2);
+    rig.step.tools = true;
+    ReferenceSolver reference = rig.reference(ReferenceIntegrator::kImplicitEuler);
+    const auto stepper = makeCpuStepper(Integrator::kPd, kIterations, rig.lattice, rig.with(serial));
+    for (int t = 0; t < 3; ++t) {
+      const ToolMotions motions = tools.motions(t, 0.04);
+      if (t == 0) {
+        takeHold(rig.lattice, 0, motions[0].from, tools.styluses[0].grab.radius_m);
+        reference.takeHold(0, motions[0].from, tools.styluses[0].grab.radius_m);
       }
-      EXPECT_LT(relativeError(rig.lattice.read().displacement_m, reference.u_m, reference.active), kConvergedWithTools);
-      layout::TickStats stats{};
-      sumReactions(rig.lattice, {}, stats);
-      for (size_t s = 0; s < 2; ++s) {
-        const Vector3d given = reference.impulse_n_s[s];
-        EXPECT_GT(stats.touched[s], 0u);
-        EXPECT_LT((xyz(stats.impulse[s]) - given).norm(), 10 * kConvergedWithTools * given.norm()) << s;
-      }
+      std::vector<layout::ToolMotion> rows;
+      interpolateMotions(motions, tools.styluses, 1, rows);
+      rig.run(*stepper, rows.data());
+      reference.substep({rows[0], rows[1]});
+    }
+    EXPECT_LT(relativeError(rig.lattice.read().displacement_m, reference.u_m, reference.active), kConvergedWithTools);
+    layout::TickStats stats{};
+    sumReactions(rig.lattice, {}, stats);
+    for (size_t s = 0; s < 2; ++s) {
+      const Vector3d given = reference.impulse_n_s[s];
+      EXPECT_GT(stats.touched[s], 0u);
+      EXPECT_LT((xyz(stats.impulse[s]) - given).norm(), 10 * kConvergedWithTools * given.norm()) << s;
     }
   }
 }
@@ -346,7 +336,7 @@ TEST(CpuSteppers, StateHashDoesNotDependOnThreads) {
   const Scattered scattered;
   for (const double poisson_ratio : {0.25, 0.4}) {
     const Model model = rubberBox({16, 5, 7}, poisson_ratio);
-    for (const Integrator integrator : {Integrator::kPd, Integrator::kVbd, Integrator::kVerletPaper}) {
+    for (const Integrator integrator : {Integrator::kPd, Integrator::kVerletPaper}) {
       EXPECT_EQ(hashAfterTools(integrator, model, scattered), hashAfterTools(integrator, model, serial))
           << static_cast<int>(integrator);
     }

@@ -14,8 +14,7 @@ namespace {
 
 constexpr int kWarmUpTicks = 50, kTicks = 1000;
 constexpr double kSpacing_m = 0.004;
-constexpr Integrator kAllIntegrators[] = {Integrator::kLeapfrog, Integrator::kVerletPaper, Integrator::kVbd,
-                                          Integrator::kPd};
+constexpr Integrator kAllIntegrators[] = {Integrator::kLeapfrog, Integrator::kVerletPaper, Integrator::kPd};
 // Heap and stacks of threads that come and go elsewhere in the process; 1000 ticks of one float each would be 4 kB.
 constexpr double kResidentNoise_bytes = 256 * 1024;
 

@@ -17,8 +17,8 @@ namespace {
 
 constexpr int kTicks = 5, kMost = 7;
 constexpr double kSpacing_m = 0.004;
-constexpr Integrator kAllIntegrators[] = {Integrator::kLeapfrog, Integrator::kVerletPaper, Integrator::kVbd,
-                                          Integrator::kPd, Integrator::kMultigrid};
+constexpr Integrator kAllIntegrators[] = {Integrator::kLeapfrog, Integrator::kVerletPaper, Integrator::kPd,
+                                          Integrator::kMultigrid};
 
 /// A block held at its bottom, with energy of volume and a dashpot.
 Model heldBlock() {

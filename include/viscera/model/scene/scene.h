@@ -24,7 +24,7 @@ enum class SkinSource { kAuto, kInput, kVolume };
 enum class Mapping { kAuto, kOneToOne, kConstant, kInterpolated, kAlongNormal };  ///< see docs/mappings.md
 enum class UpAxis { kZ, kY };
 enum class FixedShape { kBox, kSphere, kPlane, kPart };
-enum class Integrator { kLeapfrog, kVerletPaper, kVbd, kPd, kMultigrid, kAuto };
+enum class Integrator { kLeapfrog, kVerletPaper, kPd, kMultigrid, kAuto };
 /// What a simulation begins with: everything at rest, or hanging in its weight.
 enum class SolverStart { kRest, kEquilibrium };
 enum class Backend { kAuto, kGpu, kCpu };
@@ -244,7 +244,7 @@ struct SolverConfig {
   double dt_fraction_strained = 0.5;
   bool measured_limit = true;
   int substeps = 0;     ///< 0: from dt_fraction
-  int iterations = 20;  ///< of vbd and pd
+  int iterations = 20;  ///< of pd
   SpringForces spring_forces = SpringForces::kPoint;
   bool governor = true;
   double recovery_s = 0.25;
