@@ -107,9 +107,6 @@ AT(SkinBinding, offset_interpolated, 48);
 AT(SkinBinding, normal_constant, 64);
 AT(SkinBinding, normal_interpolated, 80);
 
-SIZE(Tie, 8);
-AT(Tie, spring, 4);
-
 SIZE(SurfaceNode, 16);
 AT(SurfaceNode, normal_x, 4);
 AT(SurfaceNode, normal_y, 8);

@@ -42,7 +42,7 @@ void DrawnSkin::choose(const Surface& surface, const std::vector<uint8_t>& shown
   parts_.clear();
   indices_.clear();
   charts_.clear();
-  if (surface.tornOnGpu() || surface.groups().areAll(shown)) {
+  if (surface.groups().areAll(shown)) {
     addAll(surface);
   } else {
     addSeen(surface);
@@ -64,7 +64,7 @@ void DrawnSkin::addAll(const Surface& surface) {
   size_t first = 0;
   for (size_t b = 0; b < fronts_only_.size(); ++b) {
     const size_t count = 3 * surface.skin().trianglesOf(b);
-    addLive(surface, first, count, fronts_only_[b] && !surface.tornOnGpu());
+    addLive(surface, first, count, fronts_only_[b]);
     first += count;
   }
   addLive(surface, first, surface.liveCount() - first, false);

@@ -188,7 +188,7 @@ bool InlineView::isRepeat(const Eye& eye, const std::optional<Drawn>& drawn, con
 
 /// Brings the surface to a state, as far as the images that are to be drawn show it. @param all  the whole of it
 void InlineView::follow(const StateView& state, bool all, const std::optional<HostDisplacements>& displacements) {
-  surface_.tear(state);
+  surface_.split(state);
   const SkinGroups& groups = surface_.groups();
   bool placed = false;
   seen_.assign(groups.count(), 0);
@@ -307,7 +307,7 @@ void InlineView::showSurface(const StateView& state, uint64_t tick, Pictures& ou
     ++counters_.skipped;
     return;
   }
-  surface_.tear(state);
+  surface_.split(state);
   surface_.follow(state, nullptr);
   captureSurface(tick);
   takeSurface(out, false);

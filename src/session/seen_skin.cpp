@@ -52,7 +52,7 @@ void SeenSkin::see(const SkinGroups& groups, const std::vector<SkinBox>& boxes) 
 void SeenSkin::look(const Surface& surface, const SkinPlaces* places) {
   const SkinGroups& groups = surface.groups();
   fronts_only_.assign(closed_.size(), 0);
-  if (places && !surface.tornOnGpu()) {
+  if (places) {
     see(groups, places->groups());
     for (size_t b = 0; b < closed_.size(); ++b)
       fronts_only_[b] = closed_[b] && !groups.isWounded(b) && frustum_.isBeside(places->bodies()[b]);

@@ -69,8 +69,7 @@ struct SkinKernel {
   Shown displacement;
   NodeNormals node_normals;
   const SkinBinding* skin = nullptr;
-  const Tie* ties = nullptr;
-  const uint *tie_starts = nullptr, *triangles = nullptr;
+  const uint* triangles = nullptr;
   const SurfaceNode* surface_nodes = nullptr;
   uint count = 0;
   uint triangle_count = 0;  // of all bodies
@@ -103,12 +102,6 @@ struct SkinKernel {
 #define VARIANT_BASE SkinKernel
 #define VARIANT_TEXT "shaders/surface/map_skin.comp"
 #define VARIANT_FEATURES WITH_MIXED | WITH_SKINS
-#include "solver/cpu/glsl_variant.inc"
-
-#define VARIANT_NAME TearSkin
-#define VARIANT_BASE SkinKernel
-#define VARIANT_TEXT "shaders/surface/tear_skin.comp"
-#define VARIANT_FEATURES WITH_MIXED
 #include "solver/cpu/glsl_variant.inc"
 
 #define VARIANT_NAME NetworkSkin
@@ -152,8 +145,6 @@ struct HostSurface::Buffers : glsl::SkinKernel {
     displacement = {snapshot.displacement_m.data(), of.brick_places_.data()};
     node_normals = {of.node_normals_.data()};
     skin = of.wounds_ ? of.wounds_->bindings().data() : of.skins_.bindings.data();
-    ties = of.skins_.ties.data();
-    tie_starts = of.skins_.tie_starts.data();
     triangles = of.shown_.indices().data();
     first_vertex = static_cast<uint32_t>(of.skins_.bindings.size());
     triangle_count = static_cast<uint32_t>(of.shown_.count());
@@ -197,19 +188,17 @@ void HostSurface::noteReplaced() {
   }
 }
 
-void HostSurface::tear(const StateSnapshot& snapshot) {
+void HostSurface::split(const StateSnapshot& snapshot) {
   if (snapshot.cut_revision == cut_revision_) return;
   cut_revision_ = snapshot.cut_revision;
   if (wounds_ && wounds_->update(snapshot))
     noteReplaced();
-  const Buffers buffers(*this, snapshot);
-  if (skins_.any_bound && !wounds_) glsl::run<glsl::TearSkin>(buffers, shown_.count());
-  glsl::run<glsl::SplitTriangles>(buffers, skins_.networks.triangles.size());
+  glsl::run<glsl::SplitTriangles>(Buffers(*this, snapshot), skins_.networks.triangles.size());
 }
 
 void HostSurface::show(const StateSnapshot& snapshot, ShownMesh& out) {
   assert(snapshot.bricks == shown_bricks_ && snapshot.displacement_m.size() == kBrickFloats * shown_bricks_.size());
-  tear(snapshot);
+  split(snapshot);
   out.positions_m.resize(3 * vertices());
   out.normals.resize(vertices());
   Buffers buffers(*this, snapshot);

@@ -14,8 +14,8 @@
 
 namespace viscera {
 
-/// What Surface does, without OpenGL: the skins of all bodies follow a state on the host, triangles are torn and split
-/// by cuts. The kernels are the text of the same shaders compiled as C++, so the two differ by rounding only.
+/// What Surface does, without OpenGL: the skins of all bodies follow a state on the host, triangles are split by
+/// cuts. The kernels are the text of the same shaders compiled as C++, so the two differ by rounding only.
 class HostSurface {
  public:
   explicit HostSurface(const Model& model, MovedNormals normals = MovedNormals::kCarried);
@@ -35,7 +35,7 @@ class HostSurface {
 
  private:
   struct Buffers;
-  void tear(const StateSnapshot& snapshot);
+  void split(const StateSnapshot& snapshot);
   void noteReplaced();
 
   JoinedSkins skins_;

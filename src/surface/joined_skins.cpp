@@ -143,11 +143,8 @@ void JoinedSkins::appendNormalNodes(const Body& body, uint32_t slot_offset, Move
 }
 
 void JoinedSkins::appendTriangles(const Skin& skin, const NetworkSkins::Place& place) {
-  const auto first_tie = static_cast<uint32_t>(ties.size());
-  for (layout::Tie tie : skin.ties) ties.push_back({tie.slot + place.slot, tie.spring});
-  for (size_t t = 0; t < skin.mesh.triangles.size(); ++t) {
-    for (uint32_t v : skin.mesh.triangles[t]) triangles.push_back(v + place.vertex);
-    tie_starts.push_back(skin.tie_starts[t + 1] + first_tie);
+  for (const auto& corners : skin.mesh.triangles) {
+    for (const uint32_t v : corners) triangles.push_back(v + place.vertex);
   }
 }
 

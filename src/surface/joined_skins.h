@@ -40,12 +40,11 @@ enum class MovedNormals { kCarried, kSummed };
 struct JoinedSkins {
   /// Whose approximate normals some vertex follows: carried from rest, and summed in every state.
   std::vector<layout::SurfaceNode> carried_nodes, summed_nodes;
-  std::vector<uint32_t> triangles, tie_starts = {0}, colors;
+  std::vector<uint32_t> triangles, colors;
   std::vector<layout::SkinBinding> bindings;
   std::vector<layout::vec4> rests;  ///< [vertices] xyz at rest [m, tissue frame]; w 0: on the skin
   /// [triangles] texture charts of all bodies, numbered through, or kNoChart; empty where no body has any
   std::vector<uint32_t> charts;
-  std::vector<layout::Tie> ties;
   NetworkSkins networks;
   bool any_bound = false, any_one_to_one = false;
   uint32_t kinds = 0;  ///< bits of SkinBinding.springs that some vertex of a lattice's skin has

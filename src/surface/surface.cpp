@@ -84,8 +84,6 @@ Surface::Surface(const Model& model) {
   colors_ = gpu::Buffer<uint32_t>(skins.colors, "colors");
   rests_ = gpu::Buffer<layout::vec4>(skins.rests, "rests");
   triangle_buffer_ = gpu::Buffer<uint32_t>(skins.triangles, "triangle buffer");
-  ties_ = gpu::Buffer<layout::Tie>(skins.ties, "ties");
-  tie_starts_ = gpu::Buffer<uint32_t>(skins.tie_starts, "tie starts");
   alive_ = gpu::Buffer<uint32_t>(triangles, "alive");
   live_count_ = first_wound_index_ = 3 * (triangles + 2 * skins.networks.triangles.size());
   live_ = gpu::Buffer<uint32_t>(live_count_, "live");
@@ -108,7 +106,6 @@ Surface::Surface(const Model& model) {
     if (carried_nodes_.size() > 0) carried_normal_ = surfaceKernel("node_normal.comp", {"PICKED"});
     if (summed_nodes_.size() > 0) summed_normal_ = surfaceKernel("node_normal.comp", {"PICKED", "SUMMED"});
     map_ = surfaceKernel("map_skin.comp", mapFeatures(skins));
-    tear_ = surfaceKernel("tear_skin.comp", std::vector<std::string>(skins.any_one_to_one ? 1 : 0, "MIXED"));
   }
   if (skins.any_one_to_one) networks_ = std::make_unique<NetworkSurface>(skins.networks, Wounds::ofTetrahedra(model));
   if (wounds_) makeRoom(kRoomForWounds * vertices_, live_count_ + 3 * kRoomForWounds * triangles);
@@ -176,39 +173,18 @@ void Surface::forget() {
   followed_networks_ = 0;
 }
 
-void Surface::tear(const StateView& state) {
-  if (state.cut_revision == cut_revision_) return;
+void Surface::split(const StateView& state) {
+  if (!networks_ || state.cut_revision == cut_revision_) return;
   cut_revision_ = state.cut_revision;
   const gpu::TimedStage timed(gpu::Stage::kSurface);
   bindNodes(state);
   triangle_buffer_.bindStorage(layout::kBindSkinTriangles);
   alive_.bindStorage(layout::kBindSkinAlive);
   live_.bindStorage(layout::kBindSkinLive);
-  if (tear_ && !wounds_) {
-    bindings_.bindStorage(layout::kBindSkinBindings);
-    ties_.bindStorage(layout::kBindSkinTies);
-    tie_starts_.bindStorage(layout::kBindSkinTieStarts);
-    runOver(tear_, triangles());
-    torn_on_gpu_ = isAnyTorn();
-  }
-  if (networks_) {
-    networks_->split(state, triangles());
-    followed_networks_ = 0;  // normals depend on what is whole
-  }
+  networks_->split(state, triangles());
+  followed_networks_ = 0;  // normals depend on what is whole
   ++live_revision_;
   publish();
-}
-
-/// Waits for the GPU: a lattice that no tool can cut is asked for once after the start and after a reset.
-bool Surface::isAnyTorn() const {
-  const std::vector<uint32_t> alive = alive_.read();
-  size_t triangle = 0;
-  for (size_t b = 0; b < was_wounded_.size(); ++b) {
-    for (const size_t end = triangle + shown_.trianglesOf(b); triangle < end; ++triangle) {
-      if (alive[triangle] == 0 && !groups_.isSplit(b)) return true;
-    }
-  }
-  return false;
 }
 
 void Surface::makeRoom(size_t vertices, size_t indices) {
@@ -321,7 +297,6 @@ void Surface::reset() {
   cut_revision_ = wound_revision_ = 0;
   live_count_ = first_wound_index_;
   ++live_revision_;
-  torn_on_gpu_ = false;
   if (wounds_) {
     wounds_->reset();
     showWounds();

@@ -35,12 +35,11 @@ class Surface {
   /// last call are left as they are, where the state says which those are; that changes no bit.
   /// @param needs  what is asked for (SkinGroups::need); others stay as they are. Null: all
   void follow(const StateView& state, const SkinGroups::Needs* needs = nullptr);
-  /// Takes out the triangles of lattices whose springs were cut (the rule is in model/body/skin.h), until reset(), and
-  /// splits those of networks along the cut (the rule is in split_triangles.comp). Looks at the springs only if
-  /// state.cut_revision has changed since the last call; costs nothing otherwise.
-  void tear(const StateView& state);
-  /// Shows the wounds of bodies on lattices and of tetrahedra that can be cut (surface/wounds.h), until reset(). tear()
-  /// leaves their skins alone. Makes buffers only where wounds outgrow those that are there.
+  /// Splits the triangles of networks along the cut (the rule is in split_triangles.comp), until reset(). Looks at the
+  /// springs only if state.cut_revision has changed since the last call; costs nothing otherwise.
+  void split(const StateView& state);
+  /// Shows the wounds of bodies on lattices and of tetrahedra that can be cut (surface/wounds.h), until reset().
+  /// Makes buffers only where wounds outgrow those that are there.
   /// @param revision  of the cuts; the last one again costs nothing
   void wound(const CutSprings& cuts, uint64_t revision);
   /// Every triangle whole again.
@@ -60,7 +59,6 @@ class Surface {
   /// what wounds have beyond.
   size_t liveCount() const { return live_count_; }
   uint64_t liveRevision() const { return live_revision_; }  ///< another one whenever what is drawn may be others
-  bool tornOnGpu() const { return torn_on_gpu_; }           ///< triangles of lattices are gone that skin() still has
   const SkinGroups& groups() const { return groups_; }
   /// [triangles and split pieces] charts on the host, as liveCharts() where nothing is wounded; empty where none are.
   const std::vector<uint32_t>& charts() const { return charts_; }
@@ -79,7 +77,6 @@ class Surface {
   void followNormals(const StateView& state, const std::vector<uint8_t>* nodes);
   bool followNetworks(const StateView& state);
   void forget();
-  bool isAnyTorn() const;
   void showWounds();
   void showReplaced(size_t body, size_t first_triangle);
   void makeRoom(size_t vertices, size_t indices);
@@ -87,15 +84,14 @@ class Surface {
 
   size_t vertices_ = 0, live_count_ = 0, first_wound_index_ = 0;
   gpu::Buffer<layout::SurfaceNode> carried_nodes_, summed_nodes_;
-  gpu::Buffer<uint32_t> normals_, triangle_buffer_, tie_starts_, alive_, live_, colors_;
+  gpu::Buffer<uint32_t> normals_, triangle_buffer_, alive_, live_, colors_;
   gpu::Buffer<uint32_t> live_charts_;
   gpu::TexelView live_charts_view_;
   gpu::Buffer<layout::vec4> node_normals_, rests_;
   gpu::Buffer<layout::SkinBinding> bindings_;
-  gpu::Buffer<layout::Tie> ties_;
   gpu::Buffer<float> positions_;
   gpu::Buffer<uint32_t> unknown_{size_t{1}};     ///< in place of StateView::stale_bricks; never read
-  gpu::Program map_, tear_;                      ///< none where every body is a network
+  gpu::Program map_;                             ///< none where every body is a network
   gpu::Program carried_normal_, summed_normal_;  ///< none where such normals are not followed
   std::unique_ptr<NetworkSurface> networks_;     ///< null where none is
   std::unique_ptr<Wounds> wounds_;               ///< null where no body with an inside can be cut
@@ -109,7 +105,6 @@ class Surface {
   GroupedItems vertex_items_, carried_items_, summed_items_;
   uint32_t followed_networks_ = 0;  ///< revision of the state that their vertices show; 0 if unknown
   uint64_t live_revision_ = 0;
-  bool torn_on_gpu_ = false;
 };
 
 }  // namespace viscera

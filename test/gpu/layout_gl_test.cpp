@@ -65,12 +65,12 @@ TEST_F(Layout, OfMeasurements) {
 }
 
 TEST_F(Layout, OfSkins) {
-  const Program program = Program::compute("tear_skin.comp", {"GROUP_SIZE 64"});
+  const Program program = Program::compute("map_skin.comp", {"GROUP_SIZE 64", "CURVED", "NORMALS"});
   expectStorage(program, "skin[0]",
                 {MEMBER(SkinBinding, slot2), MEMBER(SkinBinding, springs), MEMBER(SkinBinding, weights),
                  MEMBER(SkinBinding, offset_interpolated), MEMBER(SkinBinding, normal_interpolated)});
-  expectStorage(program, "ties[0]", {MEMBER(Tie, slot), MEMBER(Tie, spring)});
-  expectStorage(program, "nodes[0]", {MEMBER(NodeBits, lo), MEMBER(NodeBits, hi)});
+  const Program normal = Program::compute("node_normal.comp", {"GROUP_SIZE 64"});
+  expectStorage(normal, "nodes[0]", {MEMBER(NodeBits, lo), MEMBER(NodeBits, hi)});
 }
 
 TEST_F(Layout, OfNetworksSkins) {

@@ -27,12 +27,12 @@ class Programs : public ::testing::Test {
     }
     return "";
   }
-  static Program tearSkin() { return Program::compute("tear_skin.comp", {"GROUP_SIZE 64"}); }
+  static Program splitTriangles() { return Program::compute("split_triangles.comp", {"GROUP_SIZE 64", "NETWORK"}); }
   Context context_;
 };
 
 TEST_F(Programs, TakeUniformsByName) {
-  const Program program = tearSkin();
+  const Program program = splitTriangles();
   program.set("count", 7u);
   GLuint value = 0;
   glGetUniformuiv(program.id(), glGetUniformLocation(program.id(), "count"), &value);
@@ -40,14 +40,14 @@ TEST_F(Programs, TakeUniformsByName) {
 }
 
 TEST_F(Programs, NameTheUniformThatTheyDoNotHave) {
-  const Program program = tearSkin();
+  const Program program = splitTriangles();
   const std::string said = complaint([&] { program.set("conut", 7u); });
   EXPECT_NE(said.find("conut"), std::string::npos) << said;
-  EXPECT_NE(said.find("tear_skin.comp"), std::string::npos) << said;
+  EXPECT_NE(said.find("split_triangles.comp"), std::string::npos) << said;
 }
 
 TEST_F(Programs, RefuseAUniformOfAnotherType) {
-  const Program program = tearSkin();
+  const Program program = splitTriangles();
   EXPECT_NE(complaint([&] { program.set("count", 7.0f); }), "");
 }
 

@@ -114,18 +114,6 @@ inline TriangleMesh weldedSphereMesh(const Vector3d& center_m, double radius_m, 
   return mesh;
 }
 
-/// A block of 5 x 3 x 4 cells with a crevice one cell wide, open at the top.
-inline Solid creviceSolid(double spacing_m, const Vector3d& origin_m = Vector3d::Zero()) {
-  return solidWhere(origin_m, {5, 3, 4}, spacing_m, [&](const Vector3d& at) {
-    const Vector3d cell = (at - origin_m) / spacing_m;
-    return cell.z() < 1 || cell.x() < 2 || cell.x() > 3;
-  });
-}
-/// A skin over the block that does not go down into the crevice: only ties hold it there.
-inline TriangleMesh creviceMesh(double spacing_m, const Vector3d& origin_m = Vector3d::Zero()) {
-  return boxMesh(origin_m, origin_m + spacing_m * Vector3d(5, 3, 4), 8);
-}
-
 struct BoundSkin {
   Solid solid;
   Lattice lattice;

@@ -139,8 +139,6 @@ TEST_F(SkinMapping, AgreesWithTheReferenceAtEverySize) {
     body.skin.mesh.positions_m.resize(count);
     body.skin.mesh.triangles.clear();
     body.skin.mesh.parts.clear();
-    body.skin.tie_starts = {0};
-    body.skin.ties.clear();
     body.skin.bindings.resize(count);
     SurfaceRig rig(std::move(body));
     ASSERT_EQ(rig.surface.vertices(), count);
@@ -263,8 +261,8 @@ TEST_F(SkinMapping, BodyWithoutSkinIsFollowedByNothing) {
   none.part_names = {"tissue"};
   SurfaceRig rig(makeBody(blockSolid({2, 2, 2}, kSpacing_m), none));
   rig.follow();
-  rig.tear();
+  rig.split();
   EXPECT_EQ(rig.surface.vertices(), 0u);
   EXPECT_EQ(rig.surface.triangles(), 0u);
-  EXPECT_NO_THROW(gpu::checkErrors("follow and tear"));
+  EXPECT_NO_THROW(gpu::checkErrors("follow and split"));
 }

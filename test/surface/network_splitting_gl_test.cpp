@@ -36,7 +36,7 @@ double height(const Vector3d& x) {
 }
 
 void apply(SurfaceRig& rig) {
-  rig.tear();
+  rig.split();
   rig.follow();
 }
 

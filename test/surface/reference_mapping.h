@@ -1,12 +1,11 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The skin's mapping and tearing in float64, written from the papers' equations and not from the kernels.
+// The skin's mapping in float64, written from the papers' equations and not from the kernels.
 #pragma once
 
 #include <algorithm>
 #include <array>
-#include <unordered_set>
 #include <vector>
 
 #include "viscera/model/body/skin.h"
@@ -146,63 +145,5 @@ class ReferenceMapping {
   Bases bases_;
   bool normals_by_sum_;
 };
-
-/// 1 for every triangle of a skin that is whole (the rule in model/body/skin.h), 0 for a torn one.
-inline std::vector<uint32_t> wholeTriangles(const Skin& skin, const Lattice& lattice,
-                                            const std::vector<layout::NodeBits>& nodes) {
-  const auto joined = [&](uint32_t a, uint32_t b) {
-    const int spring = springIndex(lattice.nodeAt(b) - lattice.nodeAt(a));
-    return spring >= 0 && springCount(nodes[a], static_cast<uint32_t>(spring)) > 0;
-  };
-  std::vector<uint32_t> whole;
-  for (size_t t = 0; t < skin.mesh.triangles.size(); ++t) {
-    bool is_whole = true;
-    for (uint32_t v : skin.mesh.triangles[t]) {
-      const layout::SkinBinding& s = skin.bindings[v];
-      is_whole &= joined(s.slot0, s.slot1) + joined(s.slot1, s.slot2) + joined(s.slot2, s.slot0) >= 2;
-    }
-    bool group_holds = false;
-    for (uint32_t i = skin.tie_starts[t]; i < skin.tie_starts[t + 1]; ++i) {
-      group_holds |= springCount(nodes[skin.ties[i].slot], skin.ties[i].spring & ~layout::kTieEndBit) > 0;
-      if (!(skin.ties[i].spring & layout::kTieEndBit)) continue;
-      is_whole &= group_holds;
-      group_holds = false;
-    }
-    whole.push_back(is_whole);
-  }
-  return whole;
-}
-
-/// For every slot, the lowest slot of its piece: the nodes that paths of live springs join.
-inline std::vector<uint32_t> pieces(const Lattice& lattice, const std::vector<layout::NodeBits>& nodes) {
-  std::vector<uint32_t> piece(nodes.size(), UINT32_MAX);
-  for (uint32_t seed : lattice.active_slots) {
-    if (piece[seed] != UINT32_MAX) continue;
-    std::vector<uint32_t> stack = {seed};
-    piece[seed] = seed;
-    while (!stack.empty()) {
-      const uint32_t slot = stack.back();
-      stack.pop_back();
-      for (uint32_t spring = 0; spring < layout::kSpringsPerNode; ++spring) {
-        if (!springCount(nodes[slot], spring)) continue;
-        const auto next = static_cast<uint32_t>(lattice.neighborSlot(slot, spring));
-        if (piece[next] != UINT32_MAX) continue;
-        piece[next] = seed;
-        stack.push_back(next);
-      }
-    }
-  }
-  return piece;
-}
-
-/// Pieces that the vertices of a triangle are bound to.
-inline size_t piecesOf(const Skin& skin, size_t triangle, const std::vector<uint32_t>& piece) {
-  std::unordered_set<uint32_t> seen;
-  for (uint32_t v : skin.mesh.triangles[triangle]) {
-    const layout::SkinBinding& s = skin.bindings[v];
-    seen.insert({piece[s.slot0], piece[s.slot1], piece[s.slot2]});
-  }
-  return seen.size();
-}
 
 }  // namespace viscera::testing

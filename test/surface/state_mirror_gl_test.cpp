@@ -57,11 +57,11 @@ class StateMirrorTest : public ::testing::Test {
   }
   void followBoth() {
     rig_.upload();
-    rig_.surface.tear(rig_.state());
+    rig_.surface.split(rig_.state());
     rig_.follow();
     takeSnapshot();
     mirror_.upload(snapshot_);
-    mirrored_.tear(mirror_.view());
+    mirrored_.split(mirror_.view());
     mirrored_.follow(mirror_.view());
   }
   void expectSameSkin() {

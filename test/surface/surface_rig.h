@@ -62,10 +62,10 @@ class SurfaceRig {
     upload();
     surface.follow(state());
   }
-  void tear() {
+  void split() {
     upload();
     ++revision;
-    surface.tear(state());
+    surface.split(state());
   }
   /// Writes displacement_m, nodes and spring_cut.
   void upload() {

@@ -34,7 +34,7 @@ class TetrahedraWoundOnGpu : public ::testing::Test {
     std::copy(box_.nodes.begin(), box_.nodes.end(), rig_.nodes.begin() + rig_.model.slotOffset(1));
     std::copy(box_.spring_cut.begin(), box_.spring_cut.end(),
               rig_.spring_cut.begin() + static_cast<long>(firstSpring(rig_.model, 1)));
-    rig_.tear();
+    rig_.split();
     rig_.surface.wound({rig_.nodes, rig_.spring_cut, {}}, rig_.revision);
     rig_.follow();
   }

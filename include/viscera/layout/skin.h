@@ -46,14 +46,6 @@ const uint kShownWhole = 1u;
 const uint kShownCorner = 2u;  // << corner 0, 1, 2: the piece at a corner that a cut has parted from the others
 const uint kShownRest = 16u;   // << corner: the two triangles that are left without that corner
 
-// A spring that a skin triangle depends on. Ties come in groups: a group holds while one of its springs is alive,
-// a triangle is whole while all of its groups hold.
-struct Tie {
-  uint slot;
-  uint spring;  // index 0..17; kTieEndBit closes the group
-};
-const uint kTieEndBit = 1u << 8;
-
 // An approximate normal is a sum of unit vectors (VR05 eq 5): 0 inside the body, 1 on a concave edge, 3.8 on a flat
 // face. Trust in it grows from 0 to 1 between these two lengths of the sum.
 const float kNormalSumNone = 0.25f;

@@ -95,7 +95,6 @@ Skin bindNetworkSkin(const SpringNetwork& network, bool can_be_cut) {
   skin.mesh = meshOf(network, skin.bound_slots);
   const std::vector<Vector3f> normals = vertexNormals(skin.mesh);
   for (size_t v = 0; v < normals.size(); ++v) skin.bindings.push_back(oneToOne(skin.bound_slots[v], normals[v]));
-  skin.tie_starts.assign(skin.mesh.triangles.size() + 1, 0);
   skin.two_sided = hasBorder(skin.mesh);
   if (can_be_cut && network.tetrahedra.empty()) addSplitEdges(network, skin);
   return skin;

@@ -3,18 +3,16 @@
 #include "viscera/model/body/skin.h"
 
 #include <algorithm>
-#include <array>
+#include <utility>
 
 #include "model/body/skin_anchor.h"
 #include "model/body/skin_binder.h"
-#include "model/body/skin_ties.h"
 
 namespace viscera {
 
 namespace {
 
 constexpr size_t kVerticesPerReport = 4096;
-constexpr double kShareOfBinding = 0.7;  // of the whole time; the ties take the rest
 
 void bindVertices(const Lattice& lattice, const Solid& solid, Mapping mapping, const Progress& progress, Skin& skin) {
   const AnchorFinder finder(solid);
@@ -28,35 +26,47 @@ void bindVertices(const Lattice& lattice, const Solid& solid, Mapping mapping, c
     skin.deep_vertices += anchor.deep ? 1 : 0;
     skin.bindings.push_back(binder.bind(anchor, position, normal));
     skin.constant_vertices += binder.isAsAsked(skin.bindings.back()) ? 0 : 1;
-    if (progress && v % kVerticesPerReport == 0) progress("bind skin", kShareOfBinding * v / count);
+    if (progress && v % kVerticesPerReport == 0)
+      progress("bind skin", static_cast<double>(v) / static_cast<double>(count));
   }
 }
 
-void tieTriangles(const Lattice& lattice, Skin& skin) {
-  TieFinder finder(lattice, skin.bindings);
-  std::vector<std::array<uint32_t, 3>> whole;
-  std::vector<uint16_t> parts;
-  std::vector<uint32_t> charts;
-  skin.tie_starts.push_back(0);
-  for (size_t t = 0; t < skin.mesh.triangles.size(); ++t) {
-    const auto& corners = skin.mesh.triangles[t];
-    bool tied = true;
-    for (int edge = 0; edge < 3 && tied; ++edge) {
-      tied = finder.tie(corners[edge], corners[(edge + 1) % 3], skin.ties);
+/// [slots] of the nodes: one of the nodes that paths of springs join them with, the same for all of these.
+std::vector<uint32_t> piecesOf(const Lattice& lattice) {
+  constexpr uint32_t kNone = UINT32_MAX;
+  std::vector<uint32_t> pieces(lattice.nodes.size(), kNone), reached;
+  for (const uint32_t seed : lattice.active_slots) {
+    if (pieces[seed] != kNone) continue;
+    pieces[seed] = seed;
+    for (reached = {seed}; !reached.empty();) {
+      const uint32_t slot = reached.back();
+      reached.pop_back();
+      for (uint32_t spring = 0; spring < layout::kSpringsPerNode; ++spring) {
+        if (!springCount(lattice.nodes[slot], spring)) continue;
+        const auto next = static_cast<uint32_t>(lattice.neighborSlot(slot, spring));
+        if (std::exchange(pieces[next], seed) != seed) reached.push_back(next);
+      }
     }
-    if (!tied) {
-      skin.ties.resize(skin.tie_starts.back());
-      ++skin.bridges_removed;
-      continue;
-    }
-    skin.tie_starts.push_back(static_cast<uint32_t>(skin.ties.size()));
-    whole.push_back(corners);
-    parts.push_back(skin.mesh.parts[t]);
-    if (!skin.mesh.charts.empty()) charts.push_back(skin.mesh.charts[t]);
   }
-  skin.mesh.triangles.swap(whole);
-  skin.mesh.parts.swap(parts);
-  skin.mesh.charts.swap(charts);
+  return pieces;
+}
+
+void removeBridges(const Lattice& lattice, Skin& skin) {
+  const std::vector<uint32_t> pieces = piecesOf(lattice);
+  TriangleMesh& mesh = skin.mesh;
+  size_t kept = 0;
+  for (size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto& corners = mesh.triangles[t];
+    const auto piece = [&](size_t i) { return pieces[skin.bindings[corners[i]].slot0]; };
+    if (piece(1) != piece(0) || piece(2) != piece(0)) continue;
+    mesh.parts[kept] = mesh.parts[t];
+    if (!mesh.charts.empty()) mesh.charts[kept] = mesh.charts[t];
+    mesh.triangles[kept++] = corners;
+  }
+  skin.bridges_removed = mesh.triangles.size() - kept;
+  mesh.triangles.resize(kept);
+  mesh.parts.resize(kept);
+  if (!mesh.charts.empty()) mesh.charts.resize(kept);
 }
 
 void listBoundSlots(const Lattice& lattice, Skin& skin) {
@@ -80,7 +90,7 @@ Skin bindSkin(const TriangleMesh& mesh, const Lattice& lattice, const Solid& sol
   skin.mesh = refine(mesh, lattice.spacing_m);
   bindVertices(lattice, solid, mapping, progress, skin);
   listBoundSlots(lattice, skin);
-  tieTriangles(lattice, skin);
+  removeBridges(lattice, skin);
   if (progress) progress("bind skin", 1);
   return skin;
 }

@@ -23,8 +23,6 @@ constexpr uint32_t kNoSplitEdge = UINT32_MAX;
 struct Skin {
   TriangleMesh mesh;                          ///< rest pose [m], tissue frame
   std::vector<layout::SkinBinding> bindings;  ///< [vertices]
-  std::vector<layout::Tie> ties;              ///< springs that triangles depend on beyond their vertices' own
-  std::vector<uint32_t> tie_starts;           ///< [triangles + 1]
   std::vector<uint32_t> bound_slots;          ///< slots that some vertex is bound to, ascending
   std::vector<SplitEdge> split_edges;         ///< of a network that can be cut
   /// [triangles] split edges 01, 12, 20, or kNoSplitEdge; empty unless a network's that can be cut
@@ -33,17 +31,16 @@ struct Skin {
   bool two_sided = false;        ///< a sheet with borders: its back is not the inside of something
   size_t deep_vertices = 0;      ///< bound inside the body, too far from its boundary
   size_t constant_vertices = 0;  ///< that the mapping asked for cannot carry, so that the constant one does
-  size_t bridges_removed = 0;    ///< triangles left out: the lattice has no tissue along one of their edges
+  size_t bridges_removed = 0;    ///< triangles left out: they join pieces of tissue that nothing joins
 };
 
 /// Binds every vertex to the nearest triangle of the lattice's boundary (EGVE 3.3.1; the reference point is the closest
-/// point, so weights are 0..1) and finds the ties of every triangle. A vertex deeper than one cell, as where parts of
-/// an organ meet, is bound to a face of its own cell instead, so that it moves and is cut with the tissue around it.
+/// point, so weights are 0..1). A vertex deeper than one cell, as where parts of an organ meet, is bound to a face of
+/// its own cell instead, so that it moves and is cut with the tissue around it.
 /// In a lattice with cells that are tissue in part every vertex is, and while no spring of the cell's corners is cut it
 /// goes where the eight corners carry it: its boundary faces lie outside of the tissue, on light and soft nodes.
 /// Edges longer than the spacing are split first, so that a cut can open between any two lattice nodes.
-/// A triangle is whole while at least two of the three springs of each of its vertices' lattice triangles are alive
-/// and all its ties hold; hence no whole triangle joins nodes that no path of live springs joins.
+/// Triangles that join nodes which no path of springs joins are left out.
 /// That is Mapping::kAuto. The others (docs/mappings.md) bind to the boundary everywhere, and to a cell's face where a
 /// vertex is deep.
 /// @param solid  the one that `lattice` was built from
