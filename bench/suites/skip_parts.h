@@ -36,7 +36,8 @@ void measureEmptySpace(Report& report);
 void measureSleep(Report& report);
 /// Skin and pictures that are not wanted, have not moved, or will not be seen.
 void measureViews(Report& report, gpu::Context& context);
-/// Pictures of which some or all of the skin is out, with and without work for it. Needs a current context.
+/// Pictures with all of the skin in them and with nothing of it, with and without work for what is out. Needs a current
+/// context.
 void measureHidden(Report& report);
 
 }  // namespace viscera::bench

@@ -88,7 +88,6 @@ const uint kBindOverlaySpikes = 71u;      // OverlaySpike[]
 const uint kBindOverlayEnds = 72u;        // vec4[2 * spikes]: xyz of both ends [m]
 const uint kBindStrainColors = 73u;       // uint[vertices]: RGBA8 by strain
 const uint kBindCutSides = 74u;           // vec4[slots]: see cut_sides.glsl
-const uint kBindPicked = 75u;             // uint[]: which items a kernel of the surface goes over, see surface/grouped_items.h
 const uint kBindSleepingBricks = 76u;     // SleepingBrick[bricks], see awake_bricks.h
 const uint kBindAwakeNodes = 77u;         // AwakeList, then uint[active]: slots of the nodes that are stepped
 const uint kBindAwakeCells = 78u;         // AwakeList, then uint[cells]: slots of the lowest corners of cells around these

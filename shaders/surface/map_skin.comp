@@ -7,7 +7,6 @@
 // in  skin[count], nodes[slots], displacement[slots] m, node_normals[slots], stale_bricks[bricks]     out  positions[3 * count] m, normals[count] packed
 // Features: MIXED (some vertices belong to networks: network_skin.comp places them), and which bindings there are beside those with
 // the constant basis: CURVED (kInterpolatedBit), IN_CELL, ONE_NODE, ALONG_NORMAL; NORMALS with any that asks for approximate normals.
-// PICKED: over the vertices in a list alone.
 // BRANCHES: where a branch that is not taken costs nothing (compiled as C++; software rasterisers run both sides).
 #include "layout.h"
 #ifndef __cplusplus
@@ -18,7 +17,7 @@ layout(local_size_x = GROUP_SIZE) in;  // before globalIndex(), which asks for i
 #include "skin_basis.glsl"
 
 #ifndef __cplusplus
-uniform uint count;  // of vertices, of all or of those picked
+uniform uint first_item, count;  // of vertices
 uniform uint followed_revision;  // what moved no later is in place; 0: nothing is
 layout(std430, binding = kBindStaleBricks) readonly buffer StaleBricksBuffer { uint stale_bricks[]; };
 layout(std430, binding = kBindDisplacementIn) readonly buffer DisplacementBuffer { vec4 displacement[]; };
@@ -32,7 +31,6 @@ layout(std430, binding = kBindSkinBindings) readonly buffer SkinBuffer { SkinBin
 layout(std430, binding = kBindSkinPositions) writeonly buffer PositionsBuffer { float positions[]; };
 layout(std430, binding = kBindSkinNormals) writeonly buffer NormalsBuffer { uint normals[]; };
 #endif
-#include "picked.glsl"
 
 /// Direction of an axial spring at rest. Edges 0-1 and 2-0 of every binding are axial (model/body/skin_anchor.h).
 vec3 axialDirection(uint spring) {
@@ -156,7 +154,7 @@ void mapByNode(uint vertex, SkinBinding s, float spacing, vec3 rest1, vec3 rest2
 
 void main() {
   if (globalIndex() >= count) return;
-  uint vertex = itemAt(globalIndex());
+  uint vertex = first_item + globalIndex();
   SkinBinding s = skin[vertex];
 #ifdef MIXED
   if ((s.springs & kOneToOneBit) != 0u) return;

@@ -4,7 +4,7 @@
 // node_normal.comp - approximate normals of the nodes that the skin is bound to: at rest those of VR05 eq 5, and in motion turned as
 // the tissue is, by the gradient that a node's axial neighbours give. With SUMMED eq 5 in motion too, as the paper has it: that one
 // is turned by mere stretch, where neighbours are not the same on all sides (mappings.md).
-// Owner: surface/surface.h   physics.md 4     PICKED: over the nodes in a list alone.
+// Owner: surface/surface.h   physics.md 4
 // in  surface_nodes[count], displacement[slots] m, nodes[slots], stale_bricks[bricks]     out  node_normals[slots] xyz unit, w trust 0..1
 #include "layout.h"
 #ifndef __cplusplus
@@ -14,7 +14,7 @@ layout(local_size_x = GROUP_SIZE) in;  // before globalIndex(), which asks for i
 #include "skin_basis.glsl"
 
 #ifndef __cplusplus
-uniform uint count;  // of surface nodes
+uniform uint first_item, count;  // of surface nodes
 uniform uint followed_revision;  // what moved no later is in place; 0: nothing is
 layout(std430, binding = kBindStaleBricks) readonly buffer StaleBricksBuffer { uint stale_bricks[]; };
 layout(std430, binding = kBindSurfaceNodes) readonly buffer SurfaceNodesBuffer { SurfaceNode surface_nodes[]; };
@@ -22,7 +22,6 @@ layout(std430, binding = kBindNodes) readonly buffer NodesBuffer { NodeBits node
 layout(std430, binding = kBindDisplacementIn) readonly buffer DisplacementBuffer { vec4 displacement[]; };
 layout(std430, binding = kBindNodeNormals) writeonly buffer NodeNormalsBuffer { vec4 node_normals[]; };
 #endif
-#include "picked.glsl"
 
 #ifndef SUMMED
 /// What displacement gains along an axis in a spacing, by the neighbours that there are. A node that was not cut has one at least.
@@ -36,7 +35,7 @@ vec3 slopeAlong(uint slot, NodeBits bits, uint spring, ivec3 offset, vec3 here) 
 
 void main() {
   if (globalIndex() >= count) return;
-  SurfaceNode node = surface_nodes[itemAt(globalIndex())];
+  SurfaceNode node = surface_nodes[first_item + globalIndex()];
   uint slot = node.slot;
   if (followed_revision != 0u && stale_bricks[slot >> 6] <= followed_revision) return;
   NodeBits bits = nodes[slot];

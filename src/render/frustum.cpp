@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "render/frustum.h"
 
-#include <cmath>
-
 namespace viscera {
 
 namespace {
@@ -22,8 +20,6 @@ Frustum::Frustum(const CameraConfig& camera, const Pose& tissue_from_optical) {
   };
   planes_ = {plane({1, 0, right}, 0), plane({-1, 0, right}, 0),       plane({0, 1, down}, 0),
              plane({0, -1, down}, 0), plane({0, 0, 1}, range.near_m), plane({0, 0, -1}, -range.far_m)};
-  eye_m_ = tissue_from_optical.position_m.cast<float>();
-  blind_m_ = static_cast<float>(range.near_m * std::sqrt(1 + right * right + down * down) + margin_m);
 }
 
 bool Frustum::misses(const Eigen::AlignedBox3f& box) const {
@@ -33,10 +29,6 @@ bool Frustum::misses(const Eigen::AlignedBox3f& box) const {
     if (plane.inwards.dot(farthest) < plane.at_m) return true;
   }
   return false;
-}
-
-bool Frustum::isBeside(const Eigen::AlignedBox3f& box) const {
-  return box.squaredExteriorDistance(eye_m_) > blind_m_ * blind_m_;
 }
 
 }  // namespace viscera

@@ -17,8 +17,6 @@ class Frustum {
 
   /// Is nothing of the box in the picture? Never said of a box that may be in it; an empty box is missed.
   bool misses(const Eigen::AlignedBox3f& box) const;
-  /// Is the eye, and all that is nearer to it than what is drawn, outside of the box?
-  bool isBeside(const Eigen::AlignedBox3f& box) const;
 
  private:
   struct Plane {  ///< inwards . x >= at
@@ -26,8 +24,6 @@ class Frustum {
     float at_m;
   };
   std::array<Plane, 6> planes_;
-  Vector3f eye_m_;
-  float blind_m_;  ///< what is nearer to the eye is not drawn
 };
 
 }  // namespace viscera

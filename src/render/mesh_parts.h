@@ -8,19 +8,17 @@
 
 namespace viscera {
 
-/// Draws the triangles of a mesh, part by part. @param inputs  that is bound   @param before  (part) is called first
+/// Draws the triangles of a mesh, run by run. @param inputs  that is bound   @param before  (run) is called first
 template <class Before>
 void drawParts(const MeshView& mesh, const VertexArray& inputs, Before before) {
-  const auto draw = [&](const DrawnPart& part) {
-    before(part);
-    glVertexArrayElementBuffer(inputs.id(), part.indices);
-    if (part.fronts_only) glEnable(GL_CULL_FACE);
-    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(part.count), GL_UNSIGNED_INT,
-                   reinterpret_cast<const void*>(part.first * sizeof(uint32_t)));
-    if (part.fronts_only) glDisable(GL_CULL_FACE);
+  glVertexArrayElementBuffer(inputs.id(), mesh.indices);
+  const auto draw = [&](const IndexRun& run) {
+    before(run);
+    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(run.count), GL_UNSIGNED_INT,
+                   reinterpret_cast<const void*>(run.first * sizeof(uint32_t)));
   };
-  if (!mesh.parts) return draw({mesh.indices, mesh.charts, 0, mesh.index_count, false});
-  for (const DrawnPart& part : *mesh.parts) draw(part);
+  if (!mesh.runs) return draw({0, mesh.index_count});
+  for (const IndexRun& run : *mesh.runs) draw(run);
 }
 
 }  // namespace viscera

@@ -93,7 +93,7 @@ void OverlayPainter::drawStrain(const OverlayLook& look, const MeshView& mesh, c
   glBindVertexArray(mesh_inputs_.id());
   strain_.use();
   setMeshMatrices(strain_, optical_from_tissue, clip_from_optical);
-  drawParts(mesh, mesh_inputs_, [](const DrawnPart&) {});
+  drawParts(mesh, mesh_inputs_, [](const IndexRun&) {});
   glBindVertexArray(0);
 }
 

@@ -8,13 +8,13 @@
 #include "render/tool_shape.h"
 #include "render/vertex_array.h"
 #include "surface/node_overlay.h"
+#include "surface/shown_triangles.h"
 #include "viscera/model/scene/overlays.h"
 #include "viscera/render/arrow.h"
 #include "viscera/render/camera.h"
 
 namespace viscera {
 
-class DrawnSkin;
 struct MeshView;
 
 /// What is drawn over a picture, and what of.
@@ -24,7 +24,7 @@ struct OverlayLook {
   StateView state;
   const Surface* surface = nullptr;  ///< that follows the state
   const std::vector<Arrow>* arrows = nullptr;
-  const DrawnSkin* skin = nullptr;  ///< see Renderer::draw
+  const IndexRuns* runs = nullptr;  ///< see Renderer::draw
   uint64_t capture = 0;  ///< pictures of one number are of one state: what they share is worked out once; 0: alone
 };
 

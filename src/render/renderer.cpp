@@ -30,9 +30,8 @@ void prepareDrawing() {
   glDepthMask(GL_TRUE);
   glDepthRange(0, 1);
   glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
-  glDisable(GL_CULL_FACE);  // tissue is seen from inside through a cut, but for what DrawnPart says
-  glCullFace(GL_BACK);
-  glFrontFace(GL_CW);  // the image is drawn upside down, which turns every winding
+  glDisable(GL_CULL_FACE);  // tissue is seen from inside through a cut
+  glFrontFace(GL_CW);       // the image is drawn upside down, which turns every winding
 }
 
 void clearImage() {
@@ -42,9 +41,9 @@ void clearImage() {
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 }
 
-MeshView meshOf(const Surface& surface, const DrawnSkin* skin) {
+MeshView meshOf(const Surface& surface, const IndexRuns* runs) {
   return {surface.positions().id(), surface.normals().id(), surface.colors().id(),    surface.liveIndices().id(),
-          surface.liveCount(),      surface.rests().id(),   surface.liveChartsView(), skin ? &skin->parts() : nullptr};
+          surface.liveCount(),      surface.rests().id(),   surface.liveChartsView(), runs};
 }
 
 /// No overlays.
@@ -81,8 +80,8 @@ Renderer::Renderer(const std::vector<CameraConfig>& cameras, const std::vector<S
 
 Renderer::~Renderer() = default;
 
-void Renderer::draw(size_t camera, const Surface& surface, const ToolMotions& motions, const DrawnSkin* skin) {
-  draw(camera, meshOf(surface, skin), motions);
+void Renderer::draw(size_t camera, const Surface& surface, const ToolMotions& motions, const IndexRuns* runs) {
+  draw(camera, meshOf(surface, runs), motions);
 }
 
 void Renderer::draw(size_t camera, const MeshView& mesh, const ToolMotions& motions) {
@@ -92,7 +91,7 @@ void Renderer::draw(size_t camera, const MeshView& mesh, const ToolMotions& moti
 void Renderer::draw(size_t camera, const Model& model, const OverlayLook& look, const ToolMotions& motions) {
   if (!overlays_) overlays_ = std::make_unique<OverlayPainter>(model);
   overlays_->follow(look);
-  const MeshView mesh = meshOf(*look.surface, look.skin);
+  const MeshView mesh = meshOf(*look.surface, look.runs);
   const bool strain = look.shown.has(Overlay::kStrain);
   drawImage(camera, mesh, motions, !strain, [&](const View& view, bool before_tools) {
     if (before_tools) {
@@ -185,8 +184,8 @@ void Renderer::drawRest(const View& view, const ToolMotions& motions, DrawOver d
   drawOver(view, false);
 }
 
-void Renderer::drawGeometry(size_t camera, const Surface& surface, const ToolMotions& motions, const DrawnSkin* skin) {
-  drawGeometry(camera, meshOf(surface, skin), motions);
+void Renderer::drawGeometry(size_t camera, const Surface& surface, const ToolMotions& motions, const IndexRuns* runs) {
+  drawGeometry(camera, meshOf(surface, runs), motions);
 }
 
 void Renderer::drawGeometry(size_t camera, const MeshView& mesh, const ToolMotions& motions) {

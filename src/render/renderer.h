@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "gpu/program.h"
-#include "render/drawn_skin.h"
 #include "render/geometry_target.h"
 #include "render/render_target.h"
 #include "render/seen_target.h"
@@ -34,7 +33,7 @@ struct MeshView {
   size_t index_count = 0;
   uint32_t rests = 0;   ///< vec4[vertices] see JoinedSkins::rests; 0: none, and no detail
   uint32_t charts = 0;  ///< texel view of uint[index_count / 3] texture charts (JoinedSkins::charts); 0: none
-  const std::vector<DrawnPart>* parts = nullptr;  ///< instead of all indices and charts
+  const IndexRuns* runs = nullptr;  ///< those that are drawn; null: all are
 };
 
 /// Off-screen colour images of the surface and the tools, one framebuffer per camera. Draws only when asked.
@@ -55,8 +54,8 @@ class Renderer {
 
   /// Draws one camera's view and leaves its single-sample colour attachment bound for reading (for ReadbackRing).
   /// Makes no OpenGL object, and sets all the state that it depends on.
-  /// @param skin  what the camera sees of the surface; null: all is drawn
-  void draw(size_t camera, const Surface& surface, const ToolMotions& motions, const DrawnSkin* skin = nullptr);
+  /// @param runs  what is drawn of the surface (Surface::runsOf); null: all
+  void draw(size_t camera, const Surface& surface, const ToolMotions& motions, const IndexRuns* runs = nullptr);
   void draw(size_t camera, const MeshView& mesh, const ToolMotions& motions);
   /// As draw(), with overlays; makes what they need at the first time. @param model  of look.surface, must outlive this
   void draw(size_t camera, const Model& model, const OverlayLook& look, const ToolMotions& motions);
@@ -66,7 +65,7 @@ class Renderer {
   void placeCamera(size_t camera, const Pose& pose) { camera_poses_[camera] = pose; }
   /// Draws how far away what a camera sees is and what it is, tools' outlines left out; makes what that needs at the
   /// first time. Nothing is bound for reading: see geometry().
-  void drawGeometry(size_t camera, const Surface& surface, const ToolMotions& motions, const DrawnSkin* skin = nullptr);
+  void drawGeometry(size_t camera, const Surface& surface, const ToolMotions& motions, const IndexRuns* runs = nullptr);
   void drawGeometry(size_t camera, const MeshView& mesh, const ToolMotions& motions);
   /// What was drawn so last, of a camera of which it was.
   const GeometryTarget& geometry(size_t camera) const { return *geometries_[camera]; }

@@ -105,10 +105,9 @@ void TissuePainter::bindAtRest(const MeshView& mesh) const {
 
 /// What bindAtRest() has bound, with the program in use.
 void TissuePainter::drawAtRest(const gpu::Program& program, const MeshView& mesh) const {
-  drawParts(mesh, tissue_inputs_, [&](const DrawnPart& part) {
-    if (!detail_) return;
-    glBindTextureUnit(layout::kUnitShownCharts, part.charts);
-    program.set("first_chart", static_cast<int32_t>(part.first / 3));
+  if (detail_) glBindTextureUnit(layout::kUnitShownCharts, mesh.charts);
+  drawParts(mesh, tissue_inputs_, [&](const IndexRun& run) {
+    if (detail_) program.set("first_chart", static_cast<int32_t>(run.first / 3));
   });
 }
 
@@ -119,7 +118,7 @@ void TissuePainter::draw(const MeshView& mesh, const ToolShadows& shadows, const
     bindAtRest(mesh);
     depth_program_.use();
     setMeshMatrices(depth_program_, optical_from_tissue, clip_from_optical);
-    drawParts(mesh, tissue_inputs_, [](const DrawnPart&) {});
+    drawParts(mesh, tissue_inputs_, [](const IndexRun&) {});
     glDepthFunc(GL_LEQUAL);
     useWith(tissue_program_, shadows, optical_from_tissue, clip_from_optical);
     drawAtRest(tissue_program_, mesh);
@@ -128,7 +127,7 @@ void TissuePainter::draw(const MeshView& mesh, const ToolShadows& shadows, const
     bindMesh(inputs_, mesh);
     glBindVertexArray(inputs_.id());
     useWith(program_, shadows, optical_from_tissue, clip_from_optical);
-    drawParts(mesh, inputs_, [](const DrawnPart&) {});
+    drawParts(mesh, inputs_, [](const IndexRun&) {});
   }
   glBindVertexArray(0);
 }
@@ -160,7 +159,7 @@ void TissuePainter::drawGeometry(const gpu::Program& program, const MeshView& me
   program.use();
   setMeshMatrices(program, optical_from_tissue, clip_from_optical);
   program.set("label", uint32_t{0});
-  drawParts(mesh, inputs_, [](const DrawnPart&) {});
+  drawParts(mesh, inputs_, [](const IndexRun&) {});
   glBindVertexArray(0);
 }
 

@@ -80,7 +80,7 @@ void InlineView::addEye(size_t camera, const CameraConfig& config, PictureKind k
   auto ring = std::make_unique<gpu::ReadbackRing>(imageBytes(config, kind), kImagesInFlight, "an image");
   eyes_.push_back({camera,
                    config,
-                   SeenSkin(config, model_, surface_.groups()),
+                   SeenSkin(config, surface_.boxes()),
                    opticalPose(config),
                    {kind, std::move(ring)},
                    {PictureKind::kDepth, nullptr},
@@ -139,7 +139,7 @@ void InlineView::place(size_t e, const Look& look) {
   Eye& eye = eyes_[e];
   eye.pose = eye.camera < look.cameras.size() ? look.cameras[eye.camera] : opticalPose(eye.config);
   if (eye.color.kind == PictureKind::kRight) eye.pose = eye.pose * rightEye(eye.config);
-  eye.skin.place(eye.pose, surface_.groups());
+  eye.skin.place(eye.pose);
   renderer_.placeCamera(e, eye.pose);
 }
 
@@ -189,24 +189,18 @@ bool InlineView::isRepeat(const Eye& eye, const std::optional<Drawn>& drawn, con
 /// Brings the surface to a state, as far as the images that are to be drawn show it. @param all  the whole of it
 void InlineView::follow(const StateView& state, bool all, const std::optional<HostDisplacements>& displacements) {
   surface_.split(state);
-  const SkinGroups& groups = surface_.groups();
-  bool placed = false;
-  seen_.assign(groups.count(), 0);
+  std::vector<SkinBox> boxes;
+  std::vector<uint8_t> seen(model_.bodies.size());  // by any camera that is drawn
   for (Eye& eye : eyes_) {
     if (!eye.draws && !eye.measures) continue;
     const bool asks = eye.skin.asks(displacements.has_value());
-    if (asks && !std::exchange(placed, true)) {
-      if (displacements) {
-        places_.follow(groups, *displacements);
-      } else {
-        places_.follow(groups, state, model_.slots());
-      }
+    if (asks && boxes.empty()) {
+      boxes = displacements ? surface_.boxes().place(*displacements) : boxesOf(surface_.boxes(), state, model_.slots());
     }
-    eye.skin.look(surface_, asks ? &places_ : nullptr);
-    eye.skin.addTo(seen_);
+    eye.skin.look(surface_, asks ? &boxes : nullptr);
+    eye.skin.addTo(seen);
   }
-  if (!all) groups.need(seen_, needs_);
-  surface_.follow(state, all ? nullptr : &needs_);
+  surface_.follow(state, all ? nullptr : &seen);
 }
 
 void InlineView::captureSurface(uint64_t tick) {

@@ -98,9 +98,6 @@ class InlineView : public View {
   uint64_t captures_ = 0;
   std::function<void()> pause_;
   const bool reads_late_;  ///< reading would wait on this thread
-  SkinPlaces places_;
-  std::vector<uint8_t> seen_;  ///< [groups] by any camera that is drawn
-  SkinGroups::Needs needs_;
 };
 
 }  // namespace viscera

@@ -71,7 +71,7 @@ struct SkinKernel {
   const SkinBinding* skin = nullptr;
   const uint* triangles = nullptr;
   const SurfaceNode* surface_nodes = nullptr;
-  uint count = 0;
+  uint first_item = 0, count = 0;
   uint triangle_count = 0;  // of all bodies
   uint first_vertex = 0;    // of those that wounds have added
   const RingVertex* ring_vertices = nullptr;

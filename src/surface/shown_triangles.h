@@ -12,6 +12,12 @@
 
 namespace viscera {
 
+/// Indices of triangles that are drawn, of those that lie in a buffer.
+struct IndexRun {
+  size_t first = 0, count = 0;
+};
+using IndexRuns = std::vector<IndexRun>;
+
 /// Appends what is shown of one triangle: three vertex indices per piece, counter-clockwise from outside.
 /// Twin of shaders/surface/split_triangles.comp.
 /// @param corners  [3] its vertices

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "gpu/buffer.h"
-#include "surface/skin_groups.h"
+#include "surface/skin_boxes.h"
 #include "viscera/model/model.h"
 #include "viscera/solver/state.h"
 

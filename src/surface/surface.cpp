@@ -27,7 +27,7 @@ void bindNodes(const StateView& state) {
 
 /// What map_skin.comp is compiled for.
 std::vector<std::string> mapFeatures(const JoinedSkins& skins) {
-  std::vector<std::string> features = {"PICKED"};
+  std::vector<std::string> features;
   if (skins.any_one_to_one) features.push_back("MIXED");
   if (skins.kinds & layout::kInterpolatedBit) features.push_back("CURVED");
   if (skins.kinds & layout::kInCellBit) features.push_back("IN_CELL");
@@ -37,17 +37,31 @@ std::vector<std::string> mapFeatures(const JoinedSkins& skins) {
   return features;
 }
 
-std::vector<uint32_t> groupsOf(const std::vector<layout::SurfaceNode>& nodes, const SkinGroups& groups) {
-  std::vector<uint32_t> out;
-  for (const layout::SurfaceNode& node : nodes) out.push_back(groups.groupOfSlot(node.slot));
+using Ranges = std::vector<BodyItems::Range>;
+
+/// [bodies] of nodes, which are in the order of their slots.
+Ranges rangesOf(const std::vector<layout::SurfaceNode>& nodes, const Model& model) {
+  Ranges out;
+  uint32_t first = 0, end = 0;
+  for (size_t b = 0; b < model.bodies.size(); ++b) {
+    const size_t last_slot = model.slotOffset(b) + model.bodies[b].lattice.nodes.size();
+    while (end < nodes.size() && nodes[end].slot < last_slot) ++end;
+    out.push_back({first, end});
+    first = end;
+  }
   return out;
 }
 
-/// [vertices] groups of those that lattices carry; others have none.
-std::vector<uint32_t> groupsOf(const std::vector<layout::SkinBinding>& bindings, const SkinGroups& groups) {
-  std::vector<uint32_t> out;
-  for (const layout::SkinBinding& binding : bindings)
-    out.push_back(binding.springs & layout::kOneToOneBit ? UINT32_MAX : groups.groupOfSlot(binding.slot0));
+/// [bodies + 1] of vertices that lattices carry, which others do not; the last are those of wounds.
+Ranges vertexRanges(const Model& model) {
+  Ranges out;
+  uint32_t first = 0;
+  for (const Body& body : model.bodies) {
+    const auto end = static_cast<uint32_t>(first + body.skin.bindings.size() + 2 * body.skin.split_edges.size());
+    out.push_back({first, isOneToOne(body) ? first : end});
+    first = end;
+  }
+  out.push_back({first, first});
   return out;
 }
 
@@ -92,19 +106,23 @@ Surface::Surface(const Model& model) {
     live_charts_ = gpu::Buffer<uint32_t>(charts_, "live charts");
     live_charts_view_ = gpu::TexelView(live_charts_.raw(), gpu::TexelFormat::kR32ui);
   }
-  groups_ = SkinGroups(model, skins);
-  vertex_items_ = GroupedItems(groupsOf(skins.bindings, groups_), groups_.count() + 1,
-                               Wounds::possible(model) ? kRoomForWounds * vertices_ : 0, "picked vertices");
-  carried_items_ = GroupedItems(groupsOf(skins.carried_nodes, groups_), groups_.count(), 0, "picked nodes");
-  summed_items_ = GroupedItems(groupsOf(skins.summed_nodes, groups_), groups_.count(), 0, "picked nodes");
+  boxes_ = SkinBoxes(model, skins.bindings);
+  vertex_items_ = BodyItems(vertexRanges(model));
+  carried_items_ = BodyItems(rangesOf(skins.carried_nodes, model));
+  summed_items_ = BodyItems(rangesOf(skins.summed_nodes, model));
+  for (const Body& body : model.bodies) {
+    one_to_one_.push_back(isOneToOne(body));
+    split_indices_.push_back(2 * 3 * body.skin.triangle_edges.size());
+  }
+  beyond_indices_.resize(model.bodies.size());
   if (Wounds::possible(model)) wounds_ = std::make_unique<Wounds>(model, skins);
   was_wounded_.resize(model.bodies.size());
   had_replaced_.resize(model.bodies.size());
   std::vector<uint32_t> splits = splitsOf(skins);
   shown_ = ShownTriangles(model, vertices_, std::move(skins.triangles), std::move(splits));
   if (skins.any_bound) {
-    if (carried_nodes_.size() > 0) carried_normal_ = surfaceKernel("node_normal.comp", {"PICKED"});
-    if (summed_nodes_.size() > 0) summed_normal_ = surfaceKernel("node_normal.comp", {"PICKED", "SUMMED"});
+    if (carried_nodes_.size() > 0) carried_normal_ = surfaceKernel("node_normal.comp");
+    if (summed_nodes_.size() > 0) summed_normal_ = surfaceKernel("node_normal.comp", {"SUMMED"});
     map_ = surfaceKernel("map_skin.comp", mapFeatures(skins));
   }
   if (skins.any_one_to_one) networks_ = std::make_unique<NetworkSurface>(skins.networks, Wounds::ofTetrahedra(model));
@@ -114,38 +132,49 @@ Surface::Surface(const Model& model) {
 
 Surface::~Surface() = default;
 
-void Surface::follow(const StateView& state, const SkinGroups::Needs* needs) {
+void Surface::follow(const StateView& state, const std::vector<uint8_t>* asked) {
   const gpu::TimedStage timed(gpu::Stage::kSurface);
   bindStorage(layout::kBindStaleBricks, state.stale_bricks ? state.stale_bricks : unknown_.id());
   bindNodes(state);
   bindStorage(layout::kBindDisplacementIn, state.displacement);
   positions_.bindStorage(layout::kBindSkinPositions);
   normals_.bindStorage(layout::kBindSkinNormals);
-  bool any = map_ && followLattices(state, needs);
-  if (networks_ && (!needs || needs->networks)) any = followNetworks(state) || any;
+  bool any = map_ && followLattices(state, asked);
+  const auto isAsked = [&](size_t body) { return !asked || (*asked)[body]; };
+  bool any_network = false;
+  for (size_t b = 0; b < one_to_one_.size(); ++b) any_network = any_network || (one_to_one_[b] && isAsked(b));
+  if (any_network) any = followNetworks(state) || any;
   if (!any) return;
   publish();
   ++mappings_;
 }
 
 /// @returns whether anything was not there yet
-bool Surface::followLattices(const StateView& state, const SkinGroups::Needs* needs) {
+bool Surface::followLattices(const StateView& state, const std::vector<uint8_t>* asked) {
   bindings_.bindStorage(layout::kBindSkinBindings);
   node_normals_.bindStorage(layout::kBindNodeNormals);
-  followNormals(state, needs ? &needs->nodes : nullptr);
+  std::vector<uint8_t> bodies;  // and wounds, which are all mapped if one is
+  if (asked) {
+    bool any_wound = false;
+    for (size_t b = 0; b < asked->size(); ++b) any_wound = any_wound || ((*asked)[b] && was_wounded_[b]);
+    for (size_t b = 0; b < asked->size(); ++b) bodies.push_back((*asked)[b] || (any_wound && was_wounded_[b]));
+    bodies.push_back(any_wound);
+    asked = &bodies;
+  }
+  followNormals(state, asked);
   const gpu::TimedStage timed(gpu::Stage::kMapping);
-  return vertex_items_.run(map_, state, needs ? &needs->vertices : nullptr);
+  return vertex_items_.run(map_, state, asked);
 }
 
-void Surface::followNormals(const StateView& state, const std::vector<uint8_t>* nodes) {
+void Surface::followNormals(const StateView& state, const std::vector<uint8_t>* asked) {
   const gpu::TimedStage timed(gpu::Stage::kNormals);
   if (carried_normal_) {
     carried_nodes_.bindStorage(layout::kBindSurfaceNodes);
-    carried_items_.run(carried_normal_, state, nodes);
+    carried_items_.run(carried_normal_, state, asked);
   }
   if (summed_normal_) {
     summed_nodes_.bindStorage(layout::kBindSurfaceNodes);
-    summed_items_.run(summed_normal_, state, nodes);
+    summed_items_.run(summed_normal_, state, asked);
   }
   gpu::Program::storageBarrier();
 }
@@ -259,16 +288,33 @@ void Surface::showWounds() {
       live_.write(shown_.indices().data() + first, count, first);
     }
     was_wounded_[b] = body.wounded;
+    beyond_indices_[b] = body.wounded ? body.skin.size() - std::min(count, body.skin.size()) + body.walls.size() : 0;
     showReplaced(b, first / 3);
     first += count;
   }
   live_.write(wound_indices_, first_wound_index_);
   live_count_ = first_wound_index_ + wound_indices_.size();
   showWoundedCharts();
-  groups_.wound(shown, wounds_->bindings());
-  vertex_items_.setLast(static_cast<uint32_t>(whole_vertices_), static_cast<uint32_t>(vertices_));
+  boxes_.add(wounds_->bindings());
+  vertex_items_.setLast({static_cast<uint32_t>(whole_vertices_), static_cast<uint32_t>(vertices_)});
   forget();  // vertices are bound again
   ++live_revision_;
+}
+
+IndexRuns Surface::runsOf(const std::vector<uint8_t>& bodies) const {
+  IndexRuns runs;
+  size_t first = 0;
+  const auto add = [&](uint8_t drawn, size_t count) {
+    if (drawn && count > 0) {
+      if (runs.empty() || runs.back().first + runs.back().count != first) runs.push_back({first, 0});
+      runs.back().count += count;
+    }
+    first += count;
+  };
+  for (size_t b = 0; b < bodies.size(); ++b) add(bodies[b], 3 * shown_.trianglesOf(b));
+  for (size_t b = 0; b < bodies.size(); ++b) add(bodies[b], split_indices_[b]);
+  for (size_t b = 0; b < bodies.size(); ++b) add(bodies[b], beyond_indices_[b]);
+  return runs;
 }
 
 /// Normals beside a wound of tetrahedra are those of whole triangles.

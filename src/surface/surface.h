@@ -8,9 +8,9 @@
 
 #include "gpu/buffer.h"
 #include "gpu/program.h"
-#include "surface/grouped_items.h"
+#include "surface/body_items.h"
 #include "surface/shown_triangles.h"
-#include "surface/skin_groups.h"
+#include "surface/skin_boxes.h"
 #include "surface/wounds.h"
 #include "viscera/layout/skin.h"
 #include "viscera/model/model.h"
@@ -33,8 +33,8 @@ class Surface {
   /// comes back to float rounding; nodes on one line or in one point still give finite vertices and unit normals.
   /// What it writes is ready to be drawn, copied or read by a kernel. Vertices none of whose nodes have moved since the
   /// last call are left as they are, where the state says which those are; that changes no bit.
-  /// @param needs  what is asked for (SkinGroups::need); others stay as they are. Null: all
-  void follow(const StateView& state, const SkinGroups::Needs* needs = nullptr);
+  /// @param asked  [bodies] 1: is asked for; others stay as they are. Null: all are
+  void follow(const StateView& state, const std::vector<uint8_t>* asked = nullptr);
   /// Splits the triangles of networks along the cut (the rule is in split_triangles.comp), until reset(). Looks at the
   /// springs only if state.cut_revision has changed since the last call; costs nothing otherwise.
   void split(const StateView& state);
@@ -59,9 +59,9 @@ class Surface {
   /// what wounds have beyond.
   size_t liveCount() const { return live_count_; }
   uint64_t liveRevision() const { return live_revision_; }  ///< another one whenever what is drawn may be others
-  const SkinGroups& groups() const { return groups_; }
-  /// [triangles and split pieces] charts on the host, as liveCharts() where nothing is wounded; empty where none are.
-  const std::vector<uint32_t>& charts() const { return charts_; }
+  /// What of liveIndices() shows some bodies, in the order in which all is drawn. @param bodies  [bodies] 1: is drawn
+  IndexRuns runsOf(const std::vector<uint8_t>& bodies) const;
+  const SkinBoxes& boxes() const { return boxes_; }
   /// [liveIndices() / 3] texture charts (JoinedSkins::charts) of the triangles drawn; empty where no body has any.
   const gpu::Buffer<uint32_t>& liveCharts() const { return live_charts_; }
   uint32_t liveChartsView() const { return live_charts_view_.id(); }  ///< of texels; 0: none
@@ -73,8 +73,8 @@ class Surface {
   uint64_t mappings() const { return mappings_; }  ///< times follow() did its work
 
  private:
-  bool followLattices(const StateView& state, const SkinGroups::Needs* needs);
-  void followNormals(const StateView& state, const std::vector<uint8_t>* nodes);
+  bool followLattices(const StateView& state, const std::vector<uint8_t>* asked);
+  void followNormals(const StateView& state, const std::vector<uint8_t>* asked);
   bool followNetworks(const StateView& state);
   void forget();
   void showWounds();
@@ -101,8 +101,11 @@ class Surface {
   std::vector<bool> was_wounded_, had_replaced_;  ///< [bodies]
   std::vector<uint32_t> body_alive_;              ///< of the one whose codes are written
   uint64_t cut_revision_ = 0, wound_revision_ = 0, mappings_ = 0;
-  SkinGroups groups_;
-  GroupedItems vertex_items_, carried_items_, summed_items_;
+  SkinBoxes boxes_;
+  std::vector<bool> one_to_one_;                        ///< [bodies]
+  std::vector<size_t> split_indices_, beyond_indices_;  ///< [bodies] of split pieces; of what wounds have beyond
+  /// Vertices also of what wounds have added, as of one more body.
+  BodyItems vertex_items_, carried_items_, summed_items_;
   uint32_t followed_networks_ = 0;  ///< revision of the state that their vertices show; 0 if unknown
   uint64_t live_revision_ = 0;
 };

@@ -48,15 +48,5 @@ TEST(Frustum, AnEmptyBoxIsMissedAndEverythingIsNot) {
   EXPECT_FALSE(frustum.misses({Vector3f::Constant(-kMost), Vector3f::Constant(kMost)}));
 }
 
-TEST(Frustum, TheEyeIsBesideWhatItDoesNotTouch) {
-  const Frustum frustum(cameraAt({0, -0.3, 0}, {0, 0, 0}));
-  const auto cube = [](float y, float half) {
-    return Eigen::AlignedBox3f(Vector3f(-half, y - half, -half), Vector3f(half, y + half, half));
-  };
-  EXPECT_TRUE(frustum.isBeside(cube(0, 0.1F)));
-  EXPECT_FALSE(frustum.isBeside(cube(0, 0.298F)));  // cut by the near plane, 3 mm before the eye
-  EXPECT_FALSE(frustum.isBeside(cube(-0.3F, 0.1F)));
-}
-
 }  // namespace
 }  // namespace viscera
