@@ -1,5 +1,9 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include "solver/cpu/cpu_stepper.h"
+#include "solver/cpu/pd.h"
+#include "solver/gpu/pd_pass.h"
+#include "support/features.h"
 #include "support/implicit.h"
 
 using namespace viscera;
@@ -27,6 +31,107 @@ class Pd : public OnBackend {
     EXPECT_LT(relativeError(end.velocity_m_per_s, reference.v_m_per_s, reference.active), kConverged);
   }
 };
+
+/// The iteration by itself, without a solver around it.
+class PdAlone {
+ public:
+  struct Run {
+    HostState end;
+    std::vector<float> changes;  ///< as CpuPd has them
+    bool gave_up;
+  };
+  virtual ~PdAlone() = default;
+  /// One substep from a start.
+  virtual Run run(const HostState& start, const PdOptions& options) = 0;
+  /// The governor's recovery from a start. @return states after each substep
+  virtual std::vector<HostState> recover(const HostState& start, int iterations, int substeps) = 0;
+  virtual double spectralRadius() = 0;
+
+ protected:
+  PdAlone(const Model& model, double fraction) {
+    step_.dt_s = static_cast<float>(fraction * safeTimeStep(model));
+    step_.sleep_distance_m = 1e6;
+    step_.push_speed_m_per_s = static_cast<float>(pushSpeed(model));
+  }
+  Substep step_;
+};
+
+class PdAloneOnCpu : public PdAlone {
+ public:
+  PdAloneOnCpu(const Model& model, double fraction)
+      : PdAlone(model, fraction), lattice_(model, bodyParams(model, safeTimeStep(model)), featuresFor(model, true)) {}
+  Run run(const HostState& start, const PdOptions& options) override {
+    lattice_.write(start);
+    CpuPd pd(lattice_, serial_, options);
+    HostState end = substep(pd);
+    return {std::move(end), pd.changes(), pd.gaveUp()};
+  }
+  std::vector<HostState> recover(const HostState& start, int iterations, int substeps) override {
+    const auto stepper = makeCpuRecoveryStepper(iterations, lattice_, serial_);
+    lattice_.write(start);
+    std::vector<HostState> out;
+    for (int s = 0; s < substeps; ++s) out.push_back(substep(*stepper));
+    return out;
+  }
+  double spectralRadius() override {
+    return CpuPd(lattice_, serial_, {1}).spectralRadius(static_cast<double>(step_.dt_s));
+  }
+
+ private:
+  HostState substep(CpuStepper& stepper) {
+    stepper.run(lattice_, step_, nullptr);
+    lattice_.swap();
+    return lattice_.read();
+  }
+  CpuLattice lattice_;
+  const Serial serial_;
+};
+
+class PdAloneOnGpu : public PdAlone {
+ public:
+  PdAloneOnGpu(const Model& model, double fraction)
+      : PdAlone(model, fraction),
+        features_(featuresOf(model, Scene{}, safeTimeStep(model), layout::kGroupSize)),
+        buffers_(model, {bodyParams(model.bodies[0], safeTimeStep(model))}, features_) {}
+  Run run(const HostState& start, const PdOptions& options) override {
+    PdPass pass(features_, buffers_, options);
+    write(start);
+    HostState end = substep(pass);
+    return {std::move(end), pass.changes(), pass.gaveUp()};
+  }
+  std::vector<HostState> recover(const HostState& start, int iterations, int substeps) override {
+    const auto stepper = makeRecoveryStepper(iterations, features_, buffers_);
+    write(start);
+    std::vector<HostState> out;
+    for (int s = 0; s < substeps; ++s) out.push_back(substep(*stepper));
+    return out;
+  }
+  double spectralRadius() override {
+    return PdPass(features_, buffers_, {1, true}).spectralRadius(static_cast<double>(step_.dt_s));
+  }
+
+ private:
+  void write(const HostState& start) {
+    buffers_.state.displacement[buffers_.state.current].write(start.displacement_m);
+    buffers_.state.velocity[buffers_.state.current].write(start.velocity_m_per_s);
+  }
+  HostState substep(Stepper& stepper) {
+    buffers_.bind();
+    stepper.run(buffers_, step_);
+    buffers_.swap();
+    return {buffers_.state.displacement[buffers_.state.current].read(),
+            buffers_.state.velocity[buffers_.state.current].read(),
+            buffers_.store.nodes.read(),
+            {}};
+  }
+  FeatureSet features_;
+  LatticeBuffers buffers_;
+};
+
+std::unique_ptr<PdAlone> pdAlone(const std::string& backend, const Model& model, double fraction) {
+  if (backend == "gpu") return std::make_unique<PdAloneOnGpu>(model, fraction);
+  return std::make_unique<PdAloneOnCpu>(model, fraction);
+}
 
 INSTANTIATE_TEST_SUITE_P(Backends, Pd, ::testing::ValuesIn(backendKinds()), backendSuffix);
 
@@ -92,4 +197,77 @@ TEST_P(Pd, ToolsActLikeTheReferences) {
     // Absolute positions of tools, rounded at 6e-8 of 0.05 m, on displacements of 3e-3 m.
     expectToolsLikeReference(GetParam(), Integrator::kPd, kIterations, poisson_ratio, 1e-5);
   }
+}
+
+TEST_P(Pd, RecoveryKeepsTheEnergyBound) {
+  constexpr int kIterationsOfRecovery = 20, kRecovered = 8;  // substeps
+  constexpr double kAllowed = 0.01;                          // of the start: the stability suite's limit
+  constexpr double kNothing_j = 1e-9;                        // as in expectEnergyBound()
+  for (const double poisson_ratio : {0.25, 0.45}) {
+    Body body = boxBody({3, 3, 3}, 0.01);
+    body.material.poisson_ratio = poisson_ratio;
+    body.material.drag_per_s = 0;
+    const Model model = modelOf({body});
+    for (const double fraction : {1.0, 10.0, 100.0}) {
+      const auto alone = pdAlone(GetParam(), model, fraction);
+      for (const Abuse abuse : kAbuses) {
+        SCOPED_TRACE(::testing::Message() << poisson_ratio << " " << fraction << " " << static_cast<int>(abuse));
+        const double start_j = energyOf(model, abusedState(model, abuse));
+        for (const HostState& end : alone->recover(abusedState(model, abuse), kIterationsOfRecovery, kRecovered)) {
+          ASSERT_TRUE(isFinite(end.displacement_m) && isFinite(end.velocity_m_per_s));
+          ASSERT_LE(energyOf(model, end), start_j + kAllowed * std::abs(start_j) + kNothing_j);
+        }
+      }
+    }
+  }
+}
+
+TEST_P(Pd, AccelerationReachesAnErrorInFewerIterations) {
+  const Model model = modelOf({boxBody({5, 5, 5}, 0.01)});
+  const auto alone = pdAlone(GetParam(), model, 5);
+  const auto sweepsUntil = [&](bool accelerated) {
+    const PdAlone::Run run = alone->run(randomState(model, 5e-4, 0.1, 7), {400, accelerated});
+    EXPECT_FALSE(run.gave_up);
+    size_t last = run.changes.size();
+    while (last > 0 && run.changes[last - 1] < 1e-4f * run.changes[0]) --last;
+    return last;
+  };
+  const size_t plain = sweepsUntil(false), accelerated = sweepsUntil(true);
+  EXPECT_LT(plain, 400u);
+  EXPECT_LT(2 * accelerated, plain) << accelerated << " against " << plain;
+}
+
+TEST_P(Pd, SpectralRadiusIsThatOfTheLatticesStiffestNode) {
+  Body body = boxBody({4, 4, 4}, 0.01);
+  body.material.dashpot_ratio = 0;
+  const Model model = modelOf({body});
+  // dt_safe^2 = 2 / max(sum of k / m), so m/dt^2 is (2 / fraction^2) / 2 of sum of k there.
+  const double sum_over_inertia = 2 * 3.0 * 3.0;
+  EXPECT_NEAR(pdAlone(GetParam(), model, 3)->spectralRadius(), sum_over_inertia / (1 + sum_over_inertia),
+              1e-6);  // float32 rates
+}
+
+TEST_P(Pd, AccelerationThatGoesWrongIsGivenUpAndStartsAnew) {
+  const Model model = modelOf({boxBody({4, 4, 4}, 0.01)});
+  const HostState start = randomState(model, 5e-4, 0.1, 7);
+  const auto alone = pdAlone(GetParam(), model, 3);
+  const PdAlone::Run wrong = alone->run(start, {200, true, 1.05});  // beyond 1: weights that no spectrum allows
+  const PdAlone::Run plain = alone->run(start, {200, false});
+  EXPECT_TRUE(wrong.gave_up);
+  EXPECT_FALSE(plain.gave_up);
+  for (uint32_t slot : model.bodies[0].lattice.active_slots) {  // it lost the few sweeps before it gave up, no more
+    EXPECT_LT((xyz(wrong.end.displacement_m[slot]) - xyz(plain.end.displacement_m[slot])).norm(), 1e-3 * 5e-4);
+  }
+}
+
+/// What the iteration that gave up says of its change is what volumes allow the next ones: it must not be nothing.
+TEST_P(Pd, StartsAnewAlsoWhereTheFirstNodeIsFixed) {
+  constexpr size_t kWatched = 20;  // iterations, of which an early one gives up
+  Body body = boxBody({4, 4, 4}, 0.01);
+  body.lattice.nodes[body.lattice.active_slots[0]].lo |= layout::kFixedBit;
+  const Model model = modelOf({body});
+  const PdAlone::Run run =
+      pdAlone(GetParam(), model, 3)->run(randomState(model, 5e-4, 0.1, 7), {200, true, 1.05});  // no spectrum's
+  EXPECT_TRUE(run.gave_up);
+  for (size_t n = 0; n < kWatched; ++n) EXPECT_GT(run.changes[n], 0) << "iteration " << n;
 }
