@@ -161,21 +161,28 @@ inline void expectToolsLikeReference(const std::string& backend, Integrator inte
   }
 }
 
-/// The same bits for every group size, with everything compiled in.
+/// The same bits for every group size, and every time.
+inline void expectSameHashForEveryGroupSize(const Model& model, const Scene& scene, const HostState& start,
+                                            const std::vector<ToolMotions>& ticks) {
+  uint64_t first = 0;
+  for (uint32_t group_size : {32u, 64u, 128u, 256u, 64u}) {
+    GpuSolver solver(model, scene, {{}, group_size});
+    solver.writeState(start);
+    for (const ToolMotions& motions : ticks) solver.step(motions);
+    const uint64_t hash = stateHash(model, solver.readState());
+    if (first == 0) first = hash;
+    EXPECT_EQ(hash, first) << "group size " << group_size;
+  }
+}
+
+/// As above for an implicit integrator, with everything compiled in.
 inline void expectSameHashForEveryGroupSize(Integrator integrator) {
   const PullAndProbe tools;
   Body body = boxBody({6, 5, 7}, 0.01);
   body.material.poisson_ratio = 0.4;
   const Model model = modelOf({body});
-  uint64_t first = 0;
-  for (uint32_t group_size : {32u, 64u, 256u}) {
-    GpuSolver solver(model, sceneWith(integrator, model, 2, 3, 6, tools.styluses), {{}, group_size});
-    solver.writeState(randomState(model, 1e-3, 0.5, 11));
-    for (int t = 0; t < 2; ++t) solver.step(tools.motions(t, 0.07));
-    const uint64_t hash = stateHash(model, solver.readState());
-    if (first == 0) first = hash;
-    EXPECT_EQ(hash, first) << "group size " << group_size;
-  }
+  expectSameHashForEveryGroupSize(model, sceneWith(integrator, model, 2, 3, 6, tools.styluses),
+                                  randomState(model, 1e-3, 0.5, 11), {tools.motions(0, 0.07), tools.motions(1, 0.07)});
 }
 
 }  // namespace viscera::test

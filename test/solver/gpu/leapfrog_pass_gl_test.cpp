@@ -1,27 +1,24 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// What only the GPU's leapfrog has; the rest is in solver/leapfrog_gl_test.cpp.
-#include "solver/gpu/leapfrog_pass.h"
-
-#include "support/random_state.h"
+// What only the GPU's integrators have; the rest is in solver/*_gl_test.cpp.
+#include "support/implicit.h"
 
 using namespace viscera;
 using namespace viscera::test;
 
-using LeapfrogOnGpu = GpuTest;
+class LeapfrogOnGpu : public GpuTest {};
+class PdOnGpu : public GpuTest {};
 
-TEST_F(LeapfrogOnGpu, StateHashDoesNotDependOnGroupSize) {
+TEST_F(LeapfrogOnGpu, StateHashDoesNotDependOnGroupSizeNorThatOfVerletPaper) {
   const Model model = modelOf({boxBody({9, 7, 8}, 0.01)});
-  uint64_t first = 0;
-  for (uint32_t group_size : {32u, 64u, 128u, 256u}) {
-    GpuSolver solver(model, sceneFor(model, 20, {}, Vector3d(0, 0, -9.81)), {{}, group_size});
-    HostState start = randomState(model, 1e-3, 0.5, 11);
-    solver.writeState(start);
-    for (int t = 0; t < 5; ++t) solver.step({});
-    const uint64_t hash = stateHash(model, solver.readState());
-    if (first == 0) first = hash;
-    EXPECT_EQ(hash, first) << "group size " << group_size;
-  }
+  const HostState start = randomState(model, 1e-3, 0.5, 11);
+  const std::vector<ToolMotions> ticks(5);
+  expectSameHashForEveryGroupSize(model, sceneFor(model, 20, {}, Vector3d(0, 0, -9.81)), start, ticks);
+  expectSameHashForEveryGroupSize(model, sceneWith(Integrator::kVerletPaper, model, 20, 0.5), start, ticks);
+}
+
+TEST_F(PdOnGpu, StateHashDoesNotDependOnGroupSize) {
+  expectSameHashForEveryGroupSize(Integrator::kPd);
 }
 
 TEST_F(LeapfrogOnGpu, HotLoopMakesNoOpenGlObject) {
