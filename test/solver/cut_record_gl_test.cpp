@@ -3,7 +3,7 @@
 // Lattices remember where their axial springs were cut (HostState::axial_cut).
 #include "solver/network_rig.h"
 #include "support/random_state.h"
-#include "tools/motion_packing.h"
+#include "support/solver_rig.h"
 
 using namespace viscera;
 using namespace viscera::test;
@@ -38,11 +38,7 @@ struct Sweep {
     return (turn * Vector3d::UnitZ().cross(to_m - from_m).normalized()).dot(x - (middle_m + turn * from_m));
   }
   ToolMotions motions() const {
-    ToolMotions out;
-    out[0].mode = mode;
-    out[0].present = true;
-    out[0].from.position_m = middle_m + turn * from_m;
-    out[0].to.position_m = middle_m + turn * to_m;
+    ToolMotions out = tool(mode, middle_m + turn * from_m, middle_m + turn * to_m);
     out[0].from.orientation = out[0].to.orientation = turn;
     return out;
   }
@@ -60,29 +56,12 @@ Sweep turned(const Vector3d& degrees, double beside_m) {
 const std::vector<Vector3d> kAngles_deg = {{0, 0, 0},     {0, 90, 0},   {90, 0, 90}, {0, 0, 45},   {0, 45, 0},
                                            {35.3, 0, 45}, {10, 20, 30}, {-5, 3, 88}, {60, -25, 7}, {1, 1, 1}};
 
-class CutRecords : public OnBackend {
+class CutRecords : public BesideReference {
  protected:
-  CutRecords() : styluses_{stylusConfig(), stylusConfig()} { use(modelOf({boxBody({6, 6, 6}, kSpacing_m)})); }
-  void use(Model model) {
-    model_ = std::move(model);
-    solver_ = make(model_, sceneFor(model_, kSubsteps, styluses_));
-    renewReference();
-  }
-  void renewReference() { reference_.emplace(model_, Vector3d::Zero(), static_cast<float>(solver_->dt_s())); }
-  const Lattice& lattice() const { return model_.bodies[0].lattice; }
-
-  void tick(const Sweep& sweep) {
-    const ToolMotions motions = sweep.motions();
-    solver_->step(motions);
-    std::vector<layout::ToolMotion> rows;
-    interpolateMotions(motions, styluses_, kSubsteps, rows);
-    for (size_t s = 0; s < kSubsteps; ++s) reference_->substep({rows[2 * s], rows[2 * s + 1]});
-  }
+  CutRecords() : BesideReference(kSubsteps, stylusConfig()) { use(modelOf({boxBody({6, 6, 6}, kSpacing_m)})); }
+  using BesideReference::tick;
+  void tick(const Sweep& sweep) { tick(sweep.motions()); }
   std::vector<float> record() const { return solver_->readState().axial_cut; }
-  void reset() {
-    solver_->reset();
-    renewReference();
-  }
   template <class Visit>
   void forEachAxialSpring(Visit visit) const {
     for (const uint32_t slot : lattice().active_slots) {
@@ -109,11 +88,6 @@ class CutRecords : public OnBackend {
     ASSERT_EQ(shares.size(), reference_->axial_cut.size());
     for (size_t i = 0; i < shares.size(); ++i) ASSERT_NEAR(shares[i], reference_->axial_cut[i], kOnPlane) << i;
   }
-
-  Model model_;
-  std::vector<StylusConfig> styluses_;
-  std::unique_ptr<Ticks> solver_;
-  std::optional<ReferenceSolver> reference_;
 };
 
 INSTANTIATE_TEST_SUITE_P(Backends, CutRecords, ::testing::ValuesIn(backendNames()), backendSuffix);

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cstring>
 
-#include "support/backends.h"
 #include "support/random_state.h"
+#include "support/solver_rig.h"
 
 using namespace viscera;
 using namespace viscera::test;
@@ -26,13 +26,6 @@ SolverOptions unstable() {
   return options;
 }
 
-bool finite(const Model& model, const HostState& state) {
-  for (uint32_t slot : model.bodies[0].lattice.active_slots) {
-    if (!xyz(state.displacement_m[slot]).allFinite() || !xyz(state.velocity_m_per_s[slot]).allFinite()) return false;
-  }
-  return true;
-}
-
 class Governed : public OnBackend {
  protected:
   const Model model_ = modelOf({boxBody({4, 4, 4}, kSpacing_m)});
@@ -53,7 +46,7 @@ TEST_P(Governed, ExplosionIsRolledBackInTheTickInWhichItHappensAndRecoveredFrom)
       for (int t = 0; t < 30; ++t) {
         solver->step({});
         const HostState state = solver->readState();
-        ASSERT_TRUE(finite(model_, state)) << "tick " << t;
+        ASSERT_TRUE(isFinite(state)) << "tick " << t;
         ASSERT_LT(energyOf(model_, state), kEnergyBound * start_j) << "tick " << t;
       }
       EXPECT_GT(solver->health().trips, 0u);
@@ -92,12 +85,8 @@ TEST_P(Governed, RecoveryGivesNoForceAndPublishesNothingOfTheBadTick) {
   scene.styluses = {probe};
   const auto solver = make(model_, scene, unstable());
   solver->writeState(randomState(model_, 0.3 * kSpacing_m, 0.1, 5));
-  ToolMotions motions;
-  motions[0].mode = ToolMode::kProbe;
-  motions[0].present = true;
-  motions[0].from.position_m = motions[0].to.position_m = Vector3d(0.02, 0.02, 0.038);
   for (int t = 0; t < 2; ++t) {
-    solver->step(motions);
+    solver->step(probeAt({0.02, 0.02, 0.038}));
     layout::TickStats stats;
     ASSERT_TRUE(solver->pollStats(stats, true));
     EXPECT_EQ(xyz(stats.impulse[0]), Vector3d::Zero().eval());
@@ -110,19 +99,7 @@ TEST_P(Governed, RecoveryGivesNoForceAndPublishesNothingOfTheBadTick) {
 TEST_P(Governed, TissueThatIsDraggedToNoPlaceAtAllIsRolledBack) {
   Scene scene = governed(model_, Integrator::kLeapfrog, 0.5);
   scene.styluses = {StylusConfig{}};
-  const auto solver = make(model_, scene);
-  ToolMotions motions;
-  motions[0].mode = ToolMode::kGrab;
-  motions[0].present = motions[0].hold_begins = true;
-  solver->step(motions);
-  const uint64_t before = stateHash(model_, solver->readState());
-  motions[0].hold_begins = false;
-  motions[0].to.position_m.x() = std::numeric_limits<double>::quiet_NaN();
-  solver->step(motions);
-  EXPECT_EQ(stateHash(model_, solver->readState()), before);
-  for (int t = 0; t < 10; ++t) solver->step({});
-  EXPECT_EQ(solver->health().trips, 1u);  // a GPU tells of it a tick later
-  EXPECT_TRUE(finite(model_, solver->readState()));
+  expectNoPlaceIsRolledBack(*make(model_, scene), model_);
 }
 
 TEST_P(Governed, StrainedTissueGetsTheShorterSubstep) {

@@ -2,9 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Blades and lattices that move at the same time: a cut goes along the blade's way as springs see it, and nodes keep
 // the side on which it met them.
-#include "support/backends.h"
 #include "support/random_state.h"
-#include "tools/motion_packing.h"
+#include "support/solver_rig.h"
 
 using namespace viscera;
 using namespace viscera::test;
@@ -12,57 +11,27 @@ using namespace viscera::test;
 namespace {
 
 constexpr double kSpacing_m = 0.01;
-constexpr int kSubsteps = 20;
 // Of where a spring is cut: float32 positions of 0.1 m (6e-9 m) over springs of 1 cm, at a slant, after some substeps.
 constexpr double kShare = 1e-4;
 
-StylusConfig stylusConfig() {
-  StylusConfig config;
-  config.cut.blade_length_m = 0.2;
-  config.cut.blade_side = BladeSide::kAhead;
-  return config;
-}
-
 /// A blade down along -z over the body's whole height.
 StylusMotion blade(const Vector3d& from, const Vector3d& to) {
-  StylusMotion out;
-  out.mode = ToolMode::kCut;
-  out.present = true;
-  out.from.position_m = from;
-  out.to.position_m = to;
-  return out;
+  return motionOf(ToolMode::kCut, from, to);
 }
 
-class MovingCuts : public OnBackend {
+class MovingCuts : public BesideReference {
  protected:
-  MovingCuts() : model_(modelOf({freeBox()})), styluses_{stylusConfig(), stylusConfig()} {
-    solver_ = make(model_, sceneFor(model_, kSubsteps, styluses_));
-    renewReference();
-  }
+  MovingCuts() : BesideReference(20, wideTools()) { use(modelOf({freeBox()})); }
   static Body freeBox() {
     Body body = boxBody({6, 6, 6}, kSpacing_m);
     body.material.drag_per_s = body.material.dashpot_ratio = 0;
     return body;
-  }
-  void renewReference() { reference_.emplace(model_, Vector3d::Zero(), static_cast<float>(solver_->dt_s())); }
-  const Lattice& lattice() const { return model_.bodies[0].lattice; }
-  double tick_s() const { return kSubsteps * solver_->dt_s(); }
-
-  void write(const HostState& state) {
-    solver_->writeState(state);
-    load(*reference_, state);
   }
   /// The whole body moves by so much in a tick, and no force acts.
   HostState drifting(const Vector3d& way_m) const {
     HostState state = restState(model_);
     for (const uint32_t slot : lattice().active_slots) state.velocity_m_per_s[slot] = vec4(way_m / tick_s());
     return state;
-  }
-  void tick(const ToolMotions& motions) {
-    solver_->step(motions);
-    std::vector<layout::ToolMotion> rows;
-    interpolateMotions(motions, styluses_, kSubsteps, rows);
-    for (size_t s = 0; s < kSubsteps; ++s) reference_->substep({rows[2 * s], rows[2 * s + 1]});
   }
   /// Both ends of every spring agree with each other and with the reference, and so does where it was cut.
   void expectLikeTheReference() const {
@@ -80,11 +49,6 @@ class MovingCuts : public OnBackend {
       ASSERT_NEAR(state.axial_cut[i], reference_->axial_cut[i], kShare) << i;
     }
   }
-
-  Model model_;
-  std::vector<StylusConfig> styluses_;
-  std::unique_ptr<Ticks> solver_;
-  std::optional<ReferenceSolver> reference_;
 };
 
 INSTANTIATE_TEST_SUITE_P(Backends, MovingCuts, ::testing::ValuesIn(backendNames()), backendSuffix);
@@ -141,10 +105,7 @@ TEST_P(MovingCuts, NodesKeepTheSideOnWhichTheBladeMetThem) {
 
 TEST_P(MovingCuts, ABladeThatGoesWithTheTissueCutsNothing) {
   write(drifting({0, 0.006, 0}));
-  solver_->step({});  // what they did before is known from the second tick on
-  std::vector<layout::ToolMotion> rows;
-  interpolateMotions({}, styluses_, kSubsteps, rows);
-  for (size_t s = 0; s < kSubsteps; ++s) reference_->substep({rows[2 * s], rows[2 * s + 1]});
+  tick({});  // what they did before is known from the second tick on
   tick({blade({0.0137, 0.0322, 0.16}, {0.0137, 0.0382, 0.16}), {}});  // 0.1 mm behind diagonals
   expectLikeTheReference();
   EXPECT_EQ(reference_->springs_cut, 0u);
@@ -157,8 +118,7 @@ TEST_P(MovingCuts, BothEndsAgreeHoweverTheirTissueMoves) {
   uint32_t cut = 0;
   for (int t = 0; t < 12; ++t) {
     SCOPED_TRACE(t);
-    solver_->reset();
-    renewReference();
+    reset();
     HostState state = drifting(randomVector(random, 0.03));
     for (const uint32_t slot : lattice().active_slots) {
       state.velocity_m_per_s[slot] =

@@ -2,87 +2,31 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Styluses and the governor on explicit connections (VR05 2.7, physics.md 3, 5).
 #include "solver/network_rig.h"
-#include "tools/motion_packing.h"
+#include "support/solver_rig.h"
 
 using namespace viscera;
 using namespace viscera::test;
 
 namespace {
 
-// Relative to the largest value; contacts add roundings of absolute positions (6e-8 of ~0.1 m on u of ~1e-3 m).
-constexpr double kContactFloat32 = 1e-4;
 // Of where a blade crosses a spring: float32 positions of 0.1 m (6e-9 m) over springs of 1 cm, at a slant.
 constexpr double kFraction = 1e-4;
 // A cut is noted no nearer to an end than this share of the spring (kLeastShare of blade.glsl).
 constexpr double kLeastShare = 0.02;
 constexpr int kSubsteps = 10;
 
-StylusConfig stylusConfig() {
-  StylusConfig config;
-  config.probe.radius_m = 0.012;
-  config.grab.radius_m = 0.012;
-  config.cut.blade_length_m = 0.2;
-  config.cut.blade_side = BladeSide::kAhead;
-  config.cut_particles.eraser_radius_m = 0.004;
-  config.grab.release_speed_m_per_s = 0.05;
-  return config;
-}
-
-StylusMotion motion(ToolMode mode, const Vector3d& from, const Vector3d& to) {
-  StylusMotion out;
-  out.mode = mode;
-  out.present = true;
-  out.from.position_m = from;
-  out.to.position_m = to;
-  return out;
-}
-
 /// A blade down along -z that sweeps along y in the plane x = `x_m`.
 StylusMotion sweep(double x_m, ToolMode mode = ToolMode::kCut) {
-  return motion(mode, {x_m, -0.2, 0.1}, {x_m, 0.2, 0.1});
+  return motionOf(mode, {x_m, -0.2, 0.1}, {x_m, 0.2, 0.1});
 }
 
-/// Both solvers side by side on a cloth of 13 x 13 nodes in z = 0 that is held at its corners.
-class ToolsOnNetwork : public OnBackend {
+/// A cloth of 13 x 13 nodes in z = 0 that is held at its corners.
+class ToolsOnNetwork : public BesideReference {
  protected:
-  ToolsOnNetwork() : styluses_{stylusConfig(), stylusConfig()} {
+  ToolsOnNetwork() : BesideReference(kSubsteps, wideTools()) {
     Body cloth = clothBody(13, 13, 0.01);
     fixNearest(cloth, {{-1, -1, 0}, {1, -1, 0}, {-1, 1, 0}, {1, 1, 0}});
     use(modelOf({cloth}));
-  }
-  void use(Model model, SpringForces scheme = SpringForces::kPoint) {
-    model_ = std::move(model);
-    Scene scene = sceneFor(model_, kSubsteps, styluses_);
-    scene.solver.spring_forces = scheme;
-    solver_ = make(model_, scene);
-    renewReference();
-  }
-  void renewReference() {
-    ReferenceOptions options;
-    options.push_speed_m_per_s = pushSpeed(model_);
-    reference_.emplace(model_, Vector3d::Zero(), static_cast<float>(solver_->dt_s()), options);
-  }
-  const Body& body() const { return model_.bodies[0]; }
-
-  /// One tick of both solvers.
-  void tick(const ToolMotions& motions) {
-    solver_->step(motions);
-    const ToolActs acts(styluses_, kSubsteps * solver_->dt_s());
-    reference_->markTick();
-    acts.beginTick(*reference_, motions);
-    std::vector<layout::ToolMotion> rows;
-    interpolateMotions(motions, styluses_, kSubsteps, rows);
-    for (size_t s = 0; s < kSubsteps; ++s) reference_->substep({rows[2 * s], rows[2 * s + 1]});
-    acts.endTick(*reference_, motions);
-  }
-  layout::TickStats stats() {
-    layout::TickStats stats{};
-    while (solver_->pollStats(stats, true)) {
-    }
-    return stats;
-  }
-  void expectSameDisplacement() {
-    EXPECT_LT(relativeError(solver_->readState().displacement_m, reference_->u_m, reference_->active), kContactFloat32);
   }
   /// Every spring is whole or cut, and cut at the same place, as in the reference; so are valences.
   void expectSameCuts() {
@@ -102,11 +46,6 @@ class ToolsOnNetwork : public OnBackend {
     }
     EXPECT_EQ(stats().springs_cut, reference_->springs_cut);
   }
-
-  Model model_;
-  std::vector<StylusConfig> styluses_;
-  std::unique_ptr<Ticks> solver_;
-  std::optional<ReferenceSolver> reference_;
 };
 
 INSTANTIATE_TEST_SUITE_P(Backends, ToolsOnNetwork, ::testing::ValuesIn(backendNames()), backendSuffix);
@@ -119,7 +58,7 @@ TEST_P(ToolsOnNetwork, ProbeDentsAndIsToldTheMomentumLikeTheReference) {
   for (int t = 0; t < 8; ++t) {
     before = reference_->impulse_n_s[0];
     const double z = 0.015 - 0.001 * t;
-    motions[0] = motion(ToolMode::kProbe, {0.003, 0.001, z}, {0.003, 0.001, z - 0.001});
+    motions[0] = motionOf(ToolMode::kProbe, {0.003, 0.001, z}, {0.003, 0.001, z - 0.001});
     tick(motions);
   }
   expectSameDisplacement();
@@ -132,15 +71,15 @@ TEST_P(ToolsOnNetwork, ProbeDentsAndIsToldTheMomentumLikeTheReference) {
 
 TEST_P(ToolsOnNetwork, HeldNodesFollowThePoseAndAreLetGoLikeTheReference) {
   ToolMotions motions;
-  motions[1] = motion(ToolMode::kGrab, {0, 0, 0}, {0, 0, 0.002});
+  motions[1] = motionOf(ToolMode::kGrab, {0, 0, 0}, {0, 0, 0.002});
   motions[1].hold_begins = true;
   tick(motions);
   EXPECT_GT(stats().grabbed[1], 3u);
-  motions[1] = motion(ToolMode::kGrab, {0, 0, 0.002}, {0.002, 0, 0.01});
+  motions[1] = motionOf(ToolMode::kGrab, {0, 0, 0.002}, {0.002, 0, 0.01});
   motions[1].to.orientation = rotationFromDegrees({10, 20, 90});
   tick(motions);
   expectSameDisplacement();
-  motions[1] = motion(ToolMode::kNone, motions[1].to.position_m, motions[1].to.position_m);
+  motions[1] = motionOf(ToolMode::kNone, motions[1].to.position_m, motions[1].to.position_m);
   motions[1].hold_ended = ToolMode::kGrab;
   tick(motions);
   expectSameDisplacement();
@@ -148,9 +87,7 @@ TEST_P(ToolsOnNetwork, HeldNodesFollowThePoseAndAreLetGoLikeTheReference) {
 }
 
 TEST_P(ToolsOnNetwork, BladeCutsTheSpringsItCrossesFromBothEndsAndNotesWhere) {
-  ToolMotions motions;
-  motions[0] = sweep(0.0037);
-  tick(motions);
+  tickWith(sweep(0.0037));
   const HostState state = solver_->readState();
   std::vector<uint32_t> lost(model_.slots(), 0);
   size_t crossing = 0;
@@ -180,8 +117,7 @@ TEST_P(ToolsOnNetwork, BladeMissesNoSpringThatComesTowardsIt) {
   use(modelOf({undamped(clothBody(13, 13, 0.01))}));
   HostState state = restState(model_);
   for (uint32_t slot : reference_->active) state.velocity_m_per_s[slot] = vec4({0, -way_m / solver_->dt_s(), 0});
-  solver_->writeState(state);
-  load(*reference_, state);
+  write(state);
   tick({sweep(x_m), {}});
   expectSameCuts();
   const HostState after = solver_->readState();
@@ -207,11 +143,10 @@ TEST_P(ToolsOnNetwork, CutAndErasedGraphsLoseWhatTheReferenceLoses) {
     use(model, scheme);
     size_t cut = 0;
     for (int t = 0; t < 10; ++t) {
-      solver_->reset();
-      renewReference();
+      reset();
       ToolMotions motions;
-      motions[0] = motion(mode, Vector3d::Constant(0.03) + randomVector(random, 0.05),
-                          Vector3d::Constant(0.03) + randomVector(random, 0.05));
+      motions[0] = motionOf(mode, Vector3d::Constant(0.03) + randomVector(random, 0.05),
+                            Vector3d::Constant(0.03) + randomVector(random, 0.05));
       motions[0].to.orientation = motions[0].from.orientation =
           rotationFromDegrees({angle(random), angle(random), angle(random)});
       tick(motions);
@@ -223,9 +158,7 @@ TEST_P(ToolsOnNetwork, CutAndErasedGraphsLoseWhatTheReferenceLoses) {
 }
 
 TEST_P(ToolsOnNetwork, ErasedNodesAreAloneAndRest) {
-  ToolMotions motions;
-  motions[0] = sweep(0.005, ToolMode::kCutParticles);
-  tick(motions);
+  tickWith(sweep(0.005, ToolMode::kCutParticles));
   expectSameCuts();
   size_t alone = 0;
   const HostState state = solver_->readState();
@@ -243,9 +176,7 @@ TEST_P(ToolsOnNetwork, ErasedNodesAreAloneAndRest) {
 }
 
 TEST_P(ToolsOnNetwork, SeveredHalvesExertNoForceOnEachOther) {
-  ToolMotions motions;
-  motions[0] = sweep(0.0037);
-  tick(motions);
+  tickWith(sweep(0.0037));
   for (SpringForces scheme : kSchemes) {
     HostState state = solver_->readState();
     for (uint32_t slot : body().lattice.active_slots) {  // the half beyond the cut goes away by a centimetre
@@ -269,9 +200,7 @@ TEST_P(ToolsOnNetwork, SeveredHalvesExertNoForceOnEachOther) {
 
 /// Of the squared distance float32 makes an infinity, of which nothing may be left, not even times no stiffness.
 TEST_P(ToolsOnNetwork, SeveredHalvesDoNotSpoilEachOtherHoweverFarApartEdgeByEdge) {
-  ToolMotions motions;
-  motions[0] = sweep(0.0037);
-  tick(motions);
+  tickWith(sweep(0.0037));
   HostState state = solver_->readState();
   for (uint32_t slot : body().lattice.active_slots) {
     state.nodes[slot].lo &= ~layout::kFixedBit;
@@ -294,12 +223,12 @@ TEST_P(ToolsOnNetwork, CutClothMovesLikeTheReference) {
     SCOPED_TRACE(nameOf(scheme));
     use(Model(model_), scheme);
     ToolMotions motions;
-    motions[1] = motion(ToolMode::kGrab, {-0.03, 0, 0}, {-0.03, 0, 0.004});
+    motions[1] = motionOf(ToolMode::kGrab, {-0.03, 0, 0}, {-0.03, 0, 0.004});
     motions[1].hold_begins = true;
     tick(motions);
     motions[0] = sweep(0.0037);
     motions[0].from.position_m.y() -= 0.003;  // so that no substep ends with the blade on a row of nodes
-    motions[1] = motion(ToolMode::kGrab, {-0.03, 0, 0.004}, {-0.03, 0, 0.01});
+    motions[1] = motionOf(ToolMode::kGrab, {-0.03, 0, 0.004}, {-0.03, 0, 0.01});
     tick(motions);
     expectSameCuts();
     expectSameDisplacement();
@@ -308,59 +237,38 @@ TEST_P(ToolsOnNetwork, CutClothMovesLikeTheReference) {
 
 TEST_P(ToolsOnNetwork, ResetMakesWhatWasCutWholeAgain) {
   const uint64_t whole = stateHash(model_, solver_->readState());
-  ToolMotions motions;
-  motions[0] = sweep(0.0037);
-  tick(motions);
+  tickWith(sweep(0.0037));
   EXPECT_NE(stateHash(model_, solver_->readState()), whole);
   solver_->reset();
   EXPECT_EQ(stateHash(model_, solver_->readState()), whole);
   const HostState stretched = scatteredState(model_, 1e-3, 0, 5);
-  solver_->writeState(stretched);
   renewReference();
-  load(*reference_, stretched);
+  write(stretched);
   tick({});
   expectSameDisplacement();
 }
 
 TEST_P(ToolsOnNetwork, WrittenStateBringsItsCutsWithIt) {
   HostState state = scatteredState(model_, 1e-3, 0, 5);
-  ToolMotions motions;
-  motions[0] = sweep(0.0037);
-  tick(motions);
+  tickWith(sweep(0.0037));
   const HostState cut = solver_->readState();
   state.nodes = cut.nodes;
   state.spring_cut = cut.spring_cut;
-  solver_->reset();
-  solver_->writeState(state);
-  renewReference();
-  load(*reference_, state);
+  reset();
+  write(state);
   tick({});
   expectSameDisplacement();
 }
 
 TEST_P(ToolsOnNetwork, BladeAtRestCutsNothing) {
-  ToolMotions motions;
-  motions[0] = motion(ToolMode::kCut, {0.0037, 0, 0.1}, {0.0037, 0, 0.1});
-  tick(motions);
+  tickWith(motionOf(ToolMode::kCut, {0.0037, 0, 0.1}, {0.0037, 0, 0.1}));
   EXPECT_EQ(stats().springs_cut, 0u);
 }
 
 TEST_P(ToolsOnNetwork, NodesDraggedToNoPlaceAtAllAreRolledBack) {
   Scene scene = sceneFor(model_, kSubsteps, styluses_);
   scene.solver.governor = true;
-  const auto solver = make(model_, scene);
-  ToolMotions motions;
-  motions[0] = motion(ToolMode::kGrab, {0, 0, 0}, {0, 0, 0});
-  motions[0].hold_begins = true;
-  solver->step(motions);
-  const uint64_t before = stateHash(model_, solver->readState());
-  motions[0].hold_begins = false;
-  motions[0].to.position_m.x() = std::numeric_limits<double>::quiet_NaN();
-  solver->step(motions);
-  EXPECT_EQ(stateHash(model_, solver->readState()), before);
-  for (int t = 0; t < 10; ++t) solver->step({});
-  EXPECT_EQ(solver->health().trips, 1u);  // a GPU tells of it a tick later
-  EXPECT_TRUE(isFinite(solver->readState().displacement_m));
+  expectNoPlaceIsRolledBack(*make(model_, scene), model_);
 }
 
 TEST_P(ToolsOnNetwork, ExplosionIsRolledBackAndRecoveredFrom) {
@@ -378,7 +286,7 @@ TEST_P(ToolsOnNetwork, ExplosionIsRolledBackAndRecoveredFrom) {
     for (int t = 0; t < 20; ++t) {
       solver->step({});
       const HostState state = solver->readState();
-      ASSERT_TRUE(isFinite(state.displacement_m) && isFinite(state.velocity_m_per_s)) << "tick " << t;
+      ASSERT_TRUE(isFinite(state)) << "tick " << t;
       ASSERT_LT(energyOf(model_, state), kEnergyBound * start_j) << "tick " << t;
     }
     EXPECT_GT(solver->health().trips, 0u);

@@ -1,7 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "support/backends.h"
-#include "tools/motion_packing.h"
+#include "support/solver_rig.h"
 #include "viscera/tools/hands.h"
 
 using namespace viscera;
@@ -9,70 +8,16 @@ using namespace viscera::test;
 
 namespace {
 
-// Relative to the largest value; contacts add roundings of absolute positions (6e-8 of ~0.1 m on u of ~1e-3 m).
-constexpr double kContactFloat32 = 1e-4;
-constexpr int kSubsteps = 20;
-
-StylusConfig stylusConfig() {
-  StylusConfig config;
-  config.probe.radius_m = 0.012;
-  config.grab.radius_m = 0.012;
-  config.cut.blade_length_m = 0.2;
-  config.cut.blade_side = BladeSide::kAhead;
-  config.cut_particles.eraser_radius_m = 0.004;
-  config.grab.release_speed_m_per_s = 0.05;
-  return config;
-}
-
-class ToolsOnTissue : public OnBackend {
+class ToolsOnTissue : public BesideReference {
  protected:
-  ToolsOnTissue() : model_(modelOf({boxBody({6, 6, 6}, 0.01)})), styluses_{stylusConfig(), stylusConfig()} {
-    for (uint32_t slot : lattice().active_slots) {
-      if (lattice().nodeAt(slot).z() == 0) model_.bodies[0].lattice.nodes[slot].lo |= layout::kFixedBit;
+  ToolsOnTissue() : BesideReference(20, wideTools()) {
+    Body body = boxBody({6, 6, 6}, 0.01);
+    for (uint32_t slot : body.lattice.active_slots) {
+      if (body.lattice.nodeAt(slot).z() == 0) body.lattice.nodes[slot].lo |= layout::kFixedBit;
     }
-    solver_ = make(model_, sceneFor(model_, kSubsteps, styluses_));
-    ReferenceOptions options;
-    options.push_speed_m_per_s = pushSpeed(model_);
-    reference_.emplace(model_, Vector3d::Zero(), static_cast<float>(solver_->dt_s()), options);
+    use(modelOf({body}));
   }
-  const Lattice& lattice() const { return model_.bodies[0].lattice; }
-
-  /// One tick of both solvers.
-  void tick(const ToolMotions& motions) {
-    solver_->step(motions);
-    const ToolActs acts(styluses_, kSubsteps * solver_->dt_s());
-    reference_->markTick();
-    acts.beginTick(*reference_, motions);
-    std::vector<layout::ToolMotion> rows;
-    interpolateMotions(motions, styluses_, kSubsteps, rows);
-    for (int s = 0; s < kSubsteps; ++s)
-      reference_->substep({rows[2 * static_cast<size_t>(s)], rows[2 * static_cast<size_t>(s) + 1]});
-    acts.endTick(*reference_, motions);
-  }
-  layout::TickStats stats() {
-    layout::TickStats stats{};
-    while (solver_->pollStats(stats, true)) {
-    }
-    return stats;
-  }
-  void expectSameDisplacement() {
-    EXPECT_LT(relativeError(solver_->readState().displacement_m, reference_->u_m, reference_->active), kContactFloat32);
-  }
-
-  Model model_;
-  std::vector<StylusConfig> styluses_;
-  std::unique_ptr<Ticks> solver_;
-  std::optional<ReferenceSolver> reference_;
 };
-
-StylusMotion motion(ToolMode mode, const Vector3d& from, const Vector3d& to) {
-  StylusMotion out;
-  out.mode = mode;
-  out.present = true;
-  out.from.position_m = from;
-  out.to.position_m = to;
-  return out;
-}
 
 size_t asymmetricSprings(const Lattice& lattice, const std::vector<layout::NodeBits>& nodes) {
   size_t wrong = 0;
@@ -94,7 +39,7 @@ TEST_P(ToolsOnTissue, ProbeDentsLikeTheReference) {
   ToolMotions motions;
   for (int t = 0; t < 10; ++t) {
     const double z = 0.075 - 0.002 * t;
-    motions[0] = motion(ToolMode::kProbe, {0.031, 0.029, z}, {0.031, 0.029, z - 0.002});
+    motions[0] = motionOf(ToolMode::kProbe, {0.031, 0.029, z}, {0.031, 0.029, z - 0.002});
     tick(motions);
   }
   expectSameDisplacement();
@@ -109,21 +54,20 @@ TEST_P(ToolsOnTissue, ReactionIsTheMomentumGivenPerTick) {
   for (int t = 0; t < 10; ++t) {
     before = reference_->impulse_n_s[0];
     const double z = 0.075 - 0.001 * t;
-    motions[0] = motion(ToolMode::kProbe, {0.03, 0.03, z}, {0.03, 0.03, z - 0.001});
+    motions[0] = motionOf(ToolMode::kProbe, {0.03, 0.03, z}, {0.03, 0.03, z - 0.001});
     tick(motions);
   }
   const Vector3d truth = reference_->impulse_n_s[0] - before;
   const layout::TickStats s = stats();
   EXPECT_LT((xyz(s.impulse[0]) - truth).norm(),
-            1e-3 * truth.norm());  // roundings of contact positions, see kContactFloat32
+            1e-3 * truth.norm());  // roundings of contact positions, as in expectSameDisplacement()
   EXPECT_LT(s.impulse[0].z, 0);    // tissue is pushed down
   EXPECT_GT(s.touched[0], 0u);
   EXPECT_EQ(xyz(s.impulse[1]), Vector3d::Zero().eval());
 }
 
 TEST_P(ToolsOnTissue, ProbeThatJumpsLeavesNoNodeInsideIt) {
-  const double tick_s = kSubsteps * solver_->dt_s();
-  Tools tools(styluses_, {waveSpeed(model_) * tick_s});
+  Tools tools(styluses_, {waveSpeed(model_) * tick_s()});
   StylusSamples samples;
   samples[0].valid = true;
   samples[0].pose.position_m = Vector3d(0.03, 0.03, 0.12);
@@ -144,10 +88,8 @@ TEST_P(ToolsOnTissue, ProbeThatJumpsLeavesNoNodeInsideIt) {
 }
 
 TEST_P(ToolsOnTissue, ProbeThatAppearsInsideTissuePushesNoFasterThanItsPushSpeed) {
-  ToolMotions motions;
-  motions[0] = motion(ToolMode::kProbe, {0.031, 0.032, 0.033}, {0.031, 0.032, 0.033});
-  tick(motions);
-  const double farthest = pushSpeed(model_) * kSubsteps * solver_->dt_s();
+  tickWith(motionOf(ToolMode::kProbe, {0.031, 0.032, 0.033}, {0.031, 0.032, 0.033}));
+  const double farthest = pushSpeed(model_) * tick_s();
   double moved = 0;
   for (const layout::vec4& u : solver_->readState().displacement_m) moved = std::max(moved, xyz(u).norm());
   EXPECT_GT(moved, 0);
@@ -157,8 +99,7 @@ TEST_P(ToolsOnTissue, ProbeThatAppearsInsideTissuePushesNoFasterThanItsPushSpeed
 TEST_P(ToolsOnTissue, ProbeAtANodesPlaceHasADirectionAllTheSame) {
   ToolMotions motions;
   const Vector3d node(0.03, 0.03, 0.06);
-  motions[0] = motion(ToolMode::kProbe, node, node);
-  tick(motions);
+  tickWith(motionOf(ToolMode::kProbe, node, node));
   for (const layout::vec4& u : solver_->readState().displacement_m) EXPECT_TRUE(xyz(u).allFinite());
   EXPECT_GT(stats().touched[0], 0u);
 }
@@ -167,7 +108,7 @@ TEST_P(ToolsOnTissue, SecondHandTakesNeitherWhatTheFirstHoldsNorWhatIsFixed) {
   ToolMotions motions;
   const Vector3d low(0.03, 0.03, 0.005);  // among fixed nodes (z = 0) and free ones
   for (uint32_t s = 0; s < 2; ++s) {
-    motions[s] = motion(ToolMode::kGrab, low, low);
+    motions[s] = motionOf(ToolMode::kGrab, low, low);
     motions[s].hold_begins = true;
   }
   tick(motions);
@@ -183,12 +124,12 @@ TEST_P(ToolsOnTissue, SecondHandTakesNeitherWhatTheFirstHoldsNorWhatIsFixed) {
 
 TEST_P(ToolsOnTissue, HeldNodesFollowTheFullPose) {
   ToolMotions motions;
-  motions[1] = motion(ToolMode::kGrab, {0.03, 0.03, 0.06}, {0.03, 0.03, 0.062});
+  motions[1] = motionOf(ToolMode::kGrab, {0.03, 0.03, 0.06}, {0.03, 0.03, 0.062});
   motions[1].hold_begins = true;
   tick(motions);
   const layout::TickStats held = stats();
   EXPECT_GT(held.grabbed[1], 0u);
-  motions[1] = motion(ToolMode::kGrab, {0.03, 0.03, 0.062}, {0.032, 0.03, 0.07});
+  motions[1] = motionOf(ToolMode::kGrab, {0.03, 0.03, 0.062}, {0.032, 0.03, 0.07});
   motions[1].to.orientation = rotationFromDegrees({10, 20, 90});
   tick(motions);
   expectSameDisplacement();
@@ -204,10 +145,10 @@ TEST_P(ToolsOnTissue, HeldNodesFollowTheFullPose) {
 
 TEST_P(ToolsOnTissue, ReleaseClampsTheVelocity) {
   ToolMotions motions;
-  motions[0] = motion(ToolMode::kGrab, {0.03, 0.03, 0.06}, {0.03, 0.03, 0.08});
+  motions[0] = motionOf(ToolMode::kGrab, {0.03, 0.03, 0.06}, {0.03, 0.03, 0.08});
   motions[0].hold_begins = true;
   tick(motions);
-  motions[0] = motion(ToolMode::kNone, {0.03, 0.03, 0.08}, {0.03, 0.03, 0.08});
+  motions[0] = motionOf(ToolMode::kNone, {0.03, 0.03, 0.08}, {0.03, 0.03, 0.08});
   motions[0].hold_ended = ToolMode::kGrab;
   tick(motions);
   expectSameDisplacement();
@@ -215,10 +156,9 @@ TEST_P(ToolsOnTissue, ReleaseClampsTheVelocity) {
 }
 
 TEST_P(ToolsOnTissue, BladeCutsTheSpringsItCrossesFromBothEnds) {
-  ToolMotions motions;
-  // The blade points along -z from z = 0.16 to -0.04 and sweeps along x at y = 0.035, between two rows of nodes.
-  motions[0] = motion(ToolMode::kCut, {-0.02, 0.035, 0.16}, {0.08, 0.035, 0.16});
-  tick(motions);
+  // The blade points along -z from z = 0.16 to -0.04 and sweeps along x in the plane y = 0.035, between two rows of
+  // nodes.
+  tickWith(motionOf(ToolMode::kCut, {-0.02, 0.035, 0.16}, {0.08, 0.035, 0.16}));
   const HostState state = solver_->readState();
   EXPECT_EQ(asymmetricSprings(lattice(), state.nodes), 0u);
   size_t crossing = 0;
@@ -242,8 +182,8 @@ TEST_P(ToolsOnTissue, MasksStaySymmetricAndLikeTheReferenceAfterRandomCuts) {
   for (int t = 0; t < 60; ++t) {
     for (uint32_t s = 0; s < 2; ++s) {
       const Vector3d middle = Vector3d::Constant(0.03);
-      motions[s] = motion(t % 7 == 6 ? ToolMode::kCutParticles : ToolMode::kCut, middle + randomVector(random, 0.08),
-                          middle + randomVector(random, 0.08));
+      motions[s] = motionOf(t % 7 == 6 ? ToolMode::kCutParticles : ToolMode::kCut, middle + randomVector(random, 0.08),
+                            middle + randomVector(random, 0.08));
       motions[s].from.orientation = rotationFromDegrees({angle(random), angle(random), angle(random)});
       motions[s].to.orientation = rotationFromDegrees({angle(random), angle(random), angle(random)});
     }
@@ -260,12 +200,10 @@ TEST_P(ToolsOnTissue, OneSweepCutsWhatTheReferenceCuts) {
   std::uniform_real_distribution<double> angle(-180, 180);
   for (ToolMode mode : {ToolMode::kCut, ToolMode::kCutParticles}) {
     for (int t = 0; t < 10; ++t) {
-      solver_->reset();
-      ReferenceSolver fresh(model_, Vector3d::Zero(), static_cast<float>(solver_->dt_s()));
-      reference_.emplace(fresh);
+      reset();
       ToolMotions motions;
-      motions[0] = motion(mode, Vector3d(0.03, 0.03, 0.05) + randomVector(random, 0.05),
-                          Vector3d(0.03, 0.03, 0.05) + randomVector(random, 0.05));
+      motions[0] = motionOf(mode, Vector3d(0.03, 0.03, 0.05) + randomVector(random, 0.05),
+                            Vector3d(0.03, 0.03, 0.05) + randomVector(random, 0.05));
       motions[0].to.orientation = motions[0].from.orientation =
           rotationFromDegrees({angle(random), angle(random), angle(random)});
       tick(motions);
@@ -291,7 +229,7 @@ TEST_P(ToolsOnTissue, ParticleEraseLeavesAWiderGapThanSpringErase) {
     }
     return count;
   };
-  motions[0] = motion(ToolMode::kCut, {-0.02, 0.031, 0.16}, {0.08, 0.031, 0.16});
+  motions[0] = motionOf(ToolMode::kCut, {-0.02, 0.031, 0.16}, {0.08, 0.031, 0.16});
   tick(motions);
   EXPECT_EQ(isolated(), 0u);  // springs only: no node is lost, the gap is one rest length
   solver_->reset();
@@ -301,16 +239,12 @@ TEST_P(ToolsOnTissue, ParticleEraseLeavesAWiderGapThanSpringErase) {
 }
 
 TEST_P(ToolsOnTissue, BladeAtRestCutsNothing) {
-  ToolMotions motions;
-  motions[0] = motion(ToolMode::kCut, {0.03, 0.035, 0.16}, {0.03, 0.035, 0.16});
-  tick(motions);
+  tickWith(motionOf(ToolMode::kCut, {0.03, 0.035, 0.16}, {0.03, 0.035, 0.16}));
   EXPECT_EQ(stats().springs_cut, 0u);
 }
 
 TEST_P(ToolsOnTissue, SeveredSpringExertsNoForce) {
-  ToolMotions motions;
-  motions[0] = motion(ToolMode::kCut, {-0.02, 0.035, 0.16}, {0.08, 0.035, 0.16});
-  tick(motions);
+  tickWith(motionOf(ToolMode::kCut, {-0.02, 0.035, 0.16}, {0.08, 0.035, 0.16}));
   HostState state = solver_->readState();
   for (uint32_t slot : lattice().active_slots) {  // the half beyond the cut goes away by a centimetre
     state.velocity_m_per_s[slot] = {};

@@ -4,9 +4,8 @@
 
 #include <vector>
 
-#include "support/backends.h"
 #include "support/random_state.h"
-#include "tools/motion_packing.h"
+#include "support/solver_rig.h"
 
 namespace viscera::test {
 
@@ -42,10 +41,6 @@ inline HostState abusedState(const Model& model, Abuse abuse) {
   return state;
 }
 
-inline bool isFinite(const std::vector<layout::vec4>& values) {
-  return std::all_of(values.begin(), values.end(), [](const layout::vec4& v) { return xyz(v).allFinite(); });
-}
-
 /// Runs every abused start without gravity and drag: kinetic and elastic energy must stay below 1.01 of the start.
 inline void expectEnergyBound(const std::string& backend, Integrator integrator, double poisson_ratio, double fraction,
                               int iterations = 20, Cells cells = Cells::kSprings) {
@@ -66,7 +61,7 @@ inline void expectEnergyBound(const std::string& backend, Integrator integrator,
     for (int t = 0; t < kTicks; ++t) {
       solver->step({});
       const HostState state = solver->readState();
-      ASSERT_TRUE(isFinite(state.displacement_m) && isFinite(state.velocity_m_per_s)) << "tick " << t;
+      ASSERT_TRUE(isFinite(state)) << "tick " << t;
       ASSERT_LE(energyOf(model, state), start_j + kAllowed * std::abs(start_j) + kNothing_j) << "tick " << t;
     }
     // A bound that is kept by standing still would be worth nothing. (A mirrored box is at rest.)
@@ -141,17 +136,11 @@ inline void expectToolsLikeReference(const std::string& backend, Integrator inte
   for (int t = 0; t < kTicks; ++t) {
     const ToolMotions motions = tools.motions(t, 0.04);
     before = reference.impulse_n_s;
-    solver->step(motions);
-    if (motions[0].hold_begins) reference.takeHold(0, motions[0].from, tools.styluses[0].grab.radius_m);
-    std::vector<layout::ToolMotion> rows;
-    interpolateMotions(motions, tools.styluses, kSubsteps, rows);
-    for (size_t s = 0; s < kSubsteps; ++s) reference.substep({rows[2 * s], rows[2 * s + 1]});
+    tickBoth(*solver, reference, tools.styluses, kSubsteps, motions);
   }
   const HostState state = solver->readState();
   EXPECT_LT(relativeError(state.displacement_m, reference.u_m, reference.active), tolerance);
-  layout::TickStats stats{};
-  while (solver->pollStats(stats, true)) {
-  }
+  const layout::TickStats stats = lastStats(*solver);
   EXPECT_GT(stats.grabbed[0], 0u);
   EXPECT_GT(stats.touched[1], 0u);
   for (size_t s = 0; s < 2; ++s) {

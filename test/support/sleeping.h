@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "solver/cpu/sleep.h"
-#include "support/backends.h"
+#include "support/solver_rig.h"
 
 namespace viscera::test {
 
@@ -29,14 +29,6 @@ inline Body sleepyCube(double poisson_ratio = 0.25) {
   return body;
 }
 
-inline ToolMotions tool(ToolMode mode, const Vector3d& from, const Vector3d& to) {
-  ToolMotions motions;
-  motions[0].mode = mode;
-  motions[0].present = true;
-  motions[0].from.position_m = from;
-  motions[0].to.position_m = to;
-  return motions;
-}
 inline const Vector3d kCorner_m(0, 0, 0.06);
 /// Stands still, 2 mm deep in the corner. The tip's radius is 6 mm.
 inline ToolMotions probeAtCorner() {

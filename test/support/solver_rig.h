@@ -1,0 +1,199 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "support/backends.h"
+#include "tools/motion_packing.h"
+
+namespace viscera::test {
+
+/// What a body of a test is run on.
+struct SolverUnderTest {
+  std::string backend;  ///< one of backendNames()
+  Integrator integrator = Integrator::kLeapfrog;
+};
+
+/// Every integrator on every kind of backend, for INSTANTIATE_TEST_SUITE_P.
+inline auto solversUnderTest(const std::vector<Integrator>& integrators) {
+  std::vector<SolverUnderTest> out;
+  for (const std::string& backend : backendKinds()) {
+    for (const Integrator integrator : integrators) out.push_back({backend, integrator});
+  }
+  return ::testing::ValuesIn(out);
+}
+
+/// As the last part of a test's name.
+inline std::string solverSuffix(const ::testing::TestParamInfo<SolverUnderTest>& info) {
+  constexpr std::pair<Integrator, const char*> kNames[] = {{Integrator::kLeapfrog, "_leapfrog"},
+                                                           {Integrator::kVerletPaper, "_verlet_paper"},
+                                                           {Integrator::kPd, "_pd"},
+                                                           {Integrator::kMultigrid, "_multigrid"}};
+  std::string out = backendSuffix({info.param.backend, info.index});
+  for (const auto& [integrator, name] : kNames) out += integrator == info.param.integrator ? name : "";
+  return out;
+}
+
+/// One test body for every backend and some integrators. @see solversUnderTest
+class OnSolver : public ::testing::WithParamInterface<SolverUnderTest>, public GpuTest {
+ protected:
+  std::unique_ptr<Ticks> make(const Model& model, Scene scene) const {
+    scene.solver.integrator = GetParam().integrator;
+    scene.solver.iterations = 5;
+    return makeBackend(GetParam().backend, model, scene);
+  }
+};
+
+/// Of a stylus that is there.
+inline StylusMotion motionOf(ToolMode mode, const Vector3d& from_m, const Vector3d& to_m) {
+  StylusMotion out;
+  out.mode = mode;
+  out.present = true;
+  out.from.position_m = from_m;
+  out.to.position_m = to_m;
+  return out;
+}
+/// The first stylus alone.
+inline ToolMotions tool(ToolMode mode, const Vector3d& from_m, const Vector3d& to_m) {
+  return ToolMotions{motionOf(mode, from_m, to_m)};
+}
+
+inline bool isFinite(const std::vector<layout::vec4>& values) {
+  return std::all_of(values.begin(), values.end(), [](const layout::vec4& v) { return xyz(v).allFinite(); });
+}
+inline bool isFinite(const HostState& state) {
+  return isFinite(state.displacement_m) && isFinite(state.velocity_m_per_s);
+}
+
+/// Measurements of the last tick, however many there are.
+inline layout::TickStats lastStats(Ticks& solver) {
+  layout::TickStats stats{};
+  while (solver.pollStats(stats, true)) {
+  }
+  return stats;
+}
+
+/// One tick of a solver and of the reference, with all that tools do.
+inline void tickBoth(Ticks& solver, ReferenceSolver& reference, const std::vector<StylusConfig>& styluses,
+                     size_t substeps, const ToolMotions& motions) {
+  solver.step(motions);
+  const ToolActs acts(styluses, static_cast<double>(substeps) * solver.dt_s());
+  reference.markTick();
+  acts.beginTick(reference, motions);
+  std::vector<layout::ToolMotion> rows;
+  interpolateMotions(motions, styluses, static_cast<int>(substeps), rows);
+  for (size_t s = 0; s < substeps; ++s) reference.substep({rows[2 * s], rows[2 * s + 1]});
+  acts.endTick(reference, motions);
+}
+
+/// Displacements and velocities relative to the largest value.
+inline void expectSameState(const HostState& state, const ReferenceSolver& reference, double displacement,
+                            double velocity) {
+  EXPECT_LT(relativeError(state.displacement_m, reference.u_m, reference.active), displacement);
+  EXPECT_LT(relativeError(state.velocity_m_per_s, reference.v_m_per_s, reference.active), velocity);
+}
+
+/// A tick without tools of both from a state, in substeps of the solver's. @return where the solver ends
+inline HostState expectSameTick(Ticks& solver, ReferenceSolver& reference, const HostState& start, double displacement,
+                                double velocity) {
+  solver.writeState(start);
+  load(reference, start);
+  solver.step({});
+  for (int s = 0; s < solver.substeps(); ++s) reference.substep();
+  HostState end = solver.readState();
+  expectSameState(end, reference, displacement, velocity);
+  return end;
+}
+
+/// The same state again from the start on, after a reset.
+inline void expectResetRestoresTheHash(Ticks& solver, const Model& model, int ticks) {
+  const auto run = [&] {
+    for (int t = 0; t < ticks; ++t) solver.step({});
+    return stateHash(model, solver.readState());
+  };
+  const uint64_t rest = stateHash(model, solver.readState());
+  const uint64_t first = run();
+  EXPECT_NE(first, rest);
+  solver.reset();
+  EXPECT_EQ(stateHash(model, solver.readState()), rest);
+  EXPECT_EQ(run(), first);
+}
+
+/// A hand that holds something is nowhere from one tick to the next: the governor takes that tick back.
+/// @param solver  of a scene with governor and a stylus
+inline void expectNoPlaceIsRolledBack(Ticks& solver, const Model& model) {
+  ToolMotions motions = tool(ToolMode::kGrab, Vector3d::Zero(), Vector3d::Zero());
+  motions[0].hold_begins = true;
+  solver.step(motions);
+  const uint64_t before = stateHash(model, solver.readState());
+  motions[0].hold_begins = false;
+  motions[0].to.position_m.x() = std::numeric_limits<double>::quiet_NaN();
+  solver.step(motions);
+  EXPECT_EQ(stateHash(model, solver.readState()), before);
+  for (int t = 0; t < 10; ++t) solver.step({});
+  EXPECT_EQ(solver.health().trips, 1u);  // a GPU tells of it a tick later
+  EXPECT_TRUE(isFinite(solver.readState()));
+}
+
+/// A blade and tools of some centimetres, for bodies of as many.
+inline StylusConfig wideTools() {
+  StylusConfig config;
+  config.probe.radius_m = config.grab.radius_m = 0.012;
+  config.grab.release_speed_m_per_s = 0.05;
+  config.cut.blade_length_m = 0.2;
+  config.cut.blade_side = BladeSide::kAhead;
+  config.cut_particles.eraser_radius_m = 0.004;
+  return config;
+}
+
+/// A solver and the reference side by side, under the same two styluses.
+class BesideReference : public OnBackend {
+ protected:
+  BesideReference(size_t substeps, const StylusConfig& both) : substeps_(substeps), styluses_{both, both} {}
+  void use(Model model, SpringForces scheme = SpringForces::kPoint) {
+    model_ = std::move(model);
+    Scene scene = sceneFor(model_, static_cast<int>(substeps_), styluses_);
+    scene.solver.spring_forces = scheme;
+    solver_ = make(model_, scene);
+    renewReference();
+  }
+  void renewReference() {
+    ReferenceOptions options;
+    options.push_speed_m_per_s = pushSpeed(model_);
+    reference_.emplace(model_, Vector3d::Zero(), static_cast<float>(solver_->dt_s()), options);
+  }
+  void reset() {
+    solver_->reset();
+    renewReference();
+  }
+  void write(const HostState& state) {
+    solver_->writeState(state);
+    load(*reference_, state);
+  }
+  void tick(const ToolMotions& motions) { tickBoth(*solver_, *reference_, styluses_, substeps_, motions); }
+  void tickWith(const StylusMotion& first) { tick(ToolMotions{first}); }
+  layout::TickStats stats() { return lastStats(*solver_); }
+  const Body& body() const { return model_.bodies[0]; }
+  const Lattice& lattice() const { return body().lattice; }
+  double tick_s() const { return static_cast<double>(substeps_) * solver_->dt_s(); }
+  void expectSameDisplacement() {
+    // Relative to the largest value; contact projections add roundings of absolute positions (6e-8 of ~0.1 m on u of
+    // ~1e-3 m).
+    constexpr double kContactFloat32 = 1e-4;
+    EXPECT_LT(relativeError(solver_->readState().displacement_m, reference_->u_m, reference_->active), kContactFloat32);
+  }
+
+  size_t substeps_;
+  Model model_;
+  std::vector<StylusConfig> styluses_;
+  std::unique_ptr<Ticks> solver_;
+  std::optional<ReferenceSolver> reference_;
+};
+
+}  // namespace viscera::test
