@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
 
-#include "support/backends.h"
 #include "support/random_state.h"
+#include "support/solver_rig.h"
+#include "support/text.h"
 #include "viscera/math/error.h"
 #include "viscera/solver/material.h"
 
@@ -22,15 +23,9 @@ class Integrate : public OnBackend {
   void expectLikeReference(const Model& model, const Vector3d& gravity) {
     const Scene scene = sceneFor(model, kSubsteps, {}, gravity);
     const auto solver = make(model, scene);
-    const HostState start = randomState(model, 0.05 * model.bodies[0].lattice.spacing_m, 0.1, 7);
-    solver->writeState(start);
     ReferenceSolver reference(model, gravity, static_cast<float>(solver->dt_s()));
-    load(reference, start);
-    solver->step({});
-    for (int s = 0; s < solver->substeps(); ++s) reference.substep();
-    const HostState end = solver->readState();
-    EXPECT_LT(relativeError(end.displacement_m, reference.u_m, reference.active), kFloat32Displacement);
-    EXPECT_LT(relativeError(end.velocity_m_per_s, reference.v_m_per_s, reference.active), kFloat32Velocity);
+    expectSameTick(*solver, reference, randomState(model, 0.05 * model.bodies[0].lattice.spacing_m, 0.1, 7),
+                   kFloat32Displacement, kFloat32Velocity);
   }
 };
 
@@ -193,16 +188,7 @@ TEST_P(Integrate, FixedNodesStay) {
 TEST_P(Integrate, ResetRestoresTheHash) {
   const Model model = modelOf({boxBody({4, 5, 6}, 0.01)});
   const auto solver = make(model, sceneFor(model, 10, {}, Vector3d(0, 0, -9.81)));
-  const auto run = [&] {
-    for (int t = 0; t < 10; ++t) solver->step({});
-    return stateHash(model, solver->readState());
-  };
-  const uint64_t rest = stateHash(model, solver->readState());
-  const uint64_t first = run();
-  EXPECT_NE(first, rest);
-  solver->reset();
-  EXPECT_EQ(stateHash(model, solver->readState()), rest);
-  EXPECT_EQ(run(), first);
+  expectResetRestoresTheHash(*solver, model, 10);
 }
 
 TEST_P(Integrate, TooManySubstepsAreRefusedWithWhatWouldDo) {
@@ -211,10 +197,5 @@ TEST_P(Integrate, TooManySubstepsAreRefusedWithWhatWouldDo) {
   const Model model = modelOf({body});
   Scene scene = sceneFor(model, 10);
   scene.solver.tick_hz = 1;
-  try {
-    const auto solver = make(model, scene);
-    FAIL() << "accepted";
-  } catch (const SceneError& e) {
-    EXPECT_NE(std::string(e.what()).find("max_substeps"), std::string::npos) << e.what();
-  }
+  EXPECT_TRUE(says(messageOf<SceneError>([&] { make(model, scene); }), {"max_substeps"}));
 }

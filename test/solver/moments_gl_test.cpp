@@ -2,9 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Cells by moments on the backends, against the float64 reference.
-#include "support/backends.h"
 #include "support/random_state.h"
-#include "tools/motion_packing.h"
+#include "support/solver_rig.h"
 
 using namespace viscera;
 using namespace viscera::test;
@@ -33,15 +32,9 @@ class Moments : public OnBackend {
  protected:
   void expectLikeReference(const Model& model, const Scene& scene, double size_m, int substeps) {
     const auto solver = make(model, scene);
-    const HostState start = randomState(model, size_m, 0.1, 7);
-    solver->writeState(start);
     ReferenceSolver reference(model, Vector3d(0.3, -0.2, -9.81), static_cast<float>(solver->dt_s()));
-    load(reference, start);
-    solver->step({});
-    for (int s = 0; s < substeps; ++s) reference.substep();
-    const HostState end = solver->readState();
-    EXPECT_LT(relativeError(end.displacement_m, reference.u_m, reference.active), kFloat32Displacement);
-    EXPECT_LT(relativeError(end.velocity_m_per_s, reference.v_m_per_s, reference.active), kFloat32Velocity);
+    ASSERT_EQ(solver->substeps(), substeps);
+    expectSameTick(*solver, reference, randomState(model, size_m, 0.1, 7), kFloat32Displacement, kFloat32Velocity);
   }
   void expectLikeReference(const Body& body, double size_m = 0.05 * kSpacing_m, int substeps = 10) {
     const Model model = modelOf({body});
@@ -116,30 +109,17 @@ TEST_P(Moments, CellsThatABladeCutsMatchTheReference) {
   solver->writeState(start);
   ReferenceSolver reference(model, Vector3d::Zero(), static_cast<float>(solver->dt_s()));
   load(reference, start);
-  const ToolActs acts(styluses, kSubsteps * solver->dt_s());
-  ToolMotions motions;  // the blade points down and sweeps half way through the ball
-  motions[0].mode = ToolMode::kCut;
-  motions[0].present = true;
-  motions[0].from.position_m = {-0.02, 0.0452, 0.16};
-  motions[0].to.position_m = {0.043, 0.0452, 0.16};
+  // The blade points down and sweeps half way through the ball.
+  tickBoth(*solver, reference, styluses, kSubsteps, tool(ToolMode::kCut, {-0.02, 0.0452, 0.16}, {0.043, 0.0452, 0.16}));
+  tickBoth(*solver, reference, styluses, kSubsteps, {});
   size_t cut = 0;
-  for (int t = 0; t < 2; ++t) {
-    solver->step(motions);
-    acts.beginTick(reference, motions);
-    std::vector<layout::ToolMotion> rows;
-    interpolateMotions(motions, styluses, kSubsteps, rows);
-    for (size_t s = 0; s < kSubsteps; ++s) reference.substep({rows[2 * s], rows[2 * s + 1]});
-    acts.endTick(reference, motions);
-    motions[0] = {};
-  }
   const HostState end = solver->readState();
   for (const uint32_t slot : reference.active) {
     const layout::NodeBits &before = start.nodes[slot], &now = end.nodes[slot];
     cut += before.lo != now.lo || before.hi != now.hi ? 1 : 0;
   }
   EXPECT_GT(cut, 50u);
-  EXPECT_LT(relativeError(end.displacement_m, reference.u_m, reference.active), 2 * kFloat32Displacement);  // two ticks
-  EXPECT_LT(relativeError(end.velocity_m_per_s, reference.v_m_per_s, reference.active), 2 * kFloat32Velocity);
+  expectSameState(end, reference, 2 * kFloat32Displacement, 2 * kFloat32Velocity);  // two ticks
 }
 
 TEST_P(Moments, TheirEnergyIsMeasured) {

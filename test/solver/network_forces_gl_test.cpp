@@ -30,16 +30,8 @@ class NetworkForces : public OnBackend {
   }
   void expectLikeReference(const Model& model, const Scene& scene, double displacement = kDisplacement) {
     const auto solver = make(model, scene);
-    const HostState start = scatteredState(model, 1e-3, 0.1, 7);
-    solver->writeState(start);
-    const Vector3d& gravity = scene.environment.gravity_m_per_s2;
-    ReferenceSolver reference(model, gravity, static_cast<float>(solver->dt_s()));
-    load(reference, start);
-    solver->step({});
-    for (int s = 0; s < solver->substeps(); ++s) reference.substep();
-    const HostState end = solver->readState();
-    EXPECT_LT(relativeError(end.displacement_m, reference.u_m, reference.active), displacement);
-    EXPECT_LT(relativeError(end.velocity_m_per_s, reference.v_m_per_s, reference.active), kVelocity);
+    ReferenceSolver reference(model, scene.environment.gravity_m_per_s2, static_cast<float>(solver->dt_s()));
+    expectSameTick(*solver, reference, scatteredState(model, 1e-3, 0.1, 7), displacement, kVelocity);
   }
 };
 
@@ -156,16 +148,7 @@ TEST_P(NetworkForces, ExtraSpringsAgainstBendingAreAmongThem) {
 TEST_P(NetworkForces, ResetRestoresTheHash) {
   const Model model = mixedModel();
   const auto solver = make(model, sceneFor(model, 10, {}, Vector3d(0, 0, -9.81)));
-  const auto run = [&] {
-    for (int t = 0; t < 5; ++t) solver->step({});
-    return stateHash(model, solver->readState());
-  };
-  const uint64_t rest = stateHash(model, solver->readState());
-  const uint64_t first = run();
-  EXPECT_NE(first, rest);
-  solver->reset();
-  EXPECT_EQ(stateHash(model, solver->readState()), rest);
-  EXPECT_EQ(run(), first);
+  expectResetRestoresTheHash(*solver, model, 5);
 }
 
 /// Energies, largest stretch, and the stable substep that is left (physics.md 2, 3).

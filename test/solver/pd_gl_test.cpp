@@ -22,13 +22,8 @@ class Pd : public OnBackend {
   void expectLikeReference(const Model& model, const Vector3d& gravity) {
     const auto solver = make(model, sceneWith(Integrator::kPd, model, kSubsteps, 3, kIterations, {}, gravity));
     const HostState start = randomState(model, 0.05 * model.bodies[0].lattice.spacing_m, 0.1, 7);
-    solver->writeState(start);
     ReferenceSolver reference = referenceFor(ReferenceIntegrator::kImplicitEuler, model, *solver, start, gravity);
-    solver->step({});
-    for (int s = 0; s < kSubsteps; ++s) reference.substep();
-    const HostState end = solver->readState();
-    EXPECT_LT(relativeError(end.displacement_m, reference.u_m, reference.active), kConverged);
-    EXPECT_LT(relativeError(end.velocity_m_per_s, reference.v_m_per_s, reference.active), kConverged);
+    expectSameTick(*solver, reference, start, kConverged, kConverged);
   }
 };
 
@@ -214,7 +209,7 @@ TEST_P(Pd, RecoveryKeepsTheEnergyBound) {
         SCOPED_TRACE(::testing::Message() << poisson_ratio << " " << fraction << " " << static_cast<int>(abuse));
         const double start_j = energyOf(model, abusedState(model, abuse));
         for (const HostState& end : alone->recover(abusedState(model, abuse), kIterationsOfRecovery, kRecovered)) {
-          ASSERT_TRUE(isFinite(end.displacement_m) && isFinite(end.velocity_m_per_s));
+          ASSERT_TRUE(isFinite(end));
           ASSERT_LE(energyOf(model, end), start_j + kAllowed * std::abs(start_j) + kNothing_j);
         }
       }

@@ -111,6 +111,24 @@ inline HostState expectSameTick(Ticks& solver, ReferenceSolver& reference, const
   return end;
 }
 
+/// What rounding of absolute positions makes of verlet_paper: up to 2^-24 of each, `roundings` of them a substep.
+/// x+ = 2 x - x_prev carries each on as a velocity: over n substeps n (n + 1)/2 of them at worst.
+/// @return largest error of a position [m]
+inline double expectPositionsRounded(const HostState& end, const ReferenceSolver& reference, double roundings,
+                                     int substeps, double dt_s) {
+  constexpr double kRounding = 1.0 / (1 << 24);
+  double farthest_m = 0, error_m = 0, error_m_per_s = 0;
+  for (uint32_t slot : reference.active) {
+    farthest_m = std::max(farthest_m, reference.restPosition(slot).cwiseAbs().maxCoeff());
+    error_m = std::max(error_m, (xyz(end.displacement_m[slot]) - reference.u_m[slot]).norm());
+    error_m_per_s = std::max(error_m_per_s, (xyz(end.velocity_m_per_s[slot]) - reference.v_m_per_s[slot]).norm());
+  }
+  const double rounding_m = roundings * kRounding * farthest_m;
+  EXPECT_LT(error_m, rounding_m * substeps * (substeps + 1) / 2);
+  EXPECT_LT(error_m_per_s, rounding_m * substeps / dt_s);
+  return error_m;
+}
+
 /// The same state again from the start on, after a reset.
 inline void expectResetRestoresTheHash(Ticks& solver, const Model& model, int ticks) {
   const auto run = [&] {
