@@ -4,8 +4,8 @@
 // Pieces that nothing holds come to lie where solver.sleep_distance_m ends, whatever pushes them.
 #include "math/float_bits.h"
 #include "solver/reference/reference_ticks.h"
-#include "support/backends.h"
 #include "support/loose_cloth.h"
+#include "support/solver_rig.h"
 #include "viscera/math/state_hash.h"
 
 using namespace viscera;
@@ -17,14 +17,12 @@ constexpr double kSleep_m = 0.05;
 constexpr double kBeyond_m = 1e-4;  ///< a node is stopped in the substep that takes it there
 constexpr double kTime_s = 2;       ///< of which a tenth would do to get there
 
-class Fragments : public ::testing::WithParamInterface<std::tuple<std::string, Integrator>>, public GpuTest {
+class Fragments : public OnSolver {
  protected:
   /// Steps for kTime_s. @return measurements of the last tick
   layout::TickStats after(const Model& model, Scene scene) {
     scene.solver.sleep_distance_m = kSleep_m;
-    scene.solver.integrator = std::get<1>(GetParam());
-    scene.solver.iterations = 5;
-    solver_ = makeBackend(std::get<0>(GetParam()), model, scene);
+    solver_ = make(model, scene);
     layout::TickStats stats{};
     for (int t = 0; t < std::lround(kTime_s * scene.solver.tick_hz); ++t) {
       solver_->step({});
@@ -44,16 +42,7 @@ class Fragments : public ::testing::WithParamInterface<std::tuple<std::string, I
   std::unique_ptr<Ticks> solver_;
 };
 
-std::string suffix(const ::testing::TestParamInfo<std::tuple<std::string, Integrator>>& info) {
-  std::string out = std::get<0>(info.param);
-  out.erase(std::remove(out.begin(), out.end(), ' '), out.end());
-  return out + (std::get<1>(info.param) == Integrator::kPd ? "_pd" : "_leapfrog");
-}
-
-INSTANTIATE_TEST_SUITE_P(Backends, Fragments,
-                         ::testing::Combine(::testing::ValuesIn(backendKinds()),
-                                            ::testing::Values(Integrator::kLeapfrog, Integrator::kPd)),
-                         suffix);
+INSTANTIATE_TEST_SUITE_P(Backends, Fragments, solversUnderTest({Integrator::kLeapfrog, Integrator::kPd}), solverSuffix);
 
 }  // namespace
 
@@ -90,37 +79,30 @@ constexpr double kStep_m = 0.002, kWay_m = 2 * kSleep_m;  ///< of a hand, per ti
 constexpr double kFloat_m = 1e-7;                         ///< float32 of kWay_m, a few times
 
 /// A block that a hand holds by all its nodes and carries along x.
-Scene carryingScene(const Model& model, double sleep_m, Integrator integrator) {
+Scene carryingScene(const Model& model, double sleep_m) {
   StylusConfig stylus;
   stylus.grab.radius_m = 0.1;  // all of it
   Scene scene = sceneFor(model, 10, {stylus}, Vector3d(0, 0, -9.81));
   scene.solver.sleep_distance_m = sleep_m;
-  scene.solver.integrator = integrator;
-  scene.solver.iterations = 5;
   return scene;
 }
 template <class Step>
 void carry(const Step& step) {
-  ToolMotions motions;
-  motions[0].mode = ToolMode::kGrab;
-  motions[0].present = true;
   for (int t = 0; t < std::lround(kWay_m / kStep_m); ++t) {
+    ToolMotions motions = tool(ToolMode::kGrab, {kStep_m * t, 0, 0}, {kStep_m * (t + 1), 0, 0});
     motions[0].hold_begins = t == 0;
-    motions[0].from.position_m = Vector3d(kStep_m * t, 0, 0);
-    motions[0].to.position_m = Vector3d(kStep_m * (t + 1), 0, 0);
     step(motions);
   }
 }
 
-class HeldFragments : public ::testing::WithParamInterface<std::tuple<std::string, Integrator>>, public GpuTest {
+class HeldFragments : public OnSolver {
  protected:
   struct Carried {
     HostState state;
     Vector3d given_n_s{0, 0, 0};  ///< to the tissue by the hand
   };
   Carried carried(const Model& model, double sleep_m) const {
-    const auto solver =
-        makeBackend(std::get<0>(GetParam()), model, carryingScene(model, sleep_m, std::get<1>(GetParam())));
+    const auto solver = make(model, carryingScene(model, sleep_m));
     Carried out;
     layout::TickStats stats{};
     carry([&](const ToolMotions& motions) {
@@ -133,22 +115,10 @@ class HeldFragments : public ::testing::WithParamInterface<std::tuple<std::strin
   }
 };
 
-std::string heldSuffix(const ::testing::TestParamInfo<std::tuple<std::string, Integrator>>& info) {
-  const std::pair<Integrator, const char*> names[] = {{Integrator::kLeapfrog, "_leapfrog"},
-                                                      {Integrator::kVerletPaper, "_verlet_paper"},
-                                                      {Integrator::kPd, "_pd"},
-                                                      {Integrator::kMultigrid, "_multigrid"}};
-  std::string out = std::get<0>(info.param);
-  out.erase(std::remove(out.begin(), out.end(), ' '), out.end());
-  for (const auto& [integrator, name] : names) out += integrator == std::get<1>(info.param) ? name : "";
-  return out;
-}
-
 INSTANTIATE_TEST_SUITE_P(Backends, HeldFragments,
-                         ::testing::Combine(::testing::ValuesIn(backendKinds()),
-                                            ::testing::Values(Integrator::kLeapfrog, Integrator::kVerletPaper,
-                                                              Integrator::kPd, Integrator::kMultigrid)),
-                         heldSuffix);
+                         solversUnderTest({Integrator::kLeapfrog, Integrator::kVerletPaper, Integrator::kPd,
+                                           Integrator::kMultigrid}),
+                         solverSuffix);
 
 }  // namespace
 
@@ -165,7 +135,7 @@ TEST_P(HeldFragments, GoWithTheHandBeyondWhereTheyWouldSleep) {
 
 TEST(HeldFragmentsOfTheReference, GoWithTheHandBeyondWhereTheyWouldSleep) {
   const Model model = modelOf({boxBody({2, 2, 2}, 0.01)});
-  ReferenceTicks reference(model, carryingScene(model, kSleep_m, Integrator::kLeapfrog));
+  ReferenceTicks reference(model, carryingScene(model, kSleep_m));
   carry([&](const ToolMotions& motions) { reference.step(motions); });
   for (const uint32_t slot : model.bodies[0].lattice.active_slots)
     EXPECT_LT((reference.solver().u_m[slot] - Vector3d(kWay_m, 0, 0)).norm(), kFloat_m) << slot;

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // What surrounds held nodes is felt by the tool that holds them: momentum is kept.
-#include "support/backends.h"
 #include "support/loose_cloth.h"
 #include "support/momentum.h"
+#include "support/solver_rig.h"
 
 using namespace viscera;
 using namespace viscera::test;
@@ -23,20 +23,16 @@ StylusConfig wideGrip() {
 }
 
 ToolMotions holding(bool begins) {
-  ToolMotions out;
-  out[0].mode = ToolMode::kGrab;
-  out[0].present = true;
+  ToolMotions out = tool(ToolMode::kGrab, Vector3d::Zero(), Vector3d::Zero());
   out[0].hold_begins = begins;
   return out;
 }
 
-class HeldReaction : public ::testing::WithParamInterface<std::tuple<std::string, Integrator>>, public GpuTest {
+class HeldReaction : public OnSolver {
  protected:
   /// Holds a cloth that lies in z = 0 with all its nodes, in place.
-  Vector3d given(const Model& model, Scene scene, const HostState& state, int ticks) {
-    scene.solver.integrator = std::get<1>(GetParam());
-    scene.solver.iterations = 5;
-    solver_ = makeBackend(std::get<0>(GetParam()), model, scene);
+  Vector3d given(const Model& model, const Scene& scene, const HostState& state, int ticks) {
+    solver_ = make(model, scene);
     solver_->writeState(state);
     Vector3d sum = Vector3d::Zero();
     layout::TickStats stats;
@@ -50,16 +46,8 @@ class HeldReaction : public ::testing::WithParamInterface<std::tuple<std::string
   std::unique_ptr<Ticks> solver_;
 };
 
-std::string suffix(const ::testing::TestParamInfo<std::tuple<std::string, Integrator>>& info) {
-  std::string out = std::get<0>(info.param);
-  out.erase(std::remove(out.begin(), out.end(), ' '), out.end());
-  return out + (std::get<1>(info.param) == Integrator::kPd ? "_pd" : "_leapfrog");
-}
-
-INSTANTIATE_TEST_SUITE_P(Backends, HeldReaction,
-                         ::testing::Combine(::testing::ValuesIn(backendKinds()),
-                                            ::testing::Values(Integrator::kLeapfrog, Integrator::kPd)),
-                         suffix);
+INSTANTIATE_TEST_SUITE_P(Backends, HeldReaction, solversUnderTest({Integrator::kLeapfrog, Integrator::kPd}),
+                         solverSuffix);
 
 }  // namespace
 

@@ -4,8 +4,8 @@
 #include "model/scene/integrators.h"
 #include "solver/reference/statics.h"
 #include "solver/surroundings.h"
-#include "support/backends.h"
 #include "support/random_state.h"
+#include "support/solver_rig.h"
 
 using namespace viscera;
 using namespace viscera::test;
@@ -28,12 +28,6 @@ constexpr int kIterations = 20;  // the default: what is at rest is the solution
 class ImplicitContact : public OnBackend {
  protected:
   static std::vector<Way> ways() { return {std::begin(kWays), std::end(kWays)}; }
-  static layout::TickStats lastStats(Ticks& solver) {
-    layout::TickStats stats{};
-    while (solver.pollStats(stats, true)) {
-    }
-    return stats;
-  }
 };
 
 INSTANTIATE_TEST_SUITE_P(Backends, ImplicitContact, ::testing::ValuesIn(backendKinds()), backendSuffix);

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Contacts between nodes are part of the solution of an implicit substep of any length: what lies on others is borne.
 #include "solver/surroundings.h"
-#include "support/backends.h"
 #include "support/loose_cloth.h"
 #include "support/momentum.h"
 #include "support/random_state.h"
+#include "support/solver_rig.h"
 
 using namespace viscera;
 using namespace viscera::test;
@@ -68,13 +68,6 @@ Scene onAFloor(double fraction, const Model& model, int substeps, std::vector<St
   scene.collision.enabled = true;
   scene.obstacles = {planeAt(Vector3d::Zero(), Vector3d::Zero())};
   return scene;
-}
-
-layout::TickStats lastStats(Ticks& solver) {
-  layout::TickStats stats{};
-  while (solver.pollStats(stats, true)) {
-  }
-  return stats;
 }
 
 /// By an obstacle in the last tick [N].

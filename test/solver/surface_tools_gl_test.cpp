@@ -1,9 +1,8 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Bodies whose cells are tissue in part are cut and held where their tissue is, not at the nodes outside of it.
-#include "support/backends.h"
 #include "support/random_state.h"
-#include "tools/motion_packing.h"
+#include "support/solver_rig.h"
 
 using namespace viscera;
 using namespace viscera::test;
@@ -57,11 +56,7 @@ HostState turnedState(const Model& model, const Eigen::Matrix3d& turn) {
 
 /// One sweep from `from` to `to`, the blade along `along`, all turned with the body.
 ToolMotions sweep(const Eigen::Matrix3d& turn, const Vector3d& from, const Vector3d& to, const Vector3d& along) {
-  ToolMotions out;
-  out[0].mode = ToolMode::kCut;
-  out[0].present = true;
-  out[0].from.position_m = turn * from;
-  out[0].to.position_m = turn * to;
+  ToolMotions out = tool(ToolMode::kCut, turn * from, turn * to);
   out[0].from.orientation = out[0].to.orientation =
       Eigen::Quaterniond::FromTwoVectors(-Vector3d::UnitZ(), turn * along);
   return out;
@@ -79,16 +74,10 @@ Cuts cutsOf(const Model& model, const std::unique_ptr<Ticks>& solver, const Host
   start.displacement_m = state.displacement_m;
   start.velocity_m_per_s = state.velocity_m_per_s;
   solver->writeState(start);
-  solver->step(motions);
   ReferenceSolver reference(model, Vector3d::Zero(), static_cast<float>(solver->dt_s()));
   load(reference, start);
-  std::vector<layout::ToolMotion> rows;
-  interpolateMotions(motions, {stylusConfig()}, 1, rows);
-  reference.substep({rows[0], rows[1]});
-  layout::TickStats stats{};
-  while (solver->pollStats(stats, true)) {
-  }
-  return {stats.springs_cut, static_cast<uint32_t>(reference.springs_cut)};
+  tickBoth(*solver, reference, {stylusConfig()}, 1, motions);
+  return {lastStats(*solver).springs_cut, static_cast<uint32_t>(reference.springs_cut)};
 }
 
 /// Springs between nodes at rest with y below and above 0.
@@ -168,10 +157,9 @@ TEST_P(SurfaceTools, AGripHoldsTheTissueThatItReaches) {
   stylus.grab.radius_m = 2e-3;
   const auto solver = make(model, sceneWith(Integrator::kLeapfrog, model, 1, 0.1, 0, {stylus}));
   const auto heldAt = [&](double z_m) {
-    ToolMotions motions;
-    motions[0].mode = ToolMode::kGrab;
-    motions[0].present = motions[0].hold_begins = true;
-    motions[0].from.position_m = motions[0].to.position_m = Vector3d(-0.5 * kSpacing_m, -0.5 * kSpacing_m, z_m);
+    const Vector3d tip(-0.5 * kSpacing_m, -0.5 * kSpacing_m, z_m);
+    ToolMotions motions = tool(ToolMode::kGrab, tip, tip);
+    motions[0].hold_begins = true;
     solver->reset();
     solver->step(motions);
     uint32_t held = 0;

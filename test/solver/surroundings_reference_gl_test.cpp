@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What surrounds the tissue, kernel by kernel, against the float64 reference, which is written from physics.md 8.
 #include "solver/reference/reference_ticks.h"
-#include "support/backends.h"
 #include "support/loose_cloth.h"
 #include "support/momentum.h"
 #include "support/random_state.h"
+#include "support/solver_rig.h"
 
 using namespace viscera;
 using namespace viscera::test;
@@ -37,9 +37,7 @@ class SurroundReference : public OnBackend {
       obstacles.advance(t * tick_s, tick_s);
       solver->step({}, obstacles.motions());
       reference.step({}, obstacles.motions());
-      layout::TickStats stats{};
-      while (solver->pollStats(stats, true)) {
-      }
+      const layout::TickStats stats = lastStats(*solver);
       for (size_t o = 0; o < given.size(); ++o) {
         given[o] += xyz(stats.obstacle_impulse[o]);
         truth[o] += reference.obstacleImpulse(o);

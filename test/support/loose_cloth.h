@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "support/gpu_fixture.h"
 #include "support/networks.h"
 
 namespace viscera::test {

@@ -6,9 +6,9 @@
 #include <limits>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
+#include "model/scene/integrators.h"
 #include "support/backends.h"
 #include "tools/motion_packing.h"
 
@@ -31,13 +31,7 @@ inline auto solversUnderTest(const std::vector<Integrator>& integrators) {
 
 /// As the last part of a test's name.
 inline std::string solverSuffix(const ::testing::TestParamInfo<SolverUnderTest>& info) {
-  constexpr std::pair<Integrator, const char*> kNames[] = {{Integrator::kLeapfrog, "_leapfrog"},
-                                                           {Integrator::kVerletPaper, "_verlet_paper"},
-                                                           {Integrator::kPd, "_pd"},
-                                                           {Integrator::kMultigrid, "_multigrid"}};
-  std::string out = backendSuffix({info.param.backend, info.index});
-  for (const auto& [integrator, name] : kNames) out += integrator == info.param.integrator ? name : "";
-  return out;
+  return backendSuffix({info.param.backend, info.index}) + "_" + traitsOf(info.param.integrator).name;
 }
 
 /// One test body for every backend and some integrators. @see solversUnderTest

@@ -3,7 +3,7 @@
 // What no other test would notice if an error of the papers came back (docs/paper_errors.md).
 #include <limits>
 
-#include "support/gpu_fixture.h"
+#include "support/solver_rig.h"
 
 using namespace viscera;
 using namespace viscera::test;
@@ -18,26 +18,8 @@ class PaperErrors : public GpuTest {
   static uint32_t slotAt(const Model& model, const Vector3i& node) {
     return static_cast<uint32_t>(model.bodies[0].lattice.slotAt(node));
   }
-  static StylusMotion motion(ToolMode mode, const Vector3d& from, const Vector3d& to) {
-    StylusMotion out;
-    out.mode = mode;
-    out.present = true;
-    out.from.position_m = from;
-    out.to.position_m = to;
-    return out;
-  }
   /// One tick with the first stylus.
-  static void tick(GpuSolver& solver, const StylusMotion& stylus) {
-    ToolMotions motions;
-    motions[0] = stylus;
-    solver.step(motions);
-  }
-  static layout::TickStats stats(GpuSolver& solver) {
-    layout::TickStats stats{};
-    while (solver.pollStats(stats, true)) {
-    }
-    return stats;
-  }
+  static void tick(GpuSolver& solver, const StylusMotion& stylus) { solver.step(ToolMotions{stylus}); }
 };
 
 StylusConfig thinProbe(double radius_m) {
@@ -55,7 +37,7 @@ TEST_F(PaperErrors, ProbeThatPassesANodeWithinASubstepPutsItOutOfItsWay) {
   const uint32_t slot = slotAt(model, {2, 2, 4});
   const Vector3d node = model.bodies[0].lattice.restPosition(slot);
   const Vector3d beside = node + Vector3d(0.5 * kRadius_m, 0, 0), half_way(0, 0, 5 * kRadius_m);
-  tick(solver, motion(ToolMode::kProbe, beside + half_way, beside - half_way));
+  tick(solver, motionOf(ToolMode::kProbe, beside + half_way, beside - half_way));
   // At either end the sphere is five radii away; between, its axis passes the node at half a radius.
   const Vector3d x = node + xyz(solver.readState().displacement_m[slot]);
   EXPECT_NEAR(x.x(), beside.x() - kRadius_m, 1e-8);  // m: a few roundings of positions below 0.03 m
@@ -67,7 +49,7 @@ TEST_F(PaperErrors, ProbeWithANodeExactlyAtItsCentrePushesItUpwards) {
   GpuSolver solver(model, sceneFor(model, 1, {thinProbe(0.1 * kSpacing_m)}));
   const uint32_t slot = slotAt(model, {2, 2, 4});
   const Vector3d node = model.bodies[0].lattice.restPosition(slot);
-  tick(solver, motion(ToolMode::kProbe, node, node));
+  tick(solver, motionOf(ToolMode::kProbe, node, node));
   const Vector3d u = xyz(solver.readState().displacement_m[slot]);
   EXPECT_LT((u - Vector3d(0, 0, 0.1 * kSpacing_m)).norm(), 1e-8);  // m: a few roundings of positions below 0.03 m
 }
@@ -79,7 +61,7 @@ TEST_F(PaperErrors, NodeThatAProbeMovesOutTakesTheSpeedOfTheToolAndNotOfItsWayOu
   GpuSolver solver(model, sceneFor(model, 1, {thinProbe(kRadius_m)}));
   const uint32_t slot = slotAt(model, {2, 2, 4});
   const Vector3d below = model.bodies[0].lattice.restPosition(slot) - Vector3d(0, 0, 0.5 * kRadius_m);
-  tick(solver, motion(ToolMode::kProbe, below, below));
+  tick(solver, motionOf(ToolMode::kProbe, below, below));
   const HostState state = solver.readState();
   EXPECT_NEAR(xyz(state.displacement_m[slot]).z(), 0.5 * kRadius_m, 1e-8);  // m: roundings as above
   EXPECT_EQ(xyz(state.velocity_m_per_s[slot]), Vector3d::Zero().eval());    // at rest, like the tool
@@ -90,7 +72,7 @@ TEST_F(PaperErrors, ProbeThatAppearsDeepInTissueMovesNodesOutNoFasterThanItsPush
   const Model model = block({6, 6, 6});
   GpuSolver solver(model, sceneFor(model, 1, {thinProbe(3 * kSpacing_m)}));
   const Vector3d middle = model.bodies[0].lattice.restPosition(slotAt(model, {3, 3, 3}));
-  tick(solver, motion(ToolMode::kProbe, middle, middle));
+  tick(solver, motionOf(ToolMode::kProbe, middle, middle));
   double farthest_m = 0;
   for (const layout::vec4& u : solver.readState().displacement_m) farthest_m = std::max(farthest_m, xyz(u).norm());
   const double push_m = pushSpeed(model) * solver.dt_s();
@@ -108,10 +90,10 @@ TEST_F(PaperErrors, CutsTakeSpringsAndNoMassSoTheStableSubstepNeverShrinks) {
   for (const ToolMode mode : {ToolMode::kCut, ToolMode::kCutParticles}) {
     GpuSolver solver(model, sceneFor(model, 4, {config}));
     solver.step({});
-    const uint32_t rate_whole = stats(solver).max_rate_bits;  // positive floats order like their bits
+    const uint32_t rate_whole = lastStats(solver).max_rate_bits;  // positive floats order like their bits
     const double y = 2.5 * kSpacing_m;
-    tick(solver, motion(mode, {-0.02, y, 0.1}, {0.08, y, 0.1}));
-    const layout::TickStats cut = stats(solver);
+    tick(solver, motionOf(mode, {-0.02, y, 0.1}, {0.08, y, 0.1}));
+    const layout::TickStats cut = lastStats(solver);
     EXPECT_GT(cut.springs_cut, 0u);
     EXPECT_LE(cut.max_rate_bits, rate_whole);
     const HostState state = solver.readState();
@@ -132,7 +114,7 @@ TEST_F(PaperErrors, InfinitiesAreCountedAsNotFiniteLikeNan) {
     state.displacement_m[middle].x = bad;
     solver.writeState(state);
     solver.step({});
-    EXPECT_EQ(stats(solver).nonfinite, 1u) << bad;  // nothing moves, so no other check catches it
+    EXPECT_EQ(lastStats(solver).nonfinite, 1u) << bad;  // nothing moves, so no other check catches it
   }
 }
 
