@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "model/mesh_files.h"
@@ -64,14 +65,20 @@ std::string joined(const ImportReport& report) {
   return out;
 }
 
-TEST(MeshLook, CoordinatesAreFunctionsOfTheRestPosition) {
+/// obj() with a material and the pictures that it names, of which there is nothing to note.
+TriangleMesh imported(const std::string& material, const std::vector<std::pair<std::string, std::string>>& pictures) {
   const TemporaryFolder folder;
   folder.write("a.obj", obj());
-  folder.write("a.mtl", "newmtl m\nKd 0.5 0.5 0.5\nmap_Kd picture.png\n");
-  folder.write("picture.png", pngBytes());
+  folder.write("a.mtl", "newmtl m\n" + material);
+  for (const auto& [name, bytes] : pictures) folder.write(name, bytes);
   ImportReport report;
-  const TriangleMesh mesh = import(folder, report);
+  TriangleMesh out = import(folder, report);
   EXPECT_EQ(joined(report), "");
+  return out;
+}
+
+TEST(MeshLook, CoordinatesAreFunctionsOfTheRestPosition) {
+  const TriangleMesh mesh = imported("Kd 0.5 0.5 0.5\nmap_Kd picture.png\n", {{"picture.png", pngBytes()}});
   ASSERT_TRUE(mesh.detail);
   ASSERT_EQ(mesh.charts.size(), mesh.triangles.size());
   const TextureChart& chart = mesh.detail->charts[mesh.charts[0]];
@@ -85,12 +92,7 @@ TEST(MeshLook, CoordinatesAreFunctionsOfTheRestPosition) {
 }
 
 TEST(MeshLook, RefinedTrianglesKeepTheirCoordinates) {
-  const TemporaryFolder folder;
-  folder.write("a.obj", obj());
-  folder.write("a.mtl", "newmtl m\nmap_Kd picture.png\n");
-  folder.write("picture.png", pngBytes());
-  ImportReport report;
-  const TriangleMesh mesh = import(folder, report), fine = refine(mesh, 0.3);
+  const TriangleMesh mesh = imported("map_Kd picture.png\n", {{"picture.png", pngBytes()}}), fine = refine(mesh, 0.3);
   ASSERT_GT(fine.triangles.size(), 4 * mesh.triangles.size());
   ASSERT_EQ(fine.charts.size(), fine.triangles.size());
   EXPECT_EQ(fine.detail, mesh.detail);
@@ -124,27 +126,15 @@ TEST(MeshLook, FileWithoutMaterialsHasNoLook) {
 TEST(MeshLook, NormalMapsAreRead) {
   for (const char* key : {"norm", "map_Kn"}) {
     SCOPED_TRACE(key);
-    const TemporaryFolder folder;
-    folder.write("a.obj", obj());
-    folder.write("a.mtl", std::string("newmtl m\nmap_Kd picture.png\n") + key + " normals.png\n");
-    folder.write("picture.png", pngBytes());
-    folder.write("normals.png", pngBytes());
-    ImportReport report;
-    const TriangleMesh mesh = import(folder, report);
-    EXPECT_EQ(joined(report), "");
+    const TriangleMesh mesh = imported(std::string("map_Kd picture.png\n") + key + " normals.png\n",
+                                       {{"picture.png", pngBytes()}, {"normals.png", pngBytes()}});
     ASSERT_EQ(mesh.detail->images.size(), 2u);
     EXPECT_EQ(mesh.detail->materials[mesh.detail->charts[0].material].normal_texture.image, 1);
   }
 }
 
 TEST(MeshLook, JpegIsRead) {
-  const TemporaryFolder folder;
-  folder.write("a.obj", obj());
-  folder.write("a.mtl", "newmtl m\nmap_Kd picture.jpg\n");
-  folder.write("picture.jpg", jpegBytes());
-  ImportReport report;
-  const TriangleMesh mesh = import(folder, report);
-  EXPECT_EQ(joined(report), "");
+  const TriangleMesh mesh = imported("map_Kd picture.jpg\n", {{"picture.jpg", jpegBytes()}});
   ASSERT_EQ(mesh.detail->images.size(), 1u);
   EXPECT_EQ(mesh.detail->images[0].width_px, 16);
   EXPECT_NEAR(mesh.detail->images[0].rgba[0], 128, 2);

@@ -3,8 +3,7 @@
 // A stylus that appears inside tissue neither pushes nor is pushed until it was outside (physics.md 5).
 #include <gtest/gtest.h>
 
-#include "session/block_session.h"
-#include "support/gpu_fixture.h"
+#include "session/on_backends.h"
 
 namespace viscera {
 namespace {
@@ -15,15 +14,10 @@ constexpr double kForceN = 0.1;  ///< well below what millimetres of tissue of 2
 constexpr int kGapTicks = 100;   ///< tissue comes back meanwhile
 constexpr int kHeldTicks = 20;
 
-class Appearing : public GpuTest, public ::testing::WithParamInterface<Backend> {
+class Appearing : public OnSceneBackend {
  protected:
   Appearing() : session_(scene(), context_) {}
 
-  static Scene scene() {
-    Scene scene = blockScene();
-    scene.solver.backend = GetParam();
-    return scene;
-  }
   static StylusSamples deep(int) { return press(kPressTicks); }
   static StylusSamples absent(int) { return {}; }
   static StylusSamples withdrawn(int) { return leftAt({0, 0, 3 * kHalfM}); }
@@ -50,10 +44,7 @@ class Appearing : public GpuTest, public ::testing::WithParamInterface<Backend> 
   Session session_;
   bool at_rest_ = true;  ///< the tissue, and so it must stay
 };
-INSTANTIATE_TEST_SUITE_P(Backends, Appearing, ::testing::Values(Backend::kGpu, Backend::kCpu),
-                         [](const ::testing::TestParamInfo<Backend>& info) {
-                           return info.param == Backend::kCpu ? "cpu" : "gpu";
-                         });
+VISCERA_ON_EVERY_BACKEND(Appearing);
 
 TEST_P(Appearing, AtDepthDoesNothingUntilItWasOutside) {
   expectNothingHappens();

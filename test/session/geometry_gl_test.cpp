@@ -5,8 +5,7 @@
 
 #include <set>
 
-#include "session/block_session.h"
-#include "support/gpu_fixture.h"
+#include "session/on_backends.h"
 #include "viscera/layout/picture_labels.h"
 #include "viscera/render/camera.h"
 
@@ -20,24 +19,16 @@ constexpr double kDepthM = 2e-6;  ///< float32 at a quarter of a metre, through 
 constexpr double kFlatM = 3e-4;   ///< between a round shape and the flat faces that it is drawn with
 constexpr double kBaselineM = 0.01;
 
-class Geometry : public GpuTest, public ::testing::WithParamInterface<Backend> {
+class Geometry : public OnSceneBackend {
  protected:
   /// A camera straight before the block's front face, y = -kHalfM.
   static Scene scene() {
-    Scene scene = blockScene();
-    scene.solver.backend = GetParam();
+    Scene scene = OnSceneBackend::scene();
     CameraConfig& camera = scene.cameras[0];
     camera.position_m = Vector3d(0, -kAwayM, 0);
     camera.width_px = 160;
     camera.height_px = 120;
     return scene;
-  }
-  static ImageFrame picture(Session& session, PictureKind kind) {
-    Wants wants;
-    wants.of(kind) = {true};
-    Pictures pictures = session.show(wants);
-    EXPECT_EQ(pictures.images.size(), 1U);
-    return pictures.images.empty() ? ImageFrame{} : std::move(pictures.images.back());
   }
   /// Where what a pixel shows is, tissue frame.
   static Vector3d placeOf(const CameraConfig& camera, const ImageFrame& depths, size_t pixel) {
@@ -51,10 +42,7 @@ class Geometry : public GpuTest, public ::testing::WithParamInterface<Backend> {
     return static_cast<size_t>(image.height / 2 * image.width + image.width / 2);
   }
 };
-INSTANTIATE_TEST_SUITE_P(Backends, Geometry, ::testing::Values(Backend::kGpu, Backend::kCpu),
-                         [](const ::testing::TestParamInfo<Backend>& info) {
-                           return info.param == Backend::kCpu ? "cpu" : "gpu";
-                         });
+VISCERA_ON_EVERY_BACKEND(Geometry);
 
 TEST_P(Geometry, DepthIsThatOfTheFaceBeforeTheCameraAndNothingIsInfinitelyFar) {
   Session session(scene(), context_);

@@ -5,31 +5,22 @@
 #include <algorithm>
 
 #include "session/arrows.h"
-#include "session/block_session.h"
+#include "session/on_backends.h"
 #include "support/backends.h"
-#include "support/gpu_fixture.h"
 
 namespace viscera {
 namespace {
 
 using namespace test;
 
-class OverlayPictures : public GpuTest, public ::testing::WithParamInterface<Backend> {
+class OverlayPictures : public OnSceneBackend {
  protected:
   static Scene scene() {
-    Scene scene = blockScene();
-    scene.solver.backend = GetParam();
+    Scene scene = OnSceneBackend::scene();
     scene.cameras[0].width_px = 160;
     scene.cameras[0].height_px = 120;
     scene.styluses[0].button1 = ToolMode::kGrab;
     return scene;
-  }
-  static ImageFrame picture(Session& session) {
-    Wants wants;
-    wants.cameras = {true};
-    Pictures pictures = session.show(wants);
-    EXPECT_EQ(pictures.images.size(), 1U);
-    return pictures.images.empty() ? ImageFrame{} : pictures.images.back();
   }
 };
 
@@ -91,7 +82,7 @@ TEST_P(OverlayPictures, TissueStepsAsWithoutThem) {
   EXPECT_EQ(hashOf(plain), hashOf(over));
 }
 
-INSTANTIATE_TEST_SUITE_P(Backends, OverlayPictures, ::testing::Values(Backend::kCpu, Backend::kGpu));
+VISCERA_ON_EVERY_BACKEND(OverlayPictures);
 
 TEST(Arrows, ForcesStandAtTipsAndWindComesFromAhead) {
   ToolMotions motions{};

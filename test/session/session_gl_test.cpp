@@ -6,8 +6,7 @@
 
 #include <algorithm>
 
-#include "session/block_session.h"
-#include "support/gpu_fixture.h"
+#include "session/on_backends.h"
 #include "support/text.h"
 #include "viscera/math/error.h"
 
@@ -24,22 +23,11 @@ constexpr double kDentM = 0.003;  ///< half of what the probe goes deep
 constexpr double kAside = 0.05;   ///< of a force on a block that is the same on all sides
 
 /// On every backend, by name.
-class SessionTest : public GpuTest, public ::testing::WithParamInterface<Backend> {
+class SessionTest : public OnSceneBackend {
  protected:
-  explicit SessionTest(const Scene& scene = blockScene()) : session_(onBackend(scene), context_) {}
+  explicit SessionTest(const Scene& of = blockScene()) : session_(scene(of), context_) {}
   Session session_;
-
- private:
-  static Scene onBackend(Scene scene) {
-    scene.solver.backend = GetParam();
-    return scene;
-  }
 };
-std::string nameOf(const ::testing::TestParamInfo<Backend>& info) {
-  return info.param == Backend::kCpu ? "cpu" : "gpu";
-}
-#define VISCERA_ON_EVERY_BACKEND(suite) \
-  INSTANTIATE_TEST_SUITE_P(Backends, suite, ::testing::Values(Backend::kGpu, Backend::kCpu), nameOf)
 using SessionWithTools = SessionTest;
 VISCERA_ON_EVERY_BACKEND(SessionTest);
 VISCERA_ON_EVERY_BACKEND(SessionWithTools);

@@ -3,8 +3,7 @@
 // What styluses do is changed while the simulation runs: it acts at once, holds end, runs repeat to the bit.
 #include <gtest/gtest.h>
 
-#include "session/block_session.h"
-#include "support/gpu_fixture.h"
+#include "session/on_backends.h"
 #include "viscera/math/error.h"
 
 namespace viscera {
@@ -14,11 +13,10 @@ using namespace test;
 
 constexpr int kTicks = 12;
 
-class ToolModes : public GpuTest, public ::testing::WithParamInterface<Backend> {
+class ToolModes : public OnSceneBackend {
  protected:
   static Scene scene(bool cuts = true) {
-    Scene scene = blockScene();
-    scene.solver.backend = GetParam();
+    Scene scene = OnSceneBackend::scene();
     for (StylusConfig& stylus : scene.styluses) {
       stylus.button1 = ToolMode::kNone;
       if (!cuts) stylus.button2 = ToolMode::kNone;
@@ -28,10 +26,7 @@ class ToolModes : public GpuTest, public ::testing::WithParamInterface<Backend> 
   /// At the top of the block, button 1 down, drawn upwards.
   static StylusSamples pull(int tick) { return leftAt({0, 0, kHalfM + 0.001 * tick}, true); }
 };
-INSTANTIATE_TEST_SUITE_P(Backends, ToolModes, ::testing::Values(Backend::kGpu, Backend::kCpu),
-                         [](const ::testing::TestParamInfo<Backend>& info) {
-                           return info.param == Backend::kCpu ? "cpu" : "gpu";
-                         });
+VISCERA_ON_EVERY_BACKEND(ToolModes);
 
 TEST_P(ToolModes, AModeActsFromTheNextStepAndLetsGoWhenItIsLeft) {
   for (const ToolMode mode : {ToolMode::kGrab, ToolMode::kSuction}) {

@@ -85,13 +85,7 @@ class LaggingBackend : public ::testing::Test {
     return LateSolver(model_, scene, planTicks(model_, scene, options), looks);
   }
 
-  static ToolMotions probe() {
-    ToolMotions motions;
-    motions[0].mode = ToolMode::kProbe;
-    motions[0].present = true;
-    motions[0].from.position_m = motions[0].to.position_m = Vector3d(0.02, 0.02, 0.038);
-    return motions;
-  }
+  static ToolMotions probe() { return probeAt({0.02, 0.02, 0.038}); }
 
   const Model model_ = modelOf({boxBody({4, 4, 4}, kSpacing_m)});
   const HostState wild_ = randomState(model_, 0.3 * kSpacing_m, 0.1, 5);

@@ -156,26 +156,4 @@ struct WoundedTetrahedra {
   }
 };
 
-/// How many triangles of a mesh run along each edge one way and the other.
-struct EdgeCounts {
-  size_t open = 0;    ///< edges without one triangle on either hand
-  size_t shared = 0;  ///< with more than two triangles
-};
-inline EdgeCounts edgeCounts(const std::vector<uint32_t>& triangles) {
-  std::map<std::pair<uint32_t, uint32_t>, std::pair<int, int>> sides;
-  for (size_t t = 0; t < triangles.size(); t += 3) {
-    for (size_t i = 0; i < 3; ++i) {
-      const uint32_t a = triangles[t + i], b = triangles[t + (i + 1) % 3];
-      auto& side = sides[std::minmax(a, b)];
-      ++(a < b ? side.first : side.second);
-    }
-  }
-  EdgeCounts out;
-  for (const auto& [edge, side] : sides) {
-    out.open += side.first != side.second ? 1 : 0;
-    out.shared += side.first + side.second > 2 ? 1 : 0;
-  }
-  return out;
-}
-
 }  // namespace viscera::testing

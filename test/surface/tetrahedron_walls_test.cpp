@@ -10,6 +10,7 @@
 #include <tuple>
 
 #include "surface/tetrahedra_rig.h"
+#include "surface/wound_checks.h"
 #include "surface/tetrahedron_walls.h"
 
 namespace viscera::testing {

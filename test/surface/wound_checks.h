@@ -47,18 +47,12 @@ size_t openEdges(const Of& of, const std::vector<Vector3d>& at) {
   return open;
 }
 
-/// Edges of the shown mesh by the numbers of their vertices, walls sewn to the vertices of the skin that they go with.
+/// Edges of a mesh by the numbers of their vertices.
 struct Edges {
   size_t open = 0;    ///< without one triangle on either hand
   size_t shared = 0;  ///< with more than two triangles
 };
-inline Edges edgesOf(const Wounded& of) {
-  std::vector<uint32_t> triangles = of.triangles();
-  for (uint32_t& v : triangles) {
-    if (v < of.wound.firstWallVertex()) continue;
-    const uint32_t of_skin = of.wound.wallVertices()[v - of.wound.firstWallVertex()].skin_vertex;
-    if (of_skin != WoundVertex::kNone) v = of_skin;
-  }
+inline Edges edgeCounts(const std::vector<uint32_t>& triangles) {
   std::vector<std::pair<uint64_t, int>> sides;
   for (size_t t = 0; t < triangles.size(); t += 3) {
     for (size_t i = 0; i < 3; ++i) {
@@ -76,6 +70,17 @@ inline Edges edgesOf(const Wounded& of) {
     out.shared += i - first > 2 ? 1 : 0;
   }
   return out;
+}
+
+/// Of what is shown, walls sewn to the vertices of the skin that they go with.
+inline Edges edgesOf(const Wounded& of) {
+  std::vector<uint32_t> triangles = of.triangles();
+  for (uint32_t& v : triangles) {
+    if (v < of.wound.firstWallVertex()) continue;
+    const uint32_t of_skin = of.wound.wallVertices()[v - of.wound.firstWallVertex()].skin_vertex;
+    if (of_skin != WoundVertex::kNone) v = of_skin;
+  }
+  return edgeCounts(triangles);
 }
 
 /// How far walls are from the vertices of the skin that they go with [m].

@@ -4,11 +4,14 @@
 // Bodies on lattices that planes cut, with the wounds that this leaves: boxes, balls and organs alike.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
 #include <utility>
 #include <vector>
 
+#include "model/shape/box_surface.h"
 #include "model/skin_shapes.h"
 #include "surface/body_wound.h"
 #include "surface/reference_mapping.h"
@@ -59,6 +62,24 @@ struct Wounded {
   void cut(const Vector3d& on_plane, const Vector3d& normal) {
     cut(on_plane, normal, [](const Vector3d&) { return true; });
   }
+  /// Takes all springs of the nodes where `within(point)` holds.
+  template <class Within>
+  void erase(Within within) {
+    for (const uint32_t slot : lattice.active_slots) {
+      if (!within(lattice.restPosition(slot))) continue;
+      nodes[slot].lo |= layout::kSeveredBit;
+      for (uint32_t spring = 0; spring < layout::kSpringsPerNode; ++spring) {
+        setSpringCount(nodes[slot], spring, 0);
+        const int64_t other = lattice.neighborSlot(slot, spring);
+        if (other < 0) continue;
+        const auto far = static_cast<size_t>(other);
+        setSpringCount(nodes[far], oppositeSpring(spring), 0);
+        nodes[far].lo |= layout::kSeveredBit;
+        if (spring < layout::kAxialSprings)
+          axial_cut[3 * (spring % 2 == 0 ? slot : far) + spring / 2] = layout::kErasedShare;
+      }
+    }
+  }
   void update() { wound.update(nodes.data(), axial_cut.data()); }
   void makeWhole() {
     nodes = lattice.nodes;
@@ -97,6 +118,16 @@ struct Wounded {
     return all;
   }
 };
+
+/// A box of 8 x 7 x 6 cells of a centimetre from the origin, its skin off the lattice. @param open  without its top
+inline Wounded woundedBox(bool open = false) {
+  TriangleMesh mesh = boxSurface(Vector3d::Zero(), Vector3d(0.08, 0.07, 0.06), {19, 17, 15});
+  const auto on_top = [&](const std::array<uint32_t, 3>& t) {
+    return open && std::all_of(t.begin(), t.end(), [&](uint32_t v) { return mesh.positions_m[v].z() > 0.0599F; });
+  };
+  mesh.triangles.erase(std::remove_if(mesh.triangles.begin(), mesh.triangles.end(), on_top), mesh.triangles.end());
+  return Wounded(bindTo(blockSolid({8, 7, 6}, 0.01), mesh));
+}
 
 /// Ten normals of cuts: along an axis, between two and between three of them, and seven at random.
 inline std::vector<Vector3d> anglesOfCuts() {

@@ -24,21 +24,20 @@ constexpr double kSeam_m = 1e-7;  // float rounding of two bindings of one point
 
 constexpr double kBacksOfBox = 3e-4;  // of pixels, as kBacks: at one angle, where a coarse skin's wound ends askew
 
-Wounded box() {
-  const TriangleMesh mesh = boxSurface(Vector3d::Constant(0.0), Vector3d(0.08, 0.07, 0.06), {19, 17, 15});
-  return Wounded(bindTo(blockSolid({8, 7, 6}, kSpacing_m), mesh));
+void expectClosed(const Wounded& of) {
+  EXPECT_EQ(of.wound.holes(), 0u);
+  EXPECT_EQ(openEdges(of, of.positions(of.still())), 0u);
+  EXPECT_EQ(openEdges(of, of.positions(of.shaken(0.1 * kSpacing_m))), 0u);
 }
 
 TEST(Wound, BoxCutThroughIsTwoClosedBodies) {
   for (const Vector3d& normal : anglesOfCuts()) {
     SCOPED_TRACE(::testing::Message() << normal.transpose());
-    Wounded box = viscera::testing::box();
+    Wounded box = woundedBox();
     box.cut({0.0403, 0.0352, 0.0304}, normal);
     box.update();
     const std::vector<Vector3d> rest = box.positions(box.still()), shaken = box.positions(box.shaken(0.1 * kSpacing_m));
-    EXPECT_EQ(box.wound.holes(), 0u);
-    EXPECT_EQ(openEdges(box, rest), 0u);
-    EXPECT_EQ(openEdges(box, shaken), 0u);
+    expectClosed(box);
     EXPECT_EQ(edgesOf(box).open, 0u);
     EXPECT_EQ(edgesOf(box).shared, 0u);
     EXPECT_LT(seamGap(box, shaken), kSeam_m);
@@ -54,7 +53,7 @@ TEST(Wound, NoBackOfTheSkinIsSeenWhenItGapes) {
   int none = 0;
   for (const Vector3d& normal : anglesOfCuts()) {
     SCOPED_TRACE(::testing::Message() << normal.transpose());
-    Wounded box = viscera::testing::box();
+    Wounded box = woundedBox();
     box.cut(middle, normal, [&](const Vector3d& at) { return (at - middle).norm() < kReach_m; });
     box.update();
     const std::vector<layout::vec4> open = box.heldOpen(middle, normal, kReach_m, 0.6 * kSpacing_m);
@@ -67,7 +66,7 @@ TEST(Wound, NoBackOfTheSkinIsSeenWhenItGapes) {
 }
 
 TEST(Wound, ResetShowsTheFirstSkin) {
-  Wounded box = viscera::testing::box();
+  Wounded box = woundedBox();
   box.update();
   const std::vector<uint32_t> whole = box.wound.skinTriangles();
   EXPECT_FALSE(box.wound.any());
@@ -84,24 +83,8 @@ TEST(Wound, ResetShowsTheFirstSkin) {
 }
 
 TEST(Wound, ErasedNodesLeaveAGrooveWithWalls) {
-  Wounded box = viscera::testing::box();
-  const Lattice& lattice = box.lattice;
-  for (const uint32_t slot : lattice.active_slots) {
-    const Vector3d at = lattice.restPosition(slot);
-    if (std::abs(at.x() - 0.04) > 0.001 || at.z() < 0.045) continue;
-    box.nodes[slot].lo &= ~layout::kAxialMask;
-    box.nodes[slot].hi &= ~layout::kDiagonalMask;
-    box.nodes[slot].lo |= layout::kSeveredBit;
-    for (uint32_t spring = 0; spring < layout::kSpringsPerNode; ++spring) {
-      const int64_t other = lattice.neighborSlot(slot, spring);
-      if (other < 0) continue;
-      const auto far = static_cast<size_t>(other);
-      setSpringCount(box.nodes[far], oppositeSpring(spring), 0);
-      box.nodes[far].lo |= layout::kSeveredBit;
-      if (spring < layout::kAxialSprings)
-        box.axial_cut[3 * (spring % 2 == 0 ? slot : far) + spring / 2] = layout::kErasedShare;
-    }
-  }
+  Wounded box = woundedBox();
+  box.erase([](const Vector3d& at) { return std::abs(at.x() - 0.04) <= 0.001 && at.z() >= 0.045; });
   box.update();
   const std::vector<Vector3d> rest = box.positions(box.still());
   EXPECT_EQ(openEdges(box, rest), 0u);
@@ -114,23 +97,16 @@ TEST(Wound, ErasedNodesLeaveAGrooveWithWalls) {
 TEST(Wound, IncisionTapersAtItsEnds) {
   for (const Vector3d& normal : anglesOfCuts()) {
     SCOPED_TRACE(::testing::Message() << normal.transpose());
-    Wounded box = viscera::testing::box();
+    Wounded box = woundedBox();
     const Vector3d middle(0.0403, 0.0352, 0.0601);
     box.cut(middle, normal, [&](const Vector3d& at) { return (at - middle).norm() < 0.031; });
     box.update();
-    EXPECT_EQ(box.wound.holes(), 0u);
-    EXPECT_EQ(openEdges(box, box.positions(box.still())), 0u);
-    EXPECT_EQ(openEdges(box, box.positions(box.shaken(0.1 * kSpacing_m))), 0u);
+    expectClosed(box);
   }
 }
 
 TEST(Wound, CountsWhereItStaysOpenInASkinWithABorder) {
-  TriangleMesh mesh = boxSurface(Vector3d::Constant(0.0), Vector3d(0.08, 0.07, 0.06), {19, 17, 15});
-  const auto on_top = [&](const std::array<uint32_t, 3>& t) {
-    return std::all_of(t.begin(), t.end(), [&](uint32_t v) { return mesh.positions_m[v].z() > 0.0599F; });
-  };
-  mesh.triangles.erase(std::remove_if(mesh.triangles.begin(), mesh.triangles.end(), on_top), mesh.triangles.end());
-  Wounded box(bindTo(blockSolid({8, 7, 6}, kSpacing_m), mesh));
+  Wounded box = woundedBox(true);
   box.update();
   EXPECT_EQ(box.wound.holes(), 0u);
   box.cut({0.0403, 0.0352, 0.0304}, Vector3d::UnitX());
@@ -142,7 +118,7 @@ TEST(Wound, CountsWhereItStaysOpenInASkinWithABorder) {
 
 TEST(Wound, CountsEdgesThatLoseAPieceBetweenTwoCuts) {
   // A layer of nodes between two cuts that pass through the same edges of the skin, from 0.0379 to 0.0421.
-  Wounded box = viscera::testing::box();
+  Wounded box = woundedBox();
   box.cut({0.0393, 0.0352, 0.0304}, Vector3d::UnitX());
   box.update();
   EXPECT_EQ(box.wound.slivers(), 0u);
@@ -158,20 +134,18 @@ TEST(Wound, CutsThatCrossLeaveClosedPieces) {
   const std::vector<Vector3d> normals = anglesOfCuts();
   for (size_t i = 0; i < normals.size(); ++i) {
     SCOPED_TRACE(::testing::Message() << i);
-    Wounded box = viscera::testing::box();
+    Wounded box = woundedBox();
     box.cut({0.0403, 0.0352, 0.0304}, normals[i]);
     box.cut({0.0381, 0.0333, 0.0299}, normals[(i + 1) % normals.size()]);
     box.cut({0.0441, 0.0313, 0.0279}, normals[(i + 4) % normals.size()]);
     box.update();
-    EXPECT_EQ(box.wound.holes(), 0u);
-    EXPECT_EQ(openEdges(box, box.positions(box.still())), 0u);
-    EXPECT_EQ(openEdges(box, box.positions(box.shaken(0.1 * kSpacing_m))), 0u);
+    expectClosed(box);
   }
 }
 
 TEST(Wound, PiecesSayWhichTriangleTheyAreOf) {
   constexpr double kOff_m = 1e-6;  // rounding of float bindings and of crossings, far below the skin's edges of 1 cm
-  Wounded box = viscera::testing::box();
+  Wounded box = woundedBox();
   box.cut({0.0403, 0.0352, 0.0304}, Vector3d(1, 2, 3).normalized());
   box.cut({0.0381, 0.0333, 0.0299}, Vector3d(3, -1, 1).normalized());
   box.update();
@@ -204,11 +178,8 @@ TEST(Wound, BallOfPartialCellsIsClosed) {
     Wounded ball(bindTo(voxeliseByMoments(mesh, kSpacing_m), mesh));
     ball.cut(centre, normal);
     ball.update();
-    const std::vector<Vector3d> rest = ball.positions(ball.still());
-    EXPECT_EQ(ball.wound.holes(), 0u);
-    EXPECT_EQ(openEdges(ball, rest), 0u);
-    EXPECT_EQ(openEdges(ball, ball.positions(ball.shaken(0.1 * kSpacing_m))), 0u);
-    EXPECT_NEAR(volume(ball, rest) / signedVolume(ball.skin.mesh), 1, kVolume);
+    expectClosed(ball);
+    EXPECT_NEAR(volume(ball, ball.positions(ball.still())) / signedVolume(ball.skin.mesh), 1, kVolume);
   }
 }
 

@@ -19,11 +19,6 @@ namespace {
 constexpr double kSpacing_m = 0.01;
 constexpr double kMostWork = 2;  // times the work of the cuts of a first stroke that those of the last one may take
 
-Wounded box() {
-  const TriangleMesh mesh = boxSurface(Vector3d::Constant(0.0), Vector3d(0.08, 0.07, 0.06), {19, 17, 15});
-  return Wounded(bindTo(blockSolid({8, 7, 6}, kSpacing_m), mesh));
-}
-
 /// A corner of a shown triangle as those who map it see it: bit by bit what carries it, and how.
 using Corner = std::array<unsigned char, sizeof(layout::SkinBinding)>;
 
@@ -50,37 +45,18 @@ void expectTheSame(const Wounded& body) {
   EXPECT_EQ(body.wound.slivers(), other.wound.slivers());
 }
 
-/// Takes all of the springs of nodes in a ball.
-void erase(Wounded& body, const Vector3d& middle, double radius_m) {
-  const Lattice& lattice = body.lattice;
-  for (const uint32_t slot : lattice.active_slots) {
-    if ((lattice.restPosition(slot) - middle).norm() > radius_m) continue;
-    for (uint32_t spring = 0; spring < layout::kSpringsPerNode; ++spring) {
-      const int64_t other = lattice.neighborSlot(slot, spring);
-      setSpringCount(body.nodes[slot], spring, 0);
-      body.nodes[slot].lo |= layout::kSeveredBit;
-      if (other < 0) continue;
-      const auto far = static_cast<size_t>(other);
-      setSpringCount(body.nodes[far], oppositeSpring(spring), 0);
-      body.nodes[far].lo |= layout::kSeveredBit;
-      if (spring < layout::kAxialSprings)
-        body.axial_cut[3 * (spring % 2 == 0 ? slot : far) + spring / 2] = layout::kErasedShare;
-    }
-  }
-}
-
 TEST(WoundWork, CutsTickByTickShowWhatTheyShowAtOnce) {
   constexpr int kTicks = 12;
   const std::vector<Vector3d> normals = anglesOfCuts();
   for (size_t i = 0; i < normals.size(); ++i) {
     SCOPED_TRACE(::testing::Message() << i);
-    Wounded body = box();
+    Wounded body = woundedBox();
     for (int tick = 1; tick <= kTicks; ++tick) {
       const double depth_m = 0.06 * tick / kTicks;
       const auto within = [&](const Vector3d& at) { return at.z() > 0.061 - depth_m; };
       body.cut({0.0403, 0.0352, 0.0304}, normals[i], within);
       if (tick > 4) body.cut({0.0381, 0.0333, 0.0299}, normals[(i + 1) % normals.size()], within);
-      if (tick == 9) erase(body, {0.03, 0.03, 0.05}, 0.013);
+      if (tick == 9) body.erase([](const Vector3d& at) { return (at - Vector3d(0.03, 0.03, 0.05)).norm() <= 0.013; });
       body.update();
       if (tick % 3 == 0) expectTheSame(body);
     }
@@ -92,12 +68,7 @@ TEST(WoundWork, CutsTickByTickShowWhatTheyShowAtOnce) {
 }
 
 TEST(WoundWork, OfASkinWithABorderHolesAreCountedAlike) {
-  TriangleMesh mesh = boxSurface(Vector3d::Constant(0.0), Vector3d(0.08, 0.07, 0.06), {19, 17, 15});
-  const auto on_top = [&](const std::array<uint32_t, 3>& t) {
-    return std::all_of(t.begin(), t.end(), [&](uint32_t v) { return mesh.positions_m[v].z() > 0.0599F; });
-  };
-  mesh.triangles.erase(std::remove_if(mesh.triangles.begin(), mesh.triangles.end(), on_top), mesh.triangles.end());
-  Wounded body(bindTo(blockSolid({8, 7, 6}, kSpacing_m), mesh));
+  Wounded body = woundedBox(true);
   for (int tick = 1; tick <= 7; ++tick) {
     body.cut({0.0403, 0.0352, 0.0304}, Vector3d(1, 0.2, 0.1).normalized(),
              [&](const Vector3d& at) { return at.y() < 0.01 * tick; });

@@ -115,12 +115,8 @@ TEST_F(HostWork, VolumesTakeThreeMoreAndAProbeOne) {
   soft.material.poisson_ratio = 0.4;
   const Model volumes = modelOf({soft});
   EXPECT_EQ(callsPerSubstep(sceneWith(Integrator::kLeapfrog, volumes, 10, 0.5), volumes), 8);
-  ToolMotions motions;
-  motions[0].mode = ToolMode::kProbe;
-  motions[0].present = true;
-  motions[0].from.position_m = motions[0].to.position_m = Vector3d(0.02, 0.02, 0.038);
   const Scene probed = sceneWith(Integrator::kLeapfrog, model_, 10, 0.5, 20, {StylusConfig{}});
-  EXPECT_EQ(callsPerSubstep(probed, model_, motions), 6);
+  EXPECT_EQ(callsPerSubstep(probed, model_, probeAt({0.02, 0.02, 0.038})), 6);
 }
 
 TEST_F(HostWork, GovernedTickIsNotWaitedForUntilTheNextOneIsUnderWay) {
