@@ -12,7 +12,7 @@ import time
 
 import roslib.packages
 import rostest
-from force_session import END_LIMIT_S, FORCED_END_S, SCENE, ForceCase, Session
+from force_session import END_LIMIT_S, FELT_S, FORCED_END_S, SCENE, ForceCase, Session
 
 
 class ForceEndingsTest(ForceCase):
@@ -21,7 +21,7 @@ class ForceEndingsTest(ForceCase):
             session.wait_touch()
             ended = time.monotonic()
             session.simulator.send_signal(number)
-            felt = session.felt(1)
+            felt = session.felt(FELT_S)
             self.assertZeroSoon(number.name, felt, ended)
             session.simulator.stdout.read()
             self.assertEqual(session.simulator.wait(END_LIMIT_S), status)
@@ -49,7 +49,7 @@ class ForceEndingsTest(ForceCase):
             from xmlrpc.client import ServerProxy
             uri = rosgraph.Master("/force_endings").lookupNode(session.space + "/simulator")
             ServerProxy(uri).shutdown("/force_endings", "test")
-            self.assertZeroSoon("rosnode kill", session.felt(1), ended)
+            self.assertZeroSoon("rosnode kill", session.felt(FELT_S), ended)
             session.simulator.stdout.read()
             self.assertEqual(session.simulator.wait(END_LIMIT_S), 0)
 
@@ -71,7 +71,7 @@ class ForceEndingsTest(ForceCase):
             ended = time.monotonic()
             session.master.kill()
             session.master.wait(END_LIMIT_S)
-            self.assertZeroSoon("lost master", session.felt(1), ended)
+            self.assertZeroSoon("lost master", session.felt(FELT_S), ended)
             session.simulator.stdout.read()
             self.assertEqual(session.simulator.wait(END_LIMIT_S), 1)
 

@@ -7,7 +7,7 @@ import sys
 import time
 
 import rostest
-from force_session import END_LIMIT_S, TIMEOUT, ZERO_LIMIT_S, ForceCase, Session, watched_session
+from force_session import END_LIMIT_S, FELT_S, TIMEOUT, ZERO_LIMIT_S, ForceCase, Session, watched_session
 
 RESTART_LIMIT_S = 5.0
 # what the hand speaks: its profile, and the topic to which its driver listens
@@ -27,7 +27,7 @@ class ForceEndingsWatchdogTest(ForceCase):
             session.wait_touch()
             ended = time.monotonic()
             session.simulator.kill()
-            self.assertZeroSoon("kill -9, %s, watchdog" % profile, session.felt(1), ended)
+            self.assertZeroSoon("kill -9, %s, watchdog" % profile, session.felt(FELT_S), ended)
             self.assertIsNone(watchdog.poll())
 
     def test_killed_simulator(self):
@@ -36,7 +36,7 @@ class ForceEndingsWatchdogTest(ForceCase):
             session.wait_touch()
             ended = time.monotonic()
             session.simulator.kill()
-            self.assertZeroSoon("kill -9, watchdog", session.felt(1), ended)
+            self.assertZeroSoon("kill -9, watchdog", session.felt(FELT_S), ended)
             self.assertIsNone(watchdog.poll())
 
     def test_killed_simulator_and_omni_feedback(self):

@@ -9,7 +9,7 @@ import time
 
 import rospy
 import rostest
-from force_session import END_LIMIT_S, ForceCase, Session
+from force_session import END_LIMIT_S, FELT_S, ForceCase, Session
 from sensor_msgs.msg import Image
 from simulator_watch import Latest, wait_until
 from std_srvs.srv import Trigger
@@ -64,7 +64,7 @@ class ForcePausesTest(ForceCase):
             pause.wait_for_service(END_LIMIT_S)
             ended = time.monotonic()
             self.assertTrue(pause().success)
-            self.assertZeroSoon("pause, slow pictures", session.felt(1), ended, limit_s=PAUSE_LIMIT_S)
+            self.assertZeroSoon("pause, slow pictures", session.felt(FELT_S), ended, limit_s=PAUSE_LIMIT_S)
             pictures.stop()
 
 

@@ -15,6 +15,7 @@ import roslib.packages
 
 END_LIMIT_S = 30
 ZERO_LIMIT_S = 0.05     # from the ending to the first zero, seen from outside
+FELT_S = 0.4            # so long after an ending a hand listens for forces that come late: eight times ZERO_LIMIT_S
 FORCED_END_S = 1.2      # a second, and what this process needs to see it
 SCENE = ("_overrides:=bodies[0].spacing_m=0.008;bodies[0].material.young_modulus_pa=20000;"
          "environment.gravity_m_per_s2=[0,0,0];styluses[0].probe.radius_m=0.012")

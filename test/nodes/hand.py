@@ -16,7 +16,7 @@ import rospy
 from geometry_msgs.msg import PoseStamped, WrenchStamped
 
 OUTSIDE_Y_M, DEEP_Y_M = -0.1, -0.05   # before the heart's front wall, and behind it
-APPROACH_S = 1.0
+APPROACH_S = 0.3
 RATE_HZ = 200
 FELT_N = 0.02
 
