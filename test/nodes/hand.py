@@ -2,9 +2,10 @@
 # Copyright (c) 2026, the viscera authors
 # SPDX-License-Identifier: BSD-3-Clause
 """hand.py [WRENCHES [KIND]]: a hand with a device, as a process of its own. It presses the probe of `left` into the heart,
-holds it there, and notes every wrench that it is told. Prints `touching` once it feels a force, and, when its standard
-input ends, a JSON list of [time.monotonic(), force in N, torque in N m, the message's stamp in s]. KIND is a class of
-drivers.py, whose topics are its driver's; by default it speaks CRTK and listens to WRENCHES."""
+holds it there, and notes every wrench that it is told. Prints `touching` once it feels a force that lasts, and, when its
+standard input ends, a JSON list of [time.monotonic(), force in N, torque in N m, the message's stamp in s]. KIND is a class
+of drivers.py, whose topics are its driver's; by default it speaks CRTK and listens to WRENCHES."""
+import itertools
 import json
 import math
 import sys
@@ -17,6 +18,7 @@ from geometry_msgs.msg import PoseStamped, WrenchStamped
 
 OUTSIDE_Y_M, DEEP_Y_M = -0.1, -0.05   # before the heart's front wall, and behind it
 APPROACH_S = 0.3
+LASTS_S = 0.3       # without a break, as there may be some while the simulator makes its first pictures
 RATE_HZ = 200
 FELT_N = 0.02
 
@@ -30,9 +32,18 @@ class Hand:
 
     def feel(self, message):
         f, t = message.wrench.force, message.wrench.torque
+        self.keep(math.hypot(f.x, f.y, f.z), math.hypot(t.x, t.y, t.z), message.header.stamp.to_sec())
+
+    def keep(self, force_n, torque_nm, stamp_s):
         with self.lock:
-            self.felt.append((time.monotonic(), math.hypot(f.x, f.y, f.z), math.hypot(t.x, t.y, t.z),
-                              message.header.stamp.to_sec()))
+            self.felt.append((time.monotonic(), force_n, torque_nm, stamp_s))
+
+    def touches(self, begun):
+        """A force is felt now, and was at all times in LASTS_S, all of them after `begun`."""
+        now = time.monotonic()
+        with self.lock:
+            lately = list(itertools.takewhile(lambda felt: felt[0] > now - LASTS_S, reversed(self.felt)))
+        return now > begun + LASTS_S and bool(lately) and all(n > FELT_N for _, n, _, _ in lately)
 
     def connected(self):
         return self.poses.get_num_connections() > 0
@@ -53,7 +64,7 @@ class Hand:
             since_s = time.monotonic() - begun
             way = min(1.0, since_s / APPROACH_S)
             self.move((0, OUTSIDE_Y_M + way * (DEEP_Y_M - OUTSIDE_Y_M), -0.02))
-            if not told and since_s > 2 * APPROACH_S and self.felt and self.felt[-1][1] > FELT_N:
+            if not told and self.touches(begun + APPROACH_S):
                 told = True
                 print("touching", flush=True)
             time.sleep(1 / RATE_HZ)
@@ -69,8 +80,7 @@ class DriverHand(Hand):
         self.driver.feel = self.note
 
     def note(self, force):
-        with self.lock:
-            self.felt.append((time.monotonic(), math.hypot(*force), 0.0, 0.0))
+        self.keep(math.hypot(*force), 0.0, 0.0)
 
     def connected(self):
         return self.driver.poses.get_num_connections() > 0
