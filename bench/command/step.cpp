@@ -7,7 +7,7 @@
 #include <thread>
 
 #include "bench/command/stages.h"
-#include "bench/harness/backends.h"
+#include "bench/harness/specimens/backends.h"
 #include "calibration/timed_ticks.h"
 #include "cli/scene_lookup.h"
 #include "solver/cpu/cpu_solver.h"

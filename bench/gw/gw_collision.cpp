@@ -6,8 +6,8 @@
 
 #include "bench/gw/gw_parts.h"
 #include "model/body/network_builder.h"
-#include "model/shape/plain_meshes.h"
-#include "solver/cpu/surroundings.h"
+#include "model/shape/mesh/plain_meshes.h"
+#include "solver/cpu/steps/surroundings.h"
 #include "solver/reference/collision.h"
 
 namespace viscera::bench {

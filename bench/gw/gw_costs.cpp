@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bench/gw/gw_kernels.h"
 #include "bench/gw/gw_parts.h"
-#include "solver/edge_forces.h"
+#include "solver/tissue/edge_forces.h"
 
 namespace viscera::bench {
 

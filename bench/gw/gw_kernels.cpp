@@ -11,7 +11,7 @@
 #include "bench/gw/gw_units.h"
 #include "layout/bindings.h"
 #include "layout/edge_forces.h"
-#include "solver/edge_forces.h"
+#include "solver/tissue/edge_forces.h"
 
 namespace viscera::bench {
 

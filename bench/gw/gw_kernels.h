@@ -14,7 +14,7 @@ namespace viscera::bench {
 /// Where the spring pass of the edge-centric way leaves its forces, and how they are summed.
 enum class EdgeLayout {
   kRuns,  ///< a pass over springs; each force is stored twice, a node's lie one behind the other
-  kOwned  ///< as the solver: a pass over nodes, which own as many springs each (solver/edge_forces.h)
+  kOwned  ///< as the solver: a pass over nodes, which own as many springs each (solver/tissue/edge_forces.h)
 };
 /// What components of displacements and velocities are stored in.
 enum class StateFormat { kFloat32, kFloat16 };

@@ -6,8 +6,8 @@
 // by itself.
 #include "layout.h"
 #include "bench/gw/gw_units.h"
-#include "spring.glsl"
-#include "network.glsl"
+#include "solver/tissue/spring.glsl"
+#include "solver/tissue/network.glsl"
 
 // rgba32f, or rgba16f where the state is halves
 layout(binding = kUnitDisplacement) uniform samplerBuffer displacement;

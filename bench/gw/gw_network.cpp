@@ -9,7 +9,7 @@
 #include <random>
 
 #include "bench/gw/gw_triangulation.h"
-#include "bench/harness/specimen.h"
+#include "bench/harness/specimens/specimen.h"
 #include "model/body/network_builder.h"
 
 namespace viscera::bench {

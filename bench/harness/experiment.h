@@ -6,7 +6,7 @@
 #include <tuple>
 #include <vector>
 
-#include "bench/harness/block.h"
+#include "bench/harness/specimens/block.h"
 
 namespace viscera::bench {
 

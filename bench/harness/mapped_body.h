@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "surface/host_surface.h"
-#include "surface/state_mirror.h"
+#include "surface/follow/host_surface.h"
+#include "surface/follow/state_mirror.h"
 #include "surface/surface.h"
 #include "viscera/model/model.h"
 #include "viscera/model/shape/triangle_mesh.h"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/harness/specimen.h"
+#include "bench/harness/specimens/specimen.h"
 #include "calibration/timed_ticks.h"
 
 namespace viscera::bench {

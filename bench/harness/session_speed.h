@@ -5,7 +5,7 @@
 #include <functional>
 #include <string>
 
-#include "bench/harness/specimen.h"
+#include "bench/harness/specimens/specimen.h"
 #include "viscera/session/session.h"
 
 namespace viscera::bench {

@@ -5,14 +5,14 @@
 #include <chrono>
 
 #include "bench/gw/gw_suite.h"
-#include "bench/harness/backends.h"
-#include "bench/suites/accuracy_suite.h"
-#include "bench/suites/egve_suite.h"
-#include "bench/suites/gpu_suite.h"
-#include "bench/suites/haptics_suite.h"
-#include "bench/suites/material_suite.h"
-#include "bench/suites/performance_suites.h"
-#include "bench/suites/stability_suite.h"
+#include "bench/harness/specimens/backends.h"
+#include "bench/suites/accuracy/accuracy_suite.h"
+#include "bench/suites/egve/egve_suite.h"
+#include "bench/suites/gpu/gpu_suite.h"
+#include "bench/suites/material/material_suite.h"
+#include "bench/suites/pace/haptics_suite.h"
+#include "bench/suites/pace/performance_suites.h"
+#include "bench/suites/stability/stability_suite.h"
 #include "viscera/gpu/context.h"
 
 namespace viscera::bench {

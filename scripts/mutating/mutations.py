@@ -7,13 +7,13 @@ from collections import namedtuple
 
 Mutation = namedtuple("Mutation", "name file old new program tests")
 
-LEAPFROG = "shaders/solver/leapfrog.comp"
-SPRING = "shaders/solver/spring.glsl"
-CONTACT = "shaders/solver/contact.glsl"
-TOUCH = "shaders/solver/touch.glsl"
+LEAPFROG = "shaders/solver/step/leapfrog.comp"
+SPRING = "shaders/solver/tissue/spring.glsl"
+CONTACT = "shaders/solver/tools/contact.glsl"
+TOUCH = "shaders/solver/tools/touch.glsl"
 MATERIAL = "src/model/body/elasticity.cpp"
 BASIS = "shaders/surface/skin_basis.glsl"
-CUT = "shaders/solver/cut.comp"
+CUT = "shaders/solver/tools/cut.comp"
 
 INTEGRATE = "*Integrate.MatchesReferenceAtEverySize*"
 SKIN_REST = "SkinMapping.RestPoseComesBackToFloatRounding"
@@ -42,15 +42,15 @@ MUTATIONS = [
              "*PaperErrors.IncrementsAreSummed*"),
     Mutation("velocity_differences", LEAPFROG, UPDATE,
              "vec3 u_next = u + dt_s * v_next;\n  v_next = (u_next - u) / dt_s;", "test_solver", INTEGRATE),
-    Mutation("never_compensated", "src/solver/features.cpp",
+    Mutation("never_compensated", "src/solver/tissue/features.cpp",
              "features.compensated = isCompensated(scene.solver, dt_s);",
              "features.compensated = dt_s < 0 && scene.solver.compensated;", "test_solver",
              "*Integrate.ShortSubstepsLoseNoDigitsOfU*"),
-    Mutation("whole_first_kick", "src/solver/ticks.cpp", "restarted_ ? 0.5 * dt_s :", "restarted_ ? dt_s :", "test_solver",
+    Mutation("whole_first_kick", "src/solver/ticks/ticks.cpp", "restarted_ ? 0.5 * dt_s :", "restarted_ ? dt_s :", "test_solver",
              INTEGRATE),
-    Mutation("no_stable_limit", "src/solver/substeps.cpp", "if (dt_s < limit_s) return;", "return;", "test_solver",
+    Mutation("no_stable_limit", "src/solver/tissue/substeps.cpp", "if (dt_s < limit_s) return;", "return;", "test_solver",
              "Substeps.ExplicitIntegratorsRefuse*"),
-    Mutation("limit_at_rest", "src/solver/material.cpp", "    fastest = std::max(fastest, stiffness / mass);",
+    Mutation("limit_at_rest", "src/solver/tissue/material.cpp", "    fastest = std::max(fastest, stiffness / mass);",
              "    fastest = std::max(fastest, 12 * 4 * static_cast<double>(params.axial_quarter_n_per_m) / mass);",
              "test_solver", "StableSubstep.*"),
     Mutation("uniform_weights", "src/model/body/lattice.cpp", "if (weights == Weights::kPaper)",
@@ -86,7 +86,7 @@ MUTATIONS = [
     Mutation("grip_without_turn", CONTACT,
              "rotated(xyzw(tool_motions[stylus].orientation), xyz(grab_offsets[slot]))", "xyz(grab_offsets[slot])",
              "test_solver", "*ToolsOnTissue.HeldNodesFollowTheFullPose*"),
-    Mutation("release_not_slowed", "shaders/solver/grab.comp", "if (speed > release_speed) velocity[slot]",
+    Mutation("release_not_slowed", "shaders/solver/tools/grab.comp", "if (speed > release_speed) velocity[slot]",
              "if (speed > 1e30f) velocity[slot]", "test_solver", "*ToolsOnTissue.ReleaseClampsTheVelocity*"),
     Mutation("cut_from_one_end", CUT, "if (severs(slot, x, n, m, sphere, h)) {",
              "if (slot < n && severs(slot, x, n, m, sphere, h)) {", "test_solver",
@@ -100,10 +100,10 @@ MUTATIONS = [
     Mutation("lone_nodes_have_no_mass", CUT, "  nodes[slot] = bits;",
              "  if (isIsolated(bits)) bits.lo &= ~(15u << kMassShift);\n  nodes[slot] = bits;", "test_solver",
              "*PaperErrors.CutsTakeSpringsAndNoMass*"),
-    Mutation("lone_nodes_fall", "shaders/solver/step.glsl",
+    Mutation("lone_nodes_fall", "shaders/solver/tissue/step.glsl",
              "(bits.lo & kFixedBit) != 0u || (isIsolated(bits) && (bits.lo & kGrabMask) == 0u);",
              "(bits.lo & kFixedBit) != 0u;", "test_solver", INTEGRATE),
-    Mutation("fragments_fall", "shaders/solver/sleep.glsl", "  u_next = u;\n  v_next = vec3(0.0f);\n",
+    Mutation("fragments_fall", "shaders/solver/tissue/sleep.glsl", "  u_next = u;\n  v_next = vec3(0.0f);\n",
              "  u_next += 0.0f * u;\n", "test_solver", "*PaperErrors.FragmentsThatFall*"),
     Mutation("weights_not_clamped", "src/model/body/skin_anchor.cpp",
              "return point.cwiseMax(low).cwiseMin(high);", "return point;", "test_model",
@@ -136,10 +136,10 @@ MUTATIONS = [
              "vec3 force16 = elasticForce(slot, bits, body, u, v);\n"
              "  vec3 acceleration = floor(force16 * 4096.0f + 0.5f) / 4096.0f / mass + gravity;", "test_validation",
              "*Oracle.ForcesSumToNothing*:*Oracle.HangingChain*"),
-    Mutation("isnan", "shaders/solver/measure.comp",
+    Mutation("isnan", "shaders/solver/step/measure.comp",
              "  uvec3 bits = floatBitsToUint(v) & 0x7f800000u;\n  return all(notEqual(bits, uvec3(0x7f800000u)));",
              "  return !(isnan(v.x) || isnan(v.y) || isnan(v.z));", "test_gpu", "ShaderSources.NeverAsk*"),
-    Mutation("isnan_and_isinf", "shaders/solver/measure.comp",
+    Mutation("isnan_and_isinf", "shaders/solver/step/measure.comp",
              "  uvec3 bits = floatBitsToUint(v) & 0x7f800000u;\n  return all(notEqual(bits, uvec3(0x7f800000u)));",
              "  return !(isnan(v.x + v.y + v.z) || isinf(v.x + v.y + v.z));", "test_gpu", "ShaderSources.NeverAsk*"),
 ]

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // tissue.frag - wet, slightly translucent tissue; a back face is the raw inside, except of a sheet.   Owner: render/tissue_painter.h
-// Colour's alpha tells them apart (surface/part_colors.h): a sheet, the wall of a wound, or skin; and the body.
+// Colour's alpha tells them apart (surface/skins/part_colors.h): a sheet, the wall of a wound, or skin; and the body.
 // REST: vertices know their place at rest. GRAIN: variation from place to place, layers of walls (grain.glsl).
 // DETAIL: textures (detail.glsl).
 #include "layout.h"

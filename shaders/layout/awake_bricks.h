@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 // clang-format off
-// Which bricks are stepped: of shaders/solver/awake_bricks.comp and its owner.
+// Which bricks are stepped: of shaders/solver/step/awake_bricks.comp and its owner.
 #ifndef VISCERA_LAYOUT_AWAKE_BRICKS_H
 #define VISCERA_LAYOUT_AWAKE_BRICKS_H
 #include "viscera/layout/types.h"

@@ -78,7 +78,7 @@ const uint kBindNodePairs = 63u;         // vec4[3 * slots]: nodes with such con
 const uint kBindSurfaceWays = 64u;       // uint[slots]: ways to the surface, see surface_ways.h
 const uint kBindAxialCut = 65u;          // float[3 * slots]: where springs were cut, as in HostState::axial_cut
 
-// Overlays (surface/node_overlay.h)
+// Overlays (surface/overlay/node_overlay.h)
 const uint kBindOverlayNodes = 66u;       // vec4[slots]: xyz position [m], w strain
 const uint kBindOverlayLinkStarts = 67u;  // uint[slots + 1]: first OverlayLink of a node
 const uint kBindOverlayLinks = 68u;       // OverlayLink[]

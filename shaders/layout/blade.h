@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 // clang-format off
-// How far a blade reaches: of shaders/solver/blade.glsl and of who looks for what is near one.
+// How far a blade reaches: of shaders/solver/tools/blade.glsl and of who looks for what is near one.
 #ifndef VISCERA_LAYOUT_BLADE_H
 #define VISCERA_LAYOUT_BLADE_H
 #include "viscera/layout/types.h"

@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 // clang-format off
-// Edge-centric forces (solver/edge_forces.h).
+// Edge-centric forces (solver/tissue/edge_forces.h).
 #ifndef VISCERA_LAYOUT_EDGE_FORCES_H
 #define VISCERA_LAYOUT_EDGE_FORCES_H
 #include "viscera/layout/types.h"

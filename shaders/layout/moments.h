@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 // clang-format off
-// Numbers of cells by moments (physics.md 1): of shaders/solver/moments.glsl, its SIMD twin and the reference.
+// Numbers of cells by moments (physics.md 1): of shaders/solver/tissue/moments.glsl, its SIMD twin and the reference.
 #ifndef VISCERA_LAYOUT_MOMENTS_H
 #define VISCERA_LAYOUT_MOMENTS_H
 #include "viscera/layout/types.h"

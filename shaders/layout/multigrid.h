@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 // clang-format off
-// Arrays of integrator multigrid on the GPU (solver/gpu/multigrid_pass.h). Vectors of the finest level are vec4[slots], one after the
+// Arrays of integrator multigrid on the GPU (solver/gpu/steps/multigrid_pass.h). Vectors of the finest level are vec4[slots], one after the
 // other: number n begins at n * slots.
 #ifndef VISCERA_LAYOUT_MULTIGRID_H
 #define VISCERA_LAYOUT_MULTIGRID_H

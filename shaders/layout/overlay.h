@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 // clang-format off
-// What overlays are made of (surface/node_overlay.h).
+// What overlays are made of (surface/overlay/node_overlay.h).
 #ifndef VISCERA_LAYOUT_OVERLAY_H
 #define VISCERA_LAYOUT_OVERLAY_H
 #include "viscera/layout/types.h"

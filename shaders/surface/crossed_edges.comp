@@ -6,7 +6,7 @@
 // in  split_edges[count], spring_cut[springs]     in, out  crossed_edges[4 + count], (0, 1, 1, 0) at first
 #include "layout.h"
 layout(local_size_x = GROUP_SIZE) in;  // before globalIndex(), which asks for it
-#include "lattice.glsl"
+#include "solver/tissue/lattice.glsl"
 
 uniform uint count;
 layout(std430, binding = kBindSplitEdges) readonly buffer SplitEdgesBuffer { SplitEdge split_edges[]; };

@@ -10,7 +10,7 @@
 #ifndef __cplusplus
 layout(local_size_x = GROUP_SIZE) in;  // before globalIndex(), which asks for it
 #endif
-#include "lattice.glsl"
+#include "solver/tissue/lattice.glsl"
 #include "pack.glsl"
 #include "skin_basis.glsl"
 #include "ring.glsl"

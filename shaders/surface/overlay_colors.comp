@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // overlay_colors.comp - the strain of a skin's vertices, from that of the nodes that they are bound to, as colours.
-// Owner: surface/node_overlay.h
+// Owner: surface/overlay/node_overlay.h
 // in  skin[count], overlay_nodes[slots]     out  strain_colors[count] RGBA8
 #include "layout.h"
 layout(local_size_x = GROUP_SIZE) in;  // before globalIndex(), which asks for it
-#include "lattice.glsl"
+#include "solver/tissue/lattice.glsl"
 #include "strain_scale.glsl"
 
 uniform uint count;

@@ -1,12 +1,12 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// overlay_lines.comp - springs as lines between slots.   Owner: surface/node_overlay.h
+// overlay_lines.comp - springs as lines between slots.   Owner: surface/overlay/node_overlay.h
 // in  overlay_lines[count], nodes[slots], spring_cut[springs]     out  overlay_indices[2 * count]
 // Feature: NETWORK (some body is one).
 #include "layout.h"
 layout(local_size_x = GROUP_SIZE) in;  // before globalIndex(), which asks for it
-#include "lattice.glsl"
+#include "solver/tissue/lattice.glsl"
 
 uniform uint count;
 layout(std430, binding = kBindNodes) readonly buffer NodesBuffer { NodeBits nodes[]; };

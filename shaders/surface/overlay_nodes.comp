@@ -1,13 +1,13 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// overlay_nodes.comp - where nodes are, and how far their springs are strained.   Owner: surface/node_overlay.h
+// overlay_nodes.comp - where nodes are, and how far their springs are strained.   Owner: surface/overlay/node_overlay.h
 // in  nodes[count], displacement[count] m; of networks link_starts[count + 1], links[], rest[count] m, spring_cut[springs]
 // out overlay_nodes[count] xyz m, w root mean square of (L - l0) / l0 over the whole springs of the node; 0 without any
 // Feature: NETWORK (some body is one).
 #include "layout.h"
 layout(local_size_x = GROUP_SIZE) in;  // before globalIndex(), which asks for it
-#include "lattice.glsl"
+#include "solver/tissue/lattice.glsl"
 
 uniform uint count;  // of slots
 layout(std430, binding = kBindNodes) readonly buffer NodesBuffer { NodeBits nodes[]; };

@@ -1,11 +1,11 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// overlay_spikes.comp - a line at every node of a list: its normal, or the force on its body.   Owner: surface/node_overlay.h
+// overlay_spikes.comp - a line at every node of a list: its normal, or the force on its body.   Owner: surface/overlay/node_overlay.h
 // in  overlay_spikes[count], overlay_nodes[slots] m, node_normals[slots], normals[vertices] packed     out  overlay_ends[2 * count] m
 #include "layout.h"
 layout(local_size_x = GROUP_SIZE) in;  // before globalIndex(), which asks for it
-#include "lattice.glsl"
+#include "solver/tissue/lattice.glsl"
 #include "pack.glsl"
 
 uniform uint count;

@@ -10,8 +10,8 @@
 
 #include "model/scene/integrators.h"
 #include "solver/make_solver.h"
-#include "solver/stable_step.h"
-#include "solver/substeps.h"
+#include "solver/ticks/stable_step.h"
+#include "solver/tissue/substeps.h"
 #include "viscera/gpu/context.h"
 #include "viscera/solver/governor.h"
 #include "viscera/solver/material.h"

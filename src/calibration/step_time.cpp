@@ -8,7 +8,7 @@
 
 #include "calibration/timed_ticks.h"
 #include "solver/make_solver.h"
-#include "solver/substeps.h"
+#include "solver/tissue/substeps.h"
 #include "viscera/gpu/context.h"
 #include "viscera/solver/material.h"
 #include "viscera/tools/hands.h"

@@ -5,7 +5,7 @@
 
 #include "cli/commands.h"
 #include "cli/scene_lookup.h"
-#include "solver/multigrid/equilibrium.h"
+#include "solver/multigrid/steps/equilibrium.h"
 #include "viscera/math/state_hash.h"
 #include "viscera/solver/solver.h"
 

@@ -47,7 +47,7 @@ AT(BodyParams, bulk_j, 36);
 AT(BodyParams, rigidity_j, 44);
 AT(BodyParams, connections, 40);
 
-SIZE(Link, 32);  // two texels (solver/network.glsl)
+SIZE(Link, 32);  // two texels (solver/tissue/network.glsl)
 AT(Link, stiffness, 16);
 AT(Link, prestrain_m2, 20);
 AT(Link, far, 24);

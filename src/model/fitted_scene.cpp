@@ -8,10 +8,10 @@
 #include <optional>
 #include <sstream>
 
+#include "model/scene/file_bounds.h"
 #include "model/scene/yaml_overrides.h"
 #include "model/scene/yaml_reader.h"
-#include "model/shape/file_bounds.h"
-#include "model/shape/tissue.h"
+#include "model/shape/organ/tissue.h"
 #include "viscera/math/error.h"
 
 namespace viscera {

@@ -12,10 +12,10 @@
 #include "model/body/network_builder.h"
 #include "model/body/network_skin.h"
 #include "model/body/spacing_search.h"
+#include "model/scene/host_memory.h"
 #include "model/scene/structure_rules.h"
 #include "model/scene/tool_kinds.h"
-#include "model/shape/host_memory.h"
-#include "model/shape/tissue.h"
+#include "model/shape/organ/tissue.h"
 #include "viscera/math/error.h"
 
 namespace viscera {

@@ -6,7 +6,7 @@
 
 #include "gpu/buffer.h"
 #include "gpu/program.h"
-#include "render/obstacle_shape.h"
+#include "render/shapes/obstacle_shape.h"
 #include "render/vertex_array.h"
 
 namespace viscera {

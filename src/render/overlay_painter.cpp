@@ -8,10 +8,10 @@
 #include <cstdio>
 #include <utility>
 
-#include "render/lathe.h"
 #include "render/mesh_parts.h"
 #include "render/mesh_uniforms.h"
 #include "render/renderer.h"
+#include "render/shapes/lathe.h"
 
 namespace viscera {
 

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "render/render_target.h"
-#include "render/tool_shape.h"
+#include "render/shapes/tool_shape.h"
 #include "render/vertex_array.h"
-#include "surface/node_overlay.h"
+#include "surface/overlay/node_overlay.h"
 #include "surface/shown_triangles.h"
 #include "viscera/model/scene/overlays.h"
 #include "viscera/render/arrow.h"

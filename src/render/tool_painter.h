@@ -8,7 +8,7 @@
 #include "gpu/buffer.h"
 #include "gpu/program.h"
 #include "model/scene/tool_kinds.h"
-#include "render/tool_shape.h"
+#include "render/shapes/tool_shape.h"
 #include "render/vertex_array.h"
 #include "viscera/tools/stylus.h"
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "model/scene/tool_kinds.h"
-#include "render/tool_shape.h"
+#include "render/shapes/tool_shape.h"
 
 namespace viscera {
 

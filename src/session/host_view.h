@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "session/view.h"
-#include "surface/host_surface.h"
+#include "surface/follow/host_surface.h"
 
 namespace viscera {
 

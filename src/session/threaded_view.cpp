@@ -9,7 +9,7 @@
 
 #include "gpu/background.h"
 #include "session/inline_view.h"
-#include "surface/state_mirror.h"
+#include "surface/follow/state_mirror.h"
 #include "viscera/math/error.h"
 
 namespace viscera {

@@ -6,7 +6,7 @@
 #include "solver/cpu/cpu_solver.h"
 #include "solver/gpu/gpu_solver.h"
 #include "solver/integrator_choice.h"
-#include "solver/multigrid/equilibrium.h"
+#include "solver/multigrid/steps/equilibrium.h"
 #include "viscera/gpu/context.h"
 #include "viscera/math/error.h"
 

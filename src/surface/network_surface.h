@@ -7,7 +7,7 @@
 #include "gpu/buffer.h"
 #include "gpu/program.h"
 #include "layout/network_skin.h"
-#include "surface/joined_skins.h"
+#include "surface/skins/joined_skins.h"
 #include "viscera/solver/state.h"
 
 namespace viscera {

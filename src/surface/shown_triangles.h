@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "surface/wounds.h"
+#include "surface/wounds/wounds.h"
 #include "viscera/model/model.h"
 #include "viscera/surface/shown_mesh.h"
 

@@ -10,15 +10,15 @@
 #include "gpu/gl.h"
 #include "gpu/stage_clock.h"
 #include "layout/bindings.h"
-#include "surface/joined_skins.h"
 #include "surface/network_surface.h"
+#include "surface/skins/joined_skins.h"
 #include "surface/surface_kernels.h"
 
 namespace viscera {
 
 namespace {
 
-/// What shaders/solver/lattice.glsl asks for.
+/// What shaders/solver/tissue/lattice.glsl asks for.
 void bindNodes(const StateView& state) {
   bindStorage(layout::kBindBricks, state.bricks);
   bindStorage(layout::kBindBodies, state.bodies);

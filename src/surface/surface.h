@@ -11,7 +11,7 @@
 #include "surface/body_items.h"
 #include "surface/shown_triangles.h"
 #include "surface/skin_boxes.h"
-#include "surface/wounds.h"
+#include "surface/wounds/wounds.h"
 #include "viscera/layout/skin.h"
 #include "viscera/model/model.h"
 #include "viscera/solver/state.h"
@@ -38,7 +38,7 @@ class Surface {
   /// Splits the triangles of networks along the cut (the rule is in split_triangles.comp), until reset(). Looks at the
   /// springs only if state.cut_revision has changed since the last call; costs nothing otherwise.
   void split(const StateView& state);
-  /// Shows the wounds of bodies on lattices and of tetrahedra that can be cut (surface/wounds.h), until reset().
+  /// Shows the wounds of bodies on lattices and of tetrahedra that can be cut (surface/wounds/wounds.h), until reset().
   /// Makes buffers only where wounds outgrow those that are there.
   /// @param revision  of the cuts; the last one again costs nothing
   void wound(const CutSprings& cuts, uint64_t revision);

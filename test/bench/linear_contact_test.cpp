@@ -1,12 +1,12 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bench/harness/linear_contact.h"
+#include "bench/harness/specimens/linear_contact.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "bench/harness/block.h"
+#include "bench/harness/specimens/block.h"
 
 namespace viscera::bench {
 namespace {

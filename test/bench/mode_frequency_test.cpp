@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bench/harness/mode_frequency.h"
+#include "bench/harness/specimens/mode_frequency.h"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include <chrono>
 #include <thread>
 
-#include "bench/harness/machine.h"
+#include "bench/harness/machine/machine.h"
 
 namespace viscera::bench {
 namespace {

@@ -1,10 +1,10 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bench/harness/scalar_lattice.h"
+#include "bench/harness/specimens/scalar_lattice.h"
 
 #include <gtest/gtest.h>
 
-#include "bench/harness/specimen.h"
+#include "bench/harness/specimens/specimen.h"
 
 namespace viscera::bench {
 namespace {

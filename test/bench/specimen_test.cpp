@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bench/harness/specimen.h"
+#include "bench/harness/specimens/specimen.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
-#include "bench/suites/stability_trial.h"
+#include "bench/suites/stability/stability_trial.h"
 #include "support/process.h"
 #include "support/text.h"
 #include "viscera/gpu/context.h"

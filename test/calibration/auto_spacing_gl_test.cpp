@@ -9,8 +9,8 @@
 
 #include "session/block_session.h"
 #include "solver/make_solver.h"
-#include "solver/stable_step.h"
-#include "solver/substeps.h"
+#include "solver/ticks/stable_step.h"
+#include "solver/tissue/substeps.h"
 #include "support/gpu_fixture.h"
 #include "support/text.h"
 #include "viscera/math/error.h"

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Normals and colours of a fine mesh on a coarse skin (docs/detail.md).
-#include "model/shape/detail_bake.h"
+#include "model/shape/detail/detail_bake.h"
 
 #include <gtest/gtest.h>
 #include <stdlib.h>
@@ -13,9 +13,9 @@
 #include <map>
 #include <random>
 
-#include "model/shape/fewer_faces.h"
-#include "model/shape/plain_meshes.h"
-#include "model/shape/triangle_tree.h"
+#include "model/shape/mesh/fewer_faces.h"
+#include "model/shape/mesh/plain_meshes.h"
+#include "model/shape/mesh/triangle_tree.h"
 #include "support/temporary_folder.h"
 
 namespace viscera {

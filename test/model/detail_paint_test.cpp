@@ -1,12 +1,12 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "model/shape/detail_paint.h"
+#include "model/shape/detail/detail_paint.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "model/shape/phantom.h"
+#include "model/shape/organ/phantom.h"
 
 namespace viscera::test {
 namespace {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // A process that is bound to folders reads no scene, no mesh and nothing that these name from elsewhere.
-#include "model/shape/file_bounds.h"
+#include "model/scene/file_bounds.h"
 
 #include <gtest/gtest.h>
 

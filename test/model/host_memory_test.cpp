@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "model/shape/host_memory.h"
+#include "model/scene/host_memory.h"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <random>
 
 #include "body_samples.h"
-#include "model/shape/tissue.h"
+#include "model/shape/organ/tissue.h"
 #include "solid_probe.h"
 #include "viscera/model/shape/mesh_import.h"
 #include "viscera/model/shape/solid.h"

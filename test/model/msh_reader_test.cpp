@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "model/shape/msh_reader.h"
+#include "model/shape/files/msh_reader.h"
 
 #include <gtest/gtest.h>
 

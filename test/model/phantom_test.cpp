@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "model/shape/phantom.h"
+#include "model/shape/organ/phantom.h"
 
 #include <limits>
 #include <numeric>

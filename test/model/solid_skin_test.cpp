@@ -3,7 +3,7 @@
 #include <random>
 
 #include "mesh_samples.h"
-#include "model/shape/solid_shell.h"
+#include "model/shape/solid/solid_shell.h"
 #include "viscera/math/error.h"
 #include "viscera/model/shape/solid.h"
 

@@ -8,8 +8,8 @@
 #include <cmath>
 #include <memory>
 
-#include "model/shape/detail_bake.h"
-#include "model/shape/plain_meshes.h"
+#include "model/shape/detail/detail_bake.h"
+#include "model/shape/mesh/plain_meshes.h"
 #include "render/detail_textures.h"
 #include "render/drawing.h"
 #include "support/temporary_folder.h"

@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "render/drawing.h"
-#include "render/obstacle_shape.h"
+#include "render/shapes/obstacle_shape.h"
 
 using namespace viscera;
 

@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "render/tool_shape.h"
+#include "render/shapes/tool_shape.h"
 
 #include <gtest/gtest.h>
 

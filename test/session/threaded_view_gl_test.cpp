@@ -15,7 +15,7 @@
 
 #include "session/block_session.h"
 #include "session/inline_view.h"
-#include "solver/joined_lattice.h"
+#include "solver/tissue/joined_lattice.h"
 #include "support/gpu_fixture.h"
 #include "viscera/math/error.h"
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Who owns which spring, and where its forces lie (GW 4.2).
 #include "layout/edge_forces.h"
-#include "solver/edge_forces.h"
+#include "solver/tissue/edge_forces.h"
 
 #include <gtest/gtest.h>
 

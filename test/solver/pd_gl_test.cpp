@@ -1,8 +1,8 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "solver/cpu/cpu_stepper.h"
-#include "solver/cpu/pd.h"
-#include "solver/gpu/pd_pass.h"
+#include "solver/cpu/steps/pd.h"
+#include "solver/cpu/store/cpu_stepper.h"
+#include "solver/gpu/steps/pd_pass.h"
 #include "support/features.h"
 #include "support/implicit.h"
 

@@ -1,12 +1,12 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "solver/stable_step.h"
+#include "solver/ticks/stable_step.h"
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
 
-#include "solver/joined_lattice.h"
-#include "solver/substeps.h"
+#include "solver/tissue/joined_lattice.h"
+#include "solver/tissue/substeps.h"
 #include "support/backends.h"
 #include "support/lattices.h"
 #include "support/random_state.h"

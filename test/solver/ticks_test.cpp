@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// What a backend that lags behind the host, as a GPU does, must not change (src/solver/ticks.h).
-#include "solver/ticks.h"
+// What a backend that lags behind the host, as a GPU does, must not change (src/solver/ticks/ticks.h).
+#include "solver/ticks/ticks.h"
 
 #include <deque>
 

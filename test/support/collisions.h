@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "solver/cpu/surroundings.h"
-#include "solver/gpu/surroundings_pass.h"
+#include "solver/cpu/steps/surroundings.h"
+#include "solver/gpu/contact/surroundings_pass.h"
 #include "solver/reference/collision.h"
-#include "solver/substeps.h"
+#include "solver/tissue/substeps.h"
 #include "support/backends.h"
 
 namespace viscera::test {

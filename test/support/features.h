@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "solver/features.h"
+#include "solver/tissue/features.h"
 
 namespace viscera::test {
 

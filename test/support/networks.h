@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "model/body/network_builder.h"
-#include "model/shape/plain_meshes.h"
+#include "model/shape/mesh/plain_meshes.h"
 
 namespace viscera::test {
 

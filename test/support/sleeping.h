@@ -6,7 +6,7 @@
 #include <memory>
 #include <utility>
 
-#include "solver/cpu/sleep.h"
+#include "solver/cpu/store/sleep.h"
 #include "support/solver_rig.h"
 
 namespace viscera::test {

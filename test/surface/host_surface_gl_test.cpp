@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // The skin on the host against the one on the GPU: the same shaders' text.
-#include "surface/host_surface.h"
+#include "surface/follow/host_surface.h"
 
 #include <gtest/gtest.h>
 

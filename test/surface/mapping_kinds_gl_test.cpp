@@ -9,7 +9,7 @@
 #include <array>
 #include <map>
 
-#include "surface/host_surface.h"
+#include "surface/follow/host_surface.h"
 #include "surface/reference_mapping.h"
 #include "surface/surface_rig.h"
 #include "viscera/gpu/context.h"

@@ -7,7 +7,7 @@
 #include <random>
 
 #include "support/networks.h"
-#include "surface/state_mirror.h"
+#include "surface/follow/state_mirror.h"
 #include "surface/surface_rig.h"
 #include "viscera/gpu/context.h"
 

@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "surface/node_overlay.h"
+#include "surface/overlay/node_overlay.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "surface/part_colors.h"
+#include "surface/skins/part_colors.h"
 
 #include <gtest/gtest.h>
 

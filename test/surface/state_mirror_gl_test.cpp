@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "surface/state_mirror.h"
+#include "surface/follow/state_mirror.h"
 
 #include <gtest/gtest.h>
 

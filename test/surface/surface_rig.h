@@ -10,7 +10,7 @@
 
 #include "model/body/network_skin.h"
 #include "model/skin_shapes.h"
-#include "solver/gpu/lattice_buffers.h"
+#include "solver/gpu/buffers/lattice_buffers.h"
 #include "surface/surface.h"
 #include "viscera/solver/solver.h"
 

@@ -13,9 +13,9 @@
 
 #include "model/body/network_builder.h"
 #include "model/body/network_skin.h"
-#include "model/shape/tetrahedra_mesh.h"
+#include "model/shape/solid/tetrahedra_mesh.h"
 #include "model/skin_shapes.h"
-#include "surface/tetrahedra_wound.h"
+#include "surface/wounds/tetrahedra_wound.h"
 #include "viscera/layout/links.h"
 
 namespace viscera::testing {

@@ -10,8 +10,8 @@
 #include <tuple>
 
 #include "surface/tetrahedra_rig.h"
-#include "surface/tetrahedron_walls.h"
 #include "surface/wound_checks.h"
+#include "surface/wounds/tetrahedron_walls.h"
 
 namespace viscera::testing {
 namespace {

@@ -6,10 +6,10 @@
 
 #include <memory>
 
-#include "model/shape/box_surface.h"
+#include "model/shape/mesh/box_surface.h"
 #include "model/skin_shapes.h"
 #include "surface/surface.h"
-#include "surface/wound_depths.h"
+#include "surface/wounds/wound_depths.h"
 #include "viscera/gpu/context.h"
 
 namespace viscera::testing {

@@ -4,12 +4,12 @@
 // Wounds ask for no memory while a cut goes on, once their buffers have grown.
 #include <gtest/gtest.h>
 
-#include "model/shape/box_surface.h"
+#include "model/shape/mesh/box_surface.h"
 #include "support/counted_memory.h"
-#include "surface/joined_skins.h"
+#include "surface/skins/joined_skins.h"
 #include "surface/tetrahedra_rig.h"
 #include "surface/wound_rig.h"
-#include "surface/wounds.h"
+#include "surface/wounds/wounds.h"
 
 namespace viscera::testing {
 namespace {

@@ -11,10 +11,10 @@
 #include <utility>
 #include <vector>
 
-#include "model/shape/box_surface.h"
+#include "model/shape/mesh/box_surface.h"
 #include "model/skin_shapes.h"
-#include "surface/body_wound.h"
 #include "surface/reference_mapping.h"
+#include "surface/wounds/body_wound.h"
 #include "viscera/layout/links.h"
 #include "viscera/model/model.h"
 

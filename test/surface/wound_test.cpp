@@ -8,7 +8,7 @@
 #include <cmath>
 #include <vector>
 
-#include "model/shape/box_surface.h"
+#include "model/shape/mesh/box_surface.h"
 #include "model/skin_shapes.h"
 #include "surface/wound_checks.h"
 

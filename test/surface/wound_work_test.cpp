@@ -9,7 +9,7 @@
 #include <cstring>
 #include <vector>
 
-#include "model/shape/box_surface.h"
+#include "model/shape/mesh/box_surface.h"
 #include "model/skin_shapes.h"
 #include "surface/wound_rig.h"
 

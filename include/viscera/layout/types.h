@@ -21,7 +21,7 @@ struct alignas(16) ivec4 {
 };
 }  // namespace viscera::layout
 #else
-// What the two languages spell differently where the CPU backend compiles GLSL as C++ (src/solver/cpu/glsl.h).
+// What the two languages spell differently where the CPU backend compiles GLSL as C++ (src/solver/cpu/text/glsl.h).
 #define INOUT(T) inout T
 #define OUT(T) out T
 #define xyz(v) (v).xyz

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "model/shape/phantom.h"
+#include "model/shape/organ/phantom.h"
 #include "viscera/model/model.h"
 
 namespace viscera {

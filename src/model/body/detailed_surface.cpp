@@ -6,11 +6,11 @@
 #include <filesystem>
 
 #include "model/body/skin_size.h"
-#include "model/shape/detail_bake.h"
-#include "model/shape/detail_paint.h"
-#include "model/shape/fewer_faces.h"
-#include "model/shape/placing.h"
-#include "model/shape/solid_shell.h"
+#include "model/shape/detail/detail_bake.h"
+#include "model/shape/detail/detail_paint.h"
+#include "model/shape/mesh/fewer_faces.h"
+#include "model/shape/organ/placing.h"
+#include "model/shape/solid/solid_shell.h"
 #include "viscera/math/error.h"
 #include "viscera/model/shape/mesh_import.h"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "model/shape/detail_paint.h"
+#include "model/shape/detail/detail_paint.h"
 #include "viscera/model/scene/scene.h"
 #include "viscera/model/shape/solid.h"
 #include "viscera/model/shape/triangle_mesh.h"

@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "model/scene/structure_rules.h"
-#include "model/shape/tissue.h"
+#include "model/shape/organ/tissue.h"
 #include "viscera/math/error.h"
 
 namespace viscera {

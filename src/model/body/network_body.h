@@ -3,7 +3,7 @@
 #pragma once
 
 #include "model/body/fixed_nodes.h"
-#include "model/shape/tissue.h"
+#include "model/shape/organ/tissue.h"
 
 namespace viscera {
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "model/shape/tetrahedra_mesh.h"
+#include "model/shape/solid/tetrahedra_mesh.h"
 #include "viscera/model/model.h"
 
 namespace viscera {

@@ -4,7 +4,7 @@
 
 #include <cstddef>
 
-#include "model/shape/tissue.h"
+#include "model/shape/organ/tissue.h"
 
 namespace viscera {
 

@@ -8,7 +8,7 @@
 #include "model/body/network_builder.h"
 #include "model/body/spacing_search.h"
 #include "model/scene/structure_rules.h"
-#include "model/shape/tissue.h"
+#include "model/shape/organ/tissue.h"
 #include "viscera/math/error.h"
 #include "viscera/model/body/spacing_choice.h"
 

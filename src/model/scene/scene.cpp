@@ -7,11 +7,11 @@
 #include <filesystem>
 
 #include "math/memory_for.h"
+#include "model/scene/file_bounds.h"
 #include "model/scene/integrators.h"
 #include "model/scene/structure_rules.h"
 #include "model/scene/yaml_overrides.h"
 #include "model/scene/yaml_reader.h"
-#include "model/shape/file_bounds.h"
 #include "viscera/math/error.h"
 
 namespace viscera {

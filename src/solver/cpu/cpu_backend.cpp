@@ -7,10 +7,10 @@
 
 #include "gpu/buffer.h"
 #include "math/float_bits.h"
-#include "solver/cpu/lattice_arrays.h"
-#include "solver/cpu/network.h"
-#include "solver/cpu/node_pairs.h"
-#include "solver/tool_boxes.h"
+#include "solver/contact/tool_boxes.h"
+#include "solver/cpu/steps/network.h"
+#include "solver/cpu/store/lattice_arrays.h"
+#include "solver/cpu/text/node_pairs.h"
 #include "viscera/math/error.h"
 #include "viscera/solver/material.h"
 
@@ -186,7 +186,7 @@ void CpuBackend::measure() {
   stats_ = out;
 }
 
-/// Largest (2 sum k + volume) / m of a node that is not fixed [1/s2] (physics.md 2; shaders/solver/measure.comp).
+/// Largest (2 sum k + volume) / m of a node that is not fixed [1/s2] (physics.md 2; shaders/solver/step/measure.comp).
 float CpuBackend::largestRate() const {
   float largest = 0;
   for (uint32_t slot : lattice_.store.active) {

@@ -7,14 +7,14 @@
 #include <string>
 #include <vector>
 
-#include "solver/cpu/cpu_lattice.h"
-#include "solver/cpu/cpu_stepper.h"
-#include "solver/cpu/sleep.h"
-#include "solver/cpu/surroundings.h"
-#include "solver/cpu/thread_pool.h"
-#include "solver/cpu/tool_passes.h"
-#include "solver/solver_backend.h"
-#include "solver/tick_plan.h"
+#include "solver/cpu/steps/surroundings.h"
+#include "solver/cpu/store/cpu_lattice.h"
+#include "solver/cpu/store/cpu_stepper.h"
+#include "solver/cpu/store/sleep.h"
+#include "solver/cpu/store/thread_pool.h"
+#include "solver/cpu/text/tool_passes.h"
+#include "solver/ticks/solver_backend.h"
+#include "solver/ticks/tick_plan.h"
 
 namespace viscera {
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "solver/cpu/cpu_backend.h"
-#include "solver/ticks.h"
+#include "solver/ticks/ticks.h"
 
 namespace viscera {
 

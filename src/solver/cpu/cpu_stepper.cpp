@@ -1,12 +1,12 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "solver/cpu/cpu_stepper.h"
+#include "solver/cpu/store/cpu_stepper.h"
 
 #include "model/scene/integrators.h"
-#include "solver/cpu/leapfrog.h"
-#include "solver/cpu/pd.h"
-#include "solver/cpu/verlet_paper.h"
-#include "solver/multigrid/cpu_multigrid.h"
+#include "solver/cpu/cpu_multigrid.h"
+#include "solver/cpu/steps/leapfrog.h"
+#include "solver/cpu/steps/pd.h"
+#include "solver/cpu/steps/verlet_paper.h"
 
 namespace viscera {
 

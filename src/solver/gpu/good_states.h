@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "solver/gpu/lattice_buffers.h"
+#include "solver/gpu/buffers/lattice_buffers.h"
 
 namespace viscera {
 

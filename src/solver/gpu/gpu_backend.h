@@ -7,20 +7,20 @@
 #include <vector>
 
 #include "gpu/readback.h"
-#include "solver/gpu/awake_bricks.h"
-#include "solver/gpu/cut_pass.h"
+#include "solver/gpu/buffers/awake_bricks.h"
+#include "solver/gpu/buffers/lattice_buffers.h"
+#include "solver/gpu/contact/cut_pass.h"
+#include "solver/gpu/contact/grab_pass.h"
+#include "solver/gpu/contact/node_pairs.h"
+#include "solver/gpu/contact/surroundings_pass.h"
+#include "solver/gpu/forces/reaction_pass.h"
 #include "solver/gpu/good_states.h"
-#include "solver/gpu/grab_pass.h"
 #include "solver/gpu/guard_pass.h"
-#include "solver/gpu/lattice_buffers.h"
 #include "solver/gpu/measure_pass.h"
-#include "solver/gpu/node_pairs.h"
-#include "solver/gpu/reaction_pass.h"
 #include "solver/gpu/rest_watch.h"
-#include "solver/gpu/stepper.h"
-#include "solver/gpu/surroundings_pass.h"
-#include "solver/solver_backend.h"
-#include "solver/tick_plan.h"
+#include "solver/gpu/steps/stepper.h"
+#include "solver/ticks/solver_backend.h"
+#include "solver/ticks/tick_plan.h"
 
 namespace viscera {
 

@@ -3,15 +3,15 @@
 #pragma once
 
 #include "gpu/program.h"
-#include "solver/features.h"
-#include "solver/gpu/lattice_buffers.h"
+#include "solver/gpu/buffers/lattice_buffers.h"
+#include "solver/tissue/features.h"
 #include "viscera/solver/governor.h"
 #include "viscera/tools/stylus.h"
 
 namespace viscera {
 
 /// Puts a good state in the place of a bad one before anybody sees it, without asking the host: the governor, which
-/// judges a tick later, then only says how to go on (physics.md 3). Owner of shaders/solver/guard.comp.
+/// judges a tick later, then only says how to go on (physics.md 3). Owner of shaders/solver/step/guard.comp.
 class GuardPass {
  public:
   explicit GuardPass(const FeatureSet& features);

@@ -6,7 +6,7 @@
 
 #include "gpu/gl.h"
 #include "layout/bindings.h"
-#include "solver/gpu/sum_tree.h"
+#include "solver/gpu/buffers/sum_tree.h"
 
 namespace viscera {
 

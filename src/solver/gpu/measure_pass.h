@@ -5,13 +5,13 @@
 #include <array>
 
 #include "gpu/program.h"
-#include "solver/features.h"
-#include "solver/gpu/lattice_buffers.h"
+#include "solver/gpu/buffers/lattice_buffers.h"
+#include "solver/tissue/features.h"
 
 namespace viscera {
 
 /// Non-finite nodes, largest stretch and speed, energies, held nodes, once a tick.
-/// Owner of shaders/solver/measure.comp.
+/// Owner of shaders/solver/step/measure.comp.
 class MeasurePass {
  public:
   MeasurePass(const FeatureSet& features, size_t active_count);

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "math/float_bits.h"
-#include "solver/joined_lattice.h"
+#include "solver/tissue/joined_lattice.h"
 
 namespace viscera {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "layout/awake_bricks.h"
-#include "solver/gpu/awake_bricks.h"
+#include "solver/gpu/buffers/awake_bricks.h"
 #include "viscera/model/model.h"
 
 namespace viscera {

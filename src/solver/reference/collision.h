@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "solver/collision.h"
+#include "solver/contact/collision.h"
 #include "viscera/solver/state.h"
 
 namespace viscera {

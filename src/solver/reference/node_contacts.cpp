@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solver/reference/node_contacts.h"
 
-#include "solver/node_pairs.h"
+#include "solver/contact/node_pairs.h"
 #include "solver/reference/reference_surroundings.h"
 
 namespace viscera {

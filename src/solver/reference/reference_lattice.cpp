@@ -4,14 +4,14 @@
 
 #include <algorithm>
 
-#include "solver/joined_lattice.h"
+#include "solver/tissue/joined_lattice.h"
 
 namespace viscera {
 
 namespace {
 
 constexpr float kLeastFraction = 1.0f / (1 << 24);  ///< of a spring's length, where a cut is noted: 0 means whole
-constexpr double kLeastShare = 0.02;                ///< of a spring of a lattice (shaders/solver/blade.glsl)
+constexpr double kLeastShare = 0.02;                ///< of a spring of a lattice (shaders/solver/tools/blade.glsl)
 constexpr std::array<int, 8> kNoCells = {-1, -1, -1, -1, -1, -1, -1, -1};
 
 Vector3i cornerOffset(size_t corner) {

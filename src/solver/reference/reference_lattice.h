@@ -7,8 +7,8 @@
 #include <map>
 #include <vector>
 
-#include "solver/fields.h"
 #include "solver/reference/moment_energy.h"
+#include "solver/tissue/fields.h"
 #include "viscera/model/model.h"
 #include "viscera/solver/material.h"
 
@@ -33,7 +33,7 @@ class ReferenceLattice {
   std::vector<float> spring_cut;        ///< [springs] of all networks, as in CutSprings: 0 whole
   std::vector<double> axial_cut;        ///< [3 * slots] of lattices of either kind, as in CutSprings
   std::vector<Vector3d> cut_sides;  ///< [slots] unit normal of a cut towards the node, zero where there is none: see
-                                    ///< shaders/solver/cut_sides.glsl
+                                    ///< shaders/solver/tools/cut_sides.glsl
 
   size_t slots() const { return nodes.size(); }
   Vector3d restPosition(uint32_t slot) const { return rest_m_[slot]; }

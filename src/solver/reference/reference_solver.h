@@ -7,9 +7,9 @@
 #include <memory>
 #include <vector>
 
+#include "solver/contact/tool_acts.h"
 #include "solver/reference/reference_lattice.h"
 #include "solver/reference/reference_obstacle.h"
-#include "solver/tool_acts.h"
 #include "viscera/solver/solver.h"
 
 namespace viscera {

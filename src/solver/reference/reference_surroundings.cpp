@@ -7,10 +7,10 @@
 #include <map>
 
 #include "layout/touch_depths.h"
-#include "solver/collision.h"
-#include "solver/node_pairs.h"
+#include "solver/contact/collision.h"
+#include "solver/contact/node_pairs.h"
+#include "solver/contact/surroundings.h"
 #include "solver/reference/reference_solver.h"
-#include "solver/surroundings.h"
 
 namespace viscera {
 

@@ -5,8 +5,8 @@
 #include <array>
 #include <vector>
 
-#include "solver/fields.h"
 #include "solver/reference/reference_lattice.h"
+#include "solver/tissue/fields.h"
 #include "viscera/model/model.h"
 
 namespace viscera {

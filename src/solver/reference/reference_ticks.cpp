@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "solver/reference/reference_surroundings.h"
-#include "solver/substeps.h"
+#include "solver/tissue/substeps.h"
 #include "tools/motion_packing.h"
 
 namespace viscera {

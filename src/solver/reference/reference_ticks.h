@@ -4,8 +4,8 @@
 
 #include <vector>
 
+#include "solver/contact/surroundings.h"
 #include "solver/reference/reference_solver.h"
-#include "solver/surroundings.h"
 #include "viscera/tools/stylus.h"
 
 namespace viscera {

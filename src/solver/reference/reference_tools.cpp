@@ -13,7 +13,7 @@ namespace {
 
 const double kErasedFraction = static_cast<double>(layout::kErasedShare);  ///< of a spring whose end was erased
 
-constexpr double kOverlap = 1e-3;  ///< of a sweep with the one before (shaders/solver/blade.glsl)
+constexpr double kOverlap = 1e-3;  ///< of a sweep with the one before (shaders/solver/tools/blade.glsl)
 
 Vector3d xyz(const layout::vec4& v) {
   return {v.x, v.y, v.z};
@@ -77,7 +77,7 @@ void probe(const layout::ToolMotion& m, double below_m, double dt_s, double long
   v_next -= std::min(0.0, (v_next - travel / dt_s).dot(normal)) * normal;
 }
 
-/// The blade of one substep, as springs of lattices see it (shaders/solver/cut_sides.glsl).
+/// The blade of one substep, as springs of lattices see it (shaders/solver/tools/cut_sides.glsl).
 struct Sweep {
   Vector3d from, far_from, far_to, to;
 

@@ -3,9 +3,9 @@
 #include <cstring>
 #include <limits>
 
-#include "solver/cpu/surroundings.h"
-#include "solver/cpu/thread_pool.h"
-#include "solver/substeps.h"
+#include "solver/cpu/steps/surroundings.h"
+#include "solver/cpu/store/thread_pool.h"
+#include "solver/tissue/substeps.h"
 #include "support/backends.h"
 #include "support/features.h"
 #include "support/loose_cloth.h"

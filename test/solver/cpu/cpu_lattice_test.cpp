@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "solver/cpu/cpu_lattice.h"
+#include "solver/cpu/store/cpu_lattice.h"
 
 #include "support/features.h"
 #include "support/implicit.h"

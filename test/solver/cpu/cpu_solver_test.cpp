@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solver/cpu/cpu_solver.h"
 
-#include "solver/joined_lattice.h"
+#include "solver/tissue/joined_lattice.h"
 #include "support/backends.h"
 #include "support/implicit.h"
 #include "support/text.h"

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Integrators of the CPU by themselves, on threads of a test's own; that they are right is tested on every backend
 // (test/solver/*_gl_test.cpp).
-#include "solver/cpu/cpu_stepper.h"
+#include "solver/cpu/store/cpu_stepper.h"
 
 #include <thread>
 
-#include "solver/cpu/tool_passes.h"
+#include "solver/cpu/text/tool_passes.h"
 #include "support/features.h"
 #include "support/implicit.h"
 #include "tools/motion_packing.h"

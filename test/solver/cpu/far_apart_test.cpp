@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "solver/cpu/cpu_solver.h"
-#include "solver/joined_lattice.h"
+#include "solver/tissue/joined_lattice.h"
 #include "support/lattices.h"
 
 namespace viscera {

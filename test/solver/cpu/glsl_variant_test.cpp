@@ -5,7 +5,7 @@
 
 #include <type_traits>
 
-#include "solver/cpu/glsl_kernel.h"
+#include "solver/cpu/text/glsl_kernel.h"
 
 namespace viscera::glsl {
 namespace {
@@ -18,25 +18,25 @@ struct CellKernel : Kernel {
 
 #define VARIANT_NAME TearFirst
 #define VARIANT_BASE CellKernel
-#define VARIANT_TEXT "shaders/solver/volume.comp"
+#define VARIANT_TEXT "shaders/solver/tissue/volume.comp"
 #define VARIANT_FEATURES WITH_CUT | WITH_VOLUME
 #define VARIANT_MEMBERS                     \
   uint corners() {                          \
     return cornerSlot(0u, 1u) + cell_count; \
   }
-#include "solver/cpu/glsl_variant.inc"
+#include "solver/cpu/text/glsl_variant.inc"
 
 #define VARIANT_NAME Forces
 #define VARIANT_BASE CellKernel
-#define VARIANT_TEXT "shaders/solver/volume.comp"
+#define VARIANT_TEXT "shaders/solver/tissue/volume.comp"
 #define VARIANT_FEATURES WITH_VOLUME
-#include "solver/cpu/glsl_variant.inc"
+#include "solver/cpu/text/glsl_variant.inc"
 
 #define VARIANT_NAME TearAfterwards
 #define VARIANT_BASE CellKernel
-#define VARIANT_TEXT "shaders/solver/volume.comp"
+#define VARIANT_TEXT "shaders/solver/tissue/volume.comp"
 #define VARIANT_FEATURES WITH_VOLUME | WITH_CUT
-#include "solver/cpu/glsl_variant.inc"
+#include "solver/cpu/text/glsl_variant.inc"
 
 #if defined(VOLUME) || defined(CUT) || defined(LATTICE) || defined(NETWORK) || defined(INOUT) || defined(precise) || \
     defined(FOR_EACH_SPRING) || defined(VARIANT_NAME) || defined(VARIANT_FEATURES) || defined(VARIANT_MEMBERS)

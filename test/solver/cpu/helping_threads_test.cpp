@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "solver/cpu/helping_threads.h"
+#include "solver/cpu/store/helping_threads.h"
 
 #include <gtest/gtest.h>
 

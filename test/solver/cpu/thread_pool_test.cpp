@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "solver/cpu/thread_pool.h"
+#include "solver/cpu/store/thread_pool.h"
 
 #include <gtest/gtest.h>
 #include <time.h>

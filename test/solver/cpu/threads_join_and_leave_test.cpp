@@ -8,7 +8,7 @@
 #include <thread>
 
 #include "solver/cpu/cpu_solver.h"
-#include "solver/cpu/thread_pool.h"
+#include "solver/cpu/store/thread_pool.h"
 #include "support/lattices.h"
 #include "viscera/math/state_hash.h"
 

@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "solver/cpu/tool_passes.h"
+#include "solver/cpu/text/tool_passes.h"
 
 #include "support/features.h"
 #include "support/random_state.h"

@@ -12,7 +12,8 @@
 namespace viscera {
 
 /// The 18 neighbours of a lattice node in the order of the spring index: six axial, then twelve face-diagonal.
-/// The opposite of spring s, seen from its other end, is s ^ 1. shaders/solver/lattice.glsl lists the same order.
+/// The opposite of spring s, seen from its other end, is s ^ 1. shaders/solver/tissue/lattice.glsl lists the same
+/// order.
 constexpr std::array<std::array<int, 3>, layout::kSpringsPerNode> kNeighborOffsets = {{
     {1, 0, 0},
     {-1, 0, 0},

@@ -27,7 +27,7 @@ struct Skin {
   std::vector<SplitEdge> split_edges;         ///< of a network that can be cut
   /// [triangles] split edges 01, 12, 20, or kNoSplitEdge; empty unless a network's that can be cut
   std::vector<std::array<uint32_t, 3>> triangle_edges;
-  bool can_be_cut = false;       ///< some tool of the scene may: wounds get ready (surface/wounds.h)
+  bool can_be_cut = false;       ///< some tool of the scene may: wounds get ready (surface/wounds/wounds.h)
   bool two_sided = false;        ///< a sheet with borders: its back is not the inside of something
   size_t deep_vertices = 0;      ///< bound inside the body, too far from its boundary
   size_t constant_vertices = 0;  ///< that the mapping asked for cannot carry, so that the constant one does

@@ -1,0 +1,90 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bench/harness/machine/machine.h"
+
+#include <malloc.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstring>
+#include <fstream>
+#include <thread>
+
+#include "bench/harness/machine/machine_threads.h"
+#include "math/aligned.h"
+
+namespace viscera::bench {
+
+namespace {
+
+constexpr int kCopies = 5;
+
+/// "48K" -> 49152
+double bytesOf(const std::string& text) {
+  const double number = std::strtod(text.c_str(), nullptr);
+  const char unit = text.empty() ? ' ' : text.back();
+  return number * (unit == 'K' ? 1024 : unit == 'M' ? 1024 * 1024 : 1);
+}
+
+std::string wordIn(const std::string& file) {
+  std::ifstream stream(file);
+  std::string word;
+  stream >> word;
+  return word;
+}
+
+/// Of one thread: its own arrays, the best of some copies.
+double copyAlone(size_t bytes) {
+  AlignedVector<char> from(bytes, 1), to(bytes);
+  double best_s = 1e9;
+  for (int i = 0; i < kCopies; ++i) {
+    const auto start = std::chrono::steady_clock::now();
+    std::memcpy(to.data(), from.data(), bytes);
+    best_s = std::min(best_s, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    from[static_cast<size_t>(i)] = to[bytes - 1];  // a copy that is not looked at might be left out
+  }
+  return 2 * static_cast<double>(bytes) / best_s;
+}
+
+}  // namespace
+
+double sumOverThreads(int threads, const std::function<double()>& measure) {
+  std::vector<double> results(static_cast<size_t>(threads));
+  std::vector<std::thread> others;
+  for (size_t t = 1; t < results.size(); ++t) others.emplace_back([&, t] { results[t] = measure(); });
+  results[0] = measure();
+  for (std::thread& other : others) other.join();
+  double sum = 0;
+  for (double result : results) sum += result;
+  return sum;
+}
+
+double copyRate(int threads, size_t mebibytes) {
+  return sumOverThreads(threads, [&] { return copyAlone(mebibytes << 20); });
+}
+
+std::vector<Cache> caches() {
+  std::vector<Cache> out;
+  for (int i = 0; i < 8; ++i) {
+    const std::string folder = "/sys/devices/system/cpu/cpu0/cache/index" + std::to_string(i) + "/";
+    const std::string type = wordIn(folder + "type");
+    if (type == "Data" || type == "Unified")
+      out.push_back({std::atoi(wordIn(folder + "level").c_str()), bytesOf(wordIn(folder + "size"))});
+  }
+  return out;
+}
+
+double residentBytes() {
+  malloc_trim(0);
+  std::ifstream stream("/proc/self/statm");
+  double size = 0, resident = 0;
+  stream >> size >> resident;
+  return resident * static_cast<double>(sysconf(_SC_PAGESIZE));
+}
+
+int processors() {
+  return static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+}
+
+}  // namespace viscera::bench

@@ -1,0 +1,65 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <GL/glew.h>
+
+#include <algorithm>
+#include <chrono>
+#include <string>
+
+#include "bench/harness/machine/machine.h"
+#include "gpu/buffer.h"
+#include "gpu/program.h"
+#include "viscera/layout/limits.h"
+
+namespace viscera::bench {
+
+namespace {
+
+constexpr int kRepeats = 5;
+constexpr size_t kInvocations = size_t{1} << 16;
+constexpr double kOperations = 16;  // of a round of an invocation (bench_fma.comp)
+
+template <class Work>
+double secondsOnGpu(const Work& work) {
+  glFinish();
+  const auto start = std::chrono::steady_clock::now();
+  work();
+  glFinish();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// The first time is not counted.
+template <class Work>
+double bestOnGpu(const Work& work) {
+  work();
+  double best_s = 1e9;
+  for (int i = 0; i < kRepeats; ++i) best_s = std::min(best_s, secondsOnGpu(work));
+  return best_s;
+}
+
+}  // namespace
+
+double gpuCopyRate(size_t mebibytes) {
+  gpu::Buffer<float> from((mebibytes << 20) / sizeof(float)), to(from.size());
+  const double bytes = static_cast<double>(from.size() * sizeof(float));
+  return 2 * bytes / bestOnGpu([&] { to.copyFrom(from); });
+}
+
+double gpuFmaRate(double seconds) {
+  const gpu::Program program =
+      gpu::Program::compute("bench_fma.comp", {"GROUP_SIZE " + std::to_string(layout::kGroupSize)});
+  gpu::Buffer<layout::vec4> out(kInvocations);
+  program.use();
+  out.bindStorage(0);
+  const auto run = [&program](int rounds) {
+    program.set("rounds", rounds);
+    gpu::Program::dispatch(kInvocations, layout::kGroupSize);
+  };
+  int rounds = 64;
+  run(rounds);  // compiles
+  const double once_s = secondsOnGpu([&] { run(rounds); });
+  rounds = std::clamp(static_cast<int>(rounds * seconds / kRepeats / once_s), rounds, 1 << 20);
+  return kOperations * kInvocations * rounds / bestOnGpu([&] { run(rounds); });
+}
+
+}  // namespace viscera::bench

@@ -1,0 +1,101 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
+
+#include "bench/harness/specimens/beam.h"
+#include "bench/harness/work_precision.h"
+#include "bench/suites/accuracy/accuracy_parts.h"
+
+namespace viscera::bench {
+
+namespace {
+
+Model cantilever(const MaterialConfig& material) {
+  return beamModel({3, 3, 15}, material);
+}
+/// A shell of one to two cells.
+Model dome(const MaterialConfig& material) {
+  return domeModel(6, 1.6, kBeamSpacing_m, material);
+}
+
+/// A body, its material and its ticks.
+struct Tissue {
+  Model (*make)(const MaterialConfig&);
+  double poisson_ratio;
+  int tick_in_dt_safe;
+  Vector3d pull_m_per_s2;
+  double truth_error;  ///< what Richardson may still correct: well below the errors that are told apart
+  const char *stem, *title;
+};
+// m/s2: a tenth of the beam's length, a twentieth of the dome's radius.
+const Vector3d kAcross(1, 0, 0), kAside(25, 0, 0);
+constexpr double kBeamTruth = 1e-6, kDomeTruth = 1e-4;  // below float32's error; a tenth of leapfrog's
+// Of stiff, nearly incompressible tissue a tick of 1/60 s is some hundred substeps.
+const Tissue kTissues[] = {
+    {cantilever, 0.25, 32, kAcross, kBeamTruth, "cantilever", "Cantilever of 3x3x15 cells, bent and let go"},
+    {cantilever, 0.49, 128, kAcross, kBeamTruth, "cantilever_049", "Cantilever at nu 0.49, ticks of 128 dt_safe"},
+    {dome, 0.25, 32, kAside, kDomeTruth, "shell", "Dome of 6 cells' radius, wall 1 to 2 cells, drawn aside and let go"},
+    {dome, 0.49, 128, kAside, kDomeTruth, "shell_049", "The same dome at nu 0.49, ticks of 128 dt_safe"}};
+constexpr int kTicks = 8;
+constexpr int kTruthSubsteps = 16;       ///< per dt_safe
+constexpr double kMeasured = 4.0 / 3;    ///< dt_safe: what solver.measured_limit takes at nu 1/4
+constexpr double kDrag_per_s = 4;        ///< a scene's default
+constexpr double kLeapfrogLimit = 1e-4;  ///< physics.md 2 found 1e-5 for smooth motion
+
+/// Substeps per tick of a length in dt_safe.
+int substepsOf(const Tissue& tissue, double in_dt_safe) {
+  return static_cast<int>(std::lround(tissue.tick_in_dt_safe / in_dt_safe));
+}
+
+std::vector<Method> methods(const Tissue& tissue, bool short_form) {
+  std::vector<Method> out;
+  for (Integrator integrator : {Integrator::kLeapfrog, Integrator::kVerletPaper}) {
+    for (double dt : short_form ? std::vector<double>{0.8, 0.5} : std::vector<double>{0.8, 0.5, 0.25, 0.125}) {
+      out.push_back({integrator, substepsOf(tissue, dt)});
+    }
+  }
+  for (int iterations : short_form ? std::vector<int>{5} : std::vector<int>{2, 5, 10, 20, 50}) {
+    for (int substeps : short_form ? std::vector<int>{2, 8} : std::vector<int>{1, 2, 4, 8, 16, 32}) {
+      out.push_back({Integrator::kPd, substeps, iterations});
+    }
+  }
+  for (int substeps : short_form ? std::vector<int>{1, 4} : std::vector<int>{1, 2, 4, 8, 16, 32})
+    out.push_back({Integrator::kMultigrid, substeps});
+  out.push_back({Integrator::kLeapfrog, substepsOf(tissue, kMeasured)});
+  return out;
+}
+
+/// A body bent by gravity, which ends at time 0.
+void measure(Report& report, const Tissue& tissue) {
+  const std::string stem = tissue.stem;
+  report.stage(stem + ", truth in float64");
+  MaterialConfig material;
+  material.poisson_ratio = tissue.poisson_ratio;
+  material.drag_per_s = kDrag_per_s;
+  material.dashpot_ratio = 0;  // verlet_paper knows none
+  Experiment experiment = experimentOf(tissue.make(material), tissue.tick_in_dt_safe, kTicks);
+  experiment.start = stateOf(experiment.model, sag(experiment.model, tissue.pull_m_per_s2));
+  const int substeps = kTruthSubsteps * tissue.tick_in_dt_safe;
+  const Track fine = runReference(experiment, substeps);
+  const Track truth = extrapolated(runReference(experiment, substeps / 2), fine, 2);
+  const double left = misfit(experiment.model, fine, truth).max;
+  report.note("truth: float64 leapfrog at dt_safe/16 and /8, extrapolated; dt_safe/16 alone is off by " +
+              Cell(left).text(3) + "; " + Cell(experiment.duration_s()).text(3) + " s simulated\n");
+  const std::vector<std::vector<Misfit>> errors =
+      drawWorkPrecision(report, experiment, truth, methods(tissue, report.isShort()), stem, tissue.title);
+  report.checkAtMost(stem + ": what is left of dt in the truth", left, tissue.truth_error);
+  if (tissue.make != cantilever) return;  // a dome has waves that no substep near dt_safe follows as well
+  for (size_t b = 0; b < errors.size(); ++b) {
+    const std::string name = nameOf(report.backends()[b]) + ": " + stem + ": rms error of leapfrog at ";
+    report.checkAtMost(name + "0.8 dt_safe", errors[b][0].rms, kLeapfrogLimit);
+    report.checkAtMost(name + "1.33 dt_safe", errors[b].back().rms, kLeapfrogLimit);
+  }
+}
+
+}  // namespace
+
+void measureCantileverPrecision(Report& report) {
+  for (const Tissue& tissue : kTissues) measure(report, tissue);
+}
+
+}  // namespace viscera::bench

@@ -1,0 +1,196 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+
+#include "bench/harness/machine/machine.h"
+#include "bench/harness/specimens/specimen.h"
+#include "bench/suites/gpu/gpu_parts.h"
+#include "gpu/fence.h"
+#include "gpu/stage_clock.h"
+#include "solver/gpu/gpu_solver.h"
+
+namespace viscera::bench {
+
+namespace {
+
+constexpr double kGiga = 1e-9;
+constexpr int kWarmUpTicks = 2, kTicks = 8, kRounds = 5;
+
+/// What a kernel's text asks for per node or cell: float32 operations (a fused multiply-add is two; a root or a
+/// division one), and bytes that must come from memory and go there if every other read is served by caches.
+struct Cost {
+  double flop, bytes;
+};
+
+// leapfrog.comp, spring.glsl. A spring: w 3, e 3, L 6, direction 3, extension 14, k 1, force 7. Its dashpot: 16.
+// A node: acceleration 6, drag 3, velocity 17, displacement 6.
+constexpr double kSpringFlop = 37, kDashpotFlop = 16, kNodeFlop = 32;
+// volume.comp, volume.glsl: mean edges 73, cofactors and e 59, pressure and forces 11. elastic.glsl: a node gathers
+// eight cells, 18 each. By moments (moments.glsl) 810 and 30 more.
+constexpr double kVolumeFlop = 143, kMomentsFlop = 810, kGatherFlop = 8 * 18, kBentGatherFlop = 8 * 30;
+// A list's entry, the node's bits, and vectors of four floats: u and v in and out; u in; 3 or 7 forces of a cell.
+constexpr double kListed = 4 + 8, kVector = 16;
+
+/// What the tissue is made of, besides springs.
+struct Tissue {
+  const char* name;
+  double dashpot_ratio, poisson_ratio;
+  Cells cells;
+};
+constexpr Tissue kTissues[] = {{"springs", 0, 0.25, Cells::kSprings},
+                               {"springs, dashpot", 0.2, 0.25, Cells::kSprings},
+                               {"springs, nu 0.45", 0, 0.45, Cells::kSprings},
+                               {"springs, nu 0.45, dashpot", 0.2, 0.45, Cells::kSprings},
+                               {"by moments, nu 0.45, dashpot", 0.2, 0.45, Cells::kMoments}};
+
+bool hasCells(const Tissue& tissue) {
+  return tissue.poisson_ratio != 0.25 || tissue.cells == Cells::kMoments;
+}
+
+double cellVectors(const Tissue& tissue) {
+  return tissue.cells == Cells::kMoments ? 7 : 3;
+}
+
+Cost costOfStep(const Tissue& tissue) {
+  Cost out{18 * kSpringFlop + kNodeFlop, kListed + 4 * kVector};
+  if (tissue.dashpot_ratio > 0) out.flop += 18 * kDashpotFlop;
+  if (!hasCells(tissue)) return out;
+  out.flop += kGatherFlop + (tissue.cells == Cells::kMoments ? kBentGatherFlop : 0);
+  out.bytes += cellVectors(tissue) * kVector;
+  return out;
+}
+
+Cost costOfCells(const Tissue& tissue) {
+  return {kVolumeFlop + (tissue.cells == Cells::kMoments ? kMomentsFlop : 0),
+          kListed + kVector + cellVectors(tissue) * kVector};
+}
+
+Specimen specimenWith(const Tissue& tissue, int edge) {
+  MaterialConfig material = specimenMaterial(tissue.dashpot_ratio);
+  material.poisson_ratio = tissue.poisson_ratio;
+  material.cells = tissue.cells;
+  return cubeOf(edge, material);
+}
+
+/// Seconds per substep of the stages of a tick, each in the best of the rounds.
+std::array<double, gpu::kStages> timeStages(const Specimen& cube) {
+  GpuSolver solver(cube.model, cube.scene);
+  solver.writeState(cube.start);
+  const auto run = [&solver](int ticks) {
+    layout::TickStats stats;
+    for (int t = 0; t < ticks; ++t) {
+      solver.step({});
+      while (solver.pollStats(stats, false)) {
+      }
+    }
+    gpu::awaitGpu("a measurement");
+  };
+  run(kWarmUpTicks);
+  std::array<double, gpu::kStages> best;
+  best.fill(1e9);
+  for (int round = 0; round < kRounds; ++round) {
+    gpu::StageClock clock;
+    run(kTicks);
+    const auto& times = clock.collect(true);
+    for (size_t s = 0; s < gpu::kStages; ++s)
+      best[s] = std::min(best[s], times[s].seconds / (kTicks * kSpecimenSubsteps));
+  }
+  return best;
+}
+
+/// The limits of the GPU: bytes/s, flop/s.
+struct Limits {
+  double copy, fma;
+};
+
+/// Rates over intensity, under the roof that the limits make.
+struct Roofline {
+  Series step{"a node's step", {}, {}, Series::Style::kPoints}, cells{"cells", {}, {}, Series::Style::kPoints};
+
+  Plot plot(const Limits& limits, const std::string& renderer) const {
+    Plot out{"Kernels of leapfrog on " + renderer, "flop per byte", "GFLOP/s", true, true, {}};
+    Series roof{"limits, measured", {}, {}, Series::Style::kLines};
+    const double balance = limits.fma / limits.copy;
+    for (const double x : {std::min(1.0, 0.25 * balance), balance, std::max(50.0, 4 * balance)}) {
+      roof.x.push_back(x);
+      roof.y.push_back(kGiga * std::min(limits.fma, limits.copy * x));
+    }
+    out.series = {roof, step, cells};
+    return out;
+  }
+};
+
+/// What one kernel took.
+struct Timed {
+  const Tissue* tissue;
+  const char* kernel;
+  double nodes, seconds;
+  Cost cost;
+};
+
+/// Kernels of a cube in the order in which they run.
+std::vector<Timed> timeKernels(const Tissue& tissue, int edge) {
+  const Specimen cube = specimenWith(tissue, edge);
+  const double nodes = static_cast<double>(cube.nodes());
+  const auto seconds = timeStages(cube);
+  std::vector<Timed> out;
+  if (hasCells(tissue))
+    out.push_back(
+        {&tissue, "volume.comp", nodes, seconds[static_cast<size_t>(gpu::Stage::kVolume)], costOfCells(tissue)});
+  out.push_back({&tissue, "leapfrog.comp", nodes, seconds[static_cast<size_t>(gpu::Stage::kStep)], costOfStep(tissue)});
+  return out;
+}
+
+void addRow(Table& table, Roofline& roofline, const Timed& timed, const Limits& limits) {
+  const double rate = timed.nodes / timed.seconds;
+  const double of_fma = rate * timed.cost.flop / limits.fma, of_copy = rate * timed.cost.bytes / limits.copy;
+  table.add({timed.nodes, timed.tissue->name, timed.kernel, 1e6 * timed.seconds, kGiga * rate, timed.cost.flop,
+             timed.cost.bytes, 100 * of_fma, 100 * of_copy, of_fma > of_copy ? "arithmetic" : "memory"});
+  Series& series = std::string(timed.kernel) == "volume.comp" ? roofline.cells : roofline.step;
+  series.x.push_back(timed.cost.flop / timed.cost.bytes);
+  series.y.push_back(kGiga * rate * timed.cost.flop);
+}
+
+Limits measureLimits(Report& report) {
+  report.stage("copies and multiply-adds");
+  return {gpuCopyRate(report.isShort() ? 32 : 256), gpuFmaRate(report.isShort() ? 0.1 : 1)};
+}
+
+}  // namespace
+
+void measureKernels(Report& report) {
+  const Limits before = measureLimits(report);
+  std::vector<Timed> kernels;
+  for (const int edge : report.isShort() ? std::vector<int>{22} : std::vector<int>{35, 100}) {
+    for (const Tissue& tissue : kTissues) {
+      report.stage(std::string(tissue.name) + ", " + std::to_string(edge) + " nodes to an edge");
+      for (const Timed& timed : timeKernels(tissue, edge)) kernels.push_back(timed);
+    }
+  }
+  const Limits after = measureLimits(report);  // what else the machine did meanwhile is seen, and left out
+  const Limits limits{std::max(before.copy, after.copy), std::max(before.fma, after.fma)};
+  Table measured("limits of this GPU", {{"of"}, {"before", "", 3}, {"after", "", 3}, {"unit"}});
+  measured.add({"copies, read and written", kGiga * before.copy, kGiga * after.copy, "GB/s"});
+  measured.add({"multiply-adds in registers", kGiga * before.fma, kGiga * after.fma, "GFLOP/s"});
+  report.add(measured, "limits");
+  Table table("kernels of a substep of leapfrog on cubes, and what share of the limits they reach",
+              {{"nodes", "", 8},
+               {"tissue"},
+               {"kernel"},
+               {"substep", "us", 3},
+               {"rate", "G/s", 3},
+               {"flop per node"},
+               {"bytes per node"},
+               {"of multiply-add rate", "%", 3},
+               {"of copy rate", "%", 3},
+               {"nearer limit"}});
+  Roofline roofline;
+  for (const Timed& timed : kernels) addRow(table, roofline, timed, limits);
+  report.note(
+      "Operations and bytes are counted in the kernels' text; bytes are those that no cache can spare, so that bodies "
+      "which fit in a cache may pass the copy rate. The larger of either limit counts.\n");
+  report.add(table, "kernels");
+  report.add(roofline.plot(limits, report.context()->renderer()), "roofline");
+}
+
+}  // namespace viscera::bench

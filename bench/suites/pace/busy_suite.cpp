@@ -1,0 +1,154 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <chrono>
+#include <cmath>
+#include <thread>
+
+#include "bench/harness/machine/busy_processes.h"
+#include "bench/harness/specimens/specimen.h"
+#include "bench/suites/pace/performance_suites.h"
+#include "calibration/timed_ticks.h"
+#include "solver/cpu/cpu_solver.h"
+
+namespace viscera::bench {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// On two cores, two threads over the same in an idle machine. One thread of three at a lower priority takes next to
+// nothing; two of four of the same priority leave half.
+constexpr double kBesideLow = 0.9, kBesideTwo = 0.45;
+// Two threads over one under the same load: at least what one has, but for what trying the other number costs
+// (helping_threads.h) and what two measurements under load differ by.
+constexpr double kAlone = 0.95;
+constexpr double kSettle_s = 0.3;  // until the system has spread what is new over the processors
+constexpr int kRounds = 2;
+constexpr double kWarmUp_s = 1.5;  // until the heart hangs and swings as it does later
+constexpr double kSwing_m = 0.002, kDepth_m = 0.003, kTurn = 6.283185307179586;
+
+struct Busy {
+  Load load;
+  double least_of_idle = 0;  ///< two threads; 0: not judged
+};
+
+std::vector<Busy> loadsOf(bool short_form) {
+  std::vector<Busy> out = {
+      {{"none"}}, {{"one of lowest priority", 1, 19}, kBesideLow}, {{"two of normal priority", 2, 0}, kBesideTwo}};
+  if (short_form) return out;
+  out.push_back({{"one of normal priority", 1, 0}});
+  out.push_back({{"one of lowest priority, other terminal", 1, 19, true}});
+  return out;
+}
+
+/// The scene `heart` of the demo.
+Scene demoScene() {
+  Scene scene = pigHeartScene(1000, 0.1);
+  BodyConfig heart;
+  heart.name = "heart";
+  heart.source = TissueSource::kPhantom;
+  heart.phantom_length_m = 0.1;
+  heart.spacing_m = 0.005;
+  heart.skin_spacing_m = 0.003;
+  heart.fixed = scene.bodies[0].fixed;
+  scene.bodies[0] = heart;
+  return scene;
+}
+
+/// The scene stepped on so many threads, with a probe that goes in and out of the heart's side.
+class Stepping {
+ public:
+  Stepping(const Model& model, Scene scene, int threads, std::string name) : name_(std::move(name)) {
+    scene.solver.threads = threads;
+    solver_ = std::make_unique<CpuSolver>(model, scene);
+    tick_s_ = 1 / scene.solver.tick_hz;
+    side_m_ = farthestNode(model, solver_->readState(), Vector3d::UnitX()) +
+              scene.styluses[0].probe.radius_m * Vector3d::UnitX();
+    tip_m_ = tipAt(0);
+  }
+  const std::string& name() const { return name_; }
+  /// Steps for some time on the clock.
+  void run(double seconds) {
+    const uint64_t before = solver_->substepsDone();
+    const Clock::time_point start = Clock::now();
+    std::chrono::duration<double> took{0};
+    while (took.count() < seconds) {
+      tick();
+      took = Clock::now() - start;
+    }
+    seconds_ += took.count();
+    substeps_ += static_cast<double>(solver_->substepsDone() - before);
+  }
+  /// Substeps per second since the last time.
+  double takeRate() {
+    const double rate = substeps_ / seconds_;
+    substeps_ = seconds_ = 0;
+    return rate;
+  }
+
+ private:
+  Vector3d tipAt(double time_s) const {
+    return side_m_ - (kDepth_m - kSwing_m * std::cos(kTurn * time_s)) * Vector3d::UnitX();
+  }
+  void tick() {
+    ToolMotions motions = probeAt(tip_m_);
+    tip_m_ = tipAt(++ticks_ * tick_s_);
+    motions[0].to.position_m = tip_m_;
+    stepAndWait(*solver_, motions);
+  }
+
+  std::string name_;
+  std::unique_ptr<CpuSolver> solver_;
+  double tick_s_ = 0, substeps_ = 0, seconds_ = 0;
+  int ticks_ = 0;
+  Vector3d side_m_, tip_m_;
+};
+
+/// Substeps per second of each, in turn.
+std::vector<double> ratesOf(std::vector<Stepping>& ways, double seconds) {
+  for (int round = 0; round < kRounds; ++round) {
+    for (Stepping& way : ways) way.run(seconds);
+  }
+  std::vector<double> rates;
+  for (Stepping& way : ways) rates.push_back(way.takeRate());
+  return rates;
+}
+
+}  // namespace
+
+void busySuite(Report& report) {
+  const Scene scene = demoScene();
+  report.stage("building");
+  const Model model = buildModel(scene);
+  const int there = static_cast<int>(std::thread::hardware_concurrency());
+  std::vector<Stepping> ways;
+  ways.emplace_back(model, scene, 1, "1 thread");
+  ways.emplace_back(model, scene, 2, "2 threads");
+  ways.emplace_back(model, scene, 0, "auto (" + std::to_string(there) + ")");
+  const double seconds = report.isShort() ? 0.1 : 2.5;
+  for (Stepping& way : ways) {
+    way.run(report.isShort() ? seconds : kWarmUp_s);
+    way.takeRate();
+  }
+  Table table(
+      "heart of " + std::to_string(model.activeNodes()) + " nodes, a probe in it, beside busy processes, on " +
+          std::to_string(there) + " processors",
+      {{"busy processes"}, {"stepped by"}, {"rate", "substeps/s", 3}, {"over idle", "", 2}, {"over 1 thread", "", 2}});
+  std::vector<double> idle;
+  for (const Busy& busy : loadsOf(report.isShort())) {
+    report.stage("beside: " + busy.load.name);
+    const BusyProcesses processes(busy.load);
+    if (busy.load.processes > 0) std::this_thread::sleep_for(std::chrono::duration<double>(kSettle_s));
+    const std::vector<double> rates = ratesOf(ways, seconds);
+    if (idle.empty()) idle = rates;
+    for (size_t w = 0; w < ways.size(); ++w)
+      table.add({busy.load.name, ways[w].name(), rates[w], rates[w] / idle[w], rates[w] / rates[0]});
+    if (busy.least_of_idle > 0)
+      report.checkAtLeast("2 threads beside " + busy.load.name + ", over idle", rates[1] / idle[1], busy.least_of_idle);
+    if (busy.load.processes > 0)
+      report.checkAtLeast("2 threads over 1, beside " + busy.load.name, rates[1] / rates[0], kAlone);
+  }
+  report.add(table, "rates");
+}
+
+}  // namespace viscera::bench

@@ -1,0 +1,132 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bench/harness/machine/machine.h"
+#include "bench/harness/rate.h"
+#include "bench/suites/pace/performance_suites.h"
+
+namespace viscera::bench {
+
+namespace {
+
+// Float32 operations of a node update of the CPU's leapfrog in mild states (src/solver/cpu/simd/kernels.cpp),
+// additions, subtractions and multiplications; a fused multiply-add is two. Comparisons, selections, loads are none.
+//   spring  w 3, w + 2d 1 or 2, w.(w + 2d) 5, q 1, d + w 1 or 2, phi 10, k q phi 2, force 6
+//   dashpot dv 3, dv.e 5, over l0^2 1, l0/L 2 and its square 1, sum 2
+//   node    acceleration 6, velocity 12 + 3, displacement 3 + 3, how far away 5, how fast 5
+constexpr double kAxialFlop = 29, kDiagonalFlop = 31, kNodeFlop = 37, kDashpotFlop = 14;
+constexpr double kFlop = 6 * kAxialFlop + 12 * kDiagonalFlop + kNodeFlop;
+constexpr double kFlopWithDashpot = kFlop + 18 * kDashpotFlop;
+// Instructions that these take, for whole vectors: of operations on registers alone, fused ones once, with comparisons
+// and selections (four a spring: is it there, is it the most strained). The rest of the peak cannot be had even if
+// nothing else were to be done.
+constexpr double kInstructions = 6 * 23 + 12 * 25 + 35;
+// Bytes of a node update: u and v read and written, 1/m read; 18 stiffnesses where a brick holds a surface or a cut.
+constexpr double kBytes = 4 * 12 + 4, kStiffnessBytes = 18 * 4;
+
+constexpr double kGiga = 1e-9;
+
+struct Limits {
+  double copy, fma;  ///< bytes/s, flop/s
+};
+
+Limits hostLimits(int threads, bool short_form) {
+  return {copyRate(threads, short_form ? 64 : 512), fmaRate(threads, short_form ? 0.1 : 1)};
+}
+
+Limits gpuLimits(bool short_form) {
+  return {gpuCopyRate(short_form ? 32 : 256), gpuFmaRate(short_form ? 0.1 : 1)};
+}
+
+void addMachine(Table& table, const std::string& of, const std::string& with, const Limits& limits) {
+  table.add({of, with, kGiga * limits.copy, kGiga * limits.fma, limits.fma / limits.copy});
+}
+
+/// Share of the nodes whose bricks are not full of whole springs.
+double roughShare(const Model& model) {
+  const Lattice& lattice = model.bodies[0].lattice;
+  const auto whole = [&](uint32_t slot) {
+    for (uint32_t s = 0; s < layout::kSpringsPerNode; ++s) {
+      if (springCount(lattice.nodes[slot], s) != (isAxial(s) ? 4u : 2u)) return false;
+    }
+    return true;
+  };
+  size_t rough = 0, in_brick = 0, whole_in_brick = 0;
+  for (size_t i = 0; i < lattice.active_slots.size(); ++i) {
+    const uint32_t slot = lattice.active_slots[i];
+    ++in_brick;
+    whole_in_brick += whole(slot) ? 1 : 0;
+    if (i + 1 < lattice.active_slots.size() && lattice.active_slots[i + 1] / 64 == slot / 64) continue;
+    if (whole_in_brick < layout::kBrickSlots) rough += in_brick;
+    in_brick = whole_in_brick = 0;
+  }
+  return static_cast<double>(rough) / static_cast<double>(lattice.active_slots.size());
+}
+
+void addReached(Table& table, const std::string& name, const Rate& rate, double flop, double bytes,
+                const Limits& limits) {
+  const double of_fma = rate.node_updates_per_s * flop / limits.fma;
+  const double of_copy = rate.node_updates_per_s * bytes / limits.copy;
+  table.add({name, rate.node_updates_per_s * 1e-6, flop, bytes, flop / bytes, of_fma, of_copy,
+             of_fma > of_copy ? "arithmetic" : "memory"});
+}
+
+struct Case {
+  int edge;
+  double dashpot;
+};
+std::vector<Case> casesOf(bool short_form) {
+  if (short_form) return {{22, 0}, {22, 0.2}};
+  return {{35, 0}, {35, 0.2}, {100, 0}};
+}
+
+struct Machine {
+  Limits one, all;
+};
+
+void measureCase(Report& report, const Case& c, const Machine& machine, Table& table) {
+  const Specimen cube = cubeOf(c.edge, specimenMaterial(c.dashpot));
+  const std::string name = Cell(static_cast<double>(cube.nodes())).text(8) + (c.dashpot > 0 ? ", dashpot" : "");
+  report.stage("cube of " + name);
+  const double flop = c.dashpot > 0 ? kFlopWithDashpot : kFlop;
+  const double bytes = kBytes + kStiffnessBytes * roughShare(cube.model);
+  const std::vector<Rate> rates =
+      measureRates({candidate("", onCpu(cube, 1), cube.nodes()), candidate("", onCpu(cube), cube.nodes())},
+                   report.isShort() ? 0.02 : 0.3);
+  addReached(table, "cpu, 1 thread: " + name, rates[0], flop, bytes, machine.one);
+  addReached(table, "cpu, all threads: " + name, rates[1], flop, bytes, machine.all);
+}
+
+}  // namespace
+
+void limitSuite(Report& report, gpu::Context& context) {
+  report.stage("copies and multiply-adds");
+  const int threads = processors();
+  const Limits one = hostLimits(1, report.isShort()), all = hostLimits(threads, report.isShort());
+  const Limits gpu = gpuLimits(report.isShort());
+  Table machine("this machine", {{"of"},
+                                 {"with"},
+                                 {"copy (read + write)", "GB/s", 3},
+                                 {"multiply-add", "GFLOP/s", 3},
+                                 {"balance", "flop/byte", 3}});
+  addMachine(machine, "processor, 1 thread", fmaTarget(), one);
+  addMachine(machine, "processor, " + std::to_string(threads) + " threads", fmaTarget(), all);
+  addMachine(machine, "OpenGL", context.renderer(), gpu);
+  report.add(machine, "machine");
+
+  Table reached("leapfrog on a cube, of these limits", {{"backend"},
+                                                        {"rate", "M node updates/s"},
+                                                        {"flop per update"},
+                                                        {"bytes per update"},
+                                                        {"intensity", "flop/byte", 3},
+                                                        {"of multiply-add rate", "", 3},
+                                                        {"of copy rate", "", 3},
+                                                        {"nearer limit"}});
+  for (const Case& c : casesOf(report.isShort())) measureCase(report, c, {one, all}, reached);
+  report.note("Of " + Cell(kFlop).text(4) + " operations, of which fused ones count twice, " +
+              Cell(kInstructions).text(4) + " instructions are made: arithmetic alone cannot pass " +
+              Cell(kFlop / (2 * kInstructions)).text(2) +
+              " of the multiply-add rate. Copies are from main memory: what fits in caches may pass their rate.\n");
+  report.add(reached, "fraction");
+}
+
+}  // namespace viscera::bench

@@ -1,0 +1,275 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <chrono>
+#include <iterator>
+#include <memory>
+#include <utility>
+
+#include "bench/harness/rate.h"
+#include "bench/harness/similarity.h"
+#include "bench/harness/specimens/specimen.h"
+#include "bench/suites/pace/performance_suites.h"
+#include "gpu/stage_clock.h"
+#include "session/inline_view.h"
+#include "surface/follow/state_mirror.h"
+#include "viscera/gpu/context.h"
+#include "viscera/session/session.h"
+#include "viscera/tools/strokes.h"
+
+namespace viscera::bench {
+
+namespace {
+
+constexpr double kWanted_s = 0.06;  // of a picture on two idle cores without a GPU
+constexpr double kAlike = 0.97;     // structural similarity to the reference
+constexpr double kDent_s = 0.75;    // strokes: a probe goes in
+constexpr double kFlap_s = 6;       // strokes: two cuts are made
+
+/// The scene `heart`, with tools to be seen.
+Scene heartScene() {
+  Scene scene = pigHeartScene(1000, 0.1);
+  BodyConfig& heart = scene.bodies[0];
+  heart = BodyConfig();
+  heart.name = "heart";
+  heart.source = TissueSource::kPhantom;
+  heart.phantom_length_m = 0.1;
+  heart.spacing_m = 0.005;
+  heart.skin_spacing_m = 0.003;
+  FixedConfig top;
+  top.shape = FixedShape::kPlane;
+  top.point_m = Vector3d(0, 0, 0.03);
+  top.normal = -Vector3d::UnitZ();
+  heart.fixed.push_back(top);
+  for (StylusConfig& stylus : scene.styluses) {
+    stylus.button1 = ToolMode::kGrab;
+    stylus.button2 = ToolMode::kCut;
+    stylus.cut.blade_length_m = 0.022;
+  }
+  scene.solver.backend = Backend::kCpu;
+  return scene;
+}
+
+/// A probe dents the front, then a blade cuts along it twice while the other hand holds on.
+constexpr const char* kStrokes = R"(
+strokes:
+  - stylus: left
+    anchor: {from_m: [-0.002, -0.3, -0.015], towards_m: [-0.002, 0, -0.015]}
+    keys:
+      - {t_s: 0.0, position_m: [-0.03, 0, 0.04], rotation_deg: [0, 0, 0]}
+      - {t_s: 0.4, position_m: [0, 0, 0.008], rotation_deg: [0, 0, 0]}
+      - {t_s: 0.9, position_m: [0, 0, -0.008], rotation_deg: [0, 0, 0]}
+      - {t_s: 1.4, position_m: [0, 0, 0.015], rotation_deg: [0, 0, 0]}
+      - {t_s: 1.7, position_m: [-0.04, 0, 0.03], rotation_deg: [0, -30, 0]}
+      - {t_s: 4.0, position_m: [-0.011, 0, 0.012], rotation_deg: [0, -30, 0]}
+      - {t_s: 4.2, position_m: [-0.011, 0, -0.007], rotation_deg: [0, -30, 0], button1: true}
+      - {t_s: 5.5, position_m: [-0.025, 0, 0.01], rotation_deg: [0, -30, 0], button1: true}
+      - {t_s: 7.0, position_m: [-0.025, 0, 0.01], rotation_deg: [0, -30, 0], button1: true}
+  - stylus: right
+    anchor: {from_m: [-0.002, -0.3, -0.015], towards_m: [-0.002, 0, -0.015]}
+    keys:
+      - {t_s: 0.0, position_m: [0.04, 0.03, 0.04], rotation_deg: [0, 0, 0]}
+      - {t_s: 1.5, position_m: [0, 0.02, 0.014], rotation_deg: [0, 0, 0], button2: true}
+      - {t_s: 1.7, position_m: [0, 0.02, -0.018], rotation_deg: [0, 0, 0], button2: true}
+      - {t_s: 2.2, position_m: [0, -0.024, -0.018], rotation_deg: [0, 0, 0], button2: true}
+      - {t_s: 2.6, position_m: [0, 0.02, -0.018], rotation_deg: [0, 0, 0], button2: true}
+      - {t_s: 2.7, position_m: [0, 0.02, 0.014], rotation_deg: [0, 0, 0], button2: false}
+      - {t_s: 3.0, position_m: [-0.02, 0.018, 0.014], rotation_deg: [0, 0, 0], button2: true}
+      - {t_s: 3.1, position_m: [-0.02, 0.018, -0.018], rotation_deg: [0, 0, 0], button2: true}
+      - {t_s: 3.5, position_m: [0.004, 0.018, -0.018], rotation_deg: [0, 0, 0], button2: true}
+      - {t_s: 3.7, position_m: [0.03, 0.018, 0.03], rotation_deg: [0, 0, 0], button2: false}
+)";
+
+/// What a picture is made of.
+struct Moment {
+  StateSnapshot state;
+  Look look;
+};
+
+/// States of a session without pictures, one per tick, from a time on.
+std::vector<Moment> momentsOf(Session& session, const Strokes& strokes, const StateMirror& mirror, double from_s,
+                              size_t count) {
+  std::vector<Moment> out;
+  while (out.size() < count) {
+    const double time_s = static_cast<double>(session.tick() + 1) * session.tick_s();
+    const Frame frame = session.step(strokes.at(time_s, session.scene().styluses), {});
+    if (time_s < from_s) continue;
+    out.emplace_back();
+    Moment& moment = out.back();
+    moment.state.bricks = mirror.shownBricks();
+    session.solver().snapshot(moment.state);
+    moment.look.tick = frame.tick;
+    moment.look.motions = frame.tools;
+    moment.look.cameras = frame.cameras;
+    moment.look.wants.cameras = {true};
+    moment.look.wants.every_image = true;
+  }
+  return out;
+}
+
+/// A way to draw. The last one is what others are compared with.
+struct Way {
+  const char *name, *stem;
+  int supersampling;
+  bool tools = true;
+};
+constexpr Way kWays[] = {{"automatic", "automatic", 0},
+                         {"automatic, without tools", "bare", 0, false},
+                         {"1 sample a pixel", "1", 1},
+                         {"4 samples a pixel", "4", 2}};
+constexpr size_t kReference = std::size(kWays) - 1;
+
+/// Draws moments as a view does, on this thread.
+class Painting {
+ public:
+  Painting(const Model& model, Scene scene, const Way& way) : tools_(way.tools), mirror_(model) {
+    scene.cameras[0].supersampling = way.supersampling;
+    scene_ = scene;
+    view_ = std::make_unique<InlineView>(model, scene_);
+  }
+
+  std::vector<uint8_t> draw(const Moment& moment) {
+    Pictures out;
+    Look look = moment.look;
+    if (!tools_) look.motions = {};
+    mirror_.upload(moment.state);
+    view_->wound(moment.state, moment.state.cut_revision);
+    view_->capture(mirror_.view(), look, out, mirror_.displacements());
+    view_->collect(out, true);
+    return std::move(out.images.at(0).rgb);
+  }
+
+  /// Of a picture, stage by stage, each waited for. [stages] seconds
+  std::vector<double> stages(const std::vector<Moment>& moments) {
+    draw(moments.back());
+    const auto clock = gpu::StageClock::waiting();
+    for (const Moment& moment : moments) draw(moment);
+    std::vector<double> out;
+    for (const auto& of : clock->collect(true)) out.push_back(of.seconds / static_cast<double>(moments.size()));
+    return out;
+  }
+
+ private:
+  bool tools_;
+  Scene scene_;
+  StateMirror mirror_;
+  std::unique_ptr<InlineView> view_;
+};
+
+constexpr gpu::Stage kStagesOfPictures[] = {gpu::Stage::kUpload,   gpu::Stage::kSurface, gpu::Stage::kNormals,
+                                            gpu::Stage::kMapping,  gpu::Stage::kRender,  gpu::Stage::kTissue,
+                                            gpu::Stage::kLight,    gpu::Stage::kEdges,   gpu::Stage::kTools,
+                                            gpu::Stage::kOverlays, gpu::Stage::kResolve, gpu::Stage::kReadback};
+
+Table stageTable() {
+  std::vector<Column> columns = {{"tissue"}, {"way"}, {"sum", "ms", 3}};
+  for (const gpu::Stage stage : kStagesOfPictures) columns.push_back({gpu::stageName(stage), "ms", 3});
+  return Table("stages of a picture of 640 x 480, each waited for", columns);
+}
+
+void addStages(Table& table, const std::string& tissue, const Way& way, const std::vector<double>& seconds) {
+  double sum = 0;
+  for (const gpu::Stage stage : kStagesOfPictures) sum += seconds[static_cast<size_t>(stage)];
+  std::vector<Cell> row = {tissue, way.name, 1e3 * sum};
+  for (const gpu::Stage stage : kStagesOfPictures) row.emplace_back(1e3 * seconds[static_cast<size_t>(stage)]);
+  table.add(std::move(row));
+}
+
+/// What the ways come to for some moments of tissue.
+class Comparison {
+ public:
+  Comparison(const Report& report, const Model& model, const Scene& scene, const std::vector<Moment>& moments)
+      : moments_(moments) {
+    for (const Way& way : kWays) paintings_.push_back(std::make_unique<Painting>(model, scene, way));
+    measure(report.isShort() ? 0.2 : 12);
+    for (const Way& way : kWays) compare(scene.cameras[0], &way - kWays);
+  }
+
+  double picture_s(size_t way) const { return median(took_s_[way]); }
+  const Similarity& alike(size_t way) const { return alike_[way]; }
+  std::vector<double> stages(size_t way) const { return paintings_[way]->stages(moments_); }
+  /// Of the middle moment.
+  const std::vector<uint8_t>& picture(size_t way) const { return pictures_[way]; }
+
+ private:
+  /// In turns, so that what else the machine does falls on all of them. @param seconds  of all ways
+  void measure(double seconds) {
+    using Clock = std::chrono::steady_clock;
+    took_s_.resize(paintings_.size());
+    for (const auto& painting : paintings_) painting->draw(moments_.back());
+    const Clock::time_point begun = Clock::now();
+    for (size_t i = 0; i < 3 || std::chrono::duration<double>(Clock::now() - begun).count() < seconds; ++i) {
+      for (size_t w = 0; w < paintings_.size(); ++w) {
+        const Clock::time_point start = Clock::now();
+        paintings_[w]->draw(moments_[i % moments_.size()]);
+        took_s_[w].push_back(std::chrono::duration<double>(Clock::now() - start).count());
+      }
+    }
+  }
+
+  void compare(const CameraConfig& camera, ptrdiff_t way) {
+    Similarity mean{0, 0};
+    for (const Moment& moment : moments_) {
+      const std::vector<uint8_t> rgb = paintings_[static_cast<size_t>(way)]->draw(moment),
+                                 reference = paintings_[kReference]->draw(moment);
+      const Similarity of = similarity(rgb, reference, camera.width_px, camera.height_px);
+      mean.all += of.all / static_cast<double>(moments_.size());
+      mean.seen += of.seen / static_cast<double>(moments_.size());
+      if (&moment == &moments_[moments_.size() / 2]) pictures_.push_back(rgb);
+    }
+    alike_.push_back(mean);
+  }
+
+  const std::vector<Moment>& moments_;
+  std::vector<std::unique_ptr<Painting>> paintings_;
+  std::vector<std::vector<double>> took_s_;     ///< [ways]
+  std::vector<Similarity> alike_;               ///< [ways]
+  std::vector<std::vector<uint8_t>> pictures_;  ///< [ways]
+};
+
+struct Tables {
+  Table pictures, stages;
+};
+
+void addRows(Report& report, const std::string& tissue, const Comparison& of, const CameraConfig& camera,
+             Tables& tables) {
+  for (size_t w = 0; w < std::size(kWays); ++w) {
+    const Way& way = kWays[w];
+    std::vector<Cell> row = {tissue, way.name, 1e3 * of.picture_s(w), of.picture_s(w) / of.picture_s(kReference)};
+    if (way.tools) {
+      row.insert(row.end(), {of.alike(w).all, of.alike(w).seen});
+    } else {
+      row.insert(row.end(), {"", ""});
+    }
+    tables.pictures.add(row);
+    addStages(tables.stages, tissue, way, of.stages(w));
+    report.add(of.picture(w), camera.width_px, camera.height_px, tissue + "_" + way.stem);
+  }
+  report.checkAtMost("time of a picture [s], " + tissue, of.picture_s(0), kWanted_s);
+  report.checkAtLeast("SSIM to 4 samples a pixel, " + tissue, of.alike(0).all, kAlike);
+}
+
+}  // namespace
+
+void pictureSuite(Report& report, gpu::Context& context) {
+  const Scene scene = heartScene();
+  report.stage("building");
+  Session session(scene);
+  Strokes strokes = parseStrokes(kStrokes, "strokes of bench picture");
+  resolveAnchors(strokes, session.model());
+  const StateMirror mirror(session.model());
+  Tables tables = {
+      Table("a picture of 640 x 480 of the heart in motion, on " + context.renderer(),
+            {{"tissue"}, {"way"}, {"picture", "ms", 3}, {"over 4 samples"}, {"SSIM"}, {"SSIM without background"}}),
+      stageTable()};
+  for (const auto& [tissue, from_s] : {std::pair("whole", kDent_s), std::pair("cut", kFlap_s)}) {
+    report.stage(std::string(tissue) + ": stepping");
+    const std::vector<Moment> moments = momentsOf(session, strokes, mirror, from_s, report.isShort() ? 2 : 12);
+    report.stage(std::string(tissue) + ": drawing");
+    const Comparison comparison(report, session.model(), scene, moments);
+    addRows(report, tissue, comparison, scene.cameras[0], tables);
+  }
+  report.add(tables.pictures, "pictures");
+  report.add(tables.stages, "stages");
+}
+
+}  // namespace viscera::bench

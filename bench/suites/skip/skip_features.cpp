@@ -1,0 +1,188 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+
+#include "bench/harness/rate.h"
+#include "bench/suites/skip/skip_parts.h"
+
+namespace viscera::bench {
+
+namespace {
+
+constexpr int kComparedTicks = 3;
+constexpr double kSameWithin = 1e-5;  // spacings: float32 rounding of sixty substeps
+constexpr double kWave = 0.02;        // spacings
+constexpr double kNothing = 1e-9;     // a feature of this size is there and does nothing that float32 can hold
+
+Specimen specimen(int edge, double dashpot_ratio = 0, double poisson_ratio = 0.25) {
+  MaterialConfig material = specimenMaterial(dashpot_ratio);
+  material.poisson_ratio = poisson_ratio;
+  return cubeOf(edge, material);
+}
+
+/// One stylus that does something where no tissue is.
+Feature toolInAir(const std::string& name, int edge, ToolMode mode) {
+  Feature out{name, specimen(edge), specimen(edge), {}};
+  out.with.scene.styluses.resize(1);
+  out.motions_with[0].mode = mode;
+  out.motions_with[0].present = true;
+  out.motions_with[0].from.position_m = out.motions_with[0].to.position_m = Vector3d(10, 10, 10);
+  return out;
+}
+
+/// A part of the body's own elasticity.
+Feature parts(int edge) {
+  Feature out{"strengths by part", specimen(edge), specimen(edge), {}};
+  Body& body = out.with.model.bodies[0];
+  body.parts.push_back({body.lattice.part_names[0], body.material.young_modulus_pa, body.material.poisson_ratio,
+                        body.material.density_kg_per_m3});
+  return out;
+}
+
+Feature solverKey(const std::string& name, int edge, const std::function<void(SolverConfig&)>& set) {
+  Feature out{name, specimen(edge), specimen(edge), {}};
+  set(out.with.scene.solver);
+  return out;
+}
+
+/// The lower half is fixed in one of them. Neither drifts, which would tear the other half off.
+Feature fixedHalf(int edge) {
+  Feature out{"fixed nodes (half of them)", specimen(edge), specimen(edge), {}, false};
+  Lattice& lattice = out.without.model.bodies[0].lattice;
+  for (uint32_t slot : lattice.active_slots) {
+    if (2 * lattice.nodeAt(slot).z() < edge) lattice.nodes[slot].lo |= layout::kFixedBit;
+  }
+  for (Specimen* specimen : {&out.with, &out.without})
+    specimen->start = wobbling(specimen->model, kWave * lattice.spacing_m, 0);
+  return out;
+}
+
+/// One spring is cut in every brick of one of them: no brick is whole any more.
+Feature cutState(int edge) {
+  Feature out{"cut state (one spring in every brick)", specimen(edge), specimen(edge), {}, false};
+  const Lattice& lattice = out.with.model.bodies[0].lattice;
+  uint32_t last_brick = ~0u;
+  for (uint32_t slot : lattice.active_slots) {
+    if (slot / layout::kBrickSlots == last_brick || springCount(lattice.nodes[slot], 0) == 0) continue;
+    last_brick = slot / layout::kBrickSlots;
+    cutSpring(lattice, slot, 0, out.with.start.nodes);
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<Feature> featuresOf(int edge) {
+  std::vector<Feature> out;
+  out.push_back({"dashpot", specimen(edge, kNothing), specimen(edge), {}});
+  out.push_back({"energy of volume", specimen(edge, 0, 0.25 + kNothing), specimen(edge), {}});
+  out.push_back(parts(edge));
+  out.push_back(toolInAir("contacts", edge, ToolMode::kProbe));
+  out.push_back(toolInAir("cuts", edge, ToolMode::kCut));
+  out.push_back(solverKey("compensated sums", edge, [](SolverConfig& solver) { solver.compensated = true; }));
+  out.push_back(solverKey("governor", edge, [](SolverConfig& solver) { solver.governor = true; }));
+  out.push_back(cutState(edge));
+  out.push_back(fixedHalf(edge));
+  return out;
+}
+
+namespace {
+
+using Make = std::shared_ptr<Ticks> (*)(const Specimen&);
+std::shared_ptr<Ticks> cpu(const Specimen& specimen) {
+  return onCpu(specimen);
+}
+
+HostState after(const Specimen& specimen, Make make, const ToolMotions& motions) {
+  const std::shared_ptr<Ticks> solver = make(specimen);
+  for (int t = 0; t < kComparedTicks; ++t) solver->step(motions);
+  return solver->readState();
+}
+
+/// Largest difference of a displacement [spacings].
+double difference(const Feature& feature, Make make) {
+  const HostState a = after(feature.with, make, feature.motions_with), b = after(feature.without, make, {});
+  const Lattice& lattice = feature.with.model.bodies[0].lattice;
+  double worst = 0;
+  for (uint32_t slot : lattice.active_slots)
+    worst = std::max(worst, (xyz(a.displacement_m[slot]) - xyz(b.displacement_m[slot])).norm());
+  return worst / lattice.spacing_m;
+}
+
+/// @return the difference, 0 where there is none to compare
+double addRow(Table& table, const Feature& feature, const std::string& backend, Make make, const Rate& with,
+              const Rate& without) {
+  const double differs = feature.same_result ? difference(feature, make) : 0;
+  table.add({feature.name, backend, 1e6 / with.substeps_per_s, 1e6 / without.substeps_per_s,
+             without.substeps_per_s / with.substeps_per_s, std::max(with.spread, without.spread),
+             feature.same_result ? Cell(differs) : Cell("")});
+  return differs;
+}
+
+/// Nodes over places in the 4x4 planes of bricks that hold a node: what SIMD lanes can be used for.
+double planeShare(const Model& model) {
+  constexpr uint32_t kPlane = 16;
+  const std::vector<uint32_t>& slots = model.bodies[0].lattice.active_slots;
+  size_t planes = 0;
+  for (size_t i = 0; i < slots.size(); ++i) planes += i == 0 || slots[i] / kPlane != slots[i - 1] / kPlane ? 1 : 0;
+  return static_cast<double>(slots.size()) / static_cast<double>(kPlane * planes);
+}
+
+}  // namespace
+
+void measureFeatures(Report& report) {
+  const int edge = report.isShort() ? 12 : 35;
+  Table table("features of the solver on a cube of " + std::to_string(edge * edge * edge) +
+                  " nodes: on, but without effect, and left out",
+              {{"feature"},
+               {"backend"},
+               {"on", "us/substep"},
+               {"left out", "us/substep"},
+               {"on over left out", "", 3},
+               {"spread", "", 2},
+               {"largest difference", "spacings", 3}});
+  double worst = 0;
+  for (const Feature& feature : featuresOf(edge)) {
+    report.stage(feature.name);
+    const std::vector<Rate> rates =
+        measureRates({candidate("", onCpu(feature.with), feature.with.nodes(), feature.motions_with),
+                      candidate("", onCpu(feature.without), feature.without.nodes()),
+                      candidate("", onGpu(feature.with), feature.with.nodes(), feature.motions_with),
+                      candidate("", onGpu(feature.without), feature.without.nodes())},
+                     report.isShort() ? 0.01 : 0.2);
+    worst = std::max(worst, addRow(table, feature, "cpu", cpu, rates[0], rates[1]));
+    worst = std::max(worst, addRow(table, feature, "gpu", onGpu, rates[2], rates[3]));
+  }
+  report.add(table, "features");
+  report.checkAtMost("features: largest difference between on without effect and left out, spacings", worst,
+                     kSameWithin);
+}
+
+void measureEmptySpace(Report& report) {
+  constexpr double kDearer = 1.3;
+  const double size = report.isShort() ? 5000 : 42745;
+  const Specimen cube = cubeOf(edgeOf(size)), heart = heartOf(static_cast<int>(size));
+  report.stage("empty space");
+  std::vector<Candidate> candidates = bothBackends(cube);
+  for (const Candidate& of_heart : bothBackends(heart)) candidates.push_back(of_heart);
+  const std::vector<Rate> rates = measureRates(candidates, report.isShort() ? 0.02 : 0.3);
+  Table table("inactive space", {{"backend"},
+                                 {"cube", "nodes", 8},
+                                 {"heart", "nodes", 8},
+                                 {"heart fills of its box", "", 2},
+                                 {"of brick planes with a node", "", 2},
+                                 {"cube", "ns/update"},
+                                 {"heart", "ns/update"},
+                                 {"heart over cube", "", 3}});
+  for (size_t b = 0; b < 2; ++b) {
+    const double ratio = rates[2 + b].ns_per_update() / rates[b].ns_per_update();
+    table.add({candidates[b].name, candidates[b].nodes, candidates[2 + b].nodes, filledShare(heart.model),
+               planeShare(heart.model), rates[b].ns_per_update(), rates[2 + b].ns_per_update(), ratio});
+    report.checkAtMost("inactive space: active node of the heart over one of the cube, " + candidates[b].name, ratio,
+                       kDearer);
+  }
+  report.add(table, "space");
+}
+
+}  // namespace viscera::bench

@@ -1,0 +1,168 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+// The same tissue elsewhere and in other sizes: far from the origin with tools and skin, and as large as a millimetre,
+// a centimetre and a metre.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "bench/harness/experiment.h"
+#include "bench/suites/stability/stability_suite.h"
+#include "viscera/session/session.h"
+
+namespace viscera::bench {
+
+namespace {
+
+constexpr double kSpacing_m = 0.005, kAway_m = 1000;
+/// Of float32 at 1000 m, 6e-5 m: what tools and skin are published in. One rounding of the vertex, one of its node.
+constexpr double kSkinApart_m = 1.3e-4;
+constexpr double kForceApart = 0.03;   ///< of the reaction: the tip of a press of 6 mm is known to that rounding too
+constexpr double kTissueApart = 0.02;  ///< of the largest displacement: the same
+constexpr double kSizesApart = 1e-4;   ///< of the largest displacement: float32, over a few thousand substeps
+
+/// A box on the floor of its place, pressed from above, in a session with its skin.
+struct Pressed {
+  Field u_m;
+  std::vector<float> skin_m;  ///< [3 * vertices]
+  double force_n = 0;
+};
+
+Pressed press(Backend backend, gpu::Context* context, const Vector3d& place_m) {
+  constexpr int kTicks = 40;
+  Scene scene;
+  BodyConfig body;
+  body.source = TissueSource::kBox;
+  body.box_size_m = Vector3d(0.03, 0.03, 0.02);
+  body.spacing_m = kSpacing_m;
+  body.position_m = place_m;
+  FixedConfig floor;
+  floor.shape = FixedShape::kPlane;
+  floor.point_m = place_m - Vector3d(0, 0, 0.0099);
+  floor.normal = Vector3d::UnitZ();
+  body.fixed.push_back(floor);
+  scene.bodies.push_back(body);
+  scene.environment.gravity_m_per_s2 = Vector3d::Zero();
+  scene.solver.backend = backend;
+  StylusConfig stylus;
+  stylus.probe.radius_m = 0.008;
+  scene.styluses = {stylus};
+  const std::unique_ptr<Session> session =
+      context ? std::make_unique<Session>(scene, *context) : std::make_unique<Session>(scene);
+  StylusSamples samples;
+  samples[0].valid = true;
+  Pressed out;
+  for (int t = 0; t < kTicks; ++t) {
+    const double down = std::min(1.0, t / 20.0);
+    samples[0].pose.position_m = place_m + Vector3d(0.001, 0.002, 0.01 + 0.008 + 0.002 - 0.006 * down);
+    out.force_n = session->step(samples, {}).reactions[0].force_n.norm();
+  }
+  out.force_n = session->drain().reactions[0].force_n.norm();
+  const HostState state = session->solver().readState();
+  for (const layout::vec4& u : state.displacement_m) out.u_m.push_back(xyz(u));
+  Wants wants;
+  wants.surface = true;
+  const Pictures pictures = session->show(wants);
+  if (pictures.surface) out.skin_m = pictures.surface->positions_m;
+  return out;
+}
+
+/// How far a vertex of a skin is from the nearest of the one that is `place_m` away, at most [m]; not a number where
+/// one of them is none. Not one by one: far away some edges are by a rounding longer than they may be, and are divided.
+double skinsApart(const Pressed& here, const Pressed& there, const Vector3d& place_m) {
+  if (here.skin_m.empty() || there.skin_m.empty()) return std::nan("");
+  const auto at = [](const std::vector<float>& skin_m, size_t v) {
+    return Vector3d(skin_m[3 * v], skin_m[3 * v + 1], skin_m[3 * v + 2]);
+  };
+  double out = 0;
+  for (size_t v = 0; 3 * v < here.skin_m.size(); ++v) {
+    const Vector3d moved = at(here.skin_m, v) + place_m;
+    double nearest = std::numeric_limits<double>::infinity();
+    for (size_t w = 0; 3 * w < there.skin_m.size(); ++w) {
+      nearest = std::min(nearest, (at(there.skin_m, w) - moved).norm());
+    }
+    out = worse(out, nearest);
+  }
+  return out;
+}
+
+void measureFar(Report& report) {
+  Table table("A box pressed by a probe 1000 m from the origin, against the same at the origin",
+              {{"backend"},
+               {"reaction", "N"},
+               {"reaction apart", "1"},
+               {"tissue apart", "1"},
+               {"skin apart", "m"},
+               {"vertices here"},
+               {"there"}});
+  for (Backend backend : report.backends()) {
+    report.stage("far away, " + nameOf(backend));
+    gpu::Context* context = backend == Backend::kGpu ? report.context() : nullptr;
+    const Vector3d place_m(kAway_m, 0, 0);
+    const Pressed here = press(backend, context, Vector3d::Zero()), there = press(backend, context, place_m);
+    double apart = 0;
+    for (size_t i = 0; i < here.u_m.size(); ++i) apart = worse(apart, (here.u_m[i] - there.u_m[i]).norm());
+    apart /= largestNorm(here.u_m);
+    const double force = std::abs(there.force_n / here.force_n - 1), skin_m = skinsApart(here, there, place_m);
+    table.add({nameOf(backend), here.force_n, force, apart, skin_m, static_cast<double>(here.skin_m.size() / 3),
+               static_cast<double>(there.skin_m.size() / 3)});
+    const std::string name = nameOf(backend) + ": 1000 m from the origin: ";
+    report.checkAtMost(name + "reaction apart", force, kForceApart);
+    report.checkAtMost(name + "displacements apart", apart, kTissueApart);
+    report.checkAtMost(name + "skin apart [m]", skin_m, kSkinApart_m);
+  }
+  report.add(table, "far");
+}
+
+/// Displacements over the size of a block that hangs and swings. Sizes are alike where E goes with the size and time
+/// with its root: weight over stiffness and drag over frequency are then the same.
+Field swing(Backend backend, double size_m, int ticks) {
+  constexpr int kCells = 4;
+  const double time = std::sqrt(size_m / 0.02);
+  MaterialConfig material;
+  material.young_modulus_pa *= size_m / 0.02;
+  material.drag_per_s /= time;
+  const Model model = blockModel({kCells, kCells, kCells}, size_m / kCells, material,
+                                 [](const Vector3i& n) { return n.z() == kCells; });
+  Scene scene;
+  scene.environment.gravity_m_per_s2 = Vector3d(3, 2, -9.81);
+  scene.solver.tick_hz = 60 / time;
+  scene.solver.sleep_distance_m = 100 * size_m;
+  scene.solver.sleep_speed_m_per_s = 0;
+  const std::unique_ptr<Ticks> solver = solverOn(backend, model, scene);
+  for (int t = 0; t < ticks; ++t) solver->step({});
+  Field out;
+  for (const layout::vec4& u : solver->readState().displacement_m) out.push_back(xyz(u) / size_m);
+  return out;
+}
+
+void measureSizes(Report& report) {
+  Table table(
+      "The same block in sizes of a millimetre, a centimetre and a metre, E in proportion: displacement over size",
+      {{"backend"}, {"size", "m"}, {"largest", "", 7}, {"apart from 2 cm", "1"}});
+  for (Backend backend : report.backends()) {
+    report.stage("sizes, " + nameOf(backend));
+    const int ticks = report.isShort() ? 10 : 60;
+    const Field middle = swing(backend, 0.02, ticks);
+    double worst = 0;
+    for (double size_m : {0.002, 0.02, 2.0}) {
+      const Field found = swing(backend, size_m, ticks);
+      double apart = 0;
+      for (size_t i = 0; i < found.size(); ++i) apart = worse(apart, (found[i] - middle[i]).norm());
+      apart /= largestNorm(middle);
+      table.add({nameOf(backend), size_m, largestNorm(found), apart});
+      worst = worse(worst, apart);
+    }
+    report.checkAtMost(nameOf(backend) + ": sizes: displacement over size, apart", worst, kSizesApart);
+  }
+  report.add(table, "sizes");
+}
+
+}  // namespace
+
+void placesOfStability(Report& report) {
+  measureFar(report);
+  measureSizes(report);
+}
+
+}  // namespace viscera::bench

@@ -1,0 +1,72 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bench/suites/stability/stability_trial.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace viscera::bench {
+
+namespace {
+
+constexpr double kTick_s = 1.0 / 60;
+constexpr double kRecovered = 0.01;  // of the start's energy
+constexpr double kNoEnergy = 1e-6;   // of M c_p^2: rounding of a mirrored lattice, which has none
+constexpr int kFewest = 12;          // ticks
+constexpr double kSweeps = 25000;    // passes over all nodes that a trial may take: a few seconds
+
+double sweepsPerTick(const Scene& scene) {
+  const IntegratorTraits& traits = traitsOf(scene.solver.integrator);
+  const int iterations = traits.iterates ? scene.solver.iterations : 1;
+  return scene.solver.substeps * iterations;
+}
+
+bool isFinite(const Model& model, const HostState& state) {
+  for (uint32_t slot : model.bodies[0].lattice.active_slots) {
+    if (!xyz(state.displacement_m[slot]).allFinite() || !xyz(state.velocity_m_per_s[slot]).allFinite()) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+Scene sceneAt(const Model& model, Integrator integrator, double ratio) {
+  Scene scene;
+  scene.environment.gravity_m_per_s2 = Vector3d::Zero();
+  scene.solver.integrator = integrator;
+  scene.solver.sleep_distance_m = 100;  // nothing is stopped by the edge of the world
+  const double limit = stableFraction(integrator, model.bodies[0].material.dashpot_ratio);
+  const double dt_s = ratio * safeTimeStep(model) * (traitsOf(integrator).is_explicit ? 0.999 * limit : 1);
+  scene.solver.substeps = std::max(1, static_cast<int>(std::ceil(kTick_s / dt_s)));
+  scene.solver.tick_hz = 1 / (scene.solver.substeps * dt_s);
+  return scene;
+}
+
+Outcome tryStart(Backend backend, const Model& model, const Scene& scene, const Start& start, int ticks) {
+  const std::unique_ptr<Ticks> made = solverOn(backend, model, scene, true);
+  Ticks& solver = *made;
+  ReferenceSolver reference(model, Vector3d::Zero(), solver.dt_s());
+  solver.writeState(start.state);
+  const double whole_j = governorLimits(model, 0, 0).energy_j;
+  const double first_j = std::max(energyOf(reference, start.state, 0), kNoEnergy * whole_j);
+  Outcome out;
+  out.ticks = std::clamp(static_cast<int>(kSweeps / sweepsPerTick(scene)), std::min(kFewest, ticks), ticks);
+  for (int t = 1; t <= out.ticks; ++t) {
+    solver.step({});
+    const HostState state = solver.readState();
+    out.finite = out.finite && isFinite(model, state);
+    if (!out.finite) break;
+    // Beyond the limit half a kick is no small thing, and velocities of one moment mean nothing: taken as they are.
+    const double lag_s = solver.dt_s() <= solver.dtLimit_s() ? solver.velocityLag_s() : 0;
+    const double energy_j = energyOf(reference, state, lag_s);
+    out.energy_left = energy_j / first_j;
+    out.over_bound = std::max(out.over_bound, energy_j / (2 * (first_j + whole_j)));
+    out.energies.push_back(out.energy_left);
+    out.energy_ratio = std::max(out.energy_ratio, out.energy_left);
+    if (out.frames_to_recover < 0 && out.energy_left < kRecovered) out.frames_to_recover = t;
+  }
+  out.trips = solver.health().trips;
+  return out;
+}
+
+}  // namespace viscera::bench

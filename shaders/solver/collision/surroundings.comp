@@ -1,0 +1,145 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// surroundings.comp - what acts on nodes from outside, after an integrator's substep.   physics.md 8
+// Owner: solver/gpu/contact/surroundings_pass.h
+// in  displacement, velocity [slots] after the integrator; displacement before it in the buffer that is written
+// out displacement, velocity [slots]
+// Features: WIND, BODY_FORCES, OBSTACLES, COLLISIONS (corrections of collision_push.comp), TOOLS (there are styluses); BEFORE: it is
+// done before the integrator, which goes on from the velocities alone (implicit Euler; obstacles are within it).
+#include "layout.h"
+#include "solver/tissue/lattice.glsl"
+#include "solver/tissue/elastic.glsl"
+#include "solver/collision/surroundings.glsl"
+#include "solver/tissue/sleep.glsl"
+
+#ifndef __cplusplus
+uniform uint obstacle_count;
+uniform uint slot_count;
+uniform vec4 air;  // xyz wind [m/s]; w density times drag coefficient over 2 [kg/m3]
+layout(std430, binding = kBindActive) readonly buffer ActiveBuffer { uint active_nodes[]; };
+layout(std430, binding = kBindNodes) readonly buffer NodesBuffer { NodeBits nodes[]; };
+layout(std430, binding = kBindDisplacementOut) buffer DisplacementOut { vec4 next_displacement[]; };
+layout(std430, binding = kBindVelocityOut) writeonly buffer VelocityOut { vec4 next_velocity[]; };
+#ifdef BODY_FORCES
+layout(std140, binding = kBindBodyInfluences) uniform BodyInfluencesBlock { vec4 body_influences[kMaxBodies]; };  // xyz m/s2
+#endif
+#ifdef OBSTACLES
+layout(std140, binding = kBindObstacles) uniform ObstaclesBlock { ObstacleMotion obstacles[kMaxObstacles]; };
+layout(std430, binding = kBindObstacleImpulses) buffer ObstacleImpulsesBuffer { vec4 obstacle_impulses[]; };
+void giveObstacle(uint obstacle, uint slot, vec3 impulse) { obstacle_impulses[obstacle * slot_count + slot] += vec4(impulse, 1.0f); }
+#endif
+#ifdef COLLISIONS
+layout(std430, binding = kBindCorrections) readonly buffer CorrectionsBuffer { vec4 corrections[]; };
+#endif
+#ifdef TOOLS
+layout(std430, binding = kBindImpulses) buffer ImpulsesBuffer { vec4 impulses[]; };
+void giveMomentum(uint stylus, uint slot, vec3 impulse) { impulses[stylus * slot_count + slot] += vec4(impulse, 1.0f); }
+#endif
+#ifdef WIND
+layout(std430, binding = kBindWindStarts) readonly buffer RingStartsBuffer { uint ring_starts[]; };
+layout(std430, binding = kBindWindTriangles) readonly buffer RingsBuffer { WindTriangle rings[]; };
+layout(std430, binding = kBindSpringCut) readonly buffer SpringCutBuffer { float spring_cut[]; };
+#endif
+#endif
+
+#ifdef WIND
+bool isTorn(WindTriangle t) {
+  for (int e = 0; e < 3; ++e) {
+    if (t.springs[e] != kNoSpring && spring_cut[t.springs[e]] > 0.0f) return true;
+  }
+  return false;
+}
+
+/// A third of the triangles around a node, as normal times area [m2].
+vec3 areaOf(uint slot, vec3 u) {
+  vec3 sum = vec3(0.0f), rest = restPosition(slot);
+  for (uint i = ring_starts[slot]; i < ring_starts[slot + 1u]; ++i) {
+    WindTriangle t = rings[i];
+    if (isTorn(t)) continue;
+    vec3 b = (restPosition(t.b) - rest) + (xyz(texelFetch(displacement, int(t.b))) - u);
+    vec3 c = (restPosition(t.c) - rest) + (xyz(texelFetch(displacement, int(t.c))) - u);
+    sum += cross(b, c);
+  }
+  return sum / 6.0f;
+}
+#endif
+
+/// What contacts do to a node's velocity [m/s].
+vec3 contactKick(uint slot) {
+#ifdef COLLISIONS
+  return xyz(corrections[2u * slot]);
+#else
+  return vec3(0.0f);
+#endif
+}
+
+/// What force_n and wind do to it [m/s].
+vec3 pushKick(uint slot, NodeBits bits, vec3 u, vec3 v) {
+  vec3 kick = vec3(0.0f);
+#ifdef BODY_FORCES
+  kick += dt_s * xyz(body_influences[bodyOf(bits)]);
+#endif
+#ifdef WIND
+  if (ring_starts[slot] != ring_starts[slot + 1u]) {
+    kick += windKick(areaOf(slot, u), air, v, nodeMass(slot, bits, bodies[bodyOf(bits)]));
+  }
+#endif
+  return kick;
+}
+
+void main() {
+  uint i = globalIndex();
+  if (i >= active_count) return;
+  uint slot = active_nodes[i];
+  NodeBits bits = nodes[slot];
+  vec3 u = xyz(texelFetch(displacement, int(slot))), v = xyz(texelFetch(velocity, int(slot)));
+  bool lone = isIsolated(bits);
+  if (lone || (bits.lo & (kFixedBit | kGrabMask)) != 0u) {
+    next_displacement[slot] = vec4(u, 0.0f);
+    next_velocity[slot] = vec4(v, 0.0f);
+#ifdef TOOLS
+    uint held_by = (bits.lo & kGrabMask) >> kGrabShift;
+    if (lone || held_by == 0u || (bits.lo & kFixedBit) != 0u) return;
+    vec3 felt = contactKick(slot) + pushKick(slot, bits, u, v);
+    if (felt != vec3(0.0f)) giveMomentum(held_by - 1u, slot, -nodeMass(slot, bits, bodies[bodyOf(bits)]) * felt);
+#endif
+    return;
+  }
+  vec3 u_next = u, v_next = v;
+#ifdef COLLISIONS
+  vec3 contact_kick = contactKick(slot);
+  v_next += contact_kick;
+  u_next += dt_s * contact_kick + xyz(corrections[2u * slot + 1u]);
+#endif
+#if defined(WIND) || defined(BODY_FORCES)
+  vec3 kick = pushKick(slot, bits, u, v_next);
+  v_next += kick;
+#ifdef BEFORE
+  next_displacement[slot] = vec4(u, 0.0f);
+  next_velocity[slot] = vec4(v_next, 0.0f);
+  return;
+#endif
+  u_next += dt_s * kick;
+#endif
+  vec3 u_before = xyz(next_displacement[slot]);
+#ifdef OBSTACLES
+  vec3 rest = restPosition(slot);
+  vec3 x = rest + u_before, x_next = rest + u_next;
+  bool touched = false;
+  float below = surfaceDepth(slot);
+  for (uint o = 0u; o < obstacle_count; ++o) {
+    vec3 v_free = v_next;
+    if (!meetObstacle(seenFrom(below, obstacles[o]), x, x_next, v_next)) continue;
+    touched = true;
+    if (v_next == v_free) continue;
+    // The kick that this ends has drag in it: of the obstacle's momentum it let through 1 / (1 + gamma dt / 2).
+    BodyParams body = bodies[bodyOf(bits)];
+    giveObstacle(o, slot, (1.0f + 0.5f * body.drag_per_s * dt_s) * nodeMass(slot, bits, body) * (v_next - v_free));
+  }
+  if (touched) u_next = x_next - rest;
+#endif
+  fallAsleep(bits, u_before, u_next, v_next);  // or what pushes would move on what the integrator has stopped
+  next_displacement[slot] = vec4(u_next, 0.0f);
+  next_velocity[slot] = vec4(v_next, 0.0f);
+}

@@ -1,0 +1,49 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// implicit_cells.comp - forces and majorisers of the cells in the current iterate, as volume.comp has them.
+// Owner: solver/gpu/steps/implicit_substep.h   physics.md 2
+// in  displacement, increments [slots]     out  cell forces [cell_vectors * slots]
+#include "layout.h"
+#include "solver/tissue/lattice.glsl"
+#include "solver/tissue/elastic.glsl"
+#include "solver/tissue/step.glsl"
+#include "solver/implicit/implicit.glsl"
+#include "solver/tissue/corners.glsl"
+
+#ifndef __cplusplus
+layout(std430, binding = kBindCells) readonly buffer CellsBuffer { uint cells[]; };
+layout(std430, binding = kBindCellForces) writeonly buffer CellForcesBuffer { vec4 cell_forces_out[]; };
+uniform uint iteration;
+#endif
+
+void main() {
+  uint i = globalIndex();
+  if (i >= active_count) return;  // of cells
+  uint slot = cells[i];
+  NodeBits bits = nodes[slot];
+  CellForces f = {vec3(0.0f), vec3(0.0f), vec3(0.0f), vec3(0.0f), vec3(0.0f), vec3(0.0f), vec3(0.0f)};
+  float majoriser = 0.0f;
+  if ((bits.lo & kCellBit) != 0u) {
+    BodyParams body = bodies[bodyOf(bits)];
+    float h = body.origin_spacing.w, bulk = cellBulk(slot, body);
+    vec3 at[8], edge_lengths;
+    for (uint c = 0u; c < 8u; ++c) {
+      int corner = int(cornerSlot(slot, c));
+      at[c] = xyz(texelFetch(displacement, corner)) + xyz(texelFetch(increment, corner));
+    }
+    CellShape s = shapeOf(at, h, edge_lengths);
+    majoriser = volumeMajoriser(bulk, s, edge_lengths, reach(h, iteration), h);
+    f = cellForces(at, s, volumePressure(bulk, s.e) * 0.25f / h, h, bulk, cellRigidity(slot, body), cellMoments(slot));
+  }
+  uint first = cell_vectors * slot;
+  cell_forces_out[first] = vec4(f.a, majoriser);
+  cell_forces_out[first + 1u] = vec4(f.b, 0.0f);
+  cell_forces_out[first + 2u] = vec4(f.c, 0.0f);
+  if (has_moments) {
+    cell_forces_out[first + 3u] = vec4(f.hx, 0.0f);
+    cell_forces_out[first + 4u] = vec4(f.hy, 0.0f);
+    cell_forces_out[first + 5u] = vec4(f.hz, 0.0f);
+    cell_forces_out[first + 6u] = vec4(f.hxyz, 0.0f);
+  }
+}

@@ -1,0 +1,117 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// implicit_guess.comp - per node, for four shares of the increments at once: the incremental potential P, and kinetic + elastic
+// energy less the work of gravity.   Owner: solver/gpu/steps/implicit_substep.h   physics.md 2
+// in  displacement, velocity, increments [slots]     out  energies [2 * active], which implicit_fold.comp sums
+#include "layout.h"
+#include "solver/tissue/lattice.glsl"
+#include "solver/tissue/elastic.glsl"
+#include "solver/tissue/step.glsl"
+#include "solver/implicit/implicit.glsl"
+#ifdef CONTACT
+#include "solver/implicit/implicit_contact.glsl"
+#endif
+#ifdef PAIRS
+#include "solver/implicit/implicit_pairs.glsl"
+#endif
+#include "solver/tissue/shares.glsl"
+#ifdef VOLUME
+#include "solver/tissue/corners.glsl"
+#endif
+
+#ifndef __cplusplus
+layout(std430, binding = kBindPartials) writeonly buffer PartialsBuffer { vec4 energies[]; };
+#endif
+
+/// Nodes in contact keep out of what they touch, whatever the share.
+vec3 share(uint slot, vec4 du, int c) {
+  if (isPrescribed(du)) return xyz(du);
+#ifdef CONTACT
+  if (isInContact(du)) return outside(slot, kShares[c] * xyz(du));
+#endif
+  return kShares[c] * xyz(du);
+}
+
+#ifdef VOLUME
+/// Energy of a cell for the four shares.
+vec4 cellEnergies(uint slot, BodyParams body) {
+  vec3 u[8];
+  vec4 du[8];
+  for (uint c = 0u; c < 8u; ++c) {
+    int corner = int(cornerSlot(slot, c));
+    u[c] = xyz(texelFetch(displacement, corner));
+    du[c] = texelFetch(increment, corner);
+  }
+  vec4 sum = vec4(0.0f);
+  for (int g = 0; g < 4; ++g) {
+    vec3 at[8], edge_lengths;
+    for (int c = 0; c < 8; ++c) at[c] = u[c] + share(cornerSlot(slot, uint(c)), du[c], g);
+    float h = body.origin_spacing.w;
+    sum[g] = cellEnergy(at, shapeOf(at, h, edge_lengths).e, h, cellBulk(slot, body), cellRigidity(slot, body), cellMoments(slot));
+  }
+  return sum;
+}
+#endif
+
+/// Adds a spring's elastic energy and what its dashpot adds to P, for the four shares.
+/// @param a, b  its ends   @param near, far  their increments   @param w  u_far - u_near   @param d, l0, prestrain  at rest
+void addSpring(uint a, uint b, vec4 near, vec4 far, vec3 w, vec3 d, float l0, float prestrain, float k, float damping, INOUT(vec4) elastic,
+               INOUT(vec4) damped) {
+  for (int c = 0; c < 4; ++c) {
+    vec3 along = share(b, far, c) - share(a, near, c);
+    Spring s = springBetween(d, l0, prestrain, w + along);
+    float rate = dot(s.direction, along);
+    elastic[c] += 0.5f * k * s.extension * s.extension;
+    damped[c] += 0.5f * damping * rate * rate;
+  }
+}
+
+void main() {
+  uint i = globalIndex();
+  if (i >= active_count) return;
+  uint slot = active_nodes[i];
+  NodeBits bits = nodes[slot];
+  BodyParams body = bodies[bodyOf(bits)];
+  float mass = nodeMass(slot, bits, body);
+  vec4 du = texelFetch(increment, int(slot));
+  vec3 u = xyz(texelFetch(displacement, int(slot)));
+  vec4 elastic = vec4(0.0f), potential = vec4(0.0f), motion = vec4(0.0f);
+  if (!isPrescribed(du)) {
+    vec3 y = freeIncrement(slot, body), v = xyz(texelFetch(velocity, int(slot)));
+    for (int c = 0; c < 4; ++c) {
+      vec3 way = share(slot, du, c), off = way - y;
+      potential[c] = 0.5f * inertia(mass, body) * dot(off, off);
+      motion[c] = 0.5f * mass * dot(way, way) / (dt_s * dt_s) - mass * dot(gravity, way);
+    }
+#ifdef CONTACT
+    // Before the substep with what surfaces that move may bring in: of share 0 the nodes in contact are where these put them.
+    vec3 put = share(slot, du, 0);
+    float brought = 0.5f * mass * dot(put, put) / (dt_s * dt_s);
+    if (isInContact(du)) {
+      for (int c = 0; c < 4; ++c) potential[c] += frictionOf(slot, share(slot, du, c));
+      brought += frictionOf(slot, put);
+    }
+    motion[0] = 0.5f * mass * dot(v, v) + brought;
+#else
+    motion[0] = 0.5f * mass * dot(v, v);
+#endif
+#ifdef PAIRS
+    // What contacts with other nodes do on the way, with their last forces: so what lies on something does not fall, and what has not
+    // met anything yet goes on.
+    if (isInPairs(du)) {
+      for (int c = 0; c < 4; ++c) potential[c] -= dot(xyz(node_pairs[3u * slot + 2u]), share(slot, du, c));
+    }
+#endif
+  }
+#define VISIT_LINK                                                                                              \
+  if (counted) addSpring(slot, n, du, texelFetch(increment, int(n)), xyz(texelFetch(displacement, int(n))) - u, d, l0,     \
+                         prestrain, k, damping(k, body), elastic, potential);
+  FOR_EACH_LINK
+#undef VISIT_LINK
+#ifdef VOLUME
+  if ((bits.lo & kCellBit) != 0u) elastic += cellEnergies(slot, body);
+#endif
+  energies[ENERGIES_PER_NODE * i] = potential + elastic;
+  energies[ENERGIES_PER_NODE * i + 1u] = motion + elastic;
+}

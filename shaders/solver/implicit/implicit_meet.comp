@@ -1,0 +1,51 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// implicit_meet.comp - mends the forces of contacts between nodes: a round of Jacobi by mass splitting, each node meeting each of its
+// n contacts that press with 1/n of what resists a push.
+// Owner: solver/gpu/steps/implicit_substep.h   physics.md 2, 8
+// in, out  pairs (implicit_pairs.glsl)
+#include "layout.h"
+#include "solver/tissue/lattice.glsl"
+#include "solver/implicit/implicit_pairs.glsl"
+
+#ifndef __cplusplus
+layout(std430, binding = kBindActive) readonly buffer ActiveBuffer { uint active_nodes[]; };
+uniform uint active_count;
+#endif
+
+/// How far a node gives way to a contact under a force [m/N].
+float givesWay(uint slot) {
+  float majoriser = node_pairs[3u * slot].w;
+  return majoriser > 0.0f ? node_pairs[3u * slot + 1u].w / majoriser : 0.0f;
+}
+
+/// The force of b on a, mended from the last one by what they would miss and by what they would slip [N].
+/// @param a  of the lower slot, so that both ends come to the same   @param plane  xyz normal; w gap [m]
+vec3 forceBetween(uint a, uint b, vec4 plane, vec3 last) {
+  float give = givesWay(a) + givesWay(b);
+  if (give == 0.0f) return vec3(0.0f);
+  vec3 normal = xyz(plane), apart = xyz(node_pairs[3u * a + 1u]) - xyz(node_pairs[3u * b + 1u]);
+  float pressure = max(0.0f, dot(last, normal) - (dot(apart, normal) + plane.w) / give);
+  vec3 drag = last - apart / give;
+  drag -= dot(drag, normal) * normal;
+  float size = length(drag), most = pair_friction * pressure;
+  return pressure * normal + (size > most ? most / size : 1.0f) * drag;
+}
+
+void main() {
+  uint i = globalIndex();
+  if (i >= active_count) return;
+  uint slot = active_nodes[i];
+  PairRun run = pairsOf(slot);
+  if (run.count == 0u) return;
+  vec4 sum = vec4(0.0f);
+  for (uint end = run.first; end < run.first + run.count; ++end) {
+    uint other = pair_words[otherWord(end)];
+    bool first = slot < other;
+    vec3 force = forceBetween(first ? slot : other, first ? other : slot, pair_rows[2u * end], xyz(pair_rows[2u * end + 1u]));
+    pair_rows[2u * end + 1u] = vec4(force, 0.0f);
+    if (force != vec3(0.0f)) sum += vec4(first ? force : -force, 1.0f);
+  }
+  node_pairs[3u * slot + 2u] = sum;
+}

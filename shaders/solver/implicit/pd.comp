@@ -1,0 +1,117 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// pd.comp - one sweep of PD-Jacobi in majorise-minimise form, accelerated by Chebyshev's recurrence.   Owner: solver/gpu/steps/pd_pass.h
+// physics.md 2: x <- (m'/dt^2 y + sum k (x_far + l0 n)) / (m'/dt^2 + sum k), here as du += force / (m'/dt^2 + sum (k + c/dt) + volume)
+// in  displacement, velocity, increments, cell forces of this iterate     out  increments of the next, where the last but one was
+// Feature RATE finds what the spectrum of the iteration depends on instead.
+#include "layout.h"
+#include "solver/tissue/lattice.glsl"
+#include "solver/tissue/elastic.glsl"
+#include "solver/tissue/step.glsl"
+#include "solver/implicit/implicit.glsl"
+#include "solver/implicit/implicit_pull.glsl"
+#ifdef CONTACT
+#include "solver/implicit/implicit_contact.glsl"
+#endif
+
+#ifdef RATE
+/// max over nodes of (sum of k + volume)/m [1/s2] and of (sum of k dashpot_s)/m [1/s], as float bits in the guard.
+void main() {
+  uint i = globalIndex();
+  if (i >= active_count) return;
+  uint slot = active_nodes[i];
+  NodeBits bits = nodes[slot];
+  if ((bits.lo & kFixedBit) != 0u) return;
+  BodyParams body = bodies[bodyOf(bits)];
+  float mass = nodeMass(slot, bits, body), stiffness = 0.0f, volume = 0.0f;
+#define VISIT_LINK stiffness += k;
+  FOR_EACH_LINK
+#undef VISIT_LINK
+#ifdef VOLUME
+  const CellShape at_rest = cellShape(vec3(0.0f), vec3(0.0f), vec3(0.0f));
+#define ADD_BULK(corner)                                                                                      \
+  {                                                                                                           \
+    bool exists;                                                                                              \
+    uint cell = cellAt(slot, corner, exists);                                                                 \
+    if (exists && (nodes[cell].lo & kCellBit) != 0u)                                                          \
+      volume += volumeMajoriser(cellBulk(cell, body), at_rest, vec3(1.0f), 0.0f, body.origin_spacing.w);        \
+  }
+  FOR_EACH_CELL(ADD_BULK)
+#endif
+  atomicMax(guard[0], floatBitsToUint((stiffness + volume) / mass));  // positive floats order like their bits
+  atomicMax(guard[1], floatBitsToUint(stiffness * body.dashpot_s / mass));
+}
+#else
+#ifndef __cplusplus
+layout(std430, binding = kBindIncrementOut) buffer IncrementOut { vec4 next_increments[]; };  // holds the last but one
+uniform uint iteration;
+uniform float omega;  // Chebyshev's weight; 1 is plain Jacobi
+#endif
+
+/// Has the last sweep moved a node farther than the first did, by more than the norms' difference? Modes within the spectrum
+/// cannot grow (in the sum of squares; the largest of all nodes may for a while), so the acceleration has met one outside.
+bool wentWrong() {
+  const float allowed = 4.0f;
+  if (iteration == 0u) return false;
+  return !(uintBitsToFloat(guard[changeWord(iteration - 1u)]) <= allowed * uintBitsToFloat(guard[changeWord(0u)]));
+}
+bool wasPlain() { return iteration > 0u && guard[plainWord(iteration - 1u)] != 0u; }
+
+void recordChange(vec3 change) {
+  uint bits = floatBitsToUint(length(change));
+  // The look before the atomic only saves work: the maximum is the same.
+  if (bits > guard[changeWord(iteration)]) atomicMax(guard[changeWord(iteration)], bits);
+}
+
+vec4 startedAnew(uint slot, vec3 du) {
+#ifdef CONTACT
+  if (contactCount(slot) != 0u) return vec4(outside(slot, du), -1.0f);
+#endif
+  return vec4(du, 0.0f);
+}
+
+void main() {
+  uint i = globalIndex();
+  if (i >= active_count) return;
+  uint slot = active_nodes[i];
+  bool was_plain = wasPlain(), plain = was_plain || (omega != 1.0f && wentWrong());
+  if (i == 0u && plain) {
+    guard[plainWord(iteration)] = 1u;
+    if (!was_plain) guard[changeWord(iteration)] = uint(guard[changeWord(0u)]);  // this iteration changes nothing
+  }
+  vec4 now = texelFetch(increment, int(slot));
+  if (isPrescribed(now) || isInPairs(now)) {  // the latter move together (implicit_pull.comp)
+    next_increments[slot] = now;
+    return;
+  }
+  NodeBits bits = nodes[slot];
+  BodyParams body = bodies[bodyOf(bits)];
+  if (plain && !was_plain) {  // what acceleration has spoilt starts again
+    next_increments[slot] = startedAnew(slot, uintBitsToFloat(guard[0]) * freeIncrement(slot, body));
+    return;
+  }
+  vec3 u = xyz(texelFetch(displacement, int(slot)));
+  float most = longestStep(body, iteration);
+  vec4 p = pull(slot, bits, body, u, xyz(now));
+  vec3 change = notTooFar(xyz(p) / p.w, most);
+#ifdef CONTACT
+  findContacts(slot, u, xyz(now) + change);
+  bool in_contact = contactCount(slot) != 0u;
+  if (in_contact) change = notTooFar(stepInContact(slot, p.w, xyz(now), xyz(p)), most);
+#endif
+  recordChange(change);
+  vec3 next = xyz(now) + change;
+  if (omega != 1.0f && !plain) {
+    vec3 before = xyz(next_increments[slot]);
+    next = before + omega * (next - before);
+  }
+#ifdef CONTACT
+  findContacts(slot, u, next);  // in which acceleration would end
+  in_contact = contactCount(slot) != 0u;
+  next_increments[slot] = in_contact ? vec4(outside(slot, next), -1.0f) : vec4(next, 0.0f);
+#else
+  next_increments[slot] = vec4(next, 0.0f);
+#endif
+}
+#endif

@@ -1,0 +1,283 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// awake_bricks.comp - which bricks are stepped, and the lists of their nodes and cells.   Owner: solver/gpu/buffers/awake_bricks.h
+// in  state of the nodes; what was cut; places that tools may reach     in/out  sleeping bricks     out  lists
+// An invocation per brick. Features, one each: WAKE_ALL, WAKE_NEAR (boxes), WAKE_HELD, WAKE_CUT (after a cut that took springs), LOOK
+// (who was fast in the substep that has just been made; with TOOLS also who was touched), LIST. The rule is that of src/solver/cpu/store/sleep.h. What makes a list out of
+// date starts it again; LIST follows before the next substep. Its order is that in which bricks come: nodes gather, so no result
+// depends on it.
+#include "layout.h"
+#include "solver/tissue/lattice.glsl"
+
+layout(std430, binding = kBindSleepingBricks) buffer SleepingBuffer { SleepingBrick sleeping[]; };
+layout(std430, binding = kBindAwakeNodes) buffer AwakeNodesBuffer {
+  AwakeList nodes_list;
+  uint awake_nodes[];
+};
+#ifdef VOLUME
+layout(std430, binding = kBindAwakeCells) buffer AwakeCellsBuffer {
+  AwakeList cells_list;
+  uint awake_cells[];
+};
+#endif
+uniform uint brick_count;
+
+uint firstSlot(uint brick) { return brick * kBrickSlots; }
+
+void startLists() {
+  nodes_list.groups_x = nodes_list.groups_y = nodes_list.count = 0u;
+  nodes_list.groups_z = 1u;
+  nodes_list.bricks = nodes_list.farthest_bits = 0u;
+#ifdef VOLUME
+  cells_list.groups_x = cells_list.groups_y = cells_list.count = 0u;
+  cells_list.groups_z = 1u;
+#endif
+}
+
+/// It neither falls asleep soon nor stays asleep.
+void wake(uint b) {
+  if (sleeping[b].kind != kMayMove) return;
+  sleeping[b].quiet_s = 0.0;
+  sleeping[b].awake = 1u;
+}
+
+#if defined(WAKE_ALL) || defined(WAKE_HELD)
+layout(std430, binding = kBindActive) readonly buffer ActiveBuffer { uint active_nodes[]; };
+layout(std430, binding = kBindNodes) readonly buffer NodesBuffer { NodeBits nodes[]; };
+#endif
+#if defined(WAKE_ALL) || defined(LIST)
+layout(std430, binding = kBindDisplacementIn) readonly buffer DisplacementIn { vec4 displacement[]; };
+layout(std430, binding = kBindDisplacementOut) writeonly buffer DisplacementOut { vec4 next_displacement[]; };
+layout(std430, binding = kBindVelocityIn) writeonly buffer VelocityIn { vec4 velocity[]; };
+layout(std430, binding = kBindVelocityOut) writeonly buffer VelocityOut { vec4 next_velocity[]; };
+
+/// Both states are that of before the substep, at rest.
+/// @return the largest |u| [m]
+float freeze(uint b) {
+  float largest2 = 0.0;
+  for (uint slot = firstSlot(b); slot < firstSlot(b) + kBrickSlots; ++slot) {
+    vec4 u = displacement[slot];
+    next_displacement[slot] = u;
+    velocity[slot] = next_velocity[slot] = vec4(0.0);
+    largest2 = max(largest2, dot(xyz(u), xyz(u)));
+  }
+  return sqrt(largest2);
+}
+#endif
+
+#ifdef WAKE_ALL
+/// Fixed, or alone and not held (step.glsl).
+bool staysAtRest(NodeBits bits) {
+  return (bits.lo & kFixedBit) != 0u || (isIsolated(bits) && (bits.lo & kGrabMask) == 0u);
+}
+
+uint kindOf(uint b) {
+#ifdef NETWORK
+  if (bodies[bodyAt(firstSlot(b))].connections != kImplicit) return kNeverSleeps;
+#endif
+  uint first = sleeping[b].first_node;
+  for (uint i = first; i < first + sleeping[b].node_count; ++i) {
+    if (!staysAtRest(nodes[active_nodes[i]])) return kMayMove;
+  }
+  return kNeverMoves;
+}
+
+void ask(uint b) {
+  sleeping[b].kind = kindOf(b);
+  sleeping[b].quiet_s = 0.0;
+  sleeping[b].wanted = 0u;
+  sleeping[b].awake = sleeping[b].kind == kMayMove ? 1u : 0u;
+  if (sleeping[b].kind == kNeverMoves) freeze(b);
+}
+#endif
+
+#ifdef WAKE_NEAR
+layout(std430, binding = kBindDisplacementIn) readonly buffer DisplacementIn { vec4 displacement[]; };
+uniform vec3 box_low[kMaxStyluses];   // tissue frame [m]
+uniform vec3 box_high[kMaxStyluses];
+uniform uint box_count;
+
+float largestDisplacement(uint b) {
+  float largest2 = 0.0;
+  for (uint slot = firstSlot(b); slot < firstSlot(b) + kBrickSlots; ++slot) {
+    largest2 = max(largest2, dot(xyz(displacement[slot]), xyz(displacement[slot])));
+  }
+  return sqrt(largest2);
+}
+
+void ask(uint b) {
+  if (sleeping[b].kind != kMayMove || (sleeping[b].awake != 0u && sleeping[b].quiet_s == 0.0)) return;
+  vec4 origin = bodies[bodyAt(firstSlot(b))].origin_spacing;
+  float edge = float(kBrickEdge) * origin.w;
+  vec3 first = xyz(origin) + edge * vec3(brickCoord(firstSlot(b)));
+  float reach = sleeping[b].awake != 0u ? largestDisplacement(b) : sleeping[b].farthest_m;
+  vec3 last = first + (edge - origin.w) + reach;
+  for (uint i = 0u; i < box_count; ++i) {
+    if (all(lessThanEqual(first - reach, box_high[i])) && all(greaterThanEqual(last, box_low[i]))) wake(b);
+  }
+}
+#endif
+
+#ifdef WAKE_HELD
+void ask(uint b) {
+  uint first = sleeping[b].first_node;
+  bool held = false;
+  for (uint i = first; i < first + sleeping[b].node_count; ++i) {
+    held = held || (nodes[active_nodes[i]].lo & kGrabMask) != 0u;
+  }
+  if (held) wake(b);
+}
+#endif
+
+#ifdef WAKE_CUT
+layout(std430, binding = kBindDisplacementIn) readonly buffer DisplacementIn { vec4 displacement[]; };
+layout(std430, binding = kBindStats) readonly buffer StatsBuffer { TickStats stats; };
+layout(std140, binding = kBindToolMotions) uniform ToolMotionsBlock { ToolMotion tool_motions[kMaxStyluses]; };
+uniform uint stylus;
+uniform float beside;  // tissue of a node outside of it is that many cells away at most
+#include "solver/tools/blade.glsl"
+
+/// Of a node, or of a place for one.
+void ask(uint b) {
+  if (stats.springs_cut == nodes_list.springs_cut) return;
+  ToolMotion m = tool_motions[stylus];
+  float h = bodies[bodyAt(firstSlot(b))].origin_spacing.w;
+  vec4 sphere = bladeSphere(m, h);
+  sphere.w += beside * h;
+  bool near = false;
+  for (uint slot = firstSlot(b); slot < firstSlot(b) + kBrickSlots; ++slot) {
+    near = near || !farFromBlade((restPosition(slot) - xyz(m.from)) + xyz(displacement[slot]), sphere);
+  }
+  if (near) wake(b);
+}
+#endif
+
+#ifdef LOOK
+layout(std430, binding = kBindVelocityOut) readonly buffer VelocityOut { vec4 next_velocity[]; };
+uniform uint look;          // number of this look, > 0
+uniform float since_s;      // time since the last one
+uniform float sleeps_after_s;
+uniform float slow2;        // |v|^2 of what is slow [m2/s2]
+
+uint speedBits(uint slot) {
+  vec3 v = xyz(next_velocity[slot]);
+  return floatBitsToUint(dot(v, v)) & 0x7fffffffu;
+}
+
+#ifdef TOOLS
+layout(std430, binding = kBindActive) readonly buffer ActiveBuffer { uint active_nodes[]; };
+layout(std430, binding = kBindNodes) readonly buffer NodesBuffer { NodeBits nodes[]; };
+layout(std430, binding = kBindDisplacementOut) readonly buffer DisplacementOut { vec4 next_displacement[]; };
+layout(std140, binding = kBindToolMotions) uniform ToolMotionsBlock { ToolMotion tool_motions[kMaxStyluses]; };
+uniform float deepest_m;  // that a node lies below the surface by which it is touched
+
+/// Has one of its nodes been held or within reach of a probe?
+bool touched(uint b) {
+  uint first = sleeping[b].first_node;
+  bool found = false;
+  for (uint i = first; i < first + sleeping[b].node_count; ++i) {
+    uint slot = active_nodes[i];
+    vec3 x = restPosition(slot) + xyz(next_displacement[slot]);
+    found = found || (nodes[slot].lo & kGrabMask) != 0u;
+    for (uint s = 0u; s < kMaxStyluses; ++s) {
+      ToolMotion m = tool_motions[s];
+      float reach = m.from.w + deepest_m + distance(xyz(m.from), xyz(m.to));
+      vec3 off = x - xyz(m.to);
+      found = found || ((m.info.y & kToolPushes) != 0u && dot(off, off) < reach * reach);
+    }
+  }
+  return found;
+}
+#else
+bool touched(uint b) { return false; }
+#endif
+
+void ask(uint b) {
+  if (sleeping[b].awake == 0u) return;
+  uint fastest = 0u;  // positive floats order like their bits, and what is not a number is above all
+  for (uint slot = firstSlot(b); slot < firstSlot(b) + kBrickSlots; slot += 4u) {
+    fastest = max(fastest, max(max(speedBits(slot), speedBits(slot + 1u)), max(speedBits(slot + 2u), speedBits(slot + 3u))));
+  }
+  bool restless = fastest > floatBitsToUint(slow2) || touched(b);
+  float quiet = restless ? 0.0 : sleeping[b].quiet_s + since_s;
+  sleeping[b].quiet_s = quiet;
+  if (quiet >= sleeps_after_s) return;
+  for (uint d = 0u; d < 27u; ++d) sleeping[neighborBrick(firstSlot(b), d)].wanted = look;
+}
+#endif
+
+#ifdef LIST
+layout(std430, binding = kBindActive) readonly buffer ActiveBuffer { uint active_nodes[]; };
+layout(std430, binding = kBindStats) readonly buffer StatsBuffer { TickStats stats; };
+#ifdef VOLUME
+layout(std430, binding = kBindCells) readonly buffer CellsBuffer { uint cells[]; };
+#endif
+uniform uint look;  // number of the look that has just been; 0: bricks are awake as they say
+uniform uint group_size;
+uniform float sleeps_after_s;
+const uint kMostGroups = 65535u;  // along x, as Program::dispatch folds them
+
+/// As of this look, of bricks that another invocation is writing too.
+bool isAwake(uint b) {
+  if (sleeping[b].kind != kMayMove) return sleeping[b].kind == kNeverSleeps;
+  return look > 0u ? sleeping[b].wanted == look : sleeping[b].awake != 0u;
+}
+
+uint groupsOf(uint count) { return (count + group_size - 1u) / group_size; }
+
+void listNodes(uint b) {
+  uint count = sleeping[b].node_count, first = sleeping[b].first_node;
+  uint place = atomicAdd(nodes_list.count, count);
+  for (uint i = 0u; i < count; ++i) awake_nodes[place + i] = active_nodes[first + i];
+  atomicMax(nodes_list.groups_x, min(groupsOf(place + count), kMostGroups));
+  atomicMax(nodes_list.groups_y, (groupsOf(place + count) + kMostGroups - 1u) / kMostGroups);
+}
+
+#ifdef VOLUME
+/// Cells with a corner in a brick that is awake: it is their own or one of the seven above.
+void listCells(uint b) {
+  uint count = sleeping[b].cell_count, first = sleeping[b].first_cell;
+  bool needed = false;
+  for (uint c = 0u; c < 8u; ++c) {
+    needed = needed || isAwake(neighborBrick(firstSlot(b), 13u + (c & 1u) + 3u * ((c >> 1) & 1u) + 9u * (c >> 2)));
+  }
+  if (!needed || count == 0u) return;
+  uint place = atomicAdd(cells_list.count, count);
+  for (uint i = 0u; i < count; ++i) awake_cells[place + i] = cells[first + i];
+  atomicMax(cells_list.groups_x, min(groupsOf(place + count), kMostGroups));
+  atomicMax(cells_list.groups_y, (groupsOf(place + count) + kMostGroups - 1u) / kMostGroups);
+}
+#endif
+
+/// Falls asleep, stays as it is, or is woken by a neighbour; then it does not wake others before it moves.
+void heed(uint b, bool now) {
+  bool before = sleeping[b].awake != 0u;
+  if (before && !now) sleeping[b].farthest_m = freeze(b);
+  if (now && !before) sleeping[b].quiet_s = sleeps_after_s;
+  sleeping[b].awake = now ? 1u : 0u;
+}
+
+void ask(uint b) {
+  bool now = isAwake(b);
+  if (look > 0u && sleeping[b].kind == kMayMove) heed(b, now);
+  if (now) listNodes(b);
+#ifdef VOLUME
+  listCells(b);
+#endif
+  if (sleeping[b].kind != kMayMove) return;
+  if (now) atomicAdd(nodes_list.bricks, 1u);
+  else atomicMax(nodes_list.farthest_bits, floatBitsToUint(sleeping[b].farthest_m));
+}
+#endif
+
+void main() {
+  uint b = globalIndex();
+  if (b >= brick_count) return;
+#ifdef LIST
+  if (b == 0u) nodes_list.springs_cut = stats.springs_cut;
+#else
+  if (b == 0u) startLists();
+#endif
+  ask(b);
+}

@@ -1,0 +1,125 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// leapfrog.comp - advance every active node by one leapfrog substep.   Owner: solver/gpu/steps/leapfrog_pass.h   physics.md 2, 5
+// in  displacement, velocity [slots]     out  displacement, velocity [slots]; impulses [kMaxStyluses * slots]
+// Features: LATTICE, NETWORK, PARTS, VOLUME (elastic.glsl), EDGE_FORCES (of explicit connections: as spring_forces.comp found
+// them), DASHPOT (axial dashpot), TOOLS (probe and held nodes), COMPENSATED (Kahan's sums of u and v), AWAKE (only nodes of
+// bricks that are awake, as awake_bricks.comp lists them).
+#include "layout.h"
+#include "solver/tissue/lattice.glsl"
+#include "solver/tissue/elastic.glsl"
+
+#ifndef __cplusplus
+#ifdef AWAKE
+layout(std430, binding = kBindAwakeNodes) readonly buffer AwakeNodesBuffer {
+  uvec3 node_groups;
+  uint active_count;
+  uvec4 node_counts;
+  uint active_nodes[];
+};
+#else
+layout(std430, binding = kBindActive) readonly buffer ActiveBuffer { uint active_nodes[]; };
+#endif
+layout(std430, binding = kBindNodes) readonly buffer NodesBuffer { NodeBits nodes[]; };
+layout(std430, binding = kBindDisplacementOut) writeonly buffer DisplacementOut { vec4 next_displacement[]; };
+layout(std430, binding = kBindVelocityOut) writeonly buffer VelocityOut { vec4 next_velocity[]; };
+#ifdef COMPENSATED
+layout(std430, binding = kBindCompensation) buffer CompensationBuffer { vec4 compensation[]; };
+#endif
+#ifdef EDGE_FORCES
+layout(binding = kUnitLinkForces) uniform samplerBuffer link_forces;
+layout(binding = kUnitForceStarts) uniform usamplerBuffer force_starts;  // [slots + 1]
+uint forceStart(uint slot) { return texelFetch(force_starts, int(slot)).x; }
+#endif
+#endif
+
+#include "solver/tissue/step.glsl"
+#ifdef TOOLS
+#include "solver/tools/contact.glsl"
+#endif
+
+#ifdef EDGE_FORCES
+/// Sum of what the springs of a node with explicit connections do to it [N].
+vec3 sumOfLinks(uint slot) {
+  vec3 force = vec3(0.0f);
+  uint end = forceStart(slot + 1u);
+  for (uint place = forceStart(slot); place < end; place += 2u) {  // two at a time: loops cost more than fetches
+    vec3 next = xyz(texelFetch(link_forces, int(place + 1u)));     // there is one place more than forces
+    force += xyz(texelFetch(link_forces, int(place)));
+    if (place + 1u < end) force += next;
+  }
+  return force;
+}
+#endif
+
+/// Sum of the forces of springs, dashpots and volumes on a node [N].
+vec3 elasticForce(uint slot, NodeBits bits, BodyParams body, vec3 u, vec3 v) {
+  vec3 force = vec3(0.0f);
+#ifdef DASHPOT
+#define DASHPOT_FORCE(k, n, s) force += (k * body.dashpot_s * dot(xyz(texelFetch(velocity, int(n))) - v, s.direction)) * s.direction;
+#else
+#define DASHPOT_FORCE(k, n, s)
+#endif
+#define VISIT_LINK                                                                  \
+  Spring s = springBetween(d, l0, prestrain, xyz(texelFetch(displacement, int(n))) - u); \
+  force += (k * s.extension) * s.direction;                                         \
+  DASHPOT_FORCE(k, n, s)
+#if defined(EDGE_FORCES) && defined(LATTICE)
+  if (body.connections != kImplicit) {
+    force = sumOfLinks(slot);
+  } else {
+    FOR_EACH_SPRING(LATTICE_LINK)
+  }
+#elif defined(EDGE_FORCES)
+  force = sumOfLinks(slot);
+#else
+  FOR_EACH_LINK
+#endif
+#undef VISIT_LINK
+#ifdef VOLUME
+  force += xyz(volumeForce(slot));
+#endif
+  return force;
+}
+
+/// sum + increment. Kahan: what the last sums lost is added first, what this one loses is kept. @param of  compensation's index
+vec3 added(uint of, vec3 sum, vec3 increment) {
+#ifdef COMPENSATED
+  precise vec3 all_of_it = increment - xyz(compensation[of]);
+  precise vec3 next = sum + all_of_it;
+  precise vec3 lost = (next - sum) - all_of_it;
+  compensation[of] = vec4(lost, 0.0f);
+  return next;
+#else
+  return sum + increment;
+#endif
+}
+
+void main() {
+  uint i = globalIndex();
+  if (i >= active_count) return;
+  uint slot = active_nodes[i];
+  NodeBits bits = nodes[slot];
+  vec3 u = xyz(texelFetch(displacement, int(slot)));
+  if (isAtRest(bits)) {
+    next_displacement[slot] = vec4(u, 0.0f);
+    next_velocity[slot] = vec4(0.0f);
+    return;
+  }
+  BodyParams body = bodies[bodyOf(bits)];
+  vec3 v = xyz(texelFetch(velocity, int(slot)));
+  float mass = nodeMass(slot, bits, body);
+  vec3 acceleration = elasticForce(slot, bits, body, u, v) / mass + gravity;
+
+  // ((1 - g) v + kick a) / (1 + g), as v and an increment: rounding 1 - g would be a drag of its own, the same in every substep.
+  float g = 0.5f * body.drag_per_s * kick_s;
+  vec3 v_next = added(2u * slot + 1u, v, (kick_s * acceleration - (2.0f * g) * v) / (1.0f + g));
+  vec3 u_next = added(2u * slot, u, dt_s * v_next);
+#ifdef TOOLS
+  resolveContacts(slot, bits, mass, u, u_next, v_next);
+#endif
+  fallAsleep(bits, u, u_next, v_next);
+  next_displacement[slot] = vec4(u_next, 0.0f);
+  next_velocity[slot] = vec4(v_next, 0.0f);
+}

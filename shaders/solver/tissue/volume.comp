@@ -1,0 +1,94 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// volume.comp - forces of every cell's energies: of its volume, by moments.   Owner: solver/gpu/forces/volume_pass.h   physics.md 1
+// in  displacement, nodes     out  cell forces [cell_vectors * slots]: see CellForces in elastic.glsl
+// (implicit_cells.comp writes the same for its iterates, with a majoriser in w of the first.) Feature CUT drops the cells that
+// lost a spring instead; AWAKE: only cells beside bricks that are awake.
+#include "layout.h"
+#include "solver/tissue/lattice.glsl"
+#include "solver/tissue/elastic.glsl"
+#include "solver/tissue/corners.glsl"
+
+#ifndef __cplusplus
+#ifdef AWAKE
+layout(std430, binding = kBindAwakeCells) readonly buffer AwakeCellsBuffer {
+  uvec3 cell_groups;
+  uint cell_count;
+  uvec4 cell_counts;
+  uint cells[];
+};
+#else
+layout(std430, binding = kBindCells) readonly buffer CellsBuffer { uint cells[]; };
+uniform uint cell_count;
+#endif
+#endif
+
+#ifdef CUT
+#ifndef __cplusplus
+layout(std430, binding = kBindNodes) buffer NodesBuffer { NodeBits nodes[]; };
+#endif
+
+/// Has one of the cell's 24 springs, seen from a corner, been cut?
+bool torn(uint slot, uint c) {
+  NodeBits bits = nodes[cornerSlot(slot, c)];
+  if ((bits.lo & kSeveredBit) == 0u) return false;
+  ivec3 at = ivec3(c & 1u, (c >> 1) & 1u, (c >> 2) & 1u);
+  bool lost = false;
+#define LOST(spring, offset)                                                                        \
+  {                                                                                                 \
+    ivec3 to = at + offset;                                                                         \
+    lost = lost || (all(greaterThanEqual(to, ivec3(0))) && all(lessThanEqual(to, ivec3(1))) && springCount(bits, spring) == 0u); \
+  }
+  FOR_EACH_SPRING(LOST)
+  return lost;
+}
+
+void main() {
+  uint i = globalIndex();
+  if (i >= cell_count) return;
+  uint slot = cells[i];
+  if ((nodes[slot].lo & kCellBit) == 0u) return;
+  bool lost = false;
+  for (uint c = 0u; c < 8u; ++c) lost = lost || torn(slot, c);
+  if (lost) nodes[slot].lo &= ~kCellBit;
+}
+#else
+#ifndef __cplusplus
+layout(std430, binding = kBindNodes) readonly buffer NodesBuffer { NodeBits nodes[]; };
+layout(std430, binding = kBindCellForces) writeonly buffer CellForcesBuffer { vec4 cell_forces_out[]; };
+#endif
+
+vec3 u(uint slot) { return xyz(texelFetch(displacement, int(slot))); }
+
+void main() {
+  uint i = globalIndex();
+  if (i >= cell_count) return;
+  uint slot = cells[i];
+  NodeBits bits = nodes[slot];
+  CellForces f = {vec3(0.0f), vec3(0.0f), vec3(0.0f), vec3(0.0f), vec3(0.0f), vec3(0.0f), vec3(0.0f)};
+  if ((bits.lo & kCellBit) != 0u) {
+    BodyParams body = bodies[bodyOf(bits)];
+    float h = body.origin_spacing.w;
+    vec3 at[8];
+    for (uint c = 0u; c < 8u; ++c) at[c] = u(cornerSlot(slot, c));
+    float quarter = 0.25f / h;
+    vec3 da = quarter * ((at[1] - at[0]) + (at[3] - at[2]) + (at[5] - at[4]) + (at[7] - at[6]));
+    vec3 db = quarter * ((at[2] - at[0]) + (at[3] - at[1]) + (at[6] - at[4]) + (at[7] - at[5]));
+    vec3 dc = quarter * ((at[4] - at[0]) + (at[5] - at[1]) + (at[6] - at[2]) + (at[7] - at[3]));
+    CellShape s = cellShape(da, db, dc);
+    float bulk = cellBulk(slot, body);
+    f = cellForces(at, s, volumePressure(bulk, s.e) * quarter, h, bulk, cellRigidity(slot, body), cellMoments(slot));
+  }
+  uint first = cell_vectors * slot;
+  cell_forces_out[first] = vec4(f.a, 0.0f);
+  cell_forces_out[first + 1u] = vec4(f.b, 0.0f);
+  cell_forces_out[first + 2u] = vec4(f.c, 0.0f);
+  if (has_moments) {
+    cell_forces_out[first + 3u] = vec4(f.hx, 0.0f);
+    cell_forces_out[first + 4u] = vec4(f.hy, 0.0f);
+    cell_forces_out[first + 5u] = vec4(f.hz, 0.0f);
+    cell_forces_out[first + 6u] = vec4(f.hxyz, 0.0f);
+  }
+}
+#endif

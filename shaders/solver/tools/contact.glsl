@@ -1,0 +1,64 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// What a probe does to a node, and where a held node goes (VR05 2.7.1, 2.7.2; physics.md 5). Included by the integrators.
+#include "solver/tools/touch.glsl"
+
+#ifndef __cplusplus
+layout(std140, binding = kBindToolMotions) uniform ToolMotionsBlock { ToolMotion tool_motions[kMaxStyluses]; };
+layout(std430, binding = kBindGrabOffsets) readonly buffer GrabOffsetsBuffer { vec4 grab_offsets[]; };
+layout(std430, binding = kBindImpulses) buffer ImpulsesBuffer { vec4 impulses[]; };
+
+/// Adds a change of momentum to what a stylus gave this node in this tick; w counts substeps of contact.
+void giveMomentum(uint stylus, uint slot, vec3 impulse) { impulses[stylus * slot_count + slot] += vec4(impulse, 1.0f); }
+#endif
+
+/// Swept sphere: a node inside the final sphere goes to its surface along the radius; one that the sphere has passed over
+/// goes out of the swept capsule sideways, so no sweep is too fast. Its normal velocity becomes the tool's.
+/// @param below  surfaceDepth() of the node
+void probe(ToolMotion motion, float below, vec3 x, INOUT(vec3) x_next, INOUT(vec3) v_next) {
+  ProbeSide side = sideOfProbe(motion, x, x_next, below);
+  if (!side.inside) return;
+  vec3 travel = xyz(motion.to) - xyz(motion.from);
+  // Out of the tool, but no faster than waves travel: a tool that appears inside the tissue must not shoot it away.
+  x_next += min(side.depth, push_speed * dt_s) * side.normal;
+  float approach = dot(v_next - travel / dt_s, side.normal);
+  if (approach < 0.0f) v_next -= approach * side.normal;
+}
+
+/// Where a stylus has a node that it holds at the end of the substep: displacement [m].
+vec3 heldDisplacement(uint stylus, uint slot) {
+  return xyz(tool_motions[stylus].to) + rotated(xyzw(tool_motions[stylus].orientation), xyz(grab_offsets[slot])) - restPosition(slot);
+}
+
+void resolveContacts(uint slot, NodeBits bits, float mass, vec3 u, INOUT(vec3) u_next, INOUT(vec3) v_next) {
+  vec3 rest = restPosition(slot);
+  float below = surfaceDepth(slot);
+  uint held_by = (bits.lo & kGrabMask) >> kGrabShift;
+  for (uint s = 0u; s < kMaxStyluses; ++s) {
+    if ((tool_motions[s].info.y & kToolPushes) == 0u && held_by != s + 1u) continue;
+    ToolMotion motion = tool_motions[s];
+    vec3 v_before = v_next;
+    if (held_by == s + 1u) {
+      u_next = heldDisplacement(s, slot);
+      v_next = (u_next - u) / dt_s;
+    } else if (held_by == 0u) {
+      vec3 x_next = rest + u_next;
+      vec3 reach = x_next - xyz(motion.to);
+      vec3 travel = xyz(motion.to) - xyz(motion.from);
+      bool feels = (motion.info.y & kToolFeels) != 0u;  // is within tissue: no node is farther from it than it would be without depths
+      float far = max(motion.from.w + (feels ? max(below, 0.0f) : below), 0.0f) + length(travel);
+      if (dot(reach, reach) >= far * far) continue;
+      if (feels) {
+        giveMomentum(s, slot, vec3(0.0f));
+        continue;
+      }
+      probe(motion, below, rest + u, x_next, v_next);
+      u_next = x_next - rest;
+      if (v_next == v_before) continue;
+    } else {
+      continue;
+    }
+    giveMomentum(s, slot, mass * (v_next - v_before));
+  }
+}

@@ -1,0 +1,160 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "model/shape/files/ply_reader.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <vector>
+
+#include "model/shape/files/ply_header.h"
+#include "viscera/math/error.h"
+
+namespace viscera {
+namespace {
+
+template <typename T>
+double valueOf(const char* bytes) {
+  T value;
+  std::memcpy(&value, bytes, sizeof value);
+  return static_cast<double>(value);
+}
+
+/// The numbers of a body, one after the other.
+class PlyNumbers {
+ public:
+  PlyNumbers(std::istream& file, const std::string& format)
+      : file_(file), is_ascii_(format == "ascii"), is_big_endian_(format == "binary_big_endian") {}
+
+  double next(const std::string& type) { return is_ascii_ ? nextWord() : nextBytes(type); }
+
+  /// Length of a list.
+  size_t nextLength(const std::string& type) {
+    const double length = next(type);
+    if (!(length >= 0 && length <= kLongestList)) throw MeshError("it holds a list of impossible length");
+    return static_cast<size_t>(length);
+  }
+
+ private:
+  double nextWord() {
+    if (!(file_ >> word_)) throw MeshError("");
+    char* end = nullptr;
+    const double value = std::strtod(word_.c_str(), &end);
+    if (*end != '\0') throw MeshError("'" + word_ + "' is not a number");
+    return value;
+  }
+
+  double nextBytes(const std::string& type) {
+    const size_t count = plyTypeBytes(type);
+    char bytes[8];
+    if (!file_.read(bytes, static_cast<std::streamsize>(count))) throw MeshError("");
+    // The machines that viscera runs on are little-endian.
+    if (is_big_endian_) std::reverse(bytes, bytes + count);
+    const bool is_unsigned = type[0] == 'u';
+    if (type[0] == 'f' || type[0] == 'd') return count == 4 ? valueOf<float>(bytes) : valueOf<double>(bytes);
+    if (count == 1) return is_unsigned ? valueOf<uint8_t>(bytes) : valueOf<int8_t>(bytes);
+    if (count == 2) return is_unsigned ? valueOf<uint16_t>(bytes) : valueOf<int16_t>(bytes);
+    return is_unsigned ? valueOf<uint32_t>(bytes) : valueOf<int32_t>(bytes);
+  }
+
+  static constexpr double kLongestList = 1 << 24;
+  std::istream& file_;
+  bool is_ascii_, is_big_endian_;
+  std::string word_;
+};
+
+struct PlyMesh {
+  std::vector<aiVector3D> vertices;
+  std::vector<std::array<unsigned, 3>> triangles;
+};
+
+unsigned vertexIndex(double value, size_t vertices) {
+  if (value >= 0 && value < static_cast<double>(vertices)) return static_cast<unsigned>(value);
+  throw MeshError("a face refers to a vertex that does not exist");
+}
+
+void readVertex(const PlyElement& element, PlyNumbers& numbers, PlyMesh& mesh) {
+  aiVector3D position(0, 0, 0);
+  for (const PlyProperty& property : element.properties) {
+    const size_t values = property.list_type.empty() ? 1 : numbers.nextLength(property.list_type);
+    for (size_t i = 0; i < values; ++i) {
+      const double value = numbers.next(property.type);
+      if (property.name.size() == 1 && property.name[0] >= 'x' && property.name[0] <= 'z') {
+        position[static_cast<unsigned>(property.name[0] - 'x')] = static_cast<float>(value);
+      }
+    }
+  }
+  mesh.vertices.push_back(position);
+}
+
+/// Faces, and any other element: corners are taken from a list of vertex indices, the rest is passed over.
+void readFace(const PlyElement& element, PlyNumbers& numbers, PlyMesh& mesh) {
+  for (const PlyProperty& property : element.properties) {
+    const size_t values = property.list_type.empty() ? 1 : numbers.nextLength(property.list_type);
+    const bool are_corners = property.name == "vertex_indices" || property.name == "vertex_index";
+    unsigned first = 0, last = 0;
+    for (size_t i = 0; i < values; ++i) {
+      const double value = numbers.next(property.type);
+      if (!are_corners) continue;
+      const unsigned corner = vertexIndex(value, mesh.vertices.size());
+      if (i == 0) first = corner;
+      if (i >= 2) mesh.triangles.push_back({first, last, corner});
+      last = corner;
+    }
+  }
+}
+
+void readElement(const PlyElement& element, PlyNumbers& numbers, PlyMesh& mesh) {
+  if (element.properties.empty()) return;
+  for (long long i = 0; i < element.count; ++i) {
+    try {
+      (element.name == "vertex" ? readVertex : readFace)(element, numbers, mesh);
+    } catch (const MeshError& error) {
+      const std::string what = error.what();
+      throw MeshError("in " + element.name + " " + std::to_string(i) + ": " + (what.empty() ? "the file ends" : what));
+    }
+  }
+}
+
+/// Hands a mesh over as the single node of a scene.
+std::unique_ptr<aiScene> sceneOf(const PlyMesh& mesh) {
+  auto scene = std::make_unique<aiScene>();
+  auto out = std::make_unique<aiMesh>();
+  out->mNumVertices = static_cast<unsigned>(mesh.vertices.size());
+  out->mVertices = new aiVector3D[mesh.vertices.size()];
+  std::copy(mesh.vertices.begin(), mesh.vertices.end(), out->mVertices);
+  out->mNumFaces = static_cast<unsigned>(mesh.triangles.size());
+  out->mFaces = new aiFace[mesh.triangles.size()];
+  for (size_t t = 0; t < mesh.triangles.size(); ++t) {
+    out->mFaces[t].mNumIndices = 3;
+    out->mFaces[t].mIndices = new unsigned[3];
+    std::copy(mesh.triangles[t].begin(), mesh.triangles[t].end(), out->mFaces[t].mIndices);
+  }
+  scene->mNumMeshes = 1;
+  scene->mMeshes = new aiMesh* [1] { out.release() };
+  scene->mRootNode = new aiNode;
+  scene->mRootNode->mNumMeshes = 1;
+  scene->mRootNode->mMeshes = new unsigned[1]{0};
+  return scene;
+}
+
+}  // namespace
+
+bool isPly(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  char magic[3];
+  return file.read(magic, sizeof magic) && std::memcmp(magic, "ply", sizeof magic) == 0;
+}
+
+std::unique_ptr<aiScene> readPly(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  const PlyHeader header = readPlyHeader(file);
+  PlyNumbers numbers(file, header.format);
+  PlyMesh mesh;
+  for (const PlyElement& element : header.elements) readElement(element, numbers, mesh);
+  return sceneOf(mesh);
+}
+
+}  // namespace viscera

@@ -1,0 +1,63 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <unordered_map>
+#include <vector>
+
+#include "model/shape/detail/detail_paint.h"
+
+namespace viscera {
+
+/// Coronary arteries and veins on a heart, in grooves with fat, as a surgeon sees them: the anterior descending artery
+/// between the ventricles with its diagonals, the right and the circumflex artery between atria and ventricles, the
+/// posterior descending one, their marginals and twigs, each with a vein beside it. Lengths in the heart's own frame
+/// are fractions of its length, apex at the origin, base at z = 1.
+class HeartVessels : public SurfacePaint {
+ public:
+  /// Distance to the tissue, negative within, in the heart's own frame, and whether a place is of the right ventricle.
+  using Field = std::function<double(const Vector3d&)>;
+  using IsRight = std::function<bool(const Vector3d&)>;
+  HeartVessels(const Field& field, const IsRight& is_right);
+
+  Vector3f ground() const override;
+  void findNear(const Vector3f& middle, float radius, std::vector<uint32_t>& near) const override;
+  void narrow(const std::vector<uint32_t>& near, const Vector3f& middle, float radius, const Vector3f& normal,
+              float spread, std::vector<uint32_t>& nearer) const override;
+  void paint(const std::vector<uint32_t>& near, PaintRow& row) const override;
+  void raise(const std::vector<uint32_t>& near, PaintRow& row) const override;
+
+ private:
+  enum class Kind { kArtery, kVein };
+  struct Point {
+    Vector3d at, normal;
+    double radius = 0, fat = 0;  ///< half the width of the fat around it
+  };
+  /// A straight piece of a vessel, from `a` along `way`, as it is painted.
+  struct Piece {
+    Vector3f a, way, normal;
+    float per_way2, radius, radius_change, fat, fat_change;
+    float vein;  ///< 1 of veins, else 0
+  };
+  /// What all pieces together say of the places of a row.
+  struct Sums;
+  Sums sumsOf(const std::vector<uint32_t>& near, const PaintRow& row) const;
+  bool reaches(uint32_t index, const Vector3f& middle, float radius) const;
+  Vector3d outermost(double z, double turn, int halvings) const;
+  Vector3d normalAt(const Vector3d& place) const;
+  Point onSurface(double z, double turn, double radius, double fat) const;
+  double groove(double z, double from, double to) const;
+  void addPath(const std::vector<Point>& points, Kind kind);
+  void listCells();
+  void addWithVein(const std::vector<Point>& points);
+  void addBranch(double z, double turn, double to_z, double to_turn, double radius, int order, uint32_t seed);
+
+  Field field_;
+  IsRight is_right_;
+  std::vector<Piece> pieces_;
+  std::unordered_map<uint64_t, std::vector<uint32_t>> cells_;  ///< which pieces reach into a cell of space
+};
+
+}  // namespace viscera

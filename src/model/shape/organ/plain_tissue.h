@@ -1,0 +1,17 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+
+#include "model/shape/organ/tissue.h"
+
+namespace viscera {
+
+// Bodies that a few numbers describe.
+
+std::unique_ptr<Tissue> boxTissue(const BodyConfig& config);
+std::unique_ptr<Tissue> sheetTissue(const BodyConfig& config);
+std::unique_ptr<Tissue> ballTissue(const BodyConfig& config);
+
+}  // namespace viscera

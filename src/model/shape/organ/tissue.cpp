@@ -1,0 +1,186 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "model/shape/organ/tissue.h"
+
+#include <filesystem>
+
+#include "model/scene/structure_rules.h"
+#include "model/shape/files/msh_reader.h"
+#include "model/shape/organ/clamp_planes.h"
+#include "model/shape/organ/placing.h"
+#include "model/shape/organ/plain_tissue.h"
+#include "model/shape/solid/solid_shell.h"
+#include "viscera/math/error.h"
+#include "viscera/model/shape/mesh_import.h"
+
+namespace viscera {
+namespace {
+
+TriangleMesh refined(const TriangleMesh& mesh, double longest_edge_m) {
+  double area_m2 = 0;
+  for (const auto& t : mesh.triangles) {
+    const Vector3d a = mesh.positions_m[t[0]].cast<double>();
+    area_m2 +=
+        0.5 * (mesh.positions_m[t[1]].cast<double>() - a).cross(mesh.positions_m[t[2]].cast<double>() - a).norm();
+  }
+  requireShell(area_m2, longest_edge_m);
+  return refine(mesh, longest_edge_m);
+}
+
+class MeshTissue : public Tissue {
+ public:
+  MeshTissue(const BodyConfig& config, const std::string& folder) {
+    path_ = (std::filesystem::path(folder) / config.mesh_file).string();
+    ImportReport report;
+    mesh_ = facingOutward(importMesh(path_, config.unit_scale_m, &report, config.import_limits, config.textures));
+    const Pose placed = toBodyFrame(mesh_.positions_m, config);
+    move(mesh_.positions_m, bodyPose(config));
+    file_pose = bodyPose(config) * placed;
+    moveDetail(mesh_, file_pose);
+    notes.push_back(path_ + ": " + report.text());
+    notes.insert(notes.end(), report.look_notes.begin(), report.look_notes.end());
+    moments_ = hasMoments(config);
+    planes_ = clampPlanes(config, bounds());
+  }
+
+  Filling fill(double spacing_m, const Progress& progress) const override {
+    VoxelReport report;
+    try {
+      Solid solid = moments_ ? voxeliseByMoments(mesh_, spacing_m, planes_, &report, progress)
+                             : voxelise(mesh_, spacing_m, &report, progress);
+      return {std::move(solid), report.text()};
+    } catch (const MeshError& error) {
+      throw MeshError("mesh file '" + path_ + "': " + error.what());
+    }
+  }
+
+  /// Closed where the solid is: no look into it through a hole.
+  TriangleMesh surface(const Solid&) const override { return withCaps(mesh_); }
+  TriangleMesh shell(double spacing_m) const override { return refined(mesh_, spacing_m); }
+  Eigen::AlignedBox3d bounds() const override { return boundsOf(mesh_.positions_m); }
+
+ private:
+  std::string path_;
+  TriangleMesh mesh_;
+  bool moments_ = false;
+  NodePlanes planes_;
+};
+
+class PhantomTissue : public Tissue {
+ public:
+  explicit PhantomTissue(const BodyConfig& config)
+      : phantom_(heartPhantom(config.phantom_length_m, config.phantom_wall_scale)),
+        moments_(hasMoments(config)),
+        skin_spacing_m_(config.skin_spacing_m) {
+    const Pose pose = pose_ = bodyPose(config);
+    has_vessels_ = config.textures && config.skin_spacing_m > 0;
+    length_m_ = config.phantom_length_m;
+    wall_scale_ = config.phantom_wall_scale;
+    const Eigen::AlignedBox3d box = movedBox(phantom_.min_m, phantom_.max_m, pose);
+    phantom_.min_m = box.min();
+    phantom_.max_m = box.max();
+    phantom_.field = movedField(phantom_.field, pose);
+    planes_ = clampPlanes(config, bounds());
+  }
+
+  Filling fill(double spacing_m, const Progress& progress) const override {
+    const Phantom& p = phantom_;
+    if (moments_) return {voxeliseByMoments(p.field, p.part_names, p.min_m, p.max_m, spacing_m, planes_, progress), ""};
+    return {voxelise(p.field, p.part_names, p.min_m, p.max_m, spacing_m, progress), ""};
+  }
+
+  /// Of cells that are tissue in part walls may be thinner than a cell: the skin has them all the same.
+  TriangleMesh surface(const Solid& solid) const override {
+    double spacing_m = solid.spacing_m;
+    if (skin_spacing_m_ > 0) spacing_m = std::min(spacing_m, skin_spacing_m_);
+    for (const Wall& wall : phantom_.walls)
+      if (moments_) spacing_m = std::min(spacing_m, kSkinInWall * wall.thickness_m);
+    return shell(spacing_m);
+  }
+  TriangleMesh shell(double spacing_m) const override {
+    return extractSkin(phantom_.field, phantom_.part_names, phantom_.min_m, phantom_.max_m, spacing_m);
+  }
+
+  PlacedPaint paint() const override {
+    if (!has_vessels_) return {};
+    PlacedPaint paint = heartPaint(length_m_, wall_scale_);
+    const Pose to_body = pose_.inverse();
+    paint.shift += paint.turn * (to_body.position_m / paint.unit_m);
+    paint.turn = paint.turn * to_body.orientation;
+    return paint;
+  }
+
+  Eigen::AlignedBox3d bounds() const override { return {phantom_.min_m, phantom_.max_m}; }
+  /// Walls that are thinner than a cell have no holes where cells are tissue in part.
+  std::vector<Wall> walls() const override { return moments_ ? std::vector<Wall>{} : phantom_.walls; }
+
+ private:
+  static constexpr double kSkinInWall = 0.75;  ///< of a wall's thickness: no cell of the skin misses a wall, and some
+  Phantom phantom_;
+  bool moments_;
+  double skin_spacing_m_, length_m_ = 1, wall_scale_ = 1;
+  bool has_vessels_ = false;
+  Pose pose_;
+  NodePlanes planes_;
+};
+
+/// A tetrahedral mesh: it is what it is, no surface and no solid is made of it.
+class TetrahedraTissue : public Tissue {
+ public:
+  TetrahedraTissue(const BodyConfig& config, const std::string& folder) {
+    const std::string path = (std::filesystem::path(folder) / config.mesh_file).string();
+    MshReport report;
+    mesh_ = readMsh(path, config.unit_scale_m, &report, config.import_limits);
+    toBodyFrame(mesh_.positions_m, config);
+    move(mesh_.positions_m, bodyPose(config));
+    notes.push_back(path + ": " + report.text());
+  }
+
+  Filling fill(double, const Progress&) const override { throw LatticeError("a .msh file makes no lattice"); }
+  TriangleMesh surface(const Solid&) const override { throw LatticeError("a .msh file makes no lattice"); }
+  TriangleMesh shell(double) const override { throw LatticeError("a .msh file makes no membrane"); }
+  const TetrahedraMesh* tetrahedra() const override { return &mesh_; }
+  Eigen::AlignedBox3d bounds() const override { return boundsOf(mesh_.positions_m); }
+
+ private:
+  TetrahedraMesh mesh_;
+};
+
+}  // namespace
+
+Pose bodyPose(const BodyConfig& config) {
+  return {config.position_m, rotationFromDegrees(config.rotation_deg)};
+}
+
+namespace {
+
+std::unique_ptr<Tissue> tissueOf(const BodyConfig& config, const std::string& folder) {
+  switch (config.source) {
+    case TissueSource::kMesh:
+      if (config.structure == Structure::kTetrahedra) return std::make_unique<TetrahedraTissue>(config, folder);
+      return std::make_unique<MeshTissue>(config, folder);
+    case TissueSource::kPhantom:
+      return std::make_unique<PhantomTissue>(config);
+    case TissueSource::kSheet:
+      return sheetTissue(config);
+    case TissueSource::kBall:
+      return ballTissue(config);
+    case TissueSource::kBox:
+      return boxTissue(config);
+  }
+  throw SceneError("body '" + config.name + "': unknown source");
+}
+
+}  // namespace
+
+std::unique_ptr<Tissue> makeTissue(const BodyConfig& config, const std::string& folder) {
+  const std::string fault = structureFault(config);
+  if (!fault.empty()) throw SceneError("body '" + config.name + "': " + fault);
+  std::unique_ptr<Tissue> tissue = tissueOf(config, folder);
+  if (config.source == TissueSource::kMesh) return tissue;
+  const double turn_deg = config.up_axis == UpAxis::kY ? 90 : 0;
+  tissue->file_pose = bodyPose(config) * Pose{Vector3d::Zero(), rotationFromDegrees({turn_deg, 0, 0})};
+  return tissue;
+}
+
+}  // namespace viscera

@@ -1,0 +1,213 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/forces/wrench_publisher.h"
+
+#include <ros/console.h>
+#include <std_msgs/Float64.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "nodes/forces/impedance.h"
+#include "nodes/ros/thread_name.h"
+#include "nodes/ros/thread_schedule.h"
+
+namespace viscera::nodes {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Longer than a release takes, WrenchSchedule::kRelease_s, even on a busy machine; an end waits no longer.
+constexpr std::chrono::milliseconds kReleaseLimit{40};
+/// roscpp writes to sockets on a thread of its own and does not tell when it has: it has by then.
+constexpr std::chrono::milliseconds kFlush{10};
+
+}  // namespace
+
+WrenchPublisher::WrenchPublisher(ros::NodeHandle& node, const std::vector<const StylusMailbox*>& mailboxes,
+                                 double stall_s, const Scene& scene, const HapticOptions& options)
+    : mailboxes_(mailboxes),
+      loop_(forceStyluses(options, scene, mailboxes), options.rate_hz > 0, stall_s),
+      priority_(options.priority),
+      latencies_(mailboxes.size()) {
+  for (const StylusMailbox* mailbox : mailboxes_) sinks_.emplace_back(node, mailbox->device());
+  for (const StylusMailbox* mailbox : mailboxes_) {
+    if (!loop_.betweenTicks()) break;
+    energies_.push_back(node.advertise<std_msgs::Float64>(mailbox->config().name + "/energy", 1));
+    impedances_.push_back(node.advertise<crtk_msgs::CartesianImpedance>(mailbox->config().name + "/servo_ci", 1));
+  }
+  thread_ = std::thread([this] { main(); });
+}
+
+WrenchPublisher::~WrenchPublisher() {
+  release();
+  {
+    const std::lock_guard<PriorityMutex> lock(mutex_);
+    stop_ = true;
+  }
+  changed_.notify_one();
+  thread_.join();
+}
+
+void WrenchPublisher::setLimits(size_t stylus, const ForceLimits& limits) {
+  {
+    const std::lock_guard<PriorityMutex> lock(mutex_);
+    loop_.setLimits(stylus, limits);
+  }
+  changed_.notify_one();
+}
+
+void WrenchPublisher::put(const Hands& hands) {
+  {
+    const std::lock_guard<PriorityMutex> lock(mutex_);
+    const Clock::time_point now = Clock::now();
+    ForceLoop::Ticks ticks;
+    for (size_t s = 0; s < hands.size(); ++s) {
+      ticks[s] = {hands[s].reaction, hands[s].tracked, hands[s].contact};
+      if (!loop_.answering()) poses_received_[s] = hands[s].pose_received;
+    }
+    loop_.put(ticks, handsNow(now), now);
+    ticked_ = true;
+    if (loop_.answering()) return;  // the next period is soon enough
+    put_ = true;
+  }
+  changed_.notify_one();
+}
+
+void WrenchPublisher::rest() {
+  {
+    const std::lock_guard<PriorityMutex> lock(mutex_);
+    loop_.rest(Clock::now());
+    poses_received_ = {};
+    put_ = true;
+  }
+  changed_.notify_one();
+}
+
+void WrenchPublisher::release() {
+  std::unique_lock<PriorityMutex> lock(mutex_);
+  if (loop_.schedule().released()) return;
+  loop_.release(Clock::now());
+  put_ = true;
+  changed_.notify_one();
+  if (sent_.wait_for(lock, kReleaseLimit, [this] { return loop_.schedule().released(); }))
+    std::this_thread::sleep_for(kFlush);
+}
+
+/// Late answers are worse than late ticks: the thread asks to go first.
+void WrenchPublisher::schedule() {
+  if (!loop_.betweenTicks()) return;
+  const std::string how = goFirst(priority_);
+  const std::lock_guard<PriorityMutex> lock(mutex_);
+  scheduling_ = how;
+}
+
+HandsThere WrenchPublisher::listening() const {
+  HandsThere out{};
+  for (size_t s = 0; s < sinks_.size(); ++s) out[s] = sinks_[s].hasSubscribers();
+  return out;
+}
+
+/// A hand that moves without the tool feels nothing, as one that is not tracked; one whose device does not listen must
+/// not feel a leap when it does.
+ForceLoop::Hands WrenchPublisher::handsNow(SteadyTime now) const {
+  ForceLoop::Hands out;
+  for (size_t s = 0; s < mailboxes_.size(); ++s) {
+    const StylusSample sample = mailboxes_[s]->peek(now);
+    out[s] = {sample.valid && !mailboxes_[s]->clutched(), listening_[s], sample.pose.position_m, sample.received};
+  }
+  return out;
+}
+
+void WrenchPublisher::main() {
+  nameThread("wrenches");
+  schedule();
+  std::unique_lock<PriorityMutex> lock(mutex_);
+  while (!stop_) {
+    changed_.wait_until(lock, loop_.due(), [this] { return put_ || stop_; });
+    if (stop_) return;
+    put_ = false;
+    const Clock::time_point now = Clock::now();
+    const ForceLoop::Hands hands = handsNow(now);
+    const Wrenches wrenches = loop_.next(hands, now);
+    const bool ticked = std::exchange(ticked_, false), live = loop_.schedule().live();
+    stalls_ = loop_.schedule().stalls();
+    stalled_ = loop_.schedule().stalled();
+    lock.unlock();
+    const auto told_n = send(wrenches);
+    if (ticked) sendEnergies();
+    if (ticked || !live) sendImpedances(live);
+    const HandsThere listening = this->listening();
+    lock.lock();
+    listening_ = listening;
+    loop_.sent(told_n, now);
+    const Clock::time_point sent = Clock::now();
+    for (size_t s = 0; s < latencies_.size(); ++s) {
+      // What is worked out for a hand is timed whether its device listens or not.
+      if (loop_.answering()) poses_received_[s] = hands[s].tracked ? hands[s].told : SteadyTime{};
+      latencies_[s].add(poses_received_[s], sent);
+    }
+    if (loop_.schedule().released()) sent_.notify_all();
+  }
+}
+
+std::array<Vector3d, layout::kMaxStyluses> WrenchPublisher::send(const Wrenches& wrenches) {
+  std::array<Vector3d, layout::kMaxStyluses> told_n;
+  told_n.fill(Vector3d::Zero());
+  const ros::Time stamp = ros::Time::now();
+  for (size_t s = 0; s < sinks_.size(); ++s) {
+    if (!sinks_[s].hasSubscribers()) continue;
+    const DeviceFrame frame = mailboxes_[s]->deviceFrame();
+    told_n[s] = frame.from_tissue.conjugate() * sinks_[s].send(wrenches[s], frame, stamp).force_n;
+  }
+  return told_n;
+}
+
+void WrenchPublisher::sendEnergies() {
+  const std::vector<ForceLoop::Felt> all = felt();
+  for (size_t s = 0; s < energies_.size(); ++s) {
+    if (energies_[s].getNumSubscribers() == 0) continue;
+    std_msgs::Float64 energy;
+    energy.data = all[s].energy_j;
+    energies_[s].publish(energy);
+  }
+}
+
+/// @param live  ticks come in time; else nothing is to be felt
+void WrenchPublisher::sendImpedances(bool live) {
+  const ros::Time stamp = ros::Time::now();
+  for (size_t s = 0; s < impedances_.size(); ++s) {
+    if (impedances_[s].getNumSubscribers() == 0) continue;
+    crtk_msgs::CartesianImpedance message = noImpedance(mailboxes_[s]->deviceFrame().name, stamp);
+    if (live) {
+      const std::lock_guard<PriorityMutex> lock(mutex_);
+      message = toImpedance(loop_.servo(s), *mailboxes_[s], loop_.schedule().limits(s).force_n, Clock::now(), stamp);
+    }
+    impedances_[s].publish(message);
+  }
+}
+
+std::vector<ForceLoop::Felt> WrenchPublisher::felt() {
+  const std::lock_guard<PriorityMutex> lock(mutex_);
+  std::vector<ForceLoop::Felt> out;
+  for (size_t s = 0; s < mailboxes_.size(); ++s) out.push_back(loop_.felt(s));
+  return out;
+}
+
+std::string WrenchPublisher::scheduling() {
+  const std::lock_guard<PriorityMutex> lock(mutex_);
+  return scheduling_;
+}
+
+std::vector<LatencyMeter::Reading> WrenchPublisher::takeLatencies() {
+  std::vector<LatencyMeter> taken(latencies_.size());
+  {
+    const std::lock_guard<PriorityMutex> lock(mutex_);
+    for (size_t s = 0; s < taken.size(); ++s) taken[s] = latencies_[s].take();
+  }
+  std::vector<LatencyMeter::Reading> out;
+  for (const LatencyMeter& meter : taken) out.push_back(meter.reading());  // which sorts: not under the lock
+  return out;
+}
+
+}  // namespace viscera::nodes

@@ -1,0 +1,71 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <geometry_msgs/TransformStamped.h>
+#include <ros/node_handle.h>
+#include <sensor_msgs/JointState.h>
+#include <tf2_ros/buffer.h>
+
+#include <array>
+#include <atomic>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "nodes/hands/crtk_arm.h"
+#include "nodes/hands/frame_follower.h"
+#include "nodes/hands/sender_watch.h"
+#include "nodes/hands/stylus_mailbox.h"
+
+namespace viscera::nodes {
+
+/// What the device of one stylus sends, as its profile says, into the stylus's mailbox.
+class StylusInput {
+ public:
+  /// @param frames  must outlive this
+  /// @param max_transform_age_s  of what tf knows of a frame that moves [s]
+  StylusInput(const StylusConfig& config, const DeviceProfile& device, const std::string& tissue_frame,
+              tf2_ros::Buffer& frames, double max_transform_age_s);
+  StylusInput(const StylusInput&) = delete;
+  StylusInput& operator=(const StylusInput&) = delete;
+
+  /// Only now, when the simulation is ready, a device (or a replay that waits for a subscriber) is listened to.
+  void subscribe(ros::NodeHandle& node);
+  /// Nothing is listened to any more, while all else stays.
+  void unsubscribe();
+  StylusMailbox& mailbox() { return mailbox_; }
+  /// Of a tick that begins now: where an arm is that moves by itself. Called by the thread that steps.
+  void beginTick();
+  /// What clients of an arm want to know of it after a tick.
+  /// @param tool  where it is then, tissue frame
+  void endTick(const Pose& tool, const ros::Time& stamp);
+  /// Nodes that send poses at the same time, if there are several; else empty.
+  std::string rivals() const { return senders_.several(std::chrono::steady_clock::now()); }
+  bool hasPublisher() const;
+
+ private:
+  void listenTo(ros::NodeHandle& node, const ButtonPort& port, ButtonRole role);
+  void listenToGripper(ros::NodeHandle& node);
+  void onTransform(const geometry_msgs::TransformStamped& newest);
+  void onPose(const DevicePose& pose, const std::string& topic);
+  void onButtons(const ButtonPort& port, ButtonRole role, const std::vector<int32_t>& values);
+  void onGripper(const sensor_msgs::JointState& message);
+  FramePlace inTissue(const std::string& frame) const;
+  void warn(const std::string& topic, std::optional<Drop> reason, const std::string& detail = "");
+
+  tf2_ros::Buffer& frames_;
+  const std::string tissue_frame_;
+  const double max_transform_age_s_;
+  StylusMailbox mailbox_;
+  SenderWatch senders_;
+  std::array<std::atomic<bool>, kDropReasons> warned_{};  ///< by threads of topics and of tf
+  uint64_t base_moves_told_ = 0;
+  ros::Subscriber pose_;
+  std::vector<ros::Subscriber> others_;  ///< buttons, gripper
+  std::unique_ptr<FrameFollower> follower_;
+  std::unique_ptr<CrtkArm> arm_;
+  std::atomic<bool> subscribed_{false};  ///< set after the subscribers, which the diagnostics read on another thread
+};
+
+}  // namespace viscera::nodes

@@ -1,0 +1,194 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/hands/stylus_record.h"
+
+#include <ros/console.h>
+#include <ros/spinner.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <thread>
+
+#include "nodes/ros/conversions.h"
+
+namespace viscera::nodes {
+namespace {
+
+constexpr std::chrono::milliseconds kWatchPeriod{20};
+constexpr uint32_t kQueue = 0;    ///< without a limit: no tick may be overtaken
+constexpr double kMost_s = 3600;  ///< of a strokes file
+
+/// What is written before it takes the place of the file: one that is there is a whole one.
+std::string partOf(const std::string& file) {
+  return file + ".part";
+}
+
+}  // namespace
+
+Recording::Outcome Recording::end(const std::string& why) {
+  if (fault_.empty()) fault_ = why;
+  return Outcome::kEnded;
+}
+
+Stroke& Recording::strokeOf(const std::string& stylus) {
+  const auto same = [&](const Stroke& stroke) { return stroke.stylus == stylus; };
+  const auto found = std::find_if(strokes_.strokes.begin(), strokes_.strokes.end(), same);
+  if (found != strokes_.strokes.end()) return *found;
+  strokes_.strokes.emplace_back().stylus = stylus;
+  return strokes_.strokes.back();
+}
+
+Recording::Outcome Recording::add(const Samples& message) {
+  if (!fault_.empty()) return Outcome::kEnded;
+  if (message.tick != 1 && strokes_.ticks == 0) return Outcome::kWaiting;
+  if (!message.besides.empty()) return end("strokes cannot say all that moves the tissue: " + message.besides);
+  const bool begins = message.tick == 1 && strokes_.ticks > 0;
+  if (message.tick == 1) strokes_ = {};
+  if (message.tick != strokes_.ticks + 1)
+    return end("ticks " + std::to_string(strokes_.ticks + 1) + " to " + std::to_string(message.tick - 1) +
+               " were lost: recording and simulation need more of the machine or the network");
+  if (static_cast<double>(message.tick) > kMost_s * message.tick_hz)
+    return end("an hour is recorded, the most that a strokes file holds");
+  strokes_.tick_hz = message.tick_hz;
+  strokes_.recorded.scene = message.scene;
+  strokes_.recorded.overrides = message.overrides;
+  strokes_.ticks = message.tick;
+  if (message.hands_anew) strokes_.hands_anew.push_back(message.tick);
+  for (const StylusState& state : message.styluses)
+    strokeOf(state.stylus)
+        .samples.push_back({message.tick, fromMessage(state.pose), state.button1 != 0, state.button2 != 0});
+  return begins ? Outcome::kAnew : Outcome::kTaken;
+}
+
+RecordOptions recordOptions(Parameters& parameters) {
+  RecordOptions options;
+  options.file = parameters.text("file", "");
+  options.reset = parameters.flag("reset", options.reset);
+  options.seconds = parameters.number("seconds", options.seconds, 0, kMost_s);
+  parameters.refuseOthers();
+  if (options.file.empty()) throw ParameterError("parameter ~file: must name the strokes file that is written");
+  // Better told now than when all is recorded.
+  if (!std::ofstream(partOf(options.file)) || std::filesystem::is_directory(options.file))
+    throw ParameterError("parameter ~file: " + options.file + " cannot be written");
+  std::filesystem::remove(partOf(options.file));
+  return options;
+}
+
+StylusRecord::StylusRecord(const RecordOptions& options)
+    : options_(options),
+      private_("~"),
+      reset_(node_.serviceClient<std_srvs::Trigger>("reset")),
+      step_(node_.serviceClient<Step>("step")),
+      save_(private_.advertiseService("save", &StylusRecord::save, this)),
+      samples_(node_.subscribe("samples", kQueue, &StylusRecord::onSamples, this, ros::TransportHints().tcpNoDelay())) {
+}
+
+void StylusRecord::onSamples(const Samples& message) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const bool ended = !recording_.fault().empty();
+  switch (recording_.add(message)) {
+    case Recording::Outcome::kTaken:
+      if (message.tick == 1) ROS_INFO("recording since tick 1");
+      break;
+    case Recording::Outcome::kAnew:
+      ROS_WARN("a reset: the recording begins again");
+      break;
+    case Recording::Outcome::kWaiting:
+      // The first tick came before the subscription was heard of: once more.
+      want_reset_ = want_reset_ || (!reset_at_.isZero() && message.header.stamp > reset_at_);
+      break;
+    case Recording::Outcome::kEnded:
+      if (!ended) ROS_ERROR("the recording ends: %s", recording_.fault().c_str());
+      break;
+  }
+}
+
+/// That of a simulation which stands at the last tick that was recorded; a running one tells none.
+std::string StylusRecord::stateHash(uint64_t tick) {
+  Step call;
+  const bool told = ros::ok() && step_.call(call) && call.response.success && call.response.tick == tick;
+  return told ? call.response.state_hash : "";
+}
+
+std::string StylusRecord::write() {
+  Strokes strokes;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    strokes = recording_.strokes();
+  }
+  if (strokes.ticks == 0) throw StrokesError("no tick was recorded: " + options_.file + " is not written");
+  if (strokes.strokes.empty()) throw StrokesError("no hand was about: " + options_.file + " is not written");
+  strokes.recorded.state_hash = stateHash(strokes.ticks);
+  const std::string part = partOf(options_.file);
+  std::ofstream file(part);
+  file << strokesYaml(strokes);
+  file.close();
+  std::error_code error;
+  if (file) std::filesystem::rename(part, options_.file, error);
+  if (!file || error) throw StrokesError(options_.file + ": cannot be written");
+  return std::to_string(strokes.ticks) + " ticks are in " + options_.file;
+}
+
+bool StylusRecord::save(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
+  try {
+    response.message = write();
+    response.success = true;
+  } catch (const StrokesError& error) {
+    response.success = false;
+    response.message = error.what();
+  }
+  return true;
+}
+
+void StylusRecord::resetSimulation() {
+  std_srvs::Trigger call;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    want_reset_ = false;
+    reset_at_ = ros::Time();
+  }
+  const bool good = reset_.call(call) && call.response.success;
+  const std::lock_guard<std::mutex> lock(mutex_);
+  reset_at_ = ros::Time::now();
+  if (!good && ros::ok()) ROS_WARN("%s: no reset (%s)", reset_.getService().c_str(), call.response.message.c_str());
+}
+
+bool StylusRecord::isOver() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (!recording_.fault().empty()) return true;
+  const Strokes& strokes = recording_.strokes();
+  return options_.seconds > 0 && strokes.ticks > 0 &&
+         static_cast<double>(strokes.ticks) >= options_.seconds * strokes.tick_hz;
+}
+
+void StylusRecord::run() {
+  ros::AsyncSpinner spinner(2);
+  spinner.start();
+  bool asked = !options_.reset;
+  if (asked) ROS_INFO("recording begins with the next `reset` of the simulator");
+  while (ros::ok() && !isOver()) {
+    master_.require();
+    bool again = false;
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      again = want_reset_;
+    }
+    if ((!asked || again) && samples_.getNumPublishers() > 0) {
+      asked = true;
+      resetSimulation();
+    }
+    std::this_thread::sleep_for(kWatchPeriod);
+  }
+  const std::string done = write();
+  std::string fault;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    fault = recording_.fault();
+  }
+  if (!fault.empty()) throw StrokesError(fault + "; " + done);
+  ROS_INFO("%s", done.c_str());
+}
+
+}  // namespace viscera::nodes

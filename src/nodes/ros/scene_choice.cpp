@@ -1,0 +1,84 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/ros/scene_choice.h"
+
+#include <filesystem>
+#include <set>
+#include <sstream>
+
+#include "model/scene/file_bounds.h"
+#include "viscera/model/fitted_scene.h"
+
+namespace viscera::nodes {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string namesIn(const std::string& folder) {
+  std::set<std::string> names;
+  std::error_code ignored;  // a missing folder holds no names
+  for (const auto& entry : fs::directory_iterator(folder, ignored))
+    if (entry.path().extension() == ".yaml") names.insert(entry.path().stem().string());
+  std::string text;
+  for (const std::string& name : names) text += " " + name;
+  return text;
+}
+
+Overrides meshChoice(Parameters& parameters) {
+  constexpr double kMinUnit_m = 1e-9, kMaxUnit_m = 1e3;
+  const std::string mesh = parameters.text("mesh", "");
+  const bool has_unit = parameters.has("mesh_unit_m");
+  const double unit_m = parameters.number("mesh_unit_m", 1, kMinUnit_m, kMaxUnit_m);
+  if (mesh.empty()) {
+    if (has_unit) throw ParameterError("parameter ~mesh_unit_m: has no meaning without ~mesh");
+    return {};
+  }
+  const fs::path path = fs::absolute(mesh);
+  requireWithinBounds(path.string());
+  if (!fs::is_regular_file(path))
+    throw ParameterError("parameter ~mesh: no file " + path.string() + "; give an absolute path");
+  Overrides overrides = meshOverrides(path.string());
+  std::ostringstream unit;
+  unit.precision(17);
+  unit << "bodies[0].unit_scale_m=" << unit_m;
+  if (has_unit) overrides.push_back(unit.str());
+  return overrides;
+}
+
+/// tf2 refuses names that begin with a slash.
+std::string framePrefix(Parameters& parameters) {
+  const std::string prefix = parameters.text("frame_prefix", "");
+  if (prefix.find_first_of("/ \t\n") == 0)
+    throw ParameterError("parameter ~frame_prefix: must not begin with '/' or a space; as in left_room/");
+  return prefix;
+}
+
+}  // namespace
+
+std::string namedPath(const std::string& value, const std::string& folder) {
+  const bool is_path = value.find('/') != std::string::npos || fs::path(value).extension() == ".yaml";
+  return is_path ? fs::absolute(value).string() : (fs::path(folder) / (value + ".yaml")).string();
+}
+
+std::string namedFile(const std::string& key, const std::string& value, const std::string& folder) {
+  const fs::path path = namedPath(value, folder);
+  if (fs::is_regular_file(path)) return path.string();
+  throw ParameterError("parameter ~" + key + ": no file " + path.string() + "; give an absolute path or one of" +
+                       namesIn(folder));
+}
+
+SceneChoice SceneChoice::read(Parameters& parameters, const std::string& fallback) {
+  SceneChoice choice{parameters.text("scene", fallback), meshChoice(parameters), {}, framePrefix(parameters)};
+  for (const std::string& item : parameters.texts("overrides")) choice.overrides.push_back(item);
+  return choice;
+}
+
+Scene SceneChoice::load(const std::string& package_folder) const {
+  const std::string folder = package_folder + "/config/scenes";
+  requireWithinBounds(namedPath(scene, folder));  // or an error would tell what is there
+  Scene out = loadFittedScene(namedFile("scene", scene, folder), mesh, overrides).scene;
+  out.environment.tissue_frame = frame_prefix + out.environment.tissue_frame;
+  return out;
+}
+
+}  // namespace viscera::nodes

@@ -1,0 +1,73 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <ros/callback_queue.h>
+#include <ros/node_handle.h>
+#include <ros/spinner.h>
+
+#include <condition_variable>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "nodes/simulator/held_topics.h"
+#include "nodes/simulator/made_session.h"
+#include "nodes/simulator/simulator_options.h"
+#include "viscera/LoadScene.h"
+
+namespace viscera::nodes {
+
+/// Service `load_scene`: another scene in the same node. It is read, and its session is made while the old one runs, so
+/// that a bad one is refused and the old one is missed for as short as can be; then the whole simulator is made again
+/// with it, by the caller, who runs simulators one after another. Where there is no room for both sessions, only the
+/// model is made before. A scene that does not come to run then gives way to the old one, at rest.
+class SceneSwitch {
+ public:
+  /// @param running  of the simulator that is made first   @param package_folder  where scenes are looked up by name
+  SceneSwitch(ros::NodeHandle node, const SimulatorOptions& running, const std::string& package_folder);
+  ~SceneSwitch();
+  SceneSwitch(const SceneSwitch&) = delete;
+  SceneSwitch& operator=(const SceneSwitch&) = delete;
+
+  // For the main thread:
+  /// The running simulator is to end, as a scene waits for its place.
+  bool isRequested() const;
+  /// The simulator that was made last runs.
+  void noteReady();
+  /// What the next simulator is made of, if there is to be one; then isRequested() is false.
+  std::optional<SimulatorOptions> takeNext();
+  /// What there is of its session; once. Null: nothing.
+  std::unique_ptr<MadeSession> takeMade();
+  /// The running simulator ends for the next one, in whose place its subscribers then find that.
+  void holdTopics();
+  /// A session that ran: its end waits until the next one runs, unless that needs the room.
+  void bury(std::unique_ptr<MadeSession> ended);
+  /// The simulator made last has ended. @returns whether it never ran and takeNext() makes the one before again
+  bool goBack(const std::string& error);
+
+ private:
+  enum class State { kRunning, kRequested, kStarting, kReturning, kEnd };
+  bool onLoadScene(LoadScene::Request& request, LoadScene::Response& response);
+  SimulatorOptions check(const LoadScene::Request& request) const;
+  std::unique_ptr<MadeSession> make(const Scene& scene) const;
+  std::string change(const SimulatorOptions& next, std::unique_ptr<MadeSession> made);
+  void endOld();
+
+  const std::string package_folder_;
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  State state_ = State::kStarting;
+  SimulatorOptions running_;  ///< of the simulator that ran last
+  std::optional<SimulatorOptions> next_;
+  std::unique_ptr<MadeSession> made_, buried_;
+  std::unique_ptr<HeldTopics> topics_;
+  std::string error_;  ///< why the last one did not run; empty: it does
+  bool first_ = true;  ///< no simulator has run yet
+  ros::CallbackQueue queue_;
+  ros::ServiceServer server_;
+  ros::AsyncSpinner spinner_;
+};
+
+}  // namespace viscera::nodes

@@ -1,0 +1,249 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/simulator/simulator.h"
+
+#include <ros/console.h>
+#include <ros/spinner.h>
+
+#include <algorithm>
+#include <optional>
+#include <thread>
+
+#include "math/one_line.h"
+#include "nodes/ros/clock_watch.h"
+#include "nodes/ros/master_watch.h"
+
+namespace viscera::nodes {
+namespace {
+
+constexpr std::chrono::milliseconds kWatchPeriod{10};  ///< how soon a lost master is seen
+constexpr double kWarnPeriod_s = 5;
+/// However short the ticks are: other work on the machine may hold a thread up for so long.
+constexpr double kShortestStall_s = 0.015;
+
+double stallTime_s(const SimulatorOptions& options) {
+  return std::max(options.stall_ticks / options.scene.solver.tick_hz, kShortestStall_s);
+}
+
+/// Does something follow a frame of tf? It may hang on one that this node sends, as a camera on a tool.
+bool followsFrames(const SimulatorOptions& options) {
+  const auto carried = [](const auto& item) { return !item.frame.empty(); };
+  const auto tracked = [](const DeviceProfile& device) { return !device.pose.tf_frame.empty(); };
+  return std::any_of(options.scene.obstacles.begin(), options.scene.obstacles.end(), carried) ||
+         std::any_of(options.scene.cameras.begin(), options.scene.cameras.end(), carried) ||
+         std::any_of(options.devices.begin(), options.devices.end(), tracked);
+}
+
+}  // namespace
+
+Simulator::Simulator(const SimulatorOptions& options, EndWatch& end, SceneSwitch& scenes)
+    : end_(end),
+      scenes_(scenes),
+      listener_(frames_, !followsFrames(options)),
+      obstacles_(options.scene, frames_, options.max_transform_age_s),
+      camera_frames_(options.scene, frames_, options.max_transform_age_s),
+      inputs_(makeInputs(options, frames_)),
+      wrenches_(node_, mailboxes(), stallTime_s(options), options.scene, options.haptics),
+      release_(end_, [this] { wrenches_.release(); }),
+      preparation_(options.scene),
+      tool_frames_(options.scene.environment.tissue_frame, toolFrames(options.scene, options.publish.frame_prefix)),
+      publisher_(node_, options.scene, options.publish, [this](std::exception_ptr error) { fail(error); }),
+      ticks_(node_, options.scene, [this] { return publisher_.isViewed(); }),
+      samples_(node_, options.scene, options.choice),
+      obstacle_forces_(node_, options.scene),
+      loop_(options.scene, scenes.takeMade(), ports(),
+            [this](const std::string& stage, double fraction) { reportProgress(stage, fraction); }),
+#ifdef VISCERA_RECONFIGURE
+      settings_(std::in_place, options, loop_.commands(), SimulatorSettings::Publishers{publisher_, wrenches_}),
+#endif
+      services_(std::in_place, node_, options.scene.styluses, loop_.commands(), modeSet()),
+      diagnostics_(std::in_place, node_, options.scene, loop_, SimulatorDiagnostics::Publishers{publisher_, wrenches_},
+                   inputs_, obstacles_, camera_frames_),
+      device_spinner_(1, &device_queue_) {
+}
+
+Simulator::~Simulator() {
+  wrenches_.release();
+}
+
+/// In the log, and in rviz, where there is nothing else to see.
+void Simulator::reportProgress(const std::string& stage, double fraction) {
+  ROS_INFO_THROTTLE(1, "preparing: %s %.0f %%", stage.c_str(), 100 * fraction);
+  publisher_.tell("preparing: " + std::to_string(preparation_.percentAt(stage, fraction)) + " %");
+}
+
+SimulatorDiagnostics::Inputs Simulator::makeInputs(const SimulatorOptions& options, tf2_ros::Buffer& frames) {
+  SimulatorDiagnostics::Inputs inputs;
+  for (size_t s = 0; s < options.scene.styluses.size(); ++s)
+    inputs.push_back(std::make_unique<StylusInput>(options.scene.styluses[s], options.devices[s],
+                                                   options.scene.environment.tissue_frame, frames,
+                                                   options.max_transform_age_s));
+  return inputs;
+}
+
+SimulatorServices::ModeSet Simulator::modeSet() {
+#ifdef VISCERA_RECONFIGURE
+  return [this](size_t stylus, ToolSwitch when, ToolMode mode) { settings_->noteMode(stylus, when, mode); };
+#else
+  return {};
+#endif
+}
+
+std::vector<std::string> Simulator::toolFrames(const Scene& scene, const std::string& prefix) {
+  std::vector<std::string> out;
+  for (const StylusConfig& stylus : scene.styluses) out.push_back(toolFrame(stylus, prefix));
+  return out;
+}
+
+std::vector<const StylusMailbox*> Simulator::mailboxes() const {
+  std::vector<const StylusMailbox*> out;
+  for (const auto& input : inputs_) out.push_back(&input->mailbox());
+  return out;
+}
+
+LoopPorts Simulator::ports() {
+  LoopPorts ports;
+  if (!obstacles_.empty()) ports.place = [this](Session& session) { obstacles_.apply(session); };
+  ports.samples = [this] {
+    const auto now = std::chrono::steady_clock::now();
+    StylusSamples samples;
+    for (size_t i = 0; i < inputs_.size(); ++i) {
+      inputs_[i]->beginTick();
+      samples[i] = inputs_[i]->mailbox().take(now);
+    }
+    return samples;
+  };
+  if (!camera_frames_.empty()) ports.aim = [this](Session& session) { return camera_frames_.apply(session); };
+  ports.wants = [this] { return placed(publisher_.beginTick()); };
+  ports.stills = [this](bool changed, bool aimed) { return placed(publisher_.stills(changed, aimed)); };
+  ports.ready = [this](const Session& session) {
+    ROS_INFO("ready: %zu nodes, %zu springs, %zu triangles, substep %.3g ms", session.model().activeNodes(),
+             session.model().springs(), session.model().skinTriangles(), 1e3 * session.solver().dt_s());
+    ROS_INFO("stepped by: %s", session.backendNote().c_str());
+    for (const Body& body : session.model().bodies)
+      for (const std::string& note : body.notes) ROS_INFO("%s: %s", body.name.c_str(), note.c_str());
+    if (!wrenches_.scheduling().empty()) ROS_INFO("forces between ticks: %s", wrenches_.scheduling().c_str());
+    publisher_.start(session.wholeSkin());
+    ready_ = true;
+  };
+  ports.stepped = [this](uint64_t tick, const StylusSamples& samples, const ToolMotions& tools, bool hands_anew) {
+    samples_.publish(tick, samples, tools, hands_anew);
+  };
+  ports.deliver = [this](Frame&& frame, const StylusSamples& samples, bool live) {
+    deliver(std::move(frame), samples, live);
+  };
+  ports.rest = [this] { wrenches_.rest(); };
+  ports.forget = [this] {
+    for (const auto& input : inputs_) input->mailbox().forgetButtons();
+  };
+  ports.failed = [this] { wrenches_.release(); };
+  return ports;
+}
+
+/// Without pictures of cameras whose places are unknown.
+Wants Simulator::placed(Wants wants) const {
+  for (size_t k = 0; k < kPictureKinds; ++k) {
+    std::vector<bool>& wanted = wants.of(static_cast<PictureKind>(k));
+    for (size_t c = 0; c < wanted.size(); ++c) wanted[c] = wanted[c] && camera_frames_.isPlaced(c);
+  }
+  return wants;
+}
+
+void Simulator::deliver(Frame&& frame, const StylusSamples& samples, bool live) {
+  if (live) {
+    WrenchPublisher::Hands hands;
+    for (size_t s = 0; s < inputs_.size(); ++s) {
+      // a hand that is not tracked, or moves without the tool, must not be pushed
+      if (samples[s].valid && !inputs_[s]->mailbox().clutched())
+        hands[s] = {frame.reactions[s], frame.poses_received[s], true, frame.contacts[s]};
+    }
+    wrenches_.put(hands);
+  } else {
+    wrenches_.rest();
+  }
+  for (size_t s = 0; s < inputs_.size(); ++s) inputs_[s]->endTick(frame.tools[s].to, publisher_.tickStamp());
+  tool_frames_.put(samples, publisher_.tickStamp());
+  ticks_.publish(frame.tick);
+  obstacle_forces_.publish(frame, publisher_.tickStamp());
+  publisher_.deliver(std::move(frame));
+}
+
+void Simulator::fail(std::exception_ptr error) {
+  wrenches_.release();
+  const std::lock_guard<std::mutex> lock(error_mutex_);
+  if (!error_) error_ = error;
+}
+
+void Simulator::listen() {
+  if (listening_ || !ready_) return;
+  listening_ = true;
+  scenes_.noteReady();
+  ros::NodeHandle devices(node_);
+  devices.setCallbackQueue(&device_queue_);
+  for (const auto& input : inputs_) input->subscribe(devices);
+  device_spinner_.start();
+}
+
+void Simulator::warnOfStalls() {
+  const uint64_t stalls = wrenches_.stalls();
+  if (stalls == stalls_) return;
+  stalls_ = stalls;
+  ROS_WARN_THROTTLE(
+      kWarnPeriod_s,
+      "no tick in time (~stall_ticks): forces are zero until ticks come in time again; stalls so far: %lu",
+      static_cast<unsigned long>(stalls));
+}
+
+void Simulator::stepAside(ros::AsyncSpinner& spinner) {
+  scenes_.holdTopics();
+  spinner.stop();
+  diagnostics_.reset();
+  services_.reset();
+#ifdef VISCERA_RECONFIGURE
+  settings_.reset();
+#endif
+  wrenches_.release();      // hands feel nothing from here on
+  device_queue_.disable();  // or the spinner would wait for a message
+  device_spinner_.stop();
+  for (const auto& input : inputs_) input->unsubscribe();
+}
+
+/// In place of the tissue that did not come to be.
+void Simulator::tellFailure(const std::string& why) {
+  constexpr std::chrono::milliseconds kFlush{50};  // roscpp writes on a thread of its own: it has by then
+  publisher_.tell(why);
+  std::this_thread::sleep_for(kFlush);
+}
+
+void Simulator::run() {
+  ros::AsyncSpinner diagnostics(1);
+  diagnostics.start();
+  MasterWatch master;
+  ClockWatch clock;
+  bool known = true;
+  const auto failed = [this] {
+    const std::lock_guard<std::mutex> lock(error_mutex_);
+    return error_ != nullptr;
+  };
+  while (!end_.waitFor(kWatchPeriod) && !loop_.ended() && !failed() && known && !scenes_.isRequested()) {
+    listen();
+    warnOfStalls();
+    known = master.check();
+    clock.check();
+  }
+  if (known && !failed() && scenes_.isRequested()) stepAside(diagnostics);
+  wrenches_.release();
+  std::optional<MasterLost> lost;
+  if (!known) lost.emplace();
+  try {
+    loop_.stop();
+  } catch (const std::exception& error) {
+    if (!ready_) tellFailure(oneLine(error.what()));
+    throw;
+  }
+  scenes_.bury(loop_.takeSession());
+  if (failed()) std::rethrow_exception(error_);
+  if (lost) throw *lost;
+}
+
+}  // namespace viscera::nodes

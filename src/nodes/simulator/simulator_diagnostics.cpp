@@ -1,0 +1,233 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/simulator/simulator_diagnostics.h"
+
+#include <ros/console.h>
+
+#include <algorithm>
+#include <cstring>
+#include <numeric>
+#include <utility>
+
+#include "model/scene/tool_kinds.h"
+
+namespace viscera::nodes {
+namespace {
+
+using Level = diagnostic_msgs::DiagnosticStatus;
+
+constexpr double kPeriod_s = 1;
+constexpr double kSlow = 0.9;  ///< real-time factor below which a person notices
+
+float fromBits(uint32_t bits) {
+  float value;
+  std::memcpy(&value, &bits, sizeof value);
+  return value;
+}
+
+void addLatency(const std::string& name, const LatencyMeter::Reading& reading,
+                diagnostic_updater::DiagnosticStatusWrapper& status) {
+  status.add(name + "_mean_ms", 1e3 * reading.mean_s);
+  status.add(name + "_max_ms", 1e3 * reading.max_s);
+  status.add(name + "_p50_ms", 1e3 * reading.p50_s);
+  status.add(name + "_p99_ms", 1e3 * reading.p99_s);
+}
+
+void warnOfSlowness(const PaceMeter::Reading& pace, double tick_s) {
+  ROS_WARN(
+      "slower than real time: factor %.2g for 2 s, a tick of %.3g ms takes %.3g ms. Ways out: a coarser "
+      "bodies[].spacing_m, or 'auto'; a larger solver.dt_fraction, or solver.integrator 'pd'; fewer or smaller images "
+      "(cameras[].rate_hz, width_px, height_px) and a lower ~surface_rate_hz; other programs that leave the processors",
+      pace.real_time_factor, 1e3 * tick_s, 1e3 * pace.step_mean_s);
+}
+
+}  // namespace
+
+SimulatorDiagnostics::SimulatorDiagnostics(ros::NodeHandle node, const Scene& scene, SimulationLoop& loop,
+                                           const Publishers& publishers, const Inputs& inputs,
+                                           const ObstacleFrames& obstacles, const CameraFrames& camera_frames)
+    : loop_(loop),
+      publishers_(publishers),
+      inputs_(inputs),
+      obstacles_(obstacles),
+      camera_frames_(camera_frames),
+      tick_s_(1 / scene.solver.tick_hz),
+      pictures_(scene.cameras),
+      dropped_before_(inputs.size(), 0),
+      updater_(node) {
+  for (const CameraConfig& camera : scene.cameras) cameras_.push_back(camera.name);
+  takeLatencies();
+  updater_.setHardwareID("none");
+  updater_.add("simulation", this, &SimulatorDiagnostics::simulation);
+  updater_.add("pace", this, &SimulatorDiagnostics::pace);
+  updater_.add("latency", this, &SimulatorDiagnostics::latency);
+  for (size_t i = 0; i < inputs_.size(); ++i)
+    updater_.add(inputs_[i]->mailbox().config().name, [this, i](Status& status) { stylus(i, status); });
+  if (!obstacles_.empty()) updater_.add("obstacles", this, &SimulatorDiagnostics::obstacles);
+  if (!camera_frames_.empty()) updater_.add("cameras", this, &SimulatorDiagnostics::cameras);
+  // Forced from the steady clock, since the updater's own period follows ROS time, which may stand still.
+  timer_ = node.createSteadyTimer(ros::WallDuration(kPeriod_s), [this](const ros::SteadyTimerEvent&) { update(); });
+}
+
+void SimulatorDiagnostics::update() {
+  now_ = loop_.takeStatus();
+  takeLatencies();
+  if (now_) updater_.setHardwareID(now_->gpu);
+  watchPictures();
+  updater_.force_update();
+}
+
+/// Of a simulation that is slower than real time they come the more seldom; in a pause they come if something changes.
+void SimulatorDiagnostics::watchPictures() {
+  if (!now_) return;
+  if (!std::exchange(told_ways_, true)) {
+    for (const std::string& way : pictures_.ways(now_->software_gpu)) ROS_INFO("%s", way.c_str());
+  }
+  std::vector<double> wanted_hz = latencies_.images_wanted_hz;
+  for (double& rate_hz : wanted_hz) rate_hz *= now_->paused ? 0 : std::min(1.0, now_->pace.real_time_factor);
+  for (const std::string& line : pictures_.note(wanted_hz, latencies_.image_rates_hz)) ROS_WARN("%s", line.c_str());
+}
+
+void SimulatorDiagnostics::takeLatencies() {
+  latencies_ = publishers_.frames.takeLatencies();
+  force_latencies_ = publishers_.wrenches.takeLatencies();
+  felt_before_ = std::move(felt_);
+  felt_ = publishers_.wrenches.felt();
+}
+
+void SimulatorDiagnostics::simulation(Status& status) {
+  if (!now_) return status.summary(Level::OK, "preparing");
+  status.summary(Level::OK, now_->paused ? "paused" : "running");
+  if (now_->stats.crowded)
+    status.summaryf(Level::WARN, "%u nodes touch nothing: too many lie in one place for collision to compare them",
+                    now_->stats.crowded);
+  if (now_->health.recovering) status.summary(Level::WARN, "recovering from an instability: no forces");
+  if (now_->stats.nonfinite) status.summary(Level::ERROR, "nodes are not finite: call reset");
+  status.add("gpu", now_->gpu);
+  status.add("gpu_is_software", now_->software_gpu);
+  status.add("backend", now_->backend);
+  status.add("stepped_by", now_->stepped_by);
+  status.add("tick", now_->tick);
+  status.add("dt_s", now_->dt_s);
+  status.add("dt_safe_s", now_->dt_safe_s);
+  status.add("dt_limit_s", now_->dt_limit_s);
+  status.add("nonfinite_nodes", now_->stats.nonfinite);
+  status.add("max_stretch", fromBits(now_->stats.max_stretch_bits));
+  status.add("max_speed_m_per_s", fromBits(now_->stats.max_speed_bits));
+  status.add("governor_trips", now_->health.trips);
+  status.add("recovering", now_->health.recovering);
+  status.add("strained", now_->health.strained);
+  status.add("kinetic_energy_j", now_->stats.kinetic_j);
+  status.add("elastic_energy_j", now_->stats.elastic_j);
+  status.add("springs_collapsed", now_->stats.collapsed);
+  status.add("cells_inverted", now_->stats.inverted);
+  status.add("nodes_crowded", now_->stats.crowded);
+  status.add("springs_cut", now_->stats.springs_cut);
+  status.add("wound_holes", now_->counters.wound_holes);
+  status.add("wound_slivers", now_->counters.wound_slivers);
+  status.add("ticks", now_->counters.ticks);
+  status.add("substeps", now_->counters.substeps);
+  status.add("solver_systems", now_->counters.work.systems);
+  status.add("solver_iterations", now_->counters.work.iterations);
+  status.add("mappings", now_->counters.mappings);
+  status.add("renders", now_->counters.renders);
+  status.add("read_backs", now_->counters.readbacks);
+  status.add("images_repeated", now_->counters.repeats);
+  status.add("frames_skipped", now_->counters.skipped);
+}
+
+void SimulatorDiagnostics::pace(Status& status) {
+  if (!now_) return status.summary(Level::OK, "preparing");
+  const PaceMeter::Reading& pace = now_->pace;
+  const bool slow = !now_->paused && pace.real_time_factor < kSlow;
+  status.summary(slow ? Level::WARN : Level::OK, slow ? "slower than real time" : "keeps up");
+  if (!now_->paused && slowness_.note(slow)) warnOfSlowness(pace, tick_s_);
+  if (!slow && pictures_.areBehind())
+    status.summary(Level::WARN, "keeps up, but pictures come less than a third as often as wanted");
+  if (publishers_.wrenches.stalled()) status.summary(Level::WARN, "ticks do not come in time: forces are zero");
+  status.add("real_time_factor", pace.real_time_factor);
+  status.add("step_mean_ms", 1e3 * pace.step_mean_s);
+  status.add("step_max_ms", 1e3 * pace.step_max_s);
+  status.add("stalls", publishers_.wrenches.stalls());
+  const std::string scheduling = publishers_.wrenches.scheduling();
+  status.add("haptic_scheduling", scheduling.empty() ? "none" : scheduling);
+  status.add("surface_rate_hz", latencies_.surface_rate_hz);
+  for (size_t i = 0; i < cameras_.size(); ++i) status.add("image_rate_hz_" + cameras_[i], latencies_.image_rates_hz[i]);
+}
+
+void SimulatorDiagnostics::latency(Status& status) {
+  status.summary(Level::OK, "from the arrival of a pose to the sending of what answers it");
+  for (size_t i = 0; i < inputs_.size(); ++i)
+    addLatency("pose_to_force_" + inputs_[i]->mailbox().config().name, force_latencies_[i], status);
+  addLatency("pose_to_surface", latencies_.surface, status);
+  for (size_t i = 0; i < cameras_.size(); ++i) addLatency("pose_to_image_" + cameras_[i], latencies_.images[i], status);
+}
+
+void SimulatorDiagnostics::obstacles(Status& status) {
+  const uint64_t missed = obstacles_.missed();
+  const bool missing = missed > missed_before_;
+  missed_before_ = missed;
+  const uint64_t held_back = obstacles_.heldBack();
+  const bool jumping = held_back > held_back_before_;
+  held_back_before_ = held_back;
+  status.summary(missing || jumping ? Level::WARN : Level::OK,
+                 missing   ? "a frame is not known, or from too long ago: its obstacle stays"
+                 : jumping ? "faster than tissue can follow: held back"
+                           : "carried");
+  status.add("frames_found", obstacles_.found());
+  status.add("frames_missed", missed);
+  status.add("ticks_held_back", held_back);
+}
+
+void SimulatorDiagnostics::cameras(Status& status) {
+  const uint64_t missed = camera_frames_.missed();
+  const bool missing = missed > std::exchange(cameras_missed_before_, missed);
+  status.summary(missing ? Level::WARN : Level::OK,
+                 missing ? "a frame is not known, or from too long ago: its camera stays" : "carried");
+  status.add("frames_found", camera_frames_.found());
+  status.add("frames_missed", missed);
+}
+
+void SimulatorDiagnostics::stylus(size_t index, Status& status) {
+  StylusInput& input = *inputs_[index];
+  const StylusStatus in = input.mailbox().status(std::chrono::steady_clock::now());
+  const uint64_t dropped = std::accumulate(in.dropped.begin(), in.dropped.end(), uint64_t{0});
+  const bool dropping = dropped > dropped_before_[index];
+  dropped_before_[index] = dropped;
+
+  status.summary(Level::OK, in.seen ? "tracked" : "no pose yet");
+  if (in.stale) status.summary(input.hasPublisher() ? Level::WARN : Level::OK, "the last pose is stale");
+  if (now_ && now_->held_back[index]) status.summary(Level::WARN, "faster than tissue can follow: held back");
+  const std::string rivals = input.rivals();
+  if (!rivals.empty()) status.summary(Level::WARN, "several nodes send poses: " + rivals);
+  if (now_ && now_->inside[index])
+    status.summary(Level::WARN, "appeared inside tissue: no force until the tip was outside");
+  if (dropping) status.summary(Level::WARN, "messages are dropped");
+  status.add("device", input.mailbox().device().about);
+  status.add("has_publisher", input.hasPublisher());
+  status.add("input_age_s", in.input_age_s);
+  status.add("poses_accepted", in.accepted);
+  status.add("presses_ignored", in.presses_ignored);
+  status.add("clutched", in.clutched);
+  status.add("base_moves", in.base_moves);
+  for (size_t i = 0; i < kDropReasons; ++i)
+    status.add(std::string("dropped_") + text(static_cast<Drop>(i)), in.dropped[i]);
+  if (index < felt_.size()) {
+    const ForceLoop::Felt& felt = felt_[index];
+    const uint64_t before = index < felt_before_.size() ? felt_before_[index].answers : 0;
+    status.add("haptic_answers", felt.answers);
+    status.add("haptic_rate_hz", static_cast<double>(felt.answers - before) / kPeriod_s);
+    status.add("energy_j", felt.energy_j);
+    status.add("least_energy_j", felt.least_j);
+    status.add("stiffness_share", felt.share);
+  }
+  if (!now_) return;
+  const char* const switches[] = {"idle", "button1", "button2"};
+  for (size_t i = 0; i < now_->modes[index].size(); ++i) status.add(switches[i], kindOf(now_->modes[index][i]).name);
+  status.add("force_n", now_->reactions[index].force_n.norm());
+  status.add("force_saturated", now_->reactions[index].saturated);
+  status.add("nodes_touched", now_->stats.touched[index]);
+  status.add("nodes_held", now_->stats.grabbed[index]);
+}
+
+}  // namespace viscera::nodes

@@ -1,0 +1,72 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <ros/node_handle.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "nodes/forces/wrench_publisher.h"
+#include "nodes/hands/stylus_input.h"
+#include "nodes/ros/slowness.h"
+#include "nodes/simulator/obstacle_frames.h"
+#include "nodes/simulator/simulation_loop.h"
+#include "nodes/views/camera_frames.h"
+#include "nodes/views/frame_publisher.h"
+#include "nodes/views/picture_watch.h"
+
+namespace viscera::nodes {
+
+/// Sends /diagnostics once a second: health of the simulation, its pace, how long an answer takes, and every stylus.
+class SimulatorDiagnostics {
+ public:
+  using Inputs = std::vector<std::unique_ptr<StylusInput>>;
+
+  struct Publishers {
+    FramePublisher& frames;
+    WrenchPublisher& wrenches;
+  };
+
+  /// @param loop, publishers, inputs, obstacles, camera_frames  must outlive this
+  SimulatorDiagnostics(ros::NodeHandle node, const Scene& scene, SimulationLoop& loop, const Publishers& publishers,
+                       const Inputs& inputs, const ObstacleFrames& obstacles, const CameraFrames& camera_frames);
+
+ private:
+  using Status = diagnostic_updater::DiagnosticStatusWrapper;
+  void update();
+  void takeLatencies();
+  void simulation(Status& status);
+  void pace(Status& status);
+  void watchPictures();
+  void latency(Status& status);
+  void stylus(size_t index, Status& status);
+  void obstacles(Status& status);
+  void cameras(Status& status);
+
+  SimulationLoop& loop_;
+  const Publishers publishers_;
+  const Inputs& inputs_;
+  const ObstacleFrames& obstacles_;
+  const CameraFrames& camera_frames_;
+  uint64_t cameras_missed_before_ = 0;
+  uint64_t missed_before_ = 0;        ///< frames of obstacles
+  uint64_t held_back_before_ = 0;     ///< ticks of obstacles
+  std::vector<std::string> cameras_;  ///< their names
+  const double tick_s_;
+  Slowness slowness_;
+  PictureWatch pictures_;
+  bool told_ways_ = false;  ///< how pictures are drawn
+  std::optional<LoopStatus> now_;
+  FramePublisher::Latencies latencies_;
+  std::vector<LatencyMeter::Reading> force_latencies_;  ///< [styluses]
+  std::vector<ForceLoop::Felt> felt_, felt_before_;     ///< [styluses]
+  std::vector<uint64_t> dropped_before_;
+  diagnostic_updater::Updater updater_;
+  ros::SteadyTimer timer_;
+};
+
+}  // namespace viscera::nodes

@@ -1,0 +1,158 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/simulator/simulator_services.h"
+
+#include <cmath>
+#include <functional>
+#include <utility>
+
+#include "model/scene/tool_kinds.h"
+#include "nodes/hands/stylus_mailbox.h"
+#include "nodes/ros/conversions.h"
+#include "viscera/math/error.h"
+#include "viscera/session/session.h"
+
+namespace viscera::nodes {
+namespace {
+
+constexpr std::chrono::seconds kTriggerLimit{10};  ///< a tick, however slow, and a reset
+constexpr std::chrono::seconds kStepLimit{60};
+constexpr uint32_t kServices = 6;  ///< one thread each
+
+size_t indexOf(const std::string& stylus, const std::vector<StylusConfig>& styluses) {
+  size_t s = 0;
+  while (s < styluses.size() && styluses[s].name != stylus) ++s;
+  return s;
+}
+
+/// @throws Error  a name that the scene does not have
+size_t stylusNamed(const std::string& name, const std::vector<StylusConfig>& styluses) {
+  const size_t s = indexOf(name, styluses);
+  if (s < styluses.size()) return s;
+  std::string known;
+  for (const StylusConfig& stylus : styluses) known += (known.empty() ? "" : ", ") + stylus.name;
+  throw Error("stylus: the scene has no stylus '" + name + "'; it has " + (known.empty() ? "none" : known));
+}
+
+/// @throws Error  another word than idle, button1, button2
+ToolSwitch switchNamed(const std::string& name) {
+  if (name == "idle") return ToolSwitch::kIdle;
+  if (name == "button1") return ToolSwitch::kButton1;
+  if (name == "button2") return ToolSwitch::kButton2;
+  throw Error("which: '" + name + "' is none of idle, button1, button2");
+}
+
+/// @throws Error  a mode that no kind of tool has
+ToolMode modeNamed(const std::string& name) {
+  std::string known;
+  for (const ToolKind& kind : kToolKinds) {
+    if (name == kind.name) return kind.mode;
+    known += (known.empty() ? "" : ", ") + std::string(kind.name);
+  }
+  throw Error("mode: '" + name + "' is none of " + known);
+}
+
+/// Where a step takes the styluses. @throws Error  a name that the scene does not have, or twice; no pose
+StylusSamples samplesOf(const std::vector<StylusState>& states, const std::vector<StylusConfig>& styluses) {
+  StylusSamples samples;
+  for (const StylusState& state : states) {
+    const size_t s = indexOf(state.stylus, styluses);
+    if (s == styluses.size()) throw Error("styluses: the scene has no stylus '" + state.stylus + "'");
+    if (samples[s].valid) throw Error("styluses: '" + state.stylus + "' is there twice");
+    Pose pose = fromMessage(state.pose);
+    if (!isFinite(pose) || !isUnit(pose.orientation))
+      throw Error("styluses: the pose of '" + state.stylus + "' must be finite, its quaternion of length 1");
+    pose.orientation.normalize();
+    if (!(pose.position_m.norm() <= styluses[s].workspace_m))
+      throw Error("styluses: '" + state.stylus + "' is farther than workspace_m from the tissue frame");
+    samples[s] = {true, pose, static_cast<bool>(state.button1), static_cast<bool>(state.button2)};
+  }
+  return samples;
+}
+
+}  // namespace
+
+SimulatorServices::SimulatorServices(ros::NodeHandle node, const std::vector<StylusConfig>& styluses,
+                                     CommandQueue& commands, ModeSet mode_set)
+    : styluses_(styluses), commands_(commands), mode_set_(std::move(mode_set)), spinner_(kServices, &queue_) {
+  node.setCallbackQueue(&queue_);
+  advertiseTrigger(node, "reset", Command::Kind::kReset);
+  advertiseTrigger(node, "pause", Command::Kind::kPause);
+  advertiseTrigger(node, "resume", Command::Kind::kResume);
+  servers_.push_back(node.advertiseService("step", &SimulatorServices::onStep, this));
+  servers_.push_back(node.advertiseService("set_overlays", &SimulatorServices::onSetOverlays, this));
+  servers_.push_back(node.advertiseService("set_tool_mode", &SimulatorServices::onSetToolMode, this));
+  spinner_.start();
+}
+
+void SimulatorServices::advertiseTrigger(ros::NodeHandle& node, const std::string& name, Command::Kind kind) {
+  using Request = std_srvs::Trigger::Request;
+  using Response = std_srvs::Trigger::Response;
+  const boost::function<bool(Request&, Response&)> serve = [this, kind](Request&, Response& response) {
+    Command command;
+    command.kind = kind;
+    const CommandAnswer answer = commands_.call(std::move(command), kTriggerLimit);
+    response.success = answer.success;
+    response.message = answer.message;
+    return true;
+  };
+  servers_.push_back(node.advertiseService<Request, Response>(name, serve));
+}
+
+bool SimulatorServices::onSetOverlays(SetOverlays::Request& request, SetOverlays::Response& response) {
+  Command command;
+  command.kind = Command::Kind::kOverlays;
+  command.camera = request.camera;
+  try {
+    command.overlays = overlaysOf(request.overlays);
+  } catch (const SceneError& error) {
+    response.message = std::string("overlays: ") + error.what();
+    return true;
+  }
+  const CommandAnswer answer = commands_.call(std::move(command), kTriggerLimit);
+  response.success = answer.success;
+  response.message = answer.message;
+  return true;
+}
+
+bool SimulatorServices::onSetToolMode(SetToolMode::Request& request, SetToolMode::Response& response) {
+  Command command;
+  command.kind = Command::Kind::kChange;
+  try {
+    const size_t stylus = stylusNamed(request.stylus, styluses_);
+    const ToolSwitch when = switchNamed(request.which);
+    const ToolMode mode = modeNamed(request.mode);
+    command.change = [=](Session& session) {
+      session.setToolMode(stylus, when, mode);
+      return "from the next tick on";
+    };
+    const CommandAnswer answer = commands_.call(std::move(command), kTriggerLimit);
+    response.success = answer.success;
+    response.message = answer.message;
+    if (answer.success && mode_set_) mode_set_(stylus, when, mode);
+  } catch (const Error& error) {
+    response.message = error.what();
+  }
+  return true;
+}
+
+bool SimulatorServices::onStep(Step::Request& request, Step::Response& response) {
+  Command command;
+  command.kind = Command::Kind::kStep;
+  command.ticks = request.ticks;
+  try {
+    if (!request.styluses.empty()) command.samples = samplesOf(request.styluses, styluses_);
+  } catch (const Error& error) {
+    response.message = error.what();
+    return true;
+  }
+  const CommandAnswer answer = commands_.call(std::move(command), kStepLimit);
+  response.success = answer.success;
+  response.message = answer.message;
+  response.state_hash = answer.state_hash;
+  response.tick = answer.tick;
+  for (const Reaction& reaction : answer.reactions) response.reactions.push_back(toMessage(reaction));
+  return true;
+}
+
+}  // namespace viscera::nodes

@@ -1,0 +1,43 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <ros/callback_queue.h>
+#include <ros/node_handle.h>
+#include <ros/spinner.h>
+#include <std_srvs/Trigger.h>
+
+#include <functional>
+#include <vector>
+
+#include "nodes/simulator/command_queue.h"
+#include "viscera/SetOverlays.h"
+#include "viscera/SetToolMode.h"
+#include "viscera/Step.h"
+
+namespace viscera::nodes {
+
+/// Services `reset`, `pause`, `resume`, `step`, `set_overlays` and `set_tool_mode`, on threads of their own: waiting
+/// for an answer holds up no input, and one no other.
+class SimulatorServices {
+ public:
+  using ModeSet = std::function<void(size_t stylus, ToolSwitch when, ToolMode mode)>;
+  /// @param styluses  of the scene   @param commands  must outlive this   @param mode_set  told of changes of modes
+  SimulatorServices(ros::NodeHandle node, const std::vector<StylusConfig>& styluses, CommandQueue& commands,
+                    ModeSet mode_set = {});
+
+ private:
+  void advertiseTrigger(ros::NodeHandle& node, const std::string& name, Command::Kind kind);
+  bool onSetOverlays(SetOverlays::Request& request, SetOverlays::Response& response);
+  bool onSetToolMode(SetToolMode::Request& request, SetToolMode::Response& response);
+  bool onStep(Step::Request& request, Step::Response& response);
+
+  const std::vector<StylusConfig> styluses_;
+  CommandQueue& commands_;
+  const ModeSet mode_set_;
+  ros::CallbackQueue queue_;
+  std::vector<ros::ServiceServer> servers_;
+  ros::AsyncSpinner spinner_;
+};
+
+}  // namespace viscera::nodes

@@ -1,0 +1,51 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <ros/callback_queue.h>
+#include <ros/spinner.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "nodes/forces/wrench_publisher.h"
+#include "nodes/simulator/command_queue.h"
+#include "nodes/simulator/settings_server.h"
+#include "nodes/simulator/simulator_options.h"
+#include "nodes/views/frame_publisher.h"
+
+namespace viscera::nodes {
+
+/// What can be changed by dynamic_reconfigure while the simulation runs: limits of forces and tool modes per stylus
+/// (`~<stylus>`), rates of pictures per camera (`~cameras/<camera>`) and of the surface (`~`). Names, ranges and
+/// meanings are those of the scene's keys; changes are made between ticks, and last until the scene is another one.
+class SimulatorSettings {
+ public:
+  struct Publishers {
+    FramePublisher& frames;
+    WrenchPublisher& wrenches;
+  };
+  /// @param commands, publishers  must outlive this
+  SimulatorSettings(const SimulatorOptions& options, CommandQueue& commands, const Publishers& publishers);
+  ~SimulatorSettings();
+
+  /// A mode was changed by the service set_tool_mode.
+  void noteMode(size_t stylus, ToolSwitch when, ToolMode mode);
+
+ private:
+  void change(const std::function<void(Session&)>& make);
+  void addSurface(const SimulatorOptions& options);
+  void addStylus(size_t stylus, const StylusConfig& config);
+  void addCamera(size_t camera, const CameraConfig& config);
+
+  CommandQueue& commands_;
+  const Publishers publishers_;
+  std::vector<StylusConfig> styluses_;  ///< with what holds; of the queue's thread
+  ros::CallbackQueue queue_;
+  std::vector<std::unique_ptr<SettingsServer>> stylus_servers_;  ///< [styluses]
+  std::vector<std::unique_ptr<SettingsServer>> other_servers_;
+  ros::AsyncSpinner spinner_;
+};
+
+}  // namespace viscera::nodes

@@ -1,0 +1,218 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/simulator/status_screen.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <sstream>
+
+#include "math/one_line.h"
+
+namespace viscera::nodes {
+namespace {
+
+constexpr size_t kIndent = 14;         ///< of what is said, behind whose it is
+constexpr size_t kFewestColumns = 40;  ///< a narrower window breaks lines by itself
+const std::string kDropped = "dropped_";
+const std::string kImageRate = "image_rate_hz_";
+
+bool begins(const std::string& text, const std::string& with) {
+  return text.compare(0, with.size(), with) == 0;
+}
+
+std::string format(const char* as, double number) {
+  char text[64];
+  std::snprintf(text, sizeof text, as, number);
+  return text;
+}
+
+std::string textOf(const ToldStatus& status, const std::string& key) {
+  const auto found = status.values.find(key);
+  return found == status.values.end() ? "" : found->second;
+}
+
+double numberOf(const ToldStatus& status, const std::string& key) {
+  return std::strtod(textOf(status, key).c_str(), nullptr);
+}
+
+bool isTrue(const ToldStatus& status, const std::string& key) {
+  return textOf(status, key) == "True" || textOf(status, key) == "1";
+}
+
+bool isStylus(const ToldStatus& status) {
+  return status.values.count("poses_accepted") > 0;
+}
+
+const ToldStatus* partOf(const std::vector<ToldStatus>& told, const std::string& node, const std::string& part) {
+  const auto found =
+      std::find_if(told.begin(), told.end(), [&](const ToldStatus& it) { return it.node == node && it.part == part; });
+  return found == told.end() ? nullptr : &*found;
+}
+
+std::vector<std::string> simulatorsOf(const std::vector<ToldStatus>& told, const StatusView& view) {
+  std::vector<std::string> out;
+  for (const ToldStatus& status : told)
+    if (status.part == "simulation" && (view.simulator.empty() || view.simulator == status.node))
+      out.push_back(status.node);
+  return out;
+}
+
+/// Lines `whose  said`, broken between words.
+class Screen {
+ public:
+  explicit Screen(size_t columns) : columns_(std::max(columns, kFewestColumns)) {}
+  void title(const std::string& text) { text_ += (text_.empty() ? "" : "\n") + oneLine(text) + "\n"; }
+  void say(const std::string& whose, const std::string& said) {
+    std::string line = "  " + oneLine(whose);
+    line.resize(std::max(line.size() + 1, kIndent), ' ');
+    size_t words = 0;
+    std::istringstream in(oneLine(said));
+    for (std::string word; in >> word; ++words) {
+      if (words > 0 && line.size() + 1 + word.size() > columns_) {
+        text_ += line + "\n";
+        line.assign(kIndent, ' ');
+        words = 0;
+      }
+      line += (words > 0 ? " " : "") + word;
+    }
+    text_ += line + "\n";
+  }
+  std::string text() const { return text_; }
+
+ private:
+  const size_t columns_;
+  std::string text_;
+};
+
+std::string simulationText(const ToldStatus& status) {
+  std::string out = status.message;
+  if (status.values.count("tick")) out += ", tick " + textOf(status, "tick");
+  if (status.values.count("stepped_by")) out += ", stepped by " + textOf(status, "stepped_by");
+  return out;
+}
+
+std::string paceText(const ToldStatus& status) {
+  if (!status.values.count("real_time_factor")) return status.message;
+  std::string out = format("%.2f of real time", numberOf(status, "real_time_factor"));
+  out += format(": a step takes %.3g ms", numberOf(status, "step_mean_ms"));
+  out += format(", %.3g ms at most", numberOf(status, "step_max_ms"));
+  return out;
+}
+
+std::string ratesText(const ToldStatus& pace) {
+  std::string out = format("surface and markers %.3g /s", numberOf(pace, "surface_rate_hz"));
+  bool none = numberOf(pace, "surface_rate_hz") == 0;
+  for (const auto& [key, value] : pace.values) {
+    if (!begins(key, kImageRate)) continue;
+    const double rate_hz = std::strtod(value.c_str(), nullptr);
+    none = none || rate_hz == 0;
+    out += ", pictures of " + key.substr(kImageRate.size()) + format(" %.3g /s", rate_hz);
+  }
+  return none ? out + " (what has no subscriber is not made)" : out;
+}
+
+std::string handText(const ToldStatus& hand) {
+  if (numberOf(hand, "poses_accepted") == 0) {
+    const std::string device = " (" + textOf(hand, "device") + ")";
+    return isTrue(hand, "has_publisher") ? "no pose yet, though a device is connected" + device
+                                         : "no device: no poses arrive" + device;
+  }
+  std::string out = hand.message;
+  if (!isTrue(hand, "has_publisher")) out += ", no poses arrive any more";
+  if (hand.values.count("force_n")) out += format("; force %.3g N", numberOf(hand, "force_n"));
+  if (isTrue(hand, "force_saturated")) out += " (the limit)";
+  if (isTrue(hand, "clutched")) out += "; clutched";
+  if (hand.values.count("nodes_touched")) {
+    out += format("; touches %.0f nodes", numberOf(hand, "nodes_touched"));
+    out += format(", holds %.0f", numberOf(hand, "nodes_held"));
+  }
+  if (hand.values.count("haptic_rate_hz")) out += format("; %.0f forces/s", numberOf(hand, "haptic_rate_hz"));
+  return out + format("; last pose %.0f ms ago", 1e3 * numberOf(hand, "input_age_s"));
+}
+
+void sayDrops(Screen& screen, const ToldStatus& hand) {
+  for (const auto& [key, value] : hand.values) {
+    if (!begins(key, kDropped) || std::strtod(value.c_str(), nullptr) == 0) continue;
+    const std::string reason = key.substr(kDropped.size());
+    const std::string meaning = meaningOfDrop(reason);
+    screen.say("", value + " messages dropped since the start, " + reason + (meaning.empty() ? "" : ": " + meaning));
+  }
+}
+
+void saySimulator(Screen& screen, const std::vector<ToldStatus>& told, const std::string& node) {
+  const ToldStatus& simulation = *partOf(told, node, "simulation");
+  screen.title(node + format(", heard %.1f s ago", simulation.age_s));
+  if (simulation.age_s > kSilent_s)
+    screen.say("WRONG",
+               "it is silent, and sends once a second: it has ended, hangs, or the network is gone. What "
+               "follows is old");
+  screen.say("simulation", simulationText(simulation));
+  if (const ToldStatus* pace = partOf(told, node, "pace")) {
+    screen.say("pace", paceText(*pace));
+    if (pace->values.count("surface_rate_hz")) screen.say("sends", ratesText(*pace));
+  }
+  for (const ToldStatus& status : told) {
+    if (status.node != node || !isStylus(status)) continue;
+    screen.say(status.part, handText(status));
+    sayDrops(screen, status);
+  }
+  bool well = simulation.age_s <= kSilent_s;
+  for (const ToldStatus& status : told) {
+    if (status.node != node || status.level == 0) continue;
+    screen.say(status.level > 1 ? "ERROR" : "WARNING", status.part + ": " + status.message);
+    well = false;
+  }
+  if (well) screen.say("wrong", "nothing");
+}
+
+void sayNobody(Screen& screen, const std::vector<ToldStatus>& told, const StatusView& view) {
+  const std::string wanted = view.simulator.empty() ? "simulator" : "simulator '" + view.simulator + "'";
+  if (view.watched_s < kSilent_s) return screen.title("waiting for /diagnostics of a " + wanted);
+  std::vector<std::string> others;
+  for (const ToldStatus& status : told)
+    if (std::find(others.begin(), others.end(), status.node) == others.end()) others.push_back(status.node);
+  screen.title("no " + wanted);
+  if (others.empty()) {
+    screen.say("WRONG", format("no /diagnostics for %.0f s: no simulator runs on the master ", kSilent_s) +
+                            view.master_uri + ", or it cannot reach this machine (ROS_IP, ROS_HOSTNAME)");
+    return screen.say("", "start one: roslaunch viscera training.launch");
+  }
+  std::string names;
+  for (const std::string& other : others) names += " " + other;
+  screen.say("WRONG", "those who send /diagnostics are:" + names);
+}
+
+}  // namespace
+
+std::string meaningOfDrop(const std::string& reason) {
+  static const std::map<std::string, std::string> kMeanings = {
+      {"stamp_zero", "the device says that its pose is invalid"},
+      {"not_finite", "a pose, or the transform to the tissue, is NaN or infinite"},
+      {"bad_quaternion", "its length is not 1: the message is not filled in, or another order of x, y, z, w"},
+      {"no_transform", "tf does not join the frame of the poses to the tissue frame: publish one, or set frame"},
+      {"old_transform", "what tf knows of the frame is old: its broadcaster is dead, or clocks differ"},
+      {"repeated_stamp", "the stamp stands still: the driver hangs"},
+      {"delayed", "poses are late: the network, or the machine of the driver, is busy"},
+      {"outside_workspace", "too far from the tissue: the wrong frame or unit (millimetres?), or workspace_m is small"},
+      {"no_buttons", "the message has no such button or joint as the profile names"},
+      {"button_value", "a button is neither 0, 1 nor 2"}};
+  const auto found = kMeanings.find(reason);
+  return found == kMeanings.end() ? "" : found->second;
+}
+
+bool isSimulatorTold(const std::vector<ToldStatus>& told, const StatusView& view) {
+  const std::vector<std::string> nodes = simulatorsOf(told, view);
+  return std::any_of(nodes.begin(), nodes.end(),
+                     [&](const std::string& node) { return partOf(told, node, "simulation")->age_s <= kSilent_s; });
+}
+
+std::string statusScreen(const std::vector<ToldStatus>& told, const StatusView& view) {
+  Screen screen(view.columns);
+  const std::vector<std::string> simulators = simulatorsOf(told, view);
+  for (const std::string& node : simulators) saySimulator(screen, told, node);
+  if (simulators.empty()) sayNobody(screen, told, view);
+  return screen.text();
+}
+
+}  // namespace viscera::nodes

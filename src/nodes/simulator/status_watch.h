@@ -1,0 +1,55 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <diagnostic_msgs/DiagnosticArray.h>
+#include <ros/node_handle.h>
+
+#include <chrono>
+#include <map>
+#include <mutex>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "nodes/ros/end_watch.h"
+#include "nodes/ros/parameters.h"
+#include "nodes/simulator/status_screen.h"
+
+namespace viscera::nodes {
+
+struct StatusOptions {
+  bool once = false;      ///< one screen, as soon as a simulator has told something, and the end
+  std::string simulator;  ///< name of a node; empty: all
+};
+
+/// @throws ParameterError
+StatusOptions statusOptions(Parameters& parameters);
+
+/// Shows /diagnostics of simulators as a screen of text, once a second.
+class StatusWatch {
+ public:
+  explicit StatusWatch(const StatusOptions& options);
+  /// Until the end begins; with `once` until a simulator was shown, or none was heard for kSilent_s.
+  /// @returns whether the last screen showed a simulator that speaks   @throws MasterLost
+  bool run(EndWatch& end);
+
+ private:
+  void onDiagnostics(const diagnostic_msgs::DiagnosticArray& message);
+  std::vector<ToldStatus> told() const;
+  StatusView view() const;
+
+  using Clock = std::chrono::steady_clock;
+  struct Heard {
+    ToldStatus status;
+    Clock::time_point at;
+  };
+  const StatusOptions options_;
+  const Clock::time_point begun_ = Clock::now();
+  mutable std::mutex mutex_;
+  std::map<std::pair<std::string, std::string>, Heard> heard_;  ///< by node and part
+  ros::NodeHandle node_;
+  ros::Subscriber diagnostics_;
+};
+
+}  // namespace viscera::nodes

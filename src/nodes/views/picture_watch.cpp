@@ -1,0 +1,53 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/views/picture_watch.h"
+
+#include <sstream>
+
+#include "render/seen_target.h"
+
+namespace viscera::nodes {
+
+PictureWatch::PictureWatch(const std::vector<CameraConfig>& cameras)
+    : cameras_(cameras), slowness_(cameras.size(), Slowness(kReadings)) {}
+
+std::vector<std::string> PictureWatch::note(const std::vector<double>& wanted_hz, const std::vector<double>& sent_hz) {
+  std::vector<std::string> out;
+  behind_ = false;
+  for (size_t c = 0; c < cameras_.size(); ++c) {
+    const bool behind = sent_hz[c] < kShare * wanted_hz[c];
+    behind_ = behind_ || behind;
+    if (!slowness_[c].note(behind)) continue;
+    const CameraConfig& camera = cameras_[c];
+    std::ostringstream text;
+    text.precision(2);
+    text << "camera '" << camera.name << "': " << sent_hz[c] << " pictures per second of " << wanted_hz[c]
+         << " wanted, for " << kReadings << " s. Ways out: fewer pixels (cameras[].width_px " << camera.width_px
+         << ", height_px " << camera.height_px
+         << "), cameras[].supersampling 1, a lower cameras[].rate_hz, fewer cameras with subscribers; a coarser "
+            "bodies[].spacing_m, or 'auto', which leaves pictures a share of the processors; other programs that leave "
+            "the processors; a GPU";
+    out.push_back(text.str());
+  }
+  return out;
+}
+
+std::vector<std::string> PictureWatch::ways(bool software) const {
+  std::vector<std::string> out;
+  for (const CameraConfig& camera : cameras_) {
+    std::ostringstream text;
+    text << "camera '" << camera.name << "': " << camera.width_px << " x " << camera.height_px << " pixels, ";
+    if (camera.supersampling == 1) {
+      text << "1 sample each: edges are not smooth";
+    } else if (camera.supersampling == 0 && software && camera.width_px * camera.height_px <= SeenTarget::kMostPixels) {
+      text << "4 samples each, of which the processor, as there is no GPU, lights one, at edges all "
+              "(cameras[].supersampling: 2 lights all)";
+    } else {
+      text << "4 samples each";
+    }
+    out.push_back(text.str());
+  }
+  return out;
+}
+
+}  // namespace viscera::nodes

@@ -1,0 +1,52 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/views/samples_publisher.h"
+
+#include "nodes/ros/conversions.h"
+
+namespace viscera::nodes {
+namespace {
+
+constexpr uint32_t kQueue =
+    10000;  ///< ten seconds of the most ticks there are, some MB; a recorder that is slower is told
+
+ToolMode modeInScene(const StylusConfig& config, const StylusSample& sample) {
+  if (sample.button2) return config.button2;
+  return sample.button1 ? config.button1 : config.idle;
+}
+
+}  // namespace
+
+SamplesPublisher::SamplesPublisher(ros::NodeHandle& node, const Scene& scene, const SceneChoice& choice)
+    : styluses_(scene.styluses), publisher_(node.advertise<Samples>("samples", kQueue)) {
+  message_.header.frame_id = scene.environment.tissue_frame;
+  message_.scene = choice.scene;
+  for (const Overrides* keys : {&choice.mesh, &choice.overrides}) {
+    for (const std::string& key : *keys) message_.overrides += (message_.overrides.empty() ? "" : ";") + key;
+  }
+  message_.tick_hz = scene.solver.tick_hz;
+  for (const ObstacleConfig& obstacle : scene.obstacles)
+    if (!obstacle.frame.empty()) carried_ = "obstacle '" + obstacle.name + "', which tf carries";
+}
+
+void SamplesPublisher::publish(uint64_t tick, const StylusSamples& samples, const ToolMotions& tools, bool hands_anew) {
+  if (publisher_.getNumSubscribers() == 0) return;
+  message_.header.stamp = ros::Time::now();
+  message_.tick = tick;
+  message_.hands_anew = hands_anew;
+  message_.besides = carried_;
+  message_.styluses.clear();
+  for (size_t s = 0; s < styluses_.size(); ++s) {
+    if (!samples[s].valid) continue;
+    if (tools[s].mode != modeInScene(styluses_[s], samples[s]))
+      message_.besides = "the mode of stylus '" + styluses_[s].name + "', which is not the scene's (set_tool_mode)";
+    StylusState& state = message_.styluses.emplace_back();
+    state.stylus = styluses_[s].name;
+    state.pose = toMessage(samples[s].pose);
+    state.button1 = samples[s].button1;
+    state.button2 = samples[s].button2;
+  }
+  publisher_.publish(message_);
+}
+
+}  // namespace viscera::nodes

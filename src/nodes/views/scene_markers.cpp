@@ -1,0 +1,219 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/views/scene_markers.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "nodes/ros/conversions.h"
+#include "render/shapes/obstacle_shape.h"
+#include "viscera/render/camera.h"
+
+namespace viscera::nodes {
+namespace {
+
+using visualization_msgs::Marker;
+using visualization_msgs::MarkerArray;
+
+constexpr size_t kMostParts = 4;        ///< colours of a tool or obstacle: ids of the next one follow
+constexpr double kLetterShare = 0.025;  ///< of the distance from which the first camera looks
+constexpr double kLetterWithoutCamera_m = 0.01;
+constexpr double kLetterWidth = 0.65;  ///< of its height, the gap to the next with it
+constexpr double kLineHeight = 1.6;    ///< of a letter: rviz looks down at some 30 degrees
+constexpr double kLeastArrow_m = 1e-4;
+constexpr double kArrowWidth_m = 2.5 * kShaftRadius_m;  ///< a tool is mostly pushed back along its shaft
+constexpr double kHead = 2;                             ///< width and length of an arrow's head, of its width
+
+geometry_msgs::Point toPoint(const Vector3d& p_m) {
+  geometry_msgs::Point out;
+  out.x = p_m.x(), out.y = p_m.y(), out.z = p_m.z();
+  return out;
+}
+
+void paint(const std::array<uint8_t, 4>& color, Marker& marker) {
+  constexpr float kFull = 255;
+  marker.color.r = static_cast<float>(color[0]) / kFull;
+  marker.color.g = static_cast<float>(color[1]) / kFull;
+  marker.color.b = static_cast<float>(color[2]) / kFull;
+  marker.color.a = static_cast<float>(color[3]) / kFull;
+}
+
+double letterHeight(const Scene& scene) {
+  if (scene.cameras.empty()) return kLetterWithoutCamera_m;
+  return kLetterShare * (scene.cameras[0].position_m - scene.cameras[0].target_m).norm();
+}
+
+bool inTheWay(const Label& a, const Label& b, double height_m) {
+  const Vector3d apart_m = a.position_m - b.position_m;
+  const double widths_m = kLetterWidth * height_m * static_cast<double>(a.text.size() + b.text.size()) / 2;
+  return std::abs(apart_m.z()) < kLineHeight * height_m && apart_m.head<2>().norm() < widths_m;
+}
+
+std::vector<Vector3d> pointsOf(const ToolShape& shape) {
+  std::vector<Vector3d> points_m;
+  for (const ToolVertex& vertex : shape.vertices)
+    points_m.emplace_back(vertex.position_m[0], vertex.position_m[1], vertex.position_m[2]);
+  return points_m;
+}
+
+}  // namespace
+
+SceneLook lookOf(const Frame& frame) {
+  return {frame.tools, frame.obstacles, frame.reactions};
+}
+
+void partLabels(std::vector<Label>& labels, double height_m) {
+  constexpr double kPast = 1 + 1e-9;  // rounding must not leave two just within reach
+  for (size_t i = 1; i < labels.size(); ++i) {
+    // Each move passes one of the earlier labels, and none is met again.
+    for (size_t j = 0; j < i;) {
+      if (!inTheWay(labels[i], labels[j], height_m)) {
+        ++j;
+        continue;
+      }
+      labels[i].position_m.z() = labels[j].position_m.z() + kPast * kLineHeight * height_m;
+      j = 0;
+    }
+  }
+}
+
+SceneMarkers::SceneMarkers(const Scene& scene, const PublishOptions& options)
+    : frame_(scene.environment.tissue_frame),
+      arrow_m_per_n_(options.force_arrow_m_per_n),
+      letter_m_(letterHeight(scene)) {
+  for (const StylusConfig& stylus : scene.styluses) {
+    styluses_.push_back(stylus.name);
+    auto& shapes = tools_.emplace_back();
+    for (const ToolMode mode : {ToolMode::kNone, stylus.idle, stylus.button1, stylus.button2})
+      shapes[mode] = partsOf(toolShape(stylus, mode));
+  }
+  for (const ObstacleConfig& obstacle : scene.obstacles) {
+    const ToolShape shape = obstacleShape(obstacle);
+    obstacles_.push_back({obstacle.name, partsOf(shape), pointsOf(shape)});
+  }
+  for (const CameraConfig& camera : scene.cameras) cameras_.push_back({camera.name, camera.position_m});
+  if (!scene.cameras.empty()) middle_m_ = scene.cameras[0].target_m;
+}
+
+SceneMarkers::Parts SceneMarkers::partsOf(const ToolShape& shape) {
+  Parts parts;
+  for (const uint32_t index : shape.indices) {
+    const ToolVertex& vertex = shape.vertices[index];
+    const auto same = [&](const Part& part) { return part.color == vertex.color; };
+    auto part = std::find_if(parts.begin(), parts.end(), same);
+    if (part == parts.end()) part = parts.insert(part, {vertex.color, {}});
+    part->corners.push_back(toPoint({vertex.position_m[0], vertex.position_m[1], vertex.position_m[2]}));
+  }
+  return parts;
+}
+
+MarkerArray SceneMarkers::at(const SceneLook& look, const ros::Time& stamp) const {
+  MarkerArray out;
+  for (size_t s = 0; s < styluses_.size(); ++s) {
+    addTool(s, look, stamp, out);
+    addForce(s, look, stamp, out);
+  }
+  for (size_t i = 0; i < std::min(obstacles_.size(), look.obstacles.size()); ++i)
+    addParts("obstacles", kMostParts * i, obstacles_[i].parts, look.obstacles[i], stamp, out);
+  addNames(look, stamp, out);
+  addText("", stamp, out);
+  return out;
+}
+
+MarkerArray SceneMarkers::telling(const std::string& text, const ros::Time& stamp) const {
+  MarkerArray out;
+  Marker& all = out.markers.emplace_back(marker("preparing", 0, stamp));
+  all.action = Marker::DELETEALL;
+  addText(text, stamp, out);
+  return out;
+}
+
+Marker SceneMarkers::marker(const char* names, size_t id, const ros::Time& stamp) const {
+  Marker out;
+  out.header.frame_id = frame_;
+  out.header.stamp = stamp;
+  out.ns = names;
+  out.id = static_cast<int32_t>(id);
+  out.pose.orientation.w = 1;
+  out.scale.x = out.scale.y = out.scale.z = 1;
+  return out;
+}
+
+/// Ids that no part has are deleted.
+void SceneMarkers::addParts(const char* names, size_t first_id, const Parts& parts, const Pose& pose,
+                            const ros::Time& stamp, MarkerArray& out) const {
+  for (size_t i = 0; i < kMostParts; ++i) {
+    Marker& marker = out.markers.emplace_back(this->marker(names, first_id + i, stamp));
+    marker.type = Marker::TRIANGLE_LIST;
+    marker.action = i < parts.size() ? Marker::ADD : Marker::DELETE;
+    if (i >= parts.size()) continue;
+    marker.pose = toMessage(pose);
+    paint(parts[i].color, marker);
+    marker.points = parts[i].corners;
+  }
+}
+
+void SceneMarkers::addTool(size_t stylus, const SceneLook& look, const ros::Time& stamp, MarkerArray& out) const {
+  static const Parts kNothing;
+  const StylusMotion& motion = look.tools[stylus];
+  const auto shape = tools_[stylus].find(motion.mode);
+  const bool shown = motion.present && shape != tools_[stylus].end();
+  addParts("tools", kMostParts * stylus, shown ? shape->second : kNothing, motion.to, stamp, out);
+}
+
+/// From the tip, to where the hand is pushed.
+void SceneMarkers::addForce(size_t stylus, const SceneLook& look, const ros::Time& stamp, MarkerArray& out) const {
+  constexpr std::array<uint8_t, 4> kYellow = {250, 210, 40, 200};  // the tool is seen through it
+  const Vector3d arrow_m = arrow_m_per_n_ * look.reactions[stylus].force_n;
+  Marker& marker = out.markers.emplace_back(this->marker("forces", stylus, stamp));
+  marker.type = Marker::ARROW;
+  marker.action = Marker::DELETE;
+  if (!look.tools[stylus].present || !arrow_m.allFinite() || arrow_m.norm() < kLeastArrow_m) return;
+  marker.action = Marker::ADD;
+  const Vector3d& tip_m = look.tools[stylus].to.position_m;
+  marker.points = {toPoint(tip_m), toPoint(tip_m + arrow_m)};
+  marker.scale.x = kArrowWidth_m;
+  marker.scale.y = kHead * kArrowWidth_m;
+  marker.scale.z = std::min(kHead * kArrowWidth_m, 0.5 * arrow_m.norm());
+  paint(kYellow, marker);
+}
+
+/// @param text  empty: none
+void SceneMarkers::addText(const std::string& text, const ros::Time& stamp, MarkerArray& out) const {
+  constexpr std::array<uint8_t, 4> kWhite = {255, 255, 255, 255};
+  Marker& marker = out.markers.emplace_back(this->marker("preparing", 0, stamp));
+  marker.type = Marker::TEXT_VIEW_FACING;
+  marker.action = text.empty() ? Marker::DELETE : Marker::ADD;
+  marker.pose.position = toPoint(middle_m_);
+  marker.scale.z = letter_m_;
+  marker.text = text;
+  paint(kWhite, marker);
+}
+
+void SceneMarkers::addNames(const SceneLook& look, const ros::Time& stamp, MarkerArray& out) const {
+  constexpr std::array<uint8_t, 4> kWhite = {255, 255, 255, 255};
+  std::vector<Label> labels = cameras_;
+  for (size_t s = 0; s < styluses_.size(); ++s) {
+    const Vector3d beyond_m(0, 0, kShaftLength_m + letter_m_);
+    if (look.tools[s].present) labels.push_back({styluses_[s], look.tools[s].to * beyond_m});
+  }
+  for (size_t i = 0; i < std::min(obstacles_.size(), look.obstacles.size()); ++i) {
+    Vector3d place_m = look.obstacles[i].position_m;
+    for (const Vector3d& point_m : obstacles_[i].points_m)
+      place_m.z() = std::max(place_m.z(), (look.obstacles[i] * point_m).z());
+    labels.push_back({obstacles_[i].name, place_m + Vector3d(0, 0, letter_m_)});
+  }
+  partLabels(labels, letter_m_);
+  for (size_t i = 0; i < cameras_.size() + styluses_.size() + obstacles_.size(); ++i) {
+    Marker& marker = out.markers.emplace_back(this->marker("names", i, stamp));
+    marker.type = Marker::TEXT_VIEW_FACING;
+    marker.action = i < labels.size() ? Marker::ADD : Marker::DELETE;
+    if (i >= labels.size()) continue;
+    marker.pose.position = toPoint(labels[i].position_m);
+    marker.scale.z = letter_m_;
+    marker.text = labels[i].text;
+    paint(kWhite, marker);
+  }
+}
+
+}  // namespace viscera::nodes

@@ -1,0 +1,80 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <visualization_msgs/MarkerArray.h>
+
+#include <array>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "nodes/ros/publish_options.h"
+#include "render/shapes/tool_shape.h"
+#include "viscera/layout/limits.h"
+#include "viscera/model/scene/scene.h"
+#include "viscera/session/frame.h"
+
+namespace viscera::nodes {
+
+/// Where tools and obstacles are, and what the hands feel.
+struct SceneLook {
+  ToolMotions tools;
+  std::vector<Pose> obstacles;
+  std::array<Reaction, layout::kMaxStyluses> reactions;
+};
+SceneLook lookOf(const Frame& frame);
+
+/// A name that stands upright in space.
+struct Label {
+  std::string text;
+  Vector3d position_m;  ///< of its middle
+};
+
+/// Moves labels upwards until none stands in another's place.
+/// @param height_m  of a letter
+void partLabels(std::vector<Label>& labels, double height_m);
+
+/// What the camera shows beside the tissue, as markers for rviz: tools and obstacles as meshes, forces as arrows,
+/// names; or, as long as there is no tissue, what is done for it. Namespaces `tools`, `obstacles`, `forces`, `names`,
+/// `preparing`. What is not there is told as DELETE, so that any array is the whole truth.
+class SceneMarkers {
+ public:
+  SceneMarkers(const Scene& scene, const PublishOptions& options);
+  visualization_msgs::MarkerArray at(const SceneLook& look, const ros::Time& stamp) const;
+  /// A text where the first camera looks, and nothing else.
+  visualization_msgs::MarkerArray telling(const std::string& text, const ros::Time& stamp) const;
+
+ private:
+  /// Triangles of one colour.
+  struct Part {
+    std::array<uint8_t, 4> color;
+    std::vector<geometry_msgs::Point> corners;
+  };
+  using Parts = std::vector<Part>;
+  struct Obstacle {
+    std::string name;
+    Parts parts;
+    std::vector<Vector3d> points_m;  ///< of its shape
+  };
+  static Parts partsOf(const ToolShape& shape);
+  visualization_msgs::Marker marker(const char* names, size_t id, const ros::Time& stamp) const;
+  void addParts(const char* names, size_t first_id, const Parts& parts, const Pose& pose, const ros::Time& stamp,
+                visualization_msgs::MarkerArray& out) const;
+  void addTool(size_t stylus, const SceneLook& look, const ros::Time& stamp,
+               visualization_msgs::MarkerArray& out) const;
+  void addForce(size_t stylus, const SceneLook& look, const ros::Time& stamp,
+                visualization_msgs::MarkerArray& out) const;
+  void addText(const std::string& text, const ros::Time& stamp, visualization_msgs::MarkerArray& out) const;
+  void addNames(const SceneLook& look, const ros::Time& stamp, visualization_msgs::MarkerArray& out) const;
+
+  const std::string frame_;
+  const double arrow_m_per_n_, letter_m_;
+  std::vector<std::string> styluses_;             ///< their names
+  std::vector<std::map<ToolMode, Parts>> tools_;  ///< [styluses]
+  std::vector<Obstacle> obstacles_;
+  std::vector<Label> cameras_;
+  Vector3d middle_m_ = Vector3d::Zero();  ///< of the view
+};
+
+}  // namespace viscera::nodes

@@ -1,0 +1,90 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/views/surface_publisher.h"
+
+#include <ros/console.h>
+
+#include <utility>
+
+namespace viscera::nodes {
+namespace {
+
+constexpr uint32_t kMarkerQueue = 32;             ///< two messages per body and frame: skin and wounds
+constexpr uint32_t kChangeQueue = 100;            ///< seconds of a cut: one that is lost makes the next ones useless
+constexpr size_t kMaxMarkerTriangles = 10000000;  ///< TCPROS refuses messages of 1 GB; a triangle takes 72 bytes
+
+}  // namespace
+
+SurfacePublisher::SurfacePublisher(ros::NodeHandle& node, const std::string& tissue_frame)
+    : frame_(tissue_frame),
+      topology_(node.advertise<SurfaceTopology>("surface_topology", 1, true)),
+      change_(node.advertise<SurfaceTopologyChange>("surface_topology_change", kChangeQueue)),
+      vertices_(node.advertise<SurfaceVertices>("surface", 1)),
+      marker_(node.advertise<visualization_msgs::Marker>("surface_marker", kMarkerQueue)) {}
+
+uint32_t SurfacePublisher::viewers() const {
+  return vertices_.getNumSubscribers() + marker_.getNumSubscribers() + topology_.getNumSubscribers() +
+         change_.getNumSubscribers();
+}
+
+void SurfacePublisher::start(const std::shared_ptr<const ShownTopology>& skin, const ros::Time& stamp) {
+  sent_ = SentVertices(*skin);
+  sent_.follow(*skin);
+  revision_ = skin->revision;
+  whole_ = toTopology(*skin, sent_, whole_.version + 1, frame_, stamp);
+  sendTopology();
+}
+
+void SurfacePublisher::changeTopology(const ShownTopology& topology, const ros::Time& stamp) {
+  revision_ = topology.revision;
+  sent_.follow(topology);
+  SurfaceTopology next = toTopology(topology, sent_, whole_.version + 1, frame_, stamp);
+  if (change_.getNumSubscribers() > 0) change_.publish(toChange(whole_, next));
+  whole_ = std::move(next);
+  is_sent_ = false;
+}
+
+void SurfacePublisher::sendTopology() {
+  const double seconds = static_cast<double>(sizeof(uint32_t) * whole_.triangles.size()) / kTopologyBytesPerSecond;
+  const auto now = std::chrono::steady_clock::now();
+  next_whole_ =
+      now + std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(seconds));
+  is_sent_ = true;
+  topology_.publish(whole_);
+}
+
+std::optional<std::chrono::steady_clock::time_point> SurfacePublisher::due() const {
+  if (is_sent_ || whole_.version == 0) return std::nullopt;
+  return next_whole_;
+}
+
+void SurfacePublisher::publishDue() {
+  if (due() && std::chrono::steady_clock::now() >= next_whole_) sendTopology();
+}
+
+void SurfacePublisher::publish(const SurfaceFrame& frame, const ros::Time& stamp) {
+  if (frame.topology->revision != revision_) changeTopology(*frame.topology, stamp);
+  publishDue();
+  if (vertices_.getNumSubscribers() > 0) vertices_.publish(toVertices(frame, sent_, whole_.version, frame_, stamp));
+  if (marker_.getNumSubscribers() > 0) publishMarkers(frame, stamp);
+}
+
+void SurfacePublisher::publishMarkers(const SurfaceFrame& frame, const ros::Time& stamp) {
+  if (frame.topology->triangleCount() > kMaxMarkerTriangles) {
+    ROS_WARN_ONCE("surface_marker: more than %zu triangles do not fit in a message; use `surface`",
+                  kMaxMarkerTriangles);
+    return;
+  }
+  const std::vector<visualization_msgs::Marker> markers = toMarkers(frame, frame_, stamp);
+  const size_t bodies = markers.size() / 2;
+  wounds_sent_.resize(bodies);
+  for (size_t b = 0; b < bodies; ++b) {  // of wounds only what has to be: who keeps the last message has a skin
+    const visualization_msgs::Marker& wounds = markers[bodies + b];
+    const bool any = wounds.action != visualization_msgs::Marker::DELETE;
+    if (any || wounds_sent_[b]) marker_.publish(wounds);
+    wounds_sent_[b] = any;
+  }
+  for (size_t b = 0; b < bodies; ++b) marker_.publish(markers[b]);
+}
+
+}  // namespace viscera::nodes

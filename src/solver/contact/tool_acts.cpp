@@ -1,0 +1,101 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solver/contact/tool_acts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "model/scene/tool_kinds.h"
+
+namespace viscera {
+
+namespace {
+
+/// One stylus in one tick.
+struct Hand {
+  ToolTarget& target;
+  uint32_t stylus;
+  const StylusMotion& motion;
+  const StylusConfig& config;
+  double tick_s;
+};
+
+/// What the kinds with an effect do at the moments of a tick; null where nothing.
+struct ToolAct {
+  uint32_t effects;
+  void (*begin_tick)(const Hand&);
+  void (*before_substep)(const Hand&);
+  void (*end_tick)(const Hand&);
+};
+
+/// A hold that has ended goes before one that begins, maybe of another kind.
+void changeGrip(const Hand& hand) {
+  const ToolKind& before = kindOf(hand.motion.hold_ended);
+  if (before.grip) hand.target.letGo(hand.stylus, {before.grip(hand.config).release_speed_m_per_s});
+  if (!hand.motion.hold_begins) return;
+  hand.target.takeHold(hand.stylus, hand.motion.from, kindOf(hand.motion.mode).reach_m(hand.config));
+}
+
+/// Nothing is held again until a new hold begins.
+void letGoAboveLimit(const Hand& hand) {
+  const ToolKind& kind = kindOf(hand.motion.mode);
+  if (!kind.grip) return;
+  const Grip grip = kind.grip(hand.config);
+  if (!std::isfinite(grip.max_force_n)) return;
+  hand.target.letGo(hand.stylus, {grip.release_speed_m_per_s, grip.max_force_n * hand.tick_s});
+}
+
+void cut(const Hand& hand) {
+  hand.target.cut(hand.stylus, kindOf(hand.motion.mode).does(kErases));
+}
+
+constexpr ToolAct kToolActs[] = {
+    {kHolds, changeGrip, nullptr, letGoAboveLimit},
+    {kCuts | kErases, nullptr, cut, nullptr},
+};
+
+/// Runs a moment of all acts, for each stylus that has something of them in this tick.
+void run(void (*ToolAct::*moment)(const Hand&), ToolTarget& target, const ToolMotions& motions,
+         const std::vector<StylusConfig>& styluses, double tick_s) {
+  for (const ToolAct& act : kToolActs) {
+    if (!(act.*moment)) continue;
+    for (uint32_t s = 0; s < styluses.size(); ++s) {
+      const uint32_t effects = kindOf(motions[s].mode).effects | kindOf(motions[s].hold_ended).effects;
+      if (effects & act.effects) (act.*moment)({target, s, motions[s], styluses[s], tick_s});
+    }
+  }
+}
+
+/// Does one of the first `styluses` do that?
+bool any(const ToolMotions& motions, size_t styluses, bool (ToolKind::*does)() const) {
+  return std::any_of(motions.begin(), motions.begin() + static_cast<std::ptrdiff_t>(styluses),
+                     [does](const StylusMotion& motion) { return (kindOf(motion.mode).*does)(); });
+}
+
+}  // namespace
+
+ToolActs::ToolActs(std::vector<StylusConfig> styluses, double tick_s)
+    : styluses_(std::move(styluses)), tick_s_(tick_s) {}
+
+bool ToolActs::touch(const ToolMotions& motions) const {
+  return any(motions, styluses_.size(), &ToolKind::touches);
+}
+
+bool ToolActs::sever(const ToolMotions& motions) const {
+  return any(motions, styluses_.size(), &ToolKind::severs);
+}
+
+void ToolActs::beginTick(ToolTarget& target, const ToolMotions& motions) const {
+  run(&ToolAct::begin_tick, target, motions, styluses_, tick_s_);
+}
+
+void ToolActs::beforeSubstep(ToolTarget& target, const ToolMotions& motions) const {
+  run(&ToolAct::before_substep, target, motions, styluses_, tick_s_);
+}
+
+void ToolActs::endTick(ToolTarget& target, const ToolMotions& motions) const {
+  run(&ToolAct::end_tick, target, motions, styluses_, tick_s_);
+}
+
+}  // namespace viscera

@@ -1,0 +1,269 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Springs of cells, a vector of cells at a time, and sums by node of what cells do to their corners. Included once per
+// instruction set (Highway).
+#if defined(VISCERA_SOLVER_CPU_CELLS_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef VISCERA_SOLVER_CPU_CELLS_INL_H
+#undef VISCERA_SOLVER_CPU_CELLS_INL_H
+#else
+#define VISCERA_SOLVER_CPU_CELLS_INL_H
+#endif
+
+#include "hwy/highway.h"
+#include "solver/cpu/simd/kernels.h"
+#include "solver/cpu/simd/springs-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace viscera::simd::HWY_NAMESPACE {
+
+/// Displacements or velocities of a brick's nodes and of those above it, rows as they are and shifted by 1 along x: the
+/// node at (x, y, z) + (dx, 0, 0), with x in 0..3 and y, z in 0..4, is at[dx][z * kUpPlane + 4 * y + x].
+constexpr int kUpPlane = 32;
+struct alignas(64) UpTile {
+  float component[3][2][5 * kUpPlane];
+};
+
+/// Rows of a plane, as they are and shifted by 1. @param right  those of the brick at the right
+template <class D>
+HWY_INLINE void copyUp(D d, const float* own, const float* right, float* zero, float* plus) {
+  const auto middle = hn::LoadU(d, own);
+  hn::StoreU(middle, d, zero);
+  hn::StoreU(hn::CombineShiftRightBytes<4>(d, hn::LoadU(d, right), middle), d, plus);
+}
+
+/// @param values  [3 * slots] as in Arrays
+HWY_INLINE void fillUp(const Arrays& a, const float* values, uint32_t b, UpTile& tile) {
+  const Tag d;
+  const Row row;
+  const uint32_t* around = a.bricks[b].neighbors;
+  const auto brick = [&](int direction) HWY_ATTR { return values + size_t{around[direction]} * 192; };
+  for (int z = 0; z <= 4; ++z) {
+    const int layer = 13 + 9 * (z >> 2);
+    const float *own = brick(layer), *right = brick(layer + 1), *behind = brick(layer + 3), *corner = brick(layer + 4);
+    for (int c = 0; c < 3; ++c) {
+      const int from = 64 * c + (z & 3) * 16, to = z * kUpPlane;
+      float *zero = tile.component[c][0] + to, *plus = tile.component[c][1] + to;
+      for (int i = 0; i < 16; i += static_cast<int>(hn::MaxLanes(d))) {
+        copyUp(d, own + from + i, right + from + i, zero + i, plus + i);
+      }
+      copyUp(row, behind + from, corner + from, zero + 16, plus + 16);
+    }
+  }
+}
+
+/// What four corners of cells at one height have or get, by their x and y.
+struct Corners {
+  Vec3 n00, n10, n01, n11;
+};
+HWY_INLINE Corners noCorners() {
+  return {zero3(), zero3(), zero3(), zero3()};
+}
+template <int kX>
+HWY_INLINE Vec3 upAt(const UpTile& tile, int at) {
+  return {load(tile.component[0][kX] + at), load(tile.component[1][kX] + at), load(tile.component[2][kX] + at)};
+}
+HWY_INLINE Corners cornersAt(const UpTile& tile, int at) {
+  return {upAt<0>(tile, at), upAt<1>(tile, at), upAt<0>(tile, at + 4), upAt<1>(tile, at + 4)};
+}
+
+/// Displacements of a brick's nodes, and velocities, looked at with dashpots.
+struct CellTiles {
+  UpTile u, v;
+};
+
+/// An end of a spring: where it is and what it gets.
+template <bool kDashpot>
+struct SpringEnd {
+  Vec3 u, v, force;
+
+  template <int kX>
+  HWY_INLINE static SpringEnd at(const CellTiles& tiles, int at, const Vec3& force) {
+    return {upAt<kX>(tiles.u, at), kDashpot ? upAt<kX>(tiles.v, at) : zero3(), force};
+  }
+};
+
+/// Adds what a spring does to both its ends.
+template <int X, int Y, int Z, bool kUniform, bool kAny, bool kDashpot>
+HWY_INLINE void addBetween(const Material& m, const float* k, SpringEnd<kDashpot>& near, SpringEnd<kDashpot>& far,
+                           V& largest) {
+  const V stiffness = kUniform ? m.full[X * X + Y * Y + Z * Z - 1] : load(k);
+  const Vec3 dv = kDashpot ? far.v - near.v : zero3();
+  const SpringPull s = springPull<X, Y, Z, kUniform, kAny, kDashpot>(m, stiffness, far.u - near.u, dv, largest);
+  near.force = mulAdd(s.pull, s.e, near.force);
+  far.force = mulAdd(hn::Neg(s.pull), s.e, far.force);
+}
+
+/// Springs of a vector of cells, nine each: those of kCellSprings (kernels.h).
+/// @param at  place of the first cell in the tiles   @param k  stiffness of the first spring; the next is 16 farther
+/// @param below  what corners get already   @param low  that, with what they get of these   @param high  what corners
+/// above get of these   @return all springs are mild, see kMild
+template <bool kUniform, bool kAny, bool kDashpot>
+HWY_INLINE bool addSprings(const Material& m, const float* k, const CellTiles& tiles, int at, const Corners& below,
+                           Corners& low, Corners& high) {
+  // One corner after the other, so that registers hold those at work.
+  using End = SpringEnd<kDashpot>;
+  V largest = hn::Zero(Tag());
+  End n00 = End::template at<0>(tiles, at, below.n00), n11 = End::template at<1>(tiles, at + 4, below.n11);
+  addBetween<1, 1, 0, kUniform, kAny>(m, k + 3 * 16, n00, n11, largest);
+  low.n11 = n11.force;
+  End n10 = End::template at<1>(tiles, at, below.n10);
+  addBetween<1, 0, 0, kUniform, kAny>(m, k, n00, n10, largest);
+  End n01 = End::template at<0>(tiles, at + 4, below.n01);
+  addBetween<0, 1, 0, kUniform, kAny>(m, k + 16, n00, n01, largest);
+  addBetween<1, -1, 0, kUniform, kAny>(m, k + 4 * 16, n01, n10, largest);
+  End up00 = End::template at<0>(tiles, at + kUpPlane, zero3());
+  addBetween<1, 0, -1, kUniform, kAny>(m, k + 6 * 16, up00, n10, largest);
+  low.n10 = n10.force;
+  addBetween<0, 1, -1, kUniform, kAny>(m, k + 8 * 16, up00, n01, largest);
+  low.n01 = n01.force;
+  addBetween<0, 0, 1, kUniform, kAny>(m, k + 2 * 16, n00, up00, largest);
+  high.n00 = up00.force;
+  End up10 = End::template at<1>(tiles, at + kUpPlane, zero3());
+  addBetween<1, 0, 1, kUniform, kAny>(m, k + 5 * 16, n00, up10, largest);
+  high.n10 = up10.force;
+  End up01 = End::template at<0>(tiles, at + kUpPlane + 4, zero3());
+  addBetween<0, 1, 1, kUniform, kAny>(m, k + 7 * 16, n00, up01, largest);
+  high.n01 = up01.force;
+  low.n00 = n00.force;
+  high.n11 = zero3();
+  return hn::AllTrue(Tag(), hn::Lt(largest, set(kMild)));
+}
+
+/// Has no row of a vector its bit set? @param rows  bit r: the four from 4 r on   @param i  index of the vector's first
+HWY_INLINE bool noRows(uint32_t rows, int i) {
+  constexpr uint32_t kRows = (1u << (hn::MaxLanes(Tag()) / 4)) - 1;
+  return (rows >> (i / 4) & kRows) == 0;
+}
+
+// A vector is rows of four: shifts of lanes stay within them.
+
+/// The last row of a vector.
+template <class D>
+HWY_INLINE hn::Vec<Row> lastRow(D /*d*/, hn::Vec<D> v) {
+  if constexpr (hn::MaxLanes(D()) == 4) {
+    return v;
+  } else {
+    const hn::Half<D> half;
+    return lastRow(half, hn::UpperHalf(half, v));
+  }
+}
+/// A vector that begins with a row, and else is 0.
+template <class D>
+HWY_INLINE hn::Vec<D> firstRow(D d, hn::Vec<Row> row) {
+  if constexpr (hn::MaxLanes(D()) == 4) {
+    return row;
+  } else {
+    return hn::ZeroExtendVector(d, firstRow(hn::Half<D>(), row));
+  }
+}
+/// Every row where the next one was, the first 0.
+template <class D>
+HWY_INLINE hn::Vec<D> nextRow(D d, hn::Vec<D> v) {
+  constexpr size_t kLanes = hn::MaxLanes(D());
+  if constexpr (kLanes == 4) {
+    return hn::Zero(d);
+  } else if constexpr (kLanes == 8) {
+    return hn::ConcatLowerLower(d, v, hn::Zero(d));
+  } else {
+    alignas(64) static constexpr int32_t kFrom[16] = {0, 0, 0, 0, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11};
+    return hn::IfThenZeroElse(hn::FirstN(d, 4), hn::TableLookupLanes(v, hn::SetTableIndices(d, kFrom)));
+  }
+}
+/// Of each row [x3, y3, z3, 0].
+template <class D>
+HWY_INLINE hn::Vec<D> lastOfRows(D d, hn::Vec<D> x, hn::Vec<D> y, hn::Vec<D> z) {
+  const hn::RepartitionToWide<D> wide;
+  const auto xy = hn::BitCast(wide, hn::InterleaveUpper(d, x, y));
+  const auto z0 = hn::BitCast(wide, hn::InterleaveUpper(d, z, hn::Zero(d)));
+  return hn::BitCast(d, hn::InterleaveUpper(wide, xy, z0));
+}
+
+/// What the last rows of a vector of cells gave to those behind them, for the next vector of their plane.
+struct alignas(16) Behind {
+  float own[5][3][4], right[5][4];
+};
+
+HWY_INLINE V component(const Vec3& v, int c) {
+  return c == 0 ? v.x : c == 1 ? v.y : v.z;
+}
+/// Adds `behind` to what is a row farther, and for the first row what the vector before left in `kept`; what is beyond
+/// the last row is left there in turn or, at the end of the plane, at `end`.
+HWY_INLINE V withBehind(V own, V behind, int i, float* kept, float* end) {
+  const Tag d;
+  const Row row;
+  constexpr int kLanes = static_cast<int>(hn::MaxLanes(Tag()));
+  V sum = hn::Add(own, nextRow(d, behind));
+  if (kLanes < 16 && i > 0) sum = hn::Add(sum, firstRow(d, hn::Load(row, kept)));
+  hn::StoreU(lastRow(d, behind), row, i + kLanes < 16 ? kept : end);
+  return sum;
+}
+
+/// Writes the sums (ownSumsAt and so on) of a plane of nodes. @param i  place of the vector's first cell in its plane:
+/// vectors come in their order   @param f  what the corners of its cells get there
+HWY_INLINE void writeSums(float* sums, Behind& behind, int z, int i, const Corners& f) {
+  const Tag d;
+  for (int c = 0; c < 3; ++c) {
+    const V own = hn::Add(component(f.n00, c), hn::ShiftLeftLanes<1>(d, component(f.n10, c)));
+    const V farther = hn::Add(component(f.n01, c), hn::ShiftLeftLanes<1>(d, component(f.n11, c)));
+    hn::StoreU(withBehind(own, farther, i, behind.own[z][c], sums + behindSumsAt(z, c)), d, sums + ownSumsAt(z, c) + i);
+  }
+  const V right = lastOfRows(d, f.n10.x, f.n10.y, f.n10.z), farther = lastOfRows(d, f.n11.x, f.n11.y, f.n11.z);
+  hn::StoreU(withBehind(right, farther, i, behind.right[z], sums + cornerSumsAt(z)), d, sums + rightSumsAt(z) + i);
+}
+
+/// Where the sums are that a brick's nodes get: its own and those of bricks below along x, y and z, bit per axis.
+struct CellSources {
+  const float* of[8];
+};
+HWY_INLINE CellSources sourcesOf(const Arrays& a, uint32_t b) {
+  alignas(64) static constexpr float kNothing[kCellSums] = {};
+  CellSources out;
+  for (int below = 0; below < 8; ++below) {
+    const int direction = 13 - (below & 1) - 3 * (below >> 1 & 1) - 9 * (below >> 2);
+    const uint32_t brick = a.bricks[b].neighbors[direction];
+    out.of[below] = brick == b && below != 0 ? kNothing : a.cell_sums + size_t{brick} * kCellSums;
+  }
+  return out;
+}
+
+/// The first component of each row [x, y, z, 0] of lastOfRows(), as first lane; by C.
+template <int C, class D>
+HWY_INLINE hn::Vec<D> firstOfRows(D d, hn::Vec<D> packed) {
+  alignas(64) static constexpr uint32_t kFirst[16] = {~0u, 0, 0, 0, ~0u, 0, 0, 0, ~0u, 0, 0, 0, ~0u, 0, 0, 0};
+  if constexpr (C == 2) {
+    return hn::ShiftRightLanes<2>(d, packed);  // what follows it is 0
+  } else {
+    const auto mask = hn::BitCast(d, hn::Load(hn::RebindToUnsigned<D>(), kFirst));
+    return hn::And(mask, C == 0 ? packed : hn::ShiftRightLanes<1>(d, packed));
+  }
+}
+
+/// Force of the cells around on the nodes of a vector. @param i  index of the first in the brick
+HWY_INLINE Vec3 forceOfCells(const CellSources& sources, int i) {
+  const Tag d;
+  const Row row;
+  Vec3 force = zero3();
+  for (int below = 0; below < ((i >> 4) == 0 ? 8 : 4); below += 4) {
+    const int plane = below == 4 ? 4 : i >> 4, rows = i & 15;
+    const float* own = sources.of[below] + rows;
+    force =
+        force + Vec3{load(own + ownSumsAt(plane, 0)), load(own + ownSumsAt(plane, 1)), load(own + ownSumsAt(plane, 2))};
+    const V left = load(sources.of[below + 1] + rightSumsAt(plane) + rows);
+    force = force + Vec3{firstOfRows<0>(d, left), firstOfRows<1>(d, left), firstOfRows<2>(d, left)};
+    if (rows != 0) continue;
+    const float* front = sources.of[below + 2];
+    const auto corner = hn::LoadU(row, sources.of[below + 3] + cornerSumsAt(plane));
+    const auto first = [&](int c, hn::Vec<Row> of_corner) HWY_ATTR {
+      return firstRow(d, hn::Add(hn::LoadU(row, front + behindSumsAt(plane, c)), of_corner));
+    };
+    force = force + Vec3{first(0, firstOfRows<0>(row, corner)), first(1, firstOfRows<1>(row, corner)),
+                         first(2, firstOfRows<2>(row, corner))};
+  }
+  return force;
+}
+
+}  // namespace viscera::simd::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // per-target include guard

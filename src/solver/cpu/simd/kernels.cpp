@@ -1,0 +1,222 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solver/cpu/simd/kernels.h"
+
+#include "hwy/cache_control.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "solver/cpu/simd/kernels.cpp"
+#include "hwy/foreach_target.h"  // IWYU pragma: keep
+#include "hwy/highway.h"
+#include "solver/cpu/simd/around-inl.h"
+#include "solver/cpu/simd/cells-inl.h"
+#include "solver/cpu/simd/springs-inl.h"
+#include "solver/cpu/simd/targets.h"
+#include "solver/cpu/simd/tiles-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace viscera::simd::HWY_NAMESPACE {
+
+/// Springs' force on the nodes of a vector.
+/// @param k  stiffness of their first spring; the next is 16 farther   @param mild  all springs are, see kMild
+template <bool kUniform, bool kAny, bool kDashpot>
+HWY_INLINE Vec3 springForce(const Surroundings& u, const Surroundings& v, const Material& m, const float* k,
+                            bool& mild) {
+  const Vec3 near = seen<0, 0, 0>(u);
+  const Vec3 near_v = kDashpot ? seen<0, 0, 0>(v) : zero3();
+  Vec3 force = zero3();
+  V largest = hn::Zero(Tag());
+#define VISCERA_ADD(i, X, Y, Z)                                                                       \
+  {                                                                                                   \
+    const Vec3 w = seen<X, Y, Z>(u) - near, dv = kDashpot ? seen<X, Y, Z>(v) - near_v : near_v;       \
+    const V stiffness = kUniform ? m.full[(i) < 6 ? 0 : 1] : load(k + (i)*16);                        \
+    const SpringPull s = springPull<X, Y, Z, kUniform, kAny, kDashpot>(m, stiffness, w, dv, largest); \
+    force = mulAdd(s.pull, s.e, force);                                                               \
+  }
+  VISCERA_SPRINGS(VISCERA_ADD)
+#undef VISCERA_ADD
+  mild = hn::AllTrue(Tag(), hn::Lt(largest, set(kMild)));
+  return force;
+}
+
+/// The rarer case, kept out of the way of the other.
+template <bool kDashpot>
+HWY_NOINLINE Vec3 anySpringForce(const Surroundings& u, const Surroundings& v, const Material& m, const float* k,
+                                 bool& mild) {
+  return springForce<false, true, kDashpot>(u, v, m, k, mild);
+}
+
+/// What the volume of one of the eight cells around adds to the force on its corner (A, B, C).
+template <int A, int B, int C>
+HWY_INLINE void addVolume(const Surroundings& u, V quarter, V bulk, Vec3& force) {
+  if (hn::AllTrue(Tag(), hn::Eq(bulk, hn::Zero(Tag())))) return;
+  Vec3 n[8];
+  cornersAround<A, B, C>(n, u);
+  const Shape s = shapeOf(n, quarter);
+  const V p = hn::Mul(pressureOf(bulk, s.e), quarter), minus = hn::Neg(p);
+  force = mulAdd(A ? minus : p, s.bc, force);
+  force = mulAdd(B ? minus : p, s.ca, force);
+  force = mulAdd(C ? minus : p, s.ab, force);
+}
+
+/// Volumes' force on the nodes of a vector. @param bulk  of their first cell around; the next is 64 farther
+HWY_NOINLINE void addVolumes(const Surroundings& u, V quarter, const float* bulk, Vec3& force) {
+  addVolume<0, 0, 0>(u, quarter, load(bulk), force);
+  addVolume<1, 0, 0>(u, quarter, load(bulk + 64), force);
+  addVolume<0, 1, 0>(u, quarter, load(bulk + 128), force);
+  addVolume<1, 1, 0>(u, quarter, load(bulk + 192), force);
+  addVolume<0, 0, 1>(u, quarter, load(bulk + 256), force);
+  addVolume<1, 0, 1>(u, quarter, load(bulk + 320), force);
+  addVolume<0, 1, 1>(u, quarter, load(bulk + 384), force);
+  addVolume<1, 1, 1>(u, quarter, load(bulk + 448), force);
+}
+
+/// Forces on a brick's nodes of the springs and volumes around them.
+template <bool kUniform, bool kDashpot>
+struct ForceOfSprings {
+  const LeapfrogJob& job;
+  const Material& material;
+  const Around &u, &v;
+  uint32_t b;
+
+  /// @param i  index of the vector's first node in the brick
+  HWY_INLINE Vec3 operator()(int i) const {
+    const Arrays& a = job.arrays;
+    const Surroundings around_u = surroundings(u, i), around_v = surroundings(kDashpot ? v : u, i);
+    const float* k = a.spring_stiffness + springAt(size_t{b} * 64 + static_cast<size_t>(i), 0);
+    // What was strained in the last substep is taken to be so still; which formula counts is the state's affair alone.
+    const uint32_t bit = 1u << (i / 4);
+    bool strained = (job.strained[b] & bit) != 0, mild;
+    Vec3 force;
+    if (HWY_UNLIKELY(strained)) {
+      force = anySpringForce<kDashpot>(around_u, around_v, material, k, mild);
+      strained = !mild;
+      if (mild) job.strained[b] = static_cast<uint16_t>(job.strained[b] & ~bit);
+    }
+    if (!strained) {
+      force = springForce<kUniform, false, kDashpot>(around_u, around_v, material, k, mild);
+      if (HWY_UNLIKELY(!mild)) {
+        force = anySpringForce<kDashpot>(around_u, around_v, material, k, mild);
+        job.strained[b] = static_cast<uint16_t>(job.strained[b] | bit);
+      }
+    }
+    if (a.bulk_around) {
+      const V quarter = hn::Div(set(0.25f), material.h);
+      addVolumes(around_u, quarter, a.bulk_around + size_t{b} * 512 + i, force);
+    }
+    return force;
+  }
+};
+
+/// Forces on a brick's nodes of the cells around them, springs included.
+struct ForceOfCells {
+  CellSources sources;
+  HWY_INLINE Vec3 operator()(int i) const { return forceOfCells(sources, i); }
+};
+
+/// One vector of nodes. @param i  index of the first in the brick   @return |v|^2
+HWY_INLINE V stepVector(const Arrays& a, const Motion& motion, uint32_t b, int i, const Vec3& force, Vec3& u_next) {
+  const size_t slot = size_t{b} * 64 + static_cast<size_t>(i);
+  const layout::NodeBits* const nodes = a.nodes ? a.nodes + slot : nullptr;
+  const size_t to = size_t{b} * 192 + static_cast<size_t>(i);
+  float* const lost = a.compensation ? a.compensation + size_t{b} * 384 + static_cast<size_t>(i) : nullptr;
+  Vec3 v_next;
+  move(motion, load(a.mobility + slot), nodes, force, loadPlanes(a.displacement + to), loadPlanes(a.velocity + to),
+       lost, u_next, v_next);
+  storePlanes(u_next, a.next_displacement + to);
+  storePlanes(v_next, a.next_velocity + to);
+  return dot(v_next, v_next);
+}
+
+/// Is a node of the vector within reach of a probe?
+HWY_INLINE bool inReach(const LeapfrogJob& job, const Vec3& x) {
+  for (size_t r = 0; r < job.reaches; ++r) {
+    const Reach& reach = job.reach[r];
+    const Vec3 off = x - Vec3{set(reach.center_m[0]), set(reach.center_m[1]), set(reach.center_m[2])};
+    // A little more than is needed: who looks closer rounds otherwise.
+    if (!hn::AllFalse(Tag(), hn::Lt(dot(off, off), set(1.001f * reach.radius_m * reach.radius_m)))) return true;
+  }
+  return false;
+}
+
+/// @param force_of  force on the nodes of a vector [N], by the index of the first
+template <class ForceOf>
+HWY_NOINLINE void stepBrick(const LeapfrogJob& job, const layout::BodyParams& body, uint32_t b,
+                            const ForceOf& force_of) {
+  const Arrays& a = job.arrays;
+  const layout::Brick& brick = a.bricks[b];
+  const Motion motion = motionOf(job.step, body);
+  const float h = body.origin_spacing.w, edge = 4 * h;
+  const float from[3] = {body.origin_spacing.x + edge * static_cast<float>(brick.coord_x),
+                         body.origin_spacing.y + edge * static_cast<float>(brick.coord_y),
+                         body.origin_spacing.z + edge * static_cast<float>(brick.coord_z)};
+  V speed2 = hn::Zero(Tag());
+  bool near = false;
+  constexpr int kLanes = static_cast<int>(hn::MaxLanes(Tag()));
+  for (int i = 0; i < 64; i += kLanes) {
+    // Nodes that are not there or never move: both states have their places already.
+    if (noRows(~uint32_t{a.idle_rows[b]}, i)) continue;
+    Vec3 u_next;
+    speed2 = hn::Max(speed2, stepVector(a, motion, b, i, force_of(i), u_next));
+    if (job.reaches > 0 && !near) near = inReach(job, restOf(from, h, i) + u_next);
+  }
+  job.speed2[b] = hn::GetLane(hn::MaxOfLanes(Tag(), speed2));
+  if (near) job.near[b] = 1;
+}
+
+template <bool kDashpot>
+void stepBricks(const LeapfrogJob& job, const uint32_t* bricks, size_t count) {
+  Around u, v;
+  for (size_t n = 0; n < count; ++n) {
+    const uint32_t b = bricks[n];
+    const layout::BodyParams& body = job.arrays.bodies[job.arrays.bricks[b].body];
+    const Material material = materialOf(body);
+    lookAround(job.arrays, job.arrays.displacement, b, job.arrays.bulk_around != nullptr, u);
+    if (kDashpot) lookAround(job.arrays, job.arrays.velocity, b, false, v);
+    if (job.arrays.uniform[b])
+      stepBrick(job, body, b, ForceOfSprings<true, kDashpot>{job, material, u, v, b});
+    else
+      stepBrick(job, body, b, ForceOfSprings<false, kDashpot>{job, material, u, v, b});
+  }
+}
+
+/// Has what the nodes of a brick need fetched, where their cells are summed: little is done with it.
+HWY_INLINE void prefetchBrick(const Arrays& a, uint32_t b) {
+  for (size_t i = 0; i < kCellSums; i += 16) hwy::Prefetch(a.cell_sums + size_t{b} * kCellSums + i);
+  for (size_t i = 0; i < 192; i += 16) {
+    hwy::Prefetch(a.displacement + size_t{b} * 192 + i);
+    hwy::Prefetch(a.velocity + size_t{b} * 192 + i);
+  }
+}
+
+void stepByCells(const LeapfrogJob& job, const uint32_t* bricks, size_t count) {
+  for (size_t n = 0; n < count; ++n) {
+    const layout::BodyParams& body = job.arrays.bodies[job.arrays.bricks[bricks[n]].body];
+    prefetchBrick(job.arrays, bricks[n + 1 < count ? n + 1 : n]);
+    stepBrick(job, body, bricks[n], ForceOfCells{sourcesOf(job.arrays, bricks[n])});
+  }
+}
+
+void leapfrogOf(const LeapfrogJob& job, const uint32_t* bricks, size_t count) {
+  if (job.arrays.cell_sums)
+    stepByCells(job, bricks, count);
+  else if (job.dashpot)
+    stepBricks<true>(job, bricks, count);
+  else
+    stepBricks<false>(job, bricks, count);
+}
+
+}  // namespace viscera::simd::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace viscera::simd {
+
+HWY_EXPORT(leapfrogOf);
+
+BrickLeapfrog leapfrogFor(int64_t target) {
+  return VISCERA_KERNEL_FOR(leapfrogOf, target);
+}
+
+}  // namespace viscera::simd
+#endif  // HWY_ONCE

@@ -1,0 +1,149 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+
+#include "solver/cpu/simd/kernels.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "solver/cpu/simd/measure_kernels.cpp"
+#include "hwy/foreach_target.h"  // IWYU pragma: keep
+#include "hwy/highway.h"
+#include "solver/cpu/simd/moments-inl.h"
+#include "solver/cpu/simd/targets.h"
+#include "solver/cpu/simd/tiles-inl.h"
+#include "viscera/layout/tick_stats.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace viscera::simd::HWY_NAMESPACE {
+
+/// Lanes whose numbers are all finite.
+HWY_INLINE M finite(const Vec3& v) {
+  const hn::RebindToUnsigned<Tag> bits;
+  const auto exponent = hn::Set(bits, 0x7f800000u);
+  const auto ofLane = [&](V value) HWY_ATTR { return hn::Ne(hn::And(hn::BitCast(bits, value), exponent), exponent); };
+  return hn::RebindMask(Tag(), hn::And(hn::And(ofLane(v.x), ofLane(v.y)), ofLane(v.z)));
+}
+HWY_INLINE V sumOfLanes(V value) {
+  return hn::SumOfLanes(Tag(), value);
+}
+HWY_INLINE double sum(V value) {
+  return static_cast<double>(hn::GetLane(sumOfLanes(value)));
+}
+HWY_INLINE uint32_t count(M mask) {
+  return static_cast<uint32_t>(hn::CountTrue(Tag(), mask));
+}
+
+/// Stretch and energy of the springs that a vector's nodes own.
+template <int X, int Y, int Z>
+HWY_INLINE void measureSpring(const Tile& u, int at, const Material& m, V k, M good, V& stretch, V& elastic,
+                              uint32_t& collapsed) {
+  constexpr int kKind = X * X + Y * Y + Z * Z - 1;
+  const Vec3 far = seen<X, Y, Z>(u, at), w = far - seen<0, 0, 0>(u, at);
+  const M there = hn::And(hn::And(good, hn::Gt(k, hn::Zero(Tag()))), finite(far));
+  const V q = hn::Mul(dot(w, shifted<X, Y, Z>(w, m.h2)), m.per_length2[kKind]);
+  // extension / l0 = sqrt(1 + q) - 1
+  const V ratio = hn::Div(q, hn::Add(set(1), hn::Sqrt(hn::Max(hn::Add(set(1), q), hn::Zero(Tag())))));
+  const V strain = hn::IfThenElseZero(there, ratio);
+  stretch = hn::Max(stretch, hn::Abs(strain));
+  elastic = hn::MulAdd(hn::Mul(hn::Div(set(0.5f), m.per_length2[kKind]), k), hn::Mul(strain, strain), elastic);
+  collapsed += count(hn::Lt(strain, set(layout::kCollapsed - 1)));
+}
+
+HWY_INLINE V volumeEnergyOf(V bulk, V e) {
+  const V size = hn::Abs(e), half = hn::Mul(set(0.5f), bulk);
+  const V stiff =
+      hn::IfThenElse(hn::Le(size, set(1)), hn::Mul(half, hn::Mul(e, e)), hn::Mul(bulk, hn::Sub(size, set(0.5f))));
+  const V g = hn::IfThenElseZero(hn::Gt(e, set(-1)), hn::Div(hn::MulAdd(e, e, e), hn::MulAdd(e, e, set(1))));
+  return hn::IfThenElse(hn::Gt(bulk, hn::Zero(Tag())), stiff, hn::Mul(half, hn::Mul(g, g)));
+}
+
+/// Energy by moments of the cells above a vector's nodes [J]. @param n  their corners
+V momentEnergyOf(const CellJob& job, const layout::BodyParams& body, size_t slot, const Vec3 (&n)[8]) {
+  const V rigidity = load(job.rigidity + slot), none = hn::Zero(Tag());
+  const M there = hn::Gt(rigidity, none);
+  if (hn::AllFalse(Tag(), there)) return none;
+  const V ratio = hn::IfThenElseZero(there, hn::Div(load(job.bulk + slot), hn::Max(rigidity, set(1e-30f))));
+  const Face low = faceOf(n[0], n[1], n[2], n[3]), high = faceOf(n[4], n[5], n[6], n[7]);
+  const CellScale scale = cellScale(body.origin_spacing.w);
+  CellMotion q = motionBetween(low, high, hn::IfThenElseZero(there, scale.per_4h));
+  const float* moments = job.moments[slot / 64];
+  if (moments == nullptr)
+    return cellPull<true>(q, Moments{zero3(), zero3(), zero3()}, rigidity, planeStress<true>(ratio), scale);
+  return cellPull<false>(q, loadMoments(moments, static_cast<int>(slot % 64)), rigidity, planeStress<false>(ratio),
+                         scale);
+}
+
+HWY_INLINE M hasBits(const layout::NodeBits* nodes, uint32_t bits, uint32_t wanted) {
+  alignas(64) float flags[16];
+  for (size_t i = 0; i < hn::MaxLanes(Tag()); ++i) flags[i] = (nodes[i].lo & bits) == wanted ? 1.0f : 0.0f;
+  return hn::Gt(hn::Load(Tag(), flags), hn::Zero(Tag()));
+}
+
+void measureVector(const MeasureJob& job, const Material& m, const Tile& u, uint32_t b, int i, BrickStats& stats) {
+  const Arrays& a = job.arrays;
+  const size_t slot = size_t{b} * 64 + static_cast<size_t>(i);
+  alignas(64) float present[16];
+  for (size_t lane = 0; lane < hn::MaxLanes(Tag()); ++lane) {
+    present[lane] = job.nodes[slot + lane].lo & (15u << layout::kMassShift) ? 1.0f : 0.0f;
+  }
+  const M there = hn::Gt(hn::Load(Tag(), present), hn::Zero(Tag()));
+  if (hn::AllFalse(Tag(), there)) return;
+  const int at = ((i >> 4) + 1) * kPlane + kOwn + (i & 15);
+  const Vec3 near = seen<0, 0, 0>(u, at), v = loadPlanes(a.velocity + size_t{b} * 192 + static_cast<size_t>(i));
+  const M good = hn::And(there, hn::And(finite(near), finite(v)));
+  stats.nonfinite += count(there) - count(good);
+  V stretch = hn::Zero(Tag()), elastic = stretch;
+  const float* k = a.spring_stiffness + springAt(slot, 0);
+#define VISCERA_MEASURE(s, X, Y, Z) \
+  if ((s) % 2 == 0) measureSpring<X, Y, Z>(u, at, m, load(k + (s)*16), good, stretch, elastic, stats.collapsed);
+  VISCERA_SPRINGS(VISCERA_MEASURE)
+#undef VISCERA_MEASURE
+  Vec3 corners[8];
+  cornersAround<0, 0, 0>(corners, u, at);
+  const V e = shapeOf(corners, hn::Div(set(0.25f), m.h)).e;
+  const M cell = hn::And(good, hasBits(job.nodes + slot, layout::kCellBit, layout::kCellBit));
+  const M whole = hn::And(cell, hasBits(job.nodes + slot, layout::kSeveredBit, 0));
+  stats.inverted += count(hn::And(whole, hn::Lt(e, set(-1))));
+  if (a.bulk_around) {
+    const V energy = volumeEnergyOf(load(a.bulk_around + size_t{b} * 512 + i), e);
+    elastic = hn::Add(elastic, hn::IfThenElseZero(cell, energy));
+  }
+  if (job.cells.rigidity) {
+    const V energy = momentEnergyOf(job.cells, a.bodies[a.bricks[b].body], slot, corners);
+    elastic = hn::Add(elastic, hn::IfThenElseZero(cell, energy));
+  }
+  const V v2 = hn::IfThenElseZero(good, dot(v, v));
+  const V kinetic = hn::Mul(hn::Mul(set(0.5f), load(job.mass + slot)), v2);
+  stats.kinetic_j += sum(kinetic);
+  stats.elastic_j += sum(elastic);
+  stats.max_stretch = std::max(stats.max_stretch, hn::GetLane(hn::MaxOfLanes(Tag(), stretch)));
+  stats.max_speed = std::max(stats.max_speed, std::sqrt(hn::GetLane(hn::MaxOfLanes(Tag(), v2))));
+}
+
+void measureOf(const MeasureJob& job, const uint32_t* bricks, size_t count) {
+  Tile u;
+  for (size_t n = 0; n < count; ++n) {
+    const uint32_t b = bricks[n];
+    const Material m = materialOf(job.arrays.bodies[job.arrays.bricks[b].body]);
+    fill<true>(job.arrays, job.arrays.displacement, b, u);
+    BrickStats stats{};
+    for (int i = 0; i < 64; i += static_cast<int>(hn::MaxLanes(Tag()))) measureVector(job, m, u, b, i, stats);
+    job.stats[b] = stats;
+  }
+}
+
+}  // namespace viscera::simd::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace viscera::simd {
+
+HWY_EXPORT(measureOf);
+
+BrickMeasure measureFor(int64_t target) {
+  return VISCERA_KERNEL_FOR(measureOf, target);
+}
+
+}  // namespace viscera::simd
+#endif  // HWY_ONCE

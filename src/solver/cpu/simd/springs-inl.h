@@ -1,0 +1,79 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The force of a spring, a vector of springs at a time. Included once per instruction set (Highway).
+#if defined(VISCERA_SOLVER_CPU_SPRINGS_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef VISCERA_SOLVER_CPU_SPRINGS_INL_H
+#undef VISCERA_SOLVER_CPU_SPRINGS_INL_H
+#else
+#define VISCERA_SOLVER_CPU_SPRINGS_INL_H
+#endif
+
+#include "hwy/highway.h"
+#include "solver/cpu/simd/tiles-inl.h"
+#include "solver/cpu/simd/vectors-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace viscera::simd::HWY_NAMESPACE {
+
+// With q = (L^2 - l0^2) / l0^2, computed without cancellation, the force of a spring on its near end is
+//   k (L - l0)/L e = k q phi(q) e,  phi(q) = 1 / (1 + q + sqrt(1 + q)),  e = vector to the far end (physics.md 1, 2).
+// Below kShortest of its length at rest a spring has no direction of its own (shaders/solver/tissue/spring.glsl).
+constexpr float kShortest2 = 1e-12f;
+
+/// phi for any q > -1: one Newton step each on the processor's estimates of 1/sqrt(4 x) and of 1/(4 x + 4 sqrt(x)),
+/// x = 1 + q, where they have 12 bits at least; else exact.
+HWY_INLINE V anyPhi(V q) {
+  const V x4 = hn::Max(hn::MulAdd(q, set(4), set(4)), set(1e-24f));
+#if HWY_ARCH_X86
+  const V estimate = hn::ApproximateReciprocalSqrt(x4);
+  const V t = hn::Mul(x4, estimate);
+  const V d4 = hn::MulAdd(t, hn::NegMulAdd(t, estimate, set(3)), x4);
+  const V r = hn::ApproximateReciprocal(d4);
+  return hn::Mul(hn::Mul(set(4), r), hn::NegMulAdd(d4, r, set(2)));
+#else
+  return hn::Div(set(4), hn::MulAdd(set(2), hn::Sqrt(x4), x4));
+#endif
+}
+
+/// What a spring pulls its near end with, the other with the opposite: pull e.
+struct SpringPull {
+  V pull;  ///< N/m
+  Vec3 e;  ///< to the far end [m]
+};
+/// @param w  u_far - u_near   @param dv  v_far - v_near   @param largest  |q| so far   @tparam kUniform  all springs
+/// are there   @tparam kAny  they may have any length, else |q| < kMild
+template <int X, int Y, int Z, bool kUniform, bool kAny, bool kDashpot>
+HWY_INLINE SpringPull springPull(const Material& m, V k, const Vec3& w, const Vec3& dv, V& largest) {
+  constexpr int kKind = X * X + Y * Y + Z * Z - 1;
+  V q = hn::Mul(dot(w, shifted<X, Y, Z>(w, m.h2)), m.per_length2[kKind]);
+  // Springs that are not there have no say in whether the others are mild, and no power of q that is infinite.
+  if (!kUniform) q = hn::IfThenElseZero(hn::Gt(k, hn::Zero(Tag())), q);
+  largest = hn::Max(largest, hn::Abs(q));
+  Vec3 e = shifted<X, Y, Z>(w, m.h);
+  V phi;
+  if (kAny) {
+    phi = anyPhi(q);
+    const V x = hn::Add(set(1), q);
+    const M collapsed = hn::Lt(x, set(kShortest2));
+    if (HWY_UNLIKELY(!hn::AllFalse(Tag(), collapsed))) {  // k ext in the direction at rest
+      // So that q phi is ext / l0 and e, of length l0, stands for the direction.
+      phi = hn::IfThenElse(collapsed, set(1), phi);
+      e = select(collapsed, shifted<X, Y, Z>(zero3(), m.h), e);
+    }
+  } else {
+    phi = mildPhi(q);
+  }
+  V c = hn::Mul(q, phi);
+  if (kDashpot) {
+    V ratio = hn::NegMulAdd(q, phi, set(1));  // l0 / L; 1 where e is the direction at rest
+    if (kAny) ratio = hn::IfThenElse(hn::Lt(hn::Add(set(1), q), set(kShortest2)), set(1), ratio);
+    c = hn::MulAdd(hn::Mul(dot(dv, e), m.dashpot_length2[kKind]), hn::Mul(ratio, ratio), c);
+  }
+  return {hn::Mul(k, c), e};
+}
+
+}  // namespace viscera::simd::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // per-target include guard

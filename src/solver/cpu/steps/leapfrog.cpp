@@ -1,0 +1,154 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solver/cpu/steps/leapfrog.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "solver/cpu/store/lattice_arrays.h"
+#include "solver/cpu/text/tool_passes.h"
+
+namespace viscera {
+
+namespace {
+
+constexpr size_t kMostBricks = 16;     // that a thread takes at a time: about 10 us of work
+constexpr size_t kLeastBricks = 2;     // towards a round's end: about 1 us, still ten times what taking them costs
+constexpr size_t kPartsPerThread = 8;  // at least, where there are bricks enough: a free thread takes the next
+
+/// What tools do to a node in the substep that was just made (shaders/solver/tools/contact.glsl).
+void touchNode(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions, uint32_t slot) {
+  const float* now = lattice.state.displacement[lattice.state.current].data();
+  float* const u = lattice.state.displacement[1 - lattice.state.current].data();
+  float* const v = lattice.state.velocity[1 - lattice.state.current].data();
+  Vector3f u_next = planesAt(u, slot), v_next = planesAt(v, slot);
+  resolveContact(lattice, slot, motions, step.dt_s, step.push_speed_m_per_s, planesAt(now, slot), u_next, v_next);
+  setPlanes(u, slot, u_next);
+  setPlanes(v, slot, v_next);
+}
+
+/// How far a probe reaches in a substep, around where it is at the end [m].
+/// @param deepest_m  that a node lies below the surface by which it is touched
+float reachOf(const layout::ToolMotion& m, float deepest_m) {
+  const Vector3f travel(m.to.x - m.from.x, m.to.y - m.from.y, m.to.z - m.from.z);
+  return m.from.w + deepest_m + travel.norm();
+}
+
+float deepestOf(const std::vector<float>& depths_m) {
+  return depths_m.empty() ? 0 : std::max(0.0f, *std::max_element(depths_m.begin(), depths_m.end()));
+}
+
+}  // namespace
+
+CpuLeapfrog::CpuLeapfrog(const CpuLattice& lattice, const CpuParts& parts)
+    : parallel_(parts.parallel),
+      sleep_(parts.sleep),
+      network_(parts.network),
+      step_bricks_(parts.kernels.leapfrog),
+      sum_cells_(parts.kernels.cells),
+      deepest_m_(deepestOf(lattice.strengths.surface_depth)),
+      near_(lattice.brickCount()),
+      strained_(lattice.brickCount()),
+      speed2_(lattice.brickCount()) {
+  if (parts.features.compensated) compensation_.resize(6 * lattice.slotCount());
+  if (parts.features.moments) {
+    cell_sums_.resize(simd::kCellSums * lattice.brickCount());
+    wanted_.resize(lattice.brickCount());
+    cell_bricks_.reserve(lattice.brickCount());
+    cell_bricks_awake_.reserve(lattice.brickCount());
+  }
+  if (network_) reaches_.reserve(layout::kMaxStyluses);
+  job_.dashpot = parts.features.dashpot;
+  job_.near = near_.data();
+  job_.strained = strained_.data();
+  job_.speed2 = speed2_.data();
+}
+
+void CpuLeapfrog::restart() {
+  std::fill(compensation_.begin(), compensation_.end(), 0.0f);
+}
+
+void CpuLeapfrog::run(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions) {
+  if (!sleep_.awake().empty()) stepAwake(lattice, step, motions);
+  if (network_) stepNetwork(lattice, step, motions);
+  sleep_.passed(lattice, step.dt_s, speed2_);
+}
+
+/// One substep of the bricks that are awake.
+void CpuLeapfrog::stepAwake(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions) {
+  const size_t awake = sleep_.awake().size();
+  const size_t fair = awake / (kPartsPerThread * static_cast<size_t>(parallel_.threads()));
+  portions_.most = std::clamp<size_t>(fair, 1, kMostBricks);
+  portions_.least = std::min(portions_.most, kLeastBricks);
+  job_.arrays = arraysOf(lattice);
+  if (!cell_sums_.empty()) {
+    sumCells(lattice);
+    job_.arrays.cell_sums = cell_sums_.data();
+  }
+  job_.arrays.compensation = compensation_.empty() ? nullptr : compensation_.data();
+  job_.step = step;
+  job_.reaches = 0;
+  for (size_t s = 0; step.tools && s < layout::kMaxStyluses; ++s) {
+    const layout::ToolMotion& m = motions[s];
+    if (m.info.y & layout::kToolPushes) job_.reach[job_.reaches++] = {{m.to.x, m.to.y, m.to.z}, reachOf(m, deepest_m_)};
+  }
+  parallel_.ranges(awake, portions_, [&](size_t first, size_t end) { stepBricks(lattice, step, motions, first, end); });
+}
+
+/// Forces of all cells that have a corner in a brick that is awake: of its own and of the seven below it.
+void CpuLeapfrog::sumCells(CpuLattice& lattice) {
+  if (cell_bricks_awake_ != sleep_.awake()) {
+    cell_bricks_awake_ = sleep_.awake();
+    std::fill(wanted_.begin(), wanted_.end(), uint8_t{0});
+    for (const uint32_t brick : cell_bricks_awake_) {
+      for (const int direction : {0, 1, 3, 4, 9, 10, 12, 13})
+        wanted_[lattice.store.bricks[brick].neighbors[direction]] = 1;
+    }
+    cell_bricks_.clear();
+    for (uint32_t b = 0; b < wanted_.size(); ++b) {
+      if (wanted_[b]) cell_bricks_.push_back(b);
+    }
+  }
+  simd::CellJob job = cellsOf(lattice);
+  job.dashpot = job_.dashpot;
+  job.strained = strained_.data();
+  job.sums = cell_sums_.data();
+  parallel_.ranges(cell_bricks_.size(), portions_,
+                   [&](size_t first, size_t end) { sum_cells_(job, &cell_bricks_[first], end - first); });
+}
+
+void CpuLeapfrog::stepBricks(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions, size_t first,
+                             size_t end) {
+  const std::vector<uint32_t>& awake = sleep_.awake();
+  step_bricks_(job_, &awake[first], end - first);
+  if (!step.tools) return;
+  for (size_t i = first; i < end; ++i) {
+    const uint32_t brick = awake[i];
+    if (!near_[brick] && !lattice.hands.held[brick]) continue;
+    near_[brick] = 0;
+    touch(lattice, step, motions, brick);
+  }
+}
+
+/// What tools do to the nodes of a brick in the substep.
+void CpuLeapfrog::touch(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions, uint32_t brick) {
+  for (uint32_t i = lattice.store.first_active[brick]; i < lattice.store.first_active[brick + 1]; ++i) {
+    if (lattice.strengths.mobility[lattice.store.active[i]] != 0)
+      touchNode(lattice, step, motions, lattice.store.active[i]);
+  }
+  speed2_[brick] = std::numeric_limits<float>::infinity();  // stays awake
+}
+
+/// One substep of the nodes with explicit connections.
+void CpuLeapfrog::stepNetwork(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions) {
+  network_->step(lattice, step, compensation_);
+  if (!step.tools) return;
+  reaches_.clear();
+  for (size_t s = 0; s < layout::kMaxStyluses; ++s) {
+    const layout::ToolMotion& m = motions[s];
+    if (m.info.y & layout::kToolPushes) reaches_.push_back({glsl::xyz(m.to), reachOf(m, deepest_m_)});
+  }
+  for (const uint32_t slot : network_->touched(lattice, reaches_)) touchNode(lattice, step, motions, slot);
+}
+
+}  // namespace viscera

@@ -1,0 +1,47 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "solver/cpu/simd/kernels.h"
+#include "solver/cpu/steps/network.h"
+#include "solver/cpu/store/cpu_stepper.h"
+
+namespace viscera {
+
+/// Leapfrog, brick by brick where they are awake: SIMD kernels (kernels.h), and network.h for explicit connections.
+class CpuLeapfrog : public CpuStepper {
+ public:
+  CpuLeapfrog(const CpuLattice& lattice, const CpuParts& parts);
+  void run(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions) override;
+  void restart() override;
+
+ private:
+  void stepAwake(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions);
+  void sumCells(CpuLattice& lattice);
+  void stepBricks(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions, size_t first,
+                  size_t end);
+  void stepNetwork(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions);
+  void touch(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions, uint32_t brick);
+
+  const Parallel& parallel_;
+  Sleep& sleep_;
+  CpuNetwork* network_;
+  simd::BrickLeapfrog step_bricks_;
+  simd::BrickCells sum_cells_;
+  AlignedVector<float> cell_sums_;           ///< [simd::kCellSums * bricks] N; empty without moments
+  std::vector<uint32_t> cell_bricks_;        ///< whose cells the nodes of those awake are corners of
+  std::vector<uint32_t> cell_bricks_awake_;  ///< those awake when they were listed
+  std::vector<uint8_t> wanted_;              ///< [bricks] while they are listed
+  AlignedVector<float> compensation_;        ///< [6 * slots], see kernels.h; empty without compensation
+  simd::LeapfrogJob job_{};
+  float deepest_m_;                 ///< of surface_depth
+  std::vector<uint8_t> near_;       ///< [bricks]
+  std::vector<uint16_t> strained_;  ///< [bricks]
+  std::vector<float> speed2_;       ///< [bricks]
+  std::vector<NodeReach> reaches_;  ///< of probes in this substep, for nodes with explicit connections
+  Portions portions_;               ///< of bricks
+};
+
+}  // namespace viscera

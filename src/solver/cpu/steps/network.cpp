@@ -1,0 +1,356 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solver/cpu/steps/network.h"
+
+#include <algorithm>
+
+#include "layout/blade.h"
+#include "math/float_bits.h"
+#include "solver/cpu/steps/implicit_substep.h"
+
+namespace viscera {
+
+namespace glsl {
+
+namespace {
+
+struct NetworkKernel : Kernel {
+  explicit NetworkKernel(CpuLattice& lattice)
+      : Kernel(lattice),
+        compensation(none_),
+        owners(lattice.links.edge_forces.owners.data()),
+        force_starts(lattice.links.edge_forces.starts.data()),
+        owner_count(static_cast<uint>(lattice.links.edge_forces.owners.size())) {}
+  uint forceStart(uint slot) const { return force_starts[slot]; }
+  std::vector<layout::vec4> none_;
+  Vectors compensation;
+  const SpringOwner* owners;
+  const uint* force_starts;
+  uint owner_count, cell_count = 0;
+  vec4 *link_forces = nullptr, *cell_forces_out = nullptr;
+};
+
+#define VARIANT_NAME SpringForces
+#define VARIANT_BASE NetworkKernel
+#define VARIANT_TEXT "shaders/solver/tissue/spring_forces.comp"
+#define VARIANT_FEATURES WITH_DASHPOT
+#include "solver/cpu/text/glsl_variant.inc"
+
+#define VARIANT_NAME Step
+#define VARIANT_BASE NetworkKernel
+#define VARIANT_TEXT "shaders/solver/step/leapfrog.comp"
+#define VARIANT_FEATURES WITH_DASHPOT
+#include "solver/cpu/text/glsl_variant.inc"
+
+#define VARIANT_NAME StepCompensated
+#define VARIANT_BASE NetworkKernel
+#define VARIANT_TEXT "shaders/solver/step/leapfrog.comp"
+#define VARIANT_FEATURES WITH_DASHPOT | WITH_COMPENSATED
+#include "solver/cpu/text/glsl_variant.inc"
+
+#define VARIANT_NAME StepEdges
+#define VARIANT_BASE NetworkKernel
+#define VARIANT_TEXT "shaders/solver/step/leapfrog.comp"
+#define VARIANT_FEATURES WITH_DASHPOT | WITH_EDGE_FORCES
+#include "solver/cpu/text/glsl_variant.inc"
+
+#define VARIANT_NAME StepEdgesCompensated
+#define VARIANT_BASE NetworkKernel
+#define VARIANT_TEXT "shaders/solver/step/leapfrog.comp"
+#define VARIANT_FEATURES WITH_DASHPOT | WITH_EDGE_FORCES | WITH_COMPENSATED
+#include "solver/cpu/text/glsl_variant.inc"
+
+#define VARIANT_NAME StepVolumes
+#define VARIANT_BASE NetworkKernel
+#define VARIANT_TEXT "shaders/solver/step/leapfrog.comp"
+#define VARIANT_FEATURES WITH_DASHPOT | WITH_VOLUME
+#include "solver/cpu/text/glsl_variant.inc"
+
+#define VARIANT_NAME StepVolumesCompensated
+#define VARIANT_BASE NetworkKernel
+#define VARIANT_TEXT "shaders/solver/step/leapfrog.comp"
+#define VARIANT_FEATURES WITH_DASHPOT | WITH_VOLUME | WITH_COMPENSATED
+#include "solver/cpu/text/glsl_variant.inc"
+
+#define VARIANT_NAME StepEdgesVolumes
+#define VARIANT_BASE NetworkKernel
+#define VARIANT_TEXT "shaders/solver/step/leapfrog.comp"
+#define VARIANT_FEATURES WITH_DASHPOT | WITH_EDGE_FORCES | WITH_VOLUME
+#include "solver/cpu/text/glsl_variant.inc"
+
+#define VARIANT_NAME StepEdgesVolumesCompensated
+#define VARIANT_BASE NetworkKernel
+#define VARIANT_TEXT "shaders/solver/step/leapfrog.comp"
+#define VARIANT_FEATURES WITH_DASHPOT | WITH_EDGE_FORCES | WITH_VOLUME | WITH_COMPENSATED
+#include "solver/cpu/text/glsl_variant.inc"
+
+#define VARIANT_NAME Volumes
+#define VARIANT_BASE NetworkKernel
+#define VARIANT_TEXT "shaders/solver/tissue/volume.comp"
+#define VARIANT_FEATURES WITH_DASHPOT | WITH_VOLUME
+#include "solver/cpu/text/glsl_variant.inc"
+
+#define VARIANT_NAME Place
+#define VARIANT_BASE Kernel
+#define VARIANT_TEXT "shaders/solver/tissue/lattice.glsl"
+#include "solver/cpu/text/glsl_variant.inc"
+
+/// Where an invocation puts a node's energies, whatever its index.
+struct OneNode {
+  vec2 sum = vec2(0);
+  vec2& operator[](uint) { return sum; }
+};
+
+struct MeasuringKernel : NetworkKernel {
+  using NetworkKernel::NetworkKernel;
+  uint count = 0;
+  TickStats stats{};
+  OneNode energies;
+};
+
+#define VARIANT_NAME Measure
+#define VARIANT_BASE MeasuringKernel
+#define VARIANT_TEXT "shaders/solver/step/measure.comp"
+#define VARIANT_FEATURES WITH_DASHPOT
+#include "solver/cpu/text/glsl_variant.inc"
+
+#define VARIANT_NAME MeasureVolumes
+#define VARIANT_BASE MeasuringKernel
+#define VARIANT_TEXT "shaders/solver/step/measure.comp"
+#define VARIANT_FEATURES WITH_DASHPOT | WITH_VOLUME
+#include "solver/cpu/text/glsl_variant.inc"
+
+struct CutKernel : Kernel {
+  explicit CutKernel(CpuLattice& lattice)
+      : Kernel(lattice),
+        springs(lattice.links.network.springs.data()),
+        links(lattice.links.network.links.data()),
+        spring_cut(lattice.links.spring_cut.data()),
+        spring_count(static_cast<uint>(lattice.links.network.springs.size())) {}
+  const SpringEnds* springs;
+  Link* links;
+  float* spring_cut;
+  uint spring_count, stylus = 0;
+  struct {
+    uint springs_cut = 0;
+  } stats;
+};
+
+#define VARIANT_NAME CutLinks
+#define VARIANT_BASE CutKernel
+#define VARIANT_TEXT "shaders/solver/tools/cut_links.comp"
+#include "solver/cpu/text/glsl_variant.inc"
+
+#define VARIANT_NAME CutLinksOfParticles
+#define VARIANT_BASE CutKernel
+#define VARIANT_TEXT "shaders/solver/tools/cut_links.comp"
+#define VARIANT_FEATURES WITH_PARTICLES
+#include "solver/cpu/text/glsl_variant.inc"
+
+}  // namespace
+
+}  // namespace glsl
+
+namespace {
+
+/// @param may_lose  (slot, slot): may the spring between them be cut?
+template <class Kernel, class MayLose>
+uint32_t cutWith(CpuLattice& lattice, const layout::ToolMotion& motion, const MayLose& may_lose) {
+  Kernel kernel(lattice);
+  kernel.tool_motions = &motion;
+  for (uint32_t i = 0; i < kernel.spring_count; ++i) {
+    if (!may_lose(kernel.springs[i].a, kernel.springs[i].b)) continue;
+    kernel.index = i;
+    kernel.main();
+  }
+  return kernel.stats.springs_cut;
+}
+
+void takeLarger(uint32_t& bits, uint32_t other) {
+  bits = std::max(bits, other);  // positive floats order like their bits
+}
+
+template <class Kernel>
+void measureWith(CpuLattice& lattice, const std::vector<uint32_t>& slots, layout::TickStats& stats) {
+  Kernel kernel(lattice);
+  kernel.active_nodes = slots.data();
+  kernel.count = static_cast<uint32_t>(slots.size());
+  double kinetic_j = 0, elastic_j = 0;
+  for (size_t i = 0; i < slots.size(); ++i) {
+    runRange(kernel, i, i + 1);
+    kinetic_j += static_cast<double>(kernel.energies.sum.x);
+    elastic_j += static_cast<double>(kernel.energies.sum.y);
+  }
+  stats.kinetic_j += static_cast<float>(kinetic_j);
+  stats.elastic_j += static_cast<float>(elastic_j);
+  stats.nonfinite += kernel.stats.nonfinite;
+  stats.collapsed += kernel.stats.collapsed;
+  stats.inverted += kernel.stats.inverted;
+  takeLarger(stats.max_stretch_bits, kernel.stats.max_stretch_bits);
+  takeLarger(stats.max_speed_bits, kernel.stats.max_speed_bits);
+  takeLarger(stats.max_rate_bits, kernel.stats.max_rate_bits);
+}
+
+constexpr Portions kGroupsPerStep{2, 16};      // of a substep: some 10 us of work at most
+constexpr Portions kGroupsPerSpread{64, 512};  // the same
+
+std::vector<uint32_t> groupsOf(const std::vector<uint32_t>& slots) {
+  std::vector<uint32_t> out;
+  for (const uint32_t slot : slots) {
+    const auto group = static_cast<uint32_t>(slot / simd::kGroupNodes);
+    if (out.empty() || out.back() != group) out.push_back(group);
+  }
+  return out;
+}
+
+}  // namespace
+
+CpuNetwork::CpuNetwork(const CpuLattice& lattice, const Parallel& parallel, const FeatureSet& features,
+                       const simd::Kernels& kernels)
+    : parallel_(parallel),
+      spread_rows_(kernels.spread_network),
+      step_rows_(kernels.leapfrog_network),
+      edge_forces_(features.edge_forces),
+      dashpot_(features.dashpot),
+      near_(parallel) {
+  if (lattice.links.network.starts.empty()) return;
+  for (const uint32_t slot : lattice.store.active) {
+    if (lattice.connections(slot) != layout::kImplicit) slots_.push_back(slot);
+  }
+  touched_.reserve(slots_.size());
+  for (const uint32_t cell : lattice.store.cells) {
+    if (features.volume && lattice.connections(cell) == layout::kExplicitLattice) cells_.push_back(cell);
+  }
+  if (!edge_forces_ && cells_.empty()) {
+    rows_ = simd::LinkRows(lattice.links.network, groupsOf(slots_));
+    places_.resize(4 * lattice.slotCount());
+    if (dashpot_) speeds_.resize(4 * lattice.slotCount());
+    return;
+  }
+  if (features.compensated) compensation_.resize(2 * lattice.slotCount());
+  link_forces_.resize(lattice.links.edge_forces.places());
+  if (!cells_.empty()) cell_forces_.assign(lattice.strengths.cellVectors() * lattice.slotCount(), glsl::vec4(0));
+}
+
+void CpuNetwork::restart(const CpuLattice& lattice) {
+  rows_.writeStiffness(lattice.links.network.links);
+  std::fill(compensation_.begin(), compensation_.end(), layout::vec4{});
+}
+
+template <class Kernel>
+Kernel CpuNetwork::kernel(CpuLattice& lattice, const Substep& step) {
+  Kernel out(lattice);
+  out.tell(step);
+  out.active_nodes = slots_.data();
+  out.active_count = static_cast<uint32_t>(slots_.size());
+  out.compensation = glsl::Vectors(compensation_);
+  out.link_forces = link_forces_.data();
+  out.cell_forces = out.cell_forces_out = cell_forces_.data();
+  return out;
+}
+
+template <class Plain, class Compensated>
+void CpuNetwork::stepWith(CpuLattice& lattice, const Substep& step) {
+  if (compensation_.empty()) {
+    runCount(parallel_, slots_.size(), kernel<Plain>(lattice, step));
+  } else {
+    runCount(parallel_, slots_.size(), kernel<Compensated>(lattice, step));
+  }
+}
+
+void CpuNetwork::findVolumes(CpuLattice& lattice) {
+  auto volumes = kernel<glsl::Volumes>(lattice, {});
+  volumes.cells = cells_.data();
+  volumes.cell_count = static_cast<uint32_t>(cells_.size());
+  runCount(parallel_, cells_.size(), volumes);
+}
+
+void CpuNetwork::step(CpuLattice& lattice, const Substep& step, AlignedVector<float>& compensation) {
+  if (rows_.groups.empty()) {
+    stepInText(lattice, step);
+  } else {
+    stepInRows(lattice, step, compensation);
+  }
+}
+
+void CpuNetwork::stepInRows(CpuLattice& lattice, const Substep& step, AlignedVector<float>& compensation) {
+  simd::NetworkJob job{};
+  job.rows = &rows_;
+  job.step = step;
+  job.dashpot = dashpot_;
+  job.bricks = lattice.store.bricks.data();
+  job.bodies = lattice.store.bodies.data();
+  job.displacement = lattice.state.displacement[lattice.state.current].data();
+  job.velocity = lattice.state.velocity[lattice.state.current].data();
+  job.next_displacement = lattice.state.displacement[1 - lattice.state.current].data();
+  job.next_velocity = lattice.state.velocity[1 - lattice.state.current].data();
+  job.compensation = compensation.empty() ? nullptr : compensation.data();
+  job.mobility = lattice.strengths.mobility.data();
+  job.nodes = lattice.store.nodes.data();
+  job.places = places_.data();
+  job.speeds = speeds_.data();
+  const auto ofAll = [&](simd::NetworkGroups kernel, Portions portions) {
+    parallel_.ranges(rows_.groups.size(), portions, [&](size_t first, size_t end) { kernel(job, first, end); });
+  };
+  ofAll(spread_rows_, kGroupsPerSpread);
+  ofAll(step_rows_, kGroupsPerStep);
+}
+
+void CpuNetwork::stepInText(CpuLattice& lattice, const Substep& step) {
+  if (edge_forces_)
+    runCount(parallel_, lattice.links.edge_forces.owners.size(), kernel<glsl::SpringForces>(lattice, step));
+  if (cells_.empty()) {
+    if (edge_forces_) {
+      stepWith<glsl::StepEdges, glsl::StepEdgesCompensated>(lattice, step);
+    } else {
+      stepWith<glsl::Step, glsl::StepCompensated>(lattice, step);
+    }
+    return;
+  }
+  findVolumes(lattice);
+  if (edge_forces_) {
+    stepWith<glsl::StepEdgesVolumes, glsl::StepEdgesVolumesCompensated>(lattice, step);
+  } else {
+    stepWith<glsl::StepVolumes, glsl::StepVolumesCompensated>(lattice, step);
+  }
+}
+
+const std::vector<uint32_t>& CpuNetwork::touched(CpuLattice& lattice, const std::vector<NodeReach>& reaches) {
+  touched_.clear();
+  glsl::Place place(lattice);
+  for (uint32_t slot : slots_) {
+    if (lattice.strengths.mobility[slot] == 0) continue;
+    bool near = (lattice.store.nodes[slot].lo & layout::kGrabMask) != 0;
+    if (!near) {
+      const glsl::vec3 x = place.restPosition(slot) + glsl::xyz(place.next_displacement[slot]);
+      for (const NodeReach& reach : reaches) {
+        const glsl::vec3 away = x - reach.center_m;
+        near |= glsl::dot(away, away) < reach.radius_m * reach.radius_m;
+      }
+    }
+    if (near) touched_.push_back(slot);
+  }
+  return touched_;
+}
+
+void CpuNetwork::measure(CpuLattice& lattice, layout::TickStats& stats) const {
+  if (lattice.strengths.bulk.empty()) {
+    measureWith<glsl::Measure>(lattice, slots_, stats);
+  } else {
+    measureWith<glsl::MeasureVolumes>(lattice, slots_, stats);
+  }
+}
+
+uint32_t CpuNetwork::cut(CpuLattice& lattice, const layout::ToolMotion& motion, bool particles) {
+  near_.find(lattice, slots_, motion);
+  const auto may_cross = [this](uint32_t a, uint32_t b) { return near_.mayCross(a, b); };
+  const auto may_erase = [this](uint32_t a, uint32_t b) { return near_.mayErase(a, b); };
+  const uint32_t springs = particles ? cutWith<glsl::CutLinksOfParticles>(lattice, motion, may_erase)
+                                     : cutWith<glsl::CutLinks>(lattice, motion, may_cross);
+  if (springs == 0) return 0;
+  for (const uint32_t slot : slots_) lattice.refresh(slot);
+  rows_.writeStiffness(lattice.links.network.links);
+  return springs;
+}
+
+}  // namespace viscera

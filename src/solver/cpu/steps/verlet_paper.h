@@ -1,0 +1,29 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "solver/cpu/steps/implicit_substep.h"
+
+namespace viscera {
+
+/// Position Verlet as VR05 and GW print it: shaders/solver/step/verlet_paper.comp in C++, as
+/// solver/gpu/steps/verlet_paper_pass.h.
+class CpuVerletPaper : public CpuStepper {
+ public:
+  CpuVerletPaper(const CpuLattice& lattice, const Parallel& parallel);
+  void run(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions) override;
+
+ private:
+  template <class Kernel>
+  Kernel kernel(CpuLattice& lattice, const Substep& step);
+  template <class Kernel>
+  void advance(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions);
+
+  const Parallel& parallel_;
+  std::vector<glsl::vec4> positions_[2];  ///< [slots] m: x at current_, x_prev at the other, which x+ overwrites
+  std::vector<glsl::vec4> cell_forces_;  ///< [cellVectors() * slots] N, see shaders/solver/tissue/volume.comp; or empty
+  int current_ = 0;
+  float last_dt_s_ = 0;
+};
+
+}  // namespace viscera

@@ -1,0 +1,234 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solver/cpu/store/cpu_strengths.h"
+
+#include <algorithm>
+#include <array>
+
+#include "solver/cpu/simd/kernels.h"
+#include "solver/tissue/joined_lattice.h"
+#include "viscera/solver/material.h"
+
+namespace viscera {
+
+namespace {
+
+/// From which corner of its cell a pair's even spring goes (kCellSprings in kernels.h), and as which of nine.
+struct CellSpring {
+  std::array<int, 3> corner;
+  uint32_t index;
+};
+constexpr CellSpring kCellSpringOf[kSpringPairs] = {{{0, 0, 0}, 0}, {{0, 0, 0}, 1}, {{0, 0, 0}, 2},
+                                                    {{0, 0, 0}, 3}, {{0, 1, 0}, 4}, {{0, 0, 0}, 5},
+                                                    {{0, 0, 1}, 6}, {{0, 0, 0}, 7}, {{0, 0, 1}, 8}};
+
+bool isAlone(const layout::NodeBits& bits) {
+  return (bits.lo & layout::kAxialMask) == 0 && (bits.hi & layout::kDiagonalMask) == 0;
+}
+
+/// Slot of the neighbour at an offset, whose brick must be there (shaders/solver/tissue/lattice.glsl).
+uint32_t neighborSlot(const std::vector<layout::Brick>& bricks, uint32_t slot, const std::array<int, 3>& offset) {
+  int direction = 0, inside = 0;
+  constexpr int kDirection[3] = {1, 3, 9}, kShift[3] = {0, 2, 4};
+  for (int axis = 0; axis < 3; ++axis) {
+    const int at = static_cast<int>(slot >> kShift[axis] & 3) + offset[static_cast<size_t>(axis)];  // -1 .. 4
+    direction += kDirection[axis] * ((at + 4) >> 2);
+    inside |= (at & 3) << kShift[axis];
+  }
+  const layout::Brick& brick = bricks[slot / layout::kBrickSlots];
+  return brick.neighbors[direction] * layout::kBrickSlots + static_cast<uint32_t>(inside);
+}
+
+}  // namespace
+
+CpuStrengths::CpuStrengths(const Model& model, const CpuStore& store, const FeatureSet& features,
+                           const std::vector<float>& masses_kg)
+    : stiffness(store.slotCount() * kSpringPairs),
+      mass(store.slotCount(), 1),
+      surface_depth(surfaceDepths(model)),
+      surface_ways(surfaceWays(model)),
+      mobility(store.slotCount()),
+      both_ends(store.slotCount() * layout::kSpringsPerNode),
+      uniform(store.brickCount()),
+      idle_rows(store.brickCount()) {
+  if (features.parts) table_ = allStrengths(model);
+  for (uint32_t slot : store.active) {
+    const layout::BodyParams& body = store.bodyOf(slot);
+    mass[slot] = table_.mass_kg.empty() ? static_cast<float>(massEighths(store.nodes[slot])) * body.mass_eighth_kg
+                                        : table_.mass_kg[slot];
+    if (!masses_kg.empty()) mass[slot] = masses_kg[slot];
+  }
+  if (features.volume) {
+    bulk.resize(store.slotCount());
+    bulk_around.resize(store.slotCount() * 8);
+  }
+  if (features.moments) {
+    rigidity.resize(store.slotCount());
+    moments = allMoments(model);
+    cell_springs.resize(store.slotCount() * simd::kCellSprings);
+    uniform_cells.resize(store.brickCount());
+    idle_cells.resize(store.brickCount());
+    for (const Body& body : model.bodies) has_parts |= !body.parts.empty();
+    spreadMoments(store);
+  }
+  refreshAll(store);
+}
+
+float CpuStrengths::springStiffness(const CpuStore& store, uint32_t slot, uint32_t pair) const {
+  const uint32_t count = springCount(store.nodes[slot], 2 * pair);
+  if (count == 0) return 0;
+  if (!table_.spring_n_per_m.empty()) return table_.spring_n_per_m[slot * kSpringPairs + pair];
+  const layout::BodyParams& body = store.bodyOf(slot);
+  return static_cast<float>(count) * (isAxial(2 * pair) ? body.axial_quarter_n_per_m : body.diagonal_half_n_per_m);
+}
+
+float CpuStrengths::cellBulk(const CpuStore& store, uint32_t slot) const {
+  if (!(store.nodes[slot].lo & layout::kCellBit)) return 0;
+  return table_.bulk_j.empty() ? store.bodyOf(slot).bulk_j : table_.bulk_j[slot];
+}
+
+float CpuStrengths::cellRigidity(const CpuStore& store, uint32_t slot) const {
+  if (!(store.nodes[slot].lo & layout::kCellBit)) return 0;
+  return table_.rigidity_j.empty() ? store.bodyOf(slot).rigidity_j : table_.rigidity_j[slot];
+}
+
+void CpuStrengths::refresh(const CpuStore& store, uint32_t slot) {
+  const layout::NodeBits& bits = store.nodes[slot];
+  const bool stays = (bits.lo & layout::kFixedBit) != 0 || (isAlone(bits) && (bits.lo & layout::kGrabMask) == 0);
+  mobility[slot] = stays ? 0 : 1 / mass[slot];
+  if (store.connections(slot) == layout::kNetwork) return;
+  for (uint32_t pair = 0; pair < kSpringPairs; ++pair) {
+    stiffness[stiffnessAt(slot, pair)] = springStiffness(store, slot, pair);
+    if (!cell_springs.empty()) setCellSpring(store, slot, pair);
+  }
+  const uint32_t brick = slot / layout::kBrickSlots;
+  for (uint32_t spring = 0; spring < layout::kSpringsPerNode; ++spring) {
+    const bool alive = springCount(bits, spring) != 0;
+    const uint32_t owner =
+        spring % 2 == 0 || !alive ? slot : neighborSlot(store.bricks, slot, kNeighborOffsets[spring]);
+    both_ends[simd::springAt(slot, spring)] = alive ? springStiffness(store, owner, spring / 2) : 0;
+  }
+  uniform[brick] = uniform[brick] && isFull(store, slot);
+  if (bulk.empty()) return;
+  bulk[slot] = cellBulk(store, slot);
+  has_volumes |= bulk[slot] != 0;
+  if (!rigidity.empty()) rigidity[slot] = cellRigidity(store, slot);
+  shareBulk(store, slot);
+}
+
+/// Tells the cell that owns a pair's even spring of its stiffness.
+void CpuStrengths::setCellSpring(const CpuStore& store, uint32_t slot, uint32_t pair) {
+  if (springCount(store.whole_nodes[slot], 2 * pair) == 0) return;
+  const auto& [corner, index] = kCellSpringOf[pair];
+  const uint32_t cell = neighborSlot(store.bricks, slot, {-corner[0], -corner[1], -corner[2]});
+  const float k = stiffness[stiffnessAt(slot, pair)];
+  cell_springs[simd::cellSpringAt(cell, index)] = k;
+  const layout::BodyParams& body = store.bodyOf(slot);
+  const float full = isAxial(2 * pair) ? 4 * body.axial_quarter_n_per_m : 2 * body.diagonal_half_n_per_m;
+  if (k != full) uniform_cells[cell / layout::kBrickSlots] = 0;
+}
+
+/// Makes brick_moments and partial_rows.
+void CpuStrengths::spreadMoments(const CpuStore& store) {
+  constexpr size_t kBrick = simd::kMomentNumbers * layout::kBrickSlots;
+  std::vector<uint32_t> partial;
+  for (uint32_t b = 0; b < store.brickCount(); ++b) {
+    const uint32_t* first = &moments.of_cell[size_t{b} * layout::kBrickSlots];
+    if (std::any_of(first, first + layout::kBrickSlots, [](uint32_t which) { return which != 0; }))
+      partial.push_back(b);
+  }
+  moment_planes_.resize(partial.size() * kBrick);
+  brick_moments.assign(store.brickCount(), nullptr);
+  partial_rows.assign(store.brickCount(), 0);
+  for (size_t i = 0; i < partial.size(); ++i) {
+    float* planes = &moment_planes_[i * kBrick];
+    brick_moments[partial[i]] = planes;
+    const float twice_h = 2 * store.bodies[store.bricks[partial[i]].body].origin_spacing.w;
+    for (size_t local = 0; local < layout::kBrickSlots; ++local) {
+      const uint32_t which = moments.of_cell[partial[i] * layout::kBrickSlots + local];
+      if (which != 0) partial_rows[partial[i]] = static_cast<uint16_t>(partial_rows[partial[i]] | 1u << (local / 4));
+      const layout::vec4* m = &moments.vectors[kVectorsPerFill * which];
+      for (size_t v = 0; v < kVectorsPerFill; ++v) {
+        const float numbers[3] = {m[v].x, m[v].y, m[v].z};
+        for (size_t c = 0; c < 3; ++c)
+          planes[simd::cellNumberAt(static_cast<uint32_t>(local), static_cast<uint32_t>(3 * v + c),
+                                    simd::kMomentNumbers)] = v == 0 ? twice_h * numbers[c] : numbers[c];
+      }
+    }
+  }
+}
+
+/// Tells the corners of the cell above a slot of its bulk.
+void CpuStrengths::shareBulk(const CpuStore& store, uint32_t slot) {
+  if (!(store.whole_nodes[slot].lo & layout::kCellBit)) return;
+  for (int c = 0; c < 8; ++c) {
+    const uint32_t corner = neighborSlot(store.bricks, slot, {c & 1, c >> 1 & 1, c >> 2 & 1});
+    bulk_around[size_t{corner / layout::kBrickSlots} * 512 + static_cast<size_t>(c) * 64 +
+                corner % layout::kBrickSlots] = bulk[slot];
+  }
+}
+
+bool CpuStrengths::isFull(const CpuStore& store, uint32_t slot) const {
+  const layout::BodyParams& body = store.bodyOf(slot);
+  for (uint32_t spring = 0; spring < layout::kSpringsPerNode; ++spring) {
+    const float full = isAxial(spring) ? 4 * body.axial_quarter_n_per_m : 2 * body.diagonal_half_n_per_m;
+    if (both_ends[simd::springAt(slot, spring)] != full) return false;
+  }
+  return true;
+}
+
+void CpuStrengths::refreshAll(const CpuStore& store) {
+  for (size_t b = 0; b < store.bricks.size(); ++b)
+    uniform[b] = store.first_active[b + 1] - store.first_active[b] == layout::kBrickSlots;
+  for (uint32_t slot : store.active) refresh(store, slot);
+  noteIdleRows();
+  if (!cell_springs.empty()) noteCells(store);
+}
+
+void CpuStrengths::noteIdleRows() {
+  for (size_t b = 0; b < idle_rows.size(); ++b) {
+    idle_rows[b] = 0;
+    for (size_t row = 0; row < 16; ++row) {
+      const float* of_row = &mobility[b * layout::kBrickSlots + 4 * row];
+      if (std::all_of(of_row, of_row + 4, [](float value) { return value == 0; })) {
+        idle_rows[b] = static_cast<uint16_t>(idle_rows[b] | 1u << row);
+      }
+    }
+  }
+}
+
+/// Makes uniform_cells and idle_cells.
+void CpuStrengths::noteCells(const CpuStore& store) {
+  constexpr size_t kBrick = layout::kBrickSlots * simd::kCellSprings;
+  for (uint32_t b = 0; b < store.brickCount(); ++b) {
+    const layout::BodyParams& body = store.bodies[store.bricks[b].body];
+    bool uniform = true;
+    for (size_t i = 0; i < kBrick && uniform; ++i) {
+      const bool edge = i < size_t{3} * layout::kBrickSlots;
+      uniform =
+          cell_springs[b * kBrick + i] == (edge ? 4 * body.axial_quarter_n_per_m : 2 * body.diagonal_half_n_per_m);
+    }
+    uniform_cells[b] = uniform ? 1 : 0;
+    idle_cells[b] = 0;
+    for (uint32_t row = 0; row < 16; ++row) {
+      if (isIdleRow(store, b * layout::kBrickSlots + 4 * row))
+        idle_cells[b] = static_cast<uint16_t>(idle_cells[b] | 1u << row);
+    }
+  }
+}
+
+/// Are four cells absent, springs and all, or between nodes only that never move? @param first  slot of the first
+bool CpuStrengths::isIdleRow(const CpuStore& store, uint32_t first) const {
+  bool nothing = true, still = true;
+  for (uint32_t slot = first; slot < first + 4; ++slot) {
+    nothing = nothing && rigidity[slot] == 0 && bulk[slot] == 0;
+    for (uint32_t s = 0; s < simd::kCellSprings; ++s)
+      nothing = nothing && cell_springs[simd::cellSpringAt(slot, s)] == 0;
+    for (int c = 0; c < 8; ++c) {
+      still = still && mobility[neighborSlot(store.bricks, slot, {c & 1, c >> 1 & 1, c >> 2 & 1})] == 0;
+    }
+  }
+  return nothing || still;
+}
+
+}  // namespace viscera

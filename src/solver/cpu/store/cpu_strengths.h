@@ -1,0 +1,70 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "math/aligned.h"
+#include "solver/cpu/store/cpu_store.h"
+#include "solver/tissue/features.h"
+#include "solver/tissue/joined_lattice.h"
+#include "viscera/model/body/elasticity.h"
+
+namespace viscera {
+
+/// How strong springs and cells are and how heavy the nodes, as their bits in a store say.
+struct CpuStrengths {
+  /// @param store  that it is always used with   @param masses_kg  [slots] of explicit connections; empty without
+  /// @throws SceneError  parts (strengths)
+  CpuStrengths(const Model& model, const CpuStore& store, const FeatureSet& features,
+               const std::vector<float>& masses_kg);
+
+  /// Fits what is derived from a node's bits (stiffness of its even springs, mobility) to bits that have changed.
+  void refresh(const CpuStore& store, uint32_t slot);
+  void refreshAll(const CpuStore& store);
+  /// Vectors per cell of what its energies do to its corners (shaders/solver/tissue/elastic.glsl); 0 where cells have
+  /// none.
+  size_t cellVectors() const {
+    return bulk.empty() ? 0 : rigidity.empty() ? layout::kVolumeVectors : layout::kMomentVectors;
+  }
+
+  AlignedVector<float> stiffness;      ///< [9 * slots] N/m of even springs (stiffnessAt); 0 cut or absent
+  AlignedVector<float> mass;           ///< [slots] kg; 1 where no node is
+  std::vector<float> surface_depth;    ///< [slots] m, surfaceDepths(); empty where there are none
+  std::vector<uint32_t> surface_ways;  ///< [slots] surfaceWays(); empty where there are none
+  AlignedVector<float> mobility;       ///< [slots] 1/kg of nodes that take part in a substep, held ones too; 0: absent,
+                                       ///< fixed, alone
+  AlignedVector<float> bulk;         ///< [slots] J of the cell above the node; 0 torn or absent; empty without volumes
+  AlignedVector<float> both_ends;    ///< [18 * slots] N/m of all springs, from either end (springAt() in kernels.h)
+  AlignedVector<float> bulk_around;  ///< [8 * slots] J of the cells in which a slot is corner c (bits x, y, z), at
+                                     ///< (slot / 64) * 512 + c * 64 + slot % 64; empty without volumes
+  AlignedVector<float> rigidity;  ///< [slots] J of the cell above the node (moments.glsl); 0 torn, absent, or springs
+                                  ///< alone; empty without moments
+  JoinedMoments moments;          ///< empty without
+  std::vector<const float*> brick_moments;  ///< [bricks] [9 * 64] moments of its cells, number by number, the
+                                            ///< first ones times 2 h; null where all are full; empty without moments
+  std::vector<uint16_t> partial_rows;       ///< [bricks] bit r: some of the four cells from 4 r on is tissue in part
+  AlignedVector<float> cell_springs;        ///< [kCellSprings * slots] N/m (kernels.h); empty without moments, as are
+  std::vector<uint8_t> uniform_cells;       ///< [bricks] all of these are whole and of the body's full strength
+  std::vector<uint16_t> idle_cells;         ///< [bricks] bit r: the four cells from 4 r on never do anything to a node
+                                            ///< that moves
+  bool has_parts = false;                   ///< some body has parts with elasticities of their own
+  bool has_volumes = false;                 ///< some bulk is not 0
+  std::vector<uint8_t> uniform;     ///< [bricks] all springs of all its nodes are whole and of the body's full strength
+  std::vector<uint16_t> idle_rows;  ///< [bricks] bit r: none of the four nodes from 4 r on will ever move
+
+ private:
+  float springStiffness(const CpuStore& store, uint32_t slot, uint32_t pair) const;
+  float cellBulk(const CpuStore& store, uint32_t slot) const;
+  float cellRigidity(const CpuStore& store, uint32_t slot) const;
+  bool isFull(const CpuStore& store, uint32_t slot) const;
+  void spreadMoments(const CpuStore& store);
+  void shareBulk(const CpuStore& store, uint32_t slot);
+  void setCellSpring(const CpuStore& store, uint32_t slot, uint32_t pair);
+  void noteIdleRows();
+  void noteCells(const CpuStore& store);
+  bool isIdleRow(const CpuStore& store, uint32_t first) const;
+
+  AlignedVector<float> moment_planes_;  ///< what brick_moments points to
+  Strengths table_;                     ///< of models with parts, whose counts only say alive or cut; else empty
+};
+
+}  // namespace viscera

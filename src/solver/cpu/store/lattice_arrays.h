@@ -1,0 +1,45 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "solver/cpu/simd/kernels.h"
+#include "solver/cpu/store/cpu_lattice.h"
+
+namespace viscera {
+
+/// A lattice as the SIMD kernels see it: from the current state into the other one, without compensation.
+inline simd::Arrays arraysOf(CpuLattice& lattice) {
+  simd::Arrays a{};
+  a.bricks = lattice.store.bricks.data();
+  a.bodies = lattice.store.bodies.data();
+  a.displacement = lattice.state.displacement[lattice.state.current].data();
+  a.velocity = lattice.state.velocity[lattice.state.current].data();
+  a.next_displacement = lattice.state.displacement[1 - lattice.state.current].data();
+  a.next_velocity = lattice.state.velocity[1 - lattice.state.current].data();
+  a.spring_stiffness = lattice.strengths.both_ends.data();
+  a.mobility = lattice.strengths.mobility.data();
+  a.nodes = lattice.store.nodes.data();
+  a.bulk_around = lattice.strengths.bulk_around.empty() ? nullptr : lattice.strengths.bulk_around.data();
+  a.uniform = lattice.strengths.uniform.data();
+  a.idle_rows = lattice.strengths.idle_rows.data();
+  return a;
+}
+
+/// Its cells, where some resist by moments; else without rigidity. Sums are the caller's.
+inline simd::CellJob cellsOf(CpuLattice& lattice) {
+  simd::CellJob job{};
+  if (lattice.strengths.rigidity.empty()) return job;
+  job.arrays = arraysOf(lattice);
+  job.springs = lattice.strengths.cell_springs.data();
+  job.uniform = lattice.strengths.uniform_cells.data();
+  job.idle_rows = lattice.strengths.idle_cells.data();
+  job.bulk = lattice.strengths.bulk.data();
+  job.rigidity = lattice.strengths.rigidity.data();
+  job.moments = lattice.strengths.brick_moments.data();
+  job.partial_rows = lattice.strengths.partial_rows.data();
+  job.parts = lattice.strengths.has_parts;
+  job.volumes = lattice.strengths.has_volumes;
+  return job;
+}
+
+}  // namespace viscera

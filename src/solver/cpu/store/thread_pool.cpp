@@ -1,0 +1,253 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solver/cpu/store/thread_pool.h"
+
+#include <time.h>
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+#if defined(__x86_64__) || defined(__i386__)
+#include <immintrin.h>
+#endif
+
+namespace viscera {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr int kRoundShift = 32;
+constexpr uint64_t kTakenMask = 0xffffffffu;
+// Longer than the way from one substep, or one tick, to the next: who sleeps may find its processor taken.
+constexpr std::chrono::microseconds kWatch{300};
+constexpr std::chrono::microseconds kWatchEnd{50};  // longer than the last jobs of a round, if none is put aside
+constexpr int kLooksPerClock = 64;                  // the clock is read once in so many looks
+constexpr size_t kPartsLeft = 4;                    // a thread takes this part of what is left of a run
+constexpr int kRoundsPerLook = 17;                  // at the clock, and at the processor time of all threads (1 us)
+
+void pause() {
+#if defined(__x86_64__) || defined(__i386__)
+  _mm_pause();
+#else
+  std::this_thread::yield();
+#endif
+}
+
+/// Looks again and again. @return false if it was in vain for so long
+template <class Condition>
+bool watch(std::chrono::microseconds patience, const Condition& condition) {
+  const auto until = Clock::now() + patience;
+  for (int looks = 1;; ++looks) {
+    if (condition()) return true;
+    if (looks % kLooksPerClock == 0 && Clock::now() > until) return false;
+    pause();
+  }
+}
+
+double secondsNow() {
+  return std::chrono::duration<double>(Clock::now().time_since_epoch()).count();
+}
+
+/// Processor time of this thread.
+uint64_t threadTime_ns() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<uint64_t>(now.tv_sec) * 1000000000u + static_cast<uint64_t>(now.tv_nsec);
+}
+
+/// Jobs of run r are those from the end of run r - 1 to its own.
+uint64_t endOf(size_t run, size_t sharing, uint64_t count) {
+  return (run + 1) * count / sharing;
+}
+
+}  // namespace
+
+std::shared_ptr<ThreadPool> makeThreadPool(int threads) {
+  const auto there = static_cast<int>(std::thread::hardware_concurrency());
+  return std::make_shared<ThreadPool>(std::max(1, threads > 0 ? threads : there));
+}
+
+ThreadPool::ThreadPool(int threads)
+    : tickets_(static_cast<size_t>(threads)), limit_(threads), sharing_(tickets_.size()), helping_(threads) {
+  for (size_t i = 1; i < tickets_.size(); ++i) workers_.emplace_back([this, i] { work(i); });
+}
+
+ThreadPool::~ThreadPool() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    stop_ = true;
+  }
+  wake_.notify_all();
+  wanted_.notify_all();
+  for (std::thread& worker : workers_) worker.join();
+}
+
+void ThreadPool::run(size_t count, Portions portions, Call call, const void* job) const {
+  if (count == 0) return;
+  if (workers_.empty() || count <= portions.least) {
+    for (size_t first = 0; first < count; first += portions.most)
+      call(job, first, std::min(count, first + portions.most));
+    return;
+  }
+  const std::lock_guard<std::mutex> turn(turn_);
+  const int limit = limit_.load(std::memory_order_relaxed);
+  Round round{call, job, count, portions.least, portions.most, 1};
+  round.sharing = static_cast<size_t>(std::clamp(helping_.now(), 1, std::max(1, limit)));
+  if (!timed_ && --until_look_ == 0) {
+    until_look_ = kRoundsPerLook;
+    timed_ = limit >= helping_.now() && helping_.due(secondsNow());
+  }
+  timed_ ? shareTimed(round) : share(round);
+  if (error_) std::rethrow_exception(std::exchange(error_, nullptr));
+}
+
+void ThreadPool::shareTimed(const Round& round) const {
+  const bool watched = --until_look_ == 0;
+  const uint64_t before_ns = watched ? workDone() : 0;
+  watched_.store(watched, std::memory_order_relaxed);
+  const double begin_s = secondsNow();
+  share(round);
+  const double end_s = secondsNow();
+  if (watched) {
+    watched_.store(false, std::memory_order_relaxed);
+    helping_.worked(static_cast<double>(round.count), 1e-9 * static_cast<double>(workDone() - before_ns));
+    until_look_ = kRoundsPerLook;
+  }
+  helping_.took(end_s, end_s - begin_s, static_cast<double>(round.count));
+  timed_ = helping_.due(end_s);
+  if (!timed_) until_look_ = kRoundsPerLook;
+}
+
+/// Processor time within jobs, of all threads, in all rounds that were watched.
+uint64_t ThreadPool::workDone() const {
+  uint64_t sum_ns = 0;
+  for (const Ticket& ticket : tickets_) sum_ns += ticket.work_ns.load(std::memory_order_relaxed);
+  return sum_ns;
+}
+
+/// A round, from its first job to its last.
+void ThreadPool::share(const Round& round) const {
+  setSharing(round.sharing);
+  if (round.sharing == 1) return doAlone(round);
+  begin(round);
+  takeJobs(0);
+  const auto ended = [&] { return done_.load(std::memory_order_seq_cst) == round.count; };
+  if (ended() || watch(kWatchEnd, ended)) return;
+  std::unique_lock<std::mutex> lock(mutex_);
+  caller_asleep_.store(true, std::memory_order_seq_cst);
+  ended_.wait(lock, ended);
+  caller_asleep_.store(false, std::memory_order_relaxed);
+}
+
+/// From now on others than these threads sleep.
+void ThreadPool::setSharing(size_t threads) const {
+  if (sharing_.load(std::memory_order_relaxed) == threads) return;
+  const std::lock_guard<std::mutex> lock(mutex_);
+  sharing_.store(threads, std::memory_order_relaxed);
+  wanted_.notify_all();
+}
+
+void ThreadPool::doAlone(const Round& round) const {
+  for (size_t first = 0; first < round.count; first += round.most)
+    doJobs(round.call, round.job, first, std::min(round.count, first + round.most));
+}
+
+void ThreadPool::begin(const Round& round) const {
+  // All jobs of the last round are done. None can be taken of it while the next is made ready.
+  const uint64_t number = round_.load(std::memory_order_relaxed);
+  for (Ticket& ticket : tickets_) ticket.next.store(number << kRoundShift | kTakenMask, std::memory_order_seq_cst);
+  shared_.call.store(round.call, std::memory_order_relaxed);
+  shared_.job.store(round.job, std::memory_order_relaxed);
+  shared_.count.store(round.count, std::memory_order_relaxed);
+  shared_.least.store(round.least, std::memory_order_relaxed);
+  shared_.most.store(round.most, std::memory_order_relaxed);
+  shared_.sharing.store(round.sharing, std::memory_order_relaxed);
+  done_.store(0, std::memory_order_relaxed);
+  for (size_t r = 0; r < round.sharing; ++r) {
+    const uint64_t first = r == 0 ? 0 : endOf(r - 1, round.sharing, round.count);
+    tickets_[r].next.store((number + 1) << kRoundShift | first, std::memory_order_release);
+  }
+  round_.store(number + 1, std::memory_order_seq_cst);
+  if (asleep_.load(std::memory_order_seq_cst) > 0) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    wake_.notify_all();
+  }
+}
+
+/// Takes jobs until none is left, of a thread's own run first.
+void ThreadPool::takeJobs(size_t thread) const {
+  const bool watched = watched_.load(std::memory_order_relaxed);
+  const uint64_t before_ns = watched ? threadTime_ns() : 0;
+  const size_t sharing = shared_.sharing.load(std::memory_order_relaxed);
+  for (size_t i = 0; i < sharing; ++i) {
+    while (takeJob((thread + i) % sharing)) {
+    }
+  }
+  if (watched) tickets_[thread].work_ns.fetch_add(threadTime_ns() - before_ns, std::memory_order_relaxed);
+}
+
+/// What a job throws is kept for the thread that steps; of several, the first.
+void ThreadPool::doJobs(Call call, const void* job, size_t first, size_t end) const noexcept {
+  try {
+    call(job, first, end);
+  } catch (...) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (!error_) error_ = std::current_exception();
+  }
+}
+
+/// Takes the next jobs of a run and does them. @return false if none is left
+bool ThreadPool::takeJob(size_t run) const {
+  std::atomic<uint64_t>& next = tickets_[run].next;
+  uint64_t ticket = next.load(std::memory_order_acquire);
+  for (;;) {
+    const Call call = shared_.call.load(std::memory_order_relaxed);
+    const void* job = shared_.job.load(std::memory_order_relaxed);
+    const uint64_t first = ticket & kTakenMask, count = shared_.count.load(std::memory_order_relaxed);
+    const uint64_t end = endOf(run, shared_.sharing.load(std::memory_order_relaxed), count);
+    if (first >= end) return false;
+    const uint64_t least = shared_.least.load(std::memory_order_relaxed);
+    const uint64_t most = shared_.most.load(std::memory_order_relaxed);
+    const uint64_t taken = std::min(end - first, std::min(most, std::max(least, (end - first) / kPartsLeft)));
+    // Success says that the round is still the one that all this was read in: it cannot end before these jobs are done.
+    if (!next.compare_exchange_weak(ticket, ticket + taken, std::memory_order_acq_rel, std::memory_order_acquire))
+      continue;
+    doJobs(call, job, first, first + taken);
+    const bool last = done_.fetch_add(taken, std::memory_order_seq_cst) + taken == count;
+    if (last && caller_asleep_.load(std::memory_order_seq_cst)) {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      ended_.notify_one();
+    }
+    return true;
+  }
+}
+
+/// Until there is a round other than this one that the thread is to share, or the end.
+void ThreadPool::sleep(size_t thread, uint64_t round) {
+  std::unique_lock<std::mutex> lock(mutex_);
+  const auto wanted = [&] { return thread < sharing_.load(std::memory_order_relaxed) || stop_; };
+  const auto awake = [&] { return round_.load(std::memory_order_seq_cst) != round || stop_; };
+  while (!(wanted() && awake())) {
+    wanted_.wait(lock, wanted);
+    asleep_.fetch_add(1, std::memory_order_seq_cst);
+    if (!awake()) wake_.wait(lock);
+    asleep_.fetch_sub(1, std::memory_order_relaxed);
+  }
+}
+
+void ThreadPool::work(size_t thread) {
+  uint64_t round = 0;
+  while (!stop_) {
+    const auto called = [&] {
+      return stop_ ||
+             (round_.load(std::memory_order_acquire) != round && thread < sharing_.load(std::memory_order_relaxed));
+    };
+    if (!watch(kWatch, called)) sleep(thread, round);
+    round = round_.load(std::memory_order_acquire);
+    if (thread < sharing_.load(std::memory_order_relaxed)) takeJobs(thread);
+  }
+}
+
+}  // namespace viscera

@@ -1,0 +1,52 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "solver/cpu/text/glsl_kernel.h"
+
+namespace viscera::glsl {
+
+using glm::floor;
+
+/// A key of GW's search, as uvec2 on the GPU.
+struct Item {
+  uint x = 0, y = 0;
+  bool operator<(const Item& other) const { return x != other.x ? x < other.x : y < other.y; }
+};
+
+/// What texts that know contacts between nodes in implicit substeps find (shaders/solver/implicit/implicit_pairs.glsl).
+struct PairBuffers {
+  uint* pair_words = nullptr;
+  vec4 *pair_rows = nullptr, *node_pairs = nullptr;
+  uint pair_slots = 0, most_pairs = 0;
+  float pair_friction = 0, pair_restitution = 0, pair_bounces_from = 0;
+  uint takeRoom(uint count) const {
+    const uint first = pair_words[0];  // one thread
+    pair_words[0] += count;
+    return first;
+  }
+};
+
+/// What the texts of shaders/solver/collision_*.comp find in buffers and uniforms.
+struct CollisionKernel : Kernel, PairBuffers {
+  using Kernel::Kernel;
+  const vec4* increment = nullptr;  // within an implicit substep: contacts are where it leads
+  vec4* increments = nullptr;       // the same, to write
+  float widened = 1, cell_m = 1, friction = 0, restitution = 0;
+  uint bucket_count = 1, partitions = 1, window = 0, sorted_count = 0;
+  const float* touch_depths = nullptr;
+  const layout::vec4* body_influences = nullptr;
+  vec4 *contacts = nullptr, *corrections = nullptr;
+  const uint *buckets = nullptr, *ranks = nullptr;
+  const uvec4* entries = nullptr;
+  const vec4* entries_before = nullptr;
+  const Item* items = nullptr;
+};
+
+/// Which nodes may touch others, and how near: no stage, only what all of them know.
+#define VARIANT_NAME CollisionRules
+#define VARIANT_BASE CollisionKernel
+#define VARIANT_TEXT "shaders/solver/collision/collision_search.glsl"
+#include "solver/cpu/text/glsl_variant.inc"
+
+}  // namespace viscera::glsl

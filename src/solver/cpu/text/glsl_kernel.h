@@ -1,0 +1,187 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "solver/cpu/store/cpu_lattice.h"
+#include "solver/cpu/text/glsl.h"
+#include "solver/cpu/text/glsl_features.h"
+#include "solver/tissue/substep.h"
+#include "viscera/layout/obstacle_motion.h"
+
+namespace viscera::glsl {
+
+/// displacement or velocity of a CpuLattice, as a shader's buffer of vec4 (w is 0).
+class Planes {
+ public:
+  class Element {
+   public:
+    explicit Element(float* at) : at_(at) {}
+    operator vec4() const { return {at_[0], at_[64], at_[128], 0}; }
+    void operator=(const vec4& v) {
+      at_[0] = v.x;
+      at_[64] = v.y;
+      at_[128] = v.z;
+    }
+
+   private:
+    float* at_;
+  };
+  explicit Planes(AlignedVector<float>& values) : first_(values.data()) {}
+  Element operator[](uint slot) const { return Element(first_ + vectorAt(slot)); }
+
+ private:
+  float* first_;
+};
+
+inline vec4 texelFetch(const Planes& planes, int slot) {
+  return planes[static_cast<uint>(slot)];
+}
+inline vec4 texelFetch(const vec4* buffer, int index) {
+  return buffer[index];
+}
+
+inline uvec4 texelFetch(const SpringOwner* owners, int index) {
+  const SpringOwner& owner = owners[index];
+  return {owner.slot, owner.first, owner.end, owner.place};
+}
+
+/// layout::vec4 in memory, as a shader's buffer of vec4.
+class Vectors {
+ public:
+  class Element {
+   public:
+    explicit Element(layout::vec4& at) : at_(at) {}
+    operator vec4() const { return xyzw(at_); }
+    void operator=(const vec4& v) { at_ = {v.x, v.y, v.z, v.w}; }
+    void operator+=(const vec4& v) { *this = xyzw(at_) + v; }
+
+   private:
+    layout::vec4& at_;
+  };
+  explicit Vectors(std::vector<layout::vec4>& values) : first_(values.data()) {}
+  Element operator[](size_t index) const { return Element(first_[index]); }
+
+ private:
+  layout::vec4* first_;
+};
+
+/// What kernels find in buffers and uniforms on the GPU (shaders/solver/tissue/lattice.glsl, elastic.glsl, step.glsl,
+/// contact.glsl), under the names that they have there. A kernel is a class derived from this one with a shader's text
+/// as its body; main() is one invocation, that of `index`.
+struct Kernel {
+  explicit Kernel(CpuLattice& lattice)
+      : active_nodes(lattice.store.active.data()),
+        active_count(static_cast<uint>(lattice.store.active.size())),
+        slot_count(static_cast<uint>(lattice.store.nodes.size())),
+        nodes(lattice.store.nodes.data()),
+        bodies(lattice.store.bodies.data()),
+        cells(lattice.store.cells.data()),
+        displacement(lattice.state.displacement[lattice.state.current]),
+        velocity(lattice.state.velocity[lattice.state.current]),
+        next_displacement(lattice.state.displacement[1 - lattice.state.current]),
+        next_velocity(lattice.state.velocity[1 - lattice.state.current]),
+        has_moments(!lattice.strengths.rigidity.empty()),
+        cell_vectors(static_cast<uint>(lattice.strengths.cellVectors())),
+        grab_offsets(lattice.hands.grab_offsets),
+        impulses_(lattice.hands.impulses.data()),
+        touched_(lattice.hands.touched.data()),
+        obstacle_impulses_(lattice.hands.obstacle_impulses.data()),
+        met_(lattice.hands.met.data()),
+        bricks_(lattice.store.bricks.data()),
+        stiffness_(lattice.strengths.stiffness.data()),
+        mass_(lattice.strengths.mass.data()),
+        depth_(lattice.strengths.surface_depth.empty() ? nullptr : lattice.strengths.surface_depth.data()),
+        ways_(lattice.strengths.surface_ways.empty() ? nullptr : lattice.strengths.surface_ways.data()),
+        bulk_(lattice.strengths.bulk.data()),
+        rigidity_(lattice.strengths.rigidity.data()),
+        moments_(&lattice.strengths.moments),
+        rest_(lattice.links.network.rest_m.data()),
+        link_starts_(lattice.links.network.starts.data()),
+        link_runs_(lattice.links.edge_forces.links.data()),
+        links_(lattice.links.network.links.data()) {}
+
+  void tell(const Substep& step) {
+    dt_s = step.dt_s;
+    kick_s = step.kick_s;
+    gravity = vec3(step.gravity.x(), step.gravity.y(), step.gravity.z());
+    sleep_distance_m = step.sleep_distance_m;
+    push_speed = step.push_speed_m_per_s;
+    resting_speed = step.resting_speed_m_per_s;
+    obstacles = step.obstacles;
+    obstacle_count = step.obstacle_count;
+  }
+
+  uint index = 0;
+  uint globalIndex() const { return index; }
+
+  const uint* active_nodes;
+  uint active_count, slot_count;
+  NodeBits* nodes;
+  const BodyParams* bodies;
+  const uint* cells;
+  Planes displacement, velocity, next_displacement, next_velocity;
+  bool has_moments;
+  uint cell_vectors;
+  float dt_s = 0, kick_s = 0, sleep_distance_m = 0, push_speed = 0, resting_speed = 0;
+  vec3 gravity = vec3(0);
+  const ToolMotion* tool_motions = nullptr;
+  const ObstacleMotion* obstacles = nullptr;
+  uint obstacle_count = 0;
+  Vectors grab_offsets;
+  vec4* cell_forces = nullptr;
+
+  uint neighborBrick(uint slot, uint direction) const { return bricks_[slot >> 6].neighbors[direction]; }
+  ivec3 brickCoord(uint slot) const {
+    const Brick& brick = bricks_[slot >> 6];
+    return {brick.coord_x, brick.coord_y, brick.coord_z};
+  }
+  uint brickBody(uint slot) const { return bricks_[slot >> 6].body; }
+  vec3 tabulatedRest(uint slot) const { return xyz(rest_[slot]); }
+  uvec4 linkRuns(uint slot) const {
+    if (link_runs_) return {link_runs_[slot].x, link_runs_[slot].y, link_runs_[slot].z, link_runs_[slot].w};
+    const uint end = link_starts_[slot + 1];
+    return {link_starts_[slot], end, end, end};
+  }
+  const Link& linkAt(uint link) const { return links_[link]; }
+  float nodeMass(uint slot, const NodeBits&, const BodyParams&) const { return mass_[slot]; }
+  float surfaceDepth(uint slot) const { return depth_ ? depth_[slot] : 0; }
+  uint surfaceWay(uint slot) const { return ways_ ? ways_[slot] : 0; }
+  float cellBulk(uint slot, const BodyParams&) const { return bulk_[slot]; }
+  float cellRigidity(uint slot, const BodyParams&) const { return rigidity_ ? rigidity_[slot] : 0; }
+  /// @tparam Moments  CellMoments of shaders/solver/tissue/moments.glsl, which is not known here
+  template <class Moments>
+  Moments momentsAt(uint slot) const {
+    const layout::vec4* m = &moments_->vectors[kVectorsPerFill * moments_->of_cell[slot]];
+    return {xyz(m[0]), xyz(m[1]), xyz(m[2])};
+  }
+  float springStiffness(uint slot, uint far, uint spring, uint, const BodyParams&) const {
+    return stiffness_[stiffnessAt((spring & 1u) == 0u ? slot : far, spring >> 1)];
+  }
+  void giveMomentum(uint stylus, uint slot, const vec3& impulse) {
+    layout::vec4& sum = impulses_[stylus * slot_count + slot];
+    sum = {sum.x + impulse.x, sum.y + impulse.y, sum.z + impulse.z, sum.w + 1};
+    touched_[slot >> 6] = 1;
+  }
+  void giveObstacle(uint obstacle, uint slot, const vec3& impulse) {
+    layout::vec4& sum = obstacle_impulses_[obstacle * slot_count + slot];
+    sum = {sum.x + impulse.x, sum.y + impulse.y, sum.z + impulse.z, sum.w + 1};
+    met_[slot >> 6] = 1;
+  }
+
+ private:
+  layout::vec4* impulses_;
+  uint8_t* touched_;
+  layout::vec4* obstacle_impulses_;
+  uint8_t* met_;
+  const Brick* bricks_;
+  const float *stiffness_, *mass_, *depth_;
+  const uint* ways_;
+  const float *bulk_, *rigidity_;
+  const JoinedMoments* moments_;
+  const layout::vec4* rest_;
+  const uint* link_starts_;
+  const layout::uvec4* link_runs_;  ///< null where a node's links are in one run
+  const Link* links_;
+};
+
+}  // namespace viscera::glsl

@@ -1,0 +1,87 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "solver/cpu/simd/kernels.h"
+#include "solver/cpu/store/cpu_lattice.h"
+#include "solver/cpu/store/parallel.h"
+#include "viscera/layout/tool_motion.h"
+
+namespace viscera {
+
+/// Tissue of a node outside is that many cells away at most: a cell's diagonal, and as much again where its edges are
+/// stretched or turned (shaders/solver/tissue/surface_way.glsl).
+constexpr float kFarthestTissue = 3.5f;
+
+/// Which nodes of a lattice a sweep of a blade may take springs from. Most are far from it and are passed over brick by
+/// brick, or by the SIMD kernels. Allocates nothing once it has looked.
+class NearBlade {
+ public:
+  /// @param reach_m  [slots] how far from a node its tissue may be
+  /// @param parallel  on which nodes are looked at; must outlive this
+  NearBlade(const CpuLattice& lattice, std::vector<float> reach_m, const Parallel& parallel,
+            const simd::Kernels& kernels);
+  /// @param particles  by an eraser: nodes within its radius of the sweep
+  void find(const CpuLattice& lattice, const layout::ToolMotion& motion, bool particles);
+  /// Bricks with a node, or a place for one, within the sphere that the blade may cut in. Ascending.
+  const std::vector<uint32_t>& bricks() const { return near_; }
+  /// Nodes of a near brick that may lose a spring, a bit each.
+  uint64_t nodes(uint32_t brick) const { return nodes_[brick]; }
+  /// Keeps those of them for which lose(slot) is 1, and not 0. Asks of several at the same time.
+  template <class Lose>
+  void keep(const CpuLattice& lattice, const Lose& lose);
+  /// May a spring between two nodes of near bricks cross the sweep? Two beyond the same side of the box around it have
+  /// none of it between them.
+  bool mayCross(uint32_t slot, uint32_t other) const { return (outside_[slot] & outside_[other]) == 0; }
+
+ private:
+  static constexpr size_t kBricksPerJob = 16;
+  void forget();
+  template <class Visit>
+  void forEachNear(const Visit& visit) const;
+  void findBricks(const CpuLattice& lattice, const layout::ToolMotion& motion);
+  float farthestOffset(const layout::ToolMotion& motion) const;
+  void placeBrick(uint32_t brick);
+  uint64_t nodesThatMayLose(const layout::Brick& brick) const;
+  bool mayCross(const layout::Brick& brick) const;
+
+  const Parallel& parallel_;
+  simd::BrickSweep find_places_;
+  simd::BrickSides find_sides_;
+  simd::SweepJob job_{};
+  std::vector<float> reach_m_;             ///< [slots] how far from a node its tissue may be
+  std::vector<float> farthest_m_;          ///< [bricks] the largest of these
+  std::vector<simd::Sweep> sweeps_;        ///< [bodies]
+  std::vector<simd::BrickPlaces> places_;  ///< [bricks]
+  std::vector<uint32_t> near_;             ///< bricks
+  std::vector<uint8_t> outside_;           ///< [slots] of near bricks: sides of the box, a bit each; 255 elsewhere
+  std::vector<uint8_t> common_;  ///< [bricks] the sides on which all places of a near brick are; 255 elsewhere
+  std::vector<uint64_t> nodes_;  ///< [bricks] of near ones
+};
+
+/// visit(brick) of all that are near, side by side.
+template <class Visit>
+void NearBlade::forEachNear(const Visit& visit) const {
+  parallel_((near_.size() + kBricksPerJob - 1) / kBricksPerJob, [&](size_t job) {
+    const size_t end = std::min(near_.size(), (job + 1) * kBricksPerJob);
+    for (size_t n = job * kBricksPerJob; n < end; ++n) visit(near_[n]);
+  });
+}
+
+template <class Lose>
+void NearBlade::keep(const CpuLattice& lattice, const Lose& lose) {
+  forEachNear([&](uint32_t brick) {
+    uint64_t kept = 0;
+    for (uint32_t i = lattice.store.first_active[brick]; nodes_[brick] && i < lattice.store.first_active[brick + 1];
+         ++i) {
+      const uint32_t slot = lattice.store.active[i], place = slot % layout::kBrickSlots;
+      if (nodes_[brick] >> place & 1) kept |= lose(slot) << place;
+    }
+    nodes_[brick] = kept;
+  });
+}
+
+}  // namespace viscera

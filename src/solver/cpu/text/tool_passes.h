@@ -1,0 +1,65 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "solver/contact/tool_acts.h"
+#include "solver/cpu/store/cpu_lattice.h"
+#include "solver/cpu/text/near_blade.h"
+#include "viscera/layout/tick_stats.h"
+#include "viscera/layout/tool_motion.h"
+
+namespace viscera {
+
+// What styluses do to a CpuLattice (VR05 2.7, physics.md 5). The equations are the text of
+// shaders/solver/tools/grab.comp, cut.comp, volume.comp and contact.glsl, compiled as C++. On one thread, except where
+// it says otherwise.
+
+/// Takes hold of free nodes within a radius around the tip.
+/// @param stylus  index, < kMaxStyluses   @param pose  of the stylus, tissue frame   @param radius_m  of the grip
+void takeHold(CpuLattice& lattice, uint32_t stylus, const Pose& pose, double radius_m);
+
+/// Lets go what a stylus holds. @param stats  of the tick, with what the stylus gave in it
+void letGo(CpuLattice& lattice, uint32_t stylus, const Release& release, const layout::TickStats& stats);
+
+/// Erases the springs that a swept blade crosses, from both ends, and with them the volumes of their cells. Allocates
+/// nothing once it has cut.
+class CpuCut {
+ public:
+  /// @param parallel  on which it looks for nodes near the blade; must outlive this
+  CpuCut(CpuLattice& lattice, const Parallel& parallel, const simd::Kernels& kernels);
+  /// @param particles  all springs of the nodes near the blade instead
+  /// @return springs cut
+  uint32_t run(CpuLattice& lattice, const layout::ToolMotion& motion, bool particles);
+  /// Looked at in the last run.
+  const std::vector<uint32_t>& bricks() const { return near_.bricks(); }
+
+ private:
+  template <class Kernel>
+  uint32_t cutWith(CpuLattice& lattice, const layout::ToolMotion& motion);
+  template <class Springs, class Particles>
+  uint32_t cutAll(CpuLattice& lattice, const layout::ToolMotion& motion, bool particles);
+  void tearCells(CpuLattice& lattice) const;
+
+  NearBlade near_;
+  std::vector<uint32_t> changed_;  ///< slots that lost springs
+};
+
+/// What all styluses do to a node in a substep: pushed out of probes, or where its stylus holds it. May run for nodes
+/// of different bricks at the same time.
+/// @param motions  [kMaxStyluses] of the substep   @param push_speed_m_per_s  a probe pushes a node out no faster
+/// @param u_m  before the substep   @param u_next_m, v_next_m_per_s  after it, without styluses; changed
+void resolveContact(CpuLattice& lattice, uint32_t slot, const layout::ToolMotion* motions, float dt_s,
+                    float push_speed_m_per_s, const Vector3f& u_m, Vector3f& u_next_m, Vector3f& v_next_m_per_s);
+
+/// Sums what styluses gave to nodes in a tick into impulse, angular and touched, always in the same order, in float64,
+/// and clears it. @param tips  of the styluses at the end of the tick, tissue frame [m]
+void sumReactions(CpuLattice& lattice, const std::array<Vector3f, layout::kMaxStyluses>& tips,
+                  layout::TickStats& stats);
+
+/// The same of what obstacles gave. @param places  [obstacles] at the end of the tick, tissue frame [m]
+void sumObstacles(CpuLattice& lattice, const std::vector<Vector3f>& places, layout::TickStats& stats);
+
+}  // namespace viscera

@@ -1,0 +1,175 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solver/gpu/buffers/awake_bricks.h"
+
+#include <algorithm>
+
+#include "gpu/limits.h"
+#include "layout/bindings.h"
+#include "solver/cpu/store/sleep.h"
+#include "solver/cpu/text/near_blade.h"
+#include "solver/tissue/joined_lattice.h"
+
+namespace viscera {
+
+namespace {
+
+/// Blocks of the kernel that has most of them, LIST.
+size_t mostBlocks(const FeatureSet& features) {
+  return features.volume ? 10 : 8;
+}
+
+gpu::Program compiled(const FeatureSet& features, const char* feature, bool tools = false) {
+  std::vector<std::string> defines = features.defines();
+  defines.push_back(feature);
+  if (tools) defines.push_back("TOOLS");
+  return gpu::Program::compute("awake_bricks.comp", defines);
+}
+
+/// Where a brick's part begins and how long it is in an ascending list of slots.
+void countIn(const std::vector<uint32_t>& slots, std::vector<layout::SleepingBrick>& bricks,
+             uint32_t layout::SleepingBrick::*first, uint32_t layout::SleepingBrick::*count) {
+  for (uint32_t i = 0; i < slots.size(); ++i) {
+    layout::SleepingBrick& brick = bricks[slots[i] / layout::kBrickSlots];
+    if (brick.*count == 0) brick.*first = i;
+    ++(brick.*count);
+  }
+}
+
+std::vector<layout::SleepingBrick> bricksOf(const Model& model, const FeatureSet& features, size_t count) {
+  std::vector<layout::SleepingBrick> out(count);
+  countIn(activeSlots(model), out, &layout::SleepingBrick::first_node, &layout::SleepingBrick::node_count);
+  if (features.volume)
+    countIn(cellSlots(model), out, &layout::SleepingBrick::first_cell, &layout::SleepingBrick::cell_count);
+  return out;
+}
+
+size_t listBytes(size_t items) {
+  return sizeof(layout::AwakeList) + items * sizeof(uint32_t);
+}
+
+float deepest(const Model& model) {
+  const std::vector<float> depths_m = surfaceDepths(model);
+  return depths_m.empty() ? 0 : std::max(0.0f, *std::max_element(depths_m.begin(), depths_m.end()));
+}
+
+}  // namespace
+
+bool AwakeBricks::fits(const FeatureSet& features) {
+  return gpu::driverLimits().storage_blocks >= mostBlocks(features);
+}
+
+AwakeBricks::AwakeBricks(const Model& model, const FeatureSet& features, const LatticeBuffers& buffers,
+                         double speed_m_per_s)
+    : all_program_(compiled(features, "WAKE_ALL")),
+      look_program_(compiled(features, "LOOK")),
+      list_(compiled(features, "LIST")),
+      bricks_(bricksOf(model, features, buffers.store.bricks.size()), "sleeping bricks"),
+      nodes_(listBytes(buffers.store.active_count), "awake nodes"),
+      slow2_(static_cast<float>(speed_m_per_s * speed_m_per_s)),
+      deepest_m_(deepest(model)),
+      beside_(features.moments ? kFarthestTissue : 0),
+      group_size_(features.group_size) {
+  if (features.volume) cells_ = gpu::RawBuffer(listBytes(buffers.store.cells.size()), "awake cells");
+  if (!features.tools) return;
+  look_with_tools_ = compiled(features, "LOOK", true);
+  near_ = compiled(features, "WAKE_NEAR");
+  held_ = compiled(features, "WAKE_HELD");
+  cut_ = compiled(features, "WAKE_CUT");
+}
+
+void AwakeBricks::bind() const {
+  bricks_.bindStorage(layout::kBindSleepingBricks);
+  nodes_.bindStorage(layout::kBindAwakeNodes);
+  if (cells_.bytes()) cells_.bindStorage(layout::kBindAwakeCells);
+}
+
+void AwakeBricks::run(const gpu::Program& program) {
+  program.use();
+  program.set("brick_count", static_cast<uint32_t>(bricks_.size()));
+  gpu::Program::dispatch(bricks_.size(), group_size_);
+  gpu::Program::storageBarrier();
+  listed_ = false;
+}
+
+void AwakeBricks::wakeNear(const std::vector<ToolBox>& boxes) {
+  if (boxes.empty() || all_) return;
+  float low[layout::kMaxStyluses][3] = {}, high[layout::kMaxStyluses][3] = {};
+  for (size_t i = 0; i < boxes.size(); ++i) {
+    std::copy_n(boxes[i].low.data(), 3, low[i]);
+    std::copy_n(boxes[i].high.data(), 3, high[i]);
+  }
+  near_.setVectors("box_low", low[0], 3, boxes.size());
+  near_.setVectors("box_high", high[0], 3, boxes.size());
+  near_.set("box_count", static_cast<uint32_t>(boxes.size()));
+  run(near_);
+}
+
+void AwakeBricks::wakeHeld() {
+  if (!all_) run(held_);
+}
+
+void AwakeBricks::wakeCut(uint32_t stylus) {
+  if (all_) return;
+  cut_.set("stylus", stylus);
+  cut_.set("beside", beside_);
+  run(cut_);
+}
+
+void AwakeBricks::list() {
+  if (all_) run(all_program_);
+  all_ = false;
+  if (listed_) return;
+  list_.set("look", 0u);
+  list_.set("group_size", group_size_);
+  run(list_);
+  listed_ = true;
+}
+
+void AwakeBricks::dispatchNodes() const {
+  gpu::Program::dispatchIndirect(nodes_);
+}
+
+void AwakeBricks::dispatchCells() const {
+  gpu::Program::dispatchIndirect(cells_);
+}
+
+bool AwakeBricks::isLook(const Substep& step) {
+  since_look_s_ += static_cast<double>(step.dt_s);
+  return ++substeps_since_look_ >= Sleep::kSubsteps;
+}
+
+void AwakeBricks::passed(const Substep& step) {
+  if (!isLook(step)) return;
+  look_ = std::max(1u, look_ + 1);
+  const gpu::Program& program = step.tools ? look_with_tools_ : look_program_;
+  program.set("look", look_);
+  program.set("since_s", static_cast<float>(since_look_s_));
+  program.set("slow2", slow2_);
+  program.set("sleeps_after_s", static_cast<float>(Sleep::kQuiet_s));
+  if (step.tools) program.set("deepest_m", deepest_m_);
+  run(program);
+  list_.set("look", look_);
+  list_.set("sleeps_after_s", static_cast<float>(Sleep::kQuiet_s));
+  list_.set("group_size", group_size_);
+  run(list_);
+  listed_ = true;
+  restart();
+}
+
+void AwakeBricks::slept(const Substep& step) {
+  if (isLook(step)) restart();
+}
+
+void AwakeBricks::restart() {
+  since_look_s_ = 0;
+  substeps_since_look_ = 0;
+}
+
+std::vector<uint8_t> AwakeBricks::awake() const {
+  std::vector<uint8_t> out;
+  for (const layout::SleepingBrick& brick : bricks_.read()) out.push_back(brick.awake != 0);
+  return out;
+}
+
+}  // namespace viscera

@@ -1,0 +1,216 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solver/gpu/buffers/lattice_buffers.h"
+
+#include "layout/bindings.h"
+#include "layout/edge_forces.h"
+#include "solver/tissue/joined_lattice.h"
+
+namespace viscera {
+
+StoreBuffers::StoreBuffers(const Model& model, const std::vector<layout::BodyParams>& params,
+                           const FeatureSet& features)
+    : active_count(model.activeNodes()),
+      slot_count(model.slots()),
+      active(activeSlots(model), "active nodes"),
+      bricks(allBricks(model), "bricks"),
+      bodies(layout::kMaxBodies),
+      nodes(slot_count, "nodes"),
+      whole_nodes_(allNodes(model)),
+      brick_texels_(bricks.raw(), gpu::TexelFormat::kR32ui) {
+  if (features.volume) cells = gpu::Buffer<uint32_t>(cellSlots(model), "cells");
+  bodies.write(params);
+  nodes.write(whole_nodes_);
+}
+
+void StoreBuffers::bind() const {
+  active.bindStorage(layout::kBindActive);
+  bricks.bindStorage(layout::kBindBricks);
+  bodies.bindUniform(layout::kBindBodies);
+  nodes.bindStorage(layout::kBindNodes);
+  brick_texels_.bind(layout::kUnitBricks);
+  if (cells.size()) cells.bindStorage(layout::kBindCells);
+}
+
+void StoreBuffers::reset() {
+  nodes.write(whole_nodes_);
+}
+
+namespace {
+
+/// Masses and depths in turn.
+std::vector<float> inTurn(const std::vector<float>& masses_kg, const std::vector<float>& depths_m) {
+  std::vector<float> out;
+  for (size_t slot = 0; slot < masses_kg.size(); ++slot) out.insert(out.end(), {masses_kg[slot], depths_m[slot]});
+  return out;
+}
+
+}  // namespace
+
+StrengthBuffers::StrengthBuffers(const Model& model, const FeatureSet& features, const std::vector<float>& masses_kg) {
+  const std::vector<float> depths_m = surfaceDepths(model);
+  std::vector<float> masses = masses_kg;
+  if (features.parts) {
+    const Strengths table = allStrengths(model);
+    spring_stiffness = gpu::Buffer<float>(table.spring_n_per_m, "spring stiffness");
+    if (features.moments) {
+      writeMoments(model, table);
+    } else {
+      cell_bulk = gpu::Buffer<float>(table.bulk_j, "cell bulk");
+      bulk_texels_ = gpu::TexelView(cell_bulk.raw(), gpu::TexelFormat::kR32f);
+    }
+    if (masses.empty()) masses = table.mass_kg;
+    spring_texels_ = gpu::TexelView(spring_stiffness.raw(), gpu::TexelFormat::kR32f);
+  }
+  if (masses.empty()) return;
+  node_mass = gpu::Buffer<float>(depths_m.empty() ? masses : inTurn(masses, depths_m), "node mass");
+  mass_texels_ = gpu::TexelView(node_mass.raw(), depths_m.empty() ? gpu::TexelFormat::kR32f : gpu::TexelFormat::kRg32f);
+}
+
+void StrengthBuffers::writeMoments(const Model& model, const Strengths& table) {
+  const JoinedMoments moments = allMoments(model);
+  std::vector<layout::vec4> cells(table.bulk_j.size());
+  for (size_t slot = 0; slot < cells.size(); ++slot) {
+    cells[slot] = {table.bulk_j[slot], table.rigidity_j[slot], static_cast<float>(moments.of_cell[slot]), 0};
+  }
+  cell_strengths = gpu::Buffer<layout::vec4>(cells, "cell strengths");
+  cell_moments = gpu::Buffer<layout::vec4>(moments.vectors, "cell moments");
+  std::vector<uint32_t> ways = surfaceWays(model);
+  ways.resize(model.slots(), 0);
+  surface_ways = gpu::Buffer<uint32_t>(ways, "ways to the surface");
+  bulk_texels_ = gpu::TexelView(cell_strengths.raw(), gpu::TexelFormat::kRgba32f);
+  moment_texels_ = gpu::TexelView(cell_moments.raw(), gpu::TexelFormat::kRgba32f);
+}
+
+void StrengthBuffers::bind() const {
+  if (spring_stiffness.size()) {
+    spring_texels_.bind(layout::kUnitSpringStiffness);
+    bulk_texels_.bind(layout::kUnitCellBulk);
+  }
+  if (cell_moments.size()) {
+    moment_texels_.bind(layout::kUnitCellMoments);
+    surface_ways.bindStorage(layout::kBindSurfaceWays);
+  }
+  if (node_mass.size()) mass_texels_.bind(layout::kUnitNodeMass);
+}
+
+StateBuffers::StateBuffers(size_t slots, const FeatureSet& features) {
+  for (int i = 0; i < 2; ++i) {
+    displacement[i] = gpu::Buffer<layout::vec4>(slots, "displacement");
+    velocity[i] = gpu::Buffer<layout::vec4>(slots, "velocity");
+    displacement[i].raw().requireBlock();
+    displacement_texels_[i] = gpu::TexelView(displacement[i].raw(), gpu::TexelFormat::kRgba32f);
+    velocity_texels_[i] = gpu::TexelView(velocity[i].raw(), gpu::TexelFormat::kRgba32f);
+  }
+  if (features.compensated) compensation = gpu::Buffer<layout::vec4>(2 * slots, "compensation");
+}
+
+/// Two calls, as this is done after every substep.
+void StateBuffers::bindBoth() const {
+  const int next = 1 - current;
+  gpu::bindStorages(layout::kBindDisplacementIn,
+                    {displacement[current].id(), velocity[current].id(), displacement[next].id(), velocity[next].id()});
+  gpu::bindTexels(layout::kUnitDisplacement, {displacement_texels_[current].id(), velocity_texels_[current].id()});
+}
+
+void StateBuffers::bind() const {
+  bindBoth();
+  if (compensation.size()) compensation.bindStorage(layout::kBindCompensation);
+}
+
+void StateBuffers::swap() {
+  current = 1 - current;
+  bindBoth();
+}
+
+void StateBuffers::reset() {
+  for (int i = 0; i < 2; ++i) {
+    displacement[i].clear();
+    velocity[i].clear();
+  }
+  if (compensation.size()) compensation.clear();
+  current = 0;
+}
+
+HandBuffers::HandBuffers(size_t slots, const FeatureSet& features) {
+  if (features.obstacles > 0) {
+    obstacle_impulses = gpu::Buffer<layout::vec4>(slots * features.obstacles, "impulses of obstacles");
+  }
+  if (!features.tools) return;
+  grab_offsets = gpu::Buffer<layout::vec4>(slots, "grab offsets");
+  impulses = gpu::Buffer<layout::vec4>(slots * layout::kMaxStyluses, "impulses");
+}
+
+void HandBuffers::bind() const {
+  if (grab_offsets.size()) grab_offsets.bindStorage(layout::kBindGrabOffsets);
+  if (impulses.size()) impulses.bindStorage(layout::kBindImpulses);
+  if (obstacle_impulses.size()) obstacle_impulses.bindStorage(layout::kBindObstacleImpulses);
+}
+
+void HandBuffers::reset() {
+  if (grab_offsets.size()) grab_offsets.clear();
+  if (impulses.size()) impulses.clear();
+  if (obstacle_impulses.size()) obstacle_impulses.clear();
+}
+
+LatticeBuffers::LatticeBuffers(const Model& model, const std::vector<layout::BodyParams>& params,
+                               const FeatureSet& features)
+    : store(model, params, features),
+      links(model, features),
+      strengths(model, features, links.network.masses_kg),
+      state(store.slot_count, features),
+      hands(store.slot_count, features),
+      record(model, links.network, features),
+      stats(1, "measurements") {
+  if (features.lattice && record.size() > 0) {
+    axial_cut = gpu::Buffer<float>(record.size(), "record of cuts");
+    cut_sides = gpu::Buffer<layout::vec4>(record.size() / 3, "sides of cuts");
+    cut_sides.clear();
+  }
+  if (features.volume) {
+    const size_t vectors = features.moments ? layout::kMomentVectors : layout::kVolumeVectors;
+    cell_forces = gpu::Buffer<layout::vec4>(vectors * store.slot_count, "cell forces");
+    cell_force_texels_ = gpu::TexelView(cell_forces.raw(), gpu::TexelFormat::kRgba32f);
+  }
+  bind();  // what is too large for the driver is said now
+}
+
+void LatticeBuffers::bind() const {
+  state.bind();
+  store.bind();
+  stats.bindStorage(layout::kBindStats);
+  if (cell_forces.size()) {
+    cell_forces.bindStorage(layout::kBindCellForces);
+    cell_force_texels_.bind(layout::kUnitCellForces);
+  }
+  strengths.bind();
+  links.bind();
+  hands.bind();
+  if (!axial_cut.size()) return;
+  axial_cut.bindStorage(layout::kBindAxialCut);
+  cut_sides.bindStorage(layout::kBindCutSides);
+}
+
+std::vector<float> LatticeBuffers::readAxialCut(const std::vector<float>& spring_cut) const {
+  std::vector<float> out = axial_cut.size() ? axial_cut.read() : std::vector<float>(record.size());
+  record.addExplicit(spring_cut, out);
+  return out;
+}
+
+void LatticeBuffers::writeAxialCut(const std::vector<float>& cut) {
+  if (!axial_cut.size()) return;
+  axial_cut.clear();
+  cut_sides.clear();
+  if (!cut.empty()) axial_cut.write(cut);
+}
+
+void LatticeBuffers::reset() {
+  links.writeSpringCut({});
+  writeAxialCut({});
+  store.reset();
+  state.reset();
+  hands.reset();
+  stats.clear();
+}
+
+}  // namespace viscera

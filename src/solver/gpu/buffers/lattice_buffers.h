@@ -1,0 +1,140 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "gpu/buffer.h"
+#include "layout/edge_forces.h"
+#include "solver/tissue/cut_record.h"
+#include "solver/tissue/edge_forces.h"
+#include "solver/tissue/features.h"
+#include "solver/tissue/joined_network.h"
+#include "viscera/layout/tick_stats.h"
+#include "viscera/model/body/elasticity.h"
+#include "viscera/model/model.h"
+
+namespace viscera {
+
+/// Which nodes there are and where.
+struct StoreBuffers {
+  /// @param bodies  [bodies] material constants
+  StoreBuffers(const Model& model, const std::vector<layout::BodyParams>& bodies, const FeatureSet& features);
+  void bind() const;
+  void reset();
+
+  size_t active_count, slot_count;
+  gpu::Buffer<uint32_t> active;            ///< [active]
+  gpu::Buffer<layout::Brick> bricks;       ///< [bricks]
+  gpu::Buffer<layout::BodyParams> bodies;  ///< [bodies]
+  gpu::Buffer<layout::NodeBits> nodes;     ///< [slots]
+  gpu::Buffer<uint32_t> cells;             ///< [cells] slots of their lowest corners; feature volume
+
+ private:
+  std::vector<layout::NodeBits> whole_nodes_;
+  gpu::TexelView brick_texels_;
+};
+
+/// How strong springs and cells are and how heavy the nodes, where the counts of springs do not say it.
+struct StrengthBuffers {
+  /// @param masses_kg  [slots] of explicit connections; empty without
+  /// @throws SceneError  parts (strengths)
+  StrengthBuffers(const Model& model, const FeatureSet& features, const std::vector<float>& masses_kg);
+  void bind() const;
+
+  gpu::Buffer<float> spring_stiffness;  ///< [9 * slots] N/m; feature parts
+  gpu::Buffer<float> node_mass;  ///< [slots] kg; features parts, network; [2 * slots] with surfaceDepths() in turn
+  gpu::Buffer<float> cell_bulk;  ///< [slots] J; feature parts, without moments
+  gpu::Buffer<layout::vec4>
+      cell_strengths;                      ///< [slots] x bulk, y rigidity [J], z which moments; features parts, moments
+  gpu::Buffer<layout::vec4> cell_moments;  ///< JoinedMoments::vectors; features parts, moments
+  gpu::Buffer<uint32_t> surface_ways;      ///< [slots] surfaceWays(), or 0 everywhere; features parts, moments
+
+ private:
+  void writeMoments(const Model& model, const Strengths& table);
+  gpu::TexelView spring_texels_, mass_texels_, bulk_texels_, moment_texels_;
+};
+
+/// How all nodes move: two states, of which one is current and the other the last or the next one.
+struct StateBuffers {
+  StateBuffers(size_t slots, const FeatureSet& features);
+  /// With the current state as input and the other as output.
+  void bind() const;
+  /// What was output becomes the current state. Binds again only what that changes.
+  void swap();
+  void reset();
+
+  gpu::Buffer<layout::vec4> displacement[2];  ///< [slots] m
+  gpu::Buffer<layout::vec4> velocity[2];      ///< [slots] m/s
+  gpu::Buffer<layout::vec4> compensation;     ///< [2 * slots] m, m/s; feature compensated
+  int current = 0;
+
+ private:
+  void bindBoth() const;
+  gpu::TexelView displacement_texels_[2], velocity_texels_[2];
+};
+
+/// What styluses hold and give, feature tools; and what obstacles give.
+struct HandBuffers {
+  HandBuffers(size_t slots, const FeatureSet& features);
+  void bind() const;
+  void reset();
+
+  gpu::Buffer<layout::vec4> grab_offsets;       ///< [slots] m, stylus frame
+  gpu::Buffer<layout::vec4> impulses;           ///< [kMaxStyluses * slots] N s
+  gpu::Buffer<layout::vec4> obstacle_impulses;  ///< [obstacles * slots] N s
+};
+
+/// Explicit connections; feature network.
+struct LinkBuffers {
+  LinkBuffers(const Model& model, const FeatureSet& features);
+  void bind() const;
+  /// Whole but for those that are cut. @param cut  [springs] as in CutSprings
+  void writeSpringCut(const std::vector<float>& cut);
+
+  JoinedNetwork network;                           ///< whole, as on the host; empty without
+  EdgeForces edge_forces;                          ///< feature edge_forces
+  gpu::Buffer<layout::vec4> rest;                  ///< [slots] m
+  gpu::Buffer<uint32_t> link_starts;               ///< [slots + 1]
+  gpu::Buffer<layout::Link> links;                 ///< [2 * springs]
+  gpu::Buffer<layout::SpringEnds> springs;         ///< [springs]
+  gpu::Buffer<float> spring_cut;                   ///< [springs]
+  gpu::Buffer<layout::uvec4> link_runs;            ///< [slots] in place of link_starts; this and below: edge_forces
+  gpu::Buffer<layout::SpringOwner> spring_owners;  ///< [owners]
+  gpu::Buffer<uint32_t> force_starts;              ///< [slots + 1]
+  gpu::Buffer<layout::vec4> link_forces;           ///< [springs + owners] N, see EdgeForces
+
+ private:
+  void allocateEdgeForces();
+  gpu::TexelView rest_texels_, start_texels_, link_texels_;
+  gpu::TexelView owner_texels_, force_start_texels_, link_force_texels_;
+};
+
+/// The nodes of all bodies in GPU memory, with all that is known of them: what every kernel of the solver works on.
+struct LatticeBuffers {
+  /// @param bodies  [bodies] material constants   @param features  what is allocated beyond the state itself
+  LatticeBuffers(const Model& model, const std::vector<layout::BodyParams>& bodies, const FeatureSet& features);
+
+  /// Binds what all kernels share, with the current state as input and the other as output.
+  void bind() const;
+  void swap() { state.swap(); }
+  /// Rest state, whole springs, nothing held.
+  void reset();
+  std::vector<float> readAxialCut(const std::vector<float>& spring_cut) const;  ///< both as in CutSprings; waits
+  void writeAxialCut(const std::vector<float>& cut);                            ///< as in CutSprings, none: whole
+  void writeSpringCut(const std::vector<float>& cut) { links.writeSpringCut(cut); }
+
+  StoreBuffers store;
+  LinkBuffers links;
+  StrengthBuffers strengths;
+  StateBuffers state;
+  HandBuffers hands;
+  CutRecord record;
+  gpu::Buffer<layout::vec4> cut_sides;    ///< [slots] where there is axial_cut: see shaders/solver/tools/cut_sides.glsl
+  gpu::Buffer<float> axial_cut;           ///< [record.size()] of implicit lattices; features cuts, lattice
+  gpu::Buffer<layout::TickStats> stats;   ///< [1]
+  gpu::Buffer<layout::vec4> cell_forces;  ///< [3 or 7 * slots] N, see shaders/solver/tissue/volume.comp; feature volume
+
+ private:
+  gpu::TexelView cell_force_texels_;
+};
+
+}  // namespace viscera

@@ -1,0 +1,37 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gpu/program.h"
+#include "solver/gpu/buffers/lattice_buffers.h"
+#include "solver/gpu/forces/volume_pass.h"
+#include "solver/tissue/features.h"
+
+namespace viscera {
+
+/// Erases the springs that the swept blade crosses, or all springs of the nodes near it. Owner of
+/// shaders/solver/tools/cut.comp (implicit connections) and cut_links.comp (explicit ones).
+class CutPass {
+ public:
+  explicit CutPass(const FeatureSet& features);
+  /// @param stylus  row of the bound tool motions
+  /// @param particles  erase nodes instead of single springs
+  void run(const LatticeBuffers& buffers, uint32_t stylus, bool particles) const;
+
+ private:
+  struct Programs {
+    gpu::Program springs, particles;
+  };
+  Programs compiled(const char* shader, std::vector<std::string> defines) const;
+  void runOver(const Programs& programs, gpu::UniformName what, size_t count, uint32_t stylus, bool particles) const;
+
+  std::optional<Programs> lattice_, links_;
+  std::optional<TornCellsPass> torn_cells_;
+  uint32_t group_size_;
+};
+
+}  // namespace viscera

@@ -1,0 +1,36 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "gpu/program.h"
+#include "solver/gpu/buffers/lattice_buffers.h"
+#include "solver/tissue/features.h"
+
+namespace viscera {
+
+/// Sums the momentum that each stylus, or each obstacle, gave over a tick, in a fixed order.
+/// Owner of shaders/solver/step/sum_impulses.comp.
+class ReactionPass {
+ public:
+  /// @param obstacles  of obstacles instead of styluses
+  ReactionPass(const FeatureSet& features, size_t active_count, bool obstacles = false);
+  /// Leaves impulse, angular and touched in the stats; clears the impulses. @param tips  [styluses] tissue frame
+  void run(const LatticeBuffers& buffers, const std::array<Vector3f, layout::kMaxStyluses>& tips) const {
+    sum(buffers, tips, 0);
+  }
+
+  /// Leaves obstacle_impulse and obstacle_angular there. @param places  [obstacles] tissue frame
+  void runObstacles(const LatticeBuffers& buffers, const std::vector<Vector3f>& places) const;
+
+ private:
+  using Places = std::array<Vector3f, layout::kMaxStyluses>;
+  void sum(const LatticeBuffers& buffers, const Places& places, uint32_t giver) const;
+  gpu::Program leaves_, fold_;
+  gpu::Buffer<std::array<layout::vec4, 2 * layout::kMaxStyluses>> partials_;
+  uint32_t group_size_;
+};
+
+}  // namespace viscera

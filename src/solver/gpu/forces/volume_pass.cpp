@@ -1,0 +1,48 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solver/gpu/forces/volume_pass.h"
+
+#include "gpu/stage_clock.h"
+
+namespace viscera {
+
+namespace {
+
+void dispatchCells(const gpu::Program& program, const LatticeBuffers& buffers, uint32_t group_size) {
+  program.use();
+  program.set("cell_count", static_cast<uint32_t>(buffers.store.cells.size()));
+  gpu::Program::dispatch(buffers.store.cells.size(), group_size);
+  gpu::Program::storageBarrier();
+}
+
+}  // namespace
+
+VolumePass::VolumePass(const FeatureSet& features, const AwakeBricks* awake)
+    : awake_(awake), group_size_(features.group_size) {
+  std::vector<std::string> defines = features.defines();
+  if (awake) defines.push_back("AWAKE");
+  cells_ = gpu::Program::compute("volume.comp", defines);
+}
+
+void VolumePass::run(const LatticeBuffers& buffers) const {
+  const gpu::TimedStage timed(gpu::Stage::kVolume);
+  if (!awake_) {
+    dispatchCells(cells_, buffers, group_size_);
+    return;
+  }
+  cells_.use();
+  awake_->dispatchCells();
+  gpu::Program::storageBarrier();
+}
+
+TornCellsPass::TornCellsPass(const FeatureSet& features) : group_size_(features.group_size) {
+  std::vector<std::string> defines = features.defines();
+  defines.push_back("CUT");
+  torn_ = gpu::Program::compute("volume.comp", defines);
+}
+
+void TornCellsPass::run(const LatticeBuffers& buffers) const {
+  dispatchCells(torn_, buffers, group_size_);
+}
+
+}  // namespace viscera

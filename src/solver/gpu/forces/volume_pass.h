@@ -1,0 +1,39 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "gpu/program.h"
+#include "solver/gpu/buffers/awake_bricks.h"
+#include "solver/gpu/buffers/lattice_buffers.h"
+#include "solver/tissue/features.h"
+
+namespace viscera {
+
+/// Forces of the cells' energy of volume, for the integrators to gather (physics.md 1). Owner of
+/// shaders/solver/tissue/volume.comp. Exists only where some cell's Poisson's ratio is not 1/4.
+class VolumePass {
+ public:
+  /// @param awake  of cells beside these bricks only; null: of all
+  explicit VolumePass(const FeatureSet& features, const AwakeBricks* awake = nullptr);
+  /// Leaves the forces of every cell in buffers.cell_forces.
+  void run(const LatticeBuffers& buffers) const;
+
+ private:
+  gpu::Program cells_;
+  const AwakeBricks* awake_;
+  uint32_t group_size_;
+};
+
+/// Takes the energy of volume from cells that have lost a spring. Owner of shaders/solver/tissue/volume.comp (feature
+/// CUT).
+class TornCellsPass {
+ public:
+  explicit TornCellsPass(const FeatureSet& features);
+  void run(const LatticeBuffers& buffers) const;
+
+ private:
+  gpu::Program torn_;
+  uint32_t group_size_;
+};
+
+}  // namespace viscera

@@ -1,0 +1,34 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solver/gpu/steps/leapfrog_pass.h"
+
+namespace viscera {
+
+LeapfrogPass::LeapfrogPass(const FeatureSet& features, AwakeBricks* awake)
+    : awake_(awake), group_size_(features.group_size) {
+  std::vector<std::string> defines = features.defines();
+  if (awake) defines.push_back("AWAKE");
+  if (features.edge_forces) spring_forces_.emplace(features);
+  plain_ = gpu::Program::compute("leapfrog.comp", defines);
+  if (features.volume) volume_.emplace(features, awake);
+  if (!features.tools) return;
+  defines.push_back("TOOLS");
+  with_tools_ = gpu::Program::compute("leapfrog.comp", defines);
+}
+
+void LeapfrogPass::run(LatticeBuffers& buffers, const Substep& step) {
+  if (awake_) awake_->list();
+  if (volume_) volume_->run(buffers);
+  if (spring_forces_) spring_forces_->run(buffers);
+  const gpu::Program& program = step.tools ? with_tools_ : plain_;
+  program.use();
+  setSubstep(program, buffers, step);
+  if (awake_)
+    awake_->dispatchNodes();
+  else
+    gpu::Program::dispatch(buffers.store.active_count, group_size_);
+  gpu::Program::storageBarrier();
+  if (awake_) awake_->passed(step);
+}
+
+}  // namespace viscera

@@ -1,0 +1,30 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+
+#include "solver/gpu/buffers/awake_bricks.h"
+#include "solver/gpu/forces/spring_force_pass.h"
+#include "solver/gpu/forces/volume_pass.h"
+#include "solver/gpu/steps/stepper.h"
+
+namespace viscera {
+
+/// Leapfrog on (u, v) with symmetric drag (physics.md 2). Owner of shaders/solver/step/leapfrog.comp.
+class LeapfrogPass : public Stepper {
+ public:
+  /// Compiles the kernel, with tools too where there are any.
+  /// @param awake  steps only these, and says when they were; null: steps all. Must outlive the pass
+  explicit LeapfrogPass(const FeatureSet& features, AwakeBricks* awake = nullptr);
+  void run(LatticeBuffers& buffers, const Substep& step) override;
+
+ private:
+  gpu::Program plain_, with_tools_;
+  std::optional<VolumePass> volume_;
+  std::optional<SpringForcePass> spring_forces_;
+  AwakeBricks* awake_;
+  uint32_t group_size_;
+};
+
+}  // namespace viscera

@@ -1,0 +1,165 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solver/ticks/stable_step.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "model/scene/integrators.h"
+#include "solver/tissue/joined_lattice.h"
+
+namespace viscera {
+
+namespace {
+
+/// Of Lanczos' method: the limit is found to 2 % then (test/solver/stable_step_gl_test.cpp).
+constexpr int kProducts = 20;
+/// Of the shortest spacing: forces are linear to as much, and float32 holds them to less.
+constexpr double kAmplitude = 1e-4;
+/// Any: velocities are what forces give in it.
+constexpr double kKick_s = 1e-4;
+/// Substep over the limit, and its dt_fraction. The dashpot leaves 0.87 and
+/// more (docs/physics.md 2, docs/stability.md).
+constexpr double kOfLimit = 0.82, kDefaultFraction = 0.75;
+/// Of the limit that the dashpot leaves.
+constexpr double kDashpotMargin = 0.94;
+/// strainFactor(): more than in any deformation tried (docs/physics.md 2).
+constexpr double kPerStretch = 0.4;
+
+/// Nodes that may move, with their masses.
+struct Movers {
+  std::vector<uint32_t> slots;
+  std::vector<double> mass_kg;
+  double spacing_m = std::numeric_limits<double>::infinity();
+};
+
+Movers moversOf(const Model& model) {
+  Movers out;
+  const Strengths strengths = allStrengths(model);
+  for (size_t b = 0; b < model.bodies.size(); ++b) {
+    const Lattice& lattice = model.bodies[b].lattice;
+    out.spacing_m = std::min(out.spacing_m, lattice.spacing_m);
+    for (const uint32_t local : lattice.active_slots) {
+      if (isFixed(lattice.nodes[local])) continue;
+      out.slots.push_back(model.slotOffset(b) + local);
+      out.mass_kg.push_back(static_cast<double>(strengths.mass_kg[out.slots.back()]));
+    }
+  }
+  return out;
+}
+
+/// M^-1 K of a backend's tissue at rest, of vectors with three numbers per mover.
+class Tissue {
+ public:
+  Tissue(SolverBackend& backend, const Model& model)
+      : backend_(backend), movers_(moversOf(model)), state_(backend.readState()) {}
+
+  Eigen::Index size() const { return static_cast<Eigen::Index>(3 * movers_.slots.size()); }
+
+  double dot(const Eigen::VectorXd& a, const Eigen::VectorXd& b) const {
+    double sum = 0;
+    for (size_t i = 0; i < movers_.slots.size(); ++i) {
+      const auto at = static_cast<Eigen::Index>(3 * i);
+      sum += movers_.mass_kg[i] * a.segment<3>(at).dot(b.segment<3>(at));
+    }
+    return sum;
+  }
+
+  Eigen::VectorXd product(const Eigen::VectorXd& way) {
+    const double scale = kAmplitude * movers_.spacing_m / way.cwiseAbs().maxCoeff();
+    for (size_t i = 0; i < movers_.slots.size(); ++i) {
+      const Vector3f u = (scale * way.segment<3>(static_cast<Eigen::Index>(3 * i))).cast<float>();
+      state_.displacement_m[movers_.slots[i]] = {u.x(), u.y(), u.z(), 0};
+    }
+    backend_.loadState(state_);
+    backend_.advance(kick(), false);
+    const HostState moved = backend_.readState();
+    Eigen::VectorXd out(size());
+    for (size_t i = 0; i < movers_.slots.size(); ++i) {
+      const layout::vec4& v = moved.velocity_m_per_s[movers_.slots[i]];
+      out.segment<3>(static_cast<Eigen::Index>(3 * i)) = -Vector3f(v.x, v.y, v.z).cast<double>() / (kKick_s * scale);
+    }
+    return out;
+  }
+
+ private:
+  static Substep kick() {
+    Substep step;
+    step.dt_s = step.kick_s = static_cast<float>(kKick_s);
+    step.sleep_distance_m = std::numeric_limits<float>::max();
+    step.restarted = true;
+    return step;
+  }
+
+  SolverBackend& backend_;
+  Movers movers_;
+  HostState state_;
+};
+
+/// Largest eigenvalue of a tridiagonal matrix, and what it may lack of that of the operator.
+double largestOf(const std::vector<double>& diagonal, const std::vector<double>& beside) {
+  const auto n = static_cast<Eigen::Index>(diagonal.size());
+  Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
+  solver.computeFromTridiagonal(Eigen::Map<const Eigen::VectorXd>(diagonal.data(), n),
+                                Eigen::Map<const Eigen::VectorXd>(beside.data(), n - 1));
+  return solver.eigenvalues()[n - 1] + beside.back() * std::abs(solver.eigenvectors()(n - 1, n - 1));
+}
+
+Eigen::VectorXd someWay(Eigen::Index size) {
+  std::minstd_rand random;  // the same on every machine
+  Eigen::VectorXd way(size);
+  for (double& x : way) x = static_cast<double>(random()) / static_cast<double>(std::minstd_rand::max()) - 0.5;
+  return way;
+}
+
+}  // namespace
+
+bool measuresLimit(const Model& model, const SolverConfig& config) {
+  const bool lattices = std::all_of(model.bodies.begin(), model.bodies.end(),
+                                    [](const Body& body) { return !body.network || body.network->of_lattice; });
+  return config.measured_limit && config.governor && config.substeps == 0 && traitsOf(config.integrator).shortens &&
+         lattices;
+}
+
+double measureLimit_s(SolverBackend& backend, const Model& model) {
+  backend.beginTick();
+  Tissue tissue(backend, model);
+  std::vector<double> diagonal, beside;
+  if (tissue.size() > 0) {
+    Eigen::VectorXd way = someWay(tissue.size()), before = Eigen::VectorXd::Zero(tissue.size());
+    way /= std::sqrt(tissue.dot(way, way));
+    double link = 0;
+    for (int i = 0; i < std::min<Eigen::Index>(kProducts, tissue.size()); ++i) {
+      Eigen::VectorXd next = tissue.product(way) - link * before;
+      diagonal.push_back(tissue.dot(way, next));
+      next -= diagonal.back() * way;
+      link = std::sqrt(tissue.dot(next, next));
+      beside.push_back(link);
+      if (!(link > 1e-9 * diagonal.back())) break;  // the ways span all that can swing
+      before = std::move(way);
+      way = next / link;
+    }
+  }
+  backend.resetState();
+  const double rate = diagonal.empty() ? 0 : largestOf(diagonal, beside);
+  return rate > 0 ? 2 / std::sqrt(rate) : std::numeric_limits<double>::infinity();
+}
+
+double strainFactor(double stretch) {
+  return 1 + kPerStretch * stretch;
+}
+
+double measuredSubstep_s(const SolverConfig& config, double dashpot_ratio, double dt_safe_s, double dt_limit_s,
+                         double stretch) {
+  const double proven_s = config.dt_fraction * dt_safe_s;
+  if (!std::isfinite(dt_limit_s) || !std::isfinite(dt_safe_s)) return proven_s;
+  // The dashpot's constant is that of dt_safe: of a slower fastest mode it is a smaller ratio.
+  const double largest = stableFraction(config.integrator, dashpot_ratio * dt_safe_s / dt_limit_s);
+  const double fraction = std::min(config.dt_fraction * (kOfLimit / kDefaultFraction), kDashpotMargin * largest);
+  return std::max(proven_s, fraction * dt_limit_s / strainFactor(stretch));
+}
+
+}  // namespace viscera

@@ -1,0 +1,28 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "solver/ticks/solver_backend.h"
+#include "viscera/model/model.h"
+
+namespace viscera {
+
+/// Does a scene take substeps as long as measured ones may be (solver.measured_limit)? Leapfrog under a governor, with
+/// substeps of its own choice, where all bodies are lattices.
+bool measuresLimit(const Model& model, const SolverConfig& config);
+
+/// Longest substep with which leapfrog is stable in tissue at rest [s]: 2 / omega_max, omega_max by Lanczos' method
+/// with the backend's own forces, and what that may still lack of it on top (Zhou and Li, Bounding the spectrum of
+/// large Hermitian matrices, 2011). The state is that of rest afterwards. Infinite where nothing can swing.
+double measureLimit_s(SolverBackend& backend, const Model& model);
+
+/// How much faster the fastest mode of strained tissue may be than at rest, at most (docs/physics.md 2).
+/// @param stretch  largest |L - l0| / l0, >= 0
+double strainFactor(double stretch);
+
+/// Substep that follows from a measured limit [s]: in proportion to dt_fraction, and never shorter than by dt_fraction.
+/// @param dashpot_ratio  xi, the largest of all bodies   @param stretch  as of strainFactor()
+double measuredSubstep_s(const SolverConfig& config, double dashpot_ratio, double dt_safe_s, double dt_limit_s,
+                         double stretch);
+
+}  // namespace viscera

@@ -1,0 +1,254 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solver/ticks/ticks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "math/float_bits.h"
+#include "model/scene/integrators.h"
+#include "solver/ticks/stable_step.h"
+#include "tools/motion_packing.h"
+#include "viscera/math/error.h"
+#include "viscera/solver/material.h"
+
+namespace viscera {
+
+namespace {
+
+constexpr size_t kFinishedKept = 3;    // ticks whose measurements wait to be asked for
+constexpr double kStretchSteps = 0.1;  // in which the substep follows the stretch
+constexpr double kWorthwhile = 1.01;   // a stable substep must have grown by this factor to be taken
+
+}  // namespace
+
+Ticks::Ticks(const Model& model, const Scene& scene, const TickPlan& plan, std::unique_ptr<SolverBackend> backend)
+    : model_(model),
+      backend_(std::move(backend)),
+      config_(scene.solver),
+      acts_(scene.styluses, plan.tick_s),
+      gravity_(scene.environment.gravity_m_per_s2.cast<float>()),
+      tick_s_(plan.tick_s),
+      dt_safe_s_(plan.dt_safe_s),
+      push_speed_m_per_s_(pushSpeed(model)),
+      dashpot_ratio_(largestDashpot(model)),
+      substeps_(plan.substeps),
+      recovery_substeps_(plan.recovery_substeps),
+      surroundings_(plan.surroundings) {
+  finished_.reserve(kFinishedKept);
+  if (measuresLimit(model, config_)) dt_limit_s_ = measureLimit_s(*backend_, model);
+  planAnew();
+  if (dt_limit_s_ > 0 && substeps_.calm > config_.max_substeps)
+    throw SceneError("a tick of 1/" + std::to_string(config_.tick_hz) + " s needs " + std::to_string(substeps_.calm) +
+                     " substeps (measured stable substep " + std::to_string(dt_limit_s_ * 1e6) + " us, proven " +
+                     std::to_string(dt_safe_s_ * 1e6) +
+                     " us), more than solver.max_substeps = " + std::to_string(config_.max_substeps) +
+                     ": use a larger spacing_m, a softer or heavier material, or raise solver.max_substeps");
+  if (plan.governed()) watch_.emplace(*backend_, newGovernor(), !traitsOf(config_.integrator).is_explicit, tick_s_);
+  if (plan.tools) motions_.reserve(static_cast<size_t>(plan.mostSubsteps()) * layout::kMaxStyluses);
+}
+
+Governor Ticks::newGovernor() const {
+  return Governor(governorLimits(model_, gravity_.norm(), config_.sleep_distance_m), tick_s_, config_.recovery_s);
+}
+
+void Ticks::step(const ToolMotions& motions, const ObstacleMotions& obstacles) {
+  const bool contacts = acts_.touch(motions), cuts = acts_.sever(motions);
+  chooseSubsteps();
+  backend_->beginTick();
+  acts_.beginTick(*backend_, motions);
+  if (surroundings_) {
+    surroundings_->beginTick(tick_s_, n_, obstacles);
+    backend_->beginSurroundings(*surroundings_);
+  }
+  if (contacts || cuts) {
+    interpolateMotions(motions, acts_.styluses(), n_, motions_);
+    for (layout::ToolMotion& motion : motions_) motion.timing.x = static_cast<float>(tick_s_ / n_);
+    for (size_t s = 0; s < layout::kMaxStyluses; ++s)
+      motions_[s].timing.x = static_cast<float>(restarted_ ? 0 : last_dt_s_);
+    backend_->writeMotions(motions_);
+  }
+  for (int s = 0; s < n_; ++s) {
+    if (contacts || cuts) backend_->selectMotions(static_cast<size_t>(s));
+    substep(s, motions, cuts, contacts);
+  }
+  substeps_done_ += static_cast<uint64_t>(n_);
+  if (cuts) ++cut_revision_;
+  const bool undone = watch_ && heed(watch_->judgeOpen());  // of the tick before, where the backend lags
+  measureTick(motions, contacts);
+  finishStats();
+  if (watch_) heed(watch_->endTick(motions, recovering_, undone, hasLongSubsteps()));
+}
+
+void Ticks::measureTick(const ToolMotions& motions, bool contacts) {
+  backend_->measure();
+  if (contacts) {
+    backend_->sumReactions({motions[0].to.position_m.cast<float>(), motions[1].to.position_m.cast<float>()});
+    acts_.endTick(*backend_, motions);
+  }
+  if (surroundings_ && surroundings_->obstacleCount() > 0) backend_->sumObstacles(surroundings_->obstaclePlaces());
+  if (watch_) watch_->guard(motions, recovering_);
+}
+
+void Ticks::chooseSubsteps() {
+  const bool recover = watch_ && watch_->health().recovering;
+  const bool strained = watch_ && watch_->health().strained;
+  restarted_ |= recover != recovering_;
+  recovering_ = recover;
+  n_ = recover ? recovery_substeps_ : strained ? substeps_.strained : calmSubsteps();
+}
+
+/// Of a tick in which the tissue is strained as little as it is now.
+int Ticks::calmSubsteps() const {
+  if (dt_limit_s_ == 0 || stretch_ == 0) return substeps_.calm;
+  const double dt_s = measuredSubstep_s(config_, dashpot_ratio_, dt_safe_s_, dt_limit_s_, stretch_);
+  return std::clamp(static_cast<int>(std::ceil(tick_s_ / dt_s)), substeps_.calm,
+                    std::max(substeps_.calm, substeps_.strained));
+}
+
+/// After dt_safe has changed.
+void Ticks::planAnew() {
+  SolverConfig config = config_;
+  config.max_substeps = std::numeric_limits<int>::max();  // what there may be was looked at at the start
+  substeps_ = planSubsteps(model_, config, dt_safe_s_, true);
+  if (dt_limit_s_ == 0) return;
+  const double dt_s = measuredSubstep_s(config_, dashpot_ratio_, dt_safe_s_, dt_limit_s_, 0);
+  substeps_.calm = std::max(1, static_cast<int>(std::ceil(tick_s_ / dt_s)));
+}
+
+void Ticks::substep(int index, const ToolMotions& motions, bool cuts, bool contacts) {
+  if (cuts) acts_.beforeSubstep(*backend_, motions);
+  const double dt_s = tick_s_ / n_;
+  Substep step;
+  step.dt_s = static_cast<float>(dt_s);
+  step.kick_s = static_cast<float>(restarted_ ? 0.5 * dt_s : 0.5 * (last_dt_s_ + dt_s));
+  step.gravity = gravity_;
+  step.sleep_distance_m = static_cast<float>(config_.sleep_distance_m);
+  step.push_speed_m_per_s = static_cast<float>(push_speed_m_per_s_);
+  step.tools = contacts;
+  step.restarted = restarted_;
+  step.index = index;
+  step.implicit = recovering_ || !traitsOf(config_.integrator).is_explicit;
+  step.resting_speed_m_per_s = restingSpeed(step);
+  if (surroundings_) {
+    step.obstacles = surroundings_->at(index).obstacles;
+    step.obstacle_count = static_cast<uint32_t>(surroundings_->obstacleCount());
+  }
+  if (surroundings_ && step.implicit && surroundings_->blows()) backend_->blow(step, *surroundings_);
+  backend_->advance(step, recovering_);
+  if (surroundings_ && (!step.implicit || surroundings_->features().collisions)) {
+    backend_->surround(step, *surroundings_);
+  }
+  restarted_ = false;
+  last_dt_s_ = dt_s;
+}
+
+void Ticks::reset() {
+  if (surroundings_) surroundings_->reset();
+  layout::TickStats old;
+  while (backend_->takeStats(old, true)) {
+  }
+  finished_.clear();
+  backend_->resetState();
+  restarted_ = true;
+  springs_cut_ = 0;
+  stretch_ = 0;
+  dt_safe_s_ = safeTimeStep(model_);
+  planAnew();
+  if (watch_) watch_->reset(newGovernor());
+  ++cut_revision_;
+  if (start_) writeState(*start_);
+}
+
+void Ticks::startFrom(HostState state) {
+  start_ = std::move(state);
+  writeState(*start_);
+}
+
+void Ticks::writeState(const HostState& state, bool staggered) {
+  if (watch_) heed(watch_->judgeOpen());
+  backend_->loadState(state);
+  restarted_ = !staggered || traitsOf(config_.integrator).own_positions;
+  if (staggered && last_dt_s_ == 0) last_dt_s_ = dt_s();
+  if (staggered) recovering_ = false;
+  ++cut_revision_;
+  if (watch_) noteStretch(watch_->restart());
+}
+
+bool Ticks::readCuts(CutState& out) const {
+  if (!out.nodes.empty() && out.revision == cut_revision_) return false;
+  backend_->readCuts(out);
+  out.revision = cut_revision_;
+  return true;
+}
+
+/// Sends a tick's measurements on their way. Where the backend is as many ticks behind as it may be, waiting here is
+/// what keeps the two together.
+void Ticks::finishStats() {
+  if (backend_->requestStats()) return;
+  layout::TickStats oldest;
+  backend_->takeStats(oldest, true);
+  keepStats(oldest);
+  backend_->requestStats();
+}
+
+/// Of more than kFinishedKept that were not asked for, the oldest is forgotten.
+void Ticks::keepStats(const layout::TickStats& stats) {
+  if (finished_.size() == kFinishedKept) finished_.erase(finished_.begin());
+  finished_.push_back(stats);
+}
+
+/// Does what follows from a verdict. @returns whether there was a rollback
+bool Ticks::heed(const Watch::Verdict& verdict) {
+  if (verdict.published) keepStats(*verdict.published);
+  if (verdict.good) {
+    noteStretch(*verdict.good);
+    relaxSubsteps(*verdict.good);
+  }
+  restarted_ |= verdict.rolled_back;
+  return verdict.rolled_back;
+}
+
+/// Rounded down: substeps that change in every tick make small forces flicker, and there is a margin for that.
+void Ticks::noteStretch(const layout::TickStats& stats) {
+  stretch_ = std::floor(static_cast<double>(floatFromBits(stats.max_stretch_bits)) / kStretchSteps) * kStretchSteps;
+}
+
+bool Ticks::hasLongSubsteps() const {
+  return dt_limit_s_ > 0 && !recovering_ && tick_s_ / n_ > config_.dt_fraction * dt_safe_s_;
+}
+
+/// A cut takes springs and no mass, so the stable substep can only grow.
+void Ticks::relaxSubsteps(const layout::TickStats& stats) {
+  if (stats.springs_cut == springs_cut_) return;
+  springs_cut_ = stats.springs_cut;
+  const float rate = floatFromBits(stats.max_rate_bits);
+  if (rate <= 0) return;
+  const double dt_safe_s = 2 / std::sqrt(static_cast<double>(rate));
+  if (dt_safe_s < kWorthwhile * dt_safe_s_) return;
+  dt_safe_s_ = dt_safe_s;
+  planAnew();
+}
+
+double Ticks::velocityLag_s() {
+  if (watch_ && watch_->openIsBad()) return 0;  // the state was put back already
+  const bool lags = traitsOf(config_.integrator).staggered && !recovering_ && !restarted_;
+  return lags ? 0.5 * last_dt_s_ : 0;
+}
+
+const Health& Ticks::health() const {
+  static const Health kUnwatched;
+  return watch_ ? watch_->health() : kUnwatched;
+}
+
+bool Ticks::pollStats(layout::TickStats& stats, bool wait) {
+  if (!finished_.empty()) {
+    stats = finished_.front();
+    finished_.erase(finished_.begin());
+    return true;
+  }
+  return watch_ ? watch_->poll(stats, wait) : backend_->takeStats(stats, wait);
+}
+
+}  // namespace viscera

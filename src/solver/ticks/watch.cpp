@@ -1,0 +1,126 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solver/ticks/watch.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace viscera {
+
+namespace {
+
+/// Work on the tissue [J]: the force of each tool, mean over the tick, along its way. Exact where all nodes that it
+/// moves go its way at one speed.
+double workOfTools(const layout::TickStats& stats, const ToolMotions& motions, double tick_s) {
+  double work = 0;
+  for (size_t s = 0; s < motions.size(); ++s) {
+    const Vector3d impulse(stats.impulse[s].x, stats.impulse[s].y, stats.impulse[s].z);
+    const double part = impulse.dot(motions[s].to.position_m - motions[s].from.position_m) / tick_s;
+    if (std::isfinite(part)) work += std::max(0.0, part);
+  }
+  return work;
+}
+
+}  // namespace
+
+Watch::Watch(SolverBackend& backend, const Governor& governor, bool implicit, double tick_s)
+    : backend_(backend), governor_(governor), implicit_(implicit), tick_s_(tick_s) {}
+
+void Watch::guard(const ToolMotions& motions, bool recovering) {
+  if (backend_.lag() > 0) backend_.guard(governor_.bounds(isImplicit(recovering)), motions, tick_s_);
+}
+
+Watch::Verdict Watch::endTick(const ToolMotions& motions, bool recovering, bool undone, bool long_substeps) {
+  OpenTick tick;
+  tick.motions = motions;
+  tick.recovering = recovering;
+  tick.undone = undone;
+  tick.long_substeps = long_substeps;
+  open_ = tick;
+  Verdict verdict;
+  if (!undone && backend_.lag() == 0) verdict = judgeOpen();
+  if (!undone && !verdict.rolled_back) backend_.saveGood();
+  return verdict;
+}
+
+/// Have the open tick's measurements come?
+bool Watch::receive(bool wait) {
+  if (open_->stats) return true;
+  layout::TickStats stats;
+  if (!backend_.takeStats(stats, wait)) return false;
+  open_->stats = stats;
+  return true;
+}
+
+/// Of the open tick, whose measurements have come.
+bool Watch::isBad() const {
+  const double work_j = workOfTools(*open_->stats, open_->motions, tick_s_);
+  return open_->undone ||
+         governor_.inspect(*open_->stats, isImplicit(open_->recovering), work_j) != Governor::Trip::kNone;
+}
+
+/// What others are told of the open tick: nothing that is bad, and no force while the tissue is not itself.
+layout::TickStats Watch::published() const {
+  const bool bad = isBad();
+  layout::TickStats out = bad ? last_good_ : *open_->stats;
+  out.springs_cut = open_->stats->springs_cut;
+  if (!bad && !open_->recovering) return out;
+  for (uint32_t s = 0; s < layout::kMaxStyluses; ++s) out.impulse[s] = out.angular[s] = {};
+  for (uint32_t o = 0; o < layout::kMaxObstacles; ++o) out.obstacle_impulse[o] = out.obstacle_angular[o] = {};
+  return out;
+}
+
+Watch::Verdict Watch::judgeOpen() {
+  Verdict verdict;
+  if (!open_) return verdict;
+  receive(true);
+  if (!open_->delivered) verdict.published = published();
+  const OpenTick tick = *open_;
+  open_.reset();
+  if (tick.undone) return verdict;
+  const double work_j = workOfTools(*tick.stats, tick.motions, tick_s_);
+  if (governor_.judge(*tick.stats, isImplicit(tick.recovering), work_j, tick.long_substeps) == Governor::Trip::kNone) {
+    last_good_ = *tick.stats;
+    verdict.good = tick.stats;
+    return verdict;
+  }
+  backend_.restoreGood(governor_.setbacks() - 1 + backend_.lag());
+  verdict.rolled_back = true;
+  return verdict;
+}
+
+bool Watch::openIsBad() {
+  if (!open_) return false;
+  receive(true);
+  return isBad();
+}
+
+bool Watch::poll(layout::TickStats& stats, bool wait) {
+  if (!open_ || open_->delivered || !receive(wait)) return false;
+  open_->delivered = true;
+  stats = published();
+  return true;
+}
+
+const layout::TickStats& Watch::restart() {
+  backend_.measure();
+  backend_.requestStats();
+  backend_.takeStats(last_good_, true);
+  governor_.restart(last_good_);
+  keepOnlyCurrent();
+  return last_good_;
+}
+
+void Watch::reset(const Governor& governor) {
+  open_.reset();
+  governor_ = governor;
+  last_good_ = {};
+  keepOnlyCurrent();
+}
+
+void Watch::keepOnlyCurrent() {
+  backend_.clearGood();
+  backend_.saveGood();
+}
+
+}  // namespace viscera

@@ -1,0 +1,51 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solver/tissue/features.h"
+
+#include <algorithm>
+
+#include "model/scene/tool_kinds.h"
+#include "solver/tissue/substeps.h"
+#include "viscera/solver/material.h"
+
+namespace viscera {
+
+uint32_t contactRows(bool tools, uint32_t obstacles) {
+  return std::min<uint32_t>(layout::kMostContacts, (tools ? layout::kMaxStyluses : 0) + obstacles);
+}
+
+std::vector<std::string> FeatureSet::defines() const {
+  std::vector<std::string> out = {"GROUP_SIZE " + std::to_string(group_size), "TEXELS"};
+  if (lattice) out.push_back("LATTICE");
+  if (network) out.push_back("NETWORK");
+  if (edge_forces) out.push_back("EDGE_FORCES");
+  if (dashpot) out.push_back("DASHPOT");
+  if (volume) out.push_back("VOLUME");
+  if (moments) out.push_back("MOMENTS");
+  if (parts) out.push_back("PARTS");
+  if (compensated) out.push_back("COMPENSATED");
+  if (single_body) out.push_back("SINGLE_BODY");
+  if (cuts && lattice) out.push_back("RECORD");
+  return out;
+}
+
+FeatureSet featuresOf(const Model& model, const Scene& scene, double dt_s, uint32_t group_size) {
+  FeatureSet features;
+  features.group_size = group_size;
+  features.single_body = model.bodies.size() == 1;
+  features.lattice = model.hasLattice();
+  features.network = model.hasNetwork();
+  features.edge_forces = features.network && scene.solver.spring_forces == SpringForces::kEdge &&
+                         traitsOf(scene.solver.integrator).takes_edge_forces;
+  features.moments = hasMoments(model);
+  features.volume = features.moments || hasVolumeEnergy(model);
+  features.parts = isHeterogeneous(model);
+  features.compensated = isCompensated(scene.solver, dt_s);
+  features.tools = !scene.styluses.empty();
+  features.cuts = maySever(scene.styluses);
+  features.obstacles = static_cast<uint32_t>(scene.obstacles.size());
+  for (const Body& body : model.bodies) features.dashpot |= body.material.dashpot_ratio > 0;
+  return features;
+}
+
+}  // namespace viscera

@@ -1,0 +1,148 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solver/tissue/joined_lattice.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "layout/surface_ways.h"
+
+namespace viscera {
+
+namespace {
+
+void append(std::vector<float>& to, const std::vector<float>& from) {
+  to.insert(to.end(), from.begin(), from.end());
+}
+
+}  // namespace
+
+std::vector<uint32_t> activeSlots(const Model& model) {
+  std::vector<uint32_t> out;
+  out.reserve(model.activeNodes());
+  for (size_t b = 0; b < model.bodies.size(); ++b) {
+    for (uint32_t slot : model.bodies[b].lattice.active_slots) out.push_back(model.slotOffset(b) + slot);
+  }
+  return out;
+}
+
+std::vector<uint32_t> cellSlots(const Model& model) {
+  std::vector<uint32_t> out;
+  for (size_t b = 0; b < model.bodies.size(); ++b) {
+    const Lattice& lattice = model.bodies[b].lattice;
+    for (uint32_t slot : lattice.active_slots) {
+      if (lattice.nodes[slot].lo & layout::kCellBit) out.push_back(model.slotOffset(b) + slot);
+    }
+  }
+  return out;
+}
+
+std::vector<layout::Brick> allBricks(const Model& model) {
+  std::vector<layout::Brick> out;
+  for (size_t b = 0; b < model.bodies.size(); ++b) {
+    const uint32_t first = static_cast<uint32_t>(out.size());
+    for (layout::Brick brick : model.bodies[b].lattice.bricks) {
+      brick.body = static_cast<uint32_t>(b);
+      for (uint32_t& neighbor : brick.neighbors) neighbor += first;
+      out.push_back(brick);
+    }
+  }
+  return out;
+}
+
+std::vector<layout::NodeBits> allNodes(const Model& model) {
+  std::vector<layout::NodeBits> out;
+  out.reserve(model.slots());
+  for (size_t b = 0; b < model.bodies.size(); ++b) {
+    for (layout::NodeBits bits : model.bodies[b].lattice.nodes) {
+      bits.hi |= static_cast<uint32_t>(b) << layout::kBodyShift;
+      out.push_back(bits);
+    }
+  }
+  return out;
+}
+
+Strengths allStrengths(const Model& model) {
+  Strengths out;
+  for (const Body& body : model.bodies) {
+    const Strengths table = strengths(body);
+    append(out.spring_n_per_m, table.spring_n_per_m);
+    append(out.mass_kg, table.mass_kg);
+    append(out.bulk_j, table.bulk_j);
+    append(out.rigidity_j, table.rigidity_j);
+    out.rigidity_j.resize(out.bulk_j.size());
+  }
+  return out;
+}
+
+namespace {
+
+/// A word of surface_ways.h.
+uint32_t packedWay(const Lattice& lattice, uint32_t slot) {
+  const Vector3d cells = lattice.way_to_surface_m[slot].cast<double>() / lattice.spacing_m;
+  uint32_t word = 0;
+  bool any = false;
+  for (int axis = 0; axis < 3; ++axis) {
+    const long steps =
+        std::clamp(std::lround(cells[axis] / layout::kWayStep), 1l - layout::kWayZero, layout::kWayZero - 1l);
+    word |= static_cast<uint32_t>(steps + layout::kWayZero) << (layout::kWayBits * static_cast<uint32_t>(axis));
+    if (steps == 0) continue;
+    any = true;
+    Vector3i beside = lattice.nodeAt(slot);
+    beside[axis] += steps > 0 ? 1 : -1;
+    if (lattice.slotAt(beside) >= 0) word |= layout::kWayEdgeBit << static_cast<uint32_t>(axis);
+  }
+  return any ? word : 0;
+}
+
+/// A number per slot, of nodes of bodies with cells that are tissue in part; 0 elsewhere, empty without such bodies.
+/// @param numberOf  lattice, its slot -> number
+template <class Number, class NumberOf>
+std::vector<Number> atSurface(const Model& model, NumberOf numberOf) {
+  std::vector<Number> out;
+  for (size_t b = 0; b < model.bodies.size(); ++b) {
+    const Lattice& lattice = model.bodies[b].lattice;
+    if (lattice.depth_m.empty()) continue;
+    out.resize(model.slots(), 0);
+    for (const uint32_t slot : lattice.active_slots) out[model.slotOffset(b) + slot] = numberOf(lattice, slot);
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<float> surfaceDepths(const Model& model) {
+  return atSurface<float>(model, [](const Lattice& lattice, uint32_t slot) {
+    return lattice.depth_m[slot] < 0.5 * lattice.spacing_m ? lattice.depth_m[slot] : 0.0f;
+  });
+}
+
+std::vector<uint32_t> surfaceWays(const Model& model) {
+  return atSurface<uint32_t>(model, packedWay);
+}
+
+JoinedMoments allMoments(const Model& model) {
+  JoinedMoments out;
+  out.add(CellFill{});
+  for (size_t b = 0; b < model.bodies.size(); ++b) {
+    const Lattice& lattice = model.bodies[b].lattice;
+    const auto before = static_cast<uint32_t>(out.vectors.size() / kVectorsPerFill - 1);
+    for (const uint32_t fill : lattice.cell_fills) out.of_cell.push_back(fill == 0 ? 0 : before + fill);
+    out.of_cell.resize(model.slotOffset(b) + lattice.nodes.size());
+    for (const CellFill& fill : lattice.fills) out.add(fill);
+  }
+  return out;
+}
+
+void JoinedMoments::add(const CellFill& fill) {
+  const auto packed = [&](double x, double y, double z) {
+    vectors.push_back({static_cast<float>(x / fill.share), static_cast<float>(y / fill.share),
+                       static_cast<float>(z / fill.share), 0});
+  };
+  const Eigen::Matrix3d& m = fill.second;
+  packed(fill.first.x(), fill.first.y(), fill.first.z());
+  packed(m(0, 0), m(1, 1), m(2, 2));
+  packed(m(1, 2), m(2, 0), m(0, 1));
+}
+
+}  // namespace viscera

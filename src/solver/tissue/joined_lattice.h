@@ -1,0 +1,46 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "viscera/model/model.h"
+#include "viscera/solver/material.h"
+
+namespace viscera {
+
+// The lattices of all bodies of a model as one, as every backend holds it: slots of body b behind those of the bodies
+// before it.
+
+/// [active] slots of nodes, ascending
+std::vector<uint32_t> activeSlots(const Model& model);
+/// [cells] slots of the lowest corners of filled cells, ascending
+std::vector<uint32_t> cellSlots(const Model& model);
+/// [bricks] neighbours numbered over all bodies
+std::vector<layout::Brick> allBricks(const Model& model);
+/// [slots] whole springs, nothing held, with the body's index
+std::vector<layout::NodeBits> allNodes(const Model& model);
+/// strengths() of all bodies: spring_n_per_m [9 * slots], mass_kg [slots], bulk_j [slots], rigidity_j
+/// [slots], 0 in bodies whose cells resist by springs alone
+Strengths allStrengths(const Model& model);
+
+/// Moments of the cells of all bodies over their shares (shaders/solver/tissue/moments.glsl).
+struct JoinedMoments {
+  std::vector<uint32_t> of_cell;      ///< [slots] which moments the cell above a node has; 0: those of a full one
+  std::vector<layout::vec4> vectors;  ///< [kVectorsPerFill * fills] xyz: of p; of its squares; of yz, zx, xy
+
+  void add(const CellFill& fill);
+};
+constexpr size_t kVectorsPerFill = 3;
+JoinedMoments allMoments(const Model& model);
+
+/// [slots] how deep nodes lie below the surface of their tissue [m], negative outside, where tools and obstacles are to
+/// know it: in bodies with cells that are tissue in part, of nodes less than half a cell deep; 0 elsewhere. Empty
+/// without such bodies. Deeper nodes are met as they are: the tissue above them would be as if it were rigid.
+std::vector<float> surfaceDepths(const Model& model);
+
+/// [slots] from nodes outside of their tissue to its surface, a word each (shaders/layout/surface_ways.h); empty where
+/// no body has cells that are tissue in part.
+std::vector<uint32_t> surfaceWays(const Model& model);
+
+}  // namespace viscera

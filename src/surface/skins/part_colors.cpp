@@ -1,0 +1,83 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "surface/skins/part_colors.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace viscera {
+
+namespace {
+
+// Multiples of the plastic number's powers spread over the square without clusters.
+constexpr double kShadeStep = 0.7548776662466927;
+constexpr double kTintStep = 0.5698402909980532;
+constexpr double kShadeRange = 0.16;  // lightness of parts differs by at most +-16 %
+constexpr double kTintRange = 0.10;   // red against blue by at most +-10 %
+constexpr uint16_t kNoPart = UINT16_MAX;
+
+/// The part's place in a sequence that fills -1..1 evenly; part 0 is at 0.
+double spread(double step, size_t part) {
+  const double turns = step * static_cast<double>(part) + 0.5;
+  return 2 * (turns - std::floor(turns)) - 1;
+}
+
+uint32_t rgba8(const Vector3d& color, uint32_t alpha) {
+  uint32_t packed = alpha << 24;
+  for (int c = 0; c < 3; ++c) {
+    packed |= static_cast<uint32_t>(std::lround(255 * std::clamp(color[c], 0.0, 1.0))) << (8 * c);
+  }
+  return packed;
+}
+
+}  // namespace
+
+Vector3d partColor(const Vector3d& organ_color, size_t part) {
+  const double shade = 1 + kShadeRange * spread(kShadeStep, part);
+  const double tint = kTintRange * spread(kTintStep, part);
+  const Vector3d color = shade * organ_color.cwiseProduct(Vector3d(1 + tint, 1, 1 - tint));
+  return color.cwiseMax(0.0).cwiseMin(1.0);
+}
+
+namespace {
+
+double srgb(float linear) {
+  return linear <= 0.0031308F ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
+}
+
+/// What the mesh's file says of a part, if anything.
+const SurfaceMaterial* materialOf(const SurfaceDetail* detail, size_t part) {
+  if (detail == nullptr || part >= detail->part_materials.size()) return nullptr;
+  const uint32_t material = detail->part_materials[part];
+  if (material == kNoChart || !detail->materials[material].has_color) return nullptr;
+  return &detail->materials[material];
+}
+
+/// Colours of all parts. Parts of one material differ by partColor(), or an organ of one colour would be one lump.
+std::vector<Vector3d> partColors(const TriangleMesh& mesh, const Vector3d& organ_color) {
+  std::vector<Vector3d> out;
+  for (size_t part = 0; part < std::max<size_t>(mesh.part_names.size(), 1); ++part) {
+    const SurfaceMaterial* const own = materialOf(mesh.detail.get(), part);
+    const Vector3d color = own ? Vector3d(srgb(own->color[0]), srgb(own->color[1]), srgb(own->color[2])) : organ_color;
+    const bool textured = own != nullptr && own->hasTexture();
+    out.push_back(textured ? color : partColor(color, part));
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<uint32_t> vertexColors(const TriangleMesh& mesh, const Vector3d& organ_color, bool two_sided,
+                                   uint32_t body) {
+  std::vector<uint16_t> parts(mesh.positions_m.size(), kNoPart);
+  for (size_t t = 0; t < mesh.triangles.size(); ++t) {
+    for (uint32_t v : mesh.triangles[t]) parts[v] = std::min(parts[v], mesh.parts[t]);
+  }
+  const std::vector<Vector3d> of_part = partColors(mesh, organ_color);
+  std::vector<uint32_t> colors;
+  colors.reserve(parts.size());
+  for (uint16_t part : parts) colors.push_back(rgba8(of_part[part == kNoPart ? 0 : part], skinAlpha(body, two_sided)));
+  return colors;
+}
+
+}  // namespace viscera

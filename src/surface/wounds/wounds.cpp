@@ -1,0 +1,224 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "surface/wounds/wounds.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <utility>
+
+#include "surface/skins/keep_room.h"
+#include "surface/skins/part_colors.h"
+#include "viscera/surface/shown_mesh.h"
+
+namespace viscera {
+
+namespace {
+
+uint32_t rgba(const Vector3d& color, uint32_t body) {
+  uint32_t out = wallAlpha(body) << 24U;
+  for (int i = 0; i < 3; ++i) {
+    out |= static_cast<uint32_t>(std::lround(255 * std::clamp(color[i], 0.0, 1.0))) << (8 * i);
+  }
+  return out;
+}
+
+bool hasTetrahedra(const Body& body) {
+  return isOneToOne(body) && !body.network->tetrahedra.empty();
+}
+
+bool canBeWounded(const Body& body) {
+  return body.skin.can_be_cut && (!isOneToOne(body) || hasTetrahedra(body));
+}
+
+}  // namespace
+
+bool Wounds::possible(const Model& model) {
+  return std::any_of(model.bodies.begin(), model.bodies.end(), canBeWounded);
+}
+
+bool Wounds::ofTetrahedra(const Model& model) {
+  return std::any_of(model.bodies.begin(), model.bodies.end(),
+                     [](const Body& body) { return hasTetrahedra(body) && canBeWounded(body); });
+}
+
+Wounds::Wounds(const Model& model, const JoinedSkins& skins)
+    : slots_(model.slots()),
+      whole_bindings_(skins.bindings),
+      bindings_(skins.bindings),
+      whole_colors_(skins.colors),
+      colors_(skins.colors) {
+  uint32_t vertex = 0, spring = 0;
+  for (size_t b = 0; b < model.bodies.size(); ++b) {
+    const Body& body = model.bodies[b];
+    Place place;
+    place.slot = model.slotOffset(b);
+    place.vertex = vertex;
+    place.spring = spring;
+    place.color = body.color;
+    place.origin_m = body.lattice.origin_m;
+    place.spacing_m = body.lattice.spacing_m;
+    place.number = static_cast<uint32_t>(b);
+    if (canBeWounded(body) && hasTetrahedra(body)) {
+      place.tetrahedra = std::make_unique<TetrahedraWound>(body.skin, *body.network);
+    } else if (canBeWounded(body)) {
+      place.wound = std::make_unique<BodyWound>(body.skin, body.lattice);
+      place.depths = std::make_unique<WoundDepths>(body.skin, body.lattice);
+    }
+    places_.push_back(std::move(place));
+    vertex += static_cast<uint32_t>(body.skin.bindings.size() + 2 * body.skin.split_edges.size());
+    if (body.network) spring += static_cast<uint32_t>(body.network->springs.size());
+  }
+  reset();
+}
+
+void Wounds::reset() {
+  springs_.clear();
+  forget();
+  for (const Place& place : places_) {
+    if (place.wound) place.wound->makeWhole();
+  }
+  shown_ = next();
+}
+
+/// Skins are whole again.
+void Wounds::forget() {
+  for (const Place& place : places_) {
+    if (!place.wound) continue;
+    for (const uint32_t own : place.wound->rebound())
+      bindings_[place.vertex + own] = whole_bindings_[place.vertex + own];
+  }
+  bindings_.resize(whole_bindings_.size());
+  colors_.resize(whole_colors_.size());
+  added_rests_.clear();
+}
+
+/// One that is not shown any more, with its memory, or a new one; all bodies in it are whole.
+std::shared_ptr<ShownWounds> Wounds::next() {
+  const auto is_free = [](const std::shared_ptr<ShownWounds>& wounds) { return wounds.use_count() == 1; };
+  shown_.reset();
+  auto found = std::find_if(kept_.begin(), kept_.end(), is_free);
+  if (found == kept_.end()) found = kept_.insert(kept_.end(), std::make_shared<ShownWounds>());
+  std::atomic_thread_fence(std::memory_order_acquire);  // who let go of it has read it
+  ShownWounds& out = **found;
+  out.revision = revisions_++;
+  out.vertices = bindings_.size();
+  out.holes = out.slivers = 0;
+  out.bodies.resize(places_.size());
+  for (ShownWounds::OfBody& body : out.bodies) {
+    body.wounded = false;
+    body.skin.clear();
+    body.walls.clear();
+    body.skin_sources.clear();
+    body.replaced.clear();
+  }
+  return *found;
+}
+
+/// Vertices of a wound are the body's own, then those that it has added, which follow all others here.
+template <class Wound>
+void Wounds::appendTriangles(const Place& place, const Wound& wound, ShownWounds::OfBody& out) const {
+  const auto own = static_cast<uint32_t>(wound.ownVertices()), first_added = static_cast<uint32_t>(bindings_.size());
+  const auto number = [&](const std::vector<uint32_t>& triangles, std::vector<uint32_t>& all) {
+    keepRoom(all, triangles.size());
+    all = triangles;
+    for (uint32_t& vertex : all) vertex = vertex < own ? place.vertex + vertex : first_added + (vertex - own);
+  };
+  out.wounded = true;
+  number(wound.skinTriangles(), out.skin);
+  number(wound.wallTriangles(), out.walls);
+  keepRoom(out.skin_sources, wound.skinSources().size());
+  out.skin_sources = wound.skinSources();
+}
+
+/// A binding of a body among those of all.
+layout::SkinBinding Wounds::numbered(const Place& place, layout::SkinBinding binding) const {
+  binding.slot0 += place.slot;
+  binding.slot1 += place.slot;
+  binding.slot2 += place.slot;
+  if (place.tetrahedra && (binding.springs & layout::kCopiedNormalMask) != 0) binding.springs += place.vertex;
+  return binding;
+}
+
+void Wounds::append(Place& place, ShownWounds::OfBody& out) {
+  const BodyWound& wound = *place.wound;
+  const auto own = static_cast<uint32_t>(wound.ownVertices());
+  appendTriangles(place, wound, out);
+  for (const uint32_t vertex : wound.rebound())
+    bindings_[place.vertex + vertex] = numbered(place, wound.bindings()[vertex]);
+  for (size_t v = own; v < wound.bindings().size(); ++v) bindings_.push_back(numbered(place, wound.bindings()[v]));
+  for (const WoundVertex& vertex : wound.lipVertices()) {
+    colors_.push_back(whole_colors_[place.vertex + vertex.skin_vertex]);
+    addRest(place, vertex, 0);
+  }
+  const uint32_t flesh = rgba(woundColor(place.color), place.number);
+  const std::vector<WoundVertex>& walls = wound.wallVertices();
+  keepRoom(place.wall_depths_m, walls.size());
+  place.wall_depths_m.resize(walls.size());
+  for (const uint32_t v : wound.changedWalls())
+    place.wall_depths_m[v] = walls[v].skin_vertex == WoundVertex::kNone ? place.depths->at(walls[v].point) : 0;
+  for (size_t v = 0; v < walls.size(); ++v) {
+    colors_.push_back(flesh);
+    addRest(place, walls[v], place.wall_depths_m[v]);
+  }
+}
+
+void Wounds::appendTetrahedra(const Place& place, ShownWounds::OfBody& out) {
+  const TetrahedraWound& wound = *place.tetrahedra;
+  appendTriangles(place, wound, out);
+  keepRoom(out.replaced, wound.replaced().size());
+  out.replaced = wound.replaced();
+  const uint32_t flesh = rgba(woundColor(place.color), place.number);
+  for (const TetrahedraWound::Vertex& vertex : wound.added()) {
+    const bool is_wall = vertex.like == UINT32_MAX;
+    const Vector3f at = vertex.rest_m.cast<float>();
+    bindings_.push_back(numbered(place, vertex.binding));
+    colors_.push_back(is_wall ? flesh : whole_colors_[place.vertex + vertex.like]);
+    added_rests_.push_back({at.x(), at.y(), at.z(), is_wall ? static_cast<float>(vertex.depth_m) : 0});
+  }
+}
+
+void Wounds::addRest(const Place& place, const WoundVertex& vertex, double depth_m) {
+  const Vector3f at = (place.origin_m + place.spacing_m * vertex.point).cast<float>();
+  added_rests_.push_back({at.x(), at.y(), at.z(), static_cast<float>(depth_m)});
+}
+
+/// Are these the springs of the last update? A blade that moves through the air changes none.
+bool Wounds::isKnown(const layout::NodeBits* nodes) {
+  const bool first = springs_.empty();
+  springs_.resize(slots_);
+  bool known = !first;
+  for (size_t slot = 0; slot < slots_; ++slot) {
+    const layout::NodeBits now = {nodes[slot].lo & (layout::kAxialMask | layout::kSeveredBit),
+                                  nodes[slot].hi & layout::kDiagonalMask};
+    known = known && now.lo == springs_[slot].lo && now.hi == springs_[slot].hi;
+    springs_[slot] = now;
+  }
+  return known;
+}
+
+bool Wounds::update(const CutSprings& cuts) {
+  if (isKnown(cuts.nodes.data())) return false;
+  forget();
+  const std::shared_ptr<ShownWounds> now = next();
+  const float* const axial_cut = cuts.axial_cut.empty() ? nullptr : cuts.axial_cut.data();
+  for (size_t b = 0; b < places_.size(); ++b) {
+    Place& place = places_[b];
+    const layout::NodeBits* const nodes = cuts.nodes.data() + place.slot;
+    if (place.tetrahedra) {
+      place.tetrahedra->update(nodes, cuts.spring_cut.data() + place.spring);
+      if (place.tetrahedra->any()) appendTetrahedra(place, now->bodies[b]);
+    }
+    if (!place.wound) continue;
+    place.wound->update(nodes, axial_cut ? axial_cut + 3 * size_t{place.slot} : nullptr);
+    if (!place.wound->any()) continue;
+    append(place, now->bodies[b]);
+    now->holes += place.wound->holes();
+    now->slivers += place.wound->slivers();
+  }
+  now->vertices = bindings_.size();
+  shown_ = now;
+  return true;
+}
+
+}  // namespace viscera

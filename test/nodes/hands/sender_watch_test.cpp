@@ -1,0 +1,34 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/hands/sender_watch.h"
+
+#include <gtest/gtest.h>
+
+namespace viscera::nodes {
+namespace {
+
+SenderWatch::SteadyTime at(double time_s) {
+  static const SenderWatch::SteadyTime start = std::chrono::steady_clock::now();
+  return start + std::chrono::duration_cast<SenderWatch::SteadyTime::duration>(std::chrono::duration<double>(time_s));
+}
+
+TEST(SenderWatch, NamesNodesThatSendAtTheSameTimeAndSaysSoOnce) {
+  SenderWatch watch;
+  EXPECT_FALSE(watch.note("/driver", at(0)));
+  EXPECT_FALSE(watch.note("/driver", at(0.1)));
+  EXPECT_EQ(watch.several(at(0.1)), "");
+  EXPECT_TRUE(watch.note("/replay", at(0.2)));
+  EXPECT_FALSE(watch.note("/driver", at(0.3)));
+  EXPECT_EQ(watch.several(at(0.3)), "/driver, /replay");
+  EXPECT_EQ(watch.several(at(5)), "");
+}
+
+TEST(SenderWatch, DriverThatTakesOverFromAnotherIsNoTrouble) {
+  SenderWatch watch;
+  watch.note("/driver_1", at(0));
+  EXPECT_FALSE(watch.note("/driver_2", at(2)));
+  EXPECT_EQ(watch.several(at(2)), "");
+}
+
+}  // namespace
+}  // namespace viscera::nodes

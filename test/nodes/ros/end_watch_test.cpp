@@ -1,0 +1,113 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/ros/end_watch.h"
+
+#include <gtest/gtest.h>
+#include <ros/init.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <csignal>
+#include <thread>
+
+#include "nodes/ros/thread_name.h"
+
+// What a process does in its last moments: each test is one that ends, and says "zero" as a device's last.
+
+namespace viscera::nodes {
+namespace {
+
+using std::chrono::milliseconds;
+constexpr milliseconds kOnTheWay{30};  ///< what zeros take in these tests: less than a crash waits for them
+
+class EndWatchDeathTest : public ::testing::Test {
+ protected:
+  void SetUp() override { ::testing::FLAGS_gtest_death_test_style = "threadsafe"; }
+};
+
+void sayZero() {
+  constexpr char kZero[] = "zero\n";
+  if (write(STDERR_FILENO, kZero, sizeof kZero - 1) < 0) std::_Exit(EXIT_FAILURE);
+}
+
+/// Needs more stack than there is.
+int descend(int depth) {
+  volatile char room[4096];
+  room[0] = static_cast<char>(depth);
+  return depth == 0 ? 0 : descend(depth - 1) + room[0];
+}
+
+void overflow() {
+  std::_Exit(descend(1'000'000'000));
+}
+
+TEST_F(EndWatchDeathTest, StackOverflowOfTheMainThreadReleases) {
+  const auto die = [] {
+    EndWatch end;
+    const EndWatch::Act act(end, sayZero);
+    overflow();
+  };
+  EXPECT_EXIT(die(), ::testing::KilledBySignal(SIGSEGV), "zero");
+}
+
+TEST_F(EndWatchDeathTest, StackOverflowOfAThreadReleases) {
+  const auto die = [] {
+    EndWatch end;
+    const EndWatch::Act act(end, sayZero);
+    std::thread([] {
+      nameThread("deep");
+      overflow();
+    }).join();
+  };
+  EXPECT_EXIT(die(), ::testing::KilledBySignal(SIGSEGV), "zero");
+}
+
+TEST_F(EndWatchDeathTest, SecondCrashWaitsForTheZerosOfTheFirst) {
+  const auto die = [] {
+    EndWatch end;
+    const EndWatch::Act act(end, [] {
+      std::this_thread::sleep_for(kOnTheWay);
+      sayZero();
+    });
+    std::thread second([] {
+      std::this_thread::sleep_for(kOnTheWay / 3);
+      raise(SIGSEGV);
+    });
+    raise(SIGSEGV);
+    second.join();
+  };
+  EXPECT_EXIT(die(), ::testing::KilledBySignal(SIGSEGV), "zero");
+}
+
+TEST_F(EndWatchDeathTest, CrashOfAnActWaitsForWhatItHasBegun) {
+  const auto die = [] {
+    EndWatch end;
+    std::atomic<bool> asked{false};
+    std::thread sender([&asked] {
+      while (!asked) std::this_thread::sleep_for(milliseconds(1));
+      std::this_thread::sleep_for(kOnTheWay);
+      sayZero();
+    });
+    const EndWatch::Act act(end, [&asked] {
+      asked = true;
+      raise(SIGSEGV);
+    });
+    raise(SIGSEGV);
+    sender.join();
+  };
+  EXPECT_EXIT(die(), ::testing::KilledBySignal(SIGSEGV), "zero");
+}
+
+TEST_F(EndWatchDeathTest, ProcessThatDoesNotComeToItsEndIsEndedWithTheStatusThatItHasAskedFor) {
+  const auto die = [] {
+    ros::init(ros::M_string{{"__master", "http://127.0.0.1:1"}}, "ending", ros::init_options::NoSigintHandler);
+    EndWatch end;
+    const EndWatch::Act act(end, sayZero);
+    EndWatch::begin(3);
+    std::this_thread::sleep_for(10 * EndWatch::kLimit);
+  };
+  EXPECT_EXIT(die(), ::testing::ExitedWithCode(3), "zero");
+}
+
+}  // namespace
+}  // namespace viscera::nodes

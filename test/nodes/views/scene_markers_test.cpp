@@ -1,0 +1,157 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/views/scene_markers.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <set>
+
+namespace viscera::nodes {
+namespace {
+
+using visualization_msgs::Marker;
+using visualization_msgs::MarkerArray;
+
+constexpr double kRounding_m = 1e-9;  // float corners of a shape of 0.1 m
+
+Scene scene() {
+  Scene scene;
+  scene.environment.tissue_frame = "room/tissue";
+  StylusConfig left, right;
+  left.name = "left";
+  right.name = "right";
+  right.idle = ToolMode::kCut;
+  scene.styluses = {left, right};
+  ObstacleConfig ball;
+  ball.name = "ball";
+  ball.shape = ObstacleShape::kSphere;
+  ball.radius_m = 0.03;
+  scene.obstacles = {ball};
+  return scene;
+}
+
+SceneLook look() {
+  SceneLook look;
+  look.obstacles = {Pose{{0.2, 0, 0}, Quaterniond::Identity()}};
+  look.tools[0].present = true;
+  look.tools[0].mode = ToolMode::kProbe;
+  look.tools[0].to.position_m = {0, 0.1, 0};
+  look.reactions[0].force_n = {0, 0, 2};
+  return look;
+}
+
+MarkerArray markersOf(const SceneLook& look) {
+  return SceneMarkers(scene(), {}).at(look, ros::Time(3));
+}
+
+std::vector<Marker> shown(const MarkerArray& array, const std::string& names) {
+  std::vector<Marker> out;
+  for (const Marker& marker : array.markers)
+    if (marker.ns == names && marker.action == Marker::ADD) out.push_back(marker);
+  return out;
+}
+
+TEST(SceneMarkers, ToolsAreTheTrianglesThatTheCameraShowsWhereTheyAre) {
+  const auto tools = shown(markersOf(look()), "tools");
+  ASSERT_FALSE(tools.empty());
+  size_t corners = 0;
+  for (const Marker& tool : tools) {
+    EXPECT_EQ(tool.type, Marker::TRIANGLE_LIST);
+    EXPECT_EQ(tool.header.frame_id, "room/tissue");
+    EXPECT_EQ(tool.pose.position.y, 0.1);
+    EXPECT_TRUE(tool.colors.empty());  // rviz would switch lighting off
+    corners += tool.points.size();
+  }
+  EXPECT_EQ(corners, toolShape(scene().styluses[0], ToolMode::kProbe).indices.size());
+}
+
+TEST(SceneMarkers, AModeHasItsOwnShape) {
+  SceneLook grabbing = look();
+  grabbing.tools[0].mode = ToolMode::kGrab;
+  size_t corners = 0;
+  const auto tools = shown(markersOf(grabbing), "tools");
+  for (const Marker& tool : tools) corners += tool.points.size();
+  EXPECT_EQ(corners, toolShape(scene().styluses[0], ToolMode::kGrab).indices.size());
+  EXPECT_TRUE(std::any_of(tools.begin(), tools.end(), [](const Marker& tool) { return tool.color.a < 1; }));
+}
+
+TEST(SceneMarkers, ATextStandsInThePlaceOfTheTissueUntilThereIsSome) {
+  Scene seen = scene();
+  CameraConfig camera;
+  camera.target_m = {0.1, 0.2, 0.3};
+  seen.cameras = {camera};
+  const SceneMarkers markers(seen, {});
+  const auto texts = shown(markers.telling("preparing: 62 %", ros::Time(3)), "preparing");
+  ASSERT_EQ(texts.size(), 1U);
+  EXPECT_EQ(texts[0].type, Marker::TEXT_VIEW_FACING);
+  EXPECT_EQ(texts[0].text, "preparing: 62 %");
+  EXPECT_EQ(texts[0].header.frame_id, "room/tissue");
+  EXPECT_EQ(texts[0].pose.position.y, 0.2);
+  EXPECT_GT(texts[0].scale.z, 0);
+  const MarkerArray after = markers.at(look(), ros::Time(4));
+  EXPECT_TRUE(std::any_of(after.markers.begin(), after.markers.end(), [](const Marker& marker) {
+    return marker.ns == "preparing" && marker.action == Marker::DELETE;
+  }));
+  EXPECT_TRUE(shown(after, "preparing").empty());
+}
+
+TEST(SceneMarkers, ForcesAreArrowsFromTheTipInTheScaleThatIsAskedFor) {
+  PublishOptions options;
+  options.force_arrow_m_per_n = 0.05;
+  const auto forces = shown(SceneMarkers(scene(), options).at(look(), ros::Time(3)), "forces");
+  ASSERT_EQ(forces.size(), 1u);
+  ASSERT_EQ(forces[0].points.size(), 2u);
+  EXPECT_EQ(forces[0].points[0].y, 0.1);
+  EXPECT_NEAR(forces[0].points[1].z, 0.1, kRounding_m);
+}
+
+TEST(SceneMarkers, ForcesThatAreNoneOrNotFiniteHaveNoArrow) {
+  SceneLook none = look();
+  none.reactions[0].force_n.setZero();
+  EXPECT_TRUE(shown(markersOf(none), "forces").empty());
+  none.reactions[0].force_n.setConstant(std::numeric_limits<double>::quiet_NaN());
+  EXPECT_TRUE(shown(markersOf(none), "forces").empty());
+}
+
+TEST(SceneMarkers, ObstaclesAreInTheirTrueSizeAtTheirPose) {
+  const auto obstacles = shown(markersOf(look()), "obstacles");
+  ASSERT_EQ(obstacles.size(), 1u);
+  EXPECT_EQ(obstacles[0].pose.position.x, 0.2);
+  double farthest_m = 0;
+  for (const auto& p : obstacles[0].points) farthest_m = std::max(farthest_m, Vector3d(p.x, p.y, p.z).norm());
+  EXPECT_NEAR(farthest_m, 0.03, 1e-6);
+}
+
+TEST(SceneMarkers, WhatIsNotThereIsDeletedUnderTheIdsThatItHad) {
+  const MarkerArray present = markersOf(look()), absent = markersOf(SceneLook{{}, look().obstacles, {}});
+  std::set<std::pair<std::string, int>> deleted;
+  for (const Marker& marker : absent.markers)
+    if (marker.action == Marker::DELETE) deleted.emplace(marker.ns, marker.id);
+  for (const std::string names : {"tools", "forces"})
+    for (const Marker& marker : shown(present, names)) EXPECT_TRUE(deleted.count({names, marker.id})) << names;
+  EXPECT_EQ(shown(present, "names").size(), 2u);
+  EXPECT_EQ(shown(absent, "names").size(), 1u);
+}
+
+TEST(SceneMarkers, NoTwoMarkersShareAnId) {
+  std::set<std::pair<std::string, int>> ids;
+  const MarkerArray array = markersOf(look());
+  for (const Marker& marker : array.markers) EXPECT_TRUE(ids.emplace(marker.ns, marker.id).second) << marker.ns;
+}
+
+TEST(SceneMarkers, NamesAtOnePlaceAreWrittenAboveEachOther) {
+  constexpr double kLetter_m = 0.01;
+  std::vector<Label> labels(4, Label{"left", {0.1, 0, 0}});
+  labels[3].position_m = {0.5, 0, 0};
+  partLabels(labels, kLetter_m);
+  EXPECT_EQ(labels[0].position_m.z(), 0);
+  EXPECT_EQ(labels[3].position_m.z(), 0);  // far enough
+  for (size_t i = 0; i < 3; ++i)
+    for (size_t j = 0; j < i; ++j)
+      EXPECT_GT(std::abs(labels[i].position_m.z() - labels[j].position_m.z()), kLetter_m) << i << " " << j;
+}
+
+}  // namespace
+}  // namespace viscera::nodes

@@ -1,0 +1,115 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Probes and obstacles are part of the solution of an implicit substep: what they feel does not depend on its length.
+#include "model/scene/integrators.h"
+#include "solver/contact/surroundings.h"
+#include "solver/reference/statics.h"
+#include "support/random_state.h"
+#include "support/solver_rig.h"
+
+using namespace viscera;
+using namespace viscera::test;
+
+namespace {
+
+constexpr double kSpacing_m = 0.01;
+// Of the force of the static equilibrium: the promise. What is left is rounding of tools' positions, and of sweeps.
+constexpr double kForce = 0.01;
+
+struct Way {
+  Integrator integrator;
+  double fraction;  ///< of dt_safe
+};
+constexpr Way kWays[] = {{Integrator::kLeapfrog, 0.5}, {Integrator::kPd, 2},        {Integrator::kPd, 5},
+                         {Integrator::kPd, 10},        {Integrator::kMultigrid, 2}, {Integrator::kMultigrid, 10},
+                         {Integrator::kMultigrid, 40}};
+constexpr int kIterations = 20;  // the default: what is at rest is the solution, however few
+
+class ImplicitContact : public OnBackend {
+ protected:
+  static std::vector<Way> ways() { return {std::begin(kWays), std::end(kWays)}; }
+};
+
+INSTANTIATE_TEST_SUITE_P(Backends, ImplicitContact, ::testing::ValuesIn(backendKinds()), backendSuffix);
+
+void fixBottom(Body& body) {
+  for (uint32_t slot : body.lattice.active_slots) {
+    if (body.lattice.nodeAt(slot).z() == 0) body.lattice.nodes[slot].lo |= layout::kFixedBit;
+  }
+}
+
+uint32_t slotOf(const Body& body, const Vector3i& node) {
+  for (uint32_t slot : body.lattice.active_slots) {
+    if (body.lattice.nodeAt(slot) == node) return slot;
+  }
+  return 0;
+}
+
+ObstacleConfig planeAt(double z_m) {
+  ObstacleConfig out;
+  out.shape = ObstacleShape::kPlane;
+  out.position_m = Vector3d(0, 0, z_m);
+  out.friction = 0;
+  return out;
+}
+
+}  // namespace
+
+TEST_P(ImplicitContact, AStaticProbeFeelsTheSameForceWhateverTheIntegratorAndTheSubstep) {
+  for (const double poisson_ratio : {0.25, 0.45}) {
+    Body body = boxBody({2, 2, 2}, kSpacing_m);
+    body.material.poisson_ratio = poisson_ratio;
+    body.material.drag_per_s = 20;
+    fixBottom(body);
+    const Model model = modelOf({body});
+    constexpr double kDepth_m = 1e-3, kRadius_m = 3e-3;
+    // The middle of the top is pushed straight down.
+    ReferenceSolver truth(model, Vector3d::Zero(), 1);
+    const uint32_t pushed = slotOf(body, {1, 1, 2});
+    solveStatics(truth, {{pushed, 0, 0}, {pushed, 1, 0}, {pushed, 2, -kDepth_m}});
+    const double expected_n = reactions(truth)[pushed].z();
+    ASSERT_LT(expected_n, 0);
+    StylusConfig stylus;
+    stylus.probe.radius_m = kRadius_m;
+    for (const Way& way : ways()) {
+      SCOPED_TRACE(::testing::Message() << "nu " << poisson_ratio << " integrator " << static_cast<int>(way.integrator)
+                                        << " dt " << way.fraction);
+      const Scene scene = sceneWith(way.integrator, model, 4, way.fraction, kIterations, {stylus});
+      const auto solver = make(model, scene);
+      const Vector3d top(kSpacing_m, kSpacing_m, 2 * kSpacing_m - kDepth_m + kRadius_m);
+      const double tick_s = 1 / scene.solver.tick_hz;
+      for (double t = 0; t < 1.0; t += tick_s) solver->step(probeAt(top));
+      const Vector3d felt = xyz(lastStats(*solver).impulse[0]) / tick_s;
+      EXPECT_NEAR(felt.z(), expected_n, kForce * std::abs(expected_n));
+      EXPECT_LT(std::hypot(felt.x(), felt.y()), kForce * std::abs(expected_n));
+    }
+  }
+}
+
+TEST_P(ImplicitContact, AnObstacleBearsTheWeightOfWhatLiesOnItWhateverTheIntegratorAndTheSubstep) {
+  Body body = boxBody({3, 3, 2}, kSpacing_m);
+  body.material.drag_per_s = 20;
+  const Model model = modelOf({body});
+  const Vector3d gravity(0, 0, -9.81);
+  ReferenceSolver masses(model, gravity, 1);
+  double weight_n = 0;
+  for (const uint32_t slot : masses.active) weight_n += 9.81 * masses.mass(slot);
+  for (const Way& way : ways()) {
+    SCOPED_TRACE(::testing::Message() << "integrator " << static_cast<int>(way.integrator) << " dt " << way.fraction);
+    Scene scene = sceneWith(way.integrator, model, 4, way.fraction, kIterations, {}, gravity);
+    scene.obstacles = {planeAt(-1), planeAt(0)};
+    const auto solver = make(model, scene);
+    const double tick_s = 1 / scene.solver.tick_hz;
+    for (double t = 0; t < 1.0; t += tick_s) solver->step({});
+    const layout::TickStats stats = lastStats(*solver);
+    const Vector3d borne = xyz(stats.obstacle_impulse[1]) / tick_s;
+    EXPECT_NEAR(borne.z(), weight_n, kForce * weight_n);
+    EXPECT_EQ(xyz(stats.obstacle_impulse[0]), Vector3d::Zero().eval());
+    double lowest_m = 0;
+    const HostState state = solver->readState();
+    for (const uint32_t slot : masses.active) {
+      lowest_m = std::min(lowest_m, masses.restPosition(slot).z() + state.displacement_m[slot].z);
+    }
+    EXPECT_GT(lowest_m, -1e-6);  // rounding
+  }
+}
