@@ -1,15 +1,15 @@
 # Copyright (c) 2026, the viscera authors
 # SPDX-License-Identifier: BSD-3-Clause
 # The ROS nodes, of the package that ros_package.cmake made.
-# src/nodes/<name>_node.cpp is the main of the node <name>; the rest is a library that the tests link too.
-file(GLOB node_mains CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/nodes/*_node.cpp)
-file(GLOB node_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/nodes/*.cpp)
+# src/nodes/<room>/<name>_node.cpp is the main of the node <name>; the rest is a library that the tests link too.
+file(GLOB_RECURSE node_mains CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/nodes/*_node.cpp)
+file(GLOB_RECURSE node_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/nodes/*.cpp)
 list(REMOVE_ITEM node_sources ${node_mains})
 find_package(interactive_markers QUIET)
 if(NOT interactive_markers_FOUND)
   message(STATUS "interactive_markers not found: the node stylus_marker is left out")
-  list(REMOVE_ITEM node_sources ${PROJECT_SOURCE_DIR}/src/nodes/stylus_marker.cpp)
-  list(REMOVE_ITEM node_mains ${PROJECT_SOURCE_DIR}/src/nodes/stylus_marker_node.cpp)
+  list(REMOVE_ITEM node_sources ${PROJECT_SOURCE_DIR}/src/nodes/stand_ins/stylus_marker.cpp)
+  list(REMOVE_ITEM node_mains ${PROJECT_SOURCE_DIR}/src/nodes/stand_ins/stylus_marker_node.cpp)
 endif()
 # Settings at run time need the messages of dynamic_reconfigure, which are headers alone.
 find_path(DYNAMIC_RECONFIGURE_INCLUDE dynamic_reconfigure/Reconfigure.h HINTS ${roscpp_INCLUDE_DIRS})

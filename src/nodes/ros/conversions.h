@@ -6,20 +6,13 @@
 #include <geometry_msgs/TransformStamped.h>
 #include <geometry_msgs/WrenchStamped.h>
 #include <ros/time.h>
-#include <sensor_msgs/CameraInfo.h>
-#include <sensor_msgs/Image.h>
-#include <visualization_msgs/Marker.h>
+#include <std_msgs/Header.h>
 
 #include <string>
-#include <vector>
 
-#include "nodes/views/sent_vertices.h"
-#include "viscera/SurfaceTopology.h"
-#include "viscera/SurfaceTopologyChange.h"
-#include "viscera/SurfaceVertices.h"
 #include "viscera/math/types.h"
 #include "viscera/model/scene/scene.h"
-#include "viscera/session/frame.h"
+#include "viscera/tools/force_limiter.h"
 #include "viscera/tools/stylus.h"
 
 namespace viscera::nodes {
@@ -33,6 +26,7 @@ Pose fromMessage(const geometry_msgs::Transform& message);
 geometry_msgs::TransformStamped toTransform(const Pose& pose, const std::string& parent, const std::string& child,
                                             const ros::Time& stamp);
 
+std_msgs::Header toHeader(const std::string& frame, const ros::Time& stamp);
 geometry_msgs::Vector3 toVector(const Vector3d& v);
 geometry_msgs::Quaternion toQuaternion(const Quaterniond& q);
 /// All seven numbers are finite.
@@ -46,29 +40,6 @@ geometry_msgs::Wrench toMessage(const Reaction& reaction);
 geometry_msgs::WrenchStamped toWrench(const Reaction& reaction, const Quaterniond& frame_from_tissue,
                                       const std::string& frame, const ros::Time& stamp);
 
-/// @param sent  has followed `skin`
-SurfaceTopology toTopology(const ShownTopology& skin, const SentVertices& sent, uint32_t version,
-                           const std::string& frame, const ros::Time& stamp);
-/// What turns one topology into the next.
-SurfaceTopologyChange toChange(const SurfaceTopology& before, const SurfaceTopology& after);
-/// @param sent  has followed the frame's topology
-SurfaceVertices toVertices(const SurfaceFrame& frame, const SentVertices& sent, uint32_t topology_version,
-                           const std::string& frame_id, const ros::Time& stamp);
-
-/// Two markers per body, for stock rviz: TRIANGLE_LIST of its skin, then, behind those of all bodies, of its wounds'
-/// walls, in a colour of their own (with a colour per point rviz would switch lighting off); or DELETE if there is
-/// none. Triangles with a coordinate that is not finite are left out, since rviz would crash on them.
-std::vector<visualization_msgs::Marker> toMarkers(const ShownMesh& skin, const std::string& frame_id,
-                                                  const ros::Time& stamp);
-
-/// Takes the pixels out of `frame`: rgb8, of depths 32FC1 [m], of labels mono8.
-sensor_msgs::Image toImage(ImageFrame&& frame, const std::string& optical_frame, const ros::Time& stamp);
-/// As OpenCV counts: the centre of the first pixel is at (0, 0), half a pixel from where Intrinsics has it.
-/// @param kind  kRight: the projection is that of a point of the camera's own frame, the left eye's, into the right one
-sensor_msgs::CameraInfo toCameraInfo(const CameraConfig& camera, const std::string& optical_frame,
-                                     const ros::Time& stamp, PictureKind kind = PictureKind::kColor);
-/// The camera's own, or the one that carries it.
-std::string opticalFrame(const CameraConfig& camera, const std::string& frame_prefix);
 std::string toolFrame(const StylusConfig& stylus, const std::string& frame_prefix);
 
 }  // namespace viscera::nodes

@@ -1,6 +1,8 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/views/camera_publisher.h"
+#include "nodes/ros/conversions.h"
+#include "nodes/views/shown_messages.h"
 
 #include <algorithm>
 #include <utility>

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "nodes/ros/conversions.h"
+#include "nodes/views/shown_messages.h"
 #include "nodes/ros/throttle.h"
 #include "viscera/Tick.h"
 

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "nodes/ros/conversions.h"
 #include "nodes/ros/thread_name.h"
+#include "nodes/views/shown_messages.h"
 #include "render/renderer.h"
 
 namespace viscera::nodes {

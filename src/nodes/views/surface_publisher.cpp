@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/views/surface_publisher.h"
+#include "nodes/views/shown_messages.h"
 
 #include <ros/console.h>
 

@@ -1,0 +1,180 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/views/shown_messages.h"
+
+#include <sensor_msgs/distortion_models.h>
+#include <sensor_msgs/image_encodings.h>
+
+#include <cmath>
+#include <cstring>
+#include <utility>
+
+#include "nodes/ros/conversions.h"
+#include "nodes/views/topology_change.h"
+#include "render/renderer.h"
+#include "viscera/render/camera.h"
+
+namespace viscera::nodes {
+namespace {
+
+geometry_msgs::Point toPoint(const float* xyz_m) {
+  geometry_msgs::Point out;
+  out.x = xyz_m[0], out.y = xyz_m[1], out.z = xyz_m[2];
+  return out;
+}
+
+bool finite(const float* xyz) {
+  return std::isfinite(xyz[0]) && std::isfinite(xyz[1]) && std::isfinite(xyz[2]);
+}
+
+std_msgs::ColorRGBA toColor(const Vector3d& color) {
+  std_msgs::ColorRGBA out;
+  out.r = static_cast<float>(color.x());
+  out.g = static_cast<float>(color.y());
+  out.b = static_cast<float>(color.z());
+  out.a = 1;
+  return out;
+}
+
+visualization_msgs::Marker emptyMarker(const ShownBody& body, size_t id) {
+  visualization_msgs::Marker marker;
+  marker.ns = body.name;
+  marker.id = static_cast<int32_t>(id);
+  marker.type = visualization_msgs::Marker::TRIANGLE_LIST;
+  marker.pose.orientation.w = 1;
+  marker.scale.x = marker.scale.y = marker.scale.z = 1;
+  marker.color = toColor(body.color);
+  return marker;
+}
+
+/// The corners of a patch's triangles, but of those with one that is not finite.
+void addPoints(const ShownMesh& skin, const ShownPatch& patch, visualization_msgs::Marker& marker) {
+  marker.points.reserve(marker.points.size() + 3 * patch.count);
+  for (size_t t = patch.first; t < patch.first + patch.count; ++t) {
+    const float* corner[3];
+    for (size_t i = 0; i < 3; ++i) {
+      corner[i] = &skin.positions_m[3 * static_cast<size_t>(skin.topology->triangles[3 * t + i])];
+    }
+    if (!finite(corner[0]) || !finite(corner[1]) || !finite(corner[2])) continue;
+    for (const float* xyz_m : corner) marker.points.push_back(toPoint(xyz_m));
+  }
+}
+
+}  // namespace
+
+SurfaceTopology toTopology(const ShownTopology& skin, const SentVertices& sent, uint32_t version,
+                           const std::string& frame, const ros::Time& stamp) {
+  SurfaceTopology out;
+  out.header = toHeader(frame, stamp);
+  out.version = version;
+  out.vertices = static_cast<uint32_t>(sent.vertices().size());
+  out.triangles.reserve(skin.triangles.size());
+  for (const uint32_t vertex : skin.triangles) out.triangles.push_back(sent.numberOf(vertex));
+  for (const ShownBody& body : skin.bodies) out.bodies.push_back(body.name);
+  out.body_triangles.assign(skin.bodies.size(), 0);
+  out.wound_triangles.assign(skin.bodies.size(), 0);
+  for (const ShownPatch& patch : skin.patches) {
+    out.body_triangles[patch.body] += static_cast<uint32_t>(patch.count);
+    if (patch.kind == ShownKind::kWound) out.wound_triangles[patch.body] += static_cast<uint32_t>(patch.count);
+  }
+  return out;
+}
+
+SurfaceTopologyChange toChange(const SurfaceTopology& before, const SurfaceTopology& after) {
+  SurfaceTopologyChange out;
+  out.header = after.header;
+  out.version = after.version;
+  out.vertices = after.vertices;
+  out.body_triangles = after.body_triangles;
+  out.wound_triangles = after.wound_triangles;
+  TriangleEdits edits = editsBetween(before.triangles, after.triangles);
+  out.kept = std::move(edits.kept);
+  out.removed = std::move(edits.removed);
+  out.added = std::move(edits.added);
+  out.triangles = std::move(edits.triangles);
+  return out;
+}
+
+SurfaceVertices toVertices(const SurfaceFrame& frame, const SentVertices& sent, uint32_t topology_version,
+                           const std::string& frame_id, const ros::Time& stamp) {
+  SurfaceVertices out;
+  out.header = toHeader(frame_id, stamp);
+  out.tick = frame.tick;
+  out.topology_version = topology_version;
+  out.positions_m.reserve(3 * sent.vertices().size());
+  out.normals.reserve(sent.vertices().size());
+  for (const uint32_t vertex : sent.vertices()) {
+    const float* const xyz_m = &frame.positions_m[3 * size_t{vertex}];
+    out.positions_m.insert(out.positions_m.end(), xyz_m, xyz_m + 3);
+    out.normals.push_back(frame.normals[vertex]);
+  }
+  return out;
+}
+
+std::vector<visualization_msgs::Marker> toMarkers(const ShownMesh& skin, const std::string& frame_id,
+                                                  const ros::Time& stamp) {
+  const std::vector<ShownBody>& bodies = skin.topology->bodies;
+  std::vector<visualization_msgs::Marker> markers;
+  for (const ShownBody& body : bodies) markers.push_back(emptyMarker(body, markers.size()));
+  for (const ShownBody& body : bodies) {
+    const ShownBody wounds = {body.name + " wounds", woundColor(body.color)};
+    markers.push_back(emptyMarker(wounds, markers.size()));
+  }
+  for (const ShownPatch& patch : skin.topology->patches) {
+    addPoints(skin, patch, markers[patch.body + (patch.kind == ShownKind::kWound ? bodies.size() : 0)]);
+  }
+  for (visualization_msgs::Marker& marker : markers) {
+    marker.header = toHeader(frame_id, stamp);
+    if (marker.points.empty()) marker.action = visualization_msgs::Marker::DELETE;
+  }
+  return markers;
+}
+
+std::string opticalFrame(const CameraConfig& camera, const std::string& frame_prefix) {
+  return isCarriedByOpticalFrame(camera) ? camera.frame : frame_prefix + camera.name + "_optical_frame";
+}
+
+sensor_msgs::Image toImage(ImageFrame&& frame, const std::string& optical_frame, const ros::Time& stamp) {
+  sensor_msgs::Image out;
+  out.header = toHeader(optical_frame, stamp);
+  out.width = static_cast<uint32_t>(frame.width);
+  out.height = static_cast<uint32_t>(frame.height);
+  switch (frame.kind) {
+    case PictureKind::kDepth:
+      out.encoding = sensor_msgs::image_encodings::TYPE_32FC1;
+      out.step = sizeof(float) * out.width;
+      out.data.resize(sizeof(float) * frame.depths_m.size());
+      std::memcpy(out.data.data(), frame.depths_m.data(), out.data.size());
+      break;
+    case PictureKind::kLabels:
+      out.encoding = sensor_msgs::image_encodings::MONO8;
+      out.step = out.width;
+      out.data = std::move(frame.labels);
+      break;
+    default:
+      out.encoding = sensor_msgs::image_encodings::RGB8;
+      out.step = 3 * out.width;
+      out.data = std::move(frame.rgb);
+  }
+  return out;
+}
+
+sensor_msgs::CameraInfo toCameraInfo(const CameraConfig& camera, const std::string& optical_frame,
+                                     const ros::Time& stamp, PictureKind kind) {
+  constexpr double kPixelCentre = 0.5;  // of Intrinsics; in a CameraInfo the centre of the first pixel is at 0
+  const Intrinsics lens = intrinsics(camera);
+  const double cx = lens.cx - kPixelCentre, cy = lens.cy - kPixelCentre;
+  sensor_msgs::CameraInfo out;
+  out.header = toHeader(optical_frame, stamp);
+  out.width = static_cast<uint32_t>(camera.width_px);
+  out.height = static_cast<uint32_t>(camera.height_px);
+  out.distortion_model = sensor_msgs::distortion_models::PLUMB_BOB;
+  out.D.assign(5, 0.0);
+  out.K = {lens.fx, 0, cx, 0, lens.fy, cy, 0, 0, 1};
+  out.R = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+  const double shift = kind == PictureKind::kRight ? -lens.fx * camera.stereo_baseline_m : 0;
+  out.P = {lens.fx, 0, cx, shift, 0, lens.fy, cy, 0, 0, 0, 1, 0};
+  return out;
+}
+
+}  // namespace viscera::nodes
