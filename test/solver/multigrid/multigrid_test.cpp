@@ -69,7 +69,7 @@ TEST(Multigrid, TicksAreWithinAPercentOfTheirMotion) {
 }
 
 TEST(Multigrid, IterationsStayFlatAsTheLatticeIsRefined) {
-  constexpr double kFlat = 1.3;  // issue 15: from 16^3 to 64^3; the larger ones are in docs/benchmarks.md
+  constexpr double kFlat = 1.3;  // issue 15: from 16^3 to 64^3; the larger ones are in docs/tried.md
   for (const double nu : {0.25, 0.49}) {
     const double coarse = iterationsPerTick(modelOf({block(16, 2e5, nu)}));
     const double fine = iterationsPerTick(modelOf({block(24, 2e5, nu)}));
