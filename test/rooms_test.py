@@ -52,7 +52,7 @@ class Tree:
         if not public:
             return folder
         folder_of_source = self.sources.get(public.group(1) + '/' + pathlib.PurePath(name).stem)
-        return folder_of_source if folder_of_source and public.group(1) != 'solver' else folder.replace('include/viscera', 'include')
+        return folder_of_source if folder_of_source and public.group(1) != 'solver' else folder
 
     def included(self, name, text):
         for what in INCLUDE.findall(text):

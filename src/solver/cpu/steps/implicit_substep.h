@@ -90,7 +90,7 @@ struct CpuContact {
 };
 
 /// Start and end of a substep of implicit Euler and the increments du = u+ - u in between, which pd iterates:
-/// shaders/solver/implicit_*.comp on the CPU. See gpu/implicit_substep.h for what the stages promise.
+/// shaders/solver/implicit/implicit_*.comp on the CPU. See solver/gpu/steps/implicit_substep.h for what the stages promise.
 class CpuImplicitSubstep {
  public:
   /// @param iterations  at most, in a substep

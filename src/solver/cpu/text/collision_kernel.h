@@ -27,7 +27,7 @@ struct PairBuffers {
   }
 };
 
-/// What the texts of shaders/solver/collision_*.comp find in buffers and uniforms.
+/// What the texts of shaders/solver/collision/*.comp find in buffers and uniforms.
 struct CollisionKernel : Kernel, PairBuffers {
   using Kernel::Kernel;
   const vec4* increment = nullptr;  // within an implicit substep: contacts are where it leads

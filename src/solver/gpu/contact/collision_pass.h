@@ -15,7 +15,7 @@
 namespace viscera {
 
 /// Contacts between nodes: finds pairs and says what they do to either node (collision.h).
-/// Owner of shaders/solver/collision_*.comp.
+/// Owner of shaders/solver/collision/*.comp.
 class CollisionPass {
  public:
   /// @param ahead  within an implicit substep: note() instead of run(), from the complete search

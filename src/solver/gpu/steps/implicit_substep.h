@@ -8,7 +8,7 @@
 namespace viscera {
 
 /// Start and end of a substep of implicit Euler and the increments du = u+ - u in between, which pd iterates
-/// (shaders/solver/implicit/implicit.glsl has the equations). Owner of shaders/solver/implicit_*.comp.
+/// (shaders/solver/implicit/implicit.glsl has the equations). Owner of shaders/solver/implicit/*.comp.
 class ImplicitSubstep {
  public:
   /// @param iterations  at most, in a substep

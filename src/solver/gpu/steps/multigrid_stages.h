@@ -15,7 +15,7 @@ namespace viscera {
 
 /// Vectors, products and sums of integrator multigrid on the GPU, on the order of which stepTrBdf2() and stepEuler()
 /// decide. The host reads a few sums where something was evaluated, and once per iteration of conjugate gradients,
-/// whose own numbers stay on the GPU. Owner of shaders/solver/multigrid_*.comp but those of contacts and coarse levels.
+/// whose own numbers stay on the GPU. Owner of shaders/solver/multigrid/*.comp but those of contacts and coarse levels.
 class MultigridStages final : public multigrid::StageWork {
  public:
   MultigridStages(const FeatureSet& features, const LatticeBuffers& buffers);
