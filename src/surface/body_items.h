@@ -32,7 +32,7 @@ class BodyItems {
 
  private:
   std::vector<Range> ranges_;
-  std::vector<uint32_t> followed_;  ///< [bodies] revision of the state that items show; 0: nobody knows
+  std::vector<uint32_t> followed_;  ///< [bodies] revision of the state that items show; 0: unknown
 };
 
 }  // namespace viscera

@@ -66,7 +66,7 @@ void CpuStages::beginTrapezoidal() {
 void CpuStages::beginBdf2() {
   const size_t n = solver.level.places();
   if (touching_)
-    touching_->goOnEvenly([&](size_t place) {  // a surface has stopped them, and throws nobody back
+    touching_->goOnEvenly([&](size_t place) {  // a surface has stopped them, and throws no node back
       for (size_t j = place; j < 3 * n; j += n) even_.push_back(increment[j] / static_cast<float>(kGamma));
     });
   const double dt_s = static_cast<double>(dt_s_);

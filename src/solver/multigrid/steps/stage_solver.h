@@ -90,7 +90,8 @@ class StageSolver {
 
   /// Residual of an increment [N], 0 where not free; linearises there. @return its norm
   double residual(const Vectors& increment);
-  /// Its two halves: residual of whoever can move, held or not, and then without those who are held. @return its norm
+  /// Its two halves: residual of nodes that can move, held or not, and then without those that are held. @return its
+  /// norm
   /// @param tangent  linearises there: else forces alone
   void evaluate(const Vectors& increment, bool tangent);
   double masked();
