@@ -114,10 +114,9 @@ class PdAloneOnGpu : public PdAlone {
     buffers_.bind();
     stepper.run(buffers_, step_);
     buffers_.swap();
-    return {buffers_.state.displacement[buffers_.state.current].read(),
-            buffers_.state.velocity[buffers_.state.current].read(),
-            buffers_.store.nodes.read(),
-            {}};
+    return {{buffers_.store.nodes.read(), {}, {}},
+            buffers_.state.displacement[buffers_.state.current].read(),
+            buffers_.state.velocity[buffers_.state.current].read()};
   }
   FeatureSet features_;
   LatticeBuffers buffers_;
