@@ -11,6 +11,7 @@
 
 #include "math/one_line.h"
 #include "nodes/ros/clock_watch.h"
+#include "nodes/ros/conversions.h"
 #include "nodes/ros/master_watch.h"
 
 namespace viscera::nodes {
