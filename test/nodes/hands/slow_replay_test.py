@@ -29,8 +29,8 @@ UNWATCHED_S = 3     # without a viewer
 class SlowReplayTest(unittest.TestCase):
     def test_all(self):
         rospy.init_node("slow_replay_test")
-        launched = Program(["roslaunch", "viscera", "training.launch", "scene:=" + FOLDER + "/scene_view.yaml",
-                            "overrides:=" + TOO_MUCH, "strokes:=" + FOLDER + "/short_stroke.yaml",
+        launched = Program(["roslaunch", "viscera", "training.launch", "scene:=" + FOLDER + "/views/scene_view.yaml",
+                            "overrides:=" + TOO_MUCH, "strokes:=" + FOLDER + "/hands/short_stroke.yaml",
                             "strokes_delay_s:=0", "loop:=true", "wait_for_viewer:=true"])
         self.addCleanup(launched.end)
         watch = SimulatorWatch()

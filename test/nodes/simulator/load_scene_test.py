@@ -25,7 +25,7 @@ from visualization_msgs.msg import Marker, MarkerArray
 # in a switch one thread waits for another, each of which a busy machine may put aside for 50 ms. A model made again takes longer.
 LONGEST_GAP_S = 0.6
 HERE = os.path.dirname(os.path.abspath(__file__))
-OTHER = os.path.join(HERE, "cameras.yaml")
+OTHER = os.path.join(os.path.dirname(HERE), "views", "cameras.yaml")
 HEART = ["bodies[0].spacing_m=0.008", "environment.gravity_m_per_s2=[0,0,0]"]
 
 
