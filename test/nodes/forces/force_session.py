@@ -46,7 +46,7 @@ class Session:
         self.environment["ROS_NAMESPACE"] = self.space
         self.simulator = self.node("simulator", SCENE + overrides, *options)
         wait_ready(self.simulator)
-        self.hand = self.start([sys.executable, os.path.join(HERE, "hand.py"), wrenches] + ([kind] if kind else []),
+        self.hand = self.start([sys.executable, os.path.join(os.path.dirname(HERE), "support", "hand.py"), wrenches] + ([kind] if kind else []),
                                stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
 
     def start(self, command, **how):

@@ -22,7 +22,8 @@ from program import END_LIMIT_S, START_LIMIT_S, Program
 from simulator_watch import wait_until
 
 SCENE = os.path.join(roslib.packages.get_pkg_dir("viscera"), "test/nodes/views/scene_view.yaml")
-TWO_HANDS = os.path.join(os.path.dirname(SCENE), "devices.yaml")
+HANDS = os.path.join(os.path.dirname(os.path.dirname(SCENE)), "hands")
+TWO_HANDS = os.path.join(HANDS, "devices.yaml")
 SCENE_NODES = "504 nodes"  # of scene_view.yaml
 
 
@@ -164,7 +165,7 @@ class LaunchingTest(unittest.TestCase):
         self.start_master()
         self.master.setParam("/use_sim_time", True)
         launched = self.start("roslaunch", "viscera", "training.launch", "scene:=" + SCENE,
-                              "strokes:=" + os.path.join(os.path.dirname(SCENE), "short_stroke.yaml"))
+                              "strokes:=" + os.path.join(HANDS, "short_stroke.yaml"))
         launched.said("ready: ")
         launched.said("nothing comes on /clock", 2)  # of both nodes
         tick = self.start("rostopic", "echo", "-n", "3", "/tick")
