@@ -11,6 +11,7 @@
 
 namespace viscera {
 
+using Eigen::Matrix3d;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 using Eigen::Vector3f;

@@ -47,6 +47,11 @@ class SliceSource {
   /// The next slice, k = 0 first. @param values  [size.x * size.y] i fastest; NaN where the file has NaN
   /// @throws SceneError  naming the file: it ends early, or its data are corrupt
   virtual void next(std::vector<float>& values) = 0;
+  /// For errors; empty: it is no file.
+  virtual const std::string& file() const {
+    static const std::string kNone;
+    return kNone;
+  }
 };
 
 }  // namespace viscera

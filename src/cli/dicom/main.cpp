@@ -1,0 +1,90 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gdcmTrace.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <new>
+
+#include "cli/dicom/frames.h"
+
+// viscera-dicom list PATH | read PATH SERIES LAYER: what src/model/scan/dicom.cpp starts and reads. Apart from it,
+// since what GDCM does with spoilt files (assertions, memory without bound) must end this process alone.
+namespace viscera::dicom {
+namespace {
+
+void requireWritten(bool written) {
+  if (!written) std::_Exit(1);  // the other end is closed
+}
+
+void list(const std::string& path) {
+  const std::vector<Series> all = seriesOf(path);
+  std::printf("%zu\n", all.size());
+  for (const Series& series : all)
+    std::printf("%s %s %zu %s\n", series.uid.c_str(), series.modality.c_str(), series.files.size(),
+                series.description.c_str());
+}
+
+void read(const std::string& path, const std::string& asked, int layer) {
+  const std::vector<Series> all = seriesOf(path);
+  std::string known;
+  const Series* chosen = all.size() == 1 && asked.empty() ? &all[0] : nullptr;
+  for (size_t n = 0; n < all.size(); ++n) {
+    if (asked == all[n].uid || asked == std::to_string(n)) chosen = &all[n];
+    if (n < 20)
+      known += "\n  " + std::to_string(n) + ": " + all[n].uid + ", " + all[n].modality + ", " +
+               std::to_string(all[n].files.size()) + " files, " + all[n].description;
+  }
+  if (!chosen)
+    throw SceneError(path + ": " + (asked.empty() ? "holds several series" : "has no series '" + asked + "'") +
+                     "; accepted: a number or UID of" + known);
+  if (!isSegmentation(chosen->files[0])) return writeVolume(chosen->files);
+  if (chosen->files.size() > 1) throw SceneError(path + ": several files of segments; accepted: one, named by itself");
+  writeSegmentation(chosen->files[0], layer);
+}
+
+}  // namespace
+
+void writeHeader(const Stack& stack, int layers, const std::vector<std::string>& segments) {
+  std::printf("viscera-dicom-1 %d %d %d %d %zu\n", stack.size[0], stack.size[1], stack.size[2], layers,
+              segments.size());
+  for (int n = 0; n < 9; ++n) std::printf("%.17g ", stack.axes(n % 3, n / 3));
+  std::printf("%.17g %.17g %.17g\n", stack.origin.x(), stack.origin.y(), stack.origin.z());
+  for (const std::string& segment : segments) std::printf("%s\n", segment.c_str());
+}
+
+void writeSlice(const std::vector<float>& values) {
+  requireWritten(std::fwrite(values.data(), sizeof(float), values.size(), stdout) == values.size());
+}
+
+}  // namespace viscera::dicom
+
+int main(int count, char** arguments) {
+  using namespace viscera;
+  gdcm::Trace::WarningOff();
+  gdcm::Trace::ErrorOff();
+  gdcm::Trace::DebugOff();
+  const std::string what = count > 1 ? arguments[1] : "", path = count > 2 ? arguments[2] : "";
+  try {
+    if (what == "list" && count == 3) {
+      dicom::list(path);
+    } else if (what == "read" && count == 5) {
+      dicom::read(path, arguments[3], std::atoi(arguments[4]));
+    } else {
+      std::fprintf(stderr,
+                   "usage: viscera-dicom list PATH | read PATH SERIES LAYER; viscera starts it to read DICOM\n");
+      return 2;
+    }
+  } catch (const std::bad_alloc&) {
+    std::fprintf(stderr, "%s: takes more memory than DICOM may have\n", path.c_str());
+    return 1;
+  } catch (const SceneError& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 1;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s: cannot be read: %s\n", path.c_str(), error.what());
+    return 1;
+  }
+  return std::fflush(stdout) == 0 ? 0 : 1;
+}

@@ -1,0 +1,96 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gdcmReader.h>
+
+#include <algorithm>
+#include <map>
+
+#include "cli/dicom/frames.h"
+#include "cli/dicom/tags.h"
+
+namespace viscera::dicom {
+namespace {
+
+using gdcm::Tag;
+
+/// Bits or bytes of all frames, one after the other, without gaps.
+struct Planes {
+  std::vector<char> bytes;
+  size_t pixels = 0;
+  bool bits = true;
+  int half = 1;  ///< least value, of bytes, that is of the segment
+
+  bool at(size_t frame, size_t pixel) const {
+    const size_t n = frame * pixels + pixel;
+    return bits ? bytes[n / 8] >> (n % 8) & 1 : static_cast<unsigned char>(bytes[n]) >= half;
+  }
+};
+
+Planes planesOf(const std::string& file, const gdcm::File& read, const std::vector<Frame>& frames) {
+  const gdcm::DataSet& data = read.GetDataSet();
+  Planes planes;
+  planes.bits = shortOf(data, Tag(0x0028, 0x0100)) == 1;
+  planes.pixels = static_cast<size_t>(frames[0].rows) * static_cast<size_t>(frames[0].columns);
+  const int most = shortOf(data, Tag(0x0062, 0x000e));  // MaximumFractionalValue
+  if (!planes.bits) planes.half = std::max(1, (most + 1) / 2);
+  const gdcm::TransferSyntax& syntax = read.GetHeader().GetDataSetTransferSyntax();
+  const gdcm::ByteValue* bytes =
+      data.FindDataElement(Tag(0x7fe0, 0x0010)) ? data.GetDataElement(Tag(0x7fe0, 0x0010)).GetByteValue() : nullptr;
+  if (syntax.IsEncapsulated() || !bytes)
+    throw SceneError(file + ": segments of transfer syntax " + syntax.GetString() +
+                     "; accepted: segments that are not packed");
+  const size_t needed = planes.bits ? (planes.pixels * frames.size() + 7) / 8 : planes.pixels * frames.size();
+  if (bytes->GetLength() < needed)
+    throw SceneError(file + ": ends early: " + std::to_string(needed) + " bytes of pixels are said to be there, and " +
+                     std::to_string(bytes->GetLength()) + " are");
+  planes.bytes.assign(bytes->GetPointer(), bytes->GetPointer() + bytes->GetLength());
+  return planes;
+}
+
+}  // namespace
+
+void writeSegmentation(const std::string& file, int layer) {
+  requireWhole(file);
+  gdcm::Reader reader;
+  reader.SetFileName(file.c_str());
+  if (!reader.Read()) throw SceneError(file + ": no DICOM file");
+  std::vector<gdcm::SmartPointer<gdcm::SequenceOfItems>> kept;
+  std::vector<std::string> lines;
+  std::vector<int> numbers;
+  for (const gdcm::DataSet* item : itemsOf(reader.GetFile().GetDataSet(), Tag(0x0062, 0x0002), kept)) {
+    numbers.push_back(shortOf(*item, Tag(0x0062, 0x0004)));
+    lines.push_back(std::to_string(lines.size()) + " " + std::to_string(numbers.back()) + " " +
+                    textOf(*item, Tag(0x0062, 0x0005)).substr(0, 64));
+  }
+  std::vector<Frame> frames = framesOf(file);
+  if (numbers.empty()) throw SceneError(file + ": has no segments; accepted: a SegmentSequence");
+  if (layer < 0 || static_cast<size_t>(layer) >= numbers.size())
+    throw SceneError(file + ": has no layer " + std::to_string(layer) + "; accepted: 0 .. " +
+                     std::to_string(numbers.size() - 1));
+  const Planes planes = planesOf(file, reader.GetFile(), frames);
+  Stack stack = stackOf(frames);
+  std::vector<Frame> places;  // one for each height: segments have frames of their own
+  for (const Frame& frame : frames)
+    if (places.empty() || frame.height() - places.back().height() > 0.01) places.push_back(frame);
+  stack.axes.col(2) = stepOf(places, true);
+  const double step = places[0].normal().dot(stack.axes.col(2));
+  const auto slice = [&](const Frame& f) {
+    return static_cast<int>(std::lround((f.height() - places[0].height()) / step));
+  };
+  stack.size[2] = slice(places.back()) + 1;
+  std::multimap<int, const Frame*> of_layer;
+  for (const Frame& frame : frames)
+    if (frame.segment == numbers[static_cast<size_t>(layer)]) of_layer.emplace(slice(frame), &frame);
+  writeHeader(stack, static_cast<int>(numbers.size()), lines);
+  std::vector<float> values(planes.pixels);
+  for (int k = 0; k < stack.size[2]; ++k) {
+    std::fill(values.begin(), values.end(), 0.F);
+    const auto [begin, end] = of_layer.equal_range(k);
+    for (auto frame = begin; frame != end; ++frame)
+      for (size_t n = 0; n < values.size(); ++n)
+        if (planes.at(frame->second->index, n)) values[n] = static_cast<float>(numbers[static_cast<size_t>(layer)]);
+    writeSlice(values);
+  }
+}
+
+}  // namespace viscera::dicom

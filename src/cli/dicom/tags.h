@@ -1,0 +1,62 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <gdcmDataSet.h>
+#include <gdcmSequenceOfItems.h>
+#include <gdcmTag.h>
+
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+namespace viscera::dicom {
+
+/// The text of an element, without blanks at its end; empty: not there.
+inline std::string textOf(const gdcm::DataSet& data, gdcm::Tag tag) {
+  if (!data.FindDataElement(tag)) return "";
+  const gdcm::ByteValue* bytes = data.GetDataElement(tag).GetByteValue();
+  if (!bytes || bytes->GetLength() > 4096) return "";
+  std::string text(bytes->GetPointer(), bytes->GetLength());
+  while (!text.empty() && (text.back() == ' ' || text.back() == '\0')) text.pop_back();
+  for (char& c : text)
+    if (static_cast<unsigned char>(c) < ' ') c = ' ';
+  return text;
+}
+
+/// Numbers written as text, parted by backslashes; none: not there, or no numbers.
+inline std::vector<double> numbersOf(const gdcm::DataSet& data, gdcm::Tag tag) {
+  std::vector<double> all;
+  const std::string text = textOf(data, tag);
+  for (const char* at = text.c_str(); *at;) {
+    char* end = nullptr;
+    all.push_back(std::strtod(at, &end));
+    if (end == at) return {};
+    while (*end == ' ') ++end;
+    if (*end && *end != '\\') return {};
+    at = *end ? end + 1 : end;
+  }
+  return all;
+}
+
+/// An unsigned 16-bit number; 0: not there. GDCM has turned it to this machine's order.
+inline int shortOf(const gdcm::DataSet& data, gdcm::Tag tag) {
+  if (!data.FindDataElement(tag)) return 0;
+  const gdcm::ByteValue* bytes = data.GetDataElement(tag).GetByteValue();
+  if (!bytes || bytes->GetLength() < 2) return 0;
+  const auto* raw = reinterpret_cast<const unsigned char*>(bytes->GetPointer());
+  return raw[0] | raw[1] << 8;
+}
+
+inline std::vector<const gdcm::DataSet*> itemsOf(const gdcm::DataSet& data, gdcm::Tag tag,
+                                                 std::vector<gdcm::SmartPointer<gdcm::SequenceOfItems>>& kept) {
+  std::vector<const gdcm::DataSet*> items;
+  if (!data.FindDataElement(tag)) return items;
+  kept.push_back(data.GetDataElement(tag).GetValueAsSQ());
+  if (!kept.back()) return items;
+  for (gdcm::SequenceOfItems::SizeType n = 1; n <= kept.back()->GetNumberOfItems(); ++n)
+    items.push_back(&kept.back()->GetItem(n).GetNestedDataSet());
+  return items;
+}
+
+}  // namespace viscera::dicom

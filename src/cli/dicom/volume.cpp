@@ -1,0 +1,137 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gdcmImageReader.h>
+
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+#include "cli/dicom/frames.h"
+#include "cli/dicom/tags.h"
+
+namespace viscera::dicom {
+using gdcm::Tag;
+
+constexpr uint64_t kMostTail = 1 << 20;  ///< bytes of a file's end in which packed pixels must end
+
+void requireWhole(const std::string& file) {
+  std::ifstream head(file, std::ios::binary);
+  gdcm::Reader reader;
+  reader.SetStream(head);
+  if (!reader.ReadUpToTag(Tag(0x7fe0, 0x0010), {Tag(0x7fe0, 0x0010)})) throw SceneError(file + ": no DICOM file");
+  const gdcm::DataSet& data = reader.GetFile().GetDataSet();
+  const gdcm::TransferSyntax& syntax = reader.GetFile().GetHeader().GetDataSetTransferSyntax();
+  const auto count = numbersOf(data, Tag(0x0028, 0x0008));
+  const uint64_t pixels = uint64_t(shortOf(data, Tag(0x0028, 0x0010))) * uint64_t(shortOf(data, Tag(0x0028, 0x0011))) *
+                          uint64_t(std::max(1, shortOf(data, Tag(0x0028, 0x0002)))) *
+                          uint64_t(count.empty() ? 1 : std::max(1.0, count[0]));
+  const uint64_t bytes = (pixels * uint64_t(shortOf(data, Tag(0x0028, 0x0100))) + 7) / 8;
+  head.clear();
+  const uint64_t size = std::filesystem::file_size(file), at = static_cast<uint64_t>(head.tellg());
+  if (!syntax.IsEncapsulated()) {
+    if (size < at + bytes)
+      throw SceneError(file + ": ends early: " + std::to_string(bytes) +
+                       " bytes of pixels are said to be there, and at most " +
+                       std::to_string(size - std::min(size, at)) + " are");
+    return;
+  }
+  const uint64_t tail = std::min<uint64_t>(size, kMostTail);
+  std::string end(tail, '\0');
+  std::ifstream stream(file, std::ios::binary);
+  stream.seekg(static_cast<std::streamoff>(size - tail));
+  stream.read(end.data(), static_cast<std::streamsize>(tail));
+  if (end.find(std::string("\xfe\xff\xdd\xe0\0\0\0\0", 8)) == std::string::npos)
+    throw SceneError(file + ": ends early: its packed pixels have no end");
+}
+
+namespace {
+
+template <typename T>
+void convert(const char* from, double slope, double intercept, std::vector<float>& values) {
+  for (float& value : values) {
+    T x;
+    std::memcpy(&x, from, sizeof(T));
+    from += sizeof(T);
+    value = static_cast<float>(static_cast<double>(x) * slope + intercept);
+  }
+}
+
+/// The pixels of a file; of the last one that was asked for they are kept.
+class Pixels {
+ public:
+  void slice(const Frame& frame, std::vector<float>& values) {
+    if (frame.file != file_) open(frame.file);
+    const size_t bytes = values.size() * format_.GetPixelSize(), at = bytes * frame.index;
+    if (at + bytes > buffer_.size())
+      throw SceneError(frame.file + ": ends early: has no frame " + std::to_string(frame.index));
+    const char* from = buffer_.data() + at;
+    switch (format_.GetScalarType()) {
+      case gdcm::PixelFormat::UINT8:
+        return convert<uint8_t>(from, slope_, intercept_, values);
+      case gdcm::PixelFormat::INT8:
+        return convert<int8_t>(from, slope_, intercept_, values);
+      case gdcm::PixelFormat::UINT16:
+        return convert<uint16_t>(from, slope_, intercept_, values);
+      case gdcm::PixelFormat::INT16:
+        return convert<int16_t>(from, slope_, intercept_, values);
+      case gdcm::PixelFormat::UINT32:
+        return convert<uint32_t>(from, slope_, intercept_, values);
+      case gdcm::PixelFormat::INT32:
+        return convert<int32_t>(from, slope_, intercept_, values);
+      default:
+        throw SceneError(frame.file +
+                         ": pixels of a kind that is not read; accepted: whole numbers of 8, 16 or 32 bits");
+    }
+  }
+
+ private:
+  void open(const std::string& file) {
+    requireWhole(file);
+    gdcm::ImageReader reader;
+    reader.SetFileName(file.c_str());
+    const bool read = reader.Read();
+    const std::string syntax = reader.GetFile().GetHeader().GetDataSetTransferSyntax().GetString();
+    const std::string kinds = "; accepted: one grey number a pixel, as it is or as JPEG, JPEG-LS, JPEG 2000 or RLE";
+    if (!read) throw SceneError(file + ": its pixels, of transfer syntax " + syntax + ", cannot be read" + kinds);
+    const gdcm::Image& image = reader.GetImage();
+    format_ = image.GetPixelFormat();
+    const auto colours = image.GetPhotometricInterpretation();
+    if (format_.GetSamplesPerPixel() != 1 || (colours != gdcm::PhotometricInterpretation::MONOCHROME1 &&
+                                              colours != gdcm::PhotometricInterpretation::MONOCHROME2))
+      throw SceneError(file + ": colours (" + colours.GetString() + ")" + kinds);
+    buffer_.resize(image.GetBufferLength());
+    if (!image.GetBuffer(buffer_.data()))
+      throw SceneError(file + ": its pixels, of transfer syntax " + syntax + ", cannot be unpacked" + kinds);
+    slope_ = image.GetSlope();
+    intercept_ = image.GetIntercept();
+    file_ = file;
+  }
+
+  std::string file_;
+  std::vector<char> buffer_;
+  gdcm::PixelFormat format_;
+  double slope_ = 1, intercept_ = 0;
+};
+
+}  // namespace
+
+void writeVolume(const std::vector<std::string>& files) {
+  std::vector<Frame> frames;
+  for (const std::string& file : files)
+    for (Frame& frame : framesOf(file)) frames.push_back(std::move(frame));
+  for (const Frame& frame : frames)
+    if (frame.rescale != frames.front().rescale && frame.file == frames.front().file)
+      throw SceneError(frame.file +
+                       ": frames with slopes of their own; accepted: one RescaleSlope and RescaleIntercept of all");
+  Stack stack = stackOf(frames);
+  stack.axes.col(2) = stepOf(frames, false);
+  writeHeader(stack, 1, {});
+  Pixels pixels;
+  std::vector<float> values(static_cast<size_t>(stack.size[0]) * static_cast<size_t>(stack.size[1]));
+  for (const Frame& frame : frames) {
+    pixels.slice(frame, values);
+    writeSlice(values);
+  }
+}
+
+}  // namespace viscera::dicom

@@ -1,0 +1,120 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "model/scan/dicom.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <sstream>
+
+#include "model/scan/child_process.h"
+#include "model/scan/text_header.h"
+#include "model/scan/voxels.h"
+#include "model/scene/file_bounds.h"
+#include "viscera/math/error.h"
+
+namespace viscera {
+namespace {
+
+constexpr char kProgram[] = "viscera-dicom";
+constexpr int kMostSegments = 65535, kMostSeries = 65535;
+
+std::string program() {
+  if (const char* told = std::getenv("VISCERA_DICOM")) return told;
+  std::error_code error;
+  const std::filesystem::path beside = std::filesystem::read_symlink("/proc/self/exe", error).parent_path() / kProgram;
+  return !error && std::filesystem::exists(beside, error) ? beside.string() : kProgram;
+}
+
+std::unique_ptr<ChildProcess> start(std::vector<std::string> arguments, const DicomLimits& limits,
+                                    const std::string& path) {
+  requireWithinBounds(path);
+  std::error_code error;
+  if (!std::filesystem::exists(path, error)) throw SceneError(path + ": no such file or folder");
+  arguments.insert(arguments.begin(), program());
+  return std::make_unique<ChildProcess>(arguments, limits.bytes, limits.silence_s, path);
+}
+
+[[noreturn]] void misunderstood(const std::string& path) {
+  throw SceneError(path + ": viscera-dicom of another version than this program");
+}
+
+/// What src/cli/dicom writes: sizes, where voxels are, segments; then float32 slices.
+class DicomSlices : public ScanSource {
+ public:
+  DicomSlices(std::unique_ptr<ChildProcess> child, const std::string& path, int layer)
+      : child_(std::move(child)), path_(path) {
+    std::istringstream first(child_->line());
+    std::string magic;
+    std::array<int64_t, 3> size{};
+    int segments = 0;
+    first >> magic >> size[0] >> size[1] >> size[2] >> layers_ >> segments;
+    if (!first || magic != "viscera-dicom-1" || layers_ < 1 || segments < 0 || segments > kMostSegments)
+      misunderstood(path);
+    const std::vector<std::string> numbers = words(child_->line());
+    double value[12];
+    if (numbers.size() != 12) misunderstood(path);
+    for (size_t n = 0; n < 12; ++n)
+      if (!parseNumber(numbers[n], value[n])) misunderstood(path);
+    frame_ =
+        frameFromLps(path, size, Eigen::Map<const Eigen::Matrix3d>(value), Vector3d(value[9], value[10], value[11]));
+    for (int n = 0; n < segments; ++n) {
+      std::istringstream line(child_->line());
+      Segment segment;
+      line >> segment.layer >> segment.label.value;
+      if (!line) misunderstood(path);
+      std::getline(line, segment.label.name);
+      segment.label.name = trimmed(segment.label.name);
+      segments_.push_back(segment);
+      if (segment.layer == layer) names_.push_back(segment.label);
+    }
+  }
+  const VolumeFrame& frame() const override { return frame_; }
+  const std::vector<LabelName>& names() const override { return names_; }
+  const std::vector<Segment>& segments() const override { return segments_; }
+  const std::string& file() const override { return path_; }
+  int layers() const override { return layers_; }
+  void next(std::vector<float>& values) override {
+    if (slice_ >= frame_.size.z()) throw SceneError(path_ + ": no slice is left");
+    values.resize(static_cast<size_t>(frame_.size.x()) * static_cast<size_t>(frame_.size.y()));
+    child_->read(values.data(), values.size() * sizeof(float));
+    if (++slice_ == frame_.size.z()) child_->finish();
+  }
+
+ private:
+  std::unique_ptr<ChildProcess> child_;
+  std::string path_;
+  VolumeFrame frame_;
+  std::vector<Segment> segments_;
+  std::vector<LabelName> names_;
+  int layers_ = 1, slice_ = 0;
+};
+
+}  // namespace
+
+std::vector<DicomSeries> listDicom(const std::string& path, const DicomLimits& limits) {
+  auto child = start({"list", path}, limits, path);
+  int count = 0;
+  if (!(std::istringstream(child->line()) >> count) || count < 0 || count > kMostSeries) misunderstood(path);
+  std::vector<DicomSeries> all;
+  for (int n = 0; n < count; ++n) {
+    std::istringstream line(child->line());
+    DicomSeries series;
+    line >> series.uid >> series.modality >> series.files;
+    if (!line) misunderstood(path);
+    std::getline(line, series.description);
+    series.description = trimmed(series.description);
+    all.push_back(series);
+  }
+  child->finish();
+  return all;
+}
+
+std::unique_ptr<ScanSource> openDicom(const std::string& path, const ScanOptions& options, const DicomLimits& limits) {
+  if (!options.axes.empty()) throw SceneError(path + ": the axes of DICOM are LPS; accepted: no key axes");
+  const int layer = std::max(options.volume, 0);
+  return std::make_unique<DicomSlices>(start({"read", path, options.series, std::to_string(layer)}, limits, path), path,
+                                       layer);
+}
+
+}  // namespace viscera

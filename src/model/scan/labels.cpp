@@ -1,0 +1,225 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "model/scan/labels.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+
+#include "model/scan/text_header.h"
+#include "viscera/math/error.h"
+
+namespace viscera {
+namespace {
+
+constexpr size_t kMostLabels = 255;
+constexpr float kLargestValue = 1 << 24;  ///< above, float32 does not tell whole numbers apart
+constexpr size_t kMostListed = 20;        ///< labels in an error
+
+using Key = std::pair<int, int64_t>;  ///< layer, value
+
+/// The file of names that lies beside a scan: its name with another ending; empty: there is none.
+std::string namesBeside(const std::string& path) {
+  std::string stem = path;
+  for (const char* end : {".gz", ".nii", ".nrrd", ".nhdr", ".seg", ".mhd", ".mha"}) {
+    const size_t length = std::string(end).size();
+    if (stem.size() > length && lower(stem.substr(stem.size() - length)) == end) stem.resize(stem.size() - length);
+  }
+  for (const char* end : {".label", ".yaml", ".txt"}) {
+    std::error_code error;
+    if (std::filesystem::is_regular_file(stem + end, error)) return stem + end;
+  }
+  return "";
+}
+
+/// The file's own segments, with names that a table gives to values.
+std::vector<Segment> namedSegments(const std::string& path, const LabelOptions& options, const ScanSource& source) {
+  std::vector<Segment> segments = source.segments();
+  const bool given = !options.names_file.empty();
+  const std::string table = given ? options.names_file : segments.empty() ? namesBeside(path) : "";
+  if (table.empty()) return segments;
+  std::vector<LabelName> names;
+  try {
+    names = readLabelNames(table);
+  } catch (const SceneError& error) {
+    if (given) throw;
+    if (options.notes)
+      options.notes->push_back(std::string("beside the scan, but no names of labels: ") + error.what());
+  }
+  for (const LabelName& name : names) {
+    bool known = false;
+    for (Segment& segment : segments)
+      if (segment.label.value == name.value) {
+        segment.label.name = name.name;
+        known = true;
+      }
+    if (!known) segments.push_back({0, name});
+  }
+  return segments;
+}
+
+std::string listed(const std::vector<Segment>& segments) {
+  std::string text;
+  for (size_t n = 0; n < segments.size() && n < kMostListed; ++n) {
+    text += (n ? ", " : "") + std::to_string(segments[n].label.value);
+    if (!segments[n].label.name.empty()) text += " (" + segments[n].label.name + ")";
+  }
+  if (segments.size() > kMostListed) text += " and " + std::to_string(segments.size() - kMostListed) + " more";
+  return text.empty() ? "none" : text;
+}
+
+/// Numbers of labels while they are met: asked ones are known before, of all the others come as they are met.
+class Numbering {
+ public:
+  Numbering(const std::string& path, const LabelOptions& options, std::vector<Segment> segments)
+      : path_(path), all_(options.labels.empty()), segments_(std::move(segments)) {
+    for (const std::string& asked : options.labels) add(asked);
+  }
+
+  uint8_t of(int layer, float value) {
+    if (value == last_value_ && layer == last_layer_) return last_;
+    last_value_ = value;
+    last_layer_ = layer;
+    return last_ = find(layer, value);
+  }
+  bool all() const { return all_; }
+  size_t count() const { return labels_.size(); }
+  const Segment& label(size_t number) const { return labels_[number - 1]; }
+  const std::map<Key, int64_t>& met() const { return met_; }
+  void requireMet() const {
+    for (const Segment& label : labels_)
+      if (!met_.count({label.layer, label.label.value}))
+        refuse("no voxel has label " + std::to_string(label.label.value));
+    if (labels_.empty()) refuse("no voxel has a label");
+  }
+  /// Of all labels: numbers by value and layer. @returns [old number] new one
+  std::vector<uint8_t> sorted() {
+    std::vector<size_t> order(labels_.size());
+    for (size_t n = 0; n < order.size(); ++n) order[n] = n;
+    const auto key = [&](size_t n) { return Key(labels_[n].layer, labels_[n].label.value); };
+    std::sort(order.begin(), order.end(), [&](size_t a, size_t b) { return key(a) < key(b); });
+    std::vector<uint8_t> number(labels_.size() + 1, 0);
+    std::vector<Segment> sorted;
+    for (const size_t n : order) {
+      sorted.push_back(labels_[n]);
+      number[n + 1] = static_cast<uint8_t>(sorted.size());
+    }
+    labels_ = sorted;
+    return number;
+  }
+
+ private:
+  [[noreturn]] void refuse(const std::string& what) const {
+    std::vector<Segment> known = segments_;
+    for (const auto& [key, count] : met_) {
+      const auto same = [&](const Segment& s) { return s.layer == key.first && s.label.value == key.second; };
+      if (std::none_of(known.begin(), known.end(), same)) known.push_back({key.first, {key.second, ""}});
+    }
+    throw SceneError(path_ + ": " + what + "; accepted: " + listed(known));
+  }
+
+  void add(const std::string& asked) {
+    const size_t before = labels_.size();
+    for (const Segment& segment : segments_)
+      if (segment.label.name == asked) take(segment);
+    int64_t value = 0;
+    if (labels_.size() == before && parseInteger(asked, value)) {
+      for (const Segment& segment : segments_)
+        if (segment.label.value == value) take(segment);
+      if (labels_.size() == before) take({0, {value, ""}});
+    }
+    if (labels_.size() == before) refuse("has no label '" + asked + "'");
+    if (labels_.size() > before + 1) refuse("'" + asked + "' is the name or number of several labels");
+  }
+
+  void take(const Segment& segment) {
+    if (segment.label.value == 0) refuse("label 0 is what is outside");
+    if (!numbers_.emplace(Key(segment.layer, segment.label.value), labels_.size() + 1).second)
+      refuse("label " + std::to_string(segment.label.value) + " is asked for twice");
+    labels_.push_back(segment);
+    if (labels_.size() > kMostLabels)
+      throw SceneError(path_ + ": has more labels than accepted: at most 255; ask for some of them");
+  }
+
+  uint8_t find(int layer, float value) {
+    if (value == 0) return 0;
+    if (!(std::abs(value) <= kLargestValue) || value != std::floor(value))
+      throw SceneError(path_ + ": is no label map: a voxel is " + std::to_string(value) +
+                       "; accepted: whole numbers, at most 2^24");
+    const Key key(layer, static_cast<int64_t>(value));
+    if (met_.size() < kMostNumbers) ++met_[key];
+    const auto known = numbers_.find(key);
+    if (known != numbers_.end()) return static_cast<uint8_t>(known->second);
+    if (!all_) return 0;
+    Segment segment{layer, {key.second, ""}};
+    for (const Segment& named : segments_)
+      if (named.layer == layer && named.label.value == key.second) segment = named;
+    take(segment);
+    return static_cast<uint8_t>(labels_.size());
+  }
+
+  static constexpr size_t kMostNumbers = 65536;  ///< of values that are remembered for errors
+
+  const std::string path_;
+  const bool all_;
+  std::vector<Segment> segments_;
+  std::vector<Segment> labels_;  ///< [number - 1]
+  std::map<Key, size_t> numbers_;
+  std::map<Key, int64_t> met_;
+  float last_value_ = 0;
+  int last_layer_ = 0;
+  uint8_t last_ = 0;
+};
+
+/// Fills voxels of one layer. @returns of how many others had labels already
+size_t readLayer(ScanSource& source, int layer, Numbering& numbering, std::vector<uint8_t>& labels) {
+  std::vector<float> values;
+  size_t overlaps = 0, voxel = 0;
+  for (int k = 0; k < source.frame().size.z(); ++k) {
+    source.next(values);
+    for (const float value : values) {
+      uint8_t& label = labels[voxel++];
+      const uint8_t here = numbering.of(layer, value);
+      if (here == 0) continue;
+      overlaps += label != 0;
+      if (label == 0 || here < label) label = here;
+    }
+  }
+  return overlaps;
+}
+
+}  // namespace
+
+LabelVolume readLabels(const std::string& path, const LabelOptions& options) {
+  auto source = openScan(path, options);
+  Numbering numbering(path, options, namedSegments(path, options, *source));
+  LabelVolume volume;
+  volume.frame = source->frame();
+  const int layers = source->layers();
+  if (layers > 1 && options.volume >= 0)
+    throw SceneError(path + ": labels are taken of all its layers; accepted: no key volume");
+  size_t overlaps = 0;
+  volume.labels.assign(volume.frame.voxels(), 0);
+  for (int layer = 0; layer < layers; ++layer) {
+    if (layer > 0) {
+      ScanOptions of_layer = options;
+      of_layer.volume = layer;
+      source = openScan(path, of_layer);
+    }
+    overlaps += readLayer(*source, layer, numbering, volume.labels);
+  }
+  numbering.requireMet();
+  if (numbering.all()) {
+    const std::vector<uint8_t> number = numbering.sorted();
+    for (uint8_t& label : volume.labels) label = number[label];
+  }
+  volume.names.push_back({0, ""});
+  for (size_t n = 1; n <= numbering.count(); ++n) volume.names.push_back(numbering.label(n).label);
+  if (overlaps > 0 && options.notes)
+    options.notes->push_back(path + ": " + std::to_string(overlaps) +
+                             " voxels have several labels: the first of those asked for has them");
+  return volume;
+}
+
+}  // namespace viscera

@@ -1,0 +1,216 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
+#include <cstring>
+
+#include "model/scan/voxels.h"
+#include "viscera/math/error.h"
+
+// NIfTI-1 and NIfTI-2, one file, plain or as gzip. The world of a file is RAS.
+namespace viscera {
+namespace {
+
+using Affine = Eigen::Matrix<double, 3, 4>;
+
+constexpr size_t kHeader1 = 348, kHeader2 = 540;
+
+/// Numbers at their places in a header.
+class Fields {
+ public:
+  Fields(std::vector<uint8_t> bytes, bool big_endian)
+      : bytes_(std::move(bytes)), big_endian_(big_endian), second_(bytes_.size() == kHeader2) {}
+  bool second() const { return second_; }
+  bool bigEndian() const { return big_endian_; }
+  const uint8_t* at(size_t place) const { return bytes_.data() + place; }
+
+  template <typename T>
+  T get(size_t place) const {
+    uint8_t bytes[sizeof(T)];
+    for (size_t b = 0; b < sizeof(T); ++b) bytes[b] = bytes_.at(place + (big_endian_ ? sizeof(T) - 1 - b : b));
+    T value;
+    std::memcpy(&value, bytes, sizeof(T));
+    return value;
+  }
+  /// Real number n of a field: float of the first, double of the second version.
+  double real(size_t place1, size_t place2, size_t n = 0) const {
+    return second_ ? get<double>(place2 + 8 * n) : static_cast<double>(get<float>(place1 + 4 * n));
+  }
+  int64_t dim(size_t n) const { return second_ ? get<int64_t>(16 + 8 * n) : get<int16_t>(40 + 2 * n); }
+  int64_t code(size_t place1, size_t place2) const { return second_ ? get<int32_t>(place2) : get<int16_t>(place1); }
+  double pixdim(size_t n) const { return real(76, 104, n); }
+
+ private:
+  std::vector<uint8_t> bytes_;
+  bool big_endian_, second_;
+};
+
+Fields readHeader(ByteStream& stream) {
+  const std::string& path = stream.path();
+  stream.requireHolds(kHeader1);
+  std::vector<uint8_t> bytes(kHeader1);
+  stream.read(bytes.data(), 4);
+  const uint32_t little = bytes[0] | bytes[1] << 8 | bytes[2] << 16 | static_cast<uint32_t>(bytes[3]) << 24;
+  const uint32_t big = bytes[3] | bytes[2] << 8 | bytes[1] << 16 | static_cast<uint32_t>(bytes[0]) << 24;
+  const bool second = little == kHeader2 || big == kHeader2;
+  if (!second && little != kHeader1 && big != kHeader1)
+    throw SceneError(path + ": no NIfTI file: its header is not of 348 or 540 bytes");
+  bytes.resize(second ? kHeader2 : kHeader1);
+  stream.read(bytes.data() + 4, bytes.size() - 4);
+  const Fields fields(std::move(bytes), little != kHeader1 && little != kHeader2);
+  const char* magic = reinterpret_cast<const char*>(fields.at(second ? 4 : 344));
+  if (std::memcmp(magic, second ? "n+2" : "n+1", 4) != 0)
+    throw SceneError(
+        path + ": no NIfTI file that holds its data itself; accepted: one file, .nii or .nii.gz, of NIfTI-1 or 2");
+  return fields;
+}
+
+VoxelType voxelType(const std::string& path, int code) {
+  switch (code) {
+    case 2:
+      return VoxelType::kUint8;
+    case 4:
+      return VoxelType::kInt16;
+    case 8:
+      return VoxelType::kInt32;
+    case 16:
+      return VoxelType::kFloat;
+    case 64:
+      return VoxelType::kDouble;
+    case 256:
+      return VoxelType::kInt8;
+    case 512:
+      return VoxelType::kUint16;
+    case 768:
+      return VoxelType::kUint32;
+    case 1024:
+      return VoxelType::kInt64;
+    case 1280:
+      return VoxelType::kUint64;
+    default:
+      throw SceneError(path + ": datatype " + std::to_string(code) + (code == 128 || code == 2304 ? " (colours)" : "") +
+                       "; accepted: one number a voxel (2, 4, 8, 16, 64, 256, 512, 768, 1024, 1280)");
+  }
+}
+
+std::array<int64_t, 3> sizeOf(const std::string& path, const Fields& fields, uint64_t* volumes) {
+  const int64_t dims = fields.dim(0);
+  if (dims < 3 || dims > 7) throw SceneError(path + ": dim[0] is " + std::to_string(dims) + "; accepted: 3 .. 7");
+  for (int64_t n = 5; n <= dims; ++n)
+    if (fields.dim(static_cast<size_t>(n)) != 1)
+      throw SceneError(path + ": dim[" + std::to_string(n) + "] is " +
+                       std::to_string(fields.dim(static_cast<size_t>(n))) +
+                       "; accepted: 1 (volumes of one number a voxel, in dim[4])");
+  const int64_t count = dims > 3 ? fields.dim(4) : 1;
+  if (count < 1 || count > 65535)
+    throw SceneError(path + ": dim[4] is " + std::to_string(count) + "; accepted: 1 .. 65535");
+  *volumes = static_cast<uint64_t>(count);
+  const std::array<int64_t, 3> size = {fields.dim(1), fields.dim(2), fields.dim(3)};
+  requireSize(path, size);
+  return size;
+}
+
+Affine sform(const Fields& fields) {
+  Affine affine;
+  for (int n = 0; n < 12; ++n) affine(n / 4, n % 4) = fields.real(280, 400, static_cast<size_t>(n));
+  return affine;
+}
+
+Affine qform(const Fields& fields) {
+  const double b = fields.real(256, 352), c = fields.real(260, 360), d = fields.real(264, 368);
+  const double a = std::sqrt(std::max(0.0, 1 - (b * b + c * c + d * d)));
+  Affine affine;
+  affine.leftCols<3>() = Quaterniond(a, b, c, d).normalized().toRotationMatrix();
+  for (int axis = 0; axis < 3; ++axis) affine.col(axis) *= fields.pixdim(static_cast<size_t>(axis) + 1);
+  if (fields.pixdim(0) < 0) affine.col(2) *= -1;  // qfac
+  affine.col(3) = Vector3d(fields.real(268, 376), fields.real(272, 384), fields.real(276, 392));
+  return affine;
+}
+
+void requireFinite(const std::string& path, const Affine& affine, const char* which) {
+  if (!affine.allFinite()) throw SceneError(path + ": " + which + " is not finite; accepted: 12 finite numbers");
+}
+
+/// Whether both put the corners of the volume within half a voxel of each other.
+bool agree(const Affine& a, const Affine& b, const std::array<int64_t, 3>& size) {
+  const double half = a.leftCols<3>().colwise().norm().minCoeff() / 2;
+  for (int corner = 0; corner < 8; ++corner) {
+    Eigen::Vector4d at(0, 0, 0, 1);
+    for (int axis = 0; axis < 3; ++axis)
+      if (corner >> axis & 1) at[axis] = static_cast<double>(size[static_cast<size_t>(axis)] - 1);
+    if (((a - b) * at).norm() > half) return false;
+  }
+  return true;
+}
+
+/// Voxels to RAS [mm].
+Affine affineOf(const std::string& path, const Fields& fields, const std::array<int64_t, 3>& size,
+                const ScanOptions& options) {
+  const bool has_s = fields.code(254, 348) > 0, has_q = fields.code(252, 344) > 0;
+  const std::string& told = options.transform;
+  if (!told.empty() && told != "sform" && told != "qform")
+    throw SceneError(path + ": transform '" + told + "'; accepted: sform or qform");
+  if ((told == "sform" && !has_s) || (told == "qform" && !has_q))
+    throw SceneError(path + ": has no " + told + " (its code is 0); accepted: " +
+                     (has_s   ? "sform"
+                      : has_q ? "qform"
+                              : "axes"));
+  if (has_s) requireFinite(path, sform(fields), "sform (srow_x, srow_y, srow_z)");
+  if (has_q) requireFinite(path, qform(fields), "qform (quatern_b, c, d and qoffset)");
+  if (!has_s && !has_q) {
+    if (options.axes.empty())
+      throw SceneError(path +
+                       ": does not say where left and right are (sform_code and qform_code are 0); accepted: axes, "
+                       "where i, j, k lead to, such as axes: RAS");
+    Affine affine = Affine::Zero();
+    affine.leftCols<3>() = Vector3d(-1, -1, 1).asDiagonal() * lpsFromAxes(path, options.axes);
+    for (int axis = 0; axis < 3; ++axis) affine.col(axis) *= fields.pixdim(static_cast<size_t>(axis) + 1);
+    return affine;
+  }
+  if (!options.axes.empty()) throw SceneError(path + ": says itself where its axes lead to; accepted: no key axes");
+  if (has_s && has_q && told.empty() && !agree(sform(fields), qform(fields), size))
+    throw SceneError(path +
+                     ": its sform and its qform are more than half a voxel apart; accepted: transform, sform or qform");
+  return told == "qform" || !has_s ? qform(fields) : sform(fields);
+}
+
+void scaling(const std::string& path, const Fields& fields, VoxelLayout& layout) {
+  const double slope = fields.real(112, 176), intercept = fields.real(116, 184);
+  if (slope == 0 || !std::isfinite(slope)) return;  // as the standard says: values are as they are
+  if (!std::isfinite(intercept)) throw SceneError(path + ": scl_inter is not finite; accepted: a finite number");
+  layout.slope = slope;
+  layout.intercept = intercept;
+}
+
+}  // namespace
+
+std::unique_ptr<ScanSource> openNifti(const std::string& path, const ScanOptions& options) {
+  auto stream = std::make_unique<ByteStream>(path, 0, beginsAsGzip(path));
+  const Fields fields = readHeader(*stream);
+  VoxelLayout layout;
+  const std::array<int64_t, 3> size = sizeOf(path, fields, &layout.volumes);
+  layout.type = voxelType(path, fields.get<int16_t>(fields.second() ? 12 : 70));
+  layout.big_endian = fields.bigEndian();
+  layout.volume = chosenVolume(path, options.volume, layout.volumes);
+  for (size_t axis = 1; axis <= 3; ++axis) requireSpacing(path, "pixdim", fields.pixdim(axis));
+  const int64_t units = (fields.second() ? fields.get<int32_t>(500) : *fields.at(123)) & 7;
+  if (units != 0 && units != 2)
+    throw SceneError(path + ": xyzt_units is " + std::to_string(units) +
+                     "; accepted: 2 (mm), or 0, which is taken for mm");
+  const Affine ras = affineOf(path, fields, size, options);
+  const Eigen::DiagonalMatrix<double, 3> lps(-1, -1, 1);
+  layout.frame = frameFromLps(path, size, lps * ras.leftCols<3>(), lps * ras.col(3));
+  scaling(path, fields, layout);
+  const uint64_t header = fields.second() ? kHeader2 : kHeader1;
+  const double least = static_cast<double>(header) + 4;
+  double offset = fields.second() ? static_cast<double>(fields.get<int64_t>(168)) : fields.real(108, 168);
+  if (offset == 0) offset = least;
+  if (!(offset >= least && offset <= 1e15))
+    throw SceneError(path + ": vox_offset is " + std::to_string(offset) + "; accepted: " + std::to_string(least) +
+                     " or more");
+  const auto before = static_cast<uint64_t>(offset);
+  stream->requireHolds(before);
+  stream->skip(before - header);
+  return slicesOf(std::move(stream), std::move(layout), before);
+}
+
+}  // namespace viscera

@@ -1,0 +1,202 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "model/scan/dicom.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <random>
+
+#include "model/scan/labels.h"
+#include "model/scan/scan_files.h"
+
+// DICOM by the program viscera-dicom, which is built where GDCM is.
+namespace viscera {
+namespace {
+
+using test::TestVolume;
+
+class Dicom : public ::testing::Test {
+ protected:
+  void SetUp() override {
+#ifdef VISCERA_DICOM_PROGRAM
+    setenv("VISCERA_DICOM", VISCERA_DICOM_PROGRAM, 1);
+#else
+    GTEST_SKIP() << "viscera-dicom is not built: GDCM was not found";
+#endif
+  }
+  void TearDown() override {
+    unsetenv("VISCERA_DICOM");
+  }
+};
+
+/// An element in explicit VR, little endian.
+std::string element(unsigned group, unsigned number, const std::string& vr, std::string value) {
+  if (value.size() % 2) value += vr == "UI" ? '\0' : ' ';
+  const auto u16 = [](size_t n) { return std::string{static_cast<char>(n & 255), static_cast<char>(n >> 8 & 255)}; };
+  const bool wide = vr == "OW" || vr == "OB";
+  const std::string length = wide ? u16(0) + u16(value.size() & 65535) + u16(value.size() >> 16) : u16(value.size());
+  return u16(group) + u16(number) + vr + length + value;
+}
+std::string us(unsigned value) {
+  return {static_cast<char>(value & 255), static_cast<char>(value >> 8)};
+}
+
+/// One slice, whose place is that of the volume's with a position of its own along the third axis.
+std::string slice(const TestVolume& v, int k, double place, const std::string& series = "1.2.3") {
+  const Vector3d at = v.lps.col(3) + place * v.lps.col(2);
+  std::ostringstream position, orientation, spacing;
+  position.precision(12);
+  orientation.precision(12);
+  position << at.x() << '\\' << at.y() << '\\' << at.z();
+  for (int a = 0; a < 2; ++a)
+    for (int c = 0; c < 3; ++c) orientation << (a + c ? "\\" : "") << v.lps(c, a) / v.lps.col(a).norm();
+  spacing << v.lps.col(1).norm() << '\\' << v.lps.col(0).norm();
+  const std::string syntax = element(2, 0x10, "UI", "1.2.840.10008.1.2.1");
+  std::string length(4, '\0');
+  length[0] = static_cast<char>(syntax.size());
+  const size_t bytes = 2 * static_cast<size_t>(v.size[0] * v.size[1]);
+  return std::string(128, '\0') + "DICM" + element(2, 0, "UL", length) + syntax +
+         element(8, 0x16, "UI", "1.2.840.10008.5.1.4.1.1.2") + element(8, 0x60, "CS", "CT") +
+         element(8, 0x103e, "LO", "made " + series) + element(0x20, 0xe, "UI", series) +
+         element(0x20, 0x32, "DS", position.str()) + element(0x20, 0x37, "DS", orientation.str()) +
+         element(0x28, 2, "US", us(1)) + element(0x28, 4, "CS", "MONOCHROME2") +
+         element(0x28, 0x10, "US", us(static_cast<unsigned>(v.size[1]))) +
+         element(0x28, 0x11, "US", us(static_cast<unsigned>(v.size[0]))) + element(0x28, 0x30, "DS", spacing.str()) +
+         element(0x28, 0x100, "US", us(16)) + element(0x28, 0x101, "US", us(16)) + element(0x28, 0x102, "US", us(15)) +
+         element(0x28, 0x103, "US", us(1)) + element(0x28, 0x1052, "DS", "-3") + element(0x28, 0x1053, "DS", "2") +
+         element(0x7fe0, 0x10, "OW", v.bytes().substr(bytes * static_cast<size_t>(k), bytes));
+}
+
+/// A folder of slices at their places; file names run against these.
+std::string series(const TestVolume& v, const std::vector<double>& places) {
+  const std::string folder = test::temporaryPath("series");
+  std::filesystem::remove_all(folder);
+  std::filesystem::create_directories(folder);
+  for (size_t n = 0; n < places.size(); ++n)
+    test::written("series/" + std::to_string(100 - n) + ".dcm", slice(v, static_cast<int>(n) % v.size[2], places[n]));
+  return folder;
+}
+
+void expectError(const std::string& path, const std::string& what, const ScanOptions& options = {}) {
+  const std::string text = test::errorOf(path, options);
+  EXPECT_NE(text.find(what), std::string::npos) << text;
+}
+
+TEST_F(Dicom, SlicesAreSortedByPlaceAndTiltStays) {
+  TestVolume v;
+  v.size[2] = 5;
+  v.fill();
+  v.lps << .5, 0, .5, -10, 0, .5, 0, -20, 0, 0, 2, 30;  // the gantry's tilt: 14.04 degrees
+  const auto source = openScan(series(v, {0, 1, 2, 3, 4}));
+  Eigen::Matrix3d steps;
+  steps << 0, -.0005, 0, .0005, 0, .0005, 0, 0, .002;
+  EXPECT_LT((source->frame().axes - steps).norm(), 1e-9) << source->frame().axes;
+  EXPECT_LT((source->frame().origin - Vector3d(.020, -.010, .030)).norm(), 1e-9);
+  const std::vector<float> all = test::allOf(*source);
+  ASSERT_EQ(all.size(), v.voxels.size());
+  for (size_t n = 0; n < all.size(); ++n) ASSERT_EQ(all[n], 2 * v.voxels[n] - 3) << n;
+}
+
+TEST_F(Dicom, MissingDoubledAndUnevenSlicesAreRefusedWithThePlace) {
+  TestVolume v;
+  v.size[2] = 5;
+  v.fill();
+  expectError(series(v, {0, 1, 2, 4, 5}), "slices are missing, 1, between 36.00 and 42.00 mm");
+  expectError(series(v, {0, 1, 2, 2, 3}), "there twice, at 36.00 mm");
+  expectError(series(v, {0, 1, 2, 3.3, 4}), "uneven slices");
+  expectError(series(v, {0}), "SliceThickness");
+}
+
+TEST_F(Dicom, SeveralSeriesAreListedAndChosen) {
+  TestVolume v;
+  const std::string folder = series(v, {0, 1});
+  for (int k = 0; k < 2; ++k) test::written("series/b" + std::to_string(k) + ".dcm", slice(v, k, k, "1.2.4"));
+  const std::vector<DicomSeries> list = listDicom(folder);
+  ASSERT_EQ(list.size(), 2U);
+  EXPECT_EQ(list[1].uid, "1.2.4");
+  EXPECT_EQ(list[1].description, "made 1.2.4");
+  EXPECT_EQ(list[1].files, 2);
+  expectError(folder, "accepted: a number or UID of");
+  ScanOptions options;
+  for (const char* chosen : {"1", "1.2.4"}) {
+    options.series = chosen;
+    EXPECT_EQ(test::allOf(folder, options).size(), v.voxels.size());
+  }
+  options.series = "7";
+  expectError(folder, "has no series '7'", options);
+}
+
+TEST_F(Dicom, SpoiltFilesEndInOneError) {
+  TestVolume v;
+  const std::string whole = slice(v, 0, 0);
+  const std::string folder = series(v, {0, 1});
+  test::written("series/100.dcm", whole.substr(0, whole.size() - 10));
+  expectError(folder, "ends early");
+  std::filesystem::create_directories(test::temporaryPath("nothing"));
+  expectError(test::temporaryPath("nothing"), "no DICOM file");
+  expectError(test::written("text.dcm", "hello"), "no DICOM file");
+  std::mt19937 random(30);
+  for (int n = 0; n < 30; ++n) {
+    std::string spoilt = whole;
+    for (int edits = 0; edits < 4; ++edits)
+      spoilt[132 + random() % (spoilt.size() - 132)] = static_cast<char>(random());
+    if (n % 3 == 0) spoilt.resize(132 + random() % (spoilt.size() - 132));
+    test::written("series/100.dcm", spoilt);
+    test::errorOf("", [&] { test::allOf(folder); });
+  }
+}
+
+TEST_F(Dicom, AProgramThatIsMissingOrSilentIsSaid) {
+  const std::string folder = series(TestVolume(), {0, 1});
+  setenv("VISCERA_DICOM", "/no/such/program", 1);
+  expectError(folder, "the program viscera-dicom");
+  const std::string sleeper = test::written("sleeper", "#!/bin/sh\nexec sleep 100\n");
+  std::filesystem::permissions(sleeper, std::filesystem::perms::owner_all);
+  setenv("VISCERA_DICOM", sleeper.c_str(), 1);
+  DicomLimits limits;
+  limits.silence_s = 1;
+  EXPECT_NE(test::errorOf(folder, [&] { listDicom(folder, limits); }).find("1 s, which is the limit"),
+            std::string::npos);
+  const std::string killer = test::written("killer", "#!/bin/sh\nkill -ABRT $$\n");
+  std::filesystem::permissions(killer, std::filesystem::perms::owner_all);
+  setenv("VISCERA_DICOM", killer.c_str(), 1);
+  EXPECT_NE(test::errorOf(folder, [&] { listDicom(folder, limits); }).find("was ended by it"), std::string::npos);
+}
+
+TEST_F(Dicom, RealSeriesOfJpeg2000) {
+  const std::string folder = test::realData("ct/dicom"), labels = test::realData("ct/example_seg_dicom.nii.gz");
+  if (folder.empty() || labels.empty()) GTEST_SKIP() << "ct/ not found; set VISCERA_TEST_DATA";
+  const auto source = openScan(folder);
+  EXPECT_EQ(source->frame().size, Vector3i(512, 512, 20));
+  EXPECT_NEAR(source->frame().axes(2, 2), .002, 1e-9);  // 3 mm thick, 2 mm apart
+  const std::vector<float> all = test::allOf(*source);
+  EXPECT_LT(*std::min_element(all.begin(), all.end()), -1000);
+  // The map of organs of the same series lies in the same box.
+  const VolumeFrame frame = source->frame(), map = openScan(labels)->frame();
+  const auto middle = [](const VolumeFrame& f) -> Vector3d {
+    return f.axes * (f.size.array() - 1).matrix().cast<double>() / 2 + f.origin;
+  };
+  EXPECT_LT((middle(frame) - middle(map)).norm(), 1e-3);
+}
+
+TEST_F(Dicom, RealSegmentsOverlap) {
+  const std::string path = test::realData("dicom_seg/partial_overlaps.dcm"),
+                    liver = test::realData("dicom_seg/liver.dcm");
+  if (path.empty()) GTEST_SKIP() << "dicom_seg/ not found; set VISCERA_TEST_DATA";
+  LabelOptions options;
+  std::vector<std::string> notes;
+  options.notes = &notes;
+  const LabelVolume volume = readLabels(path, options);
+  EXPECT_EQ(volume.names.size(), 6U);
+  EXPECT_EQ(volume.names[1].name, "GREEN");
+  ASSERT_EQ(notes.size(), 1U);  // voxels with several labels
+  const LabelVolume one = readLabels(liver), same = readLabels(test::realData("dicom_seg/liver_seg.nrrd"));
+  EXPECT_LT((one.frame.origin - same.frame.origin).norm(), 1e-6);
+  EXPECT_LT((one.frame.axes - same.frame.axes).norm(), 1e-6);
+  EXPECT_EQ(one.labels, same.labels);
+}
+
+}  // namespace
+}  // namespace viscera
