@@ -3,7 +3,6 @@
 #include "model/scan/net_cells.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 namespace viscera {
@@ -55,9 +54,9 @@ Sheets sheetsOf(const Labels& labels) {
 /// Goes through the volume slice by slice. Its voxels are counted from 1: around them lies a layer of label 0.
 class CellWalk {
  public:
-  CellWalk(const LabelVolume& volume, const ValueWindow* window)
+  CellWalk(const LabelVolume& volume, const Crossing& crossing)
       : volume_(volume),
-        window_(window),
+        crossing_(crossing),
         size_(volume.frame.size),
         spacing_m_(volume.frame.spacing_m()),
         row_(size_.x() + 2),
@@ -119,7 +118,7 @@ class CellWalk {
         continue;
       }
       vertices[p] = static_cast<uint32_t>(net_.places_m.size());
-      const Vector3d place = window_ != nullptr ? meanCrossing(cell, sheets, p) : Vector3d::Constant(0.5);
+      const Vector3d place = crossing_ ? meanCrossing(cell, sheets, p) : Vector3d::Constant(0.5);
       // Counted from the voxel, not from the layer around: hence - 1.
       net_.places_m.push_back((cell.cast<double>() + place - Vector3d::Ones()).cwiseProduct(spacing_m_));
     }
@@ -131,30 +130,14 @@ class CellWalk {
     int count = 0;
     for (int p = sheet; p < 12; ++p) {
       if (sheets[p] != sheet) continue;
-      const int a = kPair[p][0], b = kPair[p][1];
-      Vector3d place(a & 1, a >> 1 & 1, a >> 2);
-      place[p / 4] += crossing(valueAt(cell, a), valueAt(cell, b));
+      const int lower = kPair[p][0];
+      const Vector3i corner(lower & 1, lower >> 1 & 1, lower >> 2);
+      Vector3d place = corner.cast<double>();
+      place[p / 4] += crossing_(cell + corner - Vector3i::Ones(), p / 4);
       sum += place;
       ++count;
     }
     return sum / count;
-  }
-
-  float valueAt(const Vector3i& cell, int corner) const {
-    const Vector3i voxel = cell + Vector3i(corner & 1, corner >> 1 & 1, corner >> 2) - Vector3i::Ones();
-    if ((voxel.array() < 0).any() || (voxel.array() >= size_.array()).any()) return NAN;
-    return window_->value(voxel.x() +
-                          static_cast<size_t>(size_.x()) * (voxel.y() + static_cast<size_t>(size_.y()) * voxel.z()));
-  }
-
-  /// Share of the way from value a to b where the window is left or entered; half way where labels differ for other
-  /// reasons (a piece that was dropped, a hole that was filled, a neighbouring organ).
-  double crossing(double a, double b) const {
-    const auto inside = [&](double v) { return v >= window_->low && v <= window_->high; };
-    if (std::isnan(a) || std::isnan(b) || inside(a) == inside(b)) return 0.5;
-    const double outside = inside(a) ? b : a;
-    const double level = outside < window_->low ? window_->low : window_->high;
-    return std::clamp((level - a) / (b - a), 0.0, 1.0);
   }
 
   /// Between neighbours within the lower slice, and from it to the upper one.
@@ -196,7 +179,7 @@ class CellWalk {
   }
 
   const LabelVolume& volume_;
-  const ValueWindow* window_;
+  const Crossing& crossing_;
   const Vector3i size_;
   const Vector3d spacing_m_;
   const int row_;
@@ -208,8 +191,8 @@ class CellWalk {
 
 }  // namespace
 
-NetCells netCells(const LabelVolume& volume, const ValueWindow* window) {
-  return CellWalk(volume, window).walk();
+NetCells netCells(const LabelVolume& volume, const Crossing& crossing) {
+  return CellWalk(volume, crossing).walk();
 }
 
 }  // namespace viscera

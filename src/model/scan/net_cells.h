@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "model/scan/surface_net.h"
@@ -18,7 +19,15 @@ struct NetCells {
   std::vector<std::array<uint8_t, 2>> sides;   ///< [quads] label behind and before it
 };
 
-/// @param window  where given, corners lie where values cross it, else in the middle of their cell
-NetCells netCells(const LabelVolume& volume, const ValueWindow* window);
+/// Share of the way from a voxel to the next one along an axis at which the surface lies, where their labels differ.
+/// The voxel, or the next one, may lie one beyond the volume.
+using Crossing = std::function<double(const Vector3i& voxel, int axis)>;
+
+/// @param crossing  where given, corners lie in the middle of the crossings around them, else of their cell
+NetCells netCells(const LabelVolume& volume, const Crossing& crossing = {});
+
+/// The net as it is, without smoothing (`touching_edges` are not counted).
+/// @throws SceneError  as surfaceNet()
+SurfaceNet plainNet(const LabelVolume& volume, const Crossing& crossing);
 
 }  // namespace viscera

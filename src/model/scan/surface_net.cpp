@@ -41,6 +41,23 @@ std::vector<double> voxelVolumes(const LabelVolume& volume) {
   return volumes;
 }
 
+/// Where a window is left or entered between neighbours; half way where labels differ for other reasons (a piece that
+/// was dropped, a hole that was filled, a neighbouring organ, the end of the volume).
+Crossing crossingOf(const ValueWindow& window, const Vector3i& size) {
+  return [&window, size](const Vector3i& voxel, int axis) {
+    const Vector3i next = voxel + Vector3i::Unit(axis);
+    if ((voxel.array() < 0).any() || (next.array() >= size.array()).any()) return 0.5;
+    const auto valueAt = [&](const Vector3i& v) -> double {
+      return window.value(v.x() + static_cast<size_t>(size.x()) * (v.y() + static_cast<size_t>(size.y()) * v.z()));
+    };
+    const auto inside = [&](double v) { return v >= window.low && v <= window.high; };
+    const double a = valueAt(voxel), b = valueAt(next);
+    if (std::isnan(a) || std::isnan(b) || inside(a) == inside(b)) return 0.5;
+    const double level = (inside(a) ? b : a) < window.low ? window.low : window.high;
+    return std::clamp((level - a) / (b - a), 0.0, 1.0);
+  };
+}
+
 /// Whether a quad is cut from its corner 1 to 3 rather than from 0 to 2: along the shorter diagonal, or, where both are
 /// as long, the one that gives the larger label more. So the cut is the same whichever way the axes are numbered.
 bool cutFromOne(const std::vector<Vector3d>& x, const std::array<uint32_t, 4>& q, const std::array<uint8_t, 2>& sides) {
@@ -88,17 +105,34 @@ double SurfaceNet::volumeM3(uint8_t label) const {
   return sum / 6;
 }
 
+namespace {
+
+/// Cuts the quads and takes them into the frame of the volume.
+SurfaceNet finished(NetCells cells, const VolumeFrame& frame) {
+  SurfaceNet net;
+  cutQuads(cells, frame.axes.determinant() < 0, net);
+  net.positions_m = std::move(cells.places_m);
+  const Matrix3d unit_axes = frame.axes * frame.spacing_m().cwiseInverse().asDiagonal();
+  for (Vector3d& p : net.positions_m) p = unit_axes * p + frame.origin;
+  return net;
+}
+
+}  // namespace
+
 SurfaceNet surfaceNet(const LabelVolume& volume, const ValueWindow* window) {
   requireVolume(volume);
   const Vector3d spacing_m = volume.frame.spacing_m();
-  NetCells cells = netCells(volume, window);
-  SurfaceNet net;
-  net.touching_edges = smooth(cells, spacing_m, window != nullptr ? kFromValues : kFromLabels, voxelVolumes(volume));
-  cutQuads(cells, volume.frame.axes.determinant() < 0, net);
-  net.positions_m = std::move(cells.places_m);
-  const Matrix3d unit_axes = volume.frame.axes * spacing_m.cwiseInverse().asDiagonal();
-  for (Vector3d& p : net.positions_m) p = unit_axes * p + volume.frame.origin;
+  NetCells cells = netCells(volume, window != nullptr ? crossingOf(*window, volume.frame.size) : Crossing());
+  const size_t touching_edges =
+      smooth(cells, spacing_m, window != nullptr ? kFromValues : kFromLabels, voxelVolumes(volume));
+  SurfaceNet net = finished(std::move(cells), volume.frame);
+  net.touching_edges = touching_edges;
   return net;
+}
+
+SurfaceNet plainNet(const LabelVolume& volume, const Crossing& crossing) {
+  requireVolume(volume);
+  return finished(netCells(volume, crossing), volume.frame);
 }
 
 TriangleMesh labelSurfaces(const SurfaceNet& net, const std::vector<LabelName>& names,

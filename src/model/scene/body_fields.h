@@ -99,6 +99,12 @@ void visitFields(V& v, BodyConfig& c) {
   v.choice("up_axis", c.up_axis, {{"z", UpAxis::kZ}, {"y", UpAxis::kY}},
            "mesh: axis of the file that points up and is turned to z; y in glTF");
   v.boolean("centered", c.centered, "mesh: move the middle of its bounding box to the body's origin");
+  v.choice(
+      "fill", c.fill, {{"parts", Fill::kParts}, {"enclosed", Fill::kEnclosed}},
+      "mesh: what is tissue: the inside of each part, or what all parts enclose together, patches with gaps, turned "
+      "inside out or lying in each other as they are (docs/fill_rule.md)");
+  v.number("gap_m", c.gap_m, {1e-6, 1}, "m",
+           "fill enclosed: widest gap or hole that is closed; openings that are wider stay open");
   v.boolean("textures", c.textures,
             "mesh: take the colours, textures, normal maps and roughness that the file gives (docs/detail.md)");
   v.text(

@@ -24,6 +24,9 @@ std::string sourceFault(const BodyConfig& body) {
   if (body.skin == SkinSource::kInput && body.source != TissueSource::kMesh) {
     return "skin: input needs source: mesh; use auto or volume";
   }
+  if (body.fill == Fill::kEnclosed && (body.source != TissueSource::kMesh || isNetwork(body.structure))) {
+    return "fill: enclosed needs source mesh and structure lattice or explicit";
+  }
   if (body.source != TissueSource::kMesh) return "";
   const bool is_msh = isMsh(body.mesh_file);
   if (is_msh && body.structure != Structure::kTetrahedra) {

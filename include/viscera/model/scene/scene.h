@@ -24,6 +24,11 @@ enum class SkinSource { kAuto, kInput, kVolume };
 enum class Mapping { kAuto, kOneToOne, kConstant, kInterpolated, kAlongNormal };  ///< see docs/mappings.md
 enum class UpAxis { kZ, kY };
 enum class FixedShape { kBox, kSphere, kPlane, kPart };
+/// What of a mesh is tissue.
+enum class Fill {
+  kParts,    ///< the inside of each of its parts
+  kEnclosed  ///< what all of them enclose together, gaps closed
+};
 enum class Integrator { kLeapfrog, kVerletPaper, kPd, kMultigrid, kAuto };
 /// What a simulation begins with: everything at rest, or hanging in its weight.
 enum class SolverStart { kRest, kEquilibrium };
@@ -98,6 +103,8 @@ struct BodyConfig {
   ImportLimits import_limits;
   UpAxis up_axis = UpAxis::kZ;
   bool centered = false;
+  Fill fill = Fill::kParts;
+  double gap_m = 0.004;  ///< of fill: enclosed
   bool textures = true;
   std::string detail_mesh;  ///< relative to the scene file; empty: none, or with skin_faces the mesh itself
   int skin_faces = 0;       ///< 0: as many as there are

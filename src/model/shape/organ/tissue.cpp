@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "model/scene/structure_rules.h"
+#include "model/shape/enclosed/enclosed_solid.h"
 #include "model/shape/files/msh_reader.h"
 #include "model/shape/organ/clamp_planes.h"
 #include "model/shape/organ/placing.h"
@@ -40,12 +41,19 @@ class MeshTissue : public Tissue {
     notes.push_back(path_ + ": " + report.text());
     notes.insert(notes.end(), report.look_notes.begin(), report.look_notes.end());
     moments_ = hasMoments(config);
+    enclosed_ = config.fill == Fill::kEnclosed;
+    gap_m_ = config.gap_m;
     planes_ = clampPlanes(config, bounds());
   }
 
   Filling fill(double spacing_m, const Progress& progress) const override {
     VoxelReport report;
     try {
+      if (enclosed_) {
+        std::string note;
+        Solid solid = voxeliseEnclosed(mesh_, spacing_m, gap_m_, moments_, planes_, note, progress);
+        return {std::move(solid), note};
+      }
       Solid solid = moments_ ? voxeliseByMoments(mesh_, spacing_m, planes_, &report, progress)
                              : voxelise(mesh_, spacing_m, &report, progress);
       return {std::move(solid), report.text()};
@@ -54,15 +62,16 @@ class MeshTissue : public Tissue {
     }
   }
 
-  /// Closed where the solid is: no look into it through a hole.
-  TriangleMesh surface(const Solid&) const override { return withCaps(mesh_); }
+  /// Closed where the solid is, but for gaps between patches: no look into it through a hole.
+  TriangleMesh surface(const Solid&) const override { return enclosed_ ? mesh_ : withCaps(mesh_); }
   TriangleMesh shell(double spacing_m) const override { return refined(mesh_, spacing_m); }
   Eigen::AlignedBox3d bounds() const override { return boundsOf(mesh_.positions_m); }
 
  private:
   std::string path_;
   TriangleMesh mesh_;
-  bool moments_ = false;
+  bool moments_ = false, enclosed_ = false;
+  double gap_m_ = 0;
   NodePlanes planes_;
 };
 

@@ -1,0 +1,162 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "model/shape/enclosed/enclosed_surface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "model/scan/net_cells.h"
+#include "model/shape/enclosed/patch_grid.h"
+#include "viscera/math/error.h"
+
+namespace viscera {
+namespace {
+
+constexpr double kMostPoints = 20e6;   ///< some 400 MB
+constexpr double kLeastRadius = 0.87;  ///< steps: half the diagonal of a cell; a flood with less passes through walls
+constexpr double kBeyond = 0.6;        ///< steps that the flood goes on beyond the closing radius, up to the triangles
+constexpr double kOnward =
+    0.25;  ///< steps that each step leads away from the flood: what slips through a gap does not spread
+constexpr double kSettled = 0.005;  ///< volumes that differ by less are alike: hollows that close, not holes
+
+double finestStep(const TriangleMesh& mesh, double step_m, double gap_m) {
+  Eigen::AlignedBox3d box;
+  for (const auto& t : mesh.triangles) {
+    for (const uint32_t v : t) box.extend(mesh.positions_m[v].cast<double>());
+  }
+  const auto points = [&](double h) { return ((box.sizes().array() + gap_m) / h + 6).prod(); };
+  while (points(step_m) > kMostPoints) step_m *= 1.05;
+  return step_m;
+}
+
+class Flood {
+ public:
+  explicit Flood(const PatchGrid& grid) : grid_(grid) {}
+
+  /// [points] whether outside, gaps of up to twice the radius being closed
+  std::vector<uint8_t> outside(double radius_m) const {
+    std::vector<uint8_t> out(grid_.points(), 0);
+    std::vector<size_t> front = {0};
+    out[0] = 1;
+    spread(out, front, [&](size_t, size_t, size_t to, int) { return grid_.distances_m[to] > radius_m; });
+    // Up to the triangles, but no farther than the radius into a gap.
+    const std::vector<float> way = distancesTo(out, grid_);
+    const double most = radius_m / grid_.step_m + kBeyond;
+    for (size_t i = 0; i < out.size(); ++i) {
+      if (out[i]) front.push_back(i);
+    }
+    spread(out, front, [&](size_t from, size_t lower, size_t to, int axis) {
+      return way[to] <= most && way[to] >= way[from] + kOnward && !grid_.crossed(lower, axis);
+    });
+    return out;
+  }
+
+ private:
+  /// @param passes  (point to go from, lower one of the edge, point to go to, axis)
+  template <class Passes>
+  void spread(std::vector<uint8_t>& out, std::vector<size_t>& front, Passes passes) const {
+    while (!front.empty()) {
+      const size_t from = front.back();
+      front.pop_back();
+      for (int axis = 0; axis < 3; ++axis) {
+        const size_t stride = grid_.stride(axis);
+        const int at = grid_.along(from, axis);
+        if (at > 0) reach(out, front, from, from - stride, from - stride, axis, passes);
+        if (at + 1 < grid_.size[axis]) reach(out, front, from, from, from + stride, axis, passes);
+      }
+    }
+  }
+
+  template <class Passes>
+  static void reach(std::vector<uint8_t>& out, std::vector<size_t>& front, size_t from, size_t lower, size_t to,
+                    int axis, Passes passes) {
+    if (out[to] || !passes(from, lower, to, axis)) return;
+    out[to] = 1;
+    front.push_back(to);
+  }
+
+  const PatchGrid& grid_;
+};
+
+/// Along lines of the grid, between the outermost triangles; where there are none the border lies half way.
+double volumeOf(const std::vector<uint8_t>& out, const PatchGrid& grid) {
+  double steps = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const size_t stride = grid.stride(axis);
+    for (size_t i = 0; i + stride < out.size(); ++i) {
+      if (grid.along(i, axis) + 1 >= grid.size[axis] || (out[i] && out[i + stride])) continue;
+      if (!out[i] && !out[i + stride]) {
+        steps += 1;
+      } else {
+        const auto [first, last] = grid.crossings(i, axis);
+        steps += out[i] ? 1 - first : last;
+      }
+    }
+  }
+  return steps / 3 * std::pow(grid.step_m, 3);
+}
+
+TriangleMesh surfaceOf(const std::vector<uint8_t>& out, const PatchGrid& grid) {
+  LabelVolume volume;
+  volume.frame.size = grid.size;
+  volume.frame.axes *= grid.step_m;
+  volume.frame.origin = grid.origin_m;
+  volume.labels.resize(out.size());
+  for (size_t i = 0; i < out.size(); ++i) volume.labels[i] = !out[i];
+  const SurfaceNet net = plainNet(volume, [&](const Vector3i& point, int axis) -> double {
+    const size_t i = point.x() + grid.stride(1) * point.y() + grid.stride(2) * point.z();
+    const auto [first, last] = grid.crossings(i, axis);
+    return out[i] ? first : last;
+  });
+  return labelSurfaces(net, {{0, ""}, {1, "enclosed"}}, {1});
+}
+
+}  // namespace
+
+std::string EnclosedSurface::text() const {
+  std::ostringstream text;
+  text << "encloses " << volume_m3 * 1e6 << " cm3, gaps up to " << closed_gap_m * 1e3 << " mm closed";
+  if (hole_m > 0) text << "; it has a hole of about " << hole_m * 1e3 << " mm";
+  if (!settled) text << "; wider gaps may be open still: see gap_m";
+  return text.str();
+}
+
+EnclosedSurface enclosedSurface(const TriangleMesh& mesh, double step_m, double gap_m) {
+  if (mesh.triangles.empty()) throw MeshError("the mesh encloses no volume: it has no triangles");
+  const double step = finestStep(mesh, step_m, gap_m);
+  const double least_m = kLeastRadius * step, most_m = std::max(least_m, gap_m / 2);
+  const PatchGrid grid(mesh, step, most_m + 2 * step);
+  const Flood flood(grid);
+  EnclosedSurface found;
+  std::vector<uint8_t> kept;
+  double before_m3 = -1;
+  for (double radius_m = least_m;; radius_m = std::min(2 * radius_m, most_m)) {
+    std::vector<uint8_t> out = flood.outside(radius_m);
+    const double volume_m3 = volumeOf(out, grid);
+    const bool jumped = volume_m3 - before_m3 > kSettled * volume_m3;
+    if (before_m3 < 0 || jumped) {  // the smallest radius beyond which nothing more is found
+      kept = std::move(out);
+      found.volume_m3 = volume_m3;
+      if (before_m3 >= 0)
+        found.hole_m = found.closed_gap_m = 2 * radius_m;
+      else
+        found.closed_gap_m = 2 * radius_m;
+    }
+    before_m3 = volume_m3;
+    if (radius_m >= most_m) {
+      found.settled = !jumped || found.hole_m == 0;
+      break;
+    }
+  }
+  found.mesh = surfaceOf(kept, grid);
+  if (found.mesh.triangles.empty()) {
+    std::ostringstream why;
+    why << "the mesh encloses no volume, gaps up to " << 2e3 * most_m
+        << " mm being closed: raise gap_m, or the spacing";
+    throw MeshError(why.str());
+  }
+  return found;
+}
+
+}  // namespace viscera
