@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "model/scan/labels.h"
+#include "model/scan/window.h"
 #include "viscera/model/scene/scene.h"
 
 namespace viscera::cli {
@@ -55,5 +57,17 @@ int fit(const RunOptions& options);
 
 /// `viscera anchor`: anchored strokes as absolute ones.
 int anchor(const RunOptions& options);
+
+struct ImportOptions {
+  std::string scan;
+  LabelOptions labels;     ///< with what the file cannot say
+  bool by_window = false;  ///< tissue is what lies within `window`, not labels
+  WindowOptions window;
+  double spacing_m = 0;  ///< 0: the largest organ gets some 20,000 nodes
+  bool list = false;     ///< says what is in the scan, and writes nothing
+  std::string out;
+};
+/// `viscera import`: organs of a scan as meshes and a scene of them.
+int import(const ImportOptions& options);
 
 }  // namespace viscera::cli

@@ -18,6 +18,7 @@ struct Options {
   int device = -1;
   cli::RunOptions run;
   cli::SweepOptions sweep;
+  cli::ImportOptions import;
   double seconds = 0;
   std::string keys_of;
 };
@@ -25,6 +26,38 @@ struct Options {
 void addOverrides(CLI::App* command, Overrides& overrides) {
   command->add_option("--set", overrides, "key=value: replaces one value of the scene, as in bodies[0].spacing_m=0.003")
       ->allow_extra_args(false);
+}
+
+CLI::App* addImport(CLI::App& app, cli::ImportOptions& o, std::vector<double>& window) {
+  CLI::App* import = app.add_subcommand("import", "make a scene of a scan's organs (docs/scans.md)");
+  import->add_option("scan", o.scan, "NIfTI, NRRD, MetaImage or DICOM file, or folder of DICOM files")->required();
+  CLI::Option* list = import->add_flag("--list", o.list, "say what is in the scan, and write nothing");
+  CLI::Option* labels =
+      import->add_option("--labels", o.labels.labels, "numbers or names, a comma between; default: all")
+          ->delimiter(',');
+  CLI::Option* values = import
+                            ->add_option("--window", window,
+                                         "LO,HI: values that are taken for tissue; of CT in "
+                                         "Hounsfield units. That is no segmentation")
+                            ->delimiter(',')
+                            ->expected(2)
+                            ->excludes(labels);
+  import->add_option("--closing-mm", o.window.closing_mm, "gaps narrower than twice that close; 0 .. 20; default 0")
+      ->check(CLI::Range(0.0, 20.0))
+      ->needs(values);
+  import->add_option("--pieces", o.window.pieces, "so many of the largest pieces; default 1; 0: all")
+      ->check(CLI::Range(0, 1'000'000))
+      ->needs(values);
+  import->add_flag("--fill-holes", o.window.fill_holes, "what tissue encloses is tissue")->needs(values);
+  import->add_option("--spacing", o.spacing_m, "of all lattices [m]; default: some 20,000 nodes for the largest organ")
+      ->check(CLI::Range(1e-5, 10.0));
+  import->add_option("--names", o.labels.names_file, "table of names, of ITK-SNAP or YAML");
+  import->add_option("--axes", o.labels.axes, "where i, j, k lead to, where the file does not say, as in LPS");
+  import->add_option("--transform", o.labels.transform, "sform or qform, where a NIfTI file has two that differ");
+  import->add_option("--volume", o.labels.volume, "0 and up, of a file with several")->check(CLI::Range(0, 1'000'000));
+  import->add_option("--series", o.labels.series, "number or UID of a DICOM series");
+  import->add_option("--out", o.out, "new folder for scene.yaml and its meshes")->excludes(list);
+  return import;
 }
 
 int dispatch(int argc, char** argv) {
@@ -92,6 +125,8 @@ int dispatch(int argc, char** argv) {
       ->needs(slurm);
   sweep->add_flag("--retry", o.sweep.retry, "try again what was given up");
 
+  std::vector<double> window;
+  CLI::App* import = addImport(app, o.import, window);
   app.add_subcommand("bench", "measure: `viscera bench --help` lists what");  // main() has taken it
 
   CLI::App* keys = app.add_subcommand("keys", "print the table of a file's keys");
@@ -102,6 +137,14 @@ int dispatch(int argc, char** argv) {
   if (*settle) return memoryFor("settling scene '" + o.run.scene + "'", [&] { return cli::settle(o.run); });
   if (*fit) return memoryFor("fitting scene '" + o.run.scene + "'", [&] { return cli::fit(o.run); });
   if (*anchor) return memoryFor("anchoring in scene '" + o.run.scene + "'", [&] { return cli::anchor(o.run); });
+  if (*import) {
+    if (!o.import.list && o.import.out.empty())
+      throw cli::CommandLineError("import: --out DIR or --list is required",
+                                  static_cast<int>(CLI::ExitCodes::RequiredError));
+    o.import.by_window = !window.empty();
+    if (o.import.by_window) o.import.window.low = window[0], o.import.window.high = window[1];
+    return memoryFor("importing scan '" + o.import.scan + "'", [&] { return cli::import(o.import); });
+  }
   if (*sweep) return cli::sweep(o.sweep);
   if (*keys) {
     std::cout << (o.keys_of == "device" ? deviceKeysTable() : sceneKeysTable());

@@ -1,0 +1,309 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <stdlib.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <set>
+#include <sstream>
+
+#include "cli/commands.h"
+#include "math/one_line.h"
+#include "model/scan/dicom.h"
+#include "model/scan/surface_net.h"
+#include "viscera/layout/limits.h"
+#include "viscera/math/error.h"
+#include "viscera/model/scene/scene.h"
+#include "viscera/model/shape/triangle_mesh.h"
+
+namespace viscera::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kNodes = 20000;     ///< that the largest body gets, about
+constexpr double kLeastNodes = 500;  ///< that a smaller one gets: its spacing shrinks before it has fewer
+constexpr double kHeld = 0.2;  ///< of a surface's vertices, from behind: of pointed organs' length it would be little
+constexpr double kFieldOfViewDeg = 28;     ///< of the camera, from the top of a picture to its bottom
+constexpr double kUsualLength = 0.1;       ///< [m] of organs that tools have their usual sizes for
+constexpr double kLargestLabel = 1 << 24;  ///< as labels.h has it
+constexpr size_t kMostListed = 255;        ///< labels of a map
+constexpr double kCm3 = 1e6;               ///< in a cubic metre
+
+/// A body of the scene.
+struct Organ {
+  std::string name, file, title;
+  TriangleMesh mesh;
+  Eigen::AlignedBox3d box_m;
+  double volume_m3 = 0, spacing_m = 0;
+  double held_m = 0;  ///< x, behind which it is held
+};
+
+std::string listText(const Vector3d& v, double scale = 1) {
+  std::ostringstream out;
+  out.precision(6);
+  out << v.x() * scale << ", " << v.y() * scale << ", " << v.z() * scale;
+  return out.str();
+}
+
+void printNotes(const std::vector<std::string>& notes) {
+  for (const std::string& note : notes) std::cout << "note: " << oneLine(note) << '\n';
+}
+
+std::string formatOf(const std::string& path) {
+  std::error_code error;
+  if (fs::is_directory(path, error)) return "DICOM, a folder";
+  const std::string end = fs::path(path).extension().string();
+  if (end == ".gz" || end == ".nii") return "NIfTI";
+  return end == ".dcm" ? "DICOM" : end == ".mhd" || end == ".mha" ? "MetaImage" : "NRRD";
+}
+
+void printFrame(const VolumeFrame& frame) {
+  Eigen::AlignedBox3d box;
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vector3d index(corner & 1 ? frame.size.x() - 0.5 : -0.5, corner & 2 ? frame.size.y() - 0.5 : -0.5,
+                         corner & 4 ? frame.size.z() - 0.5 : -0.5);
+    box.extend(frame.axes * index + frame.origin);
+  }
+  std::string axes;
+  for (int a = 0; a < 3; ++a) {
+    Eigen::Index most = 0;
+    frame.axes.col(a).cwiseAbs().maxCoeff(&most);
+    axes += frame.axes(most, a) > 0 ? "ALS"[most] : "PRI"[most];
+  }
+  std::cout << "size: " << frame.size.x() << " x " << frame.size.y() << " x " << frame.size.z() << " voxels\n"
+            << "spacing: " << listText(frame.spacing_m(), 1000) << " mm\n"
+            << "world: from " << listText(box.min()) << " to " << listText(box.max())
+            << " m (x anterior, y left, z up); i, j, k lead to " << axes << '\n';
+}
+
+void printLabels(const ImportOptions& options) {
+  const LabelVolume map = readLabels(options.scan, options.labels);
+  std::vector<size_t> voxels(map.names.size(), 0);
+  for (const uint8_t label : map.labels) ++voxels[label];
+  std::cout << "labels, should this be a label map (value, name, voxels):\n";
+  for (size_t n = 1; n < map.names.size(); ++n) {
+    const std::string& name = map.names[n].name;
+    std::cout << "  " << map.names[n].value << ", " << (name.empty() ? "-" : oneLine(name)) << ", " << voxels[n]
+              << '\n';
+  }
+}
+
+int list(const ImportOptions& options) {
+  std::cout << "format: " << formatOf(options.scan) << '\n';
+  if (formatOf(options.scan).rfind("DICOM", 0) == 0) {
+    const std::vector<DicomSeries> all = listDicom(options.scan);
+    for (size_t n = 0; n < all.size(); ++n) {
+      std::cout << "series " << n << ": " << oneLine(all[n].modality) << ", " << oneLine(all[n].description) << ", "
+                << all[n].files << " files, " << oneLine(all[n].uid) << '\n';
+    }
+    if (all.size() > 1 && options.labels.series.empty()) {
+      std::cout << "--series says which is read\n";
+      return 0;
+    }
+  }
+  const std::unique_ptr<ScanSource> source = openScan(options.scan, options.labels);
+  const VolumeFrame frame = source->frame();
+  printFrame(frame);
+  double least = INFINITY, largest = -INFINITY;
+  bool whole = true;
+  std::set<float> met;
+  std::vector<float> values;
+  for (int k = 0; k < frame.size.z(); ++k) {
+    source->next(values);
+    for (const float value : values) {
+      whole = whole && value >= 0 && value <= kLargestLabel && value == std::floor(value);  // false for NaN
+      if (std::isnan(value)) continue;
+      least = std::min<double>(least, value);
+      largest = std::max<double>(largest, value);
+      if (whole && value > 0 && met.size() <= kMostListed) met.insert(value);
+    }
+  }
+  std::cout << "values: " << (least > largest ? NAN : least) << " to " << (least > largest ? NAN : largest) << '\n';
+  if (whole && !met.empty() && met.size() <= kMostListed) printLabels(options);
+  return 0;
+}
+
+LabelVolume inWindow(const ImportOptions& options) {
+  WindowReport report;
+  LabelVolume map = windowed(*openScan(options.scan, options.labels), options.window, &report);
+  map.names = {{0, ""}, {1, "window"}};
+  std::cout << "values: " << report.least << " to " << report.largest << "; " << report.in_window
+            << " voxels in the window, " << report.at_border << " of them at the scan's border, " << report.not_numbers
+            << " no numbers\npieces: " << report.pieces << ", kept " << report.kept << ": " << report.kept_cm3
+            << " cm3, holes filled " << report.filled_cm3 << " cm3; largest [cm3]:";
+  for (const double cm3 : report.largest_cm3) std::cout << ' ' << cm3;
+  std::cout << "\nThis is no segmentation: what has the same values and touches came along (docs/scans.md).\n";
+  return map;
+}
+
+/// A name that is plain in file names, YAML and topics, and that no other has.
+std::string plainName(const LabelName& label, const std::vector<Organ>& others) {
+  std::string name;
+  for (const char c : label.name) name += std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
+  constexpr size_t kLongest = 60;  // bytes
+  name.resize(std::min(name.size(), kLongest));
+  const auto taken = [&] {
+    return std::any_of(others.begin(), others.end(), [&](const Organ& o) { return o.name == name; });
+  };
+  if (name.empty() || !std::isalpha(static_cast<unsigned char>(name[0]))) {
+    name = "label_" + (name.empty() ? std::to_string(label.value) : name);
+    std::replace(name.begin(), name.end(), '-', '_');
+  }
+  const std::string stem = name;
+  for (int n = 2; taken(); ++n) name = stem + "_" + std::to_string(n);
+  return name;
+}
+
+std::vector<Organ> organsOf(const LabelVolume& map, const ImportOptions& options) {
+  const size_t count = map.names.size() - 1;
+  if (count > layout::kMaxBodies)
+    throw SceneError(options.scan + ": " + std::to_string(count) + " labels; accepted: a scene has at most " +
+                     std::to_string(layout::kMaxBodies) + " bodies, of labels that --labels chooses");
+  const SurfaceNet net = surfaceNet(map);
+  std::vector<Organ> organs;
+  double largest_m3 = 0;
+  for (size_t n = 1; n <= count; ++n) {
+    Organ organ;
+    organ.name = plainName(map.names[n], organs);
+    organ.title = options.by_window ? "values in the window" : "label " + std::to_string(map.names[n].value);
+    organ.file = organ.name + ".ply";
+    organ.mesh = labelSurfaces(net, map.names, {static_cast<uint8_t>(n)});
+    organ.volume_m3 = signedVolume(organ.mesh);
+    std::vector<double> x_m;
+    for (const Vector3f& p : organ.mesh.positions_m) {
+      organ.box_m.extend(p.cast<double>());
+      x_m.push_back(static_cast<double>(p.x()));
+    }
+    const auto held = x_m.begin() + static_cast<std::ptrdiff_t>(kHeld * static_cast<double>(x_m.size()));
+    std::nth_element(x_m.begin(), held, x_m.end());
+    organ.held_m = *held;
+    largest_m3 = std::max(largest_m3, organ.volume_m3);
+    organs.push_back(std::move(organ));
+  }
+  for (Organ& organ : organs) {
+    const double nodes = std::max(kLeastNodes, kNodes * organ.volume_m3 / largest_m3);
+    organ.spacing_m = options.spacing_m > 0 ? options.spacing_m : std::cbrt(organ.volume_m3 / nodes);
+  }
+  return organs;
+}
+
+void writeFile(const fs::path& path, const std::string& bytes) {
+  std::ofstream file(path, std::ios::binary);
+  file << bytes;
+  file.close();
+  if (!file) throw Error(path.string() + ": cannot be written");
+}
+
+std::string plyOf(const TriangleMesh& mesh) {
+  std::ostringstream out;
+  out << "ply\nformat binary_little_endian 1.0\ncomment metres; x anterior, y left, z up\nelement vertex "
+      << mesh.positions_m.size() << "\nproperty float x\nproperty float y\nproperty float z\nelement face "
+      << mesh.triangles.size() << "\nproperty list uchar uint vertex_indices\nend_header\n";
+  for (const Vector3f& p : mesh.positions_m) out.write(reinterpret_cast<const char*>(p.data()), 3 * sizeof(float));
+  for (const std::array<uint32_t, 3>& corners : mesh.triangles) {
+    out.put(3);
+    out.write(reinterpret_cast<const char*>(corners.data()), 3 * sizeof(uint32_t));
+  }
+  return out.str();
+}
+
+/// Meshes stay where the scan has them; bodies are moved so that the middle of all is the scene's origin. Without
+/// gravity: the scan shows organs as their weight left them.
+std::string sceneOf(const std::vector<Organ>& organs, const std::string& scan) {
+  Eigen::AlignedBox3d all;
+  for (const Organ& organ : organs) all.extend(organ.box_m);
+  static const std::vector<std::string> kColors = {"[0.62, 0.22, 0.2]",  "[0.76, 0.5, 0.38]", "[0.72, 0.3, 0.36]",
+                                                   "[0.78, 0.66, 0.46]", "[0.5, 0.26, 0.34]", "[0.66, 0.4, 0.3]"};
+  std::ostringstream out;
+  out.precision(6);
+  out << "# From the scan " << oneLine(scan) << "\nname: import\nenvironment: {gravity_m_per_s2: [0, 0, 0]}\nbodies:\n";
+  for (size_t n = 0; n < organs.size(); ++n) {
+    const Organ& organ = organs[n];
+    out << "  - name: " << organ.name << "  # " << organ.title << "\n    source: mesh\n    mesh_file: " << organ.file
+        << "\n    spacing_m: " << organ.spacing_m << "\n    position_m: [" << listText(-all.center())
+        << "]\n    color: " << kColors[n % kColors.size()]
+        << "\n    material: {young_modulus_pa: 10000, density_kg_per_m3: 1060}\n    fixed:\n"
+        << "      - {shape: plane, point_m: [" << listText({organ.held_m, 0, 0}) << "], normal: [1, 0, 0]}\n";
+  }
+  const double scale = std::cbrt(all.sizes().prod()) / kUsualLength;
+  out << "styluses:\n";
+  for (const char* hand : {"left", "right"}) {
+    out << "  - {name: " << hand << ", idle: probe, button1: grab, button2: cut, probe: {radius_m: " << 0.006 * scale
+        << "}, grab: {radius_m: " << 0.008 * scale << "}, cut: {blade_length_m: " << 0.022 * scale << "}}\n";
+  }
+  // From before, somewhat from the organ's left and from above.
+  const double half = kFieldOfViewDeg / 2 * M_PI / 180;
+  const double distance = 0.5 * all.sizes().norm() / std::sin(half);
+  out << "cameras:\n  - {name: camera, position_m: [" << listText(distance * Vector3d(1, 0.35, 0.3).normalized())
+      << "], target_m: [0, 0, 0], vertical_fov_deg: " << kFieldOfViewDeg << "}\n";
+  return out.str();
+}
+
+/// A folder beside the one that is asked for, which it becomes, or else goes away with all that is in it.
+class Draft {
+ public:
+  explicit Draft(const std::string& out) : out_(fs::absolute(out).lexically_normal()) {
+    if (!out_.has_filename()) out_ = out_.parent_path();
+    std::error_code error;
+    if (fs::exists(out_, error) && !(fs::is_directory(out_, error) && fs::is_empty(out_, error)))
+      throw Error(out + ": is there already; accepted by --out: a new or an empty folder");
+    draft_ = out_.string() + ".part-XXXXXX";
+    if (!mkdtemp(draft_.data()))
+      throw Error(out + ": cannot be written; accepted by --out: a folder within one that is there");
+    fs::permissions(draft_, fs::perms(0755), error);
+  }
+  ~Draft() {
+    std::error_code error;
+    if (!draft_.empty()) fs::remove_all(draft_, error);
+  }
+  Draft(const Draft&) = delete;
+  Draft& operator=(const Draft&) = delete;
+
+  fs::path file(const std::string& name) const { return fs::path(draft_) / name; }
+  void keep() {
+    std::error_code error;
+    fs::rename(draft_, out_, error);
+    if (error) throw Error(out_.string() + ": cannot be written: " + error.message());
+    draft_.clear();
+  }
+
+ private:
+  fs::path out_;
+  std::string draft_;
+};
+
+}  // namespace
+
+int import(const ImportOptions& asked) {
+  ImportOptions options = asked;
+  if (std::isnan(options.spacing_m))
+    throw Error("--spacing is a number, 0.00001 .. 10; found nan");  // passes CLI::Range
+  std::vector<std::string> notes;
+  options.labels.notes = &notes;
+  if (options.list) {
+    list(options);
+    printNotes(notes);
+    return 0;
+  }
+  Draft draft(options.out);
+  const std::vector<Organ> organs =
+      organsOf(options.by_window ? inWindow(options) : readLabels(options.scan, options.labels), options);
+  for (const Organ& organ : organs) writeFile(draft.file(organ.file), plyOf(organ.mesh));
+  writeFile(draft.file("scene.yaml"), sceneOf(organs, options.scan));
+  loadScene(draft.file("scene.yaml").string());
+  draft.keep();
+  printNotes(notes);
+  for (const Organ& organ : organs) {
+    std::cout << organ.name << ": " << organ.title << ", " << organ.volume_m3 * kCm3 << " cm3, "
+              << organ.mesh.triangles.size() << " triangles, spacing " << organ.spacing_m << " m\n";
+  }
+  std::cout << "wrote " << oneLine((fs::path(options.out) / "scene.yaml").string()) << '\n';
+  return 0;
+}
+
+}  // namespace viscera::cli
