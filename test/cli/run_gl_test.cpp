@@ -309,7 +309,7 @@ TEST_F(Run, SpacingThatTheMachineChoosesIsToldWithItsReason) {
                                   " of " + factor + " wanted: "}));
     return nodes;
   };
-  EXPECT_LT(nodesAt("1000"), nodesAt("2"));
+  EXPECT_LT(nodesAt("100"), nodesAt("2"));
 }
 
 TEST_F(Run, MeshOfTheCommandLineBecomesTheTissue) {

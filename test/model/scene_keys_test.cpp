@@ -44,6 +44,8 @@ bodies:
     force_n: [0.37, 0.38, 0.39]
     spacing_m: 0.0041
     target_nodes: 4200
+    fill: enclosed
+    gap_m: 0.0042
     skin: volume
     mapping: constant
     position_m: [0.051, 0.052, 0.053]
