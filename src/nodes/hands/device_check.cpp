@@ -32,6 +32,7 @@ constexpr const char* kAssign = ":=";
 constexpr const char* kWrite = "--write";
 constexpr std::chrono::milliseconds kLook{100};
 constexpr std::chrono::milliseconds kConnect{500};  ///< subscribers and tf have found who publishes
+constexpr std::chrono::seconds kFirstPose{5};       ///< a busy machine connects late: that is no fault of the device
 constexpr double kFeel_s = 12;                      ///< for touching tissue
 constexpr int kTries = 3;
 const Vector3d kFront_m(0, -0.09, 0);  ///< where the hand is held, of devices whose base is unknown: before the organ
@@ -188,6 +189,9 @@ void DeviceCheck::open() {
   if (!choice.name.empty()) corrections_.push_back("name=\"" + choice.name + "\"");
   ear_ = std::make_unique<DeviceEar>(node_, device_, frames_);
   std::this_thread::sleep_for(kConnect);
+  const auto late = std::chrono::steady_clock::now() + kFirstPose;
+  while (!ear_->heardPose() && std::chrono::steady_clock::now() < late)
+    if (end_->waitFor(kLook)) throw Left();
   const PosePort& port = device_.pose;
   say("profile " + choice.profile + " (" + device_.about + ") for the stylus '" + choice.stylus + "', poses from " +
       (port.type == PoseType::kTf ? "tf, " + port.tf_base + " to " + port.tf_frame : port.topic));

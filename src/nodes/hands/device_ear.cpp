@@ -115,6 +115,7 @@ void DeviceEar::listenTo(ros::NodeHandle& node, const ButtonPort& port) {
 }
 
 void DeviceEar::onPose(const DevicePose& pose, bool stamped) {
+  heard_pose_ = true;
   const std::lock_guard<std::mutex> lock(mutex_);
   if (!open_ || heard_.poses.size() >= kMost) return;
   HeardPose heard;

@@ -5,6 +5,7 @@
 #include <ros/node_handle.h>
 #include <tf2_ros/transform_listener.h>
 
+#include <atomic>
 #include <chrono>
 #include <memory>
 #include <mutex>
@@ -30,6 +31,7 @@ class DeviceEar {
 
   void begin();
   Heard end();
+  bool heardPose() const { return heard_pose_; }  ///< the driver is connected, and tells poses
   bool hasForces() const { return forces_ && forces_.getNumPublishers() > 0; }  ///< a node sends it some
 
  private:
@@ -45,6 +47,7 @@ class DeviceEar {
   std::mutex mutex_;
   Clock::time_point begun_{};
   bool open_ = false;
+  std::atomic<bool> heard_pose_{false};
   Heard heard_;
   ros::Subscriber poses_, forces_;
   std::vector<ros::Subscriber> buttons_;
