@@ -84,7 +84,16 @@ int dispatch(int argc, char** argv) {
       ->needs(out);
   run->add_flag("--labels", o.run.labels, "what each pixel shows with every picture: grey .png (docs/ros_api.md)")
       ->needs(out);
-  CLI::Option* reference = run->add_flag("--reference", o.run.reference, "the plain float64 solver instead of the GPU");
+  CLI::Option* save =
+      run->add_option("--save", o.run.save, "file for the state at the end, to go on from with --resume");
+  CLI::Option* save_every = run->add_option("--save-every", o.run.save_every_s,
+                                            "simulated seconds after which the state is saved, again and again")
+                                ->check(CLI::Range(1e-6, 86400.0))
+                                ->needs(save);
+  CLI::Option* resume = run->add_option("--resume", o.run.resume,
+                                        "state that this scene was saved in: goes on there, to the same end in time");
+  CLI::Option* reference = run->add_flag("--reference", o.run.reference, "the plain float64 solver instead of the GPU")
+                               ->excludes(save, save_every, resume);
   run->add_flag("--no-view", o.run.no_view, "without OpenGL: on the processor, and without pictures")
       ->excludes(reference);
   run->add_flag("--compare", o.run.compare, "the GPU's error against the reference, as gpu_error")->needs(reference);

@@ -1,5 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <fstream>
@@ -79,6 +80,22 @@ Album::Pictures picturesOf(const RunOptions& options) {
   return options.live ? Album::Pictures::kLive : Album::Pictures::kAll;
 }
 
+/// @throws Error  it was saved after the end of this run, or Session::restore()
+void resume(Session& session, const std::string& file, uint64_t ticks) {
+  session.restore(file);
+  const double at_s = static_cast<double>(session.tick()) * session.tick_s();
+  if (session.tick() > ticks) {
+    throw Error(file + ": was saved after " + std::to_string(at_s) + " s, and the run ends at " +
+                std::to_string(static_cast<double>(ticks) * session.tick_s()) + " s: give it a later end by --seconds");
+  }
+  std::cout << "resumed after " << at_s << " s, tick " << session.tick() << '\n';
+}
+
+/// Ticks between two savings; 0: none.
+uint64_t saveTicks(double every_s, double tick_s) {
+  return every_s > 0 ? std::max<uint64_t>(1, static_cast<uint64_t>(std::llround(every_s / tick_s))) : 0;
+}
+
 /// Where the whole of a recording was replayed: does it end as the recorded simulation did?
 void compareWithRecording(const Strokes& strokes, uint64_t ticks, Json& metrics) {
   const std::string& recorded = strokes.recorded.state_hash;
@@ -128,18 +145,22 @@ int run(const RunOptions& options) {
   if (!strokes.recorded.scene.empty())
     std::cout << "strokes: recorded of scene " << strokes.recorded.scene
               << ", overrides: " << (strokes.recorded.overrides.empty() ? "none" : strokes.recorded.overrides) << '\n';
+  if (!options.resume.empty()) resume(session, options.resume, ticks);
+  const uint64_t save_ticks = saveTicks(options.save_every_s, session.tick_s());
   const Clock::time_point start = Clock::now();
-  for (uint64_t t = 0; t < ticks; ++t) {
+  for (uint64_t t = session.tick(); t < ticks; ++t) {
     const double time_s = static_cast<double>(t + 1) * session.tick_s();
     if (strokes.handsAnew(t + 1)) session.forgetHands();
     album.add(session.step(strokes.at(time_s, scene.styluses), album.wants(session)));
     progress("simulating", static_cast<double>(t + 1) / static_cast<double>(ticks));
+    if (save_ticks > 0 && (t + 1) % save_ticks == 0) session.save(options.save);
   }
   Frame last = session.drain();
   const double wall_s = secondsSince(start);
   const layout::TickStats stats = last.stats;
   album.add(std::move(last));
   album.finish();
+  if (!options.save.empty()) session.save(options.save);
 
   Json metrics = metricsOf(session, stats, context ? context->renderer() : "none", wall_s);
   compareWithRecording(strokes, ticks, metrics);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "math/archive.h"
 #include "model/scene/tool_kinds.h"
 
 namespace viscera {
@@ -81,6 +82,18 @@ void Tools::setMode(size_t stylus, ToolSwitch when, ToolMode mode) {
 void Tools::forget() {
   last_ = {};
   forgotten_.fill(true);
+}
+
+void Tools::persist(Archive& archive) {
+  for (StylusConfig& config : configs_) {
+    archive.value(config.idle);
+    archive.value(config.button1);
+    archive.value(config.button2);
+  }
+  archive.value(last_);
+  archive.value(mode_);
+  archive.value(inside_);
+  archive.value(forgotten_);
 }
 
 void Tools::reset() {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "viscera/tools/obstacles.h"
 
+#include "math/archive.h"
 #include "viscera/layout/limits.h"
 
 namespace viscera {
@@ -128,6 +129,17 @@ void Obstacles::reset() {
   for (size_t i = 0; i < configs_.size(); ++i) {
     const Pose start = placed(i, 0, frames_[i].value_or(Pose{}));
     motions_[i] = {start, start};
+  }
+}
+
+void Obstacles::persist(Archive& archive) {
+  archive.values(motions_);
+  for (size_t i = 0; i < configs_.size(); ++i) {
+    archive.value(frames_[i]);
+    archive.value(frames_before_[i]);
+    bool held_back = held_back_[i];
+    archive.value(held_back);
+    held_back_[i] = held_back;
   }
 }
 

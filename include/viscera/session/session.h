@@ -20,6 +20,8 @@
 
 namespace viscera {
 
+class Archive;
+
 /// Work done since the start, for diagnostics. With a view on a thread of its own, its part is that of what was ready.
 struct Counters : ViewCounters {
   uint64_t ticks = 0, substeps = 0;
@@ -87,6 +89,13 @@ class Session {
   /// Waits for everything asked for so far; images and surface of the last ticks.
   Frame drain();
   uint64_t stateHash() const;
+  /// Writes all that the steps to come depend on into a file, which is the old one or the new one whatever happens on
+  /// the way. Waits for the last tick, and changes nothing. @throws Error  it cannot be written
+  void save(const std::string& path);
+  /// Goes on where a session of the same scene was when it was saved: to the same states to the bit, on the same kind
+  /// of processor, which solver.threads and cameras do not change. Hands that are where they were then go on too.
+  /// @throws Error  no such file, damaged, of another version, scene or backend: nothing is changed, or all is reset
+  void restore(const std::string& path);
 
   const Scene& scene() const { return scene_; }
   const Model& model() const { return *model_; }
@@ -111,6 +120,7 @@ class Session {
     SteadyTime newest() const;
   };
   Session(const Scene& scene, gpu::Context* context, const Progress& progress, const SessionOptions& options);
+  void persist(Archive& archive);
   void moveObstacles();
   void lookAtObstacles();
   void lookAtArrows();

@@ -17,6 +17,8 @@
 
 namespace viscera {
 
+class Archive;
+
 /// Of integrators that solve to a tolerance, since the solver was made.
 struct SolverWork {
   uint64_t systems = 0, iterations = 0;  ///< linear systems; iterations of all of them
@@ -58,6 +60,10 @@ class Solver {
   virtual uint64_t substepsDone() const = 0;  ///< since the solver was made
   virtual SolverWork work() const { return {}; }
   virtual std::string backend() const = 0;
+  /// All that the ticks to come depend on, between two ticks, into an archive or out of it: the solver that reads it
+  /// was made for the same model and scene, and goes on to the bit like the one that wrote it. Waits.
+  /// @throws Error  the archive is another solver's, or this one keeps nothing
+  virtual void persist(Archive& archive);
 };
 
 /// 64-bit fingerprint of displacement, velocity and springs of the active nodes, in active-list order.

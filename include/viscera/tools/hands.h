@@ -10,6 +10,8 @@
 
 namespace viscera {
 
+class Archive;
+
 /// What tissue demands of the hands that move in it (physics.md 5).
 struct HandLimits {
   /// How far a tip may move in a tick: what tissue could follow, the speed of its waves times the tick. A tip that is
@@ -33,6 +35,8 @@ class Tools {
   /// The hands were not followed for a while: what they hold is let go, and they appear again.
   void forget();
   void reset();
+  /// Modes too.
+  void persist(Archive& archive);
   const std::vector<StylusConfig>& configs() const { return configs_; }
 
  private:

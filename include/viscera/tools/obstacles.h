@@ -12,6 +12,8 @@
 
 namespace viscera {
 
+class Archive;
+
 /// Where an obstacle is at the start and at the end of a tick, tissue frame.
 struct RigidMotion {
   Pose from, to;
@@ -35,6 +37,7 @@ class Obstacles {
   Pose pose(size_t obstacle) const { return motions_[obstacle].to; }
   bool heldBack(size_t obstacle) const { return held_back_[obstacle]; }  ///< in the last tick
   void reset();  ///< to where they are at time 0; frames stay where they are
+  void persist(Archive& archive);
 
  private:
   Pose placed(size_t obstacle, double time_s, const Pose& frame) const;

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "layout/wind.h"
+#include "math/archive.h"
 #include "model/scene/integrators.h"
 #include "solver/contact/collision.h"
 #include "viscera/math/error.h"
@@ -151,6 +152,12 @@ SubstepSurroundings Surroundings::at(int substep) const {
   out.wind_m_per_s = windAt(wind_, time_s).cast<float>();
   if (features_.obstacles) out.obstacles = &motions_[static_cast<size_t>(substep) * layout::kMaxObstacles];
   return out;
+}
+
+void Surroundings::persist(Archive& archive) {
+  archive.value(time_s_);
+  archive.values(tick_motions_);
+  if (archive.reads()) substeps_ = 0;  // the motions of substeps are made again
 }
 
 void Surroundings::reset() {

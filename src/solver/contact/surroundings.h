@@ -12,6 +12,8 @@
 
 namespace viscera {
 
+class Archive;
+
 /// Velocity of the air with its gusts [m/s]. @param time_s  since the start
 Vector3d windAt(const WindConfig& wind, double time_s);
 
@@ -60,6 +62,7 @@ class Surroundings {
   /// [obstacles] at the end of the tick, tissue frame [m]
   const std::vector<Vector3f>& obstaclePlaces() const { return places_; }
   void reset();  ///< time 0
+  void persist(Archive& archive);
 
  private:
   SurroundingsFeatures features_;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "gpu/buffer.h"
+#include "math/archive.h"
 #include "math/float_bits.h"
 #include "solver/contact/tool_boxes.h"
 #include "solver/cpu/steps/network.h"
@@ -290,6 +291,27 @@ void CpuBackend::restoreGood(int back) {
 
 void CpuBackend::clearGood() {
   kept_good_ = 0;
+}
+
+void CpuBackend::persist(Archive& archive) {
+  archive.section("integrator");
+  stepper_->persist(archive, lattice_);
+  if (surroundings_) surroundings_->persist(archive);
+  if (pairs_) pairs_->persist(archive);
+  lattice_.persist(archive);
+  if (network_) network_->persist(archive, lattice_);
+  archive.section("cpu");
+  sleep_.persist(archive);
+  archive.values(work_->stats);
+  archive.value(stats_);
+  archive.value(springs_cut_);
+  archive.value(rate_springs_cut_);
+  archive.value(next_good_);
+  archive.value(kept_good_);
+  for (Good& good : good_) {
+    archive.values(good.displacement);
+    archive.values(good.velocity);
+  }
 }
 
 HostState CpuBackend::readState() const {

@@ -67,6 +67,7 @@ class CpuBackend : public SolverBackend {
   void saveGood() final;  // construction saves the first
   void restoreGood(int back) override;
   void clearGood() override;
+  void persist(Archive& archive) override;
 
  private:
   struct Work;  // what only src/solver/cpu knows: the kernels' jobs

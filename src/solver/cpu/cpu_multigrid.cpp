@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "math/archive.h"
 #include "solver/cpu/text/glsl_kernel.h"
 #include "solver/multigrid/steps/step_rules.h"
 
@@ -42,6 +43,16 @@ CpuMultigrid::CpuMultigrid(const Model& model, const CpuLattice& lattice, const 
 void CpuMultigrid::restart() {
   fresh_ = true;
   touching_.restart();
+}
+
+void CpuMultigrid::persist(Archive& archive, CpuLattice& lattice) {
+  archive.values(left_);
+  archive.value(fresh_);
+  archive.value(work_);
+  archive.value(springs_changed_);
+  archive.value(steps_since_cut_);
+  touching_.persist(archive);
+  solver_.persist(archive, lattice);
 }
 
 void CpuMultigrid::run(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions) {

@@ -16,6 +16,7 @@ class CpuMultigrid : public CpuStepper {
   void run(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions) override;
   void restart() override;
   void springsChanged() override { springs_changed_ = true; }
+  void persist(Archive& archive, CpuLattice& lattice) override;
   SolverWork work() const override { return work_; }
 
  private:

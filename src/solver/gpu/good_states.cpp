@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "gpu/archive.h"
 #include "layout/bindings.h"
 
 namespace viscera {
@@ -37,6 +38,16 @@ void GoodStates::restore(LatticeBuffers& buffers, int back) {
   buffers.state.velocity[buffers.state.current].copyFrom(last().velocity);
   if (exhausted) buffers.state.velocity[buffers.state.current].clear();
   if (buffers.state.compensation.size()) buffers.state.compensation.clear();
+}
+
+void GoodStates::persist(Archive& archive) {
+  for (State& state : ring_) {
+    gpu::persist(archive, state.displacement);
+    gpu::persist(archive, state.velocity);
+  }
+  archive.value(next_);
+  archive.value(kept_);
+  same_ = 0;
 }
 
 void GoodStates::bindLast() const {

@@ -8,6 +8,8 @@
 
 namespace viscera {
 
+class Archive;
+
 /// Ring of the last good states, on the GPU: displacements and velocities. Cuts are not undone.
 class GoodStates {
  public:
@@ -20,6 +22,8 @@ class GoodStates {
   /// Puts back the state saved `back` saves before the last one (0: the last), or the oldest there is, and forgets the
   /// younger ones. At the oldest, velocities become zero: nothing else is left to try. One must have been saved.
   void restore(LatticeBuffers& buffers, int back);
+
+  void persist(Archive& archive);
 
   /// Binds the state saved last, for GuardPass.
   void bindLast() const;

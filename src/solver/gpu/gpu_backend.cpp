@@ -10,6 +10,7 @@
 #include "gpu/stage_clock.h"
 #include "layout/bindings.h"
 #include "layout/blade.h"
+#include "math/archive.h"
 #include "model/scene/integrators.h"
 #include "solver/cpu/store/sleep.h"
 #include "solver/gpu/steps/multigrid_pass.h"
@@ -297,6 +298,21 @@ void GpuBackend::restoreGood(int back) {
   if (buffers_.hands.obstacle_impulses.size()) buffers_.hands.obstacle_impulses.clear();
   if (surroundings_) surroundings_->restart();
   if (pairs_) pairs_->restart();
+}
+
+/// What RestWatch knows is not kept: it changes no result. Nor is it taken to be at rest.
+void GpuBackend::persist(Archive& archive) {
+  disturb();
+  archive.section("integrator");
+  stepper_->persist(archive);
+  if (surroundings_) surroundings_->persist(archive);
+  if (pairs_) pairs_->persist(archive);
+  buffers_.persist(archive);
+  archive.section("gpu");
+  archive.value(foreign_);
+  if (awake_) awake_->persist(archive);
+  if (recovery_) recovery_->good.persist(archive);
+  bind();
 }
 
 void GpuBackend::clearGood() {

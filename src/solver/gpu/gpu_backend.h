@@ -74,6 +74,7 @@ class GpuBackend final : public SolverBackend {
   void saveGood() override;
   void restoreGood(int back) override;
   void clearGood() override;
+  void persist(Archive& archive) override;
 
  private:
   static constexpr int kLag = 1;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "viscera/math/error.h"
 #include "viscera/math/state_hash.h"
 
 namespace viscera {
@@ -49,6 +50,10 @@ bool Solver::readCuts(CutState& out) const {
   static_cast<CutSprings&>(out) = std::move(state);
   ++out.revision;
   return true;
+}
+
+void Solver::persist(Archive& /*archive*/) {
+  throw Error(backend() + ": its state can be neither saved nor restored");
 }
 
 uint64_t stateHash(const Model& model, const HostState& state) {

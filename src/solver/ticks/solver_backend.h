@@ -17,6 +17,8 @@
 
 namespace viscera {
 
+class Archive;
+
 /// What holds the state of the tissue and gives the operations of which a tick is made. They are called in the order
 /// of a tick by Ticks and its Watch, once it is built: what a backend's construction must know is in TickPlan.
 class SolverBackend : public ToolTarget {
@@ -92,6 +94,8 @@ class SolverBackend : public ToolTarget {
   virtual void restoreGood(int back) = 0;
   /// Forgets all that saveGood() kept.
   virtual void clearGood() = 0;
+  /// Solver::persist(). No measurements are under way.
+  virtual void persist(Archive& archive) = 0;
   /// @}
 };
 

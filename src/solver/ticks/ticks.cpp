@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "math/archive.h"
 #include "math/float_bits.h"
 #include "model/scene/integrators.h"
 #include "solver/ticks/stable_step.h"
@@ -174,6 +175,28 @@ void Ticks::writeState(const HostState& state, bool staggered) {
   if (staggered) recovering_ = false;
   ++cut_revision_;
   if (watch_) noteStretch(watch_->restart());
+}
+
+/// Measurements that were not asked for are not kept: they change nothing that comes.
+void Ticks::persist(Archive& archive) {
+  layout::TickStats taken;
+  while (pollStats(taken, true)) {
+  }
+  archive.section("ticks");
+  archive.value(dt_safe_s_);
+  archive.value(dt_limit_s_);
+  archive.value(stretch_);
+  archive.value(substeps_);
+  archive.value(substeps_done_);
+  archive.value(springs_cut_);
+  archive.value(n_);
+  archive.value(recovering_);
+  archive.value(restarted_);
+  archive.value(last_dt_s_);
+  if (surroundings_) surroundings_->persist(archive);
+  backend_->persist(archive);
+  if (watch_) watch_->persist(archive);
+  if (archive.reads()) ++cut_revision_;
 }
 
 bool Ticks::readCuts(CutState& out) const {

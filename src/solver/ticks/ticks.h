@@ -36,6 +36,7 @@ class Ticks : public Solver {
   int substeps() const final { return substeps_.calm; }
   uint64_t substepsDone() const final { return substeps_done_; }
   SolverWork work() const final { return backend_->work(); }
+  void persist(Archive& archive) final;
   std::string backend() const final { return backend_->name(); }
   /// The state that it begins in, now and after every reset.
   void startFrom(HostState state);

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "math/archive.h"
+
 namespace viscera {
 
 namespace {
@@ -116,6 +118,26 @@ void Watch::reset(const Governor& governor) {
   governor_ = governor;
   last_good_ = {};
   keepOnlyCurrent();
+}
+
+void Watch::persist(Archive& archive) {
+  archive.section("governor");
+  archive.value(governor_);
+  archive.value(last_good_);
+  bool open = open_.has_value();
+  archive.value(open);
+  if (archive.reads()) open_.reset();
+  if (!open) return;
+  OpenTick tick = open_.value_or(OpenTick{});
+  layout::TickStats stats = tick.stats.value_or(layout::TickStats{});
+  archive.value(tick.motions);
+  archive.value(tick.recovering);
+  archive.value(tick.undone);
+  archive.value(tick.long_substeps);
+  archive.value(stats);
+  tick.delivered = true;
+  tick.stats = stats;
+  if (archive.reads()) open_ = tick;
 }
 
 void Watch::keepOnlyCurrent() {

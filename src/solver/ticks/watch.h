@@ -9,6 +9,8 @@
 
 namespace viscera {
 
+class Archive;
+
 /// Carries out what a governor says of a scene's ticks (physics.md 3): a tick is open from its end until its
 /// measurements are judged, at once or, where the backend lags, after the tick that follows. Good states are kept, bad
 /// ticks are rolled back, and what was bad is not told.
@@ -46,6 +48,8 @@ class Watch {
   const layout::TickStats& restart();
   /// The current state is that of rest: no tick is open, and it is the only good one.
   void reset(const Governor& governor);
+  /// The measurements of the open tick were asked for.
+  void persist(Archive& archive);
 
  private:
   /// A tick that is still to be judged.

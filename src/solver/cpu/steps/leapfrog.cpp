@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "math/archive.h"
 #include "solver/cpu/store/lattice_arrays.h"
 #include "solver/cpu/text/tool_passes.h"
 
@@ -66,6 +67,13 @@ CpuLeapfrog::CpuLeapfrog(const CpuLattice& lattice, const CpuParts& parts)
 
 void CpuLeapfrog::restart() {
   std::fill(compensation_.begin(), compensation_.end(), 0.0f);
+}
+
+void CpuLeapfrog::persist(Archive& archive, CpuLattice& /*lattice*/) {
+  archive.values(compensation_);
+  archive.values(near_);
+  archive.values(strained_);
+  archive.values(speed2_);
 }
 
 void CpuLeapfrog::run(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions) {

@@ -16,6 +16,7 @@ class CpuLeapfrog : public CpuStepper {
   CpuLeapfrog(const CpuLattice& lattice, const CpuParts& parts);
   void run(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions) override;
   void restart() override;
+  void persist(Archive& archive, CpuLattice& lattice) override;
 
  private:
   void stepAwake(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions);

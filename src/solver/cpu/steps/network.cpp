@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "layout/blade.h"
+#include "math/archive.h"
 #include "math/float_bits.h"
 #include "solver/cpu/steps/implicit_substep.h"
 
@@ -235,6 +236,12 @@ CpuNetwork::CpuNetwork(const CpuLattice& lattice, const Parallel& parallel, cons
 void CpuNetwork::restart(const CpuLattice& lattice) {
   rows_.writeStiffness(lattice.links.network.links);
   std::fill(compensation_.begin(), compensation_.end(), layout::vec4{});
+}
+
+void CpuNetwork::persist(Archive& archive, const CpuLattice& lattice) {
+  archive.section("network");
+  archive.values(compensation_);
+  if (archive.reads()) rows_.writeStiffness(lattice.links.network.links);
 }
 
 template <class Kernel>

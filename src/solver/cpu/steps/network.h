@@ -12,6 +12,8 @@
 
 namespace viscera {
 
+class Archive;
+
 /// A probe in a substep: nodes that come into this sphere are looked at one by one (shaders/solver/tools/contact.glsl).
 struct NodeReach {
   glsl::vec3 center_m;
@@ -39,6 +41,8 @@ class CpuNetwork {
   uint32_t cut(CpuLattice& lattice, const layout::ToolMotion& motion, bool particles);
   /// The state was written from outside: sums of rounding errors start at 0, springs may have changed.
   void restart(const CpuLattice& lattice);
+  /// After the lattice.
+  void persist(Archive& archive, const CpuLattice& lattice);
 
  private:
   template <class Kernel>

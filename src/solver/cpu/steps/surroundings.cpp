@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "math/archive.h"
 #include "solver/contact/node_pairs.h"
 #include "solver/cpu/steps/implicit_substep.h"
 #include "solver/cpu/text/listed_kernel.h"
@@ -234,6 +235,12 @@ void CpuSurroundings::run(CpuLattice& lattice, const Substep& step, const Surrou
     apply<glsl::Surround>(lattice, step, surroundings);
   }
   lattice.swap();
+}
+
+/// Lists of candidates are made again: what is found with them does not depend on when they were made.
+void CpuSurroundings::persist(Archive& archive) {
+  archive.values(work_->contacts);
+  archive.values(work_->corrections);
 }
 
 void CpuSurroundings::restart() {

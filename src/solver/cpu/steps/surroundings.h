@@ -13,6 +13,8 @@
 
 namespace viscera {
 
+class Archive;
+
 /// Wind, forces on bodies, contacts and obstacles on the CPU: the text of shaders/solver/collision/surroundings.comp
 /// and collision_*.comp, compiled as C++. See solver/gpu/contact/surroundings_pass.h.
 class CpuSurroundings {
@@ -33,6 +35,7 @@ class CpuSurroundings {
   /// The state was written from outside: what contacts did in the last substep is forgotten. Nodes that may touch
   /// no other any more, as their springs are whole again, would keep it for ever.
   void restart();
+  void persist(Archive& archive);
   /// For tests: slots a < b of all pairs that the search finds in the current state, ascending.
   std::vector<CollisionPair> findPairs(CpuLattice& lattice);
   size_t searches() const;   ///< complete ones for candidates so far

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solver/cpu/steps/verlet_paper.h"
 
+#include "math/archive.h"
+
 namespace viscera {
 
 namespace glsl {
@@ -77,6 +79,11 @@ void CpuVerletPaper::advance(CpuLattice& lattice, const Substep& step, const lay
   Kernel out = kernel<Kernel>(lattice, step);
   out.tool_motions = motions;
   runNodes(parallel_, lattice, out);
+}
+
+void CpuVerletPaper::persist(Archive& archive, CpuLattice& /*lattice*/) {
+  for (const int i : {current_, 1 - current_}) archive.values(positions_[i]);
+  archive.value(last_dt_s_);
 }
 
 void CpuVerletPaper::run(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions) {

@@ -12,6 +12,7 @@ class CpuVerletPaper : public CpuStepper {
  public:
   CpuVerletPaper(const CpuLattice& lattice, const Parallel& parallel);
   void run(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions) override;
+  void persist(Archive& archive, CpuLattice& lattice) override;
 
  private:
   template <class Kernel>

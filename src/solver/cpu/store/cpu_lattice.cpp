@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "math/archive.h"
+
 namespace viscera {
 
 namespace {
@@ -108,6 +110,30 @@ void CpuLattice::readCuts(CutSprings& out) const {
   out.spring_cut = links.spring_cut;
   out.axial_cut = axial_cut;
   record.addExplicit(out.spring_cut, out.axial_cut);
+}
+
+void CpuLattice::persist(Archive& archive) {
+  archive.section("nodes");
+  for (const int i : {state.current, 1 - state.current}) {
+    archive.values(state.displacement[i]);
+    archive.values(state.velocity[i]);
+  }
+  archive.values(store.nodes);
+  archive.section("cuts");
+  std::vector<float> spring_cut = links.spring_cut;
+  archive.values(spring_cut);
+  archive.values(axial_cut);
+  archive.values(cut_sides);
+  archive.section("hands");
+  archive.values(hands.grab_offsets);
+  archive.values(hands.impulses);
+  archive.values(hands.touched);
+  archive.values(hands.held);
+  archive.values(hands.obstacle_impulses);
+  archive.values(hands.met);
+  if (!archive.reads()) return;
+  links.writeSpringCut(spring_cut);
+  strengths.refreshAll(store);
 }
 
 void CpuLattice::write(const HostState& from) {

@@ -12,6 +12,8 @@
 
 namespace viscera {
 
+class Archive;
+
 /// How all nodes move: two states, of which one is current and the other the last or the next one.
 struct CpuState {
   explicit CpuState(size_t slots);
@@ -62,6 +64,7 @@ struct CpuLattice {
   HostState read() const;
   void readCuts(CutSprings& out) const;
   void write(const HostState& from);
+  void persist(Archive& archive);
   void refresh(uint32_t slot) { strengths.refresh(store, slot); }
 
   layout::uint connections(uint32_t slot) const { return store.connections(slot); }

@@ -14,6 +14,8 @@
 
 namespace viscera {
 
+class Archive;
+
 class CpuNetwork;
 class CpuNodePairs;
 
@@ -28,6 +30,9 @@ class CpuStepper {
   virtual void restart() {}
   /// Springs were cut, or are whole again.
   virtual void springsChanged() {}
+  /// What substeps to come depend on beside the lattice (Solver::persist()).
+  /// @param lattice  may be another one's afterwards, where it is read: the caller's goes next
+  virtual void persist(Archive& /*archive*/, CpuLattice& /*lattice*/) {}
   /// Since it was made.
   virtual SolverWork work() const { return {}; }
 };

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "math/archive.h"
+
 namespace viscera {
 
 namespace {
@@ -84,6 +86,18 @@ void Sleep::takeChanged(const CpuLattice& lattice, std::vector<uint32_t>& out) {
     if (changed_[b] && isImplicit(lattice, b)) out.push_back(b);
     changed_[b] = 0;
   }
+}
+
+void Sleep::persist(Archive& archive) {
+  archive.values(quiet_s_);
+  archive.values(farthest_m_);
+  archive.values(moves_);
+  archive.values(is_awake_);
+  archive.values(changed_);
+  archive.list(awake_);
+  archive.value(moving_bricks_);
+  archive.value(since_look_s_);
+  archive.value(substeps_since_look_);
 }
 
 void Sleep::restart() {

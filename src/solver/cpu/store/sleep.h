@@ -10,6 +10,8 @@
 
 namespace viscera {
 
+class Archive;
+
 /// Which bricks are stepped (on the GPU by the same rule: solver/gpu/buffers/awake_bricks.h). A brick is awake while
 /// it, or one of the 26 around it, has a node that was faster than a speed within the last kQuiet_s, or was touched. A
 /// brick that falls asleep stands still where it is.
@@ -36,6 +38,8 @@ class Sleep {
   /// Bricks with springs that may have changed since the last call: of the awake, of those beside them, whose springs
   /// reach over, and of those that fell asleep. @param out  ascending; its memory is reused
   void takeChanged(const CpuLattice& lattice, std::vector<uint32_t>& out);
+
+  void persist(Archive& archive);
 
  private:
   void look(CpuLattice& lattice, const std::vector<float>& speed2);

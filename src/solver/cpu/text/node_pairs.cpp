@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "math/archive.h"
 #include "solver/contact/collision.h"
 #include "solver/contact/surroundings.h"
 #include "solver/cpu/text/listed_kernel.h"
@@ -68,6 +69,11 @@ void CpuNodePairs::tell(glsl::PairBuffers& kernel, const Substep& step) {
   kernel.pair_friction = static_cast<float>(config_.friction);
   kernel.pair_bounces_from = step.resting_speed_m_per_s;
   kernel.pair_restitution = static_cast<float>(config_.restitution);
+}
+
+void CpuNodePairs::persist(Archive& archive) {
+  archive.values(contacts_);
+  archive.values(node_pairs_);
 }
 
 void CpuNodePairs::restart() {

@@ -10,6 +10,8 @@
 
 namespace viscera {
 
+class Archive;
+
 /// Contacts between nodes within an implicit substep: who may touch whom, and what they do to each other
 /// (shaders/solver/implicit/implicit_pairs.glsl) on the CPU. See solver/gpu/contact/node_pairs.h.
 class CpuNodePairs {
@@ -22,6 +24,7 @@ class CpuNodePairs {
   const std::vector<uint32_t>& slots() const { return paired_; }
   /// The state was written from outside: the last forces of contacts are forgotten.
   void restart();
+  void persist(Archive& archive);
   /// Tells a kernel where they are.
   void tell(glsl::PairBuffers& kernel, const Substep& step);
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "gpu/archive.h"
 #include "gpu/limits.h"
 #include "layout/bindings.h"
 #include "solver/cpu/store/sleep.h"
@@ -159,6 +160,17 @@ void AwakeBricks::passed(const Substep& step) {
 
 void AwakeBricks::slept(const Substep& step) {
   if (isLook(step)) restart();
+}
+
+void AwakeBricks::persist(Archive& archive) {
+  gpu::persist(archive, bricks_);
+  gpu::persist(archive, nodes_);
+  gpu::persist(archive, cells_);
+  archive.value(all_);
+  archive.value(listed_);
+  archive.value(since_look_s_);
+  archive.value(substeps_since_look_);
+  archive.value(look_);
 }
 
 void AwakeBricks::restart() {

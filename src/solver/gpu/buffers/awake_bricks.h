@@ -13,6 +13,8 @@
 
 namespace viscera {
 
+class Archive;
+
 /// Which bricks leapfrog steps on the GPU, by the rule of the CPU's Sleep, found and listed there: kernels are
 /// dispatched over what is awake and the host need not know how much that is.
 /// Owner of shaders/solver/step/awake_bricks.comp.
@@ -43,6 +45,7 @@ class AwakeBricks {
   /// The same where all sleep and no kernel runs.
   void slept(const Substep& step);
   void restart();  ///< substeps are counted from zero
+  void persist(Archive& archive);
 
   /// The first sizeof(layout::AwakeList) bytes say how much is awake.
   const gpu::RawBuffer& nodes() const { return nodes_; }

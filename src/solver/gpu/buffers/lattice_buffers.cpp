@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solver/gpu/buffers/lattice_buffers.h"
 
+#include "gpu/archive.h"
 #include "layout/bindings.h"
 #include "layout/edge_forces.h"
 #include "solver/tissue/joined_lattice.h"
@@ -195,6 +196,27 @@ std::vector<float> LatticeBuffers::readAxialCut(const std::vector<float>& spring
   std::vector<float> out = axial_cut.size() ? axial_cut.read() : std::vector<float>(record.size());
   record.addExplicit(spring_cut, out);
   return out;
+}
+
+void LatticeBuffers::persist(Archive& archive) {
+  archive.section("nodes");
+  for (const int i : {state.current, 1 - state.current}) {
+    gpu::persist(archive, state.displacement[i]);
+    gpu::persist(archive, state.velocity[i]);
+  }
+  if (state.compensation.size()) gpu::persist(archive, state.compensation);
+  gpu::persist(archive, store.nodes);
+  archive.section("cuts");
+  std::vector<float> spring_cut = links.spring_cut.read();
+  archive.values(spring_cut);
+  if (archive.reads()) links.writeSpringCut(spring_cut);
+  gpu::persist(archive, axial_cut);
+  gpu::persist(archive, cut_sides);
+  archive.section("hands");
+  gpu::persist(archive, hands.grab_offsets);
+  gpu::persist(archive, hands.impulses);
+  gpu::persist(archive, hands.obstacle_impulses);
+  gpu::persist(archive, stats);
 }
 
 void LatticeBuffers::writeAxialCut(const std::vector<float>& cut) {

@@ -14,6 +14,8 @@
 
 namespace viscera {
 
+class Archive;
+
 /// Which nodes there are and where.
 struct StoreBuffers {
   /// @param bodies  [bodies] material constants
@@ -118,6 +120,7 @@ struct LatticeBuffers {
   void swap() { state.swap(); }
   /// Rest state, whole springs, nothing held.
   void reset();
+  void persist(Archive& archive);                                               ///< waits
   std::vector<float> readAxialCut(const std::vector<float>& spring_cut) const;  ///< both as in CutSprings; waits
   void writeAxialCut(const std::vector<float>& cut);                            ///< as in CutSprings, none: whole
   void writeSpringCut(const std::vector<float>& cut) { links.writeSpringCut(cut); }

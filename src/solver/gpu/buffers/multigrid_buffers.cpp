@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "gpu/archive.h"
 #include "layout/bindings.h"
 
 namespace viscera {
@@ -45,6 +46,11 @@ void MultigridBuffers::bind() const {
   partials.bindStorage(layout::kBindPartials);
   if (cell_tangents.size()) cell_tangents.bindStorage(layout::kBindCellTangents);
   if (touched.size()) touched.bindStorage(layout::kBindTouched);
+}
+
+void MultigridBuffers::persist(Archive& archive) {
+  gpu::persist(archive, step);
+  gpu::persist(archive, touched);
 }
 
 MultigridBuffers::Read MultigridBuffers::read() const {

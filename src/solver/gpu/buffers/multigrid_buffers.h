@@ -9,11 +9,15 @@
 
 namespace viscera {
 
+class Archive;
+
 /// Arrays of integrator multigrid on the GPU beside the lattice's (shaders/layout/multigrid.h).
 struct MultigridBuffers {
   /// @throws GpuError  memory, longer than the driver lets a storage block be
   MultigridBuffers(const FeatureSet& features, const LatticeBuffers& buffers);
   void bind() const;
+
+  void persist(Archive& archive);
 
   using Sums = std::array<double, 4>;
   /// As in the buffer.

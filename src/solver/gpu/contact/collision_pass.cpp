@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "gpu/archive.h"
 #include "gpu/gl.h"
 #include "layout/bindings.h"
 #include "solver/contact/node_pairs.h"
@@ -80,6 +81,11 @@ void CollisionPass::bind() const {
     items_.bindStorage(layout::kBindSortItems);
     ranks_.bindStorage(layout::kBindRanks);
   }
+}
+
+void CollisionPass::persist(Archive& archive) {
+  gpu::persist(archive, contacts_);
+  gpu::persist(archive, corrections_);
 }
 
 void CollisionPass::restart() {

@@ -14,6 +14,8 @@
 
 namespace viscera {
 
+class Archive;
+
 /// Contacts between nodes: finds pairs and says what they do to either node (collision.h).
 /// Owner of shaders/solver/collision/*.comp.
 class CollisionPass {
@@ -30,6 +32,7 @@ class CollisionPass {
   void bind() const;
   /// The state was written from outside: see CpuSurroundings::restart().
   void restart();
+  void persist(Archive& archive);
 
   /// Copies how many nodes the last search passed over, as they lie in crowds, to `crowded` of the measurements; 0
   /// where it saw everybody. Does not wait.

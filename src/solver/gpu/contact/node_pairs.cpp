@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solver/gpu/contact/node_pairs.h"
 
+#include "gpu/archive.h"
 #include "layout/bindings.h"
 
 namespace viscera {
@@ -19,6 +20,11 @@ void NodePairs::bind() const {
   words_.bindStorage(layout::kBindPairWords);
   rows_.bindStorage(layout::kBindPairRows);
   nodes_.bindStorage(layout::kBindNodePairs);
+}
+
+void NodePairs::persist(Archive& archive) {
+  gpu::persist(archive, nodes_);
+  search_.persist(archive);
 }
 
 void NodePairs::find(const LatticeBuffers& buffers, const Substep& step) const {

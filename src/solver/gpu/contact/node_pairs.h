@@ -18,6 +18,7 @@ class NodePairs {
   void find(const LatticeBuffers& buffers, const Substep& step) const;
   /// The state was written from outside: the last forces of contacts are forgotten.
   void restart() { nodes_.clear(); }
+  void persist(Archive& archive);
   /// Tells a kernel where they are, and how contacts rub and bounce.
   void tell(const gpu::Program& program, const Substep& step) const;
 

@@ -33,6 +33,9 @@ class SurroundingsPass {
   void run(LatticeBuffers& buffers, const Substep& step, const Surroundings& surroundings);
   /// The state was written from outside: what contacts did is forgotten.
   void restart();
+  void persist(Archive& archive) {
+    if (collisions_) collisions_->persist(archive);
+  }
   /// To the measurements at the end of a tick: CollisionPass::noteCrowded().
   void noteCrowded(const gpu::Buffer<layout::TickStats>& stats) const;
   /// For tests, only where there are collisions: CollisionPass::findPairs().

@@ -4,6 +4,7 @@
 
 #include <cstring>
 
+#include "math/archive.h"
 #include "solver/cpu/store/thread_pool.h"
 #include "solver/multigrid/steps/step_rules.h"
 #include "viscera/solver/material.h"
@@ -49,6 +50,18 @@ MultigridStages::Levels MultigridPass::levelsFor(const multigrid::Stage& stage) 
 
 void MultigridPass::takeRebuilt() {
   if (built_.takeRebuilt()) levels_.clear();
+}
+
+void MultigridPass::persist(Archive& archive) {
+  archive.value(touched_);
+  archive.value(fresh_);
+  archive.value(work_);
+  archive.value(springs_changed_);
+  archive.value(steps_since_cut_);
+  stages_.persist(archive);
+  if (touch_) touch_->persist(archive);
+  built_.persist(archive, level_, lattice_);
+  if (archive.reads()) levels_.clear();
 }
 
 void MultigridPass::run(LatticeBuffers& buffers, const Substep& step) {

@@ -22,6 +22,7 @@ class MultigridPass : public Stepper {
   void run(LatticeBuffers& buffers, const Substep& step) override;
   void restart() override { fresh_ = true; }
   void springsChanged() override { springs_changed_ = true; }
+  void persist(Archive& archive) override;
   SolverWork work() const override { return work_; }
 
  private:

@@ -48,6 +48,7 @@ class MultigridStages final : public multigrid::StageWork {
   void become(uint32_t what, float share) override;
 
   void bind() const { own_.bind(); }
+  void persist(Archive& archive) { own_.persist(archive); }
   void forgetTouched();  ///< nothing is about, nor was
 
  private:

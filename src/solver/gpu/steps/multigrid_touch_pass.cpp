@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solver/gpu/steps/multigrid_touch_pass.h"
 
+#include "gpu/archive.h"
 #include "layout/bindings.h"
 
 namespace viscera {
@@ -42,6 +43,10 @@ void MultigridTouchPass::run(Act act, const LatticeBuffers& buffers, const Subst
   }
   gpu::Program::dispatch(buffers.store.active_count, group_size_);
   gpu::Program::storageBarrier();
+}
+
+void MultigridTouchPass::persist(Archive& archive) {
+  gpu::persist(archive, contacts_);
 }
 
 void MultigridTouchPass::begin(const LatticeBuffers& buffers, const Substep& step) const {

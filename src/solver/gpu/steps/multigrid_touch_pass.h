@@ -7,6 +7,8 @@
 
 namespace viscera {
 
+class Archive;
+
 /// What grips, probes and obstacles do to nodes in a step of multigrid, as multigrid::Touching has it for the CPU.
 /// Owner of shaders/solver/multigrid/multigrid_touch.comp.
 class MultigridTouchPass {
@@ -16,6 +18,7 @@ class MultigridTouchPass {
   /// Is anything about in a step?
   static bool isAbout(const Substep& step) { return step.tools || step.obstacle_count > 0; }
   void begin(const LatticeBuffers& buffers, const Substep& step) const;
+  void persist(Archive& archive);
   /// Of the step that a stage ends at.
   void setShare(double share) { share_ = static_cast<float>(share); }
   void place(const LatticeBuffers& buffers, const Substep& step) const;  ///< moves what increments may not have

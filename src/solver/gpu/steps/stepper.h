@@ -12,6 +12,8 @@
 
 namespace viscera {
 
+class Archive;
+
 class AwakeBricks;
 class NodePairs;
 
@@ -25,6 +27,8 @@ class Stepper {
   virtual void restart() {}
   /// Springs may have been cut, or are whole again.
   virtual void springsChanged() {}
+  /// What substeps to come depend on beside the lattice's buffers (Solver::persist()).
+  virtual void persist(Archive& /*archive*/) {}
   /// Since it was made.
   virtual SolverWork work() const { return {}; }
 };

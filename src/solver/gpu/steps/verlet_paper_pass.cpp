@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solver/gpu/steps/verlet_paper_pass.h"
 
+#include "gpu/archive.h"
 #include "layout/bindings.h"
 
 namespace viscera {
@@ -33,6 +34,11 @@ void VerletPaperPass::rebuild(const LatticeBuffers& buffers, const Substep& step
   setSubstep(rebuild_, buffers, plain);
   gpu::Program::dispatch(buffers.store.active_count, group_size_);
   gpu::Program::storageBarrier();
+}
+
+void VerletPaperPass::persist(Archive& archive) {
+  for (const int i : {current_, 1 - current_}) gpu::persist(archive, positions_[i]);
+  archive.value(last_dt_s_);
 }
 
 void VerletPaperPass::run(LatticeBuffers& buffers, const Substep& step) {

@@ -16,6 +16,7 @@ class VerletPaperPass : public Stepper {
  public:
   VerletPaperPass(const FeatureSet& features, const LatticeBuffers& buffers);
   void run(LatticeBuffers& buffers, const Substep& step) override;
+  void persist(Archive& archive) override;
 
  private:
   void rebuild(const LatticeBuffers& buffers, const Substep& step) const;

@@ -75,6 +75,7 @@ void FineLevel::loadCells() {
 }
 
 void FineLevel::refresh() {
+  nodes_ = std::make_shared<const std::vector<layout::NodeBits>>(lattice_.store.nodes);
   for (uint32_t node = 0; node < grid_.nodeCount(); ++node) {
     const uint32_t slot = grid_.slots[node], place = grid_.place_of[node];
     for (uint32_t pair = 0; pair < kPairs; ++pair)

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <memory>
 #include <vector>
 
 #include "solver/cpu/store/cpu_lattice.h"
@@ -51,6 +52,9 @@ class FineLevel {
   FineLevel(const FineLevel& other, const Parallel& parallel) : FineLevel(other) { parallel_ = &parallel; }
 
   const Grid& grid() const { return grid_; }
+  /// [slots] of the lattice when it was looked at last.
+  using Nodes = std::shared_ptr<const std::vector<layout::NodeBits>>;
+  const Nodes& nodes() const { return nodes_; }
   size_t places() const { return grid_.places(); }
   /// Takes springs, cells, masses and which nodes are free from the lattice: after cuts, and where nodes are let go.
   void refresh();
@@ -154,6 +158,7 @@ class FineLevel {
   std::vector<Block> cell_blocks_;
   std::vector<uint32_t> cell_nodes_;  ///< nodes above which a cell is, whole
   std::vector<uint32_t> held_;        ///< places
+  Nodes nodes_;
   std::vector<Plane> planes_;
   const float *displacement_ = nullptr, *velocity_ = nullptr;
   mutable std::vector<double> sums_;  ///< [jobs]

@@ -87,6 +87,7 @@ class StageSolver {
   /// and takes it.
   void rebuildAside();
   void takeRebuilt();
+  void persist(Archive& archive, CpuLattice& lattice) { built_.persist(archive, level, lattice); }
 
   /// Residual of an increment [N], 0 where not free; linearises there. @return its norm
   double residual(const Vectors& increment);

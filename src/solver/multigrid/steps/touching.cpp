@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "math/archive.h"
 #include "solver/cpu/steps/implicit_substep.h"
 #include "solver/tissue/features.h"
 
@@ -75,6 +76,11 @@ Touching::Kernel Touching::kernelFor(CpuLattice& lattice) {
   out.node_contacts = contacts_.data();
   out.contact_rows = rows_;
   return out;
+}
+
+void Touching::persist(Archive& archive) {
+  archive.list(pressed_);
+  archive.values(contacts_);
 }
 
 void Touching::begin(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions) {

@@ -24,6 +24,7 @@ class Touching {
   void begin(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions);
   /// The state was written from outside: what pressed is unknown.
   void restart() { pressed_.clear(); }
+  void persist(Archive& archive);
   /// Of the step that a stage ends at.
   void setShare(double share) { share_ = static_cast<float>(share); }
   bool any() const { return !nodes_.empty(); }

@@ -1,0 +1,101 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "viscera/math/error.h"
+
+namespace viscera {
+
+/// A state on its way into memory or back, in named sections. What keeps state has ONE function that goes through it
+/// in one order, whichever way: what is written and what is read cannot differ.
+class Archive {
+ public:
+  struct Section {
+    std::string name;
+    std::vector<char> bytes;
+  };
+
+  Archive() = default;  ///< writes
+  explicit Archive(std::vector<Section> sections) : sections_(std::move(sections)), reads_(true) {}
+
+  bool reads() const { return reads_; }
+  const std::vector<Section>& sections() const { return sections_; }
+
+  /// What follows belongs to it. @throws Error  another one comes next, or the one before was not read to its end
+  void section(const std::string& name) {
+    if (!reads_) {
+      sections_.push_back({name, {}});
+      return;
+    }
+    end();
+    if (next_ == sections_.size() || sections_[next_].name != name) throw Error("section '" + name + "' is not there");
+    ++next_;
+    at_ = 0;
+  }
+  /// @throws Error  a section that is read has more than was asked of it
+  void end() const {
+    if (reads_ && next_ > 0 && at_ != sections_[next_ - 1].bytes.size()) throw misfit();
+  }
+
+  void bytes(void* data, size_t size) {
+    if (size == 0) return;
+    if (!reads_) {
+      std::vector<char>& to = sections_.back().bytes;
+      to.insert(to.end(), static_cast<const char*>(data), static_cast<const char*>(data) + size);
+      return;
+    }
+    const std::vector<char>& from = sections_[next_ - 1].bytes;
+    if (size > from.size() - at_) throw misfit();
+    std::memcpy(data, from.data() + at_, size);
+    at_ += size;
+  }
+  /// Plain data: numbers, and structs and matrices of numbers.
+  template <class T>
+  void value(T& it) {
+    static_assert(std::is_trivially_destructible_v<T> && !std::is_pointer_v<T>);
+    bytes(static_cast<void*>(&it), sizeof it);
+  }
+  /// Of as many as there are here. @throws Error  there are more or fewer in the archive
+  template <class Vector>
+  void values(Vector& them) {
+    uint64_t count = them.size();
+    value(count);
+    if (count != them.size()) throw misfit();
+    elements(them);
+  }
+  /// Of any number.
+  template <class Vector>
+  void list(Vector& them) {
+    uint64_t count = them.size();
+    value(count);
+    if (reads_) {
+      if (count > (sections_[next_ - 1].bytes.size() - at_) / sizeof(typename Vector::value_type)) throw misfit();
+      them.resize(count);
+    }
+    elements(them);
+  }
+
+ private:
+  template <class Vector>
+  void elements(Vector& them) {
+    using Element = typename Vector::value_type;
+    static_assert(std::is_trivially_destructible_v<Element> && !std::is_same_v<Element, bool>);
+    bytes(static_cast<void*>(them.data()), them.size() * sizeof(Element));
+  }
+  Error misfit() const {
+    return Error("section '" + sections_[next_ - 1].name + "' has another size than this scene's state has here");
+  }
+
+  std::vector<Section> sections_;
+  bool reads_ = false;
+  size_t next_ = 0, at_ = 0;  ///< section that is read next; place in the one before it
+};
+
+}  // namespace viscera

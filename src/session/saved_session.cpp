@@ -1,0 +1,134 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cstring>
+#include <sstream>
+
+#include "math/archive.h"
+#include "model/scene/scene_text.h"
+#include "session/state_file.h"
+#include "session/view.h"
+#include "viscera/math/state_hash.h"
+#include "viscera/session/session.h"
+
+namespace viscera {
+
+namespace {
+
+constexpr uint64_t kTicksBack = 8;  // whose ways of tips are asked for after a tick
+
+/// Keys that change no state: who works, what is looked at.
+bool isAside(const std::string& line) {
+  const auto begins = [&line](const char* key) { return line.rfind(key, 0) == 0; };
+  return begins("cameras[") || begins("solver.threads=") || begins("solver.device=");
+}
+
+/// @throws Error  names the first key that is another
+void requireSame(const std::string& saved, const std::string& here) {
+  std::istringstream saved_lines(saved), here_lines(here);
+  const auto next = [](std::istringstream& lines) {
+    std::string line;
+    while (std::getline(lines, line)) {
+      if (!isAside(line)) return line;
+    }
+    return std::string("nothing more");
+  };
+  for (;;) {
+    const std::string a = next(saved_lines), b = next(here_lines);
+    if (a != b) throw Error("the state is of another scene: saved " + a + ", here " + b);
+    if (a == "nothing more") return;
+  }
+}
+
+template <class T>
+void addBytes(StateHash& hash, const std::vector<T>& values) {
+  const char* at = reinterpret_cast<const char*>(values.data());
+  for (size_t left = values.size() * sizeof(T); left >= sizeof(uint32_t); left -= sizeof(uint32_t)) {
+    uint32_t word;
+    std::memcpy(&word, at, sizeof word);
+    hash.add(word);
+    at += sizeof word;
+  }
+}
+
+/// Fingerprint of what was made of the scene and the files that it names.
+uint64_t modelHash(const Model& model) {
+  StateHash hash;
+  for (const Body& body : model.bodies) {
+    for (int c = 0; c < 3; ++c) hash.add(static_cast<float>(body.lattice.origin_m[c]));
+    hash.add(static_cast<float>(body.lattice.spacing_m));
+    addBytes(hash, body.lattice.nodes);
+    addBytes(hash, body.lattice.active_slots);
+    addBytes(hash, body.lattice.cell_fills);
+    addBytes(hash, body.lattice.depth_m);
+    if (body.network) addBytes(hash, body.network->masses_kg);
+  }
+  return hash.value();
+}
+
+}  // namespace
+
+/// Of the session itself; solver and hands have their own sections.
+void Session::persist(Archive& archive) {
+  archive.section("session");
+  archive.value(tick_);
+  archive.value(ticks_);
+  archive.value(time_s_);
+  archive.value(judged_);
+  archive.value(stats_);
+  archive.value(has_stats_);
+  archive.value(reactions_);
+  archive.value(contacts_);
+  archive.values(obstacle_forces_);
+  archive.value(extremes_);
+  archive.value(look_.motions);
+  archive.values(look_.obstacles);
+  for (ForceLimiter& limiter : limiters_) archive.value(limiter);
+  tools_.persist(archive);
+  obstacles_.persist(archive);
+  for (uint64_t t = tick_ - std::min(tick_, kTicksBack - 1); t <= tick_; ++t) {
+    PoseTimes& times = pose_times_[t % pose_times_.size()];
+    archive.value(times);
+    if (archive.reads()) times.received = {};  // of another clock
+  }
+  solver_->persist(archive);
+}
+
+void Session::save(const std::string& path) {
+  Frame taken;
+  collectStats(taken, true);
+  Archive archive;
+  archive.section("scene");
+  std::string text = sceneText(scene_);
+  uint64_t hash = modelHash(*model_);
+  archive.list(text);
+  archive.value(hash);
+  persist(archive);
+  writeStateFile(path, archive.sections());
+}
+
+void Session::restore(const std::string& path) {
+  Archive archive(readStateFile(path));
+  try {
+    archive.section("scene");
+    std::string text;
+    uint64_t hash = 0;
+    archive.list(text);
+    archive.value(hash);
+    requireSame(text, sceneText(scene_));
+    if (hash != modelHash(*model_))
+      throw Error("the state is of other tissue: a file that the scene names is not what it was");
+  } catch (const Error& error) {
+    throw Error(path + ": " + error.what());
+  }
+  reset();
+  try {
+    persist(archive);
+    archive.end();
+  } catch (const Error& error) {
+    reset();
+    throw Error(path + ": " + error.what() + "; another solver.backend or another version of viscera?");
+  }
+}
+
+}  // namespace viscera

@@ -1,0 +1,155 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+// A session that goes on from a saved one ends as the one that was never stopped: to the bit, whatever was going on.
+#include <gtest/gtest.h>
+
+#include <tuple>
+
+#include "session/block_session.h"
+#include "support/gpu_fixture.h"
+#include "support/temporary_folder.h"
+#include "viscera/math/error.h"
+
+namespace viscera {
+namespace {
+
+using namespace test;
+
+struct Steps {
+  const char* name;
+  Integrator integrator;
+};
+void PrintTo(const Steps& steps, std::ostream* out) {
+  *out << steps.name;
+}
+
+class Saved : public GpuTest, public ::testing::WithParamInterface<std::tuple<Steps, Backend>> {
+ protected:
+  static Scene scene() {
+    Scene scene = blockScene();
+    scene.environment.gravity_m_per_s2 = Vector3d(0, 0, -9.81);
+    scene.solver.integrator = std::get<0>(GetParam()).integrator;
+    scene.solver.backend = std::get<1>(GetParam());
+    scene.styluses[1].button1 = ToolMode::kGrab;
+    return scene;
+  }
+  /// Saves after one tick and goes on; another session resumes there. Both must end alike.
+  void expectSameEnd(const Scene& scene, const Strokes& strokes, int saved_after, int ticks) {
+    const std::string file = folder_.file("state");
+    Session unbroken(scene, context_);
+    for (int t = 1; t <= ticks; ++t) unbroken.step(strokes(t), {});
+    Session stopped(scene, context_);
+    for (int t = 1; t <= saved_after; ++t) stopped.step(strokes(t), {});
+    stopped.save(file);
+    const uint64_t saved_hash = stopped.stateHash();
+    Session resumed(scene, context_);
+    play(resumed, press, 3);  // restoring does not ask what was before
+    resumed.restore(file);
+    EXPECT_EQ(resumed.tick(), static_cast<uint64_t>(saved_after));
+    EXPECT_EQ(resumed.stateHash(), saved_hash);
+    for (int t = saved_after + 1; t <= ticks; ++t) {
+      stopped.step(strokes(t), {});
+      resumed.step(strokes(t), {});
+    }
+    const Frame a = stopped.drain(), b = resumed.drain();
+    EXPECT_EQ(resumed.stateHash(), unbroken.stateHash()) << "saved after tick " << saved_after;
+    EXPECT_EQ(stopped.stateHash(), unbroken.stateHash()) << "saving changed something after tick " << saved_after;
+    EXPECT_EQ(a.stats.springs_cut, b.stats.springs_cut);
+    EXPECT_EQ(a.reactions[0].force_n, b.reactions[0].force_n);
+    EXPECT_EQ(stopped.counters().substeps, resumed.counters().substeps);
+    EXPECT_EQ(stopped.extremes().peak_force_n, resumed.extremes().peak_force_n);
+  }
+  TemporaryFolder folder_;
+};
+
+INSTANTIATE_TEST_SUITE_P(All, Saved,
+                         ::testing::Combine(::testing::Values(Steps{"leapfrog", Integrator::kLeapfrog},
+                                                              Steps{"pd", Integrator::kPd},
+                                                              Steps{"multigrid", Integrator::kMultigrid},
+                                                              Steps{"verlet_paper", Integrator::kVerletPaper}),
+                                            ::testing::Values(Backend::kCpu, Backend::kGpu)),
+                         [](const auto& info) {
+                           return std::string(std::get<0>(info.param).name) +
+                                  (std::get<1>(info.param) == Backend::kCpu ? "_cpu" : "_gpu");
+                         });
+
+/// Cuts, and pulls the cut edge with the other hand; both go on through it all.
+StylusSamples cutAndPull(int tick) {
+  StylusSamples samples = tick <= kCutTicks ? cut(tick) : press(tick - kCutTicks);
+  if (tick > 2) samples[1] = {true, {{0.012, 0.006, kHalfM + 0.0004 * (tick - 2)}, Quaterniond::Identity()}, true};
+  return samples;
+}
+
+TEST_P(Saved, GoesOnToTheSameEndInTheMiddleOfACut) {
+  expectSameEnd(scene(), cutAndPull, kCutTicks / 2, 3 * kCutTicks);
+}
+
+TEST_P(Saved, GoesOnToTheSameEndWhileCutTissueIsPushedAndPulled) {
+  expectSameEnd(scene(), cutAndPull, kCutTicks + 5, 3 * kCutTicks);
+}
+
+/// Multigrid builds its levels again some ticks after a cut: before, on the way and after it.
+TEST_P(Saved, GoesOnToTheSameEndLongAfterACut) {
+  if (std::get<0>(GetParam()).integrator != Integrator::kMultigrid) GTEST_SKIP() << "others keep nothing of old cuts";
+  for (const int after : {25, 35, 50}) expectSameEnd(scene(), cutAndPull, after, 60);
+}
+
+TEST_P(Saved, GoesOnToTheSameEndAmongMovingThings) {
+  if (std::get<0>(GetParam()).integrator == Integrator::kVerletPaper) GTEST_SKIP() << "knows no surroundings";
+  Scene scene = Saved::scene();
+  ObstacleConfig ball;
+  ball.name = "ball";
+  ball.shape = ObstacleShape::kSphere;
+  ball.radius_m = 0.01;
+  ball.position_m = Vector3d(0, 0, kHalfM + 0.012);
+  ball.velocity_m_per_s = Vector3d(0, 0, -0.05);
+  scene.obstacles = {ball};
+  scene.environment.wind.velocity_m_per_s = Vector3d(3, 0, 0);
+  scene.environment.wind.gust_ratio = 0.5;
+  scene.collision.enabled = std::get<0>(GetParam()).integrator != Integrator::kMultigrid;
+  expectSameEnd(scene, cutAndPull, kCutTicks + 3, 2 * kCutTicks);
+}
+
+/// Bricks that sleep, of tissue that nothing touches any more.
+TEST_P(Saved, GoesOnToTheSameEndWhenTissueFallsAsleep) {
+  Scene scene = Saved::scene();
+  scene.bodies[0].material.dashpot_ratio = 0.5;
+  const Strokes once = [](int tick) { return tick < 8 ? press(tick) : tick > 55 ? press(tick - 50) : StylusSamples{}; };
+  for (const int after : {20, 50}) expectSameEnd(scene, once, after, 62);
+}
+
+TEST_P(Saved, IsRefusedByAnotherSceneAndByOtherTissue) {
+  const std::string file = folder_.file("state");
+  Session session(scene(), context_);
+  play(session, press, 3);
+  session.save(file);
+  const auto refused = [&](const Scene& other, const std::string& why) {
+    Session here(other, context_);
+    try {
+      here.restore(file);
+      ADD_FAILURE() << "taken: " << why;
+    } catch (const Error& error) {
+      EXPECT_NE(std::string(error.what()).find(why), std::string::npos) << error.what();
+      EXPECT_NE(std::string(error.what()).find(file), std::string::npos) << error.what();
+    }
+    play(here, press, 2);
+  };
+  Scene softer = scene();
+  softer.bodies[0].material.young_modulus_pa *= 0.5;
+  refused(softer, "young_modulus_pa");
+  Scene finer = scene();
+  finer.bodies[0].spacing_m = 0.004;
+  refused(finer, "spacing_m");
+  Scene more = scene();
+  more.bodies.push_back(more.bodies[0]);
+  refused(more, "another scene");
+  Scene seen = scene();
+  seen.cameras.clear();
+  seen.solver.threads = 1;
+  Session here(seen, context_);
+  here.restore(file);
+  EXPECT_EQ(here.stateHash(), session.stateHash());
+}
+
+}  // namespace
+}  // namespace viscera
