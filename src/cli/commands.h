@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "export/exporter.h"
 #include "model/scan/labels.h"
 #include "model/scan/window.h"
 #include "viscera/model/scene/scene.h"
@@ -20,15 +21,16 @@ struct RunOptions {
   std::string mesh;     ///< empty: what the scene says
   std::string strokes;  ///< empty: nothing touches the tissue
   std::optional<double> seconds;
-  std::string out;           ///< empty: no pictures, no metrics.json
-  bool no_view = false;      ///< without OpenGL: on the processor, no pictures
-  bool live = false;         ///< pictures may be left out where drawing falls behind, but for marks
-  bool depth = false;        ///< depths are taken with every picture
-  bool labels = false;       ///< labels are
-  std::string save, resume;  ///< files of a saved state; empty: none
-  double save_every_s = 0;   ///< simulated; 0: at the end only
-  bool reference = false;    ///< in float64 on the CPU
-  bool compare = false;      ///< with --reference: and the GPU beside it
+  std::string out;                        ///< empty: no pictures, no metrics.json
+  bool no_view = false;                   ///< without OpenGL: on the processor, no pictures
+  bool live = false;                      ///< pictures may be left out where drawing falls behind, but for marks
+  bool depth = false;                     ///< depths are taken with every picture
+  bool labels = false;                    ///< labels are
+  std::string save, resume;               ///< files of a saved state; empty: none
+  double save_every_s = 0;                ///< simulated; 0: at the end only
+  std::optional<ExportOptions> exported;  ///< into `out`/export
+  bool reference = false;                 ///< in float64 on the CPU
+  bool compare = false;                   ///< with --reference: and the GPU beside it
   Overrides overrides;
 };
 /// `viscera run`: a session without ROS.

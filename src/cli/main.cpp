@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <iostream>
+#include <map>
 
 #include "cli/commands.h"
 #include "cli/fault.h"
@@ -20,6 +21,7 @@ struct Options {
   cli::SweepOptions sweep;
   cli::ImportOptions import;
   double seconds = 0;
+  ExportOptions exported;
   std::string keys_of;
 };
 
@@ -84,6 +86,26 @@ int dispatch(int argc, char** argv) {
       ->needs(out);
   run->add_flag("--labels", o.run.labels, "what each pixel shows with every picture: grey .png (docs/ros_api.md)")
       ->needs(out);
+  const std::map<std::string, ExportSource> sources = {
+      {"skin", ExportSource::kSkin}, {"lattice", ExportSource::kLattice}, {"network", ExportSource::kNetwork}};
+  const std::map<std::string, ExportFormat> formats = {{"vtp", ExportFormat::kVtp},
+                                                       {"xdmf", ExportFormat::kXdmf},
+                                                       {"ply", ExportFormat::kPly},
+                                                       {"glb", ExportFormat::kGlb},
+                                                       {"pc2", ExportFormat::kPc2}};
+  const std::map<std::string, ExportFrame> frames = {{"ros", ExportFrame::kRos}, {"lps_mm", ExportFrame::kLpsMm}};
+  CLI::Option* exported = run->add_option("--export", o.exported.source, "skin, lattice or network into DIR/export")
+                              ->transform(CLI::CheckedTransformer(sources))
+                              ->needs(out);
+  run->add_option("--every", o.exported.every_s, "simulated seconds between two exports; default 0.1")
+      ->check(CLI::Range(1e-6, 86400.0))
+      ->needs(exported);
+  run->add_option("--format", o.exported.format, "of exports: vtp, xdmf, ply, glb or pc2; default vtp")
+      ->transform(CLI::CheckedTransformer(formats))
+      ->needs(exported);
+  run->add_option("--export-frame", o.exported.frame, "axes and unit of exports: ros, or lps_mm as 3D Slicer has them")
+      ->transform(CLI::CheckedTransformer(frames))
+      ->needs(exported);
   CLI::Option* save =
       run->add_option("--save", o.run.save, "file for the state at the end, to go on from with --resume");
   CLI::Option* save_every = run->add_option("--save-every", o.run.save_every_s,
@@ -93,7 +115,7 @@ int dispatch(int argc, char** argv) {
   CLI::Option* resume = run->add_option("--resume", o.run.resume,
                                         "state that this scene was saved in: goes on there, to the same end in time");
   CLI::Option* reference = run->add_flag("--reference", o.run.reference, "the plain float64 solver instead of the GPU")
-                               ->excludes(save, save_every, resume);
+                               ->excludes(save, save_every, resume, exported);
   run->add_flag("--no-view", o.run.no_view, "without OpenGL: on the processor, and without pictures")
       ->excludes(reference);
   run->add_flag("--compare", o.run.compare, "the GPU's error against the reference, as gpu_error")->needs(reference);
@@ -161,6 +183,7 @@ int dispatch(int argc, char** argv) {
   }
   if (std::isnan(o.seconds)) throw Error("--seconds is a number, 0 .. 86400; found nan");  // passes CLI::Range
   if (*seconds) o.run.seconds = o.seconds;
+  if (*exported) o.run.exported = o.exported;
   return memoryFor("running scene '" + o.run.scene + "'", [&] { return cli::run(o.run); });
 }
 

@@ -91,6 +91,19 @@ void resume(Session& session, const std::string& file, uint64_t ticks) {
   std::cout << "resumed after " << at_s << " s, tick " << session.tick() << '\n';
 }
 
+/// Waits for the skin of the last tick, where it is asked for; pictures that come with it are the album's.
+void exportNow(Session& session, Exporter& exporter, Album& album) {
+  if (!exporter.ofSkin()) return exporter.add(session, {});
+  album.add(session.drain());  // so that there is room
+  Wants wants;
+  wants.surface = wants.every_image = true;
+  Frame frame;
+  static_cast<Pictures&>(frame) = session.show(wants);
+  if (!frame.surface) throw Error("--export: the skin of tick " + std::to_string(session.tick()) + " did not come");
+  exporter.add(session, *frame.surface);
+  album.add(std::move(frame));
+}
+
 /// Ticks between two savings; 0: none.
 uint64_t saveTicks(double every_s, double tick_s) {
   return every_s > 0 ? std::max<uint64_t>(1, static_cast<uint64_t>(std::llround(every_s / tick_s))) : 0;
@@ -147,12 +160,15 @@ int run(const RunOptions& options) {
               << ", overrides: " << (strokes.recorded.overrides.empty() ? "none" : strokes.recorded.overrides) << '\n';
   if (!options.resume.empty()) resume(session, options.resume, ticks);
   const uint64_t save_ticks = saveTicks(options.save_every_s, session.tick_s());
+  std::optional<Exporter> exporter;
+  if (options.exported) exporter.emplace(options.out + "/export", *options.exported, session.tick_s());
   const Clock::time_point start = Clock::now();
   for (uint64_t t = session.tick(); t < ticks; ++t) {
     const double time_s = static_cast<double>(t + 1) * session.tick_s();
     if (strokes.handsAnew(t + 1)) session.forgetHands();
     album.add(session.step(strokes.at(time_s, scene.styluses), album.wants(session)));
     progress("simulating", static_cast<double>(t + 1) / static_cast<double>(ticks));
+    if (exporter && exporter->isDue(t + 1)) exportNow(session, *exporter, album);
     if (save_ticks > 0 && (t + 1) % save_ticks == 0) session.save(options.save);
   }
   Frame last = session.drain();
@@ -160,6 +176,7 @@ int run(const RunOptions& options) {
   const layout::TickStats stats = last.stats;
   album.add(std::move(last));
   album.finish();
+  if (exporter) exporter->finish();
   if (!options.save.empty()) session.save(options.save);
 
   Json metrics = metricsOf(session, stats, context ? context->renderer() : "none", wall_s);

@@ -1,0 +1,98 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "export/exporter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+
+#include "viscera/math/error.h"
+
+namespace viscera {
+
+namespace {
+
+const char* nameOf(ExportSource source) {
+  return source == ExportSource::kSkin ? "skin" : source == ExportSource::kLattice ? "lattice" : "network";
+}
+
+std::string numbered(uint64_t tick) {
+  char text[32];
+  std::snprintf(text, sizeof text, "_%06llu", static_cast<unsigned long long>(tick));
+  return text;
+}
+
+FieldMesh fieldsOf(const Session& session, const ShownMesh& skin, const ExportOptions& options) {
+  FieldMesh mesh = options.source == ExportSource::kSkin      ? skinFields(session, skin)
+                   : options.source == ExportSource::kLattice ? latticeFields(session)
+                                                              : networkFields(session);
+  toFrame(options.frame, mesh);
+  return mesh;
+}
+
+}  // namespace
+
+Exporter::Exporter(const std::string& folder, const ExportOptions& options, double tick_s)
+    : options_(options),
+      stem_(folder + "/" + nameOf(options.source)),
+      ticks_(std::max<uint64_t>(1, static_cast<uint64_t>(std::llround(options.every_s / tick_s)))) {
+  const bool fields = options.format == ExportFormat::kVtp || options.format == ExportFormat::kXdmf;
+  if (!fields && options.source != ExportSource::kSkin)
+    throw Error("--format ply, glb and pc2 hold skins: take vtp or xdmf of a lattice or a network");
+  if (options.format == ExportFormat::kGlb && options.frame != ExportFrame::kRos)
+    throw Error("--format glb is in metres with y up, as glTF has it: take vtp or ply with --export-frame lps_mm");
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw Error(folder + ": cannot be made into a folder for exports: " + error.message());
+  if (options.format == ExportFormat::kXdmf) xdmf_.emplace(stem_);
+  if (options.format == ExportFormat::kPc2) pc2_.emplace(stem_ + ".pc2", static_cast<double>(ticks_) * tick_s);
+}
+
+void Exporter::add(const Session& session, const ShownMesh& skin) {
+  if (options_.format == ExportFormat::kPly || options_.format == ExportFormat::kGlb) return addFile(session, skin);
+  const FieldMesh mesh = fieldsOf(session, skin, options_);
+  if (xdmf_) return xdmf_->add(mesh);
+  if (pc2_) {
+    // The mesh that the cache moves.
+    if (!std::filesystem::exists(stem_ + ".ply")) writePly(skin, stem_ + ".ply");
+    return pc2_->add(mesh);
+  }
+  addVtk(mesh);
+}
+
+void Exporter::addFile(const Session& session, const ShownMesh& skin) {
+  const std::string path = stem_ + numbered(session.tick());
+  if (options_.format == ExportFormat::kGlb) return writeGlb(skin, path + ".glb");
+  ShownMesh moved = skin;
+  toFrame(options_.frame, true, moved.positions_m);
+  if (options_.frame == ExportFrame::kLpsMm) {
+    for (uint32_t& normal : moved.normals) {
+      const Vector3f n = unpackNormal(normal);
+      normal = packNormal({n.y(), -n.x(), n.z()});
+    }
+  }
+  writePly(moved, path + ".ply");
+}
+
+void Exporter::addVtk(const FieldMesh& mesh) {
+  const std::string path = stem_ + numbered(mesh.tick) + (mesh.corners == 8 ? ".vtu" : ".vtp");
+  writeVtk(mesh, path);
+  char time[32];
+  std::snprintf(time, sizeof time, "%.17g", mesh.time_s);
+  collection_ += std::string("<DataSet timestep=\"") + time + "\" part=\"0\" file=\"" +
+                 std::filesystem::path(path).filename().string() + "\"/>\n";
+  std::ofstream file(stem_ + ".pvd");  // whole after every moment, should the run be ended
+  file << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n"
+       << "<Collection>\n"
+       << collection_ << "</Collection>\n</VTKFile>\n";
+  file.close();
+  if (!file) throw Error(stem_ + ".pvd: cannot be written");
+}
+
+void Exporter::finish() {
+  if (xdmf_) xdmf_->finish();
+  if (pc2_) pc2_->finish();
+}
+
+}  // namespace viscera

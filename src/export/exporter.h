@@ -1,0 +1,46 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "export/writers.h"
+
+namespace viscera {
+
+enum class ExportFormat { kVtp, kXdmf, kPly, kGlb, kPc2 };
+
+struct ExportOptions {
+  ExportSource source = ExportSource::kSkin;
+  ExportFormat format = ExportFormat::kVtp;
+  ExportFrame frame = ExportFrame::kRos;
+  double every_s = 0.1;
+};
+
+/// Moments of a session as files: one each, or one for all of them, as the format has it.
+class Exporter {
+ public:
+  /// @param folder  is made   @throws Error  it cannot be made; the format does not hold that
+  Exporter(const std::string& folder, const ExportOptions& options, double tick_s);
+  /// Is a moment due after this tick, the first of which is 1?
+  bool isDue(uint64_t tick) const { return tick % ticks_ == 0; }
+  bool ofSkin() const { return options_.source == ExportSource::kSkin; }
+  /// @param skin  of the session's last tick; not looked at unless ofSkin()   @throws Error
+  void add(const Session& session, const ShownMesh& skin);
+  void finish();  ///< @throws Error
+
+ private:
+  void addFile(const Session& session, const ShownMesh& skin);
+  void addVtk(const FieldMesh& mesh);
+
+  ExportOptions options_;
+  std::string stem_;  ///< of all paths
+  uint64_t ticks_;    ///< between two moments
+  std::string collection_;
+  std::optional<XdmfSeries> xdmf_;
+  std::optional<Pc2Series> pc2_;
+};
+
+}  // namespace viscera

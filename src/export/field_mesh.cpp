@@ -1,0 +1,263 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "export/field_mesh.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "viscera/layout/skin.h"
+#include "viscera/math/error.h"
+
+namespace viscera {
+
+namespace {
+
+constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
+
+Vector3d xyz(const layout::vec4& v) {
+  return {v.x, v.y, v.z};
+}
+void add(std::vector<float>& out, const Vector3d& v) {
+  for (int c = 0; c < 3; ++c) out.push_back(static_cast<float>(v[c]));
+}
+
+/// Lame's constants of a cell [Pa].
+struct Lame {
+  double lambda, mu;
+};
+Lame lameOf(double young_pa, double poisson) {
+  return {young_pa * poisson / ((1 + poisson) * (1 - 2 * poisson)), young_pa / (2 * (1 + poisson))};
+}
+/// [parts + 1] of a body: of no part, then by label.
+std::vector<Lame> lamesOf(const Body& body) {
+  std::vector<Lame> out(body.lattice.part_names.size() + 1,
+                        lameOf(body.material.young_modulus_pa, body.material.poisson_ratio));
+  for (const PartConfig& part : body.parts) {
+    for (size_t p = 0; p < body.lattice.part_names.size(); ++p) {
+      if (body.lattice.part_names[p] == part.part) out[p + 1] = lameOf(part.young_modulus_pa, part.poisson_ratio);
+    }
+  }
+  return out;
+}
+
+struct Strained {
+  double energy_j_per_m3, von_mises_pa;
+};
+
+/// Of St. Venant and Kirchhoff's law in the middle of a cell. @param gradient  of displacements
+Strained strainedOf(const Eigen::Matrix3d& gradient, const Lame& lame) {
+  const Eigen::Matrix3d turned = Eigen::Matrix3d::Identity() + gradient;
+  const Eigen::Matrix3d strain = 0.5 * (turned.transpose() * turned - Eigen::Matrix3d::Identity());
+  const Eigen::Matrix3d second = lame.lambda * strain.trace() * Eigen::Matrix3d::Identity() + 2 * lame.mu * strain;
+  const Eigen::Matrix3d cauchy = turned * second * turned.transpose() / turned.determinant();
+  const Eigen::Matrix3d shear = cauchy - cauchy.trace() / 3 * Eigen::Matrix3d::Identity();
+  return {0.5 * (second.cwiseProduct(strain)).sum(), std::sqrt(1.5) * shear.norm()};
+}
+
+/// A cell of a body's lattice that is whole.
+struct Cell {
+  uint32_t lowest;
+  std::array<uint32_t, 8> corners;  ///< slots of the body, x first
+  Strained strained;
+};
+
+/// Calls visit(cell) for the whole cells of a body. @param offset  of its slots in the state
+template <class Visit>
+void forCells(const Body& body, uint32_t offset, const HostState& state, const Visit& visit) {
+  if (body.network && !body.network->of_lattice) return;
+  const std::vector<Lame> lames = lamesOf(body);
+  for (const uint32_t slot : body.lattice.active_slots) {
+    if (!(state.nodes[offset + slot].lo & layout::kCellBit)) continue;
+    Cell cell{slot, {}, {}};
+    Eigen::Matrix3d gradient = Eigen::Matrix3d::Zero();
+    const Vector3i at = body.lattice.nodeAt(slot);
+    for (uint32_t c = 0; c < 8; ++c) {
+      const Vector3i way(static_cast<int>(c & 1), static_cast<int>(c >> 1 & 1), static_cast<int>(c >> 2 & 1));
+      cell.corners[c] = static_cast<uint32_t>(body.lattice.slotAt(at + way));
+      const Vector3d slope = (2 * way - Vector3i::Ones()).cast<double>() / (4 * body.lattice.spacing_m);
+      gradient += xyz(state.displacement_m[offset + cell.corners[c]]) * slope.transpose();
+    }
+    const size_t label = body.lattice.cell_labels.empty() ? 0 : body.lattice.cell_labels[slot];
+    cell.strained = strainedOf(gradient, lames[std::min(label, lames.size() - 1)]);
+    visit(cell);
+  }
+}
+
+/// [slots] means over the whole cells around a node; NaN where there is none.
+struct NodeStrains {
+  std::vector<float> energy, von_mises;
+};
+NodeStrains nodeStrains(const Model& model, const HostState& state) {
+  NodeStrains out{std::vector<float>(model.slots()), std::vector<float>(model.slots())};
+  std::vector<float> cells(model.slots());
+  for (size_t b = 0; b < model.bodies.size(); ++b) {
+    const uint32_t offset = model.slotOffset(b);
+    forCells(model.bodies[b], offset, state, [&](const Cell& cell) {
+      for (const uint32_t corner : cell.corners) {
+        out.energy[offset + corner] += static_cast<float>(cell.strained.energy_j_per_m3);
+        out.von_mises[offset + corner] += static_cast<float>(cell.strained.von_mises_pa);
+        ++cells[offset + corner];
+      }
+    });
+  }
+  for (size_t slot = 0; slot < cells.size(); ++slot) {
+    for (std::vector<float>* each : {&out.energy, &out.von_mises})
+      (*each)[slot] = cells[slot] > 0 ? (*each)[slot] / cells[slot] : kUnknown;
+  }
+  return out;
+}
+
+/// Points of nodes, with what is known of all of them.
+class NodePoints {
+ public:
+  NodePoints(const Model& model, FieldMesh& mesh) : mesh_(mesh), place_(model.slots(), kNone) {
+    mesh_.of_points = {{"displacement", 3, {}}, {"velocity", 3, {}}, {"body", 1, {}}, {"part", 1, {}}};
+  }
+  uint32_t of(const Body& body, size_t b, uint32_t offset, uint32_t slot, const HostState& state) {
+    uint32_t& place = place_[offset + slot];
+    if (place != kNone) return place;
+    place = static_cast<uint32_t>(mesh_.pointCount());
+    const Vector3d u = xyz(state.displacement_m[offset + slot]);
+    add(mesh_.points, restPosition(body, slot) + u);
+    add(mesh_.of_points[0].values, u);
+    add(mesh_.of_points[1].values, xyz(state.velocity_m_per_s[offset + slot]));
+    mesh_.of_points[2].values.push_back(static_cast<float>(b));
+    const bool labelled = slot < body.lattice.labels.size();
+    mesh_.of_points[3].values.push_back(labelled ? static_cast<float>(body.lattice.labels[slot]) : 0);
+    return place;
+  }
+
+ private:
+  static constexpr uint32_t kNone = 0xffffffffu;
+  FieldMesh& mesh_;
+  std::vector<uint32_t> place_;
+};
+
+FieldMesh begun(const Session& session, uint32_t corners) {
+  FieldMesh mesh;
+  mesh.tick = session.tick();
+  mesh.time_s = static_cast<double>(session.tick()) * session.tick_s();
+  mesh.corners = corners;
+  return mesh;
+}
+
+/// What carries a vertex, of its body's state: mean of the nodes that it is bound to.
+Vector3d velocityOf(const layout::SkinBinding& binding, uint32_t offset, const HostState& state) {
+  const Vector3d first = xyz(state.velocity_m_per_s[offset + binding.slot0]);
+  if (binding.springs & (layout::kOneToOneBit | layout::kOneNodeBit | layout::kInCellBit)) return first;
+  return static_cast<double>(binding.weights.x) * first +
+         static_cast<double>(binding.weights.y) * xyz(state.velocity_m_per_s[offset + binding.slot1]) +
+         static_cast<double>(binding.weights.z) * xyz(state.velocity_m_per_s[offset + binding.slot2]);
+}
+
+}  // namespace
+
+FieldMesh skinFields(const Session& session, const ShownMesh& skin) {
+  const HostState state = session.solver().readState();
+  const Model& model = session.model();
+  const NodeStrains strains = nodeStrains(model, state);
+  FieldMesh mesh = begun(session, 3);
+  mesh.points = skin.positions_m;
+  mesh.cells = skin.topology->triangles;
+  mesh.of_points = {{"displacement", 3, {}},  {"velocity", 3, {}},  {"normal", 3, {}},
+                    {"strain_energy", 1, {}}, {"von_mises", 1, {}}, {"part", 1, {}}};
+  for (size_t v = 0; v < skin.vertices(); ++v) add(mesh.of_points[2].values, skin.normal(v).cast<double>());
+  size_t v = 0;
+  for (size_t b = 0; b < model.bodies.size(); ++b) {
+    const Body& body = model.bodies[b];
+    const uint32_t offset = model.slotOffset(b);
+    for (size_t i = 0; i < body.skin.bindings.size() && v < skin.vertices(); ++i, ++v) {
+      const layout::SkinBinding& binding = body.skin.bindings[i];
+      add(mesh.of_points[0].values, (skin.position_m(v) - body.skin.mesh.positions_m[i].cast<float>()).cast<double>());
+      add(mesh.of_points[1].values, velocityOf(binding, offset, state));
+      mesh.of_points[3].values.push_back(strains.energy[offset + binding.slot0]);
+      mesh.of_points[4].values.push_back(strains.von_mises[offset + binding.slot0]);
+      const bool labelled = binding.slot0 < body.lattice.labels.size();
+      mesh.of_points[5].values.push_back(labelled ? static_cast<float>(body.lattice.labels[binding.slot0]) : 0);
+    }
+  }
+  // Of vertices that wounds have added nothing but where they are is known.
+  for (Field& field : mesh.of_points)
+    field.values.resize(static_cast<size_t>(field.components) * skin.vertices(), kUnknown);
+  mesh.of_cells = {{"body", 1, {}}, {"wound", 1, {}}};
+  for (const ShownPatch& patch : skin.topology->patches) {
+    mesh.of_cells[0].values.insert(mesh.of_cells[0].values.end(), patch.count, static_cast<float>(patch.body));
+    mesh.of_cells[1].values.insert(mesh.of_cells[1].values.end(), patch.count,
+                                   patch.kind == ShownKind::kWound ? 1.0f : 0.0f);
+  }
+  return mesh;
+}
+
+FieldMesh latticeFields(const Session& session) {
+  // Where the corners of a hexahedron stand in the file, of corners with x first.
+  constexpr std::array<size_t, 8> kAround = {0, 1, 3, 2, 4, 5, 7, 6};
+  const HostState state = session.solver().readState();
+  const Model& model = session.model();
+  FieldMesh mesh = begun(session, 8);
+  NodePoints points(model, mesh);
+  mesh.of_cells = {{"body", 1, {}}, {"part", 1, {}}, {"strain_energy", 1, {}}, {"von_mises", 1, {}}};
+  for (size_t b = 0; b < model.bodies.size(); ++b) {
+    const Body& body = model.bodies[b];
+    const uint32_t offset = model.slotOffset(b);
+    forCells(body, offset, state, [&](const Cell& cell) {
+      for (const size_t corner : kAround) mesh.cells.push_back(points.of(body, b, offset, cell.corners[corner], state));
+      mesh.of_cells[0].values.push_back(static_cast<float>(b));
+      const bool labelled = !body.lattice.cell_labels.empty();
+      mesh.of_cells[1].values.push_back(labelled ? static_cast<float>(body.lattice.cell_labels[cell.lowest]) : 0);
+      mesh.of_cells[2].values.push_back(static_cast<float>(cell.strained.energy_j_per_m3));
+      mesh.of_cells[3].values.push_back(static_cast<float>(cell.strained.von_mises_pa));
+    });
+  }
+  if (mesh.cells.empty()) throw Error("--export lattice: no body has cells: export its skin or its network");
+  return mesh;
+}
+
+FieldMesh networkFields(const Session& session) {
+  const HostState state = session.solver().readState();
+  const Model& model = session.model();
+  FieldMesh mesh = begun(session, 2);
+  NodePoints points(model, mesh);
+  mesh.of_cells = {{"body", 1, {}}, {"strain_energy", 1, {}}, {"force", 1, {}}};
+  size_t index = 0;  // of springs over all bodies
+  for (size_t b = 0; b < model.bodies.size(); ++b) {
+    const Body& body = model.bodies[b];
+    const uint32_t offset = model.slotOffset(b);
+    if (!body.network) continue;
+    for (const NetworkSpring& spring : body.network->springs) {
+      if (state.spring_cut[index++] != 0) continue;
+      mesh.cells.push_back(points.of(body, b, offset, spring.a, state));
+      mesh.cells.push_back(points.of(body, b, offset, spring.b, state));
+      const Vector3d way = restPosition(body, spring.b) + xyz(state.displacement_m[offset + spring.b]) -
+                           restPosition(body, spring.a) - xyz(state.displacement_m[offset + spring.a]);
+      const double longer_m = way.norm() - spring.rest_length_m;
+      mesh.of_cells[0].values.push_back(static_cast<float>(b));
+      mesh.of_cells[1].values.push_back(static_cast<float>(0.5 * spring.stiffness_n_per_m * longer_m * longer_m));
+      mesh.of_cells[2].values.push_back(static_cast<float>(spring.stiffness_n_per_m * longer_m));
+    }
+  }
+  if (mesh.cells.empty()) throw Error("--export network: no body has explicit connections: export its lattice");
+  return mesh;
+}
+
+void toFrame(ExportFrame frame, bool length, std::vector<float>& vectors) {
+  if (frame == ExportFrame::kRos) return;
+  const float scale = length ? 1000 : 1;
+  for (size_t i = 0; i + 2 < vectors.size(); i += 3) {
+    const float x = vectors[i];
+    vectors[i] = scale * vectors[i + 1];
+    vectors[i + 1] = -scale * x;
+    vectors[i + 2] *= scale;
+  }
+}
+
+void toFrame(ExportFrame frame, FieldMesh& mesh) {
+  toFrame(frame, true, mesh.points);
+  for (Field& field : mesh.of_points) {
+    if (field.components == 3) toFrame(frame, field.name != "normal", field.values);
+  }
+}
+
+}  // namespace viscera

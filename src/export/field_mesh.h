@@ -1,0 +1,50 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "viscera/session/session.h"
+
+namespace viscera {
+
+/// What is taken out of a session.
+enum class ExportSource { kSkin, kLattice, kNetwork };
+/// Axes and unit of what is written: those of the tissue frame (x forward, y left, z up, metres), or those of medical
+/// images (x left, y back, z up, millimetres), which 3D Slicer wants. The origin is that of the tissue frame.
+enum class ExportFrame { kRos, kLpsMm };
+
+/// Numbers at points or in cells. Energies and stresses are in SI units whatever the frame.
+struct Field {
+  std::string name;
+  int components = 1;
+  std::vector<float> values;  ///< NaN where it is not known
+};
+
+/// A moment of a session as programs that show fields take it.
+struct FieldMesh {
+  uint64_t tick = 0;
+  double time_s = 0;
+  uint32_t corners = 3;         ///< of a cell: 2 lines, 3 triangles, 8 hexahedra
+  std::vector<float> points;    ///< [3 * points]
+  std::vector<uint32_t> cells;  ///< [corners * cells] points
+  std::vector<Field> of_points, of_cells;
+
+  size_t pointCount() const { return points.size() / 3; }
+  size_t cellCount() const { return cells.size() / corners; }
+};
+
+/// @param skin  of the session's last tick
+FieldMesh skinFields(const Session& session, const ShownMesh& skin);
+FieldMesh latticeFields(const Session& session);  ///< its whole cells, those that a cut tore left out
+FieldMesh networkFields(const Session& session);  ///< its springs, those that are cut left out
+
+/// Places, arrows or directions of the tissue frame, three numbers each, in another one. @param length  else a
+/// direction
+void toFrame(ExportFrame frame, bool length, std::vector<float>& vectors);
+/// Points and the fields that are lengths or speeds.
+void toFrame(ExportFrame frame, FieldMesh& mesh);
+
+}  // namespace viscera
