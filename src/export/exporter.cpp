@@ -90,6 +90,14 @@ void Exporter::addVtk(const FieldMesh& mesh) {
   if (!file) throw Error(stem_ + ".pvd: cannot be written");
 }
 
+void writeSkin(const Session& session, const ShownMesh& skin, const std::string& path) {
+  const std::string ending = std::filesystem::path(path).extension().string();
+  if (ending == ".ply") return writePly(skin, path);
+  if (ending == ".glb") return writeGlb(skin, path);
+  if (ending == ".vtp") return writeVtk(skinFields(session, skin), path);
+  throw Error(path + ": must end in .ply, .glb or .vtp");
+}
+
 void Exporter::finish() {
   if (xdmf_) xdmf_->finish();
   if (pc2_) pc2_->finish();

@@ -17,6 +17,10 @@ void writeVtk(const FieldMesh& mesh, const std::string& path);
 /// @param skin  in the tissue frame
 void writeGlb(const ShownMesh& skin, const std::string& path);
 
+/// The whole skin of a moment by the file's ending: .ply, .glb, or .vtp with its fields.
+/// @throws Error  another ending
+void writeSkin(const Session& session, const ShownMesh& skin, const std::string& path);
+
 /// XDMF 3: one text file that names all times, and one of raw little-endian bytes; cells are there once for as long as
 /// they stay the same.
 class XdmfSeries {

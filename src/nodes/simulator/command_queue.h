@@ -44,6 +44,7 @@ struct Command {
   Overlays overlays;
   /// Of a change: makes it, running or paused. @returns what to answer  @throws Error  why not
   std::function<std::string(Session&)> change;
+  bool leaps = false;                              ///< of a change: to another state, at another tick
   std::chrono::steady_clock::time_point deadline;  ///< the answer is not waited for after this
   std::shared_ptr<std::atomic<bool>> begun = std::make_shared<std::atomic<bool>>(false);
   std::promise<CommandAnswer> answer;

@@ -200,11 +200,20 @@ CommandAnswer SimulationLoop::execute(const Command& command, Session& session) 
 }
 
 CommandAnswer SimulationLoop::change(const Command& command, Session& session) {
+  if (command.leaps) ports_.rest();
+  bool done = false;
+  std::string message;
   try {
-    return answer(true, command.change(session), session);
+    message = command.change(session);
+    done = true;
   } catch (const Error& error) {
-    return answer(false, error.what(), session);
+    message = error.what();
   }
+  if (command.leaps) {
+    forgetHands(session);
+    unseen_ = true;
+  }
+  return answer(done, message, session);
 }
 
 CommandAnswer SimulationLoop::setOverlays(const Command& command, Session& session) {

@@ -57,7 +57,7 @@ Simulator::Simulator(const SimulatorOptions& options, EndWatch& end, SceneSwitch
 #ifdef VISCERA_RECONFIGURE
       settings_(std::in_place, options, loop_.commands(), SimulatorSettings::Publishers{publisher_, wrenches_}),
 #endif
-      services_(std::in_place, node_, options.scene.styluses, loop_.commands(), modeSet()),
+      services_(std::in_place, node_, options.scene.styluses, options.saved_folder, loop_.commands(), modeSet()),
       diagnostics_(std::in_place, node_, options.scene, loop_, SimulatorDiagnostics::Publishers{publisher_, wrenches_},
                    inputs_, obstacles_, camera_frames_),
       device_spinner_(1, &device_queue_) {

@@ -23,8 +23,9 @@ struct SimulatorOptions {
   std::vector<DeviceProfile> devices;  ///< [styluses]
   DeviceChoices device_choices;        ///< by the styluses' names, which another scene may have too
   PublishOptions publish;
-  double stall_ticks = 3;            ///< forces are zero from so many ticks without one on
-  double max_transform_age_s = 0.5;  ///< of what tf knows of a frame that moves
+  std::string saved_folder = "viscera_saved";  ///< of `save_state`, `load_state` and `save_surface`
+  double stall_ticks = 3;                      ///< forces are zero from so many ticks without one on
+  double max_transform_age_s = 0.5;            ///< of what tf knows of a frame that moves
   HapticOptions haptics;
 
   /// Another scene, whose styluses have the devices that were chosen for those of their names.

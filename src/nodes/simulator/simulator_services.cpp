@@ -3,9 +3,11 @@
 #include "nodes/simulator/simulator_services.h"
 
 #include <cmath>
+#include <filesystem>
 #include <functional>
 #include <utility>
 
+#include "export/writers.h"
 #include "model/scene/tool_kinds.h"
 #include "nodes/hands/stylus_mailbox.h"
 #include "nodes/ros/conversions.h"
@@ -17,7 +19,7 @@ namespace {
 
 constexpr std::chrono::seconds kTriggerLimit{10};  ///< a tick, however slow, and a reset
 constexpr std::chrono::seconds kStepLimit{60};
-constexpr uint32_t kServices = 6;  ///< one thread each
+constexpr uint32_t kServices = 9;  ///< one thread each
 
 size_t indexOf(const std::string& stylus, const std::vector<StylusConfig>& styluses) {
   size_t s = 0;
@@ -70,11 +72,37 @@ StylusSamples samplesOf(const std::vector<StylusState>& states, const std::vecto
   return samples;
 }
 
+/// @throws Error  no plain name, which is all that a caller may say
+std::string pathIn(const std::string& folder, const std::string& file) {
+  if (file.empty() || file.front() == '.' || file.find('/') != std::string::npos)
+    throw Error("file: '" + file + "' must be a plain name, which is looked up in ~saved_folder, " + folder);
+  return folder + "/" + file;
+}
+
+void makeFolder(const std::string& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw Error("parameter ~saved_folder: " + folder + " cannot be made: " + error.message());
+}
+
+std::string saveSurface(Session& session, const std::string& path) {
+  Wants wants;
+  wants.surface = true;
+  const std::unique_ptr<SurfaceFrame> skin = session.show(wants).surface;
+  if (!skin) throw Error("the skin of tick " + std::to_string(session.tick()) + " did not come");
+  writeSkin(session, *skin, path);
+  return path;
+}
+
 }  // namespace
 
 SimulatorServices::SimulatorServices(ros::NodeHandle node, const std::vector<StylusConfig>& styluses,
-                                     CommandQueue& commands, ModeSet mode_set)
-    : styluses_(styluses), commands_(commands), mode_set_(std::move(mode_set)), spinner_(kServices, &queue_) {
+                                     const std::string& saved_folder, CommandQueue& commands, ModeSet mode_set)
+    : styluses_(styluses),
+      saved_folder_(std::filesystem::absolute(saved_folder)),
+      commands_(commands),
+      mode_set_(std::move(mode_set)),
+      spinner_(kServices, &queue_) {
   node.setCallbackQueue(&queue_);
   advertiseTrigger(node, "reset", Command::Kind::kReset);
   advertiseTrigger(node, "pause", Command::Kind::kPause);
@@ -82,7 +110,42 @@ SimulatorServices::SimulatorServices(ros::NodeHandle node, const std::vector<Sty
   servers_.push_back(node.advertiseService("step", &SimulatorServices::onStep, this));
   servers_.push_back(node.advertiseService("set_overlays", &SimulatorServices::onSetOverlays, this));
   servers_.push_back(node.advertiseService("set_tool_mode", &SimulatorServices::onSetToolMode, this));
+  advertiseFile(node, "save_state", false, [this](Session& session, const std::string& path) {
+    makeFolder(saved_folder_);
+    session.save(path);
+    return path;
+  });
+  advertiseFile(node, "load_state", true, [](Session& session, const std::string& path) {
+    session.restore(path);
+    return path;
+  });
+  advertiseFile(node, "save_surface", false, [this](Session& session, const std::string& path) {
+    makeFolder(saved_folder_);
+    return saveSurface(session, path);
+  });
   spinner_.start();
+}
+
+void SimulatorServices::advertiseFile(ros::NodeHandle& node, const std::string& name, bool leaps, const FileAct& act) {
+  using Request = FileCommand::Request;
+  using Response = FileCommand::Response;
+  const boost::function<bool(Request&, Response&)> serve = [this, leaps, act](Request& request, Response& response) {
+    try {
+      Command command;
+      command.kind = Command::Kind::kChange;
+      command.leaps = leaps;
+      command.change = [act, path = pathIn(saved_folder_, request.file)](Session& session) {
+        return act(session, path);
+      };
+      const CommandAnswer answer = commands_.call(std::move(command), kTriggerLimit);
+      response.success = answer.success;
+      response.message = answer.message;
+    } catch (const Error& error) {
+      response.message = error.what();
+    }
+    return true;
+  };
+  servers_.push_back(node.advertiseService<Request, Response>(name, serve));
 }
 
 void SimulatorServices::advertiseTrigger(ros::NodeHandle& node, const std::string& name, Command::Kind kind) {

@@ -11,28 +11,34 @@
 #include <vector>
 
 #include "nodes/simulator/command_queue.h"
+#include "viscera/FileCommand.h"
 #include "viscera/SetOverlays.h"
 #include "viscera/SetToolMode.h"
 #include "viscera/Step.h"
 
 namespace viscera::nodes {
 
-/// Services `reset`, `pause`, `resume`, `step`, `set_overlays` and `set_tool_mode`, on threads of their own: waiting
-/// for an answer holds up no input, and one no other.
+/// Services `reset`, `pause`, `resume`, `step`, `set_overlays`, `set_tool_mode`, `save_state`, `load_state` and
+/// `save_surface`, on threads of their own: waiting for an answer holds up no input, and one no other.
 class SimulatorServices {
  public:
   using ModeSet = std::function<void(size_t stylus, ToolSwitch when, ToolMode mode)>;
-  /// @param styluses  of the scene   @param commands  must outlive this   @param mode_set  told of changes of modes
-  SimulatorServices(ros::NodeHandle node, const std::vector<StylusConfig>& styluses, CommandQueue& commands,
-                    ModeSet mode_set = {});
+  /// @param styluses  of the scene   @param saved_folder  of all files that are written and read   @param commands must
+  /// outlive this   @param mode_set  told of changes of modes
+  SimulatorServices(ros::NodeHandle node, const std::vector<StylusConfig>& styluses, const std::string& saved_folder,
+                    CommandQueue& commands, ModeSet mode_set = {});
 
  private:
   void advertiseTrigger(ros::NodeHandle& node, const std::string& name, Command::Kind kind);
+  /// Of a file: whole path of it. @returns what to answer  @throws Error
+  using FileAct = std::function<std::string(Session&, const std::string& path)>;
+  void advertiseFile(ros::NodeHandle& node, const std::string& name, bool leaps, const FileAct& act);
   bool onSetOverlays(SetOverlays::Request& request, SetOverlays::Response& response);
   bool onSetToolMode(SetToolMode::Request& request, SetToolMode::Response& response);
   bool onStep(Step::Request& request, Step::Response& response);
 
   const std::vector<StylusConfig> styluses_;
+  const std::string saved_folder_;
   CommandQueue& commands_;
   const ModeSet mode_set_;
   ros::CallbackQueue queue_;

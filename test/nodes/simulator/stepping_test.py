@@ -2,6 +2,7 @@
 # Copyright (c) 2026, the viscera authors
 # SPDX-License-Identifier: BSD-3-Clause
 """Services of the simulator: wrong states are refused, a reset restores the state to the bit, nothing is sent unasked."""
+import os
 import sys
 import unittest
 
@@ -10,7 +11,7 @@ import rostest
 from sensor_msgs.msg import Image
 from simulator_watch import Latest, READY_LIMIT_S, SimulatorWatch, wait_until
 from std_srvs.srv import Trigger
-from viscera.srv import Step
+from viscera.srv import FileCommand, Step
 from visualization_msgs.msg import Marker
 
 
@@ -26,6 +27,8 @@ class SteppingTest(unittest.TestCase):
         cls.pause = rospy.ServiceProxy("pause", Trigger)
         cls.resume = rospy.ServiceProxy("resume", Trigger)
         cls.step = rospy.ServiceProxy("step", Step)
+        cls.save_state, cls.load_state, cls.save_surface = (
+            rospy.ServiceProxy(name, FileCommand) for name in ("save_state", "load_state", "save_surface"))
 
     def tearDown(self):
         self.resume()
@@ -68,6 +71,41 @@ class SteppingTest(unittest.TestCase):
         self.assertDone(self.reset())
         self.assertEqual(self.step(ticks=0).state_hash, rest)
         self.assertEqual(self.step(ticks=7).state_hash, later)
+
+    def test_a_saved_state_is_gone_on_from_to_the_bit(self):
+        self.assertDone(self.pause())
+        self.assertDone(self.reset())
+        self.step(ticks=3)
+        saved = self.save_state(file="stepping.state")
+        self.assertDone(saved)
+        there, later = self.step(ticks=0), self.step(ticks=6)
+        self.assertDone(self.reset())
+        self.assertDone(self.load_state(file="stepping.state"))
+        again = self.step(ticks=0)
+        self.assertEqual((again.tick, again.state_hash), (3, there.state_hash))
+        self.assertEqual(self.step(ticks=6).state_hash, later.state_hash)
+        with open(saved.message, "r+b") as file:
+            file.truncate(os.path.getsize(saved.message) // 2)
+        self.assertRefused(self.load_state(file="stepping.state"))
+        self.assertEqual(self.step(ticks=0).state_hash, later.state_hash)
+
+    def test_files_are_plain_names_that_are_there(self):
+        for name in ("", "../x.state", "/tmp/x.state", ".state"):
+            for call in (self.save_state, self.load_state, self.save_surface):
+                answer = call(file=name)
+                self.assertRefused(answer)
+                self.assertIn("~saved_folder", answer.message)
+        self.assertRefused(self.load_state(file="there_is_none.state"))
+        self.assertRefused(self.save_surface(file="skin.doc"))
+
+    def test_the_surface_is_written_running_and_paused(self):
+        for name, first in (("skin.ply", b"ply"), ("skin.glb", b"glTF"), ("skin.vtp", b"<?xml")):
+            done = self.save_surface(file=name)
+            self.assertDone(done)
+            with open(done.message, "rb") as file:
+                self.assertEqual(file.read(len(first)), first)
+        self.assertDone(self.pause())
+        self.assertDone(self.save_surface(file="skin.ply"))
 
     def test_time_stands_still_while_paused(self):
         self.assertDone(self.pause())
