@@ -1,8 +1,9 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "solver/cpu/steps/pd.h"
+#include "solver/cpu/steps/cpu_device.h"
 #include "solver/cpu/store/cpu_stepper.h"
-#include "solver/gpu/steps/pd_pass.h"
+#include "solver/device/pd.h"
+#include "solver/gpu/steps/gpu_device.h"
 #include "support/features.h"
 #include "support/implicit.h"
 
@@ -32,7 +33,7 @@ class PdAlone {
  public:
   struct Run {
     HostState end;
-    std::vector<float> changes;  ///< as CpuPd has them
+    std::vector<float> changes;  ///< as PdStepper has them
     bool gave_up;
   };
   virtual ~PdAlone() = default;
@@ -57,7 +58,7 @@ class PdAloneOnCpu : public PdAlone {
       : PdAlone(model, fraction), lattice_(model, bodyParams(model, safeTimeStep(model)), featuresFor(model, true)) {}
   Run run(const HostState& start, const PdOptions& options) override {
     lattice_.write(start);
-    CpuPd pd(lattice_, serial_, options);
+    PdStepper<CpuDevice> pd({lattice_, serial_}, options);
     HostState end = substep(pd);
     return {std::move(end), pd.changes(), pd.gaveUp()};
   }
@@ -69,7 +70,7 @@ class PdAloneOnCpu : public PdAlone {
     return out;
   }
   double spectralRadius() override {
-    return CpuPd(lattice_, serial_, {1}).spectralRadius(static_cast<double>(step_.dt_s));
+    return PdStepper<CpuDevice>({lattice_, serial_}, {1}).spectralRadius(static_cast<double>(step_.dt_s));
   }
 
  private:
@@ -89,7 +90,7 @@ class PdAloneOnGpu : public PdAlone {
         features_(featuresOf(model, Scene{}, safeTimeStep(model), layout::kGroupSize)),
         buffers_(model, {bodyParams(model.bodies[0], safeTimeStep(model))}, features_) {}
   Run run(const HostState& start, const PdOptions& options) override {
-    PdPass pass(features_, buffers_, options);
+    PdStepper<GpuDevice> pass({features_, buffers_}, options);
     write(start);
     HostState end = substep(pass);
     return {std::move(end), pass.changes(), pass.gaveUp()};
@@ -102,7 +103,7 @@ class PdAloneOnGpu : public PdAlone {
     return out;
   }
   double spectralRadius() override {
-    return PdPass(features_, buffers_, {1, true}).spectralRadius(static_cast<double>(step_.dt_s));
+    return PdStepper<GpuDevice>({features_, buffers_}, {1, true}).spectralRadius(static_cast<double>(step_.dt_s));
   }
 
  private:

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // implicit_begin.comp - start of a substep of implicit Euler: increments of prescribed nodes, and y for the others.
-// Owner: solver/gpu/steps/implicit_substep.h   physics.md 2
+// Owner: solver/device/implicit_substep.h   physics.md 2
 // in  displacement, velocity [slots]     out  increments [slots]     Features: CONTACT, TOOLS, OBSTACLES
 #include "layout.h"
 #include "solver/tissue/lattice.glsl"

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // implicit_cells.comp - forces and majorisers of the cells in the current iterate, as volume.comp has them.
-// Owner: solver/gpu/steps/implicit_substep.h   physics.md 2
+// Owner: solver/device/implicit_substep.h   physics.md 2
 // in  displacement, increments [slots]     out  cell forces [cell_vectors * slots]
 #include "layout.h"
 #include "solver/tissue/lattice.glsl"

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // implicit_end.comp - end of a substep of implicit Euler: state = displacement + increment; momentum of tools and obstacles, sleep.
-// Owner: solver/gpu/steps/implicit_substep.h   physics.md 2
+// Owner: solver/device/implicit_substep.h   physics.md 2
 // in  displacement, velocity, increments [slots]     out  displacement, velocity [slots]     Features: CONTACT, TOOLS, OBSTACLES, PAIRS
 #include "layout.h"
 #include "solver/tissue/lattice.glsl"

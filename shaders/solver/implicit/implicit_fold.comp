@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // implicit_fold.comp - sums what implicit_guess.comp found in a fixed tree and chooses the best share.
-// Owner: solver/gpu/steps/implicit_substep.h   physics.md 2
+// Owner: solver/gpu/steps/gpu_device.h   physics.md 2
 // in  energies of the nodes, then of runs     out  energies of runs; guard[0]: float bits of the share
 #include "layout.h"
 #include "solver/tissue/lattice.glsl"

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // implicit_guess.comp - per node, for four shares of the increments at once: the incremental potential P, and kinetic + elastic
-// energy less the work of gravity.   Owner: solver/gpu/steps/implicit_substep.h   physics.md 2
+// energy less the work of gravity.   Owner: solver/device/implicit_substep.h   physics.md 2
 // in  displacement, velocity, increments [slots]     out  energies [2 * active], which implicit_fold.comp sums
 #include "layout.h"
 #include "solver/tissue/lattice.glsl"

@@ -3,7 +3,7 @@
 //
 // implicit_meet.comp - mends the forces of contacts between nodes: a round of Jacobi by mass splitting, each node meeting each of its
 // n contacts that press with 1/n of what resists a push.
-// Owner: solver/gpu/steps/implicit_substep.h   physics.md 2, 8
+// Owner: solver/device/implicit_substep.h   physics.md 2, 8
 // in, out  pairs (implicit_pairs.glsl)
 #include "layout.h"
 #include "solver/tissue/lattice.glsl"

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // implicit_place.comp - where nodes that may touch others go under the forces of their contacts as they are now.
-// Owner: solver/gpu/steps/implicit_substep.h   physics.md 2
+// Owner: solver/device/implicit_substep.h   physics.md 2
 // in  increments [slots], pairs (implicit_pairs.glsl)     out  pairs; at the end of a sweep increments
 // Features: CONTACT, TOOLS, OBSTACLES
 #include "layout.h"

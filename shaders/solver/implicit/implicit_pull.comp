@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // implicit_pull.comp - what pulls nodes that may touch others, and where that and the last forces of their contacts would bring them.
-// Owner: solver/gpu/steps/implicit_substep.h   physics.md 2
+// Owner: solver/device/implicit_substep.h   physics.md 2
 // in  displacement, velocity, increments [slots], cell forces of this iterate     out  pairs (implicit_pairs.glsl)
 // Features: CONTACT, TOOLS, OBSTACLES
 #include "layout.h"

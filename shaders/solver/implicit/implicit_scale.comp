@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // implicit_scale.comp - increments = the share of them that implicit_fold.comp chose. One share is 0, so P is P(0) or below from
-// there on, whatever the increments were.   Owner: solver/gpu/steps/implicit_substep.h   physics.md 2
+// there on, whatever the increments were.   Owner: solver/device/implicit_substep.h   physics.md 2
 // in, out  increments [slots]
 #include "layout.h"
 #include "solver/tissue/lattice.glsl"

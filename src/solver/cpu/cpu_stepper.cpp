@@ -4,9 +4,10 @@
 
 #include "model/scene/integrators.h"
 #include "solver/cpu/cpu_multigrid.h"
+#include "solver/cpu/steps/cpu_device.h"
 #include "solver/cpu/steps/leapfrog.h"
-#include "solver/cpu/steps/pd.h"
 #include "solver/cpu/steps/verlet_paper.h"
+#include "solver/device/pd.h"
 
 namespace viscera {
 
@@ -16,7 +17,8 @@ std::unique_ptr<CpuStepper> makeCpuStepper(Integrator integrator, int iterations
     case Integrator::kVerletPaper:
       return std::make_unique<CpuVerletPaper>(lattice, parts.parallel);
     case Integrator::kPd:
-      return std::make_unique<CpuPd>(lattice, parts.parallel, PdOptions{iterations}, parts.pairs);
+      return std::make_unique<PdStepper<CpuDevice>>(CpuDevice(lattice, parts.parallel, parts.pairs),
+                                                    PdOptions{iterations});
     case Integrator::kMultigrid:
       return std::make_unique<CpuMultigrid>(*parts.model, lattice, parts);
     case Integrator::kLeapfrog:
@@ -31,7 +33,7 @@ std::unique_ptr<CpuStepper> makeCpuRecoveryStepper(int iterations, CpuLattice& l
   PdOptions options;
   options.iterations = iterations;
   options.accelerated = false;
-  return std::make_unique<CpuPd>(lattice, parallel, options);
+  return std::make_unique<PdStepper<CpuDevice>>(CpuDevice(lattice, parallel), options);
 }
 
 }  // namespace viscera

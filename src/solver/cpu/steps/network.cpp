@@ -7,7 +7,7 @@
 #include "layout/blade.h"
 #include "math/archive.h"
 #include "math/float_bits.h"
-#include "solver/cpu/steps/implicit_substep.h"
+#include "solver/cpu/steps/cpu_device.h"
 
 namespace viscera {
 

@@ -7,7 +7,7 @@
 
 #include "math/archive.h"
 #include "solver/contact/node_pairs.h"
-#include "solver/cpu/steps/implicit_substep.h"
+#include "solver/cpu/steps/cpu_device.h"
 #include "solver/cpu/text/listed_kernel.h"
 
 namespace viscera {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "solver/cpu/steps/implicit_substep.h"
+#include "solver/cpu/steps/cpu_device.h"
 
 namespace viscera {
 

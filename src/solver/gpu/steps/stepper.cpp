@@ -3,8 +3,9 @@
 #include "solver/gpu/steps/stepper.h"
 
 #include "model/scene/integrators.h"
+#include "solver/device/pd.h"
+#include "solver/gpu/steps/gpu_device.h"
 #include "solver/gpu/steps/leapfrog_pass.h"
-#include "solver/gpu/steps/pd_pass.h"
 #include "solver/gpu/steps/verlet_paper_pass.h"
 
 namespace viscera {
@@ -15,7 +16,7 @@ std::unique_ptr<Stepper> makeStepper(Integrator integrator, int iterations, cons
     case Integrator::kVerletPaper:
       return std::make_unique<VerletPaperPass>(features, buffers);
     case Integrator::kPd:
-      return std::make_unique<PdPass>(features, buffers, PdOptions{iterations}, pairs);
+      return std::make_unique<PdStepper<GpuDevice>>(GpuDevice(features, buffers, pairs), PdOptions{iterations});
     case Integrator::kLeapfrog:
       return std::make_unique<LeapfrogPass>(features, awake);
     case Integrator::kMultigrid:
@@ -30,7 +31,7 @@ std::unique_ptr<Stepper> makeRecoveryStepper(int iterations, const FeatureSet& f
   PdOptions options;
   options.iterations = iterations;
   options.accelerated = false;
-  return std::make_unique<PdPass>(features, buffers, options);
+  return std::make_unique<PdStepper<GpuDevice>>(GpuDevice(features, buffers), options);
 }
 
 void setSubstep(const gpu::Program& program, const LatticeBuffers& buffers, const Substep& step) {

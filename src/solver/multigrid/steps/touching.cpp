@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "math/archive.h"
-#include "solver/cpu/steps/implicit_substep.h"
+#include "solver/cpu/steps/cpu_device.h"
 #include "solver/tissue/features.h"
 
 namespace viscera {

@@ -1,0 +1,33 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "gpu/program.h"
+#include "math/float_bits.h"
+
+namespace viscera {
+
+// Drivers of kernels are written once, as templates over the device that runs them: CpuDevice (solver/cpu/steps) has
+// the kernels' text as C++, one class per choice of features, by the list in kernels.txt; GpuDevice (solver/gpu/steps)
+// compiles them with OpenGL. A device has fields, which know how many they are, binds them by their numbers in
+// layout/bindings.h, and runs passes over what it holds.
+
+/// What a pass goes through.
+enum class Over { kNodes, kCells, kPairs };  ///< active nodes; cells; of the nodes at least those that may touch others
+
+/// What a pass is told beside its uniforms. Bits.
+constexpr uint32_t kInSubstep = 1;  ///< the substep; probes and obstacles, compiled in where some may be about
+constexpr uint32_t kWithPairs = 2;  ///< contacts between nodes
+constexpr uint32_t kOfRates = 4;    ///< its feature RATE
+
+/// A uniform's value, by its name.
+struct Uniform {
+  Uniform(gpu::UniformName of, uint32_t value) : name(of), word(value) {}
+  Uniform(gpu::UniformName of, float value) : name(of), word(bitsOfFloat(value)), is_float(true) {}
+
+  gpu::UniformName name;
+  uint32_t word = 0;
+  bool is_float = false;
+};
+
+}  // namespace viscera
