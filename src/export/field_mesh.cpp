@@ -180,7 +180,7 @@ FieldMesh skinFields(const Session& session, const ShownMesh& skin) {
     }
   }
   // Of vertices that wounds have added nothing but where they are is known.
-  for (Field& field : mesh.of_points)
+  for (MeshField& field : mesh.of_points)
     field.values.resize(static_cast<size_t>(field.components) * skin.vertices(), kUnknown);
   mesh.of_cells = {{"body", 1, {}}, {"wound", 1, {}}};
   for (const ShownPatch& patch : skin.topology->patches) {
@@ -255,7 +255,7 @@ void toFrame(ExportFrame frame, bool length, std::vector<float>& vectors) {
 
 void toFrame(ExportFrame frame, FieldMesh& mesh) {
   toFrame(frame, true, mesh.points);
-  for (Field& field : mesh.of_points) {
+  for (MeshField& field : mesh.of_points) {
     if (field.components == 3) toFrame(frame, field.name != "normal", field.values);
   }
 }

@@ -17,7 +17,7 @@ enum class ExportSource { kSkin, kLattice, kNetwork };
 enum class ExportFrame { kRos, kLpsMm };
 
 /// Numbers at points or in cells. Energies and stresses are in SI units whatever the frame.
-struct Field {
+struct MeshField {
   std::string name;
   int components = 1;
   std::vector<float> values;  ///< NaN where it is not known
@@ -30,7 +30,7 @@ struct FieldMesh {
   uint32_t corners = 3;         ///< of a cell: 2 lines, 3 triangles, 8 hexahedra
   std::vector<float> points;    ///< [3 * points]
   std::vector<uint32_t> cells;  ///< [corners * cells] points
-  std::vector<Field> of_points, of_cells;
+  std::vector<MeshField> of_points, of_cells;
 
   size_t pointCount() const { return points.size() / 3; }
   size_t cellCount() const { return cells.size() / corners; }

@@ -52,8 +52,8 @@ void XdmfSeries::add(const FieldMesh& mesh) {
            "\">" + cells_item_ + "</Topology>\n";
   text_ += "<Geometry GeometryType=\"XYZ\">" +
            item("Float", points + " 3", mesh.points.data(), 4 * mesh.points.size()) + "</Geometry>\n";
-  const auto attributes = [&](const std::vector<Field>& fields, const char* center, const std::string& count) {
-    for (const Field& field : fields) {
+  const auto attributes = [&](const std::vector<MeshField>& fields, const char* center, const std::string& count) {
+    for (const MeshField& field : fields) {
       const bool vector = field.components == 3;
       text_ += "<Attribute Name=\"" + field.name + "\" AttributeType=\"" + (vector ? "Vector" : "Scalar") +
                "\" Center=\"" + center + "\">" +

@@ -22,9 +22,9 @@ class Appended {
     bytes_.append(reinterpret_cast<const char*>(values.data()), bytes);
     return out;
   }
-  std::string fields(const char* element, const std::vector<Field>& fields) {
+  std::string fields(const char* element, const std::vector<MeshField>& fields) {
     std::string out = std::string("<") + element + ">\n";
-    for (const Field& field : fields) out += array("Float32", field.name, field.components, field.values);
+    for (const MeshField& field : fields) out += array("Float32", field.name, field.components, field.values);
     return out + "</" + element + ">\n";
   }
   const std::string& bytes() const { return bytes_; }
