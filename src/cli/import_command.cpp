@@ -15,6 +15,7 @@
 #include "math/one_line.h"
 #include "model/scan/dicom.h"
 #include "model/scan/surface_net.h"
+#include "model/scene/tissue_presets.h"
 #include "viscera/layout/limits.h"
 #include "viscera/math/error.h"
 #include "viscera/model/scene/scene.h"
@@ -40,7 +41,8 @@ struct Organ {
   TriangleMesh mesh;
   Eigen::AlignedBox3d box_m;
   double volume_m3 = 0, spacing_m = 0;
-  double held_m = 0;  ///< x, behind which it is held
+  double held_m = 0;                     ///< x, behind which it is held
+  const TissuePreset* tissue = nullptr;  ///< null: no preset has the label's name
 };
 
 std::string listText(const Vector3d& v, double scale = 1) {
@@ -170,6 +172,7 @@ std::vector<Organ> organsOf(const LabelVolume& map, const ImportOptions& options
   for (size_t n = 1; n <= count; ++n) {
     Organ organ;
     organ.name = plainName(map.names[n], organs);
+    organ.tissue = tissueOfLabel(map.names[n].name);
     organ.title = options.by_window ? "values in the window" : "label " + std::to_string(map.names[n].value);
     organ.file = organ.name + ".ply";
     organ.mesh = labelSurfaces(net, map.names, {static_cast<uint8_t>(n)});
@@ -212,6 +215,19 @@ std::string plyOf(const TriangleMesh& mesh) {
   return out.str();
 }
 
+constexpr double kPlayableNu =
+    0.45;  ///< that scenes ask for of wet tissue instead of 0.49: half the substeps (docs/tissues.md)
+
+std::string materialOf(const Organ& organ) {
+  if (!organ.tissue) return "{young_modulus_pa: 10000, density_kg_per_m3: 1060}";
+  std::ostringstream out;
+  out << "{tissue: " << organ.tissue->name;
+  if (organ.tissue->poisson_ratio <= kPlayableNu) return out.str() + "}";
+  out << ", poisson_ratio: " << kPlayableNu << "}  # " << organ.tissue->poisson_ratio
+      << " as the preset has it needs up to twice the substeps";
+  return out.str();
+}
+
 /// Meshes stay where the scan has them; bodies are moved so that the middle of all is the scene's origin. Without
 /// gravity: the scan shows organs as their weight left them.
 std::string sceneOf(const std::vector<Organ>& organs, const std::string& scan) {
@@ -226,8 +242,8 @@ std::string sceneOf(const std::vector<Organ>& organs, const std::string& scan) {
     const Organ& organ = organs[n];
     out << "  - name: " << organ.name << "  # " << organ.title << "\n    source: mesh\n    mesh_file: " << organ.file
         << "\n    spacing_m: " << organ.spacing_m << "\n    position_m: [" << listText(-all.center())
-        << "]\n    color: " << kColors[n % kColors.size()]
-        << "\n    material: {young_modulus_pa: 10000, density_kg_per_m3: 1060}\n    fixed:\n"
+        << "]\n    color: " << kColors[n % kColors.size()] << "\n    material: " << materialOf(organ)
+        << "\n    fixed:\n"
         << "      - {shape: plane, point_m: [" << listText({organ.held_m, 0, 0}) << "], normal: [1, 0, 0]}\n";
   }
   const double scale = std::cbrt(all.sizes().prod()) / kUsualLength;
@@ -300,7 +316,9 @@ int import(const ImportOptions& asked) {
   printNotes(notes);
   for (const Organ& organ : organs) {
     std::cout << organ.name << ": " << organ.title << ", " << organ.volume_m3 * kCm3 << " cm3, "
-              << organ.mesh.triangles.size() << " triangles, spacing " << organ.spacing_m << " m\n";
+              << organ.mesh.triangles.size() << " triangles, spacing " << organ.spacing_m << " m, "
+              << (organ.tissue ? std::string("tissue ") + organ.tissue->name : "no tissue of its name: 10000 Pa")
+              << '\n';
   }
   std::cout << "wrote " << oneLine((fs::path(options.out) / "scene.yaml").string()) << '\n';
   return 0;

@@ -9,6 +9,7 @@
 #include "cli/fault.h"
 #include "devices/device_profile.h"
 #include "math/memory_for.h"
+#include "model/scene/tissue_presets.h"
 #include "viscera/math/error.h"
 
 using namespace viscera;
@@ -160,9 +161,10 @@ int dispatch(int argc, char** argv) {
   CLI::App* import = addImport(app, o.import, window);
   app.add_subcommand("bench", "measure: `viscera bench --help` lists what");  // main() has taken it
 
-  CLI::App* keys = app.add_subcommand("keys", "print the table of a file's keys");
-  keys->add_option("file", o.keys_of, "scene, or device: of config/devices; default scene")
-      ->check(CLI::IsMember({"scene", "device"}));
+  CLI::App* keys = app.add_subcommand("keys", "print the table of a file's keys, or of tissues");
+  keys->add_option("file", o.keys_of,
+                   "scene, device: of config/devices, or tissues: what material.tissue may name; default scene")
+      ->check(CLI::IsMember({"scene", "device", "tissues"}));
   if (const std::optional<int> ended = cli::parse(app, argc, argv)) return *ended;
   if (*check) return cli::check(o.device);
   if (*settle) return memoryFor("settling scene '" + o.run.scene + "'", [&] { return cli::settle(o.run); });
@@ -178,7 +180,9 @@ int dispatch(int argc, char** argv) {
   }
   if (*sweep) return cli::sweep(o.sweep);
   if (*keys) {
-    std::cout << (o.keys_of == "device" ? deviceKeysTable() : sceneKeysTable());
+    std::cout << (o.keys_of == "device"    ? deviceKeysTable()
+                  : o.keys_of == "tissues" ? tissueTable()
+                                           : sceneKeysTable());
     return 0;
   }
   if (std::isnan(o.seconds)) throw Error("--seconds is a number, 0 .. 86400; found nan");  // passes CLI::Range

@@ -14,6 +14,7 @@
 #include "model/body/spacing_search.h"
 #include "model/scene/host_memory.h"
 #include "model/scene/structure_rules.h"
+#include "model/scene/tissue_presets.h"
 #include "model/scene/tool_kinds.h"
 #include "model/shape/organ/tissue.h"
 #include "viscera/math/error.h"
@@ -106,9 +107,11 @@ Body buildBody(const BodyConfig& config, const Scene& scene, bool can_be_cut, co
                                  [&] {
                                    progress("read", 0);
                                    const std::unique_ptr<Tissue> tissue = makeTissue(config, scene.folder);
-                                   if (isNetwork(config.structure))
-                                     return buildNetworkBody(config, *tissue, can_be_cut, progress);
-                                   return buildLatticeBody(config, scene, *tissue, can_be_cut, progress);
+                                   Body body = isNetwork(config.structure)
+                                                   ? buildNetworkBody(config, *tissue, can_be_cut, progress)
+                                                   : buildLatticeBody(config, scene, *tissue, can_be_cut, progress);
+                                   addNotes(tissueNotes(config), body);
+                                   return body;
                                  });
 }
 

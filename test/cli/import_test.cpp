@@ -76,6 +76,19 @@ TEST_F(ImportCommand, TakesALabelOrAWindow) {
   EXPECT_TRUE(std::filesystem::exists(folder_.file("all/window.ply")));
 }
 
+TEST_F(ImportCommand, TakesTheTissueThatALabelIsNamedAfter) {
+  const std::string names = folder_.write("names.yaml", "3: left_kidney\n7: liver_vessels\n"),
+                    out = folder_.file("named");
+  const Ending ending = import({scan(), "--names", names, "--spacing", "0.004", "--out", out});
+  ASSERT_EQ(ending.status, 0) << ending.err;
+  EXPECT_TRUE(says(ending.out, {"m, tissue kidney\n", "m, no tissue of its name"})) << ending.out;
+  EXPECT_TRUE(says(readFile(out + "/scene.yaml"),
+                   {"material: {tissue: kidney, poisson_ratio: 0.45}  # 0.49", "{young_modulus_pa: 10000,"}));
+  const Ending run = viscera({"run", out + "/scene.yaml", "--no-view", "--seconds", "0.05"});
+  EXPECT_TRUE(says(run.out, {"left_kidney: tissue kidney: E 5000 Pa", "nu 0.45 of the scene instead of 0.49"}))
+      << run.err;
+}
+
 TEST_F(ImportCommand, RefusesWithOneLineAndWritesNothing) {
   const std::string good = scan(), out = folder_.file("out");
   const std::vector<std::vector<std::string>> bad = {{good, "--labels", "9", "--out", out},

@@ -16,14 +16,14 @@ std::string renew(const std::string& document, const std::string& command) {
 }
 
 /// Lines from the head of the table to the end of the text.
-std::vector<std::string> tableOf(const std::string& text) {
-  const size_t head = text.find("| key |");
+std::vector<std::string> tableOf(const std::string& text, const std::string& of) {
+  const size_t head = text.find("| " + of + " |");
   return head == std::string::npos ? std::vector<std::string>() : linesOf(text.substr(head));
 }
 
-void expectTable(const std::string& name, const std::vector<std::string>& command) {
-  const std::vector<std::string> document = tableOf(readFile(std::string(VISCERA_SOURCE_DIR) + "/" + name));
-  const std::vector<std::string> printed = tableOf(viscera(command).out);
+void expectTable(const std::string& name, const std::vector<std::string>& command, const std::string& of = "key") {
+  const std::vector<std::string> document = tableOf(readFile(std::string(VISCERA_SOURCE_DIR) + "/" + name), of);
+  const std::vector<std::string> printed = tableOf(viscera(command).out, of);
   const std::string how = renew(name, command.size() > 1 ? "keys " + command[1] : "keys");
   ASSERT_FALSE(printed.empty());
   for (size_t i = 0; i < std::min(document.size(), printed.size()); ++i) ASSERT_EQ(document[i], printed[i]) << how;
@@ -36,6 +36,10 @@ TEST(Keys, DocumentHoldsTheTableThatTheCommandPrints) {
 
 TEST(Keys, DocumentOfDevicesToo) {
   expectTable("docs/device_keys.md", {"keys", "device"});
+}
+
+TEST(Keys, DocumentOfTissuesToo) {
+  expectTable("docs/tissues.md", {"keys", "tissues"}, "tissue");
 }
 
 }  // namespace

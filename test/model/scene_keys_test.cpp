@@ -51,8 +51,8 @@ bodies:
     position_m: [0.051, 0.052, 0.053]
     rotation_deg: [61, 62, 63]
     color: [0.071, 0.072, 0.073]
-    material: {young_modulus_pa: 8100, poisson_ratio: 0.31, density_kg_per_m3: 820, drag_per_s: 8.3, dashpot_ratio: 0.084, weights: paper, cells: springs}
-    parts: [{part: valve, young_modulus_pa: 8101, poisson_ratio: 0.32, density_kg_per_m3: 821}]
+    material: {tissue: liver, young_modulus_pa: 8100, poisson_ratio: 0.31, density_kg_per_m3: 820, drag_per_s: 8.3, dashpot_ratio: 0.084, weights: paper, cells: springs}
+    parts: [{part: valve, tissue: spleen, young_modulus_pa: 8101, poisson_ratio: 0.32, density_kg_per_m3: 821}]
     fixed:
       - shape: part
         min_m: [-0.11, -0.12, -0.13]
@@ -182,6 +182,7 @@ TEST(SceneKeys, EveryBodyKeyReachesItsField) {
   EXPECT_EQ(body.position_m, Vector3d(0.051, 0.052, 0.053));
   EXPECT_EQ(body.rotation_deg, Vector3d(61, 62, 63));
   EXPECT_EQ(body.color, Vector3d(0.071, 0.072, 0.073));
+  EXPECT_EQ(body.material.tissue, "liver");
   EXPECT_EQ(body.material.young_modulus_pa, 8100);
   EXPECT_EQ(body.material.poisson_ratio, 0.31);
   EXPECT_EQ(body.material.density_kg_per_m3, 820);
@@ -191,6 +192,7 @@ TEST(SceneKeys, EveryBodyKeyReachesItsField) {
   EXPECT_EQ(body.material.cells, Cells::kSprings);
   const PartConfig& part = body.parts.at(0);
   EXPECT_EQ(part.part, "valve");
+  EXPECT_EQ(part.tissue, "spleen");
   EXPECT_EQ(part.young_modulus_pa, 8101);
   EXPECT_EQ(part.poisson_ratio, 0.32);
   EXPECT_EQ(part.density_kg_per_m3, 821);

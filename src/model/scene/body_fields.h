@@ -32,6 +32,7 @@ void visitFields(V& v, FixedConfig& c) {
 
 template <class V>
 void visitFields(V& v, MaterialConfig& c) {
+  v.tissue("tissue", c, "gives the three keys below that the scene does not give; not for diagnosis or planning");
   v.number("young_modulus_pa", c.young_modulus_pa, {1, 1e9}, "Pa", "Young's modulus E");
   v.number(
       "poisson_ratio", c.poisson_ratio, {0, 0.49}, "1",
@@ -52,6 +53,7 @@ void visitFields(V& v, MaterialConfig& c) {
 template <class V>
 void visitFields(V& v, PartConfig& c) {
   v.text("part", c.part, "name of a part of the mesh or phantom");
+  v.tissue("tissue", c, "gives the three keys below that this part does not give");
   v.number("young_modulus_pa", c.young_modulus_pa, {1, 1e9}, "Pa", "Young's modulus E of this part");
   v.number("poisson_ratio", c.poisson_ratio, {0, 0.49}, "1", "Poisson's ratio nu of this part");
   v.number("density_kg_per_m3", c.density_kg_per_m3, {1, 1e5}, "kg/m3", "mass density of this part");

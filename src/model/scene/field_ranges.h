@@ -14,6 +14,7 @@ namespace viscera {
 // * boolean(key, bool&, text)
 // * vector(key, Vector3d&, Range, unit, text)
 // * choice(key, Enum&, {{name, value}...}, text)
+// * tissue(key, Struct&, text): sets young_modulus_pa, poisson_ratio and density_kg_per_m3, which follow
 // * group(key, Struct&, text)
 // * list(key, std::vector<Struct>&, max_count, text, defaults of an item = {})
 

@@ -54,6 +54,10 @@ class KeyTable {
   }
   void names(const char* key, Overlays&, const char* text) { row(key, "list of names", "[]", overlayNames(), text); }
   template <class Struct>
+  void tissue(const char* key, Struct&, const char* text) {
+    row(key, "choice", "", "those of docs/tissues.md", text);
+  }
+  template <class Struct>
   void group(const char* key, Struct& value, const char* text) {
     row(key, "map", "", "", text);
     KeyTable inner(out_, path_ + key + ".");

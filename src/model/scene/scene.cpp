@@ -60,6 +60,13 @@ void requireStableSubstep(const std::string& file, const SolverConfig& solver, c
                    ", or a smaller dashpot_ratio");
 }
 
+/// Springs of networks have a nu of their own: that of a preset is left out.
+void leaveOutNuOfPreset(BodyConfig& body) {
+  const TissuePreset* preset = tissueNamed(body.material.tissue);
+  if (preset && isNetwork(body.structure) && body.material.poisson_ratio == preset->poisson_ratio)
+    body.material.poisson_ratio = MaterialConfig{}.poisson_ratio;
+}
+
 /// What no single key can tell.
 void requireConsistent(const std::string& file, const Scene& scene) {
   if (scene.bodies.empty()) throw SceneError(file + ": 'bodies' must hold at least one body");
@@ -121,6 +128,7 @@ Scene parseScene(const std::string& yaml, const std::string& name, const Overrid
   } catch (const YAML::Exception& e) {
     throw SceneError(yamlFault(name, e));
   }
+  for (BodyConfig& body : scene.bodies) leaveOutNuOfPreset(body);
   requireConsistent(name, scene);
   return scene;
 }

@@ -16,6 +16,13 @@ struct PathStep {
   int index = -1;  ///< -1: no [index]
 };
 
+/// A preset that is set from outside goes before numbers of the file, but not before those that are set from outside.
+void clearNumbers(YAML::Node map, const std::string& path, const YamlSource& source) {
+  for (const char* key : {"young_modulus_pa", "poisson_ratio", "density_kg_per_m3"}) {
+    if (!source.sets(path + "." + key)) map.remove(key);
+  }
+}
+
 /// "bodies[0].material.density_kg_per_m3" -> steps.
 std::vector<PathStep> splitPath(const std::string& path, const std::string& override_text) {
   std::vector<PathStep> steps;
@@ -69,6 +76,7 @@ void applyOverride(YAML::Node root, const std::string& text, YamlSource& source)
       throw SceneError("override '" + text + "': '" + steps[i].key + "' holds no keys");
     }
     if (last) next = value;
+    if (last && steps[i].key == "tissue") clearNumbers(at, path.substr(0, path.rfind('.')), source);
     at.reset(next);
   }
   source.overridden.insert(path);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "model/scene/scene_fields.h"
+#include "model/scene/tissue_presets.h"
 
 namespace viscera {
 
@@ -67,6 +68,13 @@ class YamlReader {
   template <class E>
   void choice(const char* key, E& value, Choices<E> names, const char* text) {
     choice<E, Choices<E>>(key, value, names, text);
+  }
+  template <class Struct>
+  void tissue(const char* key, Struct& value, const char* text) {
+    std::vector<Choice<std::string>> presets;
+    for (const TissuePreset& preset : tissuePresets()) presets.push_back({preset.name, preset.name});
+    choice(key, value.tissue, presets, text);
+    if (has(key)) takeTissue(value);
   }
   template <class Struct>
   void group(const char* key, Struct& value, const char*) {

@@ -68,6 +68,7 @@ struct MaterialConfig {
   double dashpot_ratio = 0.2;
   Weights weights = Weights::kCell;
   Cells cells = Cells::kAuto;
+  std::string tissue;  ///< preset (docs/tissues.md) of those of the first three that the scene does not give
 };
 
 /// Elasticity of one part of a body, such as a valve. In a scene file, what is left out is as in the body's material.
@@ -76,6 +77,7 @@ struct PartConfig {
   double young_modulus_pa = 20e3;
   double poisson_ratio = 0.25;
   double density_kg_per_m3 = 1060;
+  std::string tissue = {};  ///< as in MaterialConfig
 };
 
 /// What a mesh file may hold. Files are small and what they stand for need not be: nodes that share children grow
