@@ -237,7 +237,9 @@ std::string sceneOf(const std::vector<Organ>& organs, const std::string& scan) {
                                                    "[0.78, 0.66, 0.46]", "[0.5, 0.26, 0.34]", "[0.66, 0.4, 0.3]"};
   std::ostringstream out;
   out.precision(6);
-  out << "# From the scan " << oneLine(scan) << "\nname: import\nenvironment: {gravity_m_per_s2: [0, 0, 0]}\nbodies:\n";
+  out << "# From the scan " << oneLine(scan)
+      << "\nname: import\nenvironment: {gravity_m_per_s2: [0, 0, 0], scan_origin_m: [" << listText(all.center())
+      << "]}\nbodies:\n";
   for (size_t n = 0; n < organs.size(); ++n) {
     const Organ& organ = organs[n];
     out << "  - name: " << organ.name << "  # " << organ.title << "\n    source: mesh\n    mesh_file: " << organ.file

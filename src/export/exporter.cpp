@@ -27,7 +27,7 @@ FieldMesh fieldsOf(const Session& session, const ShownMesh& skin, const ExportOp
   FieldMesh mesh = options.source == ExportSource::kSkin      ? skinFields(session, skin)
                    : options.source == ExportSource::kLattice ? latticeFields(session)
                                                               : networkFields(session);
-  toFrame(options.frame, mesh);
+  toFrame(options.frame, session.scene().environment.scan_origin_m, mesh);
   return mesh;
 }
 
@@ -65,7 +65,7 @@ void Exporter::addFile(const Session& session, const ShownMesh& skin) {
   const std::string path = stem_ + numbered(session.tick());
   if (options_.format == ExportFormat::kGlb) return writeGlb(skin, path + ".glb");
   ShownMesh moved = skin;
-  toFrame(options_.frame, true, moved.positions_m);
+  toFrame(options_.frame, session.scene().environment.scan_origin_m, Vectors::kPlaces, moved.positions_m);
   if (options_.frame == ExportFrame::kLpsMm) {
     for (uint32_t& normal : moved.normals) {
       const Vector3f n = unpackNormal(normal);

@@ -242,21 +242,23 @@ FieldMesh networkFields(const Session& session) {
   return mesh;
 }
 
-void toFrame(ExportFrame frame, bool length, std::vector<float>& vectors) {
+void toFrame(ExportFrame frame, const Vector3d& scan_origin_m, Vectors what, std::vector<float>& vectors) {
   if (frame == ExportFrame::kRos) return;
-  const float scale = length ? 1000 : 1;
+  const double scale = what == Vectors::kDirections ? 1 : 1000;
+  const Vector3d origin = what == Vectors::kPlaces ? scan_origin_m : Vector3d::Zero();
   for (size_t i = 0; i + 2 < vectors.size(); i += 3) {
-    const float x = vectors[i];
-    vectors[i] = scale * vectors[i + 1];
-    vectors[i + 1] = -scale * x;
-    vectors[i + 2] *= scale;
+    const Vector3d at = scale * (origin + Vector3d(vectors[i], vectors[i + 1], vectors[i + 2]));
+    vectors[i] = static_cast<float>(at.y());
+    vectors[i + 1] = static_cast<float>(-at.x());
+    vectors[i + 2] = static_cast<float>(at.z());
   }
 }
 
-void toFrame(ExportFrame frame, FieldMesh& mesh) {
-  toFrame(frame, true, mesh.points);
+void toFrame(ExportFrame frame, const Vector3d& scan_origin_m, FieldMesh& mesh) {
+  toFrame(frame, scan_origin_m, Vectors::kPlaces, mesh.points);
   for (MeshField& field : mesh.of_points) {
-    if (field.components == 3) toFrame(frame, field.name != "normal", field.values);
+    if (field.components == 3)
+      toFrame(frame, scan_origin_m, field.name == "normal" ? Vectors::kDirections : Vectors::kArrows, field.values);
   }
 }
 

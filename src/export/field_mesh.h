@@ -13,7 +13,8 @@ namespace viscera {
 /// What is taken out of a session.
 enum class ExportSource { kSkin, kLattice, kNetwork };
 /// Axes and unit of what is written: those of the tissue frame (x forward, y left, z up, metres), or those of medical
-/// images (x left, y back, z up, millimetres), which 3D Slicer wants. The origin is that of the tissue frame.
+/// images (x left, y back, z up, millimetres), which 3D Slicer wants, with the origin of the scan that the tissue is
+/// from (environment.scan_origin_m).
 enum class ExportFrame { kRos, kLpsMm };
 
 /// Numbers at points or in cells. Energies and stresses are in SI units whatever the frame.
@@ -41,10 +42,11 @@ FieldMesh skinFields(const Session& session, const ShownMesh& skin);
 FieldMesh latticeFields(const Session& session);  ///< its whole cells, those that a cut tore left out
 FieldMesh networkFields(const Session& session);  ///< its springs, those that are cut left out
 
-/// Places, arrows or directions of the tissue frame, three numbers each, in another one. @param length  else a
-/// direction
-void toFrame(ExportFrame frame, bool length, std::vector<float>& vectors);
+/// Of three numbers: they are turned; arrows have a unit besides, places an origin too.
+enum class Vectors { kPlaces, kArrows, kDirections };
+/// Of the tissue frame, in another one. @param scan_origin_m  see environment.scan_origin_m
+void toFrame(ExportFrame frame, const Vector3d& scan_origin_m, Vectors what, std::vector<float>& vectors);
 /// Points and the fields that are lengths or speeds.
-void toFrame(ExportFrame frame, FieldMesh& mesh);
+void toFrame(ExportFrame frame, const Vector3d& scan_origin_m, FieldMesh& mesh);
 
 }  // namespace viscera

@@ -67,6 +67,21 @@ TEST_F(ImportCommand, ScenePlaysAndMeshesHaveTheLabelsVolume) {
   EXPECT_EQ(run.status, 0) << run.err;
 }
 
+TEST_F(ImportCommand, WhatIsExportedLiesOverTheScan) {
+  ASSERT_EQ(import({scan(), "--labels", "7", "--spacing", "0.004", "--out", folder_.file("organ")}).status, 0);
+  const std::string out = folder_.file("run");
+  const Ending run = viscera({"run", folder_.file("organ/scene.yaml"), "--out", out, "--seconds", "0.05", "--export",
+                              "skin", "--every", "0.05", "--format", "ply", "--export-frame", "lps_mm"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  const std::filesystem::directory_iterator files(out + "/export");
+  Eigen::AlignedBox3d box;
+  for (const Vector3f& p : importMesh(files->path(), 1).positions_m) box.extend(p.cast<double>());
+  constexpr double kSkinMm = kVoxelMm;  // a skin follows its lattice within half a spacing, which is two voxels
+  const Vector3d low = kVoxelMm * Vector3d(kLow - 0.5, kLow - 0.5, kBorder - 0.5);
+  EXPECT_LT((box.min() - low).cwiseAbs().maxCoeff(), kSkinMm) << box.min().transpose();
+  EXPECT_LT((box.max() - Vector3d::Constant(kVoxelMm * (kHigh - 0.5))).cwiseAbs().maxCoeff(), kSkinMm);
+}
+
 TEST_F(ImportCommand, TakesALabelOrAWindow) {
   EXPECT_EQ(import({scan(), "--labels", "7", "--out", folder_.file("seven")}).status, 0);
   EXPECT_FALSE(std::filesystem::exists(folder_.file("seven/label_3.ply")));

@@ -213,14 +213,18 @@ TEST(Pc2, HasAllSamplesAndAsManyPointsInEach) {
 /// Left of the patient is +x there and +y here; the back is +y there and -x here.
 TEST(ExportFrames, LeftStaysLeft) {
   std::vector<float> places = {0.001f, 0.002f, 0.003f};
-  toFrame(ExportFrame::kLpsMm, true, places);
-  EXPECT_FLOAT_EQ(places[0], 2);
-  EXPECT_FLOAT_EQ(places[1], -1);
-  EXPECT_FLOAT_EQ(places[2], 3);
+  const Vector3d origin(0.1, 0.2, 0.3);
+  std::vector<float> arrows = places;
+  toFrame(ExportFrame::kLpsMm, origin, Vectors::kPlaces, places);
+  EXPECT_FLOAT_EQ(places[0], 202);
+  EXPECT_FLOAT_EQ(places[1], -101);
+  EXPECT_FLOAT_EQ(places[2], 303);
+  toFrame(ExportFrame::kLpsMm, origin, Vectors::kArrows, arrows);
+  EXPECT_FLOAT_EQ(arrows[0], 2);
   std::vector<float> forward = {1, 0, 0};
-  toFrame(ExportFrame::kLpsMm, false, forward);
+  toFrame(ExportFrame::kLpsMm, origin, Vectors::kDirections, forward);
   EXPECT_EQ(forward, (std::vector<float>{0, -1, 0}));
-  toFrame(ExportFrame::kRos, true, forward);
+  toFrame(ExportFrame::kRos, origin, Vectors::kPlaces, forward);
   EXPECT_EQ(forward, (std::vector<float>{0, -1, 0}));
 }
 

@@ -99,6 +99,7 @@ environment:
   tissue_frame: table
   tissue_position_m: [1.4, 1.5, 1.6]
   tissue_rotation_deg: [17, 18, 19]
+  scan_origin_m: [0.71, 0.72, 0.73]
   wind: {velocity_m_per_s: [2.1, 2.2, 2.3], gust_ratio: 0.24, gust_period_s: 2.5, air_density_kg_per_m3: 1.26, drag_coefficient: 0.27}
 collision: {enabled: true, search: staggered, distance_m: 0.028, friction: 0.29, restitution: 0.301, partitions: 5, window: 9}
 obstacles:
@@ -250,6 +251,7 @@ TEST(SceneKeys, EveryOtherKeyReachesItsField) {
   EXPECT_EQ(scene.environment.tissue_frame, "table");
   EXPECT_EQ(scene.environment.tissue_position_m, Vector3d(1.4, 1.5, 1.6));
   EXPECT_EQ(scene.environment.tissue_rotation_deg, Vector3d(17, 18, 19));
+  EXPECT_EQ(scene.environment.scan_origin_m, Vector3d(0.71, 0.72, 0.73));
   EXPECT_EQ(scene.solver.tick_hz, 90);
   EXPECT_EQ(scene.solver.integrator, Integrator::kPd);
   EXPECT_EQ(scene.solver.dt_fraction, 0.91);

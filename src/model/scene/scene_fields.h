@@ -119,6 +119,9 @@ void visitFields(V& v, EnvironmentConfig& c) {
   v.vector("tissue_position_m", c.tissue_position_m, {-1e4, 1e4}, "m", "origin of the tissue frame in the world frame");
   v.vector("tissue_rotation_deg", c.tissue_rotation_deg, kAngle, "deg",
            "turns about the world's x, then y, then z axis");
+  v.vector("scan_origin_m", c.scan_origin_m, {-10, 10}, "m",
+           "origin of the tissue frame in the scan that bodies are from, along the tissue frame's axes: exports in "
+           "lps_mm lie over the scan");
   v.group("wind", c.wind, "moving air; it pushes at bodies with structure surface");
 }
 

@@ -215,6 +215,7 @@ struct EnvironmentConfig {
   std::string tissue_frame = "tissue";
   Vector3d tissue_position_m = Vector3d::Zero();
   Vector3d tissue_rotation_deg = Vector3d::Zero();
+  Vector3d scan_origin_m = Vector3d::Zero();  ///< of the tissue frame, in the frame of the scan that bodies are from
   WindConfig wind;
 };
 
