@@ -80,7 +80,11 @@ Touching::Kernel Touching::kernelFor(CpuLattice& lattice) {
 
 void Touching::persist(Archive& archive) {
   archive.list(pressed_);
-  archive.values(contacts_);
+  if (!archive.reads()) return;
+  // Of the last step's nodes, as the next one begins.
+  nodes_.clear();
+  std::fill(known_.begin(), known_.end(), 0);
+  std::fill(contacts_.begin(), contacts_.end(), glsl::vec4(0));
 }
 
 void Touching::begin(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions) {
