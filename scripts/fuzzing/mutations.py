@@ -2,9 +2,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Ways of spoiling a file: each takes a random generator and bytes, and gives bytes."""
 import copy
+import gzip
 import json
 import re
 import struct
+import zlib
 
 from fuzzing import seeds
 
@@ -176,7 +178,25 @@ def glb(rng, data):
     return seeds.glbOf(json_(rng, data[20:20 + json_bytes].rstrip()), data[28 + json_bytes:])
 
 
-def options(rng, scene, option):
+def gzipped(rng, data):
+    """What is within is spoilt, what is around it, or both."""
+    try:
+        inner = gzip.decompress(data)
+    except (OSError, EOFError, ValueError, zlib.error):  # it was spoilt before
+        return binary(rng, data)
+    out = gzip.compress(binary(rng, inner) if rng.random() < 0.8 else inner, 1, mtime=0)
+    return binary(rng, out) if rng.random() < 0.3 else out
+
+
+def header(rng, data):
+    """A text header before data: the header is spoilt more often than what comes behind it."""
+    end = max(data.find(b'\n\n'), data.find(b'LOCAL\n'))
+    if end < 0 or rng.random() < 0.3:
+        return binary(rng, data)
+    return text(rng, data[:end]) + data[end:]
+
+
+def options(rng, scene, option, commands=('run', 'run', 'run', 'run', 'anchor', 'fly', 'keys')):
     """Arguments of a command line with wrong values, unknown names, too many and too few."""
     words_of_option = option.split(' ', 1)
     if len(words_of_option) == 2:
@@ -184,7 +204,7 @@ def options(rng, scene, option):
         value = rng.choice([value, rng.choice(NUMBERS), rng.choice(WORDS), value + rng.choice(WORDS),
                             value.split('=')[0] + '=' + rng.choice(NUMBERS + WORDS), value + '[' * 3000])
         words_of_option[1] = value.replace('\0', '0')
-    arguments = [rng.choice(['run', 'run', 'run', 'run', 'anchor', 'fly', 'keys']), scene] + words_of_option
+    arguments = [rng.choice(commands), scene] + words_of_option
     if rng.random() < 0.2:
         del arguments[rng.randrange(len(arguments))]
     if rng.random() < 0.2:

@@ -2,8 +2,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Good files of every format, small and made here: what the mutations spoil. Each list holds bytes."""
 import base64
+import gzip
 import json
 import struct
+import zlib
 
 EDGE = 0.1  # m
 CORNERS = [(x * EDGE, y * EDGE, z * EDGE) for z in (0, 1) for y in (0, 1) for x in (0, 1)]
@@ -97,6 +99,55 @@ def msh():
     return [('\n'.join(lines) + '\n').encode() for lines in (old, new)]
 
 
+VOXELS_PER_SIDE = 8
+AXES_MM = (2, 2, 3)
+
+
+def voxels():
+    """Two labels side by side amid nothing, as int16."""
+    side = range(VOXELS_PER_SIDE)
+    inside = range(2, VOXELS_PER_SIDE - 2)
+    return b''.join(struct.pack('<h', (1 if i < 4 else 5) if i in inside and j in inside and k in inside else 0)
+                    for k in side for j in side for i in side)
+
+
+def nifti():
+    one, two = bytearray(352), bytearray(544)
+    sizes = [3] + [VOXELS_PER_SIDE] * 3 + [1] * 4
+    matrix = [AXES_MM[row] if row == column else 0 for row in range(3) for column in range(4)]
+    for data, form, parts in ((one, '<i', ((40, '8h', sizes), (70, '2h', (4, 16)), (76, '4f', (1,) + AXES_MM), (108, 'f', (352,)),
+                                           (123, 'B', (2,)), (254, 'h', (1,)), (280, '12f', matrix), (344, '4s', (b'n+1\0',)))),
+                              (two, '<i', ((4, '8s', (b'n+2\0\r\n\x1a\n',)), (12, '2h', (4, 16)), (16, '8q', sizes),
+                                           (104, '4d', (1,) + AXES_MM), (168, 'q', (544,)), (348, 'i', (1,)),
+                                           (400, '12d', matrix), (500, 'i', (2,))))):
+        struct.pack_into(form, data, 0, 348 if data is one else 540)
+        for at, kind, values in parts:
+            struct.pack_into('<' + kind, data, at, *values)
+    return [bytes(one) + voxels(), bytes(two) + voxels()]
+
+
+def nrrd():
+    head = ('NRRD0005\ntype: short\ndimension: 3\nspace: left-posterior-superior\nsizes: 8 8 8\n'
+            'space directions: (2,0,0) (0,2,0) (0,0,3)\nkinds: domain domain domain\nendian: little\n'
+            'space origin: (-8,-8,-12)\n')
+    named = ('Segment0_ID:=one\nSegment0_Name:=liver\nSegment0_LabelValue:=1\nSegment0_Layer:=0\n'
+             'Segment1_Name:=left kidney\nSegment1_LabelValue:=5\nSegment1_Layer:=0\n')
+    layers = head.replace('dimension: 3', 'dimension: 4').replace('sizes: ', 'sizes: 2 ').replace(
+        'directions: ', 'directions: none ').replace('kinds: ', 'kinds: list ')
+    return [head.encode() + b'encoding: raw\n\n' + voxels(),
+            (head + named).encode() + b'encoding: gzip\n\n' + gzip.compress(voxels(), mtime=0),
+            (layers + named).encode() + b'encoding: raw\n\n' + voxels() * 2]
+
+
+def metaImage():
+    head = ('ObjectType = Image\nNDims = 3\nBinaryData = True\nBinaryDataByteOrderMSB = False\n'
+            'TransformMatrix = 1 0 0 0 1 0 0 0 1\nOffset = -8 -8 -12\nElementSpacing = 2 2 3\nDimSize = 8 8 8\n'
+            'ElementType = MET_SHORT\n')
+    packed = zlib.compress(voxels())
+    return [head.encode() + b'ElementDataFile = LOCAL\n' + voxels(),
+            (head + f'CompressedData = True\nCompressedDataSize = {len(packed)}\nElementDataFile = LOCAL\n').encode() + packed]
+
+
 BLOCK = '''name: block
 bodies:
   - name: block
@@ -151,6 +202,15 @@ strokes:
 
 OBJ, ASCII_STL, BINARY_STL, PLY, BINARY_PLY, GLTF, GLB, MSH = (
     make() for make in (obj, asciiStl, binaryStl, ply, binaryPly, gltf, glb, msh))
+NIFTI, NRRD, METAIMAGE = (make() for make in (nifti, nrrd, metaImage))
+ITK_SNAP_TABLE = ['# ITK-SnAP Label Description File\n    0     0    0    0        0  0  0    "Clear Label"\n'
+                  '    1   255    0    0        1  1  1    "liver"\n    5     0  255    0        1  1  1    "kidney, left"\n']
+YAML_TABLES = ['1: liver\n5: kidney\n', 'liver: 1\n"left kidney": 5\n']
+LABEL_TABLES, YAML_TABLES = ([text.encode() for text in texts] for texts in (ITK_SNAP_TABLE, YAML_TABLES))
+# Options of import whose values are spoilt, as `name value`.
+IMPORT_OPTIONS = [text.encode() for text in ('--labels 1', '--labels 5,1', '--window 1,5', '--window 0.5,2 --closing-mm 3',
+                                             '--window 1,5 --pieces 0', '--window 1,5 --fill-holes', '--spacing 0.002', '--axes LPS',
+                                             '--transform qform', '--volume 0', '--series 0', '--names none.yaml', '--list')]
 SCENES = [text.encode() for text in (SCENE, RICH_SCENE, IMPLICIT_SCENE)]
 STROKES = [text.encode() for text in (STROKES_TEXT, ANCHORED_TEXT, RECORDED_TEXT)]
 # Options whose values are spoilt, as `name value`.

@@ -69,6 +69,8 @@ struct ImportOptions {
   WindowOptions window;
   double spacing_m = 0;  ///< 0: the largest organ gets some 20,000 nodes
   bool list = false;     ///< says what is in the scan, and writes nothing
+  bool no_previews = false;
+  std::string grey;  ///< scan that labels were drawn on, for previews; empty: not known
   std::string out;
 };
 /// `viscera import`: organs of a scan as meshes and a scene of them.

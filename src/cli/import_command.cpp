@@ -12,6 +12,10 @@
 #include <sstream>
 
 #include "cli/commands.h"
+#include "cli/import/preview.h"
+#include "cli/import/read_scan.h"
+#include "cli/import/sample_strokes.h"
+#include "cli/import/stages.h"
 #include "math/one_line.h"
 #include "model/scan/dicom.h"
 #include "model/scan/surface_net.h"
@@ -130,19 +134,6 @@ int list(const ImportOptions& options) {
   return 0;
 }
 
-LabelVolume inWindow(const ImportOptions& options) {
-  WindowReport report;
-  LabelVolume map = windowed(*openScan(options.scan, options.labels), options.window, &report);
-  map.names = {{0, ""}, {1, "window"}};
-  std::cout << "values: " << report.least << " to " << report.largest << "; " << report.in_window
-            << " voxels in the window, " << report.at_border << " of them at the scan's border, " << report.not_numbers
-            << " no numbers\npieces: " << report.pieces << ", kept " << report.kept << ": " << report.kept_cm3
-            << " cm3, holes filled " << report.filled_cm3 << " cm3; largest [cm3]:";
-  for (const double cm3 : report.largest_cm3) std::cout << ' ' << cm3;
-  std::cout << "\nThis is no segmentation: what has the same values and touches came along (docs/scans.md).\n";
-  return map;
-}
-
 /// A name that is plain in file names, YAML and topics, and that no other has.
 std::string plainName(const LabelName& label, const std::vector<Organ>& others) {
   std::string name;
@@ -161,12 +152,13 @@ std::string plainName(const LabelName& label, const std::vector<Organ>& others) 
   return name;
 }
 
-std::vector<Organ> organsOf(const LabelVolume& map, const ImportOptions& options) {
+std::vector<Organ> organsOf(const ReadScan& read, const ImportOptions& options, std::vector<std::string>& notes) {
+  const LabelVolume& map = read.map;
   const size_t count = map.names.size() - 1;
   if (count > layout::kMaxBodies)
     throw SceneError(options.scan + ": " + std::to_string(count) + " labels; accepted: a scene has at most " +
                      std::to_string(layout::kMaxBodies) + " bodies, of labels that --labels chooses");
-  const SurfaceNet net = surfaceNet(map);
+  const SurfaceNet net = netOf(read, options.window);
   std::vector<Organ> organs;
   double largest_m3 = 0;
   for (size_t n = 1; n <= count; ++n) {
@@ -176,6 +168,10 @@ std::vector<Organ> organsOf(const LabelVolume& map, const ImportOptions& options
     organ.title = options.by_window ? "values in the window" : "label " + std::to_string(map.names[n].value);
     organ.file = organ.name + ".ply";
     organ.mesh = labelSurfaces(net, map.names, {static_cast<uint8_t>(n)});
+    if (organ.mesh.triangles.empty()) {  // which a scene cannot have
+      notes.push_back(organ.title + " is left out: other labels have all its voxels");
+      continue;
+    }
     organ.volume_m3 = signedVolume(organ.mesh);
     std::vector<double> x_m;
     for (const Vector3f& p : organ.mesh.positions_m) {
@@ -228,18 +224,29 @@ std::string materialOf(const Organ& organ) {
   return out.str();
 }
 
+Eigen::AlignedBox3d boxOf(const std::vector<Organ>& organs) {
+  Eigen::AlignedBox3d all;
+  for (const Organ& organ : organs) all.extend(organ.box_m);
+  return all;
+}
+
+/// Of tools and of hands' ways.
+double sizeOf(const Eigen::AlignedBox3d& all) {
+  return std::cbrt(all.sizes().prod()) / kUsualLength;
+}
+
 /// Meshes stay where the scan has them; bodies are moved so that the middle of all is the scene's origin. Without
 /// gravity: the scan shows organs as their weight left them.
 std::string sceneOf(const std::vector<Organ>& organs, const std::string& scan) {
-  Eigen::AlignedBox3d all;
-  for (const Organ& organ : organs) all.extend(organ.box_m);
+  const Eigen::AlignedBox3d all = boxOf(organs);
   static const std::vector<std::string> kColors = {"[0.62, 0.22, 0.2]",  "[0.76, 0.5, 0.38]", "[0.72, 0.3, 0.36]",
                                                    "[0.78, 0.66, 0.46]", "[0.5, 0.26, 0.34]", "[0.66, 0.4, 0.3]"};
   std::ostringstream out;
   out.precision(6);
   out << "# From the scan " << oneLine(scan)
-      << "\nname: import\nenvironment: {gravity_m_per_s2: [0, 0, 0], scan_origin_m: [" << listText(all.center())
-      << "]}\nbodies:\n";
+      << "\n# viscera run scene.yaml --strokes strokes.yaml --out played\nname: import\nenvironment: "
+         "{gravity_m_per_s2: [0, 0, 0], scan_origin_m: ["
+      << listText(all.center()) << "]}\nbodies:\n";
   for (size_t n = 0; n < organs.size(); ++n) {
     const Organ& organ = organs[n];
     out << "  - name: " << organ.name << "  # " << organ.title << "\n    source: mesh\n    mesh_file: " << organ.file
@@ -248,7 +255,7 @@ std::string sceneOf(const std::vector<Organ>& organs, const std::string& scan) {
         << "\n    fixed:\n"
         << "      - {shape: plane, point_m: [" << listText({organ.held_m, 0, 0}) << "], normal: [1, 0, 0]}\n";
   }
-  const double scale = std::cbrt(all.sizes().prod()) / kUsualLength;
+  const double scale = sizeOf(all);
   out << "styluses:\n";
   for (const char* hand : {"left", "right"}) {
     out << "  - {name: " << hand << ", idle: probe, button1: grab, button2: cut, probe: {radius_m: " << 0.006 * scale
@@ -259,6 +266,11 @@ std::string sceneOf(const std::vector<Organ>& organs, const std::string& scan) {
   const double distance = 0.5 * all.sizes().norm() / std::sin(half);
   out << "cameras:\n  - {name: camera, position_m: [" << listText(distance * Vector3d(1, 0.35, 0.3).normalized())
       << "], target_m: [0, 0, 0], vertical_fov_deg: " << kFieldOfViewDeg << "}\n";
+  for (const auto& [name, way, up] :
+       {std::tuple("left", Vector3d::UnitY(), "[0, 0, 1]"), std::tuple("above", Vector3d::UnitZ(), "[1, 0, 0]")})
+    out << "  - {name: " << name << ", position_m: [" << listText(distance * way)
+        << "], target_m: [0, 0, 0], up: " << up << ", vertical_fov_deg: " << kFieldOfViewDeg
+        << ", width_px: 320, height_px: 240, rate_hz: 5}\n";
   return out.str();
 }
 
@@ -295,6 +307,22 @@ class Draft {
   std::string draft_;
 };
 
+std::vector<const TriangleMesh*> meshesOf(const std::vector<Organ>& organs) {
+  std::vector<const TriangleMesh*> meshes;
+  for (const Organ& organ : organs) meshes.push_back(&organ.mesh);
+  return meshes;
+}
+
+void writeScene(const Draft& draft, const std::vector<Organ>& organs, const std::string& scan) {
+  for (const Organ& organ : organs) writeFile(draft.file(organ.file), plyOf(organ.mesh));
+  writeFile(draft.file("scene.yaml"), sceneOf(organs, scan));
+  const auto smaller = [](const Organ& a, const Organ& b) { return a.volume_m3 < b.volume_m3; };
+  const auto largest = std::max_element(organs.begin(), organs.end(), smaller) - organs.begin();
+  const Eigen::AlignedBox3d all = boxOf(organs);
+  writeFile(draft.file("strokes.yaml"),
+            strokesFor(meshesOf(organs), static_cast<size_t>(largest), -all.center(), sizeOf(all)));
+}
+
 }  // namespace
 
 int import(const ImportOptions& asked) {
@@ -309,11 +337,23 @@ int import(const ImportOptions& asked) {
     return 0;
   }
   Draft draft(options.out);
-  const std::vector<Organ> organs =
-      organsOf(options.by_window ? inWindow(options) : readLabels(options.scan, options.labels), options);
-  for (const Organ& organ : organs) writeFile(draft.file(organ.file), plyOf(organ.mesh));
-  writeFile(draft.file("scene.yaml"), sceneOf(organs, options.scan));
-  loadScene(draft.file("scene.yaml").string());
+  Stages stages;
+  options.labels.progress = [&stages](double share) { stages.at(share); };
+  stages.begin("reading");
+  ReadScan read = readScan(options, stages, notes);
+  stages.begin("surfaces");
+  const std::vector<Organ> organs = organsOf(read, options, notes);
+  read.map = {};
+  stages.begin("scene");
+  writeScene(draft, organs, options.scan);
+  const Scene scene = loadScene(draft.file("scene.yaml").string());
+  if (!options.no_previews) {
+    stages.begin("previews");
+    std::error_code error;
+    fs::create_directory(draft.file("preview"), error);
+    writePreviews(draft.file("preview").string(), meshesOf(organs), scene, read.slices, notes);
+  }
+  const std::string took = stages.end();
   draft.keep();
   printNotes(notes);
   for (const Organ& organ : organs) {
@@ -322,7 +362,9 @@ int import(const ImportOptions& asked) {
               << (organ.tissue ? std::string("tissue ") + organ.tissue->name : "no tissue of its name: 10000 Pa")
               << '\n';
   }
-  std::cout << "wrote " << oneLine((fs::path(options.out) / "scene.yaml").string()) << '\n';
+  const std::string out = oneLine(options.out);
+  std::cout << took << (options.no_previews ? "" : "; look at " + out + "/preview") << "\nplay it: viscera run " << out
+            << "/scene.yaml --strokes " << out << "/strokes.yaml --out " << out << "/played\n";
   return 0;
 }
 

@@ -59,6 +59,8 @@ CLI::App* addImport(CLI::App& app, cli::ImportOptions& o, std::vector<double>& w
   import->add_option("--transform", o.labels.transform, "sform or qform, where a NIfTI file has two that differ");
   import->add_option("--volume", o.labels.volume, "0 and up, of a file with several")->check(CLI::Range(0, 1'000'000));
   import->add_option("--series", o.labels.series, "number or UID of a DICOM series");
+  import->add_option("--grey", o.grey, "scan that the labels were drawn on, for the previews")->excludes(values);
+  import->add_flag("--no-previews", o.no_previews, "no pictures of organs and slices");
   import->add_option("--out", o.out, "new folder for scene.yaml and its meshes")->excludes(list);
   return import;
 }
@@ -172,7 +174,7 @@ int dispatch(int argc, char** argv) {
   if (*anchor) return memoryFor("anchoring in scene '" + o.run.scene + "'", [&] { return cli::anchor(o.run); });
   if (*import) {
     if (!o.import.list && o.import.out.empty())
-      throw cli::CommandLineError("import: --out DIR or --list is required",
+      throw cli::CommandLineError("command line: import: --out DIR or --list is required",
                                   static_cast<int>(CLI::ExitCodes::RequiredError));
     o.import.by_window = !window.empty();
     if (o.import.by_window) o.import.window.low = window[0], o.import.window.high = window[1];

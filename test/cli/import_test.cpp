@@ -1,9 +1,12 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
+#include <png.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <functional>
 
 #include "cli/small_scene.h"
 #include "support/text.h"
@@ -18,6 +21,32 @@ using namespace test;
 constexpr int kSide = 24;                          // voxels
 constexpr double kVoxelMm = 2;                     // of 2 mm
 constexpr int kLow = 4, kHigh = 20, kBorder = 12;  // of a block of labels 3 (right, k below the border) and 7
+
+/// A PNG file as RGB, rows from the top.
+struct Picture {
+  explicit Picture(const std::string& path) {
+    image.version = PNG_IMAGE_VERSION;
+    if (!png_image_begin_read_from_file(&image, path.c_str())) return;
+    image.format = PNG_FORMAT_RGB;
+    rgb.resize(PNG_IMAGE_SIZE(image));
+    png_image_finish_read(&image, nullptr, rgb.data(), 0, nullptr);
+  }
+  /// Mean x and y, as shares of the picture, of what is coloured: neither grey nor black.
+  Eigen::Vector2d colouredMiddle() const {
+    Eigen::Vector2d sum(0, 0);
+    double count = 0;
+    for (uint32_t y = 0; y < image.height; ++y)
+      for (uint32_t x = 0; x < image.width; ++x) {
+        const uint8_t* p = &rgb[3 * (size_t{y} * image.width + x)];
+        if (p[0] <= p[2] + 20) continue;
+        sum += Eigen::Vector2d(x, y);
+        ++count;
+      }
+    return (sum / std::max(1.0, count)).cwiseQuotient(Eigen::Vector2d(image.width, image.height));
+  }
+  png_image image{};
+  std::vector<uint8_t> rgb;
+};
 
 class ImportCommand : public ::testing::Test {
  protected:
@@ -34,6 +63,21 @@ class ImportCommand : public ::testing::Test {
                                           "space directions: (2,0,0) (0,2,0) (0,0,2)\nspace origin: (0,0,0)\n"
                                           "encoding: raw\n\n" +
                                           voxels);
+  }
+  /// Real numbers of 24 x 24 x 24 voxels as NRRD in LPS.
+  std::string realScan(const std::string& name, const std::function<float(int, int, int)>& value) const {
+    std::string voxels;
+    for (int k = 0; k < kSide; ++k)
+      for (int j = 0; j < kSide; ++j)
+        for (int i = 0; i < kSide; ++i) {
+          const float v = value(i, j, k);
+          voxels.append(reinterpret_cast<const char*>(&v), sizeof v);
+        }
+    return folder_.write(name,
+                         "NRRD0004\ntype: float\ndimension: 3\nsizes: 24 24 24\nendian: little\n"
+                         "space: left-posterior-superior\nspace directions: (2,0,0) (0,2,0) (0,0,2)\n"
+                         "space origin: (0,0,0)\nencoding: raw\n\n" +
+                             voxels);
   }
   Ending import(std::vector<std::string> arguments) const {
     arguments.insert(arguments.begin(), "import");
@@ -80,6 +124,90 @@ TEST_F(ImportCommand, WhatIsExportedLiesOverTheScan) {
   const Vector3d low = kVoxelMm * Vector3d(kLow - 0.5, kLow - 0.5, kBorder - 0.5);
   EXPECT_LT((box.min() - low).cwiseAbs().maxCoeff(), kSkinMm) << box.min().transpose();
   EXPECT_LT((box.max() - Vector3d::Constant(kVoxelMm * (kHigh - 0.5))).cwiseAbs().maxCoeff(), kSkinMm);
+}
+
+TEST_F(ImportCommand, StrokesTouchAndCut) {
+  const std::string out = folder_.file("organs");
+  const Ending ending = import({scan(), "--spacing", "0.003", "--out", out});
+  ASSERT_EQ(ending.status, 0) << ending.err;
+  EXPECT_TRUE(says(ending.out, {"reading", "surfaces", "previews", "play it: viscera run", "/strokes.yaml"}))
+      << ending.out;
+  const Ending run = viscera({"run", out + "/scene.yaml", "--strokes", out + "/strokes.yaml", "--no-view"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(run.out.find("\"springs_cut\":0,"), std::string::npos) << run.out;
+  EXPECT_EQ(run.out.find("\"peak_force_n\":0.0,"), std::string::npos) << run.out;
+}
+
+TEST_F(ImportCommand, PreviewsHaveLeftWhereTheirLettersSay) {
+  // A block in the left, anterior, upper corner: x of LPS grows to the left, y to behind.
+  const auto corner = [](int i, int j, int k) {
+    return i >= 14 && i < 21 && j >= 3 && j < 10 && k >= 14 && k < 21 ? 1.0F : 0.0F;
+  };
+  const std::string labels = realScan("labels.nrrd", corner);
+  const std::string grey = realScan("grey.nrrd", [](int i, int, int) { return static_cast<float>(i); });
+  ASSERT_EQ(import({labels, "--grey", grey, "--out", folder_.file("a")}).status, 0);
+  ASSERT_EQ(import({labels, "--no-previews", "--out", folder_.file("b")}).status, 0);
+  EXPECT_FALSE(std::filesystem::exists(folder_.file("b/preview")));
+  constexpr double kNear = 0.02;                    // of a picture: lines are pixels wide
+  const double far = 17.5 / kSide, near = 1 - far;  // middle of the block
+  const std::vector<std::pair<std::string, Eigen::Vector2d>> slices = {
+      {"axial", {far, near}}, {"coronal", {far, near}}, {"sagittal", {near, near}}};
+  for (const auto& [name, expected] : slices) {
+    const Picture picture(folder_.file("a/preview/slice_" + name + ".png"));
+    ASSERT_FALSE(picture.rgb.empty()) << name;
+    EXPECT_LT((picture.colouredMiddle() - expected).cwiseAbs().maxCoeff(), kNear) << name << picture.colouredMiddle();
+  }
+  for (const char* side : {"front", "left", "above"})
+    EXPECT_LT(
+        (Picture(folder_.file(std::string("a/preview/") + side + ".png")).colouredMiddle() - Eigen::Vector2d(0.5, 0.5))
+            .cwiseAbs()
+            .maxCoeff(),
+        kNear);
+  EXPECT_TRUE(says(import({labels, "--grey", folder_.file("none.nii"), "--out", folder_.file("c")}).err, {"none.nii"}));
+}
+
+TEST_F(ImportCommand, AWindowsSurfaceIsWhereValuesCrossIt) {
+  const double kRadius = 7.3, kMiddle = 11.4;  // voxels
+  const auto inside = [&](int i, int j, int k) {
+    return kRadius - (Eigen::Vector3d(i, j, k) - Eigen::Vector3d::Constant(kMiddle)).norm();
+  };
+  const std::string ball = realScan("ball.nrrd", [&](int i, int j, int k) {
+    return static_cast<float>(100 * std::clamp(inside(i, j, k), -2.0, 2.0));
+  });
+  const std::string mask =
+      realScan("mask.nrrd", [&](int i, int j, int k) { return inside(i, j, k) >= 0 ? 1.0F : 0.0F; });
+  ASSERT_EQ(import({ball, "--window", "0,1000", "--no-previews", "--out", folder_.file("values")}).status, 0);
+  ASSERT_EQ(import({mask, "--no-previews", "--out", folder_.file("mask")}).status, 0);
+  const auto error = [&](const std::string& file) {  // RMS, voxels
+    const TriangleMesh mesh = importMesh(folder_.file(file), 1);
+    const Vector3d middle = kMiddle * kVoxelMm * 1e-3 * Vector3d(-1, 1, 1);  // of LPS, as anterior, left, up
+    double sum = 0;
+    for (const Vector3f& p : mesh.positions_m) {
+      const Vector3d way = p.cast<double>() - middle;
+      sum += std::pow(way.norm() / (kVoxelMm * 1e-3) - kRadius, 2);
+    }
+    return std::sqrt(sum / static_cast<double>(mesh.positions_m.size()));
+  };
+  constexpr double kMost = 0.05;  // docs/surface_net.md
+  EXPECT_LT(error("values/window.ply"), kMost);
+  EXPECT_GT(error("mask/label_1.ply"), 2 * error("values/window.ply"));
+}
+
+TEST_F(ImportCommand, ALabelWhoseVoxelsOthersHaveIsLeftOut) {
+  std::string layer;
+  for (int n = 0; n < 512; ++n) layer += static_cast<char>(n % 8 > 1 && n % 8 < 6 && n / 64 > 1 && n / 64 < 6);
+  std::string voxels;
+  for (const char c : layer) voxels += std::string(2, c);
+  const std::string two = folder_.write(
+      "two.seg.nrrd",
+      "NRRD0004\ntype: uint8\ndimension: 4\nsizes: 2 8 8 8\nspace: left-posterior-superior\n"
+      "space directions: none (2,0,0) (0,2,0) (0,0,2)\nspace origin: (0,0,0)\nkinds: list domain domain domain\n"
+      "Segment0_LabelValue:=1\nSegment0_Layer:=0\nSegment0_Name:=one\nSegment1_LabelValue:=1\n"
+      "Segment1_Layer:=1\nSegment1_Name:=two\nencoding: raw\n\n" +
+          voxels);
+  const Ending ending = import({two, "--out", folder_.file("out")});
+  EXPECT_EQ(ending.status, 0) << ending.err;
+  EXPECT_TRUE(says(ending.out, {"left out: other labels have all its voxels"})) << ending.out;
 }
 
 TEST_F(ImportCommand, TakesALabelOrAWindow) {

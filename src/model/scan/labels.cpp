@@ -43,7 +43,7 @@ std::vector<Segment> namedSegments(const std::string& path, const LabelOptions& 
   try {
     names = readLabelNames(table);
   } catch (const SceneError& error) {
-    if (given) throw;
+    if (given) throw SceneError(std::string("names of labels: ") + error.what());
     if (options.notes)
       options.notes->push_back(std::string("beside the scan, but no names of labels: ") + error.what());
   }

@@ -10,8 +10,30 @@
 #include "viscera/math/error.h"
 
 namespace viscera {
+namespace {
 
-std::unique_ptr<ScanSource> openScan(const std::string& path, const ScanOptions& options) {
+/// Tells how far another source has been read.
+class ToldSource : public ScanSource {
+ public:
+  ToldSource(std::unique_ptr<ScanSource> source, std::function<void(double)> progress)
+      : source_(std::move(source)), progress_(std::move(progress)) {}
+  const VolumeFrame& frame() const override { return source_->frame(); }
+  const std::vector<LabelName>& names() const override { return source_->names(); }
+  const std::string& file() const override { return source_->file(); }
+  int layers() const override { return source_->layers(); }
+  const std::vector<Segment>& segments() const override { return source_->segments(); }
+  void next(std::vector<float>& values) override {
+    source_->next(values);
+    progress_(static_cast<double>(++read_) / frame().size.z());
+  }
+
+ private:
+  std::unique_ptr<ScanSource> source_;
+  std::function<void(double)> progress_;
+  int read_ = 0;
+};
+
+std::unique_ptr<ScanSource> openByName(const std::string& path, const ScanOptions& options) {
   requireWithinBounds(path);
   const std::string name = lower(path);
   const auto ends = [&](const std::string& end) {
@@ -23,6 +45,13 @@ std::unique_ptr<ScanSource> openScan(const std::string& path, const ScanOptions&
   std::error_code error;
   if (ends(".dcm") || std::filesystem::is_directory(path, error)) return openDicom(path, options);
   throw SceneError(path + ": accepted: .nii, .nii.gz, .nrrd, .nhdr, .mhd, .mha, .dcm, or a folder of DICOM files");
+}
+
+}  // namespace
+
+std::unique_ptr<ScanSource> openScan(const std::string& path, const ScanOptions& options) {
+  std::unique_ptr<ScanSource> source = openByName(path, options);
+  return options.progress ? std::make_unique<ToldSource>(std::move(source), options.progress) : std::move(source);
 }
 
 }  // namespace viscera

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -16,7 +17,8 @@ struct ScanOptions {
   std::string axes;       ///< where i, j, k lead to, such as LPS or RAS, where the file does not say
   std::string transform;  ///< sform or qform, where a NIfTI file has two that differ
   std::string series;     ///< of a folder of DICOM files: its number, 0 .. , or its UID
-  std::vector<std::string>* notes = nullptr;  ///< gets what is odd and no mistake
+  std::vector<std::string>* notes = nullptr;   ///< gets what is odd and no mistake
+  std::function<void(double share)> progress;  ///< told how much of a volume has been read, slice by slice
 };
 
 /// A label with its layer: labels of several layers may overlap.

@@ -125,6 +125,19 @@ TEST(Enclosed, ClosedBoxIsItself) {
   EXPECT_EQ(of_box, solid.filledCells());  // a closed part keeps its name throughout
 }
 
+TEST(Enclosed, AGridThatIsCoarserThanAskedIsSaid) {
+  const TriangleMesh mesh = boxMesh({0, 0, 0}, {0.03f, 0.02f, 0.01f});
+  EXPECT_EQ(enclosedSurface(mesh, 0.0005, 0.002).text().find("coarser"), std::string::npos);
+  constexpr double kFew = 2e5;  // points
+  const EnclosedSurface wide = enclosedSurface(mesh, 0.0005, 0.1, kFew);
+  EXPECT_GT(wide.step_m, wide.asked_step_m);
+  EXPECT_GT(enclosedSurface(mesh, 0.0005, 1.01 * wide.fine_gap_m / 0.95, kFew).step_m, 0.0005);
+  EXPECT_EQ(enclosedSurface(mesh, 0.0005, wide.fine_gap_m, kFew).step_m, 0.0005);
+  EXPECT_NE(enclosedSurface(mesh, 0.0001, 0.001, kFew).text().find("times as large"), std::string::npos);
+  EXPECT_NE(wide.text().find("coarser than the 0.5 mm"), std::string::npos) << wide.text();
+  EXPECT_NE(wide.text().find("gap_m of at most"), std::string::npos) << wide.text();
+}
+
 TEST(Enclosed, NothingIsEnclosedByNothing) {
   EXPECT_THROW(enclosedSurface({}, 0.001, 0.004), MeshError);
 }

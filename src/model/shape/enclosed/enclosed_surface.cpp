@@ -13,21 +13,27 @@
 namespace viscera {
 namespace {
 
-constexpr double kMostPoints = 20e6;   ///< some 400 MB
 constexpr double kLeastRadius = 0.87;  ///< steps: half the diagonal of a cell; a flood with less passes through walls
 constexpr double kBeyond = 0.6;        ///< steps that the flood goes on beyond the closing radius, up to the triangles
 constexpr double kOnward =
     0.25;  ///< steps that each step leads away from the flood: what slips through a gap does not spread
 constexpr double kSettled = 0.005;  ///< volumes that differ by less are alike: hollows that close, not holes
 
-double finestStep(const TriangleMesh& mesh, double step_m, double gap_m) {
+/// Makes the step larger until the grid has few enough points, and says what would have kept it.
+void chooseStep(const TriangleMesh& mesh, double gap_m, EnclosedSurface& found) {
   Eigen::AlignedBox3d box;
   for (const auto& t : mesh.triangles) {
     for (const uint32_t v : t) box.extend(mesh.positions_m[v].cast<double>());
   }
-  const auto points = [&](double h) { return ((box.sizes().array() + gap_m) / h + 6).prod(); };
-  while (points(step_m) > kMostPoints) step_m *= 1.05;
-  return step_m;
+  const auto fits = [&](double h, double gap) {
+    return ((box.sizes().array() + gap) / h + 6).prod() <= found.most_points;
+  };
+  found.step_m = found.asked_step_m;
+  while (!fits(found.step_m, gap_m)) found.step_m *= 1.05;
+  double most = gap_m;
+  constexpr double kSmaller = 0.95, kLeastShare = 0.01;  // of gap_m: a line for a person needs no more
+  while (most > kLeastShare * gap_m && !fits(found.asked_step_m, most)) most *= kSmaller;
+  found.fine_gap_m = fits(found.asked_step_m, most) ? most : -1;
 }
 
 class Flood {
@@ -119,16 +125,28 @@ std::string EnclosedSurface::text() const {
   text << "encloses " << volume_m3 * 1e6 << " cm3, gaps up to " << closed_gap_m * 1e3 << " mm closed";
   if (hole_m > 0) text << "; it has a hole of about " << hole_m * 1e3 << " mm";
   if (!settled) text << "; wider gaps may be open still: see gap_m";
+  if (step_m > asked_step_m) {
+    text << "; found on a grid of " << step_m * 1e3 << " mm, coarser than the " << asked_step_m * 1e3
+         << " mm for this spacing, which would have more than " << most_points / 1e6
+         << " million points: what is finer is lost; ";
+    if (fine_gap_m >= 0)
+      text << "gap_m of at most " << fine_gap_m << " m keeps the finer one";
+    else
+      text << "a spacing_m " << step_m / asked_step_m << " times as large has a grid that suits it";
+  }
   return text.str();
 }
 
-EnclosedSurface enclosedSurface(const TriangleMesh& mesh, double step_m, double gap_m) {
+EnclosedSurface enclosedSurface(const TriangleMesh& mesh, double step_m, double gap_m, double most_points) {
   if (mesh.triangles.empty()) throw MeshError("the mesh encloses no volume: it has no triangles");
-  const double step = finestStep(mesh, step_m, gap_m);
+  EnclosedSurface found;
+  found.asked_step_m = step_m;
+  found.most_points = most_points;
+  chooseStep(mesh, gap_m, found);
+  const double step = found.step_m;
   const double least_m = kLeastRadius * step, most_m = std::max(least_m, gap_m / 2);
   const PatchGrid grid(mesh, step, most_m + 2 * step);
   const Flood flood(grid);
-  EnclosedSurface found;
   std::vector<uint8_t> kept;
   double before_m3 = -1;
   for (double radius_m = least_m;; radius_m = std::min(2 * radius_m, most_m)) {

@@ -15,13 +15,20 @@ struct EnclosedSurface {
   double closed_gap_m = 0;  ///< gaps up to this width were closed
   double hole_m = 0;        ///< some hole through which it would have run out is about this wide; 0: none was found
   bool settled = true;      ///< false: gaps as wide as `gap_m` still made a difference
+  double step_m = 0;        ///< of the grid that it was found on
+  double asked_step_m = 0;  ///< smaller where that grid would have had too many points
+  double most_points = 0;   ///< of a grid
+  double fine_gap_m = 0;    ///< where it is: the widest `gap_m` that leaves a grid of that step; negative: none does
 
   std::string text() const;
 };
 
-/// @param step_m  of the grid that it is found on; made larger where there would be more than 20 million points
+constexpr double kMostGridPoints = 20e6;  ///< some 400 MB
+
+/// @param step_m  of the grid that it is found on; made larger where there would be more than `most_points`
 /// @param gap_m   the widest gap that is closed
 /// @throws MeshError  nothing is enclosed
-EnclosedSurface enclosedSurface(const TriangleMesh& mesh, double step_m, double gap_m);
+EnclosedSurface enclosedSurface(const TriangleMesh& mesh, double step_m, double gap_m,
+                                double most_points = kMostGridPoints);
 
 }  // namespace viscera

@@ -1,0 +1,128 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cli/import/sample_strokes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <utility>
+
+namespace viscera::cli {
+namespace {
+
+constexpr double kUsualLength = 0.1;  ///< [m] of an organ that hands' ways are written for
+
+/// From where hands come, the best first: as the scene's first camera looks; what holds an organ is behind it.
+const Vector3d kWays[] = {{1, 0.35, 0.3}, {1, 0, 0.6},    {1, -0.35, 0.3}, {0.5, 0, 1},
+                          {0.3, 1, 0.2},  {0.3, -1, 0.2}, {0.5, 0, -1}};
+constexpr double kFacing = 0.85;  ///< cosine between where a place faces and where the hand is, at least
+constexpr size_t kTries = 12;     ///< places that are looked at from each way
+
+/// Whether a mesh is met on the way from a place outward.
+bool hides(const TriangleMesh& mesh, const Vector3d& place, const Vector3d& way) {
+  return std::any_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const std::array<uint32_t, 3>& t) {
+    Matrix3d m;  // place + s way = a + u (b - a) + v (c - a)
+    const Vector3d a = mesh.positions_m[t[0]].cast<double>();
+    m << mesh.positions_m[t[1]].cast<double>() - a, mesh.positions_m[t[2]].cast<double>() - a, -way;
+    const double det = m.determinant();
+    if (det == 0) return false;
+    const Vector3d uvs = m.inverse() * (place - a);
+    return uvs.x() >= 0 && uvs.y() >= 0 && uvs.x() + uvs.y() <= 1 && uvs.z() > 0;
+  });
+}
+
+/// Places of an organ that face a way, the nearest to its middle as seen from there first.
+std::vector<Vector3d> facing(const TriangleMesh& mesh, const Eigen::AlignedBox3d& box, const Vector3d& way) {
+  std::vector<std::pair<double, Vector3d>> found;
+  for (const auto& t : mesh.triangles) {
+    const Vector3d a = mesh.positions_m[t[0]].cast<double>(), b = mesh.positions_m[t[1]].cast<double>(),
+                   c = mesh.positions_m[t[2]].cast<double>(), middle = (a + b + c) / 3;
+    if ((b - a).cross(c - a).normalized().dot(way) > kFacing)
+      found.emplace_back((middle - box.center()).cross(way).norm(), middle);
+  }
+  std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<Vector3d> places;
+  for (size_t n = 0; n < found.size(); n += 1 + found.size() / kTries) places.push_back(found[n].second);
+  return places;
+}
+
+/// A place and the way out of the organ there, past all organs if there is such a place.
+std::pair<Vector3d, Vector3d> placeOn(const std::vector<const TriangleMesh*>& organs, const TriangleMesh& organ,
+                                      const Eigen::AlignedBox3d& box) {
+  for (const Vector3d& way : kWays) {
+    const Vector3d outward = way.normalized();
+    for (const Vector3d& place : facing(organ, box, outward)) {
+      const Vector3d clear = place + 1e-3 * box.sizes().norm() * outward;  // of the organ's own face
+      const auto isHidden = [&](const TriangleMesh* other) { return hides(*other, clear, outward); };
+      if (std::none_of(organs.begin(), organs.end(), isHidden)) return {place, outward};
+    }
+  }
+  return {box.center(), kWays[0].normalized()};
+}
+
+std::string list(const Vector3d& v) {
+  std::ostringstream out;
+  out.precision(5);
+  out << '[' << v.x() << ", " << v.y() << ", " << v.z() << ']';
+  return out.str();
+}
+
+/// Keys in millimetres at an organ of the usual length, in the anchor's frame: x right, y up, z towards the hand.
+struct Key {
+  double t_s;
+  Vector3d at_mm;
+  const char* buttons;
+};
+
+constexpr const char* kGrab = ", button1: true";
+constexpr const char* kCut = ", button2: true";
+
+const Key kLeft[] = {{0.0, {-20, 0, 40}, ""},   {0.4, {0, 0, 10}, ""},     {0.9, {0, 0, -8}, ""},
+                     {1.1, {0, 0, -8}, ""},     {1.4, {0, 0, 12}, ""},     {1.8, {0, 0, -5}, kGrab},
+                     {2.5, {-4, 4, 14}, kGrab}, {2.8, {-4, 4, 14}, kGrab}, {3.1, {0, 0, 4}, ", button1: false"},
+                     {3.5, {-40, 0, 50}, ""}};
+const Key kRight[] = {{3.2, {40, 20, 50}, ""},
+                      {3.6, {0, 22, 16}, kCut},
+                      {3.8, {0, 22, -14}, kCut},
+                      {4.5, {0, -22, -14}, kCut},
+                      {5.0, {0, 22, -14}, kCut},
+                      {5.2, {0, 22, 16}, ", button2: false"},
+                      {5.5, {9, 0, 10}, ""},
+                      {5.8, {9, 0, -6}, kGrab},
+                      {6.4, {18, 0, 6}, kGrab},
+                      {6.8, {18, 0, 6}, kGrab},
+                      {7.0, {12, 0, 4}, ", button1: false"},
+                      {7.4, {40, 0, 50}, ""}};
+
+template <size_t N>
+void addStroke(std::ostringstream& out, const char* stylus, const std::string& anchor, const Key (&keys)[N],
+               double size) {
+  constexpr double kMm = 1e-3;
+  out << "  - stylus: " << stylus << "\n    anchor: " << anchor << "\n    keys:\n";
+  for (const Key& key : keys)
+    out << "      - {t_s: " << key.t_s << ", position_m: " << list(size * kMm * key.at_mm)
+        << ", rotation_deg: [0, 0, 0]" << key.buttons << "}\n";
+}
+
+}  // namespace
+
+std::string strokesFor(const std::vector<const TriangleMesh*>& organs, size_t largest, const Vector3d& moved_m,
+                       double most_size) {
+  const TriangleMesh& organ = *organs[largest];
+  Eigen::AlignedBox3d box;
+  for (const Vector3f& p : organ.positions_m) box.extend(p.cast<double>());
+  const auto [place, way] = placeOn(organs, organ, box);
+  const double size = std::min(most_size, std::cbrt(box.sizes().prod()) / kUsualLength);
+  const Vector3d towards = place + moved_m, from = towards + 2 * box.sizes().norm() * way;
+  const std::string anchor = "{from_m: " + list(from) + ", towards_m: " + list(towards) + "}";
+  std::ostringstream out;
+  out << "# The left hand dents the largest organ and pulls it, the right hand cuts it. Keys are relative to where "
+         "the\n"
+         "# anchor's ray meets the skin: x right, y up, z towards the hand.\nstrokes:\n";
+  addStroke(out, "left", anchor, kLeft, size);
+  addStroke(out, "right", anchor, kRight, size);
+  out << "marks:\n  - {name: dented, t_s: 1}\n  - {name: pulled, t_s: 2.7}\n  - {name: opened, t_s: 6.7}\n";
+  return out.str();
+}
+
+}  // namespace viscera::cli
