@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <random>
 
+#include "model/scan/dicom_files.h"
 #include "model/scan/labels.h"
 #include "model/scan/scan_files.h"
 
@@ -15,55 +16,17 @@
 namespace viscera {
 namespace {
 
+using namespace test::dicom;
 using test::TestVolume;
-
-class Dicom : public ::testing::Test {
- protected:
-  void SetUp() override {
-#ifdef VISCERA_DICOM_PROGRAM
-    setenv("VISCERA_DICOM", VISCERA_DICOM_PROGRAM, 1);
-#else
-    GTEST_SKIP() << "viscera-dicom is not built: GDCM was not found";
-#endif
-  }
-  void TearDown() override {
-    unsetenv("VISCERA_DICOM");
-  }
-};
-
-/// An element in explicit VR, little endian.
-std::string element(unsigned group, unsigned number, const std::string& vr, std::string value) {
-  if (value.size() % 2) value += vr == "UI" ? '\0' : ' ';
-  const auto u16 = [](size_t n) { return std::string{static_cast<char>(n & 255), static_cast<char>(n >> 8 & 255)}; };
-  const bool wide = vr == "OW" || vr == "OB";
-  const std::string length = wide ? u16(0) + u16(value.size() & 65535) + u16(value.size() >> 16) : u16(value.size());
-  return u16(group) + u16(number) + vr + length + value;
-}
-std::string us(unsigned value) {
-  return {static_cast<char>(value & 255), static_cast<char>(value >> 8)};
-}
 
 /// One slice, whose place is that of the volume's with a position of its own along the third axis.
 std::string slice(const TestVolume& v, int k, double place, const std::string& series = "1.2.3") {
-  const Vector3d at = v.lps.col(3) + place * v.lps.col(2);
-  std::ostringstream position, orientation, spacing;
-  position.precision(12);
-  orientation.precision(12);
-  position << at.x() << '\\' << at.y() << '\\' << at.z();
-  for (int a = 0; a < 2; ++a)
-    for (int c = 0; c < 3; ++c) orientation << (a + c ? "\\" : "") << v.lps(c, a) / v.lps.col(a).norm();
-  spacing << v.lps.col(1).norm() << '\\' << v.lps.col(0).norm();
-  const std::string syntax = element(2, 0x10, "UI", "1.2.840.10008.1.2.1");
-  std::string length(4, '\0');
-  length[0] = static_cast<char>(syntax.size());
   const size_t bytes = 2 * static_cast<size_t>(v.size[0] * v.size[1]);
-  return std::string(128, '\0') + "DICM" + element(2, 0, "UL", length) + syntax +
-         element(8, 0x16, "UI", "1.2.840.10008.5.1.4.1.1.2") + element(8, 0x60, "CS", "CT") +
-         element(8, 0x103e, "LO", "made " + series) + element(0x20, 0xe, "UI", series) +
-         element(0x20, 0x32, "DS", position.str()) + element(0x20, 0x37, "DS", orientation.str()) +
-         element(0x28, 2, "US", us(1)) + element(0x28, 4, "CS", "MONOCHROME2") +
+  return head() + element(8, 0x16, "UI", "1.2.840.10008.5.1.4.1.1.2") + element(8, 0x60, "CS", "CT") +
+         element(8, 0x103e, "LO", "made " + series) + element(0x20, 0xe, "UI", series) + position(v, place) +
+         orientation(v) + element(0x28, 2, "US", us(1)) + element(0x28, 4, "CS", "MONOCHROME2") +
          element(0x28, 0x10, "US", us(static_cast<unsigned>(v.size[1]))) +
-         element(0x28, 0x11, "US", us(static_cast<unsigned>(v.size[0]))) + element(0x28, 0x30, "DS", spacing.str()) +
+         element(0x28, 0x11, "US", us(static_cast<unsigned>(v.size[0]))) + spacing(v) +
          element(0x28, 0x100, "US", us(16)) + element(0x28, 0x101, "US", us(16)) + element(0x28, 0x102, "US", us(15)) +
          element(0x28, 0x103, "US", us(1)) + element(0x28, 0x1052, "DS", "-3") + element(0x28, 0x1053, "DS", "2") +
          element(0x7fe0, 0x10, "OW", v.bytes().substr(bytes * static_cast<size_t>(k), bytes));

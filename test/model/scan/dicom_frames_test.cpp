@@ -1,0 +1,96 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+
+#include "model/scan/dicom_files.h"
+#include "model/scan/labels.h"
+
+// DICOM files of several frames: enhanced pictures and segments.
+namespace viscera {
+namespace {
+
+using namespace test::dicom;
+using test::TestVolume;
+
+constexpr const char* kEnhancedCt = "1.2.840.10008.5.1.4.1.1.2.1";
+constexpr const char* kSegmentation = "1.2.840.10008.5.1.4.1.1.66.4";
+
+/// A file of frames. @param groups  of each frame   @param bits  a voxel: 16, or 1 of segments
+std::string frames(const TestVolume& v, const std::string& kind, const std::string& segments,
+                   const std::vector<std::string>& groups, unsigned bits, const std::string& pixels) {
+  const std::string shared = sequence(0x20, 0x9116, {orientation(v)}) + sequence(0x28, 0x9110, {spacing(v)});
+  const auto size = [&](int axis) { return us(static_cast<unsigned>(v.size[axis])); };
+  return head() + element(8, 0x16, "UI", kind) + element(8, 0x60, "CS", "CT") + element(0x20, 0xe, "UI", "1.2.3") +
+         element(0x28, 2, "US", us(1)) + element(0x28, 4, "CS", "MONOCHROME2") +
+         element(0x28, 8, "IS", std::to_string(groups.size())) + element(0x28, 0x10, "US", size(1)) +
+         element(0x28, 0x11, "US", size(0)) + element(0x28, 0x100, "US", us(bits)) +
+         element(0x28, 0x101, "US", us(bits)) + element(0x28, 0x102, "US", us(bits - 1)) +
+         element(0x28, 0x103, "US", us(bits > 1)) + segments + sequence(0x5200, 0x9229, {shared}) +
+         sequence(0x5200, 0x9230, groups) + element(0x7fe0, 0x10, bits > 1 ? "OW" : "OB", pixels);
+}
+
+/// @param places  of the frames, along the third axis
+std::string enhanced(const TestVolume& v, const std::vector<double>& places, const std::string& pixels) {
+  std::vector<std::string> groups;
+  for (const double place : places)
+    groups.push_back(sequence(0x20, 0x9113, {position(v, place)}) +
+                     sequence(0x28, 0x9145, {element(0x28, 0x1052, "DS", "-3") + element(0x28, 0x1053, "DS", "2")}));
+  return frames(v, kEnhancedCt, "", groups, 16, pixels);
+}
+
+TEST_F(Dicom, FramesOfOneFileAreSortedByPlace) {
+  TestVolume v;
+  v.size[2] = 4;
+  v.fill();
+  const size_t bytes = 2 * static_cast<size_t>(v.size[0] * v.size[1]);
+  std::string backwards;
+  for (size_t k = 4; k-- > 0;) backwards += v.bytes().substr(k * bytes, bytes);
+  const std::string path = test::written("enhanced.dcm", enhanced(v, {3, 2, 1, 0}, backwards));
+  const auto source = openScan(path);
+  EXPECT_EQ(source->frame().size, Vector3i(4, 3, 4));
+  EXPECT_LT((source->frame().origin - Vector3d(.020, -.010, .030)).norm(), 1e-9);
+  const std::vector<float> all = test::allOf(*source);
+  ASSERT_EQ(all.size(), v.voxels.size());
+  for (size_t n = 0; n < all.size(); ++n) ASSERT_EQ(all[n], 2 * v.voxels[n] - 3) << n;
+  const std::string missing = test::written("missing.dcm", enhanced(v, {4, 2, 1, 0}, backwards));
+  EXPECT_NE(test::errorOf(missing).find("slices are missing"), std::string::npos);
+  const std::string cut = test::written("cut.dcm", enhanced(v, {3, 2, 1, 0}, backwards.substr(bytes)));
+  EXPECT_NE(test::errorOf(cut).find("ends early"), std::string::npos);
+}
+
+TEST_F(Dicom, SegmentsOfBitsMayOverlap) {
+  TestVolume v;  // 4 x 3 x 2
+  const auto segment = [](unsigned value, const std::string& name) {
+    return element(0x62, 4, "US", us(value)) + element(0x62, 5, "LO", name);
+  };
+  const auto group = [&](double place, unsigned value) {
+    return sequence(0x20, 0x9113, {position(v, place)}) + sequence(0x62, 0xa, {element(0x62, 0xb, "US", us(value))});
+  };
+  // Voxels 0 to 5 of the first slice are of 1, voxels 4 to 7 of it and 0 of the second one are of 7.
+  const std::vector<std::string> groups = {group(0, 1), group(0, 7), group(1, 7)};
+  const uint64_t bits = 0x3f | uint64_t{0xf0} << 12 | uint64_t{1} << 24;
+  const std::string names =
+      element(0x62, 1, "CS", "BINARY") + sequence(0x62, 2, {segment(1, "liver"), segment(7, "duct")});
+  const std::string path = test::written("segments.dcm", frames(v, kSegmentation, names, groups, 1, number(bits, 6)));
+  LabelOptions options;
+  std::vector<std::string> notes;
+  options.notes = &notes;
+  const LabelVolume map = readLabels(path, options);
+  ASSERT_EQ(map.names.size(), 3U);
+  EXPECT_EQ(map.names[1].name, "liver");
+  EXPECT_EQ(map.names[2].name, "duct");
+  EXPECT_EQ(map.frame.size, Vector3i(4, 3, 2));
+  std::vector<uint8_t> expected(24, 0);
+  std::fill_n(expected.begin(), 6, 1);
+  std::fill_n(expected.begin() + 6, 2, 2);
+  expected[12] = 2;
+  EXPECT_EQ(map.labels, expected);
+  ASSERT_EQ(notes.size(), 1U);
+  EXPECT_NE(notes[0].find("2 voxels have several labels"), std::string::npos) << notes[0];
+  options.labels = {"duct"};
+  const LabelVolume duct = readLabels(path, options);
+  EXPECT_EQ(std::count(duct.labels.begin(), duct.labels.end(), 1), 5);
+}
+
+}  // namespace
+}  // namespace viscera
