@@ -13,6 +13,7 @@ ReadScan inWindow(const ImportOptions& options, Stages& stages) {
   LabelVolume& map = read.map;
   map = windowed(*openScan(options.scan, options.labels), options.window, &report);
   map.names = {{0, ""}, {1, "window"}};
+  stages.end();  // its line
   std::cout << "values: " << report.least << " to " << report.largest << "; " << report.in_window
             << " voxels in the window, " << report.at_border << " of them at the scan's border, " << report.not_numbers
             << " no numbers\npieces: " << report.pieces << ", kept " << report.kept << ": " << report.kept_cm3
