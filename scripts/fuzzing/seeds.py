@@ -148,6 +148,39 @@ def metaImage():
             (head + f'CompressedData = True\nCompressedDataSize = {len(packed)}\nElementDataFile = LOCAL\n').encode() + packed]
 
 
+def dicomElement(group, number, kind, value):
+    value += b'' if len(value) % 2 == 0 else b'\0' if kind == 'UI' else b' '
+    length = struct.pack('<HI', 0, len(value)) if kind in ('OW', 'SQ') else struct.pack('<H', len(value))
+    return struct.pack('<HH', group, number) + kind.encode() + length + value
+
+
+def dicomSequence(group, number, items):
+    return dicomElement(group, number, 'SQ', b''.join(struct.pack('<HHI', 0xfffe, 0xe000, len(item)) + item for item in items))
+
+
+def dicom():
+    """A slice with its thickness, and a file of two frames."""
+    syntax = dicomElement(2, 0x10, 'UI', b'1.2.840.10008.1.2.1')
+    head = bytes(128) + b'DICM' + dicomElement(2, 0, 'UL', struct.pack('<I', len(syntax))) + syntax
+    series = dicomElement(8, 0x60, 'CS', b'CT') + dicomElement(0x20, 0xe, 'UI', b'1.2.3')
+    turn = dicomElement(0x20, 0x37, 'DS', b'1\\0\\0\\0\\1\\0')
+    places = [dicomElement(0x20, 0x32, 'DS', b'-8\\-8\\%d' % z) for z in (0, 3)]
+    spacing = dicomElement(0x28, 0x30, 'DS', b'2\\2')
+    shorts = lambda *pairs: b''.join(dicomElement(0x28, number, 'US', struct.pack('<H', value)) for number, value in pairs)
+    size, form = shorts((0x10, 8), (0x11, 8)), shorts((0x100, 16), (0x101, 16), (0x102, 15), (0x103, 1))
+    color = shorts((2, 1)) + dicomElement(0x28, 4, 'CS', b'MONOCHROME2')
+    middle = voxels()[3 * 128:5 * 128]
+    one = (head + dicomElement(8, 0x16, 'UI', b'1.2.840.10008.5.1.4.1.1.2') + dicomElement(8, 0x60, 'CS', b'CT') +
+           dicomElement(0x18, 0x50, 'DS', b'3') + dicomElement(0x20, 0xe, 'UI', b'1.2.3') + places[0] + turn + color + size +
+           spacing + form + dicomElement(0x7fe0, 0x10, 'OW', middle[:128]))
+    groups = [dicomSequence(0x20, 0x9113, [place]) for place in places]
+    shared = dicomSequence(0x20, 0x9116, [turn]) + dicomSequence(0x28, 0x9110, [spacing])
+    two = (head + dicomElement(8, 0x16, 'UI', b'1.2.840.10008.5.1.4.1.1.2.1') + series + color +
+           dicomElement(0x28, 8, 'IS', b'2') + size + form + dicomSequence(0x5200, 0x9229, [shared]) +
+           dicomSequence(0x5200, 0x9230, groups) + dicomElement(0x7fe0, 0x10, 'OW', middle))
+    return [one, two]
+
+
 BLOCK = '''name: block
 bodies:
   - name: block
@@ -202,7 +235,7 @@ strokes:
 
 OBJ, ASCII_STL, BINARY_STL, PLY, BINARY_PLY, GLTF, GLB, MSH = (
     make() for make in (obj, asciiStl, binaryStl, ply, binaryPly, gltf, glb, msh))
-NIFTI, NRRD, METAIMAGE = (make() for make in (nifti, nrrd, metaImage))
+NIFTI, NRRD, METAIMAGE, DICOM = (make() for make in (nifti, nrrd, metaImage, dicom))
 ITK_SNAP_TABLE = ['# ITK-SnAP Label Description File\n    0     0    0    0        0  0  0    "Clear Label"\n'
                   '    1   255    0    0        1  1  1    "liver"\n    5     0  255    0        1  1  1    "kidney, left"\n']
 YAML_TABLES = ['1: liver\n5: kidney\n', 'liver: 1\n"left kidney": 5\n']

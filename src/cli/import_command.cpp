@@ -152,6 +152,17 @@ std::string plainName(const LabelName& label, const std::vector<Organ>& others) 
   return name;
 }
 
+Eigen::AlignedBox3d boxOf(const std::vector<Organ>& organs) {
+  Eigen::AlignedBox3d all;
+  for (const Organ& organ : organs) all.extend(organ.box_m);
+  return all;
+}
+
+/// Of tools and of hands' ways.
+double sizeOf(const Eigen::AlignedBox3d& all) {
+  return std::cbrt(all.sizes().prod()) / kUsualLength;
+}
+
 std::vector<Organ> organsOf(const ReadScan& read, const ImportOptions& options, std::vector<std::string>& notes) {
   const LabelVolume& map = read.map;
   const size_t count = map.names.size() - 1;
@@ -222,17 +233,6 @@ std::string materialOf(const Organ& organ) {
   out << ", poisson_ratio: " << kPlayableNu << "}  # " << organ.tissue->poisson_ratio
       << " as the preset has it needs up to twice the substeps";
   return out.str();
-}
-
-Eigen::AlignedBox3d boxOf(const std::vector<Organ>& organs) {
-  Eigen::AlignedBox3d all;
-  for (const Organ& organ : organs) all.extend(organ.box_m);
-  return all;
-}
-
-/// Of tools and of hands' ways.
-double sizeOf(const Eigen::AlignedBox3d& all) {
-  return std::cbrt(all.sizes().prod()) / kUsualLength;
 }
 
 /// Meshes stay where the scan has them; bodies are moved so that the middle of all is the scene's origin. Without
