@@ -266,8 +266,8 @@ std::string sceneOf(const std::vector<Organ>& organs, const std::string& scan) {
   const double distance = 0.5 * all.sizes().norm() / std::sin(half);
   out << "cameras:\n  - {name: camera, position_m: [" << listText(distance * Vector3d(1, 0.35, 0.3).normalized())
       << "], target_m: [0, 0, 0], vertical_fov_deg: " << kFieldOfViewDeg << "}\n";
-  for (const auto& [name, way, up] :
-       {std::tuple("left", Vector3d::UnitY(), "[0, 0, 1]"), std::tuple("above", Vector3d::UnitZ(), "[1, 0, 0]")})
+  for (const auto& [name, way, up] : {std::tuple("from_left", Vector3d::UnitY(), "[0, 0, 1]"),
+                                      std::tuple("from_above", Vector3d::UnitZ(), "[1, 0, 0]")})
     out << "  - {name: " << name << ", position_m: [" << listText(distance * way)
         << "], target_m: [0, 0, 0], up: " << up << ", vertical_fov_deg: " << kFieldOfViewDeg
         << ", width_px: 320, height_px: 240, rate_hz: 5}\n";
