@@ -67,8 +67,10 @@ struct ImportOptions {
   LabelOptions labels;     ///< with what the file cannot say
   bool by_window = false;  ///< tissue is what lies within `window`, not labels
   WindowOptions window;
-  double spacing_m = 0;  ///< 0: the largest organ gets some 20,000 nodes
-  bool list = false;     ///< says what is in the scan, and writes nothing
+  double spacing_m = 0;            ///< 0: the largest organ gets some 20,000 nodes
+  bool one_body = false;           ///< all labels are parts of one body
+  std::vector<std::string> rigid;  ///< numbers or names of labels that are held in space
+  bool list = false;               ///< says what is in the scan, and writes nothing
   bool no_previews = false;
   std::string grey;  ///< scan that labels were drawn on, for previews; empty: not known
   std::string out;

@@ -1,7 +1,5 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <stdlib.h>
-
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -12,6 +10,8 @@
 #include <sstream>
 
 #include "cli/commands.h"
+#include "cli/import/draft.h"
+#include "cli/import/one_body.h"
 #include "cli/import/preview.h"
 #include "cli/import/read_scan.h"
 #include "cli/import/sample_strokes.h"
@@ -42,10 +42,12 @@ constexpr double kCm3 = 1e6;               ///< in a cubic metre
 /// A body of the scene.
 struct Organ {
   std::string name, file, title;
+  std::string source, held;  ///< lines of the scene; empty: its mesh file, a plane
   TriangleMesh mesh;
   Eigen::AlignedBox3d box_m;
   double volume_m3 = 0, spacing_m = 0;
-  double held_m = 0;                     ///< x, behind which it is held
+  double held_m = 0;  ///< x, behind which it is held
+  bool is_rigid = false;
   const TissuePreset* tissue = nullptr;  ///< null: no preset has the label's name
 };
 
@@ -163,13 +165,40 @@ double sizeOf(const Eigen::AlignedBox3d& all) {
   return std::cbrt(all.sizes().prod()) / kUsualLength;
 }
 
+double heldOf(const TriangleMesh& mesh) {
+  std::vector<double> x_m;
+  for (const Vector3f& p : mesh.positions_m) x_m.push_back(static_cast<double>(p.x()));
+  const auto held = x_m.begin() + static_cast<std::ptrdiff_t>(kHeld * static_cast<double>(x_m.size()));
+  std::nth_element(x_m.begin(), held, x_m.end());
+  return *held;
+}
+
+/// All organs as one, with their borders in it.
+Organ joined(const std::vector<Organ>& organs) {
+  Organ whole;
+  whole.name = "organs";
+  whole.title = std::to_string(organs.size()) + " labels";
+  for (const Organ& organ : organs) {
+    const auto before = static_cast<uint32_t>(whole.mesh.positions_m.size());
+    const TriangleMesh& mesh = organ.mesh;
+    whole.mesh.positions_m.insert(whole.mesh.positions_m.end(), mesh.positions_m.begin(), mesh.positions_m.end());
+    for (const auto& t : mesh.triangles) whole.mesh.triangles.push_back({t[0] + before, t[1] + before, t[2] + before});
+    whole.box_m.extend(organ.box_m);
+    whole.volume_m3 += organ.volume_m3;
+  }
+  whole.held_m = heldOf(whole.mesh);
+  return whole;
+}
+
 std::vector<Organ> organsOf(const ReadScan& read, const ImportOptions& options, std::vector<std::string>& notes) {
   const LabelVolume& map = read.map;
   const size_t count = map.names.size() - 1;
-  if (count > layout::kMaxBodies)
+  if (!options.one_body && count > layout::kMaxBodies)
     throw SceneError(options.scan + ": " + std::to_string(count) + " labels; accepted: a scene has at most " +
                      std::to_string(layout::kMaxBodies) + " bodies, of labels that --labels chooses");
   const SurfaceNet net = netOf(read, options.window);
+  const std::vector<bool> rigid = rigidLabels(map.names, options);
+  std::vector<bool> there(map.names.size(), true);
   std::vector<Organ> organs;
   double largest_m3 = 0;
   for (size_t n = 1; n <= count; ++n) {
@@ -178,26 +207,30 @@ std::vector<Organ> organsOf(const ReadScan& read, const ImportOptions& options, 
     organ.tissue = tissueOfLabel(map.names[n].name);
     organ.title = options.by_window ? "values in the window" : "label " + std::to_string(map.names[n].value);
     organ.file = organ.name + ".ply";
+    organ.is_rigid = rigid[n];
     organ.mesh = labelSurfaces(net, map.names, {static_cast<uint8_t>(n)});
     if (organ.mesh.triangles.empty()) {  // which a scene cannot have
+      there[n] = false;
       notes.push_back(organ.title + " is left out: other labels have all its voxels");
       continue;
     }
     organ.volume_m3 = signedVolume(organ.mesh);
-    std::vector<double> x_m;
-    for (const Vector3f& p : organ.mesh.positions_m) {
-      organ.box_m.extend(p.cast<double>());
-      x_m.push_back(static_cast<double>(p.x()));
-    }
-    const auto held = x_m.begin() + static_cast<std::ptrdiff_t>(kHeld * static_cast<double>(x_m.size()));
-    std::nth_element(x_m.begin(), held, x_m.end());
-    organ.held_m = *held;
+    for (const Vector3f& p : organ.mesh.positions_m) organ.box_m.extend(p.cast<double>());
+    organ.held_m = heldOf(organ.mesh);
     largest_m3 = std::max(largest_m3, organ.volume_m3);
     organs.push_back(std::move(organ));
+  }
+  if (options.one_body) {
+    Organ whole = joined(organs);
+    whole.source = oneBodySource(map.names, there, rigid, options);
+    whole.held = heldParts(map.names, there, rigid);
+    largest_m3 = whole.volume_m3;
+    organs = {whole};
   }
   for (Organ& organ : organs) {
     const double nodes = std::max(kLeastNodes, kNodes * organ.volume_m3 / largest_m3);
     organ.spacing_m = options.spacing_m > 0 ? options.spacing_m : std::cbrt(organ.volume_m3 / nodes);
+    if (organ.is_rigid) organ.held_m = organ.box_m.max().x() + organ.spacing_m;  // all of it
   }
   return organs;
 }
@@ -222,19 +255,6 @@ std::string plyOf(const TriangleMesh& mesh) {
   return out.str();
 }
 
-constexpr double kPlayableNu =
-    0.45;  ///< that scenes ask for of wet tissue instead of 0.49: half the substeps (docs/tissues.md)
-
-std::string materialOf(const Organ& organ) {
-  if (!organ.tissue) return "{young_modulus_pa: 10000, density_kg_per_m3: 1060}";
-  std::ostringstream out;
-  out << "{tissue: " << organ.tissue->name;
-  if (organ.tissue->poisson_ratio <= kPlayableNu) return out.str() + "}";
-  out << ", poisson_ratio: " << kPlayableNu << "}  # " << organ.tissue->poisson_ratio
-      << " as the preset has it needs up to twice the substeps";
-  return out.str();
-}
-
 /// Meshes stay where the scan has them; bodies are moved so that the middle of all is the scene's origin. Without
 /// gravity: the scan shows organs as their weight left them.
 std::string sceneOf(const std::vector<Organ>& organs, const std::string& scan) {
@@ -249,11 +269,14 @@ std::string sceneOf(const std::vector<Organ>& organs, const std::string& scan) {
       << listText(all.center()) << "]}\nbodies:\n";
   for (size_t n = 0; n < organs.size(); ++n) {
     const Organ& organ = organs[n];
-    out << "  - name: " << organ.name << "  # " << organ.title << "\n    source: mesh\n    mesh_file: " << organ.file
+    out << "  - name: " << organ.name << "  # " << organ.title << "\n    "
+        << (organ.source.empty() ? "source: mesh\n    mesh_file: " + organ.file : organ.source)
         << "\n    spacing_m: " << organ.spacing_m << "\n    position_m: [" << listText(-all.center())
-        << "]\n    color: " << kColors[n % kColors.size()] << "\n    material: " << materialOf(organ)
-        << "\n    fixed:\n"
-        << "      - {shape: plane, point_m: [" << listText({organ.held_m, 0, 0}) << "], normal: [1, 0, 0]}\n";
+        << "]\n    color: " << kColors[n % kColors.size()] << "\n    material: {" << materialOf(organ.tissue) << "}"
+        << "\n    fixed:\n";
+    if (organ.held.empty())
+      out << "      - {shape: plane, point_m: [" << listText({organ.held_m, 0, 0}) << "], normal: [1, 0, 0]}\n";
+    out << organ.held;
   }
   const double scale = sizeOf(all);
   out << "styluses:\n";
@@ -274,39 +297,6 @@ std::string sceneOf(const std::vector<Organ>& organs, const std::string& scan) {
   return out.str();
 }
 
-/// A folder beside the one that is asked for, which it becomes, or else goes away with all that is in it.
-class Draft {
- public:
-  explicit Draft(const std::string& out) : out_(fs::absolute(out).lexically_normal()) {
-    if (!out_.has_filename()) out_ = out_.parent_path();
-    std::error_code error;
-    if (fs::exists(out_, error) && !(fs::is_directory(out_, error) && fs::is_empty(out_, error)))
-      throw Error(out + ": is there already; accepted by --out: a new or an empty folder");
-    draft_ = out_.string() + ".part-XXXXXX";
-    if (!mkdtemp(draft_.data()))
-      throw Error(out + ": cannot be written; accepted by --out: a folder within one that is there");
-    fs::permissions(draft_, fs::perms(0755), error);
-  }
-  ~Draft() {
-    std::error_code error;
-    if (!draft_.empty()) fs::remove_all(draft_, error);
-  }
-  Draft(const Draft&) = delete;
-  Draft& operator=(const Draft&) = delete;
-
-  fs::path file(const std::string& name) const { return fs::path(draft_) / name; }
-  void keep() {
-    std::error_code error;
-    fs::rename(draft_, out_, error);
-    if (error) throw Error(out_.string() + ": cannot be written: " + error.message());
-    draft_.clear();
-  }
-
- private:
-  fs::path out_;
-  std::string draft_;
-};
-
 std::vector<const TriangleMesh*> meshesOf(const std::vector<Organ>& organs) {
   std::vector<const TriangleMesh*> meshes;
   for (const Organ& organ : organs) meshes.push_back(&organ.mesh);
@@ -314,9 +304,12 @@ std::vector<const TriangleMesh*> meshesOf(const std::vector<Organ>& organs) {
 }
 
 void writeScene(const Draft& draft, const std::vector<Organ>& organs, const std::string& scan) {
-  for (const Organ& organ : organs) writeFile(draft.file(organ.file), plyOf(organ.mesh));
+  for (const Organ& organ : organs)
+    if (!organ.file.empty()) writeFile(draft.file(organ.file), plyOf(organ.mesh));
   writeFile(draft.file("scene.yaml"), sceneOf(organs, scan));
-  const auto smaller = [](const Organ& a, const Organ& b) { return a.volume_m3 < b.volume_m3; };
+  const auto smaller = [](const Organ& a, const Organ& b) {
+    return a.is_rigid != b.is_rigid ? a.is_rigid : a.volume_m3 < b.volume_m3;
+  };
   const auto largest = std::max_element(organs.begin(), organs.end(), smaller) - organs.begin();
   const Eigen::AlignedBox3d all = boxOf(organs);
   writeFile(draft.file("strokes.yaml"),

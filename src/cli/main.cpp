@@ -54,6 +54,11 @@ CLI::App* addImport(CLI::App& app, cli::ImportOptions& o, std::vector<double>& w
   import->add_flag("--fill-holes", o.window.fill_holes, "what tissue encloses is tissue")->needs(values);
   import->add_option("--spacing", o.spacing_m, "of all lattices [m]; default: some 20,000 nodes for the largest organ")
       ->check(CLI::Range(1e-5, 10.0));
+  import->add_flag("--one-body", o.one_body, "labels are parts of one body, of the scan itself: none slides")
+      ->excludes(values);
+  import->add_option("--rigid", o.rigid, "labels that are held in space, as bone; a comma between")
+      ->delimiter(',')
+      ->excludes(values);
   import->add_option("--names", o.labels.names_file, "table of names, of ITK-SNAP or YAML");
   import->add_option("--axes", o.labels.axes, "where i, j, k lead to, where the file does not say, as in LPS");
   import->add_option("--transform", o.labels.transform, "sform or qform, where a NIfTI file has two that differ");

@@ -195,11 +195,14 @@ std::string sceneYaml(const std::string& path, const Overrides& overrides, const
   }
   namespace fs = std::filesystem;
   const fs::path folder = fs::absolute(path).parent_path();
+  const auto makeAbsolute = [&](YAML::Node map, const char* key) {
+    const std::string file = map.IsMap() && map[key] ? map[key].as<std::string>("") : "";
+    if (!file.empty()) map[key] = (folder / file).lexically_normal().string();
+  };
   for (YAML::Node body : root["bodies"]) {
-    for (const char* key : {"mesh_file", "detail_mesh"}) {
-      const std::string file = body[key] ? body[key].as<std::string>("") : "";
-      if (!file.empty()) body[key] = (folder / file).lexically_normal().string();
-    }
+    for (const char* key : {"mesh_file", "detail_mesh"}) makeAbsolute(body, key);
+    for (const char* key : {"file", "names_file"})
+      if (body["scan"]) makeAbsolute(body["scan"], key);
   }
   YAML::Emitter out;
   out << root;

@@ -9,7 +9,9 @@
 #include <functional>
 
 #include "cli/small_scene.h"
+#include "support/temporary_folder.h"
 #include "support/text.h"
+#include "viscera/model/model.h"
 #include "viscera/model/shape/mesh_import.h"
 #include "viscera/model/shape/triangle_mesh.h"
 
@@ -226,10 +228,31 @@ TEST_F(ImportCommand, TakesTheTissueThatALabelIsNamedAfter) {
   ASSERT_EQ(ending.status, 0) << ending.err;
   EXPECT_TRUE(says(ending.out, {"m, tissue kidney\n", "m, no tissue of its name"})) << ending.out;
   EXPECT_TRUE(says(readFile(out + "/scene.yaml"),
-                   {"material: {tissue: kidney, poisson_ratio: 0.45}  # 0.49", "{young_modulus_pa: 10000,"}));
+                   {"material: {tissue: kidney, poisson_ratio: 0.45}", "{young_modulus_pa: 10000,"}));
   const Ending run = viscera({"run", out + "/scene.yaml", "--no-view", "--seconds", "0.05"});
   EXPECT_TRUE(says(run.out, {"left_kidney: tissue kidney: E 5000 Pa", "nu 0.45 of the scene instead of 0.49"}))
       << run.err;
+}
+
+TEST_F(ImportCommand, LabelsBecomePartsOfOneBodySomeOfThemHeld) {
+  const std::string out = folder_.file("one"), scene = out + "/scene.yaml";
+  const Ending ending = import({scan(), "--spacing", "0.004", "--one-body", "--rigid", "3", "--out", out});
+  ASSERT_EQ(ending.status, 0) << ending.err;
+  EXPECT_FALSE(std::filesystem::exists(out + "/label_3.ply"));
+  EXPECT_TRUE(says(readFile(scene), {"source: labels", "part: \"label 7\"", "{shape: part, part: \"label 3\"}"}));
+  const Ending run = viscera({"run", scene, "--no-view", "--seconds", "0.05"});
+  EXPECT_EQ(run.status, 0) << run.err;
+}
+
+TEST_F(ImportCommand, ARigidLabelIsHeldAllOver) {
+  const std::string out = folder_.file("held");
+  ASSERT_EQ(import({scan(), "--spacing", "0.004", "--rigid", "3", "--out", out}).status, 0);
+  const Model model = buildModel(loadScene(out + "/scene.yaml"));
+  for (const uint32_t slot : model.bodies.at(0).lattice.active_slots)
+    EXPECT_TRUE(isFixed(model.bodies[0].lattice.nodes[slot]));
+  const Lattice& soft = model.bodies.at(1).lattice;
+  EXPECT_FALSE(std::all_of(soft.active_slots.begin(), soft.active_slots.end(),
+                           [&](uint32_t slot) { return isFixed(soft.nodes[slot]); }));
 }
 
 TEST_F(ImportCommand, RefusesWithOneLineAndWritesNothing) {
@@ -237,6 +260,8 @@ TEST_F(ImportCommand, RefusesWithOneLineAndWritesNothing) {
   const std::vector<std::vector<std::string>> bad = {{good, "--labels", "9", "--out", out},
                                                      {good, "--window", "20,30", "--out", out},
                                                      {good, "--window", "2", "--out", out},
+                                                     {good, "--rigid", "9", "--out", out},
+                                                     {good, "--one-body", "--window", "2,8", "--out", out},
                                                      {good},
                                                      {good, "--out", folder_.file("none/out")},
                                                      {folder_.file("none.nii"), "--out", out},

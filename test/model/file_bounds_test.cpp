@@ -93,6 +93,17 @@ TEST_F(FileBounds, MeshesElsewhereAreRefused) {
   expectRefused([&] { load(scene("in/a.yaml", "source: box, detail_mesh: ../a.obj")); }, "../a.obj");
 }
 
+TEST_F(FileBounds, ScansAndTheirNamesElsewhereAreRefused) {
+  const std::string scan =
+      "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 1 1 1\nspace: RAS\nspace directions: (9,0,0) (0,9,0) (0,0,9)\n"
+      "space origin: (0,0,0)\nencoding: raw\n\n\1";
+  write("a.nrrd", scan);
+  write("in/a.nrrd", scan);
+  expectRefused([&] { load(scene("in/a.yaml", "source: labels, scan: {file: ../a.nrrd}")); }, "../a.nrrd");
+  expectRefused([&] { load(scene("in/a.yaml", "source: labels, scan: {file: a.nrrd, names_file: ../secret.yaml}")); },
+                "../secret.yaml");
+}
+
 TEST_F(FileBounds, WhatAMeshNamesElsewhereIsRefused) {
   write("a.mtl", "newmtl " + std::string(kSecret) + "\n");
   const std::string mesh = write("in/a.obj", "mtllib ../a.mtl\n" + std::string(kTetrahedron));

@@ -22,6 +22,7 @@ bodies:
     source: mesh
     structure: explicit
     mesh_file: organ.obj
+    scan: {file: scan.nrrd, labels: [liver, 5], names_file: names.txt, axes: LPS, transform: qform, volume: 21, series: 1.2}
     unit_scale_m: 0.001
     import_limits: {max_file_mb: 1.5, max_depth: 11, max_instances: 12, max_triangles: 13, other_formats: true}
     up_axis: y
@@ -151,6 +152,13 @@ TEST(SceneKeys, EveryBodyKeyReachesItsField) {
   EXPECT_EQ(body.source, TissueSource::kMesh);
   EXPECT_EQ(body.structure, Structure::kExplicit);
   EXPECT_EQ(body.mesh_file, "organ.obj");
+  EXPECT_EQ(body.scan.file, "scan.nrrd");
+  EXPECT_EQ(body.scan.labels, (std::vector<std::string>{"liver", "5"}));
+  EXPECT_EQ(body.scan.names_file, "names.txt");
+  EXPECT_EQ(body.scan.axes, "LPS");
+  EXPECT_EQ(body.scan.transform, "qform");
+  EXPECT_EQ(body.scan.volume, 21);
+  EXPECT_EQ(body.scan.series, "1.2");
   EXPECT_EQ(body.unit_scale_m, 0.001);
   EXPECT_EQ(body.import_limits.max_file_mb, 1.5);
   EXPECT_EQ(body.import_limits.max_depth, 11);

@@ -38,6 +38,44 @@ Elasticity scaled(const Elasticity& e, double share) {
   return {share * e.spring_n_per_m, share * e.bulk_j, share * e.rigidity_j, share * e.cell_mass_kg};
 }
 
+bool isSame(const Elasticity& a, const Elasticity& b) {
+  return a.spring_n_per_m == b.spring_n_per_m && a.bulk_j == b.bulk_j && a.cell_mass_kg == b.cell_mass_kg;
+}
+
+/// Calls visit(first, last) for the parts of every cell that shares materials, indices into Lattice::shared.
+template <class Visit>
+void forEachMixedCell(const Lattice& lattice, const std::vector<Elasticity>& by_label, Visit visit) {
+  const std::vector<PartFill>& shared = lattice.shared;
+  for (size_t first = 0; first < shared.size();) {
+    size_t last = first;
+    bool differ = false;
+    for (; last < shared.size() && shared[last].cell == shared[first].cell; ++last)
+      differ = differ || !isSame(by_label[shared[last].label], by_label[shared[first].label]);
+    if (differ) visit(first, last);
+    first = last;
+  }
+}
+
+/// (slot, full cell) in place of that of the cell's part where a cell shares materials: the energy of a cell is an
+/// integral, so it is their mean by volume.
+std::vector<std::pair<size_t, Elasticity>> mixtures(const Lattice& lattice, const std::vector<Elasticity>& by_label) {
+  std::vector<std::pair<size_t, Elasticity>> out;
+  forEachMixedCell(lattice, by_label, [&](size_t first, size_t last) {
+    Elasticity sum{};
+    double share = 0;
+    for (size_t i = first; i < last; ++i) {
+      const Elasticity part = scaled(by_label[lattice.shared[i].label], lattice.shared[i].fill.share);
+      sum.spring_n_per_m += part.spring_n_per_m;
+      sum.bulk_j += part.bulk_j;
+      sum.rigidity_j += part.rigidity_j;
+      sum.cell_mass_kg += part.cell_mass_kg;
+      share += lattice.shared[i].fill.share;
+    }
+    out.push_back({lattice.shared[first].cell, scaled(sum, 1 / share)});
+  });
+  return out;
+}
+
 /// Sums over the cells around each spring and node, in float64.
 struct Sums {
   std::vector<double> spring, mass;  // [9 * slots], [slots]
@@ -93,9 +131,13 @@ Strengths strengths(const Body& body) {
   const bool has_moments = body.material.cells == Cells::kMoments;
   out.bulk_j.resize(slots);
   if (has_moments) out.rigidity_j.resize(slots);
+  const std::vector<std::pair<size_t, Elasticity>> mixed = mixtures(lattice, by_label);
+  auto next = mixed.begin();
   for (uint32_t slot = 0; slot < slots; ++slot) {
     if (lattice.cell_labels[slot] == 0) continue;
-    const Elasticity e = scaled(by_label[lattice.cell_labels[slot]], fillOf(lattice, slot).share);
+    const bool mixes = next != mixed.end() && next->first == slot;
+    const Elasticity& whole = mixes ? (next++)->second : by_label[lattice.cell_labels[slot]];
+    const Elasticity e = scaled(whole, fillOf(lattice, slot).share);
     out.bulk_j[slot] = static_cast<float>(e.bulk_j);
     if (has_moments) out.rigidity_j[slot] = static_cast<float>(e.rigidity_j);
     addCell(lattice, slot, e, sums);
@@ -103,6 +145,29 @@ Strengths strengths(const Body& body) {
   if (body.material.weights == Weights::kPaper) makeUniform(sums);
   out.spring_n_per_m.assign(sums.spring.begin(), sums.spring.end());
   out.mass_kg.assign(sums.mass.begin(), sums.mass.end());
+  return out;
+}
+
+CellMoments cellMoments(const Body& body) {
+  const Lattice& lattice = body.lattice;
+  CellMoments out{lattice.cell_fills, lattice.fills};
+  if (lattice.shared.empty() || body.parts.empty()) return out;
+  const std::vector<Elasticity> by_label = elasticityByLabel(body);
+  out.of_cell.resize(lattice.nodes.size());
+  forEachMixedCell(lattice, by_label, [&](size_t first, size_t last) {
+    CellFill sum{0, Vector3d::Zero(), Eigen::Matrix3d::Zero()};
+    for (size_t i = first; i < last; ++i) {
+      const CellFill& part = lattice.shared[i].fill;
+      const double weight = by_label[lattice.shared[i].label].rigidity_j;
+      sum.share += weight * part.share;
+      sum.first += weight * part.first;
+      sum.second += weight * part.second;
+    }
+    const size_t cell = lattice.shared[first].cell;
+    const double full = fillOf(lattice, static_cast<uint32_t>(cell)).share, scale = full / sum.share;
+    out.fills.push_back({full, scale * sum.first, scale * sum.second});
+    out.of_cell[cell] = static_cast<uint32_t>(out.fills.size());
+  });
   return out;
 }
 

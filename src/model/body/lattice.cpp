@@ -104,6 +104,18 @@ void addCell(const Solid& solid, const Vector3i& cell, const CellFill* fill, Lat
   }
 }
 
+void setShared(const Solid& solid, Lattice& lattice) {
+  const auto nx = static_cast<size_t>(solid.cells.x()), ny = static_cast<size_t>(solid.cells.y());
+  for (const PartFill& part : solid.shared) {
+    if (solid.labels[part.cell] == 0) continue;
+    const Vector3i cell(static_cast<int>(part.cell % nx), static_cast<int>(part.cell / nx % ny),
+                        static_cast<int>(part.cell / nx / ny));
+    lattice.shared.push_back({static_cast<size_t>(storedAt(lattice, cell)), part.label, part.fill});
+  }
+  std::stable_sort(lattice.shared.begin(), lattice.shared.end(),
+                   [](const PartFill& a, const PartFill& b) { return a.cell < b.cell; });
+}
+
 void setDepths(const Solid& solid, Lattice& lattice) {
   const auto deepest = static_cast<float>(lattice.spacing_m);
   lattice.depth_m.assign(lattice.nodes.size(), deepest);
@@ -178,6 +190,7 @@ Lattice buildLattice(const Solid& solid, Weights weights) {
   for (uint32_t slot = 0; slot < lattice.nodes.size(); ++slot) {
     if (massEighths(lattice.nodes[slot])) lattice.active_slots.push_back(slot);
   }
+  setShared(solid, lattice);
   if (!solid.partial.empty()) setDepths(solid, lattice);
   if (weights == Weights::kPaper) makeUniform(lattice);
   return lattice;

@@ -84,11 +84,6 @@ void cutQuads(const NetCells& net, bool mirrored, SurfaceNet& out) {
   }
 }
 
-std::string nameOf(const std::vector<LabelName>& names, uint8_t label) {
-  if (label >= names.size()) return "label " + std::to_string(label);
-  return names[label].name.empty() ? "label " + std::to_string(names[label].value) : names[label].name;
-}
-
 }  // namespace
 
 double SurfaceNet::volumeM3(uint8_t label) const {
@@ -135,14 +130,26 @@ SurfaceNet plainNet(const LabelVolume& volume, const Crossing& crossing) {
   return finished(netCells(volume, crossing), volume.frame);
 }
 
+std::vector<std::string> partNames(const std::vector<LabelName>& names) {
+  std::vector<std::string> out;
+  for (const LabelName& label : names) {
+    const auto same = [&](const LabelName& other) { return other.name == label.name; };
+    const bool alone = std::count_if(names.begin(), names.end(), same) == 1;
+    const std::string name = label.name.empty() ? "label" : label.name;
+    out.push_back(alone && !label.name.empty() ? name : name + " " + std::to_string(label.value));
+  }
+  return out;
+}
+
 TriangleMesh labelSurfaces(const SurfaceNet& net, const std::vector<LabelName>& names,
                            const std::vector<uint8_t>& labels) {
   constexpr uint32_t kUnused = UINT32_MAX;
   TriangleMesh mesh;
+  const std::vector<std::string> part_names = partNames(names);
   std::vector<uint32_t> number(net.positions_m.size(), kUnused);
   for (const uint8_t label : labels) {
     const auto part = static_cast<uint16_t>(mesh.part_names.size());
-    mesh.part_names.push_back(nameOf(names, label));
+    mesh.part_names.push_back(label < part_names.size() ? part_names[label] : "label " + std::to_string(label));
     for (size_t i = 0; i < net.triangles.size(); ++i) {
       const auto [behind, before] = net.sides[i];
       if (behind != label && before != label) continue;

@@ -35,8 +35,12 @@ struct ValueWindow {
 /// @throws SceneError  labels do not fit the frame, or its axes span no volume
 SurfaceNet surfaceNet(const LabelVolume& volume, const ValueWindow* window = nullptr);
 
+/// [largest label + 1] what parts that are labels are called: by their names, those without one by their value in the
+/// file ("label 5"), those whose name others have too by both.
+std::vector<std::string> partNames(const std::vector<LabelName>& names);
+
 /// The closed surfaces of some labels as parts of one mesh, in this order, each facing outward. Labels that touch share
-/// vertices. Parts are named as in the volume; a label without a name by its value in the file.
+/// vertices. Parts are named as partNames() has it.
 TriangleMesh labelSurfaces(const SurfaceNet& net, const std::vector<LabelName>& names,
                            const std::vector<uint8_t>& labels);
 

@@ -10,6 +10,7 @@ namespace viscera {
 // Scene keys of bodies (scene_fields.h).
 
 constexpr int kMostLayers = 4;
+constexpr int kMostLabels = 255;
 
 template <class V>
 void visitFields(V& v, FixedConfig& c) {
@@ -27,7 +28,7 @@ void visitFields(V& v, FixedConfig& c) {
   v.number("radius_m", c.radius_m, kLength, "m", "sphere: radius");
   v.vector("point_m", c.point_m, kCoordinate, "m", "plane: a point of it");
   v.vector("normal", c.normal, kDirection, "", "plane: nodes on the side it points away from are held");
-  v.text("part", c.part, "part: name of a part of the mesh or phantom");
+  v.text("part", c.part, "part: name of a part of the mesh or phantom, or of a label");
 }
 
 template <class V>
@@ -52,7 +53,7 @@ void visitFields(V& v, MaterialConfig& c) {
 
 template <class V>
 void visitFields(V& v, PartConfig& c) {
-  v.text("part", c.part, "name of a part of the mesh or phantom");
+  v.text("part", c.part, "name of a part of the mesh or phantom, or of a label");
   v.tissue("tissue", c, "gives the three keys below that this part does not give");
   v.number("young_modulus_pa", c.young_modulus_pa, {1, 1e9}, "Pa", "Young's modulus E of this part");
   v.number("poisson_ratio", c.poisson_ratio, {0, 0.49}, "1", "Poisson's ratio nu of this part");
@@ -71,6 +72,20 @@ void visitFields(V& v, ImportLimits& c) {
 }
 
 template <class V>
+void visitFields(V& v, ScanConfig& c) {
+  v.text(
+      "file", c.file,
+      "label map: NIfTI, NRRD or MetaImage file, or DICOM file or folder (docs/scans.md); relative to the scene file");
+  v.texts("labels", c.labels, kMostLabels, "numbers or names of the labels that the body is made of; none: all");
+  v.text("names_file", c.names_file,
+         "table of names, of ITK-SNAP or YAML, relative to the scene file; empty: one that lies beside the scan");
+  v.text("axes", c.axes, "where i, j, k lead to, as in LPS, where the file does not say");
+  v.text("transform", c.transform, "sform or qform, where a NIfTI file has two that differ");
+  v.integer("volume", c.volume, {-1, 1e6}, "which volume of a file with several, from 0; -1: it has one");
+  v.text("series", c.series, "number or UID of a DICOM series");
+}
+
+template <class V>
 void visitFields(V& v, LayerConfig& c) {
   v.number("depth_m", c.depth_m, kLength, "m", "below the skin, to which it reaches");
   v.vector("color", c.color, {0, 1}, "1", "red, green, blue");
@@ -79,13 +94,15 @@ void visitFields(V& v, LayerConfig& c) {
 template <class V>
 void visitFields(V& v, BodyConfig& c) {
   v.text("name", c.name, "name, unique");
-  v.choice("source", c.source,
-           {{"phantom", TissueSource::kPhantom},
-            {"mesh", TissueSource::kMesh},
-            {"box", TissueSource::kBox},
-            {"sheet", TissueSource::kSheet},
-            {"ball", TissueSource::kBall}},
-           "where the tissue comes from: the built-in heart, a mesh file, a box, a flat sheet, a ball");
+  v.choice(
+      "source", c.source,
+      {{"phantom", TissueSource::kPhantom},
+       {"mesh", TissueSource::kMesh},
+       {"box", TissueSource::kBox},
+       {"sheet", TissueSource::kSheet},
+       {"ball", TissueSource::kBall},
+       {"labels", TissueSource::kLabels}},
+      "where the tissue comes from: the built-in heart, a mesh file, a box, a flat sheet, a ball, labels of a scan");
   v.choice("structure", c.structure,
            {{"lattice", Structure::kLattice},
             {"explicit", Structure::kExplicit},
@@ -95,12 +112,13 @@ void visitFields(V& v, BodyConfig& c) {
            "edges of its surface (cloth, membranes, vessel walls); springs along the edges of a tetrahedral mesh");
   v.text("mesh_file", c.mesh_file,
          "mesh: OBJ, STL, PLY, glTF or GLB file, for tetrahedra a Gmsh .msh file; relative to the scene file");
+  v.group("scan", c.scan, "labels: the scan and which of its labels; each label is a part of the body, by its name");
   v.number("unit_scale_m", c.unit_scale_m, {1e-9, 1e3}, "m", "mesh: metres per unit of the file");
   v.group("import_limits", c.import_limits,
           "mesh: what the file may hold; what holds more is refused before it is read");
   v.choice("up_axis", c.up_axis, {{"z", UpAxis::kZ}, {"y", UpAxis::kY}},
            "mesh: axis of the file that points up and is turned to z; y in glTF");
-  v.boolean("centered", c.centered, "mesh: move the middle of its bounding box to the body's origin");
+  v.boolean("centered", c.centered, "mesh, labels: move the middle of its bounding box to the body's origin");
   v.choice(
       "fill", c.fill, {{"parts", Fill::kParts}, {"enclosed", Fill::kEnclosed}},
       "mesh: what is tissue: the inside of each part, or what all parts enclose together, patches with gaps, turned "

@@ -52,6 +52,9 @@ class KeyTable {
     }
     row(key, "choice", chosen, all, text);
   }
+  void texts(const char* key, std::vector<std::string>&, double max_count, const char* text) {
+    row(key, "list of texts", "[]", "at most " + numberText(max_count), text);
+  }
   void names(const char* key, Overlays&, const char* text) { row(key, "list of names", "[]", overlayNames(), text); }
   template <class Struct>
   void tissue(const char* key, Struct&, const char* text) {

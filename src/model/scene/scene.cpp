@@ -78,6 +78,9 @@ void requireConsistent(const std::string& file, const Scene& scene) {
     if (body.source == TissueSource::kMesh && body.mesh_file.empty()) {
       throw SceneError(file + ": body '" + body.name + "' has source mesh and needs 'mesh_file'");
     }
+    if (body.source == TissueSource::kLabels && body.scan.file.empty()) {
+      throw SceneError(file + ": body '" + body.name + "' has source labels and needs 'scan.file'");
+    }
     const std::string fault = structureFault(body);
     if (!fault.empty()) throw SceneError(file + ": body '" + body.name + "': " + fault);
     for (size_t i = 0; i < body.fixed.size(); ++i) {

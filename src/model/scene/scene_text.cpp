@@ -47,6 +47,9 @@ class KeyValues {
       if (n.value == value) line(key, n.name);
     }
   }
+  void texts(const char* key, std::vector<std::string>& values, double, const char*) {
+    for (size_t i = 0; i < values.size(); ++i) line((key + ("[" + std::to_string(i) + "]")).c_str(), values[i]);
+  }
   template <class Struct>
   void tissue(const char*, Struct&, const char*) {}   // its numbers are there
   void names(const char*, Overlays&, const char*) {}  // what is drawn

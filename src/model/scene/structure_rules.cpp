@@ -21,8 +21,12 @@ std::string sourceFault(const BodyConfig& body) {
   if (body.source == TissueSource::kSheet && body.structure != Structure::kSurface) {
     return "source sheet has no volume: it needs structure surface";
   }
-  if (body.skin == SkinSource::kInput && body.source != TissueSource::kMesh) {
-    return "skin: input needs source: mesh; use auto or volume";
+  const bool from_labels = body.source == TissueSource::kLabels;
+  if (from_labels && body.structure == Structure::kTetrahedra) {
+    return "structure tetrahedra needs source mesh, box, ball or phantom, not labels";
+  }
+  if (body.skin == SkinSource::kInput && body.source != TissueSource::kMesh && !from_labels) {
+    return "skin: input needs source: mesh or labels; use auto or volume";
   }
   if (body.fill == Fill::kEnclosed && (body.source != TissueSource::kMesh || isNetwork(body.structure))) {
     return "fill: enclosed needs source mesh and structure lattice or explicit";

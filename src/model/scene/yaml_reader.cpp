@@ -200,6 +200,17 @@ void YamlReader::names(const char* key, Overlays& value, const char*) {
   }
 }
 
+void YamlReader::texts(const char* key, std::vector<std::string>& values, double max_count, const char*) {
+  const YAML::Node node = take(key);
+  if (!node) return;
+  requireList(key, node, max_count);
+  values.clear();
+  for (const YAML::Node& text : node) {
+    if (!text.IsScalar()) fail(key, text, "is a list of texts");
+    values.push_back(text.Scalar());
+  }
+}
+
 void YamlReader::requireNumbers(const char* key, const YAML::Node& node, size_t count, Range range,
                                 const char* unit) const {
   if (!node.IsSequence() || node.size() != count)

@@ -46,6 +46,8 @@ class YamlReader {
   void numbers(const char* key, std::vector<double>& values, double max_count, Range range, const char* unit);
   /// A text of lines, which may be empty. @param first_line  of it in the file, where it is given
   void block(const char* key, std::string& value, int& first_line, const char* text);
+  /// A list of as many texts as there are.
+  void texts(const char* key, std::vector<std::string>& values, double max_count, const char* text);
   void names(const char* key, Overlays& value, const char* text);
   /// A list of x, y, z, w, of length 1 within a hundredth; normalised.
   void quaternion(const char* key, Quaterniond& value, const char* text);

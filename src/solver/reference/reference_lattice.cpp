@@ -40,6 +40,7 @@ void ReferenceLattice::addBody(const Model& model, size_t b, double dt_safe_s) {
   has_valences_.push_back(body.network && !body.network->of_lattice);
   params_.push_back(bodyParams(body, dt_safe_s));
   strengths_.push_back(isHeterogeneous(body) ? strengths(body) : Strengths{});
+  moments_ = cellMoments(body);
   if (body.network) strengths_[b].mass_kg.assign(body.network->masses_kg.begin(), body.network->masses_kg.end());
   for (layout::NodeBits bits : lattice.nodes) {
     bits.hi |= static_cast<uint32_t>(b) << layout::kBodyShift;
@@ -129,7 +130,8 @@ void ReferenceLattice::addCell(const Body& body, size_t b, uint32_t local) {
     const Strengths& table = strengths_[b];
     cell.moments.rigidity_j = table.rigidity_j.empty() ? params_[b].rigidity_j : table.rigidity_j[local];
     cell.moments.bulk_j = table.bulk_j.empty() ? params_[b].bulk_j : table.bulk_j[local];
-    const CellFill fill = fillOf(lattice, local);
+    const uint32_t which = moments_.of_cell.empty() ? 0 : moments_.of_cell[local];
+    const CellFill fill = which == 0 ? CellFill{} : moments_.fills[which - 1];
     cell.moments.fill = {1, fill.first / fill.share, fill.second / fill.share};
   }
   cells_.push_back(cell);

@@ -137,6 +137,7 @@ class ReferenceLattice {
 
   std::vector<layout::BodyParams> params_;
   std::vector<Strengths> strengths_;    ///< [bodies] empty where a body has one material; masses of networks
+  CellMoments moments_;                 ///< of the body that is being added
   std::vector<uint32_t> first_;         ///< [bodies] slot offsets
   std::vector<bool> has_valences_;      ///< [bodies] NodeBits hold valences, not the counts of a lattice
   std::vector<uint32_t> starts_ = {0};  ///< [slots + 1] into neighbors_

@@ -127,9 +127,10 @@ JoinedMoments allMoments(const Model& model) {
   for (size_t b = 0; b < model.bodies.size(); ++b) {
     const Lattice& lattice = model.bodies[b].lattice;
     const auto before = static_cast<uint32_t>(out.vectors.size() / kVectorsPerFill - 1);
-    for (const uint32_t fill : lattice.cell_fills) out.of_cell.push_back(fill == 0 ? 0 : before + fill);
+    const CellMoments moments = cellMoments(model.bodies[b]);
+    for (const uint32_t fill : moments.of_cell) out.of_cell.push_back(fill == 0 ? 0 : before + fill);
     out.of_cell.resize(model.slotOffset(b) + lattice.nodes.size());
-    for (const CellFill& fill : lattice.fills) out.add(fill);
+    for (const CellFill& fill : moments.fills) out.add(fill);
   }
   return out;
 }

@@ -34,4 +34,13 @@ bool isHeterogeneous(const Body& body);
 /// @throws SceneError  a part that the body has not, or that stands twice
 Strengths strengths(const Body& body);
 
+/// Moments that cells resist by (Lattice::cell_fills and fills): of their tissue, weighed by its rigidity where a cell
+/// shares materials.
+struct CellMoments {
+  std::vector<uint32_t> of_cell;  ///< [slots] 0 those of a full cell, else 1 + index into fills; empty where all are 0
+  std::vector<CellFill> fills;
+};
+/// @throws SceneError  as strengths()
+CellMoments cellMoments(const Body& body);
+
 }  // namespace viscera

@@ -27,6 +27,7 @@ struct Lattice {
   std::vector<CellFill> fills;          ///< of the cells that are tissue in part; empty where all are full
   std::vector<uint32_t> cell_fills;     ///< [64 * bricks] of the cell whose lowest corner is the node: 0 full or none,
                                         ///< else 1 + index into fills; empty where all are full
+  std::vector<PartFill> shared;         ///< of cells on the border of parts what each part has, ascending
   /// [64 * bricks] how deep a node lies below the true surface at rest [m], negative outside, at most spacing_m; empty
   /// where all cells are full. Exact for meshes and boxes, but too little where parts end within each other.
   std::vector<float> depth_m;

@@ -15,7 +15,7 @@ namespace viscera {
 // Every field of these structs has one entry in src/model/scene/scene_fields.h, which gives its key, unit, range and
 // sentence of documentation; the default is the initialiser here. `viscera keys` prints the table.
 
-enum class TissueSource { kPhantom, kMesh, kBox, kSheet, kBall };
+enum class TissueSource { kPhantom, kMesh, kBox, kSheet, kBall, kLabels };
 enum class Structure { kLattice, kExplicit, kSurface, kTetrahedra };
 enum class SpringForces { kPoint, kEdge };
 enum class CollisionSearch { kGrid, kStaggered };
@@ -90,6 +90,17 @@ struct ImportLimits {
   bool other_formats = false;
 };
 
+/// A label map, and what it cannot say of itself (docs/scans.md).
+struct ScanConfig {
+  std::string file;                 ///< relative to the scene file
+  std::vector<std::string> labels;  ///< numbers or names; none: all
+  std::string names_file;           ///< relative to the scene file; empty: one beside the scan, if any
+  std::string axes;
+  std::string transform;
+  int volume = -1;  ///< -1: the only one
+  std::string series;
+};
+
 /// What of a wound's wall is seen down to a depth below the skin.
 struct LayerConfig {
   double depth_m = 0.001;
@@ -101,6 +112,7 @@ struct BodyConfig {
   TissueSource source = TissueSource::kPhantom;
   Structure structure = Structure::kLattice;
   std::string mesh_file;  ///< relative to the scene file
+  ScanConfig scan;        ///< of source: labels
   double unit_scale_m = 1;
   ImportLimits import_limits;
   UpAxis up_axis = UpAxis::kZ;

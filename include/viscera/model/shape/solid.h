@@ -34,6 +34,13 @@ struct PartialCell {
   CellFill fill;
 };
 
+/// What one part has of a cell that several parts share.
+struct PartFill {
+  size_t cell;     ///< Solid::index(); in a lattice the slot of the cell's lowest corner
+  uint16_t label;  ///< 1 + index into part_names
+  CellFill fill;
+};
+
 /// How deep a node lies below the true surface; negative outside.
 struct NodeDepth {
   Vector3i node;  ///< node (i,j,k) is the lowest corner of cell (i,j,k)
@@ -49,6 +56,7 @@ struct Solid {
   std::vector<uint16_t> labels;          ///< [cells.prod()] 0 empty, else 1 + index into part_names
   std::vector<std::string> part_names;
   std::vector<PartialCell> partial;  ///< labelled cells that are tissue in part, ascending; all others are full
+  std::vector<PartFill> shared;      ///< of cells on the border of parts what each part has, by cell, then label
   std::vector<NodeDepth> depths;     ///< where some cells are tissue in part: all nodes that are not amid full cells
 
   size_t index(int x, int y, int z) const {

@@ -8,6 +8,7 @@
 #include "model/shape/enclosed/enclosed_solid.h"
 #include "model/shape/files/msh_reader.h"
 #include "model/shape/organ/clamp_planes.h"
+#include "model/shape/organ/label_mesh.h"
 #include "model/shape/organ/placing.h"
 #include "model/shape/organ/plain_tissue.h"
 #include "model/shape/solid/solid_shell.h"
@@ -28,18 +29,16 @@ TriangleMesh refined(const TriangleMesh& mesh, double longest_edge_m) {
   return refine(mesh, longest_edge_m);
 }
 
+/// Of a mesh file, or of labels of a scan.
 class MeshTissue : public Tissue {
  public:
-  MeshTissue(const BodyConfig& config, const std::string& folder) {
-    path_ = (std::filesystem::path(folder) / config.mesh_file).string();
-    ImportReport report;
-    mesh_ = facingOutward(importMesh(path_, config.unit_scale_m, &report, config.import_limits, config.textures));
+  MeshTissue(const BodyConfig& config, const std::string& folder) : labels_(config.source == TissueSource::kLabels) {
+    read(config, folder);
     const Pose placed = toBodyFrame(mesh_.positions_m, config);
     move(mesh_.positions_m, bodyPose(config));
     file_pose = bodyPose(config) * placed;
     moveDetail(mesh_, file_pose);
-    notes.push_back(path_ + ": " + report.text());
-    notes.insert(notes.end(), report.look_notes.begin(), report.look_notes.end());
+    if (labels_) skin_ = withoutSharedBorders(mesh_);
     moments_ = hasMoments(config);
     enclosed_ = config.fill == Fill::kEnclosed;
     gap_m_ = config.gap_m;
@@ -58,18 +57,35 @@ class MeshTissue : public Tissue {
                              : voxelise(mesh_, spacing_m, &report, progress);
       return {std::move(solid), report.text()};
     } catch (const MeshError& error) {
-      throw MeshError("mesh file '" + path_ + "': " + error.what());
+      throw MeshError((labels_ ? "scan '" : "mesh file '") + path_ + "': " + error.what());
     }
   }
 
   /// Closed where the solid is, but for gaps between patches: no look into it through a hole.
-  TriangleMesh surface(const Solid&) const override { return enclosed_ ? mesh_ : withCaps(mesh_); }
-  TriangleMesh shell(double spacing_m) const override { return refined(mesh_, spacing_m); }
+  TriangleMesh surface(const Solid&) const override {
+    if (labels_) return skin_;
+    return enclosed_ ? mesh_ : withCaps(mesh_);
+  }
+  TriangleMesh shell(double spacing_m) const override { return refined(labels_ ? skin_ : mesh_, spacing_m); }
   Eigen::AlignedBox3d bounds() const override { return boundsOf(mesh_.positions_m); }
 
  private:
+  void read(const BodyConfig& config, const std::string& folder) {
+    path_ = (std::filesystem::path(folder) / (labels_ ? config.scan.file : config.mesh_file)).string();
+    if (labels_) {
+      mesh_ = labelMesh(config, folder, notes);
+      return;
+    }
+    ImportReport report;
+    mesh_ = facingOutward(importMesh(path_, config.unit_scale_m, &report, config.import_limits, config.textures));
+    notes.push_back(path_ + ": " + report.text());
+    notes.insert(notes.end(), report.look_notes.begin(), report.look_notes.end());
+  }
+
   std::string path_;
   TriangleMesh mesh_;
+  TriangleMesh skin_;  ///< of labels: their outer border
+  bool labels_;
   bool moments_ = false, enclosed_ = false;
   double gap_m_ = 0;
   NodePlanes planes_;
@@ -168,6 +184,8 @@ std::unique_ptr<Tissue> tissueOf(const BodyConfig& config, const std::string& fo
     case TissueSource::kMesh:
       if (config.structure == Structure::kTetrahedra) return std::make_unique<TetrahedraTissue>(config, folder);
       return std::make_unique<MeshTissue>(config, folder);
+    case TissueSource::kLabels:
+      return std::make_unique<MeshTissue>(config, folder);
     case TissueSource::kPhantom:
       return std::make_unique<PhantomTissue>(config);
     case TissueSource::kSheet:
@@ -186,7 +204,7 @@ std::unique_ptr<Tissue> makeTissue(const BodyConfig& config, const std::string& 
   const std::string fault = structureFault(config);
   if (!fault.empty()) throw SceneError("body '" + config.name + "': " + fault);
   std::unique_ptr<Tissue> tissue = tissueOf(config, folder);
-  if (config.source == TissueSource::kMesh) return tissue;
+  if (config.source == TissueSource::kMesh || config.source == TissueSource::kLabels) return tissue;
   const double turn_deg = config.up_axis == UpAxis::kY ? 90 : 0;
   tissue->file_pose = bodyPose(config) * Pose{Vector3d::Zero(), rotationFromDegrees({turn_deg, 0, 0})};
   return tissue;

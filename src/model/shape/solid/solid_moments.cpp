@@ -83,7 +83,11 @@ class Covered {
 class MomentFiller {
  public:
   MomentFiller(const std::vector<Volume>& volumes, Solid& solid)
-      : volumes_(volumes), solid_(solid), parts_(volumes.size()), union_of_(solid.labels.size(), 0) {}
+      : volumes_(volumes),
+        solid_(solid),
+        parts_(volumes.size()),
+        own_(volumes.size()),
+        union_of_(solid.labels.size(), 0) {}
 
   void addSurface(size_t order) {
     for (const SurfaceCell& found : windingSums(volumes_[order].shell, solid_)) {
@@ -115,6 +119,7 @@ class MomentFiller {
 
   void finish() {
     for (size_t order = 0; order < volumes_.size(); ++order) correct(order);
+    share();
     std::sort(cells_.begin(), cells_.end(), [](const UnionCell& a, const UnionCell& b) { return a.cell < b.cell; });
     for (const UnionCell& c : cells_) settle(c);
     giveSlivers(slivers_, solid_);
@@ -170,7 +175,12 @@ class MomentFiller {
       add(cells_[at].sampled, piece);
       const auto found = parts_[s.order].find(at);
       if (found != parts_[s.order].end()) found->second.own += piece.share;
+      if (volumes_.size() > 1) addOwn(s.order, at, piece);
     });
+  }
+
+  void addOwn(size_t order, uint32_t at, const CellFill& piece, double times = 1) {
+    add(own_[order].try_emplace(at, noFill()).first->second, piece, times);
   }
 
   void correct(size_t order) {
@@ -184,10 +194,29 @@ class MomentFiller {
       const double seen = part.sampled.share > 0 ? part.own / part.sampled.share : 1;
       UnionCell& cell = cells_[at];
       add(cell.correction, missed, seen);
+      if (volumes_.size() > 1) addOwn(order, at, missed, seen);
       const double share = part.sampled.share + missed.share;
       if (share <= cell.largest_share) continue;
       cell.largest_share = share;
       cell.largest_label = volumes_[order].part + 1;
+    }
+  }
+
+  /// Notes what each part has of the cells that several have; before the cells are sorted.
+  void share() {
+    std::vector<PartFill> all;
+    for (size_t order = 0; order < volumes_.size(); ++order) {
+      const auto label = static_cast<uint16_t>(volumes_[order].part + 1);
+      for (const auto& [at, fill] : own_[order])
+        if (fill.share >= kLeastGap && isPossible(fill)) all.push_back({cells_[at].cell, label, fill});
+    }
+    std::sort(all.begin(), all.end(), [](const PartFill& a, const PartFill& b) {
+      return std::tie(a.cell, a.label) < std::tie(b.cell, b.label);
+    });
+    for (size_t i = 0; i < all.size(); ++i) {
+      const bool before = i > 0 && all[i - 1].cell == all[i].cell;
+      const bool after = i + 1 < all.size() && all[i + 1].cell == all[i].cell;
+      if (before || after) solid_.shared.push_back(all[i]);
     }
   }
 
@@ -210,6 +239,7 @@ class MomentFiller {
   std::vector<UnionCell> cells_;
   std::vector<PartialCell> slivers_;
   std::vector<std::unordered_map<uint32_t, PartCell>> parts_;  ///< by index into cells_, before they are sorted
+  std::vector<std::unordered_map<uint32_t, CellFill>> own_;    ///< without what smaller parts have; empty of one part
   std::vector<uint32_t> union_of_;                             ///< [cells] 0, or 1 + index into cells_
 };
 

@@ -1,0 +1,33 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cli/commands.h"
+#include "model/scan/volume.h"
+#include "model/scene/tissue_presets.h"
+
+namespace viscera::cli {
+
+/// [largest label + 1] whether --rigid names a label, by name or number.
+/// @throws SceneError  it names one that is not imported
+std::vector<bool> rigidLabels(const std::vector<LabelName>& names, const ImportOptions& options);
+
+/// Keys of the elasticity of a label: its tissue, with a nu that is not the last of the steps' time, or else a soft
+/// one.
+/// @param tissue  null: no preset has the label's name
+std::string materialOf(const TissuePreset* tissue);
+
+/// Lines of a body that is made of all labels together: its source and a part for each label that is not rigid.
+/// @param there  [largest label + 1] whether a label has voxels
+/// @throws SceneError  more labels than a body may have parts
+std::string oneBodySource(const std::vector<LabelName>& names, const std::vector<bool>& there,
+                          const std::vector<bool>& rigid, const ImportOptions& options);
+
+/// Entries that hold the rigid labels of such a body; empty: none is rigid.
+std::string heldParts(const std::vector<LabelName>& names, const std::vector<bool>& there,
+                      const std::vector<bool>& rigid);
+
+}  // namespace viscera::cli
