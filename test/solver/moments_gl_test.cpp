@@ -28,6 +28,25 @@ Body block(const Vector3i& cells) {
   return body;
 }
 
+/// Each cell of a layer has 30 % of one part below and 70 % of another above.
+void shareLayer(Body& body) {
+  Lattice& lattice = body.lattice;
+  lattice.part_names = {"wall", "valve"};
+  body.parts = {{"valve", 100e3, 0.4, 3000}};
+  constexpr double kLow = 0.3;
+  const auto slab = [](double share, double middle) {
+    const Vector3d spread(1.0 / 12, 1.0 / 12, share * share / 12 + middle * middle);
+    return CellFill{share, {0, 0, share * middle}, share * Eigen::Matrix3d(spread.asDiagonal())};
+  };
+  for (uint32_t slot = 0; slot < lattice.nodes.size(); ++slot) {
+    if (!lattice.cell_labels[slot] || lattice.nodeAt(slot).z() < 3) continue;
+    lattice.cell_labels[slot] = 2;
+    if (lattice.nodeAt(slot).z() > 3) continue;
+    lattice.shared.push_back({slot, 1, slab(kLow, 0.5 * kLow - 0.5)});
+    lattice.shared.push_back({slot, 2, slab(1 - kLow, 0.5 * kLow)});
+  }
+}
+
 class Moments : public OnBackend {
  protected:
   void expectLikeReference(const Model& model, const Scene& scene, double size_m, int substeps) {
@@ -82,6 +101,13 @@ TEST_P(Moments, PartsAndTornCellsMatchTheReference) {
   body.parts = {{"valve", 100e3, 0.4, 3000}};
   body.lattice.nodes[static_cast<size_t>(body.lattice.slotAt({4, 4, 4}))].lo &= ~layout::kCellBit;
   expectLikeReference(body);
+}
+
+TEST_P(Moments, CellsThatPartsShareMatchTheReference) {
+  for (Body body : {ball(), block({5, 4, 9})}) {
+    shareLayer(body);
+    expectLikeReference(body);
+  }
 }
 
 TEST_P(Moments, BodiesOfBothKindsMatchTheReference) {
