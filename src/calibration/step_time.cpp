@@ -82,7 +82,7 @@ StepTime stepTimeThrough(const TimedSubstep& small, const TimedSubstep& large) {
 }
 
 StepTime measureStepTime(const UndividedBodies& bodies, const Scene& scene, const gpu::Context* context) {
-  const bool on_gpu = chooseBackend(scene.solver, context) == Backend::kGpu && context && !context->isSoftware();
+  const bool on_gpu = chooseBackend(scene, context) == Backend::kGpu && context && !context->isSoftware();
   const double spacing_m = bodies.spacingOf(on_gpu ? kSmallOnGpu : kSmallOnCpu);
   const TimedSubstep small = timeSubstep(bodies.lattices(spacing_m), scene, context);
   const double expected_s = small.seconds * kGrowth * substepsPerTick(scene.solver) * (kWarmUpTicks + kTicks.least);

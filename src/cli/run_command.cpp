@@ -14,6 +14,7 @@
 #include "cli/run_plan.h"
 #include "cli/scene_lookup.h"
 #include "math/one_line.h"
+#include "model/body/toughness.h"
 #include "viscera/gpu/context.h"
 #include "viscera/math/error.h"
 #include "viscera/session/session.h"
@@ -43,6 +44,9 @@ Json metricsOf(const Session& session, const layout::TickStats& stats, const std
   metrics.wall_s = wall_s;
   metrics.state_hash = session.stateHash();
   metrics.extremes = session.extremes();
+  const bool resists = resistsBlades(session.scene());
+  for (uint32_t s = 0; resists && s < session.styluses().size(); ++s)
+    metrics.blades.push_back(session.solver().bladeWork(s));
   metrics.images = counters.renders;
   metrics.images_skipped = counters.skipped;
   metrics.backend = session.solver().backend();

@@ -34,6 +34,10 @@ nlohmann::ordered_json toJson(const RunMetrics& metrics) {
   out["governor_trips"] = metrics.extremes.governor_trips;
   out["ticks_held_back"] = metrics.extremes.held_back;
   out["peak_force_n"] = metrics.extremes.peak_force_n;
+  for (const BladeWork& blade : metrics.blades) {
+    out["cut_area_m2"].push_back(blade.area_m2);
+    out["cut_work_j"].push_back(blade.work_j);
+  }
   out["images"] = metrics.images;
   out["images_skipped"] = metrics.images_skipped;
   out["backend"] = metrics.backend;

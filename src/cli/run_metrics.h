@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "viscera/session/session.h"
 
@@ -17,6 +18,7 @@ struct RunMetrics {
   uint64_t images = 0, images_skipped = 0;  ///< drawn; overtaken before they were
   SolverWork work = {};                     ///< of integrators that solve to a tolerance
   double dt_s = 0, dt_safe_s = 0, dt_limit_s = 0, simulated_s = 0, wall_s = 0;
+  std::vector<BladeWork> blades = {};  ///< by stylus, of tissue that resists them; else empty
   Extremes extremes = {};
   std::string backend = {}, renderer = {};
   std::string stepped_by = {};  ///< Session::backendNote()

@@ -12,6 +12,7 @@
 #include "model/body/network_builder.h"
 #include "model/body/network_skin.h"
 #include "model/body/spacing_search.h"
+#include "model/body/toughness.h"
 #include "model/scene/host_memory.h"
 #include "model/scene/structure_rules.h"
 #include "model/scene/tissue_presets.h"
@@ -58,6 +59,8 @@ Body buildLatticeBody(const BodyConfig& config, const Scene& scene, const Tissue
   const auto slots = [&](uint16_t label) { return slotsOfPart(label, solid, body.lattice); };
   const size_t fixed_nodes = fixNodes(config, {solid.part_names, slots}, body);
   body.notes.push_back(latticeNote(body.lattice, fixed_nodes));
+  const std::string toughness = toughnessOf(body).note();
+  if (!toughness.empty()) body.notes.push_back(toughness);
   const std::string walls = wallsNote(tissue.walls(), solid.spacing_m);
   if (!walls.empty()) body.notes.push_back(walls);
   addPiecesNote(body);

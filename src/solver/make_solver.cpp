@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solver/make_solver.h"
 
+#include "model/body/toughness.h"
 #include "model/scene/integrators.h"
 #include "solver/cpu/cpu_solver.h"
 #include "solver/gpu/gpu_solver.h"
@@ -32,17 +33,20 @@ std::unique_ptr<Ticks> ticksOf(const Model& model, const Scene& scene, Backend b
 
 }  // namespace
 
-Backend chooseBackend(const SolverConfig& config, const gpu::Context* context) {
+Backend chooseBackend(const Scene& scene, const gpu::Context* context) {
+  const SolverConfig& config = scene.solver;
   if (config.backend != Backend::kAuto) return config.backend;
-  if (traitsOf(config.integrator).prefers_cpu) return Backend::kCpu;
+  if (traitsOf(config.integrator).prefers_cpu || resistsBlades(scene)) return Backend::kCpu;
   return !context || context->isSoftware() ? Backend::kCpu : Backend::kGpu;
 }
 
-std::string backendNote(const SolverConfig& config, const gpu::Context* context, const Solver& solver,
+std::string backendNote(const Scene& scene, const gpu::Context* context, const Solver& solver,
                         const std::string& choice) {
+  const SolverConfig& config = scene.solver;
   const std::string taken = (choice.empty() ? "" : "integrator: " + choice + "; ") + solver.backend();
   if (config.backend != Backend::kAuto) return taken + ", as solver.backend asks";
   if (traitsOf(config.integrator).prefers_cpu) return taken + ", as solver.integrator is measured on the CPU only";
+  if (resistsBlades(scene)) return taken + ", as only there tissue resists blades (material.cut)";
   if (!context) return taken + ", as there is no OpenGL context";
   return taken + (context->isSoftware() ? ", as OpenGL is a software rasteriser: " : ", as OpenGL has a GPU: ") +
          context->renderer();
@@ -50,7 +54,7 @@ std::string backendNote(const SolverConfig& config, const gpu::Context* context,
 
 std::unique_ptr<Solver> makeSolver(const Model& model, const Scene& scene, const gpu::Context* context,
                                    const std::shared_ptr<ThreadPool>& threads, std::string* choice) {
-  const Backend backend = chooseBackend(scene.solver, context);
+  const Backend backend = chooseBackend(scene, context);
   if (backend != Backend::kCpu && !context)
     throw GpuError("solver.backend: gpu needs an OpenGL context, and there is none: use cpu or auto");
   if (scene.solver.integrator != Integrator::kAuto)

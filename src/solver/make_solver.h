@@ -16,12 +16,13 @@ class Context;
 
 // Where a context is asked for, null means that there is none: then only the CPU is left.
 
-/// The backend that a scene asks for. kAuto: the GPU if the context's renderer is a real one, else the CPU.
-Backend chooseBackend(const SolverConfig& config, const gpu::Context* context);
+/// The backend that a scene asks for. kAuto: the GPU if the context's renderer is a real one and the GPU backend has
+/// all that the scene needs, else the CPU.
+Backend chooseBackend(const Scene& scene, const gpu::Context* context);
 
 /// One line for a person: which backend steps the tissue, and why.
 /// @param choice  that makeSolver() told
-std::string backendNote(const SolverConfig& config, const gpu::Context* context, const Solver& solver,
+std::string backendNote(const Scene& scene, const gpu::Context* context, const Solver& solver,
                         const std::string& choice = {});
 
 /// The solver on the backend that the scene asks for. @param model  must outlive it

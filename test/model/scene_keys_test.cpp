@@ -52,7 +52,7 @@ bodies:
     position_m: [0.051, 0.052, 0.053]
     rotation_deg: [61, 62, 63]
     color: [0.071, 0.072, 0.073]
-    material: {tissue: liver, young_modulus_pa: 8100, poisson_ratio: 0.31, density_kg_per_m3: 820, drag_per_s: 8.3, dashpot_ratio: 0.084, weights: paper, cells: springs}
+    material: {tissue: liver, young_modulus_pa: 8100, poisson_ratio: 0.31, density_kg_per_m3: 820, drag_per_s: 8.3, dashpot_ratio: 0.084, weights: paper, cells: springs, cut: {toughness_j_per_m2: 187}}
     parts: [{part: valve, tissue: spleen, young_modulus_pa: 8101, poisson_ratio: 0.32, density_kg_per_m3: 821}]
     fixed:
       - shape: part
@@ -197,6 +197,7 @@ TEST(SceneKeys, EveryBodyKeyReachesItsField) {
   EXPECT_EQ(body.material.density_kg_per_m3, 820);
   EXPECT_EQ(body.material.drag_per_s, 8.3);
   EXPECT_EQ(body.material.dashpot_ratio, 0.084);
+  EXPECT_EQ(body.material.cut.toughness_j_per_m2, 187);
   EXPECT_EQ(body.material.weights, Weights::kPaper);
   EXPECT_EQ(body.material.cells, Cells::kSprings);
   const PartConfig& part = body.parts.at(0);

@@ -24,6 +24,14 @@ struct SolverWork {
   uint64_t systems = 0, iterations = 0;  ///< linear systems; iterations of all of them
 };
 
+/// What a stylus's blade did to tissue that resists it (material.cut, docs/cutting.md).
+struct BladeWork {
+  double area_m2 = 0;    ///< parted since the last reset, at rest
+  double work_j = 0;     ///< by the hand since then, what the tissue gave back taken off
+  double parting_j = 0;  ///< of that what went into the area: toughness, as far as the lattice carries it, times area
+  double limit_n = 0;    ///< force at which the edge goes on, as it lay in the last tick; 0: it lies in no tissue
+};
+
 /// The seam between the session and a backend: upload, step, state.
 class Solver {
  public:
@@ -59,6 +67,8 @@ class Solver {
   virtual int substeps() const = 0;           ///< per tick, in calm states
   virtual uint64_t substepsDone() const = 0;  ///< since the solver was made
   virtual SolverWork work() const { return {}; }
+  /// @param stylus  < kMaxStyluses
+  virtual BladeWork bladeWork(uint32_t /*stylus*/) const { return {}; }
   virtual std::string backend() const = 0;
   /// All that the ticks to come depend on, between two ticks, into an archive or out of it: the solver that reads it
   /// was made for the same model and scene, and goes on to the bit like the one that wrote it. Waits.

@@ -32,6 +32,14 @@ void visitFields(V& v, FixedConfig& c) {
 }
 
 template <class V>
+void visitFields(V& v, FractureConfig& c) {
+  v.number("toughness_j_per_m2", c.toughness_j_per_m2, {0, 1e6}, "J/m2",
+           "work that a blade does per area that it parts, felt by the hand (docs/cutting.md); 0: it parts what it "
+           "crosses and is not felt. Above 0: of all bodies or of none, structure lattice, solver.integrator leapfrog "
+           "or auto, solver.backend cpu or auto");
+}
+
+template <class V>
 void visitFields(V& v, MaterialConfig& c) {
   v.tissue("tissue", c, "gives the three keys below that the scene does not give; not for diagnosis or planning");
   v.number("young_modulus_pa", c.young_modulus_pa, {1, 1e9}, "Pa", "Young's modulus E");
@@ -49,6 +57,7 @@ void visitFields(V& v, MaterialConfig& c) {
            "what cells resist with: springs corrected by the moments of the part of each cell that is tissue (cells at "
            "the surface are filled in part), or springs alone (cells are full or empty); auto is moments in structure "
            "lattice and explicit with weights cell, else springs");
+  v.group("cut", c.cut, "what it takes to part the tissue");
 }
 
 template <class V>

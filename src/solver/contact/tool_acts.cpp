@@ -19,6 +19,7 @@ struct Hand {
   const StylusMotion& motion;
   const StylusConfig& config;
   double tick_s;
+  bool resisted;
 };
 
 /// What the kinds with an effect do at the moments of a tick; null where nothing.
@@ -47,7 +48,8 @@ void letGoAboveLimit(const Hand& hand) {
 }
 
 void cut(const Hand& hand) {
-  hand.target.cut(hand.stylus, kindOf(hand.motion.mode).does(kErases));
+  const bool erases = kindOf(hand.motion.mode).does(kErases);
+  if (erases || !hand.resisted) hand.target.cut(hand.stylus, erases);
 }
 
 constexpr ToolAct kToolActs[] = {
@@ -57,12 +59,12 @@ constexpr ToolAct kToolActs[] = {
 
 /// Runs a moment of all acts, for each stylus that has something of them in this tick.
 void run(void (*ToolAct::*moment)(const Hand&), ToolTarget& target, const ToolMotions& motions,
-         const std::vector<StylusConfig>& styluses, double tick_s) {
+         const std::vector<StylusConfig>& styluses, double tick_s, bool resisted) {
   for (const ToolAct& act : kToolActs) {
     if (!(act.*moment)) continue;
     for (uint32_t s = 0; s < styluses.size(); ++s) {
       const uint32_t effects = kindOf(motions[s].mode).effects | kindOf(motions[s].hold_ended).effects;
-      if (effects & act.effects) (act.*moment)({target, s, motions[s], styluses[s], tick_s});
+      if (effects & act.effects) (act.*moment)({target, s, motions[s], styluses[s], tick_s, resisted});
     }
   }
 }
@@ -75,8 +77,8 @@ bool any(const ToolMotions& motions, size_t styluses, bool (ToolKind::*does)() c
 
 }  // namespace
 
-ToolActs::ToolActs(std::vector<StylusConfig> styluses, double tick_s)
-    : styluses_(std::move(styluses)), tick_s_(tick_s) {}
+ToolActs::ToolActs(std::vector<StylusConfig> styluses, double tick_s, bool resisted)
+    : styluses_(std::move(styluses)), tick_s_(tick_s), resisted_(resisted) {}
 
 bool ToolActs::touch(const ToolMotions& motions) const {
   return any(motions, styluses_.size(), &ToolKind::touches);
@@ -87,15 +89,15 @@ bool ToolActs::sever(const ToolMotions& motions) const {
 }
 
 void ToolActs::beginTick(ToolTarget& target, const ToolMotions& motions) const {
-  run(&ToolAct::begin_tick, target, motions, styluses_, tick_s_);
+  run(&ToolAct::begin_tick, target, motions, styluses_, tick_s_, resisted_);
 }
 
 void ToolActs::beforeSubstep(ToolTarget& target, const ToolMotions& motions) const {
-  run(&ToolAct::before_substep, target, motions, styluses_, tick_s_);
+  run(&ToolAct::before_substep, target, motions, styluses_, tick_s_, resisted_);
 }
 
 void ToolActs::endTick(ToolTarget& target, const ToolMotions& motions) const {
-  run(&ToolAct::end_tick, target, motions, styluses_, tick_s_);
+  run(&ToolAct::end_tick, target, motions, styluses_, tick_s_, resisted_);
 }
 
 }  // namespace viscera

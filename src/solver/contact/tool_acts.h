@@ -31,8 +31,8 @@ class ToolTarget {
 /// kernels' (shaders/solver/tools/contact.glsl), by the same effects.
 class ToolActs {
  public:
-  /// @param tick_s  length of a tick
-  ToolActs(std::vector<StylusConfig> styluses, double tick_s);
+  /// @param tick_s  length of a tick   @param resisted  blades cut by fracture work (Blades), not here
+  ToolActs(std::vector<StylusConfig> styluses, double tick_s, bool resisted = false);
 
   bool touch(const ToolMotions& motions) const;  ///< does a stylus move nodes in this tick?
   bool sever(const ToolMotions& motions) const;  ///< does one cut?
@@ -46,6 +46,7 @@ class ToolActs {
  private:
   std::vector<StylusConfig> styluses_;
   double tick_s_;
+  bool resisted_;
 };
 
 }  // namespace viscera

@@ -132,8 +132,52 @@ void CpuBackend::selectMotions(size_t substep) {
 }
 
 void CpuBackend::cut(uint32_t stylus, bool particles) {
-  uint32_t springs = cut_->run(lattice_, motion_[stylus], particles);
-  if (network_) springs += network_->cut(lattice_, motion_[stylus], particles);
+  cutWith(motion_[stylus], particles);
+}
+
+void CpuBackend::readNodes(const std::vector<uint32_t>& slots, std::vector<Vector3f>& u_m,
+                           std::vector<Vector3f>& v_m_per_s) const {
+  const float* const u = lattice_.state.displacement[lattice_.state.current].data();
+  const float* const v = lattice_.state.velocity[lattice_.state.current].data();
+  for (size_t i = 0; i < slots.size(); ++i) {
+    u_m[i] = planesAt(u, slots[i]);
+    v_m_per_s[i] = planesAt(v, slots[i]);
+  }
+}
+
+void CpuBackend::pushNodes(uint32_t stylus, float dt_s, const std::vector<uint32_t>& slots,
+                           const std::vector<Vector3f>& dv_m_per_s) {
+  float* const u = lattice_.state.displacement[lattice_.state.current].data();
+  float* const v = lattice_.state.velocity[lattice_.state.current].data();
+  for (size_t i = 0; i < slots.size(); ++i) {
+    const uint32_t slot = slots[i];
+    const Vector3f& dv = dv_m_per_s[i];
+    if (lattice_.strengths.mobility[slot] == 0 || dv.isZero(0)) continue;
+    setPlanes(v, slot, planesAt(v, slot) + dv);
+    setPlanes(u, slot, planesAt(u, slot) + dt_s * dv);
+    const Vector3f given = lattice_.strengths.mass[slot] * dv;
+    layout::vec4& sum = lattice_.hands.impulses[stylus * lattice_.slotCount() + slot];
+    sum = {sum.x + given.x(), sum.y + given.y(), sum.z + given.z(), sum.w + 1};
+    lattice_.hands.touched[slot / layout::kBrickSlots] = 1;
+    sleep_.wake(slot / layout::kBrickSlots);
+  }
+}
+
+/// What a kernel of cuts sees of the state is exchanged for one without displacements.
+void CpuBackend::cutAtRest(const layout::ToolMotion& sweep) {
+  const auto exchange = [this] {
+    lattice_.state.displacement[lattice_.state.current].swap(still_[0]);
+    lattice_.state.velocity[lattice_.state.current].swap(still_[1]);
+  };
+  for (AlignedVector<float>& still : still_) still.resize(3 * lattice_.slotCount());
+  exchange();
+  cutWith(sweep, false);
+  exchange();
+}
+
+void CpuBackend::cutWith(const layout::ToolMotion& motion, bool particles) {
+  uint32_t springs = cut_->run(lattice_, motion, particles);
+  if (network_) springs += network_->cut(lattice_, motion, particles);
   springs_cut_ += springs;
   if (springs == 0) return;
   stepper_->springsChanged();

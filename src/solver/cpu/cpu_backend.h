@@ -47,6 +47,11 @@ class CpuBackend : public SolverBackend {
   void writeMotions(const std::vector<layout::ToolMotion>& motions) override;
   void selectMotions(size_t substep) override;
   void cut(uint32_t stylus, bool particles) override;
+  void readNodes(const std::vector<uint32_t>& slots, std::vector<Vector3f>& u_m,
+                 std::vector<Vector3f>& v_m_per_s) const override;
+  void pushNodes(uint32_t stylus, float dt_s, const std::vector<uint32_t>& slots,
+                 const std::vector<Vector3f>& dv_m_per_s) override;
+  void cutAtRest(const layout::ToolMotion& sweep) override;
   void advance(const Substep& step, bool recovery) override;
   void beginSurroundings(const Surroundings& /*surroundings*/) override {}
   void blow(const Substep& step, const Surroundings& surroundings) override;
@@ -71,6 +76,7 @@ class CpuBackend : public SolverBackend {
 
  private:
   struct Work;  // what only src/solver/cpu knows: the kernels' jobs
+  void cutWith(const layout::ToolMotion& motion, bool particles);
   void wakeForTools(const std::vector<layout::ToolMotion>& motions);
   void changeAll();
   void noteHeld();
@@ -92,6 +98,7 @@ class CpuBackend : public SolverBackend {
   std::vector<layout::ToolMotion> motions_;  ///< of this tick
   const layout::ToolMotion* motion_ = nullptr;
   std::optional<CpuCut> cut_;
+  AlignedVector<float> still_[2];        ///< [3 * slots] 0; empty until a blade has cut at rest
   std::unique_ptr<CpuNetwork> network_;  ///< null where no body has explicit connections
   layout::TickStats stats_{};
   bool has_stats_ = false;

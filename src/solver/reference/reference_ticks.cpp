@@ -4,9 +4,11 @@
 
 #include <algorithm>
 
+#include "model/body/toughness.h"
 #include "solver/reference/reference_surroundings.h"
 #include "solver/tissue/substeps.h"
 #include "tools/motion_packing.h"
+#include "viscera/math/error.h"
 
 namespace viscera {
 
@@ -38,7 +40,12 @@ ReferenceTicks::ReferenceTicks(const Model& model, const Scene& scene)
       surroundings_(model, scene),
       solver_(model, scene.environment.gravity_m_per_s2.cast<float>().cast<double>(), static_cast<float>(dt_s()),
               optionsFor(model, scene)),
-      obstacle_before_n_s_(solver_.obstacle_impulse_n_s) {}
+      obstacle_before_n_s_(solver_.obstacle_impulse_n_s) {
+  if (resistsBlades(scene))
+    throw SceneError(
+        "bodies[].material.cut.toughness_j_per_m2 must be 0 for the reference, which knows no blades that tissue "
+        "resists");
+}
 
 void ReferenceTicks::step(const ToolMotions& motions, const ObstacleMotions& obstacles) {
   solver_.markTick();

@@ -15,7 +15,7 @@ namespace viscera {
 class ReferenceTicks {
  public:
   /// @param model  must outlive this
-  /// @throws SceneError  substeps (planSubsteps), parts (strengths)
+  /// @throws SceneError  substeps (planSubsteps), parts (strengths), tissue that resists blades
   ReferenceTicks(const Model& model, const Scene& scene);
 
   /// @throws ConvergenceError  implicit Euler found no solution

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "solver/contact/blade_edge.h"
 #include "solver/contact/surroundings.h"
 #include "solver/contact/tool_acts.h"
 #include "solver/tissue/substep.h"
@@ -21,7 +22,7 @@ class Archive;
 
 /// What holds the state of the tissue and gives the operations of which a tick is made. They are called in the order
 /// of a tick by Ticks and its Watch, once it is built: what a backend's construction must know is in TickPlan.
-class SolverBackend : public ToolTarget {
+class SolverBackend : public ToolTarget, public BladeTarget {
  public:
   virtual std::string name() const = 0;  ///< for a person, such as "gpu"
   virtual SolverWork work() const { return {}; }
@@ -60,6 +61,15 @@ class SolverBackend : public ToolTarget {
   /// in the place of the current one, as restoreGood(0) does. Only where there is a lag, and so that nothing need wait.
   /// @param motions  of the tick   @param tick_s  its length
   virtual void guard(const Governor::Bounds& bounds, const ToolMotions& motions, double tick_s) = 0;
+  /// @}
+
+  /// @name Of BladeTarget; asked only of backends that a scene with material.cut may have (requireBladesFit)
+  /// @{
+  void readNodes(const std::vector<uint32_t>& /*slots*/, std::vector<Vector3f>& /*u_m*/,
+                 std::vector<Vector3f>& /*v_m_per_s*/) const override {}
+  void pushNodes(uint32_t /*stylus*/, float /*dt_s*/, const std::vector<uint32_t>& /*slots*/,
+                 const std::vector<Vector3f>& /*dv_m_per_s*/) override {}
+  void cutAtRest(const layout::ToolMotion& /*sweep*/) override {}
   /// @}
 
   /// @name Measurements on their way to the host, which may take some ticks on a GPU and is at once on a CPU

@@ -8,6 +8,7 @@
 
 #include "math/archive.h"
 #include "math/float_bits.h"
+#include "model/body/toughness.h"
 #include "model/scene/integrators.h"
 #include "solver/ticks/stable_step.h"
 #include "tools/motion_packing.h"
@@ -28,7 +29,7 @@ Ticks::Ticks(const Model& model, const Scene& scene, const TickPlan& plan, std::
     : model_(model),
       backend_(std::move(backend)),
       config_(scene.solver),
-      acts_(scene.styluses, plan.tick_s),
+      acts_(scene.styluses, plan.tick_s, resistsBlades(scene)),
       gravity_(scene.environment.gravity_m_per_s2.cast<float>()),
       tick_s_(plan.tick_s),
       dt_safe_s_(plan.dt_safe_s),
@@ -47,6 +48,7 @@ Ticks::Ticks(const Model& model, const Scene& scene, const TickPlan& plan, std::
                      " us), more than solver.max_substeps = " + std::to_string(config_.max_substeps) +
                      ": use a larger spacing_m, a softer or heavier material, or raise solver.max_substeps");
   if (plan.governed()) watch_.emplace(*backend_, newGovernor(), !traitsOf(config_.integrator).is_explicit, tick_s_);
+  if (plan.tools && resistsBlades(scene)) blades_.emplace(model);
   if (plan.tools) motions_.reserve(static_cast<size_t>(plan.mostSubsteps()) * layout::kMaxStyluses);
 }
 
@@ -76,8 +78,9 @@ void Ticks::step(const ToolMotions& motions, const ObstacleMotions& obstacles) {
   }
   substeps_done_ += static_cast<uint64_t>(n_);
   if (cuts) ++cut_revision_;
+  if (blades_ && (!cuts || recovering_)) cut_revision_ += blades_->leave(*backend_);
   const bool undone = watch_ && heed(watch_->judgeOpen());  // of the tick before, where the backend lags
-  measureTick(motions, contacts);
+  measureTick(motions, contacts || (blades_ && cuts));
   finishStats();
   if (watch_) heed(watch_->endTick(motions, recovering_, undone, hasLongSubsteps()));
 }
@@ -141,8 +144,13 @@ void Ticks::substep(int index, const ToolMotions& motions, bool cuts, bool conta
   if (surroundings_ && (!step.implicit || surroundings_->features().collisions)) {
     backend_->surround(step, *surroundings_);
   }
+  if (blades_ && cuts && !recovering_) cutByWork(index, motions);
   restarted_ = false;
   last_dt_s_ = dt_s;
+}
+
+void Ticks::cutByWork(int index, const ToolMotions& motions) {
+  blades_->act(*backend_, motions, &motions_[static_cast<size_t>(index) * layout::kMaxStyluses], tick_s_ / n_);
 }
 
 void Ticks::reset() {
@@ -154,6 +162,7 @@ void Ticks::reset() {
   backend_->resetState();
   restarted_ = true;
   springs_cut_ = 0;
+  if (blades_) blades_->reset();
   stretch_ = 0;
   dt_safe_s_ = safeTimeStep(model_);
   planAnew();
@@ -194,6 +203,7 @@ void Ticks::persist(Archive& archive) {
   archive.value(restarted_);
   archive.value(last_dt_s_);
   if (surroundings_) surroundings_->persist(archive);
+  if (blades_) blades_->persist(archive);
   backend_->persist(archive);
   if (watch_) watch_->persist(archive);
   if (archive.reads()) ++cut_revision_;
@@ -230,6 +240,7 @@ bool Ticks::heed(const Watch::Verdict& verdict) {
     relaxSubsteps(*verdict.good);
   }
   restarted_ |= verdict.rolled_back;
+  if (blades_ && verdict.rolled_back) cut_revision_ += blades_->leave(*backend_);
   return verdict.rolled_back;
 }
 

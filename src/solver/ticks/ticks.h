@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "solver/contact/blades.h"
 #include "solver/ticks/solver_backend.h"
 #include "solver/ticks/tick_plan.h"
 #include "solver/ticks/watch.h"
@@ -36,6 +37,7 @@ class Ticks : public Solver {
   int substeps() const final { return substeps_.calm; }
   uint64_t substepsDone() const final { return substeps_done_; }
   SolverWork work() const final { return backend_->work(); }
+  BladeWork bladeWork(uint32_t stylus) const final { return blades_ ? blades_->done(stylus) : BladeWork{}; }
   void persist(Archive& archive) final;
   std::string backend() const final { return backend_->name(); }
   /// The state that it begins in, now and after every reset.
@@ -66,6 +68,7 @@ class Ticks : public Solver {
   void finishStats();
   void keepStats(const layout::TickStats& stats);
   void measureTick(const ToolMotions& motions, bool contacts);
+  void cutByWork(int index, const ToolMotions& motions);
   bool heed(const Watch::Verdict& verdict);
   void relaxSubsteps(const layout::TickStats& stats);
 
@@ -81,6 +84,7 @@ class Ticks : public Solver {
   SubstepPlan substeps_;
   int recovery_substeps_;
   std::optional<Surroundings> surroundings_;  ///< only where a scene has any
+  std::optional<Blades> blades_;              ///< only where a body resists them
   std::optional<HostState> start_;            ///< nothing: rest
   std::optional<Watch> watch_;                ///< only where a scene has a governor
   std::vector<layout::TickStats> finished_;   ///< taken while not asked for, oldest first

@@ -60,6 +60,11 @@ struct FixedConfig {
   std::string part;
 };
 
+/// What it takes to part tissue (docs/cutting.md).
+struct FractureConfig {
+  double toughness_j_per_m2 = 0;  ///< work per area of cut; 0: a blade parts what it crosses, and no one feels it
+};
+
 struct MaterialConfig {
   double young_modulus_pa = 20e3;
   double poisson_ratio = 0.25;  ///< 1/4 is what springs give alone; else cells have an energy of volume
@@ -69,6 +74,7 @@ struct MaterialConfig {
   Weights weights = Weights::kCell;
   Cells cells = Cells::kAuto;
   std::string tissue;  ///< preset (docs/tissues.md) of those of the first three that the scene does not give
+  FractureConfig cut;
 };
 
 /// Elasticity of one part of a body, such as a valve. In a scene file, what is left out is as in the body's material.

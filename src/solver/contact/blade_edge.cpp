@@ -1,0 +1,396 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solver/contact/blade_edge.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "math/archive.h"
+
+namespace viscera {
+
+namespace {
+
+constexpr double kSampleStep = 0.3;  // of the kernel: between samples
+constexpr double kStale = 0.05;      // of the spacing: a front that far from its kernel's middle gets a new one
+constexpr double kClosed = 0.2;      // of a gap, in a substep
+constexpr double kFlats = 3;         // times the limit: what the flats of a blade bear sideways
+constexpr int kSweeps = 8;           // over the samples: what they want of the nodes that they share
+constexpr double kLeft = 2;          // of the spacing: a front that far ahead of the edge has been left
+constexpr double kMostStep = 0.5;    // of the spacing, of a front in a substep
+constexpr double kAhead = 0.9;       // of the spacing: where it is looked for a wound; beyond the half cell it is in
+constexpr double kAside = 0.5;       // of the spacing: beside that, as a wound sways
+constexpr double kCutStep = 0.125;   // of the spacing: so far fronts go before springs are cut
+constexpr double kWayMemory = 0.25;  // of the spacing: over which a hand's direction is taken, as hands tremble
+constexpr double kStrip = 0.125;     // of the spacing, at most: parts of the edge that are in tissue or not
+
+constexpr double kHalfKernel = 0.27;  // of the kernel: the mean of one with tissue on one side only, from its middle
+constexpr double kMostStrips = 1000;  // whatever a fold makes of them
+
+Vector3d unit(const Vector3d& v) {
+  const double size = v.norm();
+  return size > 0 ? Vector3d(v / size) : Vector3d(Vector3d::Zero());
+}
+Vector3d xyz(const layout::vec4& v) {
+  return {v.x, v.y, v.z};
+}
+layout::vec4 rounded(const Vector3d& v) {
+  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z()), 0};
+}
+Vector3d atMost(const Vector3d& v, double most) {
+  const double size = v.norm();
+  return size > most ? Vector3d(most / size * v) : v;
+}
+
+}  // namespace
+
+BladeEdge::BladeEdge(RestTissue& tissue, const Toughness& toughness)
+    : tissue_(tissue),
+      toughness_j_per_m2_(toughness.carried_j_per_m2()),
+      at_surface_j_per_m2_(toughness.carriedAtSurface_j_per_m2()),
+      kernel_m_(toughness.kernel_m()),
+      h_(toughness.spacing_m),
+      place_of_(tissue.nodes().size(), RestTissue::kNone) {}
+
+void BladeEdge::act(BladeTarget& target, uint32_t stylus, const layout::ToolMotion& blade, double dt_s) {
+  if (fronts_.empty()) place(blade);
+  aim(blade, dt_s);
+  renewKernels();
+  if (!near_.empty()) target.readNodes(slots_, u_, v_);
+  look(dt_s);
+  findLengths();
+  solve(dt_s);
+  if (!near_.empty()) give(target, stylus, dt_s);
+  advance(dt_s);
+  followThroughAir();
+  cutBehind(target, false);
+  stickAgain();
+}
+
+/// A blade that appears in tissue is as if it had always been there.
+void BladeEdge::place(const layout::ToolMotion& blade) {
+  const Vector3d first = xyz(blade.from), span = xyz(blade.blade_from) - first;
+  const size_t segments = std::max<size_t>(1, static_cast<size_t>(std::ceil(span.norm() / (kSampleStep * kernel_m_))));
+  fronts_.assign(segments + 1, {});
+  kernels_.assign(segments + 1, {});
+  pushes_.assign(segments + 1, {});
+  for (size_t i = 0; i <= segments; ++i) {
+    Front& front = fronts_[i];
+    front.edge = first + static_cast<double>(i) / static_cast<double>(segments) * span;
+    front.at = front.cut = front.counted = front.edge;
+    front.centre.setConstant(std::numeric_limits<double>::infinity());
+  }
+}
+
+void BladeEdge::aim(const layout::ToolMotion& blade, double dt_s) {
+  const Vector3d to = xyz(blade.to), span = xyz(blade.blade_to) - to;
+  along_ = unit(span);
+  const double last = static_cast<double>(fronts_.size() - 1);
+  for (size_t i = 0; i < fronts_.size(); ++i) {
+    const Vector3d next = to + static_cast<double>(i) / last * span, way = next - fronts_[i].edge;
+    pushes_[i] = {};
+    pushes_[i].edge_velocity = way / dt_s;
+    fronts_[i].way = std::exp(-way.norm() / (kWayMemory * h_)) * fronts_[i].way + way;
+  }
+}
+
+void BladeEdge::renewKernels() {
+  bool changed = false;
+  for (size_t i = 0; i < fronts_.size(); ++i) {
+    Front& front = fronts_[i];
+    if ((front.at - front.centre).norm() <= kStale * h_) continue;
+    front.centre = front.at;
+    kernels_[i].make(tissue_, front.centre, kernel_m_);
+    changed = true;
+  }
+  if (!changed) return;
+  gatherKernels();
+  findMobilities();
+}
+
+/// Which nodes there are in all kernels together.
+void BladeEdge::gatherKernels() {
+  for (const uint32_t n : near_) place_of_[n] = RestTissue::kNone;
+  near_.clear();
+  slots_.clear();
+  for (BladeKernel& kernel : kernels_) {
+    kernel.places.clear();
+    for (const uint32_t n : kernel.nodes) {
+      if (place_of_[n] == RestTissue::kNone) {
+        place_of_[n] = static_cast<uint32_t>(near_.size());
+        near_.push_back(n);
+        slots_.push_back(tissue_.nodes()[n].slot);
+      }
+      kernel.places.push_back(place_of_[n]);
+    }
+  }
+  u_.resize(near_.size());
+  v_.resize(near_.size());
+  dv_.resize(near_.size());
+}
+
+void BladeEdge::findMobilities() {
+  const size_t n = fronts_.size();
+  mobilities_.assign(n * n, 0);
+  std::vector<double>& given = scratch_;
+  given.assign(near_.size(), 0);
+  for (size_t i = 0; i < n; ++i) {
+    const BladeKernel& from = kernels_[i];
+    for (size_t a = 0; a < from.nodes.size(); ++a)
+      given[from.places[a]] = static_cast<double>(from.weights[a]) * tissue_.nodes()[from.nodes[a]].inverse_mass;
+    for (size_t j = i; j < n && (fronts_[j].centre - fronts_[i].centre).norm() < 2 * kernel_m_; ++j) {
+      const BladeKernel& to = kernels_[j];
+      double sum = 0;
+      for (size_t a = 0; a < to.nodes.size(); ++a) sum += static_cast<double>(to.weights[a]) * given[to.places[a]];
+      mobilities_[i * n + j] = mobilities_[j * n + i] = sum;
+    }
+    for (const uint32_t place : from.places) given[place] = 0;
+  }
+}
+
+/// Where the tissue is and goes without the blade. The substep has been made: what it moved is taken off again.
+void BladeEdge::look(double dt_s) {
+  for (size_t i = 0; i < fronts_.size(); ++i) {
+    Push& push = pushes_[i];
+    if (kernels_[i].is_new) fronts_[i].to_rest = kernels_[i].toRest(u_);
+    push.velocity = kernels_[i].mean(v_);
+    push.gap = fronts_[i].edge - (fronts_[i].at + kernels_[i].mean(u_) - dt_s * push.velocity);
+    fronts_[i].edge += dt_s * push.edge_velocity;
+  }
+}
+
+int BladeEdge::stripsOf(double length_m) const {
+  return std::max(1, static_cast<int>(std::ceil(std::min(length_m / (kStrip * h_), kMostStrips))));
+}
+
+/// How much of the edge, as it lies in the tissue at rest, each sample stands for.
+void BladeEdge::findLengths() {
+  for (size_t i = 0; i + 1 < fronts_.size(); ++i) {
+    const double all_m = (fronts_[i + 1].edge - fronts_[i].edge).norm();
+    const int strips = stripsOf(all_m);
+    const double part_m = all_m / strips;
+    for (int s = 0; s < strips; ++s) {
+      const double t = (s + 0.5) / strips;
+      const double length_m = part_m * tissue_.fill(fronts_[i].at + t * (fronts_[i + 1].at - fronts_[i].at));
+      pushes_[i].length_m += (1 - t) * length_m;
+      pushes_[i + 1].length_m += t * length_m;
+    }
+  }
+}
+
+/// 1 / sqrt(1 + xi^2), xi the hand's way along the edge over that across it.
+double BladeEdge::drawn(size_t i) const {
+  const Vector3d& way = fronts_[i].way;
+  const double all2 = way.squaredNorm(), along = way.dot(along_);
+  return all2 > 0 ? std::sqrt(std::max(0.0, 1 - along * along / all2)) : 1;
+}
+
+/// Less at a surface that the edge comes in by [J/m2].
+double BladeEdge::toughness(size_t i) const {
+  const double ahead = kernels_[i].lean.dot(fronts_[i].forward) / (kHalfKernel * kernel_m_);
+  return toughness_j_per_m2_ + std::clamp(ahead, 0.0, 1.0) * (at_surface_j_per_m2_ - toughness_j_per_m2_);
+}
+
+void BladeEdge::solve(double dt_s) {
+  done_.limit_n = 0;
+  for (size_t i = 0; i < fronts_.size(); ++i) {
+    Push& push = pushes_[i];
+    push.cap_n_s = fronts_[i].stuck && push.length_m > 0 ? toughness(i) * push.length_m * dt_s : 0;
+    done_.limit_n += drawn(i) * push.cap_n_s / dt_s;
+  }
+  for (int sweep = 0; sweep < kSweeps; ++sweep) {
+    for (size_t i = 0; i < fronts_.size(); ++i) solveOne(i, dt_s);
+  }
+  for (const Push& push : pushes_) done_.work_j += push.impulse.dot(push.edge_velocity);
+}
+
+void BladeEdge::solveOne(size_t i, double dt_s) {
+  const size_t n = fronts_.size();
+  Push& push = pushes_[i];
+  const double mobility = mobilities_[i * n + i];
+  if (!(push.cap_n_s > 0) || !(mobility > 0)) return;
+  const Vector3d missing = push.edge_velocity + kClosed / dt_s * push.gap - push.velocity;
+  const Vector3d next = limited(i, push.impulse + missing / mobility), more = next - push.impulse;
+  push.impulse = next;
+  for (size_t j = 0; j < n; ++j) pushes_[j].velocity += mobilities_[i * n + j] * more;
+}
+
+/// An edge does not pull; across its way the flats of the blade push, up to a limit; in its plane the tissue gives way.
+Vector3d BladeEdge::limited(size_t i, const Vector3d& impulse) {
+  Push& push = pushes_[i];
+  push.slips = push.aside = false;
+  const Vector3d& forward = fronts_[i].forward;
+  if (!(impulse.dot(forward) > 0)) return Vector3d::Zero();
+  const Vector3d side = forward.cross(along_);
+  const double sideways = impulse.dot(side), bears = kFlats * push.cap_n_s;
+  const Vector3d in_plane = impulse - sideways * side;
+  const double cap = drawn(i) * push.cap_n_s;
+  push.slips = in_plane.norm() > cap;
+  push.aside = std::abs(sideways) > bears;
+  return atMost(in_plane, cap) + std::clamp(sideways, -bears, bears) * side;
+}
+
+void BladeEdge::give(BladeTarget& target, uint32_t stylus, double dt_s) {
+  bool any = false;
+  for (const Push& push : pushes_) any |= push.impulse.squaredNorm() > 0;
+  if (!any) return;
+  std::fill(dv_.begin(), dv_.end(), Vector3f::Zero());
+  for (size_t i = 0; i < fronts_.size(); ++i) {
+    const BladeKernel& kernel = kernels_[i];
+    const Vector3f impulse = pushes_[i].impulse.cast<float>();
+    if (impulse.squaredNorm() == 0) continue;
+    for (size_t a = 0; a < kernel.nodes.size(); ++a) {
+      const float mobility = kernel.weights[a] * tissue_.nodes()[kernel.nodes[a]].inverse_mass;
+      dv_[kernel.places[a]] += mobility * impulse;
+    }
+  }
+  target.pushNodes(stylus, static_cast<float>(dt_s), slots_, dv_);
+}
+
+/// A way in the tissue as it is, at rest: by the inverse of F.
+Vector3d BladeEdge::toRest(size_t i, const Vector3d& gap) const {
+  return atMost(fronts_[i].to_rest * gap, kMostStep * h_);
+}
+
+void BladeEdge::advance(double dt_s) {
+  for (size_t i = 0; i < fronts_.size(); ++i) {
+    Front& front = fronts_[i];
+    const Push& push = pushes_[i];
+    front.forward = unit(front.forward - front.forward.dot(along_) * along_);
+    const Vector3d gap = push.gap + dt_s * (push.edge_velocity - push.velocity);
+    if (front.stuck && gap.dot(front.forward) < -kLeft * h_) front.stuck = 0;
+    if (!(push.length_m > 0)) front.stuck = 0;  // out on the other side
+    if (front.stuck)
+      moveFront(i, gap);
+    else
+      front.at += push.length_m > 0 ? toRest(i, gap) : gap;
+  }
+}
+
+/// Within the blade's plane, unless its flats give way.
+void BladeEdge::moveFront(size_t i, const Vector3d& gap) {
+  Front& front = fronts_[i];
+  const Push& push = pushes_[i];
+  if (!push.slips || gap.dot(front.forward) <= 0) return;
+  const Vector3d side = front.forward.cross(along_);
+  const Vector3d step = push.aside ? gap : Vector3d(gap - gap.dot(side) * side);
+  front.at += toRest(i, step);
+  const Vector3d across = step - step.dot(along_) * along_;
+  front.forward = unit(front.forward + across / (kMostStep * h_));
+}
+
+/// Samples outside of the tissue go on as the nearest one that cuts does, so that it is cut up to its surface.
+void BladeEdge::followThroughAir() {
+  const auto count = static_cast<int>(fronts_.size());
+  for (int i = 0; i < count; ++i) {
+    Front& front = fronts_[static_cast<size_t>(i)];
+    if (front.stuck || pushes_[static_cast<size_t>(i)].length_m > 0) continue;
+    const Front* nearest = nullptr;
+    for (int a = 1; a < count && !nearest; ++a) {
+      for (const int j : {i - a, i + a}) {
+        if (j >= 0 && j < count && fronts_[static_cast<size_t>(j)].stuck) nearest = &fronts_[static_cast<size_t>(j)];
+      }
+    }
+    if (nearest) front.at = nearest->at + (front.edge - nearest->edge);
+  }
+}
+
+/// Cuts what fronts have swept since the last time, where it is worth it. @param all  whatever it is
+void BladeEdge::cutBehind(BladeTarget& target, bool all) {
+  bool due = all;
+  for (const Front& front : fronts_)
+    due |= front.cuts && (!front.stuck || (front.at - front.cut).norm() > kCutStep * h_);
+  for (size_t i = 0; due && i + 1 < fronts_.size(); ++i) {
+    const Front &a = fronts_[i], &b = fronts_[i + 1];
+    if (!a.cuts && !b.cuts) continue;
+    countArea(i);
+    layout::ToolMotion sweep{};
+    sweep.from = rounded(a.cut);
+    sweep.to = rounded(a.at);
+    sweep.blade_from = rounded(b.cut);
+    sweep.blade_to = rounded(b.at);
+    target.cutAtRest(sweep);
+    tissue_.part(a.cut, a.at, b.at, b.cut);
+  }
+  bool any = false;
+  for (const Front& front : fronts_) any |= front.stuck != 0;
+  for (size_t i = 0; i < fronts_.size(); ++i) {
+    Front& front = fronts_[i];
+    if (!due && (front.stuck || (any && !(pushes_[i].length_m > 0)))) continue;
+    front.cut = front.counted = front.at;
+    front.cuts = front.stuck;
+  }
+}
+
+/// Of the segment from sample i to the next one.
+void BladeEdge::countArea(size_t i) {
+  const Front &a = fronts_[i], &b = fronts_[i + 1];
+  const int strips = stripsOf((b.at - a.at).norm());
+  for (int s = 0; s < strips; ++s) {
+    const double t = (s + 0.5) / strips, cuts = (1 - t) * a.cuts + t * b.cuts;
+    const Vector3d at = a.at + t * (b.at - a.at), from = a.counted + t * (b.counted - a.counted);
+    const double all_m2 = (at - from).cross(b.at - a.at).norm() / strips;
+    const double area_m2 = cuts * tissue_.fill(0.5 * (at + from)) * all_m2;
+    done_.area_m2 += area_m2;
+    done_.parting_j += ((1 - t) * toughness(i) + t * toughness(i + 1)) * area_m2;
+  }
+}
+
+/// Around a place ahead: as a wound sways, what lies beside one, or just below its end, is it too.
+bool BladeEdge::isWhole(const Vector3d& ahead, const Vector3d& side) const {
+  bool whole = true;
+  for (const double aside : {-kAside, 0.0, kAside}) {
+    for (const double along : {-kAside, 0.0, kAside})
+      whole &= !tissue_.isParted(ahead + h_ * (aside * side + along * along_));
+  }
+  return whole;
+}
+
+/// Where the edge goes into tissue that is whole a new front begins. It is whole where the blade was not before, at
+/// rest: in its own wound a blade feels nothing.
+void BladeEdge::stickAgain() {
+  for (size_t i = 0; i < fronts_.size(); ++i) {
+    Front& front = fronts_[i];
+    if (front.stuck || !(pushes_[i].length_m > 0)) continue;
+    const Vector3d across = front.way - front.way.dot(along_) * along_;
+    const Vector3d forward = unit(across), side = forward.cross(along_);
+    if (forward.isZero() || !(pushes_[i].edge_velocity.dot(forward) > 0)) continue;
+    if (!isWhole(front.at + kAhead * h_ * forward, side)) continue;
+    front.stuck = front.cuts = 1;
+    front.forward = forward;
+    const Vector3d behind = front.at - kAhead * h_ * forward;
+    front.counted = front.at;
+    front.cut = tissue_.isParted(behind) || tissue_.fill(behind) <= 0 ? behind : front.at;
+  }
+}
+
+bool BladeEdge::leave(BladeTarget& target) {
+  if (fronts_.empty()) return false;
+  cutBehind(target, true);
+  fronts_.clear();
+  done_.limit_n = 0;
+  return true;
+}
+
+void BladeEdge::reset() {
+  fronts_.clear();
+  done_ = {};
+}
+
+/// Kernels follow from the fronts.
+void BladeEdge::persist(Archive& archive) {
+  archive.list(fronts_);
+  archive.value(done_);
+  if (!archive.reads()) return;
+  kernels_.assign(fronts_.size(), {});
+  pushes_.assign(fronts_.size(), {});
+  for (size_t i = 0; i < fronts_.size(); ++i) {
+    if (fronts_[i].centre.allFinite()) kernels_[i].make(tissue_, fronts_[i].centre, kernel_m_);
+    kernels_[i].is_new = false;
+  }
+  gatherKernels();
+  findMobilities();
+}
+
+}  // namespace viscera

@@ -1,0 +1,110 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "model/body/toughness.h"
+#include "solver/contact/blade_kernel.h"
+#include "viscera/layout/tool_motion.h"
+#include "viscera/math/types.h"
+#include "viscera/solver/solver.h"
+
+namespace viscera {
+
+/// What a blade that the tissue resists asks of what holds the tissue: few nodes, before and after each substep.
+class BladeTarget {
+ public:
+  virtual ~BladeTarget() = default;
+  /// Displacements and velocities as they are now. @param slots  of nodes   @param u_m, v_m_per_s  as long as slots
+  virtual void readNodes(const std::vector<uint32_t>& slots, std::vector<Vector3f>& u_m,
+                         std::vector<Vector3f>& v_m_per_s) const = 0;
+  /// Changes velocities, and displacements as if the substep that was just made had known; the momentum goes to the
+  /// reaction of a stylus.
+  virtual void pushNodes(uint32_t stylus, float dt_s, const std::vector<uint32_t>& slots,
+                         const std::vector<Vector3f>& dv_m_per_s) = 0;
+  /// Cuts the springs that a sweep crosses where the nodes are at rest.
+  virtual void cutAtRest(const layout::ToolMotion& sweep) = 0;
+};
+
+/// The edge of one blade in one body, a contact line with a plastic limit (docs/cutting.md). Its samples have fronts,
+/// places in the tissue at rest: below the limit a front is stuck, and the edge pushes the tissue before it; at the
+/// limit it is moved on through the tissue, and what the fronts sweep at rest is cut. The work is toughness times area
+/// whatever the spacing.
+class BladeEdge {
+ public:
+  /// @param tissue  that it cuts; must outlive it
+  BladeEdge(RestTissue& tissue, const Toughness& toughness);
+
+  /// After a substep. @param blade  its motion in the substep
+  void act(BladeTarget& target, uint32_t stylus, const layout::ToolMotion& blade, double dt_s);
+  /// The blade is not there, or the state was put back: fronts begin again. @returns whether there were any
+  bool leave(BladeTarget& target);
+  void reset();
+  const BladeWork& done() const { return done_; }
+  void persist(Archive& archive);
+
+ private:
+  /// Of a sample of the edge, what is kept from substep to substep. Places are in the tissue frame, those of fronts at
+  /// rest [m].
+  struct Front {
+    Vector3d at = Vector3d::Zero();                         ///< the front
+    Vector3d centre = Vector3d::Zero();                     ///< where its kernel was made
+    Vector3d cut = Vector3d::Zero();                        ///< up to where springs are cut
+    Vector3d counted = Vector3d::Zero();                    ///< up to where the area is counted
+    Vector3d edge = Vector3d::Zero();                       ///< where the sample is
+    Vector3d forward = Vector3d::Zero();                    ///< into the tissue ahead, across the edge
+    Vector3d way = Vector3d::Zero();                        ///< of the sample, lately
+    Eigen::Matrix3d to_rest = Eigen::Matrix3d::Identity();  ///< the inverse of F, when the kernel was new
+    uint32_t stuck = 0;  ///< in tissue that is whole ahead; else it is in the air or in a wound
+    uint32_t cuts = 0;   ///< was stuck since springs were cut last
+  };
+  /// Of a substep.
+  struct Push {
+    Vector3d edge_velocity = Vector3d::Zero();
+    Vector3d gap = Vector3d::Zero();       ///< from the front to the edge as they are, before the substep
+    Vector3d velocity = Vector3d::Zero();  ///< of the tissue
+    Vector3d impulse = Vector3d::Zero();   ///< on the tissue [N s]
+    double length_m = 0, cap_n_s = 0;
+    bool slips = false, aside = false;
+  };
+
+  void place(const layout::ToolMotion& blade);
+  void aim(const layout::ToolMotion& blade, double dt_s);
+  void renewKernels();
+  void gatherKernels();
+  void findMobilities();
+  void look(double dt_s);
+  void findLengths();
+  int stripsOf(double length_m) const;
+  void solve(double dt_s);
+  void solveOne(size_t i, double dt_s);
+  Vector3d limited(size_t i, const Vector3d& impulse);
+  void give(BladeTarget& target, uint32_t stylus, double dt_s);
+  void advance(double dt_s);
+  void moveFront(size_t i, const Vector3d& gap);
+  void followThroughAir();
+  void cutBehind(BladeTarget& target, bool all);
+  void countArea(size_t i);
+  void stickAgain();
+  bool isWhole(const Vector3d& ahead, const Vector3d& side) const;
+  Vector3d toRest(size_t i, const Vector3d& gap) const;
+  double drawn(size_t i) const;
+  double toughness(size_t i) const;
+
+  RestTissue& tissue_;
+  double toughness_j_per_m2_, at_surface_j_per_m2_, kernel_m_, h_;
+  std::vector<Front> fronts_;  ///< from the near end of the blade to the far one; empty: the blade is not there
+  BladeWork done_;
+  std::vector<BladeKernel> kernels_;
+  std::vector<Push> pushes_;
+  std::vector<double> mobilities_;  ///< [samples^2] what an impulse of one changes another's velocity by [1/kg]
+  std::vector<uint32_t> place_of_;  ///< [nodes] in near_, kNone
+  std::vector<uint32_t> near_, slots_;
+  std::vector<Vector3f> u_, v_, dv_;
+  std::vector<double> scratch_;
+  Vector3d along_ = Vector3d::Zero();  ///< the edge's direction
+};
+
+}  // namespace viscera

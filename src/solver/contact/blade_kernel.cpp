@@ -1,0 +1,64 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solver/contact/blade_kernel.h"
+
+#include <Eigen/LU>
+
+namespace viscera {
+
+namespace {
+
+constexpr double kFolded = 0.1;  // determinant of F below which a front goes as if the tissue were rigid
+
+}  // namespace
+
+void BladeKernel::make(const RestTissue& tissue, const Vector3d& centre_m, double radius_m) {
+  nodes.clear();
+  weights.clear();
+  slopes.clear();
+  lean.setZero();
+  is_new = true;
+  const double r2 = radius_m * radius_m;
+  double sum = 0;
+  Vector3d slope_sum = Vector3d::Zero();
+  tissue.forEachNear(centre_m, radius_m, [&](uint32_t n) {
+    const RestTissue::Node& node = tissue.nodes()[n];
+    const Vector3d away = node.rest_m - centre_m;
+    const double t = 1 - away.squaredNorm() / r2, weight = node.share * t * t;
+    const Vector3d slope = node.share * 4 * t / r2 * away;
+    nodes.push_back(n);
+    weights.push_back(static_cast<float>(weight));
+    slopes.emplace_back(slope.cast<float>());
+    sum += weight;
+    slope_sum += slope;
+    lean += weight * away;
+  });
+  if (!(sum > 0)) {
+    nodes.clear();
+    weights.clear();
+    slopes.clear();
+    return;
+  }
+  lean /= sum;
+  for (size_t a = 0; a < nodes.size(); ++a) {
+    weights[a] = static_cast<float>(weights[a] / sum);
+    const Vector3d slope = (slopes[a].cast<double>() - weights[a] * slope_sum) / sum;
+    slopes[a] = slope.cast<float>();
+  }
+}
+
+Vector3d BladeKernel::mean(const std::vector<Vector3f>& values) const {
+  Vector3f sum = Vector3f::Zero();
+  for (size_t a = 0; a < nodes.size(); ++a) sum += weights[a] * values[places[a]];
+  return sum.cast<double>();
+}
+
+Eigen::Matrix3d BladeKernel::toRest(const std::vector<Vector3f>& u_m) {
+  Eigen::Matrix3f f = Eigen::Matrix3f::Identity();
+  for (size_t a = 0; a < nodes.size(); ++a) f += u_m[places[a]] * slopes[a].transpose();
+  const Eigen::Matrix3d deformed = f.cast<double>();
+  is_new = false;
+  return deformed.determinant() > kFolded ? Eigen::Matrix3d(deformed.inverse()) : Eigen::Matrix3d::Identity();
+}
+
+}  // namespace viscera

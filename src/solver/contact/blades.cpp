@@ -1,0 +1,64 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solver/contact/blades.h"
+
+#include "math/archive.h"
+#include "model/scene/tool_kinds.h"
+
+namespace viscera {
+
+Blades::Cut::Cut(const Model& model, size_t body) : tissue(std::make_unique<RestTissue>(model, body)) {
+  for (uint32_t s = 0; s < layout::kMaxStyluses; ++s) edges.emplace_back(*tissue, toughnessOf(model.bodies[body]));
+}
+
+Blades::Blades(const Model& model) {
+  for (size_t b = 0; b < model.bodies.size(); ++b) cuts_.emplace_back(model, b);
+}
+
+void Blades::act(BladeTarget& target, const ToolMotions& motions, const layout::ToolMotion* substep, double dt_s) {
+  for (Cut& cut : cuts_) {
+    for (uint32_t s = 0; s < layout::kMaxStyluses; ++s) {
+      if (kindOf(motions[s].mode).does(kCuts))
+        cut.edges[s].act(target, s, substep[s], dt_s);
+      else
+        cut.edges[s].leave(target);
+    }
+  }
+}
+
+bool Blades::leave(BladeTarget& target) {
+  bool any = false;
+  for (Cut& cut : cuts_) {
+    for (BladeEdge& edge : cut.edges) any |= edge.leave(target);
+  }
+  return any;
+}
+
+void Blades::reset() {
+  for (Cut& cut : cuts_) {
+    cut.tissue->reset();
+    for (BladeEdge& edge : cut.edges) edge.reset();
+  }
+}
+
+BladeWork Blades::done(uint32_t stylus) const {
+  BladeWork out;
+  for (const Cut& cut : cuts_) {
+    const BladeWork& one = cut.edges[stylus].done();
+    out.area_m2 += one.area_m2;
+    out.work_j += one.work_j;
+    out.parting_j += one.parting_j;
+    out.limit_n += one.limit_n;
+  }
+  return out;
+}
+
+void Blades::persist(Archive& archive) {
+  archive.section("blades");
+  for (Cut& cut : cuts_) {
+    cut.tissue->persist(archive);
+    for (BladeEdge& edge : cut.edges) edge.persist(archive);
+  }
+}
+
+}  // namespace viscera
