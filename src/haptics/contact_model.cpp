@@ -22,6 +22,8 @@ constexpr double kRemembered_s = 0.3;
 /// What is learnt stays within these shares of what the tissue's constants say: a thin layer on bone is stiffer than a
 /// half space, a flap is softer.
 constexpr double kSoftest = 0.3, kStiffest = 6;
+/// Of a blade's limit: a force above that says nothing of a stiffness, as the edge goes on.
+constexpr double kYields = 0.9;
 
 Vector3d directionOf(const Vector3d& v) {
   const double length = v.norm();
@@ -60,6 +62,7 @@ Matrix3d ContactModel::learnt(const TickContact& contact, const Vector3d& at_m) 
     if (contact.kind == Kind::kHolds) return first * Matrix3d::Identity();
     return first * normal * normal.transpose();
   }
+  if (contact.reaction.force_n.norm() > kYields * contact.limit_n) return now_.stiffness;
   const Vector3d dx = at_m - now_.at_m, miss = now_.force_n - contact.reaction.force_n - now_.stiffness * dx;
   const double dx2 = dx.squaredNorm();
   Matrix3d k = now_.stiffness;
@@ -84,6 +87,7 @@ void ContactModel::put(const TickContact& contact, double over_s, double now_s) 
     next.force_n = contact.reaction.force_n;
     next.torque_nm = contact.reaction.torque_nm;
     next.normal = directionOf(next.force_n);
+    next.limit_n = contact.limit_n;
     next.stiffness = learnt(contact, next.at_m);
     touched_m_ = next.at_m;
     touched_s_ = now_s;
@@ -133,6 +137,10 @@ ContactModel::Affine ContactModel::mixed(double now_s) const {
   out.torque_nm = (1 - w) * before_.torque_nm + w * now_.torque_nm;
   out.stiffness = (1 - w) * before_.stiffness + w * now_.stiffness;
   out.normal = directionOf((1 - w) * before_.normal + w * now_.normal);
+  const bool both = std::isfinite(before_.limit_n) && std::isfinite(now_.limit_n);
+  out.limit_n = both                       ? (1 - w) * before_.limit_n + w * now_.limit_n
+                : now_.kind == Kind::kFree ? before_.limit_n
+                                           : now_.limit_n;
   return out;
 }
 
@@ -150,6 +158,8 @@ ContactModel::Force ContactModel::at(const Vector3d& tip_m, double now_s) const 
   const Vector3d across = out.force_n - pushed * model.normal;
   const double size = across.norm();
   if (size > pushed) out.force_n = pushed * (model.normal + across / size);
+  const double all = out.force_n.norm();
+  if (all > model.limit_n) out.force_n *= model.limit_n / all;
   const double push_at_tick = model.normal.dot(model.force_n);
   if (push_at_tick > 0) out.torque_nm *= std::min(pushed / push_at_tick, 1.0);
   return out;

@@ -56,7 +56,7 @@ Session::Session(const Scene& scene, gpu::Context* context, const Progress& prog
   std::string integrator;
   if (progress) progress("start the solver", 0);
   solver_ = makeSolver(*model_, scene_, context, options.threads, &integrator);
-  backend_note_ = viscera::backendNote(scene_.solver, context, *solver_, integrator);
+  backend_note_ = viscera::backendNote(scene_, context, *solver_, integrator);
   if (progress) progress("prepare pictures", 0);
   view_ = makeView(*solver_, *model_, scene_, context);
   lookAtObstacles();
@@ -249,6 +249,9 @@ TickContact Session::contactOf(size_t stylus, const Reaction& raw) const {
   if (!acts || stats_.touched[stylus] + stats_.grabbed[stylus] == 0) return out;
   out.kind = kindOf(motion.mode).does(kHolds) ? TickContact::Kind::kHolds : TickContact::Kind::kPushes;
   out.reaction = raw;
+  const double limit_n =
+      kindOf(motion.mode).does(kCuts) ? solver_->bladeWork(static_cast<uint32_t>(stylus)).limit_n : 0;
+  if (limit_n > 0) out.limit_n = std::max(limit_n, raw.force_n.norm());
   return out;
 }
 

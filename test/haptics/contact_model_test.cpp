@@ -6,6 +6,9 @@
 
 #include <Eigen/Eigenvalues>
 
+#include <algorithm>
+#include <cmath>
+
 namespace viscera {
 namespace {
 
@@ -128,6 +131,35 @@ TEST(ContactModel, GoesToNothingWhenItIsForgotten) {
   model.forget(kTick_s, now_s);
   EXPECT_GT(model.at({0, 0, -0.004}, now_s).force_n.z(), 1);
   EXPECT_EQ(model.at({0, 0, -0.004}, now_s + kTick_s).force_n, Vector3d(0, 0, 0));
+}
+
+/// A blade that is pressed into tissue, which parts at a force, and is drawn back.
+TEST(ContactModel, ABladesForceIsLevelWhereTheTissuePartsAndFallsWhenItGoesBack) {
+  constexpr double kLimit_n = 1;
+  ContactModel model{TissueConstants{}};
+  double now_s = 0, reached_m = 0;
+  for (int i = 0; i < 20; ++i) {  // 0.5 mm a tick: stuck for seven ticks
+    const double from_m = -5e-4 * i, to_m = -5e-4 * (i + 1);
+    TickContact contact = onWall(from_m, to_m);
+    contact.limit_n = kLimit_n;
+    contact.reaction.force_n.z() = std::min(contact.reaction.force_n.z(), kLimit_n);
+    model.put(contact, kTick_s, now_s += kTick_s);
+    reached_m = 0.5 * (from_m + to_m);
+  }
+  now_s += kTick_s;
+  const double ahead_n = model.at({0, 0, reached_m - 1e-3}, now_s).force_n.z();
+  EXPECT_NEAR(ahead_n, kLimit_n, 1e-9);
+  const double behind_n = model.at({0, 0, reached_m + 1e-3}, now_s).force_n.z();
+  EXPECT_NEAR(behind_n, kLimit_n - 1e-3 * kStiff_n_per_m, 0.1 * kLimit_n);
+  EXPECT_EQ(model.at({0, 0, reached_m + 0.01}, now_s).force_n.z(), 0);
+  // In and out again between two ticks: nothing is gained.
+  double work_j = 0, before_m = reached_m;
+  for (int i = 1; i <= 400; ++i) {
+    const double z_m = reached_m - 2e-3 * std::sin(2 * 3.14159265358979 * i / 400);
+    work_j += model.at({0, 0, 0.5 * (z_m + before_m)}, now_s).force_n.z() * (z_m - before_m);
+    before_m = z_m;
+  }
+  EXPECT_LT(work_j, 1e-6);
 }
 
 }  // namespace

@@ -49,5 +49,22 @@ TEST(Contacts, BeginAgainWithAResetAnotherHandAndAnotherMode) {
   EXPECT_TRUE(session.step(leftAt({0, 0, 0.03}), {}).contacts[0].anew);
 }
 
+TEST(Contacts, OfBladesThatTissueResistsHaveTheForceAtWhichItParts) {
+  constexpr double kToughness_j_per_m2 = 50, kBlade_m = 0.02, kShare = 0.1;
+  Scene resists = scene();
+  resists.bodies[0].material.cut.toughness_j_per_m2 = kToughness_j_per_m2;
+  resists.styluses[0].idle = ToolMode::kCut;
+  resists.styluses[0].cut.blade_length_m = kBlade_m;
+  Session session(resists);
+  Frame frame;
+  for (int tick = 0; tick < 35; ++tick) frame = session.step(leftAt({-0.03 + 0.001 * tick, 0.001, -0.005}), {});
+  const double force_n = kToughness_j_per_m2 * kBlade_m;
+  EXPECT_NEAR(frame.reactions[0].force_n.x(), -force_n, kShare * force_n);
+  EXPECT_EQ(frame.contacts[0].kind, TickContact::Kind::kPushes);
+  EXPECT_NEAR(frame.contacts[0].limit_n, force_n, kShare * force_n);
+  EXPECT_GT(frame.stats.springs_cut, 0u);
+  EXPECT_GT(session.solver().bladeWork(0).area_m2, 1e-4);
+}
+
 }  // namespace
 }  // namespace viscera

@@ -4,6 +4,8 @@
 
 #include <Eigen/Core>
 
+#include <limits>
+
 #include "viscera/math/types.h"
 #include "viscera/tools/tick_contact.h"
 
@@ -24,7 +26,8 @@ struct TissueConstants {
 ///
 /// which a tick renews and which may be asked at any rate. A probe is never pulled: F . n < 0 gives nothing. From one
 /// tick's F to the next one's the answer goes over evenly, both taken at the place that is asked for, so it has no
-/// jumps. No memory is allocated.
+/// jumps. A blade's force ends at TickContact::limit_n: it is stiff while the edge is stuck, level while it cuts, and
+/// falls as the hand goes back. No memory is allocated.
 class ContactModel {
  public:
   /// Of an answer.
@@ -59,6 +62,7 @@ class ContactModel {
     Vector3d at_m = Vector3d::Zero(), force_n = Vector3d::Zero(), normal = Vector3d::Zero();
     Vector3d torque_nm = Vector3d::Zero();
     Matrix3d stiffness = Matrix3d::Zero();
+    double limit_n = std::numeric_limits<double>::infinity();
   };
   Affine mixed(double now_s) const;
   double stiffnessOf(double young_modulus_pa, const TickContact& contact) const;

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <limits>
+
 #include "viscera/math/types.h"
 #include "viscera/tools/force_limiter.h"
 
@@ -15,6 +17,8 @@ struct TickContact {
     kHolds    ///< a grip: pushed and pulled
   };
   Kind kind = Kind::kFree;
+  /// A blade in tissue that resists it: where this force is reached the edge goes on and the force stays [N].
+  double limit_n = std::numeric_limits<double>::infinity();
   bool anew = false;  ///< what ticks before it found holds no more: a reset, a recovery, another hand or another mode
   Vector3d from_m = Vector3d::Zero(), to_m = Vector3d::Zero();  ///< the tip's way in the tick, tissue frame
   Reaction reaction;                                            ///< mean over the tick
