@@ -7,6 +7,7 @@
 #include "bench/gw/gw_suite.h"
 #include "bench/harness/specimens/backends.h"
 #include "bench/suites/accuracy/accuracy_suite.h"
+#include "bench/suites/blade/blade_suite.h"
 #include "bench/suites/egve/egve_suite.h"
 #include "bench/suites/gpu/gpu_suite.h"
 #include "bench/suites/material/material_suite.h"
@@ -45,6 +46,8 @@ const std::vector<Suite>& suites() {
       {"egve", "what do the mappings of the skin cost, and how far off are they (EGVE 3.4)?", run<egveSuite>, true},
       {"cut", "pictures per second by length of an incision (VR05 figure 11), rate by share of springs cut",
        run<cutSuite>},
+      {"blade", "force and work of blades that tissue resists, by spacing, stiffness, angle, speed and slicing",
+       run<bladeSuite>, false, true},
       {"haptics", "simulated devices against tissue: what is felt, limit cycles, energy, by mass, delay and stiffness",
        run<hapticsSuite>},
       {"latency", "from a pose to its force and its picture; how even ticks are", run<latencySuite>},

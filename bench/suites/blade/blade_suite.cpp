@@ -1,0 +1,158 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bench/suites/blade/blade_suite.h"
+
+#include <cmath>
+
+#include "bench/suites/blade/blade_trial.h"
+
+namespace viscera::bench {
+
+namespace {
+
+constexpr double kForce = 0.05;    // of the force by the law
+constexpr double kRipple = 0.1;    // of J w
+constexpr double kLeastDet = 0.1;  // of a whole cell: nothing folds
+constexpr double kWork = 0.06;     // of the work: what damping takes is not counted
+constexpr double kCost = 0.1;      // of a tick
+constexpr double kKilo = 1e3, kMilli = 1e-3;
+
+Table forceTable(const std::string& title) {
+  return Table(title, {{"h", "mm"},
+                       {"E", "kPa"},
+                       {"J", "J/m2"},
+                       {"J/(E h)", "", 3},
+                       {"angle", "deg"},
+                       {"speed", "m/s"},
+                       {"xi", ""},
+                       {"force / law"},
+                       {"force / J w", "", 3},
+                       {"along / J w", "", 3},
+                       {"ripple / J w", "", 2},
+                       {"onset", "mm", 3},
+                       {"parting / work"},
+                       {"stored / work", "", 2},
+                       {"least det F", "", 3}});
+}
+
+/// J w / (1 + xi^2), of the J that the lattice carries.
+double lawOf(const BladeTrial& trial) {
+  return 1 / (1 + trial.slicing * trial.slicing);
+}
+
+std::string nameOf(const BladeTrial& trial) {
+  const auto text = [](double value) { return Cell(value).text(3); };
+  return "h " + text(trial.spacing_m / kMilli) + " mm, E " + text(trial.young_modulus_pa / kKilo) + " kPa, " +
+         text(trial.angle_deg) + " deg, " + text(trial.speed_m_per_s) + " m/s, xi " + text(trial.slicing);
+}
+
+void addRow(const BladeTrial& trial, Table& table, Report& report) {
+  report.stage(nameOf(trial));
+  const BladeResult r = cutThrough(trial);
+  const double unit = trial.young_modulus_pa * trial.spacing_m, over_law = r.force / lawOf(trial);
+  table.add({trial.spacing_m / kMilli, trial.young_modulus_pa / kKilo, trial.toughness_j_per_m2,
+             trial.toughness_j_per_m2 / unit, trial.angle_deg, trial.speed_m_per_s, trial.slicing, over_law, r.asked,
+             r.along, r.ripple * r.force, r.onset_m / kMilli, r.cut_share, r.stored_share, r.worst_det});
+  report.checkAtMost("force off the law, " + nameOf(trial), std::abs(over_law - 1), kForce);
+  report.checkAtMost("ripple, " + nameOf(trial), r.ripple * r.force, kRipple);
+  report.checkAtLeast("least det F, " + nameOf(trial), r.worst_det, kLeastDet);
+  report.checkAtMost("work not accounted for, " + nameOf(trial), std::abs(1 - r.cut_share - r.stored_share), kWork);
+  report.checkAtMost("trips, " + nameOf(trial), r.trips, 0);
+}
+
+void spacings(Report& report) {
+  Table table = forceTable("Liver's toughness by spacing and Young's modulus");
+  for (const double spacing_m : {0.004, 0.002, 0.001}) {
+    if (report.isShort() && spacing_m < 0.004) continue;
+    for (const double young_modulus_pa : {100e3, 50e3, 20e3, 10e3, 5e3, 2e3}) {
+      BladeTrial trial;
+      trial.spacing_m = spacing_m;
+      trial.young_modulus_pa = young_modulus_pa;
+      trial.toughness_j_per_m2 = 200;
+      if (spacing_m < 0.002) {
+        trial.length_m = 0.04;
+        trial.width_m = 0.032;
+        trial.stroke_m = 0.03;
+      }
+      addRow(trial, table, report);
+    }
+  }
+  report.add(table, "spacings");
+}
+
+void angles(Report& report) {
+  Table table = forceTable("By the angle between the cut and the lattice");
+  for (const double toughness_j_per_m2 : {100.0, 200.0}) {
+    for (const double angle_deg : {0.0, 10.0, 20.0, 30.0, 45.0}) {
+      BladeTrial trial;
+      trial.spacing_m = report.isShort() ? 0.004 : 0.002;
+      trial.young_modulus_pa = report.isShort() ? 20e3 : 40e3;
+      trial.toughness_j_per_m2 = toughness_j_per_m2;
+      trial.angle_deg = angle_deg;
+      trial.beside = 0.31;
+      addRow(trial, table, report);
+    }
+  }
+  report.add(table, "angles");
+}
+
+void speeds(Report& report) {
+  Table table = forceTable("By speed");
+  for (const double speed_m_per_s : {0.001, 0.01, 0.1, 0.3, 1.0}) {
+    if (report.isShort() && speed_m_per_s < 0.01) continue;
+    BladeTrial trial;
+    trial.spacing_m = 0.004;
+    trial.toughness_j_per_m2 = 100;
+    trial.speed_m_per_s = speed_m_per_s;
+    addRow(trial, table, report);
+  }
+  report.add(table, "speeds");
+}
+
+void slices(Report& report) {
+  Table table = forceTable("By slicing: the edge's way along itself over that across");
+  for (const double spacing_m : {0.004, 0.002}) {
+    if (report.isShort() && spacing_m < 0.004) continue;
+    for (const double slicing : {0.0, 0.5, 1.0, 2.0}) {
+      BladeTrial trial;
+      trial.spacing_m = spacing_m;
+      trial.young_modulus_pa = 80 / spacing_m;
+      trial.toughness_j_per_m2 = 100;
+      trial.slicing = slicing;
+      addRow(trial, table, report);
+    }
+  }
+  report.add(table, "slicing");
+}
+
+/// Beside the same blade where nothing resists it.
+void cost(Report& report) {
+  Table table("A substep while a blade cuts",
+              {{"nodes"}, {"J/(E h)", "", 3}, {"resisted", "us"}, {"not", "us"}, {"more", "", 2}});
+  for (const double toughness_j_per_m2 : {40.0, 100.0, 200.0}) {
+    BladeTrial trial;
+    trial.young_modulus_pa = 40e3;
+    trial.toughness_j_per_m2 = toughness_j_per_m2;
+    trial.length_m = trial.width_m = 0.08;
+    trial.thickness_m = 0.024;
+    trial.stroke_m = 0.03;
+    report.stage("cost at J " + Cell(toughness_j_per_m2).text(3));
+    const BladeResult resisted = cutThrough(trial);
+    trial.toughness_j_per_m2 = 0;
+    const BladeResult free = cutThrough(trial);
+    const double more = resisted.substep_us / free.substep_us - 1;
+    table.add(
+        {static_cast<double>(resisted.nodes), toughness_j_per_m2 / 80, resisted.substep_us, free.substep_us, more});
+    report.checkAtMost("cost at J " + Cell(toughness_j_per_m2).text(3), more, kCost);
+  }
+  report.add(table, "cost");
+}
+
+}  // namespace
+
+void bladeSuite(Report& report) {
+  measureParts(report,
+               {{"spacings", spacings}, {"angles", angles}, {"speeds", speeds}, {"slicing", slices}, {"cost", cost}});
+}
+
+}  // namespace viscera::bench

@@ -1,0 +1,12 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "bench/harness/report.h"
+
+namespace viscera::bench {
+
+/// Forces and work of blades that the tissue resists, beside the law of docs/cutting.md.
+void bladeSuite(Report& report);
+
+}  // namespace viscera::bench

@@ -1,0 +1,34 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+
+#include "viscera/model/scene/scene.h"
+
+namespace viscera::bench {
+
+/// A blade that goes through a held block: lengths in m, angles in degrees.
+struct BladeTrial {
+  double spacing_m = 0.002, young_modulus_pa = 20e3, toughness_j_per_m2 = 50;
+  double speed_m_per_s = 0.1, angle_deg = 0, slicing = 0, beside = 0;  ///< beside: of the spacing, off a row of nodes
+  double length_m = 0.06, width_m = 0.048, thickness_m = 0.012, stroke_m = 0.045;
+  Cells cells = Cells::kMoments;
+};
+
+struct BladeResult {
+  double force = 0, ripple = 0;  ///< over J_eff w in the last part of the stroke; peak to peak, over the mean
+  double asked = 0;              ///< the force over J w
+  double along = 0;              ///< force along the edge, over J_eff w
+  double onset_m = 0;            ///< of the way, where cutting begins
+  double area_m2 = 0;            ///< parted
+  double work_j = 0;
+  double cut_share = 0, stored_share = 0;  ///< of the work: parting; elastic and kinetic energy at the end
+  double worst_det = 1;                    ///< least volume of a whole cell, over that at rest
+  double trips = 0, stretch = 0;
+  double substep_us = 0;  ///< while the blade cuts
+  size_t nodes = 0;
+};
+BladeResult cutThrough(const BladeTrial& trial);
+
+}  // namespace viscera::bench

@@ -1,0 +1,72 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+// The law of docs/cutting.md in a block; `viscera bench blade` has more of it.
+#include "bench/suites/blade/blade_trial.h"
+
+#include <gtest/gtest.h>
+
+namespace viscera::bench {
+namespace {
+
+constexpr double kForce = 0.05;  // of J w: the limit
+constexpr double kRipple = 0.1;  // of J w
+constexpr double kWork = 0.06;   // of the work: damping is not counted, up to 4 % was measured
+constexpr double kLeastDet = 0.1;
+
+BladeTrial trialOf(double spacing_m, double young_modulus_pa, double toughness_j_per_m2) {
+  BladeTrial trial;
+  trial.spacing_m = spacing_m;
+  trial.young_modulus_pa = young_modulus_pa;
+  trial.toughness_j_per_m2 = toughness_j_per_m2;
+  return trial;
+}
+
+void expectLaw(const BladeTrial& trial) {
+  const BladeResult result = cutThrough(trial);
+  const double push = 1 / (1 + trial.slicing * trial.slicing);
+  EXPECT_NEAR(result.force / push, 1, kForce);
+  EXPECT_NEAR(result.along, trial.slicing * push, kForce);
+  EXPECT_LT(result.ripple * result.force, kRipple);
+  EXPECT_GT(result.worst_det, kLeastDet);
+  EXPECT_EQ(result.trips, 0);
+  if (trial.slicing > 0) return;
+  EXPECT_NEAR(result.cut_share + result.stored_share, 1, kWork);
+}
+
+TEST(BladeSuite, WorkIsToughnessTimesAreaWhateverTheSpacing) {
+  expectLaw(trialOf(0.004, 20e3, 100));
+  expectLaw(trialOf(0.003, 20e3, 100));
+}
+
+TEST(BladeSuite, SoDoCellsOfSpringsAlone) {
+  BladeTrial trial = trialOf(0.004, 50e3, 200);
+  trial.cells = Cells::kSprings;
+  expectLaw(trial);
+}
+
+TEST(BladeSuite, WorkDoesNotDependOnTheDirection) {
+  BladeTrial trial = trialOf(0.004, 20e3, 200);  // J / (E h) = 2.5, as much as is carried
+  for (const double angle_deg : {20.0, 45.0}) {
+    trial.angle_deg = angle_deg;
+    expectLaw(trial);
+  }
+}
+
+TEST(BladeSuite, DrawnBladesNeedLessPush) {
+  BladeTrial trial = trialOf(0.004, 20e3, 100);
+  for (const double slicing : {0.5, 1.0, 2.0}) {
+    trial.slicing = slicing;
+    expectLaw(trial);
+  }
+}
+
+TEST(BladeSuite, OfToughnessThatTheLatticeCannotCarryThereIsAsMuchAsItCan) {
+  const BladeTrial trial = trialOf(0.004, 5e3, 200);
+  const BladeResult result = cutThrough(trial);
+  EXPECT_NEAR(result.force, 1, kForce);
+  EXPECT_NEAR(result.asked, 0.25, 0.25 * kForce);
+  EXPECT_GT(result.worst_det, kLeastDet);
+}
+
+}  // namespace
+}  // namespace viscera::bench
