@@ -137,8 +137,7 @@ void BladeEdge::findMobilities() {
   given.assign(near_.size(), 0);
   for (size_t i = 0; i < n; ++i) {
     const BladeKernel& from = kernels_[i];
-    for (size_t a = 0; a < from.nodes.size(); ++a)
-      given[from.places[a]] = static_cast<double>(from.weights[a]) * tissue_.nodes()[from.nodes[a]].inverse_mass;
+    for (size_t a = 0; a < from.nodes.size(); ++a) given[from.places[a]] = from.mobilities[a];
     for (size_t j = i; j < n && (fronts_[j].centre - fronts_[i].centre).norm() < 2 * kernel_m_; ++j) {
       const BladeKernel& to = kernels_[j];
       double sum = 0;
@@ -154,8 +153,9 @@ void BladeEdge::look(double dt_s) {
   for (size_t i = 0; i < fronts_.size(); ++i) {
     Push& push = pushes_[i];
     if (kernels_[i].is_new) fronts_[i].to_rest = kernels_[i].toRest(u_);
-    push.velocity = kernels_[i].mean(v_);
-    push.gap = fronts_[i].edge - (fronts_[i].at + kernels_[i].mean(u_) - dt_s * push.velocity);
+    Vector3d u_m;
+    kernels_[i].means(u_, v_, u_m, push.velocity);
+    push.gap = fronts_[i].edge - (fronts_[i].at + u_m - dt_s * push.velocity);
     fronts_[i].edge += dt_s * push.edge_velocity;
   }
 }
@@ -240,10 +240,7 @@ void BladeEdge::give(BladeTarget& target, uint32_t stylus, double dt_s) {
     const BladeKernel& kernel = kernels_[i];
     const Vector3f impulse = pushes_[i].impulse.cast<float>();
     if (impulse.squaredNorm() == 0) continue;
-    for (size_t a = 0; a < kernel.nodes.size(); ++a) {
-      const float mobility = kernel.weights[a] * tissue_.nodes()[kernel.nodes[a]].inverse_mass;
-      dv_[kernel.places[a]] += mobility * impulse;
-    }
+    for (size_t a = 0; a < kernel.nodes.size(); ++a) dv_[kernel.places[a]] += kernel.mobilities[a] * impulse;
   }
   target.pushNodes(stylus, static_cast<float>(dt_s), slots_, dv_);
 }

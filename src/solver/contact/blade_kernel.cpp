@@ -15,6 +15,7 @@ constexpr double kFolded = 0.1;  // determinant of F below which a front goes as
 void BladeKernel::make(const RestTissue& tissue, const Vector3d& centre_m, double radius_m) {
   nodes.clear();
   weights.clear();
+  mobilities.clear();
   slopes.clear();
   lean.setZero();
   is_new = true;
@@ -42,15 +43,21 @@ void BladeKernel::make(const RestTissue& tissue, const Vector3d& centre_m, doubl
   lean /= sum;
   for (size_t a = 0; a < nodes.size(); ++a) {
     weights[a] = static_cast<float>(weights[a] / sum);
+    mobilities.push_back(weights[a] * tissue.nodes()[nodes[a]].inverse_mass);
     const Vector3d slope = (slopes[a].cast<double>() - weights[a] * slope_sum) / sum;
     slopes[a] = slope.cast<float>();
   }
 }
 
-Vector3d BladeKernel::mean(const std::vector<Vector3f>& values) const {
-  Vector3f sum = Vector3f::Zero();
-  for (size_t a = 0; a < nodes.size(); ++a) sum += weights[a] * values[places[a]];
-  return sum.cast<double>();
+void BladeKernel::means(const std::vector<Vector3f>& a, const std::vector<Vector3f>& b, Vector3d& mean_a,
+                        Vector3d& mean_b) const {
+  Vector3f sum_a = Vector3f::Zero(), sum_b = Vector3f::Zero();
+  for (size_t i = 0; i < nodes.size(); ++i) {
+    sum_a += weights[i] * a[places[i]];
+    sum_b += weights[i] * b[places[i]];
+  }
+  mean_a = sum_a.cast<double>();
+  mean_b = sum_b.cast<double>();
 }
 
 Eigen::Matrix3d BladeKernel::toRest(const std::vector<Vector3f>& u_m) {
