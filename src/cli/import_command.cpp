@@ -230,6 +230,11 @@ std::vector<Organ> organsOf(const ReadScan& read, const ImportOptions& options, 
   for (Organ& organ : organs) {
     const double nodes = std::max(kLeastNodes, kNodes * organ.volume_m3 / largest_m3);
     organ.spacing_m = options.spacing_m > 0 ? options.spacing_m : std::cbrt(organ.volume_m3 / nodes);
+    const double voxel_m = map.frame.spacing_m().maxCoeff();
+    if (organ.spacing_m < voxel_m)
+      notes.push_back(organ.name + ": a spacing of " + std::to_string(organ.spacing_m) +
+                      " m is finer than its voxels, of up to " + std::to_string(voxel_m) +
+                      " m: there is no more in the scan");
     if (organ.is_rigid) organ.held_m = organ.box_m.max().x() + organ.spacing_m;  // all of it
   }
   return organs;

@@ -213,7 +213,9 @@ TEST_F(ImportCommand, ALabelWhoseVoxelsOthersHaveIsLeftOut) {
 }
 
 TEST_F(ImportCommand, TakesALabelOrAWindow) {
-  EXPECT_EQ(import({scan(), "--labels", "7", "--out", folder_.file("seven")}).status, 0);
+  const Ending seven = import({scan(), "--labels", "7", "--spacing", "0.0015", "--out", folder_.file("seven")});
+  EXPECT_EQ(seven.status, 0) << seven.err;
+  EXPECT_TRUE(says(seven.out, {"0.0015", "finer than its voxels, of up to 0.002"})) << seven.out;
   EXPECT_FALSE(std::filesystem::exists(folder_.file("seven/label_3.ply")));
   const Ending window = import({scan(), "--window", "2,8", "--out", folder_.file("all")});
   EXPECT_EQ(window.status, 0) << window.err;
