@@ -329,11 +329,13 @@ TEST(SceneKeys, EveryRowTellsAllAboutItsKey) {
 }
 
 TEST(SceneKeys, KeyEndsInItsUnit) {
-  const std::map<std::string, std::string> suffixes = {{"m", "_m"},       {"Pa", "_pa"},       {"kg/m3", "_kg_per_m3"},
-                                                       {"1/s", "_per_s"}, {"m/s", "_m_per_s"}, {"m/s2", "_m_per_s2"},
-                                                       {"N", "_n"},       {"N/s", "_n_per_s"}, {"s", "_s"},
-                                                       {"deg", "_deg"},   {"Hz", "_hz"},       {"deg/s", "_deg_per_s"},
-                                                       {"MB", "_mb"},     {"N m", "_nm"},      {"N m/s", "_nm_per_s"}};
+  const std::map<std::string, std::string> suffixes = {
+      {"m", "_m"},          {"Pa", "_pa"},       {"kg/m3", "_kg_per_m3"},
+      {"1/s", "_per_s"},    {"m/s", "_m_per_s"}, {"m/s2", "_m_per_s2"},
+      {"N", "_n"},          {"N/s", "_n_per_s"}, {"s", "_s"},
+      {"deg", "_deg"},      {"Hz", "_hz"},       {"deg/s", "_deg_per_s"},
+      {"MB", "_mb"},        {"N m", "_nm"},      {"N m/s", "_nm_per_s"},
+      {"J/m2", "_j_per_m2"}};
   for (const auto& row : tableRows(sceneKeysTable())) {
     const size_t comma = row.at(2).find(", ");
     if (comma == std::string::npos) continue;
