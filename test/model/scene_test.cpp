@@ -64,7 +64,7 @@ TEST(Scene, WrongTypeIsRefusedWithFileLineKeyAndWhatIsAccepted) {
       {"bodies:\n  - name: [a]\n", {"s.yaml:2: 'bodies[0].name' is a text that is not empty; found a list of 1"}},
       {"bodies:\n  - name: ''\n", {"s.yaml:2: 'bodies[0].name' is a text that is not empty"}},
       {"bodies:\n  - source: fish\n",
-       {"s.yaml:2: 'bodies[0].source' is one of phantom, mesh, box, sheet, ball; found 'fish'"}},
+       {"s.yaml:2: 'bodies[0].source' is one of phantom, mesh, box, sheet, ball, labels; found 'fish'"}},
       {"bodies: [{}]\ncameras:\n  - overlays: lattice\n",
        {"s.yaml:3: 'cameras[0].overlays' is a list of some of lattice, springs, normals, strain, forces, wind"}},
       {"bodies: [{}]\ncameras:\n  - overlays: [latice]\n",

@@ -21,6 +21,7 @@ from turns import IDENTITY, plus, times
 
 LIMIT_S = 30
 WINDOW_S = 1.0
+SETTLE_S = 0.15
 FRONT = (0, -0.09, 0.05)  # where the hand begins, tissue frame
 WAY_M, TURN = 0.1, 0.8
 
@@ -77,6 +78,7 @@ class Operator:
                 time.sleep(0.5 * WINDOW_S / 20)
             time.sleep(0.6 * WINDOW_S)
             self.driver.at, self.driver.turned = FRONT, IDENTITY
+            time.sleep(SETTLE_S)  # poses of the way are all heard before Enter begins the next step
         elif "press and let go" in line:
             button = 1 if "first button" in self.said.rsplit("Enter, then press", 1)[-1] else 2
             for down in (True, False):
