@@ -2,9 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bench/suites/blade/blade_trial.h"
 
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
+#include <optional>
 
 #include "math/float_bits.h"
 #include "model/body/toughness.h"
@@ -19,6 +24,7 @@ constexpr double kDegree = 3.14159265358979323846 / 180;
 constexpr double kSteadyFrom = 0.7;   // of the stroke
 constexpr double kTickTravel = 0.25;  // of the spacing: ticks are short enough to see a cell go by
 constexpr double kLeastTick_hz = 60;
+constexpr double kHeld = 0.49;      // of the spacing: rows of a sheet need not end where its rectangle does
 constexpr double kClear_m = 0.001;  // before the block
 constexpr double kOver_m = 0.003;   // of the blade above and below it
 
@@ -30,13 +36,15 @@ Vector3d xyz(const layout::vec4& v) {
 Scene sceneOf(const BladeTrial& trial) {
   Scene scene;
   BodyConfig body;
-  body.source = TissueSource::kBox;
+  body.structure = trial.structure;
+  body.source = trial.structure == Structure::kSurface ? TissueSource::kSheet : TissueSource::kBox;
+  body.thickness_m = trial.thickness_m;
   body.box_size_m = {trial.length_m, trial.width_m, trial.thickness_m};
   body.spacing_m = trial.spacing_m;
   body.material.young_modulus_pa = trial.young_modulus_pa;
-  body.material.cells = trial.cells;
+  if (trial.structure == Structure::kLattice) body.material.cells = trial.cells;
   body.material.cut.toughness_j_per_m2 = trial.toughness_j_per_m2;
-  const Vector3d half = 0.5 * body.box_size_m, thin = Vector3d::Constant(0.01 * trial.spacing_m);
+  const Vector3d half = 0.5 * body.box_size_m, thin = Vector3d::Constant(kHeld * trial.spacing_m);
   for (const Vector3d& side : {Vector3d(0, 1, 0), Vector3d(0, -1, 0), Vector3d(1, 0, 0)}) {
     FixedConfig fixed;
     const Vector3d all = half + thin;
@@ -56,8 +64,32 @@ Scene sceneOf(const BladeTrial& trial) {
   return scene;
 }
 
+/// Of tetrahedra and triangles without a cut spring.
+double leastVolume(const SpringNetwork& network, const HostState& state) {
+  double least = 1;
+  const auto ratio = [&](const auto& slots) {
+    Eigen::Matrix3d rest = Eigen::Matrix3d::Identity(), now = rest;
+    for (size_t i = 0; i < slots.size(); ++i) {
+      if (state.nodes[slots[i]].lo & layout::kSeveredBit) return;
+      if (i == 0) continue;
+      const auto column = static_cast<int>(i) - 1;
+      rest.col(column) = network.positions_m[slots[i]] - network.positions_m[slots[0]];
+      now.col(column) = rest.col(column) + xyz(state.displacement_m[slots[i]]) - xyz(state.displacement_m[slots[0]]);
+    }
+    if (slots.size() == 3) now.col(2) = rest.col(2) = rest.col(0).cross(rest.col(1)).normalized();
+    least = std::min(least, now.determinant() / rest.determinant());
+  };
+  for (const std::array<uint32_t, 4>& tetrahedron : network.tetrahedra) ratio(tetrahedron);
+  for (const std::array<uint32_t, 3>& triangle : network.triangles) {
+    if (network.tetrahedra.empty()) ratio(triangle);
+  }
+  return least;
+}
+
 /// Least volume of a cell that is whole, over that at rest.
 double leastVolume(const Model& model, const HostState& state) {
+  const std::optional<SpringNetwork>& network = model.bodies[0].network;
+  if (network && !network->of_lattice) return leastVolume(*network, state);
   const Lattice& lattice = model.bodies[0].lattice;
   double least = 1;
   for (const uint32_t slot : lattice.active_slots) {
@@ -131,6 +163,7 @@ class Stroke {
     out_.ripple = (*high - *low) / out_.force;
     out_.along /= count;
     const Toughness toughness = toughnessOf(model_.bodies[0]);
+    out_.length_m = toughness.spacing_m;
     out_.asked = out_.force * toughness.carried_j_per_m2() / trial_.toughness_j_per_m2;
     const BladeWork work = solver_.bladeWork(0);
     out_.area_m2 = work.area_m2;

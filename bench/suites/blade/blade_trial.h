@@ -13,7 +13,8 @@ struct BladeTrial {
   double spacing_m = 0.002, young_modulus_pa = 20e3, toughness_j_per_m2 = 50;
   double speed_m_per_s = 0.1, angle_deg = 0, slicing = 0, beside = 0;  ///< beside: of the spacing, off a row of nodes
   double length_m = 0.06, width_m = 0.048, thickness_m = 0.012, stroke_m = 0.045;
-  Cells cells = Cells::kMoments;
+  Cells cells = Cells::kMoments;              ///< of lattices
+  Structure structure = Structure::kLattice;  ///< surface: a sheet, thickness_m thick
 };
 
 struct BladeResult {
@@ -24,7 +25,8 @@ struct BladeResult {
   double area_m2 = 0;            ///< parted
   double work_j = 0;
   double cut_share = 0, stored_share = 0;  ///< of the work: parting; elastic and kinetic energy at the end
-  double worst_det = 1;                    ///< least volume of a whole cell, over that at rest
+  double worst_det = 1;                    ///< least volume of a whole cell (tetrahedron, triangle), over that at rest
+  double length_m = 0;                     ///< h of the law, Toughness::spacing_m
   double trips = 0, stretch = 0;
   double substep_us = 0;  ///< while the blade cuts
   size_t nodes = 0;

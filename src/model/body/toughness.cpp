@@ -54,15 +54,14 @@ bool resistsBlades(const Scene& scene) {
                      [](const BodyConfig& body) { return body.material.cut.toughness_j_per_m2 > 0; });
 }
 
+bool cutsFreely(const Scene& scene) {
+  return std::any_of(scene.bodies.begin(), scene.bodies.end(),
+                     [](const BodyConfig& body) { return !(body.material.cut.toughness_j_per_m2 > 0); });
+}
+
 void requireBladesFit(const Scene& scene) {
   if (!resistsBlades(scene)) return;
   const std::string key = "bodies[].material.cut.toughness_j_per_m2 above 0 ";
-  for (const BodyConfig& body : scene.bodies) {
-    if (body.structure != Structure::kLattice)
-      throw SceneError(key + "needs structure lattice, which body '" + body.name + "' has not");
-    if (!(body.material.cut.toughness_j_per_m2 > 0))
-      throw SceneError(key + "is for all bodies or for none: body '" + body.name + "' has 0");
-  }
   if (scene.solver.integrator != Integrator::kLeapfrog)
     throw SceneError(key + "needs solver.integrator leapfrog or auto, not " + traitsOf(scene.solver.integrator).name);
   if (scene.solver.backend == Backend::kGpu) throw SceneError(key + "needs solver.backend cpu or auto, not gpu");

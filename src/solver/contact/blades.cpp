@@ -7,16 +7,19 @@
 
 namespace viscera {
 
-Blades::Cut::Cut(const Model& model, size_t body) : tissue(std::make_unique<RestTissue>(model, body)) {
+Blades::Cut::Cut(const Model& model, size_t body) : body(body), tissue(std::make_unique<RestTissue>(model, body)) {
   for (uint32_t s = 0; s < layout::kMaxStyluses; ++s) edges.emplace_back(*tissue, toughnessOf(model.bodies[body]));
 }
 
 Blades::Blades(const Model& model) {
-  for (size_t b = 0; b < model.bodies.size(); ++b) cuts_.emplace_back(model, b);
+  for (size_t b = 0; b < model.bodies.size(); ++b) {
+    if (model.bodies[b].material.cut.toughness_j_per_m2 > 0) cuts_.emplace_back(model, b);
+  }
 }
 
 void Blades::act(BladeTarget& target, const ToolMotions& motions, const layout::ToolMotion* substep, double dt_s) {
   for (Cut& cut : cuts_) {
+    target.selectBody(cut.body);
     for (uint32_t s = 0; s < layout::kMaxStyluses; ++s) {
       if (kindOf(motions[s].mode).does(kCuts))
         cut.edges[s].act(target, s, substep[s], dt_s);
@@ -29,6 +32,7 @@ void Blades::act(BladeTarget& target, const ToolMotions& motions, const layout::
 bool Blades::leave(BladeTarget& target) {
   bool any = false;
   for (Cut& cut : cuts_) {
+    target.selectBody(cut.body);
     for (BladeEdge& edge : cut.edges) any |= edge.leave(target);
   }
   return any;

@@ -26,10 +26,11 @@ class Blades {
  private:
   struct Cut {
     explicit Cut(const Model& model, size_t body);
+    size_t body;
     std::unique_ptr<RestTissue> tissue;
     std::vector<BladeEdge> edges;  ///< [kMaxStyluses]
   };
-  std::vector<Cut> cuts_;  ///< [bodies]
+  std::vector<Cut> cuts_;  ///< of bodies with a toughness
 };
 
 }  // namespace viscera

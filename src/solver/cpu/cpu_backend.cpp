@@ -8,6 +8,7 @@
 #include "gpu/buffer.h"
 #include "math/archive.h"
 #include "math/float_bits.h"
+#include "model/body/toughness.h"
 #include "solver/contact/tool_boxes.h"
 #include "solver/cpu/steps/network.h"
 #include "solver/cpu/store/lattice_arrays.h"
@@ -60,6 +61,9 @@ CpuBackend::CpuBackend(const Model& model, const Scene& scene, const TickPlan& p
       {pool_, sleep_, network_.get(), features_, kernels_, pairs_.get(), plan.tick_s / plan.substeps.calm, &model});
   work_->stats.resize(bricks());
   work_->changed.reserve(bricks());
+  if (resistsBlades(scene)) {
+    for (const Body& body : model.bodies) resists_.push_back(body.material.cut.toughness_j_per_m2 > 0);
+  }
   if (plan.tools) {
     cut_.emplace(lattice_, pool_, kernels_);
     motions_.reserve(static_cast<size_t>(plan.mostSubsteps()) * layout::kMaxStyluses);
@@ -132,7 +136,7 @@ void CpuBackend::selectMotions(size_t substep) {
 }
 
 void CpuBackend::cut(uint32_t stylus, bool particles) {
-  cutWith(motion_[stylus], particles);
+  cutWith(motion_[stylus], particles, particles || resists_.empty() ? nullptr : resists_.data());
 }
 
 void CpuBackend::readNodes(const std::vector<uint32_t>& slots, std::vector<Vector3f>& u_m,
@@ -170,14 +174,17 @@ void CpuBackend::cutAtRest(const layout::ToolMotion& sweep) {
     lattice_.state.velocity[lattice_.state.current].swap(still_[1]);
   };
   for (AlignedVector<float>& still : still_) still.resize(3 * lattice_.slotCount());
+  others_.assign(resists_.size(), 1);
+  others_[selected_body_] = 0;
   exchange();
-  cutWith(sweep, false);
+  cutWith(sweep, false, others_.data());
   exchange();
 }
 
-void CpuBackend::cutWith(const layout::ToolMotion& motion, bool particles) {
-  uint32_t springs = cut_->run(lattice_, motion, particles);
-  if (network_) springs += network_->cut(lattice_, motion, particles);
+/// @param spared  as of CpuCut::run()
+void CpuBackend::cutWith(const layout::ToolMotion& motion, bool particles, const uint8_t* spared) {
+  uint32_t springs = cut_->run(lattice_, motion, particles, spared);
+  if (network_) springs += network_->cut(lattice_, motion, particles, spared);
   springs_cut_ += springs;
   if (springs == 0) return;
   stepper_->springsChanged();

@@ -51,6 +51,7 @@ class CpuBackend : public SolverBackend {
                  std::vector<Vector3f>& v_m_per_s) const override;
   void pushNodes(uint32_t stylus, float dt_s, const std::vector<uint32_t>& slots,
                  const std::vector<Vector3f>& dv_m_per_s) override;
+  void selectBody(size_t body) override { selected_body_ = body; }
   void cutAtRest(const layout::ToolMotion& sweep) override;
   void advance(const Substep& step, bool recovery) override;
   void beginSurroundings(const Surroundings& /*surroundings*/) override {}
@@ -76,7 +77,7 @@ class CpuBackend : public SolverBackend {
 
  private:
   struct Work;  // what only src/solver/cpu knows: the kernels' jobs
-  void cutWith(const layout::ToolMotion& motion, bool particles);
+  void cutWith(const layout::ToolMotion& motion, bool particles, const uint8_t* spared);
   void wakeForTools(const std::vector<layout::ToolMotion>& motions);
   void changeAll();
   void noteHeld();
@@ -98,7 +99,10 @@ class CpuBackend : public SolverBackend {
   std::vector<layout::ToolMotion> motions_;  ///< of this tick
   const layout::ToolMotion* motion_ = nullptr;
   std::optional<CpuCut> cut_;
-  AlignedVector<float> still_[2];        ///< [3 * slots] 0; empty until a blade has cut at rest
+  AlignedVector<float> still_[2];  ///< [3 * slots] 0; empty until a blade has cut at rest
+  std::vector<uint8_t> resists_;   ///< [bodies] 1: blades part it by work; empty where none does
+  std::vector<uint8_t> others_;    ///< [bodies] 0: the selected one
+  size_t selected_body_ = 0;
   std::unique_ptr<CpuNetwork> network_;  ///< null where no body has explicit connections
   layout::TickStats stats_{};
   bool has_stats_ = false;

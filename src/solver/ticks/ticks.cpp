@@ -29,7 +29,7 @@ Ticks::Ticks(const Model& model, const Scene& scene, const TickPlan& plan, std::
     : model_(model),
       backend_(std::move(backend)),
       config_(scene.solver),
-      acts_(scene.styluses, plan.tick_s, resistsBlades(scene)),
+      acts_(scene.styluses, plan.tick_s, resistsBlades(scene) && !cutsFreely(scene)),
       gravity_(scene.environment.gravity_m_per_s2.cast<float>()),
       tick_s_(plan.tick_s),
       dt_safe_s_(plan.dt_safe_s),

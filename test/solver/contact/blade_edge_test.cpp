@@ -153,13 +153,6 @@ TEST(BladeEdge, WhatItDoesNotGoWithIsRefused) {
   EXPECT_NE(refused([](Scene& s) { s.solver.integrator = Integrator::kPd; }).find("solver.integrator leapfrog"),
             std::string::npos);
   EXPECT_NE(refused([](Scene& s) { s.solver.backend = Backend::kGpu; }).find("solver.backend cpu"), std::string::npos);
-  EXPECT_NE(refused([](Scene& s) { s.bodies[0].structure = Structure::kExplicit; }).find("structure lattice"),
-            std::string::npos);
-  EXPECT_NE(refused([](Scene& s) {
-              s.bodies.push_back(s.bodies[0]);
-              s.bodies[1].material.cut = {};
-            }).find("for all bodies or for none"),
-            std::string::npos);
 }
 
 }  // namespace

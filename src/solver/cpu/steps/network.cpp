@@ -348,9 +348,11 @@ void CpuNetwork::measure(CpuLattice& lattice, layout::TickStats& stats) const {
   }
 }
 
-uint32_t CpuNetwork::cut(CpuLattice& lattice, const layout::ToolMotion& motion, bool particles) {
+uint32_t CpuNetwork::cut(CpuLattice& lattice, const layout::ToolMotion& motion, bool particles, const uint8_t* spared) {
   near_.find(lattice, slots_, motion);
-  const auto may_cross = [this](uint32_t a, uint32_t b) { return near_.mayCross(a, b); };
+  const auto may_cross = [&](uint32_t a, uint32_t b) {
+    return near_.mayCross(a, b) && !(spared && spared[lattice.store.nodes[a].hi >> layout::kBodyShift]);
+  };
   const auto may_erase = [this](uint32_t a, uint32_t b) { return near_.mayErase(a, b); };
   const uint32_t springs = particles ? cutWith<glsl::CutLinksOfParticles>(lattice, motion, may_erase)
                                      : cutWith<glsl::CutLinks>(lattice, motion, may_cross);

@@ -37,8 +37,8 @@ class CpuNetwork {
   const std::vector<uint32_t>& touched(CpuLattice& lattice, const std::vector<NodeReach>& reaches);
   /// Adds what they measure to what was measured of the others: energies, maxima and counts.
   void measure(CpuLattice& lattice, layout::TickStats& stats) const;
-  /// Erases the springs that the swept blade crosses. @return how many
-  uint32_t cut(CpuLattice& lattice, const layout::ToolMotion& motion, bool particles);
+  /// Erases the springs that the swept blade crosses. @param spared  as of CpuCut::run()   @return how many
+  uint32_t cut(CpuLattice& lattice, const layout::ToolMotion& motion, bool particles, const uint8_t* spared = nullptr);
   /// The state was written from outside: sums of rounding errors start at 0, springs may have changed.
   void restart(const CpuLattice& lattice);
   /// After the lattice.

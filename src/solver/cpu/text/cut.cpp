@@ -117,11 +117,13 @@ CpuCut::CpuCut(CpuLattice& lattice, const Parallel& parallel, const simd::Kernel
 
 /// Whether nodes lose springs is found side by side; then they do, one by one: they note sides that others read.
 template <class Kernel>
-uint32_t CpuCut::cutWith(CpuLattice& lattice, const layout::ToolMotion& motion) {
+uint32_t CpuCut::cutWith(CpuLattice& lattice, const layout::ToolMotion& motion, const uint8_t* spared) {
   Kernel kernel(lattice);
   kernel.tool_motions = &motion;
   kernel.near = &near_;
-  near_.keep(lattice, [&](uint32_t slot) { return kernel.loses(slot); });
+  near_.keep(lattice, [&](uint32_t slot) {
+    return spared && spared[lattice.store.nodes[slot].hi >> layout::kBodyShift] ? 0 : kernel.loses(slot);
+  });
   for (uint32_t brick : near_.bricks()) {
     if (near_.nodes(brick) == 0) continue;
     for (uint32_t i = lattice.store.first_active[brick]; i < lattice.store.first_active[brick + 1]; ++i) {
@@ -137,8 +139,8 @@ uint32_t CpuCut::cutWith(CpuLattice& lattice, const layout::ToolMotion& motion) 
 }
 
 template <class Springs, class Particles>
-uint32_t CpuCut::cutAll(CpuLattice& lattice, const layout::ToolMotion& motion, bool particles) {
-  return particles ? cutWith<Particles>(lattice, motion) : cutWith<Springs>(lattice, motion);
+uint32_t CpuCut::cutAll(CpuLattice& lattice, const layout::ToolMotion& motion, bool particles, const uint8_t* spared) {
+  return particles ? cutWith<Particles>(lattice, motion, spared) : cutWith<Springs>(lattice, motion, spared);
 }
 
 /// Drops the volumes of cells that have lost a spring: they have a corner that has.
@@ -157,13 +159,13 @@ void CpuCut::tearCells(CpuLattice& lattice) const {
   }
 }
 
-uint32_t CpuCut::run(CpuLattice& lattice, const layout::ToolMotion& motion, bool particles) {
+uint32_t CpuCut::run(CpuLattice& lattice, const layout::ToolMotion& motion, bool particles, const uint8_t* spared) {
   near_.find(lattice, motion, particles);
   changed_.clear();
   const bool records = !lattice.axial_cut.empty();
   const uint32_t springs =
-      records ? cutAll<glsl::CutSprings, glsl::CutParticles>(lattice, motion, particles)
-              : cutAll<glsl::CutSpringsForgetting, glsl::CutParticlesForgetting>(lattice, motion, particles);
+      records ? cutAll<glsl::CutSprings, glsl::CutParticles>(lattice, motion, particles, spared)
+              : cutAll<glsl::CutSpringsForgetting, glsl::CutParticlesForgetting>(lattice, motion, particles, spared);
   if (!lattice.strengths.bulk.empty()) tearCells(lattice);
   return springs;
 }

@@ -31,16 +31,17 @@ class CpuCut {
   /// @param parallel  on which it looks for nodes near the blade; must outlive this
   CpuCut(CpuLattice& lattice, const Parallel& parallel, const simd::Kernels& kernels);
   /// @param particles  all springs of the nodes near the blade instead
+  /// @param spared  [bodies] 1: it keeps its springs; null: none does
   /// @return springs cut
-  uint32_t run(CpuLattice& lattice, const layout::ToolMotion& motion, bool particles);
+  uint32_t run(CpuLattice& lattice, const layout::ToolMotion& motion, bool particles, const uint8_t* spared = nullptr);
   /// Looked at in the last run.
   const std::vector<uint32_t>& bricks() const { return near_.bricks(); }
 
  private:
   template <class Kernel>
-  uint32_t cutWith(CpuLattice& lattice, const layout::ToolMotion& motion);
+  uint32_t cutWith(CpuLattice& lattice, const layout::ToolMotion& motion, const uint8_t* spared);
   template <class Springs, class Particles>
-  uint32_t cutAll(CpuLattice& lattice, const layout::ToolMotion& motion, bool particles);
+  uint32_t cutAll(CpuLattice& lattice, const layout::ToolMotion& motion, bool particles, const uint8_t* spared);
   void tearCells(CpuLattice& lattice) const;
 
   NearBlade near_;
