@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "bench/suites/blade/blade_structures.h"
 #include "bench/suites/blade/blade_trial.h"
 
 namespace viscera::bench {
@@ -151,8 +152,12 @@ void cost(Report& report) {
 }  // namespace
 
 void bladeSuite(Report& report) {
-  measureParts(report,
-               {{"spacings", spacings}, {"angles", angles}, {"speeds", speeds}, {"slicing", slices}, {"cost", cost}});
+  measureParts(report, {{"spacings", spacings},
+                        {"angles", angles},
+                        {"speeds", speeds},
+                        {"slicing", slices},
+                        {"structures", bladeStructures},
+                        {"cost", cost}});
 }
 
 }  // namespace viscera::bench

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -71,6 +71,20 @@ class Hand {
     solver_.step(motions);
     while (solver_.pollStats(stats_, true)) bad_ += stats_.nonfinite;
     return Vector3d(stats_.impulse[0].x, stats_.impulse[0].y, stats_.impulse[0].z) * scene_.solver.tick_hz;
+  }
+  /// A stroke of a blade at any angle, forth and back.
+  void stroke(Pose pose, const Vector3d& way_m) {
+    solver_.step(ToolMotions{});
+    for (int tick = 0; tick < 10; ++tick) {
+      ToolMotions motions;
+      motions[0].mode = ToolMode::kCut;
+      motions[0].present = true;
+      motions[0].from = pose;
+      pose.position_m += (tick < 7 ? 0.1 : -0.1) * way_m;
+      motions[0].to = pose;
+      solver_.step(motions);
+      while (solver_.pollStats(stats_, true)) bad_ += stats_.nonfinite;
+    }
   }
   void push(int first, int last) {
     for (int i = first; i < last; ++i) to(kStart_m + kStep_m * i);
@@ -152,6 +166,23 @@ TEST_P(BladeStructures, SpringsGoWhereTheFrontHasPassed) {
       EXPECT_NEAR(state.spring_cut[s], share, kShare);
     }
   }
+}
+
+TEST_P(BladeStructures, RandomStrokesStayFinite) {
+  Hand hand(scene(200));
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> any(-1, 1);
+  for (int stroke = 0; stroke < 40; ++stroke) {
+    if (stroke % 20 == 19) hand.solver().reset();
+    Pose pose{{0.03 * any(random), 0.024 * any(random), 0.012 * any(random)}, Quaterniond::Identity()};
+    const Vector3d axis(any(random), any(random), 1.2 * any(random));
+    pose.orientation = Quaterniond::FromTwoVectors(Vector3d::UnitZ(), axis.normalized());
+    const double x = any(random), y = any(random), z = any(random);
+    hand.stroke(pose, Vector3d(0.1 * x, 0.1 * y, 0.05 * z));
+  }
+  EXPECT_GT(hand.solver().bladeWork(0).area_m2, 0);
+  EXPECT_EQ(hand.bad(), 0u);
+  EXPECT_EQ(hand.solver().health().trips, 0u);
 }
 
 TEST_P(BladeStructures, SavedFrontsGoOnToTheBit) {
