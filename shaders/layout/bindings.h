@@ -88,9 +88,11 @@ const uint kBindOverlaySpikes = 71u;      // OverlaySpike[]
 const uint kBindOverlayEnds = 72u;        // vec4[2 * spikes]: xyz of both ends [m]
 const uint kBindStrainColors = 73u;       // uint[vertices]: RGBA8 by strain
 const uint kBindCutSides = 74u;           // vec4[slots]: see cut_sides.glsl
+const uint kBindWindowSlots = 75u;        // uint[]: nodes that the host looks at in every substep, see node_window.comp
 const uint kBindSleepingBricks = 76u;     // SleepingBrick[bricks], see awake_bricks.h
 const uint kBindAwakeNodes = 77u;         // AwakeList, then uint[active]: slots of the nodes that are stepped
 const uint kBindAwakeCells = 78u;         // AwakeList, then uint[cells]: slots of the lowest corners of cells around these
+const uint kBindWindow = 79u;             // vec4[]: what it sees of them, or does
 // Integrator multigrid (layout/multigrid.h), which knows no collisions: OpenGL on the processor has 80 numbers
 const uint kBindStepVectors = kBindBuckets;  // vec4[kStepVectors * slots]
 const uint kBindSystemVectors = kBindUnsorted;  // vec4[kSystemVectors * slots]

@@ -46,7 +46,8 @@ std::string backendNote(const Scene& scene, const gpu::Context* context, const S
   const std::string taken = (choice.empty() ? "" : "integrator: " + choice + "; ") + solver.backend();
   if (config.backend != Backend::kAuto) return taken + ", as solver.backend asks";
   if (traitsOf(config.integrator).prefers_cpu) return taken + ", as solver.integrator is measured on the CPU only";
-  if (resistsBlades(scene)) return taken + ", as only there tissue resists blades (material.cut)";
+  if (resistsBlades(scene))
+    return taken + ", as tissue that resists blades (material.cut) would have a GPU waited for in every substep";
   if (!context) return taken + ", as there is no OpenGL context";
   return taken + (context->isSoftware() ? ", as OpenGL is a software rasteriser: " : ", as OpenGL has a GPU: ") +
          context->renderer();

@@ -3,7 +3,8 @@
 //
 // awake_bricks.comp - which bricks are stepped, and the lists of their nodes and cells.   Owner: solver/gpu/buffers/awake_bricks.h
 // in  state of the nodes; what was cut; places that tools may reach     in/out  sleeping bricks     out  lists
-// An invocation per brick. Features, one each: WAKE_ALL, WAKE_NEAR (boxes), WAKE_HELD, WAKE_CUT (after a cut that took springs), LOOK
+// An invocation per brick. Features, one each: WAKE_ALL, WAKE_NEAR (boxes), WAKE_HELD, WAKE_CUT (after a cut that took springs),
+// WAKE_MARKED (another kernel has woken bricks), LOOK
 // (who was fast in the substep that has just been made; with TOOLS also who was touched), LIST. The rule is that of src/solver/cpu/store/sleep.h. What makes a list out of
 // date starts it again; LIST follows before the next substep. Its order is that in which bricks come: nodes gather, so no result
 // depends on it.
@@ -128,6 +129,10 @@ void ask(uint b) {
   }
   if (held) wake(b);
 }
+#endif
+
+#ifdef WAKE_MARKED
+void ask(uint b) {}
 #endif
 
 #ifdef WAKE_CUT

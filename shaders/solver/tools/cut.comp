@@ -27,6 +27,7 @@ layout(std430, binding = kBindAxialCut) writeonly buffer AxialCutBuffer { float 
 
 uniform uint active_count;
 uniform uint stylus;
+uniform uint spared;  // bodies that are not cut, a bit each
 bool mayCross(uint slot, uint other) { return true; }  // C++ has looked at the box around the sweep
 #endif
 #include "solver/tissue/surface_point.glsl"
@@ -92,6 +93,9 @@ void main() {
   ToolMotion m = tool_motions[stylus];
 #ifdef NETWORK
   if (bodies[bodyOf(bits)].connections != kImplicit) return;  // cut_links.comp has them
+#endif
+#ifndef __cplusplus  // which knows its bodies
+  if (((spared >> bodyOf(bits)) & 1u) != 0u) return;
 #endif
   float h = bodies[bodyOf(bits)].origin_spacing.w;
   vec3 x = seenFromBlade(slot, m, h);

@@ -22,6 +22,7 @@ layout(std430, binding = kBindStats) buffer StatsBuffer { TickStats stats; };
 
 uniform uint spring_count;
 uniform uint stylus;
+uniform uint spared;  // bodies that are not cut, a bit each
 #endif
 #include "solver/tissue/surface_point.glsl"
 
@@ -42,7 +43,11 @@ void main() {
   if (i >= spring_count || spring_cut[i] != 0.0f) return;
   SpringEnds ends = springs[i];
   ToolMotion m = tool_motions[stylus];
-  float h = bodies[bodyOf(nodes[ends.a])].origin_spacing.w;
+  uint body = bodyOf(nodes[ends.a]);
+#ifndef __cplusplus
+  if (((spared >> body) & 1u) != 0u) return;
+#endif
+  float h = bodies[body].origin_spacing.w;
   vec3 x = seenFromBlade(ends.a, m, h), y = seenFromBlade(ends.b, m, h);
 #ifdef PARTICLES
   if (!erased(x, m) && !erased(y, m)) return;

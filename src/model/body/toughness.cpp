@@ -64,7 +64,6 @@ void requireBladesFit(const Scene& scene) {
   const std::string key = "bodies[].material.cut.toughness_j_per_m2 above 0 ";
   if (scene.solver.integrator != Integrator::kLeapfrog)
     throw SceneError(key + "needs solver.integrator leapfrog or auto, not " + traitsOf(scene.solver.integrator).name);
-  if (scene.solver.backend == Backend::kGpu) throw SceneError(key + "needs solver.backend cpu or auto, not gpu");
 }
 
 }  // namespace viscera

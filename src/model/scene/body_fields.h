@@ -35,7 +35,7 @@ template <class V>
 void visitFields(V& v, FractureConfig& c) {
   v.number("toughness_j_per_m2", c.toughness_j_per_m2, {0, 1e6}, "J/m2",
            "work that a blade does per area that it parts, felt by the hand (docs/cutting.md); 0: it parts what it "
-           "crosses and is not felt. Above 0: solver.integrator leapfrog or auto, solver.backend cpu or auto");
+           "crosses and is not felt. Above 0: solver.integrator leapfrog or auto");
 }
 
 template <class V>

@@ -25,7 +25,7 @@ class BladeTarget {
   virtual void pushNodes(uint32_t stylus, float dt_s, const std::vector<uint32_t>& slots,
                          const std::vector<Vector3f>& dv_m_per_s) = 0;
   /// The body whose springs cutAtRest() cuts from now on.
-  virtual void selectBody(size_t /*body*/) {}
+  virtual void selectBody(size_t body) = 0;
   /// Cuts the springs that a sweep crosses where the nodes are at rest.
   virtual void cutAtRest(const layout::ToolMotion& sweep) = 0;
 };

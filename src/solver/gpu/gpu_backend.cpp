@@ -11,6 +11,7 @@
 #include "layout/bindings.h"
 #include "layout/blade.h"
 #include "math/archive.h"
+#include "model/body/toughness.h"
 #include "model/scene/integrators.h"
 #include "solver/cpu/store/sleep.h"
 #include "solver/gpu/steps/multigrid_pass.h"
@@ -64,6 +65,14 @@ GpuBackend::GpuBackend(const Model& model, const Scene& scene, const TickPlan& p
     tools_.emplace(Tools{gpu::Buffer<layout::ToolMotion>(rows, "tool motions"), GrabPass(features_), CutPass(features_),
                          ReactionPass(features_, buffers_.store.active_count)});
   }
+  if (plan.tools && resistsBlades(scene)) {
+    uint32_t resists = 0;
+    for (size_t b = 0; b < model.bodies.size(); ++b)
+      resists |= model.bodies[b].material.cut.toughness_j_per_m2 > 0 ? 1u << b : 0;
+    blade_.reset(new Blade{NodeWindow(features_, buffers_.store.active_count, awake_.get()),
+                           gpu::Buffer<layout::ToolMotion>(layout::kMaxStyluses, "a sweep at rest"),
+                           gpu::Buffer<layout::vec4>(buffers_.store.slot_count, "tissue at rest"), resists});
+  }
   bind();
 }
 
@@ -112,6 +121,7 @@ void GpuBackend::writeMotions(const std::vector<layout::ToolMotion>& motions) {
   const bool cuts =
       std::any_of(motions.begin(), motions.begin() + layout::kMaxStyluses,
                   [](const layout::ToolMotion& m) { return m.info.y & (layout::kToolCuts | layout::kToolErases); });
+  if (blade_ && cuts) disturb();  // it pushes nodes beyond its box
   const ToolBoxes reached = toolBoxes(motions, largest_spacing_m_);
   boxes_.assign(reached.begin(), reached.end());
   std::vector<ToolBox> disturbed = boxes_;
@@ -126,16 +136,46 @@ void GpuBackend::writeMotions(const std::vector<layout::ToolMotion>& motions) {
 }
 
 void GpuBackend::selectMotions(size_t substep) {
+  substep_ = substep;
   if (rest_.resting()) return;
   tools_->motions.bindUniform(layout::kBindToolMotions, substep * layout::kMaxStyluses, layout::kMaxStyluses);
 }
 
 void GpuBackend::cut(uint32_t stylus, bool particles) {
   if (rest_.resting()) return;
+  cutBut(blade_ && !particles ? blade_->resists : 0, stylus, particles);
+}
+
+/// @param spared  bodies that are not cut, a bit each
+void GpuBackend::cutBut(uint32_t spared, uint32_t stylus, bool particles) {
   const gpu::TimedStage timed(gpu::Stage::kCut);
-  tools_->cut.run(buffers_, stylus, particles);
+  tools_->cut.run(buffers_, stylus, particles, spared);
   stepper_->springsChanged();
   if (awake_) awake_->wakeCut(stylus);
+}
+
+void GpuBackend::readNodes(const std::vector<uint32_t>& slots, std::vector<Vector3f>& u_m,
+                           std::vector<Vector3f>& v_m_per_s) const {
+  const gpu::TimedStage timed(gpu::Stage::kCut);
+  blade_->window.read(slots, u_m, v_m_per_s);
+}
+
+void GpuBackend::pushNodes(uint32_t stylus, float dt_s, const std::vector<uint32_t>& slots,
+                           const std::vector<Vector3f>& dv_m_per_s) {
+  const gpu::TimedStage timed(gpu::Stage::kCut);
+  blade_->window.push(buffers_, stylus, dt_s, slots, dv_m_per_s);
+}
+
+/// The cut sees tissue that is where it is at rest. It may come in a tick without blades, in which all rests.
+void GpuBackend::cutAtRest(const layout::ToolMotion& sweep) {
+  disturb();
+  blade_->sweep.write(&sweep, 1);
+  blade_->sweep.bindUniform(layout::kBindToolMotions);
+  const uint32_t still = blade_->still.id();
+  gpu::bindStorages(layout::kBindDisplacementIn, {still, still});
+  cutBut(~(1u << blade_->body), 0, false);
+  buffers_.state.bind();
+  selectMotions(substep_);
 }
 
 void GpuBackend::advance(const Substep& step, bool recovery) {

@@ -12,6 +12,7 @@
 #include "solver/gpu/contact/cut_pass.h"
 #include "solver/gpu/contact/grab_pass.h"
 #include "solver/gpu/contact/node_pairs.h"
+#include "solver/gpu/contact/node_window.h"
 #include "solver/gpu/contact/surroundings_pass.h"
 #include "solver/gpu/forces/reaction_pass.h"
 #include "solver/gpu/good_states.h"
@@ -54,6 +55,12 @@ class GpuBackend final : public SolverBackend {
   void writeMotions(const std::vector<layout::ToolMotion>& motions) override;
   void selectMotions(size_t substep) override;
   void cut(uint32_t stylus, bool particles) override;
+  void readNodes(const std::vector<uint32_t>& slots, std::vector<Vector3f>& u_m,
+                 std::vector<Vector3f>& v_m_per_s) const override;
+  void pushNodes(uint32_t stylus, float dt_s, const std::vector<uint32_t>& slots,
+                 const std::vector<Vector3f>& dv_m_per_s) override;
+  void selectBody(size_t body) override { blade_->body = body; }
+  void cutAtRest(const layout::ToolMotion& sweep) override;
   void advance(const Substep& step, bool recovery) override;
   void beginSurroundings(const Surroundings& surroundings) override;
   void blow(const Substep& step, const Surroundings& surroundings) override;
@@ -80,12 +87,20 @@ class GpuBackend final : public SolverBackend {
   static constexpr int kLag = 1;
   void bind() const;
   void disturb();
+  void cutBut(uint32_t spared, uint32_t stylus, bool particles);
   void wakeAll();
   struct Tools {  ///< what only a scene with styluses needs
     gpu::Buffer<layout::ToolMotion> motions;
     GrabPass grab;
     CutPass cut;
     ReactionPass reaction;
+  };
+  struct Blade {  ///< what only tissue that resists blades needs
+    NodeWindow window;
+    gpu::Buffer<layout::ToolMotion> sweep;
+    gpu::Buffer<layout::vec4> still;  ///< [slots] zero: displacements and velocities of tissue at rest
+    uint32_t resists;                 ///< bodies that do, a bit each
+    size_t body = 0;                  ///< that cutAtRest() cuts
   };
   struct Recovery {  ///< what only a scene with a governor needs
     GoodStates good;
@@ -105,8 +120,10 @@ class GpuBackend final : public SolverBackend {
   std::optional<SurroundingsPass> surroundings_;
   std::optional<ReactionPass> obstacle_reaction_;
   std::optional<Tools> tools_;
+  std::unique_ptr<Blade> blade_;
   std::optional<Recovery> recovery_;
   float largest_spacing_m_ = 0;
+  size_t substep_ = 0;          ///< whose motions are bound
   std::vector<ToolBox> boxes_;  ///< of tools, in this tick
   gpu::ReadbackRing stats_ring_;
 };

@@ -32,7 +32,7 @@ class SolverBackend : public ToolTarget, public BladeTarget {
   /// Sweeps per substep of a recovery: as many in a tick as leapfrog has substeps.
   static constexpr int kRecoveryIterations = 20;
 
-  /// @name Operations of a tick, besides those of ToolTarget
+  /// @name Operations of a tick, besides those of ToolTarget and, where tissue resists blades, of BladeTarget
   /// @{
   /// Before the first of them: what the backend shares with others, such as OpenGL's bindings, is its own again.
   virtual void beginTick() = 0;
@@ -61,15 +61,6 @@ class SolverBackend : public ToolTarget, public BladeTarget {
   /// in the place of the current one, as restoreGood(0) does. Only where there is a lag, and so that nothing need wait.
   /// @param motions  of the tick   @param tick_s  its length
   virtual void guard(const Governor::Bounds& bounds, const ToolMotions& motions, double tick_s) = 0;
-  /// @}
-
-  /// @name Of BladeTarget; asked only of backends that a scene with material.cut may have (requireBladesFit)
-  /// @{
-  void readNodes(const std::vector<uint32_t>& /*slots*/, std::vector<Vector3f>& /*u_m*/,
-                 std::vector<Vector3f>& /*v_m_per_s*/) const override {}
-  void pushNodes(uint32_t /*stylus*/, float /*dt_s*/, const std::vector<uint32_t>& /*slots*/,
-                 const std::vector<Vector3f>& /*dv_m_per_s*/) override {}
-  void cutAtRest(const layout::ToolMotion& /*sweep*/) override {}
   /// @}
 
   /// @name Measurements on their way to the host, which may take some ticks on a GPU and is at once on a CPU

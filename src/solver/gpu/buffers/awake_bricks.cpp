@@ -77,6 +77,7 @@ AwakeBricks::AwakeBricks(const Model& model, const FeatureSet& features, const L
   near_ = compiled(features, "WAKE_NEAR");
   held_ = compiled(features, "WAKE_HELD");
   cut_ = compiled(features, "WAKE_CUT");
+  marked_ = compiled(features, "WAKE_MARKED");
 }
 
 void AwakeBricks::bind() const {
@@ -115,6 +116,10 @@ void AwakeBricks::wakeCut(uint32_t stylus) {
   cut_.set("stylus", stylus);
   cut_.set("beside", beside_);
   run(cut_);
+}
+
+void AwakeBricks::wakeMarked() {
+  if (!all_) run(marked_);
 }
 
 void AwakeBricks::list() {

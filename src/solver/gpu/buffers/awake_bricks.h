@@ -34,6 +34,7 @@ class AwakeBricks {
   void wakeHeld();                                   ///< those with a node that is held
   /// Those in the sphere that the blade may cut in, where springs were cut since the last substep.
   void wakeCut(uint32_t stylus);
+  void wakeMarked();  ///< another kernel has marked bricks as awake
   /// @}
 
   /// Lists what is awake, where that may have changed.
@@ -56,7 +57,7 @@ class AwakeBricks {
   bool isLook(const Substep& step);
   void run(const gpu::Program& program);
 
-  gpu::Program all_program_, near_, held_, cut_, look_program_, look_with_tools_, list_;
+  gpu::Program all_program_, near_, held_, cut_, marked_, look_program_, look_with_tools_, list_;
   gpu::Buffer<layout::SleepingBrick> bricks_;
   gpu::RawBuffer nodes_, cells_;
   float slow2_, deepest_m_, beside_;

@@ -18,19 +18,22 @@ CutPass::Programs CutPass::compiled(const char* shader, std::vector<std::string>
   return out;
 }
 
-void CutPass::runOver(const Programs& programs, gpu::UniformName what, size_t count, uint32_t stylus,
-                      bool particles) const {
-  const gpu::Program& program = particles ? programs.particles : programs.springs;
+void CutPass::runOver(const gpu::Program& program, gpu::UniformName what, size_t count, uint32_t stylus,
+                      uint32_t spared) const {
   program.use();
   program.set(what, static_cast<uint32_t>(count));
   program.set("stylus", stylus);
+  program.set("spared", spared);
   gpu::Program::dispatch(count, group_size_);
   gpu::Program::storageBarrier();
 }
 
-void CutPass::run(const LatticeBuffers& buffers, uint32_t stylus, bool particles) const {
-  if (lattice_) runOver(*lattice_, "active_count", buffers.store.active_count, stylus, particles);
-  if (links_) runOver(*links_, "spring_count", buffers.links.springs.size(), stylus, particles);
+void CutPass::run(const LatticeBuffers& buffers, uint32_t stylus, bool particles, uint32_t spared) const {
+  const auto chosen = [particles](const Programs& of) -> const gpu::Program& {
+    return particles ? of.particles : of.springs;
+  };
+  if (lattice_) runOver(chosen(*lattice_), "active_count", buffers.store.active_count, stylus, spared);
+  if (links_) runOver(chosen(*links_), "spring_count", buffers.links.springs.size(), stylus, spared);
   if (torn_cells_) torn_cells_->run(buffers);
 }
 

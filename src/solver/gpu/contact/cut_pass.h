@@ -19,15 +19,16 @@ class CutPass {
  public:
   explicit CutPass(const FeatureSet& features);
   /// @param stylus  row of the bound tool motions
-  /// @param particles  erase nodes instead of single springs
-  void run(const LatticeBuffers& buffers, uint32_t stylus, bool particles) const;
+  /// @param particles  erase nodes instead of single springs   @param spared  bodies that are not cut, a bit each
+  void run(const LatticeBuffers& buffers, uint32_t stylus, bool particles, uint32_t spared = 0) const;
 
  private:
   struct Programs {
     gpu::Program springs, particles;
   };
   Programs compiled(const char* shader, std::vector<std::string> defines) const;
-  void runOver(const Programs& programs, gpu::UniformName what, size_t count, uint32_t stylus, bool particles) const;
+  void runOver(const gpu::Program& program, gpu::UniformName what, size_t count, uint32_t stylus,
+               uint32_t spared) const;
 
   std::optional<Programs> lattice_, links_;
   std::optional<TornCellsPass> torn_cells_;

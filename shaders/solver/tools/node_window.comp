@@ -1,0 +1,70 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// node_window.comp - what the host sees of a few nodes, and changes of them.   Owner: solver/gpu/contact/node_window.h
+// in  slots of the nodes     GATHER: out  window: displacements, then velocities     else: in  window: changes of velocity
+// in/out  displacement, velocity, impulses. Feature ASLEEP: bricks may sleep; a change wakes them.
+// An invocation per node; no node is there twice.
+#include "layout.h"
+#include "solver/tissue/lattice.glsl"
+#include "solver/tissue/elastic.glsl"
+#include "solver/tissue/step.glsl"
+
+layout(std430, binding = kBindWindowSlots) readonly buffer WindowSlotsBuffer { uint window_slots[]; };
+layout(std430, binding = kBindWindow) buffer WindowBuffer { vec4 window[]; };
+#ifdef ASLEEP
+layout(std430, binding = kBindSleepingBricks) buffer SleepingBuffer { SleepingBrick sleeping[]; };
+#endif
+uniform uint node_count;
+
+#ifdef GATHER
+/// 1 where what the window does must wake it first.
+float asleep(uint slot) {
+#ifdef ASLEEP
+  SleepingBrick brick = sleeping[slot >> 6];
+  return brick.kind == kMayMove && brick.awake == 0u ? 1.0f : 0.0f;
+#else
+  return 0.0f;
+#endif
+}
+
+void look(uint i, uint slot) {
+  window[i] = vec4(texelFetch(displacement, int(slot)).xyz, asleep(slot));
+  window[node_count + i] = texelFetch(velocity, int(slot));
+}
+#else
+layout(std430, binding = kBindNodes) readonly buffer NodesBuffer { NodeBits nodes[]; };
+layout(std430, binding = kBindDisplacementIn) buffer DisplacementIn { vec4 own_displacement[]; };
+layout(std430, binding = kBindVelocityIn) buffer VelocityIn { vec4 own_velocity[]; };
+layout(std430, binding = kBindImpulses) buffer ImpulsesBuffer { vec4 impulses[]; };
+uniform uint slot_count;
+uniform uint giver;  // stylus that gives the momentum
+
+void wake(uint slot) {
+#ifdef ASLEEP
+  if (sleeping[slot >> 6].kind != kMayMove) return;
+  sleeping[slot >> 6].quiet_s = 0.0f;
+  sleeping[slot >> 6].awake = 1u;
+#endif
+}
+
+void push(uint slot, vec3 change) {
+  NodeBits bits = nodes[slot];
+  if (isAtRest(bits) || change == vec3(0.0f)) return;
+  precise vec3 way = dt_s * change;
+  own_velocity[slot].xyz += change;
+  own_displacement[slot].xyz += way;
+  impulses[giver * slot_count + slot] += vec4(nodeMass(slot, bits, bodies[bodyOf(bits)]) * change, 1.0f);
+  wake(slot);
+}
+#endif
+
+void main() {
+  uint i = globalIndex();
+  if (i >= node_count) return;
+#ifdef GATHER
+  look(i, window_slots[i]);
+#else
+  push(window_slots[i], xyz(window[i]));
+#endif
+}
