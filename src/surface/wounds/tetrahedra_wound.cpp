@@ -35,7 +35,7 @@ layout::SkinBinding bindingOf(const TetrahedraPoints::Point& point) {
   return out;
 }
 
-void setNormal(const Vector3d& normal, layout::SkinBinding& binding) {
+void setConstantNormal(const Vector3d& normal, layout::SkinBinding& binding) {
   const Vector3f n = normal.cast<float>();
   binding.normal_constant = {n.x(), n.y(), n.z(), 0};
 }
@@ -169,7 +169,7 @@ uint32_t TetrahedraWound::addVertex(uint32_t point, const layout::SkinBinding& b
 /// the own vertex's in every state
 uint32_t TetrahedraWound::addToSkin(uint32_t point, uint32_t own, bool turned) {
   layout::SkinBinding binding = bindingOf(points_[point]);
-  setNormal(restNormal(own), binding);
+  setConstantNormal(restNormal(own), binding);
   if (!turned) binding.springs |= own + 1;
   return addVertex(point, binding, own);
 }
@@ -202,8 +202,8 @@ uint32_t TetrahedraWound::skinVertex(uint32_t triangle, const FaceVertex& vertex
       uint32_t& known = knownOf(skin_vertices_, point);
       if (known != kNone) return known;
       known = addToSkin(point, own, true);
-      setNormal((restNormal(corners[0]) + restNormal(corners[1]) + restNormal(corners[2])).stableNormalized(),
-                added_.back().binding);
+      setConstantNormal((restNormal(corners[0]) + restNormal(corners[1]) + restNormal(corners[2])).stableNormalized(),
+                        added_.back().binding);
       return known;
     }
   }
@@ -254,7 +254,7 @@ void TetrahedraWound::addWallsOf(const TetrahedraIndex::Tetrahedron& of) {
 void TetrahedraWound::addWalls() {
   for (const uint32_t t : affected_) addWallsOf(index_.tetrahedra[t]);
   for (size_t v = 0; v < normals_.size(); ++v)
-    setNormal(normals_[v].stableNormalized(), added_[first_wall_ + v].binding);
+    setConstantNormal(normals_[v].stableNormalized(), added_[first_wall_ + v].binding);
 }
 
 }  // namespace viscera
