@@ -11,11 +11,12 @@ namespace viscera::bench {
 
 namespace {
 
-constexpr double kForce = 0.05;    // of the force by the law
-constexpr double kRipple = 0.1;    // of J w
-constexpr double kLeastDet = 0.1;  // of a whole cell: nothing folds
-constexpr double kWork = 0.06;     // of the work: what damping takes is not counted
-constexpr double kCost = 0.1;      // of a tick
+constexpr double kForce = 0.05;     // of the force by the law
+constexpr double kRipple = 0.1;     // of J w
+constexpr double kLeastDet = 0.1;   // of a whole cell: nothing folds
+constexpr double kWork = 0.06;      // of the work: what damping takes is not counted
+constexpr double kCost = 0.1;       // of a tick
+constexpr double kBackends = 0.01;  // of the force: substeps follow the stretch a tick later on the GPU
 constexpr double kKilo = 1e3, kMilli = 1e-3;
 
 Table forceTable(const std::string& title) {
@@ -149,6 +150,54 @@ void cost(Report& report) {
   report.add(table, "cost");
 }
 
+void addPair(const char* structure, BladeTrial trial, Table& table, Report& report) {
+  const double carried = trial.toughness_j_per_m2 / (trial.young_modulus_pa * trial.spacing_m);
+  const std::string of = std::string(structure) + " at " + Cell(trial.spacing_m / kMilli).text(3) + " mm, J/(E h) " +
+                         Cell(carried).text(3);
+  report.stage(of + " on both backends");
+  const BladeResult cpu = cutThrough(trial);
+  trial.backend = Backend::kGpu;
+  const BladeResult gpu = cutThrough(trial);
+  trial.toughness_j_per_m2 = 0;
+  const double free_us = cutThrough(trial).fastest_us;
+  trial.there = false;
+  table.add({structure, trial.spacing_m / kMilli, static_cast<double>(gpu.nodes), carried, gpu.force, cpu.force,
+             cutThrough(trial).fastest_us, free_us, gpu.fastest_us});
+  report.checkAtMost("force off the law on the GPU, " + of, std::abs(gpu.force - 1), kForce);
+  report.checkAtMost("GPU off the CPU, " + of, std::abs(gpu.force - cpu.force), kBackends);
+  report.checkAtMost("trips on the GPU, " + of, gpu.trips, 0);
+}
+
+/// The law, and what a substep costs until its measurements have come, in the tick that took least.
+void onTheGpu(Report& report) {
+  Table table("On the GPU backend", {{"structure"},
+                                     {"h", "mm"},
+                                     {"nodes"},
+                                     {"J/(E h)", "", 3},
+                                     {"force / law"},
+                                     {"on the CPU"},
+                                     {"no blade", "us"},
+                                     {"not resisted", "us"},
+                                     {"resisted", "us"}});
+  BladeTrial trial;
+  trial.spacing_m = 0.004;
+  trial.toughness_j_per_m2 = 100;
+  addPair("lattice", trial, table, report);
+  trial.structure = Structure::kTetrahedra;
+  addPair("tetrahedra", trial, table, report);
+  trial.structure = Structure::kSurface;
+  trial.thickness_m = 0.001;
+  addPair("sheet", trial, table, report);
+  for (const double toughness_j_per_m2 : {40.0, 100.0, 200.0}) {
+    if (report.isShort()) break;
+    BladeTrial fine;
+    fine.young_modulus_pa = 40e3;
+    fine.toughness_j_per_m2 = toughness_j_per_m2;
+    addPair("lattice", fine, table, report);
+  }
+  report.add(table, "gpu");
+}
+
 }  // namespace
 
 void bladeSuite(Report& report) {
@@ -157,7 +206,8 @@ void bladeSuite(Report& report) {
                         {"speeds", speeds},
                         {"slicing", slices},
                         {"structures", bladeStructures},
-                        {"cost", cost}});
+                        {"cost", cost},
+                        {"gpu", onTheGpu}});
 }
 
 }  // namespace viscera::bench

@@ -9,11 +9,12 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <memory>
 #include <optional>
 
+#include "bench/harness/specimens/backends.h"
 #include "math/float_bits.h"
 #include "model/body/toughness.h"
-#include "solver/cpu/cpu_solver.h"
 #include "viscera/model/model.h"
 
 namespace viscera::bench {
@@ -59,7 +60,7 @@ Scene sceneOf(const BladeTrial& trial) {
   scene.styluses.push_back(stylus);
   scene.environment.gravity_m_per_s2.setZero();
   scene.solver.tick_hz = std::max(kLeastTick_hz, trial.speed_m_per_s / (kTickTravel * trial.spacing_m));
-  scene.solver.backend = Backend::kCpu;
+  scene.solver.backend = trial.backend;
   scene.solver.sleep_speed_m_per_s = 0;
   return scene;
 }
@@ -110,7 +111,10 @@ double leastVolume(const Model& model, const HostState& state) {
 class Stroke {
  public:
   explicit Stroke(const BladeTrial& trial)
-      : trial_(trial), scene_(sceneOf(trial)), model_(buildModel(scene_)), solver_(model_, scene_) {
+      : trial_(trial),
+        scene_(sceneOf(trial)),
+        model_(buildModel(scene_)),
+        solver_(solverOn(trial.backend, model_, scene_)) {
     const double angle = trial.angle_deg * kDegree;
     go_ = {std::cos(angle), std::sin(angle), 0};
     way_ = go_ - trial.slicing * Vector3d::UnitZ();
@@ -132,26 +136,26 @@ class Stroke {
 
   void tick(double tick_s) {
     ToolMotions motions;
-    motions[0].mode = ToolMode::kCut;
-    motions[0].present = true;
+    motions[0].mode = trial_.there ? ToolMode::kCut : ToolMode::kNone;
+    motions[0].present = trial_.there;
     motions[0].from.position_m = at_;
     at_ += tick_s * trial_.speed_m_per_s * way_;
     motions[0].to.position_m = at_;
     gone_m_ += tick_s * trial_.speed_m_per_s;
     const Clock::time_point start = Clock::now();
-    solver_.step(motions);
-    const double took_us = std::chrono::duration<double, std::micro>(Clock::now() - start).count();
+    solver_->step(motions);
     layout::TickStats stats;
-    while (solver_.pollStats(stats, true)) last_ = stats;
+    while (solver_->pollStats(stats, true)) last_ = stats;
+    const double took_us = std::chrono::duration<double, std::micro>(Clock::now() - start).count();
     const Vector3d force_n = xyz(last_.impulse[0]) / tick_s;
     out_.stretch = std::max(out_.stretch, static_cast<double>(floatFromBits(last_.max_stretch_bits)));
-    if (out_.onset_m == 0 && solver_.bladeWork(0).area_m2 > trial_.spacing_m * trial_.thickness_m)
+    if (out_.onset_m == 0 && solver_->bladeWork(0).area_m2 > trial_.spacing_m * trial_.thickness_m)
       out_.onset_m = gone_m_ - kClear_m;
     if (gone_m_ < kSteadyFrom * trial_.stroke_m) return;
-    if (steady_.size() % 8 == 0) out_.worst_det = std::min(out_.worst_det, leastVolume(model_, solver_.readState()));
+    if (steady_.size() % 8 == 0) out_.worst_det = std::min(out_.worst_det, leastVolume(model_, solver_->readState()));
     steady_.push_back(force_n.dot(go_) / force_unit_n_);
     out_.along -= force_n.z() / force_unit_n_;
-    busy_us_.push_back(took_us / solver_.substeps());
+    busy_us_.push_back(took_us / solver_->substeps());
   }
 
   void finish() {
@@ -165,13 +169,14 @@ class Stroke {
     const Toughness toughness = toughnessOf(model_.bodies[0]);
     out_.length_m = toughness.spacing_m;
     out_.asked = out_.force * toughness.carried_j_per_m2() / trial_.toughness_j_per_m2;
-    const BladeWork work = solver_.bladeWork(0);
+    const BladeWork work = solver_->bladeWork(0);
     out_.area_m2 = work.area_m2;
     out_.work_j = work.work_j;
     out_.cut_share = work.parting_j / work.work_j;
     out_.stored_share = (static_cast<double>(last_.elastic_j) + static_cast<double>(last_.kinetic_j)) / work.work_j;
     out_.nodes = model_.activeNodes();
-    out_.trips = static_cast<double>(solver_.health().trips);
+    out_.trips = static_cast<double>(solver_->health().trips);
+    out_.fastest_us = *std::min_element(busy_us_.begin(), busy_us_.end());
     std::nth_element(busy_us_.begin(), busy_us_.begin() + static_cast<std::ptrdiff_t>(busy_us_.size() / 2),
                      busy_us_.end());
     out_.substep_us = busy_us_[busy_us_.size() / 2];
@@ -180,7 +185,7 @@ class Stroke {
   BladeTrial trial_;
   Scene scene_;
   Model model_;
-  CpuSolver solver_;
+  std::unique_ptr<Ticks> solver_;
   Vector3d go_, way_, at_;
   double gone_m_ = 0, force_unit_n_ = 0;
   layout::TickStats last_{};

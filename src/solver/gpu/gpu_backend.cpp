@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 #include "gpu/program.h"
 #include "gpu/stage_clock.h"
@@ -66,12 +67,14 @@ GpuBackend::GpuBackend(const Model& model, const Scene& scene, const TickPlan& p
                          ReactionPass(features_, buffers_.store.active_count)});
   }
   if (plan.tools && resistsBlades(scene)) {
-    uint32_t resists = 0;
-    for (size_t b = 0; b < model.bodies.size(); ++b)
-      resists |= model.bodies[b].material.cut.toughness_j_per_m2 > 0 ? 1u << b : 0;
     blade_.reset(new Blade{NodeWindow(features_, buffers_.store.active_count, awake_.get()),
                            gpu::Buffer<layout::ToolMotion>(layout::kMaxStyluses, "a sweep at rest"),
-                           gpu::Buffer<layout::vec4>(buffers_.store.slot_count, "tissue at rest"), resists});
+                           gpu::Buffer<layout::vec4>(buffers_.store.slot_count, "tissue at rest")});
+    for (size_t b = 0; b < model.bodies.size(); ++b) {
+      if (!(model.bodies[b].material.cut.toughness_j_per_m2 > 0)) continue;
+      blade_->resists |= 1u << b;
+      blade_->kernel_m = std::max(blade_->kernel_m, static_cast<float>(toughnessOf(model.bodies[b]).kernel_m()));
+    }
   }
   bind();
 }
@@ -121,12 +124,13 @@ void GpuBackend::writeMotions(const std::vector<layout::ToolMotion>& motions) {
   const bool cuts =
       std::any_of(motions.begin(), motions.begin() + layout::kMaxStyluses,
                   [](const layout::ToolMotion& m) { return m.info.y & (layout::kToolCuts | layout::kToolErases); });
-  if (blade_ && cuts) disturb();  // it pushes nodes beyond its box
   const ToolBoxes reached = toolBoxes(motions, largest_spacing_m_);
   boxes_.assign(reached.begin(), reached.end());
   std::vector<ToolBox> disturbed = boxes_;
+  if (blade_ && std::exchange(blade_->looked, false)) disturb();  // its fronts may be elsewhere
+  const float beside_m = std::max(kFarthestCut * largest_spacing_m_, blade_ ? blade_->kernel_m : 0);
   for (ToolBox& box : disturbed) {
-    const Vector3f more = Vector3f::Constant(cuts ? kFarthestCut * largest_spacing_m_ : 0);
+    const Vector3f more = Vector3f::Constant(cuts ? beside_m : 0);
     box = {box.low - more, box.high + more};
   }
   if (!rest_.disturbNear(disturbed) && rested) return;
@@ -157,6 +161,7 @@ void GpuBackend::cutBut(uint32_t spared, uint32_t stylus, bool particles) {
 void GpuBackend::readNodes(const std::vector<uint32_t>& slots, std::vector<Vector3f>& u_m,
                            std::vector<Vector3f>& v_m_per_s) const {
   const gpu::TimedStage timed(gpu::Stage::kCut);
+  blade_->looked = true;
   blade_->window.read(slots, u_m, v_m_per_s);
 }
 

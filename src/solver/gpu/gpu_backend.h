@@ -99,8 +99,10 @@ class GpuBackend final : public SolverBackend {
     NodeWindow window;
     gpu::Buffer<layout::ToolMotion> sweep;
     gpu::Buffer<layout::vec4> still;  ///< [slots] zero: displacements and velocities of tissue at rest
-    uint32_t resists;                 ///< bodies that do, a bit each
+    uint32_t resists = 0;             ///< bodies that do, a bit each
     size_t body = 0;                  ///< that cutAtRest() cuts
+    float kernel_m = 0;               ///< so far from an edge nodes are pushed at most
+    bool looked = false;              ///< at nodes, since motions were written
   };
   struct Recovery {  ///< what only a scene with a governor needs
     GoodStates good;

@@ -57,6 +57,10 @@ class Hand {
   void without(int ticks) {
     for (int i = 0; i < ticks; ++i) solver_->step({});
   }
+  /// Far from the block, as it cuts.
+  void hover(int ticks) {
+    for (int i = 0; i < ticks; ++i) solver_->step(tool(ToolMode::kCut, {-0.03, 0.001, 0.3}, {-0.03, 0.001, 0.3}));
+  }
   Ticks& solver() { return *solver_; }
   BladeWork done() const { return solver_->bladeWork(0); }
   uint64_t hash() const { return stateHash(model_, solver_->readState()); }
@@ -122,6 +126,10 @@ TEST_F(ResistedBlade, CutsTissueThatSleeps) {
   Hand gpu("gpu", scene), cpu(backendKinds()[1], scene);
   for (Hand* hand : {&gpu, &cpu}) {
     hand->without(60);
+    hand->hover(5);
+    if (hand == &gpu) {
+      EXPECT_TRUE(static_cast<GpuSolver&>(gpu.solver()).resting());
+    }
     for (int i = 0; i < kTicks; ++i) hand->tick(i);
     hand->without(10);  // the last of the cut comes when the blade is gone
   }
