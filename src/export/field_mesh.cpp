@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "model/body/prestress.h"
 #include "viscera/layout/skin.h"
 #include "viscera/math/error.h"
 
@@ -47,10 +48,17 @@ struct Strained {
   double energy_j_per_m3, von_mises_pa;
 };
 
-/// Of St. Venant and Kirchhoff's law in the middle of a cell. @param gradient  of displacements
-Strained strainedOf(const Eigen::Matrix3d& gradient, const Lame& lame) {
+/// The strain that gives a stress. @param stress  over mu
+Eigen::Matrix3d strainOf(const Eigen::Matrix3d& stress, const Lame& lame) {
+  const double volume = lame.lambda / (3 * lame.lambda + 2 * lame.mu);
+  return 0.5 * (stress - volume * stress.trace() * Eigen::Matrix3d::Identity());
+}
+
+/// Of St. Venant and Kirchhoff's law in the middle of a cell. @param gradient  of displacements   @param prestrain  at
+/// rest
+Strained strainedOf(const Eigen::Matrix3d& gradient, const Eigen::Matrix3d& prestrain, const Lame& lame) {
   const Eigen::Matrix3d turned = Eigen::Matrix3d::Identity() + gradient;
-  const Eigen::Matrix3d strain = 0.5 * (turned.transpose() * turned - Eigen::Matrix3d::Identity());
+  const Eigen::Matrix3d strain = 0.5 * (turned.transpose() * turned - Eigen::Matrix3d::Identity()) + prestrain;
   const Eigen::Matrix3d second = lame.lambda * strain.trace() * Eigen::Matrix3d::Identity() + 2 * lame.mu * strain;
   const Eigen::Matrix3d cauchy = turned * second * turned.transpose() / turned.determinant();
   const Eigen::Matrix3d shear = cauchy - cauchy.trace() / 3 * Eigen::Matrix3d::Identity();
@@ -69,6 +77,7 @@ template <class Visit>
 void forCells(const Body& body, uint32_t offset, const HostState& state, const Visit& visit) {
   if (body.network && !body.network->of_lattice) return;
   const std::vector<Lame> lames = lamesOf(body);
+  const std::vector<Eigen::Matrix3d> prestresses = cellPrestresses(body);
   for (const uint32_t slot : body.lattice.active_slots) {
     if (!(state.nodes[offset + slot].lo & layout::kCellBit)) continue;
     Cell cell{slot, {}, {}};
@@ -81,7 +90,10 @@ void forCells(const Body& body, uint32_t offset, const HostState& state, const V
       gradient += xyz(state.displacement_m[offset + cell.corners[c]]) * slope.transpose();
     }
     const size_t label = body.lattice.cell_labels.empty() ? 0 : body.lattice.cell_labels[slot];
-    cell.strained = strainedOf(gradient, lames[std::min(label, lames.size() - 1)]);
+    const Lame& lame = lames[std::min(label, lames.size() - 1)];
+    const Eigen::Matrix3d prestrain =
+        prestresses.empty() ? Eigen::Matrix3d(Eigen::Matrix3d::Zero()) : strainOf(prestresses[slot], lame);
+    cell.strained = strainedOf(gradient, prestrain, lame);
     visit(cell);
   }
 }

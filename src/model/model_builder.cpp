@@ -11,6 +11,7 @@
 #include "model/body/network_body.h"
 #include "model/body/network_builder.h"
 #include "model/body/network_skin.h"
+#include "model/body/prestress.h"
 #include "model/body/spacing_search.h"
 #include "model/body/toughness.h"
 #include "model/scene/host_memory.h"
@@ -78,6 +79,7 @@ Body buildLatticeBody(const BodyConfig& config, const Scene& scene, const Tissue
   if (config.structure != Structure::kExplicit) return body;
   body.network = latticeNetwork(body, config.bending_ratio);
   body.notes.push_back(linksNote(*body.network));
+  addPrestress(body);
   return body;
 }
 
@@ -88,6 +90,7 @@ Body buildNetworkBody(const BodyConfig& config, const Tissue& tissue, bool can_b
   const size_t fixed_nodes = fixNodes(config, parts, body);
   body.notes.push_back(networkNote(body, fixed_nodes));
   addToughnessNote(body);
+  addPrestress(body);
   addPiecesNote(body);
   if (progress) progress("extract skin", 0);
   body.skin = bindNetworkSkin(*body.network, can_be_cut);

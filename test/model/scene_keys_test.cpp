@@ -52,8 +52,10 @@ bodies:
     position_m: [0.051, 0.052, 0.053]
     rotation_deg: [61, 62, 63]
     color: [0.071, 0.072, 0.073]
-    material: {tissue: liver, young_modulus_pa: 8100, poisson_ratio: 0.31, density_kg_per_m3: 820, drag_per_s: 8.3, dashpot_ratio: 0.084, weights: paper, cells: springs, cut: {toughness_j_per_m2: 187}}
-    parts: [{part: valve, tissue: spleen, young_modulus_pa: 8101, poisson_ratio: 0.32, density_kg_per_m3: 821}]
+    material: {tissue: liver, young_modulus_pa: 8100, poisson_ratio: 0.31, density_kg_per_m3: 820, drag_per_s: 8.3, dashpot_ratio: 0.084, weights: paper, cells: springs, cut: {toughness_j_per_m2: 187},
+               prestress: {strain: 0.0821, strains: [0.0822, 0.0823, 0.0824], axes_deg: [82.5, 82.6, 82.7]}}
+    parts: [{part: valve, tissue: spleen, young_modulus_pa: 8101, poisson_ratio: 0.32, density_kg_per_m3: 821,
+             prestress: {strain: 0.0831, strains: [0.0832, 0.0833, 0.0834], axes_deg: [83.5, 83.6, 83.7]}}]
     fixed:
       - shape: part
         min_m: [-0.11, -0.12, -0.13]
@@ -198,6 +200,9 @@ TEST(SceneKeys, EveryBodyKeyReachesItsField) {
   EXPECT_EQ(body.material.drag_per_s, 8.3);
   EXPECT_EQ(body.material.dashpot_ratio, 0.084);
   EXPECT_EQ(body.material.cut.toughness_j_per_m2, 187);
+  EXPECT_EQ(body.material.prestress.strain, 0.0821);
+  EXPECT_EQ(body.material.prestress.strains, Vector3d(0.0822, 0.0823, 0.0824));
+  EXPECT_EQ(body.material.prestress.axes_deg, Vector3d(82.5, 82.6, 82.7));
   EXPECT_EQ(body.material.weights, Weights::kPaper);
   EXPECT_EQ(body.material.cells, Cells::kSprings);
   const PartConfig& part = body.parts.at(0);
@@ -206,6 +211,9 @@ TEST(SceneKeys, EveryBodyKeyReachesItsField) {
   EXPECT_EQ(part.young_modulus_pa, 8101);
   EXPECT_EQ(part.poisson_ratio, 0.32);
   EXPECT_EQ(part.density_kg_per_m3, 821);
+  EXPECT_EQ(part.prestress.strain, 0.0831);
+  EXPECT_EQ(part.prestress.strains, Vector3d(0.0832, 0.0833, 0.0834));
+  EXPECT_EQ(part.prestress.axes_deg, Vector3d(83.5, 83.6, 83.7));
   const FixedConfig& fixed = body.fixed.at(0);
   EXPECT_EQ(fixed.shape, FixedShape::kPart);
   EXPECT_EQ(fixed.min_m, Vector3d(-0.11, -0.12, -0.13));

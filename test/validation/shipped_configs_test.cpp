@@ -81,7 +81,8 @@ TEST_P(ShippedScene, RunsSomeTicksAsItsNameSaysWithoutATrip) {
 INSTANTIATE_TEST_SUITE_P(Config, ShippedScene, ::testing::ValuesIn(filesIn("scenes")), nameOf);
 
 /// The scene that a strokes file was made for.
-const std::map<std::string, std::string> kSceneOf = {{"demo", "heart"}, {"cut_cloth", "cloth_on_points"}};
+const std::map<std::string, std::string> kSceneOf = {
+    {"demo", "heart"}, {"cut_cloth", "cloth_on_points"}, {"incision", "skin_under_tension"}};
 
 class ShippedStrokes : public ::testing::TestWithParam<fs::path> {};
 

@@ -6,6 +6,7 @@
 
 #include "bench/suites/blade/blade_structures.h"
 #include "bench/suites/blade/blade_trial.h"
+#include "bench/suites/blade/prestress_slit.h"
 
 namespace viscera::bench {
 
@@ -206,6 +207,7 @@ void bladeSuite(Report& report) {
                         {"speeds", speeds},
                         {"slicing", slices},
                         {"structures", bladeStructures},
+                        {"prestress", prestressSlits},
                         {"cost", cost},
                         {"gpu", onTheGpu}});
 }

@@ -10,29 +10,6 @@ namespace viscera {
 
 namespace {
 
-/// [1 + parts] elasticity by label; label 0 has none.
-std::vector<Elasticity> elasticityByLabel(const Body& body) {
-  const double h = body.lattice.spacing_m;
-  const MaterialConfig& m = body.material;
-  std::vector<Elasticity> out(1 + body.lattice.part_names.size(),
-                              elasticity(m.young_modulus_pa, m.poisson_ratio, m.density_kg_per_m3, h));
-  for (const PartConfig& part : body.parts) {
-    const auto& names = body.lattice.part_names;
-    const auto name = std::find(names.begin(), names.end(), part.part);
-    if (name == names.end()) {
-      std::string known;
-      for (const std::string& n : names) known += (known.empty() ? "" : ", ") + n;
-      throw SceneError("body '" + body.name + "': 'parts' names '" + part.part + "'; the parts are " + known);
-    }
-    if (std::count_if(body.parts.begin(), body.parts.end(), [&](const PartConfig& p) { return p.part == part.part; }) >
-        1)
-      throw SceneError("body '" + body.name + "': 'parts' names '" + part.part + "' twice");
-    out[static_cast<size_t>(name - names.begin()) + 1] =
-        elasticity(part.young_modulus_pa, part.poisson_ratio, part.density_kg_per_m3, h);
-  }
-  return out;
-}
-
 /// Of a cell of which `share` is tissue.
 Elasticity scaled(const Elasticity& e, double share) {
   return {share * e.spring_n_per_m, share * e.bulk_j, share * e.rigidity_j, share * e.cell_mass_kg};
@@ -115,6 +92,28 @@ Elasticity elasticity(double young_modulus_pa, double poisson_ratio, double dens
   const double lambda_over_mu = 2 * nu / (1 - 2 * nu);
   const double bulk = nu == 0.25 ? 0 : (lambda_over_mu - 1) * mu * h * h * h;
   return {mu * h, bulk, mu * h * h * h, density_kg_per_m3 * h * h * h};
+}
+
+std::vector<Elasticity> elasticityByLabel(const Body& body) {
+  const double h = body.lattice.spacing_m;
+  const MaterialConfig& m = body.material;
+  std::vector<Elasticity> out(1 + body.lattice.part_names.size(),
+                              elasticity(m.young_modulus_pa, m.poisson_ratio, m.density_kg_per_m3, h));
+  for (const PartConfig& part : body.parts) {
+    const auto& names = body.lattice.part_names;
+    const auto name = std::find(names.begin(), names.end(), part.part);
+    if (name == names.end()) {
+      std::string known;
+      for (const std::string& n : names) known += (known.empty() ? "" : ", ") + n;
+      throw SceneError("body '" + body.name + "': 'parts' names '" + part.part + "'; the parts are " + known);
+    }
+    if (std::count_if(body.parts.begin(), body.parts.end(), [&](const PartConfig& p) { return p.part == part.part; }) >
+        1)
+      throw SceneError("body '" + body.name + "': 'parts' names '" + part.part + "' twice");
+    out[static_cast<size_t>(name - names.begin()) + 1] =
+        elasticity(part.young_modulus_pa, part.poisson_ratio, part.density_kg_per_m3, h);
+  }
+  return out;
 }
 
 bool isHeterogeneous(const Body& body) {

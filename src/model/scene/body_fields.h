@@ -39,6 +39,17 @@ void visitFields(V& v, FractureConfig& c) {
 }
 
 template <class V>
+void visitFields(V& v, PrestressConfig& c) {
+  constexpr Range kPrestrain{-0.3, 0.5};
+  v.number("strain", c.strain, kPrestrain, "1",
+           "how much shorter, of its length, tissue would be along any axis if nothing held it; of structure surface "
+           "along its surface (docs/cutting.md 6)");
+  v.vector("strains", c.strains, kPrestrain, "1", "the same along three axes, besides `strain`");
+  v.vector("axes_deg", c.axes_deg, kAngle, "deg",
+           "turns the axes of `strains`, which are the tissue frame's, about the fixed x, then y, then z axis");
+}
+
+template <class V>
 void visitFields(V& v, MaterialConfig& c) {
   v.tissue("tissue", c, "gives the three keys below that the scene does not give; not for diagnosis or planning");
   v.number("young_modulus_pa", c.young_modulus_pa, {1, 1e9}, "Pa", "Young's modulus E");
@@ -57,6 +68,10 @@ void visitFields(V& v, MaterialConfig& c) {
            "the surface are filled in part), or springs alone (cells are full or empty); auto is moments in structure "
            "lattice and explicit with weights cell, else springs");
   v.group("cut", c.cut, "what it takes to part the tissue");
+  v.group(
+      "prestress", c.prestress,
+      "tissue pulls before anything touches it, and gapes when cut; what balances in the given shape is kept. Needs "
+      "structure explicit, surface or tetrahedra");
 }
 
 template <class V>
@@ -66,6 +81,7 @@ void visitFields(V& v, PartConfig& c) {
   v.number("young_modulus_pa", c.young_modulus_pa, {1, 1e9}, "Pa", "Young's modulus E of this part");
   v.number("poisson_ratio", c.poisson_ratio, {0, 0.49}, "1", "Poisson's ratio nu of this part");
   v.number("density_kg_per_m3", c.density_kg_per_m3, {1, 1e5}, "kg/m3", "mass density of this part");
+  v.group("prestress", c.prestress, "prestress of this part");
 }
 
 template <class V>
@@ -184,7 +200,8 @@ void visitFields(V& v, BodyConfig& c) {
          "what a wound's wall shows below the skin, from the surface down; beyond the "
          "last one: the flesh of `color`");
   v.group("material", c.material, "elastic material");
-  const PartConfig as_material{"", c.material.young_modulus_pa, c.material.poisson_ratio, c.material.density_kg_per_m3};
+  const PartConfig as_material{"", c.material.young_modulus_pa, c.material.poisson_ratio, c.material.density_kg_per_m3,
+                               {}, c.material.prestress};
   v.list("parts", c.parts, 64, "parts whose elasticity differs; what is left out is as in `material`", as_material);
   v.list("fixed", c.fixed, 64, "regions whose nodes are held in space");
 }

@@ -69,7 +69,16 @@ std::string networkFault(const BodyConfig& body) {
   return "";
 }
 
+bool isNone(const PrestressConfig& c) {
+  return c.strain == 0 && c.strains.isZero(0);
+}
+
 }  // namespace
+
+bool isPrestressed(const MaterialConfig& material, const std::vector<PartConfig>& parts) {
+  return !isNone(material.prestress) ||
+         std::any_of(parts.begin(), parts.end(), [](const PartConfig& part) { return !isNone(part.prestress); });
+}
 
 std::string structureFault(const BodyConfig& body) {
   const std::string fault = sourceFault(body);
@@ -79,6 +88,9 @@ std::string structureFault(const BodyConfig& body) {
     if (!network_fault.empty()) return network_fault;
   }
   const bool can_bend = body.structure == Structure::kSurface || body.structure == Structure::kExplicit;
+  if (body.structure == Structure::kLattice && isPrestressed(body))
+    return "material.prestress needs structure explicit, surface or tetrahedra: springs of a lattice have one rest "
+           "length";
   if (hasMoments(body) && body.material.weights != Weights::kCell)
     return "material.cells: moments does not go with material.weights: paper";
   if (body.bending_ratio > 0 && !can_bend) return "bending_ratio must be 0 unless structure is surface or explicit";

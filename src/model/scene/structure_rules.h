@@ -20,6 +20,12 @@ inline bool hasMoments(const BodyConfig& body) {
   return !isNetwork(body.structure) && body.material.weights == Weights::kCell;
 }
 
+/// Do springs of the body or of a part of it pull where they are?
+bool isPrestressed(const MaterialConfig& material, const std::vector<PartConfig>& parts);
+inline bool isPrestressed(const BodyConfig& body) {
+  return isPrestressed(body.material, body.parts);
+}
+
 /// What a body's structure does not go with, for a person; empty: nothing.
 std::string structureFault(const BodyConfig& body);
 

@@ -18,6 +18,10 @@ struct Elasticity {
 };
 Elasticity elasticity(double young_modulus_pa, double poisson_ratio, double density_kg_per_m3, double spacing_m);
 
+/// [1 + parts] of full cells, by label; label 0 has those of no part.
+/// @throws SceneError  as strengths()
+std::vector<Elasticity> elasticityByLabel(const Body& body);
+
 /// Strengths of a body whose cells differ, as assembled from them: what a count and a body-wide constant give
 /// elsewhere. A spring between cells of two parts gets from each what it gives: it is as stiff as the cells around it
 /// together. With `weights: paper` springs and masses are those of the mean of the cells around, at full count.

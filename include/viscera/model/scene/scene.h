@@ -65,6 +65,13 @@ struct FractureConfig {
   double toughness_j_per_m2 = 0;  ///< work per area of cut; 0: a blade parts what it crosses, and no one feels it
 };
 
+/// How much shorter tissue would be than it lies there, if nothing held it (docs/cutting.md 6).
+struct PrestressConfig {
+  double strain = 0;                     ///< along every axis
+  Vector3d strains = Vector3d::Zero();   ///< besides, along three axes of its own
+  Vector3d axes_deg = Vector3d::Zero();  ///< these: the tissue frame's, turned about fixed x, then y, then z
+};
+
 struct MaterialConfig {
   double young_modulus_pa = 20e3;
   double poisson_ratio = 0.25;  ///< 1/4 is what springs give alone; else cells have an energy of volume
@@ -75,15 +82,18 @@ struct MaterialConfig {
   Cells cells = Cells::kAuto;
   std::string tissue;  ///< preset (docs/tissues.md) of those of the first three that the scene does not give
   FractureConfig cut;
+  PrestressConfig prestress;
 };
 
-/// Elasticity of one part of a body, such as a valve. In a scene file, what is left out is as in the body's material.
+/// Elasticity and prestress of one part of a body, such as a valve. In a scene file, what is left out is as in the
+/// body's material.
 struct PartConfig {
   std::string part;
   double young_modulus_pa = 20e3;
   double poisson_ratio = 0.25;
   double density_kg_per_m3 = 1060;
   std::string tissue = {};  ///< as in MaterialConfig
+  PrestressConfig prestress = {};
 };
 
 /// What a mesh file may hold. Files are small and what they stand for need not be: nodes that share children grow

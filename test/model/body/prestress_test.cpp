@@ -1,0 +1,179 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "model/body/prestress.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "model/body/network_builder.h"
+#include "model/body_samples.h"
+#include "viscera/model/body/elasticity.h"
+
+namespace viscera::test {
+namespace {
+
+constexpr double kBalanced = 1e-6;  // forces of springs as float32 rest lengths leave them, of the largest
+constexpr double kExact = 1e-6;     // of strains: stiffness is float32
+constexpr double kHalf_m = 0.1, kThick_m = 0.005, kRim_m = 0.002;
+
+std::vector<FixedConfig> heldAround(double half_x_m, double half_y_m) {
+  std::vector<FixedConfig> out(4);
+  for (int side = 0; side < 4; ++side) {
+    out[static_cast<size_t>(side)].shape = FixedShape::kPlane;
+    out[static_cast<size_t>(side)].normal = Vector3d::Unit(side / 2) * (side % 2 ? -1 : 1);
+    out[static_cast<size_t>(side)].point_m =
+        -out[static_cast<size_t>(side)].normal * ((side / 2 == 0 ? half_x_m : half_y_m) - kRim_m);
+  }
+  return out;
+}
+
+/// Held all around: strains in its plane have nowhere to go.
+BodyConfig heldSlab(double nu, double strain) {
+  BodyConfig config = boxConfig({2 * kHalf_m, 2 * kHalf_m, kThick_m}, kThick_m);
+  config.structure = Structure::kExplicit;
+  config.material.poisson_ratio = nu;
+  config.material.prestress.strain = strain;
+  config.fixed = heldAround(kHalf_m, kHalf_m);
+  return config;
+}
+
+/// Skin that wants to shrink on fat that does not, in one mesh; held all around.
+BodyConfig skinOnFat(double border_m, double nu) {
+  TriangleMesh fat = boxMesh(Vector3f(-0.03f, -0.02f, 0), Vector3f(0.03f, 0.02f, static_cast<float>(border_m)));
+  TriangleMesh skin = boxMesh(Vector3f(-0.03f, -0.02f, static_cast<float>(border_m)), Vector3f(0.03f, 0.02f, 0.02f));
+  fat.part_names = {"fat"};
+  skin.part_names = {"skin"};
+  BodyConfig config = meshConfig(joined(fat, skin, false), 0.005);
+  config.structure = Structure::kExplicit;
+  config.material.poisson_ratio = nu;
+  PartConfig part{"skin", 100e3, nu, 1100};
+  part.prestress.strain = 0.1;
+  config.parts = {part};
+  config.fixed = heldAround(0.03, 0.02);
+  return config;
+}
+
+/// Largest force on a free node where it is, as kernels have it, over the largest of springs.
+double unbalanced(const Body& body) {
+  const NetworkLinks links = linksOf(*body.network);
+  double worst = 0, largest = 0;
+  for (const uint32_t slot : body.lattice.active_slots) {
+    Vector3d sum = Vector3d::Zero();
+    for (uint32_t i = links.starts[slot]; i < links.starts[slot + 1]; ++i) {
+      const layout::Link& link = links.links[i];
+      const Vector3d way(link.offset_length.x, link.offset_length.y, link.offset_length.z);
+      const double l0 = static_cast<double>(link.offset_length.w);
+      const double force = static_cast<double>(link.stiffness * link.prestrain_m2) / (way.norm() + l0);
+      sum += force * way.normalized();
+      largest = std::max(largest, std::abs(force));
+    }
+    if (!isFixed(body.lattice.nodes[slot])) worst = std::max(worst, sum.norm());
+  }
+  EXPECT_GT(largest, 0);
+  return worst / largest;
+}
+
+std::string noteOf(const Body& body) {
+  for (const std::string& note : body.notes)
+    if (contains(note, "prestress: ")) return note;
+  return "";
+}
+
+TEST(Prestress, WithoutItSpringsAreAtRestWhereTheyAre) {
+  BodyConfig config = heldSlab(0.25, 0);
+  const Body body = build(config);
+  EXPECT_EQ(noteOf(body), "");
+  EXPECT_TRUE(cellPrestresses(body).empty());
+  for (const layout::Link& link : linksOf(*body.network).links) EXPECT_EQ(link.prestrain_m2, 0);
+}
+
+/// In its plane the stress is that of the strain asked for while the slab is free to thin: E e / (1 - nu), whatever nu.
+TEST(Prestress, AHeldSlabHasTheStressOfPlaneStress) {
+  constexpr double kStrain = 0.04;
+  for (const double nu : {0.0, 0.25, 0.4, 0.45}) {
+    SCOPED_TRACE(nu);
+    const Body body = build(heldSlab(nu, kStrain));
+    EXPECT_LT(unbalanced(body), kBalanced);
+    const std::vector<Eigen::Matrix3d> stresses = cellPrestresses(body);
+    const double mu = body.material.young_modulus_pa / (2 * (1 + nu));
+    const Vector3i middle(body.lattice.nodes_per_axis.x() / 2, body.lattice.nodes_per_axis.y() / 2, 0);
+    const Eigen::Matrix3d& stress = stresses[static_cast<size_t>(body.lattice.slotAt(middle))];
+    const double law = body.material.young_modulus_pa * kStrain / (1 - nu) / mu;
+    constexpr double kNearRim = 0.04;  // which cannot thin: a zone of about the thickness, of half a width of 20
+    EXPECT_NEAR(stress(0, 0), law, kNearRim * law);
+    EXPECT_NEAR(stress(1, 1), law, kNearRim * law);
+    EXPECT_NEAR(stress(2, 2), 0, kNearRim * law);
+  }
+}
+
+TEST(Prestress, ASheetThatIsHeldKeepsAllOfIt) {
+  BodyConfig config;
+  config.source = TissueSource::kSheet;
+  config.structure = Structure::kSurface;
+  config.box_size_m = {0.06, 0.05, 0.01};
+  config.spacing_m = 0.004;
+  config.material.prestress.strains = {0.1, 0.02, 0};
+  config.material.prestress.axes_deg = {0, 0, 90};
+  config.fixed = heldAround(0.026, 0.021);
+  const Body body = build(config);
+  EXPECT_LT(unbalanced(body), kBalanced);
+  EXPECT_TRUE(contains(noteOf(body), "100 % of the strain")) << noteOf(body);
+  for (const NetworkSpring& spring : body.network->springs) {
+    const Vector3d way = body.network->positions_m[spring.b] - body.network->positions_m[spring.a];
+    const Vector3d n = way.normalized();
+    const double strain = 0.02 * n.x() * n.x() + 0.1 * n.y() * n.y();  // turned by a quarter
+    EXPECT_NEAR(spring.rest_length_m / way.norm(), 1 - strain, kExact);
+  }
+}
+
+TEST(Prestress, WhatNothingHoldsKeepsNone) {
+  BodyConfig config = boxConfig({0.04, 0.04, 0.04}, 0.01);
+  config.structure = Structure::kExplicit;
+  config.material.prestress.strain = 0.1;
+  const Body body = build(config);
+  EXPECT_TRUE(contains(noteOf(body), "prestress: 0 % of the strain")) << noteOf(body);
+  for (const NetworkSpring& spring : body.network->springs) {
+    const double length_m = (body.network->positions_m[spring.b] - body.network->positions_m[spring.a]).norm();
+    EXPECT_NEAR(spring.rest_length_m / length_m, 1, kExact);
+  }
+}
+
+/// Borders on a layer of nodes and within cells that both parts share.
+TEST(Prestress, SkinPullsAtFatThatIsAtRestAndBothBalance) {
+  for (const double border_m : {0.015, 0.0175}) {
+    for (const double nu : {0.25, 0.45}) {
+      SCOPED_TRACE(testing::Message() << border_m << " m, nu " << nu);
+      const Body body = build(skinOnFat(border_m, nu));
+      EXPECT_LT(unbalanced(body), kBalanced);
+      const std::vector<Eigen::Matrix3d> stresses = cellPrestresses(body);
+      const auto at = [&](int z) -> const Eigen::Matrix3d& {
+        return stresses[static_cast<size_t>(body.lattice.slotAt({6, 4, z}))];
+      };
+      EXPECT_GT(at(3)(0, 0), 0.02);                         // skin is pulled
+      EXPECT_LT(std::abs(at(1)(0, 0)), 0.2 * at(3)(0, 0));  // over mu, each its own
+    }
+  }
+}
+
+TEST(Prestress, TetrahedraBalanceToo) {
+  BodyConfig config = heldSlab(0.25, 0.05);
+  config.structure = Structure::kTetrahedra;
+  const Body body = build(config);
+  EXPECT_LT(unbalanced(body), kBalanced);
+  EXPECT_FALSE(contains(noteOf(body), "prestress: 0 %")) << noteOf(body);
+}
+
+TEST(Prestress, RefusesWhatSpringsCannotHave) {
+  BodyConfig config = heldSlab(0.25, 0.05);
+  config.structure = Structure::kLattice;
+  EXPECT_TRUE(contains(errorOf<SceneError>(config), "material.prestress needs structure explicit"));
+  config = heldSlab(0.25, 0.5);
+  config.material.prestress.strains = {0.5, 0, 0};
+  const std::string error = errorOf<SceneError>(config);
+  for (const char* piece : {"body 'slab'", "material.prestress", "0.3 to 1.5"})
+    EXPECT_TRUE(contains(error, piece)) << error;
+}
+
+}  // namespace
+}  // namespace viscera::test
