@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "bench/suites/blade/blade_strokes.h"
 #include "bench/suites/blade/blade_structures.h"
 #include "bench/suites/blade/blade_trial.h"
 #include "bench/suites/blade/prestress_slit.h"
@@ -208,6 +209,7 @@ void bladeSuite(Report& report) {
                         {"slicing", slices},
                         {"structures", bladeStructures},
                         {"prestress", prestressSlits},
+                        {"strokes", bladeStrokes},
                         {"cost", cost},
                         {"gpu", onTheGpu}});
 }

@@ -23,10 +23,8 @@ constexpr double kAhead = 0.9;       // of the spacing: where it is looked for a
 constexpr double kAside = 0.5;       // of the spacing: beside that, as a wound sways
 constexpr double kCutStep = 0.125;   // of the spacing: so far fronts go before springs are cut
 constexpr double kWayMemory = 0.25;  // of the spacing: over which a hand's direction is taken, as hands tremble
-constexpr double kStrip = 0.125;     // of the spacing, at most: parts of the edge that are in tissue or not
 
 constexpr double kHalfKernel = 0.27;  // of the kernel: the mean of one with tissue on one side only, from its middle
-constexpr double kMostStrips = 1000;  // whatever a fold makes of them
 
 Vector3d unit(const Vector3d& v) {
   const double size = v.norm();
@@ -72,6 +70,7 @@ void BladeEdge::act(BladeTarget& target, uint32_t stylus, const layout::ToolMoti
 void BladeEdge::place(const layout::ToolMotion& blade) {
   const Vector3d first = xyz(blade.from), span = xyz(blade.blade_from) - first;
   const size_t segments = std::max<size_t>(1, static_cast<size_t>(std::ceil(span.norm() / (kSampleStep * kernel_m_))));
+  stored_j_ = 0;
   fronts_.assign(segments + 1, {});
   kernels_.assign(segments + 1, {});
   pushes_.assign(segments + 1, {});
@@ -160,25 +159,6 @@ void BladeEdge::look(double dt_s) {
   }
 }
 
-int BladeEdge::stripsOf(double length_m) const {
-  return std::max(1, static_cast<int>(std::ceil(std::min(length_m / (kStrip * h_), kMostStrips))));
-}
-
-/// How much of the edge, as it lies in the tissue at rest, each sample stands for.
-void BladeEdge::findLengths() {
-  for (size_t i = 0; i + 1 < fronts_.size(); ++i) {
-    const double all_m = (fronts_[i + 1].edge - fronts_[i].edge).norm();
-    const int strips = stripsOf(all_m);
-    const double part_m = all_m / strips;
-    for (int s = 0; s < strips; ++s) {
-      const double t = (s + 0.5) / strips;
-      const double length_m = part_m * tissue_.fill(fronts_[i].at + t * (fronts_[i + 1].at - fronts_[i].at));
-      pushes_[i].length_m += (1 - t) * length_m;
-      pushes_[i + 1].length_m += t * length_m;
-    }
-  }
-}
-
 /// 1 / sqrt(1 + xi^2), xi the hand's way along the edge over that across it.
 double BladeEdge::drawn(size_t i) const {
   const Vector3d& way = fronts_[i].way;
@@ -202,7 +182,7 @@ void BladeEdge::solve(double dt_s) {
   for (int sweep = 0; sweep < kSweeps; ++sweep) {
     for (size_t i = 0; i < fronts_.size(); ++i) solveOne(i, dt_s);
   }
-  for (const Push& push : pushes_) done_.work_j += push.impulse.dot(push.edge_velocity);
+  giveBackAtMost();
 }
 
 void BladeEdge::solveOne(size_t i, double dt_s) {
@@ -320,20 +300,6 @@ void BladeEdge::cutBehind(BladeTarget& target, bool all) {
   }
 }
 
-/// Of the segment from sample i to the next one.
-void BladeEdge::countArea(size_t i) {
-  const Front &a = fronts_[i], &b = fronts_[i + 1];
-  const int strips = stripsOf((b.at - a.at).norm());
-  for (int s = 0; s < strips; ++s) {
-    const double t = (s + 0.5) / strips, cuts = (1 - t) * a.cuts + t * b.cuts;
-    const Vector3d at = a.at + t * (b.at - a.at), from = a.counted + t * (b.counted - a.counted);
-    const double all_m2 = (at - from).cross(b.at - a.at).norm() / strips;
-    const double area_m2 = cuts * tissue_.fill(0.5 * (at + from)) * all_m2;
-    done_.area_m2 += area_m2;
-    done_.parting_j += ((1 - t) * toughness(i) + t * toughness(i + 1)) * area_m2;
-  }
-}
-
 /// Around a place ahead: as a wound sways, what lies beside one, or just below its end, is it too.
 bool BladeEdge::isWhole(const Vector3d& ahead, const Vector3d& side) const {
   bool whole = true;
@@ -379,6 +345,7 @@ void BladeEdge::reset() {
 void BladeEdge::persist(Archive& archive) {
   archive.list(fronts_);
   archive.value(done_);
+  archive.value(stored_j_);
   if (!archive.reads()) return;
   kernels_.assign(fronts_.size(), {});
   pushes_.assign(fronts_.size(), {});

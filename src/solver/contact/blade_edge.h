@@ -83,6 +83,7 @@ class BladeEdge {
   void solve(double dt_s);
   void solveOne(size_t i, double dt_s);
   Vector3d limited(size_t i, const Vector3d& impulse);
+  void giveBackAtMost();
   void give(BladeTarget& target, uint32_t stylus, double dt_s);
   void advance(double dt_s);
   void moveFront(size_t i, const Vector3d& gap);
@@ -99,6 +100,7 @@ class BladeEdge {
   double toughness_j_per_m2_, at_surface_j_per_m2_, kernel_m_, h_;
   std::vector<Front> fronts_;  ///< from the near end of the blade to the far one; empty: the blade is not there
   BladeWork done_;
+  double stored_j_ = 0;  ///< in the tissue by this edge since it came, at most: what it may give back
   std::vector<BladeKernel> kernels_;
   std::vector<Push> pushes_;
   std::vector<double> mobilities_;  ///< [samples^2] what an impulse of one changes another's velocity by [1/kg]

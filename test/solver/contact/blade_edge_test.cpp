@@ -19,7 +19,7 @@
 namespace viscera {
 namespace {
 
-constexpr double kBack_j = 1e-3;  // to a hand, in a stroke
+constexpr double kBack_j = 1e-12;  // to a hand, in a stroke: rounding of sums
 
 /// A block on a plate, and a hand in it.
 class Hand {

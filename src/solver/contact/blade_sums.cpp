@@ -1,0 +1,75 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+// What an edge counts: its length in tissue, the area that it parts, the energy that it may give back.
+#include <algorithm>
+#include <cmath>
+
+#include "solver/contact/blade_edge.h"
+
+namespace viscera {
+
+namespace {
+
+constexpr double kStrip = 0.125;      // of the spacing, at most: parts of the edge that are in tissue or not
+constexpr double kMostStrips = 1000;  // whatever a fold makes of them
+constexpr double kGivenBack = 0.25;   // of what the tissue has of the edge, at most, in a substep: it ends smoothly
+
+}  // namespace
+
+int BladeEdge::stripsOf(double length_m) const {
+  return std::max(1, static_cast<int>(std::ceil(std::min(length_m / (kStrip * h_), kMostStrips))));
+}
+
+/// How much of the edge, as it lies in the tissue at rest, each sample stands for.
+void BladeEdge::findLengths() {
+  for (size_t i = 0; i + 1 < fronts_.size(); ++i) {
+    const double all_m = (fronts_[i + 1].edge - fronts_[i].edge).norm();
+    const int strips = stripsOf(all_m);
+    const double part_m = all_m / strips;
+    for (int s = 0; s < strips; ++s) {
+      const double t = (s + 0.5) / strips;
+      const double length_m = part_m * tissue_.fill(fronts_[i].at + t * (fronts_[i + 1].at - fronts_[i].at));
+      pushes_[i].length_m += (1 - t) * length_m;
+      pushes_[i + 1].length_m += t * length_m;
+    }
+  }
+}
+
+/// A hand gets back at most what this edge has stored in the tissue since it came: what swings there of others' work,
+/// or of strokes before, pushes no hand. Forces fall with what is left.
+void BladeEdge::giveBackAtMost() {
+  const size_t n = fronts_.size();
+  double work_j = 0, given_j = 0;
+  for (const Push& push : pushes_) work_j += push.impulse.dot(push.edge_velocity);
+  const double most_j = kGivenBack * stored_j_;
+  if (work_j < -most_j) {
+    const double less = 1 + most_j / work_j;
+    for (size_t i = 0; i < n; ++i) {
+      for (size_t j = 0; j < n; ++j) pushes_[j].velocity -= less * mobilities_[i * n + j] * pushes_[i].impulse;
+    }
+    for (Push& push : pushes_) {
+      push.impulse *= 1 - less;
+      push.slips = push.aside = false;
+    }
+    work_j = -most_j;
+  }
+  for (const Push& push : pushes_) given_j += push.impulse.dot(push.velocity);
+  stored_j_ = std::max(0.0, stored_j_ + std::min(work_j, given_j));
+  done_.work_j += work_j;
+}
+
+/// Of the segment from sample i to the next one.
+void BladeEdge::countArea(size_t i) {
+  const Front &a = fronts_[i], &b = fronts_[i + 1];
+  const int strips = stripsOf((b.at - a.at).norm());
+  for (int s = 0; s < strips; ++s) {
+    const double t = (s + 0.5) / strips, cuts = (1 - t) * a.cuts + t * b.cuts;
+    const Vector3d at = a.at + t * (b.at - a.at), from = a.counted + t * (b.counted - a.counted);
+    const double all_m2 = (at - from).cross(b.at - a.at).norm() / strips;
+    const double area_m2 = cuts * tissue_.fill(0.5 * (at + from)) * all_m2;
+    done_.area_m2 += area_m2;
+    done_.parting_j += ((1 - t) * toughness(i) + t * toughness(i + 1)) * area_m2;
+  }
+}
+
+}  // namespace viscera
