@@ -41,9 +41,8 @@ void addPiecesNote(Body& body) {
   if (!note.empty()) body.notes.push_back(note);
 }
 
-void addToughnessNote(Body& body) {
-  const std::string note = toughnessOf(body).note();
-  if (!note.empty()) body.notes.push_back(note);
+void addToughnessNotes(Body& body) {
+  for (const std::string& note : toughnessNotes(body)) body.notes.push_back(note);
 }
 
 void addNotes(const std::vector<std::string>& notes, Body& body) {
@@ -65,7 +64,7 @@ Body buildLatticeBody(const BodyConfig& config, const Scene& scene, const Tissue
   const auto slots = [&](uint16_t label) { return slotsOfPart(label, solid, body.lattice); };
   const size_t fixed_nodes = fixNodes(config, {solid.part_names, slots}, body);
   body.notes.push_back(latticeNote(body.lattice, fixed_nodes));
-  addToughnessNote(body);
+  addToughnessNotes(body);
   const std::string walls = wallsNote(tissue.walls(), solid.spacing_m);
   if (!walls.empty()) body.notes.push_back(walls);
   addPiecesNote(body);
@@ -89,7 +88,7 @@ Body buildNetworkBody(const BodyConfig& config, const Tissue& tissue, bool can_b
   addNotes(tissue.notes, body);
   const size_t fixed_nodes = fixNodes(config, parts, body);
   body.notes.push_back(networkNote(body, fixed_nodes));
-  addToughnessNote(body);
+  addToughnessNotes(body);
   addPrestress(body);
   addPiecesNote(body);
   if (progress) progress("extract skin", 0);

@@ -41,7 +41,7 @@ bodies:
     roughness: 0.41
     mottling: 0.42
     layers:
-      - {depth_m: 0.0043, color: [0.44, 0.45, 0.46]}
+      - {depth_m: 0.0043, color: [0.44, 0.45, 0.46], toughness_j_per_m2: 471}
     force_n: [0.37, 0.38, 0.39]
     spacing_m: 0.0041
     target_nodes: 4200
@@ -54,7 +54,7 @@ bodies:
     color: [0.071, 0.072, 0.073]
     material: {tissue: liver, young_modulus_pa: 8100, poisson_ratio: 0.31, density_kg_per_m3: 820, drag_per_s: 8.3, dashpot_ratio: 0.084, weights: paper, cells: springs, cut: {toughness_j_per_m2: 187},
                prestress: {strain: 0.0821, strains: [0.0822, 0.0823, 0.0824], axes_deg: [82.5, 82.6, 82.7]}}
-    parts: [{part: valve, tissue: spleen, young_modulus_pa: 8101, poisson_ratio: 0.32, density_kg_per_m3: 821,
+    parts: [{part: valve, tissue: spleen, young_modulus_pa: 8101, poisson_ratio: 0.32, density_kg_per_m3: 821, cut: {toughness_j_per_m2: 188},
              prestress: {strain: 0.0831, strains: [0.0832, 0.0833, 0.0834], axes_deg: [83.5, 83.6, 83.7]}}]
     fixed:
       - shape: part
@@ -72,7 +72,7 @@ styluses:
     button2: cut_particles
     probe: {radius_m: 0.0061}
     grab: {radius_m: 0.0062, release_speed_m_per_s: 0.65}
-    cut: {blade_length_m: 0.063, blade_side: both}
+    cut: {blade_length_m: 0.063, blade_side: both, friction_n_per_m: 6.31}
     cut_particles: {eraser_radius_m: 0.0064}
     suction: {radius_m: 0.0066, max_force_n: 6.7, release_speed_m_per_s: 0.651}
     max_force_n: 6.6
@@ -185,6 +185,7 @@ TEST(SceneKeys, EveryBodyKeyReachesItsField) {
   ASSERT_EQ(body.layers.size(), 1u);
   EXPECT_EQ(body.layers[0].depth_m, 0.0043);
   EXPECT_EQ(body.layers[0].color, Vector3d(0.44, 0.45, 0.46));
+  EXPECT_EQ(body.layers[0].toughness_j_per_m2, 471);
   EXPECT_EQ(body.force_n, Vector3d(0.37, 0.38, 0.39));
   EXPECT_EQ(body.spacing_m, 0.0041);
   EXPECT_EQ(body.target_nodes, 4200);
@@ -206,6 +207,7 @@ TEST(SceneKeys, EveryBodyKeyReachesItsField) {
   EXPECT_EQ(body.material.weights, Weights::kPaper);
   EXPECT_EQ(body.material.cells, Cells::kSprings);
   const PartConfig& part = body.parts.at(0);
+  EXPECT_EQ(part.cut.toughness_j_per_m2, 188);
   EXPECT_EQ(part.part, "valve");
   EXPECT_EQ(part.tissue, "spleen");
   EXPECT_EQ(part.young_modulus_pa, 8101);
@@ -237,6 +239,7 @@ TEST(SceneKeys, EveryOtherKeyReachesItsField) {
   EXPECT_EQ(stylus.grab.radius_m, 0.0062);
   EXPECT_EQ(stylus.cut.blade_length_m, 0.063);
   EXPECT_EQ(stylus.cut.blade_side, BladeSide::kBoth);
+  EXPECT_EQ(stylus.cut.friction_n_per_m, 6.31);
   EXPECT_EQ(stylus.cut_particles.eraser_radius_m, 0.0064);
   EXPECT_EQ(stylus.grab.release_speed_m_per_s, 0.65);
   EXPECT_EQ(stylus.suction.radius_m, 0.0066);
@@ -337,13 +340,23 @@ TEST(SceneKeys, EveryRowTellsAllAboutItsKey) {
 }
 
 TEST(SceneKeys, KeyEndsInItsUnit) {
-  const std::map<std::string, std::string> suffixes = {
-      {"m", "_m"},          {"Pa", "_pa"},       {"kg/m3", "_kg_per_m3"},
-      {"1/s", "_per_s"},    {"m/s", "_m_per_s"}, {"m/s2", "_m_per_s2"},
-      {"N", "_n"},          {"N/s", "_n_per_s"}, {"s", "_s"},
-      {"deg", "_deg"},      {"Hz", "_hz"},       {"deg/s", "_deg_per_s"},
-      {"MB", "_mb"},        {"N m", "_nm"},      {"N m/s", "_nm_per_s"},
-      {"J/m2", "_j_per_m2"}};
+  const std::map<std::string, std::string> suffixes = {{"m", "_m"},
+                                                       {"Pa", "_pa"},
+                                                       {"kg/m3", "_kg_per_m3"},
+                                                       {"1/s", "_per_s"},
+                                                       {"m/s", "_m_per_s"},
+                                                       {"m/s2", "_m_per_s2"},
+                                                       {"N", "_n"},
+                                                       {"N/s", "_n_per_s"},
+                                                       {"s", "_s"},
+                                                       {"N/m", "_n_per_m"},
+                                                       {"deg", "_deg"},
+                                                       {"Hz", "_hz"},
+                                                       {"deg/s", "_deg_per_s"},
+                                                       {"MB", "_mb"},
+                                                       {"N m", "_nm"},
+                                                       {"N m/s", "_nm_per_s"},
+                                                       {"J/m2", "_j_per_m2"}};
   for (const auto& row : tableRows(sceneKeysTable())) {
     const size_t comma = row.at(2).find(", ");
     if (comma == std::string::npos) continue;

@@ -57,6 +57,9 @@ TEST(TissuePresets, EveryRowIsWithinItsRangeAndSaysHowAndWhereItWasMeasured) {
     EXPECT_GT(std::string(preset.test).size(), 10U);
     EXPECT_TRUE(std::regex_search(preset.source, std::regex("(19|20)[0-9][0-9]"))) << "no year: " << preset.source;
     EXPECT_EQ((std::string(preset.test) + preset.source).find('|'), std::string::npos) << "spoils the table";
+    EXPECT_EQ(std::string(preset.toughness_test).find('|'), std::string::npos) << "spoils the table";
+    EXPECT_EQ(preset.toughness_j_per_m2 > 0, std::string(preset.toughness_test).size() > 10);
+    if (preset.toughness_j_per_m2 > 0) EXPECT_TRUE(hasTwoDigits(preset.toughness_j_per_m2));
     expectNumbers(materialOf(std::string("tissue: ") + preset.name), preset.young_modulus_pa, preset.poisson_ratio,
                   preset.density_kg_per_m3);
   }
@@ -66,6 +69,26 @@ TEST(TissuePresets, GiveWhatTheSceneDoesNot) {
   expectNumbers(materialOf("young_modulus_pa: 9000, tissue: liver"), 9000, 0.49, 1060);
   expectNumbers(materialOf("tissue: liver, poisson_ratio: 0.4, density_kg_per_m3: 1000"), 6400, 0.4, 1000);
   EXPECT_EQ(materialOf("tissue: liver").drag_per_s, MaterialConfig{}.drag_per_s);
+}
+
+TEST(TissuePresets, GiveTheirToughnessWhereItIsAskedForAlone) {
+  EXPECT_EQ(materialOf("tissue: liver").cut.toughness_j_per_m2, 0);
+  const BodyConfig body =
+      parseScene(
+          "bodies: [{material: {tissue: liver, cut: {toughness_j_per_m2: auto}}, parts: [{part: a}, "
+          "{part: b, tissue: skin}, {part: c, cut: {toughness_j_per_m2: 7}}]}]\n",
+          "s.yaml")
+          .bodies.at(0);
+  EXPECT_EQ(body.material.cut.toughness_j_per_m2, 160);
+  EXPECT_EQ(body.parts.at(0).cut.toughness_j_per_m2, 160);
+  EXPECT_EQ(body.parts.at(1).cut.toughness_j_per_m2, 1100);
+  EXPECT_EQ(body.parts.at(2).cut.toughness_j_per_m2, 7);
+  for (const char* tissue : {"", "tissue: brain, "}) {
+    EXPECT_TRUE(
+        says(test::messageOf<SceneError>([&] { materialOf(std::string(tissue) + "cut: {toughness_j_per_m2: auto}"); }),
+             {"s.yaml: body 'tissue': material.cut.toughness_j_per_m2: auto needs a tissue whose toughness is known "
+              "(liver,"}));
+  }
 }
 
 TEST(TissuePresets, OfAPartGoBeforeItsBodysMaterialAndBehindItsOwnNumbers) {

@@ -11,6 +11,7 @@ namespace viscera {
 
 constexpr int kMostLayers = 4;
 constexpr int kMostLabels = 255;
+constexpr Range kToughness{0, 1e6};  // J/m2
 
 template <class V>
 void visitFields(V& v, FixedConfig& c) {
@@ -33,9 +34,11 @@ void visitFields(V& v, FixedConfig& c) {
 
 template <class V>
 void visitFields(V& v, FractureConfig& c) {
-  v.number("toughness_j_per_m2", c.toughness_j_per_m2, {0, 1e6}, "J/m2",
-           "work that a blade does per area that it parts, felt by the hand (docs/cutting.md); 0: it parts what it "
-           "crosses and is not felt. Above 0: solver.integrator leapfrog or auto");
+  v.numberOrAuto(
+      "toughness_j_per_m2", c.toughness_j_per_m2, c.of_tissue, kToughness, "J/m2",
+      "work that a blade does per area that it parts, felt by the hand (docs/cutting.md); 0: it parts what it "
+      "crosses and is not felt; auto: that of the tissue (docs/tissues.md#toughness). Above 0: solver.integrator "
+      "leapfrog or auto");
 }
 
 template <class V>
@@ -81,6 +84,7 @@ void visitFields(V& v, PartConfig& c) {
   v.number("young_modulus_pa", c.young_modulus_pa, {1, 1e9}, "Pa", "Young's modulus E of this part");
   v.number("poisson_ratio", c.poisson_ratio, {0, 0.49}, "1", "Poisson's ratio nu of this part");
   v.number("density_kg_per_m3", c.density_kg_per_m3, {1, 1e5}, "kg/m3", "mass density of this part");
+  v.group("cut", c.cut, "what it takes to part it");
   v.group("prestress", c.prestress, "prestress of this part");
 }
 
@@ -113,6 +117,10 @@ template <class V>
 void visitFields(V& v, LayerConfig& c) {
   v.number("depth_m", c.depth_m, kLength, "m", "below the skin, to which it reaches");
   v.vector("color", c.color, {0, 1}, "1", "red, green, blue");
+  v.number(
+      "toughness_j_per_m2", c.toughness_j_per_m2, kToughness, "J/m2",
+      "of a capsule or skin, as material.cut.toughness_j_per_m2; 0: that of the material or part. Not in structure "
+      "surface");
 }
 
 template <class V>
@@ -197,12 +205,13 @@ void visitFields(V& v, BodyConfig& c) {
   v.number("roughness", c.roughness, {0, 1}, "1", "of the wet surface: 0 mirrors lamps, 1 is dull");
   v.number("mottling", c.mottling, {0, 3}, "1", "how much lightness, hue and relief vary from place to place; 0: even");
   v.list("layers", c.layers, kMostLayers,
-         "what a wound's wall shows below the skin, from the surface down; beyond the "
+         "what a wound's wall shows below the skin, from the surface down, and what it takes to part it; beyond the "
          "last one: the flesh of `color`");
   v.group("material", c.material, "elastic material");
-  const PartConfig as_material{"", c.material.young_modulus_pa, c.material.poisson_ratio, c.material.density_kg_per_m3,
-                               {}, c.material.prestress};
-  v.list("parts", c.parts, 64, "parts whose elasticity differs; what is left out is as in `material`", as_material);
+  const MaterialConfig& m = c.material;
+  const PartConfig as_material{"", m.young_modulus_pa, m.poisson_ratio, m.density_kg_per_m3, "", m.cut, m.prestress};
+  v.list("parts", c.parts, 64, "parts whose elasticity or toughness differs; what is left out is as in `material`",
+         as_material);
   v.list("fixed", c.fixed, 64, "regions whose nodes are held in space");
 }
 

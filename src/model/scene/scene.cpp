@@ -67,6 +67,27 @@ void leaveOutNuOfPreset(BodyConfig& body) {
     body.material.poisson_ratio = MaterialConfig{}.poisson_ratio;
 }
 
+/// `toughness_j_per_m2: auto`. @param tissue  of a part that names none: its body's
+void takeToughness(const std::string& where, const std::string& tissue, FractureConfig& cut) {
+  if (!cut.of_tissue) return;
+  const TissuePreset* preset = tissueNamed(tissue);
+  if (!preset || !(preset->toughness_j_per_m2 > 0)) {
+    throw SceneError(where + ".cut.toughness_j_per_m2: auto needs a tissue whose toughness is known (" +
+                     toughTissues() + "), not " + (preset ? tissue : "none") + "; or give a number");
+  }
+  cut.toughness_j_per_m2 = preset->toughness_j_per_m2;
+}
+
+void takeToughnesses(const std::string& file, BodyConfig& body) {
+  const std::string where = file + ": body '" + body.name + "': ";
+  takeToughness(where + "material", body.material.tissue, body.material.cut);
+  for (size_t i = 0; i < body.parts.size(); ++i) {
+    PartConfig& part = body.parts[i];
+    takeToughness(where + "parts[" + std::to_string(i) + "]", part.tissue.empty() ? body.material.tissue : part.tissue,
+                  part.cut);
+  }
+}
+
 /// What no single key can tell.
 void requireConsistent(const std::string& file, const Scene& scene) {
   if (scene.bodies.empty()) throw SceneError(file + ": 'bodies' must hold at least one body");
@@ -131,7 +152,10 @@ Scene parseScene(const std::string& yaml, const std::string& name, const Overrid
   } catch (const YAML::Exception& e) {
     throw SceneError(yamlFault(name, e));
   }
-  for (BodyConfig& body : scene.bodies) leaveOutNuOfPreset(body);
+  for (BodyConfig& body : scene.bodies) {
+    leaveOutNuOfPreset(body);
+    takeToughnesses(name, body);
+  }
   requireConsistent(name, scene);
   return scene;
 }

@@ -53,6 +53,10 @@ std::string networkFault(const BodyConfig& body) {
            name + ", whose springs give what they give (" + nature + "): leave it out";
   }
   if (!body.parts.empty()) return "parts need structure lattice or explicit, not " + name;
+  for (const LayerConfig& layer : body.layers) {
+    if (layer.toughness_j_per_m2 > 0 && body.structure == Structure::kSurface)
+      return "layers[].toughness_j_per_m2 must be 0 with structure surface, which has no depth";
+  }
   if (body.material.weights != Weights::kCell) return "material.weights: paper needs structure lattice or explicit";
   if (body.material.cells == Cells::kMoments) return "material.cells: moments needs structure lattice or explicit";
   if (body.skin != SkinSource::kAuto) return "skin must be auto with structure " + name + ": the skin is its surface";

@@ -18,7 +18,10 @@ constexpr double kWet = 0.49;  ///< nu within seconds, in which no water leaves:
 const std::vector<TissuePreset> kPresets = {
     {"liver", 6400, 3900, 8000, kWet, 1060,
      "MR elastography of 102 healthy people, 4.1 to 8.0 kPa; ultrasound of 50 has means of 3.9 to 4.7",
-     "Obrzut et al. 2019, Pol Arch Intern Med; Viceconti et al. 2025, World J Radiol", "hepar"},
+     "Obrzut et al. 2019, Pol Arch Intern Med; Viceconti et al. 2025, World J Radiol", "hepar", 160,
+     "needles of four widths, ox, 164 +- 6; other needles 76 to 185, blades 187 to 225, pig. Gokgol et al. 2012, Med "
+     "Eng "
+     "Phys 34:882; [review](#toughness)"},
     {"spleen", 17000, 2900, 23000, kWet, 1050,
      "ultrasound elastography of 59 healthy people, 16.6 +- 2.5 kPa; means of others are 2.9 and 19 to 23",
      "J Ultrasound 2016, PMC5059412; Arda et al. 2011, AJR 197:532; Viceconti et al. 2025", ""},
@@ -43,14 +46,18 @@ const std::vector<TissuePreset> kPresets = {
     {"fat", 1600, 660, 2500, kWet, 910,
      "indentation below the skin in MR, pig; MR elastography of 10 women at 50 Hz has 2.3 kPa",
      "Sims et al. 2010, Biomech Model Mechanobiol 9:703; Hatt et al. 2023, J Mech Behav Biomed Mater",
-     "subcutaneous fat, adipose"},
+     "subcutaneous fat, adipose", 4100,
+     "trouser tear, pig: torn, not cut; a sharp blade may need less. [Review](#toughness)"},
     {"skin", 56000, 40000, 73000, 0.48, 1150,
      "suction in vivo, breast, 7 volunteers; other tests and skins differ by far more",
-     "In vivo measurement of breast tissues stiffness using a light aspiration device, Clin Biomech 2022", ""},
+     "In vivo measurement of breast tissues stiffness using a light aspiration device, Clin Biomech 2022", "", 1100,
+     "needle, pig, 1136; scissors 1700 (rat), 2800 (chicken); torn 17,000 to 30,000. [Review](#toughness)"},
     {"muscle", 11000, 3000, 15000, kWet, 1050,
      "ultrasound elastography at rest, calf; MR elastography of the buttock has 3 kPa. Fibrous: lattices are isotropic",
      "Arda et al. 2011, AJR 197:532; Hatt et al. 2023, J Mech Behav Biomed Mater",
-     "muscles, autochthon, iliopsoas, gluteus maximus, gluteus medius, gluteus minimus, masseter"},
+     "muscles, autochthon, iliopsoas, gluteus maximus, gluteus medius, gluteus minimus, masseter", 2100,
+     "notched strips, pig, 550 to 8000, of which this is the middle by factors; strips that small may break elsewhere. "
+     "[Review](#toughness)"},
     {"heart_muscle", 7800, 6000, 21000, kWet, 1040,
      "ultrasound elastography at the end of diastole, 20 to 80 years. Fibrous: lattices are isotropic",
      "Villemain et al. 2019, JACC Cardiovasc Imaging", "myocardium, heart myocardium"},
@@ -62,7 +69,8 @@ const std::vector<TissuePreset> kPresets = {
      "Lai-Fook et al. 1976, J Appl Physiol 40:508", "lungs"},
     {"cartilage", 1000000, 480000, 1600000, 0.02, 1100,
      "creep indentation, human tibia, drained: after minutes; within seconds nu is near 1/2",
-     "Keenan et al. 2009, Comput Methods Biomech Biomed Engin 12:415", "articular cartilage"},
+     "Keenan et al. 2009, Comput Methods Biomech Biomed Engin 12:415", "articular cartilage", 410,
+     "notched strips, 140 to 1200, of which this is the middle by factors. [Review](#toughness)"},
     {"meniscus", 180000, 96000, 270000, 0.32, 1100, "compression to equilibrium, drained: after minutes; ox, 6",
      "Danso et al. 2018, J Biomech", ""},
     {"small_intestine_wall", 240000, 180000, 310000, kWet, 1030,
@@ -141,14 +149,23 @@ const TissuePreset* tissueOfLabel(const std::string& label) {
   return nullptr;
 }
 
+std::string toughTissues() {
+  std::string out;
+  for (const TissuePreset& preset : kPresets) {
+    if (preset.toughness_j_per_m2 > 0) out += (out.empty() ? "" : ", ") + std::string(preset.name);
+  }
+  return out;
+}
+
 std::string tissueTable() {
   std::ostringstream out;
-  out << "| tissue | E, Pa | from, to, Pa | nu | density, kg/m3 | test of E | source "
-         "|\n|---|---|---|---|---|---|---|\n";
+  out << "| tissue | E, Pa | from, to, Pa | nu | density, kg/m3 | J, J/m2 | test of E | source | test and source of J "
+         "|\n|---|---|---|---|---|---|---|---|---|\n";
   for (const TissuePreset& p : kPresets) {
     out << "| `" << p.name << "` | " << numberOf(p.young_modulus_pa) << " | " << numberOf(p.low_pa) << ", "
-        << numberOf(p.high_pa) << " | " << p.poisson_ratio << " | " << p.density_kg_per_m3 << " | " << p.test << " | "
-        << p.source << " |\n";
+        << numberOf(p.high_pa) << " | " << p.poisson_ratio << " | " << p.density_kg_per_m3 << " | "
+        << (p.toughness_j_per_m2 > 0 ? numberOf(p.toughness_j_per_m2) : "") << " | " << p.test << " | " << p.source
+        << " | " << p.toughness_test << " |\n";
   }
   return out.str();
 }

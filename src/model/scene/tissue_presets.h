@@ -14,8 +14,10 @@ struct TissuePreset {
   const char* name;
   double young_modulus_pa, low_pa, high_pa;  ///< at small strain; between tests and people it is from low to high
   double poisson_ratio, density_kg_per_m3;
-  const char *test, *source;  ///< of E
-  const char* labels;         ///< what label maps call it besides, a comma between
+  const char *test, *source;      ///< of E
+  const char* labels;             ///< what label maps call it besides, a comma between
+  double toughness_j_per_m2 = 0;  ///< of what a blade parts; 0: not known
+  const char* toughness_test = "";
 };
 
 const std::vector<TissuePreset>& tissuePresets();
@@ -26,6 +28,9 @@ const TissuePreset* tissueNamed(const std::string& name);
 /// The preset whose name, or another that label maps have for it, is that of a label, word by word; sides, lobes and
 /// numbers aside: "left_kidney", "Liver", "lung_upper_lobe_left", but not "liver_vessels".   @return null: none
 const TissuePreset* tissueOfLabel(const std::string& label);
+
+/// Names of those whose toughness is known.
+std::string toughTissues();
 
 /// Markdown table of all presets.
 std::string tissueTable();

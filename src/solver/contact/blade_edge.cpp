@@ -43,12 +43,11 @@ Vector3d atMost(const Vector3d& v, double most) {
 
 }  // namespace
 
-BladeEdge::BladeEdge(RestTissue& tissue, const Toughness& toughness)
+BladeEdge::BladeEdge(RestTissue& tissue, double friction_n_per_m)
     : tissue_(tissue),
-      toughness_j_per_m2_(toughness.carried_j_per_m2()),
-      at_surface_j_per_m2_(toughness.carriedAtSurface_j_per_m2()),
-      kernel_m_(toughness.kernel_m()),
-      h_(toughness.spacing_m),
+      friction_n_per_m_(tissue.toughness().carriedFriction_n_per_m(friction_n_per_m)),
+      kernel_m_(tissue.toughness().kernel_m(friction_n_per_m)),
+      h_(tissue.toughness().spacing_m()),
       place_of_(tissue.nodes().size(), RestTissue::kNone) {}
 
 void BladeEdge::act(BladeTarget& target, uint32_t stylus, const layout::ToolMotion& blade, double dt_s) {
@@ -166,34 +165,36 @@ double BladeEdge::drawn(size_t i) const {
   return all2 > 0 ? std::sqrt(std::max(0.0, 1 - along * along / all2)) : 1;
 }
 
-/// Less at a surface that the edge comes in by [J/m2].
-double BladeEdge::toughness(size_t i) const {
-  const double ahead = kernels_[i].lean.dot(fronts_[i].forward) / (kHalfKernel * kernel_m_);
-  return toughness_j_per_m2_ + std::clamp(ahead, 0.0, 1.0) * (at_surface_j_per_m2_ - toughness_j_per_m2_);
+/// 1 at a surface that the edge comes in by, 0 where there is as much tissue behind the front as ahead: less is
+/// carried.
+double BladeEdge::ahead(size_t i) const {
+  return std::clamp(kernels_[i].lean.dot(fronts_[i].forward) / (kHalfKernel * kernel_m_), 0.0, 1.0);
 }
 
 void BladeEdge::solve(double dt_s) {
   done_.limit_n = 0;
   for (size_t i = 0; i < fronts_.size(); ++i) {
     Push& push = pushes_[i];
-    push.cap_n_s = fronts_[i].stuck && push.length_m > 0 ? toughness(i) * push.length_m * dt_s : 0;
-    done_.limit_n += drawn(i) * push.cap_n_s / dt_s;
+    const bool parts = fronts_[i].stuck && push.length_m > 0;
+    push.cap_n_s = parts ? push.over_length.with(ahead(i)) * dt_s : 0;
+    push.slips = parts && !(push.cap_n_s > 0);  // a part without a toughness
+    done_.limit_n += drawn(i) * push.cap_n_s / dt_s + friction_n_per_m_ * push.length_m;
   }
   for (int sweep = 0; sweep < kSweeps; ++sweep) {
-    for (size_t i = 0; i < fronts_.size(); ++i) solveOne(i, dt_s);
+    for (size_t i = 0; i < fronts_.size(); ++i) {
+      solveOne(i, dt_s);
+      rubOne(i, dt_s);
+    }
   }
   giveBackAtMost();
 }
 
 void BladeEdge::solveOne(size_t i, double dt_s) {
-  const size_t n = fronts_.size();
   Push& push = pushes_[i];
-  const double mobility = mobilities_[i * n + i];
+  const double mobility = mobilities_[i * fronts_.size() + i];
   if (!(push.cap_n_s > 0) || !(mobility > 0)) return;
   const Vector3d missing = push.edge_velocity + kClosed / dt_s * push.gap - push.velocity;
-  const Vector3d next = limited(i, push.impulse + missing / mobility), more = next - push.impulse;
-  push.impulse = next;
-  for (size_t j = 0; j < n; ++j) pushes_[j].velocity += mobilities_[i * n + j] * more;
+  give(i, limited(i, push.impulse - push.rub + missing / mobility) + push.rub);
 }
 
 /// An edge does not pull; across its way the flats of the blade push, up to a limit; in its plane the tissue gives way.

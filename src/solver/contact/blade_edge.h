@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "model/body/toughness.h"
 #include "solver/contact/blade_kernel.h"
 #include "viscera/layout/tool_motion.h"
 #include "viscera/math/types.h"
@@ -36,8 +35,8 @@ class BladeTarget {
 /// whatever the spacing.
 class BladeEdge {
  public:
-  /// @param tissue  that it cuts; must outlive it
-  BladeEdge(RestTissue& tissue, const Toughness& toughness);
+  /// @param tissue  that it cuts; must outlive it   @param friction_n_per_m  CutConfig
+  BladeEdge(RestTissue& tissue, double friction_n_per_m);
 
   /// After a substep. @param blade  its motion in the substep
   void act(BladeTarget& target, uint32_t stylus, const layout::ToolMotion& blade, double dt_s);
@@ -67,9 +66,16 @@ class BladeEdge {
     Vector3d edge_velocity = Vector3d::Zero();
     Vector3d gap = Vector3d::Zero();       ///< from the front to the edge as they are, before the substep
     Vector3d velocity = Vector3d::Zero();  ///< of the tissue
-    Vector3d impulse = Vector3d::Zero();   ///< on the tissue [N s]
+    Vector3d impulse = Vector3d::Zero();   ///< on the tissue [N s], rub among it
+    Vector3d rub = Vector3d::Zero();       ///< of the blade's walls
     double length_m = 0, cap_n_s = 0;
+    RestToughness::Carried over_length;  ///< times length [N]
     bool slips = false, aside = false;
+    void stand(double more_m, const RestToughness::Carried& carried) {
+      length_m += more_m;
+      over_length.inside_j_per_m2 += more_m * carried.inside_j_per_m2;
+      over_length.at_surface_j_per_m2 += more_m * carried.at_surface_j_per_m2;
+    }
   };
 
   void place(const layout::ToolMotion& blade);
@@ -82,6 +88,8 @@ class BladeEdge {
   int stripsOf(double length_m) const;
   void solve(double dt_s);
   void solveOne(size_t i, double dt_s);
+  void rubOne(size_t i, double dt_s);
+  void give(size_t i, const Vector3d& impulse);
   Vector3d limited(size_t i, const Vector3d& impulse);
   void giveBackAtMost();
   void give(BladeTarget& target, uint32_t stylus, double dt_s);
@@ -94,10 +102,10 @@ class BladeEdge {
   bool isWhole(const Vector3d& ahead, const Vector3d& side) const;
   Vector3d toRest(size_t i, const Vector3d& gap) const;
   double drawn(size_t i) const;
-  double toughness(size_t i) const;
+  double ahead(size_t i) const;
 
   RestTissue& tissue_;
-  double toughness_j_per_m2_, at_surface_j_per_m2_, kernel_m_, h_;
+  double friction_n_per_m_, kernel_m_, h_;
   std::vector<Front> fronts_;  ///< from the near end of the blade to the far one; empty: the blade is not there
   BladeWork done_;
   double stored_j_ = 0;  ///< in the tissue by this edge since it came, at most: what it may give back

@@ -28,9 +28,11 @@ void BladeEdge::findLengths() {
     const double part_m = all_m / strips;
     for (int s = 0; s < strips; ++s) {
       const double t = (s + 0.5) / strips;
-      const double length_m = part_m * tissue_.fill(fronts_[i].at + t * (fronts_[i + 1].at - fronts_[i].at));
-      pushes_[i].length_m += (1 - t) * length_m;
-      pushes_[i + 1].length_m += t * length_m;
+      const Vector3d at = fronts_[i].at + t * (fronts_[i + 1].at - fronts_[i].at);
+      const double length_m = part_m * tissue_.fill(at);
+      const RestToughness::Carried& carried = tissue_.toughness().at(at);
+      pushes_[i].stand((1 - t) * length_m, carried);
+      pushes_[i + 1].stand(t * length_m, carried);
     }
   }
 }
@@ -68,7 +70,8 @@ void BladeEdge::countArea(size_t i) {
     const double all_m2 = (at - from).cross(b.at - a.at).norm() / strips;
     const double area_m2 = cuts * tissue_.fill(0.5 * (at + from)) * all_m2;
     done_.area_m2 += area_m2;
-    done_.parting_j += ((1 - t) * toughness(i) + t * toughness(i + 1)) * area_m2;
+    const double in_front = (1 - t) * ahead(i) + t * ahead(i + 1);
+    done_.parting_j += tissue_.toughness().at(0.5 * (at + from)).with(in_front) * area_m2;
   }
 }
 

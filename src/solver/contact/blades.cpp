@@ -3,17 +3,20 @@
 #include "solver/contact/blades.h"
 
 #include "math/archive.h"
+#include "model/body/toughness.h"
 #include "model/scene/tool_kinds.h"
 
 namespace viscera {
 
-Blades::Cut::Cut(const Model& model, size_t body) : body(body), tissue(std::make_unique<RestTissue>(model, body)) {
-  for (uint32_t s = 0; s < layout::kMaxStyluses; ++s) edges.emplace_back(*tissue, toughnessOf(model.bodies[body]));
+Blades::Cut::Cut(const Model& model, size_t body, const std::vector<StylusConfig>& styluses)
+    : body(body), tissue(std::make_unique<RestTissue>(model, body)) {
+  for (uint32_t s = 0; s < layout::kMaxStyluses; ++s)
+    edges.emplace_back(*tissue, s < styluses.size() ? styluses[s].cut.friction_n_per_m : 0);
 }
 
-Blades::Blades(const Model& model) {
+Blades::Blades(const Model& model, const std::vector<StylusConfig>& styluses) {
   for (size_t b = 0; b < model.bodies.size(); ++b) {
-    if (model.bodies[b].material.cut.toughness_j_per_m2 > 0) cuts_.emplace_back(model, b);
+    if (resistsBlades(model.bodies[b])) cuts_.emplace_back(model, b, styluses);
   }
 }
 

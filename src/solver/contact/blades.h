@@ -14,7 +14,7 @@ namespace viscera {
 /// The edges of all styluses in all bodies that resist blades, with what they have parted.
 class Blades {
  public:
-  explicit Blades(const Model& model);
+  Blades(const Model& model, const std::vector<StylusConfig>& styluses);
   /// After a substep that was made. @param motions  of the tick   @param substep  [kMaxStyluses] of the substep
   void act(BladeTarget& target, const ToolMotions& motions, const layout::ToolMotion* substep, double dt_s);
   /// The state was put back, or no stylus cuts. @returns whether there was a blade, which may have cut until then
@@ -25,12 +25,12 @@ class Blades {
 
  private:
   struct Cut {
-    explicit Cut(const Model& model, size_t body);
+    Cut(const Model& model, size_t body, const std::vector<StylusConfig>& styluses);
     size_t body;
     std::unique_ptr<RestTissue> tissue;
     std::vector<BladeEdge> edges;  ///< [kMaxStyluses]
   };
-  std::vector<Cut> cuts_;  ///< of bodies with a toughness
+  std::vector<Cut> cuts_;  ///< of bodies that resist blades
 };
 
 }  // namespace viscera

@@ -36,7 +36,7 @@ RestGrid gridOf(const Body& body) {
 }  // namespace
 
 RestTissue::RestTissue(const Model& model, size_t body)
-    : grid_(gridOf(model.bodies[body])), fill_(model.bodies[body], grid_) {
+    : grid_(gridOf(model.bodies[body])), fill_(model.bodies[body], grid_), toughness_(model.bodies[body], grid_) {
   const Body& of = model.bodies[body];
   parted_.assign(8 * grid_.places(), 0);
   nodes_.reserve(of.lattice.active_slots.size());

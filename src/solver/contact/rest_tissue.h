@@ -7,6 +7,7 @@
 
 #include "solver/contact/rest_fill.h"
 #include "solver/contact/rest_grid.h"
+#include "solver/contact/rest_toughness.h"
 #include "viscera/model/model.h"
 
 namespace viscera {
@@ -37,6 +38,7 @@ class RestTissue {
   /// How much of a cube of half a spacing around a place is tissue, 0 to 1; a sheet's thickness is spread to both
   /// sides.
   double fill(const Vector3d& at_m) const { return fill_.at(at_m); }
+  const RestToughness& toughness() const { return toughness_; }
   /// Notes that a quadrilateral p q r s of tissue at rest has been parted.
   void part(const Vector3d& p, const Vector3d& q, const Vector3d& r, const Vector3d& s);
   /// Has tissue been parted in the cube of half a spacing in which a place lies?
@@ -52,6 +54,7 @@ class RestTissue {
 
   RestGrid grid_;
   RestFill fill_;
+  RestToughness toughness_;
   std::vector<Node> nodes_;
   std::vector<uint32_t> starts_, sorted_;  ///< nodes whose nearest place of the grid is that
   std::vector<uint8_t> parted_;            ///< [8 * places] by cubes of half a spacing

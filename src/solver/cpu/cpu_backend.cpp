@@ -62,7 +62,7 @@ CpuBackend::CpuBackend(const Model& model, const Scene& scene, const TickPlan& p
   work_->stats.resize(bricks());
   work_->changed.reserve(bricks());
   if (resistsBlades(scene)) {
-    for (const Body& body : model.bodies) resists_.push_back(body.material.cut.toughness_j_per_m2 > 0);
+    for (const Body& body : model.bodies) resists_.push_back(resistsBlades(body));
   }
   if (plan.tools) {
     cut_.emplace(lattice_, pool_, kernels_);

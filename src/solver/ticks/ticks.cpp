@@ -48,7 +48,7 @@ Ticks::Ticks(const Model& model, const Scene& scene, const TickPlan& plan, std::
                      " us), more than solver.max_substeps = " + std::to_string(config_.max_substeps) +
                      ": use a larger spacing_m, a softer or heavier material, or raise solver.max_substeps");
   if (plan.governed()) watch_.emplace(*backend_, newGovernor(), !traitsOf(config_.integrator).is_explicit, tick_s_);
-  if (plan.tools && resistsBlades(scene)) blades_.emplace(model);
+  if (plan.tools && resistsBlades(scene)) blades_.emplace(model, scene.styluses);
   if (plan.tools) motions_.reserve(static_cast<size_t>(plan.mostSubsteps()) * layout::kMaxStyluses);
 }
 

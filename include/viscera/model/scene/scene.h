@@ -63,6 +63,7 @@ struct FixedConfig {
 /// What it takes to part tissue (docs/cutting.md).
 struct FractureConfig {
   double toughness_j_per_m2 = 0;  ///< work per area of cut; 0: a blade parts what it crosses, and no one feels it
+  bool of_tissue = false;         ///< `toughness_j_per_m2: auto`: it is that of the tissue
 };
 
 /// How much shorter tissue would be than it lies there, if nothing held it (docs/cutting.md 6).
@@ -85,14 +86,15 @@ struct MaterialConfig {
   PrestressConfig prestress;
 };
 
-/// Elasticity and prestress of one part of a body, such as a valve. In a scene file, what is left out is as in the
-/// body's material.
+/// Elasticity, toughness and prestress of one part of a body, such as a valve. In a scene file, what is left out is as
+/// in the body's material.
 struct PartConfig {
   std::string part;
   double young_modulus_pa = 20e3;
   double poisson_ratio = 0.25;
   double density_kg_per_m3 = 1060;
   std::string tissue = {};  ///< as in MaterialConfig
+  FractureConfig cut = {};
   PrestressConfig prestress = {};
 };
 
@@ -117,10 +119,11 @@ struct ScanConfig {
   std::string series;
 };
 
-/// What of a wound's wall is seen down to a depth below the skin.
+/// What of a wound's wall is seen down to a depth below the skin, and what it takes to part it.
 struct LayerConfig {
   double depth_m = 0.001;
   Vector3d color = Vector3d(0.86, 0.66, 0.34);
+  double toughness_j_per_m2 = 0;  ///< 0: that of the material or the part
 };
 
 struct BodyConfig {
@@ -182,6 +185,7 @@ enum class BladeSide {
 struct CutConfig {
   double blade_length_m = 0.02;
   BladeSide blade_side = BladeSide::kShaft;
+  double friction_n_per_m = 0;  ///< of both walls together, per length of blade in tissue
 };
 struct CutParticlesConfig {
   double eraser_radius_m = 0.002;
