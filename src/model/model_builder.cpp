@@ -13,6 +13,7 @@
 #include "model/body/network_skin.h"
 #include "model/body/prestress.h"
 #include "model/body/spacing_search.h"
+#include "model/body/tearing.h"
 #include "model/body/toughness.h"
 #include "model/scene/host_memory.h"
 #include "model/scene/structure_rules.h"
@@ -137,7 +138,7 @@ bool canMove(const Model& model) {
 }  // namespace
 
 Model buildModel(const Scene& scene, const Progress& progress) {
-  const bool can_be_cut = maySever(scene.styluses);
+  const bool can_be_cut = maySever(scene.styluses) || tears(scene);
   const std::string file = scene.file.empty() ? "" : scene.file + ": ";
   Model model;
   for (const BodyConfig& config : scene.bodies) {

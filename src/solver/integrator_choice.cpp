@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "model/body/tearing.h"
 #include "model/body/toughness.h"
 #include "model/scene/integrators.h"
 #include "solver/cpu/cpu_solver.h"
@@ -96,6 +97,7 @@ std::string missing(const Model& model, const Scene& scene, Backend backend) {
   if (backend != Backend::kCpu) return "multigrid is chosen on the CPU backend alone";
   if (model.hasNetwork()) return "multigrid steps implicit lattices, not bodies with explicit connections";
   if (resistsBlades(scene)) return "multigrid knows no blades that tissue resists (material.cut)";
+  if (tears(scene)) return "multigrid knows no tissue that tears (material.tear)";
   if (scene.collision.enabled) return "multigrid knows no contacts between nodes";
   return "";
 }

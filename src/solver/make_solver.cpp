@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solver/make_solver.h"
 
+#include "model/body/tearing.h"
 #include "model/body/toughness.h"
 #include "model/scene/integrators.h"
 #include "solver/cpu/cpu_solver.h"
@@ -36,7 +37,7 @@ std::unique_ptr<Ticks> ticksOf(const Model& model, const Scene& scene, Backend b
 Backend chooseBackend(const Scene& scene, const gpu::Context* context) {
   const SolverConfig& config = scene.solver;
   if (config.backend != Backend::kAuto) return config.backend;
-  if (traitsOf(config.integrator).prefers_cpu || resistsBlades(scene)) return Backend::kCpu;
+  if (traitsOf(config.integrator).prefers_cpu || resistsBlades(scene) || tears(scene)) return Backend::kCpu;
   return !context || context->isSoftware() ? Backend::kCpu : Backend::kGpu;
 }
 
@@ -48,6 +49,7 @@ std::string backendNote(const Scene& scene, const gpu::Context* context, const S
   if (traitsOf(config.integrator).prefers_cpu) return taken + ", as solver.integrator is measured on the CPU only";
   if (resistsBlades(scene))
     return taken + ", as tissue that resists blades (material.cut) would have a GPU waited for in every substep";
+  if (tears(scene)) return taken + ", as only there tissue tears (material.tear)";
   if (!context) return taken + ", as there is no OpenGL context";
   return taken + (context->isSoftware() ? ", as OpenGL is a software rasteriser: " : ", as OpenGL has a GPU: ") +
          context->renderer();

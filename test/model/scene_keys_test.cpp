@@ -53,7 +53,7 @@ bodies:
     rotation_deg: [61, 62, 63]
     color: [0.071, 0.072, 0.073]
     material: {tissue: liver, young_modulus_pa: 8100, poisson_ratio: 0.31, density_kg_per_m3: 820, drag_per_s: 8.3, dashpot_ratio: 0.084, weights: paper, cells: springs, cut: {toughness_j_per_m2: 187},
-               prestress: {strain: 0.0821, strains: [0.0822, 0.0823, 0.0824], axes_deg: [82.5, 82.6, 82.7]}}
+               prestress: {strain: 0.0821, strains: [0.0822, 0.0823, 0.0824], axes_deg: [82.5, 82.6, 82.7]}, tear: {toughness_j_per_m2: 189}}
     parts: [{part: valve, tissue: spleen, young_modulus_pa: 8101, poisson_ratio: 0.32, density_kg_per_m3: 821, cut: {toughness_j_per_m2: 188},
              prestress: {strain: 0.0831, strains: [0.0832, 0.0833, 0.0834], axes_deg: [83.5, 83.6, 83.7]}}]
     fixed:
@@ -204,6 +204,7 @@ TEST(SceneKeys, EveryBodyKeyReachesItsField) {
   EXPECT_EQ(body.material.prestress.strain, 0.0821);
   EXPECT_EQ(body.material.prestress.strains, Vector3d(0.0822, 0.0823, 0.0824));
   EXPECT_EQ(body.material.prestress.axes_deg, Vector3d(82.5, 82.6, 82.7));
+  EXPECT_EQ(body.material.tear.toughness_j_per_m2, 189);
   EXPECT_EQ(body.material.weights, Weights::kPaper);
   EXPECT_EQ(body.material.cells, Cells::kSprings);
   const PartConfig& part = body.parts.at(0);

@@ -53,6 +53,14 @@ void visitFields(V& v, PrestressConfig& c) {
 }
 
 template <class V>
+void visitFields(V& v, TearConfig& c) {
+  v.number(
+      "toughness_j_per_m2", c.toughness_j_per_m2, {0, 1e6}, "J/m2",
+      "work per area that it takes to pull the tissue apart (docs/cutting.md 8); 0: it stretches without end. Above "
+      "0: structure lattice, solver.integrator leapfrog or auto, solver.backend cpu or auto");
+}
+
+template <class V>
 void visitFields(V& v, MaterialConfig& c) {
   v.tissue("tissue", c, "gives the three keys below that the scene does not give; not for diagnosis or planning");
   v.number("young_modulus_pa", c.young_modulus_pa, {1, 1e9}, "Pa", "Young's modulus E");
@@ -75,6 +83,7 @@ void visitFields(V& v, MaterialConfig& c) {
       "prestress", c.prestress,
       "tissue pulls before anything touches it, and gapes when cut; what balances in the given shape is kept. Needs "
       "structure explicit, surface or tetrahedra");
+  v.group("tear", c.tear, "what it takes to pull it apart");
 }
 
 template <class V>

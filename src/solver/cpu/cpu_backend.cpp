@@ -68,6 +68,7 @@ CpuBackend::CpuBackend(const Model& model, const Scene& scene, const TickPlan& p
     cut_.emplace(lattice_, pool_, kernels_);
     motions_.reserve(static_cast<size_t>(plan.mostSubsteps()) * layout::kMaxStyluses);
   }
+  if (features_.tears) tearing_.emplace(model);
   if (!plan.governed()) return;
   recovery_ = makeCpuRecoveryStepper(kRecoveryIterations, lattice_, pool_);
   for (int i = 0; i < kGoodStates; ++i) good_.push_back({lattice_.state.displacement[0], lattice_.state.velocity[0]});
@@ -92,6 +93,10 @@ std::vector<uint8_t> CpuBackend::awake() const {
 }
 
 // ---- a tick ----
+
+void CpuBackend::beginTick() {
+  if (tearing_) tearing_->beginTick(lattice_, work_->stats);
+}
 
 void CpuBackend::takeHold(uint32_t stylus, const Pose& pose, double radius_m) {
   const Vector3f tip = pose.position_m.cast<float>(), reach = Vector3f::Constant(static_cast<float>(radius_m));
@@ -195,6 +200,16 @@ void CpuBackend::advance(const Substep& step, bool recovery) {
   if (recovery && step.restarted) sleep_.wakeAll(lattice_);
   (recovery ? *recovery_ : *stepper_).run(lattice_, step, motion_);
   lattice_.swap();
+  if (tearing_ && !recovery) tear();
+}
+
+void CpuBackend::tear() {
+  const uint32_t springs = tearing_->run(lattice_);
+  if (springs == 0) return;
+  springs_cut_ += springs;
+  torn_ = true;
+  stepper_->springsChanged();
+  for (const uint32_t brick : tearing_->bricks()) sleep_.wake(brick);
 }
 
 void CpuBackend::blow(const Substep& step, const Surroundings& surroundings) {

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "solver/cpu/steps/surroundings.h"
@@ -12,6 +13,7 @@
 #include "solver/cpu/store/cpu_stepper.h"
 #include "solver/cpu/store/sleep.h"
 #include "solver/cpu/store/thread_pool.h"
+#include "solver/cpu/text/tearing.h"
 #include "solver/cpu/text/tool_passes.h"
 #include "solver/ticks/solver_backend.h"
 #include "solver/ticks/tick_plan.h"
@@ -41,7 +43,7 @@ class CpuBackend : public SolverBackend {
   std::vector<uint8_t> awake() const;  ///< [bricks] 1 where awake
   size_t bricks() const { return lattice_.brickCount(); }
 
-  void beginTick() override {}
+  void beginTick() override;
   void takeHold(uint32_t stylus, const Pose& pose, double radius_m) override;
   void letGo(uint32_t stylus, const Release& release) override;
   void writeMotions(const std::vector<layout::ToolMotion>& motions) override;
@@ -61,6 +63,7 @@ class CpuBackend : public SolverBackend {
   void measure() override;
   void sumReactions(const std::array<Vector3f, layout::kMaxStyluses>& tips) override;
   void guard(const Governor::Bounds& /*bounds*/, const ToolMotions& /*motions*/, double /*tick_s*/) override {}
+  bool takeTorn() override { return std::exchange(torn_, false); }
   int lag() const override { return 0; }
   bool requestStats() override;
   bool takeStats(layout::TickStats& stats, bool wait) override;
@@ -81,6 +84,7 @@ class CpuBackend : public SolverBackend {
   void wakeForTools(const std::vector<layout::ToolMotion>& motions);
   void changeAll();
   void noteHeld();
+  void tear();
   float largestRate() const;
 
   SolverConfig config_;
@@ -103,6 +107,8 @@ class CpuBackend : public SolverBackend {
   std::vector<uint8_t> resists_;   ///< [bodies] 1: blades part it by work; empty where none does
   std::vector<uint8_t> others_;    ///< [bodies] 0: the selected one
   size_t selected_body_ = 0;
+  std::optional<CpuTearing> tearing_;
+  bool torn_ = false;                    ///< since takeTorn()
   std::unique_ptr<CpuNetwork> network_;  ///< null where no body has explicit connections
   layout::TickStats stats_{};
   bool has_stats_ = false;

@@ -70,10 +70,14 @@ GpuBackend::GpuBackend(const Model& model, const Scene& scene, const TickPlan& p
     blade_.reset(new Blade{NodeWindow(features_, buffers_.store.active_count, awake_.get()),
                            gpu::Buffer<layout::ToolMotion>(layout::kMaxStyluses, "a sweep at rest"),
                            gpu::Buffer<layout::vec4>(buffers_.store.slot_count, "tissue at rest")});
+    double friction_n_per_m = 0;
+    for (const StylusConfig& stylus : scene.styluses)
+      friction_n_per_m = std::max(friction_n_per_m, stylus.cut.friction_n_per_m);
     for (size_t b = 0; b < model.bodies.size(); ++b) {
-      if (!(model.bodies[b].material.cut.toughness_j_per_m2 > 0)) continue;
+      if (!resistsBlades(model.bodies[b])) continue;
       blade_->resists |= 1u << b;
-      blade_->kernel_m = std::max(blade_->kernel_m, static_cast<float>(toughnessOf(model.bodies[b]).kernel_m()));
+      const double kernel_m = kernelOf(toughnesses(model.bodies[b]), friction_n_per_m);
+      blade_->kernel_m = std::max(blade_->kernel_m, static_cast<float>(kernel_m));
     }
   }
   bind();

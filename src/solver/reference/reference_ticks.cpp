@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "model/body/tearing.h"
 #include "model/body/toughness.h"
 #include "solver/reference/reference_surroundings.h"
 #include "solver/tissue/substeps.h"
@@ -45,6 +46,9 @@ ReferenceTicks::ReferenceTicks(const Model& model, const Scene& scene)
     throw SceneError(
         "bodies[].material.cut.toughness_j_per_m2 must be 0 for the reference, which knows no blades that tissue "
         "resists");
+  if (tears(scene))
+    throw SceneError(
+        "bodies[].material.tear.toughness_j_per_m2 must be 0 for the reference, which knows no tissue that tears");
 }
 
 void ReferenceTicks::step(const ToolMotions& motions, const ObstacleMotions& obstacles) {

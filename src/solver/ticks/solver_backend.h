@@ -75,6 +75,9 @@ class SolverBackend : public ToolTarget, public BladeTarget {
   virtual bool takeStats(layout::TickStats& stats, bool wait) = 0;
   /// @}
 
+  /// Has tissue torn since it was asked last?
+  virtual bool takeTorn() { return false; }
+
   /// @name State as a whole
   /// @{
   virtual HostState readState() const = 0;  ///< waits

@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "model/body/tearing.h"
 #include "model/body/toughness.h"
 #include "solver/ticks/solver_backend.h"
 #include "solver/ticks/stable_step.h"
@@ -34,6 +35,7 @@ SubstepPlan planned(const Model& model, const SolverConfig& asked, double dt_saf
 
 TickPlan planTicks(const Model& model, const Scene& scene, const SolverOptions& options) {
   requireBladesFit(scene);
+  requireTearingFits(scene);
   TickPlan plan;
   plan.tick_s = 1 / scene.solver.tick_hz;
   plan.dt_safe_s = safeTimeStep(model);

@@ -78,6 +78,7 @@ void Ticks::step(const ToolMotions& motions, const ObstacleMotions& obstacles) {
   }
   substeps_done_ += static_cast<uint64_t>(n_);
   if (cuts) ++cut_revision_;
+  cut_revision_ += backend_->takeTorn();
   if (blades_ && (!cuts || recovering_)) cut_revision_ += blades_->leave(*backend_);
   const bool undone = watch_ && heed(watch_->judgeOpen());  // of the tick before, where the backend lags
   measureTick(motions, contacts || (blades_ && cuts));

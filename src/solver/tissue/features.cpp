@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "model/body/tearing.h"
 #include "model/scene/tool_kinds.h"
 #include "solver/tissue/substeps.h"
 #include "viscera/solver/material.h"
@@ -42,7 +43,8 @@ FeatureSet featuresOf(const Model& model, const Scene& scene, double dt_s, uint3
   features.parts = isHeterogeneous(model);
   features.compensated = isCompensated(scene.solver, dt_s);
   features.tools = !scene.styluses.empty();
-  features.cuts = maySever(scene.styluses);
+  features.cuts = maySever(scene.styluses) || tears(scene);
+  features.tears = tears(scene);
   features.obstacles = static_cast<uint32_t>(scene.obstacles.size());
   for (const Body& body : model.bodies) features.dashpot |= body.material.dashpot_ratio > 0;
   return features;

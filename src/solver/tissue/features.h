@@ -24,8 +24,9 @@ struct FeatureSet {
   bool parts = false;        ///< strengths differ within a body
   bool compensated = false;  ///< u and v are summed with Kahan's compensation
   bool tools = false;        ///< there are styluses
-  bool cuts = false;         ///< one of them may cut or erase: lattices keep a record of it (CutRecord)
-  uint32_t obstacles = 0;    ///< how many there are
+  bool cuts = false;       ///< one of them may cut or erase, or tissue tears: lattices keep a record of it (CutRecord)
+  bool tears = false;      ///< some lattice is pulled apart by energy; CPU backend
+  uint32_t obstacles = 0;  ///< how many there are
   bool single_body = false;
   uint32_t group_size = layout::kGroupSize;
 

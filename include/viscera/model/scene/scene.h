@@ -73,6 +73,11 @@ struct PrestressConfig {
   Vector3d axes_deg = Vector3d::Zero();  ///< these: the tissue frame's, turned about fixed x, then y, then z
 };
 
+/// What it takes to pull tissue apart (docs/cutting.md 8).
+struct TearConfig {
+  double toughness_j_per_m2 = 0;  ///< work per area; 0: springs stretch without end
+};
+
 struct MaterialConfig {
   double young_modulus_pa = 20e3;
   double poisson_ratio = 0.25;  ///< 1/4 is what springs give alone; else cells have an energy of volume
@@ -84,6 +89,7 @@ struct MaterialConfig {
   std::string tissue;  ///< preset (docs/tissues.md) of those of the first three that the scene does not give
   FractureConfig cut;
   PrestressConfig prestress;
+  TearConfig tear;
 };
 
 /// Elasticity, toughness and prestress of one part of a body, such as a valve. In a scene file, what is left out is as

@@ -94,6 +94,7 @@ void CpuLattice::reset() {
   clear(axial_cut);
   clear(cut_sides);
   links.writeSpringCut({});
+  std::fill(strengths.left.begin(), strengths.left.end(), 1.0f);
   strengths.refreshAll(store);
 }
 
@@ -124,6 +125,7 @@ void CpuLattice::persist(Archive& archive) {
   archive.values(spring_cut);
   archive.values(axial_cut);
   archive.values(cut_sides);
+  if (!strengths.left.empty()) archive.values(strengths.left);
   archive.section("hands");
   archive.values(hands.grab_offsets);
   archive.values(hands.impulses);
@@ -144,6 +146,7 @@ void CpuLattice::write(const HostState& from) {
   clear(cut_sides);
   std::copy_n(from.axial_cut.begin(), std::min(from.axial_cut.size(), axial_cut.size()), axial_cut.begin());
   links.writeSpringCut(from.spring_cut);
+  std::fill(strengths.left.begin(), strengths.left.end(), 1.0f);
   strengths.refreshAll(store);
 }
 

@@ -52,6 +52,7 @@ CpuStrengths::CpuStrengths(const Model& model, const CpuStore& store, const Feat
       uniform(store.brickCount()),
       idle_rows(store.brickCount()) {
   if (features.parts) table_ = allStrengths(model);
+  if (features.tears) left.assign(store.slotCount() * kSpringPairs, 1);
   for (uint32_t slot : store.active) {
     const layout::BodyParams& body = store.bodyOf(slot);
     mass[slot] = table_.mass_kg.empty() ? static_cast<float>(massEighths(store.nodes[slot])) * body.mass_eighth_kg
@@ -77,19 +78,40 @@ CpuStrengths::CpuStrengths(const Model& model, const CpuStore& store, const Feat
 float CpuStrengths::springStiffness(const CpuStore& store, uint32_t slot, uint32_t pair) const {
   const uint32_t count = springCount(store.nodes[slot], 2 * pair);
   if (count == 0) return 0;
-  if (!table_.spring_n_per_m.empty()) return table_.spring_n_per_m[slot * kSpringPairs + pair];
+  const float left_of_it = left.empty() ? 1 : left[stiffnessAt(slot, pair)];
+  if (!table_.spring_n_per_m.empty()) return left_of_it * table_.spring_n_per_m[slot * kSpringPairs + pair];
   const layout::BodyParams& body = store.bodyOf(slot);
-  return static_cast<float>(count) * (isAxial(2 * pair) ? body.axial_quarter_n_per_m : body.diagonal_half_n_per_m);
+  return left_of_it * static_cast<float>(count) *
+         (isAxial(2 * pair) ? body.axial_quarter_n_per_m : body.diagonal_half_n_per_m);
 }
 
 float CpuStrengths::cellBulk(const CpuStore& store, uint32_t slot) const {
   if (!(store.nodes[slot].lo & layout::kCellBit)) return 0;
-  return table_.bulk_j.empty() ? store.bodyOf(slot).bulk_j : table_.bulk_j[slot];
+  return cellLeft(store, slot) * (table_.bulk_j.empty() ? store.bodyOf(slot).bulk_j : table_.bulk_j[slot]);
 }
 
 float CpuStrengths::cellRigidity(const CpuStore& store, uint32_t slot) const {
   if (!(store.nodes[slot].lo & layout::kCellBit)) return 0;
-  return table_.rigidity_j.empty() ? store.bodyOf(slot).rigidity_j : table_.rigidity_j[slot];
+  return cellLeft(store, slot) * (table_.rigidity_j.empty() ? store.bodyOf(slot).rigidity_j : table_.rigidity_j[slot]);
+}
+
+/// What tearing has left of a cell: as much as of the weakest of its 24 springs.
+float CpuStrengths::cellLeft(const CpuStore& store, uint32_t slot) const {
+  float least = 1;
+  if (left.empty()) return least;
+  for (int c = 0; c < 8; ++c) {
+    const std::array<int, 3> corner = {c & 1, c >> 1 & 1, c >> 2 & 1};
+    const uint32_t at = neighborSlot(store.bricks, slot, corner);
+    for (uint32_t pair = 0; pair < kSpringPairs; ++pair) {
+      bool inside = true;
+      for (size_t axis = 0; axis < 3; ++axis) {
+        const int to = corner[axis] + kNeighborOffsets[2 * pair][axis];
+        inside = inside && (to == 0 || to == 1);
+      }
+      if (inside) least = std::min(least, left[stiffnessAt(at, pair)]);
+    }
+  }
+  return least;
 }
 
 void CpuStrengths::refresh(const CpuStore& store, uint32_t slot) {

@@ -27,6 +27,8 @@ struct CpuStrengths {
   }
 
   AlignedVector<float> stiffness;      ///< [9 * slots] N/m of even springs (stiffnessAt); 0 cut or absent
+  std::vector<float> left;             ///< [9 * slots] share of it that tearing has left (stiffnessAt); empty unless
+                                       ///< tissue tears
   AlignedVector<float> mass;           ///< [slots] kg; 1 where no node is
   std::vector<float> surface_depth;    ///< [slots] m, surfaceDepths(); empty where there are none
   std::vector<uint32_t> surface_ways;  ///< [slots] surfaceWays(); empty where there are none
@@ -55,6 +57,7 @@ struct CpuStrengths {
   float springStiffness(const CpuStore& store, uint32_t slot, uint32_t pair) const;
   float cellBulk(const CpuStore& store, uint32_t slot) const;
   float cellRigidity(const CpuStore& store, uint32_t slot) const;
+  float cellLeft(const CpuStore& store, uint32_t slot) const;
   bool isFull(const CpuStore& store, uint32_t slot) const;
   void spreadMoments(const CpuStore& store);
   void shareBulk(const CpuStore& store, uint32_t slot);
