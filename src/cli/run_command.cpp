@@ -14,7 +14,7 @@
 #include "cli/run_plan.h"
 #include "cli/scene_lookup.h"
 #include "math/one_line.h"
-#include "model/body/toughness.h"
+#include "model/fracture/toughness.h"
 #include "viscera/gpu/context.h"
 #include "viscera/math/error.h"
 #include "viscera/session/session.h"

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-#include "model/body/prestress.h"
+#include "model/fracture/prestress.h"
 #include "viscera/layout/skin.h"
 #include "viscera/math/error.h"
 

@@ -8,8 +8,8 @@
 #include <optional>
 #include <vector>
 
-#include "model/body/tearing.h"
-#include "model/body/toughness.h"
+#include "model/fracture/tearing.h"
+#include "model/fracture/toughness.h"
 #include "model/scene/integrators.h"
 #include "solver/cpu/cpu_solver.h"
 #include "viscera/math/error.h"

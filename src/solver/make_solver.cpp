@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solver/make_solver.h"
 
-#include "model/body/tearing.h"
-#include "model/body/toughness.h"
+#include "model/fracture/tearing.h"
+#include "model/fracture/toughness.h"
 #include "model/scene/integrators.h"
 #include "solver/cpu/cpu_solver.h"
 #include "solver/gpu/gpu_solver.h"

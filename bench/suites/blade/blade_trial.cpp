@@ -14,7 +14,7 @@
 
 #include "bench/harness/specimens/backends.h"
 #include "math/float_bits.h"
-#include "model/body/toughness.h"
+#include "model/fracture/toughness.h"
 #include "viscera/model/model.h"
 
 namespace viscera::bench {

@@ -3,7 +3,7 @@
 #include "solver/contact/blades.h"
 
 #include "math/archive.h"
-#include "model/body/toughness.h"
+#include "model/fracture/toughness.h"
 #include "model/scene/tool_kinds.h"
 
 namespace viscera {

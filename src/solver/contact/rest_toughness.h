@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "model/body/toughness.h"
+#include "model/fracture/toughness.h"
 #include "solver/contact/rest_grid.h"
 #include "viscera/model/model.h"
 

@@ -8,7 +8,7 @@
 #include "gpu/buffer.h"
 #include "math/archive.h"
 #include "math/float_bits.h"
-#include "model/body/toughness.h"
+#include "model/fracture/toughness.h"
 #include "solver/contact/tool_boxes.h"
 #include "solver/cpu/steps/network.h"
 #include "solver/cpu/store/lattice_arrays.h"

@@ -12,7 +12,7 @@
 #include "layout/bindings.h"
 #include "layout/blade.h"
 #include "math/archive.h"
-#include "model/body/toughness.h"
+#include "model/fracture/toughness.h"
 #include "model/scene/integrators.h"
 #include "solver/cpu/store/sleep.h"
 #include "solver/gpu/steps/multigrid_pass.h"

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "model/body/tearing.h"
-#include "model/body/toughness.h"
+#include "model/fracture/tearing.h"
+#include "model/fracture/toughness.h"
 #include "solver/reference/reference_surroundings.h"
 #include "solver/tissue/substeps.h"
 #include "tools/motion_packing.h"

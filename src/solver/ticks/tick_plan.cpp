@@ -4,8 +4,8 @@
 
 #include <limits>
 
-#include "model/body/tearing.h"
-#include "model/body/toughness.h"
+#include "model/fracture/tearing.h"
+#include "model/fracture/toughness.h"
 #include "solver/ticks/solver_backend.h"
 #include "solver/ticks/stable_step.h"
 #include "viscera/math/error.h"

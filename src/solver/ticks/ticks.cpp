@@ -8,7 +8,7 @@
 
 #include "math/archive.h"
 #include "math/float_bits.h"
-#include "model/body/toughness.h"
+#include "model/fracture/toughness.h"
 #include "model/scene/integrators.h"
 #include "solver/ticks/stable_step.h"
 #include "tools/motion_packing.h"

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "model/body/tearing.h"
+#include "model/fracture/tearing.h"
 #include "model/scene/tool_kinds.h"
 #include "solver/tissue/substeps.h"
 #include "viscera/solver/material.h"

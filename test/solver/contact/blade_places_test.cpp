@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <memory>
 
-#include "model/body/toughness.h"
+#include "model/fracture/toughness.h"
 #include "solver/cpu/cpu_solver.h"
 
 namespace viscera {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "math/archive.h"
-#include "model/body/toughness.h"
+#include "model/fracture/toughness.h"
 #include "solver/cpu/cpu_solver.h"
 #include "viscera/math/error.h"
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "model/body/tearing.h"
+#include "model/fracture/tearing.h"
 #include "solver/cpu/simd/kernels.h"
 #include "solver/cpu/store/cpu_lattice.h"
 

@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "model/body/toughness.h"
+#include "model/fracture/toughness.h"
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "model/body/tearing.h"
+#include "model/fracture/tearing.h"
 
 #include <algorithm>
 #include <cmath>

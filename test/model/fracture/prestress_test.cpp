@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "model/body/prestress.h"
+#include "model/fracture/prestress.h"
 
 #include <gtest/gtest.h>
 
