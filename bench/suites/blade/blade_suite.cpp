@@ -44,24 +44,24 @@ double lawOf(const BladeTrial& trial) {
   return 1 / (1 + trial.slicing * trial.slicing);
 }
 
-std::string nameOf(const BladeTrial& trial) {
+std::string trialName(const BladeTrial& trial) {
   const auto text = [](double value) { return Cell(value).text(3); };
   return "h " + text(trial.spacing_m / kMilli) + " mm, E " + text(trial.young_modulus_pa / kKilo) + " kPa, " +
          text(trial.angle_deg) + " deg, " + text(trial.speed_m_per_s) + " m/s, xi " + text(trial.slicing);
 }
 
 void addRow(const BladeTrial& trial, Table& table, Report& report) {
-  report.stage(nameOf(trial));
+  report.stage(trialName(trial));
   const BladeResult r = cutThrough(trial);
   const double unit = trial.young_modulus_pa * trial.spacing_m, over_law = r.force / lawOf(trial);
   table.add({trial.spacing_m / kMilli, trial.young_modulus_pa / kKilo, trial.toughness_j_per_m2,
              trial.toughness_j_per_m2 / unit, trial.angle_deg, trial.speed_m_per_s, trial.slicing, over_law, r.asked,
              r.along, r.ripple * r.force, r.onset_m / kMilli, r.cut_share, r.stored_share, r.worst_det});
-  report.checkAtMost("force off the law, " + nameOf(trial), std::abs(over_law - 1), kForce);
-  report.checkAtMost("ripple, " + nameOf(trial), r.ripple * r.force, kRipple);
-  report.checkAtLeast("least det F, " + nameOf(trial), r.worst_det, kLeastDet);
-  report.checkAtMost("work not accounted for, " + nameOf(trial), std::abs(1 - r.cut_share - r.stored_share), kWork);
-  report.checkAtMost("trips, " + nameOf(trial), r.trips, 0);
+  report.checkAtMost("force off the law, " + trialName(trial), std::abs(over_law - 1), kForce);
+  report.checkAtMost("ripple, " + trialName(trial), r.ripple * r.force, kRipple);
+  report.checkAtLeast("least det F, " + trialName(trial), r.worst_det, kLeastDet);
+  report.checkAtMost("work not accounted for, " + trialName(trial), std::abs(1 - r.cut_share - r.stored_share), kWork);
+  report.checkAtMost("trips, " + trialName(trial), r.trips, 0);
 }
 
 void spacings(Report& report) {
