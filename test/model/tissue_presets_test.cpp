@@ -59,7 +59,9 @@ TEST(TissuePresets, EveryRowIsWithinItsRangeAndSaysHowAndWhereItWasMeasured) {
     EXPECT_EQ((std::string(preset.test) + preset.source).find('|'), std::string::npos) << "spoils the table";
     EXPECT_EQ(std::string(preset.toughness_test).find('|'), std::string::npos) << "spoils the table";
     EXPECT_EQ(preset.toughness_j_per_m2 > 0, std::string(preset.toughness_test).size() > 10);
-    if (preset.toughness_j_per_m2 > 0) EXPECT_TRUE(hasTwoDigits(preset.toughness_j_per_m2));
+    if (preset.toughness_j_per_m2 > 0) {
+      EXPECT_TRUE(hasTwoDigits(preset.toughness_j_per_m2));
+    }
     expectNumbers(materialOf(std::string("tissue: ") + preset.name), preset.young_modulus_pa, preset.poisson_ratio,
                   preset.density_kg_per_m3);
   }
