@@ -190,6 +190,7 @@ void CpuBackend::cutAtRest(const layout::ToolMotion& sweep) {
 void CpuBackend::cutWith(const layout::ToolMotion& motion, bool particles, const uint8_t* spared) {
   uint32_t springs = cut_->run(lattice_, motion, particles, spared);
   if (network_) springs += network_->cut(lattice_, motion, particles, spared);
+  cut_->tearCells(lattice_);
   springs_cut_ += springs;
   if (springs == 0) return;
   stepper_->springsChanged();

@@ -106,7 +106,9 @@ class CpuTools : public ::testing::Test {
   }
   uint32_t cutBoth(const layout::ToolMotion& motion) {
     reference_.substep({motion, {}});
-    return cut_.run(lattice_, motion, motion.info.x == layout::kModeCutParticles);
+    const uint32_t springs = cut_.run(lattice_, motion, motion.info.x == layout::kModeCutParticles);
+    cut_.tearCells(lattice_);
+    return springs;
   }
 
   Model model_;

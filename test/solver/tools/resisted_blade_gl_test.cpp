@@ -20,8 +20,6 @@ constexpr double kRounding = 1e-6;
 /// The same where a tick's substeps follow how far the tissue is stretched, which the GPU knows a tick later: in one
 /// tick of a cut it has other substeps than the CPU, and fronts that go on by them.
 constexpr double kOtherSubsteps = 0.01;
-/// The same in explicit lattices, some of whose cells the CPU gives up a cut later than the GPU does.
-constexpr double kLaterCells = 0.01;
 
 Scene blockOnAPlate() {
   Scene scene;
@@ -152,7 +150,7 @@ TEST_F(ResistedBlade, CutsEveryStructure) {
       body.fixed[0].max_m = {1, 1, 1};
       body.fixed[1].max_m = {1, -0.0179, 1};
     }
-    expectSameStroke(scene, structure == Structure::kExplicit ? kLaterCells : kRounding);
+    expectSameStroke(scene, kRounding);
   }
 }
 

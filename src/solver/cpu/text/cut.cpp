@@ -143,8 +143,8 @@ uint32_t CpuCut::cutAll(CpuLattice& lattice, const layout::ToolMotion& motion, b
   return particles ? cutWith<Particles>(lattice, motion, spared) : cutWith<Springs>(lattice, motion, spared);
 }
 
-/// Drops the volumes of cells that have lost a spring: they have a corner that has.
 void CpuCut::tearCells(CpuLattice& lattice) const {
+  if (lattice.strengths.bulk.empty()) return;
   glsl::TearCell kernel(lattice);
   kernel.cell_count = 1;
   for (uint32_t slot : changed_) {
@@ -163,11 +163,8 @@ uint32_t CpuCut::run(CpuLattice& lattice, const layout::ToolMotion& motion, bool
   near_.find(lattice, motion, particles);
   changed_.clear();
   const bool records = !lattice.axial_cut.empty();
-  const uint32_t springs =
-      records ? cutAll<glsl::CutSprings, glsl::CutParticles>(lattice, motion, particles, spared)
-              : cutAll<glsl::CutSpringsForgetting, glsl::CutParticlesForgetting>(lattice, motion, particles, spared);
-  if (!lattice.strengths.bulk.empty()) tearCells(lattice);
-  return springs;
+  return records ? cutAll<glsl::CutSprings, glsl::CutParticles>(lattice, motion, particles, spared)
+                 : cutAll<glsl::CutSpringsForgetting, glsl::CutParticlesForgetting>(lattice, motion, particles, spared);
 }
 
 }  // namespace viscera

@@ -34,6 +34,9 @@ class CpuCut {
   /// @param spared  [bodies] 1: it keeps its springs; null: none does
   /// @return springs cut
   uint32_t run(CpuLattice& lattice, const layout::ToolMotion& motion, bool particles, const uint8_t* spared = nullptr);
+  /// Drops the volumes of cells around nodes of the last run that have lost a spring, to it or to the links of networks
+  /// that were cut after it.
+  void tearCells(CpuLattice& lattice) const;
   /// Looked at in the last run.
   const std::vector<uint32_t>& bricks() const { return near_.bricks(); }
 
@@ -42,7 +45,6 @@ class CpuCut {
   uint32_t cutWith(CpuLattice& lattice, const layout::ToolMotion& motion, const uint8_t* spared);
   template <class Springs, class Particles>
   uint32_t cutAll(CpuLattice& lattice, const layout::ToolMotion& motion, bool particles, const uint8_t* spared);
-  void tearCells(CpuLattice& lattice) const;
 
   NearBlade near_;
   std::vector<uint32_t> changed_;  ///< slots that lost springs
