@@ -72,7 +72,7 @@ styluses:
     button2: cut_particles
     probe: {radius_m: 0.0061}
     grab: {radius_m: 0.0062, release_speed_m_per_s: 0.65}
-    cut: {blade_length_m: 0.063, blade_side: both, friction_n_per_m: 6.31}
+    cut: {blade_length_m: 0.063, blade_side: both, friction_n_per_m: 6.31, point_width_m: 0.0631}
     cut_particles: {eraser_radius_m: 0.0064}
     suction: {radius_m: 0.0066, max_force_n: 6.7, release_speed_m_per_s: 0.651}
     max_force_n: 6.6
@@ -241,6 +241,7 @@ TEST(SceneKeys, EveryOtherKeyReachesItsField) {
   EXPECT_EQ(stylus.cut.blade_length_m, 0.063);
   EXPECT_EQ(stylus.cut.blade_side, BladeSide::kBoth);
   EXPECT_EQ(stylus.cut.friction_n_per_m, 6.31);
+  EXPECT_EQ(stylus.cut.point_width_m, 0.0631);
   EXPECT_EQ(stylus.cut_particles.eraser_radius_m, 0.0064);
   EXPECT_EQ(stylus.grab.release_speed_m_per_s, 0.65);
   EXPECT_EQ(stylus.suction.radius_m, 0.0066);
@@ -341,23 +342,13 @@ TEST(SceneKeys, EveryRowTellsAllAboutItsKey) {
 }
 
 TEST(SceneKeys, KeyEndsInItsUnit) {
-  const std::map<std::string, std::string> suffixes = {{"m", "_m"},
-                                                       {"Pa", "_pa"},
-                                                       {"kg/m3", "_kg_per_m3"},
-                                                       {"1/s", "_per_s"},
-                                                       {"m/s", "_m_per_s"},
-                                                       {"m/s2", "_m_per_s2"},
-                                                       {"N", "_n"},
-                                                       {"N/s", "_n_per_s"},
-                                                       {"s", "_s"},
-                                                       {"N/m", "_n_per_m"},
-                                                       {"deg", "_deg"},
-                                                       {"Hz", "_hz"},
-                                                       {"deg/s", "_deg_per_s"},
-                                                       {"MB", "_mb"},
-                                                       {"N m", "_nm"},
-                                                       {"N m/s", "_nm_per_s"},
-                                                       {"J/m2", "_j_per_m2"}};
+  const std::map<std::string, std::string> suffixes = {
+      {"m", "_m"},           {"Pa", "_pa"},       {"kg/m3", "_kg_per_m3"},
+      {"1/s", "_per_s"},     {"m/s", "_m_per_s"}, {"m/s2", "_m_per_s2"},
+      {"N", "_n"},           {"N/s", "_n_per_s"}, {"s", "_s"},
+      {"deg", "_deg"},       {"Hz", "_hz"},       {"deg/s", "_deg_per_s"},
+      {"MB", "_mb"},         {"N m", "_nm"},      {"N m/s", "_nm_per_s"},
+      {"J/m2", "_j_per_m2"}, {"N/m", "_n_per_m"}};
   for (const auto& row : tableRows(sceneKeysTable())) {
     const size_t comma = row.at(2).find(", ");
     if (comma == std::string::npos) continue;

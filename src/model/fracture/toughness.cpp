@@ -3,6 +3,7 @@
 #include "model/fracture/toughness.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "model/scene/integrators.h"
 #include "model/scene/yaml_reader.h"
@@ -15,6 +16,8 @@ namespace {
 // Measured, docs/cutting.md.
 constexpr double kCarried = 2.5;                        // of E h
 constexpr double kCarriedAtSurface = 0.23;              // of E times the kernel: presses the tissue ahead by a third
+constexpr double kOfPoint = 0.4;                        // of E times the square of its kernel; 0.6 folds tissue
+constexpr double kMostOfPoint = 9;                      // of h: that kernel, as large as an edge's may be
 constexpr double kLeastKernel = 3;                      // of h
 constexpr double kKernelAtZero = 1, kKernelPerJ = 3.2;  // of h; its growth with J / (E h)
 
@@ -40,6 +43,15 @@ double Toughness::carriedAtSurface_j_per_m2(double body_kernel_m) const {
 double Toughness::kernel_m() const {
   const double carried = carried_j_per_m2() / (young_modulus_pa * spacing_m);
   return spacing_m * std::max(kKernelAtZero + kKernelPerJ * carried, kLeastKernel);
+}
+
+double Toughness::pointKernel_m(double width_m) const {
+  const double wanted_m = std::sqrt(asked_j_per_m2 * width_m / (kOfPoint * young_modulus_pa));
+  return std::clamp(wanted_m, kLeastKernel * spacing_m, kMostOfPoint * spacing_m);
+}
+
+double Toughness::ofPoint_n(double width_m, double kernel_m) const {
+  return std::min(asked_j_per_m2 * width_m, kOfPoint * young_modulus_pa * kernel_m * kernel_m);
 }
 
 std::string Toughness::note(const std::string& key) const {

@@ -23,6 +23,10 @@ struct Toughness {
   double carriedAtSurface_j_per_m2(double body_kernel_m) const;
   /// Within it nodes share the edge's force, more of them where there is more to carry.
   double kernel_m() const;
+  /// The same of a point: what it parts is so wide.
+  double pointKernel_m(double width_m) const;
+  /// The force of a point that is carried: 0.4 E times its kernel squared at most.
+  double ofPoint_n(double width_m, double kernel_m) const;
   /// How much is carried, for a person; empty: all of it. @param key  that asks for it
   std::string note(const std::string& key) const;
 };

@@ -40,9 +40,14 @@ void visitFields(V& v, CutConfig& c) {
       {{"shaft", BladeSide::kShaft}, {"ahead", BladeSide::kAhead}, {"both", BladeSide::kBoth}},
       "where it lies: shaft: from the tip back along the shaft (+z of the stylus), as a knife's; ahead: from the tip "
       "on (-z), as a wire that the hand aims; both: its length on each side");
-  v.number("friction_n_per_m", c.friction_n_per_m, {0, 1e4}, "N/m",
-           "in tissue that resists blades: of both walls together, per length of blade in it; against the way through it, "
-           "in its own wound too");
+  v.number(
+      "friction_n_per_m", c.friction_n_per_m, {0, 1e4}, "N/m",
+      "in tissue that resists blades: of both walls together, per length of blade in it; against the way through it, "
+      "in its own wound too");
+  v.number(
+      "point_width_m", c.point_width_m, {0, 0.1}, "m",
+      "in tissue that resists blades: what the tip parts, as the blade or needle is pushed along itself, is so wide; "
+      "0: it parts nothing and is not felt");
 }
 
 template <class V>

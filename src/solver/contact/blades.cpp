@@ -8,10 +8,25 @@
 
 namespace viscera {
 
+namespace {
+
+void add(const BladeWork& one, BladeWork& out) {
+  out.area_m2 += one.area_m2;
+  out.work_j += one.work_j;
+  out.parting_j += one.parting_j;
+  out.limit_n += one.limit_n;
+}
+
+}  // namespace
+
 Blades::Cut::Cut(const Model& model, size_t body, const std::vector<StylusConfig>& styluses)
     : body(body), tissue(std::make_unique<RestTissue>(model, body)) {
-  for (uint32_t s = 0; s < layout::kMaxStyluses; ++s)
-    edges.emplace_back(*tissue, s < styluses.size() ? styluses[s].cut.friction_n_per_m : 0);
+  for (uint32_t s = 0; s < layout::kMaxStyluses; ++s) {
+    const CutConfig& cut = s < styluses.size() ? styluses[s].cut : CutConfig{};
+    edges.emplace_back(*tissue, cut.friction_n_per_m);
+    points.emplace_back();
+    if (cut.point_width_m > 0) points.back().emplace(*tissue, cut.point_width_m);
+  }
 }
 
 Blades::Blades(const Model& model, const std::vector<StylusConfig>& styluses) {
@@ -24,10 +39,13 @@ void Blades::act(BladeTarget& target, const ToolMotions& motions, const layout::
   for (Cut& cut : cuts_) {
     target.selectBody(cut.body);
     for (uint32_t s = 0; s < layout::kMaxStyluses; ++s) {
-      if (kindOf(motions[s].mode).does(kCuts))
+      const bool cuts = kindOf(motions[s].mode).does(kCuts);
+      if (cuts)
         cut.edges[s].act(target, s, substep[s], dt_s);
       else
         cut.edges[s].leave(target);
+      if (cut.points[s] && cuts) cut.points[s]->act(target, s, substep[s], dt_s);
+      if (cut.points[s] && !cuts) cut.points[s]->leave();
     }
   }
 }
@@ -37,6 +55,9 @@ bool Blades::leave(BladeTarget& target) {
   for (Cut& cut : cuts_) {
     target.selectBody(cut.body);
     for (BladeEdge& edge : cut.edges) any |= edge.leave(target);
+    for (std::optional<BladePoint>& point : cut.points) {
+      if (point) point->leave();
+    }
   }
   return any;
 }
@@ -45,17 +66,17 @@ void Blades::reset() {
   for (Cut& cut : cuts_) {
     cut.tissue->reset();
     for (BladeEdge& edge : cut.edges) edge.reset();
+    for (std::optional<BladePoint>& point : cut.points) {
+      if (point) point->reset();
+    }
   }
 }
 
 BladeWork Blades::done(uint32_t stylus) const {
   BladeWork out;
   for (const Cut& cut : cuts_) {
-    const BladeWork& one = cut.edges[stylus].done();
-    out.area_m2 += one.area_m2;
-    out.work_j += one.work_j;
-    out.parting_j += one.parting_j;
-    out.limit_n += one.limit_n;
+    add(cut.edges[stylus].done(), out);
+    if (cut.points[stylus]) add(cut.points[stylus]->done(), out);
   }
   return out;
 }
@@ -65,6 +86,9 @@ void Blades::persist(Archive& archive) {
   for (Cut& cut : cuts_) {
     cut.tissue->persist(archive);
     for (BladeEdge& edge : cut.edges) edge.persist(archive);
+    for (std::optional<BladePoint>& point : cut.points) {
+      if (point) point->persist(archive);
+    }
   }
 }
 

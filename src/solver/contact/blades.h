@@ -4,9 +4,11 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "solver/contact/blade_edge.h"
+#include "solver/contact/blade_point.h"
 #include "viscera/tools/stylus.h"
 
 namespace viscera {
@@ -28,7 +30,8 @@ class Blades {
     Cut(const Model& model, size_t body, const std::vector<StylusConfig>& styluses);
     size_t body;
     std::unique_ptr<RestTissue> tissue;
-    std::vector<BladeEdge> edges;  ///< [kMaxStyluses]
+    std::vector<BladeEdge> edges;                   ///< [kMaxStyluses]
+    std::vector<std::optional<BladePoint>> points;  ///< [kMaxStyluses] of those that part by their points too
   };
   std::vector<Cut> cuts_;  ///< of bodies that resist blades
 };

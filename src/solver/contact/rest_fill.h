@@ -16,6 +16,7 @@ class RestFill {
  public:
   RestFill(const Body& body, const RestGrid& nodes);
   double at(const Vector3d& at_m) const;
+  bool isSheet() const { return shares_.empty(); }
 
  private:
   void addCells(const Lattice& lattice);

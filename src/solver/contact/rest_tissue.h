@@ -38,6 +38,7 @@ class RestTissue {
   /// How much of a cube of half a spacing around a place is tissue, 0 to 1; a sheet's thickness is spread to both
   /// sides.
   double fill(const Vector3d& at_m) const { return fill_.at(at_m); }
+  bool isSheet() const { return fill_.isSheet(); }
   const RestToughness& toughness() const { return toughness_; }
   /// Notes that a quadrilateral p q r s of tissue at rest has been parted.
   void part(const Vector3d& p, const Vector3d& q, const Vector3d& r, const Vector3d& s);

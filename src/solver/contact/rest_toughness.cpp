@@ -92,7 +92,7 @@ double RestToughness::depthAt(const Vector3d& at_m) const {
   return sum;
 }
 
-const RestToughness::Carried& RestToughness::at(const Vector3d& at_m) const {
+RestToughness::Place RestToughness::placeOf(const Vector3d& at_m) const {
   size_t label = 0, layer = layers_m_.size();
   if (!labels_.empty()) {
     const Vector3i cell = ((at_m - cells_.origin_m) / cells_.spacing_m).array().floor().cast<int>();
@@ -104,7 +104,25 @@ const RestToughness::Carried& RestToughness::at(const Vector3d& at_m) const {
         std::find_if(layers_m_.begin(), layers_m_.end(), [depth_m](double ends_m) { return depth_m < ends_m; }) -
         layers_m_.begin());
   }
-  return carried_[label][layer];
+  return {label, layer};
+}
+
+const RestToughness::Carried& RestToughness::at(const Vector3d& at_m) const {
+  const Place place = placeOf(at_m);
+  return carried_[place.label][place.layer];
+}
+
+double RestToughness::ofPoint_n(const Vector3d& at_m, double width_m, double kernel_m) const {
+  const Place place = placeOf(at_m);
+  return by_place_[place.label][place.layer].ofPoint_n(width_m, kernel_m);
+}
+
+double RestToughness::pointKernel_m(double width_m) const {
+  double most_m = 0;
+  for (const std::vector<Toughness>& of_label : by_place_) {
+    for (const Toughness& toughness : of_label) most_m = std::max(most_m, toughness.pointKernel_m(width_m));
+  }
+  return most_m;
 }
 
 }  // namespace viscera

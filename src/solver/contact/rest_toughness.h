@@ -25,12 +25,20 @@ class RestToughness {
   double kernel_m(double friction_n_per_m) const { return kernelOf(by_place_, friction_n_per_m); }
   /// What is carried of it, everywhere.
   double carriedFriction_n_per_m(double friction_n_per_m) const;
+  /// The same of a point, the largest.
+  double pointKernel_m(double width_m) const;
+  /// Force of a point there at which it goes on.
+  double ofPoint_n(const Vector3d& at_m, double width_m, double kernel_m) const;
   double spacing_m() const { return spacing_m_; }  ///< Toughness::spacing_m
 
  private:
   void findLabels(const Lattice& lattice);
   void findDepths(const Skin& skin);
   double depthAt(const Vector3d& at_m) const;
+  struct Place {
+    size_t label, layer;
+  };
+  Place placeOf(const Vector3d& at_m) const;
 
   RestGrid cells_;                                ///< a node of it is the lowest corner of a cell
   std::vector<std::vector<Toughness>> by_place_;  ///< toughnesses() of the body

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <memory>
+#include <random>
 
+#include "math/archive.h"
 #include "model/fracture/toughness.h"
 #include "solver/cpu/cpu_solver.h"
 
@@ -73,6 +75,12 @@ class Hand {
     return sum / ticks;
   }
   double most_n() const { return most_n_; }
+  void put(const Hand& other) { at_ = other.at_; }
+  /// Elsewhere, as after a tick without a tool.
+  void put(const Pose& pose) {
+    solver_.step(ToolMotions{});
+    at_ = pose;
+  }
   CpuSolver& solver() { return solver_; }
 
  private:
@@ -169,6 +177,73 @@ TEST(BladePlaces, WallsRubInTheTissueAndInTheirOwnWound) {
   const double area_m2 = hand.solver().bladeWork(0).area_m2;
   EXPECT_NEAR(hand.go({-0.01, 0, 0}), 20 * kWidth_m, kBack * 20 * kWidth_m);
   EXPECT_NEAR(hand.solver().bladeWork(0).area_m2, area_m2, 0.01 * area_m2);
+  EXPECT_EQ(hand.solver().health().trips, 0u);
+}
+
+/// Into a block with a capsule from above.
+struct Needle {
+  Needle() : body(blockOf({0.048, 0.048, 0.04}, 80)) {
+    hold(body, {0, 0, -1});
+    body.layers = {{0.001, Vector3d::Ones(), 500}};
+    scene = sceneOf(body, 0.06);
+    scene.styluses[0].cut.point_width_m = kNeedle_m;
+    scene.solver.tick_hz = 240;
+    model = buildModel(scene);
+  }
+  static Pose above() { return {{0.0003, 0.0005, 0.021}, Quaterniond::Identity()}; }
+  static constexpr double kNeedle_m = 0.002;
+  BodyConfig body;
+  Scene scene;
+  Model model;
+};
+
+TEST(BladePlaces, ANeedlePuncturesDropsAndGoesOnByItsWidth) {
+  Needle needle;
+  Hand hand(needle.model, needle.scene, needle.above());
+  hand.go({0, 0, -0.012});
+  EXPECT_NEAR(hand.most_n(), 500 * Needle::kNeedle_m, kForce * 500 * Needle::kNeedle_m);
+  hand.go({0, 0, -0.012});
+  EXPECT_NEAR(hand.go({0, 0, -0.005}), 80 * Needle::kNeedle_m, 2 * kForce * 80 * Needle::kNeedle_m);
+  const BladeWork work = hand.solver().bladeWork(0);
+  EXPECT_NEAR(work.parting_j, 80 * work.area_m2 + (500 - 80) * 0.001 * Needle::kNeedle_m, 0.02 * work.parting_j);
+  EXPECT_LT(work.parting_j, work.work_j);
+  hand.go({0, 0, 0.01});
+  EXPECT_NEAR(hand.go({0, 0, 0.015}), 0, 1e-3);
+  EXPECT_NEAR(hand.go({0, 0, -0.015}), 0, 0.1 * 80 * Needle::kNeedle_m);
+  EXPECT_EQ(hand.solver().health().trips, 0u);
+}
+
+TEST(BladePlaces, ASavedNeedleGoesOnToTheBit) {
+  Needle needle;
+  Hand first(needle.model, needle.scene, needle.above()), second(needle.model, needle.scene, needle.above());
+  first.go({0, 0, -0.01});
+  Archive saved;
+  first.solver().persist(saved);
+  Archive read(saved.sections());
+  second.solver().persist(read);
+  second.put(first);
+  first.go({0, 0, -0.01});
+  second.go({0, 0, -0.01});
+  EXPECT_EQ(stateHash(needle.model, first.solver().readState()), stateHash(needle.model, second.solver().readState()));
+  EXPECT_EQ(first.solver().bladeWork(0).work_j, second.solver().bladeWork(0).work_j);
+}
+
+TEST(BladePlaces, RandomStrokesOfANeedleThatRubsGiveNothing) {
+  Needle needle;
+  needle.scene.styluses[0].cut.friction_n_per_m = 30;
+  Hand hand(needle.model, needle.scene, needle.above());
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> any(-1, 1);
+  for (int stroke = 0; stroke < 40; ++stroke) {
+    if (stroke % 10 == 0) hand.solver().reset();
+    const Vector3d at(0.02 * any(random), 0.02 * any(random), 0.025), axis(any(random), any(random), 1.5);
+    hand.put({at, Quaterniond::FromTwoVectors(Vector3d::UnitZ(), axis.normalized())});
+    const double before_j = hand.solver().bladeWork(0).work_j;
+    const Vector3d way = -0.03 * axis.normalized() + 0.004 * Vector3d(any(random), any(random), any(random));
+    hand.go(way);
+    hand.go(-0.5 * way);
+    EXPECT_GT(hand.solver().bladeWork(0).work_j - before_j, -1e-3) << stroke;
+  }
   EXPECT_EQ(hand.solver().health().trips, 0u);
 }
 

@@ -192,6 +192,7 @@ struct CutConfig {
   double blade_length_m = 0.02;
   BladeSide blade_side = BladeSide::kShaft;
   double friction_n_per_m = 0;  ///< of both walls together, per length of blade in tissue
+  double point_width_m = 0;     ///< of what the tip parts as the blade is pushed along itself; 0: it parts nothing
 };
 struct CutParticlesConfig {
   double eraser_radius_m = 0.002;
