@@ -15,6 +15,7 @@
 #include "bench/harness/specimens/backends.h"
 #include "math/float_bits.h"
 #include "model/fracture/toughness.h"
+#include "solver/reference/reference_lattice.h"
 #include "viscera/model/model.h"
 
 namespace viscera::bench {
@@ -120,6 +121,7 @@ class Stroke {
     way_ = go_ - trial.slicing * Vector3d::UnitZ();
     at_ = {-0.5 * trial.length_m - kClear_m, -0.5 * trial.stroke_m * std::sin(angle) + trial.beside * trial.spacing_m,
            -0.5 * trial.thickness_m - kOver_m};
+    if (trial.damped) lattice_.emplace(model_);
     force_unit_n_ = toughnessOf(model_.bodies[0]).carried_j_per_m2() * trial.thickness_m;
   }
 
@@ -149,6 +151,7 @@ class Stroke {
     const double took_us = std::chrono::duration<double, std::micro>(Clock::now() - start).count();
     const Vector3d force_n = xyz(last_.impulse[0]) / tick_s;
     out_.stretch = std::max(out_.stretch, static_cast<double>(floatFromBits(last_.max_stretch_bits)));
+    if (lattice_) damped_j_ += tick_s * damping_w();
     if (out_.onset_m == 0 && solver_->bladeWork(0).area_m2 > trial_.spacing_m * trial_.thickness_m)
       out_.onset_m = gone_m_ - kClear_m;
     if (gone_m_ < kSteadyFrom * trial_.stroke_m) return;
@@ -156,6 +159,18 @@ class Stroke {
     steady_.push_back(force_n.dot(go_) / force_unit_n_);
     out_.along -= force_n.z() / force_unit_n_;
     busy_us_.push_back(took_us / solver_->substeps());
+  }
+
+  /// What drag and dashpots take at the moment.
+  double damping_w() {
+    const HostState state = solver_->readState();
+    lattice_->nodes = state.nodes;
+    lattice_->spring_cut = state.spring_cut;
+    Field u_m, v_m_per_s;
+    for (const layout::vec4& u : state.displacement_m) u_m.push_back(xyz(u));
+    for (const layout::vec4& v : state.velocity_m_per_s) v_m_per_s.push_back(xyz(v));
+    const double drag_w = 2 * scene_.bodies[0].material.drag_per_s * static_cast<double>(last_.kinetic_j);
+    return drag_w + 2 * lattice_->dissipation(u_m, v_m_per_s);
   }
 
   void finish() {
@@ -174,6 +189,7 @@ class Stroke {
     out_.work_j = work.work_j;
     out_.cut_share = work.parting_j / work.work_j;
     out_.stored_share = (static_cast<double>(last_.elastic_j) + static_cast<double>(last_.kinetic_j)) / work.work_j;
+    out_.damped_share = damped_j_ / work.work_j;
     out_.nodes = model_.activeNodes();
     out_.trips = static_cast<double>(solver_->health().trips);
     out_.fastest_us = *std::min_element(busy_us_.begin(), busy_us_.end());
@@ -187,7 +203,8 @@ class Stroke {
   Model model_;
   std::unique_ptr<Ticks> solver_;
   Vector3d go_, way_, at_;
-  double gone_m_ = 0, force_unit_n_ = 0;
+  std::optional<ReferenceLattice> lattice_;  ///< for what damping takes
+  double damped_j_ = 0, gone_m_ = 0, force_unit_n_ = 0;
   layout::TickStats last_{};
   std::vector<double> steady_, busy_us_;
   BladeResult out_;

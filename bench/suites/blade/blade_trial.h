@@ -17,6 +17,7 @@ struct BladeTrial {
   Structure structure = Structure::kLattice;  ///< surface: a sheet, thickness_m thick
   bool there = true;                          ///< else the tissue is alone: nothing is cut
   Backend backend = Backend::kCpu;            ///< the GPU's needs a current context
+  bool damped = true;                         ///< is it counted what damping takes?
 };
 
 struct BladeResult {
@@ -27,6 +28,7 @@ struct BladeResult {
   double area_m2 = 0;            ///< parted
   double work_j = 0;
   double cut_share = 0, stored_share = 0;  ///< of the work: parting; elastic and kinetic energy at the end
+  double damped_share = 0;                 ///< by drag and dashpots; 0 where it was not asked for
   double worst_det = 1;                    ///< least volume of a whole cell (tetrahedron, triangle), over that at rest
   double length_m = 0;                     ///< h of the law, Toughness::spacing_m
   double trips = 0, stretch = 0;

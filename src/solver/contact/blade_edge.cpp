@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solver/contact/blade_edge.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -18,6 +19,8 @@ constexpr double kClosed = 0.2;      // of a gap, in a substep
 constexpr double kFlats = 3;         // times the limit: what the flats of a blade bear sideways
 constexpr int kSweeps = 8;           // over the samples: what they want of the nodes that they share
 constexpr double kLeft = 2;          // of the spacing: a front that far ahead of the edge has been left
+constexpr double kOffWay = 0.9;      // cosine: what an edge meets that far off the hand's way it meets from elsewhere
+constexpr double kOfTissue = 0.5;    // of how much a blade is drawn: by the edge's way in the tissue, not the hand's
 constexpr double kMostStep = 0.5;    // of the spacing, of a front in a substep
 constexpr double kAhead = 0.9;       // of the spacing: where it is looked for a wound; beyond the half cell it is in
 constexpr double kAside = 0.5;       // of the spacing: beside that, as a wound sways
@@ -76,7 +79,7 @@ void BladeEdge::place(const layout::ToolMotion& blade) {
   for (size_t i = 0; i <= segments; ++i) {
     Front& front = fronts_[i];
     front.edge = first + static_cast<double>(i) / static_cast<double>(segments) * span;
-    front.at = front.cut = front.counted = front.edge;
+    front.at = front.cut = front.edge;
     front.centre.setConstant(std::numeric_limits<double>::infinity());
   }
 }
@@ -158,9 +161,8 @@ void BladeEdge::look(double dt_s) {
   }
 }
 
-/// 1 / sqrt(1 + xi^2), xi the hand's way along the edge over that across it.
-double BladeEdge::drawn(size_t i) const {
-  const Vector3d& way = fronts_[i].way;
+/// 1 / sqrt(1 + xi^2), xi a way along the edge over that across it.
+double BladeEdge::drawnBy(const Vector3d& way) const {
   const double all2 = way.squaredNorm(), along = way.dot(along_);
   return all2 > 0 ? std::sqrt(std::max(0.0, 1 - along * along / all2)) : 1;
 }
@@ -171,14 +173,32 @@ double BladeEdge::ahead(size_t i) const {
   return std::clamp(kernels_[i].lean.dot(fronts_[i].forward) / (kHalfKernel * kernel_m_), 0.0, 1.0);
 }
 
+/// Mean over the length that sample i stands for [J/m2].
+double BladeEdge::toughness(size_t i) const {
+  const Push& push = pushes_[i];
+  return push.length_m > 0 ? push.over_length.with(ahead(i)) / push.length_m : 0;
+}
+
+/// How much a blade is drawn is told by the hand's way, and somewhat by that of the edge in the tissue, which it takes
+/// along: by the first alone force is as the law has it, by the second work is.
+void BladeEdge::limit(size_t i) {
+  const Front& front = fronts_[i];
+  Push& push = pushes_[i];
+  push.side = front.forward.cross(along_);
+  push.of_hand = unit(front.way - front.way.dot(push.side) * push.side);
+  const double of_hand = drawnBy(front.way), in_tissue = drawnBy(front.to_rest.inverse() * front.way);
+  push.gives_way_n_s = (of_hand + kOfTissue * (in_tissue - of_hand)) * push.cap_n_s;
+}
+
 void BladeEdge::solve(double dt_s) {
   done_.limit_n = 0;
   for (size_t i = 0; i < fronts_.size(); ++i) {
     Push& push = pushes_[i];
     const bool parts = fronts_[i].stuck && push.length_m > 0;
-    push.cap_n_s = parts ? push.over_length.with(ahead(i)) * dt_s : 0;
+    push.cap_n_s = parts ? toughness(i) * partedPerSwept(i) * push.length_m * dt_s : 0;
     push.slips = parts && !(push.cap_n_s > 0);  // a part without a toughness
-    done_.limit_n += drawn(i) * push.cap_n_s / dt_s + friction_n_per_m_ * push.length_m;
+    if (parts) limit(i);
+    done_.limit_n += push.gives_way_n_s / dt_s + friction_n_per_m_ * push.length_m;
   }
   for (int sweep = 0; sweep < kSweeps; ++sweep) {
     for (size_t i = 0; i < fronts_.size(); ++i) {
@@ -203,13 +223,18 @@ Vector3d BladeEdge::limited(size_t i, const Vector3d& impulse) {
   push.slips = push.aside = false;
   const Vector3d& forward = fronts_[i].forward;
   if (!(impulse.dot(forward) > 0)) return Vector3d::Zero();
-  const Vector3d side = forward.cross(along_);
-  const double sideways = impulse.dot(side), bears = kFlats * push.cap_n_s;
-  const Vector3d in_plane = impulse - sideways * side;
-  const double cap = drawn(i) * push.cap_n_s;
-  push.slips = in_plane.norm() > cap;
+  const double sideways = impulse.dot(push.side), bears = kFlats * push.cap_n_s;
+  const Vector3d in_plane = impulse - sideways * push.side;
+  push.slips = in_plane.norm() > push.gives_way_n_s;
   push.aside = std::abs(sideways) > bears;
-  return atMost(in_plane, cap) + std::clamp(sideways, -bears, bears) * side;
+  const Vector3d held = push.slips ? Vector3d(push.gives_way_n_s * alongWay(push.of_hand, unit(in_plane))) : in_plane;
+  return held + std::clamp(sideways, -bears, bears) * push.side;
+}
+
+/// Tissue that parts resists against the hand's way, unless it is met from quite another side.
+Vector3d BladeEdge::alongWay(const Vector3d& of_hand, const Vector3d& in_plane) {
+  const double near = std::clamp((of_hand.dot(in_plane) - kOffWay) / (1 - kOffWay), 0.0, 1.0);
+  return unit(in_plane + near * (of_hand - in_plane));
 }
 
 void BladeEdge::give(BladeTarget& target, uint32_t stylus, double dt_s) {
@@ -239,10 +264,13 @@ void BladeEdge::advance(double dt_s) {
     const Vector3d gap = push.gap + dt_s * (push.edge_velocity - push.velocity);
     if (front.stuck && gap.dot(front.forward) < -kLeft * h_) front.stuck = 0;
     if (!(push.length_m > 0)) front.stuck = 0;  // out on the other side
-    if (front.stuck)
+    const Vector3d from = front.at;
+    if (front.stuck) {
       moveFront(i, gap);
-    else
+      countArea(i, front.at - from);
+    } else {
       front.at += push.length_m > 0 ? toRest(i, gap) : gap;
+    }
   }
 }
 
@@ -282,7 +310,6 @@ void BladeEdge::cutBehind(BladeTarget& target, bool all) {
   for (size_t i = 0; due && i + 1 < fronts_.size(); ++i) {
     const Front &a = fronts_[i], &b = fronts_[i + 1];
     if (!a.cuts && !b.cuts) continue;
-    countArea(i);
     layout::ToolMotion sweep{};
     sweep.from = rounded(a.cut);
     sweep.to = rounded(a.at);
@@ -296,7 +323,7 @@ void BladeEdge::cutBehind(BladeTarget& target, bool all) {
   for (size_t i = 0; i < fronts_.size(); ++i) {
     Front& front = fronts_[i];
     if (!due && (front.stuck || (any && !(pushes_[i].length_m > 0)))) continue;
-    front.cut = front.counted = front.at;
+    front.cut = front.at;
     front.cuts = front.stuck;
   }
 }
@@ -324,7 +351,6 @@ void BladeEdge::stickAgain() {
     front.stuck = front.cuts = 1;
     front.forward = forward;
     const Vector3d behind = front.at - kAhead * h_ * forward;
-    front.counted = front.at;
     front.cut = tissue_.isParted(behind) || tissue_.fill(behind) <= 0 ? behind : front.at;
   }
 }

@@ -53,7 +53,6 @@ class BladeEdge {
     Vector3d at = Vector3d::Zero();                         ///< the front
     Vector3d centre = Vector3d::Zero();                     ///< where its kernel was made
     Vector3d cut = Vector3d::Zero();                        ///< up to where springs are cut
-    Vector3d counted = Vector3d::Zero();                    ///< up to where the area is counted
     Vector3d edge = Vector3d::Zero();                       ///< where the sample is
     Vector3d forward = Vector3d::Zero();                    ///< into the tissue ahead, across the edge
     Vector3d way = Vector3d::Zero();                        ///< of the sample, lately
@@ -68,7 +67,10 @@ class BladeEdge {
     Vector3d velocity = Vector3d::Zero();  ///< of the tissue
     Vector3d impulse = Vector3d::Zero();   ///< on the tissue [N s], rub among it
     Vector3d rub = Vector3d::Zero();       ///< of the blade's walls
+    Vector3d side = Vector3d::Zero();      ///< across the blade's plane
+    Vector3d of_hand = Vector3d::Zero();   ///< the hand's way in it
     double length_m = 0, cap_n_s = 0;
+    double gives_way_n_s = 0;            ///< in the plane: the limit of a blade that is drawn
     RestToughness::Carried over_length;  ///< times length [N]
     bool slips = false, aside = false;
     void stand(double more_m, const RestToughness::Carried& carried) {
@@ -86,23 +88,27 @@ class BladeEdge {
   void look(double dt_s);
   void findLengths();
   int stripsOf(double length_m) const;
+  double partedPerSwept(size_t i) const;
+  void limit(size_t i);
   void solve(double dt_s);
   void solveOne(size_t i, double dt_s);
   void rubOne(size_t i, double dt_s);
   void give(size_t i, const Vector3d& impulse);
   Vector3d limited(size_t i, const Vector3d& impulse);
+  static Vector3d alongWay(const Vector3d& of_hand, const Vector3d& in_plane);
   void giveBackAtMost();
   void give(BladeTarget& target, uint32_t stylus, double dt_s);
   void advance(double dt_s);
   void moveFront(size_t i, const Vector3d& gap);
   void followThroughAir();
   void cutBehind(BladeTarget& target, bool all);
-  void countArea(size_t i);
+  void countArea(size_t i, const Vector3d& step);
   void stickAgain();
   bool isWhole(const Vector3d& ahead, const Vector3d& side) const;
   Vector3d toRest(size_t i, const Vector3d& gap) const;
-  double drawn(size_t i) const;
+  double drawnBy(const Vector3d& way) const;
   double ahead(size_t i) const;
+  double toughness(size_t i) const;
 
   RestTissue& tissue_;
   double friction_n_per_m_, kernel_m_, h_;

@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kStrip = 0.125;      // of the spacing, at most: parts of the edge that are in tissue or not
 constexpr double kMostStrips = 1000;  // whatever a fold makes of them
+constexpr double kMostStretch = 1.5;  // of areas: whatever a fold makes of them
 constexpr double kGivenBack = 0.25;   // of what the tissue has of the edge, at most, in a substep: it ends smoothly
 
 }  // namespace
@@ -37,6 +38,15 @@ void BladeEdge::findLengths() {
   }
 }
 
+/// The area that a sample parts at rest over that which its edge sweeps in the tissue as it is: toughness is work per
+/// area at rest.
+double BladeEdge::partedPerSwept(size_t i) const {
+  const Front &a = fronts_[i > 0 ? i - 1 : 0], &b = fronts_[std::min(i + 1, fronts_.size() - 1)];
+  const double swept = (b.edge - a.edge).norm();
+  const double parted = (b.at - a.at).cross(fronts_[i].to_rest * fronts_[i].forward).norm();
+  return swept > 0 ? std::clamp(parted / swept, 1 / kMostStretch, kMostStretch) : 1;
+}
+
 /// A hand gets back at most what this edge has stored in the tissue since it came: what swings there of others' work,
 /// or of strokes before, pushes no hand. Forces fall with what is left.
 void BladeEdge::giveBackAtMost() {
@@ -60,19 +70,14 @@ void BladeEdge::giveBackAtMost() {
   done_.work_j += work_j;
 }
 
-/// Of the segment from sample i to the next one.
-void BladeEdge::countArea(size_t i) {
-  const Front &a = fronts_[i], &b = fronts_[i + 1];
-  const int strips = stripsOf((b.at - a.at).norm());
-  for (int s = 0; s < strips; ++s) {
-    const double t = (s + 0.5) / strips, cuts = (1 - t) * a.cuts + t * b.cuts;
-    const Vector3d at = a.at + t * (b.at - a.at), from = a.counted + t * (b.counted - a.counted);
-    const double all_m2 = (at - from).cross(b.at - a.at).norm() / strips;
-    const double area_m2 = cuts * tissue_.fill(0.5 * (at + from)) * all_m2;
-    done_.area_m2 += area_m2;
-    const double in_front = (1 - t) * ahead(i) + t * ahead(i + 1);
-    done_.parting_j += tissue_.toughness().at(0.5 * (at + from)).with(in_front) * area_m2;
-  }
+/// @param step  of a front, at rest
+void BladeEdge::countArea(size_t i, const Vector3d& step) {
+  const Front &a = fronts_[i > 0 ? i - 1 : 0], &b = fronts_[std::min(i + 1, fronts_.size() - 1)];
+  const double length_m = (b.edge - a.edge).norm();
+  if (step.isZero(0) || !(length_m > 0)) return;
+  const double area_m2 = pushes_[i].length_m / length_m * (b.at - a.at).cross(step).norm();
+  done_.area_m2 += area_m2;
+  done_.parting_j += toughness(i) * area_m2;
 }
 
 }  // namespace viscera
