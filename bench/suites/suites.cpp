@@ -14,6 +14,7 @@
 #include "bench/suites/pace/haptics_suite.h"
 #include "bench/suites/pace/performance_suites.h"
 #include "bench/suites/stability/stability_suite.h"
+#include "bench/suites/thread/thread_suite.h"
 #include "viscera/gpu/context.h"
 
 namespace viscera::bench {
@@ -48,6 +49,8 @@ const std::vector<Suite>& suites() {
        run<cutSuite>},
       {"blade", "force and work of blades that tissue resists, by spacing, stiffness, angle, speed and slicing",
        run<bladeSuite>, false, true},
+      {"thread", "bending, hanging, sliding, pulling and cost of threads, beside the laws of docs/thread.md",
+       run<threadSuite>, false, true},
       {"haptics", "simulated devices against tissue: what is felt, limit cycles, energy, by mass, delay and stiffness",
        run<hapticsSuite>},
       {"latency", "from a pose to its force and its picture; how even ticks are", run<latencySuite>},

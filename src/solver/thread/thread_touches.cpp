@@ -1,0 +1,132 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solver/thread/thread_touches.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace viscera {
+
+namespace {
+
+constexpr double kReachSteps = 2;  // nodes that are as near as they go in so many substeps
+constexpr double kDeep = 2;        // radii of the thread: from farther inside the way out is where the node came from
+
+Vector3d xyz(const layout::vec4& v) {
+  return {v.x, v.y, v.z};
+}
+
+/// How far a place in an obstacle's own frame is from its border, and which way is out.
+struct Nearest {
+  double distance_m;
+  Vector3d normal;
+};
+
+Nearest fromCentre(const Vector3d& from, double radius_m) {
+  const double length_m = from.norm();
+  return {length_m - radius_m, length_m > 0 ? Vector3d(from / length_m) : Vector3d::UnitZ()};
+}
+
+Nearest fromBox(const Vector3d& at, const Vector3d& half) {
+  const Vector3d beyond = at.cwiseAbs() - half;
+  if ((beyond.array() > 0).any()) return fromCentre(at - at.cwiseMin(half).cwiseMax(-half), 0);
+  Vector3d::Index axis;
+  const double deepest_m = beyond.maxCoeff(&axis);
+  Vector3d normal = Vector3d::Zero();
+  normal[axis] = at[axis] < 0 ? -1 : 1;
+  return {deepest_m, normal};
+}
+
+Nearest nearestOf(const layout::ObstacleMotion& obstacle, const Vector3d& at) {
+  const double radius_m = obstacle.from.w, half_m = obstacle.to.w;
+  switch (obstacle.info.x) {
+    case layout::kShapePlane:
+      return {at.z(), Vector3d::UnitZ()};
+    case layout::kShapeSphere:
+      return fromCentre(at, radius_m);
+    case layout::kShapeCapsule:
+      return fromCentre(at - std::clamp(at.z(), -half_m, half_m) * Vector3d::UnitZ(), radius_m);
+    default:
+      return fromBox(at, xyz(obstacle.half_size));
+  }
+}
+
+/// In the tissue frame, where an obstacle is at the end of the substep.
+Nearest nearestTo(const layout::ObstacleMotion& obstacle, const Vector3d& at) {
+  const layout::vec4& q = obstacle.to_orientation;
+  const Quaterniond turn(q.w, q.x, q.y, q.z);
+  const Nearest own = nearestOf(obstacle, turn.conjugate() * (at - xyz(obstacle.to)));
+  return {own.distance_m, turn * own.normal};
+}
+
+/// @param at  near which it is a tangent
+void lay(ChainTouch& touch, const layout::ObstacleMotion& obstacle, const Vector3d& at, const Nearest& nearest,
+         double dt_s) {
+  touch.normal = nearest.normal;
+  touch.at_m = at - nearest.distance_m * touch.normal;
+  touch.moved_m = dt_s * (xyz(obstacle.velocity) + xyz(obstacle.spin).cross(at - xyz(obstacle.to)));
+  touch.friction = obstacle.velocity.w;
+}
+
+using Number = std::pair<uint32_t, uint32_t>;
+
+Number numberOf(const ChainTouch& touch) {
+  return {touch.node, touch.thing};
+}
+
+bool earlier(const ChainTouch& touch, const Number& number) {
+  return numberOf(touch) < number;
+}
+
+}  // namespace
+
+void ThreadTouches::find(const Chain& chain, const layout::ObstacleMotion* obstacles, uint32_t count, double dt_s,
+                         std::vector<ChainTouch>& touches) {
+  before_.swap(touches);
+  touches.clear();
+  auto kept = before_.cbegin();
+  for (uint32_t node = 0; node < chain.nodes(); ++node) {
+    const Vector3d way = dt_s * chain.velocities_m_per_s()[node], ahead = chain.places_m()[node] + way;
+    const double reach_m = chain.link_m() + kReachSteps * way.norm();
+    for (uint32_t thing = 0; thing < count; ++thing) {
+      Vector3d at = ahead;
+      Nearest nearest = nearestTo(obstacles[thing], at);
+      if (nearest.distance_m > reach_m) continue;
+      if (nearest.distance_m < -kDeep * chain.material().radius_m) {
+        at = chain.places_m()[node];
+        nearest = nearestTo(obstacles[thing], at);
+      }
+      const Number number{node, thing};
+      kept = std::lower_bound(kept, before_.cend(), number, earlier);
+      const bool known = kept != before_.cend() && numberOf(*kept) == number;
+      touches.push_back(known ? *kept : ChainTouch());
+      touches.back().node = node;
+      touches.back().thing = thing;
+      lay(touches.back(), obstacles[thing], at, nearest, dt_s);
+    }
+  }
+}
+
+bool ThreadTouches::catchUp(const Chain& chain, const layout::ObstacleMotion* obstacles, uint32_t count, double dt_s,
+                            const std::vector<Vector3d>& ends_m, std::vector<ChainTouch>& touches) const {
+  bool any = false;
+  for (uint32_t node = 0; node < chain.nodes(); ++node) {
+    for (uint32_t thing = 0; thing < count; ++thing) {
+      if (nearestTo(obstacles[thing], ends_m[node]).distance_m > 0) continue;
+      const Number number{node, thing};
+      const auto place = std::lower_bound(touches.begin(), touches.end(), number, earlier);
+      if (place != touches.end() && numberOf(*place) == number) continue;
+      ChainTouch touch;
+      touch.node = node;
+      touch.thing = thing;
+      touch.closed = true;
+      const Vector3d& from = chain.places_m()[node];
+      lay(touch, obstacles[thing], from, nearestTo(obstacles[thing], from), dt_s);
+      touches.insert(place, touch);
+      any = true;
+    }
+  }
+  return any;
+}
+
+}  // namespace viscera

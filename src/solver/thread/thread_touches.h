@@ -1,0 +1,29 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "solver/thread/chain.h"
+#include "viscera/layout/obstacle_motion.h"
+
+namespace viscera {
+
+/// The touches of a chain with obstacles, as half spaces: tangents of what is nearest to each node.
+class ThreadTouches {
+ public:
+  /// Of the nodes that are near. What the last substep's touches keep, they keep.
+  /// @param obstacles  over the substep to come   @param touches  of the last substep, and then of this
+  void find(const Chain& chain, const layout::ObstacleMotion* obstacles, uint32_t count, double dt_s,
+            std::vector<ChainTouch>& touches);
+  /// Of nodes that were jerked into an obstacle from farther away: they stay on the side from which they came.
+  /// @param ends_m  of all nodes   @returns whether there were any
+  bool catchUp(const Chain& chain, const layout::ObstacleMotion* obstacles, uint32_t count, double dt_s,
+               const std::vector<Vector3d>& ends_m, std::vector<ChainTouch>& touches) const;
+
+ private:
+  std::vector<ChainTouch> before_;
+};
+
+}  // namespace viscera

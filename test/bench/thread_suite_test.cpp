@@ -1,0 +1,57 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+// The laws of docs/thread.md; `viscera bench thread` has more of them.
+#include <gtest/gtest.h>
+
+#include "bench/suites/thread/thread_trials.h"
+
+namespace viscera::bench {
+namespace {
+
+constexpr double kBent = 0.02, kSag = 0.005, kTension = 0.01, kCapstan = 0.05, kLink = 1e-3, kMomentum = 1e-6;
+
+TEST(ThreadSuite, BendsAsAnElastica) {
+  struct Known {
+    double load, across;
+  };
+  for (const Known known : {Known{1, 0.30172}, {2, 0.49346}, {3, 0.60325}, {5, 0.71379}, {10, 0.81061}})
+    EXPECT_NEAR(bentByForce(known.load, 40).across, known.across, kBent * known.across);
+  EXPECT_NEAR(bentByMoment(0.25, 60), 0.25, kBent * 0.25);
+  EXPECT_NEAR(bentByMoment(1, 60), 1, kBent);
+}
+
+TEST(ThreadSuite, HangsAsACatenary) {
+  const CatenaryTrial hung = hungUp(0.12, 101);
+  EXPECT_NEAR(hung.sag, hung.exact_sag, kSag * hung.exact_sag);
+  EXPECT_NEAR(hung.tension, hung.exact_tension, kTension * hung.exact_tension);
+}
+
+TEST(ThreadSuite, SlidesAsOverACapstan) {
+  for (const double angle_deg : {90.0, 180.0, 360.0}) EXPECT_NEAR(drawnOverCylinder(angle_deg), 1, kCapstan);
+}
+
+TEST(ThreadSuite, DoesNotStretch) {
+  for (const double force_n : {0.01, 20.0}) {
+    const PullTrial pulled = pulledBy(force_n);
+    EXPECT_LT(pulled.worst_link, kLink);
+    EXPECT_NEAR(pulled.tension, 1, kTension);
+    EXPECT_LT(pulled.iterations, 1.5);
+  }
+}
+
+TEST(ThreadSuite, KeepsItsMomentum) {
+  const FlightTrial flight = thrown();
+  EXPECT_LT(flight.momentum, kMomentum);
+  EXPECT_LT(flight.worst_link, kLink);
+}
+
+TEST(ThreadSuite, StaysWholeAndOutsideWhateverAHandDoes) {
+  const StressTrial drawn = drawnAbout(2, 0.1);
+  EXPECT_EQ(drawn.nonfinite, 0);
+  EXPECT_EQ(drawn.bad, 0);
+  EXPECT_LT(drawn.most_force_n, 1.06 * 20);
+  EXPECT_LT(drawn.deepest_m, 1e-4);
+}
+
+}  // namespace
+}  // namespace viscera::bench
