@@ -7,27 +7,27 @@
 namespace viscera::nodes {
 namespace {
 
-SenderWatch::SteadyTime at(double time_s) {
+SenderWatch::SteadyTime timeAt(double time_s) {
   static const SenderWatch::SteadyTime start = std::chrono::steady_clock::now();
   return start + std::chrono::duration_cast<SenderWatch::SteadyTime::duration>(std::chrono::duration<double>(time_s));
 }
 
 TEST(SenderWatch, NamesNodesThatSendAtTheSameTimeAndSaysSoOnce) {
   SenderWatch watch;
-  EXPECT_FALSE(watch.note("/driver", at(0)));
-  EXPECT_FALSE(watch.note("/driver", at(0.1)));
-  EXPECT_EQ(watch.several(at(0.1)), "");
-  EXPECT_TRUE(watch.note("/replay", at(0.2)));
-  EXPECT_FALSE(watch.note("/driver", at(0.3)));
-  EXPECT_EQ(watch.several(at(0.3)), "/driver, /replay");
-  EXPECT_EQ(watch.several(at(5)), "");
+  EXPECT_FALSE(watch.note("/driver", timeAt(0)));
+  EXPECT_FALSE(watch.note("/driver", timeAt(0.1)));
+  EXPECT_EQ(watch.several(timeAt(0.1)), "");
+  EXPECT_TRUE(watch.note("/replay", timeAt(0.2)));
+  EXPECT_FALSE(watch.note("/driver", timeAt(0.3)));
+  EXPECT_EQ(watch.several(timeAt(0.3)), "/driver, /replay");
+  EXPECT_EQ(watch.several(timeAt(5)), "");
 }
 
 TEST(SenderWatch, DriverThatTakesOverFromAnotherIsNoTrouble) {
   SenderWatch watch;
-  watch.note("/driver_1", at(0));
-  EXPECT_FALSE(watch.note("/driver_2", at(2)));
-  EXPECT_EQ(watch.several(at(2)), "");
+  watch.note("/driver_1", timeAt(0));
+  EXPECT_FALSE(watch.note("/driver_2", timeAt(2)));
+  EXPECT_EQ(watch.several(timeAt(2)), "");
 }
 
 }  // namespace
