@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "bench/suites/blade/blade_curves.h"
 #include "bench/suites/blade/blade_strokes.h"
 #include "bench/suites/blade/blade_structures.h"
 #include "bench/suites/blade/blade_trial.h"
@@ -215,6 +216,8 @@ void bladeSuite(Report& report) {
                         {"structures", bladeStructures},
                         {"prestress", prestressSlits},
                         {"strokes", bladeStrokes},
+                        {"onset", bladeOnset},
+                        {"hand", bladeHand},
                         {"cost", cost},
                         {"gpu", onTheGpu}});
 }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/suites/pace/haptics_blade.h"
 #include "bench/suites/pace/haptics_trial.h"
 
 namespace viscera::bench {
@@ -157,6 +158,8 @@ void hapticsSuite(Report& report) {
   const Worst without = measure(report, some, 0, plain, swings);
   report.add(plain, "once_per_tick");
   report.add(swings, "swings");
+
+  hapticsBlade(report);
 
   report.checkAtMost("cells of the matrix with a limit cycle", worst.cycling, 0);
   report.checkAtMost("static force off the simulator's [1]", worst.error, kStaticError);
