@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The law of docs/cutting.md in a block; `viscera bench blade` has more of it.
 #include "bench/suites/blade/blade_trial.h"
+#include "bench/suites/blade/tear_trial.h"
 
 #include <gtest/gtest.h>
 
@@ -12,6 +13,7 @@ constexpr double kForce = 0.05;  // of J w: the issue's limit
 constexpr double kRipple = 0.1;  // of J w
 constexpr double kWork = 0.02;   // of the work: what is not parting, elastic, kinetic or damping
 constexpr double kLeastDet = 0.1;
+constexpr double kTear = 0.15;  // of the toughness: what is promised
 
 BladeTrial trialOf(double spacing_m, double young_modulus_pa, double toughness_j_per_m2) {
   BladeTrial trial;
@@ -65,6 +67,18 @@ TEST(BladeSuite, OfToughnessThatTheLatticeCannotCarryThereIsAsMuchAsItCan) {
   EXPECT_NEAR(result.force, 1, kForce);
   EXPECT_NEAR(result.asked, 0.25, 0.25 * kForce);
   EXPECT_GT(result.worst_det, kLeastDet);
+}
+
+TEST(BladeSuite, TearsTakeTheirToughness) {
+  TearTrial trial;
+  trial.spacing_m = 0.004;
+  const StripResult strip = pullStrip(trial);
+  EXPECT_NEAR(strip.release, 1, kTear);
+  EXPECT_EQ(strip.crumbs, 0u);
+  const TrouserResult trousers = pullTrousers(trial);
+  EXPECT_NEAR(trousers.force, 1, kTear);
+  EXPECT_EQ(trousers.crumbs, 0u);
+  EXPECT_EQ(trousers.trips, 0);
 }
 
 }  // namespace

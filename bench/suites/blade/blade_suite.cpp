@@ -7,6 +7,7 @@
 #include "bench/suites/blade/blade_curves.h"
 #include "bench/suites/blade/blade_strokes.h"
 #include "bench/suites/blade/blade_structures.h"
+#include "bench/suites/blade/blade_tears.h"
 #include "bench/suites/blade/blade_trial.h"
 #include "bench/suites/blade/prestress_slit.h"
 
@@ -218,6 +219,7 @@ void bladeSuite(Report& report) {
                         {"strokes", bladeStrokes},
                         {"onset", bladeOnset},
                         {"hand", bladeHand},
+                        {"tear", bladeTears},
                         {"cost", cost},
                         {"gpu", onTheGpu}});
 }

@@ -17,7 +17,7 @@ const char* const kKey = "bodies[].material.tear.toughness_j_per_m2 above 0 ";
 
 // Measured, docs/cutting.md 8.
 constexpr double kOnset = 0.6;     // strain of an axial spring, times sqrt(G / (E h))
-constexpr double kCounted = 0.92;  // of G, for springs beside the tear soften too
+constexpr double kCounted = 0.88;  // of G, for springs beside the tear soften too
 // A plane across an axis meets one axial spring and four diagonal ones in every h^2. When it opens by d, an axial one
 // is longer by d and a diagonal one by d / sqrt 2: with half the strain at onset they all end together.
 constexpr double kDiagonalOnset = 0.5;

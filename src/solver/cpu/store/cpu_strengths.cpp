@@ -86,20 +86,18 @@ float CpuStrengths::springStiffness(const CpuStore& store, uint32_t slot, uint32
 }
 
 float CpuStrengths::cellBulk(const CpuStore& store, uint32_t slot) const {
-  if (!(store.nodes[slot].lo & layout::kCellBit)) return 0;
-  return cellLeft(store, slot) * (table_.bulk_j.empty() ? store.bodyOf(slot).bulk_j : table_.bulk_j[slot]);
+  if (!(store.nodes[slot].lo & layout::kCellBit) || hasSoftened(store, slot)) return 0;
+  return table_.bulk_j.empty() ? store.bodyOf(slot).bulk_j : table_.bulk_j[slot];
 }
 
 float CpuStrengths::cellRigidity(const CpuStore& store, uint32_t slot) const {
-  if (!(store.nodes[slot].lo & layout::kCellBit)) return 0;
-  return cellLeft(store, slot) * (table_.rigidity_j.empty() ? store.bodyOf(slot).rigidity_j : table_.rigidity_j[slot]);
+  if (!(store.nodes[slot].lo & layout::kCellBit) || hasSoftened(store, slot)) return 0;
+  return table_.rigidity_j.empty() ? store.bodyOf(slot).rigidity_j : table_.rigidity_j[slot];
 }
 
-/// What tearing has left of a cell: as much as of the weakest of its 24 springs.
-float CpuStrengths::cellLeft(const CpuStore& store, uint32_t slot) const {
-  float least = 1;
-  if (left.empty()) return least;
-  for (int c = 0; c < 8; ++c) {
+/// Has one of a cell's 24 springs softened? It resists by nothing else then, or it would hold a tear together.
+bool CpuStrengths::hasSoftened(const CpuStore& store, uint32_t slot) const {
+  for (int c = 0; c < 8 && !left.empty(); ++c) {
     const std::array<int, 3> corner = {c & 1, c >> 1 & 1, c >> 2 & 1};
     const uint32_t at = neighborSlot(store.bricks, slot, corner);
     for (uint32_t pair = 0; pair < kSpringPairs; ++pair) {
@@ -108,10 +106,10 @@ float CpuStrengths::cellLeft(const CpuStore& store, uint32_t slot) const {
         const int to = corner[axis] + kNeighborOffsets[2 * pair][axis];
         inside = inside && (to == 0 || to == 1);
       }
-      if (inside) least = std::min(least, left[stiffnessAt(at, pair)]);
+      if (inside && left[stiffnessAt(at, pair)] < 1) return true;
     }
   }
-  return least;
+  return false;
 }
 
 void CpuStrengths::refresh(const CpuStore& store, uint32_t slot) {

@@ -57,7 +57,7 @@ struct CpuStrengths {
   float springStiffness(const CpuStore& store, uint32_t slot, uint32_t pair) const;
   float cellBulk(const CpuStore& store, uint32_t slot) const;
   float cellRigidity(const CpuStore& store, uint32_t slot) const;
-  float cellLeft(const CpuStore& store, uint32_t slot) const;
+  bool hasSoftened(const CpuStore& store, uint32_t slot) const;
   bool isFull(const CpuStore& store, uint32_t slot) const;
   void spreadMoments(const CpuStore& store);
   void shareBulk(const CpuStore& store, uint32_t slot);
