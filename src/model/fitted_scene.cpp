@@ -94,6 +94,15 @@ void followObstacles(const OrganFit& fit, const Scene& made, Keys& keys) {
   }
 }
 
+void followThreads(const OrganFit& fit, const Scene& made, Keys& keys) {
+  for (size_t i = 0; i < made.threads.size(); ++i) {
+    const std::string key = item("threads", i);
+    keys.set(key + "position_m", fit.moved(made.threads[i].position_m));
+    for (size_t k = 0; k < made.threads[i].path.size(); ++k)
+      keys.set(key + item("path", k) + "position_m", fit.moved(made.threads[i].path[k].position_m));
+  }
+}
+
 void followCameras(const OrganFit& fit, const Scene& made, Keys& keys) {
   for (size_t i = 0; i < made.cameras.size(); ++i) {
     if (!made.cameras[i].frame.empty()) continue;
@@ -174,6 +183,7 @@ FittedScene loadFittedScene(const std::string& path, const Overrides& mesh, cons
   followSpacing(*fit, made->bodies[0], keys);
   if (is_alone) {
     followObstacles(*fit, *made, keys);
+    followThreads(*fit, *made, keys);
     followCameras(*fit, *made, keys);
     followTools(*fit, *made, keys);
   }

@@ -12,6 +12,7 @@
 #include "session/view.h"
 #include "solver/contact/surroundings.h"
 #include "solver/make_solver.h"
+#include "solver/thread/thread_bodies.h"
 #include "viscera/calibration/auto_spacing.h"
 #include "viscera/math/error.h"
 #include "viscera/render/camera.h"
@@ -57,6 +58,7 @@ Session::Session(const Scene& scene, gpu::Context* context, const Progress& prog
   if (progress) progress("start the solver", 0);
   solver_ = makeSolver(*model_, scene_, context, options.threads, &integrator);
   backend_note_ = viscera::backendNote(scene_, context, *solver_, integrator);
+  if (!scene_.threads.empty()) threads_ = std::make_unique<ThreadBodies>(scene_);
   if (progress) progress("prepare pictures", 0);
   view_ = makeView(*solver_, *model_, scene_, context);
   lookAtObstacles();
@@ -74,6 +76,7 @@ Frame Session::step(const StylusSamples& samples, const Wants& wants) {
   moveObstacles();
   look_.motions = tools_.advance(samples);             // VR05 2.7: probe, grab, cut
   solver_->step(look_.motions, obstacles_.motions());  // VR05 2.4: n substeps
+  if (threads_) threads_->step(look_.motions, obstacles_.motions());
   look_.tick = ++tick_;
   look_.wants = wants;
   lookAtArrows();
@@ -258,6 +261,7 @@ TickContact Session::contactOf(size_t stylus, const Reaction& raw) const {
 void Session::reset() {
   drain();
   solver_->reset();
+  if (threads_) threads_->reset();
   view_->reset();
   tools_.reset();
   obstacles_.reset();
@@ -282,7 +286,12 @@ Frame Session::drain() {
 }
 
 uint64_t Session::stateHash() const {
-  return viscera::stateHash(*model_, solver_->readState());
+  const uint64_t tissue = viscera::stateHash(*model_, solver_->readState());
+  return threads_ ? threads_->hashWith(tissue) : tissue;
+}
+
+const std::vector<Vector3d>& Session::threadPlaces(size_t thread) const {
+  return threads_->chain(thread).places_m();
 }
 
 std::shared_ptr<const ShownTopology> Session::wholeSkin() const {

@@ -121,6 +121,9 @@ obstacles:
 solver: {tick_hz: 90, integrator: pd, dt_fraction: 0.91, dt_fraction_strained: 0.41, measured_limit: false, start: equilibrium, substeps: 93, iterations: 94,
          compensated: true, governor: false, recovery_s: 0.95, sleep_distance_m: 0.96, sleep_speed_m_per_s: 0.0097, max_substeps: 92,
          device: 3, backend: cpu, threads: 2, real_time_factor: 1.97, spring_forces: edge}
+threads:
+  - {name: suture, material: silk, usp: 5-0, radius_m: 0.00012, young_modulus_pa: 1.3e9, density_kg_per_m3: 1400, bending_share: 0.15, drag_per_s: 1.6,
+     length_m: 0.17, spacing_m: 0.0018, position_m: [0.19, 0.21, 0.22], path: [{position_m: [0.23, 0.24, 0.25]}], start: fixed, end: fixed}
 )";
 
 /// Paths of all keys below a node, list items as name[].
@@ -321,6 +324,21 @@ TEST(SceneKeys, EveryKeyOfTheSurroundingsReachesItsField) {
   EXPECT_EQ(obstacle.frame, "arm");
   EXPECT_EQ(obstacle.friction, 0.409);
   EXPECT_EQ(obstacle.restitution, 0.411);
+  const ThreadConfig& thread = scene.threads.at(0);
+  EXPECT_EQ(thread.name, "suture");
+  EXPECT_EQ(thread.material, ThreadMaterial::kSilk);
+  EXPECT_EQ(thread.usp, ThreadSize::kUsp5);
+  EXPECT_EQ(thread.radius_m, 0.00012);
+  EXPECT_EQ(thread.young_modulus_pa, 1.3e9);
+  EXPECT_EQ(thread.density_kg_per_m3, 1400);
+  EXPECT_EQ(thread.bending_share, 0.15);
+  EXPECT_EQ(thread.drag_per_s, 1.6);
+  EXPECT_EQ(thread.length_m, 0.17);
+  EXPECT_EQ(thread.spacing_m, 0.0018);
+  EXPECT_EQ(thread.position_m, Vector3d(0.19, 0.21, 0.22));
+  EXPECT_EQ(thread.path.at(0).position_m, Vector3d(0.23, 0.24, 0.25));
+  EXPECT_EQ(thread.start, ThreadEnd::kFixed);
+  EXPECT_EQ(thread.end, ThreadEnd::kFixed);
 }
 
 TEST(SceneKeys, TableHoldsEveryKeyOnceAndNoOther) {

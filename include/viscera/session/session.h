@@ -44,6 +44,7 @@ namespace gpu {
 class Context;
 }
 class View;
+class ThreadBodies;
 
 struct SessionOptions {
   /// Where the processor steps: threads that sessions share (makeThreadPool); null: solver.threads of its own.
@@ -103,6 +104,8 @@ class Session {
   /// Triangles of the skin as long as nothing is cut; of a SurfaceFrame, those that are shown in its tick.
   std::shared_ptr<const ShownTopology> wholeSkin() const;
   const Solver& solver() const { return *solver_; }
+  /// Places of the nodes of a thread after the last step, tissue frame [m]. @param thread  < scene().threads.size()
+  const std::vector<Vector3d>& threadPlaces(size_t thread) const;
   const std::string& backendNote() const { return backend_note_; }  ///< what steps the tissue, and why
   Counters counters() const;
   const Extremes& extremes() const { return extremes_; }
@@ -138,6 +141,7 @@ class Session {
   Tools tools_;
   Obstacles obstacles_;
   std::unique_ptr<Solver> solver_;
+  std::unique_ptr<ThreadBodies> threads_;  ///< null: the scene has none
   std::string backend_note_;
   std::unique_ptr<View> view_;
   Look look_;  ///< of the last tick

@@ -18,6 +18,9 @@ namespace viscera {
 
 namespace {
 
+constexpr double kThinnest_m = 1e-5, kLightest_kg_per_m3 = 100;
+constexpr double kMostLinks = 4000;  // of a thread: 0.6 ms a substep
+
 bool isRosName(const std::string& name) {
   if (name.empty() || !std::isalpha(static_cast<unsigned char>(name[0]))) return false;
   for (char c : name) {
@@ -88,6 +91,27 @@ void takeToughnesses(const std::string& file, BodyConfig& body) {
   }
 }
 
+void requireThread(const std::string& file, const ThreadConfig& thread) {
+  const std::string where = file + ": thread '" + thread.name + "': ";
+  if (thread.radius_m > 0 && thread.radius_m < kThinnest_m)
+    throw SceneError(where + "'radius_m' must be 0 or at least " + numberText(kThinnest_m));
+  if (thread.density_kg_per_m3 > 0 && thread.density_kg_per_m3 < kLightest_kg_per_m3)
+    throw SceneError(where + "'density_kg_per_m3' must be 0 or at least " + numberText(kLightest_kg_per_m3));
+  double length_m = 0;
+  Vector3d last = thread.position_m;
+  for (const ThreadPlace& place : thread.path) {
+    length_m += (place.position_m - last).norm();
+    last = place.position_m;
+  }
+  if (length_m == 0) throw SceneError(where + "'path' must hold a place that is not 'position_m'");
+  if (thread.length_m > 0) length_m = thread.length_m;
+  const double links = length_m / thread.spacing_m;
+  if (links >= 2 && links <= kMostLinks) return;
+  throw SceneError(where + "a length of " + numberText(length_m) + " m and 'spacing_m' " +
+                   numberText(thread.spacing_m) + " make " + numberText(std::floor(links)) + " links, 2 .. " +
+                   numberText(kMostLinks) + " are accepted");
+}
+
 /// What no single key can tell.
 void requireConsistent(const std::string& file, const Scene& scene) {
   if (scene.bodies.empty()) throw SceneError(file + ": 'bodies' must hold at least one body");
@@ -95,6 +119,7 @@ void requireConsistent(const std::string& file, const Scene& scene) {
   requireNames(file, "styluses", scene.styluses);
   requireNames(file, "cameras", scene.cameras);
   requireNames(file, "obstacles", scene.obstacles);
+  requireNames(file, "threads", scene.threads);
   for (const BodyConfig& body : scene.bodies) {
     if (body.source == TissueSource::kMesh && body.mesh_file.empty()) {
       throw SceneError(file + ": body '" + body.name + "' has source mesh and needs 'mesh_file'");
@@ -108,6 +133,7 @@ void requireConsistent(const std::string& file, const Scene& scene) {
       requireFixed(file + ": body '" + body.name + "' fixed[" + std::to_string(i) + "]", body.fixed[i]);
     }
   }
+  for (const ThreadConfig& thread : scene.threads) requireThread(file, thread);
   for (const BodyConfig& body : scene.bodies) requireStableSubstep(file, scene.solver, body);
   for (const CameraConfig& camera : scene.cameras) {
     const Vector3d sight = camera.target_m - camera.position_m;

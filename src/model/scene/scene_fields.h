@@ -171,6 +171,41 @@ void visitFields(V& v, ObstacleConfig& c) {
   v.number("restitution", c.restitution, {0, 1}, "1", "speed after over speed before a collision");
 }
 
+template <class V>
+void visitFields(V& v, ThreadPlace& c) {
+  v.vector("position_m", c.position_m, kCoordinate, "m", "place, tissue frame");
+}
+
+template <class V>
+void visitFields(V& v, ThreadConfig& c) {
+  const Choices<ThreadEnd> ends = {{"free", ThreadEnd::kFree}, {"fixed", ThreadEnd::kFixed}};
+  v.text("name", c.name, "name, unique");
+  v.choice("material", c.material,
+           {{"silk", ThreadMaterial::kSilk},
+            {"nylon", ThreadMaterial::kNylon},
+            {"polypropylene", ThreadMaterial::kPolypropylene}},
+           "Young's modulus, density and share of bending of those that are 0 (docs/thread.md)");
+  v.choice("usp", c.usp,
+           {{"2-0", ThreadSize::kUsp2},
+            {"3-0", ThreadSize::kUsp3},
+            {"4-0", ThreadSize::kUsp4},
+            {"5-0", ThreadSize::kUsp5},
+            {"6-0", ThreadSize::kUsp6}},
+           "size, where radius_m is 0");
+  v.number("radius_m", c.radius_m, {0, 2e-3}, "m", "radius; 0: of its size");
+  v.number("young_modulus_pa", c.young_modulus_pa, {0, 1e12}, "Pa", "against bending; 0: of the material");
+  v.number("density_kg_per_m3", c.density_kg_per_m3, {0, 2e4}, "kg/m3", "density; 0: of the material");
+  v.number("bending_share", c.bending_share, {0, 1}, "1",
+           "of the bending stiffness of a solid thread, that of a braid is less; 0: of the material");
+  v.number("drag_per_s", c.drag_per_s, {0, 1e4}, "1/s", "speed lost to the air");
+  v.number("length_m", c.length_m, kLength, "m", "length; beyond its path it goes on straight; 0: that of its path");
+  v.number("spacing_m", c.spacing_m, {1e-4, 0.1}, "m", "length of its links");
+  v.vector("position_m", c.position_m, kCoordinate, "m", "where it starts, tissue frame");
+  v.list("path", c.path, 1000, "places that it goes through from there at first, in straight lines; one at least");
+  v.choice("start", c.start, ends, "the end at position_m: free, or fixed where it is");
+  v.choice("end", c.end, ends, "the other end");
+}
+
 inline Choices<Integrator> namesOfIntegrators() {
   Choices<Integrator> out;
   for (const IntegratorTraits& traits : kIntegrators) out.push_back({traits.name, traits.integrator});
@@ -233,6 +268,9 @@ void visitFields(V& v, Scene& c) {
   v.group("collision", c.collision, "bodies against themselves and each other; costs nothing while it is off");
   v.group("environment", c.environment, "gravity and frames");
   v.group("solver", c.solver, "time stepping");
+  v.list("threads", c.threads, 8,
+         "threads that do not stretch, on obstacles and in hands that grab; tissue is not "
+         "touched by them");
 }
 
 }  // namespace viscera

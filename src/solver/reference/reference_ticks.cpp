@@ -49,6 +49,7 @@ ReferenceTicks::ReferenceTicks(const Model& model, const Scene& scene)
   if (tears(scene))
     throw SceneError(
         "bodies[].material.tear.toughness_j_per_m2 must be 0 for the reference, which knows no tissue that tears");
+  if (!scene.threads.empty()) throw SceneError("threads must be empty for the reference, which knows none");
 }
 
 void ReferenceTicks::step(const ToolMotions& motions, const ObstacleMotions& obstacles) {

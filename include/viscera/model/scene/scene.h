@@ -285,6 +285,33 @@ struct ObstacleConfig {
   double restitution = 0;
 };
 
+/// What threads are made of (docs/thread.md 3), and which sizes of the United States Pharmacopeia they have.
+enum class ThreadMaterial { kSilk, kNylon, kPolypropylene };
+enum class ThreadSize { kUsp2, kUsp3, kUsp4, kUsp5, kUsp6 };
+enum class ThreadEnd { kFree, kFixed };
+
+/// A place that a thread goes through at first.
+struct ThreadPlace {
+  Vector3d position_m = Vector3d::Zero();
+};
+
+/// A thread that does not stretch.
+struct ThreadConfig {
+  std::string name = "thread";
+  ThreadMaterial material = ThreadMaterial::kNylon;
+  ThreadSize usp = ThreadSize::kUsp3;
+  double radius_m = 0;          ///< 0: of usp
+  double young_modulus_pa = 0;  ///< 0: of the material, as the next two
+  double density_kg_per_m3 = 0;
+  double bending_share = 0;  ///< of the bending of a solid thread
+  double drag_per_s = 4;
+  double length_m = 0;  ///< 0: of its path
+  double spacing_m = 0.00075;
+  Vector3d position_m = Vector3d::Zero();
+  std::vector<ThreadPlace> path;  ///< from there through these: one place at least
+  ThreadEnd start = ThreadEnd::kFree, end = ThreadEnd::kFree;
+};
+
 struct SolverConfig {
   double tick_hz = 60;
   Integrator integrator = Integrator::kLeapfrog;
@@ -317,6 +344,7 @@ struct Scene {
   CollisionConfig collision;
   EnvironmentConfig environment;
   SolverConfig solver;
+  std::vector<ThreadConfig> threads;
   std::string folder;           ///< of the scene file: relative mesh files are looked up here
   std::string file;             ///< the scene file, for errors; empty for a scene that was not loaded from one
   std::optional<OrganFit> fit;  ///< no key: to an organ that the file was not made for, see fitted_scene.h

@@ -1,0 +1,75 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Threads beside tissue, in sessions.
+#include <gtest/gtest.h>
+
+#include "session/block_session.h"
+#include "support/temporary_folder.h"
+#include "viscera/math/error.h"
+
+namespace viscera {
+namespace {
+
+using namespace test;
+
+Scene threadScene() {
+  Scene scene = blockScene();
+  scene.solver.backend = Backend::kCpu;
+  scene.environment.gravity_m_per_s2 = Vector3d(0, 0, -9.81);
+  ThreadConfig thread;
+  thread.position_m = Vector3d(-0.05, 0, 0.06);
+  thread.path = {{Vector3d(0.05, 0, 0.06)}};
+  thread.start = ThreadEnd::kFixed;
+  scene.threads = {thread};
+  return scene;
+}
+
+/// A hand that takes the free end and draws it up.
+StylusSamples drawUp(int tick) {
+  StylusSamples out;
+  out[0].valid = true;
+  out[0].button1 = true;  // grab
+  out[0].pose.position_m = Vector3d(0.05, 0, 0.06 + 5e-4 * tick);
+  return out;
+}
+
+TEST(ThreadSession, ThreadsHangAndFollowHands) {
+  Session session(threadScene());
+  for (int t = 1; t <= 40; ++t) session.step(drawUp(t), {});
+  EXPECT_GT(session.threadPlaces(0).back().z(), 0.07);
+  EXPECT_LT((session.threadPlaces(0)[0] - Vector3d(-0.05, 0, 0.06)).norm(), 1e-5);
+}
+
+TEST(ThreadSession, HashesKnowThreadsAndResetsPutThemBack) {
+  Scene without = threadScene();
+  without.threads.clear();
+  Session one(threadScene()), two(threadScene()), bare(without);
+  const uint64_t first = one.stateHash();
+  for (int t = 1; t <= 20; ++t) {
+    one.step(drawUp(t), {});
+    two.step(drawUp(t), {});
+    bare.step(drawUp(t), {});
+  }
+  EXPECT_EQ(one.stateHash(), two.stateHash());
+  EXPECT_NE(one.stateHash(), bare.stateHash());
+  EXPECT_EQ(viscera::stateHash(one.model(), one.solver().readState()), bare.stateHash());  // tissue is not touched
+  one.reset();
+  EXPECT_EQ(one.stateHash(), first);
+}
+
+TEST(ThreadSession, GoesOnFromASavedState) {
+  const TemporaryFolder folder;
+  Session one(threadScene()), two(threadScene());
+  for (int t = 1; t <= 10; ++t) one.step(drawUp(t), {});
+  one.save(folder.file("state"));
+  two.restore(folder.file("state"));
+  EXPECT_EQ(one.stateHash(), two.stateHash());
+  for (int t = 11; t <= 20; ++t) {
+    one.step(drawUp(t), {});
+    two.step(drawUp(t), {});
+  }
+  EXPECT_EQ(one.stateHash(), two.stateHash());
+}
+
+}  // namespace
+}  // namespace viscera
