@@ -94,17 +94,20 @@ int dispatch(int argc, char** argv) {
       ->needs(out);
   run->add_flag("--labels", o.run.labels, "what each pixel shows with every picture: grey .png (docs/ros_api.md)")
       ->needs(out);
-  const std::map<std::string, ExportSource> sources = {
-      {"skin", ExportSource::kSkin}, {"lattice", ExportSource::kLattice}, {"network", ExportSource::kNetwork}};
+  const std::map<std::string, ExportSource> sources = {{"skin", ExportSource::kSkin},
+                                                       {"lattice", ExportSource::kLattice},
+                                                       {"network", ExportSource::kNetwork},
+                                                       {"threads", ExportSource::kThreads}};
   const std::map<std::string, ExportFormat> formats = {{"vtp", ExportFormat::kVtp},
                                                        {"xdmf", ExportFormat::kXdmf},
                                                        {"ply", ExportFormat::kPly},
                                                        {"glb", ExportFormat::kGlb},
                                                        {"pc2", ExportFormat::kPc2}};
   const std::map<std::string, ExportFrame> frames = {{"ros", ExportFrame::kRos}, {"lps_mm", ExportFrame::kLpsMm}};
-  CLI::Option* exported = run->add_option("--export", o.exported.source, "skin, lattice or network into DIR/export")
-                              ->transform(CLI::CheckedTransformer(sources))
-                              ->needs(out);
+  CLI::Option* exported =
+      run->add_option("--export", o.exported.source, "skin, lattice, network or threads into DIR/export")
+          ->transform(CLI::CheckedTransformer(sources))
+          ->needs(out);
   run->add_option("--every", o.exported.every_s, "simulated seconds between two exports; default 0.1")
       ->check(CLI::Range(1e-6, 86400.0))
       ->needs(exported);

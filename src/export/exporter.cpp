@@ -14,7 +14,8 @@ namespace viscera {
 namespace {
 
 const char* nameOf(ExportSource source) {
-  return source == ExportSource::kSkin ? "skin" : source == ExportSource::kLattice ? "lattice" : "network";
+  constexpr const char* kNames[] = {"skin", "lattice", "network", "threads"};
+  return kNames[static_cast<size_t>(source)];
 }
 
 std::string numbered(uint64_t tick) {
@@ -26,7 +27,8 @@ std::string numbered(uint64_t tick) {
 FieldMesh fieldsOf(const Session& session, const ShownMesh& skin, const ExportOptions& options) {
   FieldMesh mesh = options.source == ExportSource::kSkin      ? skinFields(session, skin)
                    : options.source == ExportSource::kLattice ? latticeFields(session)
-                                                              : networkFields(session);
+                   : options.source == ExportSource::kNetwork ? networkFields(session)
+                                                              : threadFields(session);
   toFrame(options.frame, session.scene().environment.scan_origin_m, mesh);
   return mesh;
 }
@@ -39,7 +41,7 @@ Exporter::Exporter(const std::string& folder, const ExportOptions& options, doub
       ticks_(std::max<uint64_t>(1, static_cast<uint64_t>(std::llround(options.every_s / tick_s)))) {
   const bool fields = options.format == ExportFormat::kVtp || options.format == ExportFormat::kXdmf;
   if (!fields && options.source != ExportSource::kSkin)
-    throw Error("--format ply, glb and pc2 hold skins: take vtp or xdmf of a lattice or a network");
+    throw Error("--format ply, glb and pc2 hold skins: take vtp or xdmf of a lattice, a network or threads");
   if (options.format == ExportFormat::kGlb && options.frame != ExportFrame::kRos)
     throw Error("--format glb is in metres with y up, as glTF has it: take vtp or ply with --export-frame lps_mm");
   std::error_code error;

@@ -254,6 +254,23 @@ FieldMesh networkFields(const Session& session) {
   return mesh;
 }
 
+FieldMesh threadFields(const Session& session) {
+  FieldMesh mesh = begun(session, 2);
+  mesh.of_cells = {{"thread", 1, {}}, {"tension", 1, {}}};
+  for (size_t t = 0; t < session.scene().threads.size(); ++t) {
+    const auto first = static_cast<uint32_t>(mesh.pointCount());
+    for (const Vector3d& place : session.threadPlaces(t)) add(mesh.points, place);
+    const std::vector<double> tensions_n = session.threadTensions_n(t);
+    for (uint32_t i = 0; i < tensions_n.size(); ++i) {
+      mesh.cells.insert(mesh.cells.end(), {first + i, first + i + 1});
+      mesh.of_cells[0].values.push_back(static_cast<float>(t));
+      mesh.of_cells[1].values.push_back(static_cast<float>(tensions_n[i]));
+    }
+  }
+  if (mesh.cells.empty()) throw Error("--export threads: the scene has none: give it threads[]");
+  return mesh;
+}
+
 void toFrame(ExportFrame frame, const Vector3d& scan_origin_m, Vectors what, std::vector<float>& vectors) {
   if (frame == ExportFrame::kRos) return;
   const double scale = what == Vectors::kDirections ? 1 : 1000;

@@ -11,7 +11,7 @@
 namespace viscera {
 
 /// What is taken out of a session.
-enum class ExportSource { kSkin, kLattice, kNetwork };
+enum class ExportSource { kSkin, kLattice, kNetwork, kThreads };
 /// Axes and unit of what is written: those of the tissue frame (x forward, y left, z up, metres), or those of medical
 /// images (x left, y back, z up, millimetres), which 3D Slicer wants, with the origin of the scan that the tissue is
 /// from (environment.scan_origin_m).
@@ -41,6 +41,7 @@ struct FieldMesh {
 FieldMesh skinFields(const Session& session, const ShownMesh& skin);
 FieldMesh latticeFields(const Session& session);  ///< its whole cells, those that a cut tore left out
 FieldMesh networkFields(const Session& session);  ///< its springs, those that are cut left out
+FieldMesh threadFields(const Session& session);   ///< links of its threads
 
 /// Of three numbers: they are turned; arrows have a unit besides, places an origin too.
 enum class Vectors { kPlaces, kArrows, kDirections };

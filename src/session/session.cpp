@@ -294,6 +294,13 @@ const std::vector<Vector3d>& Session::threadPlaces(size_t thread) const {
   return threads_->chain(thread).places_m();
 }
 
+std::vector<double> Session::threadTensions_n(size_t thread) const {
+  const Chain& chain = threads_->chain(thread);
+  std::vector<double> out;
+  for (size_t link = 0; link + 1 < chain.nodes(); ++link) out.push_back(chain.tension_n(link));
+  return out;
+}
+
 std::shared_ptr<const ShownTopology> Session::wholeSkin() const {
   return view_->wholeSkin();
 }

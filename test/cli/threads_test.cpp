@@ -1,0 +1,39 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Threads through the command.
+#include <gtest/gtest.h>
+
+#include "cli/small_scene.h"
+#include "support/temporary_folder.h"
+
+namespace viscera {
+namespace {
+
+using namespace test;
+
+constexpr const char* kThread =
+    "threads: [{name: suture, usp: 4-0, path: [{position_m: [0.03, 0, 0]}], start: fixed}]\n";
+
+TEST(ThreadCommand, ExportsThreads) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("scene.yaml", std::string(kBlockScene) + kThread), out = folder.file("out");
+  const Ending run = viscera({"run", scene, "--no-view", "--seconds", "0.1", "--out", out, "--export", "threads"});
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_NE(readFile(out + "/export/threads_000006.vtp").find("tension"), std::string::npos);
+}
+
+TEST(ThreadCommand, SaysWhatIsMissing) {
+  const TemporaryFolder folder;
+  const std::string bare = folder.write("bare.yaml", kBlockScene);
+  const Ending none =
+      viscera({"run", bare, "--no-view", "--seconds", "0.1", "--out", folder.file("out"), "--export", "threads"});
+  EXPECT_NE(none.status, 0);
+  EXPECT_NE(none.err.find("--export threads: the scene has none"), std::string::npos) << none.err;
+  const std::string scene = folder.write("scene.yaml", std::string(kBlockScene) + kThread);
+  const Ending reference = viscera({"run", scene, "--reference", "--seconds", "0.05"});
+  EXPECT_NE(reference.status, 0);
+  EXPECT_NE(reference.err.find("threads must be empty for the reference"), std::string::npos) << reference.err;
+}
+
+}  // namespace
+}  // namespace viscera
