@@ -216,6 +216,8 @@ bool Chain::heed(ChainTouch& touch, bool frozen) const {
 }
 
 void Chain::finish() {
+  const bool finite = std::all_of(next_.begin(), next_.end(), [](const Vector3d& place) { return place.allFinite(); });
+  if (!finite) return stop();  // it stays where it was
   for (size_t i = 0; i < x_.size(); ++i) v_[i] = (next_[i] - x_[i]) / dt_s_;
   x_ = next_;
   if (iterations_ == kMostIterations) stop();  // what it was to become is not known: it begins again

@@ -87,7 +87,7 @@ void ThreadTouches::find(const Chain& chain, const layout::ObstacleMotion* obsta
   auto kept = before_.cbegin();
   for (uint32_t node = 0; node < chain.nodes(); ++node) {
     const Vector3d way = dt_s * chain.velocities_m_per_s()[node], ahead = chain.places_m()[node] + way;
-    const double reach_m = chain.link_m() + kReachSteps * way.norm();
+    const double reach_m = chain.material().radius_m + chain.link_m() + kReachSteps * way.norm();
     for (uint32_t thing = 0; thing < count; ++thing) {
       Vector3d at = ahead;
       Nearest nearest = nearestTo(obstacles[thing], at);
@@ -112,7 +112,7 @@ bool ThreadTouches::catchUp(const Chain& chain, const layout::ObstacleMotion* ob
   bool any = false;
   for (uint32_t node = 0; node < chain.nodes(); ++node) {
     for (uint32_t thing = 0; thing < count; ++thing) {
-      if (nearestTo(obstacles[thing], ends_m[node]).distance_m > 0) continue;
+      if (nearestTo(obstacles[thing], ends_m[node]).distance_m > chain.material().radius_m) continue;
       const Number number{node, thing};
       const auto place = std::lower_bound(touches.begin(), touches.end(), number, earlier);
       if (place != touches.end() && numberOf(*place) == number) continue;

@@ -146,6 +146,18 @@ TEST(Chain, LiesStillOnASlopeThatIsNotTooSteepAndSlidesDownAnother) {
   }
 }
 
+TEST(Chain, StaysWhereItWasAtAForceThatIsNoNumber) {
+  Chain chain(soft(), along(Vector3d::Zero(), Vector3d::UnitX(), 10));
+  const std::vector<Vector3d> before = chain.places_m();
+  ChainAround around;
+  around.loads = {{3, Vector3d(0, 0, std::numeric_limits<double>::quiet_NaN())}};
+  chain.step(kSubstep_s, around);
+  EXPECT_EQ(chain.places_m(), before);
+  around.loads.clear();
+  chain.step(kSubstep_s, around);
+  EXPECT_LT((chain.places_m()[3] - before[3]).norm(), 1e-12);
+}
+
 TEST(Chain, GoesOnFromASavedStateAndResets) {
   const auto makeOne = [] { return Chain(soft(), along(Vector3d::Zero(), Vector3d(1, 1, 0).normalized(), 80)); };
   const auto around = [](const Chain& chain) {
