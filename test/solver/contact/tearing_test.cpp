@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Lattices that are pulled too hard, by the scene's key; toughness by spacing is measured by `viscera bench blade`.
-#include "model/body/tearing.h"
+#include "model/fracture/tearing.h"
 
 #include <gtest/gtest.h>
 
