@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "model/body/toughness.h"
+#include "model/fracture/toughness.h"
 #include "model/scene/tissue_presets.h"
 #include "solver/cpu/cpu_solver.h"
 #include "viscera/model/model.h"
