@@ -15,6 +15,7 @@ namespace {
 
 constexpr double kSampleStep = 0.3;  // of the kernel: between samples
 constexpr double kStale = 0.05;      // of the spacing: a front that far from its kernel's middle gets a new one
+constexpr double kGathered = 0.5;    // of the spacing: a front that far from where its nodes were gathered has strayed
 constexpr double kClosed = 0.2;      // of a gap, in a substep
 constexpr double kFlats = 3;         // times the limit: what the flats of a blade bear sideways
 constexpr int kSweeps = 8;           // over the samples: what they want of the nodes that they share
@@ -50,18 +51,18 @@ BladeEdge::BladeEdge(RestTissue& tissue, double friction_n_per_m)
     : tissue_(tissue),
       friction_n_per_m_(tissue.toughness().carriedFriction_n_per_m(friction_n_per_m)),
       kernel_m_(tissue.toughness().kernel_m(friction_n_per_m)),
-      h_(tissue.toughness().spacing_m()),
-      place_of_(tissue.nodes().size(), RestTissue::kNone) {}
+      h_(tissue.toughness().spacing_m()) {}
 
 void BladeEdge::act(BladeTarget& target, uint32_t stylus, const layout::ToolMotion& blade, double dt_s) {
   if (fronts_.empty()) place(blade);
   aim(blade, dt_s);
   renewKernels();
-  if (!near_.empty()) target.readNodes(slots_, u_, v_);
+  if (!near_.slots.empty()) target.readNodes(near_.slots, u_, v_);
+  near_.take(u_, v_);
   look(dt_s);
   findLengths();
   solve(dt_s);
-  if (!near_.empty()) give(target, stylus, dt_s);
+  if (!near_.slots.empty()) give(target, stylus, dt_s);
   advance(dt_s);
   followThroughAir();
   cutBehind(target, false);
@@ -80,7 +81,7 @@ void BladeEdge::place(const layout::ToolMotion& blade) {
     Front& front = fronts_[i];
     front.edge = first + static_cast<double>(i) / static_cast<double>(segments) * span;
     front.at = front.cut = front.edge;
-    front.centre.setConstant(std::numeric_limits<double>::infinity());
+    front.centre = front.gathered = Vector3d::Constant(std::numeric_limits<double>::infinity());
   }
 }
 
@@ -97,55 +98,40 @@ void BladeEdge::aim(const layout::ToolMotion& blade, double dt_s) {
 }
 
 void BladeEdge::renewKernels() {
-  bool changed = false;
+  bool changed = false, strayed = false;
+  for (const Front& front : fronts_) strayed |= !((front.at - front.gathered).norm() <= kGathered * h_);
+  if (strayed) {
+    for (Front& front : fronts_) front.gathered = front.at;
+    near_along_ = along_;
+    gather();
+  }
   for (size_t i = 0; i < fronts_.size(); ++i) {
     Front& front = fronts_[i];
-    if ((front.at - front.centre).norm() <= kStale * h_) continue;
+    if (!strayed && (front.at - front.centre).norm() <= kStale * h_) continue;
     front.centre = front.at;
-    kernels_[i].make(tissue_, front.centre, kernel_m_);
-    changed = true;
+    kernels_[i].make(near_, front.centre, kernel_m_);
+    kernels_[i].is_new = changed = true;
   }
-  if (!changed) return;
-  gatherKernels();
-  findMobilities();
+  if (changed) findMobilities();
 }
 
-/// Which nodes there are in all kernels together.
-void BladeEdge::gatherKernels() {
-  for (const uint32_t n : near_) place_of_[n] = RestTissue::kNone;
-  near_.clear();
-  slots_.clear();
-  for (BladeKernel& kernel : kernels_) {
-    kernel.places.clear();
-    for (const uint32_t n : kernel.nodes) {
-      if (place_of_[n] == RestTissue::kNone) {
-        place_of_[n] = static_cast<uint32_t>(near_.size());
-        near_.push_back(n);
-        slots_.push_back(tissue_.nodes()[n].slot);
-      }
-      kernel.places.push_back(place_of_[n]);
-    }
-  }
-  u_.resize(near_.size());
-  v_.resize(near_.size());
-  dv_.resize(near_.size());
+/// Nodes for kernels that will be made until a front has strayed.
+void BladeEdge::gather() {
+  std::vector<Vector3d> centres_m;
+  for (const Front& front : fronts_) centres_m.push_back(front.gathered);
+  near_.gather(tissue_, centres_m, near_along_, kernel_m_ + kGathered * h_);
+  u_.resize(near_.slots.size());
+  v_.resize(near_.slots.size());
+  dv_.resize(near_.slots.size());
+  for (std::vector<float>& momenta : momenta_) momenta.resize(near_.share.size());
 }
 
 void BladeEdge::findMobilities() {
   const size_t n = fronts_.size();
   mobilities_.assign(n * n, 0);
-  std::vector<double>& given = scratch_;
-  given.assign(near_.size(), 0);
   for (size_t i = 0; i < n; ++i) {
-    const BladeKernel& from = kernels_[i];
-    for (size_t a = 0; a < from.nodes.size(); ++a) given[from.places[a]] = from.mobilities[a];
-    for (size_t j = i; j < n && (fronts_[j].centre - fronts_[i].centre).norm() < 2 * kernel_m_; ++j) {
-      const BladeKernel& to = kernels_[j];
-      double sum = 0;
-      for (size_t a = 0; a < to.nodes.size(); ++a) sum += static_cast<double>(to.weights[a]) * given[to.places[a]];
-      mobilities_[i * n + j] = mobilities_[j * n + i] = sum;
-    }
-    for (const uint32_t place : from.places) given[place] = 0;
+    for (size_t j = i; j < n && (fronts_[j].centre - fronts_[i].centre).norm() < 2 * kernel_m_; ++j)
+      mobilities_[i * n + j] = mobilities_[j * n + i] = kernels_[i].mobility(near_, kernels_[j]);
   }
 }
 
@@ -153,9 +139,9 @@ void BladeEdge::findMobilities() {
 void BladeEdge::look(double dt_s) {
   for (size_t i = 0; i < fronts_.size(); ++i) {
     Push& push = pushes_[i];
-    if (kernels_[i].is_new) fronts_[i].to_rest = kernels_[i].toRest(u_);
+    if (kernels_[i].is_new) fronts_[i].to_rest = kernels_[i].toRest(near_);
     Vector3d u_m;
-    kernels_[i].means(u_, v_, u_m, push.velocity);
+    kernels_[i].means(near_, u_m, push.velocity);
     push.gap = fronts_[i].edge - (fronts_[i].at + u_m - dt_s * push.velocity);
     fronts_[i].edge += dt_s * push.edge_velocity;
   }
@@ -241,14 +227,13 @@ void BladeEdge::give(BladeTarget& target, uint32_t stylus, double dt_s) {
   bool any = false;
   for (const Push& push : pushes_) any |= push.impulse.squaredNorm() > 0;
   if (!any) return;
-  std::fill(dv_.begin(), dv_.end(), Vector3f::Zero());
+  for (std::vector<float>& momenta : momenta_) std::fill(momenta.begin(), momenta.end(), 0.0f);
   for (size_t i = 0; i < fronts_.size(); ++i) {
-    const BladeKernel& kernel = kernels_[i];
-    const Vector3f impulse = pushes_[i].impulse.cast<float>();
-    if (impulse.squaredNorm() == 0) continue;
-    for (size_t a = 0; a < kernel.nodes.size(); ++a) dv_[kernel.places[a]] += kernel.mobilities[a] * impulse;
+    if (pushes_[i].impulse.squaredNorm() > 0) kernels_[i].give(pushes_[i].impulse.cast<float>(), momenta_);
   }
-  target.pushNodes(stylus, static_cast<float>(dt_s), slots_, dv_);
+  for (size_t n = 0; n < dv_.size(); ++n)
+    dv_[n] = near_.inverse_mass[n] * Vector3f(momenta_[0][n], momenta_[1][n], momenta_[2][n]);
+  target.pushNodes(stylus, static_cast<float>(dt_s), near_.slots, dv_);
 }
 
 /// A way in the tissue as it is, at rest: by the inverse of F.
@@ -373,14 +358,16 @@ void BladeEdge::persist(Archive& archive) {
   archive.list(fronts_);
   archive.value(done_);
   archive.value(stored_j_);
+  archive.value(near_along_);
   if (!archive.reads()) return;
   kernels_.assign(fronts_.size(), {});
   pushes_.assign(fronts_.size(), {});
+  if (fronts_.empty()) return;
+  gather();
   for (size_t i = 0; i < fronts_.size(); ++i) {
-    if (fronts_[i].centre.allFinite()) kernels_[i].make(tissue_, fronts_[i].centre, kernel_m_);
+    kernels_[i].make(near_, fronts_[i].centre, kernel_m_);
     kernels_[i].is_new = false;
   }
-  gatherKernels();
   findMobilities();
 }
 

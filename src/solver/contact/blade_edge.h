@@ -52,6 +52,7 @@ class BladeEdge {
   struct Front {
     Vector3d at = Vector3d::Zero();                         ///< the front
     Vector3d centre = Vector3d::Zero();                     ///< where its kernel was made
+    Vector3d gathered = Vector3d::Zero();                   ///< where it was when nodes were gathered
     Vector3d cut = Vector3d::Zero();                        ///< up to where springs are cut
     Vector3d edge = Vector3d::Zero();                       ///< where the sample is
     Vector3d forward = Vector3d::Zero();                    ///< into the tissue ahead, across the edge
@@ -83,7 +84,7 @@ class BladeEdge {
   void place(const layout::ToolMotion& blade);
   void aim(const layout::ToolMotion& blade, double dt_s);
   void renewKernels();
-  void gatherKernels();
+  void gather();
   void findMobilities();
   void look(double dt_s);
   void findLengths();
@@ -118,11 +119,11 @@ class BladeEdge {
   std::vector<BladeKernel> kernels_;
   std::vector<Push> pushes_;
   std::vector<double> mobilities_;  ///< [samples^2] what an impulse of one changes another's velocity by [1/kg]
-  std::vector<uint32_t> place_of_;  ///< [nodes] in near_, kNone
-  std::vector<uint32_t> near_, slots_;
-  std::vector<Vector3f> u_, v_, dv_;
-  std::vector<double> scratch_;
-  Vector3d along_ = Vector3d::Zero();  ///< the edge's direction
+  BladeNodes near_;
+  std::vector<Vector3f> u_, v_, dv_;  ///< of those
+  BladeNodes::Planes momenta_;
+  Vector3d near_along_ = Vector3d::Zero();  ///< the edge's direction when they were gathered
+  Vector3d along_ = Vector3d::Zero();       ///< the edge's direction
 };
 
 }  // namespace viscera

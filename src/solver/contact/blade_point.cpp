@@ -3,7 +3,7 @@
 #include "solver/contact/blade_point.h"
 
 #include <algorithm>
-#include <numeric>
+#include <limits>
 
 #include "math/archive.h"
 #include "solver/contact/blade_edge.h"
@@ -38,16 +38,15 @@ void BladePoint::act(BladeTarget& target, uint32_t stylus, const layout::ToolMot
     tip_ = {};
     tip_.at = tip_.edge = from;
     tip_.is_there = 1;
-    kernel_.nodes.clear();
+    tip_.centre.setConstant(std::numeric_limits<double>::infinity());
   }
   renewKernel(target);
   Vector3d u_m, v;
-  kernel_.means(u_, v_, u_m, v);
+  kernel_.means(near_, u_m, v);
   Vector3d gap = tip_.edge - (tip_.at + u_m - dt_s * v);
   tip_.edge = to;
   const double cap_n = tip_.stuck ? fill(tip_.at) * tissue_.toughness().ofPoint_n(tip_.at, width_m_, kernel_m_) : 0;
-  const double mobility =
-      std::inner_product(kernel_.weights.begin(), kernel_.weights.end(), kernel_.mobilities.begin(), 0.0);
+  const double mobility = kernel_.mobility(near_, kernel_);
   double push_n_s = 0;
   bool slips = tip_.stuck != 0;
   done_.limit_n = cap_n;
@@ -57,10 +56,11 @@ void BladePoint::act(BladeTarget& target, uint32_t stylus, const layout::ToolMot
     slips = asked > cap_n * dt_s;
   }
   if (push_n_s > 0) {
-    const Vector3f impulse = (push_n_s * into).cast<float>();
-    dv_.clear();
-    for (const float of_node : kernel_.mobilities) dv_.push_back(of_node * impulse);
-    target.pushNodes(stylus, static_cast<float>(dt_s), slots_, dv_);
+    for (std::vector<float>& momenta : momenta_) momenta.assign(near_.share.size(), 0);
+    kernel_.give((push_n_s * into).cast<float>(), momenta_);
+    for (size_t n = 0; n < dv_.size(); ++n)
+      dv_[n] = near_.inverse_mass[n] * Vector3f(momenta_[0][n], momenta_[1][n], momenta_[2][n]);
+    target.pushNodes(stylus, static_cast<float>(dt_s), near_.slots, dv_);
     v += push_n_s * mobility * into;
     done_.work_j += push_n_s * into.dot(edge_velocity);
   }
@@ -71,22 +71,21 @@ void BladePoint::act(BladeTarget& target, uint32_t stylus, const layout::ToolMot
 }
 
 void BladePoint::renewKernel(BladeTarget& target) {
-  if (kernel_.nodes.empty() || (tip_.at - tip_.centre).norm() > kStale * h_) {
+  if (!((tip_.at - tip_.centre).norm() <= kStale * h_)) {
     tip_.centre = tip_.at;
     makeKernel();
   }
-  if (!slots_.empty()) target.readNodes(slots_, u_, v_);
-  if (kernel_.is_new) tip_.to_rest = kernel_.toRest(u_);
+  if (!near_.slots.empty()) target.readNodes(near_.slots, u_, v_);
+  near_.take(u_, v_);
+  if (kernel_.is_new) tip_.to_rest = kernel_.toRest(near_);
 }
 
 void BladePoint::makeKernel() {
-  kernel_.make(tissue_, tip_.centre, kernel_m_);
-  kernel_.places.resize(kernel_.nodes.size());
-  std::iota(kernel_.places.begin(), kernel_.places.end(), 0U);
-  slots_.clear();
-  for (const uint32_t n : kernel_.nodes) slots_.push_back(tissue_.nodes()[n].slot);
-  u_.resize(slots_.size());
-  v_.resize(slots_.size());
+  near_.gather(tissue_, {tip_.centre}, Vector3d::UnitX(), kernel_m_);
+  kernel_.make(near_, tip_.centre, kernel_m_);
+  u_.resize(near_.slots.size());
+  v_.resize(near_.slots.size());
+  dv_.resize(near_.slots.size());
 }
 
 /// @param gap  from the front to the point, as they are

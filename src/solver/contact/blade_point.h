@@ -44,9 +44,10 @@ class BladePoint {
   double width_m_, kernel_m_, h_;
   Tip tip_;
   BladeWork done_;
+  BladeNodes near_;
   BladeKernel kernel_;
-  std::vector<uint32_t> slots_;
-  std::vector<Vector3f> u_, v_, dv_;
+  std::vector<Vector3f> u_, v_, dv_;  ///< of those
+  BladeNodes::Planes momenta_;
 };
 
 }  // namespace viscera

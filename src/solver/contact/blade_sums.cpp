@@ -10,10 +10,10 @@ namespace viscera {
 
 namespace {
 
-constexpr double kStrip = 0.125;      // of the spacing, at most: parts of the edge that are in tissue or not
-constexpr double kMostStrips = 1000;  // whatever a fold makes of them
-constexpr double kMostStretch = 1.5;  // of areas: whatever a fold makes of them
-constexpr double kGivenBack = 0.25;   // of what the tissue has of the edge, at most, in a substep: it ends smoothly
+constexpr double kStrip = 0.125;       // of the spacing, at most: parts of the edge that are in tissue or not
+constexpr double kMostStrips = 1000;   // whatever a fold makes of them
+constexpr double kMostStretch = 1.03;  // of areas: a little more folded a triangle at 45 degrees
+constexpr double kGivenBack = 0.25;    // of what the tissue has of the edge, at most, in a substep: it ends smoothly
 
 }  // namespace
 
