@@ -12,7 +12,8 @@ namespace {
 
 constexpr double kStrip = 0.125;       // of the spacing, at most: parts of the edge that are in tissue or not
 constexpr double kMostStrips = 1000;   // whatever a fold makes of them
-constexpr double kMostStretch = 1.03;  // of areas: a little more folded a triangle at 45 degrees
+constexpr double kMostStretch = 1.5;   // of areas: whatever a fold makes of them
+constexpr double kMostOfSheet = 1.03;  // the same of sheets: with more, triangles folded in cuts at 45 degrees
 constexpr double kGivenBack = 0.25;    // of what the tissue has of the edge, at most, in a substep: it ends smoothly
 
 }  // namespace
@@ -44,7 +45,8 @@ double BladeEdge::partedPerSwept(size_t i) const {
   const Front &a = fronts_[i > 0 ? i - 1 : 0], &b = fronts_[std::min(i + 1, fronts_.size() - 1)];
   const double swept = (b.edge - a.edge).norm();
   const double parted = (b.at - a.at).cross(fronts_[i].to_rest * fronts_[i].forward).norm();
-  return swept > 0 ? std::clamp(parted / swept, 1 / kMostStretch, kMostStretch) : 1;
+  const double most = tissue_.isSheet() ? kMostOfSheet : kMostStretch;
+  return swept > 0 ? std::clamp(parted / swept, 1 / most, most) : 1;
 }
 
 /// A hand gets back at most what this edge has stored in the tissue since it came: what swings there of others' work,
