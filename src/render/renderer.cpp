@@ -11,6 +11,7 @@
 #include "gpu/stage_clock.h"
 #include "render/obstacle_painter.h"
 #include "render/overlay_painter.h"
+#include "render/thread_painter.h"
 #include "render/tissue_painter.h"
 #include "render/tool_painter.h"
 
@@ -79,6 +80,15 @@ Renderer::Renderer(const std::vector<CameraConfig>& cameras, const std::vector<S
 }
 
 Renderer::~Renderer() = default;
+
+void Renderer::addThreads(const std::vector<ThreadLook>& threads) {
+  threads_ = std::make_unique<ThreadPainter>(threads);
+}
+
+/// Its width at a distance of 1.
+double Renderer::pixelOf(size_t camera) const {
+  return 1 / intrinsics(cameras_[camera]).fy;
+}
 
 void Renderer::draw(size_t camera, const Surface& surface, const ToolMotions& motions, const IndexRuns* runs) {
   draw(camera, meshOf(surface, runs), motions);
@@ -149,7 +159,8 @@ void Renderer::drawPixels(const View& view, const MeshView& mesh, const ToolMoti
     target.bindImage();
     glClearBufferfv(GL_COLOR, 0, kBackground);
   }
-  const bool any_over = !by_pixels || obstacles_ || tools_->showsAny(motions) || !std::is_same_v<DrawOver, Nothing>;
+  const bool any_over =
+      !by_pixels || obstacles_ || threads_ || tools_->showsAny(motions) || !std::is_same_v<DrawOver, Nothing>;
   if (any_over) {
     if (by_pixels && pause_ && std::is_same_v<DrawOver, Nothing>) pause_();
     target.bindOver();
@@ -178,6 +189,8 @@ void Renderer::drawRest(const View& view, const ToolMotions& motions, DrawOver d
   {
     const gpu::TimedStage tools(gpu::Stage::kTools);
     if (obstacles_) obstacles_->draw(obstacle_poses_, view.optical_from_tissue, view.clip_from_optical);
+    if (threads_)
+      threads_->draw(thread_places_m_, view.optical_from_tissue, view.clip_from_optical, pixelOf(view.camera));
     tools_->draw(motions, view.optical_from_tissue, view.clip_from_optical);
   }
   const gpu::TimedStage after(gpu::Stage::kOverlays);
@@ -201,6 +214,10 @@ void Renderer::drawGeometry(size_t camera, const MeshView& mesh, const ToolMotio
   tissue_->drawGeometry(geometry_program_, mesh, optical_from_tissue, clip_from_optical);
   if (obstacles_) {
     obstacles_->drawGeometry(geometry_program_, obstacle_poses_, optical_from_tissue, clip_from_optical);
+  }
+  if (threads_) {
+    threads_->drawGeometry(geometry_program_, thread_places_m_, optical_from_tissue, clip_from_optical,
+                           pixelOf(camera));
   }
   tools_->drawGeometry(geometry_program_, motions, optical_from_tissue, clip_from_optical);
   ++renders_;

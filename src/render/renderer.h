@@ -22,6 +22,8 @@ class TissuePainter;
 class ToolPainter;
 class ObstaclePainter;
 class OverlayPainter;
+class ThreadPainter;
+struct ThreadLook;
 struct OverlayLook;
 
 /// Triangles that are on the GPU already; buffer names are OpenGL's.
@@ -61,6 +63,10 @@ class Renderer {
   void draw(size_t camera, const Model& model, const OverlayLook& look, const ToolMotions& motions);
   /// Where obstacles are drawn from now on. @param poses  [obstacles] tissue frame; nowhere before the first call
   void placeObstacles(const std::vector<Pose>& poses) { obstacle_poses_ = poses; }
+  /// Threads that are drawn from now on, once they are placed. Needs a current context.
+  void addThreads(const std::vector<ThreadLook>& threads);
+  /// @param places_m  [threads][nodes] tissue frame
+  void placeThreads(const std::vector<std::vector<Vector3d>>& places_m) { thread_places_m_ = places_m; }
   /// Where a camera's optical frame is in what is drawn from now on, tissue frame; at first where its keys say.
   void placeCamera(size_t camera, const Pose& pose) { camera_poses_[camera] = pose; }
   /// Draws how far away what a camera sees is and what it is, tools' outlines left out; makes what that needs at the
@@ -83,6 +89,7 @@ class Renderer {
     Eigen::Matrix4f clip_from_optical;
   };
   View viewOf(size_t camera) const;
+  double pixelOf(size_t camera) const;
   template <class DrawOver>
   void drawImage(size_t camera, const MeshView& mesh, const ToolMotions& motions, bool tissue, DrawOver drawOver);
   template <class DrawOver>
@@ -104,7 +111,9 @@ class Renderer {
   std::unique_ptr<ToolPainter> tools_;
   std::unique_ptr<ObstaclePainter> obstacles_;  ///< null where the scene has none
   std::unique_ptr<OverlayPainter> overlays_;    ///< null until one is wanted
+  std::unique_ptr<ThreadPainter> threads_;      ///< null where there are none
   std::vector<Pose> obstacle_poses_;
+  std::vector<std::vector<Vector3d>> thread_places_m_;
   uint64_t renders_ = 0;
   std::function<void()> pause_;
 };

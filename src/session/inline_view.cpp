@@ -10,6 +10,7 @@
 #include "gpu/software.h"
 #include "gpu/stage_clock.h"
 #include "render/overlay_painter.h"
+#include "session/thread_looks.h"
 
 namespace viscera {
 
@@ -69,6 +70,7 @@ InlineView::InlineView(const Model& model, const Scene& scene)
       renderer_(eyesOf(scene.cameras), scene.styluses, scene.obstacles, &model),
       surface_ring_(makeRing(surface_)),
       reads_late_(gpu::isSoftware()) {
+  if (!scene.threads.empty()) renderer_.addThreads(looksOf(scene.threads));
   const std::vector<CameraConfig>& cameras = scene.cameras;
   for (size_t c = 0; c < cameras.size(); ++c) addEye(c, cameras[c], PictureKind::kColor);
   for (size_t c = 0; c < cameras.size(); ++c) {
@@ -183,7 +185,8 @@ bool InlineView::isRepeat(const Eye& eye, const std::optional<Drawn>& drawn, con
          looksTheSame(look.motions, drawn->motions) && isSame(eye.pose, drawn->pose) &&
          std::equal(look.obstacles.begin(), look.obstacles.end(), drawn->obstacles.begin(), drawn->obstacles.end(),
                     isSame) &&
-         overlays == drawn->overlays && (!overlays.any() || look.arrows == drawn->arrows);
+         look.threads == drawn->threads && overlays == drawn->overlays &&
+         (!overlays.any() || look.arrows == drawn->arrows);
 }
 
 /// Brings the surface to a state, as far as the images that are to be drawn show it. @param all  the whole of it
@@ -240,11 +243,13 @@ void InlineView::captureGeometry(size_t e, const StateView& state, const Look& l
   Eye& eye = eyes_[e];
   if (eye.measures) {
     renderer_.placeObstacles(look.obstacles);
+    renderer_.placeThreads(look.threads);
     renderer_.drawGeometry(e, surface_, look.motions, eye.skin.drawn());
     eye.measured.reset();
     if (state.moved_revision) {
       eye.measured =
-          Drawn{state.moved_revision, state.cut_revision, look.motions, look.obstacles, eye.pose, Overlays{}, {}};
+          Drawn{state.moved_revision, state.cut_revision, look.motions, look.obstacles, eye.pose, Overlays{}, {},
+                look.threads};
     }
   } else {
     ++counters_.repeats;
@@ -271,6 +276,7 @@ void InlineView::draw(size_t e, const StateView& state, const Look& look) {
   Eye& eye = eyes_[e];
   const Overlays overlays = overlaysOf(eye.camera, look);
   renderer_.placeObstacles(look.obstacles);
+  renderer_.placeThreads(look.threads);
   if (overlays.any()) {
     const OverlayLook over = {overlays,     eye.config.strain_range, state,    &surface_,
                               &look.arrows, eye.skin.drawn(),        captures_};
@@ -280,8 +286,8 @@ void InlineView::draw(size_t e, const StateView& state, const Look& look) {
   }
   eye.drawn.reset();
   if (state.moved_revision) {
-    eye.drawn =
-        Drawn{state.moved_revision, state.cut_revision, look.motions, look.obstacles, eye.pose, overlays, look.arrows};
+    eye.drawn = Drawn{state.moved_revision, state.cut_revision, look.motions, look.obstacles, eye.pose, overlays,
+                      look.arrows,          look.threads};
   }
 }
 

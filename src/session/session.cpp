@@ -77,6 +77,7 @@ Frame Session::step(const StylusSamples& samples, const Wants& wants) {
   look_.motions = tools_.advance(samples);             // VR05 2.7: probe, grab, cut
   solver_->step(look_.motions, obstacles_.motions());  // VR05 2.4: n substeps
   if (threads_) threads_->step(look_.motions, obstacles_.motions());
+  lookAtThreads();
   look_.tick = ++tick_;
   look_.wants = wants;
   lookAtArrows();
@@ -109,6 +110,7 @@ void Session::heedFeeling(Frame& frame) {
 Pictures Session::show(const Wants& wants) {
   look_.tick = tick_;
   look_.wants = wants;
+  lookAtThreads();  // a saved state may have come in between
   lookAtArrows();
   Pictures out;
   view_->capture(*solver_, look_, out);
@@ -154,6 +156,12 @@ void Session::lookAtObstacles() {
     look_.obstacles.push_back(obstacles_.pose(i));
     extremes_.obstacles_held_back += obstacles_.heldBack(i);
   }
+}
+
+void Session::lookAtThreads() {
+  if (!threads_) return;
+  look_.threads.resize(threads_->count());
+  for (size_t i = 0; i < threads_->count(); ++i) look_.threads[i] = threads_->chain(i).places_m();
 }
 
 /// Forces of the last tick whose measurements are there, and the wind of this moment.
@@ -203,6 +211,7 @@ void Session::collect(Frame& frame, bool wait) {
   frame.tools = look_.motions;
   frame.obstacles = look_.obstacles;
   frame.cameras = look_.cameras;
+  frame.threads = look_.threads;
   collectStats(frame, wait);
   view_->collect(frame, wait);
   if (frame.surface) frame.surface->pose_received = posesOf(frame.surface->tick).newest();
@@ -267,6 +276,7 @@ void Session::reset() {
   obstacles_.reset();
   look_.motions = {};
   lookAtObstacles();
+  lookAtThreads();
   for (ForceLimiter& limiter : limiters_) limiter.reset();
   reactions_ = {};
   contacts_ = {};

@@ -15,10 +15,11 @@ const uint kFirstBodyLabel = 1u;
 const uint kFirstWallLabel = 101u;  // of wounds, by the index of the body
 const uint kFirstToolLabel = 201u;
 const uint kFirstObstacleLabel = 221u;
+const uint kFirstThreadLabel = 241u;
 
 #ifdef __cplusplus
 static_assert(kFirstBodyLabel + kMaxBodies <= kFirstWallLabel && kFirstWallLabel + kMaxBodies <= kFirstToolLabel &&
-              kFirstToolLabel + kMaxStyluses <= kFirstObstacleLabel && kFirstObstacleLabel + kMaxObstacles <= 256);
+              kFirstToolLabel + kMaxStyluses <= kFirstObstacleLabel && kFirstObstacleLabel + kMaxObstacles <= kFirstThreadLabel);
 }  // namespace viscera::layout
 #endif
 #endif

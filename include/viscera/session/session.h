@@ -106,7 +106,7 @@ class Session {
   const Solver& solver() const { return *solver_; }
   /// Places of the nodes of a thread after the last step, tissue frame [m]. @param thread  < scene().threads.size()
   const std::vector<Vector3d>& threadPlaces(size_t thread) const;
-  std::vector<double> threadTensions_n(size_t thread) const;  ///< of its links, pulling above 0
+  std::vector<double> threadTensions_n(size_t thread) const;        ///< of its links, pulling above 0
   const std::string& backendNote() const { return backend_note_; }  ///< what steps the tissue, and why
   Counters counters() const;
   const Extremes& extremes() const { return extremes_; }
@@ -127,6 +127,7 @@ class Session {
   void persist(Archive& archive);
   void moveObstacles();
   void lookAtObstacles();
+  void lookAtThreads();
   void lookAtArrows();
   static bool feels(const ToolMotions& motions);
   void heedFeeling(Frame& frame);

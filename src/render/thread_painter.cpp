@@ -1,0 +1,98 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "render/thread_painter.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+
+#include "render/mesh_uniforms.h"
+#include "render/shapes/tube.h"
+#include "viscera/layout/picture_labels.h"
+
+namespace viscera {
+
+namespace {
+
+constexpr double kLeastRadius_px = 0.75;  // of 1.5 pixels some centre lies in every row or column that it crosses
+
+size_t allVertices(const std::vector<ThreadLook>& threads) {
+  size_t out = 0;
+  for (const ThreadLook& thread : threads) out += tubeVertices(thread.nodes);
+  return out;
+}
+
+/// Triangles of a tube depend on nothing but how many nodes it has, and those of a shorter one come first.
+std::vector<uint32_t> longestTube(const std::vector<ThreadLook>& threads) {
+  size_t nodes = 0;
+  for (const ThreadLook& thread : threads) nodes = std::max(nodes, thread.nodes);
+  ToolShape tube;
+  addTube(std::vector<Vector3f>(nodes, Vector3f::Zero()), std::vector<float>(nodes), {}, tube);
+  return tube.indices;
+}
+
+}  // namespace
+
+ThreadPainter::ThreadPainter(std::vector<ThreadLook> threads)
+    : threads_(std::move(threads)),
+      program_(gpu::Program::graphics("mesh.vert", "tool.frag")),
+      vertices_(allVertices(threads_), "threads"),
+      indices_(longestTube(threads_), "threads") {
+  constexpr GLuint kBinding = 0;
+  inputs_.describe(kPositionInput, kBinding, 3, GL_FLOAT, GL_FALSE, offsetof(ToolVertex, position_m));
+  inputs_.describe(kNormalInput, kBinding, 3, GL_FLOAT, GL_FALSE, offsetof(ToolVertex, normal));
+  inputs_.describe(kColorInput, kBinding, 4, GL_UNSIGNED_BYTE, GL_TRUE, offsetof(ToolVertex, color));
+  glVertexArrayVertexBuffer(inputs_.id(), kBinding, vertices_.id(), 0, sizeof(ToolVertex));
+  glVertexArrayElementBuffer(inputs_.id(), indices_.id());
+}
+
+/// The tube of a thread as a camera sees it.
+void ThreadPainter::shape(const ThreadLook& thread, const std::vector<Vector3d>& places_m,
+                          const Pose& optical_from_tissue, double pixel) {
+  points_m_.clear();
+  radii_m_.clear();
+  tube_.vertices.clear();
+  tube_.indices.clear();
+  for (const Vector3d& place_m : places_m) {
+    const Vector3d at_m = optical_from_tissue * place_m;
+    points_m_.push_back(at_m.cast<float>());
+    radii_m_.push_back(static_cast<float>(std::max(thread.radius_m, kLeastRadius_px * pixel * at_m.z())));
+  }
+  addTube(points_m_, radii_m_, thread.color, tube_);
+}
+
+/// @param before  (thread) is called first
+template <class Before>
+void ThreadPainter::drawWith(const gpu::Program& program, const std::vector<std::vector<Vector3d>>& places_m,
+                             const Pose& optical_from_tissue, const Eigen::Matrix4f& clip_from_optical, double pixel,
+                             Before before) {
+  glBindVertexArray(inputs_.id());
+  program.use();
+  setMeshMatrices(program, Pose{}, clip_from_optical);
+  size_t first_vertex = 0;
+  for (size_t i = 0; i < std::min(places_m.size(), threads_.size()); ++i) {
+    const size_t first = first_vertex;
+    first_vertex += tubeVertices(threads_[i].nodes);
+    if (places_m[i].empty() || places_m[i].size() != threads_[i].nodes) continue;
+    shape(threads_[i], places_m[i], optical_from_tissue, pixel);
+    vertices_.write(tube_.vertices, first);
+    before(i);
+    glDrawElementsBaseVertex(GL_TRIANGLES, static_cast<GLsizei>(tube_.indices.size()), GL_UNSIGNED_INT, nullptr,
+                             static_cast<GLint>(first));
+  }
+  glBindVertexArray(0);
+}
+
+void ThreadPainter::draw(const std::vector<std::vector<Vector3d>>& places_m, const Pose& optical_from_tissue,
+                         const Eigen::Matrix4f& clip_from_optical, double pixel) {
+  drawWith(program_, places_m, optical_from_tissue, clip_from_optical, pixel, [](size_t) {});
+}
+
+void ThreadPainter::drawGeometry(const gpu::Program& program, const std::vector<std::vector<Vector3d>>& places_m,
+                                 const Pose& optical_from_tissue, const Eigen::Matrix4f& clip_from_optical,
+                                 double pixel) {
+  drawWith(program, places_m, optical_from_tissue, clip_from_optical, pixel,
+           [&](size_t i) { program.set("label", static_cast<uint32_t>(layout::kFirstThreadLabel + i)); });
+}
+
+}  // namespace viscera

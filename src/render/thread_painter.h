@@ -1,0 +1,54 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "gpu/buffer.h"
+#include "gpu/program.h"
+#include "render/shapes/tool_shape.h"
+#include "render/vertex_array.h"
+#include "viscera/math/types.h"
+
+namespace viscera {
+
+/// How a thread is drawn.
+struct ThreadLook {
+  double radius_m;
+  std::array<uint8_t, 4> color;  ///< sRGB, solid
+  size_t nodes;                  ///< that it has
+};
+
+/// Draws threads as tubes along their nodes, no thinner than a pixel and a half. With the shaders of tools.
+class ThreadPainter {
+ public:
+  explicit ThreadPainter(std::vector<ThreadLook> threads);
+  /// Draws into the bound framebuffer.
+  /// @param places_m  [threads][nodes] tissue frame; others are not drawn
+  /// @param pixel  its width at a distance of 1
+  void draw(const std::vector<std::vector<Vector3d>>& places_m, const Pose& optical_from_tissue,
+            const Eigen::Matrix4f& clip_from_optical, double pixel);
+  /// With another program, in use: geometry.frag.
+  void drawGeometry(const gpu::Program& program, const std::vector<std::vector<Vector3d>>& places_m,
+                    const Pose& optical_from_tissue, const Eigen::Matrix4f& clip_from_optical, double pixel);
+
+ private:
+  template <class Before>
+  void drawWith(const gpu::Program& program, const std::vector<std::vector<Vector3d>>& places_m,
+                const Pose& optical_from_tissue, const Eigen::Matrix4f& clip_from_optical, double pixel, Before before);
+  void shape(const ThreadLook& thread, const std::vector<Vector3d>& places_m, const Pose& optical_from_tissue,
+             double pixel);
+
+  std::vector<ThreadLook> threads_;
+  gpu::Program program_;
+  VertexArray inputs_;
+  gpu::Buffer<ToolVertex> vertices_;  ///< of all threads, one after the other
+  gpu::Buffer<uint32_t> indices_;     ///< of the longest
+  // of the thread under way, optical frame
+  std::vector<Vector3f> points_m_;
+  std::vector<float> radii_m_;
+  ToolShape tube_;
+};
+
+}  // namespace viscera

@@ -1,0 +1,32 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "session/thread_looks.h"
+
+#include "solver/thread/thread_bodies.h"
+
+namespace viscera {
+
+namespace {
+
+/// Dyed as such threads are.
+std::array<uint8_t, 4> colorOf(ThreadMaterial material) {
+  switch (material) {
+    case ThreadMaterial::kSilk:
+      return {60, 60, 70, 255};
+    case ThreadMaterial::kNylon:
+      return {40, 170, 110, 255};
+    default:
+      return {70, 110, 235, 255};
+  }
+}
+
+}  // namespace
+
+std::vector<ThreadLook> looksOf(const std::vector<ThreadConfig>& threads) {
+  std::vector<ThreadLook> out;
+  for (const ThreadConfig& thread : threads)
+    out.push_back({materialOf(thread).radius_m, colorOf(thread.material), placesOf(thread).size()});
+  return out;
+}
+
+}  // namespace viscera

@@ -1,0 +1,15 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "render/thread_painter.h"
+#include "viscera/model/scene/scene.h"
+
+namespace viscera {
+
+/// How the threads of a scene are drawn: in their own width, and the colour of their material.
+std::vector<ThreadLook> looksOf(const std::vector<ThreadConfig>& threads);
+
+}  // namespace viscera

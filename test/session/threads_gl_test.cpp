@@ -1,0 +1,101 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Threads in pictures.
+#include <gtest/gtest.h>
+
+#include "session/block_session.h"
+#include "viscera/gpu/context.h"
+#include "viscera/layout/picture_labels.h"
+#include "viscera/render/camera.h"
+
+namespace viscera {
+namespace {
+
+using namespace test;
+
+/// A blue thread above the block, held at its left end, that falls.
+Scene blueThreadScene(Backend backend) {
+  Scene scene = blockScene();
+  scene.solver.backend = backend;
+  scene.environment.gravity_m_per_s2 = Vector3d(0, 0, -9.81);
+  scene.cameras = {cameraOf("eye")};
+  ThreadConfig thread;
+  thread.material = ThreadMaterial::kPolypropylene;
+  thread.position_m = Vector3d(-0.03, 0, 0.05);
+  thread.path = {{Vector3d(0.03, 0, 0.05)}};
+  thread.start = ThreadEnd::kFixed;
+  scene.threads = {thread};
+  return scene;
+}
+
+struct Seen {
+  std::vector<uint8_t> rgb, labels;
+};
+
+Seen look(Session& session) {
+  Wants wants;
+  wants.cameras = wants.labels = {true};
+  wants.every_image = true;
+  Seen out;
+  for (const ImageFrame& image : session.show(wants).images) {
+    if (image.kind == PictureKind::kColor) out.rgb = image.rgb;
+    if (image.kind == PictureKind::kLabels) out.labels = image.labels;
+  }
+  return out;
+}
+
+/// Of nodes that a camera sees or would see: the pixel; of others the number of pixels.
+size_t pixelOf(const CameraConfig& camera, const Vector3d& place_m) {
+  const Intrinsics in = intrinsics(camera);
+  const Vector3d at_m = opticalPose(camera).inverse() * place_m;
+  const double column = in.fx * at_m.x() / at_m.z() + in.cx, row = in.fy * at_m.y() / at_m.z() + in.cy;
+  const auto width = static_cast<size_t>(camera.width_px), height = static_cast<size_t>(camera.height_px);
+  if (column < 0 || row < 0 || column >= camera.width_px || row >= camera.height_px) return width * height;
+  return static_cast<size_t>(row) * width + static_cast<size_t>(column);
+}
+
+/// Shares of the nodes whose pixel is labelled as the thread, and is blue.
+std::pair<double, double> shares(const Seen& seen, const CameraConfig& camera, const std::vector<Vector3d>& places_m) {
+  double labelled = 0, blue = 0;
+  for (const Vector3d& place_m : places_m) {
+    const size_t at = pixelOf(camera, place_m);
+    if (at >= seen.labels.size()) continue;
+    labelled += seen.labels[at] == layout::kFirstThreadLabel;
+    blue += seen.rgb[3 * at + 2] > seen.rgb[3 * at] + 10;
+  }
+  const auto nodes = static_cast<double>(places_m.size());
+  return {labelled / nodes, blue / nodes};
+}
+
+TEST(ThreadsInPictures, AreWhereTheThreadsAreOnEitherBackend) {
+  constexpr double kMost = 0.9;  // of nodes: a tube of a pixel and a half misses the centre of a pixel at times
+  for (const Backend backend : {Backend::kGpu, Backend::kCpu}) {
+    gpu::Context context;
+    const Scene scene = blueThreadScene(backend);
+    Session session(scene, context);
+    const std::vector<Vector3d> before = session.threadPlaces(0);
+    for (int ticks : {1, 8}) {
+      Frame frame;
+      for (int t = 0; t < ticks; ++t) frame = session.step({}, {});
+      EXPECT_EQ(frame.threads.at(0), session.threadPlaces(0));
+      const auto [labelled, blue] = shares(look(session), scene.cameras[0], session.threadPlaces(0));
+      EXPECT_GT(labelled, kMost) << ticks;
+      EXPECT_GT(blue, kMost) << ticks;
+    }
+    EXPECT_LT(shares(look(session), scene.cameras[0], before).first, 0.5) << "it has left where it was";
+    session.reset();
+    EXPECT_GT(shares(look(session), scene.cameras[0], before).first, kMost) << "it is there again";
+  }
+}
+
+TEST(ThreadsInPictures, AreNotInScenesWithout) {
+  gpu::Context context;
+  Scene scene = blueThreadScene(Backend::kCpu);
+  scene.threads.clear();
+  Session session(scene, context);
+  EXPECT_TRUE(session.step({}, {}).threads.empty());
+  for (const uint8_t label : look(session).labels) EXPECT_LT(label, layout::kFirstThreadLabel);
+}
+
+}  // namespace
+}  // namespace viscera
