@@ -7,6 +7,7 @@
 
 #include "nodes/ros/conversions.h"
 #include "render/shapes/obstacle_shape.h"
+#include "session/thread_looks.h"
 #include "viscera/render/camera.h"
 
 namespace viscera::nodes {
@@ -21,6 +22,7 @@ constexpr double kLetterWithoutCamera_m = 0.01;
 constexpr double kLetterWidth = 0.65;  ///< of its height, the gap to the next with it
 constexpr double kLineHeight = 1.6;    ///< of a letter: rviz looks down at some 30 degrees
 constexpr double kLeastArrow_m = 1e-4;
+constexpr double kLeastThread_m = 5e-4;                 ///< rviz loses lines that are thinner than a pixel
 constexpr double kArrowWidth_m = 2.5 * kShaftRadius_m;  ///< a tool is mostly pushed back along its shaft
 constexpr double kHead = 2;                             ///< width and length of an arrow's head, of its width
 
@@ -59,7 +61,7 @@ std::vector<Vector3d> pointsOf(const ToolShape& shape) {
 }  // namespace
 
 SceneLook lookOf(const Frame& frame) {
-  return {frame.tools, frame.obstacles, frame.reactions};
+  return {frame.tools, frame.obstacles, frame.reactions, frame.threads};
 }
 
 void partLabels(std::vector<Label>& labels, double height_m) {
@@ -80,7 +82,8 @@ void partLabels(std::vector<Label>& labels, double height_m) {
 SceneMarkers::SceneMarkers(const Scene& scene, const PublishOptions& options)
     : frame_(scene.environment.tissue_frame),
       arrow_m_per_n_(options.force_arrow_m_per_n),
-      letter_m_(letterHeight(scene)) {
+      letter_m_(letterHeight(scene)),
+      threads_(looksOf(scene.threads)) {
   for (const StylusConfig& stylus : scene.styluses) {
     styluses_.push_back(stylus.name);
     auto& shapes = tools_.emplace_back();
@@ -115,6 +118,7 @@ MarkerArray SceneMarkers::at(const SceneLook& look, const ros::Time& stamp) cons
   }
   for (size_t i = 0; i < std::min(obstacles_.size(), look.obstacles.size()); ++i)
     addParts("obstacles", kMostParts * i, obstacles_[i].parts, look.obstacles[i], stamp, out);
+  addThreads(look, stamp, out);
   addNames(look, stamp, out);
   addText("", stamp, out);
   return out;
@@ -176,6 +180,20 @@ void SceneMarkers::addForce(size_t stylus, const SceneLook& look, const ros::Tim
   marker.scale.y = kHead * kArrowWidth_m;
   marker.scale.z = std::min(kHead * kArrowWidth_m, 0.5 * arrow_m.norm());
   paint(kYellow, marker);
+}
+
+/// Lines: a tube would be tens of points for each of theirs.
+void SceneMarkers::addThreads(const SceneLook& look, const ros::Time& stamp, MarkerArray& out) const {
+  for (size_t i = 0; i < threads_.size(); ++i) {
+    Marker& marker = out.markers.emplace_back(this->marker("threads", i, stamp));
+    marker.type = Marker::LINE_STRIP;
+    marker.action = Marker::DELETE;
+    if (i >= look.threads.size() || look.threads[i].size() < 2) continue;
+    marker.action = Marker::ADD;
+    marker.scale.x = std::max(2 * threads_[i].radius_m, kLeastThread_m);
+    paint(threads_[i].color, marker);
+    for (const Vector3d& place_m : look.threads[i]) marker.points.push_back(toPoint(place_m));
+  }
 }
 
 /// @param text  empty: none

@@ -11,17 +11,19 @@
 
 #include "nodes/ros/publish_options.h"
 #include "render/shapes/tool_shape.h"
+#include "render/thread_painter.h"
 #include "viscera/layout/limits.h"
 #include "viscera/model/scene/scene.h"
 #include "viscera/session/frame.h"
 
 namespace viscera::nodes {
 
-/// Where tools and obstacles are, and what the hands feel.
+/// Where tools, obstacles and threads are, and what the hands feel.
 struct SceneLook {
   ToolMotions tools;
   std::vector<Pose> obstacles;
   std::array<Reaction, layout::kMaxStyluses> reactions;
+  std::vector<std::vector<Vector3d>> threads = {};  ///< [threads][nodes] m, tissue frame
 };
 SceneLook lookOf(const Frame& frame);
 
@@ -35,9 +37,10 @@ struct Label {
 /// @param height_m  of a letter
 void partLabels(std::vector<Label>& labels, double height_m);
 
-/// What the camera shows beside the tissue, as markers for rviz: tools and obstacles as meshes, forces as arrows,
-/// names; or, as long as there is no tissue, what is done for it. Namespaces `tools`, `obstacles`, `forces`, `names`,
-/// `preparing`. What is not there is told as DELETE, so that any array is the whole truth.
+/// What the camera shows beside the tissue, as markers for rviz: tools and obstacles as meshes, threads
+/// as lines, forces as arrows, names; or, as long as there is no tissue, what is done for it. Namespaces `tools`,
+/// `obstacles`, `threads`, `forces`, `names`, `preparing`. What is not there is told as DELETE, so that any array is
+/// the whole truth.
 class SceneMarkers {
  public:
   SceneMarkers(const Scene& scene, const PublishOptions& options);
@@ -65,6 +68,7 @@ class SceneMarkers {
                visualization_msgs::MarkerArray& out) const;
   void addForce(size_t stylus, const SceneLook& look, const ros::Time& stamp,
                 visualization_msgs::MarkerArray& out) const;
+  void addThreads(const SceneLook& look, const ros::Time& stamp, visualization_msgs::MarkerArray& out) const;
   void addText(const std::string& text, const ros::Time& stamp, visualization_msgs::MarkerArray& out) const;
   void addNames(const SceneLook& look, const ros::Time& stamp, visualization_msgs::MarkerArray& out) const;
 
@@ -73,6 +77,7 @@ class SceneMarkers {
   std::vector<std::string> styluses_;             ///< their names
   std::vector<std::map<ToolMode, Parts>> tools_;  ///< [styluses]
   std::vector<Obstacle> obstacles_;
+  std::vector<ThreadLook> threads_;
   std::vector<Label> cameras_;
   Vector3d middle_m_ = Vector3d::Zero();  ///< of the view
 };

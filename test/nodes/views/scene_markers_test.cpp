@@ -141,6 +141,31 @@ TEST(SceneMarkers, NoTwoMarkersShareAnId) {
   for (const Marker& marker : array.markers) EXPECT_TRUE(ids.emplace(marker.ns, marker.id).second) << marker.ns;
 }
 
+TEST(SceneMarkers, ThreadsAreLinesThroughTheirNodesOnceTheyArePlaced) {
+  Scene with = scene();
+  ThreadConfig thread;
+  thread.radius_m = 1e-3;
+  thread.material = ThreadMaterial::kPolypropylene;
+  thread.path = {{Vector3d(0.05, 0, 0)}};
+  with.threads = {thread, thread};
+  with.threads[1].radius_m = 1e-5;
+  const SceneMarkers markers(with, {});
+  SceneLook placed = look();
+  EXPECT_TRUE(shown(markers.at(placed, ros::Time(3)), "threads").empty());
+  placed.threads = {{{0, 0, 0}, {0.01, 0, 0}, {0.02, 0, 0.01}}, {{0, 1, 0}, {0, 2, 0}}};
+  const auto lines = shown(markers.at(placed, ros::Time(3)), "threads");
+  ASSERT_EQ(lines.size(), 2u);
+  EXPECT_EQ(lines[0].type, Marker::LINE_STRIP);
+  EXPECT_EQ(lines[0].header.frame_id, "room/tissue");
+  EXPECT_EQ(lines[0].scale.x, 2e-3);
+  EXPECT_GT(lines[0].color.b, lines[0].color.r);
+  ASSERT_EQ(lines[0].points.size(), 3u);
+  EXPECT_EQ(lines[0].points[2].x, 0.02);
+  EXPECT_EQ(lines[0].points[2].z, 0.01);
+  EXPECT_EQ(lines[1].id, 1);
+  EXPECT_GT(lines[1].scale.x, 1e-4) << "wide enough to be seen";
+}
+
 TEST(SceneMarkers, NamesAtOnePlaceAreWrittenAboveEachOther) {
   constexpr double kLetter_m = 0.01;
   std::vector<Label> labels(4, Label{"left", {0.1, 0, 0}});
