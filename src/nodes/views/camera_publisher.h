@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "nodes/views/shown_messages.h"
 #include "nodes/ros/throttle.h"
+#include "nodes/views/shown_messages.h"
 #include "viscera/Tick.h"
 
 namespace viscera::nodes {

@@ -18,6 +18,7 @@ FramePublisher::FramePublisher(ros::NodeHandle node, const Scene& scene, const P
       tick_hz_(scene.solver.tick_hz),
       surface_throttle_(options.surface_rate_hz, scene.solver.tick_hz),
       scene_markers_(node, scene, options),
+      threads_(node, scene),
       failed_(std::move(failed)),
       image_viewers_(kPictureKinds * scene.cameras.size(), 0) {
   for (const CameraConfig& camera : scene.cameras)
@@ -110,11 +111,12 @@ Wants FramePublisher::stills(bool changed, bool aimed) {
 void FramePublisher::deliver(Frame&& frame) {
   stamps_[frame.tick % stamps_.size()] = {tick_stamp_, frame.tick};
   putCameraFrames(frame);
-  const bool scene_due = scene_markers_.isDue();
-  if (!scene_due && !frame.surface && frame.images.empty()) return;
+  const bool scene_due = scene_markers_.isDue(), threads_due = threads_.isWanted();
+  if (!scene_due && !threads_due && !frame.surface && frame.images.empty()) return;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (scene_due) slots_.scene = {stampOf(frame.tick), lookOf(frame)};
+    if (threads_due) slots_.threads = threads_.messageOf(frame, stampOf(frame.tick));
     if (frame.surface) {
       const ros::Time stamp = stampOf(frame.surface->tick);
       slots_.surface = {stamp, std::move(frame.surface)};
@@ -182,6 +184,7 @@ void FramePublisher::send(Slots&& slots) {
   }
   surface_.publishDue();
   if (slots.scene) scene_markers_.publish(slots.scene->value, slots.scene->stamp);
+  if (slots.threads) threads_.publish(*slots.threads);
   for (size_t i = 0; i < slots.images.size(); ++i) {
     if (!slots.images[i]) continue;
     const SteadyTime pose_received = slots.images[i]->value.pose_received;
@@ -194,7 +197,8 @@ void FramePublisher::send(Slots&& slots) {
 
 bool FramePublisher::isViewed() const {
   const auto watched = [](const auto& camera) { return camera->isWanted(); };
-  return surface_.isWanted() || scene_markers_.isWanted() || std::any_of(cameras_.begin(), cameras_.end(), watched);
+  return surface_.isWanted() || scene_markers_.isWanted() || threads_.isWanted() ||
+         std::any_of(cameras_.begin(), cameras_.end(), watched);
 }
 
 void FramePublisher::noteSent(RateMeter& rate, LatencyMeter& latency, SteadyTime pose_received) {

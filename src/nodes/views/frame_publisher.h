@@ -25,6 +25,7 @@
 #include "nodes/views/camera_publisher.h"
 #include "nodes/views/scene_marker_publisher.h"
 #include "nodes/views/surface_publisher.h"
+#include "nodes/views/thread_publisher.h"
 
 namespace viscera::nodes {
 
@@ -79,6 +80,7 @@ class FramePublisher {
     std::vector<std::optional<Stamped<ImageFrame>>> images;  ///< [cameras * kPictureKinds]
     std::vector<geometry_msgs::TransformStamped> frames;     ///< of cameras that are carried; none is overtaken
     std::optional<Stamped<SceneLook>> scene;
+    std::optional<Threads> threads;
   };
 
   void putCameraFrames(const Frame& frame);
@@ -102,6 +104,7 @@ class FramePublisher {
   const double tick_hz_;
   Throttle surface_throttle_;
   SceneMarkerPublisher scene_markers_;
+  ThreadPublisher threads_;
   std::vector<std::unique_ptr<CameraPublisher>> cameras_;
   const std::function<void(std::exception_ptr)> failed_;
 

@@ -141,7 +141,7 @@ TEST(Labels, TheRealLiver) {
   const LabelVolume liver = readLabels(path, options);
   EXPECT_EQ(count(liver, 1), 38634U);
   EXPECT_NEAR(std::abs(liver.frame.axes.determinant()) * 1e9, 27, 0.01);  // [mm3]
-  EXPECT_EQ(readLabels(path).names.size(), 42U);  // 41 labels, and what is outside
+  EXPECT_EQ(readLabels(path).names.size(), 42U);                          // 41 labels, and what is outside
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ from std_srvs.srv import Trigger
 from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import Marker, MarkerArray
 
-from viscera.msg import SurfaceTopology, SurfaceTopologyChange, SurfaceVertices
+from viscera.msg import SurfaceTopology, SurfaceTopologyChange, SurfaceVertices, Threads
 from viscera.srv import SetOverlays
 
 LIMIT_S = 20
@@ -148,6 +148,17 @@ class SceneViewTest(unittest.TestCase):
         self.assertEqual(len(surface.message.normals), topology.message.vertices)
         topology.stop()
         surface.stop()
+
+    def test_threads_are_told_node_by_node(self):
+        threads = Latest("threads", Threads)
+        message = wait_until(lambda: threads.message, LIMIT_S, "threads")
+        self.assertEqual((message.header.frame_id, message.names), ("tissue", ["suture"]))
+        self.assertAlmostEqual(message.radii_m[0], 0.16e-3, delta=1e-9)  # USP 2-0
+        self.assertEqual(3 * message.nodes[0], len(message.positions_m))
+        for at, way in zip((0, 3 * message.nodes[0] - 3), ((-0.09, 0.15, 0.05), (0.03, 0.15, 0.05))):
+            for part, wanted in zip(message.positions_m[at:at + 3], way):
+                self.assertAlmostEqual(part, wanted, delta=1e-6)
+        threads.stop()
 
     def test_a_cut_renews_the_topology_for_those_who_want_nothing_else(self):
         topology = Latest("surface_topology", SurfaceTopology)
