@@ -1,0 +1,391 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "python/session_binding.h"
+
+#include <cstring>
+#include <limits>
+
+#include <pybind11/stl.h>
+
+#include "export/field_mesh.h"
+#include "python/arrays.h"
+#include "python/stepped.h"
+#include "python/stylus_binding.h"
+#include "viscera/math/state_hash.h"
+
+namespace viscera::python {
+
+namespace {
+
+constexpr int64_t kMostTicks = 1'000'000'000;  // of one call: eleven days at 1 kHz
+constexpr int kMostThreads = 1024;             // as `viscera sweep --jobs`
+
+using Skin = const SurfaceFrame;
+using Class = py::class_<Stepped>;
+
+py::array vec4s(const std::vector<layout::vec4>& values, const std::shared_ptr<const HostState>& state) {
+  auto* kept = new std::shared_ptr<const HostState>(state);
+  const py::capsule owner(kept, [](void* p) { delete static_cast<std::shared_ptr<const HostState>*>(p); });
+  const auto* first = reinterpret_cast<const float*>(values.data());
+  return view(first, {static_cast<py::ssize_t>(values.size()), 3}, {sizeof(layout::vec4), sizeof(float)}, owner);
+}
+
+std::vector<uint32_t> activeSlots(const Model& model) {
+  std::vector<uint32_t> out;
+  for (size_t b = 0; b < model.bodies.size(); ++b) {
+    for (const uint32_t slot : model.bodies[b].lattice.active_slots) out.push_back(model.slotOffset(b) + slot);
+  }
+  return out;
+}
+
+/// [3 * slots] NaN where there is no node.
+std::vector<float> restPositions(const Model& model) {
+  std::vector<float> out(3 * model.slots(), std::numeric_limits<float>::quiet_NaN());
+  for (size_t b = 0; b < model.bodies.size(); ++b) {
+    for (const uint32_t slot : model.bodies[b].lattice.active_slots) {
+      const Vector3f rest = restPosition(model.bodies[b], slot).cast<float>();
+      for (int c = 0; c < 3; ++c) out[3 * (size_t{model.slotOffset(b)} + slot) + static_cast<size_t>(c)] = rest[c];
+    }
+  }
+  return out;
+}
+
+std::vector<float> positions(const Model& model, const HostState& state) {
+  std::vector<float> out = restPositions(model);
+  for (size_t slot = 0; slot < state.displacement_m.size(); ++slot) {
+    float d[4];
+    std::memcpy(d, &state.displacement_m[slot], sizeof d);
+    for (size_t c = 0; c < 3; ++c) out[3 * slot + c] += d[c];
+  }
+  return out;
+}
+
+std::vector<float> normals(const Skin& skin) {
+  std::vector<float> out;
+  out.reserve(3 * skin.vertices());
+  for (size_t v = 0; v < skin.vertices(); ++v) {
+    const Vector3f normal = skin.normal(v);
+    out.insert(out.end(), normal.data(), normal.data() + 3);
+  }
+  return out;
+}
+
+/// Of every triangle a number of its patch.
+template <class T, class Of>
+std::vector<T> ofTriangles(const ShownTopology& topology, Of&& of) {
+  std::vector<T> out(topology.triangleCount());
+  for (const ShownPatch& patch : topology.patches)
+    std::fill_n(out.begin() + static_cast<std::ptrdiff_t>(patch.first), patch.count, static_cast<T>(of(patch)));
+  return out;
+}
+
+std::vector<double> wrenches(const Frame& frame, size_t styluses) {
+  std::vector<double> out;
+  for (size_t s = 0; s < styluses; ++s) {
+    const Reaction& reaction = frame.reactions[s];
+    out.insert(out.end(), reaction.force_n.data(), reaction.force_n.data() + 3);
+    out.insert(out.end(), reaction.torque_nm.data(), reaction.torque_nm.data() + 3);
+  }
+  return out;
+}
+
+py::array_t<double> triple(const Vector3d& v) {
+  return py::array_t<double>(3, v.data());
+}
+
+py::list contacts(const Frame& frame, size_t styluses) {
+  constexpr const char* kKinds[] = {"free", "pushes", "holds"};
+  py::list out;
+  for (size_t s = 0; s < styluses; ++s) {
+    const TickContact& contact = frame.contacts[s];
+    py::dict one;
+    one["kind"] = kKinds[static_cast<size_t>(contact.kind)];
+    one["from_m"] = triple(contact.from_m);
+    one["to_m"] = triple(contact.to_m);
+    one["force_n"] = triple(contact.reaction.force_n);
+    one["torque_nm"] = triple(contact.reaction.torque_nm);
+    one["limit_n"] = contact.limit_n;
+    one["touched"] = frame.has_stats ? frame.stats.touched[s] : 0;
+    one["held"] = frame.has_stats ? frame.stats.grabbed[s] : 0;
+    one["inside"] = frame.inside[s];
+    one["held_back"] = frame.held_back[s];
+    one["saturated"] = frame.reactions[s].saturated;
+    out.append(one);
+  }
+  return out;
+}
+
+double ofBits(uint32_t bits) {
+  float out;
+  std::memcpy(&out, &bits, sizeof out);
+  return static_cast<double>(out);
+}
+
+/// What of a Core diagnostics are made of, taken while no step is under way.
+struct Facts {
+  Frame frame;
+  Counters counters;
+  Extremes extremes;
+  Health health;
+  double dt_s, dt_safe_s;
+  size_t nodes, springs;
+  std::string stepped_by;
+};
+
+Facts factsOf(const Stepped::Core& core) {
+  const Session& session = *core.session;
+  Facts out;
+  out.frame.stats = core.last.stats;
+  out.frame.has_stats = core.last.has_stats;
+  out.counters = session.counters();
+  out.extremes = session.extremes();
+  out.health = session.solver().health();
+  out.dt_s = session.solver().dt_s();
+  out.dt_safe_s = session.solver().dtSafe_s();
+  out.nodes = session.model().activeNodes();
+  out.springs = session.model().springs();
+  out.stepped_by = session.backendNote();
+  return out;
+}
+
+py::dict diagnostics(const Facts& facts) {
+  py::dict out;
+  out["stepped_by"] = facts.stepped_by;
+  out["nodes"] = facts.nodes;
+  out["springs"] = facts.springs;
+  out["ticks"] = facts.counters.ticks;
+  out["substeps"] = facts.counters.substeps;
+  out["dt_s"] = facts.dt_s;
+  out["dt_safe_s"] = facts.dt_safe_s;
+  out["governor_trips"] = facts.extremes.governor_trips;
+  out["recovering"] = facts.health.recovering;
+  out["strained"] = facts.health.strained;
+  out["kinetic_j"] = facts.health.kinetic_j;
+  out["elastic_j"] = facts.health.elastic_j;
+  out["peak_force_n"] = facts.extremes.peak_force_n;
+  out["peak_stretch"] = facts.extremes.max_stretch;
+  out["peak_speed_m_per_s"] = facts.extremes.max_speed_m_per_s;
+  if (!facts.frame.has_stats) return out;
+  const layout::TickStats& stats = facts.frame.stats;
+  out["springs_cut"] = stats.springs_cut;
+  out["nonfinite"] = stats.nonfinite;
+  out["collapsed"] = stats.collapsed;
+  out["inverted"] = stats.inverted;
+  out["crowded"] = stats.crowded;
+  out["max_stretch"] = ofBits(stats.max_stretch_bits);
+  out["max_speed_m_per_s"] = ofBits(stats.max_speed_bits);
+  return out;
+}
+
+py::dict fields(const Stepped& stepped, const std::string& of) {
+  if (of != "lattice" && of != "network")
+    throw py::value_error("fields: wanted 'lattice' or 'network'; found '" + of + "'");
+  FieldMesh mesh = stepped.with([&](Stepped::Core& core) {
+    return of == "lattice" ? latticeFields(*core.session) : networkFields(*core.session);
+  });
+  py::dict out, of_points, of_cells;
+  for (MeshField& field : mesh.of_points)
+    of_points[field.name.c_str()] = given(std::move(field.values), field.components);
+  for (MeshField& field : mesh.of_cells)
+    of_cells[field.name.c_str()] = given(std::move(field.values), field.components);
+  out["points_m"] = given(std::move(mesh.points), 3);
+  out["cells"] = given(std::move(mesh.cells), mesh.corners);
+  out["of_points"] = of_points;
+  out["of_cells"] = of_cells;
+  return out;
+}
+
+py::array picture(const Stepped& stepped, size_t camera, const std::string& kind) {
+  constexpr const char* kNames[kPictureKinds] = {"color", "right", "depth", "labels"};
+  for (size_t k = 0; k < kPictureKinds; ++k) {
+    if (kind != kNames[k]) continue;
+    ImageFrame image = stepped.picture(camera, static_cast<PictureKind>(k));
+    const py::ssize_t h = image.height, w = image.width;
+    if (k == 2) return given(std::move(image.depths_m), w);
+    if (k == 3) return given(std::move(image.labels), w);
+    const py::array flat = given(std::move(image.rgb), 3 * w);
+    return flat.attr("reshape")(h, w, 3);
+  }
+  throw py::value_error("picture: kind: wanted color, right, depth or labels; found '" + kind + "'");
+}
+
+void bindSkin(py::module_& module) {
+  auto skin = py::class_<SurfaceFrame, std::shared_ptr<SurfaceFrame>>(
+      module, "Skin", "The deformed skin of one tick. Arrays without a copy are read-only and keep it alive.");
+  skin.def_readonly("tick", &SurfaceFrame::tick);
+  skin.def_property_readonly(
+      "positions_m", [](const py::object& self) { return rows(self.cast<Skin&>().positions_m, 3, self); },
+      "(vertices, 3) float32 [m], tissue frame; no copy.");
+  skin.def_property_readonly(
+      "packed_normals",
+      [](const py::object& self) {
+        const auto& packed = self.cast<Skin&>().normals;
+        return view(packed.data(), {static_cast<py::ssize_t>(packed.size())}, {sizeof(uint32_t)}, self);
+      },
+      "(vertices,) uint32, three signed 10-bit fractions, x in the low bits; no copy.");
+  skin.def_property_readonly(
+      "normals", [](const Skin& s) { return given(normals(s), 3); },
+      "(vertices, 3) float32 of length 1, to 1/511; a copy, unpacked.");
+  skin.def_property_readonly(
+      "triangles", [](const py::object& self) { return rows(self.cast<Skin&>().topology->triangles, 3, self); },
+      "(triangles, 3) uint32 vertices, counter-clockwise from outside; no copy.");
+  skin.def_property_readonly(
+      "bodies_of_triangles",
+      [](const Skin& s) {
+        return given(ofTriangles<uint32_t>(*s.topology, [](const ShownPatch& p) { return p.body; }), 1);
+      },
+      "(triangles,) uint32 index of the body; a copy.");
+  skin.def_property_readonly(
+      "wounds",
+      [](const Skin& s) {
+        return given(ofTriangles<uint8_t>(*s.topology, [](const ShownPatch& p) { return p.kind == ShownKind::kWound; }),
+                     1)
+            .attr("view")("bool");
+      },
+      "(triangles,) bool: walls that a cut has laid open; a copy.");
+  skin.def_property_readonly(
+      "revision", [](const Skin& s) { return s.topology->revision; },
+      "Another number where other triangles are shown.");
+}
+
+size_t stylusCount(const Stepped::Core& core) {
+  return core.session->styluses().size();
+}
+
+void bindSteps(Class& session) {
+  session.def(
+      "step",
+      [](const Stepped& s, const py::object& styluses, int64_t n) {
+        if (n < 1 || n > kMostTicks)
+          throw py::value_error("n: wanted 1 .. " + std::to_string(kMostTicks) + "; found " + std::to_string(n));
+        const size_t count = s.with(stylusCount);
+        s.step(samplesOf(styluses, count), n);
+      },
+      py::arg("styluses") = py::none(), py::arg("n") = 1,
+      "n ticks with the styluses there. styluses: None, a Stylus, or a list of Stylus or None, one for each of the "
+      "scene's "
+      "at most. The GIL is released.");
+  session.def("reset", &Stepped::reset, "Back to rest, tick 0.");
+  session.def(
+      "state", [](const Stepped& s) { return py::bytes(s.state()); },
+      "Saved state as bytes, in the format of `viscera run --save`.");
+  session.def(
+      "restore", [](const Stepped& s, const py::bytes& state) { s.restore(state); }, py::arg("state"),
+      "Goes on where state() was taken, to the bit; refused where scene, tissue, backend or version differ.");
+  session.def("close", &Stepped::close, "Ends the session; arrays taken from it live on.");
+  session.def_property_readonly("closed", &Stepped::closed);
+  session.def("__enter__", [](const py::object& self) { return self; });
+  session.def("__exit__", [](Stepped& s, const py::args&) { s.close(); });
+}
+
+void bindMeasures(Class& session) {
+  session.def_property_readonly(
+      "hash",
+      [](const Stepped& s) { return StateHash::text(s.with([](Stepped::Core& c) { return c.session->stateHash(); })); },
+      "Fingerprint of the state, 16 hexadecimal digits, as `viscera run` prints it.");
+  session.def_property_readonly(
+      "tick", [](const Stepped& s) { return s.with([](Stepped::Core& c) { return c.session->tick(); }); });
+  session.def_property_readonly(
+      "tick_s", [](const Stepped& s) { return s.with([](Stepped::Core& c) { return c.session->tick_s(); }); },
+      "Length of a tick [s].");
+  session.def_property_readonly(
+      "time_s",
+      [](const Stepped& s) {
+        return s.with([](Stepped::Core& c) { return static_cast<double>(c.session->tick()) * c.session->tick_s(); });
+      },
+      "Simulated since the start or the last reset [s].");
+  session.def_property_readonly(
+      "wrenches",
+      [](const Stepped& s) {
+        return given(s.with([](Stepped::Core& c) { return wrenches(c.last, stylusCount(c)); }), 6);
+      },
+      "(styluses, 6) float64: force [N] and torque about the tip [N m] on each, tissue frame, within the scene's "
+      "limits; "
+      "zero before the first step, and after reset() and restore(). A copy.");
+  session.def_property_readonly(
+      "contacts",
+      [](const Stepped& s) {
+        const auto [frame, count] = s.with([](Stepped::Core& c) {
+          Frame out;
+          out.contacts = c.last.contacts, out.stats = c.last.stats, out.has_stats = c.last.has_stats;
+          out.inside = c.last.inside, out.held_back = c.last.held_back, out.reactions = c.last.reactions;
+          return std::pair(std::move(out), stylusCount(c));
+        });
+        return contacts(frame, count);
+      },
+      "Of each stylus a dict: what its tip met in the last tick, its way, unlimited mean force and torque, nodes "
+      "touched and held.");
+  session.def_property_readonly(
+      "diagnostics", [](const Stepped& s) { return diagnostics(s.with(factsOf)); },
+      "Dict: ticks, substeps, energies [J], trips of the governor, stretch, speed, springs cut.");
+}
+
+void bindArrays(Class& session) {
+  session.def_property_readonly(
+      "nodes",
+      [](const Stepped& s) {
+        return given(s.with([](Stepped::Core& c) { return activeSlots(c.session->model()); }), 1);
+      },
+      "(nodes,) uint32: slots that have a node; the others are empty. A copy.");
+  session.def_property_readonly(
+      "rest_m",
+      [](const Stepped& s) {
+        return given(s.with([](Stepped::Core& c) { return restPositions(c.session->model()); }), 3);
+      },
+      "(slots, 3) float32 [m] at rest, NaN in empty slots. A copy.");
+  session.def_property_readonly(
+      "positions_m",
+      [](const Stepped& s) {
+        const auto state = s.nodes();
+        return given(s.with([&](Stepped::Core& c) { return positions(c.session->model(), *state); }), 3);
+      },
+      "(slots, 3) float32 [m], NaN in empty slots. A copy: the library holds displacements.");
+  session.def_property_readonly(
+      "displacement_m",
+      [](const Stepped& s) {
+        const auto state = s.nodes();
+        return vec4s(state->displacement_m, state);
+      },
+      "(slots, 3) float32 [m] from rest, of this tick; made once a tick from the solver's bricks, then shared, "
+      "read-only.");
+  session.def_property_readonly(
+      "velocity_m_per_s",
+      [](const Stepped& s) {
+        const auto state = s.nodes();
+        return vec4s(state->velocity_m_per_s, state);
+      },
+      "(slots, 3) float32 [m/s], of this tick; made once a tick from the solver's bricks, then shared, read-only.");
+  session.def(
+      "skin", [](const Stepped& s) { return std::const_pointer_cast<SurfaceFrame>(s.skin()); },
+      "The deformed skin of now.");
+  session.def(
+      "fields", &fields, py::arg("of") = "lattice",
+      "Dict of points, cells and their fields, as `viscera run --export` writes them: stress, strain energy ... "
+      "of: 'lattice' or 'network'. The arrays own what was made for them.");
+  session.def("picture", &picture, py::arg("camera") = 0, py::arg("kind") = "color",
+              "What a camera of the scene sees now. kind: color, right: (h, w, 3) uint8; depth: (h, w) float32 [m]; "
+              "labels: (h, w) uint8. Needs pictures=True.");
+}
+
+}  // namespace
+
+void bindSession(py::module_& module) {
+  bindSkin(module);
+  Class session(module, "Session",
+                "A scene that is stepped. Calls may come from any thread; they wait for each other.");
+  session.def(
+      py::init([](const SceneSource& scene, const std::optional<std::string>& backend, int threads, bool pictures) {
+        if (threads < 0 || threads > kMostThreads)
+          throw py::value_error("threads: wanted 0 .. " + std::to_string(kMostThreads) + "; found " +
+                                std::to_string(threads));
+        return std::make_unique<Stepped>(scene, backend, threads, pictures);
+      }),
+      py::arg("scene"), py::arg("backend") = py::none(), py::arg("threads") = 0, py::arg("pictures") = false,
+      "backend: as solver.backend; None: what the scene says, without pictures the processor unless it says gpu. "
+      "threads: 0 as the scene says. pictures: with OpenGL, used by this thread alone then.");
+  bindSteps(session);
+  bindMeasures(session);
+  bindArrays(session);
+}
+
+}  // namespace viscera::python

@@ -1,0 +1,99 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "python/stylus_binding.h"
+
+#include <cmath>
+#include <string>
+
+#include <pybind11/numpy.h>
+
+namespace viscera::python {
+
+namespace py = pybind11;
+
+namespace {
+
+constexpr double kFarthest_m = 1000;      // of a tip from the origin: beyond, float32 no longer tells nodes apart
+constexpr double kUnitWithin = 1e-9;      // of a quaternion's length: as it is, so that poses of files keep their bits
+constexpr double kNearUnitWithin = 1e-2;  // rounded to few digits: made one; further off it is no orientation
+
+using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
+
+void requireNumbers(const Numbers& values, py::ssize_t count, const char* what, double most) {
+  if (values.ndim() != 1 || values.shape(0) != count)
+    throw py::value_error(std::string(what) + ": wanted " + std::to_string(count) + " numbers in one row");
+  for (py::ssize_t i = 0; i < count; ++i) {
+    if (!(std::abs(values.at(i)) <= most))
+      throw py::value_error(std::string(what) + ": wanted numbers -" + std::to_string(most) + " .. " +
+                            std::to_string(most) + "; found " + std::to_string(values.at(i)));
+  }
+}
+
+StylusSample makeSample(const Numbers& position_m, const Numbers& quaternion, bool button1, bool button2) {
+  requireNumbers(position_m, 3, "position_m", kFarthest_m);
+  requireNumbers(quaternion, 4, "quaternion", 1 + kNearUnitWithin);
+  StylusSample out;
+  out.valid = true;
+  out.pose.position_m = {position_m.at(0), position_m.at(1), position_m.at(2)};
+  out.pose.orientation = {quaternion.at(3), quaternion.at(0), quaternion.at(1), quaternion.at(2)};
+  const double off = std::abs(out.pose.orientation.norm() - 1);
+  if (!(off <= kNearUnitWithin)) throw py::value_error("quaternion: wanted x, y, z, w of length 1, to 0.01");
+  if (off > kUnitWithin) out.pose.orientation.normalize();
+  out.button1 = button1;
+  out.button2 = button2;
+  return out;
+}
+
+py::array_t<double> numbers(std::initializer_list<double> values) {
+  return py::array_t<double>(static_cast<py::ssize_t>(values.size()), values.begin());
+}
+
+}  // namespace
+
+void bindStylus(py::module_& module) {
+  auto stylus = py::class_<StylusSample>(module, "Stylus",
+                                         "Where a stylus is: the pose of its tip in the tissue frame, and its "
+                                         "buttons. The shaft points along -z.");
+  stylus.def(py::init(&makeSample), py::arg("position_m"), py::arg("quaternion") = numbers({0, 0, 0, 1}),
+             py::arg("button1") = false, py::arg("button2") = false,
+             "position_m: (3,) [m], -1000 .. 1000. quaternion: (4,) x, y, z, w of length 1.");
+  stylus.def_property_readonly(
+      "position_m",
+      [](const StylusSample& s) {
+        return numbers({s.pose.position_m.x(), s.pose.position_m.y(), s.pose.position_m.z()});
+      },
+      "(3,) float64 [m], tissue frame; a copy.");
+  stylus.def_property_readonly(
+      "quaternion",
+      [](const StylusSample& s) {
+        const Quaterniond& q = s.pose.orientation;
+        return numbers({q.x(), q.y(), q.z(), q.w()});
+      },
+      "(4,) float64 x, y, z, w; a copy.");
+  stylus.def_readonly("button1", &StylusSample::button1);
+  stylus.def_readonly("button2", &StylusSample::button2);
+}
+
+StylusSamples samplesOf(const py::object& given, size_t styluses) {
+  StylusSamples out{};
+  if (given.is_none()) return out;
+  const auto put = [&](size_t at, py::handle one) {
+    if (at >= styluses)
+      throw py::value_error("styluses: more than the scene has, which is " + std::to_string(styluses));
+    if (!one.is_none()) out[at] = py::cast<const StylusSample&>(one);
+  };
+  try {
+    if (py::isinstance<StylusSample>(given)) {
+      put(0, given);
+      return out;
+    }
+    if (!py::isinstance<py::sequence>(given) || py::isinstance<py::str>(given)) throw py::cast_error();
+    size_t at = 0;
+    for (const py::handle one : given) put(at++, one);
+  } catch (const py::cast_error&) {
+    throw py::type_error("styluses: wanted None, a Stylus, or a list of these");
+  }
+  return out;
+}
+
+}  // namespace viscera::python

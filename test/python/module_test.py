@@ -1,0 +1,244 @@
+#!/usr/bin/env python3
+# Copyright (c) 2026, the viscera authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The Python package as users have it. Usage: module_test.py [VISCERA], the command that hashes are compared with."""
+import gc
+import json
+import os
+import random
+import subprocess
+import sys
+import threading
+import time
+import unittest
+
+import numpy as np
+
+import viscera
+
+COMMAND = sys.argv.pop(1) if len(sys.argv) > 1 and not sys.argv[1].startswith("-") else None
+SMALL = {
+    "name": "small",
+    "bodies": [{"name": "block", "source": "box", "box_size_m": [0.06, 0.06, 0.03], "spacing_m": 0.01,
+                "fixed": [{"shape": "box", "min_m": [-1, -1, -1], "max_m": [1, 1, -0.014]}]}],
+    "styluses": [{"name": "left"}, {"name": "right"}],
+    "solver": {"backend": "cpu", "threads": 1},
+}
+PRESSED = viscera.Stylus([0, 0, 0.012])
+
+
+def small(**options):
+    return viscera.Session(viscera.Scene(SMALL), **options)
+
+
+def press(session, ticks):
+    for tick in range(ticks):
+        session.step([viscera.Stylus([0, 0, 0.03 - 0.02 * (tick + 1) / ticks])])
+
+
+class SceneTest(unittest.TestCase):
+    def test_text_dict_and_file_are_one(self):
+        keys = viscera.Scene(SMALL).keys
+        self.assertEqual(keys, viscera.Scene(json.dumps(SMALL) + "\n").keys)
+
+    def test_shipped(self):
+        scene = viscera.Scene("cloth_on_points", {"solver.threads": 1})
+        self.assertIn("solver.threads=1", scene.keys)
+        self.assertTrue(os.path.exists(scene.file))
+
+    def test_errors_name_file_and_key(self):
+        for source, said in (({"bodys": []}, "bodys"), ("name: x\nbodys: []\n", "bodys"), ("no_such", "no_such"),
+                             ({"a": float("nan")}, "dict"), ({"a": object()}, "dict"), ("/no/such.yaml", "/no/such.yaml")):
+            with self.assertRaisesRegex(viscera.SceneError, said):
+                viscera.Scene(source)
+        with self.assertRaisesRegex(viscera.Error, "solver.tick_hz"):
+            viscera.Scene(SMALL, ["solver.tick_hz=-1"])
+        with self.assertRaises(TypeError):
+            viscera.Scene(5)
+
+    @unittest.skipUnless(COMMAND, "no command given")
+    def test_same_error_as_the_command_line(self):
+        run = subprocess.run([COMMAND, "run", "heart", "--no-view", "--set", "solver.tick_hz=-1"], capture_output=True, text=True)
+        with self.assertRaises(viscera.SceneError) as caught:
+            viscera.Scene("heart", "solver.tick_hz=-1")
+        self.assertIn(str(caught.exception).split(": ", 1)[1], run.stderr)
+
+
+class SessionTest(unittest.TestCase):
+    @unittest.skipUnless(COMMAND, "no command given")
+    def test_same_hash_as_the_command_line(self):
+        run = subprocess.run([COMMAND, "run", "cloth_on_points", "--no-view", "--seconds", "0.5"], capture_output=True,
+                             text=True, check=True)
+        with viscera.Session(viscera.Scene("cloth_on_points")) as session:
+            session.step(n=round(0.5 / session.tick_s))
+            self.assertEqual(session.hash, json.loads(run.stdout.splitlines()[-1])["state_hash"])
+
+    def test_restored_goes_on_to_the_bit(self):
+        one, other = small(), small()
+        press(one, 60)
+        state = one.state()
+        other.restore(state)
+        self.assertEqual(other.tick, 60)
+        self.assertEqual(one.hash, other.hash)
+        for session in (one, other):
+            session.step([PRESSED], n=1000)
+        self.assertEqual(one.hash, other.hash)
+        np.testing.assert_array_equal(one.wrenches, other.wrenches)
+
+    def test_restore_refuses(self):
+        session = small()
+        session.step(n=3)
+        state, before = session.state(), session.hash
+        for wrong in (b"", b"x" * 100, state[:-1], state + b"x", state[:200] + b"\x00\x01" + state[202:]):
+            with self.assertRaises(viscera.Error):
+                session.restore(wrong)
+        with self.assertRaisesRegex(viscera.Error, "another scene"):
+            viscera.Session(viscera.Scene(SMALL, "solver.tick_hz=500")).restore(state)
+        session.restore(state)
+        self.assertEqual(session.hash, before)
+
+    def test_reset(self):
+        session = small()
+        rest = session.hash
+        press(session, 20)
+        self.assertNotEqual(session.hash, rest)
+        session.reset()
+        self.assertEqual((session.hash, session.tick, session.time_s), (rest, 0, 0))
+        self.assertFalse(session.wrenches.any())
+
+    def test_forces_and_diagnostics(self):
+        session = small()
+        press(session, 60)
+        self.assertEqual(session.wrenches.shape, (2, 6))
+        self.assertGreater(session.wrenches[0, 2], 0)  # pushed out, up
+        self.assertFalse(session.wrenches[1].any())
+        self.assertEqual([c["kind"] for c in session.contacts], ["pushes", "free"])
+        self.assertGreater(session.contacts[0]["touched"], 0)
+        self.assertEqual(session.diagnostics["ticks"], 60)
+        self.assertEqual(session.diagnostics["nonfinite"], 0)
+
+    def test_closed_raises(self):
+        session = small()
+        skin = session.skin().positions_m
+        moved = session.displacement_m
+        session.close()
+        session.close()
+        for call in (session.step, session.reset, session.state, session.skin, session.fields, session.picture,
+                     lambda: session.restore(b""), lambda: session.hash, lambda: session.nodes, lambda: session.wrenches):
+            with self.assertRaisesRegex(viscera.Error, "closed"):
+                call()
+        del session
+        gc.collect()
+        self.assertTrue(np.isfinite(skin).all() and np.isfinite(moved).all())
+
+    def test_gil_is_released(self):
+        session, counted, done = small(), [0], threading.Event()
+
+        def count():
+            while not done.is_set():
+                counted[0] += 1
+                time.sleep(0)
+        thread = threading.Thread(target=count)
+        thread.start()
+        session.step(n=2000)
+        during = counted[0]
+        done.set()
+        thread.join()
+        self.assertGreater(during, 10)
+
+    def test_threads_wait_for_each_other(self):
+        session = small()
+        threads = [threading.Thread(target=lambda: [session.step() for _ in range(50)]) for _ in range(4)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertEqual(session.tick, 200)
+
+
+class ArrayTest(unittest.TestCase):
+    def test_skin_is_no_copy(self):
+        session = small()
+        skin = session.skin()
+        for array in (skin.positions_m, skin.triangles, skin.packed_normals):
+            self.assertIs(array.base, skin)
+            self.assertFalse(array.flags.writeable)
+            with self.assertRaises(ValueError):
+                array.flags.writeable = True
+        self.assertEqual(skin.positions_m.ctypes.data, skin.positions_m.ctypes.data)
+        self.assertLess(skin.triangles.max(), len(skin.positions_m))
+        self.assertEqual(len(skin.wounds), len(skin.triangles))
+        self.assertEqual(len(skin.bodies_of_triangles), len(skin.triangles))
+        np.testing.assert_allclose(np.linalg.norm(skin.normals, axis=1), 1, atol=1 / 256)
+
+    def test_nodes(self):
+        session = small()
+        press(session, 30)
+        nodes = session.nodes
+        self.assertEqual(len(nodes), session.diagnostics["nodes"])
+        self.assertIs(session.displacement_m.ctypes.data == session.displacement_m.ctypes.data, True)
+        np.testing.assert_allclose(session.positions_m[nodes], (session.rest_m + session.displacement_m)[nodes])
+        self.assertTrue(np.isnan(np.delete(session.rest_m, nodes, axis=0)).all())
+        self.assertEqual(session.velocity_m_per_s.shape, session.displacement_m.shape)
+        before = session.displacement_m
+        kept = before.copy()
+        session.step(n=10)
+        np.testing.assert_array_equal(before, kept)
+
+    def test_stress(self):
+        session = small()
+        press(session, 60)
+        fields = session.fields("lattice")
+        self.assertEqual(fields["points_m"].shape[1], 3)
+        self.assertTrue(fields["of_cells"])
+
+
+class MisuseTest(unittest.TestCase):
+    def test_wrong_poses(self):
+        nan = float("nan")
+        for wrong in ([0, 0], [[0, 0, 0]], [0, 0, nan], [0, 0, 1e300], np.zeros((3, 1)), 5):
+            with self.assertRaises(ValueError):
+                viscera.Stylus(wrong)
+        for wrong in ([0, 0, 0, 0], [0, 0, 0, 2], [0, 0, 1], [nan] * 4):
+            with self.assertRaises(ValueError):
+                viscera.Stylus([0, 0, 0], wrong)
+
+    def test_fuzz(self):
+        """Whatever is called with whatever: an exception of ours or of Python's, or a result."""
+        rng, session = random.Random(7), small()
+        scene = viscera.Scene(SMALL)
+        values = [None, 0, -1, 10 ** 30, 3.5, float("nan"), "", "auto", "lattice", "color", b"", b"x" * 99, [], [None] * 3, {},
+                  object(), np.zeros(3), np.full(4, np.nan), np.zeros((2, 2), "O"), PRESSED, [PRESSED, None], scene, session, True]
+        calls = [viscera.Stylus, viscera.Scene, viscera.Session, session.step, session.restore, session.fields,
+                 session.picture, session.reset, session.state, session.skin, lambda *a: session.wrenches,
+                 lambda *a: session.contacts, lambda *a: session.diagnostics, lambda *a: session.positions_m]
+        raised = 0
+        for _ in range(600):
+            arguments = [rng.choice(values) for _ in range(rng.randrange(4))]
+            try:
+                rng.choice(calls)(*arguments)
+            except (viscera.Error, TypeError, ValueError, OverflowError):
+                raised += 1
+        self.assertGreater(raised, 100)
+        session.reset()
+        session.step(n=5)
+        other = small()
+        other.step(n=5)
+        self.assertEqual(session.hash, other.hash)
+
+
+class OverheadTest(unittest.TestCase):
+    def test_print_of_a_step(self):
+        session, hands, ticks = small(), [PRESSED], 2000
+        session.step(hands, n=100)
+        start = time.perf_counter()
+        session.step(hands, n=ticks)
+        inside = time.perf_counter() - start
+        start = time.perf_counter()
+        for _ in range(ticks):
+            session.step(hands)
+        print(f"overhead of a step: {(time.perf_counter() - start - inside) / ticks * 1e6:.1f} us", file=sys.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
