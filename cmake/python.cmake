@@ -23,13 +23,15 @@ if(NOT EXISTS "${python_include}/Python.h")
   return()
 endif()
 
-# Beside the messages' modules where there is ROS, which have the same name; the same place without.
+# The folder of the messages' modules where there is ROS: genpy leaves an __init__.py that is there, and writes an empty one
+# in a fresh build before ours takes its place. catkin installs that whole folder, so nothing lies in it that is not shipped.
+set(python_prefix ${PROJECT_BINARY_DIR}/devel)
 set(python_folder lib/python3/dist-packages/viscera)
-set(python_built ${PROJECT_BINARY_DIR}/devel/${python_folder})
 if(VISCERA_WITH_ROS)
-  set(python_built ${CATKIN_DEVEL_PREFIX}/${PYTHON_INSTALL_DIR}/viscera)
+  set(python_prefix ${CATKIN_DEVEL_PREFIX})
   set(python_folder ${PYTHON_INSTALL_DIR}/viscera)
 endif()
+set(python_built ${python_prefix}/${python_folder})
 file(GLOB python_sources CONFIGURE_DEPENDS src/python/*.cpp)
 add_library(viscera_python MODULE ${python_sources})
 target_include_directories(viscera_python PRIVATE src)
@@ -40,11 +42,12 @@ target_link_libraries(viscera_python PRIVATE viscera_export)
 target_link_options(viscera_python PRIVATE -Wl,--exclude-libs,ALL)
 set_target_properties(viscera_python PROPERTIES PREFIX "" OUTPUT_NAME _viscera SUFFIX ${python_suffix} CXX_VISIBILITY_PRESET hidden
                                                 LIBRARY_OUTPUT_DIRECTORY ${python_built})
-set(python_texts __init__.py __init__.pyi py.typed)
+file(GLOB python_texts CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}/src/python/viscera src/python/viscera/*.py*
+     src/python/viscera/py.typed)
 foreach(file ${python_texts})
   configure_file(src/python/viscera/${file} ${python_built}/${file} COPYONLY)
 endforeach()
-file(WRITE ${python_built}/config_folder.txt "${PROJECT_SOURCE_DIR}/config\n")  # of shipped scenes; not installed
+file(WRITE ${python_prefix}/share/viscera/config_folder.txt "${PROJECT_SOURCE_DIR}/config\n")  # of shipped scenes
 list(TRANSFORM python_texts PREPEND src/python/viscera/ OUTPUT_VARIABLE python_installed)
 install(TARGETS viscera_python LIBRARY DESTINATION ${python_folder} COMPONENT python)
 install(FILES ${python_installed} DESTINATION ${python_folder} COMPONENT python)

@@ -4,64 +4,21 @@
 
 Lengths are in metres, forces in newtons, times in seconds; poses are in the tissue frame.
 """
-import json
-import os
-
-from ._viscera import (Error, GpuError, LatticeError, MeshError, SceneBase, SceneError, Session, Skin, Stylus)
+import pkgutil
 
 __all__ = ["Error", "GpuError", "LatticeError", "MeshError", "Scene", "SceneError", "Session", "Skin", "Stylus"]
+# viscera.msg and viscera.srv, which ROS makes, may lie in a folder of this name that comes later in the path.
+__path__ = pkgutil.extend_path(__path__, __name__)
 
 
-def _shipped(name):
-    """The file of a shipped scene: below share/ beside an installed package, else of the source tree it was built from."""
-    folders, up = [], os.path.dirname(os.path.abspath(__file__))
-    while os.path.dirname(up) != up:
-        folders.append(os.path.join(up, "share", "viscera", "config", "scenes"))
-        up = os.path.dirname(up)
-    try:
-        with open(os.path.join(os.path.dirname(__file__), "config_folder.txt"), encoding="utf-8") as file:
-            folders.append(os.path.join(file.read().strip(), "scenes"))
-    except OSError:
-        pass  # installed
-    for folder in folders:
-        file = os.path.join(folder, name + ".yaml")
-        if os.path.exists(file):
-            return file
-    raise SceneError(f"'{name}' is neither a file nor the name of a shipped scene")
+def __getattr__(name):
+    """Loads the simulator when it is first asked for: a program that wants the messages of ROS alone has no use for it."""
+    if name not in __all__:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    from . import _scene
+    globals().update((each, getattr(_scene, each)) for each in __all__)
+    return globals()[name]
 
 
-class Scene(SceneBase):
-    """A scene, read and checked.
-
-    source     a file, the name of a shipped scene, YAML text (of several lines), or a dict of the same keys
-    overrides  as --set of the command line: strings "key=value", or a dict of key to value
-    mesh       a mesh file that is the tissue of the first body; for scenes from files
-    Raises SceneError with file, line, key and accepted range.
-    """
-
-    def __init__(self, source, overrides=(), mesh=""):
-        file = text = label = ""
-        if isinstance(source, dict):
-            try:
-                text, label = json.dumps(source, ensure_ascii=False, allow_nan=False), "dict"
-            except (TypeError, ValueError, RecursionError) as error:
-                raise SceneError(f"dict: {error}") from None
-        elif isinstance(source, str) and "\n" in source:
-            text, label = source, "text"
-        else:
-            file = os.fspath(source)
-            if not isinstance(file, str):
-                raise TypeError("source: wanted a file, a name, text or a dict")
-            if not os.path.exists(file) and "/" not in file:
-                file = _shipped(file)
-        if mesh and not file:
-            raise SceneError("mesh: for scenes from files; name it in bodies[0].mesh here")
-        if isinstance(overrides, dict):
-            overrides = [f"{key}={json.dumps(value) if not isinstance(value, str) else value}"
-                         for key, value in overrides.items()]
-        elif isinstance(overrides, str):
-            overrides = [overrides]
-        super().__init__(file=file, text=text, label=label, mesh=os.fspath(mesh), overrides=list(overrides))
-
-    def __repr__(self):
-        return f"viscera.Scene({self.name!r}, bodies={self.bodies}, styluses={self.styluses})"
+def __dir__():
+    return sorted(set(globals()) | set(__all__))
