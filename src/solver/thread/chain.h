@@ -55,12 +55,32 @@ struct ChainLoad {
   Vector3d force_n = Vector3d::Zero();
 };
 
+/// A channel: a point of tissue through which the chain slides (docs/thread.md 4).
+struct ChainSlide {
+  double s = 0;                      ///< kept: where on the chain the point is [links], 0 to nodes - 1
+  double between_rest_m = 0;         ///< to the next channel of the chain in the tissue at rest; 0: it is the last
+  Vector3d to_m = Vector3d::Zero();  ///< where the tissue's point is at the end of the substep, by all impulses so far
+  double mass_kg = kRigidMass_kg;    ///< that the tissue shows
+  double friction = 0;               ///< of the channel's wall, as of a rope on a drum
+  double through_n = 0;              ///< friction of the length of thread that is in tissue, whatever presses
+  double most_n = std::numeric_limits<double>::infinity();  ///< the tissue tears at more
+  Vector3d impulse_ns = Vector3d::Zero();                   ///< out: of the substep so far, on the tissue
+  Vector3d torn_m = Vector3d::Zero();                       ///< out: by which the thread was torn through the tissue
+  double rub_kg = 0;                    ///< kept from substep to substep: friction over what slid along
+  double stiffness_kg = kRigidMass_kg;  ///< kept: across
+  bool out = false;                     ///< out: an end of the chain has passed it
+};
+
 /// What acts on a chain in a substep.
 struct ChainAround {
   Vector3d gravity_m_per_s2 = Vector3d::Zero();
   std::vector<ChainHold> holds;
   std::vector<ChainTouch> touches;
   std::vector<ChainLoad> loads;
+  std::vector<ChainSlide> slides;  ///< ascending in s
+  /// Asked after each iteration: gives the tissue what slides' impulses have become, and moves their to_m. May be empty
+  /// where to_m does not depend on them.
+  std::function<void(std::vector<ChainSlide>& slides)> answer;
   /// Asked where all nodes would end: adds touches of those that came into something that they were not near. May be
   /// empty. @returns whether there were any
   std::function<bool(const std::vector<Vector3d>& ends_m, std::vector<ChainTouch>& touches)> entered;
