@@ -2,36 +2,31 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
 
 #include "solver/contact/blade_edge.h"
+#include "solver/thread/rest_elements.h"
 #include "viscera/math/types.h"
 #include "viscera/model/model.h"
 
 namespace viscera {
 
-/// A point of tissue that thread or needle holds: the nodes that carry it, with weights whose sum is 1.
-struct TissuePoint {
-  static constexpr size_t kMost = 8;
-  uint32_t body = 0;
-  uint32_t count = 0;                   ///< of nodes
-  std::array<uint32_t, kMost> slots{};  ///< in the solver's buffers
-  std::array<float, kMost> weights{};   ///< of a place; may be below 0 beside a cut, where they extrapolate
-  Vector3d rest_m = Vector3d::Zero();   ///< tissue frame
-};
-
 /// Points of tissue in a substep that was just made (BladeTarget): where they are, and what impulses do to them. Reads
 /// the nodes of all of them once, and writes once.
 class TissuePoints {
  public:
+  /// @param model  must outlive it
   explicit TissuePoints(const Model& model);
+  /// Springs that are cut, for what is embedded from now on.
+  void setCuts(CutSprings cuts) { cuts_ = std::move(cuts); }
   /// Carried by the cell around a place at rest; where that is cut, by the nearest whole cell on the place's side.
   /// @returns nothing where there is no tissue
   std::optional<TissuePoint> embed(uint32_t body, const Vector3d& rest_m) const;
-  /// Around a place as the tissue is now: in whichever body and cell. Slow beside embed(): for what begins to touch.
+  /// Around a place as the tissue is now: in whichever body and cell. Slow beside embed(), for what begins to touch: it
+  /// reads up to 256 nodes of each body, and then goes through the tissue from the nearest of them with up to 24 reads
+  /// of a cell's nodes each. In the gap of a wound there is nothing.
   std::optional<TissuePoint> find(BladeTarget& target, const Vector3d& place_m) const;
 
   /// Begins a substep. @param points  all that will be asked for
@@ -42,8 +37,27 @@ class TissuePoints {
   /// What an impulse at one changes another's velocity by [1/kg].
   double mobility(const TissuePoint& one, const TissuePoint& other) const;
   void give(const TissuePoint& point, const Vector3d& impulse_ns, double dt_s);
-  /// Ends a substep: writes what was given. @param stylus  whose reaction it is; kMaxStyluses: nobody's
+  /// Ends a substep: writes what was given. @param stylus  whose reaction it is; kMaxStyluses: no one's
   void write(BladeTarget& target, uint32_t stylus, double dt_s);
+
+ private:
+  struct Node {
+    Vector3d x_m, v_m_per_s, dv_m_per_s;
+  };
+  std::optional<TissuePoint> walk(BladeTarget& target, uint32_t body, Vector3d rest_m, const Vector3d& place_m) const;
+  std::vector<Vector3d> places_m(const BladeTarget& target, const std::vector<uint32_t>& slots) const;
+
+  const Model& model_;
+  CutSprings cuts_;
+  std::vector<RestElements> elements_;         ///< [bodies]
+  std::vector<std::vector<uint32_t>> sparse_;  ///< [bodies] a few of its nodes, from which find() begins
+  std::vector<float> inverse_mass_;            ///< [slots] 1/kg; 0 where fixed, or none
+  std::vector<Vector3f> rest_m_;               ///< [slots]
+  // of the substep
+  std::vector<uint32_t> slots_, wanted_;  ///< that are read, ascending; and by the points in their order
+  std::vector<uint32_t> node_of_;         ///< [slots] index into nodes_, of those in slots_
+  std::vector<Node> nodes_;
+  std::vector<Vector3f> u_, v_;
 };
 
 }  // namespace viscera
