@@ -8,7 +8,6 @@
 #include "model/scene/scene_text.h"
 #include "session/state_file.h"
 #include "session/view.h"
-#include "solver/thread/thread_bodies.h"
 #include "viscera/math/state_hash.h"
 #include "viscera/session/session.h"
 
@@ -93,7 +92,6 @@ void Session::persist(Archive& archive) {
     if (archive.reads()) times.received = {};  // of another clock
   }
   solver_->persist(archive);
-  if (threads_) threads_->persist(archive);
 }
 
 void Session::save(const std::string& path) {

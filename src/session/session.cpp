@@ -58,7 +58,6 @@ Session::Session(const Scene& scene, gpu::Context* context, const Progress& prog
   if (progress) progress("start the solver", 0);
   solver_ = makeSolver(*model_, scene_, context, options.threads, &integrator);
   backend_note_ = viscera::backendNote(scene_, context, *solver_, integrator);
-  if (!scene_.threads.empty()) threads_ = std::make_unique<ThreadBodies>(scene_);
   if (progress) progress("prepare pictures", 0);
   view_ = makeView(*solver_, *model_, scene_, context);
   lookAtObstacles();
@@ -76,7 +75,6 @@ Frame Session::step(const StylusSamples& samples, const Wants& wants) {
   moveObstacles();
   look_.motions = tools_.advance(samples);             // VR05 2.7: probe, grab, cut
   solver_->step(look_.motions, obstacles_.motions());  // VR05 2.4: n substeps
-  if (threads_) threads_->step(look_.motions, obstacles_.motions());
   lookAtThreads();
   look_.tick = ++tick_;
   look_.wants = wants;
@@ -159,9 +157,10 @@ void Session::lookAtObstacles() {
 }
 
 void Session::lookAtThreads() {
-  if (!threads_) return;
-  look_.threads.resize(threads_->count());
-  for (size_t i = 0; i < threads_->count(); ++i) look_.threads[i] = threads_->chain(i).places_m();
+  const ThreadBodies* const threads = solver_->threads();
+  if (!threads) return;
+  look_.threads.resize(threads->count());
+  for (size_t i = 0; i < threads->count(); ++i) look_.threads[i] = threads->chain(i).places_m();
 }
 
 /// Forces of the last tick whose measurements are there, and the wind of this moment.
@@ -270,7 +269,6 @@ TickContact Session::contactOf(size_t stylus, const Reaction& raw) const {
 void Session::reset() {
   drain();
   solver_->reset();
-  if (threads_) threads_->reset();
   view_->reset();
   tools_.reset();
   obstacles_.reset();
@@ -297,15 +295,15 @@ Frame Session::drain() {
 
 uint64_t Session::stateHash() const {
   const uint64_t tissue = viscera::stateHash(*model_, solver_->readState());
-  return threads_ ? threads_->hashWith(tissue) : tissue;
+  return solver_->threads() ? solver_->threads()->hashWith(tissue) : tissue;
 }
 
 const std::vector<Vector3d>& Session::threadPlaces(size_t thread) const {
-  return threads_->chain(thread).places_m();
+  return solver_->threads()->chain(thread).places_m();
 }
 
 std::vector<double> Session::threadTensions_n(size_t thread) const {
-  const Chain& chain = threads_->chain(thread);
+  const Chain& chain = solver_->threads()->chain(thread);
   std::vector<double> out;
   for (size_t link = 0; link + 1 < chain.nodes(); ++link) out.push_back(chain.tension_n(link));
   return out;

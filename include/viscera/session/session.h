@@ -44,7 +44,6 @@ namespace gpu {
 class Context;
 }
 class View;
-class ThreadBodies;
 
 struct SessionOptions {
   /// Where the processor steps: threads that sessions share (makeThreadPool); null: solver.threads of its own.
@@ -143,7 +142,6 @@ class Session {
   Tools tools_;
   Obstacles obstacles_;
   std::unique_ptr<Solver> solver_;
-  std::unique_ptr<ThreadBodies> threads_;  ///< null: the scene has none
   std::string backend_note_;
   std::unique_ptr<View> view_;
   Look look_;  ///< of the last tick

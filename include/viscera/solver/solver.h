@@ -18,6 +18,7 @@
 namespace viscera {
 
 class Archive;
+class ThreadBodies;
 
 /// Of integrators that solve to a tolerance, since the solver was made.
 struct SolverWork {
@@ -74,6 +75,7 @@ class Solver {
   /// was made for the same model and scene, and goes on to the bit like the one that wrote it. Waits.
   /// @throws Error  the archive is another solver's, or this one keeps nothing
   virtual void persist(Archive& archive);
+  virtual const ThreadBodies* threads() const { return nullptr; }  ///< null: the scene has none
 };
 
 /// 64-bit fingerprint of displacement, velocity and springs of the active nodes, in active-list order.

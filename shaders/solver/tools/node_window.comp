@@ -38,7 +38,7 @@ layout(std430, binding = kBindDisplacementIn) buffer DisplacementIn { vec4 own_d
 layout(std430, binding = kBindVelocityIn) buffer VelocityIn { vec4 own_velocity[]; };
 layout(std430, binding = kBindImpulses) buffer ImpulsesBuffer { vec4 impulses[]; };
 uniform uint slot_count;
-uniform uint giver;  // stylus that gives the momentum
+uniform uint giver;  // stylus that gives the momentum; kMaxStyluses: none does
 
 void wake(uint slot) {
 #ifdef ASLEEP
@@ -54,7 +54,8 @@ void push(uint slot, vec3 change) {
   precise vec3 way = dt_s * change;
   own_velocity[slot].xyz += change;
   own_displacement[slot].xyz += way;
-  impulses[giver * slot_count + slot] += vec4(nodeMass(slot, bits, bodies[bodyOf(bits)]) * change, 1.0f);
+  if (giver < kMaxStyluses)
+    impulses[giver * slot_count + slot] += vec4(nodeMass(slot, bits, bodies[bodyOf(bits)]) * change, 1.0f);
   wake(slot);
 }
 #endif

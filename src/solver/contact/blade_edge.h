@@ -20,7 +20,7 @@ class BladeTarget {
   virtual void readNodes(const std::vector<uint32_t>& slots, std::vector<Vector3f>& u_m,
                          std::vector<Vector3f>& v_m_per_s) const = 0;
   /// Changes velocities, and displacements as if the substep that was just made had known; the momentum goes to the
-  /// reaction of a stylus.
+  /// reaction of a stylus. @param stylus  kMaxStyluses: to none
   virtual void pushNodes(uint32_t stylus, float dt_s, const std::vector<uint32_t>& slots,
                          const std::vector<Vector3f>& dv_m_per_s) = 0;
   /// The body whose springs cutAtRest() cuts from now on.

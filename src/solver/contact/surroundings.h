@@ -61,7 +61,8 @@ class Surroundings {
   bool obstaclesMoved() const { return moved_; }  ///< obstacleMotions() is not that of the tick before
   /// [obstacles] at the end of the tick, tissue frame [m]
   const std::vector<Vector3f>& obstaclePlaces() const { return places_; }
-  void reset();  ///< time 0
+  const ObstacleMotions& motions() const { return tick_motions_; }  ///< of the obstacles, over the tick
+  void reset();                                                     ///< time 0
   void persist(Archive& archive);
 
  private:

@@ -164,11 +164,12 @@ void CpuBackend::pushNodes(uint32_t stylus, float dt_s, const std::vector<uint32
     if (lattice_.strengths.mobility[slot] == 0 || dv.isZero(0)) continue;
     setPlanes(v, slot, planesAt(v, slot) + dv);
     setPlanes(u, slot, planesAt(u, slot) + dt_s * dv);
+    sleep_.wake(slot / layout::kBrickSlots);
+    if (stylus >= layout::kMaxStyluses) continue;
     const Vector3f given = lattice_.strengths.mass[slot] * dv;
     layout::vec4& sum = lattice_.hands.impulses[stylus * lattice_.slotCount() + slot];
     sum = {sum.x + given.x(), sum.y + given.y(), sum.z + given.z(), sum.w + 1};
     lattice_.hands.touched[slot / layout::kBrickSlots] = 1;
-    sleep_.wake(slot / layout::kBrickSlots);
   }
 }
 

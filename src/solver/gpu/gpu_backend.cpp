@@ -43,7 +43,7 @@ GpuBackend::GpuBackend(const Model& model, const Scene& scene, const TickPlan& p
       buffers_(model, bodyParams(model, plan.dt_safe_s), features_),
       pairs_(solvesContacts(scene) ? std::make_unique<NodePairs>(model, scene, features_, buffers_) : nullptr),
       awake_(makeAwakeBricks(model, scene, plan, features_, buffers_)),
-      rest_(model, awake_ && !features_.network && plan.tick_s < Sleep::kQuiet_s),
+      rest_(model, awake_ && !features_.network && plan.tick_s < Sleep::kQuiet_s && scene.threads.empty()),
       stepper_(scene.solver.integrator == Integrator::kMultigrid
                    ? std::make_unique<MultigridPass>(model, scene, plan, features_, buffers_)
                    : makeStepper(scene.solver.integrator, scene.solver.iterations, features_, buffers_, pairs_.get(),
@@ -66,7 +66,7 @@ GpuBackend::GpuBackend(const Model& model, const Scene& scene, const TickPlan& p
     tools_.emplace(Tools{gpu::Buffer<layout::ToolMotion>(rows, "tool motions"), GrabPass(features_), CutPass(features_),
                          ReactionPass(features_, buffers_.store.active_count)});
   }
-  if (plan.tools && resistsBlades(scene)) {
+  if ((plan.tools && resistsBlades(scene)) || !scene.threads.empty()) {
     blade_.reset(new Blade{NodeWindow(features_, buffers_.store.active_count, awake_.get()),
                            gpu::Buffer<layout::ToolMotion>(layout::kMaxStyluses, "a sweep at rest"),
                            gpu::Buffer<layout::vec4>(buffers_.store.slot_count, "tissue at rest")});

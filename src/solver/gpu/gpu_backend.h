@@ -95,7 +95,7 @@ class GpuBackend final : public SolverBackend {
     CutPass cut;
     ReactionPass reaction;
   };
-  struct Blade {  ///< what only tissue that resists blades needs
+  struct Blade {  ///< what only tissue that resists blades or is tied to threads needs
     NodeWindow window;
     gpu::Buffer<layout::ToolMotion> sweep;
     gpu::Buffer<layout::vec4> still;  ///< [slots] zero: displacements and velocities of tissue at rest

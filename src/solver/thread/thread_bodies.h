@@ -2,35 +2,48 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <array>
+#include <memory>
 #include <vector>
 
+#include "math/archive.h"
 #include "solver/thread/chain.h"
+#include "solver/thread/thread_hands.h"
 #include "solver/thread/thread_touches.h"
+#include "solver/thread/tissue_points.h"
+#include "viscera/model/model.h"
 #include "viscera/model/scene/scene.h"
 #include "viscera/tools/obstacles.h"
 #include "viscera/tools/stylus.h"
 
 namespace viscera {
 
-class Archive;
-
-/// What a scene says of a thread, its material and size looked up.
-ChainMaterial materialOf(const ThreadConfig& config);
-/// Its nodes at first: links of spacing_m along the path, and straight on where it is longer.
-/// @throws SceneError  there is no path
-std::vector<Vector3d> placesOf(const ThreadConfig& config);
-
-/// All threads of a scene: tick by tick beside the tissue, in substeps of their own.
+/// All threads of a scene. Those that are tied to tissue are stepped after each of its substeps (docs/thread.md 5), the
+/// others at the end of a tick, in substeps of their own.
 class ThreadBodies {
  public:
-  explicit ThreadBodies(const Scene& scene);
+  /// @param good_states  that are kept for rollbacks
+  explicit ThreadBodies(const Scene& scene, int good_states = 0);
 
   /// @param motions  of the tick, as solvers take them   @param obstacles  of the scene, over the tick
+  /// @param substeps  of the tissue
+  void beginTick(const ToolMotions& motions, const ObstacleMotions& obstacles, int substeps);
+  /// After a substep of the tissue.
+  void act(BladeTarget& target, int substep);
+  void endTick();
+  /// A tick without tissue.
   void step(const ToolMotions& motions, const ObstacleMotions& obstacles);
+  const ThreadPulls& pulls() const { return hands_.pulls(); }  ///< of the tick
+  double work_j() const { return work_j_; }                    ///< done on the tissue in the tick
+
   void reset();
   void persist(Archive& archive);
-  /// Fingerprint of a state of the tissue and of all threads beside it.
+  /// @name As SolverBackend has them; what hands hold is not put back
+  /// @{
+  void saveGood();
+  void restoreGood(int back);
+  void clearGood() { good_.clear(); }
+  /// @}
+  /// Fingerprint of a state of the tissue and of all threads in it.
   uint64_t hashWith(uint64_t tissue) const;
 
   size_t count() const { return threads_.size(); }
@@ -43,24 +56,23 @@ class ThreadBodies {
     size_t fixed_holds;
     ThreadTouches touches;
   };
-  /// Two neighbours that a stylus holds, for a direction.
-  struct Grip {
-    uint32_t thread = 0, node = 0;
-    bool holds = false;
-    std::array<Vector3d, 2> places_m;  ///< in the stylus's frame
-    std::array<double, 2> stiffness_kg;
+  /// The substeps of a tick.
+  struct Steps {
+    int count = 1;
+    std::vector<layout::ObstacleMotion> ways;  ///< [count * kMaxObstacles]
   };
-  void changeGrips(const ToolMotions& motions);
-  void takeHold(Grip& grip, const Pose& tip, double reach_m) const;
-  void substep(size_t thread, double at, const ToolMotions& motions, const layout::ObstacleMotion* obstacles);
+  void persistMotion(Archive& archive);
+  void plan(Steps& steps, int count, const ObstacleMotions& obstacles) const;
+  void substep(uint32_t thread, const Steps& steps, int index);
 
-  std::vector<StylusConfig> styluses_;
   std::vector<ObstacleConfig> obstacles_;
   double tick_s_;
-  int substeps_;
+  ThreadHands hands_;
   std::vector<Thread> threads_;
-  std::array<Grip, layout::kMaxStyluses> grips_;
-  std::vector<layout::ObstacleMotion> ways_;  ///< [substeps * kMaxObstacles]
+  Steps alone_;
+  double work_j_ = 0;
+  size_t good_states_;
+  std::vector<std::vector<Archive::Section>> good_;  ///< oldest first
 };
 
 }  // namespace viscera

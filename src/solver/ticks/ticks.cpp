@@ -47,7 +47,10 @@ Ticks::Ticks(const Model& model, const Scene& scene, const TickPlan& plan, std::
                      std::to_string(dt_safe_s_ * 1e6) +
                      " us), more than solver.max_substeps = " + std::to_string(config_.max_substeps) +
                      ": use a larger spacing_m, a softer or heavier material, or raise solver.max_substeps");
-  if (plan.governed()) watch_.emplace(*backend_, newGovernor(), !traitsOf(config_.integrator).is_explicit, tick_s_);
+  if (!scene.threads.empty())
+    threads_ = std::make_unique<ThreadBodies>(scene, SolverBackend::kGoodStates + backend_->lag());
+  if (plan.governed())
+    watch_.emplace(*backend_, newGovernor(), !traitsOf(config_.integrator).is_explicit, tick_s_, threads_.get());
   if (plan.tools && resistsBlades(scene)) blades_.emplace(model, scene.styluses);
   if (plan.tools) motions_.reserve(static_cast<size_t>(plan.mostSubsteps()) * layout::kMaxStyluses);
 }
@@ -72,10 +75,12 @@ void Ticks::step(const ToolMotions& motions, const ObstacleMotions& obstacles) {
       motions_[s].timing.x = static_cast<float>(restarted_ ? 0 : last_dt_s_);
     backend_->writeMotions(motions_);
   }
+  if (threads_) threads_->beginTick(motions, surroundings_ ? surroundings_->motions() : obstacles, n_);
   for (int s = 0; s < n_; ++s) {
     if (contacts || cuts) backend_->selectMotions(static_cast<size_t>(s));
     substep(s, motions, cuts, contacts);
   }
+  if (threads_) threads_->endTick();
   substeps_done_ += static_cast<uint64_t>(n_);
   if (cuts) ++cut_revision_;
   cut_revision_ += backend_->takeTorn();
@@ -146,6 +151,7 @@ void Ticks::substep(int index, const ToolMotions& motions, bool cuts, bool conta
     backend_->surround(step, *surroundings_);
   }
   if (blades_ && cuts && !recovering_) cutByWork(index, motions);
+  if (threads_) threads_->act(*backend_, index);
   restarted_ = false;
   last_dt_s_ = dt_s;
 }
@@ -164,6 +170,8 @@ void Ticks::reset() {
   restarted_ = true;
   springs_cut_ = 0;
   if (blades_) blades_->reset();
+  if (threads_) threads_->reset();
+  pulls_.clear();
   stretch_ = 0;
   dt_safe_s_ = safeTimeStep(model_);
   planAnew();
@@ -205,6 +213,7 @@ void Ticks::persist(Archive& archive) {
   archive.value(last_dt_s_);
   if (surroundings_) surroundings_->persist(archive);
   if (blades_) blades_->persist(archive);
+  if (threads_) threads_->persist(archive);
   backend_->persist(archive);
   if (watch_) watch_->persist(archive);
   if (archive.reads()) ++cut_revision_;
@@ -220,11 +229,22 @@ bool Ticks::readCuts(CutState& out) const {
 /// Sends a tick's measurements on their way. Where the backend is as many ticks behind as it may be, waiting here is
 /// what keeps the two together.
 void Ticks::finishStats() {
-  if (backend_->requestStats()) return;
-  layout::TickStats oldest;
-  backend_->takeStats(oldest, true);
-  keepStats(oldest);
-  backend_->requestStats();
+  if (!backend_->requestStats()) {
+    layout::TickStats oldest;
+    takeStats(oldest, true);
+    keepStats(oldest);
+    backend_->requestStats();
+  }
+  if (threads_ && !watch_) pulls_.push_back(threads_->pulls());
+}
+
+bool Ticks::takeStats(layout::TickStats& stats, bool wait) {
+  if (!backend_->takeStats(stats, wait)) return false;
+  if (!pulls_.empty()) {
+    addTo(stats, pulls_.front());
+    pulls_.erase(pulls_.begin());
+  }
+  return true;
 }
 
 /// Of more than kFinishedKept that were not asked for, the oldest is forgotten.
@@ -283,7 +303,7 @@ bool Ticks::pollStats(layout::TickStats& stats, bool wait) {
     finished_.erase(finished_.begin());
     return true;
   }
-  return watch_ ? watch_->poll(stats, wait) : backend_->takeStats(stats, wait);
+  return watch_ ? watch_->poll(stats, wait) : takeStats(stats, wait);
 }
 
 }  // namespace viscera

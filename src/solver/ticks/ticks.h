@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "solver/contact/blades.h"
+#include "solver/thread/thread_bodies.h"
 #include "solver/ticks/solver_backend.h"
 #include "solver/ticks/tick_plan.h"
 #include "solver/ticks/watch.h"
@@ -38,6 +39,7 @@ class Ticks : public Solver {
   uint64_t substepsDone() const final { return substeps_done_; }
   SolverWork work() const final { return backend_->work(); }
   BladeWork bladeWork(uint32_t stylus) const final { return blades_ ? blades_->done(stylus) : BladeWork{}; }
+  const ThreadBodies* threads() const final { return threads_.get(); }
   void persist(Archive& archive) final;
   std::string backend() const final { return backend_->name(); }
   /// The state that it begins in, now and after every reset.
@@ -66,6 +68,7 @@ class Ticks : public Solver {
   void chooseSubsteps();
   void substep(int index, const ToolMotions& motions, bool cuts, bool contacts);
   void finishStats();
+  bool takeStats(layout::TickStats& stats, bool wait);
   void keepStats(const layout::TickStats& stats);
   void measureTick(const ToolMotions& motions, bool contacts);
   void cutByWork(int index, const ToolMotions& motions);
@@ -85,6 +88,8 @@ class Ticks : public Solver {
   int recovery_substeps_;
   std::optional<Surroundings> surroundings_;  ///< only where a scene has any
   std::optional<Blades> blades_;              ///< only where a body resists them
+  std::unique_ptr<ThreadBodies> threads_;     ///< null: the scene has none
+  std::vector<ThreadPulls> pulls_;            ///< without a governor: of ticks whose measurements are under way
   std::optional<HostState> start_;            ///< nothing: rest
   std::optional<Watch> watch_;                ///< only where a scene has a governor
   std::vector<layout::TickStats> finished_;   ///< taken while not asked for, oldest first

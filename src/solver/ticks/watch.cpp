@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "math/archive.h"
+#include "solver/thread/thread_bodies.h"
 
 namespace viscera {
 
@@ -25,11 +26,16 @@ double workOfTools(const layout::TickStats& stats, const ToolMotions& motions, d
 
 }  // namespace
 
-Watch::Watch(SolverBackend& backend, const Governor& governor, bool implicit, double tick_s)
-    : backend_(backend), governor_(governor), implicit_(implicit), tick_s_(tick_s) {}
+Watch::Watch(SolverBackend& backend, const Governor& governor, bool implicit, double tick_s, ThreadBodies* threads)
+    : backend_(backend), governor_(governor), implicit_(implicit), tick_s_(tick_s), threads_(threads) {
+  if (threads_) threads_->saveGood();  // the backend has done so
+}
 
 void Watch::guard(const ToolMotions& motions, bool recovering) {
-  if (backend_.lag() > 0) backend_.guard(governor_.bounds(isImplicit(recovering)), motions, tick_s_);
+  if (backend_.lag() == 0) return;
+  Governor::Bounds bounds = governor_.bounds(isImplicit(recovering));
+  if (threads_) bounds.energy_j += Governor::kEnergyMargin * std::max(0.0, threads_->work_j());
+  backend_.guard(bounds, motions, tick_s_);
 }
 
 Watch::Verdict Watch::endTick(const ToolMotions& motions, bool recovering, bool undone, bool long_substeps) {
@@ -38,11 +44,24 @@ Watch::Verdict Watch::endTick(const ToolMotions& motions, bool recovering, bool 
   tick.recovering = recovering;
   tick.undone = undone;
   tick.long_substeps = long_substeps;
+  if (threads_) {
+    tick.pulls = threads_->pulls();
+    tick.threads_j = std::max(0.0, threads_->work_j());
+  }
   open_ = tick;
   Verdict verdict;
   if (!undone && backend_.lag() == 0) verdict = judgeOpen();
-  if (!undone && !verdict.rolled_back) backend_.saveGood();
+  if (!undone && !verdict.rolled_back) saveGood();
   return verdict;
+}
+
+void Watch::saveGood() {
+  backend_.saveGood();
+  if (threads_) threads_->saveGood();
+}
+
+double Watch::workOn(const OpenTick& tick) const {
+  return workOfTools(*tick.stats, tick.motions, tick_s_) + tick.threads_j;
 }
 
 /// Have the open tick's measurements come?
@@ -56,9 +75,8 @@ bool Watch::receive(bool wait) {
 
 /// Of the open tick, whose measurements have come.
 bool Watch::isBad() const {
-  const double work_j = workOfTools(*open_->stats, open_->motions, tick_s_);
   return open_->undone ||
-         governor_.inspect(*open_->stats, isImplicit(open_->recovering), work_j) != Governor::Trip::kNone;
+         governor_.inspect(*open_->stats, isImplicit(open_->recovering), workOn(*open_)) != Governor::Trip::kNone;
 }
 
 /// What others are told of the open tick: nothing that is bad, and no force while the tissue is not itself.
@@ -66,7 +84,10 @@ layout::TickStats Watch::published() const {
   const bool bad = isBad();
   layout::TickStats out = bad ? last_good_ : *open_->stats;
   out.springs_cut = open_->stats->springs_cut;
-  if (!bad && !open_->recovering) return out;
+  if (!bad && !open_->recovering) {
+    addTo(out, open_->pulls);
+    return out;
+  }
   for (uint32_t s = 0; s < layout::kMaxStyluses; ++s) out.impulse[s] = out.angular[s] = {};
   for (uint32_t o = 0; o < layout::kMaxObstacles; ++o) out.obstacle_impulse[o] = out.obstacle_angular[o] = {};
   return out;
@@ -80,13 +101,15 @@ Watch::Verdict Watch::judgeOpen() {
   const OpenTick tick = *open_;
   open_.reset();
   if (tick.undone) return verdict;
-  const double work_j = workOfTools(*tick.stats, tick.motions, tick_s_);
-  if (governor_.judge(*tick.stats, isImplicit(tick.recovering), work_j, tick.long_substeps) == Governor::Trip::kNone) {
+  const bool implicit = isImplicit(tick.recovering);
+  if (governor_.judge(*tick.stats, implicit, workOn(tick), tick.long_substeps) == Governor::Trip::kNone) {
     last_good_ = *tick.stats;
     verdict.good = tick.stats;
     return verdict;
   }
-  backend_.restoreGood(governor_.setbacks() - 1 + backend_.lag());
+  const int back = governor_.setbacks() - 1 + backend_.lag();
+  backend_.restoreGood(back);
+  if (threads_) threads_->restoreGood(back);
   verdict.rolled_back = true;
   return verdict;
 }
@@ -134,6 +157,7 @@ void Watch::persist(Archive& archive) {
   archive.value(tick.recovering);
   archive.value(tick.undone);
   archive.value(tick.long_substeps);
+  if (threads_) archive.value(tick.pulls);
   archive.value(stats);
   tick.delivered = true;
   tick.stats = stats;
@@ -142,7 +166,8 @@ void Watch::persist(Archive& archive) {
 
 void Watch::keepOnlyCurrent() {
   backend_.clearGood();
-  backend_.saveGood();
+  if (threads_) threads_->clearGood();
+  saveGood();
 }
 
 }  // namespace viscera

@@ -4,12 +4,14 @@
 
 #include <optional>
 
+#include "solver/thread/thread_hands.h"
 #include "solver/ticks/solver_backend.h"
 #include "viscera/solver/governor.h"
 
 namespace viscera {
 
 class Archive;
+class ThreadBodies;
 
 /// Carries out what a governor says of a scene's ticks (physics.md 3): a tick is open from its end until its
 /// measurements are judged, at once or, where the backend lags, after the tick that follows. Good states are kept, bad
@@ -24,7 +26,8 @@ class Watch {
   };
 
   /// @param backend  must outlive this   @param implicit  the scene's integrator may be fast   @param tick_s  length
-  Watch(SolverBackend& backend, const Governor& governor, bool implicit, double tick_s);
+  /// @param threads  which go back with it; null where there are none; must outlive this
+  Watch(SolverBackend& backend, const Governor& governor, bool implicit, double tick_s, ThreadBodies* threads);
 
   /// As the governor has it: with one tick less than were made while one is open.
   const Health& health() const { return governor_.health(); }
@@ -59,18 +62,23 @@ class Watch {
     bool undone = false;  ///< the tick before was bad: this one does not count
     bool long_substeps = false;
     bool delivered = false;  ///< its measurements were asked for already
+    ThreadPulls pulls;       ///< in addition to what is measured
+    double threads_j = 0;    ///< work of threads on the tissue
     std::optional<layout::TickStats> stats;
   };
   bool receive(bool wait);
   bool isBad() const;
   layout::TickStats published() const;
   bool isImplicit(bool recovering) const { return recovering || implicit_; }
+  double workOn(const OpenTick& tick) const;
+  void saveGood();
   void keepOnlyCurrent();
 
   SolverBackend& backend_;
   Governor governor_;
   bool implicit_;
   double tick_s_;
+  ThreadBodies* threads_;
   layout::TickStats last_good_{};
   std::optional<OpenTick> open_;
 };

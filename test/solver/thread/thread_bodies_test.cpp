@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "math/archive.h"
+#include "solver/thread/thread_shape.h"
 #include "viscera/math/error.h"
 
 namespace viscera {
