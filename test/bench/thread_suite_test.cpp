@@ -3,12 +3,14 @@
 // The laws of docs/thread.md; `viscera bench thread` has more of them.
 #include <gtest/gtest.h>
 
+#include "bench/suites/thread/channel_trials.h"
 #include "bench/suites/thread/thread_trials.h"
 
 namespace viscera::bench {
 namespace {
 
-constexpr double kBent = 0.02, kSag = 0.005, kTension = 0.01, kCapstan = 0.05, kLink = 1e-3, kMomentum = 1e-6;
+constexpr double kBent = 0.02, kSag = 0.005, kTension = 0.01, kCapstan = 0.05, kRipple = 0.03, kLink = 1e-3,
+                 kMomentum = 1e-6;
 
 TEST(ThreadSuite, BendsAsAnElastica) {
   struct Known {
@@ -28,6 +30,16 @@ TEST(ThreadSuite, HangsAsACatenary) {
 
 TEST(ThreadSuite, SlidesAsOverACapstan) {
   for (const double angle_deg : {90.0, 180.0, 360.0}) EXPECT_NEAR(drawnOverCylinder(angle_deg), 1, kCapstan);
+}
+
+TEST(ThreadSuite, SlidesThroughChannelsAsOverACapstan) {
+  for (const double share : {1e-3, 1.0}) {
+    for (const size_t count : {1, 2, 4}) {
+      const ChannelTrial drawn = drawnThroughChannels(count, share, 0.1);
+      EXPECT_NEAR(drawn.ratio, 1, kCapstan) << count << " channels, " << share;
+      EXPECT_LT(drawn.ripple, kRipple) << count << " channels, " << share;
+    }
+  }
 }
 
 TEST(ThreadSuite, DoesNotStretch) {

@@ -4,13 +4,14 @@
 
 #include <cmath>
 
+#include "bench/suites/thread/channel_trials.h"
 #include "bench/suites/thread/thread_trials.h"
 
 namespace viscera::bench {
 
 namespace {
 
-constexpr double kBent = 0.02, kSag = 0.005, kCapstan = 0.05;
+constexpr double kBent = 0.02, kSag = 0.005, kCapstan = 0.05, kRipple = 0.03;
 constexpr double kLink = 1e-3, kMomentum = 1e-6;
 constexpr double kFrequency = 0.03;  // implicit in half: 2 % low where a period has 14 substeps
 constexpr double kDamping = 0.02;    // of the ratio
@@ -67,6 +68,21 @@ void sliding(Report& report) {
     report.checkAtMost("capstan " + Cell(angle_deg).text(3) + " deg", std::abs(ratio - 1), kCapstan);
   }
   report.add(table, "capstan");
+}
+
+void channels(Report& report) {
+  Table table("Drawn through channels that turn it by 90 degrees in all, friction 0.3, held back by 0.1 N",
+              {{"share of EI"}, {"channels"}, {"ratio / law"}, {"ripple", "%", 2}, {"iterations", "", 3}});
+  for (const double share : {1e-3, 1.0}) {
+    for (const size_t count : {1, 2, 4}) {
+      const ChannelTrial r = drawnThroughChannels(count, share, 0.1);
+      table.add({share, static_cast<double>(count), r.ratio, kPercent * r.ripple, r.iterations});
+      const std::string name = std::to_string(count) + " channels, " + Cell(share).text(3) + " of EI";
+      report.checkAtMost("capstan through " + name, std::abs(r.ratio - 1), kCapstan);
+      report.checkAtMost("ripple through " + name, r.ripple, kRipple);
+    }
+  }
+  report.add(table, "channels");
 }
 
 void pulling(Report& report) {
@@ -143,6 +159,7 @@ void threadSuite(Report& report) {
   measureParts(report, {{"bending", bending},
                         {"hanging", hanging},
                         {"sliding", sliding},
+                        {"channels", channels},
                         {"pulling", pulling},
                         {"swinging", swinging},
                         {"cost", cost},

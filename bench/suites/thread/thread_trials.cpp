@@ -6,42 +6,21 @@
 #include <cmath>
 #include <ctime>
 
-#include "solver/thread/chain.h"
+#include "bench/suites/thread/threads.h"
 #include "solver/thread/thread_touches.h"
 
 namespace viscera::bench {
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-constexpr double kSubstep_s = 5e-4, kCalmSubstep_s = 5e-3;
-constexpr double kStiffness_pa = 5e9;  // of nylon
+constexpr double kCalmSubstep_s = 5e-3;
 const Vector3d kGravity(0, 0, -9.81);
-
-ChainMaterial nylon(double bending_share = 1) {
-  ChainMaterial out;
-  out.bending_nm2 = bending_share * kStiffness_pa * kPi * std::pow(out.radius_m, 4) / 4;
-  return out;
-}
 
 /// Comes to rest soon.
 ChainMaterial calm(double bending_share = 1) {
   ChainMaterial out = nylon(bending_share);
   out.damping_s = 5e-3;
   out.drag_per_s = 100;
-  return out;
-}
-
-std::vector<Vector3d> straight(size_t nodes, double link_m) {
-  std::vector<Vector3d> out(nodes);
-  for (size_t i = 0; i < nodes; ++i) out[i] = Vector3d(static_cast<double>(i) * link_m, 0, 0);
-  return out;
-}
-
-ChainHold holdAt(const Chain& chain, uint32_t node) {
-  ChainHold out;
-  out.node = node;
-  out.to_m = chain.places_m()[node];
   return out;
 }
 

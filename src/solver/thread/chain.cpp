@@ -13,16 +13,10 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kLinkTolerance = 1e-4;  // of a link's length: an error is made good in the next substep
+constexpr double kOff_m = 2e-5;          // of a channel: made good in the next substep as well
 constexpr int kMostIterations = 80;      // 2 ms for 300 nodes; only where a thread snaps taut
 constexpr int kFrozenAfter = 8;          // iterations; from then on touches only close
-constexpr double kSlack = 1.05;          // of a limit of friction or grip, before an iteration is worth it
-constexpr double kLeastSlip_m = 1e-12;   // no division by 0
 constexpr double kMidpoint = 0.25;       // bending halfway in the substep: takes no energy
-
-/// Grip or friction as a stiffness: of the limit over what slipped, so that it never drives.
-double secant(double limit, double slipped_m, double most_kg) {
-  return std::min(most_kg, limit / std::max(slipped_m, kLeastSlip_m));
-}
 
 }  // namespace
 
@@ -71,11 +65,14 @@ void Chain::step(double dt_s, ChainAround& around) {
   }
   dt_s_ = dt_s;
   begin(around);
+  slides_.begin(shape(), around.swaged, around.slides);
+  const bool asks = !around.slides.empty() && around.answer;
+  if (asks) around.answer(around.slides);
   bool changed = true;
   for (iterations_ = 0;; ++iterations_) {
     measureLinks();
-    const bool solved = !changed && worst_link_ < kLinkTolerance;
-    if (iterations_ == kMostIterations || (solved && !(around.entered && around.entered(next_, around.touches)))) break;
+    const bool done = !changed && solved(around);
+    if (iterations_ == kMostIterations || (done && !(around.entered && around.entered(next_, around.touches)))) break;
     setBending();
     setLinks();
     setAround(around);
@@ -84,8 +81,15 @@ void Chain::step(double dt_s, ChainAround& around) {
     const bool frozen = !whole || iterations_ >= kFrozenAfter;
     for (ChainHold& hold : around.holds) changed |= heed(hold, !whole);
     for (ChainTouch& touch : around.touches) changed |= heed(touch, frozen);
+    if (whole) changed |= slides_.heed(shape(), frozen, around.slides);
+    if (asks) around.answer(around.slides);
   }
+  slides_.end(shape(), around.slides);
   finish();
+}
+
+bool Chain::solved(const ChainAround& around) const {
+  return worst_link_ < kLinkTolerance && slides_.farthestOff_m(shape(), around.slides) < kOff_m;
 }
 
 void Chain::begin(const ChainAround& around) {
@@ -132,7 +136,7 @@ void Chain::measureLinks() {
 /// A taut link resists being turned: without that no tension would follow a hand.
 void Chain::setLinks() {
   for (size_t i = 0; i < links_.size(); ++i) {
-    const Link& link = links_[i];
+    const ChainLink& link = links_[i];
     matrix_.addLink(i, link.along, mu_[i] / link.length_m);
     rest_[i].place += mu_[i] * link.along;
     rest_[i + 1].place -= mu_[i] * link.along;
@@ -151,6 +155,7 @@ void Chain::setAround(const ChainAround& around) {
     matrix_.addPoint(hold.node, hold.share, hold.stiffness_kg, Vector3d::Zero());
     push(hold.node, hold.share, hold.stiffness_kg * (hold.to_m - point(hold.node, hold.share)));
   }
+  slides_.set(shape(), around.slides, matrix_, rest_);
   for (const ChainTouch& touch : around.touches) {
     if (!touch.closed) continue;
     matrix_.addPoint(touch.node, 0, touch.rub_kg, std::sqrt(touch.mass_kg - touch.rub_kg) * touch.normal);

@@ -2,20 +2,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <limits>
 #include <vector>
 
 #include "solver/thread/chain_matrix.h"
+#include "solver/thread/chain_slides.h"
 #include "viscera/math/types.h"
 
 namespace viscera {
 
 class Archive;
-
-/// Mass that what never gives way shows: pulled by 20 N it lets a thread go on by 50 nm in a substep of 0.5 ms.
-constexpr double kRigidMass_kg = 100;
 
 struct ChainMaterial {
   double radius_m = 1e-4;
@@ -55,22 +54,6 @@ struct ChainLoad {
   Vector3d force_n = Vector3d::Zero();
 };
 
-/// A channel: a point of tissue through which the chain slides (docs/thread.md 4).
-struct ChainSlide {
-  double s = 0;                      ///< kept: where on the chain the point is [links], 0 to nodes - 1
-  double between_rest_m = 0;         ///< to the next channel of the chain in the tissue at rest; 0: it is the last
-  Vector3d to_m = Vector3d::Zero();  ///< where the tissue's point is at the end of the substep, by all impulses so far
-  double mass_kg = kRigidMass_kg;    ///< that the tissue shows
-  double friction = 0;               ///< of the channel's wall, as of a rope on a drum
-  double through_n = 0;              ///< friction of the length of thread that is in tissue, whatever presses
-  double most_n = std::numeric_limits<double>::infinity();  ///< the tissue tears at more
-  Vector3d impulse_ns = Vector3d::Zero();                   ///< out: of the substep so far, on the tissue
-  Vector3d torn_m = Vector3d::Zero();                       ///< out: by which the thread was torn through the tissue
-  double rub_kg = 0;                    ///< kept from substep to substep: friction over what slid along
-  double stiffness_kg = kRigidMass_kg;  ///< kept: across
-  bool out = false;                     ///< out: an end of the chain has passed it
-};
-
 /// What acts on a chain in a substep.
 struct ChainAround {
   Vector3d gravity_m_per_s2 = Vector3d::Zero();
@@ -78,6 +61,7 @@ struct ChainAround {
   std::vector<ChainTouch> touches;
   std::vector<ChainLoad> loads;
   std::vector<ChainSlide> slides;  ///< ascending in s
+  std::array<bool, 2> swaged{};    ///< its first and last end: a needle is there, and no channel slides off
   /// Asked after each iteration: gives the tissue what slides' impulses have become, and moves their to_m. May be empty
   /// where to_m does not depend on them.
   std::function<void(std::vector<ChainSlide>& slides)> answer;
@@ -111,16 +95,14 @@ class Chain {
   double worstLink() const { return worst_link_; }  ///< largest relative error of a length after it
 
  private:
-  struct Link {
-    Vector3d along;
-    double length_m;
-  };
   Vector3d point(uint32_t node, double share) const;
   void begin(const ChainAround& around);
   void setBending();
   void measureLinks();
   void setLinks();
   void setAround(const ChainAround& around);
+  ChainShape shape() const { return {next_, links_, link_m_, dt_s_}; }
+  bool solved(const ChainAround& around) const;
   bool advance();
   bool heed(ChainHold& hold, bool frozen) const;
   bool heed(ChainTouch& touch, bool frozen) const;
@@ -135,8 +117,9 @@ class Chain {
   double dt_s_ = 0;
   // of the substep under way
   ChainMatrix matrix_;
+  ChainSlides slides_;
   std::vector<Vector3d> ahead_, next_, bent_;
-  std::vector<Link> links_;
+  std::vector<ChainLink> links_;
   std::vector<ChainMatrix::Unknown> rest_;  ///< what is not balanced yet
   int iterations_ = 0;
   double worst_link_ = 0;

@@ -45,7 +45,10 @@ void ChainMatrix::addLink(size_t i, const Vector3d& along, double across) {
 }
 
 void ChainMatrix::addPoint(size_t i, double share, double all, const Vector3d& way) {
-  const Matrix3d what = all * Matrix3d::Identity() + way * way.transpose();
+  addPoint(i, share, all * Matrix3d::Identity() + way * way.transpose());
+}
+
+void ChainMatrix::addPoint(size_t i, double share, const Matrix3d& what) {
   rows_[i].self += (1 - share) * (1 - share) * what;
   if (share == 0) return;
   rows_[i + 1].self += share * share * what;

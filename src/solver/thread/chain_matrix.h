@@ -25,6 +25,7 @@ class ChainMatrix {
   void addLink(size_t i, const Vector3d& along, double across);
   /// (all I + way way^T) on the point that has `share` of node i + 1 and the rest of node i.
   void addPoint(size_t i, double share, double all, const Vector3d& way);
+  void addPoint(size_t i, double share, const Matrix3d& what);
   /// After it the parts above are gone: set them again.
   void factor();
   /// @param right  [nodes] in: right-hand sides; out: solution. The last tension is none: 0

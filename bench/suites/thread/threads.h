@@ -1,0 +1,36 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cmath>
+#include <vector>
+
+#include "solver/thread/chain.h"
+
+namespace viscera::bench {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kSubstep_s = 5e-4;
+
+/// A thread of radius 0.1 mm.
+inline ChainMaterial nylon(double bending_share = 1) {
+  constexpr double kStiffness_pa = 5e9;
+  ChainMaterial out;
+  out.bending_nm2 = bending_share * kStiffness_pa * kPi * std::pow(out.radius_m, 4) / 4;
+  return out;
+}
+
+inline std::vector<Vector3d> straight(size_t nodes, double link_m) {
+  std::vector<Vector3d> out(nodes);
+  for (size_t i = 0; i < nodes; ++i) out[i] = Vector3d(static_cast<double>(i) * link_m, 0, 0);
+  return out;
+}
+
+inline ChainHold holdAt(const Chain& chain, uint32_t node) {
+  ChainHold out;
+  out.node = node;
+  out.to_m = chain.places_m()[node];
+  return out;
+}
+
+}  // namespace viscera::bench
