@@ -16,18 +16,12 @@ Vector3d xyz(const layout::vec4& v) {
   return {v.x, v.y, v.z};
 }
 
-/// How far a place in an obstacle's own frame is from its border, and which way is out.
-struct Nearest {
-  double distance_m;
-  Vector3d normal;
-};
-
-Nearest fromCentre(const Vector3d& from, double radius_m) {
+ObstacleSide fromCentre(const Vector3d& from, double radius_m) {
   const double length_m = from.norm();
   return {length_m - radius_m, length_m > 0 ? Vector3d(from / length_m) : Vector3d::UnitZ()};
 }
 
-Nearest fromBox(const Vector3d& at, const Vector3d& half) {
+ObstacleSide fromBox(const Vector3d& at, const Vector3d& half) {
   const Vector3d beyond = at.cwiseAbs() - half;
   if ((beyond.array() > 0).any()) return fromCentre(at - at.cwiseMin(half).cwiseMax(-half), 0);
   Vector3d::Index axis;
@@ -37,7 +31,8 @@ Nearest fromBox(const Vector3d& at, const Vector3d& half) {
   return {deepest_m, normal};
 }
 
-Nearest nearestOf(const layout::ObstacleMotion& obstacle, const Vector3d& at) {
+/// In the obstacle's own frame.
+ObstacleSide nearestOf(const layout::ObstacleMotion& obstacle, const Vector3d& at) {
   const double radius_m = obstacle.from.w, half_m = obstacle.to.w;
   switch (obstacle.info.x) {
     case layout::kShapePlane:
@@ -51,16 +46,8 @@ Nearest nearestOf(const layout::ObstacleMotion& obstacle, const Vector3d& at) {
   }
 }
 
-/// In the tissue frame, where an obstacle is at the end of the substep.
-Nearest nearestTo(const layout::ObstacleMotion& obstacle, const Vector3d& at) {
-  const layout::vec4& q = obstacle.to_orientation;
-  const Quaterniond turn(q.w, q.x, q.y, q.z);
-  const Nearest own = nearestOf(obstacle, turn.conjugate() * (at - xyz(obstacle.to)));
-  return {own.distance_m, turn * own.normal};
-}
-
 /// @param at  near which it is a tangent
-void lay(ChainTouch& touch, const layout::ObstacleMotion& obstacle, const Vector3d& at, const Nearest& nearest,
+void lay(ChainTouch& touch, const layout::ObstacleMotion& obstacle, const Vector3d& at, const ObstacleSide& nearest,
          double dt_s) {
   touch.normal = nearest.normal;
   touch.at_m = at - nearest.distance_m * touch.normal;
@@ -80,6 +67,13 @@ bool earlier(const ChainTouch& touch, const Number& number) {
 
 }  // namespace
 
+ObstacleSide sideOf(const layout::ObstacleMotion& obstacle, const Vector3d& place_m) {
+  const layout::vec4& q = obstacle.to_orientation;
+  const Quaterniond turn(q.w, q.x, q.y, q.z);
+  const ObstacleSide own = nearestOf(obstacle, turn.conjugate() * (place_m - xyz(obstacle.to)));
+  return {own.distance_m, turn * own.normal};
+}
+
 void ThreadTouches::find(const Chain& chain, const layout::ObstacleMotion* obstacles, uint32_t count, double dt_s,
                          std::vector<ChainTouch>& touches) {
   before_.swap(touches);
@@ -90,11 +84,11 @@ void ThreadTouches::find(const Chain& chain, const layout::ObstacleMotion* obsta
     const double reach_m = chain.material().radius_m + chain.link_m() + kReachSteps * way.norm();
     for (uint32_t thing = 0; thing < count; ++thing) {
       Vector3d at = ahead;
-      Nearest nearest = nearestTo(obstacles[thing], at);
+      ObstacleSide nearest = sideOf(obstacles[thing], at);
       if (nearest.distance_m > reach_m) continue;
       if (nearest.distance_m < -kDeep * chain.material().radius_m) {
         at = chain.places_m()[node];
-        nearest = nearestTo(obstacles[thing], at);
+        nearest = sideOf(obstacles[thing], at);
       }
       const Number number{node, thing};
       kept = std::lower_bound(kept, before_.cend(), number, earlier);
@@ -112,7 +106,7 @@ bool ThreadTouches::catchUp(const Chain& chain, const layout::ObstacleMotion* ob
   bool any = false;
   for (uint32_t node = 0; node < chain.nodes(); ++node) {
     for (uint32_t thing = 0; thing < count; ++thing) {
-      if (nearestTo(obstacles[thing], ends_m[node]).distance_m > chain.material().radius_m) continue;
+      if (sideOf(obstacles[thing], ends_m[node]).distance_m > chain.material().radius_m) continue;
       const Number number{node, thing};
       const auto place = std::lower_bound(touches.begin(), touches.end(), number, earlier);
       if (place != touches.end() && numberOf(*place) == number) continue;
@@ -121,7 +115,7 @@ bool ThreadTouches::catchUp(const Chain& chain, const layout::ObstacleMotion* ob
       touch.thing = thing;
       touch.closed = true;
       const Vector3d& from = chain.places_m()[node];
-      lay(touch, obstacles[thing], from, nearestTo(obstacles[thing], from), dt_s);
+      lay(touch, obstacles[thing], from, sideOf(obstacles[thing], from), dt_s);
       touches.insert(place, touch);
       any = true;
     }

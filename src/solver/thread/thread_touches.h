@@ -10,6 +10,14 @@
 
 namespace viscera {
 
+/// How far a place is from an obstacle's border, and which way is out.
+struct ObstacleSide {
+  double distance_m;  ///< below 0: inside
+  Vector3d normal;
+};
+/// At the end of a substep, tissue frame.
+ObstacleSide sideOf(const layout::ObstacleMotion& obstacle, const Vector3d& place_m);
+
 /// The touches of a chain with obstacles, as half spaces: tangents of what is nearest to each node.
 class ThreadTouches {
  public:

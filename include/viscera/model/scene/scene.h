@@ -295,6 +295,19 @@ struct ThreadPlace {
   Vector3d position_m = Vector3d::Zero();
 };
 
+enum class NeedleArc { kNone, kHalfCircle, kThreeEighths };
+
+/// A needle on the start of a thread (docs/thread.md 6). What is 0 follows from the tissue's Young's modulus.
+struct NeedleConfig {
+  NeedleArc arc = NeedleArc::kNone;
+  double radius_m = 0.008;  ///< of the arc
+  double wire_radius_m = 0.00025;
+  double puncture_n = 0;
+  double cutting_n = 0;
+  double friction_n_per_m = 0;
+  Vector3d rotation_deg = Vector3d::Zero();  ///< at first
+};
+
 /// A thread that does not stretch.
 struct ThreadConfig {
   std::string name = "thread";
@@ -310,6 +323,7 @@ struct ThreadConfig {
   Vector3d position_m = Vector3d::Zero();
   std::vector<ThreadPlace> path;  ///< from there through these: one place at least
   ThreadEnd start = ThreadEnd::kFree, end = ThreadEnd::kFree;
+  NeedleConfig needle;  ///< on its start
 };
 
 struct SolverConfig {

@@ -1,0 +1,47 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "viscera/layout/obstacle_motion.h"
+#include "viscera/model/scene/scene.h"
+
+namespace viscera {
+
+/// The arc of a needle in its own frame: about the y axis, its tip on the x axis and heading for z. Places on it are
+/// told by how far behind the tip they are, along it.
+class NeedleShape {
+ public:
+  NeedleShape(double radius_m, double angle_rad, double wire_radius_m)
+      : radius_m_(radius_m), angle_rad_(angle_rad), wire_radius_m_(wire_radius_m) {}
+  explicit NeedleShape(const NeedleConfig& config);
+
+  double length_m() const { return radius_m_ * angle_rad_; }
+  double radius_m() const { return radius_m_; }
+  double wireRadius_m() const { return wire_radius_m_; }
+  Vector3d at(double behind_m) const;
+  /// Towards the tip.
+  Vector3d forward(double behind_m) const;
+  /// Of the place of the whole circle that is nearest: below 0 ahead of the tip, above the length beyond the tail.
+  double nearest_m(const Vector3d& own_m) const;
+  /// Centre of mass of the wire.
+  Vector3d middle() const;
+  double mass_kg() const;  ///< of steel
+  /// About any axis through the middle: that of a ring about a diameter.
+  double inertia_kg_m2() const { return 0.5 * mass_kg() * radius_m_ * radius_m_; }
+  /// Where it is with its tail at a place.
+  Pose withTailAt(const Vector3d& tail_m, const Quaterniond& orientation) const;
+  /// Along it, from the tip to the tail, not farther apart than asked.
+  std::vector<Vector3d> places(const Pose& pose, double apart_m) const;
+
+ private:
+  double radius_m_, angle_rad_, wire_radius_m_;
+};
+
+/// A needle on its way to a pose, in steps so short that it comes through nothing, and out of what it is in.
+/// @param obstacles  [count] at the end of the substep   @returns where it gets
+Pose keptOut(const NeedleShape& shape, const Pose& from, const Pose& to, const layout::ObstacleMotion* obstacles,
+             uint32_t count);
+
+}  // namespace viscera
