@@ -4,6 +4,7 @@
 #include "python/scene_binding.h"
 #include "python/session_binding.h"
 #include "python/stylus_binding.h"
+#include "python/vector_binding.h"
 #include "viscera/math/error.h"
 
 PYBIND11_MODULE(_viscera, module) {
@@ -17,4 +18,5 @@ PYBIND11_MODULE(_viscera, module) {
   python::bindStylus(module);
   python::bindScene(module);
   python::bindSession(module);
+  python::bindVector(module);
 }

@@ -3,12 +3,12 @@
 #include "python/session_binding.h"
 
 #include <cstring>
-#include <limits>
 
 #include <pybind11/stl.h>
 
 #include "export/field_mesh.h"
 #include "python/arrays.h"
+#include "python/node_arrays.h"
 #include "python/stepped.h"
 #include "python/stylus_binding.h"
 #include "viscera/math/state_hash.h"
@@ -21,43 +21,13 @@ constexpr int64_t kMostTicks = 1'000'000'000;  // of one call: eleven days at 1 
 constexpr int kMostThreads = 1024;             // as `viscera sweep --jobs`
 
 using Skin = const SurfaceFrame;
-using Class = py::class_<Stepped>;
+using Class = py::class_<Stepped, std::shared_ptr<Stepped>>;
 
 py::array vec4s(const std::vector<layout::vec4>& values, const std::shared_ptr<const HostState>& state) {
   auto* kept = new std::shared_ptr<const HostState>(state);
   const py::capsule owner(kept, [](void* p) { delete static_cast<std::shared_ptr<const HostState>*>(p); });
   const auto* first = reinterpret_cast<const float*>(values.data());
   return view(first, {static_cast<py::ssize_t>(values.size()), 3}, {sizeof(layout::vec4), sizeof(float)}, owner);
-}
-
-std::vector<uint32_t> activeSlots(const Model& model) {
-  std::vector<uint32_t> out;
-  for (size_t b = 0; b < model.bodies.size(); ++b) {
-    for (const uint32_t slot : model.bodies[b].lattice.active_slots) out.push_back(model.slotOffset(b) + slot);
-  }
-  return out;
-}
-
-/// [3 * slots] NaN where there is no node.
-std::vector<float> restPositions(const Model& model) {
-  std::vector<float> out(3 * model.slots(), std::numeric_limits<float>::quiet_NaN());
-  for (size_t b = 0; b < model.bodies.size(); ++b) {
-    for (const uint32_t slot : model.bodies[b].lattice.active_slots) {
-      const Vector3f rest = restPosition(model.bodies[b], slot).cast<float>();
-      for (int c = 0; c < 3; ++c) out[3 * (size_t{model.slotOffset(b)} + slot) + static_cast<size_t>(c)] = rest[c];
-    }
-  }
-  return out;
-}
-
-std::vector<float> positions(const Model& model, const HostState& state) {
-  std::vector<float> out = restPositions(model);
-  for (size_t slot = 0; slot < state.displacement_m.size(); ++slot) {
-    float d[4];
-    std::memcpy(d, &state.displacement_m[slot], sizeof d);
-    for (size_t c = 0; c < 3; ++c) out[3 * slot + c] += d[c];
-  }
-  return out;
 }
 
 std::vector<float> normals(const Skin& skin) {
@@ -76,16 +46,6 @@ std::vector<T> ofTriangles(const ShownTopology& topology, Of&& of) {
   std::vector<T> out(topology.triangleCount());
   for (const ShownPatch& patch : topology.patches)
     std::fill_n(out.begin() + static_cast<std::ptrdiff_t>(patch.first), patch.count, static_cast<T>(of(patch)));
-  return out;
-}
-
-std::vector<double> wrenches(const Frame& frame, size_t styluses) {
-  std::vector<double> out;
-  for (size_t s = 0; s < styluses; ++s) {
-    const Reaction& reaction = frame.reactions[s];
-    out.insert(out.end(), reaction.force_n.data(), reaction.force_n.data() + 3);
-    out.insert(out.end(), reaction.torque_nm.data(), reaction.torque_nm.data() + 3);
-  }
   return out;
 }
 
@@ -297,7 +257,7 @@ void bindMeasures(Class& session) {
   session.def_property_readonly(
       "wrenches",
       [](const Stepped& s) {
-        return given(s.with([](Stepped::Core& c) { return wrenches(c.last, stylusCount(c)); }), 6);
+        return given(s.with([](Stepped::Core& c) { return wrenchesOf(c.last, stylusCount(c)); }), 6);
       },
       "(styluses, 6) float64: force [N] and torque about the tip [N m] on each, tissue frame, within the scene's "
       "limits; "
@@ -378,7 +338,7 @@ void bindSession(py::module_& module) {
         if (threads < 0 || threads > kMostThreads)
           throw py::value_error("threads: wanted 0 .. " + std::to_string(kMostThreads) + "; found " +
                                 std::to_string(threads));
-        return std::make_unique<Stepped>(scene, backend, threads, pictures);
+        return std::make_shared<Stepped>(scene, backend, threads, pictures);
       }),
       py::arg("scene"), py::arg("backend") = py::none(), py::arg("threads") = 0, py::arg("pictures") = false,
       "backend: as solver.backend; None: what the scene says, without pictures the processor unless it says gpu. "

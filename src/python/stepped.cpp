@@ -85,11 +85,13 @@ void Stepped::step(const StylusSamples& hands, int64_t ticks) const {
   });
 }
 
+void Stepped::resetCore(Core& core) {
+  forget(core);
+  core.session->reset();
+}
+
 void Stepped::reset() const {
-  with([](Core& core) {
-    forget(core);
-    core.session->reset();
-  });
+  with(resetCore);
 }
 
 std::string Stepped::state() const {
@@ -103,23 +105,25 @@ std::string Stepped::state() const {
   });
 }
 
+void Stepped::restoreCore(Core& core, const std::string& state) {
+  const StateFolder folder;
+  std::ofstream file(folder.file(), std::ios::binary);
+  file.write(state.data(), static_cast<std::streamsize>(state.size()));
+  file.close();
+  if (!file) throw Error("no room for the state in " + folder.file());
+  forget(core);
+  try {
+    core.session->restore(folder.file());
+  } catch (const Error& error) {  // the file is ours: nothing to the caller
+    std::string text = error.what();
+    const std::string name = folder.file();
+    if (text.rfind(name, 0) == 0) text = "restore" + text.substr(name.size());
+    throw Error(text);
+  }
+}
+
 void Stepped::restore(const std::string& state) const {
-  with([&](Core& core) {
-    const StateFolder folder;
-    std::ofstream file(folder.file(), std::ios::binary);
-    file.write(state.data(), static_cast<std::streamsize>(state.size()));
-    file.close();
-    if (!file) throw Error("no room for the state in " + folder.file());
-    forget(core);
-    try {
-      core.session->restore(folder.file());
-    } catch (const Error& error) {  // the file is ours: nothing to the caller
-      std::string text = error.what();
-      const std::string name = folder.file();
-      if (text.rfind(name, 0) == 0) text = "restore" + text.substr(name.size());
-      throw Error(text);
-    }
-  });
+  with([&](Core& core) { restoreCore(core, state); });
 }
 
 std::shared_ptr<const HostState> Stepped::nodes() const {

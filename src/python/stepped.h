@@ -32,7 +32,13 @@ class Stepped {
     std::thread::id maker;
   };
 
+  /// What reset() and restore() do, without the GIL and with the mutex held. @throws Error
+  static void resetCore(Core& core);
+  static void restoreCore(Core& core, const std::string& state);
+
   Stepped(const SceneSource& scene, const std::optional<std::string>& backend, int threads, bool pictures);
+  /// Another door to a session.
+  explicit Stepped(std::shared_ptr<Core> core) : core_(std::move(core)) {}
   ~Stepped() { close(); }
   void close();
   bool closed() const { return !core_; }

@@ -19,26 +19,23 @@ constexpr double kNearUnitWithin = 1e-2;  // rounded to few digits: made one; fu
 
 using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
-void requireNumbers(const Numbers& values, py::ssize_t count, const char* what, double most) {
+void requireShape(const Numbers& values, py::ssize_t count, const char* what) {
   if (values.ndim() != 1 || values.shape(0) != count)
     throw py::value_error(std::string(what) + ": wanted " + std::to_string(count) + " numbers in one row");
-  for (py::ssize_t i = 0; i < count; ++i) {
-    if (!(std::abs(values.at(i)) <= most))
+}
+
+void requireWithin(const double* values, int count, const char* what, double most) {
+  for (int i = 0; i < count; ++i) {
+    if (!(std::abs(values[i]) <= most))
       throw py::value_error(std::string(what) + ": wanted numbers -" + std::to_string(most) + " .. " +
-                            std::to_string(most) + "; found " + std::to_string(values.at(i)));
+                            std::to_string(most) + "; found " + std::to_string(values[i]));
   }
 }
 
 StylusSample makeSample(const Numbers& position_m, const Numbers& quaternion, bool button1, bool button2) {
-  requireNumbers(position_m, 3, "position_m", kFarthest_m);
-  requireNumbers(quaternion, 4, "quaternion", 1 + kNearUnitWithin);
-  StylusSample out;
-  out.valid = true;
-  out.pose.position_m = {position_m.at(0), position_m.at(1), position_m.at(2)};
-  out.pose.orientation = {quaternion.at(3), quaternion.at(0), quaternion.at(1), quaternion.at(2)};
-  const double off = std::abs(out.pose.orientation.norm() - 1);
-  if (!(off <= kNearUnitWithin)) throw py::value_error("quaternion: wanted x, y, z, w of length 1, to 0.01");
-  if (off > kUnitWithin) out.pose.orientation.normalize();
+  requireShape(position_m, 3, "position_m");
+  requireShape(quaternion, 4, "quaternion");
+  StylusSample out = sampleOf(position_m.data(), quaternion.data());
   out.button1 = button1;
   out.button2 = button2;
   return out;
@@ -49,6 +46,19 @@ py::array_t<double> numbers(std::initializer_list<double> values) {
 }
 
 }  // namespace
+
+StylusSample sampleOf(const double* position_m, const double* quaternion) {
+  requireWithin(position_m, 3, "position_m", kFarthest_m);
+  requireWithin(quaternion, 4, "quaternion", 1 + kNearUnitWithin);
+  StylusSample out;
+  out.valid = true;
+  out.pose.position_m = {position_m[0], position_m[1], position_m[2]};
+  out.pose.orientation = {quaternion[3], quaternion[0], quaternion[1], quaternion[2]};
+  const double off = std::abs(out.pose.orientation.norm() - 1);
+  if (!(off <= kNearUnitWithin)) throw py::value_error("quaternion: wanted x, y, z, w of length 1, to 0.01");
+  if (off > kUnitWithin) out.pose.orientation.normalize();
+  return out;
+}
 
 void bindStylus(py::module_& module) {
   auto stylus = py::class_<StylusSample>(module, "Stylus",

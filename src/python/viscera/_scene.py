@@ -4,7 +4,8 @@
 import json
 import os
 
-from ._viscera import (Error, GpuError, LatticeError, MeshError, SceneBase, SceneError, Session, Skin, Stylus)
+from ._viscera import (Error, GpuError, LatticeError, MeshError, SceneBase, SceneError, Session, Skin, Stylus,
+                       VectorSession)
 
 
 def _shipped(name):
