@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "session/thread_looks.h"
 
-#include "solver/thread/thread_bodies.h"
+#include "solver/thread/thread_shape.h"
 
 namespace viscera {
 
