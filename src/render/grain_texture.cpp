@@ -23,62 +23,67 @@ float hashed(uint32_t x, uint32_t y, uint32_t z, uint32_t seed) {
   return static_cast<float>((h ^ h >> 15U) >> 8U) / 16777216.0F;
 }
 
-/// Values at the corners of a grid of `cells` per period, smooth between them.
-float valueNoise(const std::array<float, 3>& at, const std::array<uint32_t, 3>& cells, uint32_t seed) {
-  std::array<uint32_t, 3> low{};
-  std::array<float, 3> share{};
-  for (size_t i = 0; i < 3; ++i) {
-    const float place = at[i] * static_cast<float>(cells[i]);
-    low[i] = static_cast<uint32_t>(place);
-    const float f = place - static_cast<float>(low[i]);
-    share[i] = f * f * f * (f * (6 * f - 15) + 10);
-  }
-  float sum = 0;
-  for (uint32_t corner = 0; corner < 8; ++corner) {
-    float weight = 1;
-    std::array<uint32_t, 3> place{};
-    for (uint32_t i = 0; i < 3; ++i) {
-      const uint32_t high = corner >> i & 1U;
-      place[i] = (low[i] + high) % cells[i];
-      weight *= high ? share[i] : 1 - share[i];
+/// Adds values at the corners of a grid of `cells` per period, smooth between them, to all texels.
+void addNoise(std::vector<float>& sums, int side, const std::array<uint32_t, 3>& cells, uint32_t seed, float strength) {
+  std::vector<float> corners;
+  corners.reserve(size_t{cells[0]} * cells[1] * cells[2]);
+  for (uint32_t z = 0; z < cells[2]; ++z)
+    for (uint32_t y = 0; y < cells[1]; ++y)
+      for (uint32_t x = 0; x < cells[0]; ++x) corners.push_back(hashed(x, y, z, seed));
+  struct Place {
+    std::array<size_t, 2> corner;  ///< below and above
+    std::array<float, 2> weight;
+  };
+  std::array<std::vector<Place>, 3> places;  // [side] along each axis
+  for (size_t axis = 0, stride = 1; axis < 3; stride *= cells[axis++]) {
+    for (int i = 0; i < side; ++i) {
+      const float place = static_cast<float>(i) / static_cast<float>(side) * static_cast<float>(cells[axis]);
+      const auto low = static_cast<uint32_t>(place);
+      const float f = place - static_cast<float>(low), share = f * f * f * (f * (6 * f - 15) + 10);
+      places[axis].push_back({{low % cells[axis] * stride, (low + 1) % cells[axis] * stride}, {1 - share, share}});
     }
-    sum += weight * hashed(place[0], place[1], place[2], seed);
   }
-  return sum;
+  size_t texel = 0;
+  for (const Place& z : places[2]) {
+    for (const Place& y : places[1]) {
+      for (const Place& x : places[0]) {
+        float sum = 0;
+        for (uint32_t corner = 0; corner < 8; ++corner) {
+          const uint32_t i = corner & 1U, j = corner >> 1U & 1U, k = corner >> 2U;
+          sum += x.weight[i] * y.weight[j] * z.weight[k] * corners[x.corner[i] + y.corner[j] + z.corner[k]];
+        }
+        sums[texel++] += strength * (sum - 0.5F);
+      }
+    }
+  }
 }
 
-/// Octaves of such noise, each twice as fine and half as strong, spread over 0..1.
-float octaves(const std::array<float, 3>& at, std::array<uint32_t, 3> cells, int count, uint32_t seed) {
-  float sum = 0, strength = 1, whole = 0;
+/// Octaves of such noise, each twice as fine and half as strong, spread over 0..255.
+std::vector<uint8_t> octaves(int side, std::array<uint32_t, 3> cells, int count, uint32_t seed) {
+  std::vector<float> sums(static_cast<size_t>(side) * side * side);
+  float strength = 1, whole = 0;
   for (int octave = 0; octave < count; ++octave) {
-    sum += strength * (valueNoise(at, cells, seed + static_cast<uint32_t>(octave)) - 0.5F);
+    addNoise(sums, side, cells, seed + static_cast<uint32_t>(octave), strength);
     whole += strength;
     strength /= 2;
     for (uint32_t& of : cells) of *= 2;
   }
   constexpr float kContrast = 1.6F;  // sums of noise crowd around their mean
-  return std::clamp(0.5F + kContrast * sum / whole, 0.F, 1.F);
+  std::vector<uint8_t> out;
+  out.reserve(sums.size());
+  for (const float sum : sums)
+    out.push_back(static_cast<uint8_t>(std::lround(255 * std::clamp(0.5F + kContrast * sum / whole, 0.F, 1.F))));
+  return out;
 }
 
 }  // namespace
 
 std::vector<uint8_t> GrainTexture::texels(int side) {
-  std::vector<uint8_t> out;
-  out.reserve(size_t{4} * side * side * side);
-  const auto byte = [](float value) { return static_cast<uint8_t>(std::lround(255 * value)); };
-  for (int z = 0; z < side; ++z) {
-    for (int y = 0; y < side; ++y) {
-      for (int x = 0; x < side; ++x) {
-        const auto n = static_cast<float>(side);
-        const std::array<float, 3> at = {static_cast<float>(x) / n, static_cast<float>(y) / n,
-                                         static_cast<float>(z) / n};
-        out.push_back(byte(octaves(at, {8, 8, 8}, 2, 1)));
-        out.push_back(byte(octaves(at, {8, 8, 8}, 3, 11)));
-        out.push_back(byte(octaves(at, {2, 16, 12}, 2, 21)));
-        out.push_back(255);
-      }
-    }
-  }
+  const std::array<std::vector<uint8_t>, 3> channels = {octaves(side, {8, 8, 8}, 2, 1), octaves(side, {8, 8, 8}, 3, 11),
+                                                        octaves(side, {2, 16, 12}, 2, 21)};
+  std::vector<uint8_t> out(4 * channels[0].size(), 255);
+  for (size_t c = 0; c < channels.size(); ++c)
+    for (size_t i = 0; i < channels[c].size(); ++i) out[4 * i + c] = channels[c][i];
   return out;
 }
 
@@ -136,9 +141,11 @@ uint32_t makeTexture(const std::vector<uint8_t>& texels, int side) {
 }  // namespace
 
 GrainTexture::GrainTexture(bool slopes) {
-  const std::vector<uint8_t> grain = texels();
+  static const std::vector<uint8_t> grain = texels();  // of all sessions of a process
   id_ = makeTexture(grain, kSide);
-  if (slopes) slopes_ = makeTexture(GrainTexture::slopes(grain), kSide);
+  if (!slopes) return;
+  static const std::vector<uint8_t> rises = GrainTexture::slopes(grain);
+  slopes_ = makeTexture(rises, kSide);
 }
 
 GrainTexture::~GrainTexture() {
