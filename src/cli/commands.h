@@ -27,6 +27,7 @@ struct RunOptions {
   bool depth = false;                     ///< depths are taken with every picture
   bool labels = false;                    ///< labels are
   std::string save, resume;               ///< files of a saved state; empty: none
+  std::string record;                     ///< file in which all of it is recorded; empty: none
   double save_every_s = 0;                ///< simulated; 0: at the end only
   std::optional<ExportOptions> exported;  ///< into `out`/export
   bool reference = false;                 ///< in float64 on the CPU
@@ -35,6 +36,19 @@ struct RunOptions {
 };
 /// `viscera run`: a session without ROS.
 int run(const RunOptions& options);
+
+struct ReplayOptions {
+  std::string file;
+  double from_s = 0;  ///< steps after this are looked at
+  std::optional<double> until_s;
+  double speed = 0;  ///< of the clock; 0: as fast as can be
+  std::string out;   ///< empty: no pictures, no tables
+  std::string save;  ///< file for the state at the end; empty: none
+  bool no_view = false, depth = false, labels = false;
+  Overrides overrides;  ///< of keys that change no state
+};
+/// `viscera replay`: a recorded session again. @return 1 if its states are not those that were recorded
+int replay(const ReplayOptions& options);
 
 /// `viscera bench`: runs the program viscera-bench that stands beside this one. @param arguments  of the command line,
 /// from "bench" on, ended by null   @throws Error  it is not there   @return only if it could not be started

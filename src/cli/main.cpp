@@ -19,6 +19,7 @@ namespace {
 struct Options {
   int device = -1;
   cli::RunOptions run;
+  cli::ReplayOptions replay;
   cli::SweepOptions sweep;
   cli::ImportOptions import;
   double seconds = 0;
@@ -68,6 +69,26 @@ CLI::App* addImport(CLI::App& app, cli::ImportOptions& o, std::vector<double>& w
   import->add_flag("--no-previews", o.no_previews, "no pictures of organs and slices");
   import->add_option("--out", o.out, "new folder for scene.yaml and its meshes")->excludes(list);
   return import;
+}
+
+CLI::App* addReplay(CLI::App& app, cli::ReplayOptions& o) {
+  CLI::App* replay = app.add_subcommand("replay", "a recorded session again; the last line is one JSON object");
+  replay->add_option("file", o.file, "recording, of `viscera run --record` or the simulator")->required();
+  const CLI::Range seconds(0.0, 1e6);
+  replay->add_option("--from", o.from_s, "seconds of the recording that are passed over")->check(seconds);
+  replay->add_option("--until", o.until_s, "seconds of the recording at which it ends")->check(seconds);
+  replay->add_option("--speed", o.speed, "times as fast as it was; default: as fast as can be")
+      ->check(CLI::Range(1e-3, 1e3));
+  CLI::Option* out = replay->add_option("--out", o.out, "folder for pictures, metrics.json, hands.csv and surface.ply");
+  replay->add_flag("--depth", o.depth, "depths with every picture, as of run")->needs(out);
+  replay->add_flag("--labels", o.labels, "labels with every picture, as of run")->needs(out);
+  replay->add_flag("--no-view", o.no_view, "without OpenGL: on the processor, and without pictures");
+  replay->add_option("--save", o.save, "file for the state at the end, to go on from with run --resume");
+  replay
+      ->add_option("--set", o.overrides,
+                   "key=value: another value of the scene, of what changes no state, as in cameras[0].position_m")
+      ->allow_extra_args(false);
+  return replay;
 }
 
 int dispatch(int argc, char** argv) {
@@ -123,15 +144,18 @@ int dispatch(int argc, char** argv) {
                                             "simulated seconds after which the state is saved, again and again")
                                 ->check(CLI::Range(1e-6, 86400.0))
                                 ->needs(save);
+  CLI::Option* record =
+      run->add_option("--record", o.run.record, "new file in which all of it is recorded, for viscera replay");
   CLI::Option* resume = run->add_option("--resume", o.run.resume,
                                         "state that this scene was saved in: goes on there, to the same end in time");
   CLI::Option* reference = run->add_flag("--reference", o.run.reference, "the plain float64 solver instead of the GPU")
-                               ->excludes(save, save_every, resume, exported);
+                               ->excludes(save, save_every, resume, exported, record);
   run->add_flag("--no-view", o.run.no_view, "without OpenGL: on the processor, and without pictures")
       ->excludes(reference);
   run->add_flag("--compare", o.run.compare, "the GPU's error against the reference, as gpu_error")->needs(reference);
   addOverrides(run, o.run.overrides);
 
+  CLI::App* replay = addReplay(app, o.replay);
   CLI::App* settle =
       app.add_subcommand("settle", "find the state in which a scene hangs in its weight; one JSON object");
   settle->add_option("scene", o.run.scene, "scene file, or name of a shipped scene")->required();
@@ -177,6 +201,7 @@ int dispatch(int argc, char** argv) {
       ->check(CLI::IsMember({"scene", "device", "tissues"}));
   if (const std::optional<int> ended = cli::parse(app, argc, argv)) return *ended;
   if (*check) return cli::check(o.device);
+  if (*replay) return memoryFor("replaying '" + o.replay.file + "'", [&] { return cli::replay(o.replay); });
   if (*settle) return memoryFor("settling scene '" + o.run.scene + "'", [&] { return cli::settle(o.run); });
   if (*fit) return memoryFor("fitting scene '" + o.run.scene + "'", [&] { return cli::fit(o.run); });
   if (*anchor) return memoryFor("anchoring in scene '" + o.run.scene + "'", [&] { return cli::anchor(o.run); });

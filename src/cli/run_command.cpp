@@ -10,11 +10,13 @@
 
 #include "cli/album.h"
 #include "cli/commands.h"
+#include "cli/hand_log.h"
 #include "cli/run_metrics.h"
 #include "cli/run_plan.h"
 #include "cli/scene_lookup.h"
 #include "math/one_line.h"
 #include "model/fracture/toughness.h"
+#include "session/session_recorder.h"
 #include "viscera/gpu/context.h"
 #include "viscera/math/error.h"
 #include "viscera/session/session.h"
@@ -69,16 +71,6 @@ void requireStyluses(const Strokes& strokes, const Scene& scene, const std::stri
   }
 }
 
-/// The context of a run, or none. @throws GpuError  with a way out
-std::unique_ptr<gpu::Context> contextFor(const RunOptions& options, const Scene& scene) {
-  if (options.no_view) return nullptr;
-  try {
-    return std::make_unique<gpu::Context>(scene.solver.device);
-  } catch (const GpuError& error) {
-    throw GpuError(std::string(error.what()) + "; --no-view does without, on the processor and without pictures");
-  }
-}
-
 Album::Pictures picturesOf(const RunOptions& options) {
   if (options.no_view) return Album::Pictures::kNone;
   return options.live ? Album::Pictures::kLive : Album::Pictures::kAll;
@@ -124,7 +116,22 @@ void compareWithRecording(const Strokes& strokes, uint64_t ticks, Json& metrics)
             << replayed << ": another scene, other overrides, or another machine\n";
 }
 
+/// @throws Error  not all of it was written
+void finish(SessionRecorder& recorder) {
+  recorder.leave();
+  if (!recorder.fault().empty()) throw Error(recorder.fault());
+}
+
 }  // namespace
+
+std::unique_ptr<gpu::Context> contextFor(bool no_view, const Scene& scene) {
+  if (no_view) return nullptr;
+  try {
+    return std::make_unique<gpu::Context>(scene.solver.device);
+  } catch (const GpuError& error) {
+    throw GpuError(std::string(error.what()) + "; --no-view does without, on the processor and without pictures");
+  }
+}
 
 RunPlan planRun(const RunOptions& options) {
   RunPlan plan{sceneOf(options).scene, {}, 0};
@@ -148,7 +155,7 @@ int run(const RunOptions& options) {
   const Scene& scene = plan.scene;
   Strokes& strokes = plan.strokes;
 
-  const std::unique_ptr<gpu::Context> context = contextFor(options, scene);
+  const std::unique_ptr<gpu::Context> context = contextFor(options.no_view, scene);
   const Progress progress = consoleProgress();
   const auto made =
       context ? std::make_unique<Session>(scene, *context, progress) : std::make_unique<Session>(scene, progress);
@@ -163,6 +170,10 @@ int run(const RunOptions& options) {
     std::cout << "strokes: recorded of scene " << strokes.recorded.scene
               << ", overrides: " << (strokes.recorded.overrides.empty() ? "none" : strokes.recorded.overrides) << '\n';
   if (!options.resume.empty()) resume(session, options.resume, ticks);
+  std::optional<HandLog> hands;
+  if (!options.strokes.empty()) hands.emplace(session);
+  std::optional<SessionRecorder> recorder;
+  if (!options.record.empty()) recorder.emplace(options.record).follow(session);
   const uint64_t save_ticks = saveTicks(options.save_every_s, session.tick_s());
   std::optional<Exporter> exporter;
   if (options.exported) exporter.emplace(options.out + "/export", *options.exported, session.tick_s());
@@ -182,10 +193,13 @@ int run(const RunOptions& options) {
   album.finish();
   if (exporter) exporter->finish();
   if (!options.save.empty()) session.save(options.save);
+  if (recorder) finish(*recorder);
 
   Json metrics = metricsOf(session, stats, context ? context->renderer() : "none", wall_s);
   compareWithRecording(strokes, ticks, metrics);
+  if (hands) metrics["hands"] = hands->metrics();
   if (!options.out.empty()) {
+    if (hands) hands->write(options.out + "/hands.csv");
     std::ofstream file(options.out + "/metrics.json");
     file << metrics.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
     if (!file) throw Error(options.out + "/metrics.json: cannot be written");

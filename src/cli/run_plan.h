@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <memory>
+
 #include "cli/commands.h"
+#include "viscera/gpu/context.h"
 #include "viscera/model/scene/scene.h"
 #include "viscera/tools/strokes.h"
 
@@ -16,6 +19,9 @@ struct RunPlan {
 };
 /// @throws SceneError, StrokesError
 RunPlan planRun(const RunOptions& options);
+
+/// The context of a session, or none. @throws GpuError  with a way out
+std::unique_ptr<gpu::Context> contextFor(bool no_view, const Scene& scene);
 
 /// `viscera run --reference`: without a GPU, unless it is compared with one.
 int runReference(const RunPlan& plan, bool compare);

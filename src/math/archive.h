@@ -44,6 +44,9 @@ class Archive {
     if (reads_ && next_ > 0 && at_ != sections_[next_ - 1].bytes.size()) throw misfit();
   }
 
+  /// Of a section that is read: is there more of it?
+  bool more() const { return next_ > 0 && at_ < sections_[next_ - 1].bytes.size(); }
+
   void bytes(void* data, size_t size) {
     if (size == 0) return;
     if (!reads_) {

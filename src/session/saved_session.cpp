@@ -10,6 +10,7 @@
 #include "session/view.h"
 #include "viscera/math/state_hash.h"
 #include "viscera/session/session.h"
+#include "viscera/session/session_log.h"
 
 namespace viscera {
 
@@ -17,10 +18,14 @@ namespace {
 
 constexpr uint64_t kTicksBack = 8;  // whose ways of tips are asked for after a tick
 
-/// Keys that change no state: who works, what is looked at.
+/// Keys that change no state: who works, what is looked at, what it looks like.
 bool isAside(const std::string& line) {
-  const auto begins = [&line](const char* key) { return line.rfind(key, 0) == 0; };
-  return begins("cameras[") || begins("solver.threads=") || begins("solver.device=");
+  const std::string key = line.substr(0, line.find('='));
+  const auto ends = [&key](const std::string& with) {
+    return key.size() >= with.size() && key.compare(key.size() - with.size(), with.size(), with) == 0;
+  };
+  return key.rfind("cameras[", 0) == 0 || key == "solver.threads" || key == "solver.device" || ends(".color") ||
+         ends(".roughness") || ends(".mottling");
 }
 
 /// @throws Error  names the first key that is another
@@ -94,21 +99,29 @@ void Session::persist(Archive& archive) {
   solver_->persist(archive);
 }
 
-void Session::save(const std::string& path) {
+void Session::save(Archive& archive) {
   Frame taken;
   collectStats(taken, true);
-  Archive archive;
   archive.section("scene");
   std::string text = sceneText(scene_);
   uint64_t hash = modelHash(*model_);
   archive.list(text);
   archive.value(hash);
   persist(archive);
+}
+
+void Session::save(const std::string& path) {
+  Archive archive;
+  save(archive);
   writeStateFile(path, archive.sections());
 }
 
 void Session::restore(const std::string& path) {
   Archive archive(readStateFile(path));
+  restore(archive, path);
+}
+
+void Session::restore(Archive& archive, const std::string& name) {
   try {
     archive.section("scene");
     std::string text;
@@ -119,7 +132,7 @@ void Session::restore(const std::string& path) {
     if (hash != modelHash(*model_))
       throw Error("the state is of other tissue: a file that the scene names is not what it was");
   } catch (const Error& error) {
-    throw Error(path + ": " + error.what());
+    throw Error(name + ": " + error.what());
   }
   reset();
   try {
@@ -127,8 +140,9 @@ void Session::restore(const std::string& path) {
     archive.end();
   } catch (const Error& error) {
     reset();
-    throw Error(path + ": " + error.what() + "; another solver.backend or another version of viscera?");
+    throw Error(name + ": " + error.what() + "; another solver.backend or another version of viscera?");
   }
+  for (SessionLog* log : logs_) log->restored(*this);
 }
 
 }  // namespace viscera

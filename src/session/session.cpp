@@ -16,6 +16,7 @@
 #include "viscera/calibration/auto_spacing.h"
 #include "viscera/math/error.h"
 #include "viscera/render/camera.h"
+#include "viscera/session/session_log.h"
 
 namespace viscera {
 
@@ -88,7 +89,12 @@ Frame Session::step(const StylusSamples& samples, const Wants& wants) {
   if (feeling) collectStats(frame, true);
   if (feeling) heedFeeling(frame);
   releaseUntracked(look_.motions, frame);
+  for (SessionLog* log : logs_) log->stepped(*this, samples);
   return frame;
+}
+
+void Session::removeLog(SessionLog& log) {
+  logs_.erase(std::remove(logs_.begin(), logs_.end(), &log), logs_.end());
 }
 
 bool Session::feels(const ToolMotions& motions) {
@@ -122,6 +128,7 @@ void Session::forgetHands() {
   reactions_ = {};
   contacts_ = {};
   for (PoseTimes& times : pose_times_) times.motions = {};
+  for (SessionLog* log : logs_) log->handsForgotten();
 }
 
 void Session::setToolMode(size_t stylus, ToolSwitch when, ToolMode mode) {
@@ -132,14 +139,27 @@ void Session::setToolMode(size_t stylus, ToolSwitch when, ToolMode mode) {
                      "the start, as in styluses[0].button2=cut");
   }
   tools_.setMode(stylus, when, mode);
+  for (SessionLog* log : logs_) log->toolModeSet(stylus, when, mode);
+}
+
+void Session::setForceLimits(size_t stylus, const ForceLimits& limits) {
+  limiters_[stylus].setLimits(limits);
+  for (SessionLog* log : logs_) log->forceLimitsSet(stylus, limits);
+}
+
+void Session::setOverlays(size_t camera, const Overlays& overlays) {
+  look_.overlays[camera] = overlays;
+  for (SessionLog* log : logs_) log->overlaysSet(camera, overlays);
 }
 
 void Session::setObstacleFrame(size_t obstacle, const Pose& pose) {
   obstacles_.setFrame(obstacle, pose);
+  for (SessionLog* log : logs_) log->obstacleFrameSet(obstacle, pose);
 }
 
 void Session::setCameraFrame(size_t camera, const Pose& pose) {
   look_.cameras[camera] = carriedOpticalPose(scene_.cameras[camera], {pose.position_m, pose.orientation.normalized()});
+  for (SessionLog* log : logs_) log->cameraFrameSet(camera, pose);
 }
 
 void Session::moveObstacles() {
@@ -221,6 +241,7 @@ void Session::collectStats(Frame& frame, bool wait) {
   while (solver_->pollStats(stats_, wait)) {
     has_stats_ = true;
     ++judged_;
+    for (SessionLog* log : logs_) log->measured(*this, judged_, stats_);
     for (size_t s = 0; s < limiters_.size(); ++s) {
       // Force on a tool: minus the momentum it gave the nodes, per tick (physics.md 5).
       const Reaction raw{-xyz(stats_.impulse[s]) / tick_s(), -xyz(stats_.angular[s]) / tick_s(), false};
@@ -285,6 +306,7 @@ void Session::reset() {
   tick_ = judged_ = 0;
   time_s_ = 0;
   std::fill(pose_times_.begin(), pose_times_.end(), PoseTimes{});
+  for (SessionLog* log : logs_) log->wasReset();
 }
 
 Frame Session::drain() {

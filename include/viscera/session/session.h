@@ -21,6 +21,7 @@
 namespace viscera {
 
 class Archive;
+class SessionLog;
 
 /// Work done since the start, for diagnostics. With a view on a thread of its own, its part is that of what was ready.
 struct Counters : ViewCounters {
@@ -73,13 +74,14 @@ class Session {
   void setCameraFrame(size_t camera, const Pose& pose);
   /// What a camera's pictures show beside the tissue from now on; at first, its CameraConfig::overlays.
   /// @param camera  < scene().cameras.size()
-  void setOverlays(size_t camera, const Overlays& overlays) { look_.overlays[camera] = overlays; }
+  void setOverlays(size_t camera, const Overlays& overlays);
+  const Overlays& overlays(size_t camera) const { return look_.overlays[camera]; }
   /// What a stylus does from the next step on with no button pressed, or while one is; stays so over a reset. What it
   /// holds is let go. @param stylus  < scene().styluses.size()
   /// @throws SceneError  the mode cuts or erases, and the scene was made without: no stylus of it did
   void setToolMode(size_t stylus, ToolSwitch when, ToolMode mode);
   /// What the reactions on a stylus are limited to from the next step on. @param stylus  < scene().styluses.size()
-  void setForceLimits(size_t stylus, const ForceLimits& limits) { limiters_[stylus].setLimits(limits); }
+  void setForceLimits(size_t stylus, const ForceLimits& limits);
   void reset();
   /// The hands were not followed for a while, as in a pause: what they hold is let go at the next step, where they
   /// appear again; forces begin at zero.
@@ -96,6 +98,12 @@ class Session {
   /// of processor, which solver.threads and cameras do not change. Hands that are where they were then go on too.
   /// @throws Error  no such file, damaged, of another version, scene or backend: nothing is changed, or all is reset
   void restore(const std::string& path);
+  /// The same into memory and out of it. @param name  of where the state comes from, for errors
+  void save(Archive& archive);
+  void restore(Archive& archive, const std::string& name);
+  /// Told of all that changes this session from now on, until removeLog().
+  void addLog(SessionLog& log) { logs_.push_back(&log); }
+  void removeLog(SessionLog& log);
 
   const Scene& scene() const { return scene_; }
   const Model& model() const { return *model_; }
@@ -156,6 +164,7 @@ class Session {
   double time_s_ = 0;                  ///< since the start or the last reset
   uint64_t judged_ = 0;                ///< ticks since the start or reset whose measurements have come back
   std::vector<PoseTimes> pose_times_;  ///< of the last ticks, at tick % size
+  std::vector<SessionLog*> logs_;
 };
 
 }  // namespace viscera

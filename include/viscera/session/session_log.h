@@ -1,0 +1,36 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "viscera/layout/tick_stats.h"
+#include "viscera/math/types.h"
+#include "viscera/model/scene/overlays.h"
+#include "viscera/tools/force_limiter.h"
+#include "viscera/tools/stylus.h"
+
+namespace viscera {
+
+class Session;
+
+/// Told of all that changes a session, once it has, on the session's thread: the same, done to another session of the
+/// same scene, from the same state on, brings it to the same states.
+class SessionLog {
+ public:
+  virtual ~SessionLog() = default;
+  virtual void stepped(Session&, const StylusSamples&) {}
+  /// What was measured of a tick, once for each, in order, some steps late. @param tick  since the start or last reset
+  virtual void measured(const Session&, uint64_t /*tick*/, const layout::TickStats&) {}
+  virtual void wasReset() {}
+  virtual void handsForgotten() {}
+  virtual void restored(Session&) {}  ///< after wasReset(): it is in another state
+  virtual void toolModeSet(size_t /*stylus*/, ToolSwitch, ToolMode) {}
+  virtual void forceLimitsSet(size_t /*stylus*/, const ForceLimits&) {}
+  virtual void obstacleFrameSet(size_t /*obstacle*/, const Pose&) {}
+  virtual void cameraFrameSet(size_t /*camera*/, const Pose&) {}
+  virtual void overlaysSet(size_t /*camera*/, const Overlays&) {}
+};
+
+}  // namespace viscera

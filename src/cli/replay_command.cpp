@@ -1,0 +1,155 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <chrono>
+#include <fstream>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <thread>
+
+#include "cli/album.h"
+#include "cli/commands.h"
+#include "cli/hand_log.h"
+#include "cli/run_plan.h"
+#include "cli/scene_lookup.h"
+#include "session/session_replay.h"
+#include "viscera/gpu/context.h"
+#include "viscera/math/error.h"
+#include "viscera/math/state_hash.h"
+
+namespace viscera::cli {
+
+namespace {
+
+using ReplayJson = nlohmann::ordered_json;
+using ReplayClock = std::chrono::steady_clock;
+
+/// What is made of a recording: its sessions, and pictures and tables of them. Of each piece without a leap of the
+/// state there is a folder, the first in that which was named.
+class Replayed {
+ public:
+  explicit Replayed(const ReplayOptions& options) : options_(options) {}
+
+  Session& make(const Scene& scene) {
+    endPiece();
+    hands_.reset();
+    session_.reset();
+    context_.reset();
+    context_ = contextFor(options_.no_view, scene);
+    const Progress progress = consoleProgress();
+    session_ =
+        context_ ? std::make_unique<Session>(scene, *context_, progress) : std::make_unique<Session>(scene, progress);
+    return *session_;
+  }
+  Wants wants(const Session& session) {
+    if (!hands_) hands_.emplace(*session_);
+    if (!options_.out.empty() && !album_) {
+      ++pieces_;
+      folder_ = pieces_ == 1 ? options_.out : options_.out + "/piece_" + std::to_string(pieces_);
+      const auto pictures = options_.no_view ? Album::Pictures::kNone : Album::Pictures::kAll;
+      album_ = std::make_unique<Album>(folder_, session.scene(), Strokes{}, UINT64_MAX, pictures,
+                                       Album::Kinds{options_.depth, options_.labels});
+    }
+    return album_ ? album_->wants(session) : Wants{};
+  }
+  void stepped(Frame&& frame, double at_s) {
+    if (album_) album_->add(std::move(frame));
+    if (options_.speed > 0)
+      std::this_thread::sleep_until(begun_ +
+                                    std::chrono::duration_cast<ReplayClock::duration>(
+                                        std::chrono::duration<double>((at_s - options_.from_s) / options_.speed)));
+  }
+  /// Pictures and tables of what was looked at since the last leap; measures are kept.
+  void endPiece() {
+    if (!session_ || !hands_) return;
+    Frame last = session_->drain();
+    measures_.push_back(hands_->metrics());
+    if (album_) {
+      album_->add(std::move(last));
+      Wants skin;
+      skin.surface = skin.every_image = true;
+      Frame shown;
+      static_cast<Pictures&>(shown) = session_->show(skin);
+      album_->add(std::move(shown));
+      album_->finish();
+      hands_->write(folder_ + "/hands.csv");
+    }
+    album_.reset();
+    hands_.reset();
+  }
+  Session& session() { return *session_; }
+  const ReplayJson& measures() const { return measures_; }
+
+ private:
+  const ReplayOptions& options_;
+  std::unique_ptr<gpu::Context> context_;
+  std::unique_ptr<Session> session_;
+  std::optional<HandLog> hands_;
+  std::unique_ptr<Album> album_;
+  std::string folder_;
+  int pieces_ = 0;
+  ReplayJson measures_ = ReplayJson::array();
+  const ReplayClock::time_point begun_ = ReplayClock::now();
+};
+
+void tell(const SessionReplay& replay) {
+  std::cout << "recorded: " << replay.duration_s() << " s\n";
+  for (const SessionReplay::Part& part : replay.parts())
+    std::cout << "from " << part.from_s << " s to " << part.to_s << " s: stepped by " << part.scene.stepped_by << '\n';
+  if (!replay.damage().empty()) std::cerr << "viscera: " << replay.damage() << "; replayed up to there\n";
+}
+
+std::string differenceText(const SessionReplay::Difference& it) {
+  std::string out = "states differ first at tick " + std::to_string(it.tick) + " of scene " +
+                    std::to_string(it.part + 1) + ": recorded " + StateHash::text(it.recorded_hash) + ", replayed " +
+                    StateHash::text(it.replayed_hash) + "; at tick " + std::to_string(it.last_same_tick) +
+                    " they were the same";
+  if (it.measured_tick) out += "; what is measured differs first at tick " + std::to_string(*it.measured_tick);
+  return out;
+}
+
+ReplayJson resultOf(const SessionReplay& replay, const SessionReplay::Outcome& outcome, Session& session) {
+  ReplayJson out;
+  out["scene"] = session.scene().name;
+  out["recorded_s"] = replay.duration_s();
+  out["replayed_to_s"] = outcome.at_s;
+  out["steps"] = outcome.steps;
+  out["state_hash"] = StateHash::text(session.stateHash());
+  out["hashes_compared"] = outcome.compared;
+  out["recorded_hash_met"] = !outcome.difference;
+  out["to_recorded_end"] = outcome.ended;
+  if (outcome.difference) out["differs"] = differenceText(*outcome.difference);
+  if (!replay.damage().empty()) out["cut"] = replay.damage();
+  out["stepped_by"] = session.backendNote();
+  return out;
+}
+
+}  // namespace
+
+int replay(const ReplayOptions& options) {
+  SessionReplay recording(options.file);
+  tell(recording);
+  const double until_s = options.until_s.value_or(recording.duration_s());
+  if (until_s < options.from_s) throw Error("--until must not be before --from");
+  Replayed replayed(options);
+  SessionReplay::Ports ports;
+  ports.make = [&](const Scene& scene, size_t) -> Session& { return replayed.make(scene); };
+  ports.leaps = [&](Session&) { replayed.endPiece(); };
+  ports.wants = [&](const Session& session) { return replayed.wants(session); };
+  ports.stepped = [&](Session&, Frame&& frame, double at_s) { replayed.stepped(std::move(frame), at_s); };
+  const SessionReplay::Outcome outcome = recording.run(options.from_s, until_s, options.overrides, ports);
+  replayed.endPiece();
+  if (!options.save.empty()) replayed.session().save(options.save);
+  ReplayJson result = resultOf(recording, outcome, replayed.session());
+  result["pieces"] = replayed.measures();
+  if (!options.out.empty()) {
+    std::ofstream file(options.out + "/metrics.json");
+    file << result.dump(2, ' ', false, ReplayJson::error_handler_t::replace) << '\n';
+    if (!file) throw Error(options.out + "/metrics.json: cannot be written");
+  }
+  std::cout << result.dump(-1, ' ', false, ReplayJson::error_handler_t::replace) << std::endl;
+  if (outcome.difference) std::cerr << "viscera: " << differenceText(*outcome.difference) << '\n';
+  return outcome.difference ? 1 : 0;
+}
+
+}  // namespace viscera::cli
