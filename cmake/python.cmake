@@ -42,12 +42,12 @@ target_link_libraries(viscera_python PRIVATE viscera_export)
 target_link_options(viscera_python PRIVATE -Wl,--exclude-libs,ALL)
 set_target_properties(viscera_python PROPERTIES PREFIX "" OUTPUT_NAME _viscera SUFFIX ${python_suffix} CXX_VISIBILITY_PRESET hidden
                                                 LIBRARY_OUTPUT_DIRECTORY ${python_built})
-file(GLOB python_texts CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}/src/python/viscera src/python/viscera/*.py*
-     src/python/viscera/py.typed)
+file(GLOB_RECURSE python_texts CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}/src/python/viscera src/python/viscera/*.py
+     src/python/viscera/*.pyi src/python/viscera/py.typed)
 foreach(file ${python_texts})
   configure_file(src/python/viscera/${file} ${python_built}/${file} COPYONLY)
 endforeach()
 file(WRITE ${python_prefix}/share/viscera/config_folder.txt "${PROJECT_SOURCE_DIR}/config\n")  # of shipped scenes
-list(TRANSFORM python_texts PREPEND src/python/viscera/ OUTPUT_VARIABLE python_installed)
 install(TARGETS viscera_python LIBRARY DESTINATION ${python_folder} COMPONENT python)
-install(FILES ${python_installed} DESTINATION ${python_folder} COMPONENT python)
+install(DIRECTORY src/python/viscera/ DESTINATION ${python_folder} COMPONENT python FILES_MATCHING REGEX "\\.(pyi?|typed)$"
+        PATTERN __pycache__ EXCLUDE)
