@@ -65,7 +65,8 @@ void Chain::step(double dt_s, ChainAround& around) {
   }
   dt_s_ = dt_s;
   begin(around);
-  slides_.begin(shape(), around.swaged, around.slides);
+  slides_.begin(shape(), around.swaged, around.knots, around.slides);
+  knots_.begin(around.slides, shape(), around.knots);
   const bool asks = !around.slides.empty() && around.answer;
   if (asks) around.answer(around.slides);
   bool changed = true;
@@ -76,12 +77,13 @@ void Chain::step(double dt_s, ChainAround& around) {
     setBending();
     setLinks();
     setAround(around);
-    const bool whole = advance();
+    const bool whole = advance(around);
     changed = !whole;
     const bool frozen = !whole || iterations_ >= kFrozenAfter;
     for (ChainHold& hold : around.holds) changed |= heed(hold, !whole);
     for (ChainTouch& touch : around.touches) changed |= heed(touch, frozen);
     if (whole) changed |= slides_.heed(shape(), frozen, around.slides);
+    if (whole) changed |= knots_.heed(shape(), frozen, around.knots);
     if (asks) around.answer(around.slides);
   }
   slides_.end(shape(), around.slides);
@@ -89,7 +91,8 @@ void Chain::step(double dt_s, ChainAround& around) {
 }
 
 bool Chain::solved(const ChainAround& around) const {
-  return worst_link_ < kLinkTolerance && slides_.farthestOff_m(shape(), around.slides) < kOff_m;
+  return worst_link_ < kLinkTolerance && slides_.farthestOff_m(shape(), around.slides) < kOff_m &&
+         knots_.farthestOff_m(shape(), around.knots) < kOff_m;
 }
 
 void Chain::begin(const ChainAround& around) {
@@ -156,6 +159,7 @@ void Chain::setAround(const ChainAround& around) {
     push(hold.node, hold.share, hold.stiffness_kg * (hold.to_m - point(hold.node, hold.share)));
   }
   slides_.set(shape(), around.slides, matrix_, rest_);
+  knots_.set(shape(), around.knots, rest_);
   for (const ChainTouch& touch : around.touches) {
     if (!touch.closed) continue;
     matrix_.addPoint(touch.node, 0, touch.rub_kg, std::sqrt(touch.mass_kg - touch.rub_kg) * touch.normal);
@@ -174,9 +178,10 @@ double Chain::depth_m(const ChainTouch& touch) const {
 }
 
 /// @returns whether it was a whole step
-bool Chain::advance() {
+bool Chain::advance(ChainAround& around) {
   matrix_.factor();
   matrix_.solve(rest_);
+  if (!around.knots.empty()) knots_.solve(shape(), matrix_, around.knots, rest_);
   double turned = 0;
   for (size_t i = 0; i + 1 < x_.size(); ++i) {
     turned = std::max(turned, (rest_[i + 1].place - rest_[i].place).squaredNorm());

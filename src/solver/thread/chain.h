@@ -61,6 +61,7 @@ struct ChainAround {
   std::vector<ChainTouch> touches;
   std::vector<ChainLoad> loads;
   std::vector<ChainSlide> slides;  ///< ascending in s
+  std::vector<ChainKnot> knots;    ///< kMostKnots at most
   std::array<bool, 2> swaged{};    ///< its first and last end: a needle is there, and no channel slides off
   /// Asked after each iteration: gives the tissue what slides' impulses have become, and moves their to_m. May be empty
   /// where to_m does not depend on them.
@@ -103,7 +104,7 @@ class Chain {
   void setAround(const ChainAround& around);
   ChainShape shape() const { return {next_, links_, link_m_, dt_s_}; }
   bool solved(const ChainAround& around) const;
-  bool advance();
+  bool advance(ChainAround& around);
   bool heed(ChainHold& hold, bool frozen) const;
   bool heed(ChainTouch& touch, bool frozen) const;
   Vector3d slid(const ChainTouch& touch) const;
@@ -118,6 +119,7 @@ class Chain {
   // of the substep under way
   ChainMatrix matrix_;
   ChainSlides slides_;
+  ChainKnots knots_;
   std::vector<Vector3d> ahead_, next_, bent_;
   std::vector<ChainLink> links_;
   std::vector<ChainMatrix::Unknown> rest_;  ///< what is not balanced yet

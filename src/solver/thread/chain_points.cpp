@@ -46,6 +46,10 @@ ChainTurn::ChainTurn(const ChainPoint& point, const std::vector<ChainLink>& link
   along_link = std::max(kLeastAlong, tangent.dot(link(0)));
 }
 
+double ChainTurn::alongBisector() const {
+  return std::cos(angle / 2);
+}
+
 double capstan(double friction, double angle) {
   return angle < kStraight ? friction : std::tanh(friction * angle / 2) / std::tan(angle / 2);
 }

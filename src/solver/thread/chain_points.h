@@ -44,10 +44,13 @@ struct ChainPoint {
 /// How a chain turns at a point that something holds: from before the two nodes at which that bends it to behind them.
 /// Does not jump where the point passes a node.
 struct ChainTurn {
+  ChainTurn() = default;
   ChainTurn(const ChainPoint& point, const std::vector<ChainLink>& links);
-  Vector3d tangent;  ///< bisector of the whole turn
-  double angle;
-  double along_link;  ///< of the tangent, in the point's own link
+  /// What a difference of tensions before and behind shows along the tangent.
+  double alongBisector() const;
+  Vector3d tangent = Vector3d::Zero();  ///< bisector of the whole turn
+  double angle = 0;
+  double along_link = 1;  ///< of the tangent, in the point's own link
 };
 
 /// Friction over what presses across where a rope turns by an angle, so that its tensions are as exp(friction x angle).

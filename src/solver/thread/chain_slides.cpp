@@ -3,38 +3,29 @@
 #include "solver/thread/chain_slides.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace viscera {
 
 namespace {
 
-constexpr double kApartLinks = 1;       // of two channels, whatever becomes of their tissue
-constexpr double kApartRest = 0.4;      // of their distance in the tissue at rest
-constexpr double kFromNeedle = 0.01;    // links
-constexpr double kAtStop = 1e-6;        // links
-constexpr double kMostLinks = 1;        // in an iteration: the next one's tangent is another
-constexpr double kSlow_m_per_s = 1e-3;  // at which what was held begins to slide
+constexpr double kApartLinks = 1;     // of two channels, whatever becomes of their tissue
+constexpr double kApartRest = 0.4;    // of their distance in the tissue at rest
+constexpr double kFromNeedle = 0.01;  // links
 
 bool tears(const ChainSlide& slide) {
-  return slide.stiffness_kg < std::min(slide.mass_kg, kRigidMass_kg);
+  return slips(slide.stiffness_kg, slide.mass_kg);
 }
 
-bool slips(const ChainSlide& slide) {
-  return !tears(slide) && slide.rub_kg < std::min(slide.mass_kg, kRigidMass_kg);
-}
-
-double orRigid(double stiffness_kg, const ChainSlide& slide) {
-  return stiffness_kg < slide.mass_kg ? stiffness_kg : kRigidMass_kg;
+bool runsAlong(const ChainSlide& slide) {
+  return !tears(slide) && slips(slide.rub_kg, slide.mass_kg);
 }
 
 }  // namespace
 
-void ChainSlides::begin(const ChainShape& shape, const std::array<bool, 2>& swaged, std::vector<ChainSlide>& slides) {
-  constexpr double kFar = std::numeric_limits<double>::infinity();
-  const double last = static_cast<double>(shape.links.size());
-  states_.assign(slides.size(), {swaged[0] ? kFromNeedle : -kFar, swaged[1] ? last - kFromNeedle : kFar});
-  ChainSlide* before = nullptr;
+void ChainSlides::begin(const ChainShape& shape, const std::array<bool, 2>& swaged, const std::vector<ChainKnot>& knots,
+                        std::vector<ChainSlide>& slides) {
+  runs_.assign(slides.size(), {});
+  size_t before = slides.size();
   for (size_t k = 0; k < slides.size(); ++k) {
     ChainSlide& slide = slides[k];
     slide.torn_m.setZero();
@@ -42,27 +33,29 @@ void ChainSlides::begin(const ChainShape& shape, const std::array<bool, 2>& swag
       slide.impulse_ns.setZero();
       continue;
     }
-    if (before) {
-      const double apart = std::max(kApartLinks, kApartRest * before->between_rest_m / shape.link_m);
-      const double middle = (before->s + slide.s) / 2;
-      states_[static_cast<size_t>(before - slides.data())].high = middle - apart / 2;
-      states_[k].low = middle + apart / 2;
+    if (before < slides.size()) {
+      const double apart = std::max(kApartLinks, kApartRest * slides[before].between_rest_m / shape.link_m);
+      runs_[before].stopAt(slide.s, apart, true, slides[before].s);
+      runs_[k].stopAt(slides[before].s, apart, true, slide.s);
     }
-    before = &slide;
-  }
-  for (size_t k = 0; k < slides.size(); ++k) {  // what is nearer already goes no nearer
-    states_[k].low = std::min(states_[k].low, slides[k].s);
-    states_[k].high = std::max(states_[k].high, slides[k].s);
+    before = k;
+    if (swaged[0]) runs_[k].stopAt(0, kFromNeedle, false, slide.s);
+    if (swaged[1]) runs_[k].stopAt(static_cast<double>(shape.links.size()), kFromNeedle, false, slide.s);
+    for (const ChainKnot& knot : knots) {
+      if (knot.out) continue;
+      runs_[k].stopAt(knot.s1, kKnotApart, false, slide.s);
+      runs_[k].stopAt(knot.s2, kKnotApart, true, slide.s);
+    }
   }
 }
 
 /// Times dt: what the tissue gets where the chain is off by so much.
-Vector3d ChainSlides::impulse(const ChainSlide& slide, const State& state, const Vector3d& off_m, double dt_s) const {
+Vector3d ChainSlides::impulse(const ChainSlide& slide, const ChainRun& run, const Vector3d& off_m, double dt_s) const {
   if (tears(slide)) return slide.stiffness_kg * off_m;
   const Vector3d whole = dt_s * slide.impulse_ns + slide.mass_kg * off_m;
-  if (!slips(slide)) return whole;
-  const Vector3d& t = state.tangent;
-  return whole + (slide.rub_kg * (state.slid_m + off_m.dot(t)) - whole.dot(t)) * t;
+  if (!slips(slide.rub_kg, slide.mass_kg)) return whole;
+  const Vector3d& t = run.turn.tangent;
+  return whole + (slide.rub_kg * (run.slid_m + off_m.dot(t)) - whole.dot(t)) * t;
 }
 
 void ChainSlides::set(const ChainShape& shape, const std::vector<ChainSlide>& slides, ChainMatrix& matrix,
@@ -70,16 +63,13 @@ void ChainSlides::set(const ChainShape& shape, const std::vector<ChainSlide>& sl
   for (size_t k = 0; k < slides.size(); ++k) {
     const ChainSlide& slide = slides[k];
     if (slide.out) continue;
-    State& state = states_[k];
     const ChainPoint point(slide.s, shape.places_m.size());
-    const ChainTurn turn(point, shape.links);
-    state.tangent = turn.tangent;
-    state.angle = turn.angle;
-    state.along_link = turn.along_link;
+    runs_[k].turn = ChainTurn(point, shape.links);
+    const Vector3d& t = runs_[k].turn.tangent;
     Matrix3d stiff = (tears(slide) ? slide.stiffness_kg : slide.mass_kg) * Matrix3d::Identity();
-    if (slips(slide)) stiff -= (slide.mass_kg - slide.rub_kg) * turn.tangent * turn.tangent.transpose();
+    if (runsAlong(slide)) stiff -= (slide.mass_kg - slide.rub_kg) * t * t.transpose();
     matrix.addPoint(point.node, point.share, stiff);
-    point.push(-impulse(slide, state, point.of(shape.places_m) - slide.to_m, shape.dt_s), rest);
+    point.push(-impulse(slide, runs_[k], point.of(shape.places_m) - slide.to_m, shape.dt_s), rest);
   }
 }
 
@@ -88,56 +78,36 @@ bool ChainSlides::heed(const ChainShape& shape, bool frozen, std::vector<ChainSl
   for (size_t k = 0; k < slides.size(); ++k) {
     ChainSlide& slide = slides[k];
     if (slide.out) continue;
-    State& state = states_[k];
+    ChainRun& run = runs_[k];
     const Vector3d off_m = ChainPoint(slide.s, shape.places_m.size()).of(shape.places_m) - slide.to_m;
-    slide.impulse_ns = impulse(slide, state, off_m, shape.dt_s) / shape.dt_s;
-    const bool slid = slips(slide);
-    if (!frozen) again |= change(shape, off_m, slide, state);
-    if (slid) again |= moveAlong(shape, off_m.dot(state.tangent), frozen, slide, state);
+    slide.impulse_ns = impulse(slide, run, off_m, shape.dt_s) / shape.dt_s;
+    const bool along = runsAlong(slide);
+    if (!frozen) again |= change(shape, off_m, slide, run);
+    if (!along || !run.follow(shape, off_m.dot(run.turn.tangent), slide.s, slide.out) || frozen) continue;
+    slide.rub_kg = kRigidMass_kg;
+    again = true;
   }
   return again;
 }
 
 /// From holding to sliding to tearing and back, by what it has just been found to need.
-bool ChainSlides::change(const ChainShape& shape, const Vector3d& off_m, ChainSlide& slide, State& state) const {
-  const double dt2 = shape.dt_s * shape.dt_s, most = dt2 * slide.most_n;
+bool ChainSlides::change(const ChainShape& shape, const Vector3d& off_m, ChainSlide& slide, const ChainRun& run) const {
+  const double dt2 = shape.dt_s * shape.dt_s, most = dt2 * slide.most_n, mass_kg = slide.mass_kg;
   const Vector3d all = shape.dt_s * slide.impulse_ns;
   const double size = all.norm();
   if (tears(slide)) {
-    slide.stiffness_kg = orRigid(secant(most, off_m.norm(), slide.mass_kg), slide);
+    slide.stiffness_kg = orRigid(secant(most, off_m.norm(), mass_kg), mass_kg);
     return size > kSlack * most;
   }
   if (size > most) {
-    slide.stiffness_kg =
-        orRigid(secant(most, std::max(off_m.norm(), (size - most) / slide.mass_kg), slide.mass_kg), slide);
+    slide.stiffness_kg = orRigid(secant(most, std::max(off_m.norm(), (size - most) / mass_kg), mass_kg), mass_kg);
     return true;
   }
-  const double along = all.dot(state.tangent), across = (all - along * state.tangent).norm();
-  const double limit = dt2 * slide.through_n + capstan(slide.friction, state.angle) * across;
-  if (!slips(slide)) {
-    const double over = std::abs(along) - limit;
-    const double edge = along > 0 ? slide.s - state.low : state.high - slide.s;
-    if (over <= 0 || edge < kAtStop) return false;
-    slide.rub_kg = secant(limit, std::max(kSlow_m_per_s * shape.dt_s, over / slide.mass_kg), slide.mass_kg);
-    return std::abs(along) > kSlack * limit;
-  }
-  slide.rub_kg = orRigid(secant(limit, std::abs(state.slid_m + off_m.dot(state.tangent)), slide.mass_kg), slide);
-  return std::abs(along) > kSlack * limit || (slips(slide) && kSlack * std::abs(along) < limit);
-}
-
-/// The point goes where the chain has slid to: at a sharp turn, farther along its bisector than along the chain.
-/// @returns whether something stops it
-bool ChainSlides::moveAlong(const ChainShape& shape, double by_m, bool frozen, ChainSlide& slide, State& state) const {
-  const double link_m = shape.link_m / state.along_link, last = static_cast<double>(shape.links.size());
-  const double wanted = slide.s - std::clamp(by_m / link_m, -kMostLinks, kMostLinks);
-  const double to = std::clamp(wanted, state.low, state.high);
-  slide.out = to < 0 || to > last;
-  const double s = std::clamp(to, 0.0, last);
-  state.slid_m += (slide.s - s) * link_m;
-  slide.s = s;
-  if (to == wanted || frozen) return false;
-  slide.rub_kg = kRigidMass_kg;
-  return true;
+  const Vector3d& t = run.turn.tangent;
+  const double along = all.dot(t), across = (all - along * t).norm();
+  const double limit =
+      dt2 * slide.through_n * run.turn.alongBisector() + capstan(slide.friction, run.turn.angle) * across;
+  return run.rub(shape, along, limit, off_m.dot(t), mass_kg, slide.s, slide.rub_kg);
 }
 
 double ChainSlides::farthestOff_m(const ChainShape& shape, const std::vector<ChainSlide>& slides) const {
@@ -146,7 +116,7 @@ double ChainSlides::farthestOff_m(const ChainShape& shape, const std::vector<Cha
     const ChainSlide& slide = slides[k];
     if (slide.out || tears(slide)) continue;
     Vector3d off_m = ChainPoint(slide.s, shape.places_m.size()).of(shape.places_m) - slide.to_m;
-    if (slips(slide)) off_m -= off_m.dot(states_[k].tangent) * states_[k].tangent;
+    if (runsAlong(slide)) off_m -= off_m.dot(runs_[k].turn.tangent) * runs_[k].turn.tangent;
     out = std::max(out, off_m.norm());
   }
   return out;

@@ -6,7 +6,8 @@
 #include <limits>
 #include <vector>
 
-#include "solver/thread/chain_points.h"
+#include "solver/thread/chain_knots.h"
+#include "solver/thread/chain_run.h"
 
 namespace viscera {
 
@@ -32,8 +33,9 @@ struct ChainSlide {
 /// the chain by what it slid, and rubs by its limit over that; one that does not slide is held all round.
 class ChainSlides {
  public:
-  /// @param swaged  first and last end: nothing slides off there
-  void begin(const ChainShape& shape, const std::array<bool, 2>& swaged, std::vector<ChainSlide>& slides);
+  /// @param swaged  first and last end: nothing slides off there   @param knots  of the chain: nothing passes them
+  void begin(const ChainShape& shape, const std::array<bool, 2>& swaged, const std::vector<ChainKnot>& knots,
+             std::vector<ChainSlide>& slides);
   /// Into a system that is to be solved.
   void set(const ChainShape& shape, const std::vector<ChainSlide>& slides, ChainMatrix& matrix,
            std::vector<ChainMatrix::Unknown>& rest);
@@ -45,17 +47,10 @@ class ChainSlides {
   void end(const ChainShape& shape, std::vector<ChainSlide>& slides) const;
 
  private:
-  struct State {
-    double low, high;   ///< of s
-    double slid_m = 0;  ///< along, in this substep, that s has followed
-    Vector3d tangent = Vector3d::Zero();
-    double angle = 0, along_link = 1;
-  };
-  Vector3d impulse(const ChainSlide& slide, const State& state, const Vector3d& off_m, double dt_s) const;
-  bool change(const ChainShape& shape, const Vector3d& off_m, ChainSlide& slide, State& state) const;
-  bool moveAlong(const ChainShape& shape, double by_m, bool frozen, ChainSlide& slide, State& state) const;
+  Vector3d impulse(const ChainSlide& slide, const ChainRun& run, const Vector3d& off_m, double dt_s) const;
+  bool change(const ChainShape& shape, const Vector3d& off_m, ChainSlide& slide, const ChainRun& run) const;
 
-  std::vector<State> states_;
+  std::vector<ChainRun> runs_;
 };
 
 }  // namespace viscera
