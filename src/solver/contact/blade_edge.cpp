@@ -45,7 +45,35 @@ Vector3d atMost(const Vector3d& v, double most) {
   return size > most ? Vector3d(most / size * v) : v;
 }
 
+std::vector<uint32_t> slotsOf(const std::vector<uint32_t>& runs) {
+  std::vector<uint32_t> out;
+  for (const uint32_t first : runs) {
+    for (uint32_t k = 0; k < BladeNodes::kLanes; ++k) out.push_back(first + k);
+  }
+  return out;
+}
+
 }  // namespace
+
+void BladeTarget::readRuns(const std::vector<uint32_t>& runs, BladeNodes::Planes& u_m,
+                           BladeNodes::Planes& v_m_per_s) const {
+  const std::vector<uint32_t> slots = slotsOf(runs);
+  std::vector<Vector3f> u(slots.size()), v(slots.size());
+  readNodes(slots, u, v);
+  for (int a = 0; a < 3; ++a) {
+    for (size_t i = 0; i < slots.size(); ++i) {
+      u_m[static_cast<size_t>(a)][i] = u[i][a];
+      v_m_per_s[static_cast<size_t>(a)][i] = v[i][a];
+    }
+  }
+}
+
+void BladeTarget::pushRuns(uint32_t stylus, float dt_s, const std::vector<uint32_t>& runs,
+                           const BladeNodes::Planes& dv_m_per_s) {
+  std::vector<Vector3f> dv(runs.size() * BladeNodes::kLanes);
+  for (size_t i = 0; i < dv.size(); ++i) dv[i] = {dv_m_per_s[0][i], dv_m_per_s[1][i], dv_m_per_s[2][i]};
+  pushNodes(stylus, dt_s, slotsOf(runs), dv);
+}
 
 BladeEdge::BladeEdge(RestTissue& tissue, double friction_n_per_m)
     : tissue_(tissue),
@@ -57,12 +85,11 @@ void BladeEdge::act(BladeTarget& target, uint32_t stylus, const layout::ToolMoti
   if (fronts_.empty()) place(blade);
   aim(blade, dt_s);
   renewKernels();
-  if (!near_.slots.empty()) target.readNodes(near_.slots, u_, v_);
-  near_.take(u_, v_);
+  if (!near_.runs.empty()) target.readRuns(near_.runs, near_.u, near_.v);
   look(dt_s);
   findLengths();
   solve(dt_s);
-  if (!near_.slots.empty()) give(target, stylus, dt_s);
+  if (!near_.runs.empty()) give(target, stylus, dt_s);
   advance(dt_s);
   followThroughAir();
   cutBehind(target, false);
@@ -120,9 +147,6 @@ void BladeEdge::gather() {
   std::vector<Vector3d> centres_m;
   for (const Front& front : fronts_) centres_m.push_back(front.gathered);
   near_.gather(tissue_, centres_m, near_along_, kernel_m_ + kGathered * h_);
-  u_.resize(near_.slots.size());
-  v_.resize(near_.slots.size());
-  dv_.resize(near_.slots.size());
   for (std::vector<float>& momenta : momenta_) momenta.resize(near_.share.size());
 }
 
@@ -130,8 +154,9 @@ void BladeEdge::findMobilities() {
   const size_t n = fronts_.size();
   mobilities_.assign(n * n, 0);
   for (size_t i = 0; i < n; ++i) {
+    kernels_[i].spread(near_, spread_);
     for (size_t j = i; j < n && (fronts_[j].centre - fronts_[i].centre).norm() < 2 * kernel_m_; ++j)
-      mobilities_[i * n + j] = mobilities_[j * n + i] = kernels_[i].mobility(near_, kernels_[j]);
+      mobilities_[i * n + j] = mobilities_[j * n + i] = kernels_[j].mobility(spread_);
   }
 }
 
@@ -231,9 +256,8 @@ void BladeEdge::give(BladeTarget& target, uint32_t stylus, double dt_s) {
   for (size_t i = 0; i < fronts_.size(); ++i) {
     if (pushes_[i].impulse.squaredNorm() > 0) kernels_[i].give(pushes_[i].impulse.cast<float>(), momenta_);
   }
-  for (size_t n = 0; n < dv_.size(); ++n)
-    dv_[n] = near_.inverse_mass[n] * Vector3f(momenta_[0][n], momenta_[1][n], momenta_[2][n]);
-  target.pushNodes(stylus, static_cast<float>(dt_s), near_.slots, dv_);
+  near_.toVelocities(momenta_);
+  target.pushRuns(stylus, static_cast<float>(dt_s), near_.runs, momenta_);
 }
 
 /// A way in the tissue as it is, at rest: by the inverse of F.

@@ -23,6 +23,13 @@ class BladeTarget {
   /// reaction of a stylus. @param stylus  kMaxStyluses: to none
   virtual void pushNodes(uint32_t stylus, float dt_s, const std::vector<uint32_t>& slots,
                          const std::vector<Vector3f>& dv_m_per_s) = 0;
+  /// @name The same of whole runs of slots, as BladeNodes has them: [8 * runs] by axis
+  /// @{
+  virtual void readRuns(const std::vector<uint32_t>& runs, BladeNodes::Planes& u_m,
+                        BladeNodes::Planes& v_m_per_s) const;
+  virtual void pushRuns(uint32_t stylus, float dt_s, const std::vector<uint32_t>& runs,
+                        const BladeNodes::Planes& dv_m_per_s);
+  /// @}
   /// The body whose springs cutAtRest() cuts from now on.
   virtual void selectBody(size_t body) = 0;
   /// Cuts the springs that a sweep crosses where the nodes are at rest.
@@ -120,8 +127,8 @@ class BladeEdge {
   std::vector<Push> pushes_;
   std::vector<double> mobilities_;  ///< [samples^2] what an impulse of one changes another's velocity by [1/kg]
   BladeNodes near_;
-  std::vector<Vector3f> u_, v_, dv_;  ///< of those
-  BladeNodes::Planes momenta_;
+  BladeNodes::Planes momenta_;  ///< of those; then what they change velocities by
+  std::vector<float> spread_;
   Vector3d near_along_ = Vector3d::Zero();  ///< the edge's direction when they were gathered
   Vector3d along_ = Vector3d::Zero();       ///< the edge's direction
 };

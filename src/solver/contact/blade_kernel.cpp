@@ -5,6 +5,7 @@
 #include <Eigen/LU>
 
 #include <algorithm>
+#include <limits>
 
 namespace viscera {
 
@@ -43,59 +44,62 @@ void BladeNodes::gather(const RestTissue& tissue, const std::vector<Vector3d>& c
     });
   }
   for (const uint32_t n : found_) is_found_[n] = 0;
-  const auto place = [&](uint32_t n) { return static_cast<float>((tissue.nodes()[n].rest_m - origin_m).dot(along)); };
-  std::sort(found_.begin(), found_.end(), [&](uint32_t a, uint32_t b) {
-    const float at_a = place(a), at_b = place(b);
-    return at_a < at_b || (at_a == at_b && a < b);
-  });
-  const size_t whole = (found_.size() + kLanes - 1) / kLanes * kLanes;
-  slots.clear();
+  std::sort(found_.begin(), found_.end(),
+            [&](uint32_t a, uint32_t b) { return tissue.nodes()[a].slot < tissue.nodes()[b].slot; });
+  runs.clear();
+  for (const uint32_t n : found_) {
+    const uint32_t run = tissue.nodes()[n].slot / kLanes * kLanes;
+    if (runs.empty() || runs.back() != run) runs.push_back(run);
+  }
   for (std::vector<float>* plane :
        {&share, &inverse_mass, &rest_m[0], &rest_m[1], &rest_m[2], &u[0], &u[1], &u[2], &v[0], &v[1], &v[2]})
-    plane->assign(whole, 0);
-  places_m.assign(whole, found_.empty() ? 0 : place(found_.back()));
-  for (size_t i = 0; i < found_.size(); ++i) {
-    const RestTissue::Node& node = tissue.nodes()[found_[i]];
-    slots.push_back(node.slot);
+    plane->assign(runs.size() * kLanes, 0);
+  low_m.assign(runs.size(), std::numeric_limits<float>::max());
+  high_m.assign(runs.size(), std::numeric_limits<float>::lowest());
+  size_t run = 0;
+  for (const uint32_t n : found_) {
+    const RestTissue::Node& node = tissue.nodes()[n];
+    while (runs[run] != node.slot / kLanes * kLanes) ++run;
+    const size_t i = run * kLanes + node.slot % kLanes;
+    const Vector3f rest = (node.rest_m - origin_m).cast<float>();
+    const float place_m = rest.dot(along.cast<float>());
     share[i] = node.share;
     inverse_mass[i] = node.inverse_mass;
-    places_m[i] = place(found_[i]);
-    for (int a = 0; a < 3; ++a) rest_m[static_cast<size_t>(a)][i] = static_cast<float>((node.rest_m - origin_m)[a]);
+    for (int a = 0; a < 3; ++a) rest_m[static_cast<size_t>(a)][i] = rest[a];
+    low_m[run] = std::min(low_m[run], place_m);
+    high_m[run] = std::max(high_m[run], place_m);
   }
 }
 
-void BladeNodes::take(const std::vector<Vector3f>& u_m, const std::vector<Vector3f>& v_m_per_s) {
-  for (size_t i = 0; i < slots.size(); ++i) {
-    for (size_t a = 0; a < 3; ++a) {
-      u[a][i] = u_m[i][static_cast<int>(a)];
-      v[a][i] = v_m_per_s[i][static_cast<int>(a)];
-    }
+void BladeNodes::toVelocities(Planes& momenta) const {
+  for (std::vector<float>& plane : momenta) {
+    for (size_t n = 0; n < plane.size(); n += kLanes) Eigen::Map<Lanes>(plane.data() + n) *= at(inverse_mass, n);
   }
 }
 
 void BladeKernel::make(const BladeNodes& nodes, const Vector3d& centre_m, double radius_m) {
   is_new = true;
+  runs.clear();
   weights.clear();
   lean.setZero();
+  if (!centre_m.allFinite()) return;
   const Vector3d from_origin = centre_m - nodes.origin_m;
-  const double place_m = from_origin.dot(nodes.along);
-  const auto begin = nodes.places_m.begin(), end = nodes.places_m.end();
-  first = static_cast<size_t>(std::lower_bound(begin, end, static_cast<float>(place_m - radius_m)) - begin);
-  first = first / kLanes * kLanes;
-  const auto last = static_cast<size_t>(std::upper_bound(begin, end, static_cast<float>(place_m + radius_m)) - begin);
-  if (!centre_m.allFinite() || last <= first) return;
-  weights.resize((last - first + kLanes - 1) / kLanes * kLanes);
+  const auto low_m = static_cast<float>(from_origin.dot(nodes.along) - radius_m);
+  const auto high_m = static_cast<float>(from_origin.dot(nodes.along) + radius_m);
   centre_m_ = from_origin.cast<float>();
   per_radius2_ = static_cast<float>(1 / (radius_m * radius_m));
   Lanes sum = Lanes::Zero();
   Lanes3 slopes, leans;
-  for (size_t i = 0; i < weights.size(); i += kLanes) {
-    const size_t n = first + i;
+  for (size_t run = 0; run < nodes.runs.size(); ++run) {
+    if (nodes.high_m[run] < low_m || nodes.low_m[run] > high_m) continue;
+    const size_t n = run * kLanes;
     const Lanes x = at(nodes.rest_m[0], n) - centre_m_.x(), y = at(nodes.rest_m[1], n) - centre_m_.y(),
                 z = at(nodes.rest_m[2], n) - centre_m_.z();
     const Lanes t = (1 - per_radius2_ * (x * x + y * y + z * z)).max(0.0f);
     const Lanes slope = 4 * per_radius2_ * at(nodes.share, n) * t, weight = at(nodes.share, n) * t * t;
-    Eigen::Map<Lanes>(weights.data() + i) = weight;
+    if (!(weight > 0).any()) continue;
+    runs.push_back(static_cast<uint32_t>(run));
+    weights.insert(weights.end(), weight.data(), weight.data() + kLanes);
     sum += weight;
     slopes.x += slope * x;
     slopes.y += slope * y;
@@ -106,35 +110,40 @@ void BladeKernel::make(const BladeNodes& nodes, const Vector3d& centre_m, double
   }
   sum_ = sum.sum();
   slope_sum_ = slopes.sum();
-  if (!(sum_ > 0)) return weights.clear();
+  if (runs.empty()) return;
   lean = (leans.sum() / sum_).cast<double>();
   for (float& weight : weights) weight /= sum_;
 }
 
 void BladeKernel::means(const BladeNodes& nodes, Vector3d& u_m, Vector3d& v_m_per_s) const {
   Lanes3 u, v;
-  for (size_t i = 0; i < weights.size(); i += kLanes) {
-    u.add(at(weights, i), nodes.u, first + i);
-    v.add(at(weights, i), nodes.v, first + i);
+  for (size_t i = 0; i < runs.size(); ++i) {
+    u.add(at(weights, i * kLanes), nodes.u, runs[i] * kLanes);
+    v.add(at(weights, i * kLanes), nodes.v, runs[i] * kLanes);
   }
   u_m = u.sum().cast<double>();
   v_m_per_s = v.sum().cast<double>();
 }
 
-double BladeKernel::mobility(const BladeNodes& nodes, const BladeKernel& other) const {
-  const size_t begin = std::max(first, other.first);
-  const size_t end = std::min(first + weights.size(), other.first + other.weights.size());
+void BladeKernel::spread(const BladeNodes& nodes, std::vector<float>& out) const {
+  out.assign(nodes.share.size(), 0);
+  for (size_t i = 0; i < runs.size(); ++i) {
+    const size_t n = runs[i] * kLanes;
+    Eigen::Map<Lanes>(out.data() + n) = at(weights, i * kLanes) * at(nodes.inverse_mass, n);
+  }
+}
+
+double BladeKernel::mobility(const std::vector<float>& other) const {
   Lanes sum = Lanes::Zero();
-  for (size_t n = begin; n < end; n += kLanes)
-    sum += at(weights, n - first) * at(other.weights, n - other.first) * at(nodes.inverse_mass, n);
+  for (size_t i = 0; i < runs.size(); ++i) sum += at(weights, i * kLanes) * at(other, runs[i] * kLanes);
   return static_cast<double>(sum.sum());
 }
 
 void BladeKernel::give(const Vector3f& impulse, BladeNodes::Planes& momenta) const {
   for (size_t a = 0; a < 3; ++a) {
     const float part = impulse[static_cast<int>(a)];
-    for (size_t i = 0; i < weights.size(); i += kLanes)
-      Eigen::Map<Lanes>(momenta[a].data() + first + i) += part * at(weights, i);
+    for (size_t i = 0; i < runs.size(); ++i)
+      Eigen::Map<Lanes>(momenta[a].data() + runs[i] * kLanes) += part * at(weights, i * kLanes);
   }
 }
 
@@ -143,8 +152,8 @@ Eigen::Matrix3d BladeKernel::toRest(const BladeNodes& nodes) {
   is_new = false;
   if (weights.empty()) return Eigen::Matrix3d::Identity();
   Lanes3 by_x, by_y, by_z, mean;
-  for (size_t i = 0; i < weights.size(); i += kLanes) {
-    const size_t n = first + i;
+  for (size_t i = 0; i < runs.size(); ++i) {
+    const size_t n = runs[i] * kLanes;
     const Lanes x = at(nodes.rest_m[0], n) - centre_m_.x(), y = at(nodes.rest_m[1], n) - centre_m_.y(),
                 z = at(nodes.rest_m[2], n) - centre_m_.z();
     const Lanes t = (1 - per_radius2_ * (x * x + y * y + z * z)).max(0.0f);
@@ -152,7 +161,7 @@ Eigen::Matrix3d BladeKernel::toRest(const BladeNodes& nodes) {
     by_x.add(slope * x, nodes.u, n);
     by_y.add(slope * y, nodes.u, n);
     by_z.add(slope * z, nodes.u, n);
-    mean.add(at(weights, i), nodes.u, n);
+    mean.add(at(weights, i * kLanes), nodes.u, n);
   }
   Eigen::Matrix3f gradient;
   gradient << by_x.sum(), by_y.sum(), by_z.sum();

@@ -12,21 +12,23 @@
 
 namespace viscera {
 
-/// The nodes around an edge, ordered along it, in arrays for vector instructions; as many as make whole vectors.
+/// The nodes around an edge, as they lie in the solver's buffers: in runs of eight slots that follow each other, the
+/// first a multiple of eight, for vector instructions.
 struct BladeNodes {
   static constexpr size_t kLanes = 8;
   using Planes = std::array<std::vector<float>, 3>;
 
   /// All within a radius of centres. @param along  the edge
   void gather(const RestTissue& tissue, const std::vector<Vector3d>& centres_m, const Vector3d& along, double radius_m);
-  /// @param u_m, v_m_per_s  by slots
-  void take(const std::vector<Vector3f>& u_m, const std::vector<Vector3f>& v_m_per_s);
+  /// Momenta become changes of velocities.
+  void toVelocities(Planes& momenta) const;
 
-  std::vector<uint32_t> slots;  ///< none for what only fills up
-  std::vector<float> share, inverse_mass;
-  std::vector<float> places_m;  ///< along the edge, ascending
-  Planes rest_m, u, v;
-  Vector3d origin_m = Vector3d::Zero();  ///< of rest_m and places_m
+  std::vector<uint32_t> runs;  ///< first slots, ascending
+  // [8 * runs]; of slots that are no nodes nearby, and of what they move by nothing is used
+  std::vector<float> share, inverse_mass;  ///< 0 of these
+  Planes rest_m, u, v;                     ///< of displacements and velocities
+  std::vector<float> low_m, high_m;        ///< [runs] along the edge
+  Vector3d origin_m = Vector3d::Zero();    ///< of rest_m, low_m, high_m
   Vector3d along = Vector3d::Zero();
 
  private:
@@ -40,15 +42,17 @@ struct BladeKernel {
   void make(const BladeNodes& nodes, const Vector3d& centre_m, double radius_m);
   /// Of displacements and velocities.
   void means(const BladeNodes& nodes, Vector3d& u_m, Vector3d& v_m_per_s) const;
-  /// What an impulse of this one's changes another's velocity by [1/kg].
-  double mobility(const BladeNodes& nodes, const BladeKernel& other) const;
+  /// Writes weights over masses where mobility() looks for them. @param out  [nodes]
+  void spread(const BladeNodes& nodes, std::vector<float>& out) const;
+  /// What an impulse of another's changes this one's velocity by [1/kg]. @param other  what its spread() wrote
+  double mobility(const std::vector<float>& other) const;
   /// Adds the momenta that nodes get of an impulse.
   void give(const Vector3f& impulse, BladeNodes::Planes& momenta) const;
   /// The inverse of F; where tissue is folded, as if it were rigid.
   Eigen::Matrix3d toRest(const BladeNodes& nodes);
 
-  size_t first = 0;                  ///< of the nodes
-  std::vector<float> weights;        ///< of a mean, of nodes from the first one on
+  std::vector<uint32_t> runs;        ///< of the nodes' that have weights
+  std::vector<float> weights;        ///< [8 * runs] of a mean
   Vector3d lean = Vector3d::Zero();  ///< from its middle to the mean of its tissue [m]
   bool is_new = false;               ///< since the last toRest()
 

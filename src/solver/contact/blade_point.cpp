@@ -46,7 +46,8 @@ void BladePoint::act(BladeTarget& target, uint32_t stylus, const layout::ToolMot
   Vector3d gap = tip_.edge - (tip_.at + u_m - dt_s * v);
   tip_.edge = to;
   const double cap_n = tip_.stuck ? fill(tip_.at) * tissue_.toughness().ofPoint_n(tip_.at, width_m_, kernel_m_) : 0;
-  const double mobility = kernel_.mobility(near_, kernel_);
+  kernel_.spread(near_, spread_);
+  const double mobility = kernel_.mobility(spread_);
   double push_n_s = 0;
   bool slips = tip_.stuck != 0;
   done_.limit_n = cap_n;
@@ -58,9 +59,8 @@ void BladePoint::act(BladeTarget& target, uint32_t stylus, const layout::ToolMot
   if (push_n_s > 0) {
     for (std::vector<float>& momenta : momenta_) momenta.assign(near_.share.size(), 0);
     kernel_.give((push_n_s * into).cast<float>(), momenta_);
-    for (size_t n = 0; n < dv_.size(); ++n)
-      dv_[n] = near_.inverse_mass[n] * Vector3f(momenta_[0][n], momenta_[1][n], momenta_[2][n]);
-    target.pushNodes(stylus, static_cast<float>(dt_s), near_.slots, dv_);
+    near_.toVelocities(momenta_);
+    target.pushRuns(stylus, static_cast<float>(dt_s), near_.runs, momenta_);
     v += push_n_s * mobility * into;
     done_.work_j += push_n_s * into.dot(edge_velocity);
   }
@@ -75,17 +75,13 @@ void BladePoint::renewKernel(BladeTarget& target) {
     tip_.centre = tip_.at;
     makeKernel();
   }
-  if (!near_.slots.empty()) target.readNodes(near_.slots, u_, v_);
-  near_.take(u_, v_);
+  if (!near_.runs.empty()) target.readRuns(near_.runs, near_.u, near_.v);
   if (kernel_.is_new) tip_.to_rest = kernel_.toRest(near_);
 }
 
 void BladePoint::makeKernel() {
   near_.gather(tissue_, {tip_.centre}, Vector3d::UnitX(), kernel_m_);
   kernel_.make(near_, tip_.centre, kernel_m_);
-  u_.resize(near_.slots.size());
-  v_.resize(near_.slots.size());
-  dv_.resize(near_.slots.size());
 }
 
 /// @param gap  from the front to the point, as they are

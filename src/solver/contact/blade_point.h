@@ -46,8 +46,8 @@ class BladePoint {
   BladeWork done_;
   BladeNodes near_;
   BladeKernel kernel_;
-  std::vector<Vector3f> u_, v_, dv_;  ///< of those
   BladeNodes::Planes momenta_;
+  std::vector<float> spread_;
 };
 
 }  // namespace viscera

@@ -144,35 +144,6 @@ void CpuBackend::cut(uint32_t stylus, bool particles) {
   cutWith(motion_[stylus], particles, particles || resists_.empty() ? nullptr : resists_.data());
 }
 
-void CpuBackend::readNodes(const std::vector<uint32_t>& slots, std::vector<Vector3f>& u_m,
-                           std::vector<Vector3f>& v_m_per_s) const {
-  const float* const u = lattice_.state.displacement[lattice_.state.current].data();
-  const float* const v = lattice_.state.velocity[lattice_.state.current].data();
-  for (size_t i = 0; i < slots.size(); ++i) {
-    u_m[i] = planesAt(u, slots[i]);
-    v_m_per_s[i] = planesAt(v, slots[i]);
-  }
-}
-
-void CpuBackend::pushNodes(uint32_t stylus, float dt_s, const std::vector<uint32_t>& slots,
-                           const std::vector<Vector3f>& dv_m_per_s) {
-  float* const u = lattice_.state.displacement[lattice_.state.current].data();
-  float* const v = lattice_.state.velocity[lattice_.state.current].data();
-  for (size_t i = 0; i < slots.size(); ++i) {
-    const uint32_t slot = slots[i];
-    const Vector3f& dv = dv_m_per_s[i];
-    if (lattice_.strengths.mobility[slot] == 0 || dv.isZero(0)) continue;
-    setPlanes(v, slot, planesAt(v, slot) + dv);
-    setPlanes(u, slot, planesAt(u, slot) + dt_s * dv);
-    sleep_.wake(slot / layout::kBrickSlots);
-    if (stylus >= layout::kMaxStyluses) continue;
-    const Vector3f given = lattice_.strengths.mass[slot] * dv;
-    layout::vec4& sum = lattice_.hands.impulses[stylus * lattice_.slotCount() + slot];
-    sum = {sum.x + given.x(), sum.y + given.y(), sum.z + given.z(), sum.w + 1};
-    lattice_.hands.touched[slot / layout::kBrickSlots] = 1;
-  }
-}
-
 /// What a kernel of cuts sees of the state is exchanged for one without displacements.
 void CpuBackend::cutAtRest(const layout::ToolMotion& sweep) {
   const auto exchange = [this] {
@@ -275,6 +246,7 @@ float CpuBackend::largestRate() const {
 }
 
 void CpuBackend::sumReactions(const std::array<Vector3f, layout::kMaxStyluses>& tips) {
+  sumPushes();
   viscera::sumReactions(lattice_, tips, stats_);
 }
 
@@ -313,6 +285,7 @@ void CpuBackend::changeAll() {
   if (pairs_) pairs_->restart();
   std::fill(lattice_.hands.impulses.begin(), lattice_.hands.impulses.end(), layout::vec4{});
   std::fill(lattice_.hands.touched.begin(), lattice_.hands.touched.end(), uint8_t{0});
+  for (AlignedVector<float>& pushed : pushed_) std::fill(pushed.begin(), pushed.end(), 0.0f);
   std::fill(lattice_.hands.obstacle_impulses.begin(), lattice_.hands.obstacle_impulses.end(), layout::vec4{});
   std::fill(lattice_.hands.met.begin(), lattice_.hands.met.end(), uint8_t{0});
   sleep_.wakeAll(lattice_);

@@ -53,6 +53,10 @@ class CpuBackend : public SolverBackend {
                  std::vector<Vector3f>& v_m_per_s) const override;
   void pushNodes(uint32_t stylus, float dt_s, const std::vector<uint32_t>& slots,
                  const std::vector<Vector3f>& dv_m_per_s) override;
+  void readRuns(const std::vector<uint32_t>& runs, BladeNodes::Planes& u_m,
+                BladeNodes::Planes& v_m_per_s) const override;
+  void pushRuns(uint32_t stylus, float dt_s, const std::vector<uint32_t>& runs,
+                const BladeNodes::Planes& dv_m_per_s) override;
   void selectBody(size_t body) override { selected_body_ = body; }
   void cutAtRest(const layout::ToolMotion& sweep) override;
   void advance(const Substep& step, bool recovery) override;
@@ -81,6 +85,7 @@ class CpuBackend : public SolverBackend {
  private:
   struct Work;  // what only src/solver/cpu knows: the kernels' jobs
   void cutWith(const layout::ToolMotion& motion, bool particles, const uint8_t* spared);
+  void sumPushes();
   void wakeForTools(const std::vector<layout::ToolMotion>& motions);
   void changeAll();
   void noteHeld();
@@ -106,6 +111,7 @@ class CpuBackend : public SolverBackend {
   AlignedVector<float> still_[2];  ///< [3 * slots] 0; empty until a blade has cut at rest
   std::vector<uint8_t> resists_;   ///< [bodies] 1: blades part it by work; empty where none does
   std::vector<uint8_t> others_;    ///< [bodies] 0: the selected one
+  std::array<AlignedVector<float>, layout::kMaxStyluses> pushed_;  ///< [3 * slots] N s, by blades in this tick
   size_t selected_body_ = 0;
   std::optional<CpuTearing> tearing_;
   bool torn_ = false;                    ///< since takeTorn()

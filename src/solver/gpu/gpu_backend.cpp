@@ -67,7 +67,7 @@ GpuBackend::GpuBackend(const Model& model, const Scene& scene, const TickPlan& p
                          ReactionPass(features_, buffers_.store.active_count)});
   }
   if ((plan.tools && resistsBlades(scene)) || !scene.threads.empty()) {
-    blade_.reset(new Blade{NodeWindow(features_, buffers_.store.active_count, awake_.get()),
+    blade_.reset(new Blade{NodeWindow(features_, buffers_.store.slot_count, awake_.get()),
                            gpu::Buffer<layout::ToolMotion>(layout::kMaxStyluses, "a sweep at rest"),
                            gpu::Buffer<layout::vec4>(buffers_.store.slot_count, "tissue at rest")});
     double friction_n_per_m = 0;

@@ -16,7 +16,7 @@ namespace viscera {
 /// substep. Owner of shaders/solver/tools/node_window.comp.
 class NodeWindow {
  public:
-  /// @param most  nodes in a call   @param awake  null where nothing sleeps; must outlive the window
+  /// @param most  slots in a call   @param awake  null where nothing sleeps; must outlive the window
   NodeWindow(const FeatureSet& features, size_t most, AwakeBricks* awake);
   /// Displacements and velocities as they are now; waits. @param slots  of nodes, none twice   @param u_m, v_m_per_s as
   /// long as slots
