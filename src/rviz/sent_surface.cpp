@@ -1,0 +1,181 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rviz/sent_surface.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace viscera::rviz_plugin {
+namespace {
+
+constexpr size_t kMostBodies = 1000;    // a hundred have labels in pictures
+constexpr size_t kTopologiesKept = 4;   // vertices are larger and come later, over a network by more than one change
+constexpr float kFarthest_m = 1e6F;     // beyond it the squares of the renderer's bounds are not numbers
+constexpr float kNormalScale = 511.0F;  // of signed 10-bit fractions
+
+std::string text(size_t number) {
+  return std::to_string(number);
+}
+
+/// Parts and checks of what a message says. @returns what is wrong, or nothing
+std::string complete(SentTopology& topology, const std::vector<uint32_t>& body_triangles,
+                     const std::vector<uint32_t>& wound_triangles) {
+  const size_t bodies = topology.bodies.size();
+  if (bodies > kMostBodies) return text(bodies) + " bodies, more than " + text(kMostBodies);
+  if (body_triangles.size() != bodies || wound_triangles.size() != bodies)
+    return "bodies, body_triangles and wound_triangles have " + text(bodies) + ", " + text(body_triangles.size()) +
+           " and " + text(wound_triangles.size()) + " entries, not as many";
+  if (topology.triangles.size() % 3 != 0)
+    return text(topology.triangles.size()) + " entries of triangles, not 3 for each";
+  size_t first = 0;
+  topology.parts.clear();
+  for (size_t b = 0; b < bodies; ++b) {
+    if (wound_triangles[b] > body_triangles[b])
+      return "wound_triangles[" + text(b) + "] = " + text(wound_triangles[b]) + " are more than body_triangles[" +
+             text(b) + "] = " + text(body_triangles[b]);
+    const size_t skin = body_triangles[b] - wound_triangles[b];
+    topology.parts.push_back({b, false, first, skin});
+    topology.parts.push_back({b, true, first + skin, wound_triangles[b]});
+    first += body_triangles[b];
+  }
+  if (first != topology.triangles.size() / 3)
+    return "body_triangles sum up to " + text(first) + " of " + text(topology.triangles.size() / 3) + " triangles";
+  const auto most = std::max_element(topology.triangles.begin(), topology.triangles.end());
+  if (most != topology.triangles.end() && *most >= topology.vertices)
+    return "triangles name vertex " + text(*most) + " of " + text(topology.vertices);
+  return {};
+}
+
+/// @returns what is wrong, or nothing
+std::string edit(const std::vector<uint32_t>& before, const SurfaceTopologyChange& change, std::vector<uint32_t>& out) {
+  const size_t places = change.kept.size();
+  if (change.removed.size() != places || change.added.size() != places)
+    return "kept, removed and added have " + text(places) + ", " + text(change.removed.size()) + " and " +
+           text(change.added.size()) + " entries, not as many";
+  size_t at = 0, from = 0;  // numbers of triangles: sums of 32-bit numbers fit
+  for (size_t e = 0; e < places; ++e) {
+    const size_t kept_end = at + change.kept[e], end = kept_end + change.removed[e], added = from + change.added[e];
+    if (end > before.size() / 3 || added > change.triangles.size() / 3)
+      return "place " + text(e) + " goes beyond the triangles that are there";
+    const auto b = before.begin();
+    const auto c = change.triangles.begin();
+    out.insert(out.end(), b + static_cast<ptrdiff_t>(3 * at), b + static_cast<ptrdiff_t>(3 * kept_end));
+    out.insert(out.end(), c + static_cast<ptrdiff_t>(3 * from), c + static_cast<ptrdiff_t>(3 * added));
+    at = end;
+    from = added;
+  }
+  out.insert(out.end(), before.begin() + static_cast<ptrdiff_t>(3 * at), before.end());
+  return {};
+}
+
+std::array<double, 3> minus(const std::array<double, 3>& a, const std::array<double, 3>& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+std::array<double, 3> cross(const std::array<double, 3>& a, const std::array<double, 3>& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+double dot(const std::array<double, 3>& a, const std::array<double, 3>& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+}  // namespace
+
+std::string SentSurface::take(const SurfaceTopology& message) {
+  // One that was overtaken by changes; of a simulator that was started again the time goes on and versions do not.
+  if (!known_.empty() && message.version < known_.back()->version && message.header.stamp <= known_.back()->stamp)
+    return {};
+  auto topology = std::make_shared<SentTopology>();
+  topology->version = message.version;
+  topology->vertices = message.vertices;
+  topology->stamp = message.header.stamp;
+  topology->bodies = message.bodies;
+  topology->triangles = message.triangles;
+  if (std::string wrong = complete(*topology, message.body_triangles, message.wound_triangles); !wrong.empty())
+    return "topology: " + wrong;
+  if (!known_.empty()) {
+    const SentTopology& last = *known_.back();
+    const bool same = last.version == topology->version && last.vertices == topology->vertices &&
+                      last.bodies == topology->bodies && last.triangles == topology->triangles;
+    if (same) return {};
+    if (topology->version <= last.version) known_.clear();
+  }
+  keep(std::move(topology));
+  return join();
+}
+
+std::string SentSurface::take(const SurfaceTopologyChange& message) {
+  if (known_.empty() || message.version != known_.back()->version + 1) return {};  // the next whole one tells all
+  const SentTopology& last = *known_.back();
+  auto topology = std::make_shared<SentTopology>();
+  topology->version = message.version;
+  topology->vertices = message.vertices;
+  topology->stamp = message.header.stamp;
+  topology->bodies = last.bodies;
+  std::string wrong = edit(last.triangles, message, topology->triangles);
+  if (wrong.empty()) wrong = complete(*topology, message.body_triangles, message.wound_triangles);
+  if (!wrong.empty()) return "change of the topology: " + wrong;
+  keep(std::move(topology));
+  return join();
+}
+
+std::string SentSurface::take(const SurfaceVerticesConstPtr& message) {
+  for (const float x : message->positions_m)
+    if (!(std::abs(x) <= kFarthest_m)) return "vertices: a position is not finite, or beyond 1e6 m";
+  waiting_ = message;
+  return join();
+}
+
+void SentSurface::keep(std::shared_ptr<const SentTopology> topology) {
+  known_.push_back(std::move(topology));
+  if (known_.size() > kTopologiesKept) known_.pop_front();
+}
+
+std::string SentSurface::join() {
+  if (!waiting_) return {};
+  for (const std::shared_ptr<const SentTopology>& topology : known_) {
+    if (topology->version != waiting_->topology_version) continue;
+    const SurfaceVerticesConstPtr found = std::move(waiting_);
+    waiting_.reset();
+    if (found->positions_m.size() != 3 * static_cast<size_t>(topology->vertices) ||
+        found->normals.size() != topology->vertices)
+      return "vertices: " + text(found->positions_m.size()) + " coordinates and " + text(found->normals.size()) +
+             " normals for " + text(topology->vertices) + " vertices of topology " + text(topology->version);
+    vertices_ = found;
+    shown_ = topology;
+    return {};
+  }
+  return {};
+}
+
+std::array<float, 3> normalOf(uint32_t packed) {
+  const auto part = [packed](unsigned shift) {  // its sign comes from the top bit
+    const auto value = static_cast<int32_t>(packed << (22 - shift)) >> 22;
+    return std::max(static_cast<float>(value) / kNormalScale, -1.0F);
+  };
+  return {part(0), part(10), part(20)};
+}
+
+std::optional<SurfaceHit> firstHit(const SentTopology& topology, const std::vector<float>& positions_m,
+                                   const std::array<double, 3>& origin, const std::array<double, 3>& direction) {
+  const auto point = [&](size_t corner) {
+    const float* p = &positions_m[3 * static_cast<size_t>(topology.triangles[corner])];
+    return std::array<double, 3>{p[0], p[1], p[2]};
+  };
+  std::optional<SurfaceHit> nearest;
+  for (size_t t = 0; t < topology.triangles.size(); t += 3) {
+    const std::array<double, 3> a = point(t), ab = minus(point(t + 1), a), ac = minus(point(t + 2), a);
+    const std::array<double, 3> p = cross(direction, ac);
+    const double volume = dot(ab, p);
+    if (volume == 0) continue;  // edge-on, or without area
+    const std::array<double, 3> ao = minus(origin, a), q = cross(ao, ab);
+    const double u = dot(ao, p) / volume, v = dot(direction, q) / volume, distance = dot(ac, q) / volume;
+    if (!(u >= 0 && v >= 0 && u + v <= 1 && distance > 0) || (nearest && distance >= nearest->distance_m)) continue;
+    std::array<double, 3> normal = cross(ab, ac);
+    const double length = std::sqrt(dot(normal, normal));
+    for (double& x : normal) x /= length;
+    nearest = SurfaceHit{distance, normal};
+  }
+  return nearest;
+}
+
+}  // namespace viscera::rviz_plugin

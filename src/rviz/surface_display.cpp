@@ -1,0 +1,198 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rviz/surface_display.h"
+
+#include <OgreSceneNode.h>
+#include <ros/transport_hints.h>
+#include <rviz/display_context.h>
+#include <rviz/frame_manager.h>
+#include <rviz/properties/bool_property.h>
+#include <rviz/properties/color_property.h>
+#include <rviz/properties/float_property.h>
+#include <rviz/properties/ros_topic_property.h>
+#include <pluginlib/class_list_macros.hpp>
+
+#include <cmath>
+#include <utility>
+
+#include "rviz/surface_mesh.h"
+
+namespace viscera::rviz_plugin {
+namespace {
+
+constexpr std::chrono::seconds kTellEvery{1};
+constexpr uint32_t kChangesQueue = 1000;  // none may be lost: the next whole topology may be half a second away
+constexpr double kGoldenTurn = 0.618034;  // of the circle of hues: bodies side by side in the list differ most
+
+Ogre::ColourValue ofBody(const QColor& color, size_t body, float alpha) {
+  QColor turned = color;
+  const double hue = std::max(color.hsvHueF(), 0.0) + kGoldenTurn * static_cast<double>(body);  // of grey it is -1
+  turned.setHsvF(hue - std::floor(hue), color.hsvSaturationF(), color.valueF());
+  return Ogre::ColourValue(static_cast<float>(turned.redF()), static_cast<float>(turned.greenF()),
+                           static_cast<float>(turned.blueF()), alpha);
+}
+
+}  // namespace
+
+SurfaceDisplay::SurfaceDisplay() {
+  topic_ = new rviz::RosTopicProperty("Surface topic", "surface", "viscera/SurfaceVertices",
+                                      "Vertices; triangles come from the topics that have _topology and "
+                                      "_topology_change behind this name.",
+                                      this);
+  color_ = new rviz::ColorProperty("Color", QColor(184, 64, 56), "Of the skin of the first body.", this);
+  wall_color_ = new rviz::ColorProperty("Wound color", QColor(120, 20, 24), "Of walls of its wounds.", this);
+  by_body_ = new rviz::BoolProperty("Color by body", true, "Other bodies have other hues.", this);
+  alpha_ = new rviz::FloatProperty("Alpha", 1, "0 is transparent, 1 opaque.", this);
+  alpha_->setMin(0);
+  alpha_->setMax(1);
+  connect(topic_, &rviz::Property::changed, this, [this] { reset(); });
+  for (rviz::Property* property : {static_cast<rviz::Property*>(color_), static_cast<rviz::Property*>(wall_color_),
+                                   static_cast<rviz::Property*>(by_body_), static_cast<rviz::Property*>(alpha_)})
+    connect(property, &rviz::Property::changed, this, [this] { paint(); });
+}
+
+SurfaceDisplay::~SurfaceDisplay() {
+  unsubscribe();
+}
+
+void SurfaceDisplay::onInitialize() {
+  mesh_ = std::make_unique<SurfaceMesh>(scene_manager_, scene_node_);
+}
+
+void SurfaceDisplay::onEnable() {
+  subscribe();
+}
+
+void SurfaceDisplay::onDisable() {
+  unsubscribe();
+  reset();
+}
+
+void SurfaceDisplay::setTopic(const QString& topic, const QString&) {
+  topic_->setString(topic);
+}
+
+void SurfaceDisplay::reset() {
+  rviz::Display::reset();
+  surface_.clear();
+  drawn_topology_.reset();
+  drawn_vertices_.reset();
+  wrong_.clear();
+  drawn_ = 0;
+  placed_ = true;
+  told_ = {};
+  if (mesh_) mesh_->clear();
+  if (isEnabled() && initialized()) subscribe();
+}
+
+void SurfaceDisplay::subscribe() {
+  unsubscribe();
+  const std::string topic = topic_->getTopicStd();
+  if (topic.empty()) return;
+  try {
+    const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
+    whole_ = update_nh_.subscribe<SurfaceTopology>(
+        topic + "_topology", 1, [this](const SurfaceTopologyConstPtr& message) { take(*message); }, {}, hints);
+    changes_ = update_nh_.subscribe<SurfaceTopologyChange>(
+        topic + "_topology_change", kChangesQueue,
+        [this](const SurfaceTopologyChangeConstPtr& message) { take(*message); }, {}, hints);
+    vertices_ = update_nh_.subscribe<SurfaceVertices>(
+        topic, 1, [this](const SurfaceVerticesConstPtr& message) { take(message); }, {}, hints);
+  } catch (const ros::Exception& error) {  // no name of a topic
+    unsubscribe();
+    setStatus(rviz::StatusProperty::Error, "Topic", error.what());
+  }
+}
+
+void SurfaceDisplay::unsubscribe() {
+  whole_.shutdown();
+  changes_.shutdown();
+  vertices_.shutdown();
+  whole_ = changes_ = vertices_ = ros::Subscriber();
+}
+
+template <class Message>
+void SurfaceDisplay::take(const Message& message) {
+  const std::string wrong = surface_.take(message);
+  if (!wrong.empty()) wrong_ = wrong;
+}
+
+void SurfaceDisplay::update(float, float) {
+  if (surface_.vertices() && surface_.vertices() != drawn_vertices_) {
+    const bool topology_is_new = surface_.topology() != drawn_topology_;
+    mesh_->show(*surface_.topology(), *surface_.vertices(), topology_is_new);
+    drawn_vertices_ = surface_.vertices();
+    drawn_topology_ = surface_.topology();
+    ++drawn_;
+    if (topology_is_new) paint();
+    context_->queueRender();
+  }
+  if (drawn_vertices_) scene_node_->setVisible(place());
+  if (std::chrono::steady_clock::now() >= told_ + kTellEvery) tell();
+}
+
+/// @returns whether it is known where the surface's frame is
+bool SurfaceDisplay::place() {
+  const std::string& frame = drawn_vertices_->header.frame_id;
+  Ogre::Vector3 position;
+  Ogre::Quaternion orientation;
+  if (!context_->getFrameManager()->getTransform(frame, ros::Time(), position, orientation)) {
+    if (std::exchange(placed_, false))
+      setStatusStd(rviz::StatusProperty::Error, "Transform",
+                   "tf does not join '" + frame + "' to the fixed frame '" + fixed_frame_.toStdString() + "'");
+    return false;
+  }
+  if (!std::exchange(placed_, true)) deleteStatus("Transform");
+  scene_node_->setPosition(position);
+  scene_node_->setOrientation(orientation);
+  return true;
+}
+
+void SurfaceDisplay::paint() {
+  if (!drawn_topology_) return;
+  std::vector<Ogre::ColourValue> colors;
+  for (const SentPart& part : drawn_topology_->parts)
+    colors.push_back(ofBody((part.walls ? wall_color_ : color_)->getColor(), by_body_->getBool() ? part.body : 0,
+                            alpha_->getFloat()));
+  mesh_->paint(colors);
+  context_->queueRender();
+}
+
+/// The status lines, once a second.
+void SurfaceDisplay::tell() {
+  using rviz::StatusProperty;
+  const auto now = std::chrono::steady_clock::now();
+  const double elapsed_s = std::chrono::duration<double>(now - told_).count();
+  const bool first = told_ == std::chrono::steady_clock::time_point{};
+  told_ = now;
+  if (!vertices_) return;
+  const uint32_t senders = vertices_.getNumPublishers();
+  const QString topic = QString::fromStdString(vertices_.getTopic());
+  if (senders == 1)
+    setStatus(StatusProperty::Ok, "Simulator", "sends " + topic);
+  else
+    setStatus(StatusProperty::Warn, "Simulator",
+              senders == 0 ? "no simulator sends " + topic : QString("%1 nodes send ").arg(senders) + topic);
+  if (!surface_.hasTopology())
+    setStatus(StatusProperty::Warn, "Topology", "waiting for " + topic + "_topology");
+  else if (!drawn_topology_)
+    setStatus(StatusProperty::Warn, "Topology", "waiting for vertices that belong to it");
+  else
+    setStatus(StatusProperty::Ok, "Topology",
+              QString("%1 triangles, %2 vertices, version %3")
+                  .arg(drawn_topology_->triangles.size() / 3)
+                  .arg(drawn_topology_->vertices)
+                  .arg(drawn_topology_->version));
+  if (drawn_vertices_ && !first)
+    setStatus(StatusProperty::Ok, "Rate", QString("%1 Hz").arg(static_cast<double>(drawn_) / elapsed_s, 0, 'f', 1));
+  if (wrong_.empty())
+    deleteStatus("Message");
+  else
+    setStatusStd(StatusProperty::Error, "Message", wrong_);
+  if (drawn_ > 0) wrong_.clear();  // later ones were good
+  drawn_ = 0;
+}
+
+}  // namespace viscera::rviz_plugin
+
+PLUGINLIB_EXPORT_CLASS(viscera::rviz_plugin::SurfaceDisplay, rviz::Display)

@@ -1,0 +1,68 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <ros/subscriber.h>
+#include <rviz/display.h>
+
+#include <chrono>
+#include <memory>
+#include <string>
+
+#include "rviz/sent_surface.h"
+
+namespace rviz {
+class BoolProperty;
+class ColorProperty;
+class FloatProperty;
+class RosTopicProperty;
+}  // namespace rviz
+
+namespace viscera::rviz_plugin {
+
+class SurfaceMesh;
+
+/// `viscera/Surface`: the skin of a simulator by `surface`, `surface_topology` and `surface_topology_change`. All of it
+/// is done by rviz's own thread.
+class SurfaceDisplay : public rviz::Display {
+ public:
+  SurfaceDisplay();
+  ~SurfaceDisplay() override;
+
+  void setTopic(const QString& topic, const QString& datatype) override;
+  void update(float wall_dt, float ros_dt) override;
+  void reset() override;
+
+  /// What is shown, in its own frame; null where nothing is.
+  const SentSurface& shown() const { return surface_; }
+
+ protected:
+  void onInitialize() override;
+  void onEnable() override;
+  void onDisable() override;
+
+ private:
+  void subscribe();
+  void unsubscribe();
+  template <class Message>
+  void take(const Message& message);
+  bool place();
+  void paint();
+  void tell();
+
+  rviz::RosTopicProperty* topic_;
+  rviz::ColorProperty *color_, *wall_color_;
+  rviz::BoolProperty* by_body_;
+  rviz::FloatProperty* alpha_;
+  ros::Subscriber whole_, changes_, vertices_;
+  SentSurface surface_;
+  std::unique_ptr<SurfaceMesh> mesh_;
+  std::shared_ptr<const SentTopology> drawn_topology_;
+  SurfaceVerticesConstPtr drawn_vertices_;
+  std::string wrong_;   ///< with the last message; empty: nothing
+  size_t drawn_ = 0;    ///< surfaces since told_
+  bool placed_ = true;  ///< no error about the transform is shown
+  std::chrono::steady_clock::time_point told_{};
+};
+
+}  // namespace viscera::rviz_plugin

@@ -1,0 +1,148 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rviz/surface_mesh.h"
+
+#include <OgreEntity.h>
+#include <OgreHardwareBufferManager.h>
+#include <OgreMaterialManager.h>
+#include <OgreMeshManager.h>
+#include <OgreSceneManager.h>
+#include <OgreSceneNode.h>
+#include <OgreSubEntity.h>
+#include <OgreSubMesh.h>
+#include <OgreTechnique.h>
+
+#include <algorithm>
+
+namespace viscera::rviz_plugin {
+namespace {
+
+constexpr const char* kGroup = "General";  // of resources: Ogre's own, which is always there
+constexpr size_t kVectorBytes = 3 * sizeof(float);
+constexpr float kAmbient = 0.6F;    // of the colour, in rviz's light from all sides
+constexpr float kSpecular = 0.15F;  // wet, not plastic
+constexpr float kShininess = 30;
+
+size_t withRoom(size_t count) {
+  return std::max<size_t>(count + count / 4, 64);
+}  // cuts add some in every tick
+
+std::string uniqueName() {
+  static size_t made = 0;
+  return "viscera surface " + std::to_string(made++);
+}
+
+}  // namespace
+
+SurfaceMesh::SurfaceMesh(Ogre::SceneManager* scene, Ogre::SceneNode* node)
+    : scene_(scene), node_(node), name_(uniqueName()) {}
+
+SurfaceMesh::~SurfaceMesh() {
+  clear();
+}
+
+void SurfaceMesh::clear() {
+  if (entity_) scene_->destroyEntity(entity_);
+  entity_ = nullptr;
+  if (mesh_) Ogre::MeshManager::getSingleton().remove(mesh_->getHandle());
+  mesh_.reset();
+  for (const Ogre::MaterialPtr& material : materials_)
+    Ogre::MaterialManager::getSingleton().remove(material->getHandle());
+  materials_.clear();
+  positions_.reset();
+  normals_.reset();
+  indices_.reset();
+}
+
+void SurfaceMesh::make(size_t parts) {
+  clear();
+  mesh_ = Ogre::MeshManager::getSingleton().createManual(name_, kGroup);
+  mesh_->sharedVertexData = new Ogre::VertexData;  // the mesh's to delete
+  Ogre::VertexDeclaration& layout = *mesh_->sharedVertexData->vertexDeclaration;
+  layout.addElement(0, 0, Ogre::VET_FLOAT3, Ogre::VES_POSITION);
+  layout.addElement(1, 0, Ogre::VET_FLOAT3, Ogre::VES_NORMAL);
+  for (size_t part = 0; part < parts; ++part) {
+    Ogre::MaterialPtr material =
+        Ogre::MaterialManager::getSingleton().create(name_ + " part " + std::to_string(part), kGroup);
+    material->setReceiveShadows(false);
+    material->setLightingEnabled(true);
+    material->setCullingMode(Ogre::CULL_NONE);  // into what is cut open one looks from behind
+    materials_.push_back(material);
+    Ogre::SubMesh* shown = mesh_->createSubMesh();
+    shown->useSharedVertices = true;
+    shown->setMaterialName(material->getName(), kGroup);
+  }
+}
+
+void SurfaceMesh::show(const SentTopology& topology, const SurfaceVertices& vertices, bool topology_is_new) {
+  if (topology.triangles.empty()) return clear();
+  const bool begins = !mesh_ || materials_.size() != topology.parts.size();
+  if (begins) make(topology.parts.size());
+  writeVertices(vertices);
+  if (begins || topology_is_new) writeTriangles(topology);
+  if (begins) {
+    mesh_->load();
+    entity_ = scene_->createEntity(mesh_);
+    node_->attachObject(entity_);
+  }
+  for (size_t part = 0; part < topology.parts.size(); ++part)
+    entity_->getSubEntity(part)->setVisible(topology.parts[part].count > 0);
+  node_->needUpdate();
+}
+
+void SurfaceMesh::writeTriangles(const SentTopology& topology) {
+  const size_t count = topology.triangles.size();
+  if (!indices_ || indices_->getNumIndexes() < count)
+    indices_ = Ogre::HardwareBufferManager::getSingleton().createIndexBuffer(
+        Ogre::HardwareIndexBuffer::IT_32BIT, withRoom(count), Ogre::HardwareBuffer::HBU_DYNAMIC_WRITE_ONLY);
+  indices_->writeData(0, count * sizeof(uint32_t), topology.triangles.data(), true);
+  for (size_t part = 0; part < topology.parts.size(); ++part) {
+    Ogre::IndexData& drawn = *mesh_->getSubMesh(part)->indexData;
+    drawn.indexBuffer = indices_;
+    drawn.indexStart = 3 * topology.parts[part].first;
+    drawn.indexCount = 3 * topology.parts[part].count;
+  }
+}
+
+void SurfaceMesh::writeVertices(const SurfaceVertices& vertices) {
+  const size_t count = vertices.normals.size();
+  if (!positions_ || positions_->getNumVertices() < count) {
+    Ogre::HardwareBufferManager& manager = Ogre::HardwareBufferManager::getSingleton();
+    for (Ogre::HardwareVertexBufferSharedPtr* buffer : {&positions_, &normals_})
+      *buffer = manager.createVertexBuffer(kVectorBytes, withRoom(count),
+                                           Ogre::HardwareBuffer::HBU_DYNAMIC_WRITE_ONLY_DISCARDABLE);
+    mesh_->sharedVertexData->vertexBufferBinding->setBinding(0, positions_);
+    mesh_->sharedVertexData->vertexBufferBinding->setBinding(1, normals_);
+  }
+  unpacked_.resize(3 * count);
+  Ogre::Vector3 least(vertices.positions_m.data()), most = least;
+  for (size_t v = 0; v < count; ++v) {
+    const std::array<float, 3> normal = normalOf(vertices.normals[v]);
+    std::copy(normal.begin(), normal.end(), &unpacked_[3 * v]);
+    const Ogre::Vector3 point(&vertices.positions_m[3 * v]);
+    least.makeFloor(point);
+    most.makeCeil(point);
+  }
+  positions_->writeData(0, count * kVectorBytes, vertices.positions_m.data(), true);
+  normals_->writeData(0, count * kVectorBytes, unpacked_.data(), true);
+  mesh_->sharedVertexData->vertexStart = 0;
+  mesh_->sharedVertexData->vertexCount = count;
+  mesh_->_setBounds(Ogre::AxisAlignedBox(least, most), false);
+  mesh_->_setBoundingSphereRadius(std::max(least.length(), most.length()));
+}
+
+void SurfaceMesh::paint(const std::vector<Ogre::ColourValue>& colors) {
+  for (size_t part = 0; part < materials_.size() && part < colors.size(); ++part) {
+    Ogre::Material& material = *materials_[part];
+    const Ogre::ColourValue& color = colors[part];
+    const bool blends = color.a < 1;
+    material.setAmbient(color * kAmbient);
+    material.setDiffuse(color);
+    material.setSpecular(Ogre::ColourValue(kSpecular, kSpecular, kSpecular, color.a));
+    material.setShininess(kShininess);
+    material.setSceneBlending(blends ? Ogre::SBT_TRANSPARENT_ALPHA : Ogre::SBT_REPLACE);
+    material.setDepthWriteEnabled(!blends);
+  }
+}
+
+}  // namespace viscera::rviz_plugin

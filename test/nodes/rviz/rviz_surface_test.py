@@ -1,0 +1,130 @@
+#!/usr/bin/env python3
+# Copyright (c) 2026, the viscera authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The display viscera/Surface in rviz: what it draws of topologies, their changes and vertices, right and wrong ones."""
+import math
+import os
+import subprocess
+import sys
+import time
+import unittest
+
+import rospy
+import rostest
+from rviz_screen import Screen, rviz
+from simulator_watch import wait_until
+
+from viscera.msg import SurfaceTopology, SurfaceTopologyChange, SurfaceVertices
+
+CONFIG = os.path.join(subprocess.check_output(["rospack", "find", "viscera"], text=True).strip(),
+                      "config", "viscera_plugin.rviz")
+LIMIT_S = 60      # software rendering on a busy machine
+RINGS, STEPS = 24, 48
+RADIUS_M = 0.05
+FEW, MANY = 300, 10000  # pixels: frames' axes are red too; a ball of 5 cm is 200 pixels wide
+
+
+def ball():
+    """Vertices, outward normals and triangles: upper half first, which is skin; the lower half stands for walls."""
+    points, triangles = [], []
+    for ring in range(RINGS + 1):
+        for step in range(STEPS):
+            polar, turn = math.pi * ring / RINGS, 2 * math.pi * step / STEPS
+            points.append((math.sin(polar) * math.cos(turn), math.sin(polar) * math.sin(turn), math.cos(polar)))
+            if ring < RINGS:
+                a, b = ring * STEPS + step, ring * STEPS + (step + 1) % STEPS
+                triangles += [a, a + STEPS, b, b, a + STEPS, b + STEPS]
+    return points, triangles
+
+
+def packed(normal):
+    return sum((round(511 * x) & 1023) << (10 * i) for i, x in enumerate(normal))
+
+
+class Sender:
+    def __init__(self):
+        self.whole = rospy.Publisher("surface_topology", SurfaceTopology, queue_size=1, latch=True)
+        self.change = rospy.Publisher("surface_topology_change", SurfaceTopologyChange, queue_size=10)
+        self.surface = rospy.Publisher("surface", SurfaceVertices, queue_size=1, latch=True)
+        self.points, self.triangles = ball()
+
+    def topology(self, version, triangles=None):
+        triangles = self.triangles if triangles is None else triangles
+        message = SurfaceTopology(version=version, vertices=len(self.points), bodies=["ball"],
+                                  body_triangles=[len(triangles) // 3], wound_triangles=[len(triangles) // 6],
+                                  triangles=triangles)
+        message.header.frame_id, message.header.stamp = "tissue", rospy.Time.now()
+        self.whole.publish(message)
+
+    def vertices(self, version, **other):
+        message = SurfaceVertices(topology_version=version,
+                                  positions_m=[RADIUS_M * x for point in self.points for x in point],
+                                  normals=[packed(point) for point in self.points])
+        message.header.frame_id, message.header.stamp = "tissue", rospy.Time.now()
+        for key, value in other.items():
+            setattr(message, key, value)
+        self.surface.publish(message)
+
+
+class RvizSurfaceTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.screen = Screen()
+        cls.rviz = rviz(CONFIG)
+        cls.sender = Sender()
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.rviz.end()
+        cls.screen.end()
+
+    def pixels(self):
+        """Of skin and of walls: red, bright and dark."""
+        self.assertIsNone(self.rviz.process.poll(), "rviz has ended: " + self.rviz.output)
+        red, green, blue = (self.screen.picture()[:, :, i] for i in range(3))
+        skin = (red > 1.5 * green) & (green > 1.05 * blue - 3) & (red > 40) & (green > 0.25 * red)
+        walls = (red > 3 * green) & (red > 3 * blue) & (red > 30) & (red < 140)
+        return int(skin.sum()), int(walls.sum())
+
+    def expect(self, condition, what):
+        wait_until(lambda: condition(*self.pixels()), LIMIT_S, what)
+
+    def test_a_surface_its_changes_and_wrong_messages(self):
+        sender = self.sender
+        wait_until(lambda: sender.surface.get_num_connections() and sender.change.get_num_connections(), LIMIT_S,
+                   "subscription of rviz in: " + self.rviz.output)
+        sender.topology(1, [0, 1, 10**9] * 4)  # no such vertex
+        sender.vertices(1)
+        sender.vertices(1, positions_m=[float("nan")] * 3 * len(sender.points))
+        time.sleep(2)
+        skin, walls = self.pixels()
+        self.assertLess(skin, FEW)
+        self.assertLess(walls, FEW)
+
+        sender.topology(2)
+        sender.vertices(2)
+        self.expect(lambda skin, walls: skin > MANY and walls > MANY, "ball with skin and walls")
+
+        sender.vertices(2, normals=[0])  # not as many as vertices: what was there stays
+        sender.change.publish(SurfaceTopologyChange(version=3, kept=[10**6], removed=[1], added=[0]))
+        time.sleep(2)
+        self.expect(lambda skin, walls: skin > MANY and walls > MANY, "ball after wrong messages")
+
+        skin_triangles = len(sender.triangles) // 6
+        sender.change.publish(SurfaceTopologyChange(version=3, vertices=len(sender.points),
+                                                    body_triangles=[skin_triangles], wound_triangles=[0],
+                                                    kept=[skin_triangles], removed=[skin_triangles], added=[0]))
+        sender.vertices(3)
+        self.expect(lambda skin, walls: skin > MANY and walls < FEW, "ball without its walls")
+
+        sender.topology(1)  # as of a simulator that was started again
+        sender.vertices(1)
+        self.expect(lambda skin, walls: skin > MANY and walls > MANY, "ball of the other simulator")
+
+        self.rviz.process.send_signal(2)
+        self.assertEqual(self.rviz.process.wait(LIMIT_S), 0, self.rviz.output)
+
+
+if __name__ == "__main__":
+    rospy.init_node("rviz_surface_test")
+    rostest.rosrun("viscera", "rviz_surface", RvizSurfaceTest, sys.argv)

@@ -1,0 +1,56 @@
+# Copyright (c) 2026, the viscera authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""rviz on a display without a screen, and what it shows, by the file that Xvfb keeps its screen in."""
+import mmap
+import os
+import struct
+import subprocess
+import tempfile
+
+import numpy
+from program import Program
+
+WIDTH, HEIGHT = 1280, 900
+
+
+class Screen:
+    """An Xvfb with a number that was free."""
+
+    def __init__(self):
+        self.folder = tempfile.TemporaryDirectory()
+        told, tells = os.pipe()
+        self.process = subprocess.Popen(["Xvfb", "-displayfd", str(tells), "-screen", "0", "%dx%dx24" % (WIDTH, HEIGHT),
+                                         "-fbdir", self.folder.name, "-nolisten", "tcp"], pass_fds=[tells],
+                                        stderr=subprocess.DEVNULL)
+        os.close(tells)
+        with os.fdopen(told) as reader:
+            self.display = ":" + reader.readline().strip()
+        self.environment = {"DISPLAY": self.display, "LIBGL_ALWAYS_SOFTWARE": "1", "QT_X11_NO_MITSHM": "1",
+                            "QT_QPA_PLATFORM": "xcb", "QT_LOGGING_RULES": "*=false"}
+        os.environ.update(self.environment)
+
+    def picture(self):
+        """[height, width, 3] red, green, blue, of 0..255."""
+        with open(os.path.join(self.folder.name, "Xvfb_screen0"), "rb") as file:
+            dump = mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ)  # xwd, whose header is of big-endian words
+            words = struct.unpack(">25I", dump[:100])
+            begin, line, colors = words[0], words[12], words[19]
+            pixels = numpy.frombuffer(dump[:], numpy.uint8, HEIGHT * line, begin + 12 * colors)
+        return pixels.reshape(HEIGHT, line // 4, 4)[:, :WIDTH, 2::-1].astype(int)
+
+    def save(self, path):
+        """As PPM."""
+        with open(path, "wb") as file:
+            file.write(b"P6 %d %d 255\n" % (WIDTH, HEIGHT) + self.picture().astype(numpy.uint8).tobytes())
+
+    def do(self, *arguments):
+        return subprocess.run(["xdotool", *map(str, arguments)], check=True, capture_output=True, text=True).stdout
+
+    def end(self):
+        self.process.terminate()
+        self.process.wait()
+        self.folder.cleanup()
+
+
+def rviz(config):
+    return Program(["rosrun", "rviz", "rviz", "-d", config, "-f", "tissue"])
