@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "math/archive.h"
-
 namespace viscera {
 
 namespace {
@@ -36,22 +34,9 @@ Chain::Chain(const ChainMaterial& material, std::vector<Vector3d> places_m)
       links_(mu_.size()),
       rest_(x_.size()) {}
 
-void Chain::reset() {
-  x_ = start_;
-  dt_s_ = 0;
-  stop();
-}
-
 void Chain::stop() {
   std::fill(v_.begin(), v_.end(), Vector3d::Zero());
   std::fill(mu_.begin(), mu_.end(), 0.0);
-}
-
-void Chain::persist(Archive& archive) {
-  archive.values(x_);
-  archive.values(v_);
-  archive.values(mu_);
-  archive.value(dt_s_);
 }
 
 Vector3d Chain::point(uint32_t node, double share) const {

@@ -78,9 +78,13 @@ class Chain {
   Chain(const ChainMaterial& material, std::vector<Vector3d> places_m);
 
   void step(double dt_s, ChainAround& around);
-  /// Back to where it was made.
+  /// Back to where it was made, and whole.
   void reset();
+  /// Of a piece too, into the chain that it was made as.
   void persist(Archive& archive);
+  /// Parted at a node, which both pieces have half of: this keeps what is before it. @param node  2 to nodes() - 3
+  /// @returns what is behind it
+  Chain part(size_t node);
 
   size_t nodes() const { return x_.size(); }
   double link_m() const { return link_m_; }
@@ -110,6 +114,8 @@ class Chain {
   Vector3d slid(const ChainTouch& touch) const;
   double depth_m(const ChainTouch& touch) const;
   void finish();
+  void keep(size_t first, size_t last);
+  void fit();
 
   ChainMaterial material_;
   double link_m_, mass_kg_, bend_n_per_m_;
@@ -126,5 +132,9 @@ class Chain {
   int iterations_ = 0;
   double worst_link_ = 0;
 };
+
+/// What acts on a chain that is parted at a node: keeps what acts before it. Knots that are cut from their loops are
+/// gone. @returns what acts behind it, but for what is asked of others
+ChainAround partAround(size_t node, ChainAround& around);
 
 }  // namespace viscera

@@ -188,5 +188,58 @@ TEST(Chain, GoesOnFromASavedStateAndResets) {
   EXPECT_EQ(one.velocities_m_per_s(), first.velocities_m_per_s());
 }
 
+TEST(Chain, PartsAtANodeWithItsMomentumAndComesBackWhole) {
+  Chain chain(soft(), along(Vector3d::Zero(), Vector3d::UnitX(), 60));
+  ChainAround around;
+  around.gravity_m_per_s2 = Vector3d(0, 0, -9.81);
+  around.holds = {held(chain, 0), held(chain, 59)};
+  around.slides.resize(3);
+  for (size_t k = 0; k < 3; ++k) around.slides[k].s = 10.5 + 20 * static_cast<double>(k);
+  for (ChainSlide& slide : around.slides) slide.to_m = Vector3d(slide.s * kLink_m, 0, 0);
+  ChainKnot knot;
+  knot.s1 = 12;
+  knot.s2 = 45;
+  for (int k = 0; k < 20; ++k) chain.step(kSubstep_s, around);
+  around.knots = {knot};
+  const auto momentum = [](const Chain& it) {
+    Vector3d out = Vector3d::Zero();
+    for (size_t i = 0; i < it.nodes(); ++i) out += it.mass_kg(i) * it.velocities_m_per_s()[i];
+    return out;
+  };
+  const Vector3d before = momentum(chain);
+  const Chain whole = chain;
+  Chain behind = chain.part(28);
+  ChainAround beyond = partAround(28, around);
+  EXPECT_LT((momentum(chain) + momentum(behind) - before).norm(), 1e-15 * before.norm());
+  EXPECT_EQ(chain.nodes(), 29U);
+  EXPECT_EQ(behind.nodes(), 32U);
+  EXPECT_EQ(behind.places_m()[0], chain.places_m()[28]);
+  EXPECT_EQ(behind.tension_n(7), whole.tension_n(35));
+  ASSERT_EQ(around.slides.size(), 1U);
+  ASSERT_EQ(beyond.slides.size(), 2U);
+  EXPECT_NEAR(beyond.slides[0].s, 2.5, 1e-6);
+  ASSERT_EQ(beyond.holds.size(), 1U);
+  EXPECT_EQ(beyond.holds[0].node, 31U);
+  EXPECT_TRUE(around.knots.empty() && beyond.knots.empty());
+  for (int k = 0; k < 40; ++k) {
+    chain.step(kSubstep_s, around);
+    behind.step(kSubstep_s, beyond);
+  }
+  EXPECT_LT(chain.places_m().back().z(), -1e-6);  // hangs down beyond its channel
+  Archive saved;
+  saved.section("threads");
+  behind.persist(saved);
+  Archive read(saved.sections());
+  read.section("threads");
+  Chain again = whole;
+  again.persist(read);
+  EXPECT_EQ(again.places_m(), behind.places_m());
+  behind.step(kSubstep_s, beyond);
+  chain.reset();
+  EXPECT_EQ(chain.nodes(), 60U);
+  chain.step(kSubstep_s, around);
+  EXPECT_LT(chain.worstLink(), 1e-3);
+}
+
 }  // namespace
 }  // namespace viscera
