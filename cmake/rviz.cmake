@@ -13,11 +13,11 @@ add_library(viscera_rviz SHARED ${rviz_sources})
 add_dependencies(viscera_rviz ${PROJECT_NAME}_generate_messages_cpp ${catkin_EXPORTED_TARGETS})
 target_include_directories(viscera_rviz PUBLIC ${PROJECT_SOURCE_DIR}/src)
 target_include_directories(viscera_rviz SYSTEM PUBLIC ${CATKIN_DEVEL_PREFIX}/${CATKIN_GLOBAL_INCLUDE_DESTINATION}
-                           ${catkin_INCLUDE_DIRS} ${rviz_INCLUDE_DIRS})
+                           ${catkin_INCLUDE_DIRS} PRIVATE ${rviz_INCLUDE_DIRS})
 # Qt's words `signals` and `slots` are names of boost's.
 target_compile_definitions(viscera_rviz PRIVATE ${VISCERA_ROS_DEFINITIONS} QT_NO_KEYWORDS)
 target_compile_options(viscera_rviz PRIVATE ${VISCERA_CXX_FLAGS})
-target_link_libraries(viscera_rviz PUBLIC ${catkin_LIBRARIES} ${rviz_LIBRARIES} Qt5::Widgets)
+target_link_libraries(viscera_rviz PUBLIC ${catkin_LIBRARIES} PRIVATE ${rviz_LIBRARIES} Qt5::Widgets)
 # Where pluginlib looks for it.
 set_target_properties(viscera_rviz PROPERTIES LIBRARY_OUTPUT_DIRECTORY ${CATKIN_DEVEL_PREFIX}/lib)
 install(TARGETS viscera_rviz LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION})

@@ -144,7 +144,7 @@ RestElements::Weights RestElements::weights(const Corners& corners, const Vector
     }
     return out;
   }
-  Eigen::Matrix3d edges;
+  Eigen::Matrix3d edges = Eigen::Matrix3d::Zero();
   for (uint32_t c = 1; c < count_; ++c) edges.col(c - 1) = restPosition(body_, corners[c]) - first;
   if (count_ == 3) edges.col(2) = edges.col(0).cross(edges.col(1)).normalized();
   const Vector3d shares = edges.inverse() * from;
