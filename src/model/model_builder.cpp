@@ -138,7 +138,7 @@ bool canMove(const Model& model) {
 }  // namespace
 
 Model buildModel(const Scene& scene, const Progress& progress) {
-  const bool can_be_cut = maySever(scene.styluses) || tears(scene);
+  const bool can_be_cut = maySever(scene.styluses) || tears(scene) || threadsTear(scene);
   const std::string file = scene.file.empty() ? "" : scene.file + ": ";
   Model model;
   for (const BodyConfig& config : scene.bodies) {

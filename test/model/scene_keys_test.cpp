@@ -123,7 +123,9 @@ solver: {tick_hz: 90, integrator: pd, dt_fraction: 0.91, dt_fraction_strained: 0
          device: 3, backend: cpu, threads: 2, real_time_factor: 1.97, spring_forces: edge}
 threads:
   - {name: suture, material: silk, usp: 5-0, radius_m: 0.00012, young_modulus_pa: 1.3e9, density_kg_per_m3: 1400, bending_share: 0.15, drag_per_s: 1.6,
-     length_m: 0.17, spacing_m: 0.0018, position_m: [0.19, 0.21, 0.22], path: [{position_m: [0.23, 0.24, 0.25]}], start: fixed, end: fixed}
+     length_m: 0.17, spacing_m: 0.0018, position_m: [0.19, 0.21, 0.22], path: [{position_m: [0.23, 0.24, 0.25]}], start: fixed, end: fixed,
+     channels: [{body: liver, position_m: [0.26, 0.27, 0.28]}], friction: 0.29, through_n_per_m: 0.31, pull_out_n: 0.32, tissue: fascia, bite_m: 0.033,
+     depth_m: 0.034}
 )";
 
 /// Paths of all keys below a node, list items as name[].
@@ -339,6 +341,14 @@ TEST(SceneKeys, EveryKeyOfTheSurroundingsReachesItsField) {
   EXPECT_EQ(thread.path.at(0).position_m, Vector3d(0.23, 0.24, 0.25));
   EXPECT_EQ(thread.start, ThreadEnd::kFixed);
   EXPECT_EQ(thread.end, ThreadEnd::kFixed);
+  EXPECT_EQ(thread.channels.at(0).body, "liver");
+  EXPECT_EQ(thread.channels.at(0).position_m, Vector3d(0.26, 0.27, 0.28));
+  EXPECT_EQ(thread.friction, 0.29);
+  EXPECT_EQ(thread.through_n_per_m, 0.31);
+  EXPECT_EQ(thread.pull_out_n, 0.32);
+  EXPECT_EQ(thread.tissue, StitchedTissue::kFascia);
+  EXPECT_EQ(thread.bite_m, 0.033);
+  EXPECT_EQ(thread.depth_m, 0.034);
 }
 
 TEST(SceneKeys, TableHoldsEveryKeyOnceAndNoOther) {

@@ -59,6 +59,11 @@ bool tears(const Scene& scene) {
                      [](const BodyConfig& body) { return toughnessOf(body.material) > 0; });
 }
 
+bool threadsTear(const Scene& scene) {
+  return !scene.styluses.empty() && std::any_of(scene.threads.begin(), scene.threads.end(),
+                                                [](const ThreadConfig& thread) { return !thread.channels.empty(); });
+}
+
 void requireTearingFits(const Scene& scene) {
   if (!tears(scene)) return;
   for (const BodyConfig& body : scene.bodies) {

@@ -27,6 +27,8 @@ TearLaw tearLawOf(const Body& body);
 /// Does the tissue of a body, or some of a scene's, tear by energy?
 bool tears(const Body& body);
 bool tears(const Scene& scene);
+/// May a thread that is pulled part it? Only where there are hands.
+bool threadsTear(const Scene& scene);
 /// @throws SceneError  it does, and a structure, the integrator or the backend is none for it; names the key
 void requireTearingFits(const Scene& scene);
 

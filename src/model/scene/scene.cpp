@@ -133,7 +133,13 @@ void requireConsistent(const std::string& file, const Scene& scene) {
       requireFixed(file + ": body '" + body.name + "' fixed[" + std::to_string(i) + "]", body.fixed[i]);
     }
   }
-  for (const ThreadConfig& thread : scene.threads) requireThread(file, thread);
+  for (const ThreadConfig& thread : scene.threads) {
+    requireThread(file, thread);
+    const Integrator integrator = scene.solver.integrator;
+    if (!thread.channels.empty() && (integrator == Integrator::kVerletPaper || integrator == Integrator::kMultigrid))
+      throw SceneError(file + ": thread '" + thread.name +
+                       "': 'channels' need solver.integrator leapfrog, pd or auto, not " + traitsOf(integrator).name);
+  }
   for (const BodyConfig& body : scene.bodies) requireStableSubstep(file, scene.solver, body);
   for (const CameraConfig& camera : scene.cameras) {
     const Vector3d sight = camera.target_m - camera.position_m;

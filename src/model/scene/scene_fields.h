@@ -177,6 +177,13 @@ void visitFields(V& v, ThreadPlace& c) {
 }
 
 template <class V>
+void visitFields(V& v, ThreadChannelConfig& c) {
+  v.text("body", c.body, "name of the body; empty: the first");
+  v.vector("position_m", c.position_m, kCoordinate, "m",
+           "place at rest, tissue frame; the thread passes within a link");
+}
+
+template <class V>
 void visitFields(V& v, ThreadConfig& c) {
   const Choices<ThreadEnd> ends = {{"free", ThreadEnd::kFree}, {"fixed", ThreadEnd::kFixed}};
   v.text("name", c.name, "name, unique");
@@ -204,6 +211,19 @@ void visitFields(V& v, ThreadConfig& c) {
   v.list("path", c.path, 1000, "places that it goes through from there at first, in straight lines; one at least");
   v.choice("start", c.start, ends, "the end at position_m: free, or fixed where it is");
   v.choice("end", c.end, ends, "the other end");
+  v.list("channels", c.channels, 200,
+         "points of tissue that it goes through at first, in the order of its path, a link or more apart "
+         "(docs/thread.md 5)");
+  v.number("friction", c.friction, {0, 2}, "1", "in channels, as of a rope on a drum");
+  v.number("through_n_per_m", c.through_n_per_m, {0, 1e4}, "N/m",
+           "friction of the length that is in tissue; 0: 0.1 mm times Young's modulus of the tissue");
+  v.number("pull_out_n", c.pull_out_n, {0, 1e3}, "N", "the tissue tears at a channel that pulls more; 0: of tissue");
+  v.choice(
+      "tissue", c.tissue,
+      {{"phantom", StitchedTissue::kPhantom}, {"bowel", StitchedTissue::kBowel}, {"fascia", StitchedTissue::kFascia}},
+      "what tears: bowel 4.6 N; fascia 45 N per mm of bite_m; phantom Young's modulus x bite_m x depth_m");
+  v.number("bite_m", c.bite_m, {1e-4, 0.1}, "m", "from the wound to where a stitch enters");
+  v.number("depth_m", c.depth_m, {1e-4, 0.1}, "m", "of a stitch in the tissue");
 }
 
 inline Choices<Integrator> namesOfIntegrators() {
@@ -268,9 +288,7 @@ void visitFields(V& v, Scene& c) {
   v.group("collision", c.collision, "bodies against themselves and each other; costs nothing while it is off");
   v.group("environment", c.environment, "gravity and frames");
   v.group("solver", c.solver, "time stepping");
-  v.list("threads", c.threads, 8,
-         "threads that do not stretch, on obstacles and in hands that grab; tissue is not "
-         "touched by them");
+  v.list("threads", c.threads, 8, "threads that do not stretch, on obstacles, in hands that grab and through tissue");
 }
 
 }  // namespace viscera

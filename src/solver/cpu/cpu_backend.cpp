@@ -151,7 +151,7 @@ void CpuBackend::cutAtRest(const layout::ToolMotion& sweep) {
     lattice_.state.velocity[lattice_.state.current].swap(still_[1]);
   };
   for (AlignedVector<float>& still : still_) still.resize(3 * lattice_.slotCount());
-  others_.assign(resists_.size(), 1);
+  others_.assign(lattice_.store.bodies.size(), 1);
   others_[selected_body_] = 0;
   exchange();
   cutWith(sweep, false, others_.data());

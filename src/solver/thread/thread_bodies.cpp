@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/fracture/tearing.h"
 #include "solver/thread/thread_shape.h"
 #include "viscera/math/state_hash.h"
 
@@ -16,13 +17,17 @@ constexpr double kThreadSubstep_s = 5e-4;
 
 }  // namespace
 
-ThreadBodies::ThreadBodies(const Scene& scene, int good_states)
+ThreadBodies::ThreadBodies(const Scene& scene, const Model* model, int good_states)
     : obstacles_(scene.obstacles),
       tick_s_(1 / scene.solver.tick_hz),
+      can_cut_(threadsTear(scene)),
       hands_(scene.styluses),
       good_states_(static_cast<size_t>(good_states)) {
+  const bool tied = std::any_of(scene.threads.begin(), scene.threads.end(),
+                                [](const ThreadConfig& config) { return !config.channels.empty(); });
+  if (model && tied) tissue_ = std::make_unique<TissuePoints>(*model);
   for (const ThreadConfig& config : scene.threads) {
-    Thread thread{Chain(materialOf(config), placesOf(config)), {}, 0, {}};
+    Thread thread{Chain(materialOf(config), placesOf(config)), {}, 0, {}, {}, {}, {}};
     const auto last = static_cast<uint32_t>(thread.chain.nodes() - 1);
     for (const uint32_t node : {0U, last}) {
       if ((node == 0 ? config.start : config.end) == ThreadEnd::kFree) continue;
@@ -32,6 +37,7 @@ ThreadBodies::ThreadBodies(const Scene& scene, int good_states)
     }
     thread.fixed_holds = thread.around.holds.size();
     thread.around.gravity_m_per_s2 = scene.environment.gravity_m_per_s2;
+    if (tissue_) thread.first_channels.lay(config, thread.chain, *model, *tissue_, thread.first_slides);
     threads_.push_back(std::move(thread));
   }
   reset();
@@ -42,6 +48,8 @@ void ThreadBodies::reset() {
     thread.chain.reset();
     thread.around.touches.clear();
     thread.around.holds.resize(thread.fixed_holds);
+    thread.channels = thread.first_channels;
+    thread.around.slides = thread.first_slides;
   }
   hands_.reset();
 }
@@ -51,24 +59,65 @@ void ThreadBodies::plan(Steps& steps, int count, const ObstacleMotions& obstacle
   if (!obstacles_.empty()) interpolateObstacles(obstacles_, obstacles, count, tick_s_, steps.ways);
 }
 
-void ThreadBodies::beginTick(const ToolMotions& motions, const ObstacleMotions& obstacles, int /*substeps*/) {
+void ThreadBodies::setCuts(const CutSprings& cuts) {
+  tissue_->setCuts(cuts);
+  for (Thread& thread : threads_) thread.channels.embedAgain(*tissue_, thread.around.slides);
+}
+
+void ThreadBodies::beginTick(const ToolMotions& motions, const ObstacleMotions& obstacles, int substeps) {
   std::vector<const Chain*> chains;
   for (const Thread& thread : threads_) chains.push_back(&thread.chain);
   hands_.beginTick(motions, chains);
+  bool any = false;
+  for (Thread& thread : threads_) any |= thread.tied = !thread.channels.empty();
+  if (any) {
+    per_substep_ = static_cast<int>(std::ceil(tick_s_ / substeps / kThreadSubstep_s));
+    plan(tied_, substeps * per_substep_, obstacles);
+  }
   plan(alone_, static_cast<int>(std::ceil(tick_s_ / kThreadSubstep_s)), obstacles);
   work_j_ = 0;
 }
 
-void ThreadBodies::act(BladeTarget& /*target*/, int /*substep*/) {}
+std::vector<const TissuePoint*> ThreadBodies::tiedPoints() const {
+  std::vector<const TissuePoint*> out;
+  for (const Thread& thread : threads_) {
+    if (thread.tied) thread.channels.addPoints(out);
+  }
+  return out;
+}
+
+/// Where a substep of the tissue is longer than threads bear, they go through it with the speeds at its end.
+bool ThreadBodies::act(BladeTarget& target, int index) {
+  const std::vector<const TissuePoint*> points = tiedPoints();
+  if (points.empty()) return false;
+  const double dt_s = tick_s_ / tied_.count;
+  tissue_->read(target, points);
+  tissue_->drift((1 - per_substep_) * dt_s);
+  for (int s = 0; s < per_substep_; ++s) {
+    if (s > 0) tissue_->drift(dt_s);
+    for (uint32_t t = 0; t < threads_.size(); ++t) {
+      if (threads_[t].tied) substep(t, tied_, index * per_substep_ + s);
+    }
+  }
+  tissue_->write(target, layout::kMaxStyluses, per_substep_ * dt_s);
+  work_j_ += tissue_->work_j();
+  bool cut = false;
+  for (Thread& thread : threads_) {
+    if (thread.tied) cut |= thread.channels.end(*tissue_, target, can_cut_, thread.around.slides);
+  }
+  return cut;
+}
 
 void ThreadBodies::endTick() {
   for (int s = 0; s < alone_.count; ++s) {
-    for (uint32_t t = 0; t < threads_.size(); ++t) substep(t, alone_, s);
+    for (uint32_t t = 0; t < threads_.size(); ++t) {
+      if (!threads_[t].tied) substep(t, alone_, s);
+    }
   }
 }
 
 void ThreadBodies::step(const ToolMotions& motions, const ObstacleMotions& obstacles) {
-  beginTick(motions, obstacles, 0);
+  beginTick(motions, obstacles, 1);
   endTick();
 }
 
@@ -85,7 +134,12 @@ void ThreadBodies::substep(uint32_t t, const Steps& steps, int index) {
   thread.around.entered = [&](const std::vector<Vector3d>& ends_m, std::vector<ChainTouch>& touches) {
     return thread.touches.catchUp(thread.chain, obstacles, count, dt_s, ends_m, touches);
   };
+  if (thread.tied) {
+    thread.channels.begin(*tissue_, thread.around.slides);
+    thread.around.answer = [&](std::vector<ChainSlide>& slides) { thread.channels.answer(*tissue_, dt_s, slides); };
+  }
   thread.chain.step(dt_s, thread.around);
+  if (thread.tied) thread.channels.note(thread.around.slides);
   hands_.takeOver(t, holds, thread.fixed_holds);
 }
 
@@ -107,6 +161,8 @@ void ThreadBodies::persistMotion(Archive& archive) {
   for (Thread& thread : threads_) {
     thread.chain.persist(archive);
     archive.list(thread.around.touches);
+    archive.list(thread.around.slides);
+    thread.channels.persist(archive);
     for (size_t h = 0; h < thread.fixed_holds; ++h) archive.value(thread.around.holds[h].stiffness_kg);
   }
 }
@@ -139,6 +195,7 @@ uint64_t ThreadBodies::hashWith(uint64_t tissue) const {
         for (const double part : vector) hash.add(static_cast<float>(part));
       }
     }
+    for (const ChainSlide& slide : thread.around.slides) hash.add(static_cast<float>(slide.s));
   }
   return hash.value();
 }

@@ -7,6 +7,7 @@
 
 #include "math/archive.h"
 #include "solver/thread/chain.h"
+#include "solver/thread/thread_channels.h"
 #include "solver/thread/thread_hands.h"
 #include "solver/thread/thread_touches.h"
 #include "solver/thread/tissue_points.h"
@@ -21,14 +22,20 @@ namespace viscera {
 /// others at the end of a tick, in substeps of their own.
 class ThreadBodies {
  public:
-  /// @param good_states  that are kept for rollbacks
-  explicit ThreadBodies(const Scene& scene, int good_states = 0);
+  /// @param model  must outlive them; null: there is no tissue   @param good_states  that are kept for rollbacks
+  /// @throws SceneError  channels that there cannot be
+  explicit ThreadBodies(const Scene& scene, const Model* model = nullptr, int good_states = 0);
+
+  /// Are threads tied to tissue, now or later?
+  bool feelTissue() const { return tissue_ != nullptr; }
+  /// Springs that are cut, only where they feel it.
+  void setCuts(const CutSprings& cuts);
 
   /// @param motions  of the tick, as solvers take them   @param obstacles  of the scene, over the tick
   /// @param substeps  of the tissue
   void beginTick(const ToolMotions& motions, const ObstacleMotions& obstacles, int substeps);
-  /// After a substep of the tissue.
-  void act(BladeTarget& target, int substep);
+  /// After a substep of the tissue. @returns whether springs were cut
+  bool act(BladeTarget& target, int substep);
   void endTick();
   /// A tick without tissue.
   void step(const ToolMotions& motions, const ObstacleMotions& obstacles);
@@ -55,6 +62,9 @@ class ThreadBodies {
     ChainAround around;  ///< holds: those of fixed ends, then those of hands
     size_t fixed_holds;
     ThreadTouches touches;
+    ThreadChannels channels, first_channels;
+    std::vector<ChainSlide> first_slides;
+    bool tied = false;  ///< in this tick
   };
   /// The substeps of a tick.
   struct Steps {
@@ -64,12 +74,16 @@ class ThreadBodies {
   void persistMotion(Archive& archive);
   void plan(Steps& steps, int count, const ObstacleMotions& obstacles) const;
   void substep(uint32_t thread, const Steps& steps, int index);
+  std::vector<const TissuePoint*> tiedPoints() const;
 
   std::vector<ObstacleConfig> obstacles_;
   double tick_s_;
+  bool can_cut_;
+  std::unique_ptr<TissuePoints> tissue_;  ///< null: none is tied to it
   ThreadHands hands_;
   std::vector<Thread> threads_;
-  Steps alone_;
+  Steps alone_, tied_;
+  int per_substep_ = 1;  ///< of the tissue, so many of tied threads
   double work_j_ = 0;
   size_t good_states_;
   std::vector<std::vector<Archive::Section>> good_;  ///< oldest first

@@ -107,16 +107,10 @@ std::optional<TissuePoint> TissuePoints::walk(BladeTarget& target, uint32_t body
     const std::optional<TissuePoint> here = elements.nearest(rest_m, cuts_);
     if (!here) return std::nullopt;
     const Vector3d off = place_m - lies(*here, nodes);
-    const Eigen::Matrix<double, Eigen::Dynamic, 3> slopes = elements.slopes(*here);
     const Vector3d normal = elements.normal(*here);
-    Eigen::Matrix3d gradient = Eigen::Matrix3d::Zero();
-    for (uint32_t c = 0; c < here->count; ++c) gradient += nodes[c] * slopes.row(c);
     sheet = !normal.isZero(0);
-    if (sheet) {
-      const Vector3d now = (nodes[1] - nodes[0]).cross(nodes[2] - nodes[0]).normalized();
-      gradient += now * normal.transpose();
-    }
-    Vector3d way = gradient.determinant() > kFolded ? Vector3d(gradient.inverse() * off) : off;
+    const Eigen::Matrix3d by = gradient(*here, nodes);
+    Vector3d way = by.determinant() > kFolded ? Vector3d(by.inverse() * off) : off;
     if (sheet) way -= way.dot(normal) * normal;
     if (way.norm() < kArrived * h) break;
     if (way.norm() > kMostWalked * h) way *= kMostWalked * h / way.norm();
@@ -125,6 +119,35 @@ std::optional<TissuePoint> TissuePoints::walk(BladeTarget& target, uint32_t body
   const std::optional<TissuePoint> point = embed(body, rest_m);
   if (!point || (place_m - lies(*point, nodes)).norm() > (sheet ? kBesideIt : kSamePlace) * h) return std::nullopt;
   return point;
+}
+
+/// Of the places now by those at rest; across a sheet, that of its normal.
+Eigen::Matrix3d TissuePoints::gradient(const TissuePoint& point, const std::vector<Vector3d>& nodes) const {
+  const RestElements& elements = elements_[point.body];
+  const Eigen::Matrix<double, Eigen::Dynamic, 3> slopes = elements.slopes(point);
+  Eigen::Matrix3d out = Eigen::Matrix3d::Zero();
+  for (uint32_t c = 0; c < point.count; ++c) out += nodes[c] * slopes.row(c);
+  const Vector3d normal = elements.normal(point);
+  if (!normal.isZero(0)) out += (nodes[1] - nodes[0]).cross(nodes[2] - nodes[0]).normalized() * normal.transpose();
+  return out;
+}
+
+Vector3d TissuePoints::toRest(const TissuePoint& point, const Vector3d& way_m) const {
+  std::vector<Vector3d> nodes;
+  for (uint32_t c = 0; c < point.count; ++c) nodes.push_back(nodes_[node_of_[point.slots[c]]].x_m);
+  const Eigen::Matrix3d by = gradient(point, nodes);
+  return by.determinant() > kFolded ? Vector3d(by.inverse() * way_m) : way_m;
+}
+
+Vector3d TissuePoints::placeIn(const BladeTarget& target, const TissuePoint& point) const {
+  const std::vector<Vector3d> nodes = places_m(target, {point.slots.begin(), point.slots.begin() + point.count});
+  Vector3d out = Vector3d::Zero();
+  for (uint32_t c = 0; c < point.count; ++c) out += static_cast<double>(point.weights[c]) * nodes[c];
+  return out;
+}
+
+void TissuePoints::drift(double by_s) {
+  for (Node& node : nodes_) node.x_m += by_s * node.v_m_per_s;
 }
 
 void TissuePoints::read(BladeTarget& target, const std::vector<const TissuePoint*>& points) {
@@ -138,6 +161,7 @@ void TissuePoints::read(BladeTarget& target, const std::vector<const TissuePoint
     for (size_t i = 0; i < slots_.size(); ++i) node_of_[slots_[i]] = static_cast<uint32_t>(i);
     wanted_ = std::move(wanted);
   }
+  work_j_ = 0;
   u_.resize(slots_.size());
   v_.resize(slots_.size());
   nodes_.resize(slots_.size());
@@ -177,6 +201,7 @@ void TissuePoints::give(const TissuePoint& point, const Vector3d& impulse_ns, do
     const double share = static_cast<double>(point.weights[c]) * static_cast<double>(inverse_mass_[point.slots[c]]);
     Node& node = nodes_[node_of_[point.slots[c]]];
     const Vector3d dv = share * impulse_ns;
+    work_j_ += static_cast<double>(point.weights[c]) * impulse_ns.dot(node.v_m_per_s + 0.5 * dv);
     node.dv_m_per_s += dv;
     node.v_m_per_s += dv;
     node.x_m += dt_s * dv;

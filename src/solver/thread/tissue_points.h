@@ -29,6 +29,8 @@ class TissuePoints {
   /// of a cell's nodes each. In the gap of a wound there is nothing.
   std::optional<TissuePoint> find(BladeTarget& target, const Vector3d& place_m) const;
 
+  double spacing_m(uint32_t body) const { return elements_[body].spacing_m(); }
+
   /// Begins a substep. @param points  all that will be asked for
   void read(BladeTarget& target, const std::vector<const TissuePoint*>& points);
   Vector3d place_m(
@@ -37,6 +39,13 @@ class TissuePoints {
   /// What an impulse at one changes another's velocity by [1/kg].
   double mobility(const TissuePoint& one, const TissuePoint& other) const;
   void give(const TissuePoint& point, const Vector3d& impulse_ns, double dt_s);
+  /// Of any point; reads its nodes.
+  Vector3d placeIn(const BladeTarget& target, const TissuePoint& point) const;
+  /// A way in the tissue as it is now, at rest: by the inverse of the deformation; where it is folded, as it is.
+  Vector3d toRest(const TissuePoint& point, const Vector3d& way_m) const;
+  /// All of them go on, or back, at the speeds that they have.
+  void drift(double by_s);
+  double work_j() const { return work_j_; }  ///< that impulses have done since read()
   /// Ends a substep: writes what was given. @param stylus  whose reaction it is; kMaxStyluses: no one's
   void write(BladeTarget& target, uint32_t stylus, double dt_s);
 
@@ -45,6 +54,7 @@ class TissuePoints {
     Vector3d x_m, v_m_per_s, dv_m_per_s;
   };
   std::optional<TissuePoint> walk(BladeTarget& target, uint32_t body, Vector3d rest_m, const Vector3d& place_m) const;
+  Eigen::Matrix3d gradient(const TissuePoint& point, const std::vector<Vector3d>& nodes) const;
   std::vector<Vector3d> places_m(const BladeTarget& target, const std::vector<uint32_t>& slots) const;
 
   const Model& model_;
@@ -58,6 +68,7 @@ class TissuePoints {
   std::vector<uint32_t> node_of_;         ///< [slots] index into nodes_, of those in slots_
   std::vector<Node> nodes_;
   std::vector<Vector3f> u_, v_;
+  double work_j_ = 0;
 };
 
 }  // namespace viscera

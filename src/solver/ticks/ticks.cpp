@@ -48,7 +48,7 @@ Ticks::Ticks(const Model& model, const Scene& scene, const TickPlan& plan, std::
                      " us), more than solver.max_substeps = " + std::to_string(config_.max_substeps) +
                      ": use a larger spacing_m, a softer or heavier material, or raise solver.max_substeps");
   if (!scene.threads.empty())
-    threads_ = std::make_unique<ThreadBodies>(scene, SolverBackend::kGoodStates + backend_->lag());
+    threads_ = std::make_unique<ThreadBodies>(scene, &model, SolverBackend::kGoodStates + backend_->lag());
   if (plan.governed())
     watch_.emplace(*backend_, newGovernor(), !traitsOf(config_.integrator).is_explicit, tick_s_, threads_.get());
   if (plan.tools && resistsBlades(scene)) blades_.emplace(model, scene.styluses);
@@ -75,6 +75,7 @@ void Ticks::step(const ToolMotions& motions, const ObstacleMotions& obstacles) {
       motions_[s].timing.x = static_cast<float>(restarted_ ? 0 : last_dt_s_);
     backend_->writeMotions(motions_);
   }
+  if (threads_ && threads_->feelTissue() && readCuts(thread_cuts_)) threads_->setCuts(thread_cuts_);
   if (threads_) threads_->beginTick(motions, surroundings_ ? surroundings_->motions() : obstacles, n_);
   for (int s = 0; s < n_; ++s) {
     if (contacts || cuts) backend_->selectMotions(static_cast<size_t>(s));
@@ -151,7 +152,7 @@ void Ticks::substep(int index, const ToolMotions& motions, bool cuts, bool conta
     backend_->surround(step, *surroundings_);
   }
   if (blades_ && cuts && !recovering_) cutByWork(index, motions);
-  if (threads_) threads_->act(*backend_, index);
+  if (threads_) cut_revision_ += threads_->act(*backend_, index);
   restarted_ = false;
   last_dt_s_ = dt_s;
 }

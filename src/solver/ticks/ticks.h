@@ -89,6 +89,7 @@ class Ticks : public Solver {
   std::optional<Surroundings> surroundings_;  ///< only where a scene has any
   std::optional<Blades> blades_;              ///< only where a body resists them
   std::unique_ptr<ThreadBodies> threads_;     ///< null: the scene has none
+  CutState thread_cuts_;                      ///< only where threads feel tissue
   std::vector<ThreadPulls> pulls_;            ///< without a governor: of ticks whose measurements are under way
   std::optional<HostState> start_;            ///< nothing: rest
   std::optional<Watch> watch_;                ///< only where a scene has a governor

@@ -43,7 +43,7 @@ FeatureSet featuresOf(const Model& model, const Scene& scene, double dt_s, uint3
   features.parts = isHeterogeneous(model);
   features.compensated = isCompensated(scene.solver, dt_s);
   features.tools = !scene.styluses.empty();
-  features.cuts = maySever(scene.styluses) || tears(scene);
+  features.cuts = maySever(scene.styluses) || tears(scene) || threadsTear(scene);
   features.tears = tears(scene);
   features.obstacles = static_cast<uint32_t>(scene.obstacles.size());
   for (const Body& body : model.bodies) features.dashpot |= body.material.dashpot_ratio > 0;

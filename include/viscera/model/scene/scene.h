@@ -295,6 +295,13 @@ struct ThreadPlace {
   Vector3d position_m = Vector3d::Zero();
 };
 
+/// Tissue at rest that a thread goes through at first.
+struct ThreadChannelConfig {
+  std::string body;  ///< empty: the first
+  Vector3d position_m = Vector3d::Zero();
+};
+enum class StitchedTissue { kPhantom, kBowel, kFascia };
+
 enum class NeedleArc { kNone, kHalfCircle, kThreeEighths };
 
 /// A needle on the start of a thread (docs/thread.md 6). What is 0 follows from the tissue's Young's modulus.
@@ -323,6 +330,12 @@ struct ThreadConfig {
   Vector3d position_m = Vector3d::Zero();
   std::vector<ThreadPlace> path;  ///< from there through these: one place at least
   ThreadEnd start = ThreadEnd::kFree, end = ThreadEnd::kFree;
+  std::vector<ThreadChannelConfig> channels;  ///< in the order of the path
+  double friction = 0.1;                      ///< in channels
+  double through_n_per_m = 0;                 ///< 0: by Young's modulus of the tissue
+  double pull_out_n = 0;                      ///< 0: of `tissue`, with the next two
+  StitchedTissue tissue = StitchedTissue::kPhantom;
+  double bite_m = 0.0045, depth_m = 0.006;
   NeedleConfig needle;  ///< on its start
 };
 
