@@ -157,13 +157,14 @@ class BackCamera {
       seen_.push_back(Vector3d(from.dot(right_) / tangent_, from.dot(down_) / tangent_, from.dot(ahead_)));
     }
     depth_.assign(static_cast<size_t>(kPixels) * kPixels, std::numeric_limits<double>::infinity());
-    back_.assign(depth_.size(), false);
+    back_.assign(depth_.size(), 0);
     for (size_t t = 0; t < triangles.size(); t += 3)
       draw(seen_[triangles[t]], seen_[triangles[t + 1]], seen_[triangles[t + 2]]);
-    return static_cast<size_t>(std::count(back_.begin(), back_.end(), true));
+    return static_cast<size_t>(std::count(back_.begin(), back_.end(), 1));
   }
 
  private:
+  static constexpr double place(int pixel) { return (pixel + 0.5) / kPixels * 2 - 1; }  ///< of its middle, -1..1
   static int pixelBefore(double share) {
     return static_cast<int>(std::floor(std::clamp((share + 1) / 2, -0.1, 1.1) * kPixels - 0.5));
   }
@@ -175,21 +176,30 @@ class BackCamera {
   void draw(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
     const bool ahead = std::min({a.z(), b.z(), c.z()}) > 1e-6;
     if (!ahead && std::max({a.z(), b.z(), c.z()}) < 0) return;
+    for (const int axis : {0, 1}) {  // most of an organ is beside a picture of its wound
+      if (!ahead) break;
+      if (a[axis] > a.z() && b[axis] > b.z() && c[axis] > c.z()) return;
+      if (a[axis] < -a.z() && b[axis] < -b.z() && c[axis] < -c.z()) return;
+    }
     const auto [left, right] = reach(a.x() / a.z(), b.x() / b.z(), c.x() / c.z(), ahead);
     const auto [top, bottom] = reach(a.y() / a.z(), b.y() / b.z(), c.y() / c.z(), ahead);
     if (left > right || top > bottom) return;
     const Vector3d bc = b.cross(c), ca = c.cross(a), ab = a.cross(b);
     const double whole = a.dot(bc);
-    for (int y = top; y <= bottom; ++y) {
+    const double bc_x = bc.x(), ca_x = ca.x(), ab_x = ab.x();
+    for (int y = top; y <= bottom; ++y) {  // u, v and w: by the way to a pixel, whose z is 1
+      const double way_y = place(y);
+      const double u_y = way_y * bc.y() + bc.z(), v_y = way_y * ca.y() + ca.z(), w_y = way_y * ab.y() + ab.z();
       for (int x = left; x <= right; ++x) {
-        const Vector3d way((x + 0.5) / kPixels * 2 - 1, (y + 0.5) / kPixels * 2 - 1, 1);
-        const double u = way.dot(bc), v = way.dot(ca), w = way.dot(ab), sum = u + v + w;
-        if (!((u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0)) || sum == 0) continue;
+        const double way_x = place(x), u = way_x * bc_x + u_y, v = way_x * ca_x + v_y, w = way_x * ab_x + w_y;
+        if (!((u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0))) continue;
+        const double sum = u + v + w;
+        if (sum == 0) continue;
         const double depth = whole / sum;
         const auto pixel = static_cast<size_t>(y * kPixels + x);
         if (depth <= 0 || depth >= depth_[pixel]) continue;
         depth_[pixel] = depth;
-        back_[pixel] = sum > 0;
+        back_[pixel] = sum > 0 ? 1 : 0;
       }
     }
   }
@@ -198,7 +208,7 @@ class BackCamera {
   double tangent_ = 1;
   std::vector<Vector3d> seen_;
   std::vector<double> depth_;
-  std::vector<bool> back_;
+  std::vector<uint8_t> back_;
 };
 
 /// How many times the shown mesh goes around a point.

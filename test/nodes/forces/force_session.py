@@ -45,9 +45,12 @@ class Session:
         self.space = "/force_endings_%d" % next(serial)
         self.environment["ROS_NAMESPACE"] = self.space
         self.simulator = self.node("simulator", SCENE + overrides, *options)
-        wait_ready(self.simulator)
+        # its interpreter starts while the tissue is made, and it waits outside until that is there
         self.hand = self.start([sys.executable, os.path.join(os.path.dirname(HERE), "support", "hand.py"), wrenches] + ([kind] if kind else []),
                                stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+        wait_ready(self.simulator)
+        self.hand.stdin.write("press\n")
+        self.hand.stdin.flush()
 
     def start(self, command, **how):
         process = subprocess.Popen(command, env=self.environment, **how)
@@ -70,10 +73,14 @@ class Session:
         line = self.hand.stdout.readline()
         assert line == "touching\n", line
 
+    def wait_let_go(self):
+        line = self.hand.stdout.readline()
+        assert line == "let go\n", line
+
     def felt(self, seconds):
         """What the hand was told until so many seconds from now."""
         time.sleep(seconds)
-        return json.loads(self.hand.communicate(timeout=END_LIMIT_S)[0])
+        return json.loads(self.hand.communicate(timeout=END_LIMIT_S)[0].splitlines()[-1])
 
     def __enter__(self):
         return self

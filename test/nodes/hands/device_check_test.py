@@ -20,7 +20,7 @@ from devices_test import simulator
 from turns import IDENTITY, plus, times
 
 LIMIT_S = 30
-WINDOW_S = 1.0
+WINDOW_S = 0.5
 SETTLE_S = 0.15
 FRONT = (0, -0.09, 0.05)  # where the hand begins, tissue frame
 WAY_M, TURN = 0.1, 0.8

@@ -80,10 +80,12 @@ class LoadSceneTest(unittest.TestCase):
     def test_1_another_scene_takes_its_place_with_zero_as_the_last_force(self):
         hand = subprocess.Popen([sys.executable, os.path.join(os.path.dirname(HERE), "support", "hand.py")], stdin=subprocess.PIPE,
                                 stdout=subprocess.PIPE, text=True)
+        hand.stdin.write("press\n")
+        hand.stdin.flush()
         self.assertEqual(hand.stdout.readline(), "touching\n")
         before = self.tick.message.tick
         answer = self.load(scene=OTHER)
-        felt = json.loads(hand.communicate(timeout=30)[0])
+        felt = json.loads(hand.communicate(timeout=30)[0].splitlines()[-1])
         self.assertTrue(answer.success, answer.message)
         self.assertGreater(max(force for _, force, _, _ in felt), 0)
         self.assertEqual(felt[-1][1:3], [0, 0])

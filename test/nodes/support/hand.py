@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026, the viscera authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""hand.py [WRENCHES [KIND]]: a hand with a device, as a process of its own. It presses the probe of `left` into the heart,
-holds it there, and notes every wrench that it is told. Prints `touching` once it feels a force that lasts, and, when its
-standard input ends, a JSON list of [time.monotonic(), force in N, torque in N m, the message's stamp in s]. KIND is a class
-of drivers.py, whose topics are its driver's; by default it speaks CRTK and listens to WRENCHES."""
+"""hand.py [WRENCHES [KIND]]: a hand with a device, as a process of its own. Told a line on its standard input it presses the
+probe of `left` into the heart, holds it there, and notes every wrench that it is told. Prints `touching` once it feels a force
+that lasts, `let go` at the first zero after that, and, when its input ends, a JSON list of [time.monotonic(), force in N, torque
+in N m, the message's stamp in s]. KIND is a class of drivers.py, whose topics are its driver's; by default it speaks CRTK and
+listens to WRENCHES."""
 import itertools
 import json
 import math
@@ -24,9 +25,13 @@ FELT_N = 0.02
 
 
 class Hand:
-    def __init__(self, wrenches):
+    def begin(self):
         self.felt = []
         self.lock = threading.Lock()
+        self.told, self.let_go = False, False
+
+    def __init__(self, wrenches):
+        self.begin()
         self.poses = rospy.Publisher("left/measured_cp", PoseStamped, queue_size=1, tcp_nodelay=True)
         self.force = rospy.Subscriber(wrenches, WrenchStamped, self.feel, queue_size=100, tcp_nodelay=True)
 
@@ -37,6 +42,9 @@ class Hand:
     def keep(self, force_n, torque_nm, stamp_s):
         with self.lock:
             self.felt.append((time.monotonic(), force_n, torque_nm, stamp_s))
+        if self.told and not self.let_go and force_n == 0:
+            self.let_go = True
+            print("let go", flush=True)
 
     def touches(self, begun):
         """A force is felt now, and was at all times in LASTS_S, all of them after `begun`."""
@@ -59,14 +67,14 @@ class Hand:
     def play(self, stop):
         while not stop.is_set() and not self.connected():
             time.sleep(0.02)
-        begun, told = time.monotonic(), False
+        begun = time.monotonic()
         while not stop.is_set():
             since_s = time.monotonic() - begun
             way = min(1.0, since_s / APPROACH_S)
             self.move((0, OUTSIDE_Y_M + way * (DEEP_Y_M - OUTSIDE_Y_M), -0.02))
-            if not told and self.touches(begun + APPROACH_S):
-                told = True
+            if not self.told and self.touches(begun + APPROACH_S):
                 print("touching", flush=True)
+                self.told = True
             time.sleep(1 / RATE_HZ)
 
 
@@ -74,8 +82,7 @@ class DriverHand(Hand):
     """Of a driver whose messages tell a force alone."""
 
     def __init__(self, kind):
-        self.felt = []
-        self.lock = threading.Lock()
+        self.begin()
         self.driver = kind("left")
         self.driver.feel = self.note
 
@@ -96,6 +103,7 @@ def main():
     hand = (DriverHand(getattr(drivers, arguments[1])) if len(arguments) > 1 else
             Hand(arguments[0] if arguments else "left/body/servo_cf"))
     player = threading.Thread(target=hand.play, args=(stop,), daemon=True)
+    sys.stdin.readline()
     player.start()
     sys.stdin.read()
     stop.set()
