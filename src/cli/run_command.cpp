@@ -119,6 +119,7 @@ void compareWithRecording(const Strokes& strokes, uint64_t ticks, Json& metrics)
 /// @throws Error  not all of it was written
 void finish(SessionRecorder& recorder) {
   recorder.leave();
+  recorder.finish();
   if (!recorder.fault().empty()) throw Error(recorder.fault());
 }
 

@@ -53,13 +53,17 @@ RecordFileWriter::RecordFileWriter(const std::string& path)
 }
 
 RecordFileWriter::~RecordFileWriter() {
+  finish();
+  close(fd_);
+}
+
+void RecordFileWriter::finish() {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     end_ = true;
   }
   changed_.notify_all();
-  thread_.join();
-  close(fd_);
+  if (thread_.joinable()) thread_.join();
 }
 
 void RecordFileWriter::put(ChunkKind kind, const std::vector<char>& bytes) {

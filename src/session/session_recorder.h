@@ -21,6 +21,10 @@ class SessionRecorder : public SessionLog {
   void follow(Session& session);
   /// It is recorded to here, or nothing was. To be called before the session ends.
   void leave();
+  /// The session has ended without leave(): only it knows how.
+  void forget() { session_ = nullptr; }
+  /// All of it is on the disk, or fault() says why not. Nothing is recorded after this.
+  void finish() { file_.finish(); }
   const std::string& path() const { return path_; }
   std::string fault() const { return file_.fault(); }  ///< why nothing is written any more; empty: it is
 

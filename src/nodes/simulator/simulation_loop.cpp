@@ -97,6 +97,7 @@ void SimulationLoop::run() {
       std::this_thread::sleep_until(pacer_.next(Clock::now()));
     }
   }
+  ports_.leave();
 }
 
 void SimulationLoop::tick(Session& session, const StylusSamples& samples, bool live) {

@@ -37,9 +37,10 @@ bool followsFrames(const SimulatorOptions& options) {
 
 }  // namespace
 
-Simulator::Simulator(const SimulatorOptions& options, EndWatch& end, SceneSwitch& scenes)
+Simulator::Simulator(const SimulatorOptions& options, EndWatch& end, SceneSwitch& scenes, RecordingSwitch& recordings)
     : end_(end),
       scenes_(scenes),
+      recordings_(recordings),
       listener_(frames_, !followsFrames(options)),
       obstacles_(options.scene, frames_, options.max_transform_age_s),
       camera_frames_(options.scene, frames_, options.max_transform_age_s),
@@ -57,7 +58,8 @@ Simulator::Simulator(const SimulatorOptions& options, EndWatch& end, SceneSwitch
 #ifdef VISCERA_RECONFIGURE
       settings_(std::in_place, options, loop_.commands(), SimulatorSettings::Publishers{publisher_, wrenches_}),
 #endif
-      services_(std::in_place, node_, options.scene.styluses, options.saved_folder, loop_.commands(), modeSet()),
+      services_(std::in_place, node_, options.scene.styluses, options.saved_folder, loop_.commands(), recordings_,
+                modeSet()),
       diagnostics_(std::in_place, node_, options.scene, loop_, SimulatorDiagnostics::Publishers{publisher_, wrenches_},
                    inputs_, obstacles_, camera_frames_),
       device_spinner_(1, &device_queue_) {
@@ -117,7 +119,8 @@ LoopPorts Simulator::ports() {
   if (!camera_frames_.empty()) ports.aim = [this](Session& session) { return camera_frames_.apply(session); };
   ports.wants = [this] { return placed(publisher_.beginTick()); };
   ports.stills = [this](bool changed, bool aimed) { return placed(publisher_.stills(changed, aimed)); };
-  ports.ready = [this](const Session& session) {
+  ports.ready = [this](Session& session) {
+    recordings_.follow(session);
     ROS_INFO("ready: %zu nodes, %zu springs, %zu triangles, substep %.3g ms", session.model().activeNodes(),
              session.model().springs(), session.model().skinTriangles(), 1e3 * session.solver().dt_s());
     ROS_INFO("stepped by: %s", session.backendNote().c_str());
@@ -127,6 +130,7 @@ LoopPorts Simulator::ports() {
     publisher_.start(session.wholeSkin());
     ready_ = true;
   };
+  ports.leave = [this] { recordings_.leave(); };
   ports.stepped = [this](uint64_t tick, const StylusSamples& samples, const ToolMotions& tools, bool hands_anew) {
     samples_.publish(tick, samples, tools, hands_anew);
   };
@@ -195,6 +199,12 @@ void Simulator::warnOfStalls() {
       static_cast<unsigned long>(stalls));
 }
 
+void Simulator::warnOfRecording() {
+  const std::string fault = recordings_.fault();
+  if (fault != recording_fault_ && !fault.empty()) ROS_WARN("the recording has ended: %s", fault.c_str());
+  recording_fault_ = fault;
+}
+
 void Simulator::stepAside(ros::AsyncSpinner& spinner) {
   scenes_.holdTopics();
   spinner.stop();
@@ -229,6 +239,7 @@ void Simulator::run() {
   while (!end_.waitFor(kWatchPeriod) && !loop_.ended() && !failed() && known && !scenes_.isRequested()) {
     listen();
     warnOfStalls();
+    warnOfRecording();
     known = master.check();
     clock.check();
   }

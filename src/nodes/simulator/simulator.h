@@ -35,14 +35,15 @@
 #include "nodes/hands/stylus_input.h"
 #include "nodes/views/tick_publisher.h"
 #include "nodes/views/tool_frame_publisher.h"
+#include "session/recording_switch.h"
 
 namespace viscera::nodes {
 
 /// The node: stylus inputs -> simulation loop -> frame publisher, with services and diagnostics beside it.
 class Simulator {
  public:
-  /// @param end, scenes  must outlive this
-  Simulator(const SimulatorOptions& options, EndWatch& end, SceneSwitch& scenes);
+  /// @param end, scenes, recordings  must outlive this
+  Simulator(const SimulatorOptions& options, EndWatch& end, SceneSwitch& scenes, RecordingSwitch& recordings);
   ~Simulator();
 
   /// Runs until the end begins, or another scene waits for its place.
@@ -61,6 +62,7 @@ class Simulator {
   void fail(std::exception_ptr error);
   void listen();
   void warnOfStalls();
+  void warnOfRecording();
   void reportProgress(const std::string& stage, double fraction);
   void tellFailure(const std::string& why);
   /// Ends all that ticks do not need, while they go on: another simulator waits for the place of this one.
@@ -68,6 +70,7 @@ class Simulator {
 
   EndWatch& end_;
   SceneSwitch& scenes_;
+  RecordingSwitch& recordings_;
   ros::NodeHandle node_;
   tf2_ros::Buffer frames_;
   FrameListener listener_;
@@ -88,6 +91,7 @@ class Simulator {
   std::atomic<bool> ready_{false};  ///< the session is made: devices may be listened to
   bool listening_ = false;
   uint64_t stalls_ = 0;  ///< that were warned of
+  std::string recording_fault_;
   SimulationLoop loop_;
 #ifdef VISCERA_RECONFIGURE
   std::optional<SimulatorSettings> settings_;

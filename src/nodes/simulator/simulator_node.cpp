@@ -13,16 +13,18 @@
 #include "nodes/ros/relaunch.h"
 #include "nodes/simulator/scene_switch.h"
 #include "nodes/simulator/simulator.h"
+#include "session/recording_switch.h"
 
 namespace viscera::nodes {
 namespace {
 
 /// One scene after another, as the service load_scene asks for them.
 void runScenes(SimulatorOptions options, const std::string& package_folder, EndWatch& end) {
+  RecordingSwitch recordings(options.record);
   SceneSwitch scenes(ros::NodeHandle(), options, package_folder);
   for (;;) {
     try {
-      Simulator(options, end, scenes).run();
+      Simulator(options, end, scenes, recordings).run();
     } catch (const MasterLost&) {
       throw;
     } catch (const std::exception& error) {

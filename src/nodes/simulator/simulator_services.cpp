@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::chrono::seconds kTriggerLimit{10};  ///< a tick, however slow, and a reset
 constexpr std::chrono::seconds kStepLimit{60};
-constexpr uint32_t kServices = 9;  ///< one thread each
+constexpr uint32_t kServices = 11;  ///< one thread each
 
 size_t indexOf(const std::string& stylus, const std::vector<StylusConfig>& styluses) {
   size_t s = 0;
@@ -97,10 +97,12 @@ std::string saveSurface(Session& session, const std::string& path) {
 }  // namespace
 
 SimulatorServices::SimulatorServices(ros::NodeHandle node, const std::vector<StylusConfig>& styluses,
-                                     const std::string& saved_folder, CommandQueue& commands, ModeSet mode_set)
+                                     const std::string& saved_folder, CommandQueue& commands,
+                                     RecordingSwitch& recordings, ModeSet mode_set)
     : styluses_(styluses),
       saved_folder_(std::filesystem::absolute(saved_folder)),
       commands_(commands),
+      recordings_(recordings),
       mode_set_(std::move(mode_set)),
       spinner_(kServices, &queue_) {
   node.setCallbackQueue(&queue_);
@@ -123,7 +125,27 @@ SimulatorServices::SimulatorServices(ros::NodeHandle node, const std::vector<Sty
     makeFolder(saved_folder_);
     return saveSurface(session, path);
   });
+  advertiseFile(node, "start_recording", false, [this](Session& session, const std::string& path) {
+    makeFolder(saved_folder_);
+    return recordings_.start(session, path);
+  });
+  advertiseStopRecording(node);
   spinner_.start();
+}
+
+void SimulatorServices::advertiseStopRecording(ros::NodeHandle& node) {
+  using Request = std_srvs::Trigger::Request;
+  using Response = std_srvs::Trigger::Response;
+  const boost::function<bool(Request&, Response&)> serve = [this](Request&, Response& response) {
+    Command command;
+    command.kind = Command::Kind::kChange;
+    command.change = [this](Session&) { return recordings_.stop(); };
+    const CommandAnswer answer = commands_.call(std::move(command), kTriggerLimit);
+    response.success = answer.success;
+    response.message = answer.message;
+    return true;
+  };
+  servers_.push_back(node.advertiseService<Request, Response>("stop_recording", serve));
 }
 
 void SimulatorServices::advertiseFile(ros::NodeHandle& node, const std::string& name, bool leaps, const FileAct& act) {

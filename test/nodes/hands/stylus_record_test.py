@@ -4,7 +4,6 @@
 """Two live hands that push, hold and cut are recorded; `viscera run` ends with the hash that the simulator had."""
 import json
 import os
-import random
 import subprocess
 import sys
 import tempfile
@@ -14,50 +13,15 @@ import unittest
 
 import rospy
 import rostest
-from geometry_msgs.msg import PoseStamped
+from irregular_hand import Hand
 from program import Program
-from sensor_msgs.msg import Joy
 from simulator_watch import Latest, SimulatorWatch, wait_until
 from std_srvs.srv import Trigger
 from viscera.msg import Samples, StylusState
 from viscera.srv import SetToolMode, Step
 
 LIMIT_S = 30
-SEED = 5
-LONGEST_GAP_S = 0.03               # of an irregular hand; shorter than stale_after_s
 STALE_S = 0.4                      # longer than stale_after_s of the scene
-TURN = (0.7071067811865476, 0, 0, 0.7071067811865476)   # the tip points along +y, into the tissue
-
-
-class Hand:
-    """Sends poses at irregular times, and buttons between them."""
-
-    def __init__(self, name):
-        self.poses = rospy.Publisher(name + "/measured_cp", PoseStamped, queue_size=1, tcp_nodelay=True)
-        self.buttons = [rospy.Publisher("%s/button%d" % (name, b), Joy, queue_size=10) for b in (1, 2)]
-        self.random = random.Random(SEED + len(name))
-
-    def heard(self):
-        return all(p.get_num_connections() for p in (self.poses, *self.buttons))
-
-    def send(self, at):
-        message = PoseStamped()
-        message.header.frame_id = "tissue"
-        message.header.stamp = rospy.Time.now()
-        p, q = message.pose.position, message.pose.orientation
-        p.x, p.y, p.z = at
-        q.x, q.y, q.z, q.w = TURN
-        self.poses.publish(message)
-
-    def go(self, start, to, seconds):
-        begun, way = time.monotonic(), 0
-        while way < 1:
-            way = min(1.0, (time.monotonic() - begun) / seconds)
-            self.send([a + way * (b - a) + self.random.gauss(0, 1e-5) for a, b in zip(start, to)])
-            time.sleep(self.random.uniform(0, LONGEST_GAP_S))
-
-    def press(self, button, down):
-        self.buttons[button - 1].publish(Joy(buttons=[1 if down else 0]))
 
 
 class StylusRecordTest(unittest.TestCase):

@@ -1,0 +1,71 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "session/recording_switch.h"
+
+#include <ctime>
+#include <filesystem>
+#include <utility>
+
+#include "viscera/math/error.h"
+
+namespace viscera {
+
+namespace {
+
+/// In a folder, a name of this second.
+std::string recordingPath(const std::string& place) {
+  std::error_code error;
+  if (place.back() != '/' && !std::filesystem::is_directory(place, error)) return place;
+  std::filesystem::create_directories(place, error);
+  const std::time_t now = std::time(nullptr);
+  std::tm utc{};
+  gmtime_r(&now, &utc);
+  char name[64];
+  std::strftime(name, sizeof name, "session_%Y%m%dT%H%M%SZ.viscera", &utc);
+  return (std::filesystem::path(place) / name).string();
+}
+
+}  // namespace
+
+void RecordingSwitch::follow(Session& session) {
+  if (recorder_) {
+    recorder_->forget();  // the one before, if it could not say when it ended
+    recorder_->follow(session);
+  } else if (!place_.empty()) {
+    start(session, recordingPath(std::exchange(place_, "")));
+  }
+}
+
+void RecordingSwitch::leave() {
+  if (recorder_) recorder_->leave();
+}
+
+std::string RecordingSwitch::start(Session& session, const std::string& path) {
+  if (recorder_ && recorder_->fault().empty()) throw Error("recording into " + recorder_->path() + " already");
+  auto made = std::make_unique<SessionRecorder>(path);
+  made->follow(session);
+  if (recorder_) recorder_->leave();
+  const std::lock_guard<std::mutex> lock(mutex_);
+  recorder_ = std::move(made);
+  return path;
+}
+
+std::string RecordingSwitch::stop() {
+  if (!recorder_) throw Error("nothing is recorded");
+  recorder_->leave();
+  recorder_->finish();
+  const std::string path = recorder_->path(), fault = recorder_->fault();
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    recorder_.reset();
+  }
+  if (!fault.empty()) throw Error(fault);
+  return path;
+}
+
+std::string RecordingSwitch::fault() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return recorder_ ? recorder_->fault() : "";
+}
+
+}  // namespace viscera

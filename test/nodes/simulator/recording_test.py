@@ -1,0 +1,144 @@
+#!/usr/bin/env python3
+# Copyright (c) 2026, the viscera authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""A live session of two hands that push, hold and cut, with a pause, a reset, a tool mode, a saved state and another scene, is
+recorded; `viscera replay` ends with the hash that the simulator had, three times, and again up to where it was killed."""
+import glob
+import json
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import unittest
+import xmlrpc.client
+
+import rosgraph
+import rosnode
+import rospy
+import rostest
+from irregular_hand import Hand
+from simulator_watch import SimulatorWatch, wait_until
+from std_srvs.srv import Trigger
+from viscera.srv import FileCommand, LoadScene, SetToolMode, Step
+
+LIMIT_S = 30
+HERE = os.path.dirname(os.path.abspath(__file__))
+OTHER = os.path.join(os.path.dirname(HERE), "views", "cameras.yaml")
+RECORDINGS = os.path.join(os.environ["ROS_HOME"], "recordings")
+
+
+class RecordingTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        rospy.init_node("recording_test")
+        cls.watch = SimulatorWatch()
+        cls.watch.wait_ready()
+        cls.left, cls.right = Hand("left"), Hand("right")
+        wait_until(lambda: cls.left.heard() and cls.right.heard(), LIMIT_S, "subscribers")
+        cls.call = {name: rospy.ServiceProxy(name, Trigger) for name in ("reset", "pause", "resume", "stop_recording")}
+        cls.file = {name: rospy.ServiceProxy(name, FileCommand) for name in ("save_state", "load_state", "start_recording")}
+        cls.step, cls.load = rospy.ServiceProxy("step", Step), rospy.ServiceProxy("load_scene", LoadScene)
+
+    def done(self, answer):
+        self.assertTrue(answer.success, answer.message)
+        return answer.message
+
+    def act(self):
+        def pull():
+            self.left.go((0, -0.1, -0.02), (0, -0.052, -0.02), 0.5)
+            self.left.press(1, True)
+            self.left.go((0, -0.052, -0.02), (0, -0.07, -0.02), 0.4)
+            self.left.press(1, False)
+
+        def cut():
+            self.right.go((-0.07, -0.025, -0.02), (-0.07, -0.025, -0.02), 0.4)
+            self.right.press(2, True)
+            self.right.go((-0.07, -0.025, -0.02), (0.07, -0.025, -0.021), 0.8)
+            self.right.press(2, False)
+        hands = [threading.Thread(target=act) for act in (pull, cut)]
+        for hand in hands:
+            hand.start()
+        for hand in hands:
+            hand.join()
+
+    def replayed(self, path, *arguments):
+        if "VISCERA_COMMAND" not in os.environ:
+            self.skipTest("the command viscera is not built")
+        done = subprocess.run([os.environ["VISCERA_COMMAND"], "replay", path, *arguments], text=True, timeout=100,
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return json.loads(done.stdout.splitlines()[-1])
+
+    def test_1_one_recording_at_a_time_and_none_is_overwritten(self):
+        self.assertIn("already", self.file["start_recording"](file="another.viscera").message)
+        path = self.done(self.call["stop_recording"]())      # that of ~record
+        self.assertEqual(os.path.dirname(path), RECORDINGS)
+        self.assertIs(self.replayed(path)["to_recorded_end"], True)
+        self.assertIn("nothing is recorded", self.call["stop_recording"]().message)
+        for name in ("../a", "", ".hidden"):
+            self.assertFalse(self.file["start_recording"](file=name).success, name)
+
+    def test_2_a_live_session_is_replayed_to_the_bit(self):
+        self.act()                                           # a recording may begin at any time
+        name = "live_%d.viscera" % time.time_ns()
+        path = self.done(self.file["start_recording"](file=name))
+        self.assertFalse(self.file["start_recording"](file=name).success)
+        self.act()
+        self.done(self.file["save_state"](file="state"))
+        self.done(self.call["pause"]())
+        self.done(self.step(ticks=3))
+        self.done(self.call["resume"]())
+        self.done(rospy.ServiceProxy("set_tool_mode", SetToolMode)("left", "idle", "none"))
+        self.act()
+        self.done(self.call["reset"]())
+        self.act()
+        self.done(self.file["load_state"](file="state"))
+        self.act()
+        self.done(self.load(scene=OTHER))
+        time.sleep(1)
+        self.done(self.load(scene="heart", overrides=["bodies[0].spacing_m=0.008", "styluses[1].cut.blade_length_m=0.03"]))
+        self.act()
+        self.done(self.call["pause"]())
+        live = self.step(ticks=0)
+        self.assertEqual(self.done(self.call["stop_recording"]()), path)
+        for _ in range(3):
+            replayed = self.replayed(path)
+            self.assertEqual(replayed["state_hash"], live.state_hash)
+            self.assertIs(replayed["recorded_hash_met"], True)
+            self.assertIs(replayed["to_recorded_end"], True)
+        self.assertEqual(len(replayed["pieces"]), 5)         # a reset, a state, two scenes
+        hands = {hand["stylus"]: hand for hand in replayed["pieces"][0]}
+        self.assertGreater(hands["left"]["peak_force_n"], 0)
+        self.assertGreater(hands["right"]["path_m"], 0.1)
+        self.done(self.call["resume"]())
+
+    def test_3_pictures_of_other_cameras_are_made_afterwards(self):
+        path = max(glob.glob("viscera_saved/live_*.viscera") or
+                   glob.glob(os.path.join(os.environ["ROS_HOME"], "viscera_saved", "live_*.viscera")))
+        with tempfile.TemporaryDirectory() as out:
+            self.replayed(path, "--until", "0.2", "--out", out, "--set",
+                          "cameras=[{name: other, position_m: [0, -0.3, 0], width_px: 64, height_px: 48}]")
+            self.assertTrue(glob.glob(os.path.join(out, "frames", "other_*.png")))
+            self.assertTrue(os.path.exists(os.path.join(out, "hands.csv")))
+
+    def test_4_what_was_recorded_before_a_kill_replays(self):
+        path = self.done(self.file["start_recording"](file="killed_%d.viscera" % time.time_ns()))
+        begun = time.monotonic()
+        self.act()
+        uri = rosnode.get_api_uri(rosgraph.Master("/recording_test"), "/simulator")
+        pid = xmlrpc.client.ServerProxy(uri).getPid("/recording_test")[2]
+        lived_s = time.monotonic() - begun
+        os.kill(pid, signal.SIGKILL)
+        replayed = self.replayed(path)
+        self.assertIs(replayed["recorded_hash_met"], True)
+        self.assertIn("cut", replayed)
+        pace = 0.5                                           # of real time, that a busy machine keeps up with
+        self.assertGreater(replayed["recorded_s"], pace * (lived_s - 1))
+        self.assertGreater(replayed["pieces"][0][0]["path_m"], 0)
+
+
+if __name__ == "__main__":
+    rostest.rosrun("viscera", "recording_test", RecordingTest, sys.argv)
