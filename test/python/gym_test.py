@@ -3,6 +3,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Environments by Gymnasium's API, with Gymnasium or without."""
 import os
+import subprocess
+import sys
 import tempfile
 import time
 import unittest
@@ -215,6 +217,22 @@ class WrapperTest(unittest.TestCase):
         for _ in range(6):
             env.step(np.zeros(3))
         self.assertGreaterEqual(time.monotonic() - start, 6 / 20)
+
+
+class ExampleTest(unittest.TestCase):
+    def test_same_curve_twice(self):
+        """Also on another number of threads."""
+        script = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "examples", "learn_to_touch", "learn_to_touch.py")
+        curves = []
+        with tempfile.TemporaryDirectory() as folder:
+            for threads in ("1", "3"):
+                file = os.path.join(folder, threads)
+                subprocess.run([sys.executable, script, "--seeds", "2", "--generations", "2", "--population", "5", "--targets", "1",
+                                "--tests", "2", "--threads", threads, "--out", file], check=True, capture_output=True, timeout=300)
+                with open(file, encoding="utf-8") as text:
+                    curves.append(text.read())
+        self.assertEqual(curves[0], curves[1])
+        self.assertEqual(len(curves[0].splitlines()), 5)
 
 
 if __name__ == "__main__":

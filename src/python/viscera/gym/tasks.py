@@ -91,7 +91,7 @@ class Touch(Task):
     steps = 60
     touch_n = 0.05          # softer is no touch
     radius_m = 0.006        # of the target, seen from above
-    terms = {"distance": 1, "touch": 1, "force": 1, "time": 0.1, "success": 10, "failure": 10}
+    terms = {"distance": 1, "touch": 0.2, "force": 1, "time": 0.1, "success": 10, "failure": 10}
     _TOP_M, _REACH_M = 0.015, 0.018
 
     def begin(self, session, rng, options):
