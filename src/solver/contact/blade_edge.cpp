@@ -14,11 +14,12 @@ namespace viscera {
 namespace {
 
 constexpr double kSampleStep = 0.3;  // of the kernel: between samples
-constexpr double kStale = 0.05;      // of the spacing: a front that far from its kernel's middle gets a new one
+constexpr double kStale = 1 / 60.0;  // of the kernel: a front that far from its kernel's middle gets a new one
 constexpr double kGathered = 0.5;    // of the spacing: a front that far from where its nodes were gathered has strayed
 constexpr double kClosed = 0.2;      // of a gap, in a substep
 constexpr double kFlats = 3;         // times the limit: what the flats of a blade bear sideways
 constexpr int kSweeps = 8;           // over the samples: what they want of the nodes that they share
+constexpr double kSettled = 1e-4;    // of the largest impulse: a sweep that changes none by more is the last
 constexpr double kLeft = 2;          // of the spacing: a front that far ahead of the edge has been left
 constexpr double kOffWay = 0.9;      // cosine: what an edge meets that far off the hand's way it meets from elsewhere
 constexpr double kOfTissue = 0.55;   // of how much a blade is drawn: by the edge's way in the tissue, not the hand's
@@ -26,6 +27,7 @@ constexpr double kMostStep = 0.5;    // of the spacing, of a front in a substep
 constexpr double kAhead = 0.9;       // of the spacing: where it is looked for a wound; beyond the half cell it is in
 constexpr double kAside = 0.5;       // of the spacing: beside that, as a wound sways
 constexpr double kCutStep = 0.125;   // of the spacing: so far fronts go before springs are cut
+constexpr double kStraight = 0.02;   // of the spacing: fronts that far off a straight line are cut as if on it
 constexpr double kWayMemory = 0.25;  // of the spacing: over which a hand's direction is taken, as hands tremble
 
 constexpr double kHalfKernel = 0.27;  // of the kernel: the mean of one with tissue on one side only, from its middle
@@ -103,6 +105,7 @@ void BladeEdge::place(const layout::ToolMotion& blade) {
   stored_j_ = 0;
   fronts_.assign(segments + 1, {});
   kernels_.assign(segments + 1, {});
+  shares_.assign(segments, {});
   pushes_.assign(segments + 1, {});
   for (size_t i = 0; i <= segments; ++i) {
     Front& front = fronts_[i];
@@ -134,12 +137,16 @@ void BladeEdge::renewKernels() {
   }
   for (size_t i = 0; i < fronts_.size(); ++i) {
     Front& front = fronts_[i];
-    if (!strayed && (front.at - front.centre).norm() <= kStale * h_) continue;
+    if (!strayed && (front.at - front.centre).norm() <= kStale * kernel_m_) continue;
     front.centre = front.at;
     kernels_[i].make(near_, front.centre, kernel_m_);
     kernels_[i].is_new = changed = true;
   }
-  if (changed) findMobilities();
+  if (!changed) return;
+  findMobilities();
+  for (size_t i = 0; i + 1 < fronts_.size(); ++i) {
+    if (kernels_[i].is_new || kernels_[i + 1].is_new) findShares(i);
+  }
 }
 
 /// Nodes for kernels that will be made until a front has strayed.
@@ -211,11 +218,17 @@ void BladeEdge::solve(double dt_s) {
     if (parts) limit(i);
     done_.limit_n += push.gives_way_n_s / dt_s + friction_n_per_m_ * push.length_m;
   }
-  for (int sweep = 0; sweep < kSweeps; ++sweep) {
+  bool settled = false;
+  for (int sweep = 0; sweep < kSweeps && !settled; ++sweep) {
+    double changed_n_s = 0, most_n_s = 0;
     for (size_t i = 0; i < fronts_.size(); ++i) {
+      const Vector3d before = pushes_[i].impulse;
       solveOne(i, dt_s);
       rubOne(i, dt_s);
+      changed_n_s = std::max(changed_n_s, (pushes_[i].impulse - before).cwiseAbs().maxCoeff());
+      most_n_s = std::max(most_n_s, pushes_[i].impulse.cwiseAbs().maxCoeff());
     }
+    settled = changed_n_s <= kSettled * most_n_s;
   }
   giveBackAtMost();
 }
@@ -311,14 +324,27 @@ void BladeEdge::followThroughAir() {
   }
 }
 
+/// Have the fronts of a row of samples swept what those at its ends say?
+bool BladeEdge::isStraight(size_t first, size_t last) const {
+  const Front &a = fronts_[first], &b = fronts_[last];
+  for (size_t i = first + 1; i < last; ++i) {
+    const double t = static_cast<double>(i - first) / static_cast<double>(last - first);
+    const Vector3d at = a.at + t * (b.at - a.at), cut = a.cut + t * (b.cut - a.cut);
+    if (std::max((fronts_[i].at - at).norm(), (fronts_[i].cut - cut).norm()) > kStraight * h_) return false;
+  }
+  return true;
+}
+
 /// Cuts what fronts have swept since the last time, where it is worth it. @param all  whatever it is
 void BladeEdge::cutBehind(BladeTarget& target, bool all) {
   bool due = all;
   for (const Front& front : fronts_)
     due |= front.cuts && (!front.stuck || (front.at - front.cut).norm() > kCutStep * h_);
-  for (size_t i = 0; due && i + 1 < fronts_.size(); ++i) {
-    const Front &a = fronts_[i], &b = fronts_[i + 1];
-    if (!a.cuts && !b.cuts) continue;
+  for (size_t i = 0, end = 0; due && i + 1 < fronts_.size(); i = end) {
+    end = i + 1;
+    if (!cutsBetween(i)) continue;
+    while (end + 1 < fronts_.size() && cutsBetween(end) && isStraight(i, end + 1)) ++end;
+    const Front &a = fronts_[i], &b = fronts_[end];
     layout::ToolMotion sweep{};
     sweep.from = rounded(a.cut);
     sweep.to = rounded(a.at);
@@ -385,6 +411,7 @@ void BladeEdge::persist(Archive& archive) {
   archive.value(near_along_);
   if (!archive.reads()) return;
   kernels_.assign(fronts_.size(), {});
+  shares_.assign(fronts_.size(), {});
   pushes_.assign(fronts_.size(), {});
   if (fronts_.empty()) return;
   gather();
@@ -393,6 +420,7 @@ void BladeEdge::persist(Archive& archive) {
     kernels_[i].is_new = false;
   }
   findMobilities();
+  for (size_t i = 0; i + 1 < fronts_.size(); ++i) findShares(i);
 }
 
 }  // namespace viscera

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -68,6 +69,16 @@ class BladeEdge {
     uint32_t stuck = 0;  ///< in tissue that is whole ahead; else it is in the air or in a wound
     uint32_t cuts = 0;   ///< was stuck since springs were cut last
   };
+  /// Of the edge between two samples, what one of them stands for.
+  struct Share {
+    double fill = 0;                 ///< as tissue
+    RestToughness::Carried carried;  ///< times that
+    void add(double more, const RestToughness::Carried& there) {
+      fill += more;
+      carried.inside_j_per_m2 += more * there.inside_j_per_m2;
+      carried.at_surface_j_per_m2 += more * there.at_surface_j_per_m2;
+    }
+  };
   /// Of a substep.
   struct Push {
     Vector3d edge_velocity = Vector3d::Zero();
@@ -81,10 +92,10 @@ class BladeEdge {
     double gives_way_n_s = 0;            ///< in the plane: the limit of a blade that is drawn
     RestToughness::Carried over_length;  ///< times length [N]
     bool slips = false, aside = false;
-    void stand(double more_m, const RestToughness::Carried& carried) {
-      length_m += more_m;
-      over_length.inside_j_per_m2 += more_m * carried.inside_j_per_m2;
-      over_length.at_surface_j_per_m2 += more_m * carried.at_surface_j_per_m2;
+    void stand(double all_m, const Share& share) {
+      length_m += all_m * share.fill;
+      over_length.inside_j_per_m2 += all_m * share.carried.inside_j_per_m2;
+      over_length.at_surface_j_per_m2 += all_m * share.carried.at_surface_j_per_m2;
     }
   };
 
@@ -94,6 +105,7 @@ class BladeEdge {
   void gather();
   void findMobilities();
   void look(double dt_s);
+  void findShares(size_t i);
   void findLengths();
   int stripsOf(double length_m) const;
   double partedPerSwept(size_t i) const;
@@ -109,6 +121,8 @@ class BladeEdge {
   void advance(double dt_s);
   void moveFront(size_t i, const Vector3d& gap);
   void followThroughAir();
+  bool cutsBetween(size_t i) const { return fronts_[i].cuts || fronts_[i + 1].cuts; }  ///< a sample and the next one
+  bool isStraight(size_t first, size_t last) const;
   void cutBehind(BladeTarget& target, bool all);
   void countArea(size_t i, const Vector3d& step);
   void stickAgain();
@@ -124,6 +138,7 @@ class BladeEdge {
   BladeWork done_;
   double stored_j_ = 0;  ///< in the tissue by this edge since it came, at most: what it may give back
   std::vector<BladeKernel> kernels_;
+  std::vector<std::array<Share, 2>> shares_;  ///< between a sample and the next: of either, as kernels were made
   std::vector<Push> pushes_;
   std::vector<double> mobilities_;  ///< [samples^2] what an impulse of one changes another's velocity by [1/kg]
   BladeNodes near_;

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "solver/contact/run_sums.h"
+
 namespace viscera {
 
 namespace {
@@ -36,16 +38,14 @@ void BladeNodes::gather(const RestTissue& tissue, const std::vector<Vector3d>& c
   along = along_edge;
   origin_m = centres_m.front();
   is_found_.resize(tissue.nodes().size(), 0);
-  found_.clear();
   for (const Vector3d& centre_m : centres_m) {
-    tissue.forEachNear(centre_m, radius_m, [this](uint32_t n) {
-      if (!is_found_[n]) found_.push_back(n);
-      is_found_[n] = 1;
-    });
+    tissue.forEachNear(centre_m, radius_m, [this](uint32_t n) { is_found_[n] = 1; });
   }
-  for (const uint32_t n : found_) is_found_[n] = 0;
-  std::sort(found_.begin(), found_.end(),
-            [&](uint32_t a, uint32_t b) { return tissue.nodes()[a].slot < tissue.nodes()[b].slot; });
+  found_.clear();
+  for (uint32_t n = 0; n < is_found_.size(); ++n) {
+    if (is_found_[n]) found_.push_back(n);
+    is_found_[n] = 0;
+  }
   runs.clear();
   for (const uint32_t n : found_) {
     const uint32_t run = tissue.nodes()[n].slot / kLanes * kLanes;
@@ -116,13 +116,12 @@ void BladeKernel::make(const BladeNodes& nodes, const Vector3d& centre_m, double
 }
 
 void BladeKernel::means(const BladeNodes& nodes, Vector3d& u_m, Vector3d& v_m_per_s) const {
-  Lanes3 u, v;
-  for (size_t i = 0; i < runs.size(); ++i) {
-    u.add(at(weights, i * kLanes), nodes.u, runs[i] * kLanes);
-    v.add(at(weights, i * kLanes), nodes.v, runs[i] * kLanes);
-  }
-  u_m = u.sum().cast<double>();
-  v_m_per_s = v.sum().cast<double>();
+  const BladeNodes::Planes &u = nodes.u, &v = nodes.v;
+  float sums[6];
+  sumRuns({runs.data(), weights.data(), runs.size()},
+          {u[0].data(), u[1].data(), u[2].data(), v[0].data(), v[1].data(), v[2].data()}, sums);
+  u_m = Vector3f(sums[0], sums[1], sums[2]).cast<double>();
+  v_m_per_s = Vector3f(sums[3], sums[4], sums[5]).cast<double>();
 }
 
 void BladeKernel::spread(const BladeNodes& nodes, std::vector<float>& out) const {
@@ -140,11 +139,8 @@ double BladeKernel::mobility(const std::vector<float>& other) const {
 }
 
 void BladeKernel::give(const Vector3f& impulse, BladeNodes::Planes& momenta) const {
-  for (size_t a = 0; a < 3; ++a) {
-    const float part = impulse[static_cast<int>(a)];
-    for (size_t i = 0; i < runs.size(); ++i)
-      Eigen::Map<Lanes>(momenta[a].data() + runs[i] * kLanes) += part * at(weights, i * kLanes);
-  }
+  addToRuns({runs.data(), weights.data(), runs.size()}, {impulse.x(), impulse.y(), impulse.z()},
+            {momenta[0].data(), momenta[1].data(), momenta[2].data()});
 }
 
 /// The gradient of a mean: of weights that are shares over a sum which changes too.

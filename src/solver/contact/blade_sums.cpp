@@ -22,20 +22,26 @@ int BladeEdge::stripsOf(double length_m) const {
   return std::max(1, static_cast<int>(std::ceil(std::min(length_m / (kStrip * h_), kMostStrips))));
 }
 
-/// How much of the edge, as it lies in the tissue at rest, each sample stands for.
+/// How much of the edge between sample i and the next, where it lies in the tissue at rest, each of them stands for.
+void BladeEdge::findShares(size_t i) {
+  const Vector3d from = fronts_[i].centre, span = fronts_[i + 1].centre - from;
+  const int strips = stripsOf(span.norm());
+  shares_[i] = {};
+  for (int s = 0; s < strips; ++s) {
+    const double t = (s + 0.5) / strips;
+    const Vector3d at = from + t * span;
+    const double fill = tissue_.fill(at) / strips;
+    const RestToughness::Carried& carried = tissue_.toughness().at(at);
+    shares_[i][0].add((1 - t) * fill, carried);
+    shares_[i][1].add(t * fill, carried);
+  }
+}
+
 void BladeEdge::findLengths() {
   for (size_t i = 0; i + 1 < fronts_.size(); ++i) {
     const double all_m = (fronts_[i + 1].edge - fronts_[i].edge).norm();
-    const int strips = stripsOf(all_m);
-    const double part_m = all_m / strips;
-    for (int s = 0; s < strips; ++s) {
-      const double t = (s + 0.5) / strips;
-      const Vector3d at = fronts_[i].at + t * (fronts_[i + 1].at - fronts_[i].at);
-      const double length_m = part_m * tissue_.fill(at);
-      const RestToughness::Carried& carried = tissue_.toughness().at(at);
-      pushes_[i].stand((1 - t) * length_m, carried);
-      pushes_[i + 1].stand(t * length_m, carried);
-    }
+    pushes_[i].stand(all_m, shares_[i][0]);
+    pushes_[i + 1].stand(all_m, shares_[i][1]);
   }
 }
 

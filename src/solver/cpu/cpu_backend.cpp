@@ -141,7 +141,7 @@ void CpuBackend::selectMotions(size_t substep) {
 }
 
 void CpuBackend::cut(uint32_t stylus, bool particles) {
-  cutWith(motion_[stylus], particles, particles || resists_.empty() ? nullptr : resists_.data());
+  cutWith(motion_[stylus], particles, particles || resists_.empty() ? nullptr : resists_.data(), false);
 }
 
 /// What a kernel of cuts sees of the state is exchanged for one without displacements.
@@ -154,13 +154,13 @@ void CpuBackend::cutAtRest(const layout::ToolMotion& sweep) {
   others_.assign(lattice_.store.bodies.size(), 1);
   others_[selected_body_] = 0;
   exchange();
-  cutWith(sweep, false, others_.data());
+  cutWith(sweep, false, others_.data(), true);
   exchange();
 }
 
-/// @param spared  as of CpuCut::run()
-void CpuBackend::cutWith(const layout::ToolMotion& motion, bool particles, const uint8_t* spared) {
-  uint32_t springs = cut_->run(lattice_, motion, particles, spared);
+/// @param spared, at_rest  as of CpuCut::run()
+void CpuBackend::cutWith(const layout::ToolMotion& motion, bool particles, const uint8_t* spared, bool at_rest) {
+  uint32_t springs = cut_->run(lattice_, motion, particles, spared, at_rest);
   if (network_) springs += network_->cut(lattice_, motion, particles, spared);
   cut_->tearCells(lattice_);
   springs_cut_ += springs;

@@ -84,7 +84,7 @@ class CpuBackend : public SolverBackend {
 
  private:
   struct Work;  // what only src/solver/cpu knows: the kernels' jobs
-  void cutWith(const layout::ToolMotion& motion, bool particles, const uint8_t* spared);
+  void cutWith(const layout::ToolMotion& motion, bool particles, const uint8_t* spared, bool at_rest);
   void sumPushes();
   void wakeForTools(const std::vector<layout::ToolMotion>& motions);
   void changeAll();
@@ -112,6 +112,7 @@ class CpuBackend : public SolverBackend {
   std::vector<uint8_t> resists_;   ///< [bodies] 1: blades part it by work; empty where none does
   std::vector<uint8_t> others_;    ///< [bodies] 0: the selected one
   std::array<AlignedVector<float>, layout::kMaxStyluses> pushed_;  ///< [3 * slots] N s, by blades in this tick
+  std::vector<uint8_t> pushed_bricks_;                             ///< [bricks] by the last push
   size_t selected_body_ = 0;
   std::optional<CpuTearing> tearing_;
   bool torn_ = false;                    ///< since takeTorn()

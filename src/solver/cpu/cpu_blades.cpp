@@ -2,29 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What blades that tissue resists, threads and needles see and change of the nodes.
 #include <algorithm>
-#include <cmath>
 
+#include "solver/contact/run_sums.h"
 #include "solver/cpu/cpu_backend.h"
 
 namespace viscera {
-
-namespace {
-
-/// A run of nodes along one axis. @returns whether any is pushed
-bool pushRun(const float* __restrict dv_m_per_s, float dt_s, const float* __restrict mobility,
-             const float* __restrict mass_kg, float* __restrict v, float* __restrict u, float* __restrict pushed) {
-  float any = 0;
-  for (size_t k = 0; k < BladeNodes::kLanes; ++k) {
-    const float dv = mobility[k] == 0 ? 0.0f : dv_m_per_s[k];
-    any += std::abs(dv);
-    v[k] += dv;
-    u[k] += dt_s * dv;
-    pushed[k] += mass_kg[k] * dv;
-  }
-  return !(any == 0);
-}
-
-}  // namespace
 
 void CpuBackend::readNodes(const std::vector<uint32_t>& slots, std::vector<Vector3f>& u_m,
                            std::vector<Vector3f>& v_m_per_s) const {
@@ -71,18 +53,21 @@ void CpuBackend::readRuns(const std::vector<uint32_t>& runs, BladeNodes::Planes&
 void CpuBackend::pushRuns(uint32_t stylus, float dt_s, const std::vector<uint32_t>& runs,
                           const BladeNodes::Planes& dv_m_per_s) {
   pushed_[stylus].resize(3 * lattice_.slotCount(), 0);
-  for (size_t i = 0; i < runs.size(); ++i) {
-    const size_t slot = runs[i];
-    bool any = false;
-    for (size_t a = 0; a < 3; ++a) {
-      const size_t at = vectorAt(runs[i]) + a * layout::kBrickSlots;
-      any |= pushRun(&dv_m_per_s[a][i * BladeNodes::kLanes], dt_s, &lattice_.strengths.mobility[slot],
-                     &lattice_.strengths.mass[slot], &lattice_.state.velocity[lattice_.state.current][at],
-                     &lattice_.state.displacement[lattice_.state.current][at], &pushed_[stylus][at]);
-    }
-    if (!any) continue;
-    lattice_.hands.touched[slot / layout::kBrickSlots] = 1;
-    sleep_.wake(static_cast<uint32_t>(slot / layout::kBrickSlots));
+  pushed_bricks_.assign(bricks(), 0);
+  viscera::pushRuns({runs.data(),
+                     runs.size(),
+                     {dv_m_per_s[0].data(), dv_m_per_s[1].data(), dv_m_per_s[2].data()},
+                     dt_s,
+                     lattice_.strengths.mobility.data(),
+                     lattice_.strengths.mass.data(),
+                     lattice_.state.velocity[lattice_.state.current].data(),
+                     lattice_.state.displacement[lattice_.state.current].data(),
+                     pushed_[stylus].data(),
+                     pushed_bricks_.data()});
+  for (uint32_t brick = 0; brick < pushed_bricks_.size(); ++brick) {
+    if (!pushed_bricks_[brick]) continue;
+    lattice_.hands.touched[brick] = 1;
+    sleep_.wake(brick);
   }
 }
 

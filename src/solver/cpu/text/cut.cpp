@@ -159,8 +159,9 @@ void CpuCut::tearCells(CpuLattice& lattice) const {
   }
 }
 
-uint32_t CpuCut::run(CpuLattice& lattice, const layout::ToolMotion& motion, bool particles, const uint8_t* spared) {
-  near_.find(lattice, motion, particles);
+uint32_t CpuCut::run(CpuLattice& lattice, const layout::ToolMotion& motion, bool particles, const uint8_t* spared,
+                     bool at_rest) {
+  near_.find(lattice, motion, particles, at_rest);
   changed_.clear();
   const bool records = !lattice.axial_cut.empty();
   return records ? cutAll<glsl::CutSprings, glsl::CutParticles>(lattice, motion, particles, spared)

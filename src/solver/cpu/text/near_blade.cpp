@@ -148,7 +148,25 @@ void NearBlade::forget() {
   near_.clear();
 }
 
-void NearBlade::findBricks(const CpuLattice& lattice, const layout::ToolMotion& motion) {
+/// May it have a place within the sphere that the blade may cut in?
+bool NearBlade::isNearAtRest(const CpuLattice& lattice, uint32_t b) const {
+  const layout::Brick& brick = lattice.store.bricks[b];
+  const layout::vec4& origin = lattice.store.bodies[brick.body].origin_spacing;
+  const simd::Sweep& sweep = sweeps_[brick.body];
+  const glsl::vec3 coord(static_cast<float>(brick.coord_x), static_cast<float>(brick.coord_y),
+                         static_cast<float>(brick.coord_z));
+  const glsl::vec3 first = glsl::xyz(origin) + static_cast<float>(layout::kBrickEdge) * origin.w * coord;
+  const glsl::vec3 last = first + static_cast<float>(layout::kBrickEdge - 1) * origin.w;
+  float far2 = 0;
+  for (int k = 0; k < 3; ++k) {
+    const float at = job_.from_m[k] + sweep.center_m[k], off = at - glsl::clamp(at, first[k], last[k]);
+    far2 += off * off;
+  }
+  const float radius_m = sweep.radius_m + simd::kSweepMargin * origin.w;
+  return far2 <= radius_m * radius_m;
+}
+
+void NearBlade::findBricks(const CpuLattice& lattice, const layout::ToolMotion& motion, bool at_rest) {
   job_ = {lattice.store.bricks.data(),
           lattice.store.bodies.data(),
           lattice.state.displacement[lattice.state.current].data(),
@@ -159,7 +177,11 @@ void NearBlade::findBricks(const CpuLattice& lattice, const layout::ToolMotion& 
           places_.data(),
           outside_.data()};
   const size_t count = lattice.brickCount();
-  parallel_((count + kBricksPerJob - 1) / kBricksPerJob,
+  for (uint32_t b = 0; at_rest && b < count; ++b) {
+    places_[b].near = 0;
+    if (isNearAtRest(lattice, b)) find_places_(job_, b, b + 1);
+  }
+  parallel_(at_rest ? 0 : (count + kBricksPerJob - 1) / kBricksPerJob,
             [&](size_t i) { find_places_(job_, i * kBricksPerJob, std::min(count, (i + 1) * kBricksPerJob)); });
   for (uint32_t b = 0; b < count; ++b) {
     if (places_[b].near) near_.push_back(b);
@@ -204,14 +226,14 @@ uint64_t NearBlade::nodesThatMayLose(const layout::Brick& brick) const {
   return nodes;
 }
 
-void NearBlade::find(const CpuLattice& lattice, const layout::ToolMotion& motion, bool particles) {
+void NearBlade::find(const CpuLattice& lattice, const layout::ToolMotion& motion, bool particles, bool at_rest) {
   forget();
   for (size_t body = 0; body < sweeps_.size(); ++body) {
     const float h = lattice.store.bodies[body].origin_spacing.w;
     const bool beside = !lattice.strengths.surface_ways.empty();
     surround(glsl::Blade().bladeSphere(motion, h), beside ? kFarthestTissue * h : 0, sweeps_[body]);
   }
-  findBricks(lattice, motion);
+  findBricks(lattice, motion, at_rest);
   const float grown_m = particles ? motion.blade_from.w : farthestOffset(motion);
   for (size_t body = 0; body < sweeps_.size(); ++body) {
     const float h = lattice.store.bodies[body].origin_spacing.w;

@@ -24,8 +24,8 @@ class NearBlade {
   /// @param parallel  on which nodes are looked at; must outlive this
   NearBlade(const CpuLattice& lattice, std::vector<float> reach_m, const Parallel& parallel,
             const simd::Kernels& kernels);
-  /// @param particles  by an eraser: nodes within its radius of the sweep
-  void find(const CpuLattice& lattice, const layout::ToolMotion& motion, bool particles);
+  /// @param particles  by an eraser: nodes within its radius of the sweep   @param at_rest  no node is displaced
+  void find(const CpuLattice& lattice, const layout::ToolMotion& motion, bool particles, bool at_rest);
   /// Bricks with a node, or a place for one, within the sphere that the blade may cut in. Ascending.
   const std::vector<uint32_t>& bricks() const { return near_; }
   /// Nodes of a near brick that may lose a spring, a bit each.
@@ -42,7 +42,8 @@ class NearBlade {
   void forget();
   template <class Visit>
   void forEachNear(const Visit& visit) const;
-  void findBricks(const CpuLattice& lattice, const layout::ToolMotion& motion);
+  void findBricks(const CpuLattice& lattice, const layout::ToolMotion& motion, bool at_rest);
+  bool isNearAtRest(const CpuLattice& lattice, uint32_t brick) const;
   float farthestOffset(const layout::ToolMotion& motion) const;
   void placeBrick(uint32_t brick);
   uint64_t nodesThatMayLose(const layout::Brick& brick) const;

@@ -32,8 +32,10 @@ class CpuCut {
   CpuCut(CpuLattice& lattice, const Parallel& parallel, const simd::Kernels& kernels);
   /// @param particles  all springs of the nodes near the blade instead
   /// @param spared  [bodies] 1: it keeps its springs; null: none does
+  /// @param at_rest  no node is displaced
   /// @return springs cut
-  uint32_t run(CpuLattice& lattice, const layout::ToolMotion& motion, bool particles, const uint8_t* spared = nullptr);
+  uint32_t run(CpuLattice& lattice, const layout::ToolMotion& motion, bool particles, const uint8_t* spared = nullptr,
+               bool at_rest = false);
   /// Drops the volumes of cells around nodes of the last run that have lost a spring, to it or to the links of networks
   /// that were cut after it.
   void tearCells(CpuLattice& lattice) const;
