@@ -256,16 +256,21 @@ FieldMesh networkFields(const Session& session) {
 
 FieldMesh threadFields(const Session& session) {
   FieldMesh mesh = begun(session, 2);
-  mesh.of_cells = {{"thread", 1, {}}, {"tension", 1, {}}};
+  mesh.of_cells = {{"thread", 1, {}}, {"tension", 1, {}}, {"needle", 1, {}}};
+  const auto link = [&](size_t thread, size_t from, double tension_n, bool needle) {
+    mesh.cells.insert(mesh.cells.end(), {static_cast<uint32_t>(from), static_cast<uint32_t>(from + 1)});
+    mesh.of_cells[0].values.push_back(static_cast<float>(thread));
+    mesh.of_cells[1].values.push_back(static_cast<float>(tension_n));
+    mesh.of_cells[2].values.push_back(needle ? 1 : 0);
+  };
   for (size_t t = 0; t < session.scene().threads.size(); ++t) {
-    const auto first = static_cast<uint32_t>(mesh.pointCount());
+    const size_t first = mesh.pointCount();
     for (const Vector3d& place : session.threadPlaces(t)) add(mesh.points, place);
     const std::vector<double> tensions_n = session.threadTensions_n(t);
-    for (uint32_t i = 0; i < tensions_n.size(); ++i) {
-      mesh.cells.insert(mesh.cells.end(), {first + i, first + i + 1});
-      mesh.of_cells[0].values.push_back(static_cast<float>(t));
-      mesh.of_cells[1].values.push_back(static_cast<float>(tensions_n[i]));
-    }
+    for (size_t i = 0; i < tensions_n.size(); ++i) link(t, first + i, tensions_n[i], false);
+    const size_t tip = mesh.pointCount();
+    for (const Vector3d& place : session.needlePlaces(t)) add(mesh.points, place);
+    for (size_t i = tip; i + 1 < mesh.pointCount(); ++i) link(t, i, 0, true);
   }
   if (mesh.cells.empty()) throw Error("--export threads: the scene has none: give it threads[]");
   return mesh;

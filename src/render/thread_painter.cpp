@@ -91,8 +91,9 @@ void ThreadPainter::draw(const std::vector<std::vector<Vector3d>>& places_m, con
 void ThreadPainter::drawGeometry(const gpu::Program& program, const std::vector<std::vector<Vector3d>>& places_m,
                                  const Pose& optical_from_tissue, const Eigen::Matrix4f& clip_from_optical,
                                  double pixel) {
-  drawWith(program, places_m, optical_from_tissue, clip_from_optical, pixel,
-           [&](size_t i) { program.set("label", static_cast<uint32_t>(layout::kFirstThreadLabel + i)); });
+  drawWith(program, places_m, optical_from_tissue, clip_from_optical, pixel, [&](size_t i) {
+    program.set("label", static_cast<uint32_t>(layout::kFirstThreadLabel + threads_[i].thread));
+  });
 }
 
 }  // namespace viscera

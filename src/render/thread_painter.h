@@ -13,11 +13,12 @@
 
 namespace viscera {
 
-/// How a thread is drawn.
+/// How a thread or a needle is drawn.
 struct ThreadLook {
   double radius_m;
   std::array<uint8_t, 4> color;  ///< sRGB, solid
   size_t nodes;                  ///< that it has
+  size_t thread;                 ///< index in the scene, of a needle that of its thread
 };
 
 /// Draws threads as tubes along their nodes, no thinner than a pixel and a half. With the shaders of tools.

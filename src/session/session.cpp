@@ -181,6 +181,9 @@ void Session::lookAtThreads() {
   if (!threads) return;
   look_.threads.resize(threads->count());
   for (size_t i = 0; i < threads->count(); ++i) look_.threads[i] = threads->chain(i).places_m();
+  for (size_t i = 0; i < threads->count(); ++i) {
+    if (threads->needle(i)) look_.threads.push_back(needlePlaces(i));
+  }
 }
 
 /// Forces of the last tick whose measurements are there, and the wind of this moment.
@@ -230,7 +233,9 @@ void Session::collect(Frame& frame, bool wait) {
   frame.tools = look_.motions;
   frame.obstacles = look_.obstacles;
   frame.cameras = look_.cameras;
-  frame.threads = look_.threads;
+  frame.threads.assign(
+      look_.threads.begin(),
+      look_.threads.begin() + static_cast<std::ptrdiff_t>(std::min(look_.threads.size(), scene_.threads.size())));
   collectStats(frame, wait);
   view_->collect(frame, wait);
   if (frame.surface) frame.surface->pose_received = posesOf(frame.surface->tick).newest();
@@ -322,6 +327,11 @@ uint64_t Session::stateHash() const {
 
 const std::vector<Vector3d>& Session::threadPlaces(size_t thread) const {
   return solver_->threads()->chain(thread).places_m();
+}
+
+std::vector<Vector3d> Session::needlePlaces(size_t thread) const {
+  const Needle* const needle = solver_->threads()->needle(static_cast<uint32_t>(thread));
+  return needle ? needle->places_m() : std::vector<Vector3d>();
 }
 
 std::vector<double> Session::threadTensions_n(size_t thread) const {

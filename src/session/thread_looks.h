@@ -9,7 +9,7 @@
 
 namespace viscera {
 
-/// How the threads of a scene are drawn: in their own width, and the colour of their material.
+/// How the threads of a scene are drawn: in their own width, and the colour of their material. Behind them needles.
 std::vector<ThreadLook> looksOf(const std::vector<ThreadConfig>& threads);
 
 }  // namespace viscera

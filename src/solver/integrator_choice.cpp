@@ -99,8 +99,8 @@ std::string missing(const Model& model, const Scene& scene, Backend backend) {
   if (resistsBlades(scene)) return "multigrid knows no blades that tissue resists (material.cut)";
   if (tears(scene)) return "multigrid knows no tissue that tears (material.tear)";
   if (std::any_of(scene.threads.begin(), scene.threads.end(),
-                  [](const ThreadConfig& t) { return !t.channels.empty(); }))
-    return "multigrid knows no threads through tissue (threads[].channels)";
+                  [](const ThreadConfig& t) { return t.feelsTissue(); }))
+    return "multigrid knows no threads through tissue (threads[].channels, threads[].needle)";
   if (scene.collision.enabled) return "multigrid knows no contacts between nodes";
   return "";
 }

@@ -123,9 +123,11 @@ solver: {tick_hz: 90, integrator: pd, dt_fraction: 0.91, dt_fraction_strained: 0
          device: 3, backend: cpu, threads: 2, real_time_factor: 1.97, spring_forces: edge}
 threads:
   - {name: suture, material: silk, usp: 5-0, radius_m: 0.00012, young_modulus_pa: 1.3e9, density_kg_per_m3: 1400, bending_share: 0.15, drag_per_s: 1.6,
-     length_m: 0.17, spacing_m: 0.0018, position_m: [0.19, 0.21, 0.22], path: [{position_m: [0.23, 0.24, 0.25]}], start: fixed, end: fixed,
+     length_m: 0.17, spacing_m: 0.0018, position_m: [0.19, 0.21, 0.22], path: [{position_m: [0.23, 0.24, 0.25]}], start: free, end: fixed,
      channels: [{body: liver, position_m: [0.26, 0.27, 0.28]}], friction: 0.29, through_n_per_m: 0.31, pull_out_n: 0.32, tissue: fascia, bite_m: 0.033,
-     depth_m: 0.034}
+     depth_m: 0.034,
+     needle: {arc: three_eighths, radius_m: 0.0091, wire_radius_m: 0.00036, puncture_n: 0.92, cutting_n: 0.31, friction_n_per_m: 12.5,
+              rotation_deg: [13, 14, 15]}}
 )";
 
 /// Paths of all keys below a node, list items as name[].
@@ -339,7 +341,7 @@ TEST(SceneKeys, EveryKeyOfTheSurroundingsReachesItsField) {
   EXPECT_EQ(thread.spacing_m, 0.0018);
   EXPECT_EQ(thread.position_m, Vector3d(0.19, 0.21, 0.22));
   EXPECT_EQ(thread.path.at(0).position_m, Vector3d(0.23, 0.24, 0.25));
-  EXPECT_EQ(thread.start, ThreadEnd::kFixed);
+  EXPECT_EQ(thread.start, ThreadEnd::kFree);
   EXPECT_EQ(thread.end, ThreadEnd::kFixed);
   EXPECT_EQ(thread.channels.at(0).body, "liver");
   EXPECT_EQ(thread.channels.at(0).position_m, Vector3d(0.26, 0.27, 0.28));
@@ -349,6 +351,14 @@ TEST(SceneKeys, EveryKeyOfTheSurroundingsReachesItsField) {
   EXPECT_EQ(thread.tissue, StitchedTissue::kFascia);
   EXPECT_EQ(thread.bite_m, 0.033);
   EXPECT_EQ(thread.depth_m, 0.034);
+  const NeedleConfig& needle = thread.needle;
+  EXPECT_EQ(needle.arc, NeedleArc::kThreeEighths);
+  EXPECT_EQ(needle.radius_m, 0.0091);
+  EXPECT_EQ(needle.wire_radius_m, 0.00036);
+  EXPECT_EQ(needle.puncture_n, 0.92);
+  EXPECT_EQ(needle.cutting_n, 0.31);
+  EXPECT_EQ(needle.friction_n_per_m, 12.5);
+  EXPECT_EQ(needle.rotation_deg, Vector3d(13, 14, 15));
 }
 
 TEST(SceneKeys, TableHoldsEveryKeyOnceAndNoOther) {

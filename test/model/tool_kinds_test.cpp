@@ -38,6 +38,7 @@ TEST(ToolKinds, EachKindReachesAsFarAsItsOwnKeySays) {
   EXPECT_EQ(kindOf(ToolMode::kGrab).reach_m(stylus), 0.022);
   EXPECT_EQ(kindOf(ToolMode::kCutParticles).reach_m(stylus), 0.003);
   EXPECT_EQ(kindOf(ToolMode::kSuction).reach_m(stylus), 0.004);
+  EXPECT_EQ(kindOf(ToolMode::kNeedle).reach_m(stylus), 0.022);
 }
 
 TEST(ToolKinds, OnlySuctionLetsGoAboveAForce) {

@@ -17,6 +17,7 @@ const uint kModeGrab = 2u;
 const uint kModeCut = 3u;
 const uint kModeCutParticles = 4u;
 const uint kModeSuction = 5u;
+const uint kModeNeedle = 6u;
 
 // What a kind of tool does to tissue, bits of ToolMotion.info.y
 const uint kToolPushes = 1u;  // nodes out of a swept sphere at the tip

@@ -113,6 +113,7 @@ class Session {
   const Solver& solver() const { return *solver_; }
   /// Places of the nodes of a thread after the last step, tissue frame [m]. @param thread  < scene().threads.size()
   const std::vector<Vector3d>& threadPlaces(size_t thread) const;
+  std::vector<Vector3d> needlePlaces(size_t thread) const;  ///< of its needle, from the tip on; none where it has none
   std::vector<double> threadTensions_n(size_t thread) const;        ///< of its links, pulling above 0
   const std::string& backendNote() const { return backend_note_; }  ///< what steps the tissue, and why
   Counters counters() const;

@@ -61,7 +61,7 @@ bool tears(const Scene& scene) {
 
 bool threadsTear(const Scene& scene) {
   return !scene.styluses.empty() && std::any_of(scene.threads.begin(), scene.threads.end(),
-                                                [](const ThreadConfig& thread) { return !thread.channels.empty(); });
+                                                [](const ThreadConfig& thread) { return thread.feelsTissue(); });
 }
 
 void requireTearingFits(const Scene& scene) {

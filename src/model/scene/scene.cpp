@@ -19,7 +19,8 @@ namespace viscera {
 namespace {
 
 constexpr double kThinnest_m = 1e-5, kLightest_kg_per_m3 = 100;
-constexpr double kMostLinks = 4000;  // of a thread: 0.6 ms a substep
+constexpr double kThickestNeedle = 0.2;  // of its arc's radius
+constexpr double kMostLinks = 4000;      // of a thread: 0.6 ms a substep
 
 bool isRosName(const std::string& name) {
   if (name.empty() || !std::isalpha(static_cast<unsigned char>(name[0]))) return false;
@@ -112,6 +113,33 @@ void requireThread(const std::string& file, const ThreadConfig& thread) {
                    numberText(kMostLinks) + " are accepted");
 }
 
+void requireNeedle(const std::string& file, const ThreadConfig& thread) {
+  const std::string where = file + ": thread '" + thread.name + "': ";
+  const NeedleConfig& needle = thread.needle;
+  if (needle.arc == NeedleArc::kNone) return;
+  if (thread.start != ThreadEnd::kFree)
+    throw SceneError(where + "'start' must be free, as 'needle.arc' says that a needle is there");
+  if (needle.wire_radius_m > kThickestNeedle * needle.radius_m)
+    throw SceneError(where + "'needle.wire_radius_m' must be at most " + numberText(kThickestNeedle) +
+                     " times 'needle.radius_m'");
+  if (needle.puncture_n > 0 && needle.cutting_n > needle.puncture_n)
+    throw SceneError(where + "'needle.cutting_n' must be at most 'needle.puncture_n'");
+}
+
+/// A stylus in mode needle has one to take.
+void requireNeedles(const std::string& file, const Scene& scene) {
+  for (const ThreadConfig& thread : scene.threads) {
+    if (thread.needle.arc != NeedleArc::kNone) return;
+  }
+  for (const StylusConfig& stylus : scene.styluses) {
+    for (const ToolMode mode : {stylus.idle, stylus.button1, stylus.button2}) {
+      if (mode == ToolMode::kNeedle)
+        throw SceneError(file + ": stylus '" + stylus.name +
+                         "' has mode needle, and no thread has one: give 'threads[].needle.arc'");
+    }
+  }
+}
+
 /// What no single key can tell.
 void requireConsistent(const std::string& file, const Scene& scene) {
   if (scene.bodies.empty()) throw SceneError(file + ": 'bodies' must hold at least one body");
@@ -136,10 +164,13 @@ void requireConsistent(const std::string& file, const Scene& scene) {
   for (const ThreadConfig& thread : scene.threads) {
     requireThread(file, thread);
     const Integrator integrator = scene.solver.integrator;
-    if (!thread.channels.empty() && (integrator == Integrator::kVerletPaper || integrator == Integrator::kMultigrid))
+    if (thread.feelsTissue() && (integrator == Integrator::kVerletPaper || integrator == Integrator::kMultigrid))
       throw SceneError(file + ": thread '" + thread.name +
-                       "': 'channels' need solver.integrator leapfrog, pd or auto, not " + traitsOf(integrator).name);
+                       "': 'channels' and 'needle' need solver.integrator leapfrog, pd or auto, not " +
+                       traitsOf(integrator).name);
+    requireNeedle(file, thread);
   }
+  requireNeedles(file, scene);
   for (const BodyConfig& body : scene.bodies) requireStableSubstep(file, scene.solver, body);
   for (const CameraConfig& camera : scene.cameras) {
     const Vector3d sight = camera.target_m - camera.position_m;

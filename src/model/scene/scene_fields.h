@@ -184,6 +184,24 @@ void visitFields(V& v, ThreadChannelConfig& c) {
 }
 
 template <class V>
+void visitFields(V& v, NeedleConfig& c) {
+  v.choice("arc", c.arc,
+           {{"none", NeedleArc::kNone},
+            {"half_circle", NeedleArc::kHalfCircle},
+            {"three_eighths", NeedleArc::kThreeEighths}},
+           "how much of a circle it is; none: there is no needle");
+  v.number("radius_m", c.radius_m, {1e-3, 0.1}, "m", "of this circle");
+  v.number("wire_radius_m", c.wire_radius_m, {5e-5, 2e-3}, "m",
+           "half its thickness; at most 0.2 times its circle's radius");
+  v.number("puncture_n", c.puncture_n, {0, 100}, "N", "force at which skin gives way to its tip; 0: 5 mm2 times E");
+  v.number("cutting_n", c.cutting_n, {0, 100}, "N",
+           "force before its tip inside; 0: a third of that of puncture; not above that");
+  v.number("friction_n_per_m", c.friction_n_per_m, {0, 1e5}, "N/m", "along its shaft in tissue; 0: 0.1 mm times E");
+  v.vector("rotation_deg", c.rotation_deg, kAngle, "deg",
+           "at first: turns about fixed x, then y, then z of an arc about y whose tip heads for z from its place on x");
+}
+
+template <class V>
 void visitFields(V& v, ThreadConfig& c) {
   const Choices<ThreadEnd> ends = {{"free", ThreadEnd::kFree}, {"fixed", ThreadEnd::kFixed}};
   v.text("name", c.name, "name, unique");
@@ -224,6 +242,7 @@ void visitFields(V& v, ThreadConfig& c) {
       "what tears: bowel 4.6 N; fascia 45 N per mm of bite_m; phantom Young's modulus x bite_m x depth_m");
   v.number("bite_m", c.bite_m, {1e-4, 0.1}, "m", "from the wound to where a stitch enters");
   v.number("depth_m", c.depth_m, {1e-4, 0.1}, "m", "of a stitch in the tissue");
+  v.group("needle", c.needle, "needle on its start, which is then free, its tail at position_m (docs/thread.md)");
 }
 
 inline Choices<Integrator> namesOfIntegrators() {

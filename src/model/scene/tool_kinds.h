@@ -67,6 +67,8 @@ inline constexpr ToolKind kToolKinds[] = {
     {ToolMode::kSuction, layout::kModeSuction, "suction", kHolds, ToolTip::kCup, {230, 159, 0},
      [](const StylusConfig& c) { return c.suction.radius_m; },
      [](const StylusConfig& c) { return Grip{c.suction.release_speed_m_per_s, c.suction.max_force_n}; }},
+    {ToolMode::kNeedle, layout::kModeNeedle, "needle", 0, ToolTip::kJaws, {213, 94, 0},
+     [](const StylusConfig& c) { return c.grab.radius_m; }},
 };
 // clang-format on
 inline constexpr size_t kToolKindCount = sizeof(kToolKinds) / sizeof(kToolKinds[0]);

@@ -73,12 +73,24 @@ void Needle::reset() {
   dt_s_ = 0;
   force_n_.setZero();
   torque_nm_.setZero();
-  tip_n_ = farthest_m_ = 0;
+  work_j_ = tip_n_ = farthest_m_ = 0;
 }
 
-void Needle::calm() {
-  tip_.impulse_ns.setZero();
-  for (Crossing& crossing : crossings_) crossing.impulse_ns.setZero();
+/// Where there is no tissue any more, the needle holds none.
+void Needle::embedAgain(const TissuePoints& tissue) {
+  const auto gone = [&](TissuePoint& point) {
+    const auto again = tissue.embed(point.body, point.rest_m);
+    if (again) point = *again;
+    return !again;
+  };
+  crossings_.erase(
+      std::remove_if(crossings_.begin(), crossings_.end(), [&](Crossing& crossing) { return gone(crossing.point); }),
+      crossings_.end());
+  if (tip_.state < kTouches) return;
+  if (gone(tip_.point))
+    tip_.state = kBlocked;
+  else
+    standAt(tissue, TissuePoint(tip_.point));
 }
 
 void Needle::persist(Archive& archive) {
@@ -153,6 +165,11 @@ void Needle::push(const Vector3d& place_m, const Vector3d& impulse_ns) {
   move();
 }
 
+Vector3d Needle::tailAt_m(double share) const {
+  const Vector3d own = shape_.at(shape_.length_m());
+  return share * (end_ * own) + (1 - share) * (from_ * own);
+}
+
 double Needle::tailMass_kg() const {
   return led_ ? kRigidMass_kg : 1 / mobilityAt(tail_m());
 }
@@ -161,18 +178,18 @@ void Needle::pull(const Vector3d& impulse_ns) {
   push(tail_m(), impulse_ns);
 }
 
-void Needle::act(BladeTarget& target, TissuePoints& tissue, uint32_t stylus, std::vector<NeedlePassed>& passed) {
+void Needle::act(BladeTarget& target, TissuePoints& tissue, std::vector<NeedlePassed>& passed) {
   touch(target, tissue);
   force_n_.setZero();
   torque_nm_.setZero();
-  tip_n_ = farthest_m_ = 0;
+  work_j_ = tip_n_ = farthest_m_ = 0;
   if (tip_.state < kTouches && crossings_.empty()) return;
   read(target, tissue);
   sweep(tissue);
   sum(tissue);
   settle(tissue);
   sortOut(tissue, passed);
-  tissue.write(target, stylus, dt_s_);
+  tissue.write(target, layout::kMaxStyluses, dt_s_);
 }
 
 /// A needle that no hand leads does not begin to pierce anything.
@@ -261,6 +278,7 @@ void Needle::solve(TissuePoints& tissue, const Row& row) {
 void Needle::sum(const TissuePoints& tissue) {
   const auto add = [&](const TissuePoint& point, const Vector3d& impulse_ns) {
     force_n_ += impulse_ns / dt_s_;
+    work_j_ += impulse_ns.dot(tissue.velocity_m_per_s(point));
     torque_nm_ += tissue.place_m(point).cross(impulse_ns) / dt_s_;
   };
   for (const Crossing& crossing : crossings_) {

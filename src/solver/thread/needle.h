@@ -40,25 +40,28 @@ class Needle {
   void fall(const Vector3d& gravity_m_per_s2, double dt_s);               ///< or by itself
   void keepOut(const layout::ObstacleMotion* obstacles, uint32_t count);  ///< of obstacles
   /// Reads the tissue, gives it its impulses and writes them, and goes on through it.
-  /// @param stylus  whose reaction they are   @param passed  out: places that the tail has left, behind those there
-  void act(BladeTarget& target, TissuePoints& tissue, uint32_t stylus, std::vector<NeedlePassed>& passed);
+  /// @param passed  out: places that the tail has left, behind those there
+  void act(BladeTarget& target, TissuePoints& tissue, std::vector<NeedlePassed>& passed);
   /// What its thread gave the tail in the substep; moves it only where it is free.
   void pull(const Vector3d& impulse_ns);
   /// @}
 
   const NeedleShape& shape() const { return shape_; }
+  std::vector<Vector3d> places_m() const { return shape_.places(end_); }
   const Pose& pose() const { return end_; }  ///< at the end of the substep
-  Vector3d tail_m() const { return end_ * shape_.at(shape_.length_m()); }
-  double tailMass_kg() const;  ///< that it shows its thread
+  Vector3d tail_m() const { return tailAt_m(1); }
+  Vector3d tailAt_m(double share) const;  ///< of its way in the substep
+  double tailMass_kg() const;             ///< that it shows its thread
   bool isInTissue() const { return tip_.state >= kInside || !crossings_.empty(); }
   size_t crossings() const { return crossings_.size(); }
   /// On the tissue, in the last substep; about the origin of the tissue frame.
   const Vector3d& force_n() const { return force_n_; }
   const Vector3d& torque_nm() const { return torque_nm_; }
+  double work_j() const { return work_j_; }          ///< on the tissue, then
   double alongTip_n() const { return tip_n_; }       ///< of it, by the tip and along it
   double farthest_m() const { return farthest_m_; }  ///< of tissue on the shaft from it, then
-  /// The tissue was put back: nothing is pushed any more.
-  void calm();
+  /// Springs were cut.
+  void embedAgain(const TissuePoints& tissue);
   void reset();
   void persist(Archive& archive);
 
@@ -125,7 +128,7 @@ class Needle {
   double dt_s_ = 0;
   bool led_ = false;
   Vector3d force_n_ = Vector3d::Zero(), torque_nm_ = Vector3d::Zero();
-  double tip_n_ = 0, farthest_m_ = 0;
+  double work_j_ = 0, tip_n_ = 0, farthest_m_ = 0;
 };
 
 }  // namespace viscera

@@ -22,7 +22,8 @@ constexpr double kInObstacle = 0.1;   // radii: deeper than that after all of th
 Vector3d wayOut_m(const NeedleShape& shape, const Pose& pose, const layout::ObstacleMotion* obstacles, uint32_t count) {
   Vector3d out = Vector3d::Zero();
   double deepest_m = 0;
-  for (const Vector3d& place : shape.places(pose, kProbed * shape.wireRadius_m())) {
+  const auto probes = static_cast<size_t>(2 + shape.length_m() / (kProbed * shape.wireRadius_m()));
+  for (const Vector3d& place : shape.places(pose, probes)) {
     for (uint32_t o = 0; o < count; ++o) {
       const ObstacleSide side = sideOf(obstacles[o], place);
       const double depth_m = shape.wireRadius_m() - side.distance_m;
@@ -68,10 +69,10 @@ Pose NeedleShape::withTailAt(const Vector3d& tail_m, const Quaterniond& orientat
   return {tail_m - orientation * at(length_m()), orientation};
 }
 
-std::vector<Vector3d> NeedleShape::places(const Pose& pose, double apart_m) const {
-  const int parts = std::max(1, static_cast<int>(std::ceil(length_m() / apart_m)));
+std::vector<Vector3d> NeedleShape::places(const Pose& pose, size_t count) const {
   std::vector<Vector3d> out;
-  for (int i = 0; i <= parts; ++i) out.push_back(pose * at(length_m() * i / parts));
+  for (size_t i = 0; i < count; ++i)
+    out.push_back(pose * at(length_m() * static_cast<double>(i) / static_cast<double>(count - 1)));
   return out;
 }
 

@@ -32,8 +32,9 @@ class NeedleShape {
   double inertia_kg_m2() const { return 0.5 * mass_kg() * radius_m_ * radius_m_; }
   /// Where it is with its tail at a place.
   Pose withTailAt(const Vector3d& tail_m, const Quaterniond& orientation) const;
-  /// Along it, from the tip to the tail, not farther apart than asked.
-  std::vector<Vector3d> places(const Pose& pose, double apart_m) const;
+  static constexpr size_t kShown = 33;  ///< places of it that show it as it is
+  /// Along it, from the tip to the tail.
+  std::vector<Vector3d> places(const Pose& pose, size_t count = kShown) const;
 
  private:
   double radius_m_, angle_rad_, wire_radius_m_;

@@ -24,13 +24,17 @@ ThreadBodies::ThreadBodies(const Scene& scene, const Model* model, int good_stat
       hands_(scene.styluses),
       good_states_(static_cast<size_t>(good_states)) {
   const bool tied = std::any_of(scene.threads.begin(), scene.threads.end(),
-                                [](const ThreadConfig& config) { return !config.channels.empty(); });
-  if (model && tied) tissue_ = std::make_unique<TissuePoints>(*model);
+                                [](const ThreadConfig& config) { return config.feelsTissue(); });
+  if (model && tied) {
+    tissue_ = std::make_unique<TissuePoints>(*model);
+    needles_.emplace(scene, *model);
+  }
   for (const ThreadConfig& config : scene.threads) {
     Thread thread{Chain(materialOf(config), placesOf(config)), {}, 0, {}, {}, {}, {}};
     const auto last = static_cast<uint32_t>(thread.chain.nodes() - 1);
     for (const uint32_t node : {0U, last}) {
-      if ((node == 0 ? config.start : config.end) == ThreadEnd::kFree) continue;
+      const bool on_needle = node == 0 && needle(threads_.size());
+      if (!on_needle && (node == 0 ? config.start : config.end) == ThreadEnd::kFree) continue;
       thread.around.holds.emplace_back();
       thread.around.holds.back().node = node;
       thread.around.holds.back().to_m = thread.chain.places_m()[node];
@@ -52,6 +56,7 @@ void ThreadBodies::reset() {
     thread.around.slides = thread.first_slides;
   }
   hands_.reset();
+  if (needles_) needles_->reset();
 }
 
 void ThreadBodies::plan(Steps& steps, int count, const ObstacleMotions& obstacles) const {
@@ -62,6 +67,7 @@ void ThreadBodies::plan(Steps& steps, int count, const ObstacleMotions& obstacle
 void ThreadBodies::setCuts(const CutSprings& cuts) {
   tissue_->setCuts(cuts);
   for (Thread& thread : threads_) thread.channels.embedAgain(*tissue_, thread.around.slides);
+  needles_->embedAgain(*tissue_);
 }
 
 void ThreadBodies::beginTick(const ToolMotions& motions, const ObstacleMotions& obstacles, int substeps) {
@@ -69,13 +75,15 @@ void ThreadBodies::beginTick(const ToolMotions& motions, const ObstacleMotions& 
   for (const Thread& thread : threads_) chains.push_back(&thread.chain);
   hands_.beginTick(motions, chains);
   bool any = false;
-  for (Thread& thread : threads_) any |= thread.tied = !thread.channels.empty();
+  for (size_t t = 0; t < threads_.size(); ++t)
+    any |= threads_[t].tied = tissue_ && (!threads_[t].channels.empty() || needle(t));
   if (any) {
     per_substep_ = static_cast<int>(std::ceil(tick_s_ / substeps / kThreadSubstep_s));
     plan(tied_, substeps * per_substep_, obstacles);
   }
   plan(alone_, static_cast<int>(std::ceil(tick_s_ / kThreadSubstep_s)), obstacles);
   work_j_ = 0;
+  if (needles_) needles_->beginTick(motions);
 }
 
 std::vector<const TissuePoint*> ThreadBodies::tiedPoints() const {
@@ -86,10 +94,26 @@ std::vector<const TissuePoint*> ThreadBodies::tiedPoints() const {
   return out;
 }
 
+/// What their tails leave becomes channels of their threads.
+void ThreadBodies::moveNeedles(BladeTarget& target, int index) {
+  if (!needles_ || needles_->empty()) return;
+  const int last = (index + 1) * per_substep_;
+  const double share = 1.0 / tied_.count, before_j = needles_->work_j();
+  needles_->act(target, *tissue_, last * share, per_substep_ * share * tick_s_, obstaclesOf(tied_, last - 1),
+                static_cast<uint32_t>(obstacles_.size()),
+                [this](uint32_t t, const NeedlePassed& passed, const ChannelLaw& law) {
+                  Thread& thread = threads_[t];
+                  thread.channels.take(passed.point, law, passed.beyond_m / thread.chain.link_m(), *tissue_,
+                                       thread.around.slides);
+                });
+  work_j_ += needles_->work_j() - before_j;
+}
+
 /// Where a substep of the tissue is longer than threads bear, they go through it with the speeds at its end.
 bool ThreadBodies::act(BladeTarget& target, int index) {
+  moveNeedles(target, index);
+  if (std::none_of(threads_.begin(), threads_.end(), [](const Thread& thread) { return thread.tied; })) return false;
   const std::vector<const TissuePoint*> points = tiedPoints();
-  if (points.empty()) return false;
   const double dt_s = tick_s_ / tied_.count;
   tissue_->read(target, points);
   tissue_->drift((1 - per_substep_) * dt_s);
@@ -116,6 +140,20 @@ void ThreadBodies::endTick() {
   }
 }
 
+ThreadPulls ThreadBodies::pulls() const {
+  ThreadPulls out = hands_.pulls();
+  for (size_t s = 0; s < out.size() && needles_; ++s) {
+    out[s].impulse_ns += needles_->pulls()[s].impulse_ns;
+    out[s].moment_nms += needles_->pulls()[s].moment_nms;
+    out[s].nodes += needles_->pulls()[s].nodes;
+  }
+  return out;
+}
+
+const layout::ObstacleMotion* ThreadBodies::obstaclesOf(const Steps& steps, int index) const {
+  return obstacles_.empty() ? nullptr : &steps.ways[static_cast<size_t>(index) * layout::kMaxObstacles];
+}
+
 void ThreadBodies::step(const ToolMotions& motions, const ObstacleMotions& obstacles) {
   beginTick(motions, obstacles, 1);
   endTick();
@@ -125,10 +163,11 @@ void ThreadBodies::substep(uint32_t t, const Steps& steps, int index) {
   Thread& thread = threads_[t];
   const double dt_s = tick_s_ / steps.count;
   const auto count = static_cast<uint32_t>(obstacles_.size());
-  const layout::ObstacleMotion* const obstacles =
-      count == 0 ? nullptr : &steps.ways[static_cast<size_t>(index) * layout::kMaxObstacles];
+  const layout::ObstacleMotion* const obstacles = obstaclesOf(steps, index);
+  const bool on_needle = thread.tied && needle(t);
   std::vector<ChainHold>& holds = thread.around.holds;
   holds.resize(thread.fixed_holds);
+  if (on_needle) needles_->lay(t, (index % per_substep_ + 1.0) / per_substep_, holds[0]);
   hands_.addHolds(t, static_cast<double>(index + 1) / steps.count, holds);
   thread.touches.find(thread.chain, obstacles, count, dt_s, thread.around.touches);
   thread.around.entered = [&](const std::vector<Vector3d>& ends_m, std::vector<ChainTouch>& touches) {
@@ -141,12 +180,14 @@ void ThreadBodies::substep(uint32_t t, const Steps& steps, int index) {
   thread.chain.step(dt_s, thread.around);
   if (thread.tied) thread.channels.note(thread.around.slides);
   hands_.takeOver(t, holds, thread.fixed_holds);
+  if (on_needle) needles_->takeOver(t, holds[0]);
 }
 
 void ThreadBodies::persist(Archive& archive) {
   archive.section("threads");
   persistMotion(archive);
   hands_.persist(archive);
+  if (needles_) needles_->persistHands(archive);
   uint64_t kept = good_.size();
   archive.value(kept);
   good_.resize(kept);
@@ -165,6 +206,7 @@ void ThreadBodies::persistMotion(Archive& archive) {
     thread.channels.persist(archive);
     for (size_t h = 0; h < thread.fixed_holds; ++h) archive.value(thread.around.holds[h].stiffness_kg);
   }
+  if (needles_) needles_->persist(archive);
 }
 
 void ThreadBodies::saveGood() {
@@ -197,6 +239,7 @@ uint64_t ThreadBodies::hashWith(uint64_t tissue) const {
     }
     for (const ChainSlide& slide : thread.around.slides) hash.add(static_cast<float>(slide.s));
   }
+  if (needles_) needles_->addTo(hash);
   return hash.value();
 }
 

@@ -3,10 +3,12 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "math/archive.h"
 #include "solver/thread/chain.h"
+#include "solver/thread/needles.h"
 #include "solver/thread/thread_channels.h"
 #include "solver/thread/thread_hands.h"
 #include "solver/thread/thread_touches.h"
@@ -39,8 +41,8 @@ class ThreadBodies {
   void endTick();
   /// A tick without tissue.
   void step(const ToolMotions& motions, const ObstacleMotions& obstacles);
-  const ThreadPulls& pulls() const { return hands_.pulls(); }  ///< of the tick
-  double work_j() const { return work_j_; }                    ///< done on the tissue in the tick
+  ThreadPulls pulls() const;                 ///< of the tick
+  double work_j() const { return work_j_; }  ///< done on the tissue in the tick
 
   void reset();
   void persist(Archive& archive);
@@ -55,6 +57,8 @@ class ThreadBodies {
 
   size_t count() const { return threads_.size(); }
   const Chain& chain(size_t thread) const { return threads_[thread].chain; }
+  const Needle* needle(size_t thread) const { return needles_ ? needles_->find(thread) : nullptr; }
+  const std::vector<ChainSlide>& slides(size_t thread) const { return threads_[thread].around.slides; }
 
  private:
   struct Thread {
@@ -74,13 +78,16 @@ class ThreadBodies {
   void persistMotion(Archive& archive);
   void plan(Steps& steps, int count, const ObstacleMotions& obstacles) const;
   void substep(uint32_t thread, const Steps& steps, int index);
+  const layout::ObstacleMotion* obstaclesOf(const Steps& steps, int index) const;
   std::vector<const TissuePoint*> tiedPoints() const;
+  void moveNeedles(BladeTarget& target, int index);
 
   std::vector<ObstacleConfig> obstacles_;
   double tick_s_;
   bool can_cut_;
   std::unique_ptr<TissuePoints> tissue_;  ///< null: none is tied to it
   ThreadHands hands_;
+  std::optional<Needles> needles_;  ///< only where there are some
   std::vector<Thread> threads_;
   Steps alone_, tied_;
   int per_substep_ = 1;  ///< of the tissue, so many of tied threads

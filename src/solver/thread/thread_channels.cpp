@@ -20,7 +20,8 @@ constexpr double kCutStep = 0.125;               // of the spacing: so far a cha
 constexpr double kMostTorn = 0.5;                // of the spacing, in a substep
 constexpr double kHeld = 1;                      // of the spacing: so far behind a channel tissue is not cut yet
 
-constexpr double kPassesAgain = 0.25;            // of a link: farther from a point than where it is nearest
+constexpr double kBeforeNext = 0.5;    // of its place on the chain: a new one is not behind that
+constexpr double kPassesAgain = 0.25;  // of a link: farther from a point than where it is nearest
 
 struct OnChain {
   double s = 0, off_m = 0;
@@ -116,6 +117,28 @@ void ThreadChannels::lay(const ThreadConfig& config, const Chain& chain, const M
     channels_.push_back(channel);
     slides.push_back(slide);
   }
+  changed_ = true;
+}
+
+void ThreadChannels::take(const TissuePoint& point, const ChannelLaw& law, double s, const TissuePoints& points,
+                          std::vector<ChainSlide>& slides) {
+  Channel channel;
+  channel.point = point;
+  channel.cut_m = point.rest_m;
+  ChainSlide slide;
+  slide.s = s;
+  slide.friction = law.friction;
+  slide.most_n = law.pull_out_n;
+  if (!channels_.empty()) {
+    const TissuePoint& next = channels_.front().point;
+    slide.s = std::min(s, kBeforeNext * slides.front().s);
+    channel.through =
+        next.body == point.body && points.embed(point.body, 0.5 * (next.rest_m + point.rest_m)).has_value();
+    slide.through_n = channel.through ? 0.5 * law.through_n_per_m * (next.rest_m - point.rest_m).norm() : 0;
+    slides.front().through_n += slide.through_n;
+  }
+  channels_.insert(channels_.begin(), channel);
+  slides.insert(slides.begin(), slide);
   changed_ = true;
 }
 

@@ -26,6 +26,9 @@ class ThreadChannels {
   /// Those that a scene has at the start. @throws SceneError  names the channel
   void lay(const ThreadConfig& config, const Chain& chain, const Model& model, const TissuePoints& points,
            std::vector<ChainSlide>& slides);
+  /// One more before all others: what a needle on the chain's start has come through. @param s  on the chain
+  void take(const TissuePoint& point, const ChannelLaw& law, double s, const TissuePoints& points,
+            std::vector<ChainSlide>& slides);
   bool empty() const { return channels_.empty(); }
   void addPoints(std::vector<const TissuePoint*>& points) const;
   /// Before a substep of the chain.

@@ -107,7 +107,7 @@ class Drive {
     target_.solver.substep();
     needle_.lead(pose, dt_s_);
     needle_.keepOut(nullptr, 0);
-    needle_.act(target_, tissue_, 1, passed);
+    needle_.act(target_, tissue_, passed);
     given_n_s += dt_s_ * needle_.force_n();
   }
   /// A substep in which it is free.
@@ -115,7 +115,7 @@ class Drive {
     target_.solver.substep();
     needle_.fall({0, 0, -9.81}, dt_s_);
     needle_.keepOut(nullptr, 0);
-    needle_.act(target_, tissue_, layout::kMaxStyluses - 1, passed);
+    needle_.act(target_, tissue_, passed);
   }
   /// By an angle, at a speed of the tip.
   template <class Look>
@@ -180,7 +180,7 @@ TEST_P(NeedleBite, PuncturesAtItsForceAndIsSteadyInside) {
   EXPECT_NEAR(least_n, puncture_n / 3, 0.1 * puncture_n / 3);
   EXPECT_NEAR(most_n, puncture_n / 3, 0.1 * puncture_n / 3);
   EXPECT_LT(farthest_m, 0.7e-3);
-  EXPECT_EQ(drive.target().by, 1u);
+  EXPECT_EQ(drive.target().by, layout::kMaxStyluses);
   RecordProperty("pressed_um", static_cast<int>(1e6 * pressed_m));
   RecordProperty("farthest_um", static_cast<int>(1e6 * farthest_m));
   if (!bite.whole) return;
@@ -295,7 +295,7 @@ TEST(Needle, NeverComesThroughAnObstacle) {
   for (int i = 0; i < 400; ++i) {
     const Pose asked{{0.02 * std::sin(0.1 * i), 0, 0.01 - 0.0002 * i}, rotationFromDegrees({0, 0.5 * i, 0.2 * i})};
     at = keptOut(shape, at, asked, &plate, 1);
-    for (const Vector3d& place : shape.places(at, 1e-3)) ASSERT_GT(place.z(), 0.001 + 0.8 * shape.wireRadius_m());
+    for (const Vector3d& place : shape.places(at)) ASSERT_GT(place.z(), 0.001 + 0.8 * shape.wireRadius_m());
   }
   for (int i = 0; i < 400; ++i) at = keptOut(shape, at, {{0, 0, 0.02}, Quaterniond::Identity()}, &plate, 1);
   EXPECT_LT((at.position_m - Vector3d(0, 0, 0.02)).norm(), 1e-9);

@@ -33,7 +33,7 @@ enum class Integrator { kLeapfrog, kVerletPaper, kPd, kMultigrid, kAuto };
 /// What a simulation begins with: everything at rest, or hanging in its weight.
 enum class SolverStart { kRest, kEquilibrium };
 enum class Backend { kAuto, kGpu, kCpu };
-enum class ToolMode { kNone = 0, kProbe = 1, kGrab = 2, kCut = 3, kCutParticles = 4, kSuction = 5 };
+enum class ToolMode { kNone = 0, kProbe = 1, kGrab = 2, kCut = 3, kCutParticles = 4, kSuction = 5, kNeedle = 6 };
 
 /// What a cell of a lattice resists its deformation with (physics.md 1).
 enum class Cells {
@@ -337,6 +337,7 @@ struct ThreadConfig {
   StitchedTissue tissue = StitchedTissue::kPhantom;
   double bite_m = 0.0045, depth_m = 0.006;
   NeedleConfig needle;  ///< on its start
+  bool feelsTissue() const { return !channels.empty() || needle.arc != NeedleArc::kNone; }
 };
 
 struct SolverConfig {

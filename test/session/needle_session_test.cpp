@@ -1,0 +1,99 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+// A scene and a strokes file as users write them: a stylus takes a needle, drives it through and lets it go.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "viscera/math/error.h"
+#include "viscera/session/session.h"
+#include "viscera/tools/strokes.h"
+
+namespace viscera {
+namespace {
+
+constexpr const char* kScene = R"(
+bodies:
+  - {source: box, box_size_m: [0.03, 0.018, 0.012], position_m: [0, 0, -0.006], spacing_m: 0.003, material: {young_modulus_pa: 10000},
+     fixed: [{min_m: [-1, -1, -1], max_m: [1, 1, -0.0059]}]}
+styluses: [{name: holder, idle: none, button1: needle, button2: none, grab: {radius_m: 0.01}}]
+threads:
+  - {material: silk, usp: 4-0, position_m: [0.008, 0, 0.003], path: [{position_m: [0.008, 0, 0.09]}],
+     needle: {arc: half_circle, radius_m: 0.008, rotation_deg: [0, 180, 0]}}
+solver: {backend: cpu, threads: 1}
+)";
+
+/// Turns the holder about the middle of the needle's circle, by 252 degrees in a second.
+constexpr const char* kStrokes = R"(
+strokes:
+  - stylus: holder
+    keys:
+      - {t_s: 0.05, position_m: [0, 0, 0.003], rotation_deg: [0, 0, 0], button1: true}
+      - {t_s: 0.1, position_m: [0, 0, 0.003], rotation_deg: [0, 0, 0], button1: true}
+      - {t_s: 0.43, position_m: [0, 0, 0.003], rotation_deg: [0, -84, 0], button1: true}
+      - {t_s: 0.76, position_m: [0, 0, 0.003], rotation_deg: [180, -12, 180], button1: true}
+      - {t_s: 1.1, position_m: [0, 0, 0.003], rotation_deg: [180, 72, 180], button1: true}
+      - {t_s: 1.3, position_m: [0, 0, 0.003], rotation_deg: [180, 72, 180], button1: false}
+      - {t_s: 1.5, position_m: [0, 0, 0.05], rotation_deg: [180, 72, 180]}
+)";
+
+struct Sewn {
+  double most_n = 0, off_m = 0, moved_m = 0;  ///< of the thread's start from the tail; after it was let go
+  Vector3d tip = Vector3d::Zero();
+  uint64_t hash = 0, trips = 0;
+};
+
+Sewn sew(const Overrides& overrides) {
+  const Scene scene = parseScene(kScene, "needle.yaml", overrides);
+  const Strokes strokes = parseStrokes(kStrokes, "strokes.yaml");
+  Session session(scene);
+  Sewn out;
+  Vector3d left = Vector3d::Zero();
+  for (double time_s = 0; time_s < 1.8; time_s += session.tick_s()) {
+    const Frame frame = session.step(strokes.at(time_s, scene.styluses), {});
+    const std::vector<Vector3d> needle = session.needlePlaces(0);
+    out.most_n = std::max(out.most_n, frame.reactions[0].force_n.norm());
+    out.off_m = std::max(out.off_m, (session.threadPlaces(0)[0] - needle.back()).norm());
+    out.tip = needle.front();
+    if (time_s < 1.3) left = needle.front();
+    out.trips = frame.health.trips;
+  }
+  out.moved_m = (out.tip - left).norm();
+  out.hash = session.stateHash();
+  return out;
+}
+
+TEST(NeedleSession, AStylusTakesOneDrivesItThroughAndLetsItGo) {
+  const Sewn once = sew({});
+  EXPECT_GT(once.most_n, 0.04);
+  EXPECT_LT(once.most_n, 0.5);
+  EXPECT_LT(once.off_m, 1e-4);
+  EXPECT_GT(once.tip.x(), 0);  // where it came out, not where it went in
+  EXPECT_LT(once.moved_m, 0.01);
+  EXPECT_EQ(once.trips, 0u);
+  EXPECT_EQ(sew({}).hash, once.hash);
+  EXPECT_EQ(sew({"solver.threads=4"}).hash, once.hash);
+}
+
+std::string refusal(const Overrides& overrides) {
+  try {
+    parseScene(kScene, "needle.yaml", overrides);
+  } catch (const SceneError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+TEST(NeedleSession, ScenesThatCannotBeAreRefused) {
+  const auto names = [](const std::string& text, const std::string& what) { return text.find(what) != text.npos; };
+  EXPECT_TRUE(refusal({}).empty());
+  EXPECT_TRUE(names(refusal({"threads[0].needle.arc=none"}), "stylus 'holder' has mode needle"));
+  EXPECT_TRUE(names(refusal({"threads[0].needle.arc=quarter"}), "half_circle"));
+  EXPECT_TRUE(names(refusal({"threads[0].start=fixed"}), "'start' must be free"));
+  EXPECT_TRUE(names(refusal({"threads[0].needle.wire_radius_m=0.002"}), "'needle.wire_radius_m' must be at most 0.2"));
+  EXPECT_TRUE(names(refusal({"threads[0].needle.puncture_n=0.1", "threads[0].needle.cutting_n=0.2"}),
+                    "'needle.cutting_n' must be at most"));
+}
+
+}  // namespace
+}  // namespace viscera

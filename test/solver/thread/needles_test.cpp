@@ -1,0 +1,202 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Hands that take a needle, drive it through tissue and let it go, on the CPU backend.
+#include "solver/thread/needles.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "math/archive.h"
+#include "solver/cpu/cpu_solver.h"
+#include "solver/thread/thread_bodies.h"
+
+namespace viscera {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kArc_m = 0.008, kAbove_m = 0.003;  // the needle's circle: its radius, its middle over the skin
+constexpr double kTick_s = 1.0 / 60;
+
+/// A block on a plate, its skin at z = 0, and a needle with its tip over it; a thread upwards from the tail.
+Scene sceneOf(int threads) {
+  Scene scene;
+  BodyConfig body;
+  body.source = TissueSource::kBox;
+  body.box_size_m = {0.03, 0.018, 0.012};
+  body.position_m = {0, 0, -0.006};
+  body.spacing_m = 0.003;
+  body.material.young_modulus_pa = 1e4;
+  FixedConfig plate;
+  plate.min_m = {-1, -1, -1};
+  plate.max_m = {1, 1, -0.0059};
+  body.fixed.push_back(plate);
+  scene.bodies.push_back(body);
+  StylusConfig stylus;
+  stylus.idle = ToolMode::kNone;
+  stylus.button1 = ToolMode::kNeedle;
+  scene.styluses.push_back(stylus);
+  ThreadConfig thread;
+  thread.position_m = {kArc_m, 0, kAbove_m};
+  thread.path = {{{kArc_m, 0, kAbove_m + 0.09}}};
+  thread.needle.arc = NeedleArc::kHalfCircle;
+  thread.needle.radius_m = kArc_m;
+  thread.needle.rotation_deg = {0, 180, 0};  // the tip at -x, heading down
+  scene.threads.push_back(thread);
+  scene.solver.backend = Backend::kCpu;
+  scene.solver.threads = threads;
+  return scene;
+}
+
+class Sewing {
+ public:
+  explicit Sewing(int threads = 1, const Scene& scene = sceneOf(1)) : scene_(scene), model_(buildModel(scene)) {
+    scene_.solver.threads = threads;
+    solver_ = std::make_unique<CpuSolver>(model_, scene_);
+  }
+  /// Of the hand: its tip on the needle's middle of wire, turned with it.
+  static Pose handAt(double turn_rad) {
+    return {Vector3d(0, 0, kAbove_m), Quaterniond(Eigen::AngleAxisd(-turn_rad, Vector3d::UnitY()))};
+  }
+  void handIsAt(double turn_rad) { at_ = handAt(turn_rad); }
+  void tick(const Pose& to, ToolMode mode) {
+    ToolMotions motions;
+    motions[0].present = true;
+    motions[0].mode = mode;
+    motions[0].from = was_ ? at_ : to;
+    motions[0].to = at_ = to;
+    was_ = true;
+    solver_->step(motions);
+    while (solver_->pollStats(stats, true)) nonfinite += stats.nonfinite;
+  }
+  /// About the middle of its circle, with what is around it.
+  template <class Look>
+  void turn(double from_rad, double to_rad, double speed_m_per_s, const Look& look) {
+    const double step = std::copysign(speed_m_per_s * kTick_s / kArc_m, to_rad - from_rad);
+    for (double angle = from_rad; (to_rad - angle) * step > 0; angle += step) {
+      tick(handAt(angle), ToolMode::kNeedle);
+      look(angle);
+    }
+  }
+  void turn(double from_rad, double to_rad, double speed_m_per_s) {
+    turn(from_rad, to_rad, speed_m_per_s, [](double) {});
+  }
+  const Needle& needle() const { return *solver_->threads()->needle(0); }
+  CpuSolver& solver() { return *solver_; }
+  double force_n() const {
+    return Vector3d(stats.impulse[0].x, stats.impulse[0].y, stats.impulse[0].z).norm() / kTick_s;
+  }
+  uint64_t hash() const { return solver_->threads()->hashWith(stateHash(model_, solver_->readState())); }
+  layout::TickStats stats{};
+  uint64_t nonfinite = 0;
+
+ private:
+  Scene scene_;
+  Model model_;
+  std::unique_ptr<CpuSolver> solver_;
+  Pose at_;
+  bool was_ = false;
+};
+
+/// The hand holds the needle at its tail.
+constexpr double kReachAll_m = 0.02;
+Scene scene() {
+  Scene out = sceneOf(1);
+  out.styluses[0].grab.radius_m = kReachAll_m;
+  return out;
+}
+
+TEST(Needles, AHandDrivesOneThroughAndLetsItGo) {
+  Sewing sewing(1, scene());
+  double most_n = 0, worst = 0;
+  size_t most = 0;
+  sewing.turn(0, 1.4 * kPi, 0.05, [&](double) {
+    most_n = std::max(most_n, sewing.force_n());
+    most = std::max(most, sewing.needle().crossings());
+    const Chain& chain = sewing.solver().threads()->chain(0);
+    worst = std::max(worst, chain.worstLink());
+    ASSERT_LT((chain.places_m()[0] - sewing.needle().tail_m()).norm(), 1e-4);
+  });
+  EXPECT_GE(most, 5u);
+  EXPECT_GT(most_n, 0.04);
+  EXPECT_LT(most_n, 0.3);
+  EXPECT_LT(worst, 1e-3);
+  const Pose before = sewing.needle().pose();
+  for (int i = 0; i < 30; ++i) sewing.tick(Sewing::handAt(0), ToolMode::kNone);
+  EXPECT_LT((sewing.needle().pose().position_m - before.position_m).norm(), 6e-3);  // tissue still holds its tail
+  EXPECT_EQ(sewing.force_n(), 0);
+  EXPECT_EQ(sewing.nonfinite, 0u);
+  EXPECT_EQ(sewing.solver().health().trips, 0u);
+}
+
+TEST(Needles, OneThatIsFreeHangsOnItsThread) {
+  Scene hanging = scene();
+  ThreadConfig& thread = hanging.threads[0];
+  thread.path = {{{0.06, 0, 0.05}}};
+  thread.position_m = {0.05, 0, 0.05};
+  thread.end = ThreadEnd::kFixed;
+  Sewing sewing(1, hanging);
+  for (int i = 0; i < 300; ++i) sewing.tick(Sewing::handAt(0), ToolMode::kNone);
+  EXPECT_LT((sewing.needle().tail_m() - Vector3d(0.06, 0, 0.04)).norm(), 1e-3);
+  EXPECT_LT((sewing.needle().pose() * sewing.needle().shape().middle()).z(), 0.04);
+  const NeedleShape& shape = sewing.needle().shape();
+  EXPECT_NEAR(sewing.solver().threads()->chain(0).tension_n(5), shape.mass_kg() * 9.81, 0.1 * shape.mass_kg() * 9.81);
+}
+
+TEST(Needles, AHandTakesOnlyWhatIsInReachAndAgainAtTheTip) {
+  Scene near = scene();
+  near.styluses[0].grab.radius_m = 0.002;
+  near.environment.gravity_m_per_s2.setZero();
+  Sewing sewing(1, near);
+  const auto move = [&](const Vector3d& from, const Vector3d& to, ToolMode mode) {
+    sewing.tick({from, Quaterniond::Identity()}, ToolMode::kNone);
+    sewing.tick({from, Quaterniond::Identity()}, mode);
+    for (int i = 0; i < 3; ++i) sewing.tick({to, Quaterniond::Identity()}, mode);  // and stands still
+    sewing.tick({to, Quaterniond::Identity()}, ToolMode::kNone);
+  };
+  const Vector3d tip(-kArc_m, 0, kAbove_m), aside(0, 0.003, 0), up(0, 0, 0.002);
+  const auto tipNow = [&] { return Vector3d(sewing.needle().pose() * sewing.needle().shape().at(0)); };
+  move(tip + aside, tip + aside + up, ToolMode::kNeedle);
+  EXPECT_LT((tipNow() - tip).norm(), 1e-3);
+  move(tip + 0.5 * aside, tip + 0.5 * aside + up, ToolMode::kNeedle);
+  EXPECT_LT((tipNow() - tip - up).norm(), 1e-3);
+}
+
+TEST(Needles, StatesAreTheSameInEveryRunAndWithAnyNumberOfThreads) {
+  Sewing one(1, scene()), again(1, scene()), four(4, scene());
+  for (Sewing* sewing : {&one, &again, &four}) sewing->turn(0, kPi, 0.2);
+  EXPECT_EQ(one.hash(), again.hash());
+  EXPECT_EQ(one.hash(), four.hash());
+}
+
+TEST(Needles, GoOnFromASavedStateToTheBit) {
+  Sewing first(1, scene()), second(1, scene());
+  first.turn(0, kPi, 0.2);
+  first.tick(Sewing::handAt(kPi), ToolMode::kNeedle);
+  second.turn(0, 0.2, 0.2);
+  Archive saved;
+  first.solver().persist(saved);
+  Archive read(saved.sections());
+  second.solver().persist(read);
+  read.end();
+  EXPECT_EQ(first.hash(), second.hash());
+  first.turn(kPi, 1.3 * kPi, 0.2);
+  second.handIsAt(kPi);
+  second.turn(kPi, 1.3 * kPi, 0.2);
+  EXPECT_GE(second.needle().crossings(), 3u);
+  EXPECT_EQ(first.hash(), second.hash());
+}
+
+TEST(Needles, ResetPutsThemBack) {
+  Sewing sewing(1, scene()), fresh(1, scene());
+  const uint64_t before = sewing.hash();
+  sewing.turn(0, kPi, 0.2);
+  EXPECT_NE(sewing.hash(), before);
+  sewing.solver().reset();
+  EXPECT_EQ(sewing.hash(), before);
+}
+
+}  // namespace
+}  // namespace viscera
