@@ -22,12 +22,14 @@ constexpr double kAroundShaft = 20;        // stiffness of what is around it, ov
 constexpr double kCrossingsApart_m = 1.5e-3;
 constexpr double kPassedApart_m = 2.2e-3;  // of those that the thread gets
 constexpr int kNeedleSweeps = 4;
-constexpr double kBeside_m = 2e-4;   // over which tissue's deformation at the tip is taken
-constexpr double kFlattest = 0.05;   // of a volume: more than so deformed it counts as whole
-constexpr double kTipOff_m = 2e-4;   // a tip drawn back so far from the skin has left it
-constexpr double kOffTip_m = 5e-4;   // and tissue so far ahead of the tip the needle
-constexpr double kAtLimit = 0.9999;  // of a force
-constexpr double kSidelong = 0.5;    // of the puncture force: pressed more across than along by that, it slides off
+constexpr double kBeside_m = 2e-4;      // over which tissue's deformation at the tip is taken
+constexpr double kFlattest = 0.05;      // of a volume: more than so deformed it counts as whole
+constexpr uint32_t kLooksApart = 16;    // substeps after which a tip outside looks for tissue again
+constexpr double kLooksApart_m = 1e-4;  // or a way of it: looking is slow
+constexpr double kTipOff_m = 2e-4;      // a tip drawn back so far from the skin has left it
+constexpr double kOffTip_m = 5e-4;      // and tissue so far ahead of the tip the needle
+constexpr double kAtLimit = 0.9999;     // of a force
+constexpr double kSidelong = 0.5;       // of the puncture force: pressed more across than along by that, it slides off
 constexpr double kAirDrag_per_s = 4;
 
 constexpr double kNoPlace = std::numeric_limits<double>::infinity();
@@ -58,7 +60,13 @@ Needle::Needle(const NeedleConfig& config, const Model& model, const Vector3d& t
       shape_(config),
       model_(model),
       start_(shape_.withTailAt(tail_m, rotationFromDegrees(config.rotation_deg))) {
-  for (const Body& body : model.bodies) young_pa_.push_back(youngsOf(body));
+  for (const Body& body : model.bodies) {
+    young_pa_.push_back(youngsOf(body));
+    Eigen::AlignedBox3d box;
+    for (const uint32_t slot : body.lattice.active_slots) box.extend(restPosition(body, slot));
+    const Vector3d more = Vector3d::Constant(0.5 * box.diagonal().norm());
+    around_.extend(Eigen::AlignedBox3d(box.min() - more, box.max() + more));
+  }
   reset();
 }
 
@@ -195,7 +203,11 @@ void Needle::act(BladeTarget& target, TissuePoints& tissue, std::vector<NeedlePa
 /// A needle that no hand leads does not begin to pierce anything.
 void Needle::touch(BladeTarget& target, const TissuePoints& tissue) {
   if (tip_.state > kBlocked || (tip_.state == kClear && !led_)) return;
-  const std::optional<TissuePoint> point = tissue.find(target, end_ * shape_.at(0));
+  const Vector3d at = end_ * shape_.at(0);
+  if (++tip_.looked_ago < kLooksApart && (at - tip_.looked_m).norm() < kLooksApart_m) return;
+  tip_.looked_ago = 0;
+  tip_.looked_m = at;
+  const std::optional<TissuePoint> point = around_.contains(at) ? tissue.find(target, at) : std::nullopt;
   if (!point) tip_.state = kClear;
   if (!point || tip_.state == kBlocked) return;
   tip_ = {};

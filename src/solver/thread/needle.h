@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <vector>
 
 #include "solver/thread/needle_shape.h"
@@ -81,6 +82,9 @@ class Needle {
     Vector3d impulse_ns = Vector3d::Zero();
     NeedleLaw law;
     double path_m = 0;  ///< through tissue at rest, since the skin
+    /// Where it looked for tissue last, outside; and how many substeps ago.
+    Vector3d looked_m = Vector3d::Constant(std::numeric_limits<double>::infinity());
+    uint32_t looked_ago = 0;
   };
   /// A point of tissue that the shaft goes through.
   struct Crossing {
@@ -119,6 +123,7 @@ class Needle {
   NeedleShape shape_;
   const Model& model_;
   std::vector<std::vector<double>> young_pa_;  ///< [bodies][labels]
+  Eigen::AlignedBox3d around_;                 ///< where tissue may come
   Pose start_;                                 ///< of the scene
   Tip tip_;
   std::vector<Crossing> crossings_;
