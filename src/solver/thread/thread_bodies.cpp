@@ -41,6 +41,7 @@ ThreadBodies::ThreadBodies(const Scene& scene, const Model* model, int good_stat
     }
     thread.fixed_holds = thread.around.holds.size();
     thread.around.gravity_m_per_s2 = scene.environment.gravity_m_per_s2;
+    thread.around.swaged[0] = needle(threads_.size()) != nullptr;
     if (tissue_) thread.first_channels.lay(config, thread.chain, *model, *tissue_, thread.first_slides);
     threads_.push_back(std::move(thread));
   }
