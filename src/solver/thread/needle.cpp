@@ -30,6 +30,7 @@ constexpr double kTipOff_m = 2e-4;      // a tip drawn back so far from the skin
 constexpr double kOffTip_m = 5e-4;      // and tissue so far ahead of the tip the needle
 constexpr double kAtLimit = 0.9999;     // of a force
 constexpr double kSidelong = 0.5;       // of the puncture force: pressed more across than along by that, it slides off
+constexpr double kFastestLed_m_per_s = 3;  // faster, as after a rollback, it lags behind its hand
 constexpr double kAirDrag_per_s = 4;
 
 constexpr double kNoPlace = std::numeric_limits<double>::infinity();
@@ -130,7 +131,10 @@ void Needle::lead(const Pose& to, double dt_s) {
   from_ = end_;
   dt_s_ = dt_s;
   led_ = true;
-  end_ = to;
+  const double turn = from_.orientation.angularDistance(to.orientation);
+  const double way_m = (to.position_m - from_.position_m).norm() + 2 * turn * shape_.radius_m();
+  const double most_m = kFastestLed_m_per_s * dt_s;
+  end_ = way_m > most_m ? interpolate(from_, to, most_m / way_m) : to;
 }
 
 void Needle::fall(const Vector3d& gravity_m_per_s2, double dt_s) {

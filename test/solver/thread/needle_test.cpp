@@ -17,14 +17,14 @@
 namespace viscera {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-constexpr double kRadius_m = 0.008, kSkin_m = 0;  // the block's upper side
-constexpr double kPunctureArea_m2 = 5e-6;         // of the law
+constexpr double kArcPi = 3.14159265358979323846;
+constexpr double kNeedleArc_m = 0.008, kBlockSkin_m = 0;  // the block's upper side
+constexpr double kPunctureArea_m2 = 5e-6;                 // of the law
 
 /// The reference as what holds the tissue.
-class ReferenceTarget : public BladeTarget {
+class NeedleTarget : public BladeTarget {
  public:
-  ReferenceTarget(const Model& model, double dt_s) : solver(model, Vector3d::Zero(), dt_s) {}
+  NeedleTarget(const Model& model, double dt_s) : solver(model, Vector3d::Zero(), dt_s) {}
   void readNodes(const std::vector<uint32_t>& slots, std::vector<Vector3f>& u_m,
                  std::vector<Vector3f>& v_m_per_s) const override {
     for (size_t i = 0; i < slots.size(); ++i) {
@@ -47,19 +47,19 @@ class ReferenceTarget : public BladeTarget {
 };
 
 /// What a block is made of and how it is held.
-struct Block {
+struct NeedleBlock {
   double young_pa = 1e4;
   Vector3d size_m{0.027, 0.015, 0.009};
   bool plate = true, ends = false;  ///< below; at both ends in x
   double drag_per_s = 4;
 };
 
-Scene sceneOf(const Block& block) {
+Scene needleBlockScene(const NeedleBlock& block) {
   Scene scene;
   BodyConfig body;
   body.source = TissueSource::kBox;
   body.box_size_m = block.size_m;
-  body.position_m = {0, 0, kSkin_m - 0.5 * block.size_m.z()};
+  body.position_m = {0, 0, kBlockSkin_m - 0.5 * block.size_m.z()};
   body.spacing_m = 0.003;
   body.material.young_modulus_pa = block.young_pa;
   body.material.drag_per_s = block.drag_per_s;
@@ -80,18 +80,18 @@ Scene sceneOf(const Block& block) {
 }
 
 /// A hand that turns a needle about a place.
-class Drive {
+class NeedleDrive {
  public:
-  explicit Drive(const Block& block, const NeedleConfig& config = halfCircle())
-      : model_(buildModel(sceneOf(block))),
-        dt_s_(0.8 * planTicks(model_, sceneOf(block)).dt_safe_s),
+  explicit NeedleDrive(const NeedleBlock& block, const NeedleConfig& config = halfCircle())
+      : model_(buildModel(needleBlockScene(block))),
+        dt_s_(0.8 * planTicks(model_, needleBlockScene(block)).dt_safe_s),
         target_(model_, dt_s_),
         tissue_(model_),
         needle_(config, model_, Vector3d::Zero()) {}
   static NeedleConfig halfCircle() {
     NeedleConfig out;
     out.arc = NeedleArc::kHalfCircle;
-    out.radius_m = kRadius_m;
+    out.radius_m = kNeedleArc_m;
     return out;
   }
   /// The tip at an angle from x over z of a circle about a place, heading for more.
@@ -99,8 +99,10 @@ class Drive {
     return {middle_m, Quaterniond(Eigen::AngleAxisd(-angle_rad, Vector3d::UnitY()))};
   }
   void appear(const Pose& pose) {
-    needle_.lead(pose, dt_s_);
-    needle_.keepOut(nullptr, 0);
+    while ((needle_.pose() * Vector3d::UnitX() - pose * Vector3d::UnitX()).norm() > 1e-12) {
+      needle_.lead(pose, dt_s_);
+      needle_.keepOut(nullptr, 0);
+    }
   }
   /// A substep.
   void to(const Pose& pose) {
@@ -120,7 +122,7 @@ class Drive {
   /// By an angle, at a speed of the tip.
   template <class Look>
   void turn(const Vector3d& middle_m, double from_rad, double to_rad, double speed_m_per_s, const Look& look) {
-    const double step = std::copysign(speed_m_per_s * dt_s_ / kRadius_m, to_rad - from_rad);
+    const double step = std::copysign(speed_m_per_s * dt_s_ / kNeedleArc_m, to_rad - from_rad);
     for (double angle = from_rad; (to_rad - angle) * step > 0; angle += step) {
       to(at(middle_m, angle));
       look(angle);
@@ -128,7 +130,7 @@ class Drive {
   }
   Needle& needle() { return needle_; }
   ReferenceSolver& solver() { return target_.solver; }
-  ReferenceTarget& target() { return target_; }
+  NeedleTarget& target() { return target_; }
   const Model& model() const { return model_; }
   double dt_s() const { return dt_s_; }
   std::vector<NeedlePassed> passed;
@@ -137,43 +139,44 @@ class Drive {
  private:
   Model model_;
   double dt_s_;
-  ReferenceTarget target_;
+  NeedleTarget target_;
   TissuePoints tissue_;
   Needle needle_;
 };
 
-const Vector3d kMiddle(0, 0, kSkin_m + 0.002);
-constexpr double kStart = -kPi + 0.1, kEnd = 0.35 * kPi;  // of the tip: over the skin before and after a bite
-constexpr double kLowest = -0.5 * kPi;
+const Vector3d kArcMiddle(0, 0, kBlockSkin_m + 0.002);
+constexpr double kBiteStart = -kArcPi + 0.1,
+                 kBiteEnd = 0.35 * kArcPi;  // of the tip: over the skin before and after a bite
+constexpr double kBiteLowest = -0.5 * kArcPi;
 
-struct Bite {
+struct BiteCase {
   double young_pa, speed_m_per_s;
   bool whole;
 };
-class NeedleBite : public ::testing::TestWithParam<Bite> {};
+class NeedleBite : public ::testing::TestWithParam<BiteCase> {};
 
 TEST_P(NeedleBite, PuncturesAtItsForceAndIsSteadyInside) {
-  const Bite bite = GetParam();
-  Block block;
+  const BiteCase bite = GetParam();
+  NeedleBlock block;
   block.young_pa = bite.young_pa;
-  Drive drive(block);
+  NeedleDrive drive(block);
   const double puncture_n = kPunctureArea_m2 * bite.young_pa;
   double first_n = 0, second_n = 0, farthest_m = 0, pressed_m = 0, least_n = 1, most_n = 0;
-  drive.appear(Drive::at(kMiddle, kStart));
+  drive.appear(NeedleDrive::at(kArcMiddle, kBiteStart));
   const auto look = [&](double angle) {
     const Needle& needle = drive.needle();
     const double tip_n = needle.alongTip_n();
     farthest_m = std::max(farthest_m, needle.farthest_m());
     if (needle.crossings() == 0) {
       first_n = std::max(first_n, needle.force_n().norm());
-      pressed_m = kSkin_m - (needle.pose() * needle.shape().at(0)).z();
+      pressed_m = kBlockSkin_m - (needle.pose() * needle.shape().at(0)).z();
     }
-    if (angle > kLowest) second_n = std::max(second_n, tip_n);
-    if (std::abs(angle - kLowest) > 0.25) return;
+    if (angle > kBiteLowest) second_n = std::max(second_n, tip_n);
+    if (std::abs(angle - kBiteLowest) > 0.25) return;
     least_n = std::min(least_n, tip_n);
     most_n = std::max(most_n, tip_n);
   };
-  drive.turn(kMiddle, kStart, bite.whole ? kEnd : kLowest + 0.2, bite.speed_m_per_s, look);
+  drive.turn(kArcMiddle, kBiteStart, bite.whole ? kBiteEnd : kBiteLowest + 0.2, bite.speed_m_per_s, look);
   EXPECT_NEAR(first_n, puncture_n, 0.1 * puncture_n);
   EXPECT_GT(pressed_m, 1.2e-3);  // however fast
   EXPECT_LT(pressed_m, 2.2e-3);
@@ -185,7 +188,7 @@ TEST_P(NeedleBite, PuncturesAtItsForceAndIsSteadyInside) {
   RecordProperty("farthest_um", static_cast<int>(1e6 * farthest_m));
   if (!bite.whole) return;
   EXPECT_NEAR(second_n, puncture_n, 0.1 * puncture_n);
-  drive.turn(kMiddle, kEnd, kEnd + kPi, bite.speed_m_per_s, look);
+  drive.turn(kArcMiddle, kBiteEnd, kBiteEnd + kArcPi, bite.speed_m_per_s, look);
   EXPECT_LT(farthest_m, 0.7e-3);
   EXPECT_GE(drive.passed.size(), 6u);
   EXPECT_LE(drive.passed.size(), 10u);
@@ -194,24 +197,24 @@ TEST_P(NeedleBite, PuncturesAtItsForceAndIsSteadyInside) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Tissue, NeedleBite,
-                         ::testing::Values(Bite{1e4, 0.02, false}, Bite{1e4, 0.2, true}, Bite{5e4, 0.02, false},
-                                           Bite{5e4, 0.2, true}));
+                         ::testing::Values(BiteCase{1e4, 0.02, false}, BiteCase{1e4, 0.2, true},
+                                           BiteCase{5e4, 0.02, false}, BiteCase{5e4, 0.2, true}));
 
 /// 6 mm thick, held at its ends; down through it.
 TEST(Needle, FeelsBothSkinsOfASlab) {
-  Block block;
+  NeedleBlock block;
   block.size_m = {0.021, 0.015, 0.006};
   block.plate = false;
   block.ends = true;
-  Drive drive(block);
-  const Vector3d middle(kRadius_m, 0, -0.003);
-  const double start = -kPi - 0.55, puncture_n = kPunctureArea_m2 * block.young_pa;
+  NeedleDrive drive(block);
+  const Vector3d middle(kNeedleArc_m, 0, -0.003);
+  const double start = -kArcPi - 0.55, puncture_n = kPunctureArea_m2 * block.young_pa;
   double first_n = 0, between_n = 1, second_n = 0;
-  drive.appear(Drive::at(middle, start));
-  drive.turn(middle, start, -kPi + 2.2, 0.1, [&](double) {
+  drive.appear(NeedleDrive::at(middle, start));
+  drive.turn(middle, start, -kArcPi + 2.2, 0.1, [&](double) {
     const Needle& needle = drive.needle();
     const Vector3d turning_nm = needle.torque_nm() - middle.cross(needle.force_n());  // about the arc's middle
-    const double along_n = -turning_nm.y() / kRadius_m;
+    const double along_n = -turning_nm.y() / kNeedleArc_m;
     if (needle.crossings() == 0) first_n = std::max(first_n, along_n);
     if (needle.crossings() == 3) between_n = std::min(between_n, along_n);
     if (needle.crossings() > 3) second_n = std::max(second_n, along_n);
@@ -224,13 +227,13 @@ TEST(Needle, FeelsBothSkinsOfASlab) {
 }
 
 TEST(Needle, GivesATissueWhatItFeels) {
-  Block block;
+  NeedleBlock block;
   block.plate = false;
   block.drag_per_s = 0;
-  Drive drive(block);
-  drive.appear(Drive::at(kMiddle, kStart));
+  NeedleDrive drive(block);
+  drive.appear(NeedleDrive::at(kArcMiddle, kBiteStart));
   double most_n_s = 0;
-  drive.turn(kMiddle, kStart, kLowest, 1, [&](double) {
+  drive.turn(kArcMiddle, kBiteStart, kBiteLowest, 1, [&](double) {
     const Vector3d has_n_s = drive.solver().momentum();
     most_n_s = std::max(most_n_s, has_n_s.norm());
     ASSERT_LT((has_n_s - drive.given_n_s).norm(), 1e-6 * std::max(most_n_s, 1e-6));
@@ -240,25 +243,25 @@ TEST(Needle, GivesATissueWhatItFeels) {
 }
 
 TEST(Needle, ComesOutTheWayItWentIn) {
-  Drive drive(Block{});
-  drive.appear(Drive::at(kMiddle, kStart));
+  NeedleDrive drive(NeedleBlock{});
+  drive.appear(NeedleDrive::at(kArcMiddle, kBiteStart));
   const auto nothing = [](double) {};
-  drive.turn(kMiddle, kStart, kLowest, 0.2, nothing);
+  drive.turn(kArcMiddle, kBiteStart, kBiteLowest, 0.2, nothing);
   ASSERT_GE(drive.needle().crossings(), 3u);
-  drive.turn(kMiddle, kLowest, kStart, 0.2, nothing);
+  drive.turn(kArcMiddle, kBiteLowest, kBiteStart, 0.2, nothing);
   EXPECT_FALSE(drive.needle().isInTissue());
   EXPECT_TRUE(drive.passed.empty());
-  drive.turn(kMiddle, kStart, kLowest, 0.2, nothing);
+  drive.turn(kArcMiddle, kBiteStart, kBiteLowest, 0.2, nothing);
   EXPECT_GE(drive.needle().crossings(), 3u);
 }
 
 TEST(Needle, GoesOnFromASavedStateToTheBit) {
-  Drive one(Block{}), two(Block{});
+  NeedleDrive one(NeedleBlock{}), two(NeedleBlock{});
   const auto nothing = [](double) {};
-  one.appear(Drive::at(kMiddle, kStart));
-  two.appear(Drive::at(kMiddle, kStart));
-  one.turn(kMiddle, kStart, kLowest, 0.2, nothing);
-  two.turn(kMiddle, kStart, kLowest, 0.2, nothing);
+  one.appear(NeedleDrive::at(kArcMiddle, kBiteStart));
+  two.appear(NeedleDrive::at(kArcMiddle, kBiteStart));
+  one.turn(kArcMiddle, kBiteStart, kBiteLowest, 0.2, nothing);
+  two.turn(kArcMiddle, kBiteStart, kBiteLowest, 0.2, nothing);
   EXPECT_EQ(one.solver().u_m, two.solver().u_m);
   Archive saved;
   saved.section("needle");
@@ -268,16 +271,16 @@ TEST(Needle, GoesOnFromASavedStateToTheBit) {
   read.section("needle");
   two.needle().persist(read);
   read.end();
-  one.turn(kMiddle, kLowest, 0, 0.2, nothing);
-  two.turn(kMiddle, kLowest, 0, 0.2, nothing);
+  one.turn(kArcMiddle, kBiteLowest, 0, 0.2, nothing);
+  two.turn(kArcMiddle, kBiteLowest, 0, 0.2, nothing);
   EXPECT_EQ(one.solver().u_m, two.solver().u_m);
   EXPECT_EQ(one.needle().crossings(), two.needle().crossings());
 }
 
 TEST(Needle, StaysInTissueWhereItIsLetGo) {
-  Drive drive(Block{});
-  drive.appear(Drive::at(kMiddle, kStart));
-  drive.turn(kMiddle, kStart, kLowest, 0.2, [](double) {});
+  NeedleDrive drive(NeedleBlock{});
+  drive.appear(NeedleDrive::at(kArcMiddle, kBiteStart));
+  drive.turn(kArcMiddle, kBiteStart, kBiteLowest, 0.2, [](double) {});
   const Vector3d tip = drive.needle().pose() * drive.needle().shape().at(0);
   for (double s = 0; s < 0.3; s += drive.dt_s()) drive.fall();
   EXPECT_LT((drive.needle().pose() * drive.needle().shape().at(0) - tip).norm(), 3e-3);
@@ -286,7 +289,7 @@ TEST(Needle, StaysInTissueWhereItIsLetGo) {
 }
 
 TEST(Needle, NeverComesThroughAnObstacle) {
-  const NeedleShape shape(Drive::halfCircle());
+  const NeedleShape shape(NeedleDrive::halfCircle());
   layout::ObstacleMotion plate{};
   plate.info.x = layout::kShapeBox;
   plate.half_size = {0.05F, 0.05F, 0.001F, 0};

@@ -16,12 +16,12 @@
 namespace viscera {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-constexpr double kArc_m = 0.008, kAbove_m = 0.003;  // the needle's circle: its radius, its middle over the skin
-constexpr double kTick_s = 1.0 / 60;
+constexpr double kSewnPi = 3.14159265358979323846;
+constexpr double kSewnArc_m = 0.008, kSewnAbove_m = 0.003;  // the needle's circle: its radius, its middle over the skin
+constexpr double kSewnTick_s = 1.0 / 60;
 
 /// A block on a plate, its skin at z = 0, and a needle with its tip over it; a thread upwards from the tail.
-Scene sceneOf(int threads) {
+Scene sewnBlock(int threads) {
   Scene scene;
   BodyConfig body;
   body.source = TissueSource::kBox;
@@ -39,10 +39,10 @@ Scene sceneOf(int threads) {
   stylus.button1 = ToolMode::kNeedle;
   scene.styluses.push_back(stylus);
   ThreadConfig thread;
-  thread.position_m = {kArc_m, 0, kAbove_m};
-  thread.path = {{{kArc_m, 0, kAbove_m + 0.09}}};
+  thread.position_m = {kSewnArc_m, 0, kSewnAbove_m};
+  thread.path = {{{kSewnArc_m, 0, kSewnAbove_m + 0.09}}};
   thread.needle.arc = NeedleArc::kHalfCircle;
-  thread.needle.radius_m = kArc_m;
+  thread.needle.radius_m = kSewnArc_m;
   thread.needle.rotation_deg = {0, 180, 0};  // the tip at -x, heading down
   scene.threads.push_back(thread);
   scene.solver.backend = Backend::kCpu;
@@ -52,13 +52,13 @@ Scene sceneOf(int threads) {
 
 class Sewing {
  public:
-  explicit Sewing(int threads = 1, const Scene& scene = sceneOf(1)) : scene_(scene), model_(buildModel(scene)) {
+  explicit Sewing(int threads = 1, const Scene& scene = sewnBlock(1)) : scene_(scene), model_(buildModel(scene)) {
     scene_.solver.threads = threads;
     solver_ = std::make_unique<CpuSolver>(model_, scene_);
   }
   /// Of the hand: its tip on the needle's middle of wire, turned with it.
   static Pose handAt(double turn_rad) {
-    return {Vector3d(0, 0, kAbove_m), Quaterniond(Eigen::AngleAxisd(-turn_rad, Vector3d::UnitY()))};
+    return {Vector3d(0, 0, kSewnAbove_m), Quaterniond(Eigen::AngleAxisd(-turn_rad, Vector3d::UnitY()))};
   }
   void handIsAt(double turn_rad) { at_ = handAt(turn_rad); }
   void tick(const Pose& to, ToolMode mode) {
@@ -74,7 +74,7 @@ class Sewing {
   /// About the middle of its circle, with what is around it.
   template <class Look>
   void turn(double from_rad, double to_rad, double speed_m_per_s, const Look& look) {
-    const double step = std::copysign(speed_m_per_s * kTick_s / kArc_m, to_rad - from_rad);
+    const double step = std::copysign(speed_m_per_s * kSewnTick_s / kSewnArc_m, to_rad - from_rad);
     for (double angle = from_rad; (to_rad - angle) * step > 0; angle += step) {
       tick(handAt(angle), ToolMode::kNeedle);
       look(angle);
@@ -86,7 +86,7 @@ class Sewing {
   const Needle& needle() const { return *solver_->threads()->needle(0); }
   CpuSolver& solver() { return *solver_; }
   double force_n() const {
-    return Vector3d(stats.impulse[0].x, stats.impulse[0].y, stats.impulse[0].z).norm() / kTick_s;
+    return Vector3d(stats.impulse[0].x, stats.impulse[0].y, stats.impulse[0].z).norm() / kSewnTick_s;
   }
   uint64_t hash() const { return solver_->threads()->hashWith(stateHash(model_, solver_->readState())); }
   layout::TickStats stats{};
@@ -102,17 +102,17 @@ class Sewing {
 
 /// The hand holds the needle at its tail.
 constexpr double kReachAll_m = 0.02;
-Scene scene() {
-  Scene out = sceneOf(1);
+Scene sewnScene() {
+  Scene out = sewnBlock(1);
   out.styluses[0].grab.radius_m = kReachAll_m;
   return out;
 }
 
 TEST(Needles, AHandDrivesOneThroughAndLetsItGo) {
-  Sewing sewing(1, scene());
+  Sewing sewing(1, sewnScene());
   double most_n = 0, worst = 0;
   size_t most = 0;
-  sewing.turn(0, 1.4 * kPi, 0.05, [&](double) {
+  sewing.turn(0, 1.4 * kSewnPi, 0.05, [&](double) {
     most_n = std::max(most_n, sewing.force_n());
     most = std::max(most, sewing.needle().crossings());
     const Chain& chain = sewing.solver().threads()->chain(0);
@@ -133,7 +133,7 @@ TEST(Needles, AHandDrivesOneThroughAndLetsItGo) {
 }
 
 TEST(Needles, OneThatIsFreeHangsOnItsThread) {
-  Scene hanging = scene();
+  Scene hanging = sewnScene();
   ThreadConfig& thread = hanging.threads[0];
   thread.path = {{{0.06, 0, 0.05}}};
   thread.position_m = {0.05, 0, 0.05};
@@ -147,7 +147,7 @@ TEST(Needles, OneThatIsFreeHangsOnItsThread) {
 }
 
 TEST(Needles, AHandTakesOnlyWhatIsInReachAndAgainAtTheTip) {
-  Scene near = scene();
+  Scene near = sewnScene();
   near.styluses[0].grab.radius_m = 0.002;
   near.environment.gravity_m_per_s2.setZero();
   Sewing sewing(1, near);
@@ -157,7 +157,7 @@ TEST(Needles, AHandTakesOnlyWhatIsInReachAndAgainAtTheTip) {
     for (int i = 0; i < 3; ++i) sewing.tick({to, Quaterniond::Identity()}, mode);  // and stands still
     sewing.tick({to, Quaterniond::Identity()}, ToolMode::kNone);
   };
-  const Vector3d tip(-kArc_m, 0, kAbove_m), aside(0, 0.003, 0), up(0, 0, 0.002);
+  const Vector3d tip(-kSewnArc_m, 0, kSewnAbove_m), aside(0, 0.003, 0), up(0, 0, 0.002);
   const auto tipNow = [&] { return Vector3d(sewing.needle().pose() * sewing.needle().shape().at(0)); };
   move(tip + aside, tip + aside + up, ToolMode::kNeedle);
   EXPECT_LT((tipNow() - tip).norm(), 1e-3);
@@ -166,16 +166,16 @@ TEST(Needles, AHandTakesOnlyWhatIsInReachAndAgainAtTheTip) {
 }
 
 TEST(Needles, StatesAreTheSameInEveryRunAndWithAnyNumberOfThreads) {
-  Sewing one(1, scene()), again(1, scene()), four(4, scene());
-  for (Sewing* sewing : {&one, &again, &four}) sewing->turn(0, kPi, 0.2);
+  Sewing one(1, sewnScene()), again(1, sewnScene()), four(4, sewnScene());
+  for (Sewing* sewing : {&one, &again, &four}) sewing->turn(0, kSewnPi, 0.2);
   EXPECT_EQ(one.hash(), again.hash());
   EXPECT_EQ(one.hash(), four.hash());
 }
 
 TEST(Needles, GoOnFromASavedStateToTheBit) {
-  Sewing first(1, scene()), second(1, scene());
-  first.turn(0, kPi, 0.2);
-  first.tick(Sewing::handAt(kPi), ToolMode::kNeedle);
+  Sewing first(1, sewnScene()), second(1, sewnScene());
+  first.turn(0, kSewnPi, 0.2);
+  first.tick(Sewing::handAt(kSewnPi), ToolMode::kNeedle);
   second.turn(0, 0.2, 0.2);
   Archive saved;
   first.solver().persist(saved);
@@ -183,17 +183,17 @@ TEST(Needles, GoOnFromASavedStateToTheBit) {
   second.solver().persist(read);
   read.end();
   EXPECT_EQ(first.hash(), second.hash());
-  first.turn(kPi, 1.3 * kPi, 0.2);
-  second.handIsAt(kPi);
-  second.turn(kPi, 1.3 * kPi, 0.2);
+  first.turn(kSewnPi, 1.3 * kSewnPi, 0.2);
+  second.handIsAt(kSewnPi);
+  second.turn(kSewnPi, 1.3 * kSewnPi, 0.2);
   EXPECT_GE(second.needle().crossings(), 3u);
   EXPECT_EQ(first.hash(), second.hash());
 }
 
 TEST(Needles, ResetPutsThemBack) {
-  Sewing sewing(1, scene()), fresh(1, scene());
+  Sewing sewing(1, sewnScene()), fresh(1, sewnScene());
   const uint64_t before = sewing.hash();
-  sewing.turn(0, kPi, 0.2);
+  sewing.turn(0, kSewnPi, 0.2);
   EXPECT_NE(sewing.hash(), before);
   sewing.solver().reset();
   EXPECT_EQ(sewing.hash(), before);
