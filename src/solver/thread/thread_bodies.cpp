@@ -65,8 +65,9 @@ void ThreadBodies::plan(Steps& steps, int count, const ObstacleMotions& obstacle
   if (!obstacles_.empty()) interpolateObstacles(obstacles_, obstacles, count, tick_s_, steps.ways);
 }
 
-void ThreadBodies::setCuts(const CutSprings& cuts) {
+void ThreadBodies::setCuts(const Model& model, const CutSprings& cuts) {
   tissue_->setCuts(cuts);
+  lips_.find(model, cuts);
   for (Thread& thread : threads_) thread.channels.embedAgain(*tissue_, thread.around.slides);
   needles_->embedAgain(*tissue_);
 }
@@ -92,6 +93,7 @@ std::vector<const TissuePoint*> ThreadBodies::tiedPoints() const {
   for (const Thread& thread : threads_) {
     if (thread.tied) thread.channels.addPoints(out);
   }
+  if (!out.empty()) lips_.addPoints(out);
   return out;
 }
 
@@ -124,6 +126,7 @@ bool ThreadBodies::act(BladeTarget& target, int index) {
       if (threads_[t].tied) substep(t, tied_, index * per_substep_ + s);
     }
   }
+  lips_.part(*tissue_, per_substep_ * dt_s);
   tissue_->write(target, layout::kMaxStyluses, per_substep_ * dt_s);
   work_j_ += tissue_->work_j();
   bool cut = false;

@@ -13,6 +13,7 @@
 #include "solver/thread/thread_hands.h"
 #include "solver/thread/thread_touches.h"
 #include "solver/thread/tissue_points.h"
+#include "solver/thread/wound_lips.h"
 #include "viscera/model/model.h"
 #include "viscera/model/scene/scene.h"
 #include "viscera/tools/obstacles.h"
@@ -31,7 +32,7 @@ class ThreadBodies {
   /// Are threads tied to tissue, now or later?
   bool feelTissue() const { return tissue_ != nullptr; }
   /// Springs that are cut, only where they feel it.
-  void setCuts(const CutSprings& cuts);
+  void setCuts(const Model& model, const CutSprings& cuts);
 
   /// @param motions  of the tick, as solvers take them   @param obstacles  of the scene, over the tick
   /// @param substeps  of the tissue
@@ -86,6 +87,7 @@ class ThreadBodies {
   double tick_s_;
   bool can_cut_;
   std::unique_ptr<TissuePoints> tissue_;  ///< null: none is tied to it
+  WoundLips lips_;
   ThreadHands hands_;
   std::optional<Needles> needles_;  ///< only where there are some
   std::vector<Thread> threads_;

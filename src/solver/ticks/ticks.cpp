@@ -75,7 +75,7 @@ void Ticks::step(const ToolMotions& motions, const ObstacleMotions& obstacles) {
       motions_[s].timing.x = static_cast<float>(restarted_ ? 0 : last_dt_s_);
     backend_->writeMotions(motions_);
   }
-  if (threads_ && threads_->feelTissue() && readCuts(thread_cuts_)) threads_->setCuts(thread_cuts_);
+  if (threads_ && threads_->feelTissue() && readCuts(thread_cuts_)) threads_->setCuts(model_, thread_cuts_);
   if (threads_) threads_->beginTick(motions, surroundings_ ? surroundings_->motions() : obstacles, n_);
   for (int s = 0; s < n_; ++s) {
     if (contacts || cuts) backend_->selectMotions(static_cast<size_t>(s));

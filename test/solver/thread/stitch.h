@@ -12,17 +12,26 @@ namespace viscera::test {
 constexpr double kStitchSpacing_m = 0.003;
 constexpr int kSlitLayer = 5;  // of nodes on the one side of the slit; the next one is on the other
 
-/// 33 x 30 x 9 mm of tissue with a slit of 21 mm through it, its two ends fixed.
-inline Body slitBox(double young_modulus_pa = 1e4) {
+/// 33 x 30 x 9 mm of tissue, its two ends fixed.
+inline Body stitchBox() {
   Body body = boxBody({11, 10, 3}, kStitchSpacing_m);
-  body.material.young_modulus_pa = young_modulus_pa;
+  body.material.young_modulus_pa = 1e4;
   body.material.density_kg_per_m3 = 1000;
+  for (const uint32_t slot : body.lattice.active_slots) {
+    const int x = body.lattice.nodeAt(slot).x();
+    if (x == 0 || x == 11) body.lattice.nodes[slot].lo |= layout::kFixedBit;
+  }
+  return body;
+}
+
+/// With a slit of 21 mm through it.
+inline Body slitBox() {
+  Body body = stitchBox();
   Lattice& lattice = body.lattice;
   const auto isSlit = [](double y) { return y > 1.4 && y < 8.6; };
   for (const uint32_t slot : lattice.active_slots) {
     const Vector3i node = lattice.nodeAt(slot);
     layout::NodeBits& bits = lattice.nodes[slot];
-    if (node.x() == 0 || node.x() == 11) bits.lo |= layout::kFixedBit;
     if (node.x() == kSlitLayer && isSlit(node.y() + 0.5)) bits.lo &= ~layout::kCellBit;
     for (uint32_t s = 0; s < layout::kSpringsPerNode; ++s) {
       const auto& way = kNeighborOffsets[s];
@@ -64,9 +73,11 @@ inline Scene stitchScene(double most_n = 0.1) {
   return scene;
 }
 
-/// Its faces are pulled apart by as much on either side.
+/// It is cut as slitBox() is, and its faces are pulled apart by as much on either side.
 inline void pullApart(Ticks& solver, const Body& body, double by_m) {
   HostState state = solver.readState();
+  const Body slit = slitBox();
+  std::copy(slit.lattice.nodes.begin(), slit.lattice.nodes.end(), state.nodes.begin());
   constexpr double kHalf_m = 0.0165;
   for (const uint32_t slot : body.lattice.active_slots)
     state.displacement_m[slot].x = static_cast<float>((restPosition(body, slot).x() / kHalf_m - 1) * by_m);
