@@ -42,6 +42,19 @@ TEST(ThreadSuite, SlidesThroughChannelsAsOverACapstan) {
   }
 }
 
+TEST(ThreadSuite, KeepsItsMomentumAndThatOfTissue) {
+  const TissueTrial thrown = thrownThroughTissue();
+  EXPECT_LT(thrown.momentum, kMomentum);
+  EXPECT_LT(thrown.off_m, 1e-3);
+}
+
+TEST(ThreadSuite, KnotsHoldAndSlip) {
+  const KnotTrial pulled = pulledKnot();
+  EXPECT_LT(pulled.moved, 0.01);
+  EXPECT_NEAR(pulled.slips, 1, kCapstan);
+  EXPECT_LT(pulled.worst_link, kLink);
+}
+
 TEST(ThreadSuite, DoesNotStretch) {
   for (const double force_n : {0.01, 20.0}) {
     const PullTrial pulled = pulledBy(force_n);

@@ -12,6 +12,7 @@ namespace viscera::bench {
 namespace {
 
 constexpr double kBent = 0.02, kSag = 0.005, kCapstan = 0.05, kRipple = 0.03;
+constexpr double kHeldLinks = 0.01;  // what iterations leave
 constexpr double kLink = 1e-3, kMomentum = 1e-6;
 constexpr double kFrequency = 0.03;  // implicit in half: 2 % low where a period has 14 substeps
 constexpr double kDamping = 0.02;    // of the ratio
@@ -83,6 +84,25 @@ void channels(Report& report) {
     }
   }
   report.add(table, "channels");
+  const TissueTrial thrown = thrownThroughTissue();
+  report.note("Half a second of flight through three free masses that tear: momentum of both changed by " +
+              Cell(thrown.momentum).text(2) + " of the sum of m |v|, " + Cell(thrown.exchanged).text(2) +
+              " of the impulses between them; at most " + Cell(thrown.off_m / kMilli).text(2) + " mm off a channel\n");
+  report.checkAtMost("momentum of thread and tissue", thrown.momentum, kMomentum);
+}
+
+void knots(Report& report) {
+  const KnotTrial r = pulledKnot();
+  report.note("A knot that holds 0.2 N: pulled by 0.18 N, " + Cell(r.moved).text(2) +
+              " links come through; it slips at " + Cell(r.slips).text(4) + " of what it holds, its points at most " +
+              Cell(r.off_m / kMilli).text(2) + " mm apart\n");
+  report.checkAtMost("links through a knot that holds", r.moved, kHeldLinks);
+  report.checkAtMost("force at which a knot slips", std::abs(r.slips - 1), kCapstan);
+  report.checkAtMost("links of a knotted thread", r.worst_link, kLink);
+  Table table("An iteration of 300 nodes, of one processor", {{"channels"}, {"knots"}, {"iteration", "us", 3}});
+  for (const auto& [channels, knots] : {std::pair<size_t, size_t>{0, 0}, {6, 0}, {24, 0}, {0, 1}, {6, 1}, {6, 4}})
+    table.add({static_cast<double>(channels), static_cast<double>(knots), iterationCost_us(channels, knots)});
+  report.add(table, "knots");
 }
 
 void pulling(Report& report) {
@@ -160,6 +180,7 @@ void threadSuite(Report& report) {
                         {"hanging", hanging},
                         {"sliding", sliding},
                         {"channels", channels},
+                        {"knots", knots},
                         {"pulling", pulling},
                         {"swinging", swinging},
                         {"cost", cost},

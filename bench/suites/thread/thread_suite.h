@@ -6,8 +6,8 @@
 
 namespace viscera::bench {
 
-/// Threads beside the laws of docs/thread.md: bending, hanging, sliding over things and through channels, pulling,
-/// flight, cost, stress.
+/// Threads beside the laws of docs/thread.md: bending, hanging, sliding over things and through channels, knots,
+/// pulling, flight, cost, stress.
 void threadSuite(Report& report);
 
 }  // namespace viscera::bench

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 
 #include "bench/suites/thread/threads.h"
 #include "solver/thread/thread_touches.h"
@@ -42,12 +41,6 @@ double speedOf(const Chain& chain) {
   double out = 0;
   for (const Vector3d& v : chain.velocities_m_per_s()) out = std::max(out, v.norm());
   return out;
-}
-
-double cpuTime_s() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
 /// A rod along y through a place, and the ground below a height.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cmath>
+#include <ctime>
 #include <vector>
 
 #include "solver/thread/chain.h"
@@ -31,6 +32,12 @@ inline ChainHold holdAt(const Chain& chain, uint32_t node) {
   out.node = node;
   out.to_m = chain.places_m()[node];
   return out;
+}
+
+inline double cpuTime_s() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
 }  // namespace viscera::bench
