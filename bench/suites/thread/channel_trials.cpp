@@ -42,6 +42,35 @@ struct Corners {
   std::vector<double> at_m;
 };
 
+constexpr double kMass_kg = 2e-5;
+
+/// Tissue that is a free mass at each of three channels.
+struct FreeMasses {
+  FreeMasses() { speeds.fill(Vector3d::Zero()); }
+  ChainAround around(double link_m) {
+    ChainAround out;
+    for (size_t c = 0; c < places.size(); ++c) {
+      ChainSlide slide;
+      slide.s = 20.3 + 17.8 * static_cast<double>(c);
+      slide.mass_kg = kMass_kg;
+      slide.friction = kFriction;
+      slide.through_n = 1e-3;
+      slide.most_n = 0.05;
+      places[c] = Vector3d(slide.s * link_m, 0, 0);
+      out.slides.push_back(slide);
+    }
+    out.answer = [this](std::vector<ChainSlide>& slides) {
+      for (size_t c = 0; c < slides.size(); ++c) {
+        speeds[c] += (slides[c].impulse_ns - given[c]) / kMass_kg;
+        given[c] = slides[c].impulse_ns;
+        slides[c].to_m = places[c] + kSubstep_s * speeds[c];
+      }
+    };
+    return out;
+  }
+  std::array<Vector3d, 3> places, speeds, given;
+};
+
 }  // namespace
 
 ChannelTrial drawnThroughChannels(size_t channels, double bending_share, double back_n) {
@@ -80,7 +109,7 @@ ChannelTrial drawnThroughChannels(size_t channels, double bending_share, double 
 }
 
 TissueTrial thrownThroughTissue() {
-  constexpr double kLink_m = 5e-4, kMass_kg = 2e-5;
+  constexpr double kLink_m = 5e-4;
   Chain chain(nylon(0.1), straight(80, kLink_m));
   std::vector<Vector3d> way(chain.nodes());
   for (size_t i = 0; i < way.size(); ++i) {
@@ -88,26 +117,8 @@ TissueTrial thrownThroughTissue() {
     way[i] = Vector3d(0.3, std::sin(9 * share), std::cos(5 * share));
   }
   chain.setVelocities(way);
-  ChainAround around;
-  std::array<Vector3d, 3> places, speeds, given;
-  speeds.fill(Vector3d::Zero());
-  for (size_t c = 0; c < places.size(); ++c) {
-    ChainSlide slide;
-    slide.s = 20.3 + 17.8 * static_cast<double>(c);
-    slide.mass_kg = kMass_kg;
-    slide.friction = kFriction;
-    slide.through_n = 1e-3;
-    slide.most_n = 0.05;
-    places[c] = Vector3d(slide.s * kLink_m, 0, 0);
-    around.slides.push_back(slide);
-  }
-  around.answer = [&](std::vector<ChainSlide>& slides) {
-    for (size_t c = 0; c < slides.size(); ++c) {
-      speeds[c] += (slides[c].impulse_ns - given[c]) / kMass_kg;
-      given[c] = slides[c].impulse_ns;
-      slides[c].to_m = places[c] + kSubstep_s * speeds[c];
-    }
-  };
+  FreeMasses tissue;
+  ChainAround around = tissue.around(kLink_m);
   double size = 0;
   const auto momentum = [&] {
     Vector3d out = Vector3d::Zero();
@@ -116,7 +127,7 @@ TissueTrial thrownThroughTissue() {
       size += p.norm();
     };
     for (size_t i = 0; i < chain.nodes(); ++i) add(chain.mass_kg(i) * chain.velocities_m_per_s()[i]);
-    for (const Vector3d& speed : speeds) add(kMass_kg * speed);
+    for (const Vector3d& speed : tissue.speeds) add(kMass_kg * speed);
     return out;
   };
   TissueTrial out;
@@ -128,14 +139,15 @@ TissueTrial thrownThroughTissue() {
       first = momentum();
       first_size = size;
     }
-    given.fill(Vector3d::Zero());
+    tissue.given.fill(Vector3d::Zero());
     chain.step(kSubstep_s, around);
-    for (size_t c = 0; c < places.size(); ++c) {
+    for (size_t c = 0; c < tissue.places.size(); ++c) {
       const ChainSlide& slide = around.slides[c];
       exchanged_ns += slide.impulse_ns.norm();
-      places[c] += kSubstep_s * speeds[c] + slide.torn_m;
+      tissue.places[c] += kSubstep_s * tissue.speeds[c] + slide.torn_m;
       if (!slide.out)
-        out.off_m = std::max(out.off_m, (ChainPoint(slide.s, chain.nodes()).of(chain.places_m()) - places[c]).norm());
+        out.off_m =
+            std::max(out.off_m, (ChainPoint(slide.s, chain.nodes()).of(chain.places_m()) - tissue.places[c]).norm());
     }
   }
   const double changed = (momentum() - first).norm();
