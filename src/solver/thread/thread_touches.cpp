@@ -11,6 +11,8 @@ namespace {
 
 constexpr double kReachSteps = 2;  // nodes that are as near as they go in so many substeps
 constexpr double kDeep = 2;        // radii of the thread: from farther inside the way out is where the node came from
+constexpr double kSunk = 0.5;      // radii from a thing: nearer than that no touch that knows the thing lets a node
+constexpr int kMostLaid = 4;       // times in a substep
 
 Vector3d xyz(const layout::vec4& v) {
   return {v.x, v.y, v.z};
@@ -76,6 +78,7 @@ ObstacleSide sideOf(const layout::ObstacleMotion& obstacle, const Vector3d& plac
 
 void ThreadTouches::find(const Chain& chain, const layout::ObstacleMotion* obstacles, uint32_t count, double dt_s,
                          std::vector<ChainTouch>& touches) {
+  laid_ = 0;
   before_.swap(touches);
   touches.clear();
   auto kept = before_.cbegin();
@@ -102,14 +105,18 @@ void ThreadTouches::find(const Chain& chain, const layout::ObstacleMotion* obsta
 }
 
 bool ThreadTouches::catchUp(const Chain& chain, const layout::ObstacleMotion* obstacles, uint32_t count, double dt_s,
-                            const std::vector<Vector3d>& ends_m, std::vector<ChainTouch>& touches) const {
-  bool any = false;
+                            const std::vector<Vector3d>& ends_m, std::vector<ChainTouch>& touches) {
+  bool any = false, deep = false;
   for (uint32_t node = 0; node < chain.nodes(); ++node) {
     for (uint32_t thing = 0; thing < count; ++thing) {
-      if (sideOf(obstacles[thing], ends_m[node]).distance_m > chain.material().radius_m) continue;
+      const double distance_m = sideOf(obstacles[thing], ends_m[node]).distance_m;
+      if (distance_m > chain.material().radius_m) continue;
       const Number number{node, thing};
       const auto place = std::lower_bound(touches.begin(), touches.end(), number, earlier);
-      if (place != touches.end() && numberOf(*place) == number) continue;
+      if (place != touches.end() && numberOf(*place) == number) {
+        deep |= distance_m < kSunk * chain.material().radius_m;
+        continue;
+      }
       ChainTouch touch;
       touch.node = node;
       touch.thing = thing;
@@ -120,7 +127,24 @@ bool ThreadTouches::catchUp(const Chain& chain, const layout::ObstacleMotion* ob
       any = true;
     }
   }
-  return any;
+  return (deep && layAgain(chain, obstacles, dt_s, ends_m, touches)) || any;
+}
+
+/// Half spaces of a thread that flies round a thing may ask for more thread than there is, and press it in elsewhere.
+bool ThreadTouches::layAgain(const Chain& chain, const layout::ObstacleMotion* obstacles, double dt_s,
+                             const std::vector<Vector3d>& ends_m, std::vector<ChainTouch>& touches) {
+  if (laid_++ == kMostLaid) return false;
+  for (ChainTouch& touch : touches) {
+    if (!touch.closed) continue;
+    Vector3d at = ends_m[touch.node];
+    ObstacleSide nearest = sideOf(obstacles[touch.thing], at);
+    if (nearest.distance_m < -kDeep * chain.material().radius_m) {
+      at = chain.places_m()[touch.node];
+      nearest = sideOf(obstacles[touch.thing], at);
+    }
+    lay(touch, obstacles[touch.thing], at, nearest, dt_s);
+  }
+  return true;
 }
 
 }  // namespace viscera

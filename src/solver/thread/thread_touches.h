@@ -25,13 +25,18 @@ class ThreadTouches {
   /// @param obstacles  over the substep to come   @param touches  of the last substep, and then of this
   void find(const Chain& chain, const layout::ObstacleMotion* obstacles, uint32_t count, double dt_s,
             std::vector<ChainTouch>& touches);
-  /// Of nodes that were jerked into an obstacle from farther away: they stay on the side from which they came.
+  /// Of nodes that were jerked into an obstacle from farther away: they stay on the side from which they came. Where
+  /// the chain is pressed into what it touches, all that touch are laid again.
   /// @param ends_m  of all nodes   @returns whether there were any
   bool catchUp(const Chain& chain, const layout::ObstacleMotion* obstacles, uint32_t count, double dt_s,
-               const std::vector<Vector3d>& ends_m, std::vector<ChainTouch>& touches) const;
+               const std::vector<Vector3d>& ends_m, std::vector<ChainTouch>& touches);
 
  private:
+  bool layAgain(const Chain& chain, const layout::ObstacleMotion* obstacles, double dt_s,
+                const std::vector<Vector3d>& ends_m, std::vector<ChainTouch>& touches);
+
   std::vector<ChainTouch> before_;
+  int laid_ = 0;  ///< again, in this substep
 };
 
 }  // namespace viscera

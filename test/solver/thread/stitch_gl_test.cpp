@@ -158,7 +158,7 @@ TEST_P(Stitch, TearsOutOfTissueThatItPullsTooHard) {
     ASSERT_LT(solver->threads()->chain(0).worstLink(), kLink) << t;
   }
   EXPECT_GT(lastStats(*solver).springs_cut, before);
-  EXPECT_LT(solver->threads()->channels(0), 6U);
+  EXPECT_LT(solver->threads()->slides(0).size(), 6U);
   EXPECT_TRUE(isFinite(solver->readState()));
   EXPECT_EQ(solver->health().trips, 0U);
 }
