@@ -382,7 +382,7 @@ void BladeEdge::stickAgain() {
     const Vector3d across = front.way - front.way.dot(along_) * along_;
     const Vector3d forward = unit(across), side = forward.cross(along_);
     if (forward.isZero() || !(pushes_[i].edge_velocity.dot(forward) > 0)) continue;
-    if (!isWhole(front.at + kAhead * h_ * forward, side)) continue;
+    if (!goesIntoWhole(i, kAhead * h_ * forward, side)) continue;
     front.stuck = front.cuts = 1;
     front.forward = forward;
     const Vector3d behind = front.at - kAhead * h_ * forward;

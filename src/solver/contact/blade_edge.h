@@ -126,6 +126,7 @@ class BladeEdge {
   void cutBehind(BladeTarget& target, bool all);
   void countArea(size_t i, const Vector3d& step);
   void stickAgain();
+  bool goesIntoWhole(size_t i, const Vector3d& ahead, const Vector3d& side) const;
   bool isWhole(const Vector3d& ahead, const Vector3d& side) const;
   Vector3d toRest(size_t i, const Vector3d& gap) const;
   double drawnBy(const Vector3d& way) const;

@@ -45,6 +45,22 @@ void BladeEdge::findLengths() {
   }
 }
 
+/// Is what lies ahead whole tissue? That of the nearest place where there is some, of the edge that sample i stands
+/// for: where there is none nothing is parted. @param ahead  from its front, at rest
+bool BladeEdge::goesIntoWhole(size_t i, const Vector3d& ahead, const Vector3d& side) const {
+  const Vector3d& from = fronts_[i].at;
+  const Vector3d ways[2] = {fronts_[i > 0 ? i - 1 : i].at - from,
+                            fronts_[std::min(i + 1, fronts_.size() - 1)].at - from};
+  const int strips = stripsOf(std::max(ways[0].norm(), ways[1].norm()));
+  for (int s = 0; s <= strips; ++s) {
+    for (const Vector3d& way : ways) {
+      const Vector3d at = from + ahead + static_cast<double>(s) / strips * way;
+      if (tissue_.isTissue(at)) return isWhole(at, side);
+    }
+  }
+  return false;
+}
+
 /// The area that a sample parts at rest over that which its edge sweeps in the tissue as it is: toughness is work per
 /// area at rest.
 double BladeEdge::partedPerSwept(size_t i) const {

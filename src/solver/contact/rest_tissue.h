@@ -38,6 +38,8 @@ class RestTissue {
   /// How much of a cube of half a spacing around a place is tissue, 0 to 1; a sheet's thickness is spread to both
   /// sides.
   double fill(const Vector3d& at_m) const { return fill_.at(at_m); }
+  /// Is any there, and would it be noted that it has been parted?
+  bool isTissue(const Vector3d& at_m) const { return fill(at_m) > 0 && halfAt(halfCell(at_m)) < parted_.size(); }
   bool isSheet() const { return fill_.isSheet(); }
   const RestToughness& toughness() const { return toughness_; }
   /// Notes that a quadrilateral p q r s of tissue at rest has been parted.
