@@ -3,7 +3,6 @@
 #include "render/thread_painter.h"
 
 #include <algorithm>
-#include <cstddef>
 #include <utility>
 
 #include "render/mesh_uniforms.h"
@@ -38,12 +37,7 @@ ThreadPainter::ThreadPainter(std::vector<ThreadLook> threads)
       program_(gpu::Program::graphics("mesh.vert", "tool.frag")),
       vertices_(allVertices(threads_), "threads"),
       indices_(longestTube(threads_), "threads") {
-  constexpr GLuint kBinding = 0;
-  inputs_.describe(kPositionInput, kBinding, 3, GL_FLOAT, GL_FALSE, offsetof(ToolVertex, position_m));
-  inputs_.describe(kNormalInput, kBinding, 3, GL_FLOAT, GL_FALSE, offsetof(ToolVertex, normal));
-  inputs_.describe(kColorInput, kBinding, 4, GL_UNSIGNED_BYTE, GL_TRUE, offsetof(ToolVertex, color));
-  glVertexArrayVertexBuffer(inputs_.id(), kBinding, vertices_.id(), 0, sizeof(ToolVertex));
-  glVertexArrayElementBuffer(inputs_.id(), indices_.id());
+  inputs_.readTools(vertices_.id(), indices_.id());
 }
 
 /// The tube of a thread as a camera sees it.

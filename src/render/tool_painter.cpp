@@ -3,7 +3,6 @@
 #include "render/tool_painter.h"
 
 #include <algorithm>
-#include <cstddef>
 
 #include "render/mesh_uniforms.h"
 #include "viscera/layout/picture_labels.h"
@@ -26,12 +25,7 @@ ToolPainter::ToolPainter(const std::vector<StylusConfig>& styluses)
   }
   vertices_ = gpu::Buffer<ToolVertex>(vertices);
   indices_ = gpu::Buffer<uint32_t>(indices);
-  constexpr GLuint kBinding = 0;
-  inputs_.describe(kPositionInput, kBinding, 3, GL_FLOAT, GL_FALSE, offsetof(ToolVertex, position_m));
-  inputs_.describe(kNormalInput, kBinding, 3, GL_FLOAT, GL_FALSE, offsetof(ToolVertex, normal));
-  inputs_.describe(kColorInput, kBinding, 4, GL_UNSIGNED_BYTE, GL_TRUE, offsetof(ToolVertex, color));
-  glVertexArrayVertexBuffer(inputs_.id(), kBinding, vertices_.id(), 0, sizeof(ToolVertex));
-  glVertexArrayElementBuffer(inputs_.id(), indices_.id());
+  inputs_.readTools(vertices_.id(), indices_.id());
 }
 
 bool ToolPainter::showsAny(const ToolMotions& motions) const {

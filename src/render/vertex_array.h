@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
+
 #include "gpu/gl.h"
+#include "render/shapes/tool_shape.h"
 
 namespace viscera {
 
@@ -25,6 +28,15 @@ class VertexArray {
     glEnableVertexArrayAttrib(id_, input);
     glVertexArrayAttribFormat(id_, input, size, type, normalized, offset);
     glVertexArrayAttribBinding(id_, input, binding);
+  }
+  /// All that mesh.vert reads of tools: vertices that are ToolVertex, and their indices.
+  void readTools(GLuint vertices, GLuint indices) {
+    constexpr GLuint kBinding = 0;
+    describe(kPositionInput, kBinding, 3, GL_FLOAT, GL_FALSE, offsetof(ToolVertex, position_m));
+    describe(kNormalInput, kBinding, 3, GL_FLOAT, GL_FALSE, offsetof(ToolVertex, normal));
+    describe(kColorInput, kBinding, 4, GL_UNSIGNED_BYTE, GL_TRUE, offsetof(ToolVertex, color));
+    glVertexArrayVertexBuffer(id_, kBinding, vertices, 0, sizeof(ToolVertex));
+    glVertexArrayElementBuffer(id_, indices);
   }
   GLuint id() const { return id_; }
 

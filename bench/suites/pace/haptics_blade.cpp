@@ -8,16 +8,12 @@
 #include <utility>
 #include <vector>
 
-#include "haptics/force_loop.h"
-#include "viscera/haptics/simulated_device.h"
-#include "viscera/session/session.h"
+#include "bench/suites/pace/held_trial.h"
 
 namespace viscera::bench {
 namespace {
 
 constexpr double kLength_m = 0.06, kAcross_m = 0.04, kThick_m = 0.012, kSpacing_m = 0.004, kOver_m = 0.003;
-constexpr double kPeriod_s = 1e-3, kHour_s = 3600, kStallTicks = 3;
-constexpr double kComputing = 0.5;     ///< of a tick: then its answer is there
 constexpr double kTip_m = 0.008;       ///< for the model's first guess of a stiffness
 constexpr double kGivesWay_m = 0.003;  ///< J / E
 constexpr double kActive_mj = 1;       ///< energy that the loop may give beyond what it got
@@ -75,31 +71,12 @@ Scene sceneOf(const BladeTrial& trial) {
   return scene;
 }
 
-struct Range {
-  double least = 1e300, most = -1e300, sum = 0;
-  int count = 0;
-  void add(double value) {
-    least = std::min(least, value);
-    most = std::max(most, value);
-    sum += value;
-    ++count;
-  }
-  double mean() const { return count ? sum / count : 0; }
-};
-
-/// Force and depth of a time that is looked at; what the ticks had of it.
-struct Look {
-  Range force, depth, ticks;
-};
-
-class Trial {
+class Trial : public HeldTrial {
  public:
   explicit Trial(const BladeTrial& trial)
-      : trial_(trial),
-        scene_(sceneOf(trial)),
-        session_(scene_),
-        device_(deviceOf(trial), tipAt(0)),
-        loop_({stylusOf()}, true, kStallTicks * session_.tick_s()) {}
+      : HeldTrial(sceneOf(trial), {trial.mass_kg, trial.delay_s, trial.poses_hz, 1 / kPeriod_s, kTip_m}, tipAt(0)) {
+    hand_.listens = true;
+  }
 
   void run() {
     for (int i = 0; i * kPeriod_s < kEnd_s; ++i) {
@@ -111,67 +88,18 @@ class Trial {
       look();
     }
   }
-  double stiffness(const Range Look::*force) const {
+  double stiffness(const Looked LookedHold::*force) const {
     return ((looks_[1].*force).mean() - (looks_[0].*force).mean()) / (looks_[1].depth.mean() - looks_[0].depth.mean());
   }
-  const Look& level() const { return looks_[2]; }
-  const Look& held() const { return looks_[1]; }
+  const LookedHold& level() const { return looks_[2]; }
+  const LookedHold& held() const { return looks_[1]; }
   double least_mj() const { return 1e3 * least_j_; }
   double most_j() const { return most_j_; }
   double observed_mj() const { return 1e3 * loop_.felt(0).least_j; }
 
  private:
-  static SimulatedDeviceConfig deviceOf(const BladeTrial& trial) {
-    SimulatedDeviceConfig out;
-    out.mass_kg = trial.mass_kg;
-    out.delay_s = trial.delay_s;
-    return out;
-  }
-  ForceLoop::Stylus stylusOf() const {
-    ForceLoop::Stylus out{ForceLimits::of(scene_.styluses[0]), {}};
-    out.servo.period_s = kPeriod_s;
-    out.servo.tick_s = session_.tick_s();
-    out.servo.round_trip_s = trial_.delay_s;
-    out.servo.tissue = {trial_.young_modulus_pa, trial_.young_modulus_pa, scene_.bodies[0].material.poisson_ratio,
-                        kTip_m};
-    return out;
-  }
   static Vector3d tipAt(double time_s) {
     return {-0.5 * kLength_m + depthAt(time_s), 0.0003, -0.5 * kThick_m - kOver_m};
-  }
-  static SteadyTime at(double time_s) {
-    return SteadyTime(std::chrono::nanoseconds(std::llround(1e9 * (kHour_s + time_s))));
-  }
-
-  void hear() {
-    if (now_s_ + 0.5 * kPeriod_s < next_pose_s_) return;
-    next_pose_s_ += 1 / trial_.poses_hz;
-    hand_.tip_m = device_.measured_m();
-    hand_.told = at(now_s_);
-  }
-
-  void tick() {
-    if (now_s_ >= next_tick_s_) {
-      next_tick_s_ = now_s_ + session_.tick_s();
-      StylusSamples samples;
-      samples[0].valid = true;
-      samples[0].pose.position_m = hand_.tip_m;
-      const Frame frame = session_.step(samples, {});
-      answer_ = {frame.contacts[0].reaction, true, frame.contacts[0]};
-      answer_s_ = now_s_ + kComputing * session_.tick_s();
-    }
-    hand_.tracked = hand_.listens = true;
-    if (answer_s_ < 0 || now_s_ < answer_s_) return;
-    loop_.put({answer_}, {hand_}, at(now_s_));
-    ticks_n_ = answer_.reaction.force_n.norm();
-    ticked_ = true;
-    answer_s_ = -1;
-  }
-
-  void tell() {
-    if (!std::exchange(ticked_, false) && at(now_s_) < loop_.due()) return;
-    told_n_ = loop_.next({hand_}, at(now_s_))[0].force_n;
-    loop_.sent({told_n_}, at(now_s_));
   }
 
   void look() {
@@ -187,17 +115,8 @@ class Trial {
     }
   }
 
-  const BladeTrial trial_;
-  const Scene scene_;
-  Session session_;
-  SimulatedDevice device_;
-  ForceLoop loop_;
-  ForceLoop::Hand hand_;
-  ForceLoop::Tick answer_;
-  Vector3d told_n_ = Vector3d::Zero();
-  double now_s_ = 0, next_tick_s_ = 0, answer_s_ = -1, next_pose_s_ = 0, ticks_n_ = 0, least_j_ = 0, most_j_ = 0;
-  bool ticked_ = false;
-  Look looks_[3];
+  double least_j_ = 0, most_j_ = 0;
+  LookedHold looks_[3];
 };
 
 Table tableOf() {
@@ -239,9 +158,9 @@ void hapticsBlade(Report& report) {
           const double level = run.level().force.mean() / unit_n;
           const double swing = (run.level().force.most - run.level().force.least) / unit_n;
           table.add({young_modulus_pa / 1e3, trial.toughness_j_per_m2, 1e3 * delay_s, mass_kg, poses_hz,
-                     run.stiffness(&Look::force), run.stiffness(&Look::ticks), 100 * held, run.level().force.mean(),
-                     level, run.level().ticks.mean() / unit_n, swing, run.least_mj(), run.observed_mj(),
-                     1e3 * run.most_j()});
+                     run.stiffness(&LookedHold::force), run.stiffness(&LookedHold::ticks), 100 * held,
+                     run.level().force.mean(), level, run.level().ticks.mean() / unit_n, swing, run.least_mj(),
+                     run.observed_mj(), 1e3 * run.most_j()});
           if (poses_hz < kSwift_hz || delay_s > kShort_s || mass_kg > kLight_kg) continue;
           error = std::max(error, held);
           off = std::max(off, std::abs(level - 1));

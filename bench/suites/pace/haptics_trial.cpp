@@ -7,16 +7,12 @@
 #include <utility>
 #include <vector>
 
-#include "haptics/force_loop.h"
-#include "viscera/session/session.h"
+#include "bench/suites/pace/held_trial.h"
 
 namespace viscera::bench {
 namespace {
 
 constexpr double kSpacing_m = 0.005, kTop_m = 0.02, kRadius_m = 0.008;
-constexpr double kPeriod_s = 1e-3;
-/// After the start of a tick its answer is there: half a tick of computing.
-constexpr double kComputing = 0.5;
 /// Where the hand wants the tip, m above the surface, at these times [s].
 struct Key {
   double time_s, height_m;
@@ -86,38 +82,14 @@ Scene slab(double young_modulus_pa) {
   return scene;
 }
 
-/// Mean and range of what is looked at.
-struct Range {
-  double least = 1e300, most = -1e300, sum = 0;
-  int count = 0;
-  void add(double value) {
-    least = std::min(least, value);
-    most = std::max(most, value);
-    sum += value;
-    ++count;
-  }
-  double mean() const { return count ? sum / count : 0; }
-  double swing() const { return count ? 0.5 * (most - least) : 0; }
-};
-
-struct Hold {
-  Range force, depth, ticks;
-};
-
 Vector3d tipAt(double height_m) {
   return {0.0013, -0.0007, kTop_m + kRadius_m + height_m};
 }
 
-/// The hand, the device, what its driver tells, and the loop that answers it.
-class Trial {
+class Trial : public HeldTrial {
  public:
   explicit Trial(const HapticTrial& trial)
-      : trial_(trial),
-        scene_(slab(trial.young_modulus_pa)),
-        session_(scene_),
-        way_(wayOf(kSettle_s + kRings * ringOf(trial), trial.event)),
-        device_(deviceOf(trial), tipAt(heightAt(way_, 0))),
-        loop_({stylusOf(trial, scene_, session_)}, trial.rate_hz > 0, kStallTicks * session_.tick_s()) {}
+      : Trial(trial, {trial.mass_kg, trial.delay_s, trial.poses_hz, trial.rate_hz, kRadius_m}) {}
 
   HapticOutcome run() {
     const int periods = static_cast<int>(std::lround(way_.back().time_s / kPeriod_s));
@@ -134,27 +106,13 @@ class Trial {
   }
 
  private:
-  static SimulatedDeviceConfig deviceOf(const HapticTrial& trial) {
-    SimulatedDeviceConfig out;
-    out.mass_kg = trial.mass_kg;
-    out.delay_s = trial.delay_s;
-    return out;
-  }
-  static double ringOf(const HapticTrial& trial) {
-    const SimulatedDeviceConfig device = deviceOf(trial);
-    return 2 * trial.mass_kg / (device.damping_n_s_per_m + device.hand_damping_n_s_per_m);
-  }
-  static ForceLoop::Stylus stylusOf(const HapticTrial& trial, const Scene& scene, const Session& session) {
-    ForceLoop::Stylus out{ForceLimits::of(scene.styluses[0]), {}};
-    if (trial.rate_hz > 0) out.servo.period_s = 1 / trial.rate_hz;
-    out.servo.tick_s = session.tick_s();
-    out.servo.round_trip_s = trial.delay_s;
-    out.servo.tissue = {trial.young_modulus_pa, trial.young_modulus_pa, scene.bodies[0].material.poisson_ratio,
-                        kRadius_m};
-    return out;
-  }
-  static SteadyTime at(double time_s) {
-    return SteadyTime(std::chrono::nanoseconds(std::llround(1e9 * (kHour_s + time_s))));
+  Trial(const HapticTrial& trial, const Setting& setting) : Trial(trial, setting, ways(trial, setting)) {}
+  Trial(const HapticTrial& trial, const Setting& setting, const std::vector<Key>& way)
+      : HeldTrial(slab(trial.young_modulus_pa), setting, tipAt(heightAt(way, 0))), trial_(trial), way_(way) {}
+  static std::vector<Key> ways(const HapticTrial& trial, const Setting& setting) {
+    const SimulatedDeviceConfig device = deviceOf(setting);
+    const double ring_s = 2 * trial.mass_kg / (device.damping_n_s_per_m + device.hand_damping_n_s_per_m);
+    return wayOf(kSettle_s + kRings * ring_s, trial.event);
   }
   bool within(double from_s, double to_s) const { return now_s_ >= from_s && now_s_ < to_s; }
 
@@ -167,42 +125,6 @@ class Trial {
     const double base_m = event == HapticEvent::kLeap && within(kEvent_s, kReturns_s) ? kBaseLeap_m : 0;
     if (base_m != base_m_) appears_anew_ = true;
     base_m_ = base_m;
-  }
-
-  /// The newest pose, of a driver that tells so many a second.
-  void hear() {
-    if (now_s_ + 0.5 * kPeriod_s < next_pose_s_) return;
-    next_pose_s_ += 1 / trial_.poses_hz;
-    const Vector3d device_m = device_.measured_m() + Vector3d(0, 0, base_m_);
-    if (clutched_) offset_m_ = hand_.tip_m - device_m;
-    hand_.tip_m = device_m + offset_m_;
-    hand_.told = at(now_s_);
-  }
-
-  void tick() {
-    if (now_s_ >= next_tick_s_ && !stalled_) {
-      next_tick_s_ = now_s_ + session_.tick_s();
-      StylusSamples samples;
-      samples[0].valid = !appears_anew_;
-      appears_anew_ = false;
-      samples[0].pose.position_m = hand_.tip_m;
-      const Frame frame = session_.step(samples, {});
-      answer_ = {frame.contacts[0].reaction, samples[0].valid && !clutched_, frame.contacts[0]};
-      answer_s_ = now_s_ + kComputing * session_.tick_s();
-    }
-    hand_.tracked = !clutched_ && !appears_anew_;
-    if (answer_s_ < 0 || now_s_ < answer_s_) return;
-    loop_.put({answer_}, {hand_}, at(now_s_));
-    ticks_n_ = answer_.reaction.force_n.norm();
-    ticked_ = true;
-    answer_s_ = -1;
-  }
-
-  void tell() {
-    if (!std::exchange(ticked_, false) && at(now_s_) < loop_.due()) return;
-    told_n_ = loop_.next({hand_}, at(now_s_))[0].force_n;
-    if (!hand_.listens) told_n_.setZero();
-    loop_.sent({told_n_}, at(now_s_));
   }
 
   double keyTime(size_t from_end) const { return way_[way_.size() - from_end].time_s; }
@@ -227,7 +149,7 @@ class Trial {
     if (out_.simulator_n > 0) out_.static_error = std::abs(out_.force_n - out_.simulator_n) / out_.simulator_n;
     out_.stiffness_n_per_m =
         (holds_[1].force.mean() - holds_[0].force.mean()) / (holds_[1].depth.mean() - holds_[0].depth.mean());
-    for (const Hold& hold : holds_) {
+    for (const LookedHold& hold : holds_) {
       out_.swing_n = std::max(out_.swing_n, hold.force.swing());
       out_.swing_mm = std::max(out_.swing_mm, 1e3 * hold.depth.swing());
     }
@@ -242,21 +164,10 @@ class Trial {
     return out_;
   }
 
-  static constexpr double kHour_s = 3600, kStallTicks = 3;
-
   const HapticTrial trial_;
-  const Scene scene_;
-  Session session_;
   const std::vector<Key> way_;
-  SimulatedDevice device_;
-  ForceLoop loop_;
-  ForceLoop::Hand hand_;
-  ForceLoop::Tick answer_;
-  Vector3d offset_m_ = Vector3d::Zero(), told_n_ = Vector3d::Zero();
-  double now_s_ = 0, next_tick_s_ = 0, answer_s_ = -1, next_pose_s_ = 0, base_m_ = 0, ticks_n_ = 0;
-  bool stalled_ = false, clutched_ = false, appears_anew_ = false, ticked_ = false;
   HapticOutcome out_;
-  Hold holds_[2];
+  LookedHold holds_[2];
 };
 
 }  // namespace
