@@ -80,7 +80,7 @@ TEST_F(Sweep, RunsEveryCombinationOnceAndSaysWhatEachGave) {
 
 TEST_F(Sweep, EveryRunIsOnceInTheTableWhereAWorkerIsKilled) {
   std::string tenths;
-  for (int i = 0; i < 20; ++i) tenths += (i ? ", " : "") + std::to_string(0.3 + 0.01 * i);
+  for (int i = 0; i < 6; ++i) tenths += (i ? ", " : "") + std::to_string(0.3 + 0.01 * i);
   const std::string file = plan("seconds: 0.01\ngrid: {solver.dt_fraction: [" + tenths +
                                 "], environment.gravity_m_per_s2: [[0, 0, -1], [0, 0, -2], [0, 0, -3], [0, 0, -4], "
                                 "[0, 0, -5], [0, 0, -6], [0, 0, -7], [0, 0, -8], [0, 0, -9], [0, 0, -10]]}\n");
@@ -93,9 +93,9 @@ TEST_F(Sweep, EveryRunIsOnceInTheTableWhereAWorkerIsKilled) {
   waitpid(other, &status, 0);
   EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
   const std::map<int, std::string> rows = rowsOf(out_);
-  EXPECT_EQ(rows.size(), 200u);
+  EXPECT_EQ(rows.size(), 60u);
   for (const auto& [run, row] : rows) EXPECT_TRUE(says(row, {",done,0,"})) << run;
-  EXPECT_EQ(results(), 200u);
+  EXPECT_EQ(results(), 60u);
 }
 
 TEST_F(Sweep, HasALineOfUnitsBelowTheNames) {
