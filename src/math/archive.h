@@ -27,6 +27,9 @@ class Archive {
 
   bool reads() const { return reads_; }
   const std::vector<Section>& sections() const { return sections_; }
+  std::vector<Section> take() { return std::move(sections_); }  ///< what was written
+  /// Room for so many bytes more in the section that is written: they are not moved on the way.
+  void reserve(size_t bytes) { sections_.back().bytes.reserve(sections_.back().bytes.size() + bytes); }
 
   /// What follows belongs to it. @throws Error  another one comes next, or the one before was not read to its end
   void section(const std::string& name) {

@@ -10,6 +10,7 @@
 #include <cerrno>
 #include <chrono>
 #include <cstring>
+#include <utility>
 
 #include "viscera/math/error.h"
 
@@ -66,7 +67,7 @@ void RecordFileWriter::finish() {
   if (thread_.joinable()) thread_.join();
 }
 
-void RecordFileWriter::put(ChunkKind kind, const std::vector<char>& bytes) {
+void RecordFileWriter::put(ChunkKind kind, std::vector<char> bytes) {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (!fault_.empty()) return;
   waiting_bytes_ += bytes.size();
@@ -77,7 +78,7 @@ void RecordFileWriter::put(ChunkKind kind, const std::vector<char>& bytes) {
   if (kind == ChunkKind::kEvents && !waiting_.empty() && waiting_.back().kind == kind) {
     waiting_.back().bytes.insert(waiting_.back().bytes.end(), bytes.begin(), bytes.end());
   } else {
-    waiting_.push_back({kind, bytes});
+    waiting_.push_back({kind, std::move(bytes)});
   }
 }
 

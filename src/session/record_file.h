@@ -39,7 +39,7 @@ class RecordFileWriter {
   RecordFileWriter& operator=(const RecordFileWriter&) = delete;
 
   /// Does not wait. Events that follow each other go into one chunk, four times a second.
-  void put(ChunkKind kind, const std::vector<char>& bytes);
+  void put(ChunkKind kind, std::vector<char> bytes);
   void finish();                                            ///< writes what waits; nothing may be put after this
   uint64_t lastStateBytes() const { return state_bytes_; }  ///< as stored; 0: none was yet
   std::string fault() const;                                ///< why nothing is written any more; empty: it is

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "session/session_recording.h"
 
@@ -43,13 +44,13 @@ void SessionRecorder::put(SessionEvent& event) {
   Archive archive;
   archive.section("events");
   event.persist(archive, session_->scene().styluses.size());
-  file_.put(ChunkKind::kEvents, archive.sections()[0].bytes);
+  file_.put(ChunkKind::kEvents, std::move(archive.take()[0].bytes));
 }
 
 void SessionRecorder::putState(Session& session, bool leaps) {
   Archive archive;
   session.save(archive);
-  RecordedState state{leaps, session.tick(), session.stateHash(), archive.sections()};
+  RecordedState state{leaps, session.tick(), session.stateHash(), archive.take()};
   file_.put(ChunkKind::kState, state.bytes());
   steps_since_state_ = 0;
 }

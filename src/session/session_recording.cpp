@@ -49,7 +49,7 @@ RecordedScene RecordedScene::of(const Scene& scene, const std::string& stepped_b
 std::vector<char> RecordedScene::bytes() {
   Archive archive = emptyArchive();
   persist(archive);
-  return archive.sections()[0].bytes;
+  return std::move(archive.take()[0].bytes);
 }
 
 RecordedScene RecordedScene::from(std::vector<char> bytes) {
@@ -88,9 +88,13 @@ void RecordedState::persist(Archive& archive) {
 }
 
 std::vector<char> RecordedState::bytes() {
+  constexpr size_t kHeads = 200;  // bytes: lengths and the name of a section, all else of a state
+  size_t size = kHeads;
+  for (const Archive::Section& section : sections) size += kHeads + section.bytes.size();
   Archive archive = emptyArchive();
+  archive.reserve(size);
   persist(archive);
-  return archive.sections()[0].bytes;
+  return std::move(archive.take()[0].bytes);
 }
 
 RecordedState RecordedState::from(std::vector<char> bytes) {
