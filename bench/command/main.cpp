@@ -36,6 +36,12 @@ void addSuites(CLI::App& bench, SuiteOptions& options, const bench::Suite*& chos
     }
     if (suite.has_parts)
       command->add_option("--only", options.suite.only, "one part of the suite; a wrong name lists them");
+    if (suite.takes_data) {
+      command
+          ->add_option("--data", options.suite.data,
+                       "CSV of measured compression: column strain, 0 to 0.5 at least, and columns NAME_mean_kpa")
+          ->check(CLI::ExistingFile);
+    }
     command->callback([&suite, &chosen] { chosen = &suite; });
   }
 }

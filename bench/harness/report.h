@@ -23,6 +23,7 @@ struct SuiteOptions {
   std::vector<Backend> backends = {Backend::kCpu, Backend::kGpu};
   gpu::Context* context = nullptr;  ///< that one
   std::string only;                 ///< the part to measure, of suites that have parts; empty: all
+  std::string data;                 ///< file of measured values, of suites that take one; empty: none
 };
 
 /// One number that must be reached.
@@ -42,6 +43,7 @@ class Report {
 
   bool isShort() const { return options_.short_form; }
   const std::string& only() const { return options_.only; }
+  const std::string& data() const { return options_.data; }
   const std::vector<Backend>& backends() const { return options_.backends; }
   gpu::Context* context() const { return options_.context; }  ///< null: no GPU backend
   const std::string& suite() const { return suite_; }

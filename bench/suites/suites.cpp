@@ -15,6 +15,7 @@
 #include "bench/suites/pace/performance_suites.h"
 #include "bench/suites/stability/stability_suite.h"
 #include "bench/suites/thread/thread_suite.h"
+#include "bench/suites/validate/validate_suite.h"
 #include "viscera/gpu/context.h"
 
 namespace viscera::bench {
@@ -51,6 +52,8 @@ const std::vector<Suite>& suites() {
        run<bladeSuite>, false, true},
       {"thread", "bending, hanging, sliding, pulling and cost of threads, beside the laws of docs/thread.md",
        run<threadSuite>, false, true},
+      {"validate", "measured silicone rubbers and a sphere on a half space, foretold by scenes", run<validateSuite>,
+       false, true, true},
       {"haptics", "simulated devices against tissue: what is felt, limit cycles, energy, by mass, delay and stiffness",
        run<hapticsSuite>},
       {"latency", "from a pose to its force and its picture; how even ticks are", run<latencySuite>},
@@ -65,12 +68,12 @@ const std::vector<Suite>& suites() {
 
 int runSuite(const Suite& suite, SuiteOptions options, const std::string& backend, int device, std::ostream& out) {
   const auto start = std::chrono::steady_clock::now();
-  const Machine machine = machineFor(suite.takes_backend ? backend : "gpu", device);
+  const Machine machine = machineFor(suite.takes_backend ? backend : suite.needs_gpu ? "gpu" : "cpu", device);
   options.backends = machine.backends;
   options.context = machine.context.get();
   Report report(suite.name, options, out);
   report.note(std::string("viscera bench ") + suite.name + (options.short_form ? " --short" : "") + ", on " +
-              (suite.takes_backend ? machine.note : machine.context->renderer()) + "\n");
+              (suite.takes_backend || !machine.context ? machine.note : machine.context->renderer()) + "\n");
   suite.run(report, machine.context.get());
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
   report.note("took " + Cell(took.count()).text(3) + " s\n");

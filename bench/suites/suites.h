@@ -18,6 +18,8 @@ struct Suite {
   void (*run)(Report& report, gpu::Context* context);  ///< the context is current
   bool takes_backend = false;      ///< measures on the report's backends; the context is null where the GPU is not one
   bool has_parts = takes_backend;  ///< measureParts()
+  bool takes_data = false;         ///< Report::data()
+  bool needs_gpu = !takes_data;    ///< where it does not take a backend; else it is measured on the processor alone
 };
 
 /// All suites: a new one is an include and a line in suites.cpp.
