@@ -17,8 +17,8 @@ namespace viscera::bench {
 
 namespace {
 
-constexpr double kWidth_m = 0.05, kHeight_m = 0.03;
-constexpr int kSides = 96;
+constexpr double kCylinderWidth_m = 0.05, kCylinderHeight_m = 0.03;
+constexpr int kCylinderSides = 96;
 constexpr double kYoung_pa = 20000, kDensity_kg_per_m3 = 1000;
 constexpr double kTrialTick_hz = 120;
 constexpr double kPlateSpeed_m_per_s = 0.006;  // a five-hundredth of the speed of sound: what is felt is no inertia
@@ -32,15 +32,15 @@ class CylinderFile {
   /// As much area as the circle's.
   CylinderFile()
       : path_(std::filesystem::temp_directory_path() / ("viscera-cylinder-" + std::to_string(getpid()) + ".obj")) {
-    const double step = 2 * M_PI / kSides, radius_m = kWidth_m / 2 * std::sqrt(step / std::sin(step));
+    const double step = 2 * M_PI / kCylinderSides, radius_m = kCylinderWidth_m / 2 * std::sqrt(step / std::sin(step));
     std::ofstream out(path_);
-    for (int i = 0; i < kSides; ++i) {
-      for (const double z : {-kHeight_m / 2, kHeight_m / 2})
+    for (int i = 0; i < kCylinderSides; ++i) {
+      for (const double z : {-kCylinderHeight_m / 2, kCylinderHeight_m / 2})
         out << "v " << radius_m * std::cos(i * step) << ' ' << radius_m * std::sin(i * step) << ' ' << z << '\n';
     }
-    out << "v 0 0 " << -kHeight_m / 2 << "\nv 0 0 " << kHeight_m / 2 << '\n';
-    for (int i = 0; i < kSides; ++i) {
-      const int low = 2 * i + 1, next = 2 * ((i + 1) % kSides) + 1, middle = 2 * kSides + 1;
+    out << "v 0 0 " << -kCylinderHeight_m / 2 << "\nv 0 0 " << kCylinderHeight_m / 2 << '\n';
+    for (int i = 0; i < kCylinderSides; ++i) {
+      const int low = 2 * i + 1, next = 2 * ((i + 1) % kCylinderSides) + 1, middle = 2 * kCylinderSides + 1;
       out << "f " << low << ' ' << next << ' ' << next + 1 << "\nf " << low << ' ' << next + 1 << ' ' << low + 1
           << "\nf " << middle << ' ' << next << ' ' << low << "\nf " << middle + 1 << ' ' << low + 1 << ' ' << next + 1
           << '\n';
@@ -92,22 +92,22 @@ Compression compressedCylinder(double poisson_ratio, double spacing_m, double mo
   ObstacleConfig plate;
   plate.friction = 0;
   plate.name = "below";
-  plate.position_m.z() = -kHeight_m / 2;
+  plate.position_m.z() = -kCylinderHeight_m / 2;
   scene.obstacles.push_back(plate);
   plate.name = "above";
-  plate.position_m.z() = kHeight_m / 2;
+  plate.position_m.z() = kCylinderHeight_m / 2;
   plate.rotation_deg.x() = 180;
   plate.velocity_m_per_s.z() = -kPlateSpeed_m_per_s;
   scene.obstacles.push_back(plate);
   Session session(scene);
-  const double area_m2 = M_PI / 4 * kWidth_m * kWidth_m;
+  const double area_m2 = M_PI / 4 * kCylinderWidth_m * kCylinderWidth_m;
   Compression out{{0}, {0}};
   while (out.strain.back() < most_strain) {
     const Frame frame = session.step({}, {});
     const double way_m = kPlateSpeed_m_per_s * static_cast<double>(session.tick()) * session.tick_s();
     const double force_n = (frame.obstacle_forces[1].force_n.z() - frame.obstacle_forces[0].force_n.z()) / 2;
     // Forces are means of a tick, of which this is the middle.
-    out.strain.push_back((way_m - kPlateSpeed_m_per_s * session.tick_s() / 2) / kHeight_m);
+    out.strain.push_back((way_m - kPlateSpeed_m_per_s * session.tick_s() / 2) / kCylinderHeight_m);
     out.stress_over_e.push_back(force_n / area_m2 / kYoung_pa);
   }
   return out;
