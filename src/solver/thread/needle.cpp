@@ -21,6 +21,7 @@ constexpr double kFrictionDepth_m = 1e-4;  // friction of a length of shaft over
 constexpr double kAroundShaft = 20;        // stiffness of what is around it, over E and the spacing of nodes
 constexpr double kCrossingsApart_m = 1.5e-3;
 constexpr double kPassedApart_m = 2.2e-3;  // of those that the thread gets
+constexpr double kSkinApart_m = 1.2e-3;    // and of those of a skin from what is inside
 constexpr int kNeedleSweeps = 4;
 constexpr double kBeside_m = 2e-4;      // over which tissue's deformation at the tip is taken
 constexpr double kFlattest = 0.05;      // of a volume: more than so deformed it counts as whole
@@ -377,7 +378,8 @@ void Needle::sortOut(const TissuePoints& tissue, std::vector<NeedlePassed>& pass
     const double beyond_m = behind_m - shape_.length_m();
     if (behind_m < -kOffTip_m) return true;
     if (beyond_m <= 0) return false;
-    if (!crossing.skin && !((crossing.point.rest_m - last_passed_m_).norm() >= kPassedApart_m)) return true;
+    const double least_m = crossing.skin ? kSkinApart_m : kPassedApart_m;
+    if ((crossing.point.rest_m - last_passed_m_).norm() < least_m) return true;
     last_passed_m_ = crossing.point.rest_m;
     passed.push_back({crossing.point, beyond_m});
     return true;
