@@ -56,7 +56,7 @@ inline StylusSamples leftAt(const Vector3d& tip_m, bool button1 = false, bool bu
 }
 
 /// Input of a tick, from the first on.
-using Strokes = std::function<StylusSamples(int tick)>;
+using StrokesByTick = std::function<StylusSamples(int tick)>;
 
 constexpr int kPressTicks = 15;
 /// The probe comes down on the middle of the block's top and ends 6 mm deep in it.
@@ -74,7 +74,7 @@ inline StylusSamples cut(int tick) {
 }
 
 /// Steps through a stroke. @returns the last frame that the session gave
-inline Frame play(Session& session, const Strokes& strokes, int ticks, const Wants& wants = {}) {
+inline Frame play(Session& session, const StrokesByTick& strokes, int ticks, const Wants& wants = {}) {
   Frame last;
   for (int t = 1; t <= ticks; ++t) last = session.step(strokes(t), wants);
   return last;

@@ -23,7 +23,7 @@ constexpr int kAfterTicks = 12;  ///< after the reset; the first ones show what 
 struct Disturbance {
   std::string name;
   std::function<Scene()> scene = blockScene;
-  Strokes strokes = press;
+  StrokesByTick strokes = press;
   int ticks = 25;
   std::function<bool(const Frame& last, const Session& session)> happened = [](const Frame& last, const Session&) {
     return last.stats.touched[0] > 0;

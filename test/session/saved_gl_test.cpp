@@ -40,7 +40,7 @@ class Saved : public GpuTest, public ::testing::WithParamInterface<std::tuple<St
     return {scene, context_};
   }
   /// Saves after one tick and goes on; another session resumes there. Both must end alike.
-  void expectSameEnd(const Scene& scene, const Strokes& strokes, int saved_after, int ticks) {
+  void expectSameEnd(const Scene& scene, const StrokesByTick& strokes, int saved_after, int ticks) {
     const std::string file = folder_.file("state");
     Session unbroken = made(scene);
     for (int t = 1; t <= ticks; ++t) unbroken.step(strokes(t), {});
@@ -120,7 +120,9 @@ TEST_P(Saved, GoesOnToTheSameEndAmongMovingThings) {
 TEST_P(Saved, GoesOnToTheSameEndWhenTissueFallsAsleep) {
   Scene scene = Saved::scene();
   scene.bodies[0].material.dashpot_ratio = 0.5;
-  const Strokes once = [](int tick) { return tick < 8 ? press(tick) : tick > 55 ? press(tick - 50) : StylusSamples{}; };
+  const StrokesByTick once = [](int tick) {
+    return tick < 8 ? press(tick) : tick > 55 ? press(tick - 50) : StylusSamples{};
+  };
   for (const int after : {20, 50}) expectSameEnd(scene, once, after, 62);
 }
 

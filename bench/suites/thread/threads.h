@@ -6,7 +6,7 @@
 #include <ctime>
 #include <vector>
 
-#include "solver/thread/chain.h"
+#include "solver/thread/chain/chain.h"
 
 namespace viscera::bench {
 

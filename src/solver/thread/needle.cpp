@@ -9,7 +9,7 @@
 #include <limits>
 
 #include "math/archive.h"
-#include "solver/thread/chain.h"
+#include "solver/thread/chain/chain.h"
 
 namespace viscera {
 

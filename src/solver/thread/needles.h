@@ -6,7 +6,7 @@
 #include <functional>
 #include <vector>
 
-#include "solver/thread/chain.h"
+#include "solver/thread/chain/chain.h"
 #include "solver/thread/needle.h"
 #include "solver/thread/thread_channels.h"
 #include "solver/thread/thread_hands.h"

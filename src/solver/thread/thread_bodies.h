@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "math/archive.h"
-#include "solver/thread/chain.h"
+#include "solver/thread/chain/chain.h"
 #include "solver/thread/needles.h"
 #include "solver/thread/thread_channels.h"
 #include "solver/thread/thread_hands.h"

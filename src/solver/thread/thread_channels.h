@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "solver/thread/chain.h"
+#include "solver/thread/chain/chain.h"
 #include "solver/thread/tissue_points.h"
 #include "viscera/model/model.h"
 #include "viscera/model/scene/scene.h"

@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "solver/thread/chain.h"
+#include "solver/thread/chain/chain.h"
 #include "viscera/layout/tick_stats.h"
 #include "viscera/tools/stylus.h"
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "solver/thread/chain.h"
+#include "solver/thread/chain/chain.h"
 #include "viscera/model/scene/scene.h"
 
 namespace viscera {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "solver/thread/chain.h"
+#include "solver/thread/chain/chain.h"
 #include "viscera/layout/obstacle_motion.h"
 
 namespace viscera {

@@ -1,10 +1,10 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "solver/thread/chain_knots.h"
+#include "solver/thread/chain/chain_knots.h"
 
 #include <gtest/gtest.h>
 
-#include "solver/thread/chain.h"
+#include "solver/thread/chain/chain.h"
 
 namespace viscera {
 namespace {

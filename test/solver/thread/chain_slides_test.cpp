@@ -1,11 +1,11 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Channels; their law of friction is in test/bench/thread_suite_test.cpp.
-#include "solver/thread/chain_slides.h"
+#include "solver/thread/chain/chain_slides.h"
 
 #include <gtest/gtest.h>
 
-#include "solver/thread/chain.h"
+#include "solver/thread/chain/chain.h"
 
 namespace viscera {
 namespace {

@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 // What a chain is made of; its laws are in test/bench/thread_suite_test.cpp.
-#include "solver/thread/chain.h"
+#include "solver/thread/chain/chain.h"
 
 #include <gtest/gtest.h>
 

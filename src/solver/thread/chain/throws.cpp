@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "solver/thread/throws.h"
+#include "solver/thread/chain/throws.h"
 
 #include <algorithm>
 #include <cmath>

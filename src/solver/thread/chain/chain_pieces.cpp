@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "math/archive.h"
-#include "solver/thread/chain.h"
+#include "solver/thread/chain/chain.h"
 
 namespace viscera {
 

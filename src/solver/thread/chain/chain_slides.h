@@ -6,8 +6,8 @@
 #include <limits>
 #include <vector>
 
-#include "solver/thread/chain_knots.h"
-#include "solver/thread/chain_run.h"
+#include "solver/thread/chain/chain_knots.h"
+#include "solver/thread/chain/chain_run.h"
 
 namespace viscera {
 

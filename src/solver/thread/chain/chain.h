@@ -8,8 +8,8 @@
 #include <limits>
 #include <vector>
 
-#include "solver/thread/chain_matrix.h"
-#include "solver/thread/chain_slides.h"
+#include "solver/thread/chain/chain_matrix.h"
+#include "solver/thread/chain/chain_slides.h"
 #include "viscera/math/types.h"
 
 namespace viscera {

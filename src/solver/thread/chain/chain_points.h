@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "solver/thread/chain_matrix.h"
+#include "solver/thread/chain/chain_matrix.h"
 #include "viscera/math/types.h"
 
 namespace viscera {

@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "solver/thread/chain_run.h"
+#include "solver/thread/chain/chain_run.h"
 
 namespace viscera {
 

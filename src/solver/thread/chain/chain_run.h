@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "solver/thread/chain_points.h"
+#include "solver/thread/chain/chain_points.h"
 
 namespace viscera {
 

@@ -1,12 +1,12 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "solver/thread/chain_knots.h"
+#include "solver/thread/chain/chain_knots.h"
 
 #include <Eigen/LU>
 #include <algorithm>
 #include <cassert>
 
-#include "solver/thread/chain_slides.h"
+#include "solver/thread/chain/chain_slides.h"
 
 namespace viscera {
 
