@@ -8,9 +8,10 @@ namespace viscera {
 
 namespace {
 
-constexpr int kLipSweeps = 2;       // over the pairs: nodes are in several
-constexpr double kLipsApart = 0.2;  // of what is too near, in a substep: slowly, as it makes speed
-constexpr double kLipsMeet = 1e-3;  // of the distance at rest: nearer nodes have no direction
+constexpr int kLipSweeps = 2;               // over the pairs: nodes are in several
+constexpr double kLipsApart = 0.2;          // of what is too near, in a substep
+constexpr double kLipsMost_m_per_s = 0.02;  // at which they part: slow, as nothing takes that speed back
+constexpr double kLipsMeet = 1e-3;          // of the distance at rest: nearer nodes have no direction
 
 bool holdsNothing(const layout::NodeBits& bits) {
   return (bits.lo & layout::kAxialMask) == 0 && (bits.hi & layout::kDiagonalMask) == 0;
@@ -90,7 +91,7 @@ void WoundLips::part(TissuePoints& points, double dt_s) const {
       const Vector3d out = between / length_m;
       const double away_m_per_s = (points.velocity_m_per_s(pair.b) - points.velocity_m_per_s(pair.a)).dot(out);
       const double mobility = points.mobility(pair.a, pair.a) + points.mobility(pair.b, pair.b);
-      const double missing_m_per_s = kLipsApart * near_m / dt_s - away_m_per_s;
+      const double missing_m_per_s = std::min(kLipsApart * near_m / dt_s, kLipsMost_m_per_s) - away_m_per_s;
       if (!(missing_m_per_s > 0) || !(mobility > 0)) continue;
       const Vector3d impulse = missing_m_per_s / mobility * out;
       points.give(pair.a, -impulse, dt_s);
