@@ -14,7 +14,7 @@ namespace viscera {
 namespace {
 
 constexpr double kSampleStep = 0.3;  // of the kernel: between samples
-constexpr double kStale = 1 / 60.0;  // of the kernel: a front that far from its kernel's middle gets a new one
+constexpr double kStale = 0.05;      // of the spacing: a front that far from its kernel's middle gets a new one
 constexpr double kGathered = 0.5;    // of the spacing: a front that far from where its nodes were gathered has strayed
 constexpr double kClosed = 0.2;      // of a gap, in a substep
 constexpr double kFlats = 3;         // times the limit: what the flats of a blade bear sideways
@@ -27,7 +27,6 @@ constexpr double kMostStep = 0.5;    // of the spacing, of a front in a substep
 constexpr double kAhead = 0.9;       // of the spacing: where it is looked for a wound; beyond the half cell it is in
 constexpr double kAside = 0.5;       // of the spacing: beside that, as a wound sways
 constexpr double kCutStep = 0.125;   // of the spacing: so far fronts go before springs are cut
-constexpr double kStraight = 0.02;   // of the spacing: fronts that far off a straight line are cut as if on it
 constexpr double kWayMemory = 0.25;  // of the spacing: over which a hand's direction is taken, as hands tremble
 
 constexpr double kHalfKernel = 0.27;  // of the kernel: the mean of one with tissue on one side only, from its middle
@@ -137,7 +136,7 @@ void BladeEdge::renewKernels() {
   }
   for (size_t i = 0; i < fronts_.size(); ++i) {
     Front& front = fronts_[i];
-    if (!strayed && (front.at - front.centre).norm() <= kStale * kernel_m_) continue;
+    if (!strayed && (front.at - front.centre).norm() <= kStale * h_) continue;
     front.centre = front.at;
     kernels_[i].make(near_, front.centre, kernel_m_);
     kernels_[i].is_new = changed = true;
@@ -324,17 +323,6 @@ void BladeEdge::followThroughAir() {
   }
 }
 
-/// Have the fronts of a row of samples swept what those at its ends say?
-bool BladeEdge::isStraight(size_t first, size_t last) const {
-  const Front &a = fronts_[first], &b = fronts_[last];
-  for (size_t i = first + 1; i < last; ++i) {
-    const double t = static_cast<double>(i - first) / static_cast<double>(last - first);
-    const Vector3d at = a.at + t * (b.at - a.at), cut = a.cut + t * (b.cut - a.cut);
-    if (std::max((fronts_[i].at - at).norm(), (fronts_[i].cut - cut).norm()) > kStraight * h_) return false;
-  }
-  return true;
-}
-
 /// Cuts what fronts have swept since the last time, where it is worth it. @param all  whatever it is
 void BladeEdge::cutBehind(BladeTarget& target, bool all) {
   bool due = all;
@@ -346,9 +334,9 @@ void BladeEdge::cutBehind(BladeTarget& target, bool all) {
     while (end + 1 < fronts_.size() && cutsBetween(end) && isStraight(i, end + 1)) ++end;
     const Front &a = fronts_[i], &b = fronts_[end];
     layout::ToolMotion sweep{};
-    sweep.from = rounded(a.cut);
+    sweep.from = rounded(startOf(a));
     sweep.to = rounded(a.at);
-    sweep.blade_from = rounded(b.cut);
+    sweep.blade_from = rounded(startOf(b));
     sweep.blade_to = rounded(b.at);
     target.cutAtRest(sweep);
     tissue_.part(a.cut, a.at, b.at, b.cut);

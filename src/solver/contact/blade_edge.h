@@ -122,6 +122,7 @@ class BladeEdge {
   void moveFront(size_t i, const Vector3d& gap);
   void followThroughAir();
   bool cutsBetween(size_t i) const { return fronts_[i].cuts || fronts_[i + 1].cuts; }  ///< a sample and the next one
+  Vector3d startOf(const Front& front) const;
   bool isStraight(size_t first, size_t last) const;
   void cutBehind(BladeTarget& target, bool all);
   void countArea(size_t i, const Vector3d& step);

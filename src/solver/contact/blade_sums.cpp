@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// What an edge counts: its length in tissue, the area that it parts, the energy that it may give back.
+// What an edge counts: its length in tissue, the area that it parts, the energy that it may give back; how fronts lie.
 #include <algorithm>
 #include <cmath>
 
@@ -14,6 +14,8 @@ constexpr double kStrip = 0.125;       // of the spacing, at most: parts of the 
 constexpr double kMostStrips = 1000;   // whatever a fold makes of them
 constexpr double kMostStretch = 1.5;   // of areas: whatever a fold makes of them
 constexpr double kMostOfSheet = 1.03;  // the same of sheets: with more, triangles folded in cuts at 45 degrees
+constexpr double kStraight = 0.01;     // of the spacing: fronts that far off a straight line are cut as if on it
+constexpr double kOverlap = 0.02;      // of the spacing, of two sweeps: between lines no spring is left
 constexpr double kGivenBack = 0.25;    // of what the tissue has of the edge, at most, in a substep: it ends smoothly
 
 }  // namespace
@@ -92,6 +94,23 @@ void BladeEdge::giveBackAtMost() {
   for (const Push& push : pushes_) given_j += push.impulse.dot(push.velocity);
   stored_j_ = std::max(0.0, stored_j_ + std::min(work_j, given_j));
   done_.work_j += work_j;
+}
+
+/// Have the fronts of a row of samples swept what those at its ends say?
+bool BladeEdge::isStraight(size_t first, size_t last) const {
+  const Front &a = fronts_[first], &b = fronts_[last];
+  for (size_t i = first + 1; i < last; ++i) {
+    const double t = static_cast<double>(i - first) / static_cast<double>(last - first);
+    const Vector3d at = a.at + t * (b.at - a.at), cut = a.cut + t * (b.cut - a.cut);
+    if (std::max((fronts_[i].at - at).norm(), (fronts_[i].cut - cut).norm()) > kStraight * h_) return false;
+  }
+  return true;
+}
+
+/// Where a sweep begins that cuts what a front has swept.
+Vector3d BladeEdge::startOf(const Front& front) const {
+  const Vector3d way = front.at - front.cut;
+  return way.isZero(0) ? front.cut : Vector3d(front.cut - kOverlap * h_ * way.normalized());
 }
 
 /// @param step  of a front, at rest
