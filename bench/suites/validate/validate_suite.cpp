@@ -46,8 +46,9 @@ void compression(Report& report) {
     double nu, spacing_m;
   };
   const double usual_m = cylinderSpacing_m(report);
-  std::vector<Pressed> specimens = {{0.25, usual_m}, {kNearRubber, usual_m}, {kRubber, usual_m}};
-  if (!report.isShort()) specimens.insert(specimens.end(), {{kRubber, 0.005}, {kNearRubber, 0.002}, {kRubber, 0.002}});
+  std::vector<Pressed> specimens = {{kNearRubber, usual_m}, {kRubber, usual_m}};
+  if (!report.isShort())
+    specimens.insert(specimens.end(), {{0.25, usual_m}, {kRubber, 0.005}, {kNearRubber, 0.002}, {kRubber, 0.002}});
   for (const auto& [nu, spacing_m] : specimens) {
     report.stage("compression, nu " + Cell(nu).text(2) + ", spacing " + Cell(spacing_m).text(2) + " m");
     const double most = nu < kNearRubber ? kSpringsMost : strains[std::size(strains) - 1];
