@@ -12,6 +12,7 @@ namespace {
 constexpr double kAtStop = 1e-6;        // links
 constexpr double kMostLinks = 1;        // in an iteration: the next one's tangent is another
 constexpr double kSlow_m_per_s = 1e-3;  // at which what was held begins to slide
+constexpr double kBeginsAt = 0.5;       // of what holds, at first: in light tissue that speed would ask for more
 
 }  // namespace
 
@@ -34,7 +35,7 @@ bool ChainRun::rub(const ChainShape& shape, double along, double limit, double o
   }
   const double left = along > 0 ? s - low : high - s;
   if (over <= 0 || left < kAtStop) return false;
-  rub_kg = secant(limit, std::max(kSlow_m_per_s * shape.dt_s, over / mass_kg), mass_kg);
+  rub_kg = secant(limit, std::max(kSlow_m_per_s * shape.dt_s, over / mass_kg), kBeginsAt * mass_kg);
   return size > kSlack * limit;
 }
 
