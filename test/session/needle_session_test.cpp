@@ -28,7 +28,7 @@ constexpr const char* kStrokes = R"(
 strokes:
   - stylus: holder
     keys:
-      - {t_s: 0.05, position_m: [0, 0, 0.003], rotation_deg: [0, 0, 0], button1: true}
+      - {t_s: 0, position_m: [0, 0, 0.003], rotation_deg: [0, 0, 0], button1: true}
       - {t_s: 0.1, position_m: [0, 0, 0.003], rotation_deg: [0, 0, 0], button1: true}
       - {t_s: 0.43, position_m: [0, 0, 0.003], rotation_deg: [0, -84, 0], button1: true}
       - {t_s: 0.76, position_m: [0, 0, 0.003], rotation_deg: [180, -12, 180], button1: true}

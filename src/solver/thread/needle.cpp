@@ -141,6 +141,10 @@ void Needle::lead(const Pose& to, double dt_s) {
 void Needle::fall(const Vector3d& gravity_m_per_s2, double dt_s) {
   from_ = end_;
   dt_s_ = dt_s;
+  if (led_) {  // what the hand bore would throw it
+    tip_.impulse_ns.setZero();
+    for (Crossing& crossing : crossings_) crossing.impulse_ns.setZero();
+  }
   led_ = false;
   velocity_ = (velocity_ + dt_s * gravity_m_per_s2) / (1 + dt_s * kAirDrag_per_s);
   turning_ /= 1 + dt_s * kAirDrag_per_s;
