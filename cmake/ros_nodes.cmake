@@ -26,7 +26,7 @@ target_include_directories(viscera_nodes SYSTEM PUBLIC ${VISCERA_FOREIGN_INCLUDE
 target_compile_options(viscera_nodes PRIVATE ${VISCERA_CXX_FLAGS})
 viscera_unity(viscera_nodes 8)
 target_compile_definitions(viscera_nodes PUBLIC ${VISCERA_ROS_DEFINITIONS})
-target_link_libraries(viscera_nodes PUBLIC viscera_session viscera_export viscera_devices viscera_haptics ${catkin_LIBRARIES} ${interactive_markers_LIBRARIES})
+target_link_libraries(viscera_nodes PUBLIC viscera_session viscera_export viscera_tasks viscera_devices viscera_haptics ${catkin_LIBRARIES} ${interactive_markers_LIBRARIES})
 if(DYNAMIC_RECONFIGURE_INCLUDE)
   target_compile_definitions(viscera_nodes PUBLIC VISCERA_RECONFIGURE)
   target_include_directories(viscera_nodes SYSTEM PUBLIC ${DYNAMIC_RECONFIGURE_INCLUDE})

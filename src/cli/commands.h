@@ -20,6 +20,7 @@ struct RunOptions {
   std::string scene;
   std::string mesh;     ///< empty: what the scene says
   std::string strokes;  ///< empty: nothing touches the tissue
+  std::string task;     ///< file of a task that is judged, or the name of a shipped one; empty: none
   std::optional<double> seconds;
   std::string out;                        ///< empty: no pictures, no metrics.json
   bool no_view = false;                   ///< without OpenGL: on the processor, no pictures
@@ -36,6 +37,9 @@ struct RunOptions {
 };
 /// `viscera run`: a session without ROS.
 int run(const RunOptions& options);
+
+/// `viscera task`: a session in the scene of options.task, judged; docs/lessons/tasks.md.
+int task(RunOptions options);
 
 struct ReplayOptions {
   std::string file;

@@ -10,6 +10,7 @@
 #include "devices/device_profile.h"
 #include "math/memory_for.h"
 #include "model/scene/tissue_presets.h"
+#include "tasks/task.h"
 #include "viscera/math/error.h"
 
 using namespace viscera;
@@ -82,13 +83,27 @@ CLI::App* addReplay(CLI::App& app, cli::ReplayOptions& o) {
   CLI::Option* out = replay->add_option("--out", o.out, "folder for pictures, metrics.json, hands.csv and surface.ply");
   replay->add_flag("--depth", o.depth, "depths with every picture, as of run")->needs(out);
   replay->add_flag("--labels", o.labels, "labels with every picture, as of run")->needs(out);
-  replay->add_flag("--no-view", o.no_view, "without OpenGL: on the processor, and without pictures");
+  replay->add_flag("--no-view", o.no_view, "without pictures, and without OpenGL unless solver.backend: gpu asks for it");
   replay->add_option("--save", o.save, "file for the state at the end, to go on from with run --resume");
   replay
       ->add_option("--set", o.overrides,
                    "key=value: another value of the scene, of what changes no state, as in cameras[0].position_m")
       ->allow_extra_args(false);
   return replay;
+}
+
+CLI::App* addTask(CLI::App& app, Options& o) {
+  CLI::App* task =
+      app.add_subcommand("task", "judge a hand in a task (docs/lessons/tasks.md); the last line is one JSON object");
+  task->add_option("task", o.run.task, "task file, or name of a shipped task")->required();
+  task->add_option("--strokes", o.run.strokes, "recorded strokes of the hand");
+  task->add_option("--seconds", o.run.seconds, "simulated time; default: the strokes' length, or 1")
+      ->check(CLI::Range(0.0, 86400.0));
+  task->add_option("--out", o.run.out, "folder for pictures and tables as of run, and the report");
+  task->add_flag("--no-view", o.run.no_view, "without pictures, and without OpenGL unless solver.backend: gpu asks for it");
+  task->add_option("--record", o.run.record, "new file in which all of it is recorded, for viscera replay");
+  addOverrides(task, o.run.overrides);
+  return task;
 }
 
 int dispatch(int argc, char** argv) {
@@ -150,12 +165,13 @@ int dispatch(int argc, char** argv) {
                                         "state that this scene was saved in: goes on there, to the same end in time");
   CLI::Option* reference = run->add_flag("--reference", o.run.reference, "the plain float64 solver instead of the GPU")
                                ->excludes(save, save_every, resume, exported, record);
-  run->add_flag("--no-view", o.run.no_view, "without OpenGL: on the processor, and without pictures")
+  run->add_flag("--no-view", o.run.no_view, "without pictures, and without OpenGL unless solver.backend: gpu asks for it")
       ->excludes(reference);
   run->add_flag("--compare", o.run.compare, "the GPU's error against the reference, as gpu_error")->needs(reference);
   addOverrides(run, o.run.overrides);
 
   CLI::App* replay = addReplay(app, o.replay);
+  CLI::App* task = addTask(app, o);
   CLI::App* settle =
       app.add_subcommand("settle", "find the state in which a scene hangs in its weight; one JSON object");
   settle->add_option("scene", o.run.scene, "scene file, or name of a shipped scene")->required();
@@ -196,11 +212,14 @@ int dispatch(int argc, char** argv) {
   app.add_subcommand("bench", "measure: `viscera bench --help` lists what");  // main() has taken it
 
   CLI::App* keys = app.add_subcommand("keys", "print the table of a file's keys, or of tissues");
-  keys->add_option("file", o.keys_of,
-                   "scene, device: of config/devices, or tissues: what material.tissue may name; default scene")
-      ->check(CLI::IsMember({"scene", "device", "tissues"}));
+  keys->add_option(
+          "file", o.keys_of,
+          "scene, device: of config/devices, task: of config/tasks, or tissues: what material.tissue may name; default "
+          "scene")
+      ->check(CLI::IsMember({"scene", "device", "task", "tissues"}));
   if (const std::optional<int> ended = cli::parse(app, argc, argv)) return *ended;
   if (*check) return cli::check(o.device);
+  if (*task) return memoryFor("judging task '" + o.run.task + "'", [&] { return cli::task(o.run); });
   if (*replay) return memoryFor("replaying '" + o.replay.file + "'", [&] { return cli::replay(o.replay); });
   if (*settle) return memoryFor("settling scene '" + o.run.scene + "'", [&] { return cli::settle(o.run); });
   if (*fit) return memoryFor("fitting scene '" + o.run.scene + "'", [&] { return cli::fit(o.run); });
@@ -216,6 +235,7 @@ int dispatch(int argc, char** argv) {
   if (*sweep) return cli::sweep(o.sweep);
   if (*keys) {
     std::cout << (o.keys_of == "device"    ? deviceKeysTable()
+                  : o.keys_of == "task"    ? taskKeysTable()
                   : o.keys_of == "tissues" ? tissueTable()
                                            : sceneKeysTable());
     return 0;

@@ -9,10 +9,11 @@
 
 #include "cli/album.h"
 #include "cli/commands.h"
-#include "cli/hand_log.h"
 #include "cli/run_plan.h"
 #include "cli/scene_lookup.h"
+#include "cli/task_run.h"
 #include "session/session_replay.h"
+#include "tasks/hand_log.h"
 #include "viscera/gpu/context.h"
 #include "viscera/math/error.h"
 #include "viscera/math/state_hash.h"
@@ -31,14 +32,14 @@ class Replayed {
   explicit Replayed(const ReplayOptions& options) : options_(options) {}
 
   Session& make(const Scene& scene) {
-    endPiece();
-    hands_.reset();
+    end();
     session_.reset();
     context_.reset();
     context_ = contextFor(options_.no_view, scene);
     const Progress progress = consoleProgress();
     session_ =
         context_ ? std::make_unique<Session>(scene, *context_, progress) : std::make_unique<Session>(scene, progress);
+    tasks_ = std::make_unique<TaskRun>(*session_, reportFolder(), !options_.no_view);
     return *session_;
   }
   Wants wants(const Session& session) {
@@ -63,7 +64,7 @@ class Replayed {
   void endPiece() {
     if (!session_ || !hands_) return;
     Frame last = session_->drain();
-    measures_.push_back(hands_->metrics());
+    measures_.push_back(hands_->rows().metrics());
     if (album_) {
       album_->add(std::move(last));
       Wants skin;
@@ -72,23 +73,37 @@ class Replayed {
       static_cast<Pictures&>(shown) = session_->show(skin);
       album_->add(std::move(shown));
       album_->finish();
-      hands_->write(folder_ + "/hands.csv");
+      writeHands(hands_->rows(), folder_);
     }
     album_.reset();
     hands_.reset();
   }
+  /// The same, and the tasks of the session.
+  void end() {
+    endPiece();
+    if (tasks_)
+      for (ReplayJson& judged : tasks_->finish()) judged_.push_back(std::move(judged));
+    tasks_.reset();
+  }
+  const ReplayJson& judged() const { return judged_; }
   Session& session() { return *session_; }
   const ReplayJson& measures() const { return measures_; }
 
  private:
+  std::string reportFolder() {
+    if (options_.out.empty()) return "";
+    return options_.out + (++scenes_ == 1 ? "/report" : "/report_" + std::to_string(scenes_));
+  }
+
   const ReplayOptions& options_;
   std::unique_ptr<gpu::Context> context_;
   std::unique_ptr<Session> session_;
   std::optional<HandLog> hands_;
+  std::unique_ptr<TaskRun> tasks_;
   std::unique_ptr<Album> album_;
   std::string folder_;
-  int pieces_ = 0;
-  ReplayJson measures_ = ReplayJson::array();
+  int pieces_ = 0, scenes_ = 0;
+  ReplayJson measures_ = ReplayJson::array(), judged_ = ReplayJson::array();
   const ReplayClock::time_point begun_ = ReplayClock::now();
 };
 
@@ -138,10 +153,11 @@ int replay(const ReplayOptions& options) {
   ports.wants = [&](const Session& session) { return replayed.wants(session); };
   ports.stepped = [&](Session&, Frame&& frame, double at_s) { replayed.stepped(std::move(frame), at_s); };
   const SessionReplay::Outcome outcome = recording.run(options.from_s, until_s, options.overrides, ports);
-  replayed.endPiece();
+  replayed.end();
   if (!options.save.empty()) replayed.session().save(options.save);
   ReplayJson result = resultOf(recording, outcome, replayed.session());
   result["pieces"] = replayed.measures();
+  if (!replayed.judged().empty()) result["tasks"] = replayed.judged();
   if (!options.out.empty()) {
     std::ofstream file(options.out + "/metrics.json");
     file << result.dump(2, ' ', false, ReplayJson::error_handler_t::replace) << '\n';

@@ -10,13 +10,14 @@
 
 #include "cli/album.h"
 #include "cli/commands.h"
-#include "cli/hand_log.h"
 #include "cli/run_metrics.h"
 #include "cli/run_plan.h"
 #include "cli/scene_lookup.h"
+#include "cli/task_run.h"
 #include "math/one_line.h"
 #include "model/fracture/toughness.h"
 #include "session/session_recorder.h"
+#include "tasks/hand_log.h"
 #include "viscera/gpu/context.h"
 #include "viscera/math/error.h"
 #include "viscera/session/session.h"
@@ -116,6 +117,14 @@ void compareWithRecording(const Strokes& strokes, uint64_t ticks, Json& metrics)
             << replayed << ": another scene, other overrides, or another machine\n";
 }
 
+/// Null: none was asked for.
+std::unique_ptr<TaskRun> beginTask(Session& session, const RunOptions& options) {
+  if (options.task.empty()) return nullptr;
+  auto out = std::make_unique<TaskRun>(session, options.out.empty() ? "" : options.out + "/report", !options.no_view);
+  out->begin(loadTask(options.task));
+  return out;
+}
+
 /// @throws Error  not all of it was written
 void finish(SessionRecorder& recorder) {
   recorder.leave();
@@ -125,12 +134,19 @@ void finish(SessionRecorder& recorder) {
 
 }  // namespace
 
+void writeHands(const HandRows& hands, const std::string& folder) {
+  hands.write(folder + "/hands.csv");
+  hands.writeJigsaws(folder + "/kinematics.txt");
+}
+
 std::unique_ptr<gpu::Context> contextFor(bool no_view, const Scene& scene) {
-  if (no_view) return nullptr;
+  if (no_view && scene.solver.backend != Backend::kGpu) return nullptr;
   try {
     return std::make_unique<gpu::Context>(scene.solver.device);
   } catch (const GpuError& error) {
-    throw GpuError(std::string(error.what()) + "; --no-view does without, on the processor and without pictures");
+    const char* const way_out = no_view ? "; solver.backend: cpu or auto does without, on the processor"
+                                        : "; --no-view does without, on the processor and without pictures";
+    throw GpuError(error.what() + std::string(way_out));
   }
 }
 
@@ -175,6 +191,7 @@ int run(const RunOptions& options) {
   if (!options.strokes.empty()) hands.emplace(session);
   std::optional<SessionRecorder> recorder;
   if (!options.record.empty()) recorder.emplace(options.record).follow(session);
+  const std::unique_ptr<TaskRun> task = beginTask(session, options);
   const uint64_t save_ticks = saveTicks(options.save_every_s, session.tick_s());
   std::optional<Exporter> exporter;
   if (options.exported) exporter.emplace(options.out + "/export", *options.exported, session.tick_s());
@@ -198,9 +215,10 @@ int run(const RunOptions& options) {
 
   Json metrics = metricsOf(session, stats, context ? context->renderer() : "none", wall_s);
   compareWithRecording(strokes, ticks, metrics);
-  if (hands) metrics["hands"] = hands->metrics();
+  if (hands) metrics["hands"] = hands->rows().metrics();
+  if (task) metrics["tasks"] = task->finish();
   if (!options.out.empty()) {
-    if (hands) hands->write(options.out + "/hands.csv");
+    if (hands) writeHands(hands->rows(), options.out);
     std::ofstream file(options.out + "/metrics.json");
     file << metrics.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
     if (!file) throw Error(options.out + "/metrics.json: cannot be written");

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "cli/commands.h"
+#include "tasks/hand_log.h"
 #include "viscera/gpu/context.h"
 #include "viscera/model/scene/scene.h"
 #include "viscera/tools/strokes.h"
@@ -22,6 +23,9 @@ RunPlan planRun(const RunOptions& options);
 
 /// The context of a session, or none. @throws GpuError  with a way out
 std::unique_ptr<gpu::Context> contextFor(bool no_view, const Scene& scene);
+
+/// hands.csv and kinematics.txt. @throws Error  one cannot be written
+void writeHands(const HandRows& hands, const std::string& folder);
 
 /// `viscera run --reference`: without a GPU, unless it is compared with one.
 int runReference(const RunPlan& plan, bool compare);

@@ -3,7 +3,7 @@
 #include "rviz/surface_display.h"
 
 #include <OgreSceneNode.h>
-#include <ros/transport_hints.h>
+#include <ros/console.h>
 #include <rviz/display_context.h>
 #include <rviz/frame_manager.h>
 #include <rviz/properties/bool_property.h>
@@ -21,7 +21,6 @@ namespace viscera::rviz_plugin {
 namespace {
 
 constexpr std::chrono::seconds kTellEvery{1};
-constexpr uint32_t kChangesQueue = 1000;  // none may be lost: the next whole topology may be half a second away
 constexpr double kGoldenTurn = 0.618034;  // of the circle of hues: bodies side by side in the list differ most
 
 Ogre::ColourValue ofBody(const QColor& color, size_t body, float alpha) {
@@ -51,9 +50,7 @@ SurfaceDisplay::SurfaceDisplay() {
     connect(property, &rviz::Property::changed, this, [this] { paint(); });
 }
 
-SurfaceDisplay::~SurfaceDisplay() {
-  unsubscribe();
-}
+SurfaceDisplay::~SurfaceDisplay() = default;
 
 void SurfaceDisplay::onInitialize() {
   mesh_ = std::make_unique<SurfaceMesh>(scene_manager_, scene_node_);
@@ -64,7 +61,7 @@ void SurfaceDisplay::onEnable() {
 }
 
 void SurfaceDisplay::onDisable() {
-  unsubscribe();
+  feed_.unsubscribe();
   reset();
 }
 
@@ -74,10 +71,9 @@ void SurfaceDisplay::setTopic(const QString& topic, const QString&) {
 
 void SurfaceDisplay::reset() {
   rviz::Display::reset();
-  surface_.clear();
+  feed_.clear();
   drawn_topology_.reset();
   drawn_vertices_.reset();
-  wrong_.clear();
   drawn_ = 0;
   placed_ = true;
   told_ = {};
@@ -86,43 +82,24 @@ void SurfaceDisplay::reset() {
 }
 
 void SurfaceDisplay::subscribe() {
-  unsubscribe();
+  feed_.unsubscribe();
   const std::string topic = topic_->getTopicStd();
   if (topic.empty()) return;
   try {
-    const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
-    whole_ = update_nh_.subscribe<SurfaceTopology>(
-        topic + "_topology", 1, [this](const SurfaceTopologyConstPtr& message) { take(*message); }, {}, hints);
-    changes_ = update_nh_.subscribe<SurfaceTopologyChange>(
-        topic + "_topology_change", kChangesQueue,
-        [this](const SurfaceTopologyChangeConstPtr& message) { take(*message); }, {}, hints);
-    vertices_ = update_nh_.subscribe<SurfaceVertices>(
-        topic, 1, [this](const SurfaceVerticesConstPtr& message) { take(message); }, {}, hints);
+    feed_.subscribe(update_nh_, topic);
   } catch (const ros::Exception& error) {  // no name of a topic
-    unsubscribe();
+    feed_.unsubscribe();
     setStatus(rviz::StatusProperty::Error, "Topic", error.what());
   }
 }
 
-void SurfaceDisplay::unsubscribe() {
-  whole_.shutdown();
-  changes_.shutdown();
-  vertices_.shutdown();
-  whole_ = changes_ = vertices_ = ros::Subscriber();
-}
-
-template <class Message>
-void SurfaceDisplay::take(const Message& message) {
-  const std::string wrong = surface_.take(message);
-  if (!wrong.empty()) wrong_ = wrong;
-}
-
 void SurfaceDisplay::update(float, float) {
-  if (surface_.vertices() && surface_.vertices() != drawn_vertices_) {
-    const bool topology_is_new = surface_.topology() != drawn_topology_;
-    mesh_->show(*surface_.topology(), *surface_.vertices(), topology_is_new);
-    drawn_vertices_ = surface_.vertices();
-    drawn_topology_ = surface_.topology();
+  const SentSurface& sent = feed_.surface();
+  if (sent.vertices() && sent.vertices() != drawn_vertices_) {
+    const bool topology_is_new = sent.topology() != drawn_topology_;
+    mesh_->show(*sent.topology(), *sent.vertices(), topology_is_new);
+    drawn_vertices_ = sent.vertices();
+    drawn_topology_ = sent.topology();
     ++drawn_;
     if (topology_is_new) paint();
     context_->queueRender();
@@ -165,15 +142,16 @@ void SurfaceDisplay::tell() {
   const double elapsed_s = std::chrono::duration<double>(now - told_).count();
   const bool first = told_ == std::chrono::steady_clock::time_point{};
   told_ = now;
-  if (!vertices_) return;
-  const uint32_t senders = vertices_.getNumPublishers();
-  const QString topic = QString::fromStdString(vertices_.getTopic());
+  const ros::Subscriber& vertices = feed_.vertices();
+  if (!vertices) return;
+  const uint32_t senders = vertices.getNumPublishers();
+  const QString topic = QString::fromStdString(vertices.getTopic());
   if (senders == 1)
     setStatus(StatusProperty::Ok, "Simulator", "sends " + topic);
   else
     setStatus(StatusProperty::Warn, "Simulator",
               senders == 0 ? "no simulator sends " + topic : QString("%1 nodes send ").arg(senders) + topic);
-  if (!surface_.hasTopology())
+  if (!feed_.surface().hasTopology())
     setStatus(StatusProperty::Warn, "Topology", "waiting for " + topic + "_topology");
   else if (!drawn_topology_)
     setStatus(StatusProperty::Warn, "Topology", "waiting for vertices that belong to it");
@@ -183,13 +161,17 @@ void SurfaceDisplay::tell() {
                   .arg(drawn_topology_->triangles.size() / 3)
                   .arg(drawn_topology_->vertices)
                   .arg(drawn_topology_->version));
-  if (drawn_vertices_ && !first)
-    setStatus(StatusProperty::Ok, "Rate", QString("%1 Hz").arg(static_cast<double>(drawn_) / elapsed_s, 0, 'f', 1));
-  if (wrong_.empty())
+  if (drawn_vertices_ && !first) {
+    const double rate_hz = static_cast<double>(drawn_) / elapsed_s;
+    setStatus(StatusProperty::Ok, "Rate", QString("%1 Hz").arg(rate_hz, 0, 'f', 1));
+    ROS_DEBUG_NAMED("surface", "%s: %.1f Hz, %zu triangles, version %u", vertices.getTopic().c_str(), rate_hz,
+                    drawn_topology_->triangles.size() / 3, drawn_topology_->version);
+  }
+  if (feed_.wrong().empty())
     deleteStatus("Message");
   else
-    setStatusStd(StatusProperty::Error, "Message", wrong_);
-  if (drawn_ > 0) wrong_.clear();  // later ones were good
+    setStatusStd(StatusProperty::Error, "Message", feed_.wrong());
+  if (drawn_ > 0) feed_.forgive();  // later ones were good
   drawn_ = 0;
 }
 

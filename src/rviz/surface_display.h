@@ -2,14 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <ros/subscriber.h>
 #include <rviz/display.h>
 
 #include <chrono>
 #include <memory>
 #include <string>
 
-#include "rviz/sent_surface.h"
+#include "rviz/surface_feed.h"
 
 namespace rviz {
 class BoolProperty;
@@ -33,9 +32,6 @@ class SurfaceDisplay : public rviz::Display {
   void update(float wall_dt, float ros_dt) override;
   void reset() override;
 
-  /// What is shown, in its own frame; null where nothing is.
-  const SentSurface& shown() const { return surface_; }
-
  protected:
   void onInitialize() override;
   void onEnable() override;
@@ -43,9 +39,6 @@ class SurfaceDisplay : public rviz::Display {
 
  private:
   void subscribe();
-  void unsubscribe();
-  template <class Message>
-  void take(const Message& message);
   bool place();
   void paint();
   void tell();
@@ -54,12 +47,10 @@ class SurfaceDisplay : public rviz::Display {
   rviz::ColorProperty *color_, *wall_color_;
   rviz::BoolProperty* by_body_;
   rviz::FloatProperty* alpha_;
-  ros::Subscriber whole_, changes_, vertices_;
-  SentSurface surface_;
+  SurfaceFeed feed_;
   std::unique_ptr<SurfaceMesh> mesh_;
   std::shared_ptr<const SentTopology> drawn_topology_;
   SurfaceVerticesConstPtr drawn_vertices_;
-  std::string wrong_;   ///< with the last message; empty: nothing
   size_t drawn_ = 0;    ///< surfaces since told_
   bool placed_ = true;  ///< no error about the transform is shown
   std::chrono::steady_clock::time_point told_{};

@@ -68,4 +68,9 @@ std::string RecordingSwitch::fault() const {
   return recorder_ ? recorder_->fault() : "";
 }
 
+std::string RecordingSwitch::file() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return recorder_ && recorder_->fault().empty() ? recorder_->path() : "";
+}
+
 }  // namespace viscera

@@ -10,7 +10,8 @@
 
 namespace viscera {
 
-/// Begins and ends recordings of sessions that follow one another. All but fault() on the thread of the session.
+/// Begins and ends recordings of sessions that follow one another. All but fault() and file() on the thread of the
+/// session.
 class RecordingSwitch {
  public:
   /// @param place  a file that is to be made, or a folder, in which it is named after the time; empty: none yet
@@ -25,6 +26,7 @@ class RecordingSwitch {
   /// @returns the file   @throws Error  nothing is recorded; or why not all of it was
   std::string stop();
   std::string fault() const;  ///< why nothing is recorded any more; empty: nothing went wrong
+  std::string file() const;   ///< into which is recorded; empty: none. From any thread, as fault()
 
  private:
   std::string place_;         ///< of a recording that is still to begin

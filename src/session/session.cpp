@@ -97,6 +97,12 @@ void Session::removeLog(SessionLog& log) {
   logs_.erase(std::remove(logs_.begin(), logs_.end(), &log), logs_.end());
 }
 
+void Session::noteTask(const std::string& name, const std::string& yaml) {
+  Frame measured;
+  collectStats(measured, true);
+  for (SessionLog* log : logs_) log->taskNoted(*this, name, yaml);
+}
+
 bool Session::feels(const ToolMotions& motions) {
   return std::any_of(motions.begin(), motions.end(), [](const StylusMotion& motion) { return motion.feels_m > 0; });
 }

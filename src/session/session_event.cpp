@@ -63,13 +63,16 @@ void SessionEvent::persist(Archive& archive, size_t styluses) {
     case Kind::kOverlays:
       archive.value(index);
       return archive.value(overlays);
+    case Kind::kTask:
+      archive.list(task);
+      return archive.list(task_yaml);
     default:  // a reset and the like have nothing to tell, and what is unknown is refused
       return;
   }
 }
 
 void SessionEvent::require(const Scene& scene) const {
-  bool sound = kind <= Kind::kOverlays && isPose(pose);
+  bool sound = kind <= Kind::kTask && isPose(pose);
   for (const StylusSample& sample : samples) sound = sound && (!sample.valid || isPose(sample.pose));
   if (kind == Kind::kToolMode || kind == Kind::kForceLimits) sound = sound && index < scene.styluses.size();
   if (kind == Kind::kObstacleFrame) sound = sound && index < scene.obstacles.size();
@@ -100,6 +103,8 @@ void SessionEvent::apply(Session& session) const {
     case Kind::kOverlays:
       if (index < cameras.size()) session.setOverlays(index, overlays);
       return;
+    case Kind::kTask:
+      return session.noteTask(task, task_yaml);
     default:
       return;
   }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
 #include "math/archive.h"
 #include "viscera/session/session.h"
@@ -21,6 +22,7 @@ struct SessionEvent {
     kObstacleFrame,
     kCameraFrame,
     kOverlays,
+    kTask,
   };
   Kind kind = Kind::kStep;
   StylusSamples samples{};              ///< of a step
@@ -32,6 +34,7 @@ struct SessionEvent {
   ForceLimits limits{0, 0};             ///< of force limits
   Pose pose;                            ///< of a frame
   Overlays overlays;                    ///< of overlays
+  std::string task, task_yaml;          ///< of a task
 
   /// @param styluses  of the scene
   void persist(Archive& archive, size_t styluses);

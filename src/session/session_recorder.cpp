@@ -120,6 +120,14 @@ void SessionRecorder::cameraFrameSet(size_t camera, const Pose& pose) {
   put(event);
 }
 
+void SessionRecorder::taskNoted(Session&, const std::string& name, const std::string& yaml) {
+  SessionEvent event;
+  event.kind = SessionEvent::Kind::kTask;
+  event.task = name;
+  event.task_yaml = yaml;
+  put(event);
+}
+
 void SessionRecorder::overlaysSet(size_t camera, const Overlays& overlays) {
   SessionEvent event;
   event.kind = SessionEvent::Kind::kOverlays;

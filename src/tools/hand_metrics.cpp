@@ -48,28 +48,6 @@ std::vector<double> speedsOf(const HandTrack& track) {
   return out;
 }
 
-double volumeOf(const std::vector<Vector3d>& forces) {
-  Vector3d mean = Vector3d::Zero();
-  for (const Vector3d& force : forces) mean += force / static_cast<double>(forces.size());
-  Matrix3d covariance = Matrix3d::Zero();
-  for (const Vector3d& force : forces)
-    covariance += (force - mean) * (force - mean).transpose() / static_cast<double>(forces.size());
-  return 4.0 / 3.0 * kPi * std::sqrt(std::max(0.0, covariance.determinant()));
-}
-
-void measureForces(const HandTrack& track, HandMetrics& out) {
-  std::vector<Vector3d> felt;
-  for (const Vector3d& force : track.forces_n) {
-    if (!force.allFinite() || force.isZero(0)) continue;
-    felt.push_back(force);
-    out.peak_force_n = std::max(out.peak_force_n, force.norm());
-    out.force_time_ns += force.norm() / track.rate_hz;
-  }
-  if (felt.empty()) return;
-  out.mean_force_n = out.force_time_ns * track.rate_hz / static_cast<double>(felt.size());
-  out.force_volume_n3 = volumeOf(felt);
-}
-
 }  // namespace
 
 double spectralArcLength(const std::vector<double>& speeds, double rate_hz) {
@@ -116,18 +94,45 @@ double logDimensionlessJerk(const std::vector<double>& speeds, double rate_hz) {
   return jerk == 0 ? 0 : -std::log(std::abs(jerk));
 }
 
+void HandTally::addPlace(bool tracked, const Vector3d& place_m) {
+  if (tracked) {
+    if (!first_m_) first_m_ = place_m;
+    if (before_m_) sums_.path_m += (place_m - *before_m_).norm();
+    sums_.time_s += 1 / rate_hz_;
+    last_m_ = before_m_ = place_m;
+  } else {
+    before_m_.reset();
+  }
+}
+
+void HandTally::addForce(const Vector3d& force_n) {
+  if (!force_n.allFinite() || force_n.isZero(0)) return;
+  forces_ += 1;
+  sums_.peak_force_n = std::max(sums_.peak_force_n, force_n.norm());
+  sums_.force_time_ns += force_n.norm() / rate_hz_;
+  force_sum_ += force_n;
+  square_sum_ += force_n * force_n.transpose();
+}
+
+HandMetrics HandTally::metrics() const {
+  HandMetrics out = sums_;
+  if (out.path_m > 0) out.economy = (*last_m_ - *first_m_).norm() / out.path_m;
+  if (forces_ == 0) return out;
+  out.mean_force_n = out.force_time_ns * rate_hz_ / forces_;
+  const Vector3d mean = force_sum_ / forces_;
+  const Matrix3d covariance = square_sum_ / forces_ - mean * mean.transpose();
+  out.force_volume_n3 = 4.0 / 3.0 * kPi * std::sqrt(std::max(0.0, covariance.determinant()));
+  return out;
+}
+
 HandMetrics metricsOf(const HandTrack& track) {
-  HandMetrics out;
-  std::vector<Vector3d> known;
-  for (size_t i = 0; i < track.places_m.size(); ++i)
-    if (track.tracked[i]) known.push_back(track.places_m[i]);
-  out.time_s = static_cast<double>(known.size()) / track.rate_hz;
+  HandTally tally(track.rate_hz);
+  for (size_t i = 0; i < track.places_m.size(); ++i) tally.addPlace(track.tracked[i], track.places_m[i]);
+  for (const Vector3d& force : track.forces_n) tally.addForce(force);
+  HandMetrics out = tally.metrics();
   const std::vector<double> speeds = speedsOf(track);
-  for (const double speed : speeds) out.path_m += speed / track.rate_hz;
-  if (out.path_m > 0) out.economy = (known.back() - known.front()).norm() / out.path_m;
   out.sparc = spectralArcLength(speeds, track.rate_hz);
   out.log_jerk = logDimensionlessJerk(speeds, track.rate_hz);
-  measureForces(track, out);
   return out;
 }
 

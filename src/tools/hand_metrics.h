@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "viscera/math/types.h"
@@ -31,6 +32,23 @@ struct HandMetrics {
       0;  ///< of the ellipsoid whose half axes are the standard deviations of the force, while there was any
 };
 HandMetrics metricsOf(const HandTrack& track);
+
+/// The same but for smoothness, as it goes on: in a memory that does not grow.
+class HandTally {
+ public:
+  explicit HandTally(double rate_hz) : rate_hz_(rate_hz) {}
+  void addPlace(bool tracked, const Vector3d& place_m);
+  void addForce(const Vector3d& force_n);
+  HandMetrics metrics() const;
+
+ private:
+  double rate_hz_;
+  HandMetrics sums_;
+  std::optional<Vector3d> first_m_, last_m_, before_m_;  ///< tracked places; of the tick before, if it was tracked
+  double forces_ = 0;                                    ///< how many
+  Vector3d force_sum_ = Vector3d::Zero();
+  Matrix3d square_sum_ = Matrix3d::Zero();
+};
 
 /// SPARC, the spectral arc length of a speed: how smooth a motion is; about -1.4 for one stroke, less for more. Padding
 /// 4, frequencies to 10 Hz, amplitudes above 0.05. 0: nothing moved.

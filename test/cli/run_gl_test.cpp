@@ -287,8 +287,16 @@ TEST_F(Run, WithoutAViewNoDeviceIsNeededAndTheStateIsTheSame) {
   std::set<std::string> files;
   for (const auto& entry : fs::directory_iterator(folder_.file("unseen")))
     files.insert(entry.path().filename().string());
-  EXPECT_EQ(files, (std::set<std::string>{"hands.csv", "metrics.json", "surface.ply"}));
+  EXPECT_EQ(files, (std::set<std::string>{"hands.csv", "kinematics.txt", "metrics.json", "surface.ply"}));
   EXPECT_GT(importMesh(folder_.file("unseen/surface.ply"), 1).triangles.size(), 0u);
+}
+
+TEST_F(Run, WithoutAViewTheGpuStepsWhereItIsAskedFor) {
+  const Json seen = metricsOf(run({"--set", "solver.backend=gpu"}));
+  const Json unseen = metricsOf(run({"--no-view", "--set", "solver.backend=gpu"}));
+  EXPECT_EQ(unseen["backend"], "gpu");
+  EXPECT_EQ(unseen["images"], 0);
+  EXPECT_EQ(unseen["state_hash"], seen["state_hash"]);
 }
 
 TEST_F(Run, PicturesDoNotChangeTheState) {

@@ -38,6 +38,10 @@ TEST(Keys, DocumentOfDevicesToo) {
   expectTable("docs/device_keys.md", {"keys", "device"});
 }
 
+TEST(Keys, DocumentOfTasksToo) {
+  expectTable("docs/lessons/task_keys.md", {"keys", "task"});
+}
+
 TEST(Keys, DocumentOfTissuesToo) {
   expectTable("docs/tissues.md", {"keys", "tissues"}, "tissue");
 }

@@ -104,6 +104,9 @@ class Session {
   /// Told of all that changes this session from now on, until removeLog().
   void addLog(SessionLog& log) { logs_.push_back(&log); }
   void removeLog(SessionLog& log);
+  /// Tells the logs that what follows is judged as a task (docs/lessons/tasks.md); changes nothing of the session itself, whose
+  /// measurements it waits for. @param name, yaml  of its file; both empty: it is given up
+  void noteTask(const std::string& name, const std::string& yaml);
 
   const Scene& scene() const { return scene_; }
   const Model& model() const { return *model_; }
@@ -120,6 +123,7 @@ class Session {
   const Extremes& extremes() const { return extremes_; }
   /// Is the coming step one of those after which this camera, at its rate_hz, has a picture?
   bool imageDue(size_t camera) const;
+  const ToolMotions& motions() const { return look_.motions; }  ///< of the last step
   double tick_s() const { return 1.0 / scene_.solver.tick_hz; }
   uint64_t tick() const { return tick_; }
 

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 
 #include "viscera/layout/tick_stats.h"
 #include "viscera/math/types.h"
@@ -30,6 +31,7 @@ class SessionLog {
   virtual void forceLimitsSet(size_t /*stylus*/, const ForceLimits&) {}
   virtual void obstacleFrameSet(size_t /*obstacle*/, const Pose&) {}
   virtual void cameraFrameSet(size_t /*camera*/, const Pose&) {}
+  virtual void taskNoted(Session&, const std::string& /*name*/, const std::string& /*yaml*/) {}
   virtual void overlaysSet(size_t /*camera*/, const Overlays&) {}
 };
 

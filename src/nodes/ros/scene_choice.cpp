@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "model/scene/file_bounds.h"
+#include "tasks/task.h"
 #include "viscera/model/fitted_scene.h"
 
 namespace viscera::nodes {
@@ -67,9 +68,29 @@ std::string namedFile(const std::string& key, const std::string& value, const st
                        namesIn(folder));
 }
 
-SceneChoice SceneChoice::read(Parameters& parameters, const std::string& fallback) {
-  SceneChoice choice{parameters.text("scene", fallback), meshChoice(parameters), {}, framePrefix(parameters)};
+std::string sceneFile(const std::string& scene, const std::string& package_folder) {
+  std::error_code ignored;  // what is not there has its own name
+  return fs::weakly_canonical(namedPath(scene, package_folder + "/config/scenes"), ignored).string();
+}
+
+std::string taskFile(const std::string& key, const std::string& task, const std::string& package_folder) {
+  const std::string folder = package_folder + "/config/tasks";
+  requireWithinBounds(namedPath(task, folder));
+  return namedFile(key, task, folder);
+}
+
+SceneChoice SceneChoice::read(Parameters& parameters, const std::string& fallback, const std::string& package_folder) {
+  const std::string task = parameters.text("task", "");
+  SceneChoice choice{
+      parameters.text("scene", task.empty() ? fallback : ""), meshChoice(parameters), {}, framePrefix(parameters)};
   for (const std::string& item : parameters.texts("overrides")) choice.overrides.push_back(item);
+  if (task.empty()) return choice;
+  choice.task = taskFile("task", task, package_folder);
+  const std::string scene = sceneOfTask(loadTask(choice.task), choice.task);
+  if (choice.scene.empty()) choice.scene = scene;
+  if (sceneFile(choice.scene, package_folder) != sceneFile(scene, package_folder))
+    throw ParameterError("parameter ~scene: " + choice.scene + " is not the scene of ~task, " + scene +
+                         "; leave it out");
   return choice;
 }
 

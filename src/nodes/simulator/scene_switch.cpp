@@ -92,7 +92,7 @@ SimulatorOptions SceneSwitch::check(const LoadScene::Request& request) const {
   if (request.scene.empty()) throw ParameterError("parameter ~scene: must be given");
   SimulatorOptions next = running_;
   Parameters parameters = parametersOf(request, running_.publish.frame_prefix);
-  next.take(SceneChoice::read(parameters, ""), package_folder_);
+  next.take(SceneChoice::read(parameters, "", package_folder_), package_folder_);
   return next;
 }
 

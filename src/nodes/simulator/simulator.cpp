@@ -53,15 +53,17 @@ Simulator::Simulator(const SimulatorOptions& options, EndWatch& end, SceneSwitch
       ticks_(node_, options.scene, [this] { return publisher_.isViewed(); }),
       samples_(node_, options.scene, options.choice),
       obstacle_forces_(node_, options.scene),
+      tasks_(node_, options.scene, options.choice, options.package_folder, options.saved_folder),
       loop_(options.scene, scenes.takeMade(), ports(),
             [this](const std::string& stage, double fraction) { reportProgress(stage, fraction); }),
 #ifdef VISCERA_RECONFIGURE
       settings_(std::in_place, options, loop_.commands(), SimulatorSettings::Publishers{publisher_, wrenches_}),
 #endif
-      services_(std::in_place, node_, options.scene.styluses, options.saved_folder, loop_.commands(), recordings_,
-                modeSet()),
-      diagnostics_(std::in_place, node_, options.scene, loop_, SimulatorDiagnostics::Publishers{publisher_, wrenches_},
-                   inputs_, obstacles_, camera_frames_),
+      services_(std::in_place, node_, options.scene.styluses, options.saved_folder, loop_.commands(),
+                SimulatorServices::Switches{recordings_, tasks_}, modeSet()),
+      diagnostics_(std::in_place, node_, options.scene, loop_,
+                   SimulatorDiagnostics::Publishers{publisher_, wrenches_, recordings_}, inputs_, obstacles_,
+                   camera_frames_),
       device_spinner_(1, &device_queue_) {
 }
 
@@ -121,6 +123,7 @@ LoopPorts Simulator::ports() {
   ports.stills = [this](bool changed, bool aimed) { return placed(publisher_.stills(changed, aimed)); };
   ports.ready = [this](Session& session) {
     recordings_.follow(session);
+    tasks_.follow(session);
     ROS_INFO("ready: %zu nodes, %zu springs, %zu triangles, substep %.3g ms", session.model().activeNodes(),
              session.model().springs(), session.model().skinTriangles(), 1e3 * session.solver().dt_s());
     ROS_INFO("stepped by: %s", session.backendNote().c_str());
@@ -130,7 +133,10 @@ LoopPorts Simulator::ports() {
     publisher_.start(session.wholeSkin());
     ready_ = true;
   };
-  ports.leave = [this] { recordings_.leave(); };
+  ports.leave = [this] {
+    tasks_.leave();
+    recordings_.leave();
+  };
   ports.stepped = [this](uint64_t tick, const StylusSamples& samples, const ToolMotions& tools, bool hands_anew) {
     samples_.publish(tick, samples, tools, hands_anew);
   };
@@ -169,6 +175,7 @@ void Simulator::deliver(Frame&& frame, const StylusSamples& samples, bool live) 
   for (size_t s = 0; s < inputs_.size(); ++s) inputs_[s]->endTick(frame.tools[s].to, publisher_.tickStamp());
   tool_frames_.put(samples, publisher_.tickStamp());
   ticks_.publish(frame.tick);
+  tasks_.notice();
   obstacle_forces_.publish(frame, publisher_.tickStamp());
   publisher_.deliver(std::move(frame));
 }

@@ -25,6 +25,7 @@
 #include "nodes/simulator/simulator_diagnostics.h"
 #include "nodes/simulator/simulator_options.h"
 #include "nodes/simulator/simulator_services.h"
+#include "nodes/simulator/task_switch.h"
 #include "nodes/views/camera_frames.h"
 #include "nodes/views/frame_publisher.h"
 #include "nodes/views/samples_publisher.h"
@@ -92,6 +93,7 @@ class Simulator {
   bool listening_ = false;
   uint64_t stalls_ = 0;  ///< that were warned of
   std::string recording_fault_;
+  TaskSwitch tasks_;
   SimulationLoop loop_;
 #ifdef VISCERA_RECONFIGURE
   std::optional<SimulatorSettings> settings_;

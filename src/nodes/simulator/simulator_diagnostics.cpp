@@ -51,6 +51,7 @@ SimulatorDiagnostics::SimulatorDiagnostics(ros::NodeHandle node, const Scene& sc
       inputs_(inputs),
       obstacles_(obstacles),
       camera_frames_(camera_frames),
+      scene_(scene.name),
       tick_s_(1 / scene.solver.tick_hz),
       pictures_(scene.cameras),
       dropped_before_(inputs.size(), 0),
@@ -107,7 +108,10 @@ void SimulatorDiagnostics::simulation(Status& status) {
   status.add("gpu_is_software", now_->software_gpu);
   status.add("backend", now_->backend);
   status.add("stepped_by", now_->stepped_by);
+  status.add("scene", scene_);
   status.add("tick", now_->tick);
+  status.add("paused", now_->paused);
+  status.add("recording", publishers_.recordings.file());
   status.add("dt_s", now_->dt_s);
   status.add("dt_safe_s", now_->dt_safe_s);
   status.add("dt_limit_s", now_->dt_limit_s);

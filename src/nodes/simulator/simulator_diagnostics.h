@@ -18,6 +18,7 @@
 #include "nodes/views/camera_frames.h"
 #include "nodes/views/frame_publisher.h"
 #include "nodes/views/picture_watch.h"
+#include "session/recording_switch.h"
 
 namespace viscera::nodes {
 
@@ -29,6 +30,7 @@ class SimulatorDiagnostics {
   struct Publishers {
     FramePublisher& frames;
     WrenchPublisher& wrenches;
+    const RecordingSwitch& recordings;
   };
 
   /// @param loop, publishers, inputs, obstacles, camera_frames  must outlive this
@@ -56,6 +58,7 @@ class SimulatorDiagnostics {
   uint64_t missed_before_ = 0;        ///< frames of obstacles
   uint64_t held_back_before_ = 0;     ///< ticks of obstacles
   std::vector<std::string> cameras_;  ///< their names
+  const std::string scene_;           ///< its name
   const double tick_s_;
   Slowness slowness_;
   PictureWatch pictures_;

@@ -31,7 +31,7 @@ void bindFiles(std::vector<std::string> folders, const std::string& package_fold
 SimulatorOptions simulatorOptions(Parameters& parameters, const std::string& package_folder) {
   SimulatorOptions options;
   bindFiles(parameters.texts("scene_folders"), package_folder);
-  const SceneChoice choice = SceneChoice::read(parameters, "heart");
+  const SceneChoice choice = SceneChoice::read(parameters, "heart", package_folder);
   PublishOptions& publish = options.publish;
   publish.surface_rate_hz =
       parameters.number("surface_rate_hz", publish.surface_rate_hz, SimulatorOptions::kLeastSurfaceRate_hz,
@@ -50,7 +50,8 @@ SimulatorOptions simulatorOptions(Parameters& parameters, const std::string& pac
   return options;
 }
 
-void SimulatorOptions::take(const SceneChoice& another, const std::string& package_folder) {
+void SimulatorOptions::take(const SceneChoice& another, const std::string& folder) {
+  package_folder = folder;
   choice = another;
   scene = choice.load(package_folder);
   devices = device_choices.load(scene.styluses, package_folder);

@@ -18,6 +18,7 @@ namespace viscera::nodes {
 /// What the private parameters of the simulator say.
 struct SimulatorOptions {
   static constexpr double kLeastSurfaceRate_hz = 0.1, kMostSurfaceRate_hz = 1000;
+  std::string package_folder;          ///< where config/ is
   SceneChoice choice;                  ///< what the scene was made of
   Scene scene;                         ///< its styluses have the limits of their devices
   std::vector<DeviceProfile> devices;  ///< [styluses]

@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::chrono::seconds kTriggerLimit{10};  ///< a tick, however slow, and a reset
 constexpr std::chrono::seconds kStepLimit{60};
-constexpr uint32_t kServices = 11;  ///< one thread each
+constexpr uint32_t kServices = 13;  ///< one thread each
 
 size_t indexOf(const std::string& stylus, const std::vector<StylusConfig>& styluses) {
   size_t s = 0;
@@ -97,12 +97,12 @@ std::string saveSurface(Session& session, const std::string& path) {
 }  // namespace
 
 SimulatorServices::SimulatorServices(ros::NodeHandle node, const std::vector<StylusConfig>& styluses,
-                                     const std::string& saved_folder, CommandQueue& commands,
-                                     RecordingSwitch& recordings, ModeSet mode_set)
+                                     const std::string& saved_folder, CommandQueue& commands, const Switches& switches,
+                                     ModeSet mode_set)
     : styluses_(styluses),
       saved_folder_(std::filesystem::absolute(saved_folder)),
       commands_(commands),
-      recordings_(recordings),
+      switches_(switches),
       mode_set_(std::move(mode_set)),
       spinner_(kServices, &queue_) {
   node.setCallbackQueue(&queue_);
@@ -127,25 +127,28 @@ SimulatorServices::SimulatorServices(ros::NodeHandle node, const std::vector<Sty
   });
   advertiseFile(node, "start_recording", false, [this](Session& session, const std::string& path) {
     makeFolder(saved_folder_);
-    return recordings_.start(session, path);
+    return switches_.recordings.start(session, path);
   });
-  advertiseStopRecording(node);
+  advertiseAct(node, "stop_recording", [this](Session&) { return switches_.recordings.stop(); });
+  servers_.push_back(node.advertiseService("start_task", &SimulatorServices::onStartTask, this));
+  advertiseAct(node, "end_task", [this](Session& session) { return switches_.tasks.end(session); });
   spinner_.start();
 }
 
-void SimulatorServices::advertiseStopRecording(ros::NodeHandle& node) {
+void SimulatorServices::advertiseAct(ros::NodeHandle& node, const std::string& name,
+                                     const std::function<std::string(Session&)>& act) {
   using Request = std_srvs::Trigger::Request;
   using Response = std_srvs::Trigger::Response;
-  const boost::function<bool(Request&, Response&)> serve = [this](Request&, Response& response) {
+  const boost::function<bool(Request&, Response&)> serve = [this, act](Request&, Response& response) {
     Command command;
     command.kind = Command::Kind::kChange;
-    command.change = [this](Session&) { return recordings_.stop(); };
+    command.change = act;
     const CommandAnswer answer = commands_.call(std::move(command), kTriggerLimit);
     response.success = answer.success;
     response.message = answer.message;
     return true;
   };
-  servers_.push_back(node.advertiseService<Request, Response>("stop_recording", serve));
+  servers_.push_back(node.advertiseService<Request, Response>(name, serve));
 }
 
 void SimulatorServices::advertiseFile(ros::NodeHandle& node, const std::string& name, bool leaps, const FileAct& act) {
@@ -215,6 +218,23 @@ bool SimulatorServices::onSetToolMode(SetToolMode::Request& request, SetToolMode
     response.success = answer.success;
     response.message = answer.message;
     if (answer.success && mode_set_) mode_set_(stylus, when, mode);
+  } catch (const Error& error) {
+    response.message = error.what();
+  }
+  return true;
+}
+
+bool SimulatorServices::onStartTask(StartTask::Request& request, StartTask::Response& response) {
+  try {
+    Command command;
+    command.kind = Command::Kind::kChange;
+    command.leaps = true;
+    command.change = [this, task = switches_.tasks.find(request.task)](Session& session) {
+      return switches_.tasks.start(session, task);
+    };
+    const CommandAnswer answer = commands_.call(std::move(command), kTriggerLimit);
+    response.success = answer.success;
+    response.message = answer.message;
   } catch (const Error& error) {
     response.message = error.what();
   }

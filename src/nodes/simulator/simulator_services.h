@@ -11,28 +11,36 @@
 #include <vector>
 
 #include "nodes/simulator/command_queue.h"
+#include "nodes/simulator/task_switch.h"
 #include "session/recording_switch.h"
 #include "viscera/FileCommand.h"
 #include "viscera/SetOverlays.h"
 #include "viscera/SetToolMode.h"
+#include "viscera/StartTask.h"
 #include "viscera/Step.h"
 
 namespace viscera::nodes {
 
 /// Services `reset`, `pause`, `resume`, `step`, `set_overlays`, `set_tool_mode`, `save_state`, `load_state`,
-/// `save_surface`, `start_recording` and `stop_recording`, on threads of their own: waiting for an answer holds up no
-/// input, and one no other.
+/// `save_surface`, `start_recording`, `stop_recording`, `start_task` and `end_task`, on threads of their own: waiting
+/// for an answer holds up no input, and one no other.
 class SimulatorServices {
  public:
   using ModeSet = std::function<void(size_t stylus, ToolSwitch when, ToolMode mode)>;
+  struct Switches {
+    RecordingSwitch& recordings;
+    TaskSwitch& tasks;
+  };
   /// @param styluses  of the scene   @param saved_folder  of all files that are written and read   @param commands,
-  /// recordings  must outlive this   @param mode_set  told of changes of modes
+  /// switches  must outlive this   @param mode_set  told of changes of modes
   SimulatorServices(ros::NodeHandle node, const std::vector<StylusConfig>& styluses, const std::string& saved_folder,
-                    CommandQueue& commands, RecordingSwitch& recordings, ModeSet mode_set = {});
+                    CommandQueue& commands, const Switches& switches, ModeSet mode_set = {});
 
  private:
   void advertiseTrigger(ros::NodeHandle& node, const std::string& name, Command::Kind kind);
-  void advertiseStopRecording(ros::NodeHandle& node);
+  /// Of a change without arguments. @param act  @returns what to answer  @throws Error
+  void advertiseAct(ros::NodeHandle& node, const std::string& name, const std::function<std::string(Session&)>& act);
+  bool onStartTask(StartTask::Request& request, StartTask::Response& response);
   /// Of a file: whole path of it. @returns what to answer  @throws Error
   using FileAct = std::function<std::string(Session&, const std::string& path)>;
   void advertiseFile(ros::NodeHandle& node, const std::string& name, bool leaps, const FileAct& act);
@@ -43,7 +51,7 @@ class SimulatorServices {
   const std::vector<StylusConfig> styluses_;
   const std::string saved_folder_;
   CommandQueue& commands_;
-  RecordingSwitch& recordings_;
+  const Switches switches_;
   const ModeSet mode_set_;
   ros::CallbackQueue queue_;
   std::vector<ros::ServiceServer> servers_;

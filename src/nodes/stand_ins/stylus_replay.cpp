@@ -24,7 +24,7 @@ constexpr std::chrono::milliseconds kFarewell{200};  ///< roscpp sends on anothe
 ReplayOptions replayOptions(Parameters& parameters, const std::string& package_folder) {
   ReplayOptions options;
   const std::string strokes = parameters.text("strokes", "");
-  const SceneChoice choice = SceneChoice::read(parameters, "");
+  const SceneChoice choice = SceneChoice::read(parameters, "", package_folder);
   const std::string frame = parameters.text("frame", "");
   options.rate_hz = parameters.number("rate_hz", options.rate_hz, 1, 1000);
   options.delay_s = parameters.number("delay_s", options.delay_s, 0, 3600);

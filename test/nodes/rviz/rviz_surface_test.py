@@ -2,7 +2,6 @@
 # Copyright (c) 2026, the viscera authors
 # SPDX-License-Identifier: BSD-3-Clause
 """The display viscera/Surface in rviz: what it draws of topologies, their changes and vertices, right and wrong ones."""
-import math
 import os
 import subprocess
 import sys
@@ -11,59 +10,16 @@ import unittest
 
 import rospy
 import rostest
-from rviz_screen import Screen, rviz
+from rviz_screen import VIEW, Screen, rviz
+from sent_ball import Sender
 from simulator_watch import wait_until
 
-from viscera.msg import SurfaceTopology, SurfaceTopologyChange, SurfaceVertices
+from viscera.msg import SurfaceTopologyChange
 
 CONFIG = os.path.join(subprocess.check_output(["rospack", "find", "viscera"], text=True).strip(),
                       "config", "viscera_plugin.rviz")
 LIMIT_S = 60      # software rendering on a busy machine
-RINGS, STEPS = 24, 48
-RADIUS_M = 0.05
 FEW, MANY = 300, 10000  # pixels: frames' axes are red too; a ball of 5 cm is 200 pixels wide
-
-
-def ball():
-    """Vertices, outward normals and triangles: upper half first, which is skin; the lower half stands for walls."""
-    points, triangles = [], []
-    for ring in range(RINGS + 1):
-        for step in range(STEPS):
-            polar, turn = math.pi * ring / RINGS, 2 * math.pi * step / STEPS
-            points.append((math.sin(polar) * math.cos(turn), math.sin(polar) * math.sin(turn), math.cos(polar)))
-            if ring < RINGS:
-                a, b = ring * STEPS + step, ring * STEPS + (step + 1) % STEPS
-                triangles += [a, a + STEPS, b, b, a + STEPS, b + STEPS]
-    return points, triangles
-
-
-def packed(normal):
-    return sum((round(511 * x) & 1023) << (10 * i) for i, x in enumerate(normal))
-
-
-class Sender:
-    def __init__(self):
-        self.whole = rospy.Publisher("surface_topology", SurfaceTopology, queue_size=1, latch=True)
-        self.change = rospy.Publisher("surface_topology_change", SurfaceTopologyChange, queue_size=10)
-        self.surface = rospy.Publisher("surface", SurfaceVertices, queue_size=1, latch=True)
-        self.points, self.triangles = ball()
-
-    def topology(self, version, triangles=None):
-        triangles = self.triangles if triangles is None else triangles
-        message = SurfaceTopology(version=version, vertices=len(self.points), bodies=["ball"],
-                                  body_triangles=[len(triangles) // 3], wound_triangles=[len(triangles) // 6],
-                                  triangles=triangles)
-        message.header.frame_id, message.header.stamp = "tissue", rospy.Time.now()
-        self.whole.publish(message)
-
-    def vertices(self, version, **other):
-        message = SurfaceVertices(topology_version=version,
-                                  positions_m=[RADIUS_M * x for point in self.points for x in point],
-                                  normals=[packed(point) for point in self.points])
-        message.header.frame_id, message.header.stamp = "tissue", rospy.Time.now()
-        for key, value in other.items():
-            setattr(message, key, value)
-        self.surface.publish(message)
 
 
 class RvizSurfaceTest(unittest.TestCase):
@@ -81,7 +37,7 @@ class RvizSurfaceTest(unittest.TestCase):
     def pixels(self):
         """Of skin and of walls: red, bright and dark."""
         self.assertIsNone(self.rviz.process.poll(), "rviz has ended: " + self.rviz.output)
-        red, green, blue = (self.screen.picture()[:, :, i] for i in range(3))
+        red, green, blue = (self.screen.picture()[VIEW][:, :, i] for i in range(3))
         skin = (red > 1.5 * green) & (green > 1.05 * blue - 3) & (red > 40) & (green > 0.25 * red)
         walls = (red > 3 * green) & (red > 3 * blue) & (red > 30) & (red < 140)
         return int(skin.sum()), int(walls.sum())

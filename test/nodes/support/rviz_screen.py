@@ -11,6 +11,11 @@ import numpy
 from program import Program
 
 WIDTH, HEIGHT = 1280, 900
+VIEW = slice(70, 760), slice(370, 840)  # rows and columns of the scene, in config/viscera_plugin.rviz
+SIGN_PIXELS = 40  # of the signs of 16 by 16 pixels, without their smooth edges
+
+# Of the environment of an rviz that tells how often it draws surfaces.
+DEBUG = {"ROSCONSOLE_CONFIG_FILE": os.path.join(os.path.dirname(os.path.abspath(__file__)), "rviz_debug.conf")}
 
 
 class Screen:
@@ -42,6 +47,20 @@ class Screen:
         """As PPM."""
         with open(path, "wb") as file:
             file.write(b"P6 %d %d 255\n" % (WIDTH, HEIGHT) + self.picture().astype(numpy.uint8).tobytes())
+
+    def keep(self, name):
+        """Where VISCERA_PICTURES names a folder, to be looked at."""
+        if "VISCERA_PICTURES" in os.environ:
+            self.save(os.path.join(os.environ["VISCERA_PICTURES"], name))
+
+    def find(self, color):
+        """Middle (x, y) of the pixels of just this colour; nothing where there are less than a sign on a button has."""
+        rows, columns = numpy.nonzero((self.picture() == color).all(axis=2))
+        return (int(numpy.median(columns)), int(numpy.median(rows))) if len(rows) >= SIGN_PIXELS else None
+
+    def click(self, x, y, button=1):
+        self.do("mousemove", x, y)
+        self.do("click", button)
 
     def do(self, *arguments):
         return subprocess.run(["xdotool", *map(str, arguments)], check=True, capture_output=True, text=True).stdout

@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cli/hand_log.h"
+#include "tasks/hand_log.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -8,7 +8,7 @@
 
 #include "viscera/math/error.h"
 
-namespace viscera::cli {
+namespace viscera {
 
 namespace {
 
@@ -28,38 +28,40 @@ std::string csvNumbers(const std::vector<double>& values) {
 
 }  // namespace
 
-HandLog::HandLog(Session& session) : session_(session), base_tick_(session.tick()) {
-  session.addLog(*this);
+HandRows::HandRows(const Session& session) : tick_s(session.tick_s()) {
+  for (const StylusConfig& stylus : session.styluses()) styluses.push_back(stylus.name);
 }
 
-void HandLog::stepped(Session& session, const StylusSamples& samples) {
-  rows_.push_back({session.tick(), samples});
+void HandRows::addRow(const Session& session, const StylusSamples& samples) {
+  rows.push_back({session.tick(), samples, session.motions()});
 }
 
-void HandLog::measured(const Session& session, uint64_t tick, const layout::TickStats& stats) {
-  if (tick <= base_tick_) return;
-  Felt felt;
-  for (size_t s = 0; s < std::size(felt.forces_n); ++s) {
-    felt.forces_n[s] = perTick(stats.impulse[s], session.tick_s());
-    felt.torques_nm[s] = perTick(stats.angular[s], session.tick_s());
+void HandRows::addFelt(const Session& session, const layout::TickStats& stats) {
+  Felt one;
+  for (size_t s = 0; s < std::size(one.forces_n); ++s) {
+    one.forces_n[s] = perTick(stats.impulse[s], session.tick_s());
+    one.torques_nm[s] = perTick(stats.angular[s], session.tick_s());
   }
-  felt_.push_back(felt);
+  felt.push_back(one);
 }
 
-nlohmann::ordered_json HandLog::metrics() const {
+HandTrack HandRows::track(size_t stylus) const {
+  HandTrack out;
+  out.rate_hz = 1 / tick_s;
+  for (const Row& row : rows) {
+    out.tracked.push_back(row.samples[stylus].valid);
+    out.places_m.push_back(row.samples[stylus].pose.position_m);
+  }
+  for (const Felt& one : felt) out.forces_n.push_back(one.forces_n[stylus]);
+  return out;
+}
+
+nlohmann::ordered_json HandRows::metrics() const {
   nlohmann::ordered_json out = nlohmann::ordered_json::array();
-  const std::vector<StylusConfig>& styluses = session_.styluses();
   for (size_t s = 0; s < styluses.size(); ++s) {
-    HandTrack track;
-    track.rate_hz = 1 / session_.tick_s();
-    for (const Row& row : rows_) {
-      track.tracked.push_back(row.samples[s].valid);
-      track.places_m.push_back(row.samples[s].pose.position_m);
-    }
-    for (const Felt& felt : felt_) track.forces_n.push_back(felt.forces_n[s]);
-    const HandMetrics metrics = metricsOf(track);
+    const HandMetrics metrics = metricsOf(track(s));
     nlohmann::ordered_json hand;
-    hand["stylus"] = styluses[s].name;
+    hand["stylus"] = styluses[s];
     hand["time_s"] = metrics.time_s;
     hand["path_m"] = metrics.path_m;
     hand["economy"] = metrics.economy;
@@ -74,17 +76,16 @@ nlohmann::ordered_json HandLog::metrics() const {
   return out;
 }
 
-void HandLog::write(const std::string& path) const {
+void HandRows::write(const std::string& path) const {
   std::ofstream file(path);
   file << "step,tick,stylus,tracked,x_m,y_m,z_m,qx,qy,qz,qw,button1,button2,force_x_n,force_y_n,force_z_n,torque_x_nm,"
           "torque_y_nm,torque_z_nm\n";
-  const std::vector<StylusConfig>& styluses = session_.styluses();
-  for (size_t i = 0; i < std::min(rows_.size(), felt_.size()); ++i) {
+  for (size_t i = 0; i < std::min(rows.size(), felt.size()); ++i) {
     for (size_t s = 0; s < styluses.size(); ++s) {
-      const StylusSample& sample = rows_[i].samples[s];
-      const Vector3d &p = sample.pose.position_m, &f = felt_[i].forces_n[s], &m = felt_[i].torques_nm[s];
+      const StylusSample& sample = rows[i].samples[s];
+      const Vector3d &p = sample.pose.position_m, &f = felt[i].forces_n[s], &m = felt[i].torques_nm[s];
       const Quaterniond& q = sample.pose.orientation;
-      file << i + 1 << ',' << rows_[i].tick << ',' << styluses[s].name << ',' << sample.valid
+      file << i + 1 << ',' << rows[i].tick << ',' << styluses[s] << ',' << sample.valid
            << csvNumbers({p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w()}) << ',' << sample.button1 << ','
            << sample.button2 << csvNumbers({f.x(), f.y(), f.z(), m.x(), m.y(), m.z()}) << '\n';
     }
@@ -92,4 +93,8 @@ void HandLog::write(const std::string& path) const {
   if (!file) throw Error(path + ": cannot be written");
 }
 
-}  // namespace viscera::cli
+HandLog::HandLog(Session& session) : session_(session), base_tick_(session.tick()), rows_(session) {
+  session.addLog(*this);
+}
+
+}  // namespace viscera

@@ -1,0 +1,229 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "nodes/simulator/task_switch.h"
+
+#include <ros/console.h>
+
+#include <algorithm>
+#include <ctime>
+#include <filesystem>
+#include <utility>
+
+#include "math/float_bits.h"
+#include "math/one_line.h"
+#include "model/scene/file_bounds.h"
+#include "tasks/task_kinds.h"
+#include "tasks/task_report.h"
+
+namespace viscera::nodes {
+namespace {
+
+constexpr double kTaskPeriod_s = 0.2, kMetricsPeriod_s = 0.5;
+using TaskClock = std::chrono::steady_clock;
+
+bool isPast(TaskClock::time_point since, double period_s) {
+  return std::chrono::duration<double>(TaskClock::now() - since).count() >= period_s;
+}
+
+std::string reportFolder(const std::string& folder, const std::string& task) {
+  const std::time_t now = std::time(nullptr);
+  std::tm utc{};
+  gmtime_r(&now, &utc);
+  char stamp[32];
+  std::strftime(stamp, sizeof stamp, "_%Y%m%dT%H%M%SZ", &utc);
+  return (std::filesystem::absolute(folder) / ("report_" + task + stamp)).string();
+}
+
+void addHand(Metrics& message, const std::string& stylus, const HandMetrics& hand) {
+  message.styluses.push_back(stylus);
+  message.time_s.push_back(hand.time_s);
+  message.path_m.push_back(hand.path_m);
+  message.economy.push_back(hand.economy);
+  message.sparc.push_back(hand.sparc);
+  message.log_dimensionless_jerk.push_back(hand.log_jerk);
+  message.peak_force_n.push_back(hand.peak_force_n);
+  message.mean_force_n.push_back(hand.mean_force_n);
+  message.force_time_ns.push_back(hand.force_time_ns);
+  message.force_volume_n3.push_back(hand.force_volume_n3);
+}
+
+uint8_t messageState(TaskPhase phase) {
+  constexpr uint8_t kStates[] = {TaskState::WAITING, TaskState::RUNNING, TaskState::PASSED, TaskState::FAILED};
+  return kStates[static_cast<size_t>(phase)];
+}
+
+void fill(TaskState& message, const TaskConfig& task, const TaskStatus& status) {
+  message.task = task.name;
+  message.kind = kindOf(task.kind).name;
+  message.title = task.title;
+  message.instructions = task.instructions;
+  message.state = messageState(status.state);
+  message.step = status.step;
+  message.time_s = status.time_s;
+  message.time_limit_s = task.time_limit_s;
+  message.proficiency_s = task.proficiency_s;
+  message.progress = status.progress;
+  message.penalties_s = status.penalties_s;
+  message.score = status.score;
+  message.pass_score = task.pass_score;
+  message.measures.clear();
+  message.values.clear();
+  message.measure_penalties_s.clear();
+  for (const TaskMeasure& measure : kTaskMeasures) {
+    message.measures.emplace_back(measure.name);
+    message.values.push_back(status.tally.*measure.value);
+    message.measure_penalties_s.push_back(costOf(task, status.tally, measure));
+  }
+}
+
+}  // namespace
+
+TaskSwitch::TaskSwitch(ros::NodeHandle node, const Scene& scene, const SceneChoice& choice,
+                       const std::string& package_folder, const std::string& saved_folder)
+    : choice_(choice),
+      package_folder_(package_folder),
+      saved_folder_(saved_folder),
+      tick_s_(1 / scene.solver.tick_hz),
+      state_publisher_(node.advertise<TaskState>("task_state", 1, true)),
+      metrics_publisher_(node.advertise<Metrics>("metrics", 1)) {
+  if (!choice.task.empty()) last_ = loadTask(choice.task);
+  for (const StylusConfig& stylus : scene.styluses) styluses_.push_back(stylus.name);
+  state_.header.frame_id = metrics_.header.frame_id = scene.environment.tissue_frame;
+  tallies_.assign(styluses_.size(), HandTally(1 / tick_s_));
+  timer_ = node.createWallTimer(ros::WallDuration(kTaskPeriod_s), [this](const ros::WallTimerEvent&) { onTimer(); });
+}
+
+TaskSwitch::~TaskSwitch() {
+  timer_.stop();
+  if (reporting_.valid()) reporting_.wait();
+}
+
+TaskConfig TaskSwitch::find(const std::string& name) const {
+  if (name.empty()) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (!last_) throw Error("task: none was chosen before: name one in config/tasks, or give an absolute path");
+    return *last_;
+  }
+  const std::string file = taskFile("task", name, package_folder_);
+  TaskConfig task = loadTask(file);
+  if (sceneFile(sceneOfTask(task, file), package_folder_) != sceneFile(choice_.scene, package_folder_))
+    throw Error("task: " + task.name + " is of the scene " + sceneOfTask(task, file) + ", and " + choice_.scene +
+                " runs: load_scene it first");
+  return task;
+}
+
+void TaskSwitch::follow(Session& session) {
+  session_ = &session;
+  session.addLog(*this);
+  watch_ = std::make_unique<TaskWatch>(session, [this](TaskResult&& result) { report(std::move(result)); });
+  if (last_) session.noteTask(last_->name, last_->yaml);
+}
+
+void TaskSwitch::leave() {
+  watch_.reset();
+  if (session_) std::exchange(session_, nullptr)->removeLog(*this);
+}
+
+std::string TaskSwitch::start(Session& session, const TaskConfig& task) {
+  session.reset();
+  session.noteTask(task.name, task.yaml);
+  const std::lock_guard<std::mutex> lock(mutex_);
+  last_ = task;
+  state_.report.clear();
+  return task.title;
+}
+
+std::string TaskSwitch::end(Session& session) {
+  if (!watch_->task() || watch_->status().state > TaskPhase::kRunning) throw Error("no task runs");
+  session.noteTask("", "");
+  return watch_->status().step;
+}
+
+void TaskSwitch::clear() {
+  std::fill(tallies_.begin(), tallies_.end(), HandTally(1 / tick_s_));
+  peak_strain_ = 0;
+  noticed_ = {};
+}
+
+void TaskSwitch::stepped(Session&, const StylusSamples& samples) {
+  for (size_t s = 0; s < tallies_.size(); ++s) tallies_[s].addPlace(samples[s].valid, samples[s].pose.position_m);
+}
+
+void TaskSwitch::measured(const Session&, uint64_t tick, const layout::TickStats& stats) {
+  for (size_t s = 0; s < tallies_.size(); ++s) {
+    const layout::vec4& impulse = stats.impulse[s];
+    tallies_[s].addForce(-Vector3d(impulse.x, impulse.y, impulse.z) / tick_s_);
+  }
+  const double strain = floatFromBits(stats.max_stretch_bits);
+  peak_strain_ = std::max(peak_strain_, strain);
+  measured_tick_ = tick;
+  springs_cut_ = stats.springs_cut;
+}
+
+void TaskSwitch::notice() {
+  if (!watch_) return;
+  const bool turned = watch_->task() && state_.state != messageState(watch_->status().state);
+  if (!turned && !isPast(noticed_, kTaskPeriod_s)) return;
+  noticed_ = TaskClock::now();
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (watch_->task()) {
+    fill(state_, *watch_->task(), watch_->status());
+    changed_ = changed_ || turned || watch_->status().state == TaskPhase::kRunning;
+  }
+  if (metrics_publisher_.getNumSubscribers() == 0) return;
+  Metrics message;
+  message.header = metrics_.header;
+  message.tick = measured_tick_;
+  message.springs_cut = springs_cut_;
+  message.peak_strain = peak_strain_;
+  for (size_t s = 0; s < styluses_.size(); ++s) addHand(message, styluses_[s], tallies_[s].metrics());
+  metrics_ = std::move(message);
+}
+
+Metrics TaskSwitch::metricsOf(const TaskResult& result) const {
+  Metrics out;
+  out.header = metrics_.header;
+  out.complete = true;
+  out.springs_cut = result.springs_cut;
+  out.peak_strain = result.status.tally.peak_strain;
+  if (!result.hands.rows.empty()) out.tick = result.hands.rows.back().tick;
+  for (size_t s = 0; s < styluses_.size(); ++s) addHand(out, styluses_[s], viscera::metricsOf(result.hands.track(s)));
+  return out;
+}
+
+/// Smoothness, plots and files take their time: on a thread of their own.
+void TaskSwitch::report(TaskResult&& result) {
+  if (reporting_.valid()) reporting_.wait();
+  const std::string folder = reportFolder(saved_folder_, result.task.name);
+  reporting_ = std::async(std::launch::async, [this, folder, done = std::move(result)] {
+    Metrics metrics = metricsOf(done);
+    metrics.header.stamp = ros::Time::now();
+    metrics_publisher_.publish(metrics);
+    ROS_INFO("task %s: %s, score %.1f (%s)", done.task.name.c_str(), nameOf(done.status.state), done.status.score,
+             oneLine(done.status.step).c_str());
+    try {
+      writeReport(folder, done);
+      ROS_INFO("report: %s/report.html", folder.c_str());
+      const std::lock_guard<std::mutex> lock(mutex_);
+      state_.report = folder;
+      changed_ = true;
+    } catch (const std::exception& error) {
+      ROS_WARN("no report: %s", oneLine(error.what()).c_str());
+    }
+  });
+}
+
+void TaskSwitch::onTimer() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (std::exchange(changed_, false)) {
+    state_.header.stamp = ros::Time::now();
+    state_publisher_.publish(state_);
+  }
+  if (metrics_publisher_.getNumSubscribers() == 0 || !isPast(sent_, kMetricsPeriod_s) || metrics_.styluses.empty())
+    return;
+  sent_ = TaskClock::now();
+  metrics_.header.stamp = ros::Time::now();
+  metrics_publisher_.publish(metrics_);
+}
+
+}  // namespace viscera::nodes

@@ -1,0 +1,73 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rviz/hand_table.h"
+
+#include <QVBoxLayout>
+#include <algorithm>
+#include <utility>
+
+#include "model/scene/tool_kinds.h"
+#include "rviz/panel_look.h"
+
+namespace viscera::rviz_plugin {
+namespace {
+
+constexpr std::array<const char*, 3> kSwitches = {"idle", "button1", "button2"};
+constexpr int kModeLetters = 4;  // a dock may be narrow; the list shows whole names
+
+QString feltText(const ToldStylus& told) {
+  const QString state = QString::fromStdString(told.state);
+  if (told.force_n.empty()) return state;
+  return QString("%1; %2 N, touches %3 nodes, holds %4")
+      .arg(state)
+      .arg(std::atof(told.force_n.c_str()), 0, 'f', 2)
+      .arg(QString::fromStdString(told.nodes_touched), QString::fromStdString(told.nodes_held));
+}
+
+}  // namespace
+
+HandTable::HandTable(ModeChosen chosen) : chosen_(std::move(chosen)) {
+  (new QVBoxLayout(this))->setContentsMargins(0, 0, 0, 0);
+}
+
+void HandTable::show(const std::vector<ToldStylus>& styluses) {
+  const bool same = std::equal(rows_.begin(), rows_.end(), styluses.begin(), styluses.end(),
+                               [](const Row& row, const ToldStylus& told) { return row.stylus == told.name; });
+  if (!same) makeRows(styluses);
+  for (size_t i = 0; i < rows_.size(); ++i) {
+    for (size_t which = 0; which < kSwitches.size(); ++which)
+      choose(rows_[i].modes[which], QString::fromStdString(styluses[i].modes[which]));
+    rows_[i].felt->setText(feltText(styluses[i]));
+  }
+}
+
+void HandTable::makeRows(const std::vector<ToldStylus>& styluses) {
+  delete table_;
+  rows_.clear();
+  table_ = new QWidget;
+  auto* grid = new QGridLayout(table_);
+  grid->setContentsMargins(0, 0, 0, 0);
+  for (size_t which = 0; which < kSwitches.size() && !styluses.empty(); ++which)
+    grid->addWidget(new QLabel(kSwitches[which]), 0, static_cast<int>(which) + 1);
+  int line = 1;
+  for (const ToldStylus& stylus : styluses) {
+    grid->addWidget(new QLabel(QString::fromStdString(stylus.name)), line, 0);
+    Row row{stylus.name, {}, wrappedLabel()};
+    for (size_t which = 0; which < kSwitches.size(); ++which) {
+      QComboBox* box = row.modes[which] = new QComboBox;
+      box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+      box->setMinimumContentsLength(kModeLetters);
+      for (const ToolKind& kind : kToolKinds) box->addItem(kind.name);
+      connect(box, QOverload<int>::of(&QComboBox::activated), this, [this, box, name = stylus.name, which] {
+        chosen_(name, kSwitches[which], box->currentText().toStdString());
+      });
+      grid->addWidget(box, line, static_cast<int>(which) + 1);
+    }
+    grid->addWidget(row.felt, line + 1, 1, 1, static_cast<int>(kSwitches.size()));
+    rows_.push_back(row);
+    line += 2;
+  }
+  layout()->addWidget(table_);
+}
+
+}  // namespace viscera::rviz_plugin

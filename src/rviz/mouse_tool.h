@@ -1,0 +1,60 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <rviz/tool.h>
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "rviz/mouse_aim.h"
+#include "rviz/surface_feed.h"
+
+namespace rviz {
+class FloatProperty;
+class StringProperty;
+}  // namespace rviz
+
+namespace viscera::rviz_plugin {
+
+class StylusSender;
+
+/// `viscera/Mouse`: the mouse is a stylus. Its tip is where the mouse points on the skin, the wheel pushes it deeper.
+class MouseTool : public rviz::Tool {
+ public:
+  MouseTool();
+  ~MouseTool() override;
+
+  void onInitialize() override;
+  void activate() override;
+  void deactivate() override;
+  void update(float wall_dt, float ros_dt) override;
+  int processMouseEvent(rviz::ViewportMouseEvent& event) override;
+  int processKeyEvent(QKeyEvent* event, rviz::RenderPanel* panel) override;
+  bool eventFilter(QObject* watched, QEvent* event) override;
+
+ private:
+  struct Place {
+    int x = 0, y = 0;  ///< on the screen [pixels]
+  };
+  bool press(const QKeyEvent& event, bool down);
+  void follow();
+  void tell(const QString& text);
+  std::array<bool, 2> pressed() const;
+  std::optional<Pose> aim();
+
+  rviz::StringProperty *space_, *stylus_;
+  rviz::FloatProperty *depth_, *step_, *speed_, *tilt_;
+  SurfaceFeed feed_;
+  MouseAim aim_;
+  std::optional<Place> place_;  ///< of the mouse; nothing: it has not been there yet
+  std::array<bool, 2> keys_{}, mouse_{};
+  bool active_ = false;
+  QString told_;
+  std::string topics_;  ///< of the simulator, with a slash at their end; empty: no name
+  std::unique_ptr<StylusSender> sender_;
+};
+
+}  // namespace viscera::rviz_plugin

@@ -1,0 +1,69 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rviz/ros_worker.h"
+
+#include <ros/exception.h>
+
+#include <chrono>
+#include <utility>
+
+namespace viscera::rviz_plugin {
+namespace {
+
+constexpr size_t kMostJobs = 8;                       // as the simulator's queue
+constexpr std::chrono::milliseconds kCloseAgain{20};  // a call that was about to begin is closed the next time
+
+}  // namespace
+
+RosWorker::RosWorker(std::function<void(const std::string&)> told)
+    : told_(std::move(told)), thread_([this] { main(); }) {}
+
+RosWorker::~RosWorker() {
+  {
+    std::unique_lock<std::mutex> lock(mutex_);
+    ending_ = true;
+    jobs_.clear();
+    changed_.notify_all();
+    while (!changed_.wait_for(lock, kCloseAgain, [this] { return ended_; })) {
+      ros::ServiceClient client = client_;
+      lock.unlock();
+      client.shutdown();
+      lock.lock();
+    }
+  }
+  thread_.join();
+}
+
+void RosWorker::add(std::function<std::string()> job) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (jobs_.size() >= kMostJobs) return;  // a person who clicks on and on
+  jobs_.push_back(std::move(job));
+  changed_.notify_all();
+}
+
+void RosWorker::main() {
+  std::unique_lock<std::mutex> lock(mutex_);
+  while (true) {
+    changed_.wait(lock, [this] { return ending_ || !jobs_.empty(); });
+    if (ending_) break;
+    const std::function<std::string()> job = std::move(jobs_.front());
+    jobs_.pop_front();
+    lock.unlock();
+    std::string answer;
+    try {
+      answer = job();
+    } catch (const ros::Exception& error) {  // no name of a service
+      answer = error.what();
+    }
+    lock.lock();
+    client_ = ros::ServiceClient();
+    if (ending_) break;
+    lock.unlock();
+    if (!answer.empty()) told_(answer);
+    lock.lock();
+  }
+  ended_ = true;
+  changed_.notify_all();
+}
+
+}  // namespace viscera::rviz_plugin

@@ -1,0 +1,282 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rviz/session_panel.h"
+
+#include <ros/node_handle.h>
+#include <ros/package.h>
+#include <rviz/visualization_manager.h>
+#include <std_srvs/Trigger.h>
+#include <viscera/FileCommand.h>
+#include <viscera/LoadScene.h>
+#include <viscera/SetToolMode.h>
+#include <viscera/Step.h>
+
+#include <QDateTime>
+#include <QDir>
+#include <QFormLayout>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QScrollArea>
+#include <QSpinBox>
+#include <QTimer>
+#include <QVBoxLayout>
+#include <algorithm>
+#include <pluginlib/class_list_macros.hpp>
+#include <utility>
+
+#include "rviz/hand_table.h"
+#include "rviz/panel_look.h"
+#include "rviz/ros_worker.h"
+#include "rviz/simulator_space.h"
+#include "rviz/task_box.h"
+
+namespace viscera::rviz_plugin {
+namespace {
+
+constexpr int kShowEvery_ms = 250;
+constexpr int kMostTicks = 10000;  // of one call of the service
+constexpr int kLeastLetters = 10;  // of choices: a dock may be narrow
+constexpr uint32_t kDiagnosticsQueue = 100;
+
+QStringList yamlNames(const std::string& folder) {
+  QStringList names;
+  for (const QFileInfo& file : QDir(QString::fromStdString(folder)).entryInfoList({"*.yaml"}, QDir::Files, QDir::Name))
+    names += file.completeBaseName();
+  return names;
+}
+
+QComboBox* writable(const char* hint) {
+  auto* box = new QComboBox;
+  box->setEditable(true);
+  box->setInsertPolicy(QComboBox::NoInsert);
+  box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  box->setMinimumContentsLength(kLeastLetters);
+  box->lineEdit()->setPlaceholderText(hint);
+  return box;
+}
+
+}  // namespace
+
+/// Held where the worker's thread makes them.
+struct PanelTopics {
+  ros::Subscriber diagnostics;
+};
+
+SessionPanel::SessionPanel(QWidget* parent)
+    : rviz::Panel(parent),
+      state_(wrappedLabel()),
+      measures_(wrappedLabel()),
+      warnings_(wrappedLabel()),
+      answer_(wrappedLabel()),
+      hands_(new HandTable([this](const std::string& stylus, const std::string& which, const std::string& mode) {
+        SetToolModeRequest request;
+        request.stylus = stylus;
+        request.which = which;
+        request.mode = mode;
+        call<SetToolMode>("set_tool_mode", request);
+      })),
+      topics_(std::make_shared<PanelTopics>()) {
+  warnings_->setStyleSheet("color: #c04000");
+  auto* inside = new QWidget;
+  auto* rows = new QVBoxLayout(inside);
+  makeChoices(rows);
+  makeButtons(rows);
+  rows->addWidget(state_);  // and all else whose height changes: a button that moves is not met
+  worker_ = std::make_unique<RosWorker>([this](const std::string& text) {
+    QMetaObject::invokeMethod(
+        this, [this, text] { answer_->setText(QString::fromStdString(text)); }, Qt::QueuedConnection);
+  });
+  task_ = new TaskBox(*worker_);
+  for (QWidget* widget : {static_cast<QWidget*>(hands_), static_cast<QWidget*>(measures_), static_cast<QWidget*>(task_),
+                          static_cast<QWidget*>(warnings_), static_cast<QWidget*>(answer_)})
+    rows->addWidget(widget);
+  rows->addStretch(1);
+  auto* scroll = new QScrollArea;  // a dock may be low
+  scroll->setWidgetResizable(true);
+  scroll->setFrameShape(QFrame::NoFrame);
+  scroll->setWidget(inside);
+  auto* all = new QVBoxLayout(this);
+  all->setContentsMargins(0, 0, 0, 0);
+  all->addWidget(scroll);
+}
+
+SessionPanel::~SessionPanel() {
+  worker_.reset();
+}
+
+void SessionPanel::makeChoices(QVBoxLayout* rows) {
+  auto* form = new QFormLayout;
+  spaces_ = writable("namespace of rviz");
+  spaces_->setToolTip("Namespace of the simulator");
+  form->addRow("Simulator", spaces_);
+  scenes_ = writable("scene, or path of one");
+  load_ = new QPushButton(icon(Sign::kLoad), "Load");
+  auto* line = new QHBoxLayout;
+  line->addWidget(scenes_, 1);
+  line->addWidget(load_);
+  form->addRow("Scene", line);
+  rows->addLayout(form);
+  const auto chosen = [this] { chooseSpace(spaces_->currentText().trimmed().toStdString()); };
+  connect(spaces_, QOverload<int>::of(&QComboBox::activated), this, chosen);
+  connect(spaces_->lineEdit(), &QLineEdit::editingFinished, this, chosen);
+  connect(load_, &QPushButton::clicked, this, [this] {
+    LoadSceneRequest request;
+    request.scene = scenes_->currentText().trimmed().toStdString();
+    scenes_->lineEdit()->clearFocus();  // from here on it shows what runs
+    call<LoadScene>("load_scene", request);
+  });
+}
+
+void SessionPanel::makeButtons(QVBoxLayout* rows) {
+  reset_ = new QPushButton(icon(Sign::kReset), "&Reset");
+  pause_ = new QPushButton;
+  step_ = new QPushButton(icon(Sign::kStep), "S&tep");
+  record_ = new QPushButton;
+  ticks_ = new QSpinBox;
+  ticks_->setRange(1, kMostTicks);
+  ticks_->setSuffix(" ticks");
+  auto* grid = new QGridLayout;
+  grid->addWidget(reset_, 0, 0);
+  grid->addWidget(pause_, 0, 1);
+  grid->addWidget(record_, 0, 2);
+  grid->addWidget(step_, 1, 0);
+  grid->addWidget(ticks_, 1, 1);
+  rows->addLayout(grid);
+  connect(reset_, &QPushButton::clicked, this, [this] { call<std_srvs::Trigger>("reset"); });
+  connect(pause_, &QPushButton::clicked, this, [this] { call<std_srvs::Trigger>(now_.paused ? "resume" : "pause"); });
+  connect(record_, &QPushButton::clicked, this, [this] { record(); });
+  connect(step_, &QPushButton::clicked, this, [this] {
+    StepRequest request;
+    request.ticks = static_cast<uint32_t>(ticks_->value());
+    call<Step>("step", request);
+  });
+}
+
+template <class Service>
+void SessionPanel::call(const char* service, const typename Service::Request& request) {
+  if (!space_.empty()) worker_->call<Service>(space_ + service, request);
+}
+
+void SessionPanel::record() {
+  if (!now_.recording.empty()) return call<std_srvs::Trigger>("stop_recording");
+  FileCommandRequest request;  // as those of ~record
+  request.file = QDateTime::currentDateTimeUtc().toString("'session_'yyyyMMdd'T'hhmmss'Z.viscera'").toStdString();
+  call<FileCommand>("start_recording", request);
+}
+
+void SessionPanel::onInitialize() {
+  follow();
+  worker_->add([this] {
+    const std::string package = ros::package::getPath("viscera");
+    const QStringList scenes = yamlNames(package + "/config/scenes"), tasks = yamlNames(package + "/config/tasks");
+    const auto offerBoth = [this, scenes, tasks] {
+      offer(scenes_, scenes);
+      task_->offerTasks(tasks);
+    };
+    QMetaObject::invokeMethod(this, offerBoth, Qt::QueuedConnection);
+    return std::string();
+  });
+  auto* timer = new QTimer(this);
+  connect(timer, &QTimer::timeout, this, [this] { show(); });
+  timer->start(kShowEvery_ms);
+  space_.clear();
+  chooseSpace(wanted_);
+}
+
+/// On the worker's thread, since a master may be slow to answer.
+void SessionPanel::follow() {
+  worker_->add([this, node = queued(), topics = topics_]() mutable {
+    topics->diagnostics = node.subscribe<diagnostic_msgs::DiagnosticArray>(
+        "/diagnostics", kDiagnosticsQueue, [this](const diagnostic_msgs::DiagnosticArrayConstPtr& message) {
+          told_.take(*message, std::chrono::steady_clock::now());
+        });
+    return std::string();
+  });
+}
+
+/// Callbacks of what it subscribes are rviz's own thread's.
+ros::NodeHandle SessionPanel::queued() const {
+  ros::NodeHandle node;
+  node.setCallbackQueue(vis_manager_->getUpdateQueue());
+  return node;
+}
+
+/// @param space  as a person writes it
+void SessionPanel::chooseSpace(const std::string& space) {
+  const bool changed = std::exchange(wanted_, space) != space;
+  const std::string before = space_;
+  try {
+    space_ = simulatorSpace(space);
+  } catch (const ros::InvalidNameException&) {
+    space_.clear();
+  }
+  if (vis_manager_ && space_ != before) task_->follow(queued(), space_);
+  show();
+  if (changed) Q_EMIT configChanged();
+}
+
+void SessionPanel::show() {
+  const std::vector<ToldSimulator> told = told_.at(std::chrono::steady_clock::now());
+  std::vector<ToldSimulator> here;
+  QStringList spaces;
+  for (const ToldSimulator& simulator : told) {
+    if (simulator.space() == space_) here.push_back(simulator);
+    spaces += QString::fromStdString(simulator.space());
+  }
+  spaces.removeDuplicates();
+  offer(spaces_, spaces);
+  choose(spaces_, QString::fromStdString(wanted_));
+  const std::string scene_before = now_.scene;
+  now_ = here.empty() ? ToldSimulator() : here.front();
+  if (now_.scene != scene_before) choose(scenes_, QString::fromStdString(now_.scene));
+  state_->setText(QString::fromStdString(stateText(here)));
+  showSession(here);
+}
+
+std::string SessionPanel::stateText(const std::vector<ToldSimulator>& here) const {
+  if (space_.empty()) return "'" + wanted_ + "' is no name of a namespace";
+  if (here.empty()) return "no simulator in " + space_ + " is heard on /diagnostics";
+  std::string text = now_.node + ": " + now_.state;
+  if (!now_.scene.empty()) text += ", scene " + now_.scene;
+  if (!now_.tick.empty()) text += ", tick " + now_.tick;
+  if (!now_.paused && !now_.real_time_factor.empty())
+    text += ", " + QString::number(std::atof(now_.real_time_factor.c_str()), 'f', 2).toStdString() + " of real time";
+  if (!now_.recording.empty()) text += "\nrecorded into " + now_.recording;
+  return text;
+}
+
+void SessionPanel::showSession(const std::vector<ToldSimulator>& here) {
+  QString warnings;
+  for (const ToldSimulator& other : here)
+    if (other.node != now_.node)
+      warnings += QString::fromStdString(other.node + " is in this namespace too: services are of the last one\n");
+  for (const std::string& warning : now_.warnings) warnings += QString::fromStdString(warning) + "\n";
+  warnings_->setText(warnings.trimmed());
+  const bool runs = !now_.scene.empty();
+  measures_->setText(
+      !runs ? QString()
+            : QString::fromStdString("springs cut: " + now_.springs_cut + ", largest stretch " + now_.max_stretch));
+  pause_->setText(now_.paused ? "Res&ume" : "Pa&use");
+  pause_->setIcon(icon(now_.paused ? Sign::kResume : Sign::kPause));
+  record_->setText(now_.recording.empty() ? "Re&cord" : "Stop");
+  record_->setIcon(icon(now_.recording.empty() ? Sign::kRecord : Sign::kStop));
+  for (QWidget* button : {reset_, pause_, load_, record_}) button->setEnabled(runs);
+  step_->setEnabled(now_.paused);
+  task_->setRuns(runs);
+  hands_->show(now_.styluses);
+}
+
+void SessionPanel::load(const rviz::Config& config) {
+  rviz::Panel::load(config);
+  QString space;
+  if (config.mapGetString("Namespace", &space)) chooseSpace(space.trimmed().toStdString());
+}
+
+void SessionPanel::save(rviz::Config config) const {
+  rviz::Panel::save(config);
+  config.mapSetValue("Namespace", QString::fromStdString(wanted_));
+}
+
+}  // namespace viscera::rviz_plugin
+
+PLUGINLIB_EXPORT_CLASS(viscera::rviz_plugin::SessionPanel, rviz::Panel)

@@ -1,0 +1,49 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <ros/node_handle.h>
+#include <ros/subscriber.h>
+
+#include <string>
+#include <utility>
+
+#include "rviz/sent_surface.h"
+
+namespace viscera::rviz_plugin {
+
+/// The surface of a simulator by its three topics. Callbacks are of the thread that serves the node's queue, and all
+/// else is called there.
+class SurfaceFeed {
+ public:
+  SurfaceFeed() = default;
+  ~SurfaceFeed() { unsubscribe(); }
+  SurfaceFeed(const SurfaceFeed&) = delete;
+  SurfaceFeed& operator=(const SurfaceFeed&) = delete;
+
+  /// @param topic  of the vertices; the others have _topology and _topology_change behind that name
+  /// @throws ros::Exception  it is no name of a topic
+  void subscribe(ros::NodeHandle& node, const std::string& topic);
+  void unsubscribe();
+  /// Forgets what was sent.
+  void clear();
+
+  const SentSurface& surface() const { return surface_; }
+  const ros::Subscriber& vertices() const { return vertices_; }
+  /// What was wrong with the last message that was left out; empty: nothing since it was taken.
+  const std::string& wrong() const { return wrong_; }
+  void forgive() { wrong_.clear(); }
+
+ private:
+  template <class Message>
+  void take(const Message& message) {
+    std::string wrong = surface_.take(message);
+    if (!wrong.empty()) wrong_ = std::move(wrong);
+  }
+
+  ros::Subscriber whole_, changes_, vertices_;
+  SentSurface surface_;
+  std::string wrong_;
+};
+
+}  // namespace viscera::rviz_plugin

@@ -1,0 +1,193 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rviz/task_box.h"
+
+#if __has_include(<viscera/TaskState.h>)
+#include <std_srvs/Trigger.h>
+#include <viscera/Metrics.h>
+#include <viscera/StartTask.h>
+#include <viscera/TaskState.h>
+
+#include <QGridLayout>
+#include <QLineEdit>
+#include <QProgressBar>
+#include <QPushButton>
+#include <QUrl>
+#include <algorithm>
+
+#include "rviz/panel_look.h"
+#include "rviz/ros_worker.h"
+
+namespace viscera::rviz_plugin {
+namespace {
+
+constexpr int kPercent = 100;
+constexpr double kMillimetres = 1e3;
+
+QString number(double value, int digits) {
+  return QString::number(value, 'f', digits);
+}
+
+QString verdictStyle(uint8_t state) {
+  if (state == TaskState::PASSED) return "color: #007a58; font-weight: bold";
+  return state == TaskState::FAILED ? "color: #c04000; font-weight: bold" : "";
+}
+
+QString scoreText(const TaskState& state) {
+  QString out = number(state.time_s, 1) + " of " + number(state.time_limit_s, 0) + " s";
+  if (state.proficiency_s > 0) out += " (proficient: " + number(state.proficiency_s, 0) + " s)";
+  out += ", penalties " + number(state.penalties_s, 1) + " s\nscore " + number(state.score, 1) + ", passes from " +
+         number(state.pass_score, 1);
+  if (state.state == TaskState::PASSED) out += ": PASSED";
+  if (state.state == TaskState::FAILED) out += ": FAILED";
+  return out;
+}
+
+QString measuresText(const TaskState& state) {
+  QString out;
+  const size_t count = std::min({state.measures.size(), state.values.size(), state.measure_penalties_s.size()});
+  for (size_t i = 0; i < count; ++i)
+    out += QString::fromStdString(state.measures[i]) + ": " + QString::number(state.values[i], 'g', 4) + ", costs " +
+           number(state.measure_penalties_s[i], 1) + " s\n";
+  return out.trimmed();
+}
+
+QString handsText(const Metrics& metrics) {
+  QString out;
+  const size_t count = std::min({metrics.styluses.size(), metrics.time_s.size(), metrics.path_m.size(),
+                                 metrics.economy.size(), metrics.peak_force_n.size(), metrics.sparc.size()});
+  for (size_t i = 0; i < count; ++i) {
+    out += QString("%1: %2 s, path %3 mm, economy %4, at most %5 N")
+               .arg(QString::fromStdString(metrics.styluses[i]), number(metrics.time_s[i], 1),
+                    number(kMillimetres * metrics.path_m[i], 0), number(metrics.economy[i], 2),
+                    number(metrics.peak_force_n[i], 2));
+    out += metrics.complete ? ", smoothness " + number(metrics.sparc[i], 2) + "\n" : "\n";
+  }
+  return out.trimmed();
+}
+
+/// Lines without a text take no room.
+void write(QLabel* label, const QString& text) {
+  label->setText(text);
+  label->setVisible(!text.isEmpty());
+}
+
+}  // namespace
+
+struct TaskBox::Inside {
+  /// Subscribed on the worker's thread.
+  struct Topics {
+    ros::Subscriber state, metrics;
+  };
+  RosWorker& worker;
+  std::string space;
+  bool runs = false, busy = false;
+  QComboBox* tasks = new QComboBox;
+  QPushButton* start = new QPushButton(icon(Sign::kStart), "Start");
+  QPushButton* end = new QPushButton(icon(Sign::kEnd), "Give up");
+  QLabel *text = wrappedLabel(), *score = wrappedLabel(), *measures = wrappedLabel(), *hands = wrappedLabel(),
+         *report = new QLabel;
+  QProgressBar* progress = new QProgressBar;
+  std::shared_ptr<Topics> topics = std::make_shared<Topics>();
+
+  void clear();
+  void show(const TaskState& state);
+  void enable() {
+    start->setEnabled(runs);
+    end->setEnabled(runs && busy);
+  }
+};
+
+TaskBox::TaskBox(RosWorker& worker) : QGroupBox("Task"), inside_(new Inside{worker, {}}) {
+  Inside& in = *inside_;
+  in.tasks->setEditable(true);
+  in.tasks->setToolTip("Name of a task, or path of one");
+  in.progress->setRange(0, kPercent);
+  in.report->setOpenExternalLinks(true);
+  auto* grid = new QGridLayout(this);
+  grid->addWidget(in.tasks, 0, 0, 1, 2);
+  grid->addWidget(in.start, 1, 0);
+  grid->addWidget(in.end, 1, 1);
+  int row = 2;
+  for (QWidget* widget :
+       {static_cast<QWidget*>(in.text), static_cast<QWidget*>(in.progress), static_cast<QWidget*>(in.score),
+        static_cast<QWidget*>(in.measures), static_cast<QWidget*>(in.hands), static_cast<QWidget*>(in.report)})
+    grid->addWidget(widget, row++, 0, 1, 2);
+  connect(in.start, &QPushButton::clicked, this, [&in] {
+    StartTaskRequest request;
+    request.task = in.tasks->currentText().trimmed().toStdString();
+    in.tasks->lineEdit()->clearFocus();
+    in.worker.call<StartTask>(in.space + "start_task", request);
+  });
+  connect(in.end, &QPushButton::clicked, this, [&in] { in.worker.call<std_srvs::Trigger>(in.space + "end_task", {}); });
+  in.clear();
+}
+
+TaskBox::~TaskBox() = default;
+
+void TaskBox::follow(const ros::NodeHandle& node, const std::string& space) {
+  Inside& in = *inside_;
+  in.space = space;
+  in.clear();
+  in.worker.add([&in, node = node, space, topics = in.topics]() mutable {
+    topics->state.shutdown();
+    topics->metrics.shutdown();
+    if (space.empty()) return std::string();
+    topics->state = node.subscribe<TaskState>(space + "task_state", 1,
+                                              [&in](const TaskStateConstPtr& message) { in.show(*message); });
+    topics->metrics = node.subscribe<Metrics>(
+        space + "metrics", 1, [&in](const MetricsConstPtr& message) { write(in.hands, handsText(*message)); });
+    return std::string();
+  });
+}
+
+void TaskBox::offerTasks(const QStringList& names) {
+  offer(inside_->tasks, names);
+}
+
+void TaskBox::setRuns(bool runs) {
+  inside_->runs = runs;
+  inside_->enable();
+}
+
+void TaskBox::Inside::clear() {
+  for (QLabel* label : {text, score, measures, hands, report}) label->hide();
+  progress->hide();
+  busy = false;
+  enable();
+}
+
+void TaskBox::Inside::show(const TaskState& state) {
+  if (state.state == TaskState::NONE) return clear();
+  busy = state.state == TaskState::WAITING || state.state == TaskState::RUNNING;
+  enable();
+  choose(tasks, QString::fromStdString(state.task));
+  write(text, QString::fromStdString(state.title + "\n" + state.instructions +
+                                     (state.step.empty() ? "" : "\n\n" + state.step)));
+  write(score, scoreText(state));
+  score->setStyleSheet(verdictStyle(state.state));
+  progress->setValue(static_cast<int>(kPercent * std::clamp(state.progress, 0.0, 1.0)));
+  progress->show();
+  write(measures, measuresText(state));
+  const QString page = QUrl::fromLocalFile(QString::fromStdString(state.report) + "/report.html").toString();
+  write(report, state.report.empty() ? QString() : "<a href=\"" + page.toHtmlEscaped() + "\">Report</a>");
+}
+
+}  // namespace viscera::rviz_plugin
+
+#else  // messages without those of tasks
+
+namespace viscera::rviz_plugin {
+
+struct TaskBox::Inside {};
+
+TaskBox::TaskBox(RosWorker&) {
+  hide();
+}
+TaskBox::~TaskBox() = default;
+void TaskBox::follow(const ros::NodeHandle&, const std::string&) {}
+void TaskBox::offerTasks(const QStringList&) {}
+void TaskBox::setRuns(bool) {}
+
+}  // namespace viscera::rviz_plugin
+#endif

@@ -1,0 +1,34 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <ros/node_handle.h>
+
+#include <QGroupBox>
+#include <memory>
+#include <string>
+
+namespace viscera::rviz_plugin {
+
+class RosWorker;
+
+/// The task of a lesson: what is to be done, how far it is, the score; begun and given up here.
+class TaskBox : public QGroupBox {
+ public:
+  /// @param worker  must outlive all calls but the destructor
+  explicit TaskBox(RosWorker& worker);
+  ~TaskBox() override;
+  /// Shows the task of another simulator from here on. @param node  whose queue is served by rviz's own thread
+  /// @param space  its namespace, with a slash at its end; empty: none
+  void follow(const ros::NodeHandle& node, const std::string& space);
+  /// @param names  of tasks of the package
+  void offerTasks(const QStringList& names);
+  /// @param runs  there is a simulator to ask
+  void setRuns(bool runs);
+
+ private:
+  struct Inside;
+  std::unique_ptr<Inside> inside_;
+};
+
+}  // namespace viscera::rviz_plugin

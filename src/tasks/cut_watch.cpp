@@ -1,0 +1,139 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tasks/cut_watch.h"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
+#include "viscera/layout/links.h"
+#include "viscera/model/body/neighbors.h"
+
+namespace viscera {
+
+namespace {
+
+/// Along the spring; one that was erased has no place of its own.
+double shareAlong(float cut) {
+  return cut >= layout::kErasedShare ? 0.5 : static_cast<double>(cut);
+}
+
+bool hasOwnNetwork(const Body& body) {
+  return body.network && !body.network->of_lattice;
+}
+
+/// Active nodes of a body.
+template <class Visit>
+void forEachNode(const Body& body, const Visit& visit) {
+  if (!body.network) {
+    for (const uint32_t slot : body.lattice.active_slots) visit(slot);
+    return;
+  }
+  for (uint32_t slot = 0; slot < body.network->masses_kg.size(); ++slot)
+    if (body.network->masses_kg[slot] > 0) visit(slot);
+}
+
+}  // namespace
+
+std::vector<Vector3d> CutWatch::fresh(const CutState& cuts) {
+  std::vector<Vector3d> out;
+  seen_springs_.resize(cuts.spring_cut.size());
+  seen_axial_.resize(cuts.axial_cut.size());
+  size_t spring = 0;
+  for (size_t b = 0; b < model_.bodies.size(); ++b) {
+    const Body& body = model_.bodies[b];
+    for (size_t i = 0; body.network && i < body.network->springs.size(); ++i, ++spring) {
+      const NetworkSpring& it = body.network->springs[i];
+      if (spring >= cuts.spring_cut.size() || cuts.spring_cut[spring] == 0 || seen_springs_[spring]) continue;
+      seen_springs_[spring] = true;
+      ++springs_;
+      if (!hasOwnNetwork(body) || it.against_bending) continue;
+      const Vector3d &from = body.network->positions_m[it.a], &to = body.network->positions_m[it.b];
+      out.push_back(from + shareAlong(cuts.spring_cut[spring]) * (to - from));
+    }
+    if (hasOwnNetwork(body)) continue;
+    const size_t offset = size_t{3} * model_.slotOffset(b);
+    for (const uint32_t slot : body.lattice.active_slots) {
+      for (int axis = 0; axis < 3; ++axis) {
+        const size_t at = offset + size_t{3} * slot + static_cast<size_t>(axis);
+        if (at >= cuts.axial_cut.size() || cuts.axial_cut[at] == 0 || seen_axial_[at]) continue;
+        seen_axial_[at] = true;
+        ++springs_;
+        out.push_back(body.lattice.restPosition(slot) +
+                      shareAlong(cuts.axial_cut[at]) * body.lattice.spacing_m * Vector3d::Unit(axis));
+      }
+    }
+  }
+  return out;
+}
+
+double longestSpacing(const Model& model) {
+  double out = 0;
+  for (const Body& body : model.bodies)
+    out = std::max(out, hasOwnNetwork(body) ? body.network->meanLength() : body.lattice.spacing_m);
+  return out;
+}
+
+DiscPiece::DiscPiece(const Model& model, const Vector3d& center_m, const Vector3d& normal, double radius_m,
+                     double outside_m)
+    : model_(model) {
+  double nearest = std::numeric_limits<double>::infinity();
+  size_t springs = 0;
+  for (size_t b = 0; b < model.bodies.size(); ++b) {
+    forEachNode(model.bodies[b], [&](uint32_t slot) {
+      const double distance = (restPosition(model.bodies[b], slot) - center_m).norm();
+      if (distance >= nearest) return;
+      nearest = distance;
+      body_ = b;
+      center_ = slot;
+      springs_before_ = springs;
+    });
+    if (model.bodies[b].network) springs += model.bodies[b].network->springs.size();
+  }
+  const Body& body = model.bodies[body_];
+  zones_.resize(body.network ? body.network->masses_kg.size() : body.lattice.nodes.size(), Zone::kNone);
+  forEachNode(body, [&](uint32_t slot) {
+    const Vector3d way = restPosition(body, slot) - center_m;
+    const double out_m = (way - normal * normal.dot(way)).norm();
+    zones_[slot] = out_m < radius_m ? Zone::kDisc : out_m > outside_m ? Zone::kOutside : Zone::kRim;
+    disc_nodes_ += zones_[slot] == Zone::kDisc;
+  });
+}
+
+template <class Join>
+void DiscPiece::forEachWhole(const CutState& cuts, const Join& join) const {
+  const Body& body = model_.bodies[body_];
+  if (body.network) {
+    const std::vector<NetworkSpring>& springs = body.network->springs;
+    for (size_t i = 0; i < springs.size(); ++i)
+      if (cuts.spring_cut.empty() || cuts.spring_cut[springs_before_ + i] == 0) join(springs[i].a, springs[i].b);
+    return;
+  }
+  const uint32_t offset = model_.slotOffset(body_);
+  for (const uint32_t slot : body.lattice.active_slots) {
+    for (uint32_t s = 0; s < layout::kSpringsPerNode; s += 2) {
+      const int64_t other = body.lattice.neighborSlot(slot, s);
+      if (other >= 0 && springCount(cuts.nodes[offset + slot], s) > 0) join(slot, static_cast<uint32_t>(other));
+    }
+  }
+}
+
+bool DiscPiece::isApart(const CutState& cuts) const {
+  std::vector<uint32_t> parents(zones_.size());
+  std::iota(parents.begin(), parents.end(), 0u);
+  const auto root = [&parents](uint32_t slot) {
+    while (parents[slot] != slot) slot = parents[slot] = parents[parents[slot]];
+    return slot;
+  };
+  forEachWhole(cuts, [&](uint32_t a, uint32_t b) { parents[root(a)] = root(b); });
+  const uint32_t piece = root(center_);
+  size_t disc_nodes = 0;
+  for (uint32_t slot = 0; slot < zones_.size(); ++slot) {
+    if (zones_[slot] == Zone::kNone || root(slot) != piece) continue;
+    if (zones_[slot] == Zone::kOutside) return false;
+    disc_nodes += zones_[slot] == Zone::kDisc;
+  }
+  return 2 * disc_nodes >= disc_nodes_;
+}
+
+}  // namespace viscera

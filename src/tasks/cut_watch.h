@@ -1,0 +1,51 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "viscera/model/model.h"
+#include "viscera/solver/state.h"
+
+namespace viscera {
+
+/// Where springs are cut, of the tissue at rest.
+class CutWatch {
+ public:
+  /// @param model  must outlive this
+  explicit CutWatch(const Model& model) : model_(model) {}
+  /// The points, tissue frame [m], of springs that were whole when this was asked last. Those against bending have
+  /// none.
+  std::vector<Vector3d> fresh(const CutState& cuts);
+  size_t springs() const { return springs_; }  ///< that were seen cut, those against bending too
+
+ private:
+  const Model& model_;
+  std::vector<bool> seen_springs_, seen_axial_;
+  size_t springs_ = 0;
+};
+
+/// How long springs are, where they are longest [m].
+double longestSpacing(const Model& model);
+
+/// Whether a disc is a piece by itself: no path of whole springs leads from the node nearest to its centre to one that
+/// is farther out than `outside_m`, and the piece has half of the disc at least.
+class DiscPiece {
+ public:
+  /// @param normal  unit
+  DiscPiece(const Model& model, const Vector3d& center_m, const Vector3d& normal, double radius_m, double outside_m);
+  bool isApart(const CutState& cuts) const;
+
+ private:
+  enum class Zone : uint8_t { kNone, kDisc, kRim, kOutside };
+  template <class Join>
+  void forEachWhole(const CutState& cuts, const Join& join) const;
+
+  const Model& model_;
+  size_t body_ = 0, springs_before_ = 0;
+  uint32_t center_ = 0;
+  std::vector<Zone> zones_;  ///< [slots of the body]
+  size_t disc_nodes_ = 0;
+};
+
+}  // namespace viscera

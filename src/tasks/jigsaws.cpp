@@ -1,0 +1,88 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+
+#include "tasks/hand_log.h"
+#include "viscera/math/error.h"
+
+namespace viscera {
+
+namespace {
+
+// Columns as Gao et al. 2014 have them: left and right master, left and right slave, 19 numbers each.
+constexpr double kJigsawsRate_hz = 30;
+constexpr double kOpenJaw_rad = 1;  ///< of a gripper whose button 1 is not pressed; pressed: 0
+constexpr size_t kArms = 2;
+
+/// Which stylus is the left and which the right arm: by name, else in order. SIZE_MAX: none.
+size_t stylusOfArm(const std::vector<std::string>& styluses, size_t arm) {
+  const char* const names[kArms] = {"left", "right"};
+  const auto named = [&](const char* name) {
+    return static_cast<size_t>(std::find(styluses.begin(), styluses.end(), name) - styluses.begin());
+  };
+  if (named(names[arm]) < styluses.size()) return named(names[arm]);
+  const bool others_named = named(names[1 - arm]) < styluses.size();
+  return !others_named && arm < styluses.size() ? arm : SIZE_MAX;
+}
+
+struct ArmPose {
+  bool known = false;
+  Pose pose;
+  bool closed = false;
+};
+
+/// Position, rotation matrix row by row, velocity, angular velocity, gripper.
+void writeArm(std::ofstream& file, const ArmPose& now, const ArmPose& before, double span_s) {
+  double out[19] = {};
+  if (now.known) {
+    const Eigen::Matrix3d turn = now.pose.orientation.toRotationMatrix();
+    for (int i = 0; i < 3; ++i) out[i] = now.pose.position_m[i];
+    for (int i = 0; i < 9; ++i) out[3 + i] = turn(i / 3, i % 3);
+    if (before.known && span_s > 0) {
+      const Vector3d speed = (now.pose.position_m - before.pose.position_m) / span_s;
+      const Eigen::AngleAxisd way(now.pose.orientation * before.pose.orientation.conjugate());
+      const double angle = way.angle() > M_PI ? way.angle() - 2 * M_PI : way.angle();
+      for (int i = 0; i < 3; ++i) out[12 + i] = speed[i];
+      for (int i = 0; i < 3; ++i) out[15 + i] = way.axis()[i] * angle / span_s;
+    }
+    out[18] = now.closed ? 0 : kOpenJaw_rad;
+  }
+  for (const double value : out) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%14.6f", value);
+    file << text;
+  }
+}
+
+}  // namespace
+
+void HandRows::writeJigsaws(const std::string& path) const {
+  std::ofstream file(path);
+  size_t before = SIZE_MAX;
+  for (size_t frame = 0;; ++frame) {
+    const size_t at = static_cast<size_t>(std::llround(static_cast<double>(frame) / kJigsawsRate_hz / tick_s));
+    if (at >= rows.size()) break;
+    const double span_s = before == SIZE_MAX ? 0 : static_cast<double>(at - before) * tick_s;
+    for (const bool slave : {false, true}) {
+      for (size_t arm = 0; arm < kArms; ++arm) {
+        const size_t s = stylusOfArm(styluses, arm);
+        const auto poseAt = [&](size_t row) {
+          if (s == SIZE_MAX || row == SIZE_MAX) return ArmPose{};
+          const StylusSample& sample = rows[row].samples[s];
+          const StylusMotion& motion = rows[row].motions[s];
+          if (slave) return ArmPose{motion.present, motion.to, sample.button1};
+          return ArmPose{sample.valid, sample.pose, sample.button1};
+        };
+        writeArm(file, poseAt(at), poseAt(before), span_s);
+      }
+    }
+    file << '\n';
+    before = at;
+  }
+  if (!file) throw Error(path + ": cannot be written");
+}
+
+}  // namespace viscera

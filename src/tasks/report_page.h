@@ -1,0 +1,15 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tasks/task_report.h"
+
+namespace viscera {
+
+/// The page, with all that it shows in it.
+std::string reportPage(const TaskResult& result, const std::vector<ReportPicture>& pictures);
+
+}  // namespace viscera

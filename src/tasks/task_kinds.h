@@ -1,0 +1,49 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "tasks/task.h"
+#include "tasks/task_judge.h"
+
+namespace viscera {
+
+class Session;
+
+/// One kind of task: all that the rest of the program asks of it.
+struct TaskKind {
+  TaskGoal goal;
+  const char* name;  ///< in files; also of the group with its keys
+  /// Why a task of this kind cannot be judged, as 'key' is ..., or empty.
+  std::string (*fault)(const TaskConfig&);
+  std::unique_ptr<TaskJudge> (*judge)(const TaskConfig&, const Session&);
+  /// What is to be cut, touched or lifted, to be drawn: polylines [m].
+  TaskShapes (*shapes)(const TaskConfig&);
+};
+
+std::string lineFault(const TaskConfig&);
+std::unique_ptr<TaskJudge> lineJudge(const TaskConfig&, const Session&);
+TaskShapes lineShapes(const TaskConfig&);
+std::string discFault(const TaskConfig&);
+std::unique_ptr<TaskJudge> discJudge(const TaskConfig&, const Session&);
+TaskShapes discShapes(const TaskConfig&);
+std::string touchFault(const TaskConfig&);
+std::unique_ptr<TaskJudge> touchJudge(const TaskConfig&, const Session&);
+TaskShapes touchShapes(const TaskConfig&);
+std::string liftFault(const TaskConfig&);
+std::unique_ptr<TaskJudge> liftJudge(const TaskConfig&, const Session&);
+TaskShapes liftShapes(const TaskConfig&);
+
+inline constexpr TaskKind kTaskKinds[] = {
+    {TaskGoal::kFollowLine, "follow_line", lineFault, lineJudge, lineShapes},
+    {TaskGoal::kCutDisc, "cut_disc", discFault, discJudge, discShapes},
+    {TaskGoal::kTouchTargets, "touch_targets", touchFault, touchJudge, touchShapes},
+    {TaskGoal::kLift, "lift", liftFault, liftJudge, liftShapes},
+};
+constexpr const TaskKind& kindOf(TaskGoal goal) {
+  return kTaskKinds[static_cast<size_t>(goal)];
+}
+
+}  // namespace viscera

@@ -1,0 +1,15 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "tasks/task.h"
+#include "viscera/model/scene/scene.h"
+#include "viscera/session/frame.h"
+
+namespace viscera {
+
+/// Draws the lines of a task over a picture, where the tissue at rest has them. @param camera  one that no frame
+/// carries
+void drawTask(const TaskConfig& task, const CameraConfig& camera, ImageFrame& image);
+
+}  // namespace viscera

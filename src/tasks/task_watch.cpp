@@ -1,0 +1,169 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tasks/task_watch.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "math/float_bits.h"
+#include "model/scene/tool_kinds.h"
+#include "tasks/task_kinds.h"
+
+namespace viscera {
+
+const char* nameOf(TaskPhase state) {
+  constexpr const char* kNames[] = {"waiting", "running", "passed", "failed"};
+  return kNames[static_cast<size_t>(state)];
+}
+
+double costOf(const TaskConfig& task, const TaskTally& tally, const TaskMeasure& measure) {
+  double out = 0;
+  for (const TaskRule& rule : task.measures)
+    if (rule.measure == measure.name) out += rule.cost_s * tally.*measure.value;
+  return out;
+}
+
+TaskWatch::TaskWatch(Session& session, std::function<void(TaskResult&&)> ended)
+    : session_(session), ended_(std::move(ended)) {
+  session.addLog(*this);
+}
+
+void TaskWatch::begin() {
+  status_ = {};
+  status_.step = "begins with the first tracked hand";
+  judge_ = kindOf(task_->kind).judge(*task_, session_);
+  cut_watch_.emplace(session_.model());
+  if (judge_->heedsCuts()) {
+    session_.solver().readCuts(cuts_);
+    cut_watch_->fresh(cuts_);  // what was cut before is not this hand's
+  }
+  base_tick_ = session_.tick();
+  stepped_.clear();
+  measured_.clear();
+  hands_.emplace(session_);
+  cuts_m_.clear();
+}
+
+void TaskWatch::taskNoted(Session&, const std::string& name, const std::string& yaml) {
+  if (yaml.empty()) return giveUp("it was given up");
+  task_ = parseTask(yaml, name);
+  begin();
+}
+
+void TaskWatch::wasReset() {
+  if (task_) begin();
+}
+
+void TaskWatch::restored(Session&) {
+  if (task_) begin();
+}
+
+void TaskWatch::stepped(Session& session, const StylusSamples& samples) {
+  if (!isOpen()) return;
+  hands_->addRow(session, samples);
+  TaskTick tick;
+  tick.motions = session.motions();
+  tick.tick_s = session.tick_s();
+  const auto severs = [](const StylusMotion& motion) { return motion.present && kindOf(motion.mode).severs(); };
+  if (judge_->heedsCuts() && std::any_of(tick.motions.begin(), tick.motions.end(), severs) &&
+      session.solver().readCuts(cuts_)) {
+    const size_t before = cut_watch_->springs();
+    tick.cuts_m = cut_watch_->fresh(cuts_);
+    tick.apart = cut_watch_->springs() > before && judge_->isApart(cuts_);
+  }
+  stepped_.push_back(std::move(tick));
+  judgeNoted();
+}
+
+void TaskWatch::measured(const Session& session, uint64_t tick, const layout::TickStats& stats) {
+  if (!isOpen() || tick <= base_tick_) return;
+  hands_->addFelt(session, stats);
+  measured_.push_back(stats);
+  judgeNoted();
+}
+
+void TaskWatch::judgeNoted() {
+  while (isOpen() && !stepped_.empty() && !measured_.empty()) {
+    TaskTick tick = std::move(stepped_.front());
+    tick.stats = measured_.front();
+    stepped_.pop_front();
+    measured_.pop_front();
+    judge(tick);
+  }
+}
+
+void TaskWatch::judge(const TaskTick& tick) {
+  const auto present = [](const StylusMotion& motion) { return motion.present; };
+  if (status_.state == TaskPhase::kWaiting) {
+    if (std::none_of(tick.motions.begin(), tick.motions.end(), present)) {
+      hands_->rows.erase(hands_->rows.begin());  // of hands that are not there
+      hands_->felt.erase(hands_->felt.begin());
+      return;
+    }
+    status_.state = TaskPhase::kRunning;
+  }
+  status_.time_s += tick.tick_s;
+  springs_cut_ = tick.stats.springs_cut;
+  count(tick);
+  cuts_m_.insert(cuts_m_.end(), tick.cuts_m.begin(), tick.cuts_m.end());
+  judge_->judge(tick, status_.tally);
+  status_.progress = judge_->progress();
+  status_.step = judge_->step();
+  status_.penalties_s = 0;
+  for (const TaskMeasure& measure : kTaskMeasures) status_.penalties_s += costOf(*task_, status_.tally, measure);
+  status_.score = std::max(0.0, task_->time_limit_s - status_.time_s - status_.penalties_s);
+  decide();
+}
+
+/// What is counted whatever the kind.
+void TaskWatch::count(const TaskTick& tick) {
+  TaskTally& tally = status_.tally;
+  double largest_n = 0;
+  for (size_t s = 0; s < tick.motions.size(); ++s) {
+    const StylusMotion& motion = tick.motions[s];
+    if (!motion.present) continue;
+    tally.path_m += (motion.to.position_m - motion.from.position_m).norm();
+    const layout::vec4& impulse = tick.stats.impulse[s];
+    const double force_n = Vector3d(impulse.x, impulse.y, impulse.z).norm() / tick.tick_s;
+    if (std::isfinite(force_n)) largest_n = std::max(largest_n, force_n);
+  }
+  tally.peak_force_n = std::max(tally.peak_force_n, largest_n);
+  tally.force_s += largest_n > task_->limits.force_n ? tick.tick_s : 0;
+  const double strain = floatFromBits(tick.stats.max_stretch_bits);
+  tally.peak_strain = std::max(tally.peak_strain, strain);
+  tally.strain_s += strain > task_->limits.strain ? tick.tick_s : 0;
+}
+
+void TaskWatch::decide() {
+  if (!judge_->reached()) {
+    if (status_.time_s >= task_->time_limit_s) end(TaskPhase::kFailed, "the time was over before the goal was reached");
+    return;
+  }
+  for (const TaskRule& rule : task_->measures) {
+    for (const TaskMeasure& measure : kTaskMeasures) {
+      if (rule.measure != measure.name || status_.tally.*measure.value <= rule.most) continue;
+      std::ostringstream why;
+      why << measure.name << " is " << status_.tally.*measure.value << ", and " << rule.most << " at most passes";
+      return end(TaskPhase::kFailed, why.str());
+    }
+  }
+  if (status_.score >= task_->pass_score) return end(TaskPhase::kPassed, "done");
+  std::ostringstream why;
+  why << "the score is " << status_.score << ", and " << task_->pass_score << " at least passes";
+  end(TaskPhase::kFailed, why.str());
+}
+
+void TaskWatch::giveUp(const std::string& why) {
+  if (isOpen()) end(TaskPhase::kFailed, why);
+}
+
+void TaskWatch::end(TaskPhase state, const std::string& why) {
+  status_.state = state;
+  status_.step = why;
+  if (!judge_->reached()) status_.score = 0;
+  hands_->rows.resize(std::min(hands_->rows.size(), hands_->felt.size()));  // later ticks are no part of it
+  if (ended_) ended_({*task_, status_, *hands_, cuts_m_, springs_cut_});
+}
+
+}  // namespace viscera

@@ -1,0 +1,125 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Tasks that the command judges: shipped ones with the hands that come with them.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "cli/small_scene.h"
+#include "support/temporary_folder.h"
+
+namespace viscera {
+namespace {
+
+using namespace test;
+
+std::string strokesOf(const std::string& task, const std::string& hand) {
+  return VISCERA_SOURCE_DIR "/config/strokes/" + task + "_" + hand + ".yaml";
+}
+
+nlohmann::json lastLine(const Ending& ending) {
+  const std::vector<std::string> lines = linesOf(ending.out);
+  return lines.empty() ? nlohmann::json() : nlohmann::json::parse(lines.back(), nullptr, false);
+}
+
+std::string textIn(const std::string& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+nlohmann::json judged(const std::string& task, const std::string& hand, std::vector<std::string> more = {}) {
+  more.insert(more.begin(),
+              {"task", task, "--strokes", strokesOf(task, hand), "--no-view", "--set", "solver.threads=1"});
+  const Ending ending = viscera(more);
+  EXPECT_EQ(ending.status, 0) << ending.err;
+  const nlohmann::json result = lastLine(ending);
+  return result.contains("tasks") && result["tasks"].size() == 1 ? result["tasks"][0] : nlohmann::json::object();
+}
+
+class ShippedTask : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(ShippedTask, IsPassedByAGoodHand) {
+  const nlohmann::json result = judged(GetParam(), "good");
+  EXPECT_EQ(result["state"], "passed") << result["why"];
+  EXPECT_EQ(result["progress"], 1);
+  EXPECT_GE(result["score"], result["pass_score"]);
+  EXPECT_NEAR(
+      result["score"],
+      result["time_limit_s"].get<double>() - result["time_s"].get<double>() - result["penalties_s"].get<double>(),
+      1e-9);
+}
+
+TEST_P(ShippedTask, IsFailedByAClumsyOne) {
+  const nlohmann::json result = judged(GetParam(), "clumsy");
+  EXPECT_EQ(result["state"], "failed") << result["why"];
+  EXPECT_NE(result["why"], "");
+}
+
+INSTANTIATE_TEST_SUITE_P(Each, ShippedTask,
+                         ::testing::Values("pattern_cut", "incision", "touch_targets", "gentle_lift"),
+                         [](const auto& info) { return std::string(info.param); });
+
+TEST(TaskCommand, ReplaysToTheSameScoreAndWritesAReport) {
+  const TemporaryFolder folder;
+  const std::string recording = folder.file("session.viscera"), out = folder.file("out"), again = folder.file("again");
+  const nlohmann::json live = judged("touch_targets", "good", {"--record", recording, "--out", out});
+  const Ending ending = viscera({"replay", recording, "--no-view", "--out", again});
+  ASSERT_EQ(ending.status, 0) << ending.err;
+  ASSERT_EQ(lastLine(ending)["tasks"].size(), 1u);
+  EXPECT_EQ(lastLine(ending)["tasks"][0], live);
+  for (const char* file : {"report.json", "report.csv", "report.html", "hands.csv", "kinematics.txt"})
+    EXPECT_EQ(textIn(out + "/report/" + file), textIn(again + "/report/" + file)) << file;
+
+  const nlohmann::json report = nlohmann::json::parse(textIn(out + "/report/report.json"));
+  EXPECT_EQ(report, live);
+  const std::string page = textIn(out + "/report/report.html");
+  EXPECT_NE(page.find("<svg"), std::string::npos);
+  EXPECT_EQ(page.find("http://", page.find("</style>")), page.find("http://www.w3.org/2000/svg")) << "no network";
+  EXPECT_EQ(page.find("https://"), std::string::npos);
+  EXPECT_NE(page.find("Touch in order"), std::string::npos);
+}
+
+TEST(TaskCommand, KinematicsHaveTheColumnsOfJigsaws) {
+  constexpr double kRowDigits = 1e-6;  // as they are printed
+  const TemporaryFolder folder;
+  const std::string out = folder.file("out");
+  judged("touch_targets", "good", {"--out", out});
+  std::ifstream file(out + "/kinematics.txt");
+  std::string line;
+  std::vector<std::vector<double>> rows;
+  while (std::getline(file, line)) {
+    std::istringstream words(line);
+    rows.emplace_back(std::istream_iterator<double>(words), std::istream_iterator<double>());
+    ASSERT_EQ(rows.back().size(), 76u);
+  }
+  EXPECT_EQ(rows.size(), static_cast<size_t>(6.4 * 30)) << "30 a second, of 6.4 s";
+  const std::vector<double>& row = rows[40];
+  for (const size_t right : {19u, 57u}) {  // master and slave; no pose of the left hand
+    EXPECT_NEAR(row[right], -0.03, kRowDigits) << "x of the first mark";
+    EXPECT_NEAR(row[right + 3], 1, kRowDigits);
+    EXPECT_NEAR(row[right + 4], 0, kRowDigits);
+    EXPECT_NEAR(row[right + 14], (row[right + 2] - rows[39][right + 2]) * 30, 1e-3) << "speed along z, m/s";
+    EXPECT_NEAR(row[right + 18], 1, kRowDigits) << "button 1 is not pressed";
+  }
+  for (size_t i = 0; i < 19; ++i) EXPECT_EQ(row[i], 0);
+}
+
+TEST(TaskCommand, ErrorsNameTheFileTheLineAndTheKey) {
+  const TemporaryFolder folder;
+  const auto complaint = [&](const std::string& file) {
+    const std::vector<std::string> errors = complaints(viscera({"task", file, "--no-view"}));
+    return errors.empty() ? "" : errors[0];
+  };
+  const std::string spoilt = folder.write("spoilt.yaml", "scene: gauze\nkind: lift\nlift: {radius_m: -1}\n");
+  const std::string error = complaint(spoilt);
+  EXPECT_NE(error.find("spoilt.yaml:3: 'lift.radius_m'"), std::string::npos) << error;
+  EXPECT_NE(error.find("1e-05 .. 1 m"), std::string::npos) << error;
+  EXPECT_NE(complaint("nowhere").find("shipped task"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace viscera

@@ -1,0 +1,91 @@
+#!/usr/bin/env python3
+# Copyright (c) 2026, the viscera authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The panel viscera/Session in rviz, clicked: its buttons do to a simulator what they say, and to none nothing."""
+import os
+import subprocess
+import sys
+import unittest
+
+import rospy
+import rostest
+from rviz_screen import Screen, rviz
+from simulator_watch import Latest, SimulatorWatch, wait_until
+from std_srvs.srv import Trigger
+
+from viscera.msg import Tick
+
+CONFIG = os.path.join(subprocess.check_output(["rospack", "find", "viscera"], text=True).strip(),
+                      "config", "viscera_plugin.rviz")
+LIMIT_S = 40  # software rendering on a busy machine
+STILL = 5     # messages of `tick`, 20 ms apart in a pause
+# Signs on buttons, by their colours (src/rviz/panel_look.cpp)
+RESET, PAUSE, RESUME, STEP = (230, 159, 0), (0, 114, 178), (0, 158, 115), (86, 180, 233)
+RECORD, STOP = (213, 94, 0), (150, 60, 0)
+
+
+class RvizSessionTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.ticks = []
+        cls.tick = Latest("tick", Tick, lambda message: cls.ticks.append(message.tick))
+        cls.watch = SimulatorWatch()
+        cls.screen = Screen()
+        cls.rviz = rviz(CONFIG)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.rviz.end()
+        cls.screen.end()
+
+    def stands(self):
+        return len(self.ticks) > STILL and len(set(self.ticks[-STILL:])) == 1
+
+    def shown(self, color):
+        self.assertIsNone(self.rviz.process.poll(), "rviz has ended: " + self.rviz.output)
+        return self.screen.find(color)
+
+    def click(self, color, condition, what):
+        """The button with the sign of this colour, as soon as it may be clicked."""
+        place = wait_until(lambda: self.shown(color), LIMIT_S, "button: " + what)
+        self.screen.click(*place)
+        try:
+            wait_until(condition, LIMIT_S, what)
+        except AssertionError:
+            self.screen.keep("no_%s.ppm" % what.replace(" ", "_"))
+            raise
+
+    def test_buttons(self):
+        wait_until(lambda: self.ticks, LIMIT_S, "tick")
+        self.click(PAUSE, self.stands, "pause")
+        paused_at = self.ticks[-1]
+        self.click(STEP, lambda: self.ticks[-1] == paused_at + 1, "step")
+        self.click(RESET, lambda: self.ticks[-1] == 0, "reset")
+        self.click(RECORD, lambda: self.watch.value("simulation", "recording"), "recording")
+        file = self.watch.value("simulation", "recording")
+        self.screen.keep("session.ppm")
+        self.click(RESUME, lambda: self.ticks[-1] > 10, "resume")
+        self.click(STOP, lambda: self.watch.value("simulation", "recording") == "", "end of the recording")
+        self.assertGreater(os.path.getsize(file), 0)
+
+        # What others do is seen: the button pauses again after another node has resumed.
+        rospy.ServiceProxy("pause", Trigger)()
+        wait_until(lambda: self.shown(RESUME), LIMIT_S, "pause of another node")
+
+        rospy.ServiceProxy("resume", Trigger)()
+        self.click(PAUSE, self.stands, "pause")
+        subprocess.run(["rosnode", "kill", "/simulator"], check=True, capture_output=True)
+        wait_until(lambda: not self.shown(STEP) and not self.shown(RESET), LIMIT_S, "buttons of no simulator")
+        self.screen.keep("no_simulator.ppm")
+        wait_until(lambda: self.shown(PAUSE), LIMIT_S, "simulator that was started again")  # respawned
+
+        # In the middle of a call: a step of a simulator that stands.
+        self.click(PAUSE, self.stands, "pause")
+        self.screen.click(*wait_until(lambda: self.shown(STEP), LIMIT_S, "step"))
+        self.rviz.process.send_signal(2)
+        self.assertEqual(self.rviz.process.wait(LIMIT_S), 0, self.rviz.output)
+
+
+if __name__ == "__main__":
+    rospy.init_node("rviz_session_test")
+    rostest.rosrun("viscera", "rviz_session", RvizSessionTest, sys.argv)

@@ -1,0 +1,63 @@
+# Copyright (c) 2026, the viscera authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""A ball, sent as a simulator sends its surface."""
+import math
+
+import rospy
+
+from viscera.msg import SurfaceTopology, SurfaceTopologyChange, SurfaceVertices
+
+RADIUS_M = 0.05
+
+
+def ball(rings, steps):
+    """Vertices, which are outward normals too, and triangles from the upper pole down."""
+    points, triangles = [], []
+    for ring in range(rings + 1):
+        for step in range(steps):
+            polar, turn = math.pi * ring / rings, 2 * math.pi * step / steps
+            points.append((math.sin(polar) * math.cos(turn), math.sin(polar) * math.sin(turn), math.cos(polar)))
+            if ring < rings:
+                a, b = ring * steps + step, ring * steps + (step + 1) % steps
+                triangles += [a, a + steps, b, b, a + steps, b + steps]
+    return points, triangles
+
+
+def packed(normal):
+    return sum((round(511 * x) & 1023) << (10 * i) for i, x in enumerate(normal))
+
+
+def filled(triangles):
+    """Rings and steps of a ball with at least so many."""
+    return math.ceil(math.sqrt(triangles / 2))
+
+
+class Sender:
+    """The upper half is skin; the lower half stands for walls."""
+
+    def __init__(self, rings=24, steps=48):
+        self.whole = rospy.Publisher("surface_topology", SurfaceTopology, queue_size=1, latch=True)
+        self.change = rospy.Publisher("surface_topology_change", SurfaceTopologyChange, queue_size=10)
+        self.surface = rospy.Publisher("surface", SurfaceVertices, queue_size=1, latch=True)
+        self.points, self.triangles = ball(rings, steps)
+        self.positions_m = [RADIUS_M * x for point in self.points for x in point]
+        self.normals = [packed(point) for point in self.points]
+
+    def topology(self, version, triangles=None):
+        triangles = self.triangles if triangles is None else triangles
+        message = SurfaceTopology(version=version, vertices=len(self.points), bodies=["ball"],
+                                  body_triangles=[len(triangles) // 3], wound_triangles=[len(triangles) // 6],
+                                  triangles=triangles)
+        message.header.frame_id, message.header.stamp = "tissue", rospy.Time.now()
+        self.whole.publish(message)
+
+    def message(self, version):
+        message = SurfaceVertices(topology_version=version, positions_m=self.positions_m, normals=self.normals)
+        message.header.frame_id, message.header.stamp = "tissue", rospy.Time.now()
+        return message
+
+    def vertices(self, version, **other):
+        message = self.message(version)
+        for key, value in other.items():
+            setattr(message, key, value)
+        self.surface.publish(message)
