@@ -5,8 +5,11 @@
 #include <cassert>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
+#include <cstring>
 #include <utility>
+#include <vector>
 
 #include "gpu/fence.h"
 #include "gpu/gl.h"
@@ -30,14 +33,19 @@ size_t bufferBytes() {
   return live_bytes;
 }
 
-RawBuffer::RawBuffer(size_t bytes, const char* name) : bytes_(bytes), name_(name) {
-  constexpr size_t kSmallest = 16;  // drivers refuse storage of size 0
+RawBuffer::RawBuffer(size_t bytes, const char* name, const void* data) : bytes_(bytes), name_(name) {
+  constexpr size_t kSmallest = 16;               // drivers refuse storage of size 0
+  constexpr size_t kFewZeros = size_t{1} << 16;  // are sent: what is written next need not wait for a clear
+  const std::vector<char> zeros(!data && bytes <= kFewZeros ? std::max(bytes, kSmallest) : 0);
+  if (!zeros.empty()) data = zeros.data();
+  std::array<char, kSmallest> padded{};
+  if (data && bytes < kSmallest) data = std::memcpy(padded.data(), data, bytes);
   checkErrors("what came before a buffer was made");
   glCreateBuffers(1, &id_);
   countObject();
-  glNamedBufferStorage(id_, static_cast<GLsizeiptr>(std::max(bytes, kSmallest)), nullptr, GL_DYNAMIC_STORAGE_BIT);
+  glNamedBufferStorage(id_, static_cast<GLsizeiptr>(std::max(bytes, kSmallest)), data, GL_DYNAMIC_STORAGE_BIT);
   GLenum code = glGetError();
-  if (code == GL_NO_ERROR) {
+  if (code == GL_NO_ERROR && !data) {
     clear();  // some drivers look for memory when it is first used
     code = glGetError();
   }
@@ -56,16 +64,27 @@ RawBuffer::~RawBuffer() {
 }
 
 RawBuffer::RawBuffer(RawBuffer&& other) noexcept
-    : id_(std::exchange(other.id_, 0)), bytes_(std::exchange(other.bytes_, 0)), name_(other.name_) {}
+    : id_(std::exchange(other.id_, 0)),
+      bytes_(std::exchange(other.bytes_, 0)),
+      name_(other.name_),
+      cleared_(std::exchange(other.cleared_, false)) {}
 
 RawBuffer& RawBuffer::operator=(RawBuffer&& other) noexcept {
   std::swap(id_, other.id_);
   std::swap(bytes_, other.bytes_);
   std::swap(name_, other.name_);
+  std::swap(cleared_, other.cleared_);
   return *this;
 }
 
+/// NVIDIA's driver 580 clears after it has written 64 KiB or more, although it was told to clear first (docs/gpu.md).
+void RawBuffer::awaitClear() {
+  if (cleared_) awaitGpu(described(name_, bytes_).c_str());
+  cleared_ = false;
+}
+
 void RawBuffer::write(size_t offset, size_t bytes, const void* data) {
+  awaitClear();
   glNamedBufferSubData(id_, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes), data);
 }
 
@@ -78,10 +97,12 @@ void RawBuffer::read(size_t offset, size_t bytes, void* data) const {
 void RawBuffer::clear() {
   const uint32_t zero = 0;
   glClearNamedBufferData(id_, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &zero);
+  cleared_ = true;
 }
 
 void RawBuffer::copyFrom(const RawBuffer& other) {
   assert(other.bytes_ <= bytes_);
+  awaitClear();
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
   glCopyNamedBufferSubData(other.id_, id_, 0, 0, static_cast<GLsizeiptr>(other.bytes_));
 }

@@ -13,9 +13,9 @@ namespace viscera::gpu {
 class RawBuffer {
  public:
   RawBuffer() = default;
-  /// Zero-filled; at least 16 bytes are allocated. @param name  for messages, of static lifetime
+  /// At least 16 bytes are allocated. @param name  for messages, of static lifetime   @param data  [bytes]; null: zeros
   /// @throws GpuError  out of memory, with name and size
-  explicit RawBuffer(size_t bytes, const char* name = "without a name");
+  explicit RawBuffer(size_t bytes, const char* name = "without a name", const void* data = nullptr);
   ~RawBuffer();
   RawBuffer(RawBuffer&& other) noexcept;
   RawBuffer& operator=(RawBuffer&& other) noexcept;
@@ -34,9 +34,11 @@ class RawBuffer {
   const char* name() const { return name_; }
 
  private:
+  void awaitClear();
   uint32_t id_ = 0;
   size_t bytes_ = 0;
   const char* name_ = "";
+  bool cleared_ = false;  ///< on the GPU, and nothing was waited for since
 };
 
 /// A buffer seen through texel fetches: the read path for gathers, several times faster than storage loads where a
@@ -71,9 +73,8 @@ class Buffer {
   Buffer() = default;
   /// @param name  for messages, of static lifetime: a literal
   explicit Buffer(size_t count, const char* name = "without a name") : raw_(count * sizeof(T), name), count_(count) {}
-  explicit Buffer(const std::vector<T>& values, const char* name = "without a name") : Buffer(values.size(), name) {
-    write(values);
-  }
+  explicit Buffer(const std::vector<T>& values, const char* name = "without a name")
+      : raw_(values.size() * sizeof(T), name, values.data()), count_(values.size()) {}
 
   void write(const std::vector<T>& values, size_t first = 0) { write(values.data(), values.size(), first); }
   void write(const T* values, size_t count, size_t first = 0) {

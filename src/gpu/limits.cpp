@@ -2,9 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "gpu/limits.h"
 
+#include <cstdlib>
+#include <cstring>
 #include <optional>
 
 #include "gpu/gl.h"
+#include "gpu/software.h"
 #include "layout/bindings.h"
 #include "viscera/layout/limits.h"
 #include "viscera/math/error.h"
@@ -25,6 +28,12 @@ size_t groupsAlongX() {
   GLint value = 0;
   glGetIntegeri_v(GL_MAX_COMPUTE_WORK_GROUP_COUNT, 0, &value);
   return value < 0 ? 0 : static_cast<size_t>(value);
+}
+
+/// As $VISCERA_READS says, `loads` or `texels`; otherwise what is faster.
+bool readsByLoads() {
+  const char* const told = std::getenv("VISCERA_READS");
+  return told ? std::strcmp(told, "loads") == 0 : !isSoftware();
 }
 
 }  // namespace
@@ -53,6 +62,7 @@ const Limits& driverLimits() {
   out.groups = groupsAlongX();
   out.storage_block_bytes = asked(GL_MAX_SHADER_STORAGE_BLOCK_SIZE);
   out.texels = asked(GL_MAX_TEXTURE_BUFFER_SIZE);
+  out.loads = readsByLoads();
   known = out;
   return *known;
 }

@@ -160,17 +160,27 @@ void refuseUnbound() {
   }
   std::string missing;
   for (const std::string& name : unboundNow(bindingsOf(static_cast<uint32_t>(program)))) missing += " " + name;
-  if (!missing.empty()) throw GpuError("a kernel runs with nothing bound to:" + missing);
+  if (!missing.empty())
+    throw GpuError("kernel '" + (in_use ? in_use->name : "") + "' runs with nothing bound to:" + missing);
 }
 
 }  // namespace
+
+std::vector<std::string> withLoads(const std::string& name, const std::vector<std::string>& defines) {
+  const bool has_texels = std::find(defines.begin(), defines.end(), "TEXELS") != defines.end();
+  if (!has_texels || !driverLimits().loads) return defines;
+  std::vector<std::string> out = defines;
+  out.push_back("LOADS");
+  return declaredStorageBlocks(shaderSource(name, out)) <= driverLimits().storage_blocks ? out : defines;
+}
 
 std::string shaderSource(const std::string& name, const std::vector<std::string>& defines) {
   Files files;
   return expanded(name, defines, files);
 }
 
-Program Program::compute(const std::string& name, const std::vector<std::string>& defines) {
+Program Program::compute(const std::string& name, const std::vector<std::string>& features) {
+  const std::vector<std::string> defines = withLoads(name, features);
   Program out;
   out.name_ = name;
   std::vector<std::string> uniforms;

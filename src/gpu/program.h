@@ -16,6 +16,10 @@ class RawBuffer;
 /// @throws GpuError  no such shader
 std::string shaderSource(const std::string& name, const std::vector<std::string>& defines = {});
 
+/// What a compute shader is compiled with: its features, and beside TEXELS LOADS (shaders/solver/tissue/lattice.glsl)
+/// where the driver is as fast with that and has storage blocks enough.
+std::vector<std::string> withLoads(const std::string& name, const std::vector<std::string>& features);
+
 /// Name of a uniform, which the compiler turns into a number: to set one by its name compares no strings.
 class UniformName {
  public:

@@ -70,13 +70,20 @@ TEST_F(GpuErrors, ComeBeforeAKernelHasMoreBlocksThanTheDriverAllows) {
   EXPECT_TRUE(says(said, {"GL_MAX_COMPUTE_SHADER_STORAGE_BLOCKS is 8 and must be 1", "'collision_note.comp'"}));
 }
 
-TEST_F(GpuErrors, OfBlocksCountAsTheDriverDoes) {
+class GpuErrorsOfBlocks : public GpuErrors, public ::testing::WithParamInterface<bool> {};
+INSTANTIATE_TEST_SUITE_P(Loads, GpuErrorsOfBlocks, ::testing::Bool());
+
+TEST_P(GpuErrorsOfBlocks, CountAsTheDriverDoes) {
+  Limits limits = driverLimits();
+  limits.loads = GetParam();
+  pretendDriverLimits(limits);
   std::vector<std::string> tabulated = kAhead, texels = kAhead, staggered = {"GROUP_SIZE 64", "LATTICE", "STAGGERED"};
   tabulated.insert(tabulated.end(), {"NETWORK", "PARTS", "MOMENTS", "VOLUME"});
   texels.push_back("TEXELS");
-  for (const auto& defines : {kAhead, tabulated, texels, staggered}) {
+  for (const auto& features : {kAhead, tabulated, texels, staggered}) {
     for (const char* kernel : {"collision_meet.comp", "measure.comp"}) {
-      const Program program = Program::compute(kernel, defines);
+      const Program program = Program::compute(kernel, features);
+      const std::vector<std::string> defines = withLoads(kernel, features);
       program.use();
       GLint id = 0, active = 0;
       glGetIntegerv(GL_CURRENT_PROGRAM, &id);

@@ -16,7 +16,10 @@ using namespace test;
 
 constexpr double kAwayM = 0.25;   ///< of the camera from the middle of the block
 constexpr double kDepthM = 2e-6;  ///< float32 at a quarter of a metre, through two matrices
-constexpr double kFlatM = 3e-4;   ///< between a round shape and the flat faces that it is drawn with
+/// Rasterisers put vertices on a grid of 1/256 pixel, which is 1.1 mm here: half of that, on a face seen at 60 degrees,
+/// and kDepthM.
+constexpr double kSnappedM = 6e-6;
+constexpr double kFlatM = 3e-4;  ///< between a round shape and the flat faces that it is drawn with
 constexpr double kBaselineM = 0.01;
 
 class Geometry : public OnSceneBackend {
@@ -64,7 +67,7 @@ TEST_P(Geometry, PixelsLieOnTheSurfaceWhereCameraInfoPutsThem) {
     if (labels.labels[i] == 0) continue;
     ASSERT_EQ(labels.labels[i], layout::kFirstBodyLabel);
     ++on_block;
-    ASSERT_NEAR(placeOf(oblique.cameras[0], depths, i).cwiseAbs().maxCoeff(), kHalfM, kDepthM) << i;
+    ASSERT_NEAR(placeOf(oblique.cameras[0], depths, i).cwiseAbs().maxCoeff(), kHalfM, kSnappedM) << i;
   }
   EXPECT_GT(on_block, 500U);
 }

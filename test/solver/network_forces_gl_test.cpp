@@ -3,6 +3,7 @@
 // Forces of explicit connections (VR05 2.5.1, GW 4) and leapfrog with them.
 #include <cstring>
 
+#include "gpu/software.h"
 #include "solver/network_rig.h"
 
 using namespace viscera;
@@ -11,7 +12,10 @@ using namespace viscera::test;
 namespace {
 
 // Relative to the largest value.
-constexpr double kForce = 1e-6;           // issue 5
+constexpr double kForce = 1e-6;
+/// OpenGL lets a division be off by 2.5 and a root by some 4 units in the last place (6e-8), and GPUs take some of
+/// that: an H200 was off by 1.2e-6 where long springs of a node of a random graph nearly cancel.
+constexpr double kForceOnGpus = 3e-6;
 constexpr double kDisplacement = 1e-6;    // as for lattices (leapfrog_gl_test.cpp): ten substeps of twenty roundings
 constexpr double kVelocity = 5e-6;        // likewise
 constexpr double kSum = 1e-6;             // |sum F| / sum |F|: roundings of single forces
@@ -24,9 +28,10 @@ class NetworkForces : public OnBackend {
     const std::vector<Vector3d> truth = trueForces(model, state);
     const auto point = forcesOf(GetParam(), model, state, SpringForces::kPoint);
     const auto edge = forcesOf(GetParam(), model, state, SpringForces::kEdge);
-    EXPECT_LT(forceDifference(point, truth), kForce);
-    EXPECT_LT(forceDifference(edge, truth), kForce);
-    EXPECT_LT(forceDifference(edge, point), kForce) << "the two schemes";
+    const double limit = GetParam() == "gpu" && !gpu::isSoftware() ? kForceOnGpus : kForce;
+    EXPECT_LT(forceDifference(point, truth), limit);
+    EXPECT_LT(forceDifference(edge, truth), limit);
+    EXPECT_LT(forceDifference(edge, point), limit) << "the two schemes";
   }
   void expectLikeReference(const Model& model, const Scene& scene, double displacement = kDisplacement) {
     const auto solver = make(model, scene);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,9 @@ double copyRate(int threads, size_t mebibytes);
 double fmaRate(int threads, double seconds);
 std::string fmaTarget();  ///< the instruction set of fmaRate()
 
+/// Does something, each time to its end, for 0.4 s: a GPU that was idle takes some tenths of a second to its full
+/// clock.
+void warmUpGpu(const std::function<void()>& work);
 /// The same on the renderer of the current context: copies between buffers, multiply-adds in a compute shader.
 double gpuCopyRate(size_t mebibytes);
 double gpuFmaRate(double seconds);

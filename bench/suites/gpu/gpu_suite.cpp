@@ -162,7 +162,7 @@ void measureReads(Report& report) {
         gpu::Program::storageBarrier();
       }
     };
-    run();
+    warmUpGpu(run);
     double seconds = secondsOf(run);
     for (int round = 0; round < 4; ++round) seconds = std::min(seconds, secondsOf(run));
     seconds /= passes;

@@ -53,9 +53,10 @@ struct BodyParams {
 const uint kImplicit = 0u;
 const uint kExplicitLattice = 1u;
 const uint kNetwork = 2u;
-// Vectors that a cell's energies leave per cell: its volume's, or by moments too (CellForces in elastic.glsl).
+// Vectors that a cell's energies leave per cell: a, b, c of CellForces (elastic.glsl) where cells have the energy of their volume
+// alone, else what it does to each of its corners: a node then reads one of each cell around it.
 const uint kVolumeVectors = 3u;
-const uint kMomentVectors = 7u;
+const uint kMomentVectors = 8u;
 const uint kValenceMask = kAxialMask;
 
 #ifdef __cplusplus

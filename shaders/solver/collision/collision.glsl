@@ -45,10 +45,10 @@ struct Entry {
 };
 
 #ifdef AHEAD
-vec3 positionBefore(uint slot) { return restPosition(slot) + xyz(texelFetch(displacement, int(slot))); }
-vec3 positionOf(uint slot) { return positionBefore(slot) + xyz(texelFetch(increment, int(slot))); }
+vec3 positionBefore(uint slot) { return restPosition(slot) + xyz(stateAt(displacement, int(slot))); }
+vec3 positionOf(uint slot) { return positionBefore(slot) + xyz(stateAt(increment, int(slot))); }
 #else
-vec3 positionOf(uint slot) { return restPosition(slot) + xyz(texelFetch(displacement, int(slot))); }
+vec3 positionOf(uint slot) { return restPosition(slot) + xyz(stateAt(displacement, int(slot))); }
 vec3 positionBefore(uint slot) { return restPosition(slot) + xyz(next_displacement[slot]); }
 #endif
 

@@ -4,6 +4,7 @@
 // collision_note.comp - notes the contacts that nodes may have in an implicit substep.   physics.md 2, 8
 // Owner: solver/gpu/contact/collision_pass.h
 // in  contacts [slots] of collision_meet.comp     out  pairs (implicit_pairs.glsl), which nodes have some (increments)
+#undef LOADS  // what it writes must not be read by another name
 #include "solver/collision/collision_search.glsl"
 #include "solver/implicit/implicit_pairs.glsl"
 

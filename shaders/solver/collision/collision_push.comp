@@ -33,7 +33,7 @@ Push pushBetween(Entry a, Entry b, float wanted) {
   // Depth before the substep: what the substep added is undone with the approach.
   float depth = max(0.0f, wanted - distance(a.before, b.before));
   vec3 shift = (min(relaxation * depth, push_speed * dt_s) / inverse) * normal;
-  vec3 v = xyz(texelFetch(velocity, int(a.slot))) - xyz(texelFetch(velocity, int(b.slot)));
+  vec3 v = xyz(stateAt(velocity, int(a.slot))) - xyz(stateAt(velocity, int(b.slot)));
   float approach = dot(v, normal);
   if (approach >= 0.0f) return pushOf(vec3(0.0f), shift);
   // Thrown back is what came before the substep: with what its own forces add in it, a body pressed against another would gain energy.

@@ -57,8 +57,8 @@ vec3 areaOf(uint slot, vec3 u) {
   for (uint i = ring_starts[slot]; i < ring_starts[slot + 1u]; ++i) {
     WindTriangle t = rings[i];
     if (isTorn(t)) continue;
-    vec3 b = (restPosition(t.b) - rest) + (xyz(texelFetch(displacement, int(t.b))) - u);
-    vec3 c = (restPosition(t.c) - rest) + (xyz(texelFetch(displacement, int(t.c))) - u);
+    vec3 b = (restPosition(t.b) - rest) + (xyz(stateAt(displacement, int(t.b))) - u);
+    vec3 c = (restPosition(t.c) - rest) + (xyz(stateAt(displacement, int(t.c))) - u);
     sum += cross(b, c);
   }
   return sum / 6.0f;
@@ -93,7 +93,7 @@ void main() {
   if (i >= active_count) return;
   uint slot = active_nodes[i];
   NodeBits bits = nodes[slot];
-  vec3 u = xyz(texelFetch(displacement, int(slot))), v = xyz(texelFetch(velocity, int(slot)));
+  vec3 u = xyz(stateAt(displacement, int(slot))), v = xyz(stateAt(velocity, int(slot)));
   bool lone = isIsolated(bits);
   if (lone || (bits.lo & (kFixedBit | kGrabMask)) != 0u) {
     next_displacement[slot] = vec4(u, 0.0f);

@@ -39,7 +39,7 @@ float inertia(float mass, BodyParams body) { return mass * (1.0f + body.drag_per
 
 /// y: the increment that no force would change.
 vec3 freeIncrement(uint slot, BodyParams body) {
-  vec3 v = xyz(texelFetch(velocity, int(slot)));
+  vec3 v = xyz(stateAt(velocity, int(slot)));
   return (dt_s * v + (dt_s * dt_s) * gravity) / (1.0f + body.drag_per_s * dt_s);
 }
 
@@ -61,9 +61,9 @@ struct ImplicitSpring {
 
 /// @param u, du  of the near end   @param n, d, l0, prestrain, k  of FOR_EACH_LINK (elastic.glsl)
 ImplicitSpring implicitSpring(uint n, vec3 u, vec3 du, vec3 d, float l0, float prestrain, float k, BodyParams body) {
-  vec3 along = xyz(texelFetch(increment, int(n))) - du;
+  vec3 along = xyz(stateAt(increment, int(n))) - du;
   ImplicitSpring s;
-  s.spring = springBetween(d, l0, prestrain, (xyz(texelFetch(displacement, int(n))) - u) + along);
+  s.spring = springBetween(d, l0, prestrain, (xyz(stateAt(displacement, int(n))) - u) + along);
   s.damping = damping(k, body);
   s.force = (k * s.spring.extension + s.damping * dot(s.spring.direction, along)) * s.spring.direction;
   return s;

@@ -4,6 +4,7 @@
 // implicit_begin.comp - start of a substep of implicit Euler: increments of prescribed nodes, and y for the others.
 // Owner: solver/device/implicit_substep.h   physics.md 2
 // in  displacement, velocity [slots]     out  increments [slots]     Features: CONTACT, TOOLS, OBSTACLES
+#undef LOADS  // what it writes must not be read by another name
 #include "layout.h"
 #include "solver/tissue/lattice.glsl"
 #include "solver/tissue/elastic.glsl"
@@ -27,14 +28,14 @@ void main() {
 #ifdef TOOLS
   uint held_by = (bits.lo & kGrabMask) >> kGrabShift;
   if (held_by != 0u) {
-    increments[slot] = vec4(heldDisplacement(held_by - 1u, slot) - xyz(texelFetch(displacement, int(slot))), 1.0f);
+    increments[slot] = vec4(heldDisplacement(held_by - 1u, slot) - xyz(stateAt(displacement, int(slot))), 1.0f);
     return;
   }
 #endif
   vec3 y = freeIncrement(slot, bodies[bodyOf(bits)]);
 #ifdef CONTACT
   clearContacts(slot);
-  findContacts(slot, xyz(texelFetch(displacement, int(slot))), y);
+  findContacts(slot, xyz(stateAt(displacement, int(slot))), y);
   if (contactCount(slot) != 0u) {
     increments[slot] = vec4(outside(slot, y), -1.0f);
     return;

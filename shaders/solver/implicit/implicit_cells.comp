@@ -4,6 +4,9 @@
 // implicit_cells.comp - forces and majorisers of the cells in the current iterate, as volume.comp has them.
 // Owner: solver/device/implicit_substep.h   physics.md 2
 // in  displacement, increments [slots]     out  cell forces [cell_vectors * slots]
+#ifndef __cplusplus
+#define MAKES_CELL_FORCES
+#endif
 #include "layout.h"
 #include "solver/tissue/lattice.glsl"
 #include "solver/tissue/elastic.glsl"
@@ -30,20 +33,11 @@ void main() {
     vec3 at[8], edge_lengths;
     for (uint c = 0u; c < 8u; ++c) {
       int corner = int(cornerSlot(slot, c));
-      at[c] = xyz(texelFetch(displacement, corner)) + xyz(texelFetch(increment, corner));
+      at[c] = xyz(stateAt(displacement, corner)) + xyz(stateAt(increment, corner));
     }
     CellShape s = shapeOf(at, h, edge_lengths);
     majoriser = volumeMajoriser(bulk, s, edge_lengths, reach(h, iteration), h);
     f = cellForces(at, s, volumePressure(bulk, s.e) * 0.25f / h, h, bulk, cellRigidity(slot, body), cellMoments(slot));
   }
-  uint first = cell_vectors * slot;
-  cell_forces_out[first] = vec4(f.a, majoriser);
-  cell_forces_out[first + 1u] = vec4(f.b, 0.0f);
-  cell_forces_out[first + 2u] = vec4(f.c, 0.0f);
-  if (has_moments) {
-    cell_forces_out[first + 3u] = vec4(f.hx, 0.0f);
-    cell_forces_out[first + 4u] = vec4(f.hy, 0.0f);
-    cell_forces_out[first + 5u] = vec4(f.hz, 0.0f);
-    cell_forces_out[first + 6u] = vec4(f.hxyz, 0.0f);
-  }
+  LEAVE_CELL_FORCES(cell_vectors * slot, f, majoriser)
 }

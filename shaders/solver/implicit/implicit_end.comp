@@ -46,10 +46,10 @@ vec3 bounceOffPairs(uint slot) {
     if (xyz(pair_rows[2u * end + 1u]) == vec3(0.0f)) continue;
     uint other = pair_words[otherWord(end)], a = min(slot, other), b = max(slot, other);
     vec3 normal = xyz(pair_rows[2u * end]);
-    float came = dot(xyz(texelFetch(velocity, int(b))) - xyz(texelFetch(velocity, int(a))), normal);
+    float came = dot(xyz(stateAt(velocity, int(b))) - xyz(stateAt(velocity, int(a))), normal);
     float give = splitMobility(a) + splitMobility(b);
     if (came <= pair_bounces_from || give == 0.0f) continue;
-    float leaves = dot(xyz(texelFetch(increment, int(a))) - xyz(texelFetch(increment, int(b))), normal) / dt_s;
+    float leaves = dot(xyz(stateAt(increment, int(a))) - xyz(stateAt(increment, int(b))), normal) / dt_s;
     sum += ((slot == a ? 1.0f : -1.0f) * max(0.0f, pair_restitution * came - leaves) / give) * normal;
   }
   NodeBits bits = nodes[slot];
@@ -93,13 +93,13 @@ void main() {
   if (i >= active_count) return;
   uint slot = active_nodes[i];
   NodeBits bits = nodes[slot];
-  vec3 u = xyz(texelFetch(displacement, int(slot)));
+  vec3 u = xyz(stateAt(displacement, int(slot)));
   if (isAtRest(bits)) {
     next_displacement[slot] = vec4(u, 0.0f);
     next_velocity[slot] = vec4(0.0f);
     return;
   }
-  vec4 increased = texelFetch(increment, int(slot));
+  vec4 increased = stateAt(increment, int(slot));
   vec3 du = xyz(increased);
   vec3 u_next = u + du, v_next = du / dt_s;
 #ifdef PAIRS

@@ -17,7 +17,7 @@ vec3 bounceOf(Contact c, float restitution, vec3 v_before, vec3 v_next) {
 
 /// Tells probes and obstacles what they gave a node.
 void giveContacts(uint slot, float mass, INOUT(vec3) v_next) {
-  vec3 v_before = xyz(texelFetch(velocity, int(slot)));
+  vec3 v_before = xyz(stateAt(velocity, int(slot)));
   uint count = contactCount(slot);
   for (uint row = 0u; row < count; ++row) {
     Contact c = contactOf(slot, row);

@@ -40,8 +40,8 @@ vec4 cellEnergies(uint slot, BodyParams body) {
   vec4 du[8];
   for (uint c = 0u; c < 8u; ++c) {
     int corner = int(cornerSlot(slot, c));
-    u[c] = xyz(texelFetch(displacement, corner));
-    du[c] = texelFetch(increment, corner);
+    u[c] = xyz(stateAt(displacement, corner));
+    du[c] = stateAt(increment, corner);
   }
   vec4 sum = vec4(0.0f);
   for (int g = 0; g < 4; ++g) {
@@ -74,11 +74,11 @@ void main() {
   NodeBits bits = nodes[slot];
   BodyParams body = bodies[bodyOf(bits)];
   float mass = nodeMass(slot, bits, body);
-  vec4 du = texelFetch(increment, int(slot));
-  vec3 u = xyz(texelFetch(displacement, int(slot)));
+  vec4 du = stateAt(increment, int(slot));
+  vec3 u = xyz(stateAt(displacement, int(slot)));
   vec4 elastic = vec4(0.0f), potential = vec4(0.0f), motion = vec4(0.0f);
   if (!isPrescribed(du)) {
-    vec3 y = freeIncrement(slot, body), v = xyz(texelFetch(velocity, int(slot)));
+    vec3 y = freeIncrement(slot, body), v = xyz(stateAt(velocity, int(slot)));
     for (int c = 0; c < 4; ++c) {
       vec3 way = share(slot, du, c), off = way - y;
       potential[c] = 0.5f * inertia(mass, body) * dot(off, off);
@@ -105,7 +105,7 @@ void main() {
 #endif
   }
 #define VISIT_LINK                                                                                              \
-  if (counted) addSpring(slot, n, du, texelFetch(increment, int(n)), xyz(texelFetch(displacement, int(n))) - u, d, l0,     \
+  if (counted) addSpring(slot, n, du, stateAt(increment, int(n)), xyz(stateAt(displacement, int(n))) - u, d, l0,     \
                          prestrain, k, damping(k, body), elastic, potential);
   FOR_EACH_LINK
 #undef VISIT_LINK

@@ -5,6 +5,7 @@
 // Owner: solver/device/implicit_substep.h   physics.md 2
 // in  increments [slots], pairs (implicit_pairs.glsl)     out  pairs; at the end of a sweep increments
 // Features: CONTACT, TOOLS, OBSTACLES
+#undef LOADS  // what it writes must not be read by another name
 #include "layout.h"
 #include "solver/tissue/lattice.glsl"
 #include "solver/tissue/elastic.glsl"
@@ -29,6 +30,6 @@ void main() {
   vec4 now = increments[slot];
   if (!isInPairs(now)) return;
   BodyParams body = bodies[bodyOf(nodes[slot])];
-  place(slot, body, node_pairs[3u * slot], xyz(texelFetch(displacement, int(slot))), xyz(now));
+  place(slot, body, node_pairs[3u * slot], xyz(stateAt(displacement, int(slot))), xyz(now));
   if (ends_sweep != 0u) increments[slot] = vec4(xyz(node_pairs[3u * slot + 1u]), kInPairs);
 }

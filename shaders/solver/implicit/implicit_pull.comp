@@ -25,11 +25,11 @@ void main() {
   uint i = globalIndex();
   if (i >= active_count) return;
   uint slot = active_nodes[i];
-  vec4 now = texelFetch(increment, int(slot));
+  vec4 now = stateAt(increment, int(slot));
   if (!isInPairs(now)) return;
   NodeBits bits = nodes[slot];
   BodyParams body = bodies[bodyOf(bits)];
-  vec3 u = xyz(texelFetch(displacement, int(slot))), du = xyz(now);
+  vec3 u = xyz(stateAt(displacement, int(slot))), du = xyz(now);
   vec4 pulled = pull(slot, bits, body, u, du);
   node_pairs[3u * slot] = pulled;
   if (first_sweep != 0u) node_pairs[3u * slot + 2u] = vec4(0.0f, 0.0f, 0.0f, node_pairs[3u * slot + 1u].w);

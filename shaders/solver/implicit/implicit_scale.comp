@@ -4,6 +4,7 @@
 // implicit_scale.comp - increments = the share of them that implicit_fold.comp chose. One share is 0, so P is P(0) or below from
 // there on, whatever the increments were.   Owner: solver/device/implicit_substep.h   physics.md 2
 // in, out  increments [slots]
+#undef LOADS  // what it writes must not be read by another name
 #include "layout.h"
 #include "solver/tissue/lattice.glsl"
 #include "solver/tissue/elastic.glsl"

@@ -80,7 +80,7 @@ void main() {
     guard[plainWord(iteration)] = 1u;
     if (!was_plain) guard[changeWord(iteration)] = uint(guard[changeWord(0u)]);  // this iteration changes nothing
   }
-  vec4 now = texelFetch(increment, int(slot));
+  vec4 now = stateAt(increment, int(slot));
   if (isPrescribed(now) || isInPairs(now)) {  // the latter move together (implicit_pull.comp)
     next_increments[slot] = now;
     return;
@@ -91,7 +91,7 @@ void main() {
     next_increments[slot] = startedAnew(slot, uintBitsToFloat(guard[0]) * freeIncrement(slot, body));
     return;
   }
-  vec3 u = xyz(texelFetch(displacement, int(slot)));
+  vec3 u = xyz(stateAt(displacement, int(slot)));
   float most = longestStep(body, iteration);
   vec4 p = pull(slot, bits, body, u, xyz(now));
   vec3 change = notTooFar(xyz(p) / p.w, most);

@@ -17,7 +17,7 @@ void main() {
   if (i >= active_count) return;
   uint slot = active_nodes[i];
   NodeBits bits = nodes[slot];
-  vec3 u = texelFetch(displacement, int(slot)).xyz, v = texelFetch(velocity, int(slot)).xyz;
+  vec3 u = stateAt(displacement, int(slot)).xyz, v = stateAt(velocity, int(slot)).xyz;
   // What guard.comp put back is not where the last step ended.
   bool known = fresh == 0u && ofStep(kStepEnded, slot) == u;
   vec3 before = known ? ofStep(kStepLeft, slot) : v;

@@ -5,6 +5,9 @@
 // change of displacement makes of it, moments at constant directions of the cell's edges.
 // Owner: solver/gpu/steps/multigrid_stages.h   physics.md 2 (src/solver/multigrid/levels/fine_cells-inl.h is its twin)
 // in  places of the step, or a vector of the system     out  cell forces; tangents, partial sums of energy
+#ifndef __cplusplus
+#define MAKES_CELL_FORCES
+#endif
 #include "layout.h"
 #include "solver/tissue/lattice.glsl"
 #include "solver/tissue/elastic.glsl"
@@ -20,17 +23,7 @@ layout(std430, binding = kBindCells) readonly buffer CellsBuffer { uint cells[];
 layout(std430, binding = kBindCellForces) writeonly buffer CellForcesBuffer { vec4 cell_forces_out[]; };
 uniform uint x_vector;
 
-void store(uint slot, CellForces f) {
-  uint at = cell_vectors * slot;
-  cell_forces_out[at] = vec4(f.a, 0.0f);
-  cell_forces_out[at + 1u] = vec4(f.b, 0.0f);
-  cell_forces_out[at + 2u] = vec4(f.c, 0.0f);
-  if (!has_moments) return;
-  cell_forces_out[at + 3u] = vec4(f.hx, 0.0f);
-  cell_forces_out[at + 4u] = vec4(f.hy, 0.0f);
-  cell_forces_out[at + 5u] = vec4(f.hz, 0.0f);
-  cell_forces_out[at + 6u] = vec4(f.hxyz, 0.0f);
-}
+void store(uint slot, CellForces f) { LEAVE_CELL_FORCES(cell_vectors * slot, f, 0.0f) }
 
 #ifdef PRODUCT
 /// s_mn = direction of edge m . H_n, by m.

@@ -17,7 +17,7 @@ void main() {
   if (i >= active_count) return;
   uint slot = active_nodes[i];
   NodeBits bits = nodes[slot];
-  vec3 u = texelFetch(displacement, int(slot)).xyz;
+  vec3 u = stateAt(displacement, int(slot)).xyz;
   vec3 u_next = u, v_next = vec3(0.0f);
   if (!isAtRest(bits)) {
     u_next = u + ofStep(kStepIncrement, slot);

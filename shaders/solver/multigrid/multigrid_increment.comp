@@ -18,7 +18,7 @@ void main() {
   if (i >= active_count) return;
   uint slot = active_nodes[i];
   vec3 du = ofStep(kStepIncrement, slot);
-  setOfStep(kStepPlace, slot, texelFetch(displacement, int(slot)).xyz + du);
+  setOfStep(kStepPlace, slot, stateAt(displacement, int(slot)).xyz + du);
   setOfStep(kStepSpeed, slot, rate * (du - ofStep(kStepOffset, slot)));
 }
 #else

@@ -5,6 +5,7 @@
 // physics.md 2 (src/solver/multigrid/steps/touching.h is its twin, and says how)
 // Features: CONTACT, TOOLS, OBSTACLES, and one of BEGIN (a step begins), PLACE (increments that may not be are moved, and what they
 // meet is looked for), PRESS (who is held where an increment leads), GIVE (a step ends).
+#undef LOADS  // increments are not there
 #include "layout.h"
 #include "solver/tissue/lattice.glsl"
 #include "solver/tissue/elastic.glsl"
@@ -40,7 +41,7 @@ void each(uint slot) {
   uint held_by = (bits.lo & kGrabMask) >> kGrabShift;
   if (held_by != 0u && !isAtRest(bits)) {
     what |= kTouchesHeld | kTouchesPresses;
-    way = heldDisplacement(held_by - 1u, slot) - texelFetch(displacement, int(slot)).xyz;
+    way = heldDisplacement(held_by - 1u, slot) - stateAt(displacement, int(slot)).xyz;
   }
 #endif
   touched[kTouchedNormal * slot_count + slot] = vec4(0.0f);
@@ -73,7 +74,7 @@ void each(uint slot) {
   if ((touchesOf(slot) & kTouchesHeld) != 0u) {
     du = touch_share * touched[kTouchedWay * slot_count + slot].xyz;
   } else {
-    findContacts(slot, texelFetch(displacement, int(slot)).xyz, du / touch_share);
+    findContacts(slot, stateAt(displacement, int(slot)).xyz, du / touch_share);
     du = outsideThen(slot, du);
   }
   setOfStep(kStepIncrement, slot, du);
@@ -185,7 +186,7 @@ void each(uint slot) {
   }
   setTouches(slot, (what & kTouchesPresses) != 0u ? kTouchesBefore : 0u);
 #ifdef TOOLS
-  feel(slot, restPosition(slot) + texelFetch(displacement, int(slot)).xyz + du);
+  feel(slot, restPosition(slot) + stateAt(displacement, int(slot)).xyz + du);
 #endif
 }
 #endif

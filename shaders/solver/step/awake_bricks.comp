@@ -3,7 +3,7 @@
 //
 // awake_bricks.comp - which bricks are stepped, and the lists of their nodes and cells.   Owner: solver/gpu/buffers/awake_bricks.h
 // in  state of the nodes; what was cut; places that tools may reach     in/out  sleeping bricks     out  lists
-// An invocation per brick. Features, one each: WAKE_ALL, WAKE_NEAR (boxes), WAKE_HELD, WAKE_CUT (after a cut that took springs),
+// LANES invocations per brick: 1, or 64 in a group of their own, as GPUs like it. Features, one each: WAKE_ALL, WAKE_NEAR (boxes), WAKE_HELD, WAKE_CUT (after a cut that took springs),
 // WAKE_MARKED (another kernel has woken bricks), LOOK
 // (who was fast in the substep that has just been made; with TOOLS also who was touched), LIST. The rule is that of src/solver/cpu/store/sleep.h. What makes a list out of
 // date starts it again; LIST follows before the next substep. Its order is that in which bricks come: nodes gather, so no result
@@ -26,6 +26,35 @@ uniform uint brick_count;
 
 uint firstSlot(uint brick) { return brick * kBrickSlots; }
 
+#if LANES > 1
+shared uint of_group;
+uint brickOfInvocation() { return gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x; }
+uint lane() { return gl_LocalInvocationID.x; }
+/// The largest that an invocation of the brick brings. All of them must come here.
+uint largestOf(uint own) {
+  barrier();
+  if (lane() == 0u) of_group = 0u;
+  barrier();
+  atomicMax(of_group, own);
+  barrier();
+  return of_group;
+}
+/// What the brick's first invocation brings. All of them must come here.
+uint ofFirst(uint own) {
+  barrier();
+  if (lane() == 0u) of_group = own;
+  barrier();
+  return of_group;
+}
+#else
+uint brickOfInvocation() { return globalIndex(); }
+uint lane() { return 0u; }
+uint largestOf(uint own) { return own; }
+uint ofFirst(uint own) { return own; }
+#endif
+bool isFirst() { return lane() == 0u; }
+bool anyOf(bool own) { return largestOf(own ? 1u : 0u) != 0u; }
+
 void startLists() {
   nodes_list.groups_x = nodes_list.groups_y = nodes_list.count = 0u;
   nodes_list.groups_z = 1u;
@@ -38,7 +67,7 @@ void startLists() {
 
 /// It neither falls asleep soon nor stays asleep.
 void wake(uint b) {
-  if (sleeping[b].kind != kMayMove) return;
+  if (!isFirst() || sleeping[b].kind != kMayMove) return;
   sleeping[b].quiet_s = 0.0;
   sleeping[b].awake = 1u;
 }
@@ -57,13 +86,14 @@ layout(std430, binding = kBindVelocityOut) writeonly buffer VelocityOut { vec4 n
 /// @return the largest |u| [m]
 float freeze(uint b) {
   float largest2 = 0.0;
-  for (uint slot = firstSlot(b); slot < firstSlot(b) + kBrickSlots; ++slot) {
+  for (uint slot = firstSlot(b) + lane(); slot < firstSlot(b) + kBrickSlots; slot += LANES) {
     vec4 u = displacement[slot];
     next_displacement[slot] = u;
-    velocity[slot] = next_velocity[slot] = vec4(0.0);
+    velocity[slot] = vec4(0.0);
+    next_velocity[slot] = vec4(0.0);
     largest2 = max(largest2, dot(xyz(u), xyz(u)));
   }
-  return sqrt(largest2);
+  return sqrt(uintBitsToFloat(largestOf(floatBitsToUint(largest2))));  // positive floats order like their bits
 }
 #endif
 
@@ -78,18 +108,21 @@ uint kindOf(uint b) {
   if (bodies[bodyAt(firstSlot(b))].connections != kImplicit) return kNeverSleeps;
 #endif
   uint first = sleeping[b].first_node;
-  for (uint i = first; i < first + sleeping[b].node_count; ++i) {
-    if (!staysAtRest(nodes[active_nodes[i]])) return kMayMove;
+  bool moves = false;
+  for (uint i = first + lane(); i < first + sleeping[b].node_count; i += LANES) {
+    moves = moves || !staysAtRest(nodes[active_nodes[i]]);
   }
-  return kNeverMoves;
+  return anyOf(moves) ? kMayMove : kNeverMoves;
 }
 
 void ask(uint b) {
-  sleeping[b].kind = kindOf(b);
+  uint kind = kindOf(b);
+  if (kind == kNeverMoves) freeze(b);
+  if (!isFirst()) return;
+  sleeping[b].kind = kind;
   sleeping[b].quiet_s = 0.0;
   sleeping[b].wanted = 0u;
-  sleeping[b].awake = sleeping[b].kind == kMayMove ? 1u : 0u;
-  if (sleeping[b].kind == kNeverMoves) freeze(b);
+  sleeping[b].awake = kind == kMayMove ? 1u : 0u;
 }
 #endif
 
@@ -101,18 +134,20 @@ uniform uint box_count;
 
 float largestDisplacement(uint b) {
   float largest2 = 0.0;
-  for (uint slot = firstSlot(b); slot < firstSlot(b) + kBrickSlots; ++slot) {
+  for (uint slot = firstSlot(b) + lane(); slot < firstSlot(b) + kBrickSlots; slot += LANES) {
     largest2 = max(largest2, dot(xyz(displacement[slot]), xyz(displacement[slot])));
   }
-  return sqrt(largest2);
+  return sqrt(uintBitsToFloat(largestOf(floatBitsToUint(largest2))));
 }
 
 void ask(uint b) {
-  if (sleeping[b].kind != kMayMove || (sleeping[b].awake != 0u && sleeping[b].quiet_s == 0.0)) return;
+  SleepingBrick brick = sleeping[b];
+  ofFirst(0u);  // all have read before the first one writes
+  if (brick.kind != kMayMove || (brick.awake != 0u && brick.quiet_s == 0.0)) return;
   vec4 origin = bodies[bodyAt(firstSlot(b))].origin_spacing;
   float edge = float(kBrickEdge) * origin.w;
   vec3 first = xyz(origin) + edge * vec3(brickCoord(firstSlot(b)));
-  float reach = sleeping[b].awake != 0u ? largestDisplacement(b) : sleeping[b].farthest_m;
+  float reach = brick.awake != 0u ? largestDisplacement(b) : brick.farthest_m;
   vec3 last = first + (edge - origin.w) + reach;
   for (uint i = 0u; i < box_count; ++i) {
     if (all(lessThanEqual(first - reach, box_high[i])) && all(greaterThanEqual(last, box_low[i]))) wake(b);
@@ -124,10 +159,10 @@ void ask(uint b) {
 void ask(uint b) {
   uint first = sleeping[b].first_node;
   bool held = false;
-  for (uint i = first; i < first + sleeping[b].node_count; ++i) {
+  for (uint i = first + lane(); i < first + sleeping[b].node_count; i += LANES) {
     held = held || (nodes[active_nodes[i]].lo & kGrabMask) != 0u;
   }
-  if (held) wake(b);
+  if (anyOf(held)) wake(b);
 }
 #endif
 
@@ -151,10 +186,10 @@ void ask(uint b) {
   vec4 sphere = bladeSphere(m, h);
   sphere.w += beside * h;
   bool near = false;
-  for (uint slot = firstSlot(b); slot < firstSlot(b) + kBrickSlots; ++slot) {
+  for (uint slot = firstSlot(b) + lane(); slot < firstSlot(b) + kBrickSlots; slot += LANES) {
     near = near || !farFromBlade((restPosition(slot) - xyz(m.from)) + xyz(displacement[slot]), sphere);
   }
-  if (near) wake(b);
+  if (anyOf(near)) wake(b);
 }
 #endif
 
@@ -181,7 +216,7 @@ uniform float deepest_m;  // that a node lies below the surface by which it is t
 bool touched(uint b) {
   uint first = sleeping[b].first_node;
   bool found = false;
-  for (uint i = first; i < first + sleeping[b].node_count; ++i) {
+  for (uint i = first + lane(); i < first + sleeping[b].node_count; i += LANES) {
     uint slot = active_nodes[i];
     vec3 x = restPosition(slot) + xyz(next_displacement[slot]);
     found = found || (nodes[slot].lo & kGrabMask) != 0u;
@@ -201,14 +236,18 @@ bool touched(uint b) { return false; }
 void ask(uint b) {
   if (sleeping[b].awake == 0u) return;
   uint fastest = 0u;  // positive floats order like their bits, and what is not a number is above all
+#if LANES > 1
+  fastest = speedBits(firstSlot(b) + lane());
+#else
   for (uint slot = firstSlot(b); slot < firstSlot(b) + kBrickSlots; slot += 4u) {
     fastest = max(fastest, max(max(speedBits(slot), speedBits(slot + 1u)), max(speedBits(slot + 2u), speedBits(slot + 3u))));
   }
-  bool restless = fastest > floatBitsToUint(slow2) || touched(b);
-  float quiet = restless ? 0.0 : sleeping[b].quiet_s + since_s;
-  sleeping[b].quiet_s = quiet;
+#endif
+  bool restless = anyOf(fastest > floatBitsToUint(slow2) || touched(b));
+  float quiet = uintBitsToFloat(ofFirst(floatBitsToUint(restless ? 0.0 : sleeping[b].quiet_s + since_s)));
+  if (isFirst()) sleeping[b].quiet_s = quiet;
   if (quiet >= sleeps_after_s) return;
-  for (uint d = 0u; d < 27u; ++d) sleeping[neighborBrick(firstSlot(b), d)].wanted = look;
+  for (uint d = lane(); d < 27u; d += LANES) sleeping[neighborBrick(firstSlot(b), d)].wanted = look;
 }
 #endif
 
@@ -233,8 +272,9 @@ uint groupsOf(uint count) { return (count + group_size - 1u) / group_size; }
 
 void listNodes(uint b) {
   uint count = sleeping[b].node_count, first = sleeping[b].first_node;
-  uint place = atomicAdd(nodes_list.count, count);
-  for (uint i = 0u; i < count; ++i) awake_nodes[place + i] = active_nodes[first + i];
+  uint place = ofFirst(isFirst() ? atomicAdd(nodes_list.count, count) : 0u);
+  for (uint i = lane(); i < count; i += LANES) awake_nodes[place + i] = active_nodes[first + i];
+  if (!isFirst()) return;
   atomicMax(nodes_list.groups_x, min(groupsOf(place + count), kMostGroups));
   atomicMax(nodes_list.groups_y, (groupsOf(place + count) + kMostGroups - 1u) / kMostGroups);
 }
@@ -244,12 +284,13 @@ void listNodes(uint b) {
 void listCells(uint b) {
   uint count = sleeping[b].cell_count, first = sleeping[b].first_cell;
   bool needed = false;
-  for (uint c = 0u; c < 8u; ++c) {
+  for (uint c = lane(); c < 8u; c += LANES) {
     needed = needed || isAwake(neighborBrick(firstSlot(b), 13u + (c & 1u) + 3u * ((c >> 1) & 1u) + 9u * (c >> 2)));
   }
-  if (!needed || count == 0u) return;
-  uint place = atomicAdd(cells_list.count, count);
-  for (uint i = 0u; i < count; ++i) awake_cells[place + i] = cells[first + i];
+  if (!anyOf(needed) || count == 0u) return;
+  uint place = ofFirst(isFirst() ? atomicAdd(cells_list.count, count) : 0u);
+  for (uint i = lane(); i < count; i += LANES) awake_cells[place + i] = cells[first + i];
+  if (!isFirst()) return;
   atomicMax(cells_list.groups_x, min(groupsOf(place + count), kMostGroups));
   atomicMax(cells_list.groups_y, (groupsOf(place + count) + kMostGroups - 1u) / kMostGroups);
 }
@@ -257,8 +298,10 @@ void listCells(uint b) {
 
 /// Falls asleep, stays as it is, or is woken by a neighbour; then it does not wake others before it moves.
 void heed(uint b, bool now) {
-  bool before = sleeping[b].awake != 0u;
-  if (before && !now) sleeping[b].farthest_m = freeze(b);
+  bool before = ofFirst(sleeping[b].awake) != 0u;
+  float farthest_m = before && !now ? freeze(b) : sleeping[b].farthest_m;
+  if (!isFirst()) return;
+  sleeping[b].farthest_m = farthest_m;
   if (now && !before) sleeping[b].quiet_s = sleeps_after_s;
   sleeping[b].awake = now ? 1u : 0u;
 }
@@ -270,19 +313,19 @@ void ask(uint b) {
 #ifdef VOLUME
   listCells(b);
 #endif
-  if (sleeping[b].kind != kMayMove) return;
+  if (!isFirst() || sleeping[b].kind != kMayMove) return;
   if (now) atomicAdd(nodes_list.bricks, 1u);
   else atomicMax(nodes_list.farthest_bits, floatBitsToUint(sleeping[b].farthest_m));
 }
 #endif
 
 void main() {
-  uint b = globalIndex();
+  uint b = brickOfInvocation();
   if (b >= brick_count) return;
 #ifdef LIST
-  if (b == 0u) nodes_list.springs_cut = stats.springs_cut;
+  if (b == 0u && isFirst()) nodes_list.springs_cut = stats.springs_cut;
 #else
-  if (b == 0u) startLists();
+  if (b == 0u && isFirst()) startLists();
 #endif
   ask(b);
 }

@@ -6,6 +6,9 @@
 // Features: LATTICE, NETWORK, PARTS, VOLUME (elastic.glsl), EDGE_FORCES (of explicit connections: as spring_forces.comp found
 // them), DASHPOT (axial dashpot), TOOLS (probe and held nodes), COMPENSATED (Kahan's sums of u and v), AWAKE (only nodes of
 // bricks that are awake, as awake_bricks.comp lists them).
+#ifdef LOADS
+#define DEAD_LINKS
+#endif
 #include "layout.h"
 #include "solver/tissue/lattice.glsl"
 #include "solver/tissue/elastic.glsl"
@@ -57,12 +60,12 @@ vec3 sumOfLinks(uint slot) {
 vec3 elasticForce(uint slot, NodeBits bits, BodyParams body, vec3 u, vec3 v) {
   vec3 force = vec3(0.0f);
 #ifdef DASHPOT
-#define DASHPOT_FORCE(k, n, s) force += (k * body.dashpot_s * dot(xyz(texelFetch(velocity, int(n))) - v, s.direction)) * s.direction;
+#define DASHPOT_FORCE(k, n, s) force += (k * body.dashpot_s * dot(xyz(stateAt(velocity, int(n))) - v, s.direction)) * s.direction;
 #else
 #define DASHPOT_FORCE(k, n, s)
 #endif
 #define VISIT_LINK                                                                  \
-  Spring s = springBetween(d, l0, prestrain, xyz(texelFetch(displacement, int(n))) - u); \
+  Spring s = springBetween(d, l0, prestrain, xyz(stateAt(displacement, int(n))) - u); \
   force += (k * s.extension) * s.direction;                                         \
   DASHPOT_FORCE(k, n, s)
 #if defined(EDGE_FORCES) && defined(LATTICE)
@@ -101,14 +104,14 @@ void main() {
   if (i >= active_count) return;
   uint slot = active_nodes[i];
   NodeBits bits = nodes[slot];
-  vec3 u = xyz(texelFetch(displacement, int(slot)));
+  vec3 u = xyz(stateAt(displacement, int(slot)));
   if (isAtRest(bits)) {
     next_displacement[slot] = vec4(u, 0.0f);
     next_velocity[slot] = vec4(0.0f);
     return;
   }
   BodyParams body = bodies[bodyOf(bits)];
-  vec3 v = xyz(texelFetch(velocity, int(slot)));
+  vec3 v = xyz(stateAt(velocity, int(slot)));
   float mass = nodeMass(slot, bits, body);
   vec3 acceleration = elasticForce(slot, bits, body, u, v) / mass + gravity;
 

@@ -44,7 +44,7 @@ bool finite(vec3 v) {
   return all(notEqual(bits, uvec3(0x7f800000u)));
 }
 
-vec3 u(uint slot) { return xyz(texelFetch(displacement, int(slot))); }
+vec3 u(uint slot) { return xyz(stateAt(displacement, int(slot))); }
 
 /// V/V0 - 1 of a cell. @param n  displacements of its corners, bit per axis, x lowest [m]
 float dilation(vec3 n[8], float h) {
@@ -75,7 +75,7 @@ void main() {
   if (i >= count) return;
   uint slot = active_nodes[i];
   NodeBits bits = nodes[slot];
-  vec3 near = u(slot), v = xyz(texelFetch(velocity, int(slot)));
+  vec3 near = u(slot), v = xyz(stateAt(velocity, int(slot)));
   energies[i] = vec2(0.0f);
   if (!finite(near) || !finite(v)) {
     atomicAdd(stats.nonfinite, 1u);

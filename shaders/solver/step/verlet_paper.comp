@@ -32,9 +32,9 @@ void main() {
   uint i = globalIndex();
   if (i >= active_count) return;
   uint slot = active_nodes[i];
-  vec3 x = restPosition(slot) + xyz(texelFetch(displacement, int(slot)));
+  vec3 x = restPosition(slot) + xyz(stateAt(displacement, int(slot)));
   rebuilt_positions[slot] = vec4(x, 0.0f);
-  positions_before[slot] = vec4(x - dt_s * xyz(texelFetch(velocity, int(slot))), 0.0f);
+  positions_before[slot] = vec4(x - dt_s * xyz(stateAt(velocity, int(slot))), 0.0f);
 }
 #else
 /// Sum of the forces of springs and volumes [N]; the springs' from absolute positions: L - l0 cancels, as printed.
@@ -60,7 +60,7 @@ void main() {
   NodeBits bits = nodes[slot];
   vec3 rest = restPosition(slot);
   vec3 x = xyz(texelFetch(positions, int(slot)));
-  vec3 u = xyz(texelFetch(displacement, int(slot)));
+  vec3 u = xyz(stateAt(displacement, int(slot)));
   if (isAtRest(bits)) {
     positions_before[slot] = vec4(x, 0.0f);
     next_displacement[slot] = vec4(u, 0.0f);
@@ -69,7 +69,7 @@ void main() {
   }
   BodyParams body = bodies[bodyOf(bits)];
   // What x_prev stands for. A tool may have changed the velocity since: then x_prev is no longer where the node was.
-  vec3 v = xyz(texelFetch(velocity, int(slot)));
+  vec3 v = xyz(stateAt(velocity, int(slot)));
   precise vec3 x_prev = xyz(positions_before[slot]);
   precise vec3 v_stored = (x - x_prev) / dt_s;
   if (v != v_stored) x_prev = x - dt_s * v;

@@ -3,15 +3,22 @@
 //
 // What a node, a spring and a cell are made of (physics.md 1). After lattice.glsl.
 // Features: LATTICE (some body has implicit connections), NETWORK (some body has explicit ones: network.glsl), PARTS (strengths differ within a body: tables), VOLUME (cells have energies of their own: of volume, by moments), MOMENTS (some have
-// the latter), INCREMENT (implicit integrators: the state is displacement + increment).
+// the latter), INCREMENT (implicit integrators: the state is displacement + increment), MAKES_CELL_FORCES (of kernels that do).
 #include "solver/tissue/spring.glsl"
 #include "solver/tissue/volume.glsl"
 #include "solver/tissue/moments.glsl"
 
 #ifndef __cplusplus
+#ifdef LOADS
+layout(std430, binding = kBindDisplacementIn) restrict readonly buffer DisplacementIn { vec4 displacement[]; };
+layout(std430, binding = kBindVelocityIn) restrict readonly buffer VelocityIn { vec4 velocity[]; };
+#else
 layout(binding = kUnitDisplacement) uniform samplerBuffer displacement;
 layout(binding = kUnitVelocity) uniform samplerBuffer velocity;
-#ifdef INCREMENT
+#endif
+#if defined(INCREMENT) && defined(LOADS)
+layout(std430, binding = kBindIncrement) restrict readonly buffer IncrementIn { vec4 increment[]; };
+#elif defined(INCREMENT)
 layout(binding = kUnitIncrement) uniform samplerBuffer increment;
 #endif
 
@@ -40,8 +47,12 @@ float springStiffness(uint slot, uint far, uint spring, uint count, BodyParams b
   return float(count) * (spring < kAxialSprings ? body.axial_quarter_n_per_m : body.diagonal_half_n_per_m);
 }
 #endif
-#ifdef VOLUME
-layout(binding = kUnitCellForces) uniform samplerBuffer cell_forces;  // [cell_vectors * slots], of volume.comp
+#ifndef MAKES_CELL_FORCES
+#if defined(VOLUME) && defined(LOADS)
+layout(std430, binding = kBindCellForces) restrict readonly buffer CellForcesIn { vec4 cell_forces[]; };  // [cell_vectors * slots], of volume.comp
+#elif defined(VOLUME)
+layout(binding = kUnitCellForces) uniform samplerBuffer cell_forces;  // the same
+#endif
 #endif
 #ifdef MOMENTS
 const bool has_moments = true;
@@ -69,17 +80,31 @@ CellMoments cellMoments(uint slot) { return fullMoments(); }
 CellMoments cellMoments(uint slot) { return has_moments ? momentsAt<CellMoments>(slot) : fullMoments(); }
 #endif  // __cplusplus
 
+// A kernel that defines DEAD_LINKS visits springs that are not alive too, with k = 0, and cells that are not there: a GPU then has
+// all loads of a node under way side by side, where a branch around each would have one wait for the other.
+#ifdef DEAD_LINKS
+#define IF_ALIVE(count)
+#define OF_ALIVE(count, k) ((count) != 0u ? (k) : 0.0f)
+#define IF_THERE(exists)
+#define OF_THERE(exists, of_cell) ((exists) ? (of_cell) : vec4(0.0f))
+#else
+#define IF_ALIVE(count) if ((count) != 0u)
+#define OF_ALIVE(count, k) (k)
+#define IF_THERE(exists) if (exists)
+#define OF_THERE(exists, of_cell) (of_cell)
+#endif
+
 // FOR_EACH_LINK does what a kernel has put into VISIT_LINK for every live spring of the node `slot` with `bits` and `body`: with
 // n (slot of the far end), k [N/m], d (rest offset to n [m]), l0 (rest length [m]), prestrain (spring.glsl), and counted, which is
 // true at one of its two ends.
 #define LATTICE_LINK(spring, offset)                                                                     \
   {                                                                                                      \
     uint count = springCount(bits, spring);                                                              \
-    if (count != 0u) {                                                                                   \
+    IF_ALIVE(count) {                                                                                    \
       const bool counted = (spring & 1u) == 0u;                                                          \
       const float prestrain = 0.0f;                                                                      \
       uint n = neighborSlot(slot, offset);                                                               \
-      float k = springStiffness(slot, n, spring, count, body);                                           \
+      float k = OF_ALIVE(count, springStiffness(slot, n, spring, count, body));                          \
       float l0 = spring < kAxialSprings ? body.origin_spacing.w : kSqrt2 * body.origin_spacing.w;        \
       vec3 d = body.origin_spacing.w * vec3(offset);                                                     \
       VISIT_LINK                                                                                         \
@@ -118,7 +143,7 @@ uint cellAt(uint slot, ivec3 corner, OUT(bool) exists) {
   return brick * kBrickSlots + q.x + 4u * q.y + 16u * q.z;
 }
 
-/// What a cell's energies do to its corners, as volume.comp and implicit_cells.comp leave it: the corner at (x, y, z), each -1
+/// What a cell's energies do to its corners: the corner at (x, y, z), each -1
 /// or 1, feels minus x a + y b + z c + y z hx + z x hy + x y hz + x y z hxyz [N].
 struct CellForces {
   vec3 a, b, c, hx, hy, hz, hxyz;
@@ -141,10 +166,28 @@ CellForces cellForces(vec3 at[8], CellShape shape, float p, float h, float bulk,
   return f;
 }
 
-/// @param s  which corner, -1 or 1 per axis
-vec3 cornerForce(CellForces f, vec3 s) {
-  return -(s.x * f.a + s.y * f.b + s.z * f.c) - (s.y * s.z * f.hx + s.z * s.x * f.hy + s.x * s.y * f.hz) - (s.x * s.y * s.z) * f.hxyz;
+/// Bit per axis, x lowest. @param corner  -1 or 1 per axis
+uint cornerNumber(ivec3 corner) { return uint((corner.x + 1) / 2 + (corner.y + 1) + 2 * (corner.z + 1)); }
+/// The other way round.
+vec3 cornerSide(uint number) {
+  return vec3((number & 1u) != 0u ? 1.0f : -1.0f, (number & 2u) != 0u ? 1.0f : -1.0f, (number & 4u) != 0u ? 1.0f : -1.0f);
 }
+
+// Leaves a cell's forces in cell_forces_out from `first` on, for volumeForce() of its corners. @param majoriser  of Jacobi's iteration [N/m], or 0
+#define LEAVE_CELL_FORCES(first, f, majoriser)                                                       \
+  if (has_moments) {                                                                                 \
+    for (uint c = 0u; c < kMomentVectors; c += 2u) { /* the corners at x -1 and 1 */                  \
+      vec3 s = cornerSide(c);                                                                        \
+      vec3 even = s.y * f.b + s.z * f.c + (s.y * s.z) * f.hx;                                        \
+      vec3 odd = f.a + s.y * f.hz + s.z * f.hy + (s.y * s.z) * f.hxyz;                               \
+      cell_forces_out[first + c] = vec4(odd - even, majoriser);                                      \
+      cell_forces_out[first + c + 1u] = vec4(-(even + odd), majoriser);                              \
+    }                                                                                                \
+  } else {                                                                                           \
+    cell_forces_out[first] = vec4(f.a, majoriser);                                                   \
+    cell_forces_out[first + 1u] = vec4(f.b, 0.0f);                                                   \
+    cell_forces_out[first + 2u] = vec4(f.c, 0.0f);                                                   \
+  }
 
 /// Energy of a cell [J].
 float cellEnergy(vec3 at[8], float e, float h, float bulk, float rigidity, CellMoments moments) {
@@ -153,12 +196,7 @@ float cellEnergy(vec3 at[8], float e, float h, float bulk, float rigidity, CellM
   return energy + cellPull(cellMotion(at, h), moments, rigidity, bulk).energy;
 }
 
-/// The part of a cell's forces that its hourglass motions make. @param cell  first of its vectors
-vec3 bent(int cell, vec3 s) {
-  return (s.y * s.z) * xyz(texelFetch(cell_forces, cell + 3)) + (s.z * s.x) * xyz(texelFetch(cell_forces, cell + 4)) +
-         (s.x * s.y) * xyz(texelFetch(cell_forces, cell + 5)) + (s.x * s.y * s.z) * xyz(texelFetch(cell_forces, cell + 6));
-}
-
+#ifndef MAKES_CELL_FORCES  // kernels that write cell_forces do not read them
 /// Force of the cells around a node [N]; w their Jacobi majorisers [N/m].
 vec4 volumeForce(uint slot) {
   vec4 sum = vec4(0.0f);
@@ -166,14 +204,20 @@ vec4 volumeForce(uint slot) {
   {                                                                                                             \
     bool exists;                                                                                                \
     int cell = int(cell_vectors * cellAt(slot, corner, exists));                                                \
-    if (exists) {                                                                                               \
-      vec4 pa = texelFetch(cell_forces, cell);                                                                  \
-      vec3 s = vec3(corner);                                                                                    \
-      sum += vec4(-(s.x * xyz(pa) + s.y * xyz(texelFetch(cell_forces, cell + 1)) + s.z * xyz(texelFetch(cell_forces, cell + 2))), pa.w); \
-      if (has_moments) sum -= vec4(bent(cell, s), 0.0f);                                                         \
+    IF_THERE(exists) {                                                                                          \
+      if (has_moments) {                                                                                        \
+        vec4 of_corner = stateAt(cell_forces, cell + int(cornerNumber(corner)));                                \
+        sum += OF_THERE(exists, of_corner);                                                                     \
+      } else {                                                                                                  \
+        vec4 pa = stateAt(cell_forces, cell);                                                                   \
+        vec3 s = vec3(corner);                                                                                  \
+        vec3 force = s.x * xyz(pa) + s.y * xyz(stateAt(cell_forces, cell + 1)) + s.z * xyz(stateAt(cell_forces, cell + 2)); \
+        sum += OF_THERE(exists, vec4(-force, pa.w));                                                            \
+      }                                                                                                         \
     }                                                                                                           \
   }
   FOR_EACH_CELL(ADD_CELL)
   return sum;
 }
+#endif
 #endif

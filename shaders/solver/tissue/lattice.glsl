@@ -7,11 +7,23 @@
 #ifndef __cplusplus  // there src/solver/cpu/text/glsl_kernel.h says where bricks and bodies are
 layout(local_size_x = GROUP_SIZE) in;
 // Two ways to the same buffers. Feature TEXELS (the solver's kernels): bricks by texel fetch, bodies in a uniform block,
-// which software rasterisers run several times faster than storage loads; otherwise storage buffers.
+// which software rasterisers run several times faster than storage loads; otherwise storage buffers. LOADS beside it (set by
+// gpu/program.cpp where a driver has blocks enough): what every node reads of its neighbours by storage loads again, which a
+// GPU runs several times faster than texel fetches of 16 bytes.
+#ifdef LOADS
+#define stateAt(name, index) name[index]
+#else
+#define stateAt(name, index) texelFetch(name, index)
+#endif
 #ifdef TEXELS
-layout(binding = kUnitBricks) uniform usamplerBuffer brick_words;
 layout(std140, binding = kBindBodies) uniform BodiesBlock { BodyParams bodies[kMaxBodies]; };
+#ifdef LOADS
+layout(std430, binding = kBindBricks) restrict readonly buffer BricksBuffer { uint brick_words[]; };
+uint brickWord(uint slot, uint word) { return brick_words[(slot >> 6) * kBrickWords + word]; }
+#else
+layout(binding = kUnitBricks) uniform usamplerBuffer brick_words;
 uint brickWord(uint slot, uint word) { return texelFetch(brick_words, int((slot >> 6) * kBrickWords + word)).x; }
+#endif
 uint neighborBrick(uint slot, uint direction) { return brickWord(slot, kBrickNeighborWord + direction); }
 ivec3 brickCoord(uint slot) { return ivec3(brickWord(slot, 0u), brickWord(slot, 1u), brickWord(slot, 2u)); }
 uint brickBody(uint slot) { return brickWord(slot, 3u); }

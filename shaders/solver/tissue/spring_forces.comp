@@ -21,18 +21,18 @@ void main() {
   uint i = globalIndex();
   if (i >= owner_count) return;
   uvec4 owner = texelFetch(owners, int(i));  // slot, first, end, place
-  vec3 u = xyz(texelFetch(displacement, int(owner.x)));
+  vec3 u = xyz(stateAt(displacement, int(owner.x)));
 #ifdef DASHPOT
-  vec3 v = xyz(texelFetch(velocity, int(owner.x)));
+  vec3 v = xyz(stateAt(velocity, int(owner.x)));
   float dashpot_s = bodies[bodyAt(owner.x)].dashpot_s;
 #endif
   vec3 sum = vec3(0.0f);
   for (uint l = owner.y; l < owner.z; ++l) {
     Link link = linkAt(l);
-    Spring s = springBetween(xyz(link.offset_length), link.offset_length.w, link.prestrain_m2, xyz(texelFetch(displacement, int(link.far))) - u);
+    Spring s = springBetween(xyz(link.offset_length), link.offset_length.w, link.prestrain_m2, xyz(stateAt(displacement, int(link.far))) - u);
     vec3 force = (link.stiffness * s.extension) * s.direction;
 #ifdef DASHPOT
-    force += (link.stiffness * dashpot_s * dot(xyz(texelFetch(velocity, int(link.far))) - v, s.direction)) * s.direction;
+    force += (link.stiffness * dashpot_s * dot(xyz(stateAt(velocity, int(link.far))) - v, s.direction)) * s.direction;
 #endif
     if (link.stiffness == 0.0f) force = vec3(0.0f);  // cut: whatever became of the far end
     sum += force;

@@ -2,9 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // volume.comp - forces of every cell's energies: of its volume, by moments.   Owner: solver/gpu/forces/volume_pass.h   physics.md 1
-// in  displacement, nodes     out  cell forces [cell_vectors * slots]: see CellForces in elastic.glsl
-// (implicit_cells.comp writes the same for its iterates, with a majoriser in w of the first.) Feature CUT drops the cells that
+// in  displacement, nodes     out  cell forces [cell_vectors * slots]: LEAVE_CELL_FORCES in elastic.glsl
+// (implicit_cells.comp writes the same for its iterates, with a majoriser in w.) Feature CUT drops the cells that
 // lost a spring instead; AWAKE: only cells beside bricks that are awake.
+#ifndef __cplusplus
+#define MAKES_CELL_FORCES
+#endif
 #include "layout.h"
 #include "solver/tissue/lattice.glsl"
 #include "solver/tissue/elastic.glsl"
@@ -59,7 +62,7 @@ layout(std430, binding = kBindNodes) readonly buffer NodesBuffer { NodeBits node
 layout(std430, binding = kBindCellForces) writeonly buffer CellForcesBuffer { vec4 cell_forces_out[]; };
 #endif
 
-vec3 u(uint slot) { return xyz(texelFetch(displacement, int(slot))); }
+vec3 u(uint slot) { return xyz(stateAt(displacement, int(slot))); }
 
 void main() {
   uint i = globalIndex();
@@ -80,15 +83,6 @@ void main() {
     float bulk = cellBulk(slot, body);
     f = cellForces(at, s, volumePressure(bulk, s.e) * quarter, h, bulk, cellRigidity(slot, body), cellMoments(slot));
   }
-  uint first = cell_vectors * slot;
-  cell_forces_out[first] = vec4(f.a, 0.0f);
-  cell_forces_out[first + 1u] = vec4(f.b, 0.0f);
-  cell_forces_out[first + 2u] = vec4(f.c, 0.0f);
-  if (has_moments) {
-    cell_forces_out[first + 3u] = vec4(f.hx, 0.0f);
-    cell_forces_out[first + 4u] = vec4(f.hy, 0.0f);
-    cell_forces_out[first + 5u] = vec4(f.hz, 0.0f);
-    cell_forces_out[first + 6u] = vec4(f.hxyz, 0.0f);
-  }
+  LEAVE_CELL_FORCES(cell_vectors * slot, f, 0.0f)
 }
 #endif

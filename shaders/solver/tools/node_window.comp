@@ -5,6 +5,7 @@
 // in  slots of the nodes     GATHER: out  window: displacements, then velocities     else: in  window: changes of velocity
 // in/out  displacement, velocity, impulses. Feature ASLEEP: bricks may sleep; a change wakes them.
 // An invocation per node; no node is there twice.
+#undef LOADS  // what it writes must not be read by another name
 #include "layout.h"
 #include "solver/tissue/lattice.glsl"
 #include "solver/tissue/elastic.glsl"
@@ -29,8 +30,8 @@ float asleep(uint slot) {
 }
 
 void look(uint i, uint slot) {
-  window[i] = vec4(texelFetch(displacement, int(slot)).xyz, asleep(slot));
-  window[node_count + i] = texelFetch(velocity, int(slot));
+  window[i] = vec4(stateAt(displacement, int(slot)).xyz, asleep(slot));
+  window[node_count + i] = stateAt(velocity, int(slot));
 }
 #else
 layout(std430, binding = kBindNodes) readonly buffer NodesBuffer { NodeBits nodes[]; };

@@ -27,7 +27,7 @@ class ImplicitSubstep {
         increments_{Vectors(device.slots(), "increments", true), Vectors(device.slots(), "increments", true)},
         contacts_(size_t{3} * device.contactRows() * device.slots(), "contacts of nodes"),
         energies_(2 * device.sumSize(), "energies") {
-    device.bind(layout::kBindNodeContacts, contacts_);  // what is too large for the driver is said now
+    bindIncrements();  // what is too large for the driver is said now
     if (device.hasVolumes()) cells_ = device.pass("implicit_cells.comp", 0);
     if (!device.pairs) return;
     pull_ = device.pass("implicit_pull.comp", kInSubstep | kWithPairs);

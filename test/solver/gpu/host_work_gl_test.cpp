@@ -63,7 +63,10 @@ class SlowGpu {
     __glewClientWaitSync = original_wait;
     finishAll();
   }
-  static void finishAll() { unfinished.clear(); }
+  static void finishAll() {
+    glFinish();
+    unfinished.clear();
+  }
 
  private:
   static inline std::set<GLsync> unfinished;

@@ -109,7 +109,7 @@ bool ContactLists::noteCrowds(glsl::CollisionRules& rules) {
 
 glsl::vec3 ContactLists::positionOf(glsl::CollisionRules& rules, size_t node) const {
   const int slot = static_cast<int>(rules.active_nodes[node]);
-  const glsl::vec3 x = glsl::xyz(rest_[node]) + glsl::xyz(texelFetch(rules.displacement, slot));
+  const glsl::vec3 x = glsl::xyz(rest_[node]) + glsl::xyz(stateAt(rules.displacement, slot));
   return rules.increment ? x + glsl::xyz(rules.increment[slot]) : x;
 }
 

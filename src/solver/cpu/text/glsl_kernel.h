@@ -33,8 +33,11 @@ class Planes {
   float* first_;
 };
 
-inline vec4 texelFetch(const Planes& planes, int slot) {
+inline vec4 stateAt(const Planes& planes, int slot) {
   return planes[static_cast<uint>(slot)];
+}
+inline vec4 stateAt(const vec4* buffer, int index) {
+  return buffer[index];
 }
 inline vec4 texelFetch(const vec4* buffer, int index) {
   return buffer[index];

@@ -20,8 +20,17 @@ size_t mostBlocks(const FeatureSet& features) {
   return features.volume ? 10 : 8;
 }
 
-gpu::Program compiled(const FeatureSet& features, const char* feature, bool tools = false) {
+/// Invocations of a brick: side by side on a GPU. On the processor, where they would run one after the other and wait
+/// for each other, one.
+uint32_t lanes() {
+  return gpu::driverLimits().loads ? layout::kBrickSlots : 1;
+}
+
+gpu::Program compiled(const FeatureSet& of, const char* feature, bool tools = false) {
+  FeatureSet features = of;
+  if (lanes() > 1) features.group_size = lanes();
   std::vector<std::string> defines = features.defines();
+  defines.push_back("LANES " + std::to_string(lanes()));
   defines.push_back(feature);
   if (tools) defines.push_back("TOOLS");
   return gpu::Program::compute("awake_bricks.comp", defines);
@@ -89,7 +98,7 @@ void AwakeBricks::bind() const {
 void AwakeBricks::run(const gpu::Program& program) {
   program.use();
   program.set("brick_count", static_cast<uint32_t>(bricks_.size()));
-  gpu::Program::dispatch(bricks_.size(), group_size_);
+  gpu::Program::dispatch(lanes() * bricks_.size(), lanes() > 1 ? lanes() : group_size_);
   gpu::Program::storageBarrier();
   listed_ = false;
 }

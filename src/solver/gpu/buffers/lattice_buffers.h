@@ -134,7 +134,7 @@ struct LatticeBuffers {
   gpu::Buffer<layout::vec4> cut_sides;    ///< [slots] where there is axial_cut: see shaders/solver/tools/cut_sides.glsl
   gpu::Buffer<float> axial_cut;           ///< [record.size()] of implicit lattices; features cuts, lattice
   gpu::Buffer<layout::TickStats> stats;   ///< [1]
-  gpu::Buffer<layout::vec4> cell_forces;  ///< [3 or 7 * slots] N, see shaders/solver/tissue/volume.comp; feature volume
+  gpu::Buffer<layout::vec4> cell_forces;  ///< [3 or 8 * slots] N, see shaders/solver/tissue/volume.comp; feature volume
 
  private:
   gpu::TexelView cell_force_texels_;
