@@ -35,8 +35,6 @@ double stepAndWait(Solver& solver, const ToolMotions& motions) {
 
 std::vector<double> substepTimes(Solver& solver, const std::function<ToolMotions()>& motions, const TimedTicks& ticks) {
   std::vector<double> seconds;
-  const Clock::time_point warming = Clock::now();
-  while (secondsSince(warming) < ticks.warm_up_s) stepAndWait(solver, motions());
   const Clock::time_point begun = Clock::now();
   for (int t = -kWarmUpTicks; t < ticks.most; ++t) {
     const ToolMotions next = motions();

@@ -22,7 +22,6 @@ constexpr int kWarmUpTicks = 2;  ///< not timed: the first compiles and allocate
 struct TimedTicks {
   int least, most;
   double watch_s;
-  double warm_up_s = 0;  ///< not timed either: a GPU that was idle takes some tenths of a second to its full clock
 };
 /// Clock time per substep of every timed tick [s]. @param motions  of the next tick
 std::vector<double> substepTimes(Solver& solver, const std::function<ToolMotions()>& motions, const TimedTicks& ticks);

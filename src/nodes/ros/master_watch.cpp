@@ -29,6 +29,7 @@ constexpr std::chrono::seconds kPeriod{1};             ///< between questions
 constexpr std::chrono::milliseconds kLook{20};         ///< how soon it is seen that no one looks any more
 constexpr std::chrono::seconds kPatience{5};           ///< a busy master may miss a question or two
 constexpr std::chrono::milliseconds kLastAnswer{100};  ///< of a master that answers at all
+constexpr std::chrono::seconds kUnnoticed{5};  ///< lost, and no one has looked: main() waits for the master for ever
 constexpr timeval kConnectLimit{1, 0};
 
 bool masterKnowsThisNode() {
@@ -89,6 +90,7 @@ MasterWatch::MasterWatch() : shared_(std::make_shared<Shared>()), thread_([share
 MasterWatch::~MasterWatch() {
   std::unique_lock<std::mutex> lock(shared_->mutex);
   shared_->stop = true;
+  shared_->changed.notify_all();
   const bool ended = shared_->changed.wait_for(lock, kLastAnswer, [this] { return shared_->ended; });
   lock.unlock();
   if (ended)
@@ -116,6 +118,7 @@ void MasterWatch::ask(const std::shared_ptr<Shared>& shared) {
     if (known) shared->known = Clock::now();
     shared->lost = lost;
   }
+  if (shared->lost && !shared->changed.wait_for(lock, kUnnoticed, [&shared] { return shared->stop; })) MasterLost();
   shared->ended = true;
   shared->changed.notify_all();
 }

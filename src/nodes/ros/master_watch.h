@@ -35,7 +35,8 @@ struct MasterLost : Error {
 
 /// Notices that the ROS master is gone, was restarted and no longer knows this node, or does not answer. roscpp never
 /// registers again, so that a node would go on unseen for ever. The master is asked once a second, and at once when the
-/// connection to it ends, by a thread of its own: roscpp waits for an answer without limit.
+/// connection to it ends, by a thread of its own: roscpp waits for an answer without limit. Where a loss is not looked
+/// at for 5 s, as by a node that advertises a topic just then, that thread begins the end of the process.
 class MasterWatch {
  public:
   MasterWatch();

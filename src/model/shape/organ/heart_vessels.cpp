@@ -4,10 +4,9 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
-#include <future>
-#include <thread>
+
+#include "math/in_parallel.h"
 
 namespace viscera {
 
@@ -69,20 +68,6 @@ inline float within(float x, float low, float high) {
 }
 constexpr float kLeast = 1e-9F;   // radius that is divided by
 constexpr float kElsewhere = 10;  // farther than anything on a heart
-
-/// act(0) .. act(count - 1), on as many threads as there are.
-template <class Act>
-void inParallel(size_t count, const Act& act) {
-  std::atomic<size_t> next{0};
-  const auto work = [&] {
-    for (size_t i = next++; i < count; i = next++) act(i);
-  };
-  std::vector<std::future<void>> others;
-  for (unsigned t = 1; t < std::max(1U, std::thread::hardware_concurrency()); ++t)
-    others.push_back(std::async(std::launch::async, work));
-  work();
-  for (std::future<void>& other : others) other.get();
-}
 
 float reachOf(float radius, float fat) {
   return kRound * std::max(radius, (1 + kUneven) * fat);

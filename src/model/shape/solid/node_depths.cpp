@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "math/in_parallel.h"
+
 namespace viscera {
 namespace {
 
@@ -134,6 +136,13 @@ Vector3d outwards(const DistanceField& field, const Vector3d& place_m, double sp
   return out.norm() > 0 ? Vector3d(out.normalized()) : out;
 }
 
+void measureDepth(const DistanceField& field, const Solid& solid, NodeDepth& n) {
+  const Vector3d place_m = solid.origin_m + solid.spacing_m * n.node.cast<double>();
+  const double distance_m = field(place_m).distance_m;
+  n.depth_m = static_cast<float>(-distance_m);
+  if (distance_m > 0) n.way_m = (-distance_m * outwards(field, place_m, solid.spacing_m)).cast<float>();
+}
+
 }  // namespace
 
 void measureDepths(const std::vector<Volume>& volumes, Solid& solid) {
@@ -149,12 +158,11 @@ void measureDepths(const std::vector<Volume>& volumes, Solid& solid) {
 
 void measureDepths(const DistanceField& field, Solid& solid) {
   solid.depths = nodesAtSurface(solid);
-  for (NodeDepth& n : solid.depths) {
-    const Vector3d place_m = solid.origin_m + solid.spacing_m * n.node.cast<double>();
-    const double distance_m = field(place_m).distance_m;
-    n.depth_m = static_cast<float>(-distance_m);
-    if (distance_m > 0) n.way_m = (-distance_m * outwards(field, place_m, solid.spacing_m)).cast<float>();
-  }
+  constexpr size_t kAtOnce = 256;  // nodes: a field takes about a microsecond
+  inParallel((solid.depths.size() + kAtOnce - 1) / kAtOnce, [&](size_t run) {
+    const size_t end = std::min(solid.depths.size(), kAtOnce * (run + 1));
+    for (size_t i = kAtOnce * run; i < end; ++i) measureDepth(field, solid, solid.depths[i]);
+  });
 }
 
 }  // namespace viscera

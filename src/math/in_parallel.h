@@ -1,0 +1,29 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <future>
+#include <thread>
+#include <vector>
+
+namespace viscera {
+
+/// act(0) .. act(count - 1), in any order, on as many threads as there are processors. An exception of one is thrown
+/// when all have ended.
+template <class Act>
+void inParallel(size_t count, const Act& act) {
+  std::atomic<size_t> next{0};
+  const auto work = [&] {
+    for (size_t i = next++; i < count; i = next++) act(i);
+  };
+  std::vector<std::future<void>> others;
+  for (unsigned t = 1; t < std::max(1U, std::thread::hardware_concurrency()); ++t)
+    others.push_back(std::async(std::launch::async, work));
+  work();
+  for (std::future<void>& other : others) other.get();
+}
+
+}  // namespace viscera
