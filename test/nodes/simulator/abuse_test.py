@@ -17,6 +17,7 @@ from visualization_msgs.msg import Marker
 
 LIMIT_S = 30
 RATE_HZ = 60
+PRESSES = 10  # of a grip, 2 s each
 SKIN = (0, -0.046, -0.02)  # [m] on the front of the phantom
 BOUND_M = 1.5              # no vertex of the skin gets farther than solver.sleep_distance_m and the tissue's own size
 BACK_M = 0.004             # after a reset the skin is where it was, but for its sag under gravity
@@ -105,12 +106,19 @@ class AbuseTest(unittest.TestCase):
         x, y, z = SKIN
         for _ in range(RATE_HZ // 2):
             self.move("left", x, y, z)
-        self.press(self.button1, True)
         held = 0
+        for _ in range(PRESSES):  # a busy machine may lose the hand just as it presses, and diagnostics come once a second
+            self.press(self.button1, True)
+            for _ in range(2 * RATE_HZ):
+                self.move("left", x, y, z)
+                held = held or self.watch.value("left", "nodes_held") or 0
+            if held:
+                break
+            self.press(self.button1, False)
+            self.move("left", x, y, z)
+        self.assertGreater(held, 0)
         for i in range(2 * RATE_HZ):
             self.move("left", x, y - 0.9 * min(1, i / RATE_HZ), z)
-            held = max(held, self.watch.value("left", "nodes_held") or 0)
-        self.assertGreater(held, 0)
         self.press(self.button1, False)
         for _ in range(RATE_HZ):
             self.move("left", x, -0.9, z)
