@@ -83,7 +83,8 @@ CLI::App* addReplay(CLI::App& app, cli::ReplayOptions& o) {
   CLI::Option* out = replay->add_option("--out", o.out, "folder for pictures, metrics.json, hands.csv and surface.ply");
   replay->add_flag("--depth", o.depth, "depths with every picture, as of run")->needs(out);
   replay->add_flag("--labels", o.labels, "labels with every picture, as of run")->needs(out);
-  replay->add_flag("--no-view", o.no_view, "without pictures, and without OpenGL unless solver.backend: gpu asks for it");
+  replay->add_flag("--no-view", o.no_view,
+                   "without pictures, and without OpenGL unless solver.backend: gpu asks for it");
   replay->add_option("--save", o.save, "file for the state at the end, to go on from with run --resume");
   replay
       ->add_option("--set", o.overrides,
@@ -100,7 +101,8 @@ CLI::App* addTask(CLI::App& app, Options& o) {
   task->add_option("--seconds", o.run.seconds, "simulated time; default: the strokes' length, or 1")
       ->check(CLI::Range(0.0, 86400.0));
   task->add_option("--out", o.run.out, "folder for pictures and tables as of run, and the report");
-  task->add_flag("--no-view", o.run.no_view, "without pictures, and without OpenGL unless solver.backend: gpu asks for it");
+  task->add_flag("--no-view", o.run.no_view,
+                 "without pictures, and without OpenGL unless solver.backend: gpu asks for it");
   task->add_option("--record", o.run.record, "new file in which all of it is recorded, for viscera replay");
   addOverrides(task, o.run.overrides);
   return task;
@@ -165,7 +167,8 @@ int dispatch(int argc, char** argv) {
                                         "state that this scene was saved in: goes on there, to the same end in time");
   CLI::Option* reference = run->add_flag("--reference", o.run.reference, "the plain float64 solver instead of the GPU")
                                ->excludes(save, save_every, resume, exported, record);
-  run->add_flag("--no-view", o.run.no_view, "without pictures, and without OpenGL unless solver.backend: gpu asks for it")
+  run->add_flag("--no-view", o.run.no_view,
+                "without pictures, and without OpenGL unless solver.backend: gpu asks for it")
       ->excludes(reference);
   run->add_flag("--compare", o.run.compare, "the GPU's error against the reference, as gpu_error")->needs(reference);
   addOverrides(run, o.run.overrides);

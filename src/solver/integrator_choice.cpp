@@ -98,8 +98,7 @@ std::string missing(const Model& model, const Scene& scene, Backend backend) {
   if (model.hasNetwork()) return "multigrid steps implicit lattices, not bodies with explicit connections";
   if (resistsBlades(scene)) return "multigrid knows no blades that tissue resists (material.cut)";
   if (tears(scene)) return "multigrid knows no tissue that tears (material.tear)";
-  if (std::any_of(scene.threads.begin(), scene.threads.end(),
-                  [](const ThreadConfig& t) { return t.feelsTissue(); }))
+  if (std::any_of(scene.threads.begin(), scene.threads.end(), [](const ThreadConfig& t) { return t.feelsTissue(); }))
     return "multigrid knows no threads through tissue (threads[].channels, threads[].needle)";
   if (scene.collision.enabled) return "multigrid knows no contacts between nodes";
   return "";

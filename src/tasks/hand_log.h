@@ -36,7 +36,8 @@ struct HandRows {
   nlohmann::ordered_json metrics() const;
   /// As CSV. @throws Error  it cannot be written
   void write(const std::string& path) const;
-  /// In the columns of JIGSAWS' kinematics (docs/lessons/tasks.md): a row per 1/30 s, 76 numbers. @throws Error  the same
+  /// In the columns of JIGSAWS' kinematics (docs/lessons/tasks.md): a row per 1/30 s, 76 numbers. @throws Error  the
+  /// same
   void writeJigsaws(const std::string& path) const;
 };
 

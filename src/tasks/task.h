@@ -10,8 +10,8 @@
 
 namespace viscera {
 
-// A task: what a trainee is to achieve in a scene, and how it is scored (docs/lessons/tasks.md). Every field of these structs
-// has one entry in task_fields.h. Places are of the tissue at rest, in the tissue frame.
+// A task: what a trainee is to achieve in a scene, and how it is scored (docs/lessons/tasks.md). Every field of these
+// structs has one entry in task_fields.h. Places are of the tissue at rest, in the tissue frame.
 
 /// What has to be done: the rows of kTaskKinds (task_kinds.h), each with a group of keys of its own below.
 enum class TaskGoal { kFollowLine, kCutDisc, kTouchTargets, kLift };

@@ -78,7 +78,8 @@ TEST(HandMetrics, VolumeOfForceIsThatOfItsEllipsoid) {
 }
 
 TEST(HandMetrics, OfNothingAreNothing) {
-  const HandMetrics none = metricsOf({100, {}, {}, {}}), still = metricsOf({100, {true, true}, {Vector3d::Zero(), Vector3d::Zero()}, {}});
+  const HandMetrics none = metricsOf({100, {}, {}, {}}),
+                    still = metricsOf({100, {true, true}, {Vector3d::Zero(), Vector3d::Zero()}, {}});
   for (const HandMetrics& metrics : {none, still}) {
     EXPECT_EQ(metrics.path_m, 0);
     EXPECT_EQ(metrics.economy, 0);

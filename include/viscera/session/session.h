@@ -104,8 +104,8 @@ class Session {
   /// Told of all that changes this session from now on, until removeLog().
   void addLog(SessionLog& log) { logs_.push_back(&log); }
   void removeLog(SessionLog& log);
-  /// Tells the logs that what follows is judged as a task (docs/lessons/tasks.md); changes nothing of the session itself, whose
-  /// measurements it waits for. @param name, yaml  of its file; both empty: it is given up
+  /// Tells the logs that what follows is judged as a task (docs/lessons/tasks.md); changes nothing of the session
+  /// itself, whose measurements it waits for. @param name, yaml  of its file; both empty: it is given up
   void noteTask(const std::string& name, const std::string& yaml);
 
   const Scene& scene() const { return scene_; }
