@@ -42,7 +42,7 @@ class RawBuffer {
 };
 
 /// A buffer seen through texel fetches: the read path for gathers, several times faster than storage loads where a
-/// software rasteriser runs the kernels and no slower on a GPU.
+/// software rasteriser runs the kernels, somewhat slower on a GPU (docs/gpu.md).
 enum class TexelFormat { kRgba32f, kRgba32ui, kRg32f, kR32f, kR32ui };
 class TexelView {
  public:

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <optional>
+#include <string>
 
 #include "gpu/gl.h"
 #include "gpu/software.h"
@@ -33,7 +34,10 @@ size_t groupsAlongX() {
 /// As $VISCERA_READS says, `loads` or `texels`; otherwise what is faster.
 bool readsByLoads() {
   const char* const told = std::getenv("VISCERA_READS");
-  return told ? std::strcmp(told, "loads") == 0 : !isSoftware();
+  if (!told) return !isSoftware();
+  if (std::strcmp(told, "loads") == 0) return true;
+  if (std::strcmp(told, "texels") == 0) return false;
+  throw GpuError(std::string("VISCERA_READS is '") + told + "' and must be loads or texels");
 }
 
 }  // namespace
