@@ -1,6 +1,7 @@
 # Copyright (c) 2026, the viscera authors
 # SPDX-License-Identifier: BSD-3-Clause
 """A simulator and a hand that is pressed into its tissue, for tests of what the hand is told last."""
+import functools
 import itertools
 import json
 import os
@@ -17,6 +18,7 @@ END_LIMIT_S = 30
 ZERO_LIMIT_S = 0.05     # from the ending to the first zero, seen from outside
 FELT_S = 0.4            # so long after an ending a hand listens for forces that come late: eight times ZERO_LIMIT_S
 FORCED_END_S = 1.2      # a second, and what this process needs to see it
+TRIES = 4               # of what came late, as neighbours on a shared machine hold up any of the processes; never of what did not come
 SCENE = ("_overrides:=bodies[0].spacing_m=0.008;bodies[0].material.young_modulus_pa=20000;"
          "environment.gravity_m_per_s2=[0,0,0];styluses[0].probe.radius_m=0.012")
 TIMEOUT = "_timeout_s:=0.03"  # of watchdogs
@@ -105,7 +107,34 @@ def wait_ready(process):
     raise AssertionError("the simulator ended before it was ready")
 
 
+class Late(AssertionError):
+    """It came, but after its limit."""
+
+
+def in_one_of_several_tries(test):
+    """What is measured from outside is the program's delay and that of everything else that runs: the least counts."""
+    @functools.wraps(test)
+    def tries(self):
+        for k in range(1, TRIES + 1):
+            try:
+                return test(self)
+            except Late as late:
+                print("try %d of %d: %s" % (k, TRIES, late), flush=True)
+                if k == TRIES:
+                    raise
+    return tries
+
+
 class ForceCase(unittest.TestCase):
+    def __init_subclass__(cls):
+        for name, test in list(vars(cls).items()):
+            if name.startswith("test_"):
+                setattr(cls, name, in_one_of_several_tries(test))
+
+    def assertInTime(self, took_s, limit_s, name):
+        if took_s >= limit_s:
+            raise Late("%s: after %.4f s, wanted %.4f s" % (name, took_s, limit_s))
+
     def assertZeroSoon(self, name, felt, ended, until=None, limit_s=ZERO_LIMIT_S):
         """Forces were there before, and nothing but zero from limit_s after the ending on."""
         before = [n for t, n, _, _ in felt if t < ended]
@@ -117,4 +146,4 @@ class ForceCase(unittest.TestCase):
         first = min(z for z in zeros if not pushes or z > max(pushes)) if not pushes or max(zeros) > max(pushes) else None
         self.assertIsNotNone(first, name + ": the last wrench is not zero")
         print("%-28s last wrench before %.3f N, zero after %4.1f ms" % (name, before[-1], 1e3 * first), flush=True)
-        self.assertLess(first, limit_s, name)
+        self.assertInTime(first, limit_s, name)

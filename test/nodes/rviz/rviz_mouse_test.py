@@ -28,8 +28,8 @@ class RvizMouseTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.screen = Screen()
-        cls.rviz = rviz(CONFIG)
         cls.sender = Sender()
+        cls.rviz = rviz(CONFIG, lambda: cls.sender.surface.get_num_connections())
         cls.pose = Latest("left/measured_cp", PoseStamped)
         cls.pressed = {1: [], 2: []}
         cls.buttons = [Latest("left/button%d" % b, Joy, lambda joy, b=b: cls.pressed[b].append(joy.buttons[0]),
@@ -65,7 +65,6 @@ class RvizMouseTest(unittest.TestCase):
         return (int(columns.mean()), int(rows.mean())) if len(rows) > 10000 else None
 
     def test_mouse(self):
-        wait_until(lambda: self.sender.surface.get_num_connections(), LIMIT_S, "rviz in: " + self.rviz.output)
         self.sender.topology(1)
         self.sender.vertices(1)
         middle = wait_until(self.ball, LIMIT_S, "ball")

@@ -26,8 +26,8 @@ class RvizSurfaceTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.screen = Screen()
-        cls.rviz = rviz(CONFIG)
-        cls.sender = Sender()
+        cls.sender = sender = Sender()
+        cls.rviz = rviz(CONFIG, lambda: sender.surface.get_num_connections() and sender.change.get_num_connections())
 
     @classmethod
     def tearDownClass(cls):
@@ -47,8 +47,6 @@ class RvizSurfaceTest(unittest.TestCase):
 
     def test_a_surface_its_changes_and_wrong_messages(self):
         sender = self.sender
-        wait_until(lambda: sender.surface.get_num_connections() and sender.change.get_num_connections(), LIMIT_S,
-                   "subscription of rviz in: " + self.rviz.output)
         sender.topology(1, [0, 1, 10**9] * 4)  # no such vertex
         sender.vertices(1)
         sender.vertices(1, positions_m=[float("nan")] * 3 * len(sender.points))
