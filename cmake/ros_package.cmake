@@ -18,7 +18,7 @@ find_package(catkin REQUIRED COMPONENTS message_generation ${VISCERA_ROS_DEPENDS
 
 add_message_files(FILES Metrics.msg Samples.msg StylusState.msg SurfaceTopology.msg SurfaceTopologyChange.msg SurfaceVertices.msg
                   TaskState.msg Threads.msg Tick.msg)
-add_service_files(FILES FileCommand.srv LoadScene.srv SetOverlays.srv SetToolMode.srv StartTask.srv Step.srv)
+add_service_files(FILES FileCommand.srv LoadScene.srv SetOverlays.srv SetToolMode.srv StartTask.srv Step.srv TieThread.srv)
 generate_messages(DEPENDENCIES geometry_msgs std_msgs)
 set(EIGEN3_INCLUDE_DIRS ${EIGEN3_INCLUDE_DIR})
 # What the nodes use besides is not asked of users of the library or the messages.

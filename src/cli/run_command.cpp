@@ -50,6 +50,9 @@ Json metricsOf(const Session& session, const layout::TickStats& stats, const std
   const bool resists = resistsBlades(session.scene());
   for (uint32_t s = 0; resists && s < session.styluses().size(); ++s)
     metrics.blades.push_back(session.solver().bladeWork(s));
+  for (const SeenThread& seen : session.seenThreads())
+    metrics.threads.push_back({session.scene().threads[seen.thread].name, seen});
+  metrics.thread_refusal = session.threadRefusal();
   metrics.images = counters.renders;
   metrics.images_skipped = counters.skipped;
   metrics.backend = session.solver().backend();

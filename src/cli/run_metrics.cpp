@@ -38,6 +38,21 @@ nlohmann::ordered_json toJson(const RunMetrics& metrics) {
     out["cut_area_m2"].push_back(blade.area_m2);
     out["cut_work_j"].push_back(blade.work_j);
   }
+  for (const ThreadMetrics& thread : metrics.threads) {
+    nlohmann::ordered_json told = {{"name", thread.name},
+                                   {"length_m", thread.seen.length_m},
+                                   {"largest_n", thread.seen.largest_n},
+                                   {"knots", nlohmann::ordered_json::array()}};
+    for (const SeenKnot& knot : thread.seen.knots)
+      told["knots"].push_back({{"knot", nameOf(knot.kind)},
+                               {"turns", knot.turns},
+                               {"tied", knot.tied},
+                               {"holds_n", knot.holds_n},
+                               {"loop_m", knot.loop_m},
+                               {"loop_n", knot.loop_n}});
+    out["threads"].push_back(told);
+  }
+  if (!metrics.thread_refusal.empty()) out["thread_refusal"] = metrics.thread_refusal;
   out["images"] = metrics.images;
   out["images_skipped"] = metrics.images_skipped;
   out["backend"] = metrics.backend;

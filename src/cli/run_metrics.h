@@ -10,6 +10,11 @@
 
 namespace viscera::cli {
 
+struct ThreadMetrics {
+  std::string name;
+  SeenThread seen;
+};
+
 /// What `viscera run` says at its end, whatever did the work.
 struct RunMetrics {
   std::string scene;
@@ -19,6 +24,8 @@ struct RunMetrics {
   SolverWork work = {};                     ///< of integrators that solve to a tolerance
   double dt_s = 0, dt_safe_s = 0, dt_limit_s = 0, simulated_s = 0, wall_s = 0;
   std::vector<BladeWork> blades = {};  ///< by stylus, of tissue that resists them; else empty
+  std::vector<ThreadMetrics> threads = {};
+  std::string thread_refusal = {};  ///< why the last tie of the scene was not tied
   Extremes extremes = {};
   std::string backend = {}, renderer = {};
   std::string stepped_by = {};  ///< Session::backendNote()

@@ -190,7 +190,7 @@ void Renderer::drawRest(const View& view, const ToolMotions& motions, DrawOver d
     const gpu::TimedStage tools(gpu::Stage::kTools);
     if (obstacles_) obstacles_->draw(obstacle_poses_, view.optical_from_tissue, view.clip_from_optical);
     if (threads_)
-      threads_->draw(thread_places_m_, view.optical_from_tissue, view.clip_from_optical, pixelOf(view.camera));
+      threads_->draw(shown_threads_, view.optical_from_tissue, view.clip_from_optical, pixelOf(view.camera));
     tools_->draw(motions, view.optical_from_tissue, view.clip_from_optical);
   }
   const gpu::TimedStage after(gpu::Stage::kOverlays);
@@ -216,8 +216,7 @@ void Renderer::drawGeometry(size_t camera, const MeshView& mesh, const ToolMotio
     obstacles_->drawGeometry(geometry_program_, obstacle_poses_, optical_from_tissue, clip_from_optical);
   }
   if (threads_) {
-    threads_->drawGeometry(geometry_program_, thread_places_m_, optical_from_tissue, clip_from_optical,
-                           pixelOf(camera));
+    threads_->drawGeometry(geometry_program_, shown_threads_, optical_from_tissue, clip_from_optical, pixelOf(camera));
   }
   tools_->drawGeometry(geometry_program_, motions, optical_from_tissue, clip_from_optical);
   ++renders_;

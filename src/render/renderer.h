@@ -14,6 +14,7 @@
 #include "render/seen_target.h"
 #include "surface/surface.h"
 #include "viscera/render/camera.h"
+#include "viscera/render/shown_thread.h"
 #include "viscera/tools/stylus.h"
 
 namespace viscera {
@@ -65,8 +66,7 @@ class Renderer {
   void placeObstacles(const std::vector<Pose>& poses) { obstacle_poses_ = poses; }
   /// Threads that are drawn from now on, once they are placed. Needs a current context.
   void addThreads(const std::vector<ThreadLook>& threads);
-  /// @param places_m  [threads][nodes] tissue frame
-  void placeThreads(const std::vector<std::vector<Vector3d>>& places_m) { thread_places_m_ = places_m; }
+  void placeThreads(const ShownThreads& shown) { shown_threads_ = shown; }
   /// Where a camera's optical frame is in what is drawn from now on, tissue frame; at first where its keys say.
   void placeCamera(size_t camera, const Pose& pose) { camera_poses_[camera] = pose; }
   /// Draws how far away what a camera sees is and what it is, tools' outlines left out; makes what that needs at the
@@ -113,7 +113,7 @@ class Renderer {
   std::unique_ptr<OverlayPainter> overlays_;    ///< null until one is wanted
   std::unique_ptr<ThreadPainter> threads_;      ///< null where there are none
   std::vector<Pose> obstacle_poses_;
-  std::vector<std::vector<Vector3d>> thread_places_m_;
+  ShownThreads shown_threads_;
   uint64_t renders_ = 0;
   std::function<void()> pause_;
 };

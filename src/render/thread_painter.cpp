@@ -8,6 +8,7 @@
 #include "render/mesh_uniforms.h"
 #include "render/shapes/tube.h"
 #include "viscera/layout/picture_labels.h"
+#include "viscera/model/scene/scene.h"
 
 namespace viscera {
 
@@ -18,7 +19,7 @@ constexpr double kLeastRadius_px = 0.75;  // of 1.5 pixels some centre lies in e
 size_t allVertices(const std::vector<ThreadLook>& threads) {
   size_t out = 0;
   for (const ThreadLook& thread : threads) out += tubeVertices(thread.nodes);
-  return out;
+  return out + kMostParted * tubeVertices(2);  // both pieces have the node at which a thread is parted
 }
 
 /// Triangles of a tube depend on nothing but how many nodes it has, and those of a shorter one come first.
@@ -57,36 +58,38 @@ void ThreadPainter::shape(const ThreadLook& thread, const std::vector<Vector3d>&
 
 /// @param before  (thread) is called first
 template <class Before>
-void ThreadPainter::drawWith(const gpu::Program& program, const std::vector<std::vector<Vector3d>>& places_m,
-                             const Pose& optical_from_tissue, const Eigen::Matrix4f& clip_from_optical, double pixel,
-                             Before before) {
+void ThreadPainter::drawWith(const gpu::Program& program, const ShownThreads& shown, const Pose& optical_from_tissue,
+                             const Eigen::Matrix4f& clip_from_optical, double pixel, Before before) {
   glBindVertexArray(inputs_.id());
   program.use();
   setMeshMatrices(program, Pose{}, clip_from_optical);
   size_t first_vertex = 0;
-  for (size_t i = 0; i < std::min(places_m.size(), threads_.size()); ++i) {
+  for (const ShownThread& piece : shown) {
+    const auto look = std::find_if(threads_.begin(), threads_.end(), [&](const ThreadLook& thread) {
+      return thread.thread == piece.thread && thread.needle == piece.needle;
+    });
+    if (look == threads_.end() || piece.places_m.size() < 2 || piece.places_m.size() > look->nodes) continue;
+    shape(*look, piece.places_m, optical_from_tissue, pixel);
     const size_t first = first_vertex;
-    first_vertex += tubeVertices(threads_[i].nodes);
-    if (places_m[i].empty() || places_m[i].size() != threads_[i].nodes) continue;
-    shape(threads_[i], places_m[i], optical_from_tissue, pixel);
+    first_vertex += tube_.vertices.size();
     vertices_.write(tube_.vertices, first);
-    before(i);
+    before(*look);
     glDrawElementsBaseVertex(GL_TRIANGLES, static_cast<GLsizei>(tube_.indices.size()), GL_UNSIGNED_INT, nullptr,
                              static_cast<GLint>(first));
   }
   glBindVertexArray(0);
 }
 
-void ThreadPainter::draw(const std::vector<std::vector<Vector3d>>& places_m, const Pose& optical_from_tissue,
+void ThreadPainter::draw(const ShownThreads& shown, const Pose& optical_from_tissue,
                          const Eigen::Matrix4f& clip_from_optical, double pixel) {
-  drawWith(program_, places_m, optical_from_tissue, clip_from_optical, pixel, [](size_t) {});
+  drawWith(program_, shown, optical_from_tissue, clip_from_optical, pixel, [](const ThreadLook&) {});
 }
 
-void ThreadPainter::drawGeometry(const gpu::Program& program, const std::vector<std::vector<Vector3d>>& places_m,
+void ThreadPainter::drawGeometry(const gpu::Program& program, const ShownThreads& shown,
                                  const Pose& optical_from_tissue, const Eigen::Matrix4f& clip_from_optical,
                                  double pixel) {
-  drawWith(program, places_m, optical_from_tissue, clip_from_optical, pixel, [&](size_t i) {
-    program.set("label", static_cast<uint32_t>(layout::kFirstThreadLabel + threads_[i].thread));
+  drawWith(program, shown, optical_from_tissue, clip_from_optical, pixel, [&](const ThreadLook& look) {
+    program.set("label", static_cast<uint32_t>(layout::kFirstThreadLabel + look.thread));
   });
 }
 

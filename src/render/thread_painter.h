@@ -10,6 +10,7 @@
 #include "render/shapes/tool_shape.h"
 #include "render/vertex_array.h"
 #include "viscera/math/types.h"
+#include "viscera/render/shown_thread.h"
 
 namespace viscera {
 
@@ -19,6 +20,7 @@ struct ThreadLook {
   std::array<uint8_t, 4> color;  ///< sRGB, solid
   size_t nodes;                  ///< that it has
   size_t thread;                 ///< index in the scene, of a needle that of its thread
+  bool needle = false;
 };
 
 /// Draws threads as tubes along their nodes, no thinner than a pixel and a half. With the shaders of tools.
@@ -26,18 +28,18 @@ class ThreadPainter {
  public:
   explicit ThreadPainter(std::vector<ThreadLook> threads);
   /// Draws into the bound framebuffer.
-  /// @param places_m  [threads][nodes] tissue frame; others are not drawn
+  /// @param shown  of these threads, in pieces or whole
   /// @param pixel  its width at a distance of 1
-  void draw(const std::vector<std::vector<Vector3d>>& places_m, const Pose& optical_from_tissue,
-            const Eigen::Matrix4f& clip_from_optical, double pixel);
+  void draw(const ShownThreads& shown, const Pose& optical_from_tissue, const Eigen::Matrix4f& clip_from_optical,
+            double pixel);
   /// With another program, in use: geometry.frag.
-  void drawGeometry(const gpu::Program& program, const std::vector<std::vector<Vector3d>>& places_m,
-                    const Pose& optical_from_tissue, const Eigen::Matrix4f& clip_from_optical, double pixel);
+  void drawGeometry(const gpu::Program& program, const ShownThreads& shown, const Pose& optical_from_tissue,
+                    const Eigen::Matrix4f& clip_from_optical, double pixel);
 
  private:
   template <class Before>
-  void drawWith(const gpu::Program& program, const std::vector<std::vector<Vector3d>>& places_m,
-                const Pose& optical_from_tissue, const Eigen::Matrix4f& clip_from_optical, double pixel, Before before);
+  void drawWith(const gpu::Program& program, const ShownThreads& shown, const Pose& optical_from_tissue,
+                const Eigen::Matrix4f& clip_from_optical, double pixel, Before before);
   void shape(const ThreadLook& thread, const std::vector<Vector3d>& places_m, const Pose& optical_from_tissue,
              double pixel);
 

@@ -51,7 +51,7 @@ class InlineView : public View {
     Pose pose;  ///< of the optical frame
     Overlays overlays;
     std::vector<Arrow> arrows;
-    std::vector<std::vector<Vector3d>> threads;
+    ShownThreads threads;
   };
   struct Channel {  ///< one kind of picture of an eye, on its way
     PictureKind kind = PictureKind::kColor;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "math/float_bits.h"
@@ -185,10 +186,10 @@ void Session::lookAtObstacles() {
 void Session::lookAtThreads() {
   const ThreadBodies* const threads = solver_->threads();
   if (!threads) return;
-  look_.threads.resize(threads->count());
-  for (size_t i = 0; i < threads->count(); ++i) look_.threads[i] = threads->chain(i).places_m();
-  for (size_t i = 0; i < threads->count(); ++i) {
-    if (threads->needle(i)) look_.threads.push_back(needlePlaces(i));
+  look_.threads.clear();
+  for (size_t i = 0; i < threads->count(); ++i) look_.threads.push_back({threadOf(i), false, threadPlaces(i)});
+  for (size_t i = 0; i < scene_.threads.size(); ++i) {
+    if (threads->needle(i)) look_.threads.push_back({i, true, needlePlaces(i)});
   }
 }
 
@@ -239,9 +240,9 @@ void Session::collect(Frame& frame, bool wait) {
   frame.tools = look_.motions;
   frame.obstacles = look_.obstacles;
   frame.cameras = look_.cameras;
-  frame.threads.assign(
-      look_.threads.begin(),
-      look_.threads.begin() + static_cast<std::ptrdiff_t>(std::min(look_.threads.size(), scene_.threads.size())));
+  frame.threads.clear();
+  std::copy_if(look_.threads.begin(), look_.threads.end(), std::back_inserter(frame.threads),
+               [](const ShownThread& shown) { return !shown.needle; });
   collectStats(frame, wait);
   view_->collect(frame, wait);
   if (frame.surface) frame.surface->pose_received = posesOf(frame.surface->tick).newest();
@@ -331,8 +332,32 @@ uint64_t Session::stateHash() const {
   return solver_->threads() ? solver_->threads()->hashWith(tissue) : tissue;
 }
 
-const std::vector<Vector3d>& Session::threadPlaces(size_t thread) const {
-  return solver_->threads()->chain(thread).places_m();
+size_t Session::threadPieces() const {
+  return solver_->threads() ? solver_->threads()->count() : 0;
+}
+
+size_t Session::threadOf(size_t piece) const {
+  return solver_->threads()->piece(piece).thread;
+}
+
+const std::vector<Vector3d>& Session::threadPlaces(size_t piece) const {
+  return solver_->threads()->chain(piece).places_m();
+}
+
+std::vector<SeenThread> Session::seenThreads() const {
+  std::vector<SeenThread> out;
+  for (size_t p = 0; p < threadPieces(); ++p) out.push_back(solver_->threads()->piece(p).seen());
+  return out;
+}
+
+std::string Session::threadRefusal() const {
+  return solver_->threads() ? solver_->threads()->refused() : std::string();
+}
+
+void Session::tieThread(size_t piece, const ThreadTie& tie) {
+  if (!solver_->threads()) throw Error("the scene has no threads");
+  solver_->threads()->tie(piece, tie);
+  for (SessionLog* log : logs_) log->threadTied(piece, tie);
 }
 
 std::vector<Vector3d> Session::needlePlaces(size_t thread) const {
@@ -340,8 +365,8 @@ std::vector<Vector3d> Session::needlePlaces(size_t thread) const {
   return needle ? needle->places_m() : std::vector<Vector3d>();
 }
 
-std::vector<double> Session::threadTensions_n(size_t thread) const {
-  const Chain& chain = solver_->threads()->chain(thread);
+std::vector<double> Session::threadTensions_n(size_t piece) const {
+  const Chain& chain = solver_->threads()->chain(piece);
   std::vector<double> out;
   for (size_t link = 0; link + 1 < chain.nodes(); ++link) out.push_back(chain.tension_n(link));
   return out;

@@ -66,16 +66,22 @@ void SessionEvent::persist(Archive& archive, size_t styluses) {
     case Kind::kTask:
       archive.list(task);
       return archive.list(task_yaml);
+    case Kind::kTie:
+      archive.value(index);
+      return archive.value(tie);
     default:  // a reset and the like have nothing to tell, and what is unknown is refused
       return;
   }
 }
 
 void SessionEvent::require(const Scene& scene) const {
-  bool sound = kind <= Kind::kTask && isPose(pose);
+  bool sound = kind <= Kind::kTie && isPose(pose);
   for (const StylusSample& sample : samples) sound = sound && (!sample.valid || isPose(sample.pose));
   if (kind == Kind::kToolMode || kind == Kind::kForceLimits) sound = sound && index < scene.styluses.size();
   if (kind == Kind::kObstacleFrame) sound = sound && index < scene.obstacles.size();
+  if (kind == Kind::kTie)
+    sound = sound && tie.knot > KnotKind::kNone && static_cast<size_t>(tie.knot) < kKnotNames.size() &&
+            tie.tension_n > 0 && tie.holds_n >= 0 && !scene.threads.empty();
   if (kind == Kind::kToolMode) {
     const auto known = [this](const ToolKind& tool) { return tool.mode == mode; };
     sound = sound && when <= ToolSwitch::kButton2 && when >= ToolSwitch::kIdle &&
@@ -105,6 +111,8 @@ void SessionEvent::apply(Session& session) const {
       return;
     case Kind::kTask:
       return session.noteTask(task, task_yaml);
+    case Kind::kTie:
+      return session.tieThread(index, tie);
     default:
       return;
   }

@@ -23,18 +23,20 @@ struct SessionEvent {
     kCameraFrame,
     kOverlays,
     kTask,
+    kTie,
   };
   Kind kind = Kind::kStep;
   StylusSamples samples{};              ///< of a step
   uint64_t tick = 0;                    ///< of what was measured
   uint32_t measured = 0;                ///< its fingerprint
-  uint32_t index = 0;                   ///< of the stylus, obstacle or camera
+  uint32_t index = 0;                   ///< of the stylus, obstacle, camera or piece of a thread
   ToolSwitch when = ToolSwitch::kIdle;  ///< of a tool mode
   ToolMode mode = ToolMode::kNone;      ///< of a tool mode
   ForceLimits limits{0, 0};             ///< of force limits
   Pose pose;                            ///< of a frame
   Overlays overlays;                    ///< of overlays
   std::string task, task_yaml;          ///< of a task
+  ThreadTie tie;                        ///< of a piece of a thread
 
   /// @param styluses  of the scene
   void persist(Archive& archive, size_t styluses);

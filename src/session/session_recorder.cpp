@@ -120,6 +120,14 @@ void SessionRecorder::cameraFrameSet(size_t camera, const Pose& pose) {
   put(event);
 }
 
+void SessionRecorder::threadTied(size_t piece, const ThreadTie& tie) {
+  SessionEvent event;
+  event.kind = SessionEvent::Kind::kTie;
+  event.index = static_cast<uint32_t>(piece);
+  event.tie = tie;
+  put(event);
+}
+
 void SessionRecorder::taskNoted(Session&, const std::string& name, const std::string& yaml) {
   SessionEvent event;
   event.kind = SessionEvent::Kind::kTask;

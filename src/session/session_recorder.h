@@ -37,6 +37,7 @@ class SessionRecorder : public SessionLog {
   void forceLimitsSet(size_t stylus, const ForceLimits& limits) override;
   void obstacleFrameSet(size_t obstacle, const Pose& pose) override;
   void cameraFrameSet(size_t camera, const Pose& pose) override;
+  void threadTied(size_t piece, const ThreadTie& tie) override;
   void taskNoted(Session& session, const std::string& name, const std::string& yaml) override;
   void overlaysSet(size_t camera, const Overlays& overlays) override;
 

@@ -31,7 +31,7 @@ std::vector<ThreadLook> looksOf(const std::vector<ThreadConfig>& threads) {
     out.push_back({materialOf(thread).radius_m, colorOf(thread.material), placesOf(thread).size(), out.size()});
   for (size_t t = 0; t < threads.size(); ++t) {
     const NeedleConfig& needle = threads[t].needle;
-    if (needle.arc != NeedleArc::kNone) out.push_back({needle.wire_radius_m, kSteel, NeedleShape::kShown, t});
+    if (needle.arc != NeedleArc::kNone) out.push_back({needle.wire_radius_m, kSteel, NeedleShape::kShown, t, true});
   }
   return out;
 }

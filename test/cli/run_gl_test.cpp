@@ -60,6 +60,21 @@ void expectPng(const std::string& path, uint32_t width, uint32_t height) {
   EXPECT_EQ(bigEndian(bytes, 20), height) << path;
 }
 
+/// What kernels read by texels on software renderers and by loads on GPUs.
+TEST_F(Run, KernelsThatReadByLoadsAndByTexelsComeToTheSameState) {
+  const auto with = [&](const std::string& reads) {
+    return viscera({"run", scene_, "--strokes", strokes_, "--no-view", "--set", "solver.backend=gpu"},
+                   {"VISCERA_READS=" + reads});
+  };
+  const Json loads = metricsOf(with("loads")), texels = metricsOf(with("texels"));
+  EXPECT_EQ(loads["backend"], "gpu");
+  EXPECT_GT(loads["springs_cut"], 0);
+  EXPECT_EQ(loads["state_hash"], texels["state_hash"]);
+  const Ending other = with("rows");
+  EXPECT_NE(other.status, 0);
+  EXPECT_NE(other.err.find("VISCERA_READS is 'rows' and must be loads or texels"), std::string::npos) << other.err;
+}
+
 TEST_F(Run, EveryIntegratorBringsTheHangingBlockToTheSameSag) {
   // With so much drag the block does not swing beyond its sag, which implicit Euler would damp.
   constexpr double kApart = 1e-3;  // of the sag: what is left of the way there, and float32

@@ -77,7 +77,7 @@ TEST(ThreadsInPictures, AreWhereTheThreadsAreOnEitherBackend) {
     for (int ticks : {1, 8}) {
       Frame frame;
       for (int t = 0; t < ticks; ++t) frame = session.step({}, {});
-      EXPECT_EQ(frame.threads.at(0), session.threadPlaces(0));
+      EXPECT_EQ(frame.threads.at(0).places_m, session.threadPlaces(0));
       const auto [labelled, blue] = shares(look(session), scene.cameras[0], session.threadPlaces(0));
       EXPECT_GT(labelled, kMost) << ticks;
       EXPECT_GT(blue, kMost) << ticks;

@@ -3,7 +3,11 @@
 // Threads beside tissue, in sessions.
 #include <gtest/gtest.h>
 
+#include <memory>
+
 #include "session/block_session.h"
+#include "session/session_recorder.h"
+#include "session/session_replay.h"
 #include "support/temporary_folder.h"
 #include "viscera/math/error.h"
 
@@ -55,6 +59,46 @@ TEST(ThreadSession, HashesKnowThreadsAndResetsPutThemBack) {
   EXPECT_EQ(viscera::stateHash(one.model(), one.solver().readState()), bare.stateHash());  // tissue is not touched
   one.reset();
   EXPECT_EQ(one.stateHash(), first);
+}
+
+/// A blade beside the block that parts the thread.
+StylusSamples cutThread(int tick) {
+  StylusSamples out;
+  out[0] = {true, {{0.03, -0.01 + 0.001 * tick, 0.055}, Quaterniond::Identity()}, false, true};
+  return out;
+}
+
+TEST(ThreadSession, IsRecordedWithItsKnotsAndPieces) {
+  const TemporaryFolder folder;
+  Scene scene = threadScene();
+  scene.solver.threads = 1;
+  uint64_t hash = 0;
+  {
+    Session session(scene);
+    SessionRecorder recorder(folder.file("threads.viscera"));
+    recorder.follow(session);
+    ThreadTie tie;
+    tie.knot = KnotKind::kSurgeons;
+    session.tieThread(0, tie);
+    EXPECT_THROW(session.tieThread(1, tie), Error);
+    for (int t = 1; t <= 20; ++t) session.step(cutThread(t), {});
+    EXPECT_EQ(session.threadPieces(), 2U);
+    EXPECT_EQ(session.threadOf(1), 0U);
+    hash = session.stateHash();
+    recorder.leave();
+  }
+  SessionReplay replay(folder.file("threads.viscera"));
+  std::unique_ptr<Session> session;
+  SessionReplay::Ports ports;
+  ports.make = [&](const Scene& recorded, size_t) -> Session& {
+    return *(session = std::make_unique<Session>(recorded));
+  };
+  ports.leaps = [](Session&) {};
+  ports.wants = [](const Session&) { return Wants{}; };
+  ports.stepped = [](Session&, Frame&&, double) {};
+  replay.run(0, 1e9, {}, ports);
+  EXPECT_EQ(session->stateHash(), hash);
+  EXPECT_EQ(session->threadPieces(), 2U);
 }
 
 TEST(ThreadSession, GoesOnFromASavedState) {

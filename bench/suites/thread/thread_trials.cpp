@@ -63,7 +63,7 @@ class Ground {
   }
   void touch(const Chain& chain, double dt_s, ChainAround& around) {
     const auto count = static_cast<uint32_t>(things_.size());
-    finder_.find(chain, things_.data(), count, dt_s, around.touches);
+    finder_.find(chain, things_.data(), count, {}, dt_s, around.touches);
     around.entered = [&chain, this, count, dt_s](const std::vector<Vector3d>& ends_m,
                                                  std::vector<ChainTouch>& touches) {
       return finder_.catchUp(chain, things_.data(), count, dt_s, ends_m, touches);

@@ -12,6 +12,7 @@
 #include "viscera/math/types.h"
 #include "viscera/model/scene/overlays.h"
 #include "viscera/render/arrow.h"
+#include "viscera/render/shown_thread.h"
 #include "viscera/solver/governor.h"
 #include "viscera/surface/shown_mesh.h"
 #include "viscera/tools/force_limiter.h"
@@ -85,7 +86,7 @@ struct Frame : Pictures {
   ToolMotions tools;                                   ///< of the tick: `to` is where the tools are shown
   std::vector<Pose> obstacles;                         ///< [obstacles] at the end of the tick, tissue frame
   std::vector<Pose> cameras;                           ///< [cameras] optical frames of the tick, tissue frame
-  std::vector<std::vector<Vector3d>> threads;          ///< [threads][nodes] m, at the end of the tick, tissue frame
+  ShownThreads threads;  ///< at the end of the tick: threads of the scene, then what was parted from them
   /// [obstacles] what the tissue does to each, not limited; torque about its place at the end of the tick. Of `stats`.
   std::vector<Reaction> obstacle_forces;
 };
@@ -94,9 +95,9 @@ struct Frame : Pictures {
 struct Look {
   uint64_t tick = 0;
   ToolMotions motions;
-  std::vector<Pose> obstacles;                 ///< [obstacles] at the end of the tick, tissue frame
-  std::vector<Pose> cameras;                   ///< [cameras] optical frames, tissue frame
-  std::vector<std::vector<Vector3d>> threads;  ///< [threads][nodes] m, at the end of the tick, tissue frame
+  std::vector<Pose> obstacles;  ///< [obstacles] at the end of the tick, tissue frame
+  std::vector<Pose> cameras;    ///< [cameras] optical frames, tissue frame
+  ShownThreads threads;         ///< at the end of the tick, needles behind threads
   Wants wants;
   std::vector<Overlays> overlays;  ///< [cameras]
   std::vector<Arrow> arrows;       ///< forces and wind, where some camera shows them

@@ -12,6 +12,7 @@
 #include "viscera/layout/tick_stats.h"
 #include "viscera/model/model.h"
 #include "viscera/session/frame.h"
+#include "viscera/solver/seen_thread.h"
 #include "viscera/solver/solver.h"
 #include "viscera/solver/threads.h"
 #include "viscera/tools/force_limiter.h"
@@ -114,10 +115,19 @@ class Session {
   /// Triangles of the skin as long as nothing is cut; of a SurfaceFrame, those that are shown in its tick.
   std::shared_ptr<const ShownTopology> wholeSkin() const;
   const Solver& solver() const { return *solver_; }
-  /// Places of the nodes of a thread after the last step, tissue frame [m]. @param thread  < scene().threads.size()
-  const std::vector<Vector3d>& threadPlaces(size_t thread) const;
-  std::vector<Vector3d> needlePlaces(size_t thread) const;  ///< of its needle, from the tip on; none where it has none
-  std::vector<double> threadTensions_n(size_t thread) const;        ///< of its links, pulling above 0
+  /// @name Threads after the last step
+  /// Pieces: threads of the scene, and behind them what was parted from them, threadPieces() in all.
+  /// @{
+  size_t threadPieces() const;
+  size_t threadOf(size_t piece) const;                            ///< of the scene
+  const std::vector<Vector3d>& threadPlaces(size_t piece) const;  ///< of its nodes, tissue frame [m]
+  std::vector<Vector3d> needlePlaces(size_t thread) const;        ///< of its needle, from the tip on; or none
+  std::vector<double> threadTensions_n(size_t piece) const;       ///< of its links, pulling above 0
+  std::vector<SeenThread> seenThreads() const;                    ///< [pieces]
+  std::string threadRefusal() const;                              ///< why the last of ThreadConfig::ties was not tied
+  /// @}
+  /// Brings the tails of a piece together, draws its loop and ties it, in the steps to come. @throws Error  why not
+  void tieThread(size_t piece, const ThreadTie& tie);
   const std::string& backendNote() const { return backend_note_; }  ///< what steps the tissue, and why
   Counters counters() const;
   const Extremes& extremes() const { return extremes_; }

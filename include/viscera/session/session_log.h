@@ -8,6 +8,7 @@
 
 #include "viscera/layout/tick_stats.h"
 #include "viscera/math/types.h"
+#include "viscera/model/scene/knot_kind.h"
 #include "viscera/model/scene/overlays.h"
 #include "viscera/tools/force_limiter.h"
 #include "viscera/tools/stylus.h"
@@ -31,6 +32,7 @@ class SessionLog {
   virtual void forceLimitsSet(size_t /*stylus*/, const ForceLimits&) {}
   virtual void obstacleFrameSet(size_t /*obstacle*/, const Pose&) {}
   virtual void cameraFrameSet(size_t /*camera*/, const Pose&) {}
+  virtual void threadTied(size_t /*piece*/, const ThreadTie&) {}
   virtual void taskNoted(Session&, const std::string& /*name*/, const std::string& /*yaml*/) {}
   virtual void overlaysSet(size_t /*camera*/, const Overlays&) {}
 };

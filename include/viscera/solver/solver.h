@@ -75,7 +75,8 @@ class Solver {
   /// was made for the same model and scene, and goes on to the bit like the one that wrote it. Waits.
   /// @throws Error  the archive is another solver's, or this one keeps nothing
   virtual void persist(Archive& archive);
-  virtual const ThreadBodies* threads() const { return nullptr; }  ///< null: the scene has none
+  virtual ThreadBodies* threads() { return nullptr; }  ///< null: the scene has none
+  const ThreadBodies* threads() const { return const_cast<Solver*>(this)->threads(); }
 };
 
 /// 64-bit fingerprint of displacement, velocity and springs of the active nodes, in active-list order.

@@ -201,6 +201,20 @@ void visitFields(V& v, NeedleConfig& c) {
            "at first: turns about fixed x, then y, then z of an arc about y whose tip heads for z from its place on x");
 }
 
+inline Choices<KnotKind> knotChoices() {
+  Choices<KnotKind> out;
+  for (size_t k = 1; k < kKnotNames.size(); ++k) out.push_back({kKnotNames[k], static_cast<KnotKind>(k)});
+  return out;
+}
+
+template <class V>
+void visitFields(V& v, ThreadTie& c) {
+  v.number("at_s", c.at_s, {0, 1e5}, "s", "when its two tails are brought together, since the start or a reset");
+  v.choice("knot", c.knot, knotChoices(), "what is thrown");
+  v.number("tension_n", c.tension_n, {1e-3, 100}, "N", "to which the loop is drawn before it is tied");
+  v.number("holds_n", c.holds_n, {0, 1000}, "N", "the knot slips at more; 0: by knot and thread (docs/thread.md 4)");
+}
+
 template <class V>
 void visitFields(V& v, ThreadConfig& c) {
   const Choices<ThreadEnd> ends = {{"free", ThreadEnd::kFree}, {"fixed", ThreadEnd::kFixed}};
@@ -243,6 +257,7 @@ void visitFields(V& v, ThreadConfig& c) {
   v.number("bite_m", c.bite_m, {1e-4, 0.1}, "m", "from the wound to where a stitch enters");
   v.number("depth_m", c.depth_m, {1e-4, 0.1}, "m", "of a stitch in the tissue");
   v.group("needle", c.needle, "needle on its start, which is then free, its tail at position_m (docs/thread.md)");
+  v.list("ties", c.ties, 16, "knots that no hand throws, in the order of their times (docs/thread.md 4)");
 }
 
 inline Choices<Integrator> namesOfIntegrators() {

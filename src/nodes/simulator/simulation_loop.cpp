@@ -156,6 +156,8 @@ void SimulationLoop::deliver(const Session& session, Frame&& frame, const Stylus
     status_.health = frame.health;
     status_.held_back = frame.held_back;
     status_.inside = frame.inside;
+    status_.threads = session.seenThreads();
+    status_.thread_refusal = session.threadRefusal();
     status_.modes.clear();
     for (const StylusConfig& stylus : session.styluses())
       status_.modes.push_back({stylus.idle, stylus.button1, stylus.button2});

@@ -38,7 +38,9 @@ struct LoopStatus {
   std::array<Reaction, layout::kMaxStyluses> reactions;
   /// What each stylus does with no button pressed, and while the first or the second is.
   std::vector<std::array<ToolMode, 3>> modes;
-  PaceMeter::Reading pace;  ///< since the last LoopStatus was taken
+  std::vector<SeenThread> threads;
+  std::string thread_refusal;  ///< why the last tie of the scene was not tied
+  PaceMeter::Reading pace;     ///< since the last LoopStatus was taken
 };
 
 /// What the loop asks of its surroundings, on its own thread. None of them may block.

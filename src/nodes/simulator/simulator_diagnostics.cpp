@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <cstring>
+#include <iomanip>
 #include <numeric>
+#include <sstream>
 #include <utility>
 
 #include "model/scene/tool_kinds.h"
@@ -57,6 +59,7 @@ SimulatorDiagnostics::SimulatorDiagnostics(ros::NodeHandle node, const Scene& sc
       dropped_before_(inputs.size(), 0),
       updater_(node) {
   for (const CameraConfig& camera : scene.cameras) cameras_.push_back(camera.name);
+  for (const ThreadConfig& thread : scene.threads) thread_names_.push_back(thread.name);
   takeLatencies();
   updater_.setHardwareID("none");
   updater_.add("simulation", this, &SimulatorDiagnostics::simulation);
@@ -66,6 +69,7 @@ SimulatorDiagnostics::SimulatorDiagnostics(ros::NodeHandle node, const Scene& sc
     updater_.add(inputs_[i]->mailbox().config().name, [this, i](Status& status) { stylus(i, status); });
   if (!obstacles_.empty()) updater_.add("obstacles", this, &SimulatorDiagnostics::obstacles);
   if (!camera_frames_.empty()) updater_.add("cameras", this, &SimulatorDiagnostics::cameras);
+  if (!thread_names_.empty()) updater_.add("threads", this, &SimulatorDiagnostics::threads);
   // Forced from the steady clock, since the updater's own period follows ROS time, which may stand still.
   timer_ = node.createSteadyTimer(ros::WallDuration(kPeriod_s), [this](const ros::SteadyTimerEvent&) { update(); });
 }
@@ -190,6 +194,26 @@ void SimulatorDiagnostics::cameras(Status& status) {
                  missing ? "a frame is not known, or from too long ago: its camera stays" : "carried");
   status.add("frames_found", camera_frames_.found());
   status.add("frames_missed", missed);
+}
+
+/// Of each piece: its length and greatest tension, turns of its tails, knots.
+void SimulatorDiagnostics::threads(Status& status) {
+  if (!now_) return status.summary(Level::OK, "preparing");
+  const bool refused = !now_->thread_refusal.empty();
+  status.summary(refused ? Level::WARN : Level::OK,
+                 refused ? now_->thread_refusal : std::to_string(now_->threads.size()) + " pieces");
+  std::vector<int> pieces(thread_names_.size());
+  for (const SeenThread& thread : now_->threads) {
+    std::ostringstream text;
+    text << std::setprecision(3) << 1e3 * thread.length_m << " mm, pulls " << thread.largest_n << " N, tails "
+         << thread.turns << " turns";
+    for (const SeenKnot& knot : thread.knots) {
+      text << "; " << nameOf(knot.kind) << (knot.tied ? " tied" : " not tied") << ", holds " << knot.holds_n
+           << " N, loop " << 1e3 * knot.loop_m << " mm, " << knot.loop_n << " N";
+      for (const int turns : knot.turns) text << ", throw " << turns;
+    }
+    status.add(thread_names_[thread.thread] + "[" + std::to_string(pieces[thread.thread]++) + "]", text.str());
+  }
 }
 
 void SimulatorDiagnostics::stylus(size_t index, Status& status) {

@@ -48,6 +48,7 @@ class SimulatorDiagnostics {
   void stylus(size_t index, Status& status);
   void obstacles(Status& status);
   void cameras(Status& status);
+  void threads(Status& status);
 
   SimulationLoop& loop_;
   const Publishers publishers_;
@@ -58,7 +59,8 @@ class SimulatorDiagnostics {
   uint64_t missed_before_ = 0;        ///< frames of obstacles
   uint64_t held_back_before_ = 0;     ///< ticks of obstacles
   std::vector<std::string> cameras_;  ///< their names
-  const std::string scene_;           ///< its name
+  std::vector<std::string> thread_names_;
+  const std::string scene_;  ///< its name
   const double tick_s_;
   Slowness slowness_;
   PictureWatch pictures_;

@@ -19,7 +19,15 @@ namespace {
 
 constexpr std::chrono::seconds kTriggerLimit{10};  ///< a tick, however slow, and a reset
 constexpr std::chrono::seconds kStepLimit{60};
-constexpr uint32_t kServices = 13;  ///< one thread each
+constexpr uint32_t kServices = 14;  ///< one thread each
+
+/// Waits for what a command comes to.
+template <class Response>
+void answer(CommandQueue& commands, Command&& command, Response& response) {
+  const CommandAnswer answer = commands.call(std::move(command), kTriggerLimit);
+  response.success = answer.success;
+  response.message = answer.message;
+}
 
 size_t indexOf(const std::string& stylus, const std::vector<StylusConfig>& styluses) {
   size_t s = 0;
@@ -52,6 +60,28 @@ ToolMode modeNamed(const std::string& name) {
     known += (known.empty() ? "" : ", ") + std::string(kind.name);
   }
   throw Error("mode: '" + name + "' is none of " + known);
+}
+
+/// @throws Error  a thread or piece that there is not
+size_t pieceNamed(const Session& session, const std::string& name, uint32_t which) {
+  const std::vector<ThreadConfig>& threads = session.scene().threads;
+  uint32_t pieces = 0;
+  for (size_t p = 0; p < session.threadPieces(); ++p) {
+    if (threads[session.threadOf(p)].name == name && pieces++ == which) return p;
+  }
+  if (pieces > 0)
+    throw Error("piece: thread '" + name + "' is in " + std::to_string(pieces) + ", there is no " +
+                std::to_string(which));
+  std::string known;
+  for (const ThreadConfig& thread : threads) known += (known.empty() ? "" : ", ") + thread.name;
+  throw Error("thread: the scene has no thread '" + name + "'; it has " + (known.empty() ? "none" : known));
+}
+
+/// @throws Error  it is not in that range
+double within(const char* key, double value, double low, double high) {
+  if (value >= low && value <= high) return value;
+  throw Error(std::string(key) + ": " + std::to_string(value) + " must be " + std::to_string(low) + " .. " +
+              std::to_string(high));
 }
 
 /// Where a step takes the styluses. @throws Error  a name that the scene does not have, or twice; no pose
@@ -112,6 +142,7 @@ SimulatorServices::SimulatorServices(ros::NodeHandle node, const std::vector<Sty
   servers_.push_back(node.advertiseService("step", &SimulatorServices::onStep, this));
   servers_.push_back(node.advertiseService("set_overlays", &SimulatorServices::onSetOverlays, this));
   servers_.push_back(node.advertiseService("set_tool_mode", &SimulatorServices::onSetToolMode, this));
+  servers_.push_back(node.advertiseService("tie_thread", &SimulatorServices::onTieThread, this));
   advertiseFile(node, "save_state", false, [this](Session& session, const std::string& path) {
     makeFolder(saved_folder_);
     session.save(path);
@@ -143,9 +174,7 @@ void SimulatorServices::advertiseAct(ros::NodeHandle& node, const std::string& n
     Command command;
     command.kind = Command::Kind::kChange;
     command.change = act;
-    const CommandAnswer answer = commands_.call(std::move(command), kTriggerLimit);
-    response.success = answer.success;
-    response.message = answer.message;
+    answer(commands_, std::move(command), response);
     return true;
   };
   servers_.push_back(node.advertiseService<Request, Response>(name, serve));
@@ -162,9 +191,7 @@ void SimulatorServices::advertiseFile(ros::NodeHandle& node, const std::string& 
       command.change = [act, path = pathIn(saved_folder_, request.file)](Session& session) {
         return act(session, path);
       };
-      const CommandAnswer answer = commands_.call(std::move(command), kTriggerLimit);
-      response.success = answer.success;
-      response.message = answer.message;
+      answer(commands_, std::move(command), response);
     } catch (const Error& error) {
       response.message = error.what();
     }
@@ -179,9 +206,7 @@ void SimulatorServices::advertiseTrigger(ros::NodeHandle& node, const std::strin
   const boost::function<bool(Request&, Response&)> serve = [this, kind](Request&, Response& response) {
     Command command;
     command.kind = kind;
-    const CommandAnswer answer = commands_.call(std::move(command), kTriggerLimit);
-    response.success = answer.success;
-    response.message = answer.message;
+    answer(commands_, std::move(command), response);
     return true;
   };
   servers_.push_back(node.advertiseService<Request, Response>(name, serve));
@@ -197,9 +222,7 @@ bool SimulatorServices::onSetOverlays(SetOverlays::Request& request, SetOverlays
     response.message = std::string("overlays: ") + error.what();
     return true;
   }
-  const CommandAnswer answer = commands_.call(std::move(command), kTriggerLimit);
-  response.success = answer.success;
-  response.message = answer.message;
+  answer(commands_, std::move(command), response);
   return true;
 }
 
@@ -214,10 +237,27 @@ bool SimulatorServices::onSetToolMode(SetToolMode::Request& request, SetToolMode
       session.setToolMode(stylus, when, mode);
       return "from the next tick on";
     };
-    const CommandAnswer answer = commands_.call(std::move(command), kTriggerLimit);
-    response.success = answer.success;
-    response.message = answer.message;
-    if (answer.success && mode_set_) mode_set_(stylus, when, mode);
+    answer(commands_, std::move(command), response);
+    if (response.success && mode_set_) mode_set_(stylus, when, mode);
+  } catch (const Error& error) {
+    response.message = error.what();
+  }
+  return true;
+}
+
+bool SimulatorServices::onTieThread(TieThread::Request& request, TieThread::Response& response) {
+  try {
+    ThreadTie tie;
+    if (!request.knot.empty()) tie.knot = knotNamed(request.knot);
+    if (request.tension_n != 0) tie.tension_n = within("tension_n", request.tension_n, 1e-3, 100);
+    tie.holds_n = within("holds_n", request.holds_n, 0, 1000);
+    Command command;
+    command.kind = Command::Kind::kChange;
+    command.change = [=, name = request.thread, which = request.piece](Session& session) {
+      session.tieThread(pieceNamed(session, name, which), tie);
+      return std::string(nameOf(tie.knot)) + ", drawn from the next tick on";
+    };
+    answer(commands_, std::move(command), response);
   } catch (const Error& error) {
     response.message = error.what();
   }
@@ -232,9 +272,7 @@ bool SimulatorServices::onStartTask(StartTask::Request& request, StartTask::Resp
     command.change = [this, task = switches_.tasks.find(request.task)](Session& session) {
       return switches_.tasks.start(session, task);
     };
-    const CommandAnswer answer = commands_.call(std::move(command), kTriggerLimit);
-    response.success = answer.success;
-    response.message = answer.message;
+    answer(commands_, std::move(command), response);
   } catch (const Error& error) {
     response.message = error.what();
   }

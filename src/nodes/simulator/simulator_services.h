@@ -18,6 +18,7 @@
 #include "viscera/SetToolMode.h"
 #include "viscera/StartTask.h"
 #include "viscera/Step.h"
+#include "viscera/TieThread.h"
 
 namespace viscera::nodes {
 
@@ -46,6 +47,7 @@ class SimulatorServices {
   void advertiseFile(ros::NodeHandle& node, const std::string& name, bool leaps, const FileAct& act);
   bool onSetOverlays(SetOverlays::Request& request, SetOverlays::Response& response);
   bool onSetToolMode(SetToolMode::Request& request, SetToolMode::Response& response);
+  bool onTieThread(TieThread::Request& request, TieThread::Response& response);
   bool onStep(Step::Request& request, Step::Response& response);
 
   const std::vector<StylusConfig> styluses_;

@@ -184,15 +184,19 @@ void SceneMarkers::addForce(size_t stylus, const SceneLook& look, const ros::Tim
 
 /// Lines: a tube would be tens of points for each of theirs.
 void SceneMarkers::addThreads(const SceneLook& look, const ros::Time& stamp, MarkerArray& out) const {
-  for (size_t i = 0; i < threads_.size(); ++i) {
+  const auto threads = static_cast<size_t>(
+      std::count_if(threads_.begin(), threads_.end(), [](const ThreadLook& thread) { return !thread.needle; }));
+  for (size_t i = 0; i < (threads > 0 ? threads + kMostParted : 0); ++i) {
+    const bool there = i < look.threads.size() && look.threads[i].places_m.size() > 1;
     Marker& marker = out.markers.emplace_back(this->marker("threads", i, stamp));
     marker.type = Marker::LINE_STRIP;
     marker.action = Marker::DELETE;
-    if (i >= look.threads.size() || look.threads[i].size() < 2) continue;
+    if (!there) continue;
+    const ThreadLook& how = threads_[look.threads[i].thread];
     marker.action = Marker::ADD;
-    marker.scale.x = std::max(2 * threads_[i].radius_m, kLeastThread_m);
-    paint(threads_[i].color, marker);
-    for (const Vector3d& place_m : look.threads[i]) marker.points.push_back(toPoint(place_m));
+    marker.scale.x = std::max(2 * how.radius_m, kLeastThread_m);
+    paint(how.color, marker);
+    for (const Vector3d& place_m : look.threads[i].places_m) marker.points.push_back(toPoint(place_m));
   }
 }
 

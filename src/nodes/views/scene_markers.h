@@ -23,7 +23,7 @@ struct SceneLook {
   ToolMotions tools;
   std::vector<Pose> obstacles;
   std::array<Reaction, layout::kMaxStyluses> reactions;
-  std::vector<std::vector<Vector3d>> threads = {};  ///< [threads][nodes] m, tissue frame
+  ShownThreads threads = {};  ///< needles are not shown
 };
 SceneLook lookOf(const Frame& frame);
 

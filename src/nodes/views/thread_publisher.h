@@ -5,6 +5,10 @@
 #include <ros/node_handle.h>
 #include <viscera/Threads.h>
 
+#include <string>
+#include <vector>
+
+#include "session/thread_looks.h"
 #include "viscera/model/scene/scene.h"
 #include "viscera/session/frame.h"
 
@@ -20,7 +24,9 @@ class ThreadPublisher {
   void publish(const Threads& message) { publisher_.publish(message); }
 
  private:
-  Threads empty_;  ///< all but where they are
+  Threads empty_;  ///< of no thread
+  std::vector<std::string> names_;
+  std::vector<ThreadLook> looks_;
   ros::Publisher publisher_;
 };
 

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "model/fracture/tearing.h"
-#include "solver/thread/thread_shape.h"
+#include "viscera/math/error.h"
 #include "viscera/math/state_hash.h"
 
 namespace viscera {
@@ -18,10 +18,12 @@ constexpr double kThreadSubstep_s = 5e-4;
 }  // namespace
 
 ThreadBodies::ThreadBodies(const Scene& scene, const Model* model, int good_states)
-    : obstacles_(scene.obstacles),
+    : model_(model),
+      obstacles_(scene.obstacles),
       tick_s_(1 / scene.solver.tick_hz),
       can_cut_(threadsTear(scene)),
       hands_(scene.styluses),
+      blades_(scene.styluses),
       good_states_(static_cast<size_t>(good_states)) {
   const bool tied = std::any_of(scene.threads.begin(), scene.threads.end(),
                                 [](const ThreadConfig& config) { return config.feelsTissue(); });
@@ -30,34 +32,22 @@ ThreadBodies::ThreadBodies(const Scene& scene, const Model* model, int good_stat
     needles_.emplace(scene, *model);
   }
   for (const ThreadConfig& config : scene.threads) {
-    Thread thread{Chain(materialOf(config), placesOf(config)), {}, 0, {}, {}, {}, {}};
-    const auto last = static_cast<uint32_t>(thread.chain.nodes() - 1);
-    for (const uint32_t node : {0U, last}) {
-      const bool on_needle = node == 0 && needle(threads_.size());
-      if (!on_needle && (node == 0 ? config.start : config.end) == ThreadEnd::kFree) continue;
-      thread.around.holds.emplace_back();
-      thread.around.holds.back().node = node;
-      thread.around.holds.back().to_m = thread.chain.places_m()[node];
-    }
-    thread.fixed_holds = thread.around.holds.size();
-    thread.around.gravity_m_per_s2 = scene.environment.gravity_m_per_s2;
-    thread.around.swaged[0] = needle(threads_.size()) != nullptr;
-    if (tissue_) thread.first_channels.lay(config, thread.chain, *model, *tissue_, thread.first_slides);
-    threads_.push_back(std::move(thread));
+    const auto thread = static_cast<uint32_t>(first_.size());
+    ThreadPiece& piece = first_.emplace_back(thread, config, needle(thread) != nullptr);
+    piece.around.gravity_m_per_s2 = scene.environment.gravity_m_per_s2;
+    if (tissue_) piece.channels.lay(config, piece.chain, *model, *tissue_, piece.around.slides);
+    ties_.push_back(config.ties);
   }
   reset();
 }
 
 void ThreadBodies::reset() {
-  for (Thread& thread : threads_) {
-    thread.chain.reset();
-    thread.around.touches.clear();
-    thread.around.holds.resize(thread.fixed_holds);
-    thread.channels = thread.first_channels;
-    thread.around.slides = thread.first_slides;
-  }
+  pieces_ = first_;
+  for (ThreadPiece& piece : pieces_) piece.chain.reset();
   hands_.reset();
   if (needles_) needles_->reset();
+  tick_ = 0;
+  refused_.clear();
 }
 
 void ThreadBodies::plan(Steps& steps, int count, const ObstacleMotions& obstacles) const {
@@ -68,17 +58,27 @@ void ThreadBodies::plan(Steps& steps, int count, const ObstacleMotions& obstacle
 void ThreadBodies::setCuts(const Model& model, const CutSprings& cuts) {
   tissue_->setCuts(cuts);
   lips_.find(model, cuts);
-  for (Thread& thread : threads_) thread.channels.embedAgain(*tissue_, thread.around.slides);
+  for (ThreadPiece& piece : pieces_) {
+    piece.channels.embedAgain(*tissue_, piece.around.slides);
+    piece.skin.forget();
+  }
   needles_->embedAgain(*tissue_);
 }
 
 void ThreadBodies::beginTick(const ToolMotions& motions, const ObstacleMotions& obstacles, int substeps) {
   std::vector<const Chain*> chains;
-  for (const Thread& thread : threads_) chains.push_back(&thread.chain);
+  for (const ThreadPiece& piece : pieces_) chains.push_back(&piece.chain);
+  tieWhatIsDue();
   hands_.beginTick(motions, chains);
+  if (blades_.beginTick(motions)) {
+    for (const ThreadPiece& piece : pieces_) blades_.keep(piece.chain.places_m());
+  }
   bool any = false;
-  for (size_t t = 0; t < threads_.size(); ++t)
-    any |= threads_[t].tied = tissue_ && (!threads_[t].channels.empty() || needle(t));
+  for (size_t t = 0; t < pieces_.size(); ++t)
+    any |= pieces_[t].tied = tissue_ && (!pieces_[t].channels.empty() || needle(t));
+  for (ThreadPiece& piece : pieces_) {
+    if (piece.tied) piece.skin.lay(*model_, *tissue_, piece.channels.outer());
+  }
   if (any) {
     per_substep_ = static_cast<int>(std::ceil(tick_s_ / substeps / kThreadSubstep_s));
     plan(tied_, substeps * per_substep_, obstacles);
@@ -90,8 +90,10 @@ void ThreadBodies::beginTick(const ToolMotions& motions, const ObstacleMotions& 
 
 std::vector<const TissuePoint*> ThreadBodies::tiedPoints() const {
   std::vector<const TissuePoint*> out;
-  for (const Thread& thread : threads_) {
-    if (thread.tied) thread.channels.addPoints(out);
+  for (const ThreadPiece& piece : pieces_) {
+    if (!piece.tied) continue;
+    piece.channels.addPoints(out);
+    piece.skin.addPoints(out);
   }
   if (!out.empty()) lips_.addPoints(out);
   return out;
@@ -102,46 +104,93 @@ void ThreadBodies::moveNeedles(BladeTarget& target, int index) {
   if (!needles_ || needles_->empty()) return;
   const int last = (index + 1) * per_substep_;
   const double share = 1.0 / tied_.count, before_j = needles_->work_j();
-  needles_->act(target, *tissue_, last * share, per_substep_ * share * tick_s_, obstaclesOf(tied_, last - 1),
-                static_cast<uint32_t>(obstacles_.size()),
-                [this](uint32_t t, const NeedlePassed& passed, const ChannelLaw& law) {
-                  Thread& thread = threads_[t];
-                  thread.channels.take(passed.point, law, passed.beyond_m / thread.chain.link_m(), *tissue_,
-                                       thread.around.slides);
-                });
+  needles_->act(
+      target, *tissue_, last * share, per_substep_ * share * tick_s_, obstaclesOf(tied_, last - 1),
+      static_cast<uint32_t>(obstacles_.size()), [this](uint32_t t, const NeedlePassed& passed, const ChannelLaw& law) {
+        ThreadPiece& piece = pieces_[t];
+        piece.channels.take(passed.point, law, passed.beyond_m / piece.chain.link_m(), *tissue_, piece.around.slides);
+      });
   work_j_ += needles_->work_j() - before_j;
 }
 
 /// Where a substep of the tissue is longer than threads bear, they go through it with the speeds at its end.
 bool ThreadBodies::act(BladeTarget& target, int index) {
   moveNeedles(target, index);
-  if (std::none_of(threads_.begin(), threads_.end(), [](const Thread& thread) { return thread.tied; })) return false;
+  if (std::none_of(pieces_.begin(), pieces_.end(), [](const ThreadPiece& piece) { return piece.tied; })) return false;
   const std::vector<const TissuePoint*> points = tiedPoints();
   const double dt_s = tick_s_ / tied_.count;
   tissue_->read(target, points);
   tissue_->drift((1 - per_substep_) * dt_s);
   for (int s = 0; s < per_substep_; ++s) {
     if (s > 0) tissue_->drift(dt_s);
-    for (uint32_t t = 0; t < threads_.size(); ++t) {
-      if (threads_[t].tied) substep(t, tied_, index * per_substep_ + s);
+    for (uint32_t t = 0; t < pieces_.size(); ++t) {
+      if (pieces_[t].tied) substep(t, tied_, index * per_substep_ + s);
     }
   }
   lips_.part(*tissue_, per_substep_ * dt_s);
   tissue_->write(target, layout::kMaxStyluses, per_substep_ * dt_s);
   work_j_ += tissue_->work_j();
   bool cut = false;
-  for (Thread& thread : threads_) {
-    if (thread.tied) cut |= thread.channels.end(*tissue_, target, can_cut_, thread.around.slides);
+  for (ThreadPiece& piece : pieces_) {
+    if (piece.tied) cut |= piece.channels.end(*tissue_, target, can_cut_, piece.around.slides);
   }
   return cut;
 }
 
 void ThreadBodies::endTick() {
   for (int s = 0; s < alone_.count; ++s) {
-    for (uint32_t t = 0; t < threads_.size(); ++t) {
-      if (!threads_[t].tied) substep(t, alone_, s);
+    for (uint32_t t = 0; t < pieces_.size(); ++t) {
+      if (!pieces_[t].tied) substep(t, alone_, s);
     }
   }
+  for (uint32_t t = 0; t < pieces_.size(); ++t) {
+    std::vector<uint32_t> held = hands_.nodesOf(t);
+    if (held.empty()) continue;
+    ThreadPiece& piece = pieces_[t];
+    for (size_t h = 0; h < piece.fixed_holds; ++h) held.push_back(piece.around.holds[h].node);
+    piece.knots.countThrows(piece.chain, held, piece.around);
+  }
+  partWhatBladesMet();
+  ++tick_;
+}
+
+void ThreadBodies::tie(size_t at, const ThreadTie& tie) {
+  if (at >= pieces_.size()) throw Error("there is no piece " + std::to_string(at) + " of a thread");
+  pieces_[at].knots.clean(pieces_[at].around);
+  pieces_[at].knots.tie(tie, pieces_[at].chain, pieces_[at].around);
+}
+
+void ThreadBodies::tieWhatIsDue() {
+  for (size_t t = 0; t < ties_.size(); ++t) {
+    for (const ThreadTie& due : ties_[t]) {
+      if (static_cast<uint64_t>(std::llround(due.at_s / tick_s_)) != tick_) continue;
+      try {
+        tie(t, due);
+      } catch (const Error& error) {
+        refused_ = "threads[" + std::to_string(t) + "], tie at " + std::to_string(due.at_s) + " s: " + error.what();
+      }
+    }
+  }
+}
+
+void ThreadBodies::partWhatBladesMet() {
+  const size_t count = pieces_.size();
+  for (uint32_t t = 0; t < count; ++t) {
+    const std::vector<size_t> met = blades_.met(t, pieces_[t].chain.places_m());
+    for (auto link = met.rbegin(); link != met.rend();
+         ++link) {  // from its end, so that nodes before keep their numbers
+      if (*link + 1 < pieces_[t].chain.nodes()) part(t, *link + 1);
+    }
+  }
+}
+
+bool ThreadBodies::part(uint32_t at, size_t near) {
+  const size_t node = pieces_[at].canPart(near);
+  if (node == 0 || pieces_.size() >= first_.size() + kMostParted) return false;
+  hands_.parted(at, static_cast<uint32_t>(node), static_cast<uint32_t>(pieces_.size()));
+  ThreadPiece behind = pieces_[at].part(node);
+  pieces_.push_back(std::move(behind));
+  return true;
 }
 
 ThreadPulls ThreadBodies::pulls() const {
@@ -164,7 +213,7 @@ void ThreadBodies::step(const ToolMotions& motions, const ObstacleMotions& obsta
 }
 
 void ThreadBodies::substep(uint32_t t, const Steps& steps, int index) {
-  Thread& thread = threads_[t];
+  ThreadPiece& thread = pieces_[t];
   const double dt_s = tick_s_ / steps.count;
   const auto count = static_cast<uint32_t>(obstacles_.size());
   const layout::ObstacleMotion* const obstacles = obstaclesOf(steps, index);
@@ -173,7 +222,12 @@ void ThreadBodies::substep(uint32_t t, const Steps& steps, int index) {
   holds.resize(thread.fixed_holds);
   if (on_needle) needles_->lay(t, (index % per_substep_ + 1.0) / per_substep_, holds[0]);
   hands_.addHolds(t, static_cast<double>(index + 1) / steps.count, holds);
-  thread.touches.find(thread.chain, obstacles, count, dt_s, thread.around.touches);
+  BesideChannels beside;
+  if (thread.tied && !thread.around.slides.empty()) {
+    thread.skin.begin(*tissue_);
+    beside = {&thread.skin, thread.around.slides.front().s, thread.around.slides.back().s};
+  }
+  thread.touches.find(thread.chain, obstacles, count, beside, dt_s, thread.around.touches);
   thread.around.entered = [&](const std::vector<Vector3d>& ends_m, std::vector<ChainTouch>& touches) {
     return thread.touches.catchUp(thread.chain, obstacles, count, dt_s, ends_m, touches);
   };
@@ -181,8 +235,14 @@ void ThreadBodies::substep(uint32_t t, const Steps& steps, int index) {
     thread.channels.begin(*tissue_, thread.around.slides);
     thread.around.answer = [&](std::vector<ChainSlide>& slides) { thread.channels.answer(*tissue_, dt_s, slides); };
   }
+  thread.knots.beginSubstep(dt_s, thread.chain, thread.around);
   thread.chain.step(dt_s, thread.around);
-  if (thread.tied) thread.channels.note(thread.around.slides);
+  thread.around.entered = {};
+  thread.around.answer = {};
+  if (thread.tied) {
+    thread.channels.note(thread.around.slides);
+    thread.skin.give(thread.around.touches, dt_s, *tissue_);
+  }
   hands_.takeOver(t, holds, thread.fixed_holds);
   if (on_needle) needles_->takeOver(t, holds[0]);
 }
@@ -191,6 +251,7 @@ void ThreadBodies::persist(Archive& archive) {
   archive.section("threads");
   persistMotion(archive);
   hands_.persist(archive);
+  archive.value(tick_);
   if (needles_) needles_->persistHands(archive);
   uint64_t kept = good_.size();
   archive.value(kept);
@@ -203,12 +264,21 @@ void ThreadBodies::persist(Archive& archive) {
 
 /// What rollbacks put back.
 void ThreadBodies::persistMotion(Archive& archive) {
-  for (Thread& thread : threads_) {
-    thread.chain.persist(archive);
-    archive.list(thread.around.touches);
-    archive.list(thread.around.slides);
-    thread.channels.persist(archive);
-    for (size_t h = 0; h < thread.fixed_holds; ++h) archive.value(thread.around.holds[h].stiffness_kg);
+  uint64_t count = pieces_.size();
+  archive.value(count);
+  if (archive.reads()) {
+    if (count < first_.size() || count > first_.size() + kMostParted)
+      throw Error("the saved state has " + std::to_string(count) + " pieces of threads, and the scene " +
+                  std::to_string(first_.size()) + " threads");
+    pieces_.resize(std::min<size_t>(count, pieces_.size()), first_[0]);
+  }
+  for (size_t i = 0; i < count; ++i) {
+    uint32_t thread = i < pieces_.size() ? pieces_[i].thread : 0;
+    archive.value(thread);
+    if (thread >= first_.size()) throw Error("a piece of a thread that the scene does not have");
+    if (i == pieces_.size()) pieces_.push_back(first_[thread]);
+    pieces_[i].thread = thread;
+    pieces_[i].persist(archive);
   }
   if (needles_) needles_->persist(archive);
 }
@@ -227,21 +297,25 @@ void ThreadBodies::restoreGood(int back) {
   Archive archive(good_.back());
   archive.section({});
   persistMotion(archive);
+  std::vector<size_t> nodes;
+  for (const ThreadPiece& piece : pieces_) nodes.push_back(piece.chain.nodes());
+  hands_.letGoMissing(nodes);
   if (wanted <= most) return;
-  for (Thread& thread : threads_) thread.chain.stop();
+  for (ThreadPiece& piece : pieces_) piece.chain.stop();
 }
 
 uint64_t ThreadBodies::hashWith(uint64_t tissue) const {
   StateHash hash;
   hash.add(static_cast<uint32_t>(tissue));
   hash.add(static_cast<uint32_t>(tissue >> 32));
-  for (const Thread& thread : threads_) {
-    for (size_t i = 0; i < thread.chain.nodes(); ++i) {
-      for (const Vector3d& vector : {thread.chain.places_m()[i], thread.chain.velocities_m_per_s()[i]}) {
+  for (const ThreadPiece& piece : pieces_) {
+    for (size_t i = 0; i < piece.chain.nodes(); ++i) {
+      for (const Vector3d& vector : {piece.chain.places_m()[i], piece.chain.velocities_m_per_s()[i]}) {
         for (const double part : vector) hash.add(static_cast<float>(part));
       }
     }
-    for (const ChainSlide& slide : thread.around.slides) hash.add(static_cast<float>(slide.s));
+    for (const ChainSlide& slide : piece.around.slides) hash.add(static_cast<float>(slide.s));
+    for (const ChainKnot& knot : piece.around.knots) hash.add(static_cast<float>(knot.s2));
   }
   if (needles_) needles_->addTo(hash);
   return hash.value();

@@ -4,14 +4,15 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "math/archive.h"
 #include "solver/thread/chain/chain.h"
 #include "solver/thread/needles.h"
-#include "solver/thread/thread_channels.h"
+#include "solver/thread/thread_blades.h"
 #include "solver/thread/thread_hands.h"
-#include "solver/thread/thread_touches.h"
+#include "solver/thread/thread_piece.h"
 #include "solver/thread/tissue_points.h"
 #include "solver/thread/wound_lips.h"
 #include "viscera/model/model.h"
@@ -56,21 +57,19 @@ class ThreadBodies {
   /// Fingerprint of a state of the tissue and of all threads in it.
   uint64_t hashWith(uint64_t tissue) const;
 
-  size_t count() const { return threads_.size(); }
-  const Chain& chain(size_t thread) const { return threads_[thread].chain; }
+  /// Brings the tails of a piece together and ties them. @param piece  < count()
+  /// @throws Error  there is no such piece, or why it cannot be tied
+  void tie(size_t piece, const ThreadTie& tie);
+
+  /// Threads of the scene, and behind them what was parted from them.
+  size_t count() const { return pieces_.size(); }
+  const ThreadPiece& piece(size_t at) const { return pieces_[at]; }
+  const Chain& chain(size_t at) const { return pieces_[at].chain; }
   const Needle* needle(size_t thread) const { return needles_ ? needles_->find(thread) : nullptr; }
-  const std::vector<ChainSlide>& slides(size_t thread) const { return threads_[thread].around.slides; }
+  const std::vector<ChainSlide>& slides(size_t at) const { return pieces_[at].around.slides; }
+  const std::string& refused() const { return refused_; }  ///< why the last of ThreadConfig::ties was not tied
 
  private:
-  struct Thread {
-    Chain chain;
-    ChainAround around;  ///< holds: those of fixed ends, then those of hands
-    size_t fixed_holds;
-    ThreadTouches touches;
-    ThreadChannels channels, first_channels;
-    std::vector<ChainSlide> first_slides;
-    bool tied = false;  ///< in this tick
-  };
   /// The substeps of a tick.
   struct Steps {
     int count = 1;
@@ -82,7 +81,12 @@ class ThreadBodies {
   const layout::ObstacleMotion* obstaclesOf(const Steps& steps, int index) const;
   std::vector<const TissuePoint*> tiedPoints() const;
   void moveNeedles(BladeTarget& target, int index);
+  void tieWhatIsDue();
+  void partWhatBladesMet();
+  /// @returns whether it was
+  bool part(uint32_t piece, size_t node);
 
+  const Model* model_;
   std::vector<ObstacleConfig> obstacles_;
   double tick_s_;
   bool can_cut_;
@@ -90,10 +94,14 @@ class ThreadBodies {
   WoundLips lips_;
   ThreadHands hands_;
   std::optional<Needles> needles_;  ///< only where there are some
-  std::vector<Thread> threads_;
+  ThreadBlades blades_;
+  std::vector<std::vector<ThreadTie>> ties_;  ///< [threads of the scene]
+  std::vector<ThreadPiece> first_, pieces_;   ///< as the scene has them, and now
   Steps alone_, tied_;
   int per_substep_ = 1;  ///< of the tissue, so many of tied threads
   double work_j_ = 0;
+  uint64_t tick_ = 0;  ///< under way, since the start or the last reset
+  std::string refused_;
   size_t good_states_;
   std::vector<std::vector<Archive::Section>> good_;  ///< oldest first
 };

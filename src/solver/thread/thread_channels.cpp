@@ -251,6 +251,21 @@ void ThreadChannels::embedAgain(const TissuePoints& points, std::vector<ChainSli
   changed_ = true;
 }
 
+std::vector<const TissuePoint*> ThreadChannels::outer() const {
+  if (channels_.empty()) return {};
+  return {&channels_.front().point, &channels_.back().point};
+}
+
+ThreadChannels ThreadChannels::part(size_t before) {
+  ThreadChannels behind;
+  const auto first = channels_.begin() + static_cast<std::ptrdiff_t>(before);
+  behind.channels_.assign(first, channels_.end());
+  channels_.erase(first, channels_.end());
+  if (!channels_.empty()) channels_.back().through = 0;
+  changed_ = true;
+  return behind;
+}
+
 void ThreadChannels::persist(Archive& archive) {
   archive.list(channels_);
   archive.value(changed_);

@@ -31,6 +31,7 @@ class ThreadChannels {
             std::vector<ChainSlide>& slides);
   bool empty() const { return channels_.empty(); }
   void addPoints(std::vector<const TissuePoint*>& points) const;
+  std::vector<const TissuePoint*> outer() const;  ///< the first and the last
   /// Before a substep of the chain.
   void begin(const TissuePoints& points, std::vector<ChainSlide>& slides);
   /// ChainAround::answer in it.
@@ -43,6 +44,8 @@ class ThreadChannels {
   /// Springs were cut.
   void embedAgain(const TissuePoints& points, std::vector<ChainSlide>& slides);
   void clear() { channels_.clear(); }
+  /// The chain is parted behind the first so many. @returns those behind
+  ThreadChannels part(size_t before);
   void persist(Archive& archive);
 
  private:

@@ -80,6 +80,26 @@ void ThreadHands::takeOver(uint32_t thread, const std::vector<ChainHold>& holds,
   }
 }
 
+std::vector<uint32_t> ThreadHands::nodesOf(uint32_t thread) const {
+  std::vector<uint32_t> out;
+  for (const Grip& grip : grips_) {
+    if (grip.holds && grip.thread == thread) out.push_back(grip.node);
+  }
+  return out;
+}
+
+void ThreadHands::parted(uint32_t thread, uint32_t node, uint32_t behind) {
+  for (Grip& grip : grips_) {
+    if (grip.thread != thread || grip.node < node) continue;
+    grip.thread = behind;
+    grip.node -= node;
+  }
+}
+
+void ThreadHands::letGoMissing(const std::vector<size_t>& nodes) {
+  for (Grip& grip : grips_) grip.holds &= grip.thread < nodes.size() && grip.node + 1 < nodes[grip.thread];
+}
+
 void ThreadHands::persist(Archive& archive) {
   archive.value(grips_);
 }

@@ -34,7 +34,12 @@ class ThreadHands {
   void addHolds(uint32_t thread, double at, std::vector<ChainHold>& holds) const;
   /// Takes over what a substep made of these. @param first  of those of addHolds()
   void takeOver(uint32_t thread, const std::vector<ChainHold>& holds, size_t first);
-  const ThreadPulls& pulls() const { return pulls_; }  ///< of the tick so far
+  const ThreadPulls& pulls() const { return pulls_; }    ///< of the tick so far
+  std::vector<uint32_t> nodesOf(uint32_t thread) const;  ///< that they hold, the first of each
+  /// What is behind a node of a thread is another one from now on.
+  void parted(uint32_t thread, uint32_t node, uint32_t behind);
+  /// Lets go what is not there any more. @param nodes  [threads]
+  void letGoMissing(const std::vector<size_t>& nodes);
   void reset() { grips_ = {}; }
   void persist(Archive& archive);
 

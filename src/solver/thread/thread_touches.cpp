@@ -57,13 +57,11 @@ void lay(ChainTouch& touch, const layout::ObstacleMotion& obstacle, const Vector
   touch.friction = obstacle.velocity.w;
 }
 
-using Number = std::pair<uint32_t, uint32_t>;
-
-Number numberOf(const ChainTouch& touch) {
+std::pair<uint32_t, uint32_t> numberOf(const ChainTouch& touch) {
   return {touch.node, touch.thing};
 }
 
-bool earlier(const ChainTouch& touch, const Number& number) {
+bool earlier(const ChainTouch& touch, const std::pair<uint32_t, uint32_t>& number) {
   return numberOf(touch) < number;
 }
 
@@ -76,8 +74,8 @@ ObstacleSide sideOf(const layout::ObstacleMotion& obstacle, const Vector3d& plac
   return {own.distance_m, turn * own.normal};
 }
 
-void ThreadTouches::find(const Chain& chain, const layout::ObstacleMotion* obstacles, uint32_t count, double dt_s,
-                         std::vector<ChainTouch>& touches) {
+void ThreadTouches::find(const Chain& chain, const layout::ObstacleMotion* obstacles, uint32_t count,
+                         const BesideChannels& beside, double dt_s, std::vector<ChainTouch>& touches) {
   laid_ = 0;
   before_.swap(touches);
   touches.clear();
@@ -93,15 +91,28 @@ void ThreadTouches::find(const Chain& chain, const layout::ObstacleMotion* obsta
         at = chain.places_m()[node];
         nearest = sideOf(obstacles[thing], at);
       }
-      const Number number{node, thing};
-      kept = std::lower_bound(kept, before_.cend(), number, earlier);
-      const bool known = kept != before_.cend() && numberOf(*kept) == number;
-      touches.push_back(known ? *kept : ChainTouch());
-      touches.back().node = node;
-      touches.back().thing = thing;
+      touches.push_back(knownAs({node, thing}, kept));
       lay(touches.back(), obstacles[thing], at, nearest, dt_s);
     }
+    if (!beside.skin || (node > beside.low - 1 && node < beside.high + 1)) continue;
+    std::optional<ChainTouch> on_skin = beside.skin->near(ahead, reach_m, dt_s);
+    if (!on_skin) continue;
+    const ChainTouch known = knownAs({node, on_skin->thing}, kept);
+    on_skin->node = node;
+    on_skin->rub_kg = known.rub_kg;
+    on_skin->closed = known.closed;
+    touches.push_back(*on_skin);
   }
+}
+
+/// As it was in the last substep, where it was there. @param kept  goes on in before_
+ChainTouch ThreadTouches::knownAs(const Number& number, std::vector<ChainTouch>::const_iterator& kept) const {
+  kept = std::lower_bound(kept, before_.cend(), number, earlier);
+  if (kept != before_.cend() && numberOf(*kept) == number) return *kept;
+  ChainTouch touch;
+  touch.node = number.first;
+  touch.thing = number.second;
+  return touch;
 }
 
 bool ThreadTouches::catchUp(const Chain& chain, const layout::ObstacleMotion* obstacles, uint32_t count, double dt_s,
@@ -127,15 +138,15 @@ bool ThreadTouches::catchUp(const Chain& chain, const layout::ObstacleMotion* ob
       any = true;
     }
   }
-  return (deep && layAgain(chain, obstacles, dt_s, ends_m, touches)) || any;
+  return (deep && layAgain(chain, obstacles, count, dt_s, ends_m, touches)) || any;
 }
 
 /// Half spaces of a thread that flies round a thing may ask for more thread than there is, and press it in elsewhere.
-bool ThreadTouches::layAgain(const Chain& chain, const layout::ObstacleMotion* obstacles, double dt_s,
+bool ThreadTouches::layAgain(const Chain& chain, const layout::ObstacleMotion* obstacles, uint32_t count, double dt_s,
                              const std::vector<Vector3d>& ends_m, std::vector<ChainTouch>& touches) {
   if (laid_++ == kMostLaid) return false;
   for (ChainTouch& touch : touches) {
-    if (!touch.closed) continue;
+    if (!touch.closed || touch.thing >= count) continue;
     Vector3d at = ends_m[touch.node];
     ObstacleSide nearest = sideOf(obstacles[touch.thing], at);
     if (nearest.distance_m < -kDeep * chain.material().radius_m) {

@@ -3,9 +3,11 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "solver/thread/chain/chain.h"
+#include "solver/thread/thread_skin.h"
 #include "viscera/layout/obstacle_motion.h"
 
 namespace viscera {
@@ -18,13 +20,19 @@ struct ObstacleSide {
 /// At the end of a substep, tissue frame.
 ObstacleSide sideOf(const layout::ObstacleMotion& obstacle, const Vector3d& place_m);
 
-/// The touches of a chain with obstacles, as half spaces: tangents of what is nearest to each node.
+/// The skin for those nodes of a chain that are not in tissue.
+struct BesideChannels {
+  const ThreadSkin* skin = nullptr;
+  double low = 0, high = 0;  ///< outer channels, on the chain [links]: within a link of them and between it is left out
+};
+
+/// The touches of a chain with obstacles and skin, as half spaces: tangents of what is nearest to each node.
 class ThreadTouches {
  public:
   /// Of the nodes that are near. What the last substep's touches keep, they keep.
   /// @param obstacles  over the substep to come   @param touches  of the last substep, and then of this
-  void find(const Chain& chain, const layout::ObstacleMotion* obstacles, uint32_t count, double dt_s,
-            std::vector<ChainTouch>& touches);
+  void find(const Chain& chain, const layout::ObstacleMotion* obstacles, uint32_t count, const BesideChannels& beside,
+            double dt_s, std::vector<ChainTouch>& touches);
   /// Of nodes that were jerked into an obstacle from farther away: they stay on the side from which they came. Where
   /// the chain is pressed into what it touches, all that touch are laid again.
   /// @param ends_m  of all nodes   @returns whether there were any
@@ -32,7 +40,9 @@ class ThreadTouches {
                const std::vector<Vector3d>& ends_m, std::vector<ChainTouch>& touches);
 
  private:
-  bool layAgain(const Chain& chain, const layout::ObstacleMotion* obstacles, double dt_s,
+  using Number = std::pair<uint32_t, uint32_t>;  ///< node, thing
+  ChainTouch knownAs(const Number& number, std::vector<ChainTouch>::const_iterator& kept) const;
+  bool layAgain(const Chain& chain, const layout::ObstacleMotion* obstacles, uint32_t count, double dt_s,
                 const std::vector<Vector3d>& ends_m, std::vector<ChainTouch>& touches);
 
   std::vector<ChainTouch> before_;

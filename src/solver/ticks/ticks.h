@@ -39,7 +39,8 @@ class Ticks : public Solver {
   uint64_t substepsDone() const final { return substeps_done_; }
   SolverWork work() const final { return backend_->work(); }
   BladeWork bladeWork(uint32_t stylus) const final { return blades_ ? blades_->done(stylus) : BladeWork{}; }
-  const ThreadBodies* threads() const final { return threads_.get(); }
+  using Solver::threads;
+  ThreadBodies* threads() final { return threads_.get(); }
   void persist(Archive& archive) final;
   std::string backend() const final { return backend_->name(); }
   /// The state that it begins in, now and after every reset.

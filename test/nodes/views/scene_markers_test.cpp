@@ -152,7 +152,7 @@ TEST(SceneMarkers, ThreadsAreLinesThroughTheirNodesOnceTheyArePlaced) {
   const SceneMarkers markers(with, {});
   SceneLook placed = look();
   EXPECT_TRUE(shown(markers.at(placed, ros::Time(3)), "threads").empty());
-  placed.threads = {{{0, 0, 0}, {0.01, 0, 0}, {0.02, 0, 0.01}}, {{0, 1, 0}, {0, 2, 0}}};
+  placed.threads = {{0, false, {{0, 0, 0}, {0.01, 0, 0}, {0.02, 0, 0.01}}}, {1, false, {{0, 1, 0}, {0, 2, 0}}}};
   const auto lines = shown(markers.at(placed, ros::Time(3)), "threads");
   ASSERT_EQ(lines.size(), 2u);
   EXPECT_EQ(lines[0].type, Marker::LINE_STRIP);

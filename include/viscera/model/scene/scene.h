@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "viscera/math/types.h"
+#include "viscera/model/scene/knot_kind.h"
 #include "viscera/model/scene/organ_fit.h"
 #include "viscera/model/scene/overlays.h"
 
@@ -315,6 +316,9 @@ struct NeedleConfig {
   Vector3d rotation_deg = Vector3d::Zero();  ///< at first
 };
 
+/// Pieces of all threads of a session beyond those of its scene, at most: they are not parted any more then.
+constexpr size_t kMostParted = 16;
+
 /// A thread that does not stretch.
 struct ThreadConfig {
   std::string name = "thread";
@@ -336,7 +340,8 @@ struct ThreadConfig {
   double pull_out_n = 0;                      ///< 0: of `tissue`, with the next two
   StitchedTissue tissue = StitchedTissue::kPhantom;
   double bite_m = 0.0045, depth_m = 0.006;
-  NeedleConfig needle;  ///< on its start
+  NeedleConfig needle;          ///< on its start
+  std::vector<ThreadTie> ties;  ///< in the order of their times
   bool feelsTissue() const { return !channels.empty() || needle.arc != NeedleArc::kNone; }
 };
 

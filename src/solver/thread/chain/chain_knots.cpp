@@ -14,9 +14,9 @@ namespace {
 
 constexpr double kLoopLinks = 2;  // a loop is no smaller
 
-/// From s1 to s2.
+/// From s1 to s2, beyond what they are apart.
 Vector3d offOf(const ChainKnot& knot, const std::vector<Vector3d>& places) {
-  return ChainPoint(knot.s2, places.size()).of(places) - ChainPoint(knot.s1, places.size()).of(places);
+  return ChainPoint(knot.s2, places.size()).of(places) - ChainPoint(knot.s1, places.size()).of(places) - knot.apart_m;
 }
 
 Vector3d offOf(const ChainKnot& knot, const std::vector<ChainMatrix::Unknown>& found) {

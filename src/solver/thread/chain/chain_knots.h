@@ -15,9 +15,10 @@ constexpr double kKnotApart = 0.3;  // links, of a knot from a channel or anothe
 
 /// A knot: two points of a chain that meet (docs/thread.md 4). Between them is its loop.
 struct ChainKnot {
-  double s1 = 0;          ///< stays where it is on the chain [links]
-  double s2 = 0;          ///< kept: slides, so that the loop is drawn tight
-  double friction_n = 0;  ///< along s2 while it is not tied
+  double s1 = 0;                        ///< stays where it is on the chain [links]
+  double s2 = 0;                        ///< kept: slides, so that the loop is drawn tight
+  double friction_n = 0;                ///< along s2 while it is not tied
+  Vector3d apart_m = Vector3d::Zero();  ///< from s1 to s2, which do not meet yet
   bool tied = false;
   double holds_n = std::numeric_limits<double>::infinity();  ///< tied, s2 slips at more, and rubs by that
   Vector3d impulse_ns = Vector3d::Zero();                    ///< kept: of the substep, by s2 on s1

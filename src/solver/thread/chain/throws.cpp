@@ -51,9 +51,4 @@ KnotKind kindOf(const std::vector<int>& throws) {
   return in_turn ? KnotKind::kSquare : KnotKind::kGranny;
 }
 
-const char* nameOf(KnotKind kind) {
-  constexpr const char* kNames[] = {"none", "half", "double half", "square", "granny", "surgeon's", "surgeon's granny"};
-  return kNames[static_cast<size_t>(kind)];
-}
-
 }  // namespace viscera

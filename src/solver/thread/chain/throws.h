@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "viscera/math/types.h"
+#include "viscera/model/scene/knot_kind.h"
 
 namespace viscera {
 
@@ -22,11 +23,6 @@ double turnsOf(const Strand& one, const Strand& other);
 /// Whole turns of a throw with their sign; 0: it is none yet.
 int throwOf(double turns);
 
-/// What a sequence of throws makes.
-enum class KnotKind { kNone, kHalf, kDoubleHalf, kSquare, kGranny, kSurgeons, kSurgeonsGranny };
 /// @param throws  one after the other, in whole turns; those of 0 are passed over
 KnotKind kindOf(const std::vector<int>& throws);
-/// As users read it: "none", "half", "double half", "square", "granny", "surgeon's", "surgeon's granny".
-const char* nameOf(KnotKind kind);
-
 }  // namespace viscera

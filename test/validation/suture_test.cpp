@@ -1,0 +1,117 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+// The shipped wound and its four stitches: open once it is cut, closed once they are tied, and when their tails are
+// cut.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "support/source_folder.h"
+#include "viscera/session/session.h"
+#include "viscera/tools/strokes.h"
+
+namespace viscera {
+namespace {
+
+constexpr double kHalf_m = 0.0015, kRestGap_m = 0.003;  // nodes beside the wound's plane, x = 0
+constexpr double kWoundEnds_m = 0.0135;                 // rows of nodes along it, y, farther than that are not parted
+constexpr double kCutDown_m = 0.0015;                   // z of the blade's tip
+
+struct Gap {
+  double mean_m = 0, skin_m = 0;  // of all pairs across the wound, and of those at the skin
+};
+
+/// Beyond what two nodes across the wound are apart at rest.
+Gap gapOf(const Session& session) {
+  const HostState state = session.solver().readState();
+  const Body& body = session.model().bodies[0];
+  const auto displaced = [&](uint32_t slot) -> Vector3d {
+    const layout::vec4& by = state.displacement_m[slot];
+    return Vector3d(by.x, by.y, by.z);
+  };
+  Gap out;
+  int all = 0, skin = 0;
+  for (const uint32_t left : body.lattice.active_slots) {
+    const Vector3d at_m = restPosition(body, left);
+    if (std::abs(at_m.x() + kHalf_m) > 1e-6 || std::abs(at_m.y()) > kWoundEnds_m || at_m.z() < kCutDown_m) continue;
+    for (const uint32_t right : body.lattice.active_slots) {
+      if ((restPosition(body, right) - at_m - kRestGap_m * Vector3d::UnitX()).norm() > 1e-6) continue;
+      const double gap_m = (displaced(right) - displaced(left)).x();
+      out.mean_m += gap_m;
+      ++all;
+      if (at_m.z() < 0.005) continue;
+      out.skin_m += gap_m;
+      ++skin;
+    }
+  }
+  out.mean_m /= all;
+  out.skin_m /= skin;
+  return out;
+}
+
+struct Sutured {
+  Gap open, tied, cut;
+  std::vector<SeenThread> threads;
+  uint64_t hash = 0, trips = 0;
+};
+
+Sutured sutured(double young_pa) {
+  const std::string config = std::string(test::sourceFolder()) + "/config/";
+  Scene scene = loadScene(config + "scenes/suture_pad.yaml");
+  const Strokes strokes = loadStrokes(config + "strokes/suture.yaml");
+  const double stiffer = young_pa / scene.bodies[0].material.young_modulus_pa;
+  scene.bodies[0].material.young_modulus_pa = young_pa;
+  scene.solver.backend = Backend::kCpu;
+  for (ThreadConfig& thread : scene.threads) thread.ties[0].tension_n *= stiffer;
+  Session session(scene);
+  Sutured out;
+  const auto until = [&](double time_s) {
+    while (static_cast<double>(session.tick()) * session.tick_s() < time_s)
+      session.step(strokes.at(static_cast<double>(session.tick() + 1) * session.tick_s(), scene.styluses), {});
+    return gapOf(session);
+  };
+  out.open = until(2.9);
+  out.tied = until(7.4);
+  out.cut = until(strokes.duration_s());
+  out.threads = session.seenThreads();
+  session.drain();
+  out.hash = session.stateHash();
+  out.trips = session.extremes().governor_trips;
+  return out;
+}
+
+void expectClosed(double young_pa) {
+  constexpr double kOpen_m = 0.0008, kMean_m = 3e-4, kSkin_m = 5e-4;  // that wound gapes by a millimetre and more
+  constexpr size_t kThreads = 4, kTails = 8;
+  const Sutured found = sutured(young_pa);
+  printf("E %.0f kPa: gap open %.2f (skin %.2f), tied %.2f (%.2f), tails cut %.2f (%.2f) mm\n", young_pa / 1e3,
+         1e3 * found.open.mean_m, 1e3 * found.open.skin_m, 1e3 * found.tied.mean_m, 1e3 * found.tied.skin_m,
+         1e3 * found.cut.mean_m, 1e3 * found.cut.skin_m);
+  EXPECT_GT(found.open.skin_m, kOpen_m);
+  for (const Gap& gap : {found.tied, found.cut}) {
+    EXPECT_LT(gap.mean_m, kMean_m);
+    EXPECT_LT(gap.skin_m, kSkin_m);
+  }
+  EXPECT_EQ(found.trips, 0U);
+  EXPECT_GE(found.threads.size(), kThreads + kTails);  // a tail that hangs may be met twice
+  size_t knots = 0;
+  for (const SeenThread& thread : found.threads) {
+    for (const SeenKnot& knot : thread.knots) {
+      EXPECT_TRUE(knot.tied);
+      ++knots;
+    }
+  }
+  EXPECT_EQ(knots, kThreads);
+}
+
+TEST(SuturePad, FourStitchesCloseAWoundInSoftTissue) {
+  expectClosed(1e4);
+}
+
+TEST(SuturePad, AndInStiffer) {
+  expectClosed(5e4);
+}
+
+}  // namespace
+}  // namespace viscera
