@@ -116,12 +116,13 @@ struct ToolSize {
   const char* key;
   double (*value_m)(const StylusConfig&);
 };
-constexpr std::array<ToolSize, 5> kToolSizes = {{
+constexpr std::array<ToolSize, 6> kToolSizes = {{
     {"probe.radius_m", [](const StylusConfig& c) { return c.probe.radius_m; }},
     {"grab.radius_m", [](const StylusConfig& c) { return c.grab.radius_m; }},
     {"cut.blade_length_m", [](const StylusConfig& c) { return c.cut.blade_length_m; }},
     {"cut_particles.eraser_radius_m", [](const StylusConfig& c) { return c.cut_particles.eraser_radius_m; }},
     {"suction.radius_m", [](const StylusConfig& c) { return c.suction.radius_m; }},
+    {"scissors.blade_length_m", [](const StylusConfig& c) { return c.scissors.blade_length_m; }},
 }};
 
 void followTools(const OrganFit& fit, const Scene& made, Keys& keys) {

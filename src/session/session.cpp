@@ -33,6 +33,7 @@ Vector3d xyz(const layout::vec4& v) {
 
 HandLimits handLimits(const Model& model, double tick_hz) {
   HandLimits limits;
+  limits.tick_s = 1 / tick_hz;
   limits.max_travel_m = waveSpeed(model) / tick_hz;
   // Sheets have no inside: the radius of the tip is enough where there is nothing else.
   limits.feel_radius_m = std::numeric_limits<double>::min();

@@ -6,6 +6,7 @@
 
 #include "math/archive.h"
 #include "model/scene/tool_kinds.h"
+#include "tools/scissors_edge.h"
 
 namespace viscera {
 
@@ -42,6 +43,7 @@ ToolMotions Tools::advance(const StylusSamples& samples) {
     motion.from = last_[i].valid ? last_[i].pose : motion.to;
     if (!last_[i].valid) inside_[i] = limits_.feel_radius_m > 0;
     changeMode(i, motion);
+    close(i, motion);
     holdBack(motion);
     feel(i, motion);
     last_[i] = now;
@@ -57,6 +59,20 @@ void Tools::changeMode(size_t stylus, StylusMotion& motion) {
   }
   mode_[stylus] = motion.mode;
   forgotten_[stylus] = false;
+}
+
+/// They stand open until it begins, close at one speed, and stay closed until it ends.
+void Tools::close(size_t stylus, StylusMotion& motion) {
+  if (!kindOf(motion.mode).closes) {
+    closed_[stylus] = 0;
+    return;
+  }
+  const ScissorsConfig& config = configs_[stylus].scissors;
+  constexpr double kRounding = 1e-9;  // of a sum of as many ticks as they take
+  const double before = closed_[stylus], after = before + limits_.tick_s / config.closing_s;
+  closed_[stylus] = after < 1 - kRounding ? after : 1;
+  motion.opens_from_rad = openingOf(config, before);
+  motion.opens_to_rad = openingOf(config, closed_[stylus]);
 }
 
 void Tools::holdBack(StylusMotion& motion) const {
@@ -94,6 +110,7 @@ void Tools::persist(Archive& archive) {
   archive.value(mode_);
   archive.value(inside_);
   archive.value(forgotten_);
+  archive.value(closed_);
 }
 
 void Tools::reset() {
@@ -101,6 +118,7 @@ void Tools::reset() {
   mode_ = {};
   inside_ = {};
   forgotten_ = {};
+  closed_ = {};
 }
 
 }  // namespace viscera

@@ -3,6 +3,7 @@
 #include "tools/motion_packing.h"
 
 #include "model/scene/tool_kinds.h"
+#include "tools/scissors_edge.h"
 
 namespace viscera {
 
@@ -25,6 +26,12 @@ layout::ToolMotion substep(const StylusMotion& motion, const StylusConfig& confi
   out.blade_from = pack(from * far_end, config.cut_particles.eraser_radius_m);
   out.blade_to = pack(to * far_end, 0);
   out.info = toolInfo(motion.mode);
+  if (kind.closes) {
+    const double from_rad = motion.opens_from_rad, change_rad = motion.opens_to_rad - from_rad;
+    setEdge(scissorsOf(config.scissors),
+            {from, to, from_rad + begin * change_rad, from_rad + end * change_rad, openingOf(config.scissors, 0)}, out);
+    if (change_rad == 0) out.info.y &= ~layout::kToolCuts;
+  }
   if (motion.feels_m > 0) {
     out.info.y |= layout::kToolFeels;
     out.from.w = static_cast<float>(motion.feels_m);

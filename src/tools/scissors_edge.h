@@ -4,6 +4,7 @@
 
 #include "viscera/layout/tool_motion.h"
 #include "viscera/math/types.h"
+#include "viscera/model/scene/scene.h"
 
 namespace viscera {
 
@@ -13,6 +14,10 @@ struct Scissors {
   double length_m;    ///< from the pivot to the tips, > 0
   double closed_rad;  ///< opening at which the tips cross, > 0: edges lie length_m * sin(closed_rad / 2) off the pivot
 };
+
+Scissors scissorsOf(const ScissorsConfig& config);
+/// @param closed  0: open, 1: closed   @returns rad
+double openingOf(const ScissorsConfig& config, double closed);
 
 /// How far from the pivot the edges cross [m], up to length_m: e / sin(opening / 2), e as in Scissors.
 double crossing_m(const Scissors& scissors, double opening_rad);

@@ -75,6 +75,7 @@ styluses:
     cut: {blade_length_m: 0.063, blade_side: both, friction_n_per_m: 6.31, point_width_m: 0.0631}
     cut_particles: {eraser_radius_m: 0.0064}
     suction: {radius_m: 0.0066, max_force_n: 6.7, release_speed_m_per_s: 0.651}
+    scissors: {blade_length_m: 0.0161, opening_deg: 41.7, closing_s: 0.671}
     max_force_n: 6.6
     max_force_rate_n_per_s: 670
     max_torque_nm: 0.67
@@ -125,7 +126,7 @@ threads:
   - {name: suture, material: silk, usp: 5-0, radius_m: 0.00012, young_modulus_pa: 1.3e9, density_kg_per_m3: 1400, bending_share: 0.15, drag_per_s: 1.6,
      length_m: 0.17, spacing_m: 0.0018, position_m: [0.19, 0.21, 0.22], path: [{position_m: [0.23, 0.24, 0.25]}], start: free, end: fixed,
      channels: [{body: liver, position_m: [0.26, 0.27, 0.28]}], friction: 0.29, through_n_per_m: 0.31, pull_out_n: 0.32, tissue: fascia, bite_m: 0.033,
-     depth_m: 0.034,
+     depth_m: 0.034, ties: [{at_s: 1.41, knot: granny, tension_n: 0.241, holds_n: 2.41}],
      needle: {arc: three_eighths, radius_m: 0.0091, wire_radius_m: 0.00036, puncture_n: 0.92, cutting_n: 0.31, friction_n_per_m: 12.5,
               rotation_deg: [13, 14, 15]}}
 )";
@@ -254,6 +255,9 @@ TEST(SceneKeys, EveryOtherKeyReachesItsField) {
   EXPECT_EQ(stylus.suction.radius_m, 0.0066);
   EXPECT_EQ(stylus.suction.max_force_n, 6.7);
   EXPECT_EQ(stylus.suction.release_speed_m_per_s, 0.651);
+  EXPECT_EQ(stylus.scissors.blade_length_m, 0.0161);
+  EXPECT_EQ(stylus.scissors.opening_deg, 41.7);
+  EXPECT_EQ(stylus.scissors.closing_s, 0.671);
   EXPECT_EQ(stylus.max_force_n, 6.6);
   EXPECT_EQ(stylus.max_force_rate_n_per_s, 670);
   EXPECT_EQ(stylus.max_torque_nm, 0.67);
@@ -344,6 +348,10 @@ TEST(SceneKeys, EveryKeyOfTheSurroundingsReachesItsField) {
   EXPECT_EQ(thread.start, ThreadEnd::kFree);
   EXPECT_EQ(thread.end, ThreadEnd::kFixed);
   EXPECT_EQ(thread.channels.at(0).body, "liver");
+  EXPECT_EQ(thread.ties.at(0).at_s, 1.41);
+  EXPECT_EQ(thread.ties.at(0).knot, KnotKind::kGranny);
+  EXPECT_EQ(thread.ties.at(0).tension_n, 0.241);
+  EXPECT_EQ(thread.ties.at(0).holds_n, 2.41);
   EXPECT_EQ(thread.channels.at(0).position_m, Vector3d(0.26, 0.27, 0.28));
   EXPECT_EQ(thread.friction, 0.29);
   EXPECT_EQ(thread.through_n_per_m, 0.31);

@@ -8,8 +8,8 @@ using namespace viscera;
 
 namespace {
 
-constexpr ToolMode kModes[] = {ToolMode::kNone,         ToolMode::kProbe,   ToolMode::kGrab,  ToolMode::kCut,
-                               ToolMode::kCutParticles, ToolMode::kSuction, ToolMode::kNeedle};
+constexpr ToolMode kModes[] = {ToolMode::kNone,         ToolMode::kProbe,   ToolMode::kGrab,   ToolMode::kCut,
+                               ToolMode::kCutParticles, ToolMode::kSuction, ToolMode::kNeedle, ToolMode::kScissors};
 constexpr float kTight_m = 1e-6f;  // of float coordinates of some centimetres
 
 Vector3f position(const ToolVertex& vertex) {

@@ -6,8 +6,8 @@ using namespace viscera;
 
 namespace {
 
-constexpr ToolMode kModes[] = {ToolMode::kNone,         ToolMode::kProbe,   ToolMode::kGrab,  ToolMode::kCut,
-                               ToolMode::kCutParticles, ToolMode::kSuction, ToolMode::kNeedle};
+constexpr ToolMode kModes[] = {ToolMode::kNone,         ToolMode::kProbe,   ToolMode::kGrab,   ToolMode::kCut,
+                               ToolMode::kCutParticles, ToolMode::kSuction, ToolMode::kNeedle, ToolMode::kScissors};
 
 class ToolsGl : public Drawing {
  protected:

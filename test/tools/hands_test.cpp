@@ -166,6 +166,28 @@ TEST(Tools, AHoldThatFollowsOneOfAnotherKindEndsItAndBegins) {
   EXPECT_TRUE(motion.hold_begins);
 }
 
+TEST(Tools, ScissorsCloseOnceAtOneSpeedAndOpenWhenTheyEnd) {
+  constexpr double kOpen_rad = 40 * M_PI / 180, kClosed_rad = 0.03;
+  StylusConfig config;
+  config.button1 = ToolMode::kScissors;
+  config.scissors.closing_s = 0.1;
+  HandLimits limits;
+  limits.tick_s = 0.02;
+  Tools tools({config}, limits);
+  tools.advance(one(0));
+  double before_rad = kOpen_rad;
+  for (int t = 1; t <= 5; ++t) {
+    const StylusMotion motion = tools.advance(one(0, true))[0];
+    EXPECT_NEAR(motion.opens_from_rad, before_rad, 1e-12) << t;
+    EXPECT_NEAR(motion.opens_to_rad, kOpen_rad + 0.2 * t * (kClosed_rad - kOpen_rad), 1e-12) << t;
+    before_rad = motion.opens_to_rad;
+  }
+  const StylusMotion closed = tools.advance(one(0, true))[0];
+  EXPECT_EQ(closed.opens_from_rad, closed.opens_to_rad);
+  tools.advance(one(0));
+  EXPECT_NEAR(tools.advance(one(0, true))[0].opens_from_rad, kOpen_rad, 1e-12);
+}
+
 /// A probe of 5 mm that feels 1 cm around it when it appears.
 Tools feelingStylus() {
   StylusConfig config;

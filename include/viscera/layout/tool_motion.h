@@ -18,6 +18,7 @@ const uint kModeCut = 3u;
 const uint kModeCutParticles = 4u;
 const uint kModeSuction = 5u;
 const uint kModeNeedle = 6u;
+const uint kModeScissors = 7u;
 
 // What a kind of tool does to tissue, bits of ToolMotion.info.y
 const uint kToolPushes = 1u;  // nodes out of a swept sphere at the tip

@@ -20,6 +20,7 @@ struct HandLimits {
   /// A stylus that appears pushes nothing until tissue is nowhere within this radius, or that of its tip where that is
   /// larger: at depth, the side from which it came is unknown. 0: it pushes at once.
   double feel_radius_m = 0;
+  double tick_s = 1.0 / 60;
 };
 
 /// Turns stylus samples into motions, tick by tick: modes from buttons, jumps that are no motion (first sample).
@@ -41,6 +42,7 @@ class Tools {
 
  private:
   void changeMode(size_t stylus, StylusMotion& motion);
+  void close(size_t stylus, StylusMotion& motion);
   void holdBack(StylusMotion& motion) const;
   void feel(size_t stylus, StylusMotion& motion) const;
 
@@ -50,6 +52,7 @@ class Tools {
   std::array<ToolMode, layout::kMaxStyluses> mode_{};
   std::array<bool, layout::kMaxStyluses> inside_{};     ///< may be: it has appeared and was not found outside yet
   std::array<bool, layout::kMaxStyluses> forgotten_{};  ///< what it does begins again
+  std::array<double, layout::kMaxStyluses> closed_{};   ///< by how much of their opening blades have closed, 0 .. 1
 };
 
 }  // namespace viscera

@@ -36,6 +36,8 @@ struct StylusMotion {
   /// > 0: the stylus appeared and has not been outside of tissue since. It pushes nothing, and feels for tissue within
   /// this radius [m].
   double feels_m = 0;
+  /// Of blades that close: their opening [rad] at the start and the end of the tick; equal: they do not.
+  double opens_from_rad = 0, opens_to_rad = 0;
   bool held_back = false;  ///< the tip was faster than tissue can follow: `to` lags behind the pose, and catches up
 };
 using ToolMotions = std::array<StylusMotion, layout::kMaxStyluses>;

@@ -64,6 +64,13 @@ void visitFields(V& v, SuctionConfig& c) {
 }
 
 template <class V>
+void visitFields(V& v, ScissorsConfig& c) {
+  v.number("blade_length_m", c.blade_length_m, {1e-3, 0.2}, "m", "from the pivot, which is behind the tips, to these");
+  v.number("opening_deg", c.opening_deg, {5, 120}, "deg", "from blade to blade, when they begin to close");
+  v.number("closing_s", c.closing_s, {0.02, 10}, "s", "time from open to closed, while the button is held");
+}
+
+template <class V>
 void visitFields(V& v, StylusConfig& c) {
   const std::vector<Choice<ToolMode>> modes = toolChoices();
   v.text("name", c.name, "name: its topics are `<name>/measured_cp` and so on");
@@ -75,6 +82,7 @@ void visitFields(V& v, StylusConfig& c) {
   v.group("cut", c.cut, "cut: a blade cuts the springs that it crosses");
   v.group("cut_particles", c.cut_particles, "cut_particles: the same blade erases the springs of nodes near it");
   v.group("suction", c.suction, "suction: holds the nodes around the tip as grab does, up to a force");
+  v.group("scissors", c.scissors, "scissors: two blades that close when they begin and cut what is between them");
   v.number("max_force_n", c.max_force_n, {0, 1e3}, "N", "reaction force is saturated here");
   v.number("max_force_rate_n_per_s", c.max_force_rate_n_per_s, {1, 1e6}, "N/s", "reaction force changes no faster");
   v.number("max_torque_nm", c.max_torque_nm, {0, 1e2}, "N m", "reaction torque is saturated here");

@@ -22,7 +22,7 @@ enum ToolEffect : uint32_t {
 };
 
 /// What is drawn of a tool in front of its shaft.
-enum class ToolTip { kBare, kBall, kJaws, kBlade, kCapsule, kCup };
+enum class ToolTip { kBare, kBall, kJaws, kBlade, kCapsule, kCup, kScissors };
 
 /// How a tool that holds lets go.
 struct Grip {
@@ -42,6 +42,7 @@ struct ToolKind {
   std::array<uint8_t, 3> color;                 ///< sRGB of what acts, and of the collar on the shaft
   double (*reach_m)(const StylusConfig&);       ///< of what acts, around the tip or around the blade
   Grip (*grip)(const StylusConfig&) = nullptr;  ///< of kinds that hold
+  bool closes = false;                          ///< two blades, which part what is between them as they close
 
   constexpr bool does(uint32_t some) const { return (effects & some) != 0; }
   /// It moves nodes: contact kernels run, and their reactions are summed.
@@ -69,6 +70,8 @@ inline constexpr ToolKind kToolKinds[] = {
      [](const StylusConfig& c) { return Grip{c.suction.release_speed_m_per_s, c.suction.max_force_n}; }},
     {ToolMode::kNeedle, layout::kModeNeedle, "needle", 0, ToolTip::kJaws, {213, 94, 0},
      [](const StylusConfig& c) { return c.grab.radius_m; }},
+    {ToolMode::kScissors, layout::kModeScissors, "scissors", kCuts, ToolTip::kScissors, {0, 114, 178},
+     [](const StylusConfig&) { return 0.0; }, nullptr, true},
 };
 // clang-format on
 inline constexpr size_t kToolKindCount = sizeof(kToolKinds) / sizeof(kToolKinds[0]);

@@ -46,11 +46,12 @@ void addShaft(float from_z, const Color& collar, ToolShape& shape) {
   addLathe(ring, Eigen::Affine3f::Identity(), collar, shape);
 }
 
-void addJaws(const Color& color, ToolShape& shape) {
+/// @param splay  of each from the axis [rad]
+void addJaws(float hinge, float splay, const Color& color, ToolShape& shape) {
   for (float side : {-1.0f, 1.0f}) {
     Eigen::Affine3f jaw = Eigen::Affine3f::Identity();
-    jaw.translate(Vector3f(0, 0, kHinge)).rotate(Eigen::AngleAxisf(-side * kJawSplay, Vector3f::UnitY()));
-    jaw.translate(Vector3f(0, 0, -kHinge / 2)).scale(Vector3f(0.0007f, 0.0014f, kHinge / 2));
+    jaw.translate(Vector3f(0, 0, hinge)).rotate(Eigen::AngleAxisf(-side * splay, Vector3f::UnitY()));
+    jaw.translate(Vector3f(0, 0, -hinge / 2)).scale(Vector3f(0.0007f, 0.0014f, hinge / 2));
     addLathe(sphereProfile(1), jaw, color, shape);
   }
 }
@@ -86,9 +87,16 @@ void addCup(float radius, const Color& color, ToolShape& shape) {
   addLathe(bell, Eigen::Affine3f::Identity(), color, shape);
 }
 
+/// As they are drawn, open.
+float halfOpening(const ScissorsConfig& config) {
+  return static_cast<float>(config.opening_deg * M_PI / 360);
+}
+
 /// Where the shaft begins: behind what acts.
 float shaftStart(const StylusConfig& stylus, const ToolKind& kind) {
   if (kind.tip == ToolTip::kJaws) return kHinge;
+  if (kind.tip == ToolTip::kScissors)
+    return std::min(static_cast<float>(stylus.scissors.blade_length_m), kShaftLength - kShortestShaft);
   if (kind.tip != ToolTip::kBlade) return 0;
   return std::min(static_cast<float>(bladeSpan(stylus.cut).high_m), kShaftLength - kShortestShaft);
 }
@@ -104,7 +112,10 @@ void addTip(const StylusConfig& stylus, const ToolKind& kind, ToolShape& shape) 
       addLathe(sphereProfile(reach), Eigen::Affine3f::Identity(), color, shape);
       break;
     case ToolTip::kJaws:
-      addJaws(color, shape);
+      addJaws(kHinge, kJawSplay, color, shape);
+      break;
+    case ToolTip::kScissors:
+      addJaws(static_cast<float>(stylus.scissors.blade_length_m), halfOpening(stylus.scissors), color, shape);
       break;
     case ToolTip::kBlade:
       addBlade(bladeSpan(stylus.cut), color, shape);

@@ -4,15 +4,39 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
+#include <optional>
 
 #include "model/scene/tool_kinds.h"
+#include "tools/scissors_edge.h"
 
 namespace viscera {
 
 namespace {
 
-bool cuts(const StylusMotion& motion) {
-  return motion.present && motion.mode == ToolMode::kCut && !(motion.feels_m > 0);
+/// An edge that stands still in a frame that moves.
+struct MovedEdge {
+  std::array<Vector3d, 2> ends;
+  Pose from, to;
+};
+
+/// What a stylus parts threads with in a tick; nothing: it does not.
+std::optional<MovedEdge> edgeOf(const StylusMotion& motion, const StylusConfig& config) {
+  const ToolKind& kind = kindOf(motion.mode);
+  if (!motion.present || !kind.does(kCuts)) return std::nullopt;
+  if (!kind.closes) {
+    const BladeSpan span = bladeSpan(config.cut);
+    return MovedEdge{{Vector3d(0, 0, span.low_m), Vector3d(0, 0, span.high_m)}, motion.from, motion.to};
+  }
+  if (motion.opens_from_rad == motion.opens_to_rad) return std::nullopt;
+  const Scissors scissors = scissorsOf(config.scissors);
+  const auto crossing = [&](double opening_rad) {
+    return Pose{Vector3d(0, 0, scissors.length_m - crossing_m(scissors, opening_rad)), Quaterniond::Identity()};
+  };
+  const double half_m = scissors.length_m * std::tan(0.5 * openingOf(config.scissors, 0));
+  return MovedEdge{{Vector3d(-half_m, 0, 0), Vector3d(half_m, 0, 0)},
+                   motion.from * crossing(motion.opens_from_rad),
+                   motion.to * crossing(motion.opens_to_rad)};
 }
 
 /// By signed volumes: what passes exactly through a border meets.
@@ -38,7 +62,8 @@ bool edgeMeets(const std::array<Vector3d, 2>& edge, const std::array<Vector3d, 2
 bool ThreadBlades::beginTick(const ToolMotions& motions) {
   motions_ = motions;
   before_m_.clear();
-  any_ = std::any_of(motions.begin(), motions.end(), cuts);
+  any_ = false;
+  for (size_t i = 0; i < styluses_.size(); ++i) any_ = any_ || edgeOf(motions[i], styluses_[i]);
   return any_;
 }
 
@@ -47,12 +72,11 @@ std::vector<size_t> ThreadBlades::met(size_t thread, const std::vector<Vector3d>
   if (!any_) return out;
   const std::vector<Vector3d>& before_m = before_m_[thread];
   for (size_t s = 0; s < styluses_.size(); ++s) {
-    if (!cuts(motions_[s])) continue;
-    const BladeSpan span = bladeSpan(styluses_[s].cut);
-    const std::array<Vector3d, 2> edge = {Vector3d(0, 0, span.low_m), Vector3d(0, 0, span.high_m)};
-    const Pose from = motions_[s].from.inverse(), to = motions_[s].to.inverse();
+    const std::optional<MovedEdge> edge = edgeOf(motions_[s], styluses_[s]);
+    if (!edge) continue;
+    const Pose from = edge->from.inverse(), to = edge->to.inverse();
     for (size_t i = 0; i + 1 < places_m.size(); ++i) {
-      if (edgeMeets(edge, {from * before_m[i], from * before_m[i + 1]}, {to * places_m[i], to * places_m[i + 1]}))
+      if (edgeMeets(edge->ends, {from * before_m[i], from * before_m[i + 1]}, {to * places_m[i], to * places_m[i + 1]}))
         out.push_back(i);
     }
   }

@@ -15,7 +15,7 @@ namespace viscera {
 bool edgeMeets(const std::array<Vector3d, 2>& edge, const std::array<Vector3d, 2>& from,
                const std::array<Vector3d, 2>& to);
 
-/// Blades that part threads: styluses in mode cut.
+/// Blades that part threads: styluses in mode cut, and scissors as they close.
 class ThreadBlades {
  public:
   explicit ThreadBlades(const std::vector<StylusConfig>& styluses) : styluses_(styluses) {}

@@ -72,6 +72,27 @@ TEST(ThreadBlades, PartThreadsWhereTheyMeetThem) {
   EXPECT_EQ(threads.chain(0).nodes(), nodes);
 }
 
+TEST(ThreadBlades, ScissorsPartWhatIsBetweenThemAsTheyClose) {
+  const auto closing = [](double from_rad, double to_rad) {
+    ToolMotions out;
+    out[0].present = true;
+    out[0].mode = ToolMode::kScissors;
+    out[0].from.position_m = out[0].to.position_m = Vector3d(0.01, 0, -0.006);
+    out[0].from.orientation = out[0].to.orientation =
+        rotationFromDegrees({0, 0, 90});  // the thread is across the mouth
+    out[0].opens_from_rad = from_rad;
+    out[0].opens_to_rad = to_rad;
+    return out;
+  };
+  ThreadBodies threads(taut());
+  threads.step(closing(0.6, 0.6), {});  // they stand
+  EXPECT_EQ(threads.count(), 1U);
+  threads.step(closing(0.6, 0.065), {});  // not as far as the thread
+  EXPECT_EQ(threads.count(), 1U);
+  threads.step(closing(0.065, 0.03), {});
+  EXPECT_EQ(threads.count(), 2U);
+}
+
 TEST(ThreadBlades, PartAsManyAsTheyMayAndLeaveShortEndsWhole) {
   ThreadBodies threads(taut());
   for (int round = 0; round < 3; ++round) {

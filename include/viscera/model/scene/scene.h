@@ -34,7 +34,16 @@ enum class Integrator { kLeapfrog, kVerletPaper, kPd, kMultigrid, kAuto };
 /// What a simulation begins with: everything at rest, or hanging in its weight.
 enum class SolverStart { kRest, kEquilibrium };
 enum class Backend { kAuto, kGpu, kCpu };
-enum class ToolMode { kNone = 0, kProbe = 1, kGrab = 2, kCut = 3, kCutParticles = 4, kSuction = 5, kNeedle = 6 };
+enum class ToolMode {
+  kNone = 0,
+  kProbe = 1,
+  kGrab = 2,
+  kCut = 3,
+  kCutParticles = 4,
+  kSuction = 5,
+  kNeedle = 6,
+  kScissors = 7
+};
 
 /// What a cell of a lattice resists its deformation with (physics.md 1).
 enum class Cells {
@@ -199,6 +208,13 @@ struct CutParticlesConfig {
   double eraser_radius_m = 0.002;
 };
 
+/// Two blades on a pivot, which is behind their tips, on the shaft; they open across it, along x of the stylus.
+struct ScissorsConfig {
+  double blade_length_m = 0.012;  ///< from the pivot to the tips
+  double opening_deg = 40;        ///< from blade to blade, when they begin to close
+  double closing_s = 0.3;
+};
+
 struct SuctionConfig {
   double radius_m = 0.006;
   double max_force_n = 1;
@@ -215,6 +231,7 @@ struct StylusConfig {
   CutConfig cut;  ///< its blade is that of cut_particles too
   CutParticlesConfig cut_particles;
   SuctionConfig suction;
+  ScissorsConfig scissors;
   double max_force_n = 5;
   double max_force_rate_n_per_s = 100;
   double max_torque_nm = 0.2;
