@@ -11,7 +11,7 @@ import unittest
 import rospy
 import rostest
 from geometry_msgs.msg import PoseStamped
-from rviz_screen import Screen, rviz
+from rviz_screen import MOUSE_SIGN, Screen, rviz
 from sensor_msgs.msg import Joy
 from sent_ball import RADIUS_M, Sender
 from simulator_watch import Latest, wait_until
@@ -20,7 +20,6 @@ CONFIG = os.path.join(subprocess.check_output(["rospack", "find", "viscera"], te
                       "config", "viscera_plugin.rviz")
 LIMIT_S = 60      # software rendering on a busy machine
 NEAR_M = 0.001    # of the ball's facets, and of a pixel at the focus of the view
-SIGN = (240, 228, 66)  # of the tool's button
 STEP_M = 0.001    # of the wheel, in CONFIG
 
 
@@ -28,8 +27,8 @@ class RvizMouseTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.screen = Screen()
-        cls.sender = Sender()
-        cls.rviz = rviz(CONFIG, lambda: cls.sender.surface.get_num_connections())
+        cls.rviz = rviz(CONFIG, lambda: cls.screen.find(MOUSE_SIGN))
+        cls.sender = Sender()  # now: as it begins, rviz subscribes several times, and what comes then may be lost
         cls.pose = Latest("left/measured_cp", PoseStamped)
         cls.pressed = {1: [], 2: []}
         cls.buttons = [Latest("left/button%d" % b, Joy, lambda joy, b=b: cls.pressed[b].append(joy.buttons[0]),
@@ -65,10 +64,11 @@ class RvizMouseTest(unittest.TestCase):
         return (int(columns.mean()), int(rows.mean())) if len(rows) > 10000 else None
 
     def test_mouse(self):
+        wait_until(lambda: self.sender.surface.get_num_connections(), LIMIT_S, "subscription of rviz")
         self.sender.topology(1)
         self.sender.vertices(1)
         middle = wait_until(self.ball, LIMIT_S, "ball")
-        self.screen.click(*wait_until(lambda: self.screen.find(SIGN), LIMIT_S, "tool in the toolbar"))
+        self.screen.click(*wait_until(lambda: self.screen.find(MOUSE_SIGN), LIMIT_S, "tool in the toolbar"))
         self.screen.do("mousemove", middle[0], middle[1])
         self.screen.do("mousemove", middle[0] + 1, middle[1])
         self.at(-0.01)

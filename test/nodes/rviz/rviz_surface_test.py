@@ -10,7 +10,7 @@ import unittest
 
 import rospy
 import rostest
-from rviz_screen import VIEW, Screen, rviz
+from rviz_screen import MOUSE_SIGN, VIEW, Screen, rviz
 from sent_ball import Sender
 from simulator_watch import wait_until
 
@@ -26,8 +26,8 @@ class RvizSurfaceTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.screen = Screen()
-        cls.sender = sender = Sender()
-        cls.rviz = rviz(CONFIG, lambda: sender.surface.get_num_connections() and sender.change.get_num_connections())
+        cls.rviz = rviz(CONFIG, lambda: cls.screen.find(MOUSE_SIGN))
+        cls.sender = Sender()  # now: as it begins, rviz subscribes several times, and what comes then may be lost
 
     @classmethod
     def tearDownClass(cls):
@@ -47,6 +47,8 @@ class RvizSurfaceTest(unittest.TestCase):
 
     def test_a_surface_its_changes_and_wrong_messages(self):
         sender = self.sender
+        wait_until(lambda: sender.surface.get_num_connections() and sender.change.get_num_connections(), LIMIT_S,
+                   "subscription of rviz in: " + self.rviz.output)
         sender.topology(1, [0, 1, 10**9] * 4)  # no such vertex
         sender.vertices(1)
         sender.vertices(1, positions_m=[float("nan")] * 3 * len(sender.points))

@@ -14,6 +14,7 @@ from simulator_watch import wait_until
 WIDTH, HEIGHT = 1280, 900
 VIEW = slice(70, 760), slice(370, 840)  # rows and columns of the scene, in config/viscera_plugin.rviz
 START_LIMIT_S = 60  # software rendering on a busy machine
+MOUSE_SIGN = (240, 228, 66)  # of the button of viscera/Mouse, in the toolbar
 SIGN_PIXELS = 40  # of the signs of 16 by 16 pixels, without their smooth edges
 
 # Of the environment of an rviz that tells how often it draws surfaces.
