@@ -123,7 +123,7 @@ bool resistsBlades(const std::filesystem::path& scene) {
 }
 
 /// Shipped scenes are what they are, but for hearts, which are coarser than a user would want to look at them, and for
-/// blades that tissue resists, which the reference says it has not: without the resistance it takes their scene too.
+/// blades that tissue resists and threads, which the reference says it has not: without them it takes their scene too.
 TEST_F(RunReference, RefusesNoSceneThatComesWithIt) {
   size_t scenes = 0;
   for (const auto& file : std::filesystem::directory_iterator(VISCERA_SOURCE_DIR "/config/scenes")) {
@@ -136,6 +136,7 @@ TEST_F(RunReference, RefusesNoSceneThatComesWithIt) {
       const bool counted = name == "pig_heart_size";
       options.insert(options.end(), {"--set", counted ? "bodies[0].target_nodes=2000" : "bodies[0].spacing_m=0.01"});
     }
+    if (!loadScene(file.path().string()).threads.empty()) options.insert(options.end(), {"--set", "threads=[]"});
     if (resistsBlades(file.path())) options.insert(options.end(), {"--set", "bodies[0].material.cut={}"});
     const Json metrics = lastLine(viscera(options, {kNoDevice}));
     EXPECT_GT(metrics["nodes"], 0);

@@ -92,19 +92,6 @@ void takeToughnesses(const std::string& file, BodyConfig& body) {
   }
 }
 
-}  // namespace
-
-KnotKind knotNamed(const std::string& name) {
-  std::string all;
-  for (size_t k = 1; k < kKnotNames.size(); ++k) {
-    if (name == kKnotNames[k]) return static_cast<KnotKind>(k);
-    all += (k > 1 ? ", " : "") + std::string(kKnotNames[k]);
-  }
-  throw SceneError("there is no knot '" + name + "'; there are " + all);
-}
-
-namespace {
-
 void requireThread(const std::string& file, const ThreadConfig& thread) {
   const std::string where = file + ": thread '" + thread.name + "': ";
   if (thread.radius_m > 0 && thread.radius_m < kThinnest_m)

@@ -65,7 +65,7 @@ void visitFields(V& v, SuctionConfig& c) {
 
 template <class V>
 void visitFields(V& v, ScissorsConfig& c) {
-  v.number("blade_length_m", c.blade_length_m, {1e-3, 0.2}, "m", "from the pivot, which is behind the tips, to these");
+  v.number("blade_length_m", c.blade_length_m, kTipReach, "m", "from the pivot, which is behind the tips, to these");
   v.number("opening_deg", c.opening_deg, {5, 120}, "deg", "from blade to blade, when they begin to close");
   v.number("closing_s", c.closing_s, {0.02, 10}, "s", "time from open to closed, while the button is held");
 }
