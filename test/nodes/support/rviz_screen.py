@@ -13,7 +13,7 @@ from simulator_watch import wait_until
 
 WIDTH, HEIGHT = 1280, 900
 VIEW = slice(70, 760), slice(370, 840)  # rows and columns of the scene, in config/viscera_plugin.rviz
-START_LIMIT_S = 60  # software rendering on a busy machine
+START_LIMIT_S = 40  # software rendering on a busy machine
 MOUSE_SIGN = (240, 228, 66)  # of the button of viscera/Mouse, in the toolbar
 SIGN_PIXELS = 40  # of the signs of 16 by 16 pixels, without their smooth edges
 
@@ -75,13 +75,19 @@ class Screen:
 
 
 def rviz(config, shows):
-    """rviz, once shows() is true. It was seen to end by SIGSEGV before that, once in some 300 starts with a software
-    renderer, and why is not known: it is begun again then, and the output says so. Twice in a row it is broken."""
+    """rviz, once shows() is true. With a software renderer it was seen to end by SIGSEGV before that, once in some 300 starts,
+    and to stand without drawing what was sent, once in ten beside others; why is not known: it is begun again then, and the
+    output says so. Twice in a row it is broken."""
     for last in (False, True):
         program = Program(["rosrun", "rviz", "rviz", "-d", config, "-f", "tissue"])
         ended = lambda: program.process.poll() is not None
-        wait_until(lambda: ended() or shows(), START_LIMIT_S, "begin of rviz in: " + program.output)
-        if not ended():
-            return program
-        print("rviz ended with %d as it began: %s" % (program.process.returncode, program.output), flush=True)
-        assert program.process.returncode < 0 and not last, "rviz does not begin"
+        try:
+            wait_until(lambda: ended() or shows(), START_LIMIT_S, "sign of rviz")
+            if not ended():
+                return program
+        except AssertionError:
+            if last:
+                raise
+        print("rviz is begun again, it ended with %s: %s" % (program.process.poll(), program.output), flush=True)
+        program.end()
+    raise AssertionError("rviz does not begin")
