@@ -4,6 +4,7 @@
 
 #include <ostream>
 
+#include "bench/harness/machine/machine.h"
 #include "gpu/stage_clock.h"
 #include "session/inline_view.h"
 #include "solver/gpu/gpu_solver.h"
@@ -12,7 +13,6 @@ namespace viscera::bench {
 
 namespace {
 
-constexpr int kWarmUpTicks = 2;
 constexpr int kTicks = 24;
 
 /// Middle of the first body's side at +x, where a probe touches the cube.
@@ -65,7 +65,7 @@ void printStages(std::ostream& out, const Model& model, Scene scene) {
     view.collect(pictures, true);
     solver.pollStats(stats, true);
   };
-  for (int t = 0; t < kWarmUpTicks; ++t) tick();
+  warmUpGpu(tick);
   gpu::StageClock clock;
   for (int t = 0; t < kTicks; ++t) tick();
   const auto& times = clock.collect(true);

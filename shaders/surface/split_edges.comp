@@ -24,6 +24,8 @@ layout(std430, binding = kBindSkinPositions) writeonly buffer PositionsBuffer { 
 layout(std430, binding = kBindSkinNormals) buffer NormalsBuffer { uint normals[]; };
 #endif
 
+const float kAsNear = 1e-5f;  // cosines closer than this are one: rounding shall not choose between two triangles
+
 /// The rest offset d as the triangle carries it that is next to it: turned as this is, but not stretched.
 vec3 turned(RingVertex v, vec3 d) {
   float nearest = -2.0f;
@@ -32,7 +34,7 @@ vec3 turned(RingVertex v, vec3 d) {
     if (!isWhole(rings[i])) continue;
     vec3 middle = restEdge(v.slot, rings[i].slot1) + restEdge(v.slot, rings[i].slot2);
     float cosine = dot(direction(middle, vec3(0.0f)), direction(d, vec3(0.0f)));
-    if (cosine > nearest) {
+    if (cosine > nearest + kAsNear) {
       nearest = cosine;
       best = i;
     }

@@ -164,6 +164,12 @@ std::string loadFunctions() {
   while (glGetError() != GL_NO_ERROR) {
   }  // glewInit may leave GL_INVALID_ENUM behind on a core context
   noteErrors();
+  // As many threads as the driver likes: it is told of all programs before it is asked for any (gpu/program.h).
+  if (glMaxShaderCompilerThreadsKHR) {
+    glMaxShaderCompilerThreadsKHR(0xFFFFFFFF);
+  } else if (glMaxShaderCompilerThreadsARB) {
+    glMaxShaderCompilerThreadsARB(0xFFFFFFFF);
+  }
   forgetDriverLimits();
   try {
     requireLimits(driverLimits(), neededLimits());

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "gpu/fence.h"
 
+#include <algorithm>
 #include <chrono>
 #include <sstream>
 
@@ -11,16 +12,19 @@
 namespace viscera::gpu {
 
 void awaitFence(const std::function<FenceState(uint64_t nanoseconds)>& poll, const char* what, double longest_s) {
+  using Clock = std::chrono::steady_clock;
   constexpr uint64_t kOnce_ns = 1000000000;
-  const auto begun = std::chrono::steady_clock::now();
-  for (;;) {
+  double waited_s = 0;
+  for (auto begun = Clock::now();;) {
     const FenceState state = poll(kOnce_ns);
     if (state == FenceState::kPassed) return;
     if (state == FenceState::kFailed) {
       throw GpuError(std::string("waiting for the GPU failed (") + what + "): " + glErrorText(glGetError()));
     }
-    const std::chrono::duration<double> waited = std::chrono::steady_clock::now() - begun;
-    if (waited.count() < longest_s) continue;
+    const auto now = Clock::now();
+    waited_s += std::min(std::chrono::duration<double>(now - begun).count(), longest_s / 2);
+    begun = now;
+    if (waited_s < longest_s) continue;
     std::ostringstream out;
     out << "the GPU has not answered for " << longest_s << " s (" << what << "): it hangs, or was lost";
     throw GpuError(out.str());

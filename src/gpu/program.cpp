@@ -6,6 +6,7 @@
 #include <atomic>
 #include <cstring>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <set>
 #include <sstream>
@@ -93,25 +94,52 @@ std::string filesLegend(const Files& files) {
   return out;
 }
 
-uint32_t compileStage(GLenum stage, const std::string& name, const std::vector<std::string>& defines,
-                      std::vector<std::string>& uniforms) {
+/// A shader that the driver has been told to compile.
+struct Stage {
+  uint32_t id;
+  std::string name;
   Files files;
-  const std::string source = expanded(name, defines, files);
-  for (std::string& uniform : declaredUniforms(source)) uniforms.push_back(std::move(uniform));
-  const char* text = source.c_str();
-  const uint32_t shader = glCreateShader(stage);
-  countObject();
-  glShaderSource(shader, 1, &text, nullptr);
-  glCompileShader(shader);
+};
+
+/// @throws GpuError  it does not compile
+void finishStage(const Stage& stage) {
   GLint ok = 0, length = 0;
-  glGetShaderiv(shader, GL_COMPILE_STATUS, &ok);
-  if (ok) return shader;
-  glGetShaderiv(shader, GL_INFO_LOG_LENGTH, &length);
+  glGetShaderiv(stage.id, GL_COMPILE_STATUS, &ok);
+  if (ok) return;
+  glGetShaderiv(stage.id, GL_INFO_LOG_LENGTH, &length);
   std::string log(static_cast<size_t>(length) + 1, '\0');
-  glGetShaderInfoLog(shader, length, nullptr, log.data());
-  glDeleteShader(shader);
-  throw GpuError("shader '" + name + "' does not compile (files: " + filesLegend(files) + "):\n" + log.c_str());
+  glGetShaderInfoLog(stage.id, length, nullptr, log.data());
+  throw GpuError("shader '" + stage.name + "' does not compile (files: " + filesLegend(stage.files) + "):\n" +
+                 log.c_str());
 }
+
+}  // namespace
+
+/// Of a program that nobody has asked for yet.
+struct UnfinishedProgram {
+  std::vector<Stage> stages;
+  std::vector<std::string> uniforms;  ///< that its shaders declare, as often as they like
+
+  UnfinishedProgram() = default;
+  UnfinishedProgram(const UnfinishedProgram&) = delete;
+  UnfinishedProgram& operator=(const UnfinishedProgram&) = delete;
+  ~UnfinishedProgram() {
+    for (const Stage& stage : stages) glDeleteShader(stage.id);
+  }
+  void compile(GLenum kind, const std::string& name, const std::vector<std::string>& defines) {
+    Stage stage{0, name, {}};
+    const std::string source = expanded(name, defines, stage.files);
+    for (std::string& uniform : declaredUniforms(source)) uniforms.push_back(std::move(uniform));
+    const char* text = source.c_str();
+    stage.id = glCreateShader(kind);
+    countObject();
+    glShaderSource(stage.id, 1, &text, nullptr);
+    glCompileShader(stage.id);
+    stages.push_back(std::move(stage));
+  }
+};
+
+namespace {
 
 uint32_t keyOf(const std::string& name) {
   uint32_t key = UniformName::kKeyStart;
@@ -183,10 +211,10 @@ Program Program::compute(const std::string& name, const std::vector<std::string>
   const std::vector<std::string> defines = withLoads(name, features);
   Program out;
   out.name_ = name;
-  std::vector<std::string> uniforms;
   requireStorageBlocks(driverLimits(), name, declaredStorageBlocks(shaderSource(name, defines)));
-  const uint32_t stage = compileStage(GL_COMPUTE_SHADER, name, defines, uniforms);
-  out.linkStages({stage}, uniforms);
+  out.unfinished_ = std::make_unique<UnfinishedProgram>();
+  out.unfinished_->compile(GL_COMPUTE_SHADER, name, defines);
+  out.link();
   return out;
 }
 
@@ -194,19 +222,24 @@ Program Program::graphics(const std::string& vertex, const std::string& fragment
                           const std::vector<std::string>& defines) {
   Program out;
   out.name_ = vertex + " + " + fragment;
-  std::vector<std::string> uniforms;
-  const uint32_t first = compileStage(GL_VERTEX_SHADER, vertex, defines, uniforms);
-  out.linkStages({first, compileStage(GL_FRAGMENT_SHADER, fragment, defines, uniforms)}, uniforms);
+  out.unfinished_ = std::make_unique<UnfinishedProgram>();
+  out.unfinished_->compile(GL_VERTEX_SHADER, vertex, defines);
+  out.unfinished_->compile(GL_FRAGMENT_SHADER, fragment, defines);
+  out.link();
   return out;
 }
 
-/// @param declared  names of uniforms, as often as they like
-void Program::linkStages(const std::vector<uint32_t>& stages, const std::vector<std::string>& declared) {
+void Program::link() {
   id_ = glCreateProgram();
   countObject();
-  for (uint32_t stage : stages) glAttachShader(id_, stage);
+  for (const Stage& stage : unfinished_->stages) glAttachShader(id_, stage.id);
   glLinkProgram(id_);
-  for (uint32_t stage : stages) glDeleteShader(stage);
+  label_ = labelOf(name_);
+}
+
+void Program::finish() const {
+  if (!unfinished_) return;
+  for (const Stage& stage : unfinished_->stages) finishStage(stage);
   GLint ok = 0, length = 0;
   glGetProgramiv(id_, GL_LINK_STATUS, &ok);
   if (!ok) {
@@ -215,14 +248,13 @@ void Program::linkStages(const std::vector<uint32_t>& stages, const std::vector<
     glGetProgramInfoLog(id_, length, nullptr, log.data());
     throw GpuError("program '" + name_ + "' does not link:\n" + log.c_str());
   }
-  label_ = labelOf(name_);
   refuseSharedNumbers(bindingsOf(id_), name_);
   if (checks_dispatches) {
     const std::lock_guard<std::mutex> lock(unchecked_mutex);
     unchecked.insert(id_);
   }
   std::map<std::string, Uniform> by_name;
-  for (const std::string& name : declared) by_name[name] = {keyOf(name), -1, 0, 0, 0};
+  for (const std::string& name : unfinished_->uniforms) by_name[name] = {keyOf(name), -1, 0, 0, 0};
   size_t words = 0;
   for (const ActiveUniform& active : activeUniforms(id_)) {
     const size_t own = wordsOf(active.type) * static_cast<size_t>(active.count);
@@ -237,7 +269,10 @@ void Program::linkStages(const std::vector<uint32_t>& stages, const std::vector<
     }
     uniforms_.push_back(uniform);
   }
+  unfinished_.reset();
 }
+
+Program::Program() = default;
 
 Program::~Program() {
   if (id_) glDeleteProgram(id_);
@@ -247,6 +282,7 @@ Program::Program(Program&& other) noexcept
     : id_(std::exchange(other.id_, 0)),
       name_(std::move(other.name_)),
       label_(std::exchange(other.label_, nullptr)),
+      unfinished_(std::move(other.unfinished_)),
       uniforms_(std::move(other.uniforms_)),
       values_(std::move(other.values_)) {}
 
@@ -254,12 +290,14 @@ Program& Program::operator=(Program&& other) noexcept {
   std::swap(id_, other.id_);
   name_.swap(other.name_);
   std::swap(label_, other.label_);
+  unfinished_.swap(other.unfinished_);
   uniforms_.swap(other.uniforms_);
   values_.swap(other.values_);
   return *this;
 }
 
 void Program::use() const {
+  finish();
   glUseProgram(id_);
   in_use = label_;
 }
@@ -303,6 +341,7 @@ void Program::storageBarrier() {
 
 /// Notes a value. OpenGL's own start, zero, is known too. @return null: nothing is to be done
 const Program::Uniform* Program::changed(UniformName name, uint32_t type, const void* value, size_t words) const {
+  finish();
   for (const Uniform& uniform : uniforms_) {
     if (uniform.key != name.key()) continue;
     if (uniform.location < 0) return nullptr;

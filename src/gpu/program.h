@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -45,11 +46,13 @@ class UniformName {
 };
 
 struct ProgramLabel;
+struct UnfinishedProgram;
 
-/// A linked program. Compile and link errors throw GpuError with file, line and the driver's log.
+/// A program. The driver is told to compile it when it is made and asked whether it could when it is first used, so
+/// that a driver with threads compiles all programs of a session side by side.
 class Program {
  public:
-  Program() = default;
+  Program();
   /// Compute program from the shader `name`, without its folder. No two blocks or textures may have the same binding.
   /// @param defines  "NAME" or "NAME value", one #define each
   static Program compute(const std::string& name, const std::vector<std::string>& defines = {});
@@ -60,6 +63,9 @@ class Program {
   Program(Program&& other) noexcept;
   Program& operator=(Program&& other) noexcept;
 
+  /// Waits until the driver has compiled it; what a use does first.
+  /// @throws GpuError  it does not compile or link: file, line and the driver's log
+  void finish() const;
   void use() const;
   /// Enough groups of `group_size` for `invocations`; none is launched for 0. The program must be in use.
   /// @throws GpuError  the first time that this kernel runs: OpenGL has an error pending
@@ -86,7 +92,10 @@ class Program {
   void setVectors(UniformName name, const float* values, size_t components, size_t count) const;
   /// @}
   explicit operator bool() const { return id_ != 0; }
-  uint32_t id() const { return id_; }
+  uint32_t id() const {
+    finish();
+    return id_;
+  }
 
  private:
   /// Of a name that the sources declare.
@@ -96,13 +105,14 @@ class Program {
     uint32_t type;
     size_t first, words;  ///< of its value in values_
   };
-  void linkStages(const std::vector<uint32_t>& stages, const std::vector<std::string>& declared);
+  void link();
   const Uniform* changed(UniformName name, uint32_t type, const void* value, size_t words) const;
 
   uint32_t id_ = 0;
   std::string name_;
   ProgramLabel* label_ = nullptr;
-  std::vector<Uniform> uniforms_;
+  mutable std::unique_ptr<UnfinishedProgram> unfinished_;  ///< null once it is finished
+  mutable std::vector<Uniform> uniforms_;
   mutable std::vector<uint32_t> values_;
 };
 

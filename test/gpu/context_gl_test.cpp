@@ -97,7 +97,7 @@ TEST_F(Gpu, MissingShaderIsNamed) {
 
 TEST_F(Gpu, CompileErrorCarriesTheDriversLog) {
   try {
-    Program::compute("lattice.glsl", {"kBrickEdge broken("});  // a define that breaks the source
+    Program::compute("lattice.glsl", {"kBrickEdge broken("}).finish();  // a define that breaks the source
     FAIL() << "compiled a broken shader";
   } catch (const GpuError& e) {
     EXPECT_NE(std::string(e.what()).find("layout.h"), std::string::npos) << e.what();

@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <thread>
+
 #include "gpu/buffer.h"
 #include "gpu/fence.h"
 #include "gpu/gl.h"
@@ -44,6 +47,16 @@ TEST(GpuFence, ThatNeverPassesIsWaitedForSoLongAndNoLonger) {
   EXPECT_NO_THROW(awaitFence([](uint64_t) { return FenceState::kPassed; }, "an image"));
 }
 
+TEST(GpuFence, IsAskedOnceMoreAfterAProcessWasStopped) {
+  int polls = 0;
+  const auto slept = [&polls](uint64_t) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(30));
+    return ++polls == 1 ? FenceState::kPending : FenceState::kPassed;
+  };
+  EXPECT_NO_THROW(awaitFence(slept, "an image", 0.01));
+  EXPECT_EQ(polls, 2);
+}
+
 TEST(GpuLimits, OfAKernelsBlocksAreNamedWithItAndWhatItNeeds) {
   Limits driver = neededLimits();
   EXPECT_NO_THROW(requireStorageBlocks(driver, "x.comp", driver.storage_blocks));
@@ -63,7 +76,7 @@ const std::vector<std::string> kAhead = {"GROUP_SIZE 64", "LATTICE", "AHEAD", "I
 
 TEST_F(GpuErrors, ComeBeforeAKernelHasMoreBlocksThanTheDriverAllows) {
   Limits small = driverLimits();
-  EXPECT_NO_THROW(Program::compute("collision_note.comp", kAhead));
+  EXPECT_NO_THROW(Program::compute("collision_note.comp", kAhead).finish());
   small.storage_blocks = 8;
   pretendDriverLimits(small);
   const std::string said = messageOf<GpuError>([] { Program::compute("collision_note.comp", kAhead); });

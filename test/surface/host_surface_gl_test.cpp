@@ -71,7 +71,9 @@ class HostSurfaceTest : public ::testing::Test {
     EXPECT_EQ(mesh.topology->triangles, rig_.surface.skin().shown(rig_.surface.alive().read().data())->triangles);
     const std::vector<Vector3d> positions = rig_.positions(), normals = rig_.normals();
     for (size_t v = 0; v < mesh.vertices(); ++v) {
-      ASSERT_LT((mesh.position_m(v).cast<double>() - positions[v]).norm(), kPlace_m) << "vertex " << v;
+      ASSERT_LT((mesh.position_m(v).cast<double>() - positions[v]).norm(), kPlace_m)
+          << "vertex " << v << ": " << mesh.position_m(v).transpose() << " here, " << positions[v].transpose()
+          << " on the GPU";
       ASSERT_LT((unpackNormal(mesh.normals[v]).cast<double>() - normals[v]).norm(), kNormalError) << "vertex " << v;
     }
   }

@@ -31,18 +31,26 @@ constexpr double kSpringFlop = 37, kDashpotFlop = 16, kNodeFlop = 32;
 constexpr double kVolumeFlop = 143, kMomentsFlop = 810 + 4 * 21, kGatherFlop = 8 * 18, kCornersFlop = 8 * 3;
 // A list's entry, the node's bits, and vectors of four floats: u and v in and out; u in; 3 or 8 forces of a cell.
 constexpr double kListed = 4 + 8, kVector = 16;
+// Tables: of nine springs and a mass; of a cell.
+constexpr double kStepTables = 9 * 4 + 4, kCellTables = 16;
 
 /// What the tissue is made of, besides springs.
 struct Tissue {
   const char* name;
   double dashpot_ratio, poisson_ratio;
   Cells cells;
+  bool parts;  ///< strengths of springs and cells and masses in tables, as where parts differ or cells are tissue in
+               ///< part
+  bool probe;  ///< one is there, beyond reach
 };
-constexpr Tissue kTissues[] = {{"springs", 0, 0.25, Cells::kSprings},
-                               {"springs, dashpot", 0.2, 0.25, Cells::kSprings},
-                               {"springs, nu 0.45", 0, 0.45, Cells::kSprings},
-                               {"springs, nu 0.45, dashpot", 0.2, 0.45, Cells::kSprings},
-                               {"by moments, nu 0.45, dashpot", 0.2, 0.45, Cells::kMoments}};
+constexpr Tissue kTissues[] = {{"springs", 0, 0.25, Cells::kSprings, false, false},
+                               {"springs, dashpot", 0.2, 0.25, Cells::kSprings, false, false},
+                               {"springs, dashpot, tables", 0.2, 0.25, Cells::kSprings, true, false},
+                               {"springs, nu 0.45", 0, 0.45, Cells::kSprings, false, false},
+                               {"springs, nu 0.45, dashpot", 0.2, 0.45, Cells::kSprings, false, false},
+                               {"by moments, nu 0.45, dashpot", 0.2, 0.45, Cells::kMoments, false, false},
+                               {"the same, tables", 0.2, 0.45, Cells::kMoments, true, false},
+                               {"the same, tables, a probe", 0.2, 0.45, Cells::kMoments, true, true}};
 
 bool hasCells(const Tissue& tissue) {
   return tissue.poisson_ratio != 0.25 || tissue.cells == Cells::kMoments;
@@ -55,6 +63,7 @@ double cellVectors(const Tissue& tissue) {
 Cost costOfStep(const Tissue& tissue) {
   Cost out{18 * kSpringFlop + kNodeFlop, kListed + 4 * kVector};
   if (tissue.dashpot_ratio > 0) out.flop += 18 * kDashpotFlop;
+  if (tissue.parts) out.bytes += kStepTables;
   if (!hasCells(tissue)) return out;
   out.flop += tissue.cells == Cells::kMoments ? kCornersFlop : kGatherFlop;
   out.bytes += cellVectors(tissue) * kVector;
@@ -63,24 +72,32 @@ Cost costOfStep(const Tissue& tissue) {
 
 Cost costOfCells(const Tissue& tissue) {
   return {kVolumeFlop + (tissue.cells == Cells::kMoments ? kMomentsFlop : 0),
-          kListed + kVector + cellVectors(tissue) * kVector};
+          kListed + kVector + cellVectors(tissue) * kVector + (tissue.parts ? kCellTables : 0)};
 }
 
 Specimen specimenWith(const Tissue& tissue, int edge) {
   MaterialConfig material = specimenMaterial(tissue.dashpot_ratio);
   material.poisson_ratio = tissue.poisson_ratio;
   material.cells = tissue.cells;
-  return cubeOf(edge, material);
+  Specimen cube = cubeOf(edge, material);
+  if (tissue.parts) {  // one that no cell belongs to, so that nothing else changes
+    Body& body = cube.model.bodies[0];
+    body.lattice.part_names.emplace_back("none");
+    body.parts.push_back({"none"});
+  }
+  if (tissue.probe) cube.scene.styluses.resize(1);
+  return cube;
 }
 
 /// Seconds per substep of the stages of a tick, each in the best of the rounds.
 std::array<double, gpu::kStages> timeStages(const Specimen& cube) {
   GpuSolver solver(cube.model, cube.scene);
   solver.writeState(cube.start);
-  const auto run = [&solver](int ticks) {
+  const ToolMotions motions = cube.scene.styluses.empty() ? ToolMotions() : probeAt(Vector3d(10, 0, 0));
+  const auto run = [&](int ticks) {
     layout::TickStats stats;
     for (int t = 0; t < ticks; ++t) {
-      solver.step({});
+      solver.step(motions);
       while (solver.pollStats(stats, false)) {
       }
     }

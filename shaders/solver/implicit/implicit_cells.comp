@@ -39,5 +39,5 @@ void main() {
     majoriser = volumeMajoriser(bulk, s, edge_lengths, reach(h, iteration), h);
     f = cellForces(at, s, volumePressure(bulk, s.e) * 0.25f / h, h, bulk, cellRigidity(slot, body), cellMoments(slot));
   }
-  LEAVE_CELL_FORCES(cell_vectors * slot, f, majoriser)
+  LEAVE_CELL_FORCES(slot, f, majoriser)
 }

@@ -23,7 +23,7 @@ layout(std430, binding = kBindCells) readonly buffer CellsBuffer { uint cells[];
 layout(std430, binding = kBindCellForces) writeonly buffer CellForcesBuffer { vec4 cell_forces_out[]; };
 uniform uint x_vector;
 
-void store(uint slot, CellForces f) { LEAVE_CELL_FORCES(cell_vectors * slot, f, 0.0f) }
+void store(uint slot, CellForces f) { LEAVE_CELL_FORCES(slot, f, 0.0f) }
 
 #ifdef PRODUCT
 /// s_mn = direction of edge m . H_n, by m.

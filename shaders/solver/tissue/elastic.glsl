@@ -33,13 +33,25 @@ float surfaceDepth(uint slot) { return 0.0f; }
 float nodeMass(uint slot, NodeBits bits, BodyParams body) { return float((bits.lo >> kMassShift) & 15u) * body.mass_eighth_kg; }
 #endif
 #ifdef PARTS
-layout(binding = kUnitSpringStiffness) uniform samplerBuffer spring_stiffness;  // [9 * slots]
-layout(binding = kUnitCellBulk) uniform samplerBuffer cell_bulk;                // [slots] with MOMENTS: y rigidity, z fill
-float cellBulk(uint slot, BodyParams body) { return texelFetch(cell_bulk, int(slot)).x; }
+#ifdef LOADS
+layout(std430, binding = kBindSpringStiffness) restrict readonly buffer SpringStiffnessIn { float spring_stiffness[]; };  // [9 * slots]
+float stiffnessAt(uint place) { return spring_stiffness[place]; }
+#else
+layout(binding = kUnitSpringStiffness) uniform samplerBuffer spring_stiffness;  // the same
+float stiffnessAt(uint place) { return texelFetch(spring_stiffness, int(place)).x; }
+#endif
+#if defined(LOADS) && defined(MOMENTS)
+layout(std430, binding = kBindCellStrengths) restrict readonly buffer CellStrengthsIn { vec4 cell_strengths[]; };  // [slots]
+vec4 cellStrengths(uint slot) { return cell_strengths[slot]; }
+#else
+layout(binding = kUnitCellBulk) uniform samplerBuffer cell_bulk;  // [slots] with MOMENTS: y rigidity, z fill
+vec4 cellStrengths(uint slot) { return texelFetch(cell_bulk, int(slot)); }
+#endif
+float cellBulk(uint slot, BodyParams body) { return cellStrengths(slot).x; }
 /// Stiffness [N/m] of a spring that is alive, the same number from both ends. @param far  slot of the other end
 float springStiffness(uint slot, uint far, uint spring, uint count, BodyParams body) {
   uint owner = (spring & 1u) == 0u ? slot : far;
-  return texelFetch(spring_stiffness, int(owner * (kSpringsPerNode / 2u) + (spring >> 1))).x;
+  return stiffnessAt(inPlanes(owner, spring >> 1, kSpringsPerNode / 2u));
 }
 #else
 float cellBulk(uint slot, BodyParams body) { return body.bulk_j; }
@@ -60,9 +72,9 @@ const uint cell_vectors = kMomentVectors;
 #ifdef PARTS
 layout(binding = kUnitCellMoments) uniform samplerBuffer cell_moments;  // [3 * (1 + fills)]
 /// mu h^3 times the cell's share [J]; 0 in bodies whose cells are springs only.
-float cellRigidity(uint slot, BodyParams body) { return texelFetch(cell_bulk, int(slot)).y; }
+float cellRigidity(uint slot, BodyParams body) { return cellStrengths(slot).y; }
 CellMoments cellMoments(uint slot) {
-  int fill = 3 * int(texelFetch(cell_bulk, int(slot)).z);
+  int fill = 3 * int(cellStrengths(slot).z);
   CellMoments t = {texelFetch(cell_moments, fill).xyz, texelFetch(cell_moments, fill + 1).xyz, texelFetch(cell_moments, fill + 2).xyz};
   return t;
 }
@@ -173,20 +185,23 @@ vec3 cornerSide(uint number) {
   return vec3((number & 1u) != 0u ? 1.0f : -1.0f, (number & 2u) != 0u ? 1.0f : -1.0f, (number & 4u) != 0u ? 1.0f : -1.0f);
 }
 
-// Leaves a cell's forces in cell_forces_out from `first` on, for volumeForce() of its corners. @param majoriser  of Jacobi's iteration [N/m], or 0
-#define LEAVE_CELL_FORCES(first, f, majoriser)                                                       \
+/// Place of one of a cell's vectors in cell_forces.
+uint cellVector(uint slot, uint vector) { return inPlanes(slot, vector, cell_vectors); }
+
+// Leaves a cell's forces in cell_forces_out, for volumeForce() of its corners. @param majoriser  of Jacobi's iteration [N/m], or 0
+#define LEAVE_CELL_FORCES(slot, f, majoriser)                                                        \
   if (has_moments) {                                                                                 \
     for (uint c = 0u; c < kMomentVectors; c += 2u) { /* the corners at x -1 and 1 */                  \
       vec3 s = cornerSide(c);                                                                        \
       vec3 even = s.y * f.b + s.z * f.c + (s.y * s.z) * f.hx;                                        \
       vec3 odd = f.a + s.y * f.hz + s.z * f.hy + (s.y * s.z) * f.hxyz;                               \
-      cell_forces_out[first + c] = vec4(odd - even, majoriser);                                      \
-      cell_forces_out[first + c + 1u] = vec4(-(even + odd), majoriser);                              \
+      cell_forces_out[cellVector(slot, c)] = vec4(odd - even, majoriser);                            \
+      cell_forces_out[cellVector(slot, c + 1u)] = vec4(-(even + odd), majoriser);                    \
     }                                                                                                \
   } else {                                                                                           \
-    cell_forces_out[first] = vec4(f.a, majoriser);                                                   \
-    cell_forces_out[first + 1u] = vec4(f.b, 0.0f);                                                   \
-    cell_forces_out[first + 2u] = vec4(f.c, 0.0f);                                                   \
+    cell_forces_out[cellVector(slot, 0u)] = vec4(f.a, majoriser);                                    \
+    cell_forces_out[cellVector(slot, 1u)] = vec4(f.b, 0.0f);                                         \
+    cell_forces_out[cellVector(slot, 2u)] = vec4(f.c, 0.0f);                                         \
   }
 
 /// Energy of a cell [J].
@@ -203,15 +218,16 @@ vec4 volumeForce(uint slot) {
 #define ADD_CELL(corner)                                                                                        \
   {                                                                                                             \
     bool exists;                                                                                                \
-    int cell = int(cell_vectors * cellAt(slot, corner, exists));                                                \
+    uint cell = cellAt(slot, corner, exists);                                                                   \
     IF_THERE(exists) {                                                                                          \
       if (has_moments) {                                                                                        \
-        vec4 of_corner = stateAt(cell_forces, cell + int(cornerNumber(corner)));                                \
+        vec4 of_corner = stateAt(cell_forces, int(cellVector(cell, cornerNumber(corner))));                     \
         sum += OF_THERE(exists, of_corner);                                                                     \
       } else {                                                                                                  \
-        vec4 pa = stateAt(cell_forces, cell);                                                                   \
+        vec4 pa = stateAt(cell_forces, int(cellVector(cell, 0u)));                                              \
         vec3 s = vec3(corner);                                                                                  \
-        vec3 force = s.x * xyz(pa) + s.y * xyz(stateAt(cell_forces, cell + 1)) + s.z * xyz(stateAt(cell_forces, cell + 2)); \
+        vec3 force = s.x * xyz(pa) + s.y * xyz(stateAt(cell_forces, int(cellVector(cell, 1u)))) +              \
+                     s.z * xyz(stateAt(cell_forces, int(cellVector(cell, 2u))));                                \
         sum += OF_THERE(exists, vec4(-force, pa.w));                                                            \
       }                                                                                                         \
     }                                                                                                           \

@@ -63,6 +63,10 @@ uint globalIndex() {
 
 ivec3 localCoord(uint slot) { return ivec3(slot & 3u, (slot >> 2) & 3u, (slot >> 4) & 3u); }
 
+/// Place of one of the numbers that a node has in an array of `planes` of them: brick by brick, each number in a plane of its own, so
+/// that nodes side by side read side by side.
+uint inPlanes(uint slot, uint plane, uint planes) { return ((slot >> 6) * planes + plane) * kBrickSlots + (slot & (kBrickSlots - 1u)); }
+
 /// Slot of the neighbour at an offset of -1, 0, 1 per axis. Where no node is, some valid slot: its spring count is 0.
 uint neighborSlot(uint slot, ivec3 offset) {
   ivec3 p = localCoord(slot) + offset;  // -1 .. 4

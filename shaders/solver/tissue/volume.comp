@@ -83,6 +83,6 @@ void main() {
     float bulk = cellBulk(slot, body);
     f = cellForces(at, s, volumePressure(bulk, s.e) * quarter, h, bulk, cellRigidity(slot, body), cellMoments(slot));
   }
-  LEAVE_CELL_FORCES(cell_vectors * slot, f, 0.0f)
+  LEAVE_CELL_FORCES(slot, f, 0.0f)
 }
 #endif

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "model/body/skin_size.h"
+#include "model/shape/detail/detail_atlas.h"
 #include "model/shape/detail/detail_bake.h"
 #include "model/shape/detail/detail_paint.h"
 #include "model/shape/mesh/fewer_faces.h"
@@ -40,6 +41,18 @@ bool anyMaterial(const TriangleMesh& mesh, bool textured) {
   });
 }
 
+/// Paint is on the skin of a body by itself, so that one too fine for detail_px takes more. @return side of its square
+/// [px]
+int paintedSide(size_t faces, int detail_px, std::vector<std::string>& notes) {
+  constexpr int kMost_px = 16384;  // detail_px at most
+  const int needed_px = std::min(DetailAtlas::leastSide(faces), kMost_px);
+  if (needed_px <= detail_px) return detail_px;
+  const std::string side = std::to_string(needed_px);
+  notes.push_back("skin: " + std::to_string(faces) + " faces are painted in " + side + " x " + side +
+                  " texels, more than detail_px");
+  return needed_px;
+}
+
 }  // namespace
 
 TriangleMesh detailedSurface(TriangleMesh surface, const DetailWanted& wanted, std::vector<std::string>& notes,
@@ -55,7 +68,9 @@ TriangleMesh detailedSurface(TriangleMesh surface, const DetailWanted& wanted, s
   if (!fewer && config.detail_mesh.empty() && !wanted.paint.paint) return skin;
   // Refined before it is baked: the shading normals between its vertices are those that will be bound.
   skin = refine(skin, wanted.longest_edge_m);
-  if (!fewer && config.detail_mesh.empty()) return paintDetail(skin, wanted.paint, config.detail_px, progress);
+  if (!fewer && config.detail_mesh.empty()) {
+    return paintDetail(skin, wanted.paint, paintedSide(skin.triangles.size(), config.detail_px, notes), progress);
+  }
   const std::string path = (std::filesystem::path(wanted.folder) / config.detail_mesh).string();
   const bool own = config.detail_mesh.empty();
   const TriangleMesh detailed = own ? std::move(surface) : readDetail(path, wanted, notes);

@@ -81,9 +81,21 @@ std::array<Eigen::Vector2d, 3> DetailAtlas::cornersOf(size_t tile, int half) con
   return {corner / side_, (corner + Eigen::Vector2d(way, 0)) / side_, (corner + Eigen::Vector2d(0, way)) / side_};
 }
 
+namespace {
+
+/// Tiles along a side of the square.
+int tilesAcross(size_t triangles) {
+  return std::max(1, static_cast<int>(std::ceil(std::sqrt(std::ceil(static_cast<double>(triangles) / 2)))));
+}
+
+}  // namespace
+
+int DetailAtlas::leastSide(size_t triangles) {
+  return kSmallestTile_px * tilesAcross(triangles);
+}
+
 int DetailAtlas::largestTile(size_t triangles, int largest_px) {
-  const double pairs = std::ceil(static_cast<double>(triangles) / 2);
-  const int fits = static_cast<int>(largest_px / std::ceil(std::sqrt(pairs)));
+  const int fits = largest_px / tilesAcross(triangles);
   if (fits >= kSmallestTile_px) return fits;
   std::ostringstream out;
   out << "a skin of " << triangles << " faces has no room for detail in " << largest_px << " x " << largest_px

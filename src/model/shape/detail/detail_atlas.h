@@ -21,6 +21,8 @@ class DetailAtlas {
   /// Side of the largest tiles with which so many triangles fit into a square of `largest_px`.
   /// @throws MeshError  none do
   static int largestTile(size_t triangles, int largest_px);
+  /// Side of the square that so many triangles need at least [px].
+  static int leastSide(size_t triangles);
 
   int side() const { return side_; }  ///< of all tiles [px]
   int tile() const { return tile_; }

@@ -3,6 +3,7 @@
 #include "solver/gpu/buffers/lattice_buffers.h"
 
 #include "gpu/archive.h"
+#include "gpu/limits.h"
 #include "layout/bindings.h"
 #include "layout/edge_forces.h"
 #include "solver/tissue/joined_lattice.h"
@@ -46,6 +47,16 @@ std::vector<float> inTurn(const std::vector<float>& masses_kg, const std::vector
   return out;
 }
 
+/// Of arrays with `planes` numbers to a slot: as inPlanes() of lattice.glsl has them.
+std::vector<float> inPlanes(const std::vector<float>& by_slot, size_t planes) {
+  std::vector<float> out(by_slot.size());
+  for (size_t i = 0; i < by_slot.size(); ++i) {
+    const size_t slot = i / planes, brick = slot / layout::kBrickSlots;
+    out[(brick * planes + i % planes) * layout::kBrickSlots + slot % layout::kBrickSlots] = by_slot[i];
+  }
+  return out;
+}
+
 }  // namespace
 
 StrengthBuffers::StrengthBuffers(const Model& model, const FeatureSet& features, const std::vector<float>& masses_kg) {
@@ -53,7 +64,7 @@ StrengthBuffers::StrengthBuffers(const Model& model, const FeatureSet& features,
   std::vector<float> masses = masses_kg;
   if (features.parts) {
     const Strengths table = allStrengths(model);
-    spring_stiffness = gpu::Buffer<float>(table.spring_n_per_m, "spring stiffness");
+    spring_stiffness = gpu::Buffer<float>(inPlanes(table.spring_n_per_m, kSpringPairs), "spring stiffness");
     if (features.moments) {
       writeMoments(model, table);
     } else {
@@ -87,6 +98,10 @@ void StrengthBuffers::bind() const {
   if (spring_stiffness.size()) {
     spring_texels_.bind(layout::kUnitSpringStiffness);
     bulk_texels_.bind(layout::kUnitCellBulk);
+    if (gpu::driverLimits().loads) {  // elsewhere kernels have texels alone, which may be longer
+      spring_stiffness.bindStorage(layout::kBindSpringStiffness);
+      if (cell_strengths.size()) cell_strengths.bindStorage(layout::kBindCellStrengths);
+    }
   }
   if (cell_moments.size()) {
     moment_texels_.bind(layout::kUnitCellMoments);

@@ -42,7 +42,7 @@ struct StrengthBuffers {
   StrengthBuffers(const Model& model, const FeatureSet& features, const std::vector<float>& masses_kg);
   void bind() const;
 
-  gpu::Buffer<float> spring_stiffness;  ///< [9 * slots] N/m; feature parts
+  gpu::Buffer<float> spring_stiffness;  ///< [9 * slots] N/m, in planes; feature parts
   gpu::Buffer<float> node_mass;  ///< [slots] kg; features parts, network; [2 * slots] with surfaceDepths() in turn
   gpu::Buffer<float> cell_bulk;  ///< [slots] J; feature parts, without moments
   gpu::Buffer<layout::vec4>
