@@ -1,7 +1,6 @@
 # Copyright (c) 2026, the viscera authors
 # SPDX-License-Identifier: BSD-3-Clause
 """A simulator and a hand that is pressed into its tissue, for tests of what the hand is told last."""
-import functools
 import itertools
 import json
 import os
@@ -13,12 +12,12 @@ import time
 import unittest
 
 import roslib.packages
+from tries import Late, in_one_of_several_tries
 
 END_LIMIT_S = 30
 ZERO_LIMIT_S = 0.05     # from the ending to the first zero, seen from outside
 FELT_S = 0.4            # so long after an ending a hand listens for forces that come late: eight times ZERO_LIMIT_S
 FORCED_END_S = 1.2      # a second, and what this process needs to see it
-TRIES = 4               # of what came late, as neighbours on a shared machine hold up any of the processes; never of what did not come
 SCENE = ("_overrides:=bodies[0].spacing_m=0.008;bodies[0].material.young_modulus_pa=20000;"
          "environment.gravity_m_per_s2=[0,0,0];styluses[0].probe.radius_m=0.012")
 TIMEOUT = "_timeout_s:=0.03"  # of watchdogs
@@ -105,24 +104,6 @@ def wait_ready(process):
         if "ready" in line:
             return
     raise AssertionError("the simulator ended before it was ready")
-
-
-class Late(AssertionError):
-    """It came, but after its limit."""
-
-
-def in_one_of_several_tries(test):
-    """What is measured from outside is the program's delay and that of everything else that runs: the least counts."""
-    @functools.wraps(test)
-    def tries(self):
-        for k in range(1, TRIES + 1):
-            try:
-                return test(self)
-            except Late as late:
-                print("try %d of %d: %s" % (k, TRIES, late), flush=True)
-                if k == TRIES:
-                    raise
-    return tries
 
 
 class ForceCase(unittest.TestCase):

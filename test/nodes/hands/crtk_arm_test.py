@@ -14,6 +14,7 @@ from sensor_msgs.msg import JointState
 from simulator_watch import Latest, SimulatorWatch, wait_until
 from std_msgs.msg import Empty
 from tf2_msgs.msg import TFMessage
+from tries import Late, in_one_of_several_tries
 from turns import length, plus, rotation, times
 
 HEADER = "=" * 80 + "\nMSG: std_msgs/Header\nuint32 seq\ntime stamp\nstring frame_id\n"
@@ -111,20 +112,26 @@ class CrtkArmTest(unittest.TestCase):
             wait_until(lambda: is_turned(self.at.message.pose.orientation, jaws) and self.is_at(at), LIMIT_S, "measured_cp")
             wait_until(lambda: is_turned(self.setpoint.message.pose.orientation, jaws), LIMIT_S, "setpoint_cp")
 
+    def waitBusy(self):
+        wait_until(lambda: any(s.is_busy for s in self.states), LIMIT_S, "begun move")
+
     def test_2_move_takes_its_time_and_its_end_can_be_waited_for(self):
         goal = (0.01, 0.01, 0.05)
+        speeds = []
+        watched = Latest("PSM1/measured_cv", TwistStamped, lambda m: speeds.append(m.twist.linear.x), queue_size=100)
+        wait_until(lambda: speeds, LIMIT_S, "speed at rest")
         del self.states[:]
         begun = rospy.Time.now()
         self.tell(self.move, goal)
-        speeds = []
-        wait_until(lambda: speeds.append(self.speed.message.twist.linear.x) or (
-            self.states and not self.states[-1].is_busy and self.states[-1].header.stamp > begun), LIMIT_S, "end of the move")
+        wait_until(lambda: self.states and not self.states[-1].is_busy and self.states[-1].header.stamp > begun, LIMIT_S,
+                   "end of the move")
         self.assertTrue([s for s in self.states if s.is_busy])
         wait_until(lambda: self.is_at(goal), LIMIT_S, "arm at its goal")
         took_s = (self.states[-1].header.stamp - begun).to_sec()
         self.assertGreater(took_s, (1 - SPEED) * 15 / 8 * 0.04 / 0.2)  # least jerk: the peak is 15/8 of the mean speed
         self.assertGreater(max(speeds), 0.1)
         wait_until(lambda: abs(self.speed.message.twist.linear.x) < PLACE_M, LIMIT_S, "rest")
+        watched.stop()
 
     def test_2b_a_state_that_is_no_news_is_not_told(self):
         count = self.state.count
@@ -166,18 +173,23 @@ class CrtkArmTest(unittest.TestCase):
     def wait_rest(self):
         wait_until(lambda: not self.state.message.is_busy, LIMIT_S, "end of the move")
 
+    @in_one_of_several_tries
     def test_6_velocity_is_followed_while_it_is_told(self):
         self.go((-0.02, 0.01, 0.05))
-        begun = time.monotonic()
+        begun = last = time.monotonic()
+        longest_s = 0
         for _ in range(50):  # 200 Hz, as crtk_servo_cv_example
             message = TwistStamped()
             message.twist.linear.x = 0.05
             self.velocity.publish(message)
             time.sleep(0.005)
+            longest_s, last = max(longest_s, time.monotonic() - last), time.monotonic()
         took_s = time.monotonic() - begun
         self.assertFalse(self.state.message.is_busy)
         time.sleep(HOLDS_S + 0.3)
         way = self.at.message.pose.position.x + 0.02
+        if longest_s > HOLDS_S / 2:
+            raise Late("one velocity came %.3f s after another" % longest_s)
         self.assertGreater(way, 0.8 * 0.05 * took_s)
         self.assertLess(way, 0.05 * (took_s + HOLDS_S) + LATE_M)
         there = vector(self.at.message.pose.position)
@@ -188,20 +200,24 @@ class CrtkArmTest(unittest.TestCase):
         time.sleep(0.3)
         self.assertTrue(self.is_at(there))
 
+    @in_one_of_several_tries
     def test_7_hold_stops_a_move_whose_goal_was_told(self):
         self.go((-0.02, 0.01, 0.05))
         goal = (0.03, 0.01, 0.05)
+        del self.states[:]
         self.tell(self.move, goal)
-        wait_until(lambda: self.state.message.is_busy and self.at.message.pose.position.x > -0.01, LIMIT_S, "move")
-        self.assertLess(length(plus(vector(self.goal.message.pose.position), goal, -1)), PLACE_M)
+        wait_until(lambda: self.at.message.pose.position.x > -0.01, LIMIT_S, "move")
+        wait_until(lambda: length(plus(vector(self.goal.message.pose.position), goal, -1)) < PLACE_M, LIMIT_S, "goal_cp")
         self.hold.publish(Empty())
+        self.waitBusy()
         self.wait_rest()
-        time.sleep(0.2)  # setpoints of before the hold are on their way
-        there = vector(self.setpoint.message.pose.position)
+        wait_until(lambda: self.is_at(vector(self.setpoint.message.pose.position)) and
+                   self.is_at(vector(self.goal.message.pose.position)), LIMIT_S, "setpoint and goal where the arm is")
+        there = vector(self.at.message.pose.position)
         time.sleep(0.5)
-        self.assertLess(there[0], goal[0] - 0.005)
         self.assertTrue(self.is_at(there))
-        self.assertLess(length(plus(vector(self.goal.message.pose.position), there, -1)), PLACE_M)
+        if there[0] >= goal[0] - 0.005:
+            raise Late("the arm was there before it was held")
 
     def test_8_jaws_move_and_their_end_can_be_waited_for(self):
         self.go((0.01, 0.01, DEEP_M))
@@ -209,8 +225,10 @@ class CrtkArmTest(unittest.TestCase):
         wait_until(lambda: list(self.jaw.message.position) == [0.5], LIMIT_S, "open jaws")
         angles = []
         watched = Latest("PSM1/jaw/setpoint_js", JointState, lambda m: angles.append(m.position[0]), queue_size=100)
+        wait_until(lambda: angles, LIMIT_S, "angles of jaws at rest")
+        del self.states[:]
         self.move_jaws.publish(JointState(position=[0.0]))
-        wait_until(lambda: self.state.message.is_busy, LIMIT_S, "busy jaws")
+        self.waitBusy()
         self.wait_rest()
         watched.stop()
         self.assertTrue([a for a in angles if 0.1 < a < 0.4], angles)
@@ -219,13 +237,15 @@ class CrtkArmTest(unittest.TestCase):
         wait_until(lambda: self.watch.value("left", "nodes_held") == 0, LIMIT_S, "open jaws")
         self.go((0.01, 0.01, 0.05))
 
+    @in_one_of_several_tries
     def test_9_setpoints_come_so_often_that_clients_need_not_wait(self):
         counts = {}
         for name, latest in (("setpoint_cp", self.setpoint), ("goal_cp", self.goal), ("jaw/setpoint_js", self.jaw_setpoint)):
             before = latest.count
             time.sleep(2)
             counts[name] = (latest.count - before) / 2
-        self.assertGreater(min(counts.values()), FRESH_HZ, counts)
+        if min(counts.values()) <= FRESH_HZ:
+            raise Late("%s Hz, wanted %g" % (counts, FRESH_HZ))
 
 
 if __name__ == "__main__":
