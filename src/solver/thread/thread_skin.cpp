@@ -3,6 +3,7 @@
 #include "solver/thread/thread_skin.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace viscera {
 
@@ -62,33 +63,46 @@ void ThreadSkin::addPoints(std::vector<const TissuePoint*>& points) const {
 
 void ThreadSkin::begin(const TissuePoints& points) {
   now_.clear();
+  along_x_.clear();
+  box_m_.setEmpty();
   for (const Place& place : places_) {
     const Vector3d at_m = points.place_m(place.at), out = (at_m - points.place_m(place.below)).normalized();
     const double mobility = points.mobility(place.at, place.at);
     now_.push_back({at_m + place.depth_m * out, out, points.velocity_m_per_s(place.at),
                     mobility > 0 ? std::min(kRigidMass_kg, kMass / mobility) : kRigidMass_kg});
+    const Vector3d& place_m = now_.back().place_m;
+    along_x_.push_back({place_m.x(), now_.size() - 1});
+    box_m_.extend(place_m);
   }
+  std::sort(along_x_.begin(), along_x_.end());
 }
 
-size_t ThreadSkin::nearest(const Vector3d& to_m) const {
-  return static_cast<size_t>(std::min_element(now_.begin(), now_.end(),
-                                              [&](const Now& one, const Now& other) {
-                                                return (one.place_m - to_m).squaredNorm() <
-                                                       (other.place_m - to_m).squaredNorm();
-                                              }) -
-                             now_.begin());
+std::optional<size_t> ThreadSkin::nearest(const Vector3d& to_m, double within_m) const {
+  std::optional<size_t> out;
+  double best_m2 = within_m * within_m;
+  if (box_m_.squaredExteriorDistance(to_m) > best_m2) return out;
+  const auto first = std::lower_bound(along_x_.begin(), along_x_.end(), std::make_pair(to_m.x() - within_m, size_t{0}));
+  for (auto at = first; at != along_x_.end() && at->first <= to_m.x() + within_m; ++at) {
+    const double distance_m2 = (now_[at->second].place_m - to_m).squaredNorm();
+    if (distance_m2 > best_m2) continue;
+    best_m2 = distance_m2;
+    out = at->second;
+  }
+  return out;
 }
 
 std::optional<ChainTouch> ThreadSkin::near(const Vector3d& ahead_m, double reach_m, double dt_s) const {
   if (now_.empty()) return std::nullopt;
-  const size_t place = nearest(ahead_m);
-  const Now& now = now_[place];
+  const double across_m = kFar * spacing_m_, along_m = std::max(reach_m, kDeepest * spacing_m_);
+  const std::optional<size_t> place = nearest(ahead_m, std::sqrt(across_m * across_m + along_m * along_m));
+  if (!place) return std::nullopt;
+  const Now& now = now_[*place];
   const Vector3d way_m = ahead_m - now.place_m;
   const double height_m = way_m.dot(now.normal);
   if (height_m > reach_m || height_m < -kDeepest * spacing_m_) return std::nullopt;
-  if ((way_m - height_m * now.normal).norm() > kFar * spacing_m_) return std::nullopt;
+  if ((way_m - height_m * now.normal).norm() > across_m) return std::nullopt;
   ChainTouch touch;
-  touch.thing = kThing + static_cast<uint32_t>(place);
+  touch.thing = kThing + static_cast<uint32_t>(*place);
   touch.at_m = ahead_m - height_m * now.normal;
   touch.normal = now.normal;
   touch.moved_m = dt_s * now.velocity_m_per_s;

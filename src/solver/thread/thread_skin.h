@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <Eigen/Geometry>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "solver/thread/chain/chain.h"
@@ -38,11 +40,13 @@ class ThreadSkin {
     Vector3d place_m, normal, velocity_m_per_s;
     double mass_kg;
   };
-  size_t nearest(const Vector3d& to_m) const;
+  std::optional<size_t> nearest(const Vector3d& to_m, double within_m) const;
 
   std::vector<Vector3d> laid_m_;  ///< of outer channels at rest, around which it is laid
   std::vector<Place> places_;
   std::vector<Now> now_;
+  std::vector<std::pair<double, size_t>> along_x_;  ///< x of these [m], which, ascending
+  Eigen::AlignedBox3d box_m_;                       ///< around them
   double spacing_m_ = 0;
 };
 
