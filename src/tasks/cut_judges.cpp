@@ -160,24 +160,35 @@ std::vector<Vector3d> circleOf(const Vector3d& center_m, const Vector3d& normal,
   return out;
 }
 
-std::string lineFault(const TaskConfig& task) {
-  if (!task.line.given) return groupFault(false, "follow_line");
-  const std::string normal = directionFault(task.line.normal, "follow_line.normal");
+std::string faultOfLine(const LineGoal& line, const std::string& group) {
+  const std::string normal = directionFault(line.normal, (group + ".normal").c_str());
   if (!normal.empty()) return normal;
-  return task.line.path.size() > 1 && lengthOf(task.line) > 0
+  return line.path.size() > 1 && lengthOf(line) > 0
              ? ""
-             : "'follow_line.path' is a list of two places or more that do not lie above each other; found " +
-                   std::to_string(task.line.path.size());
+             : "'" + group + ".path' is a list of two places or more that do not lie above each other; found " +
+                   std::to_string(line.path.size());
+}
+
+std::unique_ptr<TaskJudge> judgeOfLine(const LineGoal& line, double spacing_m) {
+  return std::make_unique<LineJudge>(line, spacing_m);
+}
+
+TaskShapes shapesOfLine(const LineGoal& line) {
+  TaskShapes out{{{}}, line.normal};
+  for (const TaskPlace& place : line.path) out.lines_m[0].push_back(place.position_m);
+  return out;
+}
+
+std::string lineFault(const TaskConfig& task) {
+  return task.line.given ? faultOfLine(task.line, "follow_line") : groupFault(false, "follow_line");
 }
 
 std::unique_ptr<TaskJudge> lineJudge(const TaskConfig& task, const Session& session) {
-  return std::make_unique<LineJudge>(task.line, longestSpacing(session.model()));
+  return judgeOfLine(task.line, longestSpacing(session.model()));
 }
 
 TaskShapes lineShapes(const TaskConfig& task) {
-  TaskShapes out{{{}}, task.line.normal};
-  for (const TaskPlace& place : task.line.path) out.lines_m[0].push_back(place.position_m);
-  return out;
+  return shapesOfLine(task.line);
 }
 
 std::string discFault(const TaskConfig& task) {

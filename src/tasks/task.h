@@ -14,7 +14,7 @@ namespace viscera {
 // structs has one entry in task_fields.h. Places are of the tissue at rest, in the tissue frame.
 
 /// What has to be done: the rows of kTaskKinds (task_kinds.h), each with a group of keys of its own below.
-enum class TaskGoal { kFollowLine, kCutDisc, kTouchTargets, kLift };
+enum class TaskGoal { kFollowLine, kCutDisc, kTouchTargets, kLift, kCloseWound };
 
 struct TaskPlace {
   Vector3d position_m = Vector3d::Zero();
@@ -55,6 +55,16 @@ struct LiftGoal {
   double hold_s = 1;
 };
 
+/// Open tissue along a line, and close the wound with the threads of the scene.
+struct CloseGoal {
+  bool given = false;
+  LineGoal line;
+  double reach_m = 0.003;
+  double gap_m = 0.0005;
+  int knots = 1;
+  int throws = 3;
+};
+
 /// Beyond these, time is counted.
 struct TaskLimits {
   double force_n = 1000;  ///< of any hand
@@ -78,6 +88,7 @@ struct TaskConfig {
   DiscGoal disc;
   TouchGoal touch;
   LiftGoal lift;
+  CloseGoal close;
   TaskLimits limits;
   std::vector<TaskRule> measures;
 

@@ -57,6 +57,16 @@ void visitFields(V& v, LiftGoal& c) {
 }
 
 template <class V>
+void visitFields(V& v, CloseGoal& c) {
+  visitFields(v, c.line);  // its keys are this group's
+  v.given(c.given);
+  v.number("reach_m", c.reach_m, kTaskWidth, "m", "how far on either side of the line the wound is looked at");
+  v.number("gap_m", c.gap_m, kTaskWidth, "m", "how much farther apart its sides may be than at rest, on average");
+  v.integer("knots", c.knots, {1, 64}, "that have to be tied");
+  v.integer("throws", c.throws, {1, 8}, "that each needs, where hands throw it");
+}
+
+template <class V>
 void visitFields(V& v, TaskLimits& c) {
   v.number("force_n", c.force_n, {0, 1000}, "N", "of any hand: time beyond it is the measure force_s");
   v.number("strain", c.strain, {0, 1000}, "1", "of any spring: time beyond it is the measure strain_s");
@@ -87,6 +97,7 @@ void visitFields(V& v, TaskConfig& c) {
   v.group("cut_disc", c.disc, "cut out a disc: reached when nothing joins it to what is around");
   v.group("touch_targets", c.touch, "touch places one after another, and nothing else");
   v.group("lift", c.lift, "take hold of tissue, lift it and keep it there");
+  v.group("close_wound", c.close, "open tissue along a line, tie the scene's threads, and let go");
   v.group("limits", c.limits, "beyond these, time is counted");
   v.list("measures", c.measures, 100, "what measures cost, and up to where the task is passed");
 }

@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "tasks/task_measures.h"
 #include "viscera/layout/tick_stats.h"
 #include "viscera/math/types.h"
+#include "viscera/solver/seen_thread.h"
 #include "viscera/solver/state.h"
 #include "viscera/tools/stylus.h"
 
@@ -16,8 +18,10 @@ namespace viscera {
 /// What a tick brought, as a task is judged by it.
 struct TaskTick {
   ToolMotions motions{};
-  std::vector<Vector3d> cuts_m;  ///< where springs were cut in it: of the tissue at rest
-  bool apart = false;            ///< TaskJudge::isApart() after it, where something was cut in it
+  std::vector<Vector3d> cuts_m;     ///< where springs were cut in it: of the tissue at rest
+  bool apart = false;               ///< TaskJudge::isApart() after it, where something was cut in it
+  std::vector<SeenThread> threads;  ///< where the task heeds them
+  std::optional<double> gap_m;      ///< TaskJudge::gapOf() after it, where that was asked for
   layout::TickStats stats{};
   double tick_s = 0;
 };
@@ -46,6 +50,12 @@ class TaskJudge {
   virtual bool heedsCuts() const { return false; }
   /// Whether what was to be cut off is; asked on the session's thread.
   virtual bool isApart(const CutState&) const { return false; }
+  /// Does it ask for knots?
+  virtual bool heedsThreads() const { return false; }
+  /// Is it to be known how far a wound gapes? Then the tissue is waited for.
+  virtual bool asksForGap(const std::vector<SeenThread>&) const { return false; }
+  /// How much farther apart the sides of a wound are than at rest [m]; asked on the session's thread.
+  virtual double gapOf(const HostState&) const { return 0; }
   virtual double progress() const = 0;  ///< 0..1
   virtual bool reached() const = 0;
   virtual std::string step() const = 0;  ///< what is to be done now

@@ -36,11 +36,22 @@ std::string liftFault(const TaskConfig&);
 std::unique_ptr<TaskJudge> liftJudge(const TaskConfig&, const Session&);
 TaskShapes liftShapes(const TaskConfig&);
 
+std::string closeFault(const TaskConfig&);
+std::unique_ptr<TaskJudge> closeJudge(const TaskConfig&, const Session&);
+TaskShapes closeShapes(const TaskConfig&);
+
+/// Of kinds that have a line to cut among their goals.
+std::unique_ptr<TaskJudge> judgeOfLine(const LineGoal& line, double spacing_m);
+/// @param group  of its keys
+std::string faultOfLine(const LineGoal& line, const std::string& group);
+TaskShapes shapesOfLine(const LineGoal& line);
+
 inline constexpr TaskKind kTaskKinds[] = {
     {TaskGoal::kFollowLine, "follow_line", lineFault, lineJudge, lineShapes},
     {TaskGoal::kCutDisc, "cut_disc", discFault, discJudge, discShapes},
     {TaskGoal::kTouchTargets, "touch_targets", touchFault, touchJudge, touchShapes},
     {TaskGoal::kLift, "lift", liftFault, liftJudge, liftShapes},
+    {TaskGoal::kCloseWound, "close_wound", closeFault, closeJudge, closeShapes},
 };
 constexpr const TaskKind& kindOf(TaskGoal goal) {
   return kTaskKinds[static_cast<size_t>(goal)];

@@ -72,6 +72,10 @@ void TaskWatch::stepped(Session& session, const StylusSamples& samples) {
     tick.cuts_m = cut_watch_->fresh(cuts_);
     tick.apart = cut_watch_->springs() > before && judge_->isApart(cuts_);
   }
+  if (judge_->heedsThreads()) {
+    tick.threads = session.seenThreads();
+    if (judge_->asksForGap(tick.threads)) tick.gap_m = judge_->gapOf(session.solver().readState());
+  }
   stepped_.push_back(std::move(tick));
   judgeNoted();
 }

@@ -60,7 +60,7 @@ TEST_P(ShippedTask, IsFailedByAClumsyOne) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Each, ShippedTask,
-                         ::testing::Values("pattern_cut", "incision", "touch_targets", "gentle_lift"),
+                         ::testing::Values("pattern_cut", "incision", "touch_targets", "gentle_lift", "close_wound"),
                          [](const auto& info) { return std::string(info.param); });
 
 TEST(TaskCommand, ReplaysToTheSameScoreAndWritesAReport) {

@@ -41,6 +41,9 @@ TEST(TaskFile, ErrorsNameFileLineKeyAndWhatIsAccepted) {
   EXPECT_TRUE(names(errorOf("scene: a\nkind: lift\nlift: {up: [0, 0, 0]}\n"), {"'lift.up' is a direction"}));
   EXPECT_TRUE(names(errorOf("scene: a\nkind: touch_targets\ntouch_targets: {}\n"), {"'touch_targets.targets'"}));
   EXPECT_TRUE(names(errorOf("scene: a\nkind: follow_line\nfollow_line: {path: [{}]}\n"), {"'follow_line.path'"}));
+  EXPECT_TRUE(names(errorOf("scene: a\nkind: close_wound\n"), {"'close_wound' must be there"}));
+  EXPECT_TRUE(names(errorOf("scene: a\nkind: close_wound\nclose_wound: {path: [{}]}\n"), {"'close_wound.path'"}));
+  EXPECT_TRUE(names(errorOf("scene: a\nkind: close_wound\nclose_wound: {knots: 0}\n"), {"task.yaml:3", "1 .. 64"}));
   EXPECT_TRUE(names(errorOf("kind: lift\nlift: {}\n"), {"task.yaml: ", "'scene' must name"}));
   EXPECT_TRUE(names(errorOf("scene: a\nmeasures:\n  - {measure: blood}\n"),
                     {"task.yaml:3: ", "'measures[0].measure'", "off_path_mm, deviation_mm"}));
@@ -69,7 +72,7 @@ TEST(TaskFile, EveryShippedTaskIsRead) {
     EXPECT_NO_THROW(loadTask(entry.path())) << entry.path();
     ++read;
   }
-  EXPECT_GE(read, 4u);
+  EXPECT_GE(read, 5u);
 }
 
 }  // namespace

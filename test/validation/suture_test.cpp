@@ -6,8 +6,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "support/source_folder.h"
+#include "viscera/gpu/context.h"
 #include "viscera/session/session.h"
 #include "viscera/tools/strokes.h"
 
@@ -56,15 +58,17 @@ struct Sutured {
   uint64_t hash = 0, trips = 0;
 };
 
-Sutured sutured(double young_pa) {
+Sutured sutured(double young_pa, Backend backend) {
   const std::string config = std::string(test::sourceFolder()) + "/config/";
   Scene scene = loadScene(config + "scenes/suture_pad.yaml");
   const Strokes strokes = loadStrokes(config + "strokes/suture.yaml");
   const double stiffer = young_pa / scene.bodies[0].material.young_modulus_pa;
   scene.bodies[0].material.young_modulus_pa = young_pa;
-  scene.solver.backend = Backend::kCpu;
+  scene.solver.backend = backend;
   for (ThreadConfig& thread : scene.threads) thread.ties[0].tension_n *= stiffer;
-  Session session(scene);
+  std::optional<gpu::Context> context;
+  if (backend == Backend::kGpu) context.emplace();
+  Session session = context ? Session(scene, *context) : Session(scene);
   Sutured out;
   const auto until = [&](double time_s) {
     while (static_cast<double>(session.tick()) * session.tick_s() < time_s)
@@ -81,10 +85,10 @@ Sutured sutured(double young_pa) {
   return out;
 }
 
-void expectClosed(double young_pa) {
+void expectClosed(double young_pa, Backend backend = Backend::kCpu) {
   constexpr double kOpen_m = 0.0008, kMean_m = 3e-4, kSkin_m = 5e-4;  // that wound gapes by a millimetre and more
   constexpr size_t kThreads = 4, kTails = 8;
-  const Sutured found = sutured(young_pa);
+  const Sutured found = sutured(young_pa, backend);
   printf("E %.0f kPa: gap open %.2f (skin %.2f), tied %.2f (%.2f), tails cut %.2f (%.2f) mm\n", young_pa / 1e3,
          1e3 * found.open.mean_m, 1e3 * found.open.skin_m, 1e3 * found.tied.mean_m, 1e3 * found.tied.skin_m,
          1e3 * found.cut.mean_m, 1e3 * found.cut.skin_m);
@@ -111,6 +115,10 @@ TEST(SuturePad, FourStitchesCloseAWoundInSoftTissue) {
 
 TEST(SuturePad, AndInStiffer) {
   expectClosed(5e4);
+}
+
+TEST(SuturePad, AndOnTheGpuBackend) {
+  expectClosed(1e4, Backend::kGpu);
 }
 
 }  // namespace

@@ -191,7 +191,7 @@ void ThreadKnots::countThrows(const Chain& chain, const std::vector<uint32_t>& h
   const int turns = throwOf(turns_);
   if (pulled && turns != 0) {
     addThrow(turns, chain, around);
-    turns_ = 0;
+    turns_ -= turns;  // what hands still turn when tails are pulled belongs to this throw, not to the next
   }
   turnHands(rootOf(chain, tails), *first, *second);
 }

@@ -1,0 +1,143 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include "tasks/cut_watch.h"
+#include "tasks/task_kinds.h"
+#include "viscera/session/session.h"
+
+namespace viscera {
+
+namespace {
+
+constexpr double kMm = 1000;
+
+/// Two nodes on either side of a wound, as far from it as it is looked at.
+struct Facing {
+  uint32_t left, right;  ///< slots of the model
+  Vector3d across;       ///< from left to right, of unit length
+};
+
+/// The node nearest to a place on one side of a plane. @param outward  from the plane to that side
+uint32_t nodeBeside(const Model& model, const Vector3d& of_plane_m, const Vector3d& outward, const Vector3d& to_m) {
+  uint32_t out = 0;
+  double least_m2 = std::numeric_limits<double>::infinity();
+  for (size_t b = 0; b < model.bodies.size(); ++b) {
+    for (const uint32_t slot : model.bodies[b].lattice.active_slots) {
+      const Vector3d at_m = restPosition(model.bodies[b], slot);
+      const double distance_m2 = (at_m - to_m).squaredNorm();
+      if (outward.dot(at_m - of_plane_m) <= 0 || distance_m2 >= least_m2) continue;
+      least_m2 = distance_m2;
+      out = model.slotOffset(b) + slot;
+    }
+  }
+  return out;
+}
+
+/// A pair every spacing along the line.
+std::vector<Facing> facingAlong(const CloseGoal& goal, const Model& model) {
+  const double spacing_m = longestSpacing(model);
+  std::vector<Facing> out;
+  for (size_t i = 1; i < goal.line.path.size(); ++i) {
+    const Vector3d from_m = goal.line.path[i - 1].position_m, way_m = goal.line.path[i].position_m - from_m;
+    const Vector3d across = way_m.cross(goal.line.normal).normalized();
+    const auto pieces = static_cast<int>(std::max(1.0, std::floor(way_m.norm() / spacing_m)));
+    for (int k = 0; k < pieces; ++k) {
+      const Vector3d at_m = from_m + (k + 0.5) / pieces * way_m, beside_m = goal.reach_m * across;
+      out.push_back({nodeBeside(model, at_m, -across, at_m - beside_m),
+                     nodeBeside(model, at_m, across, at_m + beside_m), across});
+    }
+  }
+  return out;
+}
+
+bool isWeak(KnotKind kind) {
+  return kind != KnotKind::kSquare && kind != KnotKind::kSurgeons;
+}
+
+class CloseJudge : public TaskJudge {
+ public:
+  CloseJudge(const CloseGoal& goal, const Model& model)
+      : goal_(goal), cut_(judgeOfLine(goal.line, longestSpacing(model))), facing_(facingAlong(goal, model)) {}
+  bool heedsCuts() const override { return true; }
+  bool heedsThreads() const override { return true; }
+  bool asksForGap(const std::vector<SeenThread>& threads) const override {
+    return tiedOf(threads) >= static_cast<size_t>(goal_.knots);
+  }
+  double gapOf(const HostState& state) const override {
+    double sum_m = 0;
+    for (const Facing& pair : facing_) {
+      const layout::vec4 &left = state.displacement_m[pair.left], &right = state.displacement_m[pair.right];
+      sum_m += pair.across.dot(Vector3d(right.x - left.x, right.y - left.y, right.z - left.z));
+    }
+    return std::max(0.0, sum_m / static_cast<double>(facing_.size()));
+  }
+  void judge(const TaskTick& tick, TaskTally& tally) override {
+    cut_->judge(tick, tally);
+    tied_ = tiedOf(tick.threads);
+    holds_ = std::any_of(tick.stats.grabbed, tick.stats.grabbed + layout::kMaxStyluses, [](auto n) { return n > 0; });
+    gap_m_ = tick.gap_m;
+    tally.gap_mm = gap_m_ ? kMm * *gap_m_ : 0;
+    tally.weak_knots = 0;
+    for (const SeenThread& thread : tick.threads) {
+      for (const SeenKnot& knot : thread.knots) tally.weak_knots += knot.tied && isWeak(knot.kind);
+    }
+  }
+  double progress() const override {
+    const double knots = static_cast<double>(tied_) / goal_.knots;
+    return (cut_->progress() + std::min(1.0, knots) + (reached() ? 1 : 0)) / 3;
+  }
+  bool reached() const override { return cut_->reached() && isClosed() && !holds_; }
+  std::string step() const override {
+    if (!cut_->reached()) return "open the tissue along the line";
+    if (tied_ < static_cast<size_t>(goal_.knots))
+      return "tie the threads: " + std::to_string(tied_) + " of " + std::to_string(goal_.knots) + " knots, of " +
+             std::to_string(goal_.throws) + " throws each";
+    if (isClosed()) return "let go of the thread";
+    char text[80];
+    std::snprintf(text, sizeof text, "the wound gapes by %.1f mm: %.1f at most", kMm * gap_m_.value_or(0),
+                  kMm * goal_.gap_m);
+    return text;
+  }
+
+ private:
+  bool isClosed() const { return gap_m_ && *gap_m_ <= goal_.gap_m; }
+  /// Those that no hand threw count by what they are.
+  size_t tiedOf(const std::vector<SeenThread>& threads) const {
+    size_t out = 0;
+    for (const SeenThread& thread : threads) {
+      for (const SeenKnot& knot : thread.knots) {
+        const auto throws = static_cast<int>(knot.turns.size());
+        out += knot.tied && (throws == 0 || throws >= goal_.throws);
+      }
+    }
+    return out;
+  }
+
+  const CloseGoal goal_;
+  const std::unique_ptr<TaskJudge> cut_;
+  const std::vector<Facing> facing_;
+  size_t tied_ = 0;
+  bool holds_ = false;
+  std::optional<double> gap_m_;
+};
+
+}  // namespace
+
+std::string closeFault(const TaskConfig& task) {
+  return task.close.given ? faultOfLine(task.close.line, "close_wound") : groupFault(false, "close_wound");
+}
+
+std::unique_ptr<TaskJudge> closeJudge(const TaskConfig& task, const Session& session) {
+  if (session.scene().threads.empty()) throw TaskError("a task of kind close_wound wants a scene with 'threads'");
+  return std::make_unique<CloseJudge>(task.close, session.model());
+}
+
+TaskShapes closeShapes(const TaskConfig& task) {
+  return shapesOfLine(task.close.line);
+}
+
+}  // namespace viscera
