@@ -52,6 +52,13 @@ void cut(const Hand& hand) {
   if (erases || !hand.resisted) hand.target.cut(hand.stylus, erases);
 }
 
+/// What a stylus does in a tick: scissors that do not move cut nothing.
+uint32_t effectsOf(const StylusMotion& motion) {
+  const ToolKind& kind = kindOf(motion.mode);
+  const bool rests = kind.closes && motion.opens_from_rad == motion.opens_to_rad;
+  return rests ? kind.effects & ~uint32_t{kCuts} : kind.effects;
+}
+
 constexpr ToolAct kToolActs[] = {
     {kHolds, changeGrip, nullptr, letGoAboveLimit},
     {kCuts | kErases, nullptr, cut, nullptr},
@@ -63,16 +70,10 @@ void run(void (*ToolAct::*moment)(const Hand&), ToolTarget& target, const ToolMo
   for (const ToolAct& act : kToolActs) {
     if (!(act.*moment)) continue;
     for (uint32_t s = 0; s < styluses.size(); ++s) {
-      const uint32_t effects = kindOf(motions[s].mode).effects | kindOf(motions[s].hold_ended).effects;
+      const uint32_t effects = effectsOf(motions[s]) | kindOf(motions[s].hold_ended).effects;
       if (effects & act.effects) (act.*moment)({target, s, motions[s], styluses[s], tick_s, resisted});
     }
   }
-}
-
-/// Does one of the first `styluses` do that?
-bool any(const ToolMotions& motions, size_t styluses, bool (ToolKind::*does)() const) {
-  return std::any_of(motions.begin(), motions.begin() + static_cast<std::ptrdiff_t>(styluses),
-                     [does](const StylusMotion& motion) { return (kindOf(motion.mode).*does)(); });
 }
 
 }  // namespace
@@ -81,11 +82,13 @@ ToolActs::ToolActs(std::vector<StylusConfig> styluses, double tick_s, bool resis
     : styluses_(std::move(styluses)), tick_s_(tick_s), resisted_(resisted) {}
 
 bool ToolActs::touch(const ToolMotions& motions) const {
-  return any(motions, styluses_.size(), &ToolKind::touches);
+  return std::any_of(motions.begin(), motions.begin() + static_cast<std::ptrdiff_t>(styluses_.size()),
+                     [](const StylusMotion& motion) { return kindOf(motion.mode).touches(); });
 }
 
 bool ToolActs::sever(const ToolMotions& motions) const {
-  return any(motions, styluses_.size(), &ToolKind::severs);
+  return std::any_of(motions.begin(), motions.begin() + static_cast<std::ptrdiff_t>(styluses_.size()),
+                     [](const StylusMotion& motion) { return effectsOf(motion) & (kCuts | kErases); });
 }
 
 void ToolActs::beginTick(ToolTarget& target, const ToolMotions& motions) const {
