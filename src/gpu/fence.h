@@ -15,7 +15,7 @@ constexpr double kLongestWait_s = 10;
 enum class FenceState { kPassed, kPending, kFailed };
 
 /// Waits until `poll` says that the fence has passed. No poll counts for more than half of longest_s: in a process that
-/// was stopped, or on a machine that slept, the clock goes on while nobody asks. @param poll  waits for so many
+/// was stopped, or on a machine that slept, the clock goes on while nothing asks. @param poll  waits for so many
 /// nanoseconds at most
 /// @param what  is waited for, in the message   @throws GpuError  failed, or still pending after longest_s
 void awaitFence(const std::function<FenceState(uint64_t nanoseconds)>& poll, const char* what,

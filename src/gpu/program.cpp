@@ -115,7 +115,7 @@ void finishStage(const Stage& stage) {
 
 }  // namespace
 
-/// Of a program that nobody has asked for yet.
+/// Of a program that was not used yet.
 struct UnfinishedProgram {
   std::vector<Stage> stages;
   std::vector<std::string> uniforms;  ///< that its shaders declare, as often as they like

@@ -180,7 +180,7 @@ class HandsTest(unittest.TestCase):
         self.assertTrue(self.call["pause"]().success)
         time.sleep(0.2)
         forces = []
-        watch = Latest("left/body/servo_cf", WrenchStamped, lambda m: forces.append(m.wrench.force.y))
+        watch = Latest("left/body/servo_cf", WrenchStamped, lambda m: forces.append(m.wrench.force.y)).connect()
         time.sleep(0.3)
         self.assertTrue(self.step(ticks=50).success)
         time.sleep(0.2)

@@ -37,6 +37,11 @@ class Latest:
         if self._on_message:
             self._on_message(message)
 
+    def connect(self, limit_s=20):
+        """Waits until what is published from now on comes."""
+        wait_until(lambda: self._subscriber.get_num_connections() > 0, limit_s, "publisher of " + self._subscriber.name)
+        return self
+
     def stop(self):
         self._subscriber.unregister()
 

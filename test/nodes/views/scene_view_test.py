@@ -178,7 +178,7 @@ class SceneViewTest(unittest.TestCase):
     def test_changes_make_of_the_first_topology_the_last_one(self):
         changes = []
         topology = Latest("surface_topology", SurfaceTopology)
-        change = Latest("surface_topology_change", SurfaceTopologyChange, changes.append, queue_size=None)
+        change = Latest("surface_topology_change", SurfaceTopologyChange, changes.append, queue_size=None).connect()
         wait_until(lambda: topology.count and self.watch.wait_news() is None, LIMIT_S, "topology")
         start = topology.message
         self.right.move((0.03, -0.15, CLOTH_M - 0.05), (0.03, 0, CLOTH_M - 0.05), 1.5)
