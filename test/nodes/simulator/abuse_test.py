@@ -17,7 +17,7 @@ from visualization_msgs.msg import Marker
 
 LIMIT_S = 30
 RATE_HZ = 60
-PRESSES = 10  # of a grip, 2 s each
+PRESSES = 10  # of a grip, 2 s each, or of a blade
 SKIN = (0, -0.046, -0.02)  # [m] on the front of the phantom
 BOUND_M = 1.5              # no vertex of the skin gets farther than solver.sleep_distance_m and the tissue's own size
 BACK_M = 0.004             # after a reset the skin is where it was, but for its sag under gravity
@@ -127,12 +127,20 @@ class AbuseTest(unittest.TestCase):
     def test_4_a_thousand_cuts(self):
         for _ in range(RATE_HZ // 2):  # a button that is down when its hand comes does nothing
             self.move("right", 0.2, 0, 0)
-        self.press(self.button2, True)
-        for _ in range(CUTS):
-            self.move("right", *(random.uniform(-0.06, 0.06) for _ in range(3)))
+        def springs_cut():
+            return self.watch.value("simulation", "springs_cut")
+
+        for _ in range(PRESSES):  # as of a grip
+            self.press(self.button2, True)
+            for _ in range(CUTS // PRESSES):
+                self.move("right", *(random.uniform(-0.06, 0.06) for _ in range(3)))
+            if springs_cut():
+                continue  # still pressed
+            self.press(self.button2, False)
+            self.move("right", 0.2, 0, 0)
         self.press(self.button2, False)
         self.assertAliveAndFinite()
-        self.assertGreater(self.watch.value("simulation", "springs_cut"), 0)
+        self.assertGreater(springs_cut(), 0)
 
     def test_5_reset_makes_all_whole(self):
         for _ in range(RATE_HZ):
