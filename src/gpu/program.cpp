@@ -115,15 +115,27 @@ void finishStage(const Stage& stage) {
 
 }  // namespace
 
+namespace {
+
+/// Where programs that this thread makes are listed until they are finished.
+thread_local std::set<UnfinishedProgram*>* listed = nullptr;
+
+}  // namespace
+
 /// Of a program that was not used yet.
 struct UnfinishedProgram {
+  uint32_t id = 0;
+  std::string name;
   std::vector<Stage> stages;
   std::vector<std::string> uniforms;  ///< that its shaders declare, as often as they like
 
-  UnfinishedProgram() = default;
+  UnfinishedProgram() {
+    if (listed) listed->insert(this);
+  }
   UnfinishedProgram(const UnfinishedProgram&) = delete;
   UnfinishedProgram& operator=(const UnfinishedProgram&) = delete;
   ~UnfinishedProgram() {
+    if (listed) listed->erase(this);
     for (const Stage& stage : stages) glDeleteShader(stage.id);
   }
   void compile(GLenum kind, const std::string& name, const std::vector<std::string>& defines) {
@@ -136,6 +148,17 @@ struct UnfinishedProgram {
     glShaderSource(stage.id, 1, &text, nullptr);
     glCompileShader(stage.id);
     stages.push_back(std::move(stage));
+  }
+  /// @throws GpuError  it does not compile or link
+  void require() const {
+    for (const Stage& stage : stages) finishStage(stage);
+    GLint ok = 0, length = 0;
+    glGetProgramiv(id, GL_LINK_STATUS, &ok);
+    if (ok) return;
+    glGetProgramiv(id, GL_INFO_LOG_LENGTH, &length);
+    std::string log(static_cast<size_t>(length) + 1, '\0');
+    glGetProgramInfoLog(id, length, nullptr, log.data());
+    throw GpuError("program '" + name + "' does not link:\n" + log.c_str());
   }
 };
 
@@ -232,6 +255,8 @@ Program Program::graphics(const std::string& vertex, const std::string& fragment
 void Program::link() {
   id_ = glCreateProgram();
   countObject();
+  unfinished_->id = id_;
+  unfinished_->name = name_;
   for (const Stage& stage : unfinished_->stages) glAttachShader(id_, stage.id);
   glLinkProgram(id_);
   label_ = labelOf(name_);
@@ -239,15 +264,7 @@ void Program::link() {
 
 void Program::finish() const {
   if (!unfinished_) return;
-  for (const Stage& stage : unfinished_->stages) finishStage(stage);
-  GLint ok = 0, length = 0;
-  glGetProgramiv(id_, GL_LINK_STATUS, &ok);
-  if (!ok) {
-    glGetProgramiv(id_, GL_INFO_LOG_LENGTH, &length);
-    std::string log(static_cast<size_t>(length) + 1, '\0');
-    glGetProgramInfoLog(id_, length, nullptr, log.data());
-    throw GpuError("program '" + name_ + "' does not link:\n" + log.c_str());
-  }
+  unfinished_->require();
   refuseSharedNumbers(bindingsOf(id_), name_);
   if (checks_dispatches) {
     const std::lock_guard<std::mutex> lock(unchecked_mutex);
@@ -328,6 +345,16 @@ void Program::dispatchIndirect(const RawBuffer& groups) {
   glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, groups.id());
   glDispatchComputeIndirect(0);
   checkFirstRun();
+}
+
+MadePrograms::MadePrograms() : before_(std::exchange(listed, &made_)) {}
+
+MadePrograms::~MadePrograms() {
+  listed = before_;
+}
+
+void MadePrograms::require() const {
+  for (const UnfinishedProgram* program : made_) program->require();
 }
 
 std::string lastKernel() {

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -114,6 +115,22 @@ class Program {
   mutable std::unique_ptr<UnfinishedProgram> unfinished_;  ///< null once it is finished
   mutable std::vector<Uniform> uniforms_;
   mutable std::vector<uint32_t> values_;
+};
+
+/// While it lives: the programs that this thread makes, so that what makes many can tell the driver of all and still
+/// say at the end what it cannot compile. They must be of one context.
+class MadePrograms {
+ public:
+  MadePrograms();
+  ~MadePrograms();
+  MadePrograms(const MadePrograms&) = delete;
+  MadePrograms& operator=(const MadePrograms&) = delete;
+  /// Waits for those that are there and not used yet. @throws GpuError  as Program::finish()
+  void require() const;
+
+ private:
+  std::set<UnfinishedProgram*> made_;
+  std::set<UnfinishedProgram*>* before_;
 };
 
 /// Name of the kernel that this thread used last, for messages.

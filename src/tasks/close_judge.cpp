@@ -21,7 +21,10 @@ struct Facing {
   Vector3d across;       ///< from left to right, of unit length
 };
 
+constexpr double kFar = 2;  // spacings from where it is looked for: a node that is farther is not of that wound
+
 /// The node nearest to a place on one side of a plane. @param outward  from the plane to that side
+/// @throws TaskError  there is none near
 uint32_t nodeBeside(const Model& model, const Vector3d& of_plane_m, const Vector3d& outward, const Vector3d& to_m) {
   uint32_t out = 0;
   double least_m2 = std::numeric_limits<double>::infinity();
@@ -34,6 +37,8 @@ uint32_t nodeBeside(const Model& model, const Vector3d& of_plane_m, const Vector
       out = model.slotOffset(b) + slot;
     }
   }
+  if (std::sqrt(least_m2) > kFar * longestSpacing(model))
+    throw TaskError("'close_wound.path' lies where no tissue is beside it, 'reach_m' from it, at rest");
   return out;
 }
 
@@ -44,6 +49,7 @@ std::vector<Facing> facingAlong(const CloseGoal& goal, const Model& model) {
   for (size_t i = 1; i < goal.line.path.size(); ++i) {
     const Vector3d from_m = goal.line.path[i - 1].position_m, way_m = goal.line.path[i].position_m - from_m;
     const Vector3d across = way_m.cross(goal.line.normal).normalized();
+    if (across.norm() == 0) continue;  // a place that stands twice, or above the last one
     const auto pieces = static_cast<int>(std::max(1.0, std::floor(way_m.norm() / spacing_m)));
     for (int k = 0; k < pieces; ++k) {
       const Vector3d at_m = from_m + (k + 0.5) / pieces * way_m, beside_m = goal.reach_m * across;
@@ -132,8 +138,14 @@ std::string closeFault(const TaskConfig& task) {
 }
 
 std::unique_ptr<TaskJudge> closeJudge(const TaskConfig& task, const Session& session) {
-  if (session.scene().threads.empty()) throw TaskError("a task of kind close_wound wants a scene with 'threads'");
-  return std::make_unique<CloseJudge>(task.close, session.model());
+  if (session.scene().threads.empty())
+    throw TaskError(task.name + ": 'kind' close_wound wants a scene with 'threads', and " + session.scene().name +
+                    " has none");
+  try {
+    return std::make_unique<CloseJudge>(task.close, session.model());
+  } catch (const TaskError& error) {
+    throw TaskError(task.name + ": " + error.what());
+  }
 }
 
 TaskShapes closeShapes(const TaskConfig& task) {

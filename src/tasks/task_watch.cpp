@@ -29,10 +29,10 @@ TaskWatch::TaskWatch(Session& session, std::function<void(TaskResult&&)> ended)
   session.addLog(*this);
 }
 
-void TaskWatch::begin() {
+void TaskWatch::begin(std::unique_ptr<TaskJudge> judge) {
   status_ = {};
   status_.step = "begins with the first tracked hand";
-  judge_ = kindOf(task_->kind).judge(*task_, session_);
+  judge_ = std::move(judge);
   cut_watch_.emplace(session_.model());
   if (judge_->heedsCuts()) {
     session_.solver().readCuts(cuts_);
@@ -47,16 +47,19 @@ void TaskWatch::begin() {
 
 void TaskWatch::taskNoted(Session&, const std::string& name, const std::string& yaml) {
   if (yaml.empty()) return giveUp("it was given up");
-  task_ = parseTask(yaml, name);
-  begin();
+  TaskConfig task = parseTask(yaml, name);
+  std::unique_ptr<TaskJudge> judge =
+      kindOf(task.kind).judge(task, session_);  // or it throws, and what was there goes on
+  task_ = std::move(task);
+  begin(std::move(judge));
 }
 
 void TaskWatch::wasReset() {
-  if (task_) begin();
+  if (task_) begin(kindOf(task_->kind).judge(*task_, session_));
 }
 
 void TaskWatch::restored(Session&) {
-  if (task_) begin();
+  wasReset();
 }
 
 void TaskWatch::stepped(Session& session, const StylusSamples& samples) {

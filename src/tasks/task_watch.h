@@ -69,7 +69,7 @@ class TaskWatch : public SessionLog {
 
  private:
   bool isOpen() const { return task_ && status_.state <= TaskPhase::kRunning; }
-  void begin();
+  void begin(std::unique_ptr<TaskJudge> judge);
   void judgeNoted();
   void judge(const TaskTick& tick);
   void count(const TaskTick& tick);

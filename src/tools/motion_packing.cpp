@@ -26,11 +26,11 @@ layout::ToolMotion substep(const StylusMotion& motion, const StylusConfig& confi
   out.blade_from = pack(from * far_end, config.cut_particles.eraser_radius_m);
   out.blade_to = pack(to * far_end, 0);
   out.info = toolInfo(motion.mode);
+  out.info.y = effectsOf(motion);
   if (kind.closes) {
     const double from_rad = motion.opens_from_rad, change_rad = motion.opens_to_rad - from_rad;
     setEdge(scissorsOf(config.scissors),
             {from, to, from_rad + begin * change_rad, from_rad + end * change_rad, openingOf(config.scissors, 0)}, out);
-    if (change_rad == 0) out.info.y &= ~layout::kToolCuts;
   }
   if (motion.feels_m > 0) {
     out.info.y |= layout::kToolFeels;
@@ -40,6 +40,12 @@ layout::ToolMotion substep(const StylusMotion& motion, const StylusConfig& confi
 }
 
 }  // namespace
+
+uint32_t effectsOf(const StylusMotion& motion) {
+  const ToolKind& kind = kindOf(motion.mode);
+  const bool rests = kind.closes && motion.opens_from_rad == motion.opens_to_rad;
+  return rests ? kind.effects & ~uint32_t{kCuts} : kind.effects;
+}
 
 layout::uvec4 toolInfo(ToolMode mode) {
   return {kindOf(mode).number, kindOf(mode).effects, 0, 0};

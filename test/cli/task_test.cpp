@@ -114,6 +114,12 @@ TEST(TaskCommand, ErrorsNameTheFileTheLineAndTheKey) {
     const std::vector<std::string> errors = complaints(viscera({"task", file, "--no-view"}));
     return errors.empty() ? "" : errors[0];
   };
+  const std::string close =
+      "kind: close_wound\nclose_wound: {path: [{position_m: [5, 0, 0]}, {position_m: [5, 1, 0]}]}\n";
+  const std::string threadless = complaint(folder.write("bare.yaml", "scene: practice_pad\n" + close));
+  EXPECT_NE(threadless.find("bare: 'kind' close_wound wants a scene with 'threads'"), std::string::npos) << threadless;
+  const std::string away = complaint(folder.write("away.yaml", "scene: wound_pad\n" + close));
+  EXPECT_NE(away.find("away: 'close_wound.path' lies where no tissue"), std::string::npos) << away;
   const std::string spoilt = folder.write("spoilt.yaml", "scene: gauze\nkind: lift\nlift: {radius_m: -1}\n");
   const std::string error = complaint(spoilt);
   EXPECT_NE(error.find("spoilt.yaml:3: 'lift.radius_m'"), std::string::npos) << error;

@@ -104,6 +104,17 @@ TEST_F(Gpu, CompileErrorCarriesTheDriversLog) {
   }
 }
 
+TEST_F(Gpu, CompileErrorsAreToldWhereManyAreMade) {
+  const MadePrograms made;
+  const Program good = Program::compute("sum_impulses.comp", {"GROUP_SIZE 64"});
+  EXPECT_NO_THROW(made.require());
+  {
+    const Program broken = Program::compute("lattice.glsl", {"kBrickEdge broken("});
+    EXPECT_THROW(made.require(), GpuError);
+  }
+  EXPECT_NO_THROW(made.require()) << "what is gone is not asked for";
+}
+
 TEST(GpuContext, UnknownDeviceIsRefusedWithTheListOfThoseThereAre) {
   try {
     Context context(4711);

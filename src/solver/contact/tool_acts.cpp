@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "model/scene/tool_kinds.h"
+#include "tools/motion_packing.h"
 
 namespace viscera {
 
@@ -50,13 +51,6 @@ void letGoAboveLimit(const Hand& hand) {
 void cut(const Hand& hand) {
   const bool erases = kindOf(hand.motion.mode).does(kErases);
   if (erases || !hand.resisted) hand.target.cut(hand.stylus, erases);
-}
-
-/// What a stylus does in a tick: scissors that do not move cut nothing.
-uint32_t effectsOf(const StylusMotion& motion) {
-  const ToolKind& kind = kindOf(motion.mode);
-  const bool rests = kind.closes && motion.opens_from_rad == motion.opens_to_rad;
-  return rests ? kind.effects & ~uint32_t{kCuts} : kind.effects;
 }
 
 constexpr ToolAct kToolActs[] = {

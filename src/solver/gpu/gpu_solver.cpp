@@ -2,13 +2,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solver/gpu/gpu_solver.h"
 
+#include "gpu/program.h"
+
 namespace viscera {
+
+namespace {
+
+/// With kernels that the driver has compiled.
+std::unique_ptr<GpuBackend> backendOf(const Model& model, const Scene& scene, const TickPlan& plan,
+                                      const GpuSolverOptions& options) {
+  const gpu::MadePrograms made;
+  auto out = std::make_unique<GpuBackend>(model, scene, plan, options);
+  made.require();
+  return out;
+}
+
+}  // namespace
 
 GpuSolver::GpuSolver(const Model& model, const Scene& scene, const GpuSolverOptions& options)
     : GpuSolver(model, scene, planTicks(model, scene, options), options) {}
 
 GpuSolver::GpuSolver(const Model& model, const Scene& scene, const TickPlan& plan, const GpuSolverOptions& options)
-    : Ticks(model, scene, plan, std::make_unique<GpuBackend>(model, scene, plan, options)) {}
+    : Ticks(model, scene, plan, backendOf(model, scene, plan, options)) {}
 
 size_t GpuSolver::awakeBricks() const {
   size_t count = 0;

@@ -71,6 +71,7 @@ void ThreadSkin::begin(const TissuePoints& points) {
     now_.push_back({at_m + place.depth_m * out, out, points.velocity_m_per_s(place.at),
                     mobility > 0 ? std::min(kRigidMass_kg, kMass / mobility) : kRigidMass_kg});
     const Vector3d& place_m = now_.back().place_m;
+    if (!place_m.allFinite()) continue;  // of tissue that the governor is about to take back: nothing lies there
     along_x_.push_back({place_m.x(), now_.size() - 1});
     box_m_.extend(place_m);
   }
