@@ -2,7 +2,6 @@
 # Copyright (c) 2026, the viscera authors
 # SPDX-License-Identifier: BSD-3-Clause
 """Whatever a device sends, the session goes on: bad messages are dropped and counted by reason."""
-import subprocess
 import sys
 import unittest
 
@@ -10,6 +9,7 @@ import rospy
 import rostest
 from diagnostic_msgs.msg import DiagnosticStatus
 from geometry_msgs.msg import PoseStamped, TransformStamped, WrenchStamped
+from program import Program
 from sensor_msgs.msg import Joy
 from simulator_watch import Latest, SimulatorWatch, wait_until
 from tf2_msgs.msg import TFMessage
@@ -103,8 +103,8 @@ class InputFaultsTest(unittest.TestCase):
         self.assertEqual((status.level, status.message), (DiagnosticStatus.OK, "running"))
 
     def test_two_nodes_that_send_poses_are_named(self):
-        other = subprocess.Popen(["rostopic", "pub", "-r", "20", "left/measured_cp", "geometry_msgs/PoseStamped",
-                                  "{header: {stamp: now, frame_id: tissue}, pose: {position: {x: 0.4}, orientation: {w: 1}}}"])
+        other = Program(["rostopic", "pub", "-r", "20", "left/measured_cp", "geometry_msgs/PoseStamped",
+                         "{header: {stamp: now, frame_id: tissue}, pose: {position: {x: 0.4}, orientation: {w: 1}}}"])
         try:
             def named():
                 self.poses.publish(pose())
@@ -114,8 +114,7 @@ class InputFaultsTest(unittest.TestCase):
             wait_until(named, LIMIT_S, "warning that names both")
             self.assertEqual(self.watch.status("left").level, DiagnosticStatus.WARN)
         finally:
-            other.terminate()
-            other.wait()
+            other.end()  # rospy may wait for itself where a signal finds it as it publishes
         wait_until(lambda: "several" not in self.watch.status("left").message, LIMIT_S, "end of the warning")
 
     def test_pose_in_the_frame_of_a_device_is_brought_to_the_tissue(self):

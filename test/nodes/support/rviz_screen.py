@@ -13,6 +13,7 @@ from simulator_watch import wait_until
 
 WIDTH, HEIGHT = 1280, 900
 VIEW = slice(70, 760), slice(370, 840)  # rows and columns of the scene, in config/viscera_plugin.rviz
+END_LIMIT_S = 10
 START_LIMIT_S = 40  # software rendering on a busy machine
 MOUSE_SIGN = (240, 228, 66)  # of the button of viscera/Mouse, in the toolbar
 SIGN_PIXELS = 40  # of the signs of 16 by 16 pixels, without their smooth edges
@@ -70,7 +71,11 @@ class Screen:
 
     def end(self):
         self.process.terminate()
-        self.process.wait()
+        try:
+            self.process.wait(END_LIMIT_S)
+        except subprocess.TimeoutExpired:
+            self.process.kill()
+            self.process.wait()
         self.folder.cleanup()
 
 
