@@ -16,6 +16,7 @@
 #include "cli/task_run.h"
 #include "math/one_line.h"
 #include "model/fracture/toughness.h"
+#include "model/scene/tool_kinds.h"
 #include "session/session_recorder.h"
 #include "tasks/hand_log.h"
 #include "viscera/gpu/context.h"
@@ -52,6 +53,7 @@ Json metricsOf(const Session& session, const layout::TickStats& stats, const std
     metrics.blades.push_back(session.solver().bladeWork(s));
   for (const SeenThread& seen : session.seenThreads())
     metrics.threads.push_back({session.scene().threads[seen.thread].name, seen});
+  if (mayClip(session.scene().styluses)) metrics.clips = session.seenClips();
   metrics.thread_refusal = session.threadRefusal();
   metrics.images = counters.renders;
   metrics.images_skipped = counters.skipped;

@@ -52,6 +52,18 @@ nlohmann::ordered_json toJson(const RunMetrics& metrics) {
                                {"loop_n", knot.loop_n}});
     out["threads"].push_back(told);
   }
+  if (metrics.clips) {
+    nlohmann::ordered_json clips = {{"empty", metrics.clips->empty},
+                                    {"taken_off", metrics.clips->taken_off},
+                                    {"on", nlohmann::ordered_json::array()}};
+    for (const SeenClip& clip : metrics.clips->on) {
+      clips["on"].push_back({{"stylus", clip.stylus},
+                             {"rest_m", {clip.rest_m.x(), clip.rest_m.y(), clip.rest_m.z()}},
+                             {"opening_m", clip.opening_m},
+                             {"force_n", clip.force_n}});
+    }
+    out["clips"] = clips;
+  }
   if (!metrics.thread_refusal.empty()) out["thread_refusal"] = metrics.thread_refusal;
   out["images"] = metrics.images;
   out["images_skipped"] = metrics.images_skipped;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,7 +26,8 @@ struct RunMetrics {
   double dt_s = 0, dt_safe_s = 0, dt_limit_s = 0, simulated_s = 0, wall_s = 0;
   std::vector<BladeWork> blades = {};  ///< by stylus, of tissue that resists them; else empty
   std::vector<ThreadMetrics> threads = {};
-  std::string thread_refusal = {};  ///< why the last tie of the scene was not tied
+  std::optional<SeenClips> clips = {};  ///< where the scene has tools that set some
+  std::string thread_refusal = {};      ///< why the last tie of the scene was not tied
   Extremes extremes = {};
   std::string backend = {}, renderer = {};
   std::string stepped_by = {};  ///< Session::backendNote()

@@ -116,13 +116,16 @@ struct ToolSize {
   const char* key;
   double (*value_m)(const StylusConfig&);
 };
-constexpr std::array<ToolSize, 6> kToolSizes = {{
+constexpr std::array<ToolSize, 9> kToolSizes = {{
     {"probe.radius_m", [](const StylusConfig& c) { return c.probe.radius_m; }},
     {"grab.radius_m", [](const StylusConfig& c) { return c.grab.radius_m; }},
     {"cut.blade_length_m", [](const StylusConfig& c) { return c.cut.blade_length_m; }},
     {"cut_particles.eraser_radius_m", [](const StylusConfig& c) { return c.cut_particles.eraser_radius_m; }},
     {"suction.radius_m", [](const StylusConfig& c) { return c.suction.radius_m; }},
     {"scissors.blade_length_m", [](const StylusConfig& c) { return c.scissors.blade_length_m; }},
+    {"grasper.radius_m", [](const StylusConfig& c) { return c.grasper.radius_m; }},
+    {"clip.jaw_length_m", [](const StylusConfig& c) { return c.clip.jaw_length_m; }},
+    {"clip.opening_m", [](const StylusConfig& c) { return c.clip.opening_m; }},
 }};
 
 void followTools(const OrganFit& fit, const Scene& made, Keys& keys) {

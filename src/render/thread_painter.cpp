@@ -18,7 +18,7 @@ constexpr double kLeastRadius_px = 0.75;  // of 1.5 pixels some centre lies in e
 
 size_t allVertices(const std::vector<ThreadLook>& threads) {
   size_t out = 0;
-  for (const ThreadLook& thread : threads) out += tubeVertices(thread.nodes);
+  for (const ThreadLook& thread : threads) out += thread.most * tubeVertices(thread.nodes);
   return out + kMostParted * tubeVertices(2);  // both pieces have the node at which a thread is parted
 }
 
@@ -66,7 +66,7 @@ void ThreadPainter::drawWith(const gpu::Program& program, const ShownThreads& sh
   size_t first_vertex = 0;
   for (const ShownThread& piece : shown) {
     const auto look = std::find_if(threads_.begin(), threads_.end(), [&](const ThreadLook& thread) {
-      return thread.thread == piece.thread && thread.needle == piece.needle;
+      return thread.thread == piece.thread && thread.part == piece.part;
     });
     if (look == threads_.end() || piece.places_m.size() < 2 || piece.places_m.size() > look->nodes) continue;
     shape(*look, piece.places_m, optical_from_tissue, pixel);
@@ -89,7 +89,8 @@ void ThreadPainter::drawGeometry(const gpu::Program& program, const ShownThreads
                                  const Pose& optical_from_tissue, const Eigen::Matrix4f& clip_from_optical,
                                  double pixel) {
   drawWith(program, shown, optical_from_tissue, clip_from_optical, pixel, [&](const ThreadLook& look) {
-    program.set("label", static_cast<uint32_t>(layout::kFirstThreadLabel + look.thread));
+    const auto of_thread = static_cast<uint32_t>(layout::kFirstThreadLabel + look.thread);
+    program.set("label", look.part == ThreadPart::kClip ? layout::kClipLabel : of_thread);
   });
 }
 

@@ -14,13 +14,14 @@
 
 namespace viscera {
 
-/// How a thread or a needle is drawn.
+/// How a thread, a needle or a clip is drawn.
 struct ThreadLook {
   double radius_m;
   std::array<uint8_t, 4> color;  ///< sRGB, solid
   size_t nodes;                  ///< that it has
-  size_t thread;                 ///< index in the scene, of a needle that of its thread
-  bool needle = false;
+  size_t thread;                 ///< index in the scene, of a needle that of its thread; of clips 0
+  ThreadPart part = ThreadPart::kThread;
+  size_t most = 1;  ///< of them
 };
 
 /// Draws threads as tubes along their nodes, no thinner than a pixel and a half. With the shaders of tools.

@@ -9,6 +9,7 @@
 
 #include "gpu/software.h"
 #include "gpu/stage_clock.h"
+#include "model/scene/tool_kinds.h"
 #include "render/overlay_painter.h"
 #include "session/thread_looks.h"
 
@@ -70,7 +71,7 @@ InlineView::InlineView(const Model& model, const Scene& scene)
       renderer_(eyesOf(scene.cameras), scene.styluses, scene.obstacles, &model),
       surface_ring_(makeRing(surface_)),
       reads_late_(gpu::isSoftware()) {
-  if (!scene.threads.empty()) renderer_.addThreads(looksOf(scene.threads));
+  if (pushesAfterSubsteps(scene)) renderer_.addThreads(looksOf(scene));
   const std::vector<CameraConfig>& cameras = scene.cameras;
   for (size_t c = 0; c < cameras.size(); ++c) addEye(c, cameras[c], PictureKind::kColor);
   for (size_t c = 0; c < cameras.size(); ++c) {

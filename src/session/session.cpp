@@ -146,6 +146,11 @@ void Session::setToolMode(size_t stylus, ToolSwitch when, ToolMode mode) {
                      ": the scene was made for tools that do not cut; give some stylus of it cut or cut_particles at "
                      "the start, as in styluses[0].button2=cut");
   }
+  if (kindOf(mode).clips && !mayClip(scene_.styluses)) {
+    throw SceneError(
+        "mode clip: the scene was made for tools that set no clips; give some stylus of it clip at the start, "
+        "as in styluses[0].button1=clip");
+  }
   tools_.setMode(stylus, when, mode);
   for (SessionLog* log : logs_) log->toolModeSet(stylus, when, mode);
 }
@@ -188,10 +193,13 @@ void Session::lookAtThreads() {
   const ThreadBodies* const threads = solver_->threads();
   if (!threads) return;
   look_.threads.clear();
-  for (size_t i = 0; i < threads->count(); ++i) look_.threads.push_back({threadOf(i), false, threadPlaces(i)});
+  for (size_t i = 0; i < threads->count(); ++i)
+    look_.threads.push_back({threadOf(i), ThreadPart::kThread, threadPlaces(i)});
   for (size_t i = 0; i < scene_.threads.size(); ++i) {
-    if (threads->needle(i)) look_.threads.push_back({i, true, needlePlaces(i)});
+    if (threads->needle(i)) look_.threads.push_back({i, ThreadPart::kNeedle, needlePlaces(i)});
   }
+  for (size_t i = 0; threads->clips() && i < threads->clips()->count(); ++i)
+    look_.threads.push_back({0, ThreadPart::kClip, threads->clips()->places_m(i)});
 }
 
 /// Forces of the last tick whose measurements are there, and the wind of this moment.
@@ -243,7 +251,7 @@ void Session::collect(Frame& frame, bool wait) {
   frame.cameras = look_.cameras;
   frame.threads.clear();
   std::copy_if(look_.threads.begin(), look_.threads.end(), std::back_inserter(frame.threads),
-               [](const ShownThread& shown) { return !shown.needle; });
+               [](const ShownThread& shown) { return shown.part != ThreadPart::kNeedle; });
   collectStats(frame, wait);
   view_->collect(frame, wait);
   if (frame.surface) frame.surface->pose_received = posesOf(frame.surface->tick).newest();
@@ -292,7 +300,10 @@ TickContact Session::contactOf(size_t stylus, const Reaction& raw) const {
   out.to_m = motion.to.position_m;
   const bool acts = motion.present && !(motion.feels_m > 0) && raw.force_n.allFinite() && raw.torque_nm.allFinite();
   if (!acts || stats_.touched[stylus] + stats_.grabbed[stylus] == 0) return out;
-  out.kind = kindOf(motion.mode).does(kHolds) ? TickContact::Kind::kHolds : TickContact::Kind::kPushes;
+  // A thread pulls, and where it is slack it is not there: it does not push back as tissue does.
+  const bool thread = solver_->threads() && stats_.grabbed[stylus] == solver_->threads()->pulls()[stylus].nodes;
+  const bool holds = kindOf(motion.mode).does(kHolds) && !thread;
+  out.kind = holds ? TickContact::Kind::kHolds : TickContact::Kind::kPushes;
   out.reaction = raw;
   const double limit_n =
       kindOf(motion.mode).does(kCuts) ? solver_->bladeWork(static_cast<uint32_t>(stylus)).limit_n : 0;
@@ -349,6 +360,11 @@ std::vector<SeenThread> Session::seenThreads() const {
   std::vector<SeenThread> out;
   for (size_t p = 0; p < threadPieces(); ++p) out.push_back(solver_->threads()->piece(p).seen());
   return out;
+}
+
+SeenClips Session::seenClips() const {
+  const ThreadBodies* const threads = solver_->threads();
+  return threads && threads->clips() ? threads->clips()->seen() : SeenClips();
 }
 
 std::string Session::threadRefusal() const {

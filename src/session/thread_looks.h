@@ -9,7 +9,8 @@
 
 namespace viscera {
 
-/// How the threads of a scene are drawn: in their own width, and the colour of their material. Behind them needles.
-std::vector<ThreadLook> looksOf(const std::vector<ThreadConfig>& threads);
+/// How the threads of a scene are drawn: in their own width, and the colour of their material. Behind them needles, and
+/// clips where a stylus sets them.
+std::vector<ThreadLook> looksOf(const Scene& scene);
 
 }  // namespace viscera

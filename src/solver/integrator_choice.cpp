@@ -11,6 +11,7 @@
 #include "model/fracture/tearing.h"
 #include "model/fracture/toughness.h"
 #include "model/scene/integrators.h"
+#include "model/scene/tool_kinds.h"
 #include "solver/cpu/cpu_solver.h"
 #include "viscera/math/error.h"
 
@@ -100,6 +101,7 @@ std::string missing(const Model& model, const Scene& scene, Backend backend) {
   if (tears(scene)) return "multigrid knows no tissue that tears (material.tear)";
   if (std::any_of(scene.threads.begin(), scene.threads.end(), [](const ThreadConfig& t) { return t.feelsTissue(); }))
     return "multigrid knows no threads through tissue (threads[].channels, threads[].needle)";
+  if (mayClip(scene.styluses)) return "multigrid knows no clips";
   if (scene.collision.enabled) return "multigrid knows no contacts between nodes";
   return "";
 }

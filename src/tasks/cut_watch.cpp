@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <limits>
 #include <numeric>
+#include <tuple>
+#include <utility>
 
+#include "tasks/task.h"
 #include "viscera/layout/links.h"
 #include "viscera/model/body/neighbors.h"
 
@@ -32,6 +35,56 @@ void forEachNode(const Body& body, const Visit& visit) {
   for (uint32_t slot = 0; slot < body.network->masses_kg.size(); ++slot)
     if (body.network->masses_kg[slot] > 0) visit(slot);
 }
+
+/// [body, slot]
+std::pair<size_t, uint32_t> nearestNode(const Model& model, const Vector3d& to_m) {
+  std::pair<size_t, uint32_t> out;
+  double nearest_m = std::numeric_limits<double>::infinity();
+  for (size_t b = 0; b < model.bodies.size(); ++b) {
+    forEachNode(model.bodies[b], [&](uint32_t slot) {
+      const double distance_m = (restPosition(model.bodies[b], slot) - to_m).norm();
+      if (distance_m >= nearest_m) return;
+      nearest_m = distance_m;
+      out = {b, slot};
+    });
+  }
+  return out;
+}
+
+/// What of a body hangs together by whole springs.
+class Pieces {
+ public:
+  Pieces(const Model& model, size_t body, const CutState& cuts) {
+    const Body& it = model.bodies[body];
+    parents_.resize(it.network ? it.network->masses_kg.size() : it.lattice.nodes.size());
+    std::iota(parents_.begin(), parents_.end(), 0u);
+    if (it.network) {
+      size_t before = 0;
+      for (size_t b = 0; b < body; ++b) before += model.bodies[b].network ? model.bodies[b].network->springs.size() : 0;
+      const std::vector<NetworkSpring>& springs = it.network->springs;
+      for (size_t i = 0; i < springs.size(); ++i)
+        if (cuts.spring_cut.empty() || cuts.spring_cut[before + i] == 0) join(springs[i].a, springs[i].b);
+      return;
+    }
+    const uint32_t offset = model.slotOffset(body);
+    for (const uint32_t slot : it.lattice.active_slots) {
+      for (uint32_t s = 0; s < layout::kSpringsPerNode; s += 2) {
+        const int64_t other = it.lattice.neighborSlot(slot, s);
+        if (other >= 0 && springCount(cuts.nodes[offset + slot], s) > 0) join(slot, static_cast<uint32_t>(other));
+      }
+    }
+  }
+  /// A node of the piece, the same for all of its nodes.
+  uint32_t of(uint32_t slot) {
+    while (parents_[slot] != slot) slot = parents_[slot] = parents_[parents_[slot]];
+    return slot;
+  }
+
+ private:
+  void join(uint32_t a, uint32_t b) { parents_[of(a)] = of(b); }
+
+  std::vector<uint32_t> parents_;
+};
 
 }  // namespace
 
@@ -74,22 +127,26 @@ double longestSpacing(const Model& model) {
   return out;
 }
 
+Joint::Joint(const Model& model, const Vector3d& one_m, const Vector3d& other_m) : model_(model) {
+  const auto [body, one] = nearestNode(model, one_m);
+  const auto [other_body, other] = nearestNode(model, other_m);
+  if (body != other_body)
+    throw TaskError("places of 'clip_and_divide.clips' are nearest to different bodies, " + model.bodies[body].name +
+                    " and " + model.bodies[other_body].name + ": one body is divided");
+  body_ = body;
+  one_ = one;
+  other_ = other;
+}
+
+bool Joint::isApart(const CutState& cuts) const {
+  Pieces pieces(model_, body_, cuts);
+  return pieces.of(one_) != pieces.of(other_);
+}
+
 DiscPiece::DiscPiece(const Model& model, const Vector3d& center_m, const Vector3d& normal, double radius_m,
                      double outside_m)
     : model_(model) {
-  double nearest = std::numeric_limits<double>::infinity();
-  size_t springs = 0;
-  for (size_t b = 0; b < model.bodies.size(); ++b) {
-    forEachNode(model.bodies[b], [&](uint32_t slot) {
-      const double distance = (restPosition(model.bodies[b], slot) - center_m).norm();
-      if (distance >= nearest) return;
-      nearest = distance;
-      body_ = b;
-      center_ = slot;
-      springs_before_ = springs;
-    });
-    if (model.bodies[b].network) springs += model.bodies[b].network->springs.size();
-  }
+  std::tie(body_, center_) = nearestNode(model, center_m);
   const Body& body = model.bodies[body_];
   zones_.resize(body.network ? body.network->masses_kg.size() : body.lattice.nodes.size(), Zone::kNone);
   forEachNode(body, [&](uint32_t slot) {
@@ -100,36 +157,12 @@ DiscPiece::DiscPiece(const Model& model, const Vector3d& center_m, const Vector3
   });
 }
 
-template <class Join>
-void DiscPiece::forEachWhole(const CutState& cuts, const Join& join) const {
-  const Body& body = model_.bodies[body_];
-  if (body.network) {
-    const std::vector<NetworkSpring>& springs = body.network->springs;
-    for (size_t i = 0; i < springs.size(); ++i)
-      if (cuts.spring_cut.empty() || cuts.spring_cut[springs_before_ + i] == 0) join(springs[i].a, springs[i].b);
-    return;
-  }
-  const uint32_t offset = model_.slotOffset(body_);
-  for (const uint32_t slot : body.lattice.active_slots) {
-    for (uint32_t s = 0; s < layout::kSpringsPerNode; s += 2) {
-      const int64_t other = body.lattice.neighborSlot(slot, s);
-      if (other >= 0 && springCount(cuts.nodes[offset + slot], s) > 0) join(slot, static_cast<uint32_t>(other));
-    }
-  }
-}
-
 bool DiscPiece::isApart(const CutState& cuts) const {
-  std::vector<uint32_t> parents(zones_.size());
-  std::iota(parents.begin(), parents.end(), 0u);
-  const auto root = [&parents](uint32_t slot) {
-    while (parents[slot] != slot) slot = parents[slot] = parents[parents[slot]];
-    return slot;
-  };
-  forEachWhole(cuts, [&](uint32_t a, uint32_t b) { parents[root(a)] = root(b); });
-  const uint32_t piece = root(center_);
+  Pieces pieces(model_, body_, cuts);
+  const uint32_t piece = pieces.of(center_);
   size_t disc_nodes = 0;
   for (uint32_t slot = 0; slot < zones_.size(); ++slot) {
-    if (zones_[slot] == Zone::kNone || root(slot) != piece) continue;
+    if (zones_[slot] == Zone::kNone || pieces.of(slot) != piece) continue;
     if (zones_[slot] == Zone::kOutside) return false;
     disc_nodes += zones_[slot] == Zone::kDisc;
   }

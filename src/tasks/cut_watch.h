@@ -28,6 +28,19 @@ class CutWatch {
 /// How long springs are, where they are longest [m].
 double longestSpacing(const Model& model);
 
+/// Whether two places of tissue hang together, by paths of whole springs.
+class Joint {
+ public:
+  /// Between the nodes nearest to both. @throws TaskError  they are of different bodies
+  Joint(const Model& model, const Vector3d& one_m, const Vector3d& other_m);
+  bool isApart(const CutState& cuts) const;
+
+ private:
+  const Model& model_;
+  size_t body_ = 0;
+  uint32_t one_ = 0, other_ = 0;
+};
+
 /// Whether a disc is a piece by itself: no path of whole springs leads from the node nearest to its centre to one that
 /// is farther out than `outside_m`, and the piece has half of the disc at least.
 class DiscPiece {
@@ -38,11 +51,8 @@ class DiscPiece {
 
  private:
   enum class Zone : uint8_t { kNone, kDisc, kRim, kOutside };
-  template <class Join>
-  void forEachWhole(const CutState& cuts, const Join& join) const;
-
   const Model& model_;
-  size_t body_ = 0, springs_before_ = 0;
+  size_t body_ = 0;
   uint32_t center_ = 0;
   std::vector<Zone> zones_;  ///< [slots of the body]
   size_t disc_nodes_ = 0;

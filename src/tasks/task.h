@@ -14,7 +14,7 @@ namespace viscera {
 // structs has one entry in task_fields.h. Places are of the tissue at rest, in the tissue frame.
 
 /// What has to be done: the rows of kTaskKinds (task_kinds.h), each with a group of keys of its own below.
-enum class TaskGoal { kFollowLine, kCutDisc, kTouchTargets, kLift, kCloseWound };
+enum class TaskGoal { kFollowLine, kCutDisc, kTouchTargets, kLift, kCloseWound, kClipDivide };
 
 struct TaskPlace {
   Vector3d position_m = Vector3d::Zero();
@@ -65,6 +65,13 @@ struct CloseGoal {
   int throws = 3;
 };
 
+/// Clip tissue at two places or more, and divide it between the innermost two.
+struct ClipGoal {
+  bool given = false;
+  std::vector<TaskPlace> clips;  ///< an even number, in their order along the tissue
+  double radius_m = 0.003;
+};
+
 /// Beyond these, time is counted.
 struct TaskLimits {
   double force_n = 1000;  ///< of any hand
@@ -89,6 +96,7 @@ struct TaskConfig {
   TouchGoal touch;
   LiftGoal lift;
   CloseGoal close;
+  ClipGoal clip;
   TaskLimits limits;
   std::vector<TaskRule> measures;
 

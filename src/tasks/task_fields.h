@@ -67,6 +67,14 @@ void visitFields(V& v, CloseGoal& c) {
 }
 
 template <class V>
+void visitFields(V& v, ClipGoal& c) {
+  v.given(c.given);
+  v.list("clips", c.clips, kMostTaskPlaces,
+         "where clips are to be, an even number in their order along the tissue, which is to be divided in the middle");
+  v.number("radius_m", c.radius_m, kTaskWidth, "m", "a clip that is no farther from a place is at it");
+}
+
+template <class V>
 void visitFields(V& v, TaskLimits& c) {
   v.number("force_n", c.force_n, {0, 1000}, "N", "of any hand: time beyond it is the measure force_s");
   v.number("strain", c.strain, {0, 1000}, "1", "of any spring: time beyond it is the measure strain_s");
@@ -98,6 +106,7 @@ void visitFields(V& v, TaskConfig& c) {
   v.group("touch_targets", c.touch, "touch places one after another, and nothing else");
   v.group("lift", c.lift, "take hold of tissue, lift it and keep it there");
   v.group("close_wound", c.close, "open tissue along a line, tie the scene's threads, and let go");
+  v.group("clip_and_divide", c.clip, "set clips at places of the tissue, and divide it between them");
   v.group("limits", c.limits, "beyond these, time is counted");
   v.list("measures", c.measures, 100, "what measures cost, and up to where the task is passed");
 }

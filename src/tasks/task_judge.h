@@ -9,6 +9,7 @@
 #include "tasks/task_measures.h"
 #include "viscera/layout/tick_stats.h"
 #include "viscera/math/types.h"
+#include "viscera/solver/seen_clip.h"
 #include "viscera/solver/seen_thread.h"
 #include "viscera/solver/state.h"
 #include "viscera/tools/stylus.h"
@@ -21,6 +22,7 @@ struct TaskTick {
   std::vector<Vector3d> cuts_m;     ///< where springs were cut in it: of the tissue at rest
   bool apart = false;               ///< TaskJudge::isApart() after it, where something was cut in it
   std::vector<SeenThread> threads;  ///< where the task heeds them
+  SeenClips clips;                  ///< where the task heeds them
   std::optional<double> gap_m;      ///< TaskJudge::gapOf() after it, where that was asked for
   layout::TickStats stats{};
   double tick_s = 0;
@@ -52,6 +54,8 @@ class TaskJudge {
   virtual bool isApart(const CutState&) const { return false; }
   /// Does it ask for knots?
   virtual bool heedsThreads() const { return false; }
+  /// Does it ask for clips?
+  virtual bool heedsClips() const { return false; }
   /// Is it to be known how far a wound gapes? Then the tissue is waited for.
   virtual bool asksForGap(const std::vector<SeenThread>&) const { return false; }
   /// How much farther apart the sides of a wound are than at rest [m]; asked on the session's thread.

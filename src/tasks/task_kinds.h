@@ -40,6 +40,10 @@ std::string closeFault(const TaskConfig&);
 std::unique_ptr<TaskJudge> closeJudge(const TaskConfig&, const Session&);
 TaskShapes closeShapes(const TaskConfig&);
 
+std::string clipFault(const TaskConfig&);
+std::unique_ptr<TaskJudge> clipJudge(const TaskConfig&, const Session&);
+TaskShapes clipShapes(const TaskConfig&);
+
 /// Of kinds that have a line to cut among their goals.
 std::unique_ptr<TaskJudge> judgeOfLine(const LineGoal& line, double spacing_m);
 /// @param group  of its keys
@@ -52,6 +56,7 @@ inline constexpr TaskKind kTaskKinds[] = {
     {TaskGoal::kTouchTargets, "touch_targets", touchFault, touchJudge, touchShapes},
     {TaskGoal::kLift, "lift", liftFault, liftJudge, liftShapes},
     {TaskGoal::kCloseWound, "close_wound", closeFault, closeJudge, closeShapes},
+    {TaskGoal::kClipDivide, "clip_and_divide", clipFault, clipJudge, clipShapes},
 };
 constexpr const TaskKind& kindOf(TaskGoal goal) {
   return kTaskKinds[static_cast<size_t>(goal)];

@@ -79,6 +79,7 @@ void TaskWatch::stepped(Session& session, const StylusSamples& samples) {
     tick.threads = session.seenThreads();
     if (judge_->asksForGap(tick.threads)) tick.gap_m = judge_->gapOf(session.solver().readState());
   }
+  if (judge_->heedsClips()) tick.clips = session.seenClips();
   stepped_.push_back(std::move(tick));
   judgeNoted();
 }

@@ -60,7 +60,8 @@ TEST_P(ShippedTask, IsFailedByAClumsyOne) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Each, ShippedTask,
-                         ::testing::Values("pattern_cut", "incision", "touch_targets", "gentle_lift", "close_wound"),
+                         ::testing::Values("pattern_cut", "incision", "touch_targets", "gentle_lift", "close_wound",
+                                           "clip_and_divide"),
                          [](const auto& info) { return std::string(info.param); });
 
 TEST(TaskCommand, ReplaysToTheSameScoreAndWritesAReport) {
@@ -120,6 +121,11 @@ TEST(TaskCommand, ErrorsNameTheFileTheLineAndTheKey) {
   EXPECT_NE(threadless.find("bare: 'kind' close_wound wants a scene with 'threads'"), std::string::npos) << threadless;
   const std::string away = complaint(folder.write("away.yaml", "scene: wound_pad\n" + close));
   EXPECT_NE(away.find("away: 'close_wound.path' lies where no tissue"), std::string::npos) << away;
+  const std::string clipless = complaint(folder.write(
+      "none.yaml", "scene: gauze\nkind: clip_and_divide\nclip_and_divide: {clips: [{position_m: [0, 0, 0]}, {}]}\n"));
+  EXPECT_NE(clipless.find("none: 'kind' clip_and_divide wants a scene with a stylus that has mode clip"),
+            std::string::npos)
+      << clipless;
   const std::string spoilt = folder.write("spoilt.yaml", "scene: gauze\nkind: lift\nlift: {radius_m: -1}\n");
   const std::string error = complaint(spoilt);
   EXPECT_NE(error.find("spoilt.yaml:3: 'lift.radius_m'"), std::string::npos) << error;

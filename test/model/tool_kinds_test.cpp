@@ -41,8 +41,10 @@ TEST(ToolKinds, EachKindReachesAsFarAsItsOwnKeySays) {
   EXPECT_EQ(kindOf(ToolMode::kNeedle).reach_m(stylus), 0.022);
 }
 
-TEST(ToolKinds, OnlySuctionLetsGoAboveAForce) {
+TEST(ToolKinds, SuctionAndGraspersLetGoAboveAForce) {
   StylusConfig stylus;
+  stylus.grasper.max_force_n = 0.8;
+  EXPECT_EQ(kindOf(ToolMode::kGrasper).grip(stylus).max_force_n, 0.8);
   stylus.suction.max_force_n = 0.7;
   EXPECT_EQ(kindOf(ToolMode::kSuction).grip(stylus).max_force_n, 0.7);
   EXPECT_TRUE(std::isinf(kindOf(ToolMode::kGrab).grip(stylus).max_force_n));

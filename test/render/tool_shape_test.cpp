@@ -9,7 +9,8 @@ using namespace viscera;
 namespace {
 
 constexpr ToolMode kModes[] = {ToolMode::kNone,         ToolMode::kProbe,   ToolMode::kGrab,   ToolMode::kCut,
-                               ToolMode::kCutParticles, ToolMode::kSuction, ToolMode::kNeedle, ToolMode::kScissors};
+                               ToolMode::kCutParticles, ToolMode::kSuction, ToolMode::kNeedle, ToolMode::kScissors,
+                               ToolMode::kGrasper,      ToolMode::kClip};
 constexpr float kTight_m = 1e-6f;  // of float coordinates of some centimetres
 
 Vector3f position(const ToolVertex& vertex) {
@@ -99,7 +100,8 @@ TEST(ToolShape, ShaftEndsTwelveCentimetresBehindTheTip) {
 TEST(ToolShape, OnlyTheSphereOfWhatHoldsIsTranslucent) {
   for (ToolMode mode : kModes) {
     const ToolShape shape = toolShape(StylusConfig(), mode);
-    EXPECT_EQ(shape.solid_indices < shape.indices.size(), mode == ToolMode::kGrab || mode == ToolMode::kSuction);
+    EXPECT_EQ(shape.solid_indices < shape.indices.size(),
+              mode == ToolMode::kGrab || mode == ToolMode::kSuction || mode == ToolMode::kGrasper);
     for (size_t i = 0; i < shape.indices.size(); ++i) {
       EXPECT_EQ(shape.vertices[shape.indices[i]].color[3] == 255, i < shape.solid_indices);
     }

@@ -7,7 +7,8 @@ using namespace viscera;
 namespace {
 
 constexpr ToolMode kModes[] = {ToolMode::kNone,         ToolMode::kProbe,   ToolMode::kGrab,   ToolMode::kCut,
-                               ToolMode::kCutParticles, ToolMode::kSuction, ToolMode::kNeedle, ToolMode::kScissors};
+                               ToolMode::kCutParticles, ToolMode::kSuction, ToolMode::kNeedle, ToolMode::kScissors,
+                               ToolMode::kGrasper,      ToolMode::kClip};
 
 class ToolsGl : public Drawing {
  protected:

@@ -37,10 +37,13 @@ strokes:
       - {t_s: 1.5, position_m: [0, 0, 0.05], rotation_deg: [180, 72, 180]}
 )";
 
+constexpr double kFelt_n = 1e-3;
+
 struct Sewn {
   double most_n = 0, off_m = 0, moved_m = 0;  ///< of the thread's start from the tail; after it was let go
   Vector3d tip = Vector3d::Zero();
   uint64_t hash = 0, trips = 0;
+  int unfelt = 0;  ///< ticks with a force that the answers between ticks do not know of
 };
 
 Sewn sew(const Overrides& overrides) {
@@ -53,6 +56,8 @@ Sewn sew(const Overrides& overrides) {
     const Frame frame = session.step(strokes.at(time_s, scene.styluses), {});
     const std::vector<Vector3d> needle = session.needlePlaces(0);
     out.most_n = std::max(out.most_n, frame.reactions[0].force_n.norm());
+    const bool pressed = frame.reactions[0].force_n.norm() > kFelt_n;
+    out.unfelt += pressed && frame.contacts[0].kind != TickContact::Kind::kPushes;
     out.off_m = std::max(out.off_m, (session.threadPlaces(0)[0] - needle.back()).norm());
     out.tip = needle.front();
     if (time_s < 1.3) left = needle.front();
@@ -68,6 +73,7 @@ TEST(NeedleSession, AStylusTakesOneDrivesItThroughAndLetsItGo) {
   EXPECT_GT(once.most_n, 0.04);
   EXPECT_LT(once.most_n, 0.5);
   EXPECT_LT(once.off_m, 1e-4);
+  EXPECT_EQ(once.unfelt, 0);   // also at the skin, before it is in
   EXPECT_GT(once.tip.x(), 0);  // where it came out, not where it went in
   EXPECT_LT(once.moved_m, 0.01);
   EXPECT_EQ(once.trips, 0u);

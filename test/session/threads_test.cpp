@@ -44,6 +44,14 @@ TEST(ThreadSession, ThreadsHangAndFollowHands) {
   EXPECT_LT((session.threadPlaces(0)[0] - Vector3d(-0.05, 0, 0.06)).norm(), 1e-5);
 }
 
+TEST(ThreadSession, ThreadsThatAreHeldPullAndDoNotPush) {
+  Session session(threadScene());
+  for (int t = 1; t <= 40; ++t) {
+    const TickContact contact = session.step(drawUp(t), {}).contacts[0];
+    EXPECT_EQ(contact.kind, TickContact::Kind::kPushes) << t;  // one way: slack, it has no stiffness of tissue
+  }
+}
+
 TEST(ThreadSession, HashesKnowThreadsAndResetsPutThemBack) {
   Scene without = threadScene();
   without.threads.clear();

@@ -42,6 +42,9 @@ TEST(TaskFile, ErrorsNameFileLineKeyAndWhatIsAccepted) {
   EXPECT_TRUE(names(errorOf("scene: a\nkind: touch_targets\ntouch_targets: {}\n"), {"'touch_targets.targets'"}));
   EXPECT_TRUE(names(errorOf("scene: a\nkind: follow_line\nfollow_line: {path: [{}]}\n"), {"'follow_line.path'"}));
   EXPECT_TRUE(names(errorOf("scene: a\nkind: close_wound\n"), {"'close_wound' must be there"}));
+  EXPECT_TRUE(names(errorOf("scene: a\nkind: clip_and_divide\n"), {"'clip_and_divide' must be there"}));
+  EXPECT_TRUE(names(errorOf("scene: a\nkind: clip_and_divide\nclip_and_divide: {clips: [{}]}\n"),
+                    {"'clip_and_divide.clips'", "even number"}));
   EXPECT_TRUE(names(errorOf("scene: a\nkind: close_wound\nclose_wound: {path: [{}]}\n"), {"'close_wound.path'"}));
   EXPECT_TRUE(names(errorOf("scene: a\nkind: close_wound\nclose_wound: {knots: 0}\n"), {"task.yaml:3", "1 .. 64"}));
   EXPECT_TRUE(names(errorOf("kind: lift\nlift: {}\n"), {"task.yaml: ", "'scene' must name"}));

@@ -16,6 +16,7 @@ const uint kFirstWallLabel = 101u;  // of wounds, by the index of the body
 const uint kFirstToolLabel = 201u;
 const uint kFirstObstacleLabel = 221u;
 const uint kFirstThreadLabel = 241u;
+const uint kClipLabel = 254u;
 
 #ifdef __cplusplus
 static_assert(kFirstBodyLabel + kMaxBodies <= kFirstWallLabel && kFirstWallLabel + kMaxBodies <= kFirstToolLabel &&

@@ -12,6 +12,7 @@
 #include "viscera/layout/tick_stats.h"
 #include "viscera/model/model.h"
 #include "viscera/session/frame.h"
+#include "viscera/solver/seen_clip.h"
 #include "viscera/solver/seen_thread.h"
 #include "viscera/solver/solver.h"
 #include "viscera/solver/threads.h"
@@ -124,7 +125,8 @@ class Session {
   std::vector<Vector3d> needlePlaces(size_t thread) const;        ///< of its needle, from the tip on; or none
   std::vector<double> threadTensions_n(size_t piece) const;       ///< of its links, pulling above 0
   std::vector<SeenThread> seenThreads() const;                    ///< [pieces]
-  std::string threadRefusal() const;                              ///< why the last of ThreadConfig::ties was not tied
+  SeenClips seenClips() const;
+  std::string threadRefusal() const;  ///< why the last of ThreadConfig::ties was not tied
   /// @}
   /// Brings the tails of a piece together, draws its loop and ties it, in the steps to come. @throws Error  why not
   void tieThread(size_t piece, const ThreadTie& tie);

@@ -13,7 +13,7 @@ namespace viscera {
 struct TickContact {
   enum class Kind {
     kFree,    ///< touches nothing
-    kPushes,  ///< a probe in tissue: the tissue pushes it out and never pulls
+    kPushes,  ///< a probe in tissue, or a thread that is held: one direction of force and never the other
     kHolds    ///< a grip: pushed and pulled
   };
   Kind kind = Kind::kFree;

@@ -140,6 +140,14 @@ void requireNeedles(const std::string& file, const Scene& scene) {
   }
 }
 
+/// Clips are on tissue whose substeps can be told afterwards.
+void requireClips(const std::string& file, const Scene& scene) {
+  const Integrator integrator = scene.solver.integrator;
+  if (mayClip(scene.styluses) && (integrator == Integrator::kVerletPaper || integrator == Integrator::kMultigrid))
+    throw SceneError(file + ": a stylus with mode clip needs solver.integrator leapfrog, pd or auto, not " +
+                     traitsOf(integrator).name);
+}
+
 /// What no single key can tell.
 void requireConsistent(const std::string& file, const Scene& scene) {
   if (scene.bodies.empty()) throw SceneError(file + ": 'bodies' must hold at least one body");
@@ -171,6 +179,7 @@ void requireConsistent(const std::string& file, const Scene& scene) {
     requireNeedle(file, thread);
   }
   requireNeedles(file, scene);
+  requireClips(file, scene);
   for (const BodyConfig& body : scene.bodies) requireStableSubstep(file, scene.solver, body);
   for (const CameraConfig& camera : scene.cameras) {
     const Vector3d sight = camera.target_m - camera.position_m;

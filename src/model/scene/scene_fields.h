@@ -71,6 +71,25 @@ void visitFields(V& v, ScissorsConfig& c) {
 }
 
 template <class V>
+void visitFields(V& v, GrasperConfig& c) {
+  v.number("radius_m", c.radius_m, kTipReach, "m", "nodes within this distance of the tip are between the jaws");
+  v.number("max_force_n", c.max_force_n, {0, 1e3}, "N",
+           "friction of the jaws: what they hold slips out of them after a tick whose reaction force is larger");
+  v.number("release_speed_m_per_s", c.release_speed_m_per_s, kReleaseSpeed, "m/s", "largest node speed after release");
+}
+
+template <class V>
+void visitFields(V& v, ClipConfig& c) {
+  v.number("jaw_length_m", c.jaw_length_m, kTipReach, "m", "from the pivot, which is behind the tips, to these");
+  v.number("opening_m", c.opening_m, kTipReach, "m", "between the jaws: along x of the stylus");
+  v.number("width_m", c.width_m, {1e-4, 0.1}, "m",
+           "of a clip, along y of the stylus; nodes half a spacing beside it are taken too");
+  v.number("gap_m", c.gap_m, {0, 0.1}, "m", "between the legs of a closed clip; solid tissue stays 0.4 of itself");
+  v.number("force_n", c.force_n, {0.01, 1e3}, "N", "with which a clip closes and stays closed");
+  v.integer("magazine", c.magazine, {1, static_cast<double>(kMostClips)}, "clips that there are until a reset");
+}
+
+template <class V>
 void visitFields(V& v, StylusConfig& c) {
   const std::vector<Choice<ToolMode>> modes = toolChoices();
   v.text("name", c.name, "name: its topics are `<name>/measured_cp` and so on");
@@ -83,6 +102,8 @@ void visitFields(V& v, StylusConfig& c) {
   v.group("cut_particles", c.cut_particles, "cut_particles: the same blade erases the springs of nodes near it");
   v.group("suction", c.suction, "suction: holds the nodes around the tip as grab does, up to a force");
   v.group("scissors", c.scissors, "scissors: two blades that close when they begin and cut what is between them");
+  v.group("grasper", c.grasper, "grasper: two jaws hold the nodes around the tip, up to their friction");
+  v.group("clip", c.clip, "clip: when it begins, two jaws set a clip on what is between them");
   v.number("max_force_n", c.max_force_n, {0, 1e3}, "N", "reaction force is saturated here");
   v.number("max_force_rate_n_per_s", c.max_force_rate_n_per_s, {1, 1e6}, "N/s", "reaction force changes no faster");
   v.number("max_torque_nm", c.max_torque_nm, {0, 1e2}, "N m", "reaction torque is saturated here");

@@ -22,7 +22,7 @@ enum ToolEffect : uint32_t {
 };
 
 /// What is drawn of a tool in front of its shaft.
-enum class ToolTip { kBare, kBall, kJaws, kBlade, kCapsule, kCup, kScissors };
+enum class ToolTip { kBare, kBall, kJaws, kBlade, kCapsule, kCup, kScissors, kApplier };
 
 /// How a tool that holds lets go.
 struct Grip {
@@ -43,6 +43,7 @@ struct ToolKind {
   double (*reach_m)(const StylusConfig&);       ///< of what acts, around the tip or around the blade
   Grip (*grip)(const StylusConfig&) = nullptr;  ///< of kinds that hold
   bool closes = false;                          ///< two blades, which part what is between them as they close
+  bool clips = false;                           ///< it sets a clip when it begins
 
   constexpr bool does(uint32_t some) const { return (effects & some) != 0; }
   /// It moves nodes: contact kernels run, and their reactions are summed.
@@ -72,6 +73,11 @@ inline constexpr ToolKind kToolKinds[] = {
      [](const StylusConfig& c) { return c.grab.radius_m; }},
     {ToolMode::kScissors, layout::kModeScissors, "scissors", kCuts, ToolTip::kScissors, {0, 114, 178},
      [](const StylusConfig&) { return 0.0; }, nullptr, true},
+    {ToolMode::kGrasper, layout::kModeGrasper, "grasper", kHolds, ToolTip::kJaws, {204, 121, 167},
+     [](const StylusConfig& c) { return c.grasper.radius_m; },
+     [](const StylusConfig& c) { return Grip{c.grasper.release_speed_m_per_s, c.grasper.max_force_n}; }},
+    {ToolMode::kClip, layout::kModeClip, "clip", 0, ToolTip::kApplier, {150, 200, 90},
+     [](const StylusConfig&) { return 0.0; }, nullptr, false, true},
 };
 // clang-format on
 inline constexpr size_t kToolKindCount = sizeof(kToolKinds) / sizeof(kToolKinds[0]);
@@ -106,6 +112,19 @@ constexpr BladeSpan bladeSpan(const CutConfig& cut) {
 /// Does a stylus cut or erase, with one button or another?
 inline bool maySever(const StylusConfig& config) {
   return kindOf(config.idle).severs() || kindOf(config.button1).severs() || kindOf(config.button2).severs();
+}
+
+/// Does some stylus set clips, with one button or another?
+inline bool mayClip(const std::vector<StylusConfig>& styluses) {
+  for (const StylusConfig& stylus : styluses) {
+    if (kindOf(stylus.idle).clips || kindOf(stylus.button1).clips || kindOf(stylus.button2).clips) return true;
+  }
+  return false;
+}
+
+/// Are there threads or clips, which push nodes after each substep?
+inline bool pushesAfterSubsteps(const Scene& scene) {
+  return !scene.threads.empty() || mayClip(scene.styluses);
 }
 
 /// Does some stylus? What a model and a solver keep of cuts is there only then.

@@ -157,6 +157,7 @@ void SimulationLoop::deliver(const Session& session, Frame&& frame, const Stylus
     status_.held_back = frame.held_back;
     status_.inside = frame.inside;
     status_.threads = session.seenThreads();
+    status_.clips = session.seenClips();
     status_.thread_refusal = session.threadRefusal();
     status_.modes.clear();
     for (const StylusConfig& stylus : session.styluses())

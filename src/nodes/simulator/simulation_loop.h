@@ -39,6 +39,7 @@ struct LoopStatus {
   /// What each stylus does with no button pressed, and while the first or the second is.
   std::vector<std::array<ToolMode, 3>> modes;
   std::vector<SeenThread> threads;
+  SeenClips clips;
   std::string thread_refusal;  ///< why the last tie of the scene was not tied
   PaceMeter::Reading pace;     ///< since the last LoopStatus was taken
 };

@@ -70,6 +70,7 @@ SimulatorDiagnostics::SimulatorDiagnostics(ros::NodeHandle node, const Scene& sc
   if (!obstacles_.empty()) updater_.add("obstacles", this, &SimulatorDiagnostics::obstacles);
   if (!camera_frames_.empty()) updater_.add("cameras", this, &SimulatorDiagnostics::cameras);
   if (!thread_names_.empty()) updater_.add("threads", this, &SimulatorDiagnostics::threads);
+  if (mayClip(scene.styluses)) updater_.add("clips", this, &SimulatorDiagnostics::clips);
   // Forced from the steady clock, since the updater's own period follows ROS time, which may stand still.
   timer_ = node.createSteadyTimer(ros::WallDuration(kPeriod_s), [this](const ros::SteadyTimerEvent&) { update(); });
 }
@@ -213,6 +214,23 @@ void SimulatorDiagnostics::threads(Status& status) {
       for (const int turns : knot.turns) text << ", throw " << turns;
     }
     status.add(thread_names_[thread.thread] + "[" + std::to_string(pieces[thread.thread]++) + "]", text.str());
+  }
+}
+
+/// Of each: where what it holds is at rest, how far it is open and its force.
+void SimulatorDiagnostics::clips(Status& status) {
+  if (!now_) return status.summary(Level::OK, "preparing");
+  const SeenClips& clips = now_->clips;
+  status.summary(Level::OK, std::to_string(clips.on.size()) + " on tissue");
+  status.add("empty", clips.empty);
+  status.add("taken_off", clips.taken_off);
+  for (size_t i = 0; i < clips.on.size(); ++i) {
+    const SeenClip& clip = clips.on[i];
+    std::ostringstream text;
+    text << std::setprecision(3) << "at rest at " << 1e3 * clip.rest_m.x() << " " << 1e3 * clip.rest_m.y() << " "
+         << 1e3 * clip.rest_m.z() << " mm, open by " << 1e3 * clip.opening_m << " mm, holds with " << clip.force_n
+         << " N";
+    status.add("clip[" + std::to_string(i) + "]", text.str());
   }
 }
 

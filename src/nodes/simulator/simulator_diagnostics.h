@@ -49,6 +49,7 @@ class SimulatorDiagnostics {
   void obstacles(Status& status);
   void cameras(Status& status);
   void threads(Status& status);
+  void clips(Status& status);
 
   SimulationLoop& loop_;
   const Publishers publishers_;

@@ -83,7 +83,7 @@ SceneMarkers::SceneMarkers(const Scene& scene, const PublishOptions& options)
     : frame_(scene.environment.tissue_frame),
       arrow_m_per_n_(options.force_arrow_m_per_n),
       letter_m_(letterHeight(scene)),
-      threads_(looksOf(scene.threads)) {
+      threads_(looksOf(scene)) {
   for (const StylusConfig& stylus : scene.styluses) {
     styluses_.push_back(stylus.name);
     auto& shapes = tools_.emplace_back();
@@ -184,15 +184,20 @@ void SceneMarkers::addForce(size_t stylus, const SceneLook& look, const ros::Tim
 
 /// Lines: a tube would be tens of points for each of theirs.
 void SceneMarkers::addThreads(const SceneLook& look, const ros::Time& stamp, MarkerArray& out) const {
-  const auto threads = static_cast<size_t>(
-      std::count_if(threads_.begin(), threads_.end(), [](const ThreadLook& thread) { return !thread.needle; }));
-  for (size_t i = 0; i < (threads > 0 ? threads + kMostParted : 0); ++i) {
+  size_t threads = 0, clips = 0;
+  for (const ThreadLook& look : threads_) {
+    threads += look.part == ThreadPart::kThread;
+    if (look.part == ThreadPart::kClip) clips = look.most;
+  }
+  const ThreadLook* const clip = clips > 0 ? &threads_.back() : nullptr;
+  for (size_t i = 0; i < (threads > 0 ? threads + kMostParted : 0) + clips; ++i) {
     const bool there = i < look.threads.size() && look.threads[i].places_m.size() > 1;
     Marker& marker = out.markers.emplace_back(this->marker("threads", i, stamp));
     marker.type = Marker::LINE_STRIP;
     marker.action = Marker::DELETE;
     if (!there) continue;
-    const ThreadLook& how = threads_[look.threads[i].thread];
+    const bool is_clip = clip && look.threads[i].part == ThreadPart::kClip;
+    const ThreadLook& how = is_clip ? *clip : threads_[look.threads[i].thread];
     marker.action = Marker::ADD;
     marker.scale.x = std::max(2 * how.radius_m, kLeastThread_m);
     paint(how.color, marker);

@@ -97,6 +97,8 @@ float shaftStart(const StylusConfig& stylus, const ToolKind& kind) {
   if (kind.tip == ToolTip::kJaws) return kHinge;
   if (kind.tip == ToolTip::kScissors)
     return std::min(static_cast<float>(stylus.scissors.blade_length_m), kShaftLength - kShortestShaft);
+  if (kind.tip == ToolTip::kApplier)
+    return std::min(static_cast<float>(stylus.clip.jaw_length_m), kShaftLength - kShortestShaft);
   if (kind.tip != ToolTip::kBlade) return 0;
   return std::min(static_cast<float>(bladeSpan(stylus.cut).high_m), kShaftLength - kShortestShaft);
 }
@@ -116,6 +118,10 @@ void addTip(const StylusConfig& stylus, const ToolKind& kind, ToolShape& shape) 
       break;
     case ToolTip::kScissors:
       addJaws(static_cast<float>(stylus.scissors.blade_length_m), halfOpening(stylus.scissors), color, shape);
+      break;
+    case ToolTip::kApplier:
+      addJaws(static_cast<float>(stylus.clip.jaw_length_m),
+              static_cast<float>(std::atan2(0.5 * stylus.clip.opening_m, stylus.clip.jaw_length_m)), color, shape);
       break;
     case ToolTip::kBlade:
       addBlade(bladeSpan(stylus.cut), color, shape);

@@ -14,6 +14,7 @@
 #include "math/archive.h"
 #include "model/fracture/toughness.h"
 #include "model/scene/integrators.h"
+#include "model/scene/tool_kinds.h"
 #include "solver/cpu/store/sleep.h"
 #include "solver/gpu/steps/multigrid_pass.h"
 #include "viscera/gpu/context.h"
@@ -43,7 +44,7 @@ GpuBackend::GpuBackend(const Model& model, const Scene& scene, const TickPlan& p
       buffers_(model, bodyParams(model, plan.dt_safe_s), features_),
       pairs_(solvesContacts(scene) ? std::make_unique<NodePairs>(model, scene, features_, buffers_) : nullptr),
       awake_(makeAwakeBricks(model, scene, plan, features_, buffers_)),
-      rest_(model, awake_ && !features_.network && plan.tick_s < Sleep::kQuiet_s && scene.threads.empty()),
+      rest_(model, awake_ && !features_.network && plan.tick_s < Sleep::kQuiet_s && !pushesAfterSubsteps(scene)),
       stepper_(scene.solver.integrator == Integrator::kMultigrid
                    ? std::make_unique<MultigridPass>(model, scene, plan, features_, buffers_)
                    : makeStepper(scene.solver.integrator, scene.solver.iterations, features_, buffers_, pairs_.get(),
@@ -66,7 +67,7 @@ GpuBackend::GpuBackend(const Model& model, const Scene& scene, const TickPlan& p
     tools_.emplace(Tools{gpu::Buffer<layout::ToolMotion>(rows, "tool motions"), GrabPass(features_), CutPass(features_),
                          ReactionPass(features_, buffers_.store.active_count)});
   }
-  if ((plan.tools && resistsBlades(scene)) || !scene.threads.empty()) {
+  if ((plan.tools && resistsBlades(scene)) || pushesAfterSubsteps(scene)) {
     blade_.reset(new Blade{NodeWindow(features_, buffers_.store.slot_count, awake_.get()),
                            gpu::Buffer<layout::ToolMotion>(layout::kMaxStyluses, "a sweep at rest"),
                            gpu::Buffer<layout::vec4>(buffers_.store.slot_count, "tissue at rest")});

@@ -6,6 +6,7 @@
 
 #include "model/fracture/tearing.h"
 #include "model/fracture/toughness.h"
+#include "model/scene/tool_kinds.h"
 #include "solver/reference/reference_surroundings.h"
 #include "solver/tissue/substeps.h"
 #include "tools/motion_packing.h"
@@ -50,6 +51,7 @@ ReferenceTicks::ReferenceTicks(const Model& model, const Scene& scene)
     throw SceneError(
         "bodies[].material.tear.toughness_j_per_m2 must be 0 for the reference, which knows no tissue that tears");
   if (!scene.threads.empty()) throw SceneError("threads must be empty for the reference, which knows none");
+  if (mayClip(scene.styluses)) throw SceneError("styluses[]: no mode may be clip for the reference, which knows none");
 }
 
 void ReferenceTicks::step(const ToolMotions& motions, const ObstacleMotions& obstacles) {

@@ -41,6 +41,16 @@ Vector3i floored(const Vector3d& v) {
 
 }  // namespace
 
+TissuePoint nodePoint(const Model& model, uint32_t body, uint32_t slot) {
+  TissuePoint out;
+  out.body = body;
+  out.count = 1;
+  out.slots[0] = model.slotOffset(body) + slot;
+  out.weights[0] = 1;
+  out.rest_m = restPosition(model.bodies[body], slot);
+  return out;
+}
+
 bool RestElements::Fit::isNearerThan(const Fit& other) const {
   const double here_m = std::max(outside_m, 0.0), there_m = std::max(other.outside_m, 0.0);
   return here_m != there_m ? here_m < there_m : off_m < other.off_m;

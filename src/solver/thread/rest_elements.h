@@ -23,6 +23,9 @@ struct TissuePoint {
   Vector3d rest_m = Vector3d::Zero();   ///< tissue frame
 };
 
+/// A node. @param slot  of its body
+TissuePoint nodePoint(const Model& model, uint32_t body, uint32_t slot);
+
 /// What carries places of a body: cells of its lattice, tetrahedra, or triangles of a sheet, by where they are at rest.
 class RestElements {
  public:

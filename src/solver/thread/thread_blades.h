@@ -23,6 +23,7 @@ class ThreadBlades {
   /// @returns whether any blade is there: then places are kept with keep(), thread after thread
   bool beginTick(const ToolMotions& motions);
   void keep(const std::vector<Vector3d>& places_m) { before_m_.push_back(places_m); }
+  size_t kept() const { return before_m_.size(); }
   /// Links of a thread that blades have met in the tick, ascending. @param places_m  at its end
   std::vector<size_t> met(size_t thread, const std::vector<Vector3d>& places_m) const;
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "model/fracture/tearing.h"
+#include "model/scene/tool_kinds.h"
 #include "viscera/math/error.h"
 #include "viscera/math/state_hash.h"
 
@@ -14,6 +15,7 @@ namespace viscera {
 namespace {
 
 constexpr double kThreadSubstep_s = 5e-4;
+constexpr double kOffLink = 1e-3;
 
 }  // namespace
 
@@ -27,10 +29,10 @@ ThreadBodies::ThreadBodies(const Scene& scene, const Model* model, int good_stat
       good_states_(static_cast<size_t>(good_states)) {
   const bool tied = std::any_of(scene.threads.begin(), scene.threads.end(),
                                 [](const ThreadConfig& config) { return config.feelsTissue(); });
-  if (model && tied) {
-    tissue_ = std::make_unique<TissuePoints>(*model);
-    needles_.emplace(scene, *model);
-  }
+  const bool clips = mayClip(scene.styluses);
+  if (model && (tied || clips)) tissue_ = std::make_unique<TissuePoints>(*model);
+  if (model && tied) needles_.emplace(scene, *model);
+  if (model && clips) clips_.emplace(scene.styluses, *model);
   for (const ThreadConfig& config : scene.threads) {
     const auto thread = static_cast<uint32_t>(first_.size());
     ThreadPiece& piece = first_.emplace_back(thread, config, needle(thread) != nullptr);
@@ -46,6 +48,7 @@ void ThreadBodies::reset() {
   for (ThreadPiece& piece : pieces_) piece.chain.reset();
   hands_.reset();
   if (needles_) needles_->reset();
+  if (clips_) clips_->reset();
   tick_ = 0;
   refused_.clear();
 }
@@ -57,12 +60,12 @@ void ThreadBodies::plan(Steps& steps, int count, const ObstacleMotions& obstacle
 
 void ThreadBodies::setCuts(const Model& model, const CutSprings& cuts) {
   tissue_->setCuts(cuts);
-  lips_.find(model, cuts);
+  if (needles_) lips_.find(model, cuts);
   for (ThreadPiece& piece : pieces_) {
     piece.channels.embedAgain(*tissue_, piece.around.slides);
     piece.skin.forget();
   }
-  needles_->embedAgain(*tissue_);
+  if (needles_) needles_->embedAgain(*tissue_);
 }
 
 void ThreadBodies::beginTick(const ToolMotions& motions, const ObstacleMotions& obstacles, int substeps) {
@@ -72,6 +75,7 @@ void ThreadBodies::beginTick(const ToolMotions& motions, const ObstacleMotions& 
   hands_.beginTick(motions, chains);
   if (blades_.beginTick(motions)) {
     for (const ThreadPiece& piece : pieces_) blades_.keep(piece.chain.places_m());
+    for (size_t c = 0; clips_ && c < clips_->count(); ++c) blades_.keep(clips_->places_m(c));
   }
   bool any = false;
   for (size_t t = 0; t < pieces_.size(); ++t)
@@ -79,13 +83,19 @@ void ThreadBodies::beginTick(const ToolMotions& motions, const ObstacleMotions& 
   for (ThreadPiece& piece : pieces_) {
     if (piece.tied) piece.skin.lay(*model_, *tissue_, piece.channels.outer());
   }
-  if (any) {
+  if (any || clips_) {
     per_substep_ = static_cast<int>(std::ceil(tick_s_ / substeps / kThreadSubstep_s));
     plan(tied_, substeps * per_substep_, obstacles);
   }
   plan(alone_, static_cast<int>(std::ceil(tick_s_ / kThreadSubstep_s)), obstacles);
   work_j_ = 0;
   if (needles_) needles_->beginTick(motions);
+  if (clips_) clips_->beginTick(motions);
+}
+
+bool ThreadBodies::anyTied() const {
+  return (clips_ && !clips_->empty()) ||
+         std::any_of(pieces_.begin(), pieces_.end(), [](const ThreadPiece& piece) { return piece.tied; });
 }
 
 std::vector<const TissuePoint*> ThreadBodies::tiedPoints() const {
@@ -95,7 +105,8 @@ std::vector<const TissuePoint*> ThreadBodies::tiedPoints() const {
     piece.channels.addPoints(out);
     piece.skin.addPoints(out);
   }
-  if (!out.empty()) lips_.addPoints(out);
+  lips_.addPoints(out);  // which are read even where threads have no channels yet, as before a needle
+  if (clips_) clips_->addPoints(out);
   return out;
 }
 
@@ -116,7 +127,8 @@ void ThreadBodies::moveNeedles(BladeTarget& target, int index) {
 /// Where a substep of the tissue is longer than threads bear, they go through it with the speeds at its end.
 bool ThreadBodies::act(BladeTarget& target, int index) {
   moveNeedles(target, index);
-  if (std::none_of(pieces_.begin(), pieces_.end(), [](const ThreadPiece& piece) { return piece.tied; })) return false;
+  if (clips_ && index == 0) clips_->set(target);
+  if (!anyTied()) return false;
   const std::vector<const TissuePoint*> points = tiedPoints();
   const double dt_s = tick_s_ / tied_.count;
   tissue_->read(target, points);
@@ -128,11 +140,12 @@ bool ThreadBodies::act(BladeTarget& target, int index) {
     }
   }
   lips_.part(*tissue_, per_substep_ * dt_s);
+  if (clips_) clips_->hold(*tissue_, per_substep_ * dt_s);
   tissue_->write(target, layout::kMaxStyluses, per_substep_ * dt_s);
   work_j_ += tissue_->work_j();
   bool cut = false;
   for (ThreadPiece& piece : pieces_) {
-    if (piece.tied) cut |= piece.channels.end(*tissue_, target, can_cut_, piece.around.slides);
+    if (piece.tied) cut |= piece.channels.end(*tissue_, target, can_cut_, piece.chain.link_m(), piece.around.slides);
   }
   return cut;
 }
@@ -150,6 +163,7 @@ void ThreadBodies::endTick() {
     for (size_t h = 0; h < piece.fixed_holds; ++h) held.push_back(piece.around.holds[h].node);
     piece.knots.countThrows(piece.chain, held, piece.around);
   }
+  takeOffWhatBladesMet();
   partWhatBladesMet();
   ++tick_;
 }
@@ -170,6 +184,15 @@ void ThreadBodies::tieWhatIsDue() {
         refused_ = "threads[" + std::to_string(t) + "], tie at " + std::to_string(due.at_s) + " s: " + error.what();
       }
     }
+  }
+}
+
+/// Before threads are parted: blades know places thread after thread, and clips behind them.
+void ThreadBodies::takeOffWhatBladesMet() {
+  if (!clips_) return;
+  const size_t seen = blades_.kept() - std::min(blades_.kept(), pieces_.size());
+  for (size_t c = seen; c-- > 0;) {
+    if (!blades_.met(pieces_.size() + c, clips_->places_m(c)).empty()) clips_->takeOff(c);
   }
 }
 
@@ -198,7 +221,8 @@ ThreadPulls ThreadBodies::pulls() const {
   for (size_t s = 0; s < out.size() && needles_; ++s) {
     out[s].impulse_ns += needles_->pulls()[s].impulse_ns;
     out[s].moment_nms += needles_->pulls()[s].moment_nms;
-    out[s].nodes += needles_->pulls()[s].nodes;
+    // Also before the tip is in: what is not held is not felt between ticks.
+    out[s].nodes += std::max(needles_->pulls()[s].nodes, needles_->pulls()[s].impulse_ns.isZero(0) ? 0U : 1U);
   }
   return out;
 }
@@ -237,6 +261,7 @@ void ThreadBodies::substep(uint32_t t, const Steps& steps, int index) {
   }
   thread.knots.beginSubstep(dt_s, thread.chain, thread.around);
   thread.chain.step(dt_s, thread.around);
+  noteLinks(thread.chain);
   thread.around.entered = {};
   thread.around.answer = {};
   if (thread.tied) {
@@ -247,12 +272,21 @@ void ThreadBodies::substep(uint32_t t, const Steps& steps, int index) {
   if (on_needle) needles_->takeOver(t, holds[0]);
 }
 
+void ThreadBodies::noteLinks(const Chain& chain) {
+  ++links_.substeps;
+  links_.off += chain.worstLink() > kOffLink;
+  links_.worst = std::max(links_.worst, chain.worstLink());
+  links_.iterations += chain.iterations();
+  links_.most_iterations = std::max(links_.most_iterations, chain.iterations());
+}
+
 void ThreadBodies::persist(Archive& archive) {
   archive.section("threads");
   persistMotion(archive);
   hands_.persist(archive);
   archive.value(tick_);
   if (needles_) needles_->persistHands(archive);
+  if (clips_) clips_->persist(archive);
   uint64_t kept = good_.size();
   archive.value(kept);
   good_.resize(kept);
@@ -270,7 +304,8 @@ void ThreadBodies::persistMotion(Archive& archive) {
     if (count < first_.size() || count > first_.size() + kMostParted)
       throw Error("the saved state has " + std::to_string(count) + " pieces of threads, and the scene " +
                   std::to_string(first_.size()) + " threads");
-    pieces_.resize(std::min<size_t>(count, pieces_.size()), first_[0]);
+    pieces_.erase(pieces_.begin() + static_cast<std::ptrdiff_t>(std::min<size_t>(count, pieces_.size())),
+                  pieces_.end());
   }
   for (size_t i = 0; i < count; ++i) {
     uint32_t thread = i < pieces_.size() ? pieces_[i].thread : 0;
@@ -318,6 +353,7 @@ uint64_t ThreadBodies::hashWith(uint64_t tissue) const {
     for (const ChainKnot& knot : piece.around.knots) hash.add(static_cast<float>(knot.s2));
   }
   if (needles_) needles_->addTo(hash);
+  if (clips_) clips_->addTo(hash);
   return hash.value();
 }
 

@@ -9,6 +9,7 @@
 
 #include "math/archive.h"
 #include "solver/thread/chain/chain.h"
+#include "solver/thread/clips.h"
 #include "solver/thread/needles.h"
 #include "solver/thread/thread_blades.h"
 #include "solver/thread/thread_hands.h"
@@ -22,15 +23,23 @@
 
 namespace viscera {
 
-/// All threads of a scene. Those that are tied to tissue are stepped after each of its substeps (docs/thread.md 5), the
-/// others at the end of a tick, in substeps of their own.
+/// How well threads kept their lengths since they were made, beside their state: for measurements.
+struct ThreadLinks {
+  uint64_t substeps = 0, off = 0;  ///< of all threads; those after which a link was off by more than a thousandth
+  double worst = 0;                ///< relative error of a length
+  double iterations = 0;           ///< of all substeps
+  int most_iterations = 0;
+};
+
+/// All threads of a scene, and clips. Threads that are tied to tissue are stepped after each of its substeps
+/// (docs/thread.md 5), the others at the end of a tick, in substeps of their own.
 class ThreadBodies {
  public:
   /// @param model  must outlive them; null: there is no tissue   @param good_states  that are kept for rollbacks
   /// @throws SceneError  channels that there cannot be
   explicit ThreadBodies(const Scene& scene, const Model* model = nullptr, int good_states = 0);
 
-  /// Are threads tied to tissue, now or later?
+  /// Are threads or clips tied to tissue, now or later?
   bool feelTissue() const { return tissue_ != nullptr; }
   /// Springs that are cut, only where they feel it.
   void setCuts(const Model& model, const CutSprings& cuts);
@@ -66,7 +75,9 @@ class ThreadBodies {
   const ThreadPiece& piece(size_t at) const { return pieces_[at]; }
   const Chain& chain(size_t at) const { return pieces_[at].chain; }
   const Needle* needle(size_t thread) const { return needles_ ? needles_->find(thread) : nullptr; }
+  const Clips* clips() const { return clips_ ? &*clips_ : nullptr; }  ///< null: no stylus sets any
   const std::vector<ChainSlide>& slides(size_t at) const { return pieces_[at].around.slides; }
+  const ThreadLinks& links() const { return links_; }
   const std::string& refused() const { return refused_; }  ///< why the last of ThreadConfig::ties was not tied
 
  private:
@@ -78,11 +89,14 @@ class ThreadBodies {
   void persistMotion(Archive& archive);
   void plan(Steps& steps, int count, const ObstacleMotions& obstacles) const;
   void substep(uint32_t thread, const Steps& steps, int index);
+  void noteLinks(const Chain& chain);
   const layout::ObstacleMotion* obstaclesOf(const Steps& steps, int index) const;
+  bool anyTied() const;
   std::vector<const TissuePoint*> tiedPoints() const;
   void moveNeedles(BladeTarget& target, int index);
   void tieWhatIsDue();
   void partWhatBladesMet();
+  void takeOffWhatBladesMet();
   /// @returns whether it was
   bool part(uint32_t piece, size_t node);
 
@@ -93,7 +107,8 @@ class ThreadBodies {
   std::unique_ptr<TissuePoints> tissue_;  ///< null: none is tied to it
   WoundLips lips_;
   ThreadHands hands_;
-  std::optional<Needles> needles_;  ///< only where there are some
+  std::optional<Needles> needles_;  ///< only where threads are tied
+  std::optional<Clips> clips_;      ///< only where a stylus sets them
   ThreadBlades blades_;
   std::vector<std::vector<ThreadTie>> ties_;  ///< [threads of the scene]
   std::vector<ThreadPiece> first_, pieces_;   ///< as the scene has them, and now
@@ -102,6 +117,7 @@ class ThreadBodies {
   double work_j_ = 0;
   uint64_t tick_ = 0;  ///< under way, since the start or the last reset
   std::string refused_;
+  ThreadLinks links_;
   size_t good_states_;
   std::vector<std::vector<Archive::Section>> good_;  ///< oldest first
 };

@@ -17,16 +17,6 @@ bool holdsNothing(const layout::NodeBits& bits) {
   return (bits.lo & layout::kAxialMask) == 0 && (bits.hi & layout::kDiagonalMask) == 0;
 }
 
-TissuePoint nodePoint(const Model& model, uint32_t body, uint32_t slot) {
-  TissuePoint out;
-  out.body = body;
-  out.count = 1;
-  out.slots[0] = model.slotOffset(body) + slot;
-  out.weights[0] = 1;
-  out.rest_m = restPosition(model.bodies[body], slot);
-  return out;
-}
-
 }  // namespace
 
 void WoundLips::find(const Model& model, const CutSprings& cuts) {

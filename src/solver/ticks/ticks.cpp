@@ -10,6 +10,7 @@
 #include "math/float_bits.h"
 #include "model/fracture/toughness.h"
 #include "model/scene/integrators.h"
+#include "model/scene/tool_kinds.h"
 #include "solver/ticks/stable_step.h"
 #include "tools/motion_packing.h"
 #include "viscera/math/error.h"
@@ -47,7 +48,7 @@ Ticks::Ticks(const Model& model, const Scene& scene, const TickPlan& plan, std::
                      std::to_string(dt_safe_s_ * 1e6) +
                      " us), more than solver.max_substeps = " + std::to_string(config_.max_substeps) +
                      ": use a larger spacing_m, a softer or heavier material, or raise solver.max_substeps");
-  if (!scene.threads.empty())
+  if (pushesAfterSubsteps(scene))
     threads_ = std::make_unique<ThreadBodies>(scene, &model, SolverBackend::kGoodStates + backend_->lag());
   if (plan.governed())
     watch_.emplace(*backend_, newGovernor(), !traitsOf(config_.integrator).is_explicit, tick_s_, threads_.get());

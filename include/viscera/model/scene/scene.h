@@ -42,7 +42,9 @@ enum class ToolMode {
   kCutParticles = 4,
   kSuction = 5,
   kNeedle = 6,
-  kScissors = 7
+  kScissors = 7,
+  kGrasper = 8,
+  kClip = 9
 };
 
 /// What a cell of a lattice resists its deformation with (physics.md 1).
@@ -221,6 +223,25 @@ struct SuctionConfig {
   double release_speed_m_per_s = 0.5;
 };
 
+/// Two jaws, which hold what is between them by friction.
+struct GrasperConfig {
+  double radius_m = 0.005;  ///< of what is between them, around the tip
+  double max_force_n = 5;   ///< at more what they hold slips out of them
+  double release_speed_m_per_s = 0.5;
+};
+
+constexpr size_t kMostClips = 32;  ///< of all hands together, until a reset
+
+/// Two jaws on a pivot, which open as scissors do and set a clip.
+struct ClipConfig {
+  double jaw_length_m = 0.012;  ///< from the pivot to the tips
+  double opening_m = 0.012;     ///< between them
+  double width_m = 0.002;       ///< of a clip, along y of the stylus
+  double gap_m = 0.0005;        ///< between the legs of a clip that is closed
+  double force_n = 10;          ///< with which it closes, and stays closed
+  int magazine = 20;            ///< clips that there are
+};
+
 struct StylusConfig {
   std::string name = "stylus";
   ToolMode idle = ToolMode::kProbe;
@@ -232,6 +253,8 @@ struct StylusConfig {
   CutParticlesConfig cut_particles;
   SuctionConfig suction;
   ScissorsConfig scissors;
+  GrasperConfig grasper;
+  ClipConfig clip;
   double max_force_n = 5;
   double max_force_rate_n_per_s = 100;
   double max_torque_nm = 0.2;

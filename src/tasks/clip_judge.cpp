@@ -1,0 +1,106 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <limits>
+
+#include "model/scene/tool_kinds.h"
+#include "tasks/cut_watch.h"
+#include "tasks/task_kinds.h"
+#include "viscera/session/session.h"
+
+namespace viscera {
+
+namespace {
+
+constexpr double kMm = 1000;
+
+class ClipJudge : public TaskJudge {
+ public:
+  ClipJudge(const ClipGoal& goal, const Model& model)
+      : goal_(goal),
+        at_(goal.clips.size(), false),
+        joint_(model, goal.clips.front().position_m, goal.clips.back().position_m) {}
+  bool heedsCuts() const override { return true; }
+  bool heedsClips() const override { return true; }
+  bool isApart(const CutState& cuts) const override { return joint_.isApart(cuts); }
+  void judge(const TaskTick& tick, TaskTally& tally) override {
+    std::fill(at_.begin(), at_.end(), false);
+    size_t bad = tick.clips.empty + tick.clips.taken_off;
+    tally.clip_off_mm = 0;
+    for (const SeenClip& clip : tick.clips.on) {
+      const auto [place, off_m] = nearest(clip.rest_m);
+      const bool good = off_m <= goal_.radius_m && !at_[place];
+      bad += !good;
+      if (!good) continue;
+      at_[place] = true;
+      tally.clip_off_mm = std::max(tally.clip_off_mm, kMm * off_m);
+    }
+    tally.bad_clips = static_cast<double>(bad);
+    // What was divided without clips on both sides has bled, and is not made good.
+    if (tick.apart && !apart_) clipped_first_ = allClipped();
+    apart_ = apart_ || tick.apart;
+  }
+  double progress() const override {
+    const auto clipped = static_cast<double>(std::count(at_.begin(), at_.end(), true));
+    return (clipped + (reached() ? 1 : 0)) / static_cast<double>(at_.size() + 1);
+  }
+  bool reached() const override { return apart_ && clipped_first_ && allClipped(); }
+  std::string step() const override {
+    if (apart_ && !clipped_first_) return "it was divided before it was clipped: begin again";
+    if (allClipped()) return "divide the tissue between the clips";
+    return "set clips: " + std::to_string(std::count(at_.begin(), at_.end(), true)) + " of " +
+           std::to_string(at_.size()) + " are at their places";
+  }
+
+ private:
+  bool allClipped() const {
+    return std::all_of(at_.begin(), at_.end(), [](bool at) { return at; });
+  }
+  std::pair<size_t, double> nearest(const Vector3d& rest_m) const {
+    std::pair<size_t, double> out{0, std::numeric_limits<double>::infinity()};
+    for (size_t i = 0; i < goal_.clips.size(); ++i) {
+      const double off_m = (rest_m - goal_.clips[i].position_m).norm();
+      if (off_m < out.second) out = {i, off_m};
+    }
+    return out;
+  }
+
+  const ClipGoal goal_;
+  std::vector<bool> at_;  ///< [clips of the goal] is one there?
+  const Joint joint_;
+  bool apart_ = false, clipped_first_ = false;
+};
+
+}  // namespace
+
+std::string clipFault(const TaskConfig& task) {
+  if (!task.clip.given) return groupFault(false, "clip_and_divide");
+  const size_t count = task.clip.clips.size();
+  return count >= 2 && count % 2 == 0
+             ? ""
+             : "'clip_and_divide.clips' is a list of an even number of places; found " + std::to_string(count);
+}
+
+std::unique_ptr<TaskJudge> clipJudge(const TaskConfig& task, const Session& session) {
+  if (!mayClip(session.scene().styluses))
+    throw TaskError(task.name + ": 'kind' clip_and_divide wants a scene with a stylus that has mode clip, and " +
+                    session.scene().name + " has none");
+  try {
+    return std::make_unique<ClipJudge>(task.clip, session.model());
+  } catch (const TaskError& error) {
+    throw TaskError(task.name + ": " + error.what());
+  }
+}
+
+/// A small circle at each place, about the line from the first to the last.
+TaskShapes clipShapes(const TaskConfig& task) {
+  const Vector3d first_m = task.clip.clips.front().position_m;
+  const Vector3d way = task.clip.clips.back().position_m - first_m;
+  TaskShapes out;
+  out.normal = way.norm() > 0 ? Vector3d(way.normalized()) : Vector3d(Vector3d::UnitX());
+  for (const TaskPlace& place : task.clip.clips)
+    out.lines_m.push_back(circleOf(place.position_m, out.normal, task.clip.radius_m));
+  return out;
+}
+
+}  // namespace viscera

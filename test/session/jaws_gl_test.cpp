@@ -1,0 +1,193 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Tools with jaws: clips on a bar, and a grasper that holds by friction.
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+
+#include "math/archive.h"
+#include "session/on_backends.h"
+#include "viscera/layout/picture_labels.h"
+
+namespace viscera {
+namespace {
+
+using namespace test;
+
+constexpr double kSide_m = 0.008;        // of the bar
+constexpr double kRounding_m = 1e-4;     // of sides that give a little between substeps, beside kMostSqueezed
+constexpr double kAside_m = 0.003;       // 1.5 spacings: by so much two nodes of a column may lie beside each other
+constexpr int kClosing = 30, kOpen = 4;  // ticks
+constexpr double kMostSqueezed = 0.4;    // Clips::kMostSqueezed
+constexpr double kRated_n = 5, kSlips = 0.1;  // of a grasper; of that, above which it has slipped
+
+class ClipSession : public OnSceneBackend {
+ protected:
+  static Scene barScene(Structure structure = Structure::kLattice) {
+    Scene out = scene();
+    BodyConfig& body = out.bodies[0];
+    body.source = structure == Structure::kSurface ? TissueSource::kSheet : TissueSource::kBox;
+    body.structure = structure;
+    body.box_size_m = {0.04, kSide_m, structure == Structure::kSurface ? 0 : kSide_m};
+    body.spacing_m = 0.002;
+    body.fixed.resize(1);
+    body.fixed[0].shape = FixedShape::kPlane;
+    body.fixed[0].point_m = {-0.017, 0, 0};
+    body.fixed[0].normal = {1, 0, 0};
+    out.environment.gravity_m_per_s2 = Vector3d::Zero();
+    out.styluses[0].idle = ToolMode::kNone;
+    out.styluses[0].button1 = ToolMode::kClip;
+    out.styluses[0].button2 = ToolMode::kCut;
+    out.styluses[0].cut.blade_length_m = 0.03;
+    return out;
+  }
+  /// From above across the bar, its tips beyond it.
+  static StylusSamples at(double x_m, bool closes, bool cuts = false, double y_m = 0) {
+    StylusSamples out{};
+    out[0].valid = true;
+    out[0].pose.position_m = {x_m, y_m, -0.006};
+    out[0].pose.orientation = Quaterniond(Eigen::AngleAxisd(M_PI / 2, Vector3d::UnitZ()));
+    out[0].button1 = closes;
+    out[0].button2 = cuts;
+    return out;
+  }
+  static void clip(Session& session, double x_m, double y_m = 0) {
+    for (int t = 0; t < kOpen; ++t) session.step(at(x_m, false, false, y_m), {});
+    for (int t = 0; t < kClosing; ++t) session.step(at(x_m, true, false, y_m), {});
+    for (int t = 0; t < kOpen; ++t) session.step(at(x_m, false, false, y_m), {});
+  }
+};
+
+TEST_P(ClipSession, HoldsTwoSidesOfEveryKindOfTissueTogether) {
+  for (const Structure structure :
+       {Structure::kLattice, Structure::kExplicit, Structure::kTetrahedra, Structure::kSurface}) {
+    SCOPED_TRACE(static_cast<int>(structure));
+    Session session(barScene(structure), context_);
+    clip(session, 0.006);
+    const SeenClips clips = session.seenClips();
+    ASSERT_EQ(clips.on.size(), 1U);
+    EXPECT_NEAR(clips.on[0].rest_m.x(), 0.006, 0.0011) << "the layer of nodes that is next";
+    EXPECT_GT(clips.on[0].opening_m, kMostSqueezed * 0.75 * kSide_m);
+    EXPECT_LT(clips.on[0].opening_m, kMostSqueezed * std::hypot(kSide_m, kAside_m) + kRounding_m);
+    EXPECT_GT(clips.on[0].force_n, 0);
+    EXPECT_EQ(session.drain().stats.nonfinite, 0U);
+    EXPECT_EQ(session.drain().health.trips, 0U);
+  }
+}
+
+TEST_P(ClipSession, ThatClosesOnNothingIsSpentAndAMagazineEnds) {
+  Scene scene = barScene();
+  scene.styluses[0].clip.magazine = 2;
+  Session session(scene, context_);
+  clip(session, 0.006, 0.03);
+  EXPECT_EQ(session.seenClips().empty, 1U);
+  clip(session, 0.006);
+  clip(session, -0.006);
+  EXPECT_EQ(session.seenClips().on.size(), 1U);
+  session.reset();
+  EXPECT_EQ(session.seenClips().on.size() + session.seenClips().empty, 0U);
+  clip(session, -0.006);
+  EXPECT_EQ(session.seenClips().on.size(), 1U);
+}
+
+TEST_P(ClipSession, IsTakenOffByABladeThatMeetsItAndNotByOneBesideIt) {
+  Session session(barScene(), context_);
+  clip(session, 0.006);
+  const auto draw = [&](double x_m) {
+    for (int t = 0; t <= kClosing; ++t) session.step(at(x_m, false, true, 0.015 - 0.03 * t / kClosing), {});
+    for (int t = 0; t < kOpen; ++t) session.step(at(x_m, false, false, -0.015), {});
+    return session.seenClips();
+  };
+  EXPECT_EQ(draw(0.012).on.size(), 1U);
+  StylusSamples along = at(0, false, true);  // along the bar, across the clip's legs
+  for (int t = 0; t <= kClosing; ++t) {
+    along[0].pose.position_m = {0.012 - 0.012 * t / kClosing, 0.001, -0.006};
+    session.step(along, {});
+  }
+  const SeenClips after = session.seenClips();
+  EXPECT_EQ(after.on.size(), 0U);
+  EXPECT_EQ(after.taken_off, 1U);
+}
+
+TEST_P(ClipSession, GoesOnFromASavedStateToTheBit) {
+  std::optional<Session> session(std::in_place, barScene(), context_);
+  clip(*session, 0.006);
+  Archive saved;
+  session->save(saved);
+  const auto onwards = [](Session& it) {
+    clip(it, -0.006);
+    it.drain();
+    return it.stateHash();
+  };
+  const uint64_t expected = onwards(*session);
+  session.reset();
+  Session again(barScene(), context_);
+  Archive read(saved.sections());
+  again.restore(read, "a test");
+  EXPECT_EQ(again.seenClips().on.size(), 1U);
+  EXPECT_EQ(onwards(again), expected);
+}
+
+TEST_P(ClipSession, OfTwoBodiesJoinsThem) {
+  Scene scene = barScene();
+  scene.bodies[0].box_size_m.y() = 0.004;
+  scene.bodies[0].position_m = {0, -0.0025, 0};
+  scene.bodies.push_back(scene.bodies[0]);
+  scene.bodies[1].name = "other";
+  scene.bodies[1].position_m = {0, 0.0025, 0};
+  scene.bodies[1].fixed.clear();
+  Session session(scene, context_);
+  clip(session, 0.006);
+  const SeenClips clips = session.seenClips();
+  ASSERT_EQ(clips.on.size(), 1U);
+  EXPECT_LT(clips.on[0].opening_m, kMostSqueezed * 2 * kSide_m);
+}
+
+TEST_P(ClipSession, IsDrawnAndKnownByItsLabel) {
+  Scene scene = barScene();
+  Session session(scene, context_);
+  clip(session, 0.006);
+  const ImageFrame labels = picture(session, PictureKind::kLabels);
+  EXPECT_NE(std::find(labels.labels.begin(), labels.labels.end(), layout::kClipLabel), labels.labels.end());
+}
+VISCERA_ON_EVERY_BACKEND(ClipSession);
+
+class GrasperSession : public OnSceneBackend {};
+
+TEST_P(GrasperSession, HoldsAPullUpToItsFrictionAndSlipsWithinATenthAboveIt) {
+  Scene scene = OnSceneBackend::scene();
+  scene.bodies[0].material.young_modulus_pa = 50000;
+  scene.styluses[0].button1 = ToolMode::kGrasper;
+  scene.styluses[0].grasper.radius_m = 0.009;
+  scene.styluses[0].grasper.max_force_n = kRated_n;
+  Session session(scene, context_);
+  const double hz = scene.solver.tick_hz;
+  double most_n = 0, slipped_n = 0;
+  for (int t = 0; t < 400; ++t) {
+    session.step(leftAt({0, 0, kHalfM + 4e-5 * t}, true), {});
+    const layout::TickStats stats = session.drain().stats;
+    slipped_n = Vector3d(stats.impulse[0].x, stats.impulse[0].y, stats.impulse[0].z).norm() * hz;
+    most_n = std::max(most_n, slipped_n);
+  }
+  EXPECT_GT(most_n, (1 - kSlips) * kRated_n);
+  EXPECT_LT(most_n, (1 + kSlips) * kRated_n);
+  EXPECT_EQ(slipped_n, 0) << "nothing is between the jaws any more";
+}
+VISCERA_ON_EVERY_BACKEND(GrasperSession);
+
+TEST(ClipScenes, AreRefusedWhereSubstepsCannotBeToldAfterwards) {
+  const std::string text = "name: one\nbodies: [{name: block, source: box}]\nstyluses: [{name: hand, button1: clip}]\n";
+  parseScene(text, "clip.yaml", {});
+  try {
+    parseScene(text, "clip.yaml", {"solver.integrator=multigrid"});
+    FAIL() << "multigrid knows no clips";
+  } catch (const SceneError& error) {
+    EXPECT_NE(std::string(error.what()).find("mode clip needs solver.integrator leapfrog, pd or auto, not multigrid"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace viscera
