@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "bench/suites/thread/channel_trials.h"
+#include "bench/suites/thread/tearing_trial.h"
 #include "bench/suites/thread/thread_trials.h"
 
 namespace viscera::bench {
@@ -76,6 +77,18 @@ TEST(ThreadSuite, StaysWholeAndOutsideWhateverAHandDoes) {
   EXPECT_EQ(drawn.bad, 0);
   EXPECT_LT(drawn.most_force_n, 1.06 * 20);
   EXPECT_LT(drawn.deepest_m, 1e-4);
+}
+
+TEST(ThreadSuite, TearsOutOfTissueWhateverAHandDoes) {
+  constexpr double kSeconds = 4, kOneChannel = 1.5;  // links
+  const TearingTrial torn = tornOut(kSeconds, 3e3, 1);
+  EXPECT_EQ(torn.trips, 0);
+  EXPECT_EQ(torn.nonfinite, 0);
+  EXPECT_GT(torn.torn, 0);
+  EXPECT_GT(torn.springs, 0);
+  EXPECT_LT(torn.off, kLink * torn.substeps);
+  EXPECT_GE(torn.nearest_links, kOneChannel);  // those that come nearer are one
+  EXPECT_EQ(tornOut(kSeconds, 3e3, 2).hash, torn.hash);
 }
 
 }  // namespace

@@ -1,13 +1,15 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// The shipped wound and its four stitches: open once it is cut, closed once they are tied, and when their tails are
-// cut.
+// The shipped wounds: open once they are cut; one is closed by four stitches that are tied, also when their tails are
+// cut, the other by four of a running suture that a needle is led through.
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
+#include "solver/thread/thread_bodies.h"
 #include "support/source_folder.h"
 #include "viscera/gpu/context.h"
 #include "viscera/session/session.h"
@@ -107,6 +109,76 @@ void expectClosed(double young_pa, Backend backend = Backend::kCpu) {
     }
   }
   EXPECT_EQ(knots, kThreads);
+}
+
+struct Sewn {
+  Gap open, drawn, let_go;
+  std::array<size_t, 8> channels{};  ///< of each stitch in the left lip, then in the right one
+  double worst_link = 0, tail_off_m = 0;
+  SeenThread thread;
+  uint64_t trips = 0, nonfinite = 0;
+};
+
+/// By where they are: they were made in the order of the needle's way.
+void countChannels(const Session& session, std::array<size_t, 8>& channels) {
+  constexpr double kStitches_m[] = {0.01125, 0.00375, -0.00375, -0.01125}, kBeside_m = 0.0025;
+  for (const ChainSlide& slide : session.solver().threads()->slides(0)) {
+    for (size_t k = 0; k < 4; ++k) {
+      if (std::abs(slide.to_m.y() - kStitches_m[k]) < kBeside_m) ++channels[2 * k + (slide.to_m.x() > 0 ? 1 : 0)];
+    }
+  }
+}
+
+Sewn sewn() {
+  const std::string config = std::string(test::sourceFolder()) + "/config/";
+  const Scene scene = loadScene(config + "scenes/running_suture.yaml");
+  const Strokes strokes = loadStrokes(config + "strokes/running_suture.yaml");
+  const auto mark_s = [&](const char* name) {
+    return std::find_if(strokes.marks.begin(), strokes.marks.end(), [&](const Mark& mark) { return mark.name == name; })
+        ->time_s;
+  };
+  Session session(scene);
+  Sewn out;
+  const auto until = [&](double time_s) {
+    while (static_cast<double>(session.tick()) * session.tick_s() < time_s) {
+      session.step(strokes.at(static_cast<double>(session.tick() + 1) * session.tick_s(), scene.styluses), {});
+      const ThreadBodies& threads = *session.solver().threads();
+      out.worst_link = std::max(out.worst_link, threads.chain(0).worstLink());
+      out.tail_off_m = std::max(out.tail_off_m, (session.threadPlaces(0)[0] - threads.needle(0)->tail_m()).norm());
+    }
+    return gapOf(session);
+  };
+  out.open = until(mark_s("wound"));
+  out.drawn = until(mark_s("drawn"));
+  out.let_go = until(strokes.duration_s());
+  countChannels(session, out.channels);
+  out.thread = session.seenThreads()[0];
+  session.drain();
+  out.trips = session.extremes().governor_trips;
+  out.nonfinite = session.extremes().nonfinite;
+  return out;
+}
+
+TEST(RunningSuture, ANeedleSewsAWoundClosed) {
+  constexpr double kOpen_m = 0.0015, kMean_m = 3e-4, kSkin_m = 5e-4;
+  constexpr double kLink = 1e-3, kOnTail_m = 1e-4;
+  const Sewn found = sewn();
+  printf("gap open %.2f (skin %.2f), drawn %.2f (%.2f), let go %.2f (%.2f) mm; worst link %.1e\n",
+         1e3 * found.open.mean_m, 1e3 * found.open.skin_m, 1e3 * found.drawn.mean_m, 1e3 * found.drawn.skin_m,
+         1e3 * found.let_go.mean_m, 1e3 * found.let_go.skin_m, found.worst_link);
+  EXPECT_GT(found.open.skin_m, kOpen_m);
+  for (const Gap& gap : {found.drawn, found.let_go}) {
+    EXPECT_LT(gap.mean_m, kMean_m);
+    EXPECT_LT(gap.skin_m, kSkin_m);
+  }
+  for (size_t lip = 0; lip < found.channels.size(); ++lip)
+    EXPECT_GE(found.channels[lip], 2U) << "stitch " << lip / 2 << (lip % 2 ? ", right lip" : ", left lip");
+  ASSERT_EQ(found.thread.knots.size(), 1U);
+  EXPECT_TRUE(found.thread.knots[0].tied);
+  EXPECT_LT(found.worst_link, kLink);
+  EXPECT_LT(found.tail_off_m, kOnTail_m);
+  EXPECT_EQ(found.trips, 0U);
+  EXPECT_EQ(found.nonfinite, 0U);
 }
 
 TEST(SuturePad, FourStitchesCloseAWoundInSoftTissue) {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "bench/suites/thread/channel_trials.h"
+#include "bench/suites/thread/tearing_trial.h"
 #include "bench/suites/thread/thread_trials.h"
 
 namespace viscera::bench {
@@ -19,6 +20,7 @@ constexpr double kDamping = 0.02;    // of the ratio
 constexpr double kDeep_m = 1e-4;     // a radius
 constexpr double kSlip = 1.06;       // of the force at which a hand lets slip: its iterations end 5 % above
 constexpr double kRest_m_per_s = 1e-3;
+constexpr double kSeldom = 1e-3;  // of substeps: where a channel lets go, and the next ones make it good
 constexpr double kPercent = 100, kMilli = 1e-3;
 
 void bending(Report& report) {
@@ -173,6 +175,42 @@ void stress(Report& report) {
   report.add(table, "stress");
 }
 
+void tearing(Report& report) {
+  const double seconds = report.isShort() ? 3 : 60;
+  Table table(
+      "A thread through twelve channels of tissue, one end held, the other drawn about by a hand of 20 N at up "
+      "to 1 m/s until they are torn out, then a new block, " +
+          Cell(seconds).text(3) + " s",
+      {{"E", "kPa"},
+       {"blocks"},
+       {"channels out"},
+       {"springs cut", "", 7},
+       {"substeps", "", 7},
+       {"links off by more than 1e-3"},
+       {"worst link", "", 2},
+       {"iterations", "", 3},
+       {"at most"},
+       {"most force", "N", 3},
+       {"tissue's stretch", "", 2},
+       {"trips"},
+       {"processor", "s", 3}});
+  for (const double kpa : {1.0, 3.0, 10.0}) {
+    report.stage("tearing at " + Cell(kpa).text(3) + " kPa");
+    const TearingTrial r = tornOut(seconds, 1e3 * kpa, 1);
+    const bool same = tornOut(seconds, 1e3 * kpa, 1).hash == r.hash;
+    table.add({kpa, r.blocks, r.torn, r.springs, r.substeps, r.off, r.worst_link, r.iterations, r.most_iterations,
+               r.most_force_n, r.stretch, r.trips, r.seconds_of_cpu});
+    const std::string name = ", torn out of " + Cell(kpa).text(3) + " kPa";
+    report.checkAtMost("trips of the governor" + name, r.trips, 0);
+    report.checkAtMost("not finite" + name, r.nonfinite, 0);
+    report.checkAtMost("share of substeps with links off" + name, r.off / r.substeps, kSeldom);
+    report.checkAtMost("worst link" + name, r.worst_link, kLink);
+    report.checkAtMost("hand's force over its limit" + name, r.most_force_n / 20, kSlip);
+    report.checkAtLeast("a second run ends in the same hash" + name, same, 1);
+  }
+  report.add(table, "tearing");
+}
+
 }  // namespace
 
 void threadSuite(Report& report) {
@@ -184,7 +222,8 @@ void threadSuite(Report& report) {
                         {"pulling", pulling},
                         {"swinging", swinging},
                         {"cost", cost},
-                        {"stress", stress}});
+                        {"stress", stress},
+                        {"tearing", tearing}});
 }
 
 }  // namespace viscera::bench

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solver/thread/needle.h"
 
-#include <Eigen/LU>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -23,22 +21,17 @@ constexpr double kCrossingsApart_m = 1.5e-3;
 constexpr double kPassedApart_m = 2.2e-3;  // of those that the thread gets
 constexpr double kSkinApart_m = 1.2e-3;    // and of those of a skin from what is inside
 constexpr int kNeedleSweeps = 4;
-constexpr double kBeside_m = 2e-4;      // over which tissue's deformation at the tip is taken
-constexpr double kFlattest = 0.05;      // of a volume: more than so deformed it counts as whole
 constexpr uint32_t kLooksApart = 16;    // substeps after which a tip outside looks for tissue again
 constexpr double kLooksApart_m = 1e-4;  // or a way of it: looking is slow
 constexpr double kTipOff_m = 2e-4;      // a tip drawn back so far from the skin has left it
 constexpr double kOffTip_m = 5e-4;      // and tissue so far ahead of the tip the needle
+constexpr double kLipsApart_m = 3e-4;   // farther from the tip than that is what is across a wound
 constexpr double kAtLimit = 0.9999;     // of a force
 constexpr double kSidelong = 0.5;       // of the puncture force: pressed more across than along by that, it slides off
 constexpr double kFastestLed_m_per_s = 3;  // faster, as after a rollback, it lags behind its hand
 constexpr double kAirDrag_per_s = 4;
 
 constexpr double kNoPlace = std::numeric_limits<double>::infinity();
-
-Vector3d unbent(const Matrix3d& deformation, const Vector3d& way) {
-  return deformation.determinant() > kFlattest ? Vector3d(deformation.inverse() * way) : way;
-}
 
 std::vector<double> youngsOf(const Body& body) {
   const std::vector<std::string>& names = body.lattice.part_names;
@@ -100,7 +93,7 @@ void Needle::embedAgain(const TissuePoints& tissue) {
   if (gone(tip_.point))
     tip_.state = kBlocked;
   else
-    standAt(tissue, TissuePoint(tip_.point));
+    standAt(TissuePoint(tip_.point));
 }
 
 void Needle::persist(Archive& archive) {
@@ -204,7 +197,7 @@ void Needle::act(BladeTarget& target, TissuePoints& tissue, std::vector<NeedlePa
   read(target, tissue);
   sweep(tissue);
   sum(tissue);
-  settle(tissue);
+  settle(target, tissue);
   sortOut(tissue, passed);
   tissue.write(target, layout::kMaxStyluses, dt_s_);
 }
@@ -221,32 +214,18 @@ void Needle::touch(BladeTarget& target, const TissuePoints& tissue) {
   if (!point || tip_.state == kBlocked) return;
   tip_ = {};
   tip_.state = kTouches;
-  standAt(tissue, *point);
+  standAt(*point);
 }
 
-void Needle::standAt(const TissuePoints& tissue, const TissuePoint& point) {
+void Needle::standAt(const TissuePoint& point) {
   tip_.point = point;
   tip_.law = lawAt(point);
-  for (int axis = 0; axis < 3; ++axis) {
-    tip_.beside_m[axis] = 0;
-    for (const double by_m : {kBeside_m, -kBeside_m}) {
-      const auto beside = tissue.embed(point.body, point.rest_m + by_m * Vector3d::Unit(axis));
-      if (!beside || tip_.beside_m[axis] != 0) continue;
-      tip_.beside[static_cast<size_t>(axis)] = *beside;
-      tip_.beside_m[axis] = by_m;
-    }
-  }
 }
 
 void Needle::read(BladeTarget& target, TissuePoints& tissue) const {
   std::vector<const TissuePoint*> points;
   for (const Crossing& crossing : crossings_) points.push_back(&crossing.point);
-  if (tip_.state >= kTouches) {
-    points.push_back(&tip_.point);
-    for (int axis = 0; axis < 3; ++axis) {
-      if (tip_.beside_m[axis] != 0) points.push_back(&tip_.beside[static_cast<size_t>(axis)]);
-    }
-  }
+  if (tip_.state >= kTouches) points.push_back(&tip_.point);
   tissue.read(target, points);
 }
 
@@ -314,12 +293,12 @@ void Needle::sum(const TissuePoints& tissue) {
 }
 
 /// What becomes of the tip.
-void Needle::settle(const TissuePoints& tissue) {
+void Needle::settle(BladeTarget& target, const TissuePoints& tissue) {
   if (tip_.state < kTouches) return;
   const Vector3d along = end_.orientation * shape_.forward(0);
   const double slip_m = (end_ * shape_.at(0) - tissue.place_m(tip_.point)).dot(along);
   if (tip_.state == kInside) {
-    goOn(tissue, slip_m);
+    goOn(target, tissue, slip_m);
     return;
   }
   const double most_n = tip_.law.puncture_n;
@@ -335,15 +314,11 @@ void Needle::settle(const TissuePoints& tissue) {
   }
 }
 
-/// The tip's point goes on by what it slipped, in the tissue at rest.
-void Needle::goOn(const TissuePoints& tissue, double slip_m) {
-  Matrix3d deformation = Matrix3d::Identity();
-  const Vector3d at = tissue.place_m(tip_.point);
-  for (int axis = 0; axis < 3; ++axis) {
-    if (tip_.beside_m[axis] == 0) continue;
-    deformation.col(axis) = (tissue.place_m(tip_.beside[static_cast<size_t>(axis)]) - at) / tip_.beside_m[axis];
-  }
-  Vector3d step = unbent(deformation, slip_m * (end_.orientation * shape_.forward(0)));
+/// The tip's point goes on by what it slipped, in the tissue at rest. Where that is across a wound, the tip may not be
+/// there yet: while it is in no tissue, the point stays where it is.
+void Needle::goOn(BladeTarget& target, const TissuePoints& tissue, double slip_m) {
+  const Vector3d tip_m = end_ * shape_.at(0), along = end_.orientation * shape_.forward(0);
+  Vector3d step = tissue.toRest(tip_.point, slip_m * along);
   if (step.norm() > 0.5 * kCrossingsApart_m) step *= 0.5 * kCrossingsApart_m / step.norm();
   if (step.isZero(0)) return;
   const Vector3d rest = tip_.point.rest_m;
@@ -358,8 +333,13 @@ void Needle::goOn(const TissuePoints& tissue, double slip_m) {
     else
       share = more;
   }
-  if (next) standAt(tissue, *next);
-  tip_.path_m += std::copysign((tip_.point.rest_m - rest).norm(), slip_m);
+  if (next && std::copysign(1, slip_m) * (tissue.placeIn(target, *next) - tip_m).dot(along) > kLipsApart_m) {
+    next = tissue.find(target, tip_m);
+    if (!next) return;
+  }
+  if (next) standAt(*next);
+  const Vector3d gone = tip_.point.rest_m - rest;
+  tip_.path_m += std::copysign(gone.norm(), slip_m * gone.dot(step));
   if (out) tip_.state = slip_m > 0 ? kLeaves : kBlocked;
   if (tip_.path_m >= kCrossingsApart_m + (crossings_.empty() ? -kNoPlace : crossings_.back().path_m))
     leaveCrossing(false);

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <array>
 #include <limits>
 #include <vector>
 
@@ -77,8 +76,6 @@ class Needle {
   struct Tip {
     State state = kClear;
     TissuePoint point;
-    std::array<TissuePoint, 3> beside;     ///< of it at rest, along each axis
-    Vector3d beside_m = Vector3d::Zero();  ///< by so much; 0: there is no tissue
     Vector3d impulse_ns = Vector3d::Zero();
     NeedleLaw law;
     double path_m = 0;  ///< through tissue at rest, since the skin
@@ -113,9 +110,9 @@ class Needle {
   void solve(TissuePoints& tissue, const Row& row);
   void solveTip(TissuePoints& tissue);
   void sum(const TissuePoints& tissue);
-  void settle(const TissuePoints& tissue);
-  void goOn(const TissuePoints& tissue, double slip_m);
-  void standAt(const TissuePoints& tissue, const TissuePoint& point);
+  void settle(BladeTarget& target, const TissuePoints& tissue);
+  void goOn(BladeTarget& target, const TissuePoints& tissue, double slip_m);
+  void standAt(const TissuePoint& point);
   void leaveCrossing(bool skin);
   void sortOut(const TissuePoints& tissue, std::vector<NeedlePassed>& passed);
 

@@ -19,6 +19,7 @@ constexpr double kThrough_m = 1e-4;              // of Young's modulus: friction
 constexpr double kCutStep = 0.125;               // of the spacing: so far a channel is torn before springs are cut
 constexpr double kMostTorn = 0.5;                // of the spacing, in a substep
 constexpr double kHeld = 1;                      // of the spacing: so far behind a channel tissue is not cut yet
+constexpr double kOneChannel = 1.5;              // links, at rest: channels keep a link of the chain between them
 
 constexpr double kBeforeNext = 0.5;    // of its place on the chain: a new one is not behind that
 constexpr double kPassesAgain = 0.25;  // of a link: farther from a point than where it is nearest
@@ -180,13 +181,14 @@ void ThreadChannels::note(const std::vector<ChainSlide>& slides) {
   for (size_t k = 0; k < channels_.size(); ++k) channels_[k].torn_m += slides[k].torn_m;
 }
 
-bool ThreadChannels::end(const TissuePoints& points, BladeTarget& target, bool can_cut,
+bool ThreadChannels::end(const TissuePoints& points, BladeTarget& target, bool can_cut, double link_m,
                          std::vector<ChainSlide>& slides) {
   bool any_cut = false;
   for (size_t k = channels_.size(); k-- > 0;) {
     Channel& channel = channels_[k];
     bool gone = slides[k].out;
-    if (!gone && !channel.torn_m.isZero(0)) {
+    const bool torn = !gone && !channel.torn_m.isZero(0);
+    if (torn) {
       gone = !tear(channel, points, target);
       const double h = points.spacing_m(channel.point.body);
       const Vector3d uncut = channel.point.rest_m - channel.cut_m;
@@ -197,7 +199,10 @@ bool ThreadChannels::end(const TissuePoints& points, BladeTarget& target, bool c
         any_cut = true;
       }
     }
-    if (gone) erase(k, slides);
+    if (gone)
+      erase(k, slides);
+    else if (torn)
+      joinTorn(k, link_m, slides);
   }
   return any_cut;
 }
@@ -238,6 +243,20 @@ void ThreadChannels::erase(size_t k, std::vector<ChainSlide>& slides) {
   channels_.erase(channels_.begin() + static_cast<std::ptrdiff_t>(k));
   slides.erase(slides.begin() + static_cast<std::ptrdiff_t>(k));
   changed_ = true;
+}
+
+/// One that was torn up to its neighbour goes on in that one's place.
+void ThreadChannels::joinTorn(size_t k, double link_m, std::vector<ChainSlide>& slides) {
+  const auto isNear = [&](size_t other) {
+    const TissuePoint &a = channels_[k].point, &b = channels_[other].point;
+    return a.body == b.body && (a.rest_m - b.rest_m).norm() < kOneChannel * link_m;
+  };
+  const bool next = k + 1 < channels_.size() && isNear(k + 1);
+  if (!next && (k == 0 || !isNear(k - 1))) return;
+  const uint32_t before = k > 0 ? channels_[k - 1].through : 0, behind = channels_[k].through;
+  slides[next ? k + 1 : k - 1].through_n += slides[k].through_n;
+  erase(k, slides);
+  if (k > 0) channels_[k - 1].through = next ? before : behind;
 }
 
 void ThreadChannels::embedAgain(const TissuePoints& points, std::vector<ChainSlide>& slides) {

@@ -39,8 +39,9 @@ class ThreadChannels {
   /// After a substep of the chain.
   void note(const std::vector<ChainSlide>& slides);
   /// After a substep of the tissue: rest points move where tissue has torn, and springs are cut behind them.
-  /// @param can_cut  the target has what it takes   @returns whether some were
-  bool end(const TissuePoints& points, BladeTarget& target, bool can_cut, std::vector<ChainSlide>& slides);
+  /// @param can_cut  the target has what it takes   @param link_m  of the chain   @returns whether some were
+  bool end(const TissuePoints& points, BladeTarget& target, bool can_cut, double link_m,
+           std::vector<ChainSlide>& slides);
   /// Springs were cut.
   void embedAgain(const TissuePoints& points, std::vector<ChainSlide>& slides);
   void clear() { channels_.clear(); }
@@ -62,6 +63,8 @@ class ThreadChannels {
   bool tear(Channel& channel, const TissuePoints& points, const BladeTarget& target);
   void cutBehind(size_t k, const Vector3d& to_m, BladeTarget& target);
   void erase(size_t k, std::vector<ChainSlide>& slides);
+  /// Two that are side by side on the chain and nearer than it can tell apart are one.
+  void joinTorn(size_t k, double link_m, std::vector<ChainSlide>& slides);
 
   std::vector<Channel> channels_;
   bool changed_ = true;  ///< since masses were found

@@ -152,7 +152,8 @@ TEST(SceneMarkers, ThreadsAreLinesThroughTheirNodesOnceTheyArePlaced) {
   const SceneMarkers markers(with, {});
   SceneLook placed = look();
   EXPECT_TRUE(shown(markers.at(placed, ros::Time(3)), "threads").empty());
-  placed.threads = {{0, false, {{0, 0, 0}, {0.01, 0, 0}, {0.02, 0, 0.01}}}, {1, false, {{0, 1, 0}, {0, 2, 0}}}};
+  placed.threads = {{0, ThreadPart::kThread, {{0, 0, 0}, {0.01, 0, 0}, {0.02, 0, 0.01}}},
+                    {1, ThreadPart::kThread, {{0, 1, 0}, {0, 2, 0}}}};
   const auto lines = shown(markers.at(placed, ros::Time(3)), "threads");
   ASSERT_EQ(lines.size(), 2u);
   EXPECT_EQ(lines[0].type, Marker::LINE_STRIP);
@@ -164,6 +165,19 @@ TEST(SceneMarkers, ThreadsAreLinesThroughTheirNodesOnceTheyArePlaced) {
   EXPECT_EQ(lines[0].points[2].z, 0.01);
   EXPECT_EQ(lines[1].id, 1);
   EXPECT_GT(lines[1].scale.x, 1e-4) << "wide enough to be seen";
+}
+
+TEST(SceneMarkers, ClipsAreLinesBehindThoseOfThreads) {
+  Scene with = scene();
+  with.styluses[0].button1 = ToolMode::kClip;
+  const SceneMarkers markers(with, {});
+  SceneLook placed = look();
+  EXPECT_TRUE(shown(markers.at(placed, ros::Time(3)), "threads").empty());
+  placed.threads = {{0, ThreadPart::kClip, {{0, 0, 0}, {0.01, 0, 0}, {0.01, 0.002, 0}, {0, 0.002, 0}}}};
+  const auto lines = shown(markers.at(placed, ros::Time(3)), "threads");
+  ASSERT_EQ(lines.size(), 1u);
+  EXPECT_EQ(lines[0].points.size(), 4u);
+  EXPECT_EQ(lines[0].scale.x, 1e-3);
 }
 
 TEST(SceneMarkers, NamesAtOnePlaceAreWrittenAboveEachOther) {

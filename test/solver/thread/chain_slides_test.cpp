@@ -113,6 +113,34 @@ TEST(ChainSlides, KeepTheMomentumOfThreadAndTissue) {
   EXPECT_LT(off_m, 1e-3);
 }
 
+/// Beside the tail of a needle the chain cannot give way: it is tissue that goes back, on a spring here.
+TEST(ChainSlides, LeaveTheTailOfANeedleThatGoesOn) {
+  constexpr double kSpring_n_per_m = 60, kDamping_per_s = 200, kWay_m_per_s = 0.05, kTissue_kg = 6.8e-5;
+  constexpr int kSubsteps = 400;
+  Chain chain(soft(), alongX(80));
+  ChainAround around;
+  around.swaged[0] = true;
+  around.holds.push_back(held(chain, 0));
+  around.slides.push_back(channelAt(0.0131));
+  around.slides[0].friction = 0.1;
+  around.slides[0].through_n = 0.001;
+  around.slides[0].most_n = 0.27;
+  FreeMasses tissue(around, kTissue_kg);
+  around.slides[0].mass_kg = 0.7 * kTissue_kg;                        // tissue shows less than it has
+  const Vector3d home_m = tissue.places[0] + Vector3d(0, 0, -0.006);  // as if it had clung so far
+  for (int k = 0; k < kSubsteps; ++k) {
+    tissue.speeds[0] +=
+        kSubstep_s * (kSpring_n_per_m / kTissue_kg * (home_m - tissue.places[0]) - kDamping_per_s * tissue.speeds[0]);
+    around.holds[0].to_m += kSubstep_s * kWay_m_per_s * Vector3d(-1, 0, 0.5);
+    tissue.begin(around.slides);
+    chain.step(kSubstep_s, around);
+    tissue.end();
+  }
+  EXPECT_LT((tissue.places[0] - home_m).norm(), 2e-4);
+  EXPECT_GT(around.slides[0].s * kLink_m, 0.8 * kSubsteps * kSubstep_s * kWay_m_per_s);
+  EXPECT_FALSE(around.slides[0].out);
+}
+
 TEST(ChainSlides, HoldAThreadThatIsPulledByLessThanTheirFriction) {
   for (const double pull_n : {0.045, 0.06}) {
     Chain chain(soft(), alongX(80));

@@ -71,6 +71,19 @@ class Sewing {
     solver_->step(motions);
     while (solver_->pollStats(stats, true)) nonfinite += stats.nonfinite;
   }
+  /// By the other stylus, before the hand is there.
+  void cutFrom(const Vector3d& from_m, const Vector3d& to_m) {
+    constexpr int kTicks = 12;
+    for (int i = 0; i < kTicks; ++i) {
+      ToolMotions motions;
+      motions[1].present = true;
+      motions[1].mode = ToolMode::kCut;
+      motions[1].from.position_m = from_m + (to_m - from_m) * i / kTicks;
+      motions[1].to.position_m = from_m + (to_m - from_m) * (i + 1) / kTicks;
+      solver_->step(motions);
+      while (solver_->pollStats(stats, true)) nonfinite += stats.nonfinite;
+    }
+  }
   /// About the middle of its circle, with what is around it.
   template <class Look>
   void turn(double from_rad, double to_rad, double speed_m_per_s, const Look& look) {
@@ -128,6 +141,39 @@ TEST(Needles, AHandDrivesOneThroughAndLetsItGo) {
   for (int i = 0; i < 30; ++i) sewing.tick(Sewing::handAt(0), ToolMode::kNone);
   EXPECT_LT((sewing.needle().pose().position_m - before.position_m).norm(), 6e-3);  // tissue still holds its tail
   EXPECT_EQ(sewing.force_n(), 0);
+  EXPECT_EQ(sewing.nonfinite, 0u);
+  EXPECT_EQ(sewing.solver().health().trips, 0u);
+}
+
+/// A blade cuts the block along x = 0 while the needle is still above it, and its thread has no channel; then it is
+/// driven through both lips and turned out.
+TEST(Needles, GoThroughBothLipsOfAWoundAndOutOfThem) {
+  Scene scene = sewnScene();
+  scene.environment.gravity_m_per_s2.setZero();
+  BodyConfig& block = scene.bodies[0];
+  block.structure = Structure::kExplicit;
+  block.material.cells = Cells::kSprings;
+  block.material.prestress.strains = {0.08, 0, 0};  // the wound gapes
+  StylusConfig knife;
+  knife.button1 = ToolMode::kCut;
+  scene.styluses.push_back(knife);
+  Sewing sewing(1, scene);
+  sewing.cutFrom({0, -0.0075, -0.0045}, {0, 0.0075, -0.0045});
+  constexpr double kOut_rad = 1.9 * kSewnPi;  // its tail is still in tissue
+  sewing.turn(0, kOut_rad, 0.05);
+  double most_n = 0;
+  for (int i = 1; i <= 30; ++i) {
+    Pose up = Sewing::handAt(kOut_rad);
+    up.position_m += i * Vector3d(5e-4, 0, 5e-4);
+    sewing.tick(up, ToolMode::kNeedle);
+    most_n = std::max(most_n, sewing.force_n());
+  }
+  EXPECT_LT(most_n, 0.1);  // no channel clings to the tail
+  EXPECT_EQ(sewing.needle().crossings(), 0u);
+  size_t left = 0, right = 0;
+  for (const ChainSlide& slide : sewing.solver().threads()->slides(0)) (slide.to_m.x() < 0 ? left : right) += 1;
+  EXPECT_GE(left, 2u);
+  EXPECT_GE(right, 2u);
   EXPECT_EQ(sewing.nonfinite, 0u);
   EXPECT_EQ(sewing.solver().health().trips, 0u);
 }

@@ -13,6 +13,7 @@ struct ChainRun {
   static constexpr double kFar = std::numeric_limits<double>::infinity();
   double low = -kFar, high = kFar;  ///< of s, its place on the chain [links]
   double slid_m = 0;                ///< by the chain in this substep, that s has followed
+  bool on_needle = false;           ///< of a chain that a needle is on: beside its tail it cannot give way
   ChainTurn turn;
 
   /// Another point is there, or, where that runs too, may come as far as their middle.

@@ -16,6 +16,12 @@ bool tears(const ChainSlide& slide) {
   return slips(slide.stiffness_kg, slide.mass_kg);
 }
 
+/// On a needle's thread a stiffness is one of the chain and of the tissue, which goes back as it is given less: the
+/// chain itself stays where the needle is.
+double yields(const ChainSlide& slide, const ChainRun& run, double stiffness_kg) {
+  return run.on_needle ? stiffness_kg / (1 + stiffness_kg / slide.mass_kg) : stiffness_kg;
+}
+
 bool runsAlong(const ChainSlide& slide) {
   return !tears(slide) && slips(slide.rub_kg, slide.mass_kg);
 }
@@ -33,6 +39,8 @@ void ChainSlides::begin(const ChainShape& shape, const std::array<bool, 2>& swag
       slide.impulse_ns.setZero();
       continue;
     }
+    runs_[k].on_needle = swaged[0] || swaged[1];
+    if (runs_[k].on_needle) slide.impulse_ns.setZero();  // of which the tissue has nothing yet
     if (before < slides.size()) {
       const double apart = std::max(kApartLinks, kApartRest * slides[before].between_rest_m / shape.link_m);
       runs_[before].stopAt(slide.s, apart, true, slides[before].s);
@@ -51,11 +59,12 @@ void ChainSlides::begin(const ChainShape& shape, const std::array<bool, 2>& swag
 
 /// Times dt: what the tissue gets where the chain is off by so much.
 Vector3d ChainSlides::impulse(const ChainSlide& slide, const ChainRun& run, const Vector3d& off_m, double dt_s) const {
-  if (tears(slide)) return slide.stiffness_kg * off_m;
+  const Vector3d given = run.on_needle ? Vector3d(dt_s * slide.impulse_ns / slide.mass_kg) : Vector3d::Zero();
+  if (tears(slide)) return yields(slide, run, slide.stiffness_kg) * (off_m + given);
   const Vector3d whole = dt_s * slide.impulse_ns + slide.mass_kg * off_m;
   if (!slips(slide.rub_kg, slide.mass_kg)) return whole;
   const Vector3d& t = run.turn.tangent;
-  return whole + (slide.rub_kg * (run.slid_m + off_m.dot(t)) - whole.dot(t)) * t;
+  return whole + (yields(slide, run, slide.rub_kg) * (run.slid_m + (off_m + given).dot(t)) - whole.dot(t)) * t;
 }
 
 void ChainSlides::set(const ChainShape& shape, const std::vector<ChainSlide>& slides, ChainMatrix& matrix,
@@ -66,8 +75,9 @@ void ChainSlides::set(const ChainShape& shape, const std::vector<ChainSlide>& sl
     const ChainPoint point(slide.s, shape.places_m.size());
     runs_[k].turn = ChainTurn(point, shape.links);
     const Vector3d& t = runs_[k].turn.tangent;
-    Matrix3d stiff = (tears(slide) ? slide.stiffness_kg : slide.mass_kg) * Matrix3d::Identity();
-    if (runsAlong(slide)) stiff -= (slide.mass_kg - slide.rub_kg) * t * t.transpose();
+    Matrix3d stiff =
+        (tears(slide) ? yields(slide, runs_[k], slide.stiffness_kg) : slide.mass_kg) * Matrix3d::Identity();
+    if (runsAlong(slide)) stiff -= (slide.mass_kg - yields(slide, runs_[k], slide.rub_kg)) * t * t.transpose();
     matrix.addPoint(point.node, point.share, stiff);
     point.push(-impulse(slide, runs_[k], point.of(shape.places_m) - slide.to_m, shape.dt_s), rest);
   }
@@ -79,8 +89,10 @@ bool ChainSlides::heed(const ChainShape& shape, bool frozen, std::vector<ChainSl
     ChainSlide& slide = slides[k];
     if (slide.out) continue;
     ChainRun& run = runs_[k];
-    const Vector3d off_m = ChainPoint(slide.s, shape.places_m.size()).of(shape.places_m) - slide.to_m;
+    Vector3d off_m = ChainPoint(slide.s, shape.places_m.size()).of(shape.places_m) - slide.to_m;
+    const Vector3d before_ns = slide.impulse_ns;
     slide.impulse_ns = impulse(slide, run, off_m, shape.dt_s) / shape.dt_s;
+    if (run.on_needle) off_m += shape.dt_s * (before_ns - slide.impulse_ns) / slide.mass_kg;
     const bool along = runsAlong(slide);
     if (!frozen) again |= change(shape, off_m, slide, run);
     if (!along || !run.follow(shape, off_m.dot(run.turn.tangent), slide.s, slide.out) || frozen) continue;

@@ -1,0 +1,149 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bench/suites/thread/tearing_trial.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "bench/suites/thread/threads.h"
+#include "solver/thread/thread_bodies.h"
+#include "viscera/math/state_hash.h"
+#include "viscera/session/session.h"
+
+namespace viscera::bench {
+
+namespace {
+
+constexpr double kHand_n = 20, kSpeed_m_per_s = 1, kReach_m = 0.03;
+constexpr double kLongest_s = 5;  // of a block: what has not torn by then lies where this hand does not reach
+constexpr double kTop_m = 0.009, kSpacing_m = 0.003;
+const Vector3d kHand_m(0.010, 0, 0.05);
+
+/// In the plane of the thread [mm].
+Vector3d inPlane(double x, double z) {
+  return 1e-3 * Vector3d(x, 0, z);
+}
+
+/// In through the skin at a place, 6 mm deep, and out 9 mm farther on.
+void addBite(double x_mm, ThreadConfig& thread) {
+  thread.path.push_back({inPlane(x_mm, 9.8)});
+  for (const auto& [ahead, height] :
+       {std::pair<double, double>{0, 8.3}, {0.5, 5.5}, {3, 3.2}, {6, 3.2}, {8.5, 5.5}, {9, 8.3}}) {
+    thread.path.push_back({inPlane(x_mm + ahead, height)});
+    thread.channels.push_back({"", inPlane(x_mm + ahead, height)});
+  }
+  thread.path.push_back({inPlane(x_mm + 9, 9.8)});
+}
+
+/// A block on bone, 36 x 30 x 9 mm.
+Scene padScene(double young_modulus_pa, int threads) {
+  Scene scene;
+  scene.name = "pad";
+  BodyConfig body;
+  body.source = TissueSource::kBox;
+  body.box_size_m = Vector3d(0.036, 0.03, kTop_m);
+  body.position_m = Vector3d(0, 0, kTop_m / 2);
+  body.spacing_m = kSpacing_m;
+  body.material.young_modulus_pa = young_modulus_pa;
+  FixedConfig bone;
+  bone.shape = FixedShape::kPlane;
+  bone.point_m = Vector3d(0, 0, -kTop_m / 2 + 0.1 * kSpacing_m);
+  bone.normal = Vector3d::UnitZ();
+  body.fixed.push_back(bone);
+  scene.bodies.push_back(body);
+  scene.styluses.resize(1);
+  scene.styluses[0].idle = ToolMode::kGrab;
+  scene.styluses[0].button2 = ToolMode::kCut;
+  scene.styluses[0].max_force_n = kHand_n;
+  ThreadConfig thread;
+  thread.material = ThreadMaterial::kSilk;
+  thread.usp = ThreadSize::kUsp4;
+  thread.position_m = inPlane(-14, 13);
+  thread.start = ThreadEnd::kFixed;
+  addBite(-12, thread);
+  addBite(3, thread);
+  thread.path.push_back({inPlane(10, 14)});
+  thread.path.push_back({kHand_m});
+  scene.threads.push_back(thread);
+  scene.solver.backend = Backend::kCpu;
+  scene.solver.threads = threads;
+  return scene;
+}
+
+/// A hand that goes to and fro, in another direction each time.
+class RoughHand {
+ public:
+  /// At first where the thread's end is.
+  StylusSamples next(double tick_s) {
+    StylusSamples out;
+    out[0].valid = true;
+    out[0].pose.position_m = kHand_m + kReach_m * std::sin(phase_) * way_;
+    phase_ += tick_s * kSpeed_m_per_s / kReach_m;
+    if (phase_ > 2 * kPi) {
+      phase_ -= 2 * kPi;
+      way_ = Vector3d(random(), random(), random()).normalized();
+    }
+    return out;
+  }
+  void beginAgain() { phase_ = 0; }
+
+ private:
+  double random() {
+    seed_ = seed_ * 1664525U + 1013904223U;
+    return static_cast<double>(seed_ >> 8) / 16777216.0 - 0.5;
+  }
+  uint32_t seed_ = 1;
+  double phase_ = 0;
+  Vector3d way_{0.1, 0.2, 0.97};
+};
+
+}  // namespace
+
+TearingTrial tornOut(double seconds, double young_modulus_pa, int threads) {
+  Session session(padScene(young_modulus_pa, threads));
+  const ThreadBodies& bodies = *session.solver().threads();
+  const size_t channels = bodies.slides(0).size();
+  RoughHand hand;
+  TearingTrial out;
+  StateHash hash;
+  const double from_s = cpuTime_s();
+  const auto endBlock = [&] {
+    const Frame last = session.drain();
+    out.torn += static_cast<double>(channels - bodies.slides(0).size());
+    out.springs += last.stats.springs_cut;
+    const Extremes& extremes = session.extremes();
+    out.nonfinite += static_cast<double>(extremes.nonfinite);
+    out.most_force_n = std::max(out.most_force_n, extremes.peak_force_n);
+    out.stretch = std::max(out.stretch, extremes.max_stretch);
+    const uint64_t state = session.stateHash();
+    hash.add(static_cast<uint32_t>(state));
+    hash.add(static_cast<uint32_t>(state >> 32));
+  };
+  const int ticks = static_cast<int>(std::lround(seconds / session.tick_s()));
+  for (int t = 0; t < ticks; ++t) {
+    if (bodies.slides(0).empty() || static_cast<double>(session.tick()) * session.tick_s() > kLongest_s) {
+      endBlock();
+      session.reset();
+      hand.beginAgain();
+      ++out.blocks;
+    }
+    session.step(hand.next(session.tick_s()), {});
+    for (const Vector3d& place : session.threadPlaces(0)) out.nonfinite += !place.allFinite();
+    const std::vector<ChainSlide>& slides = bodies.slides(0);
+    for (size_t k = 0; k + 1 < slides.size(); ++k)
+      out.nearest_links = std::min(out.nearest_links, slides[k].between_rest_m / bodies.chain(0).link_m());
+  }
+  endBlock();
+  out.trips = static_cast<double>(session.solver().health().trips);
+  const ThreadLinks& links = bodies.links();
+  out.substeps = static_cast<double>(links.substeps);
+  out.off = static_cast<double>(links.off);
+  out.worst_link = links.worst;
+  out.iterations = links.iterations / out.substeps;
+  out.most_iterations = links.most_iterations;
+  out.seconds_of_cpu = cpuTime_s() - from_s;
+  out.hash = hash.value();
+  return out;
+}
+
+}  // namespace viscera::bench
