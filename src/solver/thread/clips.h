@@ -15,8 +15,8 @@
 
 namespace viscera {
 
-/// Clips (docs/lessons/clips.md): each holds two sides of tissue together, node by node, with impulses after each substep that
-/// take no linear and no angular momentum.
+/// Clips (docs/lessons/clips.md): each holds two sides of tissue together, node by node, with impulses after each
+/// substep that take no linear and no angular momentum.
 class Clips {
  public:
   static constexpr double kMostSqueezed = 0.4;  ///< of what two nodes of one body are apart at rest
