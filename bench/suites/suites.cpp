@@ -55,7 +55,7 @@ const std::vector<Suite>& suites() {
       {"validate", "measured silicone rubbers and a sphere on a half space, foretold by scenes", run<validateSuite>,
        false, true, true},
       {"haptics", "simulated devices against tissue: what is felt, limit cycles, energy, by mass, delay and stiffness",
-       run<hapticsSuite>},
+       run<hapticsSuite>, false, true},
       {"latency", "from a pose to its force and its picture; how even ticks are", run<latencySuite>},
       {"picture", "what does a picture cost, stage by stage, and does the quick one look the same?", run<pictureSuite>},
       {"busy", "what do threads gain beside other busy processes, which the suite starts itself?", run<busySuite>},

@@ -56,8 +56,9 @@ Sewn sew(const Overrides& overrides) {
     const Frame frame = session.step(strokes.at(time_s, scene.styluses), {});
     const std::vector<Vector3d> needle = session.needlePlaces(0);
     out.most_n = std::max(out.most_n, frame.reactions[0].force_n.norm());
-    const bool pressed = frame.reactions[0].force_n.norm() > kFelt_n;
-    out.unfelt += pressed && frame.contacts[0].kind != TickContact::Kind::kPushes;
+    const layout::vec4& given = frame.stats.impulse[0];
+    const bool pressed = Vector3d(given.x, given.y, given.z).norm() > kFelt_n * session.tick_s();
+    out.unfelt += pressed && frame.contacts[0].kind == TickContact::Kind::kFree;
     out.off_m = std::max(out.off_m, (session.threadPlaces(0)[0] - needle.back()).norm());
     out.tip = needle.front();
     if (time_s < 1.3) left = needle.front();

@@ -14,6 +14,7 @@ namespace {
 
 /// What is asked of every cell of the matrix.
 constexpr double kStaticError = 0.02;  ///< of the simulator's force
+constexpr double kFelt_n = 0.05;       ///< of needles and threads: held forces below that are not judged by their share
 constexpr double kFree_n = 0.05;       ///< what a hand in free motion may be told
 constexpr double kActive_mj = 1;       ///< energy that the loop may give beyond what it got
 constexpr double kSwift_hz = 1000;     ///< poses of a driver that keeps pace with the loop
@@ -66,9 +67,9 @@ Table tableOf(const std::string& title) {
                        {"share", "", 2}});
 }
 
-void add(Table& table, const HapticTrial& trial, const HapticOutcome& outcome) {
-  table.add({trial.young_modulus_pa / 1e3, 1e3 * trial.delay_s, trial.mass_kg, trial.poses_hz, nameOf(trial.event),
-             outcome.depth_mm, outcome.force_n, outcome.simulator_n,
+void add(Table& table, const HapticTrial& trial, const HapticOutcome& outcome, const char* event) {
+  table.add({trial.young_modulus_pa / 1e3, 1e3 * trial.delay_s, trial.mass_kg, trial.poses_hz, event, outcome.depth_mm,
+             outcome.force_n, outcome.simulator_n,
              outcome.simulator_n > 0 ? Cell(100 * outcome.static_error) : Cell(""), outcome.stiffness_n_per_m,
              outcome.swing_n, outcome.swing_mm, cycles(outcome) ? "yes" : "no", outcome.least_energy_mj,
              outcome.observed_mj, outcome.unheard_mj, outcome.free_n, outcome.share});
@@ -95,7 +96,7 @@ void measure(const Matrix& matrix, const HapticTrial& of_all, Table& table, Wors
     HapticTrial trial = of_all;
     trial.mass_kg = mass;
     const HapticOutcome outcome = runHapticTrial(trial);
-    add(table, trial, outcome);
+    add(table, trial, outcome, nameOf(trial.event));
     worst.note(trial.poses_hz, outcome);
     series.x.push_back(mass);
     series.y.push_back(outcome.swing_n);
@@ -130,9 +131,68 @@ Worst measure(Report& report, const Matrix& matrix, double rate_hz, Table& table
   return worst;
 }
 
-}  // namespace
+/// Fewer cells than of a probe: a trial has three holds and more.
+Matrix sutureOf(bool short_form) {
+  if (short_form) return {{10, 100}, {2}, {0.1}, {1000, 100}};
+  return {{1, 10, 100}, {0, 2, 10}, {0.05, 0.2, 2}, {1000, 100}};
+}
 
-void hapticsSuite(Report& report) {
+/// A needle or a thread, at all stages of its way. A force that is too small to be felt has no share that is off.
+Worst measureSuture(Report& report, HapticTool tool, const char* name, Table& table) {
+  Worst worst;
+  const Matrix matrix = sutureOf(report.isShort());
+  HapticTrial trial;
+  trial.tool = tool;
+  for (double poses_hz : matrix.poses_hz) {
+    trial.poses_hz = poses_hz;
+    for (double young : matrix.young_kpa) {
+      trial.young_modulus_pa = 1e3 * young;
+      for (double delay : matrix.delay_ms) {
+        trial.delay_s = delay / 1e3;
+        for (double mass : matrix.mass_kg) {
+          trial.mass_kg = mass;
+          report.stage(std::string(name) + ", poses of " + Cell(poses_hz).text(4) + " Hz, " + Cell(young).text(3) +
+                       " kPa, " + Cell(delay).text(3) + " ms, " + Cell(mass).text(3) + " kg");
+          for (const HapticStage& stage : runSutureTrial(trial)) {
+            HapticOutcome outcome = stage.outcome;
+            add(table, trial, outcome, stage.name);
+            if (!stage.held || outcome.simulator_n < kFelt_n) outcome.static_error = 0;
+            worst.note(trial.poses_hz, outcome);
+          }
+        }
+      }
+    }
+  }
+  return worst;
+}
+
+void suture(Report& report, HapticTool tool, const char* name, const std::string& title) {
+  Table table = tableOf(title);
+  const Worst worst = measureSuture(report, tool, name, table);
+  report.add(table, name);
+  const std::string what = std::string(name) + ", ";
+  report.checkAtMost(what + "holds with a limit cycle", worst.cycling, 0);
+  report.checkAtMost(what + "static force off the simulator's [1]", worst.error, kStaticError);
+  report.checkAtLeast(what + "least energy that a device has given, poses of 1000 Hz [mJ]", worst.swift_mj,
+                      -kActive_mj);
+  report.checkAtLeast(what + "the same, any poses, beyond what a loop so late can hear of [mJ]", worst.least_mj,
+                      -kActive_mj);
+  report.checkAtMost(what + "force in free motion [N]", worst.free_n, kFree_n);
+}
+
+void needle(Report& report) {
+  suture(
+      report, HapticTool::kNeedle, "needle",
+      "the same device leads a needle of 20 mm through 9 mm of tissue: held at the skin, inside, through both skins, "
+      "and drawn back out");
+}
+
+void thread(Report& report) {
+  suture(report, HapticTool::kThread, "thread",
+         "the same device pulls a thread, its other end held, against a bite of six channels in 9 mm of tissue");
+}
+
+void probe(Report& report) {
   Plot swings;
   swings.title = "what a held device goes on to swing by, tissue of 100 kPa";
   swings.x_label = "mass of the device [kg]";
@@ -159,8 +219,6 @@ void hapticsSuite(Report& report) {
   report.add(plain, "once_per_tick");
   report.add(swings, "swings");
 
-  hapticsBlade(report);
-
   report.checkAtMost("cells of the matrix with a limit cycle", worst.cycling, 0);
   report.checkAtMost("static force off the simulator's [1]", worst.error, kStaticError);
   report.checkAtLeast("least energy that a device has given, poses of 1000 Hz [mJ]", worst.swift_mj, -kActive_mj);
@@ -171,6 +229,12 @@ void hapticsSuite(Report& report) {
   report.checkAtLeast("least energy in events, beyond what a loop so late can hear of [mJ]", events.least_mj,
                       -kActive_mj);
   report.checkAtLeast("limit cycles without the local model, of those tried", without.cycling, 1);
+}
+
+}  // namespace
+
+void hapticsSuite(Report& report) {
+  measureParts(report, {{"probe", probe}, {"blade", hapticsBlade}, {"needle", needle}, {"thread", thread}});
 }
 
 }  // namespace viscera::bench

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <vector>
+
 #include "viscera/haptics/haptic_servo.h"
 #include "viscera/haptics/simulated_device.h"
 
@@ -17,8 +19,16 @@ enum class HapticEvent {
 };
 const char* nameOf(HapticEvent event);
 
+/// What the device leads.
+enum class HapticTool {
+  kProbe,   ///< pressed into a block, held there
+  kNeedle,  ///< pressed at a skin, driven through it, held inside, through the far one, and drawn back out
+  kThread   ///< held in mode grab, pulled taut and more through channels
+};
+
 /// One cell of the matrix: a device in a hand presses a probe into a block of tissue, holds it there, and leaves.
 struct HapticTrial {
+  HapticTool tool = HapticTool::kProbe;
   double mass_kg = 0.1, delay_s = 0;
   double young_modulus_pa = 1e4;
   double rate_hz = 1000;   ///< of answers; 0: forces once per tick, as they come
@@ -45,5 +55,14 @@ struct HapticOutcome {
 
 /// @throws what Session does
 HapticOutcome runHapticTrial(const HapticTrial& trial);
+
+/// A time of a trial that is looked at, with its name. Least energies and the force in free motion are of all of it.
+struct HapticStage {
+  const char* name;
+  bool held;  ///< else it is of the largest forces of that time
+  HapticOutcome outcome;
+};
+/// Of a needle or a thread; events befall neither.
+std::vector<HapticStage> runSutureTrial(const HapticTrial& trial);
 
 }  // namespace viscera::bench

@@ -1,0 +1,244 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Needles and threads that a device leads.
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "bench/suites/pace/haptics_trial.h"
+#include "bench/suites/pace/held_trial.h"
+
+namespace viscera::bench {
+namespace {
+
+constexpr double kSpacing_m = 0.003, kThick_m = 0.009, kTip_m = 0.006;
+constexpr double kNeedle_m = 0.02;    ///< radius of its arc: a large one, as it is led without being turned
+constexpr double kHandOver_m = 0.02;  ///< a thread's end over the skin, where it is just taut
+constexpr double kSettle_s = 1.5, kRings = 6, kLook_s = 0.4, kLeft_s = 0.05;
+constexpr double kMotion_m_per_s = 0.09;  ///< on the way out
+
+/// Where the hand wants the tip over the skin, or a thread's end over where it is taut [m].
+struct Key {
+  double time_s, height_m;
+};
+/// What is looked at: the end of a hold, or largest forces of a time.
+struct Span {
+  const char* name;
+  bool held;
+  double from_s, to_s;
+};
+
+/// A way, and what is looked at of it.
+struct Plan {
+  std::vector<Key> way;
+  std::vector<Span> spans;
+  double touches_s = 0, left_s = 0;  ///< free before and after
+
+  double now_s() const { return way.back().time_s; }
+  void go(double to_m, double m_per_s) {
+    way.push_back({now_s() + std::abs(to_m - way.back().height_m) / m_per_s, to_m});
+  }
+  void hold(const char* name, double settle_s) {
+    way.push_back({now_s() + settle_s, way.back().height_m});
+    spans.push_back({name, true, now_s() - kLook_s, now_s()});
+  }
+  void pass(const char* name, double to_m, double m_per_s) {
+    const double from_s = now_s();
+    go(to_m, m_per_s);
+    spans.push_back({name, false, from_s, now_s()});
+  }
+  double at(double time_s) const {
+    for (size_t i = 1; i < way.size(); ++i) {
+      const Key &a = way[i - 1], &b = way[i];
+      if (time_s < b.time_s)
+        return a.height_m + (time_s - a.time_s) / (b.time_s - a.time_s) * (b.height_m - a.height_m);
+    }
+    return way.back().height_m;
+  }
+};
+
+Plan planOf(HapticTool tool, double settle_s) {
+  constexpr double kSlow = 0.02, kQuick = 0.04;
+  Plan out;
+  if (tool == HapticTool::kNeedle) {
+    out.way = {{0, 0.012}, {0.2, 0.004}, {0.4, 0.012}, {0.6, 0.003}};
+    out.touches_s = 0.6;
+    out.go(-0.0004, kSlow);
+    out.hold("skin, less", settle_s);
+    out.go(-0.0008, kSlow);
+    out.hold("skin", settle_s);
+    out.pass("puncture", -0.0055, kSlow);
+    out.hold("inside", settle_s);
+    out.pass("far skin", -kThick_m - 0.004, kSlow);
+    out.hold("through", settle_s);
+  } else {
+    out.way = {{0, 0}, {0.2, -0.008}, {0.4, -0.004}, {0.6, -0.008}};
+    out.touches_s = 0.6;
+    out.go(0.001, kQuick);
+    out.hold("pulled, less", settle_s);
+    out.go(0.002, kQuick);
+    out.hold("pulled", settle_s);
+  }
+  out.pass("out", tool == HapticTool::kNeedle ? 0.012 : -0.008, kMotion_m_per_s);
+  out.left_s = out.now_s() + kLeft_s;
+  out.way.push_back({out.now_s() + 0.3, out.way.back().height_m});
+  return out;
+}
+
+/// A slab that is fixed at its four sides, and free above and below.
+BodyConfig slab(double young_modulus_pa) {
+  BodyConfig body;
+  body.source = TissueSource::kBox;
+  body.box_size_m = Vector3d(0.036, 0.03, kThick_m);
+  body.position_m = Vector3d(0, 0, -kThick_m / 2);
+  body.spacing_m = kSpacing_m;
+  body.material.young_modulus_pa = young_modulus_pa;
+  for (const Vector3d& out : {Vector3d(1, 0, 0), Vector3d(-1, 0, 0), Vector3d(0, 1, 0), Vector3d(0, -1, 0)}) {
+    FixedConfig fixed;
+    fixed.shape = FixedShape::kPlane;
+    fixed.normal = -out;
+    fixed.point_m = out.cwiseProduct(0.5 * body.box_size_m) - 0.1 * kSpacing_m * out;
+    body.fixed.push_back(fixed);
+  }
+  return body;
+}
+
+Vector3d tipAt(HapticTool tool, double height_m) {
+  if (tool == HapticTool::kNeedle) return {0.0033, -0.0007, height_m};
+  return {0.006, 0, kHandOver_m + height_m};
+}
+
+/// Its tip heads down, where the device is at first.
+void addNeedle(ThreadConfig& thread) {
+  const double sideways_m = kNeedle_m * std::sqrt(0.5);  // of its tail, from the middle of its circle
+  thread.needle.arc = NeedleArc::kThreeEighths;
+  thread.needle.radius_m = kNeedle_m;
+  thread.needle.rotation_deg = Vector3d(180, 0, 0);
+  thread.position_m = tipAt(HapticTool::kNeedle, 0.012) + Vector3d(-kNeedle_m - sideways_m, 0, sideways_m);
+  thread.path.push_back({thread.position_m + Vector3d(0, 0, 0.04)});
+}
+
+/// One end held beside a bite of 9 mm, the other over it.
+void addBite(ThreadConfig& thread) {
+  thread.start = ThreadEnd::kFixed;
+  thread.position_m = Vector3d(-0.009, 0, 0.004);
+  thread.path.push_back({Vector3d(-0.0045, 0, 0.0008)});
+  for (const Vector3d& mm : {Vector3d(-4.5, 0, -0.7), Vector3d(-4, 0, -3.5), Vector3d(-1.5, 0, -5.8),
+                             Vector3d(1.5, 0, -5.8), Vector3d(4, 0, -3.5), Vector3d(4.5, 0, -0.7)}) {
+    thread.path.push_back({1e-3 * mm});
+    thread.channels.push_back({"", 1e-3 * mm});
+  }
+  thread.path.push_back({Vector3d(0.0045, 0, 0.0008)});
+  thread.path.push_back({tipAt(HapticTool::kThread, 0)});
+}
+
+Scene sceneOf(const HapticTrial& trial) {
+  Scene scene;
+  scene.environment.gravity_m_per_s2.setZero();
+  scene.bodies.push_back(slab(trial.young_modulus_pa));
+  const bool needle = trial.tool == HapticTool::kNeedle;
+  scene.styluses.resize(1);
+  scene.styluses[0].idle = needle ? ToolMode::kNeedle : ToolMode::kGrab;
+  ThreadConfig thread;
+  thread.material = ThreadMaterial::kSilk;
+  thread.usp = ThreadSize::kUsp4;
+  if (needle)
+    addNeedle(thread);
+  else
+    addBite(thread);
+  scene.threads.push_back(thread);
+  scene.solver.backend = Backend::kCpu;
+  scene.solver.threads = 1;
+  return scene;
+}
+
+class SutureTrial : public HeldTrial {
+ public:
+  explicit SutureTrial(const HapticTrial& trial)
+      : SutureTrial(trial, {trial.mass_kg, trial.delay_s, trial.poses_hz, trial.rate_hz, kTip_m}) {}
+
+  std::vector<HapticStage> run() {
+    for (int i = 0; i * kPeriod_s < plan_.now_s(); ++i) {
+      now_s_ = i * kPeriod_s;
+      hear();
+      tick();
+      tell();
+      device_.step(told_n_, tipAt(trial_.tool, plan_.at(now_s_)));
+      look();
+    }
+    std::vector<HapticStage> out;
+    for (size_t s = 0; s < plan_.spans.size(); ++s)
+      out.push_back({plan_.spans[s].name, plan_.spans[s].held, outcomeOf(s)});
+    return out;
+  }
+
+ private:
+  SutureTrial(const HapticTrial& trial, const Setting& setting)
+      : HeldTrial(sceneOf(trial), setting, tipAt(trial.tool, trial.tool == HapticTool::kNeedle ? 0.012 : 0)),
+        trial_(trial),
+        plan_(planOf(trial.tool, settle_s(deviceOf(setting)))),
+        looks_(plan_.spans.size()) {
+    hand_.listens = true;
+  }
+  static double settle_s(const SimulatedDeviceConfig& device) {
+    return kSettle_s + kRings * 2 * device.mass_kg / (device.damping_n_s_per_m + device.hand_damping_n_s_per_m);
+  }
+
+  /// How far the tip is in, or the thread pulled.
+  double depth_m() const {
+    const double height_m = device_.position_m().z() - tipAt(trial_.tool, 0).z();
+    return trial_.tool == HapticTool::kNeedle ? -height_m : height_m;
+  }
+
+  void look() {
+    least_j_ = std::min(least_j_, device_.energy_j());
+    const double size_n = told_n_.norm();
+    if (now_s_ < plan_.touches_s || now_s_ > plan_.left_s) free_n_ = std::max(free_n_, size_n);
+    for (size_t s = 0; s < looks_.size(); ++s) {
+      if (now_s_ < plan_.spans[s].from_s || now_s_ >= plan_.spans[s].to_s) continue;
+      looks_[s].force.add(size_n);
+      looks_[s].depth.add(depth_m());
+      looks_[s].ticks.add(ticks_n_);
+    }
+  }
+
+  HapticOutcome outcomeOf(size_t s) const {
+    const LookedHold& look = looks_[s];
+    HapticOutcome out;
+    out.least_energy_mj = 1e3 * least_j_;
+    out.free_n = free_n_;
+    const ForceLoop::Felt felt = loop_.felt(0);
+    out.observed_mj = 1e3 * felt.least_j;
+    out.share = felt.share;
+    double most_held_n = 0;
+    for (size_t k = 0; k < looks_.size(); ++k)
+      if (plan_.spans[k].held) most_held_n = std::max(most_held_n, looks_[k].force.mean());
+    out.unheard_mj = 1e3 * (trial_.delay_s + 0.5 * kPeriod_s + 1 / trial_.poses_hz) * most_held_n * kMotion_m_per_s;
+    out.depth_mm = 1e3 * look.depth.mean();
+    out.force_n = look.force.most;
+    out.simulator_n = look.ticks.most;
+    if (!plan_.spans[s].held) return out;
+    out.force_n = look.force.mean();
+    out.simulator_n = look.ticks.mean();
+    if (out.simulator_n > 0) out.static_error = std::abs(out.force_n - out.simulator_n) / out.simulator_n;
+    out.swing_n = look.force.swing();
+    out.swing_mm = 1e3 * look.depth.swing();
+    if (s == 1)
+      out.stiffness_n_per_m =
+          (look.force.mean() - looks_[0].force.mean()) / (look.depth.mean() - looks_[0].depth.mean());
+    return out;
+  }
+
+  const HapticTrial trial_;
+  const Plan plan_;
+  std::vector<LookedHold> looks_;
+  double least_j_ = 0, free_n_ = 0;
+};
+
+}  // namespace
+
+std::vector<HapticStage> runSutureTrial(const HapticTrial& trial) {
+  return SutureTrial(trial).run();
+}
+
+}  // namespace viscera::bench
