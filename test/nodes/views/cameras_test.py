@@ -174,6 +174,8 @@ class CamerasTest(unittest.TestCase):
         images, ticks = {}, {}
         topics = [Latest("scope/depth/image_raw", Image, lambda m: images.setdefault(m.header.stamp, m), queue_size=10),
                   Latest("scope/tick", Tick, lambda m: ticks.setdefault(m.tick, m), queue_size=10)]
+        for topic in topics:
+            topic.connect()
         for _ in range(3):
             done = rospy.ServiceProxy("step", Step)(ticks=4)
             told = wait_until(lambda: ticks.get(done.tick), 20, "picture of tick %d" % done.tick)
