@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/small_scene.h"
+#include "model/scene/tool_kinds.h"
 #include "support/temporary_folder.h"
 #include "support/text.h"
 #include "viscera/model/scene/scene.h"
@@ -123,7 +124,8 @@ bool resistsBlades(const std::filesystem::path& scene) {
 }
 
 /// Shipped scenes are what they are, but for hearts, which are coarser than a user would want to look at them, and for
-/// blades that tissue resists and threads, which the reference says it has not: without them it takes their scene too.
+/// blades that tissue resists, threads, needles and clips, which the reference says it has not: without them it takes
+/// their scene too.
 TEST_F(RunReference, RefusesNoSceneThatComesWithIt) {
   size_t scenes = 0;
   for (const auto& file : std::filesystem::directory_iterator(VISCERA_SOURCE_DIR "/config/scenes")) {
@@ -136,7 +138,8 @@ TEST_F(RunReference, RefusesNoSceneThatComesWithIt) {
       const bool counted = name == "pig_heart_size";
       options.insert(options.end(), {"--set", counted ? "bodies[0].target_nodes=2000" : "bodies[0].spacing_m=0.01"});
     }
-    if (!loadScene(file.path().string()).threads.empty()) options.insert(options.end(), {"--set", "threads=[]"});
+    if (pushesAfterSubsteps(loadScene(file.path().string())))
+      options.insert(options.end(), {"--set", "threads=[]", "--set", "styluses=[]"});
     if (resistsBlades(file.path())) options.insert(options.end(), {"--set", "bodies[0].material.cut={}"});
     const Json metrics = lastLine(viscera(options, {kNoDevice}));
     EXPECT_GT(metrics["nodes"], 0);
