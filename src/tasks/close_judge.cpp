@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <limits>
 
+#include "model/body/body_nodes.h"
 #include "tasks/cut_watch.h"
 #include "tasks/task_kinds.h"
 #include "viscera/session/session.h"

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "model/body/body_nodes.h"
 #include "model/scene/tool_kinds.h"
 #include "tasks/cut_watch.h"
 #include "tasks/task_kinds.h"

@@ -8,6 +8,7 @@
 #include <tuple>
 #include <utility>
 
+#include "model/body/body_nodes.h"
 #include "tasks/task.h"
 #include "viscera/layout/links.h"
 #include "viscera/model/body/neighbors.h"
@@ -19,21 +20,6 @@ namespace {
 /// Along the spring; one that was erased has no place of its own.
 double shareAlong(float cut) {
   return cut >= layout::kErasedShare ? 0.5 : static_cast<double>(cut);
-}
-
-bool hasOwnNetwork(const Body& body) {
-  return body.network && !body.network->of_lattice;
-}
-
-/// Active nodes of a body.
-template <class Visit>
-void forEachNode(const Body& body, const Visit& visit) {
-  if (!body.network) {
-    for (const uint32_t slot : body.lattice.active_slots) visit(slot);
-    return;
-  }
-  for (uint32_t slot = 0; slot < body.network->masses_kg.size(); ++slot)
-    if (body.network->masses_kg[slot] > 0) visit(slot);
 }
 
 /// [body, slot]
@@ -117,13 +103,6 @@ std::vector<Vector3d> CutWatch::fresh(const CutState& cuts) {
       }
     }
   }
-  return out;
-}
-
-double longestSpacing(const Model& model) {
-  double out = 0;
-  for (const Body& body : model.bodies)
-    out = std::max(out, hasOwnNetwork(body) ? body.network->meanLength() : body.lattice.spacing_m);
   return out;
 }
 

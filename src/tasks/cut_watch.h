@@ -25,9 +25,6 @@ class CutWatch {
   size_t springs_ = 0;
 };
 
-/// How long springs are, where they are longest [m].
-double longestSpacing(const Model& model);
-
 /// Whether two places of tissue hang together, by paths of whole springs.
 class Joint {
  public:

@@ -8,6 +8,7 @@
 #include <limits>
 #include <utility>
 
+#include "model/body/body_nodes.h"
 #include "model/scene/tool_kinds.h"
 #include "viscera/math/error.h"
 
@@ -30,29 +31,10 @@ double apartAcross_m(const Vector3d& a, const Vector3d& b) {
   return std::hypot(a.y() - b.y(), a.z() - b.z());
 }
 
-double longestSpacingOf(const Model& model) {
-  double out = 0;
-  for (const Body& body : model.bodies)
-    out =
-        std::max(out, body.network && !body.network->of_lattice ? body.network->meanLength() : body.lattice.spacing_m);
-  return out;
-}
-
-/// Active nodes of a body.
-template <class Visit>
-void forEachNodeOf(const Body& body, const Visit& visit) {
-  if (!body.network) {
-    for (const uint32_t slot : body.lattice.active_slots) visit(slot);
-    return;
-  }
-  for (uint32_t slot = 0; slot < body.network->masses_kg.size(); ++slot)
-    if (body.network->masses_kg[slot] > 0) visit(slot);
-}
-
 }  // namespace
 
 Clips::Clips(const std::vector<StylusConfig>& styluses, const Model& model)
-    : styluses_(styluses), model_(model), spacing_m_(longestSpacingOf(model)) {}
+    : styluses_(styluses), model_(model), spacing_m_(longestSpacing(model)) {}
 
 void Clips::beginTick(const ToolMotions& motions) {
   for (size_t s = 0; s < styluses_.size(); ++s) {
@@ -67,7 +49,7 @@ std::vector<Clips::Near> Clips::nodesIn(const BladeTarget& target, const Pose& j
   std::vector<uint32_t> slots;
   std::vector<Near> all;
   for (uint32_t b = 0; b < model_.bodies.size(); ++b) {
-    forEachNodeOf(model_.bodies[b], [&](uint32_t slot) {
+    forEachNode(model_.bodies[b], [&](uint32_t slot) {
       all.push_back({b, slot, restPosition(model_.bodies[b], slot), {}});
       slots.push_back(model_.slotOffset(b) + slot);
     });
