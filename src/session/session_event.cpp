@@ -81,7 +81,8 @@ void SessionEvent::require(const Scene& scene) const {
   if (kind == Kind::kObstacleFrame) sound = sound && index < scene.obstacles.size();
   if (kind == Kind::kTie)
     sound = sound && tie.knot > KnotKind::kNone && static_cast<size_t>(tie.knot) < kKnotNames.size() &&
-            tie.tension_n > 0 && tie.holds_n >= 0 && !scene.threads.empty();
+            tie.tension_n > 0 && tie.holds_n >= 0 && !scene.threads.empty() && tie.to >= TieTo::kOtherTail &&
+            tie.to <= TieTo::kStrand && tie.strand_m.allFinite();
   if (kind == Kind::kToolMode) {
     const auto known = [this](const ToolKind& tool) { return tool.mode == mode; };
     sound = sound && when <= ToolSwitch::kButton2 && when >= ToolSwitch::kIdle &&

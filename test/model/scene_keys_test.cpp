@@ -128,7 +128,7 @@ threads:
   - {name: suture, material: silk, usp: 5-0, radius_m: 0.00012, young_modulus_pa: 1.3e9, density_kg_per_m3: 1400, bending_share: 0.15, drag_per_s: 1.6,
      length_m: 0.17, spacing_m: 0.0018, position_m: [0.19, 0.21, 0.22], path: [{position_m: [0.23, 0.24, 0.25]}], start: free, end: fixed,
      channels: [{body: liver, position_m: [0.26, 0.27, 0.28]}], friction: 0.29, through_n_per_m: 0.31, pull_out_n: 0.32, tissue: fascia, bite_m: 0.033,
-     depth_m: 0.034, ties: [{at_s: 1.41, knot: granny, tension_n: 0.241, holds_n: 2.41}],
+     depth_m: 0.034, ties: [{at_s: 1.41, knot: granny, tension_n: 0.241, holds_n: 2.41, to: strand, strand_m: [0.0241, 0.0242, 0.0243]}],
      needle: {arc: three_eighths, radius_m: 0.0091, wire_radius_m: 0.00036, puncture_n: 0.92, cutting_n: 0.31, friction_n_per_m: 12.5,
               rotation_deg: [13, 14, 15]}}
 )";
@@ -363,6 +363,8 @@ TEST(SceneKeys, EveryKeyOfTheSurroundingsReachesItsField) {
   EXPECT_EQ(thread.ties.at(0).knot, KnotKind::kGranny);
   EXPECT_EQ(thread.ties.at(0).tension_n, 0.241);
   EXPECT_EQ(thread.ties.at(0).holds_n, 2.41);
+  EXPECT_EQ(thread.ties.at(0).to, TieTo::kStrand);
+  EXPECT_EQ(thread.ties.at(0).strand_m, Vector3d(0.0241, 0.0242, 0.0243));
   EXPECT_EQ(thread.channels.at(0).position_m, Vector3d(0.26, 0.27, 0.28));
   EXPECT_EQ(thread.friction, 0.29);
   EXPECT_EQ(thread.through_n_per_m, 0.31);

@@ -22,8 +22,11 @@ constexpr double kHalf_m = 0.0015, kRestGap_m = 0.003;  // nodes beside the woun
 constexpr double kWoundEnds_m = 0.0135;                 // rows of nodes along it, y, farther than that are not parted
 constexpr double kCutDown_m = 0.0015;                   // z of the blade's tip
 
+constexpr double kLastStitch_m = -0.01125, kBesideStitch_m = 0.0025;  // y of the running suture's last one, and rows
+
 struct Gap {
   double mean_m = 0, skin_m = 0;  // of all pairs across the wound, and of those at the skin
+  double last_m = 0;              // the largest of those at the skin beside the running suture's last stitch
 };
 
 /// Beyond what two nodes across the wound are apart at rest.
@@ -47,6 +50,7 @@ Gap gapOf(const Session& session) {
       if (at_m.z() < 0.005) continue;
       out.skin_m += gap_m;
       ++skin;
+      if (std::abs(at_m.y() - kLastStitch_m) < kBesideStitch_m) out.last_m = std::max(out.last_m, gap_m);
     }
   }
   out.mean_m /= all;
@@ -112,7 +116,7 @@ void expectClosed(double young_pa, Backend backend = Backend::kCpu) {
 }
 
 struct Sewn {
-  Gap open, drawn, let_go;
+  Gap open, drawn, tied;
   std::array<size_t, 8> channels{};  ///< of each stitch in the left lip, then in the right one
   double worst_link = 0, tail_off_m = 0;
   SeenThread thread;
@@ -121,10 +125,10 @@ struct Sewn {
 
 /// By where they are: they were made in the order of the needle's way.
 void countChannels(const Session& session, std::array<size_t, 8>& channels) {
-  constexpr double kStitches_m[] = {0.01125, 0.00375, -0.00375, -0.01125}, kBeside_m = 0.0025;
+  constexpr double kStitches_m[] = {0.01125, 0.00375, -0.00375, kLastStitch_m};
   for (const ChainSlide& slide : session.solver().threads()->slides(0)) {
     for (size_t k = 0; k < 4; ++k) {
-      if (std::abs(slide.to_m.y() - kStitches_m[k]) < kBeside_m) ++channels[2 * k + (slide.to_m.x() > 0 ? 1 : 0)];
+      if (std::abs(slide.to_m.y() - kStitches_m[k]) < kBesideStitch_m) ++channels[2 * k + (slide.to_m.x() > 0 ? 1 : 0)];
     }
   }
 }
@@ -150,7 +154,7 @@ Sewn sewn() {
   };
   out.open = until(mark_s("wound"));
   out.drawn = until(mark_s("drawn"));
-  out.let_go = until(strokes.duration_s());
+  out.tied = until(strokes.duration_s());
   countChannels(session, out.channels);
   out.thread = session.seenThreads()[0];
   session.drain();
@@ -163,18 +167,20 @@ TEST(RunningSuture, ANeedleSewsAWoundClosed) {
   constexpr double kOpen_m = 0.0015, kMean_m = 3e-4, kSkin_m = 5e-4;
   constexpr double kLink = 1e-3, kOnTail_m = 1e-4;
   const Sewn found = sewn();
-  printf("gap open %.2f (skin %.2f), drawn %.2f (%.2f), let go %.2f (%.2f) mm; worst link %.1e\n",
-         1e3 * found.open.mean_m, 1e3 * found.open.skin_m, 1e3 * found.drawn.mean_m, 1e3 * found.drawn.skin_m,
-         1e3 * found.let_go.mean_m, 1e3 * found.let_go.skin_m, found.worst_link);
+  printf(
+      "gap open %.2f (skin %.2f), drawn %.2f (%.2f), tied %.2f (%.2f, at the last stitch %.2f) mm; worst link %.1e\n",
+      1e3 * found.open.mean_m, 1e3 * found.open.skin_m, 1e3 * found.drawn.mean_m, 1e3 * found.drawn.skin_m,
+      1e3 * found.tied.mean_m, 1e3 * found.tied.skin_m, 1e3 * found.tied.last_m, found.worst_link);
   EXPECT_GT(found.open.skin_m, kOpen_m);
-  for (const Gap& gap : {found.drawn, found.let_go}) {
+  for (const Gap& gap : {found.drawn, found.tied}) {
     EXPECT_LT(gap.mean_m, kMean_m);
     EXPECT_LT(gap.skin_m, kSkin_m);
   }
   for (size_t lip = 0; lip < found.channels.size(); ++lip)
     EXPECT_GE(found.channels[lip], 2U) << "stitch " << lip / 2 << (lip % 2 ? ", right lip" : ", left lip");
-  ASSERT_EQ(found.thread.knots.size(), 1U);
-  EXPECT_TRUE(found.thread.knots[0].tied);
+  EXPECT_LT(found.tied.last_m, kSkin_m);  // without its knot, with the thread's last loop, 0.9 mm
+  ASSERT_EQ(found.thread.knots.size(), 2U);
+  for (const SeenKnot& knot : found.thread.knots) EXPECT_TRUE(knot.tied);
   EXPECT_LT(found.worst_link, kLink);
   EXPECT_LT(found.tail_off_m, kOnTail_m);
   EXPECT_EQ(found.trips, 0U);

@@ -242,6 +242,10 @@ void visitFields(V& v, ThreadTie& c) {
   v.choice("knot", c.knot, knotChoices(), "what is thrown");
   v.number("tension_n", c.tension_n, {1e-3, 100}, "N", "to which the loop is drawn before it is tied");
   v.number("holds_n", c.holds_n, {0, 1000}, "N", "the knot slips at more; 0: by knot and thread (docs/thread.md 4)");
+  v.choice("to", c.to, {{"other_tail", TieTo::kOtherTail}, {"strand", TieTo::kStrand}},
+           "its tails to each other, or the nearer tail to a strand, as where a running suture ends");
+  v.vector("strand_m", c.strand_m, kCoordinate, "m",
+           "the strand is the one outside of tissue that is nearest to this place");
 }
 
 template <class V>

@@ -251,6 +251,13 @@ bool SimulatorServices::onTieThread(TieThread::Request& request, TieThread::Resp
     if (!request.knot.empty()) tie.knot = knotNamed(request.knot);
     if (request.tension_n != 0) tie.tension_n = within("tension_n", request.tension_n, 1e-3, 100);
     tie.holds_n = within("holds_n", request.holds_n, 0, 1000);
+    if (!request.strand_m.empty()) {
+      if (request.strand_m.size() != 3)
+        throw Error("strand_m: " + std::to_string(request.strand_m.size()) + " numbers; 3, or none");
+      tie.to = TieTo::kStrand;
+      for (int axis = 0; axis < 3; ++axis)
+        tie.strand_m[axis] = within("strand_m", request.strand_m[static_cast<size_t>(axis)], -10, 10);
+    }
     Command command;
     command.kind = Command::Kind::kChange;
     command.change = [=, name = request.thread, which = request.piece](Session& session) {

@@ -352,6 +352,7 @@ void Needle::leaveCrossing(bool skin) {
   crossing.path_m = tip_.path_m;
   crossing.length_m = tip_.state == kTouches || crossings_.empty() ? 0 : tip_.path_m - crossings_.back().path_m;
   crossing.skin = skin;
+  crossing.enters = tip_.state == kTouches;
   crossings_.push_back(crossing);
 }
 
@@ -365,7 +366,7 @@ void Needle::sortOut(const TissuePoints& tissue, std::vector<NeedlePassed>& pass
     const double least_m = crossing.skin ? kSkinApart_m : kPassedApart_m;
     if ((crossing.point.rest_m - last_passed_m_).norm() < least_m) return true;
     last_passed_m_ = crossing.point.rest_m;
-    passed.push_back({crossing.point, beyond_m});
+    passed.push_back({crossing.point, beyond_m, crossing.enters != 0});
     return true;
   };
   crossings_.erase(std::remove_if(crossings_.begin(), crossings_.end(), gone), crossings_.end());

@@ -24,6 +24,7 @@ struct NeedleLaw {
 struct NeedlePassed {
   TissuePoint point;
   double beyond_m = 0;  ///< behind the tail
+  bool enters = false;  ///< the skin where it went in: what of its thread lies behind is outside
 };
 
 /// A needle in tissue: the tip holds the skin's point before it until that gives way, drags a point of the tissue
@@ -89,7 +90,7 @@ class Needle {
     Vector3d impulse_ns = Vector3d::Zero();
     NeedleLaw law;
     double path_m = 0, length_m = 0;  ///< of the tip when it left it; of the shaft that it stands for
-    uint32_t skin = 0;
+    uint32_t skin = 0, enters = 0;
   };
   struct Row {
     const TissuePoint* point;

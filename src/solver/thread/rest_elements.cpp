@@ -35,6 +35,10 @@ uint32_t cornersOf(const Body& body) {
   return hasCells(body) ? kCorners[0] : body.network->tetrahedra.empty() ? kCorners[2] : kCorners[1];
 }
 
+bool anyElement(uint32_t) {
+  return true;
+}
+
 Vector3i floored(const Vector3d& v) {
   return v.array().floor().cast<int>();
 }
@@ -133,13 +137,17 @@ void RestElements::forEachAround(const Vector3d& at_m, int rings, const Visit& v
   }
 }
 
-std::optional<RestElements::Fit> RestElements::nearestFit(const Vector3d& at_m, int rings) const {
+/// @param takes  may this element be it?
+template <class Takes>
+std::optional<RestElements::Fit> RestElements::nearestFit(const Vector3d& at_m, int rings, const Takes& takes) const {
   std::optional<Fit> best;
   if (!at_m.allFinite()) return best;
   forEachAround(at_m, rings, [&](uint32_t element) {
+    if (!takes(element)) return;
     const Fit here = fit(element, at_m);
     if (!best || here.isNearerThan(*best)) best = here;
   });
+  if (best && count_ == 8) best->weights = weights(corners_[best->element], at_m);  // which fit() needs of others only
   return best;
 }
 
@@ -169,13 +177,13 @@ RestElements::Weights RestElements::weights(const Corners& corners, const Vector
 RestElements::Fit RestElements::fit(uint32_t element, const Vector3d& at_m) const {
   Fit out;
   out.element = element;
-  out.weights = weights(corners_[element], at_m);
   const double h = cubes_.spacing_m;
   if (count_ == 8) {
     const Vector3d t = (at_m - corner_m(element, 0)) / h;
     out.outside_m = h * std::max(-t.minCoeff(), t.maxCoeff() - 1);
     return out;
   }
+  out.weights = weights(corners_[element], at_m);
   out.outside_m = -h * *std::min_element(out.weights.begin(), out.weights.begin() + count_);
   if (count_ == 4) return out;
   Vector3d foot = Vector3d::Zero();
@@ -198,7 +206,7 @@ TissuePoint RestElements::pointOf(const Fit& fit, const Vector3d& rest_m) const 
 }
 
 std::optional<TissuePoint> RestElements::embed(const Vector3d& rest_m, const CutSprings& cuts) const {
-  const std::optional<Fit> around = nearestFit(rest_m, 0);
+  const std::optional<Fit> around = nearestFit(rest_m, 0, anyElement);
   if (!around || around->outside_m > kBeyond * cubes_.spacing_m) return std::nullopt;
   if (isWhole(around->element, cuts)) return pointOf(*around, rest_m);
   const Corners& corners = corners_[around->element];
@@ -211,12 +219,8 @@ std::optional<TissuePoint> RestElements::embed(const Vector3d& rest_m, const Cut
     }
     return false;
   };
-  std::optional<Fit> best;
-  forEachAround(rest_m, kBesideCut, [&](uint32_t element) {
-    if (!isBeside(element) || !isWhole(element, cuts)) return;
-    const Fit here = fit(element, rest_m);
-    if (!best || here.isNearerThan(*best)) best = here;
-  });
+  const std::optional<Fit> best =
+      nearestFit(rest_m, kBesideCut, [&](uint32_t element) { return isBeside(element) && isWhole(element, cuts); });
   if (best) return pointOf(*best, rest_m);
   Fit corner = *around;  // a flap of less than an element: its nearest node
   uint32_t nearest = side;
@@ -230,9 +234,13 @@ std::optional<TissuePoint> RestElements::embed(const Vector3d& rest_m, const Cut
 
 std::optional<TissuePoint> RestElements::nearest(const Vector3d& rest_m, const CutSprings& cuts) const {
   if (std::optional<TissuePoint> inside = embed(rest_m, cuts)) return inside;
-  const std::optional<Fit> found = nearestFit(rest_m, kNearestRings);
-  if (!found) return std::nullopt;
-  return pointOf(*found, rest_m);
+  for (int rings = 1; rings <= kNearestRings; ++rings) {
+    const std::optional<Fit> found = nearestFit(rest_m, rings, anyElement);
+    // Cells that were not looked at are at least so many rings away.
+    const bool last = rings == kNearestRings, nearer = found && count_ == 8 && found->outside_m < rings * spacing_m();
+    if (found && (last || nearer)) return pointOf(*found, rest_m);
+  }
+  return std::nullopt;
 }
 
 /// @returns where on the way from a to b, 0 to 1; kWholeSpring: it is not cut, or there is none

@@ -60,7 +60,8 @@ class RestElements {
   Vector3i cubeOf(const Vector3d& at_m) const;
   template <class Visit>
   void forEachAround(const Vector3d& at_m, int rings, const Visit& visit) const;
-  std::optional<Fit> nearestFit(const Vector3d& at_m, int rings) const;
+  template <class Takes>
+  std::optional<Fit> nearestFit(const Vector3d& at_m, int rings, const Takes& takes) const;
   Fit fit(uint32_t element, const Vector3d& at_m) const;
   Weights weights(const Corners& corners, const Vector3d& at_m) const;
   TissuePoint pointOf(const Fit& fit, const Vector3d& rest_m) const;

@@ -115,12 +115,13 @@ void ThreadBodies::moveNeedles(BladeTarget& target, int index) {
   if (!needles_ || needles_->empty()) return;
   const int last = (index + 1) * per_substep_;
   const double share = 1.0 / tied_.count, before_j = needles_->work_j();
-  needles_->act(
-      target, *tissue_, last * share, per_substep_ * share * tick_s_, obstaclesOf(tied_, last - 1),
-      static_cast<uint32_t>(obstacles_.size()), [this](uint32_t t, const NeedlePassed& passed, const ChannelLaw& law) {
-        ThreadPiece& piece = pieces_[t];
-        piece.channels.take(passed.point, law, passed.beyond_m / piece.chain.link_m(), *tissue_, piece.around.slides);
-      });
+  needles_->act(target, *tissue_, last * share, per_substep_ * share * tick_s_, obstaclesOf(tied_, last - 1),
+                static_cast<uint32_t>(obstacles_.size()),
+                [this](uint32_t t, const NeedlePassed& passed, const ChannelLaw& law) {
+                  ThreadPiece& piece = pieces_[t];
+                  piece.channels.take(passed.point, !passed.enters, law, passed.beyond_m / piece.chain.link_m(),
+                                      *tissue_, piece.around.slides);
+                });
   work_j_ += needles_->work_j() - before_j;
 }
 
@@ -170,8 +171,10 @@ void ThreadBodies::endTick() {
 
 void ThreadBodies::tie(size_t at, const ThreadTie& tie) {
   if (at >= pieces_.size()) throw Error("there is no piece " + std::to_string(at) + " of a thread");
-  pieces_[at].knots.clean(pieces_[at].around);
-  pieces_[at].knots.tie(tie, pieces_[at].chain, pieces_[at].around);
+  ThreadPiece& piece = pieces_[at];
+  piece.knots.clean(piece.around);
+  piece.knots.tie(
+      tie, piece.chain, [&](double s) { return piece.channels.hides(s, piece.around.slides); }, piece.around);
 }
 
 void ThreadBodies::tieWhatIsDue() {

@@ -121,8 +121,8 @@ void ThreadChannels::lay(const ThreadConfig& config, const Chain& chain, const M
   changed_ = true;
 }
 
-void ThreadChannels::take(const TissuePoint& point, const ChannelLaw& law, double s, const TissuePoints& points,
-                          std::vector<ChainSlide>& slides) {
+void ThreadChannels::take(const TissuePoint& point, bool goes_on, const ChannelLaw& law, double s,
+                          const TissuePoints& points, std::vector<ChainSlide>& slides) {
   Channel channel;
   channel.point = point;
   channel.cut_m = point.rest_m;
@@ -134,13 +134,20 @@ void ThreadChannels::take(const TissuePoint& point, const ChannelLaw& law, doubl
     const TissuePoint& next = channels_.front().point;
     slide.s = std::min(s, kBeforeNext * slides.front().s);
     channel.through =
-        next.body == point.body && points.embed(point.body, 0.5 * (next.rest_m + point.rest_m)).has_value();
+        goes_on && next.body == point.body && points.embed(point.body, 0.5 * (next.rest_m + point.rest_m)).has_value();
     slide.through_n = channel.through ? 0.5 * law.through_n_per_m * (next.rest_m - point.rest_m).norm() : 0;
     slides.front().through_n += slide.through_n;
   }
   channels_.insert(channels_.begin(), channel);
   slides.insert(slides.begin(), slide);
   changed_ = true;
+}
+
+bool ThreadChannels::hides(double s, const std::vector<ChainSlide>& slides) const {
+  for (size_t k = 0; k + 1 < channels_.size(); ++k) {
+    if (channels_[k].through && slides[k].s < s && s < slides[k + 1].s) return true;
+  }
+  return false;
 }
 
 void ThreadChannels::addPoints(std::vector<const TissuePoint*>& points) const {

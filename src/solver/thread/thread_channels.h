@@ -26,10 +26,13 @@ class ThreadChannels {
   /// Those that a scene has at the start. @throws SceneError  names the channel
   void lay(const ThreadConfig& config, const Chain& chain, const Model& model, const TissuePoints& points,
            std::vector<ChainSlide>& slides);
-  /// One more before all others: what a needle on the chain's start has come through. @param s  on the chain
-  void take(const TissuePoint& point, const ChannelLaw& law, double s, const TissuePoints& points,
+  /// One more before all others: what a needle on the chain's start has come through.
+  /// @param goes_on  it came there in tissue, unless a wound lies between   @param s  on the chain
+  void take(const TissuePoint& point, bool goes_on, const ChannelLaw& law, double s, const TissuePoints& points,
             std::vector<ChainSlide>& slides);
   bool empty() const { return channels_.empty(); }
+  /// Is the chain in tissue there? @param s  on the chain
+  bool hides(double s, const std::vector<ChainSlide>& slides) const;
   void addPoints(std::vector<const TissuePoint*>& points) const;
   std::vector<const TissuePoint*> outer() const;  ///< the first and the last
   /// Before a substep of the chain.

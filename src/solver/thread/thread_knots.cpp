@@ -88,10 +88,69 @@ void requireRoom(const ChainAround& around) {
     throw Error("it has " + std::to_string(kMostKnots) + " knots, as many as a thread may have");
 }
 
+double apart_m(const Chain& chain, double one, double other) {
+  const std::vector<Vector3d>& x = chain.places_m();
+  return (ChainPoint(other, x.size()).of(x) - ChainPoint(one, x.size()).of(x)).norm();
+}
+
 void requireTail(const char* which, double s, double has, double wanted, double link_m) {
   if (s >= 1) return;
   throw Error(std::string("its tail at the ") + which + " is " + std::to_string(1e3 * has * link_m) +
               " mm long; at least " + std::to_string(1e3 * wanted * link_m) + " mm are wanted");
+}
+
+ChainKnot aboveChannels(const Chain& chain, const ChainAround& around, const Tails& tails) {
+  const auto last = static_cast<double>(chain.nodes() - 1);
+  const double across = apart_m(chain, tails.high, tails.low) / chain.link_m();
+  const double reach = std::max(kLeastReach, around.knots.empty() ? kFromSkin * across : kLeastReach);
+  ChainKnot out;
+  out.s1 = tails.high + reach;
+  out.s2 = tails.low - reach;
+  requireTail("start", out.s2, tails.low, reach + 1, chain.link_m());
+  requireTail("end", last - out.s1, last - tails.high, reach + 1, chain.link_m());
+  return out;
+}
+
+ChainKnot whereNearest(const Chain& chain, const Tails& tails) {
+  const Nearest nearest = nearestOf(chain, tails);
+  if (!std::isfinite(nearest.distance_m))
+    throw Error("it has " + std::to_string(chain.nodes()) + " nodes, too few for a knot");
+  ChainKnot out;
+  out.s1 = nearest.s1;
+  out.s2 = nearest.s2;
+  return out;
+}
+
+/// Between the outer channels, outside of tissue; nothing: 0.
+double strandNearest(const Vector3d& place_m, const Chain& chain, const ChainAround& around, const Tails& tails,
+                     const std::function<bool(double s)>& hidden) {
+  double out = 0, least_m = std::numeric_limits<double>::infinity();
+  for (auto i = static_cast<size_t>(std::ceil(tails.low)); static_cast<double>(i) < tails.high; ++i) {
+    const auto s = static_cast<double>(i);
+    const double distance_m = (chain.places_m()[i] - place_m).norm();
+    const bool taken = std::any_of(around.slides.begin(), around.slides.end(), [s](const ChainSlide& slide) {
+      return !slide.out && std::abs(slide.s - s) < kKnotApart;
+    });
+    if (taken || distance_m >= least_m || hidden(s)) continue;
+    out = s;
+    least_m = distance_m;
+  }
+  return out;
+}
+
+/// The tail that is nearer along the chain comes to the strand.
+ChainKnot toStrand(const Vector3d& place_m, const Chain& chain, const ChainAround& around, const Tails& tails,
+                   const std::function<bool(double s)>& hidden) {
+  ChainKnot out;
+  out.s1 = tails.channels ? strandNearest(place_m, chain, around, tails, hidden) : 0;
+  if (!(out.s1 > 0)) throw Error("no strand of it lies between two of its channels and outside of tissue");
+  const bool start = out.s1 - tails.low < tails.high - out.s1;
+  const double root = start ? tails.low : tails.high, last = static_cast<double>(chain.nodes() - 1);
+  const double reach = std::max(kLeastReach, apart_m(chain, root, out.s1) / chain.link_m());
+  out.s2 = start ? root - reach : root + reach;
+  requireTail(start ? "start" : "end", start ? out.s2 : last - out.s2, start ? root : last - root, reach + 1,
+              chain.link_m());
+  return out;
 }
 
 }  // namespace
@@ -107,27 +166,15 @@ double knotHolds(KnotKind kind, uint32_t throws, double strength_n) {
   return strength_n * std::min(1.0, more * kShares[static_cast<size_t>(kind)]);
 }
 
-void ThreadKnots::tie(const ThreadTie& tie, const Chain& chain, ChainAround& around) {
+void ThreadKnots::tie(const ThreadTie& tie, const Chain& chain, const std::function<bool(double s)>& hidden,
+                      ChainAround& around) {
   requireRoom(around);
   const Tails tails = tailsOf(chain, around);
-  const auto last = static_cast<double>(chain.nodes() - 1);
   ChainKnot knot;
-  if (tails.channels || !around.knots.empty()) {
-    const std::vector<Vector3d>& x = chain.places_m();
-    const double across_m = (ChainPoint(tails.high, x.size()).of(x) - ChainPoint(tails.low, x.size()).of(x)).norm();
-    const double reach =
-        std::max(kLeastReach, around.knots.empty() ? kFromSkin * across_m / chain.link_m() : kLeastReach);
-    knot.s1 = tails.high + reach;
-    knot.s2 = tails.low - reach;
-    requireTail("start", knot.s2, tails.low, reach + 1, chain.link_m());
-    requireTail("end", last - knot.s1, last - tails.high, reach + 1, chain.link_m());
-  } else {
-    const Nearest nearest = nearestOf(chain, tails);
-    if (!std::isfinite(nearest.distance_m))
-      throw Error("it has " + std::to_string(chain.nodes()) + " nodes, too few for a knot");
-    knot.s1 = nearest.s1;
-    knot.s2 = nearest.s2;
-  }
+  if (tie.to == TieTo::kStrand)
+    knot = toStrand(tie.strand_m, chain, around, tails, hidden);
+  else
+    knot = tails.channels || !around.knots.empty() ? aboveChannels(chain, around, tails) : whereNearest(chain, tails);
   knot.apart_m = apartOf(chain, knot);
   knot.tied = true;
   knot.holds_n = tie.tension_n;

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "solver/thread/chain/chain.h"
@@ -35,9 +36,9 @@ double knotStrength(double radius_m);
 /// by their turns about each other, and those that are asked for.
 class ThreadKnots {
  public:
-  /// Brings both tails together above the channels, or where they are nearest, and draws the loop.
-  /// @throws Error  why there can be no knot
-  void tie(const ThreadTie& tie, const Chain& chain, ChainAround& around);
+  /// Brings both tails together above the channels, or where they are nearest, or one and a strand, and draws the loop.
+  /// @param hidden  is the chain in tissue there?   @throws Error  why there can be no knot
+  void tie(const ThreadTie& tie, const Chain& chain, const std::function<bool(double s)>& hidden, ChainAround& around);
   /// Before a substep: knots that are apart close, loops that are drawn become shorter.
   void beginSubstep(double dt_s, const Chain& chain, ChainAround& around);
   /// After a tick: a throw is made where the hands have turned the tails about each other and both are pulled then.

@@ -44,6 +44,8 @@ class TieThreadTest(unittest.TestCase):
                               ({"thread": "stitch_2", "piece": 3}, "is in 1, there is no 3"),
                               ({"thread": "stitch_2", "knot": "bow"}, "no knot 'bow'; there are half"),
                               ({"thread": "stitch_2", "tension_n": -1}, "tension_n: -1"),
+                              ({"thread": "stitch_2", "strand_m": [0, 0]}, "strand_m: 2 numbers; 3, or none"),
+                              ({"thread": "stitch_2", "strand_m": [0, 0, 20]}, "strand_m: 20"),
                               ({"thread": "stitch_2", "holds_n": float("nan")}, "holds_n: ")):
             answer = self.tie(**request)
             self.assertFalse(answer.success)

@@ -185,6 +185,8 @@ TEST(ThreadKnots, AScenesTiesComeAtTheirTimesAndTellWhyTheyDoNot) {
   ThreadBodies refusing(short_one);
   refusing.step({}, {});
   EXPECT_NE(refusing.refused().find("too few for a knot"), std::string::npos) << refusing.refused();
+  tie.to = TieTo::kStrand;
+  EXPECT_THROW(refusing.tie(0, tie), Error);  // without channels there is no strand between two
 }
 
 TEST(ThreadKnots, ALoopThatIsCutIsOpenAndAKnotInAPieceStays) {
