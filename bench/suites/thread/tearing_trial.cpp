@@ -140,7 +140,7 @@ TearingTrial tornOut(double seconds, double young_modulus_pa, int threads) {
   out.off = static_cast<double>(links.off);
   out.worst_link = links.worst;
   out.iterations = links.iterations / out.substeps;
-  out.most_iterations = links.most_iterations;
+  out.waits = static_cast<double>(links.waits);
   out.seconds_of_cpu = cpuTime_s() - from_s;
   out.hash = hash.value();
   return out;

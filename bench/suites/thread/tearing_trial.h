@@ -13,7 +13,8 @@ struct TearingTrial {
   double blocks = 1;
   double torn = 0, springs = 0;  ///< channels that were torn out; springs that were cut behind them
   double substeps = 0, off = 0;  ///< of the thread; those after which a link was off by more than 1e-3
-  double worst_link = 0, iterations = 0, most_iterations = 0;
+  double worst_link = 0, iterations = 0;
+  double waits = 0;                 ///< substeps without a solution, in which the thread stayed where it was
   double trips = 0, nonfinite = 0;  ///< of the governor; nodes of tissue and thread in ticks
   double most_force_n = 0;          ///< of the hand, mean of a tick
   double stretch = 0;               ///< of tissue, largest

@@ -280,7 +280,7 @@ void ThreadBodies::noteLinks(const Chain& chain) {
   links_.off += chain.worstLink() > kOffLink;
   links_.worst = std::max(links_.worst, chain.worstLink());
   links_.iterations += chain.iterations();
-  links_.most_iterations = std::max(links_.most_iterations, chain.iterations());
+  links_.waits += chain.waited();
 }
 
 void ThreadBodies::persist(Archive& archive) {

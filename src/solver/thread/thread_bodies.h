@@ -28,7 +28,7 @@ struct ThreadLinks {
   uint64_t substeps = 0, off = 0;  ///< of all threads; those after which a link was off by more than a thousandth
   double worst = 0;                ///< relative error of a length
   double iterations = 0;           ///< of all substeps
-  int most_iterations = 0;
+  uint64_t waits = 0;              ///< substeps without a solution, in which a thread stayed where it was
 };
 
 /// All threads of a scene, and clips. Threads that are tied to tissue are stepped after each of its substeps

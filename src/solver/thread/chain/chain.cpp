@@ -14,6 +14,8 @@ constexpr double kLinkTolerance = 1e-4;  // of a link's length: an error is made
 constexpr double kOff_m = 2e-5;          // of a channel: made good in the next substep as well
 constexpr int kMostIterations = 80;      // 2 ms for 300 nodes; only where a thread snaps taut
 constexpr int kFrozenAfter = 8;          // iterations; from then on touches only close
+constexpr int kStillAfter = 24;          // and from then on no channel runs: stops may send each other to and fro
+constexpr int kMostWaits = 4;            // substeps in which it stays where it was; then it takes what it has
 constexpr double kMidpoint = 0.25;       // bending halfway in the substep: takes no energy
 
 }  // namespace
@@ -50,6 +52,8 @@ void Chain::step(double dt_s, ChainAround& around) {
   }
   dt_s_ = dt_s;
   begin(around);
+  before_slides_ = around.slides;
+  before_knots_ = around.knots;
   slides_.begin(shape(), around.swaged, around.knots, around.slides);
   knots_.begin(around.slides, shape(), around.knots);
   const bool asks = !around.slides.empty() && around.answer;
@@ -67,12 +71,30 @@ void Chain::step(double dt_s, ChainAround& around) {
     const bool frozen = !whole || iterations_ >= kFrozenAfter;
     for (ChainHold& hold : around.holds) changed |= heed(hold, !whole);
     for (ChainTouch& touch : around.touches) changed |= heed(touch, frozen);
-    if (whole) changed |= slides_.heed(shape(), frozen, around.slides);
-    if (whole) changed |= knots_.heed(shape(), frozen, around.knots);
+    const bool runs = iterations_ < kStillAfter;
+    if (whole) changed |= slides_.heed(shape(), frozen, runs, around.slides);
+    if (whole) changed |= knots_.heed(shape(), frozen, runs, around.knots);
     if (asks) around.answer(around.slides);
   }
+  const bool finite = std::all_of(next_.begin(), next_.end(), [](const Vector3d& place) { return place.allFinite(); });
+  waits_ = !finite || (iterations_ == kMostIterations && waits_ < kMostWaits) ? waits_ + 1 : 0;
+  if (waited()) return wait(around);
   slides_.end(shape(), around.slides);
   finish();
+}
+
+/// There is no solution: all of it stays where it was, at rest, and nobody gets anything of it.
+void Chain::wait(ChainAround& around) {
+  next_ = x_;
+  measureLinks();
+  stop();
+  around.slides = before_slides_;
+  around.knots = before_knots_;
+  for (ChainSlide& slide : around.slides) slide.impulse_ns.setZero();
+  for (ChainKnot& knot : around.knots) knot.impulse_ns.setZero();
+  for (ChainHold& hold : around.holds) hold.impulse_ns.setZero();
+  for (ChainTouch& touch : around.touches) touch.impulse_ns.setZero();
+  if (!around.slides.empty() && around.answer) around.answer(around.slides);
 }
 
 bool Chain::solved(const ChainAround& around) const {
@@ -211,8 +233,6 @@ bool Chain::heed(ChainTouch& touch, bool frozen) const {
 }
 
 void Chain::finish() {
-  const bool finite = std::all_of(next_.begin(), next_.end(), [](const Vector3d& place) { return place.allFinite(); });
-  if (!finite) return stop();  // it stays where it was
   for (size_t i = 0; i < x_.size(); ++i) v_[i] = (next_[i] - x_[i]) / dt_s_;
   x_ = next_;
   if (iterations_ == kMostIterations) stop();  // what it was to become is not known: it begins again

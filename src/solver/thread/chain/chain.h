@@ -97,6 +97,7 @@ class Chain {
   double mass_kg(size_t node) const { return node == 0 || node + 1 == x_.size() ? mass_kg_ / 2 : mass_kg_; }
   double tension_n(size_t link) const { return dt_s_ > 0 ? mu_[link] / (dt_s_ * dt_s_) : 0; }
   int iterations() const { return iterations_; }    ///< of the last substep
+  bool waited() const { return waits_ > 0; }        ///< it had no solution, and all of it stayed where it was
   double worstLink() const { return worst_link_; }  ///< largest relative error of a length after it
 
  private:
@@ -114,6 +115,7 @@ class Chain {
   Vector3d slid(const ChainTouch& touch) const;
   double depth_m(const ChainTouch& touch) const;
   void finish();
+  void wait(ChainAround& around);
   void keep(size_t first, size_t last);
   void fit();
 
@@ -129,7 +131,10 @@ class Chain {
   std::vector<Vector3d> ahead_, next_, bent_;
   std::vector<ChainLink> links_;
   std::vector<ChainMatrix::Unknown> rest_;  ///< what is not balanced yet
+  std::vector<ChainSlide> before_slides_;
+  std::vector<ChainKnot> before_knots_;
   int iterations_ = 0;
+  int waits_ = 0;  ///< kept: substeps without a solution, one after the other
   double worst_link_ = 0;
 };
 

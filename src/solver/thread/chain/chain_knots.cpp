@@ -121,7 +121,7 @@ void ChainKnots::solve(const ChainShape& shape, const ChainMatrix& matrix, std::
   }
 }
 
-bool ChainKnots::heed(const ChainShape& shape, bool frozen, std::vector<ChainKnot>& knots) {
+bool ChainKnots::heed(const ChainShape& shape, bool frozen, bool runs, std::vector<ChainKnot>& knots) {
   bool again = false;
   for (size_t k = 0; k < knots.size(); ++k) {
     ChainKnot& knot = knots[k];
@@ -133,7 +133,7 @@ bool ChainKnots::heed(const ChainShape& shape, bool frozen, std::vector<ChainKno
     const double limit = shape.dt_s * shape.dt_s * limit_n;
     const bool ran = runsAlong(knot);
     if (!frozen) again |= run.rub(shape, along, limit, off_m, kRigidMass_kg, knot.s2, knot.rub_kg);
-    if (!ran || !run.follow(shape, off_m, knot.s2, knot.out) || frozen) continue;
+    if (!ran || !runs || !run.follow(shape, off_m, knot.s2, knot.out) || frozen) continue;
     knot.rub_kg = kRigidMass_kg;
     again = true;
   }

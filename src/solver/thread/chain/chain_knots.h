@@ -38,7 +38,8 @@ class ChainKnots {
   void solve(const ChainShape& shape, const ChainMatrix& matrix, std::vector<ChainKnot>& knots,
              std::vector<ChainMatrix::Unknown>& found);
   /// What the system that was just solved gave, and how it goes on. @returns whether it must be solved again
-  bool heed(const ChainShape& shape, bool frozen, std::vector<ChainKnot>& knots);
+  /// @param frozen, runs  as of ChainSlides
+  bool heed(const ChainShape& shape, bool frozen, bool runs, std::vector<ChainKnot>& knots);
   /// Of the two points of any knot, but for what slides.
   double farthestOff_m(const ChainShape& shape, const std::vector<ChainKnot>& knots) const;
 

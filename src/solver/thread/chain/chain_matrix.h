@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "viscera/math/types.h"
@@ -9,7 +10,9 @@
 namespace viscera {
 
 /// The linear system of a Newton step of a chain: node by node its place (3) and the tension of the link behind it (1).
-/// A node knows the next two (bending), a tension its two nodes; so it is a band, factored without pivots as L D L^T.
+/// A node knows the next two (bending), a tension its two nodes; so it is a band, factored without pivots as L D L^T,
+/// from both ends at once towards two or three nodes in the middle: each step waits for the one before, and two ends do
+/// not wait for each other.
 class ChainMatrix {
  public:
   struct Unknown {
@@ -26,20 +29,53 @@ class ChainMatrix {
   /// (all I + way way^T) on the point that has `share` of node i + 1 and the rest of node i.
   void addPoint(size_t i, double share, double all, const Vector3d& way);
   void addPoint(size_t i, double share, const Matrix3d& what);
-  /// After it the parts above are gone: set them again.
   void factor();
   /// @param right  [nodes] in: right-hand sides; out: solution. The last tension is none: 0
   void solve(std::vector<Unknown>& right) const;
 
  private:
-  using Matrix43 = Eigen::Matrix<double, 4, 3>;
+  using Pair = Eigen::Array2d;  ///< of a node of the first half, and of that as far from the other end
+  template <class T>
+  using Vector = std::array<T, 3>;
+  template <class T>
+  using Square = std::array<std::array<T, 3>, 3>;
+  template <class T>
+  using Symmetric = std::array<T, 6>;  ///< lower triangle by rows
+
   struct Row {
-    Matrix3d self;
-    Matrix43 next;         ///< transposed block to the next node: rows 0 to 2 its place, row 3 the link's direction
-    double after;          ///< times I: to the node after the next
-    Eigen::Matrix4d back;  ///< inverse of the node's block, once factored
+    Matrix3d self, next;  ///< blocks of the node, and to the next one: both symmetric
+    Vector3d along;       ///< of the link to the next one
+    double after;         ///< times I: to the node after the next
   };
+  /// A node, or two, once factored. Blocks lead towards the middle.
+  template <class T>
+  struct Factored {
+    Square<T> next;
+    Vector<T> along;
+    T after;
+    Symmetric<T> back;  ///< with `across` and `tension`: inverse of the node's block and its link's
+    Vector<T> across;
+    T tension;
+  };
+  /// What a node that is factored leaves: to be taken from the blocks of the next one, and of the one after it.
+  template <class T>
+  struct Left {
+    Symmetric<T> self{}, after{};
+    Square<T> next{};
+  };
+  template <class T>
+  static void factorNode(Symmetric<T> self, bool link, Factored<T>& node, Left<T>& left);
+  void factorMiddle(const Left<Pair>& left);
+  template <class T>
+  static void forward(const Factored<T>& node, Vector<T>& place, T& tension, Vector<T>& next, Vector<T>& after);
+  template <class T>
+  static void backward(const Factored<T>& node, const Vector<T>& next, const Vector<T>& after, Vector<T>& place,
+                       T& tension);
+  size_t middles() const { return rows_.size() - 2 * pairs_.size(); }
+
   std::vector<Row> rows_;
+  std::vector<Factored<Pair>> pairs_;
+  std::array<Factored<double>, 3> middle_;
 };
 
 }  // namespace viscera

@@ -40,6 +40,7 @@ void Chain::persist(Archive& archive) {
   archive.list(v_);
   archive.list(mu_);
   archive.value(dt_s_);
+  archive.value(waits_);
   if (!archive.reads()) return;
   if (x_.size() < kLeastNodes || x_.size() > start_.size() || v_.size() != x_.size() || mu_.size() + 1 != x_.size())
     throw Error("a thread has " + std::to_string(x_.size()) + " nodes in the saved state, and here " +

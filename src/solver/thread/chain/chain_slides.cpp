@@ -83,7 +83,7 @@ void ChainSlides::set(const ChainShape& shape, const std::vector<ChainSlide>& sl
   }
 }
 
-bool ChainSlides::heed(const ChainShape& shape, bool frozen, std::vector<ChainSlide>& slides) {
+bool ChainSlides::heed(const ChainShape& shape, bool frozen, bool runs, std::vector<ChainSlide>& slides) {
   bool again = false;
   for (size_t k = 0; k < slides.size(); ++k) {
     ChainSlide& slide = slides[k];
@@ -95,7 +95,7 @@ bool ChainSlides::heed(const ChainShape& shape, bool frozen, std::vector<ChainSl
     if (run.on_needle) off_m += shape.dt_s * (before_ns - slide.impulse_ns) / slide.mass_kg;
     const bool along = runsAlong(slide);
     if (!frozen) again |= change(shape, off_m, slide, run);
-    if (!along || !run.follow(shape, off_m.dot(run.turn.tangent), slide.s, slide.out) || frozen) continue;
+    if (!along || !runs || !run.follow(shape, off_m.dot(run.turn.tangent), slide.s, slide.out) || frozen) continue;
     slide.rub_kg = kRigidMass_kg;
     again = true;
   }

@@ -40,7 +40,8 @@ class ChainSlides {
   void set(const ChainShape& shape, const std::vector<ChainSlide>& slides, ChainMatrix& matrix,
            std::vector<ChainMatrix::Unknown>& rest);
   /// What the system that was just solved gave, and how it goes on. @returns whether it must be solved again
-  bool heed(const ChainShape& shape, bool frozen, std::vector<ChainSlide>& slides);
+  /// @param frozen  none begins to hold, slide or tear   @param runs  those that slide go on along the chain
+  bool heed(const ChainShape& shape, bool frozen, bool runs, std::vector<ChainSlide>& slides);
   /// Of all channels from where their tissue is, but for what slides and tears.
   double farthestOff_m(const ChainShape& shape, const std::vector<ChainSlide>& slides) const;
   /// After the last iteration.
