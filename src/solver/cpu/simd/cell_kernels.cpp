@@ -46,10 +46,18 @@ struct CellBrick {
 
 /// Has what a plane of cells needs fetched: the processor does not look that far ahead by itself, as much is done with
 /// few numbers.
+template <bool kDashpot>
 HWY_INLINE void prefetchPlane(const CellJob& job, uint32_t b, int plane) {
-  const size_t in_plane = static_cast<size_t>(16 * plane);
-  for (size_t c = 0; c < 3; ++c) hwy::Prefetch(job.arrays.displacement + size_t{b} * 192 + c * 64 + in_plane);
+  // Its nodes, and of those that tiles reach to the ones that come last in the order of bricks.
+  const uint32_t* const around = job.arrays.bricks[b].neighbors;
+  for (const int direction : {13, 16, 22}) {
+    if (direction == 22 && plane > 0) break;
+    const size_t from = size_t{around[direction]} * 192 + static_cast<size_t>(16 * plane);
+    for (size_t c = 0; c < 3; ++c) hwy::Prefetch(job.arrays.displacement + from + c * 64);
+    for (size_t c = 0; c < 3 && kDashpot; ++c) hwy::Prefetch(job.arrays.velocity + from + c * 64);
+  }
   if ((~uint32_t{job.idle_rows[b]} >> (4 * plane) & 15) == 0) return;
+  for (int c = 0; c < 3; ++c) hwy::Prefetch(job.sums + size_t{b} * kCellSums + ownSumsAt(plane, c));
   const uint32_t cell = static_cast<uint32_t>(16 * plane), slot = b * 64 + cell;
   hwy::Prefetch(job.rigidity + slot);
   if (job.volumes) hwy::Prefetch(job.bulk + slot);
@@ -147,7 +155,7 @@ HWY_INLINE void stepColumn(const CellBrick& of, int i, const Corners& none, cons
   int known = -1;  // last plane whose face is
   for (int z = 0; z < 4; ++z) {
     const int cell = 16 * z + i, at = z * kUpPlane + i;
-    if (i == 0) prefetchPlane(job, of.next, z);
+    if (i == 0) prefetchPlane<kDashpot>(job, of.next, z);
     column.springs_at[z] = below;
     column.cells_at[z + 1] = &nothing;
     if (noRows(~uint32_t{job.idle_rows[of.b]}, cell)) {
@@ -173,8 +181,9 @@ HWY_INLINE void stepColumn(const CellBrick& of, int i, const Corners& none, cons
   column.springs_at[4] = below;
 }
 
+/// @param planes  bit z: of nodes, which cells may do something to; the others' sums are 0 and stay so
 template <bool kDashpot>
-HWY_INLINE void sumBrick(const CellBrick& of) {
+HWY_INLINE void sumBrick(const CellBrick& of, uint32_t planes) {
   const Corners none = noCorners();
   const CellMotion nothing = {zero3(), zero3(), zero3(), zero3(), zero3(), zero3(), zero3()};
   Column column;
@@ -182,9 +191,18 @@ HWY_INLINE void sumBrick(const CellBrick& of) {
   Behind behind;
   for (int i = 0; i < 16; i += static_cast<int>(hn::MaxLanes(Tag()))) {
     stepColumn<kDashpot>(of, i, none, nothing, column);
-    for (int z = 0; z <= 4; ++z)
+    for (int z = 0; z <= 4; ++z) {
+      if ((planes >> z & 1) == 0) continue;
       writeSums(sums, behind, z, i, gathered(*column.springs_at[z], *column.cells_at[z], *column.cells_at[z + 1]));
+    }
   }
+}
+
+/// Planes of nodes, bit per plane, below and above rows of cells.
+HWY_INLINE uint32_t planesOf(uint32_t rows) {
+  uint32_t planes = 0;
+  for (int z = 0; z < 4; ++z) planes |= (rows >> (4 * z) & 15) != 0 ? 3u << z : 0u;
+  return planes;
 }
 
 void cellsOf(const CellJob& job, const uint32_t* bricks, size_t count) {
@@ -192,12 +210,13 @@ void cellsOf(const CellJob& job, const uint32_t* bricks, size_t count) {
   for (size_t n = 0; n < count; ++n) {
     const uint32_t b = bricks[n], next = bricks[std::min(n + 1, count - 1)];
     const CellBody body = cellBodyOf(job.arrays.bodies[job.arrays.bricks[b].body]);
-    fillUp(job.arrays, job.arrays.displacement, b, tiles.u);
+    const uint32_t planes = planesOf(~uint32_t{job.idle_rows[b]});
+    fillUp(job.arrays, job.arrays.displacement, b, planes, tiles.u);
     if (job.dashpot) {
-      fillUp(job.arrays, job.arrays.velocity, b, tiles.v);
-      sumBrick<true>({job, body, tiles, b, next});
+      fillUp(job.arrays, job.arrays.velocity, b, planes, tiles.v);
+      sumBrick<true>({job, body, tiles, b, next}, planes);
     } else {
-      sumBrick<false>({job, body, tiles, b, next});
+      sumBrick<false>({job, body, tiles, b, next}, planes);
     }
   }
 }

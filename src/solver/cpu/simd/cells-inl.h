@@ -17,37 +17,57 @@
 HWY_BEFORE_NAMESPACE();
 namespace viscera::simd::HWY_NAMESPACE {
 
-/// Displacements or velocities of a brick's nodes and of those above it, rows as they are and shifted by 1 along x: the
-/// node at (x, y, z) + (dx, 0, 0), with x in 0..3 and y, z in 0..4, is at[dx][z * kUpPlane + 4 * y + x].
-constexpr int kUpPlane = 32;
+/// Displacements or velocities of a brick's nodes and of those above it, as they are and shifted by 1 along x and y:
+/// the node at (x, y, z) + (dx, dy, 0), with x, y in 0..3 and z in 0..4, is at[dx][dy][z * kUpPlane + 4 * y + x]. So
+/// all that is read was written as a whole, and lies within a line of the cache.
+constexpr int kUpPlane = 16;
 struct alignas(64) UpTile {
-  float component[3][2][5 * kUpPlane];
+  float component[3][2][2][5 * kUpPlane];
 };
 
-/// Rows of a plane, as they are and shifted by 1. @param right  those of the brick at the right
-template <class D>
-HWY_INLINE void copyUp(D d, const float* own, const float* right, float* zero, float* plus) {
-  const auto middle = hn::LoadU(d, own);
-  hn::StoreU(middle, d, zero);
-  hn::StoreU(hn::CombineShiftRightBytes<4>(d, hn::LoadU(d, right), middle), d, plus);
+/// The rows of a vector from its second on, and the first of the next vector.
+HWY_INLINE V rowsAfter(V rows, V next) {
+  const Tag d;
+#if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX3
+  return hn::BitCast(
+      d, hn::Vec<hn::RebindToSigned<Tag>>{_mm512_alignr_epi32(hn::BitCast(hn::RebindToSigned<Tag>(), next).raw,
+                                                              hn::BitCast(hn::RebindToSigned<Tag>(), rows).raw, 4)});
+#else
+  if constexpr (hn::MaxLanes(Tag()) == 4) {
+    return next;
+  } else {
+    return hn::ConcatLowerUpper(d, next, rows);
+  }
+#endif
 }
 
-/// @param values  [3 * slots] as in Arrays
-HWY_INLINE void fillUp(const Arrays& a, const float* values, uint32_t b, UpTile& tile) {
+/// @param values  [3 * slots] as in Arrays   @param planes  bit z: wanted
+HWY_INLINE void fillUp(const Arrays& a, const float* values, uint32_t b, uint32_t planes, UpTile& tile) {
+  constexpr int kLanes = static_cast<int>(hn::MaxLanes(Tag()));
   const Tag d;
-  const Row row;
   const uint32_t* around = a.bricks[b].neighbors;
   const auto brick = [&](int direction) HWY_ATTR { return values + size_t{around[direction]} * 192; };
   for (int z = 0; z <= 4; ++z) {
+    if ((planes >> z & 1) == 0) continue;
     const int layer = 13 + 9 * (z >> 2);
     const float *own = brick(layer), *right = brick(layer + 1), *behind = brick(layer + 3), *corner = brick(layer + 4);
     for (int c = 0; c < 3; ++c) {
-      const int from = 64 * c + (z & 3) * 16, to = z * kUpPlane;
-      float *zero = tile.component[c][0] + to, *plus = tile.component[c][1] + to;
-      for (int i = 0; i < 16; i += static_cast<int>(hn::MaxLanes(d))) {
-        copyUp(d, own + from + i, right + from + i, zero + i, plus + i);
+      const int from = 64 * c + (z & 3) * 16;
+      const auto shifted = [&](const float* at_right, V at, int i)
+                               HWY_ATTR { return hn::CombineShiftRightBytes<4>(d, load(at_right + from + i), at); };
+      V here = load(own + from), here_right = shifted(right, here, 0);
+      for (int i = 0; i < 16; i += kLanes) {
+        const bool last = i + kLanes == 16;
+        const int to = z * kUpPlane + i, after = last ? 0 : i + kLanes;
+        const V next = load((last ? behind : own) + from + after);
+        const V next_right = shifted(last ? corner : right, next, after);
+        hn::Store(here, d, tile.component[c][0][0] + to);
+        hn::Store(here_right, d, tile.component[c][1][0] + to);
+        hn::Store(rowsAfter(here, next), d, tile.component[c][0][1] + to);
+        hn::Store(rowsAfter(here_right, next_right), d, tile.component[c][1][1] + to);
+        here = next;
+        here_right = next_right;
       }
-      copyUp(row, behind + from, corner + from, zero + 16, plus + 16);
     }
   }
 }
@@ -59,12 +79,13 @@ struct Corners {
 HWY_INLINE Corners noCorners() {
   return {zero3(), zero3(), zero3(), zero3()};
 }
-template <int kX>
+template <int kX, int kY>
 HWY_INLINE Vec3 upAt(const UpTile& tile, int at) {
-  return {load(tile.component[0][kX] + at), load(tile.component[1][kX] + at), load(tile.component[2][kX] + at)};
+  const auto of = [&](int c) HWY_ATTR { return hn::Load(Tag(), tile.component[c][kX][kY] + at); };
+  return {of(0), of(1), of(2)};
 }
 HWY_INLINE Corners cornersAt(const UpTile& tile, int at) {
-  return {upAt<0>(tile, at), upAt<1>(tile, at), upAt<0>(tile, at + 4), upAt<1>(tile, at + 4)};
+  return {upAt<0, 0>(tile, at), upAt<1, 0>(tile, at), upAt<0, 1>(tile, at), upAt<1, 1>(tile, at)};
 }
 
 /// Displacements of a brick's nodes, and velocities, looked at with dashpots.
@@ -77,9 +98,9 @@ template <bool kDashpot>
 struct SpringEnd {
   Vec3 u, v, force;
 
-  template <int kX>
+  template <int kX, int kY>
   HWY_INLINE static SpringEnd at(const CellTiles& tiles, int at, const Vec3& force) {
-    return {upAt<kX>(tiles.u, at), kDashpot ? upAt<kX>(tiles.v, at) : zero3(), force};
+    return {upAt<kX, kY>(tiles.u, at), kDashpot ? upAt<kX, kY>(tiles.v, at) : zero3(), force};
   }
 };
 
@@ -89,7 +110,7 @@ HWY_INLINE void addBetween(const Material& m, const float* k, SpringEnd<kDashpot
                            V& largest) {
   const V stiffness = kUniform ? m.full[X * X + Y * Y + Z * Z - 1] : load(k);
   const Vec3 dv = kDashpot ? far.v - near.v : zero3();
-  const SpringPull s = springPull<X, Y, Z, kUniform, kAny, kDashpot>(m, stiffness, far.u - near.u, dv, largest);
+  const SpringPull s = springPull<X, Y, Z, kUniform, kAny, kDashpot, true>(m, stiffness, far.u - near.u, dv, largest);
   near.force = mulAdd(s.pull, s.e, near.force);
   far.force = mulAdd(hn::Neg(s.pull), s.e, far.force);
 }
@@ -104,25 +125,25 @@ HWY_INLINE bool addSprings(const Material& m, const float* k, const CellTiles& t
   // One corner after the other, so that registers hold those at work.
   using End = SpringEnd<kDashpot>;
   V largest = hn::Zero(Tag());
-  End n00 = End::template at<0>(tiles, at, below.n00), n11 = End::template at<1>(tiles, at + 4, below.n11);
+  End n00 = End::template at<0, 0>(tiles, at, below.n00), n11 = End::template at<1, 1>(tiles, at, below.n11);
   addBetween<1, 1, 0, kUniform, kAny>(m, k + 3 * 16, n00, n11, largest);
   low.n11 = n11.force;
-  End n10 = End::template at<1>(tiles, at, below.n10);
+  End n10 = End::template at<1, 0>(tiles, at, below.n10);
   addBetween<1, 0, 0, kUniform, kAny>(m, k, n00, n10, largest);
-  End n01 = End::template at<0>(tiles, at + 4, below.n01);
+  End n01 = End::template at<0, 1>(tiles, at, below.n01);
   addBetween<0, 1, 0, kUniform, kAny>(m, k + 16, n00, n01, largest);
   addBetween<1, -1, 0, kUniform, kAny>(m, k + 4 * 16, n01, n10, largest);
-  End up00 = End::template at<0>(tiles, at + kUpPlane, zero3());
+  End up00 = End::template at<0, 0>(tiles, at + kUpPlane, zero3());
   addBetween<1, 0, -1, kUniform, kAny>(m, k + 6 * 16, up00, n10, largest);
   low.n10 = n10.force;
   addBetween<0, 1, -1, kUniform, kAny>(m, k + 8 * 16, up00, n01, largest);
   low.n01 = n01.force;
   addBetween<0, 0, 1, kUniform, kAny>(m, k + 2 * 16, n00, up00, largest);
   high.n00 = up00.force;
-  End up10 = End::template at<1>(tiles, at + kUpPlane, zero3());
+  End up10 = End::template at<1, 0>(tiles, at + kUpPlane, zero3());
   addBetween<1, 0, 1, kUniform, kAny>(m, k + 5 * 16, n00, up10, largest);
   high.n10 = up10.force;
-  End up01 = End::template at<0>(tiles, at + kUpPlane + 4, zero3());
+  End up01 = End::template at<0, 1>(tiles, at + kUpPlane, zero3());
   addBetween<0, 1, 1, kUniform, kAny>(m, k + 7 * 16, n00, up01, largest);
   high.n01 = up01.force;
   low.n00 = n00.force;
@@ -184,9 +205,6 @@ struct alignas(16) Behind {
   float own[5][3][4], right[5][4];
 };
 
-HWY_INLINE V component(const Vec3& v, int c) {
-  return c == 0 ? v.x : c == 1 ? v.y : v.z;
-}
 /// Adds `behind` to what is a row farther, and for the first row what the vector before left in `kept`; what is beyond
 /// the last row is left there in turn or, at the end of the plane, at `end`.
 HWY_INLINE V withBehind(V own, V behind, int i, float* kept, float* end) {

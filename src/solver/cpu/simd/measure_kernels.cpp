@@ -74,20 +74,23 @@ V momentEnergyOf(const CellJob& job, const layout::BodyParams& body, size_t slot
                          scale);
 }
 
-HWY_INLINE M hasBits(const layout::NodeBits* nodes, uint32_t bits, uint32_t wanted) {
-  alignas(64) float flags[16];
-  for (size_t i = 0; i < hn::MaxLanes(Tag()); ++i) flags[i] = (nodes[i].lo & bits) == wanted ? 1.0f : 0.0f;
-  return hn::Gt(hn::Load(Tag(), flags), hn::Zero(Tag()));
+using Bits = hn::Vec<hn::RebindToUnsigned<Tag>>;
+HWY_INLINE Bits lowBits(const layout::NodeBits* nodes) {
+  Bits low, high;
+  hn::LoadInterleaved2(hn::RebindToUnsigned<Tag>(), &nodes->lo, low, high);
+  return low;
+}
+/// Has a node one of some bits?
+HWY_INLINE M hasBits(Bits of, uint32_t bits) {
+  const hn::RebindToUnsigned<Tag> d;
+  return hn::RebindMask(Tag(), hn::Ne(hn::And(of, hn::Set(d, bits)), hn::Zero(d)));
 }
 
 void measureVector(const MeasureJob& job, const Material& m, const Tile& u, uint32_t b, int i, BrickStats& stats) {
   const Arrays& a = job.arrays;
   const size_t slot = size_t{b} * 64 + static_cast<size_t>(i);
-  alignas(64) float present[16];
-  for (size_t lane = 0; lane < hn::MaxLanes(Tag()); ++lane) {
-    present[lane] = job.nodes[slot + lane].lo & (15u << layout::kMassShift) ? 1.0f : 0.0f;
-  }
-  const M there = hn::Gt(hn::Load(Tag(), present), hn::Zero(Tag()));
+  const Bits bits = lowBits(job.nodes + slot);
+  const M there = hasBits(bits, 15u << layout::kMassShift);
   if (hn::AllFalse(Tag(), there)) return;
   const int at = ((i >> 4) + 1) * kPlane + kOwn + (i & 15);
   const Vec3 near = seen<0, 0, 0>(u, at), v = loadPlanes(a.velocity + size_t{b} * 192 + static_cast<size_t>(i));
@@ -102,8 +105,8 @@ void measureVector(const MeasureJob& job, const Material& m, const Tile& u, uint
   Vec3 corners[8];
   cornersAround<0, 0, 0>(corners, u, at);
   const V e = shapeOf(corners, hn::Div(set(0.25f), m.h)).e;
-  const M cell = hn::And(good, hasBits(job.nodes + slot, layout::kCellBit, layout::kCellBit));
-  const M whole = hn::And(cell, hasBits(job.nodes + slot, layout::kSeveredBit, 0));
+  const M cell = hn::And(good, hasBits(bits, layout::kCellBit));
+  const M whole = hn::AndNot(hasBits(bits, layout::kSeveredBit), cell);
   stats.inverted += count(hn::And(whole, hn::Lt(e, set(-1))));
   if (a.bulk_around) {
     const V energy = volumeEnergyOf(load(a.bulk_around + size_t{b} * 512 + i), e);

@@ -63,7 +63,7 @@ struct CellEdge {
 /// What the length of an edge does: `growth` is its square less 1. @tparam kStrains  strains are wanted
 template <bool kStrains>
 HWY_INLINE void setMildLength(CellEdge& e, V growth) {
-  const V one = set(1), phi = mildPhi(growth);
+  const V one = set(1), phi = mildPhiSoon(growth);
   e.shrink = hn::NegMulAdd(growth, phi, one);
   if (!kStrains) return;
   const V share = hn::Mul(growth, phi);  // (length - 1) / length
@@ -92,34 +92,42 @@ HWY_INLINE void setFade(CellEdge& e, V growth) {
   e.fade_slope = hn::Mul(set(6 * kPer), hn::Mul(t, hn::Sub(one, t)));
 }
 
+/// One by one: arrays of vectors would be kept in memory.
+struct CellEdges {
+  CellEdge a, b, c;
+};
+
 /// @return some edge is so short that the energy fades; else fades are not set
 template <bool kStrains>
-HWY_INLINE bool cellEdges(const CellMotion& q, CellEdge (&e)[3]) {
-  const V one = set(1);
-  e[0].direction = {hn::Add(q.da.x, one), q.da.y, q.da.z};
-  e[1].direction = {q.db.x, hn::Add(q.db.y, one), q.db.z};
-  e[2].direction = {q.dc.x, q.dc.y, hn::Add(q.dc.z, one)};
-  const V growth[3] = {hn::MulAdd(set(2), q.da.x, dot(q.da, q.da)), hn::MulAdd(set(2), q.db.y, dot(q.db, q.db)),
-                       hn::MulAdd(set(2), q.dc.z, dot(q.dc, q.dc))};
-  const V least = hn::Min(growth[0], hn::Min(growth[1], growth[2]));
-  const V most = hn::Max(growth[0], hn::Max(growth[1], growth[2]));
-  const bool mild = hn::AllTrue(Tag(), hn::Lt(hn::Max(most, hn::Neg(least)), set(kMild)));
-  for (int i = 0; i < 3; ++i) {
-    if (HWY_LIKELY(mild))
-      setMildLength<kStrains>(e[i], growth[i]);
-    else
-      setAnyLength<kStrains>(e[i], growth[i]);
-    e[i].direction = e[i].shrink * e[i].direction;
+HWY_INLINE bool cellEdges(const CellMotion& q, CellEdges& e) {
+  const V one = set(1), two = set(2);
+  const V a = hn::MulAdd(two, q.da.x, dot(q.da, q.da)), b = hn::MulAdd(two, q.db.y, dot(q.db, q.db));
+  const V c = hn::MulAdd(two, q.dc.z, dot(q.dc, q.dc));
+  const V least = hn::Min(a, hn::Min(b, c)), most = hn::Max(a, hn::Max(b, c));
+  if (HWY_LIKELY(hn::AllTrue(Tag(), hn::Lt(hn::Max(most, hn::Neg(least)), set(kMild))))) {
+    setMildLength<kStrains>(e.a, a);
+    setMildLength<kStrains>(e.b, b);
+    setMildLength<kStrains>(e.c, c);
+  } else {
+    setAnyLength<kStrains>(e.a, a);
+    setAnyLength<kStrains>(e.b, b);
+    setAnyLength<kStrains>(e.c, c);
   }
+  e.a.direction = e.a.shrink * Vec3{hn::Add(q.da.x, one), q.da.y, q.da.z};
+  e.b.direction = e.b.shrink * Vec3{q.db.x, hn::Add(q.db.y, one), q.db.z};
+  e.c.direction = e.c.shrink * Vec3{q.dc.x, q.dc.y, hn::Add(q.dc.z, one)};
   if (HWY_LIKELY(hn::AllFalse(Tag(), hn::Lt(least, set(kFadeFull * kFadeFull - 1))))) return false;
-  for (int i = 0; i < 3; ++i) setFade(e[i], growth[i]);
+  setFade(e.a, a);
+  setFade(e.b, b);
+  setFade(e.c, c);
   return true;
 }
 
-/// Of a pull by an edge's direction, its pull by the edge, over 4 h.
-HWY_INLINE Vec3 edgePull(const CellEdge& e, V per_4h, const Vec3& by_direction) {
-  const Vec3 across = mulAdd(hn::Neg(dot(e.direction, by_direction)), e.direction, by_direction);
-  return hn::Mul(per_4h, e.shrink) * across;
+/// Of a pull by an edge's direction, and one by its length, its pull by the edge, over 4 h.
+HWY_INLINE Vec3 edgePull(const CellEdge& e, V per_4h, const Vec3& by_direction, V by_length) {
+  const V share = hn::Mul(per_4h, e.shrink);
+  const V along = hn::NegMulAdd(share, dot(e.direction, by_direction), hn::Mul(per_4h, by_length));
+  return mulAdd(along, e.direction, share * by_direction);
 }
 
 /// Moments of cells over their shares, the first times 2 h; those of full ones are constants.
@@ -148,7 +156,7 @@ struct SolidPull {
   V coupled;  ///< energy of what moments and the mean strain do to each other
 };
 /// @param gx, gy, gz  gradients of strain along x, y, z
-HWY_INLINE SolidPull solidPull(const CellEdge (&/*e*/)[3], const Moments& /*t*/, const PlaneStress<true>& stress,
+HWY_INLINE SolidPull solidPull(const CellEdges& /*e*/, const Moments& /*t*/, const PlaneStress<true>& stress,
                                const Vec3& gx, const Vec3& gy, const Vec3& gz) {
   return {stress(gx), stress(gy), stress(gz), zero3(), zero3(), hn::Zero(Tag())};
 }
@@ -185,11 +193,113 @@ HWY_INLINE SolidPull solidPullOf(const Vec3& strain, const Vec3& shear, const Mo
                    hn::MulAdd(r.z, gz.z, hn::Mul(t.first.z, shear.z))});
   return out;
 }
-HWY_INLINE SolidPull solidPull(const CellEdge (&e)[3], const Moments& t, const PlaneStress<false>& stress,
-                               const Vec3& gx, const Vec3& gy, const Vec3& gz) {
-  const Vec3 &a = e[0].direction, &b = e[1].direction, &c = e[2].direction;
+HWY_INLINE SolidPull solidPull(const CellEdges& e, const Moments& t, const PlaneStress<false>& stress, const Vec3& gx,
+                               const Vec3& gy, const Vec3& gz) {
+  const Vec3 &a = e.a.direction, &b = e.b.direction, &c = e.c.direction;
   // Every term of the shears is small: nothing cancels.
-  return solidPullOf({e[0].strain, e[1].strain, e[2].strain}, {dot(b, c), dot(c, a), dot(a, b)}, t, stress, gx, gy, gz);
+  return solidPullOf({e.a.strain, e.b.strain, e.c.strain}, {dot(b, c), dot(c, a), dot(a, b)}, t, stress, gx, gy, gz);
+}
+
+/// 1/x, x > 0: a Newton step on the processor's estimate where that has 12 bits at least; else exact.
+HWY_INLINE V inverseOf(V x) {
+#if HWY_ARCH_X86
+  const V r = hn::ApproximateReciprocal(x);
+  return hn::Mul(r, hn::NegMulAdd(x, r, set(2)));
+#else
+  return hn::Div(set(1), x);
+#endif
+}
+
+/// s_mn, or what pulls by it: rows are the cell's edges, columns its hourglass motions.
+struct Bend {
+  Vec3 a, b, c;
+};
+HWY_INLINE V traceOf(const Bend& s) {
+  return hn::Add(s.a.x, hn::Add(s.b.y, s.c.z));
+}
+HWY_INLINE V squaredTrace(const Bend& s) {
+  return hn::MulAdd(s.a.x, s.a.x, hn::MulAdd(s.b.y, s.b.y, hn::Mul(s.c.z, s.c.z)));
+}
+HWY_INLINE V squaredRest(const Bend& s) {
+  const V two = hn::MulAdd(s.a.y, s.a.y, hn::Mul(s.a.z, s.a.z)), four = hn::MulAdd(s.b.x, s.b.x, hn::Mul(s.b.z, s.b.z));
+  return hn::Add(hn::MulAdd(s.c.x, s.c.x, two), hn::MulAdd(s.c.y, s.c.y, four));
+}
+
+/// Of bent, a number that grows with sum s^2 (1.1 % squared): below it fading changes an energy and its derivatives by
+/// less than rounding does, by a share of bent^2 = 6e-8, and is left out.
+constexpr float kStraight = 2.5e-4f;
+
+/// How an energy fades: the factor of all its derivatives, and what is due to s_mn for their own.
+struct Fading {
+  V scale, own;
+  V unfaded;  ///< scale without the fading of short edges
+};
+/// @param size  sum of s^2   @param energy  before it fades
+HWY_INLINE Fading fadingOf(const CellEdges& e, bool fades, V size, V energy, V rigidity, const CellScale& of) {
+  const V bent = hn::Mul(of.bent, size);
+  Fading out;
+  if (HWY_LIKELY(!fades && hn::AllTrue(Tag(), hn::Lt(bent, set(kStraight))))) {
+    out.own = hn::Zero(Tag());
+    out.scale = out.unfaded = hn::Mul(rigidity, of.per_4h2);
+    return out;
+  }
+  const V less = inverseOf(hn::MulAdd(bent, bent, set(1)));
+  out.own = hn::Mul(hn::Mul(of.turn, bent), hn::Mul(less, energy));
+  out.scale = out.unfaded = hn::Mul(hn::Mul(rigidity, of.per_4h2), less);
+  if (HWY_UNLIKELY(fades)) out.scale = hn::Mul(out.scale, hn::Mul(hn::Mul(e.a.fade, e.b.fade), e.c.fade));
+  return out;
+}
+
+/// What a cell's moments less its springs do by s_mn, and by the strains of its edges.
+struct BendPull {
+  Bend by;
+  Vec3 strains, shears;
+  V energy;  ///< before it fades
+  Fading fading;
+};
+/// @param alternating  energy of hxyz
+HWY_INLINE BendPull bendPull(const CellEdges& e, bool fades, const Moments& /*t*/, V rigidity,
+                             const PlaneStress<true>& stress, const CellScale& of, const Bend& s, V alternating) {
+  // Full cells: a matrix of four numbers.
+  const V pair = hn::Sub(stress.aside, set(0.25f)), trace = traceOf(s);
+  const V pairs = hn::MulAdd(s.b.z, s.c.y, hn::MulAdd(s.c.x, s.a.z, hn::Mul(s.a.y, s.b.x)));
+  const V even = squaredTrace(s), rest = squaredRest(s);
+  V energy = hn::MulAdd(set(-1.0f / 12), hn::MulAdd(trace, trace, even), alternating);
+  energy = hn::MulAdd(pair, pairs, energy);
+  energy = hn::MulAdd(hn::MulAdd(set(0.5f), stress.along, set(-0.25f)), rest, energy);
+  const Fading fading = fadingOf(e, fades, hn::Add(even, rest), energy, rigidity, of);
+  const V x = hn::Mul(fading.scale, hn::Sub(fading.own, set(1.0f / 6)));
+  const V y = hn::Mul(fading.scale, hn::Add(fading.own, hn::Sub(stress.along, set(0.5f))));
+  const V z = hn::Mul(fading.scale, pair), all = hn::Mul(hn::Mul(fading.scale, set(-1.0f / 6)), trace);
+  const auto other = [&](V own, V across) HWY_ATTR { return hn::MulAdd(y, own, hn::Mul(z, across)); };
+  return {{{hn::MulAdd(x, s.a.x, all), other(s.a.y, s.b.x), other(s.a.z, s.c.x)},
+           {other(s.b.x, s.a.y), hn::MulAdd(x, s.b.y, all), other(s.b.z, s.c.y)},
+           {other(s.c.x, s.a.z), other(s.c.y, s.b.z), hn::MulAdd(x, s.c.z, all)}},
+          zero3(),
+          zero3(),
+          energy,
+          fading};
+}
+HWY_INLINE BendPull bendPull(const CellEdges& e, bool fades, const Moments& t, V rigidity,
+                             const PlaneStress<false>& stress, const CellScale& of, const Bend& s, V alternating) {
+  const SolidPull solid = solidPull(e, t, stress, {s.b.z, s.c.y, hn::Add(s.b.y, s.c.z)},
+                                    {s.c.x, s.a.z, hn::Add(s.c.z, s.a.x)}, {s.a.y, s.b.x, hn::Add(s.a.x, s.b.y)});
+  const Vec3 &bx = solid.bx, &by = solid.by, &bz = solid.bz;
+  const V quarter = set(0.25f), trace4 = hn::Mul(quarter, traceOf(s));
+  Bend r = {
+      {hn::Sub(hn::Add(by.z, bz.z), trace4), hn::NegMulAdd(quarter, s.b.x, bz.x), hn::NegMulAdd(quarter, s.c.x, by.y)},
+      {hn::NegMulAdd(quarter, s.a.y, bz.y), hn::Sub(hn::Add(bz.z, bx.z), trace4), hn::NegMulAdd(quarter, s.c.y, bx.x)},
+      {hn::NegMulAdd(quarter, s.a.z, by.x), hn::NegMulAdd(quarter, s.b.z, bx.y), hn::Sub(hn::Add(bx.z, by.z), trace4)}};
+  const V even = squaredTrace(s), rest = squaredRest(s);
+  const V twice = hn::Add(hn::Add(dot(r.a, s.a), dot(r.b, s.b)), hn::Add(dot(r.c, s.c), solid.coupled));
+  V energy = hn::MulAdd(set(0.5f), twice, hn::MulAdd(set(-0.125f), even, alternating));
+  energy = hn::NegMulAdd(quarter, rest, energy);
+  const Fading fading = fadingOf(e, fades, hn::Add(even, rest), energy, rigidity, of);
+  const V x = hn::Sub(fading.own, quarter), y = hn::Sub(fading.own, set(0.5f));
+  r.a = fading.scale * Vec3{hn::MulAdd(x, s.a.x, r.a.x), hn::MulAdd(y, s.a.y, r.a.y), hn::MulAdd(y, s.a.z, r.a.z)};
+  r.b = fading.scale * Vec3{hn::MulAdd(y, s.b.x, r.b.x), hn::MulAdd(x, s.b.y, r.b.y), hn::MulAdd(y, s.b.z, r.b.z)};
+  r.c = fading.scale * Vec3{hn::MulAdd(y, s.c.x, r.c.x), hn::MulAdd(y, s.c.y, r.c.y), hn::MulAdd(x, s.c.z, r.c.z)};
+  return {r, fading.scale * solid.strains, fading.scale * solid.shears, energy, fading};
 }
 
 /// cellPull() of moments.glsl. @param rigidity  J, 0 where there is no cell   @param q  replaced by the derivatives
@@ -198,62 +308,41 @@ HWY_INLINE SolidPull solidPull(const CellEdge (&e)[3], const Moments& t, const P
 template <bool kFull>
 HWY_INLINE V cellPull(CellMotion& q, const Moments& t, V rigidity, const PlaneStress<kFull>& stress,
                       const CellScale& of) {
-  CellEdge e[3];
+  CellEdges e;
   const bool fades = cellEdges<!kFull>(q, e);
-  const Vec3 &a = e[0].direction, &b = e[1].direction, &c = e[2].direction;
-  const Vec3 sa = {dot(a, q.hx), dot(a, q.hy), dot(a, q.hz)}, sb = {dot(b, q.hx), dot(b, q.hy), dot(b, q.hz)};
-  const Vec3 sc = {dot(c, q.hx), dot(c, q.hy), dot(c, q.hz)};
-  const SolidPull solid = solidPull(e, t, stress, {sb.z, sc.y, hn::Add(sb.y, sc.z)}, {sc.x, sa.z, hn::Add(sc.z, sa.x)},
-                                    {sa.y, sb.x, hn::Add(sa.x, sb.y)});
-  const V size = hn::Add(dot(sa, sa), hn::Add(dot(sb, sb), dot(sc, sc)));
-  const V trace = hn::Add(sa.x, hn::Add(sb.y, sc.z));
-  // By s_mn, but for what the springs put into s_mn itself; the energy is quadratic in s.
-  const V minus = set(-0.25f), trace4 = hn::Mul(minus, trace);
-  const Vec3 pair4 = minus * Vec3{hn::Add(sb.z, sc.y), hn::Add(sc.x, sa.z), hn::Add(sa.y, sb.x)};
-  const Vec3 &bx = solid.bx, &by = solid.by, &bz = solid.bz;
-  Vec3 ra = {hn::Add(hn::Add(by.z, bz.z), trace4), hn::Add(bz.x, pair4.z), hn::Add(by.y, pair4.y)};
-  Vec3 rb = {hn::Add(bz.y, pair4.z), hn::Add(hn::Add(bz.z, bx.z), trace4), hn::Add(bx.x, pair4.x)};
-  Vec3 rc = {hn::Add(by.x, pair4.y), hn::Add(bx.y, pair4.x), hn::Add(hn::Add(bx.z, by.z), trace4)};
-  V twice = hn::Add(dot(ra, sa), hn::Add(dot(rb, sb), dot(rc, sc)));
-  if (!kFull) twice = hn::Add(twice, solid.coupled);
-  const V energy = hn::MulAdd(set(0.5f), twice,
-                              hn::MulAdd(set(-0.125f), size, hn::Mul(set(0.25f * kAlternating), dot(q.hxyz, q.hxyz))));
-  const V bent = hn::Mul(of.bent, size), less = hn::Div(set(1), hn::MulAdd(bent, bent, set(1)));
-  const V own = hn::MulAdd(hn::Mul(of.turn, bent), hn::Mul(less, energy), set(-0.25f));
-  const V faded = hn::Mul(hn::Mul(rigidity, of.per_4h2), less);
-  V scale = faded;
-  if (HWY_UNLIKELY(fades)) scale = hn::Mul(faded, hn::Mul(hn::Mul(e[0].fade, e[1].fade), e[2].fade));
-  ra = scale * mulAdd(own, sa, ra);
-  rb = scale * mulAdd(own, sb, rb);
-  rc = scale * mulAdd(own, sc, rc);
-  Vec3 ca = weighted(ra.x, q.hx, ra.y, q.hy, ra.z, q.hz), cb = weighted(rb.x, q.hx, rb.y, q.hy, rb.z, q.hz);
-  Vec3 cc = weighted(rc.x, q.hx, rc.y, q.hy, rc.z, q.hz);
-  if (!kFull) {
-    const Vec3 shears = scale * solid.shears;
-    ca = mulAdd(shears.y, c, mulAdd(shears.z, b, ca));
-    cb = mulAdd(shears.z, a, mulAdd(shears.x, c, cb));
-    cc = mulAdd(shears.x, b, mulAdd(shears.y, a, cc));
-  }
-  q.da = edgePull(e[0], of.per_4h, ca);
-  q.db = edgePull(e[1], of.per_4h, cb);
-  q.dc = edgePull(e[2], of.per_4h, cc);
-  if (!kFull) {
-    const Vec3 by_length = hn::Mul(of.per_4h, scale) * solid.strains;
-    q.da = mulAdd(hn::Mul(by_length.x, e[0].strain_slope), a, q.da);
-    q.db = mulAdd(hn::Mul(by_length.y, e[1].strain_slope), b, q.db);
-    q.dc = mulAdd(hn::Mul(by_length.z, e[2].strain_slope), c, q.dc);
+  const Vec3 &a = e.a.direction, &b = e.b.direction, &c = e.c.direction;
+  const Bend s = {{dot(a, q.hx), dot(a, q.hy), dot(a, q.hz)},
+                  {dot(b, q.hx), dot(b, q.hy), dot(b, q.hz)},
+                  {dot(c, q.hx), dot(c, q.hy), dot(c, q.hz)}};
+  const V alternating = hn::Mul(set(0.25f * kAlternating), dot(q.hxyz, q.hxyz));
+  const BendPull pull = bendPull(e, fades, t, rigidity, stress, of, s, alternating);
+  const Bend& r = pull.by;
+  // By the directions of edges, and along these.
+  Vec3 by_a = weighted(r.a.x, q.hx, r.a.y, q.hy, r.a.z, q.hz), by_b = weighted(r.b.x, q.hx, r.b.y, q.hy, r.b.z, q.hz);
+  Vec3 by_c = weighted(r.c.x, q.hx, r.c.y, q.hy, r.c.z, q.hz);
+  V along_a = hn::Zero(Tag()), along_b = along_a, along_c = along_a;
+  if constexpr (!kFull) {
+    by_a = mulAdd(pull.shears.y, c, mulAdd(pull.shears.z, b, by_a));
+    by_b = mulAdd(pull.shears.z, a, mulAdd(pull.shears.x, c, by_b));
+    by_c = mulAdd(pull.shears.x, b, mulAdd(pull.shears.y, a, by_c));
+    along_a = hn::Mul(pull.strains.x, e.a.strain_slope);
+    along_b = hn::Mul(pull.strains.y, e.b.strain_slope);
+    along_c = hn::Mul(pull.strains.z, e.c.strain_slope);
   }
   if (HWY_UNLIKELY(fades)) {
-    const V lost = hn::Mul(of.per_4h, hn::Mul(faded, energy));
-    q.da = mulAdd(hn::Mul(hn::Mul(lost, e[0].fade_slope), hn::Mul(e[1].fade, e[2].fade)), a, q.da);
-    q.db = mulAdd(hn::Mul(hn::Mul(lost, e[1].fade_slope), hn::Mul(e[2].fade, e[0].fade)), b, q.db);
-    q.dc = mulAdd(hn::Mul(hn::Mul(lost, e[2].fade_slope), hn::Mul(e[0].fade, e[1].fade)), c, q.dc);
+    const V lost = hn::Mul(pull.fading.unfaded, pull.energy);
+    along_a = hn::MulAdd(hn::Mul(lost, e.a.fade_slope), hn::Mul(e.b.fade, e.c.fade), along_a);
+    along_b = hn::MulAdd(hn::Mul(lost, e.b.fade_slope), hn::Mul(e.c.fade, e.a.fade), along_b);
+    along_c = hn::MulAdd(hn::Mul(lost, e.c.fade_slope), hn::Mul(e.a.fade, e.b.fade), along_c);
   }
-  q.hx = weighted(ra.x, a, rb.x, b, rc.x, c);
-  q.hy = weighted(ra.y, a, rb.y, b, rc.y, c);
-  q.hz = weighted(ra.z, a, rb.z, b, rc.z, c);
-  q.hxyz = hn::Mul(scale, set(0.5f * kAlternating)) * q.hxyz;
-  return hn::Mul(scale, energy);
+  q.da = edgePull(e.a, of.per_4h, by_a, along_a);
+  q.db = edgePull(e.b, of.per_4h, by_b, along_b);
+  q.dc = edgePull(e.c, of.per_4h, by_c, along_c);
+  q.hx = weighted(r.a.x, a, r.b.x, b, r.c.x, c);
+  q.hy = weighted(r.a.y, a, r.b.y, b, r.c.y, c);
+  q.hz = weighted(r.a.z, a, r.b.z, b, r.c.z, c);
+  q.hxyz = hn::Mul(pull.fading.scale, set(0.5f * kAlternating)) * q.hxyz;
+  return hn::Mul(pull.fading.scale, pull.energy);
 }
 
 /// Nodes of a face of cells, summed and differed along x and y.

@@ -67,6 +67,12 @@ CpuLeapfrog::CpuLeapfrog(const CpuLattice& lattice, const CpuParts& parts)
 
 void CpuLeapfrog::restart() {
   std::fill(compensation_.begin(), compensation_.end(), 0.0f);
+  forgetSums();
+}
+
+/// Planes of nodes that cells do nothing to are not written; which these are, a state from outside may change.
+void CpuLeapfrog::forgetSums() {
+  std::fill(cell_sums_.begin(), cell_sums_.end(), 0.0f);
 }
 
 void CpuLeapfrog::persist(Archive& archive, CpuLattice& /*lattice*/) {
@@ -74,6 +80,7 @@ void CpuLeapfrog::persist(Archive& archive, CpuLattice& /*lattice*/) {
   archive.values(near_);
   archive.values(strained_);
   archive.values(speed2_);
+  if (archive.reads()) forgetSums();
 }
 
 void CpuLeapfrog::run(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions) {

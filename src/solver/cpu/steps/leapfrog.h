@@ -21,6 +21,7 @@ class CpuLeapfrog : public CpuStepper {
  private:
   void stepAwake(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions);
   void sumCells(CpuLattice& lattice);
+  void forgetSums();
   void stepBricks(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions, size_t first,
                   size_t end);
   void stepNetwork(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions);

@@ -112,16 +112,16 @@ HWY_INLINE V volumeCurvatureOf(V bulk, V e) {
 /// Part of cellPull() that its scale has at constant directions.
 HWY_INLINE V momentScale(const CellMotion& q, V rigidity, const CellScale& of) {
   CellMotion copy = q;
-  CellEdge e[3];
+  CellEdges e;
   const bool fades = cellEdges<false>(copy, e);
   V size = hn::Zero(Tag());
-  for (const CellEdge& edge : e) {
-    const Vec3 s = {dot(edge.direction, q.hx), dot(edge.direction, q.hy), dot(edge.direction, q.hz)};
+  for (const CellEdge* edge : {&e.a, &e.b, &e.c}) {
+    const Vec3 s = {dot(edge->direction, q.hx), dot(edge->direction, q.hy), dot(edge->direction, q.hz)};
     size = hn::Add(size, dot(s, s));
   }
   const V bent = hn::Mul(of.bent, size);
   V scale = hn::Div(hn::Mul(rigidity, of.per_4h2), hn::MulAdd(bent, bent, set(1)));
-  if (fades) scale = hn::Mul(scale, hn::Mul(hn::Mul(e[0].fade, e[1].fade), e[2].fade));
+  if (fades) scale = hn::Mul(scale, hn::Mul(hn::Mul(e.a.fade, e.b.fade), e.c.fade));
   return scale;
 }
 
@@ -131,12 +131,13 @@ HWY_INLINE V momentScale(const CellMotion& q, V rigidity, const CellScale& of) {
 HWY_INLINE V surenessOf(const CellMotion& q, const CellScale& of) {
   const float kUnsure = 0.5f;  // per strain, shear or bend
   CellMotion copy = q;
-  CellEdge e[3];
+  CellEdges e;
   cellEdges<false>(copy, e);
   V sum = hn::Zero(Tag());
+  const CellEdge* const edges[4] = {&e.a, &e.b, &e.c, &e.a};
   for (int i = 0; i < 3; ++i) {
-    const Vec3 &a = e[i].direction, &b = e[(i + 1) % 3].direction;
-    const V longer = hn::Sub(e[i].shrink, set(1)), shear = dot(a, b);
+    const Vec3 &a = edges[i]->direction, &b = edges[i + 1]->direction;
+    const V longer = hn::Sub(edges[i]->shrink, set(1)), shear = dot(a, b);
     const Vec3 bend = {dot(a, q.hx), dot(a, q.hy), dot(a, q.hz)};
     sum = hn::MulAdd(longer, longer, hn::MulAdd(shear, shear, hn::MulAdd(of.per_4h2, dot(bend, bend), sum)));
   }
@@ -179,9 +180,9 @@ HWY_INLINE V evaluateCell(const multigrid::FineArrays& a, const multigrid::Box& 
 /// A cell's share of moments in the change of its pulls, for a change `x` of its motion, at constant directions.
 /// @param sure  see surenessOf()
 template <bool kFull>
-HWY_INLINE CellMotion momentTimes(const CellEdge (&e)[3], const Moments& t, const PlaneStress<kFull>& stress, V scale,
+HWY_INLINE CellMotion momentTimes(const CellEdges& e, const Moments& t, const PlaneStress<kFull>& stress, V scale,
                                   V sure, V per_4h, const CellMotion& x) {
-  const Vec3 &a = e[0].direction, &b = e[1].direction, &c = e[2].direction;
+  const Vec3 &a = e.a.direction, &b = e.b.direction, &c = e.c.direction;
   const Vec3 sa = {dot(a, x.hx), dot(a, x.hy), dot(a, x.hz)}, sb = {dot(b, x.hx), dot(b, x.hy), dot(b, x.hz)};
   const Vec3 sc = {dot(c, x.hx), dot(c, x.hy), dot(c, x.hz)};
   const Vec3 gx = {sb.z, sc.y, hn::Add(sb.y, sc.z)}, gy = {sc.x, sa.z, hn::Add(sc.z, sa.x)};
@@ -190,9 +191,11 @@ HWY_INLINE CellMotion momentTimes(const CellEdge (&e)[3], const Moments& t, cons
   if constexpr (kFull) {
     solid = solidPull(e, t, stress, gx, gy, gz);
   } else {
-    const Vec3 strain = {hn::Mul(e[0].strain_slope, dot(a, x.da)), hn::Mul(e[1].strain_slope, dot(b, x.db)),
-                         hn::Mul(e[2].strain_slope, dot(c, x.dc))};
-    const Vec3 ta = edgePull(e[0], set(1), x.da), tb = edgePull(e[1], set(1), x.db), tc = edgePull(e[2], set(1), x.dc);
+    const Vec3 strain = {hn::Mul(e.a.strain_slope, dot(a, x.da)), hn::Mul(e.b.strain_slope, dot(b, x.db)),
+                         hn::Mul(e.c.strain_slope, dot(c, x.dc))};
+    const V none = hn::Zero(Tag()), one = set(1);
+    const Vec3 ta = edgePull(e.a, one, x.da, none), tb = edgePull(e.b, one, x.db, none);
+    const Vec3 tc = edgePull(e.c, one, x.dc, none);
     const Vec3 shear = {hn::Add(dot(b, tc), dot(c, tb)), hn::Add(dot(c, ta), dot(a, tc)),
                         hn::Add(dot(a, tb), dot(b, ta))};
     solid = solidPullOf(strain, shear, t, stress, gx, gy, gz);
@@ -214,13 +217,13 @@ HWY_INLINE CellMotion momentTimes(const CellEdge (&e)[3], const Moments& t, cons
                     weighted(ra.z, a, rb.z, b, rc.z, c),
                     hn::Mul(scale, hn::MulAdd(set(-0.25f), sure, set(0.5f * kAlternating + 0.25f))) * x.hxyz};
   if constexpr (!kFull) {
-    const Vec3 shears = scale * solid.shears, strains = hn::Mul(per_4h, scale) * solid.strains;
-    out.da =
-        mulAdd(hn::Mul(strains.x, e[0].strain_slope), a, edgePull(e[0], per_4h, mulAdd(shears.y, c, shears.z * b)));
-    out.db =
-        mulAdd(hn::Mul(strains.y, e[1].strain_slope), b, edgePull(e[1], per_4h, mulAdd(shears.z, a, shears.x * c)));
-    out.dc =
-        mulAdd(hn::Mul(strains.z, e[2].strain_slope), c, edgePull(e[2], per_4h, mulAdd(shears.x, b, shears.y * a)));
+    const Vec3 shears = scale * solid.shears, strains = scale * solid.strains;
+    const auto pull = [&](const CellEdge& edge, V strain, V y, const Vec3& of_y, V z, const Vec3& of_z) HWY_ATTR {
+      return edgePull(edge, per_4h, mulAdd(y, of_y, z * of_z), hn::Mul(strain, edge.strain_slope));
+    };
+    out.da = pull(e.a, strains.x, shears.y, c, shears.z, b);
+    out.db = pull(e.b, strains.y, shears.z, a, shears.x, c);
+    out.dc = pull(e.c, strains.z, shears.x, b, shears.y, a);
   }
   return out;
 }
@@ -242,7 +245,7 @@ HWY_INLINE void applyCell(const multigrid::FineArrays& a, const float* x, const 
   const CellMotion dx = motionAt(x, n, box, i, hn::IfThenZeroElse(absent, scale.per_4h));
   CellMotion out = {zero3(), zero3(), zero3(), zero3(), zero3(), zero3(), zero3()};
   if (kMoments) {
-    CellEdge e[3];
+    CellEdges e;
     cellEdges<!kFull>(at, e);
     const V sure = load(a.resists + 2 * n + i);
     Moments moments = kFull ? Moments{zero3(), zero3(), zero3()} : momentsAt(a, i);
