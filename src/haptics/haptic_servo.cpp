@@ -122,7 +122,7 @@ Vector3d HapticServo::softened(const Vector3d& wanted_n) {
   approach(slower_n_, slow_n_, config_.period_s, stage_s);
   const double size = wanted_n.norm();
   if (!(size > 0)) {
-    // A tip that comes back to a surface begins again. A thread is slack for moments of a swing, which its mean has too.
+    // A tip that comes back to a surface begins again. A thread is slack for moments of a swing, as its mean says.
     if (model_.kind() != TickContact::Kind::kPulls) slow_n_ = slower_n_ = Vector3d::Zero();
     return wanted_n;
   }
