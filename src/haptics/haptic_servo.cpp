@@ -25,7 +25,7 @@ constexpr double kLeastShare = 0.1;
 /// swung before it is heard of [N s/m].
 constexpr double kBearable_n_s_per_m = 5;
 /// What is softened comes up to the whole force within some of these.
-constexpr double kCreepTime_s = 0.5, kLongestCreep_s = 1;
+constexpr double kCreepTime_s = 0.5, kLongestCreep_s = 4, kLongestHeld_s = 1;
 /// The time between poses is a mean of about so many.
 constexpr double kPosesLookedAt = 8;
 /// Ahead of the newest pose by no more than so many of the times between poses: one that does not come says nothing.
@@ -117,9 +117,11 @@ Vector3d HapticServo::softened(const Vector3d& wanted_n) {
   // 16 / (omega time)^2 of that after the two, half as long, that there are. Heavy devices swing slowly.
   const double omega2 = speed2_ > 0 ? acceleration2_ / speed2_ : 0;
   const double bearable_s = omega2 > 0 ? (1 - share_) * k / (omega2 * kAllowed_n_s_per_m) : 0;
-  const double stage_s = 0.5 * std::clamp(bearable_s, kCreepTime_s, kLongestCreep_s);
-  approach(slow_n_, wanted_n, config_.period_s, stage_s);
-  approach(slower_n_, slow_n_, config_.period_s, stage_s);
+  // A probe leaves, pushed out by what lags, which is less by one stage.
+  const bool leaves = model_.kind() == TickContact::Kind::kPushes || model_.kind() == TickContact::Kind::kFree;
+  const double time_s = std::clamp(bearable_s, kCreepTime_s, leaves ? kLongestCreep_s : kLongestHeld_s);
+  approach(slow_n_, wanted_n, config_.period_s, leaves ? time_s : 0.5 * time_s);
+  approach(slower_n_, slow_n_, config_.period_s, leaves ? 0 : 0.5 * time_s);
   const double size = wanted_n.norm();
   if (!(size > 0)) {
     // A tip that comes back to a surface begins again. A thread is slack for moments of a swing, as its mean says.
