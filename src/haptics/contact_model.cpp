@@ -22,8 +22,12 @@ constexpr double kRemembered_s = 0.3;
 /// What is learnt stays within these shares of what the tissue's constants say: a thin layer on bone is stiffer than a
 /// half space, a flap is softer.
 constexpr double kSoftest = 0.3, kStiffest = 6;
-/// Of a blade's limit: a force above that says nothing of a stiffness, as the edge goes on.
+/// Of a blade's limit: a force above that says nothing of a stiffness, as the edge goes on. A needle's, along it.
 constexpr double kYields = 0.9;
+/// A needle along its shaft, of what it is across, before ticks tell.
+constexpr double kAlongShaft = 0.4;
+/// A thread pulls no more than so many times as in the tick: what is slack is not known to be stiff.
+constexpr double kMostPull = 2;
 
 Vector3d directionOf(const Vector3d& v) {
   const double length = v.norm();
@@ -35,6 +39,19 @@ Matrix3d within(const Matrix3d& k, double least, double most) {
   const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(0.5 * (k + k.transpose()));
   const Vector3d values = solver.eigenvalues().cwiseMax(least).cwiseMin(most);
   return solver.eigenvectors() * values.asDiagonal() * solver.eigenvectors().transpose();
+}
+
+/// What of a vector is along another of length 1.
+Matrix3d onto(const Vector3d& along) {
+  return along * along.transpose();
+}
+
+bool yields(const TickContact& contact) {
+  const Vector3d& force_n = contact.reaction.force_n;
+  if (contact.kind != Kind::kPierces) return force_n.norm() > kYields * contact.limit_n;
+  const double along_n = force_n.dot(contact.along);
+  const double near_n = (1 - kYields) * (contact.limit_n + contact.back_n);
+  return along_n < near_n - contact.limit_n || along_n > contact.back_n - near_n;
 }
 
 }  // namespace
@@ -53,28 +70,51 @@ double ContactModel::stiffnessOf(double young_modulus_pa, const TickContact& con
   return 2 * size * std::cbrt(0.75 * contact.reaction.force_n.norm() / size);
 }
 
+/// Before ticks tell. Of a thread nothing: what it leads to is not known.
+Matrix3d ContactModel::first(const TickContact& contact) const {
+  if (contact.kind == Kind::kPulls) return Matrix3d::Zero();
+  if (contact.kind == Kind::kPierces)
+    return contact.stiffness_n_per_m * (Matrix3d::Identity() - (1 - kAlongShaft) * onto(contact.along));
+  const double k = stiffnessOf(tissue_.stiffest_pa, contact);
+  if (contact.kind == Kind::kHolds) return k * Matrix3d::Identity();
+  return k * onto(directionOf(contact.reaction.force_n));
+}
+
 /// What the last two ticks say, beside what was known. Powell's symmetric update: of all symmetric K with K dx = -dF
-/// the nearest to the one before.
+/// the nearest to the one before. A thread tells along its pull, a needle that goes on across itself alone.
 Matrix3d ContactModel::learnt(const TickContact& contact, const Vector3d& at_m) const {
-  const double first = stiffnessOf(tissue_.stiffest_pa, contact);
-  const Vector3d normal = directionOf(contact.reaction.force_n);
-  if (contact.kind != now_.kind) {
-    if (contact.kind == Kind::kHolds) return first * Matrix3d::Identity();
-    return first * normal * normal.transpose();
+  if (contact.kind != now_.kind) return first(contact);
+  Matrix3d k = now_.stiffness, telling = Matrix3d::Identity();
+  if (contact.kind == Kind::kPulls) {
+    telling = onto(directionOf(contact.reaction.force_n));
+    k = telling * k * telling;
+  } else if (yields(contact)) {
+    if (contact.kind != Kind::kPierces) return k;
+    telling -= onto(contact.along);
   }
-  if (contact.reaction.force_n.norm() > kYields * contact.limit_n) return now_.stiffness;
-  const Vector3d dx = at_m - now_.at_m, miss = now_.force_n - contact.reaction.force_n - now_.stiffness * dx;
+  const Vector3d dx = telling * (at_m - now_.at_m);
+  const Vector3d miss = telling * (now_.force_n - contact.reaction.force_n) - k * dx;
   const double dx2 = dx.squaredNorm();
-  Matrix3d k = now_.stiffness;
   if (dx2 > 0) {
     const double trust = dx2 / (dx2 + kTellingMove_m * kTellingMove_m);
     k += trust / dx2 * (miss * dx.transpose() + dx * miss.transpose() - dx.dot(miss) / dx2 * dx * dx.transpose());
   }
-  k = within(k, 0, kStiffest * first);
-  const double along = normal.dot(k * normal);
-  const double least = kSoftest * stiffnessOf(tissue_.softest_pa, contact);
-  if (along < least) k += (least - along) * normal * normal.transpose();
-  return k;
+  return bounded(contact, k);
+}
+
+/// Of a needle, what acts along is apart from what acts across: the one ends at limits, the other does not.
+Matrix3d ContactModel::bounded(const TickContact& contact, const Matrix3d& k) const {
+  if (contact.kind == Kind::kPulls) return within(k, 0, std::numeric_limits<double>::max());
+  if (contact.kind == Kind::kPierces) {
+    const Matrix3d along = onto(contact.along), across = Matrix3d::Identity() - along;
+    const double size = contact.stiffness_n_per_m;
+    return within(along * k * along + across * k * across, kSoftest * kAlongShaft * size, kStiffest * size);
+  }
+  Matrix3d out = within(k, 0, kStiffest * stiffnessOf(tissue_.stiffest_pa, contact));
+  const Matrix3d normal = onto(directionOf(contact.reaction.force_n));
+  const double least = kSoftest * stiffnessOf(tissue_.softest_pa, contact), is = (normal * out).trace();
+  if (is < least) out += (least - is) * normal;
+  return out;
 }
 
 void ContactModel::put(const TickContact& contact, double over_s, double now_s) {
@@ -87,7 +127,10 @@ void ContactModel::put(const TickContact& contact, double over_s, double now_s) 
     next.force_n = contact.reaction.force_n;
     next.torque_nm = contact.reaction.torque_nm;
     next.normal = directionOf(next.force_n);
-    next.limit_n = contact.limit_n;
+    next.limit_n = contact.kind == Kind::kPulls ? kMostPull * next.force_n.norm() : contact.limit_n;
+    next.along = contact.along;
+    if (contact.kind == Kind::kPierces) next.ahead_n = contact.limit_n;
+    next.back_n = contact.back_n;
     next.stiffness = learnt(contact, next.at_m);
     touched_m_ = next.at_m;
     touched_s_ = now_s;
@@ -125,9 +168,14 @@ void ContactModel::goOver(const Affine& next, double over_s, double now_s) {
   over_s_ = over_s;
 }
 
+/// From before_ to now_, 0..1.
+double ContactModel::goneOver(double now_s) const {
+  return over_s_ > 0 ? std::clamp((now_s - since_s_) / over_s_, 0.0, 1.0) : 1;
+}
+
 /// A mixture of two affine forces is one.
 ContactModel::Affine ContactModel::mixed(double now_s) const {
-  const double w = over_s_ > 0 ? std::clamp((now_s - since_s_) / over_s_, 0.0, 1.0) : 1;
+  const double w = goneOver(now_s);
   if (w == 1) return now_;
   Affine out;
   out.kind = now_.kind == Kind::kFree ? before_.kind : now_.kind;
@@ -137,6 +185,9 @@ ContactModel::Affine ContactModel::mixed(double now_s) const {
   out.torque_nm = (1 - w) * before_.torque_nm + w * now_.torque_nm;
   out.stiffness = (1 - w) * before_.stiffness + w * now_.stiffness;
   out.normal = directionOf((1 - w) * before_.normal + w * now_.normal);
+  out.along = directionOf((1 - w) * before_.along + w * now_.along);
+  out.ahead_n = (1 - w) * before_.ahead_n + w * now_.ahead_n;
+  out.back_n = (1 - w) * before_.back_n + w * now_.back_n;
   const bool both = std::isfinite(before_.limit_n) && std::isfinite(now_.limit_n);
   out.limit_n = both                       ? (1 - w) * before_.limit_n + w * now_.limit_n
                 : now_.kind == Kind::kFree ? before_.limit_n
@@ -144,14 +195,28 @@ ContactModel::Affine ContactModel::mixed(double now_s) const {
   return out;
 }
 
+/// Two of one kind are mixed before their bounds, as the surface of a probe is; of others each has its own.
 ContactModel::Force ContactModel::at(const Vector3d& tip_m, double now_s) const {
-  const Affine model = mixed(now_s);
+  if (before_.kind == now_.kind || before_.kind == Kind::kFree || now_.kind == Kind::kFree)
+    return answer(mixed(now_s), tip_m);
+  const double w = goneOver(now_s);
+  const Force before = answer(before_, tip_m), now = answer(now_, tip_m);
+  return {(1 - w) * before.force_n + w * now.force_n, (1 - w) * before.torque_nm + w * now.torque_nm,
+          (1 - w) * before.stiffness_n_per_m + w * now.stiffness_n_per_m};
+}
+
+ContactModel::Force ContactModel::answer(const Affine& model, const Vector3d& tip_m) {
   Force out;
   if (model.kind == Kind::kFree) return out;
   out.force_n = model.force_n - model.stiffness * (tip_m - model.at_m);
   out.torque_nm = model.torque_nm;
   out.stiffness_n_per_m = model.stiffness;
   if (model.kind == Kind::kHolds) return out;
+  if (model.kind == Kind::kPierces) {
+    const double along_n = out.force_n.dot(model.along);
+    out.force_n += (std::clamp(along_n, -model.ahead_n, model.back_n) - along_n) * model.along;
+    return out;
+  }
   const double pushed = model.normal.dot(out.force_n);
   if (!(pushed > 0)) return {};
   // What acts across is the surface's slope, not a pull: no larger than the push.

@@ -25,7 +25,7 @@ constexpr double kLeastShare = 0.1;
 /// swung before it is heard of [N s/m].
 constexpr double kBearable_n_s_per_m = 5;
 /// What is softened comes up to the whole force within some of these.
-constexpr double kCreepTime_s = 0.5, kLongestCreep_s = 4;
+constexpr double kCreepTime_s = 0.5, kLongestCreep_s = 4, kLongestHeld_s = 1;
 /// The time between poses is a mean of about so many.
 constexpr double kPosesLookedAt = 8;
 /// Ahead of the newest pose by no more than so many of the times between poses: one that does not come says nothing.
@@ -60,7 +60,8 @@ void HapticServo::forget(double now_s) {
 void HapticServo::leave() {
   passivity_.forget();
   placed_ = false;
-  for (Vector3d* each : {&moved_m_, &acting_n_, &velocity_, &acceleration_, &mean_n_, &slow_n_}) each->setZero();
+  for (Vector3d* each : {&moved_m_, &acting_n_, &velocity_, &acceleration_, &mean_n_, &slow_n_, &slower_n_})
+    each->setZero();
   power_ = speed2_ = acceleration2_ = stored_j_ = 0;
 }
 
@@ -110,20 +111,28 @@ void HapticServo::judge() {
 /// The model's force, of which only a share follows fast motion. Where the force has turned, nothing is left of the way
 /// that it had.
 Vector3d HapticServo::softened(const Vector3d& wanted_n) {
-  const double size = wanted_n.norm();
-  if (!(size > 0)) {
-    slow_n_.setZero();
-    return wanted_n;
-  }
   const double k = felt_n_per_m();
   if (share_ * k * late_s() > kBearable_n_s_per_m) share_ = kBearable_n_s_per_m / (k * late_s());
-  // What creeps lags behind, which is negative damping of (1 - share) K / (omega^2 time): heavy devices swing slowly.
+  // What creeps lags behind, which is negative damping: of (1 - share) K / (omega^2 time) after one stage, of
+  // 16 / (omega time)^2 of that after the two, half as long, that there are. Heavy devices swing slowly.
   const double omega2 = speed2_ > 0 ? acceleration2_ / speed2_ : 0;
   const double bearable_s = omega2 > 0 ? (1 - share_) * k / (omega2 * kAllowed_n_s_per_m) : 0;
-  approach(slow_n_, wanted_n, config_.period_s, std::clamp(bearable_s, kCreepTime_s, kLongestCreep_s));
-  const double along = slow_n_.dot(wanted_n) / (size * size);
-  if (along < 0) slow_n_ -= along * wanted_n;
-  const Vector3d out = slow_n_ + share_ * (wanted_n - slow_n_);
+  // A probe leaves, pushed out by what lags, which is less by one stage.
+  const bool leaves = model_.kind() == TickContact::Kind::kPushes || model_.kind() == TickContact::Kind::kFree;
+  const double time_s = std::clamp(bearable_s, kCreepTime_s, leaves ? kLongestCreep_s : kLongestHeld_s);
+  approach(slow_n_, wanted_n, config_.period_s, leaves ? time_s : 0.5 * time_s);
+  approach(slower_n_, slow_n_, config_.period_s, leaves ? 0 : 0.5 * time_s);
+  const double size = wanted_n.norm();
+  if (!(size > 0)) {
+    // A tip that comes back to a surface begins again. A thread is slack for moments of a swing, as its mean says.
+    if (model_.kind() != TickContact::Kind::kPulls) slow_n_ = slower_n_ = Vector3d::Zero();
+    return wanted_n;
+  }
+  for (Vector3d* each : {&slow_n_, &slower_n_}) {
+    const double along = each->dot(wanted_n) / (size * size);
+    if (along < 0) *each -= along * wanted_n;
+  }
+  const Vector3d out = slower_n_ + share_ * (wanted_n - slower_n_);
   const double most = kMostOver * size, length = out.norm();
   return length > most ? Vector3d(most / length * out) : out;
 }

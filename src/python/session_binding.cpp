@@ -54,7 +54,7 @@ py::array_t<double> triple(const Vector3d& v) {
 }
 
 py::list contacts(const Frame& frame, size_t styluses) {
-  constexpr const char* kKinds[] = {"free", "pushes", "holds"};
+  constexpr const char* kKinds[] = {"free", "pushes", "holds", "pierces", "pulls"};
   py::list out;
   for (size_t s = 0; s < styluses; ++s) {
     const TickContact& contact = frame.contacts[s];

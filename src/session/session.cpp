@@ -42,6 +42,18 @@ HandLimits handLimits(const Model& model, double tick_hz) {
   return limits;
 }
 
+/// Of what a thread or a needle does to its stylus.
+void addThread(const ThreadPull& pull, TickContact& contact) {
+  const NeedleHold& needle = pull.needle;
+  contact.kind = needle.stiffness_n_per_m > 0 ? TickContact::Kind::kPierces : TickContact::Kind::kPulls;
+  if (contact.kind == TickContact::Kind::kPulls) return;
+  const double along_n = contact.reaction.force_n.dot(needle.along);
+  contact.along = needle.along;
+  contact.limit_n = needle.ahead_n - along_n;
+  contact.back_n = needle.back_n + along_n;
+  contact.stiffness_n_per_m = needle.stiffness_n_per_m;
+}
+
 }  // namespace
 
 Session::Session(const Scene& scene, gpu::Context& context, const Progress& progress, const SessionOptions& options)
@@ -300,11 +312,13 @@ TickContact Session::contactOf(size_t stylus, const Reaction& raw) const {
   out.to_m = motion.to.position_m;
   const bool acts = motion.present && !(motion.feels_m > 0) && raw.force_n.allFinite() && raw.torque_nm.allFinite();
   if (!acts || stats_.touched[stylus] + stats_.grabbed[stylus] == 0) return out;
-  // A thread pulls, and where it is slack it is not there: it does not push back as tissue does.
-  const bool thread = solver_->threads() && stats_.grabbed[stylus] == solver_->threads()->pulls()[stylus].nodes;
-  const bool holds = kindOf(motion.mode).does(kHolds) && !thread;
-  out.kind = holds ? TickContact::Kind::kHolds : TickContact::Kind::kPushes;
   out.reaction = raw;
+  const ThreadPull& pull = solver_->pull(static_cast<uint32_t>(stylus));
+  if (pull.nodes > 0 && pull.nodes == stats_.grabbed[stylus]) {
+    addThread(pull, out);
+    return out;
+  }
+  out.kind = kindOf(motion.mode).does(kHolds) ? TickContact::Kind::kHolds : TickContact::Kind::kPushes;
   const double limit_n =
       kindOf(motion.mode).does(kCuts) ? solver_->bladeWork(static_cast<uint32_t>(stylus)).limit_n : 0;
   if (limit_n > 0) out.limit_n = std::max(limit_n, raw.force_n.norm());

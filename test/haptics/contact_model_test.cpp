@@ -162,5 +162,81 @@ TEST(ContactModel, ABladesForceIsLevelWhereTheTissuePartsAndFallsWhenItGoesBack)
   EXPECT_LT(work_j, 1e-6);
 }
 
+/// A needle that heads down and is held aside by the tissue around it.
+TickContact onNeedle(const Vector3d& at_m, const Vector3d& force_n) {
+  TickContact out;
+  out.kind = Kind::kPierces;
+  out.from_m = out.to_m = at_m;
+  out.along = -Vector3d::UnitZ();
+  out.limit_n = 0.3;
+  out.back_n = 0.1;
+  out.stiffness_n_per_m = 1000;
+  out.reaction.force_n = force_n;
+  return out;
+}
+
+TEST(ContactModel, ANeedleIsHeldAcrossFromBothSides) {
+  ContactModel model{TissueConstants{}};
+  model.put(onNeedle({0, 0, 0}, {0.05, 0, 0.2}), kTick_s, 0);
+  for (const double aside_m :
+       {-1e-3, 1e-3})  // also where that turns the force across round, and is more than what pushes
+    EXPECT_NEAR(model.at({aside_m, 0, 0}, kTick_s).force_n.x(), 0.05 - 1000 * aside_m, 1e-9) << aside_m;
+  EXPECT_NEAR(model.at({0, 1e-3, 0}, kTick_s).force_n.y(), -1, 1e-9);
+}
+
+TEST(ContactModel, ANeedlesForceAlongEndsWhereItGoesOnAndWhereItComesBack) {
+  ContactModel model{TissueConstants{}};
+  model.put(onNeedle({0, 0, 0}, {0.05, 0, 0.2}), kTick_s, 0);
+  EXPECT_NEAR(model.at({0, 0, -0.01}, kTick_s).force_n.z(), 0.3, 1e-9);
+  EXPECT_NEAR(model.at({0, 0, 0.01}, kTick_s).force_n.z(), -0.1, 1e-9);
+  EXPECT_NEAR(model.at({0, 0, 0.01}, kTick_s).force_n.x(), 0.05, 1e-9);  // nothing of it across
+  EXPECT_LT(model.at({0, 0, 1e-4}, kTick_s).force_n.z(), 0.2);
+}
+
+/// Ticks in which it goes on by a level force tell nothing of how stiff the tissue is before it does.
+TEST(ContactModel, ANeedleThatGoesOnLearnsNothingAlong) {
+  ContactModel model{TissueConstants{}};
+  double now_s = 0;
+  for (int i = 0; i < 20; ++i)
+    model.put(onNeedle({1e-4 * (i % 3), 0, -3e-4 * i}, {-0.15 * (i % 3), 0, 0.3}), kTick_s, now_s += kTick_s);
+  EXPECT_NEAR(model.stiffness_n_per_m()(2, 2), 400, 1);
+  EXPECT_NEAR(model.stiffness_n_per_m()(0, 0), 1500, 150);
+}
+
+/// A thread of 300 N/m along x that is slack up to x = 0.
+TickContact onThread(double at_m, double tension_n) {
+  TickContact out;
+  out.kind = Kind::kPulls;
+  out.from_m = out.to_m = {at_m, 0, 0};
+  out.reaction.force_n = {-tension_n, 0, 0};
+  return out;
+}
+
+TEST(ContactModel, AThreadIsAsStiffAsTicksTell) {
+  ContactModel model{TissueConstants{}};
+  double now_s = 0;
+  for (int i = 0; i < 8; ++i) model.put(onThread(5e-4 * i, 0.15 * i), kTick_s, now_s += kTick_s);
+  now_s += kTick_s;
+  EXPECT_NEAR(model.stiffness_n_per_m()(0, 0), 300, 10);
+  EXPECT_NEAR(model.at({3e-3, 0, 0}, now_s).force_n.x(), -0.9, 0.02);
+  EXPECT_EQ(model.at({-1e-3, 0, 0}, now_s).force_n, Vector3d(0, 0, 0));  // one way
+  EXPECT_NEAR(model.at({3.5e-3, 1e-3, 0}, now_s).force_n.y(), 0, 1e-9);  // along one direction
+  EXPECT_NEAR(model.at({0.1, 0, 0}, now_s).force_n.x(), -2.1, 1e-9);     // and not without end
+}
+
+/// A slack thread that is moved has what moves it, and no stiffness of tissue.
+TEST(ContactModel, ASlackThreadGivesNoMoreThanTheTick) {
+  constexpr double kDrag_n = 2e-3;
+  ContactModel model{TissueConstants{1e5, 1e5, 0.25, 0.008}};
+  double now_s = 0;
+  for (int i = 8; i > 0; --i) model.put(onThread(5e-4 * i, 0.15 * i), kTick_s, now_s += kTick_s);
+  for (int i = 0; i < 3; ++i) {
+    model.put(onThread(-5e-4 * i, -kDrag_n), kTick_s, now_s += kTick_s);
+    const double last_s = now_s + kTick_s;
+    for (double x = -0.01; x < 0.002; x += 1e-4)
+      EXPECT_LE(model.at({x, 0, 0}, last_s).force_n.norm(), 2 * kDrag_n + 1e-12) << i << " " << x;
+  }
+}
+
 }  // namespace
 }  // namespace viscera

@@ -38,12 +38,17 @@ strokes:
 )";
 
 constexpr double kFelt_n = 1e-3;
+/// E of the scene times its spacing; and with all of the needle in tissue.
+constexpr double kSkin_n_per_m = 1e4 * 0.003, kWhole_m = 3.1416 * 0.008, kWhole_n_per_m = 1e4 * (0.003 + kWhole_m);
+constexpr double kPuncture_n = 0.05, kFriction_n_per_m = 1;  ///< of docs/thread.md 6
 
 struct Sewn {
   double most_n = 0, off_m = 0, moved_m = 0;  ///< of the thread's start from the tail; after it was let go
   Vector3d tip = Vector3d::Zero();
   uint64_t hash = 0, trips = 0;
-  int unfelt = 0;  ///< ticks with a force that the answers between ticks do not know of
+  int unfelt = 0;                               ///< ticks with a force that the answers between ticks do not know of
+  double skin_n = 0, inside_n = 0;              ///< widest range of force along that is told, at the skin and inside
+  double skin_n_per_m = 0, inside_n_per_m = 0;  ///< largest stiffness that is told of the tissue around it
 };
 
 Sewn sew(const Overrides& overrides) {
@@ -58,7 +63,15 @@ Sewn sew(const Overrides& overrides) {
     out.most_n = std::max(out.most_n, frame.reactions[0].force_n.norm());
     const layout::vec4& given = frame.stats.impulse[0];
     const bool pressed = Vector3d(given.x, given.y, given.z).norm() > kFelt_n * session.tick_s();
-    out.unfelt += pressed && frame.contacts[0].kind == TickContact::Kind::kFree;
+    const TickContact& contact = frame.contacts[0];
+    out.unfelt += pressed && contact.kind == TickContact::Kind::kFree;
+    if (contact.kind == TickContact::Kind::kPierces) {
+      const bool inside = contact.stiffness_n_per_m > 1.01 * kSkin_n_per_m;
+      double& most_n = inside ? out.inside_n : out.skin_n;
+      double& most_n_per_m = inside ? out.inside_n_per_m : out.skin_n_per_m;
+      most_n = std::max(most_n, contact.limit_n + contact.back_n);
+      most_n_per_m = std::max(most_n_per_m, contact.stiffness_n_per_m);
+    }
     out.off_m = std::max(out.off_m, (session.threadPlaces(0)[0] - needle.back()).norm());
     out.tip = needle.front();
     if (time_s < 1.3) left = needle.front();
@@ -74,7 +87,13 @@ TEST(NeedleSession, AStylusTakesOneDrivesItThroughAndLetsItGo) {
   EXPECT_GT(once.most_n, 0.04);
   EXPECT_LT(once.most_n, 0.5);
   EXPECT_LT(once.off_m, 1e-4);
-  EXPECT_EQ(once.unfelt, 0);   // also at the skin, before it is in
+  EXPECT_EQ(once.unfelt, 0);  // also at the skin, before it is in
+  EXPECT_NEAR(once.skin_n, kPuncture_n, 1e-3 * kPuncture_n);
+  EXPECT_GT(once.inside_n, kPuncture_n);  // the far skin, and friction both ways
+  EXPECT_LT(once.inside_n, kPuncture_n + 2 * kFriction_n_per_m * kWhole_m);
+  EXPECT_NEAR(once.skin_n_per_m, kSkin_n_per_m, 0.01 * kSkin_n_per_m);
+  EXPECT_GT(once.inside_n_per_m, 2 * kSkin_n_per_m);
+  EXPECT_LT(once.inside_n_per_m, kWhole_n_per_m);
   EXPECT_GT(once.tip.x(), 0);  // where it came out, not where it went in
   EXPECT_LT(once.moved_m, 0.01);
   EXPECT_EQ(once.trips, 0u);

@@ -97,5 +97,23 @@ TEST(ThreadsInPictures, AreNotInScenesWithout) {
   for (const uint8_t label : look(session).labels) EXPECT_LT(label, layout::kFirstThreadLabel);
 }
 
+/// A hand that draws the end of a thread up, and lets it go.
+TEST(ThreadsOnTheGpu, ContactsAreOfTheTickThatTheyAreOf) {
+  constexpr int kHeld = 20;
+  constexpr double kStep_m = 5e-4, kFrom_m = 0.05;
+  gpu::Context context;
+  Session session(blueThreadScene(Backend::kGpu), context);
+  int told = 0;
+  for (int t = 1; t <= kHeld + 10; ++t) {
+    const TickContact contact = session.step(leftAt({0.03, 0, kFrom_m + kStep_m * t}, t <= kHeld), {}).contacts[0];
+    const auto of = static_cast<int>(std::lround((contact.to_m.z() - kFrom_m) / kStep_m));
+    if (of < 1 || of > kHeld) continue;
+    ++told;
+    EXPECT_EQ(contact.kind, TickContact::Kind::kPulls)
+        << "tick " << of << " in " << t;  // also where it was let go since
+  }
+  EXPECT_GE(told, kHeld);
+}
+
 }  // namespace
 }  // namespace viscera

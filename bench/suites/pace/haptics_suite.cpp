@@ -133,7 +133,7 @@ Worst measure(Report& report, const Matrix& matrix, double rate_hz, Table& table
 
 /// Fewer cells than of a probe: a trial has three holds and more.
 Matrix sutureOf(bool short_form) {
-  if (short_form) return {{10, 100}, {2}, {0.1}, {1000, 100}};
+  if (short_form) return {{100}, {10}, {0.1, 2}, {1000, 100}};
   return {{1, 10, 100}, {0, 2, 10}, {0.05, 0.2, 2}, {1000, 100}};
 }
 

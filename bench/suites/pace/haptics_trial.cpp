@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "bench/harness/specimens/block_on_bone.h"
 #include "bench/suites/pace/held_trial.h"
 
 namespace viscera::bench {
@@ -63,18 +64,7 @@ Scene slab(double young_modulus_pa) {
   Scene scene;
   scene.name = "slab";
   scene.environment.gravity_m_per_s2.setZero();
-  BodyConfig body;
-  body.source = TissueSource::kBox;
-  body.box_size_m = Vector3d(0.05, 0.05, kTop_m);
-  body.position_m = Vector3d(0, 0, kTop_m / 2);
-  body.spacing_m = kSpacing_m;
-  body.material.young_modulus_pa = young_modulus_pa;
-  FixedConfig bone;
-  bone.shape = FixedShape::kPlane;
-  bone.point_m = Vector3d(0, 0, -kTop_m / 2 + 0.1 * kSpacing_m);
-  bone.normal = Vector3d::UnitZ();
-  body.fixed.push_back(bone);
-  scene.bodies.push_back(body);
+  scene.bodies.push_back(blockOnBone(Vector3d(0.05, 0.05, kTop_m), kSpacing_m, young_modulus_pa));
   scene.styluses.resize(1);
   scene.styluses[0].probe.radius_m = kRadius_m;
   scene.solver.backend = Backend::kCpu;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bench/harness/specimens/block_on_bone.h"
 #include "bench/suites/thread/threads.h"
 #include "solver/thread/thread_bodies.h"
 #include "viscera/math/state_hash.h"
@@ -39,18 +40,7 @@ void addBite(double x_mm, ThreadConfig& thread) {
 Scene padScene(double young_modulus_pa, int threads) {
   Scene scene;
   scene.name = "pad";
-  BodyConfig body;
-  body.source = TissueSource::kBox;
-  body.box_size_m = Vector3d(0.036, 0.03, kTop_m);
-  body.position_m = Vector3d(0, 0, kTop_m / 2);
-  body.spacing_m = kSpacing_m;
-  body.material.young_modulus_pa = young_modulus_pa;
-  FixedConfig bone;
-  bone.shape = FixedShape::kPlane;
-  bone.point_m = Vector3d(0, 0, -kTop_m / 2 + 0.1 * kSpacing_m);
-  bone.normal = Vector3d::UnitZ();
-  body.fixed.push_back(bone);
-  scene.bodies.push_back(body);
+  scene.bodies.push_back(blockOnBone(Vector3d(0.036, 0.03, kTop_m), kSpacing_m, young_modulus_pa));
   scene.styluses.resize(1);
   scene.styluses[0].idle = ToolMode::kGrab;
   scene.styluses[0].button2 = ToolMode::kCut;

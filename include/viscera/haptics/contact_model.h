@@ -27,7 +27,8 @@ struct TissueConstants {
 /// which a tick renews and which may be asked at any rate. A probe is never pulled: F . n < 0 gives nothing. From one
 /// tick's F to the next one's the answer goes over evenly, both taken at the place that is asked for, so it has no
 /// jumps. A blade's force ends at TickContact::limit_n: it is stiff while the edge is stuck, level while it cuts, and
-/// falls as the hand goes back. No memory is allocated.
+/// falls as the hand goes back. A needle is held across from all sides, and along it as a blade is, both ways. A thread
+/// pulls the way that it pulled the tick, no more than twice as much. No memory is allocated.
 class ContactModel {
  public:
   /// Of an answer.
@@ -63,10 +64,16 @@ class ContactModel {
     Vector3d torque_nm = Vector3d::Zero();
     Matrix3d stiffness = Matrix3d::Zero();
     double limit_n = std::numeric_limits<double>::infinity();
+    Vector3d along = Vector3d::Zero();  ///< of a needle, and its limits
+    double ahead_n = 0, back_n = 0;
   };
+  double goneOver(double now_s) const;
   Affine mixed(double now_s) const;
+  static Force answer(const Affine& model, const Vector3d& tip_m);
   double stiffnessOf(double young_modulus_pa, const TickContact& contact) const;
+  Matrix3d first(const TickContact& contact) const;
   Matrix3d learnt(const TickContact& contact, const Vector3d& at_m) const;
+  Matrix3d bounded(const TickContact& contact, const Matrix3d& k) const;
   Affine leftBehind(const Vector3d& at_m, double now_s) const;
   void goOver(const Affine& next, double over_s, double now_s);
 

@@ -62,7 +62,7 @@ class HapticServo {
   Vector3d velocity_ = Vector3d::Zero(), acceleration_ = Vector3d::Zero(), mean_n_ = Vector3d::Zero();
   double share_ = 1, power_ = 0, speed2_ = 0, acceleration2_ = 0;
   // Of the tip.
-  Vector3d slow_n_ = Vector3d::Zero();
+  Vector3d slow_n_ = Vector3d::Zero(), slower_n_ = Vector3d::Zero();
   ContactModel::Force last_;
   double stored_j_ = 0;  ///< as the hand feels it
 };

@@ -19,6 +19,7 @@ namespace viscera {
 
 class Archive;
 class ThreadBodies;
+struct ThreadPull;
 
 /// Of integrators that solve to a tolerance, since the solver was made.
 struct SolverWork {
@@ -70,6 +71,8 @@ class Solver {
   virtual SolverWork work() const { return {}; }
   /// @param stylus  < kMaxStyluses
   virtual BladeWork bladeWork(uint32_t /*stylus*/) const { return {}; }
+  /// What a stylus gave threads and needles in the tick that pollStats() was last told of.
+  virtual const ThreadPull& pull(uint32_t stylus) const;
   virtual std::string backend() const = 0;
   /// All that the ticks to come depend on, between two ticks, into an archive or out of it: the solver that reads it
   /// was made for the same model and scene, and goes on to the bit like the one that wrote it. Waits.

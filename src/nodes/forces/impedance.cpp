@@ -41,7 +41,8 @@ crtk_msgs::CartesianImpedance toImpedance(const HapticServo& servo, const Stylus
   const Matrix3d turn = axes.toRotationMatrix();
   Vector3d stiffness = (turn.transpose() * model.stiffness_n_per_m() * turn).diagonal();
   Vector3d bias_n = turn.transpose() * model.anchor_force_n(), place_m = model.anchor_m();
-  if (model.kind() == TickContact::Kind::kPushes) {
+  const bool one_way = model.kind() == TickContact::Kind::kPushes || model.kind() == TickContact::Kind::kPulls;
+  if (one_way) {
     if (!(stiffness.z() > 0)) return out;
     place_m += bias_n.z() / stiffness.z() * normal;
     bias_n.setZero();
@@ -54,7 +55,7 @@ crtk_msgs::CartesianImpedance toImpedance(const HapticServo& servo, const Stylus
   out.position_negative.p = toVector(-stiffness);
   out.position_negative.d = toVector(-servo.lead_s() * stiffness);
   out.position_negative.bias = toVector(share * bias_n);
-  if (model.kind() == TickContact::Kind::kHolds) out.position_positive = out.position_negative;
+  if (!one_way) out.position_positive = out.position_negative;
   return out;
 }
 

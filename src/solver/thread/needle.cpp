@@ -77,6 +77,7 @@ void Needle::reset() {
   force_n_.setZero();
   torque_nm_.setZero();
   work_j_ = tip_n_ = farthest_m_ = 0;
+  hold_ = {};
 }
 
 /// Where there is no tissue any more, the needle holds none.
@@ -193,6 +194,7 @@ void Needle::act(BladeTarget& target, TissuePoints& tissue, std::vector<NeedlePa
   force_n_.setZero();
   torque_nm_.setZero();
   work_j_ = tip_n_ = farthest_m_ = 0;
+  hold_ = {};
   if (tip_.state < kTouches && crossings_.empty()) return;
   read(target, tissue);
   sweep(tissue);
@@ -286,10 +288,27 @@ void Needle::sum(const TissuePoints& tissue) {
     const Vector3d place = tissue.place_m(crossing.point);
     const double behind_m = std::clamp(shape_.nearest_m(end_.inverse() * place), 0.0, shape_.length_m());
     farthest_m_ = std::max(farthest_m_, (place - end_ * shape_.at(behind_m)).norm());
+    addToHold(crossing.point, crossing.law, crossing.length_m, behind_m);
+    const double limit_n = crossing.law.friction_n_per_m * crossing.length_m;
+    const double is_n = crossing.impulse_ns.dot(end_.orientation * shape_.forward(behind_m)) / dt_s_;
+    hold_.ahead_n += limit_n - is_n;
+    hold_.back_n += limit_n + is_n;
   }
-  if (tip_.state < kTouches) return;
-  add(tip_.point, tip_.impulse_ns);
-  tip_n_ = tip_.impulse_ns.dot(end_.orientation * shape_.forward(0)) / dt_s_;
+  if (tip_.state >= kTouches) {
+    add(tip_.point, tip_.impulse_ns);
+    tip_n_ = tip_.impulse_ns.dot(end_.orientation * shape_.forward(0)) / dt_s_;
+    addToHold(tip_.point, tip_.law, tissue.spacing_m(tip_.point.body), 0);
+    hold_.ahead_n += (tip_.state == kInside ? tip_.law.cutting_n : tip_.law.puncture_n) - tip_n_;
+    hold_.back_n += tip_n_;
+  }
+  hold_.along.normalize();
+}
+
+/// Tissue around a length of shaft is as stiff as E times the length; before a tip as a cell is, E times its size.
+void Needle::addToHold(const TissuePoint& point, const NeedleLaw& law, double length_m, double behind_m) {
+  const double cell_m = model_.bodies[point.body].lattice.spacing_m;
+  hold_.stiffness_n_per_m += law.stiffness_n_per_m / kAroundShaft * length_m / cell_m;
+  hold_.along += length_m * (end_.orientation * shape_.forward(behind_m));
 }
 
 /// What becomes of the tip.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "solver/thread/needle_shape.h"
+#include "solver/thread/thread_pull.h"
 #include "solver/thread/tissue_points.h"
 
 namespace viscera {
@@ -59,6 +60,7 @@ class Needle {
   const Vector3d& force_n() const { return force_n_; }
   const Vector3d& torque_nm() const { return torque_nm_; }
   double work_j() const { return work_j_; }          ///< on the tissue, then
+  const NeedleHold& hold() const { return hold_; }   ///< of the tissue on it, then
   double alongTip_n() const { return tip_n_; }       ///< of it, by the tip and along it
   double farthest_m() const { return farthest_m_; }  ///< of tissue on the shaft from it, then
   /// Springs were cut.
@@ -111,6 +113,7 @@ class Needle {
   void solve(TissuePoints& tissue, const Row& row);
   void solveTip(TissuePoints& tissue);
   void sum(const TissuePoints& tissue);
+  void addToHold(const TissuePoint& point, const NeedleLaw& law, double length_m, double behind_m);
   void settle(BladeTarget& target, const TissuePoints& tissue);
   void goOn(BladeTarget& target, const TissuePoints& tissue, double slip_m);
   void standAt(const TissuePoint& point);
@@ -132,6 +135,7 @@ class Needle {
   bool led_ = false;
   Vector3d force_n_ = Vector3d::Zero(), torque_nm_ = Vector3d::Zero();
   double work_j_ = 0, tip_n_ = 0, farthest_m_ = 0;
+  NeedleHold hold_;
 };
 
 }  // namespace viscera

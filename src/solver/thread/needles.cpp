@@ -18,10 +18,22 @@ double distanceTo_m(const Needle& needle, const Vector3d& place_m) {
   return (needle.pose() * shape.at(std::clamp(behind_m, 0.0, shape.length_m())) - place_m).norm();
 }
 
+/// @param share  of the tick
+void add(const NeedleHold& hold, double share, NeedleHold& tick) {
+  const NeedleHold before = tick;
+  tick = hold;
+  tick.ahead_n = before.ahead_n + share * hold.ahead_n;
+  tick.back_n = before.back_n + share * hold.back_n;
+}
+
 }  // namespace
 
 Needles::Needles(const Scene& scene, const Model& model)
-    : styluses_(scene.styluses), threads_(scene.threads), model_(model), gravity_(scene.environment.gravity_m_per_s2) {
+    : styluses_(scene.styluses),
+      threads_(scene.threads),
+      model_(model),
+      gravity_(scene.environment.gravity_m_per_s2),
+      tick_s_(1 / scene.solver.tick_hz) {
   for (uint32_t t = 0; t < scene.threads.size(); ++t) {
     const ThreadConfig& thread = scene.threads[t];
     if (thread.needle.arc == NeedleArc::kNone) continue;
@@ -82,6 +94,7 @@ void Needles::act(BladeTarget& target, TissuePoints& tissue, double at, double d
     work_j_ += one.needle.work_j();
     if (!led) continue;
     const Vector3d& tip = motions_[stylus].to.position_m;
+    add(one.needle.hold(), dt_s / tick_s_, pulls_[stylus].needle);
     pulls_[stylus].impulse_ns += dt_s * one.needle.force_n();
     pulls_[stylus].moment_nms += dt_s * (one.needle.torque_nm() - tip.cross(one.needle.force_n()));
   }

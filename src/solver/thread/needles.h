@@ -59,6 +59,7 @@ class Needles {
   std::vector<ThreadConfig> threads_;
   const Model& model_;
   Vector3d gravity_;
+  double tick_s_;
   ToolMotions motions_;  ///< of the tick
   std::vector<OnThread> needles_;
   std::array<bool, layout::kMaxStyluses> takes_{};

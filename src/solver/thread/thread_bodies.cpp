@@ -225,6 +225,7 @@ ThreadPulls ThreadBodies::pulls() const {
     out[s].impulse_ns += needles_->pulls()[s].impulse_ns;
     out[s].moment_nms += needles_->pulls()[s].moment_nms;
     // Also before the tip is in: what is not held is not felt between ticks.
+    out[s].needle = needles_->pulls()[s].needle;
     out[s].nodes += std::max(needles_->pulls()[s].nodes, needles_->pulls()[s].impulse_ns.isZero(0) ? 0U : 1U);
   }
   return out;

@@ -8,23 +8,6 @@
 
 namespace viscera {
 
-namespace {
-
-void addTo(layout::vec4& sum, const Vector3d& more) {
-  sum = {sum.x + static_cast<float>(more.x()), sum.y + static_cast<float>(more.y()),
-         sum.z + static_cast<float>(more.z()), sum.w};
-}
-
-}  // namespace
-
-void addTo(layout::TickStats& stats, const ThreadPulls& pulls) {
-  for (size_t s = 0; s < pulls.size(); ++s) {
-    addTo(stats.impulse[s], pulls[s].impulse_ns);
-    addTo(stats.angular[s], pulls[s].moment_nms);
-    stats.grabbed[s] += pulls[s].nodes;
-  }
-}
-
 void ThreadHands::beginTick(const ToolMotions& motions, const std::vector<const Chain*>& threads) {
   motions_ = motions;
   pulls_ = {};

@@ -6,22 +6,12 @@
 #include <vector>
 
 #include "solver/thread/chain/chain.h"
-#include "viscera/layout/tick_stats.h"
+#include "solver/thread/thread_pull.h"
 #include "viscera/tools/stylus.h"
 
 namespace viscera {
 
 class Archive;
-
-/// What a stylus gave threads in a tick.
-struct ThreadPull {
-  Vector3d impulse_ns = Vector3d::Zero();
-  Vector3d moment_nms = Vector3d::Zero();  ///< about its tip at the end of the tick
-  uint32_t nodes = 0;                      ///< that it holds
-};
-using ThreadPulls = std::array<ThreadPull, layout::kMaxStyluses>;
-/// As if these nodes were of the tissue.
-void addTo(layout::TickStats& stats, const ThreadPulls& pulls);
 
 /// Styluses that hold threads: in mode grab, two neighbours each, for a direction.
 class ThreadHands {

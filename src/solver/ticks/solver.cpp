@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "solver/thread/thread_pull.h"
 #include "viscera/math/error.h"
 #include "viscera/math/state_hash.h"
 
@@ -50,6 +51,11 @@ bool Solver::readCuts(CutState& out) const {
   static_cast<CutSprings&>(out) = std::move(state);
   ++out.revision;
   return true;
+}
+
+const ThreadPull& Solver::pull(uint32_t /*stylus*/) const {
+  static const ThreadPull kNothing;
+  return kNothing;
 }
 
 void Solver::persist(Archive& /*archive*/) {

@@ -174,6 +174,7 @@ void Ticks::reset() {
   if (blades_) blades_->reset();
   if (threads_) threads_->reset();
   pulls_.clear();
+  told_ = {};
   stretch_ = 0;
   dt_safe_s_ = safeTimeStep(model_);
   planAnew();
@@ -232,7 +233,7 @@ bool Ticks::readCuts(CutState& out) const {
 /// what keeps the two together.
 void Ticks::finishStats() {
   if (!backend_->requestStats()) {
-    layout::TickStats oldest;
+    TickFindings oldest;
     takeStats(oldest, true);
     keepStats(oldest);
     backend_->requestStats();
@@ -240,19 +241,21 @@ void Ticks::finishStats() {
   if (threads_ && !watch_) pulls_.push_back(threads_->pulls());
 }
 
-bool Ticks::takeStats(layout::TickStats& stats, bool wait) {
-  if (!backend_->takeStats(stats, wait)) return false;
+bool Ticks::takeStats(TickFindings& findings, bool wait) {
+  if (!backend_->takeStats(findings.stats, wait)) return false;
+  findings.pulls = {};
   if (!pulls_.empty()) {
-    addTo(stats, pulls_.front());
+    findings.pulls = pulls_.front();
+    addTo(findings.stats, findings.pulls);
     pulls_.erase(pulls_.begin());
   }
   return true;
 }
 
 /// Of more than kFinishedKept that were not asked for, the oldest is forgotten.
-void Ticks::keepStats(const layout::TickStats& stats) {
+void Ticks::keepStats(const TickFindings& findings) {
   if (finished_.size() == kFinishedKept) finished_.erase(finished_.begin());
-  finished_.push_back(stats);
+  finished_.push_back(findings);
 }
 
 /// Does what follows from a verdict. @returns whether there was a rollback
@@ -300,12 +303,16 @@ const Health& Ticks::health() const {
 }
 
 bool Ticks::pollStats(layout::TickStats& stats, bool wait) {
+  TickFindings findings;
   if (!finished_.empty()) {
-    stats = finished_.front();
+    findings = finished_.front();
     finished_.erase(finished_.begin());
-    return true;
+  } else if (!(watch_ ? watch_->poll(findings, wait) : takeStats(findings, wait))) {
+    return false;
   }
-  return watch_ ? watch_->poll(stats, wait) : takeStats(stats, wait);
+  stats = findings.stats;
+  told_ = findings.pulls;
+  return true;
 }
 
 }  // namespace viscera

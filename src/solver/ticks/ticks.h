@@ -41,6 +41,7 @@ class Ticks : public Solver {
   BladeWork bladeWork(uint32_t stylus) const final { return blades_ ? blades_->done(stylus) : BladeWork{}; }
   using Solver::threads;
   ThreadBodies* threads() final { return threads_.get(); }
+  const ThreadPull& pull(uint32_t stylus) const final { return told_[stylus]; }
   void persist(Archive& archive) final;
   std::string backend() const final { return backend_->name(); }
   /// The state that it begins in, now and after every reset.
@@ -69,8 +70,8 @@ class Ticks : public Solver {
   void chooseSubsteps();
   void substep(int index, const ToolMotions& motions, bool cuts, bool contacts);
   void finishStats();
-  bool takeStats(layout::TickStats& stats, bool wait);
-  void keepStats(const layout::TickStats& stats);
+  bool takeStats(TickFindings& findings, bool wait);
+  void keepStats(const TickFindings& findings);
   void measureTick(const ToolMotions& motions, bool contacts);
   void cutByWork(int index, const ToolMotions& motions);
   bool heed(const Watch::Verdict& verdict);
@@ -94,7 +95,8 @@ class Ticks : public Solver {
   std::vector<ThreadPulls> pulls_;            ///< without a governor: of ticks whose measurements are under way
   std::optional<HostState> start_;            ///< nothing: rest
   std::optional<Watch> watch_;                ///< only where a scene has a governor
-  std::vector<layout::TickStats> finished_;   ///< taken while not asked for, oldest first
+  std::vector<TickFindings> finished_;        ///< taken while not asked for, oldest first
+  ThreadPulls told_;                          ///< of what was asked for last
   std::vector<layout::ToolMotion> motions_;
   uint64_t cut_revision_ = 0, substeps_done_ = 0;
   uint32_t springs_cut_ = 0;  ///< when dt_safe was last computed

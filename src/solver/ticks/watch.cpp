@@ -80,16 +80,19 @@ bool Watch::isBad() const {
 }
 
 /// What others are told of the open tick: nothing that is bad, and no force while the tissue is not itself.
-layout::TickStats Watch::published() const {
+TickFindings Watch::published() const {
   const bool bad = isBad();
-  layout::TickStats out = bad ? last_good_ : *open_->stats;
-  out.springs_cut = open_->stats->springs_cut;
+  TickFindings out;
+  layout::TickStats& stats = out.stats;
+  stats = bad ? last_good_ : *open_->stats;
+  stats.springs_cut = open_->stats->springs_cut;
   if (!bad && !open_->recovering) {
-    addTo(out, open_->pulls);
+    out.pulls = open_->pulls;
+    addTo(stats, out.pulls);
     return out;
   }
-  for (uint32_t s = 0; s < layout::kMaxStyluses; ++s) out.impulse[s] = out.angular[s] = {};
-  for (uint32_t o = 0; o < layout::kMaxObstacles; ++o) out.obstacle_impulse[o] = out.obstacle_angular[o] = {};
+  for (uint32_t s = 0; s < layout::kMaxStyluses; ++s) stats.impulse[s] = stats.angular[s] = {};
+  for (uint32_t o = 0; o < layout::kMaxObstacles; ++o) stats.obstacle_impulse[o] = stats.obstacle_angular[o] = {};
   return out;
 }
 
@@ -120,10 +123,10 @@ bool Watch::openIsBad() {
   return isBad();
 }
 
-bool Watch::poll(layout::TickStats& stats, bool wait) {
+bool Watch::poll(TickFindings& findings, bool wait) {
   if (!open_ || open_->delivered || !receive(wait)) return false;
   open_->delivered = true;
-  stats = published();
+  findings = published();
   return true;
 }
 

@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "solver/thread/thread_hands.h"
+#include "solver/thread/thread_pull.h"
 #include "solver/ticks/solver_backend.h"
 #include "viscera/solver/governor.h"
 
@@ -13,6 +13,12 @@ namespace viscera {
 class Archive;
 class ThreadBodies;
 
+/// What others are told of a tick: measurements, and of them what styluses gave threads and needles.
+struct TickFindings {
+  layout::TickStats stats{};
+  ThreadPulls pulls;
+};
+
 /// Carries out what a governor says of a scene's ticks (physics.md 3): a tick is open from its end until its
 /// measurements are judged, at once or, where the backend lags, after the tick that follows. Good states are kept, bad
 /// ticks are rolled back, and what was bad is not told.
@@ -20,9 +26,9 @@ class Watch {
  public:
   /// What follows from having judged a tick, for what makes the ticks.
   struct Verdict {
-    std::optional<layout::TickStats> published;  ///< measurements not asked for yet
-    std::optional<layout::TickStats> good;       ///< of the tick, as they are, if it was good
-    bool rolled_back = false;                    ///< the state is an older one: the next substep starts again
+    std::optional<TickFindings> published;  ///< not asked for yet
+    std::optional<layout::TickStats> good;  ///< of the tick, as they are, if it was good
+    bool rolled_back = false;               ///< the state is an older one: the next substep starts again
   };
 
   /// @param backend  must outlive this   @param implicit  the scene's integrator may be fast   @param tick_s  length
@@ -43,8 +49,8 @@ class Watch {
   Verdict judgeOpen();
   /// Will the open tick be rolled back, or does it not count? False if none is open. Waits for its measurements.
   bool openIsBad();
-  /// Measurements of the open tick as others are told of them, once. @param wait  for them if they are under way
-  bool poll(layout::TickStats& stats, bool wait);
+  /// Of the open tick, once. @param wait  for its measurements if they are under way
+  bool poll(TickFindings& findings, bool wait);
 
   /// The current state was written from outside, with no tick open: it is measured, and the only good one.
   /// @return what was measured
@@ -68,7 +74,7 @@ class Watch {
   };
   bool receive(bool wait);
   bool isBad() const;
-  layout::TickStats published() const;
+  TickFindings published() const;
   bool isImplicit(bool recovering) const { return recovering || implicit_; }
   double workOn(const OpenTick& tick) const;
   void saveGood();
