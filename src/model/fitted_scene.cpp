@@ -116,7 +116,7 @@ struct ToolSize {
   const char* key;
   double (*value_m)(const StylusConfig&);
 };
-constexpr std::array<ToolSize, 9> kToolSizes = {{
+constexpr std::array<ToolSize, 10> kToolSizes = {{
     {"probe.radius_m", [](const StylusConfig& c) { return c.probe.radius_m; }},
     {"grab.radius_m", [](const StylusConfig& c) { return c.grab.radius_m; }},
     {"cut.blade_length_m", [](const StylusConfig& c) { return c.cut.blade_length_m; }},
@@ -124,6 +124,7 @@ constexpr std::array<ToolSize, 9> kToolSizes = {{
     {"suction.radius_m", [](const StylusConfig& c) { return c.suction.radius_m; }},
     {"scissors.blade_length_m", [](const StylusConfig& c) { return c.scissors.blade_length_m; }},
     {"grasper.radius_m", [](const StylusConfig& c) { return c.grasper.radius_m; }},
+    {"grasper.jaw_length_m", [](const StylusConfig& c) { return c.grasper.jaw_length_m; }},
     {"clip.jaw_length_m", [](const StylusConfig& c) { return c.clip.jaw_length_m; }},
     {"clip.opening_m", [](const StylusConfig& c) { return c.clip.opening_m; }},
 }};

@@ -10,17 +10,20 @@
 namespace viscera {
 
 ToolPainter::ToolPainter(const std::vector<StylusConfig>& styluses)
-    : program_(gpu::Program::graphics("mesh.vert", "tool.frag")) {
+    : styluses_(styluses), program_(gpu::Program::graphics("mesh.vert", "tool.frag")) {
   std::vector<ToolVertex> vertices;
   std::vector<uint32_t> indices;
   for (const StylusConfig& stylus : styluses) {
     ranges_.emplace_back();
     for (const ToolKind& kind : kToolKinds) {
-      const ToolShape shape = toolShape(stylus, kind.mode);
-      ranges_.back()[kind.number] = {indices.size(), shape.solid_indices, shape.indices.size() - shape.solid_indices};
-      const uint32_t first_vertex = static_cast<uint32_t>(vertices.size());
-      for (uint32_t index : shape.indices) indices.push_back(first_vertex + index);
-      vertices.insert(vertices.end(), shape.vertices.begin(), shape.vertices.end());
+      const ToolShape shape = toolWithoutFingers(stylus, kind.mode), finger = fingerShape(stylus, kind.mode);
+      ranges_.back()[kind.number] = {indices.size(), shape.solid_indices, shape.indices.size() - shape.solid_indices,
+                                     finger.indices.size()};
+      for (const ToolShape* part : {&shape, &finger}) {
+        const uint32_t first_vertex = static_cast<uint32_t>(vertices.size());
+        for (uint32_t index : part->indices) indices.push_back(first_vertex + index);
+        vertices.insert(vertices.end(), part->vertices.begin(), part->vertices.end());
+      }
     }
   }
   vertices_ = gpu::Buffer<ToolVertex>(vertices);
@@ -44,11 +47,17 @@ void ToolPainter::drawPart(const gpu::Program& program, Part part, const ToolMot
     const bool solid = part == Part::kSolid;
     const size_t count = solid ? range.solid_indices : range.translucent_indices;
     if (!motion.present || count == 0) continue;
-    const size_t first = range.first_index + (solid ? 0 : range.solid_indices);
     before(stylus);
-    setMeshMatrices(program, optical_from_tissue * motion.to, clip_from_optical);
-    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(count), GL_UNSIGNED_INT,
-                   reinterpret_cast<const void*>(first * sizeof(uint32_t)));
+    const auto drawRange = [&](const Pose& pose, size_t first, size_t indices) {
+      setMeshMatrices(program, optical_from_tissue * pose, clip_from_optical);
+      glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(indices), GL_UNSIGNED_INT,
+                     reinterpret_cast<const void*>(first * sizeof(uint32_t)));
+    };
+    drawRange(motion.to, range.first_index + (solid ? 0 : range.solid_indices), count);
+    if (!solid || range.finger_indices == 0) continue;
+    for (const Pose& finger : fingerPoses(styluses_[stylus], motion.mode, motion.opens_to_rad))
+      drawRange(motion.to * finger, range.first_index + range.solid_indices + range.translucent_indices,
+                range.finger_indices);
   }
 }
 

@@ -28,14 +28,16 @@ class ToolPainter {
                     const Eigen::Matrix4f& clip_from_optical);
 
  private:
+  /// Of a kind of tool, one after another: what is solid, what is translucent, and one of two fingers.
   struct Range {
-    size_t first_index = 0, solid_indices = 0, translucent_indices = 0;
+    size_t first_index = 0, solid_indices = 0, translucent_indices = 0, finger_indices = 0;
   };
   enum class Part { kSolid, kTranslucent };
   template <class Before>
   void drawPart(const gpu::Program& program, Part part, const ToolMotions& motions, const Pose& optical_from_tissue,
                 const Eigen::Matrix4f& clip_from_optical, Before before);
 
+  const std::vector<StylusConfig> styluses_;
   gpu::Program program_;
   VertexArray inputs_;
   gpu::Buffer<ToolVertex> vertices_;

@@ -88,8 +88,10 @@ Session::~Session() = default;
 
 Frame Session::step(const StylusSamples& samples, const Wants& wants) {
   moveObstacles();
-  look_.motions = tools_.advance(samples);             // VR05 2.7: probe, grab, cut
-  solver_->step(look_.motions, obstacles_.motions());  // VR05 2.4: n substeps
+  look_.motions = tools_.advance(samples, [this](size_t s, const StylusMotion& motion, double mouth_rad) {
+    return between(s, motion, mouth_rad);
+  });                                                                 // VR05 2.7: probe, grab, cut
+  solver_->step(tools_.ofHeld(look_.motions), obstacles_.motions());  // VR05 2.4: n substeps
   lookAtThreads();
   look_.tick = ++tick_;
   look_.wants = wants;
@@ -98,10 +100,11 @@ Frame Session::step(const StylusSamples& samples, const Wants& wants) {
   notePoses(samples);
   Frame frame;
   view_->capture(*solver_, look_, frame);  // EGVE 3.3: nodes -> vertices, only what is wanted
-  const bool feeling = feels(look_.motions);
+  const bool feeling = feels(look_.motions), gripping = tools_.grips(look_.motions);
   collect(frame, false);
-  if (feeling) collectStats(frame, true);
+  if (feeling || gripping) collectStats(frame, true);
   if (feeling) heedFeeling(frame);
+  if (gripping) heedPulls(frame);
   releaseUntracked(look_.motions, frame);
   for (SessionLog* log : logs_) log->stepped(*this, samples);
   return frame;
@@ -235,6 +238,7 @@ void Session::releaseUntracked(const ToolMotions& motions, Frame& frame) {
     if (motions[s].present && !frame.health.recovering) continue;
     limiters_[s].reset();
     frame.reactions[s] = Reaction{};
+    frame.jaw_moments_nm[s] = 0;
     frame.contacts[s] = TickContact{};
     frame.contacts[s].anew = true;
   }
@@ -277,7 +281,9 @@ void Session::collectStats(Frame& frame, bool wait) {
     for (SessionLog* log : logs_) log->measured(*this, judged_, stats_);
     for (size_t s = 0; s < limiters_.size(); ++s) {
       // Force on a tool: minus the momentum it gave the nodes, per tick (physics.md 5).
-      const Reaction raw{-xyz(stats_.impulse[s]) / tick_s(), -xyz(stats_.angular[s]) / tick_s(), false};
+      Reaction raw{-xyz(stats_.impulse[s]) / tick_s(), -xyz(stats_.angular[s]) / tick_s(), false};
+      if (tools_.fingers(s).holds()) raw.torque_nm += tools_.fingers(s).slid_m(look_.motions[s]).cross(raw.force_n);
+      jaw_moments_nm_[s] = jawMoment_nm(s, raw);
       extremes_.peak_force_n = std::max(extremes_.peak_force_n, raw.force_n.norm());
       reactions_[s] = limiters_[s].limit(raw, tick_s());
       contacts_[s] = contactOf(s, raw);
@@ -299,6 +305,7 @@ void Session::collectStats(Frame& frame, bool wait) {
   frame.has_stats = has_stats_;
   frame.reactions = reactions_;
   frame.contacts = contacts_;
+  frame.jaw_moments_nm = jaw_moments_nm_;
   frame.obstacle_forces = obstacle_forces_;
   frame.poses_received = posesOf(judged_).received;
 }

@@ -134,7 +134,9 @@ std::string strokesYaml(const Strokes& strokes) {
       vector("position_m", key.pose.position_m);
       vector("rotation_deg", degreesFromRotation(key.pose.orientation));
       out << YAML::Key << "button1" << YAML::Value << key.button1 << YAML::Key << "button2" << YAML::Value
-          << key.button2 << YAML::EndMap;
+          << key.button2;
+      if (key.jaw_rad >= 0) out << YAML::Key << "jaw_rad" << YAML::Value << key.jaw_rad;
+      out << YAML::EndMap;
     }
     out << YAML::EndSeq << YAML::EndMap;
   }

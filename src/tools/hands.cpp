@@ -6,7 +6,6 @@
 
 #include "math/archive.h"
 #include "model/scene/tool_kinds.h"
-#include "tools/scissors_edge.h"
 
 namespace viscera {
 
@@ -32,7 +31,7 @@ ToolMode modeOf(const StylusConfig& config, const StylusSample& sample) {
 Tools::Tools(const std::vector<StylusConfig>& styluses, const HandLimits& limits)
     : configs_(styluses), limits_(limits) {}
 
-ToolMotions Tools::advance(const StylusSamples& samples) {
+ToolMotions Tools::advance(const StylusSamples& samples, const FeelTissue& between) {
   ToolMotions motions;
   for (size_t i = 0; i < configs_.size(); ++i) {
     const StylusSample& now = samples[i];
@@ -43,8 +42,8 @@ ToolMotions Tools::advance(const StylusSamples& samples) {
     motion.from = last_[i].valid ? last_[i].pose : motion.to;
     if (!last_[i].valid) inside_[i] = limits_.feel_radius_m > 0;
     changeMode(i, motion);
-    close(i, motion);
     holdBack(motion);
+    close(i, now.jaw_rad, between, motion);
     feel(i, motion);
     last_[i] = now;
     last_[i].pose = motion.to;
@@ -56,23 +55,37 @@ void Tools::changeMode(size_t stylus, StylusMotion& motion) {
   if (motion.mode != mode_[stylus] || forgotten_[stylus]) {
     motion.hold_begins = kindOf(motion.mode).does(kHolds);
     if (kindOf(mode_[stylus]).does(kHolds)) motion.hold_ended = mode_[stylus];
+    fingers_[stylus] = {};
   }
   mode_[stylus] = motion.mode;
   forgotten_[stylus] = false;
 }
 
-/// They stand open until it begins, close at one speed, and stay closed until it ends.
-void Tools::close(size_t stylus, StylusMotion& motion) {
-  if (!kindOf(motion.mode).closes) {
-    closed_[stylus] = 0;
-    return;
-  }
-  const ScissorsConfig& config = configs_[stylus].scissors;
-  constexpr double kRounding = 1e-9;  // of a sum of as many ticks as they take
-  const double before = closed_[stylus], after = before + limits_.tick_s / config.closing_s;
-  closed_[stylus] = after < 1 - kRounding ? after : 1;
-  motion.opens_from_rad = openingOf(config, before);
-  motion.opens_to_rad = openingOf(config, closed_[stylus]);
+/// They stand open until it begins. @param told_rad  StylusSample::jaw_rad
+void Tools::close(size_t stylus, float told_rad, const FeelTissue& between, StylusMotion& motion) {
+  const ToolKind& kind = kindOf(motion.mode);
+  if (!kind.jaws) return;
+  const auto here = [&](double mouth_rad) { return between(stylus, motion, mouth_rad); };
+  fingers_[stylus].advance(kind.jaws(configs_[stylus]), kind.grips, told_rad, !last_[stylus].valid, limits_.tick_s,
+                           between ? here : std::function<std::optional<Between>(double)>(), motion);
+}
+
+ToolMotions Tools::ofHeld(const ToolMotions& motions) const {
+  ToolMotions out = motions;
+  for (size_t i = 0; i < configs_.size(); ++i)
+    if (fingers_[i].holds()) out[i] = fingers_[i].ofHeld(motions[i]);
+  return out;
+}
+
+bool Tools::grips(const ToolMotions& motions) const {
+  return std::any_of(motions.begin(), motions.end(),
+                     [](const StylusMotion& motion) { return kindOf(motion.mode).grips; }) &&
+         std::any_of(fingers_.begin(), fingers_.end(), [](const Fingers& fingers) { return fingers.holds(); });
+}
+
+void Tools::pulled(size_t stylus, const StylusMotion& motion, const Vector3d& force_n) {
+  const ToolKind& kind = kindOf(motion.mode);
+  if (kind.grips) fingers_[stylus].pulled(motion, force_n, kind.grip(configs_[stylus]).max_force_n);
 }
 
 void Tools::holdBack(StylusMotion& motion) const {
@@ -110,7 +123,11 @@ void Tools::persist(Archive& archive) {
   archive.value(mode_);
   archive.value(inside_);
   archive.value(forgotten_);
-  archive.value(closed_);
+  for (Fingers& fingers : fingers_) fingers.persistClosed(archive);
+}
+
+void Tools::persistFingers(Archive& archive) {
+  for (Fingers& fingers : fingers_) fingers.persistRest(archive);
 }
 
 void Tools::reset() {
@@ -118,7 +135,7 @@ void Tools::reset() {
   mode_ = {};
   inside_ = {};
   forgotten_ = {};
-  closed_ = {};
+  fingers_ = {};
 }
 
 }  // namespace viscera

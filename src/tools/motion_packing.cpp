@@ -30,7 +30,7 @@ layout::ToolMotion substep(const StylusMotion& motion, const StylusConfig& confi
   if (kind.closes) {
     const double from_rad = motion.opens_from_rad, change_rad = motion.opens_to_rad - from_rad;
     setEdge(scissorsOf(config.scissors),
-            {from, to, from_rad + begin * change_rad, from_rad + end * change_rad, openingOf(config.scissors, 0)}, out);
+            {from, to, from_rad + begin * change_rad, from_rad + end * change_rad, motion.mouth_rad}, out);
   }
   if (motion.feels_m > 0) {
     out.info.y |= layout::kToolFeels;
@@ -43,7 +43,7 @@ layout::ToolMotion substep(const StylusMotion& motion, const StylusConfig& confi
 
 uint32_t effectsOf(const StylusMotion& motion) {
   const ToolKind& kind = kindOf(motion.mode);
-  const bool rests = kind.closes && motion.opens_from_rad == motion.opens_to_rad;
+  const bool rests = kind.closes && motion.opens_from_rad <= motion.opens_to_rad;
   return rests ? kind.effects & ~uint32_t{kCuts} : kind.effects;
 }
 

@@ -9,7 +9,7 @@
 
 namespace viscera {
 
-/// What a stylus does to tissue in a tick, of ToolEffect: scissors that do not move cut nothing.
+/// What a stylus does to tissue in a tick, of ToolEffect: scissors that do not close cut nothing.
 uint32_t effectsOf(const StylusMotion& motion);
 
 /// ToolMotion.info of a mode: its number, and what it does to tissue (ToolEffect).

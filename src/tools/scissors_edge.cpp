@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/scene/tool_kinds.h"
+
 namespace viscera {
 
 namespace {
-
-constexpr double kClosed_rad = 0.03;  // the tips cross: edges lie 0.2 mm off the pivot of blades of 12 mm
 
 void write(const Vector3d& from, layout::vec4& to) {
   to.x = static_cast<float>(from.x());
@@ -20,12 +20,7 @@ void write(const Vector3d& from, layout::vec4& to) {
 }  // namespace
 
 Scissors scissorsOf(const ScissorsConfig& config) {
-  return {config.blade_length_m, kClosed_rad};
-}
-
-double openingOf(const ScissorsConfig& config, double closed) {
-  const double open_rad = std::max(config.opening_deg * M_PI / 180, kClosed_rad);
-  return open_rad + closed * (kClosed_rad - open_rad);
+  return {config.blade_length_m, kClosedBlades_rad};
 }
 
 double crossing_m(const Scissors& scissors, double opening_rad) {

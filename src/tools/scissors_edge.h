@@ -16,8 +16,6 @@ struct Scissors {
 };
 
 Scissors scissorsOf(const ScissorsConfig& config);
-/// @param closed  0: open, 1: closed   @returns rad
-double openingOf(const ScissorsConfig& config, double closed);
 
 /// How far from the pivot the edges cross [m], up to length_m: e / sin(opening / 2), e as in Scissors.
 double crossing_m(const Scissors& scissors, double opening_rad);

@@ -15,8 +15,9 @@ namespace {
 constexpr double kFarthest_m = 100;      ///< as of way-points
 constexpr double kUnitTolerance = 1e-6;  ///< of a quaternion's length: it is stepped as it is, not normalised
 constexpr const char* kAccepted =
-    "a sample is: tick x y z qx qy qz qw button1 button2, with a tick from 1 on that is greater than the one before, "
-    "-100 .. 100 m, a quaternion of length 1, buttons 0 or 1";
+    "a sample is: tick x y z qx qy qz qw button1 button2, and of jaws their opening, with a tick from 1 on that is "
+    "greater than the one before, "
+    "-100 .. 100 m, a quaternion of length 1, buttons 0 or 1, an opening of 0 .. 3.1416 rad";
 
 /// One line. @returns whether it is a sample
 bool read(std::istringstream& in, Stroke::Sample& sample) {
@@ -25,8 +26,12 @@ bool read(std::istringstream& in, Stroke::Sample& sample) {
   in >> sample.tick;
   for (double& value : at) in >> value;
   in >> button1 >> button2;
-  std::string rest;
-  if (in.fail() || in >> rest) return false;
+  if (in.fail()) return false;
+  if (in >> std::ws; !in.eof()) {
+    in >> sample.jaw_rad;
+    std::string rest;
+    if (in.fail() || !(sample.jaw_rad >= 0 && sample.jaw_rad <= kWidestJaw_rad) || in >> rest) return false;
+  }
   sample.pose.position_m = {at[0], at[1], at[2]};
   sample.pose.orientation = Quaterniond(at[6], at[3], at[4], at[5]);
   sample.button1 = button1 == 1;
@@ -45,7 +50,9 @@ std::string sampleLine(const Stroke::Sample& sample) {
   const Quaterniond& q = sample.pose.orientation;
   out << sample.tick;
   for (const double value : {p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w()}) out << ' ' << value;
-  out << ' ' << sample.button1 << ' ' << sample.button2 << '\n';
+  out << ' ' << sample.button1 << ' ' << sample.button2;
+  if (sample.jaw_rad >= 0) out << ' ' << sample.jaw_rad;
+  out << '\n';
   return out.str();
 }
 

@@ -9,8 +9,8 @@
 
 namespace viscera {
 
-/// A sample as a line of text: tick, position [m], orientation x y z w, buttons; so many digits that the same doubles
-/// are read back.
+/// A sample as a line of text: tick, position [m], orientation x y z w, buttons, the opening of jaws if it is known
+/// [rad]; so many digits that the same doubles are read back.
 std::string sampleLine(const Stroke::Sample& sample);
 
 /// Samples as such lines.

@@ -27,6 +27,7 @@ struct FileKey {
   Vector3d position_m = Vector3d::Zero();
   Vector3d rotation_deg = Vector3d::Zero();
   bool button1 = false, button2 = false;
+  double jaw_rad = kNoJaw;
 };
 struct FileAnchor {
   Vector3d from_m = Vector3d::Zero(), towards_m = Vector3d::Zero();
@@ -61,6 +62,7 @@ void visitFields(YamlReader& v, FileKey& c) {
   v.vector("rotation_deg", c.rotation_deg, {-360, 360}, "deg", "turns about the fixed x, then y, then z axis");
   v.boolean("button1", c.button1, "");
   v.boolean("button2", c.button2, "");
+  v.number("jaw_rad", c.jaw_rad, {0, kWidestJaw_rad}, "rad", "opening of the tool's jaws, in place of a button");
 }
 
 void visitFields(YamlReader& v, FileAnchor& c) {
@@ -125,7 +127,8 @@ Stroke checked(const FileStroke& file, size_t index, const std::string& name) {
                          "]: 't_s' must be greater than that of the key before, " + numberText(file.keys[k - 1].t_s) +
                          " s; found " + numberText(key.t_s));
     }
-    stroke.keys.push_back({key.t_s, {key.position_m, rotationFromDegrees(key.rotation_deg)}, key.button1, key.button2});
+    stroke.keys.push_back(
+        {key.t_s, {key.position_m, rotationFromDegrees(key.rotation_deg)}, key.button1, key.button2, key.jaw_rad});
   }
   return stroke;
 }
@@ -135,7 +138,7 @@ StylusSample sampleOf(const Stroke& stroke, uint64_t tick) {
   const auto found = std::lower_bound(stroke.samples.begin(), stroke.samples.end(), tick,
                                       [](const Stroke::Sample& sample, uint64_t t) { return sample.tick < t; });
   if (found == stroke.samples.end() || found->tick != tick) return {};
-  return {true, found->pose, found->button1, found->button2};
+  return {true, found->pose, found->button1, found->button2, found->jaw_rad};
 }
 
 StylusSample sampleAt(const Stroke& stroke, double time_s) {
@@ -144,10 +147,13 @@ StylusSample sampleAt(const Stroke& stroke, double time_s) {
   if (after == stroke.keys.begin()) return {};
   const Stroke::Key& last = *(after - 1);
   Pose pose = last.pose;
+  double jaw_rad = last.jaw_rad;
   if (after != stroke.keys.end()) {
-    pose = interpolate(last.pose, after->pose, (time_s - last.time_s) / (after->time_s - last.time_s));
+    const double share = (time_s - last.time_s) / (after->time_s - last.time_s);
+    pose = interpolate(last.pose, after->pose, share);
+    if (jaw_rad >= 0 && after->jaw_rad >= 0) jaw_rad += share * (after->jaw_rad - jaw_rad);
   }
-  return {true, pose, last.button1, last.button2};
+  return {true, pose, last.button1, last.button2, static_cast<float>(jaw_rad)};
 }
 
 }  // namespace

@@ -76,8 +76,9 @@ styluses:
     cut_particles: {eraser_radius_m: 0.0064}
     suction: {radius_m: 0.0066, max_force_n: 6.7, release_speed_m_per_s: 0.651}
     scissors: {blade_length_m: 0.0161, opening_deg: 41.7, closing_s: 0.671}
-    grasper: {radius_m: 0.0067, max_force_n: 6.71, release_speed_m_per_s: 0.652}
+    grasper: {radius_m: 0.0067, jaw_length_m: 0.0171, opening_deg: 41, max_force_n: 6.71, release_speed_m_per_s: 0.652}
     clip: {jaw_length_m: 0.0162, opening_m: 0.0163, width_m: 0.0021, gap_m: 0.00061, force_n: 6.72, magazine: 17}
+    jaw_closing_s: 0.31
     max_force_n: 6.6
     max_force_rate_n_per_s: 670
     max_torque_nm: 0.67
@@ -261,8 +262,11 @@ TEST(SceneKeys, EveryOtherKeyReachesItsField) {
   EXPECT_EQ(stylus.scissors.opening_deg, 41.7);
   EXPECT_EQ(stylus.scissors.closing_s, 0.671);
   EXPECT_EQ(stylus.grasper.radius_m, 0.0067);
+  EXPECT_EQ(stylus.grasper.jaw_length_m, 0.0171);
+  EXPECT_EQ(stylus.grasper.opening_deg, 41);
   EXPECT_EQ(stylus.grasper.max_force_n, 6.71);
   EXPECT_EQ(stylus.grasper.release_speed_m_per_s, 0.652);
+  EXPECT_EQ(stylus.jaw_closing_s, 0.31);
   EXPECT_EQ(stylus.clip.jaw_length_m, 0.0162);
   EXPECT_EQ(stylus.clip.opening_m, 0.0163);
   EXPECT_EQ(stylus.clip.width_m, 0.0021);

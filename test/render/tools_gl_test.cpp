@@ -83,6 +83,27 @@ TEST_F(ToolsGl, ActingPartsAreDrawnInTheirTrueSize) {
   EXPECT_NEAR(reach_px(ToolMode::kCutParticles), 0.035 * pixelsPerMetre(), kWithin_px);
 }
 
+TEST_F(ToolsGl, FingersStandAsFarOpenAsTheMotionSays) {
+  constexpr double kLength_m = 0.03, kOpening_rad = 0.8;
+  constexpr int kTip_px = 3;  // above the tips, which are pointed
+  styluses_[0].grasper.jaw_length_m = kLength_m;
+  styluses_[0].grasper.radius_m = 1e-4;  // the sphere of its reach hides nothing
+  ToolMotions motions = tool(ToolMode::kGrasper);
+  motions[0].to.orientation = Quaterniond::Identity();  // they open across the picture
+  const auto drawnAt = [&](double opening_rad, double half_rad) {
+    motions[0].opens_to_rad = opening_rad;
+    const Image image = draw(nothing_, motions);
+    const double x_px = kLength_m * std::sin(half_rad) * pixelsPerMetre();
+    const double z_px = kLength_m * (1 - std::cos(half_rad)) * pixelsPerMetre();
+    return image.drawn(image.width / 2 + static_cast<int>(std::lround(x_px)),
+                       image.height / 2 - static_cast<int>(std::lround(z_px)) - kTip_px);
+  };
+  EXPECT_TRUE(drawnAt(0, 0));
+  EXPECT_FALSE(drawnAt(0, 0.5 * kOpening_rad));
+  for (const double side : {-0.5, 0.5}) EXPECT_TRUE(drawnAt(kOpening_rad, side * kOpening_rad)) << side;
+  EXPECT_FALSE(drawnAt(kOpening_rad, 0));
+}
+
 TEST_F(ToolsGl, TissueHidesWhatIsBehindItAndShinesThroughAGrabOutline) {
   const GpuMesh square = squareMesh(0.1f, {0, -1, 0});
   const Image tissue = draw(square.view());

@@ -24,7 +24,7 @@ Scene recordedScene() {
   scene.environment.gravity_m_per_s2 = Vector3d(0, 0, -9.81);
   scene.solver.backend = Backend::kCpu;
   scene.solver.threads = 1;
-  scene.styluses[1].button1 = ToolMode::kGrab;
+  scene.styluses[1].button1 = ToolMode::kGrasper;
   ObstacleConfig ball;
   ball.name = "ball";
   ball.shape = ObstacleShape::kSphere;
@@ -34,10 +34,11 @@ Scene recordedScene() {
   return scene;
 }
 
-/// Cuts, and pulls with the other hand.
+/// Cuts, and pulls with the other hand, whose jaws close and open.
 StylusSamples handsAt(int tick) {
   StylusSamples samples = cut(tick % kCutTicks + 1);
   if (tick > 2) samples[1] = {true, {{0.012, 0.006, kHalfM + 0.0004 * (tick % 20)}, Quaterniond::Identity()}, true};
+  samples[1].jaw_rad = 0.7F - 0.03F * static_cast<float>(tick % 20);
   return samples;
 }
 

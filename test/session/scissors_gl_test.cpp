@@ -49,6 +49,25 @@ TEST_P(ScissorsSession, CutNoFartherThanTheirMouthIsWide) {
   EXPECT_GT(few, 0U);
   EXPECT_GT(many, 2 * few);
 }
+
+TEST_P(ScissorsSession, CutAsFarAsAHandClosesThemAndNothingAsItOpensThem) {
+  Scene scene = scissorsScene();
+  scene.styluses[0].idle = ToolMode::kScissors;
+  Session session(scene, context_);
+  const auto cut = [&](double from_rad, double to_rad) {
+    for (int t = 1; t <= 10; ++t) {
+      StylusSamples samples = at(0, false);
+      samples[0].jaw_rad = static_cast<float>(from_rad + (to_rad - from_rad) * t / 10);
+      session.step(samples, {});
+    }
+    return session.drain().stats.springs_cut;
+  };
+  EXPECT_EQ(cut(0.65, 0.65), 0U);
+  const uint32_t part = cut(0.65, 0.05);
+  EXPECT_GT(part, 0U);
+  EXPECT_EQ(cut(0.05, 0.65), part);
+  EXPECT_GT(cut(0.65, 0.03), part) << "the rest of the blades";
+}
 VISCERA_ON_EVERY_BACKEND(ScissorsSession);
 
 }  // namespace

@@ -199,7 +199,8 @@ TEST(RecordedStrokes, ComeBackToTheBit) {
   for (uint64_t tick = 1; tick <= 300; ++tick) {
     const Vector3d place(anywhere(random), 1e-9 * anywhere(random), 1e-310 * anywhere(random));
     const Quaterniond turn = Quaterniond(anywhere(random), anywhere(random), anywhere(random), anywhere(random));
-    was.strokes[0].samples.push_back({tick, {place, turn.normalized()}, tick % 3 == 0, tick % 2 == 0});
+    const float jaw_rad = tick % 5 == 0 ? kNoJaw : static_cast<float>(std::abs(anywhere(random)));
+    was.strokes[0].samples.push_back({tick, {place, turn.normalized()}, tick % 3 == 0, tick % 2 == 0, jaw_rad});
   }
   const Strokes is = parseStrokes(strokesYaml(was), "f.yaml");
   EXPECT_EQ(is.tick_hz, was.tick_hz);
@@ -218,6 +219,27 @@ TEST(RecordedStrokes, ComeBackToTheBit) {
     EXPECT_EQ(a.pose.orientation.coeffs(), b.pose.orientation.coeffs());
     EXPECT_EQ(a.button1, b.button1);
     EXPECT_EQ(a.button2, b.button2);
+    EXPECT_EQ(a.jaw_rad, b.jaw_rad);
+  }
+}
+
+TEST(Strokes, JawsGoEvenlyBetweenKeysThatTellThemAndAreUnknownElsewhere) {
+  const std::string keys =
+      "strokes:\n  - stylus: left\n    keys:\n      - {t_s: 0, jaw_rad: 0.6}\n      - {t_s: 1, jaw_rad: 0.2}\n"
+      "      - {t_s: 2}\n      - {t_s: 3}\n";
+  const Strokes strokes = parseStrokes(keys, "f.yaml");
+  std::vector<StylusConfig> styluses(1);
+  styluses[0].name = "left";
+  EXPECT_FLOAT_EQ(strokes.at(0.25, styluses)[0].jaw_rad, 0.5F);
+  EXPECT_FLOAT_EQ(strokes.at(1.5, styluses)[0].jaw_rad, 0.2F);
+  EXPECT_EQ(strokes.at(2.5, styluses)[0].jaw_rad, kNoJaw);
+  const Strokes again = parseStrokes(strokesYaml(strokes), "f.yaml");
+  EXPECT_FLOAT_EQ(again.at(0.25, styluses)[0].jaw_rad, 0.5F);
+  try {
+    parseStrokes("strokes:\n  - stylus: left\n    keys:\n      - {t_s: 0, jaw_rad: 4}\n", "f.yaml");
+    FAIL() << "no jaw opens so far";
+  } catch (const StrokesError& error) {
+    EXPECT_NE(std::string(error.what()).find("jaw_rad"), std::string::npos) << error.what();
   }
 }
 
@@ -230,7 +252,10 @@ TEST(RecordedStrokes, BadLinesAreRefusedWithTheirNumber) {
   EXPECT_TRUE(says(recordedRefusal("3 0.2", "2 0.2"), {"f.yaml:8: ", "greater than the one before"}));
   EXPECT_TRUE(says(recordedRefusal("1 1 0\n", "1 2 0\n"), {"f.yaml:8: ", "buttons 0 or 1"}));
   EXPECT_TRUE(says(recordedRefusal("1 0 1\n", "0.9 0 1\n"), {"f.yaml:9: ", "length 1"}));
-  EXPECT_TRUE(says(recordedRefusal("1 0 1\n", "1 0 1 0\n"), {"f.yaml:9: "}));
+  EXPECT_TRUE(says(recordedRefusal("1 0 1\n", "1 0 1 4\n"), {"f.yaml:9: ", "0 .. 3.1416 rad"}));
+  EXPECT_TRUE(says(recordedRefusal("1 0 1\n", "1 0 1 -1\n"), {"f.yaml:9: "}));
+  EXPECT_TRUE(says(recordedRefusal("1 0 1\n", "1 0 1 nan\n"), {"f.yaml:9: "}));
+  EXPECT_TRUE(says(recordedRefusal("1 0 1\n", "1 0 1 0 0\n"), {"f.yaml:9: "}));
 }
 
 TEST(RecordedStrokes, WhatDoesNotFitIsRefused) {

@@ -75,6 +75,8 @@ struct Frame : Pictures {
   uint64_t tick = 0;
   std::array<Reaction, layout::kMaxStyluses> reactions;
   std::array<SteadyTime, layout::kMaxStyluses> poses_received{};  ///< of the poses that the reactions answer; 0: none
+  /// With which what is between the jaws of each stylus keeps them open, about their pivot [N m].
+  std::array<double, layout::kMaxStyluses> jaw_moments_nm{};
   /// The way of each tip, and what it met, in the tick that `stats` is of; kFree where it is not tracked.
   std::array<TickContact, layout::kMaxStyluses> contacts;
   layout::TickStats stats{};

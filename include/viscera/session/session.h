@@ -155,6 +155,9 @@ class Session {
   void lookAtArrows();
   static bool feels(const ToolMotions& motions);
   void heedFeeling(Frame& frame);
+  void heedPulls(const Frame& frame);
+  std::optional<Between> between(size_t stylus, const StylusMotion& motion, double mouth_rad) const;
+  double jawMoment_nm(size_t stylus, const Reaction& raw) const;
   void notePoses(const StylusSamples& samples);
   PoseTimes posesOf(uint64_t tick) const;
   void collect(Frame& frame, bool wait);
@@ -174,6 +177,7 @@ class Session {
   layout::TickStats stats_{};
   std::array<Reaction, layout::kMaxStyluses> reactions_;
   std::array<TickContact, layout::kMaxStyluses> contacts_;
+  std::array<double, layout::kMaxStyluses> jaw_moments_nm_{};
   std::vector<Reaction> obstacle_forces_;  ///< [obstacles]
   Extremes extremes_;
   bool has_stats_ = false;

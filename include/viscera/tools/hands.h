@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "viscera/tools/jaws.h"
 #include "viscera/tools/stylus.h"
 
 namespace viscera {
@@ -27,7 +28,15 @@ struct HandLimits {
 class Tools {
  public:
   explicit Tools(const std::vector<StylusConfig>& styluses, const HandLimits& limits = {});
-  ToolMotions advance(const StylusSamples& samples);
+  /// @param between  what jaws close on; without it they have met tissue wherever they are
+  ToolMotions advance(const StylusSamples& samples, const FeelTissue& between = {});
+  /// The motions of what tools hold: tissue slides in jaws.
+  ToolMotions ofHeld(const ToolMotions& motions) const;
+  const Fingers& fingers(size_t stylus) const { return fingers_[stylus]; }
+  /// Some jaws hold what slides in them: pulled() is due, once the forces of the tick are known.
+  bool grips(const ToolMotions& motions) const;
+  /// @param force_n  of the tissue on a tool in the last tick, tissue frame
+  void pulled(size_t stylus, const StylusMotion& motion, const Vector3d& force_n);
   /// In the tick of the last motions nothing was within the radius in which a stylus feels: it may push from now on.
   void foundOutside(size_t stylus) { inside_[stylus] = false; }
   /// What a stylus does from the next tick on with no button pressed, or while one is. What it holds in another mode is
@@ -38,11 +47,12 @@ class Tools {
   void reset();
   /// Modes too.
   void persist(Archive& archive);
+  void persistFingers(Archive& archive);  ///< what persist() did not have at first
   const std::vector<StylusConfig>& configs() const { return configs_; }
 
  private:
   void changeMode(size_t stylus, StylusMotion& motion);
-  void close(size_t stylus, StylusMotion& motion);
+  void close(size_t stylus, float told_rad, const FeelTissue& between, StylusMotion& motion);
   void holdBack(StylusMotion& motion) const;
   void feel(size_t stylus, StylusMotion& motion) const;
 
@@ -52,7 +62,7 @@ class Tools {
   std::array<ToolMode, layout::kMaxStyluses> mode_{};
   std::array<bool, layout::kMaxStyluses> inside_{};     ///< may be: it has appeared and was not found outside yet
   std::array<bool, layout::kMaxStyluses> forgotten_{};  ///< what it does begins again
-  std::array<double, layout::kMaxStyluses> closed_{};   ///< by how much of their opening blades have closed, 0 .. 1
+  std::array<Fingers, layout::kMaxStyluses> fingers_;
 };
 
 }  // namespace viscera

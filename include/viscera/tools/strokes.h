@@ -24,12 +24,14 @@ struct Stroke {
     double time_s;
     Pose pose;
     bool button1, button2;
+    double jaw_rad = kNoJaw;  ///< as StylusSample::jaw_rad; between keys that both have one it is interpolated
   };
   /// What a simulation took from a hand in a tick, as it was recorded: replayed to the bit.
   struct Sample {
     uint64_t tick = 0;  ///< from 1 on
     Pose pose;
     bool button1 = false, button2 = false;
+    float jaw_rad = kNoJaw;  ///< as StylusSample::jaw_rad
   };
   std::string stylus;     ///< name of a stylus of the scene
   std::vector<Key> keys;  ///< times strictly increasing; empty where there are samples

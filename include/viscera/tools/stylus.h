@@ -11,14 +11,20 @@
 
 namespace viscera {
 
-/// The latest that is known of one stylus: tip pose in the tissue frame, buttons. The shaft points along -z of the
-/// stylus frame (away from the tip is +z); a blade lies on this axis, where `cut.blade_side` says.
+/// Of StylusSample::jaw_rad: no device tells how far the jaws are open, buttons close them.
+constexpr float kNoJaw = -1;
+/// They open no farther than half a turn [rad].
+constexpr double kWidestJaw_rad = 3.1416;
+
+/// The latest that is known of one stylus: tip pose in the tissue frame, buttons, jaws. The shaft points along -z of
+/// the stylus frame (away from the tip is +z); a blade lies on this axis, where `cut.blade_side` says.
 struct StylusSample {
   bool valid = false;  ///< false until a first pose has come, and again when the pose is stale
   Pose pose;
   bool button1 = false;
   bool button2 = false;
-  SteadyTime received{};  ///< when the pose came, for the measurement of delays; 0 where not looked at
+  float jaw_rad = kNoJaw;  ///< opening between two fingers that a device has, 0 .. kWidestJaw_rad
+  SteadyTime received{};   ///< when the pose came, for the measurement of delays; 0 where not looked at
 };
 using StylusSamples = std::array<StylusSample, layout::kMaxStyluses>;
 
@@ -29,6 +35,7 @@ enum class ToolSwitch { kIdle, kButton1, kButton2 };
 struct StylusMotion {
   ToolMode mode = ToolMode::kNone;
   bool present = false;  ///< a valid pose is known, whatever the mode
+  float mouth_rad = 0;   ///< of jaws that close: their opening when this closing began
   Pose from, to;
   bool hold_begins = false;  ///< this tick is the first of a mode that holds
   ToolMode hold_ended =
@@ -36,7 +43,7 @@ struct StylusMotion {
   /// > 0: the stylus appeared and has not been outside of tissue since. It pushes nothing, and feels for tissue within
   /// this radius [m].
   double feels_m = 0;
-  /// Of blades that close: their opening [rad] at the start and the end of the tick; equal: they do not.
+  /// Of tools with jaws: their opening [rad] at the start and the end of the tick.
   double opens_from_rad = 0, opens_to_rad = 0;
   bool held_back = false;  ///< the tip was faster than tissue can follow: `to` lags behind the pose, and catches up
 };

@@ -73,8 +73,11 @@ void visitFields(V& v, ScissorsConfig& c) {
 template <class V>
 void visitFields(V& v, GrasperConfig& c) {
   v.number("radius_m", c.radius_m, kTipReach, "m", "nodes within this distance of the tip are between the jaws");
+  v.number("jaw_length_m", c.jaw_length_m, kTipReach, "m",
+           "from the pivot, which is behind the tips, to these; what has slid so far is lost");
+  v.number("opening_deg", c.opening_deg, {5, 120}, "deg", "from jaw to jaw, when they are open: along x of the stylus");
   v.number("max_force_n", c.max_force_n, {0, 1e3}, "N",
-           "friction of the jaws: what they hold slips out of them after a tick whose reaction force is larger");
+           "friction of the jaws: above this what they hold slides in them");
   v.number("release_speed_m_per_s", c.release_speed_m_per_s, kReleaseSpeed, "m/s", "largest node speed after release");
 }
 
@@ -103,7 +106,9 @@ void visitFields(V& v, StylusConfig& c) {
   v.group("suction", c.suction, "suction: holds the nodes around the tip as grab does, up to a force");
   v.group("scissors", c.scissors, "scissors: two blades that close when they begin and cut what is between them");
   v.group("grasper", c.grasper, "grasper: two jaws hold the nodes around the tip, up to their friction");
-  v.group("clip", c.clip, "clip: when it begins, two jaws set a clip on what is between them");
+  v.group("clip", c.clip, "clip: two jaws that have closed set a clip on what is between them");
+  v.number("jaw_closing_s", c.jaw_closing_s, {0.02, 10}, "s",
+           "time from open to closed of jaws that a button closes, but for scissors");
   v.number("max_force_n", c.max_force_n, {0, 1e3}, "N", "reaction force is saturated here");
   v.number("max_force_rate_n_per_s", c.max_force_rate_n_per_s, {1, 1e6}, "N/s", "reaction force changes no faster");
   v.number("max_torque_nm", c.max_torque_nm, {0, 1e2}, "N m", "reaction torque is saturated here");

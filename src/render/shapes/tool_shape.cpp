@@ -19,9 +19,8 @@ constexpr uint8_t kOutlineAlpha = 150;
 constexpr float kShaftLength = kShaftLength_m, kShaftRadius = kShaftRadius_m, kTipRadius = 0.0006f;
 constexpr float kTaperEnd = 0.030f;
 constexpr float kCollarGap = 0.004f, kCollarLength = 0.008f, kCollarRadius = 0.0036f;
-constexpr float kShortestShaft = 0.03f;  // of what is held, behind a blade however long
-constexpr float kHinge = 0.014f;         // where the jaws of a grasper meet the shaft
-constexpr float kJawSplay = 0.22f;       // of each jaw from the axis [rad]
+constexpr float kShortestShaft = 0.03f;                            // of what is held, behind a blade however long
+constexpr float kFingerHalf = 0.0007f, kFingerHalfWide = 0.0014f;  // of a finger, along x and y
 constexpr float kQuarterTurn = static_cast<float>(M_PI / 2);
 
 Color colorOf(const ToolKind& kind, uint8_t alpha = 255) {
@@ -44,16 +43,6 @@ void addShaft(float from_z, const Color& collar, ToolShape& shape) {
           .line(kCollarRadius, collar_from, kCollarRadius, collar_from + kCollarLength)
           .line(kCollarRadius, collar_from + kCollarLength, kShaftRadius, collar_from + kCollarLength + 0.001f);
   addLathe(ring, Eigen::Affine3f::Identity(), collar, shape);
-}
-
-/// @param splay  of each from the axis [rad]
-void addJaws(float hinge, float splay, const Color& color, ToolShape& shape) {
-  for (float side : {-1.0f, 1.0f}) {
-    Eigen::Affine3f jaw = Eigen::Affine3f::Identity();
-    jaw.translate(Vector3f(0, 0, hinge)).rotate(Eigen::AngleAxisf(-side * splay, Vector3f::UnitY()));
-    jaw.translate(Vector3f(0, 0, -hinge / 2)).scale(Vector3f(0.0007f, 0.0014f, hinge / 2));
-    addLathe(sphereProfile(1), jaw, color, shape);
-  }
 }
 
 /// A blade is a lathe pressed flat: wide along y, its point at the low end.
@@ -87,18 +76,9 @@ void addCup(float radius, const Color& color, ToolShape& shape) {
   addLathe(bell, Eigen::Affine3f::Identity(), color, shape);
 }
 
-/// As they are drawn, open.
-float halfOpening(const ScissorsConfig& config) {
-  return static_cast<float>(config.opening_deg * M_PI / 360);
-}
-
 /// Where the shaft begins: behind what acts.
 float shaftStart(const StylusConfig& stylus, const ToolKind& kind) {
-  if (kind.tip == ToolTip::kJaws) return kHinge;
-  if (kind.tip == ToolTip::kScissors)
-    return std::min(static_cast<float>(stylus.scissors.blade_length_m), kShaftLength - kShortestShaft);
-  if (kind.tip == ToolTip::kApplier)
-    return std::min(static_cast<float>(stylus.clip.jaw_length_m), kShaftLength - kShortestShaft);
+  if (kind.jaws) return std::min(static_cast<float>(kind.jaws(stylus).length_m), kShaftLength - kShortestShaft);
   if (kind.tip != ToolTip::kBlade) return 0;
   return std::min(static_cast<float>(bladeSpan(stylus.cut).high_m), kShaftLength - kShortestShaft);
 }
@@ -109,19 +89,10 @@ void addTip(const StylusConfig& stylus, const ToolKind& kind, ToolShape& shape) 
   const Color color = colorOf(kind);
   switch (kind.tip) {
     case ToolTip::kBare:
+    case ToolTip::kJaws:
       break;
     case ToolTip::kBall:
       addLathe(sphereProfile(reach), Eigen::Affine3f::Identity(), color, shape);
-      break;
-    case ToolTip::kJaws:
-      addJaws(kHinge, kJawSplay, color, shape);
-      break;
-    case ToolTip::kScissors:
-      addJaws(static_cast<float>(stylus.scissors.blade_length_m), halfOpening(stylus.scissors), color, shape);
-      break;
-    case ToolTip::kApplier:
-      addJaws(static_cast<float>(stylus.clip.jaw_length_m),
-              static_cast<float>(std::atan2(0.5 * stylus.clip.opening_m, stylus.clip.jaw_length_m)), color, shape);
       break;
     case ToolTip::kBlade:
       addBlade(bladeSpan(stylus.cut), color, shape);
@@ -137,7 +108,7 @@ void addTip(const StylusConfig& stylus, const ToolKind& kind, ToolShape& shape) 
 
 }  // namespace
 
-ToolShape toolShape(const StylusConfig& stylus, ToolMode mode) {
+ToolShape toolWithoutFingers(const StylusConfig& stylus, ToolMode mode) {
   const ToolKind& kind = kindOf(mode);
   ToolShape shape;
   addShaft(shaftStart(stylus, kind), colorOf(kind), shape);
@@ -147,6 +118,48 @@ ToolShape toolShape(const StylusConfig& stylus, ToolMode mode) {
     const float reach = static_cast<float>(kind.reach_m(stylus));
     addLathe(sphereProfile(reach), Eigen::Affine3f::Identity(), colorOf(kind, kOutlineAlpha), shape);
   }
+  return shape;
+}
+
+ToolShape fingerShape(const StylusConfig& stylus, ToolMode mode) {
+  const ToolKind& kind = kindOf(mode);
+  ToolShape shape;
+  if (!kind.jaws) return shape;
+  const float half = static_cast<float>(kind.jaws(stylus).length_m) / 2;
+  Eigen::Affine3f placement = Eigen::Affine3f::Identity();
+  placement.translate(Vector3f(kFingerHalf, 0, half)).scale(Vector3f(kFingerHalf, kFingerHalfWide, half));
+  addLathe(sphereProfile(1), placement, colorOf(kind), shape);
+  shape.solid_indices = shape.indices.size();
+  return shape;
+}
+
+std::array<Pose, 2> fingerPoses(const StylusConfig& stylus, ToolMode mode, double opening_rad) {
+  const Vector3d pivot(0, 0, kindOf(mode).jaws ? kindOf(mode).jaws(stylus).length_m : 0);
+  const Quaterniond over(Eigen::AngleAxisd(M_PI, Vector3d::UnitZ()));
+  const auto finger = [&](double half_rad, const Quaterniond& side) {
+    const Quaterniond turn(Eigen::AngleAxisd(half_rad, Vector3d::UnitY()));
+    return Pose{pivot - turn * pivot, turn * side};
+  };
+  return {finger(-0.5 * opening_rad, Quaterniond::Identity()), finger(0.5 * opening_rad, over)};
+}
+
+ToolShape toolShape(const StylusConfig& stylus, ToolMode mode, double opening_rad) {
+  ToolShape shape = toolWithoutFingers(stylus, mode);
+  const ToolShape finger = fingerShape(stylus, mode);
+  std::vector<uint32_t> turned;
+  for (const Pose& pose : fingerPoses(stylus, mode, opening_rad)) {
+    const auto first = static_cast<uint32_t>(shape.vertices.size());
+    for (ToolVertex vertex : finger.vertices) {
+      Eigen::Map<Vector3f> at(vertex.position_m.data()), normal(vertex.normal.data());
+      at = (pose * at.cast<double>()).cast<float>();
+      normal = (pose.orientation * normal.cast<double>()).cast<float>();
+      shape.vertices.push_back(vertex);
+    }
+    for (const uint32_t index : finger.indices) turned.push_back(first + index);
+  }
+  const auto behind_solid = shape.indices.begin() + static_cast<std::ptrdiff_t>(shape.solid_indices);
+  shape.indices.insert(behind_solid, turned.begin(), turned.end());
+  shape.solid_indices += turned.size();
   return shape;
 }
 

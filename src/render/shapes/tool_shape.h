@@ -31,6 +31,14 @@ struct ToolShape {
 /// What a person sees of a stylus in a mode: a shaft from the tip backwards (+z), a collar in the mode's colour, and
 /// what acts on tissue in its true size: the probe's sphere, jaws, the blade, the capsule of the particle eraser;
 /// around the tip of a tool that holds, the sphere of its reach. kNone is the shaft alone. See kToolKinds.
-ToolShape toolShape(const StylusConfig& stylus, ToolMode mode);
+/// @param opening_rad  from finger to finger, of tools with jaws: StylusMotion::opens_to_rad
+ToolShape toolShape(const StylusConfig& stylus, ToolMode mode, double opening_rad = 0);
+
+/// The same without its fingers, which move; and one finger, that towards +x, as it lies along the axis when they are
+/// closed.
+ToolShape toolWithoutFingers(const StylusConfig& stylus, ToolMode mode);
+ToolShape fingerShape(const StylusConfig& stylus, ToolMode mode);
+/// Where the two fingers are, in the stylus frame.
+std::array<Pose, 2> fingerPoses(const StylusConfig& stylus, ToolMode mode, double opening_rad);
 
 }  // namespace viscera

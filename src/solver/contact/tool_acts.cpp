@@ -42,7 +42,7 @@ void changeGrip(const Hand& hand) {
 /// Nothing is held again until a new hold begins.
 void letGoAboveLimit(const Hand& hand) {
   const ToolKind& kind = kindOf(hand.motion.mode);
-  if (!kind.grip) return;
+  if (!kind.grip || kind.grips) return;
   const Grip grip = kind.grip(hand.config);
   if (!std::isfinite(grip.max_force_n)) return;
   hand.target.letGo(hand.stylus, {grip.release_speed_m_per_s, grip.max_force_n * hand.tick_s});

@@ -20,6 +20,7 @@ constexpr int kSweeps = 2;                // over the pairs: nodes are in severa
 constexpr double kCloses = 0.2;           // of what is missing, in a substep
 constexpr double kCloses_m_per_s = 0.05;  // at most: as fast as a hand closes jaws
 constexpr double kOpens_m_per_s = 0.02;   // of sides that are too near: slow, as nothing takes that speed back
+constexpr double kClosedBelow_rad = 0.1;  // jaws that are so far open press a clip shut: as grippers, which stop there
 constexpr double kNearest_m = 1e-7;       // sides that are nearer have no direction
 constexpr double kColumn = 0.5;           // spacings, across the jaws' way: what is so near hides what is behind it
 constexpr double kFacing = 0.75;          // spacings, the same: nodes so near are of a column, also of turned lattices
@@ -38,7 +39,8 @@ Clips::Clips(const std::vector<StylusConfig>& styluses, const Model& model)
 
 void Clips::beginTick(const ToolMotions& motions) {
   for (size_t s = 0; s < styluses_.size(); ++s) {
-    const bool closed = motions[s].present && kindOf(motions[s].mode).clips;
+    const bool closed =
+        motions[s].present && kindOf(motions[s].mode).clips && motions[s].opens_to_rad <= kClosedBelow_rad;
     closes_[s] = closed && !closed_[s];
     closed_[s] = closed;
     jaws_[s] = motions[s].from;

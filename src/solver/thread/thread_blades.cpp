@@ -28,12 +28,12 @@ std::optional<MovedEdge> edgeOf(const StylusMotion& motion, const StylusConfig& 
     const BladeSpan span = bladeSpan(config.cut);
     return MovedEdge{{Vector3d(0, 0, span.low_m), Vector3d(0, 0, span.high_m)}, motion.from, motion.to};
   }
-  if (motion.opens_from_rad == motion.opens_to_rad) return std::nullopt;
+  if (motion.opens_from_rad <= motion.opens_to_rad) return std::nullopt;
   const Scissors scissors = scissorsOf(config.scissors);
   const auto crossing = [&](double opening_rad) {
     return Pose{Vector3d(0, 0, scissors.length_m - crossing_m(scissors, opening_rad)), Quaterniond::Identity()};
   };
-  const double half_m = scissors.length_m * std::tan(0.5 * openingOf(config.scissors, 0));
+  const double half_m = scissors.length_m * std::tan(0.5 * motion.mouth_rad);
   return MovedEdge{{Vector3d(-half_m, 0, 0), Vector3d(half_m, 0, 0)},
                    motion.from * crossing(motion.opens_from_rad),
                    motion.to * crossing(motion.opens_to_rad)};

@@ -80,6 +80,7 @@ TEST(ThreadBlades, ScissorsPartWhatIsBetweenThemAsTheyClose) {
     out[0].from.position_m = out[0].to.position_m = Vector3d(0.01, 0, -0.006);
     out[0].from.orientation = out[0].to.orientation =
         rotationFromDegrees({0, 0, 90});  // the thread is across the mouth
+    out[0].mouth_rad = 0.7F;
     out[0].opens_from_rad = from_rad;
     out[0].opens_to_rad = to_rad;
     return out;

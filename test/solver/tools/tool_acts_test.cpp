@@ -33,6 +33,7 @@ TEST(ToolActs, AskForCutsWhereBladesMayMeetSomethingOnly) {
   EXPECT_EQ(cuts(ToolMode::kScissors, kOpen_rad, 0), 1);
   EXPECT_EQ(cuts(ToolMode::kScissors, 0, 0), 0);
   EXPECT_EQ(cuts(ToolMode::kScissors, kOpen_rad, kOpen_rad), 0);
+  EXPECT_EQ(cuts(ToolMode::kScissors, 0, kOpen_rad), 0) << "as they open";
 }
 
 }  // namespace

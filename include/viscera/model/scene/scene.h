@@ -225,8 +225,10 @@ struct SuctionConfig {
 
 /// Two jaws, which hold what is between them by friction.
 struct GrasperConfig {
-  double radius_m = 0.005;  ///< of what is between them, around the tip
-  double max_force_n = 5;   ///< at more what they hold slips out of them
+  double radius_m = 0.005;      ///< of what is between them, around the tip
+  double jaw_length_m = 0.014;  ///< from the pivot to the tips; what has slid so far is lost
+  double opening_deg = 40;      ///< from jaw to jaw, when they are open
+  double max_force_n = 5;       ///< at more what they hold slides in them
   double release_speed_m_per_s = 0.5;
 };
 
@@ -255,6 +257,7 @@ struct StylusConfig {
   ScissorsConfig scissors;
   GrasperConfig grasper;
   ClipConfig clip;
+  double jaw_closing_s = 0.2;  ///< from open to closed, of jaws that a button closes
   double max_force_n = 5;
   double max_force_rate_n_per_s = 100;
   double max_torque_nm = 0.2;
