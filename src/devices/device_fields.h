@@ -47,13 +47,19 @@ void visitFields(V& v, ButtonPort& c) {
 
 template <class V>
 void visitFields(V& v, GripperPort& c) {
-  v.choice("presses", c.presses,
-           {{"none", PressedButton::kNone}, {"button1", PressedButton::kButton1}, {"button2", PressedButton::kButton2}},
-           "the button whose place it takes");
+  v.choice(
+      "presses", c.presses,
+      {{"none", PressedButton::kNone},
+       {"jaws", PressedButton::kJaws},
+       {"button1", PressedButton::kButton1},
+       {"button2", PressedButton::kButton2}},
+      "the button whose place it takes besides; jaws: none, it opens the tool's jaws alone; none: it is not heard");
   v.text("topic", c.topic, "sensor_msgs/JointState; of an arm: its jaw/servo_jp, which needs no topic");
   v.integer("index", c.index, kButtonIndex, "which joint");
   v.number("closed_below", c.closed_below, kJoint, "rad or m", "pressed below this");
   v.number("open_above", c.open_above, kJoint, "rad or m", "released above this");
+  v.number("rad_per_unit", c.rad_per_unit, {1e-3, 1e3}, "rad per rad or m",
+           "opening of the tool's jaws over the joint's position");
 }
 
 template <class V>
@@ -106,7 +112,7 @@ void visitFields(V& v, DeviceProfile& c) {
   v.group("button1", c.button1, "");
   v.group("button2", c.button2, "");
   v.group("clutch", c.clutch, "while it is pressed, the hand moves and the tool stays");
-  v.group("gripper", c.gripper, "closed is pressed");
+  v.group("gripper", c.gripper, "it opens and closes the tool's jaws");
   v.group("force", c.force, "what the hand is to feel");
   v.group("arm", c.arm, "of type crtk_arm");
 }

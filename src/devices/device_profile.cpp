@@ -70,7 +70,7 @@ void requireButton(const ButtonPort& button, const char* key, const std::string&
 
 void requireGripper(const DeviceProfile& device, const std::string& where) {
   const GripperPort& gripper = device.gripper;
-  if (gripper.presses == PressedButton::kNone) return;
+  if (gripper.presses == PressedButton::kNone || gripper.presses == PressedButton::kJaws) return;
   const bool first = gripper.presses == PressedButton::kButton1;
   if ((first ? device.button1 : device.button2).type != ButtonType::kNone)
     throw DeviceError(where + ": 'gripper.presses' and '" + (first ? "button1" : "button2") +

@@ -36,14 +36,15 @@ struct ButtonPort {
   int index = 0;  ///< which of those in the message
 };
 
-enum class PressedButton { kNone, kButton1, kButton2 };
-/// A gripper or a pair of jaws, which takes a button's place: closed is pressed.
+enum class PressedButton { kNone, kJaws, kButton1, kButton2 };
+/// A gripper or a pair of jaws: the tool's jaws open as far, and it may take a button's place, closed is pressed.
 struct GripperPort {
   PressedButton presses = PressedButton::kNone;
   std::string topic = "{stylus}/gripper/measured_js";  ///< sensor_msgs/JointState
   int index = 0;
   double closed_below = 0;  ///< joint position [rad or m]
   double open_above = 0.1;
+  double rad_per_unit = 1;  ///< opening of the tool's jaws per joint position
 };
 
 enum class ForceType { kNone, kWrenchStamped, kWrench, kOmniFeedback, kGeomagicFeedback };

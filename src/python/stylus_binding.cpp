@@ -3,9 +3,11 @@
 #include "python/stylus_binding.h"
 
 #include <cmath>
+#include <optional>
 #include <string>
 
 #include <pybind11/numpy.h>
+#include <pybind11/stl.h>
 
 namespace viscera::python {
 
@@ -32,12 +34,18 @@ void requireWithin(const double* values, int count, const char* what, double mos
   }
 }
 
-StylusSample makeSample(const Numbers& position_m, const Numbers& quaternion, bool button1, bool button2) {
+StylusSample makeSample(const Numbers& position_m, const Numbers& quaternion, bool button1, bool button2,
+                        const std::optional<double>& jaw_rad) {
   requireShape(position_m, 3, "position_m");
   requireShape(quaternion, 4, "quaternion");
   StylusSample out = sampleOf(position_m.data(), quaternion.data());
   out.button1 = button1;
   out.button2 = button2;
+  if (!jaw_rad) return out;
+  if (!(*jaw_rad >= 0 && *jaw_rad <= kWidestJaw_rad))
+    throw py::value_error("jaw_rad: wanted 0 .. " + std::to_string(kWidestJaw_rad) + "; found " +
+                          std::to_string(*jaw_rad));
+  out.jaw_rad = static_cast<float>(*jaw_rad);
   return out;
 }
 
@@ -65,8 +73,9 @@ void bindStylus(py::module_& module) {
                                          "Where a stylus is: the pose of its tip in the tissue frame, and its "
                                          "buttons. The shaft points along -z.");
   stylus.def(py::init(&makeSample), py::arg("position_m"), py::arg("quaternion") = numbers({0, 0, 0, 1}),
-             py::arg("button1") = false, py::arg("button2") = false,
-             "position_m: (3,) [m], -1000 .. 1000. quaternion: (4,) x, y, z, w of length 1.");
+             py::arg("button1") = false, py::arg("button2") = false, py::arg("jaw_rad") = py::none(),
+             "position_m: (3,) [m], -1000 .. 1000. quaternion: (4,) x, y, z, w of length 1. jaw_rad: how far the "
+             "tool's jaws are open [rad], 0 .. 3.1416; None: buttons close them.");
   stylus.def_property_readonly(
       "position_m",
       [](const StylusSample& s) {
@@ -82,6 +91,10 @@ void bindStylus(py::module_& module) {
       "(4,) float64 x, y, z, w; a copy.");
   stylus.def_readonly("button1", &StylusSample::button1);
   stylus.def_readonly("button2", &StylusSample::button2);
+  stylus.def_property_readonly(
+      "jaw_rad",
+      [](const StylusSample& s) { return s.jaw_rad < 0 ? std::optional<double>() : std::optional<double>(s.jaw_rad); },
+      "How far the jaws are open [rad], or None.");
 }
 
 StylusSamples samplesOf(const py::object& given, size_t styluses) {

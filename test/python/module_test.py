@@ -203,6 +203,13 @@ class MisuseTest(unittest.TestCase):
             with self.assertRaises(ValueError):
                 viscera.Stylus([0, 0, 0], wrong)
 
+    def test_jaws_are_open_by_an_angle_or_unknown(self):
+        self.assertIsNone(PRESSED.jaw_rad)
+        self.assertEqual(viscera.Stylus([0, 0, 0], jaw_rad=0.5).jaw_rad, 0.5)
+        for wrong in (-0.1, 4, float("nan")):
+            with self.assertRaises(ValueError):
+                viscera.Stylus([0, 0, 0], jaw_rad=wrong)
+
     def test_fuzz(self):
         """Whatever is called with whatever: an exception of ours or of Python's, or a result."""
         rng, session = random.Random(7), small()

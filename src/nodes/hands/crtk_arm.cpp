@@ -80,6 +80,7 @@ void CrtkArm::subscribe(ros::NodeHandle& node, FrameLookup lookup) {
   const std::lock_guard<std::mutex> lock(mutex_);
   mailbox_.hold(true);
   place();
+  mailbox_.grip({motion_.jaw_rad()}, 0, std::chrono::steady_clock::now());
   tellState();
 }
 
@@ -133,6 +134,7 @@ void CrtkArm::onJaw(const sensor_msgs::JointState& message, bool moves) {
   if (message.position.empty()) return refuse(topic, Drop::kNoButtons);
   const double angle_rad = message.position.front();
   if (!std::isfinite(angle_rad)) return refuse(topic, Drop::kNotFinite);
+  if (std::abs(angle_rad) > kWidestJaw_rad) return refuse(topic, Drop::kJawAngle);
   if (moves) {
     if (motion_.moveJaw(angle_rad)) tellState();
   } else if (motion_.servoJaw(angle_rad)) {
@@ -172,9 +174,11 @@ void CrtkArm::beginTick() {
   place();
 }
 
-void CrtkArm::endTick(const Pose& tool, const ros::Time& stamp) {
+void CrtkArm::endTick(const StylusMotion& tool, double jaw_moment_nm, const ros::Time& stamp) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  const Pose measured = mailbox_.inDevice(tool);
+  const Pose measured = mailbox_.inDevice(tool.to);
+  measured_jaw_.reset();
+  if (hasJaws(tool)) measured_jaw_ = toJaw(tool, jaw_moment_nm, stamp);
   const std::string frame = mailbox_.deviceFrame().name;
   if (isHeard(measured_cp_)) measured_cp_.publish(stamped(measured, frame, stamp));
   if (isHeard(measured_cv_))
@@ -196,8 +200,10 @@ void CrtkArm::tellSetpoints() {
   jaw.header.stamp = stamp;
   jaw.name = {"jaw"};
   jaw.position = {motion_.jaw_rad()};
-  measured_js_.publish(jaw);
   setpoint_js_.publish(jaw);
+  sensor_msgs::JointState& measured = measured_jaw_ ? *measured_jaw_ : jaw;
+  measured.header.stamp = stamp;
+  measured_js_.publish(measured);
 }
 
 void CrtkArm::tellState() {

@@ -12,6 +12,7 @@
 
 #include <atomic>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,8 +33,8 @@ class CrtkArm {
   void subscribe(ros::NodeHandle& node, FrameLookup lookup);
   /// A tick begins: the arm has gone on. On the thread that steps, as endTick().
   void beginTick();
-  /// @param tool  where it is at the end of the tick, tissue frame
-  void endTick(const Pose& tool, const ros::Time& stamp);
+  /// @param tool  where it is at the end of the tick   @param jaw_moment_nm  Frame::jaw_moments_nm
+  void endTick(const StylusMotion& tool, double jaw_moment_nm, const ros::Time& stamp);
   bool hasClient() const;
 
  private:
@@ -58,6 +59,7 @@ class CrtkArm {
   std::string frame_;  ///< of the arm's base: that of the last command, or the profile's
   SteadyTime ticked_{};
   Pose last_measured_;
+  std::optional<sensor_msgs::JointState> measured_jaw_;  ///< of a tool with jaws; others have what they are told
   ros::Time last_told_;
   std::vector<ros::Subscriber> commands_;
   ros::SteadyTimer setpoints_;

@@ -3,6 +3,7 @@
 #include "nodes/hands/device_publisher.h"
 
 #include <geometry_msgs/PoseStamped.h>
+#include <sensor_msgs/JointState.h>
 #include <sensor_msgs/Joy.h>
 
 #include <utility>
@@ -26,7 +27,8 @@ void sendButton(const ros::Publisher& publisher, bool pressed, const ros::Time& 
 DevicePublisher::DevicePublisher(ros::NodeHandle& node, const std::string& stylus)
     : pose_(node.advertise<geometry_msgs::PoseStamped>(stylus + "/measured_cp", 1)),
       button1_(node.advertise<sensor_msgs::Joy>(stylus + "/button1", kButtonQueue)),
-      button2_(node.advertise<sensor_msgs::Joy>(stylus + "/button2", kButtonQueue)) {}
+      button2_(node.advertise<sensor_msgs::Joy>(stylus + "/button2", kButtonQueue)),
+      gripper_(node.advertise<sensor_msgs::JointState>(stylus + "/gripper/measured_js", 1)) {}
 
 bool DevicePublisher::isHeard() const {
   return pose_.getNumSubscribers() > 0 && button1_.getNumSubscribers() > 0 && button2_.getNumSubscribers() > 0;
@@ -38,6 +40,13 @@ void DevicePublisher::send(const StylusSample& sample, const std::string& frame,
   pose.header.stamp = stamp;
   pose.pose = toMessage(sample.pose);
   pose_.publish(pose);
+  if (sample.jaw_rad >= 0) {
+    sensor_msgs::JointState gripper;
+    gripper.header.stamp = stamp;
+    gripper.name = {"gripper"};
+    gripper.position = {sample.jaw_rad};
+    gripper_.publish(gripper);
+  }
   const bool begins = !std::exchange(begun_, true);
   const bool down1 = sample.button1 && !begins, down2 = sample.button2 && !begins;
   if (begins || down1 != button1_down_) sendButton(button1_, down1, stamp);

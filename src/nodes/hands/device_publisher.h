@@ -10,8 +10,8 @@
 
 namespace viscera::nodes {
 
-/// What a device driver publishes of a stylus: `<stylus>/measured_cp`, `button1` and `button2`. For nodes that stand
-/// for a device.
+/// What a device driver publishes of a stylus: `<stylus>/measured_cp`, `button1`, `button2` and, of one with jaws,
+/// `gripper/measured_js`. For nodes that stand for a device.
 class DevicePublisher {
  public:
   DevicePublisher(ros::NodeHandle& node, const std::string& stylus);
@@ -22,7 +22,7 @@ class DevicePublisher {
   void send(const StylusSample& sample, const std::string& frame, const ros::Time& stamp);
 
  private:
-  ros::Publisher pose_, button1_, button2_;
+  ros::Publisher pose_, button1_, button2_, gripper_;
   bool begun_ = false, button1_down_ = false, button2_down_ = false;
 };
 

@@ -46,7 +46,10 @@ void StylusInput::subscribe(ros::NodeHandle& node) {
       onPose(pose, topic);
     });
   }
-  if (!arm_) listenToGripper(node);
+  if (!arm_) {
+    listenToGripper(node);
+    jaw_ = node.advertise<sensor_msgs::JointState>(mailbox_.config().name + "/jaw/measured_js", 1);
+  }
   subscribed_ = true;
 }
 
@@ -111,8 +114,10 @@ void StylusInput::beginTick() {
   if (arm_) arm_->beginTick();
 }
 
-void StylusInput::endTick(const Pose& tool, const ros::Time& stamp) {
-  if (arm_ && subscribed_) arm_->endTick(tool, stamp);
+void StylusInput::endTick(const StylusMotion& tool, double jaw_moment_nm, const ros::Time& stamp) {
+  if (!subscribed_) return;
+  if (arm_) return arm_->endTick(tool, jaw_moment_nm, stamp);
+  if (jaw_.getNumSubscribers() > 0 && hasJaws(tool)) jaw_.publish(toJaw(tool, jaw_moment_nm, stamp));
 }
 
 bool StylusInput::hasPublisher() const {

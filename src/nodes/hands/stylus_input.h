@@ -37,9 +37,9 @@ class StylusInput {
   StylusMailbox& mailbox() { return mailbox_; }
   /// Of a tick that begins now: where an arm is that moves by itself. Called by the thread that steps.
   void beginTick();
-  /// What clients of an arm want to know of it after a tick.
-  /// @param tool  where it is then, tissue frame
-  void endTick(const Pose& tool, const ros::Time& stamp);
+  /// What others want to know of its jaws after a tick, and clients of an arm of the arm.
+  /// @param jaw_moment_nm  Frame::jaw_moments_nm
+  void endTick(const StylusMotion& tool, double jaw_moment_nm, const ros::Time& stamp);
   /// Nodes that send poses at the same time, if there are several; else empty.
   std::string rivals() const { return senders_.several(std::chrono::steady_clock::now()); }
   bool hasPublisher() const;
@@ -62,6 +62,7 @@ class StylusInput {
   std::array<std::atomic<bool>, kDropReasons> warned_{};  ///< by threads of topics and of tf
   uint64_t base_moves_told_ = 0;
   ros::Subscriber pose_;
+  ros::Publisher jaw_;
   std::vector<ros::Subscriber> others_;  ///< buttons, gripper
   std::unique_ptr<FrameFollower> follower_;
   std::unique_ptr<CrtkArm> arm_;

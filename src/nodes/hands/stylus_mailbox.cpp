@@ -37,8 +37,8 @@ std::string tf2Name(const std::string& frame) {
 
 const char* text(Drop reason) {
   static constexpr std::array<const char*, kDropReasons> kNames = {
-      "stamp_zero",     "not_finite", "bad_quaternion",    "no_transform", "old_transform",
-      "repeated_stamp", "delayed",    "outside_workspace", "no_buttons",   "button_value"};
+      "stamp_zero", "not_finite",        "bad_quaternion", "no_transform", "old_transform", "repeated_stamp",
+      "delayed",    "outside_workspace", "no_buttons",     "button_value", "jaw_angle"};
   return kNames[static_cast<size_t>(reason)];
 }
 
@@ -187,8 +187,15 @@ std::optional<Drop> StylusMailbox::grip(const std::vector<double>& positions, si
   if (index >= positions.size()) return drop(Drop::kNoButtons);
   if (!std::isfinite(positions[index])) return drop(Drop::kNotFinite);
   const GripperPort& port = device_.gripper;
-  gripped_ = positions[index] < (gripped_ ? port.open_above : port.closed_below);
   if (port.presses == PressedButton::kNone) return std::nullopt;
+  const double angle_rad = port.rad_per_unit * positions[index];
+  if (std::abs(angle_rad) > kWidestJaw_rad) return drop(Drop::kJawAngle);
+  {
+    const std::lock_guard<PriorityMutex> lock(mutex_);
+    jaw_rad_ = static_cast<float>(std::max(0.0, angle_rad));
+  }
+  gripped_ = positions[index] < (gripped_ ? port.open_above : port.closed_below);
+  if (port.presses == PressedButton::kJaws) return std::nullopt;
   const ButtonRole role = port.presses == PressedButton::kButton1 ? ButtonRole::kButton1 : ButtonRole::kButton2;
   return press(role, {gripped_ ? 1 : 0}, 0, now);
 }
@@ -213,6 +220,7 @@ StylusSample StylusMailbox::take(SteadyTime now) {
   sample.received = received_;
   sample.button1 = buttons_[0].take();
   sample.button2 = buttons_[1].take();
+  sample.jaw_rad = jaw_rad_;
   return sample;
 }
 

@@ -31,9 +31,10 @@ enum class Drop {
   kDelayed,           ///< later than StylusConfig::stale_after_s behind the swiftest pose of this device
   kOutsideWorkspace,  ///< farther than StylusConfig::workspace_m from the tissue frame's origin
   kNoButtons,         ///< a message without the button or joint that the profile names
-  kButtonValue        ///< a button with a value other than 0, 1, 2
+  kButtonValue,       ///< a button with a value other than 0, 1, 2
+  kJawAngle           ///< jaws that are open by more than half a turn, to either side
 };
-constexpr size_t kDropReasons = 10;
+constexpr size_t kDropReasons = 11;
 const char* text(Drop reason);  ///< snake_case, as in the diagnostics
 
 /// Some trackers send quaternions that are a few percent off unit length: those are normalised, others refused.
@@ -96,7 +97,8 @@ class StylusMailbox {
   /// A button ends with its hand: what was down when the poses grew stale, or is down when they begin, must be let go
   /// before it acts. @param values  of a message's buttons, 0 released, 1 pressed, 2 clicked   @param index  which
   std::optional<Drop> press(ButtonRole role, const std::vector<int32_t>& values, size_t index, SteadyTime now);
-  /// A joint of a gripper or of jaws, which presses the profile's button: below one position, until above another.
+  /// A joint of a gripper or of jaws: the tool's are open as far, closed below 0. It presses the profile's button too:
+  /// below one position, until above another.
   std::optional<Drop> grip(const std::vector<double>& positions, size_t index, SteadyTime now);
   /// Its pose does not grow stale, as an arm's, which stays where it was sent; or does again, and is stale at once.
   void hold(bool held);
@@ -150,6 +152,7 @@ class StylusMailbox {
   Anew anew_ = Anew::kNo;
   bool held_ = false;
   std::atomic<bool> gripped_{false};
+  float jaw_rad_ = kNoJaw;
   Pose pose_;
   DeviceFrame device_frame_;
   SteadyTime received_{};       ///< of the newest accepted stamp

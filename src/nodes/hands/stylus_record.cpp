@@ -58,7 +58,8 @@ Recording::Outcome Recording::add(const Samples& message) {
   if (message.hands_anew) strokes_.hands_anew.push_back(message.tick);
   for (const StylusState& state : message.styluses)
     strokeOf(state.stylus)
-        .samples.push_back({message.tick, fromMessage(state.pose), state.button1 != 0, state.button2 != 0});
+        .samples.push_back({message.tick, fromMessage(state.pose), state.button1 != 0, state.button2 != 0,
+                            state.has_jaw ? state.jaw_rad : kNoJaw});
   return begins ? Outcome::kAnew : Outcome::kTaken;
 }
 

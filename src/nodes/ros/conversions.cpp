@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/ros/conversions.h"
 
+#include "model/scene/tool_kinds.h"
+
 namespace viscera::nodes {
 
 std_msgs::Header toHeader(const std::string& frame, const ros::Time& stamp) {
@@ -73,6 +75,19 @@ geometry_msgs::WrenchStamped toWrench(const Reaction& reaction, const Quaternion
   if (!reaction.force_n.allFinite() || !reaction.torque_nm.allFinite()) return out;
   out.wrench = toMessage({frame_from_tissue * reaction.force_n, frame_from_tissue * reaction.torque_nm, false});
   return out;
+}
+
+bool hasJaws(const StylusMotion& tool) {
+  return tool.present && kindOf(tool.mode).jaws;
+}
+
+sensor_msgs::JointState toJaw(const StylusMotion& tool, double moment_nm, const ros::Time& stamp) {
+  sensor_msgs::JointState message;
+  message.header.stamp = stamp;
+  message.name = {"jaw"};
+  message.position = {tool.opens_to_rad};
+  message.effort = {moment_nm};
+  return message;
 }
 
 std::string toolFrame(const StylusConfig& stylus, const std::string& frame_prefix) {

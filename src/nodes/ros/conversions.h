@@ -6,6 +6,7 @@
 #include <geometry_msgs/TransformStamped.h>
 #include <geometry_msgs/WrenchStamped.h>
 #include <ros/time.h>
+#include <sensor_msgs/JointState.h>
 #include <std_msgs/Header.h>
 
 #include <string>
@@ -39,6 +40,11 @@ bool isOlder(const geometry_msgs::TransformStamped& transform, double age_s);
 geometry_msgs::Wrench toMessage(const Reaction& reaction);
 geometry_msgs::WrenchStamped toWrench(const Reaction& reaction, const Quaterniond& frame_from_tissue,
                                       const std::string& frame, const ros::Time& stamp);
+
+/// Is it there, and has its kind two fingers?
+bool hasJaws(const StylusMotion& tool);
+/// Its joint `jaw`: position, the opening [rad]; effort, the moment that keeps them open about their pivot [N m].
+sensor_msgs::JointState toJaw(const StylusMotion& tool, double moment_nm, const ros::Time& stamp);
 
 std::string toolFrame(const StylusConfig& stylus, const std::string& frame_prefix);
 

@@ -172,7 +172,8 @@ void Simulator::deliver(Frame&& frame, const StylusSamples& samples, bool live) 
   } else {
     wrenches_.rest();
   }
-  for (size_t s = 0; s < inputs_.size(); ++s) inputs_[s]->endTick(frame.tools[s].to, publisher_.tickStamp());
+  for (size_t s = 0; s < inputs_.size(); ++s)
+    inputs_[s]->endTick(frame.tools[s], frame.jaw_moments_nm[s], publisher_.tickStamp());
   tool_frames_.put(samples, publisher_.tickStamp());
   ticks_.publish(frame.tick);
   tasks_.notice();

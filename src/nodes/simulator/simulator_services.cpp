@@ -97,7 +97,10 @@ StylusSamples samplesOf(const std::vector<StylusState>& states, const std::vecto
     pose.orientation.normalize();
     if (!(pose.position_m.norm() <= styluses[s].workspace_m))
       throw Error("styluses: '" + state.stylus + "' is farther than workspace_m from the tissue frame");
-    samples[s] = {true, pose, static_cast<bool>(state.button1), static_cast<bool>(state.button2)};
+    if (state.has_jaw && !(state.jaw_rad >= 0 && state.jaw_rad <= kWidestJaw_rad))
+      throw Error("styluses: jaw_rad of '" + state.stylus + "' must be 0 .. 3.1416 rad");
+    samples[s] = {true, pose, static_cast<bool>(state.button1), static_cast<bool>(state.button2),
+                  state.has_jaw ? state.jaw_rad : kNoJaw};
   }
   return samples;
 }

@@ -45,6 +45,8 @@ void SamplesPublisher::publish(uint64_t tick, const StylusSamples& samples, cons
     state.pose = toMessage(samples[s].pose);
     state.button1 = samples[s].button1;
     state.button2 = samples[s].button2;
+    state.has_jaw = samples[s].jaw_rad >= 0;
+    state.jaw_rad = state.has_jaw ? samples[s].jaw_rad : 0;
   }
   publisher_.publish(message_);
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/scene/tool_kinds.h"
 #include "nodes/ros/conversions.h"
 #include "render/shapes/obstacle_shape.h"
 #include "session/thread_looks.h"
@@ -85,7 +86,7 @@ SceneMarkers::SceneMarkers(const Scene& scene, const PublishOptions& options)
       letter_m_(letterHeight(scene)),
       threads_(looksOf(scene)) {
   for (const StylusConfig& stylus : scene.styluses) {
-    styluses_.push_back(stylus.name);
+    styluses_.push_back(stylus);
     auto& shapes = tools_.emplace_back();
     for (const ToolMode mode : {ToolMode::kNone, stylus.idle, stylus.button1, stylus.button2})
       shapes[mode] = partsOf(toolShape(stylus, mode));
@@ -162,7 +163,9 @@ void SceneMarkers::addTool(size_t stylus, const SceneLook& look, const ros::Time
   const StylusMotion& motion = look.tools[stylus];
   const auto shape = tools_[stylus].find(motion.mode);
   const bool shown = motion.present && shape != tools_[stylus].end();
-  addParts("tools", kMostParts * stylus, shown ? shape->second : kNothing, motion.to, stamp, out);
+  const bool jaws = shown && kindOf(motion.mode).jaws;
+  const Parts turned = jaws ? partsOf(toolShape(styluses_[stylus], motion.mode, motion.opens_to_rad)) : kNothing;
+  addParts("tools", kMostParts * stylus, jaws ? turned : shown ? shape->second : kNothing, motion.to, stamp, out);
 }
 
 /// From the tip, to where the hand is pushed.
@@ -222,7 +225,7 @@ void SceneMarkers::addNames(const SceneLook& look, const ros::Time& stamp, Marke
   std::vector<Label> labels = cameras_;
   for (size_t s = 0; s < styluses_.size(); ++s) {
     const Vector3d beyond_m(0, 0, kShaftLength_m + letter_m_);
-    if (look.tools[s].present) labels.push_back({styluses_[s], look.tools[s].to * beyond_m});
+    if (look.tools[s].present) labels.push_back({styluses_[s].name, look.tools[s].to * beyond_m});
   }
   for (size_t i = 0; i < std::min(obstacles_.size(), look.obstacles.size()); ++i) {
     Vector3d place_m = look.obstacles[i].position_m;

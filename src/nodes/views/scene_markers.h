@@ -74,7 +74,7 @@ class SceneMarkers {
 
   const std::string frame_;
   const double arrow_m_per_n_, letter_m_;
-  std::vector<std::string> styluses_;             ///< their names
+  std::vector<StylusConfig> styluses_;
   std::vector<std::map<ToolMode, Parts>> tools_;  ///< [styluses]
   std::vector<Obstacle> obstacles_;
   std::vector<ThreadLook> threads_;

@@ -264,5 +264,28 @@ TEST(StylusMailboxOfADevice, ForceFrameIsTheDevicesOwn) {
   EXPECT_LT((mailbox.inDevice(in_tissue).position_m - Vector3d(10, 20, 30)).norm(), 1e3 * kRounding_m);
 }
 
+/// A gripper in metres, 1 cm of which are 0.5 rad, and which presses no button.
+TEST_F(StylusMailboxTest, AGripperOpensTheJawsAndWhatIsNoAngleIsDropped) {
+  DeviceProfile device;
+  EXPECT_EQ(mailbox_.grip({0.01}, 0, at(0)), std::nullopt);
+  mailbox_.put(poseAt(0.1), nowhere, arrival(0));
+  EXPECT_EQ(mailbox_.take(at(0)).jaw_rad, kNoJaw) << "no profile says that it is heard";
+  device.gripper.presses = PressedButton::kJaws;
+  device.gripper.rad_per_unit = 50;
+  StylusMailbox heard(config(), "tissue", device);
+  heard.put(poseAt(0.1), nowhere, arrival(0));
+  EXPECT_EQ(heard.take(at(0)).jaw_rad, kNoJaw);
+  EXPECT_EQ(heard.grip({0, 0.01}, 1, at(0)), std::nullopt);
+  EXPECT_FLOAT_EQ(heard.take(at(0)).jaw_rad, 0.5F);
+  EXPECT_FALSE(heard.take(at(0)).button1);
+  EXPECT_EQ(heard.grip({std::numeric_limits<double>::quiet_NaN()}, 0, at(0)), Drop::kNotFinite);
+  EXPECT_EQ(heard.grip({0.07}, 0, at(0)), Drop::kJawAngle);
+  EXPECT_EQ(heard.grip({0.01}, 1, at(0)), Drop::kNoButtons);
+  EXPECT_EQ(heard.status(at(0)).dropped[static_cast<size_t>(Drop::kJawAngle)], 1U);
+  EXPECT_FLOAT_EQ(heard.take(at(0)).jaw_rad, 0.5F);
+  heard.grip({-0.001}, 0, at(0));
+  EXPECT_EQ(heard.take(at(0)).jaw_rad, 0);
+}
+
 }  // namespace
 }  // namespace viscera::nodes

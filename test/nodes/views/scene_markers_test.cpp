@@ -77,6 +77,23 @@ TEST(SceneMarkers, AModeHasItsOwnShape) {
   EXPECT_TRUE(std::any_of(tools.begin(), tools.end(), [](const Marker& tool) { return tool.color.a < 1; }));
 }
 
+TEST(SceneMarkers, FingersStandAsFarOpenAsTheirTool) {
+  const auto width_m = [](double opening_rad) {
+    SceneLook grabbing = look();
+    grabbing.tools[0].mode = ToolMode::kGrab;
+    grabbing.tools[0].opens_to_rad = opening_rad;
+    double widest_m = 0;
+    for (const Marker& tool : shown(markersOf(grabbing), "tools")) {
+      for (const geometry_msgs::Point& point : tool.points)  // solid, near the tip
+        if (tool.color.a == 1 && point.z < 0.002) widest_m = std::max(widest_m, std::abs(point.x));
+    }
+    return widest_m;
+  };
+  constexpr double kFinger_m = 0.0015, kLength_m = 0.014;  // as thick as a finger is; of those of mode grab
+  EXPECT_LT(width_m(0), kFinger_m);
+  EXPECT_NEAR(width_m(0.6), kLength_m * std::sin(0.3), kFinger_m);
+}
+
 TEST(SceneMarkers, ATextStandsInThePlaceOfTheTissueUntilThereIsSome) {
   Scene seen = scene();
   CameraConfig camera;
