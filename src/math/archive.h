@@ -47,10 +47,6 @@ class Archive {
     if (reads_ && next_ > 0 && at_ != sections_[next_ - 1].bytes.size()) throw misfit();
   }
 
-  /// Is it the one that comes next? What is written has whatever is asked for.
-  bool hasNext(const std::string& name) const {
-    return !reads_ || (next_ < sections_.size() && sections_[next_].name == name);
-  }
   /// Of a section that is read: is there more of it?
   bool more() const { return next_ > 0 && at_ < sections_[next_ - 1].bytes.size(); }
 

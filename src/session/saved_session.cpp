@@ -2,9 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cstring>
-#include <set>
 #include <sstream>
-#include <vector>
 
 #include "math/archive.h"
 #include "model/scene/scene_text.h"
@@ -20,13 +18,9 @@ namespace {
 
 constexpr uint64_t kTicksBack = 8;  // whose ways of tips are asked for after a tick
 
-std::string keyOf(const std::string& line) {
-  return line.substr(0, line.find('='));
-}
-
 /// Keys that change no state: who works, what is looked at, what it looks like.
 bool isAside(const std::string& line) {
-  const std::string key = keyOf(line);
+  const std::string key = line.substr(0, line.find('='));
   const auto ends = [&key](const std::string& with) {
     return key.size() >= with.size() && key.compare(key.size() - with.size(), with.size(), with) == 0;
   };
@@ -34,35 +28,20 @@ bool isAside(const std::string& line) {
          ends(".roughness") || ends(".mottling");
 }
 
-std::vector<std::string> linesOf(const std::string& text) {
-  std::vector<std::string> out;
-  std::istringstream lines(text);
-  for (std::string line; std::getline(lines, line);) {
-    if (!isAside(line)) out.push_back(line);
-  }
-  return out;
-}
-
-/// What styluses are like of which nothing is said. Keys that came later than a state are of these.
-std::set<std::string> defaultsOf(const Scene& scene) {
-  Scene plain;
-  plain.styluses.resize(scene.styluses.size());
-  const std::vector<std::string> lines = linesOf(sceneText(plain));
-  return {lines.begin(), lines.end()};
-}
-
 /// @throws Error  names the first key that is another
-void requireSame(const std::string& saved_text, const Scene& scene) {
-  const std::vector<std::string> saved = linesOf(saved_text);
-  std::set<std::string> known;
-  for (const std::string& line : saved) known.insert(keyOf(line));
-  std::vector<std::string> here;
-  const std::set<std::string> defaults = defaultsOf(scene);
-  for (const std::string& line : linesOf(sceneText(scene)))
-    if (known.count(keyOf(line)) > 0 || defaults.count(line) == 0) here.push_back(line);
-  for (size_t i = 0; i < std::max(saved.size(), here.size()); ++i) {
-    const auto at = [i](const std::vector<std::string>& lines) { return i < lines.size() ? lines[i] : "nothing more"; };
-    if (at(saved) != at(here)) throw Error("the state is of another scene: saved " + at(saved) + ", here " + at(here));
+void requireSame(const std::string& saved, const std::string& here) {
+  std::istringstream saved_lines(saved), here_lines(here);
+  const auto next = [](std::istringstream& lines) {
+    std::string line;
+    while (std::getline(lines, line)) {
+      if (!isAside(line)) return line;
+    }
+    return std::string("nothing more");
+  };
+  for (;;) {
+    const std::string a = next(saved_lines), b = next(here_lines);
+    if (a != b) throw Error("the state is of another scene: saved " + a + ", here " + b);
+    if (a == "nothing more") return;
   }
 }
 
@@ -118,9 +97,6 @@ void Session::persist(Archive& archive) {
     if (archive.reads()) times.received = {};  // of another clock
   }
   solver_->persist(archive);
-  if (!archive.hasNext("fingers")) return;  // of a state that was saved when jaws were open or closed
-  archive.section("fingers");
-  tools_.persistFingers(archive);
 }
 
 void Session::save(Archive& archive) {
@@ -152,7 +128,7 @@ void Session::restore(Archive& archive, const std::string& name) {
     uint64_t hash = 0;
     archive.list(text);
     archive.value(hash);
-    requireSame(text, scene_);
+    requireSame(text, sceneText(scene_));
     if (hash != modelHash(*model_))
       throw Error("the state is of other tissue: a file that the scene names is not what it was");
   } catch (const Error& error) {

@@ -14,29 +14,24 @@ namespace viscera {
 
 namespace {
 
-/// As a byte, and as a flag whatever byte a file has there.
+/// Whatever byte a file has there.
 void persistFlag(Archive& archive, bool& flag) {
   uint8_t byte = flag ? 1 : 0;
   archive.value(byte);
   flag = byte != 0;
 }
 
-/// All that a hand tells, as it lies in memory, so that no field is forgotten; times are of another clock. Recordings
-/// that were made before jaws told their opening have any bytes in its place, and no kJaw.
+/// All that a hand tells, as it lies in memory, so that no field is forgotten; times are of another clock.
 void persistSample(Archive& archive, StylusSample& sample) {
   static_assert(std::is_trivially_destructible_v<StylusSample>);
-  constexpr uint8_t kValid = 1, kJaw = 2;
-  uint8_t what = static_cast<uint8_t>((sample.valid ? kValid : 0) | (sample.jaw_rad >= 0 ? kJaw : 0));
-  bool buttons[] = {sample.button1, sample.button2};
-  archive.value(what);
-  for (bool& button : buttons) persistFlag(archive, button);
+  bool flags[] = {sample.valid, sample.button1, sample.button2};
+  for (bool& flag : flags) persistFlag(archive, flag);
   sample.received = {};
   archive.value(sample);
   sample.received = {};
-  sample.valid = (what & kValid) != 0;
-  sample.button1 = buttons[0];
-  sample.button2 = buttons[1];
-  if ((what & kJaw) == 0) sample.jaw_rad = kNoJaw;
+  sample.valid = flags[0];
+  sample.button1 = flags[1];
+  sample.button2 = flags[2];
 }
 
 bool isPose(const Pose& pose) {

@@ -123,11 +123,7 @@ void Tools::persist(Archive& archive) {
   archive.value(mode_);
   archive.value(inside_);
   archive.value(forgotten_);
-  for (Fingers& fingers : fingers_) fingers.persistClosed(archive);
-}
-
-void Tools::persistFingers(Archive& archive) {
-  for (Fingers& fingers : fingers_) fingers.persistRest(archive);
+  for (Fingers& fingers : fingers_) fingers.persist(archive);
 }
 
 void Tools::reset() {

@@ -89,13 +89,9 @@ double Fingers::moment_nm(const Jaws& jaws) const {
   return press_nm_ * std::max(0.0, met_rad_ - openingOf(jaws, closed_)) / met_rad_;
 }
 
-void Fingers::persistClosed(Archive& archive) {
-  archive.value(closed_);
-}
-
-void Fingers::persistRest(Archive& archive) {
+void Fingers::persist(Archive& archive) {
   for (bool* flag : {&follows_, &closing_, &holds_}) archive.value(*flag);
-  for (double* value : {&mouth_rad_, &met_rad_, &press_nm_}) archive.value(*value);
+  for (double* value : {&closed_, &mouth_rad_, &met_rad_, &press_nm_}) archive.value(*value);
   for (Vector3d* value : {&taken_at_m_, &slid_before_m_, &slid_m_}) archive.value(*value);
 }
 

@@ -47,7 +47,6 @@ class Tools {
   void reset();
   /// Modes too.
   void persist(Archive& archive);
-  void persistFingers(Archive& archive);  ///< what persist() did not have at first
   const std::vector<StylusConfig>& configs() const { return configs_; }
 
  private:

@@ -42,8 +42,7 @@ class Fingers {
   StylusMotion ofHeld(const StylusMotion& motion) const;
   /// With which what is between them keeps them from closing as far as the hand would [N m].
   double moment_nm(const Jaws& jaws) const;
-  void persistClosed(Archive& archive);
-  void persistRest(Archive& archive);
+  void persist(Archive& archive);
 
  private:
   void letGo();
