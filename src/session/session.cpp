@@ -42,18 +42,6 @@ HandLimits handLimits(const Model& model, double tick_hz) {
   return limits;
 }
 
-/// Of what a thread or a needle does to its stylus.
-void addThread(const ThreadPull& pull, TickContact& contact) {
-  const NeedleHold& needle = pull.needle;
-  contact.kind = needle.stiffness_n_per_m > 0 ? TickContact::Kind::kPierces : TickContact::Kind::kPulls;
-  if (contact.kind == TickContact::Kind::kPulls) return;
-  const double along_n = contact.reaction.force_n.dot(needle.along);
-  contact.along = needle.along;
-  contact.limit_n = needle.ahead_n - along_n;
-  contact.back_n = needle.back_n + along_n;
-  contact.stiffness_n_per_m = needle.stiffness_n_per_m;
-}
-
 }  // namespace
 
 Session::Session(const Scene& scene, gpu::Context& context, const Progress& progress, const SessionOptions& options)
@@ -310,28 +298,6 @@ void Session::collectStats(Frame& frame, bool wait) {
   frame.poses_received = posesOf(judged_).received;
 }
 
-/// Of the tick whose measurements came last.
-TickContact Session::contactOf(size_t stylus, const Reaction& raw) const {
-  const StylusMotion motion = posesOf(judged_).motions[stylus], before = posesOf(judged_ - 1).motions[stylus];
-  TickContact out;
-  out.anew = !before.present || before.mode != motion.mode;
-  out.from_m = motion.from.position_m;
-  out.to_m = motion.to.position_m;
-  const bool acts = motion.present && !(motion.feels_m > 0) && raw.force_n.allFinite() && raw.torque_nm.allFinite();
-  if (!acts || stats_.touched[stylus] + stats_.grabbed[stylus] == 0) return out;
-  out.reaction = raw;
-  const ThreadPull& pull = solver_->pull(static_cast<uint32_t>(stylus));
-  if (pull.nodes > 0 && pull.nodes == stats_.grabbed[stylus]) {
-    addThread(pull, out);
-    return out;
-  }
-  out.kind = kindOf(motion.mode).does(kHolds) ? TickContact::Kind::kHolds : TickContact::Kind::kPushes;
-  const double limit_n =
-      kindOf(motion.mode).does(kCuts) ? solver_->bladeWork(static_cast<uint32_t>(stylus)).limit_n : 0;
-  if (limit_n > 0) out.limit_n = std::max(limit_n, raw.force_n.norm());
-  return out;
-}
-
 void Session::reset() {
   drain();
   solver_->reset();
@@ -344,6 +310,7 @@ void Session::reset() {
   for (ForceLimiter& limiter : limiters_) limiter.reset();
   reactions_ = {};
   contacts_ = {};
+  jaw_moments_nm_ = {};
   obstacle_forces_.assign(obstacle_forces_.size(), Reaction{});
   stats_ = {};
   has_stats_ = false;

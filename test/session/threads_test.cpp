@@ -46,8 +46,7 @@ TEST(ThreadSession, ThreadsHangAndFollowHands) {
 
 TEST(ThreadSession, ThreadsThatAreHeldPullAndDoNotPush) {
   Session session(threadScene());
-  for (int t = 1; t <= 40; ++t)
-    EXPECT_EQ(session.step(drawUp(t), {}).contacts[0].kind, TickContact::Kind::kPulls) << t;
+  for (int t = 1; t <= 40; ++t) EXPECT_EQ(session.step(drawUp(t), {}).contacts[0].kind, TickContact::Kind::kPulls) << t;
 }
 
 TEST(ThreadSession, HashesKnowThreadsAndResetsPutThemBack) {

@@ -83,7 +83,7 @@ void Chain::step(double dt_s, ChainAround& around) {
   finish();
 }
 
-/// There is no solution: all of it stays where it was, at rest, and nobody gets anything of it.
+/// There is no solution: all of it stays where it was, at rest, and no one gets anything of it.
 void Chain::wait(ChainAround& around) {
   next_ = x_;
   measureLinks();

@@ -1,0 +1,50 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Of a session, what its tools met: from which forces between ticks are made.
+#include <algorithm>
+
+#include "model/scene/tool_kinds.h"
+#include "solver/thread/thread_pull.h"
+#include "viscera/session/session.h"
+
+namespace viscera {
+
+namespace {
+
+/// Of what a thread or a needle does to its stylus.
+void addThread(const ThreadPull& pull, TickContact& contact) {
+  const NeedleHold& needle = pull.needle;
+  contact.kind = needle.stiffness_n_per_m > 0 ? TickContact::Kind::kPierces : TickContact::Kind::kPulls;
+  if (contact.kind == TickContact::Kind::kPulls) return;
+  const double along_n = contact.reaction.force_n.dot(needle.along);
+  contact.along = needle.along;
+  contact.limit_n = needle.ahead_n - along_n;
+  contact.back_n = needle.back_n + along_n;
+  contact.stiffness_n_per_m = needle.stiffness_n_per_m;
+}
+
+}  // namespace
+
+/// Of the tick whose measurements came last.
+TickContact Session::contactOf(size_t stylus, const Reaction& raw) const {
+  const StylusMotion motion = posesOf(judged_).motions[stylus], before = posesOf(judged_ - 1).motions[stylus];
+  TickContact out;
+  out.anew = !before.present || before.mode != motion.mode;
+  out.from_m = motion.from.position_m;
+  out.to_m = motion.to.position_m;
+  const bool acts = motion.present && !(motion.feels_m > 0) && raw.force_n.allFinite() && raw.torque_nm.allFinite();
+  if (!acts || stats_.touched[stylus] + stats_.grabbed[stylus] == 0) return out;
+  out.reaction = raw;
+  const ThreadPull& pull = solver_->pull(static_cast<uint32_t>(stylus));
+  if (pull.nodes > 0 && pull.nodes == stats_.grabbed[stylus]) {
+    addThread(pull, out);
+    return out;
+  }
+  out.kind = kindOf(motion.mode).does(kHolds) ? TickContact::Kind::kHolds : TickContact::Kind::kPushes;
+  const double limit_n =
+      kindOf(motion.mode).does(kCuts) ? solver_->bladeWork(static_cast<uint32_t>(stylus)).limit_n : 0;
+  if (limit_n > 0) out.limit_n = std::max(limit_n, raw.force_n.norm());
+  return out;
+}
+
+}  // namespace viscera
