@@ -126,7 +126,7 @@ TEST_F(RecordingTest, SaysWhereStatesBeginToDiffer) {
     recorder.follow(session);
     for (int t = 1; t <= 20; ++t) {
       if (t == 12) session.removeLog(recorder);
-      if (t == 12) session.setToolMode(0, ToolSwitch::kButton2, ToolMode::kProbe);  // the recorder is not told
+      if (t == 12) session.setToolMode(1, ToolSwitch::kButton1, ToolMode::kGrab);  // the recorder is not told
       if (t == 12) session.addLog(recorder);
       session.step(handsAt(t), {});
     }

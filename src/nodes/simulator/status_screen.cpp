@@ -196,7 +196,8 @@ std::string meaningOfDrop(const std::string& reason) {
       {"delayed", "poses are late: the network, or the machine of the driver, is busy"},
       {"outside_workspace", "too far from the tissue: the wrong frame or unit (millimetres?), or workspace_m is small"},
       {"no_buttons", "the message has no such button or joint as the profile names"},
-      {"button_value", "a button is neither 0, 1 nor 2"}};
+      {"button_value", "a button is neither 0, 1 nor 2"},
+      {"jaw_angle", "jaws are open by more than half a turn; see gripper.rad_per_unit"}};
   const auto found = kMeanings.find(reason);
   return found == kMeanings.end() ? "" : found->second;
 }

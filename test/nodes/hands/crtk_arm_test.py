@@ -144,7 +144,7 @@ class CrtkArmTest(unittest.TestCase):
         wait_until(lambda: self.force.message.wrench.force.z > FELT_N, LIMIT_S, "force upwards")
         self.jaws.publish(JointState(position=[0.0]))
         wait_until(lambda: (self.watch.value("left", "nodes_held") or 0) > 0, LIMIT_S, "tissue in the jaws")
-        self.assertEqual(list(self.jaw.message.position), [0.0])
+        wait_until(lambda: list(self.jaw.message.position) == [0.0], LIMIT_S, "closed jaws")
         self.jaws.publish(JointState(position=[0.5]))
         wait_until(lambda: self.watch.value("left", "nodes_held") == 0, LIMIT_S, "open jaws")
         self.go((0.01, 0.01, 0.05))
