@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "solver/thread/chain/chain.h"
 
 namespace viscera {
@@ -229,6 +231,34 @@ TEST(ChainSlides, KeepTheirOrderAndDistance) {
     EXPECT_GT(around.slides[1].s - around.slides[0].s, 0.4 * kRest_m / kLink_m - 1e-2);
     EXPECT_GT(around.slides[2].s - around.slides[1].s, 1 - 1e-2);
   }
+}
+
+/// What was torn is told once: a substep that is not made tears nothing, gives nothing, and leaves all where it was.
+TEST(ChainSlides, NothingIsTornOrGivenWhereThereIsNoSolution) {
+  Chain chain(soft(), alongX(80));
+  ChainAround around;
+  around.holds = {held(chain, 0), held(chain, 79)};
+  around.slides = {channelAt(40.5)};
+  around.slides[0].most_n = 0.5;
+  Vector3d given = Vector3d::Zero();
+  around.answer = [&given](std::vector<ChainSlide>& slides) { given = slides[0].impulse_ns; };
+  for (int k = 0; k < 200; ++k) {
+    around.slides[0].to_m.z() += 0.05 * kSubstep_s;
+    chain.step(kSubstep_s, around);
+  }
+  ASSERT_FALSE(chain.waited());
+  ASSERT_FALSE(around.slides[0].torn_m.isZero(0));
+  ASSERT_FALSE(given.isZero(0));
+  const std::vector<Vector3d> places = chain.places_m();
+  const double s = around.slides[0].s;
+  around.holds[0].to_m.setConstant(std::numeric_limits<double>::quiet_NaN());
+  chain.step(kSubstep_s, around);
+  EXPECT_TRUE(chain.waited());
+  EXPECT_EQ(chain.places_m(), places);
+  EXPECT_EQ(around.slides[0].s, s);
+  EXPECT_TRUE(around.slides[0].torn_m.isZero(0));
+  EXPECT_TRUE(around.holds[0].impulse_ns.isZero(0));
+  EXPECT_TRUE(given.isZero(0));
 }
 
 }  // namespace

@@ -90,7 +90,7 @@ void Chain::wait(ChainAround& around) {
   stop();
   around.slides = before_slides_;
   around.knots = before_knots_;
-  for (ChainSlide& slide : around.slides) slide.impulse_ns.setZero();
+  for (ChainSlide& slide : around.slides) slide.impulse_ns = slide.torn_m = Vector3d::Zero();
   for (ChainKnot& knot : around.knots) knot.impulse_ns.setZero();
   for (ChainHold& hold : around.holds) hold.impulse_ns.setZero();
   for (ChainTouch& touch : around.touches) touch.impulse_ns.setZero();
