@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cstring>
 
+#include "solver/ticks/stable_step.h"
 #include "support/random_state.h"
 #include "support/solver_rig.h"
 
@@ -107,16 +108,25 @@ TEST_P(Governed, StrainedTissueGetsTheShorterSubstep) {
   scene.solver.substeps = 0;
   scene.solver.dt_fraction = 0.75;
   scene.solver.dt_fraction_strained = 0.25;
-  const auto solver = make(model_, scene);
-  solver->step({});
-  const uint64_t calm = solver->substepsDone();
-  HostState stretched = restState(model_);
-  for (uint32_t slot : model_.bodies[0].lattice.active_slots) {
-    stretched.displacement_m[slot] = vec4(1.5 * model_.bodies[0].lattice.restPosition(slot));
-  }
-  solver->writeState(stretched);
-  solver->step({});
-  EXPECT_GE(solver->substepsDone() - calm, 2 * calm);
+  scene.solver.tick_hz = 2;  // substeps enough to tell them apart
+  /// Substeps of a tick in which all tissue is that much longer than at rest, over those of a calm one.
+  const auto more = [&](double longer, bool measured) {
+    scene.solver.measured_limit = measured;
+    const auto solver = make(model_, scene);
+    solver->step({});
+    const auto calm = static_cast<double>(solver->substepsDone());
+    HostState strained = restState(model_);
+    for (uint32_t slot : model_.bodies[0].lattice.active_slots) {
+      strained.displacement_m[slot] = vec4(longer * model_.bodies[0].lattice.restPosition(slot));
+    }
+    solver->writeState(strained);
+    solver->step({});
+    return static_cast<double>(solver->substepsDone()) / calm - 1;
+  };
+  constexpr double kWhole = 0.1;  // of a calm tick's substeps, of which there are some tens: they are whole numbers
+  EXPECT_NEAR(more(1.5, false), 0.75 / 0.25, kWhole * 0.75 / 0.25);
+  EXPECT_NEAR(more(1.5, true), strainFactor(1.5), kWhole * strainFactor(1.5));  // long springs alone
+  EXPECT_GT(more(-0.8, true), 4);                                               // collapsed ones
 }
 
 TEST_P(Governed, EnergiesAndStableSubstepAreThoseOfTheReference) {

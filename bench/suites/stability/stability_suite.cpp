@@ -232,6 +232,7 @@ void stabilitySuite(Report& report) {
   measureParts(report, {{"starts", startsOfStability},
                         {"fractions", fractionsOfStability},
                         {"measured", measuredOfStability},
+                        {"strain", strainOfStability},
                         {"tools", toolsOfStability},
                         {"wounds", woundsOfStability},
                         {"places", placesOfStability},

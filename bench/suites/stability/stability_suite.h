@@ -13,6 +13,7 @@ void stabilitySuite(Report& report);
 void startsOfStability(Report& report);     ///< extreme starts x integrators x substeps
 void fractionsOfStability(Report& report);  ///< how far the substep may go towards its limit
 void measuredOfStability(Report& report);   ///< substeps as the fastest mode allows, from extreme starts
+void strainOfStability(Report& report);     ///< how much faster the fastest mode of strained tissue is
 void toolsOfStability(Report& report);      ///< fast and jumping tools, a grab pulled to 10x, random cuts
 void woundsOfStability(Report& report);     ///< ten thousand cuts with their wounds: the last against the first
 void placesOfStability(Report& report);     ///< far from the origin, with tools and skin; in other sizes

@@ -9,8 +9,8 @@
 
 namespace viscera {
 
-/// |L - l0| / l0 beyond which a tick is strained: the shorter substep that is proven for any state follows. Chosen by
-/// `viscera bench stability` (docs/stability.md).
+/// |L - l0| / l0 beyond which a tick is strained: the shorter substep that is proven for any state follows, unless the
+/// limit was measured and nothing else is wrong. Chosen by `viscera bench stability` (docs/stability.md).
 constexpr double kStrainedStretch = 1.0;
 
 /// How a session fares: what the governor has seen and done since the last reset. On the GPU it has not yet seen the
@@ -18,7 +18,8 @@ constexpr double kStrainedStretch = 1.0;
 struct Health {
   uint64_t trips = 0;       ///< ticks that were rolled back
   bool recovering = false;  ///< pd goes on in place of the scene's integrator; no force is given
-  bool strained = false;    ///< the state calls for the shorter substep
+  bool strained = false;    ///< the state calls for a shorter substep
+  bool only_long = false;   ///< it does so by long springs alone
   double kinetic_j = 0;     ///< energies of the last tick
   double elastic_j = 0;
 };

@@ -101,9 +101,11 @@ Governor::Trip Governor::judge(const layout::TickStats& stats, bool implicit, do
 void Governor::note(const layout::TickStats& stats) {
   health_.kinetic_j = stats.kinetic_j;
   health_.elastic_j = stats.elastic_j;
-  health_.strained = short_ticks_left_ > 0 || fromBits(stats.max_stretch_bits) > kStrainedStretch ||
-                     stats.collapsed > 0 || stats.inverted > 0 ||
-                     fromBits(stats.max_speed_bits) > limits_.speed_m_per_s / kSpeedMargin;
+  const bool is_long = fromBits(stats.max_stretch_bits) > kStrainedStretch;
+  const bool odd = short_ticks_left_ > 0 || stats.collapsed > 0 || stats.inverted > 0 ||
+                   fromBits(stats.max_speed_bits) > limits_.speed_m_per_s / kSpeedMargin;
+  health_.strained = is_long || odd;
+  health_.only_long = is_long && !odd;
 }
 
 /// The last good state goes on with the shorter substep; for longer where that was so not long ago.
@@ -113,6 +115,7 @@ void Governor::shorten() {
   short_ticks_left_ = std::max<int64_t>(1, std::llround(short_wanted_s_ / tick_s_));
   ticks_since_short_ = 0;
   health_.strained = true;
+  health_.only_long = false;
   ++health_.trips;
   ++setbacks_;
 }
@@ -125,6 +128,7 @@ void Governor::recover() {
   recovery_ticks_left_ = std::max<int64_t>(1, std::llround(recovery_wanted_s_ / tick_s_));
   health_.recovering = true;
   health_.strained = true;
+  health_.only_long = false;
   ++health_.trips;
   ++setbacks_;
 }

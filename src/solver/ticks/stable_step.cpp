@@ -10,6 +10,7 @@
 
 #include "model/scene/integrators.h"
 #include "solver/tissue/joined_lattice.h"
+#include "viscera/solver/governor.h"
 
 namespace viscera {
 
@@ -26,8 +27,8 @@ constexpr double kKick_s = 1e-4;
 constexpr double kOfLimit = 0.82, kDefaultFraction = 0.75;
 /// Of the limit that the dashpot leaves.
 constexpr double kDashpotMargin = 0.94;
-/// strainFactor(): more than in any deformation tried (docs/physics.md 2).
-constexpr double kPerStretch = 0.4;
+/// strainFactor(): up to kStrainedStretch, and beyond, where shear asks for more (docs/physics.md 2).
+constexpr double kPerStretch = 0.4, kPerMore = 0.8;
 
 /// Nodes that may move, with their masses.
 struct Movers {
@@ -149,12 +150,14 @@ double measureLimit_s(SolverBackend& backend, const Model& model) {
 }
 
 double strainFactor(double stretch) {
-  return 1 + kPerStretch * stretch;
+  return 1 + kPerStretch * std::min(stretch, kStrainedStretch) + kPerMore * std::max(0.0, stretch - kStrainedStretch);
 }
 
 double measuredSubstep_s(const SolverConfig& config, double dashpot_ratio, double dt_safe_s, double dt_limit_s,
                          double stretch) {
-  const double proven_s = config.dt_fraction * dt_safe_s;
+  const double proven_s =
+      (stretch > kStrainedStretch ? std::min(config.dt_fraction, config.dt_fraction_strained) : config.dt_fraction) *
+      dt_safe_s;
   if (!std::isfinite(dt_limit_s) || !std::isfinite(dt_safe_s)) return proven_s;
   // The dashpot's constant is that of dt_safe: of a slower fastest mode it is a smaller ratio.
   const double largest = stableFraction(config.integrator, dashpot_ratio * dt_safe_s / dt_limit_s);

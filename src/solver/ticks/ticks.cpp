@@ -105,13 +105,13 @@ void Ticks::measureTick(const ToolMotions& motions, bool contacts) {
 
 void Ticks::chooseSubsteps() {
   const bool recover = watch_ && watch_->health().recovering;
-  const bool strained = watch_ && watch_->health().strained;
+  const bool strained = watch_ && watch_->health().strained && !(watch_->health().only_long && dt_limit_s_ > 0);
   restarted_ |= recover != recovering_;
   recovering_ = recover;
   n_ = recover ? recovery_substeps_ : strained ? substeps_.strained : calmSubsteps();
 }
 
-/// Of a tick in which the tissue is strained as little as it is now.
+/// Of a tick in which the tissue is stretched as it is now.
 int Ticks::calmSubsteps() const {
   if (dt_limit_s_ == 0 || stretch_ == 0) return substeps_.calm;
   const double dt_s = measuredSubstep_s(config_, dashpot_ratio_, dt_safe_s_, dt_limit_s_, stretch_);
