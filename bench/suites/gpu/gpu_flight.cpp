@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bench/harness/session_speed.h"
 #include "bench/suites/gpu/gpu_parts.h"
+#include "gpu/stage_clock.h"
 #include "viscera/gpu/context.h"
 
 namespace viscera::bench {
@@ -50,6 +51,30 @@ void measureFlight(Report& report) {
   report.add(table, "flight");
 }
 
+namespace {
+
+constexpr double kLiveSeconds = 5, kStagesSeconds = 2, kShortSeconds = 0.2;
+
+StylusSamples noHands() {
+  return {};
+}
+
+/// What the solver's stages take of a tick, by the GPU's clock.
+void addStages(Session& session, Wanted wanted, double seconds, Table& table) {
+  gpu::StageClock clock;
+  const auto begun_with = session.tick();
+  measureSession(session, wanted, seconds, noHands);
+  const double ticks = static_cast<double>(session.tick() - begun_with);
+  const auto& times = clock.collect(true);
+  for (size_t s = 0; s < gpu::kStages; ++s) {
+    if (times[s].count == 0) continue;
+    table.add({nameOf(wanted), gpu::stageName(static_cast<gpu::Stage>(s)), static_cast<double>(times[s].count) / ticks,
+               1e3 * times[s].seconds / ticks});
+  }
+}
+
+}  // namespace
+
 void measureLive(Report& report) {
   constexpr int kMillion = 1000000, kFew = 3000, kOnSoftware = 10000;
   const int nodes = report.isShort() ? kFew : report.context()->isSoftware() ? kOnSoftware : kMillion;
@@ -62,21 +87,30 @@ void measureLive(Report& report) {
                   " kPa, with its skin and 60 pictures of 640 x 480 a second",
               {{"nodes", "", 8},
                {"faces", "", 8},
-               {"substeps", "per tick"},
+               {"substeps at rest", "per tick"},
+               {"substeps", "per tick", 4},
                {"read back"},
                {"tick", "ms", 3},
                {"of real time", "", 3},
                {"overtaken", "per tick", 3}});
+  Table stages("stages of its ticks by the GPU's clock",
+               {{"read back"}, {"stage"}, {"entered", "per tick", 4}, {"takes", "ms per tick", 3}});
+  const double at_rest = session.solver().substeps();
   for (const Wanted wanted : {Wanted::kNothing, Wanted::kSurfaceAndImages}) {
     report.stage("live: wanted: " + nameOf(wanted));
+    const uint64_t ticks_before = session.tick(), substeps_before = session.solver().substepsDone();
     const SessionSpeed speed =
-        measureSession(session, wanted, report.isShort() ? 0.2 : 5, [] { return StylusSamples{}; });
+        measureSession(session, wanted, report.isShort() ? kShortSeconds : kLiveSeconds, noHands);
+    const double substeps = static_cast<double>(session.solver().substepsDone() - substeps_before) /
+                            static_cast<double>(session.tick() - ticks_before);
     table.add({static_cast<double>(session.model().activeNodes()), static_cast<double>(session.model().skinTriangles()),
-               static_cast<double>(session.solver().substeps()), nameOf(wanted), 1e3 * speed.tick_s,
-               session.tick_s() / speed.tick_s, static_cast<double>(speed.work.skipped) / speed.ticks});
+               at_rest, substeps, nameOf(wanted), 1e3 * speed.tick_s, session.tick_s() / speed.tick_s,
+               static_cast<double>(speed.work.skipped) / speed.ticks});
+    addStages(session, wanted, report.isShort() ? kShortSeconds : kStagesSeconds, stages);
   }
   if (!report.isShort() && nodes != kMillion) report.note("The renderer is software: not a million nodes.\n");
   report.add(table, "live");
+  report.add(stages, "live_stages");
 }
 
 }  // namespace viscera::bench

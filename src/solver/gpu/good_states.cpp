@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "gpu/archive.h"
+#include "gpu/limits.h"
 #include "layout/bindings.h"
 
 namespace viscera {
@@ -14,17 +15,32 @@ GoodStates::GoodStates(size_t slots, int depth) {
     ring_.push_back(
         {gpu::Buffer<layout::vec4>(slots, "kept displacement"), gpu::Buffer<layout::vec4>(slots, "kept velocity")});
   }
+  if (!gpu::driverLimits().loads) return;
+  saves_ = gpu::Program::compute("save_state.comp", {"GROUP_SIZE " + std::to_string(layout::kGroupSize)});
 }
 
 void GoodStates::save(const LatticeBuffers& buffers, bool same) {
   same_ = same ? std::min(same_ + 1, static_cast<int>(ring_.size()) + 1) : 0;
   if (same_ <= static_cast<int>(ring_.size())) {
-    State& state = ring_[static_cast<size_t>(next_)];
-    state.displacement.copyFrom(buffers.state.displacement[buffers.state.current]);
-    state.velocity.copyFrom(buffers.state.velocity[buffers.state.current]);
+    keep(buffers, ring_[static_cast<size_t>(next_)]);
   }
   next_ = (next_ + 1) % static_cast<int>(ring_.size());
   kept_ = std::min(kept_ + 1, static_cast<int>(ring_.size()));
+}
+
+void GoodStates::keep(const LatticeBuffers& buffers, State& state) const {
+  const gpu::Buffer<layout::vec4>& displacement = buffers.state.displacement[buffers.state.current];
+  const gpu::Buffer<layout::vec4>& velocity = buffers.state.velocity[buffers.state.current];
+  if (!saves_) {
+    state.displacement.copyFrom(displacement);
+    state.velocity.copyFrom(velocity);
+    return;
+  }
+  gpu::bindStorages(layout::kBindSavedDisplacement, {state.displacement.id(), state.velocity.id()});
+  saves_->use();
+  saves_->set("slot_count", static_cast<uint32_t>(displacement.size()));
+  gpu::Program::dispatch(displacement.size(), layout::kGroupSize);
+  gpu::Program::storageBarrier();
 }
 
 void GoodStates::restore(LatticeBuffers& buffers, int back) {

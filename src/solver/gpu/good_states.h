@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <vector>
 
+#include "gpu/program.h"
 #include "solver/gpu/buffers/lattice_buffers.h"
 
 namespace viscera {
@@ -11,6 +13,7 @@ namespace viscera {
 class Archive;
 
 /// Ring of the last good states, on the GPU: displacements and velocities. Cuts are not undone.
+/// Owner of shaders/solver/step/save_state.comp.
 class GoodStates {
  public:
   /// @param depth  states that are kept, > 0
@@ -32,8 +35,10 @@ class GoodStates {
   struct State {
     gpu::Buffer<layout::vec4> displacement, velocity;
   };
+  void keep(const LatticeBuffers& buffers, State& state) const;
   const State& last() const { return ring_[(static_cast<size_t>(next_) + ring_.size() - 1) % ring_.size()]; }
   std::vector<State> ring_;
+  std::optional<gpu::Program> saves_;  ///< what copies; without it the driver does
   int next_ = 0, kept_ = 0, same_ = 0;
 };
 
