@@ -15,6 +15,9 @@ const uint kWayBits = 9u;        // of a component, the lowest is x
 const int kWayZero = 256;        // stands for 0
 const float kWayStep = 1.0f / 128.0f;  // of one, in cells: +-2 in all
 const uint kWayEdgeBit = 1u << 27u;    // from the node along x, to the side of the way, goes an edge; then y, z
+// Tissue of a node outside is that many cells away at most: a cell's diagonal, and as much again where its edges are stretched or
+// turned (shaders/solver/tissue/surface_way.glsl).
+const float kFarthestTissue = 3.5f;
 
 #ifdef __cplusplus
 }  // namespace viscera::layout

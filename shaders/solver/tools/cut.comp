@@ -98,8 +98,11 @@ void main() {
   if (((spared >> bodyOf(bits)) & 1u) != 0u) return;
 #endif
   float h = bodies[bodyOf(bits)].origin_spacing.w;
-  vec3 x = seenFromBlade(slot, m, h);
   vec4 sphere = bladeSphere(m, h);
+#ifndef __cplusplus  // which asks near nodes alone; where its tissue is need not be known of one that is far
+  if (farFromBlade(nodeFromBlade(slot, m), vec4(xyz(sphere), sphere.w + kFarthestTissue * h))) return;
+#endif
+  vec3 x = seenFromBlade(slot, m, h);
   if (isIsolated(bits) || farFromBlade(x, sphere)) return;
   vec3 own = onItsSide(slot, x, m, h);
   NodeBits whole = bits;

@@ -40,7 +40,8 @@ std::string asField(std::string text) {
 SceneSwitch::SceneSwitch(ros::NodeHandle node, const SimulatorOptions& running, const std::string& package_folder)
     : package_folder_(package_folder), running_(running), spinner_(1, &queue_) {
   node.setCallbackQueue(&queue_);
-  server_ = node.advertiseService("load_scene", &SceneSwitch::onLoadScene, this);
+  load_scene_ = node.advertiseService("load_scene", &SceneSwitch::onLoadScene, this);
+  coarsen_ = node.advertiseService("coarsen", &SceneSwitch::onCoarsen, this);
   spinner_.start();
 }
 
@@ -50,13 +51,19 @@ SceneSwitch::~SceneSwitch() {
     state_ = State::kEnd;
   }
   changed_.notify_all();
-  server_.shutdown();
+  load_scene_.shutdown();
+  coarsen_.shutdown();
   spinner_.stop();
 }
 
 bool SceneSwitch::isRequested() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   return state_ == State::kRequested;
+}
+
+void SceneSwitch::noteScene(const Scene& chosen) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  keep_up_.begin(next_ ? next_->scene : running_.scene, chosen);
 }
 
 void SceneSwitch::noteReady() {
@@ -97,9 +104,9 @@ SimulatorOptions SceneSwitch::check(const LoadScene::Request& request) const {
 }
 
 /// @throws Error  no model can be made of the scene
-std::unique_ptr<MadeSession> SceneSwitch::make(const Scene& scene) const {
-  const Progress progress = [this](const std::string& stage, double fraction) {
-    ROS_INFO_THROTTLE(1, "load_scene: %s %.0f %%", stage.c_str(), 100 * fraction);
+std::unique_ptr<MadeSession> SceneSwitch::make(const char* service, const Scene& scene) const {
+  const Progress progress = [=](const std::string& stage, double fraction) {
+    ROS_INFO_THROTTLE(1, "%s: %s %.0f %%", service, stage.c_str(), 100 * fraction);
     const std::lock_guard<std::mutex> lock(mutex_);
     if (state_ == State::kEnd) throw Ended{};
   };
@@ -108,7 +115,7 @@ std::unique_ptr<MadeSession> SceneSwitch::make(const Scene& scene) const {
   try {
     made->makeRest(progress);
   } catch (const std::exception& error) {  // perhaps for want of memory, which the old one has
-    ROS_WARN("load_scene: the rest waits for the end of the old scene: %s", oneLine(error.what()).c_str());
+    ROS_WARN("%s: the rest waits for the end of the old scene: %s", service, oneLine(error.what()).c_str());
     made->session.reset();
   }
   made->give();
@@ -154,10 +161,11 @@ std::string SceneSwitch::change(const SimulatorOptions& next, std::unique_ptr<Ma
   return error_.empty() ? "" : "the scene that ran before was started again, at rest: " + error_;
 }
 
-bool SceneSwitch::onLoadScene(LoadScene::Request& request, LoadScene::Response& response) {
+template <class Response>
+void SceneSwitch::serve(const char* service, const std::function<SimulatorOptions()>& choose, Response& response) {
   try {
-    const SimulatorOptions next = check(request);
-    response.message = change(next, make(next.scene));
+    const SimulatorOptions next = choose();
+    response.message = change(next, make(service, next.scene));
     endOld();
     response.success = response.message.empty();
     if (response.success) response.message = "running " + next.scene.name;
@@ -166,7 +174,24 @@ bool SceneSwitch::onLoadScene(LoadScene::Request& request, LoadScene::Response& 
   } catch (const std::exception& error) {
     response.message = asField(error.what());
   }
-  if (!response.success) ROS_WARN("load_scene: %s", response.message.c_str());
+  if (!response.success) ROS_WARN("%s: %s", service, response.message.c_str());
+}
+
+bool SceneSwitch::onLoadScene(LoadScene::Request& request, LoadScene::Response& response) {
+  serve(
+      "load_scene", [&] { return check(request); }, response);
+  return true;
+}
+
+bool SceneSwitch::onCoarsen(std_srvs::Trigger::Request& /*request*/, std_srvs::Trigger::Response& response) {
+  serve(
+      "coarsen",
+      [&] {
+        SimulatorOptions next = running_;
+        next.scene = keep_up_.coarser(running_.scene);
+        return next;
+      },
+      response);
   return true;
 }
 

@@ -5,13 +5,16 @@
 #include <ros/callback_queue.h>
 #include <ros/node_handle.h>
 #include <ros/spinner.h>
+#include <std_srvs/Trigger.h>
 
 #include <condition_variable>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
 
+#include "calibration/keep_up.h"
 #include "nodes/simulator/held_topics.h"
 #include "nodes/simulator/made_session.h"
 #include "nodes/simulator/simulator_options.h"
@@ -23,6 +26,8 @@ namespace viscera::nodes {
 /// that a bad one is refused and the old one is missed for as short as can be; then the whole simulator is made again
 /// with it, by the caller, who runs simulators one after another. Where there is no room for both sessions, only the
 /// model is made before. A scene that does not come to run then gives way to the old one, at rest.
+/// Service `coarsen`: the same scene with coarser lattices, where `spacing_m: auto` was too fine for the load that
+/// came.
 class SceneSwitch {
  public:
   /// @param running  of the simulator that is made first   @param package_folder  where scenes are looked up by name
@@ -34,8 +39,12 @@ class SceneSwitch {
   // For the main thread:
   /// The running simulator is to end, as a scene waits for its place.
   bool isRequested() const;
+  /// The session of the simulator that was made last is there; on any thread. @param chosen  its scene, in numbers
+  void noteScene(const Scene& chosen);
   /// The simulator that was made last runs.
   void noteReady();
+  /// Of the session that runs.
+  KeepUp& keepUp() { return keep_up_; }
   /// What the next simulator is made of, if there is to be one; then isRequested() is false.
   std::optional<SimulatorOptions> takeNext();
   /// What there is of its session; once. Null: nothing.
@@ -50,8 +59,11 @@ class SceneSwitch {
  private:
   enum class State { kRunning, kRequested, kStarting, kReturning, kEnd };
   bool onLoadScene(LoadScene::Request& request, LoadScene::Response& response);
+  bool onCoarsen(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
+  template <class Response>
+  void serve(const char* service, const std::function<SimulatorOptions()>& choose, Response& response);
   SimulatorOptions check(const LoadScene::Request& request) const;
-  std::unique_ptr<MadeSession> make(const Scene& scene) const;
+  std::unique_ptr<MadeSession> make(const char* service, const Scene& scene) const;
   std::string change(const SimulatorOptions& next, std::unique_ptr<MadeSession> made);
   void endOld();
 
@@ -66,7 +78,8 @@ class SceneSwitch {
   std::string error_;  ///< why the last one did not run; empty: it does
   bool first_ = true;  ///< no simulator has run yet
   ros::CallbackQueue queue_;
-  ros::ServiceServer server_;
+  KeepUp keep_up_;
+  ros::ServiceServer load_scene_, coarsen_;
   ros::AsyncSpinner spinner_;
 };
 

@@ -62,8 +62,8 @@ Simulator::Simulator(const SimulatorOptions& options, EndWatch& end, SceneSwitch
       services_(std::in_place, node_, options.scene.styluses, options.saved_folder, loop_.commands(),
                 SimulatorServices::Switches{recordings_, tasks_}, modeSet()),
       diagnostics_(std::in_place, node_, options.scene, loop_,
-                   SimulatorDiagnostics::Publishers{publisher_, wrenches_, recordings_}, inputs_, obstacles_,
-                   camera_frames_),
+                   SimulatorDiagnostics::Publishers{publisher_, wrenches_, recordings_, scenes_.keepUp()}, inputs_,
+                   obstacles_, camera_frames_),
       device_spinner_(1, &device_queue_) {
 }
 
@@ -122,6 +122,7 @@ LoopPorts Simulator::ports() {
   ports.wants = [this] { return placed(publisher_.beginTick()); };
   ports.stills = [this](bool changed, bool aimed) { return placed(publisher_.stills(changed, aimed)); };
   ports.ready = [this](Session& session) {
+    scenes_.noteScene(session.scene());
     recordings_.follow(session);
     tasks_.follow(session);
     ROS_INFO("ready: %zu nodes, %zu springs, %zu triangles, substep %.3g ms", session.model().activeNodes(),

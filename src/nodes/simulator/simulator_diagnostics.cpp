@@ -19,7 +19,6 @@ namespace {
 using Level = diagnostic_msgs::DiagnosticStatus;
 
 constexpr double kPeriod_s = 1;
-constexpr double kSlow = 0.9;  ///< real-time factor below which a person notices
 
 float fromBits(uint32_t bits) {
   float value;
@@ -148,9 +147,11 @@ void SimulatorDiagnostics::simulation(Status& status) {
 void SimulatorDiagnostics::pace(Status& status) {
   if (!now_) return status.summary(Level::OK, "preparing");
   const PaceMeter::Reading& pace = now_->pace;
-  const bool slow = !now_->paused && pace.real_time_factor < kSlow;
+  const bool slow = !now_->paused && pace.real_time_factor < KeepUp::kSlow;
   status.summary(slow ? Level::WARN : Level::OK, slow ? "slower than real time" : "keeps up");
   if (!now_->paused && slowness_.note(slow)) warnOfSlowness(pace, tick_s_);
+  const std::string finer = now_->paused ? "" : publishers_.keep_up.note(pace.real_time_factor);
+  if (!finer.empty()) ROS_WARN("%s", finer.c_str());
   if (!slow && pictures_.areBehind())
     status.summary(Level::WARN, "keeps up, but pictures come less than a third as often as wanted");
   if (publishers_.wrenches.stalled()) status.summary(Level::WARN, "ticks do not come in time: forces are zero");

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "calibration/keep_up.h"
 #include "nodes/forces/wrench_publisher.h"
 #include "nodes/hands/stylus_input.h"
 #include "nodes/ros/slowness.h"
@@ -31,6 +32,7 @@ class SimulatorDiagnostics {
     FramePublisher& frames;
     WrenchPublisher& wrenches;
     const RecordingSwitch& recordings;
+    KeepUp& keep_up;
   };
 
   /// @param loop, publishers, inputs, obstacles, camera_frames  must outlive this

@@ -24,6 +24,7 @@ from visualization_msgs.msg import Marker, MarkerArray
 # Ticks of one scene to the first of the next. Alone on two cores it is some 0.1 s. Tests share their cores with others, and ten times
 # in a switch one thread waits for another, each of which a busy machine may put aside for 50 ms. A model made again takes longer.
 LONGEST_GAP_S = 0.6
+TOO_SLOW = 0.2  # real-time factor that a lattice is made for: below what it takes to be told of
 HERE = os.path.dirname(os.path.abspath(__file__))
 OTHER = os.path.join(os.path.dirname(HERE), "views", "cameras.yaml")
 HEART = ["bodies[0].spacing_m=0.008", "environment.gravity_m_per_s2=[0,0,0]"]
@@ -136,6 +137,28 @@ class LoadSceneTest(unittest.TestCase):
         self.assertTrue(answer.success, answer.message)
         wait_until(lambda: "/left/body/servo_cf" in self.topics() and "/scope/image_raw" not in self.topics(), 10,
                    "topics of the old scene")
+
+    def test_6_a_lattice_that_is_too_fine_is_made_coarser(self):
+        coarsen = rospy.ServiceProxy("coarsen", Trigger)
+        self.assertIn("no body of the scene has spacing_m: auto", coarsen().message)
+        lines = []
+        subscriber = rospy.Subscriber("/rosout", Log, lambda it: lines.append(it.msg), queue_size=1000)
+        answer = self.load(scene=OTHER, overrides=["bodies[0].spacing_m=auto", "solver.backend=cpu", "cameras=[]", "solver.sleep_speed_m_per_s=0",
+                                                     "solver.real_time_factor=%g" % TOO_SLOW])
+        self.assertTrue(answer.success, answer.message)
+        self.assertIn("has not run", coarsen().message)
+
+        def said(text):
+            return [line for line in lines if text in line]
+        wait_until(lambda: said("service coarsen takes it"), 30, "offer of a coarser lattice")
+        self.assertEqual(len(said("service coarsen takes it")), 1)
+        answer = coarsen()
+        self.assertTrue(answer.success, answer.message)
+        nodes = [int(line.split()[1]) for line in said("ready: ")]
+        self.assertEqual(len(nodes), 2)
+        self.assertLess(nodes[1], 0.9 * nodes[0])
+        self.assertTrue(said("in place of"))
+        subscriber.unregister()
 
 
 if __name__ == "__main__":

@@ -231,7 +231,7 @@ void NearBlade::find(const CpuLattice& lattice, const layout::ToolMotion& motion
   for (size_t body = 0; body < sweeps_.size(); ++body) {
     const float h = lattice.store.bodies[body].origin_spacing.w;
     const bool beside = !lattice.strengths.surface_ways.empty();
-    surround(glsl::Blade().bladeSphere(motion, h), beside ? kFarthestTissue * h : 0, sweeps_[body]);
+    surround(glsl::Blade().bladeSphere(motion, h), beside ? layout::kFarthestTissue * h : 0, sweeps_[body]);
   }
   findBricks(lattice, motion, at_rest);
   const float grown_m = particles ? motion.blade_from.w : farthestOffset(motion);

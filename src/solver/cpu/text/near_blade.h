@@ -5,16 +5,13 @@
 #include <algorithm>
 #include <vector>
 
+#include "layout/surface_ways.h"
 #include "solver/cpu/simd/kernels.h"
 #include "solver/cpu/store/cpu_lattice.h"
 #include "solver/cpu/store/parallel.h"
 #include "viscera/layout/tool_motion.h"
 
 namespace viscera {
-
-/// Tissue of a node outside is that many cells away at most: a cell's diagonal, and as much again where its edges are
-/// stretched or turned (shaders/solver/tissue/surface_way.glsl).
-constexpr float kFarthestTissue = 3.5f;
 
 /// Which nodes of a lattice a sweep of a blade may take springs from. Most are far from it and are passed over brick by
 /// brick, or by the SIMD kernels. Allocates nothing once it has looked.

@@ -39,7 +39,7 @@ std::vector<float> reaches(CpuLattice& lattice, const std::vector<uint32_t>& slo
   std::vector<float> out(lattice.slotCount());
   glsl::Nodes nodes(lattice);
   for (const uint32_t slot : slots) {
-    if (nodes.surfaceWay(slot) != 0) out[slot] = kFarthestTissue * lattice.store.bodyOf(slot).origin_spacing.w;
+    if (nodes.surfaceWay(slot) != 0) out[slot] = layout::kFarthestTissue * lattice.store.bodyOf(slot).origin_spacing.w;
   }
   return out;
 }

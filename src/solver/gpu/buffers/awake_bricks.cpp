@@ -7,8 +7,8 @@
 #include "gpu/archive.h"
 #include "gpu/limits.h"
 #include "layout/bindings.h"
+#include "layout/surface_ways.h"
 #include "solver/cpu/store/sleep.h"
-#include "solver/cpu/text/near_blade.h"
 #include "solver/tissue/joined_lattice.h"
 
 namespace viscera {
@@ -78,7 +78,7 @@ AwakeBricks::AwakeBricks(const Model& model, const FeatureSet& features, const L
       nodes_(listBytes(buffers.store.active_count), "awake nodes"),
       slow2_(static_cast<float>(speed_m_per_s * speed_m_per_s)),
       deepest_m_(deepest(model)),
-      beside_(features.moments ? kFarthestTissue : 0),
+      beside_(features.moments ? layout::kFarthestTissue : 0),
       group_size_(features.group_size) {
   if (features.volume) cells_ = gpu::RawBuffer(listBytes(buffers.store.cells.size()), "awake cells");
   if (!features.tools) return;
