@@ -20,8 +20,8 @@ double measureLimit_s(SolverBackend& backend, const Model& model);
 /// @param stretch  largest |L - l0| / l0, >= 0
 double strainFactor(double stretch);
 
-/// Substep that follows from a measured limit [s]: in proportion to dt_fraction, and never shorter than by dt_fraction; of
-/// tissue stretched by more than kStrainedStretch, by dt_fraction_strained.
+/// Substep that follows from a measured limit [s]: in proportion to dt_fraction, and never shorter than by dt_fraction;
+/// of tissue stretched by more than kStrainedStretch, by dt_fraction_strained.
 /// @param dashpot_ratio  xi, the largest of all bodies   @param stretch  as of strainFactor()
 double measuredSubstep_s(const SolverConfig& config, double dashpot_ratio, double dt_safe_s, double dt_limit_s,
                          double stretch);
