@@ -12,6 +12,7 @@
 #include "layout/bindings.h"
 #include "surface/network_surface.h"
 #include "surface/skins/joined_skins.h"
+#include "surface/skins/part_colors.h"
 #include "surface/surface_kernels.h"
 
 namespace viscera {
@@ -126,6 +127,10 @@ Surface::Surface(const Model& model) {
     map_ = surfaceKernel("map_skin.comp", mapFeatures(skins));
   }
   if (skins.any_one_to_one) networks_ = std::make_unique<NetworkSurface>(skins.networks, Wounds::ofTetrahedra(model));
+  if (!wounds_) {
+    whole_colors_ = std::move(skins.colors);
+    whole_bindings_ = std::move(skins.bindings);
+  }
   if (wounds_) makeRoom(kRoomForWounds * vertices_, live_count_ + 3 * kRoomForWounds * triangles);
   reset();
 }
@@ -271,7 +276,7 @@ void Surface::showWounds() {
   const auto roomFor = [](size_t needed, size_t there) { return needed > there ? needed + needed / 2 : there; };
   makeRoom(roomFor(vertices_, capacity()), roomFor(first_wound_index_ + beyond, live_.size()));
   bindings_.write(wounds_->bindings());
-  colors_.write(wounds_->colors());
+  writeColors();
   rests_.write(wounds_->addedRests(), whole_vertices_);
   wound_indices_.clear();
   size_t first = 0;
@@ -333,6 +338,29 @@ void Surface::wound(const CutSprings& cuts, uint64_t revision) {
   const gpu::TimedStage timed(gpu::Stage::kSurface);
   if (!wounds_->update(cuts)) return;
   showWounds();
+  publish();
+}
+
+/// Those of the skins and walls, and over them what is burnt.
+void Surface::writeColors() {
+  std::vector<uint32_t> colors = wounds_ ? wounds_->colors() : whole_colors_;
+  const std::vector<layout::SkinBinding>& bindings = wounds_ ? wounds_->bindings() : whole_bindings_;
+  for (size_t v = 0; burns_ && v < colors.size(); ++v) {
+    const layout::SkinBinding& b = bindings[v];
+    const std::vector<float>& shares = burns_->shares;
+    const bool one = (b.springs & layout::kOneToOneBit) != 0;
+    const float share =
+        one ? shares[b.slot0]
+            : b.weights.x * shares[b.slot0] + b.weights.y * shares[b.slot1] + b.weights.z * shares[b.slot2];
+    colors[v] = burntColor(colors[v], share);
+  }
+  colors_.write(colors);
+}
+
+void Surface::paint(const std::shared_ptr<const BurnPaint>& burns) {
+  if (burns == burns_) return;
+  burns_ = burns;
+  writeColors();
   publish();
 }
 
