@@ -81,6 +81,7 @@ std::vector<uint32_t> chartsOfPieces(const JoinedSkins& skins) {
   return charts;
 }
 
+constexpr float kBelowLayers_m = 0.02F;  // skin, fat and what else scenes have are thinner
 constexpr size_t kRoomForWounds = 2;  // times the vertices and triangles of the skins: beyond it a tick makes buffers
 
 }  // namespace
@@ -277,7 +278,6 @@ void Surface::showWounds() {
   makeRoom(roomFor(vertices_, capacity()), roomFor(first_wound_index_ + beyond, live_.size()));
   bindings_.write(wounds_->bindings());
   writeColors();
-  rests_.write(wounds_->addedRests(), whole_vertices_);
   wound_indices_.clear();
   size_t first = 0;
   for (size_t b = 0; b < shown.bodies.size(); ++b) {
@@ -341,26 +341,37 @@ void Surface::wound(const CutSprings& cuts, uint64_t revision) {
   publish();
 }
 
-/// Those of the skins and walls, and over them what is burnt.
+/// Those of the skins and walls.
 void Surface::writeColors() {
+  if (burns_) return writeBurntColors();
+  colors_.write(wounds_->colors());
+  rests_.write(wounds_->addedRests(), whole_vertices_);
+}
+
+/// Where walls are burnt they have no layers, as they look deep.
+void Surface::writeBurntColors() {
   std::vector<uint32_t> colors = wounds_ ? wounds_->colors() : whole_colors_;
   const std::vector<layout::SkinBinding>& bindings = wounds_ ? wounds_->bindings() : whole_bindings_;
-  for (size_t v = 0; burns_ && v < colors.size(); ++v) {
+  std::vector<layout::vec4> added = wounds_ ? wounds_->addedRests() : std::vector<layout::vec4>();
+  const std::vector<float>& shares = burns_->shares;
+  for (size_t v = 0; v < colors.size(); ++v) {
     const layout::SkinBinding& b = bindings[v];
-    const std::vector<float>& shares = burns_->shares;
     const bool one = (b.springs & layout::kOneToOneBit) != 0;
     const float share =
         one ? shares[b.slot0]
             : b.weights.x * shares[b.slot0] + b.weights.y * shares[b.slot1] + b.weights.z * shares[b.slot2];
     colors[v] = burntColor(colors[v], share);
+    if (v < whole_vertices_ || added[v - whole_vertices_].w <= 0) continue;
+    added[v - whole_vertices_].w += kBelowLayers_m * std::clamp(share, 0.0F, 1.0F);
   }
   colors_.write(colors);
+  if (!added.empty()) rests_.write(added, whole_vertices_);
 }
 
 void Surface::paint(const std::shared_ptr<const BurnPaint>& burns) {
   if (burns == burns_) return;
   burns_ = burns;
-  writeColors();
+  writeBurntColors();
   publish();
 }
 

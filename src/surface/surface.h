@@ -82,6 +82,7 @@ class Surface {
   void forget();
   void showWounds();
   void writeColors();
+  void writeBurntColors();
   void showReplaced(size_t body, size_t first_triangle);
   void makeRoom(size_t vertices, size_t indices);
   void showWoundedCharts();

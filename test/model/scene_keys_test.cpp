@@ -414,7 +414,7 @@ TEST(SceneKeys, KeyEndsInItsUnit) {
       {"N", "_n"},           {"N/s", "_n_per_s"}, {"s", "_s"},
       {"deg", "_deg"},       {"Hz", "_hz"},       {"deg/s", "_deg_per_s"},
       {"MB", "_mb"},         {"N m", "_nm"},      {"N m/s", "_nm_per_s"},
-      {"J/m2", "_j_per_m2"}, {"N/m", "_n_per_m"}};
+      {"J/m2", "_j_per_m2"}, {"N/m", "_n_per_m"}, {"W", "_w"}};
   for (const auto& row : tableRows(sceneKeysTable())) {
     const size_t comma = row.at(2).find(", ");
     if (comma == std::string::npos) continue;

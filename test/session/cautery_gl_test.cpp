@@ -97,6 +97,9 @@ TEST_P(Cautery, HeatIsPowerTimesTimeInTouchAndAllOfItIsAccountedFor) {
     for (int t = 0; t < 30; ++t) session.step(on(false, false, top_m), {});
     EXPECT_EQ(session.seenBurns().given_j, seen.given_j) << "not pressed";
     EXPECT_LT(session.seenBurns().hottest_c, seen.hottest_c);
+    session.step(on(true, false, top_m), {});
+    EXPECT_NEAR(session.seenBurns().given_j, 61 * 4 * session.tick_s(), kTime * seen.given_j)
+        << "also where it was in tissue before, and pushes nothing";
     EXPECT_EQ(session.drain().stats.nonfinite, 0U);
     EXPECT_EQ(session.drain().health.trips, 0U);
   }

@@ -20,7 +20,7 @@ constexpr double kNearby = 1.5;      // spacings from a tip: no tissue that it t
 constexpr double kErased = 0.1;      // spacings around a node that parts: none beside it
 constexpr double kSeen = 1.0 / 128;  // a share that changed by less looks the same
 
-layout::vec4 asVec4(const Vector3d& v, double w = 0) {
+layout::vec4 vec4Of(const Vector3d& v, double w = 0) {
   return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z()), static_cast<float>(w)};
 }
 
@@ -112,7 +112,7 @@ void Burns::heatWhatTipsTouch(BladeTarget& target) {
   for (uint32_t s = 0; s < styluses_.size(); ++s) {
     const StylusMotion& motion = motions_[s];
     const CauteryConfig& config = styluses_[s].cautery;
-    if (!motion.present || !kindOf(motion.mode).burns || motion.feels_m > 0 || config.power_w <= 0) continue;
+    if (!motion.present || !kindOf(motion.mode).burns || config.power_w <= 0) continue;
     const std::vector<TissuePoint> points = touchedBy(target, motion, config.radius_m);
     for (const TissuePoint& point : points) {
       double sum = 0;  // beside a cut weights may be below 0
@@ -140,8 +140,8 @@ bool Burns::partWhatBoiled(BladeTarget& target) {
     Vector3d at_m = tissue_.rest_m(slot);
     if (!lattice.way_to_surface_m.empty()) at_m += lattice.way_to_surface_m[slot - model_.slotOffset(b)].cast<double>();
     layout::ToolMotion sweep{};
-    sweep.from = sweep.to = sweep.blade_to = asVec4(at_m);
-    sweep.blade_from = asVec4(at_m, kErased * heat_.graph().spacing_m[b]);
+    sweep.from = sweep.to = sweep.blade_to = vec4Of(at_m);
+    sweep.blade_from = vec4Of(at_m, kErased * heat_.graph().spacing_m[b]);
     target.selectBody(b);
     target.cutAtRest(sweep, true);
     is_parted_[slot] = 1;

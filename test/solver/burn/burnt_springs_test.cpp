@@ -12,9 +12,9 @@
 namespace viscera {
 namespace {
 
-constexpr double kLength = 2e-3;  // of a length: float32 places, and what still swings
-constexpr double kForce = 1e-2;   // of a stiffness, between stretches of a hundredth: springs are not linear
-constexpr double kDone = 20;      // a dose at which all is coagulated
+constexpr double kLength = 2e-3;     // of a length: float32 places, and what still swings
+constexpr double kStiffness = 1e-2;  // of a stiffness, between stretches of a hundredth: springs are not linear
+constexpr double kDone = 20;         // a dose at which all is coagulated
 
 /// Fresh springs, stepped by leapfrog with drag.
 class Stepped : public BladeTarget {
@@ -178,7 +178,7 @@ TEST(BurntSprings, CoagulatedTissueIsStifferByItsFactor) {
   const double fresh_m = lengthUnder(model, nullptr, force_n) - lengthUnder(model, nullptr, 0);
   const double stiff_m = lengthUnder(model, &burnt, force_n) - lengthUnder(model, &burnt, 0);
   EXPECT_GT(fresh_m, 1e-4);
-  EXPECT_NEAR(fresh_m / stiff_m, BurntSprings::kStiffened, kForce * BurntSprings::kStiffened);
+  EXPECT_NEAR(fresh_m / stiff_m, BurntSprings::kStiffened, kStiffness * BurntSprings::kStiffened);
 }
 
 TEST(BurntSprings, CutOnesPullNoMore) {
