@@ -54,6 +54,7 @@ Json metricsOf(const Session& session, const layout::TickStats& stats, const std
   for (const SeenThread& seen : session.seenThreads())
     metrics.threads.push_back({session.scene().threads[seen.thread].name, seen});
   if (mayClip(session.scene().styluses)) metrics.clips = session.seenClips();
+  if (mayBurn(session.scene().styluses)) metrics.burns = session.seenBurns();
   metrics.thread_refusal = session.threadRefusal();
   metrics.images = counters.renders;
   metrics.images_skipped = counters.skipped;

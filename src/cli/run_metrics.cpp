@@ -64,6 +64,17 @@ nlohmann::ordered_json toJson(const RunMetrics& metrics) {
     }
     out["clips"] = clips;
   }
+  if (metrics.burns) {
+    const SeenBurns& burns = *metrics.burns;
+    out["burns"] = {{"given_j", burns.given_j},
+                    {"stored_j", burns.stored_j},
+                    {"steam_j", burns.steam_j},
+                    {"perfused_j", burns.perfused_j},
+                    {"surface_j", burns.surface_j},
+                    {"hottest_c", burns.hottest_c},
+                    {"coagulated_m3", burns.coagulated_m3},
+                    {"parted", burns.parted}};
+  }
   if (!metrics.thread_refusal.empty()) out["thread_refusal"] = metrics.thread_refusal;
   out["images"] = metrics.images;
   out["images_skipped"] = metrics.images_skipped;

@@ -27,6 +27,7 @@ struct RunMetrics {
   std::vector<BladeWork> blades = {};  ///< by stylus, of tissue that resists them; else empty
   std::vector<ThreadMetrics> threads = {};
   std::optional<SeenClips> clips = {};  ///< where the scene has tools that set some
+  std::optional<SeenBurns> burns = {};  ///< where it has tools that burn
   std::string thread_refusal = {};      ///< why the last tie of the scene was not tied
   Extremes extremes = {};
   std::string backend = {}, renderer = {};

@@ -116,7 +116,7 @@ struct ToolSize {
   const char* key;
   double (*value_m)(const StylusConfig&);
 };
-constexpr std::array<ToolSize, 10> kToolSizes = {{
+constexpr std::array<ToolSize, 11> kToolSizes = {{
     {"probe.radius_m", [](const StylusConfig& c) { return c.probe.radius_m; }},
     {"grab.radius_m", [](const StylusConfig& c) { return c.grab.radius_m; }},
     {"cut.blade_length_m", [](const StylusConfig& c) { return c.cut.blade_length_m; }},
@@ -127,6 +127,7 @@ constexpr std::array<ToolSize, 10> kToolSizes = {{
     {"grasper.jaw_length_m", [](const StylusConfig& c) { return c.grasper.jaw_length_m; }},
     {"clip.jaw_length_m", [](const StylusConfig& c) { return c.clip.jaw_length_m; }},
     {"clip.opening_m", [](const StylusConfig& c) { return c.clip.opening_m; }},
+    {"cautery.radius_m", [](const StylusConfig& c) { return c.cautery.radius_m; }},
 }};
 
 void followTools(const OrganFit& fit, const Scene& made, Keys& keys) {

@@ -71,7 +71,7 @@ InlineView::InlineView(const Model& model, const Scene& scene)
       renderer_(eyesOf(scene.cameras), scene.styluses, scene.obstacles, &model),
       surface_ring_(makeRing(surface_)),
       reads_late_(gpu::isSoftware()) {
-  if (pushesAfterSubsteps(scene)) renderer_.addThreads(looksOf(scene));
+  if (hasThreadsOrClips(scene)) renderer_.addThreads(looksOf(scene));
   const std::vector<CameraConfig>& cameras = scene.cameras;
   for (size_t c = 0; c < cameras.size(); ++c) addEye(c, cameras[c], PictureKind::kColor);
   for (size_t c = 0; c < cameras.size(); ++c) {
@@ -124,6 +124,7 @@ void InlineView::capture(const StateView& state, const Look& look, Pictures& out
     any = true;
     all = all || (eye.draws && overlaysOf(eye.camera, look).any()) || !eye.skin.asks(displacements.has_value());
   }
+  if (look.burns) surface_.paint(look.burns);
   if (any) follow(state, all, displacements);
   if (surface) captureSurface(look.tick);
   const auto last =
@@ -186,7 +187,7 @@ bool InlineView::isRepeat(const Eye& eye, const std::optional<Drawn>& drawn, con
          looksTheSame(look.motions, drawn->motions) && isSame(eye.pose, drawn->pose) &&
          std::equal(look.obstacles.begin(), look.obstacles.end(), drawn->obstacles.begin(), drawn->obstacles.end(),
                     isSame) &&
-         look.threads == drawn->threads && overlays == drawn->overlays &&
+         look.threads == drawn->threads && look.burns == drawn->burns && overlays == drawn->overlays &&
          (!overlays.any() || look.arrows == drawn->arrows);
 }
 
@@ -250,7 +251,7 @@ void InlineView::captureGeometry(size_t e, const StateView& state, const Look& l
     if (state.moved_revision) {
       eye.measured =
           Drawn{state.moved_revision, state.cut_revision, look.motions, look.obstacles, eye.pose, Overlays{}, {},
-                look.threads};
+                look.threads,         look.burns};
     }
   } else {
     ++counters_.repeats;
@@ -288,7 +289,7 @@ void InlineView::draw(size_t e, const StateView& state, const Look& look) {
   eye.drawn.reset();
   if (state.moved_revision) {
     eye.drawn = Drawn{state.moved_revision, state.cut_revision, look.motions, look.obstacles, eye.pose, overlays,
-                      look.arrows,          look.threads};
+                      look.arrows,          look.threads,       look.burns};
   }
 }
 

@@ -52,6 +52,7 @@ class InlineView : public View {
     Overlays overlays;
     std::vector<Arrow> arrows;
     ShownThreads threads;
+    std::shared_ptr<const BurnPaint> burns;
   };
   struct Channel {  ///< one kind of picture of an eye, on its way
     PictureKind kind = PictureKind::kColor;

@@ -11,6 +11,7 @@
 #include "model/scene/tool_kinds.h"
 #include "session/arrows.h"
 #include "session/view.h"
+#include "solver/burn/burns.h"
 #include "solver/contact/surroundings.h"
 #include "solver/make_solver.h"
 #include "solver/thread/thread_bodies.h"
@@ -154,6 +155,11 @@ void Session::setToolMode(size_t stylus, ToolSwitch when, ToolMode mode) {
         "mode clip: the scene was made for tools that set no clips; give some stylus of it clip at the start, "
         "as in styluses[0].button1=clip");
   }
+  if (kindOf(mode).burns && !mayBurn(scene_.styluses)) {
+    throw SceneError(
+        "mode cautery: the scene was made for tools that burn nothing; give some stylus of it cautery at the start, "
+        "as in styluses[0].button1=cautery");
+  }
   tools_.setMode(stylus, when, mode);
   for (SessionLog* log : logs_) log->toolModeSet(stylus, when, mode);
 }
@@ -193,6 +199,7 @@ void Session::lookAtObstacles() {
 }
 
 void Session::lookAtThreads() {
+  if (solver_->burns()) look_.burns = solver_->burns()->paint();
   const ThreadBodies* const threads = solver_->threads();
   if (!threads) return;
   look_.threads.clear();
@@ -328,7 +335,8 @@ Frame Session::drain() {
 }
 
 uint64_t Session::stateHash() const {
-  const uint64_t tissue = viscera::stateHash(*model_, solver_->readState());
+  uint64_t tissue = viscera::stateHash(*model_, solver_->readState());
+  if (solver_->burns()) tissue = solver_->burns()->hashWith(tissue);
   return solver_->threads() ? solver_->threads()->hashWith(tissue) : tissue;
 }
 
@@ -353,6 +361,10 @@ std::vector<SeenThread> Session::seenThreads() const {
 SeenClips Session::seenClips() const {
   const ThreadBodies* const threads = solver_->threads();
   return threads && threads->clips() ? threads->clips()->seen() : SeenClips();
+}
+
+SeenBurns Session::seenBurns() const {
+  return solver_->burns() ? solver_->burns()->seen() : SeenBurns();
 }
 
 std::string Session::threadRefusal() const {

@@ -102,6 +102,7 @@ std::string missing(const Model& model, const Scene& scene, Backend backend) {
   if (std::any_of(scene.threads.begin(), scene.threads.end(), [](const ThreadConfig& t) { return t.feelsTissue(); }))
     return "multigrid knows no threads through tissue (threads[].channels, threads[].needle)";
   if (mayClip(scene.styluses)) return "multigrid knows no clips";
+  if (mayBurn(scene.styluses)) return "multigrid knows no cautery";
   if (scene.collision.enabled) return "multigrid knows no contacts between nodes";
   return "";
 }

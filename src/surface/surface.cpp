@@ -12,6 +12,7 @@
 #include "layout/bindings.h"
 #include "surface/network_surface.h"
 #include "surface/skins/joined_skins.h"
+#include "surface/skins/part_colors.h"
 #include "surface/surface_kernels.h"
 
 namespace viscera {
@@ -80,6 +81,7 @@ std::vector<uint32_t> chartsOfPieces(const JoinedSkins& skins) {
   return charts;
 }
 
+constexpr float kBelowLayers_m = 0.02F;  // skin, fat and what else scenes have are thinner
 constexpr size_t kRoomForWounds = 2;  // times the vertices and triangles of the skins: beyond it a tick makes buffers
 
 }  // namespace
@@ -126,6 +128,10 @@ Surface::Surface(const Model& model) {
     map_ = surfaceKernel("map_skin.comp", mapFeatures(skins));
   }
   if (skins.any_one_to_one) networks_ = std::make_unique<NetworkSurface>(skins.networks, Wounds::ofTetrahedra(model));
+  if (!wounds_) {
+    whole_colors_ = std::move(skins.colors);
+    whole_bindings_ = std::move(skins.bindings);
+  }
   if (wounds_) makeRoom(kRoomForWounds * vertices_, live_count_ + 3 * kRoomForWounds * triangles);
   reset();
 }
@@ -271,8 +277,7 @@ void Surface::showWounds() {
   const auto roomFor = [](size_t needed, size_t there) { return needed > there ? needed + needed / 2 : there; };
   makeRoom(roomFor(vertices_, capacity()), roomFor(first_wound_index_ + beyond, live_.size()));
   bindings_.write(wounds_->bindings());
-  colors_.write(wounds_->colors());
-  rests_.write(wounds_->addedRests(), whole_vertices_);
+  writeColors();
   wound_indices_.clear();
   size_t first = 0;
   for (size_t b = 0; b < shown.bodies.size(); ++b) {
@@ -333,6 +338,40 @@ void Surface::wound(const CutSprings& cuts, uint64_t revision) {
   const gpu::TimedStage timed(gpu::Stage::kSurface);
   if (!wounds_->update(cuts)) return;
   showWounds();
+  publish();
+}
+
+/// Those of the skins and walls.
+void Surface::writeColors() {
+  if (burns_) return writeBurntColors();
+  colors_.write(wounds_->colors());
+  rests_.write(wounds_->addedRests(), whole_vertices_);
+}
+
+/// Where walls are burnt they have no layers, as they look deep.
+void Surface::writeBurntColors() {
+  std::vector<uint32_t> colors = wounds_ ? wounds_->colors() : whole_colors_;
+  const std::vector<layout::SkinBinding>& bindings = wounds_ ? wounds_->bindings() : whole_bindings_;
+  std::vector<layout::vec4> added = wounds_ ? wounds_->addedRests() : std::vector<layout::vec4>();
+  const std::vector<float>& shares = burns_->shares;
+  for (size_t v = 0; v < colors.size(); ++v) {
+    const layout::SkinBinding& b = bindings[v];
+    const bool one = (b.springs & layout::kOneToOneBit) != 0;
+    const float share =
+        one ? shares[b.slot0]
+            : b.weights.x * shares[b.slot0] + b.weights.y * shares[b.slot1] + b.weights.z * shares[b.slot2];
+    colors[v] = burntColor(colors[v], share);
+    if (v < whole_vertices_ || added[v - whole_vertices_].w <= 0) continue;
+    added[v - whole_vertices_].w += kBelowLayers_m * std::clamp(share, 0.0F, 1.0F);
+  }
+  colors_.write(colors);
+  if (!added.empty()) rests_.write(added, whole_vertices_);
+}
+
+void Surface::paint(const std::shared_ptr<const BurnPaint>& burns) {
+  if (burns == burns_) return;
+  burns_ = burns;
+  writeBurntColors();
   publish();
 }
 

@@ -105,6 +105,7 @@ TEST(Guard, WhatASceneDoesNotHaveCostsNothing) {
                                                  {"strengths by part", 1},
                                                  {"contacts", 1},
                                                  {"cuts", 1},
+                                                 {"cautery", 1},
                                                  {"compensated sums", 1.1},
                                                  {"governor", 1},
                                                  {"cut state (one spring in every brick)", 1},

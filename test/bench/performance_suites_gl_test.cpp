@@ -70,7 +70,7 @@ TEST_F(PerformanceSuite, HapticsHasARowOfEachCellAndMeetsItsChecks) {
 
 TEST_F(PerformanceSuite, SkipHasARowOfEachSkipOnEachBackend) {
   run("skip");
-  for (const std::string feature : {"dashpot", "energy of volume", "strengths by part", "contacts", "cuts",
+  for (const std::string feature : {"dashpot", "energy of volume", "strengths by part", "contacts", "cuts", "cautery",
                                     "compensated sums", "governor", "cut state", "fixed nodes"})
     EXPECT_EQ(rowsWith("features", {feature}), 2u) << feature;
   EXPECT_EQ(rowsWith("cells", {"cube, full cells"}), 3u);  // one thread, all threads, GPU

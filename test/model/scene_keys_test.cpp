@@ -78,6 +78,7 @@ styluses:
     scissors: {blade_length_m: 0.0161, opening_deg: 41.7, closing_s: 0.671}
     grasper: {radius_m: 0.0067, jaw_length_m: 0.0171, opening_deg: 41, max_force_n: 6.71, release_speed_m_per_s: 0.652}
     clip: {jaw_length_m: 0.0162, opening_m: 0.0163, width_m: 0.0021, gap_m: 0.00061, force_n: 6.72, magazine: 17}
+    cautery: {radius_m: 0.0027, power_w: 41}
     jaw_closing_s: 0.31
     max_force_n: 6.6
     max_force_rate_n_per_s: 670
@@ -273,6 +274,8 @@ TEST(SceneKeys, EveryOtherKeyReachesItsField) {
   EXPECT_EQ(stylus.clip.gap_m, 0.00061);
   EXPECT_EQ(stylus.clip.force_n, 6.72);
   EXPECT_EQ(stylus.clip.magazine, 17);
+  EXPECT_EQ(stylus.cautery.radius_m, 0.0027);
+  EXPECT_EQ(stylus.cautery.power_w, 41);
   EXPECT_EQ(stylus.max_force_n, 6.6);
   EXPECT_EQ(stylus.max_force_rate_n_per_s, 670);
   EXPECT_EQ(stylus.max_torque_nm, 0.67);
@@ -411,7 +414,7 @@ TEST(SceneKeys, KeyEndsInItsUnit) {
       {"N", "_n"},           {"N/s", "_n_per_s"}, {"s", "_s"},
       {"deg", "_deg"},       {"Hz", "_hz"},       {"deg/s", "_deg_per_s"},
       {"MB", "_mb"},         {"N m", "_nm"},      {"N m/s", "_nm_per_s"},
-      {"J/m2", "_j_per_m2"}, {"N/m", "_n_per_m"}};
+      {"J/m2", "_j_per_m2"}, {"N/m", "_n_per_m"}, {"W", "_w"}};
   for (const auto& row : tableRows(sceneKeysTable())) {
     const size_t comma = row.at(2).find(", ");
     if (comma == std::string::npos) continue;

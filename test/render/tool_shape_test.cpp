@@ -10,7 +10,7 @@ namespace {
 
 constexpr ToolMode kModes[] = {ToolMode::kNone,         ToolMode::kProbe,   ToolMode::kGrab,   ToolMode::kCut,
                                ToolMode::kCutParticles, ToolMode::kSuction, ToolMode::kNeedle, ToolMode::kScissors,
-                               ToolMode::kGrasper,      ToolMode::kClip};
+                               ToolMode::kGrasper,      ToolMode::kClip,    ToolMode::kCautery};
 constexpr float kTight_m = 1e-6f;  // of float coordinates of some centimetres
 
 Vector3f position(const ToolVertex& vertex) {

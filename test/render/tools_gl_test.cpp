@@ -8,7 +8,7 @@ namespace {
 
 constexpr ToolMode kModes[] = {ToolMode::kNone,         ToolMode::kProbe,   ToolMode::kGrab,   ToolMode::kCut,
                                ToolMode::kCutParticles, ToolMode::kSuction, ToolMode::kNeedle, ToolMode::kScissors,
-                               ToolMode::kGrasper,      ToolMode::kClip};
+                               ToolMode::kGrasper,      ToolMode::kClip,    ToolMode::kCautery};
 
 class ToolsGl : public Drawing {
  protected:

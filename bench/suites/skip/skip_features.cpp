@@ -25,6 +25,7 @@ Specimen specimen(int edge, double dashpot_ratio = 0, double poisson_ratio = 0.2
 Feature toolInAir(const std::string& name, int edge, ToolMode mode) {
   Feature out{name, specimen(edge), specimen(edge), {}};
   out.with.scene.styluses.resize(1);
+  out.with.scene.styluses[0].button1 = mode;
   out.motions_with[0].mode = mode;
   out.motions_with[0].present = true;
   out.motions_with[0].from.position_m = out.motions_with[0].to.position_m = Vector3d(10, 10, 10);
@@ -80,6 +81,7 @@ std::vector<Feature> featuresOf(int edge) {
   out.push_back(parts(edge));
   out.push_back(toolInAir("contacts", edge, ToolMode::kProbe));
   out.push_back(toolInAir("cuts", edge, ToolMode::kCut));
+  out.push_back(toolInAir("cautery", edge, ToolMode::kCautery));
   out.push_back(solverKey("compensated sums", edge, [](SolverConfig& solver) { solver.compensated = true; }));
   out.push_back(solverKey("governor", edge, [](SolverConfig& solver) { solver.governor = true; }));
   out.push_back(cutState(edge));

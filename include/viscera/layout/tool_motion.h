@@ -21,6 +21,7 @@ const uint kModeNeedle = 6u;
 const uint kModeScissors = 7u;
 const uint kModeGrasper = 8u;
 const uint kModeClip = 9u;
+const uint kModeCautery = 10u;
 
 // What a kind of tool does to tissue, bits of ToolMotion.info.y
 const uint kToolPushes = 1u;  // nodes out of a swept sphere at the tip

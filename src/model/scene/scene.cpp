@@ -148,6 +148,14 @@ void requireClips(const std::string& file, const Scene& scene) {
                      traitsOf(integrator).name);
 }
 
+/// Burnt tissue pulls after substeps: beside an implicit one it would be too strong.
+void requireBurns(const std::string& file, const Scene& scene) {
+  const Integrator integrator = scene.solver.integrator;
+  if (mayBurn(scene.styluses) && integrator != Integrator::kLeapfrog && integrator != Integrator::kAuto)
+    throw SceneError(file + ": a stylus with mode cautery needs solver.integrator leapfrog or auto, not " +
+                     traitsOf(integrator).name);
+}
+
 /// What no single key can tell.
 void requireConsistent(const std::string& file, const Scene& scene) {
   if (scene.bodies.empty()) throw SceneError(file + ": 'bodies' must hold at least one body");
@@ -180,6 +188,7 @@ void requireConsistent(const std::string& file, const Scene& scene) {
   }
   requireNeedles(file, scene);
   requireClips(file, scene);
+  requireBurns(file, scene);
   for (const BodyConfig& body : scene.bodies) requireStableSubstep(file, scene.solver, body);
   for (const CameraConfig& camera : scene.cameras) {
     const Vector3d sight = camera.target_m - camera.position_m;

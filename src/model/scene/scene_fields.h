@@ -82,6 +82,12 @@ void visitFields(V& v, GrasperConfig& c) {
 }
 
 template <class V>
+void visitFields(V& v, CauteryConfig& c) {
+  v.number("radius_m", c.radius_m, {1e-4, 0.1}, "m", "of its tip, a sphere");
+  v.number("power_w", c.power_w, {0, 400}, "W", "into the tissue that the tip touches while it has this mode");
+}
+
+template <class V>
 void visitFields(V& v, ClipConfig& c) {
   v.number("jaw_length_m", c.jaw_length_m, kTipReach, "m", "from the pivot, which is behind the tips, to these");
   v.number("opening_m", c.opening_m, kTipReach, "m", "between the jaws: along x of the stylus");
@@ -107,6 +113,7 @@ void visitFields(V& v, StylusConfig& c) {
   v.group("scissors", c.scissors, "scissors: two blades that close when they begin and cut what is between them");
   v.group("grasper", c.grasper, "grasper: two jaws hold the nodes around the tip, up to their friction");
   v.group("clip", c.clip, "clip: two jaws that have closed set a clip on what is between them");
+  v.group("cautery", c.cautery, "cautery: a probe whose tip burns what it touches (docs/lessons/cautery.md)");
   v.number("jaw_closing_s", c.jaw_closing_s, {0.02, 10}, "s",
            "time from open to closed of jaws that a button closes, but for scissors");
   v.number("max_force_n", c.max_force_n, {0, 1e3}, "N", "reaction force is saturated here");

@@ -63,6 +63,7 @@ struct ToolKind {
   bool closes = false;                          ///< its fingers are blades, which part what is between them
   bool clips = false;                           ///< it sets a clip when its fingers have closed
   bool grips = false;                           ///< it holds what its fingers close on, which slides above its force
+  bool burns = false;                           ///< it heats what its tip touches
 
   constexpr bool does(uint32_t some) const { return (effects & some) != 0; }
   /// It moves nodes: contact kernels run, and their reactions are summed.
@@ -114,6 +115,8 @@ inline constexpr ToolKind kToolKinds[] = {
      [](const StylusConfig& c) {
        return Jaws{c.clip.jaw_length_m, 2 * std::atan2(0.5 * c.clip.opening_m, c.clip.jaw_length_m), c.jaw_closing_s};
      }, false, true},
+    {ToolMode::kCautery, layout::kModeCautery, "cautery", kPushes, ToolTip::kBall, {255, 120, 60},
+     [](const StylusConfig& c) { return c.cautery.radius_m; }, nullptr, nullptr, false, false, false, true},
 };
 // clang-format on
 inline constexpr size_t kToolKindCount = sizeof(kToolKinds) / sizeof(kToolKinds[0]);
@@ -146,9 +149,10 @@ constexpr BladeSpan bladeSpan(const CutConfig& cut) {
           cut.blade_side == BladeSide::kAhead ? 0 : cut.blade_length_m};
 }
 
-/// Does a stylus cut or erase, with one button or another?
+/// Does a stylus cut, erase or burn, with one button or another?
 inline bool maySever(const StylusConfig& config) {
-  return kindOf(config.idle).severs() || kindOf(config.button1).severs() || kindOf(config.button2).severs();
+  const auto parts = [](ToolMode mode) { return kindOf(mode).severs() || kindOf(mode).burns; };
+  return parts(config.idle) || parts(config.button1) || parts(config.button2);
 }
 
 /// Does some stylus set clips, with one button or another?
@@ -159,9 +163,21 @@ inline bool mayClip(const std::vector<StylusConfig>& styluses) {
   return false;
 }
 
-/// Are there threads or clips, which push nodes after each substep?
-inline bool pushesAfterSubsteps(const Scene& scene) {
+/// Does some stylus burn tissue, with one button or another?
+inline bool mayBurn(const std::vector<StylusConfig>& styluses) {
+  for (const StylusConfig& stylus : styluses) {
+    if (kindOf(stylus.idle).burns || kindOf(stylus.button1).burns || kindOf(stylus.button2).burns) return true;
+  }
+  return false;
+}
+
+inline bool hasThreadsOrClips(const Scene& scene) {
   return !scene.threads.empty() || mayClip(scene.styluses);
+}
+
+/// Are there threads, clips or burns, which push nodes after each substep?
+inline bool pushesAfterSubsteps(const Scene& scene) {
+  return hasThreadsOrClips(scene) || mayBurn(scene.styluses);
 }
 
 /// Does some stylus? What a model and a solver keep of cuts is there only then.

@@ -40,6 +40,7 @@ struct LoopStatus {
   std::vector<std::array<ToolMode, 3>> modes;
   std::vector<SeenThread> threads;
   SeenClips clips;
+  SeenBurns burns;
   std::string thread_refusal;  ///< why the last tie of the scene was not tied
   PaceMeter::Reading pace;     ///< since the last LoopStatus was taken
 };

@@ -70,6 +70,7 @@ SimulatorDiagnostics::SimulatorDiagnostics(ros::NodeHandle node, const Scene& sc
   if (!camera_frames_.empty()) updater_.add("cameras", this, &SimulatorDiagnostics::cameras);
   if (!thread_names_.empty()) updater_.add("threads", this, &SimulatorDiagnostics::threads);
   if (mayClip(scene.styluses)) updater_.add("clips", this, &SimulatorDiagnostics::clips);
+  if (mayBurn(scene.styluses)) updater_.add("burns", this, &SimulatorDiagnostics::burns);
   // Forced from the steady clock, since the updater's own period follows ROS time, which may stand still.
   timer_ = node.createSteadyTimer(ros::WallDuration(kPeriod_s), [this](const ros::SteadyTimerEvent&) { update(); });
 }
@@ -233,6 +234,20 @@ void SimulatorDiagnostics::clips(Status& status) {
          << " N";
     status.add("clip[" + std::to_string(i) + "]", text.str());
   }
+}
+
+/// Heat since the last reset and where it is, and what it did.
+void SimulatorDiagnostics::burns(Status& status) {
+  if (!now_) return status.summary(Level::OK, "preparing");
+  const SeenBurns& burns = now_->burns;
+  status.summaryf(Level::OK, "hottest node %.0f C", burns.hottest_c);
+  status.add("given_j", burns.given_j);
+  status.add("stored_j", burns.stored_j);
+  status.add("steam_j", burns.steam_j);
+  status.add("perfused_j", burns.perfused_j);
+  status.add("surface_j", burns.surface_j);
+  status.add("coagulated_m3", burns.coagulated_m3);
+  status.add("parted", burns.parted);
 }
 
 void SimulatorDiagnostics::stylus(size_t index, Status& status) {

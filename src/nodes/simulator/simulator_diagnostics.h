@@ -52,6 +52,7 @@ class SimulatorDiagnostics {
   void cameras(Status& status);
   void threads(Status& status);
   void clips(Status& status);
+  void burns(Status& status);
 
   SimulationLoop& loop_;
   const Publishers publishers_;

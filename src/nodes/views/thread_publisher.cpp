@@ -7,7 +7,7 @@
 namespace viscera::nodes {
 
 ThreadPublisher::ThreadPublisher(ros::NodeHandle& node, const Scene& scene) {
-  if (!pushesAfterSubsteps(scene)) return;
+  if (!hasThreadsOrClips(scene)) return;
   empty_.header.frame_id = scene.environment.tissue_frame;
   for (const ThreadConfig& thread : scene.threads) names_.push_back(thread.name);
   looks_ = looksOf(scene);

@@ -338,7 +338,7 @@ void BladeEdge::cutBehind(BladeTarget& target, bool all) {
     sweep.to = rounded(a.at);
     sweep.blade_from = rounded(startOf(b));
     sweep.blade_to = rounded(b.at);
-    target.cutAtRest(sweep);
+    target.cutAtRest(sweep, false);
     tissue_.part(a.cut, a.at, b.at, b.cut);
   }
   bool any = false;

@@ -34,7 +34,8 @@ class BladeTarget {
   /// The body whose springs cutAtRest() cuts from now on.
   virtual void selectBody(size_t body) = 0;
   /// Cuts the springs that a sweep crosses where the nodes are at rest.
-  virtual void cutAtRest(const layout::ToolMotion& sweep) = 0;
+  /// @param particles  erases the nodes near it instead, as ToolTarget::cut() does
+  virtual void cutAtRest(const layout::ToolMotion& sweep, bool particles) = 0;
 };
 
 /// The edge of one blade in one body, a contact line with a plastic limit (docs/cutting.md). Its samples have fronts,

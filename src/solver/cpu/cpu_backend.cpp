@@ -145,7 +145,7 @@ void CpuBackend::cut(uint32_t stylus, bool particles) {
 }
 
 /// What a kernel of cuts sees of the state is exchanged for one without displacements.
-void CpuBackend::cutAtRest(const layout::ToolMotion& sweep) {
+void CpuBackend::cutAtRest(const layout::ToolMotion& sweep, bool particles) {
   const auto exchange = [this] {
     lattice_.state.displacement[lattice_.state.current].swap(still_[0]);
     lattice_.state.velocity[lattice_.state.current].swap(still_[1]);
@@ -154,7 +154,7 @@ void CpuBackend::cutAtRest(const layout::ToolMotion& sweep) {
   others_.assign(lattice_.store.bodies.size(), 1);
   others_[selected_body_] = 0;
   exchange();
-  cutWith(sweep, false, others_.data(), true);
+  cutWith(sweep, particles, others_.data(), true);
   exchange();
 }
 

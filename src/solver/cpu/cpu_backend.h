@@ -58,7 +58,7 @@ class CpuBackend : public SolverBackend {
   void pushRuns(uint32_t stylus, float dt_s, const std::vector<uint32_t>& runs,
                 const BladeNodes::Planes& dv_m_per_s) override;
   void selectBody(size_t body) override { selected_body_ = body; }
-  void cutAtRest(const layout::ToolMotion& sweep) override;
+  void cutAtRest(const layout::ToolMotion& sweep, bool particles) override;
   void advance(const Substep& step, bool recovery) override;
   void beginSurroundings(const Surroundings& /*surroundings*/) override {}
   void blow(const Substep& step, const Surroundings& surroundings) override;

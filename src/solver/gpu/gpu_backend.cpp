@@ -177,13 +177,13 @@ void GpuBackend::pushNodes(uint32_t stylus, float dt_s, const std::vector<uint32
 }
 
 /// The cut sees tissue that is where it is at rest. It may come in a tick without blades, in which all rests.
-void GpuBackend::cutAtRest(const layout::ToolMotion& sweep) {
+void GpuBackend::cutAtRest(const layout::ToolMotion& sweep, bool particles) {
   disturb();
   blade_->sweep.write(&sweep, 1);
   blade_->sweep.bindUniform(layout::kBindToolMotions);
   const uint32_t still = blade_->still.id();
   gpu::bindStorages(layout::kBindDisplacementIn, {still, still});
-  cutBut(~(1u << blade_->body), 0, false);
+  cutBut(~(1u << blade_->body), 0, particles);
   buffers_.state.bind();
   selectMotions(substep_);
 }

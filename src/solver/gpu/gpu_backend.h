@@ -60,7 +60,7 @@ class GpuBackend final : public SolverBackend {
   void pushNodes(uint32_t stylus, float dt_s, const std::vector<uint32_t>& slots,
                  const std::vector<Vector3f>& dv_m_per_s) override;
   void selectBody(size_t body) override { blade_->body = body; }
-  void cutAtRest(const layout::ToolMotion& sweep) override;
+  void cutAtRest(const layout::ToolMotion& sweep, bool particles) override;
   void advance(const Substep& step, bool recovery) override;
   void beginSurroundings(const Surroundings& surroundings) override;
   void blow(const Substep& step, const Surroundings& surroundings) override;

@@ -51,6 +51,8 @@ ReferenceTicks::ReferenceTicks(const Model& model, const Scene& scene)
     throw SceneError(
         "bodies[].material.tear.toughness_j_per_m2 must be 0 for the reference, which knows no tissue that tears");
   if (!scene.threads.empty()) throw SceneError("threads must be empty for the reference, which knows none");
+  if (mayBurn(scene.styluses))
+    throw SceneError("styluses[]: no mode may be cautery for the reference, which knows none");
   if (mayClip(scene.styluses)) throw SceneError("styluses[]: no mode may be clip for the reference, which knows none");
 }
 

@@ -238,7 +238,7 @@ void ThreadChannels::cutBehind(size_t k, const Vector3d& to_m, BladeTarget& targ
     motion.to = asVec4(to_m);
     motion.blade_from = asVec4(0.5 * (channel.cut_m + beside_m));
     motion.blade_to = asVec4(0.5 * (to_m + beside_m));
-    target.cutAtRest(motion);
+    target.cutAtRest(motion, false);
   };
   if (k > 0 && channels_[k - 1].through) sweep(channels_[k - 1].point.rest_m);
   if (channel.through && k + 1 < channels_.size()) sweep(channels_[k + 1].point.rest_m);

@@ -29,6 +29,7 @@ class TissuePoints {
   /// of a cell's nodes each. In the gap of a wound there is nothing.
   std::optional<TissuePoint> find(BladeTarget& target, const Vector3d& place_m) const;
 
+  Vector3d rest_m(uint32_t slot) const { return rest_m_[slot].cast<double>(); }  ///< of a node, in the tissue frame
   double spacing_m(uint32_t body) const { return elements_[body].spacing_m(); }
 
   /// Begins a substep. @param points  all that will be asked for

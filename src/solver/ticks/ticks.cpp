@@ -48,8 +48,9 @@ Ticks::Ticks(const Model& model, const Scene& scene, const TickPlan& plan, std::
                      std::to_string(dt_safe_s_ * 1e6) +
                      " us), more than solver.max_substeps = " + std::to_string(config_.max_substeps) +
                      ": use a larger spacing_m, a softer or heavier material, or raise solver.max_substeps");
-  if (pushesAfterSubsteps(scene))
+  if (hasThreadsOrClips(scene))
     threads_ = std::make_unique<ThreadBodies>(scene, &model, SolverBackend::kGoodStates + backend_->lag());
+  if (mayBurn(scene.styluses)) burns_ = std::make_unique<Burns>(scene, model);
   if (plan.governed())
     watch_.emplace(*backend_, newGovernor(), !traitsOf(config_.integrator).is_explicit, tick_s_, threads_.get());
   if (plan.tools && resistsBlades(scene)) blades_.emplace(model, scene.styluses);
@@ -76,7 +77,8 @@ void Ticks::step(const ToolMotions& motions, const ObstacleMotions& obstacles) {
       motions_[s].timing.x = static_cast<float>(restarted_ ? 0 : last_dt_s_);
     backend_->writeMotions(motions_);
   }
-  if (threads_ && threads_->feelTissue() && readCuts(thread_cuts_)) threads_->setCuts(model_, thread_cuts_);
+  tellOfCuts();
+  if (burns_) burns_->beginTick(motions);
   if (threads_) threads_->beginTick(motions, surroundings_ ? surroundings_->motions() : obstacles, n_);
   for (int s = 0; s < n_; ++s) {
     if (contacts || cuts) backend_->selectMotions(static_cast<size_t>(s));
@@ -91,6 +93,13 @@ void Ticks::step(const ToolMotions& motions, const ObstacleMotions& obstacles) {
   measureTick(motions, contacts || (blades_ && cuts));
   finishStats();
   if (watch_) heed(watch_->endTick(motions, recovering_, undone, hasLongSubsteps()));
+}
+
+void Ticks::tellOfCuts() {
+  const bool feeling = threads_ && threads_->feelTissue();
+  if (!(feeling || burns_) || !readCuts(seen_cuts_)) return;
+  if (feeling) threads_->setCuts(model_, seen_cuts_);
+  if (burns_) burns_->setCuts(seen_cuts_);
 }
 
 void Ticks::measureTick(const ToolMotions& motions, bool contacts) {
@@ -154,6 +163,7 @@ void Ticks::substep(int index, const ToolMotions& motions, bool cuts, bool conta
   }
   if (blades_ && cuts && !recovering_) cutByWork(index, motions);
   if (threads_) cut_revision_ += threads_->act(*backend_, index);
+  if (burns_ && !recovering_) cut_revision_ += burns_->act(*backend_, index, dt_s);
   restarted_ = false;
   last_dt_s_ = dt_s;
 }
@@ -173,6 +183,7 @@ void Ticks::reset() {
   springs_cut_ = 0;
   if (blades_) blades_->reset();
   if (threads_) threads_->reset();
+  if (burns_) burns_->reset();
   pulls_.clear();
   told_ = {};
   stretch_ = 0;
@@ -217,6 +228,7 @@ void Ticks::persist(Archive& archive) {
   if (surroundings_) surroundings_->persist(archive);
   if (blades_) blades_->persist(archive);
   if (threads_) threads_->persist(archive);
+  if (burns_) burns_->persist(archive);
   backend_->persist(archive);
   if (watch_) watch_->persist(archive);
   if (archive.reads()) ++cut_revision_;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "solver/burn/burns.h"
 #include "solver/contact/blades.h"
 #include "solver/thread/thread_bodies.h"
 #include "solver/ticks/solver_backend.h"
@@ -41,6 +42,7 @@ class Ticks : public Solver {
   BladeWork bladeWork(uint32_t stylus) const final { return blades_ ? blades_->done(stylus) : BladeWork{}; }
   using Solver::threads;
   ThreadBodies* threads() final { return threads_.get(); }
+  const Burns* burns() const final { return burns_.get(); }
   const ThreadPull& pull(uint32_t stylus) const final { return told_[stylus]; }
   void persist(Archive& archive) final;
   std::string backend() const final { return backend_->name(); }
@@ -64,6 +66,7 @@ class Ticks : public Solver {
  private:
   Governor newGovernor() const;
   void planAnew();
+  void tellOfCuts();
   void noteStretch(const layout::TickStats& stats);
   bool hasLongSubsteps() const;
   int calmSubsteps() const;
@@ -91,7 +94,8 @@ class Ticks : public Solver {
   std::optional<Surroundings> surroundings_;  ///< only where a scene has any
   std::optional<Blades> blades_;              ///< only where a body resists them
   std::unique_ptr<ThreadBodies> threads_;     ///< null: the scene has none
-  CutState thread_cuts_;                      ///< only where threads feel tissue
+  std::unique_ptr<Burns> burns_;              ///< null: no stylus burns
+  CutState seen_cuts_;                        ///< only where threads feel tissue, or some burns
   std::vector<ThreadPulls> pulls_;            ///< without a governor: of ticks whose measurements are under way
   std::optional<HostState> start_;            ///< nothing: rest
   std::optional<Watch> watch_;                ///< only where a scene has a governor

@@ -3,6 +3,7 @@
 #include "surface/skins/part_colors.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace viscera {
@@ -78,6 +79,25 @@ std::vector<uint32_t> vertexColors(const TriangleMesh& mesh, const Vector3d& org
   colors.reserve(parts.size());
   for (uint16_t part : parts) colors.push_back(rgba8(of_part[part == kNoPart ? 0 : part], skinAlpha(body, two_sided)));
   return colors;
+}
+
+uint32_t burntColor(uint32_t rgba, float share) {
+  // sRGB, by share; chosen by eye: pale as boiled liver is, brown, black.
+  struct Stop {
+    float share;
+    std::array<float, 3> rgb;
+  };
+  constexpr std::array<Stop, 3> kStops = {{{1, {205, 178, 150}}, {1.5F, {104, 66, 38}}, {2, {26, 21, 19}}}};
+  if (share <= 0) return rgba;
+  Stop from{
+      0, {static_cast<float>(rgba & 255), static_cast<float>(rgba >> 8 & 255), static_cast<float>(rgba >> 16 & 255)}};
+  size_t to = 0;
+  while (to + 1 < kStops.size() && share > kStops[to].share) from = kStops[to++];
+  const float t = std::min(1.0F, (share - from.share) / (kStops[to].share - from.share));
+  uint32_t out = rgba & 0xff000000U;
+  for (size_t c = 0; c < 3; ++c)
+    out |= static_cast<uint32_t>(std::lround(from.rgb[c] + t * (kStops[to].rgb[c] - from.rgb[c]))) << (8 * c);
+  return out;
 }
 
 }  // namespace viscera

@@ -23,6 +23,10 @@ constexpr uint32_t wallAlpha(uint32_t body) {
 }
 static_assert(layout::kMaxBodies <= 16);
 
+/// A colour of burnt tissue: paler as it coagulates, then brown and black. @param rgba  of it fresh; its alpha stays
+/// @param share  as BurnPaint::shares
+uint32_t burntColor(uint32_t rgba, float share);
+
 /// As the mesh's file has it (TriangleMesh::detail), where it says nothing by partColor() of the organ's colour.
 /// RGBA8 (red in the low byte) of every vertex; on a seam the colour of the lowest part. Alpha is skinAlpha(): the
 /// back of a triangle is the raw inside of tissue, or no different from its front, as in a sheet.

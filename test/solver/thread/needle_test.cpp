@@ -41,7 +41,7 @@ class NeedleTarget : public BladeTarget {
     }
   }
   void selectBody(size_t) override {}
-  void cutAtRest(const layout::ToolMotion&) override {}
+  void cutAtRest(const layout::ToolMotion&, bool) override {}
   ReferenceSolver solver;
   uint32_t by = 99;
 };

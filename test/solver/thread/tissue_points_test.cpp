@@ -40,7 +40,7 @@ class Nodes : public BladeTarget {
     }
   }
   void selectBody(size_t) override {}
-  void cutAtRest(const layout::ToolMotion&) override {}
+  void cutAtRest(const layout::ToolMotion&, bool) override {}
   std::vector<Vector3f> u, v;
   uint32_t by = 99;
   mutable size_t most_read = 0;

@@ -44,7 +44,8 @@ enum class ToolMode {
   kNeedle = 6,
   kScissors = 7,
   kGrasper = 8,
-  kClip = 9
+  kClip = 9,
+  kCautery = 10
 };
 
 /// What a cell of a lattice resists its deformation with (physics.md 1).
@@ -244,6 +245,12 @@ struct ClipConfig {
   int magazine = 20;            ///< clips that there are
 };
 
+/// A heated tip, which pushes as a probe does while it burns (docs/lessons/cautery.md).
+struct CauteryConfig {
+  double radius_m = 0.003;  ///< of the tip
+  double power_w = 30;      ///< into the tissue that it touches
+};
+
 struct StylusConfig {
   std::string name = "stylus";
   ToolMode idle = ToolMode::kProbe;
@@ -257,6 +264,7 @@ struct StylusConfig {
   ScissorsConfig scissors;
   GrasperConfig grasper;
   ClipConfig clip;
+  CauteryConfig cautery;
   double jaw_closing_s = 0.2;  ///< from open to closed, of jaws that a button closes
   double max_force_n = 5;
   double max_force_rate_n_per_s = 100;

@@ -1,0 +1,203 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Hot tips, as those see them who hold one.
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "math/archive.h"
+#include "session/on_backends.h"
+#include "viscera/math/error.h"
+
+namespace viscera {
+namespace {
+
+using namespace test;
+
+constexpr double kTip_m = 0.004;      // of the hot tip's radius, and of the probe's beside it
+constexpr double kBalance = 1e-9;     // of all heat, sums of float64
+constexpr double kTime = 1e-6;        // of the heat of a number of ticks
+constexpr double kAlike = 0.02;       // of heat and of forces, backend beside backend: places differ by float32
+constexpr double kFelt = 1.2;         // a burn is felt: at least so many times the fresh force
+constexpr double kShrunk_m = 1.5e-4;  // a free corner of coagulated tissue is drawn in by so much at least
+
+class Cautery : public OnSceneBackend {
+ protected:
+  static Scene burning(double power_w, Structure structure = Structure::kLattice) {
+    Scene out = scene();
+    BodyConfig& body = out.bodies[0];
+    body.structure = structure;
+    body.source = structure == Structure::kSurface ? TissueSource::kSheet : TissueSource::kBox;
+    body.box_size_m = {0.024, 0.024, 0.012};
+    body.spacing_m = 0.003;
+    body.fixed[0].point_m = {0, 0, -0.006};
+    if (structure == Structure::kSurface) {
+      body.fixed[0].point_m = {-0.011, 0, 0};
+      body.fixed[0].normal = {1, 0, 0};
+      body.fixed.push_back(body.fixed[0]);
+      body.fixed[1].point_m = {0.011, 0, 0};
+      body.fixed[1].normal = {-1, 0, 0};
+    }
+    for (StylusConfig& stylus : out.styluses) {
+      stylus.idle = ToolMode::kNone;
+      stylus.button1 = ToolMode::kCautery;
+      stylus.button2 = ToolMode::kProbe;
+      stylus.cautery = {kTip_m, power_w};
+      stylus.probe.radius_m = kTip_m;
+    }
+    return out;
+  }
+  /// Half a millimetre deep in the middle of the top.
+  static StylusSamples on(bool hot, bool probes = false, double top_m = 0.006) {
+    return leftAt({0, 0, top_m + kTip_m - 0.0005}, hot, probes);
+  }
+  static void burn(Session& session, int ticks, double top_m = 0.006) {
+    session.step(leftAt({0, 0, 0.03}, true), {});
+    for (int t = 0; t < ticks; ++t) session.step(on(true, false, top_m), {});
+  }
+  /// What more a probe feels half a millimetre deeper in the middle, below `top_m`.
+  static double pressed_n(Session& session, double top_m) {
+    double force_n[2];
+    session.step(leftAt({0, 0, 0.03}, false, true), {});
+    for (int i = 0; i < 2; ++i) {
+      Frame frame;
+      for (int t = 0; t < 60; ++t)
+        frame = session.step(leftAt({0, 0, top_m + kTip_m - 0.001 - 0.0005 * i}, false, true), {});
+      force_n[i] = frame.reactions[0].force_n.z();
+    }
+    return force_n[1] - force_n[0];
+  }
+  /// Of the skin in the middle.
+  static double top_m(Session& session) {
+    Wants wants;
+    wants.surface = true;
+    const Pictures pictures = session.show(wants);
+    double out = -1;
+    for (size_t v = 0; v < pictures.surface->vertices(); ++v) {
+      const Vector3f at = pictures.surface->position_m(v);
+      if (at.head<2>().norm() < 0.001F) out = std::max(out, static_cast<double>(at.z()));
+    }
+    return out;
+  }
+};
+
+TEST_P(Cautery, HeatIsPowerTimesTimeInTouchAndAllOfItIsAccountedFor) {
+  for (const Structure structure :
+       {Structure::kLattice, Structure::kExplicit, Structure::kTetrahedra, Structure::kSurface}) {
+    SCOPED_TRACE(static_cast<int>(structure));
+    Session session(burning(4, structure), context_);
+    const double top_m = structure == Structure::kSurface ? 0 : 0.006;
+    for (int t = 0; t < 10; ++t) session.step(leftAt({0, 0, 0.03}, true), {});
+    EXPECT_EQ(session.seenBurns().given_j, 0) << "nothing is touched";
+    burn(session, 60, top_m);
+    const SeenBurns seen = session.seenBurns();
+    EXPECT_NEAR(seen.given_j, 60 * 4 * session.tick_s(), kTime * seen.given_j);
+    EXPECT_NEAR(seen.stored_j + seen.steam_j + seen.perfused_j + seen.surface_j, seen.given_j, kBalance * seen.given_j);
+    EXPECT_GT(seen.hottest_c, 45);
+    for (int t = 0; t < 30; ++t) session.step(on(false, false, top_m), {});
+    EXPECT_EQ(session.seenBurns().given_j, seen.given_j) << "not pressed";
+    EXPECT_LT(session.seenBurns().hottest_c, seen.hottest_c);
+    session.step(on(true, false, top_m), {});
+    EXPECT_NEAR(session.seenBurns().given_j, 61 * 4 * session.tick_s(), kTime * seen.given_j)
+        << "also where it was in tissue before, and pushes nothing";
+    EXPECT_EQ(session.drain().stats.nonfinite, 0U);
+    EXPECT_EQ(session.drain().health.trips, 0U);
+  }
+}
+
+TEST_P(Cautery, CoagulatedTissueIsStifferToAProbeAndDrawnIn) {
+  Session session(burning(3), context_);
+  const double fresh_n = pressed_n(session, top_m(session));
+  burn(session, 360);
+  EXPECT_GT(session.seenBurns().coagulated_m3, 5e-8) << "50 mm3";
+  EXPECT_EQ(session.seenBurns().parted, 0U);
+  for (int t = 0; t < 60; ++t) session.step({}, {});
+  const double dent_m = top_m(session);
+  EXPECT_LT(dent_m, 0.006 - kShrunk_m);
+  const double burnt_n = pressed_n(session, dent_m);
+  EXPECT_GT(burnt_n, kFelt * fresh_n);
+}
+
+TEST_P(Cautery, WhatBoilsDryPartsAndLooksBurnt) {
+  Session session(burning(60), context_);
+  const ImageFrame before = picture(session);
+  burn(session, 30);
+  const ImageFrame during = picture(session);
+  EXPECT_NE(before.rgb, during.rgb);
+  burn(session, 240);
+  const SeenBurns seen = session.seenBurns();
+  EXPECT_GT(seen.parted, 0U);
+  EXPECT_GT(seen.steam_j, 0);
+  EXPECT_GT(session.drain().stats.springs_cut, 0U);
+  EXPECT_EQ(session.drain().stats.nonfinite, 0U);
+}
+
+TEST_P(Cautery, SavedStatesAndResetsHaveBurns) {
+  const Scene scene = burning(20);
+  Archive saved;
+  uint64_t hash = 0;
+  SeenBurns seen;
+  {
+    Session session(scene, context_);
+    const uint64_t whole = session.stateHash();
+    burn(session, 60);
+    session.save(saved);
+    for (int t = 0; t < 60; ++t) session.step(on(true), {});
+    hash = session.stateHash();
+    seen = session.seenBurns();
+    session.reset();
+    EXPECT_EQ(session.seenBurns().given_j, 0);
+    EXPECT_EQ(session.stateHash(), whole);
+  }
+  Session other(scene, context_);
+  Archive kept(saved.take());
+  other.restore(kept, "a test");
+  for (int t = 0; t < 60; ++t) other.step(on(true), {});
+  EXPECT_EQ(other.stateHash(), hash);
+  EXPECT_EQ(other.seenBurns().given_j, seen.given_j);
+  EXPECT_EQ(other.seenBurns().parted, seen.parted);
+}
+
+VISCERA_ON_EVERY_BACKEND(Cautery);
+
+TEST_F(GpuTest, CauteryIsTheSameOnBothBackends) {
+  double force_n[2];
+  SeenBurns seen[2];
+  for (const Backend backend : {Backend::kCpu, Backend::kGpu}) {
+    Scene scene = blockScene();
+    scene.solver.backend = backend;
+    scene.styluses[0].button1 = ToolMode::kCautery;
+    scene.styluses[0].cautery = {0.008, 20};
+    Session session(scene, context_);
+    const size_t i = backend == Backend::kGpu;
+    for (int t = 0; t < 90; ++t) {
+      const Frame frame = session.step(leftAt({0, 0, 0.03 - 0.004 * std::min(1.0, t / 30.0)}, true), {});
+      force_n[i] = frame.reactions[0].force_n.z();
+    }
+    session.drain();
+    seen[i] = session.seenBurns();
+  }
+  EXPECT_GT(seen[0].given_j, 1);
+  EXPECT_NEAR(seen[1].given_j, seen[0].given_j, kAlike * seen[0].given_j);
+  EXPECT_NEAR(seen[1].hottest_c, seen[0].hottest_c, kAlike * seen[0].hottest_c);
+  EXPECT_GT(force_n[0], 0);
+  EXPECT_NEAR(force_n[1], force_n[0], kAlike * force_n[0]);
+}
+
+TEST_F(GpuTest, ScenesWithoutCauteryRefuseItAndIntegratorsThatCannotAreNamed) {
+  Session session(blockScene(), context_);
+  EXPECT_THROW(session.setToolMode(0, ToolSwitch::kButton1, ToolMode::kCautery), SceneError);
+  EXPECT_EQ(session.seenBurns().given_j, 0);
+  try {
+    parseScene("bodies: [{source: box}]\nstyluses: [{button1: cautery}]\nsolver: {integrator: pd}", "pd.yaml");
+    FAIL() << "pd is taken";
+  } catch (const SceneError& error) {
+    EXPECT_NE(std::string(error.what()).find("mode cautery needs solver.integrator leapfrog or auto, not pd"),
+              std::string::npos)
+        << error.what();
+  }
+  EXPECT_THROW(parseScene("bodies: [{source: box}]\nstyluses: [{cautery: {power_w: 401}}]", "w.yaml"), SceneError);
+}
+
+}  // namespace
+}  // namespace viscera
