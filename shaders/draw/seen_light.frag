@@ -3,7 +3,7 @@
 //
 // seen_light.frag - lights a pixel of tissue that tissue_seen.frag has left four samples of: once, where all saw the same piece of
 // skin, or with SEVERAL each by itself.
-// GRAIN, DETAIL: as in tissue.frag.   Owner: render/seen_light.h
+// GRAIN, DETAIL and looks: as in tissue.frag.   Owner: render/seen_light.h
 #include "layout.h"
 #include "layout/seen.h"
 #include "seen_code.glsl"
@@ -73,9 +73,10 @@ vec3 lit(vec2 pixel, float depth, vec3 rest, vec3 rest_x, vec3 rest_y, bool rest
 #endif
 #ifdef GRAIN
   float depth_m = float(beside) * (kDeepestSeen_m / 16777214.0);
-  addGrain(grain, alpha, wall, depth_m, albedo, roughness, shade);
+  float film = filmAt(grain, alpha);
+  addGrain(grain, film, rest, alpha, wall, depth_m, albedo, roughness, shade);
   vec3 slopes = texture(grain_slopes, rest / kFinePeriod_m).xyz * (255.0 / 127.0) - (128.0 / 127.0);
-  slopes *= reliefOf(alpha) * steepest_grain / kFinePeriod_m;
+  slopes *= (1.0 - kFilled * film) * reliefOf(alpha) * steepest_grain / kFinePeriod_m;
   n = onRelief(n, dot(slopes, rest_x), dot(slopes, rest_y), position_x, position_y);
 #endif
   return tissueLight(position_m, n, albedo, roughness, shade, front || alpha < 0.5);

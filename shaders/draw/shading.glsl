@@ -7,6 +7,36 @@ const vec3 kToKey = vec3(-0.5000, -0.6124, -0.6124);  // unit
 const vec3 kKeyLight = vec3(1.42, 1.36, 1.30);
 const vec3 kSkyLight = vec3(0.24, 0.25, 0.28);
 const vec3 kGroundLight = vec3(0.06, 0.045, 0.045);
+const vec3 kBesideLens_m = vec3(0.0015, -0.0040, 0.0);  // where light at the lens comes from
+const float kCavityFill = 0.5;                          // share of the fill light that is left where nothing else shines
+const float kMostNearness = 16.0;                       // of light at the lens, over that at the distance it is set for
+
+#ifdef LENS_LIGHT         // some camera has it
+uniform int lens_lights;  // 1: the key light is at the lens; 0: it is the lamp
+uniform vec2 lens_light;  // x distance at which it is as bright as the lamp [m], y tangent of half its cone
+#endif
+
+/// What shines on a place.
+struct Light {
+  vec3 to_key;  // unit
+  vec3 key;
+  float fill;   // share of the fill light
+};
+
+Light lightAt(vec3 position_m) {
+  Light light = Light(kToKey, kKeyLight, 1.0);
+#ifdef LENS_LIGHT
+  for (int i = 0; i < lens_lights; ++i) {
+    vec3 way_m = position_m - kBesideLens_m;
+    float away2 = dot(way_m, way_m), aside = length(way_m.xy) / (max(way_m.z, 1e-6) * lens_light.y);
+    float share = exp2(-aside * aside) * min(lens_light.x * lens_light.x / away2, kMostNearness);
+    light.to_key = -way_m * inversesqrt(away2);
+    light.key *= share;
+    light.fill = kCavityFill * share;  // it comes from what is lit around
+  }
+#endif
+  return light;
+}
 
 /// Unit normal of the flat triangle that a fragment is of, on the side that is seen.
 vec3 flatNormal(vec3 position_m) {

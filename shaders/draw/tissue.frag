@@ -4,7 +4,7 @@
 // tissue.frag - wet, slightly translucent tissue; a back face is the raw inside, except of a sheet.   Owner: render/tissue_painter.h
 // Colour's alpha tells them apart (surface/skins/part_colors.h): a sheet, the wall of a wound, or skin; and the body.
 // REST: vertices know their place at rest. GRAIN: variation from place to place, layers of walls (grain.glsl).
-// DETAIL: textures (detail.glsl).
+// DETAIL: textures (detail.glsl). FILM, WALL_GRAIN (grain.glsl), CONTACTS (tissue_light.glsl), LENS_LIGHT (shading.glsl): looks.
 #include "layout.h"
 #include "shading.glsl"
 #include "tissue_code.glsl"
@@ -49,8 +49,9 @@ void main() {
   vec3 to_eye = -normalize(position_m);
   if (wall && dot(n, to_eye) < kTurnedAway) n = flatNormal(position_m);
 #ifdef GRAIN
-  addGrain(grain, color.a, wall, rest.w, albedo, roughness, shade);
-  float relief_m = reliefAt(grain, color.a, wall);
+  float film = filmAt(grain, color.a);
+  addGrain(grain, film, rest.xyz, color.a, wall, rest.w, albedo, roughness, shade);
+  float relief_m = reliefAt(grain, color.a, wall, film);
   n = onRelief(n, dFdx(relief_m), dFdy(relief_m), position_x, position_y);
 #endif
   image = vec4(tissueLight(position_m, n, albedo, roughness, shade, gl_FrontFacing || color.a < 0.5), 1.0);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // tool.frag - satin metal; vertices with alpha < 1 are an outline, densest at its rim.   Owner: render/tool_painter.h
+// LENS_LIGHT: as in tissue.frag.
 #include "shading.glsl"
 
 in vec3 position_m;
@@ -16,10 +17,11 @@ void main() {
   vec3 n = seenNormal(normal, position_m, gl_FrontFacing);
   vec3 to_eye = -normalize(position_m);
   float n_v = clamp(dot(n, to_eye), 0.0, 1.0);
-  float n_h = max(dot(n, normalize(kToKey + to_eye)), 0.0);
+  Light light = lightAt(position_m);
+  float n_h = max(dot(n, normalize(light.to_key + to_eye)), 0.0);
 
-  vec3 diffuse = 0.55 * color.rgb * (kKeyLight * max(dot(n, kToKey), 0.0) + fill(n));
-  vec3 gloss = color.rgb * (0.8 * kKeyLight * highlight(n_h, 0.40) + 1.6 * surroundings(reflect(-to_eye, n)));
+  vec3 diffuse = 0.55 * color.rgb * (light.key * max(dot(n, light.to_key), 0.0) + light.fill * fill(n));
+  vec3 gloss = color.rgb * (0.8 * light.key * highlight(n_h, 0.40) + 1.6 * light.fill * surroundings(reflect(-to_eye, n)));
   float rim = (1.0 - n_v) * (1.0 - n_v);
   image = vec4(shoulder(diffuse + gloss), color.a < 1.0 ? color.a * (0.08 + 0.92 * rim) : 1.0);
 }

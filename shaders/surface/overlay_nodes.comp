@@ -1,10 +1,10 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// overlay_nodes.comp - where nodes are, and how far their springs are strained.   Owner: surface/overlay/node_overlay.h
+// overlay_nodes.comp - where nodes are, and how far their springs are strained.   Owner: surface/overlay/node_strains.h
 // in  nodes[count], displacement[count] m; of networks link_starts[count + 1], links[], rest[count] m, spring_cut[springs]
 // out overlay_nodes[count] xyz m, w root mean square of (L - l0) / l0 over the whole springs of the node; 0 without any
-// Feature: NETWORK (some body is one).
+// Features: NETWORK (some body is one), SIGNED (w is the mean of these strains: below 0 where tissue is pressed).
 #include "layout.h"
 layout(local_size_x = GROUP_SIZE) in;  // before globalIndex(), which asks for it
 #include "solver/tissue/lattice.glsl"
@@ -13,12 +13,19 @@ uniform uint count;  // of slots
 layout(std430, binding = kBindNodes) readonly buffer NodesBuffer { NodeBits nodes[]; };
 layout(std430, binding = kBindDisplacementIn) readonly buffer DisplacementBuffer { vec4 displacement[]; };
 layout(std430, binding = kBindOverlayNodes) writeonly buffer OverlayNodesBuffer { vec4 overlay_nodes[]; };
+#ifdef SIGNED
+float summed(float strain) { return strain; }
+float meanOf(vec2 sum) { return sum.x / max(sum.y, 1.0); }
+#else
+float summed(float strain) { return strain * strain; }
+float meanOf(vec2 sum) { return sqrt(sum.x / max(sum.y, 1.0)); }
+#endif
 #ifdef NETWORK
 layout(std430, binding = kBindSpringCut) readonly buffer SpringCutBuffer { float spring_cut[]; };
 layout(std430, binding = kBindOverlayLinkStarts) readonly buffer LinkStartsBuffer { uint link_starts[]; };
 layout(std430, binding = kBindOverlayLinks) readonly buffer LinksBuffer { OverlayLink links[]; };
 
-/// Sum of squares of the strains, and how many.
+/// Sum of the strains, or of their squares, and how many.
 vec2 networkStrain(uint slot) {
   vec2 sum = vec2(0.0);
   for (uint i = link_starts[slot]; i < link_starts[slot + 1u]; ++i) {
@@ -26,7 +33,7 @@ vec2 networkStrain(uint slot) {
     if (spring_cut[link.spring] != 0.0) continue;
     vec3 rest = tabulatedRest(link.far) - tabulatedRest(slot);
     float strain = length(rest + (xyz(displacement[link.far]) - xyz(displacement[slot]))) / link.rest_length - 1.0;
-    sum += vec2(strain * strain, 1.0);
+    sum += vec2(summed(strain), 1.0);
   }
   return sum;
 }
@@ -42,7 +49,7 @@ vec2 latticeStrain(uint slot) {
   if (springCount(bits, SPRING) != 0u) {                                                                  \
     vec3 rest = spacing * vec3(OFFSET), now = rest + (xyz(displacement[neighborSlot(slot, OFFSET)]) - here); \
     float strain = length(now) / length(rest) - 1.0;                                                      \
-    sum += vec2(strain * strain, 1.0);                                                                    \
+    sum += vec2(summed(strain), 1.0);                                                                    \
   }
   FOR_EACH_SPRING(ADD_STRAIN)
   return sum;
@@ -56,5 +63,5 @@ void main() {
 #else
   vec2 sum = latticeStrain(slot);
 #endif
-  overlay_nodes[slot] = vec4(restPosition(slot) + xyz(displacement[slot]), sqrt(sum.x / max(sum.y, 1.0)));
+  overlay_nodes[slot] = vec4(restPosition(slot) + xyz(displacement[slot]), meanOf(sum));
 }

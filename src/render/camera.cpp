@@ -12,12 +12,63 @@ namespace {
 constexpr double kNearOverDistance = 0.01;
 constexpr double kFarOverDistance = 100;
 constexpr double kSmallestSine = 1e-6;  // between up and the line of sight: below it the image has no upright
+constexpr double kSamePlace = 1e-9;     // tangent: where an image folds over, others are shown as well
+constexpr int kBeside_px = 1;           // so that what is mixed at a border is all of the picture
 }  // namespace
 
 Intrinsics intrinsics(const CameraConfig& camera) {
   const double half_fov_rad = camera.vertical_fov_deg * M_PI / 360;
   const double focal_px = 0.5 * camera.height_px / std::tan(half_fov_rad);
   return {focal_px, focal_px, 0.5 * camera.width_px, 0.5 * camera.height_px};
+}
+
+std::optional<Eigen::Vector2d> pixelOf(const CameraConfig& camera, const Vector3d& optical) {
+  if (!(optical.z() > 0)) return std::nullopt;
+  const Intrinsics k = intrinsics(camera);
+  Eigen::Vector2d place = optical.hnormalized();
+  if (camera.distortion.any()) {
+    const Eigen::Vector2d shown = distorted(camera.distortion, place);
+    const auto seen = undistorted(camera.distortion, shown);
+    if (!seen || !((*seen - place).norm() < kSamePlace)) return std::nullopt;
+    place = shown;
+  }
+  return Eigen::Vector2d(k.fx * place.x() + k.cx, k.fy * place.y() + k.cy);
+}
+
+Vector3d lineOfSight(const CameraConfig& camera, const Eigen::Vector2d& pixel) {
+  const Intrinsics k = intrinsics(camera);
+  const Eigen::Vector2d place((pixel.x() - k.cx) / k.fx, (pixel.y() - k.cy) / k.fy);
+  if (!camera.distortion.any()) return place.homogeneous();
+  const auto seen = undistorted(camera.distortion, place);
+  if (!seen) throw SceneError("camera '" + camera.name + "': distortion leaves a pixel without a line of sight");
+  return seen->homogeneous();
+}
+
+CameraConfig pinholeOf(const CameraConfig& camera) {
+  CameraConfig out = camera;
+  if (!camera.distortion.any()) return out;
+  // What the lens shows at the image's border is around all that it shows within.
+  Eigen::Vector2d farthest = Eigen::Vector2d::Zero();
+  const auto reach = [&](int column, int row) {
+    farthest = farthest.cwiseMax(lineOfSight(camera, Eigen::Vector2d(column, row)).head<2>().cwiseAbs());
+  };
+  for (int column = 0; column <= camera.width_px; ++column) {
+    reach(column, 0);
+    reach(column, camera.height_px);
+  }
+  for (int row = 0; row <= camera.height_px; ++row) {
+    reach(0, row);
+    reach(camera.width_px, row);
+  }
+  const double focal_px = intrinsics(camera).fy;
+  const auto pixels = [&](double tangent) {
+    return 2 * (static_cast<int>(std::ceil(tangent * focal_px)) + kBeside_px);
+  };
+  out.width_px = pixels(farthest.x());
+  out.height_px = pixels(farthest.y());
+  out.vertical_fov_deg = 360 / M_PI * std::atan(0.5 * out.height_px / focal_px);
+  out.distortion = {};
+  return out;
 }
 
 Pose opticalPose(const CameraConfig& camera) {

@@ -10,7 +10,7 @@ constexpr double kMargin = 1e-4;  // of the distance to what is looked at: float
 
 Frustum::Frustum(const CameraConfig& camera, const Pose& tissue_from_optical) {
   const DepthRange range = depthRange(camera);
-  const Intrinsics k = intrinsics(camera);
+  const Intrinsics k = intrinsics(pinholeOf(camera));
   const double right = k.cx / k.fx, down = k.cy / k.fy;  // tangents of half the angles of view
   const double margin_m = kMargin * (camera.target_m - camera.position_m).norm();
   const auto plane = [&](const Vector3d& inwards_optical, double at_m) {

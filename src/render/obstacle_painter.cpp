@@ -15,8 +15,8 @@ constexpr float kBehindSlope = 2, kBehindSteps = 16;  // of depth: per pixel of 
 constexpr float kAround = 1.01f;  // triangles of lathes (lathe.h) lie up to 0.7 % of the radius inside their shape
 }  // namespace
 
-ObstaclePainter::ObstaclePainter(const std::vector<ObstacleConfig>& obstacles)
-    : program_(gpu::Program::graphics("mesh.vert", "tool.frag")) {
+ObstaclePainter::ObstaclePainter(const std::vector<ObstacleConfig>& obstacles, const std::vector<std::string>& features)
+    : program_(gpu::Program::graphics("mesh.vert", "tool.frag", features)) {
   std::vector<ToolVertex> vertices;
   std::vector<uint32_t> indices;
   for (const ObstacleConfig& obstacle : obstacles) {

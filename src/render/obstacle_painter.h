@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "gpu/buffer.h"
 #include "gpu/program.h"
+#include "render/mesh_uniforms.h"
 #include "render/shapes/obstacle_shape.h"
 #include "render/vertex_array.h"
 
@@ -14,7 +16,8 @@ namespace viscera {
 /// Draws the obstacles of a scene, with shaders/draw/mesh.vert and tool.frag.
 class ObstaclePainter {
  public:
-  explicit ObstaclePainter(const std::vector<ObstacleConfig>& obstacles);
+  ObstaclePainter(const std::vector<ObstacleConfig>& obstacles, const std::vector<std::string>& features);
+  void lightFor(const CameraConfig& camera) { setLight(program_, camera); }  ///< what is drawn from now on
   /// Draws into the bound framebuffer. @param poses  [obstacles] tissue frame; those that are missing are not drawn
   void draw(const std::vector<Pose>& poses, const Pose& optical_from_tissue, const Eigen::Matrix4f& clip_from_optical);
 

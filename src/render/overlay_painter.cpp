@@ -48,6 +48,12 @@ std::array<float, 4> digitsOf(double value) {
   return out;
 }
 
+void blend() {
+  glEnable(GL_BLEND);
+  glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  glBlendEquation(GL_FUNC_ADD);
+}
+
 }  // namespace
 
 OverlayPainter::OverlayPainter(const Model& model)
@@ -101,9 +107,7 @@ void OverlayPainter::draw(const OverlayLook& look, int supersampling, const Pose
                           const Eigen::Matrix4f& clip_from_optical) {
   if (look.shown.has(Overlay::kForces) || look.shown.has(Overlay::kWind))
     drawArrows(look, optical_from_tissue, clip_from_optical);
-  glEnable(GL_BLEND);
-  glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-  glBlendEquation(GL_FUNC_ADD);
+  blend();
   glDepthMask(GL_FALSE);
   std::array<float, 2> widths{};
   glGetFloatv(GL_ALIASED_LINE_WIDTH_RANGE, widths.data());
@@ -118,7 +122,6 @@ void OverlayPainter::draw(const OverlayLook& look, int supersampling, const Pose
     nodes_.makeForces(*look.surface);
     drawSpikes(nodes_.forces(), kForceColor);
   }
-  if (look.shown.has(Overlay::kStrain)) drawLegend(look.strain_range);
   glLineWidth(1);
   glDisable(GL_BLEND);
   glDepthMask(GL_TRUE);
@@ -178,6 +181,7 @@ void OverlayPainter::drawArrows(const OverlayLook& look, const Pose& optical_fro
 }
 
 void OverlayPainter::drawLegend(double strain_range) {
+  blend();
   glDisable(GL_DEPTH_TEST);
   glBindVertexArray(no_inputs_.id());
   legend_.use();
@@ -185,6 +189,8 @@ void OverlayPainter::drawLegend(double strain_range) {
   legend_.setVectors("digits", digitsOf(strain_range).data(), 4, 1);
   glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
   glEnable(GL_DEPTH_TEST);
+  glDisable(GL_BLEND);
+  glBindVertexArray(0);
 }
 
 }  // namespace viscera

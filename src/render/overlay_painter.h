@@ -39,9 +39,11 @@ class OverlayPainter {
   /// The surface in the colours of strain: in place of the tissue's. @param mesh  of look.surface
   void drawStrain(const OverlayLook& look, const MeshView& mesh, const Pose& optical_from_tissue,
                   const Eigen::Matrix4f& clip_from_optical);
-  /// All others, over what is there. @param supersampling  of the image, for the width of lines
+  /// All others but the legend, over what is there. @param supersampling  of the image, for the width of lines
   void draw(const OverlayLook& look, int supersampling, const Pose& optical_from_tissue,
             const Eigen::Matrix4f& clip_from_optical);
+  /// The scale of strain, at the right of the image.
+  void drawLegend(double strain_range);
 
  private:
   using Color = std::array<float, 4>;
@@ -50,7 +52,6 @@ class OverlayPainter {
   void drawSprings(const OverlayLook& look);
   void drawSpikes(const gpu::Buffer<layout::vec4>& ends, const Color& color);
   void drawArrows(const OverlayLook& look, const Pose& optical_from_tissue, const Eigen::Matrix4f& clip_from_optical);
-  void drawLegend(double strain_range);
 
   NodeOverlay nodes_;
   uint64_t capture_ = 0;  ///< that nodes_ follow

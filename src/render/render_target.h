@@ -24,6 +24,9 @@ class RenderTarget {
   /// Binds the image resolved last for reading.
   void bindForReading() const;
 
+  int width() const { return width_; }
+  int height() const { return height_; }
+
  private:
   RenderTarget() = default;
 

@@ -42,11 +42,6 @@ void clearImage() {
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 }
 
-MeshView meshOf(const Surface& surface, const IndexRuns* runs) {
-  return {surface.positions().id(), surface.normals().id(), surface.colors().id(),    surface.liveIndices().id(),
-          surface.liveCount(),      surface.rests().id(),   surface.liveChartsView(), runs};
-}
-
 /// No overlays.
 struct Nothing {
   template <class View>
@@ -57,14 +52,24 @@ struct Nothing {
 
 Renderer::Renderer(const std::vector<CameraConfig>& cameras, const std::vector<StylusConfig>& styluses,
                    const std::vector<ObstacleConfig>& obstacles, const Model* model)
-    : cameras_(cameras), styluses_(styluses), tools_(std::make_unique<ToolPainter>(styluses)) {
+    : styluses_(styluses) {
+  for (const CameraConfig& camera : cameras) {
+    cameras_.push_back(pinholeOf(camera));
+    lenses_.push_back(camera.distortion.any() ? std::make_unique<Lens>(camera) : nullptr);
+  }
   const bool software = gpu::isSoftware();
   const auto lightsPixels = [&](const CameraConfig& camera) {
     return camera.supersampling == 0 && software && camera.width_px * camera.height_px <= SeenTarget::kMostPixels;
   };
-  tissue_ = std::make_unique<TissuePainter>(model, !std::all_of(cameras.begin(), cameras.end(), lightsPixels),
-                                            std::any_of(cameras.begin(), cameras.end(), lightsPixels));
-  if (!obstacles.empty()) obstacles_ = std::make_unique<ObstaclePainter>(obstacles);
+  const auto any = [this](auto asks) { return std::any_of(cameras_.begin(), cameras_.end(), asks); };
+  if (any([](const CameraConfig& camera) { return camera.light == CameraLight::kLens; }))
+    light_features_.emplace_back("LENS_LIGHT");
+  std::vector<std::string> looks = light_features_;
+  if (any([](const CameraConfig& camera) { return camera.contact_shadows > 0; })) looks.emplace_back("CONTACTS");
+  tissue_ = std::make_unique<TissuePainter>(model, !std::all_of(cameras_.begin(), cameras_.end(), lightsPixels),
+                                            std::any_of(cameras_.begin(), cameras_.end(), lightsPixels), looks);
+  tools_ = std::make_unique<ToolPainter>(styluses, light_features_);
+  if (!obstacles.empty()) obstacles_ = std::make_unique<ObstaclePainter>(obstacles, light_features_);
   for (CameraConfig& camera : cameras_) {
     camera_poses_.push_back(opticalPose(camera));
     geometries_.emplace_back();
@@ -82,7 +87,7 @@ Renderer::Renderer(const std::vector<CameraConfig>& cameras, const std::vector<S
 Renderer::~Renderer() = default;
 
 void Renderer::addThreads(const std::vector<ThreadLook>& threads) {
-  threads_ = std::make_unique<ThreadPainter>(threads);
+  threads_ = std::make_unique<ThreadPainter>(threads, light_features_);
 }
 
 /// Its width at a distance of 1.
@@ -103,13 +108,24 @@ void Renderer::draw(size_t camera, const Model& model, const OverlayLook& look, 
   overlays_->follow(look);
   const MeshView mesh = meshOf(*look.surface, look.runs);
   const bool strain = look.shown.has(Overlay::kStrain);
+  const Lens* lens = lenses_[camera].get();  // bends no writing
   drawImage(camera, mesh, motions, !strain, [&](const View& view, bool before_tools) {
     if (before_tools) {
       if (strain) overlays_->drawStrain(look, mesh, view.optical_from_tissue, view.clip_from_optical);
     } else {
       overlays_->draw(look, cameras_[camera].supersampling, view.optical_from_tissue, view.clip_from_optical);
+      if (strain && !lens) overlays_->drawLegend(look.strain_range);
     }
   });
+  if (!strain || !lens) return;
+  lens->bindForDrawing();
+  overlays_->drawLegend(look.strain_range);
+}
+
+MeshView Renderer::meshOf(const Surface& surface, const IndexRuns* runs) const {
+  const uint32_t colors = shown_colors_ ? shown_colors_ : surface.colors().id();
+  return {surface.positions().id(), surface.normals().id(),   colors, surface.liveIndices().id(), surface.liveCount(),
+          surface.rests().id(),     surface.liveChartsView(), runs};
 }
 
 Renderer::View Renderer::viewOf(size_t camera) const {
@@ -123,13 +139,25 @@ void Renderer::drawImage(size_t camera, const MeshView& mesh, const ToolMotions&
   assert(camera < cameras_.size());
   const gpu::TimedStage timed(gpu::Stage::kRender);
   const View view = viewOf(camera);
+  lightFor(cameras_[camera]);
   prepareDrawing();
   if (lit_targets_[camera]) {
     drawPixels(view, mesh, motions, tissue, drawOver);
   } else {
     drawSamples(view, mesh, motions, tissue, drawOver);
   }
+  if (lenses_[camera]) {
+    const gpu::TimedStage resolving(gpu::Stage::kResolve);
+    lenses_[camera]->bend();
+  }
   ++renders_;
+}
+
+void Renderer::lightFor(const CameraConfig& camera) {
+  tissue_->lightFor(camera);
+  tools_->lightFor(camera);
+  if (obstacles_) obstacles_->lightFor(camera);
+  if (threads_) threads_->lightFor(camera);
 }
 
 template <class DrawOver>
@@ -152,7 +180,8 @@ void Renderer::drawPixels(const View& view, const MeshView& mesh, const ToolMoti
   glEnable(GL_FRAMEBUFFER_SRGB);
   const bool by_pixels = tissue && mesh.rests != 0;
   if (by_pixels) {
-    tissue_->drawPixels(target, cameras_[view.camera], mesh, toolShadows(motions, styluses_, view.optical_from_tissue),
+    tissue_->drawPixels(target, cameras_[view.camera], mesh,
+                        toolShadows(motions, styluses_, cameras_[view.camera], view.optical_from_tissue),
                         view.optical_from_tissue, view.clip_from_optical, kBackground, pause_);
   } else {
     target.bindSeen();
@@ -175,8 +204,8 @@ void Renderer::drawPixels(const View& view, const MeshView& mesh, const ToolMoti
 /// Lit where it is drawn.
 void Renderer::drawTissue(const View& view, const MeshView& mesh, const ToolMotions& motions) {
   const gpu::TimedStage timed(gpu::Stage::kTissue);
-  tissue_->draw(mesh, toolShadows(motions, styluses_, view.optical_from_tissue), view.optical_from_tissue,
-                view.clip_from_optical);
+  tissue_->draw(mesh, toolShadows(motions, styluses_, cameras_[view.camera], view.optical_from_tissue),
+                view.optical_from_tissue, view.clip_from_optical);
 }
 
 /// Everything but tissue.
@@ -219,11 +248,14 @@ void Renderer::drawGeometry(size_t camera, const MeshView& mesh, const ToolMotio
     threads_->drawGeometry(geometry_program_, shown_threads_, optical_from_tissue, clip_from_optical, pixelOf(camera));
   }
   tools_->drawGeometry(geometry_program_, motions, optical_from_tissue, clip_from_optical);
+  if (lenses_[camera]) lenses_[camera]->bend(*target);
   ++renders_;
 }
 
 void Renderer::bindLast(size_t camera) const {
-  if (lit_targets_[camera]) {
+  if (lenses_[camera]) {
+    lenses_[camera]->bindForReading();
+  } else if (lit_targets_[camera]) {
     lit_targets_[camera]->bindForReading();
   } else {
     targets_[camera]->bindForReading();

@@ -5,11 +5,13 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "gpu/program.h"
 #include "render/geometry_target.h"
+#include "render/lens.h"
 #include "render/render_target.h"
 #include "render/seen_target.h"
 #include "surface/surface.h"
@@ -64,6 +66,8 @@ class Renderer {
   void draw(size_t camera, const Model& model, const OverlayLook& look, const ToolMotions& motions);
   /// Where obstacles are drawn from now on. @param poses  [obstacles] tissue frame; nowhere before the first call
   void placeObstacles(const std::vector<Pose>& poses) { obstacle_poses_ = poses; }
+  /// Colours that surfaces are drawn in from now on in place of their own, which are of as many vertices; 0: their own.
+  void showColors(uint32_t colors) { shown_colors_ = colors; }
   /// Threads that are drawn from now on, once they are placed. Needs a current context.
   void addThreads(const std::vector<ThreadLook>& threads);
   void placeThreads(const ShownThreads& shown) { shown_threads_ = shown; }
@@ -74,7 +78,9 @@ class Renderer {
   void drawGeometry(size_t camera, const Surface& surface, const ToolMotions& motions, const IndexRuns* runs = nullptr);
   void drawGeometry(size_t camera, const MeshView& mesh, const ToolMotions& motions);
   /// What was drawn so last, of a camera of which it was.
-  const GeometryTarget& geometry(size_t camera) const { return *geometries_[camera]; }
+  const GeometryTarget& geometry(size_t camera) const {
+    return lenses_[camera] ? lenses_[camera]->geometry() : *geometries_[camera];
+  }
   /// Leaves the image that was drawn last bound for reading, as draw() does, without drawing.
   void bindLast(size_t camera) const;
   uint64_t renders() const { return renders_; }
@@ -88,7 +94,9 @@ class Renderer {
     Pose optical_from_tissue;
     Eigen::Matrix4f clip_from_optical;
   };
+  MeshView meshOf(const Surface& surface, const IndexRuns* runs) const;
   View viewOf(size_t camera) const;
+  void lightFor(const CameraConfig& camera);
   double pixelOf(size_t camera) const;
   template <class DrawOver>
   void drawImage(size_t camera, const MeshView& mesh, const ToolMotions& motions, bool tissue, DrawOver drawOver);
@@ -100,7 +108,8 @@ class Renderer {
   template <class DrawOver>
   void drawPixels(const View& view, const MeshView& mesh, const ToolMotions& motions, bool tissue, DrawOver drawOver);
 
-  std::vector<CameraConfig> cameras_;
+  std::vector<CameraConfig> cameras_;          ///< pinholes
+  std::vector<std::unique_ptr<Lens>> lenses_;  ///< [cameras] what bends their images; null: nothing does
   std::vector<StylusConfig> styluses_;
   std::vector<Pose> camera_poses_;                           ///< [cameras] of the optical frames, tissue frame
   std::vector<std::unique_ptr<RenderTarget>> targets_;       ///< [cameras] null where pixels are lit
@@ -114,6 +123,9 @@ class Renderer {
   std::unique_ptr<ThreadPainter> threads_;      ///< null where there are none
   std::vector<Pose> obstacle_poses_;
   ShownThreads shown_threads_;
+  uint32_t shown_colors_ = 0;
+  std::vector<std::string>
+      light_features_;  ///< of shaders that light what is drawn: what no camera asks for is left out
   uint64_t renders_ = 0;
   std::function<void()> pause_;
 };

@@ -9,8 +9,6 @@ namespace viscera {
 
 namespace {
 
-constexpr float kSteepest = 10;  // slope to the image's plane, beyond which samples are taken to see several surfaces
-
 std::vector<std::string> with(std::vector<std::string> features, const std::string& one_more) {
   features.push_back(one_more);
   return features;

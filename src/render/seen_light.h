@@ -18,6 +18,9 @@ namespace viscera {
 /// sample by sample. Owner of shaders/draw/whole.vert, seen_parts.frag, seen_light.frag, over.frag.
 class SeenLight {
  public:
+  /// Slope to the image's plane, beyond which samples beside each other are taken to see several surfaces.
+  static constexpr float kSteepest = 10;
+
   /// @param features  GRAIN, DETAIL
   explicit SeenLight(const std::vector<std::string>& features);
   /// The programs that light, for uniforms of their own.

@@ -33,9 +33,9 @@ std::vector<uint32_t> longestTube(const std::vector<ThreadLook>& threads) {
 
 }  // namespace
 
-ThreadPainter::ThreadPainter(std::vector<ThreadLook> threads)
+ThreadPainter::ThreadPainter(std::vector<ThreadLook> threads, const std::vector<std::string>& features)
     : threads_(std::move(threads)),
-      program_(gpu::Program::graphics("mesh.vert", "tool.frag")),
+      program_(gpu::Program::graphics("mesh.vert", "tool.frag", features)),
       vertices_(allVertices(threads_), "threads"),
       indices_(longestTube(threads_), "threads") {
   inputs_.readTools(vertices_.id(), indices_.id());

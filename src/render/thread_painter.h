@@ -3,10 +3,12 @@
 #pragma once
 
 #include <array>
+#include <string>
 #include <vector>
 
 #include "gpu/buffer.h"
 #include "gpu/program.h"
+#include "render/mesh_uniforms.h"
 #include "render/shapes/tool_shape.h"
 #include "render/vertex_array.h"
 #include "viscera/math/types.h"
@@ -27,7 +29,8 @@ struct ThreadLook {
 /// Draws threads as tubes along their nodes, no thinner than a pixel and a half. With the shaders of tools.
 class ThreadPainter {
  public:
-  explicit ThreadPainter(std::vector<ThreadLook> threads);
+  ThreadPainter(std::vector<ThreadLook> threads, const std::vector<std::string>& features);
+  void lightFor(const CameraConfig& camera) { setLight(program_, camera); }  ///< what is drawn from now on
   /// Draws into the bound framebuffer.
   /// @param shown  of these threads, in pieces or whole
   /// @param pixel  its width at a distance of 1

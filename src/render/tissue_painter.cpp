@@ -34,13 +34,15 @@ Vector3f linear(const Vector3d& srgb) {
 /// Tells shaders/draw/grain.glsl how the bodies look.
 void setFinishes(const gpu::Program& program, const Model& model) {
   constexpr size_t kLayers = 4;  // of a body in grain.glsl, and at most in a scene
-  std::vector<float> finishes(4 * layout::kMaxBodies), layers(4 * kLayers * layout::kMaxBodies);
+  std::vector<float> finishes(4 * layout::kMaxBodies), walls(finishes), layers(4 * kLayers * layout::kMaxBodies);
   for (size_t b = 0; b < model.bodies.size(); ++b) {
     const Body& body = model.bodies[b];
     const size_t count = std::min(body.layers.size(), kLayers);
     finishes[4 * b] = static_cast<float>(body.roughness);
     finishes[4 * b + 1] = static_cast<float>(body.mottling);
     finishes[4 * b + 2] = static_cast<float>(count);
+    finishes[4 * b + 3] = static_cast<float>(body.wetness);
+    walls[4 * b] = static_cast<float>(body.wall_grain);
     for (size_t i = 0; i < count; ++i) {
       const Vector3f color = linear(body.layers[i].color);
       std::copy_n(color.data(), 3, &layers[4 * (kLayers * b + i)]);
@@ -48,11 +50,14 @@ void setFinishes(const gpu::Program& program, const Model& model) {
     }
   }
   program.setVectors("body_finish", finishes.data(), 4, layout::kMaxBodies);
+  program.setVectors("body_walls", walls.data(), 4, layout::kMaxBodies);
   program.setVectors("body_layers", layers.data(), 4, kLayers * layout::kMaxBodies);
 }
 
 void setShadows(const gpu::Program& program, const ToolShadows& shadows) {
   program.set("shafts", shadows.count);
+  program.set("contacts", shadows.contact > 0 ? shadows.count : 0);
+  program.set("contact", shadows.contact);
   if (shadows.count == 0) return;
   const auto count = static_cast<size_t>(shadows.count);
   program.setVectors("shaft_tips", shadows.tips[0].data(), 4, count);
@@ -61,8 +66,8 @@ void setShadows(const gpu::Program& program, const ToolShadows& shadows) {
 
 }  // namespace
 
-TissuePainter::TissuePainter(const Model* model, bool samples, bool pixels)
-    : program_(gpu::Program::graphics("mesh.vert", "tissue.frag")) {
+TissuePainter::TissuePainter(const Model* model, bool samples, bool pixels, std::vector<std::string> features)
+    : program_(gpu::Program::graphics("mesh.vert", "tissue.frag", features)) {
   describe(inputs_);
   if (model == nullptr) return;
   const auto is_tissue = [](const Body& body) { return !body.skin.two_sided; };
@@ -73,8 +78,12 @@ TissuePainter::TissuePainter(const Model* model, bool samples, bool pixels)
   if (!grain_ && !detail_) return;
   describe(tissue_inputs_);
   tissue_inputs_.describe(kRestInput, kRestInput, 4, GL_FLOAT, GL_FALSE, 0);
-  std::vector<std::string> features;
   if (grain_) features.emplace_back("GRAIN");
+  const auto any = [model](double Body::*look) {
+    return std::any_of(model->bodies.begin(), model->bodies.end(), [look](const Body& body) { return body.*look > 0; });
+  };
+  if (any(&Body::wetness)) features.emplace_back("FILM");
+  if (any(&Body::wall_grain)) features.emplace_back("WALL_GRAIN");
   if (detail_) features.emplace_back("DETAIL");
   if (pixels) {
     light_ = std::make_unique<SeenLight>(features);
@@ -92,6 +101,13 @@ TissuePainter::TissuePainter(const Model* model, bool samples, bool pixels)
   }
   features.emplace_back("SRGB");
   if (pixels) seen_program_ = gpu::Program::graphics("mesh.vert", "tissue_seen.frag", features);
+}
+
+void TissuePainter::lightFor(const CameraConfig& camera) {
+  setLight(program_, camera);
+  if (tissue_program_) setLight(tissue_program_, camera);
+  if (!light_) return;
+  for (const gpu::Program* program : light_->programs()) setLight(*program, camera);
 }
 
 /// With its places at rest, and textures.

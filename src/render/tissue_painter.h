@@ -3,6 +3,8 @@
 #pragma once
 
 #include <functional>
+#include <string>
+#include <vector>
 
 #include "gpu/program.h"
 #include "render/detail_textures.h"
@@ -18,9 +20,10 @@ namespace viscera {
 class TissuePainter {
  public:
   /// @param model  whose textures are drawn; null: none are   @param samples, pixels  which ways to draw are to be
-  /// there for what has them: lit sample by sample, or pixel by pixel
+  /// there for what has them: lit sample by sample, or pixel by pixel   @param features  LENS_LIGHT, CONTACTS
   /// @throws GpuError  file, line and driver log of a shader that does not compile
-  TissuePainter(const Model* model, bool samples, bool pixels);
+  TissuePainter(const Model* model, bool samples, bool pixels, std::vector<std::string> features);
+  void lightFor(const CameraConfig& camera);  ///< what is drawn from now on
   /// Draws into the bound framebuffer; depth test, front face and blending are the caller's.
   void draw(const MeshView& mesh, const ToolShadows& shadows, const Pose& optical_from_tissue,
             const Eigen::Matrix4f& clip_from_optical);

@@ -9,8 +9,8 @@
 
 namespace viscera {
 
-ToolPainter::ToolPainter(const std::vector<StylusConfig>& styluses)
-    : styluses_(styluses), program_(gpu::Program::graphics("mesh.vert", "tool.frag")) {
+ToolPainter::ToolPainter(const std::vector<StylusConfig>& styluses, const std::vector<std::string>& features)
+    : styluses_(styluses), program_(gpu::Program::graphics("mesh.vert", "tool.frag", features)) {
   std::vector<ToolVertex> vertices;
   std::vector<uint32_t> indices;
   for (const StylusConfig& stylus : styluses) {

@@ -3,11 +3,13 @@
 #pragma once
 
 #include <array>
+#include <string>
 #include <vector>
 
 #include "gpu/buffer.h"
 #include "gpu/program.h"
 #include "model/scene/tool_kinds.h"
+#include "render/mesh_uniforms.h"
 #include "render/shapes/tool_shape.h"
 #include "render/vertex_array.h"
 #include "viscera/tools/stylus.h"
@@ -17,7 +19,8 @@ namespace viscera {
 /// Draws the styluses that are present, each in its mode. Owner of shaders/draw/tool.frag, with shaders/draw/mesh.vert.
 class ToolPainter {
  public:
-  explicit ToolPainter(const std::vector<StylusConfig>& styluses);
+  ToolPainter(const std::vector<StylusConfig>& styluses, const std::vector<std::string>& features);
+  void lightFor(const CameraConfig& camera) { setLight(program_, camera); }  ///< what is drawn from now on
   /// Draws into the bound framebuffer, where the tissue already is: the outlines of tools let it shine through.
   void draw(const ToolMotions& motions, const Pose& optical_from_tissue, const Eigen::Matrix4f& clip_from_optical);
 

@@ -17,8 +17,9 @@ ToolShadows::Vector4 withRadius(const Vector3d& point_m, double radius_m) {
 }  // namespace
 
 ToolShadows toolShadows(const ToolMotions& motions, const std::vector<StylusConfig>& styluses,
-                        const Pose& optical_from_tissue) {
+                        const CameraConfig& camera, const Pose& optical_from_tissue) {
   ToolShadows shadows;
+  shadows.contact = static_cast<float>(camera.contact_shadows);
   for (size_t stylus = 0; stylus < std::min(motions.size(), styluses.size()); ++stylus) {
     const StylusMotion& motion = motions[stylus];
     if (!motion.present) continue;

@@ -13,11 +13,12 @@ namespace viscera {
 struct ToolShadows {
   using Vector4 = std::array<float, 4>;
   int count = 0;
+  float contact = 0;                               ///< CameraConfig::contact_shadows
   std::array<Vector4, layout::kMaxStyluses> tips;  ///< xyz m, optical frame; w radius of a ball at the tip [m]
   std::array<Vector4, layout::kMaxStyluses> ends;  ///< xyz m, optical frame; w radius of the shaft [m]
 };
 
 ToolShadows toolShadows(const ToolMotions& motions, const std::vector<StylusConfig>& styluses,
-                        const Pose& optical_from_tissue);
+                        const CameraConfig& camera, const Pose& optical_from_tissue);
 
 }  // namespace viscera

@@ -71,6 +71,7 @@ InlineView::InlineView(const Model& model, const Scene& scene)
       renderer_(eyesOf(scene.cameras), scene.styluses, scene.obstacles, &model),
       surface_ring_(makeRing(surface_)),
       reads_late_(gpu::isSoftware()) {
+  if (PaleSkin::isSeenIn(model)) pale_skin_ = std::make_unique<PaleSkin>(model);
   if (hasThreadsOrClips(scene)) renderer_.addThreads(looksOf(scene));
   const std::vector<CameraConfig>& cameras = scene.cameras;
   for (size_t c = 0; c < cameras.size(); ++c) addEye(c, cameras[c], PictureKind::kColor);
@@ -206,6 +207,8 @@ void InlineView::follow(const StateView& state, bool all, const std::optional<Ho
     eye.skin.addTo(seen);
   }
   surface_.follow(state, all ? nullptr : &seen);
+  const bool draws = std::any_of(eyes_.begin(), eyes_.end(), [](const Eye& eye) { return eye.draws; });
+  if (pale_skin_ && draws) renderer_.showColors(pale_skin_->follow(state, surface_).id());
 }
 
 void InlineView::captureSurface(uint64_t tick) {

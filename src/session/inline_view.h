@@ -13,6 +13,7 @@
 #include "render/renderer.h"
 #include "session/seen_skin.h"
 #include "session/view.h"
+#include "surface/overlay/pale_skin.h"
 #include "surface/surface.h"
 
 namespace viscera {
@@ -90,6 +91,7 @@ class InlineView : public View {
 
   const Model& model_;
   Surface surface_;
+  std::unique_ptr<PaleSkin> pale_skin_;  ///< null where no body blanches
   Renderer renderer_;
   CutState cuts_;
   std::unique_ptr<gpu::ReadbackRing> surface_ring_;

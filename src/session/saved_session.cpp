@@ -25,7 +25,7 @@ bool isAside(const std::string& line) {
     return key.size() >= with.size() && key.compare(key.size() - with.size(), with.size(), with) == 0;
   };
   return key.rfind("cameras[", 0) == 0 || key == "solver.threads" || key == "solver.device" || ends(".color") ||
-         ends(".roughness") || ends(".mottling");
+         ends(".roughness") || ends(".mottling") || ends(".wetness") || ends(".wall_grain") || ends(".blanching");
 }
 
 /// @throws Error  names the first key that is another

@@ -28,22 +28,17 @@ void drawSegment(const Eigen::Vector2d& from, const Eigen::Vector2d& to, ImageFr
 void drawTask(const TaskConfig& task, const CameraConfig& camera, ImageFrame& image) {
   if (image.rgb.empty() || !camera.frame.empty()) return;
   const Pose optical = opticalPose(camera);
-  const Intrinsics lens = intrinsics(camera);
-  const auto inFront = [&](const Vector3d& place) -> Vector3d {
-    return optical.orientation.conjugate() * (place - optical.position_m);
-  };
-  const auto seen = [&](const Vector3d& it) {
-    return Eigen::Vector2d(lens.fx * it.x() / it.z() + lens.cx, lens.fy * it.y() / it.z() + lens.cy);
+  const auto seen = [&](const Vector3d& place) {
+    return pixelOf(camera, optical.orientation.conjugate() * (place - optical.position_m));
   };
   constexpr int kPieces = 64;  // of a line, so that each is short on the picture
   for (const std::vector<Vector3d>& line : kindOf(task.kind).shapes(task).lines_m) {
     for (size_t i = 1; i < line.size(); ++i) {
       for (int k = 0; k < kPieces; ++k) {
         const Vector3d way = (line[i] - line[i - 1]) / kPieces;
-        const Vector3d from = inFront(line[i - 1] + k * way), to = inFront(line[i - 1] + (k + 1) * way);
-        if (from.z() > 0 && to.z() > 0 && seen(from).cwiseAbs().maxCoeff() < 1e5 &&
-            seen(to).cwiseAbs().maxCoeff() < 1e5)
-          drawSegment(seen(from), seen(to), image);
+        const auto from = seen(line[i - 1] + k * way), to = seen(line[i - 1] + (k + 1) * way);
+        if (from && to && from->cwiseAbs().maxCoeff() < 1e5 && to->cwiseAbs().maxCoeff() < 1e5)
+          drawSegment(*from, *to, image);
       }
     }
   }

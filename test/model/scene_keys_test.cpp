@@ -40,6 +40,9 @@ bodies:
     skin_spacing_m: 0.0007
     roughness: 0.41
     mottling: 0.42
+    wetness: 0.197
+    wall_grain: 0.198
+    blanching: 0.199
     layers:
       - {depth_m: 0.0043, color: [0.44, 0.45, 0.46], toughness_j_per_m2: 471}
     force_n: [0.37, 0.38, 0.39]
@@ -101,6 +104,10 @@ cameras:
     draw_hidden: true
     frame: scope
     stereo_baseline_m: 0.004
+    distortion: {k1: 0.00191, k2: 0.00192, p1: 0.00193, p2: 0.00194, k3: 0.00195}
+    light: lens
+    light_cone_deg: 95.5
+    contact_shadows: 0.196
 environment:
   gravity_m_per_s2: [1.1, 1.2, 1.3]
   world_frame: room

@@ -183,6 +183,13 @@ TEST(Scene, CameraWithoutALineOfSightIsRefusedByName) {
   }
 }
 
+TEST(Scene, ALensThatShowsOnePlaceTwiceIsRefusedByName) {
+  const std::string eye = "bodies: [{}]\ncameras: [{name: eye, vertical_fov_deg: 90, distortion: {";
+  EXPECT_TRUE(says(refusal(eye + "k1: -0.4}}]\n"), {"s.yaml", "camera 'eye'", "'distortion'", "2.5 times", "row 0"}));
+  EXPECT_TRUE(says(refusal(eye + "k1: 11}}]\n"), {"s.yaml:2: ", "'cameras[0].distortion.k1'", "-10 .. 10"}));
+  EXPECT_EQ(parseScene(eye + "k1: 0.1}}]\n", "s").cameras[0].distortion.k1, 0.1);
+}
+
 TEST(Scene, WhatIsLeftOutHasItsDefault) {
   const Scene scene = parseScene("bodies:\n  - {spacing_m: 0.01, material: {drag_per_s: 9}}\n  - {name: b}\n", "s");
   ASSERT_EQ(scene.bodies.size(), 2u);

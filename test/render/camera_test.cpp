@@ -73,6 +73,37 @@ TEST(Camera, NearAndFarPlanesFollowTheDistanceOfTheTarget) {
   EXPECT_NEAR(normalizedDevice(camera, Vector3d(0, 0, range.far_m)).z(), 1, kFloatTight);
 }
 
+TEST(Camera, LinesOfSightAreThoseThatPixelsShow) {
+  constexpr double kSame_px = 1e-8;
+  CameraConfig camera = lookingAlongY();
+  camera.vertical_fov_deg = 70;
+  for (const PlumbBob& lens : {PlumbBob{}, PlumbBob{-0.2, 0.05, 0.003, -0.002, 0.001}, PlumbBob{0.1, 0, 0, 0, 0}}) {
+    camera.distortion = lens;
+    const CameraConfig pinhole = pinholeOf(camera);
+    const Intrinsics k = intrinsics(camera), seen = intrinsics(pinhole);
+    EXPECT_NEAR(seen.fx, k.fx, kSame_px);
+    for (const Eigen::Vector2d& pixel : {Eigen::Vector2d(0, 0), {640, 480}, {320, 240}, {17.5, 400.5}, {600.5, 3.5}}) {
+      const Vector3d sight = lineOfSight(camera, pixel);
+      const auto back = pixelOf(camera, 0.3 * sight);
+      ASSERT_TRUE(back);
+      EXPECT_LT((*back - pixel).norm(), kSame_px);
+      EXPECT_LE(std::abs(seen.fx * sight.x()), 0.5 * pinhole.width_px + kSame_px);
+      EXPECT_LE(std::abs(seen.fy * sight.y()), 0.5 * pinhole.height_px + kSame_px);
+    }
+  }
+  EXPECT_FALSE(pixelOf(camera, Vector3d(0, 0, -1))) << "behind the camera";
+}
+
+TEST(Camera, AnImageThatFoldsOverHasNoLinesOfSightThere) {
+  CameraConfig camera = lookingAlongY();
+  camera.vertical_fov_deg = 90;
+  camera.distortion.k1 = -0.4;  // at most 0.61 from the middle: r (1 - 0.4 r^2), at r = 0.91
+  EXPECT_FALSE(undistorted(camera.distortion, {0.8, 0}));
+  EXPECT_THROW(lineOfSight(camera, {0, 240}), SceneError);
+  EXPECT_FALSE(pixelOf(camera, Vector3d(1.2, 0, 1))) << "shown where 0.5 is";
+  EXPECT_TRUE(pixelOf(camera, Vector3d(0.5, 0, 1)));
+}
+
 TEST(Camera, CameraWithoutALineOfSightOrAnUprightIsRefusedByName) {
   CameraConfig at_target = lookingAlongY();
   at_target.name = "scope";

@@ -3,6 +3,7 @@
 // Depths, labels and pairs of pictures say where things are: against a block, a ball and tools whose places are known.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 
 #include "session/on_backends.h"
@@ -35,11 +36,9 @@ class Geometry : public OnSceneBackend {
   }
   /// Where what a pixel shows is, tissue frame.
   static Vector3d placeOf(const CameraConfig& camera, const ImageFrame& depths, size_t pixel) {
-    const Intrinsics k = intrinsics(camera);
     const auto width = static_cast<size_t>(depths.width);
-    const double z = depths.depths_m[pixel], column = static_cast<double>(pixel % width) + 0.5,
-                 row = static_cast<double>(pixel / width) + 0.5;
-    return opticalPose(camera) * Vector3d((column - k.cx) / k.fx * z, (row - k.cy) / k.fy * z, z);
+    const Eigen::Vector2d at(static_cast<double>(pixel % width) + 0.5, static_cast<double>(pixel / width) + 0.5);
+    return opticalPose(camera) * (depths.depths_m[pixel] * lineOfSight(camera, at));
   }
   static size_t middle(const ImageFrame& image) {
     return static_cast<size_t>(image.height / 2 * image.width + image.width / 2);
@@ -70,6 +69,29 @@ TEST_P(Geometry, PixelsLieOnTheSurfaceWhereCameraInfoPutsThem) {
     ASSERT_NEAR(placeOf(oblique.cameras[0], depths, i).cwiseAbs().maxCoeff(), kHalfM, kSnappedM) << i;
   }
   EXPECT_GT(on_block, 500U);
+}
+
+TEST_P(Geometry, ThroughALensPixelsLieOnTheSurfaceToo) {
+  constexpr double kAtEdges_m = 0.002;  // of half a pixel, 1.2 mm: beside an edge a depth is that of the nearest one
+  constexpr double kBeside_m = 0.006;   // of an edge of the block: two pixels of 1.2 mm, on a face seen at 27 degrees
+  Scene bent = scene();
+  bent.cameras[0].position_m = Vector3d(0.05, -0.08, 0.06);
+  bent.cameras[0].vertical_fov_deg = 70;
+  bent.cameras[0].distortion = {-0.2, 0.05, 0.003, -0.002, 0};
+  Session session(bent, context_);
+  const ImageFrame depths = picture(session, PictureKind::kDepth), labels = picture(session, PictureKind::kLabels);
+  ASSERT_EQ(labels.labels.size(), size_t{160} * 120);
+  size_t within = 0;
+  for (size_t i = 0; i < labels.labels.size(); ++i) {
+    ASSERT_EQ(labels.labels[i] == 0, std::isinf(depths.depths_m[i]));
+    if (labels.labels[i] == 0) continue;
+    Vector3d place = placeOf(bent.cameras[0], depths, i).cwiseAbs();
+    std::sort(place.begin(), place.end());
+    const bool beside_edge = place[1] > kHalfM - kBeside_m;
+    within += beside_edge ? 0 : 1;
+    ASSERT_NEAR(place[2], kHalfM, beside_edge ? kAtEdges_m : kSnappedM) << i;
+  }
+  EXPECT_GT(within, 500U);
 }
 
 TEST_P(Geometry, LabelsTellBodiesWallsToolsAndObstaclesApart) {

@@ -45,7 +45,7 @@ Seen look(Session& session) {
 }
 
 /// Of nodes that a camera sees or would see: the pixel; of others the number of pixels.
-size_t pixelOf(const CameraConfig& camera, const Vector3d& place_m) {
+size_t pixelShowing(const CameraConfig& camera, const Vector3d& place_m) {
   const Intrinsics in = intrinsics(camera);
   const Vector3d at_m = opticalPose(camera).inverse() * place_m;
   const double column = in.fx * at_m.x() / at_m.z() + in.cx, row = in.fy * at_m.y() / at_m.z() + in.cy;
@@ -58,7 +58,7 @@ size_t pixelOf(const CameraConfig& camera, const Vector3d& place_m) {
 std::pair<double, double> shares(const Seen& seen, const CameraConfig& camera, const std::vector<Vector3d>& places_m) {
   double labelled = 0, blue = 0;
   for (const Vector3d& place_m : places_m) {
-    const size_t at = pixelOf(camera, place_m);
+    const size_t at = pixelShowing(camera, place_m);
     if (at >= seen.labels.size()) continue;
     labelled += seen.labels[at] == layout::kFirstThreadLabel;
     blue += seen.rgb[3 * at + 2] > seen.rgb[3 * at] + 10;

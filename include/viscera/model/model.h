@@ -24,7 +24,8 @@ struct Body {
   std::optional<SpringNetwork> network;  ///< explicit connections: they act instead of the lattice's
   Skin skin;
   Vector3d color = Vector3d::Ones();
-  double roughness = 0.25, mottling = 1;  ///< of what is seen, see BodyConfig
+  double roughness = 0.25, mottling = 1;              ///< of what is seen, see BodyConfig
+  double wetness = 0, wall_grain = 0, blanching = 0;  ///< the same
   std::vector<LayerConfig> layers;
   Vector3d force_n = Vector3d::Zero();  ///< on the whole body
   std::vector<std::string> notes;       ///< what the preparation decided: one line each, for a person

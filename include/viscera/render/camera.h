@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
+
 #include "viscera/math/types.h"
 #include "viscera/model/scene/scene.h"
 
@@ -9,12 +11,25 @@ namespace viscera {
 
 /// Pinhole intrinsics [px] of a camera: square pixels, principal point at the image centre. Pixel (column, row) covers
 /// [column, column + 1) x [row, row + 1), row 0 at the top, so its centre is at (column + 0.5, row + 0.5).
-/// A point (x, y, z) of the optical frame is seen at (fx x / z + cx, fy y / z + cy).
-/// Where pixel centres are whole numbers (OpenCV, sensor_msgs/CameraInfo) the principal point is (cx - 0.5, cy - 0.5).
+/// A point (x, y, z) of the optical frame is seen at (fx x / z + cx, fy y / z + cy), through a lens with distortion
+/// where its distorted place is: see pixelOf(). Where pixel centres are whole numbers (OpenCV, sensor_msgs/CameraInfo)
+/// the principal point is (cx - 0.5, cy - 0.5).
 struct Intrinsics {
   double fx, fy, cx, cy;
 };
 Intrinsics intrinsics(const CameraConfig& camera);
+
+/// Where a camera's image shows a point [m] of its optical frame [px], which may be beside the image. None for one that
+/// is not in front, or so far aside that a lens with distortion shows it nowhere.
+std::optional<Eigen::Vector2d> pixelOf(const CameraConfig& camera, const Vector3d& optical);
+/// The line of sight of a place of the image [px], from the eye: in the optical frame, with z = 1.
+/// @throws SceneError  naming the camera: its distortion leaves the place none (a scene that was read has no such
+/// camera)
+Vector3d lineOfSight(const CameraConfig& camera, const Eigen::Vector2d& pixel);
+/// The pinhole of the same focal length that sees all that a camera with distortion sees: what is drawn, before its
+/// lens bends it. The same middle, other numbers of pixels. A camera without distortion is its own.
+/// @throws SceneError  as lineOfSight()
+CameraConfig pinholeOf(const CameraConfig& camera);
 
 /// Pose of the camera's optical frame (x right, y down, z forward) in the tissue frame.
 /// @throws SceneError  naming the camera, if the target is at its position or `up` is along the line of sight

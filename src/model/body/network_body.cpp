@@ -70,6 +70,9 @@ Body plainBody(const BodyConfig& config) {
   body.color = config.color;
   body.roughness = config.roughness;
   body.mottling = config.mottling;
+  body.wetness = config.wetness;
+  body.wall_grain = config.wall_grain;
+  body.blanching = config.blanching;
   body.layers = config.layers;
   body.force_n = config.force_n;
   return body;

@@ -215,6 +215,14 @@ void visitFields(V& v, BodyConfig& c) {
   v.vector("color", c.color, {0, 1}, "1", "red, green, blue; of what a mesh file gives no colour");
   v.number("roughness", c.roughness, {0, 1}, "1", "of the wet surface: 0 mirrors lamps, 1 is dull");
   v.number("mottling", c.mottling, {0, 3}, "1", "how much lightness, hue and relief vary from place to place; 0: even");
+  v.number("wetness", c.wetness, {0, 1}, "1",
+           "share of the surface under a film of fluid, which lies unevenly and stays where it is on the tissue "
+           "(docs/detail.md#looks); 0: none but what `roughness` says");
+  v.number("wall_grain", c.wall_grain, {0, 2}, "1",
+           "how much lobules of fat, and bundles of muscle below the `layers`, show on walls of wounds; 0: not at all");
+  v.number("blanching", c.blanching, {0, 1}, "1",
+           "how pale skin becomes where it is pressed; all of it where springs are shortened by 0.03 in the mean (not "
+           "over textures of a file, which are as painted); 0: it keeps its colour");
   v.list("layers", c.layers, kMostLayers,
          "what a wound's wall shows below the skin, from the surface down, and what it takes to part it; beyond the "
          "last one: the flesh of `color`");

@@ -52,6 +52,28 @@ void requireFixed(const std::string& where, const FixedConfig& fixed) {
   if (fixed.shape == FixedShape::kPart && fixed.part.empty()) throw SceneError(where + ": 'part' must name a part");
 }
 
+/// Every pixel of a lens has one line of sight, not much farther out than a pinhole's.
+void requireLens(const std::string& file, const CameraConfig& camera) {
+  if (!camera.distortion.any()) return;
+  constexpr int kAcross = 32;  // places looked at, along an axis
+  const double half_height = std::tan(camera.vertical_fov_deg * M_PI / 360);
+  const double half_width = half_height * camera.width_px / camera.height_px;
+  for (int i = 0; i <= kAcross; ++i) {
+    for (int j = 0; j <= kAcross; ++j) {
+      const Eigen::Vector2d shown(half_width * (2.0 * i / kAcross - 1), half_height * (2.0 * j / kAcross - 1));
+      const auto seen = undistorted(camera.distortion, shown);
+      if (seen && std::abs(seen->x()) <= kFarthestSight * half_width &&
+          std::abs(seen->y()) <= kFarthestSight * half_height)
+        continue;
+      throw SceneError(file + ": camera '" + camera.name +
+                       "': 'distortion' must leave every pixel one line of sight, at most " +
+                       numberText(kFarthestSight) + " times as far from the middle as half the image; at column " +
+                       numberText(std::round(1.0 * camera.width_px * i / kAcross)) + ", row " +
+                       numberText(std::round(1.0 * camera.height_px * j / kAcross)) + " it does not");
+    }
+  }
+}
+
 void requireStableSubstep(const std::string& file, const SolverConfig& solver, const BodyConfig& body) {
   if (solver.substeps > 0) return;  // checked against the lattice when it is known
   const double xi = body.material.dashpot_ratio, largest = stableFraction(solver.integrator, xi);
@@ -191,6 +213,7 @@ void requireConsistent(const std::string& file, const Scene& scene) {
   requireBurns(file, scene);
   for (const BodyConfig& body : scene.bodies) requireStableSubstep(file, scene.solver, body);
   for (const CameraConfig& camera : scene.cameras) {
+    requireLens(file, camera);
     const Vector3d sight = camera.target_m - camera.position_m;
     if (sight.cross(camera.up).norm() <= 1e-9 * camera.up.norm()) {
       throw SceneError(file + ": camera '" + camera.name +

@@ -126,6 +126,16 @@ void visitFields(V& v, StylusConfig& c) {
 }
 
 template <class V>
+void visitFields(V& v, PlumbBob& c) {
+  constexpr Range kCoefficient{-10, 10};
+  v.number("k1", c.k1, kCoefficient, "1", "radial, with the square of the tangent; below 0: a barrel");
+  v.number("k2", c.k2, kCoefficient, "1", "radial, with its fourth power");
+  v.number("p1", c.p1, kCoefficient, "1", "tangential, along the image's columns");
+  v.number("p2", c.p2, kCoefficient, "1", "tangential, along its rows");
+  v.number("k3", c.k3, kCoefficient, "1", "radial, with its sixth power");
+}
+
+template <class V>
 void visitFields(V& v, CameraConfig& c) {
   v.text("name", c.name, "name: its topics are `<name>/image_raw` and `<name>/camera_info`");
   v.vector("position_m", c.position_m, kCoordinate, "m", "eye, tissue frame");
@@ -146,6 +156,16 @@ void visitFields(V& v, CameraConfig& c) {
       "frame", c.frame,
       "tf frame that carries it, as an endoscope: `position_m`, `target_m` and `up` are then in this frame; one whose "
       "name ends in `_optical` or `_optical_frame` is the optical frame itself (z forward, x right)");
+  v.group("distortion", c.distortion,
+          "of the lens, plumb_bob as in CameraInfo, whose D it is; all 0: a pinhole (docs/detail.md#looks)");
+  v.choice(
+      "light", c.light, {{"lamp", CameraLight::kLamp}, {"lens", CameraLight::kLens}},
+      "what it sees by: a lamp above the lens, as bright everywhere; or light at the lens, as an endoscope's, that "
+      "fades with the square of the distance and is at `target_m` as bright as the lamp");
+  v.number("light_cone_deg", c.light_cone_deg, {10, 170}, "deg",
+           "light lens: full angle of the cone at whose rim half of the light is left");
+  v.number("contact_shadows", c.contact_shadows, {0, 1}, "1",
+           "how dark it becomes between tools and tissue that they touch or nearly do; 0: no darker than beside them");
   v.number(
       "stereo_baseline_m", c.stereo_baseline_m, {0, 1}, "m",
       "distance of a right eye from this one, which is the left: topics `<name>/left` and `<name>/right`; 0: none");

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "render/seen_target.h"
+#include "viscera/render/camera.h"
 
 namespace viscera::nodes {
 
@@ -35,11 +36,12 @@ std::vector<std::string> PictureWatch::note(const std::vector<double>& wanted_hz
 std::vector<std::string> PictureWatch::ways(bool software) const {
   std::vector<std::string> out;
   for (const CameraConfig& camera : cameras_) {
+    const CameraConfig drawn = pinholeOf(camera);
     std::ostringstream text;
     text << "camera '" << camera.name << "': " << camera.width_px << " x " << camera.height_px << " pixels, ";
     if (camera.supersampling == 1) {
       text << "1 sample each: edges are not smooth";
-    } else if (camera.supersampling == 0 && software && camera.width_px * camera.height_px <= SeenTarget::kMostPixels) {
+    } else if (camera.supersampling == 0 && software && drawn.width_px * drawn.height_px <= SeenTarget::kMostPixels) {
       text << "4 samples each, of which the processor, as there is no GPU, lights one, at edges all "
               "(cameras[].supersampling: 2 lights all)";
     } else {

@@ -169,7 +169,8 @@ sensor_msgs::CameraInfo toCameraInfo(const CameraConfig& camera, const std::stri
   out.width = static_cast<uint32_t>(camera.width_px);
   out.height = static_cast<uint32_t>(camera.height_px);
   out.distortion_model = sensor_msgs::distortion_models::PLUMB_BOB;
-  out.D.assign(5, 0.0);
+  const PlumbBob& d = camera.distortion;
+  out.D = {d.k1, d.k2, d.p1, d.p2, d.k3};
   out.K = {lens.fx, 0, cx, 0, lens.fy, cy, 0, 0, 1};
   out.R = {1, 0, 0, 0, 1, 0, 0, 0, 1};
   const double shift = kind == PictureKind::kRight ? -lens.fx * camera.stereo_baseline_m : 0;

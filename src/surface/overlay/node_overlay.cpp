@@ -9,7 +9,6 @@
 
 #include "gpu/gl.h"
 #include "layout/bindings.h"
-#include "solver/tissue/joined_network.h"
 #include "surface/skins/joined_skins.h"
 #include "surface/surface_kernels.h"
 #include "viscera/model/body/neighbors.h"
@@ -21,36 +20,13 @@ namespace {
 constexpr double kNormalInSpacings = 0.6;  // length that a normal is drawn with
 constexpr double kForceInSpacings = 2;     // length that the force on a body is drawn with: its direction alone
 
-/// Links of every slot, as overlay_nodes.comp goes over them.
-struct Links {
-  std::vector<uint32_t> starts;
-  std::vector<layout::OverlayLink> links;
-};
-Links linksOf(const JoinedNetwork& network, size_t slots) {
-  Links out;
-  out.starts.assign(slots + 1, 0);
-  for (const layout::SpringEnds& spring : network.springs) {
-    ++out.starts[spring.a + 1];
-    ++out.starts[spring.b + 1];
-  }
-  for (size_t slot = 0; slot < slots; ++slot) out.starts[slot + 1] += out.starts[slot];
-  std::vector<uint32_t> next(out.starts.begin(), out.starts.end() - 1);
-  out.links.resize(2 * network.springs.size());
-  for (uint32_t s = 0; s < network.springs.size(); ++s) {
-    const layout::SpringEnds& spring = network.springs[s];
-    const float length = network.links[spring.link_a].offset_length.w;
-    out.links[next[spring.a]++] = {spring.b, s, length};
-    out.links[next[spring.b]++] = {spring.a, s, length};
-  }
-  return out;
-}
-
 }  // namespace
 
 NodeOverlay::NodeOverlay(const Model& model)
     : normal_lengths_(size_t{4} * layout::kMaxBodies),
       force_spikes_(size_t{4} * layout::kMaxBodies),
-      slots_(model.slots()) {
+      network_(model.hasNetwork()),
+      strains_(model, NodeStrains::Mean::kOfSquares) {
   uint32_t springs = 0, vertices = 0;
   for (size_t b = 0; b < model.bodies.size(); ++b) {
     const Body& body = model.bodies[b];
@@ -78,15 +54,7 @@ NodeOverlay::NodeOverlay(const Model& model)
   force_ends_ = gpu::Buffer<layout::vec4>(any_forces_ ? 2 * spike_list_.size() : 0, "overlay forces");
   axial_ = {};
   diagonal_ = {};
-  nodes_ = gpu::Buffer<layout::vec4>(slots_, "overlay nodes");
-  const bool network = model.hasNetwork();
-  if (network) {
-    const Links links = linksOf(joinNetworks(model), slots_);
-    link_starts_ = gpu::Buffer<uint32_t>(links.starts, "overlay link starts");
-    links_ = gpu::Buffer<layout::OverlayLink>(links.links, "overlay links");
-  }
-  const std::vector<std::string> features(network ? 1 : 0, "NETWORK");
-  place_ = surfaceKernel("overlay_nodes.comp", features);
+  const std::vector<std::string> features(network_ ? 1 : 0, "NETWORK");
   draw_lines_ = surfaceKernel("overlay_lines.comp", features);
   draw_spikes_ = surfaceKernel("overlay_spikes.comp");
   color_ = surfaceKernel("overlay_colors.comp");
@@ -96,7 +64,7 @@ NodeOverlay::NodeOverlay(const Model& model)
   }
   if (bound.empty()) return;
   bound_nodes_ = gpu::Buffer<layout::SurfaceNode>(bound, "overlay bound nodes");
-  node_normals_ = gpu::Buffer<layout::vec4>(slots_, "overlay node normals");
+  node_normals_ = gpu::Buffer<layout::vec4>(model.slots(), "overlay node normals");
   sum_normals_ = surfaceKernel("node_normal.comp", {"SUMMED"});
 }
 
@@ -127,20 +95,8 @@ void NodeOverlay::addNetwork(const Body& body, uint32_t slot, uint32_t first_spr
 
 void NodeOverlay::follow(const StateView& state, const Surface& surface) {
   made_ = {};
-  bindStorage(layout::kBindBricks, state.bricks);
-  bindStorage(layout::kBindBodies, state.bodies);
-  bindStorage(layout::kBindNodes, state.nodes);
-  bindStorage(layout::kBindDisplacementIn, state.displacement);
-  if (link_starts_.size() > 0) {
-    bindStorage(layout::kBindRest, state.rest);
-    bindStorage(layout::kBindSpringCut, state.spring_cut);
-    link_starts_.bindStorage(layout::kBindOverlayLinkStarts);
-    links_.bindStorage(layout::kBindOverlayLinks);
-  }
-  nodes_.bindStorage(layout::kBindOverlayNodes);
+  strains_.follow(state);
   surface.bindings().bindStorage(layout::kBindSkinBindings);
-  runOver(place_, slots_);
-  gpu::Program::storageBarrier();
 }
 
 size_t NodeOverlay::makeLines(const StateView& state, bool all) {
@@ -148,7 +104,7 @@ size_t NodeOverlay::makeLines(const StateView& state, bool all) {
   if (made_.lines >= count) return 2 * count;
   made_.lines = count;
   bindStorage(layout::kBindNodes, state.nodes);
-  if (link_starts_.size() > 0) bindStorage(layout::kBindSpringCut, state.spring_cut);
+  if (network_) bindStorage(layout::kBindSpringCut, state.spring_cut);
   lines_.bindStorage(layout::kBindOverlayLines);
   indices_.bindStorage(layout::kBindOverlayIndices);
   runOver(draw_lines_, count);
@@ -179,7 +135,7 @@ void NodeOverlay::makeForces(const Surface& surface) {
 void NodeOverlay::makeSpikes(const Surface& surface, uint32_t kind, const std::vector<float>& of_bodies,
                              const gpu::Buffer<layout::vec4>& ends) {
   const bool lattices = node_normals_.size() > 0;
-  bindStorage(layout::kBindNodeNormals, lattices ? node_normals_.id() : nodes_.id());  // the latter is never read
+  bindStorage(layout::kBindNodeNormals, lattices ? node_normals_.id() : nodes().id());  // the latter is never read
   surface.normals().bindStorage(layout::kBindSkinNormals);
   spikes_.bindStorage(layout::kBindOverlaySpikes);
   ends.bindStorage(layout::kBindOverlayEnds);

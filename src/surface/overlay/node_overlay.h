@@ -10,6 +10,7 @@
 #include "gpu/program.h"
 #include "layout/overlay.h"
 #include "layout/surface_node.h"
+#include "surface/overlay/node_strains.h"
 #include "surface/surface.h"
 #include "viscera/model/model.h"
 #include "viscera/solver/state.h"
@@ -17,7 +18,7 @@
 namespace viscera {
 
 /// What overlays show of nodes and springs, made on the GPU of the state there: lines, normals, forces and strains.
-/// Owner of shaders/surface/overlay_*.comp. Made when an overlay is first asked for.
+/// Owner of shaders/surface/overlay_*.comp but overlay_nodes.comp. Made when an overlay is first asked for.
 class NodeOverlay {
  public:
   /// Needs a current context. @param model  must outlive this   @throws GpuError
@@ -35,12 +36,12 @@ class NodeOverlay {
   /// @param strain_range  the end of the scale
   void makeColors(const Surface& surface, double strain_range);
 
-  const gpu::Buffer<layout::vec4>& nodes() const { return nodes_; }          ///< [slots] xyz m, w strain
-  const gpu::Buffer<uint32_t>& lines() const { return indices_; }            ///< indices of slots, in pairs
-  const gpu::Buffer<layout::vec4>& normals() const { return normal_ends_; }  ///< [2 * n] xyz m, in pairs
-  const gpu::Buffer<layout::vec4>& forces() const { return force_ends_; }    ///< [2 * n] xyz m, in pairs
-  const gpu::Buffer<uint32_t>& colors() const { return colors_; }            ///< [vertices] RGBA8
-  bool anyForces() const { return any_forces_; }                             ///< has some body a force of its own?
+  const gpu::Buffer<layout::vec4>& nodes() const { return strains_.nodes(); }  ///< [slots] xyz m, w strain
+  const gpu::Buffer<uint32_t>& lines() const { return indices_; }              ///< indices of slots, in pairs
+  const gpu::Buffer<layout::vec4>& normals() const { return normal_ends_; }    ///< [2 * n] xyz m, in pairs
+  const gpu::Buffer<layout::vec4>& forces() const { return force_ends_; }      ///< [2 * n] xyz m, in pairs
+  const gpu::Buffer<uint32_t>& colors() const { return colors_; }              ///< [vertices] RGBA8
+  bool anyForces() const { return any_forces_; }                               ///< has some body a force of its own?
 
  private:
   void addLattice(const Body& body, uint32_t slot);
@@ -51,21 +52,21 @@ class NodeOverlay {
   std::vector<layout::OverlayLine> axial_, diagonal_;  ///< until they are on the GPU
   std::vector<layout::OverlaySpike> spike_list_;
   std::vector<float> normal_lengths_, force_spikes_;  ///< [4 * kMaxBodies] see overlay_spikes.comp
-  size_t slots_ = 0, axial_count_ = 0;
-  bool any_forces_ = false;
+  size_t axial_count_ = 0;
+  bool any_forces_ = false, network_;  ///< of some body: a force; connections of its own
+  NodeStrains strains_;
   struct Made {  ///< of the state
     size_t lines = 0;
     bool normals = false, forces = false, colors = false;
     double strain_range = 0;  ///< of the colours
   };
   Made made_;
-  gpu::Buffer<layout::vec4> nodes_, normal_ends_, force_ends_, node_normals_;
+  gpu::Buffer<layout::vec4> normal_ends_, force_ends_, node_normals_;
   gpu::Buffer<layout::SurfaceNode> bound_nodes_;  ///< of lattices
-  gpu::Buffer<uint32_t> link_starts_, indices_, colors_;
-  gpu::Buffer<layout::OverlayLink> links_;
+  gpu::Buffer<uint32_t> indices_, colors_;
   gpu::Buffer<layout::OverlayLine> lines_;
   gpu::Buffer<layout::OverlaySpike> spikes_;
-  gpu::Program place_, draw_lines_, draw_spikes_, color_;
+  gpu::Program draw_lines_, draw_spikes_, color_;
   gpu::Program sum_normals_;  ///< none without lattices
 };
 

@@ -10,6 +10,7 @@
 #include "viscera/model/scene/knot_kind.h"
 #include "viscera/model/scene/organ_fit.h"
 #include "viscera/model/scene/overlays.h"
+#include "viscera/model/scene/plumb_bob.h"
 
 namespace viscera {
 
@@ -179,6 +180,9 @@ struct BodyConfig {
   Vector3d color = Vector3d(0.72, 0.25, 0.22);
   double roughness = 0.25;
   double mottling = 1;
+  double wetness = 0;
+  double wall_grain = 0;
+  double blanching = 0;
   std::vector<LayerConfig> layers = {{0.0004, Vector3d(0.80, 0.50, 0.42)}, {0.0016, Vector3d(0.86, 0.66, 0.34)}};
   MaterialConfig material;
   std::vector<PartConfig> parts;  ///< cells of other parts have `material`
@@ -274,6 +278,12 @@ struct StylusConfig {
   double workspace_m = 1;
 };
 
+/// Where the light comes from that a camera sees by.
+enum class CameraLight {
+  kLamp,  ///< above the lens, as bright at any distance
+  kLens,  ///< at the lens, as an endoscope's: a cone that fades with the square of the distance
+};
+
 struct CameraConfig {
   std::string name = "camera";
   Vector3d position_m = Vector3d(0, -0.3, 0.1);
@@ -289,7 +299,14 @@ struct CameraConfig {
   bool draw_hidden = false;
   std::string frame;             ///< tf frame that carries it; empty: the tissue frame
   double stereo_baseline_m = 0;  ///< 0: one eye
+  PlumbBob distortion;           ///< one line of sight per pixel, at most kFarthestSight times as far out
+  CameraLight light = CameraLight::kLamp;
+  double light_cone_deg = 90;
+  double contact_shadows = 0;
 };
+
+/// How far from the middle of the image a line of sight may be of what a lens shows there, over a pinhole's.
+constexpr double kFarthestSight = 2.5;
 
 /// Moving air. Speed at time t: velocity (1 + gust_ratio sin(2 pi t / gust_period)).
 struct WindConfig {

@@ -1,0 +1,48 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "viscera/model/scene/plumb_bob.h"
+
+#include <Eigen/LU>
+
+namespace viscera {
+
+namespace {
+
+constexpr int kMostSteps = 50;     // of Newton's method, which takes about five
+constexpr double kExact = 1e-13;   // of tangents of order 1: some hundred roundings
+constexpr double kFarthest = 1e3;  // tangent, of a line of sight along the image's plane
+
+/// d distorted / d place.
+Eigen::Matrix2d slopeOf(const PlumbBob& lens, const Eigen::Vector2d& place) {
+  const double x = place.x(), y = place.y(), r2 = place.squaredNorm();
+  const double radial = 1 + r2 * (lens.k1 + r2 * (lens.k2 + r2 * lens.k3));
+  const double by_r2 = lens.k1 + r2 * (2 * lens.k2 + r2 * 3 * lens.k3);
+  Eigen::Matrix2d slope;
+  slope(0, 0) = radial + 2 * x * x * by_r2 + 2 * lens.p1 * y + 6 * lens.p2 * x;
+  slope(0, 1) = slope(1, 0) = 2 * x * y * by_r2 + 2 * lens.p1 * x + 2 * lens.p2 * y;
+  slope(1, 1) = radial + 2 * y * y * by_r2 + 6 * lens.p1 * y + 2 * lens.p2 * x;
+  return slope;
+}
+
+}  // namespace
+
+Eigen::Vector2d distorted(const PlumbBob& lens, const Eigen::Vector2d& place) {
+  const double x = place.x(), y = place.y(), r2 = place.squaredNorm();
+  const double radial = 1 + r2 * (lens.k1 + r2 * (lens.k2 + r2 * lens.k3));
+  return {x * radial + 2 * lens.p1 * x * y + lens.p2 * (r2 + 2 * x * x),
+          y * radial + lens.p1 * (r2 + 2 * y * y) + 2 * lens.p2 * x * y};
+}
+
+std::optional<Eigen::Vector2d> undistorted(const PlumbBob& lens, const Eigen::Vector2d& place) {
+  Eigen::Vector2d out = place;
+  for (int step = 0; step < kMostSteps; ++step) {
+    const Eigen::Vector2d off = distorted(lens, out) - place;
+    const Eigen::Matrix2d slope = slopeOf(lens, out);
+    if (!(slope.determinant() > 0 && slope.trace() > 0 && out.norm() < kFarthest)) return std::nullopt;
+    if (off.norm() < kExact * (1 + place.norm())) return out;
+    out -= slope.inverse() * off;
+  }
+  return std::nullopt;
+}
+
+}  // namespace viscera

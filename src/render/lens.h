@@ -1,0 +1,47 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+
+#include "gpu/program.h"
+#include "render/geometry_target.h"
+#include "render/render_target.h"
+#include "render/vertex_array.h"
+#include "viscera/render/camera.h"
+
+namespace viscera {
+
+/// Bends what a pinhole sees to what a camera with distortion shows: a line of sight per pixel, worked out once. Owner
+/// of shaders/draw/lens.frag, with whole.vert.
+class Lens {
+ public:
+  /// Needs a current context. @param camera  with distortion; what it bends is of pinholeOf(camera)
+  /// @throws GpuError  a size that the driver refuses
+  explicit Lens(const CameraConfig& camera);
+  ~Lens();
+  Lens(const Lens&) = delete;
+  Lens& operator=(const Lens&) = delete;
+
+  /// Bends the image that is bound for reading, and leaves what it becomes bound so.
+  void bend();
+  /// Makes the image that was bent last the place to draw to.
+  void bindForDrawing() const { image_.bindForDrawing(); }
+  void bindForReading() const { image_.bindForReading(); }
+  /// Bends depths and labels, which no border mixes.
+  void bend(const GeometryTarget& seen);
+  const GeometryTarget& geometry() const { return *geometry_; }  ///< that was bent last
+
+ private:
+  void draw(const gpu::Program& program) const;
+
+  int width_, height_;  ///< of the pinhole
+  float steepest_;      ///< see lens.frag
+  gpu::Program bend_, bend_geometry_;
+  RenderTarget image_;
+  std::unique_ptr<GeometryTarget> geometry_;  ///< null until one is wanted
+  uint32_t sights_ = 0, colors_ = 0, depths_ = 0, labels_ = 0;
+  VertexArray nothing_;
+};
+
+}  // namespace viscera
