@@ -116,6 +116,7 @@ TEST_F(PerformanceSuite, PictureHasEveryWayWithItsStagesAndLooksTheSame) {
   for (const std::string tissue : {"whole", "cut"}) {
     EXPECT_EQ(rowsWith("pictures", {tissue + ","}), 4u) << ending_.out;
     EXPECT_EQ(rowsWith("stages", {tissue + ","}), 4u);
+    EXPECT_EQ(rowsWith("looks", {tissue + ","}), 8u);
   }
   EXPECT_EQ(rowsWith("checks", {"SSIM", ",ok"}), 2u) << ending_.out;
   EXPECT_EQ(rowsWith("checks", {"time of a picture"}), 2u);

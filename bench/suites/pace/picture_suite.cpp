@@ -118,6 +118,23 @@ constexpr Way kWays[] = {{"automatic", "automatic", 0},
                          {"4 samples a pixel", "4", 2}};
 constexpr size_t kReference = std::size(kWays) - 1;
 
+/// What pictures may have beside, each by itself (docs/detail.md, Looks).
+struct Extra {
+  const char *name, *stem;
+  void (*add)(CameraConfig&, Body&);
+};
+constexpr Extra kExtras[] = {{"none", "plain", [](CameraConfig&, Body&) {}},
+                             {"none, again", "again", [](CameraConfig&, Body&) {}},
+                             {"distortion", "distortion",
+                              [](CameraConfig& c, Body&) {
+                                c.distortion = {-0.4, 0.2, 0, 0, 0};
+                              }},
+                             {"light: lens", "lens", [](CameraConfig& c, Body&) { c.light = CameraLight::kLens; }},
+                             {"wetness", "wetness", [](CameraConfig&, Body& b) { b.wetness = 0.5; }},
+                             {"contact_shadows", "contact", [](CameraConfig& c, Body&) { c.contact_shadows = 1; }},
+                             {"wall_grain", "walls", [](CameraConfig&, Body& b) { b.wall_grain = 1; }},
+                             {"blanching", "blanching", [](CameraConfig&, Body& b) { b.blanching = 1; }}};
+
 /// Draws moments as a view does, on this thread.
 class Painting {
  public:
@@ -125,6 +142,11 @@ class Painting {
     scene.cameras[0].supersampling = way.supersampling;
     scene_ = scene;
     view_ = std::make_unique<InlineView>(model, scene_);
+  }
+  Painting(const Model& model, const Scene& scene, const Extra& extra)
+      : tools_(true), scene_(scene), own_(std::make_unique<Model>(model)), mirror_(*own_) {
+    extra.add(scene_.cameras[0], own_->bodies[0]);
+    view_ = std::make_unique<InlineView>(*own_, scene_);
   }
 
   std::vector<uint8_t> draw(const Moment& moment) {
@@ -151,6 +173,7 @@ class Painting {
  private:
   bool tools_;
   Scene scene_;
+  std::unique_ptr<Model> own_;  ///< of other looks; null: the one that is given
   StateMirror mirror_;
   std::unique_ptr<InlineView> view_;
 };
@@ -174,13 +197,31 @@ void addStages(Table& table, const std::string& tissue, const Way& way, const st
   table.add(std::move(row));
 }
 
+/// Times of pictures, in turns, so that what else the machine does falls on all. @param seconds  of all of them
+/// @returns  [paintings][]
+std::vector<std::vector<double>> timesOf(const std::vector<std::unique_ptr<Painting>>& paintings,
+                                         const std::vector<Moment>& moments, double seconds) {
+  using Clock = std::chrono::steady_clock;
+  std::vector<std::vector<double>> out(paintings.size());
+  for (const auto& painting : paintings) painting->draw(moments.back());
+  const Clock::time_point begun = Clock::now();
+  for (size_t i = 0; i < 3 || std::chrono::duration<double>(Clock::now() - begun).count() < seconds; ++i) {
+    for (size_t w = 0; w < paintings.size(); ++w) {
+      const Clock::time_point start = Clock::now();
+      paintings[w]->draw(moments[i % moments.size()]);
+      out[w].push_back(std::chrono::duration<double>(Clock::now() - start).count());
+    }
+  }
+  return out;
+}
+
 /// What the ways come to for some moments of tissue.
 class Comparison {
  public:
   Comparison(const Report& report, const Model& model, const Scene& scene, const std::vector<Moment>& moments)
       : moments_(moments) {
     for (const Way& way : kWays) paintings_.push_back(std::make_unique<Painting>(model, scene, way));
-    measure(report.isShort() ? 0.2 : 12);
+    took_s_ = timesOf(paintings_, moments_, report.isShort() ? 0.2 : 12);
     for (const Way& way : kWays) compare(scene.cameras[0], &way - kWays);
   }
 
@@ -191,21 +232,6 @@ class Comparison {
   const std::vector<uint8_t>& picture(size_t way) const { return pictures_[way]; }
 
  private:
-  /// In turns, so that what else the machine does falls on all of them. @param seconds  of all ways
-  void measure(double seconds) {
-    using Clock = std::chrono::steady_clock;
-    took_s_.resize(paintings_.size());
-    for (const auto& painting : paintings_) painting->draw(moments_.back());
-    const Clock::time_point begun = Clock::now();
-    for (size_t i = 0; i < 3 || std::chrono::duration<double>(Clock::now() - begun).count() < seconds; ++i) {
-      for (size_t w = 0; w < paintings_.size(); ++w) {
-        const Clock::time_point start = Clock::now();
-        paintings_[w]->draw(moments_[i % moments_.size()]);
-        took_s_[w].push_back(std::chrono::duration<double>(Clock::now() - start).count());
-      }
-    }
-  }
-
   void compare(const CameraConfig& camera, ptrdiff_t way) {
     Similarity mean{0, 0};
     for (const Moment& moment : moments_) {
@@ -227,8 +253,23 @@ class Comparison {
 };
 
 struct Tables {
-  Table pictures, stages;
+  Table pictures, stages, extras;
 };
+
+/// What each look costs, over a picture without it.
+void addExtras(Report& report, const std::string& tissue, const Model& model, const Scene& scene,
+               const std::vector<Moment>& moments, Table& table) {
+  std::vector<std::unique_ptr<Painting>> paintings;
+  for (const Extra& extra : kExtras) paintings.push_back(std::make_unique<Painting>(model, scene, extra));
+  const auto took_s = timesOf(paintings, moments, report.isShort() ? 0.2 : 24);
+  for (size_t e = 0; e < std::size(kExtras); ++e) {
+    std::vector<double> ratios;  // picture by picture: the others of a turn are drawn beside the same other work
+    for (size_t i = 0; i < took_s[e].size(); ++i) ratios.push_back(took_s[e][i] / took_s[0][i]);
+    table.add({tissue, kExtras[e].name, 1e3 * median(took_s[e]), median(ratios)});
+    report.add(paintings[e]->draw(moments[moments.size() / 2]), scene.cameras[0].width_px, scene.cameras[0].height_px,
+               tissue + "_with_" + kExtras[e].stem);
+  }
+}
 
 void addRows(Report& report, const std::string& tissue, const Comparison& of, const CameraConfig& camera,
              Tables& tables) {
@@ -260,16 +301,21 @@ void pictureSuite(Report& report, gpu::Context& context) {
   Tables tables = {
       Table("a picture of 640 x 480 of the heart in motion, on " + context.renderer(),
             {{"tissue"}, {"way"}, {"picture", "ms", 3}, {"over 4 samples"}, {"SSIM"}, {"SSIM without background"}}),
-      stageTable()};
+      stageTable(),
+      Table("what a picture may have beside (docs/detail.md), each by itself",
+            {{"tissue"}, {"with"}, {"picture", "ms", 3}, {"over none"}})};
   for (const auto& [tissue, from_s] : {std::pair("whole", kDent_s), std::pair("cut", kFlap_s)}) {
     report.stage(std::string(tissue) + ": stepping");
     const std::vector<Moment> moments = momentsOf(session, strokes, mirror, from_s, report.isShort() ? 2 : 12);
     report.stage(std::string(tissue) + ": drawing");
     const Comparison comparison(report, session.model(), scene, moments);
     addRows(report, tissue, comparison, scene.cameras[0], tables);
+    report.stage(std::string(tissue) + ": looks");
+    addExtras(report, tissue, session.model(), scene, moments, tables.extras);
   }
   report.add(tables.pictures, "pictures");
   report.add(tables.stages, "stages");
+  report.add(tables.extras, "looks");
 }
 
 }  // namespace viscera::bench

@@ -39,8 +39,10 @@ class SomeKeys {
   void names(Other&&...) {}
   template <class... Other>
   void group(Other&&...) {}
-  template <class... Other>
-  void choice(const char*, Other&&...) {}
+  template <class E>
+  void choice(const char*, E&, Choices<E>, const char*) {}
+  template <class E, class List>
+  void choice(const char*, E&, const List&, const char*) {}
 
   std::vector<Setting> settings;
   std::vector<double*> values;  ///< of the struct, one for each setting

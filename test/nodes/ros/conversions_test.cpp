@@ -9,6 +9,8 @@
 
 #include <limits>
 
+#include "viscera/render/camera.h"
+
 namespace viscera::nodes {
 namespace {
 
@@ -217,6 +219,38 @@ TEST(Conversions, ImageAndCameraInfoAgreeInStampFrameAndSize) {
   EXPECT_EQ(info.P[6], info.K[5]);
   EXPECT_EQ(info.P[0], info.K[0]);
   EXPECT_GT(info.K[0], 0);
+}
+
+TEST(Conversions, CameraInfoHoldsTheLensOfThePictures) {
+  constexpr double kSame_px = 1e-6;
+  CameraConfig camera;
+  camera.vertical_fov_deg = 70;
+  camera.distortion = {-0.2, 0.05, 0.003, -0.002, 0.001};
+  const auto info = toCameraInfo(camera, "f", ros::Time(8));
+  EXPECT_EQ(info.distortion_model, "plumb_bob");
+  EXPECT_EQ(info.D, (std::vector<double>{-0.2, 0.05, 0.003, -0.002, 0.001}));
+  // What image_geometry does to rectify a pixel: OpenCV's undistortPoints, by iteration.
+  const auto rectified = [&](double column, double row) {
+    const double x0 = (column - info.K[2]) / info.K[0], y0 = (row - info.K[5]) / info.K[4];
+    double x = x0, y = y0;
+    for (int i = 0; i < 100; ++i) {
+      const double r2 = x * x + y * y, radial = 1 + r2 * (info.D[0] + r2 * (info.D[1] + r2 * info.D[4]));
+      const double aside_x = 2 * info.D[2] * x * y + info.D[3] * (r2 + 2 * x * x);
+      const double aside_y = info.D[2] * (r2 + 2 * y * y) + 2 * info.D[3] * x * y;
+      x = (x0 - aside_x) / radial;
+      y = (y0 - aside_y) / radial;
+    }
+    return Eigen::Vector2d(info.P[0] * x + info.P[2], info.P[5] * y + info.P[6]);
+  };
+  for (double share = -1; share <= 1; share += 0.25) {  // of a line in space
+    const Vector3d point(0.3 * share, 0.2 + 0.1 * share, 0.6 + 0.1 * share);
+    const auto shown = pixelOf(camera, point);
+    ASSERT_TRUE(shown);
+    const Eigen::Vector2d straight(info.P[0] * point.x() / point.z() + info.P[2],
+                                   info.P[5] * point.y() / point.z() + info.P[6]);
+    EXPECT_LT((rectified(shown->x() - 0.5, shown->y() - 0.5) - straight).norm(), kSame_px);
+    EXPECT_GT((*shown - straight).norm(), 1) << "the lens bends";
+  }
 }
 
 TEST(Conversions, ARightEyeProjectsFromTheLeftOnesFrame) {
