@@ -105,7 +105,9 @@ void Governor::note(const layout::TickStats& stats) {
   const bool odd = short_ticks_left_ > 0 || stats.collapsed > 0 || stats.inverted > 0 ||
                    fromBits(stats.max_speed_bits) > limits_.speed_m_per_s / kSpeedMargin;
   health_.strained = is_long || odd;
-  health_.only_long = is_long && !odd;
+  // What a tool presses slips off it at forces that depend on the substep (docs/stability.md).
+  const bool handled = stats.touched[0] + stats.touched[1] + stats.grabbed[0] + stats.grabbed[1] > 0;
+  health_.only_long = is_long && !odd && !handled;
 }
 
 /// The last good state goes on with the shorter substep; for longer where that was so not long ago.
