@@ -8,6 +8,7 @@
 #include "gpu/gl.h"
 #include "layout/seen.h"
 #include "render/seen_light.h"
+#include "render/seen_target.h"
 #include "viscera/math/error.h"
 
 namespace viscera {
@@ -15,15 +16,8 @@ namespace viscera {
 namespace {
 
 /// @throws GpuError  the driver refuses the size
-uint32_t makeTexture(GLenum format, int width, int height, GLenum filter) {
-  uint32_t id = 0;
-  glCreateTextures(GL_TEXTURE_2D, 1, &id);
-  gpu::countObject();
-  glTextureStorage2D(id, 1, format, width, height);
-  glTextureParameteri(id, GL_TEXTURE_MIN_FILTER, static_cast<GLint>(filter));
-  glTextureParameteri(id, GL_TEXTURE_MAG_FILTER, static_cast<GLint>(filter));
-  glTextureParameteri(id, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-  glTextureParameteri(id, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+uint32_t checkedTexture(GLenum format, int width, int height, GLenum filter) {
+  const uint32_t id = makeTexture(format, width, height, filter);
   const GLenum code = glGetError();
   if (code == GL_NO_ERROR) return id;
   glDeleteTextures(1, &id);
@@ -54,8 +48,8 @@ Lens::Lens(const CameraConfig& camera)
   width_ = pinhole.width_px;
   height_ = pinhole.height_px;
   steepest_ = SeenLight::kSteepest / static_cast<float>(intrinsics(pinhole).fx);
-  colors_ = makeTexture(GL_SRGB8_ALPHA8, width_, height_, GL_LINEAR);
-  sights_ = makeTexture(GL_RG32F, camera.width_px, camera.height_px, GL_NEAREST);
+  colors_ = checkedTexture(GL_SRGB8_ALPHA8, width_, height_, GL_LINEAR);
+  sights_ = checkedTexture(GL_RG32F, camera.width_px, camera.height_px, GL_NEAREST);
   const std::vector<float> sights = sightsOf(camera, pinhole);
   glTextureSubImage2D(sights_, 0, 0, 0, camera.width_px, camera.height_px, GL_RG, GL_FLOAT, sights.data());
 }
@@ -78,8 +72,8 @@ void Lens::bend(const GeometryTarget& seen) {
   if (!geometry_) {
     bend_geometry_ = gpu::Program::graphics("whole.vert", "lens.frag", {"GEOMETRY"});
     bend_geometry_.set("steepest", steepest_);
-    depths_ = makeTexture(GL_R32F, width_, height_, GL_NEAREST);
-    labels_ = makeTexture(GL_R8UI, width_, height_, GL_NEAREST);
+    depths_ = checkedTexture(GL_R32F, width_, height_, GL_NEAREST);
+    labels_ = checkedTexture(GL_R8UI, width_, height_, GL_NEAREST);
     geometry_ = std::make_unique<GeometryTarget>(image_.width(), image_.height());
   }
   seen.bindDepths();

@@ -15,18 +15,6 @@ namespace {
 
 constexpr int kSamples = 2;  // per pixel along each axis
 
-uint32_t makeTexture(GLenum format, int width, int height, GLenum filter) {
-  uint32_t id = 0;
-  glCreateTextures(GL_TEXTURE_2D, 1, &id);
-  gpu::countObject();
-  glTextureStorage2D(id, 1, format, width, height);
-  glTextureParameteri(id, GL_TEXTURE_MIN_FILTER, static_cast<GLint>(filter));
-  glTextureParameteri(id, GL_TEXTURE_MAG_FILTER, static_cast<GLint>(filter));
-  glTextureParameteri(id, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-  glTextureParameteri(id, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-  return id;
-}
-
 uint32_t makeFramebuffer() {
   uint32_t id = 0;
   glCreateFramebuffers(1, &id);
@@ -39,6 +27,18 @@ bool isComplete(uint32_t framebuffer) {
 }
 
 }  // namespace
+
+uint32_t makeTexture(uint32_t format, int width, int height, uint32_t filter) {
+  uint32_t id = 0;
+  glCreateTextures(GL_TEXTURE_2D, 1, &id);
+  gpu::countObject();
+  glTextureStorage2D(id, 1, format, width, height);
+  glTextureParameteri(id, GL_TEXTURE_MIN_FILTER, static_cast<GLint>(filter));
+  glTextureParameteri(id, GL_TEXTURE_MAG_FILTER, static_cast<GLint>(filter));
+  glTextureParameteri(id, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  glTextureParameteri(id, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  return id;
+}
 
 SeenTarget::SeenTarget(int width, int height) : width_(width), height_(height) {
   const int columns = kSamples * width, rows = kSamples * height;

@@ -6,6 +6,10 @@
 
 namespace viscera {
 
+/// A texture of one level, beyond whose sides its last pixels go on. glGetError() says whether there is one.
+/// @param format, filter  as OpenGL has them
+uint32_t makeTexture(uint32_t format, int width, int height, uint32_t filter);
+
 /// Where the image of a camera is drawn whose pixels are lit once: 2 x 2 samples per pixel of what is seen of tissue
 /// (shaders/layout/seen.h), the image itself, and 2 x 2 samples of colours over it, for tools.
 class SeenTarget {
