@@ -18,7 +18,6 @@ struct TickStats {
   vec4 impulse[2];        // xyz momentum given to the nodes by each stylus over the tick [N s]
   vec4 angular[2];        // xyz its moment about the stylus tip at the end of the tick [N m s]
   uint springs_cut;       // since the last reset
-  uint cells_seen;        // springs_cut when cells were last looked at for springs that they have lost
   uint nonfinite;         // nodes with a non-finite displacement or velocity
   uint max_stretch_bits;  // float bits of max |L - l0| / l0 over springs
   uint max_speed_bits;    // float bits of max |v| [m/s]
@@ -30,7 +29,7 @@ struct TickStats {
   float elastic_j;        // springs and volumes
   uint inverted;          // whole cells turned inside out
   uint crowded;           // nodes that no contact acts on, as too many lie in one place (collision_place.comp)
-  uint pad;
+  uint pad[2];
   vec4 obstacle_impulse[kMaxObstacles];  // xyz momentum given to the nodes by each obstacle over the tick [N s]; w nodes touched
   vec4 obstacle_angular[kMaxObstacles];  // xyz its moment about the obstacle's place at the end of the tick [N m s]
 };

@@ -30,10 +30,6 @@ uniform uint cell_count;
 #ifdef CUT
 #ifndef __cplusplus
 layout(std430, binding = kBindNodes) buffer NodesBuffer { NodeBits nodes[]; };
-layout(std430, binding = kBindStats) readonly buffer StatsBuffer { TickStats stats; };
-bool noneWasCut() { return stats.springs_cut == stats.cells_seen; }
-#else
-bool noneWasCut() { return false; }
 #endif
 
 /// Has one of the cell's 24 springs, seen from a corner, been cut?
@@ -53,7 +49,7 @@ bool torn(uint slot, uint c) {
 
 void main() {
   uint i = globalIndex();
-  if (i >= cell_count || noneWasCut()) return;
+  if (i >= cell_count) return;
   uint slot = cells[i];
   if ((nodes[slot].lo & kCellBit) == 0u) return;
   bool lost = false;

@@ -2,9 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solver/gpu/forces/volume_pass.h"
 
-#include <cstddef>
-
-#include "gpu/gl.h"
 #include "gpu/stage_clock.h"
 
 namespace viscera {
@@ -46,9 +43,6 @@ TornCellsPass::TornCellsPass(const FeatureSet& features) : group_size_(features.
 
 void TornCellsPass::run(const LatticeBuffers& buffers) const {
   dispatchCells(torn_, buffers, group_size_);
-  const uint32_t stats = buffers.stats.id();
-  glCopyNamedBufferSubData(stats, stats, offsetof(layout::TickStats, springs_cut),
-                           offsetof(layout::TickStats, cells_seen), sizeof(uint32_t));
 }
 
 }  // namespace viscera
