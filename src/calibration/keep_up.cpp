@@ -55,8 +55,10 @@ double KeepUp::wanted_m() const {
   return spacing_m_ * std::max(kLeast, std::pow(wanted_factor_ / std::max(mean(factors_), 1e-3), 0.25));
 }
 
-std::string KeepUp::note(double real_time_factor) {
+std::string KeepUp::note(double real_time_factor, uint64_t tick) {
   const std::lock_guard<std::mutex> lock(mutex_);
+  said_ = said_ && tick >= tick_;
+  tick_ = tick;
   if (factors_.size() == kReadings) factors_.erase(factors_.begin());
   factors_.push_back(real_time_factor);
   if (bodies_.empty()) return "";
@@ -68,7 +70,7 @@ std::string KeepUp::note(double real_time_factor) {
   said_ = true;
   return "spacing_m: auto: " + inMillimetres(spacing_m_) + " is too fine beside the load that is there, " +
          asFactor(mean(factors_)) + "; " + inMillimetres(wanted_m()) +
-         " would keep up: service coarsen takes it at once, from rest";
+         " would keep up: service coarsen takes it at once";
 }
 
 Scene KeepUp::coarser(const Scene& asked) const {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <mutex>
 #include <string>
 #include <vector>
@@ -20,8 +21,9 @@ class KeepUp {
 
   /// A session begins. @param asked  its scene, with `auto` or from coarser()   @param chosen  the same with numbers
   void begin(const Scene& asked, const Scene& chosen);
-  /// A reading, once a second while ticks are made. @returns what is to be said now, or nothing
-  std::string note(double real_time_factor);
+  /// A reading, once a second while ticks are made. What was said is said again after a reset.
+  /// @param tick  since the start or the last reset   @returns what is to be said now, or nothing
+  std::string note(double real_time_factor, uint64_t tick);
   /// The scene with lattices that would keep up: the time of a second goes with the fourth power of what is finer.
   /// @param asked  of begin()
   /// @throws Error  no body has `spacing_m: auto`, the session keeps up, or its walls allow no coarser lattice
@@ -36,6 +38,7 @@ class KeepUp {
   double spacing_m_ = 0, wanted_factor_ = 1;
   std::vector<double> factors_;  ///< the last kReadings
   bool said_ = false;
+  uint64_t tick_ = 0;
 };
 
 }  // namespace viscera

@@ -8,6 +8,7 @@
 #include "model/scene/scene_text.h"
 #include "session/state_file.h"
 #include "session/view.h"
+#include "solver/tissue/carried_tissue.h"
 #include "viscera/math/state_hash.h"
 #include "viscera/session/session.h"
 #include "viscera/session/session_log.h"
@@ -142,6 +143,22 @@ void Session::restore(Archive& archive, const std::string& name) {
     reset();
     throw Error(name + ": " + error.what() + "; another solver.backend or another version of viscera?");
   }
+  for (SessionLog* log : logs_) log->restored(*this);
+}
+
+CarriedTissue Session::carried() const {
+  return {model_, solver_->readState()};
+}
+
+void Session::carry(const CarriedTissue& tissue) {
+  const auto named = [](const Model& model) {
+    std::vector<std::string> names;
+    for (const Body& body : model.bodies) names.push_back(body.name);
+    return names;
+  };
+  if (named(*tissue.model) != named(*model_)) throw Error("a state is carried on by the same bodies alone");
+  reset();
+  solver_->goOnFrom(carriedState(tissue, *model_, solver_->readState()));
   for (SessionLog* log : logs_) log->restored(*this);
 }
 

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <fstream>
 
+#include "model/scene/tool_kinds.h"
 #include "tasks/hand_log.h"
 #include "viscera/math/error.h"
 
@@ -14,7 +15,7 @@ namespace {
 
 // Columns as Gao et al. 2014 have them: left and right master, left and right slave, 19 numbers each.
 constexpr double kJigsawsRate_hz = 30;
-constexpr double kOpenJaw_rad = 1;  ///< of a gripper whose button 1 is not pressed; pressed: 0
+constexpr double kOpenJaw_rad = 1;  ///< of a tool without jaws whose button 1 is not pressed; pressed: 0
 constexpr size_t kArms = 2;
 
 /// Which stylus is the left and which the right arm: by name, else in order. SIZE_MAX: none.
@@ -31,7 +32,7 @@ size_t stylusOfArm(const std::vector<std::string>& styluses, size_t arm) {
 struct ArmPose {
   bool known = false;
   Pose pose;
-  bool closed = false;
+  double jaw_rad = 0;
 };
 
 /// Position, rotation matrix row by row, velocity, angular velocity, gripper.
@@ -48,7 +49,7 @@ void writeArm(std::ofstream& file, const ArmPose& now, const ArmPose& before, do
       for (int i = 0; i < 3; ++i) out[12 + i] = speed[i];
       for (int i = 0; i < 3; ++i) out[15 + i] = way.axis()[i] * angle / span_s;
     }
-    out[18] = now.closed ? 0 : kOpenJaw_rad;
+    out[18] = now.jaw_rad;
   }
   for (const double value : out) {
     char text[32];
@@ -73,8 +74,10 @@ void HandRows::writeJigsaws(const std::string& path) const {
           if (s == SIZE_MAX || row == SIZE_MAX) return ArmPose{};
           const StylusSample& sample = rows[row].samples[s];
           const StylusMotion& motion = rows[row].motions[s];
-          if (slave) return ArmPose{motion.present, motion.to, sample.button1};
-          return ArmPose{sample.valid, sample.pose, sample.button1};
+          const double by_button_rad = sample.button1 ? 0 : kOpenJaw_rad;
+          const double hand_rad = sample.jaw_rad == kNoJaw ? by_button_rad : double{sample.jaw_rad};
+          if (!slave) return ArmPose{sample.valid, sample.pose, hand_rad};
+          return ArmPose{motion.present, motion.to, kindOf(motion.mode).jaws ? motion.opens_to_rad : by_button_rad};
         };
         writeArm(file, poseAt(at), poseAt(before), span_s);
       }

@@ -31,9 +31,9 @@ Scene chosen(double spacing_m) {
 }
 
 /// @returns what was said
-std::string run(KeepUp& keep_up, double factor, int seconds = KeepUp::kReadings) {
+std::string run(KeepUp& keep_up, double factor, int seconds = KeepUp::kReadings, uint64_t tick = 1) {
   std::string said;
-  for (int s = 0; s < seconds; ++s) said += keep_up.note(factor);
+  for (int s = 0; s < seconds; ++s) said += keep_up.note(factor, tick);
   return said;
 }
 
@@ -41,10 +41,18 @@ TEST(KeepUp, SaysOnceWhatSpacingWouldKeepUp) {
   KeepUp keep_up;
   keep_up.begin(automatic(), chosen(kSpacing_m));
   EXPECT_EQ(run(keep_up, kFactor, KeepUp::kReadings - 1), "");
-  EXPECT_TRUE(says(keep_up.note(kFactor), {"5 mm is too fine", "service coarsen"}));
+  EXPECT_TRUE(says(keep_up.note(kFactor, 1), {"5 mm is too fine", "service coarsen"}));
   EXPECT_EQ(run(keep_up, kFactor), "");
   EXPECT_EQ(run(keep_up, 1), "");
   EXPECT_NE(run(keep_up, kFactor), "");  // it had kept up in between
+}
+
+TEST(KeepUp, SaysSoAgainAfterAReset) {
+  KeepUp keep_up;
+  keep_up.begin(automatic(), chosen(kSpacing_m));
+  EXPECT_NE(run(keep_up, kFactor, KeepUp::kReadings, 700), "");
+  EXPECT_EQ(run(keep_up, kFactor, KeepUp::kReadings, 800), "");
+  EXPECT_NE(run(keep_up, kFactor, 1, 40), "");
 }
 
 TEST(KeepUp, TakesALatticeOfWhichASecondTakesSoMuchLess) {

@@ -109,6 +109,29 @@ TEST(TaskCommand, KinematicsHaveTheColumnsOfJigsaws) {
   for (size_t i = 0; i < 19; ++i) EXPECT_EQ(row[i], 0);
 }
 
+TEST(TaskCommand, KinematicsSayHowFarJawsAreOpen) {
+  constexpr double kDigits = 1e-6;  // as they are printed
+  constexpr double kTold_rad = 0.4;
+  const TemporaryFolder folder;
+  const std::string out = folder.file("out");
+  const std::string strokes = folder.write(
+      "closing.yaml",
+      "strokes: [{stylus: left, keys: [{t_s: 0, position_m: [0, -0.3, 0], jaw_rad: 0.4}, {t_s: 0.5, position_m: [0, "
+      "-0.3, 0], jaw_rad: 0.4}, {t_s: 1, position_m: [0, -0.3, 0], jaw_rad: 0}]}]");
+  const Ending run = viscera({"run", "heart", "--no-view", "--set", "bodies[0].spacing_m=0.01", "--set",
+                            "styluses[0].idle=grasper", "--strokes", strokes, "--seconds", "1", "--out", out});
+  ASSERT_EQ(run.status, 0);
+  std::ifstream file(out + "/kinematics.txt");
+  std::vector<double> all{std::istream_iterator<double>(file), std::istream_iterator<double>()};
+  ASSERT_GE(all.size(), 76u * 24);
+  const double* early = &all[76 * 12];
+  const double* late = &all[76 * 23];
+  EXPECT_NEAR(early[18], kTold_rad, kDigits) << "as the hand tells";
+  EXPECT_NEAR(early[56], kTold_rad, kDigits) << "as the jaws stand";
+  EXPECT_LT(late[18], 0.5 * kTold_rad);
+  EXPECT_NEAR(late[56], late[18], 0.05) << "a tick later, if at all";
+}
+
 TEST(TaskCommand, ErrorsNameTheFileTheLineAndTheKey) {
   const TemporaryFolder folder;
   const auto complaint = [&](const std::string& file) {

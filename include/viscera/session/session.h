@@ -48,6 +48,7 @@ namespace gpu {
 class Context;
 }
 class View;
+struct CarriedTissue;
 
 struct SessionOptions {
   /// Where the processor steps: threads that sessions share (makeThreadPool); null: solver.threads of its own.
@@ -104,6 +105,11 @@ class Session {
   /// The same into memory and out of it. @param name  of where the state comes from, for errors
   void save(Archive& archive);
   void restore(Archive& archive, const std::string& name);
+  /// Goes on with the state of other lattices of the same bodies, from rest on (carriedState()): what tools did to the
+  /// tissue. Nothing is held; threads, clips and burns begin again. @throws Error  the bodies are others
+  void carry(const CarriedTissue& tissue);
+  /// What another session carries on. Waits for the last tick.
+  CarriedTissue carried() const;
   /// Told of all that changes this session from now on, until removeLog().
   void addLog(SessionLog& log) { logs_.push_back(&log); }
   void removeLog(SessionLog& log);

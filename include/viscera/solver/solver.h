@@ -79,6 +79,8 @@ class Solver {
   /// was made for the same model and scene, and goes on to the bit like the one that wrote it. Waits.
   /// @throws Error  the archive is another solver's, or this one keeps nothing
   virtual void persist(Archive& archive);
+  /// Goes on from a state of the same model. @throws Error  this solver takes none
+  virtual void goOnFrom(const HostState& state);
   virtual ThreadBodies* threads() { return nullptr; }     ///< null: the scene has none
   virtual const Burns* burns() const { return nullptr; }  ///< null: no stylus burns
   const ThreadBodies* threads() const { return const_cast<Solver*>(this)->threads(); }

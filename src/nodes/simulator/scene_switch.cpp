@@ -61,9 +61,25 @@ bool SceneSwitch::isRequested() const {
   return state_ == State::kRequested;
 }
 
-void SceneSwitch::noteScene(const Scene& chosen) {
+void SceneSwitch::begin(Session& session) {
+  std::optional<CarriedTissue> tissue;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    keep_up_.begin(next_ ? next_->scene : running_.scene, session.scene());
+    if (state_ == State::kStarting) tissue.swap(carried_);
+    carried_.reset();
+  }
+  if (tissue) session.carry(*tissue);
+}
+
+void SceneSwitch::leave(const Session& session) {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (state_ != State::kRequested || !carries_) return;
+  }
+  CarriedTissue tissue = session.carried();  // the service waits, and asks for nothing else meanwhile
   const std::lock_guard<std::mutex> lock(mutex_);
-  keep_up_.begin(next_ ? next_->scene : running_.scene, chosen);
+  carried_ = std::move(tissue);
 }
 
 void SceneSwitch::noteReady() {
@@ -148,13 +164,15 @@ void SceneSwitch::endOld() {
 }
 
 /// @returns why the scene did not come to run, or nothing
-std::string SceneSwitch::change(const SimulatorOptions& next, std::unique_ptr<MadeSession> made) {
+std::string SceneSwitch::change(const SimulatorOptions& next, std::unique_ptr<MadeSession> made, bool carries) {
   std::unique_lock<std::mutex> lock(mutex_);
   changed_.wait(lock, [this] { return state_ == State::kRunning || state_ == State::kEnd; });
   if (state_ == State::kEnd) return "the simulation has ended";
   state_ = State::kRequested;
   next_ = next;
   made_ = std::move(made);
+  carries_ = carries;
+  carried_.reset();
   error_.clear();
   changed_.wait(lock, [this] { return state_ == State::kRunning || state_ == State::kEnd; });
   if (state_ == State::kEnd) return "the simulation has ended";
@@ -162,10 +180,11 @@ std::string SceneSwitch::change(const SimulatorOptions& next, std::unique_ptr<Ma
 }
 
 template <class Response>
-void SceneSwitch::serve(const char* service, const std::function<SimulatorOptions()>& choose, Response& response) {
+void SceneSwitch::serve(const char* service, const std::function<SimulatorOptions()>& choose, bool carries,
+                        Response& response) {
   try {
     const SimulatorOptions next = choose();
-    response.message = change(next, make(service, next.scene));
+    response.message = change(next, make(service, next.scene), carries);
     endOld();
     response.success = response.message.empty();
     if (response.success) response.message = "running " + next.scene.name;
@@ -179,7 +198,7 @@ void SceneSwitch::serve(const char* service, const std::function<SimulatorOption
 
 bool SceneSwitch::onLoadScene(LoadScene::Request& request, LoadScene::Response& response) {
   serve(
-      "load_scene", [&] { return check(request); }, response);
+      "load_scene", [&] { return check(request); }, false, response);
   return true;
 }
 
@@ -191,7 +210,7 @@ bool SceneSwitch::onCoarsen(std_srvs::Trigger::Request& /*request*/, std_srvs::T
         next.scene = keep_up_.coarser(running_.scene);
         return next;
       },
-      response);
+      true, response);
   return true;
 }
 

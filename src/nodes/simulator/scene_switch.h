@@ -18,6 +18,7 @@
 #include "nodes/simulator/held_topics.h"
 #include "nodes/simulator/made_session.h"
 #include "nodes/simulator/simulator_options.h"
+#include "solver/tissue/carried_tissue.h"
 #include "viscera/LoadScene.h"
 
 namespace viscera::nodes {
@@ -27,7 +28,7 @@ namespace viscera::nodes {
 /// with it, by the caller, who runs simulators one after another. Where there is no room for both sessions, only the
 /// model is made before. A scene that does not come to run then gives way to the old one, at rest.
 /// Service `coarsen`: the same scene with coarser lattices, where `spacing_m: auto` was too fine for the load that
-/// came.
+/// came; its tissue goes on in the state that it was in.
 class SceneSwitch {
  public:
   /// @param running  of the simulator that is made first   @param package_folder  where scenes are looked up by name
@@ -39,8 +40,11 @@ class SceneSwitch {
   // For the main thread:
   /// The running simulator is to end, as a scene waits for its place.
   bool isRequested() const;
-  /// The session of the simulator that was made last is there; on any thread. @param chosen  its scene, in numbers
-  void noteScene(const Scene& chosen);
+  /// The session of the simulator that was made last is there, and goes on with the tissue of the one before if it was
+  /// made for that; on its thread.
+  void begin(Session& session);
+  /// A session ends, on its thread.
+  void leave(const Session& session);
   /// The simulator that was made last runs.
   void noteReady();
   /// Of the session that runs.
@@ -61,10 +65,10 @@ class SceneSwitch {
   bool onLoadScene(LoadScene::Request& request, LoadScene::Response& response);
   bool onCoarsen(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   template <class Response>
-  void serve(const char* service, const std::function<SimulatorOptions()>& choose, Response& response);
+  void serve(const char* service, const std::function<SimulatorOptions()>& choose, bool carries, Response& response);
   SimulatorOptions check(const LoadScene::Request& request) const;
   std::unique_ptr<MadeSession> make(const char* service, const Scene& scene) const;
-  std::string change(const SimulatorOptions& next, std::unique_ptr<MadeSession> made);
+  std::string change(const SimulatorOptions& next, std::unique_ptr<MadeSession> made, bool carries);
   void endOld();
 
   const std::string package_folder_;
@@ -75,8 +79,10 @@ class SceneSwitch {
   std::optional<SimulatorOptions> next_;
   std::unique_ptr<MadeSession> made_, buried_;
   std::unique_ptr<HeldTopics> topics_;
-  std::string error_;  ///< why the last one did not run; empty: it does
-  bool first_ = true;  ///< no simulator has run yet
+  bool carries_ = false;                  ///< the next session goes on with the tissue of this one
+  std::optional<CarriedTissue> carried_;  ///< on its way
+  std::string error_;                     ///< why the last one did not run; empty: it does
+  bool first_ = true;                     ///< no simulator has run yet
   ros::CallbackQueue queue_;
   KeepUp keep_up_;
   ros::ServiceServer load_scene_, coarsen_;

@@ -97,7 +97,7 @@ void SimulationLoop::run() {
       std::this_thread::sleep_until(pacer_.next(Clock::now()));
     }
   }
-  ports_.leave();
+  ports_.leave(session);
 }
 
 void SimulationLoop::tick(Session& session, const StylusSamples& samples, bool live) {

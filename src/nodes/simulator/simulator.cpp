@@ -122,7 +122,7 @@ LoopPorts Simulator::ports() {
   ports.wants = [this] { return placed(publisher_.beginTick()); };
   ports.stills = [this](bool changed, bool aimed) { return placed(publisher_.stills(changed, aimed)); };
   ports.ready = [this](Session& session) {
-    scenes_.noteScene(session.scene());
+    scenes_.begin(session);
     recordings_.follow(session);
     tasks_.follow(session);
     ROS_INFO("ready: %zu nodes, %zu springs, %zu triangles, substep %.3g ms", session.model().activeNodes(),
@@ -134,7 +134,8 @@ LoopPorts Simulator::ports() {
     publisher_.start(session.wholeSkin());
     ready_ = true;
   };
-  ports.leave = [this] {
+  ports.leave = [this](const Session& session) {
+    scenes_.leave(session);
     tasks_.leave();
     recordings_.leave();
   };

@@ -151,7 +151,7 @@ void SimulatorDiagnostics::pace(Status& status) {
   const bool slow = !now_->paused && pace.real_time_factor < KeepUp::kSlow;
   status.summary(slow ? Level::WARN : Level::OK, slow ? "slower than real time" : "keeps up");
   if (!now_->paused && slowness_.note(slow)) warnOfSlowness(pace, tick_s_);
-  const std::string finer = now_->paused ? "" : publishers_.keep_up.note(pace.real_time_factor);
+  const std::string finer = now_->paused ? "" : publishers_.keep_up.note(pace.real_time_factor, now_->tick);
   if (!finer.empty()) ROS_WARN("%s", finer.c_str());
   if (!slow && pictures_.areBehind())
     status.summary(Level::WARN, "keeps up, but pictures come less than a third as often as wanted");

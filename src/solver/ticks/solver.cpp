@@ -62,6 +62,10 @@ void Solver::persist(Archive& /*archive*/) {
   throw Error(backend() + ": its state can be neither saved nor restored");
 }
 
+void Solver::goOnFrom(const HostState& /*state*/) {
+  throw Error(backend() + ": takes no state");
+}
+
 uint64_t stateHash(const Model& model, const HostState& state) {
   StateHash hash;
   for (size_t b = 0; b < model.bodies.size(); ++b) {

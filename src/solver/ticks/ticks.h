@@ -45,6 +45,7 @@ class Ticks : public Solver {
   const Burns* burns() const final { return burns_.get(); }
   const ThreadPull& pull(uint32_t stylus) const final { return told_[stylus]; }
   void persist(Archive& archive) final;
+  void goOnFrom(const HostState& state) final { writeState(state); }
   std::string backend() const final { return backend_->name(); }
   /// The state that it begins in, now and after every reset.
   void startFrom(HostState state);

@@ -17,8 +17,8 @@ from diagnostic_msgs.msg import DiagnosticStatus
 from rosgraph_msgs.msg import Log
 from simulator_watch import Latest, READY_LIMIT_S, SimulatorWatch, wait_until
 from std_srvs.srv import Trigger
-from viscera.msg import SurfaceTopology, Tick
-from viscera.srv import LoadScene
+from viscera.msg import StylusState, SurfaceTopology, Tick
+from viscera.srv import LoadScene, Step
 from visualization_msgs.msg import Marker, MarkerArray
 
 # Ticks of one scene to the first of the next. Alone on two cores it is some 0.1 s. Tests share their cores with others, and ten times
@@ -138,13 +138,25 @@ class LoadSceneTest(unittest.TestCase):
         wait_until(lambda: "/left/body/servo_cf" in self.topics() and "/scope/image_raw" not in self.topics(), 10,
                    "topics of the old scene")
 
+    def cut(self):
+        """Through the upper half of the block."""
+        step = rospy.ServiceProxy("step", Step)
+        self.assertTrue(rospy.ServiceProxy("pause", Trigger)().success)
+        for x in (-0.03, -0.01, 0.01, 0.03):
+            state = StylusState(stylus="right", button2=True)
+            state.pose.position.x, state.pose.position.y, state.pose.position.z = x, 0.001, 0.001
+            state.pose.orientation.w = 1
+            answer = step(ticks=2, styluses=[state])
+            self.assertTrue(answer.success, answer.message)
+        self.assertTrue(rospy.ServiceProxy("resume", Trigger)().success)
+
     def test_6_a_lattice_that_is_too_fine_is_made_coarser(self):
         coarsen = rospy.ServiceProxy("coarsen", Trigger)
         self.assertIn("no body of the scene has spacing_m: auto", coarsen().message)
         lines = []
         subscriber = rospy.Subscriber("/rosout", Log, lambda it: lines.append(it.msg), queue_size=1000)
         answer = self.load(scene=OTHER, overrides=["bodies[0].spacing_m=auto", "solver.backend=cpu", "cameras=[]", "solver.sleep_speed_m_per_s=0",
-                                                     "solver.real_time_factor=%g" % TOO_SLOW])
+                                                     "styluses=[{name: right, button2: cut}]", "solver.real_time_factor=%g" % TOO_SLOW])
         self.assertTrue(answer.success, answer.message)
         self.assertIn("has not run", coarsen().message)
 
@@ -152,12 +164,16 @@ class LoadSceneTest(unittest.TestCase):
             return [line for line in lines if text in line]
         wait_until(lambda: said("service coarsen takes it"), 30, "offer of a coarser lattice")
         self.assertEqual(len(said("service coarsen takes it")), 1)
+        self.cut()
+        wait_until(lambda: self.watch.value("simulation", "springs_cut"), 10, "springs cut")
         answer = coarsen()
         self.assertTrue(answer.success, answer.message)
         nodes = [int(line.split()[1]) for line in said("ready: ")]
         self.assertEqual(len(nodes), 2)
         self.assertLess(nodes[1], 0.9 * nodes[0])
         self.assertTrue(said("in place of"))
+        topology = Latest("surface_topology", SurfaceTopology)
+        wait_until(lambda: topology.message and sum(topology.message.wound_triangles), 10, "wound that is still there")
         subscriber.unregister()
 
 

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026, the viscera authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""A live session of two hands that push, hold and cut, with a pause, a reset, a tool mode, a saved state and another scene, is
-recorded; `viscera replay` ends with the hash that the simulator had, three times, and again up to where it was killed."""
+"""A live session of two hands that push, hold and cut, with jaws too, with a pause, a reset, a tool mode, a saved state and
+another scene, is recorded; `viscera replay` ends with the hash that the simulator had, three times, and again up to where it was
+killed. VISCERA_LIVE_S: for how long hands act at least in the session of jaws."""
 import glob
 import json
 import os
@@ -26,6 +27,10 @@ from viscera.msg import Tick
 from viscera.srv import FileCommand, LoadScene, SetToolMode, Step
 
 LIMIT_S = 30
+LIVE_S = float(os.environ.get("VISCERA_LIVE_S", 0))
+OPEN_RAD, CLOSED_RAD = 0.6, 0.02
+WIDE_JAWS = ["styluses[0].grasper.radius_m=0.012", "styluses[0].grasper.jaw_length_m=0.03"]
+LEAST_PULL_N = 0.1                 # what the wall pulls with by 25 mm; a probe beside it is not felt
 HERE = os.path.dirname(os.path.abspath(__file__))
 OTHER = os.path.join(os.path.dirname(HERE), "views", "cameras.yaml")
 RECORDINGS = os.path.join(os.environ["ROS_HOME"], "recordings")
@@ -41,6 +46,7 @@ class RecordingTest(unittest.TestCase):
         wait_until(lambda: cls.left.heard() and cls.right.heard(), LIMIT_S, "subscribers")
         cls.call = {name: rospy.ServiceProxy(name, Trigger) for name in ("reset", "pause", "resume", "stop_recording")}
         cls.file = {name: rospy.ServiceProxy(name, FileCommand) for name in ("save_state", "load_state", "start_recording")}
+        cls.set_mode = rospy.ServiceProxy("set_tool_mode", SetToolMode)
         cls.step, cls.load = rospy.ServiceProxy("step", Step), rospy.ServiceProxy("load_scene", LoadScene)
 
     def done(self, answer):
@@ -59,11 +65,34 @@ class RecordingTest(unittest.TestCase):
             self.right.press(2, True)
             self.right.go((-0.07, -0.025, -0.02), (0.07, -0.025, -0.021), 0.8)
             self.right.press(2, False)
-        hands = [threading.Thread(target=act) for act in (pull, cut)]
+        self.together(pull, cut)
+
+    def together(self, *acts):
+        hands = [threading.Thread(target=act) for act in acts]
         for hand in hands:
             hand.start()
         for hand in hands:
             hand.join()
+
+    def act_with_jaws(self):
+        """The left holds what is between its jaws and pulls at it; the right snips three times along the wall."""
+        def pull():
+            self.left.grip(OPEN_RAD)
+            self.left.go((0, -0.1, -0.02), (0, -0.05, -0.02), 0.5)
+            self.left.grip(CLOSED_RAD)
+            self.left.go((0, -0.05, -0.02), (0, -0.05, -0.02), 0.4)
+            self.left.go((0, -0.05, -0.02), (0, -0.075, -0.02), 0.5)
+            self.left.grip(OPEN_RAD)
+            self.left.go((0, -0.075, -0.02), (0, -0.1, -0.02), 0.3)
+
+        def snip():
+            for x in (-0.02, 0, 0.02):
+                self.right.grip(OPEN_RAD)
+                self.right.go((x, -0.1, 0), (x, -0.045, 0), 0.3)
+                self.right.grip(CLOSED_RAD)
+                self.right.go((x, -0.045, 0), (x, -0.045, 0), 0.2)
+                self.right.go((x, -0.045, 0), (x, -0.1, 0), 0.2)
+        self.together(pull, snip)
 
     def replayed(self, path, *arguments):
         if "VISCERA_COMMAND" not in os.environ:
@@ -92,7 +121,7 @@ class RecordingTest(unittest.TestCase):
         self.done(self.call["pause"]())
         self.done(self.step(ticks=3))
         self.done(self.call["resume"]())
-        self.done(rospy.ServiceProxy("set_tool_mode", SetToolMode)("left", "idle", "none"))
+        self.done(self.set_mode("left", "idle", "none"))
         self.act()
         self.done(self.call["reset"]())
         self.act()
@@ -116,7 +145,35 @@ class RecordingTest(unittest.TestCase):
         self.assertGreater(hands["right"]["path_m"], 0.1)
         self.done(self.call["resume"]())
 
-    def test_3_pictures_of_other_cameras_are_made_afterwards(self):
+    def jaws(self):
+        self.done(self.set_mode("left", "idle", "grasper"))
+        self.done(self.set_mode("right", "idle", "scissors"))
+
+    def test_3_jaws_are_replayed_to_the_bit(self):
+        path = self.done(self.file["start_recording"](file="jaws_%d.viscera" % time.time_ns()))
+        self.jaws()
+        begun, rounds = time.monotonic(), 0
+        while rounds < 2 or time.monotonic() - begun < LIVE_S:
+            if rounds % 4 == 1:
+                self.done(self.call["reset"]())
+            if rounds % 4 == 3:
+                self.done(self.load(scene="heart", overrides=["bodies[0].spacing_m=0.008", "solver.backend=cpu", *WIDE_JAWS]))
+                self.jaws()
+            self.act_with_jaws()
+            wait_until(lambda: self.watch.value("simulation", "springs_cut"), LIMIT_S, "springs that scissors have cut")
+            rounds += 1
+        self.done(self.call["pause"]())
+        live = self.step(ticks=0)
+        self.done(self.call["stop_recording"]())
+        for _ in range(3):
+            replayed = self.replayed(path, "--no-view")
+            self.assertEqual(replayed["state_hash"], live.state_hash)
+            self.assertIs(replayed["to_recorded_end"], True)
+        pulls = [hand["peak_force_n"] for piece in replayed["pieces"] for hand in piece if hand["stylus"] == "left"]
+        self.assertGreater(max(pulls), LEAST_PULL_N)
+        self.done(self.call["resume"]())
+
+    def test_4_pictures_of_other_cameras_are_made_afterwards(self):
         path = max(glob.glob("viscera_saved/live_*.viscera") or
                    glob.glob(os.path.join(os.environ["ROS_HOME"], "viscera_saved", "live_*.viscera")))
         with tempfile.TemporaryDirectory() as out:
@@ -125,7 +182,7 @@ class RecordingTest(unittest.TestCase):
             self.assertTrue(glob.glob(os.path.join(out, "frames", "other_*.png")))
             self.assertTrue(os.path.exists(os.path.join(out, "hands.csv")))
 
-    def test_4_what_was_recorded_before_a_kill_replays(self):
+    def test_5_what_was_recorded_before_a_kill_replays(self):
         path = self.done(self.file["start_recording"](file="killed_%d.viscera" % time.time_ns()))
         ticks = Latest("tick", Tick)
         wait_until(lambda: ticks.count, LIMIT_S, "tick")

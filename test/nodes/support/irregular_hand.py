@@ -6,7 +6,7 @@ import time
 
 import rospy
 from geometry_msgs.msg import PoseStamped
-from sensor_msgs.msg import Joy
+from sensor_msgs.msg import JointState, Joy
 
 SEED = 5
 LONGEST_GAP_S = 0.03               # shorter than stale_after_s
@@ -19,10 +19,11 @@ class Hand:
     def __init__(self, name):
         self.poses = rospy.Publisher(name + "/measured_cp", PoseStamped, queue_size=1, tcp_nodelay=True)
         self.buttons = [rospy.Publisher("%s/button%d" % (name, b), Joy, queue_size=10) for b in (1, 2)]
+        self.gripper = rospy.Publisher(name + "/gripper/measured_js", JointState, queue_size=10)
         self.random = random.Random(SEED + len(name))
 
     def heard(self):
-        return all(p.get_num_connections() for p in (self.poses, *self.buttons))
+        return all(p.get_num_connections() for p in (self.poses, self.gripper, *self.buttons))
 
     def send(self, at):
         message = PoseStamped()
@@ -42,3 +43,6 @@ class Hand:
 
     def press(self, button, down):
         self.buttons[button - 1].publish(Joy(buttons=[1 if down else 0]))
+
+    def grip(self, opening_rad):
+        self.gripper.publish(JointState(position=[opening_rad]))
