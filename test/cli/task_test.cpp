@@ -119,7 +119,7 @@ TEST(TaskCommand, KinematicsSayHowFarJawsAreOpen) {
       "strokes: [{stylus: left, keys: [{t_s: 0, position_m: [0, -0.3, 0], jaw_rad: 0.4}, {t_s: 0.5, position_m: [0, "
       "-0.3, 0], jaw_rad: 0.4}, {t_s: 1, position_m: [0, -0.3, 0], jaw_rad: 0}]}]");
   const Ending run = viscera({"run", "heart", "--no-view", "--set", "bodies[0].spacing_m=0.01", "--set",
-                            "styluses[0].idle=grasper", "--strokes", strokes, "--seconds", "1", "--out", out});
+                              "styluses[0].idle=grasper", "--strokes", strokes, "--seconds", "1", "--out", out});
   ASSERT_EQ(run.status, 0);
   std::ifstream file(out + "/kinematics.txt");
   std::vector<double> all{std::istream_iterator<double>(file), std::istream_iterator<double>()};
