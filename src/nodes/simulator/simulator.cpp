@@ -134,6 +134,7 @@ LoopPorts Simulator::ports() {
     publisher_.start(session.wholeSkin());
     ready_ = true;
   };
+  ports.look = [this](const Session& session, Frame& frame) { publisher_.look(session, frame); };
   ports.leave = [this] {
     tasks_.leave();
     recordings_.leave();
