@@ -2,6 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rviz/surface_display.h"
 
+#include <OgreRenderSystem.h>
+#include <OgreRenderSystemCapabilities.h>
+#include <OgreRenderWindow.h>
+#include <OgreRoot.h>
 #include <OgreSceneNode.h>
 #include <ros/console.h>
 #include <rviz/display_context.h>
@@ -11,6 +15,8 @@
 #include <rviz/properties/enum_property.h>
 #include <rviz/properties/float_property.h>
 #include <rviz/properties/ros_topic_property.h>
+#include <rviz/render_panel.h>
+#include <rviz/view_manager.h>
 #include <pluginlib/class_list_macros.hpp>
 
 #include <cmath>
@@ -65,7 +71,17 @@ SurfaceDisplay::SurfaceDisplay() {
 
 SurfaceDisplay::~SurfaceDisplay() = default;
 
+/// Of what a person can change of how slowly it is drawn (docs/rviz.md, How fast).
+void SurfaceDisplay::warnOfSamples() const {
+  const std::string renderer = Ogre::Root::getSingleton().getRenderSystem()->getCapabilities()->getDeviceName();
+  const Ogre::RenderWindow* const window = context_->getViewManager()->getRenderPanel()->getRenderWindow();
+  if (renderer.find("llvmpipe") == std::string::npos || window->getFSAA() < 2) return;
+  ROS_WARN("%s draws %u samples of every pixel: with --disable-anti-aliasing rviz draws surfaces more often",
+           renderer.c_str(), window->getFSAA());
+}
+
 void SurfaceDisplay::onInitialize() {
+  warnOfSamples();
   mesh_ = std::make_unique<SurfaceMesh>(scene_manager_, scene_node_);
 }
 

@@ -39,6 +39,7 @@ class SurfaceDisplay : public rviz::Display {
   void onDisable() override;
 
  private:
+  void warnOfSamples() const;
   void subscribe();
   bool place();
   void paint();

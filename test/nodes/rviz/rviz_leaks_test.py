@@ -16,7 +16,7 @@ CHANGES = int(os.environ.get("VISCERA_CHANGES", "600"))
 WARM = CHANGES // 4   # memory that is there for good, and pools that grow at first
 RATE_HZ = 60
 LIMIT_S = 500
-# Of a process without leaks over 10,000 changes; materials that stay are some 100 MB in 600, vertices 15 MB.
+# 0.1 MB came out, of 600 changes and of 10,000. Meshes that are never removed are 84 MB in 600.
 LEAK_LIMIT_MB = 8
 
 

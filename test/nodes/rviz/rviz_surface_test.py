@@ -54,6 +54,7 @@ class RvizSurfaceTest(unittest.TestCase):
         sender = self.sender
         wait_until(lambda: sender.surface.get_num_connections() and sender.change.get_num_connections(), LIMIT_S,
                    "subscription of rviz in: " + self.rviz.output)
+        self.assertIn("with --disable-anti-aliasing", self.rviz.output)
         sender.topology(1, [0, 1, 10**9] * 4)  # no such vertex
         sender.vertices(1)
         sender.vertices(1, positions_m=[float("nan")] * 3 * len(sender.points))
@@ -108,6 +109,7 @@ class RvizStrainTest(unittest.TestCase):
                 strain.publish(sender.moved(1, 0, colors=[0xffd02020] * len(sender.points)))
                 return blue(screen.picture()) > MANY
             wait_until(seen, LIMIT_S, "ball with colors of strain in: " + program.output)
+            self.assertNotIn("with --disable-anti-aliasing", program.output)
         finally:
             program.end()
             screen.end()
