@@ -12,25 +12,24 @@ import unittest
 
 import rospy
 import rostest
+import stand_in_simulator
 from geometry_msgs.msg import PoseStamped
 from program import Program
-from rviz_screen import MOUSE_SIGN, VIEW, Screen, rviz
+from rviz_screen import MOUSE_SIGN, Screen, rviz
 from simulator_watch import Latest, wait_until
 
 CONFIG = os.path.join(subprocess.check_output(["rospack", "find", "viscera"], text=True).strip(),
                       "config", "viscera_plugin.rviz")
-STAND_IN = os.path.join(os.path.dirname(os.path.abspath(sys.modules["rviz_screen"].__file__)), "stand_in_simulator.py")
 PAUSE = (0, 114, 178)  # sign on the button
 LIMIT_S = 60           # software rendering on a busy machine
-MANY = 10000           # pixels
 DEAD_S = 0.3           # that a simulator is dead when rviz is closed: its connections break in between
 
 
 class RvizClosingTest(unittest.TestCase):
     def setUp(self):
-        self.simulator = Program([sys.executable, STAND_IN])
+        self.simulator = Program(stand_in_simulator.COMMAND)
         self.screen = Screen()
-        self.rviz = rviz(CONFIG, lambda: self.screen.find(MOUSE_SIGN) and self.screen.find(PAUSE) and self.ball())
+        self.rviz = rviz(CONFIG, lambda: self.screen.find(MOUSE_SIGN) and self.screen.find(PAUSE) and self.screen.ball())
         self.pose = Latest("left/measured_cp", PoseStamped)
 
     def tearDown(self):
@@ -38,19 +37,10 @@ class RvizClosingTest(unittest.TestCase):
         self.simulator.end()
         self.screen.end()
 
-    def ball(self):
-        """Its middle on the screen."""
-        picture = self.screen.picture()[VIEW]
-        red = (picture[:, :, 0] > 1.5 * picture[:, :, 1]) & (picture[:, :, 0] > 40)
-        rows, columns = red.nonzero()
-        if len(rows) < MANY:
-            return None
-        return VIEW[1].start + int(columns.mean()), VIEW[0].start + int(rows.mean())
-
     def beginAll(self):
         self.screen.click(*self.screen.find(PAUSE))
         self.simulator.said("asked")
-        x, y = wait_until(self.ball, LIMIT_S, "ball")
+        x, y = wait_until(self.screen.ball, LIMIT_S, "ball")
         self.screen.click(*wait_until(lambda: self.screen.find(MOUSE_SIGN), LIMIT_S, "tool in the toolbar"))
         self.screen.do("mousemove", x, y)
         self.screen.do("mousedown", 1)

@@ -17,6 +17,7 @@ VIEW = slice(70, 760), slice(370, 840)  # rows and columns of the scene, in conf
 END_LIMIT_S = 10
 START_LIMIT_S = 40  # software rendering on a busy machine
 MOUSE_SIGN = (240, 228, 66)  # of the button of viscera/Mouse, in the toolbar
+BALL_PIXELS = 10000
 SIGN_PIXELS = 40  # of the signs of 16 by 16 pixels, without their smooth edges
 
 # An rviz without panels, with the display alone, and how often it draws at most.
@@ -85,6 +86,14 @@ class Screen:
         """Middle (x, y) of the pixels of just this colour; nothing where there are less than a sign on a button has."""
         rows, columns = numpy.nonzero((self.picture() == color).all(axis=2))
         return (int(numpy.median(columns)), int(numpy.median(rows))) if len(rows) >= SIGN_PIXELS else None
+
+    def ball(self):
+        """Middle (x, y) of what is red in the scene, as the ball of stand_in_simulator.py; nothing where that is not there."""
+        picture = self.picture()[VIEW]
+        rows, columns = ((picture[:, :, 0] > 1.5 * picture[:, :, 1]) & (picture[:, :, 0] > 40)).nonzero()
+        if len(rows) < BALL_PIXELS:
+            return None
+        return VIEW[1].start + int(columns.mean()), VIEW[0].start + int(rows.mean())
 
     def click(self, x, y, button=1):
         self.do("mousemove", x, y)

@@ -3,6 +3,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What rviz sees of a simulator, without tissue: a ball whose triangles change all the time, /diagnostics, and a service
 `pause` that does not answer."""
+import os
+import sys
+
 import rospy
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from sent_ball import Sender
@@ -10,6 +13,7 @@ from std_srvs.srv import Trigger
 
 from viscera.msg import SurfaceTopologyChange
 
+COMMAND = [sys.executable, os.path.abspath(__file__)]
 SENT_HZ = 50
 TOLD_EVERY = 10  # surfaces
 MOST_GONE = 100  # triangles
@@ -44,7 +48,7 @@ class ChangingBall(Sender):
 
 
 def main():
-    rospy.init_node("stand_in")
+    rospy.init_node("stand_in", anonymous=True)
 
     def pause(_):
         print("asked", flush=True)
@@ -57,7 +61,7 @@ def main():
     while not rospy.is_shutdown():
         ball.step()
         if ball.version % TOLD_EVERY == 0:
-            status = DiagnosticStatus(name="stand_in: simulation", message="running", values=values)
+            status = DiagnosticStatus(name=rospy.get_name()[1:] + ": simulation", message="running", values=values)
             diagnostics.publish(DiagnosticArray(status=[status]))
         rate.sleep()
 
