@@ -29,7 +29,7 @@ def resident_mb(pid):
 class RvizLeaksTest(unittest.TestCase):
     def setUp(self):
         self.screen = rviz_screen.Screen(320, 240)
-        self.rviz = rviz_screen.alone(RATE_HZ, "--disable-anti-aliasing")
+        self.rviz = rviz_screen.alone(self.screen, RATE_HZ, "--disable-anti-aliasing")
 
     def tearDown(self):
         self.rviz.end()

@@ -99,7 +99,7 @@ class RvizStrainTest(unittest.TestCase):
     def test_strain_is_another_topic(self):
         screen, sender = Screen(), Sender()
         strain = rospy.Publisher("surface_strain", SurfaceVertices, queue_size=1)
-        program = alone(30, "--disable-anti-aliasing", color_by="strain")
+        program = alone(screen, 30, "--disable-anti-aliasing", color_by="strain")
         try:
             wait_until(strain.get_num_connections, LIMIT_S, "subscription of rviz")
             self.assertEqual(sender.surface.get_num_connections(), 0)

@@ -32,13 +32,13 @@ ALONE = """Visualization Manager:
 DEBUG = {"ROSCONSOLE_CONFIG_FILE": os.path.join(os.path.dirname(os.path.abspath(__file__)), "rviz_debug.conf")}
 
 
-def alone(rate_hz, *options, color_by="sent"):
+def alone(screen, rate_hz, *options, color_by="sent"):
     """rviz, full screen, with the display alone: its Program, whose output tells once a second how often it has drawn."""
-    config = tempfile.NamedTemporaryFile("w", suffix=".rviz", delete=False)
-    with config:
-        config.write(ALONE % (color_by, rate_hz))
+    config = os.path.join(screen.folder.name, "alone.rviz")
+    with open(config, "w") as file:
+        file.write(ALONE % (color_by, rate_hz))
     os.environ.update(DEBUG)
-    return Program(["rosrun", "rviz", "rviz", "-d", config.name, "-f", "tissue", "--fullscreen", *options])
+    return Program(["rosrun", "rviz", "rviz", "-d", config, "-f", "tissue", "--fullscreen", *options])
 
 
 def drawn_hz(output):
