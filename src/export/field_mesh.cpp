@@ -194,6 +194,10 @@ FieldMesh skinFields(const Session& session, const ShownMesh& skin) {
   // Of vertices that wounds have added nothing but where they are is known.
   for (MeshField& field : mesh.of_points)
     field.values.resize(static_cast<size_t>(field.components) * skin.vertices(), kUnknown);
+  if (!skin.colors.empty()) mesh.of_points.push_back({"color", 3, {}});
+  for (const uint32_t color : skin.colors)
+    for (const int shift : {0, 8, 16})
+      mesh.of_points.back().values.push_back(static_cast<float>(color >> shift & 255U) / 255);
   mesh.of_cells = {{"body", 1, {}}, {"wound", 1, {}}};
   for (const ShownPatch& patch : skin.topology->patches) {
     mesh.of_cells[0].values.insert(mesh.of_cells[0].values.end(), patch.count, static_cast<float>(patch.body));
@@ -293,7 +297,7 @@ void toFrame(ExportFrame frame, const Vector3d& scan_origin_m, Vectors what, std
 void toFrame(ExportFrame frame, const Vector3d& scan_origin_m, FieldMesh& mesh) {
   toFrame(frame, scan_origin_m, Vectors::kPlaces, mesh.points);
   for (MeshField& field : mesh.of_points) {
-    if (field.components == 3)
+    if (field.components == 3 && field.name != "color")
       toFrame(frame, scan_origin_m, field.name == "normal" ? Vectors::kDirections : Vectors::kArrows, field.values);
   }
 }

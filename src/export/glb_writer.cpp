@@ -38,9 +38,12 @@ class Buffers {
   std::string binary;
 };
 
+// sRGB to linear, closely enough.
+double linear(double c) {
+  return std::pow(c, 2.2);
+}
+
 Json materialOf(const Vector3d& color) {
-  // sRGB to linear, closely enough
-  const auto linear = [](double c) { return std::pow(c, 2.2); };
   return {{"pbrMetallicRoughness",
            {{"baseColorFactor", {linear(color.x()), linear(color.y()), linear(color.z()), 1.0}},
             {"metallicFactor", 0.0},
@@ -67,14 +70,23 @@ void writeGlb(const ShownMesh& skin, const std::string& path) {
   buffers.accessors[0]["min"] = {low.x(), low.y(), low.z()};
   buffers.accessors[0]["max"] = {high.x(), high.y(), high.z()};
   const int directions = buffers.add(normals, kFloat, kVertices, 3);
+  Json attributes = {{"POSITION", positions}, {"NORMAL", directions}};
+  if (!skin.colors.empty()) {
+    std::vector<float> colors;
+    for (const uint32_t color : skin.colors)
+      for (const int shift : {0, 8, 16}) colors.push_back(static_cast<float>(linear((color >> shift & 255U) / 255.0)));
+    attributes["COLOR_0"] = buffers.add(colors, kFloat, kVertices, 3);
+  }
   Json primitives = Json::array(), materials = Json::array();
   for (const ShownPatch& patch : skin.topology->patches) {
     if (patch.count == 0) continue;
     const auto first = skin.topology->triangles.begin() + static_cast<std::ptrdiff_t>(3 * patch.first);
     const std::vector<uint32_t> corners(first, first + static_cast<std::ptrdiff_t>(3 * patch.count));
-    const Vector3d& color = skin.topology->bodies[patch.body].color;
-    materials.push_back(materialOf(patch.kind == ShownKind::kWound ? woundColor(color) : color));
-    primitives.push_back({{"attributes", {{"POSITION", positions}, {"NORMAL", directions}}},
+    const Vector3d& body = skin.topology->bodies[patch.body].color;
+    const Vector3d color = patch.kind == ShownKind::kWound ? woundColor(body) : body;
+    materials.push_back(
+        materialOf(skin.colors.empty() ? color : Vector3d::Ones()));  // which those of vertices multiply
+    primitives.push_back({{"attributes", attributes},
                           {"indices", buffers.add(corners, kUint, kIndices, 1)},
                           {"material", materials.size() - 1}});
   }

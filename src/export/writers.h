@@ -13,7 +13,8 @@ namespace viscera {
 
 /// VTK's XML with raw bytes behind it: PolyData (.vtp) of triangles and lines, UnstructuredGrid (.vtu) of hexahedra.
 void writeVtk(const FieldMesh& mesh, const std::string& path);
-/// glTF binary, version 2: one primitive per body and kind with its colour; y up, in metres, as the format wants it.
+/// glTF binary, version 2: one primitive per body and kind with its colour, or those of its vertices where the skin has
+/// some; y up, in metres, as the format wants it.
 /// @param skin  in the tissue frame
 void writeGlb(const ShownMesh& skin, const std::string& path);
 

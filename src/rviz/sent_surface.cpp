@@ -140,6 +140,8 @@ std::string SentSurface::join() {
         found->normals.size() != topology->vertices)
       return "vertices: " + text(found->positions_m.size()) + " coordinates and " + text(found->normals.size()) +
              " normals for " + text(topology->vertices) + " vertices of topology " + text(topology->version);
+    if (!found->colors.empty() && found->colors.size() != topology->vertices)
+      return "vertices: " + text(found->colors.size()) + " colors for " + text(topology->vertices) + " vertices";
     vertices_ = found;
     shown_ = topology;
     return {};

@@ -2,17 +2,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rviz/surface_display.h"
 
+#include <OgreRenderSystem.h>
+#include <OgreRenderSystemCapabilities.h>
+#include <OgreRenderWindow.h>
+#include <OgreRoot.h>
 #include <OgreSceneNode.h>
 #include <ros/console.h>
 #include <rviz/display_context.h>
 #include <rviz/frame_manager.h>
 #include <rviz/properties/bool_property.h>
 #include <rviz/properties/color_property.h>
+#include <rviz/properties/enum_property.h>
 #include <rviz/properties/float_property.h>
 #include <rviz/properties/ros_topic_property.h>
+#include <rviz/render_panel.h>
+#include <rviz/view_manager.h>
 #include <pluginlib/class_list_macros.hpp>
 
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "rviz/surface_mesh.h"
@@ -20,6 +28,7 @@
 namespace viscera::rviz_plugin {
 namespace {
 
+enum ColorBy { kByBody, kBySent, kByStrain };
 constexpr std::chrono::seconds kTellEvery{1};
 constexpr double kGoldenTurn = 0.618034;  // of the circle of hues: bodies side by side in the list differ most
 
@@ -40,19 +49,39 @@ SurfaceDisplay::SurfaceDisplay() {
                                       this);
   color_ = new rviz::ColorProperty("Color", QColor(184, 64, 56), "Of the skin of the first body.", this);
   wall_color_ = new rviz::ColorProperty("Wound color", QColor(120, 20, 24), "Of walls of its wounds.", this);
-  by_body_ = new rviz::BoolProperty("Color by body", true, "Other bodies have other hues.", this);
+  by_body_ = new rviz::BoolProperty("Hues of bodies", true, "Other bodies have other hues.", this);
+  color_by_ = new rviz::EnumProperty("Color by", "sent",
+                                     "body: the colors here; sent: those of vertices, as of burns, where the simulator "
+                                     "sends some; strain: from dark, none, to yellow, as overlay `strain`.",
+                                     this);
+  for (const auto& [name, value] : {std::pair{"body", kByBody}, {"sent", kBySent}, {"strain", kByStrain}})
+    color_by_->addOption(name, value);
   alpha_ = new rviz::FloatProperty("Alpha", 1, "0 is transparent, 1 opaque.", this);
   alpha_->setMin(0);
   alpha_->setMax(1);
-  connect(topic_, &rviz::Property::changed, this, [this] { reset(); });
+  for (rviz::Property* property : {static_cast<rviz::Property*>(topic_), static_cast<rviz::Property*>(color_by_)})
+    connect(property, &rviz::Property::changed, this, [this] { reset(); });
   for (rviz::Property* property : {static_cast<rviz::Property*>(color_), static_cast<rviz::Property*>(wall_color_),
                                    static_cast<rviz::Property*>(by_body_), static_cast<rviz::Property*>(alpha_)})
-    connect(property, &rviz::Property::changed, this, [this] { paint(); });
+    connect(property, &rviz::Property::changed, this, [this] {
+      drawn_vertices_.reset();  // their colours have the alpha
+      paint();
+    });
 }
 
 SurfaceDisplay::~SurfaceDisplay() = default;
 
+/// Of what a person can change of how slowly it is drawn (docs/rviz.md, How fast).
+void SurfaceDisplay::warnOfSamples() const {
+  const std::string renderer = Ogre::Root::getSingleton().getRenderSystem()->getCapabilities()->getDeviceName();
+  const Ogre::RenderWindow* const window = context_->getViewManager()->getRenderPanel()->getRenderWindow();
+  if (renderer.find("llvmpipe") == std::string::npos || window->getFSAA() < 2) return;
+  ROS_WARN("%s draws %u samples of every pixel: with --disable-anti-aliasing rviz draws surfaces more often",
+           renderer.c_str(), window->getFSAA());
+}
+
 void SurfaceDisplay::onInitialize() {
+  warnOfSamples();
   mesh_ = std::make_unique<SurfaceMesh>(scene_manager_, scene_node_);
 }
 
@@ -86,7 +115,7 @@ void SurfaceDisplay::subscribe() {
   const std::string topic = topic_->getTopicStd();
   if (topic.empty()) return;
   try {
-    feed_.subscribe(update_nh_, topic);
+    feed_.subscribe(update_nh_, topic, color_by_->getOptionInt() == kByStrain);
   } catch (const ros::Exception& error) {  // no name of a topic
     feed_.unsubscribe();
     setStatus(rviz::StatusProperty::Error, "Topic", error.what());
@@ -97,11 +126,13 @@ void SurfaceDisplay::update(float, float) {
   const SentSurface& sent = feed_.surface();
   if (sent.vertices() && sent.vertices() != drawn_vertices_) {
     const bool topology_is_new = sent.topology() != drawn_topology_;
-    mesh_->show(*sent.topology(), *sent.vertices(), topology_is_new);
+    const std::optional<float> alpha =
+        color_by_->getOptionInt() == kByBody ? std::nullopt : std::optional(alpha_->getFloat());
+    const bool anew = mesh_->show(*sent.topology(), *sent.vertices(), topology_is_new, alpha);
     drawn_vertices_ = sent.vertices();
     drawn_topology_ = sent.topology();
     ++drawn_;
-    if (topology_is_new) paint();
+    if (topology_is_new || anew) paint();
     context_->queueRender();
   }
   if (drawn_vertices_) scene_node_->setVisible(place());

@@ -13,6 +13,7 @@
 namespace rviz {
 class BoolProperty;
 class ColorProperty;
+class EnumProperty;
 class FloatProperty;
 class RosTopicProperty;
 }  // namespace rviz
@@ -21,8 +22,8 @@ namespace viscera::rviz_plugin {
 
 class SurfaceMesh;
 
-/// `viscera/Surface`: the skin of a simulator by `surface`, `surface_topology` and `surface_topology_change`. All of it
-/// is done by rviz's own thread.
+/// `viscera/Surface`: the skin of a simulator by `surface` or `surface_strain`, `surface_topology` and
+/// `surface_topology_change`. All of it is done by rviz's own thread.
 class SurfaceDisplay : public rviz::Display {
  public:
   SurfaceDisplay();
@@ -38,6 +39,7 @@ class SurfaceDisplay : public rviz::Display {
   void onDisable() override;
 
  private:
+  void warnOfSamples() const;
   void subscribe();
   bool place();
   void paint();
@@ -45,6 +47,7 @@ class SurfaceDisplay : public rviz::Display {
 
   rviz::RosTopicProperty* topic_;
   rviz::ColorProperty *color_, *wall_color_;
+  rviz::EnumProperty* color_by_;
   rviz::BoolProperty* by_body_;
   rviz::FloatProperty* alpha_;
   SurfaceFeed feed_;

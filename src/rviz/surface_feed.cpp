@@ -11,7 +11,7 @@ constexpr uint32_t kChangesQueue = 1000;  // none may be lost: the next whole to
 
 }  // namespace
 
-void SurfaceFeed::subscribe(ros::NodeHandle& node, const std::string& topic) {
+void SurfaceFeed::subscribe(ros::NodeHandle& node, const std::string& topic, bool strain) {
   unsubscribe();
   const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
   whole_ = node.subscribe<SurfaceTopology>(
@@ -20,7 +20,8 @@ void SurfaceFeed::subscribe(ros::NodeHandle& node, const std::string& topic) {
       topic + "_topology_change", kChangesQueue,
       [this](const SurfaceTopologyChangeConstPtr& message) { take(*message); }, {}, hints);
   vertices_ = node.subscribe<SurfaceVertices>(
-      topic, 1, [this](const SurfaceVerticesConstPtr& message) { take(message); }, {}, hints);
+      topic + (strain ? "_strain" : ""), 1, [this](const SurfaceVerticesConstPtr& message) { take(message); }, {},
+      hints);
 }
 
 void SurfaceFeed::unsubscribe() {

@@ -21,9 +21,10 @@ class SurfaceFeed {
   SurfaceFeed(const SurfaceFeed&) = delete;
   SurfaceFeed& operator=(const SurfaceFeed&) = delete;
 
-  /// @param topic  of the vertices; the others have _topology and _topology_change behind that name
+  /// @param topic  of the surface; triangles come from the topics that have _topology and _topology_change behind that
+  /// name   @param strain  vertices come from the one that has _strain behind it
   /// @throws ros::Exception  it is no name of a topic
-  void subscribe(ros::NodeHandle& node, const std::string& topic);
+  void subscribe(ros::NodeHandle& node, const std::string& topic, bool strain = false);
   void unsubscribe();
   /// Forgets what was sent.
   void clear();

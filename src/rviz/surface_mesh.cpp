@@ -13,6 +13,7 @@
 #include <OgreTechnique.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace viscera::rviz_plugin {
 namespace {
@@ -51,22 +52,26 @@ void SurfaceMesh::clear() {
   materials_.clear();
   positions_.reset();
   normals_.reset();
+  colors_.reset();
   indices_.reset();
 }
 
-void SurfaceMesh::make(size_t parts) {
+void SurfaceMesh::make(size_t parts, bool colored) {
   clear();
+  colored_ = colored;
   mesh_ = Ogre::MeshManager::getSingleton().createManual(name_, kGroup);
   mesh_->sharedVertexData = new Ogre::VertexData;  // the mesh's to delete
   Ogre::VertexDeclaration& layout = *mesh_->sharedVertexData->vertexDeclaration;
   layout.addElement(0, 0, Ogre::VET_FLOAT3, Ogre::VES_POSITION);
   layout.addElement(1, 0, Ogre::VET_FLOAT3, Ogre::VES_NORMAL);
+  if (colored) layout.addElement(2, 0, Ogre::VET_UBYTE4_NORM, Ogre::VES_DIFFUSE);
   for (size_t part = 0; part < parts; ++part) {
     Ogre::MaterialPtr material =
         Ogre::MaterialManager::getSingleton().create(name_ + " part " + std::to_string(part), kGroup);
     material->setReceiveShadows(false);
     material->setLightingEnabled(true);
     material->setCullingMode(Ogre::CULL_NONE);  // into what is cut open one looks from behind
+    if (colored) material->getTechnique(0)->getPass(0)->setVertexColourTracking(Ogre::TVC_AMBIENT | Ogre::TVC_DIFFUSE);
     materials_.push_back(material);
     Ogre::SubMesh* shown = mesh_->createSubMesh();
     shown->useSharedVertices = true;
@@ -74,11 +79,17 @@ void SurfaceMesh::make(size_t parts) {
   }
 }
 
-void SurfaceMesh::show(const SentTopology& topology, const SurfaceVertices& vertices, bool topology_is_new) {
-  if (topology.triangles.empty()) return clear();
-  const bool begins = !mesh_ || materials_.size() != topology.parts.size();
-  if (begins) make(topology.parts.size());
+bool SurfaceMesh::show(const SentTopology& topology, const SurfaceVertices& vertices, bool topology_is_new,
+                       const std::optional<float>& alpha) {
+  if (topology.triangles.empty()) {
+    clear();
+    return false;
+  }
+  const bool colored = alpha && !vertices.colors.empty();
+  const bool begins = !mesh_ || materials_.size() != topology.parts.size() || colored != colored_;
+  if (begins) make(topology.parts.size(), colored);
   writeVertices(vertices);
+  if (colored) writeColors(vertices.colors, *alpha);
   if (begins || topology_is_new) writeTriangles(topology);
   if (begins) {
     mesh_->load();
@@ -88,6 +99,7 @@ void SurfaceMesh::show(const SentTopology& topology, const SurfaceVertices& vert
   for (size_t part = 0; part < topology.parts.size(); ++part)
     entity_->getSubEntity(part)->setVisible(topology.parts[part].count > 0);
   node_->needUpdate();
+  return begins;
 }
 
 void SurfaceMesh::writeTriangles(const SentTopology& topology) {
@@ -129,6 +141,19 @@ void SurfaceMesh::writeVertices(const SurfaceVertices& vertices) {
   mesh_->sharedVertexData->vertexCount = count;
   mesh_->_setBounds(Ogre::AxisAlignedBox(least, most), false);
   mesh_->_setBoundingSphereRadius(std::max(least.length(), most.length()));
+}
+
+void SurfaceMesh::writeColors(const std::vector<uint32_t>& colors, float alpha) {
+  if (!colors_ || colors_->getNumVertices() < colors.size()) {
+    colors_ = Ogre::HardwareBufferManager::getSingleton().createVertexBuffer(
+        sizeof(uint32_t), withRoom(colors.size()), Ogre::HardwareBuffer::HBU_DYNAMIC_WRITE_ONLY_DISCARDABLE);
+    mesh_->sharedVertexData->vertexBufferBinding->setBinding(2, colors_);
+  }
+  const uint32_t top = static_cast<uint32_t>(std::lround(255 * alpha)) << 24U;
+  seen_colors_.resize(colors.size());
+  std::transform(colors.begin(), colors.end(), seen_colors_.begin(),
+                 [top](uint32_t color) { return (color & 0xffffffU) | top; });
+  colors_->writeData(0, colors.size() * sizeof(uint32_t), seen_colors_.data(), true);
 }
 
 void SurfaceMesh::paint(const std::vector<Ogre::ColourValue>& colors) {

@@ -8,6 +8,7 @@
 #include <OgreMaterial.h>
 #include <OgreMesh.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,15 +32,18 @@ class SurfaceMesh {
   SurfaceMesh& operator=(const SurfaceMesh&) = delete;
 
   void clear();
-  /// @param vertices  of this topology
-  void show(const SentTopology& topology, const SurfaceVertices& vertices, bool topology_is_new);
-  /// @param colors  of each part that was shown; alpha below 1 blends
+  /// @param vertices  of this topology   @param alpha  of the colours of vertices, where they have some; none: they
+  /// have those of paint()   @returns whether materials are new: what paint() said is gone
+  bool show(const SentTopology& topology, const SurfaceVertices& vertices, bool topology_is_new,
+            const std::optional<float>& alpha);
+  /// @param colors  of each part that was shown; alpha below 1 blends, of vertices' colours too
   void paint(const std::vector<Ogre::ColourValue>& colors);
 
  private:
-  void make(size_t parts);
+  void make(size_t parts, bool colored);
   void writeTriangles(const SentTopology& topology);
   void writeVertices(const SurfaceVertices& vertices);
+  void writeColors(const std::vector<uint32_t>& colors, float alpha);
 
   Ogre::SceneManager* const scene_;
   Ogre::SceneNode* const node_;
@@ -47,9 +51,11 @@ class SurfaceMesh {
   Ogre::MeshPtr mesh_;
   Ogre::Entity* entity_ = nullptr;
   std::vector<Ogre::MaterialPtr> materials_;
-  Ogre::HardwareVertexBufferSharedPtr positions_, normals_;
+  Ogre::HardwareVertexBufferSharedPtr positions_, normals_, colors_;
   Ogre::HardwareIndexBufferSharedPtr indices_;
   std::vector<float> unpacked_;
+  std::vector<uint32_t> seen_colors_;
+  bool colored_ = false;  ///< by vertices
 };
 
 }  // namespace viscera::rviz_plugin

@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "gpu/gl.h"
 #include "gpu/software.h"
 #include "gpu/stage_clock.h"
 #include "model/scene/tool_kinds.h"
@@ -19,9 +20,12 @@ namespace {
 
 constexpr int kImagesInFlight = 3;
 constexpr int kSurfacesInFlight = 3;
+constexpr uint32_t kOpaque = 0xff000000U;
 
 size_t surfaceBytes(const Surface& surface) {
-  return surface.capacity() * (3 * sizeof(float) + sizeof(uint32_t)) + surface.triangles() * sizeof(uint32_t);
+  constexpr size_t kNormalAndColors = 3;  // of the tissue, of its strain
+  return surface.capacity() * (3 * sizeof(float) + kNormalAndColors * sizeof(uint32_t)) +
+         surface.triangles() * sizeof(uint32_t);
 }
 
 std::unique_ptr<gpu::ReadbackRing> makeRing(const Surface& surface) {
@@ -70,6 +74,7 @@ InlineView::InlineView(const Model& model, const Scene& scene)
       surface_(model),
       renderer_(eyesOf(scene.cameras), scene.styluses, scene.obstacles, &model),
       surface_ring_(makeRing(surface_)),
+      strain_range_(scene.cameras.empty() ? CameraConfig().strain_range : scene.cameras.front().strain_range),
       reads_late_(gpu::isSoftware()) {
   if (PaleSkin::isSeenIn(model)) pale_skin_ = std::make_unique<PaleSkin>(model);
   if (hasThreadsOrClips(scene)) renderer_.addThreads(looksOf(scene));
@@ -107,7 +112,7 @@ void InlineView::wound(const CutSprings& cuts, uint64_t revision) {
   if (surface_.capacity() > capacity) {  // a larger ring; what is in flight is overtaken
     counters_.skipped += static_cast<uint64_t>(surface_ring_->inFlight());
     surface_ring_->drop();
-    wounds_in_flight_.clear();
+    in_flight_.clear();
     surface_ring_ = makeRing(surface_);
   }
 }
@@ -127,7 +132,7 @@ void InlineView::capture(const StateView& state, const Look& look, Pictures& out
   }
   if (look.burns) surface_.paint(look.burns);
   if (any) follow(state, all, displacements);
-  if (surface) captureSurface(look.tick);
+  if (surface) captureSurface(state, look);
   const auto last =
       std::find_if(eyes_.rbegin(), eyes_.rend(), [](const Eye& eye) { return eye.draws || eye.measures; });
   for (size_t e = 0; e < eyes_.size(); ++e) {
@@ -211,13 +216,24 @@ void InlineView::follow(const StateView& state, bool all, const std::optional<Ho
   if (pale_skin_ && draws) renderer_.showColors(pale_skin_->follow(state, surface_).id());
 }
 
-void InlineView::captureSurface(uint64_t tick) {
+void InlineView::captureSurface(const StateView& state, const Look& look) {
+  const bool colors = surface_.isPainted(), strain = look.wants.strain;
+  if (strain) {
+    if (!strain_) strain_ = std::make_unique<NodeOverlay>(model_);
+    strain_->follow(state, surface_);
+    strain_->makeColors(surface_, strain_range_);
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+  }
   const gpu::TimedStage timed(gpu::Stage::kReadback);
-  const gpu::ReadbackRing::Source sources[] = {{surface_.positions().id(), 0, 3 * surface_.vertices() * sizeof(float)},
-                                               {surface_.normals().id(), 0, surface_.vertices() * sizeof(uint32_t)},
-                                               {surface_.alive().id(), 0, surface_.alive().size() * sizeof(uint32_t)}};
-  surface_ring_->request(sources, 3, tick);
-  wounds_in_flight_.push_back(surface_.wounds());
+  const size_t words = surface_.vertices() * sizeof(uint32_t);
+  std::vector<gpu::ReadbackRing::Source> sources = {
+      {surface_.positions().id(), 0, 3 * words},
+      {surface_.normals().id(), 0, words},
+      {surface_.alive().id(), 0, surface_.triangles() * sizeof(uint32_t)}};
+  if (colors) sources.push_back({surface_.colors().id(), 0, words});
+  if (strain) sources.push_back({strain_->colors().id(), 0, words});
+  surface_ring_->request(sources.data(), sources.size(), look.tick);
+  in_flight_.push_back({surface_.wounds(), colors, strain});
   ++counters_.readbacks;
 }
 
@@ -307,14 +323,15 @@ void InlineView::collect(Pictures& out, bool wait) {
   }
 }
 
-void InlineView::showSurface(const StateView& state, uint64_t tick, Pictures& out) {
+void InlineView::showSurface(const StateView& state, const Look& look, Pictures& out) {
   if (surface_ring_->inFlight() == kSurfacesInFlight) {
     ++counters_.skipped;
     return;
   }
+  if (look.burns) surface_.paint(look.burns);
   surface_.split(state);
   surface_.follow(state, nullptr);
-  captureSurface(tick);
+  captureSurface(state, look);
   takeSurface(out, false);
 }
 
@@ -339,13 +356,16 @@ bool InlineView::takeSurface(Pictures& out, bool wait) {
   };
   out.surface = std::make_unique<SurfaceFrame>();  // an older one of the same call is overtaken
   out.surface->tick = tick;
-  const std::shared_ptr<const ShownWounds> wounds = std::move(wounds_in_flight_.front());
-  wounds_in_flight_.pop_front();
-  const size_t vertices = wounds ? wounds->vertices : surface_.vertices();
+  const Sent sent = std::move(in_flight_.front());
+  in_flight_.pop_front();
+  const size_t vertices = sent.wounds ? sent.wounds->vertices : surface_.vertices();
   take(out.surface->positions_m, 3 * vertices);
   take(out.surface->normals, vertices);
   take(alive_, surface_.triangles());
-  out.surface->topology = surface_.skin().shown(alive_.data(), wounds.get());
+  if (sent.colors) take(out.surface->colors, vertices);
+  if (sent.strain) take(out.surface->strain_colors, vertices);
+  for (uint32_t& color : out.surface->colors) color |= kOpaque;  // where pictures are told the body
+  out.surface->topology = surface_.skin().shown(alive_.data(), sent.wounds.get());
   surface_ring_->release();
   return true;
 }

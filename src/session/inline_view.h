@@ -13,6 +13,7 @@
 #include "render/renderer.h"
 #include "session/seen_skin.h"
 #include "session/view.h"
+#include "surface/overlay/node_overlay.h"
 #include "surface/overlay/pale_skin.h"
 #include "surface/surface.h"
 
@@ -33,7 +34,7 @@ class InlineView : public View {
   /// more: showSurface() may be called then. Empty: nothing is.
   void setPause(std::function<void()> pause) { pause_ = std::move(pause); }
   /// Maps and hands over the surface alone, of a state that wound() knows.
-  void showSurface(const StateView& state, uint64_t tick, Pictures& out);
+  void showSurface(const StateView& state, const Look& look, Pictures& out);
   /// Wounds of the states that are captured from now on, see Surface::wound().
   void wound(const CutSprings& cuts, uint64_t revision);
   void collect(Pictures& out, bool wait) override;
@@ -73,7 +74,7 @@ class InlineView : public View {
     bool draws = false, measures = false;  ///< in this capture, as the last ones will not do
   };
   void addEye(size_t camera, const CameraConfig& config, PictureKind kind);
-  void captureSurface(uint64_t tick);
+  void captureSurface(const StateView& state, const Look& look);
   void place(size_t eye, const Look& look);
   void choose(size_t eye, const StateView& state, const Look& look, Pictures& out);
   void captureImage(size_t eye, const StateView& state, const Look& look);
@@ -95,7 +96,13 @@ class InlineView : public View {
   Renderer renderer_;
   CutState cuts_;
   std::unique_ptr<gpu::ReadbackRing> surface_ring_;
-  std::deque<std::shared_ptr<const ShownWounds>> wounds_in_flight_;  ///< of the surfaces in the ring, oldest first
+  struct Sent {  ///< what a surface in the ring has
+    std::shared_ptr<const ShownWounds> wounds;
+    bool colors, strain;
+  };
+  std::deque<Sent> in_flight_;           ///< oldest first
+  std::unique_ptr<NodeOverlay> strain_;  ///< of surfaces; null until one is wanted with it
+  const double strain_range_;
   std::vector<Eye> eyes_;        ///< those of cameras in their order, then right ones
   std::vector<uint32_t> alive_;  ///< of the surface taken last
   ViewCounters counters_;

@@ -53,7 +53,7 @@ void reserve(const Scene& scene, Look& look) {
 
 /// Nothing is wanted; keeps its memory.
 void clear(Wants& wants) {
-  wants.surface = wants.every_image = false;
+  wants.surface = wants.strain = wants.every_image = false;
   for (size_t kind = 0; kind < kPictureKinds; ++kind) wants.of(static_cast<PictureKind>(kind)).clear();
 }
 
@@ -61,6 +61,7 @@ void clear(Wants& wants) {
 size_t add(const Wants& wants, Wants& to) {
   size_t twice = wants.surface && to.surface;
   to.surface |= wants.surface;
+  to.strain |= wants.strain;
   for (size_t kind = 0; kind < kPictureKinds; ++kind) {
     const std::vector<bool>& from = wants.of(static_cast<PictureKind>(kind));
     std::vector<bool>& into = to.of(static_cast<PictureKind>(kind));
@@ -241,6 +242,7 @@ void ThreadedView::take(Look& look) {
     look = look_;
     clear(look.wants);
     look.wants.surface = std::exchange(look_.wants.surface, false);
+    look.wants.strain = std::exchange(look_.wants.strain, false);
   } else {
     std::swap(look, look_);
     clear(look_.wants);
@@ -253,7 +255,7 @@ void ThreadedView::show(InlineView& view, StateMirror& mirror, const Look& look)
   Pictures made;
   Look images = look;
   if (look.wants.surface && look.wants.count() > 1) {  // images take longer
-    view.showSurface(mirror.view(), look.tick, made);
+    view.showSurface(mirror.view(), look, made);
     finish(std::move(made), view.counters(), true);
     made = {};
     images.wants.surface = false;
@@ -284,7 +286,7 @@ void ThreadedView::pause(InlineView& view, StateMirror& mirror, Look& look) {
   }
   upload(view, mirror);
   Pictures made;
-  view.showSurface(mirror.view(), look.tick, made);
+  view.showSurface(mirror.view(), look, made);
   finish(std::move(made), view.counters(), true);
 }
 

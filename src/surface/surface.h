@@ -45,6 +45,7 @@ class Surface {
   void wound(const CutSprings& cuts, uint64_t revision);
   /// Shows how far tissue is burnt, from now on. The last one again costs nothing.
   void paint(const std::shared_ptr<const BurnPaint>& burns);
+  bool isPainted() const { return burns_ != nullptr; }  ///< colors() are other ones than before the first tick
   /// Every triangle whole again.
   void reset();
 

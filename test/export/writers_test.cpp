@@ -151,6 +151,41 @@ TEST(Xdmf, HasCellsOnceAndAllTimes) {
   EXPECT_EQ(std::stoul(attribute(items[9], "Seek")) + 8, binary.size());
 }
 
+TEST(Glb, HasColorsOfVerticesWhereTheSkinHasSome) {
+  const TemporaryFolder folder;
+  ShownMesh burnt = skin();
+  burnt.colors = {0xff0000ffU, 0xff00ff00U, 0xffff0000U, 0xff808080U};
+  writeGlb(burnt, folder.file("skin.glb"));
+  const std::string bytes = textOf(folder.file("skin.glb"));
+  const uint32_t json_length = at<uint32_t>(bytes, 12);
+  const auto json = nlohmann::json::parse(bytes.substr(20, json_length));
+  for (const auto& primitive : json["meshes"][0]["primitives"]) {
+    const auto& accessor = json["accessors"][primitive["attributes"]["COLOR_0"].get<size_t>()];
+    EXPECT_EQ(accessor["count"], 4);
+    const size_t offset = json["bufferViews"][accessor["bufferView"].get<size_t>()]["byteOffset"];
+    const std::vector<float> colors = valuesAt<float>(bytes, 20 + json_length + 8 + offset, 12);
+    EXPECT_EQ(std::vector<float>(colors.begin(), colors.begin() + 6), (std::vector<float>{1, 0, 0, 0, 1, 0}));
+    EXPECT_NEAR(colors[9], 0.2159, 0.005) << "linear: half of sRGB";
+    const auto& material = json["materials"][primitive["material"].get<size_t>()];
+    EXPECT_EQ(material["pbrMetallicRoughness"]["baseColorFactor"], nlohmann::json::array({1.0, 1.0, 1.0, 1.0}));
+  }
+}
+
+TEST(Ply, HasColorsOfVerticesWhereTheSkinHasSome) {
+  const TemporaryFolder folder;
+  ShownMesh burnt = skin();
+  writePly(burnt, folder.file("plain.ply"));
+  burnt.colors = {0xff0000ffU, 0xff00ff00U, 0xffff0000U, 0xff302010U};
+  writePly(burnt, folder.file("burnt.ply"));
+  const std::string plain = textOf(folder.file("plain.ply")), bytes = textOf(folder.file("burnt.ply"));
+  const std::string properties = "property uchar red\nproperty uchar green\nproperty uchar blue\n";
+  EXPECT_EQ(plain.find(properties), std::string::npos);
+  EXPECT_NE(bytes.find(properties), std::string::npos);
+  EXPECT_EQ(bytes.size(), plain.size() + properties.size() + 3 * 4);
+  const size_t last = bytes.find("end_header\n") + 11 + 3 * 27 + 24;  // of the fourth vertex: 6 floats, 3 bytes
+  EXPECT_EQ(bytes.substr(last, 3), "\x10\x20\x30");
+}
+
 TEST(Glb, HasItsLengthsAndItsVertices) {
   const TemporaryFolder folder;
   writeGlb(skin(), folder.file("skin.glb"));

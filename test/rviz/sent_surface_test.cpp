@@ -121,6 +121,9 @@ TEST(SentSurface, WrongMessagesAreNamedAndChangeNothing) {
   moved->positions_m[5] = std::nanf("");
   refuses(SurfaceVerticesConstPtr(moved), "not finite");
   refuses(SurfaceVerticesConstPtr(vertices(1, 6)), "18 coordinates");
+  moved = vertices(1);
+  moved->colors.assign(6, 0);
+  refuses(SurfaceVerticesConstPtr(moved), "6 colors for 7 vertices");
   EXPECT_EQ(surface.vertices()->normals.size(), 7U);
 }
 

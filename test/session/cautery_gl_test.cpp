@@ -3,6 +3,7 @@
 // Hot tips, as those see them who hold one.
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <string>
 
 #include "math/archive.h"
@@ -130,6 +131,35 @@ TEST_P(Cautery, WhatBoilsDryPartsAndLooksBurnt) {
   EXPECT_GT(seen.steam_j, 0);
   EXPECT_GT(session.drain().stats.springs_cut, 0U);
   EXPECT_EQ(session.drain().stats.nonfinite, 0U);
+}
+
+TEST_P(Cautery, SurfacesHaveTheColoursOfBurnsAndOfStrainWhereThereAreSome) {
+  Session session(burning(3), context_);
+  Wants wants;
+  wants.surface = true;
+  session.step({}, {});
+  const Pictures plain = session.show(wants);
+  EXPECT_TRUE(plain.surface->colors.empty());
+  EXPECT_TRUE(plain.surface->strain_colors.empty());
+  burn(session, 360);
+  wants.strain = true;
+  const Pictures seen = session.show(wants);
+  const SurfaceFrame& surface = *seen.surface;
+  ASSERT_EQ(surface.colors.size(), surface.vertices());
+  ASSERT_EQ(surface.strain_colors.size(), surface.vertices());
+  std::set<uint32_t> near, far, strained;
+  for (size_t v = 0; v < surface.vertices(); ++v) {
+    EXPECT_EQ(surface.colors[v] >> 24U, 255U);
+    EXPECT_EQ(surface.strain_colors[v] >> 24U, 255U);
+    const double off_m = surface.position_m(v).head<2>().norm();
+    if (off_m < 0.001 && surface.position_m(v).z() > 0) near.insert(surface.colors[v]);
+    if (off_m > 0.0125) far.insert(surface.colors[v]);
+    strained.insert(surface.strain_colors[v]);
+  }
+  EXPECT_EQ(far.size(), 1U) << "as it came";
+  ASSERT_FALSE(near.empty());
+  EXPECT_EQ(near.count(*far.begin()), 0U);
+  EXPECT_GT(strained.size(), 10U);
 }
 
 TEST_P(Cautery, SavedStatesAndResetsHaveBurns) {

@@ -37,6 +37,7 @@ struct Wants {
   std::vector<bool> cameras;  ///< [cameras]; shorter means false
   bool every_image = false;   ///< wait rather than skip an image when too many are on their way
   std::vector<bool> right = {}, depth = {}, labels = {};  ///< as cameras, of the other kinds; one eye has no right one
+  bool strain = false;  ///< with the surface, as far as there is OpenGL: SurfaceFrame::strain_colors
 
   bool image(size_t camera, PictureKind kind = PictureKind::kColor) const {
     return camera < of(kind).size() && of(kind)[camera];
@@ -51,6 +52,8 @@ struct Wants {
 struct SurfaceFrame : ShownMesh {
   uint64_t tick = 0;
   SteadyTime pose_received{};  ///< of the newest stylus pose in that tick; 0 if there was none
+  /// [vertices] strain as overlay `strain` shows it to the first camera, as `colors`; empty where it was not wanted
+  std::vector<uint32_t> strain_colors = {};
 };
 
 /// One rendered image, rows from the top: what its kind says is there, the rest is empty.
@@ -90,6 +93,8 @@ struct Frame : Pictures {
   std::vector<Pose> obstacles;                         ///< [obstacles] at the end of the tick, tissue frame
   std::vector<Pose> cameras;                           ///< [cameras] optical frames of the tick, tissue frame
   ShownThreads threads;  ///< at the end of the tick: threads of the scene, then what was parted from them
+  /// Nodes that each stylus holds, in the frame of its tool [m]; empty here, filled by who shows them.
+  std::array<std::vector<Vector3d>, layout::kMaxStyluses> held_m;
   /// [obstacles] what the tissue does to each, not limited; torque about its place at the end of the tick. Of `stats`.
   std::vector<Reaction> obstacle_forces;
 };

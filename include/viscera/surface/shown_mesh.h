@@ -50,6 +50,9 @@ struct ShownTopology {
 struct ShownMesh {
   std::vector<float> positions_m;  ///< [3 * vertices] tissue frame
   std::vector<uint32_t> normals;   ///< [vertices] packed, see packNormal
+  /// [vertices] sRGB, red in the low byte, alpha 255; empty where bodies' colours are all there is, as nothing was
+  /// burnt
+  std::vector<uint32_t> colors = {};
   std::shared_ptr<const ShownTopology> topology;
 
   size_t vertices() const { return normals.size(); }
@@ -63,9 +66,9 @@ struct ShownMesh {
 uint32_t packNormal(const Vector3f& normal);
 Vector3f unpackNormal(uint32_t packed);
 
-/// Writes a binary PLY file: of every vertex x, y, z [m, tissue frame] and nx, ny, nz, of every triangle its vertices,
-/// and as `body` and `kind` the number of its body and of its ShownKind. Names of bodies are comments. Vertices keep
-/// their numbers, those that nothing is shown of too.
+/// Writes a binary PLY file: of every vertex x, y, z [m, tissue frame] and nx, ny, nz, and red, green, blue where the
+/// mesh has colors, of every triangle its vertices, and as `body` and `kind` the number of its body and of its
+/// ShownKind. Names of bodies are comments. Vertices keep their numbers, those that nothing is shown of too.
 /// @param mesh  with a topology   @throws Error  the file cannot be written
 void writePly(const ShownMesh& mesh, const std::string& path);
 

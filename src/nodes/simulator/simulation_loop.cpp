@@ -164,6 +164,7 @@ void SimulationLoop::deliver(const Session& session, Frame&& frame, const Stylus
     for (const StylusConfig& stylus : session.styluses())
       status_.modes.push_back({stylus.idle, stylus.button1, stylus.button2});
   }
+  if (ports_.look) ports_.look(session, frame);
   ports_.deliver(std::move(frame), samples, live);
 }
 

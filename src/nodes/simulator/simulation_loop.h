@@ -50,10 +50,11 @@ struct LoopPorts {
   std::function<void(Session&)> place;  ///< obstacles that others carry, for a tick that begins now; may be null
   /// Cameras that others carry, also while the state stands still; @returns whether one has moved; may be null
   std::function<bool(Session&)> aim;
-  std::function<StylusSamples()> samples;     ///< for that tick
-  std::function<Wants()> wants;               ///< of that tick
-  std::function<void(Session&)> ready;        ///< once, before the first tick
-  std::function<void(const Session&)> leave;  ///< once, after the last one, while there is a session
+  std::function<StylusSamples()> samples;            ///< for that tick
+  std::function<Wants()> wants;                      ///< of that tick
+  std::function<void(const Session&, Frame&)> look;  ///< before a frame is delivered; may be null
+  std::function<void(Session&)> ready;               ///< once, before the first tick
+  std::function<void(const Session&)> leave;         ///< once, after the last one, while there is a session
   /// After every tick: what it took from the hands, and made of it. @param hands_anew  forgotten before it
   std::function<void(uint64_t tick, const StylusSamples&, const ToolMotions&, bool hands_anew)> stepped;
   /// What came back after a tick with these samples. @param live  the tissue follows the hands: forces may go out

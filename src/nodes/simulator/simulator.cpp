@@ -134,6 +134,7 @@ LoopPorts Simulator::ports() {
     publisher_.start(session.wholeSkin());
     ready_ = true;
   };
+  ports.look = [this](const Session& session, Frame& frame) { publisher_.look(session, frame); };
   ports.leave = [this](const Session& session) {
     scenes_.leave(session);
     tasks_.leave();

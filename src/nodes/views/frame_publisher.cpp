@@ -72,6 +72,7 @@ Wants FramePublisher::beginTick() {
   tick_stamp_ = ros::Time::now();
   Wants wants;
   wants.surface = surface_.isWanted() && surface_throttle_.pick();
+  wants.strain = wants.surface && surface_.isStrainWanted();
   for (const auto& camera : cameras_) {
     const bool due = camera->pick();
     for (size_t k = 0; k < kPictureKinds; ++k) {
@@ -97,6 +98,7 @@ Wants FramePublisher::stills(bool changed, bool aimed) {
   Wants wants;
   const uint32_t before = std::exchange(surface_viewers_, surface_.viewers());
   wants.surface = surface_viewers_ > (changed ? 0 : before);
+  wants.strain = wants.surface && surface_.isStrainWanted();
   for (size_t c = 0; c < cameras_.size(); ++c) {
     for (size_t k = 0; k < kPictureKinds; ++k) {
       const auto kind = static_cast<PictureKind>(k);
@@ -106,6 +108,10 @@ Wants FramePublisher::stills(bool changed, bool aimed) {
     }
   }
   return wants;
+}
+
+void FramePublisher::look(const Session& session, Frame& frame) {
+  if (scene_markers_.isWanted()) held_.addTo(frame, session);
 }
 
 void FramePublisher::deliver(Frame&& frame) {

@@ -23,6 +23,7 @@
 #include "nodes/ros/rate_meter.h"
 #include "nodes/ros/throttle.h"
 #include "nodes/views/camera_publisher.h"
+#include "nodes/views/held_nodes.h"
 #include "nodes/views/scene_marker_publisher.h"
 #include "nodes/views/surface_publisher.h"
 #include "nodes/views/thread_publisher.h"
@@ -66,6 +67,8 @@ class FramePublisher {
   void setSurfaceRate(double rate_hz);
   void setImageRate(size_t camera, double rate_hz) { cameras_[camera]->setRate(rate_hz); }
   ros::Time tickStamp() const { return tick_stamp_; }
+  /// Before deliver(): what of the session's state is shown too.
+  void look(const Session& session, Frame& frame);
   void deliver(Frame&& frame);
 
  private:
@@ -112,6 +115,7 @@ class FramePublisher {
   static constexpr size_t kStampedTicks = 4096;
   ros::Time tick_stamp_;
   std::array<Stamped<uint64_t>, kStampedTicks> stamps_;
+  HeldNodes held_;
   uint32_t surface_viewers_ = 0;         ///< when stills() was asked last
   std::vector<uint32_t> image_viewers_;  ///< [cameras * kPictureKinds]
   ros::Time frames_stamp_;               ///< of the camera frames put last

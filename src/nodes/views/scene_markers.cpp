@@ -25,7 +25,8 @@ constexpr double kLineHeight = 1.6;    ///< of a letter: rviz looks down at some
 constexpr double kLeastArrow_m = 1e-4;
 constexpr double kLeastThread_m = 5e-4;                 ///< rviz loses lines that are thinner than a pixel
 constexpr double kArrowWidth_m = 2.5 * kShaftRadius_m;  ///< a tool is mostly pushed back along its shaft
-constexpr double kHead = 2;                             ///< width and length of an arrow's head, of its width
+constexpr double kHeldPoint_m = 1.5e-3;
+constexpr double kHead = 2;  ///< width and length of an arrow's head, of its width
 
 geometry_msgs::Point toPoint(const Vector3d& p_m) {
   geometry_msgs::Point out;
@@ -62,7 +63,7 @@ std::vector<Vector3d> pointsOf(const ToolShape& shape) {
 }  // namespace
 
 SceneLook lookOf(const Frame& frame) {
-  return {frame.tools, frame.obstacles, frame.reactions, frame.threads};
+  return {frame.tools, frame.obstacles, frame.reactions, frame.threads, frame.held_m};
 }
 
 void partLabels(std::vector<Label>& labels, double height_m) {
@@ -116,6 +117,7 @@ MarkerArray SceneMarkers::at(const SceneLook& look, const ros::Time& stamp) cons
   for (size_t s = 0; s < styluses_.size(); ++s) {
     addTool(s, look, stamp, out);
     addForce(s, look, stamp, out);
+    addHeld(s, look, stamp, out);
   }
   for (size_t i = 0; i < std::min(obstacles_.size(), look.obstacles.size()); ++i)
     addParts("obstacles", kMostParts * i, obstacles_[i].parts, look.obstacles[i], stamp, out);
@@ -183,6 +185,18 @@ void SceneMarkers::addForce(size_t stylus, const SceneLook& look, const ros::Tim
   marker.scale.y = kHead * kArrowWidth_m;
   marker.scale.z = std::min(kHead * kArrowWidth_m, 0.5 * arrow_m.norm());
   paint(kYellow, marker);
+}
+
+void SceneMarkers::addHeld(size_t stylus, const SceneLook& look, const ros::Time& stamp, MarkerArray& out) const {
+  constexpr std::array<uint8_t, 4> kBlue = {120, 220, 255, 255};  // unlike tissue, tools and arrows
+  Marker& marker = out.markers.emplace_back(this->marker("held", stylus, stamp));
+  marker.type = Marker::POINTS;
+  marker.action = look.tools[stylus].present && !look.held_m[stylus].empty() ? Marker::ADD : Marker::DELETE;
+  if (marker.action == Marker::DELETE) return;
+  marker.pose = toMessage(look.tools[stylus].to);
+  marker.scale.x = marker.scale.y = kHeldPoint_m;
+  paint(kBlue, marker);
+  for (const Vector3d& place_m : look.held_m[stylus]) marker.points.push_back(toPoint(place_m));
 }
 
 /// Lines: a tube would be tens of points for each of theirs.

@@ -23,7 +23,8 @@ struct SceneLook {
   ToolMotions tools;
   std::vector<Pose> obstacles;
   std::array<Reaction, layout::kMaxStyluses> reactions;
-  ShownThreads threads = {};  ///< needles are not shown
+  ShownThreads threads = {};                                            ///< needles are not shown
+  std::array<std::vector<Vector3d>, layout::kMaxStyluses> held_m = {};  ///< see Frame
 };
 SceneLook lookOf(const Frame& frame);
 
@@ -38,9 +39,9 @@ struct Label {
 void partLabels(std::vector<Label>& labels, double height_m);
 
 /// What the camera shows beside the tissue, as markers for rviz: tools and obstacles as meshes, threads
-/// as lines, forces as arrows, names; or, as long as there is no tissue, what is done for it. Namespaces `tools`,
-/// `obstacles`, `threads`, `forces`, `names`, `preparing`. What is not there is told as DELETE, so that any array is
-/// the whole truth.
+/// as lines, forces as arrows, nodes that are held as points, names; or, as long as there is no tissue, what is done
+/// for it. Namespaces `tools`, `obstacles`, `threads`, `forces`, `held`, `names`, `preparing`. What is not there is
+/// told as DELETE, so that any array is the whole truth.
 class SceneMarkers {
  public:
   SceneMarkers(const Scene& scene, const PublishOptions& options);
@@ -68,6 +69,8 @@ class SceneMarkers {
                visualization_msgs::MarkerArray& out) const;
   void addForce(size_t stylus, const SceneLook& look, const ros::Time& stamp,
                 visualization_msgs::MarkerArray& out) const;
+  void addHeld(size_t stylus, const SceneLook& look, const ros::Time& stamp,
+               visualization_msgs::MarkerArray& out) const;
   void addThreads(const SceneLook& look, const ros::Time& stamp, visualization_msgs::MarkerArray& out) const;
   void addText(const std::string& text, const ros::Time& stamp, visualization_msgs::MarkerArray& out) const;
   void addNames(const SceneLook& look, const ros::Time& stamp, visualization_msgs::MarkerArray& out) const;

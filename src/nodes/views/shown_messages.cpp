@@ -95,8 +95,8 @@ SurfaceTopologyChange toChange(const SurfaceTopology& before, const SurfaceTopol
   return out;
 }
 
-SurfaceVertices toVertices(const SurfaceFrame& frame, const SentVertices& sent, uint32_t topology_version,
-                           const std::string& frame_id, const ros::Time& stamp) {
+SurfaceVertices toVertices(const SurfaceFrame& frame, const std::vector<uint32_t>& colors, const SentVertices& sent,
+                           uint32_t topology_version, const std::string& frame_id, const ros::Time& stamp) {
   SurfaceVertices out;
   out.header = toHeader(frame_id, stamp);
   out.tick = frame.tick;
@@ -107,6 +107,7 @@ SurfaceVertices toVertices(const SurfaceFrame& frame, const SentVertices& sent, 
     const float* const xyz_m = &frame.positions_m[3 * size_t{vertex}];
     out.positions_m.insert(out.positions_m.end(), xyz_m, xyz_m + 3);
     out.normals.push_back(frame.normals[vertex]);
+    if (!colors.empty()) out.colors.push_back(colors[vertex]);
   }
   return out;
 }

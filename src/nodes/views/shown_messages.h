@@ -25,9 +25,9 @@ SurfaceTopology toTopology(const ShownTopology& skin, const SentVertices& sent, 
                            const std::string& frame, const ros::Time& stamp);
 /// What turns one topology into the next.
 SurfaceTopologyChange toChange(const SurfaceTopology& before, const SurfaceTopology& after);
-/// @param sent  has followed the frame's topology
-SurfaceVertices toVertices(const SurfaceFrame& frame, const SentVertices& sent, uint32_t topology_version,
-                           const std::string& frame_id, const ros::Time& stamp);
+/// @param sent  has followed the frame's topology   @param colors  of the frame, of tissue or of strain
+SurfaceVertices toVertices(const SurfaceFrame& frame, const std::vector<uint32_t>& colors, const SentVertices& sent,
+                           uint32_t topology_version, const std::string& frame_id, const ros::Time& stamp);
 
 /// Two markers per body, for stock rviz: TRIANGLE_LIST of its skin, then, behind those of all bodies, of its wounds'
 /// walls, in a colour of their own (with a colour per point rviz would switch lighting off); or DELETE if there is

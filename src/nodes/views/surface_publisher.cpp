@@ -21,11 +21,14 @@ SurfacePublisher::SurfacePublisher(ros::NodeHandle& node, const std::string& tis
       topology_(node.advertise<SurfaceTopology>("surface_topology", 1, true)),
       change_(node.advertise<SurfaceTopologyChange>("surface_topology_change", kChangeQueue)),
       vertices_(node.advertise<SurfaceVertices>("surface", 1)),
+      strain_(node.advertise<SurfaceVertices>("surface_strain", 1)),
       marker_(node.advertise<visualization_msgs::Marker>("surface_marker", kMarkerQueue)) {}
 
 uint32_t SurfacePublisher::viewers() const {
-  return vertices_.getNumSubscribers() + marker_.getNumSubscribers() + topology_.getNumSubscribers() +
-         change_.getNumSubscribers();
+  uint32_t viewers = 0;
+  for (const ros::Publisher* topic : {&vertices_, &strain_, &marker_, &topology_, &change_})
+    viewers += topic->getNumSubscribers();
+  return viewers;
 }
 
 void SurfacePublisher::start(const std::shared_ptr<const ShownTopology>& skin, const ros::Time& stamp) {
@@ -66,7 +69,10 @@ void SurfacePublisher::publishDue() {
 void SurfacePublisher::publish(const SurfaceFrame& frame, const ros::Time& stamp) {
   if (frame.topology->revision != revision_) changeTopology(*frame.topology, stamp);
   publishDue();
-  if (vertices_.getNumSubscribers() > 0) vertices_.publish(toVertices(frame, sent_, whole_.version, frame_, stamp));
+  if (vertices_.getNumSubscribers() > 0)
+    vertices_.publish(toVertices(frame, frame.colors, sent_, whole_.version, frame_, stamp));
+  if (isStrainWanted() && !frame.strain_colors.empty())
+    strain_.publish(toVertices(frame, frame.strain_colors, sent_, whole_.version, frame_, stamp));
   if (marker_.getNumSubscribers() > 0) publishMarkers(frame, stamp);
 }
 

@@ -14,9 +14,9 @@
 
 namespace viscera::nodes {
 
-/// Topics `surface_topology` (latched), `surface_topology_change`, `surface` and `surface_marker`. Every change of the
-/// topology is sent at once as such; the whole one again when as much time has passed as it takes at
-/// kTopologyBytesPerSecond, so that a large organ is not sent whole in every tick of a cut.
+/// Topics `surface_topology` (latched), `surface_topology_change`, `surface`, `surface_strain` and `surface_marker`.
+/// Every change of the topology is sent at once as such; the whole one again when as much time has passed as it takes
+/// at kTopologyBytesPerSecond, so that a large organ is not sent whole in every tick of a cut.
 class SurfacePublisher {
  public:
   SurfacePublisher(ros::NodeHandle& node, const std::string& tissue_frame);
@@ -24,6 +24,7 @@ class SurfacePublisher {
   /// Subscribers of the moving surface, and of what a cut changes of it. From any thread.
   uint32_t viewers() const;
   bool isWanted() const { return viewers() > 0; }
+  bool isStrainWanted() const { return strain_.getNumSubscribers() > 0; }
   /// Sends the topology of the whole skin.
   void start(const std::shared_ptr<const ShownTopology>& skin, const ros::Time& stamp);
   /// Sends a frame to whom it may concern; the topology first, if it has changed.
@@ -40,7 +41,7 @@ class SurfacePublisher {
   void publishMarkers(const SurfaceFrame& frame, const ros::Time& stamp);
 
   const std::string frame_;
-  ros::Publisher topology_, change_, vertices_, marker_;
+  ros::Publisher topology_, change_, vertices_, strain_, marker_;
   SentVertices sent_;
   std::vector<bool> wounds_sent_;                       ///< [bodies] viewers have a marker of its wounds
   SurfaceTopology whole_;                               ///< of the frames that are sent now

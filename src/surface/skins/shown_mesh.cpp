@@ -43,6 +43,7 @@ std::string header(const ShownMesh& mesh) {
   for (const char* property : {"x", "y", "z", "nx", "ny", "nz"}) {
     out += std::string("property float ") + property + '\n';
   }
+  if (!mesh.colors.empty()) out += "property uchar red\nproperty uchar green\nproperty uchar blue\n";
   out += "element face " + std::to_string(topology.triangleCount()) + '\n';
   return out + "property list uchar uint vertex_indices\nproperty uchar body\nproperty uchar kind\nend_header\n";
 }
@@ -52,6 +53,8 @@ void addVertices(const ShownMesh& mesh, Bytes& out) {
     const Vector3f normal = mesh.normal(v);
     for (size_t axis = 0; axis < 3; ++axis) out.add(mesh.positions_m[3 * v + axis]);
     for (int axis = 0; axis < 3; ++axis) out.add(normal[axis]);
+    for (int shift = 0; shift < 24 && !mesh.colors.empty(); shift += 8)
+      out.add(static_cast<uint8_t>(mesh.colors[v] >> shift));
   }
 }
 

@@ -147,25 +147,29 @@ TEST(Conversions, SplitTrianglesAreToldInPieces) {
 
 TEST(Conversions, VerticesThatACutAddsAreSentAfterTheOthersAndOnlyWhileTheyAreNeeded) {
   const ShownTopology cut = twoBodies({2, 1, 3}, {5, 12, 8, 12, 6, 4});
-  const SurfaceFrame frame = frameOf(cut);
+  SurfaceFrame frame = frameOf(cut);
+  for (uint32_t v = 0; v < frame.vertices(); ++v) frame.colors.push_back(100 + v);
   SentVertices sent = followed(cut);
   const auto topology = toTopology(cut, sent, 2, "tissue", ros::Time(1));
   EXPECT_EQ(topology.vertices, kUsedVertices + 2);
   EXPECT_EQ(topology.triangles, (std::vector<uint32_t>{2, 1, 3, 5, 8, 7, 8, 6, 4}));
-  const auto vertices = toVertices(frame, sent, 2, "tissue", ros::Time(1));
+  const auto vertices = toVertices(frame, frame.colors, sent, 2, "tissue", ros::Time(1));
   ASSERT_EQ(vertices.positions_m.size(), 3 * (kUsedVertices + 2));
   EXPECT_EQ(vertices.positions_m[3 * 8], frame.positions_m[3 * 12]);
+  ASSERT_EQ(vertices.colors.size(), kUsedVertices + 2);
+  EXPECT_EQ(vertices.colors[8], 112U);
   sent.follow(twoBodies());
   EXPECT_EQ(sent.vertices().size(), kUsedVertices);
 }
 
 TEST(Conversions, VerticesCarryTickAndTopologyVersion) {
   const SurfaceFrame frame = frameOf(twoBodies());
-  const auto message = toVertices(frame, followed(*frame.topology), 4, "tissue", ros::Time(2));
+  const auto message = toVertices(frame, frame.colors, followed(*frame.topology), 4, "tissue", ros::Time(2));
   EXPECT_EQ(message.tick, 12u);
   EXPECT_EQ(message.topology_version, 4u);
   EXPECT_EQ(message.positions_m, std::vector<float>(frame.positions_m.begin(), frame.positions_m.begin() + 21));
   EXPECT_EQ(message.normals, std::vector<uint32_t>(kUsedVertices, 7u));
+  EXPECT_TRUE(message.colors.empty());
 }
 
 TEST(Conversions, MarkersHoldTheCornersOfWholeTrianglesOfOneBodyEach) {

@@ -10,16 +10,21 @@ import unittest
 
 import rospy
 import rostest
-from rviz_screen import MOUSE_SIGN, VIEW, Screen, rviz
+from rviz_screen import MOUSE_SIGN, VIEW, Screen, alone, rviz
 from sent_ball import Sender
 from simulator_watch import wait_until
 
-from viscera.msg import SurfaceTopologyChange
+from viscera.msg import SurfaceTopologyChange, SurfaceVertices
 
 CONFIG = os.path.join(subprocess.check_output(["rospack", "find", "viscera"], text=True).strip(),
                       "config", "viscera_plugin.rviz")
 LIMIT_S = 60      # software rendering on a busy machine
 FEW, MANY = 300, 10000  # pixels: frames' axes are red too; a ball of 5 cm is 200 pixels wide
+
+
+def blue(picture):
+    """Its pixels."""
+    return int(((picture[:, :, 2] > 2 * picture[:, :, 0]) & (picture[:, :, 2] > 60)).sum())
 
 
 class RvizSurfaceTest(unittest.TestCase):
@@ -49,6 +54,7 @@ class RvizSurfaceTest(unittest.TestCase):
         sender = self.sender
         wait_until(lambda: sender.surface.get_num_connections() and sender.change.get_num_connections(), LIMIT_S,
                    "subscription of rviz in: " + self.rviz.output)
+        self.assertIn("with --disable-anti-aliasing", self.rviz.output)
         sender.topology(1, [0, 1, 10**9] * 4)  # no such vertex
         sender.vertices(1)
         sender.vertices(1, positions_m=[float("nan")] * 3 * len(sender.points))
@@ -73,6 +79,14 @@ class RvizSurfaceTest(unittest.TestCase):
         sender.vertices(3)
         self.expect(lambda skin, walls: skin > MANY and walls < FEW, "ball without its walls")
 
+        colors = [0xffd02020] * len(sender.points)
+        sender.vertices(3, colors=colors[1:])  # not as many as vertices
+        sender.vertices(3, colors=colors)
+        self.expect(lambda skin, walls: skin < FEW and blue(self.screen.picture()[VIEW]) > MANY, "ball with colors of its vertices")
+        self.screen.keep("colors.ppm")
+        sender.vertices(3)
+        self.expect(lambda skin, walls: skin > MANY and blue(self.screen.picture()[VIEW]) < FEW, "ball with the color of its body")
+
         sender.topology(1)  # as of a simulator that was started again
         sender.vertices(1)
         self.expect(lambda skin, walls: skin > MANY and walls > MANY, "ball of the other simulator")
@@ -81,6 +95,26 @@ class RvizSurfaceTest(unittest.TestCase):
         self.assertEqual(self.rviz.process.wait(LIMIT_S), 0, self.rviz.output)
 
 
+class RvizStrainTest(unittest.TestCase):
+    def test_strain_is_another_topic(self):
+        screen, sender = Screen(), Sender()
+        strain = rospy.Publisher("surface_strain", SurfaceVertices, queue_size=1)
+        program = alone(screen, 30, "--disable-anti-aliasing", color_by="strain")
+        try:
+            wait_until(strain.get_num_connections, LIMIT_S, "subscription of rviz")
+            self.assertEqual(sender.surface.get_num_connections(), 0)
+
+            def seen():
+                sender.topology(1)  # again and again: rviz subscribes more than once while it begins
+                strain.publish(sender.moved(1, 0, colors=[0xffd02020] * len(sender.points)))
+                return blue(screen.picture()) > MANY
+            wait_until(seen, LIMIT_S, "ball with colors of strain in: " + program.output)
+            self.assertNotIn("with --disable-anti-aliasing", program.output)
+        finally:
+            program.end()
+            screen.end()
+
+
 if __name__ == "__main__":
     rospy.init_node("rviz_surface_test")
-    rostest.rosrun("viscera", "rviz_surface", RvizSurfaceTest, sys.argv)
+    rostest.rosrun("viscera", "rviz_surface", "__main__", sys.argv)

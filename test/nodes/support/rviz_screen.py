@@ -3,6 +3,7 @@
 """rviz on a display without a screen, and what it shows, by the file that Xvfb keeps its screen in."""
 import mmap
 import os
+import re
 import struct
 import subprocess
 import tempfile
@@ -16,19 +17,43 @@ VIEW = slice(70, 760), slice(370, 840)  # rows and columns of the scene, in conf
 END_LIMIT_S = 10
 START_LIMIT_S = 40  # software rendering on a busy machine
 MOUSE_SIGN = (240, 228, 66)  # of the button of viscera/Mouse, in the toolbar
+BALL_PIXELS = 10000
 SIGN_PIXELS = 40  # of the signs of 16 by 16 pixels, without their smooth edges
 
+# An rviz without panels, with the display alone, and how often it draws at most.
+ALONE = """Visualization Manager:
+  Displays:
+    - {Class: viscera/Surface, Name: Ball, Enabled: true, Surface topic: surface, Color by: %s, Value: true}
+  Global Options: {Background Color: 32; 36; 40, Fixed Frame: tissue, Frame Rate: %d}
+  Views:
+    Current: {Class: rviz/Orbit, Distance: 0.14, Near Clip Distance: 0.01, Pitch: 0.3, Yaw: 4.9, Focal Point: {X: 0, Y: 0, Z: 0}}
+"""
 # Of the environment of an rviz that tells how often it draws surfaces.
 DEBUG = {"ROSCONSOLE_CONFIG_FILE": os.path.join(os.path.dirname(os.path.abspath(__file__)), "rviz_debug.conf")}
+
+
+def alone(screen, rate_hz, *options, color_by="sent"):
+    """rviz, full screen, with the display alone: its Program, whose output tells once a second how often it has drawn."""
+    config = os.path.join(screen.folder.name, "alone.rviz")
+    with open(config, "w") as file:
+        file.write(ALONE % (color_by, rate_hz))
+    os.environ.update(DEBUG)
+    return Program(["rosrun", "rviz", "rviz", "-d", config, "-f", "tissue", "--fullscreen", *options])
+
+
+def drawn_hz(output):
+    """Of each second that an rviz tells of with DEBUG."""
+    return [float(hz) for hz in re.findall(r": ([0-9.]+) Hz, ", output)]
 
 
 class Screen:
     """An Xvfb with a number that was free."""
 
-    def __init__(self):
+    def __init__(self, width=WIDTH, height=HEIGHT):
+        self.width, self.height = width, height
         self.folder = tempfile.TemporaryDirectory()
         told, tells = os.pipe()
-        self.process = subprocess.Popen(["Xvfb", "-displayfd", str(tells), "-screen", "0", "%dx%dx24" % (WIDTH, HEIGHT),
+        self.process = subprocess.Popen(["Xvfb", "-displayfd", str(tells), "-screen", "0", "%dx%dx24" % (width, height),
                                          "-fbdir", self.folder.name, "-nolisten", "tcp"], pass_fds=[tells],
                                         stderr=subprocess.DEVNULL)
         os.close(tells)
@@ -44,13 +69,13 @@ class Screen:
             dump = mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ)  # xwd, whose header is of big-endian words
             words = struct.unpack(">25I", dump[:100])
             begin, line, colors = words[0], words[12], words[19]
-            pixels = numpy.frombuffer(dump[:], numpy.uint8, HEIGHT * line, begin + 12 * colors)
-        return pixels.reshape(HEIGHT, line // 4, 4)[:, :WIDTH, 2::-1].astype(int)
+            pixels = numpy.frombuffer(dump[:], numpy.uint8, self.height * line, begin + 12 * colors)
+        return pixels.reshape(self.height, line // 4, 4)[:, :self.width, 2::-1].astype(int)
 
     def save(self, path):
         """As PPM."""
         with open(path, "wb") as file:
-            file.write(b"P6 %d %d 255\n" % (WIDTH, HEIGHT) + self.picture().astype(numpy.uint8).tobytes())
+            file.write(b"P6 %d %d 255\n" % (self.width, self.height) + self.picture().astype(numpy.uint8).tobytes())
 
     def keep(self, name):
         """Where VISCERA_PICTURES names a folder, to be looked at."""
@@ -61,6 +86,14 @@ class Screen:
         """Middle (x, y) of the pixels of just this colour; nothing where there are less than a sign on a button has."""
         rows, columns = numpy.nonzero((self.picture() == color).all(axis=2))
         return (int(numpy.median(columns)), int(numpy.median(rows))) if len(rows) >= SIGN_PIXELS else None
+
+    def ball(self):
+        """Middle (x, y) of what is red in the scene, as the ball of stand_in_simulator.py; nothing where that is not there."""
+        picture = self.picture()[VIEW]
+        rows, columns = ((picture[:, :, 0] > 1.5 * picture[:, :, 1]) & (picture[:, :, 0] > 40)).nonzero()
+        if len(rows) < BALL_PIXELS:
+            return None
+        return VIEW[1].start + int(columns.mean()), VIEW[0].start + int(rows.mean())
 
     def click(self, x, y, button=1):
         self.do("mousemove", x, y)

@@ -1,8 +1,10 @@
 # Copyright (c) 2026, the viscera authors
 # SPDX-License-Identifier: BSD-3-Clause
 """A ball, sent as a simulator sends its surface."""
+import io
 import math
 
+import numpy
 import rospy
 
 from viscera.msg import SurfaceTopology, SurfaceTopologyChange, SurfaceVertices
@@ -32,6 +34,13 @@ def filled(triangles):
     return math.ceil(math.sqrt(triangles / 2))
 
 
+class Made(SurfaceVertices):
+    """One whose bytes are there."""
+
+    def serialize(self, buff):
+        buff.write(self.bytes)
+
+
 class Sender:
     """The upper half is skin; the lower half stands for walls."""
 
@@ -43,11 +52,13 @@ class Sender:
         self.positions_m = [RADIUS_M * x for point in self.points for x in point]
         self.normals = [packed(point) for point in self.points]
 
-    def topology(self, version, triangles=None):
+    def topology(self, version, triangles=None, bodies=1):
         triangles = self.triangles if triangles is None else triangles
-        message = SurfaceTopology(version=version, vertices=len(self.points), bodies=["ball"],
-                                  body_triangles=[len(triangles) // 3], wound_triangles=[len(triangles) // 6],
-                                  triangles=triangles)
+        of_each = len(triangles) // 3 // bodies
+        of_bodies = [of_each] * (bodies - 1) + [len(triangles) // 3 - of_each * (bodies - 1)]
+        message = SurfaceTopology(version=version, vertices=len(self.points),
+                                  bodies=["ball %d" % b for b in range(bodies)], body_triangles=of_bodies,
+                                  wound_triangles=[count // 2 for count in of_bodies], triangles=triangles)
         message.header.frame_id, message.header.stamp = "tissue", rospy.Time.now()
         self.whole.publish(message)
 
@@ -55,6 +66,20 @@ class Sender:
         message = SurfaceVertices(topology_version=version, positions_m=self.positions_m, normals=self.normals)
         message.header.frame_id, message.header.stamp = "tissue", rospy.Time.now()
         return message
+
+    def moved(self, version, share, **other):
+        """The ball a little longer along x, as bytes: to make a message of 100,000 vertices takes longer than to draw it."""
+        message = self.message(version)
+        stretched = numpy.array(self.positions_m).reshape(-1, 3) * (1 + 0.1 * share, 1, 1)
+        message.positions_m = stretched.ravel().tolist()
+        for key, value in other.items():
+            setattr(message, key, value)
+        made = Made()
+        made.header = message.header
+        buffer = io.BytesIO()
+        message.serialize(buffer)
+        made.bytes = buffer.getvalue()
+        return made
 
     def vertices(self, version, **other):
         message = self.message(version)

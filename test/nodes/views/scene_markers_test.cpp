@@ -209,5 +209,19 @@ TEST(SceneMarkers, NamesAtOnePlaceAreWrittenAboveEachOther) {
       EXPECT_GT(std::abs(labels[i].position_m.z() - labels[j].position_m.z()), kLetter_m) << i << " " << j;
 }
 
+TEST(SceneMarkers, NodesThatAreHeldArePointsThatGoWithTheTool) {
+  SceneLook look = viscera::nodes::look();
+  EXPECT_TRUE(shown(markersOf(look), "held").empty());
+  look.held_m[0] = {{0, 0, 0.001}, {0.002, 0, 0}};
+  const auto held = shown(markersOf(look), "held");
+  ASSERT_EQ(held.size(), 1U);
+  EXPECT_EQ(held[0].type, Marker::POINTS);
+  EXPECT_EQ(held[0].pose.position.y, 0.1);
+  ASSERT_EQ(held[0].points.size(), 2U);
+  EXPECT_EQ(held[0].points[1].x, 0.002);
+  look.tools[0].present = false;
+  EXPECT_TRUE(shown(markersOf(look), "held").empty());
+}
+
 }  // namespace
 }  // namespace viscera::nodes

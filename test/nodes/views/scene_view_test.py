@@ -2,6 +2,7 @@
 # Copyright (c) 2026, the viscera authors
 # SPDX-License-Identifier: BSD-3-Clause
 """What a viewer is told: a camera_info that is right to a part of a pixel, topologies, and markers of all but tissue."""
+import math
 import sys
 import threading
 import time
@@ -17,7 +18,7 @@ from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import Marker, MarkerArray
 
 from viscera.msg import SurfaceTopology, SurfaceTopologyChange, SurfaceVertices, Threads
-from viscera.srv import SetOverlays
+from viscera.srv import SetOverlays, SetToolMode
 
 LIMIT_S = 20
 TILE_M = (0.08, 0, 0.05)  # of scene_view.yaml: a square of 4 cm that faces the camera, turned, brighter than the background
@@ -25,6 +26,8 @@ TILE_PX = 900             # pixels of it
 PIXEL_LIMIT = 0.1         # [px] of its middle: slanted borders meet pixels anywhere; half a pixel is the error looked for
 ABOVE_M = -0.05    # over the cloth, out of its reach
 CLOTH_M = -0.1
+DARK = 0xff540144  # end of the scale of strain, where none is
+GRAB_M = 0.02      # more than the reach of a tool that grabs, and what a pose moves between two messages
 
 
 class Hand:
@@ -149,6 +152,19 @@ class SceneViewTest(unittest.TestCase):
         topology.stop()
         surface.stop()
 
+    def test_strain_is_sent_as_colors_to_who_wants_it(self):
+        plain, strain = Latest("surface", SurfaceVertices), Latest("surface_strain", SurfaceVertices)
+        wait_until(lambda: plain.count and strain.count, LIMIT_S, "surfaces")
+        self.assertEqual(len(plain.message.colors), 0)
+        rospy.ServiceProxy("reset", Trigger)()
+        wait_until(lambda: set(strain.message.colors) == {DARK}, LIMIT_S, "cloth at rest")
+        self.assertEqual(3 * len(strain.message.colors), len(strain.message.positions_m))
+        self.left.move((0.05, 0, ABOVE_M), (0.05, 0, CLOTH_M - 0.02), 1)
+        wait_until(lambda: len(set(strain.message.colors)) > 10, LIMIT_S, "colors of a cloth that is pushed")
+        self.left.position = None
+        plain.stop()
+        strain.stop()
+
     def test_threads_are_told_node_by_node(self):
         threads = Latest("threads", Threads)
         message = wait_until(lambda: threads.message, LIMIT_S, "threads")
@@ -201,17 +217,18 @@ class SceneViewTest(unittest.TestCase):
         topology.stop()
         rospy.ServiceProxy("reset", Trigger)()
 
+    @staticmethod
+    def note(message, seen):
+        """What is shown, by namespace and id."""
+        for marker in message.markers:
+            if marker.action == Marker.ADD:
+                seen.setdefault(marker.ns, {})[marker.id] = marker
+            else:
+                seen.get(marker.ns, {}).pop(marker.id, None)
+
     def test_markers_show_tools_obstacles_forces_and_names(self):
         seen = {}
-
-        def on_markers(message):
-            for marker in message.markers:
-                if marker.action == Marker.ADD:
-                    seen.setdefault(marker.ns, {})[marker.id] = marker
-                else:
-                    seen.get(marker.ns, {}).pop(marker.id, None)
-
-        markers = Latest("scene_markers", MarkerArray, on_markers)
+        markers = Latest("scene_markers", MarkerArray, lambda message: self.note(message, seen))
         wait_until(lambda: "obstacles" in seen, LIMIT_S, "markers")
         tile = list(seen["obstacles"].values())[0]
         self.assertEqual((tile.header.frame_id, tile.pose.position.x, tile.pose.position.z), ("tissue", 0.08, 0.05))
@@ -224,6 +241,27 @@ class SceneViewTest(unittest.TestCase):
         self.assertEqual({marker.text for marker in seen["names"].values()}, {"tile", "camera", "left"})
         self.left.position = None
         wait_until(lambda: not seen["tools"] and not seen["forces"], LIMIT_S, "end of the tool")
+        markers.stop()
+
+    def test_markers_show_nodes_that_are_held(self):
+        seen = {}
+        markers = Latest("scene_markers", MarkerArray, lambda message: self.note(message, seen))
+        set_tool_mode = rospy.ServiceProxy("set_tool_mode", SetToolMode)
+        self.assertTrue(set_tool_mode("left", "idle", "none").success)  # a probe would push the cloth away
+        self.left.position = (-0.05, 0, CLOTH_M)
+        wait_until(lambda: seen.get("tools"), LIMIT_S, "tool")
+        self.assertFalse(seen.get("held"))
+        self.assertTrue(set_tool_mode("left", "idle", "grab").success)
+        held = list(wait_until(lambda: seen.get("held"), LIMIT_S, "nodes that are held").values())[0]
+        tool = list(seen["tools"].values())[0]
+        self.assertEqual(held.pose, tool.pose)
+        wait_until(lambda: self.watch.value("left", "nodes_held") == len(held.points), LIMIT_S, "as many as are held")
+        for point in held.points:
+            self.assertLess(math.hypot(point.x, point.y, point.z), GRAB_M)
+        self.assertTrue(set_tool_mode("left", "idle", "probe").success)
+        wait_until(lambda: not seen["held"], LIMIT_S, "nodes that are let go")
+        self.left.position = None
+        wait_until(lambda: not seen["tools"], LIMIT_S, "end of the tool")
         markers.stop()
 
 

@@ -1,0 +1,67 @@
+#!/usr/bin/env python3
+# Copyright (c) 2026, the viscera authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""rviz with no simulator, with one, with two in one namespace, and with one that is started again."""
+import os
+import subprocess
+import sys
+import unittest
+
+import rospy
+import rostest
+import stand_in_simulator
+from program import Program
+from rviz_screen import MOUSE_SIGN, Screen, rviz
+from simulator_watch import wait_until
+
+CONFIG = os.path.join(subprocess.check_output(["rospack", "find", "viscera"], text=True).strip(),
+                      "config", "viscera_plugin.rviz")
+PAUSE = (0, 114, 178)  # sign on the button, grey without a simulator
+WARNING = (192, 64, 0)  # of text in the panel
+LIMIT_S = 60           # software rendering on a busy machine
+
+
+class RvizSimulatorsTest(unittest.TestCase):
+    def setUp(self):
+        self.screen = Screen()
+        self.rviz = rviz(CONFIG, lambda: self.screen.find(MOUSE_SIGN))
+        self.simulators = []
+
+    def tearDown(self):
+        for program in [self.rviz, *self.simulators]:
+            program.end()
+        self.screen.end()
+
+    def start(self):
+        self.simulators.append(Program(stand_in_simulator.COMMAND))
+        return self.simulators[-1]
+
+    def expect(self, buttons, warning, what):
+        def seen():
+            self.assertIsNone(self.rviz.process.poll(), "rviz has ended: " + self.rviz.output)
+            return bool(self.screen.find(PAUSE)) == buttons and bool(self.screen.find(WARNING)) == warning
+        wait_until(seen, LIMIT_S, what)
+        self.screen.keep(what.replace(" ", "_") + ".ppm")
+
+    def test_none_one_two_and_one_that_comes_again(self):
+        self.expect(False, False, "panel without a simulator")
+        self.assertIsNone(self.screen.ball())
+        first = self.start()
+        self.expect(True, False, "panel of a simulator")
+        wait_until(self.screen.ball, LIMIT_S, "ball")
+        second = self.start()
+        self.expect(True, True, "warning of two simulators")
+        first.end()
+        self.expect(True, False, "panel of the one that is left")
+        second.process.kill()
+        self.expect(False, False, "panel after the last one was killed")
+        self.start()
+        self.expect(True, False, "panel of one that was started again")
+        wait_until(self.screen.ball, LIMIT_S, "ball again")
+        self.rviz.process.send_signal(2)
+        self.assertEqual(self.rviz.process.wait(LIMIT_S), 0, self.rviz.output)
+
+
+if __name__ == "__main__":
+    rospy.init_node("rviz_simulators_test")
+    rostest.rosrun("viscera", "rviz_simulators", RvizSimulatorsTest, sys.argv)
