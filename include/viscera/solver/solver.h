@@ -18,6 +18,7 @@
 namespace viscera {
 
 class Archive;
+class Bleeding;
 class Burns;
 class ThreadBodies;
 struct ThreadPull;
@@ -79,8 +80,9 @@ class Solver {
   /// was made for the same model and scene, and goes on to the bit like the one that wrote it. Waits.
   /// @throws Error  the archive is another solver's, or this one keeps nothing
   virtual void persist(Archive& archive);
-  virtual ThreadBodies* threads() { return nullptr; }     ///< null: the scene has none
-  virtual const Burns* burns() const { return nullptr; }  ///< null: no stylus burns
+  virtual ThreadBodies* threads() { return nullptr; }           ///< null: the scene has none
+  virtual const Burns* burns() const { return nullptr; }        ///< null: no stylus burns
+  virtual const Bleeding* bleeding() const { return nullptr; }  ///< null: nothing can bleed
   const ThreadBodies* threads() const { return const_cast<Solver*>(this)->threads(); }
 };
 
