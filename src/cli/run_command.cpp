@@ -55,6 +55,7 @@ Json metricsOf(const Session& session, const layout::TickStats& stats, const std
     metrics.threads.push_back({session.scene().threads[seen.thread].name, seen});
   if (mayClip(session.scene().styluses)) metrics.clips = session.seenClips();
   if (mayBurn(session.scene().styluses)) metrics.burns = session.seenBurns();
+  if (session.solver().bleeding()) metrics.blood = session.seenBlood();
   metrics.thread_refusal = session.threadRefusal();
   metrics.images = counters.renders;
   metrics.images_skipped = counters.skipped;

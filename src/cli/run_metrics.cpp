@@ -75,6 +75,14 @@ nlohmann::ordered_json toJson(const RunMetrics& metrics) {
                     {"coagulated_m3", burns.coagulated_m3},
                     {"parted", burns.parted}};
   }
+  if (metrics.blood) {
+    const SeenBlood& blood = *metrics.blood;
+    out["bleeding"] = {{"bled_ml", blood.bled_ml},
+                       {"on_tissue_ml", blood.on_tissue_ml},
+                       {"dripped_ml", blood.dripped_ml},
+                       {"flow_ml_per_min", blood.flow_ml_per_min},
+                       {"stumps", blood.stumps}};
+  }
   if (!metrics.thread_refusal.empty()) out["thread_refusal"] = metrics.thread_refusal;
   out["images"] = metrics.images;
   out["images_skipped"] = metrics.images_skipped;

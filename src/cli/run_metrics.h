@@ -28,6 +28,7 @@ struct RunMetrics {
   std::vector<ThreadMetrics> threads = {};
   std::optional<SeenClips> clips = {};  ///< where the scene has tools that set some
   std::optional<SeenBurns> burns = {};  ///< where it has tools that burn
+  std::optional<SeenBlood> blood = {};  ///< where it has tissue that bleeds
   std::string thread_refusal = {};      ///< why the last tie of the scene was not tied
   Extremes extremes = {};
   std::string backend = {}, renderer = {};

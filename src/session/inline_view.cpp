@@ -130,7 +130,7 @@ void InlineView::capture(const StateView& state, const Look& look, Pictures& out
     any = true;
     all = all || (eye.draws && overlaysOf(eye.camera, look).any()) || !eye.skin.asks(displacements.has_value());
   }
-  if (look.burns) surface_.paint(look.burns);
+  surface_.paint(look.burns, look.blood);
   if (any) follow(state, all, displacements);
   if (surface) captureSurface(state, look);
   const auto last =
@@ -193,8 +193,8 @@ bool InlineView::isRepeat(const Eye& eye, const std::optional<Drawn>& drawn, con
          looksTheSame(look.motions, drawn->motions) && isSame(eye.pose, drawn->pose) &&
          std::equal(look.obstacles.begin(), look.obstacles.end(), drawn->obstacles.begin(), drawn->obstacles.end(),
                     isSame) &&
-         look.threads == drawn->threads && look.burns == drawn->burns && overlays == drawn->overlays &&
-         (!overlays.any() || look.arrows == drawn->arrows);
+         look.threads == drawn->threads && look.burns == drawn->burns && look.blood == drawn->blood &&
+         overlays == drawn->overlays && (!overlays.any() || look.arrows == drawn->arrows);
 }
 
 /// Brings the surface to a state, as far as the images that are to be drawn show it. @param all  the whole of it
@@ -270,7 +270,7 @@ void InlineView::captureGeometry(size_t e, const StateView& state, const Look& l
     if (state.moved_revision) {
       eye.measured =
           Drawn{state.moved_revision, state.cut_revision, look.motions, look.obstacles, eye.pose, Overlays{}, {},
-                look.threads,         look.burns};
+                look.threads,         look.burns,         look.blood};
     }
   } else {
     ++counters_.repeats;
@@ -308,7 +308,7 @@ void InlineView::draw(size_t e, const StateView& state, const Look& look) {
   eye.drawn.reset();
   if (state.moved_revision) {
     eye.drawn = Drawn{state.moved_revision, state.cut_revision, look.motions, look.obstacles, eye.pose, overlays,
-                      look.arrows,          look.threads,       look.burns};
+                      look.arrows,          look.threads,       look.burns,   look.blood};
   }
 }
 
@@ -328,7 +328,7 @@ void InlineView::showSurface(const StateView& state, const Look& look, Pictures&
     ++counters_.skipped;
     return;
   }
-  if (look.burns) surface_.paint(look.burns);
+  surface_.paint(look.burns, look.blood);
   surface_.split(state);
   surface_.follow(state, nullptr);
   captureSurface(state, look);

@@ -55,6 +55,7 @@ class InlineView : public View {
     std::vector<Arrow> arrows;
     ShownThreads threads;
     std::shared_ptr<const BurnPaint> burns;
+    std::shared_ptr<const BloodPaint> blood;
   };
   struct Channel {  ///< one kind of picture of an eye, on its way
     PictureKind kind = PictureKind::kColor;

@@ -11,6 +11,7 @@
 #include "model/scene/tool_kinds.h"
 #include "session/arrows.h"
 #include "session/view.h"
+#include "solver/bleed/bleeding.h"
 #include "solver/burn/burns.h"
 #include "solver/contact/surroundings.h"
 #include "solver/make_solver.h"
@@ -200,6 +201,7 @@ void Session::lookAtObstacles() {
 
 void Session::lookAtThreads() {
   if (solver_->burns()) look_.burns = solver_->burns()->paint();
+  if (solver_->bleeding()) look_.blood = solver_->bleeding()->paint();
   const ThreadBodies* const threads = solver_->threads();
   if (!threads) return;
   look_.threads.clear();
@@ -337,6 +339,7 @@ Frame Session::drain() {
 uint64_t Session::stateHash() const {
   uint64_t tissue = viscera::stateHash(*model_, solver_->readState());
   if (solver_->burns()) tissue = solver_->burns()->hashWith(tissue);
+  if (solver_->bleeding()) tissue = solver_->bleeding()->hashWith(tissue);
   return solver_->threads() ? solver_->threads()->hashWith(tissue) : tissue;
 }
 
@@ -365,6 +368,10 @@ SeenClips Session::seenClips() const {
 
 SeenBurns Session::seenBurns() const {
   return solver_->burns() ? solver_->burns()->seen() : SeenBurns();
+}
+
+SeenBlood Session::seenBlood() const {
+  return solver_->bleeding() ? solver_->bleeding()->seen() : SeenBlood();
 }
 
 std::string Session::threadRefusal() const {

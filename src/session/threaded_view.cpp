@@ -121,6 +121,7 @@ void ThreadedView::capture(Solver& solver, const Look& look, Pictures&) {
   look_.cameras = look.cameras;
   look_.threads = look.threads;
   look_.burns = look.burns;
+  look_.blood = look.blood;
   look_.overlays = look.overlays;
   look_.arrows = look.arrows;
   {

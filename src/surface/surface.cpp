@@ -84,6 +84,12 @@ std::vector<uint32_t> chartsOfPieces(const JoinedSkins& skins) {
 constexpr float kBelowLayers_m = 0.02F;  // skin, fat and what else scenes have are thinner
 constexpr size_t kRoomForWounds = 2;  // times the vertices and triangles of the skins: beyond it a tick makes buffers
 
+/// What of a vertex is so. @param shares  [slots]
+float shareAt(const std::vector<float>& shares, const layout::SkinBinding& b) {
+  if ((b.springs & layout::kOneToOneBit) != 0) return shares[b.slot0];
+  return b.weights.x * shares[b.slot0] + b.weights.y * shares[b.slot1] + b.weights.z * shares[b.slot2];
+}
+
 }  // namespace
 
 Surface::Surface(const Model& model) {
@@ -343,35 +349,32 @@ void Surface::wound(const CutSprings& cuts, uint64_t revision) {
 
 /// Those of the skins and walls.
 void Surface::writeColors() {
-  if (burns_) return writeBurntColors();
+  if (burns_ || blood_) return writePaintedColors();
   colors_.write(wounds_->colors());
   rests_.write(wounds_->addedRests(), whole_vertices_);
 }
 
-/// Where walls are burnt they have no layers, as they look deep.
-void Surface::writeBurntColors() {
+/// Where walls are burnt or bloody they have no layers, as they look deep.
+void Surface::writePaintedColors() {
   std::vector<uint32_t> colors = wounds_ ? wounds_->colors() : whole_colors_;
   const std::vector<layout::SkinBinding>& bindings = wounds_ ? wounds_->bindings() : whole_bindings_;
   std::vector<layout::vec4> added = wounds_ ? wounds_->addedRests() : std::vector<layout::vec4>();
-  const std::vector<float>& shares = burns_->shares;
   for (size_t v = 0; v < colors.size(); ++v) {
-    const layout::SkinBinding& b = bindings[v];
-    const bool one = (b.springs & layout::kOneToOneBit) != 0;
-    const float share =
-        one ? shares[b.slot0]
-            : b.weights.x * shares[b.slot0] + b.weights.y * shares[b.slot1] + b.weights.z * shares[b.slot2];
-    colors[v] = burntColor(colors[v], share);
+    const float burnt = burns_ ? shareAt(burns_->shares, bindings[v]) : 0;
+    const float bloody = blood_ ? shareAt(blood_->shares, bindings[v]) : 0;
+    colors[v] = bloodyColor(burntColor(colors[v], burnt), bloody);
     if (v < whole_vertices_ || added[v - whole_vertices_].w <= 0) continue;
-    added[v - whole_vertices_].w += kBelowLayers_m * std::clamp(share, 0.0F, 1.0F);
+    added[v - whole_vertices_].w += kBelowLayers_m * std::clamp(std::max(burnt, bloody), 0.0F, 1.0F);
   }
   colors_.write(colors);
   if (!added.empty()) rests_.write(added, whole_vertices_);
 }
 
-void Surface::paint(const std::shared_ptr<const BurnPaint>& burns) {
-  if (burns == burns_) return;
+void Surface::paint(const std::shared_ptr<const BurnPaint>& burns, const std::shared_ptr<const BloodPaint>& blood) {
+  if (burns == burns_ && blood == blood_) return;
   burns_ = burns;
-  writeBurntColors();
+  blood_ = blood;
+  writePaintedColors();
   publish();
 }
 

@@ -14,6 +14,7 @@
 #include "surface/wounds/wounds.h"
 #include "viscera/layout/skin.h"
 #include "viscera/model/model.h"
+#include "viscera/solver/seen_blood.h"
 #include "viscera/solver/seen_burns.h"
 #include "viscera/solver/state.h"
 
@@ -43,9 +44,10 @@ class Surface {
   /// Makes buffers only where wounds outgrow those that are there.
   /// @param revision  of the cuts; the last one again costs nothing
   void wound(const CutSprings& cuts, uint64_t revision);
-  /// Shows how far tissue is burnt, from now on. The last one again costs nothing.
-  void paint(const std::shared_ptr<const BurnPaint>& burns);
-  bool isPainted() const { return burns_ != nullptr; }  ///< colors() are other ones than before the first tick
+  /// Shows how far tissue is burnt and covered by blood, from now on. The last ones again cost nothing.
+  /// @param burns, blood  null: by nothing
+  void paint(const std::shared_ptr<const BurnPaint>& burns, const std::shared_ptr<const BloodPaint>& blood);
+  bool isPainted() const { return burns_ || blood_; }  ///< colors() are other ones than before the first tick
   /// Every triangle whole again.
   void reset();
 
@@ -83,7 +85,7 @@ class Surface {
   void forget();
   void showWounds();
   void writeColors();
-  void writeBurntColors();
+  void writePaintedColors();
   void showReplaced(size_t body, size_t first_triangle);
   void makeRoom(size_t vertices, size_t indices);
   void showWoundedCharts();
@@ -102,8 +104,9 @@ class Surface {
   std::unique_ptr<NetworkSurface> networks_;     ///< null where none is
   std::unique_ptr<Wounds> wounds_;               ///< null where no body with an inside can be cut
   ShownTriangles shown_;
-  std::shared_ptr<const BurnPaint> burns_;  ///< null: nothing was burnt
-  std::vector<uint32_t> whole_colors_;      ///< [vertices] where there are no wounds, as are
+  std::shared_ptr<const BurnPaint> burns_;   ///< null: nothing was burnt
+  std::shared_ptr<const BloodPaint> blood_;  ///< null: nothing has bled
+  std::vector<uint32_t> whole_colors_;       ///< [vertices] where there are no wounds, as are
   std::vector<layout::SkinBinding> whole_bindings_;
   std::vector<uint32_t> wound_indices_, charts_, wound_charts_;
   size_t whole_vertices_ = 0;

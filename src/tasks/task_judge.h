@@ -23,6 +23,7 @@ struct TaskTick {
   bool apart = false;               ///< TaskJudge::isApart() after it, where something was cut in it
   std::vector<SeenThread> threads;  ///< where the task heeds them
   SeenClips clips;                  ///< where the task heeds them
+  double blood_ml = 0;              ///< that has run out since the last reset
   std::optional<double> gap_m;      ///< TaskJudge::gapOf() after it, where that was asked for
   layout::TickStats stats{};
   double tick_s = 0;

@@ -10,6 +10,7 @@ struct TaskTally {
   double wrong_touches = 0, drops = 0;
   double gap_mm = 0, weak_knots = 0;
   double clip_off_mm = 0, bad_clips = 0;
+  double blood_ml = 0;
   double force_s = 0, peak_force_n = 0;
   double strain_s = 0, peak_strain = 0;
   double path_m = 0;
@@ -35,6 +36,7 @@ inline constexpr TaskMeasure kTaskMeasures[] = {
      &TaskTally::clip_off_mm},
     {"bad_clips", "clips at no place or at one that has a clip, that closed on nothing, or were taken off",
      &TaskTally::bad_clips},
+    {"blood_ml", "ml: what has run out of vessels (bleeding.flow_ml_per_min)", &TaskTally::blood_ml},
     {"force_s", "s in which a hand felt more than limits.force_n", &TaskTally::force_s},
     {"peak_force_n", "N: largest force on any hand", &TaskTally::peak_force_n},
     {"strain_s", "s in which a spring was strained more than limits.strain", &TaskTally::strain_s},

@@ -39,6 +39,7 @@ void TaskWatch::begin(std::unique_ptr<TaskJudge> judge) {
     cut_watch_->fresh(cuts_);  // what was cut before is not this hand's
   }
   base_tick_ = session_.tick();
+  base_blood_ml_ = session_.seenBlood().bled_ml;
   stepped_.clear();
   measured_.clear();
   hands_.emplace(session_);
@@ -80,6 +81,7 @@ void TaskWatch::stepped(Session& session, const StylusSamples& samples) {
     if (judge_->asksForGap(tick.threads)) tick.gap_m = judge_->gapOf(session.solver().readState());
   }
   if (judge_->heedsClips()) tick.clips = session.seenClips();
+  tick.blood_ml = session.seenBlood().bled_ml;
   stepped_.push_back(std::move(tick));
   judgeNoted();
 }
@@ -127,6 +129,7 @@ void TaskWatch::judge(const TaskTick& tick) {
 /// What is counted whatever the kind.
 void TaskWatch::count(const TaskTick& tick) {
   TaskTally& tally = status_.tally;
+  tally.blood_ml = tick.blood_ml - base_blood_ml_;
   double largest_n = 0;
   for (size_t s = 0; s < tick.motions.size(); ++s) {
     const StylusMotion& motion = tick.motions[s];

@@ -83,7 +83,8 @@ class TaskWatch : public SessionLog {
   std::optional<CutWatch> cut_watch_;
   CutState cuts_;
   TaskStatus status_;
-  uint64_t base_tick_ = 0;  ///< measurements up to this one are of ticks before
+  uint64_t base_tick_ = 0;    ///< measurements up to this one are of ticks before
+  double base_blood_ml_ = 0;  ///< that had run out before
   std::deque<TaskTick> stepped_;
   std::deque<layout::TickStats> measured_;
   std::optional<HandRows> hands_;

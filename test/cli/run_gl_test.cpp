@@ -355,6 +355,23 @@ TEST_F(Run, ShippedClothIsPressedLiftedAndCutByItsStrokes) {
   EXPECT_EQ(metrics["nonfinite"], 0);
 }
 
+TEST_F(Run, ShippedVesselBleedsUntilItIsClippedAndBurntAndItsReplayDoes) {
+  const std::string strokes = VISCERA_SOURCE_DIR "/config/strokes/bleeding.yaml";
+  const auto bleeding = [&](const std::string& seconds, const std::string& recording) {
+    return metricsOf(viscera({"run", "bleeding_vessel", "--no-view", "--strokes", strokes, "--seconds", seconds,
+                              "--record", folder_.file(recording)}));
+  };
+  const Json divided = bleeding("2.5", "divided.viscera"), clipped = bleeding("5", "clipped.viscera"),
+             burnt = bleeding("10", "burnt.viscera");
+  EXPECT_EQ(divided["bleeding"]["stumps"], 2);
+  EXPECT_NEAR(divided["bleeding"]["flow_ml_per_min"], 60, 1e-6) << "of two stumps";
+  EXPECT_EQ(clipped["bleeding"]["stumps"], 1);
+  EXPECT_EQ(burnt["bleeding"]["stumps"], 0);
+  EXPECT_GT(burnt["bleeding"]["bled_ml"], clipped["bleeding"]["bled_ml"]);
+  const Json again = metricsOf(viscera({"replay", folder_.file("burnt.viscera"), "--no-view"}));
+  EXPECT_EQ(again["state_hash"], burnt["state_hash"]);
+}
+
 TEST_F(Run, ABladeCutsAsDeepAsItsTipIsPushedIn) {
   const auto cutAt = [&](int depth_mm) {
     const std::string z =

@@ -64,6 +64,14 @@ INSTANTIATE_TEST_SUITE_P(Each, ShippedTask,
                                            "clip_and_divide"),
                          [](const auto& info) { return std::string(info.param); });
 
+TEST(TaskCommand, CountsTheBloodOfWhatIsDividedUnclipped) {
+  const auto blood = [](const char* hand) { return judged("clip_and_divide", hand)["measures"]["blood_ml"]; };
+  EXPECT_EQ(blood("good")["value"], 0);
+  const nlohmann::json clumsy = blood("clumsy");
+  EXPECT_GT(clumsy["value"], 1);
+  EXPECT_GT(clumsy["cost_s"], 10);
+}
+
 TEST(TaskCommand, ReplaysToTheSameScoreAndWritesAReport) {
   const TemporaryFolder folder;
   const std::string recording = folder.file("session.viscera"), out = folder.file("out"), again = folder.file("again");

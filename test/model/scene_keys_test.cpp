@@ -56,9 +56,9 @@ bodies:
     rotation_deg: [61, 62, 63]
     color: [0.071, 0.072, 0.073]
     material: {tissue: liver, young_modulus_pa: 8100, poisson_ratio: 0.31, density_kg_per_m3: 820, drag_per_s: 8.3, dashpot_ratio: 0.084, weights: paper, cells: springs, cut: {toughness_j_per_m2: 187},
-               prestress: {strain: 0.0821, strains: [0.0822, 0.0823, 0.0824], axes_deg: [82.5, 82.6, 82.7]}, tear: {toughness_j_per_m2: 189}}
+               prestress: {strain: 0.0821, strains: [0.0822, 0.0823, 0.0824], axes_deg: [82.5, 82.6, 82.7]}, tear: {toughness_j_per_m2: 189}, bleeding: {flow_ml_per_min: 191, calibre_m: 0.0192}}
     parts: [{part: valve, tissue: spleen, young_modulus_pa: 8101, poisson_ratio: 0.32, density_kg_per_m3: 821, cut: {toughness_j_per_m2: 188},
-             prestress: {strain: 0.0831, strains: [0.0832, 0.0833, 0.0834], axes_deg: [83.5, 83.6, 83.7]}}]
+             prestress: {strain: 0.0831, strains: [0.0832, 0.0833, 0.0834], axes_deg: [83.5, 83.6, 83.7]}, bleeding: {flow_ml_per_min: 193, calibre_m: 0.0194}}]
     fixed:
       - shape: part
         min_m: [-0.11, -0.12, -0.13]
@@ -224,6 +224,8 @@ TEST(SceneKeys, EveryBodyKeyReachesItsField) {
   EXPECT_EQ(body.material.prestress.strains, Vector3d(0.0822, 0.0823, 0.0824));
   EXPECT_EQ(body.material.prestress.axes_deg, Vector3d(82.5, 82.6, 82.7));
   EXPECT_EQ(body.material.tear.toughness_j_per_m2, 189);
+  EXPECT_EQ(body.material.bleeding.flow_ml_per_min, 191);
+  EXPECT_EQ(body.material.bleeding.calibre_m, 0.0192);
   EXPECT_EQ(body.material.weights, Weights::kPaper);
   EXPECT_EQ(body.material.cells, Cells::kSprings);
   const PartConfig& part = body.parts.at(0);
@@ -233,6 +235,8 @@ TEST(SceneKeys, EveryBodyKeyReachesItsField) {
   EXPECT_EQ(part.young_modulus_pa, 8101);
   EXPECT_EQ(part.poisson_ratio, 0.32);
   EXPECT_EQ(part.density_kg_per_m3, 821);
+  EXPECT_EQ(part.bleeding.flow_ml_per_min, 193);
+  EXPECT_EQ(part.bleeding.calibre_m, 0.0194);
   EXPECT_EQ(part.prestress.strain, 0.0831);
   EXPECT_EQ(part.prestress.strains, Vector3d(0.0832, 0.0833, 0.0834));
   EXPECT_EQ(part.prestress.axes_deg, Vector3d(83.5, 83.6, 83.7));
@@ -415,13 +419,25 @@ TEST(SceneKeys, EveryRowTellsAllAboutItsKey) {
 }
 
 TEST(SceneKeys, KeyEndsInItsUnit) {
-  const std::map<std::string, std::string> suffixes = {
-      {"m", "_m"},           {"Pa", "_pa"},       {"kg/m3", "_kg_per_m3"},
-      {"1/s", "_per_s"},     {"m/s", "_m_per_s"}, {"m/s2", "_m_per_s2"},
-      {"N", "_n"},           {"N/s", "_n_per_s"}, {"s", "_s"},
-      {"deg", "_deg"},       {"Hz", "_hz"},       {"deg/s", "_deg_per_s"},
-      {"MB", "_mb"},         {"N m", "_nm"},      {"N m/s", "_nm_per_s"},
-      {"J/m2", "_j_per_m2"}, {"N/m", "_n_per_m"}, {"W", "_w"}};
+  const std::map<std::string, std::string> suffixes = {{"m", "_m"},
+                                                       {"Pa", "_pa"},
+                                                       {"kg/m3", "_kg_per_m3"},
+                                                       {"1/s", "_per_s"},
+                                                       {"m/s", "_m_per_s"},
+                                                       {"m/s2", "_m_per_s2"},
+                                                       {"N", "_n"},
+                                                       {"N/s", "_n_per_s"},
+                                                       {"s", "_s"},
+                                                       {"deg", "_deg"},
+                                                       {"Hz", "_hz"},
+                                                       {"deg/s", "_deg_per_s"},
+                                                       {"MB", "_mb"},
+                                                       {"N m", "_nm"},
+                                                       {"N m/s", "_nm_per_s"},
+                                                       {"J/m2", "_j_per_m2"},
+                                                       {"N/m", "_n_per_m"},
+                                                       {"W", "_w"},
+                                                       {"ml/min", "_ml_per_min"}};
   for (const auto& row : tableRows(sceneKeysTable())) {
     const size_t comma = row.at(2).find(", ");
     if (comma == std::string::npos) continue;

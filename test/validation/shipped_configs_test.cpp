@@ -86,9 +86,13 @@ TEST_P(ShippedScene, RunsSomeTicksAsItsNameSaysWithoutATrip) {
 INSTANTIATE_TEST_SUITE_P(Config, ShippedScene, ::testing::ValuesIn(filesIn("scenes")), nameOf);
 
 /// The scene that a strokes file was made for, if it is for no task.
-const std::map<std::string, std::string> kSceneOf = {
-    {"demo", "heart"},          {"cut_cloth", "cloth_on_points"}, {"incision", "skin_under_tension"},
-    {"cautery", "cautery_pad"}, {"suture", "suture_pad"},         {"running_suture", "running_suture"}};
+const std::map<std::string, std::string> kSceneOf = {{"demo", "heart"},
+                                                     {"cut_cloth", "cloth_on_points"},
+                                                     {"incision", "skin_under_tension"},
+                                                     {"cautery", "cautery_pad"},
+                                                     {"bleeding", "bleeding_vessel"},
+                                                     {"suture", "suture_pad"},
+                                                     {"running_suture", "running_suture"}};
 
 /// Of strokes TASK_good and TASK_clumsy. Not there: they are for no task.
 std::optional<TaskConfig> taskOf(const fs::path& strokes) {

@@ -41,6 +41,13 @@ Feature parts(int edge) {
   return out;
 }
 
+/// A vessel that nothing cuts.
+Feature bleeding(int edge) {
+  Feature out{"bleeding", specimen(edge), specimen(edge), {}};
+  out.with.model.bodies[0].material.bleeding.flow_ml_per_min = 60;
+  return out;
+}
+
 Feature solverKey(const std::string& name, int edge, const std::function<void(SolverConfig&)>& set) {
   Feature out{name, specimen(edge), specimen(edge), {}};
   set(out.with.scene.solver);
@@ -82,6 +89,7 @@ std::vector<Feature> featuresOf(int edge) {
   out.push_back(toolInAir("contacts", edge, ToolMode::kProbe));
   out.push_back(toolInAir("cuts", edge, ToolMode::kCut));
   out.push_back(toolInAir("cautery", edge, ToolMode::kCautery));
+  out.push_back(bleeding(edge));
   out.push_back(solverKey("compensated sums", edge, [](SolverConfig& solver) { solver.compensated = true; }));
   out.push_back(solverKey("governor", edge, [](SolverConfig& solver) { solver.governor = true; }));
   out.push_back(cutState(edge));

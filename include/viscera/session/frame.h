@@ -14,6 +14,7 @@
 #include "viscera/render/arrow.h"
 #include "viscera/render/shown_thread.h"
 #include "viscera/solver/governor.h"
+#include "viscera/solver/seen_blood.h"
 #include "viscera/solver/seen_burns.h"
 #include "viscera/surface/shown_mesh.h"
 #include "viscera/tools/force_limiter.h"
@@ -107,9 +108,10 @@ struct Look {
   std::vector<Pose> cameras;    ///< [cameras] optical frames, tissue frame
   ShownThreads threads;         ///< at the end of the tick, needles behind threads
   Wants wants;
-  std::vector<Overlays> overlays;          ///< [cameras]
-  std::vector<Arrow> arrows;               ///< forces and wind, where some camera shows them
-  std::shared_ptr<const BurnPaint> burns;  ///< null: nothing was burnt
+  std::vector<Overlays> overlays;           ///< [cameras]
+  std::vector<Arrow> arrows;                ///< forces and wind, where some camera shows them
+  std::shared_ptr<const BurnPaint> burns;   ///< null: nothing was burnt
+  std::shared_ptr<const BloodPaint> blood;  ///< null: nothing has bled
 };
 
 /// Work done for the eye since the start: with no subscriber all stay zero.

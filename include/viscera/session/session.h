@@ -12,6 +12,7 @@
 #include "viscera/layout/tick_stats.h"
 #include "viscera/model/model.h"
 #include "viscera/session/frame.h"
+#include "viscera/solver/seen_blood.h"
 #include "viscera/solver/seen_burns.h"
 #include "viscera/solver/seen_clip.h"
 #include "viscera/solver/seen_thread.h"
@@ -136,6 +137,7 @@ class Session {
   std::string threadRefusal() const;  ///< why the last of ThreadConfig::ties was not tied
   /// @}
   SeenBurns seenBurns() const;  ///< after the last step
+  SeenBlood seenBlood() const;  ///< the same
   /// Brings the tails of a piece together, draws its loop and ties it, in the steps to come. @throws Error  why not
   void tieThread(size_t piece, const ThreadTie& tie);
   const std::string& backendNote() const { return backend_note_; }  ///< what steps the tissue, and why

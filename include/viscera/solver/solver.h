@@ -18,6 +18,7 @@
 namespace viscera {
 
 class Archive;
+class Bleeding;
 class Burns;
 class ThreadBodies;
 struct ThreadPull;
@@ -81,8 +82,9 @@ class Solver {
   virtual void persist(Archive& archive);
   /// Goes on from a state of the same model. @throws Error  this solver takes none
   virtual void goOnFrom(const HostState& state);
-  virtual ThreadBodies* threads() { return nullptr; }     ///< null: the scene has none
-  virtual const Burns* burns() const { return nullptr; }  ///< null: no stylus burns
+  virtual ThreadBodies* threads() { return nullptr; }           ///< null: the scene has none
+  virtual const Burns* burns() const { return nullptr; }        ///< null: no stylus burns
+  virtual const Bleeding* bleeding() const { return nullptr; }  ///< null: nothing can bleed
   const ThreadBodies* threads() const { return const_cast<Solver*>(this)->threads(); }
 };
 

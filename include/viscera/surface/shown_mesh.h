@@ -50,8 +50,8 @@ struct ShownTopology {
 struct ShownMesh {
   std::vector<float> positions_m;  ///< [3 * vertices] tissue frame
   std::vector<uint32_t> normals;   ///< [vertices] packed, see packNormal
-  /// [vertices] sRGB, red in the low byte, alpha 255; empty where bodies' colours are all there is, as nothing was
-  /// burnt
+  /// [vertices] sRGB, red in the low byte, alpha 255; empty where bodies' colours are all there is: nothing was burnt
+  /// and nothing has bled
   std::vector<uint32_t> colors = {};
   std::shared_ptr<const ShownTopology> topology;
 

@@ -61,6 +61,16 @@ void visitFields(V& v, TearConfig& c) {
 }
 
 template <class V>
+void visitFields(V& v, BleedingConfig& c) {
+  v.number("flow_ml_per_min", c.flow_ml_per_min, {0, 1e4}, "ml/min",
+           "out of a stump that is cut clean through, of a smaller wound by its share of the cross section "
+           "(docs/lessons/bleeding.md); 0: it does not bleed, and costs nothing");
+  v.number("calibre_m", c.calibre_m, {0, 1}, "m",
+           "diameter of a vessel with that flow; 0: by the volume of the part over how far its ends are apart, which a "
+           "part that bends or branches has not");
+}
+
+template <class V>
 void visitFields(V& v, MaterialConfig& c) {
   v.tissue("tissue", c, "gives the three keys below that the scene does not give; not for diagnosis or planning");
   v.number("young_modulus_pa", c.young_modulus_pa, {1, 1e9}, "Pa", "Young's modulus E");
@@ -84,6 +94,7 @@ void visitFields(V& v, MaterialConfig& c) {
       "tissue pulls before anything touches it, and gapes when cut; what balances in the given shape is kept. Needs "
       "structure explicit, surface or tetrahedra");
   v.group("tear", c.tear, "what it takes to pull it apart");
+  v.group("bleeding", c.bleeding, "blood that runs out where it is cut, as if it were a vessel");
 }
 
 template <class V>
@@ -95,6 +106,7 @@ void visitFields(V& v, PartConfig& c) {
   v.number("density_kg_per_m3", c.density_kg_per_m3, {1, 1e5}, "kg/m3", "mass density of this part");
   v.group("cut", c.cut, "what it takes to part it");
   v.group("prestress", c.prestress, "prestress of this part");
+  v.group("bleeding", c.bleeding, "blood that runs out where this part is cut");
 }
 
 template <class V>
@@ -228,9 +240,10 @@ void visitFields(V& v, BodyConfig& c) {
          "last one: the flesh of `color`");
   v.group("material", c.material, "elastic material");
   const MaterialConfig& m = c.material;
-  const PartConfig as_material{"", m.young_modulus_pa, m.poisson_ratio, m.density_kg_per_m3, "", m.cut, m.prestress};
-  v.list("parts", c.parts, 64, "parts whose elasticity or toughness differs; what is left out is as in `material`",
-         as_material);
+  const PartConfig as_material{"",    m.young_modulus_pa, m.poisson_ratio, m.density_kg_per_m3, "",
+                               m.cut, m.prestress,        m.bleeding};
+  v.list("parts", c.parts, 64,
+         "parts whose elasticity, toughness or bleeding differs; what is left out is as in `material`", as_material);
   v.list("fixed", c.fixed, 64, "regions whose nodes are held in space");
 }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <string>
 
 #include "viscera/model/scene/scene.h"
@@ -24,6 +25,15 @@ inline bool hasMoments(const BodyConfig& body) {
 bool isPrestressed(const MaterialConfig& material, const std::vector<PartConfig>& parts);
 inline bool isPrestressed(const BodyConfig& body) {
   return isPrestressed(body.material, body.parts);
+}
+
+/// Does blood run out of some body (Body or BodyConfig) or part of one where it is cut?
+template <class Bodies>
+bool mayBleed(const Bodies& bodies) {
+  const auto bleeds = [](const auto& it) { return it.bleeding.flow_ml_per_min > 0; };
+  return std::any_of(bodies.begin(), bodies.end(), [&](const auto& body) {
+    return bleeds(body.material) || std::any_of(body.parts.begin(), body.parts.end(), bleeds);
+  });
 }
 
 /// What a body's structure does not go with, for a person; empty: nothing.

@@ -159,6 +159,7 @@ void SimulationLoop::deliver(const Session& session, Frame&& frame, const Stylus
     status_.threads = session.seenThreads();
     status_.clips = session.seenClips();
     status_.burns = session.seenBurns();
+    status_.blood = session.seenBlood();
     status_.thread_refusal = session.threadRefusal();
     status_.modes.clear();
     for (const StylusConfig& stylus : session.styluses())

@@ -41,6 +41,7 @@ struct LoopStatus {
   std::vector<SeenThread> threads;
   SeenClips clips;
   SeenBurns burns;
+  SeenBlood blood;
   std::string thread_refusal;  ///< why the last tie of the scene was not tied
   PaceMeter::Reading pace;     ///< since the last LoopStatus was taken
 };

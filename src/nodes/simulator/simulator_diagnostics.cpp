@@ -11,6 +11,7 @@
 #include <sstream>
 #include <utility>
 
+#include "model/scene/structure_rules.h"
 #include "model/scene/tool_kinds.h"
 
 namespace viscera::nodes {
@@ -71,6 +72,7 @@ SimulatorDiagnostics::SimulatorDiagnostics(ros::NodeHandle node, const Scene& sc
   if (!thread_names_.empty()) updater_.add("threads", this, &SimulatorDiagnostics::threads);
   if (mayClip(scene.styluses)) updater_.add("clips", this, &SimulatorDiagnostics::clips);
   if (mayBurn(scene.styluses)) updater_.add("burns", this, &SimulatorDiagnostics::burns);
+  if (mayBleed(scene.bodies)) updater_.add("bleeding", this, &SimulatorDiagnostics::bleeding);
   // Forced from the steady clock, since the updater's own period follows ROS time, which may stand still.
   timer_ = node.createSteadyTimer(ros::WallDuration(kPeriod_s), [this](const ros::SteadyTimerEvent&) { update(); });
 }
@@ -248,6 +250,18 @@ void SimulatorDiagnostics::burns(Status& status) {
   status.add("surface_j", burns.surface_j);
   status.add("coagulated_m3", burns.coagulated_m3);
   status.add("parted", burns.parted);
+}
+
+/// What ran out of vessels since the last reset and where it is, and what runs now.
+void SimulatorDiagnostics::bleeding(Status& status) {
+  if (!now_) return status.summary(Level::OK, "preparing");
+  const SeenBlood& blood = now_->blood;
+  status.summaryf(Level::OK, "%.1f ml, %.0f ml/min", blood.bled_ml, blood.flow_ml_per_min);
+  status.add("bled_ml", blood.bled_ml);
+  status.add("on_tissue_ml", blood.on_tissue_ml);
+  status.add("dripped_ml", blood.dripped_ml);
+  status.add("flow_ml_per_min", blood.flow_ml_per_min);
+  status.add("stumps", blood.stumps);
 }
 
 void SimulatorDiagnostics::stylus(size_t index, Status& status) {

@@ -53,6 +53,7 @@ class SimulatorDiagnostics {
   void threads(Status& status);
   void clips(Status& status);
   void burns(Status& status);
+  void bleeding(Status& status);
 
   SimulationLoop& loop_;
   const Publishers publishers_;

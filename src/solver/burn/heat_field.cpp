@@ -17,8 +17,7 @@ constexpr double kForgotten_k = 0.0005;  // those that are cooler, without such 
 constexpr double kStable = 0.5;          // of what an explicit step bears at most: no node passes its neighbours
 constexpr double kGas_j_per_mol_k = 8.314462;
 constexpr double kZero_c = -273.15;
-constexpr double kMostDose = 30;       // coagulated through, whatever comes
-constexpr double kCoagulated = 0.632;  // a dose of 1
+constexpr double kMostDose = 30;  // coagulated through, whatever comes
 
 }  // namespace
 
@@ -188,7 +187,7 @@ SeenBurns HeatField::seen() const {
   for (const uint32_t slot : touched_) {
     out.stored_j += nodes_[slot].heat_j;
     if (is_active_[slot]) out.hottest_c = std::max(out.hottest_c, temperature_c(slot));
-    if (coagulated(slot) > kCoagulated) out.coagulated_m3 += graph_.volume_m3[slot];
+    if (isCoagulated(slot)) out.coagulated_m3 += graph_.volume_m3[slot];
   }
   return out;
 }

@@ -41,8 +41,9 @@ class HeatField {
   void step(double dt_s);
 
   double temperature_c(uint32_t slot) const;
-  double coagulated(uint32_t slot) const;  ///< share, by the dose
-  double boiled(uint32_t slot) const;      ///< share of the water
+  double coagulated(uint32_t slot) const;                                   ///< share, by the dose
+  bool isCoagulated(uint32_t slot) const { return nodes_[slot].dose > 1; }  ///< more than 63 % of it
+  double boiled(uint32_t slot) const;                                       ///< share of the water
   /// Slots that were ever heated, in the order of that.
   const std::vector<uint32_t>& touched() const { return touched_; }
   bool isWarm() const { return !active_.empty(); }  ///< some node is warmer than the body

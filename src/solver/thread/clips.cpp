@@ -201,6 +201,14 @@ void Clips::takeOff(size_t clip) {
   ++taken_off_;
 }
 
+std::vector<std::array<Vector3d, 2>> Clips::squeezed_m() const {
+  std::vector<std::array<Vector3d, 2>> out;
+  for (const Clip& clip : clips_) {
+    for (const auto& [a, b] : clip.points) out.push_back({a.rest_m, b.rest_m});
+  }
+  return out;
+}
+
 SeenClips Clips::seen() const {
   SeenClips out{{}, empty_, taken_off_};
   for (const Clip& clip : clips_) {

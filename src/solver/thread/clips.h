@@ -38,6 +38,8 @@ class Clips {
   /// Both legs and what joins them, tissue frame.
   std::vector<Vector3d> places_m(size_t clip) const;
   void takeOff(size_t clip);
+  /// From side to side at rest, each in the frame of its body's rest, of all that clips hold together [m].
+  std::vector<std::array<Vector3d, 2>> squeezed_m() const;
   SeenClips seen() const;
 
   void reset();

@@ -10,6 +10,7 @@
 #include "math/float_bits.h"
 #include "model/fracture/toughness.h"
 #include "model/scene/integrators.h"
+#include "model/scene/structure_rules.h"
 #include "model/scene/tool_kinds.h"
 #include "solver/ticks/stable_step.h"
 #include "tools/motion_packing.h"
@@ -51,6 +52,7 @@ Ticks::Ticks(const Model& model, const Scene& scene, const TickPlan& plan, std::
   if (hasThreadsOrClips(scene))
     threads_ = std::make_unique<ThreadBodies>(scene, &model, SolverBackend::kGoodStates + backend_->lag());
   if (mayBurn(scene.styluses)) burns_ = std::make_unique<Burns>(scene, model);
+  if (mayBleed(model.bodies)) bleeding_ = std::make_unique<Bleeding>(model, scene.environment.gravity_m_per_s2);
   if (plan.governed())
     watch_.emplace(*backend_, newGovernor(), !traitsOf(config_.integrator).is_explicit, tick_s_, threads_.get());
   if (plan.tools && resistsBlades(scene)) blades_.emplace(model, scene.styluses);
@@ -85,6 +87,7 @@ void Ticks::step(const ToolMotions& motions, const ObstacleMotions& obstacles) {
     substep(s, motions, cuts, contacts);
   }
   if (threads_) threads_->endTick();
+  if (bleeding_) bleeding_->step(threads_ ? threads_->clips() : nullptr, burns_ ? &burns_->heat() : nullptr, tick_s_);
   substeps_done_ += static_cast<uint64_t>(n_);
   if (cuts) ++cut_revision_;
   cut_revision_ += backend_->takeTorn();
@@ -97,9 +100,10 @@ void Ticks::step(const ToolMotions& motions, const ObstacleMotions& obstacles) {
 
 void Ticks::tellOfCuts() {
   const bool feeling = threads_ && threads_->feelTissue();
-  if (!(feeling || burns_) || !readCuts(seen_cuts_)) return;
+  if (!(feeling || burns_ || bleeding_) || !readCuts(seen_cuts_)) return;
   if (feeling) threads_->setCuts(model_, seen_cuts_);
   if (burns_) burns_->setCuts(seen_cuts_);
+  if (bleeding_) bleeding_->setCuts(seen_cuts_);
 }
 
 void Ticks::measureTick(const ToolMotions& motions, bool contacts) {
@@ -184,6 +188,7 @@ void Ticks::reset() {
   if (blades_) blades_->reset();
   if (threads_) threads_->reset();
   if (burns_) burns_->reset();
+  if (bleeding_) bleeding_->reset();
   pulls_.clear();
   told_ = {};
   stretch_ = 0;
@@ -229,6 +234,7 @@ void Ticks::persist(Archive& archive) {
   if (blades_) blades_->persist(archive);
   if (threads_) threads_->persist(archive);
   if (burns_) burns_->persist(archive);
+  if (bleeding_) bleeding_->persist(archive);
   backend_->persist(archive);
   if (watch_) watch_->persist(archive);
   if (archive.reads()) ++cut_revision_;

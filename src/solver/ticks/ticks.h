@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "solver/bleed/bleeding.h"
 #include "solver/burn/burns.h"
 #include "solver/contact/blades.h"
 #include "solver/thread/thread_bodies.h"
@@ -43,6 +44,7 @@ class Ticks : public Solver {
   using Solver::threads;
   ThreadBodies* threads() final { return threads_.get(); }
   const Burns* burns() const final { return burns_.get(); }
+  const Bleeding* bleeding() const final { return bleeding_.get(); }
   const ThreadPull& pull(uint32_t stylus) const final { return told_[stylus]; }
   void persist(Archive& archive) final;
   void goOnFrom(const HostState& state) final { writeState(state); }
@@ -96,7 +98,8 @@ class Ticks : public Solver {
   std::optional<Blades> blades_;              ///< only where a body resists them
   std::unique_ptr<ThreadBodies> threads_;     ///< null: the scene has none
   std::unique_ptr<Burns> burns_;              ///< null: no stylus burns
-  CutState seen_cuts_;                        ///< only where threads feel tissue, or some burns
+  std::unique_ptr<Bleeding> bleeding_;        ///< null: nothing can bleed
+  CutState seen_cuts_;                        ///< only where threads feel tissue, some burns or bleeds
   std::vector<ThreadPulls> pulls_;            ///< without a governor: of ticks whose measurements are under way
   std::optional<HostState> start_;            ///< nothing: rest
   std::optional<Watch> watch_;                ///< only where a scene has a governor

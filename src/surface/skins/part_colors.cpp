@@ -81,6 +81,20 @@ std::vector<uint32_t> vertexColors(const TriangleMesh& mesh, const Vector3d& org
   return colors;
 }
 
+namespace {
+
+/// Each channel of a colour so far towards another; alpha stays.
+uint32_t towards(uint32_t rgba, const std::array<float, 3>& rgb, float t) {
+  uint32_t out = rgba & 0xff000000U;
+  for (size_t c = 0; c < 3; ++c) {
+    const auto from = static_cast<float>(rgba >> (8 * c) & 255);
+    out |= static_cast<uint32_t>(std::lround(from + t * (rgb[c] - from))) << (8 * c);
+  }
+  return out;
+}
+
+}  // namespace
+
 uint32_t burntColor(uint32_t rgba, float share) {
   // sRGB, by share; chosen by eye: pale as boiled liver is, brown, black.
   struct Stop {
@@ -89,15 +103,19 @@ uint32_t burntColor(uint32_t rgba, float share) {
   };
   constexpr std::array<Stop, 3> kStops = {{{1, {205, 178, 150}}, {1.5F, {104, 66, 38}}, {2, {26, 21, 19}}}};
   if (share <= 0) return rgba;
-  Stop from{
-      0, {static_cast<float>(rgba & 255), static_cast<float>(rgba >> 8 & 255), static_cast<float>(rgba >> 16 & 255)}};
+  uint32_t from = rgba;
+  float from_share = 0;
   size_t to = 0;
-  while (to + 1 < kStops.size() && share > kStops[to].share) from = kStops[to++];
-  const float t = std::min(1.0F, (share - from.share) / (kStops[to].share - from.share));
-  uint32_t out = rgba & 0xff000000U;
-  for (size_t c = 0; c < 3; ++c)
-    out |= static_cast<uint32_t>(std::lround(from.rgb[c] + t * (kStops[to].rgb[c] - from.rgb[c]))) << (8 * c);
-  return out;
+  for (; to + 1 < kStops.size() && share > kStops[to].share; ++to) {
+    from = towards(rgba, kStops[to].rgb, 1);
+    from_share = kStops[to].share;
+  }
+  return towards(from, kStops[to].rgb, std::min(1.0F, (share - from_share) / (kStops[to].share - from_share)));
+}
+
+uint32_t bloodyColor(uint32_t rgba, float share) {
+  constexpr std::array<float, 3> kBlood = {112, 6, 12};  // sRGB, by eye: between that of arteries and that of veins
+  return share <= 0 ? rgba : towards(rgba, kBlood, std::min(1.0F, share));
 }
 
 }  // namespace viscera

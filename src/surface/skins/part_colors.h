@@ -27,6 +27,9 @@ static_assert(layout::kMaxBodies <= 16);
 /// @param share  as BurnPaint::shares
 uint32_t burntColor(uint32_t rgba, float share);
 
+/// A colour under blood. @param rgba  of it clean; its alpha stays   @param share  as BloodPaint::shares
+uint32_t bloodyColor(uint32_t rgba, float share);
+
 /// As the mesh's file has it (TriangleMesh::detail), where it says nothing by partColor() of the organ's colour.
 /// RGBA8 (red in the low byte) of every vertex; on a seam the colour of the lowest part. Alpha is skinAlpha(): the
 /// back of a triangle is the raw inside of tissue, or no different from its front, as in a sheet.

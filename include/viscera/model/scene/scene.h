@@ -92,6 +92,12 @@ struct TearConfig {
   double toughness_j_per_m2 = 0;  ///< work per area; 0: springs stretch without end
 };
 
+/// What runs out of tissue that is cut, as out of a vessel (docs/lessons/bleeding.md).
+struct BleedingConfig {
+  double flow_ml_per_min = 0;  ///< out of a stump; 0: nothing
+  double calibre_m = 0;        ///< of the vessel that is cut through then; 0: of its volume over its length
+};
+
 struct MaterialConfig {
   double young_modulus_pa = 20e3;
   double poisson_ratio = 0.25;  ///< 1/4 is what springs give alone; else cells have an energy of volume
@@ -104,10 +110,11 @@ struct MaterialConfig {
   FractureConfig cut;
   PrestressConfig prestress;
   TearConfig tear;
+  BleedingConfig bleeding;
 };
 
-/// Elasticity, toughness and prestress of one part of a body, such as a valve. In a scene file, what is left out is as
-/// in the body's material.
+/// Elasticity, toughness, prestress and bleeding of one part of a body, such as a valve. In a scene file, what is left
+/// out is as in the body's material.
 struct PartConfig {
   std::string part;
   double young_modulus_pa = 20e3;
@@ -116,6 +123,7 @@ struct PartConfig {
   std::string tissue = {};  ///< as in MaterialConfig
   FractureConfig cut = {};
   PrestressConfig prestress = {};
+  BleedingConfig bleeding = {};
 };
 
 /// What a mesh file may hold. Files are small and what they stand for need not be: nodes that share children grow

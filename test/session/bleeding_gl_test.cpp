@@ -1,0 +1,217 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Vessels that are cut, clipped and burnt, as those see them who hold the tools.
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "math/archive.h"
+#include "session/on_backends.h"
+#include "viscera/math/error.h"
+
+namespace viscera {
+namespace {
+
+using namespace test;
+
+constexpr double kSide_m = 0.008;  // of the vessel
+constexpr double kFlow = 60;       // ml/min, out of a stump
+constexpr double kBalance = 1e-9;  // of all blood, sums of float64
+constexpr double kFull = 1e-9;     // of the flow out of what is cut through: its area is that of the vessel at least
+constexpr double kNick = 0.02;     // of the flow out of a nick: lengths of vessels are from corner to corner
+constexpr int kClosing = 30, kOpen = 4, kDraws = 30;  // ticks
+constexpr Structure kStructures[] = {Structure::kLattice, Structure::kExplicit, Structure::kTetrahedra,
+                                     Structure::kSurface};
+
+class Bleeding : public OnSceneBackend {
+ protected:
+  /// Hangs from its end at -x, where its blood comes from, so light that what is cut off falls by 0.3 m in the 2.5 s of
+  /// a test.
+  static Scene vessel(Structure structure = Structure::kLattice) {
+    Scene out = scene();
+    out.environment.gravity_m_per_s2 = {0.1, 0, 0};
+    BodyConfig& body = out.bodies[0];
+    body.source = structure == Structure::kSurface ? TissueSource::kSheet : TissueSource::kBox;
+    body.structure = structure;
+    body.box_size_m = {0.04, kSide_m, structure == Structure::kSurface ? 0 : kSide_m};
+    body.spacing_m = 0.002;
+    body.material.bleeding.flow_ml_per_min = kFlow;
+    body.fixed[0].point_m = {-0.017, 0, 0};
+    body.fixed[0].normal = {1, 0, 0};
+    StylusConfig& left = out.styluses[0];
+    left.idle = ToolMode::kNone;
+    left.button1 = ToolMode::kClip;
+    left.button2 = ToolMode::kCut;
+    left.cut.blade_length_m = 0.03;
+    out.styluses[1].idle = ToolMode::kNone;
+    return out;
+  }
+  /// From above across the vessel, its tips beyond it.
+  static StylusSamples at(const Vector3d& tip_m, bool closes, bool cuts = false) {
+    StylusSamples out{};
+    out[0].valid = true;
+    out[0].pose.position_m = tip_m;
+    out[0].pose.orientation = Quaterniond(Eigen::AngleAxisd(M_PI / 2, Vector3d::UnitZ()));
+    out[0].button1 = closes;
+    out[0].button2 = cuts;
+    return out;
+  }
+  static void rest(Session& session, int ticks) {
+    for (int t = 0; t < ticks; ++t) session.step({}, {});
+  }
+  /// With the blade from its tip upwards, across the vessel.
+  static void cutAt(Session& session, double x_m, double tip_z_m = -0.012) {
+    for (int t = 0; t <= kDraws; ++t) session.step(at({x_m, 0.015 - 0.03 * t / kDraws, tip_z_m}, false, true), {});
+    rest(session, kOpen);
+  }
+  static void clipAt(Session& session, double x_m) {
+    for (int t = 0; t < kOpen; ++t) session.step(at({x_m, 0, -0.006}, false), {});
+    for (int t = 0; t < kClosing; ++t) session.step(at({x_m, 0, -0.006}, true), {});
+    rest(session, kOpen);
+  }
+};
+
+TEST_P(Bleeding, OutOfAStumpIsWhatTheKeySaysAndAllOfItIsSomewhere) {
+  for (const Structure structure : kStructures) {
+    SCOPED_TRACE(static_cast<int>(structure));
+    Session session(vessel(structure), context_);
+    rest(session, 3);
+    EXPECT_EQ(session.seenBlood().bled_ml, 0) << "nothing is cut";
+    cutAt(session, 0.0051);
+    const SeenBlood first = session.seenBlood();
+    EXPECT_NEAR(first.flow_ml_per_min, kFlow, kFull * kFlow);
+    EXPECT_EQ(first.stumps, 1U) << "the other one is not held: nothing feeds it";
+    constexpr int kTicks = 120;
+    rest(session, kTicks);
+    const SeenBlood seen = session.seenBlood();
+    EXPECT_NEAR(seen.bled_ml - first.bled_ml, kFlow / 60 * kTicks * session.tick_s(), kBalance * seen.bled_ml);
+    EXPECT_NEAR(seen.on_tissue_ml + seen.dripped_ml, seen.bled_ml, kBalance * seen.bled_ml);
+    EXPECT_GT(seen.dripped_ml, 0);
+    session.reset();
+    EXPECT_EQ(session.seenBlood().bled_ml, 0);
+  }
+}
+
+TEST_P(Bleeding, OutOfANickIsItsShareOfTheCrossSectionOnEitherSide) {
+  Session session(vessel(), context_);
+  cutAt(session, 0.0051, 0.0031);  // an eighth of it: of five layers of nodes, half a spacing of the uppermost
+  EXPECT_NEAR(session.seenBlood().flow_ml_per_min, 2 * kFlow / 8, kNick * kFlow);
+}
+
+TEST_P(Bleeding, StopsByAClipBetweenTheHeldEndAndTheCutAndGoesOnWithoutIt) {
+  for (const Structure structure : kStructures) {
+    SCOPED_TRACE(static_cast<int>(structure));
+    Session session(vessel(structure), context_);
+    clipAt(session, 0.012);
+    cutAt(session, 0.0051);
+    EXPECT_NEAR(session.seenBlood().flow_ml_per_min, kFlow, kFull * kFlow) << "a clip beyond the cut";
+    clipAt(session, -0.006);
+    ASSERT_EQ(session.seenClips().on.size(), 2U);
+    const SeenBlood stopped = session.seenBlood();
+    EXPECT_EQ(stopped.flow_ml_per_min, 0);
+    EXPECT_EQ(stopped.stumps, 0U);
+    rest(session, 60);
+    EXPECT_EQ(session.seenBlood().bled_ml, stopped.bled_ml);
+    for (int t = 0; t <= kDraws; ++t)  // along the vessel, across the clip's legs
+      session.step(at({-0.012 * t / kDraws, 0.001, -0.006}, false, true), {});
+    rest(session, kOpen);
+    ASSERT_EQ(session.seenClips().taken_off, 1U);
+    EXPECT_NEAR(session.seenBlood().flow_ml_per_min, kFlow, kFull * kFlow);
+  }
+}
+
+TEST_P(Bleeding, StopsWhereTheStumpIsBurnt) {
+  Scene scene = vessel();
+  scene.styluses[1].button1 = ToolMode::kCautery;
+  scene.styluses[1].cautery = {0.004, 8};
+  scene.bodies[0].box_size_m = {0.04, 0.004, 0.004};
+  Session session(scene, context_);
+  cutAt(session, 0.0051);
+  ASSERT_GT(session.seenBlood().flow_ml_per_min, 0);
+  StylusSamples hot{};
+  hot[1] = {true, {{0.0072, 0, 0}, Quaterniond::Identity()}, true, false};
+  constexpr int kMostTicks = 900;
+  int ticks = 0;
+  for (; ticks < kMostTicks && session.seenBlood().flow_ml_per_min > 0; ++ticks) session.step(hot, {});
+  EXPECT_GT(ticks, 20) << "16 mm2 are not coagulated in a third of a second by 8 W";
+
+  EXPECT_EQ(session.seenBlood().flow_ml_per_min, 0);
+  EXPECT_GT(session.seenBurns().coagulated_m3, 0);
+}
+
+TEST_P(Bleeding, PushesNothingAndIsSeen) {
+  struct Looks {
+    uint64_t tissue = 0;
+    std::vector<uint8_t> whole, cut, clean;
+  } looks[2];
+  for (Looks& of : looks) {
+    Scene scene = vessel();
+    if (&of == looks) scene.bodies[0].material.bleeding = {};
+    Session session(scene, context_);
+    EXPECT_EQ(session.solver().bleeding() == nullptr, &of == looks);
+    of.whole = picture(session).rgb;
+    cutAt(session, 0.0051);
+    rest(session, 30);
+    EXPECT_EQ(session.seenBlood().bled_ml == 0, &of == looks);
+    of.cut = picture(session).rgb;
+    of.tissue = stateHash(session.model(), session.solver().readState());
+    session.reset();
+    of.clean = picture(session).rgb;
+  }
+  EXPECT_EQ(looks[0].tissue, looks[1].tissue);
+  EXPECT_EQ(looks[0].whole, looks[1].whole);
+  EXPECT_NE(looks[0].cut, looks[1].cut);
+  EXPECT_EQ(looks[0].clean, looks[1].clean);
+}
+
+TEST_P(Bleeding, GoesOnFromASavedStateToTheBit) {
+  const auto onwards = [](Session& it) {
+    rest(it, 60);
+    clipAt(it, -0.006);
+    it.drain();
+    return std::make_pair(it.stateHash(), it.seenBlood().bled_ml);
+  };
+  Archive saved;
+  std::pair<uint64_t, double> expected;
+  {
+    Session session(vessel(), context_);
+    const uint64_t whole = session.stateHash();
+    cutAt(session, 0.0051);
+    session.save(saved);
+    expected = onwards(session);
+    EXPECT_GT(expected.second, 0);
+    session.reset();
+    EXPECT_EQ(session.stateHash(), whole);
+    EXPECT_EQ(session.seenBlood().bled_ml, 0);
+  }
+  Session again(vessel(), context_);
+  Archive read(saved.sections());
+  again.restore(read, "a test");
+  EXPECT_EQ(onwards(again), expected);
+  EXPECT_EQ(again.seenBlood().flow_ml_per_min, 0);
+}
+
+VISCERA_ON_EVERY_BACKEND(Bleeding);
+
+TEST(BleedingKeys, OfPartsAreThoseOfTheMaterialUnlessTheySayOtherwiseAndRangesAreNamed) {
+  const Scene scene = parseScene(
+      "bodies: [{source: phantom, material: {bleeding: {flow_ml_per_min: 30, calibre_m: 0.004}}, "
+      "parts: [{part: septum, bleeding: {flow_ml_per_min: 90}}]}]",
+      "vessels.yaml");
+  EXPECT_EQ(scene.bodies[0].parts.at(0).bleeding.flow_ml_per_min, 90);
+  EXPECT_EQ(scene.bodies[0].parts.at(0).bleeding.calibre_m, 0.004);
+  try {
+    parseScene("bodies: [{source: box, material: {bleeding: {flow_ml_per_min: -1}}}]", "vessels.yaml");
+    FAIL() << "blood that runs in is taken";
+  } catch (const SceneError& error) {
+    const std::string text = error.what();
+    EXPECT_NE(text.find("vessels.yaml"), std::string::npos) << text;
+    EXPECT_NE(text.find("bleeding.flow_ml_per_min"), std::string::npos) << text;
+    EXPECT_NE(text.find("0 .. 10000"), std::string::npos) << text;
+  }
+}
+
+}  // namespace
+}  // namespace viscera
