@@ -3,6 +3,8 @@
 // Vessels that are cut, clipped and burnt, as those see them who hold the tools.
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -92,6 +94,27 @@ TEST_P(Bleeding, OutOfAStumpIsWhatTheKeySaysAndAllOfItIsSomewhere) {
     session.reset();
     EXPECT_EQ(session.seenBlood().bled_ml, 0);
   }
+}
+
+/// What is sent to rviz and exported is coloured as pictures are.
+TEST_P(Bleeding, SurfacesHaveTheColourOfBlood) {
+  Session session(vessel(), context_);
+  Wants wants;
+  wants.surface = true;
+  rest(session, 3);
+  EXPECT_TRUE(session.show(wants).surface->colors.empty());
+  cutAt(session, 0.0051);
+  rest(session, 30);
+  const Pictures seen = session.show(wants);
+  ASSERT_EQ(seen.surface->colors.size(), seen.surface->vertices());
+  std::set<uint32_t> beside_the_cut, at_the_far_end;
+  for (size_t v = 0; v < seen.surface->vertices(); ++v) {
+    const float x_m = seen.surface->position_m(v).x();
+    if (std::abs(x_m - 0.0051F) < 0.001F) beside_the_cut.insert(seen.surface->colors[v]);
+    if (x_m < -0.019F) at_the_far_end.insert(seen.surface->colors[v]);
+  }
+  EXPECT_EQ(at_the_far_end.size(), 1U) << "as it came";
+  EXPECT_GT(beside_the_cut.size(), 1U);
 }
 
 TEST_P(Bleeding, OutOfANickIsItsShareOfTheCrossSectionOnEitherSide) {
