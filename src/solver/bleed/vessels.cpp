@@ -77,18 +77,19 @@ void Vessels::forEachLink(uint32_t slot, const Visit& visit) const {
   }
 }
 
-void Vessels::addNode(const Body& body, uint32_t offset, uint32_t slot, const BleedingConfig& bleeding) {
-  Node& node = of_slots_[offset + slot];
-  if (node.flow_m3_per_s == 0) nodes_.push_back(offset + slot);
-  node.flow_m3_per_s = bleeding.flow_ml_per_min * kM3PerMl / kSecondsPerMinute;
-  node.is_held = (body.lattice.nodes[slot].lo & layout::kFixedBit) != 0;
-}
-
-void Vessels::setSections(uint32_t offset, const std::vector<uint32_t>& slots, double volume_m3,
-                          const BleedingConfig& bleeding) {
+/// @param slots  of the body, some more than once
+void Vessels::addPart(const Body& body, uint32_t offset, const std::vector<uint32_t>& slots, double volume_m3,
+                      const BleedingConfig& bleeding) {
+  if (slots.empty()) return;
   const double section_m2 = bleeding.calibre_m > 0 ? 0.25 * kPi * bleeding.calibre_m * bleeding.calibre_m
                                                    : volume_m3 / lengthOf_m(rest_m_, slots, offset);
-  for (const uint32_t slot : slots) of_slots_[offset + slot].section_m2 = section_m2;
+  for (const uint32_t slot : slots) {
+    Node& node = of_slots_[offset + slot];
+    if (node.flow_m3_per_s == 0) nodes_.push_back(offset + slot);
+    node.flow_m3_per_s = bleeding.flow_ml_per_min * kM3PerMl / kSecondsPerMinute;
+    node.section_m2 = section_m2;
+    node.is_held = (body.lattice.nodes[slot].lo & layout::kFixedBit) != 0;
+  }
 }
 
 /// A cell gives each of its edges a quarter of its faces.
@@ -107,7 +108,6 @@ void Vessels::addCells(const Body& body, uint32_t offset) {
     size_t count = 0;
     forEachCorner(lattice, cell, [&](const Vector3i&, uint32_t slot) {
       corners[count++] = offset + slot;
-      addNode(body, offset, slot, by_label[label]);
       slots[label].push_back(slot);
     });
     for (size_t c = 0; c < corners.size(); ++c) {
@@ -117,9 +117,8 @@ void Vessels::addCells(const Body& body, uint32_t offset) {
       });
     }
   }
-  for (size_t label = 1; label < by_label.size(); ++label) {
-    if (!slots[label].empty()) setSections(offset, slots[label], volumes_m3[label], by_label[label]);
-  }
+  for (size_t label = 1; label < by_label.size(); ++label)
+    addPart(body, offset, slots[label], volumes_m3[label], by_label[label]);
 }
 
 /// Links to an isotropic conduction: their sum of area times direction across a plane is that of the plane.
@@ -128,14 +127,13 @@ void Vessels::addNetwork(const Body& body, uint32_t offset) {
   std::vector<uint32_t> slots;
   double volume_m3 = 0;
   forEachNode(body, [&](uint32_t slot) {
-    addNode(body, offset, slot, body.material.bleeding);
     slots.push_back(slot);
     volume_m3 += graph_.volume_m3[offset + slot];
     forEachLink(offset + slot, [&](uint32_t link, uint32_t other) {
       area_m2_[link] = graph_.links[link].w_per_k * (rest_m_[other] - rest_m_[offset + slot]).norm();
     });
   });
-  setSections(offset, slots, volume_m3, body.material.bleeding);
+  addPart(body, offset, slots, volume_m3, body.material.bleeding);
 }
 
 /// What hangs together by whole links of vessels, without what is closed.

@@ -45,9 +45,8 @@ class Vessels {
   };
   void addCells(const Body& body, uint32_t offset);
   void addNetwork(const Body& body, uint32_t offset);
-  void addNode(const Body& body, uint32_t offset, uint32_t slot, const BleedingConfig& bleeding);
-  void setSections(uint32_t offset, const std::vector<uint32_t>& slots, double volume_m3,
-                   const BleedingConfig& bleeding);
+  void addPart(const Body& body, uint32_t offset, const std::vector<uint32_t>& slots, double volume_m3,
+               const BleedingConfig& bleeding);
   std::vector<Piece> pieces(const std::vector<uint8_t>& is_cut, const std::vector<uint8_t>& is_closed) const;
   Vector3d open_m2(uint32_t slot, const std::vector<uint8_t>& is_cut) const;
   template <class Visit>
