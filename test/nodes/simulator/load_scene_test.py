@@ -176,6 +176,40 @@ class LoadSceneTest(unittest.TestCase):
         wait_until(lambda: topology.message and sum(topology.message.wound_triangles), 10, "wound that is still there")
         subscriber.unregister()
 
+    def test_7_clips_blood_and_burns_are_told(self):
+        """The vessel of config/strokes/bleeding.yaml: divided by scissors that close twice, clipped, burnt."""
+        answer = self.load(scene="bleeding_vessel", overrides=["solver.backend=cpu", "cameras=[]"])
+        self.assertTrue(answer.success, answer.message)
+        step = rospy.ServiceProxy("step", Step)
+        self.assertTrue(rospy.ServiceProxy("pause", Trigger)().success)
+
+        def hold(stylus, x, z, across, ticks, **pressed):
+            state = StylusState(stylus=stylus, **pressed)
+            state.pose.position.x, state.pose.position.z = x, z
+            state.pose.orientation.z = state.pose.orientation.w = 0.5 ** 0.5
+            if not across:
+                state.pose.orientation.z, state.pose.orientation.w = 0, 1
+            done = step(ticks=ticks, styluses=[state])
+            self.assertTrue(done.success, done.message)
+
+        def told(part, key):
+            return wait_until(lambda: self.watch.value(part, key), 10, "%s of %s" % (key, part))
+        hold("right", 0, 0.03, True, 6)
+        hold("right", 0, -0.007, True, 12)
+        for _ in range(2):
+            hold("right", 0, -0.007, True, 30, button1=True)
+            hold("right", 0, -0.007, True, 6)
+        self.assertEqual(told("bleeding", "stumps"), 2)
+        hold("left", -0.006, 0.03, True, 6)
+        hold("left", -0.006, -0.006, True, 30)
+        hold("left", -0.006, -0.006, True, 30, button1=True)
+        self.assertIn("mm", told("clips", "clip[0]"))
+        hold("right", 0.0022, 0.02, False, 6)
+        hold("right", 0.0022, 0.0002, False, 30, button2=True)
+        self.assertGreater(told("burns", "given_j"), 0)
+        self.assertGreater(told("bleeding", "bled_ml"), 0)
+        self.assertTrue(rospy.ServiceProxy("resume", Trigger)().success)
+
 
 if __name__ == "__main__":
     rostest.rosrun("viscera", "load_scene_test", LoadSceneTest, sys.argv)
