@@ -17,7 +17,7 @@ namespace {
 
 using Points = std::vector<std::pair<double, double>>;
 
-constexpr const char* kStyle = R"(body{font:15px/1.45 system-ui,sans-serif;margin:2em auto;max-width:60em;color:#222}
+constexpr const char* kStyle = R"(body{font:15px/1.45 system-ui,sans-serif;margin:2em auto;padding:0 1em;max-width:60em}
 h1{margin:0}.state{display:inline-block;padding:.2em .8em;border-radius:.3em;color:#fff;font-weight:600}
 .passed{background:#18794e}.failed{background:#b42318}.waiting,.running{background:#777}
 table{border-collapse:collapse;margin:.6em 0}td,th{border-bottom:1px solid #ddd;padding:.2em .8em;text-align:right}
