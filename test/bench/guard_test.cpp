@@ -106,6 +106,7 @@ TEST(Guard, WhatASceneDoesNotHaveCostsNothing) {
                                                  {"contacts", 1},
                                                  {"cuts", 1},
                                                  {"cautery", 1},
+                                                 {"bleeding", 1},
                                                  {"compensated sums", 1.1},
                                                  {"governor", 1},
                                                  {"cut state (one spring in every brick)", 1},
