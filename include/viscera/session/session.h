@@ -107,7 +107,7 @@ class Session {
   void save(Archive& archive);
   void restore(Archive& archive, const std::string& name);
   /// Goes on with the state of other lattices of the same bodies, from rest on (carriedState()): what tools did to the
-  /// tissue. Nothing is held; threads, clips and burns begin again. @throws Error  the bodies are others
+  /// tissue. Nothing is held; threads, clips, burns, blood begin again. @throws Error  the bodies are others
   void carry(const CarriedTissue& tissue);
   /// What another session carries on. Waits for the last tick.
   CarriedTissue carried() const;

@@ -38,7 +38,12 @@ class OldLattice {
   using Reached = std::unordered_set<uint32_t>;
 
   OldLattice(const Lattice& lattice, const HostState& state, uint32_t offset)
-      : lattice_(lattice), state_(state), offset_(offset) {}
+      : lattice_(lattice), state_(state), offset_(offset) {
+    is_cut_ = std::any_of(lattice.active_slots.begin(), lattice.active_slots.end(),
+                          [this](uint32_t slot) { return (bits(slot).lo & layout::kSeveredBit) != 0; });
+  }
+
+  bool isCut() const { return is_cut_; }  ///< some spring is
 
   /// In spacings from node (0, 0, 0).
   Vector3d placeOf(const Vector3d& rest_m) const { return (rest_m - lattice_.origin_m) / lattice_.spacing_m; }
@@ -143,17 +148,17 @@ class OldLattice {
 
   Reached reachedFrom(uint32_t slot, const Box& around, bool at_rest = false) const {
     Reached out{slot};
-    std::vector<uint32_t> todo{slot};
-    while (!todo.empty()) {
-      const uint32_t here = todo.back();
-      todo.pop_back();
+    std::vector<uint32_t> front{slot};
+    while (!front.empty()) {
+      const uint32_t here = front.back();
+      front.pop_back();
       for (uint32_t s = 0; s < layout::kSpringsPerNode; ++s) {
         if (springCount(at_rest ? lattice_.nodes[here] : bits(here), s) == 0) continue;
         const int64_t there = lattice_.neighborSlot(here, s);
         if (there < 0) continue;
         const Vector3i node = lattice_.nodeAt(static_cast<uint32_t>(there));
         if ((node.array() < around.low.array()).any() || (node.array() > around.high.array()).any()) continue;
-        if (out.insert(static_cast<uint32_t>(there)).second) todo.push_back(static_cast<uint32_t>(there));
+        if (out.insert(static_cast<uint32_t>(there)).second) front.push_back(static_cast<uint32_t>(there));
       }
     }
     return out;
@@ -207,6 +212,7 @@ class OldLattice {
   const Lattice& lattice_;
   const HostState& state_;
   const uint32_t offset_;
+  bool is_cut_ = false;
 };
 
 /// The lattice whose state is made.
@@ -233,10 +239,9 @@ class NewLattice {
       set(state_.displacement_m[offset_ + slot], motion.displacement_m);
       set(state_.velocity_m_per_s[offset_ + slot], motion.velocity_m_per_s);
     }
+    if (!old.isCut()) return;
     for (const uint32_t slot : lattice_.active_slots) {
       const Vector3d place = old.placeOf(lattice_.restPosition(slot));
-      const int64_t next = old.nearest(place);
-      if (next < 0) continue;
       for (uint32_t spring = 0; spring < layout::kSpringsPerNode; spring += 2) {
         const int64_t there = lattice_.neighborSlot(slot, spring);
         if (there < 0 || springCount(lattice_.nodes[slot], spring) == 0) continue;
