@@ -121,7 +121,7 @@ const uint kUnitLinkStarts = 10u;      // r32ui [slots + 1]: first link of a nod
 const uint kUnitSpringOwners = 11u;    // rgba32ui: SpringOwner[owners]
 const uint kUnitLinkForces = 12u;      // rgba32f, as kBindLinkForces
 const uint kUnitRest = 13u;            // rgba32f, as kBindRest
-const uint kUnitCellMoments = 15u;     // rgba32f [3 * (1 + fills)]: CellMoments, those of a cell filled all through first
+const uint kUnitCellMoments = 15u;     // rgba32f [3 * (1 + fills)]: CellMoments, those of a cell filled all through first; then bends
 const uint kUnitForceStarts = 14u;     // r32ui [slots + 1]: first place of the forces on a node
 // Of drawing: beyond those of kernels, which share the context.
 const uint kUnitShownCharts = 16u;     // r32ui [triangles drawn]: see Surface::liveCharts

@@ -21,6 +21,12 @@ const float kFadeStrain2 = 0.5f;
 // What the solid resists an alternating motion (hxyz) with, 5/18 mu h, the hexahedron's, less what the springs do, 1/2 mu h.
 const float kAlternating = 5.0f / 18.0f - 0.5f;
 
+// Numbers of a cell's bend in a thin wall: of its 9 hourglass motions with each other, row by row from the diagonal on, and of each
+// with the 6 strains; in vectors of four.
+const uint kBendPairs = 45u;
+const uint kBendNumbers = 99u;
+const uint kBendVectors = 25u;
+
 #ifdef __cplusplus
 }  // namespace viscera::layout
 #endif

@@ -55,7 +55,7 @@ bodies:
     position_m: [0.051, 0.052, 0.053]
     rotation_deg: [61, 62, 63]
     color: [0.071, 0.072, 0.073]
-    material: {tissue: liver, young_modulus_pa: 8100, poisson_ratio: 0.31, density_kg_per_m3: 820, drag_per_s: 8.3, dashpot_ratio: 0.084, weights: paper, cells: springs, cut: {toughness_j_per_m2: 187},
+    material: {tissue: liver, young_modulus_pa: 8100, poisson_ratio: 0.31, density_kg_per_m3: 820, drag_per_s: 8.3, dashpot_ratio: 0.084, weights: cell, cells: moments, thin_walls: true, cut: {toughness_j_per_m2: 187},
                prestress: {strain: 0.0821, strains: [0.0822, 0.0823, 0.0824], axes_deg: [82.5, 82.6, 82.7]}, tear: {toughness_j_per_m2: 189}, bleeding: {flow_ml_per_min: 191, calibre_m: 0.0192}}
     parts: [{part: valve, tissue: spleen, young_modulus_pa: 8101, poisson_ratio: 0.32, density_kg_per_m3: 821, cut: {toughness_j_per_m2: 188},
              prestress: {strain: 0.0831, strains: [0.0832, 0.0833, 0.0834], axes_deg: [83.5, 83.6, 83.7]}, bleeding: {flow_ml_per_min: 193, calibre_m: 0.0194}}]
@@ -226,8 +226,9 @@ TEST(SceneKeys, EveryBodyKeyReachesItsField) {
   EXPECT_EQ(body.material.tear.toughness_j_per_m2, 189);
   EXPECT_EQ(body.material.bleeding.flow_ml_per_min, 191);
   EXPECT_EQ(body.material.bleeding.calibre_m, 0.0192);
-  EXPECT_EQ(body.material.weights, Weights::kPaper);
-  EXPECT_EQ(body.material.cells, Cells::kSprings);
+  EXPECT_EQ(body.material.weights, Weights::kCell);
+  EXPECT_EQ(body.material.cells, Cells::kMoments);
+  EXPECT_TRUE(body.material.thin_walls);
   const PartConfig& part = body.parts.at(0);
   EXPECT_EQ(part.cut.toughness_j_per_m2, 188);
   EXPECT_EQ(part.part, "valve");
@@ -249,6 +250,22 @@ TEST(SceneKeys, EveryBodyKeyReachesItsField) {
   EXPECT_EQ(fixed.point_m, Vector3d(0.22, 0.23, 0.24));
   EXPECT_EQ(fixed.normal, Vector3d(0.25, 0.26, 0.27));
   EXPECT_EQ(fixed.part, "septum");
+}
+
+TEST(SceneKeys, PapersWeightsGoWithSpringsAlone) {
+  const MaterialConfig paper =
+      parseScene("{bodies: [{material: {weights: paper, cells: springs}}]}", "paper").bodies.at(0).material;
+  EXPECT_EQ(paper.weights, Weights::kPaper);
+  EXPECT_EQ(paper.cells, Cells::kSprings);
+  for (const char* material : {"{thin_walls: true, weights: paper}", "{thin_walls: true, cells: springs}"}) {
+    try {
+      parseScene("{bodies: [{material: " + std::string(material) + "}]}", "thin");
+      ADD_FAILURE() << material;
+    } catch (const SceneError& e) {
+      EXPECT_NE(std::string(e.what()).find("material.thin_walls needs cells by moments"), std::string::npos)
+          << e.what();
+    }
+  }
 }
 
 TEST(SceneKeys, EveryOtherKeyReachesItsField) {

@@ -4,6 +4,7 @@
 // Cells by moments on the backends, against the float64 reference.
 #include "support/random_state.h"
 #include "support/solver_rig.h"
+#include "viscera/model/body/elasticity.h"
 
 using namespace viscera;
 using namespace viscera::test;
@@ -83,6 +84,40 @@ TEST_P(Moments, PartialCellsMatchTheReferenceForAnyPoissonRatio) {
   }
 }
 
+TEST_P(Moments, ThinWallsMatchTheReferenceForAnyPoissonRatio) {
+  for (const double nu : {0.0, 0.25, 0.45, 0.49}) {
+    SCOPED_TRACE(nu);
+    for (const double thickness_cells : {0.8, 1.5, 2.4}) {
+      Body body = thinBody(thickness_cells, kSpacing_m);
+      body.material.poisson_ratio = nu;
+      ASSERT_GT(cellMoments(body).bends.size(), 20u);
+      expectLikeReference(body);
+    }
+  }
+}
+
+TEST_P(Moments, ThinWallsOfPartsStrainedOrTornMatchTheReference) {
+  Body body = thinBody(1.2, kSpacing_m);
+  body.material.dashpot_ratio = 0.2;
+  for (const double size : {0.2, 0.5}) expectLikeReference(body, size * kSpacing_m, 1);
+  body.lattice.part_names = {"wall", "valve"};
+  bool torn = false;
+  for (const CellBend& bend : cellMoments(body).bends) {
+    if (body.lattice.nodeAt(bend.cell).x() >= 4) body.lattice.cell_labels[bend.cell] = 2;
+    if (!torn) body.lattice.nodes[bend.cell].lo &= ~layout::kCellBit;
+    torn = true;
+  }
+  body.parts = {{"valve", 100e3, 0.4, 3000}};
+  expectLikeReference(body);
+}
+
+TEST_P(Moments, WallsThatAreThickForTheirCellsAreAsTheyWere) {
+  Body body = ball();
+  body.material.thin_walls = true;
+  EXPECT_TRUE(cellMoments(body).bends.empty());
+  expectLikeReference(body);
+}
+
 TEST_P(Moments, StrainsThatFadeThemOutMatchTheReference) {
   for (const double size : {0.2, 0.5}) {
     SCOPED_TRACE(size);
@@ -149,7 +184,7 @@ TEST_P(Moments, CellsThatABladeCutsMatchTheReference) {
 }
 
 TEST_P(Moments, TheirEnergyIsMeasured) {
-  for (const Body& body : {ball(), block({4, 4, 6})}) {
+  for (const Body& body : {ball(), block({4, 4, 6}), thinBody(1.2, kSpacing_m)}) {
     const Model model = modelOf({body});
     const auto solver = make(model, sceneFor(model, 1));
     const HostState start = randomState(model, 0.1 * kSpacing_m, 0, 3);

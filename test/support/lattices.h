@@ -65,6 +65,15 @@ inline Body askewBody(double spacing_m) {
   return momentBody({3, 3, 3}, spacing_m, [](const Vector3d& p) { return p.dot(Vector3d(1, 0.7, 0.4)) < 4.4; });
 }
 
+/// A wall that lies askew among 7 x 7 x 6 cells, with a bend in each of its cells (material.thin_walls).
+inline Body thinBody(double thickness_cells, double spacing_m) {
+  const Vector3d across = Vector3d(0.5, 0.35, 0.8).normalized(), middle(3.6, 3.4, 3.1);
+  Body body = momentBody({7, 7, 6}, spacing_m,
+                         [=](const Vector3d& p) { return std::abs(across.dot(p - middle)) < 0.5 * thickness_cells; });
+  body.material.thin_walls = true;
+  return body;
+}
+
 /// A lattice of exactly `count` nodes: a random tree of touching nodes with random counts on every spring between two
 /// of them, the same from both ends. A solid's cells cannot give sizes such as 1 or 63.
 inline Body blobBody(size_t count, double spacing_m, uint32_t seed) {

@@ -119,13 +119,14 @@ class Grid {
   std::vector<std::pair<Vector3i, std::array<Vector3d, 8>>> loads_;
 };
 
-Model modelOf(const Solid& solid, Cells cells, double poisson_ratio) {
+Model modelOf(const Solid& solid, const WallCells& cells, double poisson_ratio) {
   Body body;
   body.name = "wall";
   body.material = unitMaterial();
   body.material.young_modulus_pa = 1;
   body.material.poisson_ratio = poisson_ratio;
-  body.material.cells = cells;
+  body.material.cells = cells.kind;
+  body.material.thin_walls = cells.thin_walls;
   body.lattice = buildLattice(solid, body.material.weights);
   Model model;
   model.bodies.push_back(std::move(body));
@@ -195,9 +196,9 @@ Eigen::Matrix3d turned() {
   return about(17, Vector3d::UnitX()) * about(24, Vector3d::UnitY()) * about(30, Vector3d::UnitZ());
 }
 
-BentWall bendWall(const Wall& wall, const Placing& placing, double spacing_m, Cells cells, double poisson_ratio,
-                  const std::vector<Backend>& backends, const std::vector<Vector3d>& watched_m) {
-  const Grid grid(wall, placing, spacing_m, cells);
+BentWall bendWall(const Wall& wall, const Placing& placing, double spacing_m, const WallCells& cells,
+                  double poisson_ratio, const std::vector<Backend>& backends, const std::vector<Vector3d>& watched_m) {
+  const Grid grid(wall, placing, spacing_m, cells.kind);
   const Model model = modelOf(grid.solid(), cells, poisson_ratio);
   const ReferenceSolver solver(model, Vector3d::Zero(), 1);
   Field load = grid.load(model.bodies[0].lattice);

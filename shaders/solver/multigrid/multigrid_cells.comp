@@ -60,6 +60,16 @@ void addMoments(CellMotion at, CellMotion x, CellMoments t, float ratio, float s
   vec3 ra = scale * (vec3(by.z + bz.z, bz.x, by.y) - less * (sa + vec3(trace, pair.z, pair.y)));
   vec3 rb = scale * (vec3(bz.y, bz.z + bx.z, bx.x) - less * (sb + vec3(pair.z, trace, pair.x)));
   vec3 rc = scale * (vec3(by.x, bx.y, bx.z + by.z) - less * (sc + vec3(pair.y, pair.x, trace)));
+#ifdef HAS_THIN_WALLS
+  if (t.bend != 0u) {
+    CellBendPull bend = bendPull(t.bend, sa, sb, sc, sure * strain, sure * shear);
+    ra += scale * bend.a;
+    rb += scale * bend.b;
+    rc += scale * bend.c;
+    strains += (scale * sure) * bend.strains;
+    shears += (scale * sure) * bend.shears;
+  }
+#endif
   float quarter = 0.25f / h;
   f.a += quarter * edgePull(ea, shears.y * c + shears.z * b, strains.x, 0.0f);
   f.b += quarter * edgePull(eb, shears.z * a + shears.x * c, strains.y, 0.0f);

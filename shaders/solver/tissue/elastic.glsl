@@ -3,9 +3,10 @@
 //
 // What a node, a spring and a cell are made of (physics.md 1). After lattice.glsl.
 // Features: LATTICE (some body has implicit connections), NETWORK (some body has explicit ones: network.glsl), PARTS (strengths differ within a body: tables), VOLUME (cells have energies of their own: of volume, by moments), MOMENTS (some have
-// the latter), INCREMENT (implicit integrators: the state is displacement + increment), MAKES_CELL_FORCES (of kernels that do).
+// the latter), THIN_WALLS (some cells lie in thin walls), INCREMENT (implicit integrators: the state is displacement + increment), MAKES_CELL_FORCES (of kernels that do).
 #include "solver/tissue/spring.glsl"
 #include "solver/tissue/volume.glsl"
+#include "solver/tissue/bends.glsl"
 #include "solver/tissue/moments.glsl"
 
 #ifndef __cplusplus
@@ -44,7 +45,7 @@ float stiffnessAt(uint place) { return texelFetch(spring_stiffness, int(place)).
 layout(std430, binding = kBindCellStrengths) restrict readonly buffer CellStrengthsIn { vec4 cell_strengths[]; };  // [slots]
 vec4 cellStrengths(uint slot) { return cell_strengths[slot]; }
 #else
-layout(binding = kUnitCellBulk) uniform samplerBuffer cell_bulk;  // [slots] with MOMENTS: y rigidity, z fill
+layout(binding = kUnitCellBulk) uniform samplerBuffer cell_bulk;  // [slots] with MOMENTS: y rigidity, z fill, w bend
 vec4 cellStrengths(uint slot) { return texelFetch(cell_bulk, int(slot)); }
 #endif
 float cellBulk(uint slot, BodyParams body) { return cellStrengths(slot).x; }
@@ -70,14 +71,19 @@ layout(binding = kUnitCellForces) uniform samplerBuffer cell_forces;  // the sam
 const bool has_moments = true;
 const uint cell_vectors = kMomentVectors;
 #ifdef PARTS
-layout(binding = kUnitCellMoments) uniform samplerBuffer cell_moments;  // [3 * (1 + fills)]
+layout(binding = kUnitCellMoments) uniform samplerBuffer cell_moments;  // [3 * (1 + fills)], then [kBendVectors * bends] where there are any
 /// mu h^3 times the cell's share [J]; 0 in bodies whose cells are springs only.
 float cellRigidity(uint slot, BodyParams body) { return cellStrengths(slot).y; }
 CellMoments cellMoments(uint slot) {
-  int fill = 3 * int(cellStrengths(slot).z);
-  CellMoments t = {texelFetch(cell_moments, fill).xyz, texelFetch(cell_moments, fill + 1).xyz, texelFetch(cell_moments, fill + 2).xyz};
+  vec4 strengths = cellStrengths(slot);
+  int fill = 3 * int(strengths.z);
+  CellMoments t = {texelFetch(cell_moments, fill).xyz, texelFetch(cell_moments, fill + 1).xyz, texelFetch(cell_moments, fill + 2).xyz,
+                   uint(strengths.w)};
   return t;
 }
+#ifdef THIN_WALLS
+float bendNumber(uint bend, uint number) { return texelFetch(cell_moments, int(kBendVectors * bend + (number >> 2)))[number & 3u]; }
+#endif
 #else
 float cellRigidity(uint slot, BodyParams body) { return body.rigidity_j; }
 CellMoments cellMoments(uint slot) { return fullMoments(); }

@@ -10,6 +10,7 @@ struct CellMoments {
   vec3 first;
   vec3 square;  // of p_x p_x, p_y p_y, p_z p_z
   vec3 mixed;   // of p_y p_z, p_z p_x, p_x p_y
+  uint bend;    // where its bend in a thin wall is (bends.glsl), 0: it has none
 };
 
 /// Mean edges less their rest value, and hourglass motions, over h.
@@ -98,6 +99,17 @@ CellPull cellPull(CellMotion q, CellMoments t, float rigidity, float bulk) {
   vec3 rc = vec3(by.x, bx.y, bx.z + by.z) - 0.25f * (sc + vec3(pair.y, pair.x, trace));
   vec3 strains = vec3(t.first.y * ty.y + t.first.z * tz.x, t.first.z * tz.y + t.first.x * tx.x, t.first.x * tx.y + t.first.y * ty.x);
   vec3 shears = vec3(t.first.x * tx.z, t.first.y * ty.z, t.first.z * tz.z);
+#ifdef HAS_THIN_WALLS
+  if (t.bend != 0u) {
+    CellBendPull bend = bendPull(t.bend, sa, sb, sc, vec3(ea.strain, eb.strain, ec.strain), shear);
+    energy += bend.energy;
+    ra += bend.a;
+    rb += bend.b;
+    rc += bend.c;
+    strains += bend.strains;
+    shears += bend.shears;
+  }
+#endif
   float bent = size / kFadeBend, less = 1.0f / (1.0f + bent * bent);
   float fade = less * ea.fade * eb.fade * ec.fade;
   float turn = -4.0f * bent * less * energy / kFadeBend;  // 2 d(1/(1 + bent^2))/d(size) energy / less
@@ -142,6 +154,6 @@ CellMotion cellMotion(vec3 n[8], float h) {
 
 /// The moments of a cell that is filled all through.
 CellMoments fullMoments() {
-  CellMoments t = {vec3(0.0f), vec3(1.0f / 12.0f), vec3(0.0f)};
+  CellMoments t = {vec3(0.0f), vec3(1.0f / 12.0f), vec3(0.0f), 0u};
   return t;
 }

@@ -3,7 +3,10 @@
 #include "model/body/body_notes.h"
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
+
+#include "model/body/thin_walls.h"
 
 namespace viscera {
 namespace {
@@ -53,7 +56,11 @@ std::string latticeNote(const Lattice& lattice, size_t fixed_nodes) {
   std::ostringstream out;
   out << "lattice: " << lattice.active_slots.size() << " nodes (" << fixed_nodes << " fixed), " << lattice.springs()
       << " springs, spacing " << lattice.spacing_m * 1e3 << " mm";
-  if (!lattice.fills.empty()) out << ", " << lattice.fills.size() << " cells tissue in part";
+  if (lattice.fills.empty()) return out.str();
+  out << ", " << lattice.fills.size() << " cells tissue in part";
+  const long percent = std::lround(100 * thinShare(lattice));
+  if (percent > 0)
+    out << ", " << percent << " % of them in walls of less than " << kFewCells << " cells (material.thin_walls)";
   return out.str();
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "model/body/thin_walls.h"
 #include "viscera/math/error.h"
 
 namespace viscera {
@@ -147,10 +148,11 @@ Strengths strengths(const Body& body) {
   return out;
 }
 
-CellMoments cellMoments(const Body& body) {
+namespace {
+
+/// Makes the moments of cells that share materials those of their tissue, weighed by its rigidity.
+void weighShared(const Body& body, CellMoments& out) {
   const Lattice& lattice = body.lattice;
-  CellMoments out{lattice.cell_fills, lattice.fills};
-  if (lattice.shared.empty() || body.parts.empty()) return out;
   const std::vector<Elasticity> by_label = elasticityByLabel(body);
   out.of_cell.resize(lattice.nodes.size());
   forEachMixedCell(lattice, by_label, [&](size_t first, size_t last) {
@@ -167,6 +169,14 @@ CellMoments cellMoments(const Body& body) {
     out.fills.push_back({full, scale * sum.first, scale * sum.second});
     out.of_cell[cell] = static_cast<uint32_t>(out.fills.size());
   });
+}
+
+}  // namespace
+
+CellMoments cellMoments(const Body& body) {
+  CellMoments out{body.lattice.cell_fills, body.lattice.fills, {}};
+  if (!body.lattice.shared.empty() && !body.parts.empty()) weighShared(body, out);
+  if (body.material.thin_walls) out.bends = cellBends(body, out);
   return out;
 }
 

@@ -97,6 +97,9 @@ std::string structureFault(const BodyConfig& body) {
            "length";
   if (hasMoments(body) && body.material.weights != Weights::kCell)
     return "material.cells: moments does not go with material.weights: paper";
+  if (body.material.thin_walls && !hasMoments(body))
+    return "material.thin_walls needs cells by moments: structure lattice or explicit, cells auto or moments, weights "
+           "cell";
   if (body.bending_ratio > 0 && !can_bend) return "bending_ratio must be 0 unless structure is surface or explicit";
   return "";
 }

@@ -48,6 +48,17 @@ Tensor<T> strainGradient(const Tensor<T>& s, int n, double nu) {
   return out;
 }
 
+/// The same in a thin wall. @param missing  second differences of displacement: along each edge, by axis
+template <class T>
+Tensor<T> strainGradient(const Tensor<T>& s, const Tensor<T>& missing, int n) {
+  const auto derivative = [&](int i, int j, int k) { return j == k ? missing(i, j) : s(i, 3 - j - k); };
+  Tensor<T> out;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) out(i, j) = 0.5 * (derivative(i, j, n) + derivative(j, i, n));
+  }
+  return out;
+}
+
 /// What the springs of a full cell put into hourglass motions, over mu h^3.
 template <class T>
 T springsOf(const Tensor<T>& s) {
@@ -91,7 +102,17 @@ T energyOf(const MomentCell& cell, const Eigen::Matrix<T, 21, 1>& motion) {
     strain(a, b) = strain(b, a) = 0.5 * directions.col(a).dot(directions.col(b));
   }
   std::array<Tensor<T>, 3> gradients;
-  for (int n = 0; n < 3; ++n) gradients[static_cast<size_t>(n)] = strainGradient<T>(s, n, nu);
+  if (cell.missing) {
+    Tensor<T> missing;
+    for (int i = 0; i < 9; ++i) {
+      T sum(0.0);
+      for (int j = 0; j < 9; ++j) sum += (*cell.missing)(i, j) * s(j / 3, j % 3);
+      missing(i / 3, i % 3) = sum;
+    }
+    for (int n = 0; n < 3; ++n) gradients[static_cast<size_t>(n)] = strainGradient<T>(s, missing, n);
+  } else {
+    for (int n = 0; n < 3; ++n) gradients[static_cast<size_t>(n)] = strainGradient<T>(s, n, nu);
+  }
   T energy(0.0);
   for (int n = 0; n < 3; ++n) {
     const Tensor<T> stress = stressOf<T>(gradients[static_cast<size_t>(n)], lambda);

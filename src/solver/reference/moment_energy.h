@@ -4,8 +4,10 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <optional>
 
 #include "viscera/math/types.h"
+#include "viscera/model/body/bend_matrices.h"
 #include "viscera/model/shape/solid.h"
 
 namespace viscera {
@@ -23,6 +25,9 @@ struct MomentCell {
   double rigidity_j = 0;  ///< mu h^3 times its share
   double bulk_j = 0;      ///< (lambda - mu) h^3 times its share
   CellFill fill;          ///< over its share, which is 1
+  /// Second differences of displacement along its own axes by its hourglass motions (bend_matrices.h): in a thin wall
+  /// those of the tissue around it; else strain across is -nu/(1 - nu) of that along, and no shear.
+  std::optional<BendMatrix> missing;
 };
 
 /// [J]

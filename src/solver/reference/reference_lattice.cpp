@@ -133,6 +133,9 @@ void ReferenceLattice::addCell(const Body& body, size_t b, uint32_t local) {
     const uint32_t which = moments_.of_cell.empty() ? 0 : moments_.of_cell[local];
     const CellFill fill = which == 0 ? CellFill{} : moments_.fills[which - 1];
     cell.moments.fill = {1, fill.first / fill.share, fill.second / fill.share};
+    const auto bend = std::lower_bound(moments_.bends.begin(), moments_.bends.end(), local,
+                                       [](const CellBend& b, uint32_t slot) { return b.cell < slot; });
+    if (bend != moments_.bends.end() && bend->cell == local) cell.moments.missing = bend->missing;
   }
   cells_.push_back(cell);
 }

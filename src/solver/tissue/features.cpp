@@ -6,6 +6,7 @@
 
 #include "model/fracture/tearing.h"
 #include "model/scene/tool_kinds.h"
+#include "solver/tissue/joined_lattice.h"
 #include "solver/tissue/substeps.h"
 #include "viscera/solver/material.h"
 
@@ -23,6 +24,7 @@ std::vector<std::string> FeatureSet::defines() const {
   if (dashpot) out.push_back("DASHPOT");
   if (volume) out.push_back("VOLUME");
   if (moments) out.push_back("MOMENTS");
+  if (thin_walls) out.push_back("THIN_WALLS");
   if (parts) out.push_back("PARTS");
   if (compensated) out.push_back("COMPENSATED");
   if (single_body) out.push_back("SINGLE_BODY");
@@ -39,6 +41,7 @@ FeatureSet featuresOf(const Model& model, const Scene& scene, double dt_s, uint3
   features.edge_forces = features.network && scene.solver.spring_forces == SpringForces::kEdge &&
                          traitsOf(scene.solver.integrator).takes_edge_forces;
   features.moments = hasMoments(model);
+  features.thin_walls = features.moments && hasBends(model);
   features.volume = features.moments || hasVolumeEnergy(model);
   features.parts = isHeterogeneous(model);
   features.compensated = isCompensated(scene.solver, dt_s);

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "layout/moments.h"
 #include "viscera/model/model.h"
 #include "viscera/solver/material.h"
 
@@ -26,12 +27,24 @@ Strengths allStrengths(const Model& model);
 
 /// Moments of the cells of all bodies over their shares (shaders/solver/tissue/moments.glsl).
 struct JoinedMoments {
-  std::vector<uint32_t> of_cell;      ///< [slots] which moments the cell above a node has; 0: those of a full one
-  std::vector<layout::vec4> vectors;  ///< [kVectorsPerFill * fills] xyz: of p; of its squares; of yz, zx, xy
+  std::vector<uint32_t> of_cell;       ///< [slots] which moments the cell above a node has; 0: those of a full one
+  std::vector<layout::vec4> vectors;   ///< [kVectorsPerFill * fills] xyz: of p; of its squares; of yz, zx, xy; then,
+                                       ///< where there are thin walls, bends, from multiples of layout::kBendVectors on
+  std::vector<uint32_t> bend_of_cell;  ///< [slots] where in vectors the cell's bend is, in layout::kBendVectors; 0
+                                       ///< none; empty without thin walls
 
   void add(const CellFill& fill);
+  /// What a thin wall adds to a cell's energy (shaders/solver/tissue/bends.glsl).
+  void add(uint32_t slot, const CellFill& over_share, double lambda_over_mu, const CellBend& bend);
+  /// Numbers of a cell's bend; null: it has none.
+  const float* bendOf(uint32_t slot) const {
+    const uint32_t at = bend_of_cell.empty() ? 0 : bend_of_cell[slot];
+    return at == 0 ? nullptr : &vectors[size_t{at} * layout::kBendVectors].x;
+  }
 };
 constexpr size_t kVectorsPerFill = 3;
+/// Does any cell lie in a thin wall that is to bend as one?
+bool hasBends(const Model& model);
 JoinedMoments allMoments(const Model& model);
 
 /// [slots] how deep nodes lie below the surface of their tissue [m], negative outside, where tools and obstacles are to

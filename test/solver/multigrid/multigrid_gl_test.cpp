@@ -9,6 +9,7 @@
 #include "support/networks.h"
 #include "support/text.h"
 #include "viscera/math/error.h"
+#include "viscera/model/body/elasticity.h"
 
 namespace viscera::test {
 
@@ -241,9 +242,12 @@ class MultigridGpu : public GpuTest {
     EXPECT_LT(worst / largest, same ? kSameIterations : kOthers)
         << gpu->work().iterations << " iterations, " << cpu->work().iterations << " on the CPU";
   }
-  /// A ball, in which cells are tissue in part.
-  static Body ball() {
-    Body out = momentBody({8, 8, 8}, 0.01, [](const Vector3d& p) { return (p - Vector3d::Constant(4)).norm() < 3.7; });
+  /// A ball, in which cells are tissue in part. @param hollow  radius of its cavity, in cells
+  static Body ball(double hollow = 0) {
+    Body out = momentBody({8, 8, 8}, 0.01, [hollow](const Vector3d& p) {
+      const double r = (p - Vector3d::Constant(4)).norm();
+      return r < 3.7 && r >= hollow;
+    });
     out.material.drag_per_s = 0;
     for (const uint32_t slot : out.lattice.active_slots) {
       if (out.lattice.nodeAt(slot).x() < 3) out.lattice.nodes[slot].lo |= layout::kFixedBit;
@@ -262,6 +266,9 @@ TEST_F(MultigridGpu, StepsAsTheCpuDoes) {
   }
   bodies.push_back(block(7, 2e4, 0.1, Cells::kMoments));
   bodies.push_back(twoPartBody());
+  bodies.push_back(ball(2.4));
+  bodies.back().material.thin_walls = true;
+  ASSERT_GT(cellMoments(bodies.back()).bends.size(), 50u);
   for (const double dashpot_ratio : {0.0, 0.1}) {
     for (size_t i = 0; i < bodies.size(); ++i) {
       SCOPED_TRACE(::testing::Message() << "body " << i << ", dashpot " << dashpot_ratio);

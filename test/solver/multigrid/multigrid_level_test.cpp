@@ -39,6 +39,7 @@ std::vector<Body> bodies() {
                            heldBox({3, 4, 5}, 0.1),
                            heldBox({3, 4, 5}, 0.25, Cells::kMoments),
                            heldBox({3, 4, 5}, 0.45, Cells::kMoments),
+                           thinBody(1.2, 0.01),
                            askewBody(0.01),
                            askewBody(0.01)};
   out.back().material.poisson_ratio = 0.45;

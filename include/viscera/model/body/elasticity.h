@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "viscera/layout/limits.h"
+#include "viscera/model/body/bend_matrices.h"
 #include "viscera/model/model.h"
 
 namespace viscera {
@@ -38,11 +39,18 @@ bool isHeterogeneous(const Body& body);
 /// @throws SceneError  a part that the body has not, or that stands twice
 Strengths strengths(const Body& body);
 
+/// What a cell in a thin wall makes of its hourglass motions (material.thin_walls).
+struct CellBend {
+  uint32_t cell;       ///< slot of its lowest corner
+  BendMatrix missing;  ///< second differences that its corners do not show
+};
+
 /// Moments that cells resist by (Lattice::cell_fills and fills): of their tissue, weighed by its rigidity where a cell
 /// shares materials.
 struct CellMoments {
   std::vector<uint32_t> of_cell;  ///< [slots] 0 those of a full cell, else 1 + index into fills; empty where all are 0
   std::vector<CellFill> fills;
+  std::vector<CellBend> bends;  ///< ascending by cell; of others it is missingAlone()
 };
 /// @throws SceneError  as strengths()
 CellMoments cellMoments(const Body& body);

@@ -106,7 +106,8 @@ struct MaterialConfig {
   double dashpot_ratio = 0.2;
   Weights weights = Weights::kCell;
   Cells cells = Cells::kAuto;
-  std::string tissue;  ///< preset (docs/tissues.md) of those of the first three that the scene does not give
+  bool thin_walls = false;  ///< walls of few cells bend as the tissue around each cell lets them
+  std::string tissue;       ///< preset (docs/tissues.md) of those of the first three that the scene does not give
   FractureConfig cut;
   PrestressConfig prestress;
   TearConfig tear;

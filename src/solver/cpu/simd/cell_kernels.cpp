@@ -111,7 +111,8 @@ HWY_NOINLINE void cellForces(const CellBrick& of, int cell, V rigidity, V bulk, 
     out.dc = p * shape.ab;
   }
   const Moments moments = kFull ? Moments{zero3(), zero3(), zero3()} : loadMoments(of.job.moments[of.b], cell);
-  cellPull<kFull>(q, moments, rigidity, *stress, scale);
+  const ThinWalls walls = kFull ? ThinWalls{} : thinWallsOf(of.job, of.b, cell);
+  cellPull<kFull>(q, moments, walls, rigidity, *stress, scale);
   if (of.job.volumes) {
     q.da = q.da + out.da;
     q.db = q.db + out.db;

@@ -151,12 +151,6 @@ HWY_INLINE bool addSprings(const Material& m, const float* k, const CellTiles& t
   return hn::AllTrue(Tag(), hn::Lt(largest, set(kMild)));
 }
 
-/// Has no row of a vector its bit set? @param rows  bit r: the four from 4 r on   @param i  index of the vector's first
-HWY_INLINE bool noRows(uint32_t rows, int i) {
-  constexpr uint32_t kRows = (1u << (hn::MaxLanes(Tag()) / 4)) - 1;
-  return (rows >> (i / 4) & kRows) == 0;
-}
-
 // A vector is rows of four: shifts of lanes stay within them.
 
 /// The last row of a vector.

@@ -101,6 +101,8 @@ struct CellJob {
   const float* rigidity;         ///< [slots] J; both 0 where there is none
   const float* const* moments;   ///< [bricks] [9 * 64] of its cells (CpuStrengths); null where all are full
   const uint16_t* partial_rows;  ///< [bricks] bit r: some of the four cells from 4 r on is tissue in part
+  const float* const* bends;     ///< [bricks] [kBendNumbers * 64] of its cells (CpuStrengths); null without thin walls
+  const uint16_t* thin_rows;     ///< [bricks] bit r: some of the four cells from 4 r on has a bend
   bool parts;                    ///< bulk over rigidity differs within a body
   bool volumes;                  ///< some bulk is not 0
   bool dashpot;                  ///< some body has one

@@ -69,9 +69,10 @@ V momentEnergyOf(const CellJob& job, const layout::BodyParams& body, size_t slot
   CellMotion q = motionBetween(low, high, hn::IfThenElseZero(there, scale.per_4h));
   const float* moments = job.moments[slot / 64];
   if (moments == nullptr)
-    return cellPull<true>(q, Moments{zero3(), zero3(), zero3()}, rigidity, planeStress<true>(ratio), scale);
-  return cellPull<false>(q, loadMoments(moments, static_cast<int>(slot % 64)), rigidity, planeStress<false>(ratio),
-                         scale);
+    return cellPull<true>(q, Moments{zero3(), zero3(), zero3()}, {}, rigidity, planeStress<true>(ratio), scale);
+  const int cell = static_cast<int>(slot % 64);
+  return cellPull<false>(q, loadMoments(moments, cell), thinWallsOf(job, static_cast<uint32_t>(slot / 64), cell),
+                         rigidity, planeStress<false>(ratio), scale);
 }
 
 using Bits = hn::Vec<hn::RebindToUnsigned<Tag>>;

@@ -200,6 +200,18 @@ HWY_INLINE SolidPull solidPull(const CellEdges& e, const Moments& t, const Plane
   return solidPullOf({e.a.strain, e.b.strain, e.c.strain}, {dot(b, c), dot(c, a), dot(a, b)}, t, stress, gx, gy, gz);
 }
 
+/// What thin walls add to a vector of cells (shaders/solver/tissue/bends.glsl): [kBendNumbers] `stride` apart, those
+/// with strains times 2 h; null: nothing.
+struct ThinWalls {
+  const float* numbers = nullptr;
+  size_t stride = 0;
+};
+/// @param cell  index of the vector's first cell in a brick
+HWY_INLINE ThinWalls thinWallsOf(const CellJob& job, uint32_t brick, int cell) {
+  if (HWY_LIKELY(job.bends == nullptr) || noRows(job.thin_rows[brick], cell)) return {};
+  return {job.bends[brick] + cellNumberAt(static_cast<uint32_t>(cell), 0, layout::kBendNumbers), 16};
+}
+
 /// 1/x, x > 0: a Newton step on the processor's estimate where that has 12 bits at least; else exact.
 HWY_INLINE V inverseOf(V x) {
 #if HWY_ARCH_X86
@@ -250,6 +262,41 @@ HWY_INLINE Fading fadingOf(const CellEdges& e, bool fades, V size, V energy, V r
   return out;
 }
 
+/// bendPull() of bends.glsl. @param r  its derivatives by s are added to it   @param solid  those by strains and
+/// shears, and what couples them
+HWY_INLINE void addThinWalls(const ThinWalls& walls, const Bend& s, const Vec3& strain, const Vec3& shear, Bend& r,
+                             SolidPull& solid) {
+  const V of_s[9] = {s.a.x, s.a.y, s.a.z, s.b.x, s.b.y, s.b.z, s.c.x, s.c.y, s.c.z};
+  const V of_e[6] = {strain.x, strain.y, strain.z, shear.x, shear.y, shear.z};
+  V by_s[9] = {r.a.x, r.a.y, r.a.z, r.b.x, r.b.y, r.b.z, r.c.x, r.c.y, r.c.z};
+  const V none = hn::Zero(Tag());
+  V by_e[6] = {none, none, none, none, none, none};
+  const float* at = walls.numbers;
+#pragma GCC unroll 9
+  for (int i = 0; i < 9; ++i) {
+#pragma GCC unroll 9
+    for (int j = i; j < 9; ++j, at += walls.stride) {
+      const V m = load(at);
+      by_s[i] = hn::MulAdd(m, of_s[j], by_s[i]);
+      if (j != i) by_s[j] = hn::MulAdd(m, of_s[i], by_s[j]);
+    }
+  }
+#pragma GCC unroll 9
+  for (int i = 0; i < 9; ++i) {
+#pragma GCC unroll 6
+    for (int j = 0; j < 6; ++j, at += walls.stride) {
+      const V m = load(at);
+      by_s[i] = hn::MulAdd(m, of_e[j], by_s[i]);
+      by_e[j] = hn::MulAdd(m, of_s[i], by_e[j]);
+    }
+  }
+  r = {{by_s[0], by_s[1], by_s[2]}, {by_s[3], by_s[4], by_s[5]}, {by_s[6], by_s[7], by_s[8]}};
+  const Vec3 strains = {by_e[0], by_e[1], by_e[2]}, shears = {by_e[3], by_e[4], by_e[5]};
+  solid.strains = solid.strains + strains;
+  solid.shears = solid.shears + shears;
+  solid.coupled = hn::Add(solid.coupled, hn::Add(dot(strains, strain), dot(shears, shear)));
+}
+
 /// What a cell's moments less its springs do by s_mn, and by the strains of its edges.
 struct BendPull {
   Bend by;
@@ -258,8 +305,9 @@ struct BendPull {
   Fading fading;
 };
 /// @param alternating  energy of hxyz
-HWY_INLINE BendPull bendPull(const CellEdges& e, bool fades, const Moments& /*t*/, V rigidity,
-                             const PlaneStress<true>& stress, const CellScale& of, const Bend& s, V alternating) {
+HWY_INLINE BendPull bendPull(const CellEdges& e, bool fades, const Moments& /*t*/, const ThinWalls& /*walls*/,
+                             V rigidity, const PlaneStress<true>& stress, const CellScale& of, const Bend& s,
+                             V alternating) {
   // Full cells: a matrix of four numbers.
   const V pair = hn::Sub(stress.aside, set(0.25f)), trace = traceOf(s);
   const V pairs = hn::MulAdd(s.b.z, s.c.y, hn::MulAdd(s.c.x, s.a.z, hn::Mul(s.a.y, s.b.x)));
@@ -280,16 +328,21 @@ HWY_INLINE BendPull bendPull(const CellEdges& e, bool fades, const Moments& /*t*
           energy,
           fading};
 }
-HWY_INLINE BendPull bendPull(const CellEdges& e, bool fades, const Moments& t, V rigidity,
+HWY_INLINE BendPull bendPull(const CellEdges& e, bool fades, const Moments& t, const ThinWalls& walls, V rigidity,
                              const PlaneStress<false>& stress, const CellScale& of, const Bend& s, V alternating) {
-  const SolidPull solid = solidPull(e, t, stress, {s.b.z, s.c.y, hn::Add(s.b.y, s.c.z)},
-                                    {s.c.x, s.a.z, hn::Add(s.c.z, s.a.x)}, {s.a.y, s.b.x, hn::Add(s.a.x, s.b.y)});
+  SolidPull solid = solidPull(e, t, stress, {s.b.z, s.c.y, hn::Add(s.b.y, s.c.z)},
+                              {s.c.x, s.a.z, hn::Add(s.c.z, s.a.x)}, {s.a.y, s.b.x, hn::Add(s.a.x, s.b.y)});
   const Vec3 &bx = solid.bx, &by = solid.by, &bz = solid.bz;
   const V quarter = set(0.25f), trace4 = hn::Mul(quarter, traceOf(s));
   Bend r = {
       {hn::Sub(hn::Add(by.z, bz.z), trace4), hn::NegMulAdd(quarter, s.b.x, bz.x), hn::NegMulAdd(quarter, s.c.x, by.y)},
       {hn::NegMulAdd(quarter, s.a.y, bz.y), hn::Sub(hn::Add(bz.z, bx.z), trace4), hn::NegMulAdd(quarter, s.c.y, bx.x)},
       {hn::NegMulAdd(quarter, s.a.z, by.x), hn::NegMulAdd(quarter, s.b.z, bx.y), hn::Sub(hn::Add(bx.z, by.z), trace4)}};
+  if (HWY_UNLIKELY(walls.numbers != nullptr)) {
+    const Vec3 shear = {dot(e.b.direction, e.c.direction), dot(e.c.direction, e.a.direction),
+                        dot(e.a.direction, e.b.direction)};
+    addThinWalls(walls, s, {e.a.strain, e.b.strain, e.c.strain}, shear, r, solid);
+  }
   const V even = squaredTrace(s), rest = squaredRest(s);
   const V twice = hn::Add(hn::Add(dot(r.a, s.a), dot(r.b, s.b)), hn::Add(dot(r.c, s.c), solid.coupled));
   V energy = hn::MulAdd(set(0.5f), twice, hn::MulAdd(set(-0.125f), even, alternating));
@@ -306,8 +359,8 @@ HWY_INLINE BendPull bendPull(const CellEdges& e, bool fades, const Moments& t, V
 /// by the motion, those by da, db and dc over 4 h [N]   @return energy [J]   @tparam kFull  all cells are full, `t` is
 /// not looked at
 template <bool kFull>
-HWY_INLINE V cellPull(CellMotion& q, const Moments& t, V rigidity, const PlaneStress<kFull>& stress,
-                      const CellScale& of) {
+HWY_INLINE V cellPull(CellMotion& q, const Moments& t, const ThinWalls& walls, V rigidity,
+                      const PlaneStress<kFull>& stress, const CellScale& of) {
   CellEdges e;
   const bool fades = cellEdges<!kFull>(q, e);
   const Vec3 &a = e.a.direction, &b = e.b.direction, &c = e.c.direction;
@@ -315,7 +368,7 @@ HWY_INLINE V cellPull(CellMotion& q, const Moments& t, V rigidity, const PlaneSt
                   {dot(b, q.hx), dot(b, q.hy), dot(b, q.hz)},
                   {dot(c, q.hx), dot(c, q.hy), dot(c, q.hz)}};
   const V alternating = hn::Mul(set(0.25f * kAlternating), dot(q.hxyz, q.hxyz));
-  const BendPull pull = bendPull(e, fades, t, rigidity, stress, of, s, alternating);
+  const BendPull pull = bendPull(e, fades, t, walls, rigidity, stress, of, s, alternating);
   const Bend& r = pull.by;
   // By the directions of edges, and along these.
   Vec3 by_a = weighted(r.a.x, q.hx, r.a.y, q.hy, r.a.z, q.hz), by_b = weighted(r.b.x, q.hx, r.b.y, q.hy, r.b.z, q.hz);

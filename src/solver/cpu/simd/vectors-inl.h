@@ -155,6 +155,12 @@ HWY_INLINE void move(const Motion& s, V mobility, const layout::NodeBits* nodes,
   v_next = select(moves, v_next, zero3());
 }
 
+/// Has no row of a vector its bit set? @param rows  bit r: the four from 4 r on   @param i  index of the vector's first
+HWY_INLINE bool noRows(uint32_t rows, int i) {
+  constexpr uint32_t kRows = (1u << (hn::MaxLanes(Tag()) / 4)) - 1;
+  return (rows >> (i / 4) & kRows) == 0;
+}
+
 }  // namespace viscera::simd::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

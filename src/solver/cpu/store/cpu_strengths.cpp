@@ -71,6 +71,7 @@ CpuStrengths::CpuStrengths(const Model& model, const CpuStore& store, const Feat
     idle_cells.resize(store.brickCount());
     for (const Body& body : model.bodies) has_parts |= !body.parts.empty();
     spreadMoments(store);
+    if (!moments.bend_of_cell.empty()) spreadBends(store);
   }
   refreshAll(store);
 }
@@ -174,6 +175,33 @@ void CpuStrengths::spreadMoments(const CpuStore& store) {
           planes[simd::cellNumberAt(static_cast<uint32_t>(local), static_cast<uint32_t>(3 * v + c),
                                     simd::kMomentNumbers)] = v == 0 ? twice_h * numbers[c] : numbers[c];
       }
+    }
+  }
+}
+
+/// Makes brick_bends and thin_rows.
+void CpuStrengths::spreadBends(const CpuStore& store) {
+  constexpr size_t kBrick = layout::kBendNumbers * layout::kBrickSlots;
+  thin_rows.assign(store.brickCount(), 0);
+  std::vector<uint32_t> thin;
+  for (uint32_t b = 0; b < store.brickCount(); ++b) {
+    for (uint32_t local = 0; local < layout::kBrickSlots; ++local) {
+      if (moments.bendOf(b * layout::kBrickSlots + local) != nullptr)
+        thin_rows[b] = static_cast<uint16_t>(thin_rows[b] | 1u << (local / 4));
+    }
+    if (thin_rows[b] != 0) thin.push_back(b);
+  }
+  bend_planes_.resize(thin.size() * kBrick);
+  brick_bends.assign(store.brickCount(), nullptr);
+  for (size_t i = 0; i < thin.size(); ++i) {
+    float* planes = &bend_planes_[i * kBrick];
+    brick_bends[thin[i]] = planes;
+    const float twice_h = 2 * store.bodies[store.bricks[thin[i]].body].origin_spacing.w;
+    for (uint32_t local = 0; local < layout::kBrickSlots; ++local) {
+      const float* numbers = moments.bendOf(thin[i] * layout::kBrickSlots + local);
+      for (uint32_t n = 0; numbers != nullptr && n < layout::kBendNumbers; ++n)
+        planes[simd::cellNumberAt(local, n, layout::kBendNumbers)] =
+            n < layout::kBendPairs ? numbers[n] : twice_h * numbers[n];
     }
   }
 }

@@ -44,12 +44,15 @@ struct CpuStrengths {
   std::vector<const float*> brick_moments;  ///< [bricks] [9 * 64] moments of its cells, number by number, the
                                             ///< first ones times 2 h; null where all are full; empty without moments
   std::vector<uint16_t> partial_rows;       ///< [bricks] bit r: some of the four cells from 4 r on is tissue in part
-  AlignedVector<float> cell_springs;        ///< [kCellSprings * slots] N/m (kernels.h); empty without moments, as are
-  std::vector<uint8_t> uniform_cells;       ///< [bricks] all of these are whole and of the body's full strength
-  std::vector<uint16_t> idle_cells;         ///< [bricks] bit r: the four cells from 4 r on never do anything to a node
-                                            ///< that moves
-  bool has_parts = false;                   ///< some body has parts with elasticities of their own
-  bool has_volumes = false;                 ///< some bulk is not 0
+  std::vector<const float*> brick_bends;  ///< [bricks] [kBendNumbers * 64] bends of its cells, number by number, those
+                                          ///< with strains times 2 h; null where none is; empty without thin walls
+  std::vector<uint16_t> thin_rows;        ///< [bricks] bit r: some of the four cells from 4 r on has a bend
+  AlignedVector<float> cell_springs;      ///< [kCellSprings * slots] N/m (kernels.h); empty without moments, as are
+  std::vector<uint8_t> uniform_cells;     ///< [bricks] all of these are whole and of the body's full strength
+  std::vector<uint16_t> idle_cells;       ///< [bricks] bit r: the four cells from 4 r on never do anything to a node
+                                          ///< that moves
+  bool has_parts = false;                 ///< some body has parts with elasticities of their own
+  bool has_volumes = false;               ///< some bulk is not 0
   std::vector<uint8_t> uniform;     ///< [bricks] all springs of all its nodes are whole and of the body's full strength
   std::vector<uint16_t> idle_rows;  ///< [bricks] bit r: none of the four nodes from 4 r on will ever move
 
@@ -60,6 +63,7 @@ struct CpuStrengths {
   bool hasSoftened(const CpuStore& store, uint32_t slot) const;
   bool isFull(const CpuStore& store, uint32_t slot) const;
   void spreadMoments(const CpuStore& store);
+  void spreadBends(const CpuStore& store);
   void shareBulk(const CpuStore& store, uint32_t slot);
   void setCellSpring(const CpuStore& store, uint32_t slot, uint32_t pair);
   void noteIdleRows();
@@ -67,6 +71,7 @@ struct CpuStrengths {
   bool isIdleRow(const CpuStore& store, uint32_t first) const;
 
   AlignedVector<float> moment_planes_;  ///< what brick_moments points to
+  AlignedVector<float> bend_planes_;    ///< what brick_bends points to
   Strengths table_;                     ///< of models with parts, whose counts only say alive or cut; else empty
 };
 

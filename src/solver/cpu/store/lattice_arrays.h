@@ -37,6 +37,8 @@ inline simd::CellJob cellsOf(CpuLattice& lattice) {
   job.rigidity = lattice.strengths.rigidity.data();
   job.moments = lattice.strengths.brick_moments.data();
   job.partial_rows = lattice.strengths.partial_rows.data();
+  job.bends = lattice.strengths.brick_bends.empty() ? nullptr : lattice.strengths.brick_bends.data();
+  job.thin_rows = lattice.strengths.thin_rows.data();
   job.parts = lattice.strengths.has_parts;
   job.volumes = lattice.strengths.has_volumes;
   return job;

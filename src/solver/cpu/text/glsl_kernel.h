@@ -155,7 +155,10 @@ struct Kernel {
   template <class Moments>
   Moments momentsAt(uint slot) const {
     const layout::vec4* m = &moments_->vectors[kVectorsPerFill * moments_->of_cell[slot]];
-    return {xyz(m[0]), xyz(m[1]), xyz(m[2])};
+    return {xyz(m[0]), xyz(m[1]), xyz(m[2]), moments_->bend_of_cell.empty() ? 0 : moments_->bend_of_cell[slot]};
+  }
+  float bendNumber(uint bend, uint number) const {
+    return (&moments_->vectors[size_t{bend} * layout::kBendVectors].x)[number];
   }
   float springStiffness(uint slot, uint far, uint spring, uint, const BodyParams&) const {
     return stiffness_[stiffnessAt((spring & 1u) == 0u ? slot : far, spring >> 1)];

@@ -83,7 +83,9 @@ void StrengthBuffers::writeMoments(const Model& model, const Strengths& table) {
   const JoinedMoments moments = allMoments(model);
   std::vector<layout::vec4> cells(table.bulk_j.size());
   for (size_t slot = 0; slot < cells.size(); ++slot) {
-    cells[slot] = {table.bulk_j[slot], table.rigidity_j[slot], static_cast<float>(moments.of_cell[slot]), 0};
+    const uint32_t bend = moments.bend_of_cell.empty() ? 0 : moments.bend_of_cell[slot];
+    cells[slot] = {table.bulk_j[slot], table.rigidity_j[slot], static_cast<float>(moments.of_cell[slot]),
+                   static_cast<float>(bend)};
   }
   cell_strengths = gpu::Buffer<layout::vec4>(cells, "cell strengths");
   cell_moments = gpu::Buffer<layout::vec4>(moments.vectors, "cell moments");

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <map>
 
+#include "viscera/model/body/bend_matrices.h"
 #include "viscera/model/body/neighbors.h"
 
 namespace viscera::multigrid {
@@ -44,6 +45,7 @@ struct Recipe {
   std::array<float, 8> diagonal{};
   std::array<float, 9> moments{};
   float bulk = 0, rigidity = 0, spacing_m = 0, damping = 0;
+  uint32_t thin = 0;  ///< 1 + place of a cell with a bend: no two have the same
 
   bool operator<(const Recipe& other) const { return std::memcmp(this, &other, sizeof(Recipe)) < 0; }
 };
@@ -75,7 +77,8 @@ Strain strainGradient(int n, double poisson) {
 }
 
 /// d2 energy / d motion2 of a cell's moments at rest [J] (physics.md 1).
-Motion momentsAtRest(const Recipe& recipe) {
+/// @param bend  FineLevel::bendAt() of it
+Motion momentsAtRest(const Recipe& recipe, const float* bend) {
   constexpr double kAlternating = 5.0 / 18 - 0.5;
   const double rigidity = static_cast<double>(recipe.rigidity),
                lambda = 1 + static_cast<double>(recipe.bulk) / rigidity;
@@ -102,6 +105,25 @@ Motion momentsAtRest(const Recipe& recipe) {
     for (int j = 0; j < 3; ++j)
       out += m(n == j ? 3 + n : 6 + 3 - n - j) * gradient[n].transpose() * stiffness * gradient[j];
   }
+  if (bend != nullptr) {
+    Eigen::Matrix<double, 9, 21> s = Eigen::Matrix<double, 9, 21>::Zero();
+    for (int i = 0; i < 9; ++i) s(i, hourglass(i % 3, i / 3)) = 1;
+    BendMatrix pairs = BendMatrix::Zero();
+    Eigen::Matrix<double, 9, 6> strains;
+    const auto next = [&] {
+      const double number = static_cast<double>(*bend);
+      bend += kBlock;
+      return number;
+    };
+    for (int i = 0; i < 9; ++i) {
+      for (int j = i; j < 9; ++j) pairs(i, j) = pairs(j, i) = next();
+    }
+    for (int i = 0; i < 9; ++i) {
+      for (int j = 0; j < 6; ++j) strains(i, j) = next() / h2;
+    }
+    const Motion mixed = s.transpose() * strains * mean;
+    out += s.transpose() * pairs * s + mixed + mixed.transpose();
+  }
   Eigen::Matrix<double, 1, 21> trace = Eigen::Matrix<double, 1, 21>::Zero();
   for (int n = 0; n < 3; ++n) {
     const int a = (n + 1) % 3;
@@ -116,7 +138,8 @@ Motion momentsAtRest(const Recipe& recipe) {
   return rigidity * out;
 }
 
-ElementMatrix matrixOf(const Recipe& recipe, const std::vector<CellSpring>& springs) {
+/// @param bend  as of momentsAtRest()
+ElementMatrix matrixOf(const Recipe& recipe, const std::vector<CellSpring>& springs, const float* bend) {
   Eigen::Matrix<double, 24, 24> out = Eigen::Matrix<double, 24, 24>::Zero();
   for (size_t s = 0; s < springs.size(); ++s) {
     const int a = 3 * springs[s].from, b = 3 * springs[s].to;
@@ -141,7 +164,7 @@ ElementMatrix matrixOf(const Recipe& recipe, const std::vector<CellSpring>& spri
   }
   const Eigen::Matrix<double, 1, 24> volume = motion.row(0) + motion.row(4) + motion.row(8);
   out += static_cast<double>(recipe.bulk) * volume.transpose() * volume;
-  if (recipe.rigidity > 0) out += motion.transpose() * momentsAtRest(recipe) * motion;
+  if (recipe.rigidity > 0) out += motion.transpose() * momentsAtRest(recipe, bend) * motion;
   return out.cast<float>();
 }
 
@@ -253,8 +276,10 @@ class Cutter {
                             : i > 2 && i < 6 ? 1.0f / 12
                                              : 0;
     }
+    const float* bend = recipe.rigidity > 0 ? level_.bendAt(place) : nullptr;
+    if (bend != nullptr) recipe.thin = 1 + static_cast<uint32_t>(place);
     const auto [known, is_new] = known_.emplace(recipe, static_cast<uint32_t>(out_.matrices.size()));
-    if (is_new) out_.matrices.push_back(matrixOf(recipe, springs_));
+    if (is_new) out_.matrices.push_back(matrixOf(recipe, springs_, bend));
     element.matrix = known->second;
     out_.elements.push_back(element);
   }

@@ -87,6 +87,11 @@ HWY_INLINE Moments momentsAt(const multigrid::FineArrays& a, size_t i) {
           loadOf(a.moments + 6 * a.places, a.places, i)};
 }
 
+HWY_INLINE ThinWalls thinWallsAt(const multigrid::FineArrays& a, size_t i) {
+  const float* numbers = a.bends == nullptr ? nullptr : a.bends[i / multigrid::kBlock];
+  return numbers == nullptr ? ThinWalls{} : ThinWalls{numbers + i % multigrid::kBlock, multigrid::kBlock};
+}
+
 /// lambda/mu - 1 of cells.
 HWY_INLINE V ratioOf(V bulk, V rigidity) {
   const M there = hn::Gt(rigidity, hn::Zero(Tag()));
@@ -166,7 +171,9 @@ HWY_INLINE V evaluateCell(const multigrid::FineArrays& a, const multigrid::Box& 
       hn::StoreU(surenessOf(q, scale), Tag(), a.resists + 2 * n + i);
     }
     const Moments moments = kFull ? Moments{zero3(), zero3(), zero3()} : momentsAt(a, i);
-    energy = hn::Add(energy, cellPull<kFull>(q, moments, rigidity, planeStress<kFull>(ratioOf(bulk, rigidity)), scale));
+    const ThinWalls walls = kFull ? ThinWalls{} : thinWallsAt(a, i);
+    const PlaneStress<kFull> stress = planeStress<kFull>(ratioOf(bulk, rigidity));
+    energy = hn::Add(energy, cellPull<kFull>(q, moments, walls, rigidity, stress, scale));
     q.da = mulAdd(p, shape.bc, q.da);
     q.db = mulAdd(p, shape.ca, q.db);
     q.dc = mulAdd(p, shape.ab, q.dc);
@@ -180,14 +187,15 @@ HWY_INLINE V evaluateCell(const multigrid::FineArrays& a, const multigrid::Box& 
 /// A cell's share of moments in the change of its pulls, for a change `x` of its motion, at constant directions.
 /// @param sure  see surenessOf()
 template <bool kFull>
-HWY_INLINE CellMotion momentTimes(const CellEdges& e, const Moments& t, const PlaneStress<kFull>& stress, V scale,
-                                  V sure, V per_4h, const CellMotion& x) {
+HWY_INLINE CellMotion momentTimes(const CellEdges& e, const Moments& t, const ThinWalls& walls,
+                                  const PlaneStress<kFull>& stress, V scale, V sure, V per_4h, const CellMotion& x) {
   const Vec3 &a = e.a.direction, &b = e.b.direction, &c = e.c.direction;
   const Vec3 sa = {dot(a, x.hx), dot(a, x.hy), dot(a, x.hz)}, sb = {dot(b, x.hx), dot(b, x.hy), dot(b, x.hz)};
   const Vec3 sc = {dot(c, x.hx), dot(c, x.hy), dot(c, x.hz)};
   const Vec3 gx = {sb.z, sc.y, hn::Add(sb.y, sc.z)}, gy = {sc.x, sa.z, hn::Add(sc.z, sa.x)};
   const Vec3 gz = {sa.y, sb.x, hn::Add(sa.x, sb.y)};
   SolidPull solid;
+  Bend thin = {zero3(), zero3(), zero3()};
   if constexpr (kFull) {
     solid = solidPull(e, t, stress, gx, gy, gz);
   } else {
@@ -199,16 +207,27 @@ HWY_INLINE CellMotion momentTimes(const CellEdges& e, const Moments& t, const Pl
     const Vec3 shear = {hn::Add(dot(b, tc), dot(c, tb)), hn::Add(dot(c, ta), dot(a, tc)),
                         hn::Add(dot(a, tb), dot(b, ta))};
     solid = solidPullOf(strain, shear, t, stress, gx, gy, gz);
+    if (walls.numbers != nullptr) {
+      SolidPull of_walls = {};
+      of_walls.strains = of_walls.shears = zero3();
+      of_walls.coupled = none;
+      addThinWalls(walls, {sa, sb, sc}, sure * strain, sure * shear, thin, of_walls);
+      solid.strains = solid.strains + sure * of_walls.strains;
+      solid.shears = solid.shears + sure * of_walls.shears;
+    }
   }
   const V minus = hn::Mul(set(-0.25f), sure), trace4 = hn::Mul(minus, hn::Add(sa.x, hn::Add(sb.y, sc.z)));
   const Vec3 pair4 = minus * Vec3{hn::Add(sb.z, sc.y), hn::Add(sc.x, sa.z), hn::Add(sa.y, sb.x)};
   const Vec3 &bx = solid.bx, &by = solid.by, &bz = solid.bz;
   const Vec3 ra =
-      scale * mulAdd(minus, sa, {hn::Add(hn::Add(by.z, bz.z), trace4), hn::Add(bz.x, pair4.z), hn::Add(by.y, pair4.y)});
+      scale * (thin.a + mulAdd(minus, sa,
+                               {hn::Add(hn::Add(by.z, bz.z), trace4), hn::Add(bz.x, pair4.z), hn::Add(by.y, pair4.y)}));
   const Vec3 rb =
-      scale * mulAdd(minus, sb, {hn::Add(bz.y, pair4.z), hn::Add(hn::Add(bz.z, bx.z), trace4), hn::Add(bx.x, pair4.x)});
+      scale * (thin.b + mulAdd(minus, sb,
+                               {hn::Add(bz.y, pair4.z), hn::Add(hn::Add(bz.z, bx.z), trace4), hn::Add(bx.x, pair4.x)}));
   const Vec3 rc =
-      scale * mulAdd(minus, sc, {hn::Add(by.x, pair4.y), hn::Add(bx.y, pair4.x), hn::Add(hn::Add(bx.z, by.z), trace4)});
+      scale * (thin.c + mulAdd(minus, sc,
+                               {hn::Add(by.x, pair4.y), hn::Add(bx.y, pair4.x), hn::Add(hn::Add(bx.z, by.z), trace4)}));
   CellMotion out = {zero3(),
                     zero3(),
                     zero3(),
@@ -251,7 +270,8 @@ HWY_INLINE void applyCell(const multigrid::FineArrays& a, const float* x, const 
     Moments moments = kFull ? Moments{zero3(), zero3(), zero3()} : momentsAt(a, i);
     if (!kFull) moments.first = sure * moments.first;
     const V ratio = ratioOf(load(a.bulk + i), load(a.rigidity + i));
-    out = momentTimes<kFull>(e, moments, planeStress<kFull>(ratio), moment_scale, sure, scale.per_4h, dx);
+    const ThinWalls walls = kFull ? ThinWalls{} : thinWallsAt(a, i);
+    out = momentTimes<kFull>(e, moments, walls, planeStress<kFull>(ratio), moment_scale, sure, scale.per_4h, dx);
   }
   if (!hn::AllTrue(Tag(), hn::Eq(curvature, none))) {
     const Shape shape = shapeOfEdges(at.da, at.db, at.dc);

@@ -41,6 +41,7 @@ FineLevel::FineLevel(const Model& model, const CpuLattice& lattice, const Parall
     if (cells_ != CellKind::kVolumes) rigidity_.resize(n);
     if (cells_ == CellKind::kPartialMoments) moments_.resize(9 * n);
     loadCells();
+    if (!lattice.strengths.moments.bend_of_cell.empty()) loadBends();
   }
   for (uint32_t node = 0; node < grid_.nodeCount(); ++node)
     mass_[grid_.place_of[node]] = lattice.strengths.mass[grid_.slots[node]];
@@ -72,6 +73,32 @@ void FineLevel::loadCells() {
   cell_blocks_.erase(std::unique(cell_blocks_.begin(), cell_blocks_.end(),
                                  [](const Block& a, const Block& b) { return a.at == b.at; }),
                      cell_blocks_.end());
+}
+
+/// What thin walls add to cells, which never changes.
+void FineLevel::loadBends() {
+  constexpr size_t kNumbers = layout::kBendNumbers * kBlock;
+  const JoinedMoments& joined = lattice_.strengths.moments;
+  std::vector<size_t> block_of(places() / kBlock, 0);  // 1 + its index
+  size_t blocks = 0;
+  for (const uint32_t node : cell_nodes_) {
+    size_t& block = block_of[grid_.place_of[node] / kBlock];
+    if (block == 0 && joined.bendOf(grid_.slots[node]) != nullptr) block = ++blocks;
+  }
+  bends_.resize(blocks * kNumbers);
+  bends_at_.assign(block_of.size(), nullptr);
+  for (size_t b = 0; b < block_of.size(); ++b) {
+    if (block_of[b] != 0) bends_at_[b] = &bends_[(block_of[b] - 1) * kNumbers];
+  }
+  for (const uint32_t node : cell_nodes_) {
+    const uint32_t slot = grid_.slots[node], place = grid_.place_of[node];
+    const float* numbers = joined.bendOf(slot);
+    if (numbers == nullptr) continue;
+    const float twice_h = 2 * lattice_.store.bodyOf(slot).origin_spacing.w;
+    float* to = &bends_[(block_of[place / kBlock] - 1) * kNumbers + place % kBlock];
+    for (size_t n = 0; n < layout::kBendNumbers; ++n)
+      to[n * kBlock] = n < layout::kBendPairs ? numbers[n] : twice_h * numbers[n];
+  }
 }
 
 void FineLevel::refresh() {
@@ -140,6 +167,7 @@ FineArrays FineLevel::arrays() const {
   a.bulk = bulk_.data();
   a.rigidity = rigidity_.data();
   a.moments = moments_.data();
+  a.bends = bends_at_.empty() ? nullptr : bends_at_.data();
   a.tangent = tangent_.data();
   a.edges = edges_.data();
   a.resists = resists_.data();

@@ -130,6 +130,11 @@ class FineLevel {
   float bulk(size_t place) const { return bulk_.empty() ? 0 : bulk_[place]; }
   float rigidity(size_t place) const { return rigidity_.empty() ? 0 : rigidity_[place]; }
   const float* moments() const { return moments_.empty() ? nullptr : moments_.data(); }
+  /// [kBendNumbers] of the cell at a place, kBlock apart; null: it has no bend.
+  const float* bendAt(size_t place) const {
+    const float* block = bends_at_.empty() ? nullptr : bends_at_[place / kBlock];
+    return block == nullptr ? nullptr : block + place % kBlock;
+  }
   float diagonal(size_t place) const { return diagonal_[place]; }
   const Box& box(uint32_t body) const { return boxes_[body]; }
 
@@ -139,6 +144,7 @@ class FineLevel {
   size_t jobs() const { return sums_.size(); }
   FineArrays arrays() const;
   void loadCells();
+  void loadBends();
   double smooth(const Smoothing& smoothing) const;
   void projectAt(const Plane& plane, float* x) const;
   double smoothHeld(const Smoothing& smoothing) const;
@@ -163,7 +169,8 @@ class FineLevel {
   const float *displacement_ = nullptr, *velocity_ = nullptr;
   mutable std::vector<double> sums_;  ///< [jobs]
   mutable FineWork done_;
-  AlignedVector<float> stiffness_, mass_, free_, movable_, diagonal_, bulk_, rigidity_, moments_;
+  AlignedVector<float> stiffness_, mass_, free_, movable_, diagonal_, bulk_, rigidity_, moments_, bends_;
+  std::vector<const float*> bends_at_;  ///< as FineArrays::bends
   mutable AlignedVector<uint16_t> tangent_;
   mutable AlignedVector<float> edges_, resists_, corners_, inverse_;
   mutable Vectors force_;
