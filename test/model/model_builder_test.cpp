@@ -172,7 +172,7 @@ TEST(BuildModel, WallsThatAreThinnerThanACellAreNamed) {
     BodyConfig config = phantomConfig(spacing_m);
     config.material.cells = cells;
     for (const std::string& note : build(config).notes) {
-      if (contains(note, "walls")) notes += note;
+      if (contains(note, "walls thinner")) notes += note;
     }
     return notes;
   };

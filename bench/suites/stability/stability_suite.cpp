@@ -22,19 +22,27 @@ Model blockOf(int cells, double poisson_ratio) {
   return blockModel(Vector3i::Constant(cells), kSpacing_m, material);
 }
 
-/// A box of about as many cells by moments, askew: full ones and ones that are tissue in part, down to specks.
-Model momentsOf(int cells, double poisson_ratio) {
+/// A box of cells by moments, askew: full ones and ones that are tissue in part, down to specks.
+Model askewBox(const Vector3d& cells, double poisson_ratio, bool thin_walls) {
   BodyConfig body;
   body.name = "block";
   body.source = TissueSource::kBox;
-  body.box_size_m = Vector3d::Constant((cells - 1) * kSpacing_m);
+  body.box_size_m = kSpacing_m * cells;
   body.rotation_deg = Vector3d(20, 35, 10);
   body.spacing_m = kSpacing_m;
   body.material.cells = Cells::kMoments;
+  body.material.thin_walls = thin_walls;
   body.material.poisson_ratio = poisson_ratio;
   Scene scene;
   scene.bodies.push_back(body);
   return buildModel(scene);
+}
+Model momentsOf(int cells, double poisson_ratio) {
+  return askewBox(Vector3d::Constant(cells - 1), poisson_ratio, false);
+}
+/// A wall of little more than one cell (material.thin_walls).
+Model thinWallOf(int cells, double poisson_ratio) {
+  return askewBox(Vector3d(cells, cells, 1.2), poisson_ratio, true);
 }
 
 /// The worst of the cells that one check is about.
@@ -157,8 +165,11 @@ void startsOfStability(Report& report) {
   if (!report.isShort()) tryAll(report, blockOf(cells, 0.45), nu + "0.45", {1, 10}, "starts_volume");
   tryAll(report, momentsOf(cells, 0.25), "cells by moments, " + nu + "0.25",
          report.isShort() ? Ratios{1} : Ratios{0.1, 1, 10, 100}, "starts_moments");
-  if (!report.isShort())
-    tryAll(report, momentsOf(cells, 0.45), "cells by moments, " + nu + "0.45", {1, 10}, "starts_moments_volume");
+  tryAll(report, thinWallOf(cells, 0.25), "a thin wall, " + nu + "0.25",
+         report.isShort() ? Ratios{1} : Ratios{0.1, 1, 10}, "starts_thin");
+  if (report.isShort()) return;
+  tryAll(report, momentsOf(cells, 0.45), "cells by moments, " + nu + "0.45", {1, 10}, "starts_moments_volume");
+  tryAll(report, thinWallOf(cells, 0.45), "a thin wall, " + nu + "0.45", {1, 10}, "starts_thin_volume");
 }
 
 void fractionsOfStability(Report& report) {
@@ -197,6 +208,7 @@ void fractionsOfStability(Report& report) {
 
 void measuredOfStability(Report& report) {
   Table table("leapfrog as it is by default, substeps measured, governor on", {{"backend"},
+                                                                               {"body"},
                                                                                {"nu"},
                                                                                {"start"},
                                                                                {"dt at rest", "dt_safe", 3},
@@ -208,18 +220,19 @@ void measuredOfStability(Report& report) {
     Worst worst;
     for (const double nu : report.isShort() ? std::vector<double>{0.25} : std::vector<double>{0.25, 0.45, 0.49}) {
       report.stage("measured substeps, nu " + Cell(nu).text(3) + ", " + nameOf(backend));
-      const Model model = blockOf(report.isShort() ? 4 : 6, nu);
-      Scene scene = sceneAt(model, Integrator::kLeapfrog, 1);
-      scene.solver.tick_hz = SolverConfig{}.tick_hz;
-      scene.solver.substeps = 0;
-      const std::unique_ptr<Ticks> solver = solverOn(backend, model, scene, false);
-      const double dt = solver->dt_s() / solver->dtSafe_s(), limit = solver->dtLimit_s() / solver->dtSafe_s();
-      for (const Start& start : extremeStarts(model)) {
-        const Outcome outcome = tryStart(backend, model, scene, start, report.isShort() ? 20 : kTicks);
-        worst.add(outcome);
-        table.add({nameOf(backend), nu, start.name, dt, limit,
-                   outcome.finite ? Cell(outcome.energy_ratio) : Cell("not finite"), outcome.energy_left,
-                   static_cast<double>(outcome.trips)});
+      for (const Model& model : {blockOf(report.isShort() ? 4 : 6, nu), thinWallOf(report.isShort() ? 4 : 6, nu)}) {
+        Scene scene = sceneAt(model, Integrator::kLeapfrog, 1);
+        scene.solver.tick_hz = SolverConfig{}.tick_hz;
+        scene.solver.substeps = 0;
+        const std::unique_ptr<Ticks> solver = solverOn(backend, model, scene, false);
+        const double dt = solver->dt_s() / solver->dtSafe_s(), limit = solver->dtLimit_s() / solver->dtSafe_s();
+        for (const Start& start : extremeStarts(model)) {
+          const Outcome outcome = tryStart(backend, model, scene, start, report.isShort() ? 20 : kTicks);
+          worst.add(outcome);
+          table.add({nameOf(backend), model.bodies[0].material.thin_walls ? "thin wall" : "block", nu, start.name, dt,
+                     limit, outcome.finite ? Cell(outcome.energy_ratio) : Cell("not finite"), outcome.energy_left,
+                     static_cast<double>(outcome.trips)});
+        }
       }
     }
     report.checkAtMost(nameOf(backend) + ": measured: cells with a value that is not finite", worst.not_finite, 0);

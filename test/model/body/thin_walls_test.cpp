@@ -5,6 +5,7 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "model/body/thin_walls.h"
 #include "support/lattices.h"
 #include "viscera/model/body/elasticity.h"
 
@@ -46,6 +47,14 @@ TEST(ThinWalls, BendsAreOfWallsOfLessThanFourCells) {
   Body asked_not = thinBody(1, 0.01);
   asked_not.material.thin_walls = false;
   EXPECT_TRUE(cellMoments(asked_not).bends.empty());
+}
+
+TEST(ThinWalls, ShareOfCellsInThemIsTold) {
+  EXPECT_GT(thinShare(thinBody(1.2, 0.01).lattice), 0.9);
+  const Body ball =
+      momentBody({12, 12, 12}, 0.01, [](const Vector3d& p) { return (p - Vector3d::Constant(6.1)).norm() < 5; });
+  EXPECT_EQ(thinShare(ball.lattice), 0);
+  EXPECT_EQ(thinShare(boxBody({2, 2, 2}, 0.01).lattice), 0) << "no cell is in part";
 }
 
 /// Aligned walls of whole cells have none, as their cells are full.
