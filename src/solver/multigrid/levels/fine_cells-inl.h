@@ -88,8 +88,10 @@ HWY_INLINE Moments momentsAt(const multigrid::FineArrays& a, size_t i) {
 }
 
 HWY_INLINE ThinWalls thinWallsAt(const multigrid::FineArrays& a, size_t i) {
-  const float* numbers = a.bends == nullptr ? nullptr : a.bends[i / multigrid::kBlock];
-  return numbers == nullptr ? ThinWalls{} : ThinWalls{numbers + i % multigrid::kBlock, multigrid::kBlock};
+  constexpr size_t kBlock = multigrid::kBlock;
+  const uint32_t block = a.bend_block == nullptr ? 0 : a.bend_block[i / kBlock];
+  if (block == 0) return {};
+  return {a.bends + (block - 1) * layout::kBendNumbers * kBlock + i % kBlock, kBlock};
 }
 
 /// lambda/mu - 1 of cells.

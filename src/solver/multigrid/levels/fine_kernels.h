@@ -43,14 +43,15 @@ struct FineArrays {
   const float* bulk;          ///< [1] J of the cell above a place
   const float* rigidity;      ///< [1] J
   const float* moments;       ///< [9] of cells, over their shares, the first ones times 2 h; null where all are full
-  const float* const* bends;  ///< [places / kBlock] [kBendNumbers * kBlock] of cells in thin walls, those with strains
-                              ///< times 2 h; null where none is; null without any
-  uint16_t* tangent;          ///< [kPairs * kTangentNumbers] sqrt(N/m), N/m
-  float* edges;               ///< [9] mean edges of cells less their rest value, over h
-  float* resists;             ///< [3] curvature of the volume's energy [J]; what moments are times [N/m], and how sure
-  float* corners;             ///< [kCornerNumbers] N, corner by corner
-  float* force;               ///< [3] N of springs, dashpots and cells
-  float* inverse;             ///< [6] m/N of the block diagonal: xx, xy, xz, yy, yz, zz; 0 where not free
+  const uint32_t*
+      bend_block;      ///< [places / kBlock] 1 + which of `bends` has their cells' numbers, 0 none; null without any
+  const float* bends;  ///< [kBendNumbers * kBlock] each, of cells in thin walls, those with strains times 2 h
+  uint16_t* tangent;   ///< [kPairs * kTangentNumbers] sqrt(N/m), N/m
+  float* edges;        ///< [9] mean edges of cells less their rest value, over h
+  float* resists;      ///< [3] curvature of the volume's energy [J]; what moments are times [N/m], and how sure
+  float* corners;      ///< [kCornerNumbers] N, corner by corner
+  float* force;        ///< [3] N of springs, dashpots and cells
+  float* inverse;      ///< [6] m/N of the block diagonal: xx, xy, xz, yy, yz, zz; 0 where not free
   CellKind cells;
 };
 

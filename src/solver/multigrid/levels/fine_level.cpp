@@ -79,26 +79,32 @@ void FineLevel::loadCells() {
 void FineLevel::loadBends() {
   constexpr size_t kNumbers = layout::kBendNumbers * kBlock;
   const JoinedMoments& joined = lattice_.strengths.moments;
-  std::vector<size_t> block_of(places() / kBlock, 0);  // 1 + its index
-  size_t blocks = 0;
+  bend_block_.assign(places() / kBlock, 0);
+  uint32_t blocks = 0;
   for (const uint32_t node : cell_nodes_) {
-    size_t& block = block_of[grid_.place_of[node] / kBlock];
+    uint32_t& block = bend_block_[grid_.place_of[node] / kBlock];
     if (block == 0 && joined.bendOf(grid_.slots[node]) != nullptr) block = ++blocks;
   }
   bends_.resize(blocks * kNumbers);
-  bends_at_.assign(block_of.size(), nullptr);
-  for (size_t b = 0; b < block_of.size(); ++b) {
-    if (block_of[b] != 0) bends_at_[b] = &bends_[(block_of[b] - 1) * kNumbers];
-  }
   for (const uint32_t node : cell_nodes_) {
     const uint32_t slot = grid_.slots[node], place = grid_.place_of[node];
     const float* numbers = joined.bendOf(slot);
     if (numbers == nullptr) continue;
     const float twice_h = 2 * lattice_.store.bodyOf(slot).origin_spacing.w;
-    float* to = &bends_[(block_of[place / kBlock] - 1) * kNumbers + place % kBlock];
+    float* to = &bends_[(bend_block_[place / kBlock] - 1) * kNumbers + place % kBlock];
     for (size_t n = 0; n < layout::kBendNumbers; ++n)
       to[n * kBlock] = n < layout::kBendPairs ? numbers[n] : twice_h * numbers[n];
   }
+}
+
+const float* FineLevel::bendAt(size_t place) const {
+  const uint32_t block = bend_block_.empty() ? 0 : bend_block_[place / kBlock];
+  if (block == 0) return nullptr;
+  const float* numbers = &bends_[(block - 1) * layout::kBendNumbers * kBlock + place % kBlock];
+  for (size_t n = 0; n < layout::kBendNumbers; ++n) {
+    if (numbers[n * kBlock] != 0) return numbers;
+  }
+  return nullptr;
 }
 
 void FineLevel::refresh() {
@@ -167,7 +173,8 @@ FineArrays FineLevel::arrays() const {
   a.bulk = bulk_.data();
   a.rigidity = rigidity_.data();
   a.moments = moments_.data();
-  a.bends = bends_at_.empty() ? nullptr : bends_at_.data();
+  a.bend_block = bend_block_.empty() ? nullptr : bend_block_.data();
+  a.bends = bends_.data();
   a.tangent = tangent_.data();
   a.edges = edges_.data();
   a.resists = resists_.data();

@@ -131,10 +131,7 @@ class FineLevel {
   float rigidity(size_t place) const { return rigidity_.empty() ? 0 : rigidity_[place]; }
   const float* moments() const { return moments_.empty() ? nullptr : moments_.data(); }
   /// [kBendNumbers] of the cell at a place, kBlock apart; null: it has no bend.
-  const float* bendAt(size_t place) const {
-    const float* block = bends_at_.empty() ? nullptr : bends_at_[place / kBlock];
-    return block == nullptr ? nullptr : block + place % kBlock;
-  }
+  const float* bendAt(size_t place) const;
   float diagonal(size_t place) const { return diagonal_[place]; }
   const Box& box(uint32_t body) const { return boxes_[body]; }
 
@@ -170,7 +167,7 @@ class FineLevel {
   mutable std::vector<double> sums_;  ///< [jobs]
   mutable FineWork done_;
   AlignedVector<float> stiffness_, mass_, free_, movable_, diagonal_, bulk_, rigidity_, moments_, bends_;
-  std::vector<const float*> bends_at_;  ///< as FineArrays::bends
+  std::vector<uint32_t> bend_block_;  ///< as in FineArrays: places, not addresses, as levels are copied
   mutable AlignedVector<uint16_t> tangent_;
   mutable AlignedVector<float> edges_, resists_, corners_, inverse_;
   mutable Vectors force_;
