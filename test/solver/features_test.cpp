@@ -26,8 +26,18 @@ TEST(Features, PlainSceneAsksForNoneOfThem) {
   Body body = test::boxBody({1, 1, 1}, 0.01);
   body.material.dashpot_ratio = 0;
   const FeatureSet features = featuresOf(body);
-  for (const char* name : {"DASHPOT", "VOLUME", "PARTS", "COMPENSATED"}) EXPECT_FALSE(has(features, name)) << name;
+  for (const char* name : {"DASHPOT", "PREDICTED", "VOLUME", "PARTS", "COMPENSATED"})
+    EXPECT_FALSE(has(features, name)) << name;
   EXPECT_TRUE(has(features, "SINGLE_BODY"));
+}
+
+TEST(Features, SpringsArePredictedWhereTheyHaveDashpotsAndNoCellIsByMoments) {
+  Body body = test::boxBody({1, 1, 1}, 0.01);
+  body.material.dashpot_ratio = 0.2;
+  body.material.cells = Cells::kSprings;
+  EXPECT_TRUE(has(featuresOf(body), "PREDICTED"));
+  body.material.cells = Cells::kMoments;
+  EXPECT_FALSE(has(featuresOf(body), "PREDICTED"));
 }
 
 TEST(Features, VolumeIsThereForAnyPoissonsRatioButAQuarter) {

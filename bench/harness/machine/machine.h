@@ -23,7 +23,7 @@ std::string fmaTarget();  ///< the instruction set of fmaRate()
 /// clock.
 void warmUpGpu(const std::function<void()>& work);
 /// The same on the renderer of the current context: copies between buffers, multiply-adds in a compute shader.
-double gpuCopyRate(size_t mebibytes);
+double gpuCopyRate(size_t mebibytes);  ///< of each buffer, or as much as the driver lets a storage block be
 double gpuFmaRate(double seconds);
 
 struct Cache {

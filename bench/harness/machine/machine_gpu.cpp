@@ -8,6 +8,7 @@
 
 #include "bench/harness/machine/machine.h"
 #include "gpu/buffer.h"
+#include "gpu/limits.h"
 #include "gpu/program.h"
 #include "viscera/layout/limits.h"
 
@@ -46,7 +47,8 @@ void warmUpGpu(const std::function<void()>& work) {
 }
 
 double gpuCopyRate(size_t mebibytes) {
-  gpu::Buffer<layout::vec4> from((mebibytes << 20) / sizeof(layout::vec4)), to(from.size());
+  const size_t bytes_each = std::min(mebibytes << 20, gpu::driverLimits().storage_block_bytes);
+  gpu::Buffer<layout::vec4> from(bytes_each / sizeof(layout::vec4)), to(from.size());
   const double bytes = static_cast<double>(from.size() * sizeof(layout::vec4));
   const gpu::Program program =
       gpu::Program::compute("bench_copy.comp", {"GROUP_SIZE " + std::to_string(layout::kGroupSize)});

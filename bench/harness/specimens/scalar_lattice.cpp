@@ -45,7 +45,7 @@ ScalarLattice::ScalarLattice(const Model& model, const HostState& start, double 
   }
 }
 
-/// Sum of k (L - l0) n, L - l0 = (2 d.w + w.w) / (L + l0), and c (n.dv) n.
+/// Sum of k (L - l0) n, L - l0 = (2 d.w + w.w) / (L + l0), with dashpots where the ends will be.
 template <bool kDashpot>
 std::array<float, 3> ScalarLattice::springForce(size_t at) const {
   const Node& near = nodes_[at];
@@ -56,18 +56,17 @@ std::array<float, 3> ScalarLattice::springForce(size_t at) const {
     if (count == 0) continue;
     const Neighbor& spring = neighbors_[s];
     const Node& far = nodes_[static_cast<size_t>(static_cast<std::ptrdiff_t>(at) + spring.offset)];
-    float w[3], e[3], dw = 0, ww = 0, ee = 0, ev = 0;
+    float w[3], e[3], dw = 0, ww = 0, ee = 0;
     for (int i = 0; i < 3; ++i) {
       w[i] = far.u_m[i] - near.u_m[i];
+      if (kDashpot) w[i] += body_.dashpot_s * (far.v_m_per_s[i] - near.v_m_per_s[i]);
       e[i] = spring.d_m[i] + w[i];
       dw += spring.d_m[i] * w[i];
       ww += w[i] * w[i];
       ee += e[i] * e[i];
-      if (kDashpot) ev += e[i] * (far.v_m_per_s[i] - near.v_m_per_s[i]);
     }
     const float k = static_cast<float>(count) * spring.stiffness_n_per_m, length = std::sqrt(ee);
-    float pull = k * (2 * dw + ww) / (length * (length + spring.l0_m));
-    if (kDashpot) pull += k * body_.dashpot_s * ev / ee;
+    const float pull = k * (2 * dw + ww) / (length * (length + spring.l0_m));
     for (int i = 0; i < 3; ++i) force[i] += pull * e[i];
   }
   return force;

@@ -11,8 +11,9 @@
 namespace viscera::bench {
 
 /// What SIMD is compared with: a plain loop over the nodes of one body, one after the other, on one thread, in float32.
-/// The same equations as the other backends (physics.md 2: leapfrog on (u, v), extension without cancellation, axial
-/// dashpot), the same counts per spring; nodes lie in a box with a border, so that a neighbour is a constant away.
+/// The same equations as the other backends (physics.md 2: leapfrog on (u, v), extension without cancellation; with
+/// a dashpot all springs are predicted, as mild ones are), the same counts per spring; nodes lie in a box with a
+/// border, so that a neighbour is a constant away.
 class ScalarLattice {
  public:
   /// @param model  one body without volume energy, parts   @param start  state of time 0   @param dt_s  substep

@@ -37,6 +37,9 @@ struct Brick {
 const uint kBrickWords = 32u;
 const uint kBrickNeighborWord = 4u;  // word of Brick.neighbors[0]
 
+// (L^2 - l0^2) / l0^2 of a spring of length L: below it a spring may pull where its ends are predicted (physics.md 2).
+const float kMildStretch = 0.125f;
+
 struct BodyParams {
   vec4 origin_spacing;      // xyz: rest position of node (0, 0, 0) [m, tissue frame]; w: spacing h [m]
   float axial_quarter_n_per_m;  // a quarter of the axial stiffness: what one solid cell gives an edge

@@ -19,6 +19,9 @@ bool hasVolumeEnergy(const Model& model);
 bool isHeterogeneous(const Model& model);
 /// Does some body's cells resist by moments (Cells)?
 bool hasMoments(const Model& model);
+/// Do the springs of lattices pull where nodes will be, in place of their dashpots while they are mild (leapfrog;
+/// physics.md 2)? Where no cells resist by moments.
+bool predictsSprings(const Model& model);
 
 /// Largest stable substep of a lattice without dashpot, however it is deformed [s]: 2 / omega with
 /// omega^2 = max over free nodes of (2 sum of k + 1.5 / h^2 sum of the positive bulk_j of the cells around) / m

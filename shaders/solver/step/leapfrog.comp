@@ -4,7 +4,7 @@
 // leapfrog.comp - advance every active node by one leapfrog substep.   Owner: solver/gpu/steps/leapfrog_pass.h   physics.md 2, 5
 // in  displacement, velocity [slots]     out  displacement, velocity [slots]; impulses [kMaxStyluses * slots]
 // Features: LATTICE, NETWORK, PARTS, VOLUME (elastic.glsl), EDGE_FORCES (of explicit connections: as spring_forces.comp found
-// them), DASHPOT (axial dashpot), TOOLS (probe and held nodes), COMPENSATED (Kahan's sums of u and v), AWAKE (only nodes of
+// them), DASHPOT (axial dashpot), PREDICTED (of lattices, mild springs pull where their ends will be instead), TOOLS (probe and held nodes), COMPENSATED (Kahan's sums of u and v), AWAKE (only nodes of
 // bricks that are awake, as awake_bricks.comp lists them).
 #ifdef LOADS
 #define DEAD_LINKS
@@ -64,10 +64,19 @@ vec3 elasticForce(uint slot, NodeBits bits, BodyParams body, vec3 u, vec3 v) {
 #else
 #define DASHPOT_FORCE(k, n, s)
 #endif
+#ifdef PREDICTED
+#define VISIT_LINK                                                                                \
+  vec3 w = xyz(stateAt(displacement, int(n))) - u, dv = xyz(stateAt(velocity, int(n))) - v;       \
+  precise vec3 soon = w + body.dashpot_s * dv;                                                    \
+  bool mild = body.connections == kImplicit && isMild(d, l0, soon);                               \
+  Spring s = springBetween(d, l0, prestrain, mild ? soon : w);                                    \
+  force += (k * (s.extension + (mild ? 0.0f : body.dashpot_s * dot(dv, s.direction)))) * s.direction;
+#else
 #define VISIT_LINK                                                                  \
   Spring s = springBetween(d, l0, prestrain, xyz(stateAt(displacement, int(n))) - u); \
   force += (k * s.extension) * s.direction;                                         \
   DASHPOT_FORCE(k, n, s)
+#endif
 #if defined(EDGE_FORCES) && defined(LATTICE)
   if (body.connections != kImplicit) {
     force = sumOfLinks(slot);

@@ -17,6 +17,12 @@ float fixedDot(vec3 a, vec3 b) {
   return sum;
 }
 
+/// Is a lattice's spring mild (kMildStretch)? @param d, l0, w  as of springBetween()
+bool isMild(vec3 d, float l0, vec3 w) {
+  precise float more = fma(2.0f, fixedDot(d, w), fixedDot(w, w));
+  return abs(more) < kMildStretch * (l0 * l0);
+}
+
 /// @param d  rest offset to the far end [m]   @param l0  rest length [m]   @param prestrain  d.d - l0^2 [m2], 0 in a lattice
 /// @param w  u_far - u_near [m]
 /// L - l0 = (2 d.w + w.w + prestrain) / (L + l0): no cancellation at small strain; antisymmetric to the bit under

@@ -14,9 +14,9 @@ struct ReferenceLattice::Spring {
   double extension_m;  ///< L - l0
 };
 
-inline ReferenceLattice::Spring ReferenceLattice::springAt(const Field& u_m, uint32_t slot, uint32_t spring) const {
-  const Neighbor& n = neighbor(slot, spring);
-  const Vector3d w = u_m[n.slot] - u_m[slot], edge = n.offset_m + w;
+/// @param w  u_far - u_near [m]
+inline ReferenceLattice::Spring ReferenceLattice::springBetween(const Neighbor& n, const Vector3d& w) {
+  const Vector3d edge = n.offset_m + w;
   const double length = edge.norm();
   // Without cancellation (physics.md 2). The prestrain |d|^2 - l0^2 is 0 in a lattice.
   const double prestrain = n.spring < 0 ? 0 : n.offset_m.squaredNorm() - n.rest_m * n.rest_m;
@@ -24,6 +24,11 @@ inline ReferenceLattice::Spring ReferenceLattice::springAt(const Field& u_m, uin
   const double extension = sum > 0 ? (2 * n.offset_m.dot(w) + w.squaredNorm() + prestrain) / sum : 0;
   const bool has_direction = length > kShortest * n.rest_m;
   return {has_direction ? Vector3d(edge / length) : n.offset_m.normalized(), length, extension};
+}
+
+inline ReferenceLattice::Spring ReferenceLattice::springAt(const Field& u_m, uint32_t slot, uint32_t spring) const {
+  const Neighbor& n = neighbor(slot, spring);
+  return springBetween(n, u_m[n.slot] - u_m[slot]);
 }
 
 /// Sign of the axis at corner c of a cell: -1 or 1.

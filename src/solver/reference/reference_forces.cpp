@@ -36,6 +36,25 @@ Vector3d ReferenceLattice::dashpotForce(const Field& u_m, const Field& v_m_per_s
   return sum;
 }
 
+Vector3d ReferenceLattice::dampingForce(const Field& u_m, const Field& v_m_per_s, uint32_t slot) const {
+  if (!predicts_ || body(slot).connections != layout::kImplicit) return dashpotForce(u_m, v_m_per_s, slot);
+  const double dashpot_s = body(slot).dashpot_s;
+  Vector3d sum = Vector3d::Zero();
+  for (uint32_t s = 0; s < springsOf(slot); ++s) {
+    const double k = stiffness(slot, s);
+    if (k == 0) continue;
+    const Neighbor& link = neighbor(slot, s);
+    const Vector3d dv = v_m_per_s[link.slot] - v_m_per_s[slot], w = u_m[link.slot] - u_m[slot];
+    const Spring now = springBetween(link, w), soon = springBetween(link, w + dashpot_s * dv);
+    const double strain = soon.extension_m / link.rest_m;
+    if (std::abs(strain * (2 + strain)) < static_cast<double>(layout::kMildStretch))
+      sum += k * (soon.extension_m * soon.direction - now.extension_m * now.direction);
+    else
+      sum += k * dashpot_s * now.direction.dot(dv) * now.direction;
+  }
+  return sum;
+}
+
 double ReferenceLattice::dissipation(const Field& u_m, const Field& v_m_per_s) const {
   double sum = 0;
   for (uint32_t slot : active) {

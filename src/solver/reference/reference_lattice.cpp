@@ -23,6 +23,7 @@ Vector3i cornerOffset(size_t corner) {
 ReferenceLattice::ReferenceLattice(const Model& model)
     : axial_cut(3 * model.slots()),
       cut_sides(model.slots(), Vector3d::Zero()),
+      predicts_(predictsSprings(model)),
       rest_m_(model.slots(), Vector3d::Zero()),
       surface_depth_m_(surfaceDepths(model)),
       place_(model.slots(), -1),

@@ -69,6 +69,9 @@ class ReferenceLattice {
   Field elasticForces(const Field& u_m) const;
   /// Axial dashpots, sum of c n (n . (v_far - v_near)) with n of u [N].
   Vector3d dashpotForce(const Field& u_m, const Field& v_m_per_s, uint32_t slot) const;
+  /// What leapfrog's dashpots do to a node: axial ones, but of a lattice whose springs are predicted that of mild
+  /// springs is what they pull where their ends will be less what they pull now [N] (physics.md 2).
+  Vector3d dampingForce(const Field& u_m, const Field& v_m_per_s, uint32_t slot) const;
   /// Half the power that the dashpots take, sum of c/2 (n . (v_far - v_near))^2 [W].
   double dissipation(const Field& u_m, const Field& v_m_per_s) const;
   double elasticEnergy(const Field& u_m) const;  ///< [J]
@@ -120,6 +123,7 @@ class ReferenceLattice {
   void addWay(const Lattice& lattice, uint32_t first, uint32_t local);
   const Neighbor& neighbor(uint32_t slot, uint32_t spring) const { return neighbors_[starts_[slot] + spring]; }
   Spring springAt(const Field& u_m, uint32_t slot, uint32_t spring) const;
+  static Spring springBetween(const Neighbor& link, const Vector3d& w_m);
   void loseSpring(uint32_t slot, uint32_t lattice_spring);
   void killCells(uint32_t slot, uint32_t other);
   Eigen::Matrix3d cellGradient(const Field& u_m, const Cell& cell) const;
@@ -135,6 +139,7 @@ class ReferenceLattice {
   void addVolumes(const Field& u_m, Curvature curvature, std::vector<Eigen::Triplet<double>>& out) const;
   void addMoments(const Field& u_m, Curvature curvature, std::vector<Eigen::Triplet<double>>& out) const;
 
+  bool predicts_;  ///< predictsSprings()
   std::vector<layout::BodyParams> params_;
   std::vector<Strengths> strengths_;    ///< [bodies] empty where a body has one material; masses of networks
   CellMoments moments_;                 ///< of the body that is being added

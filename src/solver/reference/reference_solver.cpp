@@ -32,7 +32,8 @@ ReferenceSolver::ReferenceSolver(const Model& model, const Vector3d& gravity_m_p
 }
 
 Vector3d ReferenceSolver::force(uint32_t slot) const {
-  return elasticForce(u_m, slot) + dashpotForce(u_m, v_m_per_s, slot);
+  const bool leapfrog = options_.integrator == ReferenceIntegrator::kLeapfrog;
+  return elasticForce(u_m, slot) + (leapfrog ? dampingForce(u_m, v_m_per_s, slot) : dashpotForce(u_m, v_m_per_s, slot));
 }
 
 double ReferenceSolver::kineticEnergy() const {
@@ -142,7 +143,7 @@ void ReferenceSolver::leapfrog(Field& u_next, Field& v_next) const {
   const Field elastic = elasticForces(u_m);
   for (uint32_t slot : active) {
     if (rests(slot)) continue;
-    const Vector3d force = elastic[slot] + dashpotForce(u_m, v_m_per_s, slot);
+    const Vector3d force = elastic[slot] + dampingForce(u_m, v_m_per_s, slot);
     const double g = drag_per_s(slot) * kick_s;
     v_next[slot] = ((1 - g / 2) * v_m_per_s[slot] + kick_s * (force / mass(slot) + gravity_)) / (1 + g / 2);
     u_next[slot] = u_m[slot] + dt_s_ * v_next[slot];

@@ -22,6 +22,7 @@ std::vector<std::string> FeatureSet::defines() const {
   if (network) out.push_back("NETWORK");
   if (edge_forces) out.push_back("EDGE_FORCES");
   if (dashpot) out.push_back("DASHPOT");
+  if (predicted) out.push_back("PREDICTED");
   if (volume) out.push_back("VOLUME");
   if (moments) out.push_back("MOMENTS");
   if (thin_walls) out.push_back("THIN_WALLS");
@@ -49,7 +50,8 @@ FeatureSet featuresOf(const Model& model, const Scene& scene, double dt_s, uint3
   features.cuts = maySever(scene.styluses) || tears(scene) || threadsTear(scene);
   features.tears = tears(scene);
   features.obstacles = static_cast<uint32_t>(scene.obstacles.size());
-  for (const Body& body : model.bodies) features.dashpot |= body.material.dashpot_ratio > 0;
+  features.dashpot = largestDashpot(model) > 0;
+  features.predicted = predictsSprings(model);
   return features;
 }
 

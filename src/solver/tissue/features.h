@@ -19,6 +19,7 @@ struct FeatureSet {
   bool network = false;      ///< some body has explicit ones
   bool edge_forces = false;  ///< of explicit connections, edge by edge
   bool dashpot = false;
+  bool predicted = false;    ///< lattices have dashpots, and springs alone: leapfrog has those pull where nodes will be
   bool volume = false;       ///< cells have energies of their own: of volume (nu other than 1/4), by moments
   bool moments = false;      ///< some have the latter
   bool thin_walls = false;   ///< some of these lie in thin walls that bend as such

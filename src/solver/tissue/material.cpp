@@ -142,6 +142,12 @@ bool hasMoments(const Model& model) {
                      [](const Body& body) { return body.material.cells == Cells::kMoments; });
 }
 
+bool predictsSprings(const Model& model) {
+  return !hasMoments(model) && std::any_of(model.bodies.begin(), model.bodies.end(), [](const Body& body) {
+    return !body.network && body.material.dashpot_ratio > 0;
+  });
+}
+
 bool isHeterogeneous(const Model& model) {
   return std::any_of(model.bodies.begin(), model.bodies.end(), [](const Body& body) { return isHeterogeneous(body); });
 }

@@ -17,21 +17,20 @@
 HWY_BEFORE_NAMESPACE();
 namespace viscera::simd::HWY_NAMESPACE {
 
-/// Springs' force on the nodes of a vector.
-/// @param k  stiffness of their first spring; the next is 16 farther   @param mild  all springs are, see kMild
-template <bool kUniform, bool kAny, bool kDashpot>
-HWY_INLINE Vec3 springForce(const Surroundings& u, const Surroundings& v, const Material& m, const float* k,
-                            bool& mild) {
+/// Force of springs on the nodes of a vector, if they are mild, see kMild.
+/// @param u  of nodes, predicted if there are dashpots   @param k  stiffness of their first spring; the next is 16
+/// farther   @param mild  all springs are
+template <bool kUniform>
+HWY_INLINE Vec3 mildSpringForce(const Surroundings& u, const Material& m, const float* k, bool& mild) {
   const Vec3 near = seen<0, 0, 0>(u);
-  const Vec3 near_v = kDashpot ? seen<0, 0, 0>(v) : zero3();
   Vec3 force = zero3();
   V largest = hn::Zero(Tag());
-#define VISCERA_ADD(i, X, Y, Z)                                                                       \
-  {                                                                                                   \
-    const Vec3 w = seen<X, Y, Z>(u) - near, dv = kDashpot ? seen<X, Y, Z>(v) - near_v : near_v;       \
-    const V stiffness = kUniform ? m.full[(i) < 6 ? 0 : 1] : load(k + (i)*16);                        \
-    const SpringPull s = springPull<X, Y, Z, kUniform, kAny, kDashpot>(m, stiffness, w, dv, largest); \
-    force = mulAdd(s.pull, s.e, force);                                                               \
+#define VISCERA_ADD(i, X, Y, Z)                                                                               \
+  {                                                                                                           \
+    const V stiffness = kUniform ? m.full[(i) < 6 ? 0 : 1] : load(k + (i)*16);                                \
+    const SpringPull s =                                                                                      \
+        springPull<X, Y, Z, kUniform, false, false>(m, stiffness, seen<X, Y, Z>(u) - near, zero3(), largest); \
+    force = mulAdd(s.pull, s.e, force);                                                                       \
   }
   VISCERA_SPRINGS(VISCERA_ADD)
 #undef VISCERA_ADD
@@ -39,11 +38,42 @@ HWY_INLINE Vec3 springForce(const Surroundings& u, const Surroundings& v, const 
   return force;
 }
 
-/// The rarer case, kept out of the way of the other.
-template <bool kDashpot>
-HWY_NOINLINE Vec3 anySpringForce(const Surroundings& u, const Surroundings& v, const Material& m, const float* k,
-                                 bool& mild) {
-  return springForce<false, true, kDashpot>(u, v, m, k, mild);
+/// The same of any springs: the rarer case, kept out of the way of the other.
+HWY_NOINLINE Vec3 anySpringForce(const Surroundings& u, const Material& m, const float* k, bool& mild) {
+  const Vec3 near = seen<0, 0, 0>(u);
+  Vec3 force = zero3();
+  V largest = hn::Zero(Tag());
+#define VISCERA_ADD(i, X, Y, Z)                                                                             \
+  {                                                                                                         \
+    const Vec3 w = seen<X, Y, Z>(u) - near;                                                                 \
+    const SpringPull s = springPull<X, Y, Z, false, true, false>(m, load(k + (i)*16), w, zero3(), largest); \
+    force = mulAdd(s.pull, s.e, force);                                                                     \
+  }
+  VISCERA_SPRINGS(VISCERA_ADD)
+#undef VISCERA_ADD
+  mild = hn::AllTrue(Tag(), hn::Lt(largest, set(kMild)));
+  return force;
+}
+
+/// The same with dashpots. @param u, v  of nodes now   @param predicted  and u as predicted
+HWY_NOINLINE Vec3 anySpringForce(const Surroundings& u, const Surroundings& v, const Surroundings& predicted,
+                                 const Material& m, const float* k, bool& mild) {
+  const Vec3 near = seen<0, 0, 0>(predicted);
+  Vec3 force = zero3();
+  V largest = hn::Zero(Tag());
+#define VISCERA_ADD(i, X, Y, Z)                                                               \
+  {                                                                                           \
+    const Vec3 w = seen<X, Y, Z>(predicted) - near;                                           \
+    const auto now = [&]() HWY_ATTR {                                                         \
+      return Apart{seen<X, Y, Z>(u) - seen<0, 0, 0>(u), seen<X, Y, Z>(v) - seen<0, 0, 0>(v)}; \
+    };                                                                                        \
+    const SpringPull s = predictedPull<X, Y, Z>(m, load(k + (i)*16), w, now, largest);        \
+    force = mulAdd(s.pull, s.e, force);                                                       \
+  }
+  VISCERA_SPRINGS(VISCERA_ADD)
+#undef VISCERA_ADD
+  mild = hn::AllTrue(Tag(), hn::Lt(largest, set(kMild)));
+  return force;
 }
 
 /// What the volume of one of the eight cells around adds to the force on its corner (A, B, C).
@@ -71,38 +101,60 @@ HWY_NOINLINE void addVolumes(const Surroundings& u, V quarter, const float* bulk
   addVolume<1, 1, 1>(u, quarter, load(bulk + 448), force);
 }
 
+/// What lies around a brick. With dashpots few bricks need what is there now.
+struct SpringViews {
+  Around u, v, predicted;
+  bool knows_u, knows_v;
+};
+
 /// Forces on a brick's nodes of the springs and volumes around them.
 template <bool kUniform, bool kDashpot>
 struct ForceOfSprings {
   const LeapfrogJob& job;
   const Material& material;
-  const Around &u, &v;
+  SpringViews& views;
   uint32_t b;
+
+  HWY_INLINE Surroundings now(int i) const {
+    const Arrays& a = job.arrays;
+    if (!views.knows_u) lookAround(a, a.displacement, b, a.bulk_around != nullptr, views.u);
+    views.knows_u = true;
+    return surroundings(views.u, i);
+  }
+  HWY_INLINE Surroundings speeds(int i) const {
+    if (!views.knows_v) lookAround(job.arrays, job.arrays.velocity, b, false, views.v);
+    views.knows_v = true;
+    return surroundings(views.v, i);
+  }
+  HWY_INLINE Vec3 anyForce(const Surroundings& around, const float* k, int i, bool& mild) const {
+    if (!kDashpot) return anySpringForce(around, material, k, mild);
+    return anySpringForce(now(i), speeds(i), around, material, k, mild);
+  }
 
   /// @param i  index of the vector's first node in the brick
   HWY_INLINE Vec3 operator()(int i) const {
     const Arrays& a = job.arrays;
-    const Surroundings around_u = surroundings(u, i), around_v = surroundings(kDashpot ? v : u, i);
+    const Surroundings around = surroundings(kDashpot ? views.predicted : views.u, i);
     const float* k = a.spring_stiffness + springAt(size_t{b} * 64 + static_cast<size_t>(i), 0);
     // What was strained in the last substep is taken to be so still; which formula counts is the state's affair alone.
     const uint32_t bit = 1u << (i / 4);
     bool strained = (job.strained[b] & bit) != 0, mild;
     Vec3 force;
     if (HWY_UNLIKELY(strained)) {
-      force = anySpringForce<kDashpot>(around_u, around_v, material, k, mild);
+      force = anyForce(around, k, i, mild);
       strained = !mild;
       if (mild) job.strained[b] = static_cast<uint16_t>(job.strained[b] & ~bit);
     }
     if (!strained) {
-      force = springForce<kUniform, false, kDashpot>(around_u, around_v, material, k, mild);
+      force = mildSpringForce<kUniform>(around, material, k, mild);
       if (HWY_UNLIKELY(!mild)) {
-        force = anySpringForce<kDashpot>(around_u, around_v, material, k, mild);
+        force = anyForce(around, k, i, mild);
         job.strained[b] = static_cast<uint16_t>(job.strained[b] | bit);
       }
     }
     if (a.bulk_around) {
       const V quarter = hn::Div(set(0.25f), material.h);
-      addVolumes(around_u, quarter, a.bulk_around + size_t{b} * 512 + i, force);
+      addVolumes(kDashpot ? now(i) : around, quarter, a.bulk_around + size_t{b} * 512 + i, force);
     }
     return force;
   }
@@ -166,17 +218,31 @@ HWY_NOINLINE void stepBrick(const LeapfrogJob& job, const layout::BodyParams& bo
 
 template <bool kDashpot>
 void stepBricks(const LeapfrogJob& job, const uint32_t* bricks, size_t count) {
-  Around u, v;
+  SpringViews views;
   for (size_t n = 0; n < count; ++n) {
     const uint32_t b = bricks[n];
     const layout::BodyParams& body = job.arrays.bodies[job.arrays.bricks[b].body];
     const Material material = materialOf(body);
-    lookAround(job.arrays, job.arrays.displacement, b, job.arrays.bulk_around != nullptr, u);
-    if (kDashpot) lookAround(job.arrays, job.arrays.velocity, b, false, v);
-    if (job.arrays.uniform[b])
-      stepBrick(job, body, b, ForceOfSprings<true, kDashpot>{job, material, u, v, b});
+    if (kDashpot)
+      lookAround(job.arrays, job.predicted, b, false, views.predicted);
     else
-      stepBrick(job, body, b, ForceOfSprings<false, kDashpot>{job, material, u, v, b});
+      lookAround(job.arrays, job.arrays.displacement, b, job.arrays.bulk_around != nullptr, views.u);
+    views.knows_u = !kDashpot;
+    views.knows_v = false;
+    if (job.arrays.uniform[b])
+      stepBrick(job, body, b, ForceOfSprings<true, kDashpot>{job, material, views, b});
+    else
+      stepBrick(job, body, b, ForceOfSprings<false, kDashpot>{job, material, views, b});
+  }
+}
+
+void predictOf(const LeapfrogJob& job, const uint32_t* bricks, size_t count) {
+  const Arrays& a = job.arrays;
+  for (size_t n = 0; n < count; ++n) {
+    const size_t from = size_t{bricks[n]} * 192;
+    const V dashpot_s = set(a.bodies[a.bricks[bricks[n]].body].dashpot_s);
+    for (size_t i = from; i < from + 192; i += hn::MaxLanes(Tag()))
+      hn::StoreU(hn::MulAdd(dashpot_s, load(a.velocity + i), load(a.displacement + i)), Tag(), job.predicted + i);
   }
 }
 
@@ -200,7 +266,7 @@ void stepByCells(const LeapfrogJob& job, const uint32_t* bricks, size_t count) {
 void leapfrogOf(const LeapfrogJob& job, const uint32_t* bricks, size_t count) {
   if (job.arrays.cell_sums)
     stepByCells(job, bricks, count);
-  else if (job.dashpot)
+  else if (job.predicted)
     stepBricks<true>(job, bricks, count);
   else
     stepBricks<false>(job, bricks, count);
@@ -213,9 +279,14 @@ HWY_AFTER_NAMESPACE();
 namespace viscera::simd {
 
 HWY_EXPORT(leapfrogOf);
+HWY_EXPORT(predictOf);
 
 BrickLeapfrog leapfrogFor(int64_t target) {
   return VISCERA_KERNEL_FOR(leapfrogOf, target);
+}
+
+BrickPredict predictFor(int64_t target) {
+  return VISCERA_KERNEL_FOR(predictOf, target);
 }
 
 }  // namespace viscera::simd

@@ -50,8 +50,8 @@ struct Reach {
 struct LeapfrogJob {
   Arrays arrays;
   Substep step;
-  bool dashpot;    ///< some body has one
-  size_t reaches;  ///< probes
+  float* predicted;  ///< [3 * slots] u + dashpot_s v (physics.md 2) [m]; null without dashpots, and with moments
+  size_t reaches;    ///< probes
   Reach reach[layout::kMaxStyluses];
   uint8_t* near;       ///< [bricks] set where a node is within reach of a probe; null without probes
   uint16_t* strained;  ///< [bricks] bit i / 4: the vector from node i on was strained in the last substep; kept here
@@ -60,6 +60,8 @@ struct LeapfrogJob {
 
 /// One substep of leapfrog, as in shaders/solver/step/leapfrog.comp without its contacts, of the nodes of some bricks.
 using BrickLeapfrog = void (*)(const LeapfrogJob& job, const uint32_t* bricks, size_t count);
+/// Writes `predicted` of some bricks: of all that those to be stepped look at, before these are.
+using BrickPredict = void (*)(const LeapfrogJob& job, const uint32_t* bricks, size_t count);
 
 // Where nodes have cells by moments, each spring is evaluated once, by the cell that owns it: from the cell's lowest
 // corner the edges along x, y and z, then the two diagonals of its lowest face across z, across y and across x.
@@ -169,6 +171,7 @@ using NetworkGroups = void (*)(const NetworkJob& job, size_t first, size_t last)
 struct Kernels {
   std::string target;  ///< such as AVX2
   BrickLeapfrog leapfrog;
+  BrickPredict predict;
   BrickMeasure measure;
   BrickCells cells;
   NetworkGroups spread_network;  ///< of all groups, before their leapfrog

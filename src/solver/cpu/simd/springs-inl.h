@@ -73,6 +73,25 @@ HWY_INLINE SpringPull springPull(const Material& m, V k, const Vec3& w, const Ve
   return {hn::Mul(k, c), e};
 }
 
+/// What the ends of springs are apart now, far less near [m, m/s].
+struct Apart {
+  Vec3 u, v;
+};
+/// The same of springs whose mild ones pull as they will, where nodes are predicted, and the others as they do now,
+/// with their dashpots (shaders/solver/step/leapfrog.comp). @param w  of where nodes are predicted   @param now  says
+/// Apart
+template <int X, int Y, int Z, class Now>
+HWY_INLINE SpringPull predictedPull(const Material& m, V k, const Vec3& w, const Now& now, V& largest) {
+  V stretch = hn::Zero(Tag());
+  const SpringPull soon = springPull<X, Y, Z, false, false, false>(m, k, w, zero3(), stretch);
+  largest = hn::Max(largest, stretch);
+  const M strained = hn::Ge(stretch, set(kMild));
+  if (hn::AllFalse(Tag(), strained)) return soon;
+  const Apart apart = now();
+  const SpringPull pull = springPull<X, Y, Z, false, true, true>(m, k, apart.u, apart.v, stretch);
+  return {hn::IfThenElse(strained, pull.pull, soon.pull), select(strained, pull.e, soon.e)};
+}
+
 }  // namespace viscera::simd::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

@@ -16,6 +16,7 @@ std::optional<Kernels> kernelsFor(const std::string& target) {
     if (target.empty() || target == name)
       return Kernels{name,
                      leapfrogFor(each),
+                     predictFor(each),
                      measureFor(each),
                      cellsFor(each),
                      spreadNetworkFor(each),

@@ -28,6 +28,7 @@ static inline size_t placeOf(int64_t target) {
 
 // Each from the file that compiles it. @param target  Highway's bit of an instruction set
 BrickLeapfrog leapfrogFor(int64_t target);
+BrickPredict predictFor(int64_t target);
 BrickMeasure measureFor(int64_t target);
 BrickCells cellsFor(int64_t target);
 NetworkGroups spreadNetworkFor(int64_t target);

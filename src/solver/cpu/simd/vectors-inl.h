@@ -30,7 +30,7 @@ HWY_INLINE V set(float value) {
 
 // Of a length L that was l0 at rest, q = (L^2 - l0^2) / l0^2: (L - l0)/L = q phi(q), phi(q) = 1 / (1 + q + sqrt(1 +
 // q)). Below |q| = kMild phi is a polynomial of degree 5, with a relative error of 5.2e-8 at most.
-constexpr float kMild = 0.125f;
+const float kMild = layout::kMildStretch;
 constexpr float kPhi[6] = {0.500000026f, -0.375000048f, 0.312470624f, -0.273403791f, 0.251082405f, -0.230579299f};
 HWY_INLINE V mildPhi(V q) {
   V p = set(kPhi[5]);

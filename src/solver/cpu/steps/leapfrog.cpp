@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 
 #include "math/archive.h"
 #include "solver/cpu/store/lattice_arrays.h"
@@ -45,7 +46,9 @@ CpuLeapfrog::CpuLeapfrog(const CpuLattice& lattice, const CpuParts& parts)
     : parallel_(parts.parallel),
       sleep_(parts.sleep),
       network_(parts.network),
+      dashpot_(parts.features.dashpot),
       step_bricks_(parts.kernels.leapfrog),
+      predict_bricks_(parts.kernels.predict),
       sum_cells_(parts.kernels.cells),
       deepest_m_(deepestOf(lattice.strengths.surface_depth)),
       near_(lattice.brickCount()),
@@ -59,7 +62,12 @@ CpuLeapfrog::CpuLeapfrog(const CpuLattice& lattice, const CpuParts& parts)
     cell_bricks_awake_.reserve(lattice.brickCount());
   }
   if (network_) reaches_.reserve(layout::kMaxStyluses);
-  job_.dashpot = parts.features.dashpot;
+  if (parts.features.predicted) {
+    predicted_.resize(3 * lattice.slotCount());
+    all_bricks_.resize(lattice.brickCount());
+    std::iota(all_bricks_.begin(), all_bricks_.end(), 0u);
+    predicted_awake_.reserve(lattice.brickCount());
+  }
   job_.near = near_.data();
   job_.strained = strained_.data();
   job_.speed2 = speed2_.data();
@@ -102,12 +110,25 @@ void CpuLeapfrog::stepAwake(CpuLattice& lattice, const Substep& step, const layo
   }
   job_.arrays.compensation = compensation_.empty() ? nullptr : compensation_.data();
   job_.step = step;
+  if (!predicted_.empty()) predict(step);
   job_.reaches = 0;
   for (size_t s = 0; step.tools && s < layout::kMaxStyluses; ++s) {
     const layout::ToolMotion& m = motions[s];
     if (m.info.y & layout::kToolPushes) job_.reach[job_.reaches++] = {{m.to.x, m.to.y, m.to.z}, reachOf(m, deepest_m_)};
   }
   parallel_.ranges(awake, portions_, [&](size_t first, size_t end) { stepBricks(lattice, step, motions, first, end); });
+}
+
+/// Bricks that sleep stand still: what is predicted of them holds while the same are awake, unless others wrote the
+/// state.
+void CpuLeapfrog::predict(const Substep& step) {
+  const std::vector<uint32_t>& awake = sleep_.awake();
+  const bool whole = step.restarted || step.index == 0 || predicted_awake_ != awake;
+  if (whole) predicted_awake_ = awake;
+  const std::vector<uint32_t>& bricks = whole ? all_bricks_ : awake;
+  job_.predicted = predicted_.data();
+  parallel_.ranges(bricks.size(), portions_,
+                   [&](size_t first, size_t end) { predict_bricks_(job_, &bricks[first], end - first); });
 }
 
 /// Forces of all cells that have a corner in a brick that is awake: of its own and of the seven below it.
@@ -125,7 +146,7 @@ void CpuLeapfrog::sumCells(CpuLattice& lattice) {
     }
   }
   simd::CellJob job = cellsOf(lattice);
-  job.dashpot = job_.dashpot;
+  job.dashpot = dashpot_;
   job.strained = strained_.data();
   job.sums = cell_sums_.data();
   parallel_.ranges(cell_bricks_.size(), portions_,

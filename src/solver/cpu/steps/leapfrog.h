@@ -20,6 +20,7 @@ class CpuLeapfrog : public CpuStepper {
 
  private:
   void stepAwake(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions);
+  void predict(const Substep& step);
   void sumCells(CpuLattice& lattice);
   void forgetSums();
   void stepBricks(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions, size_t first,
@@ -30,8 +31,13 @@ class CpuLeapfrog : public CpuStepper {
   const Parallel& parallel_;
   Sleep& sleep_;
   CpuNetwork* network_;
+  bool dashpot_;  ///< some body has one
   simd::BrickLeapfrog step_bricks_;
+  simd::BrickPredict predict_bricks_;
   simd::BrickCells sum_cells_;
+  AlignedVector<float> predicted_;           ///< [3 * slots], see kernels.h; empty where it is not needed
+  std::vector<uint32_t> all_bricks_;         ///< where it is
+  std::vector<uint32_t> predicted_awake_;    ///< those awake when it was written as a whole
   AlignedVector<float> cell_sums_;           ///< [simd::kCellSums * bricks] N; empty without moments
   std::vector<uint32_t> cell_bricks_;        ///< whose cells the nodes of those awake are corners of
   std::vector<uint32_t> cell_bricks_awake_;  ///< those awake when they were listed
