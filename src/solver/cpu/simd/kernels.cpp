@@ -17,20 +17,16 @@
 HWY_BEFORE_NAMESPACE();
 namespace viscera::simd::HWY_NAMESPACE {
 
-/// Force of springs on the nodes of a vector, if they are mild, see kMild.
-/// @param u  of nodes, predicted if there are dashpots   @param k  stiffness of their first spring; the next is 16
-/// farther   @param mild  all springs are
-template <bool kUniform>
-HWY_INLINE Vec3 mildSpringForce(const Surroundings& u, const Material& m, const float* k, bool& mild) {
-  const Vec3 near = seen<0, 0, 0>(u);
+/// Force of springs on the nodes of a vector. @param pull_of  says SpringPull of the one to (X, Y, Z), index i
+/// @param mild  all springs are, see kMild
+template <class PullOf>
+HWY_INLINE Vec3 sumOfSprings(const PullOf& pull_of, bool& mild) {
   Vec3 force = zero3();
   V largest = hn::Zero(Tag());
-#define VISCERA_ADD(i, X, Y, Z)                                                                               \
-  {                                                                                                           \
-    const V stiffness = kUniform ? m.full[(i) < 6 ? 0 : 1] : load(k + (i)*16);                                \
-    const SpringPull s =                                                                                      \
-        springPull<X, Y, Z, kUniform, false, false>(m, stiffness, seen<X, Y, Z>(u) - near, zero3(), largest); \
-    force = mulAdd(s.pull, s.e, force);                                                                       \
+#define VISCERA_ADD(i, X, Y, Z)                                            \
+  {                                                                        \
+    const SpringPull s = pull_of.template operator()<X, Y, Z>(i, largest); \
+    force = mulAdd(s.pull, s.e, force);                                    \
   }
   VISCERA_SPRINGS(VISCERA_ADD)
 #undef VISCERA_ADD
@@ -38,42 +34,43 @@ HWY_INLINE Vec3 mildSpringForce(const Surroundings& u, const Material& m, const 
   return force;
 }
 
-/// The same of any springs: the rarer case, kept out of the way of the other.
+/// Springs that are mild, or of any length but without dashpots.
+template <bool kUniform, bool kAny>
+struct PlainSprings {
+  const Surroundings& u;  ///< predicted if there are dashpots
+  const Vec3 near;        ///< the same of the nodes themselves
+  const Material& m;
+  const float* k;  ///< stiffness of their first spring; the next is 16 farther
+
+  template <int X, int Y, int Z>
+  HWY_INLINE SpringPull operator()(int i, V& largest) const {
+    const V stiffness = kUniform ? m.full[i < 6 ? 0 : 1] : load(k + i * 16);
+    return springPull<X, Y, Z, kUniform, kAny, false>(m, stiffness, seen<X, Y, Z>(u) - near, zero3(), largest);
+  }
+};
+/// Springs of any length with dashpots.
+struct DampedSprings {
+  const Surroundings &u, &v, &predicted;
+  const Vec3 near;  ///< predicted
+  const Material& m;
+  const float* k;
+
+  template <int X, int Y, int Z>
+  HWY_INLINE SpringPull operator()(int i, V& largest) const {
+    const auto now = [&]() HWY_ATTR {
+      return Apart{seen<X, Y, Z>(u) - seen<0, 0, 0>(u), seen<X, Y, Z>(v) - seen<0, 0, 0>(v)};
+    };
+    return predictedPull<X, Y, Z>(m, load(k + i * 16), seen<X, Y, Z>(predicted) - near, now, largest);
+  }
+};
+
+/// The rarer cases, kept out of the way of the other.
 HWY_NOINLINE Vec3 anySpringForce(const Surroundings& u, const Material& m, const float* k, bool& mild) {
-  const Vec3 near = seen<0, 0, 0>(u);
-  Vec3 force = zero3();
-  V largest = hn::Zero(Tag());
-#define VISCERA_ADD(i, X, Y, Z)                                                                             \
-  {                                                                                                         \
-    const Vec3 w = seen<X, Y, Z>(u) - near;                                                                 \
-    const SpringPull s = springPull<X, Y, Z, false, true, false>(m, load(k + (i)*16), w, zero3(), largest); \
-    force = mulAdd(s.pull, s.e, force);                                                                     \
-  }
-  VISCERA_SPRINGS(VISCERA_ADD)
-#undef VISCERA_ADD
-  mild = hn::AllTrue(Tag(), hn::Lt(largest, set(kMild)));
-  return force;
+  return sumOfSprings(PlainSprings<false, true>{u, seen<0, 0, 0>(u), m, k}, mild);
 }
-
-/// The same with dashpots. @param u, v  of nodes now   @param predicted  and u as predicted
 HWY_NOINLINE Vec3 anySpringForce(const Surroundings& u, const Surroundings& v, const Surroundings& predicted,
                                  const Material& m, const float* k, bool& mild) {
-  const Vec3 near = seen<0, 0, 0>(predicted);
-  Vec3 force = zero3();
-  V largest = hn::Zero(Tag());
-#define VISCERA_ADD(i, X, Y, Z)                                                               \
-  {                                                                                           \
-    const Vec3 w = seen<X, Y, Z>(predicted) - near;                                           \
-    const auto now = [&]() HWY_ATTR {                                                         \
-      return Apart{seen<X, Y, Z>(u) - seen<0, 0, 0>(u), seen<X, Y, Z>(v) - seen<0, 0, 0>(v)}; \
-    };                                                                                        \
-    const SpringPull s = predictedPull<X, Y, Z>(m, load(k + (i)*16), w, now, largest);        \
-    force = mulAdd(s.pull, s.e, force);                                                       \
-  }
-  VISCERA_SPRINGS(VISCERA_ADD)
-#undef VISCERA_ADD
-  mild = hn::AllTrue(Tag(), hn::Lt(largest, set(kMild)));
-  return force;
+  return sumOfSprings(DampedSprings{u, v, predicted, seen<0, 0, 0>(predicted), m, k}, mild);
 }
 
 /// What the volume of one of the eight cells around adds to the force on its corner (A, B, C).
@@ -146,7 +143,7 @@ struct ForceOfSprings {
       if (mild) job.strained[b] = static_cast<uint16_t>(job.strained[b] & ~bit);
     }
     if (!strained) {
-      force = mildSpringForce<kUniform>(around, material, k, mild);
+      force = sumOfSprings(PlainSprings<kUniform, false>{around, seen<0, 0, 0>(around), material, k}, mild);
       if (HWY_UNLIKELY(!mild)) {
         force = anyForce(around, k, i, mild);
         job.strained[b] = static_cast<uint16_t>(job.strained[b] | bit);
