@@ -88,8 +88,7 @@ HWY_INLINE Vec3 shifted(const Vec3& value, V by) {
 struct Material {
   V h, h2;               ///< spacing, twice
   V per_length2[2];      ///< 1 / l0^2 of axial and diagonal springs
-  V dashpot_s;           ///< c / k
-  V dashpot_length2[2];  ///< that / l0^2
+  V dashpot_length2[2];  ///< c / (k l0^2)
   V full[2];             ///< N/m of whole springs
 };
 HWY_INLINE Material materialOf(const layout::BodyParams& body) {
@@ -97,7 +96,6 @@ HWY_INLINE Material materialOf(const layout::BodyParams& body) {
   Material m;
   m.h = set(h);
   m.h2 = set(2 * h);
-  m.dashpot_s = set(body.dashpot_s);
   for (int kind = 0; kind < 2; ++kind) {
     m.per_length2[kind] = set(1 / (static_cast<float>(kind + 1) * h * h));
     m.dashpot_length2[kind] = set(body.dashpot_s / (static_cast<float>(kind + 1) * h * h));
