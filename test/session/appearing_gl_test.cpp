@@ -46,6 +46,9 @@ class Appearing : public OnSceneBackend {
 };
 VISCERA_ON_EVERY_BACKEND(Appearing);
 
+class AppearingAbove : public OnSceneBackend {};
+VISCERA_ON_EVERY_BACKEND(AppearingAbove);
+
 TEST_P(Appearing, AtDepthDoesNothingUntilItWasOutside) {
   expectNothingHappens();
   play(session_, withdrawn, 1);
@@ -59,6 +62,20 @@ TEST_P(Appearing, AfterAGapAtDepthDoesNothingUntilItWasOutside) {
   expectNothingHappens();
   play(session_, withdrawn, 2);
   expectForceOutwards();
+}
+
+/// Where cells are tissue in part, nodes lie above the skin: a tip in the air beside them is outside.
+TEST_P(AppearingAbove, InTheAirWithinACellOfTheSkinPushesAtOnce) {
+  Scene low = scene();
+  BodyConfig& body = low.bodies[0];
+  body.box_size_m.z() -= 0.9 * body.spacing_m;  // the lowest cells and the highest are tissue to 0.55
+  body.material.cells = Cells::kMoments;
+  body.fixed[0].point_m.z() = -0.5 * body.box_size_m.z();
+  Session session(low, context_);
+  const double skin_m = 0.5 * body.box_size_m.z(), begin_m = skin_m + low.styluses[0].probe.radius_m + 0.0005;
+  for (int t = 0; t < kPressTicks; ++t)
+    EXPECT_FALSE(session.step(leftAt({0, 0, begin_m - 0.0005 * t}), {}).inside[0]) << t;
+  EXPECT_GT(session.drain().reactions[0].force_n.z(), kForceN);
 }
 
 TEST_P(Appearing, ForgottenHandsLetGoAndAppearAgain) {

@@ -38,13 +38,12 @@ void giveContacts(uint slot, float mass, INOUT(vec3) v_next) {
 #endif
 
 #ifdef TOOLS
-/// A probe that only feels counts the nodes that it would push.
+/// A probe that only feels counts the nodes whose tissue it meets.
 void feel(uint slot, vec3 x) {
   for (uint s = 0u; s < kMaxStyluses; ++s) {
     ToolMotion motion = tool_motions[s];
     if ((motion.info.y & kToolPushes) == 0u || (motion.info.y & kToolFeels) == 0u) continue;
-    float reach = motion.from.w + distance(xyz(motion.to), xyz(motion.from));
-    if (distance(x, xyz(motion.to)) < reach) giveMomentum(s, slot, vec3(0.0f));
+    if (isFelt(motion, slot, surfaceDepth(slot), x)) giveMomentum(s, slot, vec3(0.0f));
   }
 }
 #endif

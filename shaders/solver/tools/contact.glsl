@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // What a probe does to a node, and where a held node goes (VR05 2.7.1, 2.7.2; physics.md 5). Included by the integrators.
+#include "solver/tissue/surface_way.glsl"
 #include "solver/tools/touch.glsl"
 
 #ifndef __cplusplus
@@ -26,6 +27,22 @@ void probe(ToolMotion motion, float below, vec3 x, INOUT(vec3) x_next, INOUT(vec
   if (approach < 0.0f) v_next -= approach * side.normal;
 }
 
+/// From a node to its tissue at the beginning of the substep [m].
+vec3 toTissueBefore(uint slot) {
+  uint way = surfaceWay(slot);
+  if (way == 0u) return vec3(0.0f);
+  return toTissueIn(way, bodies[bodyAt(slot)].origin_spacing.w, xyz(stateAt(displacement, int(slot))),
+                    xyz(stateAt(displacement, int(wayEnd(slot, way, 0u)))), xyz(stateAt(displacement, int(wayEnd(slot, way, 1u)))),
+                    xyz(stateAt(displacement, int(wayEnd(slot, way, 2u)))));
+}
+
+/// Is the tissue of a node within reach of a probe that only feels? A node in the air beside it is not: from there a tip may push.
+/// @param below  surfaceDepth(): of tissue that lies less deep more is within reach   @param x  of the node at the end of the substep [m]
+bool isFelt(ToolMotion motion, uint slot, float below, vec3 x) {
+  float reach = motion.from.w + max(below, 0.0f) + distance(xyz(motion.from), xyz(motion.to));
+  return distance(x + toTissueBefore(slot), xyz(motion.to)) < reach;
+}
+
 /// Where a stylus has a node that it holds at the end of the substep: displacement [m].
 vec3 heldDisplacement(uint stylus, uint slot) {
   return xyz(tool_motions[stylus].to) + rotated(xyzw(tool_motions[stylus].orientation), xyz(grab_offsets[slot])) - restPosition(slot);
@@ -44,15 +61,13 @@ void resolveContacts(uint slot, NodeBits bits, float mass, vec3 u, INOUT(vec3) u
       v_next = (u_next - u) / dt_s;
     } else if (held_by == 0u) {
       vec3 x_next = rest + u_next;
-      vec3 reach = x_next - xyz(motion.to);
-      vec3 travel = xyz(motion.to) - xyz(motion.from);
-      bool feels = (motion.info.y & kToolFeels) != 0u;  // is within tissue: no node is farther from it than it would be without depths
-      float far = max(motion.from.w + (feels ? max(below, 0.0f) : below), 0.0f) + length(travel);
-      if (dot(reach, reach) >= far * far) continue;
-      if (feels) {
-        giveMomentum(s, slot, vec3(0.0f));
+      if ((motion.info.y & kToolFeels) != 0u) {
+        if (isFelt(motion, slot, below, x_next)) giveMomentum(s, slot, vec3(0.0f));
         continue;
       }
+      vec3 reach = x_next - xyz(motion.to);
+      float far = max(motion.from.w + below, 0.0f) + distance(xyz(motion.from), xyz(motion.to));
+      if (dot(reach, reach) >= far * far) continue;
       probe(motion, below, rest + u, x_next, v_next);
       u_next = x_next - rest;
       if (v_next == v_before) continue;

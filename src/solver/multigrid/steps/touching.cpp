@@ -314,7 +314,7 @@ void Touching::give(CpuLattice& lattice, const Vectors& increment, const Vectors
     for (uint32_t node = 0; node < known_.size(); ++node) {
       const uint32_t slot = level_.grid().slots[node];
       const Vector3f x = rest_m_[node] + planesAt(u, slot) + vectorOf(increment, n, level_.grid().place_of[node]);
-      if (isNear(x)) kernel.feel(slot, toGlsl(x));
+      kernel.feel(slot, toGlsl(x));
     }
     break;
   }
