@@ -120,6 +120,7 @@ py::dict diagnostics(const Facts& facts) {
   out["governor_trips"] = facts.extremes.governor_trips;
   out["recovering"] = facts.health.recovering;
   out["strained"] = facts.health.strained;
+  out["unfolded"] = facts.health.unfolded;
   out["kinetic_j"] = facts.health.kinetic_j;
   out["elastic_j"] = facts.health.elastic_j;
   out["peak_force_n"] = facts.extremes.peak_force_n;

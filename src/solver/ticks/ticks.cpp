@@ -39,7 +39,8 @@ Ticks::Ticks(const Model& model, const Scene& scene, const TickPlan& plan, std::
       dashpot_ratio_(largestDashpot(model)),
       substeps_(plan.substeps),
       recovery_substeps_(plan.recovery_substeps),
-      surroundings_(plan.surroundings) {
+      surroundings_(plan.surroundings),
+      folds_(plan.tick_s) {
   finished_.reserve(kFinishedKept);
   if (measuresLimit(model, config_)) dt_limit_s_ = measureLimit_s(*backend_, model);
   planAnew();
@@ -65,6 +66,7 @@ Governor Ticks::newGovernor() const {
 
 void Ticks::step(const ToolMotions& motions, const ObstacleMotions& obstacles) {
   const bool contacts = acts_.touch(motions), cuts = acts_.sever(motions);
+  if (looks_for_folds_) unfoldTissue();
   chooseSubsteps();
   backend_->beginTick();
   acts_.beginTick(*backend_, motions);
@@ -192,6 +194,8 @@ void Ticks::reset() {
   pulls_.clear();
   told_ = {};
   stretch_ = 0;
+  folds_.reset();
+  looks_for_folds_ = false;
   dt_safe_s_ = safeTimeStep(model_);
   planAnew();
   if (watch_) watch_->reset(newGovernor());
@@ -230,6 +234,8 @@ void Ticks::persist(Archive& archive) {
   archive.value(recovering_);
   archive.value(restarted_);
   archive.value(last_dt_s_);
+  archive.value(looks_for_folds_);
+  folds_.persist(archive);
   if (surroundings_) surroundings_->persist(archive);
   if (blades_) blades_->persist(archive);
   if (threads_) threads_->persist(archive);
@@ -282,6 +288,7 @@ bool Ticks::heed(const Watch::Verdict& verdict) {
   if (verdict.good) {
     noteStretch(*verdict.good);
     relaxSubsteps(*verdict.good);
+    looks_for_folds_ = folds_.isDue(*verdict.good);
   }
   restarted_ |= verdict.rolled_back;
   if (blades_ && verdict.rolled_back) cut_revision_ += blades_->leave(*backend_);
@@ -307,6 +314,18 @@ void Ticks::relaxSubsteps(const layout::TickStats& stats) {
   if (dt_safe_s < kWorthwhile * dt_safe_s_) return;
   dt_safe_s_ = dt_safe_s;
   planAnew();
+}
+
+/// What tools have left turned inside out (docs/physics.md 3).
+void Ticks::unfoldTissue() {
+  looks_for_folds_ = false;
+  HostState state = backend_->readState();
+  const size_t nodes = unfold(model_, state);
+  folds_.found(nodes);
+  if (nodes == 0) return;
+  writeState(state);
+  looks_for_folds_ = false;
+  watch_->noteUnfolded(nodes);
 }
 
 double Ticks::velocityLag_s() {

@@ -13,6 +13,7 @@
 #include "solver/thread/thread_bodies.h"
 #include "solver/ticks/solver_backend.h"
 #include "solver/ticks/tick_plan.h"
+#include "solver/ticks/unfold.h"
 #include "solver/ticks/watch.h"
 #include "viscera/solver/solver.h"
 
@@ -82,6 +83,7 @@ class Ticks : public Solver {
   void cutByWork(int index, const ToolMotions& motions);
   bool heed(const Watch::Verdict& verdict);
   void relaxSubsteps(const layout::TickStats& stats);
+  void unfoldTissue();
 
   const Model& model_;
   std::unique_ptr<SolverBackend> backend_;
@@ -103,6 +105,8 @@ class Ticks : public Solver {
   std::vector<ThreadPulls> pulls_;            ///< without a governor: of ticks whose measurements are under way
   std::optional<HostState> start_;            ///< nothing: rest
   std::optional<Watch> watch_;                ///< only where a scene has a governor
+  FoldWatch folds_;                           ///< heeded where there is a governor
+  bool looks_for_folds_ = false;              ///< before the next tick
   std::vector<TickFindings> finished_;        ///< taken while not asked for, oldest first
   ThreadPulls told_;                          ///< of what was asked for last
   std::vector<layout::ToolMotion> motions_;

@@ -57,6 +57,7 @@ class Watch {
   const layout::TickStats& restart();
   /// The current state is that of rest: no tick is open, and it is the only good one.
   void reset(const Governor& governor);
+  void noteUnfolded(size_t nodes) { governor_.noteUnfolded(nodes); }
   /// The measurements of the open tick were asked for.
   void persist(Archive& archive);
 

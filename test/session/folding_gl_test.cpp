@@ -1,0 +1,59 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Tissue that a tool has left turned inside out comes back (physics.md 3).
+#include <gtest/gtest.h>
+
+#include "session/on_backends.h"
+#include "solver/tissue/fields.h"
+
+namespace viscera {
+namespace {
+
+using namespace test;
+
+class Folding : public OnSceneBackend {
+ protected:
+  /// A ball of two cells' radius, pushed through most of the block and out at its side.
+  static void pushThrough(Session& session) {
+    constexpr int kDown = 20, kAside = 60;
+    for (int t = 0; t <= kDown; ++t) session.step(leftAt({0, 0, kHalfM + kBall_m - 1.6 * kHalfM * t / kDown}), {});
+    for (int t = 0; t <= kAside; ++t) session.step(leftAt({4 * kHalfM * t / kAside, 0, kBall_m - 0.6 * kHalfM}), {});
+    for (int t = 0; t < kGapTicks; ++t) session.step({}, {});
+    session.drain();
+  }
+  static Scene folded(Scene scene) {
+    scene.styluses[0].probe.radius_m = kBall_m;
+    scene.environment.gravity_m_per_s2 = Vector3d::Zero();
+    return scene;
+  }
+  static double strayed(const Session& session) {
+    double out = 0;
+    for (const layout::vec4& u : session.solver().readState().displacement_m) out = std::max(out, xyz(u).norm());
+    return out / session.scene().bodies[0].spacing_m;
+  }
+
+  static constexpr double kBall_m = 0.5 * kHalfM;
+  static constexpr int kGapTicks = 200;
+  static constexpr double kBack = 0.1;  ///< [spacings] as `viscera bench stability` has it
+};
+VISCERA_ON_EVERY_BACKEND(Folding);
+
+TEST_P(Folding, ComesBackOnceTheToolIsAway) {
+  Session session(folded(scene()), context_);
+  pushThrough(session);
+  EXPECT_GT(session.solver().health().unfolded, 0U);
+  EXPECT_LT(strayed(session), kBack);
+}
+
+/// What shows that the test above needs it.
+TEST_P(Folding, StaysWithoutAGovernor) {
+  Scene alone = folded(scene());
+  alone.solver.governor = false;
+  Session session(alone, context_);
+  pushThrough(session);
+  EXPECT_EQ(session.solver().health().unfolded, 0U);
+  EXPECT_GT(strayed(session), kBack);
+}
+
+}  // namespace
+}  // namespace viscera
