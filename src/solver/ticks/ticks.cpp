@@ -316,15 +316,17 @@ void Ticks::relaxSubsteps(const layout::TickStats& stats) {
   planAnew();
 }
 
-/// What tools have left turned inside out (docs/physics.md 3).
+/// What tools have left turned inside out (docs/physics.md 3). A tick that is still open is judged first: what it left
+/// may be rolled back.
 void Ticks::unfoldTissue() {
+  const bool undone = heed(watch_->judgeOpen());
   looks_for_folds_ = false;
+  if (undone) return;
   HostState state = backend_->readState();
   const size_t nodes = unfold(model_, state);
   folds_.found(nodes);
   if (nodes == 0) return;
   writeState(state);
-  looks_for_folds_ = false;
   watch_->noteUnfolded(nodes);
 }
 

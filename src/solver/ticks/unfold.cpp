@@ -76,11 +76,21 @@ void addNodes(const Corners& cell, std::set<uint32_t>& nodes) {
   nodes.insert(cell.begin(), cell.end());
 }
 
+/// [slots] 1 for those of a set: all cells ask.
+std::vector<uint8_t> marksOf(const std::set<uint32_t>& nodes, const std::vector<Corners>& cells) {
+  uint32_t last = 0;
+  for (const Corners& cell : cells) last = std::max(last, *std::max_element(cell.begin(), cell.end()));
+  std::vector<uint8_t> out(size_t{last} + 1);
+  for (const uint32_t node : nodes) out[node] = 1;
+  return out;
+}
+
 /// Those of a set and all of cells at which one of them is.
 std::set<uint32_t> widened(const std::set<uint32_t>& nodes, const std::vector<Corners>& cells) {
+  const std::vector<uint8_t> marks = marksOf(nodes, cells);
   std::set<uint32_t> out = nodes;
   for (const Corners& cell : cells) {
-    if (std::any_of(cell.begin(), cell.end(), [&](uint32_t n) { return nodes.count(n) != 0; })) addNodes(cell, out);
+    if (std::any_of(cell.begin(), cell.end(), [&](uint32_t n) { return marks[n] != 0; })) addNodes(cell, out);
   }
   return out;
 }
@@ -88,11 +98,12 @@ std::set<uint32_t> widened(const std::set<uint32_t>& nodes, const std::vector<Co
 /// The edges of cells at nodes of a set, and how many cells have each.
 std::map<std::pair<uint32_t, uint32_t>, int> edgesAt(const std::set<uint32_t>& nodes,
                                                      const std::vector<Corners>& cells) {
+  const std::vector<uint8_t> marks = marksOf(nodes, cells);
   std::map<std::pair<uint32_t, uint32_t>, int> out;
   for (const Corners& cell : cells) {
     for (const auto& [a, b] : kEdges) {
       const uint32_t from = cell[static_cast<size_t>(a)], to = cell[static_cast<size_t>(b)];
-      if (nodes.count(from) != 0 || nodes.count(to) != 0) ++out[{from, to}];
+      if (marks[from] != 0 || marks[to] != 0) ++out[{from, to}];
     }
   }
   return out;
