@@ -21,6 +21,13 @@ const float kFadeStrain2 = 0.5f;
 // What the solid resists an alternating motion (hxyz) with, 5/18 mu h, the hexahedron's, less what the springs do, 1/2 mu h.
 const float kAlternating = 5.0f / 18.0f - 0.5f;
 
+// A corner of a cell is crushed where its three edges span less than the part kCrushed of their volume at rest. What it is pushed open
+// with grows by kCrushing mu with what is missing, as much as leaves the frequencies of a cell that is squeezed to a half within those
+// that a substep is made for, and not beyond kMostCrushed: there it has long been turned inside out.
+const float kCrushed = 0.5f;
+const float kMostCrushed = 1.5f;
+const float kCrushing = 2.0f;
+
 // Numbers of a cell's bend in a thin wall: of its 9 hourglass motions with each other, row by row from the diagonal on, and of each
 // with the 6 strains; in vectors of four.
 const uint kBendPairs = 45u;

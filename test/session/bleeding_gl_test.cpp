@@ -138,8 +138,11 @@ TEST_P(Bleeding, StopsByAClipBetweenTheHeldEndAndTheCutAndGoesOnWithoutIt) {
     EXPECT_EQ(stopped.stumps, 0U);
     rest(session, 60);
     EXPECT_EQ(session.seenBlood().bled_ml, stopped.bled_ml);
-    for (int t = 0; t <= kDraws; ++t)  // along the vessel, across the clip's legs
-      session.step(at({-0.012 * t / kDraws, 0.001, -0.006}, false, true), {});
+    // Along the vessel, across the clip's legs, and back on its other side: cut, it swings by a clip's half width.
+    for (const double aside_m : {0.001, -0.001}) {
+      for (int t = 0; t <= kDraws; ++t)
+        session.step(at({-0.012 * (aside_m > 0 ? t : kDraws - t) / kDraws, aside_m, -0.006}, false, true), {});
+    }
     rest(session, kOpen);
     ASSERT_EQ(session.seenClips().taken_off, 1U);
     EXPECT_NEAR(session.seenBlood().flow_ml_per_min, kFlow, kFull * kFlow);

@@ -23,6 +23,7 @@ class Folding : public OnSceneBackend {
   }
   static Scene folded(Scene scene) {
     scene.styluses[0].probe.radius_m = kBall_m;
+    scene.bodies[0].material.cells = Cells::kSprings;  // those by moments push themselves open
     scene.environment.gravity_m_per_s2 = Vector3d::Zero();
     return scene;
   }
@@ -53,6 +54,30 @@ TEST_P(Folding, StaysWithoutAGovernor) {
   pushThrough(session);
   EXPECT_EQ(session.solver().health().unfolded, 0U);
   EXPECT_GT(strayed(session), kBack);
+}
+
+/// Cells by moments are not turned inside out while a ball presses, deep down too.
+TEST_P(Folding, CellsByMomentsPushBackHarderTheDeeperABallIsAndComeBackByThemselves) {
+  constexpr int kPresses = 12, kHolds = 10;
+  constexpr double kDeepest = 0.8;  // of half the block
+  constexpr double kHarder = 1.2;   // at least; of Hertz' force at 2, 3 and 4 times the depth 2.8, 1.8 and 1.5
+  Scene pressed = folded(scene());
+  pressed.bodies[0].material.cells = Cells::kMoments;
+  pressed.solver.governor = false;
+  Session session(pressed, context_);
+  const auto at = [&](double share) { return leftAt({0, 0, kHalfM + kBall_m - share * kDeepest * kHalfM}); };
+  session.step(at(-0.1), {});  // a ball that appears in tissue pushes nothing
+  double before_n = 0;
+  for (int k = 1; k <= 4; ++k) {
+    for (int t = 1; t <= kPresses; ++t) session.step(at(0.25 * (k - 1 + static_cast<double>(t) / kPresses)), {});
+    Frame held;
+    for (int t = 0; t < kHolds; ++t) held = session.step(at(0.25 * k), {});
+    const double now_n = held.reactions[0].force_n.norm();
+    EXPECT_GT(now_n, kHarder * before_n) << k;
+    before_n = now_n;
+  }
+  pushThrough(session);
+  EXPECT_LT(strayed(session), kBack);
 }
 
 }  // namespace

@@ -15,11 +15,12 @@ namespace {
 
 using namespace test;
 
-constexpr double kSide_m = 0.008;        // of the bar
-constexpr double kRounding_m = 1e-4;     // of sides that give a little between substeps, beside kMostSqueezed
-constexpr double kAside_m = 0.003;       // 1.5 spacings: by so much two nodes of a column may lie beside each other
-constexpr int kClosing = 30, kOpen = 4;  // ticks
-constexpr double kMostSqueezed = 0.4;    // Clips::kMostSqueezed
+constexpr double kSide_m = 0.008;     // of the bar
+constexpr double kRounding_m = 1e-4;  // of sides that give a little between substeps, beside kMostSqueezed
+constexpr double kAside_m = 0.003;    // 1.5 spacings: by so much two nodes of a column may lie beside each other
+constexpr int kClosing = 30, kOpen = 4, kRests = 60;  // ticks
+constexpr double kStill_per_s = 40;                   // drag: what was squeezed sets the bar swinging when it is cut
+constexpr double kMostSqueezed = 0.4;                 // Clips::kMostSqueezed
 constexpr double kRated_n = 3, kSlips = 0.1;  // of a grasper; share by which its force may differ as tissue slides
 constexpr double kJaw_m = 0.006;              // how far it slides
 constexpr double kLost_m = 0.0015;  // by so much more or less: how far the tissue goes on stretching meanwhile
@@ -94,7 +95,9 @@ TEST_P(ClipSession, ThatClosesOnNothingIsSpentAndAMagazineEnds) {
 }
 
 TEST_P(ClipSession, IsTakenOffByABladeThatMeetsItAndNotByOneBesideIt) {
-  Session session(barScene(), context_);
+  Scene still = barScene();
+  still.bodies[0].material.drag_per_s = kStill_per_s;
+  Session session(still, context_);
   clip(session, 0.006);
   const auto draw = [&](double x_m) {
     for (int t = 0; t <= kClosing; ++t) session.step(at(x_m, false, true, 0.015 - 0.03 * t / kClosing), {});
@@ -102,6 +105,7 @@ TEST_P(ClipSession, IsTakenOffByABladeThatMeetsItAndNotByOneBesideIt) {
     return session.seenClips();
   };
   EXPECT_EQ(draw(0.012).on.size(), 1U);
+  for (int t = 0; t < kRests; ++t) session.step({}, {});
   StylusSamples along = at(0, false, true);  // along the bar, across the clip's legs
   for (int t = 0; t <= kClosing; ++t) {
     along[0].pose.position_m = {0.012 - 0.012 * t / kClosing, 0.001, -0.006};

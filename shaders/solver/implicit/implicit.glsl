@@ -97,4 +97,23 @@ float volumeMajoriser(float bulk, CellShape s, vec3 edge_lengths, float reach, f
   vec2 bounds = volumeBounds(bulk, s.e, way * (areas.x + areas.y + areas.z));
   return 0.25f * (bounds.x * dot(areas, areas) + bounds.y * (a.x + a.y + a.z)) / (h * h);
 }
+
+/// The same for what crushed corners pull with (crushed.glsl), of energies kCrushing/8 rigidity phi(J), |phi'| <= kMostCrushed, phi'' <= 1 (0 beyond); each
+/// corner has edges that move by sum |a'|^2 <= 2 (3 |du'|^2 + sum of the other ends' |du'|^2)/h^2, a node is at four corners: 12 |du'|^2/h^2.
+/// Corners that are far from it are left out: few sweeps go so far, and all would be slowed by the first.
+float crushedMajoriser(CellMotion q, float rigidity, float reach, float h) {
+  const float far = 0.75f;  // of the volume at rest
+  float way = 2.0f * reach / h, most = 0.0f;
+  for (uint corner = 0u; corner < 8u; ++corner) {
+    CornerEdges e = cornerEdges(q, cornerSide(corner));
+    vec3 lengths = vec3(length(e.a), length(e.b), length(e.c));
+    vec3 areas = vec3(length(cross(e.b, e.c)), length(cross(e.c, e.a)), length(cross(e.a, e.b)));
+    areas += way * (vec3(lengths.y + lengths.z, lengths.z + lengths.x, lengths.x + lengths.y) + way);
+    float volume = dot(e.a, cross(e.b, e.c)), around = way * (areas.x + areas.y + areas.z), lacks = kCrushed - volume;
+    if (lacks + around <= 0.0f || volume >= far) continue;
+    float curved = lacks - around < kMostCrushed ? dot(areas, areas) : 0.0f;
+    most = max(most, curved + min(lacks + around, kMostCrushed) * (lengths.x + lengths.y + lengths.z + 3.0f * way));
+  }
+  return 0.5f * 12.0f * 0.125f * kCrushing * rigidity * most / (h * h);
+}
 #endif

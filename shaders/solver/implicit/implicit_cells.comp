@@ -36,8 +36,10 @@ void main() {
       at[c] = xyz(stateAt(displacement, corner)) + xyz(stateAt(increment, corner));
     }
     CellShape s = shapeOf(at, h, edge_lengths);
+    float rigidity = cellRigidity(slot, body);
     majoriser = volumeMajoriser(bulk, s, edge_lengths, reach(h, iteration), h);
-    f = cellForces(at, s, volumePressure(bulk, s.e) * 0.25f / h, h, bulk, cellRigidity(slot, body), cellMoments(slot));
+    if (rigidity > 0.0f) majoriser += crushedMajoriser(cellMotion(at, h), rigidity, reach(h, iteration), h);
+    f = cellForces(at, s, volumePressure(bulk, s.e) * 0.25f / h, h, bulk, rigidity, cellMoments(slot));
   }
   LEAVE_CELL_FORCES(slot, f, majoriser)
 }

@@ -109,6 +109,12 @@ float volumeCurvature(float bulk, float e) {
   return e > -1.0f ? bulk * slope * slope : 0.0f;
 }
 
+/// Of a crushed cell, as if all its corners had the mean volume.
+float crushedCurvature(float rigidity, float e) {
+  float lacks = kCrushed - 1.0f - e;
+  return lacks > 0.0f && lacks < kMostCrushed ? kCrushing * rigidity : 0.0f;
+}
+
 /// What moments are times, with all that fades it, at constant directions [J]; and how much of what they take off the stiffness of
 /// springs counts. At rest the two fit, and all of it does. In a strained cell springs point elsewhere than its mean edges; where
 /// little tissue fills the cell, the difference of the two, which is all that there is, would be negative.
@@ -141,7 +147,7 @@ double linearise(uint slot) {
     CellMotion q = cellMotion(at, h);
     CellShape shape = cellShape(q.da, q.db, q.dc);
     vec2 moments = rigidity > 0.0f ? momentTangent(q, rigidity) : vec2(0.0f);
-    tangent[0] = vec4(q.da, volumeCurvature(bulk, shape.e));
+    tangent[0] = vec4(q.da, volumeCurvature(bulk, shape.e) + crushedCurvature(rigidity, shape.e));
     tangent[1] = vec4(q.db, moments.x);
     tangent[2] = vec4(q.dc, moments.y);
     f = cellForces(at, shape, 0.25f / h * volumePressure(bulk, shape.e), h, bulk, rigidity, cellMoments(slot));

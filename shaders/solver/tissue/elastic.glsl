@@ -186,10 +186,6 @@ CellForces cellForces(vec3 at[8], CellShape shape, float p, float h, float bulk,
 
 /// Bit per axis, x lowest. @param corner  -1 or 1 per axis
 uint cornerNumber(ivec3 corner) { return uint((corner.x + 1) / 2 + (corner.y + 1) + 2 * (corner.z + 1)); }
-/// The other way round.
-vec3 cornerSide(uint number) {
-  return vec3((number & 1u) != 0u ? 1.0f : -1.0f, (number & 2u) != 0u ? 1.0f : -1.0f, (number & 4u) != 0u ? 1.0f : -1.0f);
-}
 
 /// Place of one of a cell's vectors in cell_forces.
 uint cellVector(uint slot, uint vector) { return inPlanes(slot, vector, cell_vectors); }

@@ -25,6 +25,8 @@ struct CellPull {
   vec3 a, b, c, hx, hy, hz, hxyz;
 };
 
+#include "solver/tissue/crushed.glsl"
+
 /// One mean edge: what strains are made of.
 struct CellEdge {
   vec3 direction;
@@ -130,6 +132,7 @@ CellPull cellPull(CellMotion q, CellMoments t, float rigidity, float bulk) {
   pull.hy = scale * (ra.y * ea.direction + rb.y * eb.direction + rc.y * ec.direction);
   pull.hz = scale * (ra.z * ea.direction + rb.z * eb.direction + rc.z * ec.direction);
   pull.hxyz = (scale * kAlternating) * q.hxyz;
+  if (mayBeCrushed(q)) addCrushed(q, rigidity, pull);
   return pull;
 }
 

@@ -12,7 +12,8 @@ namespace viscera {
 
 namespace {
 
-using layout::kFadeBend, layout::kFadeFull, layout::kFadeNone, layout::kFadeStrain2;
+using layout::kCrushed, layout::kCrushing, layout::kFadeBend, layout::kFadeFull, layout::kFadeNone,
+    layout::kFadeStrain2, layout::kMostCrushed;
 
 template <class T>
 using Tensor = Eigen::Matrix<T, 3, 3>;
@@ -79,8 +80,31 @@ T fadeOf(const T& length) {
   return t * t * (3.0 - 2.0 * t);
 }
 
+/// What the cell has where its three edges at a corner span less than kCrushed, summed over corners; over mu h^3.
 template <class T>
-T energyOf(const MomentCell& cell, const Eigen::Matrix<T, 21, 1>& motion) {
+T crushedOf(const Eigen::Matrix<T, 21, 1>& motion) {
+  T sum(0.0);
+  for (int corner = 0; corner < 8; ++corner) {
+    const std::array<double, 3> side = {corner & 1 ? 1.0 : -1.0, corner & 2 ? 1.0 : -1.0, corner & 4 ? 1.0 : -1.0};
+    Tensor<T> edges;
+    for (int a = 0; a < 3; ++a) {
+      const int b = (a + 1) % 3, c = (a + 2) % 3;
+      const double sb = side[static_cast<size_t>(b)], sc = side[static_cast<size_t>(c)];
+      // An edge along a at (b, c): hourglass motions are numbered by the axis that they leave out.
+      edges.col(a) = motion.template segment<3>(3 * a) + 0.5 * sb * motion.template segment<3>(9 + 3 * c) +
+                     0.5 * sc * motion.template segment<3>(9 + 3 * b) +
+                     std::sqrt(0.5) * sb * sc * motion.template segment<3>(18);
+      edges(a, a) += 1.0;
+    }
+    const T volume = edges.col(0).dot(edges.col(1).cross(edges.col(2))), lacks = kCrushed - volume;
+    if (lacks <= 0.0) continue;
+    sum += lacks < kMostCrushed ? T(0.5 * lacks * lacks) : T(kMostCrushed * (lacks - 0.5 * kMostCrushed));
+  }
+  return kCrushing / 8.0 * sum;
+}
+
+template <class T>
+T bendingOf(const MomentCell& cell, const Eigen::Matrix<T, 21, 1>& motion) {
   using std::sqrt;
   const double ratio = cell.bulk_j / cell.rigidity_j, lambda = 1 + ratio, nu = lambda / (2 * (lambda + 1));
   Tensor<T> directions, hourglass, strain;
@@ -123,7 +147,12 @@ T energyOf(const MomentCell& cell, const Eigen::Matrix<T, 21, 1>& motion) {
   energy -= springsOf<T>(s);
   energy += 0.5 * (5.0 / 18 - 0.5) * alternating.squaredNorm();
   const T bent = s.squaredNorm() / kFadeBend;
-  return cell.rigidity_j * fade / (1.0 + bent * bent) * energy;
+  return fade / (1.0 + bent * bent) * energy;
+}
+
+template <class T>
+T energyOf(const MomentCell& cell, const Eigen::Matrix<T, 21, 1>& motion) {
+  return cell.rigidity_j * (bendingOf<T>(cell, motion) + crushedOf<T>(motion));
 }
 
 }  // namespace

@@ -29,7 +29,8 @@ from viscera.srv import FileCommand, LoadScene, SetToolMode, Step
 LIMIT_S = 30
 LIVE_S = float(os.environ.get("VISCERA_LIVE_S", 0))
 OPEN_RAD, CLOSED_RAD = 0.6, 0.02
-WIDE_JAWS = ["styluses[0].grasper.radius_m=0.012", "styluses[0].grasper.jaw_length_m=0.03"]
+# As the launch file has it: jaws no finer than the lattice.
+HEART = ["bodies[0].spacing_m=0.008", "solver.backend=cpu", "styluses[0].grasper.radius_m=0.012", "styluses[0].grasper.jaw_length_m=0.03"]
 LEAST_PULL_N = 0.1                 # what the wall pulls with by 25 mm; a probe beside it is not felt
 HERE = os.path.dirname(os.path.abspath(__file__))
 OTHER = os.path.join(os.path.dirname(HERE), "views", "cameras.yaml")
@@ -129,7 +130,7 @@ class RecordingTest(unittest.TestCase):
         self.act()
         self.done(self.load(scene=OTHER, overrides=["solver.backend=cpu"]))
         time.sleep(1)
-        self.done(self.load(scene="heart", overrides=["bodies[0].spacing_m=0.008", "solver.backend=cpu"]))
+        self.done(self.load(scene="heart", overrides=HEART))
         self.act()
         self.done(self.call["pause"]())
         live = self.step(ticks=0)
@@ -157,7 +158,7 @@ class RecordingTest(unittest.TestCase):
             if rounds % 4 == 1:
                 self.done(self.call["reset"]())
             if rounds % 4 == 3:
-                self.done(self.load(scene="heart", overrides=["bodies[0].spacing_m=0.008", "solver.backend=cpu", *WIDE_JAWS]))
+                self.done(self.load(scene="heart", overrides=HEART))
                 self.jaws()
             self.act_with_jaws()
             wait_until(lambda: self.watch.value("simulation", "springs_cut"), LIMIT_S, "springs that scissors have cut")

@@ -112,3 +112,42 @@ TEST(MomentCells, TissueOnOneSideOfACellBendsAboutItsOwnMiddle) {
   EXPECT_NEAR(energy(0.25) / (plate * of_itself), 1, kSecondOrder);
   EXPECT_NEAR(energy(0.5) / (plate * (of_itself + 0.5 * 0.25 * 0.25)), 1, kSecondOrder);
 }
+
+/// Springs alone resist being squeezed to a quarter hardly more than to a half, and to nothing less: a cell under a
+/// tool would collapse, and its corners go through one another.
+TEST(MomentCells, ACrushedCellResistsEverMore) {
+  constexpr double kAtLeast = 1.5;  // of the force at a half: what springs lose (to 0.9 of it) and more is made good
+  constexpr double kLetsGo = 0.75;  // of the largest force before: one corner alone is held by little
+  for (const double nu : {0.0, 0.25, 0.45}) {
+    Body body = momentBody({1, 1, 1}, kSpacing_m, [](const Vector3d&) { return true; });
+    body.material.poisson_ratio = nu;
+    const Model model = modelOf({body});
+    const ReferenceLattice lattice(model);
+    const double h = kSpacing_m;
+    const auto squeezed = [&](double by) {  // sides held
+      Field u(lattice.slots(), Vector3d::Zero());
+      for (const uint32_t slot : lattice.active) u[slot].z() = -by * lattice.restPosition(slot).z();
+      return lattice.elasticEnergy(u);
+    };
+    const auto pushed = [&](double by) {  // one corner along the diagonal, towards the other end
+      Field u(lattice.slots(), Vector3d::Zero());
+      for (const uint32_t slot : lattice.active) {
+        if (lattice.restPosition(slot).minCoeff() > 0.5 * h) u[slot] = Vector3d::Constant(-by * h);
+      }
+      return lattice.elasticEnergy(u);
+    };
+    const auto force = [](const auto& energy, double by) {
+      constexpr double kStep = 1e-4;
+      return (energy(by + kStep) - energy(by - kStep)) / (2 * kStep);
+    };
+    double before = 0, largest = 0;
+    for (int percent = 5; percent <= 95; percent += 5) {
+      const double now = force(squeezed, 0.01 * percent), corner = force(pushed, 0.01 * percent);
+      EXPECT_GT(now, before) << nu << ' ' << percent;
+      EXPECT_GT(corner, kLetsGo * largest) << nu << ' ' << percent;
+      before = now;
+      largest = std::max(largest, corner);
+    }
+    EXPECT_GT(force(squeezed, 0.9), kAtLeast * force(squeezed, 0.5)) << nu;
+  }
+}

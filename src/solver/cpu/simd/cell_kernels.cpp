@@ -112,13 +112,16 @@ HWY_NOINLINE void cellForces(const CellBrick& of, int cell, V rigidity, V bulk, 
   }
   const Moments moments = kFull ? Moments{zero3(), zero3(), zero3()} : loadMoments(of.job.moments[of.b], cell);
   const ThinWalls walls = kFull ? ThinWalls{} : thinWallsOf(of.job, of.b, cell);
-  cellPull<kFull>(q, moments, walls, rigidity, *stress, scale);
+  const Pulled pulled = cellPull<kFull>(q, moments, walls, rigidity, *stress, scale);
   if (of.job.volumes) {
     q.da = q.da + out.da;
     q.db = q.db + out.db;
     q.dc = q.dc + out.dc;
   }
   out = q;
+  if (HWY_LIKELY(!pulled.mayBeCrushed(rigidity))) return;
+  const CellMotion motion = motionBetween(below, above, hn::IfThenZeroElse(absent, scale.per_4h));
+  addCrushed(motion, rigidity, scale.per_4h, out);
 }
 
 HWY_INLINE Face faceAt(const UpTile& tile, int at) {

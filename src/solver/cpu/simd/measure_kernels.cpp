@@ -66,13 +66,20 @@ V momentEnergyOf(const CellJob& job, const layout::BodyParams& body, size_t slot
   const V ratio = hn::IfThenElseZero(there, hn::Div(load(job.bulk + slot), hn::Max(rigidity, set(1e-30f))));
   const Face low = faceOf(n[0], n[1], n[2], n[3]), high = faceOf(n[4], n[5], n[6], n[7]);
   const CellScale scale = cellScale(body.origin_spacing.w);
-  CellMotion q = motionBetween(low, high, hn::IfThenElseZero(there, scale.per_4h));
+  const CellMotion motion = motionBetween(low, high, hn::IfThenElseZero(there, scale.per_4h));
+  CellMotion q = motion;
+  const V crushed = addCrushed(motion, rigidity, scale.per_4h, q);
+  q = motion;
   const float* moments = job.moments[slot / 64];
   if (moments == nullptr)
-    return cellPull<true>(q, Moments{zero3(), zero3(), zero3()}, {}, rigidity, planeStress<true>(ratio), scale);
+    return hn::Add(
+        crushed,
+        cellPull<true>(q, Moments{zero3(), zero3(), zero3()}, {}, rigidity, planeStress<true>(ratio), scale).energy);
   const int cell = static_cast<int>(slot % 64);
-  return cellPull<false>(q, loadMoments(moments, cell), thinWallsOf(job, static_cast<uint32_t>(slot / 64), cell),
-                         rigidity, planeStress<false>(ratio), scale);
+  const ThinWalls walls = thinWallsOf(job, static_cast<uint32_t>(slot / 64), cell);
+  return hn::Add(
+      crushed,
+      cellPull<false>(q, loadMoments(moments, cell), walls, rigidity, planeStress<false>(ratio), scale).energy);
 }
 
 using Bits = hn::Vec<hn::RebindToUnsigned<Tag>>;

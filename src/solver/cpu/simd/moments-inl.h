@@ -12,19 +12,14 @@
 
 #include "hwy/highway.h"
 #include "layout/moments.h"
+#include "solver/cpu/simd/cell_motion-inl.h"
+#include "solver/cpu/simd/crushed-inl.h"
 #include "solver/cpu/simd/kernels.h"
-#include "solver/cpu/simd/vectors-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace viscera::simd::HWY_NAMESPACE {
 
 using layout::kAlternating, layout::kFadeBend, layout::kFadeFull, layout::kFadeNone, layout::kFadeStrain2;
-
-/// Mean edges less their rest value, over h; hourglass motions as sums and differences of displacements [m], which is
-/// 2 h times those of moments.glsl and, hxyz, sqrt(8) h.
-struct CellMotion {
-  Vec3 da, db, dc, hx, hy, hz, hxyz;
-};
 
 /// Constants of a body's cells, in all lanes.
 struct CellScale {
@@ -95,6 +90,7 @@ HWY_INLINE void setFade(CellEdge& e, V growth) {
 /// One by one: arrays of vectors would be kept in memory.
 struct CellEdges {
   CellEdge a, b, c;
+  V growth2;  ///< sum of squares of what the squares of their lengths grew by
 };
 
 /// @return some edge is so short that the energy fades; else fades are not set
@@ -103,6 +99,7 @@ HWY_INLINE bool cellEdges(const CellMotion& q, CellEdges& e) {
   const V one = set(1), two = set(2);
   const V a = hn::MulAdd(two, q.da.x, dot(q.da, q.da)), b = hn::MulAdd(two, q.db.y, dot(q.db, q.db));
   const V c = hn::MulAdd(two, q.dc.z, dot(q.dc, q.dc));
+  e.growth2 = hn::MulAdd(a, a, hn::MulAdd(b, b, hn::Mul(c, c)));
   const V least = hn::Min(a, hn::Min(b, c)), most = hn::Max(a, hn::Max(b, c));
   if (HWY_LIKELY(hn::AllTrue(Tag(), hn::Lt(hn::Max(most, hn::Neg(least)), set(kMild))))) {
     setMildLength<kStrains>(e.a, a);
@@ -303,6 +300,7 @@ struct BendPull {
   Vec3 strains, shears;
   V energy;  ///< before it fades
   Fading fading;
+  V size;  ///< sum of s^2
 };
 /// @param alternating  energy of hxyz
 HWY_INLINE BendPull bendPull(const CellEdges& e, bool fades, const Moments& /*t*/, const ThinWalls& /*walls*/,
@@ -315,7 +313,8 @@ HWY_INLINE BendPull bendPull(const CellEdges& e, bool fades, const Moments& /*t*
   V energy = hn::MulAdd(set(-1.0f / 12), hn::MulAdd(trace, trace, even), alternating);
   energy = hn::MulAdd(pair, pairs, energy);
   energy = hn::MulAdd(hn::MulAdd(set(0.5f), stress.along, set(-0.25f)), rest, energy);
-  const Fading fading = fadingOf(e, fades, hn::Add(even, rest), energy, rigidity, of);
+  const V size = hn::Add(even, rest);
+  const Fading fading = fadingOf(e, fades, size, energy, rigidity, of);
   const V x = hn::Mul(fading.scale, hn::Sub(fading.own, set(1.0f / 6)));
   const V y = hn::Mul(fading.scale, hn::Add(fading.own, hn::Sub(stress.along, set(0.5f))));
   const V z = hn::Mul(fading.scale, pair), all = hn::Mul(hn::Mul(fading.scale, set(-1.0f / 6)), trace);
@@ -326,7 +325,8 @@ HWY_INLINE BendPull bendPull(const CellEdges& e, bool fades, const Moments& /*t*
           zero3(),
           zero3(),
           energy,
-          fading};
+          fading,
+          size};
 }
 HWY_INLINE BendPull bendPull(const CellEdges& e, bool fades, const Moments& t, const ThinWalls& walls, V rigidity,
                              const PlaneStress<false>& stress, const CellScale& of, const Bend& s, V alternating) {
@@ -347,20 +347,31 @@ HWY_INLINE BendPull bendPull(const CellEdges& e, bool fades, const Moments& t, c
   const V twice = hn::Add(hn::Add(dot(r.a, s.a), dot(r.b, s.b)), hn::Add(dot(r.c, s.c), solid.coupled));
   V energy = hn::MulAdd(set(0.5f), twice, hn::MulAdd(set(-0.125f), even, alternating));
   energy = hn::NegMulAdd(quarter, rest, energy);
-  const Fading fading = fadingOf(e, fades, hn::Add(even, rest), energy, rigidity, of);
+  const V size = hn::Add(even, rest);
+  const Fading fading = fadingOf(e, fades, size, energy, rigidity, of);
   const V x = hn::Sub(fading.own, quarter), y = hn::Sub(fading.own, set(0.5f));
   r.a = fading.scale * Vec3{hn::MulAdd(x, s.a.x, r.a.x), hn::MulAdd(y, s.a.y, r.a.y), hn::MulAdd(y, s.a.z, r.a.z)};
   r.b = fading.scale * Vec3{hn::MulAdd(y, s.b.x, r.b.x), hn::MulAdd(x, s.b.y, r.b.y), hn::MulAdd(y, s.b.z, r.b.z)};
   r.c = fading.scale * Vec3{hn::MulAdd(y, s.c.x, r.c.x), hn::MulAdd(y, s.c.y, r.c.y), hn::MulAdd(x, s.c.z, r.c.z)};
-  return {r, fading.scale * solid.strains, fading.scale * solid.shears, energy, fading};
+  return {r, fading.scale * solid.strains, fading.scale * solid.shears, energy, fading, size};
 }
 
+/// What cellPull() found.
+struct Pulled {
+  V energy;    ///< [J]
+  V strained;  ///< below 1 no corner is crushed (crushed-inl.h)
+  /// @param rigidity  0 where there is no cell, whose motion may be anything
+  bool mayBeCrushed(V rigidity) const {
+    return !hn::AllTrue(Tag(), hn::Or(hn::Lt(strained, set(1)), hn::Eq(rigidity, hn::Zero(Tag()))));
+  }
+};
+
 /// cellPull() of moments.glsl. @param rigidity  J, 0 where there is no cell   @param q  replaced by the derivatives
-/// by the motion, those by da, db and dc over 4 h [N]   @return energy [J]   @tparam kFull  all cells are full, `t` is
+/// by the motion, those by da, db and dc over 4 h [N]; without addCrushed()   @tparam kFull  all cells are full, `t` is
 /// not looked at
 template <bool kFull>
-HWY_INLINE V cellPull(CellMotion& q, const Moments& t, const ThinWalls& walls, V rigidity,
-                      const PlaneStress<kFull>& stress, const CellScale& of) {
+HWY_INLINE Pulled cellPull(CellMotion& q, const Moments& t, const ThinWalls& walls, V rigidity,
+                           const PlaneStress<kFull>& stress, const CellScale& of) {
   CellEdges e;
   const bool fades = cellEdges<!kFull>(q, e);
   const Vec3 &a = e.a.direction, &b = e.b.direction, &c = e.c.direction;
@@ -395,26 +406,11 @@ HWY_INLINE V cellPull(CellMotion& q, const Moments& t, const ThinWalls& walls, V
   q.hy = weighted(r.a.y, a, r.b.y, b, r.c.y, c);
   q.hz = weighted(r.a.z, a, r.b.z, b, r.c.z, c);
   q.hxyz = hn::Mul(pull.fading.scale, set(0.5f * kAlternating)) * q.hxyz;
-  return hn::Mul(pull.fading.scale, pull.energy);
-}
-
-/// Nodes of a face of cells, summed and differed along x and y.
-struct Face {
-  Vec3 ss, sd, ds, dd;
-};
-HWY_INLINE Face faceOf(const Vec3& n00, const Vec3& n10, const Vec3& n01, const Vec3& n11) {
-  const Vec3 s0 = n00 + n10, d0 = n10 - n00, s1 = n01 + n11, d1 = n11 - n01;
-  return {s0 + s1, s1 - s0, d0 + d1, d1 - d0};
-}
-/// @param per_4h  1 / (4 h), 0 where there is no cell: nothing is strained there, wherever the nodes around are
-HWY_INLINE CellMotion motionBetween(const Face& low, const Face& high, V per_4h) {
-  return {per_4h * (low.ds + high.ds),
-          per_4h * (low.sd + high.sd),
-          per_4h * (high.ss - low.ss),
-          high.sd - low.sd,
-          high.ds - low.ds,
-          low.dd + high.dd,
-          high.dd - low.dd};
+  const V upright = dot(a, cross(b, c)), sheared = hn::NegMulAdd(upright, hn::Abs(upright), set(1));
+  const V bent = hn::MulAdd(set(kOfBend), pull.size, hn::Mul(set(kOfAlternating * 4 / kAlternating), alternating));
+  const V strained =
+      hn::MulAdd(of.per_4h2, bent, hn::MulAdd(set(kOfShear), sheared, hn::Mul(set(kOfGrowth), e.growth2)));
+  return {hn::Mul(pull.fading.scale, pull.energy), strained};
 }
 
 }  // namespace viscera::simd::HWY_NAMESPACE

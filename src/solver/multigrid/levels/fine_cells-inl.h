@@ -116,6 +116,13 @@ HWY_INLINE V volumeCurvatureOf(V bulk, V e) {
   return hn::Mul(bulk, hn::IfThenElse(hn::Gt(bulk, hn::Zero(Tag())), hard, soft));
 }
 
+/// Of a crushed cell (shaders/solver/tissue/crushed.glsl), as if all its corners had the mean volume.
+HWY_INLINE V crushedCurvatureOf(V rigidity, V e) {
+  const V lacks = hn::Sub(set(kCrushed - 1), e);
+  const M crushed = hn::And(hn::Gt(lacks, hn::Zero(Tag())), hn::Lt(lacks, set(kMostCrushed)));
+  return hn::IfThenElseZero(crushed, hn::Mul(set(kCrushing), rigidity));
+}
+
 /// Part of cellPull() that its scale has at constant directions.
 HWY_INLINE V momentScale(const CellMotion& q, V rigidity, const CellScale& of) {
   CellMotion copy = q;
@@ -163,7 +170,7 @@ HWY_INLINE V evaluateCell(const multigrid::FineArrays& a, const multigrid::Box& 
     storeTo(q.da, a.edges, n, i);
     storeTo(q.db, a.edges + 3 * n, n, i);
     storeTo(q.dc, a.edges + 6 * n, n, i);
-    hn::StoreU(volumeCurvatureOf(bulk, shape.e), Tag(), a.resists + i);
+    hn::StoreU(hn::Add(volumeCurvatureOf(bulk, shape.e), crushedCurvatureOf(rigidity, shape.e)), Tag(), a.resists + i);
   }
   V energy = volumeEnergyOf(bulk, shape.e);
   const V p = hn::Mul(scale.per_4h, pressureOf(bulk, shape.e));
@@ -175,7 +182,10 @@ HWY_INLINE V evaluateCell(const multigrid::FineArrays& a, const multigrid::Box& 
     const Moments moments = kFull ? Moments{zero3(), zero3(), zero3()} : momentsAt(a, i);
     const ThinWalls walls = kFull ? ThinWalls{} : thinWallsAt(a, i);
     const PlaneStress<kFull> stress = planeStress<kFull>(ratioOf(bulk, rigidity));
-    energy = hn::Add(energy, cellPull<kFull>(q, moments, walls, rigidity, stress, scale));
+    const CellMotion motion = q;
+    const Pulled pulled = cellPull<kFull>(q, moments, walls, rigidity, stress, scale);
+    energy = hn::Add(energy, pulled.energy);
+    if (pulled.mayBeCrushed(rigidity)) energy = hn::Add(energy, addCrushed(motion, rigidity, scale.per_4h, q));
     q.da = mulAdd(p, shape.bc, q.da);
     q.db = mulAdd(p, shape.ca, q.db);
     q.dc = mulAdd(p, shape.ab, q.dc);

@@ -1,0 +1,51 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// What keeps a cell from being turned inside out (physics.md 1, Crushed cells): a pressure at each corner where the cell's three edges
+// span less than kCrushed of their volume at rest. Springs alone let go there: squeezed to a half, they resist hardly more. In moments.glsl.
+
+/// Sides of a corner, -1 or 1. @param number  bit per axis, x lowest
+vec3 cornerSide(uint number) {
+  return vec3((number & 1u) != 0u ? 1.0f : -1.0f, (number & 2u) != 0u ? 1.0f : -1.0f, (number & 4u) != 0u ? 1.0f : -1.0f);
+}
+
+/// The three edges at a corner of a cell, over h.
+struct CornerEdges {
+  vec3 a, b, c;
+};
+CornerEdges cornerEdges(CellMotion q, vec3 s) {
+  const float root_half = 0.70710678f;
+  CornerEdges e = {vec3(1.0f, 0.0f, 0.0f) + q.da + 0.5f * (s.y * q.hz + s.z * q.hy) + (root_half * s.y * s.z) * q.hxyz,
+                   vec3(0.0f, 1.0f, 0.0f) + q.db + 0.5f * (s.z * q.hx + s.x * q.hz) + (root_half * s.z * s.x) * q.hxyz,
+                   vec3(0.0f, 0.0f, 1.0f) + q.dc + 0.5f * (s.x * q.hy + s.y * q.hx) + (root_half * s.x * s.y) * q.hxyz};
+  return e;
+}
+
+/// False only where no corner is crushed: a bound on its volume, from that of the mean edges and the size of hourglass motions.
+bool mayBeCrushed(CellMotion q) {
+  vec3 a = vec3(1.0f, 0.0f, 0.0f) + q.da, b = vec3(0.0f, 1.0f, 0.0f) + q.db, c = vec3(0.0f, 0.0f, 1.0f) + q.dc;
+  float bent = dot(q.hx, q.hx) + dot(q.hy, q.hy) + dot(q.hz, q.hz) + 2.0f * dot(q.hxyz, q.hxyz);
+  float change = sqrt(0.75f * bent), size = sqrt(max(dot(a, a), max(dot(b, b), dot(c, c))));  // of an edge, at most
+  return dot(a, cross(b, c)) - change * (3.0f * size * size + change * (3.0f * size + change)) < kCrushed;
+}
+
+/// Adds energy and derivatives: rigidity kCrushing/8 sum of (kCrushed - J)^2 / 2, beyond kMostCrushed by the tangent there.
+void addCrushed(CellMotion q, float rigidity, INOUT(CellPull) pull) {
+  float energy = 0.0f, weight = 0.125f * kCrushing * rigidity;
+  for (uint corner = 0u; corner < 8u; ++corner) {
+    vec3 s = cornerSide(corner);
+    CornerEdges e = cornerEdges(q, s);
+    vec3 bc = cross(e.b, e.c), ca = cross(e.c, e.a), ab = cross(e.a, e.b);
+    float lacks = max(kCrushed - dot(e.a, bc), 0.0f), slope = min(lacks, kMostCrushed);
+    energy += slope * (lacks - 0.5f * slope);
+    vec3 a = (-weight * slope) * bc, b = (-weight * slope) * ca, c = (-weight * slope) * ab;
+    pull.a += a;
+    pull.b += b;
+    pull.c += c;
+    pull.hx += 0.5f * (s.z * b + s.y * c);
+    pull.hy += 0.5f * (s.z * a + s.x * c);
+    pull.hz += 0.5f * (s.y * a + s.x * b);
+    pull.hxyz += 0.70710678f * (s.y * s.z * a + s.z * s.x * b + s.x * s.y * c);
+  }
+  pull.energy += weight * energy;
+}
