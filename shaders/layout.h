@@ -7,6 +7,7 @@
 #include "layout/awake_bricks.h"
 #include "layout/bindings.h"
 #include "layout/edge_forces.h"
+#include "layout/edge_nodes.h"
 #include "layout/moments.h"
 #include "layout/multigrid.h"
 #include "layout/network_skin.h"

@@ -95,6 +95,7 @@ const uint kBindSleepingBricks = 76u;     // SleepingBrick[bricks], see awake_br
 const uint kBindAwakeNodes = 77u;         // AwakeList, then uint[active]: slots of the nodes that are stepped
 const uint kBindAwakeCells = 78u;         // AwakeList, then uint[cells]: slots of the lowest corners of cells around these
 const uint kBindWindow = 79u;             // vec4[]: what it sees of them, or does
+const uint kBindEdgeNodes = kBindPositions;  // count, uint[kMostEdgeNodes] slots, vec4[2 * kMostEdgeNodes]: of leapfrog, see edges.comp
 // Integrator multigrid (layout/multigrid.h), which knows no collisions: OpenGL on the processor has 80 numbers
 const uint kBindStepVectors = kBindBuckets;  // vec4[kStepVectors * slots]
 const uint kBindSystemVectors = kBindUnsorted;  // vec4[kSystemVectors * slots]

@@ -144,4 +144,20 @@ IntegratorChoice chooseIntegrator(const Model& model, const Scene& scene, Backen
   return {Integrator::kLeapfrog, compared("leapfrog", implicit_s, explicit_s)};
 }
 
+std::string thinProbeNote(const Model& model, const Scene& scene, Integrator integrator) {
+  if (integrator == Integrator::kLeapfrog) return "";
+  double spacing_m = 0;
+  for (const Body& body : model.bodies)
+    spacing_m = std::max(spacing_m, body.network ? body.network->meanLength() : body.lattice.spacing_m);
+  for (const StylusConfig& stylus : scene.styluses) {
+    if (!mayPush(stylus) || stylus.probe.radius_m >= spacing_m) continue;
+    char text[200];
+    std::snprintf(text, sizeof(text),
+                  "%s's probes meet nodes alone, and probe.radius_m of '%s', %.3g m, is less than a spacing, %.3g m",
+                  traitsOf(integrator).name, stylus.name.c_str(), stylus.probe.radius_m, spacing_m);
+    return text;
+  }
+  return "";
+}
+
 }  // namespace viscera

@@ -23,4 +23,8 @@ struct IntegratorChoice {
 IntegratorChoice chooseIntegrator(const Model& model, const Scene& scene, Backend backend,
                                   const std::shared_ptr<ThreadPool>& threads);
 
+/// What a person should know of probes between nodes: only leapfrog's meet what lies there. Empty where all are as wide
+/// as the cells. @param integrator  that steps the scene
+std::string thinProbeNote(const Model& model, const Scene& scene, Integrator integrator);
+
 }  // namespace viscera

@@ -60,10 +60,16 @@ std::unique_ptr<Solver> makeSolver(const Model& model, const Scene& scene, const
   const Backend backend = chooseBackend(scene, context);
   if (backend != Backend::kCpu && !context)
     throw GpuError("solver.backend: gpu needs an OpenGL context, and there is none: use cpu or auto");
-  if (scene.solver.integrator != Integrator::kAuto)
+  const auto tell = [&](const std::string& reason, Integrator integrator) {
+    const std::string note = thinProbeNote(model, scene, integrator);
+    if (choice) *choice = reason + (reason.empty() || note.empty() ? "" : "; ") + note;
+  };
+  if (scene.solver.integrator != Integrator::kAuto) {
+    tell("", scene.solver.integrator);
     return started(ticksOf(model, scene, backend, threads), model, scene, threads);
+  }
   const IntegratorChoice found = chooseIntegrator(model, scene, backend, threads);
-  if (choice) *choice = found.reason;
+  tell(found.reason, found.integrator);
   Scene chosen = scene;
   chosen.solver.integrator = found.integrator;
   return started(ticksOf(model, chosen, backend, threads), model, chosen, threads);

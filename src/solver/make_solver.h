@@ -28,7 +28,7 @@ std::string backendNote(const Scene& scene, const gpu::Context* context, const S
 /// The solver on the backend that the scene asks for. @param model  must outlive it
 /// @throws GpuError  the scene asks for the GPU, and there is no context
 /// @param threads  of the CPU backend, shared with others; null: solver.threads of its own
-/// @param choice   where solver.integrator is auto, which integrator steps and why
+/// @param choice   where solver.integrator is auto, which integrator steps and why; and thinProbeNote()
 std::unique_ptr<Solver> makeSolver(const Model& model, const Scene& scene, const gpu::Context* context,
                                    const std::shared_ptr<ThreadPool>& threads = nullptr, std::string* choice = nullptr);
 

@@ -56,14 +56,13 @@ class Cautery : public OnSceneBackend {
     session.step(leftAt({0, 0, 0.03}, true), {});
     for (int t = 0; t < ticks; ++t) session.step(on(true, false, top_m), {});
   }
-  /// What more a probe feels half a millimetre deeper in the middle, below `top_m`.
+  /// What more a probe feels half a cell deeper than where it is at the skin in the middle, at `top_m`.
   static double pressed_n(Session& session, double top_m) {
     double force_n[2];
     session.step(leftAt({0, 0, 0.03}, false, true), {});
     for (int i = 0; i < 2; ++i) {
       Frame frame;
-      for (int t = 0; t < 60; ++t)
-        frame = session.step(leftAt({0, 0, top_m + kTip_m - 0.001 - 0.0005 * i}, false, true), {});
+      for (int t = 0; t < 60; ++t) frame = session.step(leftAt({0, 0, top_m + kTip_m - 0.0015 * i}, false, true), {});
       force_n[i] = frame.reactions[0].force_n.z();
     }
     return force_n[1] - force_n[0];

@@ -15,6 +15,11 @@ constexpr double kSlope = 1.0 / 8;       ///< radius of the contact a over R: He
 constexpr double kHertzLimit = 0.01;     ///< no number in issue 3; from kFineContact spacings on
 constexpr int kFineContact = 4;          ///< [spacings]
 constexpr double kReactionLimit = 1e-3;  ///< no number in issue 3
+/// Of a probe thinner than a cell: over a node alone the lattice is that much softer than a half-space, between four,
+/// which all go down with it, that much stiffer.
+constexpr double kThinLeast = 0.6, kThinMost = 5;
+/// Nodes beside a thin tip slide about under it and take long to rest.
+constexpr double kThinReaction = 0.03;
 
 struct Indentation {
   double contact, radius, depth;  ///< [spacings] by Hertz
@@ -39,15 +44,17 @@ Model plateBlock(const MaterialConfig& material, int half_width) {
 /// A sphere that sinks into the middle of a block on a plate, on a backend, and rests there.
 class Indenter {
  public:
-  Indenter(Backend backend, double nu, int half_width, const Indentation& press)
+  /// @param aside  of the middle, where a node is [cells]
+  Indenter(Backend backend, double nu, int half_width, const Indentation& press,
+           const Vector3d& aside = Vector3d::Zero())
       : backend_(backend),
         model_(plateBlock(materialOf(nu), half_width)),
-        top_(half_width, half_width, half_width + press.radius),
+        top_(Vector3d(half_width, half_width, half_width + press.radius) + aside),
         press_(press) {
     settle(nu, half_width);
     // With drag a substep's kick, which is what the probe undoes, is smaller than the force by 1 + gamma dt/2: the
     // reaction is read in a tick without.
-    const std::unique_ptr<Ticks> solver = solverOn(backend_, model_, scene(model_, 1));
+    const std::unique_ptr<Ticks> solver = solverOn(backend_, model_, scene(model_, kTickSubsteps));
     solver->writeState(state_, true);
     reaction_n_ = move(*solver, 1, 1);
   }
@@ -198,11 +205,55 @@ void measureProbe(Report& report) {
   }
 }
 
+/// Tips of about a cell's size, over a node and between nodes.
+void measureThin(Report& report) {
+  constexpr double kNu = 0.25;
+  const int half_width = report.isShort() ? 4 : 6;
+  const Vector3d places[] = {{0, 0, 0}, {0.25, 0, 0}, {0.5, 0, 0}, {0.25, 0.25, 0}, {0.5, 0.5, 0}};
+  Table table("Probes of about a cell's size on a block on a plate, nu 1/4: reaction over Hertz's",
+              {{"backend"},
+               {"R/h"},
+               {"depth/h"},
+               {"over a node", "", 3},
+               {"a quarter of an edge on", "", 3},
+               {"over an edge", "", 3},
+               {"a quarter of a diagonal on", "", 3},
+               {"between four nodes", "", 3},
+               {"worst F/plate's - 1"}});
+  for (const Backend backend : report.backends()) {
+    double least = 1, most = 1, imbalance = 0;
+    for (const double radius : report.isShort() ? std::vector<double>{0.6} : std::vector<double>{0.6, 1, 1.6}) {
+      for (const double depth : report.isShort() ? std::vector<double>{0.2} : std::vector<double>{0.2, 0.4}) {
+        report.stage("thin probe, R/h " + Cell(radius).text(2) + ", " + nameOf(backend));
+        const double hertz = hertzForce(materialOf(kNu), radius, depth);
+        std::vector<Cell> row{nameOf(backend), radius, depth};
+        double worst = 0;
+        for (const Vector3d& place : places) {
+          const Indenter probe(backend, kNu, half_width, {0, radius, depth}, place);
+          row.emplace_back(probe.reaction_n() / hertz);
+          least = std::min(least, probe.reaction_n() / hertz);
+          most = std::max(most, probe.reaction_n() / hertz);
+          worst = std::max(worst, std::abs(probe.reaction_n() / probe.plateForce() - 1));
+        }
+        row.emplace_back(worst);
+        table.add(row);
+        imbalance = std::max(imbalance, worst);
+      }
+    }
+    const std::string name = nameOf(backend) + ": thin probes: ";
+    report.checkAtMost(name + "Hertz's force over the least", 1 / least, 1 / kThinLeast);
+    report.checkAtMost(name + "largest force over Hertz's", most, kThinMost);
+    report.checkAtMost(name + "largest |reaction / force on the plate - 1|", imbalance, kThinReaction);
+  }
+  report.add(table, "thin");
+}
+
 }  // namespace
 
 void measureIndentation(Report& report) {
   measureHertz(report);
   measureProbe(report);
+  measureThin(report);
 }
 
 }  // namespace viscera::bench

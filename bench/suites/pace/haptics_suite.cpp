@@ -32,18 +32,22 @@ struct Matrix {
 
 const std::vector<double> kPoses_hz = {1000, 250, 100, 60};
 
+/// Of Young's modulus, the stiffest [kPa]: felt at 660 N/m by the ball, which is what the loop is made for. Stiffer
+/// tissue is for a swift driver (docs/haptics.md 6).
+constexpr double kStiffest_kpa = 60;
+
 /// Every device and every tissue, by drivers of four rates.
 Matrix matrixOf(bool short_form) {
-  if (short_form) return {{1, 100}, {0, 10}, {0.05, 2}, {1000, 100}};
-  return {{1, 10, 30, 100}, {0, 2, 5, 10}, {0.05, 0.2, 0.7, 2}, kPoses_hz};
+  if (short_form) return {{1, kStiffest_kpa}, {0, 10}, {0.05, 2}, {1000, 100}};
+  return {{1, 10, 30, kStiffest_kpa}, {0, 2, 5, 10}, {0.05, 0.2, 0.7, 2}, kPoses_hz};
 }
 
 /// What may befall a hand in contact.
 Matrix eventsOf(bool short_form) {
   const std::vector<HapticEvent> all = {HapticEvent::kStall, HapticEvent::kLeap, HapticEvent::kClutch,
                                         HapticEvent::kUnheard};
-  if (short_form) return {{100}, {2}, {0.1}, {1000, 100}, all};
-  return {{10, 100}, {2, 10}, {0.1, 0.7}, kPoses_hz, all};
+  if (short_form) return {{kStiffest_kpa}, {2}, {0.1}, {1000, 100}, all};
+  return {{10, kStiffest_kpa}, {2, 10}, {0.1, 0.7}, kPoses_hz, all};
 }
 
 Table tableOf(const std::string& title) {
@@ -194,7 +198,7 @@ void thread(Report& report) {
 
 void probe(Report& report) {
   Plot swings;
-  swings.title = "what a held device goes on to swing by, tissue of 100 kPa";
+  swings.title = "what a held device goes on to swing by, tissue of 60 kPa";
   swings.x_label = "mass of the device [kg]";
   swings.y_label = "half of peak to peak [N]";
   swings.log_x = swings.log_y = true;
@@ -213,8 +217,8 @@ void probe(Report& report) {
   report.add(befallen, "events");
 
   Table plain = tableOf("the first with the ticks' forces as they come, once per tick");
-  const Matrix some =
-      report.isShort() ? Matrix{{100}, {0}, {0.05}, {1000}} : Matrix{{10, 100}, {0, 10}, {0.05, 0.2, 0.7, 2}, {1000}};
+  const Matrix some = report.isShort() ? Matrix{{kStiffest_kpa}, {0}, {0.05}, {1000}}
+                                       : Matrix{{10, kStiffest_kpa}, {0, 10}, {0.05, 0.2, 0.7, 2}, {1000}};
   const Worst without = measure(report, some, 0, plain, swings);
   report.add(plain, "once_per_tick");
   report.add(swings, "swings");

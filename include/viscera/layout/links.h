@@ -16,9 +16,10 @@ struct Link {
   float stiffness;     // k [N/m]; 0 once it is cut
   float prestrain_m2;  // |offset|^2 - l0^2 [m2]: 0 for a spring that is at rest where its ends are
   uint far;            // slot of the far end
-  uint lattice_spring; // low 5 bits: of an explicit lattice: its index 0..17 from this end; else kNoLatticeSpring
+  uint lattice_spring; // low 5 bits: of an explicit lattice: its index 0..17 from this end; else one of the two below
 };
 const uint kNoLatticeSpring = 31u;
+const uint kBendingSpring = 30u;  // none of the surface: it spans two others
 const uint kLatticeSpringMask = 31u;
 const uint kForcePlaceShift = 5u;  // Link.lattice_spring of a spring's owner: above these bits the place of its force on the far end
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // leapfrog.comp - advance every active node by one leapfrog substep.   Owner: solver/gpu/steps/leapfrog_pass.h   physics.md 2, 5
-// in  displacement, velocity [slots]     out  displacement, velocity [slots]; impulses [kMaxStyluses * slots]
+// in  displacement, velocity [slots]     out  displacement, velocity [slots]; impulses [kMaxStyluses * slots]; nodes for edges.comp
 // Features: LATTICE, NETWORK, PARTS, VOLUME (elastic.glsl), EDGE_FORCES (of explicit connections: as spring_forces.comp found
 // them), DASHPOT (axial dashpot), PREDICTED (of lattices, mild springs pull where their ends will be instead), TOOLS (probe and held nodes), COMPENSATED (Kahan's sums of u and v), AWAKE (only nodes of
 // bricks that are awake, as awake_bricks.comp lists them).
@@ -40,6 +40,11 @@ uint forceStart(uint slot) { return texelFetch(force_starts, int(slot)).x; }
 #include "solver/tissue/step.glsl"
 #ifdef TOOLS
 #include "solver/tools/contact.glsl"
+#include "solver/tools/skin.glsl"
+layout(std430, binding = kBindEdgeNodes) buffer EdgeNodesBuffer {
+  uint edge_count;
+  uint edge_nodes[kMostEdgeNodes];
+};
 #endif
 
 #ifdef EDGE_FORCES
@@ -130,6 +135,10 @@ void main() {
   vec3 u_next = added(2u * slot, u, dt_s * v_next);
 #ifdef TOOLS
   resolveContacts(slot, bits, mass, u, u_next, v_next);
+  if (mayFeelEdges(slot, bits, restPosition(slot) + u_next)) {
+    uint place = atomicAdd(edge_count, 1u);
+    if (place < kMostEdgeNodes) edge_nodes[place] = slot;
+  }
 #endif
   fallAsleep(bits, u, u_next, v_next);
   next_displacement[slot] = vec4(u_next, 0.0f);

@@ -54,21 +54,20 @@ void resolveContacts(uint slot, NodeBits bits, float mass, vec3 u, INOUT(vec3) u
   uint held_by = (bits.lo & kGrabMask) >> kGrabShift;
   for (uint s = 0u; s < kMaxStyluses; ++s) {
     if ((tool_motions[s].info.y & kToolPushes) == 0u && held_by != s + 1u) continue;
-    ToolMotion motion = tool_motions[s];
     vec3 v_before = v_next;
     if (held_by == s + 1u) {
       u_next = heldDisplacement(s, slot);
       v_next = (u_next - u) / dt_s;
     } else if (held_by == 0u) {
       vec3 x_next = rest + u_next;
-      if ((motion.info.y & kToolFeels) != 0u) {
-        if (isFelt(motion, slot, below, x_next)) giveMomentum(s, slot, vec3(0.0f));
+      if ((tool_motions[s].info.y & kToolFeels) != 0u) {
+        if (isFelt(tool_motions[s], slot, below, x_next)) giveMomentum(s, slot, vec3(0.0f));
         continue;
       }
-      vec3 reach = x_next - xyz(motion.to);
-      float far = max(motion.from.w + below, 0.0f) + distance(xyz(motion.from), xyz(motion.to));
+      vec3 reach = x_next - xyz(tool_motions[s].to);
+      float far = max(tool_motions[s].from.w + below, 0.0f) + distance(xyz(tool_motions[s].from), xyz(tool_motions[s].to));
       if (dot(reach, reach) >= far * far) continue;
-      probe(motion, below, rest + u, x_next, v_next);
+      probe(tool_motions[s], below, rest + u, x_next, v_next);
       u_next = x_next - rest;
       if (v_next == v_before) continue;
     } else {

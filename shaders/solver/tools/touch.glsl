@@ -20,13 +20,16 @@ struct ProbeSide {
   float depth;  // to its surface along the normal [m]; below 0 outside
 };
 
+// Of the radius: so near to the final sphere nothing is seen as swept over. What was put on its surface stays there, however it is rounded.
+const float kOnSphere = 1.001f;
+
 /// A node inside the final sphere sees its surface along the radius; one that the sphere has passed over, that of the swept capsule.
 /// @param came_from  where the node was before the substep, for one at the centre, which has no direction
 /// @param below      surfaceDepth() of the node: for it the probe is as much larger
 ProbeSide sideOfProbe(ToolMotion motion, vec3 came_from, vec3 x, float below) {
   float radius = max(motion.from.w + below, 0.0f);
   vec3 travel = xyz(motion.to) - xyz(motion.from);
-  vec3 centre = distance(x, xyz(motion.to)) < radius ? xyz(motion.to) : nearestOnSegment(xyz(motion.from), xyz(motion.to), x);
+  vec3 centre = distance(x, xyz(motion.to)) < kOnSphere * radius ? xyz(motion.to) : nearestOnSegment(xyz(motion.from), xyz(motion.to), x);
   vec3 out_of = x - centre;
   float depth2 = dot(out_of, out_of);
   // It leaves where it came from, or against the travel, or upwards.

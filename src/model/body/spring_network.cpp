@@ -27,7 +27,7 @@ layout::Link linkTo(uint32_t far, const Vector3d& d, const NetworkSpring& spring
 }
 
 uint32_t opposite(uint32_t lattice_spring) {
-  return lattice_spring == layout::kNoLatticeSpring ? lattice_spring : lattice_spring ^ 1u;
+  return lattice_spring < layout::kSpringsPerNode ? lattice_spring ^ 1u : lattice_spring;
 }
 
 }  // namespace
@@ -56,8 +56,9 @@ NetworkLinks linksOf(const SpringNetwork& network) {
   for (const NetworkSpring& spring : network.springs) {
     const Vector3d d = network.positions_m[spring.b] - network.positions_m[spring.a];
     const layout::SpringEnds ends{spring.a, spring.b, next[spring.a]++, next[spring.b]++};
-    out.links[ends.link_a] = linkTo(spring.b, d, spring, spring.lattice_spring);
-    out.links[ends.link_b] = linkTo(spring.a, -d, spring, opposite(spring.lattice_spring));
+    const uint32_t from_a = spring.against_bending ? layout::kBendingSpring : spring.lattice_spring;
+    out.links[ends.link_a] = linkTo(spring.b, d, spring, from_a);
+    out.links[ends.link_b] = linkTo(spring.a, -d, spring, opposite(from_a));
     out.ends.push_back(ends);
   }
   return out;

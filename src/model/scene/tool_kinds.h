@@ -171,6 +171,12 @@ inline bool mayBurn(const std::vector<StylusConfig>& styluses) {
   return false;
 }
 
+/// May a stylus push tissue with a probe, with one button or another?
+inline bool mayPush(const StylusConfig& stylus) {
+  const auto pushes = [](ToolMode mode) { return kindOf(mode).does(kPushes); };
+  return pushes(stylus.idle) || pushes(stylus.button1) || pushes(stylus.button2);
+}
+
 inline bool hasThreadsOrClips(const Scene& scene) {
   return !scene.threads.empty() || mayClip(scene.styluses);
 }

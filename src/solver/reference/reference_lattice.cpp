@@ -182,7 +182,7 @@ bool ReferenceLattice::isIsolated(uint32_t slot) const {
 void ReferenceLattice::eraseSpring(uint32_t slot, uint32_t spring, double fraction) {
   if (!isWhole(slot, spring)) return;
   const Neighbor& n = neighbor(slot, spring);
-  const bool of_lattice = n.lattice_spring != layout::kNoLatticeSpring;
+  const bool of_lattice = n.lattice_spring < layout::kSpringsPerNode;
   loseSpring(slot, n.lattice_spring);
   loseSpring(n.slot, of_lattice ? oppositeSpring(n.lattice_spring) : n.lattice_spring);
   // Rounded, it must still say that the spring is cut.
@@ -199,7 +199,7 @@ void ReferenceLattice::eraseSpring(uint32_t slot, uint32_t spring, double fracti
 void ReferenceLattice::loseSpring(uint32_t slot, uint32_t lattice_spring) {
   layout::NodeBits& bits = nodes[slot];
   bits.lo |= layout::kSeveredBit;
-  if (lattice_spring != layout::kNoLatticeSpring) {
+  if (lattice_spring < layout::kSpringsPerNode) {
     setSpringCount(bits, lattice_spring, 0);
   } else if (has_valences_[bits.hi >> layout::kBodyShift]) {
     --bits.lo;  // the valence is in the lowest bits

@@ -59,6 +59,10 @@ class ReferenceLattice {
   /// lambda_V h^3 [J] of the cell whose lowest corner is the node; 0 where there is none or it is cut.
   double bulk(uint32_t slot) const;
   bool isIsolated(uint32_t slot) const;
+  bool isNetwork(uint32_t slot) const { return has_valences_[nodes[slot].hi >> layout::kBodyShift]; }
+  bool isAgainstBending(uint32_t slot, uint32_t spring) const {
+    return neighbor(slot, spring).lattice_spring == layout::kBendingSpring;
+  }
   /// 0 free, else 1 + stylus.
   uint32_t heldBy(uint32_t slot) const { return (nodes[slot].lo & layout::kGrabMask) >> layout::kGrabShift; }
 

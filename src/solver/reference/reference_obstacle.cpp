@@ -157,7 +157,7 @@ std::optional<HalfSpace> outsideOfProbe(const layout::ToolMotion& motion, const 
   const double radius = std::max(0.0, motion.from.w + below_m), length2 = travel.squaredNorm();
   // The final sphere for who is in it, else the capsule that it has swept.
   const auto centreFor = [&](const Vector3d& x) {
-    if (length2 == 0 || (x - to).norm() < radius) return to;
+    if (length2 == 0 || (x - to).norm() < kOnSphere * radius) return to;
     return Vector3d(from + std::clamp((x - from).dot(travel) / length2, 0.0, 1.0) * travel);
   };
   if ((x_next_m - centreFor(x_next_m)).norm() >= radius) return std::nullopt;

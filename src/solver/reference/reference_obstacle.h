@@ -10,6 +10,9 @@
 
 namespace viscera {
 
+/// Of a probe's radius: so near to the final sphere nothing is seen as swept over (shaders/solver/tools/touch.glsl).
+constexpr double kOnSphere = 1.001;
+
 /// A surface that a node meets in a substep, tissue frame.
 struct ObstacleMeeting {
   Vector3d normal;     ///< out of it

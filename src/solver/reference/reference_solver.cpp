@@ -109,6 +109,8 @@ void ReferenceSolver::substep(const SubstepMotions& motions, const SubstepOutsid
     if (!implicit) applyTools(motions, slot, u_next[slot], v_next[slot]);
     sleep(slot, u_next[slot], v_next[slot]);
   }
+  for (uint32_t s = 0; options_.integrator == ReferenceIntegrator::kLeapfrog && s < layout::kMaxStyluses; ++s)
+    applyEdges(motions[s], s, u_next, v_next);
   collide(u_next, v_next);
   if (!implicit) {
     blow(outside, u_next, v_next, &u_next);

@@ -5,6 +5,7 @@
 #include <array>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "solver/contact/tool_acts.h"
@@ -96,6 +97,18 @@ class ReferenceSolver : public ReferenceLattice, public ToolTarget {
   void verletPaper(Field& u_next, Field& v_next) const;
   void implicitEuler(Field& u_next, Field& v_next);
   void applyTools(const SubstepMotions& motions, uint32_t slot, Vector3d& u_next, Vector3d& v_next);
+  using Array2d = Eigen::Array2d;
+  /// What a probe asks of the point of a spring that is nearest to it (shaders/solver/tools/edges.glsl).
+  struct EdgeWay {
+    std::array<uint32_t, 2> slots;
+    std::array<double, 2> shares;
+    Array2d ways;  ///< out of the probe, of its position [m] and its velocity [m/s]
+    Vector3d normal;
+  };
+  std::optional<EdgeWay> wayOfEdge(const layout::ToolMotion& motion, uint32_t a, uint32_t b, const Field& u_next,
+                                   const Field& v_next) const;
+  bool onSkin(uint32_t slot) const;
+  void applyEdges(const layout::ToolMotion& motion, uint32_t stylus, Field& u_next, Field& v_next);
   void sleep(uint32_t slot, Vector3d& u_next, Vector3d& v_next) const;
   /// What comes slower does not bounce [m/s].
   double restingSpeed() const { return 4 * dt_s_ * gravity_.norm(); }

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <optional>
 
+#include "layout/edge_nodes.h"
+#include "solver/reference/reference_obstacle.h"
 #include "solver/reference/reference_solver.h"
 
 namespace viscera {
@@ -65,7 +67,7 @@ void probe(const layout::ToolMotion& m, double below_m, double dt_s, double long
            Vector3d& x_next, Vector3d& v_next) {
   const double radius = std::max(0.0, m.from.w + below_m);
   const Vector3d from = xyz(m.from), to = xyz(m.to), travel = to - from;
-  const Vector3d centre = (x_next - to).norm() < radius ? to : nearestOnSegment(from, to, x_next);
+  const Vector3d centre = (x_next - to).norm() < kOnSphere * radius ? to : nearestOnSegment(from, to, x_next);
   const Vector3d out = x_next - centre;
   if (out.norm() >= radius) return;
   const Vector3d fallback = (x - centre).norm() > 0 ? Vector3d(x - centre)
@@ -125,6 +127,71 @@ void ReferenceSolver::applyTools(const SubstepMotions& motions, uint32_t slot, V
       u_next = x_next - restPosition(slot);
     }
     impulse_n_s[s] += mass(slot) * (v_next - v_before);
+  }
+}
+
+/// Nodes of lattices that have all their springs, and no surface near them, lie inside.
+bool ReferenceSolver::onSkin(uint32_t slot) const {
+  if (surfaceDepth(slot) != 0) return true;
+  for (uint32_t s = 0; s < springsOf(slot); ++s) {
+    if (!isWhole(slot, s)) return true;
+  }
+  return isNetwork(slot);
+}
+
+std::optional<ReferenceSolver::EdgeWay> ReferenceSolver::wayOfEdge(const layout::ToolMotion& m, uint32_t a, uint32_t b,
+                                                                   const Field& u_next, const Field& v_next) const {
+  const Vector3d x = restPosition(a) + u_next[a], along = restPosition(b) + u_next[b] - x;
+  const double share_b = (xyz(m.to) - x).dot(along) / along.squaredNorm(), share_a = 1 - share_b, length = along.norm();
+  if (!(share_b > 0 && share_b < 1)) return std::nullopt;
+  const Vector3d at = x + share_b * along, from = xyz(m.from), to = xyz(m.to), travel = to - from;
+  const double seen = m.from.w + share_a * surfaceDepth(a) + share_b * surfaceDepth(b);
+  const double wider = std::max(0.0, 1 - length / std::max(seen, 1e-9));
+  const double chord = wider > 0 ? wider * share_a * share_b * length * length / (2 * seen) : 0;
+  const double radius = std::max(0.0, seen - chord);
+  const Vector3d centre = (at - to).norm() < kOnSphere * radius ? to : nearestOnSegment(from, to, at);
+  if (at == centre) return std::nullopt;
+  const Vector3d normal = (at - centre).normalized(), v = share_a * v_next[a] + share_b * v_next[b] - travel / dt_s_;
+  const double inside = radius - (at - centre).norm(), slowest = std::min(inside, 0.0) / dt_s_;
+  const double push = std::clamp(inside, 0.0, options_.push_speed_m_per_s * dt_s_);
+  const double faster = std::max(slowest - v.dot(normal), 0.0);
+  if (push == 0 && faster == 0) return std::nullopt;
+  return EdgeWay{{a, b}, {share_a, share_b}, {push, faster}, normal};
+}
+
+/// Rounds in which all see what the one before did.
+void ReferenceSolver::applyEdges(const layout::ToolMotion& m, uint32_t stylus, Field& u_next, Field& v_next) {
+  if ((m.info.y & (layout::kToolPushes | layout::kToolFeels)) != layout::kToolPushes) return;
+  const auto moves = [&](uint32_t slot) { return !isFixed(nodes[slot]) && heldBy(slot) == 0; };
+  for (uint32_t round = 0; round < layout::kEdgeRounds; ++round) {
+    std::vector<EdgeWay> ways;
+    std::vector<Array2d> sums(nodes.size(), Array2d::Zero());  // of parts times ways
+    for (const uint32_t slot : active) {
+      for (uint32_t s = 0; onSkin(slot) && s < springsOf(slot); ++s) {
+        const uint32_t far = farEnd(slot, s);
+        if (far < slot || !isWhole(slot, s) || isAgainstBending(slot, s) || !onSkin(far)) continue;
+        const std::optional<EdgeWay> way = wayOfEdge(m, slot, far, u_next, v_next);
+        if (!way) continue;
+        ways.push_back(*way);
+        for (int end = 0; end < 2; ++end) {
+          if (moves(way->slots[end])) sums[way->slots[end]] += way->shares[end] * way->ways;
+        }
+      }
+    }
+    for (const EdgeWay& way : ways) {
+      Array2d gives = Array2d::Zero();
+      for (int end = 0; end < 2; ++end) gives += way.shares[end] * sums[way.slots[end]] / mass(way.slots[end]);
+      for (int end = 0; end < 2; ++end) {
+        const uint32_t slot = way.slots[end];
+        if (!moves(slot)) continue;
+        const double part = way.shares[end] / mass(slot);
+        if (way.ways[0] > 0) u_next[slot] += part * way.ways[0] * way.ways[0] / gives[0] * way.normal;
+        if (way.ways[1] == 0) continue;
+        const Vector3d dv = part * way.ways[1] * way.ways[1] / gives[1] * way.normal;
+        v_next[slot] += dv;
+        impulse_n_s[stylus] += mass(slot) * dv;
+      }
+    }
   }
 }
 

@@ -13,6 +13,7 @@
 #include "model/scene/structure_rules.h"
 #include "model/scene/tool_kinds.h"
 #include "solver/ticks/stable_step.h"
+#include "solver/tissue/joined_lattice.h"
 #include "tools/motion_packing.h"
 #include "viscera/math/error.h"
 #include "viscera/solver/material.h"
@@ -36,6 +37,7 @@ Ticks::Ticks(const Model& model, const Scene& scene, const TickPlan& plan, std::
       tick_s_(plan.tick_s),
       dt_safe_s_(plan.dt_safe_s),
       push_speed_m_per_s_(pushSpeed(model)),
+      edge_reach_m_(edgeReach(model)),
       dashpot_ratio_(largestDashpot(model)),
       substeps_(plan.substeps),
       recovery_substeps_(plan.recovery_substeps),
@@ -153,6 +155,7 @@ void Ticks::substep(int index, const ToolMotions& motions, bool cuts, bool conta
   step.gravity = gravity_;
   step.sleep_distance_m = static_cast<float>(config_.sleep_distance_m);
   step.push_speed_m_per_s = static_cast<float>(push_speed_m_per_s_);
+  step.edge_reach_m = edge_reach_m_;
   step.tools = contacts;
   step.restarted = restarted_;
   step.index = index;

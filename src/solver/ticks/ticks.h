@@ -91,6 +91,7 @@ class Ticks : public Solver {
   ToolActs acts_;
   Vector3f gravity_;
   double tick_s_, dt_safe_s_, push_speed_m_per_s_;
+  float edge_reach_m_;
   double dt_limit_s_ = 0;  ///< measured at the start; 0 where it is not
   double dashpot_ratio_;   ///< the largest
   double stretch_ = 0;     ///< largest of the last good tick, rounded down

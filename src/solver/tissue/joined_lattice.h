@@ -52,6 +52,10 @@ JoinedMoments allMoments(const Model& model);
 /// without such bodies. Deeper nodes are met as they are: the tissue above them would be as if it were rigid.
 std::vector<float> surfaceDepths(const Model& model);
 
+/// How far beyond a probe nodes of springs may be that it touches between their ends [m]: the longest spring, stretched
+/// by 0.41.
+float edgeReach(const Model& model);
+
 /// [slots] from nodes outside of their tissue to its surface, a word each (shaders/layout/surface_ways.h); empty where
 /// no body has cells that are tissue in part.
 std::vector<uint32_t> surfaceWays(const Model& model);

@@ -14,6 +14,7 @@ struct Substep {
   Vector3f gravity = Vector3f::Zero();  ///< [m/s2]
   float sleep_distance_m = 1;
   float push_speed_m_per_s = 0;  ///< largest speed at which a probe pushes nodes out
+  float edge_reach_m = 0;        ///< edgeReach()
   bool tools = false;            ///< probe or held nodes are about: the kernel that knows them is used
   bool restarted = false;        ///< the state was written from outside since the last substep
   int index = 0;                 ///< of the tick's substeps

@@ -14,6 +14,8 @@ namespace {
 constexpr float kDt_s = 1e-4f;
 // Absolute positions of up to 0.2 m in float32, a few times rounded [m].
 constexpr double kPosition_m = 4 * 0.2 / (1 << 24);
+// Springs that are touched add the roundings of both ends in each round.
+constexpr double kEdges_m = 2 * kPosition_m;
 constexpr double kVelocity_m_per_s = kPosition_m / static_cast<double>(kDt_s);
 
 Vector3f single(const Vector3d& v) {
@@ -84,17 +86,30 @@ class CpuTools : public ::testing::Test {
     reference_.substep({motions[0], motions[1]});
     const HostState before = lattice_.read();
     HostState after = before;
+    float* const u_next = lattice_.state.displacement[1 - lattice_.state.current].data();
+    float* const v_next = lattice_.state.velocity[1 - lattice_.state.current].data();
     size_t moved = 0;
     for (uint32_t slot : lattice_.store.active) {
       const Vector3d u = xyz(before.displacement_m[slot]), v = xyz(before.velocity_m_per_s[slot]);
-      Vector3f u_next = single(u + static_cast<double>(kDt_s) * v), v_next = single(v);
-      const Vector3f v_free = v_next;
-      resolveContact(lattice_, slot, motions, kDt_s, 20, single(u), u_next, v_next);
-      moved += v_next != v_free;
-      EXPECT_LT((u_next.cast<double>() - reference_.u_m[slot]).norm(), kPosition_m) << slot;
-      EXPECT_LT((v_next.cast<double>() - reference_.v_m_per_s[slot]).norm(), 3 * kVelocity_m_per_s) << slot;
-      after.displacement_m[slot] = vec4(u_next.cast<double>());
-      after.velocity_m_per_s[slot] = vec4(v_next.cast<double>());
+      setPlanes(u_next, slot, single(u + static_cast<double>(kDt_s) * v));
+      setPlanes(v_next, slot, single(v));
+    }
+    Substep step;
+    step.dt_s = kDt_s;
+    step.push_speed_m_per_s = 20;
+    step.edge_reach_m = edgeReach(model_);
+    const std::vector<uint32_t>& slots = lattice_.store.active;
+    resolveContacts(lattice_, step, motions, slots.data(), slots.size());
+    CpuEdges edges;
+    edges.add(lattice_, step, motions, slots.data(), slots.size());
+    edges.run(lattice_, step, motions);
+    for (uint32_t slot : slots) {
+      const Vector3d u = planesAt(u_next, slot).cast<double>(), v = planesAt(v_next, slot).cast<double>();
+      moved += v != xyz(before.velocity_m_per_s[slot]);
+      EXPECT_LT((u - reference_.u_m[slot]).norm(), kEdges_m) << slot;
+      EXPECT_LT((v - reference_.v_m_per_s[slot]).norm(), 3 * kVelocity_m_per_s) << slot;
+      after.displacement_m[slot] = vec4(u);
+      after.velocity_m_per_s[slot] = vec4(v);
     }
     lattice_.write(after);
     return moved;

@@ -22,6 +22,15 @@ class PaperErrors : public GpuTest {
   static void tick(GpuSolver& solver, const StylusMotion& stylus) { solver.step(ToolMotions{stylus}); }
 };
 
+/// Of the papers' own integrator, whose probes meet nodes alone.
+Scene probeScene(const Model& model, double radius_m) {
+  StylusConfig config;
+  config.probe.radius_m = radius_m;
+  Scene scene = sceneFor(model, 1, {config});
+  scene.solver.integrator = Integrator::kVerletPaper;
+  return scene;
+}
+
 StylusConfig thinProbe(double radius_m) {
   StylusConfig config;
   config.probe.radius_m = radius_m;
@@ -33,7 +42,7 @@ StylusConfig thinProbe(double radius_m) {
 TEST_F(PaperErrors, ProbeThatPassesANodeWithinASubstepPutsItOutOfItsWay) {
   constexpr double kRadius_m = 0.1 * kSpacing_m;
   const Model model = block({4, 4, 4});
-  GpuSolver solver(model, sceneFor(model, 1, {thinProbe(kRadius_m)}));
+  GpuSolver solver(model, probeScene(model, kRadius_m));
   const uint32_t slot = slotAt(model, {2, 2, 4});
   const Vector3d node = model.bodies[0].lattice.restPosition(slot);
   const Vector3d beside = node + Vector3d(0.5 * kRadius_m, 0, 0), half_way(0, 0, 5 * kRadius_m);
@@ -46,7 +55,7 @@ TEST_F(PaperErrors, ProbeThatPassesANodeWithinASubstepPutsItOutOfItsWay) {
 
 TEST_F(PaperErrors, ProbeWithANodeExactlyAtItsCentrePushesItUpwards) {
   const Model model = block({4, 4, 4});
-  GpuSolver solver(model, sceneFor(model, 1, {thinProbe(0.1 * kSpacing_m)}));
+  GpuSolver solver(model, probeScene(model, 0.1 * kSpacing_m));
   const uint32_t slot = slotAt(model, {2, 2, 4});
   const Vector3d node = model.bodies[0].lattice.restPosition(slot);
   tick(solver, motionOf(ToolMode::kProbe, node, node));
@@ -58,7 +67,7 @@ TEST_F(PaperErrors, ProbeWithANodeExactlyAtItsCentrePushesItUpwards) {
 TEST_F(PaperErrors, NodeThatAProbeMovesOutTakesTheSpeedOfTheToolAndNotOfItsWayOut) {
   constexpr double kRadius_m = 0.1 * kSpacing_m;
   const Model model = block({4, 4, 4});
-  GpuSolver solver(model, sceneFor(model, 1, {thinProbe(kRadius_m)}));
+  GpuSolver solver(model, probeScene(model, kRadius_m));
   const uint32_t slot = slotAt(model, {2, 2, 4});
   const Vector3d below = model.bodies[0].lattice.restPosition(slot) - Vector3d(0, 0, 0.5 * kRadius_m);
   tick(solver, motionOf(ToolMode::kProbe, below, below));

@@ -69,6 +69,39 @@ TEST_P(ToolsOnNetwork, ProbeDentsAndIsToldTheMomentumLikeTheReference) {
   EXPECT_GT(s.touched[0], 0u);
 }
 
+TEST_P(ToolsOnNetwork, ThinProbeBetweenNodesDentsLikeTheReference) {
+  styluses_[0].probe.radius_m = 0.003;  // of 10 mm between nodes
+  use(Model(model_));
+  for (int t = 0; t < 8; ++t) {
+    const double z = 0.0035 - 0.0004 * t;
+    tickWith(motionOf(ToolMode::kProbe, {0.0051, 0.0001, z}, {0.0051, 0.0001, z - 0.0004}));
+  }
+  expectSameDisplacement();
+  const layout::TickStats s = stats();
+  EXPECT_LT(s.impulse[0].z, 0);
+  EXPECT_GE(s.touched[0], 2u);
+}
+
+/// Springs against bending span two others: nothing is there between their ends.
+TEST_P(ToolsOnNetwork, ProbesDoNotMeetSpringsAgainstBending) {
+  styluses_[0].probe.radius_m = 0.003;
+  use(modelOf({clothBody(5, 5, 0.01, 0.1)}));
+  const auto& springs = body().network->springs;
+  const auto spring = std::find_if(springs.begin(), springs.end(), [](const auto& s) { return s.against_bending; });
+  ASSERT_NE(spring, springs.end());
+  // Between the ends of one that the cloth has been folded away from.
+  const Vector3d a = body().network->positions_m[spring->a], b = body().network->positions_m[spring->b];
+  const Vector3d middle = 0.5 * (a + b);
+  HostState state = solver_->readState();
+  for (const uint32_t slot : lattice().active_slots) {
+    if (slot == spring->a || slot == spring->b) continue;
+    state.displacement_m[slot].z = -0.008f;
+  }
+  write(state);
+  tickWith(motionOf(ToolMode::kProbe, middle, middle));
+  EXPECT_EQ(stats().touched[0], 0u);
+}
+
 TEST_P(ToolsOnNetwork, HeldNodesFollowThePoseAndAreLetGoLikeTheReference) {
   ToolMotions motions;
   motions[1] = motionOf(ToolMode::kGrab, {0, 0, 0}, {0, 0, 0.002});

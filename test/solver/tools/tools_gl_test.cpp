@@ -48,6 +48,26 @@ TEST_P(ToolsOnTissue, ProbeDentsLikeTheReference) {
   EXPECT_LT(lowest, -0.004);
 }
 
+/// A tip of 0.4 spacings in the middle between four nodes, and beside it, that no node comes near.
+TEST_P(ToolsOnTissue, ThinProbeBetweenNodesDentsLikeTheReference) {
+  styluses_[0].probe.radius_m = 0.004;
+  for (const Vector3d& at : {Vector3d(0.035, 0.035, 0), Vector3d(0.035, 0.03, 0), Vector3d(0.0342, 0.0331, 0)}) {
+    use(Model(model_));
+    Vector3d before = Vector3d::Zero();
+    for (int t = 0; t < 10; ++t) {
+      before = reference_->impulse_n_s[0];
+      const Vector3d from = at + Vector3d(0, 0, 0.0655 - 0.0004 * t);
+      tickWith(motionOf(ToolMode::kProbe, from, from - Vector3d(0, 0, 0.0004)));
+    }
+    expectSameDisplacement();
+    const Vector3d truth = reference_->impulse_n_s[0] - before;
+    const layout::TickStats s = stats();
+    EXPECT_LT((xyz(s.impulse[0]) - truth).norm(), 1e-3 * truth.norm());  // as below
+    EXPECT_LT(truth.z(), 0);
+    EXPECT_GE(s.touched[0], at.y() == 0.03 ? 2u : 3u);
+  }
+}
+
 TEST_P(ToolsOnTissue, ReactionIsTheMomentumGivenPerTick) {
   ToolMotions motions;
   Vector3d before = Vector3d::Zero();

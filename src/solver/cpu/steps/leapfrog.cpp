@@ -18,22 +18,12 @@ constexpr size_t kMostBricks = 16;     // that a thread takes at a time: about 1
 constexpr size_t kLeastBricks = 2;     // towards a round's end: about 1 us, still ten times what taking them costs
 constexpr size_t kPartsPerThread = 8;  // at least, where there are bricks enough: a free thread takes the next
 
-/// What tools do to a node in the substep that was just made (shaders/solver/tools/contact.glsl).
-void touchNode(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions, uint32_t slot) {
-  const float* now = lattice.state.displacement[lattice.state.current].data();
-  float* const u = lattice.state.displacement[1 - lattice.state.current].data();
-  float* const v = lattice.state.velocity[1 - lattice.state.current].data();
-  Vector3f u_next = planesAt(u, slot), v_next = planesAt(v, slot);
-  resolveContact(lattice, slot, motions, step.dt_s, step.push_speed_m_per_s, planesAt(now, slot), u_next, v_next);
-  setPlanes(u, slot, u_next);
-  setPlanes(v, slot, v_next);
-}
-
 /// How far a probe reaches in a substep, around where it is at the end [m].
 /// @param deepest_m  that a node lies below the surface by which it is touched
-float reachOf(const layout::ToolMotion& m, float deepest_m) {
+/// @param edge_m  that a node of a spring may be beyond it (edgeReach())
+float reachOf(const layout::ToolMotion& m, float deepest_m, float edge_m) {
   const Vector3f travel(m.to.x - m.from.x, m.to.y - m.from.y, m.to.z - m.from.z);
-  return m.from.w + deepest_m + travel.norm();
+  return m.from.w + deepest_m + edge_m + travel.norm();
 }
 
 float deepestOf(const std::vector<float>& depths_m) {
@@ -94,6 +84,7 @@ void CpuLeapfrog::persist(Archive& archive, CpuLattice& /*lattice*/) {
 void CpuLeapfrog::run(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions) {
   if (!sleep_.awake().empty()) stepAwake(lattice, step, motions);
   if (network_) stepNetwork(lattice, step, motions);
+  edges_.run(lattice, step, motions);
   sleep_.passed(lattice, step.dt_s, speed2_);
 }
 
@@ -114,9 +105,17 @@ void CpuLeapfrog::stepAwake(CpuLattice& lattice, const Substep& step, const layo
   job_.reaches = 0;
   for (size_t s = 0; step.tools && s < layout::kMaxStyluses; ++s) {
     const layout::ToolMotion& m = motions[s];
-    if (m.info.y & layout::kToolPushes) job_.reach[job_.reaches++] = {{m.to.x, m.to.y, m.to.z}, reachOf(m, deepest_m_)};
+    if (m.info.y & layout::kToolPushes)
+      job_.reach[job_.reaches++] = {{m.to.x, m.to.y, m.to.z}, reachOf(m, deepest_m_, step.edge_reach_m)};
   }
   parallel_.ranges(awake, portions_, [&](size_t first, size_t end) { stepBricks(lattice, step, motions, first, end); });
+  if (!step.tools) return;
+  const std::vector<uint32_t>& first = lattice.store.first_active;
+  for (const uint32_t brick : sleep_.awake()) {
+    if (!near_[brick]) continue;
+    near_[brick] = 0;
+    edges_.add(lattice, step, motions, &lattice.store.active[first[brick]], first[brick + 1] - first[brick]);
+  }
 }
 
 /// Bricks that sleep stand still: what is predicted of them holds while the same are awake, unless others wrote the
@@ -161,17 +160,14 @@ void CpuLeapfrog::stepBricks(CpuLattice& lattice, const Substep& step, const lay
   for (size_t i = first; i < end; ++i) {
     const uint32_t brick = awake[i];
     if (!near_[brick] && !lattice.hands.held[brick]) continue;
-    near_[brick] = 0;
     touch(lattice, step, motions, brick);
   }
 }
 
 /// What tools do to the nodes of a brick in the substep.
 void CpuLeapfrog::touch(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions, uint32_t brick) {
-  for (uint32_t i = lattice.store.first_active[brick]; i < lattice.store.first_active[brick + 1]; ++i) {
-    if (lattice.strengths.mobility[lattice.store.active[i]] != 0)
-      touchNode(lattice, step, motions, lattice.store.active[i]);
-  }
+  const uint32_t first = lattice.store.first_active[brick], end = lattice.store.first_active[brick + 1];
+  resolveContacts(lattice, step, motions, &lattice.store.active[first], end - first);
   speed2_[brick] = std::numeric_limits<float>::infinity();  // stays awake
 }
 
@@ -182,9 +178,12 @@ void CpuLeapfrog::stepNetwork(CpuLattice& lattice, const Substep& step, const la
   reaches_.clear();
   for (size_t s = 0; s < layout::kMaxStyluses; ++s) {
     const layout::ToolMotion& m = motions[s];
-    if (m.info.y & layout::kToolPushes) reaches_.push_back({glsl::xyz(m.to), reachOf(m, deepest_m_)});
+    if (m.info.y & layout::kToolPushes)
+      reaches_.push_back({glsl::xyz(m.to), reachOf(m, deepest_m_, step.edge_reach_m)});
   }
-  for (const uint32_t slot : network_->touched(lattice, reaches_)) touchNode(lattice, step, motions, slot);
+  const std::vector<uint32_t>& touched = network_->touched(lattice, reaches_);
+  resolveContacts(lattice, step, motions, touched.data(), touched.size());
+  edges_.add(lattice, step, motions, touched.data(), touched.size());
 }
 
 }  // namespace viscera

@@ -7,6 +7,7 @@
 #include "solver/cpu/simd/kernels.h"
 #include "solver/cpu/steps/network.h"
 #include "solver/cpu/store/cpu_stepper.h"
+#include "solver/cpu/text/tool_passes.h"
 
 namespace viscera {
 
@@ -48,6 +49,7 @@ class CpuLeapfrog : public CpuStepper {
   std::vector<uint8_t> near_;       ///< [bricks]
   std::vector<uint16_t> strained_;  ///< [bricks]
   std::vector<float> speed2_;       ///< [bricks]
+  CpuEdges edges_;
   std::vector<NodeReach> reaches_;  ///< of probes in this substep, for nodes with explicit connections
   Portions portions_;               ///< of bricks
 };

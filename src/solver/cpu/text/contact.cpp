@@ -1,5 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include "layout/edge_nodes.h"
 #include "solver/cpu/text/glsl_kernel.h"
 #include "solver/cpu/text/tool_passes.h"
 
@@ -9,14 +10,9 @@ namespace glsl {
 
 namespace {
 
-#define VARIANT_NAME Place
-#define VARIANT_BASE Kernel
-#define VARIANT_TEXT "shaders/solver/tissue/lattice.glsl"
-#include "solver/cpu/text/glsl_variant.inc"
-
 #define VARIANT_NAME Contact
-#define VARIANT_BASE Place
-#define VARIANT_TEXT "shaders/solver/tools/contact.glsl"
+#define VARIANT_BASE Kernel
+#define VARIANT_TEXT "solver/cpu/text/contact.inc"
 #include "solver/cpu/text/glsl_variant.inc"
 
 }  // namespace
@@ -25,9 +21,6 @@ namespace {
 
 namespace {
 
-glsl::vec3 fromEigen(const Vector3f& v) {
-  return {v.x(), v.y(), v.z()};
-}
 Vector3f toEigen(const glsl::vec3& v) {
   return {v.x, v.y, v.z};
 }
@@ -61,17 +54,77 @@ void addBrick(CpuLattice& lattice, std::vector<layout::vec4>& impulses, uint32_t
 
 }  // namespace
 
-void resolveContact(CpuLattice& lattice, uint32_t slot, const layout::ToolMotion* motions, float dt_s,
-                    float push_speed_m_per_s, const Vector3f& u_m, Vector3f& u_next_m, Vector3f& v_next_m_per_s) {
+void resolveContacts(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions, const uint32_t* slots,
+                     size_t count) {
   glsl::Contact contact(lattice);
+  contact.tell(step);
   contact.tool_motions = motions;
-  contact.dt_s = dt_s;
-  contact.push_speed = push_speed_m_per_s;
-  glsl::vec3 u_next = fromEigen(u_next_m), v_next = fromEigen(v_next_m_per_s);
-  contact.resolveContacts(slot, lattice.store.nodes[slot], lattice.strengths.mass[slot], fromEigen(u_m), u_next,
-                          v_next);
-  u_next_m = toEigen(u_next);
-  v_next_m_per_s = toEigen(v_next);
+  for (const uint32_t* slot = slots; slot < slots + count; ++slot) {
+    if (lattice.strengths.mobility[*slot] == 0) continue;
+    glsl::vec3 u_next = glsl::xyz(contact.next_displacement[*slot]), v_next = glsl::xyz(contact.next_velocity[*slot]);
+    contact.resolveContacts(*slot, lattice.store.nodes[*slot], lattice.strengths.mass[*slot],
+                            glsl::xyz(contact.displacement[*slot]), u_next, v_next);
+    contact.next_displacement[*slot] = glsl::vec4(u_next, 0);
+    contact.next_velocity[*slot] = glsl::vec4(v_next, 0);
+  }
+}
+
+void CpuEdges::add(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions, const uint32_t* slots,
+                   size_t count) {
+  glsl::Contact contact(lattice);
+  contact.tell(step);
+  contact.tool_motions = motions;
+  for (const uint32_t* slot = slots; slot < slots + count; ++slot) {
+    const glsl::vec3 x = contact.restPosition(*slot) + glsl::xyz(contact.next_displacement[*slot]);
+    if (contact.mayFeelEdges(*slot, lattice.store.nodes[*slot], x)) slots_.push_back(*slot);
+  }
+}
+
+struct CpuEdges::Lists {
+  std::vector<glsl::Contact::NearEdge> edges;
+  std::vector<glsl::Contact::AskedEdge> asked;                       ///< of a round
+  std::vector<std::pair<uint32_t, glsl::Contact::EdgePush>> pushes;  ///< of a round, by slot
+  std::vector<glsl::vec2> sums;                                      ///< [slots]
+};
+
+CpuEdges::CpuEdges() : lists_(std::make_unique<Lists>()) {
+  constexpr size_t kNodes = 1024, kEdges = 8 * kNodes;  // more than a tip a few cells wide comes by
+  slots_.reserve(kNodes);
+  lists_->pushes.reserve(kNodes);
+  lists_->edges.reserve(kEdges);
+  lists_->asked.reserve(kEdges);
+}
+CpuEdges::~CpuEdges() = default;
+
+void CpuEdges::run(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions) {
+  glsl::Contact contact(lattice);
+  contact.tell(step);
+  if (slots_.size() > layout::kMostEdgeNodes) slots_.clear();
+  auto& [edges, asked, pushes, sums] = *lists_;
+  sums.resize(lattice.slotCount(), glsl::vec2(0));
+  contact.edge_sums = sums.data();
+  for (uint32_t s = 0; !slots_.empty() && s < layout::kMaxStyluses; ++s) {
+    if (!contact.pushesEdges(motions[s])) continue;
+    const glsl::Contact::EdgeTip tip = contact.tipOf(motions[s]);
+    edges.clear();
+    for (const uint32_t slot : slots_) contact.listEdges(tip, slot, edges);
+    for (uint32_t round = 0; round < layout::kEdgeRounds; ++round) {
+      asked.clear();
+      contact.askEdges(tip, edges, asked);
+      if (asked.empty()) break;
+      pushes.clear();
+      const auto *first = asked.data(), *end = first + asked.size();
+      while (first != end) {
+        const uint32_t slot = first->edge.slot;
+        pushes.emplace_back(slot, contact.pushOfAsked(first, end));
+      }
+      for (const auto& [slot, push] : pushes) {
+        contact.giveEdges(s, slot, push);
+        sums[slot] = glsl::vec2(0);
+      }
+    }
+  }
+  slots_.clear();
 }
 
 void sumReactions(CpuLattice& lattice, const std::array<Vector3f, layout::kMaxStyluses>& tips,

@@ -109,6 +109,7 @@ struct Kernel {
     gravity = vec3(step.gravity.x(), step.gravity.y(), step.gravity.z());
     sleep_distance_m = step.sleep_distance_m;
     push_speed = step.push_speed_m_per_s;
+    edge_reach = step.edge_reach_m;
     resting_speed = step.resting_speed_m_per_s;
     obstacles = step.obstacles;
     obstacle_count = step.obstacle_count;
@@ -125,7 +126,7 @@ struct Kernel {
   Planes displacement, velocity, next_displacement, next_velocity;
   bool has_moments;
   uint cell_vectors;
-  float dt_s = 0, kick_s = 0, sleep_distance_m = 0, push_speed = 0, resting_speed = 0;
+  float dt_s = 0, kick_s = 0, sleep_distance_m = 0, push_speed = 0, edge_reach = 0, resting_speed = 0;
   vec3 gravity = vec3(0);
   const ToolMotion* tool_motions = nullptr;
   const ObstacleMotion* obstacles = nullptr;

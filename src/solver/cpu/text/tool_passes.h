@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <vector>
 
 #include "solver/contact/tool_acts.h"
@@ -52,12 +53,29 @@ class CpuCut {
   std::vector<uint32_t> changed_;  ///< slots that lost springs
 };
 
-/// What all styluses do to a node in a substep: pushed out of probes, or where its stylus holds it. May run for nodes
-/// of different bricks at the same time.
-/// @param motions  [kMaxStyluses] of the substep   @param push_speed_m_per_s  a probe pushes a node out no faster
-/// @param u_m  before the substep   @param u_next_m, v_next_m_per_s  after it, without styluses; changed
-void resolveContact(CpuLattice& lattice, uint32_t slot, const layout::ToolMotion* motions, float dt_s,
-                    float push_speed_m_per_s, const Vector3f& u_m, Vector3f& u_next_m, Vector3f& v_next_m_per_s);
+/// What all styluses do to nodes that have just made a substep: pushed out of probes, or where a stylus holds them. May
+/// run for nodes of different bricks at the same time.
+/// @param motions  [kMaxStyluses] of the substep   @param slots  [count] of which those that never move are left alone
+void resolveContacts(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions, const uint32_t* slots,
+                     size_t count);
+
+/// What probes do to springs on the skin that they touch between their ends, once all nodes have made the substep
+/// (shaders/solver/tools/edges.glsl). On one thread.
+class CpuEdges {
+ public:
+  CpuEdges();
+  ~CpuEdges();
+  /// Of these nodes those whose springs may be touched take part. @param slots  [count], each at most once in a substep
+  void add(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions, const uint32_t* slots,
+           size_t count);
+  /// Pushes the springs of those added, and forgets them.
+  void run(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions);
+
+ private:
+  struct Lists;
+  std::vector<uint32_t> slots_;
+  std::unique_ptr<Lists> lists_;  ///< of a substep: their memory is reused
+};
 
 /// Sums what styluses gave to nodes in a tick into impulse, angular and touched, always in the same order, in float64,
 /// and clears it. @param tips  of the styluses at the end of the tick, tissue frame [m]

@@ -77,7 +77,7 @@ AwakeBricks::AwakeBricks(const Model& model, const FeatureSet& features, const L
       bricks_(bricksOf(model, features, buffers.store.bricks.size()), "sleeping bricks"),
       nodes_(listBytes(buffers.store.active_count), "awake nodes"),
       slow2_(static_cast<float>(speed_m_per_s * speed_m_per_s)),
-      deepest_m_(deepest(model)),
+      deepest_m_(deepest(model) + edgeReach(model)),
       beside_(features.moments ? layout::kFarthestTissue : 0),
       group_size_(features.group_size) {
   if (features.volume) cells_ = gpu::RawBuffer(listBytes(buffers.store.cells.size()), "awake cells");

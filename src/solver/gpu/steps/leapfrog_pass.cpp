@@ -14,6 +14,7 @@ LeapfrogPass::LeapfrogPass(const FeatureSet& features, AwakeBricks* awake)
   if (!features.tools) return;
   defines.push_back("TOOLS");
   with_tools_ = gpu::Program::compute("leapfrog.comp", defines);
+  edges_.emplace(features);
 }
 
 void LeapfrogPass::run(LatticeBuffers& buffers, const Substep& step) {
@@ -23,11 +24,16 @@ void LeapfrogPass::run(LatticeBuffers& buffers, const Substep& step) {
   const gpu::Program& program = step.tools ? with_tools_ : plain_;
   program.use();
   setSubstep(program, buffers, step);
+  if (step.tools) {
+    program.set("edge_reach", step.edge_reach_m);
+    edges_->bind();
+  }
   if (awake_)
     awake_->dispatchNodes();
   else
     gpu::Program::dispatch(buffers.store.active_count, group_size_);
   gpu::Program::storageBarrier();
+  if (step.tools) edges_->run(buffers, step);
   if (awake_) awake_->passed(step);
 }
 

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "solver/gpu/buffers/awake_bricks.h"
+#include "solver/gpu/contact/edges_pass.h"
 #include "solver/gpu/forces/spring_force_pass.h"
 #include "solver/gpu/forces/volume_pass.h"
 #include "solver/gpu/steps/stepper.h"
@@ -21,6 +22,7 @@ class LeapfrogPass : public Stepper {
 
  private:
   gpu::Program plain_, with_tools_;
+  std::optional<EdgesPass> edges_;
   std::optional<VolumePass> volume_;
   std::optional<SpringForcePass> spring_forces_;
   AwakeBricks* awake_;
