@@ -18,7 +18,8 @@ constexpr double kReactionLimit = 1e-3;  ///< no number in issue 3
 /// Of a probe thinner than a cell: over a node alone the lattice is that much softer than a half-space, between four,
 /// which all go down with it, that much stiffer.
 constexpr double kThinLeast = 0.6, kThinMost = 5;
-/// Nodes beside a thin tip slide about under it and take long to rest.
+/// Rounds leave a little of the approach of nodes at several springs under a thin tip; that is made good by moving
+/// them, which is no momentum (docs/material.md, Thin probes).
 constexpr double kThinReaction = 0.03;
 
 struct Indentation {
