@@ -27,6 +27,9 @@ const float kAlternating = 5.0f / 18.0f - 0.5f;
 const float kCrushed = 0.5f;
 const float kMostCrushed = 1.5f;
 const float kCrushing = 2.0f;
+// No corner is while f + d is below the root of this, f^2 the sum of squares of what the mean edges changed by and d^2 of what a corner's
+// differ from them by: a corner's span (1 - (f + d)/sqrt(3))^3 at least.
+const float kNearRest2 = 0.125f;
 
 // Numbers of a cell's bend in a thin wall: of its 9 hourglass motions with each other, row by row from the diagonal on, and of each
 // with the 6 strains; in vectors of four.

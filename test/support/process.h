@@ -26,11 +26,15 @@ inline std::string shellQuoted(const std::string& word) {
   return out + "'";
 }
 
-/// Runs a program to its end. @param environment  "NAME=value" each, on top of this process's own
+/// [s] A program that runs longer hangs: the longest takes 40 s here, and machines differ by a factor of four.
+constexpr int kHangs_s = 240;
+
+/// Runs a program to its end; one that hangs ends with status 124. @param environment  "NAME=value" each, on top of
+/// this process's own
 inline Ending runProgram(const std::string& program, const std::vector<std::string>& arguments,
                          const std::vector<std::string>& environment = {}) {
   const TemporaryFolder folder;
-  std::string command = "timeout 60 env";  // a program that hangs ends with status 124
+  std::string command = "timeout " + std::to_string(kHangs_s) + " env";
   for (const std::string& variable : environment) command += " " + shellQuoted(variable);
   command += " " + shellQuoted(program);
   for (const std::string& argument : arguments) command += " " + shellQuoted(argument);

@@ -21,10 +21,14 @@ CornerEdges cornerEdges(CellMotion q, vec3 s) {
   return e;
 }
 
-/// False only where no corner is crushed: a bound on its volume, from that of the mean edges and the size of hourglass motions.
+/// False only where no corner is crushed: by kNearRest2; where the cell has turned or is strained, by the volume of its mean edges less
+/// what hourglass motions can take off that.
 bool mayBeCrushed(CellMotion q) {
+  float crossed = dot(q.hxyz, q.hxyz), bent = dot(q.hx, q.hx) + dot(q.hy, q.hy) + dot(q.hz, q.hz) + 2.0f * crossed;
+  float f2 = dot(q.da, q.da) + dot(q.db, q.db) + dot(q.dc, q.dc), d2 = 1.5f * (bent + crossed);
+  float left = kNearRest2 - f2 - d2;
+  if (left > 0.0f && 4.0f * f2 * d2 < left * left) return false;
   vec3 a = vec3(1.0f, 0.0f, 0.0f) + q.da, b = vec3(0.0f, 1.0f, 0.0f) + q.db, c = vec3(0.0f, 0.0f, 1.0f) + q.dc;
-  float bent = dot(q.hx, q.hx) + dot(q.hy, q.hy) + dot(q.hz, q.hz) + 2.0f * dot(q.hxyz, q.hxyz);
   float change = sqrt(0.75f * bent), size = sqrt(max(dot(a, a), max(dot(b, b), dot(c, c))));  // of an edge, at most
   return dot(a, cross(b, c)) - change * (3.0f * size * size + change * (3.0f * size + change)) < kCrushed;
 }

@@ -119,9 +119,13 @@ class HandsTest(unittest.TestCase):
         return topic.message
 
     def press_probe_in(self):
-        self.left.appear(OUTSIDE)
-        self.left.go(DEEP, 1.0)
-        time.sleep(REST_S)
+        """A busy machine that lets poses pause on the way in ends the contact, as it should: then it goes in again."""
+        for _ in range(5):
+            self.left.appear(OUTSIDE)
+            self.left.go(DEEP, 1.0)
+            time.sleep(REST_S)
+            if self.force_n() > FELT_N:
+                break
         self.assertGreater(self.force_n(), FELT_N)
         self.assertLess(self.force.message.wrench.force.y, 0)  # out of the tissue
 

@@ -10,6 +10,7 @@
 #include "hwy/foreach_target.h"  // IWYU pragma: keep
 #include "hwy/highway.h"
 #include "solver/cpu/simd/cells-inl.h"
+#include "solver/cpu/simd/crushed-inl.h"
 #include "solver/cpu/simd/moments-inl.h"
 #include "solver/cpu/simd/targets.h"
 
@@ -112,14 +113,15 @@ HWY_NOINLINE void cellForces(const CellBrick& of, int cell, V rigidity, V bulk, 
   }
   const Moments moments = kFull ? Moments{zero3(), zero3(), zero3()} : loadMoments(of.job.moments[of.b], cell);
   const ThinWalls walls = kFull ? ThinWalls{} : thinWallsOf(of.job, of.b, cell);
-  const Pulled pulled = cellPull<kFull>(q, moments, walls, rigidity, *stress, scale);
+  const bool may_be_crushed = mayBeCrushed(q, hn::Gt(rigidity, hn::Zero(Tag())), scale.per_4h2);
+  cellPull<kFull>(q, moments, walls, rigidity, *stress, scale);
   if (of.job.volumes) {
     q.da = q.da + out.da;
     q.db = q.db + out.db;
     q.dc = q.dc + out.dc;
   }
   out = q;
-  if (HWY_LIKELY(!pulled.mayBeCrushed(rigidity))) return;
+  if (HWY_LIKELY(!may_be_crushed)) return;
   const CellMotion motion = motionBetween(below, above, hn::IfThenZeroElse(absent, scale.per_4h));
   addCrushed(motion, rigidity, scale.per_4h, out);
 }

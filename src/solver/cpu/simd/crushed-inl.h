@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Crushed cells, a vector of cells at a time: shaders/solver/tissue/crushed.glsl, whose names these are. Included once
-// per instruction set (Highway), by moments-inl.h.
+// per instruction set (Highway).
 #if defined(VISCERA_SOLVER_CPU_CRUSHED_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef VISCERA_SOLVER_CPU_CRUSHED_INL_H
 #undef VISCERA_SOLVER_CPU_CRUSHED_INL_H
@@ -17,16 +17,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace viscera::simd::HWY_NAMESPACE {
 
-using layout::kCrushed, layout::kCrushing, layout::kMostCrushed;
-
-/// No corner is crushed while the sum of these times the squares of the mean edges' growth, of 1 - D |D|, D what their
-/// directions span, and of s and hxyz over (2 h)^2 is below 1. Of g^2 = |F^T F - 1|^2 growth is the diagonal and
-/// cosines between edges, times lengths, are twice the rest; the sum of their squares is 1.1 (1 - D^2) at most. So mean
-/// edges span (1 - g/sqrt(3))^(3/2) at least; at a corner edges differ from them by d^2 <= 1.5 |hx|^2 + ... + 2.25
-/// |hxyz|^2, s^2 being 0.65 of that of hx, hy and hz at least, and that takes 1.85 d and d^2 off it. On g^2/0.18 +
-/// d^2/0.025 = 1 0.52 is left.
-constexpr float kOfGrowth = 1 / 0.18f, kOfShear = 2 * 1.5f * 1.1f / 0.18f;
-constexpr float kOfBend = 1.5f / 0.65f / 0.025f, kOfAlternating = 2.25f / 0.025f;
+using layout::kCrushed, layout::kCrushing, layout::kMostCrushed, layout::kNearRest2;
 
 struct EdgeTriple {
   Vec3 a, b, c;
@@ -41,6 +32,31 @@ HWY_INLINE EdgeTriple meanEdges(const CellMotion& q) {
           {q.dc.x, q.dc.y, hn::Add(one, q.dc.z)}};
 }
 
+/// Of squares of hourglass motions, over (2 h)^2: hxyz counts half as much as it does in moments.glsl.
+struct Bending {
+  V crossed, bent;
+};
+HWY_INLINE Bending bendingOf(const CellMotion& q, V per_4h2) {
+  const V crossed = hn::Mul(hn::Mul(set(0.5f), per_4h2), dot(q.hxyz, q.hxyz));
+  const V sum = hn::Add(dot(q.hx, q.hx), hn::Add(dot(q.hy, q.hy), dot(q.hz, q.hz)));
+  return {crossed, hn::MulAdd(per_4h2, sum, hn::Add(crossed, crossed))};
+}
+
+/// False only where no corner is crushed. @param there  where a cell is: elsewhere its motion may be anything
+HWY_INLINE bool mayBeCrushed(const CellMotion& q, M there, V per_4h2) {
+  const Bending h = bendingOf(q, per_4h2);
+  const V f2 = hn::Add(dot(q.da, q.da), hn::Add(dot(q.db, q.db), dot(q.dc, q.dc)));
+  const V d2 = hn::Mul(set(1.5f), hn::Add(h.bent, h.crossed)), left = hn::Sub(hn::Sub(set(kNearRest2), f2), d2);
+  const M near = hn::And(hn::Gt(left, hn::Zero(Tag())), hn::Lt(hn::Mul(set(4), hn::Mul(f2, d2)), hn::Mul(left, left)));
+  const M far = hn::AndNot(near, there);
+  if (HWY_LIKELY(hn::AllFalse(Tag(), far))) return false;
+  const EdgeTriple e = meanEdges(q);
+  const V change = hn::Sqrt(hn::Mul(set(0.75f), h.bent)), a2 = dot(e.a, e.a), b2 = dot(e.b, e.b), c2 = dot(e.c, e.c);
+  const V size2 = hn::Max(a2, hn::Max(b2, c2)), size3 = hn::Mul(set(3), hn::Sqrt(size2));
+  const V taken = hn::Mul(change, hn::MulAdd(change, hn::Add(size3, change), hn::Mul(set(3), size2)));
+  return !hn::AllTrue(Tag(), hn::Or(hn::Not(far), hn::Ge(hn::Sub(volumeOf(e), taken), set(kCrushed))));
+}
+
 /// The four edges along an axis. @param first, second  hourglass motions by the side of each of the other axes
 HWY_INLINE void edgesAlong(const Vec3& middle, const Vec3& first, const Vec3& second, const Vec3& both,
                            Vec3 (&out)[4]) {
@@ -51,32 +67,61 @@ HWY_INLINE void edgesAlong(const Vec3& middle, const Vec3& first, const Vec3& se
   out[3] = even + sum;
 }
 
+/// Edges at the corners of cells.
+struct CornerEdges {
+  Vec3 along_a[4], along_b[4], along_c[4];  ///< at (y, z), (z, x), (x, y)
+  EdgeTriple at(uint32_t corner) const {
+    const uint32_t x = corner & 1, y = corner >> 1 & 1, z = corner >> 2;
+    return {along_a[y + 2 * z], along_b[z + 2 * x], along_c[x + 2 * y]};
+  }
+};
+HWY_INLINE void setCornerEdges(const CellMotion& q, V per_4h, CornerEdges& out) {
+  const EdgeTriple mean = meanEdges(q);
+  const Vec3 hx = per_4h * q.hx, hy = per_4h * q.hy, hz = per_4h * q.hz, hxyz = per_4h * q.hxyz;
+  edgesAlong(mean.a, hz, hy, hxyz, out.along_a);
+  edgesAlong(mean.b, hx, hz, hxyz, out.along_b);
+  edgesAlong(mean.c, hy, hx, hxyz, out.along_c);
+}
+
+/// What a corner's volume lacks, and the derivative of its energy by it.
+struct Crushed {
+  V lacks, slope;
+  HWY_INLINE V energy() const { return hn::Mul(slope, hn::NegMulAdd(set(0.5f), slope, lacks)); }
+};
+HWY_INLINE Crushed crushedBy(V volume) {
+  const V lacks = hn::Max(hn::Sub(set(kCrushed), volume), hn::Zero(Tag()));
+  return {lacks, hn::Min(lacks, set(kMostCrushed))};
+}
+HWY_INLINE V crushedWeight(V rigidity) {
+  return hn::Mul(set(0.125f * kCrushing), rigidity);
+}
+
+/// @param q  the motion   @return energy [J]
+HWY_INLINE V crushedEnergy(const CellMotion& q, V rigidity, V per_4h) {
+  CornerEdges edges;
+  setCornerEdges(q, per_4h, edges);
+  V energy = hn::Zero(Tag());
+  for (uint32_t corner = 0; corner < 8; ++corner)
+    energy = hn::Add(energy, crushedBy(volumeOf(edges.at(corner))).energy());
+  return hn::Mul(crushedWeight(rigidity), energy);
+}
+
 /// @param q  the motion   @param pull  forces as of cellPull(), added to   @return energy [J]
 template <class Motion>
 HWY_NOINLINE V addCrushed(const Motion& q, V rigidity, V per_4h, Motion& pull) {
-  const EdgeTriple mean = meanEdges(q);
-  const Vec3 hx = per_4h * q.hx, hy = per_4h * q.hy, hz = per_4h * q.hz, hxyz = per_4h * q.hxyz;
-  // Edges along a at (y, z), along b at (z, x), along c at (x, y).
-  Vec3 along_a[4], along_b[4], along_c[4];
-  edgesAlong(mean.a, hz, hy, hxyz, along_a);
-  edgesAlong(mean.b, hx, hz, hxyz, along_b);
-  edgesAlong(mean.c, hy, hx, hxyz, along_c);
-  const auto at = [&](uint32_t corner) HWY_ATTR {
-    const uint32_t x = corner & 1, y = corner >> 1 & 1, z = corner >> 2;
-    return EdgeTriple{along_a[y + 2 * z], along_b[z + 2 * x], along_c[x + 2 * y]};
-  };
+  CornerEdges edges;
+  setCornerEdges(q, per_4h, edges);
   const V none = hn::Zero(Tag()), crushed = set(kCrushed);
-  const M there = hn::Gt(rigidity, hn::Zero(Tag()));
   V least = crushed;
-  for (uint32_t corner = 0; corner < 8; ++corner) least = hn::Min(least, volumeOf(at(corner)));
-  if (hn::AllFalse(Tag(), hn::And(there, hn::Lt(least, crushed)))) return none;
+  for (uint32_t corner = 0; corner < 8; ++corner) least = hn::Min(least, volumeOf(edges.at(corner)));
+  if (hn::AllFalse(Tag(), hn::And(hn::Gt(rigidity, none), hn::Lt(least, crushed)))) return none;
   V energy = none;
   Motion sum = {zero3(), zero3(), zero3(), zero3(), zero3(), zero3(), zero3()};
   for (uint32_t corner = 0; corner < 8; ++corner) {
-    const EdgeTriple e = at(corner);
-    const V lacks = hn::Max(hn::Sub(crushed, volumeOf(e)), none);
-    const V slope = hn::Min(lacks, set(kMostCrushed)), p = hn::Neg(slope);
-    energy = hn::MulAdd(slope, hn::NegMulAdd(set(0.5f), slope, lacks), energy);
+    const EdgeTriple e = edges.at(corner);
+    const Crushed by = crushedBy(volumeOf(e));
+    energy = hn::Add(energy, by.energy());
+    const V p = hn::Neg(by.slope);
     const V x = set(corner & 1 ? 1 : -1), y = set(corner & 2 ? 1 : -1), z = set(corner & 4 ? 1 : -1);
     const V yz = hn::Mul(y, z), zx = hn::Mul(z, x), xy = hn::Mul(x, y);
     const Vec3 a = p * cross(e.b, e.c), b = p * cross(e.c, e.a), c = p * cross(e.a, e.b);
@@ -88,7 +133,7 @@ HWY_NOINLINE V addCrushed(const Motion& q, V rigidity, V per_4h, Motion& pull) {
     sum.hz = mulAdd(y, a, mulAdd(x, b, sum.hz));
     sum.hxyz = mulAdd(yz, a, mulAdd(zx, b, mulAdd(xy, c, sum.hxyz)));
   }
-  const V weight = hn::Mul(set(0.125f * kCrushing), rigidity), force = hn::Mul(weight, per_4h);
+  const V weight = crushedWeight(rigidity), force = hn::Mul(weight, per_4h);
   pull = {mulAdd(force, sum.da, pull.da),    mulAdd(force, sum.db, pull.db), mulAdd(force, sum.dc, pull.dc),
           mulAdd(force, sum.hx, pull.hx),    mulAdd(force, sum.hy, pull.hy), mulAdd(force, sum.hz, pull.hz),
           mulAdd(force, sum.hxyz, pull.hxyz)};

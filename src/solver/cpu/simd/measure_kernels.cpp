@@ -9,6 +9,7 @@
 #define HWY_TARGET_INCLUDE "solver/cpu/simd/measure_kernels.cpp"
 #include "hwy/foreach_target.h"  // IWYU pragma: keep
 #include "hwy/highway.h"
+#include "solver/cpu/simd/crushed-inl.h"
 #include "solver/cpu/simd/moments-inl.h"
 #include "solver/cpu/simd/targets.h"
 #include "solver/cpu/simd/tiles-inl.h"
@@ -66,20 +67,16 @@ V momentEnergyOf(const CellJob& job, const layout::BodyParams& body, size_t slot
   const V ratio = hn::IfThenElseZero(there, hn::Div(load(job.bulk + slot), hn::Max(rigidity, set(1e-30f))));
   const Face low = faceOf(n[0], n[1], n[2], n[3]), high = faceOf(n[4], n[5], n[6], n[7]);
   const CellScale scale = cellScale(body.origin_spacing.w);
-  const CellMotion motion = motionBetween(low, high, hn::IfThenElseZero(there, scale.per_4h));
-  CellMotion q = motion;
-  const V crushed = addCrushed(motion, rigidity, scale.per_4h, q);
-  q = motion;
+  CellMotion q = motionBetween(low, high, hn::IfThenElseZero(there, scale.per_4h));
+  const V crushed = mayBeCrushed(q, there, scale.per_4h2) ? crushedEnergy(q, rigidity, scale.per_4h) : none;
   const float* moments = job.moments[slot / 64];
   if (moments == nullptr)
     return hn::Add(
-        crushed,
-        cellPull<true>(q, Moments{zero3(), zero3(), zero3()}, {}, rigidity, planeStress<true>(ratio), scale).energy);
+        crushed, cellPull<true>(q, Moments{zero3(), zero3(), zero3()}, {}, rigidity, planeStress<true>(ratio), scale));
   const int cell = static_cast<int>(slot % 64);
   const ThinWalls walls = thinWallsOf(job, static_cast<uint32_t>(slot / 64), cell);
-  return hn::Add(
-      crushed,
-      cellPull<false>(q, loadMoments(moments, cell), walls, rigidity, planeStress<false>(ratio), scale).energy);
+  return hn::Add(crushed,
+                 cellPull<false>(q, loadMoments(moments, cell), walls, rigidity, planeStress<false>(ratio), scale));
 }
 
 using Bits = hn::Vec<hn::RebindToUnsigned<Tag>>;

@@ -13,7 +13,6 @@
 #include "hwy/highway.h"
 #include "layout/moments.h"
 #include "solver/cpu/simd/cell_motion-inl.h"
-#include "solver/cpu/simd/crushed-inl.h"
 #include "solver/cpu/simd/kernels.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -90,7 +89,6 @@ HWY_INLINE void setFade(CellEdge& e, V growth) {
 /// One by one: arrays of vectors would be kept in memory.
 struct CellEdges {
   CellEdge a, b, c;
-  V growth2;  ///< sum of squares of what the squares of their lengths grew by
 };
 
 /// @return some edge is so short that the energy fades; else fades are not set
@@ -99,7 +97,6 @@ HWY_INLINE bool cellEdges(const CellMotion& q, CellEdges& e) {
   const V one = set(1), two = set(2);
   const V a = hn::MulAdd(two, q.da.x, dot(q.da, q.da)), b = hn::MulAdd(two, q.db.y, dot(q.db, q.db));
   const V c = hn::MulAdd(two, q.dc.z, dot(q.dc, q.dc));
-  e.growth2 = hn::MulAdd(a, a, hn::MulAdd(b, b, hn::Mul(c, c)));
   const V least = hn::Min(a, hn::Min(b, c)), most = hn::Max(a, hn::Max(b, c));
   if (HWY_LIKELY(hn::AllTrue(Tag(), hn::Lt(hn::Max(most, hn::Neg(least)), set(kMild))))) {
     setMildLength<kStrains>(e.a, a);
@@ -300,7 +297,6 @@ struct BendPull {
   Vec3 strains, shears;
   V energy;  ///< before it fades
   Fading fading;
-  V size;  ///< sum of s^2
 };
 /// @param alternating  energy of hxyz
 HWY_INLINE BendPull bendPull(const CellEdges& e, bool fades, const Moments& /*t*/, const ThinWalls& /*walls*/,
@@ -313,8 +309,7 @@ HWY_INLINE BendPull bendPull(const CellEdges& e, bool fades, const Moments& /*t*
   V energy = hn::MulAdd(set(-1.0f / 12), hn::MulAdd(trace, trace, even), alternating);
   energy = hn::MulAdd(pair, pairs, energy);
   energy = hn::MulAdd(hn::MulAdd(set(0.5f), stress.along, set(-0.25f)), rest, energy);
-  const V size = hn::Add(even, rest);
-  const Fading fading = fadingOf(e, fades, size, energy, rigidity, of);
+  const Fading fading = fadingOf(e, fades, hn::Add(even, rest), energy, rigidity, of);
   const V x = hn::Mul(fading.scale, hn::Sub(fading.own, set(1.0f / 6)));
   const V y = hn::Mul(fading.scale, hn::Add(fading.own, hn::Sub(stress.along, set(0.5f))));
   const V z = hn::Mul(fading.scale, pair), all = hn::Mul(hn::Mul(fading.scale, set(-1.0f / 6)), trace);
@@ -325,8 +320,7 @@ HWY_INLINE BendPull bendPull(const CellEdges& e, bool fades, const Moments& /*t*
           zero3(),
           zero3(),
           energy,
-          fading,
-          size};
+          fading};
 }
 HWY_INLINE BendPull bendPull(const CellEdges& e, bool fades, const Moments& t, const ThinWalls& walls, V rigidity,
                              const PlaneStress<false>& stress, const CellScale& of, const Bend& s, V alternating) {
@@ -347,31 +341,20 @@ HWY_INLINE BendPull bendPull(const CellEdges& e, bool fades, const Moments& t, c
   const V twice = hn::Add(hn::Add(dot(r.a, s.a), dot(r.b, s.b)), hn::Add(dot(r.c, s.c), solid.coupled));
   V energy = hn::MulAdd(set(0.5f), twice, hn::MulAdd(set(-0.125f), even, alternating));
   energy = hn::NegMulAdd(quarter, rest, energy);
-  const V size = hn::Add(even, rest);
-  const Fading fading = fadingOf(e, fades, size, energy, rigidity, of);
+  const Fading fading = fadingOf(e, fades, hn::Add(even, rest), energy, rigidity, of);
   const V x = hn::Sub(fading.own, quarter), y = hn::Sub(fading.own, set(0.5f));
   r.a = fading.scale * Vec3{hn::MulAdd(x, s.a.x, r.a.x), hn::MulAdd(y, s.a.y, r.a.y), hn::MulAdd(y, s.a.z, r.a.z)};
   r.b = fading.scale * Vec3{hn::MulAdd(y, s.b.x, r.b.x), hn::MulAdd(x, s.b.y, r.b.y), hn::MulAdd(y, s.b.z, r.b.z)};
   r.c = fading.scale * Vec3{hn::MulAdd(y, s.c.x, r.c.x), hn::MulAdd(y, s.c.y, r.c.y), hn::MulAdd(x, s.c.z, r.c.z)};
-  return {r, fading.scale * solid.strains, fading.scale * solid.shears, energy, fading, size};
+  return {r, fading.scale * solid.strains, fading.scale * solid.shears, energy, fading};
 }
 
-/// What cellPull() found.
-struct Pulled {
-  V energy;    ///< [J]
-  V strained;  ///< below 1 no corner is crushed (crushed-inl.h)
-  /// @param rigidity  0 where there is no cell, whose motion may be anything
-  bool mayBeCrushed(V rigidity) const {
-    return !hn::AllTrue(Tag(), hn::Or(hn::Lt(strained, set(1)), hn::Eq(rigidity, hn::Zero(Tag()))));
-  }
-};
-
 /// cellPull() of moments.glsl. @param rigidity  J, 0 where there is no cell   @param q  replaced by the derivatives
-/// by the motion, those by da, db and dc over 4 h [N]; without addCrushed()   @tparam kFull  all cells are full, `t` is
-/// not looked at
+/// by the motion, those by da, db and dc over 4 h [N]; without addCrushed()   @return energy [J]   @tparam kFull  all
+/// cells are full, `t` is not looked at
 template <bool kFull>
-HWY_INLINE Pulled cellPull(CellMotion& q, const Moments& t, const ThinWalls& walls, V rigidity,
-                           const PlaneStress<kFull>& stress, const CellScale& of) {
+HWY_INLINE V cellPull(CellMotion& q, const Moments& t, const ThinWalls& walls, V rigidity,
+                      const PlaneStress<kFull>& stress, const CellScale& of) {
   CellEdges e;
   const bool fades = cellEdges<!kFull>(q, e);
   const Vec3 &a = e.a.direction, &b = e.b.direction, &c = e.c.direction;
@@ -406,11 +389,7 @@ HWY_INLINE Pulled cellPull(CellMotion& q, const Moments& t, const ThinWalls& wal
   q.hy = weighted(r.a.y, a, r.b.y, b, r.c.y, c);
   q.hz = weighted(r.a.z, a, r.b.z, b, r.c.z, c);
   q.hxyz = hn::Mul(pull.fading.scale, set(0.5f * kAlternating)) * q.hxyz;
-  const V upright = dot(a, cross(b, c)), sheared = hn::NegMulAdd(upright, hn::Abs(upright), set(1));
-  const V bent = hn::MulAdd(set(kOfBend), pull.size, hn::Mul(set(kOfAlternating * 4 / kAlternating), alternating));
-  const V strained =
-      hn::MulAdd(of.per_4h2, bent, hn::MulAdd(set(kOfShear), sheared, hn::Mul(set(kOfGrowth), e.growth2)));
-  return {hn::Mul(pull.fading.scale, pull.energy), strained};
+  return hn::Mul(pull.fading.scale, pull.energy);
 }
 
 }  // namespace viscera::simd::HWY_NAMESPACE

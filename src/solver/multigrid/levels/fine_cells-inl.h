@@ -11,6 +11,7 @@
 #endif
 
 #include "hwy/highway.h"
+#include "solver/cpu/simd/crushed-inl.h"
 #include "solver/cpu/simd/moments-inl.h"
 #include "solver/cpu/simd/tiles-inl.h"
 #include "solver/multigrid/levels/fine_kernels.h"
@@ -183,9 +184,9 @@ HWY_INLINE V evaluateCell(const multigrid::FineArrays& a, const multigrid::Box& 
     const ThinWalls walls = kFull ? ThinWalls{} : thinWallsAt(a, i);
     const PlaneStress<kFull> stress = planeStress<kFull>(ratioOf(bulk, rigidity));
     const CellMotion motion = q;
-    const Pulled pulled = cellPull<kFull>(q, moments, walls, rigidity, stress, scale);
-    energy = hn::Add(energy, pulled.energy);
-    if (pulled.mayBeCrushed(rigidity)) energy = hn::Add(energy, addCrushed(motion, rigidity, scale.per_4h, q));
+    energy = hn::Add(energy, cellPull<kFull>(q, moments, walls, rigidity, stress, scale));
+    if (mayBeCrushed(motion, hn::Gt(rigidity, hn::Zero(Tag())), scale.per_4h2))
+      energy = hn::Add(energy, addCrushed(motion, rigidity, scale.per_4h, q));
     q.da = mulAdd(p, shape.bc, q.da);
     q.db = mulAdd(p, shape.ca, q.db);
     q.dc = mulAdd(p, shape.ab, q.dc);
