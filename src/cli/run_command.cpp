@@ -48,6 +48,7 @@ Json metricsOf(const Session& session, const layout::TickStats& stats, const std
   metrics.wall_s = wall_s;
   metrics.state_hash = session.stateHash();
   metrics.extremes = session.extremes();
+  metrics.unfolded = session.solver().health().unfolded;
   const bool resists = resistsBlades(session.scene());
   for (uint32_t s = 0; resists && s < session.styluses().size(); ++s)
     metrics.blades.push_back(session.solver().bladeWork(s));
