@@ -26,7 +26,8 @@ inline std::string shellQuoted(const std::string& word) {
   return out + "'";
 }
 
-/// [s] A program that runs longer hangs: the longest takes 40 s here, and machines differ by a factor of four.
+/// [s] A program that runs longer hangs: the longest takes a minute of one processor, and machines differ by a factor
+/// of four.
 constexpr int kHangs_s = 240;
 
 /// Runs a program to its end; one that hangs ends with status 124. @param environment  "NAME=value" each, on top of

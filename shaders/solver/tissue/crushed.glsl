@@ -9,15 +9,16 @@ vec3 cornerSide(uint number) {
   return vec3((number & 1u) != 0u ? 1.0f : -1.0f, (number & 2u) != 0u ? 1.0f : -1.0f, (number & 4u) != 0u ? 1.0f : -1.0f);
 }
 
+const float kRootHalf = 0.70710678f;
+
 /// The three edges at a corner of a cell, over h.
 struct CornerEdges {
   vec3 a, b, c;
 };
 CornerEdges cornerEdges(CellMotion q, vec3 s) {
-  const float root_half = 0.70710678f;
-  CornerEdges e = {vec3(1.0f, 0.0f, 0.0f) + q.da + 0.5f * (s.y * q.hz + s.z * q.hy) + (root_half * s.y * s.z) * q.hxyz,
-                   vec3(0.0f, 1.0f, 0.0f) + q.db + 0.5f * (s.z * q.hx + s.x * q.hz) + (root_half * s.z * s.x) * q.hxyz,
-                   vec3(0.0f, 0.0f, 1.0f) + q.dc + 0.5f * (s.x * q.hy + s.y * q.hx) + (root_half * s.x * s.y) * q.hxyz};
+  CornerEdges e = {vec3(1.0f, 0.0f, 0.0f) + q.da + 0.5f * (s.y * q.hz + s.z * q.hy) + (kRootHalf * s.y * s.z) * q.hxyz,
+                   vec3(0.0f, 1.0f, 0.0f) + q.db + 0.5f * (s.z * q.hx + s.x * q.hz) + (kRootHalf * s.z * s.x) * q.hxyz,
+                   vec3(0.0f, 0.0f, 1.0f) + q.dc + 0.5f * (s.x * q.hy + s.y * q.hx) + (kRootHalf * s.x * s.y) * q.hxyz};
   return e;
 }
 
@@ -49,7 +50,7 @@ void addCrushed(CellMotion q, float rigidity, INOUT(CellPull) pull) {
     pull.hx += 0.5f * (s.z * b + s.y * c);
     pull.hy += 0.5f * (s.z * a + s.x * c);
     pull.hz += 0.5f * (s.y * a + s.x * b);
-    pull.hxyz += 0.70710678f * (s.y * s.z * a + s.z * s.x * b + s.x * s.y * c);
+    pull.hxyz += kRootHalf * (s.y * s.z * a + s.z * s.x * b + s.x * s.y * c);
   }
   pull.energy += weight * energy;
 }

@@ -121,8 +121,11 @@ float edgeReach(const Model& model) {
   constexpr double kStretch = 1.41;  // farther ends have small shares
   double longest_m = 0;
   for (const Body& body : model.bodies) {
-    if (!body.network) longest_m = std::max(longest_m, std::sqrt(2.0) * body.lattice.spacing_m);
-    for (const NetworkSpring& spring : body.network ? body.network->springs : std::vector<NetworkSpring>())
+    if (!body.network) {
+      longest_m = std::max(longest_m, std::sqrt(2.0) * body.lattice.spacing_m);
+      continue;
+    }
+    for (const NetworkSpring& spring : body.network->springs)
       longest_m = std::max(longest_m, spring.against_bending ? 0 : spring.rest_length_m);
   }
   return static_cast<float>(kStretch * longest_m);

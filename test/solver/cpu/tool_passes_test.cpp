@@ -100,7 +100,7 @@ class CpuTools : public ::testing::Test {
     step.edge_reach_m = edgeReach(model_);
     const std::vector<uint32_t>& slots = lattice_.store.active;
     resolveContacts(lattice_, step, motions, slots.data(), slots.size());
-    CpuEdges edges;
+    CpuEdges edges(lattice_.slotCount());
     edges.add(lattice_, step, motions, slots.data(), slots.size());
     edges.run(lattice_, step, motions);
     for (uint32_t slot : slots) {

@@ -43,7 +43,8 @@ CpuLeapfrog::CpuLeapfrog(const CpuLattice& lattice, const CpuParts& parts)
       deepest_m_(deepestOf(lattice.strengths.surface_depth)),
       near_(lattice.brickCount()),
       strained_(lattice.brickCount()),
-      speed2_(lattice.brickCount()) {
+      speed2_(lattice.brickCount()),
+      edges_(parts.features.tools ? lattice.slotCount() : 0) {
   if (parts.features.compensated) compensation_.resize(6 * lattice.slotCount());
   if (parts.features.moments) {
     cell_sums_.resize(simd::kCellSums * lattice.brickCount());

@@ -87,7 +87,9 @@ struct CpuEdges::Lists {
   std::vector<glsl::vec2> sums;                                      ///< [slots]
 };
 
-CpuEdges::CpuEdges() : lists_(std::make_unique<Lists>()) {
+CpuEdges::CpuEdges(size_t slots) : lists_(std::make_unique<Lists>()) {
+  if (slots == 0) return;
+  lists_->sums.resize(slots, glsl::vec2(0));
   constexpr size_t kNodes = 1024, kEdges = 8 * kNodes;  // more than a tip a few cells wide comes by
   slots_.reserve(kNodes);
   lists_->pushes.reserve(kNodes);
@@ -97,13 +99,13 @@ CpuEdges::CpuEdges() : lists_(std::make_unique<Lists>()) {
 CpuEdges::~CpuEdges() = default;
 
 void CpuEdges::run(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions) {
+  if (slots_.size() > layout::kMostEdgeNodes) slots_.clear();
+  if (slots_.empty()) return;
   glsl::Contact contact(lattice);
   contact.tell(step);
-  if (slots_.size() > layout::kMostEdgeNodes) slots_.clear();
   auto& [edges, asked, pushes, sums] = *lists_;
-  sums.resize(lattice.slotCount(), glsl::vec2(0));
   contact.edge_sums = sums.data();
-  for (uint32_t s = 0; !slots_.empty() && s < layout::kMaxStyluses; ++s) {
+  for (uint32_t s = 0; s < layout::kMaxStyluses; ++s) {
     if (!contact.pushesEdges(motions[s])) continue;
     const glsl::Contact::EdgeTip tip = contact.tipOf(motions[s]);
     edges.clear();

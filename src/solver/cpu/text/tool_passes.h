@@ -63,7 +63,8 @@ void resolveContacts(CpuLattice& lattice, const Substep& step, const layout::Too
 /// (shaders/solver/tools/edges.glsl). On one thread.
 class CpuEdges {
  public:
-  CpuEdges();
+  /// @param slots  of the lattice; 0 where no tool ever comes
+  explicit CpuEdges(size_t slots);
   ~CpuEdges();
   /// Of these nodes those whose springs may be touched take part. @param slots  [count], each at most once in a substep
   void add(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions, const uint32_t* slots,
