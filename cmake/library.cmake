@@ -13,7 +13,7 @@ set_target_properties(viscera_core PROPERTIES EXPORT_NAME core VERSION ${PROJECT
 target_link_libraries(
   viscera_core
   PRIVATE -Wl,--whole-archive viscera_session viscera_calibration viscera_render viscera_surface viscera_solver
-          viscera_tools viscera_haptics viscera_model viscera_gpu -Wl,--no-whole-archive
+          viscera_tools viscera_haptics viscera_model viscera_gpu viscera_math -Wl,--no-whole-archive
   INTERFACE Eigen3::Eigen)
 target_compile_features(viscera_core INTERFACE cxx_std_17)
 target_include_directories(viscera_core INTERFACE $<INSTALL_INTERFACE:include>)

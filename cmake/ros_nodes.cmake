@@ -24,7 +24,7 @@ target_include_directories(viscera_nodes PUBLIC ${PROJECT_SOURCE_DIR}/src)
 target_include_directories(viscera_nodes SYSTEM PUBLIC ${VISCERA_FOREIGN_INCLUDE} ${catkin_INCLUDE_DIRS} ${interactive_markers_INCLUDE_DIRS}
                            ${CATKIN_DEVEL_PREFIX}/${CATKIN_GLOBAL_INCLUDE_DESTINATION})
 target_compile_options(viscera_nodes PRIVATE ${VISCERA_CXX_FLAGS})
-viscera_unity(viscera_nodes 8)
+viscera_unity(viscera_nodes 24)
 target_compile_definitions(viscera_nodes PUBLIC ${VISCERA_ROS_DEFINITIONS})
 target_link_libraries(viscera_nodes PUBLIC viscera_session viscera_export viscera_tasks viscera_devices viscera_haptics ${catkin_LIBRARIES} ${interactive_markers_LIBRARIES})
 if(DYNAMIC_RECONFIGURE_INCLUDE)

@@ -11,7 +11,7 @@ endif()
 file(GLOB rviz_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/rviz/*.cpp)
 # A source of devices itself, not its library: rviz loads this one beside others.
 add_library(viscera_rviz SHARED ${rviz_sources} ${PROJECT_SOURCE_DIR}/src/devices/steered_hand.cpp)
-viscera_unity(viscera_rviz 8)
+viscera_unity(viscera_rviz 24)
 add_dependencies(viscera_rviz ${PROJECT_NAME}_generate_messages_cpp ${catkin_EXPORTED_TARGETS})
 target_include_directories(viscera_rviz PUBLIC ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR}/include)
 target_include_directories(viscera_rviz SYSTEM PUBLIC ${CATKIN_DEVEL_PREFIX}/${CATKIN_GLOBAL_INCLUDE_DESTINATION}

@@ -3,9 +3,11 @@
 #include <CLI/CLI.hpp>
 #include <iostream>
 
+#include "bench/command/reference.h"
 #include "bench/command/step.h"
 #include "bench/suites/suites.h"
 #include "cli/fault.h"
+#include "math/memory_for.h"
 
 // `viscera bench`: a program of its own, so that to run scenes the suites need not be built.
 
@@ -67,15 +69,36 @@ CLI::App* addStep(CLI::App& bench, bench::StepOptions& options) {
   return step;
 }
 
+CLI::App* addReference(CLI::App& bench, bench::ReferenceRunOptions& options) {
+  CLI::App* reference = bench.add_subcommand(
+      "reference", "a scene in float64 on the processor, as `viscera run` runs it; the last line is one JSON object");
+  reference->add_option("scene", options.run.scene, "scene file, or name of a shipped scene")->required();
+  reference->add_option("--mesh", options.run.mesh, "mesh file that becomes the first body");
+  reference->add_option("--strokes", options.run.strokes, "recorded strokes to replay");
+  reference->add_option("--seconds", options.run.seconds, "simulated time; default: the strokes' length, or 1")
+      ->check(CLI::Range(0.0, 86400.0));
+  reference->add_flag("--compare", options.compare, "step the GPU too, and print its error as gpu_error");
+  reference
+      ->add_option("--set", options.run.overrides,
+                   "key=value: replaces one value of the scene, as in bodies[0].spacing_m=0.003")
+      ->allow_extra_args(false);
+  return reference;
+}
+
 int dispatch(int argc, char** argv) {
   CLI::App app("measure", "viscera bench");
   app.require_subcommand(1);
   bench::StepOptions step_options;
+  bench::ReferenceRunOptions reference_options;
   SuiteOptions suite_options;
   const bench::Suite* suite = nullptr;
   addStep(app, step_options);
+  const CLI::App* reference = addReference(app, reference_options);
   addSuites(app, suite_options, suite);
   if (const std::optional<int> ended = cli::parse(app, argc, argv)) return *ended;
+  if (*reference)
+    return memoryFor("running scene '" + reference_options.run.scene + "'",
+                     [&] { return bench::referenceRun(reference_options); });
   if (!suite) return bench::step(step_options);
   const int missed =
       bench::runSuite(*suite, suite_options.suite, suite_options.backend, suite_options.device, std::cout);

@@ -13,7 +13,7 @@ namespace viscera::bench {
 
 namespace {
 
-constexpr int kTicks = 24;
+constexpr int kStageTicks = 24;
 
 /// Middle of the first body's side at +x, where a probe touches the cube.
 Vector3d sideOf(const Body& body) {
@@ -67,15 +67,15 @@ void printStages(std::ostream& out, const Model& model, Scene scene) {
   };
   warmUpGpu(tick);
   gpu::StageClock clock;
-  for (int t = 0; t < kTicks; ++t) tick();
+  for (int t = 0; t < kStageTicks; ++t) tick();
   const auto& times = clock.collect(true);
   const double updates = static_cast<double>(model.activeNodes()) * solver.substeps();  // in a tick
   for (size_t s = 0; s < gpu::kStages; ++s) {
     if (times[s].count == 0) continue;
-    const double per_tick_s = times[s].seconds / kTicks;
+    const double per_tick_s = times[s].seconds / kStageTicks;
     out << scene.name << ',' << model.activeNodes() << ',' << gpu::stageName(static_cast<gpu::Stage>(s)) << ','
-        << static_cast<double>(times[s].count) / kTicks << ',' << 1e3 * per_tick_s << ',' << 1e9 * per_tick_s / updates
-        << std::endl;
+        << static_cast<double>(times[s].count) / kStageTicks << ',' << 1e3 * per_tick_s << ','
+        << 1e9 * per_tick_s / updates << std::endl;
   }
 }
 

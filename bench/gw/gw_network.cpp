@@ -16,7 +16,7 @@ namespace viscera::bench {
 
 namespace {
 
-constexpr double kSpacing_m = 0.01, kThickness_m = 0.001;
+constexpr double kGwNetworkSpacing_m = 0.01, kThickness_m = 0.001;
 constexpr double kJitter = 0.15;    // of a spacing, to either side
 constexpr double kDrag_per_s = 20;  // enough for what hangs to come to rest within a second
 
@@ -27,7 +27,7 @@ Field sheetPositions(uint32_t edge) {
   for (uint32_t row = 0; row < edge; ++row) {
     for (uint32_t column = 0; column < edge; ++column) {
       const double x = column + 0.5 * (row % 2), y = row * std::sqrt(0.75);
-      out.push_back(kSpacing_m * Vector3d(x, y, 0));
+      out.push_back(kGwNetworkSpacing_m * Vector3d(x, y, 0));
     }
   }
   return out;
@@ -103,13 +103,13 @@ GwNetwork irregularSheet(uint32_t nodes_per_edge) {
   Field at_m = sheetPositions(nodes_per_edge);
   std::mt19937 random(1);
   // Not std::uniform_real_distribution, which is another one in every library.
-  const auto jitter_m = [&] { return kJitter * kSpacing_m * (random() / 2147483648.0 - 1); };
+  const auto jitter_m = [&] { return kJitter * kGwNetworkSpacing_m * (random() / 2147483648.0 - 1); };
   for (Vector3d& p : at_m) {
     p.x() += jitter_m();
     p.y() += jitter_m();
   }
   Triangulation triangulation(at_m, sheetTriangles(nodes_per_edge));
-  triangulation.flipAtRandom({3, 12, 5 * kSpacing_m}, random);
+  triangulation.flipAtRandom({3, 12, 5 * kGwNetworkSpacing_m}, random);
   return sheetOf("valence 3 to 12", at_m, triangulation.triangles());
 }
 

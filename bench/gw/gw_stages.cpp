@@ -19,16 +19,16 @@ constexpr double kStill_s = 1e-9;  // substep that leaves a state as it is: ever
 constexpr double kMilli = 1e3;
 
 /// GW Table 2 [ms]; no accumulation of its own in the point-centric way.
-struct Printed {
+struct GwStagesPrinted {
   uint32_t edge;
   double point_force, edge_force, edge_sum, integration;
 };
-constexpr Printed kPaper[] = {
+constexpr GwStagesPrinted kPaper[] = {
     {128, 0.54, 0.40, 0.12, 0.20}, {256, 2.34, 1.76, 0.52, 0.74}, {512, 9.82, 7.34, 2.08, 3.18}};
 constexpr double kPaperIrregular = 1.6;  // of its text: point- over edge-centric, valences 3 to 12
 
 /// One way to go a substep, in stages. Those without work are empty.
-struct Way {
+struct GwStagesWay {
   std::string name;
   std::function<void()> force, accumulate, integrate;
 };
@@ -37,9 +37,9 @@ struct Way {
 struct Course {
   std::unique_ptr<GwKernels> kernels;
   std::unique_ptr<BlendTarget> target;
-  std::vector<Way> ways;
+  std::vector<GwStagesWay> ways;
 };
-enum { kPoint, kPasses, kRuns, kOwned, kBlended };
+enum { kPoint, kPasses, kGwStagesRuns, kGwStagesOwned, kBlended };
 
 Course courseOf(const GwNetwork& network) {
   Course out;
@@ -53,7 +53,8 @@ Course courseOf(const GwNetwork& network) {
   const GwMotion still{kStill_s, Vector3d::Zero()};
   const auto integrate = [k, still] { k->integrate(still); };
   const auto edgeWay = [&](const std::string& name, EdgeLayout layout) {
-    return Way{name, [k, layout] { k->springForces(layout); }, [k, layout] { k->sumForces(layout); }, integrate};
+    return GwStagesWay{name, [k, layout] { k->springForces(layout); }, [k, layout] { k->sumForces(layout); },
+                       integrate};
   };
   out.ways = {{"point-centric", [k] { k->pointForces(); }, {}, integrate},
               {"point-centric, a pass per neighbour", [k] { k->pointPasses(); }, {}, integrate},
@@ -83,7 +84,7 @@ std::vector<Times> timesOf(const GwNetwork& network, double seconds) {
   std::vector<Candidate> candidates;
   std::vector<std::pair<size_t, double Times::*>> places;
   for (size_t w = 0; w < course.ways.size(); ++w) {
-    const Way& way = course.ways[w];
+    const GwStagesWay& way = course.ways[w];
     const auto add = [&](const std::function<void()>& work, double Times::*place) {
       if (!work) return;
       candidates.push_back(candidateOf(network, work));
@@ -114,7 +115,7 @@ Cell orNone(double value) {
 }
 
 /// GW's figures for a way; none for what is not GW's.
-Times printedFor(const Printed& row, size_t way) {
+Times printedFor(const GwStagesPrinted& row, size_t way) {
   Times out;
   if (way == kPoint) out = {row.point_force, 0, row.integration};
   if (way == kBlended) out = {row.edge_force, row.edge_sum, row.integration};
@@ -155,7 +156,7 @@ void measureRegular(Report& report, double seconds) {
                   {"GW integration", "ms"},
                   {"GW total", "ms"},
                   {"GW ratio", "", 3}});
-  for (const Printed& row : kPaper) {
+  for (const GwStagesPrinted& row : kPaper) {
     if (report.isShort() && row.edge > 128) continue;
     report.stage("stages, " + std::to_string(row.edge) + " x " + std::to_string(row.edge) + " nodes");
     const GwNetwork network = regularSheet(row.edge);
@@ -186,7 +187,7 @@ void measureIrregular(Report& report, double seconds) {
     table.add(std::move(cells));
   }
   report.add(table, "valences");
-  const double edge_ms = std::min(times[kRuns].total, times[kOwned].total);
+  const double edge_ms = std::min(times[kGwStagesRuns].total, times[kGwStagesOwned].total);
   report.checkAtLeast("valences 3 to 12: point-centric in a pass per neighbour as GW's, over edge-centric time",
                       times[kPasses].total / edge_ms, 1);
 }

@@ -18,7 +18,7 @@ std::string headOf(const Column& column) {
   return column.unit.empty() ? column.name : column.name + " [" + column.unit + "]";
 }
 
-std::string quoted(const std::string& text) {
+std::string tableQuoted(const std::string& text) {
   if (text.find_first_of(",\"\n") == std::string::npos) return text;
   std::string out = "\"";
   for (char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
@@ -67,14 +67,14 @@ void Table::print(std::ostream& out) const {
 void Table::writeCsv(std::ostream& out) const {
   const char* separator = "";
   for (const Column& column : columns_) {
-    out << separator << quoted(headOf(column));
+    out << separator << tableQuoted(headOf(column));
     separator = ",";
   }
   out << '\n';
   for (const auto& row : rows_) {
     separator = "";
     for (const Cell& cell : row) {
-      out << separator << quoted(cell.text(kCsvDigits));
+      out << separator << tableQuoted(cell.text(kCsvDigits));
       separator = ",";
     }
     out << '\n';

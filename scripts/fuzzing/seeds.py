@@ -249,4 +249,4 @@ STROKES = [text.encode() for text in (STROKES_TEXT, ANCHORED_TEXT, RECORDED_TEXT
 # Options whose values are spoilt, as `name value`.
 OPTIONS = [text.encode() for text in ('--seconds 0.02', '--set bodies[0].spacing_m=0.01', '--set solver.tick_hz=60',
                                       '--mesh none.obj', '--strokes none.yaml', '--set bodies[0].fixed=[]', '--device 0',
-                                      '--out /proc/none', '--reference', '--compare', '--live', '--threads 2', 'extra')]
+                                      '--out /proc/none', '--reference', '--no-view', '--live', '--threads 2', 'extra')]

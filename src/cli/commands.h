@@ -31,8 +31,6 @@ struct RunOptions {
   std::string record;                     ///< file in which all of it is recorded; empty: none
   double save_every_s = 0;                ///< simulated; 0: at the end only
   std::optional<ExportOptions> exported;  ///< into `out`/export
-  bool reference = false;                 ///< in float64 on the CPU
-  bool compare = false;                   ///< with --reference: and the GPU beside it
   Overrides overrides;
 };
 /// `viscera run`: a session without ROS.

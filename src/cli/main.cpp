@@ -1,7 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <CLI/CLI.hpp>
-#include <cmath>
 #include <iostream>
 #include <map>
 
@@ -23,7 +22,6 @@ struct Options {
   cli::ReplayOptions replay;
   cli::SweepOptions sweep;
   cli::ImportOptions import;
-  double seconds = 0;
   ExportOptions exported;
   std::string keys_of;
 };
@@ -108,6 +106,20 @@ CLI::App* addTask(CLI::App& app, Options& o) {
   return task;
 }
 
+/// Options that `run` had and --help no longer lists: what to type instead.
+void addMoved(CLI::App* run) {
+  for (const std::string option : {"--reference", "--compare"}) {
+    run->add_flag_callback(option,
+                           [option] {
+                             throw cli::CommandLineError(
+                                 "command line: run has no option " + option +
+                                     ": type `viscera bench reference SCENE [--compare]` instead",
+                                 static_cast<int>(CLI::ExitCodes::ExtrasError));
+                           })
+        ->group("");
+  }
+}
+
 int dispatch(int argc, char** argv) {
   CLI::App app("viscera: soft-tissue surgical simulator");
   app.set_version_flag("--version", "viscera " VISCERA_VERSION);
@@ -120,8 +132,8 @@ int dispatch(int argc, char** argv) {
   run->add_option("scene", o.run.scene, "scene file, or name of a shipped scene")->required();
   run->add_option("--mesh", o.run.mesh, "mesh file that becomes the first body");
   run->add_option("--strokes", o.run.strokes, "recorded strokes to replay");
-  CLI::Option* seconds = run->add_option("--seconds", o.seconds, "simulated time; default: the strokes' length, or 1")
-                             ->check(CLI::Range(0.0, 86400.0));
+  run->add_option("--seconds", o.run.seconds, "simulated time; default: the strokes' length, or 1")
+      ->check(CLI::Range(0.0, 86400.0));
   CLI::Option* out =
       run->add_option("--out", o.run.out, "folder for pictures, metrics.json and surface.ply, the skin at the end");
   run->add_flag("--live", o.run.live,
@@ -157,21 +169,17 @@ int dispatch(int argc, char** argv) {
       ->needs(exported);
   CLI::Option* save =
       run->add_option("--save", o.run.save, "file for the state at the end, to go on from with --resume");
-  CLI::Option* save_every = run->add_option("--save-every", o.run.save_every_s,
-                                            "simulated seconds after which the state is saved, again and again")
-                                ->check(CLI::Range(1e-6, 86400.0))
-                                ->needs(save);
-  CLI::Option* record =
-      run->add_option("--record", o.run.record, "new file in which all of it is recorded, for viscera replay");
-  CLI::Option* resume = run->add_option("--resume", o.run.resume,
-                                        "state that this scene was saved in: goes on there, to the same end in time");
-  CLI::Option* reference = run->add_flag("--reference", o.run.reference, "the plain float64 solver instead of the GPU")
-                               ->excludes(save, save_every, resume, exported, record);
+  run->add_option("--save-every", o.run.save_every_s,
+                  "simulated seconds after which the state is saved, again and again")
+      ->check(CLI::Range(1e-6, 86400.0))
+      ->needs(save);
+  run->add_option("--record", o.run.record, "new file in which all of it is recorded, for viscera replay");
+  run->add_option("--resume", o.run.resume,
+                  "state that this scene was saved in: goes on there, to the same end in time");
   run->add_flag("--no-view", o.run.no_view,
-                "without pictures, and without OpenGL unless solver.backend: gpu asks for it")
-      ->excludes(reference);
-  run->add_flag("--compare", o.run.compare, "the GPU's error against the reference, as gpu_error")->needs(reference);
+                "without pictures, and without OpenGL unless solver.backend: gpu asks for it");
   addOverrides(run, o.run.overrides);
+  addMoved(run);
 
   CLI::App* replay = addReplay(app, o.replay);
   CLI::App* task = addTask(app, o);
@@ -243,8 +251,6 @@ int dispatch(int argc, char** argv) {
                                            : sceneKeysTable());
     return 0;
   }
-  if (std::isnan(o.seconds)) throw Error("--seconds is a number, 0 .. 86400; found nan");  // passes CLI::Range
-  if (*seconds) o.run.seconds = o.seconds;
   if (*exported) o.run.exported = o.exported;
   return memoryFor("running scene '" + o.run.scene + "'", [&] { return cli::run(o.run); });
 }

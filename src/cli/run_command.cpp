@@ -66,20 +66,6 @@ Json metricsOf(const Session& session, const layout::TickStats& stats, const std
   return toJson(metrics);
 }
 
-void requireStyluses(const Strokes& strokes, const Scene& scene, const std::string& file) {
-  for (const Stroke& stroke : strokes.strokes) {
-    bool known = false;
-    std::string names;
-    for (const StylusConfig& stylus : scene.styluses) {
-      known |= stylus.name == stroke.stylus;
-      names += (names.empty() ? "" : ", ") + stylus.name;
-    }
-    if (!known)
-      throw StrokesError(file + ": stylus '" + stroke.stylus +
-                         "' is not one of the scene's: " + (names.empty() ? "it has none" : names));
-  }
-}
-
 Album::Pictures picturesOf(const RunOptions& options) {
   if (options.no_view) return Album::Pictures::kNone;
   return options.live ? Album::Pictures::kLive : Album::Pictures::kAll;
@@ -142,40 +128,8 @@ void finish(SessionRecorder& recorder) {
 
 }  // namespace
 
-void writeHands(const HandRows& hands, const std::string& folder) {
-  hands.write(folder + "/hands.csv");
-  hands.writeJigsaws(folder + "/kinematics.txt");
-}
-
-std::unique_ptr<gpu::Context> contextFor(bool no_view, const Scene& scene) {
-  if (no_view && scene.solver.backend != Backend::kGpu) return nullptr;
-  try {
-    return std::make_unique<gpu::Context>(scene.solver.device);
-  } catch (const GpuError& error) {
-    const char* const way_out = no_view ? "; solver.backend: cpu or auto does without, on the processor"
-                                        : "; --no-view does without, on the processor and without pictures";
-    throw GpuError(error.what() + std::string(way_out));
-  }
-}
-
-RunPlan planRun(const RunOptions& options) {
-  RunPlan plan{sceneOf(options).scene, {}, 0};
-  if (!options.strokes.empty()) {
-    plan.strokes = loadStrokes(options.strokes);
-    requireStyluses(plan.strokes, plan.scene, options.strokes);
-    plan.strokes.requireTickRate(plan.scene.solver.tick_hz);
-  }
-  const double seconds = options.seconds.value_or(options.strokes.empty() ? 1.0 : plan.strokes.duration_s());
-  plan.ticks = static_cast<uint64_t>(std::llround(seconds * plan.scene.solver.tick_hz));
-  return plan;
-}
-
 int run(const RunOptions& options) {
-  if (options.reference && !options.out.empty()) {
-    throw Error("--out goes without --reference: pictures come from the GPU, which the reference does not use");
-  }
   RunPlan plan = planRun(options);
-  if (options.reference) return runReference(plan, options.compare);
   const uint64_t ticks = plan.ticks;
   const Scene& scene = plan.scene;
   Strokes& strokes = plan.strokes;

@@ -18,7 +18,7 @@ struct RunPlan {
   Strokes strokes;
   uint64_t ticks;
 };
-/// @throws SceneError, StrokesError
+/// @throws Error, SceneError, StrokesError
 RunPlan planRun(const RunOptions& options);
 
 /// The context of a session, or none. @throws GpuError  with a way out
@@ -26,8 +26,5 @@ std::unique_ptr<gpu::Context> contextFor(bool no_view, const Scene& scene);
 
 /// hands.csv and kinematics.txt. @throws Error  one cannot be written
 void writeHands(const HandRows& hands, const std::string& folder);
-
-/// `viscera run --reference`: without a GPU, unless it is compared with one.
-int runReference(const RunPlan& plan, bool compare);
 
 }  // namespace viscera::cli

@@ -9,6 +9,9 @@
 
 #include "viscera/math/error.h"
 
+/// config/ of the source tree that this program was built from.
+extern const char* const kSourceConfig;
+
 namespace viscera::cli {
 
 namespace fs = std::filesystem;
@@ -25,7 +28,7 @@ std::vector<fs::path> shippedFolders(const std::string& kind) {
       out.push_back(up / "share" / "viscera" / "config" / kind);
     }
   }
-  out.push_back(fs::path(VISCERA_SOURCE_CONFIG) / kind);
+  out.push_back(fs::path(kSourceConfig) / kind);
   return out;
 }
 

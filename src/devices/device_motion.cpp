@@ -5,6 +5,7 @@
 
 #include "devices/device_check.h"
 #include "devices/millimetres.h"
+#include "math/decompositions.h"
 
 namespace viscera {
 namespace {
@@ -282,7 +283,7 @@ FoundTip findTip(const Pose& upright, const DeviceProfile& profile, const Quater
     return {{Grade::kWrong, said + ", and no axis of the handle's frame is along it: was it upright?"}, std::nullopt};
   const Vector3d to = (up[axis] < 0 ? -1 : 1) * Vector3d::Unit(axis);
   const bool over = to.z() < -0.5;  // half a turn: about x, as profiles of the dVRK have it
-  return {{Grade::kWrong, said}, over ? Quaterniond(0, 1, 0, 0) : Quaterniond::FromTwoVectors(Vector3d::UnitZ(), to)};
+  return {{Grade::kWrong, said}, over ? Quaterniond(0, 1, 0, 0) : rotationBetween(Vector3d::UnitZ(), to)};
 }
 
 }  // namespace viscera

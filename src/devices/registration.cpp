@@ -2,19 +2,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "devices/registration.h"
 
-#include <Eigen/SVD>
 #include <algorithm>
 
 #include "devices/millimetres.h"
+#include "math/decompositions.h"
 
 namespace viscera {
 namespace {
 
 /// RMS distance of points from the line that fits them best.
 double spread(const Eigen::Matrix3Xd& points_m) {
-  const Eigen::Matrix3Xd centred = points_m.colwise() - points_m.rowwise().mean();
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(centred);
-  return svd.singularValues().tail<2>().norm() / std::sqrt(static_cast<double>(points_m.cols()));
+  const Vector3d mean_m = points_m.rowwise().mean();
+  Matrix3d squares = Matrix3d::Zero();
+  for (Eigen::Index i = 0; i < points_m.cols(); ++i) {
+    const Vector3d off_m = points_m.col(i) - mean_m;
+    squares += off_m * off_m.transpose();
+  }
+  const Vector3d values_m2 = principalValues(squares);
+  return std::sqrt(std::max(values_m2[0] + values_m2[1], 0.0) / static_cast<double>(points_m.cols()));
 }
 
 void requireSpread(const Eigen::Matrix3Xd& points_m, const std::string& which) {
@@ -42,7 +47,7 @@ Registration solveRegistration(const std::vector<KnownPoint>& known, const std::
   }
   requireSpread(to_m, "the known");
   requireSpread(from_m, "the touched");
-  const Eigen::Matrix4d motion = Eigen::umeyama(from_m, to_m, false);
+  const Eigen::Matrix4d motion = rigidMotion(from_m, to_m);
   Registration out;
   out.base.position_m = motion.topRightCorner<3, 1>();
   out.base.orientation = Quaterniond(motion.topLeftCorner<3, 3>()).normalized();

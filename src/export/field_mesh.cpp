@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "math/vec4.h"
 #include "model/fracture/prestress.h"
 #include "viscera/layout/skin.h"
 #include "viscera/math/error.h"
@@ -18,9 +19,6 @@ namespace {
 
 constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 
-Vector3d xyz(const layout::vec4& v) {
-  return {v.x, v.y, v.z};
-}
 void add(std::vector<float>& out, const Vector3d& v) {
   for (int c = 0; c < 3; ++c) out.push_back(static_cast<float>(v[c]));
 }
@@ -75,7 +73,7 @@ struct Cell {
 /// Calls visit(cell) for the whole cells of a body. @param offset  of its slots in the state
 template <class Visit>
 void forCells(const Body& body, uint32_t offset, const HostState& state, const Visit& visit) {
-  if (body.network && !body.network->of_lattice) return;
+  if (!body.hasCells()) return;
   const std::vector<Lame> lames = lamesOf(body);
   const std::vector<Eigen::Matrix3d> prestresses = cellPrestresses(body);
   for (const uint32_t slot : body.lattice.active_slots) {

@@ -95,14 +95,14 @@ std::string filesLegend(const Files& files) {
 }
 
 /// A shader that the driver has been told to compile.
-struct Stage {
+struct ShaderStage {
   uint32_t id;
   std::string name;
   Files files;
 };
 
 /// @throws GpuError  it does not compile
-void finishStage(const Stage& stage) {
+void finishStage(const ShaderStage& stage) {
   GLint ok = 0, length = 0;
   glGetShaderiv(stage.id, GL_COMPILE_STATUS, &ok);
   if (ok) return;
@@ -126,7 +126,7 @@ thread_local std::set<UnfinishedProgram*>* listed = nullptr;
 struct UnfinishedProgram {
   uint32_t id = 0;
   std::string name;
-  std::vector<Stage> stages;
+  std::vector<ShaderStage> stages;
   std::vector<std::string> uniforms;  ///< that its shaders declare, as often as they like
 
   UnfinishedProgram() {
@@ -136,10 +136,10 @@ struct UnfinishedProgram {
   UnfinishedProgram& operator=(const UnfinishedProgram&) = delete;
   ~UnfinishedProgram() {
     if (listed) listed->erase(this);
-    for (const Stage& stage : stages) glDeleteShader(stage.id);
+    for (const ShaderStage& stage : stages) glDeleteShader(stage.id);
   }
   void compile(GLenum kind, const std::string& name, const std::vector<std::string>& defines) {
-    Stage stage{0, name, {}};
+    ShaderStage stage{0, name, {}};
     const std::string source = expanded(name, defines, stage.files);
     for (std::string& uniform : declaredUniforms(source)) uniforms.push_back(std::move(uniform));
     const char* text = source.c_str();
@@ -151,7 +151,7 @@ struct UnfinishedProgram {
   }
   /// @throws GpuError  it does not compile or link
   void require() const {
-    for (const Stage& stage : stages) finishStage(stage);
+    for (const ShaderStage& stage : stages) finishStage(stage);
     GLint ok = 0, length = 0;
     glGetProgramiv(id, GL_LINK_STATUS, &ok);
     if (ok) return;
@@ -257,7 +257,7 @@ void Program::link() {
   countObject();
   unfinished_->id = id_;
   unfinished_->name = name_;
-  for (const Stage& stage : unfinished_->stages) glAttachShader(id_, stage.id);
+  for (const ShaderStage& stage : unfinished_->stages) glAttachShader(id_, stage.id);
   glLinkProgram(id_);
   label_ = labelOf(name_);
 }

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "viscera/haptics/contact_model.h"
 
-#include <Eigen/Eigenvalues>
-
 #include <algorithm>
 #include <cmath>
+
+#include "math/decompositions.h"
 
 namespace viscera {
 namespace {
@@ -36,9 +36,9 @@ Vector3d directionOf(const Vector3d& v) {
 
 /// The nearest symmetric matrix with eigenvalues within limits.
 Matrix3d within(const Matrix3d& k, double least, double most) {
-  const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(0.5 * (k + k.transpose()));
-  const Vector3d values = solver.eigenvalues().cwiseMax(least).cwiseMin(most);
-  return solver.eigenvectors() * values.asDiagonal() * solver.eigenvectors().transpose();
+  const PrincipalAxes of = principalAxes(0.5 * (k + k.transpose()));
+  const Vector3d values = of.values.cwiseMax(least).cwiseMin(most);
+  return of.axes * values.asDiagonal() * of.axes.transpose();
 }
 
 /// What of a vector is along another of length 1.

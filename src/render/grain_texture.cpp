@@ -120,7 +120,7 @@ std::vector<uint8_t> GrainTexture::slopes(const std::vector<uint8_t>& texels, in
 
 namespace {
 
-uint32_t makeTexture(const std::vector<uint8_t>& texels, int side) {
+uint32_t makeGrainTexture(const std::vector<uint8_t>& texels, int side) {
   const int levels = 1 + static_cast<int>(std::lround(std::log2(side)));
   uint32_t id = 0;
   glCreateTextures(GL_TEXTURE_3D, 1, &id);
@@ -142,10 +142,10 @@ uint32_t makeTexture(const std::vector<uint8_t>& texels, int side) {
 
 GrainTexture::GrainTexture(bool slopes) {
   static const std::vector<uint8_t> grain = texels();  // of all sessions of a process
-  id_ = makeTexture(grain, kSide);
+  id_ = makeGrainTexture(grain, kSide);
   if (!slopes) return;
   static const std::vector<uint8_t> rises = GrainTexture::slopes(grain);
-  slopes_ = makeTexture(rises, kSide);
+  slopes_ = makeGrainTexture(rises, kSide);
 }
 
 GrainTexture::~GrainTexture() {

@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <utility>
 
+#include "math/decompositions.h"
 #include "render/mesh_parts.h"
 #include "render/mesh_uniforms.h"
 #include "render/renderer.h"
@@ -167,8 +168,8 @@ void OverlayPainter::drawArrows(const OverlayLook& look, const Pose& optical_fro
     const bool force = arrow.kind == Arrow::Kind::kForce;
     const double length = arrow.along_m.norm();
     if (!look.shown.has(force ? Overlay::kForces : Overlay::kWind) || !(length > 0)) continue;
-    Eigen::Matrix4f placed = poseMatrix(
-        optical_from_tissue * Pose{arrow.from_m, Quaterniond::FromTwoVectors(Vector3d::UnitZ(), arrow.along_m)});
+    Eigen::Matrix4f placed =
+        poseMatrix(optical_from_tissue * Pose{arrow.from_m, rotationBetween(Vector3d::UnitZ(), arrow.along_m)});
     placed.topLeftCorner<3, 3>() *= static_cast<float>(length);
     arrow_.setMatrix("optical_from_mesh", placed.data());
     arrow_.setMatrix("clip_from_optical", clip_from_optical.data());

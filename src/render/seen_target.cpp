@@ -13,7 +13,7 @@ namespace viscera {
 
 namespace {
 
-constexpr int kSamples = 2;  // per pixel along each axis
+constexpr int kSeenSamples = 2;  // per pixel along each axis
 
 uint32_t makeFramebuffer() {
   uint32_t id = 0;
@@ -22,7 +22,7 @@ uint32_t makeFramebuffer() {
   return id;
 }
 
-bool isComplete(uint32_t framebuffer) {
+bool isSeenComplete(uint32_t framebuffer) {
   return glCheckNamedFramebufferStatus(framebuffer, GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
 }
 
@@ -41,7 +41,7 @@ uint32_t makeTexture(uint32_t format, int width, int height, uint32_t filter) {
 }
 
 SeenTarget::SeenTarget(int width, int height) : width_(width), height_(height) {
-  const int columns = kSamples * width, rows = kSamples * height;
+  const int columns = kSeenSamples * width, rows = kSeenSamples * height;
   places_ = makeTexture(GL_RGBA32UI, columns, rows, GL_NEAREST);
   finishes_ = makeTexture(GL_RG32UI, columns, rows, GL_NEAREST);
   depths_ = makeTexture(GL_DEPTH_COMPONENT24, columns, rows, GL_NEAREST);
@@ -60,14 +60,14 @@ SeenTarget::SeenTarget(int width, int height) : width_(width), height_(height) {
   image_ = makeFramebuffer();
   glNamedFramebufferRenderbuffer(image_, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, image_color_);
   glNamedFramebufferRenderbuffer(image_, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, parts_);
-  const bool complete = isComplete(seen_) && isComplete(over_) && isComplete(image_);
+  const bool complete = isSeenComplete(seen_) && isSeenComplete(over_) && isSeenComplete(image_);
   const GLenum code = glGetError();
   if (complete && code == GL_NO_ERROR) return;
   remove();
   GLint largest = 0;
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
   throw GpuError("no framebuffer for an image of " + std::to_string(width) + " x " + std::to_string(height) +
-                 " pixels: the driver takes 1 to " + std::to_string(largest / kSamples) + " along each axis; " +
+                 " pixels: the driver takes 1 to " + std::to_string(largest / kSeenSamples) + " along each axis; " +
                  gpu::glErrorText(code));
 }
 
@@ -85,7 +85,7 @@ void SeenTarget::remove() {
 
 void SeenTarget::bindSeen() const {
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, seen_);
-  glViewport(0, 0, kSamples * width_, kSamples * height_);
+  glViewport(0, 0, kSeenSamples * width_, kSeenSamples * height_);
   const GLfloat farthest[] = {1};
   glClearBufferfv(GL_DEPTH, 0, farthest);
 }
@@ -100,7 +100,7 @@ void SeenTarget::bindImage() const {
 
 void SeenTarget::bindOver() const {
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, over_);
-  glViewport(0, 0, kSamples * width_, kSamples * height_);
+  glViewport(0, 0, kSeenSamples * width_, kSeenSamples * height_);
   const GLfloat nothing[] = {0, 0, 0, 0};
   glClearBufferfv(GL_COLOR, 0, nothing);
 }

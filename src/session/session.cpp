@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "math/float_bits.h"
+#include "math/vec4.h"
 #include "model/scene/tool_kinds.h"
 #include "session/arrows.h"
 #include "session/view.h"
@@ -28,10 +29,6 @@ namespace {
 constexpr double kFarthestNode =
     0.867;                            // of a lattice's spacing: no point inside is farther from all nodes, sqrt(3) / 2
 constexpr size_t kNotedTicks = 4096;  // images may come back that late
-
-Vector3d xyz(const layout::vec4& v) {
-  return {v.x, v.y, v.z};
-}
 
 HandLimits handLimits(const Model& model, double tick_hz) {
   HandLimits limits;

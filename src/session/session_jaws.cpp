@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "math/vec4.h"
 #include "model/body/body_nodes.h"
 #include "model/scene/tool_kinds.h"
 #include "tools/scissors_edge.h"
@@ -15,10 +16,6 @@ namespace viscera {
 namespace {
 
 constexpr double kThinnest_rad = 0.03;  // what has one layer of nodes is pressed as if it were half a millimetre thick
-
-Vector3d xyz(const layout::vec4& v) {
-  return {v.x, v.y, v.z};
-}
 
 }  // namespace
 

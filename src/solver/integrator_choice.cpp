@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "math/vec4.h"
 #include "model/fracture/tearing.h"
 #include "model/fracture/toughness.h"
 #include "model/scene/integrators.h"
@@ -45,10 +46,6 @@ std::optional<Press> pressOf(const Model& model, const Scene& scene) {
       out = Press{slot, rest_m, scene.styluses[0].probe.radius_m, lattice.spacing_m};
   }
   return out;
-}
-
-Vector3d xyz(const layout::vec4& v) {
-  return {v.x, v.y, v.z};
 }
 
 /// A solver whose ticks are timed.

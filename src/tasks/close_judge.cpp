@@ -14,7 +14,7 @@ namespace viscera {
 
 namespace {
 
-constexpr double kMm = 1000;
+constexpr double kMmPerM = 1000;
 
 /// Two nodes on either side of a wound, as far from it as it is looked at.
 struct Facing {
@@ -87,7 +87,7 @@ class CloseJudge : public TaskJudge {
     tied_ = tiedOf(tick.threads);
     holds_ = std::any_of(tick.stats.grabbed, tick.stats.grabbed + layout::kMaxStyluses, [](auto n) { return n > 0; });
     gap_m_ = tick.gap_m;
-    tally.gap_mm = gap_m_ ? kMm * *gap_m_ : 0;
+    tally.gap_mm = gap_m_ ? kMmPerM * *gap_m_ : 0;
     tally.weak_knots = 0;
     for (const SeenThread& thread : tick.threads) {
       for (const SeenKnot& knot : thread.knots) tally.weak_knots += knot.tied && isWeak(knot.kind);
@@ -105,8 +105,8 @@ class CloseJudge : public TaskJudge {
              std::to_string(goal_.throws) + " throws each";
     if (isClosed()) return "let go of the thread";
     char text[80];
-    std::snprintf(text, sizeof text, "the wound gapes by %.1f mm: %.1f at most", kMm * gap_m_.value_or(0),
-                  kMm * goal_.gap_m);
+    std::snprintf(text, sizeof text, "the wound gapes by %.1f mm: %.1f at most", kMmPerM * gap_m_.value_or(0),
+                  kMmPerM * goal_.gap_m);
     return text;
   }
 

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kPlacesPerSpacing =
     0.5;  // of a line that a cut has to cover: two spacings each, so that springs end in all
-constexpr double kMm = 1000;
+constexpr double kMillimetres = 1000;
 constexpr double kTurn = 6.28318530717958647692;
 
 /// Which places of a line are cut, and what was cut elsewhere.
@@ -31,13 +31,14 @@ class CoveredLine {
   void add(const std::vector<std::pair<double, double>>& at_m_off_m, double travel_m, TaskTally& tally) {
     size_t outside = 0;
     for (const auto& [at_m, off_m] : at_m_off_m) {
-      tally.deviation_mm = std::max(tally.deviation_mm, kMm * off_m);
+      tally.deviation_mm = std::max(tally.deviation_mm, kMillimetres * off_m);
       outside += off_m > corridor_m_;
       const double place = std::clamp(at_m / length_m_, 0.0, 1.0) * static_cast<double>(done_.size());
       if (off_m <= corridor_m_) done_[std::min(done_.size() - 1, static_cast<size_t>(place))] = true;
     }
     if (!at_m_off_m.empty())
-      tally.off_path_mm += kMm * travel_m * static_cast<double>(outside) / static_cast<double>(at_m_off_m.size());
+      tally.off_path_mm +=
+          kMillimetres * travel_m * static_cast<double>(outside) / static_cast<double>(at_m_off_m.size());
   }
   double share() const {
     return static_cast<double>(std::count(done_.begin(), done_.end(), true)) / static_cast<double>(done_.size());

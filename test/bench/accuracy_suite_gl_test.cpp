@@ -6,6 +6,7 @@
 
 #include "bench/harness/experiment.h"
 #include "support/process.h"
+#include "support/source_folder.h"
 #include "support/text.h"
 
 namespace viscera::bench {
@@ -49,11 +50,11 @@ TEST(Extrapolation, RemovesTheErrorOfItsOrder) {
       extrapolated(trackOf(model, kTruth + 2 * kError), trackOf(model, kTruth + kError), 1).u_m[0][slot].x(), kTruth);
 }
 
-#ifdef VISCERA_COMMAND
+#ifdef VISCERA_HAS_COMMAND
 TEST(AccuracySuite, ReachesEveryLimitInItsShortForm) {
   const test::TemporaryFolder folder;
   const test::Ending ending =
-      test::runProgram(VISCERA_COMMAND, {"bench", "accuracy", "--short", "--strict", "--out", folder.path()});
+      test::runProgram(kCommand, {"bench", "accuracy", "--short", "--strict", "--out", folder.path()});
   EXPECT_EQ(ending.status, 0) << ending.out << ending.err;
   EXPECT_TRUE(test::says(ending.out, {"Order", "float32 against float64", "Cantilever", "Heart", ", 0 missed"}));
   for (const char* table : {"order", "float32", "momentum", "energy", "cantilever", "shell", "heart", "spacing_heart",
@@ -62,7 +63,7 @@ TEST(AccuracySuite, ReachesEveryLimitInItsShortForm) {
     EXPECT_TRUE(test::says(text, {"cpu", "gpu"})) << file << ":\n" << text;
   }
 }
-#endif  // VISCERA_COMMAND
+#endif  // VISCERA_HAS_COMMAND
 
 }  // namespace
 }  // namespace viscera::bench

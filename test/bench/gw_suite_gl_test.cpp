@@ -12,6 +12,7 @@
 #include "bench/harness/experiment.h"
 #include "solver/reference/reference_solver.h"
 #include "support/process.h"
+#include "support/source_folder.h"
 #include "support/text.h"
 #include "viscera/gpu/context.h"
 
@@ -176,11 +177,11 @@ TEST(GwScale, LeavesRoomForTheLargestSum) {
   EXPECT_EQ(scaleOf(1.1), 4);
 }
 
-#ifdef VISCERA_COMMAND
+#ifdef VISCERA_HAS_COMMAND
 /// Times are not judged here: the machine may be doing other things.
 TEST(GwSuite, HasGwsTablesAndReachesItsErrorsInItsShortForm) {
   const test::TemporaryFolder folder;
-  const test::Ending ending = test::runProgram(VISCERA_COMMAND, {"bench", "gw", "--short", "--out", folder.path()});
+  const test::Ending ending = test::runProgram(kCommand, {"bench", "gw", "--short", "--out", folder.path()});
   ASSERT_EQ(ending.status, 0) << ending.out << ending.err;
   const auto rows = [&](const std::string& table) {
     return test::linesOf(test::readFile(folder.file("gw_" + table + ".csv"))).size() - 1;
@@ -199,7 +200,7 @@ TEST(GwSuite, HasGwsTablesAndReachesItsErrorsInItsShortForm) {
   }
   EXPECT_EQ(errors, 6u);
 }
-#endif  // VISCERA_COMMAND
+#endif  // VISCERA_HAS_COMMAND
 
 }  // namespace
 }  // namespace viscera::bench

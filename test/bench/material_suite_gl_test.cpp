@@ -5,9 +5,10 @@
 #include <filesystem>
 
 #include "support/process.h"
+#include "support/source_folder.h"
 #include "support/text.h"
 
-#ifdef VISCERA_COMMAND
+#ifdef VISCERA_HAS_COMMAND
 
 namespace viscera {
 namespace {
@@ -18,8 +19,7 @@ constexpr const char* kNoDevice = "__EGL_VENDOR_LIBRARY_FILENAMES=/dev/null";
 
 TEST(MaterialSuite, ShortFormReachesEveryLimitAndLeavesTablesAndPlots) {
   const TemporaryFolder folder;
-  const Ending ending =
-      runProgram(VISCERA_COMMAND, {"bench", "material", "--short", "--strict", "--out", folder.file("out")});
+  const Ending ending = runProgram(kCommand, {"bench", "material", "--short", "--strict", "--out", folder.file("out")});
   EXPECT_EQ(ending.status, 0) << ending.out << ending.err;
   EXPECT_TRUE(says(ending.out, {"viscera bench material --short, on ", "Checks of material", " checks, 0 missed"}));
   for (const char* stem : {"tension", "stretch", "chains", "waves", "cantilever", "hertz", "probe"}) {
@@ -43,8 +43,8 @@ TEST(MaterialSuite, ShortFormReachesEveryLimitAndLeavesTablesAndPlots) {
 
 TEST(MaterialSuite, RefusesTheGpuWithoutADevice) {
   const TemporaryFolder folder;
-  const Ending refused = runProgram(
-      VISCERA_COMMAND, {"bench", "material", "--short", "--backend", "gpu", "--out", folder.path()}, {kNoDevice});
+  const Ending refused =
+      runProgram(kCommand, {"bench", "material", "--short", "--backend", "gpu", "--out", folder.path()}, {kNoDevice});
   EXPECT_EQ(refused.status, 1);
   EXPECT_TRUE(says(refused.err, {"viscera: error:", "EGL"})) << refused.err;
 }
@@ -52,7 +52,7 @@ TEST(MaterialSuite, RefusesTheGpuWithoutADevice) {
 TEST(MaterialSuite, RefusesAFolderThatIsAFile) {
   const TemporaryFolder folder;
   const Ending ending =
-      runProgram(VISCERA_COMMAND, {"bench", "material", "--short", "--out", folder.write("file", "") + "/x"});
+      runProgram(kCommand, {"bench", "material", "--short", "--out", folder.write("file", "") + "/x"});
   EXPECT_EQ(ending.status, 1);
   EXPECT_TRUE(says(ending.err, {"viscera: error: --out"}));
 }
@@ -60,4 +60,4 @@ TEST(MaterialSuite, RefusesAFolderThatIsAFile) {
 }  // namespace
 }  // namespace viscera
 
-#endif  // VISCERA_COMMAND
+#endif  // VISCERA_HAS_COMMAND

@@ -4,12 +4,13 @@
 
 #include "bench/suites/suites.h"
 #include "support/process.h"
+#include "support/source_folder.h"
 #include "support/text.h"
 
 namespace viscera::bench {
 namespace {
 
-#ifdef VISCERA_COMMAND
+#ifdef VISCERA_HAS_COMMAND
 
 /// A suite in its short form, with what it wrote: each is run once. Times are not judged here: the machine may be doing
 /// other things.
@@ -17,7 +18,7 @@ class PerformanceSuite : public ::testing::Test {
  protected:
   void run(const std::string& suite) {
     suite_ = suite;
-    ending_ = test::runProgram(VISCERA_COMMAND, {"bench", suite, "--short", "--out", folder_.path()});
+    ending_ = test::runProgram(kCommand, {"bench", suite, "--short", "--out", folder_.path()});
     ASSERT_EQ(ending_.status, 0) << ending_.out << ending_.err;
   }
   /// Lines of a table below its head.
@@ -140,7 +141,7 @@ TEST_F(PerformanceSuite, GpuHasEveryPart) {
 
 TEST_F(PerformanceSuite, GpuNamesItsPartsWhereOneIsAskedForThatIsNotThere) {
   const test::Ending wrong =
-      test::runProgram(VISCERA_COMMAND, {"bench", "gpu", "--short", "--out", folder_.path(), "--only", "everything"});
+      test::runProgram(kCommand, {"bench", "gpu", "--short", "--out", folder_.path(), "--only", "everything"});
   EXPECT_NE(wrong.status, 0);
   EXPECT_TRUE(test::says(wrong.err, {"groups", "reads", "kernels", "faces", "flight", "live", "bytes"})) << wrong.err;
 }
@@ -158,7 +159,7 @@ TEST_F(PerformanceSuite, LimitHasMachineAndFractions) {
   EXPECT_EQ(rows("fraction").size(), 4u);
 }
 
-#endif  // VISCERA_COMMAND
+#endif  // VISCERA_HAS_COMMAND
 
 }  // namespace
 }  // namespace viscera::bench

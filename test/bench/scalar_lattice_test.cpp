@@ -9,9 +9,9 @@
 namespace viscera::bench {
 namespace {
 
-constexpr int kSubsteps = 40;
+constexpr int kScalarLatticeSubsteps = 40;
 // Displacements of about 1e-3 m after as many additions in float32 [m].
-constexpr double kRounding_m = 1e-3 * kSubsteps / (1 << 24);
+constexpr double kRounding_m = 1e-3 * kScalarLatticeSubsteps / (1 << 24);
 
 /// Largest difference of a displacement from the float64 reference [m].
 double errorOf(const Specimen& specimen) {
@@ -23,7 +23,7 @@ double errorOf(const Specimen& specimen) {
     reference.u_m[slot] = xyz(specimen.start.displacement_m[slot]);
     reference.v_m_per_s[slot] = xyz(specimen.start.velocity_m_per_s[slot]);
   }
-  for (int s = 0; s < kSubsteps; ++s) {
+  for (int s = 0; s < kScalarLatticeSubsteps; ++s) {
     scalar.substep();
     reference.substep({});
   }

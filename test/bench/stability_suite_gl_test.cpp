@@ -4,6 +4,7 @@
 
 #include "bench/suites/stability/stability_trial.h"
 #include "support/process.h"
+#include "support/source_folder.h"
 #include "support/text.h"
 #include "viscera/gpu/context.h"
 
@@ -45,7 +46,7 @@ TEST_P(StabilityTrial, ExplosionWithoutGovernorIsSeen) {
 INSTANTIATE_TEST_SUITE_P(Backends, StabilityTrial, ::testing::Values(Backend::kCpu, Backend::kGpu),
                          [](const auto& backend) { return nameOf(backend.param); });
 
-#ifdef VISCERA_COMMAND
+#ifdef VISCERA_HAS_COMMAND
 TEST(StabilitySuite, ReachesEveryLimitInItsShortForm) {
   for (const std::string backend : {"cpu", "gpu"}) {  // apart: together they take too long for a program of a test
     const bool on_cpu = backend == "cpu";             // without a device, where `both` is the CPU alone and says so
@@ -53,7 +54,7 @@ TEST(StabilitySuite, ReachesEveryLimitInItsShortForm) {
     if (on_cpu) environment.emplace_back("__EGL_VENDOR_LIBRARY_FILENAMES=/dev/null");
     const test::TemporaryFolder folder;
     const test::Ending ending = test::runProgram(
-        VISCERA_COMMAND,
+        kCommand,
         {"bench", "stability", "--short", "--strict", "--backend", on_cpu ? "both" : backend, "--out", folder.path()},
         environment);
     EXPECT_EQ(ending.status, 0) << ending.out << ending.err;

@@ -10,7 +10,7 @@
 namespace viscera::bench {
 namespace {
 
-constexpr double kBent = 0.02, kSag = 0.005, kTension = 0.01, kCapstan = 0.05, kRipple = 0.03, kLink = 1e-3,
+constexpr double kBent = 0.02, kSag = 0.005, kTension = 0.01, kCapstan = 0.05, kThreadSuiteRipple = 0.03, kLink = 1e-3,
                  kMomentum = 1e-6;
 
 TEST(ThreadSuite, BendsAsAnElastica) {
@@ -38,7 +38,7 @@ TEST(ThreadSuite, SlidesThroughChannelsAsOverACapstan) {
     for (const size_t count : {1, 2, 4}) {
       const ChannelTrial drawn = drawnThroughChannels(count, share, 0.1);
       EXPECT_NEAR(drawn.ratio, 1, kCapstan) << count << " channels, " << share;
-      EXPECT_LT(drawn.ripple, kRipple) << count << " channels, " << share;
+      EXPECT_LT(drawn.ripple, kThreadSuiteRipple) << count << " channels, " << share;
     }
   }
 }

@@ -135,6 +135,7 @@ TEST_F(BadInput, CommandLineIsExplainedNotCrashedOn) {
                                                        {"run", scene_, "--seconds", "-1"},
                                                        {"run", scene_, "--seconds", "nan"},
                                                        {"bench"},
+                                                       {"bench", "reference"},
                                                        {"bench", "step", "--nodes", "0"},
                                                        {"bench", "step", "--backend", "fpga"},
                                                        {"bench", "step", "--backend", "cpu", "--threads", "-1"},

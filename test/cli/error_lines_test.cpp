@@ -6,6 +6,7 @@
 
 #include "cli/small_scene.h"
 #include "math/one_line.h"
+#include "support/source_folder.h"
 #include "support/text.h"
 
 namespace viscera {
@@ -70,7 +71,7 @@ TEST_F(ErrorLines, VersionIsNoError) {
 
 TEST_F(ErrorLines, MemoryThatDoesNotSufficeSaysWhatFor) {
   // A million cells need some 100 MB more than a program that has loaded its libraries.
-  const std::string command = "ulimit -v 600000; exec " + shellQuoted(VISCERA_COMMAND) + " run " + shellQuoted(scene_) +
+  const std::string command = "ulimit -v 600000; exec " + shellQuoted(kCommand) + " run " + shellQuoted(scene_) +
                               " --no-view --set bodies[0].spacing_m=0.0001";
   const std::string line = lineOf(runProgram("bash", {"-c", command}));
   EXPECT_TRUE(says(line, {scene_, "body 'block'", "spacing_m 0.0001", "memory"}));

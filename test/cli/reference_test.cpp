@@ -8,6 +8,7 @@
 
 #include "cli/small_scene.h"
 #include "model/scene/tool_kinds.h"
+#include "support/source_folder.h"
 #include "support/temporary_folder.h"
 #include "support/text.h"
 #include "viscera/model/scene/scene.h"
@@ -37,7 +38,7 @@ constexpr const char* kPull =
     "      - {t_s: 0, position_m: [0, 0, -0.02], button1: true}\n"
     "      - {t_s: 0.3, position_m: [0, 0, -0.03], button1: true}\n";
 
-class RunReference : public ::testing::Test {
+class BenchReference : public ::testing::Test {
  protected:
   static Json lastLine(const Ending& ending) {
     EXPECT_EQ(ending.status, 0) << ending.err;
@@ -48,10 +49,14 @@ class RunReference : public ::testing::Test {
     options.insert(options.begin(), {"run", scene_});
     return viscera(options, environment);
   }
+  Ending reference(std::vector<std::string> options, const std::vector<std::string>& environment = {}) const {
+    options.insert(options.begin(), {"bench", "reference", scene_});
+    return viscera(options, environment);
+  }
   double gpuError(const std::vector<std::string>& settings) const {
-    std::vector<std::string> options = {"--reference", "--compare", "--strokes", strokes_};
+    std::vector<std::string> options = {"--compare", "--strokes", strokes_};
     for (const std::string& setting : settings) options.insert(options.end(), {"--set", setting});
-    const Json metrics = lastLine(run(options));
+    const Json metrics = lastLine(reference(options));
     EXPECT_GT(metrics["peak_force_n"], 0);
     return metrics["gpu_error"];
   }
@@ -62,57 +67,86 @@ class RunReference : public ::testing::Test {
 
 }  // namespace
 
-TEST_F(RunReference, NeedsNoGpuAndSaysTheSameThings) {
+TEST_F(BenchReference, NeedsNoGpuAndSaysTheSameThings) {
   const Json gpu = lastLine(run({"--strokes", strokes_, "--set", "solver.governor=false"}));
-  const Json reference = lastLine(run({"--strokes", strokes_, "--reference"}, {kNoDevice}));
-  EXPECT_EQ(reference["backend"], "reference");
-  EXPECT_EQ(reference["renderer"], "none");
+  const Json truth = lastLine(reference({"--strokes", strokes_}, {kNoDevice}));
+  EXPECT_EQ(truth["backend"], "reference");
+  EXPECT_EQ(truth["renderer"], "none");
+  EXPECT_FALSE(truth.contains("gpu_error"));
   for (const auto& [key, value] : gpu.items()) {
-    EXPECT_TRUE(reference.contains(key) || key == "hands") << key;  // those are a session's, which it has not
+    EXPECT_TRUE(truth.contains(key) || key == "hands") << key;  // those are a session's, which it has not
   }
   for (const char* key : {"nodes", "springs", "springs_cut", "faces", "steps", "dt_s", "dt_safe_s", "simulated_s"})
-    EXPECT_EQ(reference[key], gpu[key]) << key;
+    EXPECT_EQ(truth[key], gpu[key]) << key;
   for (const char* key : {"max_stretch", "max_speed_m_per_s", "peak_force_n"}) {
-    EXPECT_NEAR(reference[key].get<double>() / gpu[key].get<double>(), 1, 1e-3) << key;  // float32, touched by a tool
+    EXPECT_NEAR(truth[key].get<double>() / gpu[key].get<double>(), 1, 1e-3) << key;  // float32, touched by a tool
   }
 }
 
-TEST_F(RunReference, GpuIsCloseToIt) {
+TEST_F(BenchReference, GpuIsCloseToIt) {
   constexpr double kTouched = 1e-5;  // of the largest displacement: float32 while a tool presses, grabs and lets go
   EXPECT_LT(gpuError({}), kTouched);
   EXPECT_LT(gpuError({"bodies[0].material.poisson_ratio=0.4"}), kTouched);
 }
 
-TEST_F(RunReference, SuctionLetsGoAboveItsForceOnEveryBackend) {
+TEST_F(BenchReference, SuctionLetsGoAboveItsForceOnEveryBackend) {
   const std::string pull = folder_.write("pull.yaml", kPull);
-  const auto stretch = [&](const std::string& max_force_n, const std::vector<std::string>& backend) {
+  const auto stretch = [&](const std::string& max_force_n, const std::string& backend) {
     std::vector<std::string> options = {
         "--strokes", pull,
         "--set",     "styluses[0].button1=suction",
         "--set",     "styluses[0].suction={radius_m: 0.012, max_force_n: " + max_force_n + "}"};
-    options.insert(options.end(), backend.begin(), backend.end());
-    return lastLine(run(options))["max_stretch"].get<double>();
+    if (backend != "reference") options.insert(options.end(), {"--set", "solver.backend=" + backend});
+    const Ending ending = backend == "reference" ? reference(options) : run(options);
+    return lastLine(ending)["max_stretch"].get<double>();
   };
-  const std::vector<std::vector<std::string>> backends = {
-      {"--reference"}, {"--set", "solver.backend=gpu"}, {"--set", "solver.backend=cpu"}};
-  for (const std::vector<std::string>& backend : backends) {
-    SCOPED_TRACE(backend.back());
+  for (const std::string backend : {"reference", "gpu", "cpu"}) {
+    SCOPED_TRACE(backend);
     EXPECT_GT(stretch("1000", backend), 2 * stretch("0.05", backend));
   }
 }
 
-TEST_F(RunReference, RefusesPictures) {
-  const Ending ending = run({"--reference", "--out", folder_.file("out")});
-  EXPECT_EQ(ending.status, 1);
-  const std::vector<std::string> errors = complaints(ending);
-  ASSERT_EQ(errors.size(), 1u) << ending.err;
-  EXPECT_TRUE(says(errors[0], {"--out", "--reference"}));
+TEST_F(BenchReference, TakesNoOptionsOfPicturesAndStates) {
+  for (const std::string option : {"--out", "--save", "--record", "--export"}) {
+    const Ending ending = reference({option, folder_.file("out")});
+    EXPECT_GT(ending.status, 100) << ending.err;
+    const std::vector<std::string> errors = complaints(ending);
+    ASSERT_EQ(errors.size(), 1u) << ending.err;
+    EXPECT_TRUE(says(errors[0], {"command line", option, "`viscera bench reference --help`"}));
+  }
 }
 
-TEST_F(RunReference, SolvesImplicitEulerForPdAndMultigrid) {
+TEST_F(BenchReference, RunSaysThatItIsACommandByItself) {
+  const std::vector<std::vector<std::string>> old = {
+      {"--reference"}, {"--compare"}, {"--reference", "--compare", "--strokes", strokes_}};
+  for (const std::vector<std::string>& options : old) {
+    const Ending ending = run(options, {kNoDevice});
+    EXPECT_GT(ending.status, 100) << ending.err;
+    EXPECT_EQ(ending.out, "");
+    const std::vector<std::string> errors = complaints(ending);
+    ASSERT_EQ(errors.size(), 1u) << ending.err;
+    EXPECT_TRUE(says(errors[0], {"command line", options[0], "`viscera bench reference SCENE [--compare]`"}));
+  }
+  EXPECT_EQ(viscera({"run", "--help"}).out.find("--reference"), std::string::npos);
+}
+
+TEST_F(BenchReference, RefusesWhatRunRefuses) {
+  const auto refusal = [&](const std::vector<std::string>& options) {
+    const Ending ending = reference(options);
+    EXPECT_EQ(ending.status, 1) << ending.err;
+    const std::vector<std::string> errors = complaints(ending);
+    EXPECT_EQ(errors.size(), 1u) << ending.err;
+    return errors.empty() ? std::string() : errors[0];
+  };
+  EXPECT_TRUE(says(refusal({"--seconds", "nan"}), {"--seconds", "nan"}));
+  EXPECT_TRUE(says(refusal({"--strokes", folder_.file("none.yaml")}), {folder_.file("none.yaml")}));
+  EXPECT_TRUE(says(refusal({"--set", "bodies[0].spacing=1"}), {"override", "'bodies[0].spacing'"}));
+}
+
+TEST_F(BenchReference, SolvesImplicitEulerForPdAndMultigrid) {
   const auto hashOf = [&](const std::string& integrator) {
-    return lastLine(run({"--reference", "--seconds", "0.05", "--set", "solver.integrator=" + integrator, "--set",
-                         "solver.substeps=4"}))["state_hash"];
+    return lastLine(reference(
+        {"--seconds", "0.05", "--set", "solver.integrator=" + integrator, "--set", "solver.substeps=4"}))["state_hash"];
   };
   EXPECT_EQ(hashOf("pd"), hashOf("multigrid"));
 }
@@ -126,13 +160,13 @@ bool resistsBlades(const std::filesystem::path& scene) {
 /// Shipped scenes are what they are, but for hearts, which are coarser than a user would want to look at them, and for
 /// blades that tissue resists, threads, needles and clips, which the reference says it has not: without them it takes
 /// their scene too.
-TEST_F(RunReference, RefusesNoSceneThatComesWithIt) {
+TEST_F(BenchReference, RefusesNoSceneThatComesWithIt) {
   size_t scenes = 0;
-  for (const auto& file : std::filesystem::directory_iterator(VISCERA_SOURCE_DIR "/config/scenes")) {
+  for (const auto& file : std::filesystem::directory_iterator(sourceFolder() + "/config/scenes")) {
     if (file.path().extension() != ".yaml") continue;
     SCOPED_TRACE(file.path().filename().string());
     ++scenes;
-    std::vector<std::string> options = {"run", file.path().string(), "--reference", "--seconds", "0.02"};
+    std::vector<std::string> options = {"bench", "reference", file.path().string(), "--seconds", "0.02"};
     const std::string name = file.path().stem().string();
     if (name.find("heart") != std::string::npos) {
       const bool counted = name == "pig_heart_size";

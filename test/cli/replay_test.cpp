@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/small_scene.h"
+#include "support/source_folder.h"
 #include "support/temporary_folder.h"
 
 namespace viscera {
@@ -58,8 +59,8 @@ TEST_F(ReplayCommand, WhatWasRecordedBeforeAKillReplays) {
   Ending ending;
   for (const char* seconds : {"2", "10", "40"}) {  // of a run that takes far longer; a busy machine has hardly begun
     std::filesystem::remove(file_);
-    runProgram("timeout", {"-s", "KILL", seconds, VISCERA_COMMAND, "run", scene_, "--no-view", "--seconds", "80000",
-                           "--record", file_});
+    runProgram("timeout",
+               {"-s", "KILL", seconds, kCommand, "run", scene_, "--no-view", "--seconds", "80000", "--record", file_});
     ending = viscera({"replay", file_, "--no-view", "--until", "5"});
     if (ending.status == 0 && resultOf(ending)["recorded_s"] > 1) break;
   }

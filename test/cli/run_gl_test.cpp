@@ -8,6 +8,7 @@
 #include <set>
 
 #include "cli/small_scene.h"
+#include "support/source_folder.h"
 #include "support/text.h"
 #include "viscera/model/scene/scene.h"
 #include "viscera/model/shape/mesh_import.h"
@@ -20,7 +21,7 @@ using Json = nlohmann::json;
 namespace fs = std::filesystem;
 
 /// A cut through the block, which begins when the stylus is already beside it, and a moment worth a picture.
-constexpr const char* kCut =
+constexpr const char* kRunCut =
     "strokes:\n"
     "  - stylus: left\n"
     "    anchor: {from_m: [0.001, -0.3, 0.001], towards_m: [0.001, 0, 0.001]}\n"
@@ -43,7 +44,7 @@ class Run : public ::testing::Test {
   }
 
   TemporaryFolder folder_;
-  std::string scene_ = folder_.write("block.yaml", kBlockScene), strokes_ = folder_.write("cut.yaml", kCut);
+  std::string scene_ = folder_.write("block.yaml", kBlockScene), strokes_ = folder_.write("cut.yaml", kRunCut);
 };
 
 uint32_t bigEndian(const std::string& bytes, size_t at) {
@@ -369,7 +370,7 @@ TEST_F(Run, MeshOfTheCommandLineBecomesTheTissue) {
 
 TEST_F(Run, ShippedClothIsPressedLiftedAndCutByItsStrokes) {
   const Json metrics =
-      metricsOf(viscera({"run", "cloth_on_points", "--strokes", VISCERA_SOURCE_DIR "/config/strokes/cut_cloth.yaml",
+      metricsOf(viscera({"run", "cloth_on_points", "--strokes", sourceFolder() + "/config/strokes/cut_cloth.yaml",
                          "--set", "bodies[0].spacing_m=0.025", "--set", "cameras=[]"}));
   EXPECT_EQ(metrics["scene"], "cloth_on_points");
   EXPECT_GT(metrics["peak_force_n"], 0);
@@ -380,7 +381,7 @@ TEST_F(Run, ShippedClothIsPressedLiftedAndCutByItsStrokes) {
 }
 
 TEST_F(Run, ShippedVesselBleedsUntilItIsClippedAndBurntAndItsReplayDoes) {
-  const std::string strokes = VISCERA_SOURCE_DIR "/config/strokes/bleeding.yaml";
+  const std::string strokes = sourceFolder() + "/config/strokes/bleeding.yaml";
   const auto bleeding = [&](const std::string& seconds, const std::string& recording) {
     return metricsOf(viscera({"run", "bleeding_vessel", "--no-view", "--strokes", strokes, "--seconds", seconds,
                               "--record", folder_.file(recording)}));

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "cli/small_scene.h"
+#include "support/source_folder.h"
 
 namespace viscera {
 namespace {
@@ -22,7 +23,7 @@ std::vector<std::string> tableOf(const std::string& text, const std::string& of)
 }
 
 void expectTable(const std::string& name, const std::vector<std::string>& command, const std::string& of = "key") {
-  const std::vector<std::string> document = tableOf(readFile(std::string(VISCERA_SOURCE_DIR) + "/" + name), of);
+  const std::vector<std::string> document = tableOf(readFile(sourceFolder() + "/" + name), of);
   const std::vector<std::string> printed = tableOf(viscera(command).out, of);
   const std::string how = renew(name, command.size() > 1 ? "keys " + command[1] : "keys");
   ASSERT_FALSE(printed.empty());

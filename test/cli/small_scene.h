@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "support/process.h"
+#include "support/source_folder.h"
 
 namespace viscera::test {
 
@@ -22,7 +23,7 @@ constexpr const char* kBlockScene =
     "cameras: [{name: eye, position_m: [0, -0.2, 0.05], width_px: 64, height_px: 48}]\n";
 
 inline Ending viscera(const std::vector<std::string>& arguments, const std::vector<std::string>& environment = {}) {
-  return runProgram(VISCERA_COMMAND, arguments, environment);
+  return runProgram(kCommand, arguments, environment);
 }
 
 /// Lines on standard error that say why the program gave up.

@@ -14,6 +14,7 @@
 #include <thread>
 
 #include "cli/small_scene.h"
+#include "support/source_folder.h"
 #include "support/text.h"
 
 namespace viscera {
@@ -43,7 +44,7 @@ class Sweep : public ::testing::Test {
   pid_t worker(const std::string& plan) const {
     const pid_t child = fork();
     if (child != 0) return child;
-    execl(VISCERA_COMMAND, VISCERA_COMMAND, "sweep", plan.c_str(), "--out", out_.c_str(), "--jobs", "1", nullptr);
+    execl(kCommand, kCommand, "sweep", plan.c_str(), "--out", out_.c_str(), "--jobs", "1", nullptr);
     _exit(127);
   }
   size_t results() const {
@@ -127,7 +128,7 @@ TEST_F(Sweep, LeavesDraftsOfOthersAlone) {
   if (child == 0) {  // a worker whose number is known before it starts
     for (const char* of : {"plan.txt", "results.csv"})
       std::ofstream(out_ + "/" + of + "." + std::to_string(getpid()) + ".draft") << others;
-    execl(VISCERA_COMMAND, VISCERA_COMMAND, "sweep", file.c_str(), "--out", out_.c_str(), nullptr);
+    execl(kCommand, kCommand, "sweep", file.c_str(), "--out", out_.c_str(), nullptr);
     _exit(127);
   }
   int status = -1;
@@ -145,7 +146,7 @@ TEST_F(Sweep, LeavesDraftsOfOthersAlone) {
 
 /// The stiffer, and the less compressible, the harder the pad presses back.
 TEST_F(Sweep, ShippedCalibrationTellsMaterialsApart) {
-  const Ending ending = viscera({"sweep", VISCERA_SOURCE_DIR "/config/sweeps/calibration.yaml", "--out", out_});
+  const Ending ending = viscera({"sweep", sourceFolder() + "/config/sweeps/calibration.yaml", "--out", out_});
   EXPECT_EQ(ending.status, 0) << ending.err;
   std::vector<double> forces;
   for (int run = 0; run < 15; ++run) {

@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "cli/small_scene.h"
+#include "support/source_folder.h"
 #include "support/temporary_folder.h"
 
 namespace viscera {
@@ -18,7 +19,7 @@ namespace {
 using namespace test;
 
 std::string strokesOf(const std::string& task, const std::string& hand) {
-  return VISCERA_SOURCE_DIR "/config/strokes/" + task + "_" + hand + ".yaml";
+  return sourceFolder() + "/config/strokes/" + task + "_" + hand + ".yaml";
 }
 
 nlohmann::json lastLine(const Ending& ending) {

@@ -30,7 +30,7 @@ TEST(ThreadCommand, SaysWhatIsMissing) {
   EXPECT_NE(none.status, 0);
   EXPECT_NE(none.err.find("--export threads: the scene has none"), std::string::npos) << none.err;
   const std::string scene = folder.write("scene.yaml", std::string(kBlockScene) + kThread);
-  const Ending reference = viscera({"run", scene, "--reference", "--seconds", "0.05"});
+  const Ending reference = viscera({"bench", "reference", scene, "--seconds", "0.05"});
   EXPECT_NE(reference.status, 0);
   EXPECT_NE(reference.err.find("threads must be empty for the reference"), std::string::npos) << reference.err;
 }

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "devices/device_map.h"
+#include "math/decompositions.h"
 
 namespace viscera {
 namespace {
@@ -201,7 +202,7 @@ TEST(DeviceCheck, ShaftOfAnUprightHandleIsFound) {
   EXPECT_FALSE(findTip(upright, profileOf(), kNoTurn).orientation);
   for (const Vector3d& shaft : {Vector3d(1, 0, 0), Vector3d(0, -1, 0), Vector3d(0, 0, -1), Vector3d(0, 1, 0)}) {
     // an upright handle along whose shaft its frame has another axis
-    const Quaterniond held = Quaterniond::FromTwoVectors(shaft, Vector3d::UnitZ());
+    const Quaterniond held = rotationBetween(shaft, Vector3d::UnitZ());
     const FoundTip found = findTip({{0, 0, 0}, held}, profileOf(), kNoTurn);
     EXPECT_EQ(found.verdict.grade, Grade::kWrong);
     ASSERT_TRUE(found.orientation);

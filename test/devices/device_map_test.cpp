@@ -1,13 +1,14 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "devices/device_map.h"
+#include "support/source_folder.h"
 
 #include <gtest/gtest.h>
 
 namespace viscera {
 namespace {
 
-constexpr double kRounding = 1e-12;  // m, and of quaternions' numbers: a chain of rotations in double
+constexpr double kDeviceMapRounding = 1e-12;  // m, and of quaternions' numbers: a chain of rotations in double
 
 DeviceProfile profile(const Overrides& overrides) {
   DeviceChoice choice;
@@ -19,11 +20,11 @@ DeviceProfile profile(const Overrides& overrides) {
 DeviceProfile shipped(const std::string& name) {
   DeviceChoice choice;
   choice.stylus = "left";
-  return loadDevice(std::string(VISCERA_SOURCE_DIR) + "/config/devices/" + name + ".yaml", choice);
+  return loadDevice(test::sourceFolder() + "/config/devices/" + name + ".yaml", choice);
 }
 
 void expectNear(const Pose& a, const Pose& b) {
-  EXPECT_LT((a.position_m - b.position_m).norm(), kRounding);
+  EXPECT_LT((a.position_m - b.position_m).norm(), kDeviceMapRounding);
   EXPECT_LT(a.orientation.angularDistance(b.orientation), 1e-7);  // whose arc cosine rounds to this
 }
 
@@ -38,16 +39,18 @@ TEST(DeviceMap, LeavesACrtkDeviceAsItIs) {
 TEST(DeviceMap, TurnsAxesAndUnits) {
   DeviceMap map(profile({"pose.unit_m=0.001", "pose.axes=x -z y"}));
   const Pose tip = map.toBase({{10, 20, 30}, Quaterniond::Identity()});
-  EXPECT_LT((tip.position_m - Vector3d(0.01, -0.03, 0.02)).norm(), kRounding);
-  EXPECT_LT((tip.orientation * Vector3d::UnitY() - Vector3d::UnitZ()).norm(), kRounding);
-  EXPECT_LT((map.axesFromBase() * Vector3d::UnitZ() - Vector3d::UnitY()).norm(), kRounding);  // a force upwards
+  EXPECT_LT((tip.position_m - Vector3d(0.01, -0.03, 0.02)).norm(), kDeviceMapRounding);
+  EXPECT_LT((tip.orientation * Vector3d::UnitY() - Vector3d::UnitZ()).norm(), kDeviceMapRounding);
+  EXPECT_LT((map.axesFromBase() * Vector3d::UnitZ() - Vector3d::UnitY()).norm(),
+            kDeviceMapRounding);  // a force upwards
 }
 
 TEST(DeviceMap, TipIsInTheFrameOfThePose) {
   DeviceMap map(profile({"tip.position_m=[0,0,-0.1]", "pose.axes=-x -y z"}));
   const Pose tip = map.toBase({{0, 0, 0.5}, rotationFromDegrees({90, 0, 0})});
-  EXPECT_LT((tip.position_m - Vector3d(0, -0.1, 0.5)).norm(), kRounding);
-  EXPECT_LT((map.leverArm({{0, 0, 0.5}, rotationFromDegrees({90, 0, 0})}) - Vector3d(0, -0.1, 0)).norm(), kRounding);
+  EXPECT_LT((tip.position_m - Vector3d(0, -0.1, 0.5)).norm(), kDeviceMapRounding);
+  EXPECT_LT((map.leverArm({{0, 0, 0.5}, rotationFromDegrees({90, 0, 0})}) - Vector3d(0, -0.1, 0)).norm(),
+            kDeviceMapRounding);
 }
 
 TEST(DeviceMap, ThereAndBack) {
@@ -60,7 +63,7 @@ TEST(DeviceMap, ScaleIsOfTheTipsWay) {
   DeviceMap map(profile({"scale=0.25", "tip.position_m=[0,0,-0.1]"}));
   const Vector3d before_m = map.toBase({{0, 0, 0}, Quaterniond::Identity()}).position_m;
   const Vector3d after_m = map.toBase({{0.04, 0, 0}, Quaterniond::Identity()}).position_m;
-  EXPECT_LT((after_m - before_m - Vector3d(0.01, 0, 0)).norm(), kRounding);
+  EXPECT_LT((after_m - before_m - Vector3d(0.01, 0, 0)).norm(), kDeviceMapRounding);
 }
 
 TEST(DeviceMap, ClutchHoldsThePlaceAndNotTheTurn) {
@@ -71,12 +74,12 @@ TEST(DeviceMap, ClutchHoldsThePlaceAndNotTheTurn) {
   moved.position_m += Vector3d(0.03, 0, 0);
   moved.orientation = Quaterniond::Identity();
   const Pose while_clutched = map.toBase(moved);
-  EXPECT_LT((while_clutched.position_m - held_m).norm(), kRounding);
+  EXPECT_LT((while_clutched.position_m - held_m).norm(), kDeviceMapRounding);
   EXPECT_LT(while_clutched.orientation.angularDistance(moved.orientation), 1e-7);
   map.setClutch(false);
-  EXPECT_LT((map.toBase(moved).position_m - held_m).norm(), kRounding);  // no leap
+  EXPECT_LT((map.toBase(moved).position_m - held_m).norm(), kDeviceMapRounding);  // no leap
   moved.position_m += Vector3d(0, 0.01, 0);
-  EXPECT_LT((map.toBase(moved).position_m - held_m - Vector3d(0, 0.02, 0)).norm(), kRounding);
+  EXPECT_LT((map.toBase(moved).position_m - held_m - Vector3d(0, 0.02, 0)).norm(), kDeviceMapRounding);
   map.setClutch(true);
   map.setClutch(false);
   expectNear(map.fromBase(map.toBase(moved)), moved);
@@ -88,7 +91,7 @@ TEST(DeviceMap, ClutchThatIsDownAtTheStartHoldsTheFirstPlace) {
   const Vector3d first_m = map.toBase(kHand).position_m;
   Pose moved = kHand;
   moved.position_m.x() += 1;
-  EXPECT_LT((map.toBase(moved).position_m - first_m).norm(), kRounding);
+  EXPECT_LT((map.toBase(moved).position_m - first_m).norm(), kDeviceMapRounding);
 }
 
 TEST(DeviceMap, PlaceThatIsNotAcceptedMovesNoClutch) {
@@ -98,7 +101,7 @@ TEST(DeviceMap, PlaceThatIsNotAcceptedMovesNoClutch) {
   far.position_m.x() = 100;
   EXPECT_EQ(map.placeOf(far).tip.position_m.x(), 100);
   map.setClutch(true);
-  EXPECT_LT((map.placeOf(far).tip.position_m - good_m).norm(), kRounding);
+  EXPECT_LT((map.placeOf(far).tip.position_m - good_m).norm(), kDeviceMapRounding);
   map.setClutch(false);
   expectNear(map.toBase(kHand), kHand);
 }
@@ -109,9 +112,9 @@ TEST(DeviceMap, ToolsOfTheDvrkPointAsTheirInstrumentsDo) {
     DeviceMap map(shipped(name));
     const Quaterniond jaws = rotationFromDegrees({20, -30, 70});
     const Pose tip = map.toBase({{0.01, 0.02, 0.03}, jaws});
-    EXPECT_LT((tip.position_m - Vector3d(0.01, 0.02, 0.03)).norm(), kRounding) << name;
+    EXPECT_LT((tip.position_m - Vector3d(0.01, 0.02, 0.03)).norm(), kDeviceMapRounding) << name;
     const Vector3d ahead = tip.orientation * -Vector3d::UnitZ();  // as docs/user_guide.md has it
-    EXPECT_LT((ahead - jaws * Vector3d::UnitZ()).norm(), kRounding) << name;
+    EXPECT_LT((ahead - jaws * Vector3d::UnitZ()).norm(), kDeviceMapRounding) << name;
     expectNear(map.fromBase(tip), {{0.01, 0.02, 0.03}, jaws});
   }
 }
@@ -120,9 +123,9 @@ TEST(DeviceMap, ArmStartsWithItsJawsTowardsTheTissue) {
   const DeviceProfile arm = shipped("crtk_arm");
   const Quaterniond start = rotationFromDegrees(arm.arm.start_rotation_deg);
   const Vector3d jaws = start * Vector3d::UnitZ(), towards_tissue = Vector3d(0, -arm.arm.start_m.y(), 0).normalized();
-  EXPECT_LT((jaws - towards_tissue).norm(), kRounding);
+  EXPECT_LT((jaws - towards_tissue).norm(), kDeviceMapRounding);
   const Pose tool = DeviceMap(arm).placeOf({arm.arm.start_m, start}).tip;
-  EXPECT_LT((tool.orientation * -Vector3d::UnitZ() - towards_tissue).norm(), kRounding);
+  EXPECT_LT((tool.orientation * -Vector3d::UnitZ() - towards_tissue).norm(), kDeviceMapRounding);
 }
 
 /// As omni_common has it: the place is turned to z up, the orientation is the device's times a quarter turn about z.

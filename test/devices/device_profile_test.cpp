@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "devices/device_profile.h"
+#include "support/source_folder.h"
 
 #include <gtest/gtest.h>
 
@@ -34,7 +35,7 @@ constexpr const char* kCrtk = "about: a device\n";
 
 TEST(DeviceProfile, EveryShippedOneLoadsForAnyStylus) {
   size_t profiles = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(std::string(VISCERA_SOURCE_DIR) + "/config/devices")) {
+  for (const auto& entry : std::filesystem::directory_iterator(test::sourceFolder() + "/config/devices")) {
     const DeviceProfile device = loadDevice(entry.path().string(), choiceOf());
     EXPECT_FALSE(device.about.empty()) << entry.path();
     EXPECT_EQ(device.pose.topic.find('{'), std::string::npos) << entry.path();

@@ -16,8 +16,8 @@ namespace {
 using test::says;
 
 const Pose kBase{{0.4, -0.3, 0.2}, Quaterniond(Eigen::AngleAxisd(2.2, Vector3d(1, 2, -1).normalized()))};
-constexpr double kNoise_m = 3e-4;  ///< per coordinate
-constexpr double kRounding_m = 1e-12;
+constexpr double kRegistrationNoise_m = 3e-4;  ///< per coordinate
+constexpr double kRegistrationRounding_m = 1e-12;
 
 const std::vector<KnownPoint> kPoints = {{"apex", {0, -0.05, 0.01}},
                                          {"left", {-0.06, 0, 0}},
@@ -58,14 +58,15 @@ std::string fileRefusal(const std::string& yaml, bool points) {
 
 TEST(Registration, ExactPointsGiveTheBase) {
   const Registration found = solveRegistration(kPoints, touched(kPoints, 0), {});
-  EXPECT_LT((found.base.position_m - kBase.position_m).norm(), kRounding_m);
-  EXPECT_LT(found.base.orientation.angularDistance(kBase.orientation), kRounding_m);
-  EXPECT_LT(found.residual_m, kRounding_m);
+  EXPECT_LT((found.base.position_m - kBase.position_m).norm(), kRegistrationRounding_m);
+  EXPECT_LT(found.base.orientation.angularDistance(kBase.orientation), kRegistrationRounding_m);
+  EXPECT_LT(found.residual_m, kRegistrationRounding_m);
 }
 
 TEST(Registration, ThreePointsAreEnough) {
   const std::vector<KnownPoint> three(kPoints.begin(), kPoints.begin() + 3);
-  EXPECT_LT((solveRegistration(three, touched(three, 0), {}).base.position_m - kBase.position_m).norm(), kRounding_m);
+  EXPECT_LT((solveRegistration(three, touched(three, 0), {}).base.position_m - kBase.position_m).norm(),
+            kRegistrationRounding_m);
 }
 
 TEST(Registration, ResidualIsThatOfTheNoise) {
@@ -73,10 +74,10 @@ TEST(Registration, ResidualIsThatOfTheNoise) {
   constexpr size_t kRounds = 400;
   double squares = 0;
   for (uint32_t seed = 0; seed < kRounds; ++seed) {
-    const double residual_m = solveRegistration(kPoints, touched(kPoints, kNoise_m, seed), {}).residual_m;
+    const double residual_m = solveRegistration(kPoints, touched(kPoints, kRegistrationNoise_m, seed), {}).residual_m;
     squares += residual_m * residual_m / kRounds;
   }
-  const double expected_m = kNoise_m * std::sqrt(3 - 6.0 / static_cast<double>(kPoints.size()));
+  const double expected_m = kRegistrationNoise_m * std::sqrt(3 - 6.0 / static_cast<double>(kPoints.size()));
   // 400 rounds of nine degrees of freedom: the mean square has a relative deviation of 2.4 %; five of these
   EXPECT_NEAR(squares / (expected_m * expected_m), 1, 0.12);
 }

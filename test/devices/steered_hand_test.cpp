@@ -14,16 +14,16 @@ namespace {
 
 using test::says;
 
-constexpr double kRounding = 1e-12;
+constexpr double kSteeredHandRounding = 1e-12;
 constexpr SteeredSpeed kSpeed{0.1, 1.5};
 
 TEST(SteeredHand, ApproachesAJumpAtItsSpeedAndArrives) {
   const Pose from{{0, 0, 0.1}, Quaterniond::Identity()};
   const Pose target{{0.3, 0, 0.1}, Quaterniond(Eigen::AngleAxisd(1.0, Vector3d::UnitX()))};
   const Pose next = approach(from, target, kSpeed, 0.01);
-  EXPECT_NEAR((next.position_m - from.position_m).norm(), 0.001, kRounding);
-  EXPECT_NEAR(next.orientation.angularDistance(from.orientation), 0.015, kRounding);
-  EXPECT_NEAR(next.position_m.x(), 0.001, kRounding);
+  EXPECT_NEAR((next.position_m - from.position_m).norm(), 0.001, kSteeredHandRounding);
+  EXPECT_NEAR(next.orientation.angularDistance(from.orientation), 0.015, kSteeredHandRounding);
+  EXPECT_NEAR(next.position_m.x(), 0.001, kSteeredHandRounding);
   Pose at = from;
   for (int i = 0; i < 301; ++i) at = approach(at, target, kSpeed, 0.01);
   EXPECT_EQ(at.position_m, target.position_m);
@@ -34,20 +34,21 @@ TEST(SteeredHand, ApproachTakesTheShortWayRound) {
   const Quaterniond turn(Eigen::AngleAxisd(0.5, Vector3d::UnitZ()));
   const Quaterniond same_turn(-turn.w(), -turn.x(), -turn.y(), -turn.z());
   const Pose at = approach({}, {Vector3d::Zero(), same_turn}, kSpeed, 0.1);
-  EXPECT_NEAR(at.orientation.angularDistance(turn), 0.35, kRounding);
+  EXPECT_NEAR(at.orientation.angularDistance(turn), 0.35, kSteeredHandRounding);
 }
 
 TEST(SteeredHand, DrivesAlongAndAboutTheAxesOfTheFrame) {
   const Pose from{{0.01, 0.02, 0.03}, Quaterniond(Eigen::AngleAxisd(1.0, Vector3d::UnitX()))};
   const Pose at = drive(from, {{1, 0, -0.5}, {0, 0, 1}}, kSpeed, 0.1);
-  EXPECT_LT((at.position_m - Vector3d(0.02, 0.02, 0.025)).norm(), kRounding);
+  EXPECT_LT((at.position_m - Vector3d(0.02, 0.02, 0.025)).norm(), kSteeredHandRounding);
   EXPECT_LT(at.orientation.angularDistance(Quaterniond(Eigen::AngleAxisd(0.15, Vector3d::UnitZ())) * from.orientation),
             1e-7);  // of acos near 1
   EXPECT_EQ(drive(from, {}, kSpeed, 0.1).orientation.coeffs(), from.orientation.coeffs());
 }
 
 TEST(SteeredHand, StaysWithinItsReach) {
-  EXPECT_LT((within({{1, 0, 0.1}, {}}, {0, 0, 0.1}, 0.2).position_m - Vector3d(0.2, 0, 0.1)).norm(), kRounding);
+  EXPECT_LT((within({{1, 0, 0.1}, {}}, {0, 0, 0.1}, 0.2).position_m - Vector3d(0.2, 0, 0.1)).norm(),
+            kSteeredHandRounding);
   EXPECT_EQ(within({{0.1, 0, 0.1}, Quaterniond::Identity()}, {0, 0, 0.1}, 0.2).position_m.x(), 0.1);
 }
 

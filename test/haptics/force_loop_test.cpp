@@ -12,9 +12,9 @@
 namespace viscera {
 namespace {
 
-constexpr double kTick_s = 1.0 / 60, kStall_s = 3 * kTick_s;
+constexpr double kForceLoopTick_s = 1.0 / 60, kStall_s = 3 * kForceLoopTick_s;
 constexpr ForceLimits kLimits{5, 100, 0.2, 4};
-constexpr double kStiff_n_per_m = 500;
+constexpr double kForceLoopStiff_n_per_m = 500;
 
 /// A hand over a wall of springs at z = 0, a simulation that ticks, and a thread that sleeps until something is due.
 class Rig {
@@ -75,12 +75,12 @@ class Rig {
     now_ = to;
   }
   void tick() {
-    tick_due_ = now_ + span(kTick_s);
+    tick_due_ = now_ + span(kForceLoopTick_s);
     ForceLoop::Ticks all;
     TickContact& contact = all[0].contact;
     contact.from_m = {0, 0, last_z_m_};
     contact.to_m = {0, 0, last_z_m_ = z_m};
-    const double push_n = -0.5 * kStiff_n_per_m * (contact.from_m.z() + contact.to_m.z());
+    const double push_n = -0.5 * kForceLoopStiff_n_per_m * (contact.from_m.z() + contact.to_m.z());
     if (push_n > 0) {
       contact.kind = TickContact::Kind::kPushes;
       contact.reaction.force_n = {0, 0, push_n};
@@ -176,7 +176,7 @@ TEST(ForceLoop, WhoBeginsToListenFeelsNoLeap) {
   double last_n = 0, last_s = from_s;
   for (const Rig::Sent& each : rig.sent) {
     if (each.time_s < from_s) continue;
-    EXPECT_LE(each.force_n - last_n, 10 * (each.time_s - last_s) + 10 * kTick_s) << each.time_s;
+    EXPECT_LE(each.force_n - last_n, 10 * (each.time_s - last_s) + 10 * kForceLoopTick_s) << each.time_s;
     last_n = each.force_n;
     last_s = each.time_s;
   }
@@ -191,7 +191,7 @@ TEST(ForceLoop, AHandThatIsLostIsLetGoWithinATenthOfASecondWhateverTheSlew) {
   rig.run(5);
   EXPECT_GT(rig.sent.back().force_n, 0.3);
   rig.hands()[0].tracked = false;
-  rig.run(WrenchSchedule::kLetGo_s + 2 * kTick_s);
+  rig.run(WrenchSchedule::kLetGo_s + 2 * kForceLoopTick_s);
   EXPECT_EQ(rig.sent.back().force_n, 0);
 }
 

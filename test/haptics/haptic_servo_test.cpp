@@ -14,7 +14,7 @@
 namespace viscera {
 namespace {
 
-constexpr double kTick_s = 1.0 / 60, kStiff_n_per_m = 800;
+constexpr double kHapticServoTick_s = 1.0 / 60, kHapticServoStiff_n_per_m = 800;
 
 /// How a device is held and heard.
 struct Held {
@@ -34,7 +34,7 @@ Pressed press(const Held& held) {
   device_config.delay_s = held.delay_s;
   SimulatedDevice device(device_config, {0, 0, 0.002});
   HapticServoConfig config;
-  config.tick_s = kTick_s;
+  config.tick_s = kHapticServoTick_s;
   config.round_trip_s = held.delay_s;
   config.motion_scale = held.motion_scale;
   config.force_scale = held.force_scale;
@@ -44,7 +44,8 @@ Pressed press(const Held& held) {
   TickContact contact;
   Vector3d tip = held.motion_scale * device.measured_m(), last = tip, told = Vector3d::Zero();
   double next_s = 0, answer_s = 1e9, told_s = 0, low = 1e9, high = -1e9;
-  const double stiff = kStiff_n_per_m / (held.motion_scale * held.force_scale);  // the hand feels kStiff_n_per_m
+  const double stiff =
+      kHapticServoStiff_n_per_m / (held.motion_scale * held.force_scale);  // the hand feels kStiff_n_per_m
   for (int i = 0; i < 6000; ++i) {
     const double now_s = 1e-3 * i;
     if (i % held.periods_per_pose == 0) {
@@ -52,8 +53,8 @@ Pressed press(const Held& held) {
       told_s = now_s;
     }
     if (now_s >= next_s) {
-      next_s += kTick_s;
-      answer_s = now_s + 0.5 * kTick_s;
+      next_s += kHapticServoTick_s;
+      answer_s = now_s + 0.5 * kHapticServoTick_s;
       contact = {};
       contact.from_m = last;
       contact.to_m = last = tip;
@@ -88,7 +89,7 @@ Pressed press(const Held& held) {
 constexpr double kQuiet_m = 2e-5;
 /// The observer's energy against the device's own [J]: a twentieth of what may be given.
 constexpr double kBooked_j = 5e-5;
-const double kBalance_n = 0.004 / (1 / kStiff_n_per_m + 1 / SimulatedDeviceConfig{}.hand_stiffness_n_per_m);
+const double kBalance_n = 0.004 / (1 / kHapticServoStiff_n_per_m + 1 / SimulatedDeviceConfig{}.hand_stiffness_n_per_m);
 
 TEST(HapticServo, HoldsAStiffWallStillWhereTicksAloneSwing) {
   EXPECT_GT(press({0.1, 0, false}).swing_m, 10 * kQuiet_m);
@@ -196,9 +197,9 @@ TEST(HapticServo, ForgetsAtOnceWhatItKnew) {
   contact.kind = TickContact::Kind::kPushes;
   contact.reaction.force_n = {0, 0, 1};
   servo.put(contact, 0);
-  EXPECT_GT(servo.step(Vector3d::Zero(), kTick_s, kTick_s).force_n.z(), 0.9);
-  servo.forget(kTick_s);
-  EXPECT_EQ(servo.step({0.1, 0.1, 0.1}, 3 * kTick_s, 3 * kTick_s).force_n, Vector3d(0, 0, 0));
+  EXPECT_GT(servo.step(Vector3d::Zero(), kHapticServoTick_s, kHapticServoTick_s).force_n.z(), 0.9);
+  servo.forget(kHapticServoTick_s);
+  EXPECT_EQ(servo.step({0.1, 0.1, 0.1}, 3 * kHapticServoTick_s, 3 * kHapticServoTick_s).force_n, Vector3d(0, 0, 0));
 }
 
 }  // namespace

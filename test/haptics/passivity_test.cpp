@@ -9,7 +9,7 @@
 namespace viscera {
 namespace {
 
-constexpr double kPeriod_s = 1e-3, kStiff_n_per_m = 500, kDepth_m = 3e-3;
+constexpr double kPeriod_s = 1e-3, kPassivityStiff_n_per_m = 500, kDepth_m = 3e-3;
 constexpr double kRounding = 1e-12;  // of sums of a few doubles of the order of 1
 
 /// A tip goes into a wall and out again; the wall pushes back with other shares of its force on the way in and out.
@@ -20,7 +20,7 @@ double inAndOut(double share_in, double share_out, PassivityControl& control) {
   for (int i = 1; i <= periods; ++i) {
     const double next_m = kDepth_m * std::sin(3.14159265358979 * i / periods);
     const double speed = (next_m - depth_m) / kPeriod_s;
-    const double force = (speed > 0 ? share_in : share_out) * kStiff_n_per_m * next_m;
+    const double force = (speed > 0 ? share_in : share_out) * kPassivityStiff_n_per_m * next_m;
     control.moved({0, 0, depth_m - next_m}, (i - 1) * kPeriod_s, i * kPeriod_s);
     const double now_s = i * kPeriod_s;
     control.sent(control.damped({0, 0, -speed}, {0, 0, force}, 0.5 * force * next_m, now_s, now_s), now_s);
@@ -31,7 +31,7 @@ double inAndOut(double share_in, double share_out, PassivityControl& control) {
 
 TEST(PassivityControl, LeavesAPassiveWallAlone) {
   PassivityControl control({kPeriod_s, 0, 1e-3});
-  const double stored_j = 0.5 * kStiff_n_per_m * kDepth_m * kDepth_m;
+  const double stored_j = 0.5 * kPassivityStiff_n_per_m * kDepth_m * kDepth_m;
   EXPECT_NEAR(inAndOut(1, 0.6, control), 0.4 * stored_j, 0.03 * stored_j);
 }
 

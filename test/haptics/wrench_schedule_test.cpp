@@ -14,9 +14,9 @@
 namespace viscera {
 namespace {
 
-constexpr ForceLimits kLimits{5, 100, 0.2, 4};
-constexpr double kTick_s = 0.01, kStall_s = 0.03;
-constexpr double kRounding = 1e-9;  // of sums of steps of doubles, relative
+constexpr ForceLimits kWrenchScheduleLimits{5, 100, 0.2, 4};
+constexpr double kWrenchScheduleTick_s = 0.01, kWrenchScheduleStall_s = 0.03;
+constexpr double kWrenchScheduleRounding = 1e-9;  // of sums of steps of doubles, relative
 
 Wrenches wrench(double force_n, double torque_nm = 0) {
   Wrenches out;
@@ -28,7 +28,7 @@ Wrenches wrench(double force_n, double torque_nm = 0) {
 /// A schedule and its clock.
 class WrenchScheduleTest : public ::testing::Test {
  protected:
-  WrenchSchedule schedule_{{kLimits}, kStall_s};
+  WrenchSchedule schedule_{{kWrenchScheduleLimits}, kWrenchScheduleStall_s};
   SteadyTime now_ = SteadyTime(std::chrono::hours(1));
 
   static SteadyTime::duration span(double span_s) {
@@ -50,7 +50,7 @@ class WrenchScheduleTest : public ::testing::Test {
     schedule_.want(wanted, {true}, now_);
   }
   /// Ticks that all want this.
-  Wrenches ticks(int count, const Wrenches& wanted, double tick_s = kTick_s) {
+  Wrenches ticks(int count, const Wrenches& wanted, double tick_s = kWrenchScheduleTick_s) {
     Wrenches last;
     for (int t = 0; t < count; ++t) {
       put(wanted);
@@ -72,7 +72,8 @@ TEST_F(WrenchScheduleTest, ForceIsReachedBySmallSteps) {
   while (before_n < 0.5) {
     now_ += span(WrenchSchedule::kSlewPeriod_s);
     const double force_n = schedule_.next(now_)[0].force_n.x();
-    EXPECT_LE(force_n - before_n, kLimits.force_rate_n_per_s * WrenchSchedule::kSlewPeriod_s * (1 + kRounding));
+    EXPECT_LE(force_n - before_n,
+              kWrenchScheduleLimits.force_rate_n_per_s * WrenchSchedule::kSlewPeriod_s * (1 + kWrenchScheduleRounding));
     before_n = force_n;
     ++steps;
   }
@@ -81,7 +82,7 @@ TEST_F(WrenchScheduleTest, ForceIsReachedBySmallSteps) {
 
 TEST_F(WrenchScheduleTest, StallPutsZeroOutCountsAndSlewsBackWhenTicksComeInTime) {
   EXPECT_EQ(ticks(20, wrench(1))[0].force_n.x(), 1);
-  EXPECT_EQ(wait(0.05 - kTick_s)[0].force_n, Vector3d::Zero());
+  EXPECT_EQ(wait(0.05 - kWrenchScheduleTick_s)[0].force_n, Vector3d::Zero());
   EXPECT_TRUE(schedule_.stalled());
   EXPECT_EQ(schedule_.stalls(), 1u);
   EXPECT_EQ(wait(3)[0].force_n, Vector3d::Zero());
@@ -91,7 +92,7 @@ TEST_F(WrenchScheduleTest, StallPutsZeroOutCountsAndSlewsBackWhenTicksComeInTime
 }
 
 TEST_F(WrenchScheduleTest, SimulationThatIsAlwaysLateGivesNoForce) {
-  EXPECT_EQ(ticks(50, wrench(1), 2 * kStall_s)[0].force_n, Vector3d::Zero());
+  EXPECT_EQ(ticks(50, wrench(1), 2 * kWrenchScheduleStall_s)[0].force_n, Vector3d::Zero());
 }
 
 TEST_F(WrenchScheduleTest, RestIsNoStall) {
@@ -116,14 +117,15 @@ TEST_F(WrenchScheduleTest, PureTwistIsLimitedToo) {
   for (int t = 0; t < 200; ++t) {
     put(wrench(0, 3));
     const SteadyTime before = now_;
-    now_ += span(kTick_s);
+    now_ += span(kWrenchScheduleTick_s);
     const double torque_nm = schedule_.next(now_)[0].torque_nm.norm();
     const double span_s = std::chrono::duration<double>(now_ - before).count();
-    EXPECT_LE(torque_nm, kLimits.torque_nm * (1 + kRounding));
-    EXPECT_LE(torque_nm - before_nm, kLimits.torque_rate_nm_per_s * span_s * (1 + kRounding));
+    EXPECT_LE(torque_nm, kWrenchScheduleLimits.torque_nm * (1 + kWrenchScheduleRounding));
+    EXPECT_LE(torque_nm - before_nm,
+              kWrenchScheduleLimits.torque_rate_nm_per_s * span_s * (1 + kWrenchScheduleRounding));
     before_nm = torque_nm;
   }
-  EXPECT_NEAR(before_nm, kLimits.torque_nm, kRounding);
+  EXPECT_NEAR(before_nm, kWrenchScheduleLimits.torque_nm, kWrenchScheduleRounding);
 }
 
 /// What keeps a wrench up, and what is to end it: both for every slew and limit that there could be.
@@ -138,7 +140,7 @@ TEST(WrenchScheduleEndings, NothingKeepsAWrenchUpWhateverSlewAndLimitsAre) {
   const std::vector<Ending> endings = {
       {"rest", [](WrenchSchedule& it, SteadyTime now) { it.rest(now); }, WrenchSchedule::kLetGo_s},
       {"release", [](WrenchSchedule& it, SteadyTime now) { it.release(now); }, WrenchSchedule::kRelease_s},
-      {"stall", [](WrenchSchedule&, SteadyTime) {}, kStall_s + WrenchSchedule::kRelease_s},
+      {"stall", [](WrenchSchedule&, SteadyTime) {}, kWrenchScheduleStall_s + WrenchSchedule::kRelease_s},
       {"hand lost", [&](WrenchSchedule& it, SteadyTime now) { it.want(pushed, {false}, now); },
        WrenchSchedule::kLetGo_s},
       {"rest, then release",
@@ -156,7 +158,7 @@ TEST(WrenchScheduleEndings, NothingKeepsAWrenchUpWhateverSlewAndLimitsAre) {
     for (const ForceLimits& limits : all) {
       SCOPED_TRACE(std::string(ending.name) + ", " + std::to_string(limits.force_n) + " N, " +
                    std::to_string(limits.force_rate_n_per_s) + " N/s, " + std::to_string(limits.torque_nm) + " N m");
-      WrenchSchedule schedule({kLimits}, kStall_s);
+      WrenchSchedule schedule({kWrenchScheduleLimits}, kWrenchScheduleStall_s);
       SteadyTime now(std::chrono::hours(1));
       for (int t = 0; t < 100; ++t, now += span(WrenchSchedule::kSlewPeriod_s)) {
         schedule.tick(now);
@@ -173,7 +175,7 @@ TEST(WrenchScheduleEndings, NothingKeepsAWrenchUpWhateverSlewAndLimitsAre) {
         now = std::max(now + std::chrono::microseconds(1), std::min(schedule.due(), end));
         if (hand_lost) schedule.tick(now);  // ticks go on
         out = schedule.next(now)[0];
-        EXPECT_LE(out.force_n.norm(), before_n * (1 + kRounding));
+        EXPECT_LE(out.force_n.norm(), before_n * (1 + kWrenchScheduleRounding));
       }
       EXPECT_EQ(out.force_n, Vector3d::Zero());
       EXPECT_EQ(out.torque_nm, Vector3d::Zero());
@@ -183,7 +185,7 @@ TEST(WrenchScheduleEndings, NothingKeepsAWrenchUpWhateverSlewAndLimitsAre) {
 }
 
 TEST(WrenchScheduleEndings, ALimitOfNoTorqueLeavesTheForceAsItIs) {
-  WrenchSchedule schedule({{5, 1000, 0, 4}}, kStall_s);
+  WrenchSchedule schedule({{5, 1000, 0, 4}}, kWrenchScheduleStall_s);
   SteadyTime now(std::chrono::hours(1));
   Reaction out;
   for (int t = 0; t < 100; ++t, now += std::chrono::milliseconds(2)) {
@@ -207,16 +209,18 @@ TEST_F(WrenchScheduleTest, NoLimitIsExceededInAMillionRandomTicks) {
   const auto check = [&] {
     const Reaction out = schedule_.next(now_)[0];
     const double span_s = std::chrono::duration<double>(now_ - sent).count();
-    ASSERT_LE(out.force_n.norm(), kLimits.force_n * (1 + kRounding));
-    ASSERT_LE(out.torque_nm.norm(), kLimits.torque_nm * (1 + kRounding));
+    ASSERT_LE(out.force_n.norm(), kWrenchScheduleLimits.force_n * (1 + kWrenchScheduleRounding));
+    ASSERT_LE(out.torque_nm.norm(), kWrenchScheduleLimits.torque_nm * (1 + kWrenchScheduleRounding));
     if (!schedule_.stalled()) {
-      ASSERT_LE((out.force_n - before.force_n).norm(),
-                kLimits.force_rate_n_per_s * span_s * (1 + kRounding) + kRounding);
+      ASSERT_LE(
+          (out.force_n - before.force_n).norm(),
+          kWrenchScheduleLimits.force_rate_n_per_s * span_s * (1 + kWrenchScheduleRounding) + kWrenchScheduleRounding);
       ASSERT_LE((out.torque_nm - before.torque_nm).norm(),
-                kLimits.torque_rate_nm_per_s * span_s * (1 + kRounding) + kRounding);
+                kWrenchScheduleLimits.torque_rate_nm_per_s * span_s * (1 + kWrenchScheduleRounding) +
+                    kWrenchScheduleRounding);
     } else {
-      ASSERT_LE(out.force_n.norm(), before.force_n.norm() * (1 + kRounding));
-      ASSERT_LE(out.torque_nm.norm(), before.torque_nm.norm() * (1 + kRounding));
+      ASSERT_LE(out.force_n.norm(), before.force_n.norm() * (1 + kWrenchScheduleRounding));
+      ASSERT_LE(out.torque_nm.norm(), before.torque_nm.norm() * (1 + kWrenchScheduleRounding));
     }
     before = out;
     sent = now_;

@@ -13,7 +13,7 @@ namespace {
 
 const Vector3f kLow(0.01f, -0.02f, 0.03f), kHigh(0.06f, 0.05f, 0.13f);
 constexpr double kBoxVolume = 0.05 * 0.07 * 0.1;  // m3
-constexpr double kRounding = 1e-6;                // relative: seven digits in the files
+constexpr double kMeshImportRounding = 1e-6;      // relative: seven digits in the files
 
 TriangleMesh importBytes(const std::string& name, const std::string& bytes, ImportReport* report = nullptr) {
   const std::string path = temporaryPath(name);
@@ -22,7 +22,7 @@ TriangleMesh importBytes(const std::string& name, const std::string& bytes, Impo
 }
 
 /// Message of the MeshError that importing gives; fails the test if there is none.
-std::string errorOf(const std::string& path) {
+std::string importErrorOf(const std::string& path) {
   try {
     importMesh(path, 1);
   } catch (const MeshError& error) {
@@ -35,7 +35,7 @@ std::string errorOf(const std::string& path) {
 void expectRefused(const std::string& name, const std::string& bytes, const std::string& reason) {
   const std::string path = temporaryPath(name);
   writeFile(path, bytes);
-  const std::string message = errorOf(path);
+  const std::string message = importErrorOf(path);
   EXPECT_NE(message.find(path), std::string::npos) << message;
   EXPECT_NE(message.find(reason), std::string::npos) << message;
   EXPECT_EQ(message.find('\n'), std::string::npos) << message;
@@ -48,7 +48,7 @@ TEST(MeshImport, EveryFormatGivesTheSameClosedBox) {
       {"box.ply", plyText(box)}, {"binary.ply", binaryPly(box)}, {"box.glb", glb(box, {{"box", "\"mesh\":0"}})}};
   for (const auto& [name, bytes] : files) {
     const TriangleMesh read = importBytes(name, bytes);
-    EXPECT_NEAR(signedVolume(read), kBoxVolume, kRounding * kBoxVolume) << name;
+    EXPECT_NEAR(signedVolume(read), kBoxVolume, kMeshImportRounding * kBoxVolume) << name;
     EXPECT_EQ(read.positions_m.size(), 8u) << name << ": equal positions are welded";
     EXPECT_EQ(read.triangles.size(), 12u) << name;
     EXPECT_EQ(openEdges(read), 0u) << name;
@@ -59,7 +59,7 @@ TEST(MeshImport, EveryFormatGivesTheSameClosedBox) {
 TEST(MeshImport, UnitScaleMultipliesLengths) {
   const std::string path = temporaryPath("box.obj");
   writeFile(path, objText(boxMesh(kLow, kHigh)));
-  EXPECT_NEAR(signedVolume(importMesh(path, 0.001)), 1e-9 * kBoxVolume, 1e-9 * kRounding * kBoxVolume);
+  EXPECT_NEAR(signedVolume(importMesh(path, 0.001)), 1e-9 * kBoxVolume, 1e-9 * kMeshImportRounding * kBoxVolume);
   for (const double scale : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN()}) {
     EXPECT_THROW(importMesh(path, scale), MeshError);
   }
@@ -81,14 +81,14 @@ TEST(MeshImport, NodesOfGlbPlaceTheirMeshAndNameItsCopies) {
   const TriangleMesh read = importBytes("nodes.glb", glb(boxMesh(kLow, kHigh), nodes));
   const std::vector<std::string> names = {"here", "there", "there_2"};
   EXPECT_EQ(read.part_names, names);
-  EXPECT_NEAR(signedVolume(read), (1 + 2 + 1) * kBoxVolume, 4 * kRounding * kBoxVolume);
+  EXPECT_NEAR(signedVolume(read), (1 + 2 + 1) * kBoxVolume, 4 * kMeshImportRounding * kBoxVolume);
   EXPECT_FLOAT_EQ(read.positions_m.at(8).x(), 2 + 2 * kLow.x());
 }
 
 TEST(MeshImport, AMirroredNodeStillFacesOutward) {
   const TriangleMesh read =
       importBytes("mirror.glb", glb(boxMesh(kLow, kHigh), {{"mirrored", "\"mesh\":0,\"scale\":[-1,1,1]"}}));
-  EXPECT_NEAR(signedVolume(read), kBoxVolume, kRounding * kBoxVolume);
+  EXPECT_NEAR(signedVolume(read), kBoxVolume, kMeshImportRounding * kBoxVolume);
 }
 
 TEST(MeshImport, PointsLinesAndPartsWithoutTrianglesAreDroppedAndCounted) {
@@ -121,7 +121,7 @@ TEST(MeshImport, QuadsAreTriangulated) {
       "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
   const TriangleMesh read = importBytes("cube.obj", cube);
   EXPECT_EQ(read.triangles.size(), 12u);
-  EXPECT_NEAR(signedVolume(read), 1, kRounding);
+  EXPECT_NEAR(signedVolume(read), 1, kMeshImportRounding);
 }
 
 TEST(MeshImport, PlyMayHoldOtherTypesOrderAndPolygons) {
@@ -133,7 +133,7 @@ TEST(MeshImport, PlyMayHoldOtherTypesOrderAndPolygons) {
       "0.5 4 3 2 1 0\n0.5 4 4 5 6 7\n0.5 4 0 1 5 4\n0.5 4 1 2 6 5\n0.5 4 2 3 7 6\n0.5 4 3 0 4 7\n0 1";
   const TriangleMesh read = importBytes("cube.ply", text);
   EXPECT_EQ(read.triangles.size(), 12u);
-  EXPECT_NEAR(signedVolume(read), 1, kRounding);
+  EXPECT_NEAR(signedVolume(read), 1, kMeshImportRounding);
   expectRefused("word.ply", text.substr(0, text.size() - 1) + "one", "in edge 0: 'one' is not a number");
   expectRefused("header.ply", "ply\nformat ascii 1.0\nelement vertex\nend_header\n", "bad element");
   expectRefused("type.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty real x\nend_header\n1\n",
@@ -154,14 +154,15 @@ TEST(MeshImport, BigEndianPlyIsRead) {
     ++at;  // the length of the list is one byte
     for (int c = 0; c < 3; ++c) turn(at, 4);
   }
-  EXPECT_NEAR(signedVolume(importBytes("big.ply", bytes)), kBoxVolume, kRounding * kBoxVolume);
+  EXPECT_NEAR(signedVolume(importBytes("big.ply", bytes)), kBoxVolume, kMeshImportRounding * kBoxVolume);
 }
 
 TEST(MeshImport, WhatIsNoFileIsRefused) {
   const std::string missing = temporaryPath("missing.stl");
   std::filesystem::remove(missing);
-  EXPECT_NE(errorOf(missing).find("no such file"), std::string::npos);
-  EXPECT_NE(errorOf(std::filesystem::path(missing).parent_path().string()).find("is a directory"), std::string::npos);
+  EXPECT_NE(importErrorOf(missing).find("no such file"), std::string::npos);
+  EXPECT_NE(importErrorOf(std::filesystem::path(missing).parent_path().string()).find("is a directory"),
+            std::string::npos);
   for (const char* name : {"empty.obj", "empty.stl", "empty.ply", "empty.glb"}) expectRefused(name, "", "is empty");
 }
 

@@ -11,6 +11,7 @@
 #include <map>
 #include <string>
 
+#include "support/source_folder.h"
 #include "viscera/model/shape/triangle_mesh.h"
 
 namespace viscera::test {
@@ -115,7 +116,7 @@ inline std::string temporaryPath(const std::string& name) {
 /// Real data lies beside the repository, or where VISCERA_TEST_DATA says; empty where it is missing.
 inline std::string realData(const std::string& name) {
   const char* given = std::getenv("VISCERA_TEST_DATA");
-  const std::filesystem::path folder = given ? given : VISCERA_SOURCE_DIR "/../shared/data";
+  const std::filesystem::path folder = given ? given : sourceFolder() + "/../shared/data";
   const std::filesystem::path path = folder / name;
   return std::filesystem::exists(path) ? path.string() : "";
 }

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "body_samples.h"
+#include "math/decompositions.h"
 #include "model/shape/organ/tissue.h"
 #include "solid_probe.h"
 #include "viscera/model/shape/mesh_import.h"
@@ -223,7 +224,7 @@ TEST(Moments, AFlatFaceOfAFieldIsExact) {
   };
   const Solid solid = voxeliseByMoments(half_space, {"half"}, Vector3d::Zero(), Vector3d::Constant(0.08), h);
   // The same by a mesh: the box less what is beyond the plane, as the plane through a box that is larger and turned.
-  const Quaterniond turn = Quaterniond::FromTwoVectors(Vector3d::UnitZ(), normal);
+  const Quaterniond turn = rotationBetween(Vector3d::UnitZ(), normal);
   TriangleMesh below = boxMesh({-0.2f, -0.2f, -0.2f}, {0.2f, 0.2f, 0});
   below = placed(below, {Vector3d::Constant(0.041), turn});
   const Solid exact = voxeliseByMoments(below, h, {0.0, 0.0, 0.0});

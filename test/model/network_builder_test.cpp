@@ -18,8 +18,8 @@ namespace {
 constexpr double kSpacing_m = 0.01;
 constexpr double kThickness_m = 2e-3;
 constexpr double kSinglePrecision =
-    2e-6;                            ///< relative: vertices of a TriangleMesh are floats, areas differ by a few ulp
-constexpr double kRounding = 1e-12;  ///< relative: sums of doubles
+    2e-6;  ///< relative: vertices of a TriangleMesh are floats, areas differ by a few ulp
+constexpr double kNetworkBuilderRounding = 1e-12;  ///< relative: sums of doubles
 
 MaterialConfig rubber() {
   MaterialConfig material;
@@ -155,7 +155,7 @@ TEST(MembraneNetwork, WeighsWhatItsAreaWeighs) {
   for (const TriangleMesh& mesh : {sheetMesh(7, 6, kSpacing_m), ballMesh(0.05, kSpacing_m)}) {
     const SpringNetwork network = membraneNetwork(mesh, rubber(), kThickness_m);
     const double expected_kg = 1200 * kThickness_m * areaOf(network);
-    EXPECT_NEAR(massOf(network), expected_kg, kRounding * expected_kg);
+    EXPECT_NEAR(massOf(network), expected_kg, kNetworkBuilderRounding * expected_kg);
   }
 }
 
@@ -266,8 +266,8 @@ TEST(TetrahedraNetwork, EveryEdgeIsOneSpringAsStiffAsTheTetrahedraAtIt) {
   EXPECT_EQ(network.springs.size(), 9u);
   EXPECT_NEAR(springOf(network, 0, 1).stiffness_n_per_m, 1e6 / 6, 1e-6);
   EXPECT_NEAR(springOf(network, 1, 2).stiffness_n_per_m, 1e6 * (1.0 / 6 + 1.0 / 3) / 2, 1e-6);
-  EXPECT_NEAR(massOf(network), 1200 * 0.5, kRounding * 600);
-  EXPECT_NEAR(network.masses_kg[0], 1200.0 / 24, kRounding * 50);
+  EXPECT_NEAR(massOf(network), 1200 * 0.5, kNetworkBuilderRounding * 600);
+  EXPECT_NEAR(network.masses_kg[0], 1200.0 / 24, kNetworkBuilderRounding * 50);
   EXPECT_EQ(network.triangles.size(), 6u) << "the face between the two is inside";
 }
 
@@ -294,7 +294,7 @@ TEST(TetrahedraNetwork, CellsInTetrahedraMeetAndFillTheirBox) {
   const double volume_m3 = 24 * kSpacing_m * kSpacing_m * kSpacing_m;
   EXPECT_EQ(openEdges(surface), 0u);
   EXPECT_NEAR(signedVolume(surface), volume_m3, 1e-6 * volume_m3) << "facing outward";
-  EXPECT_NEAR(massOf(network), 1200 * volume_m3, kRounding * 1200 * volume_m3);
+  EXPECT_NEAR(massOf(network), 1200 * volume_m3, kNetworkBuilderRounding * 1200 * volume_m3);
 }
 
 TEST(TetrahedraNetwork, TheSurfaceFacesOutwardWhicheverWayTheTetrahedraAreGiven) {
@@ -435,7 +435,7 @@ TEST(Renumbering, KeepsEveryNodeSpringAndTriangle) {
     EXPECT_EQ(moved.positions_m[slot_of[i]], network.positions_m[i]);
     EXPECT_EQ(moved.masses_kg[slot_of[i]], network.masses_kg[i]);
   }
-  EXPECT_NEAR(areaOf(moved), areaOf(network), kRounding * areaOf(network));
+  EXPECT_NEAR(areaOf(moved), areaOf(network), kNetworkBuilderRounding * areaOf(network));
 }
 
 TEST(Renumbering, LeavesOutWhatIsNoNode) {

@@ -10,7 +10,7 @@
 namespace viscera::test {
 namespace {
 
-constexpr double kSinglePrecision = 2e-6;  ///< relative: vertices of a TriangleMesh are floats
+constexpr double kNetworkSceneSinglePrecision = 2e-6;  ///< relative: vertices of a TriangleMesh are floats
 
 Body bodyOf(const std::string& body_yaml, const std::string& rest = "") {
   return buildModel(parseScene("bodies: [{" + body_yaml + "}]\n" + rest, "s.yaml")).bodies.at(0);
@@ -60,7 +60,7 @@ TEST(NetworkScene, ASheetBecomesANetworkWithASkin) {
   EXPECT_EQ(body.color, Vector3d(0, 1, 0));
   EXPECT_EQ(body.force_n, Vector3d(1, 2, 3));
   const double area_m2 = 2 * 23 * 30 * 0.5 * std::sqrt(0.75) * 1e-4;
-  EXPECT_NEAR(massOf(body), 1060 * 0.002 * area_m2, kSinglePrecision * massOf(body));
+  EXPECT_NEAR(massOf(body), 1060 * 0.002 * area_m2, kNetworkSceneSinglePrecision * massOf(body));
   EXPECT_TRUE(hasNote(body, "network: 744 nodes (0 fixed), ")) << allNotes(body);
   EXPECT_TRUE(hasNote(body, "valence 2..6, mean length 10.0025 mm")) << allNotes(body);
 }
@@ -138,7 +138,7 @@ TEST(NetworkScene, MeshesAreRefinedToOneSpacing) {
   config.structure = Structure::kSurface;
   const Body body = build(config);
   for (const NetworkSpring& spring : body.network->springs) EXPECT_LE(spring.rest_length_m, 0.006);
-  EXPECT_NEAR(massOf(body), 1060 * 0.001 * 6 * 0.04 * 0.04, kSinglePrecision * massOf(body));
+  EXPECT_NEAR(massOf(body), 1060 * 0.001 * 6 * 0.04 * 0.04, kNetworkSceneSinglePrecision * massOf(body));
 }
 
 TEST(NetworkScene, ABallIsFilledOrHollow) {

@@ -11,14 +11,14 @@ namespace {
 
 using test::says;
 
-constexpr const char* kScene =
+constexpr const char* kSceneOverridesScene =
     "name: plain\n"
     "bodies:\n"
     "  - {name: a, spacing_m: 0.01}\n"
     "  - {name: b, fixed: [{shape: sphere}]}\n";
 
 Scene overridden(const Overrides& overrides) {
-  return parseScene(kScene, "s.yaml", overrides);
+  return parseScene(kSceneOverridesScene, "s.yaml", overrides);
 }
 
 std::string refusal(const std::string& override_text) {

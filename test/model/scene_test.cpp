@@ -14,7 +14,7 @@ namespace {
 using test::says;
 
 /// What the reader has against a scene.
-std::string refusal(const std::string& yaml, const Overrides& overrides = {}) {
+std::string sceneRefusal(const std::string& yaml, const Overrides& overrides = {}) {
   return test::messageOf<SceneError>([&] { parseScene(yaml, "s.yaml", overrides); });
 }
 
@@ -25,7 +25,7 @@ struct Case {
 };
 
 void expectRefusals(const std::vector<Case>& cases) {
-  for (const Case& c : cases) EXPECT_TRUE(says(refusal(c.yaml), c.parts)) << c.yaml;
+  for (const Case& c : cases) EXPECT_TRUE(says(sceneRefusal(c.yaml), c.parts)) << c.yaml;
 }
 
 TEST(Scene, PartIsLikeTheMaterialOfItsBodyButForWhatItSays) {
@@ -112,8 +112,9 @@ TEST(Scene, ValueOutOfRangeIsRefusedWithFileLineKeyAndRange) {
 TEST(Scene, NumberThatIsNotFiniteIsRefused) {
   for (const char* number : {".nan", ".NaN", ".inf", "-.inf", "1e999", "nan", "inf"}) {
     const std::string text = number;
-    EXPECT_TRUE(says(refusal("bodies:\n  - spacing_m: " + text + "\n"), {"s.yaml:2: ", "1e-05 .. 10 m", text}));
-    EXPECT_TRUE(says(refusal("bodies:\n  - position_m: [0, " + text + ", 0]\n"), {"s.yaml:2: ", "position_m", text}));
+    EXPECT_TRUE(says(sceneRefusal("bodies:\n  - spacing_m: " + text + "\n"), {"s.yaml:2: ", "1e-05 .. 10 m", text}));
+    EXPECT_TRUE(
+        says(sceneRefusal("bodies:\n  - position_m: [0, " + text + ", 0]\n"), {"s.yaml:2: ", "position_m", text}));
   }
 }
 
@@ -127,7 +128,7 @@ TEST(Scene, KeyGivenTwiceIsRefused) {
 
 TEST(Scene, FileThatIsNoMapOfKeysIsRefused) {
   for (const char* yaml : {"", "# nothing but this\n", "heart\n", "- a\n- b\n", "---\n"}) {
-    EXPECT_TRUE(says(refusal(yaml), {"s.yaml", "map of keys", "bodies"})) << yaml;
+    EXPECT_TRUE(says(sceneRefusal(yaml), {"s.yaml", "map of keys", "bodies"})) << yaml;
   }
 }
 
@@ -138,7 +139,7 @@ TEST(Scene, BrokenYamlIsRefusedWithFileAndLine) {
 }
 
 TEST(Scene, NestingWithoutEndIsRefused) {
-  EXPECT_TRUE(says(refusal("name: " + std::string(200000, '[')), {"s.yaml"}));
+  EXPECT_TRUE(says(sceneRefusal("name: " + std::string(200000, '[')), {"s.yaml"}));
 }
 
 TEST(Scene, FileThatCannotBeReadIsNamed) {
@@ -150,8 +151,8 @@ TEST(Scene, FileThatCannotBeReadIsNamed) {
 }
 
 TEST(Scene, NeedsABody) {
-  EXPECT_TRUE(says(refusal("name: a\n"), {"s.yaml", "'bodies' must hold at least one body"}));
-  EXPECT_TRUE(says(refusal("bodies: []\n"), {"s.yaml", "'bodies' must hold at least one body"}));
+  EXPECT_TRUE(says(sceneRefusal("name: a\n"), {"s.yaml", "'bodies' must hold at least one body"}));
+  EXPECT_TRUE(says(sceneRefusal("bodies: []\n"), {"s.yaml", "'bodies' must hold at least one body"}));
 }
 
 TEST(Scene, NamesMustBeUniqueAndFitForTopics) {
@@ -179,14 +180,15 @@ TEST(Scene, CameraWithoutALineOfSightIsRefusedByName) {
                              "position_m: [0, 0, 1], target_m: [0, 0, 0]",  // looks down, up is z
                              "position_m: [0, 1, 0], up: [0, 0, 0]"}) {     // no up
     const std::string yaml = "bodies: [{}]\ncameras: [{name: eye, " + std::string(camera) + "}]\n";
-    EXPECT_TRUE(says(refusal(yaml), {"s.yaml", "camera 'eye'", "line of sight"})) << yaml;
+    EXPECT_TRUE(says(sceneRefusal(yaml), {"s.yaml", "camera 'eye'", "line of sight"})) << yaml;
   }
 }
 
 TEST(Scene, ALensThatShowsOnePlaceTwiceIsRefusedByName) {
   const std::string eye = "bodies: [{}]\ncameras: [{name: eye, vertical_fov_deg: 90, distortion: {";
-  EXPECT_TRUE(says(refusal(eye + "k1: -0.4}}]\n"), {"s.yaml", "camera 'eye'", "'distortion'", "2.5 times", "row 0"}));
-  EXPECT_TRUE(says(refusal(eye + "k1: 11}}]\n"), {"s.yaml:2: ", "'cameras[0].distortion.k1'", "-10 .. 10"}));
+  EXPECT_TRUE(
+      says(sceneRefusal(eye + "k1: -0.4}}]\n"), {"s.yaml", "camera 'eye'", "'distortion'", "2.5 times", "row 0"}));
+  EXPECT_TRUE(says(sceneRefusal(eye + "k1: 11}}]\n"), {"s.yaml:2: ", "'cameras[0].distortion.k1'", "-10 .. 10"}));
   EXPECT_EQ(parseScene(eye + "k1: 0.1}}]\n", "s").cameras[0].distortion.k1, 0.1);
 }
 
@@ -205,9 +207,9 @@ TEST(Scene, WhatIsLeftOutHasItsDefault) {
 }
 
 TEST(Scene, BothEndsOfARangeAreAccepted) {
-  EXPECT_EQ(refusal("bodies: [{spacing_m: 1e-5}, {name: b, spacing_m: 10}]\n"), "nothing was thrown");
-  EXPECT_NE(refusal("bodies: [{spacing_m: 0.99e-5}]\n"), "nothing was thrown");
-  EXPECT_NE(refusal("bodies: [{spacing_m: 10.01}]\n"), "nothing was thrown");
+  EXPECT_EQ(sceneRefusal("bodies: [{spacing_m: 1e-5}, {name: b, spacing_m: 10}]\n"), "nothing was thrown");
+  EXPECT_NE(sceneRefusal("bodies: [{spacing_m: 0.99e-5}]\n"), "nothing was thrown");
+  EXPECT_NE(sceneRefusal("bodies: [{spacing_m: 10.01}]\n"), "nothing was thrown");
 }
 
 TEST(Scene, KnowsTheFolderOfItsFile) {

@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "viscera/model/body/skin.h"
+#include "support/source_folder.h"
 
 #include <gtest/gtest.h>
 
@@ -18,14 +19,14 @@ using namespace viscera::testing;
 
 namespace {
 
-constexpr double kSpacing_m = 0.01;
+constexpr double kSkinSpacing_m = 0.01;
 const Vector3d kCenter_m(0.03, -0.02, 0.05);
 // Bindings keep floats: an offset of up to two cells and weights, each off by half a rounding of 6e-8.
-constexpr double kRestError_m = 4 * 6e-8 * 2 * kSpacing_m;
+constexpr double kRestError_m = 4 * 6e-8 * 2 * kSkinSpacing_m;
 constexpr double kRestNormalError = 4 * 6e-8;  // [-] three rounded coordinates of a unit vector
 
 BoundSkin ball(Weights weights = Weights::kCell) {
-  return bindTo(ballSolid(kCenter_m, 0.05, kSpacing_m), sphereMesh(kCenter_m, 0.05, 12), weights);
+  return bindTo(ballSolid(kCenter_m, 0.05, kSkinSpacing_m), sphereMesh(kCenter_m, 0.05, 12), weights);
 }
 
 struct RestError {
@@ -78,11 +79,11 @@ double distanceToBoundary(const Solid& solid, const Vector3d& point_m) {
 
 TEST(SkinBinding, RestPoseComesBackFromEveryShapeAndBothWeights) {
   for (Weights weights : {Weights::kCell, Weights::kPaper}) {
-    const BoundSkin shapes[] = {
-        ball(weights),
-        bindTo(blockSolid({4, 3, 5}, kSpacing_m), boxMesh(Vector3d::Zero(), Vector3d(0.04, 0.03, 0.05), 9), weights),
-        bindTo(blockSolid({6, 6, 1}, kSpacing_m), boxMesh(Vector3d(0, 0, 0.003), Vector3d(0.06, 0.06, 0.007), 9),
-               weights)};
+    const BoundSkin shapes[] = {ball(weights),
+                                bindTo(blockSolid({4, 3, 5}, kSkinSpacing_m),
+                                       boxMesh(Vector3d::Zero(), Vector3d(0.04, 0.03, 0.05), 9), weights),
+                                bindTo(blockSolid({6, 6, 1}, kSkinSpacing_m),
+                                       boxMesh(Vector3d(0, 0, 0.003), Vector3d(0.06, 0.06, 0.007), 9), weights)};
     for (const BoundSkin& shape : shapes) {
       const RestError error = restError(shape, Bases::kOrthonormal);
       EXPECT_LT(error.position_m, kRestError_m);
@@ -121,7 +122,7 @@ TEST(SkinBinding, EdgesAreLiveSpringsWithTheRightAngleAtNodeZero) {
 TEST(SkinBinding, TrianglesLookOutOfTheBody) {
   constexpr double kEdge_m = 0.001;  // vertices on an edge of the box may be bound to either face
   const Vector3d size(0.04, 0.03, 0.05);
-  const BoundSkin bound = bindTo(blockSolid({4, 3, 5}, kSpacing_m), boxMesh(Vector3d::Zero(), size, 9));
+  const BoundSkin bound = bindTo(blockSolid({4, 3, 5}, kSkinSpacing_m), boxMesh(Vector3d::Zero(), size, 9));
   for (size_t v = 0; v < bound.skin.bindings.size(); ++v) {
     const Vector3d p = bound.skin.mesh.positions_m[v].cast<double>();
     const long near_faces = (p.array() < kEdge_m).count() + ((size - p).array() < kEdge_m).count();
@@ -143,7 +144,7 @@ TEST(SkinBinding, AnchorIsTheNearestPlaceInAnySolidFromAnywhere) {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> uniform;
   const Solid solid =
-      solidWhere(Vector3d::Zero(), {9, 8, 7}, kSpacing_m, [&](const Vector3d&) { return uniform(random) < 0.15; });
+      solidWhere(Vector3d::Zero(), {9, 8, 7}, kSkinSpacing_m, [&](const Vector3d&) { return uniform(random) < 0.15; });
   const AnchorFinder finder(solid);
   constexpr double kDoubleRounding_m = 1e-12;
   for (int i = 0; i < 2000; ++i) {
@@ -152,7 +153,7 @@ TEST(SkinBinding, AnchorIsTheNearestPlaceInAnySolidFromAnywhere) {
     const Anchor anchor = finder.find(point, Vector3d::Zero());
     const Vector3d weights(1 - anchor.weight1 - anchor.weight2, anchor.weight1, anchor.weight2);
     Vector3d place = Vector3d::Zero();
-    for (int n = 0; n < 3; ++n) place += weights[n] * kSpacing_m * anchor.nodes[n].cast<double>();
+    for (int n = 0; n < 3; ++n) place += weights[n] * kSkinSpacing_m * anchor.nodes[n].cast<double>();
     EXPECT_NEAR((place - point).norm(), distanceToBoundary(solid, point), kDoubleRounding_m);
     EXPECT_GE(weights.minCoeff(), -kDoubleRounding_m);
   }
@@ -161,24 +162,24 @@ TEST(SkinBinding, AnchorIsTheNearestPlaceInAnySolidFromAnywhere) {
 TEST(SkinBinding, ThinWallIsBoundToTheSideThatItLooksTo) {
   // 6 mm above the lower side of a wall of one 10 mm cell, looking down: the upper side is nearer.
   const TriangleMesh lower = sheetMesh({0.015, 0.015, 0.006}, {0, 0.03, 0}, {0.03, 0, 0}, 4);
-  const BoundSkin bound = bindTo(blockSolid({6, 6, 1}, kSpacing_m), lower);
+  const BoundSkin bound = bindTo(blockSolid({6, 6, 1}, kSkinSpacing_m), lower);
   for (const layout::SkinBinding& s : bound.skin.bindings) EXPECT_EQ(bound.lattice.nodeAt(s.slot0).z(), 0);
 }
 
 TEST(SkinBinding, DeepVerticesAreBoundToTheirOwnCellWithTheConstantBasis) {
   const TriangleMesh inner = sheetMesh({0.033, 0.033, 0.042}, {0.02, 0, 0}, {0, 0.02, 0}, 4);
-  const BoundSkin bound = bindTo(blockSolid({9, 9, 9}, kSpacing_m), inner);
+  const BoundSkin bound = bindTo(blockSolid({9, 9, 9}, kSkinSpacing_m), inner);
   EXPECT_EQ(bound.skin.deep_vertices, bound.skin.bindings.size());
   EXPECT_EQ(countInterpolated(bound.skin), 0u);
   EXPECT_LT(restError(bound, Bases::kOrthonormal).position_m, kRestError_m);
   for (const layout::SkinBinding& s : bound.skin.bindings) {
-    EXPECT_LE(offsetFromReference(s).norm(), 0.5 * kSpacing_m);
+    EXPECT_LE(offsetFromReference(s).norm(), 0.5 * kSkinSpacing_m);
   }
 }
 
 TEST(SkinBinding, NodesWhoseNeighborsCancelGetTheConstantBasis) {
   // Two columns that touch along one edge only: within that edge unit vectors from neighbours add up to nothing.
-  const Solid solid = solidWhere(Vector3d::Zero(), {2, 2, 3}, kSpacing_m,
+  const Solid solid = solidWhere(Vector3d::Zero(), {2, 2, 3}, kSkinSpacing_m,
                                  [](const Vector3d& at) { return (at.x() < 0.01) == (at.y() < 0.01); });
   TriangleMesh sides = sheetMesh({0.01, 0, 0}, {0, 0.01, 0}, {0, 0, 0.03}, 6);  // up to the shared edge
   append(sides, sheetMesh({0, 0, 0}, {0, 0, 0.03}, {0, 0.01, 0}, 6));           // across from it
@@ -197,10 +198,10 @@ TEST(SkinBinding, NodesWhoseNeighborsCancelGetTheConstantBasis) {
 
 TEST(SkinBinding, LongEdgesAreSplitToTheSpacing) {
   const BoundSkin bound =
-      bindTo(blockSolid({4, 4, 4}, kSpacing_m), boxMesh(Vector3d::Zero(), Vector3d::Constant(0.04), 1));
+      bindTo(blockSolid({4, 4, 4}, kSkinSpacing_m), boxMesh(Vector3d::Zero(), Vector3d::Constant(0.04), 1));
   const auto& p = bound.skin.mesh.positions_m;
   for (const auto& t : bound.skin.mesh.triangles) {
-    for (int e = 0; e < 3; ++e) EXPECT_LE((p[t[e]] - p[t[(e + 1) % 3]]).norm(), kSpacing_m * (1 + 1e-6));
+    for (int e = 0; e < 3; ++e) EXPECT_LE((p[t[e]] - p[t[(e + 1) % 3]]).norm(), kSkinSpacing_m * (1 + 1e-6));
   }
 }
 
@@ -214,7 +215,7 @@ TEST(SkinBinding, BoundSlotsListsEverySlotOnceInOrder) {
 }
 
 TEST(SkinBinding, ProgressRunsFromZeroToOne) {
-  const Solid solid = ballSolid(kCenter_m, 0.05, kSpacing_m);
+  const Solid solid = ballSolid(kCenter_m, 0.05, kSkinSpacing_m);
   std::vector<double> fractions;
   bindSkin(sphereMesh(kCenter_m, 0.05, 12), buildLattice(solid, Weights::kCell), solid, Mapping::kAuto,
            [&](const std::string&, double fraction) { fractions.push_back(fraction); });
@@ -242,8 +243,9 @@ SkinError skinError(const BoundSkin& bound, Moved moved) {
   for (size_t v = 0; v < bound.skin.bindings.size(); ++v) {
     const Vector3d exact = moved(bound.skin.mesh.positions_m[v].cast<double>());
     const layout::SkinBinding& s = bound.skin.bindings[v];
-    error.carried = std::max(error.carried, (mapping.map(s).position_m - exact).norm() / kSpacing_m);
-    error.by_triangle = std::max(error.by_triangle, (mapping.mapByTriangle(s).position_m - exact).norm() / kSpacing_m);
+    error.carried = std::max(error.carried, (mapping.map(s).position_m - exact).norm() / kSkinSpacing_m);
+    error.by_triangle =
+        std::max(error.by_triangle, (mapping.mapByTriangle(s).position_m - exact).norm() / kSkinSpacing_m);
   }
   return error;
 }
@@ -253,13 +255,13 @@ TEST(SkinBinding, CellsInPartCarryTheirSkinAsTheTissueMoves) {
   TriangleMesh balloon = weldedSphereMesh(kCenter_m, 0.05, 16), inner = weldedSphereMesh(kCenter_m, 0.042, 16);
   for (auto& t : inner.triangles) std::swap(t[1], t[2]);
   append(balloon, inner);
-  const BoundSkin bound = bindTo(voxeliseByMoments(balloon, kSpacing_m), balloon);
+  const BoundSkin bound = bindTo(voxeliseByMoments(balloon, kSkinSpacing_m), balloon);
   EXPECT_LT(restError(bound, Bases::kOrthonormal).position_m, kRestError_m);
   EXPECT_LT(restError(bound, Bases::kOrthonormal).normal, 1e-6);
   EXPECT_EQ(bound.skin.bridges_removed, 0u);
   const auto stretched = [](const Vector3d& x) { return Vector3d(1.2 * x.x() + 0.1 * x.y(), x.y(), 0.9 * x.z()); };
   const auto bent = [](const Vector3d& x) {
-    constexpr double kRadius_m = 10 * kSpacing_m;
+    constexpr double kRadius_m = 10 * kSkinSpacing_m;
     const double turn = (x.x() - kCenter_m.x()) / kRadius_m, out_m = kRadius_m + x.z() - kCenter_m.z();
     return Vector3d(out_m * std::sin(turn), x.y(), out_m * std::cos(turn));
   };
@@ -274,13 +276,13 @@ TEST(SkinBinding, CellsInPartCarryTheirSkinAsTheTissueMoves) {
 
 TEST(SkinBinding, TrianglesBetweenSeparatePiecesAreLeftOutAndCounted) {
   // Two blocks three cells apart under one skin.
-  const Solid solid = solidWhere(Vector3d::Zero(), {9, 3, 3}, kSpacing_m,
+  const Solid solid = solidWhere(Vector3d::Zero(), {9, 3, 3}, kSkinSpacing_m,
                                  [](const Vector3d& at) { return at.x() < 0.03 || at.x() > 0.06; });
   const TriangleMesh sheet = sheetMesh({0, 0, 0.03}, {0.09, 0, 0}, {0, 0.03, 0}, 18);
   const BoundSkin bound = bindTo(solid, sheet);
   const TriangleMesh& mesh = bound.skin.mesh;
   EXPECT_GT(bound.skin.bridges_removed, 0u);
-  EXPECT_EQ(mesh.triangles.size() + bound.skin.bridges_removed, refine(sheet, kSpacing_m).triangles.size());
+  EXPECT_EQ(mesh.triangles.size() + bound.skin.bridges_removed, refine(sheet, kSkinSpacing_m).triangles.size());
   EXPECT_EQ(mesh.parts.size(), mesh.triangles.size());
   const auto isLeft = [&](uint32_t v) { return bound.lattice.restPosition(bound.skin.bindings[v].slot0).x() < 0.045; };
   for (const auto& t : mesh.triangles) EXPECT_TRUE(isLeft(t[0]) == isLeft(t[1]) && isLeft(t[1]) == isLeft(t[2]));
@@ -288,7 +290,8 @@ TEST(SkinBinding, TrianglesBetweenSeparatePiecesAreLeftOutAndCounted) {
 
 TEST(SkinBinding, RealHeartComesBackAtRestAndHardlyLosesATriangle) {
   const char* folder = std::getenv("VISCERA_TEST_DATA");
-  const std::string path = (folder ? std::string(folder) : VISCERA_SOURCE_DIR "/../shared/data") + "/VH_M_Heart.glb";
+  const std::string path =
+      (folder ? std::string(folder) : test::sourceFolder() + "/../shared/data") + "/VH_M_Heart.glb";
   if (!std::ifstream(path)) GTEST_SKIP() << "no " << path << ": set VISCERA_TEST_DATA to the folder that holds it";
   constexpr double kHeartSpacing_m = 0.004;
   const TriangleMesh mesh = importMesh(path, 1.0);

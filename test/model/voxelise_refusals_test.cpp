@@ -15,7 +15,7 @@ const Vector3f kCenter(0.012f, -0.3f, 0.207f);
 
 /// Message of the error that voxelising gives.
 template <typename Expected>
-std::string errorOf(const TriangleMesh& mesh, double spacing_m) {
+std::string refusalOf(const TriangleMesh& mesh, double spacing_m) {
   try {
     voxelise(mesh, spacing_m);
   } catch (const Expected& error) {
@@ -31,19 +31,19 @@ TEST(VoxeliseRefuses, SheetsWithoutInside) {
   plane.triangles = {{0, 1, 2}, {0, 2, 3}};
   plane.parts = {0, 0};
   plane.part_names = {"plane"};
-  EXPECT_NE(errorOf<MeshError>(plane, 0.1).find("encloses no volume"), std::string::npos);
+  EXPECT_NE(refusalOf<MeshError>(plane, 0.1).find("encloses no volume"), std::string::npos);
   const TriangleMesh dish = sphereMesh(kCenter, kRadius, kRings, 3 * kRings / 4);
-  EXPECT_NE(errorOf<MeshError>(dish, 0.005).find("encloses no volume"), std::string::npos);
+  EXPECT_NE(refusalOf<MeshError>(dish, 0.005).find("encloses no volume"), std::string::npos);
   TriangleMesh folded = joined(plane, turnedInsideOut(plane), true);
   for (auto& t : folded.triangles) {
     for (uint32_t& v : t) v %= 4;  // two faces on the same vertices
   }
-  EXPECT_NE(errorOf<MeshError>(folded, 0.1).find("encloses no volume"), std::string::npos);
+  EXPECT_NE(refusalOf<MeshError>(folded, 0.1).find("encloses no volume"), std::string::npos);
 }
 
 TEST(VoxeliseRefuses, AGridThatDoesNotFitIsRefusedBeforeItIsMade) {
   const TriangleMesh sphere = sphereMesh(kCenter, kRadius, 8);
-  const std::string message = errorOf<LatticeError>(sphere, 1e-6);
+  const std::string message = refusalOf<LatticeError>(sphere, 1e-6);
   const size_t at = message.find("spacing_m >= ");
   ASSERT_NE(at, std::string::npos) << message;
   const double would_fit_m = std::stod(message.substr(at + 13));
@@ -59,7 +59,7 @@ TEST(VoxeliseRefuses, AGridThatDoesNotFitIsRefusedBeforeItIsMade) {
 
 TEST(VoxeliseRefuses, SpacingMustBePositiveAndFinite) {
   for (const double bad : {0.0, -0.01, std::numeric_limits<double>::quiet_NaN(), 1 / 0.0}) {
-    const std::string message = errorOf<LatticeError>(sphereMesh(kCenter, kRadius, 8), bad);
+    const std::string message = refusalOf<LatticeError>(sphereMesh(kCenter, kRadius, 8), bad);
     EXPECT_NE(message.find("spacing_m must be a finite number > 0"), std::string::npos) << message;
     EXPECT_THROW(boxSolid(Vector3d::Zero(), Vector3d::Ones(), bad), LatticeError);
   }
@@ -68,7 +68,7 @@ TEST(VoxeliseRefuses, SpacingMustBePositiveAndFinite) {
 TEST(VoxeliseRefuses, TooLargeASpacingNamesOneThatDoes) {
   const TriangleMesh balloon =
       joined(sphereMesh(kCenter, kRadius, kRings), turnedInsideOut(sphereMesh(kCenter, 0.045f, kRings)), true);
-  EXPECT_NE(errorOf<LatticeError>(balloon, 1).find("larger than the whole body"), std::string::npos);
+  EXPECT_NE(refusalOf<LatticeError>(balloon, 1).find("larger than the whole body"), std::string::npos);
   const auto field = [](const Vector3d& p) { return LabelledDistance{std::abs(p.norm() - 0.045) - 0.005, 0}; };
   const Vector3d corner = Vector3d::Constant(0.05);
   try {

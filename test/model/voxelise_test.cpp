@@ -10,9 +10,9 @@
 namespace viscera::test {
 namespace {
 
-constexpr float kRadius = 0.05f;  // m
-constexpr int kRings = 48;
-const Vector3f kCenter(0.012f, -0.3f, 0.207f);  // no multiple of any spacing used here
+constexpr float kVoxeliseRadius = 0.05f;  // m
+constexpr int kVoxeliseRings = 48;
+const Vector3f kVoxeliseCenter(0.012f, -0.3f, 0.207f);  // no multiple of any spacing used here
 
 double filled(const TriangleMesh& mesh, double spacing_m) {
   return voxelise(mesh, spacing_m).volumeM3();
@@ -26,25 +26,26 @@ TEST(Voxelise, ABoxOfWholeCellsIsFilledExactly) {
 }
 
 TEST(Voxelise, VolumeOfASphereConvergesWithTheSpacing) {
-  const TriangleMesh sphere = sphereMesh(kCenter, kRadius, kRings);
+  const TriangleMesh sphere = sphereMesh(kVoxeliseCenter, kVoxeliseRadius, kVoxeliseRings);
   const double exact = signedVolume(sphere);
   // Counting lattice points in a ball is off by less than 6 (R/h) points out of 4/3 pi (R/h)^3.
   for (const double cells : {5, 10, 20, 40}) {
-    EXPECT_NEAR(filled(sphere, kRadius / cells), exact, 1.5 * std::pow(cells, -2) * exact) << cells;
+    EXPECT_NEAR(filled(sphere, kVoxeliseRadius / cells), exact, 1.5 * std::pow(cells, -2) * exact) << cells;
   }
 }
 
 TEST(Voxelise, ExactlyTheCellsWithTheirCentreInsideAreFilled) {
   const double h = 0.0031;
-  const double facets = kRadius * (1 - std::cos(kPi / (2 * kRings)));  // depth of the facets below the sphere
-  const Solid solid = voxelise(sphereMesh(kCenter, kRadius, kRings), h);
+  const double facets =
+      kVoxeliseRadius * (1 - std::cos(kPi / (2 * kVoxeliseRings)));  // depth of the facets below the sphere
+  const Solid solid = voxelise(sphereMesh(kVoxeliseCenter, kVoxeliseRadius, kVoxeliseRings), h);
   for (int z = 0; z < solid.cells.z(); ++z) {
     for (int y = 0; y < solid.cells.y(); ++y) {
       for (int x = 0; x < solid.cells.x(); ++x) {
         const Vector3d center = solid.origin_m + h * Vector3d(x + 0.5, y + 0.5, z + 0.5);
-        const double radius = (center - kCenter.cast<double>()).norm();
-        if (radius > kRadius || radius < kRadius - 2 * facets) {
-          ASSERT_EQ(solid.label(x, y, z), radius < kRadius ? 1 : 0) << x << ' ' << y << ' ' << z;
+        const double radius = (center - kVoxeliseCenter.cast<double>()).norm();
+        if (radius > kVoxeliseRadius || radius < kVoxeliseRadius - 2 * facets) {
+          ASSERT_EQ(solid.label(x, y, z), radius < kVoxeliseRadius ? 1 : 0) << x << ' ' << y << ' ' << z;
         }
       }
     }
@@ -52,18 +53,19 @@ TEST(Voxelise, ExactlyTheCellsWithTheirCentreInsideAreFilled) {
 }
 
 TEST(Voxelise, AnInnerSurfaceThatFacesInwardBoundsACavity) {
-  const TriangleMesh outer = sphereMesh(kCenter, kRadius, kRings), inner = sphereMesh(kCenter, 0.03f, kRings);
+  const TriangleMesh outer = sphereMesh(kVoxeliseCenter, kVoxeliseRadius, kVoxeliseRings),
+                     inner = sphereMesh(kVoxeliseCenter, 0.03f, kVoxeliseRings);
   const double h = 0.002;
   const Solid shell = voxelise(joined(outer, turnedInsideOut(inner), true), h);
-  EXPECT_EQ(labelAt(shell, kCenter.cast<double>()), 0);
+  EXPECT_EQ(labelAt(shell, kVoxeliseCenter.cast<double>()), 0);
   EXPECT_EQ(shell.filledCells(), voxelise(outer, h).filledCells() - voxelise(inner, h).filledCells());
-  EXPECT_FALSE(outsideReaches(shell, kCenter.cast<double>()));
+  EXPECT_FALSE(outsideReaches(shell, kVoxeliseCenter.cast<double>()));
   EXPECT_EQ(voxelise(joined(outer, inner, true), h).filledCells(), voxelise(outer, h).filledCells())
       << "an inner surface that faces outward is tissue within tissue";
 }
 
 TEST(Voxelise, OrientationOfThePartDoesNotMatter) {
-  TriangleMesh sphere = sphereMesh(kCenter, kRadius, kRings);
+  TriangleMesh sphere = sphereMesh(kVoxeliseCenter, kVoxeliseRadius, kVoxeliseRings);
   const std::vector<uint16_t> expected = voxelise(sphere, 0.004).labels;
   EXPECT_EQ(voxelise(turnedInsideOut(sphere), 0.004).labels, expected);
   std::mt19937 random(3);
@@ -76,57 +78,61 @@ TEST(Voxelise, OrientationOfThePartDoesNotMatter) {
 TEST(Voxelise, AHoleIsCappedAndCounted) {
   const double h = 0.002;
   VoxelReport report;
-  const TriangleMesh open = sphereMesh(kCenter, kRadius, kRings, kRings / 4);
+  const TriangleMesh open = sphereMesh(kVoxeliseCenter, kVoxeliseRadius, kVoxeliseRings, kVoxeliseRings / 4);
   const Solid solid = voxelise(open, h, &report);
   EXPECT_EQ(report.holes_closed, 1);
   // The cap is a flat cut at 45 degrees: the sphere without the part above it.
-  const double height = kRadius * (1 - std::sqrt(0.5)), cut = kPi * height * height * (kRadius - height / 3);
-  EXPECT_NEAR(solid.volumeM3(), sphereVolume(kRadius) - cut, 0.01 * sphereVolume(kRadius));
-  EXPECT_NEAR(report.mesh_volume_m3, sphereVolume(kRadius) - cut, 0.01 * sphereVolume(kRadius));
+  const double height = kVoxeliseRadius * (1 - std::sqrt(0.5)),
+               cut = kPi * height * height * (kVoxeliseRadius - height / 3);
+  EXPECT_NEAR(solid.volumeM3(), sphereVolume(kVoxeliseRadius) - cut, 0.01 * sphereVolume(kVoxeliseRadius));
+  EXPECT_NEAR(report.mesh_volume_m3, sphereVolume(kVoxeliseRadius) - cut, 0.01 * sphereVolume(kVoxeliseRadius));
 }
 
 TEST(Voxelise, OverlappingSpheresAreTheirUnionInOnePartOrTwo) {
-  const TriangleMesh a = sphereMesh(kCenter, kRadius, kRings);
-  const TriangleMesh b = sphereMesh(kCenter + Vector3f(kRadius, 0, 0), kRadius, kRings);
+  const TriangleMesh a = sphereMesh(kVoxeliseCenter, kVoxeliseRadius, kVoxeliseRings);
+  const TriangleMesh b = sphereMesh(kVoxeliseCenter + Vector3f(kVoxeliseRadius, 0, 0), kVoxeliseRadius, kVoxeliseRings);
   // Two unit spheres at distance one share 5 pi / 12.
-  const double both = 2 * sphereVolume(kRadius) - 5 * kPi / 12 * std::pow(kRadius, 3);
+  const double both = 2 * sphereVolume(kVoxeliseRadius) - 5 * kPi / 12 * std::pow(kVoxeliseRadius, 3);
   for (const bool same_part : {true, false}) {
     EXPECT_NEAR(filled(joined(a, b, same_part), 0.002), both, 0.01 * both) << same_part;
   }
 }
 
 TEST(Voxelise, ASmallPartIsNotSwallowedByALargeOneAroundIt) {
-  TriangleMesh mesh = joined(sphereMesh(kCenter, kRadius, kRings), sphereMesh(kCenter, 0.01f, kRings), false);
+  TriangleMesh mesh = joined(sphereMesh(kVoxeliseCenter, kVoxeliseRadius, kVoxeliseRings),
+                             sphereMesh(kVoxeliseCenter, 0.01f, kVoxeliseRings), false);
   mesh.part_names = {"wall", "papillary"};
   const Solid solid = voxelise(mesh, 0.002);
-  EXPECT_EQ(labelAt(solid, kCenter.cast<double>()), 2);
-  EXPECT_EQ(labelAt(solid, kCenter.cast<double>() + Vector3d(0.03, 0, 0)), 1);
+  EXPECT_EQ(labelAt(solid, kVoxeliseCenter.cast<double>()), 2);
+  EXPECT_EQ(labelAt(solid, kVoxeliseCenter.cast<double>() + Vector3d(0.03, 0, 0)), 1);
 }
 
 TEST(Voxelise, AWallThinnerThanACellStaysTight) {
   const double h = 0.004;
   const float thickness = 0.0012f;
-  const TriangleMesh balloon = joined(sphereMesh(kCenter, kRadius, kRings),
-                                      turnedInsideOut(sphereMesh(kCenter, kRadius - thickness, kRings)), true);
+  const TriangleMesh balloon =
+      joined(sphereMesh(kVoxeliseCenter, kVoxeliseRadius, kVoxeliseRings),
+             turnedInsideOut(sphereMesh(kVoxeliseCenter, kVoxeliseRadius - thickness, kVoxeliseRings)), true);
   VoxelReport report;
   const Solid solid = voxelise(balloon, h, &report);
   EXPECT_GT(report.thin_cells, 0);
-  EXPECT_FALSE(outsideReaches(solid, kCenter.cast<double>())) << "the wall has become a sieve";
-  EXPECT_EQ(labelAt(solid, kCenter.cast<double>()), 0);
-  const double one_cell_thick = 4 * kPi * kRadius * kRadius * h;
+  EXPECT_FALSE(outsideReaches(solid, kVoxeliseCenter.cast<double>())) << "the wall has become a sieve";
+  EXPECT_EQ(labelAt(solid, kVoxeliseCenter.cast<double>()), 0);
+  const double one_cell_thick = 4 * kPi * kVoxeliseRadius * kVoxeliseRadius * h;
   EXPECT_LT(solid.volumeM3(), 1.6 * one_cell_thick) << "stairs cost at most as much as the slope of 45 degrees in 3d";
 }
 
 TEST(Voxelise, ThinWallRuleLeavesThickBodiesAlone) {
   VoxelReport report;
-  const Solid solid = voxelise(sphereMesh(kCenter, kRadius, kRings), 0.005, &report);
+  const Solid solid = voxelise(sphereMesh(kVoxeliseCenter, kVoxeliseRadius, kVoxeliseRings), 0.005, &report);
   EXPECT_EQ(report.thin_cells, 0);
   EXPECT_GT(solid.filledCells(), 0u);
 }
 
 TEST(Voxelise, PartsWithoutCellsAreNamed) {
-  TriangleMesh mesh = joined(sphereMesh(kCenter, kRadius, kRings), sphereMesh(kCenter, kRadius, 8, 7), false);
-  mesh = joined(mesh, sphereMesh(kCenter + Vector3f(0.0001f, 0, 0), 0.00001f, 8), false);
+  TriangleMesh mesh = joined(sphereMesh(kVoxeliseCenter, kVoxeliseRadius, kVoxeliseRings),
+                             sphereMesh(kVoxeliseCenter, kVoxeliseRadius, 8, 7), false);
+  mesh = joined(mesh, sphereMesh(kVoxeliseCenter + Vector3f(0.0001f, 0, 0), 0.00001f, 8), false);
   mesh.part_names = {"ball", "sheet", "speck"};
   VoxelReport report;
   voxelise(mesh, 0.005, &report);
@@ -136,9 +142,9 @@ TEST(Voxelise, PartsWithoutCellsAreNamed) {
 }
 
 TEST(Voxelise, CrumbsAreRemovedAndLargerPiecesStay) {
-  TriangleMesh mesh =
-      joined(sphereMesh(kCenter, kRadius, kRings), sphereMesh(kCenter + Vector3f(0.1f, 0, 0), 0.0021f, 8), true);
-  mesh = joined(mesh, sphereMesh(kCenter - Vector3f(0.1f, 0, 0), 0.01f, 8), true);
+  TriangleMesh mesh = joined(sphereMesh(kVoxeliseCenter, kVoxeliseRadius, kVoxeliseRings),
+                             sphereMesh(kVoxeliseCenter + Vector3f(0.1f, 0, 0), 0.0021f, 8), true);
+  mesh = joined(mesh, sphereMesh(kVoxeliseCenter - Vector3f(0.1f, 0, 0), 0.01f, 8), true);
   VoxelReport report;
   const Solid solid = voxelise(mesh, 0.002, &report);
   EXPECT_EQ(report.crumbs_removed, 1);
@@ -148,12 +154,13 @@ TEST(Voxelise, CrumbsAreRemovedAndLargerPiecesStay) {
 TEST(Voxelise, ProgressEndsAtOne) {
   double last = 0;
   int calls = 0;
-  voxelise(sphereMesh(kCenter, kRadius, 8), 0.01, nullptr, [&](const std::string& stage, double fraction) {
-    EXPECT_EQ(stage, "voxelise");
-    EXPECT_GE(fraction, last);
-    last = fraction;
-    ++calls;
-  });
+  voxelise(sphereMesh(kVoxeliseCenter, kVoxeliseRadius, 8), 0.01, nullptr,
+           [&](const std::string& stage, double fraction) {
+             EXPECT_EQ(stage, "voxelise");
+             EXPECT_GE(fraction, last);
+             last = fraction;
+             ++calls;
+           });
   EXPECT_GT(calls, 1);
   EXPECT_DOUBLE_EQ(last, 1);
 }

@@ -6,9 +6,9 @@ using namespace viscera;
 
 namespace {
 
-constexpr ToolMode kModes[] = {ToolMode::kNone,         ToolMode::kProbe,   ToolMode::kGrab,   ToolMode::kCut,
-                               ToolMode::kCutParticles, ToolMode::kSuction, ToolMode::kNeedle, ToolMode::kScissors,
-                               ToolMode::kGrasper,      ToolMode::kClip,    ToolMode::kCautery};
+constexpr ToolMode kToolsModes[] = {ToolMode::kNone,         ToolMode::kProbe,   ToolMode::kGrab,   ToolMode::kCut,
+                                    ToolMode::kCutParticles, ToolMode::kSuction, ToolMode::kNeedle, ToolMode::kScissors,
+                                    ToolMode::kGrasper,      ToolMode::kClip,    ToolMode::kCautery};
 
 class ToolsGl : public Drawing {
  protected:
@@ -44,7 +44,7 @@ std::pair<int, int> drawnRows(const Image& image) {
 }  // namespace
 
 TEST_F(ToolsGl, AbsentStylusIsNotDrawnWhateverItsMode) {
-  for (ToolMode mode : kModes) {
+  for (ToolMode mode : kToolsModes) {
     ToolMotions motions = tool(mode);
     motions[0].present = false;
     EXPECT_EQ(draw(nothing_, motions).drawnPixels(), 0);
@@ -60,7 +60,7 @@ TEST_F(ToolsGl, PresentStylusWithoutAModeIsAShaft) {
 
 TEST_F(ToolsGl, EveryModeLooksDifferent) {
   std::vector<Image> images;
-  for (ToolMode mode : kModes) images.push_back(draw(nothing_, tool(mode)));
+  for (ToolMode mode : kToolsModes) images.push_back(draw(nothing_, tool(mode)));
   for (size_t a = 0; a < images.size(); ++a) {
     for (size_t b = a + 1; b < images.size(); ++b) {
       EXPECT_GT(differingPixels(images[a], images[b]), 50) << "modes " << a << " and " << b;

@@ -15,12 +15,12 @@ namespace {
 
 using namespace test;
 
-constexpr double kTip_m = 0.004;      // of the hot tip's radius, and of the probe's beside it
-constexpr double kBalance = 1e-9;     // of all heat, sums of float64
-constexpr double kTime = 1e-6;        // of the heat of a number of ticks
-constexpr double kAlike = 0.02;       // of heat and of forces, backend beside backend: places differ by float32
-constexpr double kFelt = 1.2;         // a burn is felt: at least so many times the fresh force
-constexpr double kShrunk_m = 1.5e-4;  // a free corner of coagulated tissue is drawn in by so much at least
+constexpr double kTip_m = 0.004;          // of the hot tip's radius, and of the probe's beside it
+constexpr double kCauteryBalance = 1e-9;  // of all heat, sums of float64
+constexpr double kTime = 1e-6;            // of the heat of a number of ticks
+constexpr double kAlike = 0.02;           // of heat and of forces, backend beside backend: places differ by float32
+constexpr double kFelt = 1.2;             // a burn is felt: at least so many times the fresh force
+constexpr double kShrunk_m = 1.5e-4;      // a free corner of coagulated tissue is drawn in by so much at least
 
 class Cautery : public OnSceneBackend {
  protected:
@@ -92,7 +92,8 @@ TEST_P(Cautery, HeatIsPowerTimesTimeInTouchAndAllOfItIsAccountedFor) {
     burn(session, 60, top_m);
     const SeenBurns seen = session.seenBurns();
     EXPECT_NEAR(seen.given_j, 60 * 4 * session.tick_s(), kTime * seen.given_j);
-    EXPECT_NEAR(seen.stored_j + seen.steam_j + seen.perfused_j + seen.surface_j, seen.given_j, kBalance * seen.given_j);
+    EXPECT_NEAR(seen.stored_j + seen.steam_j + seen.perfused_j + seen.surface_j, seen.given_j,
+                kCauteryBalance * seen.given_j);
     EXPECT_GT(seen.hottest_c, 45);
     for (int t = 0; t < 30; ++t) session.step(on(false, false, top_m), {});
     EXPECT_EQ(session.seenBurns().given_j, seen.given_j) << "not pressed";

@@ -10,7 +10,7 @@ namespace {
 using test::leftAt;
 
 /// Some ticks in which the tip goes into the block from above and stays there.
-TickContact press(Session& session) {
+TickContact pressedContact(Session& session) {
   constexpr double kAbove_m = test::kHalfM + test::kProbeRadiusM + 0.002, kDeep_m = 0.005;
   Frame frame;
   for (int tick = 0; tick < 40; ++tick) {
@@ -28,7 +28,7 @@ Scene scene() {
 
 TEST(Contacts, GoOnFromTickToTick) {
   Session session(scene());
-  const TickContact pressed = press(session);
+  const TickContact pressed = pressedContact(session);
   EXPECT_EQ(pressed.kind, TickContact::Kind::kPushes);
   EXPECT_FALSE(pressed.anew);
 }
@@ -36,15 +36,15 @@ TEST(Contacts, GoOnFromTickToTick) {
 /// What a surface was before is no surface now: its plane must not be felt.
 TEST(Contacts, BeginAgainWithAResetAnotherHandAndAnotherMode) {
   Session session(scene());
-  press(session);
+  pressedContact(session);
   session.reset();
   session.forgetHands();
   EXPECT_TRUE(session.step(leftAt({0, 0, 0.1}), {}).contacts[0].anew);
-  press(session);
+  pressedContact(session);
   session.setToolMode(0, ToolSwitch::kIdle, ToolMode::kNone);
   EXPECT_TRUE(session.step(leftAt({0, 0, 0.03}), {}).contacts[0].anew);
   session.setToolMode(0, ToolSwitch::kIdle, ToolMode::kProbe);
-  press(session);
+  pressedContact(session);
   EXPECT_TRUE(session.step({}, {}).contacts[0].anew);
   EXPECT_TRUE(session.step(leftAt({0, 0, 0.03}), {}).contacts[0].anew);
 }

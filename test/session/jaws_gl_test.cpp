@@ -15,12 +15,12 @@ namespace {
 
 using namespace test;
 
-constexpr double kSide_m = 0.008;     // of the bar
-constexpr double kRounding_m = 1e-4;  // of sides that give a little between substeps, beside kMostSqueezed
-constexpr double kAside_m = 0.003;    // 1.5 spacings: by so much two nodes of a column may lie beside each other
-constexpr int kClosing = 30, kOpen = 4, kRests = 60;  // ticks
-constexpr double kStill_per_s = 40;                   // drag: what was squeezed sets the bar swinging when it is cut
-constexpr double kMostSqueezed = 0.4;                 // Clips::kMostSqueezed
+constexpr double kJawsSide_m = 0.008;  // of the bar
+constexpr double kRounding_m = 1e-4;   // of sides that give a little between substeps, beside kMostSqueezed
+constexpr double kAside_m = 0.003;     // 1.5 spacings: by so much two nodes of a column may lie beside each other
+constexpr int kJawsClosing = 30, kJawsOpen = 4, kRests = 60;  // ticks
+constexpr double kStill_per_s = 40;           // drag: what was squeezed sets the bar swinging when it is cut
+constexpr double kMostSqueezed = 0.4;         // Clips::kMostSqueezed
 constexpr double kRated_n = 3, kSlips = 0.1;  // of a grasper; share by which its force may differ as tissue slides
 constexpr double kJaw_m = 0.006;              // how far it slides
 constexpr double kLost_m = 0.0015;  // by so much more or less: how far the tissue goes on stretching meanwhile
@@ -32,7 +32,7 @@ class ClipSession : public OnSceneBackend {
     BodyConfig& body = out.bodies[0];
     body.source = structure == Structure::kSurface ? TissueSource::kSheet : TissueSource::kBox;
     body.structure = structure;
-    body.box_size_m = {0.04, kSide_m, structure == Structure::kSurface ? 0 : kSide_m};
+    body.box_size_m = {0.04, kJawsSide_m, structure == Structure::kSurface ? 0 : kJawsSide_m};
     body.spacing_m = 0.002;
     body.fixed.resize(1);
     body.fixed[0].shape = FixedShape::kPlane;
@@ -56,9 +56,9 @@ class ClipSession : public OnSceneBackend {
     return out;
   }
   static void clip(Session& session, double x_m, double y_m = 0) {
-    for (int t = 0; t < kOpen; ++t) session.step(at(x_m, false, false, y_m), {});
-    for (int t = 0; t < kClosing; ++t) session.step(at(x_m, true, false, y_m), {});
-    for (int t = 0; t < kOpen; ++t) session.step(at(x_m, false, false, y_m), {});
+    for (int t = 0; t < kJawsOpen; ++t) session.step(at(x_m, false, false, y_m), {});
+    for (int t = 0; t < kJawsClosing; ++t) session.step(at(x_m, true, false, y_m), {});
+    for (int t = 0; t < kJawsOpen; ++t) session.step(at(x_m, false, false, y_m), {});
   }
 };
 
@@ -71,8 +71,8 @@ TEST_P(ClipSession, HoldsTwoSidesOfEveryKindOfTissueTogether) {
     const SeenClips clips = session.seenClips();
     ASSERT_EQ(clips.on.size(), 1U);
     EXPECT_NEAR(clips.on[0].rest_m.x(), 0.006, 0.0011) << "the layer of nodes that is next";
-    EXPECT_GT(clips.on[0].opening_m, kMostSqueezed * 0.75 * kSide_m);
-    EXPECT_LT(clips.on[0].opening_m, kMostSqueezed * std::hypot(kSide_m, kAside_m) + kRounding_m);
+    EXPECT_GT(clips.on[0].opening_m, kMostSqueezed * 0.75 * kJawsSide_m);
+    EXPECT_LT(clips.on[0].opening_m, kMostSqueezed * std::hypot(kJawsSide_m, kAside_m) + kRounding_m);
     EXPECT_GT(clips.on[0].force_n, 0);
     EXPECT_EQ(session.drain().stats.nonfinite, 0U);
     EXPECT_EQ(session.drain().health.trips, 0U);
@@ -100,15 +100,15 @@ TEST_P(ClipSession, IsTakenOffByABladeThatMeetsItAndNotByOneBesideIt) {
   Session session(still, context_);
   clip(session, 0.006);
   const auto draw = [&](double x_m) {
-    for (int t = 0; t <= kClosing; ++t) session.step(at(x_m, false, true, 0.015 - 0.03 * t / kClosing), {});
-    for (int t = 0; t < kOpen; ++t) session.step(at(x_m, false, false, -0.015), {});
+    for (int t = 0; t <= kJawsClosing; ++t) session.step(at(x_m, false, true, 0.015 - 0.03 * t / kJawsClosing), {});
+    for (int t = 0; t < kJawsOpen; ++t) session.step(at(x_m, false, false, -0.015), {});
     return session.seenClips();
   };
   EXPECT_EQ(draw(0.012).on.size(), 1U);
   for (int t = 0; t < kRests; ++t) session.step({}, {});
   StylusSamples along = at(0, false, true);  // along the bar, across the clip's legs
-  for (int t = 0; t <= kClosing; ++t) {
-    along[0].pose.position_m = {0.012 - 0.012 * t / kClosing, 0.001, -0.006};
+  for (int t = 0; t <= kJawsClosing; ++t) {
+    along[0].pose.position_m = {0.012 - 0.012 * t / kJawsClosing, 0.001, -0.006};
     session.step(along, {});
   }
   const SeenClips after = session.seenClips();
@@ -147,7 +147,7 @@ TEST_P(ClipSession, OfTwoBodiesJoinsThem) {
   clip(session, 0.006);
   const SeenClips clips = session.seenClips();
   ASSERT_EQ(clips.on.size(), 1U);
-  EXPECT_LT(clips.on[0].opening_m, kMostSqueezed * 2 * kSide_m);
+  EXPECT_LT(clips.on[0].opening_m, kMostSqueezed * 2 * kJawsSide_m);
 }
 
 TEST_P(ClipSession, IsDrawnAndKnownByItsLabel) {
@@ -235,7 +235,7 @@ TEST_P(GrasperSession, IsKeptOpenByWhatIsBetweenItsFingersAndFeelsIt) {
   Session session(barWithGrasper(), context_);
   Frame frame;
   const auto close = [&](double y_m) {
-    for (int t = 0; t < kClosing; ++t) frame = session.step(at(0, t > 0, false, y_m), {});
+    for (int t = 0; t < kJawsClosing; ++t) frame = session.step(at(0, t > 0, false, y_m), {});
     frame = session.drain();
     return session.motions()[0].opens_to_rad;
   };
@@ -257,9 +257,9 @@ TEST_P(GrasperSession, HoldsAndLetsGoAsAHandClosesAndOpensIt) {
   scene.styluses[0].idle = ToolMode::kGrasper;
   Session session(scene, context_);
   const auto held = [&](double from_rad, double to_rad) {
-    for (int t = 1; t <= kClosing; ++t) {
+    for (int t = 1; t <= kJawsClosing; ++t) {
       StylusSamples samples = at(0, false);
-      samples[0].jaw_rad = static_cast<float>(from_rad + (to_rad - from_rad) * t / kClosing);
+      samples[0].jaw_rad = static_cast<float>(from_rad + (to_rad - from_rad) * t / kJawsClosing);
       session.step(samples, {});
     }
     return session.drain().stats.grabbed[0];

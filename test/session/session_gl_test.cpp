@@ -18,9 +18,9 @@ using namespace test;
 constexpr double kRestM = 1e-6;  ///< mapping positions of a few centimetres in single precision
 constexpr double kFollowM =
     1e-5;  ///< a held node is where the stylus is; the skin above it is bound to its neighbours too
-constexpr double kForceN = 0.1;   ///< well below what millimetres of tissue of 20 kPa give, well above rounding
-constexpr double kDentM = 0.003;  ///< half of what the probe goes deep
-constexpr double kAside = 0.05;   ///< of a force on a block that is the same on all sides
+constexpr double kSessionForceN = 0.1;  ///< well below what millimetres of tissue of 20 kPa give, well above rounding
+constexpr double kDentM = 0.003;        ///< half of what the probe goes deep
+constexpr double kAside = 0.05;         ///< of a force on a block that is the same on all sides
 
 /// On every backend, by name.
 class SessionTest : public OnSceneBackend {
@@ -54,7 +54,7 @@ TEST_P(SessionWithTools, ProbeDentsTheTissueAndIsPushedBackOut) {
   play(session_, press, kPressTicks + 5);
   const Frame pressed = session_.drain();
   const Vector3d force = pressed.reactions[0].force_n;
-  EXPECT_GT(force.z(), kForceN);
+  EXPECT_GT(force.z(), kSessionForceN);
   EXPECT_LT(force.head<2>().norm(), kAside * force.z());
   EXPECT_GE(session_.extremes().peak_force_n, force.z());
   EXPECT_GT(pressed.stats.touched[0], 0u);
@@ -71,7 +71,7 @@ TEST_P(SessionWithTools, GrabbedTissueFollowsThePullAndPullsBack) {
   play(session_, pull, 20);
   const Frame pulled = session_.drain();
   EXPECT_GT(pulled.stats.grabbed[0], 0u);
-  EXPECT_LT(pulled.reactions[0].force_n.z(), -kForceN);
+  EXPECT_LT(pulled.reactions[0].force_n.z(), -kSessionForceN);
   const std::vector<float> rest_m = restPositions(session_);
   EXPECT_NEAR(heightAt(surfaceAfter(session_, pull(20)), rest_m, {0, 0, kHalfM}), kHalfM + 0.0095, kFollowM);
   session_.step({}, {});
@@ -136,7 +136,7 @@ VISCERA_ON_EVERY_BACKEND(SessionWithSlowForce);
 
 TEST_P(SessionWithSlowForce, LostStylusHasNoForceAtOnceAllTheSame) {
   play(session_, press, kPressTicks + 5);
-  ASSERT_GT(session_.drain().reactions[0].force_n.norm(), kForceN);
+  ASSERT_GT(session_.drain().reactions[0].force_n.norm(), kSessionForceN);
   const Frame lost = session_.step({}, {});
   EXPECT_EQ(lost.reactions[0].force_n, Vector3d::Zero());
   EXPECT_EQ(lost.reactions[0].torque_nm, Vector3d::Zero());

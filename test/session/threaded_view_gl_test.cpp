@@ -86,16 +86,17 @@ class SwayingTissue : public Solver {
   uint64_t tick_ = 0, cut_revision_ = 0;
 };
 
-Scene scene() {
-  Scene scene = blockScene();
-  scene.cameras.push_back(cameraOf("other"));
-  scene.cameras[1].position_m = Vector3d(0.1, -0.1, 0.1);
-  return scene;
+Scene threadedViewScene() {
+  Scene threadedViewScene = blockScene();
+  threadedViewScene.cameras.push_back(cameraOf("other"));
+  threadedViewScene.cameras[1].position_m = Vector3d(0.1, -0.1, 0.1);
+  return threadedViewScene;
 }
 
 class ThreadedViewTest : public GpuTest {
  protected:
-  explicit ThreadedViewTest(const Scene& scene = viscera::scene()) : scene_(scene), model_(buildModel(scene)) {}
+  explicit ThreadedViewTest(const Scene& threadedViewScene = viscera::threadedViewScene())
+      : scene_(threadedViewScene), model_(buildModel(threadedViewScene)) {}
 
   /// A tick, with a probe that wanders above the tissue.
   Look lookAfterStep(const Wants& wants) {
@@ -121,7 +122,7 @@ class ThreadedViewTest : public GpuTest {
   uint64_t tick_ = 0;
 };
 
-Wants everything() {
+Wants threadedViewEverything() {
   return {true, {true, true}, false};
 }
 
@@ -174,7 +175,7 @@ TEST_F(ThreadedViewTest, ShowsToTheBitWhatAViewOnTheSteppersThreadShows) {
     for (int t = 1; t <= kTicks; ++t) {
       if (t == kCutTick) tissue_.cut();
       tissue_.still = t >= kStillTick;
-      const Look look = lookAfterStep(everything());
+      const Look look = lookAfterStep(threadedViewEverything());
       Pictures pictures = show(view, look);
       shown.push_back({look, tissue_.readState(), t >= kCutTick ? 1u : 0u, std::move(pictures)});
     }
@@ -321,7 +322,7 @@ std::map<std::string, int> niceOfThreads() {
 TEST_F(ThreadedViewTest, DrawingGivesWayToStepping) {
   const int own = getpriority(PRIO_PROCESS, 0);
   ThreadedView view(model_, scene_, context_);
-  show(view, lookAfterStep(everything()));
+  show(view, lookAfterStep(threadedViewEverything()));
   EXPECT_EQ(getpriority(PRIO_PROCESS, 0), own);
   int behind = 0;
   for (const auto& [thread, nice] : niceOfThreads()) {
@@ -333,19 +334,19 @@ TEST_F(ThreadedViewTest, DrawingGivesWayToStepping) {
 
 TEST_F(ThreadedViewTest, ShowingMakesNoOpenGlObject) {
   ThreadedView view(model_, scene_, context_);
-  show(view, lookAfterStep(everything()));
+  show(view, lookAfterStep(threadedViewEverything()));
   const size_t before = gpu::objectsCreated();
-  for (int t = 0; t < 5; ++t) show(view, lookAfterStep(everything()));
+  for (int t = 0; t < 5; ++t) show(view, lookAfterStep(threadedViewEverything()));
   EXPECT_EQ(gpu::objectsCreated(), before);
 }
 
 TEST_F(ThreadedViewTest, WhatGoesWrongOnItsThreadIsThrownToTheStepperFromThenOn) {
   ThreadedView view(model_, scene_, context_);
-  show(view, lookAfterStep(everything()));
+  show(view, lookAfterStep(threadedViewEverything()));
   tissue_.broken = true;
   tissue_.cut();  // so that nodes are uploaded
-  EXPECT_THROW(show(view, lookAfterStep(everything())), GpuError);
-  EXPECT_THROW(show(view, lookAfterStep(everything())), GpuError);
+  EXPECT_THROW(show(view, lookAfterStep(threadedViewEverything())), GpuError);
+  EXPECT_THROW(show(view, lookAfterStep(threadedViewEverything())), GpuError);
   EXPECT_THROW(view.reset(), GpuError);
 }
 
@@ -359,10 +360,10 @@ TEST_F(ThreadedViewTest, SceneThatCannotBeSeenIsRefusedAndTheContextComesBack) {
 
 /// An image that takes a software rasteriser many ticks.
 Scene slowScene() {
-  Scene scene = blockScene();
-  scene.cameras[0].width_px = 1920;
-  scene.cameras[0].height_px = 1080;
-  return scene;
+  Scene threadedViewScene = blockScene();
+  threadedViewScene.cameras[0].width_px = 1920;
+  threadedViewScene.cameras[0].height_px = 1080;
+  return threadedViewScene;
 }
 
 class SlowView : public ThreadedViewTest {

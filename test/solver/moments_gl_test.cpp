@@ -12,19 +12,19 @@ using namespace viscera::test;
 namespace {
 
 // Relative to the largest value: float32 rounds at 6e-8; a cell's forces are sums of some forty products on the way.
-constexpr double kFloat32Displacement = 2e-6;
-constexpr double kFloat32Velocity = 1e-5;
+constexpr double kMomentsFloat32Displacement = 2e-6;
+constexpr double kMomentsFloat32Velocity = 1e-5;
 constexpr double kFloat32Energy = 2e-5;
-constexpr double kSpacing_m = 0.01;
+constexpr double kMomentsSpacing_m = 0.01;
 
 /// A ball off the lattice: full cells inside, all kinds of partial ones around.
 Body ball() {
-  return momentBody({8, 8, 8}, kSpacing_m,
+  return momentBody({8, 8, 8}, kMomentsSpacing_m,
                     [](const Vector3d& p) { return (p - Vector3d(4.1, 3.8, 4.3)).norm() < 3.3; });
 }
 
 Body block(const Vector3i& cells) {
-  Body body = boxBody(cells, kSpacing_m);
+  Body body = boxBody(cells, kMomentsSpacing_m);
   body.material.cells = Cells::kMoments;
   return body;
 }
@@ -54,9 +54,10 @@ class Moments : public OnBackend {
     const auto solver = make(model, scene);
     ReferenceSolver reference(model, Vector3d(0.3, -0.2, -9.81), static_cast<float>(solver->dt_s()));
     ASSERT_EQ(solver->substeps(), substeps);
-    expectSameTick(*solver, reference, randomState(model, size_m, 0.1, 7), kFloat32Displacement, kFloat32Velocity);
+    expectSameTick(*solver, reference, randomState(model, size_m, 0.1, 7), kMomentsFloat32Displacement,
+                   kMomentsFloat32Velocity);
   }
-  void expectLikeReference(const Body& body, double size_m = 0.05 * kSpacing_m, int substeps = 10) {
+  void expectLikeReference(const Body& body, double size_m = 0.05 * kMomentsSpacing_m, int substeps = 10) {
     const Model model = modelOf({body});
     expectLikeReference(model, sceneFor(model, substeps, {}, Vector3d(0.3, -0.2, -9.81)), size_m, substeps);
   }
@@ -88,7 +89,7 @@ TEST_P(Moments, ThinWallsMatchTheReferenceForAnyPoissonRatio) {
   for (const double nu : {0.0, 0.25, 0.45, 0.49}) {
     SCOPED_TRACE(nu);
     for (const double thickness_cells : {0.8, 1.5, 2.4}) {
-      Body body = thinBody(thickness_cells, kSpacing_m);
+      Body body = thinBody(thickness_cells, kMomentsSpacing_m);
       body.material.poisson_ratio = nu;
       ASSERT_GT(cellMoments(body).bends.size(), 20u);
       expectLikeReference(body);
@@ -97,9 +98,9 @@ TEST_P(Moments, ThinWallsMatchTheReferenceForAnyPoissonRatio) {
 }
 
 TEST_P(Moments, ThinWallsOfPartsStrainedOrTornMatchTheReference) {
-  Body body = thinBody(1.2, kSpacing_m);
+  Body body = thinBody(1.2, kMomentsSpacing_m);
   body.material.dashpot_ratio = 0.2;
-  for (const double size : {0.2, 0.5}) expectLikeReference(body, size * kSpacing_m, 1);
+  for (const double size : {0.2, 0.5}) expectLikeReference(body, size * kMomentsSpacing_m, 1);
   body.lattice.part_names = {"wall", "valve"};
   bool torn = false;
   for (const CellBend& bend : cellMoments(body).bends) {
@@ -121,8 +122,8 @@ TEST_P(Moments, WallsThatAreThickForTheirCellsAreAsTheyWere) {
 TEST_P(Moments, StrainsThatFadeThemOutMatchTheReference) {
   for (const double size : {0.2, 0.5}) {
     SCOPED_TRACE(size);
-    expectLikeReference(ball(), size * kSpacing_m, 1);
-    expectLikeReference(block({4, 5, 6}), size * kSpacing_m, 1);
+    expectLikeReference(ball(), size * kMomentsSpacing_m, 1);
+    expectLikeReference(block({4, 5, 6}), size * kMomentsSpacing_m, 1);
   }
 }
 
@@ -146,17 +147,17 @@ TEST_P(Moments, CellsThatPartsShareMatchTheReference) {
 }
 
 TEST_P(Moments, BodiesOfBothKindsMatchTheReference) {
-  Body springs = boxBody({3, 4, 3}, kSpacing_m);
+  Body springs = boxBody({3, 4, 3}, kMomentsSpacing_m);
   springs.material.poisson_ratio = 0.4;
   const Model model = modelOf({springs, ball(), block({2, 3, 2})});
-  expectLikeReference(model, sceneFor(model, 10, {}, Vector3d(0.3, -0.2, -9.81)), 0.05 * kSpacing_m, 10);
+  expectLikeReference(model, sceneFor(model, 10, {}, Vector3d(0.3, -0.2, -9.81)), 0.05 * kMomentsSpacing_m, 10);
 }
 
 TEST_P(Moments, DashpotsAndSpringsOfAnyLengthMatchTheReference) {
   Body body = ball();
   body.material.dashpot_ratio = 0.2;
   expectLikeReference(body);
-  expectLikeReference(body, 0.3 * kSpacing_m, 1);
+  expectLikeReference(body, 0.3 * kMomentsSpacing_m, 1);
 }
 
 TEST_P(Moments, CellsThatABladeCutsMatchTheReference) {
@@ -166,7 +167,7 @@ TEST_P(Moments, CellsThatABladeCutsMatchTheReference) {
   styluses[0].cut.blade_length_m = 0.2;
   styluses[0].cut.blade_side = BladeSide::kAhead;
   const auto solver = make(model, sceneFor(model, kSubsteps, styluses));
-  const HostState start = randomState(model, 0.02 * kSpacing_m, 0.05, 7);
+  const HostState start = randomState(model, 0.02 * kMomentsSpacing_m, 0.05, 7);
   solver->writeState(start);
   ReferenceSolver reference(model, Vector3d::Zero(), static_cast<float>(solver->dt_s()));
   load(reference, start);
@@ -180,14 +181,14 @@ TEST_P(Moments, CellsThatABladeCutsMatchTheReference) {
     cut += before.lo != now.lo || before.hi != now.hi ? 1 : 0;
   }
   EXPECT_GT(cut, 50u);
-  expectSameState(end, reference, 2 * kFloat32Displacement, 2 * kFloat32Velocity);  // two ticks
+  expectSameState(end, reference, 2 * kMomentsFloat32Displacement, 2 * kMomentsFloat32Velocity);  // two ticks
 }
 
 TEST_P(Moments, TheirEnergyIsMeasured) {
-  for (const Body& body : {ball(), block({4, 4, 6}), thinBody(1.2, kSpacing_m)}) {
+  for (const Body& body : {ball(), block({4, 4, 6}), thinBody(1.2, kMomentsSpacing_m)}) {
     const Model model = modelOf({body});
     const auto solver = make(model, sceneFor(model, 1));
-    const HostState start = randomState(model, 0.1 * kSpacing_m, 0, 3);
+    const HostState start = randomState(model, 0.1 * kMomentsSpacing_m, 0, 3);
     solver->writeState(start);
     ReferenceSolver reference(model, Vector3d::Zero(), static_cast<float>(solver->dt_s()));
     load(reference, start);
@@ -204,9 +205,9 @@ TEST_P(Moments, NothingIsLeftOfForcesBeforeAStateWithCuts) {
   const Model model = modelOf({block({7, 3, 3})});
   const Lattice& lattice = model.bodies[0].lattice;
   const Scene scene = sceneFor(model, 10);
-  const HostState whole = randomState(model, 0.05 * kSpacing_m, 0.1, 3);
+  const HostState whole = randomState(model, 0.05 * kMomentsSpacing_m, 0.1, 3);
   // Nodes at x = 4 begin a brick, and keep the springs to the one before them only.
-  HostState cut = randomState(model, 0.05 * kSpacing_m, 0.1, 4);
+  HostState cut = randomState(model, 0.05 * kMomentsSpacing_m, 0.1, 4);
   for (const uint32_t slot : lattice.active_slots) {
     const int x = lattice.nodeAt(slot).x();
     layout::NodeBits& bits = cut.nodes[slot];

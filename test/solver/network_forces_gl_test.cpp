@@ -20,7 +20,7 @@ constexpr double kDisplacement = 1e-6;    // as for lattices (leapfrog_gl_test.c
 constexpr double kVelocity = 5e-6;        // likewise
 constexpr double kSum = 1e-6;             // |sum F| / sum |F|: roundings of single forces
 constexpr double kCompensatedSum = 5e-7;  // four roundings per substep that nothing sums up
-constexpr int kSubsteps = 10;
+constexpr int kNetworkForcesSubsteps = 10;
 
 class NetworkForces : public OnBackend {
  protected:
@@ -134,7 +134,7 @@ TEST_P(NetworkForces, MoveNodesLikeTheReferenceWithDragDashpotAndGravity) {
     SCOPED_TRACE(nameOf(scheme));
     for (const Model& model : {mixedModel(), modelOf({graphBody(65, 200, 3, strained())}),
                                modelOf({clothBody(17, 13, 0.01, 0.3)}), modelOf({graphBody(1, 0, 1)})}) {
-      Scene scene = sceneFor(model, kSubsteps, {}, gravity);
+      Scene scene = sceneFor(model, kNetworkForcesSubsteps, {}, gravity);
       scene.solver.spring_forces = scheme;
       expectLikeReference(model, scene);
       scene.solver.compensated = true;

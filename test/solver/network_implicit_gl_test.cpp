@@ -12,7 +12,7 @@ namespace {
 // their sum, as for lattices (pd_gl_test.cpp).
 constexpr double kConverged = 2e-6;
 constexpr int kIterations = 200;
-constexpr int kSubsteps = 3;
+constexpr int kNetworkImplicitSubsteps = 3;
 // Roundings of a position per substep of verlet_paper, each up to 2^-24 of it: as for lattices
 // (verlet_paper_gl_test.cpp), and one more for every hundred links of a hub.
 constexpr double kRounding = 1.0 / (1 << 24);
@@ -22,7 +22,8 @@ class NetworkIntegrators : public OnBackend {
  protected:
   void expectImplicitEuler(const Model& model) {
     const Vector3d gravity(0.3, -0.2, -9.81);
-    const auto solver = make(model, sceneWith(Integrator::kPd, model, kSubsteps, 3, kIterations, {}, gravity));
+    const auto solver =
+        make(model, sceneWith(Integrator::kPd, model, kNetworkImplicitSubsteps, 3, kIterations, {}, gravity));
     const HostState start = scatteredState(model, 5e-4, 0.1, 7);
     ReferenceSolver reference = referenceFor(ReferenceIntegrator::kImplicitEuler, model, *solver, start, gravity);
     expectSameTick(*solver, reference, start, kConverged, kConverged);

@@ -14,17 +14,17 @@ namespace {
 
 // Relative to the largest value, after kSubsteps of 3 dt_safe with iterations enough that more change nothing: float32
 // rounding of increments and of their sum.
-constexpr double kConverged = 2e-6;
-constexpr int kIterations = 160;
-constexpr int kSubsteps = 3;
+constexpr double kPdConverged = 2e-6;
+constexpr int kPdIterations = 160;
+constexpr int kPdSubsteps = 3;
 
 class Pd : public OnBackend {
  protected:
   void expectLikeReference(const Model& model, const Vector3d& gravity) {
-    const auto solver = make(model, sceneWith(Integrator::kPd, model, kSubsteps, 3, kIterations, {}, gravity));
+    const auto solver = make(model, sceneWith(Integrator::kPd, model, kPdSubsteps, 3, kPdIterations, {}, gravity));
     const HostState start = randomState(model, 0.05 * model.bodies[0].lattice.spacing_m, 0.1, 7);
     ReferenceSolver reference = referenceFor(ReferenceIntegrator::kImplicitEuler, model, *solver, start, gravity);
-    expectSameTick(*solver, reference, start, kConverged, kConverged);
+    expectSameTick(*solver, reference, start, kPdConverged, kPdConverged);
   }
 };
 
@@ -184,13 +184,13 @@ TEST_P(Pd, FallsFreelyHoweverLongTheSubstep) {
       referenceFor(ReferenceIntegrator::kImplicitEuler, model, *solver, restState(model), Vector3d(0, 0, -9.81));
   solver->step({});
   for (int s = 0; s < 4; ++s) reference.substep();
-  EXPECT_LT(relativeError(solver->readState().displacement_m, reference.u_m, reference.active), kConverged);
+  EXPECT_LT(relativeError(solver->readState().displacement_m, reference.u_m, reference.active), kPdConverged);
 }
 
 TEST_P(Pd, ToolsActLikeTheReferences) {
   for (const double poisson_ratio : {0.25, 0.4}) {
     // Absolute positions of tools, rounded at 6e-8 of 0.05 m, on displacements of 3e-3 m.
-    expectToolsLikeReference(GetParam(), Integrator::kPd, kIterations, poisson_ratio, 1e-5);
+    expectToolsLikeReference(GetParam(), Integrator::kPd, kPdIterations, poisson_ratio, 1e-5);
   }
 }
 

@@ -18,13 +18,13 @@ using namespace viscera::test;
 
 namespace {
 
-constexpr double kSpacing_m = 0.01;
-constexpr double kNotLonger = 1e-3;    // of the true limit: float32 forces, and their part that is not linear
-constexpr double kShorter = 0.02;      // of it: what twenty products of Lanczos' method leave, on the safe side
-constexpr double kEnergyBound = 1.01;  // of the start's, at the end of any tick
+constexpr double kStableStepSpacing_m = 0.01;
+constexpr double kNotLonger = 1e-3;  // of the true limit: float32 forces, and their part that is not linear
+constexpr double kShorter = 0.02;    // of it: what twenty products of Lanczos' method leave, on the safe side
+constexpr double kStableStepEnergyBound = 1.01;  // of the start's, at the end of any tick
 
 Body block(double poisson_ratio, int cells = 4) {
-  Body body = boxBody(Vector3i::Constant(cells), kSpacing_m);
+  Body body = boxBody(Vector3i::Constant(cells), kStableStepSpacing_m);
   body.material.poisson_ratio = poisson_ratio;
   return body;
 }
@@ -79,7 +79,8 @@ TEST_P(MeasuredLimit, IsThatOfTheFastestMode) {
   std::vector<Model> models;
   for (const double nu : {0.25, 0.45, 0.49}) models.push_back(modelOf({block(nu)}));
   models.push_back(modelOf({block(0.25, 1), block(0.3, 3)}));
-  models.push_back(modelOf({momentBody({3, 3, 3}, kSpacing_m, [](const Vector3d& x) { return x.z() < 2.3; })}));
+  models.push_back(
+      modelOf({momentBody({3, 3, 3}, kStableStepSpacing_m, [](const Vector3d& x) { return x.z() < 2.3; })}));
   for (size_t i = 0; i < models.size(); ++i) {
     SCOPED_TRACE(i);
     const auto solver = make(models[i], usual());
@@ -158,7 +159,7 @@ TEST_P(MeasuredLimit, IsStable) {
     const Model model = modelOf({block(nu)});
     const auto solver = make(model, usual());
     for (const double amplitude : {0.01, 0.1, 0.3}) {
-      const HostState start = randomState(model, amplitude * kSpacing_m, 0, 5);
+      const HostState start = randomState(model, amplitude * kStableStepSpacing_m, 0, 5);
       const double start_j = energyOf(model, start);
       solver->reset();
       solver->writeState(start);

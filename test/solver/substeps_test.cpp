@@ -16,11 +16,11 @@ using namespace viscera::test;
 
 namespace {
 
-constexpr double kSpacing_m = 0.01;
-constexpr double kRounding = 1e-6;  // of a substep: k and m are float32 where dt_safe is taken from them
+constexpr double kSubstepsSpacing_m = 0.01;
+constexpr double kSubstepsRounding = 1e-6;  // of a substep: k and m are float32 where dt_safe is taken from them
 
 Model block(Weights weights = Weights::kCell) {
-  return modelOf({boxBody({3, 3, 3}, kSpacing_m, weights)});
+  return modelOf({boxBody({3, 3, 3}, kSubstepsSpacing_m, weights)});
 }
 
 /// A tick that takes this many substeps of dt_safe [1].
@@ -39,11 +39,11 @@ TEST(StableSubstep, IsThatOfTheStiffestNodeAndNotOfTheFastestModeAtRest) {
   const Model model = block();
   const MaterialConfig& material = model.bodies[0].material;
   const Elasticity e =
-      elasticity(material.young_modulus_pa, material.poisson_ratio, material.density_kg_per_m3, kSpacing_m);
+      elasticity(material.young_modulus_pa, material.poisson_ratio, material.density_kg_per_m3, kSubstepsSpacing_m);
   const double unit_s = std::sqrt(e.cell_mass_kg / e.spring_n_per_m);
   // physics.md 2: sqrt(2 m / sum k), sum k = 18 k; the mode at rest, 2 / sqrt(12 k/m), would allow 1.7 times as much.
-  EXPECT_NEAR(safeTimeStep(model), unit_s / 3, kRounding * unit_s);
-  EXPECT_NEAR(safeTimeStep(block(Weights::kPaper)), unit_s / 3, kRounding * unit_s);
+  EXPECT_NEAR(safeTimeStep(model), unit_s / 3, kSubstepsRounding * unit_s);
+  EXPECT_NEAR(safeTimeStep(block(Weights::kPaper)), unit_s / 3, kSubstepsRounding * unit_s);
 }
 
 TEST(Substeps, ExplicitIntegratorsRefuseMoreThanTheStableSubstepAndSayWhatWouldDo) {

@@ -13,7 +13,7 @@ using namespace viscera::test;
 
 namespace {
 
-constexpr double kSpacing_m = 0.01;
+constexpr double kTicksSpacing_m = 0.01;
 
 /// Looks that it takes until measurements are seen to have come; more than any test takes: only who waits gets them.
 constexpr int kNever = 1000000;
@@ -87,8 +87,8 @@ class LaggingBackend : public ::testing::Test {
 
   static ToolMotions probe() { return probeAt({0.02, 0.02, 0.038}); }
 
-  const Model model_ = modelOf({boxBody({4, 4, 4}, kSpacing_m)});
-  const HostState wild_ = randomState(model_, 0.3 * kSpacing_m, 0.1, 5);
+  const Model model_ = modelOf({boxBody({4, 4, 4}, kTicksSpacing_m)});
+  const HostState wild_ = randomState(model_, 0.3 * kTicksSpacing_m, 0.1, 5);
 };
 
 /// What is told of a tick, as text.
@@ -101,7 +101,7 @@ std::string told(const layout::TickStats& stats) {
 
 TEST_F(LaggingBackend, NoTickIsWaitedForBeforeTheNextOneIsUnderWay) {
   LateSolver solver = make(0.5, kNever);
-  solver.writeState(randomState(model_, 0.05 * kSpacing_m, 0.1, 6));
+  solver.writeState(randomState(model_, 0.05 * kTicksSpacing_m, 0.1, 6));
   const int before = solver.waits();  // writing a state measures it
   for (int t = 0; t < 20; ++t) {
     solver.step(probe());

@@ -14,14 +14,14 @@ namespace {
 
 using namespace test;
 
-constexpr double kSpacing_m = 0.01;
+constexpr double kUnfoldSpacing_m = 0.01;
 // Displacements of up to 0.04 m in float32, a few times rounded [m].
 constexpr double kRounding_m = 3e-8;
 
 /// A block of 6^3 cells, stretched, turned and sheared by an affine motion, held at its bottom.
 class Unfold : public ::testing::Test {
  protected:
-  Unfold() : model_(modelOf({boxBody({6, 6, 6}, kSpacing_m)})), state_(restState(model_)) {
+  Unfold() : model_(modelOf({boxBody({6, 6, 6}, kUnfoldSpacing_m)})), state_(restState(model_)) {
     motion_ << 0.1, -0.6, 0.1, 0.5, 0.05, 0, 0.1, 0, -0.1;
     for (const uint32_t slot : lattice().active_slots) {
       put(slot, affine(slot));
@@ -36,7 +36,7 @@ class Unfold : public ::testing::Test {
                                    static_cast<float>(u_m.z()), 0};
   }
   /// The node goes so far through those around it.
-  void push(uint32_t slot, const Vector3d& way) { put(slot, affine(slot) + kSpacing_m * way); }
+  void push(uint32_t slot, const Vector3d& way) { put(slot, affine(slot) + kUnfoldSpacing_m * way); }
   double strayed() const {
     double out = 0;
     for (const uint32_t slot : lattice().active_slots)
@@ -76,9 +76,9 @@ TEST_F(Unfold, LayersThatWentThroughEachOtherComeBackToo) {
 TEST_F(Unfold, FixedNodesStay) {
   push(slot(3, 3, 0), {0, 0, 2.5});
   unfold(model_, state_);
-  EXPECT_LT(
-      (xyz(state_.displacement_m[slot(3, 3, 0)]) - affine(slot(3, 3, 0)) - Vector3d(0, 0, 2.5 * kSpacing_m)).norm(),
-      kRounding_m);
+  EXPECT_LT((xyz(state_.displacement_m[slot(3, 3, 0)]) - affine(slot(3, 3, 0)) - Vector3d(0, 0, 2.5 * kUnfoldSpacing_m))
+                .norm(),
+            kRounding_m);
 }
 
 TEST_F(Unfold, CutCellsAreNobodysConcern) {

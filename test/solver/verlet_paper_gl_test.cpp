@@ -8,24 +8,26 @@ using namespace viscera::test;
 
 namespace {
 
-constexpr int kSubsteps = 10;
+constexpr int kVerletPaperSubsteps = 10;
 // A rounding of a position is up to 2^-24 of it; a substep makes about four (2 x, - x_prev, + dt^2 a, and those of the
 // neighbours that come back as force). x+ = 2 x - x_prev carries each on as a velocity: over n substeps
 // n (n + 1)/2 of them at worst.
-constexpr double kRounding = 1.0 / (1 << 24);
-constexpr double kRoundingsPerSubstep = 4;
+constexpr double kVerletPaperRounding = 1.0 / (1 << 24);
+constexpr double kVerletPaperRoundingsPerSubstep = 4;
 
 class VerletPaper : public OnBackend {
  protected:
   /// Largest error against float64 after kSubsteps [m].
   double expectLikeReference(const Model& model, const Vector3d& gravity) {
-    const auto solver = make(model, sceneWith(Integrator::kVerletPaper, model, kSubsteps, 0.5, 1, {}, gravity));
+    const auto solver =
+        make(model, sceneWith(Integrator::kVerletPaper, model, kVerletPaperSubsteps, 0.5, 1, {}, gravity));
     const HostState start = randomState(model, 0.05 * model.bodies[0].lattice.spacing_m, 0.1, 7);
     solver->writeState(start);
     ReferenceSolver reference = referenceFor(ReferenceIntegrator::kVerletPaper, model, *solver, start, gravity);
     solver->step({});
-    for (int s = 0; s < kSubsteps; ++s) reference.substep();
-    return expectPositionsRounded(solver->readState(), reference, kRoundingsPerSubstep, kSubsteps, solver->dt_s());
+    for (int s = 0; s < kVerletPaperSubsteps; ++s) reference.substep();
+    return expectPositionsRounded(solver->readState(), reference, kVerletPaperRoundingsPerSubstep, kVerletPaperSubsteps,
+                                  solver->dt_s());
   }
 };
 
@@ -63,7 +65,7 @@ TEST_P(VerletPaper, DashpotsAreUnknownToIt) {
   const auto hash = [&](double dashpot_ratio) {
     body.material.dashpot_ratio = dashpot_ratio;
     const Model model = modelOf({body});
-    const auto solver = make(model, sceneWith(Integrator::kVerletPaper, model, kSubsteps, 0.5));
+    const auto solver = make(model, sceneWith(Integrator::kVerletPaper, model, kVerletPaperSubsteps, 0.5));
     solver->writeState(randomState(model, 1e-3, 0.5, 11));
     solver->step({});
     return stateHash(model, solver->readState());
@@ -87,7 +89,7 @@ TEST_P(VerletPaper, GrabbedNodesFollowTheToolAndAreLetGoAtTheReleaseSpeed) {
     solver->step(motions);
     motions[0].hold_begins = false;
     // 0.01 m of spacing and of grab offset at most, rounded a few times.
-    EXPECT_NEAR(solver->readState().displacement_m[corner].x, -(t + 1) * way_m, 4 * kRounding * 0.01);
+    EXPECT_NEAR(solver->readState().displacement_m[corner].x, -(t + 1) * way_m, 4 * kVerletPaperRounding * 0.01);
   }
   motions[0].mode = ToolMode::kNone;
   motions[0].hold_ended = ToolMode::kGrab;
@@ -99,7 +101,7 @@ TEST_P(VerletPaper, GrabbedNodesFollowTheToolAndAreLetGoAtTheReleaseSpeed) {
 
 TEST_P(VerletPaper, GoesOnFromAStateThatWasSaved) {
   const Model model = modelOf({boxBody({4, 4, 4}, 0.01)});
-  const Scene scene = sceneWith(Integrator::kVerletPaper, model, kSubsteps, 0.5);
+  const Scene scene = sceneWith(Integrator::kVerletPaper, model, kVerletPaperSubsteps, 0.5);
   const auto saved = make(model, scene), loaded = make(model, scene);
   saved->writeState(randomState(model, 5e-4, 0.1, 7));
   saved->step({});
@@ -109,8 +111,8 @@ TEST_P(VerletPaper, GoesOnFromAStateThatWasSaved) {
   loaded->step({});
   const HostState a = saved->readState(), b = loaded->readState();
   // x is rounded once more on its way through u: as one more substep's roundings at the bottom of kSubsteps.
-  const double rounding_m = kRoundingsPerSubstep * kRounding * 0.04;
+  const double rounding_m = kVerletPaperRoundingsPerSubstep * kVerletPaperRounding * 0.04;
   for (uint32_t slot : model.bodies[0].lattice.active_slots) {
-    EXPECT_LT((xyz(a.displacement_m[slot]) - xyz(b.displacement_m[slot])).norm(), rounding_m * kSubsteps);
+    EXPECT_LT((xyz(a.displacement_m[slot]) - xyz(b.displacement_m[slot])).norm(), rounding_m * kVerletPaperSubsteps);
   }
 }

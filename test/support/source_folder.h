@@ -5,13 +5,18 @@
 #include <cstdlib>
 #include <string>
 
+// Absolute paths, defined in a source that test/CMakeLists.txt writes for each test program.
+extern const char* const kSourceFolder;
+extern const char* const kCommand;       ///< the program `viscera`; empty: not built
+extern const char* const kDicomProgram;  ///< the program `viscera-dicom`; empty: not built
+
 namespace viscera::test {
 
-/// Where config/ and the sources are that tests read: the environment's VISCERA_SOURCE_DIR, as of a bundle
-/// (scripts/bundle --tests), or the tree that the test was built from.
+/// Returns the folder with config/ and the sources that tests read: the environment's VISCERA_SOURCE_DIR, as of a
+/// bundle (scripts/bundle --tests), or the tree that the test was built from.
 inline std::string sourceFolder() {
   const char* given = std::getenv("VISCERA_SOURCE_DIR");
-  return given ? given : VISCERA_SOURCE_DIR;
+  return given ? given : kSourceFolder;
 }
 
 }  // namespace viscera::test

@@ -14,7 +14,7 @@ using namespace viscera::testing;
 namespace {
 
 constexpr double kUlp = 1.2e-7;  // [-] spacing of floats at 1
-constexpr double kSpacing_m = 0.01;
+constexpr double kMappingSpacing_m = 0.01;
 constexpr double kRadius_m = 0.05;
 // The kernel rounds origin, grid step, their product and two sums, each by half an ulp of the largest coordinate.
 constexpr double kRestUlps = 4;
@@ -22,7 +22,7 @@ constexpr double kRestUlps = 4;
 // than a spacing, in three axes of two edges, on top of the above.
 constexpr double kMovedUlps = 16;
 // A step of a packed normal is 1/511 per axis and rounding errs by half of it; plus float noise.
-constexpr double kNormalError = 1.0 / 511;
+constexpr double kMappingNormalError = 1.0 / 511;
 
 class SkinMapping : public ::testing::Test {
  protected:
@@ -30,19 +30,19 @@ class SkinMapping : public ::testing::Test {
 };
 
 Body ballBody(const Vector3d& center_m, int n = 10, Weights weights = Weights::kCell) {
-  return makeBody(ballSolid(center_m, kRadius_m, kSpacing_m), sphereMesh(center_m, kRadius_m, n), weights);
+  return makeBody(ballSolid(center_m, kRadius_m, kMappingSpacing_m), sphereMesh(center_m, kRadius_m, n), weights);
 }
 
 Body sheetBody() {
-  return makeBody(blockSolid({8, 8, 1}, kSpacing_m), boxMesh({0, 0, 0.002}, {0.08, 0.08, 0.008}, 12));
+  return makeBody(blockSolid({8, 8, 1}, kMappingSpacing_m), boxMesh({0, 0, 0.002}, {0.08, 0.08, 0.008}, 12));
 }
 
 Body boxBody() {
-  return makeBody(blockSolid({4, 3, 5}, kSpacing_m), boxMesh({0, 0, 0}, {0.04, 0.03, 0.05}, 9));
+  return makeBody(blockSolid({4, 3, 5}, kMappingSpacing_m), boxMesh({0, 0, 0}, {0.04, 0.03, 0.05}, 9));
 }
 
 /// A bend, a twist and a swelling at once: nothing symmetric about it.
-Vector3d deformed(const Vector3d& x) {
+Vector3d mappingDeformed(const Vector3d& x) {
   const double twist = 6 * x.z();
   return {1.1 * x.x() * std::cos(twist) - x.y() * std::sin(twist) + 3 * x.z() * x.z(),
           x.x() * std::sin(twist) + 0.9 * x.y() * std::cos(twist) + 0.004 * std::sin(80 * x.x()), 1.2 * x.z() + 0.1};
@@ -65,7 +65,7 @@ void expectAsReference(const SurfaceRig& rig, size_t body, size_t first_vertex) 
   for (size_t v = 0; v < bindings.size(); ++v) {
     const auto expected = reference.map(bindings[v]);
     ASSERT_LT((positions[first_vertex + v] - expected.position_m).norm(), tolerance_m) << "vertex " << v;
-    ASSERT_LT((normals[first_vertex + v] - expected.normal).norm(), kNormalError) << "vertex " << v;
+    ASSERT_LT((normals[first_vertex + v] - expected.normal).norm(), kMappingNormalError) << "vertex " << v;
   }
 }
 
@@ -79,7 +79,7 @@ TEST_F(SkinMapping, RestPoseComesBackToFloatRounding) {
   }
   bodies.push_back(sheetBody());
   bodies.push_back(boxBody());
-  bodies.push_back(filledBallBody({0.01, 0.02, 0.03}, kRadius_m, kSpacing_m));
+  bodies.push_back(filledBallBody({0.01, 0.02, 0.03}, kRadius_m, kMappingSpacing_m));
   for (Body& body : bodies) {
     const double tolerance_m = kRestUlps * kUlp * largestCoordinate(body.skin.mesh);
     SurfaceRig rig(std::move(body));
@@ -89,7 +89,7 @@ TEST_F(SkinMapping, RestPoseComesBackToFloatRounding) {
     const std::vector<Vector3d> positions = rig.positions(), normals = rig.normals();
     for (size_t v = 0; v < positions.size(); ++v) {
       ASSERT_LT((positions[v] - mesh.positions_m[v].cast<double>()).cwiseAbs().maxCoeff(), tolerance_m) << v;
-      ASSERT_LT((normals[v] - mesh_normals[v].cast<double>()).norm(), kNormalError) << v;
+      ASSERT_LT((normals[v] - mesh_normals[v].cast<double>()).norm(), kMappingNormalError) << v;
     }
   }
 }
@@ -101,7 +101,7 @@ TEST_F(SkinMapping, RigidMotionOfTheNodesMovesTheSkinRigidly) {
   std::vector<Body> bodies;
   bodies.push_back(ballBody({0.01, 0.02, 0.03}));
   bodies.push_back(sheetBody());
-  bodies.push_back(filledBallBody({0.01, 0.02, 0.03}, kRadius_m, kSpacing_m));
+  bodies.push_back(filledBallBody({0.01, 0.02, 0.03}, kRadius_m, kMappingSpacing_m));
   for (Body& body : bodies) {
     SurfaceRig rig(std::move(body));
     rig.moveNodes(moved);
@@ -112,7 +112,7 @@ TEST_F(SkinMapping, RigidMotionOfTheNodesMovesTheSkinRigidly) {
     const double tolerance_m = kMovedUlps * kUlp * largest(positions);
     for (size_t v = 0; v < positions.size(); ++v) {
       ASSERT_LT((positions[v] - moved(mesh.positions_m[v].cast<double>())).norm(), tolerance_m) << v;
-      ASSERT_LT((normals[v] - turn * mesh_normals[v].cast<double>()).norm(), kNormalError) << v;
+      ASSERT_LT((normals[v] - turn * mesh_normals[v].cast<double>()).norm(), kMappingNormalError) << v;
     }
   }
 }
@@ -142,7 +142,7 @@ TEST_F(SkinMapping, AgreesWithTheReferenceAtEverySize) {
     body.skin.bindings.resize(count);
     SurfaceRig rig(std::move(body));
     ASSERT_EQ(rig.surface.vertices(), count);
-    rig.moveNodes(deformed);
+    rig.moveNodes(mappingDeformed);
     rig.follow();
     expectAsReference(rig, 0, 0);
   }
@@ -154,7 +154,7 @@ TEST_F(SkinMapping, EveryBodyFollowsItsOwnNodes) {
   bodies.push_back(sheetBody());
   bodies.push_back(ballBody({0.2, 0.1, 0}));
   SurfaceRig rig(std::move(bodies));
-  rig.moveNodes(deformed);
+  rig.moveNodes(mappingDeformed);
   rig.follow();
   size_t first = 0;
   for (size_t b = 0; b < 3; ++b) {
@@ -168,15 +168,15 @@ TEST_F(SkinMapping, SeveredNodesFallBackToTheConstantBasis) {
   SurfaceRig rig(ballBody({0, 0, 0}));
   cutBetween(
       rig.model.bodies[0].lattice, [](const Vector3d& x) { return x.x() > 0.005; }, rig.nodes);
-  rig.moveNodes(deformed);
+  rig.moveNodes(mappingDeformed);
   rig.follow();
   expectAsReference(rig, 0, 0);
 }
 
 TEST_F(SkinMapping, CellsInPartCarryTheirSkinUntilTheyAreCut) {
-  SurfaceRig rig(filledBallBody({0, 0, 0}, kRadius_m, kSpacing_m));
+  SurfaceRig rig(filledBallBody({0, 0, 0}, kRadius_m, kMappingSpacing_m));
   for (const auto& s : rig.model.bodies[0].skin.bindings) ASSERT_NE(s.springs & layout::kInCellBit, 0u);
-  rig.moveNodes(deformed);
+  rig.moveNodes(mappingDeformed);
   rig.follow();
   expectAsReference(rig, 0, 0);
   cutBetween(
@@ -187,7 +187,7 @@ TEST_F(SkinMapping, CellsInPartCarryTheirSkinUntilTheyAreCut) {
 
 TEST_F(SkinMapping, StretchedCellsInPartStretchTheirSkin) {
   constexpr double kStretch = 0.3;
-  SurfaceRig rig(filledBallBody({0, 0, 0}, kRadius_m, kSpacing_m));
+  SurfaceRig rig(filledBallBody({0, 0, 0}, kRadius_m, kMappingSpacing_m));
   const auto moved = [&](const Vector3d& x) { return Vector3d((1 + kStretch) * x.x(), x.y() + 0.2 * x.z(), x.z()); };
   rig.moveNodes(moved);
   rig.follow();
@@ -209,13 +209,13 @@ TEST_F(SkinMapping, CollapsedNodesGiveFiniteVerticesAndUnitNormals) {
                                                                            mirrored,   tiny,      far_away};
   std::vector<Body> bodies;
   bodies.push_back(ballBody({0, 0, 0}));
-  bodies.push_back(filledBallBody({0, 0, 0}, kRadius_m, kSpacing_m));
+  bodies.push_back(filledBallBody({0, 0, 0}, kRadius_m, kMappingSpacing_m));
   SurfaceRig rig(std::move(bodies));
   for (size_t c = 0; c < collapses.size(); ++c) {
     rig.moveNodes(collapses[c]);
     rig.follow();
     for (const Vector3d& p : rig.positions()) ASSERT_TRUE(p.allFinite()) << "collapse " << c;
-    for (const Vector3d& n : rig.normals()) ASSERT_NEAR(n.norm(), 1, 2 * kNormalError) << "collapse " << c;
+    for (const Vector3d& n : rig.normals()) ASSERT_NEAR(n.norm(), 1, 2 * kMappingNormalError) << "collapse " << c;
   }
 }
 
@@ -259,7 +259,7 @@ TEST_F(SkinMapping, FollowingMakesNoObjectAndCountsItself) {
 TEST_F(SkinMapping, BodyWithoutSkinIsFollowedByNothing) {
   TriangleMesh none;
   none.part_names = {"tissue"};
-  SurfaceRig rig(makeBody(blockSolid({2, 2, 2}, kSpacing_m), none));
+  SurfaceRig rig(makeBody(blockSolid({2, 2, 2}, kMappingSpacing_m), none));
   rig.follow();
   rig.split();
   EXPECT_EQ(rig.surface.vertices(), 0u);

@@ -19,9 +19,10 @@ using namespace viscera::testing;
 
 namespace {
 
-constexpr double kSpacing_m = 0.01, kRadius_m = 0.05;
-constexpr double kPlace_m = 1e-6;           // float rounding of places of up to 0.3 m, carried through directions
-constexpr double kNormalError = 2.0 / 511;  // a step of a packed normal per axis: rounding may fall to either side
+constexpr double kMappingKindsSpacing_m = 0.01, kMappingKindsRadius_m = 0.05;
+constexpr double kMappingKindsPlace_m = 1e-6;  // float rounding of places of up to 0.3 m, carried through directions
+constexpr double kMappingKindsNormalError =
+    2.0 / 511;  // a step of a packed normal per axis: rounding may fall to either side
 const std::vector<Mapping> kAll = {Mapping::kOneToOne, Mapping::kConstant, Mapping::kInterpolated,
                                    Mapping::kAlongNormal};
 
@@ -37,27 +38,29 @@ Body mapped(const Solid& solid, const TriangleMesh& mesh, Mapping mapping) {
   return body;
 }
 Body ball(Mapping mapping, const Vector3d& center_m = {0.01, 0.02, 0.03}) {
-  return mapped(ballSolid(center_m, kRadius_m, kSpacing_m), sphereMesh(center_m, kRadius_m, 10), mapping);
+  return mapped(ballSolid(center_m, kMappingKindsRadius_m, kMappingKindsSpacing_m),
+                sphereMesh(center_m, kMappingKindsRadius_m, 10), mapping);
 }
 Body partialBall(Mapping mapping) {
-  const TriangleMesh mesh = weldedSphereMesh({0.01, 0.02, 0.03}, kRadius_m, 10);
-  return mapped(voxeliseByMoments(mesh, kSpacing_m), mesh, mapping);
+  const TriangleMesh mesh = weldedSphereMesh({0.01, 0.02, 0.03}, kMappingKindsRadius_m, 10);
+  return mapped(voxeliseByMoments(mesh, kMappingKindsSpacing_m), mesh, mapping);
 }
 /// A bar of 12 x 4 x 4 cells whose skin lies 0.4 cells around it, as a smooth skin of coarse cells does.
 Body bar(Mapping mapping, int n = 24) {
-  const Vector3d size = kSpacing_m * Vector3d(12, 4, 4), around = Vector3d::Constant(0.4 * kSpacing_m);
-  return mapped(blockSolid({12, 4, 4}, kSpacing_m), boxMesh(-around, size + around, n), mapping);
+  const Vector3d size = kMappingKindsSpacing_m * Vector3d(12, 4, 4),
+                 around = Vector3d::Constant(0.4 * kMappingKindsSpacing_m);
+  return mapped(blockSolid({12, 4, 4}, kMappingKindsSpacing_m), boxMesh(-around, size + around, n), mapping);
 }
 
 /// Bent and twisted, with no symmetry; far less than what would make normals unclear.
-Vector3d deformed(const Vector3d& x) {
+Vector3d mappingKindsDeformed(const Vector3d& x) {
   const double twist = 4 * x.z();
   return {1.1 * x.x() * std::cos(twist) - x.y() * std::sin(twist) + 2 * x.z() * x.z(),
           x.x() * std::sin(twist) + 0.95 * x.y() * std::cos(twist), 1.1 * x.z() + 0.1};
 }
 /// To a circle around a line along y, above the bar.
 Vector3d bent(const Vector3d& x) {
-  constexpr double kBend_m = 8 * kSpacing_m;
+  constexpr double kBend_m = 8 * kMappingKindsSpacing_m;
   const double angle = (x.x() - 0.06) / kBend_m, radius = kBend_m - (x.z() - 0.02);
   return {radius * std::sin(angle), x.y(), kBend_m - radius * std::cos(angle)};
 }
@@ -208,10 +211,10 @@ TEST_F(MappingKinds, EachIsItsEquationsInFloat64OnBothBackends) {
   for (const Mapping mapping : kAll) {
     for (const bool partial : {false, true}) {
       SurfaceRig rig(partial ? partialBall(mapping) : ball(mapping));
-      rig.moveNodes(deformed);
+      rig.moveNodes(mappingKindsDeformed);
       rig.follow();
       const Body& body = rig.model.bodies[0];
-      const Egve egve(body, deformed);
+      const Egve egve(body, mappingKindsDeformed);
       const std::vector<Vector3f> rest_normals = vertexNormals(body.skin.mesh);
       const std::vector<Vector3d> positions = rig.positions(), normals = rig.normals();
       const ShownMesh host = onHost(rig);
@@ -222,10 +225,10 @@ TEST_F(MappingKinds, EachIsItsEquationsInFloat64OnBothBackends) {
         const Egve::Vertex expected = egve.map(own, v, rest_normals[v].cast<double>());
         if (own != Mapping::kConstant && !expected.clear) continue;
         judged += own == mapping ? 1 : 0;
-        ASSERT_LT((positions[v] - expected.position).norm(), kPlace_m) << int(mapping) << ", vertex " << v;
-        ASSERT_LT((normals[v] - expected.normal).norm(), kNormalError) << int(mapping) << ", vertex " << v;
-        ASSERT_LT((host.position_m(v).cast<double>() - expected.position).norm(), kPlace_m) << int(mapping);
-        ASSERT_LT((unpackNormal(host.normals[v]).cast<double>() - expected.normal).norm(), kNormalError);
+        ASSERT_LT((positions[v] - expected.position).norm(), kMappingKindsPlace_m) << int(mapping) << ", vertex " << v;
+        ASSERT_LT((normals[v] - expected.normal).norm(), kMappingKindsNormalError) << int(mapping) << ", vertex " << v;
+        ASSERT_LT((host.position_m(v).cast<double>() - expected.position).norm(), kMappingKindsPlace_m) << int(mapping);
+        ASSERT_LT((unpackNormal(host.normals[v]).cast<double>() - expected.normal).norm(), kMappingKindsNormalError);
       }
       EXPECT_GT(judged, positions.size() / 2) << int(mapping) << (partial ? ", partial" : "");
     }
@@ -241,8 +244,9 @@ TEST_F(MappingKinds, EachIsExactAtRest) {
       const ShownMesh host = onHost(rig);
       for (size_t v = 0; v < positions.size(); ++v) {
         const Vector3d rest = rig.model.bodies[0].skin.mesh.positions_m[v].cast<double>();
-        ASSERT_LT((positions[v] - rest).norm(), kPlace_m) << int(mapping) << ", vertex " << v;
-        ASSERT_LT((host.position_m(v).cast<double>() - rest).norm(), kPlace_m) << int(mapping) << ", vertex " << v;
+        ASSERT_LT((positions[v] - rest).norm(), kMappingKindsPlace_m) << int(mapping) << ", vertex " << v;
+        ASSERT_LT((host.position_m(v).cast<double>() - rest).norm(), kMappingKindsPlace_m)
+            << int(mapping) << ", vertex " << v;
       }
     }
   }
@@ -259,7 +263,8 @@ TEST_F(MappingKinds, AlongNormalLiesOnTheNormalAtRest) {
     const std::array<uint32_t, 3> node = {s.slot0, s.slot1, s.slot2};
     const Vector3d foot = egve.at(egve.rest(), node, s.weights.y, s.weights.z);
     const Vector3d offset = body.skin.mesh.positions_m[v].cast<double>() - foot;
-    ASSERT_LT((offset - s.weights.w * egve.normalAt(egve.rest(), node, s.weights.y, s.weights.z)).norm(), kPlace_m);
+    ASSERT_LT((offset - s.weights.w * egve.normalAt(egve.rest(), node, s.weights.y, s.weights.z)).norm(),
+              kMappingKindsPlace_m);
   }
   EXPECT_GT(along, body.skin.bindings.size() / 2);
   EXPECT_EQ(along + body.skin.constant_vertices, body.skin.bindings.size());
@@ -281,9 +286,9 @@ TEST_F(MappingKinds, OneToOneDoesNotTurnItsOffsets) {
     return largest;
   };
   for (const Mapping mapping : {Mapping::kConstant, Mapping::kInterpolated, Mapping::kAlongNormal})
-    EXPECT_LT(largestError(mapping), kPlace_m) << int(mapping);
+    EXPECT_LT(largestError(mapping), kMappingKindsPlace_m) << int(mapping);
   // The longest offset is near 0.87 cells, turned by 69 degrees: 2 sin(34.4 degrees) of it at most.
-  EXPECT_GT(largestError(Mapping::kOneToOne), 0.5 * kSpacing_m);
+  EXPECT_GT(largestError(Mapping::kOneToOne), 0.5 * kMappingKindsSpacing_m);
 }
 
 TEST_F(MappingKinds, OneToOneShadesByTheNodesAndNotByTheMesh) {
@@ -318,7 +323,7 @@ TEST_F(MappingKinds, ConstantHasJumpsUnderBendingWhereInterpolatedHasNone) {
         angle = std::max(angle, std::atan2(normals[a].cross(normals[b]).norm(), normals[a].dot(normals[b])));
       }
     }
-    return std::array<double, 2>{place / kSpacing_m, angle};
+    return std::array<double, 2>{place / kMappingKindsSpacing_m, angle};
   };
   const auto constant = largestJumps(Mapping::kConstant), interpolated = largestJumps(Mapping::kInterpolated);
   EXPECT_GT(constant[0], 0.03);  // cells: 0.4 of offset times 1/8 rad between two triangles is 0.05
@@ -329,8 +334,8 @@ TEST_F(MappingKinds, ConstantHasJumpsUnderBendingWhereInterpolatedHasNone) {
 
 TEST_F(MappingKinds, WoundsOfEachAreShutAtRestAndClosedWhenOpened) {
   for (const Mapping mapping : kAll) {
-    const TriangleMesh mesh = weldedSphereMesh({0.01, 0.02, 0.03}, kRadius_m, 10);
-    Body body = mapped(ballSolid({0.01, 0.02, 0.03}, kRadius_m, kSpacing_m), mesh, mapping);
+    const TriangleMesh mesh = weldedSphereMesh({0.01, 0.02, 0.03}, kMappingKindsRadius_m, 10);
+    Body body = mapped(ballSolid({0.01, 0.02, 0.03}, kMappingKindsRadius_m, kMappingKindsSpacing_m), mesh, mapping);
     body.skin.can_be_cut = true;
     SurfaceRig rig(std::move(body));
     const Lattice& lattice = rig.model.bodies[0].lattice;
@@ -340,19 +345,21 @@ TEST_F(MappingKinds, WoundsOfEachAreShutAtRestAndClosedWhenOpened) {
     std::vector<float> axial_cut(3 * rig.nodes.size());
     for (const uint32_t slot : lattice.active_slots) {
       if (springCount(before[slot], 0) && !springCount(rig.nodes[slot], 0))
-        axial_cut[3 * slot] = static_cast<float>((0.0123 - lattice.restPosition(slot).x()) / kSpacing_m);
+        axial_cut[3 * slot] = static_cast<float>((0.0123 - lattice.restPosition(slot).x()) / kMappingKindsSpacing_m);
     }
     rig.surface.wound({rig.nodes, {}, axial_cut}, 1);
     rig.follow();
     const std::vector<Vector3d> still = rig.positions();
     for (size_t v = 0; v < rig.model.bodies[0].skin.bindings.size(); ++v)
-      ASSERT_LT((still[v] - rig.model.bodies[0].skin.mesh.positions_m[v].cast<double>()).norm(), kPlace_m);
-    rig.moveNodes([&](const Vector3d& x) { return Vector3d(deformed(x) + (side(x) ? 0.02 : 0) * Vector3d::UnitX()); });
+      ASSERT_LT((still[v] - rig.model.bodies[0].skin.mesh.positions_m[v].cast<double>()).norm(), kMappingKindsPlace_m);
+    rig.moveNodes([&](const Vector3d& x) {
+      return Vector3d(mappingKindsDeformed(x) + (side(x) ? 0.02 : 0) * Vector3d::UnitX());
+    });
     rig.follow();
     const std::vector<Vector3d> opened = rig.positions();
     std::map<std::pair<std::array<int64_t, 3>, std::array<int64_t, 3>>, int> balance;
     const auto key = [&](uint32_t v) {
-      const Vector3d at = opened[v] / kPlace_m;
+      const Vector3d at = opened[v] / kMappingKindsPlace_m;
       return std::array<int64_t, 3>{std::llround(at.x()), std::llround(at.y()), std::llround(at.z())};
     };
     const auto topology = rig.surface.skin().shown(rig.surface.alive().read().data(), rig.surface.wounds().get());

@@ -14,20 +14,20 @@ namespace {
 using namespace viscera::testing;
 using test::clothBody;
 
-constexpr double kSpacing_m = 0.01;
+constexpr double kNetworkSplittingSpacing_m = 0.01;
 constexpr double kUlp = 1.2e-7;  // [-] spacing of floats at 1
 // Of a vertex of a sheet 0.2 m wide: its place and the piece of an edge that is turned round in some ten operations.
 constexpr double kPlace_m = 10 * kUlp * 0.2;
 // A step of a packed normal is 1/511 per axis and rounding errs by half of it; plus float noise.
-constexpr double kNormalError = 1.0 / 511;
+constexpr double kNetworkSplittingNormalError = 1.0 / 511;
 
 class NetworkSplitting : public ::testing::Test {
  protected:
   gpu::Context context_;
 };
 
-Body cloth(int rows = 20, int columns = 17) {
-  return withNetworkSkin(clothBody(rows, columns, kSpacing_m));
+Body networkSplittingCloth(int rows = 20, int columns = 17) {
+  return withNetworkSkin(clothBody(rows, columns, kNetworkSplittingSpacing_m));
 }
 
 /// Slanted, so that it crosses edges at all places and meets no node.
@@ -66,7 +66,7 @@ void cutEdge(SurfaceRig& rig, uint32_t a, uint32_t b, double share_from_a) {
 }  // namespace
 
 TEST_F(NetworkSplitting, NothingIsSplitAtFirst) {
-  SurfaceRig rig(cloth());
+  SurfaceRig rig(networkSplittingCloth());
   apply(rig);
   const std::vector<uint32_t> alive = rig.surface.alive().read(), live = rig.surface.liveIndices().read();
   EXPECT_EQ(std::count(alive.begin(), alive.end(), layout::kShownWhole), static_cast<long>(alive.size()));
@@ -77,14 +77,14 @@ TEST_F(NetworkSplitting, NothingIsSplitAtFirst) {
 }
 
 TEST_F(NetworkSplitting, ClothThatCannotBeCutHasNoVerticesForIt) {
-  const SurfaceRig rig(withNetworkSkin(clothBody(20, 17, kSpacing_m), false));
+  const SurfaceRig rig(withNetworkSkin(clothBody(20, 17, kNetworkSplittingSpacing_m), false));
   EXPECT_EQ(rig.surface.vertices(), 20u * 17);
   EXPECT_EQ(rig.surface.liveIndices().size(), 3 * rig.surface.triangles());
   EXPECT_TRUE(rig.surface.skin().splits().empty());
 }
 
 TEST_F(NetworkSplitting, CutThroughKeepsTheShownAreaAndMakesTwoPieces) {
-  SurfaceRig rig(cloth());
+  SurfaceRig rig(networkSplittingCloth());
   rig.follow();
   const double area_m2 = areaOf(drawnTriangles(rig.surface), rig.positions());
   ASSERT_EQ(countPieces(drawnTriangles(rig.surface)), 1u);
@@ -97,7 +97,7 @@ TEST_F(NetworkSplitting, CutThroughKeepsTheShownAreaAndMakesTwoPieces) {
 }
 
 TEST_F(NetworkSplitting, NewVerticesLieWhereTheBladeCrossed) {
-  SurfaceRig rig(cloth());
+  SurfaceRig rig(networkSplittingCloth());
   cutThrough(rig, 0, height);
   apply(rig);
   const size_t nodes = rig.model.bodies[0].skin.bindings.size();
@@ -112,7 +112,7 @@ TEST_F(NetworkSplitting, NewVerticesLieWhereTheBladeCrossed) {
 }
 
 TEST_F(NetworkSplitting, NoTriangleJoinsTheTwoSides) {
-  SurfaceRig rig(cloth());
+  SurfaceRig rig(networkSplittingCloth());
   cutThrough(rig, 0, height);
   const Vector3d gap_m(0.5, 0, 0.1);
   rig.moveNodes([&](const Vector3d& x) { return Vector3d(height(x) >= 0 ? x + gap_m : x); });
@@ -122,11 +122,11 @@ TEST_F(NetworkSplitting, NoTriangleJoinsTheTwoSides) {
   for (const Corners& t : drawnTriangles(rig.surface)) {
     for (size_t i = 0; i < 3; ++i) longest_m = std::max(longest_m, (at[t[i]] - at[t[(i + 1) % 3]]).norm());
   }
-  EXPECT_LT(longest_m, 1.01 * kSpacing_m);
+  EXPECT_LT(longest_m, 1.01 * kNetworkSplittingSpacing_m);
 }
 
 TEST_F(NetworkSplitting, FlapMovesAsIfItsPieceWereRigid) {
-  SurfaceRig rig(cloth());
+  SurfaceRig rig(networkSplittingCloth());
   cutThrough(rig, 0, height);
   apply(rig);
   const std::vector<Vector3d> rest = rig.positions();
@@ -141,13 +141,13 @@ TEST_F(NetworkSplitting, FlapMovesAsIfItsPieceWereRigid) {
     turned += beyond && v >= rig.model.bodies[0].skin.bindings.size();
     ASSERT_LT((at[v] - (beyond ? turn * rest[v] : rest[v])).norm(), 2 * kPlace_m) << "vertex " << v;
     const Vector3d up = beyond ? turn.linear() * Vector3d::UnitZ() : Vector3d(Vector3d::UnitZ());
-    ASSERT_LT((normals[v] - up).norm(), kNormalError) << "vertex " << v;
+    ASSERT_LT((normals[v] - up).norm(), kNetworkSplittingNormalError) << "vertex " << v;
   }
   EXPECT_GT(turned, 20u);
 }
 
 TEST_F(NetworkSplitting, CutThatEndsInATriangleLeavesItWhole) {
-  SurfaceRig rig(cloth());
+  SurfaceRig rig(networkSplittingCloth());
   const Corners t = middleTriangle(rig.model.bodies[0]);
   cutEdge(rig, t[0], t[1], 0.4);
   apply(rig);
@@ -156,7 +156,7 @@ TEST_F(NetworkSplitting, CutThatEndsInATriangleLeavesItWhole) {
 
 TEST_F(NetworkSplitting, TwoCrossedEdgesPartTheCornerBetweenThem) {
   for (size_t corner = 0; corner < 3; ++corner) {
-    SurfaceRig rig(cloth());
+    SurfaceRig rig(networkSplittingCloth());
     const Body& body = rig.model.bodies[0];
     const Corners t = middleTriangle(body);
     const uint32_t i = t[corner], j = t[(corner + 1) % 3], k = t[(corner + 2) % 3];
@@ -185,23 +185,24 @@ TEST_F(NetworkSplitting, TwoCrossedEdgesPartTheCornerBetweenThem) {
 }
 
 TEST_F(NetworkSplitting, ThreeCrossedEdgesLeaveThreeCorners) {
-  SurfaceRig rig(cloth());
+  SurfaceRig rig(networkSplittingCloth());
   const Corners t = middleTriangle(rig.model.bodies[0]);
   for (size_t i = 0; i < 3; ++i) cutEdge(rig, t[i], t[(i + 1) % 3], 0.5);
   apply(rig);
   const size_t index = indexOf(rig.model.bodies[0], t);
   EXPECT_EQ(rig.surface.alive().read()[index], 7 * layout::kShownCorner);
-  const double whole_m2 = std::sqrt(3) / 4 * kSpacing_m * kSpacing_m;
+  const double whole_m2 = std::sqrt(3) / 4 * kNetworkSplittingSpacing_m * kNetworkSplittingSpacing_m;
   std::vector<uint32_t> shown;
   appendShown(t.data(), &rig.surface.skin().splits()[6 * index], 7 * layout::kShownCorner, shown);
   ASSERT_EQ(shown.size(), 9u);
   for (size_t n = 0; n < 9; n += 3) {
-    EXPECT_NEAR(areaOf({{shown[n], shown[n + 1], shown[n + 2]}}, rig.positions()), whole_m2 / 4, kPlace_m * kSpacing_m);
+    EXPECT_NEAR(areaOf({{shown[n], shown[n + 1], shown[n + 2]}}, rig.positions()), whole_m2 / 4,
+                kPlace_m * kNetworkSplittingSpacing_m);
   }
 }
 
 TEST_F(NetworkSplitting, CornerWhoseNodeHangsOnNothingIsNotShown) {
-  SurfaceRig rig(cloth());
+  SurfaceRig rig(networkSplittingCloth());
   const Body& body = rig.model.bodies[0];
   const uint32_t lonely = middleTriangle(body)[0];
   const SpringNetwork& network = *body.network;
@@ -215,7 +216,7 @@ TEST_F(NetworkSplitting, CornerWhoseNodeHangsOnNothingIsNotShown) {
 }
 
 TEST_F(NetworkSplitting, TrianglesOfErasedSpringsVanish) {
-  SurfaceRig rig(cloth());
+  SurfaceRig rig(networkSplittingCloth());
   const uint32_t erased = middleTriangle(rig.model.bodies[0])[0];
   const SpringNetwork& network = *rig.model.bodies[0].network;
   for (size_t i = 0; i < network.springs.size(); ++i) {
@@ -226,19 +227,19 @@ TEST_F(NetworkSplitting, TrianglesOfErasedSpringsVanish) {
 }
 
 TEST_F(NetworkSplitting, FlapOfANodeWithoutAWholeTriangleIsNotTurned) {
-  SurfaceRig rig(cloth());
+  SurfaceRig rig(networkSplittingCloth());
   const Body& body = rig.model.bodies[0];
   // A strip between two cuts, one node wide: its triangles all reach across one of them.
   const double middle_m = body.network->positions_m[middleTriangle(body)[0]].y();
-  cutThrough(rig, 0, [&](const Vector3d& x) { return x.y() - middle_m + 0.3 * kSpacing_m; });
-  cutThrough(rig, 0, [&](const Vector3d& x) { return x.y() - middle_m - 0.4 * kSpacing_m; });
+  cutThrough(rig, 0, [&](const Vector3d& x) { return x.y() - middle_m + 0.3 * kNetworkSplittingSpacing_m; });
+  cutThrough(rig, 0, [&](const Vector3d& x) { return x.y() - middle_m - 0.4 * kNetworkSplittingSpacing_m; });
   rig.moveNodes([](const Vector3d& x) { return Vector3d(x.z(), x.x(), x.y()); });
   apply(rig);
   const std::vector<Vector3d> at = rig.positions(), normals = rig.normals();
   const std::vector<Corners> drawn = drawnTriangles(rig.surface);
   EXPECT_EQ(countPieces(drawn), 3u);
   const uint32_t node = middleTriangle(body)[0], first_split = static_cast<uint32_t>(body.skin.bindings.size());
-  EXPECT_LT((normals[node] - Vector3d::UnitZ()).norm(), kNormalError);
+  EXPECT_LT((normals[node] - Vector3d::UnitZ()).norm(), kNetworkSplittingNormalError);
   size_t seen = 0;
   for (size_t e = 0; e < body.skin.split_edges.size(); ++e) {
     const SplitEdge& edge = body.skin.split_edges[e];
@@ -252,7 +253,7 @@ TEST_F(NetworkSplitting, FlapOfANodeWithoutAWholeTriangleIsNotTurned) {
 }
 
 TEST_F(NetworkSplitting, VerticesThatAreNotSeenLieOnTheirEdges) {
-  SurfaceRig rig(cloth());
+  SurfaceRig rig(networkSplittingCloth());
   rig.follow();
   const Skin& skin = rig.model.bodies[0].skin;
   const std::vector<Vector3d> at = rig.positions();
@@ -264,18 +265,19 @@ TEST_F(NetworkSplitting, VerticesThatAreNotSeenLieOnTheirEdges) {
 }
 
 TEST_F(NetworkSplitting, NormalsAtACutComeFromTheirOwnSide) {
-  SurfaceRig rig(cloth());
+  SurfaceRig rig(networkSplittingCloth());
   cutThrough(rig, 0, height);
   rig.moveNodes([&](const Vector3d& x) { return Vector3d(x.x(), x.y(), height(x) >= 0 ? 0.05 : 0); });
   apply(rig);
   for (const auto& [v, piece] : drawnPieces(drawnTriangles(rig.surface))) {
-    ASSERT_LT((rig.normals()[v] - Vector3d::UnitZ()).norm(), kNormalError) << "vertex " << v;
+    ASSERT_LT((rig.normals()[v] - Vector3d::UnitZ()).norm(), kNetworkSplittingNormalError) << "vertex " << v;
     if (v > 40) break;  // reading back takes its time
   }
 }
 
 TEST_F(NetworkSplitting, WhatIsDrawnIsWhatIsTold) {
-  std::vector<Body> bodies = {clothBody(8, 9, kSpacing_m), cloth(), cloth(9, 11)};
+  std::vector<Body> bodies = {clothBody(8, 9, kNetworkSplittingSpacing_m), networkSplittingCloth(),
+                              networkSplittingCloth(9, 11)};
   bodies[0].skin = bindNetworkSkin(*bodies[0].network, false);
   SurfaceRig rig(bodies);
   cutThrough(rig, 1, height);
@@ -297,7 +299,7 @@ TEST_F(NetworkSplitting, WhatIsDrawnIsWhatIsTold) {
 }
 
 TEST_F(NetworkSplitting, SplitStaysUntilReset) {
-  SurfaceRig rig(cloth());
+  SurfaceRig rig(networkSplittingCloth());
   rig.follow();
   const std::vector<float> rest = rig.surface.positions().read();
   const std::vector<layout::NodeBits> whole = rig.nodes;
@@ -314,9 +316,9 @@ TEST_F(NetworkSplitting, SplitStaysUntilReset) {
 }
 
 TEST_F(NetworkSplitting, LatticeOfLinksBeforeAClothShiftsItsSprings) {
-  Body block = makeBody(blockSolid({4, 3, 5}, kSpacing_m), boxMesh({0, 0, 0}, {0.04, 0.03, 0.05}, 4));
+  Body block = makeBody(blockSolid({4, 3, 5}, kNetworkSplittingSpacing_m), boxMesh({0, 0, 0}, {0.04, 0.03, 0.05}, 4));
   block.network = latticeNetwork(block);
-  SurfaceRig rig({block, cloth()});
+  SurfaceRig rig({block, networkSplittingCloth()});
   cutThrough(rig, 1, height);
   apply(rig);
   const std::vector<uint32_t> alive = rig.surface.alive().read();

@@ -19,14 +19,14 @@ using testing::SurfaceRig;
 
 constexpr double kRounding = 5e-6;      // of a strain: roundings of displacements, of 1e-7 of 0.3 m, in lengths of 1 cm
 constexpr double kPackedNormal = 2e-3;  // of a packed normal's direction: 1/511
-constexpr double kSpacing_m = 0.01;
+constexpr double kNodeOverlaySpacing_m = 0.01;
 
 class NodeOverlays : public test::GpuTest {
  protected:
   static Body ball() {
     const Vector3d center_m(0.1, -0.2, 0.3);
     const TriangleMesh mesh = testing::weldedSphereMesh(center_m, 0.04, 10);
-    return testing::makeBody(voxelise(mesh, kSpacing_m), mesh);
+    return testing::makeBody(voxelise(mesh, kNodeOverlaySpacing_m), mesh);
   }
 };
 
@@ -99,7 +99,7 @@ TEST_F(NodeOverlays, NormalsStandOnTheBallAndPointAwayFromItsMiddle) {
     const Vector3d rest = restPosition(rig.model.bodies[0], rig.model.bodies[0].skin.bound_slots[i / 2]);
     EXPECT_LT((from - rest).norm(), 1e-7);
     EXPECT_GE((to - from).dot(from - Vector3d(0.1, -0.2, 0.3)), 0);
-    EXPECT_LT((to - from).norm(), 0.6001 * kSpacing_m);
+    EXPECT_LT((to - from).norm(), 0.6001 * kNodeOverlaySpacing_m);
   }
 }
 
@@ -129,7 +129,7 @@ TEST_F(NodeOverlays, WhatCamerasShareIsWorkedOutOnceOfAState) {
 }
 
 TEST_F(NodeOverlays, AClothIsShownWithItsStrainAndTheLinksThatAreLeft) {
-  SurfaceRig rig(testing::withNetworkSkin(test::clothBody(6, 7, kSpacing_m)));
+  SurfaceRig rig(testing::withNetworkSkin(test::clothBody(6, 7, kNodeOverlaySpacing_m)));
   rig.moveNodes([](const Vector3d& rest) { return Vector3d(1.1 * rest); });
   rig.follow();
   NodeOverlay overlay(rig.model);

@@ -16,12 +16,13 @@ using namespace viscera::testing;
 
 namespace {
 
-constexpr double kSpacing_m = 0.01, kRadius_m = 0.05;
+constexpr double kSkinBoxesSpacing_m = 0.01, kSkinBoxesRadius_m = 0.05;
 
 Body ballOf(Mapping mapping, bool partial) {
   const Vector3d center_m(0.01, 0.02, 0.03);
-  const TriangleMesh mesh = weldedSphereMesh(center_m, partial ? kRadius_m : 1.1 * kRadius_m, 10);
-  const Solid solid = partial ? voxeliseByMoments(mesh, kSpacing_m) : ballSolid(center_m, kRadius_m, kSpacing_m);
+  const TriangleMesh mesh = weldedSphereMesh(center_m, partial ? kSkinBoxesRadius_m : 1.1 * kSkinBoxesRadius_m, 10);
+  const Solid solid = partial ? voxeliseByMoments(mesh, kSkinBoxesSpacing_m)
+                              : ballSolid(center_m, kSkinBoxesRadius_m, kSkinBoxesSpacing_m);
   Body body;
   body.lattice = buildLattice(solid, Weights::kCell);
   body.skin = bindSkin(mesh, body.lattice, solid, mapping);
@@ -66,7 +67,8 @@ TEST_F(SkinBoxesTest, VerticesLieInTheBoxOfTheirBody) {
 
 TEST_F(SkinBoxesTest, BoxesAreNotMuchLargerThanWhatTheyHold) {
   const SurfaceRig rig(ballOf(Mapping::kConstant, false));
-  constexpr double kLargest_m = 2 * (1.1 * kRadius_m + 2 * kSpacing_m);  // the skin, nodes beside it, offsets
+  constexpr double kLargest_m =
+      2 * (1.1 * kSkinBoxesRadius_m + 2 * kSkinBoxesSpacing_m);  // the skin, nodes beside it, offsets
   EXPECT_LT(boxesOf(rig).at(0).sizes().maxCoeff(), kLargest_m);
 }
 

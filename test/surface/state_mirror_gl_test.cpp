@@ -20,7 +20,7 @@ namespace {
 
 using namespace viscera::testing;
 
-constexpr double kSpacing_m = 0.01;
+constexpr double kStateMirrorSpacing_m = 0.01;
 constexpr double kRadius_m = 0.06;
 
 /// A surface that follows the state itself, and one that follows what the mirror makes of it.
@@ -36,7 +36,7 @@ class StateMirrorTest : public ::testing::Test {
   static std::vector<Body> balls() {
     std::vector<Body> out;
     for (const Vector3d& center : {Vector3d(0, 0, 0), Vector3d(0.3, 0.01, 0)}) {
-      out.push_back(makeBody(ballSolid(center, kRadius_m, kSpacing_m), sphereMesh(center, kRadius_m, 12)));
+      out.push_back(makeBody(ballSolid(center, kRadius_m, kStateMirrorSpacing_m), sphereMesh(center, kRadius_m, 12)));
     }
     return out;
   }
@@ -155,8 +155,8 @@ class NetworkMirrorTest : public StateMirrorTest {
 
   static std::vector<Body> mixed() {
     std::vector<Body> out = balls();
-    out[1] = withNetworkSkin(test::clothBody(30, 31, kSpacing_m));
-    out.push_back(withNetworkSkin(test::clothBody(12, 9, kSpacing_m)));
+    out[1] = withNetworkSkin(test::clothBody(30, 31, kStateMirrorSpacing_m));
+    out.push_back(withNetworkSkin(test::clothBody(12, 9, kStateMirrorSpacing_m)));
     return out;
   }
   size_t firstVertex(size_t body) const {
@@ -221,8 +221,8 @@ TEST_F(NetworkMirrorTest, OnlyVerticesNearAMovedNodeAreMappedAgain) {
 
 TEST_F(StateMirrorTest, BricksDeepInsideAreNotAskedFor) {
   const auto block = [](int cells) {
-    const double size_m = cells * kSpacing_m;
-    return makeBody(blockSolid(Vector3i::Constant(cells), kSpacing_m),
+    const double size_m = cells * kStateMirrorSpacing_m;
+    return makeBody(blockSolid(Vector3i::Constant(cells), kStateMirrorSpacing_m),
                     boxMesh({0, 0, 0}, Vector3d::Constant(size_m), cells));
   };
   std::vector<Body> bodies;

@@ -13,8 +13,9 @@
 namespace viscera::testing {
 namespace {
 
-constexpr double kVolume = 1e-3;  // share: slivers between tears nearer to each other than a spring are left out (2e-4)
-constexpr double kStep_m = 0.001;
+constexpr double kTearWoundVolume =
+    1e-3;  // share: slivers between tears nearer to each other than a spring are left out (2e-4)
+constexpr double kTearWoundStep_m = 0.001;
 constexpr int kTicks = 60;  // the grip is 6 cm off then
 
 /// A block that is held below, whose upper side a grip lifts until it tears.
@@ -38,8 +39,8 @@ TEST(TearWound, IsClosed) {
     motions[0].mode = ToolMode::kGrab;
     motions[0].present = true;
     motions[0].hold_begins = i == 0;
-    motions[0].from.position_m = {0, 0, 0.012 + kStep_m * i};
-    motions[0].to.position_m = {0, 0, 0.012 + kStep_m * (i + 1)};
+    motions[0].from.position_m = {0, 0, 0.012 + kTearWoundStep_m * i};
+    motions[0].to.position_m = {0, 0, 0.012 + kTearWoundStep_m * (i + 1)};
     solver.step(motions);
   }
   const HostState state = solver.readState();
@@ -50,7 +51,7 @@ TEST(TearWound, IsClosed) {
   const std::vector<Vector3d> rest = box.positions(box.still());
   EXPECT_GT(box.wound.wallTriangles().size(), 0u);
   EXPECT_EQ(openEdges(box, rest), 0u);
-  EXPECT_NEAR(volume(box, rest) / (0.04 * 0.04 * 0.024), 1, kVolume);
+  EXPECT_NEAR(volume(box, rest) / (0.04 * 0.04 * 0.024), 1, kTearWoundVolume);
 }
 
 }  // namespace

@@ -17,9 +17,9 @@ namespace {
 
 using namespace viscera::testing;
 
-constexpr double kSpacing_m = 0.01;
-constexpr double kPlace_m = 2e-6;           // float rounding of a vertex that is turned and carried 0.2 m away
-constexpr double kNormalError = 1.5 / 511;  // a step of a packed normal, and rounding of what is turned
+constexpr double kTetrahedraWoundSpacing_m = 0.01;
+constexpr double kTetrahedraWoundPlace_m = 2e-6;  // float rounding of a vertex that is turned and carried 0.2 m away
+constexpr double kTetrahedraWoundNormalError = 1.5 / 511;  // a step of a packed normal, and rounding of what is turned
 const Vector3d kMiddle(0.0403, 0.0352, 0.0304), kNormal = Vector3d(1, 0.4, -0.2).normalized();
 const Eigen::Isometry3d kMotion =
     Eigen::Translation3d(0.1, 0.05, -0.1) * Eigen::AngleAxisd(2.1, Vector3d(1, -2, 0.5).normalized());
@@ -27,8 +27,10 @@ const Eigen::Isometry3d kMotion =
 class TetrahedraWoundOnGpu : public ::testing::Test {
  protected:
   /// A cloth before the box, so that slots, vertices and springs of the two are not numbered alike.
-  TetrahedraWoundOnGpu() : box_(tetrahedraBox({8, 7, 6}, kSpacing_m)), rig_(bodies(box_.body)) {}
-  static std::vector<Body> bodies(const Body& box) { return {withNetworkSkin(test::clothBody(8, 9, kSpacing_m)), box}; }
+  TetrahedraWoundOnGpu() : box_(tetrahedraBox({8, 7, 6}, kTetrahedraWoundSpacing_m)), rig_(bodies(box_.body)) {}
+  static std::vector<Body> bodies(const Body& box) {
+    return {withNetworkSkin(test::clothBody(8, 9, kTetrahedraWoundSpacing_m)), box};
+  }
   void show() {
     box_.update();
     std::copy(box_.nodes.begin(), box_.nodes.end(), rig_.nodes.begin() + rig_.model.slotOffset(1));
@@ -64,13 +66,15 @@ class TetrahedraWoundOnGpu : public ::testing::Test {
 TEST_F(TetrahedraWoundOnGpu, VerticesAreWhereTheReferenceHasThem) {
   box_.cut(kMiddle, kNormal);
   show();
-  for (const auto& u : {box_.still(), box_.movedBeyond(kMiddle, kNormal, kMotion), box_.shaken(0.1 * kSpacing_m)}) {
+  for (const auto& u :
+       {box_.still(), box_.movedBeyond(kMiddle, kNormal, kMotion), box_.shaken(0.1 * kTetrahedraWoundSpacing_m)}) {
     move(u);
     const std::vector<Vector3d> wanted = box_.positions(u), at = rig_.positions();
     const std::vector<size_t> of_box = vertices();
     ASSERT_EQ(of_box.size(), wanted.size());
     ASSERT_EQ(at.size(), of_box.back() + 1);
-    for (size_t v = 0; v < wanted.size(); ++v) ASSERT_LT((at[of_box[v]] - wanted[v]).norm(), kPlace_m) << v;
+    for (size_t v = 0; v < wanted.size(); ++v)
+      ASSERT_LT((at[of_box[v]] - wanted[v]).norm(), kTetrahedraWoundPlace_m) << v;
   }
 }
 
@@ -86,7 +90,9 @@ TEST_F(TetrahedraWoundOnGpu, NormalsTurnWithTheirPiece) {
     const uint32_t slot = box_.wound.added()[v - box_.wound.ownVertices()].binding.slot0;
     const bool beyond = kNormal.dot(box_.body.network->positions_m[slot] - kMiddle) >= 0;
     const Vector3d n = before[of_box[v]].normalized();
-    ASSERT_LT((after[of_box[v]].normalized() - (beyond ? kMotion.linear() * n : n)).norm(), 2 * kNormalError) << v;
+    ASSERT_LT((after[of_box[v]].normalized() - (beyond ? kMotion.linear() * n : n)).norm(),
+              2 * kTetrahedraWoundNormalError)
+        << v;
     turned += beyond ? 1 : 0;
   }
   EXPECT_GT(turned, 50u);

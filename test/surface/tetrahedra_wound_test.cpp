@@ -16,10 +16,10 @@ namespace {
 
 constexpr double kSpacing_m = 0.01;
 constexpr double kVolume_m3 = 0.08 * 0.07 * 0.06;
-constexpr double kVolume = 1e-6;   // share: float rounding of bindings; pieces of edges fill them
-constexpr double kGap = 0.02;      // of the spacing: between lips at rest (docs/wounds.md)
-constexpr double kOff = 0.1;       // of the spacing: lips and walls of a flat cut from its plane
-constexpr double kPlace_m = 1e-7;  // float rounding of bindings in a box of 0.1 m
+constexpr double kTetrahedraWoundVolume = 1e-6;  // share: float rounding of bindings; pieces of edges fill them
+constexpr double kGap = 0.02;                    // of the spacing: between lips at rest (docs/wounds.md)
+constexpr double kOff = 0.1;                     // of the spacing: lips and walls of a flat cut from its plane
+constexpr double kPlace_m = 1e-7;                // float rounding of bindings in a box of 0.1 m
 
 // Of 3.3 million pixels, as WoundTest's: slivers beside nodes that the blade nearly met turn over at kinks of the pull.
 constexpr double kBacksOfBox = 3e-4;
@@ -45,7 +45,7 @@ TEST(TetrahedraWound, BoxCutThroughIsTwoClosedBodies) {
     box.update();
     expectClosed(box);
     const std::vector<Vector3d> rest = box.positions(box.still());
-    EXPECT_NEAR(volume(box, rest) / kVolume_m3, 1, kVolume);
+    EXPECT_NEAR(volume(box, rest) / kVolume_m3, 1, kTetrahedraWoundVolume);
     EXPECT_LT(distancesFromPlane(box, rest, kMiddle, normal).back() / kSpacing_m, kOff);
   }
 }
@@ -94,7 +94,7 @@ TEST(TetrahedraWound, PieceTakesItsLipsAndWallsAlong) {
     }
     EXPECT_GT(with_it, 50u);
     EXPECT_EQ(openEdges(box, moved), 0u);
-    EXPECT_NEAR(volume(box, moved) / kVolume_m3, 1, kVolume);
+    EXPECT_NEAR(volume(box, moved) / kVolume_m3, 1, kTetrahedraWoundVolume);
   }
 }
 
@@ -107,7 +107,7 @@ TEST(TetrahedraWound, IncisionIsClosed) {
     box.update();
     expectClosed(box);
     const std::vector<Vector3d> rest = box.positions(box.still());
-    EXPECT_NEAR(volume(box, rest) / kVolume_m3, 1, kVolume);
+    EXPECT_NEAR(volume(box, rest) / kVolume_m3, 1, kTetrahedraWoundVolume);
     EXPECT_LT(distancesFromPlane(box, rest, middle, normal).back() / kSpacing_m, kOff);
   }
 }
@@ -161,7 +161,7 @@ TEST(TetrahedraWound, CutsThroughNodesAreClosed) {
     box.cut({0.04 + off_m, 0.035, 0.03}, Vector3d::UnitX());
     box.update();
     expectClosed(box);
-    EXPECT_NEAR(volume(box, box.positions(box.still())) / kVolume_m3, 1, kVolume);
+    EXPECT_NEAR(volume(box, box.positions(box.still())) / kVolume_m3, 1, kTetrahedraWoundVolume);
     EXPECT_LT(distancesFromPlane(box, box.positions(box.still()), {0.04, 0, 0}, Vector3d::UnitX()).back() / kSpacing_m,
               kOff);
   }

@@ -15,12 +15,12 @@
 namespace viscera::testing {
 namespace {
 
-constexpr double kSpacing_m = 0.01;
+constexpr double kWoundDetailSpacing_m = 0.01;
 const Vector3d kSize_m(0.08, 0.07, 0.06);
 
 BoundSkin box() {
   const TriangleMesh mesh = boxSurface(Vector3d::Zero(), kSize_m, {19, 17, 15});
-  return bindTo(blockSolid({8, 7, 6}, kSpacing_m), mesh);
+  return bindTo(blockSolid({8, 7, 6}, kWoundDetailSpacing_m), mesh);
 }
 
 /// A box each of whose triangles has a chart of its own.
@@ -56,7 +56,8 @@ TEST(WoundDetail, PiecesKeepTheChartsOfTheirTriangles) {
   std::vector<float> axial_cut(3 * nodes.size());
   for (const uint32_t slot : lattice.active_slots) {
     const double x = lattice.restPosition(slot).x();
-    if (x < plane_m && x + kSpacing_m > plane_m) axial_cut[3 * slot] = static_cast<float>((plane_m - x) / kSpacing_m);
+    if (x < plane_m && x + kWoundDetailSpacing_m > plane_m)
+      axial_cut[3 * slot] = static_cast<float>((plane_m - x) / kWoundDetailSpacing_m);
   }
   surface.wound({nodes, {}, axial_cut}, 1);
   charts = surface.liveCharts().read();
@@ -69,7 +70,7 @@ TEST(WoundDetail, PiecesKeepTheChartsOfTheirTriangles) {
     if (v[0] == 0 && v[1] == 0 && v[2] == 0) continue;
     if (charts[t] == kNoChart) {
       ++walls;
-      for (int i = 0; i < 3; ++i) EXPECT_NEAR(rests[v[i]].x, plane_m, 0.1 * kSpacing_m);
+      for (int i = 0; i < 3; ++i) EXPECT_NEAR(rests[v[i]].x, plane_m, 0.1 * kWoundDetailSpacing_m);
       continue;
     }
     ++skin;
@@ -95,11 +96,12 @@ TEST(WoundDetail, PiecesKeepTheChartsOfTheirTriangles) {
 TEST(WoundDetail, DepthIsThatBelowTheNearestFace) {
   const BoundSkin bound = box();
   const WoundDepths depths(bound.skin, bound.lattice);
-  constexpr double kOff_m = 0.35 * kSpacing_m;  // between nodes the edge where two faces are equally near is rounded
+  constexpr double kOff_m =
+      0.35 * kWoundDetailSpacing_m;  // between nodes the edge where two faces are equally near is rounded
   for (const Vector3d& at : {Vector3d(0.04, 0.035, 0.004), Vector3d(0.012, 0.03, 0.03), Vector3d(0.04, 0.035, 0.03),
                              Vector3d(0.06, 0.061, 0.03), Vector3d(0.0, 0.02, 0.03)}) {
     const double truth_m = std::min(at.minCoeff(), (kSize_m - at).minCoeff());
-    EXPECT_NEAR(depths.at(at / kSpacing_m), truth_m, kOff_m) << at.transpose();
+    EXPECT_NEAR(depths.at(at / kWoundDetailSpacing_m), truth_m, kOff_m) << at.transpose();
   }
   constexpr double kRounding_m = 1e-8;  // of places of 0.1 m in float32
   EXPECT_NEAR(depths.at(Vector3d(4, 3.5, 1)), 0.01, kRounding_m) << "exact at nodes";

@@ -13,10 +13,10 @@
 namespace viscera::testing {
 namespace {
 
-constexpr double kVolume = 1e-6;  // share, of the body's own volume; wounds close up to rounding of floats
-constexpr double kGap = 0.02;     // of the spacing: between lips at rest
-constexpr double kOff = 0.1;      // of the spacing: lips and walls of a flat cut from its plane, 99th percentile
-constexpr double kPull = 0.6;     // of the spacing: how far either side is pulled away
+constexpr double kWoundOrganVolume = 1e-6;  // share, of the body's own volume; wounds close up to rounding of floats
+constexpr double kWoundOrganGap = 0.02;     // of the spacing: between lips at rest
+constexpr double kWoundOrganOff = 0.1;  // of the spacing: lips and walls of a flat cut from its plane, 99th percentile
+constexpr double kPull = 0.6;           // of the spacing: how far either side is pulled away
 
 Body bodyOf(const BodyConfig& config) {
   Scene scene;
@@ -75,9 +75,9 @@ void expectWoundsOf(const Body& body, size_t count) {
                               off_m = distancesFromPlane(organ, rest, incision.middle_m, incision.normal);
     const double closed = backs(rest), pulled = backs(open);
     ASSERT_GT(gaps_m.size(), 8u);  // there is a wound
-    EXPECT_LT(gaps_m.back() / h, kGap);
+    EXPECT_LT(gaps_m.back() / h, kWoundOrganGap);
     all_off_m.insert(all_off_m.end(), off_m.begin(), off_m.end());
-    EXPECT_NEAR(volume(organ, rest) / volume_m3, 1, kVolume);
+    EXPECT_NEAR(volume(organ, rest) / volume_m3, 1, kWoundOrganVolume);
     EXPECT_EQ(edgesOf(organ).open, whole_edges.open);
     EXPECT_LE(closed, kBacksAtRest);
     EXPECT_LE(pulled, kBacks);
@@ -86,7 +86,7 @@ void expectWoundsOf(const Body& body, size_t count) {
               << " after, back faces " << closed << " shut and " << pulled << " pulled open\n";
   }
   std::sort(all_off_m.begin(), all_off_m.end());
-  EXPECT_LT(percentile99(all_off_m) / h, kOff);
+  EXPECT_LT(percentile99(all_off_m) / h, kWoundOrganOff);
 }
 
 TEST(WoundOfOrgan, PhantomKeepsToTheChecks) {

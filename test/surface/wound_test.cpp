@@ -15,19 +15,19 @@
 namespace viscera::testing {
 namespace {
 
-constexpr double kSpacing_m = 0.01;
-constexpr double kVolume =
+constexpr double kWoundSpacing_m = 0.01;
+constexpr double kWoundVolume =
     1e-4;  // share: slivers between wounds closer than a skin edge are not shown; a tenth of the thousandth wanted
-constexpr double kGap = 0.02;     // of the spacing: between lips at rest (docs/wounds.md)
-constexpr double kOff = 0.1;      // of the spacing: lips and walls of a flat cut from its plane
-constexpr double kSeam_m = 1e-7;  // float rounding of two bindings of one point to the same nodes
+constexpr double kWoundGap = 0.02;  // of the spacing: between lips at rest (docs/wounds.md)
+constexpr double kWoundOff = 0.1;   // of the spacing: lips and walls of a flat cut from its plane
+constexpr double kSeam_m = 1e-7;    // float rounding of two bindings of one point to the same nodes
 
-constexpr double kBacksOfBox = 3e-4;  // of pixels, as kBacks: at one angle, where a coarse skin's wound ends askew
+constexpr double kWoundBacksOfBox = 3e-4;  // of pixels, as kBacks: at one angle, where a coarse skin's wound ends askew
 
 void expectClosed(const Wounded& of) {
   EXPECT_EQ(of.wound.holes(), 0u);
   EXPECT_EQ(openEdges(of, of.positions(of.still())), 0u);
-  EXPECT_EQ(openEdges(of, of.positions(of.shaken(0.1 * kSpacing_m))), 0u);
+  EXPECT_EQ(openEdges(of, of.positions(of.shaken(0.1 * kWoundSpacing_m))), 0u);
 }
 
 TEST(Wound, BoxCutThroughIsTwoClosedBodies) {
@@ -36,14 +36,15 @@ TEST(Wound, BoxCutThroughIsTwoClosedBodies) {
     Wounded box = woundedBox();
     box.cut({0.0403, 0.0352, 0.0304}, normal);
     box.update();
-    const std::vector<Vector3d> rest = box.positions(box.still()), shaken = box.positions(box.shaken(0.1 * kSpacing_m));
+    const std::vector<Vector3d> rest = box.positions(box.still()),
+                                shaken = box.positions(box.shaken(0.1 * kWoundSpacing_m));
     expectClosed(box);
     EXPECT_EQ(edgesOf(box).open, 0u);
     EXPECT_EQ(edgesOf(box).shared, 0u);
     EXPECT_LT(seamGap(box, shaken), kSeam_m);
-    EXPECT_LT(lipGaps(box, rest).back() / kSpacing_m, kGap);
-    EXPECT_NEAR(volume(box, rest) / (0.08 * 0.07 * 0.06), 1, kVolume);
-    EXPECT_LT(distancesFromPlane(box, rest, {0.0403, 0.0352, 0.0304}, normal).back() / kSpacing_m, kOff);
+    EXPECT_LT(lipGaps(box, rest).back() / kWoundSpacing_m, kWoundGap);
+    EXPECT_NEAR(volume(box, rest) / (0.08 * 0.07 * 0.06), 1, kWoundVolume);
+    EXPECT_LT(distancesFromPlane(box, rest, {0.0403, 0.0352, 0.0304}, normal).back() / kWoundSpacing_m, kWoundOff);
   }
 }
 
@@ -56,10 +57,10 @@ TEST(Wound, NoBackOfTheSkinIsSeenWhenItGapes) {
     Wounded box = woundedBox();
     box.cut(middle, normal, [&](const Vector3d& at) { return (at - middle).norm() < kReach_m; });
     box.update();
-    const std::vector<layout::vec4> open = box.heldOpen(middle, normal, kReach_m, 0.6 * kSpacing_m);
+    const std::vector<layout::vec4> open = box.heldOpen(middle, normal, kReach_m, 0.6 * kWoundSpacing_m);
     EXPECT_EQ(backsSeen(box, box.positions(box.still()), middle, Vector3d::UnitZ(), kReach_m), 0);
     const double backs = backsSeen(box, box.positions(open), middle, Vector3d::UnitZ(), kReach_m);
-    EXPECT_LE(backs, kBacksOfBox);
+    EXPECT_LE(backs, kWoundBacksOfBox);
     none += backs == 0 ? 1 : 0;
   }
   EXPECT_GE(none, 9);  // of ten angles
@@ -175,11 +176,11 @@ TEST(Wound, BallOfPartialCellsIsClosed) {
   const TriangleMesh mesh = weldedSphereMesh(centre, 0.04, 40);
   for (const Vector3d& normal : anglesOfCuts()) {
     SCOPED_TRACE(::testing::Message() << normal.transpose());
-    Wounded ball(bindTo(voxeliseByMoments(mesh, kSpacing_m), mesh));
+    Wounded ball(bindTo(voxeliseByMoments(mesh, kWoundSpacing_m), mesh));
     ball.cut(centre, normal);
     ball.update();
     expectClosed(ball);
-    EXPECT_NEAR(volume(ball, ball.positions(ball.still())) / signedVolume(ball.skin.mesh), 1, kVolume);
+    EXPECT_NEAR(volume(ball, ball.positions(ball.still())) / signedVolume(ball.skin.mesh), 1, kWoundVolume);
   }
 }
 

@@ -16,7 +16,7 @@
 namespace viscera::testing {
 namespace {
 
-constexpr double kSpacing_m = 0.01;
+constexpr double kWoundWorkSpacing_m = 0.01;
 constexpr double kMostWork = 2;  // times the work of the cuts of a first stroke that those of the last one may take
 
 /// A corner of a shown triangle as those who map it see it: bit by bit what carries it, and how.
@@ -105,16 +105,17 @@ void cutNear(Wounded& body, const Vector3d& place_m, const Vector3d& normal, dou
 TEST(WoundWork, OfALaterCutIsThatOfAnEarlyOne) {
   constexpr int kCuts = 1500, kAlong = 25, kDeep = 6, kSome = 150;  // of one stroke
   const Vector3i cells(28, kAlong, 12);
-  const Vector3d size_m = kSpacing_m * cells.cast<double>(), normal = Vector3d(1, 0.13, 0.07).normalized();
-  Wounded body(bindTo(blockSolid(cells, kSpacing_m), boxSurface(Vector3d::Zero(), size_m, cells + Vector3i(3, 2, 1))));
+  const Vector3d size_m = kWoundWorkSpacing_m * cells.cast<double>(), normal = Vector3d(1, 0.13, 0.07).normalized();
+  Wounded body(
+      bindTo(blockSolid(cells, kWoundWorkSpacing_m), boxSurface(Vector3d::Zero(), size_m, cells + Vector3i(3, 2, 1))));
   size_t first = 0, last = 0;
   for (int cut = 0; cut < kCuts; ++cut) {  // strokes beside each other, each cut a patch of a spacing's size
     const int stroke = cut / (kAlong * kDeep), along = cut / kDeep % kAlong, deep = cut % kDeep;
-    Vector3d place_m((2.53 * stroke + 2.5) * kSpacing_m, (along + 0.5) * kSpacing_m,
-                     size_m.z() - (deep + 0.5) * kSpacing_m);
+    Vector3d place_m((2.53 * stroke + 2.5) * kWoundWorkSpacing_m, (along + 0.5) * kWoundWorkSpacing_m,
+                     size_m.z() - (deep + 0.5) * kWoundWorkSpacing_m);
     const Vector3d from_middle = place_m - size_m / 2;
     place_m.x() -= (normal.y() * from_middle.y() + normal.z() * from_middle.z()) / normal.x();
-    cutNear(body, place_m, normal, 0.51 * kSpacing_m);
+    cutNear(body, place_m, normal, 0.51 * kWoundWorkSpacing_m);
     body.update();
     if (cut < kSome) first += body.wound.work().all();
     if (cut >= kCuts - kSome) last += body.wound.work().all();

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "support/source_folder.h"
 #include "tasks/task_kinds.h"
 #include "tasks/task_report.h"
 
@@ -71,7 +72,7 @@ TEST(TaskFile, ScenesLieBesideTheTaskOrAreNames) {
 
 TEST(TaskFile, EveryShippedTaskIsRead) {
   size_t read = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(VISCERA_SOURCE_DIR "/config/tasks")) {
+  for (const auto& entry : std::filesystem::directory_iterator(test::sourceFolder() + "/config/tasks")) {
     EXPECT_NO_THROW(loadTask(entry.path())) << entry.path();
     ++read;
   }

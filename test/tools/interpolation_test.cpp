@@ -9,7 +9,7 @@ namespace viscera {
 namespace {
 
 constexpr int kSubsteps = 8;
-constexpr double kRoundingM = 1e-7;  ///< positions of about 1 m, as floats
+constexpr double kInterpolationRoundingM = 1e-7;  ///< positions of about 1 m, as floats
 constexpr double kRoundingRad = 1e-6;
 
 /// The first stylus probes; it moves and turns by a right angle about x. The second one does nothing.
@@ -49,10 +49,10 @@ TEST(Interpolation, SubstepsSpanTheTickAtConstantSpeed) {
   const ToolMotions motions = movingAndTurning();
   const auto all = substepsOf(motions, {StylusConfig{}});
   const Vector3d begin = motions[0].from.position_m, end = motions[0].to.position_m;
-  EXPECT_LT((xyz(at(all, 0).from) - begin).norm(), kRoundingM);
-  EXPECT_LT((xyz(at(all, kSubsteps - 1).to) - end).norm(), kRoundingM);
+  EXPECT_LT((xyz(at(all, 0).from) - begin).norm(), kInterpolationRoundingM);
+  EXPECT_LT((xyz(at(all, kSubsteps - 1).to) - end).norm(), kInterpolationRoundingM);
   for (int s = 0; s < kSubsteps; ++s) {
-    EXPECT_LT((xyz(at(all, s).to) - xyz(at(all, s).from) - (end - begin) / kSubsteps).norm(), kRoundingM);
+    EXPECT_LT((xyz(at(all, s).to) - xyz(at(all, s).from) - (end - begin) / kSubsteps).norm(), kInterpolationRoundingM);
   }
 }
 
@@ -87,14 +87,14 @@ TEST(Interpolation, BladeLiesBackAlongTheShaftAheadOrOnBothSides) {
       motions[0].mode = mode;
       const auto all = substepsOf(motions, {config});
       const layout::ToolMotion &first = at(all, 0), &last = at(all, kSubsteps - 1);
-      EXPECT_LT((xyz(first.from) - Vector3d(0.1, 0.2, 0.3 + lies.high_m)).norm(), kRoundingM);
-      EXPECT_LT((xyz(first.blade_from) - Vector3d(0.1, 0.2, 0.3 + lies.low_m)).norm(), kRoundingM);
+      EXPECT_LT((xyz(first.from) - Vector3d(0.1, 0.2, 0.3 + lies.high_m)).norm(), kInterpolationRoundingM);
+      EXPECT_LT((xyz(first.blade_from) - Vector3d(0.1, 0.2, 0.3 + lies.low_m)).norm(), kInterpolationRoundingM);
       // Turned by 90 degrees about x, z points along -y.
-      EXPECT_LT((xyz(last.to) - Vector3d(0.9, 0.2 - lies.high_m, -0.1)).norm(), kRoundingM);
-      EXPECT_LT((xyz(last.blade_to) - Vector3d(0.9, 0.2 - lies.low_m, -0.1)).norm(), kRoundingM);
+      EXPECT_LT((xyz(last.to) - Vector3d(0.9, 0.2 - lies.high_m, -0.1)).norm(), kInterpolationRoundingM);
+      EXPECT_LT((xyz(last.blade_to) - Vector3d(0.9, 0.2 - lies.low_m, -0.1)).norm(), kInterpolationRoundingM);
     }
     const auto probing = substepsOf(movingAndTurning(), {config});
-    EXPECT_LT((xyz(at(probing, 0).from) - Vector3d(0.1, 0.2, 0.3)).norm(), kRoundingM)
+    EXPECT_LT((xyz(at(probing, 0).from) - Vector3d(0.1, 0.2, 0.3)).norm(), kInterpolationRoundingM)
         << "what does not cut acts at the tip";
   }
 }

@@ -12,7 +12,7 @@ uint32_t slotOf(const Lattice& lattice, int x, int y, int z) {
   return static_cast<uint32_t>(lattice.slotAt({x, y, z}));
 }
 
-Body undamped(Body body) {
+Body undampedScene(Body body) {
   body.material.drag_per_s = 0;
   body.material.dashpot_ratio = 0;
   return body;
@@ -20,7 +20,7 @@ Body undamped(Body body) {
 
 /// k = h = 1: E = 2.5 Pa at h = 1 m.
 Body unitBody(const Vector3i& cells) {
-  Body body = undamped(boxBody(cells, 1.0));
+  Body body = undampedScene(boxBody(cells, 1.0));
   body.material.young_modulus_pa = 2.5;
   body.material.density_kg_per_m3 = 1;
   return body;
@@ -125,7 +125,7 @@ TEST_P(Oracle, RigidMotionGivesNoForceAnywhere) {
 }
 
 TEST_P(Oracle, ForcesSumToNothing) {
-  const Body body = undamped(boxBody({7, 6, 5}, 0.01));
+  const Body body = undampedScene(boxBody({7, 6, 5}, 0.01));
   const Model model = modelOf({body});
   std::mt19937 random(2);
   HostState state = restState(model);
@@ -143,7 +143,7 @@ TEST_P(Oracle, GatheredPairForcesAreAntisymmetricToTheBit) {
   std::mt19937 random(3);
   for (uint32_t spring = 0; spring < layout::kSpringsPerNode; spring += 2) {
     for (int trial = 0; trial < 20; ++trial) {
-      Body body = undamped(boxBody({4, 4, 4}, 0.01));
+      Body body = undampedScene(boxBody({4, 4, 4}, 0.01));
       Lattice& lattice = body.lattice;
       const Vector3i near(2, 2, 2);
       const auto& o = kNeighborOffsets[spring];

@@ -18,10 +18,12 @@ constexpr double kGrabRadius = 1.57;  ///< spacings: all neighbours of a node, a
 constexpr double kPress_m = 0.006;    ///< how deep the probe goes
 constexpr double kPull_m = 0.01;
 
-constexpr double kLeapfrogLimit = 1e-2;  ///< of the longest substep; contact is met and left between substeps
+constexpr double kAccuracyHeartLeapfrogLimit =
+    1e-2;  ///< of the longest substep; contact is met and left between substeps
 
 /// Press from tick 0, hold, withdraw; grab, pull, let go; the rest is free.
-constexpr int kPressed = 8, kWithdraw = 12, kWithdrawn = 16, kGrab = 18, kPulled = 28, kLetGo = 30, kTicks = 40;
+constexpr int kPressed = 8, kWithdraw = 12, kWithdrawn = 16, kGrab = 18, kPulled = 28, kLetGo = 30,
+              kAccuracyHeartTicks = 40;
 
 Scene heartScene(bool short_form) {
   BodyConfig heart;
@@ -90,7 +92,7 @@ Experiment abusedHeart(bool short_form) {
   const Vector3d side = farthest(out, Vector3d::UnitX()), apex = farthest(out, -Vector3d::UnitZ());
   Tools tools(out.scene.styluses, {waveSpeed(out.model) / kTick_hz});
   tools.advance(samplesAt(0, side, apex));
-  for (int t = 1; t <= kTicks; ++t) out.motions.push_back(tools.advance(samplesAt(t, side, apex)));
+  for (int t = 1; t <= kAccuracyHeartTicks; ++t) out.motions.push_back(tools.advance(samplesAt(t, side, apex)));
   return out;
 }
 
@@ -136,7 +138,7 @@ void measureHeartPrecision(Report& report) {
                         "Heart, pressed, grabbed, pulled and let go");
   for (size_t b = 0; b < errors.size(); ++b) {
     report.checkAtMost(nameOf(report.backends()[b]) + ": heart: rms error of leapfrog at its longest substep",
-                       errors[b][0].rms, kLeapfrogLimit);
+                       errors[b][0].rms, kAccuracyHeartLeapfrogLimit);
   }
 }
 

@@ -13,11 +13,11 @@ namespace viscera::bench {
 namespace {
 
 constexpr double kTolerance = 0.1;  ///< issue 3: of a slope
-constexpr int kTicks = 4;
+constexpr int kAccuracyOrderTicks = 4;
 constexpr double kTickInDtSafe = 32;
-constexpr int kTruthSubsteps = 1024;  ///< per tick
-constexpr double kBend_m = 5e-4;      ///< of the tip: a thirtieth of the length
-constexpr double kDrag_per_s = 20;
+constexpr int kAccuracyOrderTruthSubsteps = 1024;  ///< per tick
+constexpr double kBend_m = 5e-4;                   ///< of the tip: a thirtieth of the length
+constexpr double kAccuracyOrderDrag_per_s = 20;
 constexpr double kDashpot = 0.2;
 
 /// Forces that the truth must know.
@@ -39,7 +39,7 @@ Experiment swing(const Damping& damping) {
   MaterialConfig material;
   material.drag_per_s = damping.drag_per_s;
   material.dashpot_ratio = damping.dashpot_ratio;
-  Experiment out = experimentOf(beamModel({2, 2, 4}, material), kTickInDtSafe, kTicks);
+  Experiment out = experimentOf(beamModel({2, 2, 4}, material), kTickInDtSafe, kAccuracyOrderTicks);
   out.start = stateOf(out.model, bent(out.model, kBend_m));
   return out;
 }
@@ -47,7 +47,8 @@ Experiment swing(const Damping& damping) {
 /// dt -> 0. A dashpot takes the velocity of half a substep ago: its error is of first order.
 Track truthOf(const Experiment& experiment, const Damping& damping) {
   const int order = damping.dashpot_ratio > 0 ? 1 : 2;
-  return extrapolated(runReference(experiment, kTruthSubsteps / 2), runReference(experiment, kTruthSubsteps), order);
+  return extrapolated(runReference(experiment, kAccuracyOrderTruthSubsteps / 2),
+                      runReference(experiment, kAccuracyOrderTruthSubsteps), order);
 }
 
 /// The velocity half a substep before the start, from which position Verlet's first whole kick is of second order.
@@ -78,7 +79,7 @@ std::vector<double> errorsOf(Backend backend, const Row& row, const Experiment& 
 std::vector<Row> rowsOf(bool short_form) {
   const Method leapfrog{Integrator::kLeapfrog, 40}, verlet{Integrator::kVerletPaper, 40};
   const Method pd{Integrator::kPd, 40, 30};
-  const Damping none, drag{kDrag_per_s, 0}, dashpot{0, kDashpot};
+  const Damping none, drag{kAccuracyOrderDrag_per_s, 0}, dashpot{0, kDashpot};
   if (short_form) {
     return {{"leapfrog", leapfrog, none, 1, 2}, {"pd", pd, none, 1, 1}};
   }

@@ -14,8 +14,8 @@ namespace viscera::bench {
 
 namespace {
 
-constexpr double kProbeRadius_m = 0.012;  ///< of the ball about the place that is pressed
-constexpr double kResidual = 1e-7;        ///< of conjugate gradients: the response is known to its square
+constexpr double kAccuracySpacingProbeRadius_m = 0.012;  ///< of the ball about the place that is pressed
+constexpr double kResidual = 1e-7;  ///< of conjugate gradients: the response is known to its square
 // Issue 13.
 constexpr double kShareOfError = 0.2;  ///< of the error of springs at as many nodes, at 4 mm
 constexpr double kShareOfTime = 0.1;   ///< of the time of springs at an error of kWanted
@@ -85,7 +85,7 @@ Field pressOn(const ReferenceSolver& solver, const Press& press) {
   Field out(solver.slots(), Vector3d::Zero());
   double sum = 0;
   for (uint32_t slot : solver.active) {
-    const double away = (solver.restPosition(slot) - press.place_m).norm() / kProbeRadius_m;
+    const double away = (solver.restPosition(slot) - press.place_m).norm() / kAccuracySpacingProbeRadius_m;
     if (away >= 1 || isFixed(solver.nodes[slot])) continue;
     const double weight = solver.mass(slot) * std::pow(1 - away * away, 2);
     out[slot] = weight * press.way;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "math/decompositions.h"
 #include "model/fracture/toughness.h"
 #include "model/scene/tissue_presets.h"
 #include "solver/cpu/cpu_solver.h"
@@ -193,7 +194,7 @@ void bladeHand(Report& report) {
     report.stage(std::string("hand in ") + tissue);
     StylusConfig knife;
     knife.cut.blade_length_m = 0.08;
-    const Quaterniond lies = Quaterniond::FromTwoVectors(Vector3d::UnitZ(), -Vector3d::UnitX());
+    const Quaterniond lies = rotationBetween(Vector3d::UnitZ(), -Vector3d::UnitX());
     const Scene scene = blockOf({0.04, 0.048, 0.036}, report.isShort() ? 0.004 : 0.003, tissue, knife);
     Hand hand(scene, {{0.022, 0.0004, kClear_m}, lies});
     hand.go({0, 0, -0.01 - kClear_m}, 0.03);

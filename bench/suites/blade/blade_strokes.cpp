@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <random>
 
+#include "math/decompositions.h"
 #include "solver/cpu/cpu_solver.h"
 #include "viscera/model/model.h"
 
@@ -16,7 +17,7 @@ constexpr double kBack_j = 1e-3;  // to a hand in a stroke, at most
 constexpr int kStrokes = 10000, kStrokesShort = 500;
 constexpr int kTissueLasts = 20;  // strokes, then it is made new
 constexpr double kAway_m = 0.08;  // there a hand turns back
-constexpr double kKilo = 1e3, kMilli = 1e-3;
+constexpr double kKilo = 1e3, kBladeStrokesMilli = 1e-3;
 
 /// On a plate, free elsewhere.
 Scene blockOf(double young_modulus_pa, double toughness_j_per_m2) {
@@ -68,7 +69,7 @@ class Strokes {
     Pose pose;
     pose.position_m = {0.03 * any(), 0.03 * any(), 0.012 * any()};
     const Vector3d axis{any(), any(), 1.2 * any()};
-    pose.orientation = Quaterniond::FromTwoVectors(Vector3d::UnitZ(), axis.normalized());
+    pose.orientation = rotationBetween(Vector3d::UnitZ(), axis.normalized());
     Vector3d velocity{any(), any(), 0.5 * any()};
     const auto ticks = 4 + random_() % 12;
     const Quaterniond turn(Eigen::AngleAxisd(0.05 * any(), Vector3d::UnitX()));
@@ -113,8 +114,9 @@ void bladeStrokes(Report& report) {
   report.stage(std::to_string(count) + " strokes");
   Strokes strokes(blockOf(young_modulus_pa, toughness_j_per_m2));
   strokes.make(count);
-  table.add({count, young_modulus_pa / kKilo, toughness_j_per_m2, strokes.work_j / count / kMilli,
-             strokes.back_j / kMilli, strokes.back_at_once_j / kMilli, strokes.nonfinite, strokes.trips});
+  table.add({count, young_modulus_pa / kKilo, toughness_j_per_m2, strokes.work_j / count / kBladeStrokesMilli,
+             strokes.back_j / kBladeStrokesMilli, strokes.back_at_once_j / kBladeStrokesMilli, strokes.nonfinite,
+             strokes.trips});
   report.add(table, "strokes");
   report.checkAtMost("energy given to a hand in a stroke", strokes.back_j, kBack_j);
   report.checkAtMost("energy given to a hand at any time of a stroke", strokes.back_at_once_j, kBack_j);

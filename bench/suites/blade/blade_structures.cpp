@@ -15,7 +15,7 @@ constexpr double kForce = 0.05;    // of the force by the law
 constexpr double kRipple = 0.1;    // of J w
 constexpr double kLeastDet = 0.1;  // of a whole tetrahedron or triangle: nothing folds
 constexpr double kWork = 0.02;     // of the work: what is not parting, elastic, kinetic or damping
-constexpr double kMilli = 1e-3;
+constexpr double kBladeStructuresMilli = 1e-3;
 constexpr double kToughness_j_per_m2 = 100;
 constexpr double kSheet_m = 0.001;  // thick
 
@@ -48,10 +48,11 @@ void addRow(const Kind& kind, const BladeTrial& trial, Table& table, Report& rep
   const BladeResult r = cutThrough(trial);
   const double balance = r.cut_share + r.stored_share + r.damped_share;
   const double carried = trial.toughness_j_per_m2 / (trial.young_modulus_pa * r.length_m);
-  const std::string name = std::string(kind.name) + ", h " + text(r.length_m / kMilli) + " mm, J/(E h) " +
-                           text(carried) + ", " + text(trial.angle_deg) + " deg";
-  table.add({kind.name, r.length_m / kMilli, carried, trial.angle_deg, r.force, r.asked, r.ripple * r.force,
-             r.onset_m / kMilli, r.cut_share, r.stored_share, r.damped_share, balance, r.worst_det});
+  const std::string name = std::string(kind.name) + ", h " + text(r.length_m / kBladeStructuresMilli) +
+                           " mm, J/(E h) " + text(carried) + ", " + text(trial.angle_deg) + " deg";
+  table.add({kind.name, r.length_m / kBladeStructuresMilli, carried, trial.angle_deg, r.force, r.asked,
+             r.ripple * r.force, r.onset_m / kBladeStructuresMilli, r.cut_share, r.stored_share, r.damped_share,
+             balance, r.worst_det});
   report.checkAtMost("force off the law, " + name, std::abs(r.force - 1), kForce);
   report.checkAtMost("ripple, " + name, r.ripple * r.force, kRipple);
   report.checkAtLeast("least volume, " + name, r.worst_det, kLeastDet);
@@ -78,7 +79,7 @@ void bladeStructures(Report& report) {
   for (const Kind& kind : kKinds) {
     for (const double spacing_m : {0.004, 0.002}) {
       if (report.isShort() && spacing_m < 0.004) continue;
-      report.stage(std::string(kind.name) + " at " + Cell(spacing_m / kMilli).text(3) + " mm");
+      report.stage(std::string(kind.name) + " at " + Cell(spacing_m / kBladeStructuresMilli).text(3) + " mm");
       for (const double carried : {0.5, 2.0, 10.0}) addRow(kind, trialOf(kind, spacing_m, carried, 0), table, report);
       for (const double angle_deg : {10.0, 30.0, 45.0})
         if (spacing_m < 0.004) addRow(kind, trialOf(kind, spacing_m, 2, angle_deg), table, report);

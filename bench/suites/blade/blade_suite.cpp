@@ -15,13 +15,13 @@ namespace viscera::bench {
 
 namespace {
 
-constexpr double kForce = 0.05;     // of the force by the law
-constexpr double kRipple = 0.1;     // of J w
-constexpr double kLeastDet = 0.1;   // of a whole cell: nothing folds
-constexpr double kWork = 0.02;      // of the work: what is not parting, elastic, kinetic or damping
-constexpr double kCost = 0.1;       // of a tick
-constexpr double kBackends = 0.01;  // of the force: substeps follow the stretch a tick later on the GPU
-constexpr double kKilo = 1e3, kMilli = 1e-3;
+constexpr double kBladeForce = 0.05;    // of the force by the law
+constexpr double kBladeRipple = 0.1;    // of J w
+constexpr double kBladeLeastDet = 0.1;  // of a whole cell: nothing folds
+constexpr double kBladeWork = 0.02;     // of the work: what is not parting, elastic, kinetic or damping
+constexpr double kCost = 0.1;           // of a tick
+constexpr double kBackends = 0.01;      // of the force: substeps follow the stretch a tick later on the GPU
+constexpr double kBladeKilo = 1e3, kBladeMilli = 1e-3;
 
 Table forceTable(const std::string& title) {
   return Table(title, {{"h", "mm"},
@@ -50,7 +50,7 @@ double lawOf(const BladeTrial& trial) {
 
 std::string trialName(const BladeTrial& trial) {
   const auto text = [](double value) { return Cell(value).text(3); };
-  return "h " + text(trial.spacing_m / kMilli) + " mm, E " + text(trial.young_modulus_pa / kKilo) + " kPa, " +
+  return "h " + text(trial.spacing_m / kBladeMilli) + " mm, E " + text(trial.young_modulus_pa / kBladeKilo) + " kPa, " +
          text(trial.angle_deg) + " deg, " + text(trial.speed_m_per_s) + " m/s, xi " + text(trial.slicing);
 }
 
@@ -59,14 +59,14 @@ void addRow(const BladeTrial& trial, Table& table, Report& report) {
   const BladeResult r = cutThrough(trial);
   const double balance = r.cut_share + r.stored_share + r.damped_share;
   const double unit = trial.young_modulus_pa * trial.spacing_m, over_law = r.force / lawOf(trial);
-  table.add({trial.spacing_m / kMilli, trial.young_modulus_pa / kKilo, trial.toughness_j_per_m2,
+  table.add({trial.spacing_m / kBladeMilli, trial.young_modulus_pa / kBladeKilo, trial.toughness_j_per_m2,
              trial.toughness_j_per_m2 / unit, trial.angle_deg, trial.speed_m_per_s, trial.slicing, over_law, r.asked,
-             r.along, r.ripple * r.force, r.onset_m / kMilli, r.cut_share, r.stored_share, r.damped_share, balance,
+             r.along, r.ripple * r.force, r.onset_m / kBladeMilli, r.cut_share, r.stored_share, r.damped_share, balance,
              r.worst_det});
-  report.checkAtMost("force off the law, " + trialName(trial), std::abs(over_law - 1), kForce);
-  report.checkAtMost("ripple, " + trialName(trial), r.ripple * r.force, kRipple);
-  report.checkAtLeast("least det F, " + trialName(trial), r.worst_det, kLeastDet);
-  report.checkAtMost("work not accounted for, " + trialName(trial), std::abs(1 - balance), kWork);
+  report.checkAtMost("force off the law, " + trialName(trial), std::abs(over_law - 1), kBladeForce);
+  report.checkAtMost("ripple, " + trialName(trial), r.ripple * r.force, kBladeRipple);
+  report.checkAtLeast("least det F, " + trialName(trial), r.worst_det, kBladeLeastDet);
+  report.checkAtMost("work not accounted for, " + trialName(trial), std::abs(1 - balance), kBladeWork);
   report.checkAtMost("trips, " + trialName(trial), r.trips, 0);
 }
 
@@ -161,8 +161,8 @@ void cost(Report& report) {
 
 void addPair(const char* structure, BladeTrial trial, Table& table, Report& report) {
   const double carried = trial.toughness_j_per_m2 / (trial.young_modulus_pa * trial.spacing_m);
-  const std::string of = std::string(structure) + " at " + Cell(trial.spacing_m / kMilli).text(3) + " mm, J/(E h) " +
-                         Cell(carried).text(3);
+  const std::string of = std::string(structure) + " at " + Cell(trial.spacing_m / kBladeMilli).text(3) +
+                         " mm, J/(E h) " + Cell(carried).text(3);
   report.stage(of + " on both backends");
   const BladeResult cpu = cutThrough(trial);
   trial.backend = Backend::kGpu;
@@ -170,9 +170,9 @@ void addPair(const char* structure, BladeTrial trial, Table& table, Report& repo
   trial.toughness_j_per_m2 = 0;
   const double free_us = cutThrough(trial).fastest_us;
   trial.there = false;
-  table.add({structure, trial.spacing_m / kMilli, static_cast<double>(gpu.nodes), carried, gpu.force, cpu.force,
+  table.add({structure, trial.spacing_m / kBladeMilli, static_cast<double>(gpu.nodes), carried, gpu.force, cpu.force,
              cutThrough(trial).fastest_us, free_us, gpu.fastest_us});
-  report.checkAtMost("force off the law on the GPU, " + of, std::abs(gpu.force - 1), kForce);
+  report.checkAtMost("force off the law on the GPU, " + of, std::abs(gpu.force - 1), kBladeForce);
   report.checkAtMost("GPU off the CPU, " + of, std::abs(gpu.force - cpu.force), kBackends);
   report.checkAtMost("trips on the GPU, " + of, gpu.trips, 0);
 }

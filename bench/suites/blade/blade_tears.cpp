@@ -12,12 +12,12 @@ namespace viscera::bench {
 namespace {
 
 constexpr double kOff = 0.15;  // of the toughness that was asked for
-constexpr double kMilli = 1e-3;
+constexpr double kBladeTearsMilli = 1e-3;
 constexpr double kSpacings_m[] = {0.004, 0.002, 0.001};
 
 std::string nameOf(const TearTrial& trial) {
   const auto text = [](double value) { return Cell(value).text(3); };
-  return "h " + text(trial.spacing_m / kMilli) + " mm, G " + text(trial.toughness_j_per_m2) + " J/m2";
+  return "h " + text(trial.spacing_m / kBladeTearsMilli) + " mm, G " + text(trial.toughness_j_per_m2) + " J/m2";
 }
 double carriedOf(const TearTrial& trial) {
   return trial.toughness_j_per_m2 / (trial.young_modulus_pa * trial.spacing_m);
@@ -34,7 +34,7 @@ void strips(Report& report) {
       trial.toughness_j_per_m2 = toughness_j_per_m2;
       report.stage("strip, " + nameOf(trial));
       const StripResult r = pullStrip(trial);
-      table.add({spacing_m / kMilli, toughness_j_per_m2, carriedOf(trial), r.strain, r.release,
+      table.add({spacing_m / kBladeTearsMilli, toughness_j_per_m2, carriedOf(trial), r.strain, r.release,
                  static_cast<double>(r.crumbs)});
       report.checkAtMost("release off G, " + nameOf(trial), std::abs(r.release - 1), kOff);
     }
@@ -59,7 +59,7 @@ void trousers(Report& report) {
       trial.toughness_j_per_m2 = toughness_j_per_m2;
       report.stage("trousers, " + nameOf(trial));
       const TrouserResult r = pullTrousers(trial);
-      table.add({spacing_m / kMilli, toughness_j_per_m2, carriedOf(trial), r.force, r.least, r.most,
+      table.add({spacing_m / kBladeTearsMilli, toughness_j_per_m2, carriedOf(trial), r.force, r.least, r.most,
                  static_cast<double>(r.crumbs), r.trips});
       report.checkAtMost("trouser force off the law, " + nameOf(trial), std::abs(r.force - 1), kOff);
       report.checkAtMost("trips, trousers, " + nameOf(trial), r.trips, 0);

@@ -26,9 +26,9 @@ constexpr double kDegree = 3.14159265358979323846 / 180;
 constexpr double kSteadyFrom = 0.7;   // of the stroke
 constexpr double kTickTravel = 0.25;  // of the spacing: ticks are short enough to see a cell go by
 constexpr double kLeastTick_hz = 60;
-constexpr double kHeld = 0.49;      // of the spacing: rows of a sheet need not end where its rectangle does
-constexpr double kClear_m = 0.001;  // before the block
-constexpr double kOver_m = 0.003;   // of the blade above and below it
+constexpr double kHeld = 0.49;                // of the spacing: rows of a sheet need not end where its rectangle does
+constexpr double kBladeTrialClear_m = 0.001;  // before the block
+constexpr double kOver_m = 0.003;             // of the blade above and below it
 
 Vector3d xyz(const layout::vec4& v) {
   return {v.x, v.y, v.z};
@@ -119,7 +119,8 @@ class Stroke {
     const double angle = trial.angle_deg * kDegree;
     go_ = {std::cos(angle), std::sin(angle), 0};
     way_ = go_ - trial.slicing * Vector3d::UnitZ();
-    at_ = {-0.5 * trial.length_m - kClear_m, -0.5 * trial.stroke_m * std::sin(angle) + trial.beside * trial.spacing_m,
+    at_ = {-0.5 * trial.length_m - kBladeTrialClear_m,
+           -0.5 * trial.stroke_m * std::sin(angle) + trial.beside * trial.spacing_m,
            -0.5 * trial.thickness_m - kOver_m};
     if (trial.damped) lattice_.emplace(model_);
     force_unit_n_ = toughnessOf(model_.bodies[0]).carried_j_per_m2() * trial.thickness_m;
@@ -153,7 +154,7 @@ class Stroke {
     out_.stretch = std::max(out_.stretch, static_cast<double>(floatFromBits(last_.max_stretch_bits)));
     if (lattice_) damped_j_ += tick_s * damping_w();
     if (out_.onset_m == 0 && solver_->bladeWork(0).area_m2 > trial_.spacing_m * trial_.thickness_m)
-      out_.onset_m = gone_m_ - kClear_m;
+      out_.onset_m = gone_m_ - kBladeTrialClear_m;
     if (gone_m_ < kSteadyFrom * trial_.stroke_m) return;
     if (steady_.size() % 8 == 0) out_.worst_det = std::min(out_.worst_det, leastVolume(model_, solver_->readState()));
     steady_.push_back(force_n.dot(go_) / force_unit_n_);

@@ -14,9 +14,9 @@ namespace viscera::bench {
 namespace {
 
 constexpr double kSlit_m = 0.03;
-constexpr double kTick_hz = 100;
+constexpr double kTearTrialTick_hz = 100;
 constexpr double kBeside = 0.31;                            // of the spacing: the slit is off rows of nodes
-constexpr double kHeld = 0.4;                               // of the spacing
+constexpr double kTearTrialHeld = 0.4;                      // of the spacing
 constexpr double kBlade_m = 0.05;                           // long
 constexpr double kCrumb = 0.05;                             // of the nodes
 constexpr double kStripDrag = 200;                          // 1/s: what is let go does not swing
@@ -56,7 +56,7 @@ Scene sceneOf(const BodyConfig& body) {
     scene.styluses.push_back(stylus);
   }
   scene.environment.gravity_m_per_s2.setZero();
-  scene.solver.tick_hz = kTick_hz;
+  scene.solver.tick_hz = kTearTrialTick_hz;
   scene.solver.backend = Backend::kCpu;
   scene.solver.integrator = Integrator::kLeapfrog;
   return scene;
@@ -127,7 +127,7 @@ size_t Plate::crumbs() const {
 Scene stripOf(const TearTrial& trial) {
   BodyConfig body = bodyOf(trial);
   body.material.drag_per_s = kStripDrag;
-  const double inner = 0.5 * trial.width_m - kHeld * trial.spacing_m;
+  const double inner = 0.5 * trial.width_m - kTearTrialHeld * trial.spacing_m;
   for (const double side : {1.0, -1.0}) {
     FixedConfig fixed;
     fixed.min_m = {-1, side > 0 ? inner : -1, -1};
@@ -152,7 +152,7 @@ bool runs(const TearTrial& trial, double at_strain, size_t& crumbs) {
   Plate plate(stripOf(trial));
   plate.slit(trial);
   strain(plate, at_strain);
-  for (int i = 0; i < kStripTime_s * kTick_hz; ++i) plate.step({});
+  for (int i = 0; i < kStripTime_s * kTearTrialTick_hz; ++i) plate.step({});
   crumbs = plate.crumbs();
   return plate.tip_m() + 0.5 * trial.length_m > kSlit_m + kRuns * (trial.length_m - kSlit_m);
 }
@@ -165,7 +165,7 @@ double storedPerArea(TearTrial trial, double at_strain) {
     trial.length_m = is_long ? kLong_m : kShort_m;
     Plate plate(stripOf(trial));
     strain(plate, at_strain);
-    for (int i = 0; i < kStripTime_s * kTick_hz; ++i) plate.step({});
+    for (int i = 0; i < kStripTime_s * kTearTrialTick_hz; ++i) plate.step({});
     energy_j[is_long] = static_cast<double>(plate.stats.elastic_j);
   }
   return (energy_j[1] - energy_j[0]) / ((kLong_m - kShort_m) * trial.thickness_m);
@@ -179,7 +179,7 @@ std::vector<double> legForces(const TearTrial& trial, Plate& plate) {
     motions[s].present = motions[s].hold_begins = true;
     motions[s].to.position_m = {-0.5 * trial.length_m, (s ? 0.25 : -0.25) * trial.width_m, 0};
   }
-  const double step_m = kSpeed_m_per_s / kTick_hz, law_n = 0.5 * trial.toughness_j_per_m2 * trial.thickness_m;
+  const double step_m = kSpeed_m_per_s / kTearTrialTick_hz, law_n = 0.5 * trial.toughness_j_per_m2 * trial.thickness_m;
   std::vector<double> out;
   for (double way_m = 0; way_m < kLongest * trial.length_m; way_m += step_m) {
     for (const size_t s : {0, 1}) {
@@ -191,7 +191,7 @@ std::vector<double> legForces(const TearTrial& trial, Plate& plate) {
     const double tip_m = plate.tip_m() + 0.5 * trial.length_m;
     if (tip_m >= trial.length_m - kTo_m) break;
     const double impulse_n_s = static_cast<double>(plate.stats.impulse[0].z - plate.stats.impulse[1].z);
-    if (tip_m > kSlit_m + kFrom_m) out.push_back(0.5 * std::abs(impulse_n_s) * kTick_hz / law_n);
+    if (tip_m > kSlit_m + kFrom_m) out.push_back(0.5 * std::abs(impulse_n_s) * kTearTrialTick_hz / law_n);
   }
   return out;
 }
@@ -227,7 +227,7 @@ TrouserResult pullTrousers(const TearTrial& asked) {
   plate.slit(trial);
   const std::vector<double> forces = legForces(trial, plate);
   TrouserResult out;
-  const auto per_mean = static_cast<size_t>(kMean_m / kSpeed_m_per_s * kTick_hz);
+  const auto per_mean = static_cast<size_t>(kMean_m / kSpeed_m_per_s * kTearTrialTick_hz);
   out.least = kMost;
   for (size_t i = 0; i + per_mean <= forces.size(); i += per_mean) {
     const double mean = meanOf(forces, i, i + per_mean);

@@ -91,15 +91,15 @@ void measureGroupSizes(Report& report) {
 
 // ---- ways to read ----
 
-struct Way {
+struct GpuWay {
   const char *name, *feature;
   size_t bytes;  ///< of a node
 };
-constexpr Way kWays[] = {{"vec4, storage buffer", "STORAGE", 16},
-                         {"vec4, texel fetches", "TEXELS", 16},
-                         {"vec4, image loads", "IMAGES", 16},
-                         {"three floats, storage buffer", "PACKED", 12},
-                         {"three half floats, storage buffer", "HALVES", 8}};
+constexpr GpuWay kGpuWays[] = {{"vec4, storage buffer", "STORAGE", 16},
+                               {"vec4, texel fetches", "TEXELS", 16},
+                               {"vec4, image loads", "IMAGES", 16},
+                               {"three floats, storage buffer", "PACKED", 12},
+                               {"three half floats, storage buffer", "HALVES", 8}};
 
 uint16_t halfOf(float value) {  // of 0 and normal numbers between 2^-14 and 1
   uint32_t bits;
@@ -111,7 +111,7 @@ uint16_t halfOf(float value) {  // of 0 and normal numbers between 2^-14 and 1
 }
 
 /// Numbers below 1, the same whatever way they are read.
-std::vector<float> stateFor(const Way& way, size_t nodes) {
+std::vector<float> stateFor(const GpuWay& way, size_t nodes) {
   std::vector<float> out(way.bytes / sizeof(float) * nodes, 0.0f);
   for (size_t i = 0; i < nodes; ++i) {
     float v[3];
@@ -141,7 +141,7 @@ void measureReads(Report& report) {
   const gpu::Buffer<layout::vec4> sums(nodes, "sums");
   std::vector<layout::vec4> first;
   double apart = 0;
-  for (const Way& way : kWays) {
+  for (const GpuWay& way : kGpuWays) {
     report.stage(way.name);
     const gpu::Buffer<float> state(stateFor(way, nodes), "state");
     const gpu::Program program =

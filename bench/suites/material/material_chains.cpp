@@ -15,7 +15,7 @@ constexpr int kMasses = 16;
 constexpr int kSamples = 100;
 constexpr double kAmplitude = 1e-3;  ///< of the spacing; along its axis a chain is linear at any amplitude
 constexpr double kPhaseStep = 1.2;   ///< between samples, at most: small phases are lost in float32's rounding
-constexpr double kLimit = 1e-4;      ///< issue 3: relative
+constexpr double kMaterialChainsLimit = 1e-4;  ///< issue 3: relative
 
 enum class End { kFixed, kFree };
 
@@ -91,7 +91,8 @@ void measureChains(Report& report) {
       }
       plot.series.push_back(series);
     }
-    report.checkAtMost(nameOf(backend) + ": chains: largest relative error of a frequency", worst, kLimit);
+    report.checkAtMost(nameOf(backend) + ": chains: largest relative error of a frequency", worst,
+                       kMaterialChainsLimit);
   }
   report.add(table, "chains");
   report.add(plot, "chains");

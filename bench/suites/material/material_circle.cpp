@@ -12,7 +12,8 @@ namespace viscera::bench {
 
 namespace {
 
-constexpr int kSlenderness = 40;       ///< length over depth: strain of the outermost fibre is pi / 40 in a circle
+constexpr int kMaterialCircleSlenderness =
+    40;                                ///< length over depth: strain of the outermost fibre is pi / 40 in a circle
 constexpr int kSteps = 24;             ///< to the full circle
 constexpr double kMomentLimit = 0.03;  ///< of E I kappa: ours; fibres strained by 8 % are not linear
 constexpr double kBalanced =
@@ -22,7 +23,8 @@ constexpr double kKernelLimit = 1e-3;  ///< kernels against the reference in the
 /// A beam along x, n cells deep and wide, bent about y.
 class BentBeam {
  public:
-  BentBeam(int depth, Cells cells) : depth_(depth), length_(kSlenderness * depth), model_(modelOf(cells)) {}
+  BentBeam(int depth, Cells cells)
+      : depth_(depth), length_(kMaterialCircleSlenderness * depth), model_(modelOf(cells)) {}
 
   /// Bends it by turning its ends by half the angle each, in small steps. @return moment over E I kappa
   double bend(double angle) {

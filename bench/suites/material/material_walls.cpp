@@ -24,7 +24,7 @@ constexpr double kTableLimit = 0.01;
 /// (docs/physics.md, Thin walls). Half as much again at other nu: a beam's free edges yield more the less it widens.
 constexpr double kThinWall = 0.05, kThinFrom = 1.5, kThinOtherNu = 1.5;
 /// Kernels against the reference, which has their constants: rounding of float32 at strains of 1e-4.
-constexpr double kKernelLimit = 2e-3;
+constexpr double kMaterialWallsKernelLimit = 2e-3;
 
 /// A square beam along x under a load across it, cos(2 pi x / length); Timoshenko's compliance.
 Wall beam(double thickness, double length) {
@@ -218,7 +218,7 @@ class WallTests {
     for (Plot* plot : {&aligned_, &turned_}) report_.add(*plot, plot == &aligned_ ? "walls_aligned" : "walls_turned");
     for (size_t b = 0; b < worst_kernel_.size(); ++b) {
       report_.checkAtMost("walls: forces of " + nameOf(report_.backends()[b]) + " against float64, as work",
-                          worst_kernel_[b], kKernelLimit);
+                          worst_kernel_[b], kMaterialWallsKernelLimit);
     }
   }
 

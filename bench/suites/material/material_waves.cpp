@@ -16,9 +16,9 @@ namespace {
 // from a node to the next and no farther, so in a free block a node d nodes from the surface moves for d substeps
 // exactly as in an unbounded lattice. Only those are looked at.
 constexpr int kSubsteps = 12;
-constexpr double kStrain = 1e-5;    ///< so small that springs are linear
-constexpr double kPhaseStep = 1.5;  ///< between samples, at most
-constexpr double kLimit = 1e-4;     ///< issue 3: relative
+constexpr double kMaterialWavesStrain = 1e-5;    ///< so small that springs are linear
+constexpr double kMaterialWavesPhaseStep = 1.5;  ///< between samples, at most
+constexpr double kMaterialWavesLimit = 1e-4;     ///< issue 3: relative
 
 struct Wave {
   int axis;  ///< of the displacement: 2 longitudinal, 0 transverse; it travels along z
@@ -60,7 +60,7 @@ class WaveTank {
   /// Frequency of a standing wave [rad/s]. @param expected  about as much
   double measure(const Wave& wave, double expected) {
     const double phase = phasePerSubstep(expected, solver_->dt_s());
-    const int stride = std::clamp(static_cast<int>(kPhaseStep / phase), 1, kSubsteps / 2);
+    const int stride = std::clamp(static_cast<int>(kMaterialWavesPhaseStep / phase), 1, kSubsteps / 2);
     const Field start = standing(wave);
     solver_->writeState(stateOf(model_, start));
     std::vector<double> amplitude;
@@ -77,7 +77,7 @@ class WaveTank {
     const Lattice& lattice = model_.bodies[0].lattice;
     Field u(model_.slots(), Vector3d::Zero());
     for (uint32_t slot : lattice.active_slots) {
-      u[slot][wave.axis] = kStrain / wave.q * std::cos(wave.q * (lattice.nodeAt(slot).z() - middle_));
+      u[slot][wave.axis] = kMaterialWavesStrain / wave.q * std::cos(wave.q * (lattice.nodeAt(slot).z() - middle_));
     }
     return u;
   }
@@ -114,7 +114,8 @@ class WaveTests {
         }
       }
     }
-    report_.checkAtMost(nameOf(backend) + ": plane waves: largest relative error of a frequency", worst_, kLimit);
+    report_.checkAtMost(nameOf(backend) + ": plane waves: largest relative error of a frequency", worst_,
+                        kMaterialWavesLimit);
     return found;
   }
 

@@ -16,8 +16,8 @@ namespace {
 constexpr double kStaticError = 0.02;  ///< of the simulator's force
 constexpr double kFelt_n = 0.05;       ///< of needles and threads: held forces below that are not judged by their share
 constexpr double kFree_n = 0.05;       ///< what a hand in free motion may be told
-constexpr double kActive_mj = 1;       ///< energy that the loop may give beyond what it got
-constexpr double kSwift_hz = 1000;     ///< poses of a driver that keeps pace with the loop
+constexpr double kHapticsActive_mj = 1;    ///< energy that the loop may give beyond what it got
+constexpr double kHapticsSwift_hz = 1000;  ///< poses of a driver that keeps pace with the loop
 /// A swing that is larger in both is a limit cycle: what a fingertip notices, and two steps of the encoder.
 constexpr double kSwing_n = 0.05, kSwing_mm = 0.02;
 
@@ -88,7 +88,7 @@ struct Worst {
   void note(double poses_hz, const HapticOutcome& outcome) {
     error = std::max(error, outcome.static_error);
     free_n = std::max(free_n, outcome.free_n);
-    if (poses_hz >= kSwift_hz) swift_mj = std::min(swift_mj, outcome.least_energy_mj);
+    if (poses_hz >= kHapticsSwift_hz) swift_mj = std::min(swift_mj, outcome.least_energy_mj);
     least_mj = std::min(least_mj, outcome.least_energy_mj + outcome.unheard_mj);
     cycling += cycles(outcome);
   }
@@ -178,9 +178,9 @@ void suture(Report& report, HapticTool tool, const char* name, const std::string
   report.checkAtMost(what + "holds with a limit cycle", worst.cycling, 0);
   report.checkAtMost(what + "static force off the simulator's [1]", worst.error, kStaticError);
   report.checkAtLeast(what + "least energy that a device has given, poses of 1000 Hz [mJ]", worst.swift_mj,
-                      -kActive_mj);
+                      -kHapticsActive_mj);
   report.checkAtLeast(what + "the same, any poses, beyond what a loop so late can hear of [mJ]", worst.least_mj,
-                      -kActive_mj);
+                      -kHapticsActive_mj);
   report.checkAtMost(what + "force in free motion [N]", worst.free_n, kFree_n);
 }
 
@@ -225,13 +225,15 @@ void probe(Report& report) {
 
   report.checkAtMost("cells of the matrix with a limit cycle", worst.cycling, 0);
   report.checkAtMost("static force off the simulator's [1]", worst.error, kStaticError);
-  report.checkAtLeast("least energy that a device has given, poses of 1000 Hz [mJ]", worst.swift_mj, -kActive_mj);
-  report.checkAtLeast("the same, any poses, beyond what a loop so late can hear of [mJ]", worst.least_mj, -kActive_mj);
+  report.checkAtLeast("least energy that a device has given, poses of 1000 Hz [mJ]", worst.swift_mj,
+                      -kHapticsActive_mj);
+  report.checkAtLeast("the same, any poses, beyond what a loop so late can hear of [mJ]", worst.least_mj,
+                      -kHapticsActive_mj);
   report.checkAtMost("force in free motion [N]", worst.free_n, kFree_n);
   report.checkAtMost("limit cycles after events", events.cycling, 0);
   report.checkAtMost("static force off the simulator's after events [1]", events.error, kStaticError);
   report.checkAtLeast("least energy in events, beyond what a loop so late can hear of [mJ]", events.least_mj,
-                      -kActive_mj);
+                      -kHapticsActive_mj);
   report.checkAtLeast("limit cycles without the local model, of those tried", without.cycling, 1);
 }
 

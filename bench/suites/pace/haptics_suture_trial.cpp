@@ -11,14 +11,15 @@
 namespace viscera::bench {
 namespace {
 
-constexpr double kSpacing_m = 0.003, kThick_m = 0.009, kTip_m = 0.006;
+constexpr double kHapticsSutureTrialSpacing_m = 0.003, kHapticsSutureTrialThick_m = 0.009,
+                 kHapticsSutureTrialTip_m = 0.006;
 constexpr double kNeedle_m = 0.02;    ///< radius of its arc: a large one, as it is led without being turned
 constexpr double kHandOver_m = 0.02;  ///< a thread's end over the skin, where it is just taut
-constexpr double kSettle_s = 1.5, kRings = 6, kLook_s = 0.4, kLeft_s = 0.05;
+constexpr double kHapticsSutureTrialSettle_s = 1.5, kRings = 6, kHapticsSutureTrialLook_s = 0.4, kLeft_s = 0.05;
 constexpr double kMotion_m_per_s = 0.09;  ///< on the way out
 
 /// Where the hand wants the tip over the skin, or a thread's end over where it is taut [m].
-struct Key {
+struct HapticsSutureTrialKey {
   double time_s, height_m;
 };
 /// What is looked at: the end of a hold, or largest forces of a time.
@@ -30,7 +31,7 @@ struct Span {
 
 /// A way, and what is looked at of it.
 struct Plan {
-  std::vector<Key> way;
+  std::vector<HapticsSutureTrialKey> way;
   std::vector<Span> spans;
   double touches_s = 0, left_s = 0;  ///< free before and after
 
@@ -40,7 +41,7 @@ struct Plan {
   }
   void hold(const char* name, double settle_s) {
     way.push_back({now_s() + settle_s, way.back().height_m});
-    spans.push_back({name, true, now_s() - kLook_s, now_s()});
+    spans.push_back({name, true, now_s() - kHapticsSutureTrialLook_s, now_s()});
   }
   void pass(const char* name, double to_m, double m_per_s) {
     const double from_s = now_s();
@@ -49,7 +50,7 @@ struct Plan {
   }
   double at(double time_s) const {
     for (size_t i = 1; i < way.size(); ++i) {
-      const Key &a = way[i - 1], &b = way[i];
+      const HapticsSutureTrialKey &a = way[i - 1], &b = way[i];
       if (time_s < b.time_s)
         return a.height_m + (time_s - a.time_s) / (b.time_s - a.time_s) * (b.height_m - a.height_m);
     }
@@ -69,7 +70,7 @@ Plan planOf(HapticTool tool, double settle_s) {
     out.hold("skin", settle_s);
     out.pass("puncture", -0.0055, kSlow);
     out.hold("inside", settle_s);
-    out.pass("far skin", -kThick_m - 0.004, kSlow);
+    out.pass("far skin", -kHapticsSutureTrialThick_m - 0.004, kSlow);
     out.hold("through", settle_s);
   } else {
     out.way = {{0, 0}, {0.2, -0.008}, {0.4, -0.004}, {0.6, -0.008}};
@@ -89,15 +90,15 @@ Plan planOf(HapticTool tool, double settle_s) {
 BodyConfig slab(double young_modulus_pa) {
   BodyConfig body;
   body.source = TissueSource::kBox;
-  body.box_size_m = Vector3d(0.036, 0.03, kThick_m);
-  body.position_m = Vector3d(0, 0, -kThick_m / 2);
-  body.spacing_m = kSpacing_m;
+  body.box_size_m = Vector3d(0.036, 0.03, kHapticsSutureTrialThick_m);
+  body.position_m = Vector3d(0, 0, -kHapticsSutureTrialThick_m / 2);
+  body.spacing_m = kHapticsSutureTrialSpacing_m;
   body.material.young_modulus_pa = young_modulus_pa;
   for (const Vector3d& out : {Vector3d(1, 0, 0), Vector3d(-1, 0, 0), Vector3d(0, 1, 0), Vector3d(0, -1, 0)}) {
     FixedConfig fixed;
     fixed.shape = FixedShape::kPlane;
     fixed.normal = -out;
-    fixed.point_m = out.cwiseProduct(0.5 * body.box_size_m) - 0.1 * kSpacing_m * out;
+    fixed.point_m = out.cwiseProduct(0.5 * body.box_size_m) - 0.1 * kHapticsSutureTrialSpacing_m * out;
     body.fixed.push_back(fixed);
   }
   return body;
@@ -155,7 +156,7 @@ Scene sceneOf(const HapticTrial& trial) {
 class SutureTrial : public HeldTrial {
  public:
   explicit SutureTrial(const HapticTrial& trial)
-      : SutureTrial(trial, {trial.mass_kg, trial.delay_s, trial.poses_hz, trial.rate_hz, kTip_m}) {}
+      : SutureTrial(trial, {trial.mass_kg, trial.delay_s, trial.poses_hz, trial.rate_hz, kHapticsSutureTrialTip_m}) {}
 
   std::vector<HapticStage> run() {
     for (int i = 0; i * kPeriod_s < plan_.now_s(); ++i) {
@@ -181,7 +182,8 @@ class SutureTrial : public HeldTrial {
     hand_.listens = true;
   }
   static double settle_s(const SimulatedDeviceConfig& device) {
-    return kSettle_s + kRings * 2 * device.mass_kg / (device.damping_n_s_per_m + device.hand_damping_n_s_per_m);
+    return kHapticsSutureTrialSettle_s +
+           kRings * 2 * device.mass_kg / (device.damping_n_s_per_m + device.hand_damping_n_s_per_m);
   }
 
   /// How far the tip is in, or the thread pulled.

@@ -13,9 +13,9 @@
 namespace viscera::bench {
 namespace {
 
-constexpr double kSpacing_m = 0.005, kTop_m = 0.02, kRadius_m = 0.008;
+constexpr double kHapticsTrialSpacing_m = 0.005, kTop_m = 0.02, kRadius_m = 0.008;
 /// Where the hand wants the tip, m above the surface, at these times [s].
-struct Key {
+struct HapticsTrialKey {
   double time_s, height_m;
 };
 
@@ -28,8 +28,8 @@ bool goesAway(HapticEvent event) {
 }
 
 /// @param settle_s  how long a hold takes
-std::vector<Key> wayOf(double settle_s, HapticEvent event) {
-  std::vector<Key> way = {{0, 0.012}, {0.2, 0.004}, {0.4, 0.012}, {0.6, 0.003}, {1.1, -0.004}};
+std::vector<HapticsTrialKey> wayOf(double settle_s, HapticEvent event) {
+  std::vector<HapticsTrialKey> way = {{0, 0.012}, {0.2, 0.004}, {0.4, 0.012}, {0.6, 0.003}, {1.1, -0.004}};
   if (event != HapticEvent::kNone) way.push_back({kEvent_s, -0.004});
   if (goesAway(event)) {
     way.push_back({kOver_s, -0.004 + kAway_m});
@@ -37,8 +37,11 @@ std::vector<Key> wayOf(double settle_s, HapticEvent event) {
   }
   if (event != HapticEvent::kNone) way.push_back({kBack_s, -0.004});
   const double first = way.back().time_s + settle_s, second = first + 0.2 + settle_s;
-  for (const Key& key :
-       {Key{first, -0.004}, {first + 0.2, -0.006}, {second, -0.006}, {second + 0.2, 0.012}, {second + 0.5, 0.012}})
+  for (const HapticsTrialKey& key : {HapticsTrialKey{first, -0.004},
+                                     {first + 0.2, -0.006},
+                                     {second, -0.006},
+                                     {second + 0.2, 0.012},
+                                     {second + 0.5, 0.012}})
     way.push_back(key);
   return way;
 }
@@ -46,12 +49,12 @@ std::vector<Key> wayOf(double settle_s, HapticEvent event) {
 constexpr size_t kHoldEnds[2] = {5, 3}, kOut = 2;
 constexpr double kLeaves_m_per_s = 0.018 / 0.2;  ///< on the way out
 constexpr double kTouches_s = 0.6;               ///< before it the tip is free
-constexpr double kLeft_s = 0.05;                 ///< after the way out the tip is free again
-constexpr double kLook_s = 0.4;                  ///< at the end of a hold
-constexpr double kSettle_s = 1.5;                ///< a hold, and in it some times of a free device's ringing
-constexpr double kRings = 6;
+constexpr double kHapticsTrialLeft_s = 0.05;     ///< after the way out the tip is free again
+constexpr double kHapticsTrialLook_s = 0.4;      ///< at the end of a hold
+constexpr double kHapticsTrialSettle_s = 1.5;    ///< a hold, and in it some times of a free device's ringing
+constexpr double kHapticsTrialRings = 6;
 
-double heightAt(const std::vector<Key>& way, double time_s) {
+double heightAt(const std::vector<HapticsTrialKey>& way, double time_s) {
   for (size_t i = 1; i < way.size(); ++i)
     if (time_s < way[i].time_s)
       return way[i - 1].height_m + (time_s - way[i - 1].time_s) / (way[i].time_s - way[i - 1].time_s) *
@@ -60,11 +63,11 @@ double heightAt(const std::vector<Key>& way, double time_s) {
 }
 
 /// A slab of tissue on bone.
-Scene slab(double young_modulus_pa) {
+Scene hapticsTrialSlab(double young_modulus_pa) {
   Scene scene;
   scene.name = "slab";
   scene.environment.gravity_m_per_s2.setZero();
-  scene.bodies.push_back(blockOnBone(Vector3d(0.05, 0.05, kTop_m), kSpacing_m, young_modulus_pa));
+  scene.bodies.push_back(blockOnBone(Vector3d(0.05, 0.05, kTop_m), kHapticsTrialSpacing_m, young_modulus_pa));
   scene.styluses.resize(1);
   scene.styluses[0].probe.radius_m = kRadius_m;
   scene.solver.backend = Backend::kCpu;
@@ -76,10 +79,10 @@ Vector3d tipAt(double height_m) {
   return {0.0013, -0.0007, kTop_m + kRadius_m + height_m};
 }
 
-class Trial : public HeldTrial {
+class HapticsTrialRun : public HeldTrial {
  public:
-  explicit Trial(const HapticTrial& trial)
-      : Trial(trial, {trial.mass_kg, trial.delay_s, trial.poses_hz, trial.rate_hz, kRadius_m}) {}
+  explicit HapticsTrialRun(const HapticTrial& trial)
+      : HapticsTrialRun(trial, {trial.mass_kg, trial.delay_s, trial.poses_hz, trial.rate_hz, kRadius_m}) {}
 
   HapticOutcome run() {
     const int periods = static_cast<int>(std::lround(way_.back().time_s / kPeriod_s));
@@ -96,13 +99,16 @@ class Trial : public HeldTrial {
   }
 
  private:
-  Trial(const HapticTrial& trial, const Setting& setting) : Trial(trial, setting, ways(trial, setting)) {}
-  Trial(const HapticTrial& trial, const Setting& setting, const std::vector<Key>& way)
-      : HeldTrial(slab(trial.young_modulus_pa), setting, tipAt(heightAt(way, 0))), trial_(trial), way_(way) {}
-  static std::vector<Key> ways(const HapticTrial& trial, const Setting& setting) {
+  HapticsTrialRun(const HapticTrial& trial, const Setting& setting)
+      : HapticsTrialRun(trial, setting, ways(trial, setting)) {}
+  HapticsTrialRun(const HapticTrial& trial, const Setting& setting, const std::vector<HapticsTrialKey>& way)
+      : HeldTrial(hapticsTrialSlab(trial.young_modulus_pa), setting, tipAt(heightAt(way, 0))),
+        trial_(trial),
+        way_(way) {}
+  static std::vector<HapticsTrialKey> ways(const HapticTrial& trial, const Setting& setting) {
     const SimulatedDeviceConfig device = deviceOf(setting);
     const double ring_s = 2 * trial.mass_kg / (device.damping_n_s_per_m + device.hand_damping_n_s_per_m);
-    return wayOf(kSettle_s + kRings * ring_s, trial.event);
+    return wayOf(kHapticsTrialSettle_s + kHapticsTrialRings * ring_s, trial.event);
   }
   bool within(double from_s, double to_s) const { return now_s_ >= from_s && now_s_ < to_s; }
 
@@ -122,10 +128,11 @@ class Trial : public HeldTrial {
   void look() {
     out_.least_energy_mj = std::min(out_.least_energy_mj, 1e3 * device_.energy_j());
     const double size_n = told_n_.norm();
-    if (now_s_ < kTouches_s || now_s_ > keyTime(kOut) + kLeft_s) out_.free_n = std::max(out_.free_n, size_n);
+    if (now_s_ < kTouches_s || now_s_ > keyTime(kOut) + kHapticsTrialLeft_s)
+      out_.free_n = std::max(out_.free_n, size_n);
     for (int h = 0; h < 2; ++h) {
       const double end_s = keyTime(kHoldEnds[h]);
-      if (!within(end_s - kLook_s, end_s)) continue;
+      if (!within(end_s - kHapticsTrialLook_s, end_s)) continue;
       holds_[h].force.add(size_n);
       holds_[h].depth.add(kTop_m + kRadius_m - device_.position_m().z());
       holds_[h].ticks.add(ticks_n_);
@@ -155,7 +162,7 @@ class Trial : public HeldTrial {
   }
 
   const HapticTrial trial_;
-  const std::vector<Key> way_;
+  const std::vector<HapticsTrialKey> way_;
   HapticOutcome out_;
   LookedHold holds_[2];
 };
@@ -179,7 +186,7 @@ const char* nameOf(HapticEvent event) {
 }
 
 HapticOutcome runHapticTrial(const HapticTrial& trial) {
-  return Trial(trial).run();
+  return HapticsTrialRun(trial).run();
 }
 
 }  // namespace viscera::bench

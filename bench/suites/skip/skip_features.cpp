@@ -11,9 +11,9 @@ namespace viscera::bench {
 namespace {
 
 constexpr int kComparedTicks = 3;
-constexpr double kSameWithin = 1e-5;  // spacings: float32 rounding of sixty substeps
-constexpr double kWave = 0.02;        // spacings
-constexpr double kNothing = 1e-9;     // a feature of this size is there and does nothing that float32 can hold
+constexpr double kSameWithin = 1e-5;        // spacings: float32 rounding of sixty substeps
+constexpr double kSkipFeaturesWave = 0.02;  // spacings
+constexpr double kNothing = 1e-9;           // a feature of this size is there and does nothing that float32 can hold
 
 Specimen specimen(int edge, double dashpot_ratio = 0, double poisson_ratio = 0.25) {
   MaterialConfig material = specimenMaterial(dashpot_ratio);
@@ -62,7 +62,7 @@ Feature fixedHalf(int edge) {
     if (2 * lattice.nodeAt(slot).z() < edge) lattice.nodes[slot].lo |= layout::kFixedBit;
   }
   for (Specimen* specimen : {&out.with, &out.without})
-    specimen->start = wobbling(specimen->model, kWave * lattice.spacing_m, 0);
+    specimen->start = wobbling(specimen->model, kSkipFeaturesWave * lattice.spacing_m, 0);
   return out;
 }
 

@@ -14,7 +14,7 @@ namespace viscera::bench {
 
 namespace {
 
-constexpr double kSpacing_m = 0.005, kAway_m = 1000;
+constexpr double kStabilityPlacesSpacing_m = 0.005, kAway_m = 1000;
 /// Of float32 at 1000 m, 6e-5 m: what tools and skin are published in. One rounding of the vertex, one of its node.
 constexpr double kSkinApart_m = 1.3e-4;
 constexpr double kForceApart = 0.03;   ///< of the reaction: the tip of a press of 6 mm is known to that rounding too
@@ -34,7 +34,7 @@ Pressed press(Backend backend, gpu::Context* context, const Vector3d& place_m) {
   BodyConfig body;
   body.source = TissueSource::kBox;
   body.box_size_m = Vector3d(0.03, 0.03, 0.02);
-  body.spacing_m = kSpacing_m;
+  body.spacing_m = kStabilityPlacesSpacing_m;
   body.position_m = place_m;
   FixedConfig floor;
   floor.shape = FixedShape::kPlane;

@@ -18,11 +18,11 @@ namespace viscera::bench {
 
 namespace {
 
-constexpr double kSpacing_m = 0.005;
-constexpr uint32_t kSeed = 5;
+constexpr double kStabilityStrainSpacing_m = 0.005;
+constexpr uint32_t kStabilityStrainSeed = 5;
 constexpr double kChecked = 2;  // stretch up to which measured substeps are longer than the strained ones
 
-const char* nameOf(Cells cells) {
+const char* cellsName(Cells cells) {
   return cells == Cells::kSprings ? "springs" : "by moments";
 }
 
@@ -105,8 +105,8 @@ double fastestMode(const ReferenceSolver& reference, const Field& u_m) {
 }
 
 Field strained(const ReferenceSolver& reference, const Strain& strain, int cells, double size) {
-  const double half_m = 0.5 * cells * kSpacing_m;
-  std::mt19937 random(kSeed);  // the same chances whatever the size
+  const double half_m = 0.5 * cells * kStabilityStrainSpacing_m;
+  std::mt19937 random(kStabilityStrainSeed);  // the same chances whatever the size
   Field u_m(reference.slots(), Vector3d::Zero());
   for (const uint32_t slot : reference.active) {
     const Vector3d rest = reference.restPosition(slot), at = rest / half_m - Vector3d::Ones();
@@ -141,11 +141,11 @@ void strainOfStability(Report& report) {
   double worst = 0;
   for (const Cells kind : {Cells::kSprings, Cells::kMoments}) {
     for (const double nu : report.isShort() ? std::vector<double>{0.45} : std::vector<double>{0.25, 0.45, 0.49}) {
-      report.stage("strained, nu " + Cell(nu).text(3) + ", " + nameOf(kind));
+      report.stage("strained, nu " + Cell(nu).text(3) + ", " + cellsName(kind));
       MaterialConfig material;
       material.poisson_ratio = nu;
       material.cells = kind;
-      const Model model = blockModel(Vector3i::Constant(cells), kSpacing_m, material);
+      const Model model = blockModel(Vector3i::Constant(cells), kStabilityStrainSpacing_m, material);
       const ReferenceSolver reference(model, Vector3d::Zero(), 1e-4);
       const double at_rest = fastestMode(reference, Field(reference.slots(), Vector3d::Zero()));
       const double dt_safe_s = safeTimeStep(model);
@@ -158,7 +158,7 @@ void strainOfStability(Report& report) {
           const double dt_s =
               measuredSubstep_s(SolverConfig{}, material.dashpot_ratio, dt_safe_s, 2 / at_rest, stretch.largest);
           if (strain.covered && wanted <= kChecked) worst = std::max(worst, 0.5 * dt_s * omega);
-          table.add({nu, nameOf(kind), strain.name, stretch.largest, stretch.shortest, omega / at_rest,
+          table.add({nu, cellsName(kind), strain.name, stretch.largest, stretch.shortest, omega / at_rest,
                      dt_s / dt_safe_s, 0.5 * dt_s * omega});
         }
       }

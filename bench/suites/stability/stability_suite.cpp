@@ -13,13 +13,13 @@ namespace viscera::bench {
 namespace {
 
 constexpr int kTicks = 60;
-constexpr double kEnergyBound = 1.01;  // of the start's energy
-constexpr double kSpacing_m = 0.005;
+constexpr double kStabilityEnergyBound = 1.01;  // of the start's energy
+constexpr double kStabilitySpacing_m = 0.005;
 
 Model blockOf(int cells, double poisson_ratio) {
   MaterialConfig material;
   material.poisson_ratio = poisson_ratio;
-  return blockModel(Vector3i::Constant(cells), kSpacing_m, material);
+  return blockModel(Vector3i::Constant(cells), kStabilitySpacing_m, material);
 }
 
 /// A box of cells by moments, askew: full ones and ones that are tissue in part, down to specks.
@@ -27,9 +27,9 @@ Model askewBox(const Vector3d& cells, double poisson_ratio, bool thin_walls) {
   BodyConfig body;
   body.name = "block";
   body.source = TissueSource::kBox;
-  body.box_size_m = kSpacing_m * cells;
+  body.box_size_m = kStabilitySpacing_m * cells;
   body.rotation_deg = Vector3d(20, 35, 10);
-  body.spacing_m = kSpacing_m;
+  body.spacing_m = kStabilitySpacing_m;
   body.material.cells = Cells::kMoments;
   body.material.thin_walls = thin_walls;
   body.material.poisson_ratio = poisson_ratio;
@@ -121,9 +121,9 @@ class Trials {
     const std::string name = nameOf(backend) + ": " + stem;
     report_.checkAtMost(name + ": cells with a value that is not finite", stable.not_finite + above.not_finite, 0);
     report_.checkAtMost(name + ": energy over start, leapfrog within its limit, implicit ones", stable.energy_ratio,
-                        kEnergyBound);
+                        kStabilityEnergyBound);
     report_.checkAtMost(name + ": energy left at the end over start, explicit above the limit and verlet_paper",
-                        above.energy_left, kEnergyBound);
+                        above.energy_left, kStabilityEnergyBound);
   }
   const Table& table() const { return table_; }
 
@@ -236,7 +236,7 @@ void measuredOfStability(Report& report) {
       }
     }
     report.checkAtMost(nameOf(backend) + ": measured: cells with a value that is not finite", worst.not_finite, 0);
-    report.checkAtMost(nameOf(backend) + ": measured: energy over start", worst.energy_ratio, kEnergyBound);
+    report.checkAtMost(nameOf(backend) + ": measured: energy over start", worst.energy_ratio, kStabilityEnergyBound);
   }
   report.add(table, "measured");
 }

@@ -15,12 +15,12 @@ namespace viscera::bench {
 
 namespace {
 
-constexpr double kSpacing_m = 0.005;
+constexpr double kStabilityToolsSpacing_m = 0.005;
 constexpr double kTop_m = 0.02;      // of the block
 constexpr double kBackWithin = 0.1;  // of the spacing: tissue that is nearer to its rest is back
 constexpr double kSpeedLimit = 5;    // times the tool's speed or c_p
 constexpr int kTicksPerSecond = 60;
-constexpr unsigned kSeed = 3;
+constexpr unsigned kStabilityToolsSeed = 3;
 constexpr const char* kThrough = "probe through the block";
 
 /// A block held at its bottom and one stylus, as a session has them, without skin and pictures.
@@ -28,7 +28,7 @@ class Stage {
  public:
   Stage(Backend backend, ToolMode mode) : Stage(backend, mode, Vector3i(6, 6, 4)) {}
   Stage(Backend backend, ToolMode mode, const Vector3i& cells)
-      : model_(blockModel(cells, kSpacing_m, {}, [](const Vector3i& node) { return node.z() == 0; })),
+      : model_(blockModel(cells, kStabilityToolsSpacing_m, {}, [](const Vector3i& node) { return node.z() == 0; })),
         scene_(sceneWith(mode)),
         solver_(solverOn(backend, model_, scene_)),
         tools_(scene_.styluses, {waveSpeed(model_) / scene_.solver.tick_hz}) {}
@@ -58,7 +58,7 @@ class Stage {
     for (uint32_t slot : model_.bodies[0].lattice.active_slots) {
       farthest = std::max(farthest, xyz(state.displacement_m[slot]).norm());
     }
-    return farthest / kSpacing_m;
+    return farthest / kStabilityToolsSpacing_m;
   }
   const Model& model() const { return model_; }
   const layout::TickStats& stats() const { return stats_; }
@@ -230,9 +230,9 @@ void cutToPieces(Report& report) {
                                               {"governor trips"},
                                               {"dt_safe grew by"}});
   for (Backend backend : report.backends()) {
-    std::srand(kSeed);  // of UnitRandom()
+    std::srand(kStabilityToolsSeed);  // of UnitRandom()
     Stage stage(backend, ToolMode::kCut, Vector3i(5, 5, 5));
-    std::mt19937 random(kSeed);
+    std::mt19937 random(kStabilityToolsSeed);
     std::uniform_real_distribution<double> place(-0.005, 0.03);
     for (int i = 0; i < strokes; ++i) {
       stage.turn(Quaterniond::UnitRandom());

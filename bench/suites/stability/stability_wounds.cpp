@@ -12,7 +12,7 @@ namespace viscera::bench {
 
 namespace {
 
-constexpr double kSpacing_m = 0.004;
+constexpr double kStabilityWoundsSpacing_m = 0.004;
 constexpr double kSofter = 0.005;  // of E, so that a tick is a few substeps; waves still pass a spacing in it
 constexpr double kDearer = 2;      // what the last hundred cuts may cost over the first hundred
 constexpr size_t kSome = 100;
@@ -21,7 +21,7 @@ constexpr double kWay = 0.25;  // spacings that a line is beside the nodes
 /// A box in which a short blade draws lines beside each other, one level of them below the other.
 struct Block {
   Vector3i cells;
-  Vector3d size_m() const { return kSpacing_m * cells.cast<double>(); }
+  Vector3d size_m() const { return kStabilityWoundsSpacing_m * cells.cast<double>(); }
   int lines() const { return cells.x() - 2; }
   int levels() const { return cells.z() / 2 - 1; }
   int places() const { return cells.y() + 2; }  ///< of a line: from before the box until behind it
@@ -32,11 +32,11 @@ Scene sceneOf(const Block& block, Backend backend) {
   BodyConfig body;
   body.source = TissueSource::kBox;
   body.box_size_m = block.size_m();
-  body.spacing_m = kSpacing_m;
+  body.spacing_m = kStabilityWoundsSpacing_m;
   body.material.young_modulus_pa *= kSofter;
   FixedConfig floor;
   floor.shape = FixedShape::kPlane;
-  floor.point_m = Vector3d(0, 0, -block.size_m().z() / 2 + 0.1 * kSpacing_m);
+  floor.point_m = Vector3d(0, 0, -block.size_m().z() / 2 + 0.1 * kStabilityWoundsSpacing_m);
   floor.normal = Vector3d::UnitZ();
   body.fixed.push_back(floor);
   scene.bodies.push_back(body);
@@ -44,7 +44,7 @@ Scene sceneOf(const Block& block, Backend backend) {
   scene.solver.backend = backend;
   StylusConfig stylus;
   stylus.idle = ToolMode::kCut;
-  stylus.cut.blade_length_m = 2 * kSpacing_m;
+  stylus.cut.blade_length_m = 2 * kStabilityWoundsSpacing_m;
   stylus.cut.blade_side = BladeSide::kAhead;
   scene.styluses = {stylus};
   return scene;
@@ -58,7 +58,7 @@ StylusSamples bladeAt(const Block& block, size_t tick) {
   out[0].valid = place > 0;
   const Vector3d along(static_cast<double>(line % lines) + 1 + kWay, static_cast<double>(place) - 1.5 + kWay,
                        static_cast<double>(block.cells.z()) - 2 * static_cast<double>(line / lines) - 1 - kWay);
-  out[0].pose.position_m = kSpacing_m * along - block.size_m() / 2;
+  out[0].pose.position_m = kStabilityWoundsSpacing_m * along - block.size_m() / 2;
   return out;
 }
 

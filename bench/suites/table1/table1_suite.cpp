@@ -19,14 +19,14 @@ constexpr double kTarget = 42745;  // nodes of VR05's pig heart; the cube next t
 constexpr double kRate_per_s = 400e6, kOverScalar = 10, kOverSoftwareGpu = 4, kTwoThreads = 1.7, kHeartOverCube = 0.6;
 
 /// VR05 Table 1: iterations per second of its CPU and of its implicit GPU method.
-struct Printed {
+struct Table1Printed {
   double nodes, cpu, gpu;
 };
-constexpr Printed kPaper[] = {
+constexpr Table1Printed kTable1Paper[] = {
     {10000, 45.8, 839.8}, {20000, 20.2, 476.9}, {40000, 9.9, 264.6}, {50000, 7.8, 218.0}, {100000, 3.3, 104.1}};
 
-const Printed* printedFor(double nodes) {
-  for (const Printed& row : kPaper) {
+const Table1Printed* printedFor(double nodes) {
+  for (const Table1Printed& row : kTable1Paper) {
     if (row.nodes == nodes) return &row;
   }
   return nullptr;
@@ -41,7 +41,7 @@ Candidate scalarOf(const Specimen& specimen) {
           }};
 }
 
-enum Way { kScalar, kOneThread, kAllThreads, kGpu };
+enum ScalarOrSimd { kScalar, kOneThread, kAllThreads, kGpu };
 const char* const kWays[] = {"cpu scalar", "cpu simd, 1 thread", "cpu simd, all threads", "gpu"};
 
 std::vector<Candidate> candidatesOf(const Specimen& specimen) {
@@ -50,9 +50,9 @@ std::vector<Candidate> candidatesOf(const Specimen& specimen) {
           candidate(kWays[kGpu], onGpu(specimen), specimen.nodes())};
 }
 
-using Rates = std::vector<Rate>;  // by Way
+using Rates = std::vector<Rate>;  // by ScalarOrSimd
 
-void addRows(Table& table, const Specimen& specimen, double dashpot, const Rates& rates, const Printed* printed) {
+void addRows(Table& table, const Specimen& specimen, double dashpot, const Rates& rates, const Table1Printed* printed) {
   for (size_t c = 0; c < rates.size(); ++c) {
     table.add({specimen.name, static_cast<double>(specimen.nodes()), dashpot, kWays[c], rates[c].substeps_per_s,
                rates[c].node_updates_per_s * 1e-6, rates[c].node_updates_per_s / rates[kScalar].node_updates_per_s,
@@ -85,7 +85,7 @@ void addPoints(Plot& plot, const Rates& rates, double nodes) {
 
 void addPaper(Plot& plot) {
   Series cpu{"VR05 CPU", {}, {}}, gpu{"VR05 implicit GPU", {}, {}};
-  for (const Printed& row : kPaper) {
+  for (const Table1Printed& row : kTable1Paper) {
     cpu.x.push_back(row.nodes);
     gpu.x.push_back(row.nodes);
     cpu.y.push_back(row.cpu);
@@ -108,7 +108,7 @@ void checkCube(Report& report, const Rates& rates, bool software) {
 }
 
 /// One body, without dashpot and with one. @return rates of the first
-Rates measureBody(Report& report, Specimen specimen, const Printed* printed, Table& table) {
+Rates measureBody(Report& report, Specimen specimen, const Table1Printed* printed, Table& table) {
   Rates out;
   for (double dashpot : {0.0, 0.2}) {
     specimen.model.bodies[0].material.dashpot_ratio = dashpot;

@@ -29,6 +29,8 @@ struct Body {
   std::vector<LayerConfig> layers;
   Vector3d force_n = Vector3d::Zero();  ///< on the whole body
   std::vector<std::string> notes;       ///< what the preparation decided: one line each, for a person
+
+  bool hasCells() const { return !network || network->of_lattice; }  ///< its nodes are corners of a lattice's cells
 };
 
 /// Everything that is simulated. Slots of body b are offset by slotOffset(b) in the solver's buffers.

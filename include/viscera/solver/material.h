@@ -16,6 +16,7 @@ std::vector<layout::BodyParams> bodyParams(const Model& model, double dt_safe_s)
 
 /// Has any cell of the model an energy of volume (nu other than 1/4)?
 bool hasVolumeEnergy(const Model& model);
+double massOf_kg(const Body& body);  ///< all of its nodes
 bool isHeterogeneous(const Model& model);
 /// Does some body's cells resist by moments (Cells)?
 bool hasMoments(const Model& model);

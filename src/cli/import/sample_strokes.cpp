@@ -10,7 +10,7 @@
 namespace viscera::cli {
 namespace {
 
-constexpr double kUsualLength = 0.1;  ///< [m] of an organ that hands' ways are written for
+constexpr double kUsualOrgan_m = 0.1;  ///< of an organ that hands' ways are written for
 
 /// From where hands come, the best first: as the scene's first camera looks; what holds an organ is behind it.
 const Vector3d kWays[] = {{1, 0.35, 0.3}, {1, 0, 0.6},    {1, -0.35, 0.3}, {0.5, 0, 1},
@@ -112,7 +112,7 @@ std::string strokesFor(const std::vector<const TriangleMesh*>& organs, size_t la
   Eigen::AlignedBox3d box;
   for (const Vector3f& p : organ.positions_m) box.extend(p.cast<double>());
   const auto [place, way] = placeOn(organs, organ, box);
-  const double size = std::min(most_size, std::cbrt(box.sizes().prod()) / kUsualLength);
+  const double size = std::min(most_size, std::cbrt(box.sizes().prod()) / kUsualOrgan_m);
   const Vector3d towards = place + moved_m, from = towards + 2 * box.sizes().norm() * way;
   const std::string anchor = "{from_m: " + list(from) + ", towards_m: " + list(towards) + "}";
   std::ostringstream out;

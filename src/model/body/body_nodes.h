@@ -21,7 +21,7 @@ void forEachNode(const Body& body, const Visit& visit) {
 
 /// Has it springs of its own, which follow no lattice?
 inline bool hasOwnNetwork(const Body& body) {
-  return body.network && !body.network->of_lattice;
+  return !body.hasCells();
 }
 
 /// How long springs are, where they are longest [m]: the spacing of lattices, mean lengths of other networks.

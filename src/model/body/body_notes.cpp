@@ -91,7 +91,7 @@ std::string piecesNote(const Body& body) {
   const std::vector<size_t> sizes = body.network ? pieces(*body.network, body.lattice) : pieces(body.lattice);
   if (sizes.size() < 2) return "";
   std::ostringstream out;
-  out << "the " << (body.network && !body.network->of_lattice ? "network" : "lattice") << " falls into " << sizes.size()
+  out << "the " << (!body.hasCells() ? "network" : "lattice") << " falls into " << sizes.size()
       << " pieces; the largest has " << sizes[0] << " nodes, the next " << sizes[1];
   return out.str();
 }

@@ -14,7 +14,7 @@ namespace viscera {
 namespace {
 
 constexpr double kCloseEnough = 0.02, kTooFar = 0.25;
-constexpr int kMostPasses = 24;
+constexpr int kMostSearches = 24;
 constexpr double kUsualFill = 0.3;  ///< share of its box that an organ fills
 
 double relativeError(size_t nodes, int target) {
@@ -51,7 +51,7 @@ auto toNodes(int target, double start_m, double largest_m, double (*root)(double
   Bracket bracket;
   decltype(make(spacing_m)) best;
   size_t best_nodes = 0;
-  for (int pass = 0; pass < kMostPasses; ++pass) {
+  for (int pass = 0; pass < kMostSearches; ++pass) {
     auto made = make(spacing_m);
     const size_t nodes = count(made);
     bracket.learn(spacing_m, nodes, target);

@@ -3,10 +3,10 @@
 #include "model/body/thin_walls.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
+#include "math/decompositions.h"
 #include "viscera/model/body/bend_matrices.h"
 
 namespace viscera {
@@ -59,7 +59,7 @@ class Walls {
   /// Of the wall that a cell lies in, along the shortest axis of the tissue around it.
   double thicknessAround(const Vector3i& cell, const Eigen::Matrix3d& spread) const {
     const CellFill fill = fillOf(lattice_, static_cast<uint32_t>(cellAt(cell)));
-    const Vector3d across = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors().col(0);
+    const Vector3d across = principalAxes(spread).axes.col(0);
     return thicknessAt(cell.cast<double>() + Vector3d::Constant(0.5) + fill.first / fill.share, across);
   }
 

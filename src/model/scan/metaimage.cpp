@@ -10,12 +10,12 @@
 namespace viscera {
 namespace {
 
-struct Header : TextHeader {
+struct MetaHeader : TextHeader {
   uint64_t end = 0;  ///< where data begin that are in the same file
 };
 
-Header readHeader(const std::string& path) {
-  Header header;
+MetaHeader readMetaHeader(const std::string& path) {
+  MetaHeader header;
   header.path = path;
   ByteStream stream(path, 0, false);
   uint64_t left = kMostHeaderBytes;
@@ -29,7 +29,7 @@ Header readHeader(const std::string& path) {
   return header;
 }
 
-VoxelType voxelType(const TextHeader& header) {
+VoxelType metaVoxelType(const TextHeader& header) {
   static const std::map<std::string, VoxelType> kTypes = {
       {"met_uchar", VoxelType::kUint8},       {"met_char", VoxelType::kInt8},       {"met_ushort", VoxelType::kUint16},
       {"met_short", VoxelType::kInt16},       {"met_uint", VoxelType::kUint32},     {"met_int", VoxelType::kInt32},
@@ -79,7 +79,7 @@ VolumeFrame frameOf(const TextHeader& header, const std::array<int64_t, 3>& size
   return frameFromLps(header.path, size, axes, origin);
 }
 
-std::unique_ptr<ByteStream> dataOf(const Header& header, bool packed, uint64_t bytes) {
+std::unique_ptr<ByteStream> dataOf(const MetaHeader& header, bool packed, uint64_t bytes) {
   const std::string& name = header.text("elementdatafile");
   const bool local = name == "LOCAL";
   if (name == "LIST" || words(name).size() > 1 || name.find('%') != std::string::npos)
@@ -101,7 +101,7 @@ std::unique_ptr<ByteStream> dataOf(const Header& header, bool packed, uint64_t b
 }  // namespace
 
 std::unique_ptr<ScanSource> openMetaImage(const std::string& path, const ScanOptions& options) {
-  const Header header = readHeader(path);
+  const MetaHeader header = readMetaHeader(path);
   if (!options.axes.empty()) throw SceneError(path + ": the axes of MetaImage files are LPS; accepted: no key axes");
   if (lower(header.textOr("objecttype", "image")) != "image") header.refuse("objecttype", "Image");
   const int64_t dims = header.integers("ndims", 1)[0];
@@ -111,7 +111,7 @@ std::unique_ptr<ScanSource> openMetaImage(const std::string& path, const ScanOpt
   if (!isTrue(header, "binarydata", true)) header.refuse("binarydata", "True");
   const std::vector<int64_t> sizes = header.integers("dimsize", static_cast<size_t>(dims));
   VoxelLayout layout;
-  layout.type = voxelType(header);
+  layout.type = metaVoxelType(header);
   layout.big_endian = isTrue(header, alias(header, {"binarydatabyteordermsb", "elementbyteordermsb"}), false);
   layout.frame = frameOf(header, {sizes[0], sizes[1], sizes[2]}, static_cast<size_t>(dims));
   const int64_t volumes = dims == 4 ? sizes[3] : 1;

@@ -12,13 +12,13 @@
 namespace viscera {
 namespace {
 
-struct Header : TextHeader {
+struct NrrdHeader : TextHeader {
   std::map<std::string, std::string> keys;  ///< key := value, as written
   uint64_t end = 0;                         ///< where data begin that are in the same file
 };
 
-Header readHeader(const std::string& path) {
-  Header header;
+NrrdHeader readNrrdHeader(const std::string& path) {
+  NrrdHeader header;
   header.path = path;
   ByteStream stream(path, 0, false);
   uint64_t left = kMostHeaderBytes;
@@ -48,7 +48,7 @@ Header readHeader(const std::string& path) {
   return header;
 }
 
-VoxelType voxelType(const TextHeader& header) {
+VoxelType nrrdVoxelType(const TextHeader& header) {
   static const std::map<std::string, VoxelType> kTypes = {{"signed char", VoxelType::kInt8},
                                                           {"int8", VoxelType::kInt8},
                                                           {"int8_t", VoxelType::kInt8},
@@ -162,7 +162,7 @@ void requireMillimetres(const TextHeader& header, const std::string& name, size_
   if (units > count) header.refuse(name, "\"mm\" of each axis");
 }
 
-VolumeFrame frameOf(const Header& header, const std::array<int64_t, 3>& size, int list, size_t dims,
+VolumeFrame frameOf(const NrrdHeader& header, const std::array<int64_t, 3>& size, int list, size_t dims,
                     const std::vector<std::string>& directions, const std::string& told) {
   requireMillimetres(header, "space units", 3);
   if (directions.empty()) requireMillimetres(header, "units", dims);
@@ -194,7 +194,7 @@ VolumeFrame frameOf(const Header& header, const std::array<int64_t, 3>& size, in
 }
 
 /// Segment0_LabelValue:=1 and the like. Without values: 0, 1, ... have a layer each in files before Slicer 4.11.
-std::vector<Segment> segmentsOf(const Header& header) {
+std::vector<Segment> segmentsOf(const NrrdHeader& header) {
   std::vector<Segment> segments;
   for (int n = 0;; ++n) {
     const std::string prefix = "Segment" + std::to_string(n) + "_";
@@ -214,7 +214,7 @@ std::vector<Segment> segmentsOf(const Header& header) {
   }
 }
 
-std::unique_ptr<ByteStream> dataOf(const Header& header, uint64_t bytes) {
+std::unique_ptr<ByteStream> dataOf(const NrrdHeader& header, uint64_t bytes) {
   const std::string encoding = lower(header.text("encoding"));
   const bool packed = encoding == "gzip" || encoding == "gz";
   if (!packed && encoding != "raw") header.refuse("encoding", "raw or gzip");
@@ -246,7 +246,7 @@ std::unique_ptr<ByteStream> dataOf(const Header& header, uint64_t bytes) {
 }  // namespace
 
 std::unique_ptr<ScanSource> openNrrd(const std::string& path, const ScanOptions& options) {
-  const Header header = readHeader(path);
+  const NrrdHeader header = readNrrdHeader(path);
   const int64_t dims = header.integers("dimension", 1)[0];
   if (dims != 3 && dims != 4) header.refuse("dimension", "3, or 4: several volumes");
   const auto axes = static_cast<size_t>(dims);
@@ -260,7 +260,7 @@ std::unique_ptr<ScanSource> openNrrd(const std::string& path, const ScanOptions&
   for (int axis = 0, n = 0; axis < static_cast<int>(dims); ++axis)
     if (axis != list) size.at(static_cast<size_t>(n++)) = sizes[static_cast<size_t>(axis)];
   VoxelLayout layout;
-  layout.type = voxelType(header);
+  layout.type = nrrdVoxelType(header);
   layout.frame = frameOf(header, size, list, axes, directions, options.axes);
   if (bytesOf(layout.type) > 1) {
     const std::string endian = lower(header.text("endian"));

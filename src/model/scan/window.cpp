@@ -12,9 +12,9 @@
 namespace viscera {
 namespace {
 
-constexpr int kAround = 2;                           ///< voxels of nothing around tissue: the net closes there
-constexpr double kMostClosingMm = 20;                ///< beyond, organs are no longer told apart
-constexpr uint64_t kMostVoxels = uint64_t{1} << 32;  ///< with what is around
+constexpr int kAround = 2;                                 ///< voxels of nothing around tissue: the net closes there
+constexpr double kMostClosingMm = 20;                      ///< beyond, organs are no longer told apart
+constexpr uint64_t kMostVoxelsAround = uint64_t{1} << 32;  ///< with what is around
 constexpr size_t kListed = 6;
 
 std::string text(double value) {
@@ -47,7 +47,7 @@ Mask readWindow(SliceSource& source, const WindowOptions& options, const Vector3
   Mask mask;
   mask.size = size + 2 * pad;
   const double voxels = mask.size.cast<double>().prod();
-  if (voxels > static_cast<double>(kMostVoxels))
+  if (voxels > static_cast<double>(kMostVoxelsAround))
     throw SceneError(source.file() + ": " + text(voxels) + " voxels with those around; accepted: at most 2^32");
   mask.voxels.assign(static_cast<size_t>(voxels), 0);
   report.least = std::numeric_limits<double>::infinity();

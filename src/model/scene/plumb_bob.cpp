@@ -8,9 +8,9 @@ namespace viscera {
 
 namespace {
 
-constexpr int kMostSteps = 50;     // of Newton's method, which takes about five
-constexpr double kExact = 1e-13;   // of tangents of order 1: some hundred roundings
-constexpr double kFarthest = 1e3;  // tangent, of a line of sight along the image's plane
+constexpr int kMostPlumbSteps = 50;   // of Newton's method, which takes about five
+constexpr double kExact = 1e-13;      // of tangents of order 1: some hundred roundings
+constexpr double kFarthestBob = 1e3;  // tangent, of a line of sight along the image's plane
 
 /// d distorted / d place.
 Eigen::Matrix2d slopeOf(const PlumbBob& lens, const Eigen::Vector2d& place) {
@@ -35,10 +35,10 @@ Eigen::Vector2d distorted(const PlumbBob& lens, const Eigen::Vector2d& place) {
 
 std::optional<Eigen::Vector2d> undistorted(const PlumbBob& lens, const Eigen::Vector2d& place) {
   Eigen::Vector2d out = place;
-  for (int step = 0; step < kMostSteps; ++step) {
+  for (int step = 0; step < kMostPlumbSteps; ++step) {
     const Eigen::Vector2d off = distorted(lens, out) - place;
     const Eigen::Matrix2d slope = slopeOf(lens, out);
-    if (!(slope.determinant() > 0 && slope.trace() > 0 && out.norm() < kFarthest)) return std::nullopt;
+    if (!(slope.determinant() > 0 && slope.trace() > 0 && out.norm() < kFarthestBob)) return std::nullopt;
     if (off.norm() < kExact * (1 + place.norm())) return out;
     out -= slope.inverse() * off;
   }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "math/decompositions.h"
 #include "nodes/ros/conversions.h"
 
 namespace viscera::nodes {
@@ -37,7 +38,7 @@ crtk_msgs::CartesianImpedance toImpedance(const HapticServo& servo, const Stylus
   const bool felt = hand.valid && !mailbox.clutched() && model.kind() != TickContact::Kind::kFree;
   if (!felt || !(normal.squaredNorm() > 0)) return out;
 
-  const Quaterniond axes = Quaterniond::FromTwoVectors(Vector3d::UnitZ(), normal);
+  const Quaterniond axes = rotationBetween(Vector3d::UnitZ(), normal);
   const Matrix3d turn = axes.toRotationMatrix();
   Vector3d stiffness = (turn.transpose() * model.stiffness_n_per_m() * turn).diagonal();
   Vector3d bias_n = turn.transpose() * model.anchor_force_n(), place_m = model.anchor_m();

@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::chrono::milliseconds kRepeat{20};  ///< zeros are sent again, for a driver that comes late
 /// roscpp writes to sockets on a thread of its own and does not tell when it has: it has by then.
-constexpr std::chrono::milliseconds kFlush{10};
+constexpr std::chrono::milliseconds kWrenchWatchdogFlush{10};
 constexpr std::chrono::milliseconds kLook{20};  ///< how soon a lost master is seen
 constexpr double kMinTimeout_s = 0.005, kMaxTimeout_s = 10;
 
@@ -147,7 +147,7 @@ void WrenchWatchdog::stop() {
     sendZero();
   }
   changed_.notify_all();
-  std::this_thread::sleep_for(kFlush);
+  std::this_thread::sleep_for(kWrenchWatchdogFlush);
 }
 
 }  // namespace viscera::nodes

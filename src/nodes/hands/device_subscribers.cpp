@@ -12,7 +12,7 @@
 namespace viscera::nodes {
 namespace {
 
-constexpr uint32_t kButtonQueue = 16;  ///< events, none of which may be overtaken by a newer one
+constexpr uint32_t kDeviceSubscribersButtonQueue = 16;  ///< events, none of which may be overtaken by a newer one
 
 DevicePose poseOf(const geometry_msgs::Pose& message) {
   return toDevicePose(message, ros::Time::now());
@@ -56,7 +56,8 @@ ros::Subscriber listenToButtons(ros::NodeHandle& node, const ButtonPort& port, c
   if (port.type == ButtonType::kJoy) {
     const boost::function<void(const sensor_msgs::JoyConstPtr&)> on_joy =
         [heard](const sensor_msgs::JoyConstPtr& message) { heard(message->buttons); };
-    return node.subscribe<sensor_msgs::Joy>(port.topic, kButtonQueue, on_joy, ros::VoidConstPtr(), promptly());
+    return node.subscribe<sensor_msgs::Joy>(port.topic, kDeviceSubscribersButtonQueue, on_joy, ros::VoidConstPtr(),
+                                            promptly());
   }
   if (port.type != ButtonType::kOmniButton) return {};
   using Event = omni_msgs::OmniButtonEvent;
@@ -64,7 +65,7 @@ ros::Subscriber listenToButtons(ros::NodeHandle& node, const ButtonPort& port, c
       [heard](const boost::shared_ptr<const Event>& message) {
         heard({message->grey_button, message->white_button});
       };
-  return node.subscribe<Event>(port.topic, kButtonQueue, on_event, ros::VoidConstPtr(), promptly());
+  return node.subscribe<Event>(port.topic, kDeviceSubscribersButtonQueue, on_event, ros::VoidConstPtr(), promptly());
 }
 
 }  // namespace viscera::nodes

@@ -11,7 +11,7 @@
 namespace viscera::nodes {
 namespace {
 
-ros::TransportHints promptly() {
+ros::TransportHints stylusInputPromptly() {
   return ros::TransportHints().tcpNoDelay();
 }
 
@@ -78,7 +78,7 @@ void StylusInput::listenToGripper(ros::NodeHandle& node) {
   if (port.presses == PressedButton::kNone) return;
   others_.push_back(node.subscribe<sensor_msgs::JointState>(
       port.topic, 1, [this](const sensor_msgs::JointStateConstPtr& message) { onGripper(*message); },
-      ros::VoidConstPtr(), promptly()));
+      ros::VoidConstPtr(), stylusInputPromptly()));
 }
 
 void StylusInput::onPose(const DevicePose& pose, const std::string& topic) {

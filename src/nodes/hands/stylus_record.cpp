@@ -17,8 +17,8 @@ namespace viscera::nodes {
 namespace {
 
 constexpr std::chrono::milliseconds kWatchPeriod{20};
-constexpr uint32_t kQueue = 0;    ///< without a limit: no tick may be overtaken
-constexpr double kMost_s = 3600;  ///< of a strokes file
+constexpr uint32_t kStylusRecordQueue = 0;  ///< without a limit: no tick may be overtaken
+constexpr double kMost_s = 3600;            ///< of a strokes file
 
 /// What is written before it takes the place of the file: one that is there is a whole one.
 std::string partOf(const std::string& file) {
@@ -83,8 +83,8 @@ StylusRecord::StylusRecord(const RecordOptions& options)
       reset_(node_.serviceClient<std_srvs::Trigger>("reset")),
       step_(node_.serviceClient<Step>("step")),
       save_(private_.advertiseService("save", &StylusRecord::save, this)),
-      samples_(node_.subscribe("samples", kQueue, &StylusRecord::onSamples, this, ros::TransportHints().tcpNoDelay())) {
-}
+      samples_(node_.subscribe("samples", kStylusRecordQueue, &StylusRecord::onSamples, this,
+                               ros::TransportHints().tcpNoDelay())) {}
 
 void StylusRecord::onSamples(const Samples& message) {
   const std::lock_guard<std::mutex> lock(mutex_);

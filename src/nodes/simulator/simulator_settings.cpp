@@ -61,7 +61,7 @@ std::string nameOf(ToolMode mode) {
   return kindOf(mode).name;
 }
 
-ToolMode modeNamed(const std::string& name) {
+ToolMode simulatorSettingsModeNamed(const std::string& name) {
   for (const ToolKind& kind : kToolKinds) {
     if (name == kind.name) return kind.mode;
   }
@@ -149,7 +149,8 @@ void SimulatorSettings::addStylus(size_t stylus, const StylusConfig& config) {
             if (keys.settings[i].name == setting.name) *keys.values[i] = setting.number;
           }
           for (size_t i = 0; i < 3; ++i) {
-            if (setting.name == kSwitches[i]) modes.emplace_back(static_cast<ToolSwitch>(i), modeNamed(setting.word));
+            if (setting.name == kSwitches[i])
+              modes.emplace_back(static_cast<ToolSwitch>(i), simulatorSettingsModeNamed(setting.word));
           }
         }
         // A scene may be without cuts altogether: these are refused before anything has changed.

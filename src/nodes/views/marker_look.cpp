@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "math/decompositions.h"
 #include "nodes/ros/conversions.h"
 
 namespace viscera::nodes {
@@ -64,7 +65,7 @@ InteractiveMarkerControl control(uint8_t mode, const std::string& name, const Ve
   InteractiveMarkerControl out;
   out.name = name;
   out.interaction_mode = mode;
-  const Quaterniond turn = Quaterniond::FromTwoVectors(Vector3d::UnitX(), axis);
+  const Quaterniond turn = rotationBetween(Vector3d::UnitX(), axis);
   out.orientation.x = turn.x();
   out.orientation.y = turn.y();
   out.orientation.z = turn.z();

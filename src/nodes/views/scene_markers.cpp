@@ -26,7 +26,7 @@ constexpr double kLeastArrow_m = 1e-4;
 constexpr double kLeastThread_m = 5e-4;                 ///< rviz loses lines that are thinner than a pixel
 constexpr double kArrowWidth_m = 2.5 * kShaftRadius_m;  ///< a tool is mostly pushed back along its shaft
 constexpr double kHeldPoint_m = 1.5e-3;
-constexpr double kHead = 2;  ///< width and length of an arrow's head, of its width
+constexpr double kSceneMarkersHead = 2;  ///< width and length of an arrow's head, of its width
 
 geometry_msgs::Point toPoint(const Vector3d& p_m) {
   geometry_msgs::Point out;
@@ -182,8 +182,8 @@ void SceneMarkers::addForce(size_t stylus, const SceneLook& look, const ros::Tim
   const Vector3d& tip_m = look.tools[stylus].to.position_m;
   marker.points = {toPoint(tip_m), toPoint(tip_m + arrow_m)};
   marker.scale.x = kArrowWidth_m;
-  marker.scale.y = kHead * kArrowWidth_m;
-  marker.scale.z = std::min(kHead * kArrowWidth_m, 0.5 * arrow_m.norm());
+  marker.scale.y = kSceneMarkersHead * kArrowWidth_m;
+  marker.scale.z = std::min(kSceneMarkersHead * kArrowWidth_m, 0.5 * arrow_m.norm());
   paint(kYellow, marker);
 }
 

@@ -11,7 +11,7 @@ namespace viscera {
 namespace {
 
 constexpr std::array<uint8_t, 4> kObstacleColor = {104, 118, 132, 255};  // slate: neither tissue nor a tool
-constexpr float kQuarterTurn = static_cast<float>(M_PI / 2);
+constexpr float kObstacleQuarterTurn = static_cast<float>(M_PI / 2);
 
 /// A rectangle around `middle`, counter-clockwise seen from where u x v points.
 void addRectangle(const Vector3f& middle, const Vector3f& u, const Vector3f& v, ToolShape& shape) {
@@ -36,8 +36,10 @@ void addBox(const Vector3f& half, ToolShape& shape) {
 
 void addCapsule(float radius, float length, ToolShape& shape) {
   const float z = 0.5f * length;
-  const Profile capsule =
-      Profile().arc(radius, -z, -kQuarterTurn, 0).line(radius, -z, radius, z).arc(radius, z, 0, kQuarterTurn);
+  const Profile capsule = Profile()
+                              .arc(radius, -z, -kObstacleQuarterTurn, 0)
+                              .line(radius, -z, radius, z)
+                              .arc(radius, z, 0, kObstacleQuarterTurn);
   addLathe(capsule, Eigen::Affine3f::Identity(), kObstacleColor, shape);
 }
 

@@ -21,7 +21,7 @@ constexpr float kTaperEnd = 0.030f;
 constexpr float kCollarGap = 0.004f, kCollarLength = 0.008f, kCollarRadius = 0.0036f;
 constexpr float kShortestShaft = 0.03f;                            // of what is held, behind a blade however long
 constexpr float kFingerHalf = 0.0007f, kFingerHalfWide = 0.0014f;  // of a finger, along x and y
-constexpr float kQuarterTurn = static_cast<float>(M_PI / 2);
+constexpr float kToolQuarterTurn = static_cast<float>(M_PI / 2);
 
 Color colorOf(const ToolKind& kind, uint8_t alpha = 255) {
   return {kind.color[0], kind.color[1], kind.color[2], alpha};
@@ -35,7 +35,7 @@ void addShaft(float from_z, const Color& collar, ToolShape& shape) {
                             .line(0, from_z, from_radius, from_z + kBevel)
                             .line(from_radius, from_z + kBevel, kShaftRadius, taper_end)
                             .line(kShaftRadius, taper_end, kShaftRadius, kShaftLength - kShaftRadius)
-                            .arc(kShaftRadius, kShaftLength - kShaftRadius, 0, kQuarterTurn);
+                            .arc(kShaftRadius, kShaftLength - kShaftRadius, 0, kToolQuarterTurn);
   addLathe(shaft, Eigen::Affine3f::Identity(), colorOf(kindOf(ToolMode::kNone)), shape);
   const Profile ring =
       Profile()
@@ -62,8 +62,10 @@ void addBlade(const BladeSpan& span, const Color& color, ToolShape& shape) {
 
 void addCapsule(float radius, const BladeSpan& span, const Color& color, ToolShape& shape) {
   const float low = static_cast<float>(span.low_m), high = static_cast<float>(span.high_m);
-  const Profile capsule =
-      Profile().arc(radius, low, -kQuarterTurn, 0).line(radius, low, radius, high).arc(radius, high, 0, kQuarterTurn);
+  const Profile capsule = Profile()
+                              .arc(radius, low, -kToolQuarterTurn, 0)
+                              .line(radius, low, radius, high)
+                              .arc(radius, high, 0, kToolQuarterTurn);
   addLathe(capsule, Eigen::Affine3f::Identity(), color, shape);
 }
 

@@ -12,9 +12,9 @@ namespace viscera {
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
+constexpr double kVesselPi = 3.14159265358979323846;
 constexpr double kM3PerMl = 1e-6;
-constexpr double kSecondsPerMinute = 60;
+constexpr double kMinute_s = 60;
 
 /// [labels] what each part bleeds; 0 is no part.
 std::vector<BleedingConfig> bleedingByLabel(const Body& body) {
@@ -81,12 +81,12 @@ void Vessels::forEachLink(uint32_t slot, const Visit& visit) const {
 void Vessels::addPart(const Body& body, uint32_t offset, const std::vector<uint32_t>& slots, double volume_m3,
                       const BleedingConfig& bleeding) {
   if (slots.empty()) return;
-  const double section_m2 = bleeding.calibre_m > 0 ? 0.25 * kPi * bleeding.calibre_m * bleeding.calibre_m
+  const double section_m2 = bleeding.calibre_m > 0 ? 0.25 * kVesselPi * bleeding.calibre_m * bleeding.calibre_m
                                                    : volume_m3 / lengthOf_m(rest_m_, slots, offset);
   for (const uint32_t slot : slots) {
     Node& node = of_slots_[offset + slot];
     if (node.flow_m3_per_s == 0) nodes_.push_back(offset + slot);
-    node.flow_m3_per_s = bleeding.flow_ml_per_min * kM3PerMl / kSecondsPerMinute;
+    node.flow_m3_per_s = bleeding.flow_ml_per_min * kM3PerMl / kMinute_s;
     node.section_m2 = section_m2;
     node.is_held = (body.lattice.nodes[slot].lo & layout::kFixedBit) != 0;
   }

@@ -18,7 +18,7 @@ constexpr double kSpark_m = 0.0005;  // from a tip to tissue: as far as sparks o
 constexpr double kKerf_m = 0.0005;   // boiled dry across a node's tissue when it parts: a cut by a fine electrode
 constexpr double kNearby = 1.5;      // spacings from a tip: no tissue that it touches has all its nodes farther away
 constexpr double kErased = 0.1;      // spacings around a node that parts: none beside it
-constexpr double kSeen = 1.0 / 128;  // a share that changed by less looks the same
+constexpr double kBurnSeen = 1.0 / 128;  // a share that changed by less looks the same
 
 layout::vec4 vec4Of(const Vector3d& v, double w = 0) {
   return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z()), static_cast<float>(w)};
@@ -157,7 +157,7 @@ void Burns::noteLooks() {
   for (const uint32_t slot : heat_.touched()) {
     const double charred = std::min(1.0, heat_.boiled(slot) / boiledToPart(bodyOf(slot)));
     shares[slot] = static_cast<float>(heat_.coagulated(slot) + charred);
-    changed = changed || std::abs(static_cast<double>(shares[slot] - paint_->shares[slot])) > kSeen;
+    changed = changed || std::abs(static_cast<double>(shares[slot] - paint_->shares[slot])) > kBurnSeen;
   }
   if (changed) paint_ = std::make_shared<const BurnPaint>(BurnPaint{++paints_, std::move(shares)});
 }

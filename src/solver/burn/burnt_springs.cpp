@@ -14,9 +14,9 @@ namespace {
 
 constexpr double kFelt = 0.01;  // share that is coagulated, of a spring that is looked after
 constexpr int kMostSweeps =
-    12;  // of conjugate gradients: a dozen leave less than kLeft where tissue is three times as stiff
-constexpr double kLeft = 1e-4;       // of the impulses, as a root of their squares
-constexpr double kCollapsed = 1e-6;  // of a length: such a spring has no direction
+    12;  // of conjugate gradients: a dozen leave less than kLeftOfSpring where tissue is three times as stiff
+constexpr double kLeftOfSpring = 1e-4;  // of the impulses, as a root of their squares
+constexpr double kCollapsed = 1e-6;     // of a length: such a spring has no direction
 
 }  // namespace
 
@@ -118,7 +118,7 @@ void BurntSprings::pull(BladeTarget& target, double dt_s) {
     way_[i] = inverse_mass_[slots_[i]] * residual_[i];
   }
   double now = dot(residual_, residual_);
-  const double enough = kLeft * kLeft * now;
+  const double enough = kLeftOfSpring * kLeftOfSpring * now;
   for (int sweep = 0; sweep < kMostSweeps && now > enough; ++sweep) {
     multiply(dt_s, way_, product_);
     double along = 0;

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "math/archive.h"
+#include "math/vec4.h"
 
 namespace viscera {
 
@@ -34,12 +35,6 @@ constexpr double kHalfKernel = 0.27;  // of the kernel: the mean of one with tis
 Vector3d unit(const Vector3d& v) {
   const double size = v.norm();
   return size > 0 ? Vector3d(v / size) : Vector3d(Vector3d::Zero());
-}
-Vector3d xyz(const layout::vec4& v) {
-  return {v.x, v.y, v.z};
-}
-layout::vec4 rounded(const Vector3d& v) {
-  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z()), 0};
 }
 Vector3d atMost(const Vector3d& v, double most) {
   const double size = v.norm();

@@ -6,22 +6,19 @@
 #include <limits>
 
 #include "math/archive.h"
+#include "math/vec4.h"
 #include "solver/contact/blade_edge.h"
 
 namespace viscera {
 
 namespace {
 
-constexpr double kStale = 0.05;    // of the spacing: a front that far from its kernel's middle gets a new one
-constexpr double kClosed = 0.2;    // of a gap, in a substep
-constexpr double kMostStep = 0.5;  // of the spacing, of the front in a substep
-constexpr double kPart = 0.02;     // of the spacing: of a way through thin layers
-constexpr double kLeft = 2;        // of the spacing: a front that far ahead of the point has been left
-constexpr double kAhead = 0.9;     // of the spacing: where tissue is looked for that is whole
-
-Vector3d xyz(const layout::vec4& v) {
-  return {v.x, v.y, v.z};
-}
+constexpr double kPointStale = 0.05;    // of the spacing: a front that far from its kernel's middle gets a new one
+constexpr double kPointClosed = 0.2;    // of a gap, in a substep
+constexpr double kMostPointStep = 0.5;  // of the spacing, of the front in a substep
+constexpr double kPart = 0.02;          // of the spacing: of a way through thin layers
+constexpr double kPointLeft = 2;        // of the spacing: a front that far ahead of the point has been left
+constexpr double kPointAhead = 0.9;     // of the spacing: where tissue is looked for that is whole
 
 }  // namespace
 
@@ -52,7 +49,7 @@ void BladePoint::act(BladeTarget& target, uint32_t stylus, const layout::ToolMot
   bool slips = tip_.stuck != 0;
   done_.limit_n = cap_n;
   if (cap_n > 0 && mobility > 0) {
-    const double asked = (edge_velocity + kClosed / dt_s * gap - v).dot(into) / mobility;
+    const double asked = (edge_velocity + kPointClosed / dt_s * gap - v).dot(into) / mobility;
     push_n_s = std::clamp(asked, 0.0, cap_n * dt_s);
     slips = asked > cap_n * dt_s;
   }
@@ -66,12 +63,13 @@ void BladePoint::act(BladeTarget& target, uint32_t stylus, const layout::ToolMot
   }
   gap += dt_s * (edge_velocity - v);
   advance(gap, into, slips);
-  if (!tip_.stuck && isInTissue() && edge_velocity.dot(into) > 0 && !tissue_.isParted(tip_.at + kAhead * h_ * into))
+  if (!tip_.stuck && isInTissue() && edge_velocity.dot(into) > 0 &&
+      !tissue_.isParted(tip_.at + kPointAhead * h_ * into))
     tip_.stuck = 1;
 }
 
 void BladePoint::renewKernel(BladeTarget& target) {
-  if (!((tip_.at - tip_.centre).norm() <= kStale * h_)) {
+  if (!((tip_.at - tip_.centre).norm() <= kPointStale * h_)) {
     tip_.centre = tip_.at;
     makeKernel();
   }
@@ -86,11 +84,11 @@ void BladePoint::makeKernel() {
 
 /// @param gap  from the front to the point, as they are
 void BladePoint::advance(const Vector3d& gap, const Vector3d& into, bool slips) {
-  if (tip_.stuck && (gap.dot(into) < -kLeft * h_ || !isInTissue())) tip_.stuck = 0;
+  if (tip_.stuck && (gap.dot(into) < -kPointLeft * h_ || !isInTissue())) tip_.stuck = 0;
   const Vector3d way = tip_.stuck ? Vector3d(gap.dot(into) * into) : gap;
   if (tip_.stuck && (!slips || gap.dot(into) <= 0)) return;
   Vector3d step = isInTissue() ? Vector3d(tip_.to_rest * way) : way;
-  if (isInTissue() && step.norm() > kMostStep * h_) step *= kMostStep * h_ / step.norm();
+  if (isInTissue() && step.norm() > kMostPointStep * h_) step *= kMostPointStep * h_ / step.norm();
   const Vector3d before = tip_.at;
   tip_.at += step;
   if (!tip_.stuck) return;

@@ -30,10 +30,6 @@ std::vector<uint8_t> cellsAround(const Lattice& lattice) {
   return out;
 }
 
-bool isLattice(const Body& body) {
-  return !body.network || body.network->of_lattice;
-}
-
 constexpr double kRounded = 0.02;  ///< of a cell: nodes that are no farther outside lie on the surface
 
 bool isWithin(const Lattice& lattice, uint32_t slot) {
@@ -97,14 +93,14 @@ std::vector<float> depthsAtSurface(const Lattice& lattice, double distance_m) {
 
 /// How much farther than its distance a body's nodes touch [m].
 double deepestTouch(const Body& body) {
-  return isLattice(body) && !body.lattice.depth_m.empty() ? body.lattice.spacing_m : 0;
+  return body.hasCells() && !body.lattice.depth_m.empty() ? body.lattice.spacing_m : 0;
 }
 
 }  // namespace
 
 double collisionDistance(const Body& body, const CollisionConfig& config) {
   if (config.distance_m > 0) return config.distance_m;
-  return isLattice(body) ? body.lattice.spacing_m : body.network->meanLength();
+  return body.hasCells() ? body.lattice.spacing_m : body.network->meanLength();
 }
 
 double collisionReach(const Model& model, const CollisionConfig& config) {
@@ -126,12 +122,12 @@ std::vector<float> touchDepths(const Model& model, const CollisionConfig& config
   for (size_t b = 0; b < model.bodies.size(); ++b) {
     const Body& body = model.bodies[b];
     const uint32_t first = model.slotOffset(b);
-    if (isLattice(body) && !body.lattice.depth_m.empty()) {
+    if (body.hasCells() && !body.lattice.depth_m.empty()) {
       const std::vector<float> depths = depthsAtSurface(body.lattice, collisionDistance(body, config));
       std::copy(depths.begin(), depths.end(), out.begin() + first);
       continue;
     }
-    const std::vector<uint8_t> cells = isLattice(body) ? cellsAround(body.lattice) : std::vector<uint8_t>{};
+    const std::vector<uint8_t> cells = body.hasCells() ? cellsAround(body.lattice) : std::vector<uint8_t>{};
     for (const uint32_t slot : body.lattice.active_slots) {
       if (cells.empty() || cells[slot] != kInside) out[first + slot] = 0;
     }

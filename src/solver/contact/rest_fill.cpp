@@ -25,7 +25,7 @@ double above(double x, double side) {
   return std::clamp(0.5 + x / side, 0.0, 1.0);
 }
 
-Vector3i rounded(const Vector3d& v, double (*how)(double)) {
+Vector3i wholeNumbers(const Vector3d& v, double (*how)(double)) {
   return {static_cast<int>(how(v.x())), static_cast<int>(how(v.y())), static_cast<int>(how(v.z()))};
 }
 
@@ -43,9 +43,9 @@ double thicknessOf(const SpringNetwork& network, double density_kg_per_m3) {
 /// Calls visit(place) for the places of a grid from low to high [m].
 template <class Visit>
 void forEachWithin(const RestGrid& grid, const Vector3d& low_m, const Vector3d& high_m, const Visit& visit) {
-  const Vector3i low = rounded((low_m - grid.origin_m) / grid.spacing_m, std::ceil).cwiseMax(0);
+  const Vector3i low = wholeNumbers((low_m - grid.origin_m) / grid.spacing_m, std::ceil).cwiseMax(0);
   const Vector3i high =
-      rounded((high_m - grid.origin_m) / grid.spacing_m, std::floor).cwiseMin(grid.count - Vector3i::Ones());
+      wholeNumbers((high_m - grid.origin_m) / grid.spacing_m, std::floor).cwiseMin(grid.count - Vector3i::Ones());
   for (int z = low.z(); z <= high.z(); ++z) {
     for (int y = low.y(); y <= high.y(); ++y) {
       for (int x = low.x(); x <= high.x(); ++x) visit(Vector3i(x, y, z));
@@ -56,10 +56,10 @@ void forEachWithin(const RestGrid& grid, const Vector3d& low_m, const Vector3d& 
 }  // namespace
 
 RestFill::RestFill(const Body& body, const RestGrid& nodes) : cells_(nodes), side_(kFillSide) {
-  const bool is_sheet = body.network && !body.network->of_lattice && body.network->tetrahedra.empty();
+  const bool is_sheet = !body.hasCells() && body.network->tetrahedra.empty();
   if (is_sheet)
     addSheet(*body.network, body.material.density_kg_per_m3);
-  else if (body.network && !body.network->of_lattice)
+  else if (!body.hasCells())
     addTetrahedra(*body.network);
   else
     addCells(body.lattice);

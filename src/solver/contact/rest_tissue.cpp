@@ -18,13 +18,9 @@ namespace {
 constexpr double kPartedStep = 0.25;  // of the spacing: places of a parted surface that are noted
 constexpr int kAround = 3;            // places of the grid around what is no lattice: edges stand out of sheets
 
-bool isLattice(const Body& body) {
-  return !body.network || body.network->of_lattice;
-}
-
 RestGrid gridOf(const Body& body) {
   const Lattice& lattice = body.lattice;
-  if (isLattice(body)) return {lattice.spacing_m, lattice.origin_m, lattice.nodes_per_axis};
+  if (body.hasCells()) return {lattice.spacing_m, lattice.origin_m, lattice.nodes_per_axis};
   Eigen::AlignedBox3d box;
   for (const uint32_t slot : lattice.active_slots) box.extend(body.network->positions_m[slot]);
   const double h = body.network->meanLength();
@@ -40,7 +36,7 @@ RestTissue::RestTissue(const Model& model, size_t body)
   const Body& of = model.bodies[body];
   parted_.assign(8 * grid_.places(), 0);
   nodes_.reserve(of.lattice.active_slots.size());
-  if (isLattice(of)) {
+  if (of.hasCells()) {
     const Strengths strong = strengths(of);
     const double cell_kg = of.material.density_kg_per_m3 * grid_.spacing_m * grid_.spacing_m * grid_.spacing_m;
     for (const uint32_t slot : of.lattice.active_slots)

@@ -29,21 +29,6 @@ bool hasSurface(const Body& body) {
   return body.network && !body.network->triangles.empty();
 }
 
-double massOf(const Body& body) {
-  double mass = 0;
-  if (body.network) {
-    for (const double node : body.network->masses_kg) mass += node;
-    return mass;
-  }
-  const bool differs = isHeterogeneous(body);
-  const Strengths table = differs ? strengths(body) : Strengths{};
-  const double eighth = bodyParams(body, 0).mass_eighth_kg;
-  for (const uint32_t slot : body.lattice.active_slots) {
-    mass += differs ? table.mass_kg[slot] : massEighths(body.lattice.nodes[slot]) * eighth;
-  }
-  return mass;
-}
-
 /// Springs of a body by their ends, the lower slot first.
 using SpringIndex = std::map<std::array<uint32_t, 2>, uint32_t>;
 
@@ -174,7 +159,7 @@ float restingSpeed(const Substep& step) {
 std::vector<layout::vec4> bodyInfluences(const Model& model, const Scene& scene) {
   std::vector<layout::vec4> out;
   for (const Body& body : model.bodies) {
-    const Vector3f a = isPushed(body) ? Vector3f((body.force_n / massOf(body)).cast<float>()) : Vector3f::Zero();
+    const Vector3f a = isPushed(body) ? Vector3f((body.force_n / massOf_kg(body)).cast<float>()) : Vector3f::Zero();
     out.push_back({a.x(), a.y(), a.z(), static_cast<float>(collisionDistance(body, scene.collision))});
   }
   return out;

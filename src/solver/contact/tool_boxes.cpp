@@ -6,7 +6,7 @@ namespace viscera {
 
 namespace {
 
-Vector3f xyz(const layout::vec4& v) {
+Vector3f xyzf(const layout::vec4& v) {
   return {v.x, v.y, v.z};
 }
 
@@ -17,11 +17,11 @@ ToolBoxes toolBoxes(const std::vector<layout::ToolMotion>& motions, float spacin
   for (size_t s = 0; s < layout::kMaxStyluses; ++s) {
     const layout::ToolMotion &first = motions[s], &last = motions[motions.size() - layout::kMaxStyluses + s];
     if (first.info.y == 0) continue;
-    Vector3f low = xyz(first.from).cwiseMin(xyz(last.to)), high = xyz(first.from).cwiseMax(xyz(last.to));
+    Vector3f low = xyzf(first.from).cwiseMin(xyzf(last.to)), high = xyzf(first.from).cwiseMax(xyzf(last.to));
     float reach = first.from.w;
     if (first.info.y & (layout::kToolCuts | layout::kToolErases)) {
-      low = low.cwiseMin(xyz(first.blade_from)).cwiseMin(xyz(last.blade_to));
-      high = high.cwiseMax(xyz(first.blade_from)).cwiseMax(xyz(last.blade_to));
+      low = low.cwiseMin(xyzf(first.blade_from)).cwiseMin(xyzf(last.blade_to));
+      high = high.cwiseMax(xyzf(first.blade_from)).cwiseMax(xyzf(last.blade_to));
       reach = first.blade_from.w;
     }
     const Vector3f grown = Vector3f::Constant(reach + 2 * spacing_m);

@@ -25,6 +25,8 @@ constexpr Portions kMeasuredBricks{2, 16};
 simd::Kernels kernelsOrThrow(const std::string& target) {
   const std::optional<simd::Kernels> kernels = simd::kernelsFor(target);
   if (kernels) return *kernels;
+  if (simd::targets().empty())
+    throw SceneError("the CPU kernels of this build are not for this processor: build with VISCERA_KERNEL_TARGETS=all");
   std::string known;
   for (const std::string& name : simd::targets()) known += (known.empty() ? "" : ", ") + name;
   throw SceneError("no instruction set '" + target + "' on this processor: " + known);

@@ -38,7 +38,7 @@ void ReferenceLattice::addBody(const Model& model, size_t b, double dt_safe_s) {
   const Lattice& lattice = body.lattice;
   const uint32_t first = model.slotOffset(b);
   first_.push_back(first);
-  has_valences_.push_back(body.network && !body.network->of_lattice);
+  has_valences_.push_back(!body.hasCells());
   params_.push_back(bodyParams(body, dt_safe_s));
   strengths_.push_back(isHeterogeneous(body) ? strengths(body) : Strengths{});
   moments_ = cellMoments(body);

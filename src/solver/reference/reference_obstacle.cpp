@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "math/vec4.h"
 namespace viscera {
 
 namespace {
@@ -13,9 +14,6 @@ namespace {
 constexpr double kShortWay = 0.25;  // of a radius: shorter chords are not looked for (1/128 of it at most)
 constexpr double kMiddle = 1e-6;    // of a radius: nearer to the axis there is no direction
 
-Vector3d xyz(const layout::vec4& v) {
-  return {v.x, v.y, v.z};
-}
 Pose poseOf(const layout::vec4& place, const layout::vec4& q) {
   return {xyz(place), Quaterniond(q.w, q.x, q.y, q.z).normalized()};
 }

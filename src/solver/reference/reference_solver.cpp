@@ -4,17 +4,10 @@
 
 #include <cmath>
 
+#include "math/vec4.h"
 #include "model/scene/integrators.h"
 
 namespace viscera {
-
-namespace {
-
-layout::vec4 rounded(const Vector3d& v) {
-  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z()), 0};
-}
-
-}  // namespace
 
 ReferenceSolver::ReferenceSolver(const Model& model, const Vector3d& gravity_m_per_s2, double dt_s,
                                  const ReferenceOptions& options)

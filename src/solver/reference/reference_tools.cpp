@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "layout/edge_nodes.h"
+#include "math/vec4.h"
 #include "solver/reference/reference_obstacle.h"
 #include "solver/reference/reference_solver.h"
 
@@ -16,10 +17,6 @@ namespace {
 const double kErasedFraction = static_cast<double>(layout::kErasedShare);  ///< of a spring whose end was erased
 
 constexpr double kOverlap = 1e-3;  ///< of a sweep with the one before (shaders/solver/tools/blade.glsl)
-
-Vector3d xyz(const layout::vec4& v) {
-  return {v.x, v.y, v.z};
-}
 
 Vector3d nearestOnSegment(const Vector3d& a, const Vector3d& b, const Vector3d& x) {
   const Vector3d ab = b - a;

@@ -8,6 +8,7 @@
 #include <limits>
 #include <utility>
 
+#include "math/decompositions.h"
 #include "model/body/body_nodes.h"
 #include "model/scene/tool_kinds.h"
 #include "viscera/math/error.h"
@@ -16,7 +17,7 @@ namespace viscera {
 
 namespace {
 
-constexpr int kSweeps = 2;                // over the pairs: nodes are in several
+constexpr int kClipSweeps = 2;            // over the pairs: nodes are in several
 constexpr double kCloses = 0.2;           // of what is missing, in a substep
 constexpr double kCloses_m_per_s = 0.05;  // at most: as fast as a hand closes jaws
 constexpr double kOpens_m_per_s = 0.02;   // of sides that are too near: slow, as nothing takes that speed back
@@ -145,7 +146,7 @@ void Clips::hold(TissuePoints& points, double dt_s) {
   for (Clip& clip : clips_) {
     const double most_ns = styluses_[clip.stylus].clip.force_n * dt_s / static_cast<double>(clip.pairs.size());
     std::vector<double> given_ns(clip.pairs.size(), 0);
-    for (int sweep = 0; sweep < kSweeps; ++sweep) {
+    for (int sweep = 0; sweep < kClipSweeps; ++sweep) {
       for (size_t i = 0; i < clip.pairs.size(); ++i) {
         const auto& [a, b] = clip.points[i];
         const Vector3d between = points.place_m(b) - points.place_m(a);
@@ -187,10 +188,10 @@ std::vector<Vector3d> Clips::places_m(size_t at) const {
     apart_m = std::max(apart_m, (clip.pairs[i].now_a_m - clip.pairs[i].now_b_m).norm());
   }
   const Vector3d from = set.rowwise().mean(), to = now.rowwise().mean();
-  Eigen::Matrix3d turn = Eigen::umeyama(set, now, false).topLeftCorner<3, 3>();
+  Eigen::Matrix3d turn = rigidMotion(set, now).topLeftCorner<3, 3>();
   // Those of one line do not tell how it is turned about that.
   if (clip.pairs.size() < 2)
-    turn = Quaterniond::FromTwoVectors(set.col(0) - set.col(1), now.col(0) - now.col(1)).toRotationMatrix();
+    turn = rotationBetween(set.col(0) - set.col(1), now.col(0) - now.col(1)).toRotationMatrix();
   const Vector3d side = (0.5 * apart_m + kLeg_m) * (turn * clip.across);
   const Vector3d tip = to + turn * (clip.leg_m[0] - from), end = to + turn * (clip.leg_m[1] - from);
   return {tip - side, end - side, end + side, tip + side};

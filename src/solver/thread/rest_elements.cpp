@@ -23,16 +23,12 @@ constexpr double kWholeSpring = -1;
 constexpr double kUnknownShare = 0.5;  // of a cut spring whose place was not noted
 constexpr std::array<uint32_t, 3> kCorners = {8, 4, 3};
 
-bool hasCells(const Body& body) {
-  return !body.network || body.network->of_lattice;
-}
-
 double spacingOf_m(const Body& body) {
-  return hasCells(body) ? body.lattice.spacing_m : body.network->meanLength();
+  return body.hasCells() ? body.lattice.spacing_m : body.network->meanLength();
 }
 
 uint32_t cornersOf(const Body& body) {
-  return hasCells(body) ? kCorners[0] : body.network->tetrahedra.empty() ? kCorners[2] : kCorners[1];
+  return body.hasCells() ? kCorners[0] : body.network->tetrahedra.empty() ? kCorners[2] : kCorners[1];
 }
 
 bool anyElement(uint32_t) {
@@ -75,7 +71,7 @@ void RestElements::collect() {
     corners_.emplace_back();
     std::copy(slots.begin(), slots.end(), corners_.back().begin());
   };
-  if (!hasCells(body_)) {
+  if (!body_.hasCells()) {
     if (count_ == 4) std::for_each(body_.network->tetrahedra.begin(), body_.network->tetrahedra.end(), add);
     if (count_ == 3) std::for_each(body_.network->triangles.begin(), body_.network->triangles.end(), add);
     return;

@@ -16,7 +16,7 @@ namespace {
 constexpr double kBowelPullOut_n = 4.6;          // docs/thread.md 5
 constexpr double kFasciaPullOut_n_per_m = 45e3;  // of the bite
 constexpr double kThrough_m = 1e-4;              // of Young's modulus: friction of thread in tissue
-constexpr double kCutStep = 0.125;               // of the spacing: so far a channel is torn before springs are cut
+constexpr double kChannelCutStep = 0.125;        // of the spacing: so far a channel is torn before springs are cut
 constexpr double kMostTorn = 0.5;                // of the spacing, in a substep
 constexpr double kHeld = 1;                      // of the spacing: so far behind a channel tissue is not cut yet
 constexpr double kOneChannel = 1.5;              // links, at rest: channels keep a link of the chain between them
@@ -201,7 +201,7 @@ bool ThreadChannels::end(const TissuePoints& points, BladeTarget& target, bool c
       const Vector3d uncut = channel.point.rest_m - channel.cut_m;
       // The tissue on which it pulls stays whole until it has gone on.
       const double due_m = uncut.norm() - (gone ? 0 : kHeld * h);
-      if (can_cut && due_m > (gone ? 0 : kCutStep * h)) {
+      if (can_cut && due_m > (gone ? 0 : kChannelCutStep * h)) {
         cutBehind(k, channel.cut_m + due_m * uncut.normalized(), target);
         any_cut = true;
       }

@@ -24,7 +24,7 @@ constexpr double kFromSkin = 0.5;         // of the distance of two channels: a 
 constexpr double kLeastReach = 1.5;       // links
 constexpr double kWithoutChannels = 0.4;  // of the thread is tail at either end
 constexpr double kPulled_n = 2e-3;        // of both tails, as a throw is pulled down: loops of some mm bend at that
-constexpr double kAhead = 0.25;           // of the distance of two hands: they are nearer to their tails' roots
+constexpr double kKnotAhead = 0.25;       // of the distance of two hands: they are nearer to their tails' roots
 constexpr double kNear_m = 1e-3;          // hands beside each other, or at the roots, tell no angle
 constexpr double kMoreThrows = 0.5;       // of what two hold, for each more
 
@@ -247,7 +247,7 @@ void ThreadKnots::countThrows(const Chain& chain, const std::vector<uint32_t>& h
 void ThreadKnots::turnHands(const Vector3d& root_m, const Vector3d& first_m, const Vector3d& second_m) {
   const Vector3d ahead_m = 0.5 * (first_m + second_m) - root_m, apart_m = second_m - first_m;
   const double ahead = ahead_m.norm();
-  if (ahead < kAhead * apart_m.norm() || ahead < kNear_m) return;  // pulled apart: there is no axis
+  if (ahead < kKnotAhead * apart_m.norm() || ahead < kNear_m) return;  // pulled apart: there is no axis
   const Vector3d axis = ahead_m / ahead, across_m = apart_m - apart_m.dot(axis) * axis;
   const Vector3d before_m = apart_m_ - apart_m_.dot(axis) * axis;
   if (across_m.norm() < kNear_m) return;

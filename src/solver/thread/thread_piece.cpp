@@ -14,7 +14,7 @@ namespace viscera {
 
 namespace {
 
-constexpr size_t kLeastNodes = 3;  // of a chain
+constexpr size_t kLeastPieceNodes = 3;  // of a chain
 
 }  // namespace
 
@@ -32,8 +32,8 @@ ThreadPiece::ThreadPiece(uint32_t of_thread, const ThreadConfig& config, bool on
 }
 
 size_t ThreadPiece::canPart(size_t node) const {
-  if (chain.nodes() < 2 * kLeastNodes - 1) return 0;
-  return std::clamp(node, kLeastNodes - 1, chain.nodes() - kLeastNodes);
+  if (chain.nodes() < 2 * kLeastPieceNodes - 1) return 0;
+  return std::clamp(node, kLeastPieceNodes - 1, chain.nodes() - kLeastPieceNodes);
 }
 
 ThreadPiece ThreadPiece::part(size_t node) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "math/vec4.h"
 namespace viscera {
 
 namespace {
@@ -13,10 +14,6 @@ constexpr double kReachSteps = 2;  // nodes that are as near as they go in so ma
 constexpr double kDeep = 2;        // radii of the thread: from farther inside the way out is where the node came from
 constexpr double kSunk = 0.5;      // radii from a thing: nearer than that no touch that knows the thing lets a node
 constexpr int kMostLaid = 4;       // times in a substep
-
-Vector3d xyz(const layout::vec4& v) {
-  return {v.x, v.y, v.z};
-}
 
 ObstacleSide fromCentre(const Vector3d& from, double radius_m) {
   const double length_m = from.norm();

@@ -16,11 +16,11 @@ namespace {
 constexpr size_t kSparse = 256;  // nodes of a body
 constexpr size_t kStarts = 4;    // nearest of them
 constexpr int kWalkSteps = 24;
-constexpr double kMostWalked = 4;   // spacings in a step
-constexpr double kArrived = 1e-4;   // of a spacing
-constexpr double kSamePlace = 0.1;  // of a spacing: where a point must be of the place that was asked for
-constexpr double kBesideIt = 0.5;   // the same of a sheet
-constexpr double kFolded = 0.01;    // of a volume
+constexpr double kMostWalked = 4;      // spacings in a step
+constexpr double kArrived = 1e-4;      // of a spacing
+constexpr double kSamePlace = 0.1;     // of a spacing: where a point must be of the place that was asked for
+constexpr double kBesideIt = 0.5;      // the same of a sheet
+constexpr double kFoldedPoint = 0.01;  // of a volume
 
 std::vector<uint32_t> sparseOf(const Body& body, uint32_t offset) {
   const std::vector<uint32_t>& slots = body.lattice.active_slots;
@@ -44,7 +44,7 @@ TissuePoints::TissuePoints(const Model& model)
     elements_.emplace_back(model, b, first_spring);
     sparse_.push_back(sparseOf(body, offset));
     if (body.network) first_spring += static_cast<uint32_t>(body.network->springs.size());
-    const bool lattice = !body.network || body.network->of_lattice;
+    const bool lattice = body.hasCells();
     const std::vector<float> mass_kg = lattice ? strengths(body).mass_kg : std::vector<float>();
     for (const uint32_t slot : body.lattice.active_slots) {
       const double kg = lattice ? static_cast<double>(mass_kg[slot]) : body.network->masses_kg[slot];
@@ -110,7 +110,7 @@ std::optional<TissuePoint> TissuePoints::walk(BladeTarget& target, uint32_t body
     const Vector3d normal = elements.normal(*here);
     sheet = !normal.isZero(0);
     const Eigen::Matrix3d by = gradient(*here, nodes);
-    Vector3d way = by.determinant() > kFolded ? Vector3d(by.inverse() * off) : off;
+    Vector3d way = by.determinant() > kFoldedPoint ? Vector3d(by.inverse() * off) : off;
     if (sheet) way -= way.dot(normal) * normal;
     if (way.norm() < kArrived * h) break;
     if (way.norm() > kMostWalked * h) way *= kMostWalked * h / way.norm();
@@ -136,7 +136,7 @@ Vector3d TissuePoints::toRest(const TissuePoint& point, const Vector3d& way_m) c
   std::vector<Vector3d> nodes;
   for (uint32_t c = 0; c < point.count; ++c) nodes.push_back(nodes_[node_of_[point.slots[c]]].x_m);
   const Eigen::Matrix3d by = gradient(point, nodes);
-  return by.determinant() > kFolded ? Vector3d(by.inverse() * way_m) : way_m;
+  return by.determinant() > kFoldedPoint ? Vector3d(by.inverse() * way_m) : way_m;
 }
 
 Vector3d TissuePoints::placeIn(const BladeTarget& target, const TissuePoint& point) const {

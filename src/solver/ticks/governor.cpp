@@ -24,22 +24,11 @@ float fromBits(uint32_t bits) {
   return value;
 }
 
-double massOf(const Body& body) {
-  if (body.network) return std::accumulate(body.network->masses_kg.begin(), body.network->masses_kg.end(), 0.0);
-  double mass = 0;
-  const double eighth = bodyParams(body, 0).mass_eighth_kg;
-  const Strengths table = isHeterogeneous(body) ? strengths(body) : Strengths{};
-  for (uint32_t slot : body.lattice.active_slots) {
-    mass += isHeterogeneous(body) ? table.mass_kg[slot] : massEighths(body.lattice.nodes[slot]) * eighth;
-  }
-  return mass;
-}
-
 }  // namespace
 
 Governor::Limits governorLimits(const Model& model, double gravity_m_per_s2, double sleep_distance_m) {
   double mass = 0;
-  for (const Body& body : model.bodies) mass += massOf(body);
+  for (const Body& body : model.bodies) mass += massOf_kg(body);
   const double wave = waveSpeed(model), fall2 = 2 * gravity_m_per_s2 * sleep_distance_m;
   return {kSpeedMargin * std::max(wave, std::sqrt(fall2)), mass * (wave * wave + fall2)};
 }

@@ -119,8 +119,8 @@ Eigen::VectorXd someWay(Eigen::Index size) {
 }  // namespace
 
 bool measuresLimit(const Model& model, const SolverConfig& config) {
-  const bool lattices = std::all_of(model.bodies.begin(), model.bodies.end(),
-                                    [](const Body& body) { return !body.network || body.network->of_lattice; });
+  const bool lattices =
+      std::all_of(model.bodies.begin(), model.bodies.end(), [](const Body& body) { return body.hasCells(); });
   return config.measured_limit && config.governor && config.substeps == 0 && traitsOf(config.integrator).shortens &&
          lattices;
 }

@@ -29,7 +29,7 @@ using Corners = std::array<uint32_t, 8>;  ///< slots of all bodies' nodes; x fir
 /// The whole cells of a body that is a lattice, of implicit connections or not.
 std::vector<Corners> wholeCells(const Body& body, uint32_t offset, const HostState& state) {
   std::vector<Corners> out;
-  if (body.network && !body.network->of_lattice) return out;
+  if (!body.hasCells()) return out;
   for (const uint32_t slot : body.lattice.active_slots) {
     if (!(state.nodes[offset + slot].lo & layout::kCellBit)) continue;
     Corners cell{};

@@ -2,15 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solver/tissue/joined_network.h"
 
+#include "math/vec4.h"
 #include "viscera/solver/material.h"
 
 namespace viscera {
 
 namespace {
-
-layout::vec4 rounded(const Vector3d& v) {
-  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z()), 0};
-}
 
 void addMassesOfLattice(const Body& body, std::vector<float>& out) {
   const float eighth = bodyParams(body, 0).mass_eighth_kg;

@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "viscera/solver/material.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "math/decompositions.h"
 
 namespace viscera {
 
@@ -61,10 +62,6 @@ void forEachMaterial(const Body& body, Visit visit) {
 }
 
 /// What cells give: not nodes that only springs join.
-bool hasCells(const Body& body) {
-  return !body.network || body.network->of_lattice;
-}
-
 /// stiffestRate() of a body with explicit connections: all its springs count, those against bending too.
 double stiffestLinkedRate(const Body& body) {
   const SpringNetwork& network = *body.network;
@@ -93,8 +90,7 @@ double fastestWave(const SpringNetwork& network) {
   double fastest2 = 0;
   for (size_t slot = 0; slot < sums.size(); ++slot) {
     if (network.masses_kg[slot] <= 0) continue;
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(sums[slot], Eigen::EigenvaluesOnly);
-    fastest2 = std::max(fastest2, axes.eigenvalues().z() / (2 * network.masses_kg[slot]));
+    fastest2 = std::max(fastest2, principalValues(sums[slot]).z() / (2 * network.masses_kg[slot]));
   }
   return std::sqrt(fastest2);
 }
@@ -131,7 +127,7 @@ std::vector<layout::BodyParams> bodyParams(const Model& model, double dt_safe_s)
 bool hasVolumeEnergy(const Model& model) {
   bool any = false;
   for (const Body& body : model.bodies) {
-    if (!hasCells(body)) continue;
+    if (!body.hasCells()) continue;
     forEachMaterial(body, [&](double, double nu, double) { any |= nu != 0.25; });
   }
   return any;
@@ -146,6 +142,21 @@ bool predictsSprings(const Model& model) {
   return !hasMoments(model) && std::any_of(model.bodies.begin(), model.bodies.end(), [](const Body& body) {
     return !body.network && body.material.dashpot_ratio > 0;
   });
+}
+
+double massOf_kg(const Body& body) {
+  double mass = 0;
+  if (body.network) {
+    for (const double node : body.network->masses_kg) mass += node;
+    return mass;
+  }
+  const bool differs = isHeterogeneous(body);
+  const Strengths table = differs ? strengths(body) : Strengths{};
+  const double eighth = bodyParams(body, 0).mass_eighth_kg;
+  for (const uint32_t slot : body.lattice.active_slots) {
+    mass += differs ? table.mass_kg[slot] : massEighths(body.lattice.nodes[slot]) * eighth;
+  }
+  return mass;
 }
 
 bool isHeterogeneous(const Model& model) {
@@ -167,7 +178,7 @@ double pushSpeed(const Model& model) {
 double waveSpeed(const Model& model) {
   double fastest = 0;
   for (const Body& body : model.bodies) {
-    if (!hasCells(body)) {
+    if (!body.hasCells()) {
       fastest = std::max(fastest, fastestWave(*body.network));
       continue;
     }

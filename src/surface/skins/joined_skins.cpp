@@ -47,7 +47,7 @@ layout::SplitTriangle splitTriangle(const Skin& skin, const NetworkSkins::Place&
 }  // namespace
 
 bool isOneToOne(const Body& body) {
-  return body.network && !body.network->of_lattice;
+  return !body.hasCells();
 }
 
 void NetworkSkins::append(const Body& body, const Place& place) {

@@ -7,9 +7,9 @@
 #include <limits>
 #include <utility>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
+#include "math/decompositions.h"
 #include "surface/skins/keep_room.h"
 #include "viscera/layout/links.h"
 
@@ -150,11 +150,10 @@ Vector3d TetrahedraPoints::normalOf(const Vector3d& near_m, Runs... runs) const 
   };
   (std::for_each(runs.first, runs.second, note), ...);
   mean /= count;
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes;
-  axes.computeDirect(squares / count - mean * mean.transpose());
-  const Vector3d variances = axes.eigenvalues();
+  const PrincipalAxes spread = principalAxesDirect(squares / count - mean * mean.transpose());
+  const Vector3d variances = spread.values;
   if (!(variances[1] > kLine * variances[2]) || variances[0] > kFlat * variances[1]) return Vector3d::Zero();
-  return axes.eigenvectors().col(0);
+  return spread.axes.col(0);
 }
 
 /// Across the wound where it cuts a spring, by the tetrahedra at it, or else by those at its ends.

@@ -105,12 +105,12 @@ layout::vec4 packed(const Vector3d& v) {
   return {f.x(), f.y(), f.z(), 0};
 }
 
-Vector3d axisOf(uint32_t spring) {
+Vector3d woundAxisOf(uint32_t spring) {
   return offsetOf(spring).cast<double>();
 }
 
 SkinBasis basisOf(const layout::SkinBinding& binding) {
-  return triangleBasis(axisOf(binding.springs & 31U), -axisOf(binding.springs >> 10U & 31U));
+  return triangleBasis(woundAxisOf(binding.springs & 31U), -woundAxisOf(binding.springs >> 10U & 31U));
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "model/scan/scan_files.h"
+#include "support/source_folder.h"
 
 // DICOM by the program viscera-dicom, which is built where GDCM is; files that tests make: explicit VR, little endian.
 namespace viscera::test::dicom {
@@ -16,8 +17,8 @@ namespace viscera::test::dicom {
 class Dicom : public ::testing::Test {
  protected:
   void SetUp() override {
-#ifdef VISCERA_DICOM_PROGRAM
-    setenv("VISCERA_DICOM", VISCERA_DICOM_PROGRAM, 1);
+#ifdef VISCERA_HAS_DICOM
+    setenv("VISCERA_DICOM", kDicomProgram, 1);
 #else
     GTEST_SKIP() << "viscera-dicom is not built: GDCM was not found";
 #endif

@@ -22,7 +22,7 @@ using test::written;
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
-void expectError(const std::string& path, const std::string& what, const ScanOptions& options = {}) {
+void scanRefusalsExpectError(const std::string& path, const std::string& what, const ScanOptions& options = {}) {
   const std::string text = test::errorOf(path, options);
   EXPECT_NE(text.find(what), std::string::npos) << path << " says: " << text << "\n  and not: " << what;
 }
@@ -39,26 +39,27 @@ std::string nifti(const std::string& name, Edit&& edit) {
 TEST(ScanRefusals, FilesThatWereCut) {
   const TestVolume v;
   const std::string whole = NiftiHeader(v).bytes() + v.bytes();
-  expectError(written("half.nii", whole.substr(0, whole.size() - 10)), "ends early");
-  expectError(written("head.nii", whole.substr(0, 200)), "ends early");
-  expectError(written("empty.nii", ""), "ends early");
+  scanRefusalsExpectError(written("half.nii", whole.substr(0, whole.size() - 10)), "ends early");
+  scanRefusalsExpectError(written("head.nii", whole.substr(0, 200)), "ends early");
+  scanRefusalsExpectError(written("empty.nii", ""), "ends early");
   const std::string gz = test::packed(whole);
-  expectError(written("cut.nii.gz", gz.substr(0, gz.size() * 6 / 10)), "ends early");
-  expectError(written("no_sum.nii.gz", gz.substr(0, gz.size() - 4)), "ends early");
+  scanRefusalsExpectError(written("cut.nii.gz", gz.substr(0, gz.size() * 6 / 10)), "ends early");
+  scanRefusalsExpectError(written("no_sum.nii.gz", gz.substr(0, gz.size() - 4)), "ends early");
   std::string wrong_sum = gz;
   wrong_sum[gz.size() - 8] ^= 1;
-  expectError(written("sum.nii.gz", wrong_sum), "corrupt");
+  scanRefusalsExpectError(written("sum.nii.gz", wrong_sum), "corrupt");
   const std::string nrrd = test::nrrdHeader(v) + v.bytes();
-  expectError(written("cut.nrrd", nrrd.substr(0, nrrd.size() - 1)), "ends early");
+  scanRefusalsExpectError(written("cut.nrrd", nrrd.substr(0, nrrd.size() - 1)), "ends early");
   const std::string mha = test::metaHeader(v) + v.bytes();
-  expectError(written("cut.mha", mha.substr(0, mha.size() - 1)), "ends early");
+  scanRefusalsExpectError(written("cut.mha", mha.substr(0, mha.size() - 1)), "ends early");
   EXPECT_NE(test::errorOf("no_such.nii").find("no such file"), std::string::npos);
 }
 
 TEST(ScanRefusals, PackedDataThatGoOnBeyondTheHeader) {
   const TestVolume v;
-  expectError(written("long.nii.gz", test::packed(NiftiHeader(v).bytes() + v.bytes() + std::string(3 << 20, '\0'))),
-              "hold more than its header says");
+  scanRefusalsExpectError(
+      written("long.nii.gz", test::packed(NiftiHeader(v).bytes() + v.bytes() + std::string(3 << 20, '\0'))),
+      "hold more than its header says");
   test::allOf(written("two.nii.gz", test::packed(NiftiHeader(v).bytes()) + test::packed(v.bytes())));  // members of one
 }
 
@@ -82,37 +83,40 @@ TEST(ScanRefusals, VolumesThatAreNotThereTakeNoMemory) {
        {written("a.nii", NiftiHeader(v).bytes() + raw), written("a.nii.gz", test::packed(NiftiHeader(v).bytes() + raw)),
         written("a.nrrd", nhdr + raw), written("b.nrrd", packed + test::packed(raw)),
         written("a.mha", test::metaHeader(v) + raw)})
-    expectError(path, "ends early");
+    scanRefusalsExpectError(path, "ends early");
   for (int& n : v.size) n = 32767;
-  expectError(written("huge.nii", NiftiHeader(v).bytes() + raw), "accepted: at most 2147483648");
-  expectError(written("huge.nrrd", test::nrrdHeader(v) + raw), "accepted: at most 2147483648");
-  expectError(written("huge.mha", test::metaHeader(v) + raw), "accepted: at most 2147483648");
+  scanRefusalsExpectError(written("huge.nii", NiftiHeader(v).bytes() + raw), "accepted: at most 2147483648");
+  scanRefusalsExpectError(written("huge.nrrd", test::nrrdHeader(v) + raw), "accepted: at most 2147483648");
+  scanRefusalsExpectError(written("huge.mha", test::metaHeader(v) + raw), "accepted: at most 2147483648");
   getrusage(RUSAGE_SELF, &after);
   EXPECT_LT(after.ru_maxrss - before.ru_maxrss, 50 << 10);  // [KiB]
 }
 
 TEST(ScanRefusals, NumbersThatAreNone) {
-  expectError(nifti("s.nii", [](auto& h) { h.template put<float>(300, 0, kNan); }), "sform");
+  scanRefusalsExpectError(nifti("s.nii", [](auto& h) { h.template put<float>(300, 0, kNan); }), "sform");
   for (const float bad : {0.F, kNan, -1.F, 1e-4F, 200.F})
-    expectError(nifti("p.nii", [&](auto& h) { h.template put<float>(84, 0, bad); }), "accepted: 0.001 .. 100 mm");
-  expectError(nifti("u.nii", [](auto& h) { h.template put<uint8_t>(123, 0, 1); }), "xyzt_units");
-  expectError(nifti("d0.nii", [](auto& h) { h.dim(0, 9); }), "accepted: 3 .. 7");
-  expectError(nifti("d1.nii", [](auto& h) { h.dim(1, 0); }), "accepted: 1 .. 65535");
-  expectError(nifti("d2.nii", [](auto& h) { h.dim(2, -3); }), "accepted: 1 .. 65535");
-  expectError(nifti("flat.nii",
-                    [](auto& h) {
-                      for (size_t n = 4; n < 8; ++n) h.real(280, 0, n, n == 4);
-                    }),
-              "accepted:");
+    scanRefusalsExpectError(nifti("p.nii", [&](auto& h) { h.template put<float>(84, 0, bad); }),
+                            "accepted: 0.001 .. 100 mm");
+  scanRefusalsExpectError(nifti("u.nii", [](auto& h) { h.template put<uint8_t>(123, 0, 1); }), "xyzt_units");
+  scanRefusalsExpectError(nifti("d0.nii", [](auto& h) { h.dim(0, 9); }), "accepted: 3 .. 7");
+  scanRefusalsExpectError(nifti("d1.nii", [](auto& h) { h.dim(1, 0); }), "accepted: 1 .. 65535");
+  scanRefusalsExpectError(nifti("d2.nii", [](auto& h) { h.dim(2, -3); }), "accepted: 1 .. 65535");
+  scanRefusalsExpectError(nifti("flat.nii",
+                                [](auto& h) {
+                                  for (size_t n = 4; n < 8; ++n) h.real(280, 0, n, n == 4);
+                                }),
+                          "accepted:");
   const TestVolume v;
   const std::string nrrd = test::nrrdHeader(v), mha = test::metaHeader(v);
-  expectError(written("d.nrrd", test::replaced(nrrd, "(1,0,0)", "(nan,0,0)") + v.bytes()), "accepted: 12 finite");
-  expectError(written("z.nrrd", test::replaced(nrrd, "(1,0,0)", "(0,0,0)") + v.bytes()), "accepted: 0.001 .. 100 mm");
-  expectError(written("p.nrrd", test::replaced(nrrd, "(1,0,0)", "(0,1,0)") + v.bytes()), "one plane");
-  expectError(written("s.mha", test::replaced(mha, "ElementSpacing = 1", "ElementSpacing = 0") + v.bytes()),
-              "0.001 .. 100 mm");
-  expectError(written("w.mha", test::replaced(mha, "ElementSpacing = 1", "ElementSpacing = one") + v.bytes()),
-              "3 numbers");
+  scanRefusalsExpectError(written("d.nrrd", test::replaced(nrrd, "(1,0,0)", "(nan,0,0)") + v.bytes()),
+                          "accepted: 12 finite");
+  scanRefusalsExpectError(written("z.nrrd", test::replaced(nrrd, "(1,0,0)", "(0,0,0)") + v.bytes()),
+                          "accepted: 0.001 .. 100 mm");
+  scanRefusalsExpectError(written("p.nrrd", test::replaced(nrrd, "(1,0,0)", "(0,1,0)") + v.bytes()), "one plane");
+  scanRefusalsExpectError(written("s.mha", test::replaced(mha, "ElementSpacing = 1", "ElementSpacing = 0") + v.bytes()),
+                          "0.001 .. 100 mm");
+  scanRefusalsExpectError(
+      written("w.mha", test::replaced(mha, "ElementSpacing = 1", "ElementSpacing = one") + v.bytes()), "3 numbers");
 }
 
 TEST(ScanRefusals, SlopesAsTheStandardSays) {
@@ -130,34 +134,37 @@ TEST(ScanRefusals, SlopesAsTheStandardSays) {
     h.template put<float>(116, 0, 5);
   });
   EXPECT_EQ(test::allOf(path)[3], 2 * plain[3] + 5);
-  expectError(nifti("inter.nii",
-                    [](auto& h) {
-                      h.template put<float>(112, 0, 2);
-                      h.template put<float>(116, 0, kNan);
-                    }),
-              "scl_inter");
+  scanRefusalsExpectError(nifti("inter.nii",
+                                [](auto& h) {
+                                  h.template put<float>(112, 0, 2);
+                                  h.template put<float>(116, 0, kNan);
+                                }),
+                          "scl_inter");
 }
 
 TEST(ScanRefusals, ColoursAndKindsThatAreNotRead) {
-  expectError(nifti("rgb.nii", [](auto& h) { h.template put<int16_t>(70, 0, 128); }), "colours");
-  expectError(nifti("complex.nii", [](auto& h) { h.template put<int16_t>(70, 0, 32); }),
-              "accepted: one number a voxel");
-  expectError(nifti("pair.nii", [](auto& h) { h.template put<uint8_t>(345, 0, 'i'); }), "holds its data itself");
+  scanRefusalsExpectError(nifti("rgb.nii", [](auto& h) { h.template put<int16_t>(70, 0, 128); }), "colours");
+  scanRefusalsExpectError(nifti("complex.nii", [](auto& h) { h.template put<int16_t>(70, 0, 32); }),
+                          "accepted: one number a voxel");
+  scanRefusalsExpectError(nifti("pair.nii", [](auto& h) { h.template put<uint8_t>(345, 0, 'i'); }),
+                          "holds its data itself");
   const TestVolume v;
   const std::string nrrd = test::nrrdHeader(v), mha = test::metaHeader(v);
-  expectError(written("k.nrrd", test::replaced(nrrd, "kinds: domain", "kinds: RGB-color") + v.bytes()),
-              "accepted: domain");
-  expectError(written("e.nrrd", test::replaced(nrrd, "encoding: raw", "encoding: bzip2") + v.bytes()),
-              "accepted: raw or gzip");
-  expectError(written("u.nrrd", test::replaced(nrrd, "endian", "space units: \"m\" \"m\" \"m\"\nendian") + v.bytes()),
-              "\"mm\"");
-  expectError(written("n.nrrd", test::replaced(nrrd, "endian: little\n", "") + v.bytes()), "no 'endian'");
-  expectError(written("t.mha", test::replaced(mha, "MET_SHORT", "MET_OTHER") + v.bytes()), "accepted: MET_UCHAR");
-  expectError(written("c.mha", "ElementNumberOfChannels = 3\n" + mha + v.bytes()), "one number a voxel");
-  expectError(written("a.xyz", "x"), "accepted: .nii");
-  expectError(written("text.nrrd", "hello\n\n"), "no NRRD file");
-  expectError(written("text.mha", "hello\n\n"), "no MetaImage file");
-  expectError(written("text.nii", std::string(400, 'x')), "no NIfTI file");
+  scanRefusalsExpectError(written("k.nrrd", test::replaced(nrrd, "kinds: domain", "kinds: RGB-color") + v.bytes()),
+                          "accepted: domain");
+  scanRefusalsExpectError(written("e.nrrd", test::replaced(nrrd, "encoding: raw", "encoding: bzip2") + v.bytes()),
+                          "accepted: raw or gzip");
+  scanRefusalsExpectError(
+      written("u.nrrd", test::replaced(nrrd, "endian", "space units: \"m\" \"m\" \"m\"\nendian") + v.bytes()),
+      "\"mm\"");
+  scanRefusalsExpectError(written("n.nrrd", test::replaced(nrrd, "endian: little\n", "") + v.bytes()), "no 'endian'");
+  scanRefusalsExpectError(written("t.mha", test::replaced(mha, "MET_SHORT", "MET_OTHER") + v.bytes()),
+                          "accepted: MET_UCHAR");
+  scanRefusalsExpectError(written("c.mha", "ElementNumberOfChannels = 3\n" + mha + v.bytes()), "one number a voxel");
+  scanRefusalsExpectError(written("a.xyz", "x"), "accepted: .nii");
+  scanRefusalsExpectError(written("text.nrrd", "hello\n\n"), "no NRRD file");
+  scanRefusalsExpectError(written("text.mha", "hello\n\n"), "no MetaImage file");
+  scanRefusalsExpectError(written("text.nii", std::string(400, 'x')), "no NIfTI file");
 }
 
 TEST(ScanRefusals, DataFilesOutsideOfTheFolder) {
@@ -170,16 +177,18 @@ TEST(ScanRefusals, DataFilesOutsideOfTheFolder) {
   for (const std::string& name :
        {std::string("/etc/passwd"), std::string("../../etc/passwd"), std::string("../data.raw"), std::string(".."),
         std::string("link.raw"), std::string("not_there.raw")}) {
-    expectError(written("inner/a.nhdr", test::nrrdHeader(v, "LPS", "encoding: raw\ndata file: " + name + "\n")),
-                "accepted: the plain name");
-    expectError(written("inner/a.mhd", test::metaHeader(v, "ElementDataFile = " + name + "\n")),
-                "accepted: the plain name");
+    scanRefusalsExpectError(
+        written("inner/a.nhdr", test::nrrdHeader(v, "LPS", "encoding: raw\ndata file: " + name + "\n")),
+        "accepted: the plain name");
+    scanRefusalsExpectError(written("inner/a.mhd", test::metaHeader(v, "ElementDataFile = " + name + "\n")),
+                            "accepted: the plain name");
   }
   for (const char* name : {"LIST", "slice%03d.raw 1 2 1"}) {
-    expectError(written("l.nhdr", test::nrrdHeader(v, "LPS", std::string("encoding: raw\ndata file: ") + name + "\n")),
-                "lists of slices");
-    expectError(written("l.mhd", test::metaHeader(v, std::string("ElementDataFile = ") + name + "\n")),
-                "lists of slices");
+    scanRefusalsExpectError(
+        written("l.nhdr", test::nrrdHeader(v, "LPS", std::string("encoding: raw\ndata file: ") + name + "\n")),
+        "lists of slices");
+    scanRefusalsExpectError(written("l.mhd", test::metaHeader(v, std::string("ElementDataFile = ") + name + "\n")),
+                            "lists of slices");
   }
 }
 

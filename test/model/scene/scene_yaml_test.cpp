@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "model/scene/scene_text.h"
+#include "support/source_folder.h"
 
 namespace viscera {
 namespace {
@@ -21,7 +22,7 @@ void expectSame(const Scene& scene) {
 
 TEST(SceneYaml, ShippedScenesComeBack) {
   size_t count = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(VISCERA_SOURCE_DIR "/config/scenes")) {
+  for (const auto& entry : std::filesystem::directory_iterator(test::sourceFolder() + "/config/scenes")) {
     SCOPED_TRACE(entry.path());
     expectSame(loadScene(entry.path().string()));
     ++count;

@@ -16,8 +16,8 @@ namespace {
 constexpr float kRadius = 0.04f;  ///< [m]
 constexpr int kRings = 40;        ///< of the spheres: triangles of 3 mm
 constexpr int kPatches = 10;
-constexpr double kExact = 0.005;      ///< of what is enclosed, whatever the grid
-constexpr float kHalfGap = 0.00025f;  ///< [m]
+constexpr double kEnclosedExact = 0.005;  ///< of what is enclosed, whatever the grid
+constexpr float kHalfGap = 0.00025f;      ///< [m]
 const Vector3f kMiddle(0.01f, -0.02f, 0.03f);
 
 /// A part of a sphere's triangles, each patch with vertices of its own.
@@ -81,8 +81,8 @@ TEST(Enclosed, BallOfPatches) {
   const TriangleMesh mesh = patchedBall();
   for (const double step_m : {0.001, 0.002}) {
     const EnclosedSurface found = enclosedSurface(mesh, step_m, 0.004);
-    EXPECT_NEAR(found.volume_m3, drawnVolume(), kExact * drawnVolume()) << found.text();
-    EXPECT_NEAR(signedVolume(found.mesh), drawnVolume(), kExact * drawnVolume()) << found.text();
+    EXPECT_NEAR(found.volume_m3, drawnVolume(), kEnclosedExact * drawnVolume()) << found.text();
+    EXPECT_NEAR(signedVolume(found.mesh), drawnVolume(), kEnclosedExact * drawnVolume()) << found.text();
     EXPECT_TRUE(found.settled);
   }
 }
@@ -92,7 +92,7 @@ TEST(Enclosed, CellsOfBallOfPatches) {
   for (const double spacing_m : {0.004, 0.008}) {
     std::string note;
     const Solid solid = voxeliseEnclosed(mesh, spacing_m, 0.004, true, {}, note);
-    EXPECT_NEAR(solid.volumeM3(), drawnVolume(), kExact * drawnVolume()) << note;
+    EXPECT_NEAR(solid.volumeM3(), drawnVolume(), kEnclosedExact * drawnVolume()) << note;
     EXPECT_NE(note.find("encloses"), std::string::npos);
     std::vector<int> cells(solid.part_names.size() + 1, 0);
     for (const uint16_t label : solid.labels) ++cells[label];
@@ -115,7 +115,7 @@ TEST(Enclosed, HoleIsClosedUpToItsWidthAndReported) {
 TEST(Enclosed, ClosedBoxIsItself) {
   const TriangleMesh box = boxMesh({0, 0, 0}, {0.03f, 0.02f, 0.01f});
   const EnclosedSurface found = enclosedSurface(box, 0.0005, 0.002);
-  EXPECT_NEAR(found.volume_m3, 6e-6, kExact * 6e-6);
+  EXPECT_NEAR(found.volume_m3, 6e-6, kEnclosedExact * 6e-6);
   EXPECT_EQ(found.hole_m, 0);
   std::string note;
   const Solid solid = voxeliseEnclosed(box, 0.002, 0.002, false, {}, note);

@@ -12,7 +12,7 @@ namespace viscera::nodes {
 namespace {
 
 constexpr double kTick_s = 0.02, kStiff_n_per_m = 300;
-constexpr double kRounding = 1e-9;  // N, m: some products in double
+constexpr double kImpedanceRounding = 1e-9;  // N, m: some products in double
 
 const SteadyTime kNow{std::chrono::hours(1)};
 
@@ -79,7 +79,7 @@ TEST(Impedance, IsTheForceThatGoesOutWhateverStandsBetweenDeviceAndTool) {
     const Vector3d told_n = toDevice({wanted_n, Vector3d::Zero(), false}, mailbox.deviceFrame(), device.force).force_n;
     const Vector3d place_m = mailbox.inDevice({tip_m, Quaterniond::Identity()}).position_m;
     ASSERT_GT(wanted_n.z(), 0.3);
-    EXPECT_LT((forceAt(out, place_m) - told_n).norm(), kRounding) << plain;
+    EXPECT_LT((forceAt(out, place_m) - told_n).norm(), kImpedanceRounding) << plain;
   }
 }
 
@@ -88,7 +88,7 @@ TEST(Impedance, GivesNoMoreThanTheStylusMay) {
   StylusMailbox mailbox(StylusConfig{}, "tissue", device);
   tell(mailbox, device, -0.0015);
   const crtk_msgs::CartesianImpedance out = toImpedance(pressed(), mailbox, 0.1, kNow, ros::Time(10));
-  EXPECT_NEAR(forceAt(out, {0, 0, -0.0015}).norm(), 0.1, kRounding);
+  EXPECT_NEAR(forceAt(out, {0, 0, -0.0015}).norm(), 0.1, kImpedanceRounding);
 }
 
 TEST(Impedance, IsNothingForAHandThatHasTheClutchOrIsNotThere) {

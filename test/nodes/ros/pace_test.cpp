@@ -11,7 +11,7 @@ namespace viscera::nodes {
 namespace {
 
 using std::chrono::milliseconds;
-constexpr double kRounding = 1e-12;
+constexpr double kPaceRounding = 1e-12;
 
 TEST(Pacer, KeepsTheBeatOfALoopThatIsInTime) {
   const Pacer::Time begun{std::chrono::seconds(100)};
@@ -51,9 +51,9 @@ TEST(PaceMeter, ReadingIsOfTheTicksSinceTheLastOne) {
   meter.add(0.01, 0.002, 0.02);
   meter.add(0.01, 0.004, 0.02);
   const PaceMeter::Reading reading = meter.take();
-  EXPECT_NEAR(reading.step_mean_s, 0.003, kRounding);
-  EXPECT_NEAR(reading.step_max_s, 0.004, kRounding);
-  EXPECT_NEAR(reading.real_time_factor, 0.5, kRounding);
+  EXPECT_NEAR(reading.step_mean_s, 0.003, kPaceRounding);
+  EXPECT_NEAR(reading.step_max_s, 0.004, kPaceRounding);
+  EXPECT_NEAR(reading.real_time_factor, 0.5, kPaceRounding);
   EXPECT_EQ(meter.take().real_time_factor, 0);
 }
 

@@ -14,7 +14,7 @@ namespace viscera::nodes {
 namespace {
 
 constexpr double kTick_s = 0.01;
-constexpr double kRounding_s = 1e-6;  // the clock counts nanoseconds
+constexpr double kSimulatedTimeRounding_s = 1e-6;  // the clock counts nanoseconds
 const SimulatedTime::SteadyTime kStart = std::chrono::steady_clock::now();
 
 SimulatedTime::SteadyTime at(double time_s) {
@@ -25,16 +25,16 @@ TEST(SimulatedTime, IsZeroUntilItIsTold) {
   SimulatedTime time;
   EXPECT_EQ(time.at(at(5)), 0);
   time.tell(3, kTick_s, at(5));
-  EXPECT_NEAR(time.at(at(5)), 0, kRounding_s);
+  EXPECT_NEAR(time.at(at(5)), 0, kSimulatedTimeRounding_s);
 }
 
 TEST(SimulatedTime, GoesOnAsFastAsTheSimulation) {
   SimulatedTime time;
   for (int tick = 0; tick <= 100; ++tick)
     time.tell(kTick_s * tick, kTick_s, at(4 * kTick_s * tick));  // four times slower
-  EXPECT_NEAR(time.at(at(4)), 1, kRounding_s);
-  EXPECT_NEAR(time.at(at(4 + kTick_s / 2)), 1 + kTick_s / 2, kRounding_s);
-  EXPECT_NEAR(time.at(at(60)), 1 + kTick_s, kRounding_s);
+  EXPECT_NEAR(time.at(at(4)), 1, kSimulatedTimeRounding_s);
+  EXPECT_NEAR(time.at(at(4 + kTick_s / 2)), 1 + kTick_s / 2, kSimulatedTimeRounding_s);
+  EXPECT_NEAR(time.at(at(60)), 1 + kTick_s, kSimulatedTimeRounding_s);
 }
 
 TEST(SimulatedTime, StandsWhilePaused) {
@@ -43,7 +43,7 @@ TEST(SimulatedTime, StandsWhilePaused) {
   const double paused_s = time.at(at(0.02));
   for (int i = 1; i < 100; ++i) {
     time.tell(1, kTick_s, at(0.02 * i));
-    EXPECT_NEAR(time.at(at(0.02 * i + 0.001)), paused_s, kRounding_s);
+    EXPECT_NEAR(time.at(at(0.02 * i + 0.001)), paused_s, kSimulatedTimeRounding_s);
   }
 }
 
@@ -53,9 +53,9 @@ TEST(SimulatedTime, NeverGoesBackNorJumpsAtAReset) {
   time.tell(8, kTick_s, at(1));
   const double before_s = time.at(at(1));
   time.tell(0, kTick_s, at(1 + kTick_s));
-  EXPECT_NEAR(time.at(at(1 + kTick_s)), before_s + kTick_s, kRounding_s);
+  EXPECT_NEAR(time.at(at(1 + kTick_s)), before_s + kTick_s, kSimulatedTimeRounding_s);
   time.tell(kTick_s, kTick_s, at(1 + 2 * kTick_s));
-  EXPECT_NEAR(time.at(at(1 + 2 * kTick_s)), before_s + 2 * kTick_s, kRounding_s);
+  EXPECT_NEAR(time.at(at(1 + 2 * kTick_s)), before_s + 2 * kTick_s, kSimulatedTimeRounding_s);
 }
 
 TEST(Slowness, IsToldAfterTwoReadingsAndAgainOnlyAfterItHasKeptUp) {

@@ -18,15 +18,15 @@ namespace viscera {
 namespace {
 
 constexpr double kStep_s = 1.0 / 240;
-constexpr double kBalance = 1e-9;       // of all heat: rounding of sums in float64
-constexpr double kSlab = 0.01;          // of the rise at the surface: steps are of first order, and a third of it
-constexpr double kSlabOfSheet = 0.015;  // the same; at its border triangles are halved, and nodes of two sizes
+constexpr double kHeatFieldBalance = 1e-9;  // of all heat: rounding of sums in float64
+constexpr double kSlab = 0.01;              // of the rise at the surface: steps are of first order, and a third of it
+constexpr double kSlabOfSheet = 0.015;      // the same; at its border triangles are halved, and nodes of two sizes
 constexpr double kSameDepth_m = 1e-6;
 constexpr double kPoint =
     0.02;  // of the rise there, four spacings and more from a node that is a source: 1 / (4 n^2) is the lattice's
 constexpr double kRate = 1e-3;  // of a dose: its steps are not exact
 
-Scene block(const std::string& size, double spacing_m, const std::string& structure = "lattice") {
+Scene heatedBlock(const std::string& size, double spacing_m, const std::string& structure = "lattice") {
   return parseScene("bodies: [{source: " + std::string(structure == "surface" ? "sheet" : "box") +
                         ", structure: " + structure + ", box_size_m: [" + size +
                         "], spacing_m: " + std::to_string(spacing_m) + ", material: {density_kg_per_m3: 1060}}]",
@@ -95,10 +95,10 @@ void expectSlab(const Scene& scene, double tolerance) {
 }
 
 TEST(HeatField, SlabOfAConstantFluxIsAsCarslawAndJaegerHaveIt) {
-  expectSlab(block("0.016, 0.001, 0.001", 0.00025), kSlab);
-  expectSlab(block("0.016, 0.001, 0.001", 0.00025, "explicit"), kSlab);
-  expectSlab(block("0.016, 0.001, 0.001", 0.00025, "tetrahedra"), kSlab);
-  expectSlab(block("0.016, 0.008, 0.001", 0.00025, "surface"), kSlabOfSheet);
+  expectSlab(heatedBlock("0.016, 0.001, 0.001", 0.00025), kSlab);
+  expectSlab(heatedBlock("0.016, 0.001, 0.001", 0.00025, "explicit"), kSlab);
+  expectSlab(heatedBlock("0.016, 0.001, 0.001", 0.00025, "tetrahedra"), kSlab);
+  expectSlab(heatedBlock("0.016, 0.008, 0.001", 0.00025, "surface"), kSlabOfSheet);
 }
 
 /// P / (4 pi k r) erfc(r / sqrt(4 a t)), as above 10.4.
@@ -135,14 +135,14 @@ void expectPoint(const Scene& scene, double tolerance) {
 }
 
 TEST(HeatField, PointSourceIsAsCarslawAndJaegerHaveIt) {
-  expectPoint(block("0.022, 0.022, 0.022", 0.001), kPoint);
+  expectPoint(heatedBlock("0.022, 0.022, 0.022", 0.001), kPoint);
 }
 
 TEST(HeatField, AllHeatIsStoredOrHasGoneWhereItIsSaidToHaveGone) {
   for (const std::string structure : {"lattice", "explicit", "tetrahedra", "surface"}) {
     SCOPED_TRACE(structure);
     const Model model =
-        buildModel(block(structure == "surface" ? "0.02, 0.02, 0.001" : "0.02, 0.02, 0.008", 0.002, structure));
+        buildModel(heatedBlock(structure == "surface" ? "0.02, 0.02, 0.001" : "0.02, 0.02, 0.008", 0.002, structure));
     HeatField field(model);
     uint32_t some = 0;
     forEach(model, field, [&](uint32_t slot, const Vector3d&) { some = slot; });
@@ -156,8 +156,9 @@ TEST(HeatField, AllHeatIsStoredOrHasGoneWhereItIsSaidToHaveGone) {
     EXPECT_GT(seen.hottest_c, 60);
     for (int t = 0; t < 4000 && field.isWarm(); ++t) field.step(1);
     for (const SeenBurns& then : {seen, field.seen()}) {
-      EXPECT_NEAR(then.given_j, given_j, kBalance * given_j);
-      EXPECT_NEAR(then.stored_j + then.steam_j + then.perfused_j + then.surface_j, given_j, kBalance * given_j);
+      EXPECT_NEAR(then.given_j, given_j, kHeatFieldBalance * given_j);
+      EXPECT_NEAR(then.stored_j + then.steam_j + then.perfused_j + then.surface_j, given_j,
+                  kHeatFieldBalance * given_j);
     }
     EXPECT_FALSE(field.isWarm()) << "it cools down, and then costs nothing";
     EXPECT_GT(field.seen().perfused_j, 0);
@@ -166,7 +167,7 @@ TEST(HeatField, AllHeatIsStoredOrHasGoneWhereItIsSaidToHaveGone) {
 }
 
 TEST(HeatField, WaterBoilsAtAHundredDegreesUntilNoneIsLeft) {
-  const Model model = buildModel(block("0.002, 0.002, 0.002", 0.002));
+  const Model model = buildModel(heatedBlock("0.002, 0.002, 0.002", 0.002));
   const HeatConstants constants = conducting();
   HeatField field(model, constants);
   const uint32_t slot = model.bodies[0].lattice.active_slots[0];
@@ -185,7 +186,7 @@ TEST(HeatField, WaterBoilsAtAHundredDegreesUntilNoneIsLeft) {
 }
 
 TEST(HeatField, DoseIsArrhenius) {
-  const Model model = buildModel(block("0.002, 0.002, 0.002", 0.002));
+  const Model model = buildModel(heatedBlock("0.002, 0.002, 0.002", 0.002));
   const HeatConstants constants = conducting();
   const auto coagulatedAfter = [&](double at_c, double time_s) {
     HeatField field(model, constants);
@@ -204,7 +205,7 @@ TEST(HeatField, DoseIsArrhenius) {
 }
 
 TEST(HeatField, CutTissueConductsNoHeat) {
-  const Model model = buildModel(block("0.008, 0.002, 0.002", 0.002));
+  const Model model = buildModel(heatedBlock("0.008, 0.002, 0.002", 0.002));
   HeatField field(model, conducting());
   CutSprings cuts;
   cuts.nodes = model.bodies[0].lattice.nodes;

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "math/archive.h"
+#include "math/decompositions.h"
 #include "model/fracture/toughness.h"
 #include "solver/cpu/cpu_solver.h"
 #include "solver/reference/reference_ticks.h"
@@ -96,7 +97,7 @@ TEST(BladeEdge, RandomStrokesStayFiniteAndGiveNothing) {
   for (int stroke = 0; stroke < 60; ++stroke) {
     Pose pose{{0.03 * any(random), 0.03 * any(random), 0.012 * any(random)}, Quaterniond::Identity()};
     const Vector3d axis(any(random), any(random), 1.2 * any(random)), way(any(random), any(random), 0.5 * any(random));
-    pose.orientation = Quaterniond::FromTwoVectors(Vector3d::UnitZ(), axis.normalized());
+    pose.orientation = rotationBetween(Vector3d::UnitZ(), axis.normalized());
     if (stroke % 20 == 19) hand.solver().reset();
     const double before_j = hand.solver().bladeWork(0).work_j;
     hand.appear(pose);

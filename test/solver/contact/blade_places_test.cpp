@@ -8,6 +8,7 @@
 #include <random>
 
 #include "math/archive.h"
+#include "math/decompositions.h"
 #include "model/fracture/toughness.h"
 #include "solver/cpu/cpu_solver.h"
 
@@ -49,9 +50,9 @@ void hold(BodyConfig& body, const Vector3d& side) {
 }
 
 /// A hand that goes evenly.
-class Hand {
+class BladePlacesHand {
  public:
-  Hand(const Model& model, const Scene& scene, const Pose& pose)
+  BladePlacesHand(const Model& model, const Scene& scene, const Pose& pose)
       : tick_s_(1 / scene.solver.tick_hz), solver_(model, scene), at_(pose) {}
   /// @returns the mean force along the way
   double go(const Vector3d& way_m) {
@@ -75,7 +76,7 @@ class Hand {
     return sum / ticks;
   }
   double most_n() const { return most_n_; }
-  void put(const Hand& other) { at_ = other.at_; }
+  void put(const BladePlacesHand& other) { at_ = other.at_; }
   /// Elsewhere, as after a tick without a tool.
   void put(const Pose& pose) {
     solver_.step(ToolMotions{});
@@ -122,7 +123,7 @@ TEST(BladePlaces, EveryPartHasItsOwnToughness) {
   for (const double second : {50.0, 0.0}) {
     Cut cut(100);
     divide(cut.model.bodies[0], second);
-    Hand hand(cut.model, cut.scene, cut.before());
+    BladePlacesHand hand(cut.model, cut.scene, cut.before());
     hand.go({0.027, 0, 0});
     EXPECT_NEAR(hand.go({0.01, 0, 0}), 100 * kWidth_m, kForce * 100 * kWidth_m);
     hand.go({0.02, 0, 0});
@@ -154,8 +155,8 @@ TEST(BladePlaces, ACapsuleGivesAPeakAndADrop) {
     hold(body, {0, 0, -1});
     body.layers = {{kCapsule_m, Vector3d::Ones(), capsule_j_per_m2}};
     const Scene scene = sceneOf(body, kAcross_m + 0.006);
-    const Quaterniond lies = Quaterniond::FromTwoVectors(Vector3d::UnitZ(), Vector3d::UnitY());
-    Hand hand(buildModel(scene), scene, {{0.0003, -0.5 * kAcross_m - 0.003, 0.021}, lies});
+    const Quaterniond lies = rotationBetween(Vector3d::UnitZ(), Vector3d::UnitY());
+    BladePlacesHand hand(buildModel(scene), scene, {{0.0003, -0.5 * kAcross_m - 0.003, 0.021}, lies});
     hand.go({0, 0, -0.02});
     most_n = hand.most_n();
     return hand.go({0, 0, -0.005});
@@ -170,7 +171,7 @@ TEST(BladePlaces, ACapsuleGivesAPeakAndADrop) {
 TEST(BladePlaces, WallsRubInTheTissueAndInTheirOwnWound) {
   Cut cut(50);
   cut.scene.styluses[0].cut.friction_n_per_m = 20;
-  Hand hand(cut.model, cut.scene, cut.before());
+  BladePlacesHand hand(cut.model, cut.scene, cut.before());
   hand.go({0.04, 0, 0});
   EXPECT_NEAR(hand.go({0.01, 0, 0}), 70 * kWidth_m, kForce * 70 * kWidth_m);
   hand.go({-0.015, 0, 0});
@@ -199,7 +200,7 @@ struct Needle {
 
 TEST(BladePlaces, ANeedlePuncturesDropsAndGoesOnByItsWidth) {
   Needle needle;
-  Hand hand(needle.model, needle.scene, needle.above());
+  BladePlacesHand hand(needle.model, needle.scene, needle.above());
   hand.go({0, 0, -0.012});
   EXPECT_NEAR(hand.most_n(), 500 * Needle::kNeedle_m, kForce * 500 * Needle::kNeedle_m);
   hand.go({0, 0, -0.012});
@@ -215,7 +216,7 @@ TEST(BladePlaces, ANeedlePuncturesDropsAndGoesOnByItsWidth) {
 
 TEST(BladePlaces, ASavedNeedleGoesOnToTheBit) {
   Needle needle;
-  Hand first(needle.model, needle.scene, needle.above()), second(needle.model, needle.scene, needle.above());
+  BladePlacesHand first(needle.model, needle.scene, needle.above()), second(needle.model, needle.scene, needle.above());
   first.go({0, 0, -0.01});
   Archive saved;
   first.solver().persist(saved);
@@ -231,13 +232,13 @@ TEST(BladePlaces, ASavedNeedleGoesOnToTheBit) {
 TEST(BladePlaces, RandomStrokesOfANeedleThatRubsGiveNothing) {
   Needle needle;
   needle.scene.styluses[0].cut.friction_n_per_m = 30;
-  Hand hand(needle.model, needle.scene, needle.above());
+  BladePlacesHand hand(needle.model, needle.scene, needle.above());
   std::mt19937 random(1);
   std::uniform_real_distribution<double> any(-1, 1);
   for (int stroke = 0; stroke < 40; ++stroke) {
     if (stroke % 10 == 0) hand.solver().reset();
     const Vector3d at(0.02 * any(random), 0.02 * any(random), 0.025), axis(any(random), any(random), 1.5);
-    hand.put({at, Quaterniond::FromTwoVectors(Vector3d::UnitZ(), axis.normalized())});
+    hand.put({at, rotationBetween(Vector3d::UnitZ(), axis.normalized())});
     const double before_j = hand.solver().bladeWork(0).work_j;
     const Vector3d way = -0.03 * axis.normalized() + 0.004 * Vector3d(any(random), any(random), any(random));
     hand.go(way);

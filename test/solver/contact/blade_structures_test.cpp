@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "math/archive.h"
+#include "math/decompositions.h"
 #include "model/fracture/toughness.h"
 #include "solver/cpu/cpu_solver.h"
 #include "viscera/math/error.h"
@@ -18,7 +19,7 @@
 namespace viscera {
 namespace {
 
-constexpr double kStep_m = 0.001, kStart_m = -0.031;
+constexpr double kBladeStructuresStep_m = 0.001, kStart_m = -0.031;
 constexpr double kBeside_m = 0.001;    // off a row of nodes
 constexpr double kOfLaw = 0.05;        // force, area and work
 constexpr double kFront_m = 0.003;     // the front bends at the surface, and the area counts its mean
@@ -57,9 +58,10 @@ Scene sceneOf(const std::string& bodies) {
 }
 
 /// A hand that pushes an upright blade along x, a step in each tick.
-class Hand {
+class BladeStructuresHand {
  public:
-  explicit Hand(const Scene& scene) : scene_(scene), model_(buildModel(scene_)), solver_(model_, scene_) {}
+  explicit BladeStructuresHand(const Scene& scene)
+      : scene_(scene), model_(buildModel(scene_)), solver_(model_, scene_) {}
   /// @returns the force on the tissue.
   Vector3d to(double x_m) {
     ToolMotions motions;
@@ -87,7 +89,7 @@ class Hand {
     }
   }
   void push(int first, int last) {
-    for (int i = first; i < last; ++i) to(kStart_m + kStep_m * i);
+    for (int i = first; i < last; ++i) to(kStart_m + kBladeStructuresStep_m * i);
   }
   void appearAt(double x_m) { at_.x() = x_m; }
   CpuSolver& solver() { return solver_; }
@@ -112,13 +114,13 @@ class BladeStructures : public ::testing::TestWithParam<size_t> {
 };
 
 TEST_P(BladeStructures, ForceAreaAndWorkAreTheLaws) {
-  Hand hand(scene(50));
+  BladeStructuresHand hand(scene(50));
   const double law_n = 50 * kind().width_m;
   double sum = 0, low = 1e9, high = 0;
   hand.push(0, 30);
   const BladeWork before = hand.solver().bladeWork(0);
   for (int i = 30; i < 46; ++i) {
-    const double force = hand.to(kStart_m + kStep_m * i).x();
+    const double force = hand.to(kStart_m + kBladeStructuresStep_m * i).x();
     sum += force / 16;
     low = std::min(low, force);
     high = std::max(high, force);
@@ -134,19 +136,19 @@ TEST_P(BladeStructures, ForceAreaAndWorkAreTheLaws) {
 }
 
 TEST_P(BladeStructures, FeelsNothingInItsOwnWound) {
-  Hand hand(scene(50));
+  BladeStructuresHand hand(scene(50));
   double x = kStart_m, most = 0;
-  for (; x < 0.014; x += kStep_m) most = std::max(most, hand.to(x).x());
+  for (; x < 0.014; x += kBladeStructuresStep_m) most = std::max(most, hand.to(x).x());
   EXPECT_GT(most, 0.9 * 50 * kind().width_m);
-  for (; x > -0.012; x -= kStep_m) EXPECT_GE(hand.to(x).x(), -kPulled * most);
+  for (; x > -0.012; x -= kBladeStructuresStep_m) EXPECT_GE(hand.to(x).x(), -kPulled * most);
   const double area_m2 = hand.solver().bladeWork(0).area_m2;
-  for (; x < 0; x += kStep_m) EXPECT_LT(hand.to(x).norm(), kFelt * most);
+  for (; x < 0; x += kBladeStructuresStep_m) EXPECT_LT(hand.to(x).norm(), kFelt * most);
   EXPECT_NEAR(hand.solver().bladeWork(0).area_m2, area_m2, kFelt * area_m2);
 }
 
 /// Places at rest of the springs' ends are what a spring is cut by, so this is asked of networks alone.
 TEST_P(BladeStructures, SpringsGoWhereTheFrontHasPassed) {
-  Hand hand(scene(50));
+  BladeStructuresHand hand(scene(50));
   hand.push(0, 40);
   EXPECT_GT(hand.springsCut(), 0u);
   const Body& body = hand.model().bodies[0];
@@ -169,14 +171,14 @@ TEST_P(BladeStructures, SpringsGoWhereTheFrontHasPassed) {
 }
 
 TEST_P(BladeStructures, RandomStrokesStayFinite) {
-  Hand hand(scene(200));
+  BladeStructuresHand hand(scene(200));
   std::mt19937 random(1);
   std::uniform_real_distribution<double> any(-1, 1);
   for (int stroke = 0; stroke < 40; ++stroke) {
     if (stroke % 20 == 19) hand.solver().reset();
     Pose pose{{0.03 * any(random), 0.024 * any(random), 0.012 * any(random)}, Quaterniond::Identity()};
     const Vector3d axis(any(random), any(random), 1.2 * any(random));
-    pose.orientation = Quaterniond::FromTwoVectors(Vector3d::UnitZ(), axis.normalized());
+    pose.orientation = rotationBetween(Vector3d::UnitZ(), axis.normalized());
     const double x = any(random), y = any(random), z = any(random);
     hand.stroke(pose, Vector3d(0.1 * x, 0.1 * y, 0.05 * z));
   }
@@ -186,14 +188,14 @@ TEST_P(BladeStructures, RandomStrokesStayFinite) {
 }
 
 TEST_P(BladeStructures, SavedFrontsGoOnToTheBit) {
-  Hand first(scene(50)), second(scene(50));
+  BladeStructuresHand first(scene(50)), second(scene(50));
   first.push(0, 25);
   second.push(0, 3);
   Archive saved;
   first.solver().persist(saved);
   Archive read(saved.sections());
   second.solver().persist(read);
-  second.appearAt(kStart_m + kStep_m * 24);
+  second.appearAt(kStart_m + kBladeStructuresStep_m * 24);
   first.push(25, 35);
   second.push(25, 35);
   EXPECT_EQ(first.hash(), second.hash());
@@ -201,7 +203,7 @@ TEST_P(BladeStructures, SavedFrontsGoOnToTheBit) {
 }
 
 TEST_P(BladeStructures, ZeroIsAsIfThereWereNoKey) {
-  Hand zero(sceneOf(bodyText(kind(), toughness(0)))), none(sceneOf(bodyText(kind(), "")));
+  BladeStructuresHand zero(sceneOf(bodyText(kind(), toughness(0)))), none(sceneOf(bodyText(kind(), "")));
   zero.push(0, 40);
   none.push(0, 40);
   EXPECT_GT(zero.springsCut(), 0u);
@@ -212,8 +214,8 @@ TEST_P(BladeStructures, ZeroIsAsIfThereWereNoKey) {
 /// Two bodies one above the other, of which one resists: the blade goes through both.
 TEST_P(BladeStructures, OneResistsBesideOneThatDoesNot) {
   const std::string above = bodyText(kind(), "", 0.016), resists = bodyText(kind(), toughness(50));
-  Hand both(sceneOf(resists + above)), alone(sceneOf(resists)), free(sceneOf(above));
-  for (Hand* hand : {&both, &alone, &free}) hand->push(0, 40);
+  BladeStructuresHand both(sceneOf(resists + above)), alone(sceneOf(resists)), free(sceneOf(above));
+  for (BladeStructuresHand* hand : {&both, &alone, &free}) hand->push(0, 40);
   EXPECT_EQ(both.solver().bladeWork(0).area_m2, alone.solver().bladeWork(0).area_m2);
   EXPECT_EQ(both.solver().bladeWork(0).work_j, alone.solver().bladeWork(0).work_j);
   EXPECT_GT(free.springsCut(), 0u);

@@ -10,11 +10,11 @@ using namespace viscera::test;
 
 namespace {
 
-constexpr double kSpacing_m = 0.01;
+constexpr double kCollisionSearchSpacing_m = 0.01;
 // Positions are float32 sums of numbers up to 1 m; pairs this near to their distance may go either way.
 constexpr double kTolerance_m = 5e-7;
 
-Scene collidingScene(const Model& model, CollisionSearch search = CollisionSearch::kGrid) {
+Scene collisionSearchCollidingScene(const Model& model, CollisionSearch search = CollisionSearch::kGrid) {
   Scene scene = sceneFor(model, 1);
   scene.collision.enabled = true;
   scene.collision.search = search;
@@ -53,7 +53,7 @@ class Search : public OnBackend {
                     kTolerance_m);
   }
   void expectComplete(const Model& model, const HostState& state, size_t least_pairs) const {
-    const Recall recall = this->recall(model, collidingScene(model), state);
+    const Recall recall = this->recall(model, collisionSearchCollidingScene(model), state);
     EXPECT_GE(recall.there, least_pairs);
     EXPECT_EQ(recall.found, recall.there);
     EXPECT_EQ(recall.wrong, 0u);
@@ -65,7 +65,8 @@ INSTANTIATE_TEST_SUITE_P(Backends, Search, ::testing::ValuesIn(backendKinds()), 
 }  // namespace
 
 TEST_P(Search, FindsEveryPairOfRandomCloudsOfRisingDensity) {
-  const Model model = modelOf({boxBody({7, 7, 7}, kSpacing_m), clothBody(20, 15, kSpacing_m)});
+  const Model model =
+      modelOf({boxBody({7, 7, 7}, kCollisionSearchSpacing_m), clothBody(20, 15, kCollisionSearchSpacing_m)});
   for (const double cube_m : {1.0, 0.3, 0.1, 0.06, 0.03}) {
     for (const uint32_t seed : {1u, 2u}) {
       SCOPED_TRACE(cube_m);
@@ -75,24 +76,25 @@ TEST_P(Search, FindsEveryPairOfRandomCloudsOfRisingDensity) {
 }
 
 TEST_P(Search, FindsEveryPairOfAClothRolledUpTightly) {
-  const Model model = modelOf({clothBody(12, 60, kSpacing_m)});
-  for (const double gap_m : {0.9 * kSpacing_m, 0.3 * kSpacing_m}) {
+  const Model model = modelOf({clothBody(12, 60, kCollisionSearchSpacing_m)});
+  for (const double gap_m : {0.9 * kCollisionSearchSpacing_m, 0.3 * kCollisionSearchSpacing_m}) {
     SCOPED_TRACE(gap_m);
     expectComplete(model, rolledState(model, 0.03, gap_m), 400);
   }
 }
 
 TEST_P(Search, FindsNothingAtRest) {
-  const Model model = modelOf({boxBody({5, 5, 5}, kSpacing_m), clothBody(9, 9, kSpacing_m)});
+  const Model model =
+      modelOf({boxBody({5, 5, 5}, kCollisionSearchSpacing_m), clothBody(9, 9, kCollisionSearchSpacing_m)});
   HostState state = restState(model);
   for (const uint32_t slot : model.bodies[1].lattice.active_slots) {
     state.displacement_m[model.slotOffset(1) + slot] = vec4(Vector3d(0, 0, 0.2));
   }
-  EXPECT_TRUE(pairsOf(GetParam(), model, collidingScene(model), state).empty());
+  EXPECT_TRUE(pairsOf(GetParam(), model, collisionSearchCollidingScene(model), state).empty());
 }
 
 TEST_P(Search, NodesInsideALatticeJoinInOnceTheyAreCutAndLoneNodesNever) {
-  const Model model = modelOf({boxBody({4, 4, 4}, kSpacing_m), chainBody(2, kSpacing_m)});
+  const Model model = modelOf({boxBody({4, 4, 4}, kCollisionSearchSpacing_m), chainBody(2, kCollisionSearchSpacing_m)});
   const uint32_t inside = static_cast<uint32_t>(model.bodies[0].lattice.slotAt({2, 2, 2}));
   const uint32_t far = model.slotOffset(1) + model.bodies[1].lattice.active_slots[0];
   HostState state = restState(model);
@@ -102,7 +104,7 @@ TEST_P(Search, NodesInsideALatticeJoinInOnceTheyAreCutAndLoneNodesNever) {
     state.displacement_m[model.slotOffset(1) + slot] = vec4(
         visitor ? Vector3d(there + Vector3d(0.001, 0, 0) - restPosition(model.bodies[1], slot)) : Vector3d(1, 0, 0));
   }
-  const Scene scene = collidingScene(model);
+  const Scene scene = collisionSearchCollidingScene(model);
   const CollisionPair pair = {inside, far};
   const auto isFound = [&] {
     const std::vector<CollisionPair> found = pairsOf(GetParam(), model, scene, state);
@@ -117,23 +119,23 @@ TEST_P(Search, NodesInsideALatticeJoinInOnceTheyAreCutAndLoneNodesNever) {
 }
 
 TEST_P(Search, PassesOverNodesThatAreNowhere) {
-  const Model model = modelOf({clothBody(8, 8, kSpacing_m)});
+  const Model model = modelOf({clothBody(8, 8, kCollisionSearchSpacing_m)});
   HostState state = cloudState(model, 0.05, 3);
   const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
   for (const auto& [node, value] : {std::pair{3u, nan}, {4u, inf}, {5u, -inf}, {6u, 1e30f}}) {
     state.displacement_m[model.bodies[0].lattice.active_slots[node]].y = value;
   }
-  const Recall recall = this->recall(model, collidingScene(model), state);
+  const Recall recall = this->recall(model, collisionSearchCollidingScene(model), state);
   EXPECT_GT(recall.there, 40u);
   EXPECT_EQ(recall.found, recall.there);
 }
 
 TEST_P(Search, StaggeredPartitionsFindNothingTwiceAndMoreTheMoreTheyAre) {
-  const Model model = modelOf({clothBody(25, 25, kSpacing_m)});
+  const Model model = modelOf({clothBody(25, 25, kCollisionSearchSpacing_m)});
   const HostState state = cloudState(model, 0.1, 5);
   double last = 0;
   for (const int partitions : {1, 2, 4}) {
-    Scene scene = collidingScene(model, CollisionSearch::kStaggered);
+    Scene scene = collisionSearchCollidingScene(model, CollisionSearch::kStaggered);
     scene.collision.partitions = partitions;
     scene.collision.window = 16;
     const Recall recall = this->recall(model, scene, state);
@@ -146,8 +148,8 @@ TEST_P(Search, StaggeredPartitionsFindNothingTwiceAndMoreTheMoreTheyAre) {
 }
 
 TEST_P(Search, StaggeredPartitionsFindFewerInACrowdThanTheirWindowHolds) {
-  const Model model = modelOf({clothBody(25, 25, kSpacing_m)});
-  Scene scene = collidingScene(model, CollisionSearch::kStaggered);
+  const Model model = modelOf({clothBody(25, 25, kCollisionSearchSpacing_m)});
+  Scene scene = collisionSearchCollidingScene(model, CollisionSearch::kStaggered);
   double last = 1;
   for (const double cube_m : {0.12, 0.06, 0.03}) {
     const double share = recall(model, scene, cloudState(model, cube_m, 6)).share();
@@ -158,10 +160,11 @@ TEST_P(Search, StaggeredPartitionsFindFewerInACrowdThanTheirWindowHolds) {
 
 TEST(SearchOnBothBackends, GivesTheSamePairsForEverySizeOfWorkGroup) {
   const gpu::Context context;
-  const Model model = modelOf({boxBody({6, 6, 6}, kSpacing_m), clothBody(20, 15, kSpacing_m)});
+  const Model model =
+      modelOf({boxBody({6, 6, 6}, kCollisionSearchSpacing_m), clothBody(20, 15, kCollisionSearchSpacing_m)});
   const HostState state = cloudState(model, 0.08, 4);
   for (const CollisionSearch search : {CollisionSearch::kGrid, CollisionSearch::kStaggered}) {
-    const Scene scene = collidingScene(model, search);
+    const Scene scene = collisionSearchCollidingScene(model, search);
     const std::vector<CollisionPair> pairs = pairsOf("gpu", model, scene, state, 32);
     EXPECT_GT(pairs.size(), 100u);
     EXPECT_EQ(pairsOf("gpu", model, scene, state, 256), pairs);
@@ -174,9 +177,9 @@ TEST(SearchOnBothBackends, PassesOverACrowdAndSeesEverybodyElse) {
   const gpu::Context context;
   const int edge = 70;  // 4900 nodes
   ASSERT_GT(static_cast<uint32_t>(edge * edge), kMostInBucket);
-  const Model model =
-      modelOf({clothBody(edge, edge, kSpacing_m), clothBody(9, 9, kSpacing_m), clothBody(9, 9, kSpacing_m)});
-  const Scene scene = collidingScene(model);
+  const Model model = modelOf({clothBody(edge, edge, kCollisionSearchSpacing_m),
+                               clothBody(9, 9, kCollisionSearchSpacing_m), clothBody(9, 9, kCollisionSearchSpacing_m)});
+  const Scene scene = collisionSearchCollidingScene(model);
   const FeatureSet features = featuresOf(model, scene, 1);
   LatticeBuffers buffers(model, bodyParams(model, safeTimeStep(model)), features);
   const SurroundingsPass pass(model, scene, features, buffers);
@@ -191,7 +194,7 @@ TEST(SearchOnBothBackends, PassesOverACrowdAndSeesEverybodyElse) {
       state.displacement_m[slot] = collapsed ? vec4(there - restPosition(model.bodies[0], slot)) : vec4(there);
     }
     for (const uint32_t slot : model.bodies[2].lattice.active_slots)
-      state.displacement_m[model.slotOffset(2) + slot] = vec4(Vector3d(0, 0, 0.2 * kSpacing_m));
+      state.displacement_m[model.slotOffset(2) + slot] = vec4(Vector3d(0, 0, 0.2 * kCollisionSearchSpacing_m));
     buffers.state.displacement[buffers.state.current].write(state.displacement_m);
     const std::vector<CollisionPair> pairs = pass.findPairs(buffers);
     EXPECT_GE(pairs.size(), 81u) << "the two sheets that lie on each other";

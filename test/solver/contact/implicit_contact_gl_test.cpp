@@ -12,9 +12,9 @@ using namespace viscera::test;
 
 namespace {
 
-constexpr double kSpacing_m = 0.01;
+constexpr double kImplicitContactSpacing_m = 0.01;
 // Of the force of the static equilibrium: the promise. What is left is rounding of tools' positions, and of sweeps.
-constexpr double kForce = 0.01;
+constexpr double kImplicitContactForce = 0.01;
 
 struct Way {
   Integrator integrator;
@@ -57,7 +57,7 @@ ObstacleConfig planeAt(double z_m) {
 
 TEST_P(ImplicitContact, AStaticProbeFeelsTheSameForceWhateverTheIntegratorAndTheSubstep) {
   for (const double poisson_ratio : {0.25, 0.45}) {
-    Body body = boxBody({2, 2, 2}, kSpacing_m);
+    Body body = boxBody({2, 2, 2}, kImplicitContactSpacing_m);
     body.material.poisson_ratio = poisson_ratio;
     body.material.drag_per_s = 20;
     fixBottom(body);
@@ -76,18 +76,19 @@ TEST_P(ImplicitContact, AStaticProbeFeelsTheSameForceWhateverTheIntegratorAndThe
                                         << " dt " << way.fraction);
       const Scene scene = sceneWith(way.integrator, model, 4, way.fraction, kIterations, {stylus});
       const auto solver = make(model, scene);
-      const Vector3d top(kSpacing_m, kSpacing_m, 2 * kSpacing_m - kDepth_m + kRadius_m);
+      const Vector3d top(kImplicitContactSpacing_m, kImplicitContactSpacing_m,
+                         2 * kImplicitContactSpacing_m - kDepth_m + kRadius_m);
       const double tick_s = 1 / scene.solver.tick_hz;
       for (double t = 0; t < 1.0; t += tick_s) solver->step(probeAt(top));
       const Vector3d felt = xyz(lastStats(*solver).impulse[0]) / tick_s;
-      EXPECT_NEAR(felt.z(), expected_n, kForce * std::abs(expected_n));
-      EXPECT_LT(std::hypot(felt.x(), felt.y()), kForce * std::abs(expected_n));
+      EXPECT_NEAR(felt.z(), expected_n, kImplicitContactForce * std::abs(expected_n));
+      EXPECT_LT(std::hypot(felt.x(), felt.y()), kImplicitContactForce * std::abs(expected_n));
     }
   }
 }
 
 TEST_P(ImplicitContact, AnObstacleBearsTheWeightOfWhatLiesOnItWhateverTheIntegratorAndTheSubstep) {
-  Body body = boxBody({3, 3, 2}, kSpacing_m);
+  Body body = boxBody({3, 3, 2}, kImplicitContactSpacing_m);
   body.material.drag_per_s = 20;
   const Model model = modelOf({body});
   const Vector3d gravity(0, 0, -9.81);
@@ -103,7 +104,7 @@ TEST_P(ImplicitContact, AnObstacleBearsTheWeightOfWhatLiesOnItWhateverTheIntegra
     for (double t = 0; t < 1.0; t += tick_s) solver->step({});
     const layout::TickStats stats = lastStats(*solver);
     const Vector3d borne = xyz(stats.obstacle_impulse[1]) / tick_s;
-    EXPECT_NEAR(borne.z(), weight_n, kForce * weight_n);
+    EXPECT_NEAR(borne.z(), weight_n, kImplicitContactForce * weight_n);
     EXPECT_EQ(xyz(stats.obstacle_impulse[0]), Vector3d::Zero().eval());
     double lowest_m = 0;
     const HostState state = solver->readState();

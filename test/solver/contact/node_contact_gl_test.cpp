@@ -12,11 +12,11 @@ using namespace viscera::test;
 
 namespace {
 
-constexpr double kSpacing_m = 0.01;
+constexpr double kNodeContactSpacing_m = 0.01;
 const Vector3d kGravity(0, 0, -9.81);
-constexpr int kIterations = 20;  // the default
-constexpr double kSpeed_m_per_s = 0.3;
-constexpr double kForce = 0.01;  // of the weight: the promise
+constexpr int kNodeContactIterations = 20;  // the default
+constexpr double kNodeContactSpeed_m_per_s = 0.3;
+constexpr double kNodeContactForce = 0.01;  // of the weight: the promise
 // Of the distance that nodes keep: those of the solution keep it, but for what forces that are shared unevenly leave,
 // and contacts after it begin at a thousandth.
 constexpr double kSinks = 5e-3;
@@ -40,7 +40,7 @@ class NodeContact : public OnBackend {
 INSTANTIATE_TEST_SUITE_P(Backends, NodeContact, ::testing::ValuesIn(backendKinds()), backendSuffix);
 
 Body box(const Vector3i& cells, const Vector3d& origin_m) {
-  Body body = boxBody(cells, kSpacing_m);
+  Body body = boxBody(cells, kNodeContactSpacing_m);
   body.lattice.origin_m = origin_m;
   body.material.drag_per_s = 20;
   return body;
@@ -64,7 +64,8 @@ ObstacleConfig planeAt(const Vector3d& position_m, const Vector3d& rotation_deg)
 
 /// Bodies that may touch each other, on a floor at z = 0.
 Scene onAFloor(double fraction, const Model& model, int substeps, std::vector<StylusConfig> styluses = {}) {
-  Scene scene = sceneWith(Integrator::kPd, model, substeps, fraction, kIterations, std::move(styluses), kGravity);
+  Scene scene =
+      sceneWith(Integrator::kPd, model, substeps, fraction, kNodeContactIterations, std::move(styluses), kGravity);
   scene.collision.enabled = true;
   scene.obstacles = {planeAt(Vector3d::Zero(), Vector3d::Zero())};
   return scene;
@@ -96,8 +97,9 @@ double weight(const Model& model, size_t body) {
 
 TEST_P(NodeContact, ABodyBearsTheWeightOfTheOneOnItWhateverTheSubstep) {
   // Nodes of the upper one are above the insides of faces of the lower one.
-  const Model model =
-      modelOf({box({2, 2, 1}, {0, 0, 0}), box({1, 1, 1}, {0.5 * kSpacing_m, 0.4 * kSpacing_m, 2.0 * kSpacing_m})});
+  const Model model = modelOf(
+      {box({2, 2, 1}, {0, 0, 0}),
+       box({1, 1, 1}, {0.5 * kNodeContactSpacing_m, 0.4 * kNodeContactSpacing_m, 2.0 * kNodeContactSpacing_m})});
   const double lower_n = weight(model, 0), upper_n = weight(model, 1);
   for (const double fraction : fractions()) {
     SCOPED_TRACE(fraction);
@@ -106,41 +108,42 @@ TEST_P(NodeContact, ABodyBearsTheWeightOfTheOneOnItWhateverTheSubstep) {
     for (double t = 0; t < 1.0; t += 1 / scene.solver.tick_hz) solver->step({});
     for (int t = 0; t < 5; ++t) {
       solver->step({});
-      EXPECT_NEAR(borne(*solver, scene, 0).z() - lower_n, upper_n, kForce * upper_n);
+      EXPECT_NEAR(borne(*solver, scene, 0).z() - lower_n, upper_n, kNodeContactForce * upper_n);
     }
-    EXPECT_GT(nearest(model, solver->readState()), (1 - kSinks) * kSpacing_m);
+    EXPECT_GT(nearest(model, solver->readState()), (1 - kSinks) * kNodeContactSpacing_m);
   }
 }
 
 TEST_P(NodeContact, NodesThatTouchObstaclesAndOtherNodesAtOnceBearBoth) {
   // Two boxes on the ground, pulled against a wall: the one leans on the other.
-  const Model model = modelOf({box({1, 2, 1}, {0, 0, 0}), box({1, 1, 1}, {1.95 * kSpacing_m, 0.5 * kSpacing_m, 0})});
+  const Model model = modelOf(
+      {box({1, 2, 1}, {0, 0, 0}), box({1, 1, 1}, {1.95 * kNodeContactSpacing_m, 0.5 * kNodeContactSpacing_m, 0})});
   const Vector3d gravity(-4, 0, -9.81);
   const double weight_n = weight(model, 0) + weight(model, 1);
   for (const double fraction : fractions()) {
     SCOPED_TRACE(fraction);
-    Scene scene = sceneWith(Integrator::kPd, model, 4, fraction, kIterations, {}, gravity);
+    Scene scene = sceneWith(Integrator::kPd, model, 4, fraction, kNodeContactIterations, {}, gravity);
     scene.collision.enabled = true;
     scene.collision.friction = 0;
     scene.obstacles = {planeAt(Vector3d::Zero(), Vector3d::Zero()), planeAt(Vector3d::Zero(), {0, 90, 0})};
     const auto solver = make(model, scene);
     for (double t = 0; t < 1.5; t += 1 / scene.solver.tick_hz) solver->step({});
     const layout::TickStats stats = lastStats(*solver);
-    EXPECT_NEAR(stats.obstacle_impulse[0].z * scene.solver.tick_hz, weight_n, kForce * weight_n);
+    EXPECT_NEAR(stats.obstacle_impulse[0].z * scene.solver.tick_hz, weight_n, kNodeContactForce * weight_n);
     const double pulled_n = weight_n * gravity.x() / gravity.z();
-    EXPECT_NEAR(stats.obstacle_impulse[1].x * scene.solver.tick_hz, pulled_n, kForce * pulled_n);
-    EXPECT_GT(nearest(model, solver->readState()), (1 - kSinks) * kSpacing_m);
+    EXPECT_NEAR(stats.obstacle_impulse[1].x * scene.solver.tick_hz, pulled_n, kNodeContactForce * pulled_n);
+    EXPECT_GT(nearest(model, solver->readState()), (1 - kSinks) * kNodeContactSpacing_m);
   }
 }
 
 TEST_P(NodeContact, ABoxThatIsPressedOnAnotherByAProbePassesItsForceOn) {
-  Body lower = box({2, 2, 1}, {0, 0, 0}), upper = box({2, 2, 1}, {0, 0, 2.0 * kSpacing_m});
+  Body lower = box({2, 2, 1}, {0, 0, 0}), upper = box({2, 2, 1}, {0, 0, 2.0 * kNodeContactSpacing_m});
   lower.material.poisson_ratio = upper.material.poisson_ratio = 0.4;
   const Model model = modelOf({lower, upper});
   const double weight_n = weight(model, 0) + weight(model, 1);
   StylusConfig stylus;
   stylus.probe.radius_m = 3e-3;
-  const Vector3d tip(kSpacing_m, kSpacing_m, 3 * kSpacing_m - 1e-3 + 3e-3);
+  const Vector3d tip(kNodeContactSpacing_m, kNodeContactSpacing_m, 3 * kNodeContactSpacing_m - 1e-3 + 3e-3);
   for (const double fraction : fractions()) {
     SCOPED_TRACE(fraction);
     Scene scene = onAFloor(fraction, model, 4, {stylus});
@@ -151,7 +154,7 @@ TEST_P(NodeContact, ABoxThatIsPressedOnAnotherByAProbePassesItsForceOn) {
     const double pressed_n = -stats.impulse[0].z * scene.solver.tick_hz;
     const double borne_n = stats.obstacle_impulse[0].z * scene.solver.tick_hz;
     EXPECT_GT(pressed_n, weight_n);
-    EXPECT_NEAR(borne_n, weight_n + pressed_n, kForce * borne_n);
+    EXPECT_NEAR(borne_n, weight_n + pressed_n, kNodeContactForce * borne_n);
   }
 }
 
@@ -166,19 +169,20 @@ class NodeCollision : public NodeContact {
  protected:
   Collision collide(double fraction, int iterations, double restitution) const {
     const Model model = modelOf(
-        {loose({2, 1, 1}, {0, 0, 0}), loose({1, 1, 1}, {0.4 * kSpacing_m, 0.3 * kSpacing_m, 2.3 * kSpacing_m})});
+        {loose({2, 1, 1}, {0, 0, 0}),
+         loose({1, 1, 1}, {0.4 * kNodeContactSpacing_m, 0.3 * kNodeContactSpacing_m, 2.3 * kNodeContactSpacing_m})});
     Scene scene = sceneWith(Integrator::kPd, model, 1, fraction, iterations);
     scene.collision.enabled = true;
     scene.collision.friction = 0.3;
     scene.collision.restitution = restitution;
     HostState state = restState(model);
-    place(model, 1, {}, kSpeed_m_per_s * Vector3d(0.2, 0, -1), state);
+    place(model, 1, {}, kNodeContactSpeed_m_per_s * Vector3d(0.2, 0, -1), state);
     const Vector3d before = momentum(model, state);
     const double before_j = energyOf(model, state);
     const auto solver = make(model, scene);
     solver->writeState(state);
     Collision out;
-    for (double t = 0; t < 0.02 / kSpeed_m_per_s; t += 1 / scene.solver.tick_hz) {
+    for (double t = 0; t < 0.02 / kNodeContactSpeed_m_per_s; t += 1 / scene.solver.tick_hz) {
       solver->step({});
       state = solver->readState();
       const Vector3d now = momentum(model, state);
@@ -209,7 +213,7 @@ TEST_P(NodeCollision, GainsNoEnergyHoweverFewTheSweeps) {
   for (const double restitution : {0.0, 1.0}) {
     for (const double fraction : fractions()) {
       SCOPED_TRACE(::testing::Message() << "dt " << fraction << " restitution " << restitution);
-      const Collision collision = collide(fraction, kIterations, restitution);
+      const Collision collision = collide(fraction, kNodeContactIterations, restitution);
       EXPECT_GT(collision.passed, 0.3);
       EXPECT_LT(collision.energy, 1 + kEnergy);
     }
@@ -217,14 +221,15 @@ TEST_P(NodeCollision, GainsNoEnergyHoweverFewTheSweeps) {
 }
 
 TEST_P(NodeContact, AClothThatFoldsOntoItselfLiesOnItself) {
-  const Model model = modelOf({clothBody(4, 9, kSpacing_m)});
+  const Model model = modelOf({clothBody(4, 9, kNodeContactSpacing_m)});
   HostState start = restState(model);
   std::vector<uint32_t> upper;
   for (const uint32_t slot : model.bodies[0].lattice.active_slots) {
     const Vector3d rest = restPosition(model.bodies[0], slot);
-    if (rest.x() <= 0.5 * kSpacing_m) continue;
+    if (rest.x() <= 0.5 * kNodeContactSpacing_m) continue;
     upper.push_back(slot);
-    start.displacement_m[slot] = vec4(Vector3d(-2 * rest.x() + 0.0013, 0.0011, std::min(rest.x(), 1.2 * kSpacing_m)));
+    start.displacement_m[slot] =
+        vec4(Vector3d(-2 * rest.x() + 0.0013, 0.0011, std::min(rest.x(), 1.2 * kNodeContactSpacing_m)));
   }
   for (const double fraction : fractions()) {
     SCOPED_TRACE(fraction);
@@ -234,8 +239,8 @@ TEST_P(NodeContact, AClothThatFoldsOntoItselfLiesOnItself) {
     for (double t = 0; t < 0.5; t += 1 / scene.solver.tick_hz) solver->step({});
     const HostState state = solver->readState();
     for (const uint32_t slot : upper) {
-      if (restPosition(model.bodies[0], slot).x() < 1.5 * kSpacing_m) continue;  // the fold
-      EXPECT_GT(positionOf(model, 0, slot, state).z(), kLies * kSpacing_m);
+      if (restPosition(model.bodies[0], slot).x() < 1.5 * kNodeContactSpacing_m) continue;  // the fold
+      EXPECT_GT(positionOf(model, 0, slot, state).z(), kLies * kNodeContactSpacing_m);
       EXPECT_LT(xyz(state.velocity_m_per_s[slot]).norm(), kRests_m_per_s);
     }
   }
@@ -245,8 +250,8 @@ TEST_P(NodeContact, TheSameSceneGivesTheSameBitsAfterAReset) {
   // They touch from the start on, and one falls towards the other: what contacts did last must be forgotten.
   Body lower = box({2, 2, 1}, {0, 0, 0});
   for (const uint32_t slot : lower.lattice.active_slots) lower.lattice.nodes[slot].lo |= layout::kFixedBit;
-  const Model model = modelOf({lower, box({1, 1, 1}, {0.004, 0.003, 1.8 * kSpacing_m})});
-  Scene scene = sceneWith(Integrator::kPd, model, 2, 3, kIterations, {}, kGravity);
+  const Model model = modelOf({lower, box({1, 1, 1}, {0.004, 0.003, 1.8 * kNodeContactSpacing_m})});
+  Scene scene = sceneWith(Integrator::kPd, model, 2, 3, kNodeContactIterations, {}, kGravity);
   scene.collision.enabled = true;
   const auto solver = make(model, scene);
   const auto hash = [&] {

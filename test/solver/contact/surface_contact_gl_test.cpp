@@ -15,7 +15,7 @@ using namespace viscera::test;
 
 namespace {
 
-constexpr double kSpacing_m = 0.01;
+constexpr double kSurfaceContactSpacing_m = 0.01;
 constexpr double kTop_m = 0.5 * 0.0273;          // of the body's surface
 constexpr double kTopNodes_m = kTop_m + 0.0027;  // the last cells are tissue to 0.73
 constexpr double kPress_m = 1e-3;
@@ -31,7 +31,7 @@ Model slab() {
   BodyConfig config;
   config.source = TissueSource::kBox;
   config.box_size_m = {0.03, 0.03, 0.0273};
-  config.spacing_m = kSpacing_m;
+  config.spacing_m = kSurfaceContactSpacing_m;
   config.material.cells = Cells::kMoments;
   config.material.drag_per_s = 20;
   FixedConfig bottom;
@@ -99,7 +99,8 @@ TEST_P(SurfaceContact, AProbeMeetsTheSurfaceWhereItIs) {
   constexpr double kRadius_m = 6e-3;
   StylusConfig stylus;
   stylus.probe.radius_m = kRadius_m;
-  const Vector3d above(-0.5 * kSpacing_m, -0.5 * kSpacing_m, kTop_m + kRadius_m);  // above a node
+  const Vector3d above(-0.5 * kSurfaceContactSpacing_m, -0.5 * kSurfaceContactSpacing_m,
+                       kTop_m + kRadius_m);  // above a node
   for (const Integrator integrator : kSteppers) {
     SCOPED_TRACE(::testing::Message() << "integrator " << static_cast<int>(integrator));
     const double fraction = integrator == Integrator::kLeapfrog ? 0.5 : 3;
@@ -127,7 +128,7 @@ TEST_P(SurfaceContact, TheReferenceMeetsItThere) {
   const Model model = slab();
   StylusConfig stylus;
   stylus.probe.radius_m = 6e-3;
-  const Vector3d tip(-0.5 * kSpacing_m, -0.5 * kSpacing_m, kTop_m + 6e-3 - kPress_m);
+  const Vector3d tip(-0.5 * kSurfaceContactSpacing_m, -0.5 * kSurfaceContactSpacing_m, kTop_m + 6e-3 - kPress_m);
   constexpr int kSubsteps = 4, kTicks = 12;
   const Scene scene = sceneWith(Integrator::kLeapfrog, model, kSubsteps, 0.5, 0, {stylus});
   const auto solver = make(model, scene);
@@ -148,12 +149,12 @@ namespace {
 
 /// A slab of as many cells, held below, and another one upside down above it, `gap_m` between their surfaces.
 Scene twoSlabs(double cells, double gap_m) {
-  const double height_m = cells * kSpacing_m;
+  const double height_m = cells * kSurfaceContactSpacing_m;
   Scene scene;
   BodyConfig lower;
   lower.source = TissueSource::kBox;
   lower.box_size_m = {0.03, 0.03, height_m};
-  lower.spacing_m = kSpacing_m;
+  lower.spacing_m = kSurfaceContactSpacing_m;
   lower.material.cells = Cells::kMoments;
   lower.material.drag_per_s = 20;
   BodyConfig upper = lower;
@@ -196,8 +197,8 @@ double farthestMoved(const HostState& state) {
 }  // namespace
 
 TEST_P(SurfaceContact, BodiesTouchWhereTheirSurfacesAre) {
-  constexpr double kNear_m = kSpacing_m;  // how near surfaces of such lattices touch
-  constexpr double kApart_m = 1e-4;       // what is left of the way in the time given
+  constexpr double kNear_m = kSurfaceContactSpacing_m;  // how near surfaces of such lattices touch
+  constexpr double kApart_m = 1e-4;                     // what is left of the way in the time given
   for (const Integrator integrator : kSteppers) {
     for (const double cells : {2.05, 2.52}) {  // nodes that touch lie just below the surface, and half a cell
       SCOPED_TRACE(::testing::Message() << "integrator " << static_cast<int>(integrator) << " cells " << cells);
@@ -222,7 +223,7 @@ TEST_P(SurfaceContact, BodiesTouchWhereTheirSurfacesAre) {
 }
 
 TEST_P(SurfaceContact, TheReferenceHasThemTouchThere) {
-  const Model model = buildModel(twoSlabs(2.52, kSpacing_m - 1e-3));
+  const Model model = buildModel(twoSlabs(2.52, kSurfaceContactSpacing_m - 1e-3));
   Scene scene = sceneWith(Integrator::kLeapfrog, model, 1, 0.5);
   scene.collision.enabled = true;
   const auto solver = make(model, scene);
@@ -256,7 +257,7 @@ Scene twoBalls() {
   BodyConfig ball;
   ball.source = TissueSource::kBall;
   ball.ball_radius_m = 0.024;
-  ball.spacing_m = kSpacing_m;
+  ball.spacing_m = kSurfaceContactSpacing_m;
   ball.material.cells = Cells::kMoments;
   ball.material.drag_per_s = ball.material.dashpot_ratio = 0;
   scene.bodies = {ball, ball};

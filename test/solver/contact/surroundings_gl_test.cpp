@@ -11,8 +11,8 @@ using namespace viscera::test;
 
 namespace {
 
-constexpr double kSpacing_m = 0.01;
-const Vector3d kGravity(0, 0, -9.81);
+constexpr double kSurroundingsSpacing_m = 0.01;
+const Vector3d kSurroundingsGravity(0, 0, -9.81);
 constexpr double kDegree = 3.14159265358979323846 / 180;
 
 ObstacleConfig obstacle(ObstacleShape shape, const Vector3d& position_m = Vector3d::Zero()) {
@@ -80,10 +80,10 @@ double farthest(const Model& model, const HostState& state, const Pose& pose) {
 }  // namespace
 
 TEST_P(Surround, AClothThatBouncesComesBackToTheSquareOfItsRestitution) {
-  const Model model = modelOf({looseCloth(4, 4, kSpacing_m)});
+  const Model model = modelOf({looseCloth(4, 4, kSurroundingsSpacing_m)});
   constexpr double kHeight_m = 0.05;
   for (const double restitution : {1.0, 0.6}) {
-    Scene scene = sceneFor(model, 8, {}, kGravity);
+    Scene scene = sceneFor(model, 8, {}, kSurroundingsGravity);
     scene.obstacles = {obstacle(ObstacleShape::kPlane)};
     scene.obstacles[0].restitution = restitution;
     HostState state = restState(model);
@@ -102,8 +102,8 @@ TEST_P(Surround, ABodyStaysOnASlopeIfAndOnlyIfItsTangentIsBelowTheFriction) {
   constexpr double kFriction = 0.5, kTime_s = 0.2;
   for (const double tangent : {0.48, 0.52}) {
     SCOPED_TRACE(tangent);
-    const Model model = modelOf({looseCloth(4, 4, kSpacing_m)});
-    Scene scene = sceneFor(model, 8, {}, kGravity);
+    const Model model = modelOf({looseCloth(4, 4, kSurroundingsSpacing_m)});
+    Scene scene = sceneFor(model, 8, {}, kSurroundingsGravity);
     const double angle = std::atan(tangent);
     scene.obstacles = {obstacle(ObstacleShape::kPlane)};
     scene.obstacles[0].rotation_deg = Vector3d(0, angle / kDegree, 0);
@@ -123,9 +123,9 @@ TEST_P(Surround, ABodyStaysOnASlopeIfAndOnlyIfItsTangentIsBelowTheFriction) {
 }
 
 TEST_P(Surround, ABlockOfTissueStaysOnASlopeToo) {
-  Body body = boxBody({3, 3, 2}, kSpacing_m);
+  Body body = boxBody({3, 3, 2}, kSurroundingsSpacing_m);
   const Model model = modelOf({body});
-  Scene scene = sceneFor(model, 8, {}, kGravity);
+  Scene scene = sceneFor(model, 8, {}, kSurroundingsGravity);
   scene.obstacles = {obstacle(ObstacleShape::kPlane)};
   scene.obstacles[0].rotation_deg = Vector3d(0, 20, 0);
   const Pose lying{Vector3d::Zero(), rotationFromDegrees(scene.obstacles[0].rotation_deg)};
@@ -136,15 +136,15 @@ TEST_P(Surround, ABlockOfTissueStaysOnASlopeToo) {
     begin(model, scene, state);
     const double moved_m = farthest(model, after(0.3, 8), lying);
     if (friction > std::tan(20 * kDegree)) {
-      EXPECT_LT(moved_m, 0.1 * kSpacing_m);  // it settles under its weight
+      EXPECT_LT(moved_m, 0.1 * kSurroundingsSpacing_m);  // it settles under its weight
     } else {
-      EXPECT_GT(moved_m, kSpacing_m);
+      EXPECT_GT(moved_m, kSurroundingsSpacing_m);
     }
   }
 }
 
 TEST_P(Surround, NothingPassesAThinPlateHoweverFast) {
-  const Model model = modelOf({looseCloth(5, 5, kSpacing_m)});
+  const Model model = modelOf({looseCloth(5, 5, kSurroundingsSpacing_m)});
   for (const double plate_speed : {0.0, 5.0}) {
     for (const double ways : {0.5, 3.0, 40.0}) {  // of the plate's thickness per substep
       SCOPED_TRACE(ways);
@@ -169,7 +169,7 @@ TEST_P(Surround, NothingPassesAThinPlateHoweverFast) {
 }
 
 TEST_P(Surround, FastNodesStopWhereTheyEnterSpheresAndCapsules) {
-  const Model model = modelOf({looseCloth(7, 7, kSpacing_m)});
+  const Model model = modelOf({looseCloth(7, 7, kSurroundingsSpacing_m)});
   constexpr double kRadius_m = 0.02;
   for (const ObstacleShape shape : {ObstacleShape::kSphere, ObstacleShape::kCapsule}) {
     Scene scene = sceneFor(model, 1);
@@ -196,8 +196,8 @@ TEST_P(Surround, FastNodesStopWhereTheyEnterSpheresAndCapsules) {
 }
 
 TEST_P(Surround, MovingPlatesCarryAndPush) {
-  const Model model = modelOf({looseCloth(4, 4, kSpacing_m)});
-  Scene scene = sceneFor(model, 8, {}, kGravity);
+  const Model model = modelOf({looseCloth(4, 4, kSurroundingsSpacing_m)});
+  Scene scene = sceneFor(model, 8, {}, kSurroundingsGravity);
   scene.obstacles = {plate(0.01)};
   scene.obstacles[0].friction = 0.5;
   scene.obstacles[0].velocity_m_per_s = Vector3d(0.2, 0, 0.1);
@@ -208,7 +208,7 @@ TEST_P(Surround, MovingPlatesCarryAndPush) {
 }
 
 TEST_P(Surround, AFrameThatAppearsIsNoMotionAndOneThatMovesPushesEvenly) {
-  const Model model = modelOf({looseCloth(4, 4, kSpacing_m)});
+  const Model model = modelOf({looseCloth(4, 4, kSurroundingsSpacing_m)});
   constexpr int kSubsteps = 16;
   Scene scene = sceneFor(model, kSubsteps);
   scene.obstacles = {plate(0.01)};
@@ -229,7 +229,7 @@ TEST_P(Surround, AFrameThatAppearsIsNoMotionAndOneThatMovesPushesEvenly) {
 }
 
 TEST_P(Surround, WhatAnObstacleAppearsAroundLeavesItNoFasterThanAProbePushes) {
-  const Model model = modelOf({looseCloth(5, 5, kSpacing_m)});
+  const Model model = modelOf({looseCloth(5, 5, kSurroundingsSpacing_m)});
   Scene scene = sceneFor(model, 1);
   scene.obstacles = {obstacle(ObstacleShape::kSphere, Vector3d(0, 0, 0.005))};
   scene.obstacles[0].radius_m = 0.05;
@@ -247,7 +247,7 @@ TEST_P(Surround, WhatAnObstacleAppearsAroundLeavesItNoFasterThanAProbePushes) {
 }
 
 TEST_P(Surround, FixedNodesAndLoneNodesAreLeftAlone) {
-  Body cloth = looseCloth(4, 4, kSpacing_m);
+  Body cloth = looseCloth(4, 4, kSurroundingsSpacing_m);
   const uint32_t fixed = fixNearest(cloth, {Vector3d::Zero()})[0];
   cloth.force_n = Vector3d(0, 0, 1);
   const Model model = modelOf({cloth});
@@ -264,7 +264,7 @@ TEST_P(Surround, FixedNodesAndLoneNodesAreLeftAlone) {
 }
 
 TEST_P(Surround, AForceGivesItsBodyForceOverMass) {
-  Body pushed = looseCloth(5, 6, kSpacing_m), other = looseCloth(5, 6, kSpacing_m);
+  Body pushed = looseCloth(5, 6, kSurroundingsSpacing_m), other = looseCloth(5, 6, kSurroundingsSpacing_m);
   pushed.force_n = Vector3d(0.01, -0.02, 0.03);
   const Model model = modelOf({pushed, other});
   begin(model, sceneFor(model, 8), restState(model));
@@ -279,7 +279,7 @@ TEST_P(Surround, AForceGivesItsBodyForceOverMass) {
 
 /// dv/dt = rho C/2 (w - v)^2 / (surface density), the same for every node: area and mass are both shares of triangles.
 TEST_P(Surround, WindBlowsAClothAwayAsTheEquationSays) {
-  const Model model = modelOf({looseCloth(6, 6, kSpacing_m)});
+  const Model model = modelOf({looseCloth(6, 6, kSurroundingsSpacing_m)});
   Scene scene = sceneFor(model, 8);
   scene.environment.wind.velocity_m_per_s = Vector3d(3, 0, 8);  // what blows along the cloth does nothing
   scene.environment.wind.drag_coefficient = 1.5;
@@ -295,7 +295,7 @@ TEST_P(Surround, WindBlowsAClothAwayAsTheEquationSays) {
 }
 
 TEST_P(Surround, NoWindHoweverDenseThrowsAClothFasterThanItself) {
-  const Model model = modelOf({looseCloth(6, 6, kSpacing_m)});
+  const Model model = modelOf({looseCloth(6, 6, kSurroundingsSpacing_m)});
   Scene scene = sceneFor(model, 8);
   scene.environment.wind.velocity_m_per_s = Vector3d(0, 0, 2);
   scene.environment.wind.air_density_kg_per_m3 = 2000;
@@ -309,7 +309,7 @@ TEST_P(Surround, NoWindHoweverDenseThrowsAClothFasterThanItself) {
 }
 
 TEST_P(Surround, GustsSwingTheWindByTheirShare) {
-  const Model model = modelOf({looseCloth(3, 3, kSpacing_m)});
+  const Model model = modelOf({looseCloth(3, 3, kSurroundingsSpacing_m)});
   Scene scene = sceneFor(model, 8);
   WindConfig& wind = scene.environment.wind;
   wind.velocity_m_per_s = Vector3d(0, 0, 4);
@@ -327,7 +327,7 @@ TEST_P(Surround, GustsSwingTheWindByTheirShare) {
 }
 
 TEST_P(Surround, ATornTriangleCatchesNoWind) {
-  const Model model = modelOf({looseCloth(3, 3, kSpacing_m)});
+  const Model model = modelOf({looseCloth(3, 3, kSurroundingsSpacing_m)});
   Scene scene = sceneFor(model, 1);
   scene.environment.wind.velocity_m_per_s = Vector3d(0, 0, 4);
   HostState state = restState(model);
@@ -340,7 +340,7 @@ TEST_P(Surround, ATornTriangleCatchesNoWind) {
 }
 
 TEST_P(Surround, VerletPaperIsRefusedWithTheKeysItCannotServe) {
-  const Model model = modelOf({boxBody({2, 2, 2}, kSpacing_m)});
+  const Model model = modelOf({boxBody({2, 2, 2}, kSurroundingsSpacing_m)});
   Scene scene = sceneFor(model, 1);
   scene.solver.integrator = Integrator::kVerletPaper;
   make(model, scene);
@@ -350,8 +350,8 @@ TEST_P(Surround, VerletPaperIsRefusedWithTheKeysItCannotServe) {
 }
 
 TEST_P(Surround, PdMeetsObstaclesToo) {
-  const Model model = modelOf({looseCloth(4, 4, kSpacing_m)});
-  Scene scene = sceneFor(model, 4, {}, kGravity);
+  const Model model = modelOf({looseCloth(4, 4, kSurroundingsSpacing_m)});
+  Scene scene = sceneFor(model, 4, {}, kSurroundingsGravity);
   scene.solver.integrator = Integrator::kPd;
   scene.obstacles = {obstacle(ObstacleShape::kPlane, Vector3d(0, 0, -0.001))};
   begin(model, scene, restState(model));

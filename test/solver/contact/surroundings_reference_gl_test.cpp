@@ -12,15 +12,15 @@ using namespace viscera::test;
 
 namespace {
 
-constexpr double kSpacing_m = 0.01;
-const Vector3d kGravity(0, 0, -9.81);
+constexpr double kSurroundingsReferenceSpacing_m = 0.01;
+const Vector3d kSurroundingsReferenceGravity(0, 0, -9.81);
 // Of the largest value. Positions of obstacles and nodes are absolute in the kernels: 6e-9 m of 0.1 m, and
 // displacements are 1e-3 m and more; velocities have what a substep of 1e-3 s makes of that (measured: 7e-7).
 constexpr double kAfterOne = 5e-6;
 // A hundred substeps on, with what sliding without friction never forgets (measured: 2e-4 there, 3e-5 elsewhere).
 constexpr double kAfterHundred = 1e-3;
 // Of the momentum that changed hands: float32 sums of that many terms.
-constexpr double kMomentum = 1e-4;
+constexpr double kSurroundingsReferenceMomentum = 1e-4;
 
 class SurroundReference : public OnBackend {
  protected:
@@ -61,7 +61,7 @@ class SurroundReference : public OnBackend {
 
 INSTANTIATE_TEST_SUITE_P(Backends, SurroundReference, ::testing::ValuesIn(backendKinds()), backendSuffix);
 
-ObstacleConfig obstacle(ObstacleShape shape, const Vector3d& position_m) {
+ObstacleConfig surroundingsReferenceObstacle(ObstacleShape shape, const Vector3d& position_m) {
   ObstacleConfig out;
   out.shape = shape;
   out.position_m = position_m;
@@ -79,29 +79,30 @@ HostState falling(const Model& model, size_t body, const Vector3d& at_m, const V
 }  // namespace
 
 TEST_P(SurroundReference, WindInGusts) {
-  const Model model = modelOf({clothBody(6, 7, kSpacing_m)});
+  const Model model = modelOf({clothBody(6, 7, kSurroundingsReferenceSpacing_m)});
   Scene scene = sceneFor(model, 1);
   scene.environment.wind.velocity_m_per_s = Vector3d(2, -1, 5);
   scene.environment.wind.gust_ratio = 0.6;
   scene.environment.wind.gust_period_s = 50 / scene.solver.tick_hz;
-  compare(model, scene, randomState(model, 0.1 * kSpacing_m, 0.05, 3));
+  compare(model, scene, randomState(model, 0.1 * kSurroundingsReferenceSpacing_m, 0.05, 3));
 }
 
 TEST_P(SurroundReference, ForcesOnBodies) {
-  Body pushed = clothBody(5, 6, kSpacing_m);
+  Body pushed = clothBody(5, 6, kSurroundingsReferenceSpacing_m);
   pushed.force_n = Vector3d(0.02, -0.01, 0.03);
   const Model model = modelOf({pushed});
-  compare(model, sceneFor(model, 1), randomState(model, 0.1 * kSpacing_m, 0.05, 5));
+  compare(model, sceneFor(model, 1), randomState(model, 0.1 * kSurroundingsReferenceSpacing_m, 0.05, 5));
 }
 
 TEST_P(SurroundReference, EveryShapeOfObstacleWithFrictionRestitutionAndMotion) {
   for (const ObstacleShape shape :
        {ObstacleShape::kPlane, ObstacleShape::kSphere, ObstacleShape::kCapsule, ObstacleShape::kBox}) {
     SCOPED_TRACE(static_cast<int>(shape));
-    Body body = boxBody({3, 3, 2}, kSpacing_m);
+    Body body = boxBody({3, 3, 2}, kSurroundingsReferenceSpacing_m);
     const Model model = modelOf({body});
-    Scene scene = sceneFor(model, 1, {}, kGravity);
-    ObstacleConfig under = obstacle(shape, Vector3d(0.004, -0.003, shape == ObstacleShape::kPlane ? -0.012 : -0.03));
+    Scene scene = sceneFor(model, 1, {}, kSurroundingsReferenceGravity);
+    ObstacleConfig under =
+        surroundingsReferenceObstacle(shape, Vector3d(0.004, -0.003, shape == ObstacleShape::kPlane ? -0.012 : -0.03));
     under.radius_m = 0.021;
     under.length_m = 0.03;
     under.size_m = Vector3d(0.031, 0.033, 0.041);
@@ -114,7 +115,8 @@ TEST_P(SurroundReference, EveryShapeOfObstacleWithFrictionRestitutionAndMotion) 
 }
 
 TEST_P(SurroundReference, ContactsOfTwoBodiesWithFrictionAndRestitution) {
-  const Model model = modelOf({clothBody(5, 5, kSpacing_m), clothBody(6, 6, 0.8 * kSpacing_m)});
+  const Model model = modelOf(
+      {clothBody(5, 5, kSurroundingsReferenceSpacing_m), clothBody(6, 6, 0.8 * kSurroundingsReferenceSpacing_m)});
   Scene scene = sceneFor(model, 1);
   scene.collision.enabled = true;
   scene.collision.friction = 0.4;
@@ -124,7 +126,7 @@ TEST_P(SurroundReference, ContactsOfTwoBodiesWithFrictionAndRestitution) {
 }
 
 TEST_P(SurroundReference, ContactsOfABodyWithItself) {
-  const Model model = modelOf({clothBody(5, 12, kSpacing_m)});
+  const Model model = modelOf({clothBody(5, 12, kSurroundingsReferenceSpacing_m)});
   Scene scene = sceneFor(model, 1);
   scene.collision.enabled = true;
   HostState start = restState(model);
@@ -139,9 +141,9 @@ TEST_P(SurroundReference, ContactsOfABodyWithItself) {
 }
 
 TEST_P(SurroundReference, MomentumThatANodeGetsIsThatOfTheObstacle) {
-  const Model model = modelOf({looseCloth(6, 6, kSpacing_m)});
+  const Model model = modelOf({looseCloth(6, 6, kSurroundingsReferenceSpacing_m)});
   Scene scene = sceneFor(model, 4);
-  scene.obstacles = {obstacle(ObstacleShape::kPlane, Vector3d(0, 0, -0.01))};
+  scene.obstacles = {surroundingsReferenceObstacle(ObstacleShape::kPlane, Vector3d(0, 0, -0.01))};
   const HostState start = falling(model, 0, {0, 0, 0.002}, {0.3, 0.1, -1.0}, restState(model));
   for (const Integrator integrator : {Integrator::kLeapfrog, Integrator::kPd}) {
     scene.solver.integrator = integrator;
@@ -156,19 +158,19 @@ TEST_P(SurroundReference, MomentumThatANodeGetsIsThatOfTheObstacle) {
     }
     const Vector3d gained = momentum(model, solver->readState()) - momentum(model, start);
     EXPECT_GT(gained.z(), 0.1 * std::abs(momentum(model, start).z()));
-    EXPECT_LT((given - gained).norm(), kMomentum * gained.norm()) << static_cast<int>(integrator);
+    EXPECT_LT((given - gained).norm(), kSurroundingsReferenceMomentum * gained.norm()) << static_cast<int>(integrator);
   }
 }
 
 TEST_P(SurroundReference, PdSolvesForObstaclesLikeTheReference) {
   for (const double friction : {0.0, 0.3}) {
     SCOPED_TRACE(friction);
-    Body body = boxBody({2, 2, 2}, kSpacing_m);
+    Body body = boxBody({2, 2, 2}, kSurroundingsReferenceSpacing_m);
     body.material.poisson_ratio = 0.4;
     const Model model = modelOf({body});
-    Scene scene = sceneWith(Integrator::kPd, model, 1, 3, 600, {}, kGravity);
-    scene.obstacles = {obstacle(ObstacleShape::kPlane, Vector3d(0, 0, -0.001)),
-                       obstacle(ObstacleShape::kSphere, Vector3d(-0.02, 0.015, 0.015))};
+    Scene scene = sceneWith(Integrator::kPd, model, 1, 3, 600, {}, kSurroundingsReferenceGravity);
+    scene.obstacles = {surroundingsReferenceObstacle(ObstacleShape::kPlane, Vector3d(0, 0, -0.001)),
+                       surroundingsReferenceObstacle(ObstacleShape::kSphere, Vector3d(-0.02, 0.015, 0.015))};
     scene.obstacles[0].rotation_deg = Vector3d(4, 6, 0);
     scene.obstacles[1].radius_m = 0.019;
     scene.obstacles[1].velocity_m_per_s = Vector3d(0.3, 0, 0);
@@ -183,11 +185,12 @@ TEST_P(SurroundReference, PdSolvesForObstaclesLikeTheReference) {
 TEST_P(SurroundReference, PdSolvesForContactsOfNodesLikeTheReference) {
   for (const double friction : {0.0, 0.3}) {
     SCOPED_TRACE(friction);
-    Body lower = boxBody({2, 2, 1}, kSpacing_m), upper = boxBody({1, 1, 1}, kSpacing_m);
+    Body lower = boxBody({2, 2, 1}, kSurroundingsReferenceSpacing_m),
+         upper = boxBody({1, 1, 1}, kSurroundingsReferenceSpacing_m);
     upper.lattice.origin_m = Vector3d(0.0035, 0.004, 0.0215);
     const Model model = modelOf({lower, upper});
-    Scene scene = sceneWith(Integrator::kPd, model, 1, 3, 800, {}, kGravity);
-    scene.obstacles = {obstacle(ObstacleShape::kPlane, Vector3d::Zero())};
+    Scene scene = sceneWith(Integrator::kPd, model, 1, 3, 800, {}, kSurroundingsReferenceGravity);
+    scene.obstacles = {surroundingsReferenceObstacle(ObstacleShape::kPlane, Vector3d::Zero())};
     scene.collision.enabled = true;
     scene.collision.friction = friction;
     scene.collision.restitution = 0.4;

@@ -16,13 +16,13 @@
 namespace viscera {
 namespace {
 
-constexpr double kStep_m = 0.001;
+constexpr double kTearingStep_m = 0.001;
 constexpr int kTorn = 60;      // ticks: the grip is 6 cm off then
 constexpr double kRow = 0.88;  // of the toughness: what springs are given, docs/cutting.md 8
 constexpr double kSum = 1e-3;  // of an integral by steps
 
 /// A block that is held below, with a grip above.
-Scene sceneOf(const std::string& tear, const std::string& more = "") {
+Scene tearingScene(const std::string& tear, const std::string& more = "") {
   return parseScene(
       "name: tears\nbodies:\n  - {source: box, structure: lattice, box_size_m: [0.04, 0.04, 0.024],\n"
       "     spacing_m: 0.004, material: {young_modulus_pa: 10000" +
@@ -35,22 +35,22 @@ Scene sceneOf(const std::string& tear, const std::string& more = "") {
           "solver: {tick_hz: 100, backend: cpu, integrator: leapfrog}\n",
       "tears.yaml");
 }
-std::string toughness(double j_per_m2) {
+std::string tearingToughness(double j_per_m2) {
   return ", tear: {toughness_j_per_m2: " + std::to_string(j_per_m2) + "}";
 }
 
 /// A hand that has hold of the middle of the upper side, and lifts it.
-class Hand {
+class TearingHand {
  public:
-  explicit Hand(const Scene& scene) : scene_(scene), model_(buildModel(scene_)), solver_(model_, scene_) {}
+  explicit TearingHand(const Scene& scene) : scene_(scene), model_(buildModel(scene_)), solver_(model_, scene_) {}
   void lift(int first, int last) {
     for (int i = first; i < last; ++i) {
       ToolMotions motions;
       motions[0].mode = ToolMode::kGrab;
       motions[0].present = true;
       motions[0].hold_begins = i == 0;
-      motions[0].from.position_m = {0, 0, 0.012 + kStep_m * i};
-      motions[0].to.position_m = {0, 0, 0.012 + kStep_m * (i + 1)};
+      motions[0].from.position_m = {0, 0, 0.012 + kTearingStep_m * i};
+      motions[0].to.position_m = {0, 0, 0.012 + kTearingStep_m * (i + 1)};
       solver_.step(motions);
       while (solver_.pollStats(stats_, true)) bad_ += stats_.nonfinite;
     }
@@ -83,7 +83,7 @@ double workOf(const TearLaw& law, bool axial, double stiffness_n_per_m) {
 }
 
 TEST(Tearing, SpringsAcrossASquareTakeTheWorkOfIt) {
-  const Model model = buildModel(sceneOf(toughness(10)));
+  const Model model = buildModel(tearingScene(tearingToughness(10)));
   const TearLaw law = tearLawOf(model.bodies[0]);
   const double k = 0.4 * 10000 * 0.004;
   EXPECT_NEAR((workOf(law, true, k) + 4 * workOf(law, false, k)) / (10 * 0.004 * 0.004), kRow, kSum);
@@ -93,8 +93,8 @@ TEST(Tearing, SpringsAcrossASquareTakeTheWorkOfIt) {
 }
 
 TEST(Tearing, AGripThatPullsTooHardTearsTissueOff) {
-  Hand tears(sceneOf(toughness(10))), holds(sceneOf(""));
-  for (Hand* hand : {&tears, &holds}) hand->lift(0, kTorn);
+  TearingHand tears(tearingScene(tearingToughness(10))), holds(tearingScene(""));
+  for (TearingHand* hand : {&tears, &holds}) hand->lift(0, kTorn);
   EXPECT_GT(tears.springsCut(), 0u);
   EXPECT_EQ(holds.springsCut(), 0u);
   EXPECT_LT(tears.force_n(), 0.5 * holds.force_n());
@@ -103,14 +103,14 @@ TEST(Tearing, AGripThatPullsTooHardTearsTissueOff) {
 }
 
 TEST(Tearing, WhatIsPulledLessIsAsIfThereWereNoKey) {
-  Hand tough(sceneOf(toughness(1000))), none(sceneOf(""));
-  for (Hand* hand : {&tough, &none}) hand->lift(0, 5);
+  TearingHand tough(tearingScene(tearingToughness(1000))), none(tearingScene(""));
+  for (TearingHand* hand : {&tough, &none}) hand->lift(0, 5);
   EXPECT_EQ(tough.springsCut(), 0u);
   EXPECT_EQ(tough.hash(), none.hash());
 }
 
 TEST(Tearing, TornSpringsAreCutInTheirMiddle) {
-  Hand hand(sceneOf(toughness(10)));
+  TearingHand hand(tearingScene(tearingToughness(10)));
   hand.lift(0, kTorn);
   const HostState state = hand.solver().readState();
   const Lattice& lattice = hand.model().bodies[0].lattice;
@@ -126,7 +126,7 @@ TEST(Tearing, TornSpringsAreCutInTheirMiddle) {
 }
 
 TEST(Tearing, SavedStatesGoOnToTheBit) {
-  Hand first(sceneOf(toughness(10))), second(sceneOf(toughness(10)));
+  TearingHand first(tearingScene(tearingToughness(10))), second(tearingScene(tearingToughness(10)));
   first.lift(0, 30);
   second.lift(0, 3);
   Archive saved;
@@ -140,7 +140,7 @@ TEST(Tearing, SavedStatesGoOnToTheBit) {
 }
 
 TEST(Tearing, AResetMendsIt) {
-  Hand hand(sceneOf(toughness(10)));
+  TearingHand hand(tearingScene(tearingToughness(10)));
   hand.lift(0, kTorn);
   const uint64_t torn = hand.hash();
   hand.solver().reset();
@@ -150,7 +150,7 @@ TEST(Tearing, AResetMendsIt) {
 
 TEST(Tearing, WhatItDoesNotGoWithIsRefused) {
   const auto refused = [](const std::function<void(Scene&)>& change) {
-    Scene scene = sceneOf(toughness(10));
+    Scene scene = tearingScene(tearingToughness(10));
     change(scene);
     try {
       requireTearingFits(scene);
@@ -166,7 +166,7 @@ TEST(Tearing, WhatItDoesNotGoWithIsRefused) {
   EXPECT_TRUE(names(refused([](Scene& s) { s.solver.integrator = Integrator::kPd; }), "solver.integrator leapfrog"));
   EXPECT_TRUE(names(refused([](Scene& s) { s.solver.backend = Backend::kGpu; }), "solver.backend cpu"));
   EXPECT_TRUE(names(refused([](Scene& s) { s.bodies[0].structure = Structure::kExplicit; }), "structure lattice"));
-  const Scene tears = sceneOf(toughness(10));
+  const Scene tears = tearingScene(tearingToughness(10));
   EXPECT_THROW(ReferenceTicks(buildModel(tears), tears), SceneError);
 }
 

@@ -15,14 +15,14 @@ using namespace viscera;
 
 namespace {
 
-constexpr double kSpacing_m = 0.01, kWidth_m = 0.08;
+constexpr double kTouchDepthsSpacing_m = 0.01, kWidth_m = 0.08;
 
 /// A plate, askew in its cells.
-BodyConfig plate(double cells) {
+BodyConfig touchDepthsPlate(double cells) {
   BodyConfig out;
   out.source = TissueSource::kBox;
-  out.box_size_m = {kWidth_m, kWidth_m, cells * kSpacing_m};
-  out.spacing_m = kSpacing_m;
+  out.box_size_m = {kWidth_m, kWidth_m, cells * kTouchDepthsSpacing_m};
+  out.spacing_m = kTouchDepthsSpacing_m;
   out.rotation_deg = {10, 20, 30};
   out.material.cells = Cells::kMoments;
   return out;
@@ -31,7 +31,7 @@ BodyConfig plate(double cells) {
 /// How far above a plate's faces a point stops that comes down on them, in spacings: least and most of many places.
 std::array<double, 2> stopsAbove(double cells) {
   Scene scene;
-  scene.bodies = {plate(cells)};
+  scene.bodies = {touchDepthsPlate(cells)};
   const Model model = buildModel(scene);
   const std::vector<float> depths_m = touchDepths(model, scene.collision);
   const Quaterniond turned(bodyPose(scene.bodies[0]).orientation);
@@ -41,7 +41,7 @@ std::array<double, 2> stopsAbove(double cells) {
   std::array<double, 2> out = {1e9, -1e9};
   for (int place = 0; place < 400; ++place) {
     const double side = place % 2 ? 1 : -1;
-    const Vector3d x(inner(random), inner(random), side * 0.5 * cells * kSpacing_m);
+    const Vector3d x(inner(random), inner(random), side * 0.5 * cells * kTouchDepthsSpacing_m);
     double stops_m = -1;
     for (const uint32_t slot : model.bodies[0].lattice.active_slots) {
       if (std::abs(depths_m[slot]) >= layout::kTouchesOnceCut) continue;
@@ -50,7 +50,7 @@ std::array<double, 2> stopsAbove(double cells) {
       if (aside_m >= reach_m) continue;
       stops_m = std::max(stops_m, side * apart.z() + std::sqrt(reach_m * reach_m - aside_m * aside_m));
     }
-    out = {std::min(out[0], stops_m / kSpacing_m), std::max(out[1], stops_m / kSpacing_m)};
+    out = {std::min(out[0], stops_m / kTouchDepthsSpacing_m), std::max(out[1], stops_m / kTouchDepthsSpacing_m)};
   }
   return out;
 }

@@ -13,8 +13,8 @@ using namespace viscera::test;
 
 namespace {
 
-constexpr double kSpacing_m = 1.0 / 64;  // so that places of nodes and their differences have no rounding
-constexpr int kSubsteps = 10;
+constexpr double kCpuSolverSpacing_m = 1.0 / 64;  // so that places of nodes and their differences have no rounding
+constexpr int kCpuSolverSubsteps = 10;
 // As for the GPU (leapfrog_gl_test.cpp): relative to the largest value, after ten substeps.
 constexpr double kFloat32Displacement = 1e-6;
 constexpr double kFloat32Velocity = 5e-6;
@@ -38,7 +38,7 @@ Model everything(Cells cells = Cells::kSprings) {
 /// The state after pulling, probing and coming to itself.
 HostState stateAfterTools(const std::string& simd, const Model& model, int threads) {
   const PullAndProbe tools;
-  const auto solver = makeCpu(simd, model, sceneFor(model, kSubsteps, tools.styluses, {0, 0, -9.81}), threads);
+  const auto solver = makeCpu(simd, model, sceneFor(model, kCpuSolverSubsteps, tools.styluses, {0, 0, -9.81}), threads);
   solver->writeState(randomState(model, 1e-3, 0.5, 11));
   for (int t = 0; t < 4; ++t) solver->step(tools.motions(t, 0.04));
   return solver->readState();
@@ -46,7 +46,7 @@ HostState stateAfterTools(const std::string& simd, const Model& model, int threa
 
 /// A box of which every spring may have any length. Its dashpots are so strong that they count.
 Body looseBox() {
-  Body body = boxBody({6, 5, 7}, kSpacing_m);
+  Body body = boxBody({6, 5, 7}, kCpuSolverSpacing_m);
   body.material.drag_per_s = 0;
   return body;
 }
@@ -63,8 +63,8 @@ HostState onePoint(const Model& model) {
 /// At rest but for one corner, where springs are long, short, or of no length at all: all paths beside each other.
 HostState mildWildAndCollapsed(const Model& model) {
   const Lattice& lattice = model.bodies[0].lattice;
-  HostState state = randomState(model, 0.01 * kSpacing_m, 0.1, 3);
-  const HostState wild = randomState(model, kSpacing_m, 0.1, 4), point = onePoint(model);
+  HostState state = randomState(model, 0.01 * kCpuSolverSpacing_m, 0.1, 3);
+  const HostState wild = randomState(model, kCpuSolverSpacing_m, 0.1, 4), point = onePoint(model);
   for (uint32_t slot : lattice.active_slots) {
     const Vector3i n = lattice.nodeAt(slot);
     if (n.x() < 3) state.displacement_m[slot] = wild.displacement_m[slot];
@@ -105,7 +105,7 @@ class Cpu : public ::testing::TestWithParam<std::string> {
       if (body.lattice.nodeAt(slot).x() == 3) body.lattice.nodes[slot].lo &= ~layout::kCellBit;
     }
     const Model model = modelOf({body});
-    const auto solver = make(model, sceneFor(model, kSubsteps));
+    const auto solver = make(model, sceneFor(model, kCpuSolverSubsteps));
     HostState state = randomState(model, 5e-5, 0.1, 3);
     for (uint32_t slot : body.lattice.active_slots) {
       if (body.lattice.nodeAt(slot).x() >= 4) state.displacement_m[slot].x = 1000;  // a million spacings
@@ -114,7 +114,7 @@ class Cpu : public ::testing::TestWithParam<std::string> {
     ReferenceSolver reference(model, Vector3d::Zero(), static_cast<float>(solver->dt_s()));
     load(reference, state);
     solver->step({});
-    for (int s = 0; s < kSubsteps; ++s) reference.substep();
+    for (int s = 0; s < kCpuSolverSubsteps; ++s) reference.substep();
     const HostState after = solver->readState();
     double fastest = 0;
     for (uint32_t slot : body.lattice.active_slots) fastest = std::max(fastest, reference.v_m_per_s[slot].norm());
@@ -197,12 +197,12 @@ TEST_P(Cpu, SaysWhatItRunsOn) {
 }
 
 TEST_P(Cpu, SpringsOfOrdinaryLengthPullLikeTheReferences) {
-  expectForcesLikeReference([](const Model& model) { return randomState(model, 0.02 * kSpacing_m, 0.1, 3); });
+  expectForcesLikeReference([](const Model& model) { return randomState(model, 0.02 * kCpuSolverSpacing_m, 0.1, 3); });
 }
 
 TEST_P(Cpu, SpringsOfAnyLengthPullLikeTheReferences) {
-  expectForcesLikeReference([](const Model& model) { return randomState(model, kSpacing_m, 1, 3); });
-  expectForcesLikeReference([](const Model& model) { return randomState(model, 100 * kSpacing_m, 1, 3); });
+  expectForcesLikeReference([](const Model& model) { return randomState(model, kCpuSolverSpacing_m, 1, 3); });
+  expectForcesLikeReference([](const Model& model) { return randomState(model, 100 * kCpuSolverSpacing_m, 1, 3); });
 }
 
 TEST_P(Cpu, SpringsOfNoLengthPushWhereTheyLieAtRest) {
@@ -214,9 +214,9 @@ TEST_P(Cpu, MildWildAndCollapsedSpringsOfOneBrickPullLikeTheReferences) {
 }
 
 TEST_P(Cpu, PullsLikeTheReferenceWhereSomeSpringsAreCutAndOthersHalf) {
-  const Model model = modelOf({blobBody(500, kSpacing_m, 3)});
+  const Model model = modelOf({blobBody(500, kCpuSolverSpacing_m, 3)});
   const auto solver = make(model, sceneFor(model, 1));
-  for (const double size_m : {0.02 * kSpacing_m, 2 * kSpacing_m}) {
+  for (const double size_m : {0.02 * kCpuSolverSpacing_m, 2 * kCpuSolverSpacing_m}) {
     ReferenceSolver reference(model, Vector3d::Zero(), static_cast<float>(solver->dt_s()));
     const HostState state = randomState(model, size_m, 0.1, 6);
     load(reference, state);
@@ -240,7 +240,7 @@ TEST_P(Cpu, ForcesOfARandomStateSumToNothing) {
       body.material.dashpot_ratio = dashpot_ratio;
       const Model model = modelOf({body});
       const auto solver = make(model, sceneFor(model, 1));
-      for (const auto& start : {mildWildAndCollapsed(model), randomState(model, 0.02 * kSpacing_m, 0.1, 5)}) {
+      for (const auto& start : {mildWildAndCollapsed(model), randomState(model, 0.02 * kCpuSolverSpacing_m, 0.1, 5)}) {
         HostState state = start;
         for (layout::vec4& v : state.velocity_m_per_s) {
           if (dashpot_ratio == 0) v = {};

@@ -16,13 +16,13 @@ namespace viscera {
 namespace {
 
 constexpr int kTicks = 5, kMost = 7;
-constexpr double kSpacing_m = 0.004;
+constexpr double kThreadsJoinAndLeaveSpacing_m = 0.004;
 constexpr Integrator kAllIntegrators[] = {Integrator::kLeapfrog, Integrator::kVerletPaper, Integrator::kPd,
                                           Integrator::kMultigrid};
 
 /// A block held at its bottom, with energy of volume and a dashpot.
 Model heldBlock() {
-  Body body = test::boxBody({13, 13, 9}, kSpacing_m);
+  Body body = test::boxBody({13, 13, 9}, kThreadsJoinAndLeaveSpacing_m);
   body.material.poisson_ratio = 0.3;
   for (uint32_t slot : body.lattice.active_slots) {
     if (body.lattice.nodeAt(slot).z() == 0) body.lattice.nodes[slot].lo |= layout::kFixedBit;

@@ -11,12 +11,12 @@ using namespace viscera::test;
 
 namespace {
 
-constexpr float kDt_s = 1e-4f;
+constexpr float kToolPassesDt_s = 1e-4f;
 // Absolute positions of up to 0.2 m in float32, a few times rounded [m].
 constexpr double kPosition_m = 4 * 0.2 / (1 << 24);
 // Springs that are touched add the roundings of both ends in each round.
 constexpr double kEdges_m = 2 * kPosition_m;
-constexpr double kVelocity_m_per_s = kPosition_m / static_cast<double>(kDt_s);
+constexpr double kVelocity_m_per_s = kPosition_m / static_cast<double>(kToolPassesDt_s);
 
 Vector3f single(const Vector3d& v) {
   return v.cast<float>();
@@ -47,7 +47,7 @@ class CpuTools : public ::testing::Test {
   CpuTools()
       : model_(modelOf({rubberBox()})),
         lattice_(model_, bodyParams(model_, safeTimeStep(model_)), featuresFor(model_, true)),
-        reference_(model_, Vector3d::Zero(), static_cast<double>(kDt_s), options()) {}
+        reference_(model_, Vector3d::Zero(), static_cast<double>(kToolPassesDt_s), options()) {}
 
   /// Six cells to a side, held at the bottom, with energy of volume; two bricks to a side.
   static Body rubberBox() {
@@ -91,11 +91,11 @@ class CpuTools : public ::testing::Test {
     size_t moved = 0;
     for (uint32_t slot : lattice_.store.active) {
       const Vector3d u = xyz(before.displacement_m[slot]), v = xyz(before.velocity_m_per_s[slot]);
-      setPlanes(u_next, slot, single(u + static_cast<double>(kDt_s) * v));
+      setPlanes(u_next, slot, single(u + static_cast<double>(kToolPassesDt_s) * v));
       setPlanes(v_next, slot, single(v));
     }
     Substep step;
-    step.dt_s = kDt_s;
+    step.dt_s = kToolPassesDt_s;
     step.push_speed_m_per_s = 20;
     step.edge_reach_m = edgeReach(model_);
     const std::vector<uint32_t>& slots = lattice_.store.active;

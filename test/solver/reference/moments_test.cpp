@@ -13,10 +13,10 @@ using namespace viscera::test;
 
 namespace {
 
-constexpr double kSpacing_m = 0.01;
+constexpr double kMomentsSpacing_m = 0.01;
 
 Body askew() {
-  return momentBody({3, 3, 3}, kSpacing_m, [](const Vector3d& p) { return p.dot(Vector3d(1, 0.7, 0.4)) < 3.1; });
+  return momentBody({3, 3, 3}, kMomentsSpacing_m, [](const Vector3d& p) { return p.dot(Vector3d(1, 0.7, 0.4)) < 3.1; });
 }
 
 Field randomField(const ReferenceLattice& lattice, double size_m) {
@@ -37,9 +37,9 @@ TEST(MomentCells, ForcesAndStiffnessAreDerivativesOfTheEnergy) {
       body.material.poisson_ratio = nu;
       const Model model = modelOf({body});
       const ReferenceLattice lattice(model);
-      const Field u = randomField(lattice, size * kSpacing_m);
-      EXPECT_LT(forceError(lattice, u, kSpacing_m), kDifference) << nu << ' ' << size;
-      EXPECT_LT(stiffnessError(lattice, u, kSpacing_m), kDifference) << nu << ' ' << size;
+      const Field u = randomField(lattice, size * kMomentsSpacing_m);
+      EXPECT_LT(forceError(lattice, u, kMomentsSpacing_m), kDifference) << nu << ' ' << size;
+      EXPECT_LT(stiffnessError(lattice, u, kMomentsSpacing_m), kDifference) << nu << ' ' << size;
     }
   }
 }
@@ -48,7 +48,7 @@ TEST(MomentCells, RigidMotionHasNoEnergyAndTurningChangesNone) {
   constexpr double kRounding = 1e-12;  // of the energy of the same strain
   const Model model = modelOf({askew()});
   const ReferenceLattice lattice(model);
-  const Field u = randomField(lattice, 0.1 * kSpacing_m);
+  const Field u = randomField(lattice, 0.1 * kMomentsSpacing_m);
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(1.1, Vector3d(1, 2, -1).normalized()).toRotationMatrix();
   Field turned(lattice.slots(), Vector3d::Zero()), rigid = turned;
   for (const uint32_t slot : lattice.active) {
@@ -68,11 +68,11 @@ TEST(MomentCells, RigidMotionHasNoEnergyAndTurningChangesNone) {
 TEST(MomentCells, OneCellBendsAndTwistsAsTheSolidDoes) {
   constexpr double kSmall = 1e-5;  // of the spacing: strains above are of second order
   for (const double nu : {0.0, 0.25, 0.45}) {
-    Body body = momentBody({1, 1, 1}, kSpacing_m, [](const Vector3d&) { return true; });
+    Body body = momentBody({1, 1, 1}, kMomentsSpacing_m, [](const Vector3d&) { return true; });
     body.material.poisson_ratio = nu;
     const Model model = modelOf({body});
     const ReferenceLattice lattice(model);
-    const double young = body.material.young_modulus_pa, mu = young / (2 * (1 + nu)), h = kSpacing_m;
+    const double young = body.material.young_modulus_pa, mu = young / (2 * (1 + nu)), h = kMomentsSpacing_m;
     const auto energy = [&](double bend_x, double bend_y, double twist) {
       Field u(lattice.slots(), Vector3d::Zero());
       for (const uint32_t slot : lattice.active) {
@@ -95,10 +95,10 @@ TEST(MomentCells, OneCellBendsAndTwistsAsTheSolidDoes) {
 TEST(MomentCells, TissueOnOneSideOfACellBendsAboutItsOwnMiddle) {
   constexpr double kBend = 1e-5;         // of the spacing: strains above are of second order
   constexpr double kSecondOrder = 1e-3;  // what is left of them
-  Body body = momentBody({8, 1, 1}, kSpacing_m, [](const Vector3d& p) { return p.z() < 0.5; });
+  Body body = momentBody({8, 1, 1}, kMomentsSpacing_m, [](const Vector3d& p) { return p.z() < 0.5; });
   const Model model = modelOf({body});
   const ReferenceLattice lattice(model);
-  const double h = kSpacing_m, young = body.material.young_modulus_pa, nu = body.material.poisson_ratio;
+  const double h = kMomentsSpacing_m, young = body.material.young_modulus_pa, nu = body.material.poisson_ratio;
   const auto energy = [&](double middle) {
     Field u(lattice.slots(), Vector3d::Zero());
     for (const uint32_t slot : lattice.active) {
@@ -119,11 +119,11 @@ TEST(MomentCells, ACrushedCellResistsEverMore) {
   constexpr double kAtLeast = 1.5;  // of the force at a half: what springs lose (to 0.9 of it) and more is made good
   constexpr double kLetsGo = 0.75;  // of the largest force before: one corner alone is held by little
   for (const double nu : {0.0, 0.25, 0.45}) {
-    Body body = momentBody({1, 1, 1}, kSpacing_m, [](const Vector3d&) { return true; });
+    Body body = momentBody({1, 1, 1}, kMomentsSpacing_m, [](const Vector3d&) { return true; });
     body.material.poisson_ratio = nu;
     const Model model = modelOf({body});
     const ReferenceLattice lattice(model);
-    const double h = kSpacing_m;
+    const double h = kMomentsSpacing_m;
     const auto squeezed = [&](double by) {  // sides held
       Field u(lattice.slots(), Vector3d::Zero());
       for (const uint32_t slot : lattice.active) u[slot].z() = -by * lattice.restPosition(slot).z();

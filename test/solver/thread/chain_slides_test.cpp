@@ -12,9 +12,9 @@
 namespace viscera {
 namespace {
 
-constexpr double kSubstep_s = 5e-4, kLink_m = 5e-4;
-constexpr double kLimit = 1.06;      // of a limit: iterations end 5 % above
-constexpr double kMomentum = 1e-12;  // of the impulses between thread and tissue
+constexpr double kChainSlidesSubstep_s = 5e-4, kChainSlidesLink_m = 5e-4;
+constexpr double kLimit = 1.06;                 // of a limit: iterations end 5 % above
+constexpr double kChainSlidesMomentum = 1e-12;  // of the impulses between thread and tissue
 
 ChainMaterial soft() {
   ChainMaterial out;
@@ -25,14 +25,14 @@ ChainMaterial soft() {
 
 std::vector<Vector3d> alongX(size_t nodes) {
   std::vector<Vector3d> out;
-  for (size_t i = 0; i < nodes; ++i) out.emplace_back(static_cast<double>(i) * kLink_m, 0, 0);
+  for (size_t i = 0; i < nodes; ++i) out.emplace_back(static_cast<double>(i) * kChainSlidesLink_m, 0, 0);
   return out;
 }
 
 ChainSlide channelAt(double s) {
   ChainSlide out;
   out.s = s;
-  out.to_m = Vector3d(s * kLink_m, 0, 0);
+  out.to_m = Vector3d(s * kChainSlidesLink_m, 0, 0);
   return out;
 }
 
@@ -56,16 +56,16 @@ struct FreeMasses {
       for (size_t k = 0; k < slides.size(); ++k) {
         speeds[k] += (slides[k].impulse_ns - given[k]) / this->mass_kg;
         given[k] = slides[k].impulse_ns;
-        slides[k].to_m = places[k] + kSubstep_s * speeds[k];
+        slides[k].to_m = places[k] + kChainSlidesSubstep_s * speeds[k];
       }
     };
   }
   void begin(std::vector<ChainSlide>& slides) {
-    for (size_t k = 0; k < slides.size(); ++k) slides[k].to_m = places[k] + kSubstep_s * speeds[k];
+    for (size_t k = 0; k < slides.size(); ++k) slides[k].to_m = places[k] + kChainSlidesSubstep_s * speeds[k];
     given.assign(given.size(), Vector3d::Zero());
   }
   void end() {
-    for (size_t k = 0; k < places.size(); ++k) places[k] += kSubstep_s * speeds[k];
+    for (size_t k = 0; k < places.size(); ++k) places[k] += kChainSlidesSubstep_s * speeds[k];
   }
   double mass_kg;
   std::vector<Vector3d> places, speeds, given;
@@ -100,7 +100,7 @@ TEST(ChainSlides, KeepTheMomentumOfThreadAndTissue) {
   for (int k = 0; k < 1000; ++k) {
     if (k == 3) first = momentum();  // speeds that its links allow
     tissue.begin(around.slides);
-    chain.step(kSubstep_s, around);
+    chain.step(kChainSlidesSubstep_s, around);
     tissue.end();
     for (size_t c = 0; c < 3; ++c) {
       tissue_speed = std::max(tissue_speed, tissue.speeds[c].norm());
@@ -110,7 +110,7 @@ TEST(ChainSlides, KeepTheMomentumOfThreadAndTissue) {
       exchanged += around.slides[c].impulse_ns.norm();
     }
   }
-  EXPECT_LT((momentum() - first).norm(), kMomentum * exchanged);
+  EXPECT_LT((momentum() - first).norm(), kChainSlidesMomentum * exchanged);
   EXPECT_GT(tissue_speed, 1e-3);
   EXPECT_LT(off_m, 1e-3);
 }
@@ -131,15 +131,15 @@ TEST(ChainSlides, LeaveTheTailOfANeedleThatGoesOn) {
   around.slides[0].mass_kg = 0.7 * kTissue_kg;                        // tissue shows less than it has
   const Vector3d home_m = tissue.places[0] + Vector3d(0, 0, -0.006);  // as if it had clung so far
   for (int k = 0; k < kSubsteps; ++k) {
-    tissue.speeds[0] +=
-        kSubstep_s * (kSpring_n_per_m / kTissue_kg * (home_m - tissue.places[0]) - kDamping_per_s * tissue.speeds[0]);
-    around.holds[0].to_m += kSubstep_s * kWay_m_per_s * Vector3d(-1, 0, 0.5);
+    tissue.speeds[0] += kChainSlidesSubstep_s * (kSpring_n_per_m / kTissue_kg * (home_m - tissue.places[0]) -
+                                                 kDamping_per_s * tissue.speeds[0]);
+    around.holds[0].to_m += kChainSlidesSubstep_s * kWay_m_per_s * Vector3d(-1, 0, 0.5);
     tissue.begin(around.slides);
-    chain.step(kSubstep_s, around);
+    chain.step(kChainSlidesSubstep_s, around);
     tissue.end();
   }
   EXPECT_LT((tissue.places[0] - home_m).norm(), 2e-4);
-  EXPECT_GT(around.slides[0].s * kLink_m, 0.8 * kSubsteps * kSubstep_s * kWay_m_per_s);
+  EXPECT_GT(around.slides[0].s * kChainSlidesLink_m, 0.8 * kSubsteps * kChainSlidesSubstep_s * kWay_m_per_s);
   EXPECT_FALSE(around.slides[0].out);
 }
 
@@ -151,11 +151,12 @@ TEST(ChainSlides, HoldAThreadThatIsPulledByLessThanTheirFriction) {
     for (ChainSlide& slide : around.slides) slide.through_n = 0.025;
     for (int k = 0; k < 140; ++k) {
       around.loads = {{79, Vector3d(pull_n * std::min(1.0, k / 100.0), 0, 0)}};
-      chain.step(kSubstep_s, around);
+      chain.step(kChainSlidesSubstep_s, around);
     }
     if (pull_n < 0.05) {
       EXPECT_NEAR(around.slides[1].s, 45.2, 1e-2);
-      EXPECT_NEAR((around.slides[0].impulse_ns + around.slides[1].impulse_ns).x() / kSubstep_s, pull_n, 1e-3 * pull_n);
+      EXPECT_NEAR((around.slides[0].impulse_ns + around.slides[1].impulse_ns).x() / kChainSlidesSubstep_s, pull_n,
+                  1e-3 * pull_n);
     } else {
       EXPECT_LT(around.slides[1].s, 45.2 - 1);
     }
@@ -169,15 +170,15 @@ TEST(ChainSlides, TearAtWhatTheirTissueBearsAndSayByHowMuch) {
   around.holds = {held(chain, 0), held(chain, 79)};
   around.slides = {channelAt(40.5)};
   around.slides[0].most_n = kMost_n;
-  const Vector3d way(0, 0, 0.05 * kSubstep_s);
+  const Vector3d way(0, 0, 0.05 * kChainSlidesSubstep_s);
   Vector3d torn = Vector3d::Zero();
   for (int k = 0; k < 200; ++k) {
     around.slides[0].to_m += way;  // the thread is straight: it cannot follow
-    chain.step(kSubstep_s, around);
+    chain.step(kChainSlidesSubstep_s, around);
     torn += around.slides[0].torn_m;
     around.slides[0].to_m += around.slides[0].torn_m;
   }
-  EXPECT_NEAR(around.slides[0].impulse_ns.norm() / kSubstep_s, kMost_n, (kLimit - 1) * kMost_n);
+  EXPECT_NEAR(around.slides[0].impulse_ns.norm() / kChainSlidesSubstep_s, kMost_n, (kLimit - 1) * kMost_n);
   EXPECT_NEAR((torn + 200 * way).z(), 0, 2e-3);
   EXPECT_LT(torn.z(), -3e-3);
 }
@@ -190,8 +191,8 @@ TEST(ChainSlides, LetAnEndPassOutAndThenDoNothing) {
   around.holds = {held(chain, 39)};
   int left = 0;
   for (int k = 0; k < 400 && !around.slides[1].out; ++k) {
-    around.holds[0].to_m.x() += 0.1 * kSubstep_s;
-    chain.step(kSubstep_s, around);
+    around.holds[0].to_m.x() += 0.1 * kChainSlidesSubstep_s;
+    chain.step(kChainSlidesSubstep_s, around);
     if (around.slides[0].out && left++ > 0) {
       EXPECT_EQ(around.slides[0].impulse_ns.norm(), 0);
     }
@@ -209,12 +210,12 @@ TEST(ChainSlides, LetNothingSlideOffAnEndThatIsSwaged) {
   around.holds = {held(chain, 39)};
   around.holds[0].most_n = 1;
   for (int k = 0; k < 100; ++k) {
-    around.holds[0].to_m.x() += 0.1 * kSubstep_s;
-    chain.step(kSubstep_s, around);
+    around.holds[0].to_m.x() += 0.1 * kChainSlidesSubstep_s;
+    chain.step(kChainSlidesSubstep_s, around);
   }
   EXPECT_FALSE(around.slides[0].out);
   EXPECT_GT(around.slides[0].s, 0);
-  EXPECT_NEAR(around.slides[0].impulse_ns.norm() / kSubstep_s, 1, kLimit - 1);
+  EXPECT_NEAR(around.slides[0].impulse_ns.norm() / kChainSlidesSubstep_s, 1, kLimit - 1);
 }
 
 TEST(ChainSlides, KeepTheirOrderAndDistance) {
@@ -226,9 +227,9 @@ TEST(ChainSlides, KeepTheirOrderAndDistance) {
   around.slides[1].through_n = around.slides[2].through_n = 1;
   around.loads = {{0, Vector3d(-0.01, 0, 0)}};
   for (int k = 0; k < 200; ++k) {
-    around.slides[0].to_m.x() += 0.2 * kSubstep_s;  // slides along the thread, up to the next
-    chain.step(kSubstep_s, around);
-    EXPECT_GT(around.slides[1].s - around.slides[0].s, 0.4 * kRest_m / kLink_m - 1e-2);
+    around.slides[0].to_m.x() += 0.2 * kChainSlidesSubstep_s;  // slides along the thread, up to the next
+    chain.step(kChainSlidesSubstep_s, around);
+    EXPECT_GT(around.slides[1].s - around.slides[0].s, 0.4 * kRest_m / kChainSlidesLink_m - 1e-2);
     EXPECT_GT(around.slides[2].s - around.slides[1].s, 1 - 1e-2);
   }
 }
@@ -243,8 +244,8 @@ TEST(ChainSlides, NothingIsTornOrGivenWhereThereIsNoSolution) {
   Vector3d given = Vector3d::Zero();
   around.answer = [&given](std::vector<ChainSlide>& slides) { given = slides[0].impulse_ns; };
   for (int k = 0; k < 200; ++k) {
-    around.slides[0].to_m.z() += 0.05 * kSubstep_s;
-    chain.step(kSubstep_s, around);
+    around.slides[0].to_m.z() += 0.05 * kChainSlidesSubstep_s;
+    chain.step(kChainSlidesSubstep_s, around);
   }
   ASSERT_FALSE(chain.waited());
   ASSERT_FALSE(around.slides[0].torn_m.isZero(0));
@@ -252,7 +253,7 @@ TEST(ChainSlides, NothingIsTornOrGivenWhereThereIsNoSolution) {
   const std::vector<Vector3d> places = chain.places_m();
   const double s = around.slides[0].s;
   around.holds[0].to_m.setConstant(std::numeric_limits<double>::quiet_NaN());
-  chain.step(kSubstep_s, around);
+  chain.step(kChainSlidesSubstep_s, around);
   EXPECT_TRUE(chain.waited());
   EXPECT_EQ(chain.places_m(), places);
   EXPECT_EQ(around.slides[0].s, s);

@@ -13,10 +13,10 @@
 namespace viscera {
 namespace {
 
-constexpr double kSubstep_s = 5e-4, kLink_m = 5e-4;
+constexpr double kChainSubstep_s = 5e-4, kChainLink_m = 5e-4;
 constexpr double kSolve = 1e-9;  // of the largest unknown: stiffnesses in it span eight decades
 
-ChainMaterial soft() {
+ChainMaterial chainSoft() {
   ChainMaterial out;
   out.bending_nm2 = 4e-8;
   out.drag_per_s = 20;
@@ -25,11 +25,11 @@ ChainMaterial soft() {
 
 std::vector<Vector3d> along(const Vector3d& from_m, const Vector3d& way, size_t nodes) {
   std::vector<Vector3d> out;
-  for (size_t i = 0; i < nodes; ++i) out.push_back(from_m + static_cast<double>(i) * kLink_m * way);
+  for (size_t i = 0; i < nodes; ++i) out.push_back(from_m + static_cast<double>(i) * kChainLink_m * way);
   return out;
 }
 
-ChainHold held(const Chain& chain, uint32_t node) {
+ChainHold chainHeld(const Chain& chain, uint32_t node) {
   ChainHold out;
   out.node = node;
   out.to_m = chain.places_m()[node];
@@ -69,11 +69,11 @@ TEST(ChainMatrix, SolvesAsADenseOneDoes) {
     add(i, i + 1, -turned);
   }
   const Vector3d way = vector();
-  const Matrix3d held = 100 * Matrix3d::Identity() + way * way.transpose();
+  const Matrix3d chainHeld = 100 * Matrix3d::Identity() + way * way.transpose();
   matrix.addPoint(4, 0.3, 100, way);
-  add(4, 4, 0.49 * held);
-  add(5, 5, 0.09 * held);
-  add(4, 5, 0.21 * held);
+  add(4, 4, 0.49 * chainHeld);
+  add(5, 5, 0.09 * chainHeld);
+  add(4, 5, 0.21 * chainHeld);
   dense(4 * kNodes - 1, 4 * kNodes - 1) = -1;
   std::vector<ChainMatrix::Unknown> right(kNodes);
   Eigen::VectorXd known(4 * kNodes);
@@ -92,28 +92,28 @@ TEST(ChainMatrix, SolvesAsADenseOneDoes) {
 }
 
 TEST(Chain, HangsWithItsWeightFromAHand) {
-  Chain chain(soft(), along(Vector3d::Zero(), -Vector3d::UnitZ(), 100));
+  Chain chain(chainSoft(), along(Vector3d::Zero(), -Vector3d::UnitZ(), 100));
   ChainAround around;
   around.gravity_m_per_s2 = Vector3d(0, 0, -9.81);
-  around.holds = {held(chain, 0)};
-  for (int k = 0; k < 400; ++k) chain.step(kSubstep_s, around);
+  around.holds = {chainHeld(chain, 0)};
+  for (int k = 0; k < 400; ++k) chain.step(kChainSubstep_s, around);
   double mass_kg = 0;
   for (size_t i = 0; i < chain.nodes(); ++i) mass_kg += chain.mass_kg(i);
-  EXPECT_NEAR(around.holds[0].impulse_ns.z() / kSubstep_s, -9.81 * mass_kg, 1e-6 * 9.81 * mass_kg);
+  EXPECT_NEAR(around.holds[0].impulse_ns.z() / kChainSubstep_s, -9.81 * mass_kg, 1e-6 * 9.81 * mass_kg);
   EXPECT_NEAR(chain.tension_n(0), 9.81 * (mass_kg - chain.mass_kg(0)), 1e-6 * 9.81 * mass_kg);
 }
 
 TEST(Chain, SlipsInAHandThatIsNotStrongEnough) {
-  Chain chain(soft(), along(Vector3d::Zero(), Vector3d::UnitX(), 100));
+  Chain chain(chainSoft(), along(Vector3d::Zero(), Vector3d::UnitX(), 100));
   ChainAround around;
-  around.holds = {held(chain, 0), held(chain, 99)};
+  around.holds = {chainHeld(chain, 0), chainHeld(chain, 99)};
   around.holds[1].most_n = 2;
   const Vector3d start = around.holds[1].to_m;
   for (int k = 0; k < 400; ++k) {
-    around.holds[1].to_m.x() = start.x() + 0.1 * kSubstep_s * k;  // the thread is straight: it cannot follow
-    chain.step(kSubstep_s, around);
+    around.holds[1].to_m.x() = start.x() + 0.1 * kChainSubstep_s * k;  // the thread is straight: it cannot follow
+    chain.step(kChainSubstep_s, around);
   }
-  EXPECT_NEAR(around.holds[1].impulse_ns.norm() / kSubstep_s, 2, 0.1);  // kSlack
+  EXPECT_NEAR(around.holds[1].impulse_ns.norm() / kChainSubstep_s, 2, 0.1);  // kSlack
   EXPECT_NEAR(chain.tension_n(50), 2, 0.1);
   EXPECT_LT(chain.places_m().back().x(), start.x() + 1e-6);
   EXPECT_LT(chain.worstLink(), 1e-4);
@@ -134,8 +134,8 @@ TEST(Chain, LiesStillOnASlopeThatIsNotTooSteepAndSlidesDownAnother) {
       around.touches.push_back(touch);
     }
     constexpr int kSteps = 400;
-    for (int k = 0; k < kSteps; ++k) chain.step(kSubstep_s, around);
-    const double time_s = kSteps * kSubstep_s, cosine = 1 / std::sqrt(1 + slope * slope);
+    for (int k = 0; k < kSteps; ++k) chain.step(kChainSubstep_s, around);
+    const double time_s = kSteps * kChainSubstep_s, cosine = 1 / std::sqrt(1 + slope * slope);
     const double free = kPull * cosine * (slope - kFriction);
     const double speed = chain.velocities_m_per_s()[25].dot(down);
     EXPECT_NEAR(speed, std::max(free, 0.0) * time_s, 0.05 * kPull * time_s) << slope;
@@ -147,29 +147,29 @@ TEST(Chain, LiesStillOnASlopeThatIsNotTooSteepAndSlidesDownAnother) {
 }
 
 TEST(Chain, StaysWhereItWasAtAForceThatIsNoNumber) {
-  Chain chain(soft(), along(Vector3d::Zero(), Vector3d::UnitX(), 10));
+  Chain chain(chainSoft(), along(Vector3d::Zero(), Vector3d::UnitX(), 10));
   const std::vector<Vector3d> before = chain.places_m();
   ChainAround around;
   around.loads = {{3, Vector3d(0, 0, std::numeric_limits<double>::quiet_NaN())}};
-  chain.step(kSubstep_s, around);
+  chain.step(kChainSubstep_s, around);
   EXPECT_EQ(chain.places_m(), before);
   around.loads.clear();
-  chain.step(kSubstep_s, around);
+  chain.step(kChainSubstep_s, around);
   EXPECT_LT((chain.places_m()[3] - before[3]).norm(), 1e-12);
 }
 
 TEST(Chain, GoesOnFromASavedStateAndResets) {
-  const auto makeOne = [] { return Chain(soft(), along(Vector3d::Zero(), Vector3d(1, 1, 0).normalized(), 80)); };
+  const auto makeOne = [] { return Chain(chainSoft(), along(Vector3d::Zero(), Vector3d(1, 1, 0).normalized(), 80)); };
   const auto around = [](const Chain& chain) {
     ChainAround out;
     out.gravity_m_per_s2 = Vector3d(0, 0, -9.81);
-    out.holds = {held(chain, 0)};
+    out.holds = {chainHeld(chain, 0)};
     return out;
   };
   Chain one = makeOne();
   const Chain first = one;
   ChainAround beside = around(one);
-  for (int k = 0; k < 100; ++k) one.step(kSubstep_s, beside);
+  for (int k = 0; k < 100; ++k) one.step(kChainSubstep_s, beside);
   Archive saved;
   saved.section("thread");
   one.persist(saved);
@@ -178,8 +178,8 @@ TEST(Chain, GoesOnFromASavedStateAndResets) {
   read.section("thread");
   two.persist(read);
   for (int k = 0; k < 50; ++k) {
-    one.step(k < 25 ? kSubstep_s : kSubstep_s / 2, beside);
-    two.step(k < 25 ? kSubstep_s : kSubstep_s / 2, beside);
+    one.step(k < 25 ? kChainSubstep_s : kChainSubstep_s / 2, beside);
+    two.step(k < 25 ? kChainSubstep_s : kChainSubstep_s / 2, beside);
   }
   EXPECT_EQ(one.places_m(), two.places_m());
   EXPECT_EQ(one.velocities_m_per_s(), two.velocities_m_per_s());
@@ -189,17 +189,17 @@ TEST(Chain, GoesOnFromASavedStateAndResets) {
 }
 
 TEST(Chain, PartsAtANodeWithItsMomentumAndComesBackWhole) {
-  Chain chain(soft(), along(Vector3d::Zero(), Vector3d::UnitX(), 60));
+  Chain chain(chainSoft(), along(Vector3d::Zero(), Vector3d::UnitX(), 60));
   ChainAround around;
   around.gravity_m_per_s2 = Vector3d(0, 0, -9.81);
-  around.holds = {held(chain, 0), held(chain, 59)};
+  around.holds = {chainHeld(chain, 0), chainHeld(chain, 59)};
   around.slides.resize(3);
   for (size_t k = 0; k < 3; ++k) around.slides[k].s = 10.5 + 20 * static_cast<double>(k);
-  for (ChainSlide& slide : around.slides) slide.to_m = Vector3d(slide.s * kLink_m, 0, 0);
+  for (ChainSlide& slide : around.slides) slide.to_m = Vector3d(slide.s * kChainLink_m, 0, 0);
   ChainKnot knot;
   knot.s1 = 12;
   knot.s2 = 45;
-  for (int k = 0; k < 20; ++k) chain.step(kSubstep_s, around);
+  for (int k = 0; k < 20; ++k) chain.step(kChainSubstep_s, around);
   around.knots = {knot};
   const auto momentum = [](const Chain& it) {
     Vector3d out = Vector3d::Zero();
@@ -222,8 +222,8 @@ TEST(Chain, PartsAtANodeWithItsMomentumAndComesBackWhole) {
   EXPECT_EQ(beyond.holds[0].node, 31U);
   EXPECT_TRUE(around.knots.empty() && beyond.knots.empty());
   for (int k = 0; k < 40; ++k) {
-    chain.step(kSubstep_s, around);
-    behind.step(kSubstep_s, beyond);
+    chain.step(kChainSubstep_s, around);
+    behind.step(kChainSubstep_s, beyond);
   }
   EXPECT_LT(chain.places_m().back().z(), -1e-6);  // hangs down beyond its channel
   Archive saved;
@@ -234,10 +234,10 @@ TEST(Chain, PartsAtANodeWithItsMomentumAndComesBackWhole) {
   Chain again = whole;
   again.persist(read);
   EXPECT_EQ(again.places_m(), behind.places_m());
-  behind.step(kSubstep_s, beyond);
+  behind.step(kChainSubstep_s, beyond);
   chain.reset();
   EXPECT_EQ(chain.nodes(), 60U);
-  chain.step(kSubstep_s, around);
+  chain.step(kChainSubstep_s, around);
   EXPECT_LT(chain.worstLink(), 1e-3);
 }
 

@@ -11,8 +11,8 @@ using namespace viscera::test;
 namespace {
 
 constexpr double kTick_s = 1.0 / 60;
-constexpr double kMomentum = 1e-6;  // of what thread and tissue gave each other
-constexpr double kFloat_m = 1e-8;   // float32 against itself in another order, after some ticks
+constexpr double kStitchMomentum = 1e-6;  // of what thread and tissue gave each other
+constexpr double kFloat_m = 1e-8;         // float32 against itself in another order, after some ticks
 constexpr double kLink = 1e-3;
 constexpr double kLips_m = 2e-4;  // which are pressed into each other by so much, at most
 
@@ -81,7 +81,7 @@ TEST_P(Stitch, KeepsMomentumOfThreadAndTissue) {
   const Vector3d before = momentumOf(model, *solver);
   for (int t = 0; t < 20; ++t) solver->step({});
   EXPECT_GT(solver->threads()->chain(0).velocities_m_per_s()[40].norm(), 0.01);
-  EXPECT_LT((momentumOf(model, *solver) - before).norm(), kMomentum * before.norm());
+  EXPECT_LT((momentumOf(model, *solver) - before).norm(), kStitchMomentum * before.norm());
 }
 
 TEST_P(Stitch, GoesOnToTheBitFromASavedState) {

@@ -12,10 +12,10 @@
 namespace viscera {
 namespace {
 
-constexpr double kTick_s = 1.0 / 60;
-constexpr double kPlace_m = 1e-5;  // of what is held
+constexpr double kThreadPiecesTick_s = 1.0 / 60;
+constexpr double kThreadPiecesPlace_m = 1e-5;  // of what is held
 
-Scene sceneOf(const std::string& threads, const std::string& more = "") {
+Scene piecesScene(const std::string& threads, const std::string& more = "") {
   return parseScene(
       "bodies: [{name: block, source: box}]\nstyluses: [{name: left, button1: grab, button2: cut}, {name: right}]\n" +
           threads + more,
@@ -24,7 +24,7 @@ Scene sceneOf(const std::string& threads, const std::string& more = "") {
 
 /// 60 mm of thread along x, both ends fixed.
 Scene taut() {
-  return sceneOf(
+  return piecesScene(
       "environment: {gravity_m_per_s2: [0, 0, 0]}\nthreads: [{name: suture, position_m: [-0.03, 0, 0], "
       "path: [{position_m: [0.03, 0, 0]}], start: fixed, end: fixed}]\n");
 }
@@ -63,9 +63,10 @@ TEST(ThreadBlades, PartThreadsWhereTheyMeetThem) {
   EXPECT_EQ(threads.piece(1).thread, 0U);
   EXPECT_NEAR(threads.chain(0).places_m().back().x(), 0.01, threads.chain(0).link_m());
   for (int k = 0; k < 30; ++k) threads.step({}, {});
-  EXPECT_LT((threads.chain(0).places_m().front() - Vector3d(-0.03, 0, 0)).norm(), kPlace_m);
-  EXPECT_LT((threads.chain(1).places_m().back() - Vector3d(0.03, 0, 0)).norm(), kPlace_m);  // ends stay held
-  threads.step(cutAt(0.02), {});                                                            // pieces are parted too
+  EXPECT_LT((threads.chain(0).places_m().front() - Vector3d(-0.03, 0, 0)).norm(), kThreadPiecesPlace_m);
+  EXPECT_LT((threads.chain(1).places_m().back() - Vector3d(0.03, 0, 0)).norm(),
+            kThreadPiecesPlace_m);  // ends stay held
+  threads.step(cutAt(0.02), {});    // pieces are parted too
   EXPECT_EQ(threads.count(), 3U);
   threads.reset();
   ASSERT_EQ(threads.count(), 1U);
@@ -125,13 +126,13 @@ TEST(ThreadBlades, AHandKeepsThePieceThatItHolds) {
   double nearest_m = 1;
   for (const Vector3d& place : threads.chain(1).places_m())
     nearest_m = std::min(nearest_m, (place - both[1].to.position_m).norm());
-  EXPECT_LT(nearest_m, 2 * kPlace_m + threads.chain(1).link_m() / 2);
+  EXPECT_LT(nearest_m, 2 * kThreadPiecesPlace_m + threads.chain(1).link_m() / 2);
   EXPECT_EQ(threads.pulls()[1].nodes, 2U);
 }
 
 /// A loop about a post that stands on the origin, its tails beside each other on the side of -y.
 Scene looped(const std::string& keys = "") {
-  return sceneOf(
+  return piecesScene(
       "environment: {gravity_m_per_s2: [0, 0, 0]}\nobstacles: [{name: post, shape: capsule, radius_m: 0.005, "
       "length_m: 0.04}]\nthreads: [{name: tie, material: silk, usp: 3-0, position_m: [-0.012, -0.04, 0], path: "
       "[{position_m: [-0.003, -0.012, 0]}, {position_m: [-0.008, -0.005, 0]}, {position_m: [-0.008, 0.008, 0]}, "
@@ -181,7 +182,7 @@ TEST(ThreadKnots, AScenesTiesComeAtTheirTimesAndTellWhyTheyDoNot) {
   EXPECT_THROW(threads.tie(0, tie), Error);  // as many as there may be
   EXPECT_THROW(threads.tie(1, tie), Error);
 
-  const Scene short_one = sceneOf(
+  const Scene short_one = piecesScene(
       "threads: [{name: short, position_m: [0, 0, 0], path: [{position_m: [0.003, 0, 0]}], ties: [{at_s: 0}]}]\n");
   ThreadBodies refusing(short_one);
   refusing.step({}, {});
@@ -259,7 +260,7 @@ class TwoHands {
   void go(const Vector3d& left_m, const Vector3d& right_m) {
     const std::array<Vector3d, 2> from = {at_[0], at_[1]}, to = {left_m, right_m};
     const double way_m = std::max((left_m - at_[0]).norm(), (right_m - at_[1]).norm());
-    const int ticks = std::max(1, static_cast<int>(std::ceil(way_m / 0.05 / kTick_s)));
+    const int ticks = std::max(1, static_cast<int>(std::ceil(way_m / 0.05 / kThreadPiecesTick_s)));
     for (int k = 1; k <= ticks; ++k) {
       ToolMotions motions;
       for (size_t s = 0; s < 2; ++s) {

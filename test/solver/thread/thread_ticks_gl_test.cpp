@@ -11,7 +11,7 @@ using namespace viscera::test;
 namespace {
 
 constexpr double kSpacing_m = 0.01;
-constexpr double kForce = 1e-3;  // of a force that holds still: the thread creeps in the hand
+constexpr double kThreadTicksForce = 1e-3;  // of a force that holds still: the thread creeps in the hand
 
 /// 60 mm of thread above a block, its start fixed.
 Scene withThread(const Model& model, double fraction) {
@@ -53,7 +53,7 @@ TEST_P(ThreadTicks, AHandThatPullsFeelsTheThread) {
     const double tick_s = 1 / scene.solver.tick_hz, force_n = static_cast<double>(stats.impulse[0].x) / tick_s;
     const double tension_n = solver->threads()->chain(0).tension_n(10);
     EXPECT_GT(tension_n, 0.5 * scene.styluses[0].max_force_n);
-    EXPECT_NEAR(force_n, tension_n, kForce * tension_n) << governor;
+    EXPECT_NEAR(force_n, tension_n, kThreadTicksForce * tension_n) << governor;
     EXPECT_EQ(stats.grabbed[0], 2U);
   }
 }

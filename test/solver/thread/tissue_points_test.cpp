@@ -15,9 +15,9 @@ namespace viscera {
 namespace {
 
 constexpr double kSpacing_m = 0.003, kDt_s = 5e-4;
-constexpr double kRounding = 1e-6;  // float32 of weights and places, over their size
-constexpr double kPlace_m = 1e-7;   // the same of a place
-constexpr double kFound_m = 2e-6;   // find() ends its steps within kArrived of a spacing
+constexpr double kRounding = 1e-6;             // float32 of weights and places, over their size
+constexpr double kTissuePointsPlace_m = 1e-7;  // the same of a place
+constexpr double kFound_m = 2e-6;              // find() ends its steps within kArrived of a spacing
 
 /// A state of the tissue that tests set.
 class Nodes : public BladeTarget {
@@ -108,7 +108,7 @@ TEST_P(OnStructures, PointsFollowTheTissueAndAreFoundAgainWhereItIs) {
     for (uint32_t c = 0; c < point->count; ++c) sum += point->weights[c];
     EXPECT_NEAR(sum, 1, kRounding);
     points.read(nodes, {&*point});
-    EXPECT_LT((points.place_m(*point) - mapped(rest)).norm(), kPlace_m);
+    EXPECT_LT((points.place_m(*point) - mapped(rest)).norm(), kTissuePointsPlace_m);
     const auto again = points.find(nodes, mapped(rest));
     ASSERT_TRUE(again) << rest.transpose();
     EXPECT_EQ(again->body, 1U);
@@ -168,7 +168,7 @@ TEST(TissuePoints, BesideACutAreCarriedByWholeCellsOfTheirSide) {
     ASSERT_TRUE(point) << x;
     points.read(nodes, {&*point});
     const Vector3d moved(x > 2.5 ? 0.01 : 0, 0, 0);
-    EXPECT_LT((points.place_m(*point) - rest - moved).norm(), kPlace_m) << x;
+    EXPECT_LT((points.place_m(*point) - rest - moved).norm(), kTissuePointsPlace_m) << x;
     const auto again = points.find(nodes, rest + moved);
     ASSERT_TRUE(again) << x;
     EXPECT_LT((again->rest_m - rest).norm(), kFound_m) << x;

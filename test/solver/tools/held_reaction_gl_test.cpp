@@ -11,14 +11,14 @@ using namespace viscera::test;
 
 namespace {
 
-constexpr double kSpacing_m = 0.01;
+constexpr double kHeldReactionSpacing_m = 0.01;
 constexpr int kNodes = 6;  ///< along an edge of a cloth
 /// Of what is given: sums of float32 over some thousand contacts.
 constexpr double kRounding = 1e-4;
 
 StylusConfig wideGrip() {
   StylusConfig out;
-  out.grab.radius_m = kNodes * kSpacing_m;
+  out.grab.radius_m = kNodes * kHeldReactionSpacing_m;
   return out;
 }
 
@@ -53,7 +53,8 @@ INSTANTIATE_TEST_SUITE_P(Backends, HeldReaction, solversUnderTest({Integrator::k
 
 TEST_P(HeldReaction, AClothThatFallsOnAHeldOneIsStoppedByTheTool) {
   constexpr double kHeight_m = 0.1, kSpeed_m_per_s = 2;
-  const Model model = modelOf({looseCloth(kNodes, kNodes, kSpacing_m), looseCloth(kNodes, kNodes, kSpacing_m)});
+  const Model model =
+      modelOf({looseCloth(kNodes, kNodes, kHeldReactionSpacing_m), looseCloth(kNodes, kNodes, kHeldReactionSpacing_m)});
   Scene scene = sceneFor(model, 10, {wideGrip()});
   scene.collision.enabled = true;
   HostState state = restState(model);
@@ -68,7 +69,7 @@ TEST_P(HeldReaction, AClothThatFallsOnAHeldOneIsStoppedByTheTool) {
 }
 
 TEST_P(HeldReaction, AToolHoldsAClothAgainstAForceOnIt) {
-  Body body = looseCloth(kNodes, kNodes, kSpacing_m);
+  Body body = looseCloth(kNodes, kNodes, kHeldReactionSpacing_m);
   body.force_n = Vector3d(0.1, -0.2, 0.3);
   const Model model = modelOf({body});
   const Scene scene = sceneFor(model, 10, {wideGrip()});
@@ -79,7 +80,7 @@ TEST_P(HeldReaction, AToolHoldsAClothAgainstAForceOnIt) {
 }
 
 TEST_P(HeldReaction, AToolHoldsAClothAgainstTheWind) {
-  const Model model = modelOf({looseCloth(kNodes, kNodes, kSpacing_m)});
+  const Model model = modelOf({looseCloth(kNodes, kNodes, kHeldReactionSpacing_m)});
   Scene scene = sceneFor(model, 10, {wideGrip()});
   WindConfig& wind = scene.environment.wind;
   wind.velocity_m_per_s = Vector3d(0, 0, 3);

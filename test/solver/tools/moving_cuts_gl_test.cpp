@@ -10,7 +10,7 @@ using namespace viscera::test;
 
 namespace {
 
-constexpr double kSpacing_m = 0.01;
+constexpr double kMovingCutsSpacing_m = 0.01;
 // Of where a spring is cut: float32 positions of 0.1 m (6e-9 m) over springs of 1 cm, at a slant, after some substeps.
 constexpr double kShare = 1e-4;
 
@@ -23,7 +23,7 @@ class MovingCuts : public BesideReference {
  protected:
   MovingCuts() : BesideReference(20, wideTools()) { use(modelOf({freeBox()})); }
   static Body freeBox() {
-    Body body = boxBody({6, 6, 6}, kSpacing_m);
+    Body body = boxBody({6, 6, 6}, kMovingCutsSpacing_m);
     body.material.drag_per_s = body.material.dashpot_ratio = 0;
     return body;
   }
@@ -122,7 +122,7 @@ TEST_P(MovingCuts, BothEndsAgreeHoweverTheirTissueMoves) {
     HostState state = drifting(randomVector(random, 0.03));
     for (const uint32_t slot : lattice().active_slots) {
       state.velocity_m_per_s[slot] =
-          vec4(xyz(state.velocity_m_per_s[slot]) + randomVector(random, 0.05 * kSpacing_m / tick_s()));
+          vec4(xyz(state.velocity_m_per_s[slot]) + randomVector(random, 0.05 * kMovingCutsSpacing_m / tick_s()));
     }
     write(state);
     ToolMotions motions;

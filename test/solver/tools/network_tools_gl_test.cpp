@@ -12,8 +12,8 @@ namespace {
 // Of where a blade crosses a spring: float32 positions of 0.1 m (6e-9 m) over springs of 1 cm, at a slant.
 constexpr double kFraction = 1e-4;
 // A cut is noted no nearer to an end than this share of the spring (kLeastShare of blade.glsl).
-constexpr double kLeastShare = 0.02;
-constexpr int kSubsteps = 10;
+constexpr double kNetworkToolsLeastShare = 0.02;
+constexpr int kNetworkToolsSubsteps = 10;
 
 /// A blade down along -z that sweeps along y in the plane x = `x_m`.
 StylusMotion sweep(double x_m, ToolMode mode = ToolMode::kCut) {
@@ -23,7 +23,7 @@ StylusMotion sweep(double x_m, ToolMode mode = ToolMode::kCut) {
 /// A cloth of 13 x 13 nodes in z = 0 that is held at its corners.
 class ToolsOnNetwork : public BesideReference {
  protected:
-  ToolsOnNetwork() : BesideReference(kSubsteps, wideTools()) {
+  ToolsOnNetwork() : BesideReference(kNetworkToolsSubsteps, wideTools()) {
     Body cloth = clothBody(13, 13, 0.01);
     fixNearest(cloth, {{-1, -1, 0}, {1, -1, 0}, {-1, 1, 0}, {1, 1, 0}});
     use(modelOf({cloth}));
@@ -37,7 +37,8 @@ class ToolsOnNetwork : public BesideReference {
       ASSERT_EQ(state.spring_cut[i] == 0, truth[i] == 0) << "spring " << i;
       if (truth[i] == 0) continue;
       const bool erased = truth[i] == layout::kErasedShare;
-      const double shown = erased ? truth[i] : std::clamp<double>(truth[i], kLeastShare, 1 - kLeastShare);
+      const double shown =
+          erased ? truth[i] : std::clamp<double>(truth[i], kNetworkToolsLeastShare, 1 - kNetworkToolsLeastShare);
       EXPECT_NEAR(state.spring_cut[i], shown, kFraction) << "spring " << i;
     }
     for (uint32_t slot : reference_->active) {
@@ -133,7 +134,8 @@ TEST_P(ToolsOnNetwork, BladeCutsTheSpringsItCrossesFromBothEndsAndNotesWhere) {
     ++crossing;
     ++lost[spring.a];
     ++lost[spring.b];
-    EXPECT_NEAR(state.spring_cut[i], std::clamp((0.0037 - a) / (b - a), kLeastShare, 1 - kLeastShare), kFraction);
+    EXPECT_NEAR(state.spring_cut[i],
+                std::clamp((0.0037 - a) / (b - a), kNetworkToolsLeastShare, 1 - kNetworkToolsLeastShare), kFraction);
   }
   ASSERT_GT(crossing, 12u);
   for (uint32_t slot : body().lattice.active_slots) {
@@ -299,7 +301,7 @@ TEST_P(ToolsOnNetwork, BladeAtRestCutsNothing) {
 }
 
 TEST_P(ToolsOnNetwork, NodesDraggedToNoPlaceAtAllAreRolledBack) {
-  Scene scene = sceneFor(model_, kSubsteps, styluses_);
+  Scene scene = sceneFor(model_, kNetworkToolsSubsteps, styluses_);
   scene.solver.governor = true;
   expectNoPlaceIsRolledBack(*make(model_, scene), model_);
 }

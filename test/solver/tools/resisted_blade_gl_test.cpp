@@ -13,10 +13,10 @@ using namespace viscera::test;
 
 namespace {
 
-constexpr double kStep_m = 0.001;  // in a tick
+constexpr double kResistedBladeStep_m = 0.001;  // in a tick
 constexpr int kTicks = 45;
 /// Of the largest force, and of what was parted and done: some roundings of float32, 6e-8 each.
-constexpr double kRounding = 1e-6;
+constexpr double kResistedBladeRounding = 1e-6;
 /// The same where a tick's substeps follow how far the tissue is stretched, which the GPU knows a tick later: in one
 /// tick of a cut it has other substeps than the CPU, and fronts that go on by them.
 constexpr double kOtherSubsteps = 0.01;
@@ -63,7 +63,7 @@ class Hand {
   BladeWork done() const { return solver_->bladeWork(0); }
   uint64_t hash() const { return stateHash(model_, solver_->readState()); }
   uint64_t bad() const { return bad_; }
-  static Vector3d tip(int i) { return {-0.03 + kStep_m * i, 0.001, 0.002}; }
+  static Vector3d tip(int i) { return {-0.03 + kResistedBladeStep_m * i, 0.001, 0.002}; }
 
  private:
   double hz_;
@@ -81,7 +81,7 @@ void expectSameDone(const BladeWork& gpu, const BladeWork& cpu, double share) {
   EXPECT_NEAR(gpu.parting_j, cpu.parting_j, share * cpu.parting_j);
 }
 
-void expectSameStroke(const Scene& scene, double share = kRounding) {
+void expectSameStroke(const Scene& scene, double share = kResistedBladeRounding) {
   Hand cpu(backendKinds()[1], scene), gpu("gpu", scene);
   double most_n = 0, apart_n = 0;
   for (int i = 0; i < kTicks; ++i) {
@@ -98,7 +98,7 @@ void expectSameStroke(const Scene& scene, double share = kRounding) {
     return std::count_if(state.nodes.begin(), state.nodes.end(),
                          [](const layout::NodeBits& bits) { return (bits.lo & layout::kSeveredBit) != 0; });
   };
-  if (share > kRounding) return;
+  if (share > kResistedBladeRounding) return;
   EXPECT_EQ(severed(gpu), severed(cpu));
 }
 
@@ -131,7 +131,7 @@ TEST_F(ResistedBlade, CutsTissueThatSleeps) {
     for (int i = 0; i < kTicks; ++i) hand->tick(i);
     hand->without(10);  // the last of the cut comes when the blade is gone
   }
-  expectSameDone(gpu.done(), cpu.done(), kRounding);
+  expectSameDone(gpu.done(), cpu.done(), kResistedBladeRounding);
 }
 
 TEST_F(ResistedBlade, CutsEveryStructure) {
@@ -150,7 +150,7 @@ TEST_F(ResistedBlade, CutsEveryStructure) {
       body.fixed[0].max_m = {1, 1, 1};
       body.fixed[1].max_m = {1, -0.0179, 1};
     }
-    expectSameStroke(scene, kRounding);
+    expectSameStroke(scene, kResistedBladeRounding);
   }
 }
 

@@ -12,7 +12,7 @@ using namespace viscera::test;
 namespace {
 
 constexpr double kFloat32 = 1e-4;  // relative to the largest displacement
-constexpr int kSubsteps = 20, kTicks = 30;
+constexpr int kSuctionSubsteps = 20, kSuctionTicks = 30;
 constexpr double kPull_m = 2e-4;  // per tick
 const Vector3d kTop_m(0.03, 0.03, 0.06);
 
@@ -31,7 +31,7 @@ class Suction : public OnBackend {
     stylus.button1 = ToolMode::kSuction;
     stylus.suction.radius_m = 0.012;
     stylus.suction.max_force_n = max_force_n;
-    return sceneFor(model_, kSubsteps, {stylus});
+    return sceneFor(model_, kSuctionSubsteps, {stylus});
   }
   /// What the hand does in a tick: button 1 pressed, pulling upwards.
   static StylusSamples pull(int tick, bool pressed = true) {
@@ -47,7 +47,7 @@ class Suction : public OnBackend {
     ReferenceTicks reference(model_, scene);
     Tools hands(scene.styluses);
     std::vector<double> out;
-    for (int t = 0; t < kTicks; ++t) {
+    for (int t = 0; t < kSuctionTicks; ++t) {
       reference.step(hands.advance(pull(t)));
       out.push_back(reference.impulse(0).norm() * scene.solver.tick_hz);
     }
@@ -79,11 +79,11 @@ TEST_P(Suction, HoldsBelowItsLimitAndLetsGoAboveItLikeTheReference) {
   int last = 0;
   const Scene scene = sceneWith(limitThatGivesWayIn(last));
   ASSERT_GT(last, 3);
-  ASSERT_LT(last, kTicks - 3);
+  ASSERT_LT(last, kSuctionTicks - 3);
   const auto solver = make(model_, scene);
   ReferenceTicks reference(model_, scene);
   Tools hands(scene.styluses);
-  for (int t = 0; t < kTicks; ++t) {
+  for (int t = 0; t < kSuctionTicks; ++t) {
     const ToolMotions motions = hands.advance(pull(t));
     solver->step(motions);
     reference.step(motions);
@@ -102,10 +102,10 @@ TEST_P(Suction, WithoutAForceAboveItsLimitItHoldsLikeAGrab) {
   scene.styluses[0].grab.radius_m = scene.styluses[0].suction.radius_m;
   const auto grab = make(model_, scene);
   Tools grabbing(scene.styluses);
-  for (int t = 0; t < kTicks; ++t) {
-    suction->step(sucking.advance(pull(t, t < kTicks - 2)));
-    grab->step(grabbing.advance(pull(t, t < kTicks - 2)));
-    EXPECT_EQ(held(suction->readState().nodes) > 0, t < kTicks - 2);
+  for (int t = 0; t < kSuctionTicks; ++t) {
+    suction->step(sucking.advance(pull(t, t < kSuctionTicks - 2)));
+    grab->step(grabbing.advance(pull(t, t < kSuctionTicks - 2)));
+    EXPECT_EQ(held(suction->readState().nodes) > 0, t < kSuctionTicks - 2);
   }
   EXPECT_EQ(stateHash(model_, suction->readState()), stateHash(model_, grab->readState()));
 }
@@ -116,7 +116,7 @@ TEST_P(Suction, HoldsNothingAfterItLetGoUntilTheButtonIsPressedAgainEvenUnderThe
   scene.solver.governor = true;
   const auto solver = make(model_, scene);
   Tools hands(scene.styluses);
-  for (int t = 0; t < kTicks; ++t) solver->step(hands.advance(pull(t)));
+  for (int t = 0; t < kSuctionTicks; ++t) solver->step(hands.advance(pull(t)));
   EXPECT_EQ(held(solver->readState().nodes), 0u);
   solver->step(hands.advance(pull(0)));  // back at the tissue, the button still pressed
   EXPECT_EQ(held(solver->readState().nodes), 0u);

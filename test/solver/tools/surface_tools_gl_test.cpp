@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Bodies whose cells are tissue in part are cut and held where their tissue is, not at the nodes outside of it.
+#include "math/decompositions.h"
 #include "support/random_state.h"
 #include "support/solver_rig.h"
 
@@ -9,16 +10,16 @@ using namespace viscera::test;
 
 namespace {
 
-constexpr double kSpacing_m = 0.01;
-constexpr double kTop_m = 0.5 * 0.0273;  // of the body's surface; the nodes above it lie 2.7 mm higher
-constexpr double kBlade_m = 0.2;
+constexpr double kSurfaceToolsSpacing_m = 0.01;
+constexpr double kSurfaceToolsTop_m = 0.5 * 0.0273;  // of the body's surface; the nodes above it lie 2.7 mm higher
+constexpr double kSurfaceToolsBlade_m = 0.2;
 
 class SurfaceTools : public OnBackend {};
 INSTANTIATE_TEST_SUITE_P(Backends, SurfaceTools, ::testing::ValuesIn(backendKinds()), backendSuffix);
 
-StylusConfig stylusConfig() {
+StylusConfig surfaceToolsStylusConfig() {
   StylusConfig config;
-  config.cut.blade_length_m = kBlade_m;
+  config.cut.blade_length_m = kSurfaceToolsBlade_m;
   config.cut.blade_side = BladeSide::kAhead;
   config.cut_particles.eraser_radius_m = 0.001;
   return config;
@@ -28,7 +29,7 @@ BodyConfig boxConfig(const Vector3d& size_m, Structure structure = Structure::kL
   BodyConfig config;
   config.source = TissueSource::kBox;
   config.box_size_m = size_m;
-  config.spacing_m = kSpacing_m;
+  config.spacing_m = kSurfaceToolsSpacing_m;
   config.structure = structure;
   config.material.cells = Cells::kMoments;
   return config;
@@ -57,8 +58,7 @@ HostState turnedState(const Model& model, const Eigen::Matrix3d& turn) {
 /// One sweep from `from` to `to`, the blade along `along`, all turned with the body.
 ToolMotions sweep(const Eigen::Matrix3d& turn, const Vector3d& from, const Vector3d& to, const Vector3d& along) {
   ToolMotions out = tool(ToolMode::kCut, turn * from, turn * to);
-  out[0].from.orientation = out[0].to.orientation =
-      Eigen::Quaterniond::FromTwoVectors(-Vector3d::UnitZ(), turn * along);
+  out[0].from.orientation = out[0].to.orientation = rotationBetween(-Vector3d::UnitZ(), turn * along);
   return out;
 }
 
@@ -76,7 +76,7 @@ Cuts cutsOf(const Model& model, const std::unique_ptr<Ticks>& solver, const Host
   solver->writeState(start);
   ReferenceSolver reference(model, Vector3d::Zero(), static_cast<float>(solver->dt_s()));
   load(reference, start);
-  tickBoth(*solver, reference, {stylusConfig()}, 1, motions);
+  tickBoth(*solver, reference, {surfaceToolsStylusConfig()}, 1, motions);
   return {lastStats(*solver).springs_cut, static_cast<uint32_t>(reference.springs_cut)};
 }
 
@@ -102,9 +102,9 @@ TEST_P(SurfaceTools, ABladeThatBeginsAtTheSurfaceCutsAllThereIs) {
   for (const Structure structure : {Structure::kLattice, Structure::kExplicit}) {
     SCOPED_TRACE(structure == Structure::kExplicit ? "explicit" : "lattice");
     const Model model = slab(structure);
-    const auto solver = make(model, sceneWith(Integrator::kLeapfrog, model, 1, 0.1, 0, {stylusConfig()}));
+    const auto solver = make(model, sceneWith(Integrator::kLeapfrog, model, 1, 0.1, 0, {surfaceToolsStylusConfig()}));
     for (const Eigen::Matrix3d& turn : kTurns) {
-      const Vector3d down = -Vector3d::UnitZ(), up(0, 0, kTop_m + 2e-4);
+      const Vector3d down = -Vector3d::UnitZ(), up(0, 0, kSurfaceToolsTop_m + 2e-4);
       const Cuts cuts = cutsOf(model, solver, turnedState(model, turn),
                                sweep(turn, up - 0.1 * Vector3d::UnitX(), up + 0.1 * Vector3d::UnitX(), down));
       EXPECT_EQ(cuts.backend, springsAcross(model));
@@ -115,15 +115,15 @@ TEST_P(SurfaceTools, ABladeThatBeginsAtTheSurfaceCutsAllThereIs) {
 
 TEST_P(SurfaceTools, ABladeInTheAirCutsNothing) {
   const Model model = slab();
-  const auto solver = make(model, sceneWith(Integrator::kLeapfrog, model, 1, 0.1, 0, {stylusConfig()}));
+  const auto solver = make(model, sceneWith(Integrator::kLeapfrog, model, 1, 0.1, 0, {surfaceToolsStylusConfig()}));
   for (const Eigen::Matrix3d& turn : kTurns) {
     for (const double height_m : {2e-4, 2e-3}) {  // both below the nodes
-      const Vector3d from(-0.1, -0.1, kTop_m + height_m), to(0.1, -0.1, kTop_m + height_m);
+      const Vector3d from(-0.1, -0.1, kSurfaceToolsTop_m + height_m), to(0.1, -0.1, kSurfaceToolsTop_m + height_m);
       const Cuts cuts = cutsOf(model, solver, turnedState(model, turn), sweep(turn, from, to, Vector3d::UnitY()));
       EXPECT_EQ(cuts.backend, 0u);
       EXPECT_EQ(cuts.reference, 0u);
     }
-    const Vector3d from(-0.1, -0.1, kTop_m - 2e-4), to(0.1, -0.1, kTop_m - 2e-4);
+    const Vector3d from(-0.1, -0.1, kSurfaceToolsTop_m - 2e-4), to(0.1, -0.1, kSurfaceToolsTop_m - 2e-4);
     const Cuts cuts = cutsOf(model, solver, turnedState(model, turn), sweep(turn, from, to, Vector3d::UnitY()));
     EXPECT_GT(cuts.backend, 0u);
     EXPECT_EQ(cuts.backend, cuts.reference);
@@ -136,7 +136,7 @@ TEST_P(SurfaceTools, RandomSweepsCutAsTheReferenceDoes) {
   scene.bodies = {boxConfig({0.052, 0.043, 0.037})};
   scene.bodies[0].rotation_deg = {20, 35, 10};
   const Model model = buildModel(scene);
-  const auto solver = make(model, sceneWith(Integrator::kLeapfrog, model, 1, 0.1, 0, {stylusConfig()}));
+  const auto solver = make(model, sceneWith(Integrator::kLeapfrog, model, 1, 0.1, 0, {surfaceToolsStylusConfig()}));
   std::mt19937 random(3);
   uint32_t all = 0, different = 0;
   for (int t = 0; t < 20; ++t) {
@@ -153,11 +153,11 @@ TEST_P(SurfaceTools, RandomSweepsCutAsTheReferenceDoes) {
 
 TEST_P(SurfaceTools, AGripHoldsTheTissueThatItReaches) {
   const Model model = slab();
-  StylusConfig stylus = stylusConfig();
+  StylusConfig stylus = surfaceToolsStylusConfig();
   stylus.grab.radius_m = 2e-3;
   const auto solver = make(model, sceneWith(Integrator::kLeapfrog, model, 1, 0.1, 0, {stylus}));
   const auto heldAt = [&](double z_m) {
-    const Vector3d tip(-0.5 * kSpacing_m, -0.5 * kSpacing_m, z_m);
+    const Vector3d tip(-0.5 * kSurfaceToolsSpacing_m, -0.5 * kSurfaceToolsSpacing_m, z_m);
     ToolMotions motions = tool(ToolMode::kGrab, tip, tip);
     motions[0].hold_begins = true;
     solver->reset();
@@ -166,7 +166,7 @@ TEST_P(SurfaceTools, AGripHoldsTheTissueThatItReaches) {
     for (const layout::NodeBits& bits : solver->readState().nodes) held += (bits.lo & layout::kGrabMask) != 0 ? 1 : 0;
     return held;
   };
-  EXPECT_EQ(heldAt(kTop_m + 2.7e-3), 0u) << "at the node, in the air";
-  EXPECT_EQ(heldAt(kTop_m + 1e-3), 1u);
-  EXPECT_EQ(heldAt(kTop_m - 1e-3), 1u);
+  EXPECT_EQ(heldAt(kSurfaceToolsTop_m + 2.7e-3), 0u) << "at the node, in the air";
+  EXPECT_EQ(heldAt(kSurfaceToolsTop_m + 1e-3), 1u);
+  EXPECT_EQ(heldAt(kSurfaceToolsTop_m - 1e-3), 1u);
 }

@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr uint64_t kVersion = 1;  // of what is baked, and of the file
-constexpr uint64_t kMagic = 0x656b616276ULL;
+constexpr uint64_t kCacheMagic = 0x656b616276ULL;
 
 /// 64-bit FNV-1a, over words of eight bytes.
 class Hash {
@@ -73,8 +73,8 @@ std::string absoluteVariable(const char* name) {
   return value != nullptr && value[0] == '/' ? value : "";  // the XDG specification ignores relative ones
 }
 
-struct Header {
-  uint64_t magic = kMagic, version = kVersion, width = 0, height = 0, colored = 0;
+struct CacheHeader {
+  uint64_t magic = kCacheMagic, version = kVersion, width = 0, height = 0, colored = 0;
   double uncovered = 0, median = 0, percentile95 = 0, bare = 0;
 };
 
@@ -101,10 +101,10 @@ DetailCache::DetailCache(const std::string& folder, const BakeInput& input, int 
 
 bool DetailCache::find(Baked& out) const {
   std::ifstream in(file_, std::ios::binary);
-  Header header;
+  CacheHeader header;
   if (!in.read(reinterpret_cast<char*>(&header), sizeof header)) return false;
   constexpr uint64_t kMost = 16384;
-  if (header.magic != kMagic || header.version != kVersion || header.width > kMost || header.height > kMost)
+  if (header.magic != kCacheMagic || header.version != kVersion || header.width > kMost || header.height > kMost)
     return false;
   std::error_code error;
   const uint64_t texels = 4 * header.width * header.height;
@@ -123,7 +123,7 @@ bool DetailCache::find(Baked& out) const {
 
 void DetailCache::keep(const Baked& baked) const {
   if (file_.empty()) return;
-  Header header;
+  CacheHeader header;
   header.width = static_cast<uint64_t>(baked.relief.width_px);
   header.height = static_cast<uint64_t>(baked.relief.height_px);
   header.colored = baked.color.rgba.empty() ? 0 : 1;

@@ -17,7 +17,7 @@ namespace viscera {
 
 namespace {
 
-constexpr int kLargestTile_px = 32;
+constexpr int kLargestPaintTile_px = 32;
 constexpr float kStep_m = 1e-4F;  // for slopes: less than a texel
 constexpr float kFlat = 1e-6F;    // slopes that bend no texel's normal
 
@@ -195,7 +195,8 @@ void paintTiles(Canvas& canvas, const Progress& progress) {
 }  // namespace
 
 TriangleMesh paintDetail(const TriangleMesh& skin, const PlacedPaint& on, int largest_px, const Progress& progress) {
-  const DetailAtlas atlas(skin, std::min(DetailAtlas::largestTile(skin.triangles.size(), largest_px), kLargestTile_px));
+  const DetailAtlas atlas(skin,
+                          std::min(DetailAtlas::largestTile(skin.triangles.size(), largest_px), kLargestPaintTile_px));
   Canvas canvas{skin, on, atlas, {}, vertexNormals(skin), {atlas.side(), atlas.side(), {}}, {}, {}};
   for (const Vector3f& p : skin.positions_m)
     canvas.places.push_back((on.turn * (p.cast<double>() / on.unit_m) + on.shift).cast<float>());

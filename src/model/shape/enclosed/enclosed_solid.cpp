@@ -11,8 +11,8 @@
 namespace viscera {
 namespace {
 
-constexpr double kStep = 0.25;     ///< of a cell: the grid on which the inside is found
-constexpr double kSamples = 0.25;  ///< of a cell: between points of a triangle that look for its cells
+constexpr double kEnclosedStep = 0.25;  ///< of a cell: the grid on which the inside is found
+constexpr double kSamples = 0.25;       ///< of a cell: between points of a triangle that look for its cells
 
 /// Gives cells of the rest to a part.
 class Regions {
@@ -75,7 +75,7 @@ void nameRegions(const TriangleMesh& mesh, uint16_t rest, Solid& solid) {
 
 Solid voxeliseEnclosed(const TriangleMesh& mesh, double spacing_m, double gap_m, bool moments, const NodePlanes& planes,
                        std::string& note, const Progress& progress) {
-  EnclosedSurface enclosed = enclosedSurface(mesh, kStep * spacing_m, gap_m);
+  EnclosedSurface enclosed = enclosedSurface(mesh, kEnclosedStep * spacing_m, gap_m);
   const auto part = static_cast<uint16_t>(mesh.part_names.size());
   std::fill(enclosed.mesh.parts.begin(), enclosed.mesh.parts.end(), part);
   const std::string own_name = enclosed.mesh.part_names[0];

@@ -16,8 +16,8 @@
 namespace viscera {
 namespace {
 
-constexpr const char* kMagic = "glTF";
-constexpr double kBytesPerMb = 1e6;
+constexpr const char* kGltfMagic = "glTF";
+constexpr double kGltfBytesPerMb = 1e6;
 
 uint32_t wordAt(const std::string& bytes, size_t at) {
   uint32_t word = 0;
@@ -51,7 +51,7 @@ std::string jsonOf(const std::string& path) {
   std::ostringstream all;
   all << file.rdbuf();
   std::string text = all.str();
-  if (text.compare(0, std::strlen(kMagic), kMagic) == 0) text = jsonOfGlb(text);
+  if (text.compare(0, std::strlen(kGltfMagic), kGltfMagic) == 0) text = jsonOfGlb(text);
   text.resize(std::min(text.size(), text.find('\0')));  // some writers pad with it, and readers stop there
   // Names in other encodings than UTF-8 are nothing to stumble on here.
   std::replace_if(
@@ -154,7 +154,7 @@ bool looksLikeGltf(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   char magic[4] = {};
   file.read(magic, sizeof magic);
-  if (std::memcmp(magic, kMagic, sizeof magic) == 0) return true;
+  if (std::memcmp(magic, kGltfMagic, sizeof magic) == 0) return true;
   file.clear();
   file.seekg(0);
   constexpr unsigned char kByteOrderMark[] = {0xef, 0xbb, 0xbf};
@@ -166,7 +166,7 @@ bool looksLikeGltf(const std::string& path) {
 void requireGltfWithin(const std::string& path, const ImportLimits& limits) {
   const GltfTree tree = treeOf(path);
   const double bytes = std::accumulate(tree.buffer_bytes.begin(), tree.buffer_bytes.end(), 0.0);
-  requireAtMost(bytes / kBytesPerMb, limits.max_file_mb, "size of its buffers in MB", "max_file_mb");
+  requireAtMost(bytes / kGltfBytesPerMb, limits.max_file_mb, "size of its buffers in MB", "max_file_mb");
   const std::vector<size_t> order = parentsFirst(tree);
   requireDepth(tree, order, limits);
   const std::vector<double> instances = instancesOf(tree, order);

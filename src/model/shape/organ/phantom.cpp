@@ -5,6 +5,7 @@
 // the cavities are taken out again. Where two cavities would meet, the one listed later gives way and leaves a wall
 // between. Lengths are fractions of the distance from the base (the plane of the valves, z = 1) to the apex (z = 0).
 #include "model/shape/organ/phantom.h"
+#include "math/decompositions.h"
 
 #include <algorithm>
 #include <array>
@@ -160,7 +161,7 @@ class Heart {
 
 /// Turns the axis of the heart: the apex points down, to the patient's left and forward.
 Quaterniond tilt() {
-  return Quaterniond::FromTwoVectors(-Vector3d::UnitZ(), Vector3d(0.4, -0.2, -0.9));
+  return rotationBetween(-Vector3d::UnitZ(), Vector3d(0.4, -0.2, -0.9));
 }
 
 /// Farthest point of the tilted heart along one of the six axis directions.

@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "model/shape/solid/cell_fill.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <map>
+
+#include "math/decompositions.h"
 
 namespace viscera {
 
@@ -73,8 +74,7 @@ bool isPossible(const CellFill& fill) {
   const Vector3d middle = fill.first / fill.share;
   if (middle.cwiseAbs().maxCoeff() > 0.5) return false;
   const Eigen::Matrix3d spread = fill.second / fill.share - middle * middle.transpose();
-  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread, Eigen::EigenvaluesOnly).eigenvalues().minCoeff() >=
-         -kRounding;
+  return principalValues(spread).minCoeff() >= -kRounding;
 }
 
 void giveSlivers(const std::vector<PartialCell>& slivers, Solid& solid) {

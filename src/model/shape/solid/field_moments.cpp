@@ -58,7 +58,7 @@ class BlockSamples {
   std::vector<LabelledDistance> samples_;
 };
 
-Vector3i corner(int c) {
+Vector3i cornerOf(int c) {
   return {c & 1, (c >> 1) & 1, (c >> 2) & 1};
 }
 
@@ -102,7 +102,7 @@ void addCube(const Vector3d& low, const std::array<double, 8>& values, CellFill&
     std::array<Vector3d, 4> corners;
     std::array<double, 4> there{};
     for (int i = 0; i < 4; ++i) {
-      corners[i] = low + edge * corner(t[i]).cast<double>();
+      corners[i] = low + edge * cornerOf(t[i]).cast<double>();
       there[i] = values[t[i]];
     }
     addTetrahedron(corners, there, sum);
@@ -112,7 +112,7 @@ void addCube(const Vector3d& low, const std::array<double, 8>& values, CellFill&
 /// One cell of a block.
 class FieldCell {
  public:
-  /// @param first  sample at its lowest corner
+  /// @param first  sample at its lowest cornerOf
   FieldCell(BlockSamples& samples, const Vector3i& first, double spacing_m)
       : samples_(samples), first_(first), spacing_m_(spacing_m) {}
 
@@ -123,7 +123,7 @@ class FieldCell {
     const bool inside = middle().distance_m < 0;
     if (std::abs(middle().distance_m) < kClear * spacing_m_) return false;
     for (int c = 0; c < 8; ++c) {
-      const double value = at(kCuts * corner(c)).distance_m;
+      const double value = at(kCuts * cornerOf(c)).distance_m;
       if ((value < 0) != inside || std::abs(value) < kClear * spacing_m_) return false;
     }
     return true;
@@ -131,7 +131,7 @@ class FieldCell {
 
   CellFill fill() const {
     CellFill sum = noFill();
-    for (int c = 0; c < 8; ++c) addOctant(kOctant * corner(c), sum);
+    for (int c = 0; c < 8; ++c) addOctant(kOctant * cornerOf(c), sum);
     return sum;
   }
 
@@ -154,13 +154,13 @@ class FieldCell {
  private:
   const LabelledDistance& at(const Vector3i& i) const { return samples_.at(first_ + i); }
 
-  /// @param first  small cube at the octant's lowest corner
+  /// @param first  small cube at the octant's lowest cornerOf
   void addOctant(const Vector3i& first, CellFill& sum) const {
     const Vector3d low = first.cast<double>() / kCuts - Vector3d::Constant(0.5);
     const bool inside = at(first).distance_m < 0;
     bool uniform = true;
     for (int c = 0; c < 8 && uniform; ++c) {
-      const double value = at(first + kOctant * corner(c)).distance_m;
+      const double value = at(first + kOctant * cornerOf(c)).distance_m;
       uniform = (value < 0) == inside && std::abs(value) > kClearOctant * spacing_m_;
     }
     if (uniform) {
@@ -170,8 +170,8 @@ class FieldCell {
     const double shift = chordShift(first);
     for (int cube = 0; cube < 8; ++cube) {
       std::array<double, 8> values{};
-      for (int c = 0; c < 8; ++c) values[c] = at(first + corner(cube) + corner(c)).distance_m + shift;
-      addCube(low + corner(cube).cast<double>() / kCuts, values, sum);
+      for (int c = 0; c < 8; ++c) values[c] = at(first + cornerOf(cube) + cornerOf(c)).distance_m + shift;
+      addCube(low + cornerOf(cube).cast<double>() / kCuts, values, sum);
     }
   }
 

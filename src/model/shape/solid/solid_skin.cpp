@@ -19,7 +19,7 @@ namespace {
 /// Least magnitude to which smoothing may bring a cell's value, so that no cell changes sides and thin walls stay.
 constexpr float kKeepSide = 0.5f;
 /// Farthest that the surface of a solid is moved outward to make up for its clipped edges, in cells.
-constexpr double kMostInflation = 0.4;
+constexpr double kMostSkinInflation = 0.4;
 /// Least distance of a sample from the surface, in spacings: two vertices never fall together at a sample.
 constexpr double kClearOfSample = 0.05;
 
@@ -100,7 +100,7 @@ void restoreVolume(TriangleMesh& mesh, const Solid& solid) {
     const Vector3f& a = mesh.positions_m[t[0]];
     area_m2 += 0.5 * (mesh.positions_m[t[1]] - a).cross(mesh.positions_m[t[2]] - a).norm();
   }
-  const double most_m = kMostInflation * solid.spacing_m;
+  const double most_m = kMostSkinInflation * solid.spacing_m;
   const double outward_m = std::clamp((solid.volumeM3() - signedVolume(mesh)) / area_m2, -most_m, most_m);
   const std::vector<Vector3f> normals = vertexNormals(mesh);
   for (size_t v = 0; v < normals.size(); ++v) mesh.positions_m[v] += static_cast<float>(outward_m) * normals[v];

@@ -66,7 +66,7 @@ CellFill fillOf(const Column& c) {
 }
 
 /// The pieces of the surface in one cell.
-struct Pieces {
+struct CellPieces {
   CellFill beyond = noFill();      ///< in the cell itself
   Column column = Column::Zero();  ///< in each cell behind it along x
 
@@ -99,9 +99,9 @@ struct Pieces {
 }  // namespace
 
 std::vector<SurfaceCell> windingSums(const Shell& shell, const Solid& grid) {
-  std::unordered_map<size_t, Pieces> pieces;
+  std::unordered_map<size_t, CellPieces> pieces;
   auto visit = [&](const Polygon& polygon, const Vector3i& cell) {
-    Pieces& here = pieces[grid.index(cell.x(), cell.y(), cell.z())];
+    CellPieces& here = pieces[grid.index(cell.x(), cell.y(), cell.z())];
     const Vector3d middle = cell.cast<double>() + Vector3d::Constant(0.5);
     for (size_t i = 2; i < polygon.size(); ++i) {
       here.addTriangle(polygon[0] - middle, polygon[i - 1] - middle, polygon[i] - middle);
@@ -124,7 +124,7 @@ std::vector<SurfaceCell> windingSums(const Shell& shell, const Solid& grid) {
   const auto row_length = static_cast<size_t>(grid.cells.x());
   for (size_t i = 0; i < sums.size(); ++i) {
     if (i > 0 && sums[i].cell / row_length != sums[i - 1].cell / row_length) before.setZero();
-    const Pieces& here = pieces.at(sums[i].cell);
+    const CellPieces& here = pieces.at(sums[i].cell);
     sums[i].sum = fillOf(before);
     add(sums[i].sum, here.beyond);
     before += here.column;

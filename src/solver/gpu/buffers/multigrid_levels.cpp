@@ -10,7 +10,7 @@ namespace viscera {
 namespace {
 
 constexpr size_t kMostDirect = 512;  // nodes of a coarsest level whose inverse is kept: 12 MB
-constexpr int kSweeps = 4;           // of the smoother there, if it has more
+constexpr int kCoarsestSweeps = 4;   // of the smoother there, if it has more
 
 std::vector<std::string> with(std::vector<std::string> defines, std::initializer_list<const char*> more) {
   defines.insert(defines.end(), more.begin(), more.end());
@@ -154,7 +154,7 @@ void MultigridLevels::smoothTwice(const MultigridCoarseKernels& kernels, const L
 void MultigridLevels::solveCoarsest(const MultigridCoarseKernels& kernels) const {
   const Level& level = levels_.back();
   if (!direct_) {
-    for (int sweep = 0; sweep < kSweeps; ++sweep) {
+    for (int sweep = 0; sweep < kCoarsestSweeps; ++sweep) {
       if (sweep > 0) subtractProduct(kernels, level);
       smoothTwice(kernels, level, sweep == 0);
     }

@@ -13,7 +13,7 @@ namespace viscera::multigrid {
 
 namespace {
 
-constexpr int kCorners = 8;
+constexpr int kElementCorners = 8;
 constexpr size_t kSpringsOfCell = 24;  // twelve edges, twelve diagonals of faces
 
 int cornerOf(int x, int y, int z) {
@@ -30,7 +30,7 @@ std::vector<CellSpring> springsOfCell() {
   std::vector<CellSpring> out;
   for (size_t pair = 0; pair < kPairs; ++pair) {
     const std::array<int, 3>& o = kNeighborOffsets[2 * pair];
-    for (int c = 0; c < kCorners; ++c) {
+    for (int c = 0; c < kElementCorners; ++c) {
       const int x = (c & 1) + o[0], y = (c >> 1 & 1) + o[1], z = (c >> 2) + o[2];
       if (x < 0 || x > 1 || y < 0 || y > 1 || z < 0 || z > 1) continue;
       out.push_back({c, cornerOf(x, y, z), pair});
@@ -152,12 +152,12 @@ ElementMatrix matrixOf(const Recipe& recipe, const std::vector<CellSpring>& spri
     out.block<3, 3>(a, b) -= t;
     out.block<3, 3>(b, a) -= t;
   }
-  for (int c = 0; c < kCorners; ++c)
+  for (int c = 0; c < kElementCorners; ++c)
     out.block<3, 3>(3 * c, 3 * c) +=
         static_cast<double>(recipe.diagonal[static_cast<size_t>(c)]) * Eigen::Matrix3d::Identity();
   const double spacing_m = static_cast<double>(recipe.spacing_m);
   Eigen::Matrix<double, 21, 24> motion = Eigen::Matrix<double, 21, 24>::Zero();
-  for (int c = 0; c < kCorners; ++c) {
+  for (int c = 0; c < kElementCorners; ++c) {
     const Eigen::Matrix<double, 7, 1> of_corner = motionOfCorner(c, spacing_m);
     for (int i = 0; i < 7; ++i)
       for (int axis = 0; axis < 3; ++axis) motion(3 * i + axis, 3 * c + axis) = of_corner[i];
@@ -169,10 +169,10 @@ ElementMatrix matrixOf(const Recipe& recipe, const std::vector<CellSpring>& spri
 }
 
 /// Corners of a cell as its live springs join them: the lowest corner of each one's piece.
-std::array<int, kCorners> piecesOf(const Recipe& recipe, const std::vector<CellSpring>& springs) {
-  std::array<int, kCorners> piece{};
-  for (int c = 0; c < kCorners; ++c) piece[static_cast<size_t>(c)] = c;
-  for (int round = 0; round < kCorners; ++round) {
+std::array<int, kElementCorners> piecesOf(const Recipe& recipe, const std::vector<CellSpring>& springs) {
+  std::array<int, kElementCorners> piece{};
+  for (int c = 0; c < kElementCorners; ++c) piece[static_cast<size_t>(c)] = c;
+  for (int round = 0; round < kElementCorners; ++round) {
     for (size_t s = 0; s < springs.size(); ++s) {
       if (recipe.stiffness[s] == 0) continue;
       int &a = piece[static_cast<size_t>(springs[s].from)], &b = piece[static_cast<size_t>(springs[s].to)];
@@ -207,7 +207,7 @@ class Cutter {
  private:
   /// Are all eight corners nodes? Springs are between corners of such cells only.
   bool isCell(uint32_t node) const {
-    for (int c = 0; c < kCorners; ++c) {
+    for (int c = 0; c < kElementCorners; ++c) {
       if (grid_.node_at[corner(node, c)] < 0) return false;
     }
     return true;
@@ -226,27 +226,27 @@ class Cutter {
     const Recipe recipe = springsIn(cell);
     for (size_t s = 0; s < springs_.size(); ++s)
       ++cells_[springs_[s].pair * level_.places() + corner(cell, springs_[s].from)];
-    const std::array<int, kCorners> piece = piecesOf(recipe, springs_);
-    for (int c = 0; c < kCorners; ++c) {
+    const std::array<int, kElementCorners> piece = piecesOf(recipe, springs_);
+    for (int c = 0; c < kElementCorners; ++c) {
       if (isShared(piece, c)) ++shares_[static_cast<size_t>(grid_.node_at[corner(cell, c)])];
     }
   }
   /// Is a corner joined to another one?
-  static bool isShared(const std::array<int, kCorners>& piece, int c) {
-    for (int other = 0; other < kCorners; ++other) {
+  static bool isShared(const std::array<int, kElementCorners>& piece, int c) {
+    for (int other = 0; other < kElementCorners; ++other) {
       if (other != c && piece[static_cast<size_t>(other)] == piece[static_cast<size_t>(c)]) return true;
     }
     return false;
   }
   void addCell(uint32_t cell) {
     const Recipe whole = springsIn(cell);
-    const std::array<int, kCorners> piece = piecesOf(whole, springs_);
-    for (int first = 0; first < kCorners; ++first) {
+    const std::array<int, kElementCorners> piece = piecesOf(whole, springs_);
+    for (int first = 0; first < kElementCorners; ++first) {
       if (piece[static_cast<size_t>(first)] != first || !isShared(piece, first)) continue;
       addPiece(cell, whole, piece, first);
     }
   }
-  void addPiece(uint32_t cell, const Recipe& whole, const std::array<int, kCorners>& piece, int first) {
+  void addPiece(uint32_t cell, const Recipe& whole, const std::array<int, kElementCorners>& piece, int first) {
     const uint32_t body = grid_.bodyOf(cell);
     const size_t place = grid_.place_of[cell];
     Element element;
@@ -255,7 +255,7 @@ class Cutter {
     Recipe recipe;
     recipe.spacing_m = level_.box(body).params.origin_spacing.w;
     recipe.damping = level_.box(body).params.dashpot_s * level_.box(body).damping_rate_per_s;
-    for (int c = 0; c < kCorners; ++c) {
+    for (int c = 0; c < kElementCorners; ++c) {
       const size_t at = corner(cell, c);
       const bool in = piece[static_cast<size_t>(c)] == first;
       element.nodes[static_cast<size_t>(c)] = in ? grid_.node_at[at] : -1;

@@ -29,7 +29,7 @@ namespace multigrid {
 namespace {
 
 constexpr float kAtPlane = 1e-4f;  // spacings: nearer than that a node touches
-constexpr int kRounds = 6;         // over the contacts of a node, which share what it lacks
+constexpr int kContactRounds = 6;  // over the contacts of a node, which share what it lacks
 constexpr layout::ToolMotion kNoMotions[layout::kMaxStyluses] = {};
 
 Vector3f vectorOf(const Vectors& x, size_t places, size_t place) {
@@ -180,7 +180,7 @@ void Touching::outside(const Node& node, float* at, size_t places) const {
     const Vector3f slip = du - half.way;
     du -= slip - slip.dot(half.normal) * half.normal;
   }
-  for (size_t i = 0; i < kRounds * count; ++i) {
+  for (size_t i = 0; i < kContactRounds * count; ++i) {
     const Half& half = contacts[i % count];
     du += std::max(0.0f, half.least - half.normal.dot(du)) * half.normal;
   }
@@ -207,7 +207,7 @@ bool Touching::pressNode(Node& node, const Vectors& increment, Vectors& lacks, c
   const float near = kAtPlane * level.box(level.grid().bodyOf(node.node)).params.origin_spacing.w;
   float pressures[3] = {};
   Vector3f left = node.lacks;
-  for (size_t i = 0; i < (count > 1 ? kRounds : 1) * count; ++i) {
+  for (size_t i = 0; i < (count > 1 ? kContactRounds : 1) * count; ++i) {
     const Half& half = contacts[i % count];
     if (half.normal.dot(du) > half.least + near) continue;
     const float before = pressures[i % count];
@@ -292,7 +292,7 @@ void Touching::give(CpuLattice& lattice, const Vectors& increment, const Vectors
       std::array<Half, 3> contacts;
       const size_t count = contactsOf(node.slot, contacts);
       Vector3f left = node.lacks;
-      for (size_t i = 0; i < kRounds * count; ++i) {
+      for (size_t i = 0; i < kContactRounds * count; ++i) {
         if (!(node.mask >> (i % count) & 1)) continue;
         const Vector3f& normal = contacts[i % count].normal;
         glsl::vec4& force = contacts_[3 * (size_t{node.slot} * rows_ + i % count) + 2];

@@ -9,9 +9,9 @@ namespace viscera {
 
 namespace {
 
-constexpr double kBackOnItself = 0.2;  // of the sum of two directions: below it they have no bisector to speak of
-constexpr double kLeastAlong = 0.2;    // where it turns back: slow rather than not at all
-constexpr double kStraight = 1e-3;     // [rad] of a turn whose sines are its angle
+constexpr double kBackOnItself = 0.2;    // of the sum of two directions: below it they have no bisector to speak of
+constexpr double kLeastAlong = 0.2;      // where it turns back: slow rather than not at all
+constexpr double kStraightChain = 1e-3;  // [rad] of a turn whose sines are its angle
 
 constexpr double kLeastSlip_m = 1e-12;  // no division by 0
 
@@ -51,7 +51,7 @@ double ChainTurn::alongBisector() const {
 }
 
 double capstan(double friction, double angle) {
-  return angle < kStraight ? friction : std::tanh(friction * angle / 2) / std::tan(angle / 2);
+  return angle < kStraightChain ? friction : std::tanh(friction * angle / 2) / std::tan(angle / 2);
 }
 
 }  // namespace viscera

@@ -1,5 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include "bench/command/reference.h"
+
 #include <algorithm>
 #include <chrono>
 #include <iostream>
@@ -16,7 +18,7 @@
 #include "viscera/tools/hands.h"
 #include "viscera/tools/obstacles.h"
 
-namespace viscera::cli {
+namespace viscera::bench {
 
 namespace {
 
@@ -61,8 +63,9 @@ void keepWorst(const ReferenceTicks& reference, double tick_hz, Extremes& worst)
 
 }  // namespace
 
-int runReference(const RunPlan& plan, bool compare) {
-  const Progress progress = consoleProgress();
+int referenceRun(const ReferenceRunOptions& options) {
+  const cli::RunPlan plan = cli::planRun(options.run);
+  const Progress progress = cli::consoleProgress();
   const Model model = buildModel(plan.scene, progress);
   for (const Body& body : model.bodies) {
     for (const std::string& note : body.notes) std::cout << body.name << ": " << oneLine(note) << '\n';
@@ -74,9 +77,9 @@ int runReference(const RunPlan& plan, bool compare) {
   Obstacles obstacles(plan.scene.obstacles, waveSpeed(model) / tick_hz);
   ReferenceTicks reference(model, plan.scene);
   std::optional<Comparison> comparison;
-  if (compare) comparison.emplace(model, plan.scene);
+  if (options.compare) comparison.emplace(model, plan.scene);
 
-  RunMetrics metrics{plan.scene.name, model};
+  cli::RunMetrics metrics{plan.scene.name, model};
   const Clock::time_point start = Clock::now();
   for (uint64_t t = 0; t < plan.ticks; ++t) {
     const double time_s = static_cast<double>(t + 1) / tick_hz;
@@ -96,12 +99,12 @@ int runReference(const RunPlan& plan, bool compare) {
   metrics.simulated_s = static_cast<double>(plan.ticks) / tick_hz;
   metrics.state_hash = stateHash(model, reference.solver().state());
   metrics.backend = "reference";
-  metrics.stepped_by = "reference (float64), as --reference asks";
+  metrics.stepped_by = "reference (float64), as `viscera bench reference` asks";
   metrics.renderer = "none";
-  nlohmann::ordered_json out = toJson(metrics);
+  nlohmann::ordered_json out = cli::toJson(metrics);
   if (comparison) out["gpu_error"] = comparison->error(reference.solver());
   std::cout << out.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) << std::endl;
   return 0;
 }
 
-}  // namespace viscera::cli
+}  // namespace viscera::bench

@@ -1,0 +1,32 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "viscera/math/types.h"
+
+namespace viscera {
+
+// Eigen's decompositions as plain functions: each takes seconds to compile, so it is compiled in decompositions.cpp
+// alone.
+
+/// Returns the shortest rotation that turns the direction of `from` into that of `to`; any of them if they are
+/// opposite.
+Quaterniond rotationBetween(const Vector3d& from, const Vector3d& to);
+
+/// Returns the rigid motion [4 x 4, homogeneous] with the least squares of distances from the columns of `from` [3 x
+/// n], moved, to those of `to` [3 x n] (Umeyama, PAMI 1991, without scale).
+Eigen::Matrix4d rigidMotion(const Eigen::Matrix3Xd& from, const Eigen::Matrix3Xd& to);
+
+/// Eigenvalues of a symmetric matrix in ascending order, and its unit eigenvectors as columns.
+struct PrincipalAxes {
+  Vector3d values;
+  Matrix3d axes;
+};
+/// Returns eigenvalues and eigenvectors of a symmetric matrix, whose lower triangle is read.
+PrincipalAxes principalAxes(const Matrix3d& symmetric);
+/// Returns the same without iterations, by the cubic's roots: faster, and less exact for close eigenvalues.
+PrincipalAxes principalAxesDirect(const Matrix3d& symmetric);
+/// Returns the eigenvalues of a symmetric matrix in ascending order.
+Vector3d principalValues(const Matrix3d& symmetric);
+
+}  // namespace viscera
