@@ -112,7 +112,7 @@ void addCube(const Vector3d& low, const std::array<double, 8>& values, CellFill&
 /// One cell of a block.
 class FieldCell {
  public:
-  /// @param first  sample at its lowest cornerOf
+  /// @param first  sample at its lowest corner
   FieldCell(BlockSamples& samples, const Vector3i& first, double spacing_m)
       : samples_(samples), first_(first), spacing_m_(spacing_m) {}
 
@@ -154,7 +154,7 @@ class FieldCell {
  private:
   const LabelledDistance& at(const Vector3i& i) const { return samples_.at(first_ + i); }
 
-  /// @param first  small cube at the octant's lowest cornerOf
+  /// @param first  small cube at the octant's lowest corner
   void addOctant(const Vector3i& first, CellFill& sum) const {
     const Vector3d low = first.cast<double>() / kCuts - Vector3d::Constant(0.5);
     const bool inside = at(first).distance_m < 0;
