@@ -89,10 +89,11 @@ void ChildProcess::fail() {
     throw SceneError(what_ + ": the library that reads DICOM was ended by it (" + strsignal(WTERMSIG(status)) +
                      "); accepted: sound files that take at most " + std::to_string(bytes_ >> 20) + " MiB");
   if (WIFEXITED(status) && WEXITSTATUS(status) == kNoProgram)
-    throw SceneError(
-        what_ +
-        ": the program viscera-dicom, which reads DICOM, is not there or does not start; it is built where GDCM is "
-        "installed, and is looked for beside this program, in PATH, and where VISCERA_DICOM says");
+    throw SceneError(what_ +
+                     ": the program viscera-dicom, which reads DICOM, is not there or does not start; scripts/build "
+                     "--only viscera-dicom "
+                     "builds it where GDCM is installed, and it is looked for beside this program, in PATH, and where "
+                     "VISCERA_DICOM says");
   std::string text(kMostLine, '\0');
   const ssize_t got = pread(errors_, text.data(), text.size(), 0);
   text.resize(static_cast<size_t>(std::max<ssize_t>(got, 0)));
