@@ -67,6 +67,7 @@ const Limits& driverLimits() {
   out.storage_block_bytes = asked(GL_MAX_SHADER_STORAGE_BLOCK_SIZE);
   out.texels = asked(GL_MAX_TEXTURE_BUFFER_SIZE);
   out.loads = readsByLoads();
+  out.compiles_ahead = !isSoftware();
   known = out;
   return *known;
 }

@@ -18,7 +18,8 @@ struct Limits {
   size_t groups = 0;                 ///< GL_MAX_COMPUTE_WORK_GROUP_COUNT, along x
   size_t storage_block_bytes = 0;    ///< GL_MAX_SHADER_STORAGE_BLOCK_SIZE
   size_t texels = 0;                 ///< GL_MAX_TEXTURE_BUFFER_SIZE
-  bool loads = false;  ///< storage loads are no slower than texel fetches: all but rasterisers on the processor
+  bool loads = false;          ///< storage loads are no slower than texel fetches: all but rasterisers on the processor
+  bool compiles_ahead = true;  ///< compiles programs on threads of its own: all but rasterisers on the processor
 };
 
 /// What every scene needs; of sizes, what a scene of some thousand nodes does. Kernels with more blocks say so before

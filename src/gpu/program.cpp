@@ -94,11 +94,13 @@ std::string filesLegend(const Files& files) {
   return out;
 }
 
-/// A shader that the driver has been told to compile.
+/// One shader of a program.
 struct ShaderStage {
-  uint32_t id;
+  GLenum kind;
+  uint32_t id;  ///< 0: the driver was not told to compile it yet
   std::string name;
   Files files;
+  std::string source;  ///< until then
 };
 
 /// @throws GpuError  it does not compile
@@ -113,6 +115,14 @@ void finishStage(const ShaderStage& stage) {
                  log.c_str());
 }
 
+/// A uniform's value that was set before its program was compiled.
+struct PendingValue {
+  UniformName name;
+  uint32_t type;
+  size_t components, count;  ///< words of an element, elements
+  std::vector<uint32_t> words;
+};
+
 }  // namespace
 
 namespace {
@@ -122,12 +132,13 @@ thread_local std::set<UnfinishedProgram*>* listed = nullptr;
 
 }  // namespace
 
-/// Of a program that was not used yet.
+/// What a Program needs until it is first used: its shaders, and the values set so far.
 struct UnfinishedProgram {
-  uint32_t id = 0;
+  uint32_t id = 0;  ///< 0: the driver was not told to compile it yet
   std::string name;
   std::vector<ShaderStage> stages;
   std::vector<std::string> uniforms;  ///< that its shaders declare, as often as they like
+  std::vector<PendingValue> values;
 
   UnfinishedProgram() {
     if (listed) listed->insert(this);
@@ -137,17 +148,29 @@ struct UnfinishedProgram {
   ~UnfinishedProgram() {
     if (listed) listed->erase(this);
     for (const ShaderStage& stage : stages) glDeleteShader(stage.id);
+    if (id) glDeleteProgram(id);
   }
-  void compile(GLenum kind, const std::string& name, const std::vector<std::string>& defines) {
-    ShaderStage stage{0, name, {}};
-    const std::string source = expanded(name, defines, stage.files);
-    for (std::string& uniform : declaredUniforms(source)) uniforms.push_back(std::move(uniform));
-    const char* text = source.c_str();
-    stage.id = glCreateShader(kind);
-    countObject();
-    glShaderSource(stage.id, 1, &text, nullptr);
-    glCompileShader(stage.id);
+  void add(GLenum kind, const std::string& shader, const std::vector<std::string>& defines) {
+    ShaderStage stage{kind, 0, shader, {}, {}};
+    stage.source = expanded(shader, defines, stage.files);
+    for (std::string& uniform : declaredUniforms(stage.source)) uniforms.push_back(std::move(uniform));
     stages.push_back(std::move(stage));
+  }
+  /// Tells the driver to compile and link it, once.
+  void start() {
+    if (id) return;
+    id = glCreateProgram();
+    countObject();
+    for (ShaderStage& stage : stages) {
+      const char* text = stage.source.c_str();
+      stage.id = glCreateShader(stage.kind);
+      countObject();
+      glShaderSource(stage.id, 1, &text, nullptr);
+      glCompileShader(stage.id);
+      glAttachShader(id, stage.id);
+      stage.source.clear();
+    }
+    glLinkProgram(id);
   }
   /// @throws GpuError  it does not compile or link
   void require() const {
@@ -232,39 +255,36 @@ std::string shaderSource(const std::string& name, const std::vector<std::string>
 
 Program Program::compute(const std::string& name, const std::vector<std::string>& features) {
   const std::vector<std::string> defines = withLoads(name, features);
-  Program out;
-  out.name_ = name;
   requireStorageBlocks(driverLimits(), name, declaredStorageBlocks(shaderSource(name, defines)));
-  out.unfinished_ = std::make_unique<UnfinishedProgram>();
-  out.unfinished_->compile(GL_COMPUTE_SHADER, name, defines);
-  out.link();
+  Program out(name);
+  out.unfinished_->add(GL_COMPUTE_SHADER, name, defines);
+  out.begin();
   return out;
 }
 
 Program Program::graphics(const std::string& vertex, const std::string& fragment,
                           const std::vector<std::string>& defines) {
-  Program out;
-  out.name_ = vertex + " + " + fragment;
-  out.unfinished_ = std::make_unique<UnfinishedProgram>();
-  out.unfinished_->compile(GL_VERTEX_SHADER, vertex, defines);
-  out.unfinished_->compile(GL_FRAGMENT_SHADER, fragment, defines);
-  out.link();
+  Program out(vertex + " + " + fragment);
+  out.unfinished_->add(GL_VERTEX_SHADER, vertex, defines);
+  out.unfinished_->add(GL_FRAGMENT_SHADER, fragment, defines);
+  out.begin();
   return out;
 }
 
-void Program::link() {
-  id_ = glCreateProgram();
-  countObject();
-  unfinished_->id = id_;
+Program::Program(std::string name)
+    : name_(std::move(name)), label_(labelOf(name_)), unfinished_(std::make_unique<UnfinishedProgram>()) {
   unfinished_->name = name_;
-  for (const ShaderStage& stage : unfinished_->stages) glAttachShader(id_, stage.id);
-  glLinkProgram(id_);
-  label_ = labelOf(name_);
+}
+
+void Program::begin() {
+  if (driverLimits().compiles_ahead) unfinished_->start();
 }
 
 void Program::finish() const {
   if (!unfinished_) return;
+  unfinished_->start();
   unfinished_->require();
+  id_ = unfinished_->id;
   refuseSharedNumbers(bindingsOf(id_), name_);
   if (checks_dispatches) {
     const std::lock_guard<std::mutex> lock(unchecked_mutex);
@@ -286,7 +306,10 @@ void Program::finish() const {
     }
     uniforms_.push_back(uniform);
   }
+  unfinished_->id = 0;  // it is this object's now
+  const std::vector<PendingValue> values = std::move(unfinished_->values);
   unfinished_.reset();
+  for (const PendingValue& it : values) set(it.name, it.type, it.words.data(), it.components, it.count);
 }
 
 Program::Program() = default;
@@ -354,7 +377,9 @@ MadePrograms::~MadePrograms() {
 }
 
 void MadePrograms::require() const {
-  for (const UnfinishedProgram* program : made_) program->require();
+  for (const UnfinishedProgram* program : made_) {
+    if (program->id) program->require();
+  }
 }
 
 std::string lastKernel() {
@@ -380,38 +405,81 @@ const Program::Uniform* Program::changed(UniformName name, uint32_t type, const 
     std::memcpy(&values_[uniform.first], value, bytes);
     return &uniform;
   }
+  refuseUnknown(name);
+}
+
+void Program::refuseUnknown(UniformName name) const {
   throw GpuError("program '" + name_ + "' has no uniform '" + name.text() + "'");
 }
 
+/// Keeps a value for the time when the program is compiled.
+void Program::keep(UniformName name, uint32_t type, const void* value, size_t components, size_t count) const {
+  const auto& declared = unfinished_->uniforms;
+  if (std::find(declared.begin(), declared.end(), name.text()) == declared.end()) refuseUnknown(name);
+  auto& values = unfinished_->values;
+  const auto same = [name](const PendingValue& it) { return it.name.key() == name.key(); };
+  auto kept = std::find_if(values.begin(), values.end(), same);
+  if (kept == values.end()) kept = values.insert(values.end(), PendingValue{name, type, components, 0, {}});
+  if (kept->type != type) throw GpuError("program '" + name_ + "': uniform '" + name.text() + "' is of another type");
+  kept->count = std::max(kept->count, count);
+  kept->words.resize(kept->count * components);
+  std::memcpy(kept->words.data(), value, count * components * sizeof(uint32_t));
+}
+
+/// @param type  of OpenGL @param value  [count][components] words
+void Program::set(UniformName name, uint32_t type, const void* value, size_t components, size_t count) const {
+  if (unfinished_ && unfinished_->id == 0) return keep(name, type, value, components, count);
+  const Uniform* u = changed(name, type, value, components * count);
+  if (!u) return;
+  const auto n = static_cast<GLsizei>(count);
+  const auto* const floats = static_cast<const GLfloat*>(value);
+  const auto* const words = static_cast<const GLuint*>(value);
+  switch (type) {
+    case GL_UNSIGNED_INT:
+      return glProgramUniform1uiv(id_, u->location, n, words);
+    case GL_UNSIGNED_INT_VEC2:
+      return glProgramUniform2uiv(id_, u->location, n, words);
+    case GL_INT:
+      return glProgramUniform1iv(id_, u->location, n, static_cast<const GLint*>(value));
+    case GL_FLOAT:
+      return glProgramUniform1fv(id_, u->location, n, floats);
+    case GL_FLOAT_VEC2:
+      return glProgramUniform2fv(id_, u->location, n, floats);
+    case GL_FLOAT_VEC3:
+      return glProgramUniform3fv(id_, u->location, n, floats);
+    case GL_FLOAT_VEC4:
+      return glProgramUniform4fv(id_, u->location, n, floats);
+    case GL_FLOAT_MAT4:
+      return glProgramUniformMatrix4fv(id_, u->location, n, GL_FALSE, floats);
+    default:
+      throw GpuError("program '" + name_ + "': uniform '" + name.text() + "' is of a type that cannot be set");
+  }
+}
+
 void Program::set(UniformName name, uint32_t value) const {
-  if (const Uniform* u = changed(name, GL_UNSIGNED_INT, &value, 1)) glProgramUniform1ui(id_, u->location, value);
+  set(name, GL_UNSIGNED_INT, &value, 1, 1);
 }
 
 void Program::set(UniformName name, int32_t value) const {
-  if (const Uniform* u = changed(name, GL_INT, &value, 1)) glProgramUniform1i(id_, u->location, value);
+  set(name, GL_INT, &value, 1, 1);
 }
 
 void Program::set(UniformName name, float value) const {
-  if (const Uniform* u = changed(name, GL_FLOAT, &value, 1)) glProgramUniform1f(id_, u->location, value);
+  set(name, GL_FLOAT, &value, 1, 1);
 }
 
 void Program::set(UniformName name, uint32_t x, uint32_t y) const {
   const uint32_t value[] = {x, y};
-  if (const Uniform* u = changed(name, GL_UNSIGNED_INT_VEC2, value, 2))
-    glProgramUniform2uiv(id_, u->location, 1, value);
+  set(name, GL_UNSIGNED_INT_VEC2, value, 2, 1);
 }
 
 void Program::setMatrix(UniformName name, const float* values) const {
-  const Uniform* u = changed(name, GL_FLOAT_MAT4, values, 16);
-  if (u) glProgramUniformMatrix4fv(id_, u->location, 1, GL_FALSE, values);
+  set(name, GL_FLOAT_MAT4, values, 16, 1);
 }
 
 void Program::setVectors(UniformName name, const float* values, size_t components, size_t count) const {
   const GLenum type = components == 2 ? GL_FLOAT_VEC2 : components == 3 ? GL_FLOAT_VEC3 : GL_FLOAT_VEC4;
-  const Uniform* u = changed(name, type, values, components * count);
-  if (!u) return;
-  const auto set = components == 2 ? glProgramUniform2fv : components == 3 ? glProgramUniform3fv : glProgramUniform4fv;
-  set(id_, u->location, static_cast<GLsizei>(count), values);
+  set(name, type, values, components, count);
 }
 
 void checkDispatches(bool check) {

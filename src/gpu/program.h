@@ -49,8 +49,9 @@ class UniformName {
 struct ProgramLabel;
 struct UnfinishedProgram;
 
-/// A program. The driver is told to compile it when it is made and asked whether it could when it is first used, so
-/// that a driver with threads compiles all programs of a session side by side.
+/// A program. A driver with compiler threads is told to compile it when it is made and asked for the result when it is
+/// first used, so that all programs of a session compile side by side. A driver without them (a software rasteriser)
+/// compiles it when it is first used: a session runs about a fifth of the programs that its scene might come to need.
 class Program {
  public:
   Program();
@@ -77,7 +78,9 @@ class Program {
   static void storageBarrier();
   /// @name Uniforms by name
   /// A value that the program has already costs no OpenGL call, nor does one that the driver found unused. The program
-  /// need not be in use. @throws GpuError  the shaders declare no such uniform with any features, or of another type
+  /// need not be in use; before it is compiled the value is kept until then.
+  /// @throws GpuError  the shaders declare no such uniform with any features; or it has another type (said at the first
+  /// use of the program at the latest)
   /// @{
   void set(UniformName name, uint32_t value) const;
   void set(UniformName name, int32_t value) const;
@@ -92,7 +95,7 @@ class Program {
   /// An array of vectors, or its first ones. @param values  [count][components]
   void setVectors(UniformName name, const float* values, size_t components, size_t count) const;
   /// @}
-  explicit operator bool() const { return id_ != 0; }
+  explicit operator bool() const { return id_ != 0 || unfinished_ != nullptr; }
   uint32_t id() const {
     finish();
     return id_;
@@ -106,10 +109,14 @@ class Program {
     uint32_t type;
     size_t first, words;  ///< of its value in values_
   };
-  void link();
+  explicit Program(std::string name);
+  void begin();
+  void set(UniformName name, uint32_t type, const void* value, size_t components, size_t count) const;
+  void keep(UniformName name, uint32_t type, const void* value, size_t components, size_t count) const;
   const Uniform* changed(UniformName name, uint32_t type, const void* value, size_t words) const;
+  [[noreturn]] void refuseUnknown(UniformName name) const;
 
-  uint32_t id_ = 0;
+  mutable uint32_t id_ = 0;  ///< 0 until it is finished
   std::string name_;
   ProgramLabel* label_ = nullptr;
   mutable std::unique_ptr<UnfinishedProgram> unfinished_;  ///< null once it is finished
@@ -117,15 +124,15 @@ class Program {
   mutable std::vector<uint32_t> values_;
 };
 
-/// While it lives: the programs that this thread makes, so that what makes many can tell the driver of all and still
-/// say at the end what it cannot compile. They must be of one context.
+/// Lists the programs that this thread makes while it lives, so that what makes many can tell the driver of all and
+/// still report at the end what the driver cannot compile. They must be of one context.
 class MadePrograms {
  public:
   MadePrograms();
   ~MadePrograms();
   MadePrograms(const MadePrograms&) = delete;
   MadePrograms& operator=(const MadePrograms&) = delete;
-  /// Waits for those that are there and not used yet. @throws GpuError  as Program::finish()
+  /// Waits for those that the driver is compiling. @throws GpuError  as Program::finish()
   void require() const;
 
  private:

@@ -47,27 +47,33 @@ INSTANTIATE_TEST_SUITE_P(Backends, StabilityTrial, ::testing::Values(Backend::kC
                          [](const auto& backend) { return nameOf(backend.param); });
 
 #ifdef VISCERA_HAS_COMMAND
-TEST(StabilitySuite, ReachesEveryLimitInItsShortForm) {
-  for (const std::string backend : {"cpu", "gpu"}) {  // apart: together they take too long for a program of a test
-    const bool on_cpu = backend == "cpu";             // without a device, where `both` is the CPU alone and says so
-    std::vector<std::string> environment;
-    if (on_cpu) environment.emplace_back("__EGL_VENDOR_LIBRARY_FILENAMES=/dev/null");
-    const test::TemporaryFolder folder;
-    const test::Ending ending = test::runProgram(
-        kCommand,
-        {"bench", "stability", "--short", "--strict", "--backend", on_cpu ? "both" : backend, "--out", folder.path()},
-        environment);
-    EXPECT_EQ(ending.status, 0) << ending.out << ending.err;
-    EXPECT_EQ(bool(test::says(ending.out, {"alone, as there is no OpenGL context"})), on_cpu);
-    EXPECT_TRUE(test::says(ending.out, {"extreme starts", "what tools do", "random cuts", "state hash", ", 0 missed"}));
-    for (const char* table : {"starts", "starts_moments", "fractions", "tools", "cuts", "ratios", "rest", "units",
-                              "far", "sizes", "hashes", "hashes_moments"}) {
-      const std::string rows = test::readFile(folder.file(std::string("stability_") + table + ".csv"));
-      EXPECT_TRUE(test::says(rows, {"\n" + backend + ","})) << table << ":\n" << rows;
-    }
-    const std::string checks = test::readFile(folder.file("stability_checks.csv"));
-    EXPECT_TRUE(test::says(checks, {"\n" + backend + ": cuts", "\n" + backend + ": hashes"})) << checks;
+void expectEveryLimit(const std::string& backend) {
+  const bool on_cpu = backend == "cpu";  // without a device, where `both` is the CPU alone and says so
+  std::vector<std::string> environment;
+  if (on_cpu) environment.emplace_back("__EGL_VENDOR_LIBRARY_FILENAMES=/dev/null");
+  const test::TemporaryFolder folder;
+  const test::Ending ending = test::runProgram(
+      kCommand,
+      {"bench", "stability", "--short", "--strict", "--backend", on_cpu ? "both" : backend, "--out", folder.path()},
+      environment);
+  EXPECT_EQ(ending.status, 0) << ending.out << ending.err;
+  EXPECT_EQ(bool(test::says(ending.out, {"alone, as there is no OpenGL context"})), on_cpu);
+  EXPECT_TRUE(test::says(ending.out, {"extreme starts", "what tools do", "random cuts", "state hash", ", 0 missed"}));
+  for (const char* table : {"starts", "starts_moments", "fractions", "tools", "cuts", "ratios", "rest", "units", "far",
+                            "sizes", "hashes", "hashes_moments"}) {
+    const std::string rows = test::readFile(folder.file(std::string("stability_") + table + ".csv"));
+    EXPECT_TRUE(test::says(rows, {"\n" + backend + ","})) << table << ":\n" << rows;
   }
+  const std::string checks = test::readFile(folder.file("stability_checks.csv"));
+  EXPECT_TRUE(test::says(checks, {"\n" + backend + ": cuts", "\n" + backend + ": hashes"})) << checks;
+}
+
+TEST(StabilitySuite, ReachesEveryLimitInItsShortForm) {
+  expectEveryLimit("cpu");
+}
+
+TEST(StabilitySuite, ReachesEveryLimitOnTheGpu) {
+  expectEveryLimit("gpu");
 }
 #endif
 

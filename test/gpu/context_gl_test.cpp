@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "gpu/buffer.h"
+#include "gpu/limits.h"
 #include "gpu/program.h"
 #include "gpu/readback.h"
 #include "viscera/math/error.h"
@@ -105,6 +106,9 @@ TEST_F(Gpu, CompileErrorCarriesTheDriversLog) {
 }
 
 TEST_F(Gpu, CompileErrorsAreToldWhereManyAreMade) {
+  Limits ahead = driverLimits();
+  ahead.compiles_ahead = true;
+  pretendDriverLimits(ahead);
   const MadePrograms made;
   const Program good = Program::compute("sum_impulses.comp", {"GROUP_SIZE 64"});
   EXPECT_NO_THROW(made.require());
@@ -113,6 +117,7 @@ TEST_F(Gpu, CompileErrorsAreToldWhereManyAreMade) {
     EXPECT_THROW(made.require(), GpuError);
   }
   EXPECT_NO_THROW(made.require()) << "what is gone is not asked for";
+  forgetDriverLimits();
 }
 
 TEST(GpuContext, UnknownDeviceIsRefusedWithTheListOfThoseThereAre) {

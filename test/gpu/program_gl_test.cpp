@@ -4,8 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "gpu/buffer.h"
 #include "gpu/gl.h"
+#include "gpu/limits.h"
 #include "gpu/reflection.h"
 #include "layout/bindings.h"
 #include "viscera/gpu/context.h"
@@ -14,9 +17,18 @@
 namespace viscera::gpu {
 namespace {
 
-class Programs : public ::testing::Test {
+/// Programs of a driver that compiles ahead, and of one that compiles a program when it is first used.
+class Programs : public ::testing::TestWithParam<bool> {
  protected:
-  ~Programs() override { checkDispatches(false); }
+  Programs() {
+    Limits limits = driverLimits();
+    limits.compiles_ahead = GetParam();
+    pretendDriverLimits(limits);
+  }
+  ~Programs() override {
+    checkDispatches(false);
+    forgetDriverLimits();
+  }
   /// What `call` says when it throws.
   template <class Call>
   static std::string complaint(Call call) {
@@ -31,7 +43,10 @@ class Programs : public ::testing::Test {
   Context context_;
 };
 
-TEST_F(Programs, TakeUniformsByName) {
+INSTANTIATE_TEST_SUITE_P(Compiled, Programs, ::testing::Bool(),
+                         [](const auto& info) { return info.param ? "Ahead" : "AtFirstUse"; });
+
+TEST_P(Programs, TakeUniformsByName) {
   const Program program = splitTriangles();
   program.set("count", 7u);
   GLuint value = 0;
@@ -39,25 +54,57 @@ TEST_F(Programs, TakeUniformsByName) {
   EXPECT_EQ(value, 7u);
 }
 
-TEST_F(Programs, NameTheUniformThatTheyDoNotHave) {
+TEST_P(Programs, TakeTheFirstOfAnArrayAfterAllOfIt) {
+  const Program program = Program::graphics("mesh.vert", "tissue.frag");
+  const float tips[] = {1, 2, 3, 4, 5, 6, 7, 8}, first[] = {9, 10, 11, 12};
+  program.setVectors("shaft_tips", tips, 4, 2);
+  program.setVectors("shaft_tips", first, 4, 1);
+  const auto valueOf = [&](const char* element) {
+    std::array<float, 4> out{};
+    glGetUniformfv(program.id(), glGetUniformLocation(program.id(), element), out.data());
+    return out;
+  };
+  EXPECT_EQ(valueOf("shaft_tips[0]"), (std::array<float, 4>{9, 10, 11, 12}));
+  EXPECT_EQ(valueOf("shaft_tips[1]"), (std::array<float, 4>{5, 6, 7, 8}));
+}
+
+TEST_P(Programs, OfTheWrongSourceAreRefusedWhenUsedAtTheLatest) {
+  const Program broken = Program::compute("lattice.glsl", {"kBrickEdge broken("});
+  EXPECT_TRUE(broken);
+  EXPECT_NE(complaint([&] { broken.use(); }).find("layout.h"), std::string::npos);
+}
+
+TEST(ProgramsOfSoftware, AreNotCompiledUntilTheyAreUsed) {
+  const Context context;
+  if (driverLimits().compiles_ahead) GTEST_SKIP() << "a driver that compiles ahead";
+  const MadePrograms made;
+  const Program broken = Program::compute("lattice.glsl", {"kBrickEdge broken("});
+  EXPECT_NO_THROW(made.require());
+}
+
+TEST_P(Programs, NameTheUniformThatTheyDoNotHave) {
   const Program program = splitTriangles();
   const std::string said = complaint([&] { program.set("conut", 7u); });
   EXPECT_NE(said.find("conut"), std::string::npos) << said;
   EXPECT_NE(said.find("split_triangles.comp"), std::string::npos) << said;
 }
 
-TEST_F(Programs, RefuseAUniformOfAnotherType) {
+TEST_P(Programs, RefuseAUniformOfAnotherType) {
   const Program program = splitTriangles();
-  EXPECT_NE(complaint([&] { program.set("count", 7.0f); }), "");
+  const std::string said = complaint([&] {
+    program.set("count", 7.0f);
+    program.use();
+  });
+  EXPECT_NE(said.find("another type"), std::string::npos) << said;
 }
 
-TEST_F(Programs, PassOverUniformsThatTheirFeaturesLeaveOut) {
+TEST_P(Programs, PassOverUniformsThatTheirFeaturesLeaveOut) {
   const Program fold = Program::compute("sum_impulses.comp", {"GROUP_SIZE 64"});
   fold.set("slot_count", 5u);  // of feature LEAVES
   EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
 }
 
-TEST_F(Programs, NameWhatNothingIsBoundTo) {
+TEST_P(Programs, NameWhatNothingIsBoundTo) {
   checkDispatches(true);
   const Program fold = Program::compute("sum_impulses.comp", {"GROUP_SIZE 64"});
   const Buffer<uint32_t> partials(64), stats(64);

@@ -94,7 +94,7 @@ TEST(WoundOfOrgan, PhantomKeepsToTheChecks) {
   config.name = "heart";
   config.spacing_m = 0.005;
   config.skin_spacing_m = 0.003;
-  expectWoundsOf(bodyOf(config), 7);
+  expectWoundsOf(bodyOf(config), 3);
 }
 
 TEST(WoundOfOrgan, RealHeartKeepsToTheChecks) {
