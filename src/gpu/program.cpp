@@ -160,11 +160,9 @@ struct UnfinishedProgram {
   void start() {
     if (id) return;
     id = glCreateProgram();
-    countObject();
     for (ShaderStage& stage : stages) {
       const char* text = stage.source.c_str();
       stage.id = glCreateShader(stage.kind);
-      countObject();
       glShaderSource(stage.id, 1, &text, nullptr);
       glCompileShader(stage.id);
       glAttachShader(id, stage.id);
@@ -277,6 +275,8 @@ Program::Program(std::string name)
 }
 
 void Program::begin() {
+  countObject();  // now, whenever they are made: what runs later makes none that was not planned
+  for (size_t i = 0; i < unfinished_->stages.size(); ++i) countObject();
   if (driverLimits().compiles_ahead) unfinished_->start();
 }
 
