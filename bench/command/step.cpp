@@ -4,13 +4,13 @@
 
 #include <fstream>
 #include <iostream>
-#include <thread>
 
 #include "bench/command/stages.h"
 #include "bench/harness/machine/machine.h"
 #include "bench/harness/specimens/backends.h"
 #include "calibration/timed_ticks.h"
 #include "cli/scene_lookup.h"
+#include "math/processors.h"
 #include "solver/cpu/cpu_solver.h"
 #include "viscera/math/error.h"
 #include "viscera/math/state_hash.h"
@@ -58,7 +58,7 @@ Row measure(const Model& model, const Scene& scene, Backend backend, const Machi
   }
   const std::vector<double> substep_s = substepTimes(
       *solver, [] { return ToolMotions(); }, kTicks);
-  const auto there = static_cast<int>(std::thread::hardware_concurrency());
+  const int there = usableProcessors();
   Row row;
   row.scene = scene.name;
   row.nodes = model.activeNodes();

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 #include <sstream>
-#include <thread>
 
+#include "math/processors.h"
 #include "model/scene/integrators.h"
 #include "solver/make_solver.h"
 #include "solver/ticks/stable_step.h"
@@ -146,7 +146,7 @@ Scene withChosenSpacing(const Scene& asked, const gpu::Context* context, const P
   limits.step = known ? *known : measureStepTime(bodies, scene, context);
   if (progress) progress("measure this machine", 1);
   const double share =
-      shareOfSteps(scene, context != nullptr && context->isSoftware(), std::thread::hardware_concurrency());
+      shareOfSteps(scene, context != nullptr && context->isSoftware(), static_cast<unsigned>(usableProcessors()));
   limits.stepping_share = share / scene.solver.real_time_factor;
   limits.substeps_per_s = [&rule](double spacing_m) { return rule.perSecond(spacing_m); };
   limits.other_nodes = others.activeNodes();

@@ -2,17 +2,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <future>
-#include <thread>
 #include <vector>
+
+#include "math/processors.h"
 
 namespace viscera {
 
-/// act(0) .. act(count - 1), in any order, on as many threads as there are processors. An exception of one is thrown
-/// when all have ended.
+/// act(0) .. act(count - 1), in any order, on as many threads as there are processors to use. An exception of one is
+/// thrown when all have ended.
 template <class Act>
 void inParallel(size_t count, const Act& act) {
   std::atomic<size_t> next{0};
@@ -20,8 +20,7 @@ void inParallel(size_t count, const Act& act) {
     for (size_t i = next++; i < count; i = next++) act(i);
   };
   std::vector<std::future<void>> others;
-  for (unsigned t = 1; t < std::max(1U, std::thread::hardware_concurrency()); ++t)
-    others.push_back(std::async(std::launch::async, work));
+  for (int t = usableProcessors(); t > 1; --t) others.push_back(std::async(std::launch::async, work));
   work();
   for (std::future<void>& other : others) other.get();
 }

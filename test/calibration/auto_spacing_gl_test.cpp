@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <thread>
 
+#include "math/processors.h"
 #include "session/block_session.h"
 #include "solver/make_solver.h"
 #include "solver/ticks/stable_step.h"
@@ -33,7 +33,7 @@ class AutoSpacing : public GpuTest {
   }
   Scene chosen() { return withChosenSpacing(scene_, &context_, {}, kMachine); }
   double chosenSpacing_m() { return chosen().bodies[0].spacing_m; }
-  double share() { return shareOfSteps(scene_, context_.isSoftware(), std::thread::hardware_concurrency()); }
+  double share() { return shareOfSteps(scene_, context_.isSoftware(), static_cast<unsigned>(usableProcessors())); }
 
   Scene scene_ = blockScene();
 };

@@ -13,6 +13,7 @@
 
 #include "bench/harness/machine/machine_threads.h"
 #include "math/aligned.h"
+#include "math/processors.h"
 
 namespace viscera::bench {
 
@@ -84,7 +85,7 @@ double residentBytes() {
 }
 
 int processors() {
-  return static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  return usableProcessors();
 }
 
 }  // namespace viscera::bench

@@ -8,6 +8,7 @@
 #include "bench/harness/specimens/specimen.h"
 #include "bench/suites/pace/performance_suites.h"
 #include "calibration/timed_ticks.h"
+#include "math/processors.h"
 #include "solver/cpu/cpu_solver.h"
 
 namespace viscera::bench {
@@ -120,7 +121,7 @@ void busySuite(Report& report) {
   const Scene scene = demoScene();
   report.stage("building");
   const Model model = buildModel(scene);
-  const int there = static_cast<int>(std::thread::hardware_concurrency());
+  const int there = usableProcessors();
   std::vector<Stepping> ways;
   ways.emplace_back(model, scene, 1, "1 thread");
   ways.emplace_back(model, scene, 2, "2 threads");

@@ -441,7 +441,7 @@ struct SolverConfig {
   double real_time_factor = 1.2;  ///< of bodies with auto_spacing
   int device = -1;
   Backend backend = Backend::kAuto;
-  int threads = 0;  ///< of the CPU backend; 0: as many as there are processors
+  int threads = 0;  ///< of the CPU backend; 0: usableProcessors()
 };
 
 /// WHAT is simulated: bodies, tools, cameras and an environment.
@@ -467,7 +467,7 @@ using Overrides = std::vector<std::string>;
 /// body's origin, upright (glTF's y up is turned to z). None for an empty name. Later overrides go before them.
 Overrides meshOverrides(const std::string& mesh_file);
 
-/// Reads and checks a scene file.
+/// Reads and checks a scene file, or the shipped scene of a name such as "heart".
 /// @throws SceneError  file, line, key and accepted range, for an unknown key, a wrong type, a value out of range, NaN
 Scene loadScene(const std::string& path, const Overrides& overrides = {});
 

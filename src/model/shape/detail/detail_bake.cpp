@@ -9,8 +9,8 @@
 #include <memory>
 #include <random>
 #include <sstream>
-#include <thread>
 
+#include "math/processors.h"
 #include "math/srgb.h"
 #include "model/shape/detail/detail_atlas.h"
 #include "model/shape/detail/detail_cache.h"
@@ -174,8 +174,7 @@ void bakeTiles(const Baker& baker, Baked& out, const Progress& progress) {
     uncovered += bare;
   };
   std::vector<std::future<void>> helpers;  // which are waited for where the progress throws, too
-  for (unsigned i = 1; i < std::max(1U, std::thread::hardware_concurrency()); ++i)
-    helpers.push_back(std::async(std::launch::async, work, false));
+  for (int i = usableProcessors(); i > 1; --i) helpers.push_back(std::async(std::launch::async, work, false));
   work(true);
   for (std::future<void>& helper : helpers) helper.get();
   out.report.uncovered_share = texels > 0 ? static_cast<double>(uncovered) / static_cast<double>(texels) : 0;

@@ -8,8 +8,8 @@
 #include <cmath>
 #include <future>
 #include <memory>
-#include <thread>
 
+#include "math/processors.h"
 #include "math/srgb.h"
 #include "model/shape/detail/detail_atlas.h"
 
@@ -186,8 +186,7 @@ void paintTiles(Canvas& canvas, const Progress& progress) {
     }
   };
   std::vector<std::future<void>> helpers;  // which are waited for where the progress throws, too
-  for (unsigned i = 1; i < std::max(1U, std::thread::hardware_concurrency()); ++i)
-    helpers.push_back(std::async(std::launch::async, work, false));
+  for (int i = usableProcessors(); i > 1; --i) helpers.push_back(std::async(std::launch::async, work, false));
   work(true);
   for (std::future<void>& helper : helpers) helper.get();
 }

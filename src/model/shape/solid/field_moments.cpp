@@ -12,8 +12,8 @@
 #include <future>
 #include <limits>
 #include <map>
-#include <thread>
 
+#include "math/processors.h"
 #include "model/shape/solid/cell_fill.h"
 #include "model/shape/solid/node_depths.h"
 #include "model/shape/solid/solid_grid.h"
@@ -241,7 +241,7 @@ void fillLayer(const DistanceField& field, int z, Solid& solid, Found& found) {
     return own;
   };
   std::vector<std::future<Found>> workers;
-  const int threads = std::min(count, static_cast<int>(std::max(1u, std::thread::hardware_concurrency())));
+  const int threads = std::min(count, usableProcessors());
   for (int t = 0; t < threads; ++t) workers.push_back(std::async(std::launch::async, work));
   for (std::future<Found>& worker : workers) {
     const Found own = worker.get();

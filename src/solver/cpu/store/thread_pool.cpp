@@ -8,6 +8,8 @@
 #include <chrono>
 #include <utility>
 
+#include "math/processors.h"
+
 #if defined(__x86_64__) || defined(__i386__)
 #include <immintrin.h>
 #endif
@@ -65,8 +67,7 @@ uint64_t endOf(size_t run, size_t sharing, uint64_t count) {
 }  // namespace
 
 std::shared_ptr<ThreadPool> makeThreadPool(int threads) {
-  const auto there = static_cast<int>(std::thread::hardware_concurrency());
-  return std::make_shared<ThreadPool>(std::max(1, threads > 0 ? threads : there));
+  return std::make_shared<ThreadPool>(threads > 0 ? threads : usableProcessors());
 }
 
 ThreadPool::ThreadPool(int threads)
@@ -155,15 +156,16 @@ void ThreadPool::doAlone(const Round& round) const {
 }
 
 void ThreadPool::begin(const Round& round) const {
-  // All jobs of the last round are done. None can be taken of it while the next is made ready.
+  // All jobs of the last round are done. None can be taken of it while the next is made ready: who reads any of what is
+  // stored below finds the tickets taken, on processors that reorder stores too.
   const uint64_t number = round_.load(std::memory_order_relaxed);
   for (Ticket& ticket : tickets_) ticket.next.store(number << kRoundShift | kTakenMask, std::memory_order_seq_cst);
-  shared_.call.store(round.call, std::memory_order_relaxed);
-  shared_.job.store(round.job, std::memory_order_relaxed);
-  shared_.count.store(round.count, std::memory_order_relaxed);
-  shared_.least.store(round.least, std::memory_order_relaxed);
-  shared_.most.store(round.most, std::memory_order_relaxed);
-  shared_.sharing.store(round.sharing, std::memory_order_relaxed);
+  shared_.call.store(round.call, std::memory_order_release);
+  shared_.job.store(round.job, std::memory_order_release);
+  shared_.count.store(round.count, std::memory_order_release);
+  shared_.least.store(round.least, std::memory_order_release);
+  shared_.most.store(round.most, std::memory_order_release);
+  shared_.sharing.store(round.sharing, std::memory_order_release);
   done_.store(0, std::memory_order_relaxed);
   for (size_t r = 0; r < round.sharing; ++r) {
     const uint64_t first = r == 0 ? 0 : endOf(r - 1, round.sharing, round.count);
@@ -203,13 +205,13 @@ bool ThreadPool::takeJob(size_t run) const {
   std::atomic<uint64_t>& next = tickets_[run].next;
   uint64_t ticket = next.load(std::memory_order_acquire);
   for (;;) {
-    const Call call = shared_.call.load(std::memory_order_relaxed);
-    const void* job = shared_.job.load(std::memory_order_relaxed);
-    const uint64_t first = ticket & kTakenMask, count = shared_.count.load(std::memory_order_relaxed);
-    const uint64_t end = endOf(run, shared_.sharing.load(std::memory_order_relaxed), count);
+    const Call call = shared_.call.load(std::memory_order_acquire);
+    const void* job = shared_.job.load(std::memory_order_acquire);
+    const uint64_t first = ticket & kTakenMask, count = shared_.count.load(std::memory_order_acquire);
+    const uint64_t end = endOf(run, shared_.sharing.load(std::memory_order_acquire), count);
     if (first >= end) return false;
-    const uint64_t least = shared_.least.load(std::memory_order_relaxed);
-    const uint64_t most = shared_.most.load(std::memory_order_relaxed);
+    const uint64_t least = shared_.least.load(std::memory_order_acquire);
+    const uint64_t most = shared_.most.load(std::memory_order_acquire);
     const uint64_t taken = std::min(end - first, std::min(most, std::max(least, (end - first) / kPartsLeft)));
     // Success says that the round is still the one that all this was read in: it cannot end before these jobs are done.
     if (!next.compare_exchange_weak(ticket, ticket + taken, std::memory_order_acq_rel, std::memory_order_acquire))
