@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 #include <ros/init.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -22,7 +23,16 @@ constexpr milliseconds kOnTheWay{30};  ///< what zeros take in these tests: less
 
 class EndWatchDeathTest : public ::testing::Test {
  protected:
-  void SetUp() override { ::testing::FLAGS_gtest_death_test_style = "threadsafe"; }
+  void SetUp() override {
+    ::testing::FLAGS_gtest_death_test_style = "threadsafe";
+    getrlimit(RLIMIT_CORE, &before_);
+    const rlimit none{0, before_.rlim_max};
+    setrlimit(RLIMIT_CORE, &none);  // these crashes are no findings
+  }
+  void TearDown() override { setrlimit(RLIMIT_CORE, &before_); }
+
+ private:
+  rlimit before_{};
 };
 
 void sayZero() {
