@@ -204,7 +204,7 @@ int dispatch(int argc, char** argv) {
   sweep->add_option("plan", o.sweep.plan, "file with the runs (docs/cluster.md)")->required();
   sweep->add_option("--out", o.sweep.out, "folder for results.csv and the runs; processes that share it share the runs")
       ->required();
-  sweep->add_option("--jobs", o.sweep.jobs, "sessions side by side; 0, the default: one per hardware thread")
+  sweep->add_option("--jobs", o.sweep.jobs, "sessions side by side; 0, the default: one per processor that may be used")
       ->check(CLI::Range(0, 1024));
   sweep->add_option("--tries", o.sweep.tries, "failures after which a run is given up; default 2")
       ->check(CLI::Range(1, 100));

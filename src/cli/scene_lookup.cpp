@@ -4,9 +4,9 @@
 
 #include <unistd.h>
 
-#include <filesystem>
 #include <iostream>
 
+#include "model/scene/shipped_files.h"
 #include "viscera/math/error.h"
 
 /// config/ of the source tree that this program was built from.
@@ -14,45 +14,14 @@ extern const char* const kSourceConfig;
 
 namespace viscera::cli {
 
-namespace fs = std::filesystem;
-
-namespace {
-
-/// Folders of what is shipped of a kind: beside an installed program, then in the source tree it was built from.
-std::vector<fs::path> shippedFolders(const std::string& kind) {
-  std::error_code error;
-  const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  std::vector<fs::path> out;
-  if (!error) {
-    for (fs::path up = program.parent_path(); up != up.parent_path(); up = up.parent_path()) {
-      out.push_back(up / "share" / "viscera" / "config" / kind);
-    }
-  }
-  out.push_back(fs::path(kSourceConfig) / kind);
-  return out;
-}
-
-/// The file itself, or the shipped one of that name; empty: neither.
-std::string findShipped(const std::string& name, const std::string& kind) {
-  std::error_code error;
-  if (fs::exists(name, error) || name.find('/') != std::string::npos) return name;
-  for (const fs::path& folder : shippedFolders(kind)) {
-    const fs::path file = folder / (name + ".yaml");
-    if (fs::exists(file, error)) return file.string();
-  }
-  return "";
-}
-
-}  // namespace
-
 std::string findScene(const std::string& name) {
-  const std::string file = findShipped(name, "scenes");
+  const std::string file = shippedFile(name, "scenes", kSourceConfig);
   if (file.empty()) throw SceneError("'" + name + "' is neither a file nor the name of a shipped scene");
   return file;
 }
 
 std::string findTask(const std::string& name) {
-  const std::string file = findShipped(name, "tasks");
+  const std::string file = shippedFile(name, "tasks", kSourceConfig);
   if (file.empty()) throw Error("'" + name + "' is neither a file nor the name of a shipped task");
   return file;
 }

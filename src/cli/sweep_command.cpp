@@ -18,9 +18,11 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <thread>
+#include <utility>
 
 #include "cli/commands.h"
 #include "cli/sweep_folder.h"
+#include "math/processors.h"
 #include "viscera/math/error.h"
 
 namespace viscera::cli {
@@ -172,13 +174,16 @@ class Sweep {
     const std::optional<int> ended =
         runToEnd(program_, arguments, place + "/output.txt", place + "/error.txt", claim.file(), options_.run_limit_s);
     const std::string said = lastLine(place + "/output.txt");
+    const std::string why = howItFailed(ended, options_.run_limit_s, lastLine(place + "/error.txt"));
     const bool done = ended == 0 && nlohmann::json::parse(said, nullptr, false).is_object();
     if (done)
       folder_.keepResult(run, said);
     else
-      folder_.keepFailure(run, howItFailed(ended, options_.run_limit_s, lastLine(place + "/error.txt")));
+      folder_.keepFailure(run, why);
     const std::lock_guard<std::mutex> lock(mutex_);
-    std::cerr << "run " << run << " of " << plan_.runs.size() << (done ? " done\n" : " failed\n");
+    std::cerr << "run " << run << " of " << plan_.runs.size() << (done ? " done" : " failed");
+    if (!done && !std::exchange(printed_reason_, true)) std::cerr << ": " << why;
+    std::cerr << std::endl;
   }
 
   const SweepOptions& options_;
@@ -188,6 +193,7 @@ class Sweep {
   std::mutex mutex_;
   std::exception_ptr fault_;
   std::atomic<bool> stop_{false};
+  bool printed_reason_ = false;  ///< of the first failure; all are in the folder
 };
 
 /// What a job of Slurm's array does: as much of the sweep as is left. One that is put back into the queue goes on.
@@ -214,7 +220,7 @@ void submit(const SweepOptions& options) {
 
 int sweep(const SweepOptions& given) {
   SweepOptions options = given;
-  if (options.jobs == 0) options.jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  if (options.jobs == 0) options.jobs = usableProcessors();
   const SweepPlan plan = readSweepPlan(options.plan);
   if (options.slurm > 0) {
     const SweepFolder folder(options.out, plan, options.tries);

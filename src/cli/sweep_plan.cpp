@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 
+#include "cli/scene_lookup.h"
 #include "model/scene/yaml_reader.h"
 #include "viscera/math/error.h"
 
@@ -76,6 +78,19 @@ class PlanFile {
     }
     return out;
   }
+  /// Of each key of the scene, where it comes first.
+  std::map<std::string, int> lines() const {
+    std::map<std::string, int> out;
+    const auto add = [&](const YAML::Node& map) {
+      for (const auto& entry : map) out.emplace(entry.first.Scalar(), entry.first.Mark().line + 1);
+    };
+    if (root_["set"]) add(root_["set"]);
+    if (root_["grid"]) add(root_["grid"]);
+    if (root_["list"]) {
+      for (const YAML::Node& run : root_["list"]) add(run);
+    }
+    return out;
+  }
   [[noreturn]] void fail(const YAML::Node& at, const std::string& what) const {
     throw SceneError(file_ + ":" + std::to_string(at.Mark().line + 1) + ": " + what);
   }
@@ -101,6 +116,43 @@ class PlanFile {
 
 bool holds(const KeyValues& values, const std::string& key) {
   return std::any_of(values.begin(), values.end(), [&](const auto& value) { return value.first == key; });
+}
+
+/// Reads the scene with some of its values. @return a value is refused, here or where others are missing: the run will
+/// tell
+/// @throws UnknownKeyError
+bool refusesValue(const std::string& scene, const Overrides& overrides) {
+  try {
+    loadScene(scene, overrides);
+    return false;
+  } catch (const UnknownKeyError&) {
+    throw;
+  } catch (const Error&) {
+    return true;
+  }
+}
+
+/// Looks at every key once, in the first run that has it. @throws SceneError  no such scene, or no such key in it
+void requireKnownKeys(const SweepPlan& plan, const std::string& file) {
+  const std::string scene = findScene(plan.scene);
+  std::set<std::string> seen;
+  for (const KeyValues& run : plan.runs) {
+    KeyValues values = plan.set;
+    values.insert(values.end(), run.begin(), run.end());
+    const auto is_seen = [&](const auto& value) { return seen.count(value.first) > 0; };
+    if (std::all_of(values.begin(), values.end(), is_seen)) continue;
+    Overrides overrides = meshOverrides(plan.mesh);
+    for (const auto& [key, value] : values) {
+      seen.insert(key);
+      overrides.push_back(key + "=" + value);
+      try {
+        const bool is_scalar = value.find_first_of("[{") != 0;
+        if (refusesValue(scene, overrides) && is_scalar) overrides.pop_back();  // which would hide faults of other keys
+      } catch (const UnknownKeyError& error) {
+        throw SceneError(file + ":" + std::to_string(plan.lines.at(key)) + ": " + error.what());
+      }
+    }
+  }
 }
 
 void addValues(std::vector<std::string>& arguments, const KeyValues& values) {
@@ -165,6 +217,8 @@ SweepPlan readSweepPlan(const std::string& file) {
         from.failAsAWhole("'" + key + "' has two values in one run: of 'set', 'list' and 'grid' one gives it");
     }
   }
+  plan.lines = from.lines();
+  requireKnownKeys(plan, file);
   return plan;
 }
 

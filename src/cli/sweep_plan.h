@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -21,13 +22,15 @@ struct SweepPlan {
   KeyValues set;                     ///< of every run
   std::vector<std::string> varied;   ///< keys that differ from run to run, in the order of the file
   std::vector<KeyValues> runs;       ///< [runs] what each has of these
+  std::map<std::string, int> lines;  ///< of the file, of each key of the scene that it names
 
   bool sets(const std::string& key) const;               ///< in every run, or in some
   std::vector<std::string> arguments(size_t run) const;  ///< of `viscera`
   std::string text() const;                              ///< that two plans share only if their runs are the same
 };
 
-/// @throws SceneError  file, line, key and what is accepted
+/// @throws SceneError  file, line, key and what is accepted; of keys of the scene, those that it has no place for.
+/// Values are left to the runs
 SweepPlan readSweepPlan(const std::string& file);
 
 }  // namespace viscera::cli

@@ -176,6 +176,8 @@ TEST_F(Sweep, TriesAgainAndSaysWhatFailed) {
   Ending ending = sweep(file, {"--tries", "3"});
   EXPECT_EQ(ending.status, 1);
   EXPECT_TRUE(says(ending.out, {"2 runs, 1 given up"}));
+  EXPECT_TRUE(says(ending.err, {"run 1 of 2 failed: exit status", "solver.dt_fraction"}));
+  EXPECT_EQ(ending.err.find("exit status"), ending.err.rfind("exit status")) << "once";
   EXPECT_TRUE(says(rowsOf(out_)[0], {"0,done,0,0.5,"}));
   EXPECT_TRUE(says(rowsOf(out_)[1], {"1,failed,3,7,", "solver.dt_fraction"}));
   EXPECT_EQ(sweep(file, {"--tries", "3"}).err.find("run 1"), std::string::npos);  // given up stays so
@@ -228,6 +230,15 @@ TEST_F(Sweep, RefusesWhatItDoesNotUnderstand) {
   EXPECT_TRUE(says(fault("view: perhaps\n"), {"plan.yaml:2: ", "true or false", "perhaps"}));
   EXPECT_TRUE(says(fault("set: {solver.dt_fraction: 0.5}\ngrid: {solver.dt_fraction: [0.6]}\n"),
                    {"plan.yaml: ", "solver.dt_fraction", "two values"}));
+  EXPECT_TRUE(says(fault("seconds: 0.01\nset: {solver.dt_fracton: 0.5}\n"),
+                   {"plan.yaml:3: ", "unknown key 'solver.dt_fracton'", "dt_fraction"}));
+  EXPECT_TRUE(says(fault("grid: {solver.dt_fraction: [0.5], \"bodies[3].spacing_m\": [0.01]}\n"),
+                   {"plan.yaml:2: ", "no bodies[3]"}));
+  EXPECT_TRUE(says(fault("grid: {solver.dt_fraction: [7, 0.5], solver.tick: [7]}\n"), {"unknown key 'solver.tick'"}));
+  EXPECT_TRUE(says(fault("list:\n- {solver.dt_fraction: 0.5}\n- {solver.tick: 7}\n"),
+                   {"plan.yaml:4: ", "unknown key 'solver.tick'"}));
+  EXPECT_TRUE(says(sweep(folder_.write("lost.yaml", "scene: absent\n")).err, {"'absent' is neither a file"}));
+  EXPECT_FALSE(fs::exists(out_)) << "a run was begun";
   EXPECT_TRUE(says(sweep(folder_.write("none.yaml", "seconds: 1\n")).err, {"none.yaml: 'scene' is missing"}));
   EXPECT_TRUE(says(sweep(folder_.file("absent.yaml")).err, {"absent.yaml"}));
   EXPECT_EQ(sweep(plan("seconds: 0.01\n")).status, 0);

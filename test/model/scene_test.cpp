@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include "support/temporary_folder.h"
 #include "support/text.h"
 #include "viscera/math/error.h"
@@ -215,6 +217,15 @@ TEST(Scene, BothEndsOfARangeAreAccepted) {
 TEST(Scene, KnowsTheFolderOfItsFile) {
   const test::TemporaryFolder folder;
   EXPECT_EQ(loadScene(folder.write("a.yaml", "bodies: [{}]\n")).folder, folder.path());
+}
+
+TEST(Scene, IsLoadedByTheNameThatItIsShippedBy) {
+  const Scene scene = loadScene("heart", {"solver.tick_hz=500"});
+  EXPECT_EQ(scene.solver.tick_hz, 500);
+  EXPECT_EQ(std::filesystem::path(scene.file).filename(), "heart.yaml");
+  EXPECT_TRUE(std::filesystem::exists(scene.file));
+  EXPECT_THROW(loadScene("hart"), SceneError);
+  EXPECT_THROW(loadScene("./heart"), SceneError) << "a file is meant";
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "math/memory_for.h"
 #include "model/scene/file_bounds.h"
 #include "model/scene/integrators.h"
+#include "model/scene/shipped_files.h"
 #include "model/scene/structure_rules.h"
 #include "model/scene/yaml_overrides.h"
 #include "model/scene/yaml_reader.h"
@@ -264,7 +265,9 @@ Scene parseScene(const std::string& yaml, const std::string& name, const Overrid
   return scene;
 }
 
-Scene loadScene(const std::string& path, const Overrides& overrides) {
+Scene loadScene(const std::string& name, const Overrides& overrides) {
+  const std::string shipped = shippedFile(name, "scenes");
+  const std::string path = shipped.empty() ? name : shipped;
   requireWithinBounds(path);
   const std::string text = textOf(path, "scene");
   Scene scene = memoryFor<SceneError>(path, [&] { return parseScene(text, path, overrides); });

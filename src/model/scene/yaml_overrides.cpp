@@ -36,11 +36,11 @@ std::vector<PathStep> splitPath(const std::string& path, const std::string& over
       const std::string digits = part.substr(open + 1, part.size() - open - 2);
       if (part.back() != ']' || digits.empty() || digits.size() > 4 ||
           digits.find_first_not_of("0123456789") != std::string::npos) {
-        throw SceneError("override '" + override_text + "': '" + part + "' must be name[index]");
+        throw UnknownKeyError("override '" + override_text + "': '" + part + "' must be name[index]");
       }
       step.index = std::stoi(digits);
     }
-    if (step.key.empty()) throw SceneError("override '" + override_text + "': empty name in the key");
+    if (step.key.empty()) throw UnknownKeyError("override '" + override_text + "': empty name in the key");
     steps.push_back(step);
   }
   return steps;
@@ -67,13 +67,13 @@ void applyOverride(YAML::Node root, const std::string& text, YamlSource& source)
     YAML::Node next = at[steps[i].key];
     if (steps[i].index >= 0) {
       if (!next.IsSequence() || static_cast<size_t>(steps[i].index) >= next.size()) {
-        throw SceneError("override '" + text + "': the scene has no " + steps[i].key + "[" +
-                         std::to_string(steps[i].index) + "]");
+        throw UnknownKeyError("override '" + text + "': the scene has no " + steps[i].key + "[" +
+                              std::to_string(steps[i].index) + "]");
       }
       next.reset(next[steps[i].index]);
     }
     if (next.IsDefined() && !next.IsNull() && !last && !next.IsMap()) {
-      throw SceneError("override '" + text + "': '" + steps[i].key + "' holds no keys");
+      throw UnknownKeyError("override '" + text + "': '" + steps[i].key + "' holds no keys");
     }
     if (last) next = value;
     if (last && steps[i].key == "tissue") clearNumbers(at, path.substr(0, path.rfind('.')), source);

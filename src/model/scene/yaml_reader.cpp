@@ -229,8 +229,8 @@ void YamlReader::finish() const {
     if (std::find(known_.begin(), known_.end(), key) != known_.end()) continue;
     std::string accepted;
     for (const std::string& k : known_) accepted += (accepted.empty() ? "" : ", ") + k;
-    throw SceneError(whereIs(source_, child(key), entry.first) + "unknown key '" + child(key) +
-                     "'; accepted here: " + accepted);
+    throw UnknownKeyError(whereIs(source_, child(key), entry.first) + "unknown key '" + child(key) +
+                          "'; accepted here: " + accepted);
   }
 }
 

@@ -22,6 +22,11 @@ struct YamlSource {
   bool sets(const std::string& path) const;  ///< was the key, or what holds it, set from outside the file?
 };
 
+/// A key that no scene has, or that this one has no place for, whatever its value.
+struct UnknownKeyError : SceneError {
+  using SceneError::SceneError;
+};
+
 /// Reads one map strictly: it is a field visitor that takes what is there and finish() refuses what it never asked for.
 /// @throws SceneError  file, line, key and what is accepted
 class YamlReader {

@@ -1,0 +1,52 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "model/scene/shipped_files.h"
+
+#include <dlfcn.h>
+
+#include <filesystem>
+#include <fstream>
+#include <vector>
+
+namespace viscera {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Folders config/ that may be there: of what is installed with `binary`, and of the sources of a build that it is in.
+void addFolders(const fs::path& binary, std::vector<fs::path>& out) {
+  for (fs::path up = binary.parent_path(); !up.empty(); up = up.parent_path()) {
+    const fs::path share = up / "share" / "viscera";
+    out.push_back(share / "config");
+    std::string sources;  // cmake/library.cmake
+    if (std::getline(std::ifstream(share / "config_folder.txt"), sources)) out.emplace_back(sources);
+    if (up == up.parent_path()) return;
+  }
+}
+
+std::vector<fs::path> configFolders() {
+  std::vector<fs::path> out;
+  std::error_code error;
+  addFolders(fs::read_symlink("/proc/self/exe", error), out);
+  Dl_info here{};
+  if (dladdr(reinterpret_cast<const void*>(&configFolders), &here) != 0 && here.dli_fname)
+    addFolders(fs::absolute(here.dli_fname, error), out);
+  return out;
+}
+
+}  // namespace
+
+std::string shippedFile(const std::string& name, const std::string& kind, const std::string& last) {
+  std::error_code error;
+  if (fs::exists(name, error) || name.find('/') != std::string::npos) return name;
+  std::vector<fs::path> folders = configFolders();
+  if (!last.empty()) folders.emplace_back(last);
+  for (const fs::path& folder : folders) {
+    const fs::path file = folder / kind / (name + ".yaml");
+    if (fs::exists(file, error)) return file.string();
+  }
+  return "";
+}
+
+}  // namespace viscera
