@@ -4,12 +4,11 @@
 
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
 #include <cstring>
-#include <map>
-#include <mutex>
 
 #include "gpu/gl.h"
 #include "gpu/limits.h"
@@ -37,24 +36,18 @@ F eglFunction(const char* name) {
   return reinterpret_cast<F>(eglGetProcAddress(name));
 }
 
-/// Users of each display: eglTerminate() would take it from all of them.
-class Displays {
- public:
-  static bool open(EGLDisplay display) {
-    const std::lock_guard<std::mutex> lock(mutex);
-    if (!eglInitialize(display, nullptr, nullptr)) return false;
-    ++users[display];
-    return true;
+/// Initialises a display, once in a process. It is never terminated: eglTerminate() would take it from all its users,
+/// and Mesa then unloads its driver, LLVM with it, while destructors of other threads may still be in it.
+/// @throws GpuError  this process was forked from one that had a display: drivers' threads and locks are not copied
+bool openDisplay(EGLDisplay display) {
+  static const pid_t opener = getpid();
+  if (opener != getpid()) {
+    throw GpuError("OpenGL was first used by process " + std::to_string(opener) +
+                   ", from which this one was forked, and does not work in both; start other processes, in Python by "
+                   "multiprocessing.get_context(\"spawn\"), or step on the CPU without pictures");
   }
-  static void close(EGLDisplay display) {
-    const std::lock_guard<std::mutex> lock(mutex);
-    if (--users[display] == 0) eglTerminate(display);
-  }
-
- private:
-  inline static std::mutex mutex;
-  inline static std::map<EGLDisplay, int> users;
-};
+  return eglInitialize(display, nullptr, nullptr) == EGL_TRUE;
+}
 
 struct Candidate {
   int index;
@@ -130,7 +123,7 @@ EGLContext createContext(EGLDisplay display, EGLConfig config, bool tells_of_res
   return eglCreateContext(display, config, EGL_NO_CONTEXT, wishes.data());
 }
 
-/// A current context on an initialised display; else EGL_NO_CONTEXT, the display closed and `reason` told.
+/// A current context on an initialised display; else EGL_NO_CONTEXT and `reason` told.
 EGLContext openContext(EGLDisplay display, std::string& reason) {
   const EGLint config_wishes[] = {EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
   EGLConfig config = nullptr;
@@ -148,7 +141,6 @@ EGLContext openContext(EGLDisplay display, std::string& reason) {
     eglDestroyContext(display, context);
     context = EGL_NO_CONTEXT;
   }
-  if (context == EGL_NO_CONTEXT) Displays::close(display);
   return context;
 }
 
@@ -190,7 +182,7 @@ bool Context::open(int index, void* device, DeviceAttempt& attempt) {
     attempt.reason = eglFailure("eglGetPlatformDisplayEXT");
     return false;
   }
-  if (!Displays::open(display)) {
+  if (!openDisplay(display)) {
     attempt.reason = eglFailure("eglInitialize");
     return false;
   }
@@ -200,7 +192,6 @@ bool Context::open(int index, void* device, DeviceAttempt& attempt) {
   if (!attempt.reason.empty()) {
     eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
     eglDestroyContext(display, context);
-    Displays::close(display);
     return false;
   }
   display_ = display;
@@ -215,20 +206,57 @@ bool Context::open(int index, void* device, DeviceAttempt& attempt) {
 }
 
 void Context::release() noexcept {
-  eglBindAPI(EGL_OPENGL_API);  // EGL keeps this for each thread
-  eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+  if (isCurrent()) eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
 }
 
 bool Context::makeCurrent() noexcept {
-  eglBindAPI(EGL_OPENGL_API);
-  return eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_) == EGL_TRUE;
+  if (isCurrent()) return true;
+  if (!eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_)) return false;
+  forgetDriverLimits();
+  return true;
+}
+
+bool Context::isCurrent() const noexcept {
+  eglBindAPI(EGL_OPENGL_API);  // EGL keeps this for each thread
+  return eglGetCurrentContext() == context_;
+}
+
+void Context::requireCurrent() const {
+  if (!isCurrent())
+    throw GpuError(
+        "the OpenGL context of this session is not current on this thread; call makeCurrent() of its gpu::Context, or "
+        "hold a gpu::ContextScope, before each use of the session");
 }
 
 Context::~Context() {
   if (!context_) return;
   release();
   eglDestroyContext(display_, context_);
-  Displays::close(display_);
+}
+
+ContextScope::ContextScope() noexcept
+    : api_(eglQueryAPI()),
+      display_(eglGetCurrentDisplay()),
+      context_(eglGetCurrentContext()),
+      draw_(eglGetCurrentSurface(EGL_DRAW)),
+      read_(eglGetCurrentSurface(EGL_READ)) {}
+
+ContextScope::ContextScope(Context& context) : ContextScope() {
+  if (!context.makeCurrent()) throw GpuError(eglFailure("eglMakeCurrent(the session's context)"));
+}
+
+ContextScope::~ContextScope() {
+  eglBindAPI(EGL_OPENGL_API);
+  const EGLDisplay display = eglGetCurrentDisplay();
+  const bool changed = eglGetCurrentContext() != context_;
+  if (changed && context_ == EGL_NO_CONTEXT) {
+    eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+  }
+  eglBindAPI(api_);
+  if (changed && context_ != EGL_NO_CONTEXT) {
+    eglMakeCurrent(display_, draw_, read_, context_);
+    forgetDriverLimits();
+  }
 }
 
 }  // namespace viscera::gpu

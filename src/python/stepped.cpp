@@ -2,43 +2,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "python/stepped.h"
 
-#include <stdlib.h>
-#include <unistd.h>
-
 #include <chrono>
-#include <filesystem>
-#include <fstream>
+
+#include "math/archive.h"
+#include "session/state_file.h"
 
 namespace viscera::python {
 
 namespace py = pybind11;
-namespace fs = std::filesystem;
 
 namespace {
 
 constexpr auto kSignalsEvery = std::chrono::milliseconds(50);  // as fast as a person sees an answer to Ctrl-C
-
-/// A folder of its own for one state, in memory where the machine has such a place: states are read and written as
-/// files, which wait for the disk.
-class StateFolder {
- public:
-  StateFolder() {
-    const fs::path top = access("/dev/shm", W_OK) == 0 ? fs::path("/dev/shm") : fs::temp_directory_path();
-    std::string name = (top / "viscera-XXXXXX").string();
-    if (!mkdtemp(name.data())) throw Error(top.string() + ": no folder for the state can be made here");
-    folder_ = name;
-  }
-  ~StateFolder() {
-    std::error_code ignored;
-    fs::remove_all(folder_, ignored);
-  }
-  StateFolder(const StateFolder&) = delete;
-  StateFolder& operator=(const StateFolder&) = delete;
-  std::string file() const { return (folder_ / "state").string(); }
-
- private:
-  fs::path folder_;
-};
 
 void forget(Stepped::Core& core) {
   core.last = Frame();
@@ -47,15 +22,34 @@ void forget(Stepped::Core& core) {
 
 }  // namespace
 
+bool HomeProcess::isHere() const {
+  return getpid() == id_;
+}
+
+void HomeProcess::require(const char* what) const {
+  if (isHere()) return;
+  throw Error(std::string(what) + " belongs to process " + std::to_string(id_) +
+              ", from which this one was forked without its threads; make another one here, or start processes by "
+              "multiprocessing.get_context(\"spawn\")");
+}
+
+Stepped::Core::~Core() {
+  std::optional<gpu::ContextScope> former;
+  if (context) former.emplace();
+  session.reset();
+  context.reset();
+}
+
 Stepped::Stepped(const SceneSource& source, const std::optional<std::string>& backend, int threads, bool pictures) {
   Overrides more;
   if (backend) more.push_back("solver.backend=" + *backend);
   if (threads > 0) more.push_back("solver.threads=" + std::to_string(threads));
   const Scene scene = more.empty() ? source.scene : source.with(more).scene;
   const py::gil_scoped_release released;
-  const auto core = std::make_shared<Core>();
-  core->maker = std::this_thread::get_id();
+  std::optional<gpu::ContextScope> former;
+  const auto core = makeHere<Core>();
   if (pictures || scene.solver.backend == Backend::kGpu) {
+    former.emplace();
     core->context = std::make_unique<gpu::Context>(scene.solver.device);
     core->session = std::make_unique<Session>(scene, *core->context);
   } else {
@@ -73,16 +67,24 @@ void Stepped::step(const StylusSamples& hands, int64_t ticks) const {
   with([&](Core& core) {
     auto heard = std::chrono::steady_clock::now();
     const Wants nothing;
-    core.nodes.reset();
     for (int64_t t = 0; t < ticks; ++t) {
+      core.nodes.reset();
       core.last = core.session->step(hands, nothing);
       const auto now = std::chrono::steady_clock::now();
       if (now - heard < kSignalsEvery || t + 1 == ticks) continue;
       heard = now;
-      const py::gil_scoped_acquire held;
-      if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+      hearSignals(core);
     }
   });
+}
+
+/// Lets Python's signal handlers run between two ticks, in which they may do with the session what they like.
+void Stepped::hearSignals(const Core& core) const {
+  std::optional<gpu::ContextScope> ours;  // whatever context they leave behind
+  if (core.context) ours.emplace();
+  const py::gil_scoped_acquire held;
+  if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+  if (core_.get() != &core) throw Error("the session was closed during its step");
 }
 
 void Stepped::resetCore(Core& core) {
@@ -96,30 +98,16 @@ void Stepped::reset() const {
 
 std::string Stepped::state() const {
   return with([](Core& core) {
-    const StateFolder folder;
-    core.session->save(folder.file());
-    std::ifstream file(folder.file(), std::ios::binary);
-    std::string out(fs::file_size(folder.file()), '\0');
-    if (!file.read(out.data(), static_cast<std::streamsize>(out.size()))) throw Error("the state cannot be read");
-    return out;
+    Archive archive;
+    core.session->save(archive);
+    return stateBytes(archive.sections());
   });
 }
 
 void Stepped::restoreCore(Core& core, const std::string& state) {
-  const StateFolder folder;
-  std::ofstream file(folder.file(), std::ios::binary);
-  file.write(state.data(), static_cast<std::streamsize>(state.size()));
-  file.close();
-  if (!file) throw Error("no room for the state in " + folder.file());
+  Archive archive(readStateBytes(state, "restore"));
   forget(core);
-  try {
-    core.session->restore(folder.file());
-  } catch (const Error& error) {  // the file is ours: nothing to the caller
-    std::string text = error.what();
-    const std::string name = folder.file();
-    if (text.rfind(name, 0) == 0) text = "restore" + text.substr(name.size());
-    throw Error(text);
-  }
+  core.session->restore(archive, "restore");
 }
 
 void Stepped::restore(const std::string& state) const {

@@ -6,6 +6,8 @@
 #include <chrono>
 #include <numeric>
 
+#include "math/processors.h"
+
 namespace viscera::python {
 
 namespace py = pybind11;
@@ -16,7 +18,7 @@ using SteadyClock = std::chrono::steady_clock;
 constexpr std::chrono::nanoseconds kVectorSignalsEvery{50'000'000};  // as fast as a person sees an answer to Ctrl-C
 
 std::shared_ptr<Stepped::Core> coreOf(const Scene& scene, const SessionOptions& options) {
-  auto core = std::make_shared<Stepped::Core>();
+  auto core = makeHere<Stepped::Core>();
   core->session = std::make_unique<Session>(scene, Progress{}, options);
   return core;
 }
@@ -35,14 +37,14 @@ void numbered(size_t session, const Work& work) {
 
 SteppedVector::SteppedVector(const SceneSource& source, size_t sessions, int threads) {
   const py::gil_scoped_release released;
-  auto group = std::make_shared<Group>();
+  const auto group = makeHere<Group>();
   SessionOptions options;
   options.threads = makeThreadPool(1);  // no thread but the caller
   group->cores.push_back(coreOf(source.scene, options));
   const std::shared_ptr<Stepped::Core> first = group->cores[0];
   options.model = {first, &first->session->model()};
   while (group->cores.size() < sessions) group->cores.push_back(coreOf(first->session->scene(), options));
-  const int there = threads > 0 ? threads : static_cast<int>(std::thread::hardware_concurrency());
+  const int there = threads > 0 ? threads : usableProcessors();
   group->threads = makeThreadPool(std::clamp(there, 1, static_cast<int>(sessions)));
   group->styluses = first->session->styluses().size();
   group_ = group;
@@ -51,6 +53,7 @@ SteppedVector::SteppedVector(const SceneSource& source, size_t sessions, int thr
 std::shared_ptr<const SteppedVector::Group> SteppedVector::group() const {
   const std::shared_ptr<const Group> out = group_;
   if (!out) throw Error("the sessions are closed");
+  out->cores[0]->home.require("the vector of sessions");
   return out;
 }
 
@@ -68,7 +71,7 @@ void SteppedVector::step(const std::vector<StylusSamples>& hands, std::vector<in
     (*group->threads)(waiting.size(), [&](size_t w) {
       const size_t s = waiting[w];
       Stepped::Core& core = *group->cores[s];
-      const std::lock_guard<std::mutex> lock(core.mutex);
+      const std::lock_guard<std::recursive_mutex> lock(core.mutex);
       const auto until = SteadyClock::now() + share;
       core.nodes.reset();
       numbered(s, [&] {
@@ -80,6 +83,7 @@ void SteppedVector::step(const std::vector<StylusSamples>& hands, std::vector<in
     if (waiting.empty()) return;
     const py::gil_scoped_acquire held;
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+    if (group_ != group) throw Error("the sessions were closed during their step");
   }
 }
 
@@ -89,7 +93,7 @@ void SteppedVector::each(const std::vector<size_t>& which,
   const py::gil_scoped_release released;
   (*group->threads)(which.size(), [&](size_t w) {
     Stepped::Core& core = *group->cores[which[w]];
-    const std::lock_guard<std::mutex> lock(core.mutex);
+    const std::lock_guard<std::recursive_mutex> lock(core.mutex);
     numbered(which[w], [&] { work(core, which[w]); });
   });
 }

@@ -15,7 +15,7 @@ namespace viscera::python {
 /// steps it alone, so that threads do not wait for each other within a tick.
 class SteppedVector {
  public:
-  /// What calls need; lives on through a call in which another thread closes the vector.
+  /// What calls need; lives on through a call in which another thread closes the vector. Of makeHere().
   struct Group {
     std::vector<std::shared_ptr<Stepped::Core>> cores;  ///< [sessions]; the first has the model of all
     std::shared_ptr<ThreadPool> threads;
@@ -26,6 +26,7 @@ class SteppedVector {
   SteppedVector(const SceneSource& scene, size_t sessions, int threads);
   void close() { group_.reset(); }
   bool closed() const { return !group_; }
+  size_t sessions() const { return group_ ? group_->cores.size() : 0; }
   /// @throws Error  closed
   std::shared_ptr<const Group> group() const;
 

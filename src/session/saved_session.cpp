@@ -147,6 +147,7 @@ void Session::restore(Archive& archive, const std::string& name) {
 }
 
 CarriedTissue Session::carried() const {
+  requireContext();
   return {model_, solver_->readState()};
 }
 

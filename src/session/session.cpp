@@ -18,6 +18,7 @@
 #include "solver/make_solver.h"
 #include "solver/thread/thread_bodies.h"
 #include "viscera/calibration/auto_spacing.h"
+#include "viscera/gpu/context.h"
 #include "viscera/math/error.h"
 #include "viscera/render/camera.h"
 #include "viscera/session/session_log.h"
@@ -29,6 +30,11 @@ namespace {
 constexpr double kFarthestNode =
     0.867;                            // of a lattice's spacing: no point inside is farther from all nodes, sqrt(3) / 2
 constexpr size_t kNotedTicks = 4096;  // images may come back that late
+
+gpu::Context& currentOne(gpu::Context& context) {
+  context.requireCurrent();
+  return context;
+}
 
 HandLimits handLimits(const Model& model, double tick_hz) {
   HandLimits limits;
@@ -44,7 +50,7 @@ HandLimits handLimits(const Model& model, double tick_hz) {
 }  // namespace
 
 Session::Session(const Scene& scene, gpu::Context& context, const Progress& progress, const SessionOptions& options)
-    : Session(scene, &context, progress, options) {}
+    : Session(scene, &currentOne(context), progress, options) {}
 
 Session::Session(const Scene& scene, const Progress& progress, const SessionOptions& options)
     : Session(scene, nullptr, progress, options) {}
@@ -53,6 +59,7 @@ Session::Session(const Scene& scene, const Progress& progress, const SessionOpti
 Session::Session(const Scene& scene, gpu::Context* context, const Progress& progress, const SessionOptions& options)
     : scene_(options.model ? scene : withChosenSpacing(scene, context, progress)),
       model_(options.model ? options.model : std::make_shared<const Model>(buildModel(scene_, progress))),
+      context_(context),
       tools_(scene.styluses, handLimits(*model_, scene.solver.tick_hz)),
       obstacles_(scene.obstacles, waveSpeed(*model_) / scene.solver.tick_hz),
       pose_times_(kNotedTicks) {
@@ -71,9 +78,23 @@ Session::Session(const Scene& scene, gpu::Context* context, const Progress& prog
   obstacle_forces_.resize(scene_.obstacles.size());
 }
 
-Session::~Session() = default;
+/// Deletes OpenGL objects in the context that they were made in, whichever is current; where another thread has that,
+/// they are left to its end.
+Session::~Session() {
+  if (!context_ || !solver_ || solver_->onHost()) return;
+  const gpu::ContextScope former;
+  const bool current = context_->makeCurrent();
+  current ? view_.reset() : void(view_.release());
+  current ? solver_.reset() : void(solver_.release());
+}
+
+/// @throws GpuError
+void Session::requireContext() const {
+  if (context_ && !solver_->onHost()) context_->requireCurrent();
+}
 
 Frame Session::step(const StylusSamples& samples, const Wants& wants) {
+  requireContext();
   moveObstacles();
   look_.motions = tools_.advance(samples, [this](size_t s, const StylusMotion& motion, double mouth_rad) {
     return between(s, motion, mouth_rad);
@@ -122,6 +143,7 @@ void Session::heedFeeling(Frame& frame) {
 }
 
 Pictures Session::show(const Wants& wants) {
+  requireContext();
   look_.tick = tick_;
   look_.wants = wants;
   lookAtThreads();  // a saved state may have come in between
@@ -269,6 +291,7 @@ void Session::collect(Frame& frame, bool wait) {
 }
 
 void Session::collectStats(Frame& frame, bool wait) {
+  requireContext();
   while (solver_->pollStats(stats_, wait)) {
     has_stats_ = true;
     ++judged_;
@@ -334,6 +357,7 @@ Frame Session::drain() {
 }
 
 uint64_t Session::stateHash() const {
+  requireContext();
   uint64_t tissue = viscera::stateHash(*model_, solver_->readState());
   if (solver_->burns()) tissue = solver_->burns()->hashWith(tissue);
   if (solver_->bleeding()) tissue = solver_->bleeding()->hashWith(tissue);

@@ -97,7 +97,33 @@ uint32_t crcOf(const SectionHead& head, const std::string& name, const std::vect
   return static_cast<uint32_t>(crc);
 }
 
-void writeSections(File& file, const std::vector<Archive::Section>& sections) {
+/// Bytes in memory, as File has them.
+class Memory {
+ public:
+  void write(const void* data, size_t size) { bytes_.append(static_cast<const char*>(data), size); }
+  std::string take() { return std::move(bytes_); }
+
+ private:
+  std::string bytes_;
+};
+
+class MemoryReader {
+ public:
+  explicit MemoryReader(const std::string& bytes) : bytes_(bytes) {}
+  bool read(void* data, size_t size) {
+    if (size > bytes_.size() - at_) return false;
+    std::copy_n(bytes_.data() + at_, size, static_cast<char*>(data));
+    at_ += size;
+    return true;
+  }
+
+ private:
+  const std::string& bytes_;
+  size_t at_ = 0;
+};
+
+template <class To>
+void writeSections(To& file, const std::vector<Archive::Section>& sections) {
   const uint32_t numbers[2] = {kStateVersion, static_cast<uint32_t>(sections.size())};
   file.write(kMagic, sizeof kMagic);
   file.write(numbers, sizeof numbers);
@@ -111,7 +137,8 @@ void writeSections(File& file, const std::vector<Archive::Section>& sections) {
 }
 
 /// @param left  bytes of the file from here on; goes down
-Archive::Section readSection(File& file, const std::string& path, uint64_t& left, const std::string& where) {
+template <class From>
+Archive::Section readSection(From& file, const std::string& path, uint64_t& left, const std::string& where) {
   SectionHead head;
   if (left < sizeof head || !file.read(&head, sizeof head)) throw damaged(path, where + " is missing");
   left -= sizeof head;
@@ -140,9 +167,11 @@ void writeStateFile(const std::string& path, const std::vector<Archive::Section>
   File(folder.empty() ? "." : folder.string(), O_RDONLY | O_DIRECTORY).sync();
 }
 
-std::vector<Archive::Section> readStateFile(const std::string& path) {
-  File file(path, O_RDONLY);
-  uint64_t left = file.size();
+namespace {
+
+/// @param left  bytes that there are
+template <class From>
+std::vector<Archive::Section> readSections(From& file, const std::string& path, uint64_t left) {
   char magic[sizeof kMagic];
   uint32_t numbers[2];
   if (left < sizeof magic || !file.read(magic, sizeof magic) || std::memcmp(magic, kMagic, sizeof magic) != 0)
@@ -160,6 +189,24 @@ std::vector<Archive::Section> readStateFile(const std::string& path) {
     out.push_back(readSection(file, path, left, "section " + std::to_string(s + 1)));
   if (left > 0) throw damaged(path, "it goes on after its last section");
   return out;
+}
+
+}  // namespace
+
+std::vector<Archive::Section> readStateFile(const std::string& path) {
+  File file(path, O_RDONLY);
+  return readSections(file, path, file.size());
+}
+
+std::string stateBytes(const std::vector<Archive::Section>& sections) {
+  Memory memory;
+  writeSections(memory, sections);
+  return memory.take();
+}
+
+std::vector<Archive::Section> readStateBytes(const std::string& bytes, const std::string& name) {
+  MemoryReader reader(bytes);
+  return readSections(reader, name, bytes.size());
 }
 
 }  // namespace viscera

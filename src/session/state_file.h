@@ -21,5 +21,9 @@ constexpr uint32_t kStateVersion = 3;
 void writeStateFile(const std::string& path, const std::vector<Archive::Section>& sections);
 /// @throws Error  it is not there, of another version, cut short, longer, or some bit of it is wrong
 std::vector<Archive::Section> readStateFile(const std::string& path);
+/// The bytes of such a file.
+std::string stateBytes(const std::vector<Archive::Section>& sections);
+/// @param name  of where the bytes come from, for errors   @throws Error  as readStateFile()
+std::vector<Archive::Section> readStateBytes(const std::string& bytes, const std::string& name);
 
 }  // namespace viscera

@@ -139,3 +139,37 @@ TEST(GpuContext, OutlivesAnotherOneOfTheSameDevice) {
   ASSERT_TRUE(second.makeCurrent());
   EXPECT_NO_THROW(checkErrors("the second context"));
 }
+
+TEST(GpuContext, AScopeMakesTheFormerOneCurrentAgain) {
+  Context first;
+  const Buffer<uint32_t> ones(std::vector<uint32_t>{1, 1});
+  {
+    const ContextScope former;
+    Context second;
+    const Buffer<uint32_t> twos(std::vector<uint32_t>{2, 2});
+    EXPECT_FALSE(first.isCurrent());
+    EXPECT_THROW(first.requireCurrent(), GpuError);
+    {
+      const ContextScope scope(first);
+      EXPECT_EQ(ones.read(), (std::vector<uint32_t>{1, 1}));
+    }
+    EXPECT_TRUE(second.isCurrent());
+    EXPECT_EQ(twos.read(), (std::vector<uint32_t>{2, 2}));
+    first.release();
+    EXPECT_TRUE(second.isCurrent()) << "the one that is released is not the current one";
+  }
+  EXPECT_TRUE(first.isCurrent());
+  first.release();
+  {
+    const ContextScope scope(first);
+    first.requireCurrent();
+  }
+  EXPECT_FALSE(first.isCurrent());
+  ASSERT_TRUE(first.makeCurrent());
+}
+
+TEST(GpuContext, AScopeIsRefusedWhatAnotherThreadHas) {
+  Context context;
+  std::thread([&] { EXPECT_THROW(const ContextScope scope(context), GpuError); }).join();
+  EXPECT_TRUE(context.isCurrent());
+}

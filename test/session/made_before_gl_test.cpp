@@ -11,6 +11,7 @@
 
 #include "session/block_session.h"
 #include "viscera/gpu/context.h"
+#include "viscera/math/error.h"
 
 namespace viscera {
 namespace {
@@ -54,6 +55,33 @@ TEST(MadeBefore, ASessionIsSteppedByAThreadThatDidNotMakeIt) {
     play(here, cut, kCutTicks);
     EXPECT_EQ(hash, here.stateHash());
   }
+}
+
+TEST(MadeBefore, ASessionKeepsToItsContext) {
+  Scene scene = blockScene();
+  scene.solver.backend = Backend::kGpu;
+  gpu::Context first, second;
+  auto on_second = std::make_unique<Session>(scene, second);
+  EXPECT_THROW(Session(scene, first), GpuError) << "it is not current";
+  const gpu::ContextScope scope(first);
+  Session on_first(scene, first);
+  play(on_first, cut, kCutTicks);
+  const uint64_t hash = on_first.stateHash();
+  EXPECT_THROW(on_second->step({}, {}), GpuError);
+  EXPECT_THROW(on_second->stateHash(), GpuError);
+  EXPECT_THROW(on_second->reset(), GpuError);
+  EXPECT_THROW(on_second->show({}), GpuError);
+  {
+    const gpu::ContextScope its_own(second);
+    play(*on_second, cut, kCutTicks);
+    EXPECT_EQ(on_second->stateHash(), hash);
+  }
+  on_second.reset();
+  EXPECT_TRUE(first.isCurrent());
+  EXPECT_EQ(on_first.stateHash(), hash) << "the other one's end has taken its buffers";
+  on_first.reset();
+  play(on_first, cut, kCutTicks);
+  EXPECT_EQ(on_first.stateHash(), hash);
 }
 
 }  // namespace

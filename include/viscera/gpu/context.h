@@ -26,10 +26,14 @@ class Context {
   Context(const Context&) = delete;
   Context& operator=(const Context&) = delete;
 
-  /// Gives the context up on the calling thread, where it is current; another one may then take it.
+  /// Gives the context up on the calling thread, if it is current there; another one may then take it.
   void release() noexcept;
   /// Makes the context current on the calling thread. False if EGL refuses, as while another thread has it.
   [[nodiscard]] bool makeCurrent() noexcept;
+  /// Returns whether the context is current on the calling thread.
+  bool isCurrent() const noexcept;
+  /// @throws GpuError  it is not current on the calling thread, where OpenGL would work on another context's objects
+  void requireCurrent() const;
 
   const std::string& renderer() const { return renderer_; }
   const std::string& version() const { return version_; }
@@ -44,6 +48,22 @@ class Context {
   std::string renderer_, version_;
   bool software_ = false;
   std::vector<DeviceAttempt> attempts_;
+};
+
+/// Scope at whose end the context that was current on this thread at its beginning, of whatever library, or none, is
+/// current again.
+class ContextScope {
+ public:
+  ContextScope() noexcept;
+  /// Makes `context` current until then. @throws GpuError  EGL refuses, as while another thread has it
+  explicit ContextScope(Context& context);
+  ~ContextScope();
+  ContextScope(const ContextScope&) = delete;
+  ContextScope& operator=(const ContextScope&) = delete;
+
+ private:
+  unsigned api_;
+  void *display_, *context_, *draw_, *read_;
 };
 
 /// @throws GpuError if OpenGL has an error pending; `what` names the work just done

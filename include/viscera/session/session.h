@@ -61,7 +61,9 @@ struct SessionOptions {
 /// ONE loop: owns model, solver and view. All calls come from one thread; steps do not wait for the view.
 class Session {
  public:
-  /// @param context  current on this thread; the session's until its end, on whichever thread it needs it
+  /// @param context  current on this thread; the session's until its end, on whichever thread it needs it. Where the
+  ///   tissue is stepped on the GPU, it is to be current at every call that steps, shows, saves or restores, and at the
+  ///   end (gpu::ContextScope): these throw GpuError where it is not
   /// @throws GpuError, MeshError, LatticeError, SceneError
   Session(const Scene& scene, gpu::Context& context, const Progress& progress = {}, const SessionOptions& options = {});
   /// Without OpenGL: steps on the processor, whatever solver.backend is but gpu. There is the surface to be wanted, and
@@ -159,6 +161,7 @@ class Session {
   };
   Session(const Scene& scene, gpu::Context* context, const Progress& progress, const SessionOptions& options);
   void persist(Archive& archive);
+  void requireContext() const;
   void moveObstacles();
   void lookAtObstacles();
   void lookAtThreads();
@@ -177,6 +180,7 @@ class Session {
 
   Scene scene_;
   std::shared_ptr<const Model> model_;
+  gpu::Context* context_;  ///< null: there is none
   Tools tools_;
   Obstacles obstacles_;
   std::unique_ptr<Solver> solver_;
