@@ -37,6 +37,7 @@ add_library(viscera_python MODULE ${python_sources})
 target_include_directories(viscera_python PRIVATE src)
 target_include_directories(viscera_python SYSTEM PRIVATE ${python_include} ${PYBIND11_INCLUDE_DIR})
 target_compile_options(viscera_python PRIVATE ${VISCERA_CXX_FLAGS})
+target_compile_definitions(viscera_python PRIVATE VISCERA_VERSION="${PROJECT_VERSION}")
 target_link_libraries(viscera_python PRIVATE viscera_export)
 # What of viscera and of pybind11 is in it is its own: another module, or libviscera_core, may have others.
 target_link_options(viscera_python PRIVATE -Wl,--exclude-libs,ALL)

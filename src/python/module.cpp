@@ -10,6 +10,7 @@
 PYBIND11_MODULE(_viscera, module) {
   using namespace viscera;
   namespace py = pybind11;
+  module.attr("__version__") = VISCERA_VERSION;
   const auto& error = py::register_exception<Error>(module, "Error", PyExc_RuntimeError);
   py::register_exception<SceneError>(module, "SceneError", error);
   py::register_exception<MeshError>(module, "MeshError", error);

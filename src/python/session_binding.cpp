@@ -49,6 +49,19 @@ std::vector<T> ofTriangles(const ShownTopology& topology, Of&& of) {
   return out;
 }
 
+std::vector<uint32_t> usedVertices(const ShownTopology& topology) {
+  std::vector<bool> used(topology.vertices);
+  for (const uint32_t vertex : topology.triangles) {
+    if (vertex >= used.size()) used.resize(vertex + size_t{1});
+    used[vertex] = true;
+  }
+  std::vector<uint32_t> out;
+  for (uint32_t v = 0; v < used.size(); ++v) {
+    if (used[v]) out.push_back(v);
+  }
+  return out;
+}
+
 py::array_t<double> triple(const Vector3d& v) {
   return py::array_t<double>(3, v.data());
 }
@@ -83,58 +96,63 @@ double ofBits(uint32_t bits) {
 
 /// What of a Core diagnostics are made of, taken while no step is under way.
 struct Facts {
-  Frame frame;
+  layout::TickStats stats{};  ///< of the last tick; zero before the first
   Counters counters;
   Extremes extremes;
   Health health;
-  double dt_s, dt_safe_s;
-  size_t nodes, springs;
-  std::string stepped_by;
+  double dt_s = 0, dt_safe_s = 0, dt_limit_s = 0;
+  size_t nodes = 0, springs = 0;
+  std::string backend, stepped_by;
 };
 
-Facts factsOf(const Stepped::Core& core) {
-  const Session& session = *core.session;
+Facts factsOf(Stepped::Core& core) {
   Facts out;
-  out.frame.stats = core.last.stats;
-  out.frame.has_stats = core.last.has_stats;
+  out.stats = core.session->drain().stats;
+  const Session& session = *core.session;
   out.counters = session.counters();
   out.extremes = session.extremes();
   out.health = session.solver().health();
   out.dt_s = session.solver().dt_s();
   out.dt_safe_s = session.solver().dtSafe_s();
+  out.dt_limit_s = session.solver().dtLimit_s();
   out.nodes = session.model().activeNodes();
   out.springs = session.model().springs();
+  out.backend = session.solver().backend();
   out.stepped_by = session.backendNote();
   return out;
 }
 
+/// Names and meanings are those of metrics.json; of what it has not, of the topic /diagnostics; of what neither has,
+/// ours.
+
 py::dict diagnostics(const Facts& facts) {
   py::dict out;
-  out["stepped_by"] = facts.stepped_by;
   out["nodes"] = facts.nodes;
   out["springs"] = facts.springs;
-  out["ticks"] = facts.counters.ticks;
-  out["substeps"] = facts.counters.substeps;
+  out["springs_cut"] = facts.stats.springs_cut;
+  out["steps"] = facts.counters.substeps;
   out["dt_s"] = facts.dt_s;
   out["dt_safe_s"] = facts.dt_safe_s;
+  out["dt_limit_s"] = facts.dt_limit_s;
+  out["max_stretch"] = facts.extremes.max_stretch;
+  out["max_speed_m_per_s"] = facts.extremes.max_speed_m_per_s;
+  out["nonfinite"] = facts.extremes.nonfinite;
+  out["nodes_crowded"] = facts.extremes.crowded;
   out["governor_trips"] = facts.extremes.governor_trips;
+  out["nodes_unfolded"] = facts.health.unfolded;
+  out["ticks_held_back"] = facts.extremes.held_back;
+  out["peak_force_n"] = facts.extremes.peak_force_n;
+  out["backend"] = facts.backend;
+  out["stepped_by"] = facts.stepped_by;
+  out["ticks"] = facts.counters.ticks;
   out["recovering"] = facts.health.recovering;
   out["strained"] = facts.health.strained;
-  out["unfolded"] = facts.health.unfolded;
-  out["kinetic_j"] = facts.health.kinetic_j;
-  out["elastic_j"] = facts.health.elastic_j;
-  out["peak_force_n"] = facts.extremes.peak_force_n;
-  out["peak_stretch"] = facts.extremes.max_stretch;
-  out["peak_speed_m_per_s"] = facts.extremes.max_speed_m_per_s;
-  if (!facts.frame.has_stats) return out;
-  const layout::TickStats& stats = facts.frame.stats;
-  out["springs_cut"] = stats.springs_cut;
-  out["nonfinite"] = stats.nonfinite;
-  out["collapsed"] = stats.collapsed;
-  out["inverted"] = stats.inverted;
-  out["crowded"] = stats.crowded;
-  out["max_stretch"] = ofBits(stats.max_stretch_bits);
-  out["max_speed_m_per_s"] = ofBits(stats.max_speed_bits);
+  out["kinetic_energy_j"] = facts.health.kinetic_j;
+  out["elastic_energy_j"] = facts.health.elastic_j;
+  out["springs_collapsed"] = facts.stats.collapsed;
+  out["cells_inverted"] = facts.stats.inverted;
+  out["stretch_now"] = ofBits(facts.stats.max_stretch_bits);
+  out["speed_now_m_per_s"] = ofBits(facts.stats.max_speed_bits);
   return out;
 }
 
@@ -176,7 +194,7 @@ void bindSkin(py::module_& module) {
   skin.def_readonly("tick", &SurfaceFrame::tick);
   skin.def_property_readonly(
       "positions_m", [](const py::object& self) { return rows(self.cast<Skin&>().positions_m, 3, self); },
-      "(vertices, 3) float32 [m], tissue frame; no copy.");
+      "(vertices, 3) float32 [m], tissue frame, of used and spare vertices; no copy.");
   skin.def_property_readonly(
       "packed_normals",
       [](const py::object& self) {
@@ -205,8 +223,30 @@ void bindSkin(py::module_& module) {
       },
       "(triangles,) bool: walls that a cut has laid open; a copy.");
   skin.def_property_readonly(
+      "used", [](const Skin& s) { return given(usedVertices(*s.topology), 1); },
+      "(n,) uint32, ascending: vertices that triangles have now. Other rows of positions_m are kept for edges that a "
+      "cut "
+      "would split; numbers of vertices stay as they are. A copy.");
+  skin.def("__repr__", [](const Skin& s) {
+    return "<viscera.Skin of tick " + std::to_string(s.tick) + ", " + std::to_string(usedVertices(*s.topology).size()) +
+           " vertices, " + std::to_string(s.topology->triangleCount()) + " triangles>";
+  });
+  skin.def_property_readonly(
       "revision", [](const Skin& s) { return s.topology->revision; },
       "Another number where other triangles are shown.");
+}
+
+std::string text(const Stepped& stepped) {
+  if (stepped.closed()) return "<viscera.Session, closed>";
+  try {
+    return stepped.with([](Stepped::Core& core) {
+      const Session& session = *core.session;
+      return "<viscera.Session of '" + session.scene().name + "', tick " + std::to_string(session.tick()) + ", " +
+             std::to_string(session.model().activeNodes()) + " nodes, " + session.solver().backend() + ">";
+    });
+  } catch (const Error& error) {  // of another process
+    return std::string("<viscera.Session: ") + error.what() + ">";
+  }
 }
 
 size_t stylusCount(const Stepped::Core& core) {
@@ -233,6 +273,7 @@ void bindSteps(Class& session) {
   session.def(
       "restore", [](const Stepped& s, const py::bytes& state) { s.restore(state); }, py::arg("state"),
       "Goes on where state() was taken, to the bit; refused where scene, tissue, backend or version differ.");
+  session.def("__repr__", &text);
   session.def("close", &Stepped::close, "Ends the session; arrays taken from it live on.");
   session.def_property_readonly("closed", &Stepped::closed);
   session.def("__enter__", [](const py::object& self) { return self; });
@@ -278,7 +319,13 @@ void bindMeasures(Class& session) {
       "touched and held.");
   session.def_property_readonly(
       "diagnostics", [](const Stepped& s) { return diagnostics(s.with(factsOf)); },
-      "Dict: ticks, substeps, energies [J], trips of the governor, stretch, speed, springs cut.");
+      "Dict, as metrics.json of `viscera run`: nodes, springs, springs_cut, steps, dt_s, dt_safe_s, dt_limit_s, "
+      "max_stretch, "
+      "max_speed_m_per_s, nonfinite, nodes_crowded, governor_trips, nodes_unfolded, ticks_held_back, peak_force_n, "
+      "backend, "
+      "stepped_by; as /diagnostics: ticks, recovering, strained, kinetic_energy_j, elastic_energy_j, "
+      "springs_collapsed, "
+      "cells_inverted; of the last tick: stretch_now, speed_now_m_per_s.");
 }
 
 void bindArrays(Class& session) {

@@ -53,6 +53,20 @@ py::array_t<double> numbers(std::initializer_list<double> values) {
   return py::array_t<double>(static_cast<py::ssize_t>(values.size()), values.begin());
 }
 
+/// As Python would make it.
+std::string text(const StylusSample& sample) {
+  const auto shown = [](double value) { return std::string(py::repr(py::float_(value))); };
+  const Vector3d& at = sample.pose.position_m;
+  const Quaterniond& q = sample.pose.orientation;
+  std::string out = "viscera.Stylus([" + shown(at.x()) + ", " + shown(at.y()) + ", " + shown(at.z()) + "]";
+  if (q.coeffs() != Quaterniond::Identity().coeffs())
+    out += ", [" + shown(q.x()) + ", " + shown(q.y()) + ", " + shown(q.z()) + ", " + shown(q.w()) + "]";
+  if (sample.button1) out += ", button1=True";
+  if (sample.button2) out += ", button2=True";
+  if (!(sample.jaw_rad < 0)) out += ", jaw_rad=" + shown(std::round(1e6 * sample.jaw_rad) / 1e6);
+  return out + ")";
+}
+
 }  // namespace
 
 StylusSample sampleOf(const double* position_m, const double* quaternion) {
@@ -95,6 +109,7 @@ void bindStylus(py::module_& module) {
       "jaw_rad",
       [](const StylusSample& s) { return s.jaw_rad < 0 ? std::optional<double>() : std::optional<double>(s.jaw_rad); },
       "How far the jaws are open [rad], or None.");
+  stylus.def("__repr__", &text);
 }
 
 StylusSamples samplesOf(const py::object& given, size_t styluses) {

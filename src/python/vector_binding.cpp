@@ -172,6 +172,10 @@ void bindVectorSteps(VectorClass& vector) {
   vector.def_property_readonly("closed", &SteppedVector::closed);
   vector.def("__enter__", [](const py::object& self) { return self; });
   vector.def("__exit__", [](SteppedVector& v, const py::args&) { v.close(); });
+  vector.def("__repr__", [](const SteppedVector& v) {
+    return v.closed() ? std::string("<viscera.VectorSession, closed>")
+                      : "<viscera.VectorSession of " + std::to_string(v.sessions()) + " sessions>";
+  });
   vector.def("__len__", [](const SteppedVector& v) { return v.group()->cores.size(); });
   vector.def(
       "__getitem__",

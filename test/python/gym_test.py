@@ -58,6 +58,16 @@ class TaskTest(unittest.TestCase):
         for task in gym.TASKS:
             gym.check(gym.make(task, observations=("poses", "forces", "points")))
 
+    def test_points_are_of_the_skin_that_is_shown(self):
+        for task in gym.TASKS:
+            env = gym.make(task, observations=("points",))
+            points = env.reset(seed=0)[0]["points"]
+            skin = env.unwrapped.session.skin()
+            shown = skin.positions_m[skin.used]
+            self.assertTrue((points[:, None] == shown[None]).all(-1).any(1).all(), task)
+            self.assertGreaterEqual(len(np.unique(points, axis=0)), min(len(points), len(shown)) * 9 // 10, task)
+            env.close()
+
     def test_each_can_be_done(self):
         for task, policy in POLICIES.items():
             for seed in range(5):

@@ -2,7 +2,9 @@
 # Copyright (c) 2026, the viscera authors
 # SPDX-License-Identifier: BSD-3-Clause
 """The Python package as users have it. Usage: module_test.py [VISCERA], the command that hashes are compared with."""
+import contextlib
 import gc
+import io
 import json
 import os
 import random
@@ -64,6 +66,35 @@ class SceneTest(unittest.TestCase):
         self.assertIn(str(caught.exception).split(": ", 1)[1], run.stderr)
 
 
+    def test_what_is_printed(self):
+        self.assertRegex(viscera.__version__, r"^\d+\.\d+\.\d+$")
+        stylus = viscera.Stylus([0, 0.25, -1], [0, 0, 1, 0], button2=True, jaw_rad=0.3)
+        self.assertEqual(repr(stylus), "viscera.Stylus([0.0, 0.25, -1.0], [0.0, 0.0, 1.0, 0.0], button2=True, jaw_rad=0.3)")
+        self.assertEqual(repr(eval(repr(stylus))), repr(stylus))
+        with small() as session:
+            session.step()
+            self.assertEqual(repr(session), f"<viscera.Session of 'small', tick 1, {len(session.nodes)} nodes, cpu>")
+        self.assertEqual(repr(session), "<viscera.Session, closed>")
+        self.assertEqual(repr(viscera.VectorSession(viscera.Scene(SMALL), 2)), "<viscera.VectorSession of 2 sessions>")
+        for each in viscera.__all__:
+            if each[0] != "_":
+                self.assertEqual(getattr(viscera, each).__module__, "viscera")
+
+    def test_first_example_of_the_docs(self):
+        page = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "docs", "python.md")
+        with open(page, encoding="utf-8") as text:
+            lines = text.read().split("    import viscera\n", 1)[1].split("\n\n| call")[0].splitlines()
+        space = {"viscera": viscera}
+        with contextlib.redirect_stdout(io.StringIO()) as printed:
+            exec("\n".join(line[4:] for line in lines), space)
+        self.assertEqual(len(printed.getvalue().splitlines()), 2)
+        with viscera.Session(space["scene"]) as session:
+            session.restore(space["saved"])
+            session.step([viscera.Stylus(space["tip_m"])])
+            self.assertGreater(session.contacts[0]["touched"], 0)
+            self.assertGreater(session.wrenches[0, 2], 0.05)
+
+
 class SessionTest(unittest.TestCase):
     @unittest.skipUnless(COMMAND, "no command given")
     def test_same_hash_as_the_command_line(self):
@@ -116,6 +147,30 @@ class SessionTest(unittest.TestCase):
         self.assertGreater(session.contacts[0]["touched"], 0)
         self.assertEqual(session.diagnostics["ticks"], 60)
         self.assertEqual(session.diagnostics["nonfinite"], 0)
+
+    @unittest.skipUnless(COMMAND, "no command given")
+    def test_diagnostics_are_named_as_the_metrics(self):
+        """And mean the same."""
+        run = subprocess.run([COMMAND, "run", "cloth_on_points", "--no-view", "--seconds", "0.2"], capture_output=True, text=True,
+                             check=True)
+        metrics = json.loads(run.stdout.splitlines()[-1])
+        with viscera.Session(viscera.Scene("cloth_on_points")) as session:
+            session.step(n=round(0.2 / session.tick_s))
+            found = session.diagnostics
+        others = {"ticks", "recovering", "strained", "kinetic_energy_j", "elastic_energy_j", "springs_collapsed", "cells_inverted",
+                  "stretch_now", "speed_now_m_per_s"}
+        self.assertEqual(set(found) - set(metrics), others)
+        same = set(found) & set(metrics)
+        self.assertEqual({key: found[key] for key in same}, {key: metrics[key] for key in same})
+
+    def test_diagnostics_after_a_restored_cut(self):
+        scene = viscera.Scene(SMALL, ["styluses[0].button2=cut"])
+        with viscera.Session(scene) as session, viscera.Session(scene) as other:
+            for tick in range(60):
+                session.step([viscera.Stylus([-0.03 + 0.001 * tick, 0, 0.005], [0, 0.7071068, 0, 0.7071068], button2=True)])
+            self.assertGreater(session.diagnostics["springs_cut"], 0)
+            other.restore(session.state())
+            self.assertEqual(other.diagnostics["springs_cut"], session.diagnostics["springs_cut"])
 
     def test_closed_raises(self):
         session = small()
@@ -174,6 +229,13 @@ class ArrayTest(unittest.TestCase):
         self.assertEqual(len(skin.wounds), len(skin.triangles))
         self.assertEqual(len(skin.bodies_of_triangles), len(skin.triangles))
         np.testing.assert_allclose(np.linalg.norm(skin.normals, axis=1), 1, atol=1 / 256)
+
+    def test_used_vertices_of_a_sheet(self):
+        with viscera.Session(viscera.Scene("cloth_on_points")) as session:
+            skin = session.skin()
+        np.testing.assert_array_equal(skin.used, np.unique(skin.triangles))
+        self.assertLess(len(skin.used), len(skin.positions_m))
+        self.assertIn(f"{len(skin.used)} vertices", repr(skin))
 
     def test_nodes(self):
         session = small()

@@ -7,7 +7,7 @@ Lengths are in metres, forces in newtons, times in seconds; poses are in the tis
 import pkgutil
 
 __all__ = ["Error", "GpuError", "LatticeError", "MeshError", "Scene", "SceneError", "Session", "Skin", "Stylus",
-           "VectorSession"]
+           "VectorSession", "__version__"]
 # viscera.msg and viscera.srv, which ROS makes, may lie in a folder of this name that comes later in the path.
 __path__ = pkgutil.extend_path(__path__, __name__)
 

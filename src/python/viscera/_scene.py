@@ -5,7 +5,7 @@ import json
 import os
 
 from ._viscera import (Error, GpuError, LatticeError, MeshError, SceneBase, SceneError, Session, Skin, Stylus,
-                       VectorSession)
+                       VectorSession, __version__)
 
 
 def _shipped(name):
@@ -62,4 +62,5 @@ class Scene(SceneBase):
         return f"viscera.Scene({self.name!r}, bodies={self.bodies}, styluses={self.styluses})"
 
 
-Scene.__module__ = __package__
+for _public in (Error, GpuError, LatticeError, MeshError, Scene, SceneError, Session, Skin, Stylus, VectorSession):
+    _public.__module__ = __package__  # where users find it, pickle and tracebacks too

@@ -74,6 +74,7 @@ class _Episode:
 
     def __init__(self, layout, task, session):
         self.layout, self.task, self.session = layout, task, session
+        self._points = None
 
     def begin(self, rng, options):
         """The tissue is at rest."""
@@ -121,8 +122,10 @@ class _Episode:
         if "forces" in layout.kinds:
             out["forces"] = layout.bounded(self.force[None], "forces")
         if "points" in layout.kinds:
-            skin = self.session.skin().positions_m
-            out["points"] = layout.bounded(skin[np.linspace(0, len(skin) - 1, _POINTS).astype(int)], "points")
+            skin = self.session.skin()
+            if self._points is None:  # the same vertices ever after, whatever is cut
+                self._points = skin.used[np.linspace(0, len(skin.used) - 1, _POINTS).astype(int)]
+            out["points"] = layout.bounded(skin.positions_m[self._points], "points")
         for kind in set(layout.kinds) & set(_PICTURES):
             out[kind] = self.session.picture(0, "color" if kind == "rgb" else kind)
         return dict(sorted(out.items()))
