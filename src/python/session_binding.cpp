@@ -236,7 +236,7 @@ void bindSkin(py::module_& module) {
       "Another number where other triangles are shown.");
 }
 
-std::string text(const Stepped& stepped) {
+std::string sessionText(const Stepped& stepped) {
   if (stepped.closed()) return "<viscera.Session, closed>";
   try {
     return stepped.with([](Stepped::Core& core) {
@@ -273,7 +273,7 @@ void bindSteps(Class& session) {
   session.def(
       "restore", [](const Stepped& s, const py::bytes& state) { s.restore(state); }, py::arg("state"),
       "Goes on where state() was taken, to the bit; refused where scene, tissue, backend or version differ.");
-  session.def("__repr__", &text);
+  session.def("__repr__", &sessionText);
   session.def("close", &Stepped::close, "Ends the session; arrays taken from it live on.");
   session.def_property_readonly("closed", &Stepped::closed);
   session.def("__enter__", [](const py::object& self) { return self; });

@@ -54,7 +54,7 @@ py::array_t<double> numbers(std::initializer_list<double> values) {
 }
 
 /// As Python would make it.
-std::string text(const StylusSample& sample) {
+std::string stylusText(const StylusSample& sample) {
   const auto shown = [](double value) { return std::string(py::repr(py::float_(value))); };
   const Vector3d& at = sample.pose.position_m;
   const Quaterniond& q = sample.pose.orientation;
@@ -109,7 +109,7 @@ void bindStylus(py::module_& module) {
       "jaw_rad",
       [](const StylusSample& s) { return s.jaw_rad < 0 ? std::optional<double>() : std::optional<double>(s.jaw_rad); },
       "How far the jaws are open [rad], or None.");
-  stylus.def("__repr__", &text);
+  stylus.def("__repr__", &stylusText);
 }
 
 StylusSamples samplesOf(const py::object& given, size_t styluses) {
