@@ -78,7 +78,8 @@ CLI::App* addReplay(CLI::App& app, cli::ReplayOptions& o) {
   replay->add_option("--until", o.until_s, "seconds of the recording at which it ends")->check(seconds);
   replay->add_option("--speed", o.speed, "times as fast as it was; default: as fast as can be")
       ->check(CLI::Range(1e-3, 1e3));
-  CLI::Option* out = replay->add_option("--out", o.out, "folder for pictures, metrics.json, hands.csv and surface.ply");
+  CLI::Option* out = replay->add_option(
+      "--out", o.out, "folder for pictures, metrics.json, hands.csv and surface.ply; an older run's go");
   replay->add_flag("--depth", o.depth, "depths with every picture, as of run")->needs(out);
   replay->add_flag("--labels", o.labels, "labels with every picture, as of run")->needs(out);
   replay->add_flag("--no-view", o.no_view,
@@ -134,8 +135,8 @@ int dispatch(int argc, char** argv) {
   run->add_option("--strokes", o.run.strokes, "recorded strokes to replay");
   run->add_option("--seconds", o.run.seconds, "simulated time; default: the strokes' length, or 1")
       ->check(CLI::Range(0.0, 86400.0));
-  CLI::Option* out =
-      run->add_option("--out", o.run.out, "folder for pictures, metrics.json and surface.ply, the skin at the end");
+  CLI::Option* out = run->add_option(
+      "--out", o.run.out, "folder for pictures, metrics.json and surface.ply, the skin at the end; an older run's go");
   run->add_flag("--live", o.run.live,
                 "leave pictures out rather than wait for them, as a live session does; but for marks")
       ->needs(out);

@@ -3,7 +3,6 @@
 #include "cli/npy_writer.h"
 
 #include <cstdint>
-#include <fstream>
 
 #include "cli/png_writer.h"
 
@@ -18,13 +17,11 @@ void writeNpy(const std::string& path, int width, int height, const std::vector<
   header.append(kAlignment - (kLead + header.size() + 1) % kAlignment, ' ');
   header += '\n';
   const auto length = static_cast<uint16_t>(header.size());
-  std::ofstream file(path, std::ios::binary);
-  file << "\x93NUMPY" << '\x01' << '\0' << static_cast<char>(length & 255U) << static_cast<char>(length >> 8U)
-       << header;
-  file.write(reinterpret_cast<const char*>(values.data()),
-             static_cast<std::streamsize>(values.size() * sizeof(values[0])));
-  file.close();
-  if (!file) throw ImageError("cannot write '" + path + "'");
+  std::string bytes = "\x93NUMPY";
+  bytes += {'\x01', '\0', static_cast<char>(length & 255U), static_cast<char>(length >> 8U)};
+  bytes += header;
+  bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(values[0]));
+  writeImageFile(path, FileKind::kNpy, bytes);
 }
 
 }  // namespace viscera

@@ -21,12 +21,23 @@ void write(const std::string& path, int width, int height, const std::vector<uin
   image.format = grey ? PNG_FORMAT_GRAY : PNG_FORMAT_RGB;
   image.flags =
       PNG_IMAGE_FLAG_FAST;  // several times faster, somewhat larger: pictures are taken while tissue is stepped
-  if (!png_image_write_to_file(&image, path.c_str(), 0, bytes.data(), 0, nullptr)) {
+  png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(image);
+  std::string packed(size, '\0');
+  if (!png_image_write_to_memory(&image, packed.data(), &size, 0, bytes.data(), 0, nullptr))
     throw ImageError("cannot write '" + path + "': " + image.message);
-  }
+  packed.resize(size);
+  writeImageFile(path, FileKind::kPng, packed);
 }
 
 }  // namespace
+
+void writeImageFile(const std::string& path, FileKind kind, std::string_view bytes) {
+  try {
+    writeFile(path, kind, bytes);
+  } catch (const Error& error) {
+    throw ImageError(error.what());
+  }
+}
 
 void writePng(const std::string& path, int width, int height, const std::vector<uint8_t>& rgb) {
   write(path, width, height, rgb, false);

@@ -4,8 +4,10 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "math/out_file.h"
 #include "viscera/math/error.h"
 
 namespace viscera {
@@ -14,6 +16,9 @@ namespace viscera {
 struct ImageError : Error {
   using Error::Error;
 };
+
+/// Writes a whole file (math/out_file.h). @throws ImageError
+void writeImageFile(const std::string& path, FileKind kind, std::string_view bytes);
 
 /// Writes an 8-bit sRGB image, replacing the file if there is one.
 /// @param rgb  [3 * width * height], rows from the top

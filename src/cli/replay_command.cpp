@@ -1,7 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <chrono>
-#include <fstream>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -9,9 +8,11 @@
 
 #include "cli/album.h"
 #include "cli/commands.h"
+#include "cli/run_folder.h"
 #include "cli/run_plan.h"
 #include "cli/scene_lookup.h"
 #include "cli/task_run.h"
+#include "math/out_file.h"
 #include "session/session_replay.h"
 #include "tasks/hand_log.h"
 #include "viscera/gpu/context.h"
@@ -146,6 +147,10 @@ int replay(const ReplayOptions& options) {
   tell(recording);
   const double until_s = options.until_s.value_or(recording.duration_s());
   if (until_s < options.from_s) throw Error("--until must not be before --from");
+  std::vector<Output> outputs = outputsIn(options.out);
+  outputs.push_back({"--save", options.save, FileKind::kState});
+  requireOutputs(outputs);
+  const RunFolder folder(options.out);
   Replayed replayed(options);
   SessionReplay::Ports ports;
   ports.make = [&](const Scene& scene, size_t) -> Session& { return replayed.make(scene); };
@@ -159,9 +164,8 @@ int replay(const ReplayOptions& options) {
   result["pieces"] = replayed.measures();
   if (!replayed.judged().empty()) result["tasks"] = replayed.judged();
   if (!options.out.empty()) {
-    std::ofstream file(options.out + "/metrics.json");
-    file << result.dump(2, ' ', false, ReplayJson::error_handler_t::replace) << '\n';
-    if (!file) throw Error(options.out + "/metrics.json: cannot be written");
+    writeFile(options.out + "/metrics.json", FileKind::kJson,
+              result.dump(2, ' ', false, ReplayJson::error_handler_t::replace) + '\n');
   }
   std::cout << result.dump(-1, ' ', false, ReplayJson::error_handler_t::replace) << std::endl;
   if (outcome.difference) std::cerr << "viscera: " << differenceText(*outcome.difference) << '\n';

@@ -3,18 +3,19 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <fstream>
 #include <iostream>
 #include <memory>
 #include <utility>
 
 #include "cli/album.h"
 #include "cli/commands.h"
+#include "cli/run_folder.h"
 #include "cli/run_metrics.h"
 #include "cli/run_plan.h"
 #include "cli/scene_lookup.h"
 #include "cli/task_run.h"
 #include "math/one_line.h"
+#include "math/out_file.h"
 #include "model/fracture/toughness.h"
 #include "model/scene/tool_kinds.h"
 #include "session/session_recorder.h"
@@ -119,6 +120,13 @@ std::unique_ptr<TaskRun> beginTask(Session& session, const RunOptions& options) 
   return out;
 }
 
+std::vector<Output> outputsOf(const RunOptions& options) {
+  std::vector<Output> out = outputsIn(options.out);
+  out.push_back({"--save", options.save, FileKind::kState});
+  out.push_back({"--record", options.record, FileKind::kRecording});
+  return out;
+}
+
 /// @throws Error  not all of it was written
 void finish(SessionRecorder& recorder) {
   recorder.leave();
@@ -130,6 +138,8 @@ void finish(SessionRecorder& recorder) {
 
 int run(const RunOptions& options) {
   RunPlan plan = planRun(options);
+  const std::vector<Output> outputs = outputsOf(options);
+  requireOutputs(outputs);
   const uint64_t ticks = plan.ticks;
   const Scene& scene = plan.scene;
   Strokes& strokes = plan.strokes;
@@ -139,11 +149,13 @@ int run(const RunOptions& options) {
   const auto made =
       context ? std::make_unique<Session>(scene, *context, progress) : std::make_unique<Session>(scene, progress);
   Session& session = *made;
+  requireOutputs(outputs);  // by now all is known that is read
   resolveAnchors(strokes, session.model(), scene.fit);
   for (const Body& body : session.model().bodies) {
     for (const std::string& note : body.notes) std::cout << body.name << ": " << oneLine(note) << '\n';
   }
   std::cout << "stepped by: " << session.backendNote() << '\n';
+  const RunFolder folder(options.out);
   Album album(options.out, session.scene(), strokes, ticks, picturesOf(options), {options.depth, options.labels});
   if (!strokes.recorded.scene.empty())
     std::cout << "strokes: recorded of scene " << strokes.recorded.scene
@@ -181,9 +193,8 @@ int run(const RunOptions& options) {
   if (task) metrics["tasks"] = task->finish();
   if (!options.out.empty()) {
     if (hands) writeHands(hands->rows(), options.out);
-    std::ofstream file(options.out + "/metrics.json");
-    file << metrics.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
-    if (!file) throw Error(options.out + "/metrics.json: cannot be written");
+    writeFile(options.out + "/metrics.json", FileKind::kJson,
+              metrics.dump(2, ' ', false, Json::error_handler_t::replace) + '\n');
   }
   std::cout << metrics.dump(-1, ' ', false, Json::error_handler_t::replace) << std::endl;
   return 0;

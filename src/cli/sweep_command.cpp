@@ -17,11 +17,13 @@
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <sstream>
 #include <thread>
 #include <utility>
 
 #include "cli/commands.h"
 #include "cli/sweep_folder.h"
+#include "math/out_file.h"
 #include "math/processors.h"
 #include "viscera/math/error.h"
 
@@ -202,14 +204,13 @@ void submit(const SweepOptions& options) {
   const char* launcher = std::getenv("VISCERA_LAUNCHER");  // of a bundle, which finds the libraries of each machine
   const std::string program = launcher ? launcher : std::filesystem::read_symlink("/proc/self/exe").string();
   const std::string script = options.out + "/slurm.sh", jobs = options.jobs > 0 ? std::to_string(options.jobs) : "";
-  std::ofstream file(script);
-  file << "#!/bin/sh\n#SBATCH --job-name=viscera\n#SBATCH --array=0-" << options.slurm - 1
+  std::ostringstream text;
+  text << "#!/bin/sh\n#SBATCH --job-name=viscera\n#SBATCH --array=0-" << options.slurm - 1
        << "\n#SBATCH --requeue\n#SBATCH --output=" << std::filesystem::absolute(options.out).string()
        << "/slurm-%A_%a.txt\nexec " << shellQuoted(program) << " sweep " << absolute(options.plan) << " --out "
        << absolute(options.out) << " --tries " << options.tries << " --run-limit-s " << options.run_limit_s
        << " --jobs " << (jobs.empty() ? "\"${SLURM_CPUS_PER_TASK:-1}\"" : jobs) << "\n";
-  file.close();
-  if (!file) throw Error(script + ": cannot be written");
+  writeFile(script, FileKind::kText, text.str());
   const int status = std::system(("sbatch " + options.sbatch + " " + absolute(script)).c_str());
   if (WIFEXITED(status) && WEXITSTATUS(status) == 127)
     throw Error("sbatch is not there: Slurm's command that submits jobs; " + script + " is what it would be given");

@@ -13,11 +13,11 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <random>
 #include <sstream>
 #include <utility>
 
 #include "math/one_line.h"
+#include "math/out_file.h"
 #include "viscera/math/error.h"
 
 namespace viscera::cli {
@@ -26,53 +26,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
-
-/// What is written is written beside its place and moved there, so that half of it is never read. A draft has a name
-/// that nothing else has: processes of several hosts or containers that share a folder may have one number. What one
-/// leaves that is killed stays.
-class Draft {
- public:
-  explicit Draft(const std::string& path) : path_(path) {
-    constexpr int kTries = 100;
-    char host[256] = "";
-    gethostname(host, sizeof host - 1);
-    std::random_device random;
-    for (int i = 0; i < kTries; ++i) {
-      name_ = path + "." + host + "." + std::to_string(getpid()) + "." + std::to_string(random()) + ".draft";
-      const int file = open(name_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-      if (file >= 0) {
-        close(file);
-        return;
-      }
-      if (errno != EEXIST) break;
-    }
-    throw Error(path + ": cannot be written, " + std::strerror(errno));
-  }
-  ~Draft() {
-    if (!name_.empty()) unlink(name_.c_str());
-  }
-  Draft(const Draft&) = delete;
-  Draft& operator=(const Draft&) = delete;
-  const std::string& name() const { return name_; }
-  void moveIntoPlace() {
-    std::error_code error;
-    fs::rename(name_, path_, error);
-    if (error) throw Error(path_ + ": cannot be written, " + error.message());
-    name_.clear();
-  }
-
- private:
-  std::string path_, name_;
-};
-
-void writeWhole(const std::string& path, const std::string& text) {
-  Draft draft(path);
-  std::ofstream file(draft.name(), std::ios::binary);
-  file << text;
-  file.close();
-  if (!file) throw Error(path + ": cannot be written");
-  draft.moveIntoPlace();
-}
 
 std::string readWhole(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
@@ -123,7 +76,7 @@ SweepFolder::SweepFolder(std::string folder, const SweepPlan& plan, int tries)
   std::error_code error;
   fs::create_directories(folder_ + "/runs", error);
   const std::string file = folder_ + "/plan.txt", text = plan.text();
-  if (!exists(file)) writeWhole(file, text);
+  if (!exists(file)) writeFile(file, FileKind::kText, text);
   if (readWhole(file) != text)
     throw Error(folder_ + " holds the runs of another plan (plan.txt differs): take another --out");
 }
@@ -161,7 +114,7 @@ std::optional<SweepFolder::Claim> SweepFolder::claim(size_t run) const {
 }
 
 void SweepFolder::keepResult(size_t run, const std::string& json) const {
-  writeWhole(runFolder(run) + "/result.json", json + "\n");
+  writeFile(runFolder(run) + "/result.json", FileKind::kJson, json + "\n");
 }
 
 void SweepFolder::keepFailure(size_t run, const std::string& line) const {
@@ -206,7 +159,7 @@ SweepTable SweepFolder::table() const {
 }
 
 void SweepFolder::writeTable() const {
-  writeWhole(folder_ + "/results.csv", csvText(table()));
+  writeFile(folder_ + "/results.csv", FileKind::kText, csvText(table()));
 }
 
 }  // namespace viscera::cli

@@ -3,8 +3,8 @@
 #include "devices/registration_file.h"
 
 #include <array>
-#include <fstream>
 
+#include "math/out_file.h"
 #include "model/scene/yaml_reader.h"
 
 namespace viscera {
@@ -109,10 +109,13 @@ std::string registrationYaml(const RegistrationFile& registration) {
 }
 
 void saveRegistration(const RegistrationFile& registration, const std::string& path) {
-  std::ofstream file(path);
-  file << registrationYaml(registration);
-  file.close();
-  if (!file) throw RegistrationError(path + ": cannot be written");
+  try {
+    writeFile(path, FileKind::kRegistration, registrationYaml(registration));
+  } catch (const RegistrationError&) {
+    throw;
+  } catch (const Error& error) {
+    throw RegistrationError(error.what());
+  }
 }
 
 RegistrationFile parseRegistration(const std::string& yaml, const std::string& name) {

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "math/out_file.h"
 #include "viscera/math/error.h"
 
 namespace viscera {
@@ -57,7 +58,7 @@ void Exporter::add(const Session& session, const ShownMesh& skin) {
   if (xdmf_) return xdmf_->add(mesh);
   if (pc2_) {
     // The mesh that the cache moves.
-    if (!std::filesystem::exists(stem_ + ".ply")) writePly(skin, stem_ + ".ply");
+    if (!pc2_->begun()) writePly(skin, stem_ + ".ply");
     return pc2_->add(mesh);
   }
   addVtk(mesh);
@@ -84,12 +85,11 @@ void Exporter::addVtk(const FieldMesh& mesh) {
   std::snprintf(time, sizeof time, "%.17g", mesh.time_s);
   collection_ += std::string("<DataSet timestep=\"") + time + "\" part=\"0\" file=\"" +
                  std::filesystem::path(path).filename().string() + "\"/>\n";
-  std::ofstream file(stem_ + ".pvd");  // whole after every moment, should the run be ended
-  file << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n"
-       << "<Collection>\n"
-       << collection_ << "</Collection>\n</VTKFile>\n";
-  file.close();
-  if (!file) throw Error(stem_ + ".pvd: cannot be written");
+  // Whole after every moment, should the run be ended.
+  writeFile(stem_ + ".pvd", FileKind::kVtk,
+            "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n"
+            "<Collection>\n" +
+                collection_ + "</Collection>\n</VTKFile>\n");
 }
 
 void writeSkin(const Session& session, const ShownMesh& skin, const std::string& path) {

@@ -4,7 +4,6 @@
 #include <nlohmann/json.hpp>
 
 #include "export/writers.h"
-#include "viscera/math/error.h"
 
 namespace viscera {
 
@@ -16,8 +15,8 @@ using Json = nlohmann::ordered_json;
 constexpr uint32_t kMagic = 0x46546C67, kVersion = 2, kJsonChunk = 0x4E4F534A, kBinaryChunk = 0x004E4942;
 constexpr int kFloat = 5126, kUint = 5125, kVertices = 34962, kIndices = 34963;
 
-void put(std::ofstream& file, uint32_t value) {
-  file.write(reinterpret_cast<const char*>(&value), sizeof value);
+void put(OutFile& file, uint32_t value) {
+  file.write(&value, sizeof value);
 }
 
 /// Buffer views and accessors of one buffer.
@@ -102,18 +101,17 @@ void writeGlb(const ShownMesh& skin, const std::string& path) {
                {"accessors", buffers.accessors}};
   std::string text = json.dump();
   text.resize((text.size() + 3) / 4 * 4, ' ');
-  std::ofstream file(path, std::ios::binary);
+  OutFile file(path, FileKind::kGlb);
   put(file, kMagic);
   put(file, kVersion);
   put(file, static_cast<uint32_t>(12 + 8 + text.size() + 8 + buffers.binary.size()));
   put(file, static_cast<uint32_t>(text.size()));
   put(file, kJsonChunk);
-  file << text;
+  file.write(text);
   put(file, static_cast<uint32_t>(buffers.binary.size()));  // of words: a multiple of 4
   put(file, kBinaryChunk);
-  file.write(buffers.binary.data(), static_cast<std::streamsize>(buffers.binary.size()));
-  file.close();
-  if (!file) throw Error(path + ": cannot be written");
+  file.write(buffers.binary.data(), buffers.binary.size());
+  file.keep();
 }
 
 }  // namespace viscera

@@ -17,8 +17,8 @@ std::string exactly(double value) {
 }
 
 template <class T>
-void put(std::ofstream& file, T value) {
-  file.write(reinterpret_cast<const char*>(&value), sizeof value);
+void put(OutFile& file, T value) {
+  file.write(&value, sizeof value);
 }
 
 const char* topologyOf(uint32_t corners) {
@@ -27,16 +27,14 @@ const char* topologyOf(uint32_t corners) {
 
 }  // namespace
 
-XdmfSeries::XdmfSeries(const std::string& stem) : stem_(stem), binary_(stem + ".bin", std::ios::binary) {
-  if (!binary_) throw Error(stem + ".bin: cannot be written");
-}
+XdmfSeries::XdmfSeries(const std::string& stem) : stem_(stem), binary_(stem + ".bin", FileKind::kBytes) {}
 
 std::string XdmfSeries::item(const char* type, const std::string& dimensions, const void* data, size_t bytes) {
   const std::string name = std::filesystem::path(stem_).filename().string() + ".bin";
   std::string out = "<DataItem Dimensions=\"" + dimensions + "\" NumberType=\"" + type +
                     "\" Precision=\"4\" Format=\"Binary\" Endian=\"Little\" Seek=\"" + std::to_string(at_) + "\">" +
                     name + "</DataItem>";
-  binary_.write(static_cast<const char*>(data), static_cast<std::streamsize>(bytes));
+  binary_.write(data, bytes);
   at_ += bytes;
   return out;
 }
@@ -67,19 +65,15 @@ void XdmfSeries::add(const FieldMesh& mesh) {
 }
 
 void XdmfSeries::finish() {
-  binary_.close();
-  std::ofstream file(stem_ + ".xdmf");
-  file << "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\">\n<Domain>\n"
-       << "<Grid Name=\"viscera\" GridType=\"Collection\" CollectionType=\"Temporal\">\n"
-       << text_ << "</Grid>\n</Domain>\n</Xdmf>\n";
-  file.close();
-  if (!file || !binary_) throw Error(stem_ + ".xdmf: cannot be written");
+  binary_.keep();
+  writeFile(stem_ + ".xdmf", FileKind::kXdmf,
+            "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\">\n<Domain>\n"
+            "<Grid Name=\"viscera\" GridType=\"Collection\" CollectionType=\"Temporal\">\n" +
+                text_ + "</Grid>\n</Domain>\n</Xdmf>\n");
 }
 
 Pc2Series::Pc2Series(const std::string& path, double every_s)
-    : path_(path), file_(path, std::ios::binary), every_s_(every_s) {
-  if (!file_) throw Error(path + ": cannot be written");
-}
+    : path_(path), file_(path, FileKind::kPc2), every_s_(every_s) {}
 
 void Pc2Series::add(const FieldMesh& mesh) {
   if (points_ < 0) {
@@ -96,16 +90,14 @@ void Pc2Series::add(const FieldMesh& mesh) {
                 std::to_string(mesh.tick) + " there are " + std::to_string(mesh.pointCount()) +
                 ": the skin was cut; take vtp, xdmf, ply or glb");
   }
-  file_.write(reinterpret_cast<const char*>(mesh.points.data()), static_cast<std::streamsize>(4 * mesh.points.size()));
+  file_.write(mesh.points.data(), 4 * mesh.points.size());
   ++samples_;
 }
 
 void Pc2Series::finish() {
-  constexpr std::streamoff kAtSamples = 28;
-  file_.seekp(kAtSamples);
-  put<int32_t>(file_, samples_);
-  file_.close();
-  if (!file_) throw Error(path_ + ": cannot be written");
+  constexpr uint64_t kAtSamples = 28;
+  if (samples_ > 0) file_.writeAt(kAtSamples, &samples_, sizeof samples_);
+  file_.keep();
 }
 
 }  // namespace viscera

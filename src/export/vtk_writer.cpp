@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "export/writers.h"
-#include "viscera/math/error.h"
+#include "math/out_file.h"
 
 namespace viscera {
 
@@ -54,12 +54,11 @@ void writeVtk(const FieldMesh& mesh, const std::string& path) {
   xml += appended.array("Int64", "offsets", 1, ends);
   if (solid) xml += appended.array("UInt8", "types", 1, std::vector<uint8_t>(mesh.cellCount(), kHexahedron));
   xml += "</" + cells + ">\n</Piece>\n</" + type + ">\n<AppendedData encoding=\"raw\">\n_";
-  std::ofstream file(path, std::ios::binary);
-  file << xml;
-  file.write(appended.bytes().data(), static_cast<std::streamsize>(appended.bytes().size()));
-  file << "\n</AppendedData>\n</VTKFile>\n";
-  file.close();
-  if (!file) throw Error(path + ": cannot be written");
+  OutFile file(path, FileKind::kVtk);
+  file.write(xml);
+  file.write(appended.bytes());
+  file.write("\n</AppendedData>\n</VTKFile>\n");
+  file.keep();
 }
 
 }  // namespace viscera

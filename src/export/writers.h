@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <fstream>
 #include <string>
 
 #include "export/field_mesh.h"
+#include "math/out_file.h"
 
 namespace viscera {
 
@@ -35,7 +35,7 @@ class XdmfSeries {
 
   std::string stem_, text_, cells_item_;
   std::vector<uint32_t> cells_;
-  std::ofstream binary_;
+  OutFile binary_;
   uint64_t at_ = 0;
 };
 
@@ -45,11 +45,12 @@ class Pc2Series {
   Pc2Series(const std::string& path, double every_s);
   /// @throws Error  not as many points as at first: the skin was cut
   void add(const FieldMesh& mesh);
+  bool begun() const { return samples_ > 0; }
   void finish();
 
  private:
   std::string path_;
-  std::ofstream file_;
+  OutFile file_;
   double every_s_;
   int32_t points_ = -1, samples_ = 0;
 };

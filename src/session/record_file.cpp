@@ -12,6 +12,7 @@
 #include <cstring>
 #include <utility>
 
+#include "math/out_file.h"
 #include "viscera/math/error.h"
 
 namespace viscera {
@@ -48,6 +49,7 @@ RecordFileWriter::RecordFileWriter(const std::string& path)
     writeAll(&kRecordVersion, sizeof kRecordVersion);
   } catch (const Error&) {
     close(fd_);
+    unlink(path_.c_str());
     throw;
   }
   thread_ = std::thread([this] { main(); });
@@ -64,7 +66,9 @@ void RecordFileWriter::finish() {
     end_ = true;
   }
   changed_.notify_all();
-  if (thread_.joinable()) thread_.join();
+  if (!thread_.joinable()) return;
+  thread_.join();
+  if (!fault_.empty() && whole_bytes_ == 0) unlink(path_.c_str());  // or an empty file would block the name
 }
 
 void RecordFileWriter::put(ChunkKind kind, std::vector<char> bytes) {
@@ -119,7 +123,14 @@ void RecordFileWriter::write(const Waiting& chunk) {
   ChunkHead head{static_cast<uint32_t>(chunk.kind), 0, stored, chunk.bytes.size()};
   head.crc = chunkCrc(head, packed);
   std::memcpy(out.data(), &head, sizeof head);
-  writeAll(out.data(), sizeof head + stored);
+  try {
+    writeAll(out.data(), sizeof head + stored);
+  } catch (const Error&) {
+    if (ftruncate(fd_, static_cast<off_t>(kFirstChunk + whole_bytes_)) != 0) {  // a reader notices what is left
+    }
+    throw;
+  }
+  whole_bytes_ += sizeof head + stored;
   if (chunk.kind == ChunkKind::kState) state_bytes_ = stored;
 }
 
@@ -135,6 +146,7 @@ void RecordFileWriter::writeAll(const void* data, size_t size) const {
 }
 
 RecordFileReader::RecordFileReader(const std::string& path) : path_(path), file_(path, std::ios::binary) {
+  noteRead(path);
   if (!file_) throw Error(path + ": cannot be read (does the file exist?)");
   char magic[sizeof kRecordMagic] = {};
   uint32_t version = 0;

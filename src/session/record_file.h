@@ -55,6 +55,7 @@ class RecordFileWriter {
 
   const std::string path_;
   int fd_;
+  uint64_t whole_bytes_ = 0;  ///< of chunks that are in the file; written by the thread
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<Waiting> waiting_;

@@ -10,7 +10,10 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <filesystem>
+#include <string>
+#include <utility>
+
+#include "math/out_file.h"
 
 namespace viscera {
 
@@ -36,7 +39,7 @@ Error damaged(const std::string& path, const std::string& where) {
 /// Closes what it opened.
 class File {
  public:
-  File(const std::string& path, int flags) : path_(path), fd_(open(path.c_str(), flags | O_CLOEXEC, 0666)) {
+  explicit File(const std::string& path) : path_(path), fd_(open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
     if (fd_ < 0) throw fault(path, "cannot be opened");
   }
   ~File() {
@@ -45,16 +48,6 @@ class File {
   File(const File&) = delete;
   File& operator=(const File&) = delete;
 
-  void write(const void* data, size_t size) {
-    const char* from = static_cast<const char*>(data);
-    while (size > 0) {
-      const ssize_t done = ::write(fd_, from, std::min(size, kAtOnce));
-      if (done < 0 && errno == EINTR) continue;
-      if (done <= 0) throw fault(path_, "cannot be written");
-      from += done;
-      size -= static_cast<size_t>(done);
-    }
-  }
   /// @return the file had so many bytes
   bool read(void* data, size_t size) {
     char* to = static_cast<char*>(data);
@@ -73,9 +66,6 @@ class File {
     if (fstat(fd_, &status) != 0) throw fault(path_, "cannot be read");
     if (!S_ISREG(status.st_mode)) throw Error(path_ + ": is no file of a saved state");
     return static_cast<uint64_t>(status.st_size);
-  }
-  void sync() {
-    if (fsync(fd_) != 0) throw fault(path_, "cannot be written");
   }
 
  private:
@@ -156,15 +146,10 @@ Archive::Section readSection(From& file, const std::string& path, uint64_t& left
 }  // namespace
 
 void writeStateFile(const std::string& path, const std::vector<Archive::Section>& sections) {
-  const std::string part = path + ".part";
-  {
-    File file(part, O_WRONLY | O_CREAT | O_TRUNC);
-    writeSections(file, sections);
-    file.sync();
-  }
-  if (std::rename(part.c_str(), path.c_str()) != 0) throw fault(path, "cannot be put in the place of the old one");
-  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
-  File(folder.empty() ? "." : folder.string(), O_RDONLY | O_DIRECTORY).sync();
+  OutFile file(path, FileKind::kState);
+  writeSections(file, sections);
+  constexpr bool kDurable = true;
+  file.keep(kDurable);
 }
 
 namespace {
@@ -194,7 +179,7 @@ std::vector<Archive::Section> readSections(From& file, const std::string& path, 
 }  // namespace
 
 std::vector<Archive::Section> readStateFile(const std::string& path) {
-  File file(path, O_RDONLY);
+  File file(path);
   return readSections(file, path, file.size());
 }
 

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <fstream>
+#include <sstream>
 
-#include "viscera/math/error.h"
+#include "math/out_file.h"
 
 namespace viscera {
 
@@ -77,7 +77,7 @@ nlohmann::ordered_json HandRows::metrics() const {
 }
 
 void HandRows::write(const std::string& path) const {
-  std::ofstream file(path);
+  std::ostringstream file;
   file << "step,tick,stylus,tracked,x_m,y_m,z_m,qx,qy,qz,qw,button1,button2,force_x_n,force_y_n,force_z_n,torque_x_nm,"
           "torque_y_nm,torque_z_nm\n";
   for (size_t i = 0; i < std::min(rows.size(), felt.size()); ++i) {
@@ -90,7 +90,7 @@ void HandRows::write(const std::string& path) const {
            << sample.button2 << csvNumbers({f.x(), f.y(), f.z(), m.x(), m.y(), m.z()}) << '\n';
     }
   }
-  if (!file) throw Error(path + ": cannot be written");
+  writeFile(path, FileKind::kText, file.str());
 }
 
 HandLog::HandLog(Session& session) : session_(session), base_tick_(session.tick()), rows_(session) {

@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 
+#include "math/out_file.h"
 #include "model/scene/tool_kinds.h"
 #include "tasks/hand_log.h"
-#include "viscera/math/error.h"
 
 namespace viscera {
 
@@ -36,7 +35,7 @@ struct ArmPose {
 };
 
 /// Position, rotation matrix row by row, velocity, angular velocity, gripper.
-void writeArm(std::ofstream& file, const ArmPose& now, const ArmPose& before, double span_s) {
+void writeArm(std::string& file, const ArmPose& now, const ArmPose& before, double span_s) {
   double out[19] = {};
   if (now.known) {
     const Eigen::Matrix3d turn = now.pose.orientation.toRotationMatrix();
@@ -54,14 +53,14 @@ void writeArm(std::ofstream& file, const ArmPose& now, const ArmPose& before, do
   for (const double value : out) {
     char text[32];
     std::snprintf(text, sizeof text, "%14.6f", value);
-    file << text;
+    file += text;
   }
 }
 
 }  // namespace
 
 void HandRows::writeJigsaws(const std::string& path) const {
-  std::ofstream file(path);
+  std::string file;
   size_t before = SIZE_MAX;
   for (size_t frame = 0;; ++frame) {
     const size_t at = static_cast<size_t>(std::llround(static_cast<double>(frame) / kJigsawsRate_hz / tick_s));
@@ -82,10 +81,10 @@ void HandRows::writeJigsaws(const std::string& path) const {
         writeArm(file, poseAt(at), poseAt(before), span_s);
       }
     }
-    file << '\n';
+    file += '\n';
     before = at;
   }
-  if (!file) throw Error(path + ": cannot be written");
+  writeFile(path, FileKind::kText, file);
 }
 
 }  // namespace viscera

@@ -3,22 +3,15 @@
 #include "tasks/task_report.h"
 
 #include <filesystem>
-#include <fstream>
 #include <sstream>
 
+#include "math/out_file.h"
 #include "tasks/report_page.h"
 #include "tasks/task_kinds.h"
 
 namespace viscera {
 
 namespace {
-
-void writeText(const std::string& path, const std::string& text) {
-  std::ofstream file(path, std::ios::binary);
-  file << text;
-  file.close();
-  if (!file) throw Error(path + ": cannot be written");
-}
 
 /// A row per number: whose, what, its value.
 std::string reportCsv(const nlohmann::ordered_json& report) {
@@ -63,12 +56,12 @@ void writeReport(const std::string& folder, const TaskResult& result, const std:
   std::filesystem::create_directories(folder, error);
   if (error) throw Error(folder + ": cannot be made into a folder for a report: " + error.message());
   const nlohmann::ordered_json report = toJson(result);
-  writeText(folder + "/report.json",
+  writeFile(folder + "/report.json", FileKind::kJson,
             report.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
-  writeText(folder + "/report.csv", reportCsv(report));
+  writeFile(folder + "/report.csv", FileKind::kText, reportCsv(report));
   result.hands.write(folder + "/hands.csv");
   result.hands.writeJigsaws(folder + "/kinematics.txt");
-  writeText(folder + "/report.html", reportPage(result, pictures));
+  writeFile(folder + "/report.html", FileKind::kHtml, reportPage(result, pictures));
 }
 
 }  // namespace viscera

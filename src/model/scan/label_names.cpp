@@ -4,6 +4,7 @@
 
 #include <fstream>
 
+#include "math/out_file.h"
 #include "model/scan/labels.h"
 #include "model/scan/text_header.h"
 #include "viscera/math/error.h"
@@ -35,6 +36,7 @@ LabelName tableRow(const std::string& path, int number, const std::string& line)
 }
 
 std::vector<LabelName> readTable(const std::string& path) {
+  noteRead(path);
   std::ifstream file(path);
   std::vector<LabelName> names;
   int number = 0;

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "math/out_file.h"
+
 namespace viscera {
 namespace {
 
@@ -40,11 +42,11 @@ void bindFilesTo(const std::vector<std::string>& folders, const std::string& by)
 
 void requireWithinBounds(const std::string& path) {
   const Bounds& now = bounds();
-  if (now.folders.empty()) return;
+  if (now.folders.empty()) return noteRead(path);
   std::error_code error;
   const fs::path file = fs::weakly_canonical(fs::absolute(path), error);
   const auto holds = [&](const fs::path& folder) { return isWithin(folder, file); };
-  if (!error && std::any_of(now.folders.begin(), now.folders.end(), holds)) return;
+  if (!error && std::any_of(now.folders.begin(), now.folders.end(), holds)) return noteRead(path);
   std::string text = path + ": lies, where links lead, in no folder of " + now.by + ":";
   for (const fs::path& folder : now.folders) text += " " + folder.string();
   throw FileBoundError(text);

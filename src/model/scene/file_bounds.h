@@ -22,6 +22,7 @@ struct FileBoundError : Error {
 /// @throws FileBoundError  not the absolute path of a folder
 void bindFilesTo(const std::vector<std::string>& folders, const std::string& by);
 
+/// Checks a file that is about to be read, which no writer replaces from then on (math/out_file.h).
 /// @throws FileBoundError  before anything of the file is looked at
 void requireWithinBounds(const std::string& path);
 

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "math/memory_for.h"
+#include "math/out_file.h"
 #include "viscera/math/error.h"
 
 namespace viscera {
@@ -43,6 +44,7 @@ std::string textOf(const std::string& path, const std::string& what) {
   constexpr size_t kMostMb = 100, kBytesPerMb = 1000000;  // some million keys of strokes
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) throw SceneError(path + ": is a folder, not a " + what + " file");
+  noteRead(path);
   std::ifstream file(path, std::ios::binary);
   if (!file) throw SceneError(path + ": cannot be read (does the file exist?)");
   return memoryFor<SceneError>(path, [&] {

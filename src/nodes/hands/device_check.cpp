@@ -9,13 +9,13 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <sstream>
 #include <thread>
 
 #include "devices/device_map.h"
 #include "devices/millimetres.h"
 #include "math/one_line.h"
+#include "math/out_file.h"
 #include "model/scene/yaml_reader.h"
 #include "nodes/hands/device_choice.h"
 #include "nodes/hands/device_subscribers.h"
@@ -311,10 +311,7 @@ void DeviceCheck::write(const std::string& file) {
       correctedProfile(yaml_, corrections_,
                        {"Written by `rosrun viscera device_check`, from the profile " + options_.choice.profile + "."});
   if (std::filesystem::exists(file)) throw Error(file + " is there already, and is not overwritten");
-  std::ofstream out(file);
-  out << text;
-  out.close();
-  if (!out) throw Error(file + " cannot be written");
+  writeFile(file, FileKind::kText, text);
   const std::string& stylus = options_.choice.stylus;
   const std::string path = std::filesystem::absolute(file).string();
   say("written: " + file);

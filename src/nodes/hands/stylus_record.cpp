@@ -7,10 +7,9 @@
 
 #include <algorithm>
 #include <chrono>
-#include <filesystem>
-#include <fstream>
 #include <thread>
 
+#include "math/out_file.h"
 #include "nodes/ros/conversions.h"
 
 namespace viscera::nodes {
@@ -19,11 +18,6 @@ namespace {
 constexpr std::chrono::milliseconds kWatchPeriod{20};
 constexpr uint32_t kStylusRecordQueue = 0;  ///< without a limit: no tick may be overtaken
 constexpr double kMost_s = 3600;            ///< of a strokes file
-
-/// What is written before it takes the place of the file: one that is there is a whole one.
-std::string partOf(const std::string& file) {
-  return file + ".part";
-}
 
 }  // namespace
 
@@ -71,9 +65,11 @@ RecordOptions recordOptions(Parameters& parameters) {
   parameters.refuseOthers();
   if (options.file.empty()) throw ParameterError("parameter ~file: must name the strokes file that is written");
   // Better told now than when all is recorded.
-  if (!std::ofstream(partOf(options.file)) || std::filesystem::is_directory(options.file))
-    throw ParameterError("parameter ~file: " + options.file + " cannot be written");
-  std::filesystem::remove(partOf(options.file));
+  try {
+    const OutFile draft(options.file, FileKind::kStrokes);
+  } catch (const Error& error) {
+    throw ParameterError(std::string("parameter ~file: ") + error.what());
+  }
   return options;
 }
 
@@ -122,13 +118,11 @@ std::string StylusRecord::write() {
   if (strokes.ticks == 0) throw StrokesError("no tick was recorded: " + options_.file + " is not written");
   if (strokes.strokes.empty()) throw StrokesError("no hand was about: " + options_.file + " is not written");
   strokes.recorded.state_hash = stateHash(strokes.ticks);
-  const std::string part = partOf(options_.file);
-  std::ofstream file(part);
-  file << strokesYaml(strokes);
-  file.close();
-  std::error_code error;
-  if (file) std::filesystem::rename(part, options_.file, error);
-  if (!file || error) throw StrokesError(options_.file + ": cannot be written");
+  try {
+    writeFile(options_.file, FileKind::kStrokes, strokesYaml(strokes));
+  } catch (const Error& error) {
+    throw StrokesError(error.what());
+  }
   return std::to_string(strokes.ticks) + " ticks are in " + options_.file;
 }
 

@@ -5,9 +5,8 @@
 #include <algorithm>
 #include <cassert>
 #include <cstring>
-#include <fstream>
 
-#include "viscera/math/error.h"
+#include "math/out_file.h"
 
 namespace viscera {
 
@@ -94,10 +93,7 @@ void writePly(const ShownMesh& mesh, const std::string& path) {
   Bytes bytes;
   addVertices(mesh, bytes);
   addFaces(*mesh.topology, bytes);
-  std::ofstream file(path, std::ios::binary);
-  file << header(mesh) << bytes.text();
-  file.close();
-  if (!file) throw Error(path + ": cannot be written");
+  writeFile(path, FileKind::kPly, header(mesh) + bytes.text());
 }
 
 }  // namespace viscera

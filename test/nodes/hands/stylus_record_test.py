@@ -140,7 +140,7 @@ class StylusRecordTest(unittest.TestCase):
 
     def test_3_a_file_that_cannot_be_written_is_told_at_the_start(self):
         recorder = Program(["rosrun", "viscera", "stylus_record", "__name:=refused", "_file:=/proc/none.yaml"])
-        recorder.said("~file: /proc/none.yaml cannot be written")
+        recorder.said("~file: /proc/none.yaml: cannot be written")
         self.assertEqual(recorder.process.wait(LIMIT_S), 1)
 
     def test_4_a_mode_that_is_not_the_scenes_ends_the_recording(self):

@@ -2,13 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "model/shape/detail/detail_cache.h"
 
-#include <unistd.h>
-
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+
+#include "math/out_file.h"
+#include "viscera/math/error.h"
 
 namespace viscera {
 
@@ -131,18 +132,15 @@ void DetailCache::keep(const Baked& baked) const {
   header.median = baked.report.median_deg;
   header.percentile95 = baked.report.percentile95_deg;
   header.bare = baked.report.bare_median_deg;
-  const std::string draft = file_ + "." + std::to_string(getpid());  // whole or not at all for those who read meanwhile
   std::error_code error;
   fs::create_directories(fs::path(file_).parent_path(), error);
-  {
-    std::ofstream out(draft, std::ios::binary);
-    out.write(reinterpret_cast<const char*>(&header), sizeof header);
-    for (const TextureImage* image : {&baked.relief, &baked.color})
-      out.write(reinterpret_cast<const char*>(image->rgba.data()), static_cast<std::streamsize>(image->rgba.size()));
-    if (!out.flush()) error = std::make_error_code(std::errc::io_error);
+  try {
+    OutFile out(file_, FileKind::kBytes);
+    out.write(&header, sizeof header);
+    for (const TextureImage* image : {&baked.relief, &baked.color}) out.write(image->rgba.data(), image->rgba.size());
+    out.keep();
+  } catch (const Error&) {  // it is baked again next time
   }
-  if (!error) fs::rename(draft, file_, error);
-  if (error) fs::remove(draft, error);
 }
 
 }  // namespace viscera

@@ -1,0 +1,80 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
+
+namespace viscera {
+
+// How every program here writes files: beside their place under a name of their own, then renamed. A file is there
+// whole or not at all, and one that a user may still need is never replaced.
+
+/// What a file holds, as its first bytes show.
+enum class FileKind {
+  kState,
+  kRecording,
+  kPng,
+  kNpy,
+  kPly,
+  kGlb,
+  kVtk,
+  kXdmf,
+  kPc2,
+  kHtml,
+  kJson,
+  kScene,
+  kStrokes,
+  kRegistration,
+  kText,   ///< any other text, tables included
+  kBytes,  ///< anything else
+};
+
+/// Notes that this process reads the file: no writer replaces it from then on. A path without a file is no error.
+void noteRead(const std::string& path);
+/// Returns whether noteRead() was called for this very file, whatever its name.
+bool isRead(const std::string& path);
+
+/// Checks that the file may be made or replaced, before anything is computed for it.
+/// States and registrations may replace the one that was read: who goes on from a state may save under its name.
+/// @throws Error  it is a folder, a file that this process reads, one of another kind, or is write-protected
+void requireReplaceable(const std::string& path, FileKind kind);
+
+/// Hears of a file before it is written, on the writer's thread, one file at a time.
+using WriteListener = std::function<void(const std::string& path, FileKind kind)>;
+/// Sets who hears of all files from now on. @param listener  null: none does
+void setWriteListener(WriteListener listener);
+
+/// File that appears, or replaces an older one of its kind, with keep(). Until then, and after any error, its place is
+/// as it was. Devices and pipes are written directly.
+class OutFile {
+ public:
+  /// Makes the draft. @throws Error  of requireReplaceable(), or no file can be made there
+  OutFile(const std::string& path, FileKind kind);
+  ~OutFile();  ///< removes the draft unless it was kept
+  OutFile(const OutFile&) = delete;
+  OutFile& operator=(const OutFile&) = delete;
+
+  /// Appends. @throws Error  names the file and what the system said
+  void write(const void* data, size_t bytes);
+  void write(std::string_view text) { write(text.data(), text.size()); }
+  /// Replaces bytes that were written. @param offset  of the first [bytes]   @throws Error
+  void writeAt(uint64_t offset, const void* data, size_t bytes);
+  /// Moves the file into its place. @param durable  waits until a power failure cannot take it   @throws Error
+  void keep(bool durable = false);
+
+ private:
+  [[noreturn]] void fail() const;  ///< with errno
+  void flush();
+
+  std::string path_, place_, draft_, buffer_;  ///< place: without links; draft empty: written directly
+  int fd_ = -1;
+};
+
+/// Writes the whole file. @throws Error  as OutFile
+void writeFile(const std::string& path, FileKind kind, std::string_view bytes);
+
+}  // namespace viscera
