@@ -327,7 +327,8 @@ TEST_F(Run, WithoutAViewNoDeviceIsNeededAndTheStateIsTheSame) {
   std::set<std::string> files;
   for (const auto& entry : fs::directory_iterator(folder_.file("unseen")))
     files.insert(entry.path().filename().string());
-  EXPECT_EQ(files, (std::set<std::string>{"hands.csv", "kinematics.txt", "metrics.json", "surface.ply"}));
+  EXPECT_EQ(files,
+            (std::set<std::string>{".viscera_run", "hands.csv", "kinematics.txt", "metrics.json", "surface.ply"}));
   EXPECT_GT(importMesh(folder_.file("unseen/surface.ply"), 1).triangles.size(), 0u);
 }
 
