@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 
+#include "math/number_text.h"
 #include "math/processors.h"
 #include "model/scene/integrators.h"
 #include "solver/make_solver.h"
@@ -112,7 +112,7 @@ std::string reason(const SpacingChoice& choice) {
 
 std::string noteOf(const SpacingChoice& choice, const StepTime& step, const Scene& scene, double share) {
   const double nodes = static_cast<double>(choice.nodes);
-  std::ostringstream out;
+  TextOut out;
   out.precision(3);
   out << "spacing_m: auto: " << choice.spacing_m << " m, " << choice.nodes << " nodes, at most "
       << std::lround(choice.substeps_per_s) << " substeps per second; this machine steps "

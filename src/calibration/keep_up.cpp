@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <sstream>
 
+#include "math/number_text.h"
 #include "viscera/math/error.h"
 #include "viscera/model/body/spacing_choice.h"
 
@@ -20,14 +20,14 @@ double mean(const std::vector<double>& values) {
 
 /// Three digits.
 std::string inMillimetres(double length_m) {
-  std::ostringstream out;
+  TextOut out;
   out.precision(3);
   out << 1e3 * length_m << " mm";
   return out.str();
 }
 
 std::string asFactor(double factor) {
-  std::ostringstream out;
+  TextOut out;
   out.precision(2);
   out << factor << " of real time over " << KeepUp::kReadings << " s";
   return out.str();

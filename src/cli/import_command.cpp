@@ -7,7 +7,6 @@
 #include <fstream>
 #include <iostream>
 #include <set>
-#include <sstream>
 
 #include "cli/commands.h"
 #include "cli/import/draft.h"
@@ -16,6 +15,7 @@
 #include "cli/import/read_scan.h"
 #include "cli/import/sample_strokes.h"
 #include "cli/import/stages.h"
+#include "math/number_text.h"
 #include "math/one_line.h"
 #include "model/scan/dicom.h"
 #include "model/scan/surface_net.h"
@@ -52,7 +52,7 @@ struct Organ {
 };
 
 std::string listText(const Vector3d& v, double scale = 1) {
-  std::ostringstream out;
+  TextOut out;
   out.precision(6);
   out << v.x() * scale << ", " << v.y() * scale << ", " << v.z() * scale;
   return out.str();
@@ -232,8 +232,8 @@ std::vector<Organ> organsOf(const ReadScan& read, const ImportOptions& options, 
     organ.spacing_m = options.spacing_m > 0 ? options.spacing_m : std::cbrt(organ.volume_m3 / nodes);
     const double voxel_m = map.frame.spacing_m().maxCoeff();
     if (organ.spacing_m < voxel_m)
-      notes.push_back(organ.name + ": a spacing of " + std::to_string(organ.spacing_m) +
-                      " m is finer than its voxels, of up to " + std::to_string(voxel_m) +
+      notes.push_back(organ.name + ": a spacing of " + numberText(organ.spacing_m) +
+                      " m is finer than its voxels, of up to " + numberText(voxel_m) +
                       " m: there is no more in the scan");
     if (organ.is_rigid) organ.held_m = organ.box_m.max().x() + organ.spacing_m;  // all of it
   }
@@ -248,7 +248,7 @@ void writeFile(const fs::path& path, const std::string& bytes) {
 }
 
 std::string plyOf(const TriangleMesh& mesh) {
-  std::ostringstream out;
+  TextOut out;
   out << "ply\nformat binary_little_endian 1.0\ncomment metres; x anterior, y left, z up\nelement vertex "
       << mesh.positions_m.size() << "\nproperty float x\nproperty float y\nproperty float z\nelement face "
       << mesh.triangles.size() << "\nproperty list uchar uint vertex_indices\nend_header\n";
@@ -266,7 +266,7 @@ std::string sceneOf(const std::vector<Organ>& organs, const std::string& scan) {
   const Eigen::AlignedBox3d all = boxOf(organs);
   static const std::vector<std::string> kColors = {"[0.62, 0.22, 0.2]",  "[0.76, 0.5, 0.38]", "[0.72, 0.3, 0.36]",
                                                    "[0.78, 0.66, 0.46]", "[0.5, 0.26, 0.34]", "[0.66, 0.4, 0.3]"};
-  std::ostringstream out;
+  TextOut out;
   out.precision(6);
   out << "# From the scan " << oneLine(scan)
       << "\n# viscera run scene.yaml --strokes strokes.yaml --out played\nname: import\nenvironment: "

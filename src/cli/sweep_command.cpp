@@ -17,12 +17,12 @@
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <sstream>
 #include <thread>
 #include <utility>
 
 #include "cli/commands.h"
 #include "cli/sweep_folder.h"
+#include "math/number_text.h"
 #include "math/out_file.h"
 #include "math/processors.h"
 #include "viscera/math/error.h"
@@ -204,7 +204,7 @@ void submit(const SweepOptions& options) {
   const char* launcher = std::getenv("VISCERA_LAUNCHER");  // of a bundle, which finds the libraries of each machine
   const std::string program = launcher ? launcher : std::filesystem::read_symlink("/proc/self/exe").string();
   const std::string script = options.out + "/slurm.sh", jobs = options.jobs > 0 ? std::to_string(options.jobs) : "";
-  std::ostringstream text;
+  TextOut text;
   text << "#!/bin/sh\n#SBATCH --job-name=viscera\n#SBATCH --array=0-" << options.slurm - 1
        << "\n#SBATCH --requeue\n#SBATCH --output=" << std::filesystem::absolute(options.out).string()
        << "/slurm-%A_%a.txt\nexec " << shellQuoted(program) << " sweep " << absolute(options.plan) << " --out "

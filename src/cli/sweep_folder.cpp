@@ -13,9 +13,9 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <utility>
 
+#include "math/number_text.h"
 #include "math/one_line.h"
 #include "math/out_file.h"
 #include "viscera/math/error.h"
@@ -29,7 +29,7 @@ using Json = nlohmann::ordered_json;
 
 std::string readWhole(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
-  std::ostringstream out;
+  TextOut out;
   out << file.rdbuf();
   return out.str();
 }

@@ -8,11 +8,11 @@
 #include <cmath>
 #include <map>
 #include <set>
-#include <sstream>
 #include <tuple>
 #include <utility>
 
 #include "devices/millimetres.h"
+#include "math/number_text.h"
 #include "model/scene/yaml_overrides.h"
 
 namespace viscera {
@@ -197,7 +197,7 @@ Verdict judgeForce(const std::vector<HeardForce>& forces, const std::vector<Hear
 Overrides correctionsOf(const FoundMap& map, const DeviceProfile& profile) {
   Overrides out;
   if (map.unit_m && *map.unit_m != profile.pose.unit_m) {
-    std::ostringstream unit;
+    TextOut unit;
     unit << *map.unit_m;
     out.push_back("pose.unit_m=" + unit.str());
   }

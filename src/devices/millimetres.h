@@ -3,14 +3,15 @@
 #pragma once
 
 #include <iomanip>
-#include <sstream>
 #include <string>
+
+#include "math/number_text.h"
 
 namespace viscera {
 
 /// A number with so many digits behind the point.
 inline std::string rounded(double value, int digits) {
-  std::ostringstream out;
+  TextOut out;
   out << std::fixed << std::setprecision(digits) << value;
   return out.str();
 }

@@ -12,6 +12,7 @@ namespace {
 
 constexpr Range kPlace_m{-100, 100};
 constexpr double kMostPoints = 1000;
+constexpr int kFileDigits = 9;           ///< YAML::Emitter writes numbers as the program's locale has them
 constexpr double kUnitTolerance = 1e-3;  ///< of a quaternion's length: digits that a person left out
 
 struct FileTip {
@@ -70,7 +71,7 @@ File read(const std::string& yaml, const std::string& name) {
     const YamlSource source{name, {}};
     YamlReader::readMap(YAML::Load(yaml), "", source, file);
   } catch (const YAML::Exception& e) {
-    throw RegistrationError(yamlFault(name, e));
+    throw RegistrationError(yamlFault(name, e, yaml));
   } catch (const SceneError& e) {
     throw RegistrationError(e.what());
   }
@@ -86,14 +87,15 @@ std::string textOfFile(const std::string& path, const std::string& what) {
 }
 
 YAML::Emitter& operator<<(YAML::Emitter& out, const Vector3d& v) {
-  return out << YAML::Flow << YAML::BeginSeq << v.x() << v.y() << v.z() << YAML::EndSeq;
+  out << YAML::Flow << YAML::BeginSeq;
+  for (int axis = 0; axis < 3; ++axis) out << numberText(v[axis], kFileDigits);
+  return out << YAML::EndSeq;
 }
 
 }  // namespace
 
 std::string registrationYaml(const RegistrationFile& registration) {
   YAML::Emitter out;
-  out.SetDoublePrecision(9);
   out << YAML::BeginMap;
   if (registration.tip_m)
     out << YAML::Key << "tip" << YAML::Value << YAML::Flow << YAML::BeginMap << YAML::Key << "position_m" << YAML::Value
@@ -102,9 +104,12 @@ std::string registrationYaml(const RegistrationFile& registration) {
     const Quaterniond& q = registration.base->orientation;
     out << YAML::Key << "base" << YAML::Value << YAML::Flow << YAML::BeginMap << YAML::Key << "position_m"
         << YAML::Value << registration.base->position_m << YAML::Key << "orientation_xyzw" << YAML::Value << YAML::Flow
-        << YAML::BeginSeq << q.x() << q.y() << q.z() << q.w() << YAML::EndSeq << YAML::EndMap;
+        << YAML::BeginSeq;
+    for (const double value : {q.x(), q.y(), q.z(), q.w()}) out << numberText(value, kFileDigits);
+    out << YAML::EndSeq << YAML::EndMap;
   }
-  out << YAML::Key << "residual_mm" << YAML::Value << 1e3 * registration.residual_m << YAML::EndMap;
+  out << YAML::Key << "residual_mm" << YAML::Value << numberText(1e3 * registration.residual_m, kFileDigits)
+      << YAML::EndMap;
   return std::string(out.c_str()) + "\n";
 }
 

@@ -3,8 +3,8 @@
 #include "devices/steered_hand.h"
 
 #include <cmath>
-#include <sstream>
 
+#include "math/number_text.h"
 #include "viscera/math/error.h"
 
 namespace viscera {
@@ -47,7 +47,7 @@ Pose within(const Pose& pose, const Vector3d& centre_m, double reach_m) {
 }
 
 AxisMap::AxisMap(const std::string& text) {
-  std::istringstream words(text);
+  TextIn words(text);
   size_t count = 0;
   bool good = true;
   for (std::string word; words >> word; ++count) {

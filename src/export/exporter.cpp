@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "math/number_text.h"
 #include "math/out_file.h"
 #include "viscera/math/error.h"
 
@@ -81,9 +82,7 @@ void Exporter::addFile(const Session& session, const ShownMesh& skin) {
 void Exporter::addVtk(const FieldMesh& mesh) {
   const std::string path = stem_ + numbered(mesh.tick) + (mesh.corners == 8 ? ".vtu" : ".vtp");
   writeVtk(mesh, path);
-  char time[32];
-  std::snprintf(time, sizeof time, "%.17g", mesh.time_s);
-  collection_ += std::string("<DataSet timestep=\"") + time + "\" part=\"0\" file=\"" +
+  collection_ += "<DataSet timestep=\"" + exactText(mesh.time_s) + "\" part=\"0\" file=\"" +
                  std::filesystem::path(path).filename().string() + "\"/>\n";
   // Whole after every moment, should the run be ended.
   writeFile(stem_ + ".pvd", FileKind::kVtk,

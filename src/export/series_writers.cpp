@@ -1,20 +1,14 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <cstdio>
 #include <filesystem>
 
 #include "export/writers.h"
+#include "math/number_text.h"
 #include "viscera/math/error.h"
 
 namespace viscera {
 
 namespace {
-
-std::string exactly(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.17g", value);
-  return text;
-}
 
 template <class T>
 void put(OutFile& file, T value) {
@@ -45,7 +39,7 @@ void XdmfSeries::add(const FieldMesh& mesh) {
     cells_ = mesh.cells;
     cells_item_ = item("UInt", cells + " " + std::to_string(mesh.corners), cells_.data(), 4 * cells_.size());
   }
-  text_ += "<Grid Name=\"tick " + std::to_string(mesh.tick) + "\">\n<Time Value=\"" + exactly(mesh.time_s) + "\"/>\n";
+  text_ += "<Grid Name=\"tick " + std::to_string(mesh.tick) + "\">\n<Time Value=\"" + exactText(mesh.time_s) + "\"/>\n";
   text_ += std::string("<Topology TopologyType=\"") + topologyOf(mesh.corners) + "\" NumberOfElements=\"" + cells +
            "\">" + cells_item_ + "</Topology>\n";
   text_ += "<Geometry GeometryType=\"XYZ\">" +

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <chrono>
-#include <sstream>
 
 #include "gpu/gl.h"
+#include "math/number_text.h"
 #include "viscera/math/error.h"
 
 namespace viscera::gpu {
@@ -25,7 +25,7 @@ void awaitFence(const std::function<FenceState(uint64_t nanoseconds)>& poll, con
     waited_s += std::min(std::chrono::duration<double>(now - begun).count(), longest_s / 2);
     begun = now;
     if (waited_s < longest_s) continue;
-    std::ostringstream out;
+    TextOut out;
     out << "the GPU has not answered for " << longest_s << " s (" << what << "): it hangs, or was lost";
     throw GpuError(out.str());
   }

@@ -18,6 +18,7 @@
 #include "gpu/limits.h"
 #include "gpu/reflection.h"
 #include "gpu/storage_blocks.h"
+#include "math/number_text.h"
 #include "viscera/gpu/context.h"
 #include "viscera/math/error.h"
 
@@ -65,7 +66,7 @@ void expand(const std::string& name, const std::string& from, Files& files, std:
   if (!shader) throw GpuError("no shader '" + name + "'" + (from.empty() ? "" : ", included from " + from));
   const int number = fileNumber(files, name);
   out << "#line 1 " << number << '\n';
-  std::istringstream lines(shader->text);
+  TextIn lines(shader->text);
   std::string line;
   for (int line_number = 1; std::getline(lines, line); ++line_number) {
     const std::string included = includedName(line);
@@ -81,7 +82,7 @@ void expand(const std::string& name, const std::string& from, Files& files, std:
 }
 
 std::string expanded(const std::string& name, const std::vector<std::string>& defines, Files& files) {
-  std::ostringstream out;
+  TextOut out;
   out << "#version 450 core\n";
   for (const std::string& define : defines) out << "#define " << define << '\n';
   expand(name, "", files, out);

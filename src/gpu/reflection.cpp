@@ -3,10 +3,10 @@
 #include "gpu/reflection.h"
 
 #include <array>
-#include <sstream>
 #include <utility>
 
 #include "gpu/gl.h"
+#include "math/number_text.h"
 #include "viscera/math/error.h"
 
 namespace viscera::gpu {
@@ -91,14 +91,14 @@ std::vector<ActiveUniform> activeUniforms(uint32_t program) {
 
 std::vector<std::string> declaredUniforms(const std::string& source) {
   std::vector<std::string> out;
-  std::istringstream lines(source);
+  TextIn lines(source);
   std::string line;
   while (std::getline(lines, line)) {
     const std::string code = line.substr(0, line.find("//"));
     const size_t word = code.find("uniform ");
     const size_t end = code.rfind(';');
     if (word == std::string::npos || end == std::string::npos || code.find('{') != std::string::npos) continue;
-    std::istringstream words(code.substr(word, end - word));
+    TextIn words(code.substr(word, end - word));
     std::string qualifier, type, name;
     if (words >> qualifier >> type >> name) out.push_back(withoutIndex(name));
   }

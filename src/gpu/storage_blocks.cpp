@@ -5,8 +5,9 @@
 #include <algorithm>
 #include <regex>
 #include <set>
-#include <sstream>
 #include <vector>
+
+#include "math/number_text.h"
 
 namespace viscera::gpu {
 
@@ -38,9 +39,9 @@ size_t declaredStorageBlocks(const std::string& source) {
   Names defined;
   std::vector<Choice> open;
   size_t count = 0;
-  std::istringstream lines(source);
+  TextIn lines(source);
   for (std::string line; std::getline(lines, line);) {
-    std::istringstream words(line);
+    TextIn words(line);
     std::string directive, name;
     words >> directive >> name;
     if (directive == "#ifdef" || directive == "#ifndef" || directive == "#if") {

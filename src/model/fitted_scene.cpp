@@ -6,7 +6,6 @@
 #include <cmath>
 #include <filesystem>
 #include <optional>
-#include <sstream>
 
 #include "model/scene/file_bounds.h"
 #include "model/scene/yaml_overrides.h"
@@ -34,6 +33,7 @@ class Keys {
   std::ostream& add(const std::string& key) {
     constexpr int kDigits = 6;  // for people to read and edit: a millionth of an organ
     std::ostringstream& text = texts_.emplace_back();
+    text.imbue(std::locale::classic());
     text.precision(kDigits);
     text << key << '=';
     return text;
@@ -203,11 +203,12 @@ std::string sceneYaml(const std::string& path, const Overrides& overrides, const
   requireWithinBounds(path);
   YamlSource source{path, {}};
   YAML::Node root;
+  const std::string text = textOf(path, "scene");
   try {
-    root = YAML::Load(textOf(path, "scene"));
-    for (const std::string& text : overrides) applyOverride(root, text, source);
+    root = YAML::Load(text);
+    for (const std::string& one : overrides) applyOverride(root, one, source);
   } catch (const YAML::Exception& e) {
-    throw SceneError(yamlFault(path, e));
+    throw SceneError(yamlFault(path, e, text));
   }
   namespace fs = std::filesystem;
   const fs::path folder = fs::absolute(path).parent_path();

@@ -9,6 +9,8 @@
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
+#include "math/number_text.h"
+
 namespace viscera::python {
 
 namespace py = pybind11;
@@ -29,8 +31,8 @@ void requireShape(const Numbers& values, py::ssize_t count, const char* what) {
 void requireWithin(const double* values, int count, const char* what, double most) {
   for (int i = 0; i < count; ++i) {
     if (!(std::abs(values[i]) <= most))
-      throw py::value_error(std::string(what) + ": wanted numbers -" + std::to_string(most) + " .. " +
-                            std::to_string(most) + "; found " + std::to_string(values[i]));
+      throw py::value_error(std::string(what) + ": wanted numbers -" + numberText(most) + " .. " + numberText(most) +
+                            "; found " + numberText(values[i]));
   }
 }
 
@@ -43,8 +45,7 @@ StylusSample makeSample(const Numbers& position_m, const Numbers& quaternion, bo
   out.button2 = button2;
   if (!jaw_rad) return out;
   if (!(*jaw_rad >= 0 && *jaw_rad <= kWidestJaw_rad))
-    throw py::value_error("jaw_rad: wanted 0 .. " + std::to_string(kWidestJaw_rad) + "; found " +
-                          std::to_string(*jaw_rad));
+    throw py::value_error("jaw_rad: wanted 0 .. " + numberText(kWidestJaw_rad) + "; found " + numberText(*jaw_rad));
   out.jaw_rad = static_cast<float>(*jaw_rad);
   return out;
 }

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "math/decompositions.h"
+#include "math/number_text.h"
 #include "render/mesh_parts.h"
 #include "render/mesh_uniforms.h"
 #include "render/renderer.h"
@@ -39,9 +40,8 @@ ToolShape unitArrow(const std::array<uint8_t, 4>& color) {
 
 /// "0.300" as legend.frag takes it: its first four characters.
 std::array<float, 4> digitsOf(double value) {
-  std::array<char, 16> text{};
-  std::snprintf(text.data(), text.size(), value < 1 ? "%.3f" : "%.2f", value);
-  const char* at = text[0] == '0' ? text.data() + 1 : text.data();  // ".300", "1.50", "10.0"
+  const std::string text = fixedText(value, value < 1 ? 3 : 2);
+  const char* at = text[0] == '0' ? text.c_str() + 1 : text.c_str();  // ".300", "1.50", "10.0"
   std::array<float, 4> out{};
   for (size_t i = 0; i < out.size(); ++i) {
     out[i] = at[i] == '.' ? 10.0f : static_cast<float>(at[i] - '0');

@@ -20,7 +20,7 @@ QString feltText(const ToldStylus& told) {
   if (told.force_n.empty()) return state;
   return QString("%1; %2 N, touches %3 nodes, holds %4")
       .arg(state)
-      .arg(std::atof(told.force_n.c_str()), 0, 'f', 2)
+      .arg(QString::fromStdString(told.force_n).toDouble(), 0, 'f', 2)
       .arg(QString::fromStdString(told.nodes_touched), QString::fromStdString(told.nodes_held));
 }
 

@@ -240,7 +240,8 @@ std::string SessionPanel::stateText(const std::vector<ToldSimulator>& here) cons
   if (!now_.scene.empty()) text += ", scene " + now_.scene;
   if (!now_.tick.empty()) text += ", tick " + now_.tick;
   if (!now_.paused && !now_.real_time_factor.empty())
-    text += ", " + QString::number(std::atof(now_.real_time_factor.c_str()), 'f', 2).toStdString() + " of real time";
+    text += ", " + QString::number(QString::fromStdString(now_.real_time_factor).toDouble(), 'f', 2).toStdString() +
+            " of real time";
   if (!now_.recording.empty()) text += "\nrecorded into " + now_.recording;
   return text;
 }

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "math/archive.h"
+#include "math/number_text.h"
 #include "model/scene/scene_text.h"
 #include "session/state_file.h"
 #include "session/view.h"
@@ -31,7 +32,7 @@ bool isAside(const std::string& line) {
 
 /// @throws Error  names the first key that is another
 void requireSame(const std::string& saved, const std::string& here) {
-  std::istringstream saved_lines(saved), here_lines(here);
+  TextIn saved_lines(saved), here_lines(here);
   const auto next = [](std::istringstream& lines) {
     std::string line;
     while (std::getline(lines, line)) {

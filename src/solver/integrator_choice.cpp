@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "math/number_text.h"
 #include "math/vec4.h"
 #include "model/fracture/tearing.h"
 #include "model/fracture/toughness.h"
@@ -106,10 +107,8 @@ std::string missing(const Model& model, const Scene& scene, Backend backend) {
 
 std::string compared(const char* chosen, double multigrid_s, double leapfrog_s) {
   constexpr double kMilli = 1e3;
-  char text[160];
-  std::snprintf(text, sizeof(text), "%s, as a tick takes %.3g ms with multigrid, %.3g ms with leapfrog", chosen,
-                kMilli * multigrid_s, kMilli * leapfrog_s);
-  return text;
+  return std::string(chosen) + ", as a tick takes " + numberText(kMilli * multigrid_s, 3) + " ms with multigrid, " +
+         numberText(kMilli * leapfrog_s, 3) + " ms with leapfrog";
 }
 
 }  // namespace
@@ -148,11 +147,9 @@ std::string thinProbeNote(const Model& model, const Scene& scene, Integrator int
     spacing_m = std::max(spacing_m, body.network ? body.network->meanLength() : body.lattice.spacing_m);
   for (const StylusConfig& stylus : scene.styluses) {
     if (!mayPush(stylus) || stylus.probe.radius_m >= spacing_m) continue;
-    char text[200];
-    std::snprintf(text, sizeof(text),
-                  "%s's probes meet nodes alone, and probe.radius_m of '%s', %.3g m, is less than a spacing, %.3g m",
-                  traitsOf(integrator).name, stylus.name.c_str(), stylus.probe.radius_m, spacing_m);
-    return text;
+    return std::string(traitsOf(integrator).name) + "'s probes meet nodes alone, and probe.radius_m of '" +
+           stylus.name + "', " + numberText(stylus.probe.radius_m, 3) + " m, is less than a spacing, " +
+           numberText(spacing_m, 3) + " m";
   }
   return "";
 }

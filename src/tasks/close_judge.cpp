@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <limits>
 
+#include "math/number_text.h"
 #include "model/body/body_nodes.h"
 #include "tasks/cut_watch.h"
 #include "tasks/task_kinds.h"
@@ -104,10 +105,8 @@ class CloseJudge : public TaskJudge {
       return "tie the threads: " + std::to_string(tied_) + " of " + std::to_string(goal_.knots) + " knots, of " +
              std::to_string(goal_.throws) + " throws each";
     if (isClosed()) return "let go of the thread";
-    char text[80];
-    std::snprintf(text, sizeof text, "the wound gapes by %.1f mm: %.1f at most", kMmPerM * gap_m_.value_or(0),
-                  kMmPerM * goal_.gap_m);
-    return text;
+    return "the wound gapes by " + fixedText(kMmPerM * gap_m_.value_or(0), 1) +
+           " mm: " + fixedText(kMmPerM * goal_.gap_m, 1) + " at most";
   }
 
  private:

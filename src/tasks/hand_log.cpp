@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <sstream>
 
+#include "math/number_text.h"
 #include "math/out_file.h"
 
 namespace viscera {
@@ -18,11 +18,7 @@ Vector3d perTick(const layout::vec4& sum, double tick_s) {
 
 std::string csvNumbers(const std::vector<double>& values) {
   std::string out;
-  for (const double value : values) {
-    char text[32];
-    std::snprintf(text, sizeof text, ",%.9g", value);
-    out += text;
-  }
+  for (const double value : values) out += ',' + numberText(value, 9);
   return out;
 }
 
@@ -77,7 +73,7 @@ nlohmann::ordered_json HandRows::metrics() const {
 }
 
 void HandRows::write(const std::string& path) const {
-  std::ostringstream file;
+  TextOut file;
   file << "step,tick,stylus,tracked,x_m,y_m,z_m,qx,qy,qz,qw,button1,button2,force_x_n,force_y_n,force_z_n,torque_x_nm,"
           "torque_y_nm,torque_z_nm\n";
   for (size_t i = 0; i < std::min(rows.size(), felt.size()); ++i) {

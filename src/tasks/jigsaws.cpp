@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "math/number_text.h"
 #include "math/out_file.h"
 #include "model/scene/tool_kinds.h"
 #include "tasks/hand_log.h"
@@ -50,10 +51,10 @@ void writeArm(std::string& file, const ArmPose& now, const ArmPose& before, doub
     }
     out[18] = now.jaw_rad;
   }
+  constexpr size_t kColumn = 14;
   for (const double value : out) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%14.6f", value);
-    file += text;
+    const std::string text = fixedText(value, 6);
+    file.append(kColumn - std::min(kColumn, text.size()), ' ') += text;
   }
 }
 

@@ -9,6 +9,7 @@
 #include <functional>
 #include <iterator>
 
+#include "math/number_text.h"
 #include "tasks/task_kinds.h"
 
 namespace viscera {
@@ -47,9 +48,7 @@ std::string escaped(const std::string& text) {
 }
 
 std::string shortNumber(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", value);
-  return text;
+  return numberText(value, 4);
 }
 
 std::string base64(const std::string& bytes) {

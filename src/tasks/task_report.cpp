@@ -3,8 +3,8 @@
 #include "tasks/task_report.h"
 
 #include <filesystem>
-#include <sstream>
 
+#include "math/number_text.h"
 #include "math/out_file.h"
 #include "tasks/report_page.h"
 #include "tasks/task_kinds.h"
@@ -15,7 +15,7 @@ namespace {
 
 /// A row per number: whose, what, its value.
 std::string reportCsv(const nlohmann::ordered_json& report) {
-  std::ostringstream out;
+  TextOut out;
   out << "of,measure,value\n";
   for (const char* key : {"state", "score", "time_s", "progress", "penalties_s"})
     out << "task," << key << ',' << (report[key].is_string() ? report[key].get<std::string>() : report[key].dump())

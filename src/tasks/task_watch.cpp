@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include "math/float_bits.h"
+#include "math/number_text.h"
 #include "model/scene/tool_kinds.h"
 #include "tasks/task_kinds.h"
 
@@ -154,13 +154,13 @@ void TaskWatch::decide() {
   for (const TaskRule& rule : task_->measures) {
     for (const TaskMeasure& measure : kTaskMeasures) {
       if (rule.measure != measure.name || status_.tally.*measure.value <= rule.most) continue;
-      std::ostringstream why;
+      TextOut why;
       why << measure.name << " is " << status_.tally.*measure.value << ", and " << rule.most << " at most passes";
       return end(TaskPhase::kFailed, why.str());
     }
   }
   if (status_.score >= task_->pass_score) return end(TaskPhase::kPassed, "done");
-  std::ostringstream why;
+  TextOut why;
   why << "the score is " << status_.score << ", and " << task_->pass_score << " at least passes";
   end(TaskPhase::kFailed, why.str());
 }

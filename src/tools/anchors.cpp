@@ -4,8 +4,8 @@
 
 #include <cmath>
 #include <limits>
-#include <sstream>
 
+#include "math/number_text.h"
 #include "tools/anchor_search.h"
 #include "tools/stroke_samples.h"
 #include "viscera/math/error.h"
@@ -43,7 +43,7 @@ double firstHit(const Model& model, const Vector3d& from, const Vector3d& direct
 
 std::string rayText(const Anchor& anchor) {
   const Eigen::IOFormat list(6, Eigen::DontAlignCols, ", ", ", ", "", "", "[", "]");
-  std::ostringstream out;
+  TextOut out;
   out << "from " << anchor.from_m.transpose().format(list) << " towards " << anchor.towards_m.transpose().format(list);
   return out.str();
 }
@@ -99,16 +99,19 @@ void resolveAnchors(Strokes& strokes, const Model& model, const std::optional<Or
 }
 
 std::string strokesYaml(const Strokes& strokes) {
+  constexpr int kFileDigits = 9;  // YAML::Emitter writes numbers as the program's locale has them
   YAML::Emitter out;
   const auto vector = [&out](const char* key, const Vector3d& v) {
-    out << YAML::Key << key << YAML::Value << YAML::Flow << YAML::BeginSeq << v.x() << v.y() << v.z() << YAML::EndSeq;
+    out << YAML::Key << key << YAML::Value << YAML::Flow << YAML::BeginSeq;
+    for (int axis = 0; axis < 3; ++axis) out << numberText(v[axis], kFileDigits);
+    out << YAML::EndSeq;
   };
-  out.SetDoublePrecision(9);
   out << YAML::BeginMap;
   if (strokes.tick_hz > 0) {
-    out << YAML::Key << "tick_hz" << YAML::Value << YAML::DoublePrecision(std::numeric_limits<double>::max_digits10)
-        << strokes.tick_hz << YAML::Key << "ticks" << YAML::Value << strokes.ticks << YAML::Key << "hands_anew"
-        << YAML::Value << YAML::Flow << strokes.hands_anew;
+    out << YAML::Key << "tick_hz" << YAML::Value << exactText(strokes.tick_hz) << YAML::Key << "ticks" << YAML::Value
+        << std::to_string(strokes.ticks) << YAML::Key << "hands_anew" << YAML::Value << YAML::Flow << YAML::BeginSeq;
+    for (const uint64_t tick : strokes.hands_anew) out << std::to_string(tick);
+    out << YAML::EndSeq;
     const RecordedFrom& from = strokes.recorded;
     if (!from.scene.empty()) {
       out << YAML::Key << "recorded" << YAML::Value << YAML::BeginMap << YAML::Key << "scene" << YAML::Value
@@ -130,12 +133,12 @@ std::string strokesYaml(const Strokes& strokes) {
     }
     out << YAML::Key << "keys" << YAML::Value << YAML::BeginSeq;
     for (const Stroke::Key& key : stroke.keys) {
-      out << YAML::Flow << YAML::BeginMap << YAML::Key << "t_s" << YAML::Value << key.time_s;
+      out << YAML::Flow << YAML::BeginMap << YAML::Key << "t_s" << YAML::Value << numberText(key.time_s, kFileDigits);
       vector("position_m", key.pose.position_m);
       vector("rotation_deg", degreesFromRotation(key.pose.orientation));
       out << YAML::Key << "button1" << YAML::Value << key.button1 << YAML::Key << "button2" << YAML::Value
           << key.button2;
-      if (key.jaw_rad >= 0) out << YAML::Key << "jaw_rad" << YAML::Value << key.jaw_rad;
+      if (key.jaw_rad >= 0) out << YAML::Key << "jaw_rad" << YAML::Value << numberText(key.jaw_rad, kFileDigits);
       out << YAML::EndMap;
     }
     out << YAML::EndSeq << YAML::EndMap;
@@ -143,7 +146,7 @@ std::string strokesYaml(const Strokes& strokes) {
   out << YAML::EndSeq << YAML::Key << "marks" << YAML::Value << YAML::BeginSeq;
   for (const Mark& mark : strokes.marks) {
     out << YAML::Flow << YAML::BeginMap << YAML::Key << "name" << YAML::Value << mark.name << YAML::Key << "t_s"
-        << YAML::Value << mark.time_s << YAML::EndMap;
+        << YAML::Value << numberText(mark.time_s, kFileDigits) << YAML::EndMap;
   }
   out << YAML::EndSeq << YAML::EndMap;
   return std::string(out.c_str()) + "\n";

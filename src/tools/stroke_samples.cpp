@@ -7,6 +7,7 @@
 #include <locale>
 #include <sstream>
 
+#include "math/number_text.h"
 #include "viscera/math/error.h"
 
 namespace viscera {
@@ -43,7 +44,7 @@ bool read(std::istringstream& in, Stroke::Sample& sample) {
 }  // namespace
 
 std::string sampleLine(const Stroke::Sample& sample) {
-  std::ostringstream out;
+  TextOut out;
   out.imbue(std::locale::classic());
   out.precision(std::numeric_limits<double>::max_digits10);
   const Vector3d& p = sample.pose.position_m;
@@ -58,7 +59,7 @@ std::string sampleLine(const Stroke::Sample& sample) {
 
 std::vector<Stroke::Sample> parseSamples(const std::string& text, const std::string& file, int first_line) {
   std::vector<Stroke::Sample> samples;
-  std::istringstream lines(text), words;
+  TextIn lines(text), words;
   words.imbue(std::locale::classic());
   int number = first_line;
   for (std::string line; std::getline(lines, line); ++number) {

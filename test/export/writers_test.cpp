@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "export/exporter.h"
+#include "support/comma_locale.h"
 #include "support/temporary_folder.h"
 #include "viscera/math/error.h"
 
@@ -131,13 +132,16 @@ TEST(Vtk, ComesBackAsItWas) {
 
 TEST(Xdmf, HasCellsOnceAndAllTimes) {
   const TemporaryFolder folder;
-  XdmfSeries series(folder.file("skin"));
   FieldMesh mesh = fields(3);
-  series.add(mesh);
-  mesh.time_s = 0.2;
-  mesh.points[0] = 5;
-  series.add(mesh);
-  series.finish();
+  {
+    const CommaLocale comma;
+    XdmfSeries series(folder.file("skin"));
+    series.add(mesh);
+    mesh.time_s = 0.2;
+    mesh.points[0] = 5;
+    series.add(mesh);
+    series.finish();
+  }
   const std::string xml = textOf(folder.file("skin.xdmf")), binary = textOf(folder.file("skin.bin"));
   const std::vector<std::string> items = elements(xml, "DataItem"), times = elements(xml, "Time");
   ASSERT_EQ(items.size(), 10U);  // cells, points, three fields, twice

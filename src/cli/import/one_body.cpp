@@ -6,8 +6,8 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <sstream>
 
+#include "math/number_text.h"
 #include "model/scan/surface_net.h"
 #include "viscera/math/error.h"
 
@@ -34,7 +34,7 @@ std::string materialOf(const TissuePreset* tissue) {
   if (!tissue) return "young_modulus_pa: 10000, density_kg_per_m3: 1060";
   const std::string named = "tissue: " + std::string(tissue->name);
   if (tissue->poisson_ratio <= kPlayableNu) return named;
-  std::ostringstream nu;
+  TextOut nu;
   nu << kPlayableNu;
   return named + ", poisson_ratio: " + nu.str();
 }

@@ -7,6 +7,8 @@
 #include <sstream>
 #include <utility>
 
+#include "math/number_text.h"
+
 namespace viscera::cli {
 namespace {
 
@@ -61,7 +63,7 @@ std::pair<Vector3d, Vector3d> placeOn(const std::vector<const TriangleMesh*>& or
 }
 
 std::string list(const Vector3d& v) {
-  std::ostringstream out;
+  TextOut out;
   out.precision(5);
   out << '[' << v.x() << ", " << v.y() << ", " << v.z() << ']';
   return out.str();
@@ -115,7 +117,7 @@ std::string strokesFor(const std::vector<const TriangleMesh*>& organs, size_t la
   const double size = std::min(most_size, std::cbrt(box.sizes().prod()) / kUsualOrgan_m);
   const Vector3d towards = place + moved_m, from = towards + 2 * box.sizes().norm() * way;
   const std::string anchor = "{from_m: " + list(from) + ", towards_m: " + list(towards) + "}";
-  std::ostringstream out;
+  TextOut out;
   out << "# The left hand dents the largest organ and pulls it, the right hand cuts it. Keys are relative to where "
          "the\n"
          "# anchor's ray meets the skin: x right, y up, z towards the hand.\nstrokes:\n";

@@ -5,7 +5,8 @@
 #include <unistd.h>
 
 #include <iostream>
-#include <sstream>
+
+#include "math/number_text.h"
 
 namespace viscera::cli {
 
@@ -36,7 +37,7 @@ void Stages::at(double share) {
 
 std::string Stages::end() {
   if (!name_.empty()) {
-    std::ostringstream text;
+    TextOut text;
     text.precision(1);
     text << std::fixed << (took_.empty() ? "" : ", ") << name_ << ' '
          << std::chrono::duration<double>(Clock::now() - began_).count() << " s";

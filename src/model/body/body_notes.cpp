@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
+#include "math/number_text.h"
 #include "model/body/thin_walls.h"
 
 namespace viscera {
@@ -53,7 +53,7 @@ std::vector<size_t> pieces(const Lattice& lattice) {
 }  // namespace
 
 std::string latticeNote(const Lattice& lattice, size_t fixed_nodes) {
-  std::ostringstream out;
+  TextOut out;
   out << "lattice: " << lattice.active_slots.size() << " nodes (" << fixed_nodes << " fixed), " << lattice.springs()
       << " springs, spacing " << lattice.spacing_m * 1e3 << " mm";
   if (lattice.fills.empty()) return out.str();
@@ -71,7 +71,7 @@ std::string networkNote(const Body& body, size_t fixed_nodes) {
     least = std::min(least, valence);
     most = std::max(most, valence);
   }
-  std::ostringstream out;
+  TextOut out;
   out << "network: " << body.lattice.active_slots.size() << " nodes (" << fixed_nodes << " fixed), "
       << body.network->springs.size() << " springs, valence " << least << ".." << most << ", mean length "
       << body.network->meanLength() * 1e3 << " mm";
@@ -81,7 +81,7 @@ std::string networkNote(const Body& body, size_t fixed_nodes) {
 std::string linksNote(const SpringNetwork& network) {
   const auto bending = std::count_if(network.springs.begin(), network.springs.end(),
                                      [](const NetworkSpring& spring) { return spring.against_bending; });
-  std::ostringstream out;
+  TextOut out;
   out << "explicit: its springs as " << 2 * network.springs.size() << " links, " << bending
       << " springs against bending among them";
   return out.str();
@@ -90,7 +90,7 @@ std::string linksNote(const SpringNetwork& network) {
 std::string piecesNote(const Body& body) {
   const std::vector<size_t> sizes = body.network ? pieces(*body.network, body.lattice) : pieces(body.lattice);
   if (sizes.size() < 2) return "";
-  std::ostringstream out;
+  TextOut out;
   out << "the " << (!body.hasCells() ? "network" : "lattice") << " falls into " << sizes.size()
       << " pieces; the largest has " << sizes[0] << " nodes, the next " << sizes[1];
   return out.str();
@@ -98,7 +98,7 @@ std::string piecesNote(const Body& body) {
 
 std::string wallsNote(const std::vector<Wall>& walls, double spacing_m) {
   constexpr double kNoise = 1 + 1e-6;  // of a spacing that is meant to be as large as a wall
-  std::ostringstream out;
+  TextOut out;
   out.precision(3);
   for (const Wall& wall : walls) {
     if (spacing_m > kNoise * wall.thickness_m)
@@ -111,7 +111,7 @@ std::string wallsNote(const std::vector<Wall>& walls, double spacing_m) {
 }
 
 std::string skinNote(const Skin& skin) {
-  std::ostringstream out;
+  TextOut out;
   out << "skin: " << skin.mesh.triangles.size() << " faces, " << skin.mesh.positions_m.size() << " vertices ("
       << skin.deep_vertices << " inside the tissue, " << skin.bridges_removed << " faces across gaps left out)";
   if (skin.constant_vertices > 0)

@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "model/body/network_body.h"
 
-#include <sstream>
-
+#include "math/number_text.h"
 #include "model/body/network_builder.h"
 #include "model/body/spacing_search.h"
 #include "model/scene/structure_rules.h"
@@ -40,7 +39,7 @@ void addMembrane(const BodyConfig& config, const Tissue& tissue, Body& body, Par
   if (network.triangles.empty()) throw LatticeError("its surface has no triangle with an area");
   const std::vector<uint32_t> slot_of_vertex = adoptNetwork(network, body);
   if (parts) *parts = partsOf(mesh, slot_of_vertex);
-  std::ostringstream note;
+  TextOut note;
   note << "surface: " << network.triangles.size() << " triangles as springs, " << config.thickness_m * 1e3
        << " mm thick; " << degenerate << " without area left out";
   body.notes.push_back(note.str());

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <sstream>
 #include <vector>
 
+#include "math/number_text.h"
 #include "viscera/math/error.h"
 
 namespace viscera {
@@ -42,7 +42,7 @@ void requireSkinSize(const TriangleMesh& mesh, double spacing_m, int most) {
   }
   const auto largest = std::max_element(of_part.begin(), of_part.end());
   const auto part = static_cast<size_t>(largest - of_part.begin());
-  std::ostringstream out;
+  TextOut out;
   out << "the skin, divided to spacing_m " << spacing_m << ", would have about " << std::llround(all)
       << " triangles, more than import_limits.max_triangles = " << most;
   if (part < mesh.part_names.size())

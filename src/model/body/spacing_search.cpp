@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 
+#include "math/number_text.h"
 #include "viscera/math/error.h"
 #include "viscera/model/model.h"
 
@@ -64,7 +64,7 @@ auto toNodes(int target, double start_m, double largest_m, double (*root)(double
     spacing_m = std::min(bracket.next(spacing_m, root(static_cast<double>(nodes) / target)), largest_m);
   }
   if (relativeError(best_nodes, target) <= kTooFar) return best;
-  std::ostringstream out;
+  TextOut out;
   out << "target_nodes " << target << " is out of reach: the nearest is " << best_nodes << " nodes, with spacing_m "
       << best_m;
   throw LatticeError(out.str());

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <sstream>
 
+#include "math/number_text.h"
 #include "model/scene/structure_rules.h"
 #include "viscera/math/error.h"
 #include "viscera/model/body/elasticity.h"
@@ -332,7 +332,7 @@ void addPrestress(Body& body) {
   balance.find();
   const std::string name = "body '" + body.name + "': material.prestress ";
   if (!(balance.remaining() <= kRemaining)) {
-    std::ostringstream text;
+    TextOut text;
     text << name << "finds no balance in the given shape: " << balance.remaining()
          << " of the largest tension is left after " << balance.steps() << " steps";
     throw SceneError(text.str());
@@ -342,14 +342,14 @@ void addPrestress(Body& body) {
     if (springs[i].against_bending) continue;
     const double share = balance.restLength_m(i) / balance.length_m(i);
     if (!(share >= kShortest && share <= kLongest)) {
-      std::ostringstream text;
+      TextOut text;
       text << name << "would leave a spring " << share << " of its length at rest, where " << kShortest << " to "
            << kLongest << " is accepted: make it smaller";
       throw SceneError(text.str());
     }
     springs[i].rest_length_m = balance.restLength_m(i);
   }
-  std::ostringstream note;
+  TextOut note;
   note << "prestress: " << std::lround(100 * balance.kept())
        << " % of the strain asked for balances in the given shape; forces left: " << balance.remaining()
        << " of the largest tension, after " << balance.steps() << " steps";

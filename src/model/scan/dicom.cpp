@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
-#include <sstream>
 
+#include "math/number_text.h"
 #include "model/scan/child_process.h"
 #include "model/scan/text_header.h"
 #include "model/scan/voxels.h"
@@ -44,7 +44,7 @@ class DicomSlices : public ScanSource {
  public:
   DicomSlices(std::unique_ptr<ChildProcess> child, const std::string& path, int layer)
       : child_(std::move(child)), path_(path) {
-    std::istringstream first(child_->line());
+    TextIn first(child_->line());
     std::string magic;
     std::array<int64_t, 3> size{};
     int segments = 0;
@@ -59,7 +59,7 @@ class DicomSlices : public ScanSource {
     frame_ =
         frameFromLps(path, size, Eigen::Map<const Eigen::Matrix3d>(value), Vector3d(value[9], value[10], value[11]));
     for (int n = 0; n < segments; ++n) {
-      std::istringstream line(child_->line());
+      TextIn line(child_->line());
       Segment segment;
       line >> segment.layer >> segment.label.value;
       if (!line) misunderstood(path);
@@ -95,10 +95,10 @@ class DicomSlices : public ScanSource {
 std::vector<DicomSeries> listDicom(const std::string& path, const DicomLimits& limits) {
   auto child = start({"list", path}, limits, path);
   int count = 0;
-  if (!(std::istringstream(child->line()) >> count) || count < 0 || count > kMostSeries) misunderstood(path);
+  if (!(TextIn(child->line()) >> count) || count < 0 || count > kMostSeries) misunderstood(path);
   std::vector<DicomSeries> all;
   for (int n = 0; n < count; ++n) {
-    std::istringstream line(child->line());
+    TextIn line(child->line());
     DicomSeries series;
     line >> series.uid >> series.modality >> series.files;
     if (!line) misunderstood(path);

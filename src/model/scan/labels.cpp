@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <map>
 
+#include "math/number_text.h"
 #include "model/scan/text_header.h"
 #include "viscera/math/error.h"
 
@@ -145,7 +146,7 @@ class Numbering {
   uint8_t find(int layer, float value) {
     if (value == 0) return 0;
     if (!(std::abs(value) <= kLargestValue) || value != std::floor(value))
-      throw SceneError(path_ + ": is no label map: a voxel is " + std::to_string(value) +
+      throw SceneError(path_ + ": is no label map: a voxel is " + numberText(value) +
                        "; accepted: whole numbers, at most 2^24");
     const Key key(layer, static_cast<int64_t>(value));
     if (met_.size() < kMostNumbers) ++met_[key];

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "math/number_text.h"
 #include "model/scan/voxels.h"
 #include "viscera/math/error.h"
 
@@ -205,8 +206,7 @@ std::unique_ptr<ScanSource> openNifti(const std::string& path, const ScanOptions
   double offset = fields.second() ? static_cast<double>(fields.get<int64_t>(168)) : fields.real(108, 168);
   if (offset == 0) offset = least;
   if (!(offset >= least && offset <= 1e15))
-    throw SceneError(path + ": vox_offset is " + std::to_string(offset) + "; accepted: " + std::to_string(least) +
-                     " or more");
+    throw SceneError(path + ": vox_offset is " + numberText(offset) + "; accepted: " + numberText(least) + " or more");
   const auto before = static_cast<uint64_t>(offset);
   stream->requireHolds(before);
   stream->skip(before - header);

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
-#include <sstream>
 
+#include "math/number_text.h"
 #include "viscera/math/error.h"
 
 namespace viscera {
@@ -28,7 +28,7 @@ std::string trimmed(const std::string& text) {
 }
 
 std::vector<std::string> words(const std::string& text) {
-  std::istringstream stream(text);
+  TextIn stream(text);
   std::vector<std::string> all;
   for (std::string word; stream >> word;) all.push_back(word);
   return all;

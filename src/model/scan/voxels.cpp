@@ -6,6 +6,7 @@
 #include <cstring>
 #include <utility>
 
+#include "math/number_text.h"
 #include "viscera/math/error.h"
 
 namespace viscera {
@@ -136,8 +137,7 @@ void requireSize(const std::string& path, const std::array<int64_t, 3>& size) {
 
 void requireSpacing(const std::string& path, const char* key, double spacing_mm) {
   if (spacing_mm >= kLeastSpacingMm && spacing_mm <= kMostSpacingMm) return;  // NaN is neither
-  throw SceneError(path + ": " + key + ": voxels " + std::to_string(spacing_mm) +
-                   " mm apart; accepted: 0.001 .. 100 mm");
+  throw SceneError(path + ": " + key + ": voxels " + numberText(spacing_mm) + " mm apart; accepted: 0.001 .. 100 mm");
 }
 
 uint64_t chosenVolume(const std::string& path, int asked, uint64_t volumes) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "math/number_text.h"
 #include "model/scan/pieces.h"
 #include "viscera/math/error.h"
 
@@ -17,18 +18,12 @@ constexpr double kMostClosingMm = 20;                      ///< beyond, organs a
 constexpr uint64_t kMostVoxelsAround = uint64_t{1} << 32;  ///< with what is around
 constexpr size_t kListed = 6;
 
-std::string text(double value) {
-  char buffer[32];
-  std::snprintf(buffer, sizeof buffer, "%g", value);
-  return buffer;
-}
-
 void requireOptions(const std::string& file, const WindowOptions& options) {
   if (!(options.low <= options.high))
-    throw SceneError(file + ": window " + text(options.low) + " .. " + text(options.high) +
+    throw SceneError(file + ": window " + numberText(options.low) + " .. " + numberText(options.high) +
                      "; accepted: low at most high");
   if (!(options.closing_mm >= 0 && options.closing_mm <= kMostClosingMm))
-    throw SceneError(file + ": closing of " + text(options.closing_mm) + " mm; accepted: 0 .. 20");
+    throw SceneError(file + ": closing of " + numberText(options.closing_mm) + " mm; accepted: 0 .. 20");
   if (options.pieces < 0 || !(options.least_cm3 >= 0))
     throw SceneError(file + ": accepted: 0 or more pieces, of 0 cm3 or more");
 }
@@ -48,7 +43,7 @@ Mask readWindow(SliceSource& source, const WindowOptions& options, const Vector3
   mask.size = size + 2 * pad;
   const double voxels = mask.size.cast<double>().prod();
   if (voxels > static_cast<double>(kMostVoxelsAround))
-    throw SceneError(source.file() + ": " + text(voxels) + " voxels with those around; accepted: at most 2^32");
+    throw SceneError(source.file() + ": " + numberText(voxels) + " voxels with those around; accepted: at most 2^32");
   mask.voxels.assign(static_cast<size_t>(voxels), 0);
   report.least = std::numeric_limits<double>::infinity();
   report.largest = -report.least;
@@ -102,8 +97,8 @@ void keepPieces(const std::string& file, Mask& mask, const WindowOptions& option
     report.kept_cm3 += cm3(order[n]);
   }
   if (report.kept == 0)
-    throw SceneError(file + ": no piece within the window is of " + text(options.least_cm3) +
-                     " cm3; accepted: at most " + text(report.largest_cm3.at(0)) + " cm3, which the largest has");
+    throw SceneError(file + ": no piece within the window is of " + numberText(options.least_cm3) +
+                     " cm3; accepted: at most " + numberText(report.largest_cm3.at(0)) + " cm3, which the largest has");
   pieces.assign(
       mask, [&](uint32_t piece) { return !kept[piece]; }, 0);
 }
@@ -156,9 +151,9 @@ LabelVolume windowed(SliceSource& source, const WindowOptions& options, WindowRe
   const Vector3i pad = around(spacing, options.closing_mm);
   Mask mask = readWindow(source, options, pad, found);
   if (found.in_window == 0)
-    throw SceneError(source.file() + ": no voxel is within the window " + text(options.low) + " .. " +
-                     text(options.high) + "; accepted: a part of its values, " + text(found.least) + " .. " +
-                     text(found.largest));
+    throw SceneError(source.file() + ": no voxel is within the window " + numberText(options.low) + " .. " +
+                     numberText(options.high) + "; accepted: a part of its values, " + numberText(found.least) +
+                     " .. " + numberText(found.largest));
   close(mask, spacing, options.closing_mm);
   keepPieces(source.file(), mask, options, voxel_cm3, found);
   if (options.fill_holes) fillHoles(mask, voxel_cm3, found);
@@ -168,7 +163,7 @@ LabelVolume windowed(SliceSource& source, const WindowOptions& options, WindowRe
   volume.frame.size = mask.size;
   volume.frame.origin += frame.axes * found.first.cast<double>();
   volume.labels = std::move(mask.voxels);
-  volume.names = {{0, ""}, {1, "window " + text(options.low) + " .. " + text(options.high)}};
+  volume.names = {{0, ""}, {1, "window " + numberText(options.low) + " .. " + numberText(options.high)}};
   if (report) *report = found;
   return volume;
 }

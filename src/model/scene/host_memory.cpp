@@ -6,8 +6,8 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
-#include <sstream>
 
+#include "math/number_text.h"
 #include "model/scene/integrators.h"
 #include "viscera/math/error.h"
 
@@ -19,8 +19,8 @@ constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 /// The number in a file; unlimited where there is none, as in "max".
 double numberIn(const std::string& path) {
   std::ifstream file(path);
-  double value = 0;
-  return file >> value ? value : kUnlimited;
+  std::string text;
+  return file >> text ? readNumber(text).value_or(kUnlimited) : kUnlimited;
 }
 
 /// The number behind a word at the start of a line; `otherwise` where there is none.
@@ -28,7 +28,7 @@ double numberBehind(const std::string& path, const std::string& word, double oth
   std::ifstream file(path);
   std::string line, key;
   while (std::getline(file, line)) {
-    std::istringstream words(line);
+    TextIn words(line);
     double value = 0;
     if (words >> key >> value && key == word) return value;
   }
@@ -91,7 +91,7 @@ void requireTissueMemory(size_t filled_cells, double spacing_m, double bytes_per
   constexpr double kGiB = 1 << 30, kMargin = 1.05;
   const double needed = bytes_per_cell * static_cast<double>(filled_cells);
   if (needed <= available_bytes) return;
-  std::ostringstream out;
+  TextOut out;
   out << "spacing_m " << spacing_m << " fills " << filled_cells << " cells, which take about " << needed / kGiB
       << " GiB of memory with what steps and shows them, but this process can have " << available_bytes / kGiB
       << " GiB; spacing_m >= " << spacing_m * kMargin * std::cbrt(needed / available_bytes) << " would fit";

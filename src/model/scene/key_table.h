@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "math/number_text.h"
 #include "model/scene/scene_fields.h"
 #include "model/scene/yaml_reader.h"
 
@@ -31,7 +32,7 @@ class KeyTable {
   }
   void text(const char* key, std::string& value, const char* text) { row(key, "text", value, "", text); }
   void vector(const char* key, Vector3d& value, Range range, const char* unit, const char* text) {
-    std::ostringstream shown;
+    TextOut shown;
     shown << "[" << value.x() << ", " << value.y() << ", " << value.z() << "]";
     row(key, withUnit("3 numbers", unit), shown.str(), span(range), text);
   }
@@ -91,7 +92,7 @@ class KeyTable {
 /// The table of all keys of a file that a `Struct` holds, with their defaults: Markdown.
 template <class Struct>
 std::string keyTable() {
-  std::ostringstream out;
+  TextOut out;
   out << "| key | type, unit | default | range | meaning |\n|---|---|---|---|---|\n";
   Struct defaults;
   KeyTable table(out);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "viscera/model/scene/organ_fit.h"
 
-#include <sstream>
+#include "math/number_text.h"
 
 namespace viscera {
 namespace {
@@ -13,7 +13,7 @@ constexpr double kRoom = 1.15;
 
 std::string sizeText(const Eigen::AlignedBox3d& box_m) {
   const Vector3d size_m = box_m.sizes();
-  std::ostringstream out;
+  TextOut out;
   out.precision(3);
   out << size_m.x() << " x " << size_m.y() << " x " << size_m.z() << " m";
   return out.str();
@@ -46,7 +46,7 @@ bool OrganFit::isSound() const {
 }
 
 std::string OrganFit::text() const {
-  std::ostringstream out;
+  TextOut out;
   out.precision(3);
   out << "fitted to the organ's box, " << sizeText(to_m) << ", from the scene's, " << sizeText(from_m)
       << ": cameras by " << view_scale << ", tools and strokes by " << hand_scale

@@ -2,39 +2,34 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "model/scene/scene_text.h"
 
-#include <cstdio>
 #include <utility>
 #include <vector>
 
+#include "math/number_text.h"
 #include "model/scene/scene_fields.h"
 
 namespace viscera {
 
 namespace {
 
-std::string exactly(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.17g", value);
-  return text;
-}
-
 /// Field visitor that writes one line per key.
 class KeyValues {
  public:
   explicit KeyValues(std::string& out, std::string path = "") : out_(out), path_(std::move(path)) {}
 
-  void number(const char* key, double& value, Range, const char*, const char*) { line(key, exactly(value)); }
+  void number(const char* key, double& value, Range, const char*, const char*) { line(key, exactText(value)); }
   void numberOrAuto(const char* key, double& value, bool&, Range, const char*, const char*) {
-    line(key, exactly(value));
+    line(key, exactText(value));
   }
   void integer(const char* key, int& value, Range, const char*) { line(key, std::to_string(value)); }
   void boolean(const char* key, bool& value, const char*) { line(key, value ? "true" : "false"); }
   void text(const char* key, std::string& value, const char*) { line(key, value); }
   void vector(const char* key, Vector3d& value, Range, const char*, const char*) {
-    line(key, exactly(value.x()) + " " + exactly(value.y()) + " " + exactly(value.z()));
+    line(key, exactText(value.x()) + " " + exactText(value.y()) + " " + exactText(value.z()));
   }
   void quaternion(const char* key, Quaterniond& value, const char*) {
-    line(key, exactly(value.x()) + " " + exactly(value.y()) + " " + exactly(value.z()) + " " + exactly(value.w()));
+    line(key,
+         exactText(value.x()) + " " + exactText(value.y()) + " " + exactText(value.z()) + " " + exactText(value.w()));
   }
   void given(bool&) {}
   template <class E>

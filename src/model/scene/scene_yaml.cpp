@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <utility>
 
+#include "math/number_text.h"
 #include "model/scene/scene_fields.h"
 
 namespace viscera {
@@ -25,7 +26,7 @@ class MapFiller {
     number(key, value, range, unit, text);
   }
   void integer(const char* key, int& value, Range range, const char*) {
-    if (value >= range.min && value <= range.max) map_[key] = value;
+    if (value >= range.min && value <= range.max) map_[key] = std::to_string(value);
   }
   void boolean(const char* key, bool& value, const char*) { map_[key] = value; }
   void text(const char* key, std::string& value, const char*) {
@@ -76,11 +77,7 @@ class MapFiller {
   }
 
  private:
-  static std::string digits(double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.17g", value);
-    return text;
-  }
+  static std::string digits(double value) { return exactText(value); }
   /// @returns whether the map is to be there
   template <class Struct>
   static bool fill(const YAML::Node& map, Struct& value) {

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "model/scene/yaml_overrides.h"
 
-#include <sstream>
 #include <vector>
 
+#include "math/number_text.h"
 #include "viscera/math/error.h"
 
 namespace viscera {
@@ -26,7 +26,7 @@ void clearNumbers(YAML::Node map, const std::string& path, const YamlSource& sou
 /// "bodies[0].material.density_kg_per_m3" -> steps.
 std::vector<PathStep> splitPath(const std::string& path, const std::string& override_text) {
   std::vector<PathStep> steps;
-  std::istringstream parts(path);
+  TextIn parts(path);
   std::string part;
   while (std::getline(parts, part, '.')) {
     PathStep step;

@@ -9,11 +9,11 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <sstream>
 #include <thread>
 
 #include "devices/device_map.h"
 #include "devices/millimetres.h"
+#include "math/number_text.h"
 #include "math/one_line.h"
 #include "math/out_file.h"
 #include "model/scene/yaml_reader.h"
@@ -49,7 +49,7 @@ std::string portText(const ButtonPort& port) {
 }
 
 std::string numbers(const std::vector<double>& values) {
-  std::ostringstream out;
+  TextOut out;
   for (size_t i = 0; i < values.size(); ++i) out << (i ? "," : "") << std::round(1e6 * values[i]) / 1e6;
   return "[" + out.str() + "]";
 }

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "math/number_text.h"
+
 namespace viscera::nodes {
 namespace {
 
@@ -72,10 +74,9 @@ Pose HeldDevice::follow(const Pose& intended) {
 
 std::string HeldDevice::summary() {
   const std::lock_guard<std::mutex> lock(mutex_);
-  char line[160];
-  std::snprintf(line, sizeof line, "%s: %lu wrenches, the motors took %.3f mJ in, %.3f mJ at least", stylus_.c_str(),
-                static_cast<unsigned long>(wrenches_), device_ ? 1e3 * device_->energy_j() : 0, 1e3 * least_j_);
-  return line;
+  return stylus_ + ": " + std::to_string(wrenches_) + " wrenches, the motors took " +
+         fixedText(device_ ? 1e3 * device_->energy_j() : 0, 3) + " mJ in, " + fixedText(1e3 * least_j_, 3) +
+         " mJ at least";
 }
 
 }  // namespace viscera::nodes

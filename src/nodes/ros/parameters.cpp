@@ -6,7 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
+
+#include "math/number_text.h"
 
 namespace viscera::nodes {
 namespace {
@@ -24,7 +25,7 @@ std::string stringOf(const XmlRpcValue& value, const std::string& key, const std
 
 std::vector<std::string> split(const std::string& text) {
   std::vector<std::string> items;
-  std::istringstream in(text);
+  TextIn in(text);
   for (std::string item; std::getline(in, item, ';');)
     if (item.find_first_not_of(" \t\n") != std::string::npos) items.push_back(item);
   return items;
@@ -57,7 +58,7 @@ std::string Parameters::text(const std::string& key, const std::string& fallback
 double Parameters::number(const std::string& key, double fallback, double min, double max) {
   const XmlRpcValue* value = find(key);
   if (!value) return fallback;
-  std::ostringstream accepted;
+  TextOut accepted;
   accepted << "a number, " << min << ".." << max;
   double number = std::nan("");
   if (value->getType() == XmlRpcValue::TypeInt) number = static_cast<const int&>(*value);
@@ -87,12 +88,12 @@ std::vector<double> Parameters::numbers(const std::string& key, const std::vecto
                                         double max) {
   const XmlRpcValue* value = find(key);
   if (!value) return fallback;
-  std::ostringstream accepted;
+  TextOut accepted;
   accepted << fallback.size() << " numbers, each " << min << ".." << max
            << ": a list, or one string with blanks between them";
   std::vector<double> out;
   if (value->getType() == XmlRpcValue::TypeString) {
-    std::istringstream in(static_cast<const std::string&>(*value));
+    TextIn in(static_cast<const std::string&>(*value));
     for (double number; in >> number;) out.push_back(number);
     if (!in.eof()) refuse(key, accepted.str());
   } else if (value->getType() == XmlRpcValue::TypeArray) {

@@ -4,8 +4,8 @@
 
 #include <filesystem>
 #include <set>
-#include <sstream>
 
+#include "math/number_text.h"
 #include "model/scene/file_bounds.h"
 #include "tasks/task.h"
 #include "viscera/model/fitted_scene.h"
@@ -39,7 +39,7 @@ Overrides meshChoice(Parameters& parameters) {
   if (!fs::is_regular_file(path))
     throw ParameterError("parameter ~mesh: no file " + path.string() + "; give an absolute path");
   Overrides overrides = meshOverrides(path.string());
-  std::ostringstream unit;
+  TextOut unit;
   unit.precision(17);
   unit << "bodies[0].unit_scale_m=" << unit_m;
   if (has_unit) overrides.push_back(unit.str());

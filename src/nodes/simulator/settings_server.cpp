@@ -6,9 +6,9 @@
 #include <ros/console.h>
 
 #include <algorithm>
-#include <sstream>
 #include <utility>
 
+#include "math/number_text.h"
 #include "viscera/math/error.h"
 
 namespace viscera::nodes {
@@ -104,7 +104,7 @@ std::vector<Setting> SettingsServer::changesOf(const dynamic_reconfigure::Config
   for (const auto& wanted : request.doubles) {
     Setting setting = find(wanted.name, true);
     if (!(wanted.value >= setting.min && wanted.value <= setting.max)) {
-      std::ostringstream text;
+      TextOut text;
       text << wanted.name << ": " << wanted.value << " is not in " << setting.min << ".." << setting.max;
       throw Error(text.str());
     }

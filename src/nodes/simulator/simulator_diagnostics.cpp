@@ -8,9 +8,9 @@
 #include <cstring>
 #include <iomanip>
 #include <numeric>
-#include <sstream>
 #include <utility>
 
+#include "math/number_text.h"
 #include "model/scene/structure_rules.h"
 #include "model/scene/tool_kinds.h"
 
@@ -210,7 +210,7 @@ void SimulatorDiagnostics::threads(Status& status) {
                  refused ? now_->thread_refusal : std::to_string(now_->threads.size()) + " pieces");
   std::vector<int> pieces(thread_names_.size());
   for (const SeenThread& thread : now_->threads) {
-    std::ostringstream text;
+    TextOut text;
     text << std::setprecision(3) << 1e3 * thread.length_m << " mm, pulls " << thread.largest_n << " N, tails "
          << thread.turns << " turns";
     for (const SeenKnot& knot : thread.knots) {
@@ -231,7 +231,7 @@ void SimulatorDiagnostics::clips(Status& status) {
   status.add("taken_off", clips.taken_off);
   for (size_t i = 0; i < clips.on.size(); ++i) {
     const SeenClip& clip = clips.on[i];
-    std::ostringstream text;
+    TextOut text;
     text << std::setprecision(3) << "at rest at " << 1e3 * clip.rest_m.x() << " " << 1e3 * clip.rest_m.y() << " "
          << 1e3 * clip.rest_m.z() << " mm, open by " << 1e3 * clip.opening_m << " mm, holds with " << clip.force_n
          << " N";

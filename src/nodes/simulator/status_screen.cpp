@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
-#include <sstream>
 
+#include "math/number_text.h"
 #include "math/one_line.h"
 
 namespace viscera::nodes {
@@ -21,10 +21,12 @@ bool begins(const std::string& text, const std::string& with) {
   return text.compare(0, with.size(), with) == 0;
 }
 
-std::string format(const char* as, double number) {
-  char text[64];
-  std::snprintf(text, sizeof text, as, number);
-  return text;
+/// A text with its number. @param as  with one of %.Nf or %.Ng
+std::string format(const std::string& as, double number) {
+  const size_t at = as.find("%.");
+  const int digits = as[at + 2] - '0';
+  return as.substr(0, at) + (as[at + 3] == 'f' ? fixedText(number, digits) : numberText(number, digits)) +
+         as.substr(at + 4);
 }
 
 std::string textOf(const ToldStatus& status, const std::string& key) {
@@ -33,7 +35,7 @@ std::string textOf(const ToldStatus& status, const std::string& key) {
 }
 
 double numberOf(const ToldStatus& status, const std::string& key) {
-  return std::strtod(textOf(status, key).c_str(), nullptr);
+  return readNumber(textOf(status, key)).value_or(0);
 }
 
 bool isTrue(const ToldStatus& status, const std::string& key) {
@@ -67,7 +69,7 @@ class Screen {
     std::string line = "  " + oneLine(whose);
     line.resize(std::max(line.size() + 1, kIndent), ' ');
     size_t words = 0;
-    std::istringstream in(oneLine(said));
+    TextIn in(oneLine(said));
     for (std::string word; in >> word; ++words) {
       if (words > 0 && line.size() + 1 + word.size() > columns_) {
         text_ += line + "\n";
@@ -105,7 +107,7 @@ std::string ratesText(const ToldStatus& pace) {
   bool none = numberOf(pace, "surface_rate_hz") == 0;
   for (const auto& [key, value] : pace.values) {
     if (!begins(key, kImageRate)) continue;
-    const double rate_hz = std::strtod(value.c_str(), nullptr);
+    const double rate_hz = readNumber(value).value_or(0);
     none = none || rate_hz == 0;
     out += ", pictures of " + key.substr(kImageRate.size()) + format(" %.3g /s", rate_hz);
   }
@@ -133,7 +135,7 @@ std::string handText(const ToldStatus& hand) {
 
 void sayDrops(Screen& screen, const ToldStatus& hand) {
   for (const auto& [key, value] : hand.values) {
-    if (!begins(key, kDropped) || std::strtod(value.c_str(), nullptr) == 0) continue;
+    if (!begins(key, kDropped) || readNumber(value).value_or(0) == 0) continue;
     const std::string reason = key.substr(kDropped.size());
     const std::string meaning = meaningOfDrop(reason);
     screen.say("", value + " messages dropped since the start, " + reason + (meaning.empty() ? "" : ": " + meaning));

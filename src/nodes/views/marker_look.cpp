@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include "math/decompositions.h"
+#include "math/number_text.h"
 #include "nodes/ros/conversions.h"
 
 namespace viscera::nodes {
@@ -120,9 +121,7 @@ int pressOf(const std::string& control) {
 }
 
 std::string lengthText(double length_m) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g mm", 1e3 * length_m);
-  return text;
+  return numberText(1e3 * length_m, 3) + " mm";
 }
 
 InteractiveMarker markerOf(const MarkerLook& look, const Pose& pose) {

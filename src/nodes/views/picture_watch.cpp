@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/views/picture_watch.h"
 
-#include <sstream>
-
+#include "math/number_text.h"
 #include "render/seen_target.h"
 #include "viscera/render/camera.h"
 
@@ -20,7 +19,7 @@ std::vector<std::string> PictureWatch::note(const std::vector<double>& wanted_hz
     behind_ = behind_ || behind;
     if (!slowness_[c].note(behind)) continue;
     const CameraConfig& camera = cameras_[c];
-    std::ostringstream text;
+    TextOut text;
     text.precision(2);
     text << "camera '" << camera.name << "': " << sent_hz[c] << " pictures per second of " << wanted_hz[c]
          << " wanted, for " << kReadings << " s. Ways out: fewer pixels (cameras[].width_px " << camera.width_px
@@ -37,7 +36,7 @@ std::vector<std::string> PictureWatch::ways(bool software) const {
   std::vector<std::string> out;
   for (const CameraConfig& camera : cameras_) {
     const CameraConfig drawn = pinholeOf(camera);
-    std::ostringstream text;
+    TextOut text;
     text << "camera '" << camera.name << "': " << camera.width_px << " x " << camera.height_px << " pixels, ";
     if (camera.supersampling == 1) {
       text << "1 sample each: edges are not smooth";

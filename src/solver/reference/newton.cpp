@@ -5,7 +5,8 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <sstream>
+
+#include "math/number_text.h"
 
 namespace viscera {
 
@@ -86,7 +87,7 @@ bool search(const Objective& objective, const FreeDofs& free, const Eigen::Vecto
 }
 
 std::string scientific(double value) {
-  std::ostringstream out;
+  TextOut out;
   out << value;
   return out.str();
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "math/number_text.h"
 #include "model/fracture/tearing.h"
 #include "model/scene/tool_kinds.h"
 #include "viscera/math/error.h"
@@ -184,7 +185,7 @@ void ThreadBodies::tieWhatIsDue() {
       try {
         tie(t, due);
       } catch (const Error& error) {
-        refused_ = "threads[" + std::to_string(t) + "], tie at " + std::to_string(due.at_s) + " s: " + error.what();
+        refused_ = "threads[" + std::to_string(t) + "], tie at " + numberText(due.at_s) + " s: " + error.what();
       }
     }
   }

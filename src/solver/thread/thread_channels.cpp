@@ -7,6 +7,7 @@
 #include <string>
 
 #include "math/archive.h"
+#include "math/number_text.h"
 #include "viscera/math/error.h"
 
 namespace viscera {
@@ -43,7 +44,7 @@ OnChain nearestOn(const Chain& chain, const Vector3d& at_m, double first) {
 }
 
 std::string millimetres(double m) {
-  return std::to_string(1e3 * m) + " mm";
+  return numberText(1e3 * m) + " mm";
 }
 
 /// @param before  on the chain, the channel before it; below 0: none

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "math/archive.h"
+#include "math/number_text.h"
 #include "viscera/math/error.h"
 
 namespace viscera {
@@ -95,8 +96,8 @@ double apart_m(const Chain& chain, double one, double other) {
 
 void requireTail(const char* which, double s, double has, double wanted, double link_m) {
   if (s >= 1) return;
-  throw Error(std::string("its tail at the ") + which + " is " + std::to_string(1e3 * has * link_m) +
-              " mm long; at least " + std::to_string(1e3 * wanted * link_m) + " mm are wanted");
+  throw Error(std::string("its tail at the ") + which + " is " + numberText(1e3 * has * link_m) +
+              " mm long; at least " + numberText(1e3 * wanted * link_m) + " mm are wanted");
 }
 
 ChainKnot aboveChannels(const Chain& chain, const ChainAround& around, const Tails& tails) {

@@ -8,6 +8,7 @@
 
 #include "math/archive.h"
 #include "math/float_bits.h"
+#include "math/number_text.h"
 #include "model/fracture/toughness.h"
 #include "model/scene/integrators.h"
 #include "model/scene/structure_rules.h"
@@ -47,9 +48,9 @@ Ticks::Ticks(const Model& model, const Scene& scene, const TickPlan& plan, std::
   if (measuresLimit(model, config_)) dt_limit_s_ = measureLimit_s(*backend_, model);
   planAnew();
   if (dt_limit_s_ > 0 && substeps_.calm > config_.max_substeps)
-    throw SceneError("a tick of 1/" + std::to_string(config_.tick_hz) + " s needs " + std::to_string(substeps_.calm) +
-                     " substeps (measured stable substep " + std::to_string(dt_limit_s_ * 1e6) + " us, proven " +
-                     std::to_string(dt_safe_s_ * 1e6) +
+    throw SceneError("a tick of 1/" + numberText(config_.tick_hz) + " s needs " + std::to_string(substeps_.calm) +
+                     " substeps (measured stable substep " + numberText(dt_limit_s_ * 1e6) + " us, proven " +
+                     numberText(dt_safe_s_ * 1e6) +
                      " us), more than solver.max_substeps = " + std::to_string(config_.max_substeps) +
                      ": use a larger spacing_m, a softer or heavier material, or raise solver.max_substeps");
   if (hasThreadsOrClips(scene))

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "math/number_text.h"
 #include "viscera/math/error.h"
 
 namespace viscera {
@@ -16,9 +17,8 @@ constexpr double kMicro = 1e6;
 int count(const SolverConfig& config, double fraction, double dt_safe_s) {
   const double wanted = std::ceil(1.0 / (config.tick_hz * fraction * dt_safe_s));
   if (wanted > config.max_substeps) {
-    throw SceneError("a tick of 1/" + std::to_string(config.tick_hz) + " s needs " +
-                     std::to_string(std::lround(wanted)) + " substeps (stable substep " +
-                     std::to_string(dt_safe_s * kMicro) +
+    throw SceneError("a tick of 1/" + numberText(config.tick_hz) + " s needs " + std::to_string(std::lround(wanted)) +
+                     " substeps (stable substep " + numberText(dt_safe_s * kMicro) +
                      " us), more than solver.max_substeps = " + std::to_string(config.max_substeps) +
                      ": use a larger spacing_m, a softer or heavier material, or raise solver.max_substeps");
   }
@@ -30,8 +30,8 @@ void requireStable(const Model& model, const SolverConfig& config, double dt_saf
   const double dt_s = 1.0 / (config.tick_hz * config.substeps);
   if (dt_s < limit_s) return;
   throw SceneError(
-      "solver.substeps = " + std::to_string(config.substeps) + " gives substeps of " + std::to_string(dt_s * kMicro) +
-      " us, and this integrator is stable below " + std::to_string(limit_s * kMicro) + " us: use at least " +
+      "solver.substeps = " + std::to_string(config.substeps) + " gives substeps of " + numberText(dt_s * kMicro) +
+      " us, and this integrator is stable below " + numberText(limit_s * kMicro) + " us: use at least " +
       std::to_string(std::lround(std::floor(1.0 / (config.tick_hz * limit_s)) + 1)) + " substeps, or integrator pd");
 }
 

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <memory>
 #include <numeric>
-#include <sstream>
 
+#include "math/number_text.h"
 #include "viscera/math/error.h"
 
 namespace viscera {
@@ -97,7 +97,7 @@ int DetailAtlas::leastSide(size_t triangles) {
 int DetailAtlas::largestTile(size_t triangles, int largest_px) {
   const int fits = largest_px / tilesAcross(triangles);
   if (fits >= kSmallestTile_px) return fits;
-  std::ostringstream out;
+  TextOut out;
   out << "a skin of " << triangles << " faces has no room for detail in " << largest_px << " x " << largest_px
       << " texels; bodies[].skin_faces makes it coarser, bodies[].detail_px makes room";
   throw MeshError(out.str());

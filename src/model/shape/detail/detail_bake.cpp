@@ -8,8 +8,8 @@
 #include <future>
 #include <memory>
 #include <random>
-#include <sstream>
 
+#include "math/number_text.h"
 #include "math/processors.h"
 #include "math/srgb.h"
 #include "model/shape/detail/detail_atlas.h"
@@ -261,7 +261,7 @@ TriangleMesh dressed(const BakeInput& input, const DetailAtlas& atlas, const Bak
 }  // namespace
 
 std::string BakeReport::text() const {
-  std::ostringstream out;
+  TextOut out;
   out.precision(3);
   out << "detail: " << side_px << " x " << side_px << " texels" << (from_cache ? " (from the cache)" : "")
       << "; shading normals differ from the detailed mesh's by " << median_deg

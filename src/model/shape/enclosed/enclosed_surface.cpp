@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
+#include "math/number_text.h"
 #include "model/scan/net_cells.h"
 #include "model/shape/enclosed/patch_grid.h"
 #include "viscera/math/error.h"
@@ -121,7 +121,7 @@ TriangleMesh surfaceOf(const std::vector<uint8_t>& out, const PatchGrid& grid) {
 }  // namespace
 
 std::string EnclosedSurface::text() const {
-  std::ostringstream text;
+  TextOut text;
   text << "encloses " << volume_m3 * 1e6 << " cm3, gaps up to " << closed_gap_m * 1e3 << " mm closed";
   if (hole_m > 0) text << "; it has a hole of about " << hole_m * 1e3 << " mm";
   if (!settled) text << "; wider gaps may be open still: see gap_m";
@@ -169,7 +169,7 @@ EnclosedSurface enclosedSurface(const TriangleMesh& mesh, double step_m, double 
   }
   found.mesh = surfaceOf(kept, grid);
   if (found.mesh.triangles.empty()) {
-    std::ostringstream why;
+    TextOut why;
     why << "the mesh encloses no volume, gaps up to " << 2e3 * most_m
         << " mm being closed: raise gap_m, or the spacing";
     throw MeshError(why.str());

@@ -7,8 +7,8 @@
 #include <cstring>
 #include <fstream>
 #include <numeric>
-#include <sstream>
 
+#include "math/number_text.h"
 #include "model/shape/files/gltf_tree.h"
 #include "model/shape/files/import_limits.h"
 #include "viscera/math/error.h"
@@ -48,7 +48,7 @@ std::string jsonOfGlb(const std::string& bytes) {
 
 std::string jsonOf(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
-  std::ostringstream all;
+  TextOut all;
   all << file.rdbuf();
   std::string text = all.str();
   if (text.compare(0, std::strlen(kGltfMagic), kGltfMagic) == 0) text = jsonOfGlb(text);

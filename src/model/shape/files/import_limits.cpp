@@ -8,9 +8,9 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
-#include <sstream>
 #include <vector>
 
+#include "math/number_text.h"
 #include "model/shape/files/ply_reader.h"
 #include "viscera/math/error.h"
 
@@ -30,7 +30,7 @@ std::string extensionOf(const std::string& path) {
 
 void requireAtMost(double found, double most, const std::string& what, const char* key) {
   if (found <= most) return;
-  std::ostringstream out;
+  TextOut out;
   out.precision(10);
   out << what << ": " << found << "; accepted: at most " << most << ", which bodies[].import_limits." << key
       << " can raise";

@@ -14,9 +14,9 @@
 #include <map>
 #include <memory>
 #include <set>
-#include <sstream>
 
 #include "math/memory_for.h"
+#include "math/number_text.h"
 #include "math/one_line.h"
 #include "model/scene/file_bounds.h"
 #include "model/shape/files/gltf_limits.h"
@@ -264,7 +264,7 @@ void gather(const std::string& path, const ImportLimits& limits, Gatherer& gathe
 }  // namespace
 
 std::string ImportReport::text() const {
-  std::ostringstream out;
+  TextOut out;
   out << parts << (parts == 1 ? " part" : " parts") << " imported; dropped: " << stray_points << " points, "
       << stray_lines << " lines, " << degenerate_triangles << " degenerate triangles, " << parts_dropped
       << " parts without triangles";
@@ -274,7 +274,7 @@ std::string ImportReport::text() const {
 TriangleMesh importMesh(const std::string& path, double unit_scale_m, ImportReport* report, const ImportLimits& limits,
                         bool with_look) {
   if (!std::isfinite(unit_scale_m) || unit_scale_m <= 0) {
-    fail(path, "unit_scale_m must be a finite number > 0, not " + std::to_string(unit_scale_m));
+    fail(path, "unit_scale_m must be a finite number > 0, not " + numberText(unit_scale_m));
   }
   requireWithinBounds(path);
   requireReadableFile(path);

@@ -7,10 +7,10 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
-#include <sstream>
 #include <unordered_map>
 
 #include "math/memory_for.h"
+#include "math/number_text.h"
 #include "model/scene/file_bounds.h"
 #include "model/shape/files/import_limits.h"
 #include "viscera/math/error.h"
@@ -39,7 +39,7 @@ class MshLines {
     for (std::string text; std::getline(file_, text);) {
       ++line_;
       words_.clear();
-      std::istringstream in(text);
+      TextIn in(text);
       for (std::string word; in >> word;) words_.push_back(word);
       if (!words_.empty()) return true;
     }
@@ -76,11 +76,10 @@ class MshLines {
   }
   double number(size_t i) const {
     const std::string& w = words_[i];
-    char* end = nullptr;
-    const double value = std::strtod(w.c_str(), &end);
-    if (end == w.c_str() || *end != '\0') fail("'" + w + "' is not a number");
-    if (!std::isfinite(value)) fail("'" + w + "' is not finite");
-    return value;
+    const std::optional<double> value = readNumber(w);
+    if (!value) fail("'" + w + "' is not a number");
+    if (!std::isfinite(*value)) fail("'" + w + "' is not finite");
+    return *value;
   }
   Vector3d point(size_t i) const { return {number(i), number(i + 1), number(i + 2)}; }
 
@@ -296,7 +295,7 @@ class MshReader {
 }  // namespace
 
 std::string MshReport::text() const {
-  std::ostringstream out;
+  TextOut out;
   out << "MSH " << version << ", " << tetrahedra << " tetrahedra (" << turned
       << " of them turned inside out, turned back), passed over " << other_elements << " other elements, "
       << unused_nodes << " nodes";
@@ -306,7 +305,7 @@ std::string MshReport::text() const {
 TetrahedraMesh readMsh(const std::string& path, double unit_scale_m, MshReport* report, const ImportLimits& limits) {
   if (!std::isfinite(unit_scale_m) || unit_scale_m <= 0) {
     throw MeshError("mesh file '" + path + "': unit_scale_m must be a finite number > 0, not " +
-                    std::to_string(unit_scale_m));
+                    numberText(unit_scale_m));
   }
   requireWithinBounds(path);
   MshReport own;

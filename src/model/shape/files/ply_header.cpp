@@ -5,6 +5,7 @@
 #include <map>
 #include <sstream>
 
+#include "math/number_text.h"
 #include "viscera/math/error.h"
 
 namespace viscera {
@@ -46,7 +47,7 @@ size_t plyTypeBytes(const std::string& type) {
 PlyHeader readPlyHeader(std::istream& file) {
   PlyHeader header;
   for (std::string line; std::getline(file, line) && !file.eof();) {
-    std::istringstream words(line);
+    TextIn words(line);
     std::string keyword;
     words >> keyword;
     if (keyword == "end_header") {

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <vector>
 
+#include "math/number_text.h"
 #include "model/shape/files/ply_header.h"
 #include "viscera/math/error.h"
 
@@ -40,10 +41,9 @@ class PlyNumbers {
  private:
   double nextWord() {
     if (!(file_ >> word_)) throw MeshError("");
-    char* end = nullptr;
-    const double value = std::strtod(word_.c_str(), &end);
-    if (*end != '\0') throw MeshError("'" + word_ + "' is not a number");
-    return value;
+    const std::optional<double> value = readNumber(word_);
+    if (!value) throw MeshError("'" + word_ + "' is not a number");
+    return *value;
   }
 
   double nextBytes(const std::string& type) {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
-#include <sstream>
 
+#include "math/number_text.h"
 #include "model/scan/labels.h"
 #include "model/scan/surface_net.h"
 #include "viscera/math/error.h"
@@ -16,7 +16,7 @@ namespace {
 
 std::string noteOf(const std::string& path, const LabelVolume& map, const SurfaceNet& net) {
   constexpr double kCm3 = 1e6;
-  std::ostringstream out;
+  TextOut out;
   out << path << ": " << map.frame.size.transpose() << " voxels of " << 1000 * map.frame.spacing_m().transpose()
       << " mm;";
   const std::vector<std::string> names = partNames(map.names);

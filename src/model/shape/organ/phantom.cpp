@@ -11,8 +11,8 @@
 #include <array>
 #include <limits>
 #include <memory>
-#include <sstream>
 
+#include "math/number_text.h"
 #include "model/shape/organ/heart_vessels.h"
 #include "model/shape/organ/phantom_shapes.h"
 #include "viscera/math/error.h"
@@ -190,7 +190,7 @@ std::vector<Wall> wallsOf(const std::vector<std::string>& part_names, double sca
 
 void requireRange(const char* key, double value, double low, double high) {
   if (value >= low && value <= high) return;
-  std::ostringstream out;
+  TextOut out;
   out << key << " must be " << low << ".." << high << ", not " << value;
   throw SceneError(out.str());
 }

@@ -3,8 +3,8 @@
 #include "model/shape/organ/plain_tissue.h"
 
 #include <cmath>
-#include <sstream>
 
+#include "math/number_text.h"
 #include "model/scene/structure_rules.h"
 #include "model/shape/mesh/box_surface.h"
 #include "model/shape/mesh/plain_meshes.h"
@@ -92,7 +92,7 @@ class BoxTissue : public Tissue {
   std::string roundingNote(const Vector3d& rounded_m) const {
     constexpr double kWorthTelling = 0.01;
     if (((rounded_m - size_m_).cwiseAbs().array() < kWorthTelling * size_m_.array()).all()) return "";
-    std::ostringstream out;
+    TextOut out;
     out << "box of " << size_m_.transpose() << " m rounded to whole cells: " << rounded_m.transpose() << " m";
     return out.str();
   }
@@ -182,7 +182,7 @@ void requireShell(double area_m2, double spacing_m) {
   constexpr double kMostNodes = 20e6;
   const double node_m2 = std::sqrt(0.75) * spacing_m * spacing_m;
   if (area_m2 <= kMostNodes * node_m2) return;
-  std::ostringstream out;
+  TextOut out;
   out << "spacing_m " << spacing_m << " gives about " << area_m2 / node_m2 << " nodes, more than " << kMostNodes
       << "; spacing_m must be at least " << std::sqrt(area_m2 / (kMostNodes * std::sqrt(0.75)));
   throw LatticeError(out.str());

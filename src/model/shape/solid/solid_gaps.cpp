@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <array>
-#include <sstream>
 
+#include "math/number_text.h"
 #include "viscera/math/error.h"
 
 namespace viscera {
@@ -87,7 +87,7 @@ std::string farPart(const std::vector<NamedShell>& shells, const std::array<Spre
   const Spread& spread = spreads[static_cast<size_t>(axis)];
   const double after_m = spread.length_m - spread.before_m - spread.gap_m;
   const size_t part = after_m <= spread.before_m ? spread.part_after : spread.part_before;
-  std::ostringstream out;
+  TextOut out;
   out << (spread.part_before == spread.part_after ? "a piece of part '" : "part '") << shells[part].name << "' lies "
       << spread.gap_m << " m from the rest along "
       << "xyz"[axis];
@@ -114,7 +114,7 @@ void requireParted(const std::vector<NamedShell>& shells, double spacing_m) {
     const double share = 0.5 * (fits + does_not);
     (cellsAt(spreads, share, spacing_m) <= most ? fits : does_not) = share;
   }
-  std::ostringstream out;
+  TextOut out;
   out << farPart(shells, spreads) << ", and a grid with spacing_m " << spacing_m << " would be "
       << cellsAt(spreads, 1, spacing_m) << " cells, nearly all of them empty; accepted at this spacing: at most "
       << fits * spreads[static_cast<size_t>(widestAxis(spreads))].gap_m

@@ -3,8 +3,8 @@
 #include "model/shape/solid/solid_grid.h"
 
 #include <cmath>
-#include <sstream>
 
+#include "math/number_text.h"
 #include "model/scene/host_memory.h"
 #include "viscera/math/error.h"
 
@@ -22,7 +22,7 @@ constexpr double kOverhang = 1e-4;
 
 void requireSpacing(double spacing_m) {
   if (std::isfinite(spacing_m) && spacing_m > 0) return;
-  std::ostringstream out;
+  TextOut out;
   out << "spacing_m must be a finite number > 0, not " << spacing_m;
   throw LatticeError(out.str());
 }
@@ -30,7 +30,7 @@ void requireSpacing(double spacing_m) {
 void requireSpacingWithin(const Vector3d& size_m, double spacing_m) {
   requireSpacing(spacing_m);
   if (spacing_m <= size_m.maxCoeff()) return;
-  std::ostringstream out;
+  TextOut out;
   out << "spacing_m " << spacing_m << " is larger than the whole body, " << size_m.x() << " x " << size_m.y() << " x "
       << size_m.z() << " m; spacing_m must be at most " << size_m.maxCoeff();
   throw LatticeError(out.str());
@@ -41,7 +41,7 @@ void requireFinerSpacing(double spacing_m, const std::function<bool(double)>& fi
   for (int i = 1; i <= kHalvings; ++i) {
     const double finer_m = spacing_m / (1 << i);
     if (!fills(finer_m)) continue;
-    std::ostringstream out;
+    TextOut out;
     out << "spacing_m " << spacing_m << " is too large: no cell lies inside the body; spacing_m must be at most "
         << finer_m;
     throw LatticeError(out.str());
@@ -53,7 +53,7 @@ void requireGridMemory(const Eigen::Array3d& cells, double spacing_m) {
   const double memory_factor = std::cbrt(needed / available), axis_factor = cells.maxCoeff() / kMostCellsPerAxis;
   const double factor = std::max(memory_factor, axis_factor);
   if (factor <= 1) return;
-  std::ostringstream out;
+  TextOut out;
   out << "spacing_m " << spacing_m << " gives a grid of " << cells.x() << " x " << cells.y() << " x " << cells.z()
       << " cells, about " << needed / (1 << 30) << " GiB, but this machine has " << available / (1 << 30)
       << " GiB free; spacing_m >= " << spacing_m * factor * 1.05 << " would fit";

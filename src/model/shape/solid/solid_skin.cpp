@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 
+#include "math/number_text.h"
 #include "model/shape/solid/solid_grid.h"
 #include "viscera/math/error.h"
 #include "viscera/model/shape/solid.h"
@@ -159,7 +160,7 @@ TriangleMesh extractSkin(const DistanceField& field, const std::vector<std::stri
     }
   }
   TriangleMesh mesh = isosurface(*grid, frame);
-  if (mesh.triangles.empty()) throw LatticeError("no surface found at spacing_m " + std::to_string(spacing_m));
+  if (mesh.triangles.empty()) throw LatticeError("no surface found at spacing_m " + numberText(spacing_m));
   labelTriangles(mesh, [&](const Vector3d& point_m) { return field(point_m).part; });
   mesh.part_names = part_names;
   return mesh;

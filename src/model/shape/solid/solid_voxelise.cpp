@@ -25,8 +25,8 @@
 // from outside, so that closed cavities are filled and a hole wider than a cell empties the body.
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
+#include "math/number_text.h"
 #include "model/shape/solid/solid_crumbs.h"
 #include "model/shape/solid/solid_grid.h"
 #include "model/shape/solid/solid_volumes.h"
@@ -83,7 +83,7 @@ Solid fill(const std::vector<Volume>& volumes, const TriangleMesh& mesh, double 
 
 std::string VoxelReport::text() const {
   constexpr double kCm3 = 1e6;
-  std::ostringstream out;
+  TextOut out;
   out << "mesh volume " << mesh_volume_m3 * kCm3 << " cm3, filled " << filled_volume_m3 * kCm3 << " cm3; "
       << holes_closed << " holes closed, " << thin_cells << " thin-wall cells, " << crumbs_removed
       << " crumbs removed, " << parts_dropped << " parts dropped";
