@@ -39,8 +39,10 @@ uint32_t chunkCrc(const ChunkHead& head, const char* stored) {
 
 }  // namespace
 
-RecordFileWriter::RecordFileWriter(const std::string& path)
-    : path_(path), fd_(open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_APPEND | O_CLOEXEC, 0666)) {
+RecordFileWriter::RecordFileWriter(const std::string& path, uint64_t most_bytes)
+    : path_(path),
+      most_bytes_(most_bytes),
+      fd_(open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_APPEND | O_CLOEXEC, 0666)) {
   if (fd_ < 0 && errno == EEXIST)
     throw Error(path + ": is there already, and a recording is never overwritten: name another file, or remove it");
   if (fd_ < 0) throw Error(path + ": cannot be made for a recording: " + std::strerror(errno));
@@ -79,7 +81,9 @@ void RecordFileWriter::put(ChunkKind kind, std::vector<char> bytes) {
     fault_ = path_ + ": the disk takes nothing any more";
     return;
   }
-  if (kind == ChunkKind::kEvents && !waiting_.empty() && waiting_.back().kind == kind) {
+  constexpr size_t kMostTogether = kMostEventBytes / 4;
+  if (kind == ChunkKind::kEvents && !waiting_.empty() && waiting_.back().kind == kind &&
+      waiting_.back().bytes.size() < kMostTogether) {
     waiting_.back().bytes.insert(waiting_.back().bytes.end(), bytes.begin(), bytes.end());
   } else {
     waiting_.push_back({kind, std::move(bytes)});
@@ -123,6 +127,9 @@ void RecordFileWriter::write(const Waiting& chunk) {
   ChunkHead head{static_cast<uint32_t>(chunk.kind), 0, stored, chunk.bytes.size()};
   head.crc = chunkCrc(head, packed);
   std::memcpy(out.data(), &head, sizeof head);
+  if (kFirstChunk + whole_bytes_ + sizeof head + stored > most_bytes_)
+    throw Error(path_ + ": the recording ends here: it has reached the " + std::to_string(most_bytes_) +
+                " bytes that it may have");
   try {
     writeAll(out.data(), sizeof head + stored);
   } catch (const Error&) {
@@ -191,7 +198,10 @@ std::optional<ChunkKind> RecordFileReader::next() {
   return static_cast<ChunkKind>(head.kind);
 }
 
-std::vector<char> RecordFileReader::bytes() const {
+std::vector<char> RecordFileReader::bytes(uint64_t most) const {
+  if (raw_bytes_ > most)
+    throw Error(path_ + ": the chunk after " + std::to_string(place_) + " bytes unpacks to " +
+                std::to_string(raw_bytes_) + " bytes; one of its kind has at most " + std::to_string(most));
   std::vector<char> out(raw_bytes_);
   uLongf size = out.size();
   char none = 0;  // zlib takes no null

@@ -29,11 +29,16 @@ enum class ChunkKind : uint32_t {
   kEnd,        ///< it was recorded to its end: the hash of its state
 };
 
+/// Bytes of a chunk, unpacked, but of states, of which the scene says how large they are: a file from elsewhere may ask
+/// for a thousand times its own size.
+constexpr uint64_t kMostEventBytes = uint64_t{64} << 20, kMostSceneBytes = uint64_t{128} << 20;
+
 /// Packs and writes on a thread of its own. A fault, as a full disk, ends what is written, not who writes.
 class RecordFileWriter {
  public:
+  /// @param most_bytes  of the file: fault() says when a chunk found no room
   /// @throws Error  the file is there already, or cannot be made
-  explicit RecordFileWriter(const std::string& path);
+  explicit RecordFileWriter(const std::string& path, uint64_t most_bytes = UINT64_MAX);
   ~RecordFileWriter();  ///< finish()
   RecordFileWriter(const RecordFileWriter&) = delete;
   RecordFileWriter& operator=(const RecordFileWriter&) = delete;
@@ -54,6 +59,7 @@ class RecordFileWriter {
   void writeAll(const void* data, size_t size) const;
 
   const std::string path_;
+  const uint64_t most_bytes_;
   int fd_;
   uint64_t whole_bytes_ = 0;  ///< of chunks that are in the file; written by the thread
   mutable std::mutex mutex_;
@@ -73,8 +79,8 @@ class RecordFileReader {
 
   /// The next whole chunk; none at the end, or where the file is cut or damaged, see damage().
   std::optional<ChunkKind> next();
-  /// What it holds. @throws Error  no bytes of zlib
-  std::vector<char> bytes() const;
+  /// What it holds. @param most  bytes that it may unpack to   @throws Error  no bytes of zlib, or more of them
+  std::vector<char> bytes(uint64_t most = kMostEventBytes) const;
   uint64_t place() const { return place_; }  ///< of that chunk
   /// next() is the chunk at this place.
   void go(uint64_t place);

@@ -40,9 +40,9 @@ void RecordingSwitch::leave() {
   if (recorder_) recorder_->leave();
 }
 
-std::string RecordingSwitch::start(Session& session, const std::string& path) {
+std::string RecordingSwitch::start(Session& session, const std::string& path, uint64_t most_bytes) {
   if (recorder_ && recorder_->fault().empty()) throw Error("recording into " + recorder_->path() + " already");
-  auto made = std::make_unique<SessionRecorder>(path);
+  auto made = std::make_unique<SessionRecorder>(path, most_bytes);
   made->follow(session);
   if (recorder_) recorder_->leave();
   const std::lock_guard<std::mutex> lock(mutex_);

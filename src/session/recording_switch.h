@@ -21,8 +21,9 @@ class RecordingSwitch {
   void follow(Session& session);
   /// It ends.
   void leave();
+  /// @param most_bytes  of the file, with which the recording ends
   /// @returns the file   @throws Error  it is there already or cannot be made; a recording is under way
-  std::string start(Session& session, const std::string& path);
+  std::string start(Session& session, const std::string& path, uint64_t most_bytes = UINT64_MAX);
   /// @returns the file   @throws Error  nothing is recorded; or why not all of it was
   std::string stop();
   std::string fault() const;  ///< why nothing is recorded any more; empty: nothing went wrong

@@ -14,8 +14,10 @@ namespace viscera {
 /// Writes all that happens to sessions, one after another, into a file from which SessionReplay makes them again.
 class SessionRecorder : public SessionLog {
  public:
+  /// @param most_bytes  of the file: the recording ends, with a fault, before it is larger
   /// @throws Error  the file is there already, or cannot be made
-  explicit SessionRecorder(const std::string& path) : path_(path), file_(path) {}
+  explicit SessionRecorder(const std::string& path, uint64_t most_bytes = UINT64_MAX)
+      : path_(path), file_(path, most_bytes) {}
 
   /// From now on, until leave(). On the session's thread, as all below.
   void follow(Session& session);

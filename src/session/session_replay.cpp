@@ -79,7 +79,7 @@ void SessionReplay::index() {
     if (*kind != ChunkKind::kScene && parts_.empty()) throw Error("the recording does not begin with a scene");
     ended = *kind == ChunkKind::kEnd;
     if (*kind == ChunkKind::kScene)
-      parts_.push_back({file_.place(), RecordedScene::from(file_.bytes()), duration_s_, duration_s_});
+      parts_.push_back({file_.place(), RecordedScene::from(file_.bytes(kMostSceneBytes)), duration_s_, duration_s_});
     if (*kind == ChunkKind::kState) states_.push_back({file_.place(), parts_.size() - 1, duration_s_});
     if (*kind != ChunkKind::kEvents) continue;
     const RecordedScene& scene = parts_.back().scene;
@@ -116,7 +116,7 @@ class SessionReplay::Run {
       const std::optional<ChunkKind> kind = file.next();
       if (!kind) break;
       if (*kind == ChunkKind::kScene) beginPart();
-      if (*kind == ChunkKind::kState) meetState(RecordedState::from(file.bytes()), false);
+      if (*kind == ChunkKind::kState && skipped()) meetState(RecordedState::from(file.bytes(mostStateBytes())), false);
       if (*kind == ChunkKind::kEvents) {
         forEachEvent(file.bytes(), replay_.parts_[part_].scene.styluses,
                      [this](const SessionEvent& event) { heed(event); });
@@ -142,7 +142,6 @@ class SessionReplay::Run {
   }
 
   void meetState(RecordedState state, bool ends) {
-    if (!skipped()) return;
     if (!ends && (fresh_ || state.leaps)) {
       if (!fresh_) ports_.leaps(*session_);
       Archive archive(std::move(state.sections));
@@ -152,6 +151,16 @@ class SessionReplay::Run {
     }
     compare(state);
     out_.ended = ends;
+  }
+
+  /// What a state of this scene may take: cuts, burns and clips make it larger than it is now.
+  uint64_t mostStateBytes() const {
+    constexpr uint64_t kGrows = 16, kBesides = uint64_t{64} << 20;
+    Archive now;
+    session_->save(now);
+    uint64_t bytes = 0;
+    for (const Archive::Section& section : now.sections()) bytes += section.bytes.size();
+    return kBesides + kGrows * bytes;
   }
 
   void compare(const RecordedState& state) {

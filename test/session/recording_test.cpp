@@ -3,13 +3,18 @@
 // Sessions that are recorded and made again: the same states, whatever was done to them; files that are cut or spoilt.
 #include <gtest/gtest.h>
 
+#include <sys/resource.h>
+
 #include <chrono>
+#include <csignal>
+#include <filesystem>
 #include <memory>
 #include <random>
 #include <thread>
 
 #include "session/block_session.h"
 #include "session/session_recorder.h"
+#include "session/session_recording.h"
 #include "session/session_replay.h"
 #include "support/temporary_folder.h"
 #include "viscera/math/error.h"
@@ -167,6 +172,88 @@ TEST_F(RecordingTest, IsNeverOverwritten) {
   EXPECT_THROW(RecordFileWriter writer(file_), Error);
   EXPECT_EQ(readFile(file_), "precious");
   EXPECT_THROW(RecordFileWriter writer(folder_.file("none/such")), Error);
+}
+
+TEST_F(RecordingTest, EndsWithItsLastWholeChunkWhereItsLimitIs) {
+  {
+    RecordFileWriter writer(file_, 2000);
+    std::mt19937 random(4);
+    for (int chunk = 0; chunk < 20 && writer.fault().empty(); ++chunk) {
+      std::vector<char> bytes(300);
+      for (char& byte : bytes) byte = static_cast<char>(random());
+      writer.put(ChunkKind::kScene, bytes);
+    }
+    writer.finish();
+    EXPECT_NE(writer.fault().find("has reached the 2000 bytes"), std::string::npos) << writer.fault();
+  }
+  EXPECT_LE(readFile(file_).size(), 2000U);
+  RecordFileReader reader(file_);
+  int chunks = 0;
+  while (reader.next()) ++chunks;
+  EXPECT_GT(chunks, 3);
+  EXPECT_EQ(reader.damage(), "");
+}
+
+TEST_F(RecordingTest, OfAFullDiskLeavesNoEmptyFile) {
+  rlimit before{};
+  getrlimit(RLIMIT_FSIZE, &before);
+  rlimit small = before;
+  small.rlim_cur = 100;  // the head of the file, and no chunk
+  setrlimit(RLIMIT_FSIZE, &small);
+  auto* const handler = std::signal(SIGXFSZ, SIG_IGN);
+  std::string fault;
+  {
+    RecordFileWriter writer(file_);
+    writer.put(ChunkKind::kScene, std::vector<char>(1000, 'a'));
+    std::vector<char> bytes(1000);
+    std::mt19937 random(5);
+    for (char& byte : bytes) byte = static_cast<char>(random());
+    writer.put(ChunkKind::kScene, bytes);
+    writer.finish();
+    fault = writer.fault();
+  }
+  const bool is_there = std::filesystem::exists(file_);
+  const bool holds_one = is_there && RecordFileReader(file_).next().has_value();
+  {
+    const std::string other = folder_.file("other");
+    RecordFileWriter writer(other);
+    std::vector<char> bytes(1000);
+    std::mt19937 random(5);
+    for (char& byte : bytes) byte = static_cast<char>(random());
+    writer.put(ChunkKind::kScene, bytes);
+    writer.finish();
+    EXPECT_FALSE(std::filesystem::exists(other)) << "an empty recording blocks its name";
+  }
+  setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, handler);
+  EXPECT_NE(fault.find("File too large"), std::string::npos) << fault;
+  EXPECT_TRUE(holds_one) << "what found room stays";
+}
+
+TEST_F(RecordingTest, FromElsewhereAsksForNoThousandTimesItsSize) {
+  const std::pair<ChunkKind, uint64_t> bombs[] = {{ChunkKind::kScene, kMostSceneBytes + 1},
+                                                  {ChunkKind::kEvents, kMostEventBytes + 1},
+                                                  {ChunkKind::kState, uint64_t{100} << 20}};
+  for (const auto& [kind, bytes] : bombs) {
+    const std::string file = folder_.file("bomb_" + std::to_string(bytes));
+    {
+      RecordFileWriter writer(file);
+      Session session(recordedScene());
+      if (kind != ChunkKind::kScene) writer.put(ChunkKind::kScene, RecordedScene::of(session.scene(), "cpu").bytes());
+      if (kind == ChunkKind::kState) writer.put(kind, RecordedState{true, 0, 0, {}}.bytes());
+      writer.put(kind, std::vector<char>(bytes));
+      if (kind == ChunkKind::kEvents) writer.put(ChunkKind::kState, RecordedState{true, 0, 0, {}}.bytes());
+    }
+    try {
+      again(file);
+      ADD_FAILURE() << "chunk of " << bytes;
+    } catch (const Error& error) {
+      if (kind != ChunkKind::kState) {
+        EXPECT_NE(std::string(error.what()).find("unpacks to " + std::to_string(bytes)), std::string::npos)
+            << error.what();
+      }
+    }
+  }
 }
 
 TEST_F(RecordingTest, CutAnywhereItIsReplayedUpToThere) {

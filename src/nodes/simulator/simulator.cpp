@@ -53,14 +53,15 @@ Simulator::Simulator(const SimulatorOptions& options, EndWatch& end, SceneSwitch
       ticks_(node_, options.scene, [this] { return publisher_.isViewed(); }),
       samples_(node_, options.scene, options.choice),
       obstacle_forces_(node_, options.scene),
-      tasks_(node_, options.scene, options.choice, options.package_folder, options.saved_folder),
+      tasks_(node_, options.scene, options.choice, options.package_folder,
+             {options.saved_folder, options.saved_limit_gb}),
       loop_(options.scene, scenes.takeMade(), ports(),
             [this](const std::string& stage, double fraction) { reportProgress(stage, fraction); }),
 #ifdef VISCERA_RECONFIGURE
       settings_(std::in_place, options, loop_.commands(), SimulatorSettings::Publishers{publisher_, wrenches_}),
 #endif
-      services_(std::in_place, node_, options.scene.styluses, options.saved_folder, loop_.commands(),
-                SimulatorServices::Switches{recordings_, tasks_}, modeSet()),
+      services_(std::in_place, node_, options.scene.styluses, SavedFolder(options.saved_folder, options.saved_limit_gb),
+                loop_.commands(), SimulatorServices::Switches{recordings_, tasks_}, modeSet()),
       diagnostics_(std::in_place, node_, options.scene, loop_,
                    SimulatorDiagnostics::Publishers{publisher_, wrenches_, recordings_, scenes_.keepUp()}, inputs_,
                    obstacles_, camera_frames_),

@@ -39,6 +39,7 @@ SimulatorOptions simulatorOptions(Parameters& parameters, const std::string& pac
   publish.force_arrow_m_per_n = parameters.number("force_arrow_m_per_n", publish.force_arrow_m_per_n, 0, 10);
   publish.frame_prefix = choice.frame_prefix;
   options.saved_folder = parameters.text("saved_folder", options.saved_folder);
+  options.saved_limit_gb = parameters.number("saved_limit_gb", options.saved_limit_gb, 1e-6, 1e6);
   options.record = parameters.text("record", options.record);
   options.stall_ticks = parameters.number("stall_ticks", options.stall_ticks, 1.5, 1e6);
   options.max_transform_age_s = parameters.number("max_transform_age_s", options.max_transform_age_s, 0.01, 3600);

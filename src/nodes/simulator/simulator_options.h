@@ -25,6 +25,7 @@ struct SimulatorOptions {
   DeviceChoices device_choices;        ///< by the styluses' names, which another scene may have too
   PublishOptions publish;
   std::string saved_folder = "viscera_saved";  ///< of `save_state`, `load_state` and `save_surface`
+  double saved_limit_gb = 50;                  ///< of all files in it
   std::string record;                          ///< file or folder of a recording; empty: none
   double stall_ticks = 3;                      ///< forces are zero from so many ticks without one on
   double max_transform_age_s = 0.5;            ///< of what tf knows of a frame that moves

@@ -3,11 +3,12 @@
 #include "nodes/simulator/simulator_services.h"
 
 #include <cmath>
-#include <filesystem>
 #include <functional>
 #include <utility>
 
 #include "export/writers.h"
+#include "math/nearest_names.h"
+#include "math/number_text.h"
 #include "model/scene/tool_kinds.h"
 #include "nodes/hands/stylus_mailbox.h"
 #include "nodes/ros/conversions.h"
@@ -39,9 +40,10 @@ size_t indexOf(const std::string& stylus, const std::vector<StylusConfig>& stylu
 size_t stylusNamed(const std::string& name, const std::vector<StylusConfig>& styluses) {
   const size_t s = indexOf(name, styluses);
   if (s < styluses.size()) return s;
-  std::string known;
-  for (const StylusConfig& stylus : styluses) known += (known.empty() ? "" : ", ") + stylus.name;
-  throw Error("stylus: the scene has no stylus '" + name + "'; it has " + (known.empty() ? "none" : known));
+  std::vector<std::string> known;
+  for (const StylusConfig& stylus : styluses) known.push_back(stylus.name);
+  throw Error("stylus: the scene has no stylus '" + name + "'; it has " +
+              (known.empty() ? "none" : nearestFirstText(name, known)));
 }
 
 /// @throws Error  another word than idle, button1, button2
@@ -54,12 +56,12 @@ ToolSwitch switchNamed(const std::string& name) {
 
 /// @throws Error  a mode that no kind of tool has
 ToolMode modeNamed(const std::string& name) {
-  std::string known;
+  std::vector<std::string> known;
   for (const ToolKind& kind : kToolKinds) {
     if (name == kind.name) return kind.mode;
-    known += (known.empty() ? "" : ", ") + std::string(kind.name);
+    known.emplace_back(kind.name);
   }
-  throw Error("mode: '" + name + "' is none of " + known);
+  throw Error("mode: '" + name + "' is none of " + nearestFirstText(name, known));
 }
 
 /// @throws Error  a thread or piece that there is not
@@ -80,8 +82,7 @@ size_t pieceNamed(const Session& session, const std::string& name, uint32_t whic
 /// @throws Error  it is not in that range
 double within(const char* key, double value, double low, double high) {
   if (value >= low && value <= high) return value;
-  throw Error(std::string(key) + ": " + std::to_string(value) + " must be " + std::to_string(low) + " .. " +
-              std::to_string(high));
+  throw Error(std::string(key) + ": " + numberText(value) + " must be " + numberText(low) + " .. " + numberText(high));
 }
 
 /// Where a step takes the styluses. @throws Error  a name that the scene does not have, or twice; no pose
@@ -105,19 +106,6 @@ StylusSamples samplesOf(const std::vector<StylusState>& states, const std::vecto
   return samples;
 }
 
-/// @throws Error  no plain name, which is all that a caller may say
-std::string pathIn(const std::string& folder, const std::string& file) {
-  if (file.empty() || file.front() == '.' || file.find('/') != std::string::npos)
-    throw Error("file: '" + file + "' must be a plain name, which is looked up in ~saved_folder, " + folder);
-  return folder + "/" + file;
-}
-
-void makeFolder(const std::string& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) throw Error("parameter ~saved_folder: " + folder + " cannot be made: " + error.message());
-}
-
 std::string saveSurface(Session& session, const std::string& path) {
   Wants wants;
   wants.surface = true;
@@ -130,10 +118,10 @@ std::string saveSurface(Session& session, const std::string& path) {
 }  // namespace
 
 SimulatorServices::SimulatorServices(ros::NodeHandle node, const std::vector<StylusConfig>& styluses,
-                                     const std::string& saved_folder, CommandQueue& commands, const Switches& switches,
+                                     const SavedFolder& saved_folder, CommandQueue& commands, const Switches& switches,
                                      ModeSet mode_set)
     : styluses_(styluses),
-      saved_folder_(std::filesystem::absolute(saved_folder)),
+      saved_folder_(saved_folder),
       commands_(commands),
       switches_(switches),
       mode_set_(std::move(mode_set)),
@@ -147,7 +135,7 @@ SimulatorServices::SimulatorServices(ros::NodeHandle node, const std::vector<Sty
   servers_.push_back(node.advertiseService("set_tool_mode", &SimulatorServices::onSetToolMode, this));
   servers_.push_back(node.advertiseService("tie_thread", &SimulatorServices::onTieThread, this));
   advertiseFile(node, "save_state", false, [this](Session& session, const std::string& path) {
-    makeFolder(saved_folder_);
+    saved_folder_.room();
     session.save(path);
     return path;
   });
@@ -156,12 +144,11 @@ SimulatorServices::SimulatorServices(ros::NodeHandle node, const std::vector<Sty
     return path;
   });
   advertiseFile(node, "save_surface", false, [this](Session& session, const std::string& path) {
-    makeFolder(saved_folder_);
+    saved_folder_.room();
     return saveSurface(session, path);
   });
   advertiseFile(node, "start_recording", false, [this](Session& session, const std::string& path) {
-    makeFolder(saved_folder_);
-    return switches_.recordings.start(session, path);
+    return switches_.recordings.start(session, path, saved_folder_.room());
   });
   advertiseAct(node, "stop_recording", [this](Session&) { return switches_.recordings.stop(); });
   servers_.push_back(node.advertiseService("start_task", &SimulatorServices::onStartTask, this));
@@ -191,7 +178,7 @@ void SimulatorServices::advertiseFile(ros::NodeHandle& node, const std::string& 
       Command command;
       command.kind = Command::Kind::kChange;
       command.leaps = leaps;
-      command.change = [act, path = pathIn(saved_folder_, request.file)](Session& session) {
+      command.change = [act, path = saved_folder_.pathOf(request.file)](Session& session) {
         return act(session, path);
       };
       answer(commands_, std::move(command), response);

@@ -34,7 +34,7 @@ class SimulatorServices {
   };
   /// @param styluses  of the scene   @param saved_folder  of all files that are written and read   @param commands,
   /// switches  must outlive this   @param mode_set  told of changes of modes
-  SimulatorServices(ros::NodeHandle node, const std::vector<StylusConfig>& styluses, const std::string& saved_folder,
+  SimulatorServices(ros::NodeHandle node, const std::vector<StylusConfig>& styluses, const SavedFolder& saved_folder,
                     CommandQueue& commands, const Switches& switches, ModeSet mode_set = {});
 
  private:
@@ -51,7 +51,7 @@ class SimulatorServices {
   bool onStep(Step::Request& request, Step::Response& response);
 
   const std::vector<StylusConfig> styluses_;
-  const std::string saved_folder_;
+  const SavedFolder saved_folder_;
   CommandQueue& commands_;
   const Switches switches_;
   const ModeSet mode_set_;

@@ -13,6 +13,7 @@
 #include "math/one_line.h"
 #include "model/scene/file_bounds.h"
 #include "tasks/task_kinds.h"
+#include "tasks/task_notes.h"
 #include "tasks/task_report.h"
 
 namespace viscera::nodes {
@@ -79,7 +80,7 @@ void fill(TaskState& message, const TaskConfig& task, const TaskStatus& status) 
 }  // namespace
 
 TaskSwitch::TaskSwitch(ros::NodeHandle node, const Scene& scene, const SceneChoice& choice,
-                       const std::string& package_folder, const std::string& saved_folder)
+                       const std::string& package_folder, const SavedFolder& saved_folder)
     : choice_(choice),
       package_folder_(package_folder),
       saved_folder_(saved_folder),
@@ -126,6 +127,7 @@ void TaskSwitch::leave() {
 
 std::string TaskSwitch::start(Session& session, const TaskConfig& task) {
   session.reset();
+  for (const std::string& note : taskNotes(task)) ROS_WARN("task %s: %s", task.name.c_str(), note.c_str());
   session.noteTask(task.name, task.yaml);
   const std::lock_guard<std::mutex> lock(mutex_);
   last_ = task;
@@ -194,7 +196,7 @@ Metrics TaskSwitch::metricsOf(const TaskResult& result) const {
 /// Smoothness, plots and files take their time: on a thread of their own.
 void TaskSwitch::report(TaskResult&& result) {
   if (reporting_.valid()) reporting_.wait();
-  const std::string folder = reportFolder(saved_folder_, result.task.name);
+  const std::string folder = reportFolder(saved_folder_.path(), result.task.name);
   reporting_ = std::async(std::launch::async, [this, folder, done = std::move(result)] {
     Metrics metrics = metricsOf(done);
     metrics.header.stamp = ros::Time::now();
@@ -202,6 +204,7 @@ void TaskSwitch::report(TaskResult&& result) {
     ROS_INFO("task %s: %s, score %.1f (%s)", done.task.name.c_str(), nameOf(done.status.state), done.status.score,
              oneLine(done.status.step).c_str());
     try {
+      saved_folder_.room();
       writeReport(folder, done);
       ROS_INFO("report: %s/report.html", folder.c_str());
       const std::lock_guard<std::mutex> lock(mutex_);

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "nodes/ros/saved_folder.h"
 #include "nodes/ros/scene_choice.h"
 #include "tasks/task_watch.h"
 #include "tools/hand_metrics.h"
@@ -28,7 +29,7 @@ class TaskSwitch : public SessionLog {
  public:
   /// @param choice  of the scene; its task, if any, waits from the start on   @param saved_folder  of reports
   TaskSwitch(ros::NodeHandle node, const Scene& scene, const SceneChoice& choice, const std::string& package_folder,
-             const std::string& saved_folder);
+             const SavedFolder& saved_folder);
   ~TaskSwitch() override;
   TaskSwitch(const TaskSwitch&) = delete;
   TaskSwitch& operator=(const TaskSwitch&) = delete;
@@ -60,7 +61,8 @@ class TaskSwitch : public SessionLog {
   Metrics metricsOf(const TaskResult& result) const;
 
   const SceneChoice choice_;
-  const std::string package_folder_, saved_folder_;
+  const std::string package_folder_;
+  const SavedFolder saved_folder_;
   Session* session_ = nullptr;        ///< that is followed
   std::unique_ptr<TaskWatch> watch_;  ///< of the session's thread, as the tallies
   std::vector<HandTally> tallies_;
