@@ -3,13 +3,16 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <iostream>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "math/nearest_names.h"
 #include "math/one_line.h"
 #include "viscera/math/error.h"
 
@@ -30,6 +33,40 @@ inline int giveUp(const std::exception& error) {
   return command_line ? command_line->status : 1;
 }
 
+inline std::vector<const CLI::App*> commandsOf(const CLI::App& app) {
+  return app.get_subcommands([](const CLI::App*) { return true; });
+}
+
+/// Names that an unknown command or option may have been meant for, as a part of an error; empty: none is unknown.
+inline std::string nearestTo(const CLI::App& app, int argc, char** argv) {
+  constexpr size_t kNamed = 3;
+  const CLI::App* at = &app;
+  std::vector<std::string> names;
+  std::string unknown;
+  for (int i = 1; i < argc && unknown.empty(); ++i) {
+    const std::string word = argv[i], option = word.substr(0, word.find('='));
+    if (word.rfind("--", 0) == 0) {
+      if (!at->get_option_no_throw(option)) unknown = option;
+    } else if (at == &app) {
+      for (const CLI::App* command : commandsOf(app)) at = command->get_name() == word ? command : at;
+      if (at == &app) unknown = word;
+    }
+  }
+  if (unknown.empty()) return "";
+  if (unknown.rfind("--", 0) == 0) {
+    for (const CLI::Option* option : at->get_options())
+      for (const std::string& name : option->get_lnames())
+        if (!option->get_group().empty()) names.push_back("--" + name);
+  } else {
+    for (const CLI::App* command : commandsOf(*at)) names.push_back(command->get_name());
+  }
+  names = nearestFirst(unknown, names);
+  names.resize(std::min(names.size(), kNamed));
+  std::string out;
+  for (const std::string& name : names) out += (out.empty() ? "" : ", ") + name;
+  return "; nearest to '" + unknown + "' are " + out;
+}
+
 /// Reads the command line. @return the exit status where that was all, as after --help   @throws CommandLineError
 inline std::optional<int> parse(CLI::App& app, int argc, char** argv) {
   try {
@@ -38,9 +75,9 @@ inline std::optional<int> parse(CLI::App& app, int argc, char** argv) {
     if (error.get_exit_code() == 0) return app.exit(error);
     std::string command = std::filesystem::path(app.get_name()).filename().string();  // without its folder
     for (const CLI::App* chosen : app.get_subcommands()) command += " " + chosen->get_name();
-    throw CommandLineError(
-        std::string("command line: ") + error.what() + "; `" + command + " --help` lists what is accepted",
-        error.get_exit_code());
+    throw CommandLineError("command line: " + std::string(error.what()) + nearestTo(app, argc, argv) + "; `" + command +
+                               " --help` lists what is accepted",
+                           error.get_exit_code());
   }
   return {};
 }

@@ -147,6 +147,9 @@ int replay(const ReplayOptions& options) {
   tell(recording);
   const double until_s = options.until_s.value_or(recording.duration_s());
   if (until_s < options.from_s) throw Error("--until must not be before --from");
+  if (options.no_view && (options.depth || options.labels))
+    throw Error(std::string(options.depth ? "--depth" : "--labels") +
+                ": comes with pictures, and there are none: leave out --no-view");
   std::vector<Output> outputs = outputsIn(options.out);
   outputs.push_back({"--save", options.save, FileKind::kState});
   requireOutputs(outputs);

@@ -14,6 +14,7 @@
 #include "cli/run_plan.h"
 #include "cli/scene_lookup.h"
 #include "cli/task_run.h"
+#include "math/number_text.h"
 #include "math/one_line.h"
 #include "math/out_file.h"
 #include "model/fracture/toughness.h"
@@ -77,8 +78,8 @@ void resume(Session& session, const std::string& file, uint64_t ticks) {
   session.restore(file);
   const double at_s = static_cast<double>(session.tick()) * session.tick_s();
   if (session.tick() > ticks) {
-    throw Error(file + ": was saved after " + std::to_string(at_s) + " s, and the run ends at " +
-                std::to_string(static_cast<double>(ticks) * session.tick_s()) + " s: give it a later end by --seconds");
+    throw Error(file + ": was saved after " + numberText(at_s) + " s, and the run ends at " +
+                numberText(static_cast<double>(ticks) * session.tick_s()) + " s: give it a later end by --seconds");
   }
   std::cout << "resumed after " << at_s << " s, tick " << session.tick() << '\n';
 }
@@ -120,6 +121,43 @@ std::unique_ptr<TaskRun> beginTask(Session& session, const RunOptions& options) 
   return out;
 }
 
+/// Says which hands of the strokes a device could not lead there.
+void sayFarHands(const Strokes& strokes, const Scene& scene) {
+  for (const StylusConfig& stylus : scene.styluses) {
+    double farthest_m = 0;
+    for (const Stroke& stroke : strokes.strokes) {
+      if (stroke.stylus != stylus.name) continue;
+      for (const Stroke::Key& key : stroke.keys) farthest_m = std::max(farthest_m, key.pose.position_m.norm());
+      for (const Stroke::Sample& sample : stroke.samples)
+        farthest_m = std::max(farthest_m, sample.pose.position_m.norm());
+    }
+    if (farthest_m > stylus.workspace_m)
+      std::cout << strokes.file << ": stylus '" << stylus.name << "' goes " << numberText(farthest_m)
+                << " m from the tissue frame, beyond its workspace_m of " << numberText(stylus.workspace_m)
+                << " m: a device's pose there is refused\n";
+  }
+}
+
+/// @throws Error  an option asks for files of which this run has none
+void requireSomethingToWrite(const RunOptions& options, const Session& session, uint64_t ticks) {
+  const Scene& scene = session.scene();
+  const bool pictures = !options.no_view && !scene.cameras.empty();
+  if ((options.depth || options.labels) && !pictures)
+    throw Error(std::string(options.depth ? "--depth" : "--labels") + ": comes with pictures, and there are none: " +
+                (options.no_view ? "leave out --no-view" : "the scene has no cameras"));
+  if (!options.exported) return;
+  const std::vector<Body>& bodies = session.model().bodies;
+  const auto isNetwork = [](const Body& body) { return body.network.has_value(); };
+  if (options.exported->source == ExportSource::kThreads && scene.threads.empty())
+    throw Error("--export threads: the scene has none");
+  if (options.exported->source == ExportSource::kNetwork && std::none_of(bodies.begin(), bodies.end(), isNetwork))
+    throw Error("--export network: the scene has none: no body has structure explicit, surface or tetrahedra");
+  const double run_s = static_cast<double>(ticks) * session.tick_s();
+  if (options.exported->every_s > run_s + session.tick_s() / 2)
+    throw Error("--every " + numberText(options.exported->every_s) + " s is longer than the run, " + numberText(run_s) +
+                " s: nothing would be exported");
+}
+
 std::vector<Output> outputsOf(const RunOptions& options) {
   std::vector<Output> out = outputsIn(options.out);
   out.push_back({"--save", options.save, FileKind::kState});
@@ -150,7 +188,9 @@ int run(const RunOptions& options) {
       context ? std::make_unique<Session>(scene, *context, progress) : std::make_unique<Session>(scene, progress);
   Session& session = *made;
   requireOutputs(outputs);  // by now all is known that is read
+  requireSomethingToWrite(options, session, ticks);
   resolveAnchors(strokes, session.model(), scene.fit);
+  sayFarHands(strokes, scene);
   for (const Body& body : session.model().bodies) {
     for (const std::string& note : body.notes) std::cout << body.name << ": " << oneLine(note) << '\n';
   }

@@ -6,6 +6,7 @@
 
 #include <iostream>
 
+#include "math/nearest_names.h"
 #include "model/scene/shipped_files.h"
 #include "viscera/math/error.h"
 
@@ -14,15 +15,27 @@ extern const char* const kSourceConfig;
 
 namespace viscera::cli {
 
+namespace {
+
+/// Returns the end of an error: what the name could have been.
+std::string shippedOnes(const std::string& name, const std::string& kind) {
+  const std::vector<std::string> names = shippedNames(kind, kSourceConfig);
+  return names.empty() ? "" : "; shipped are " + nearestFirstText(name, names);
+}
+
+}  // namespace
+
 std::string findScene(const std::string& name) {
   const std::string file = shippedFile(name, "scenes", kSourceConfig);
-  if (file.empty()) throw SceneError("'" + name + "' is neither a file nor the name of a shipped scene");
+  if (file.empty())
+    throw SceneError("'" + name + "' is neither a file nor the name of a shipped scene" + shippedOnes(name, "scenes"));
   return file;
 }
 
 std::string findTask(const std::string& name) {
   const std::string file = shippedFile(name, "tasks", kSourceConfig);
-  if (file.empty()) throw Error("'" + name + "' is neither a file nor the name of a shipped task");
+  if (file.empty())
+    throw Error("'" + name + "' is neither a file nor the name of a shipped task" + shippedOnes(name, "tasks"));
   return file;
 }
 

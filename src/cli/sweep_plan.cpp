@@ -7,6 +7,7 @@
 #include <set>
 
 #include "cli/scene_lookup.h"
+#include "math/nearest_names.h"
 #include "model/scene/yaml_reader.h"
 #include "viscera/math/error.h"
 
@@ -20,10 +21,11 @@ constexpr const char* kKeys = "scene, mesh, strokes, seconds, view, keep, set, g
 class PlanFile {
  public:
   explicit PlanFile(std::string file) : file_(std::move(file)) {
+    const std::string text = textOf(file_, "a sweep's plan");
     try {
-      root_ = YAML::Load(textOf(file_, "a sweep's plan"));
+      root_ = YAML::Load(text);
     } catch (const YAML::Exception& error) {
-      throw SceneError(yamlFault(file_, error));
+      throw SceneError(yamlFault(file_, error, text));
     }
     if (!root_.IsMap()) fail(root_, "a plan is a map of " + std::string(kKeys));
     for (const auto& entry : root_) {
@@ -31,7 +33,7 @@ class PlanFile {
       static const std::vector<std::string> known = {"scene", "mesh", "strokes", "seconds", "view",
                                                      "keep",  "set",  "grid",    "list"};
       if (std::find(known.begin(), known.end(), key) == known.end())
-        fail(entry.first, "unknown key '" + key + "'; known: " + kKeys);
+        fail(entry.first, "unknown key '" + key + "'; known: " + nearestFirstText(key, known));
     }
   }
 

@@ -3,11 +3,13 @@
 #include "cli/task_run.h"
 
 #include <filesystem>
+#include <iostream>
 #include <utility>
 
 #include "cli/commands.h"
 #include "cli/png_writer.h"
 #include "cli/scene_lookup.h"
+#include "tasks/task_notes.h"
 #include "tasks/task_picture.h"
 
 namespace viscera::cli {
@@ -19,6 +21,7 @@ TaskRun::TaskRun(Session& session, std::string folder, bool pictures)
       watch_(session, [this](TaskResult&& result) { ended_.push_back(std::move(result)); }) {}
 
 void TaskRun::begin(const TaskConfig& task) {
+  for (const std::string& note : taskNotes(task)) std::cout << "task " << task.name << ": " << note << '\n';
   session_.noteTask(task.name, task.yaml);
   takePicture("at the start", "start");
 }

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <sstream>
 
 #include "devices/device_fields.h"
 #include "devices/registration_file.h"
+#include "math/number_text.h"
 #include "model/scene/key_table.h"
 #include "model/scene/yaml_overrides.h"
 #include "model/scene/yaml_reader.h"
@@ -102,7 +102,7 @@ Eigen::Matrix3d axesOf(const std::string& axes, const std::string& key) {
     throw DeviceError(key + " is three of x y z, each once, with or without '-', as in 'x -z y'" + why + "; found '" +
                       axes + "'");
   };
-  std::istringstream words(axes);
+  TextIn words(axes);
   std::string word;
   Eigen::Matrix3d out = Eigen::Matrix3d::Zero();
   int row = 0;
@@ -126,7 +126,7 @@ DeviceProfile parseDevice(const std::string& yaml, const std::string& where, con
     if (root["base"].IsDefined() && root["base"].IsNull()) root.remove("base");  // left to tf
     YamlReader::readMap(root, "", source, device);
   } catch (const YAML::Exception& error) {
-    throw DeviceError(yamlFault(where, error));
+    throw DeviceError(yamlFault(where, error, yaml));
   } catch (const SceneError& error) {
     throw DeviceError(error.what());
   }

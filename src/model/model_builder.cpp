@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <limits>
-#include <sstream>
 
 #include "math/memory_for.h"
+#include "math/number_text.h"
 #include "model/body/body_notes.h"
 #include "model/body/detailed_surface.h"
 #include "model/body/fixed_nodes.h"
@@ -16,11 +16,13 @@
 #include "model/fracture/tearing.h"
 #include "model/fracture/toughness.h"
 #include "model/scene/host_memory.h"
+#include "model/scene/key_place.h"
 #include "model/scene/structure_rules.h"
 #include "model/scene/tissue_presets.h"
 #include "model/scene/tool_kinds.h"
 #include "model/shape/organ/tissue.h"
 #include "viscera/math/error.h"
+#include "viscera/model/body/elasticity.h"
 
 namespace viscera {
 namespace {
@@ -102,7 +104,7 @@ Body buildNetworkBody(const BodyConfig& config, const Tissue& tissue, bool can_b
 /// What decides how large a body becomes, for a person.
 std::string sizeKey(const BodyConfig& config) {
   if (config.target_nodes > 0) return "target_nodes " + std::to_string(config.target_nodes);
-  std::ostringstream out;
+  TextOut out;
   out << "spacing_m " << config.spacing_m;
   return config.auto_spacing ? "spacing_m auto" : out.str();
 }
@@ -122,6 +124,7 @@ Body buildBody(const BodyConfig& config, const Scene& scene, bool can_be_cut, co
                                                    ? buildNetworkBody(config, *tissue, can_be_cut, progress)
                                                    : buildLatticeBody(config, scene, *tissue, can_be_cut, progress);
                                    addNotes(tissueNotes(config), body);
+                                   if (!config.parts.empty()) elasticityByLabel(body);  // are there such parts?
                                    return body;
                                  });
 }
@@ -141,9 +144,12 @@ Model buildModel(const Scene& scene, const Progress& progress) {
   const bool can_be_cut = maySever(scene.styluses) || tears(scene) || threadsTear(scene);
   const std::string file = scene.file.empty() ? "" : scene.file + ": ";
   Model model;
-  for (const BodyConfig& config : scene.bodies) {
+  for (size_t b = 0; b < scene.bodies.size(); ++b) {
+    const BodyConfig& config = scene.bodies[b];
     try {
-      model.bodies.push_back(buildBody(config, scene, can_be_cut, progress));
+      model.bodies.push_back(withPlace(scene, b, [&] { return buildBody(config, scene, can_be_cut, progress); }));
+    } catch (const PlacedError&) {
+      throw;
     } catch (const SceneError& error) {  // has the body already
       throw SceneError(file + error.what());
     } catch (const LatticeError& error) {

@@ -1,8 +1,8 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <filesystem>
-#include <sstream>
 
+#include "math/number_text.h"
 #include "model/scene/key_table.h"
 #include "model/scene/yaml_reader.h"
 #include "tasks/task_fields.h"
@@ -31,7 +31,7 @@ TaskConfig parseTask(const std::string& yaml, const std::string& where) {
     if (!root.IsMap()) throw TaskError(where + ": a task is a map of keys, as `viscera keys task` lists");
     YamlReader::readMap(root, "", source, task);
   } catch (const YAML::Exception& error) {
-    throw TaskError(yamlFault(where, error));
+    throw TaskError(yamlFault(where, error, yaml));
   } catch (const SceneError& error) {
     throw TaskError(error.what());
   }
@@ -56,7 +56,7 @@ std::string sceneOfTask(const TaskConfig& task, const std::string& task_file) {
 }
 
 std::string taskKeysTable() {
-  std::ostringstream out;
+  TextOut out;
   out << keyTable<TaskConfig>() << "\n| measure | meaning |\n|---|---|\n";
   for (const TaskMeasure& measure : kTaskMeasures) out << "| `" << measure.name << "` | " << measure.meaning << " |\n";
   return out.str();

@@ -221,7 +221,7 @@ Strokes parseStrokes(const std::string& yaml, const std::string& name) {
   try {
     YamlReader::readMap(YAML::Load(yaml), "", source, file);
   } catch (const YAML::Exception& e) {
-    throw StrokesError(yamlFault(name, e));
+    throw StrokesError(yamlFault(name, e, yaml));
   } catch (const SceneError& e) {
     throw StrokesError(e.what());
   }

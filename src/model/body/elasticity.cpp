@@ -4,7 +4,9 @@
 
 #include <algorithm>
 
+#include "math/nearest_names.h"
 #include "model/body/thin_walls.h"
+#include "model/scene/key_place.h"
 #include "viscera/math/error.h"
 
 namespace viscera {
@@ -103,14 +105,14 @@ std::vector<Elasticity> elasticityByLabel(const Body& body) {
   for (const PartConfig& part : body.parts) {
     const auto& names = body.lattice.part_names;
     const auto name = std::find(names.begin(), names.end(), part.part);
+    const std::string key = "parts[" + std::to_string(&part - body.parts.data()) + "]";
     if (name == names.end()) {
-      std::string known;
-      for (const std::string& n : names) known += (known.empty() ? "" : ", ") + n;
-      throw SceneError("body '" + body.name + "': 'parts' names '" + part.part + "'; the parts are " + known);
+      throw BodyKeyError(body.name, key,
+                         " names '" + part.part + "'; the parts are " + nearestFirstText(part.part, names));
     }
     if (std::count_if(body.parts.begin(), body.parts.end(), [&](const PartConfig& p) { return p.part == part.part; }) >
         1)
-      throw SceneError("body '" + body.name + "': 'parts' names '" + part.part + "' twice");
+      throw BodyKeyError(body.name, key, " names '" + part.part + "' twice");
     out[static_cast<size_t>(name - names.begin()) + 1] =
         elasticity(part.young_modulus_pa, part.poisson_ratio, part.density_kg_per_m3, h);
   }

@@ -4,8 +4,9 @@
 
 #include <algorithm>
 #include <functional>
-#include <sstream>
 
+#include "math/number_text.h"
+#include "model/scene/key_place.h"
 #include "model/scene/structure_rules.h"
 #include "model/shape/organ/tissue.h"
 #include "viscera/math/error.h"
@@ -62,7 +63,7 @@ std::string listed(const std::vector<std::string>& names) {
 std::string extentOf(const Body& body, const Pose& to_body) {
   Eigen::AlignedBox3d box;
   for (const uint32_t slot : body.lattice.active_slots) box.extend(to_body * restPosition(body, slot));
-  std::ostringstream out;
+  TextOut out;
   out << "the body spans " << box.min().transpose() << " to " << box.max().transpose() << " m in its own frame";
   return out.str();
 }
@@ -91,18 +92,19 @@ size_t fixNodes(const BodyConfig& config, const PartNodes& parts, Body& body) {
   const double slack_m = spacing_m * slackOf(config);
   for (size_t i = 0; i < config.fixed.size(); ++i) {
     const FixedConfig& fixed = config.fixed[i];
-    const std::string where = "body '" + config.name + "': fixed[" + std::to_string(i) + "]";
+    const std::string key = "fixed[" + std::to_string(i) + "]";
     if (fixed.shape == FixedShape::kPart) {
       const auto part = std::find(parts.names.begin(), parts.names.end(), fixed.part);
       if (part == parts.names.end()) {
-        throw SceneError(where + ": no part '" + fixed.part + "'; the parts are " + listed(parts.names));
+        throw BodyKeyError(config.name, key, ": no part '" + fixed.part + "'; the parts are " + listed(parts.names));
       }
       const auto label = static_cast<uint16_t>(part - parts.names.begin() + 1);
       if (fix(parts.slots(label), body.lattice) == 0) {
-        throw SceneError(where + ": part '" + fixed.part + "' fills no cell at spacing_m " + std::to_string(spacing_m));
+        throw BodyKeyError(config.name, key,
+                           ": part '" + fixed.part + "' fills no cell at spacing_m " + numberText(spacing_m));
       }
     } else if (fixShape(shapeOf(fixed, slack_m), to_body, body) == 0) {
-      throw SceneError(where + " matches no node; " + extentOf(body, to_body));
+      throw BodyKeyError(config.name, key, " matches no node; " + extentOf(body, to_body));
     }
   }
   const Lattice& lattice = body.lattice;

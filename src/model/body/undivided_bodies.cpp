@@ -7,6 +7,7 @@
 #include "model/body/network_body.h"
 #include "model/body/network_builder.h"
 #include "model/body/spacing_search.h"
+#include "model/scene/key_place.h"
 #include "model/scene/structure_rules.h"
 #include "model/shape/organ/tissue.h"
 #include "viscera/math/error.h"
@@ -41,7 +42,9 @@ UndividedBodies::UndividedBodies(const Scene& scene) {
   const std::vector<size_t> chosen = autoBodies(scene);
   for (size_t b = 0; b < scene.bodies.size(); ++b) {
     const bool is_auto = std::find(chosen.begin(), chosen.end(), b) != chosen.end();
-    (is_auto ? auto_ : others_).push_back({scene.bodies[b], makeTissue(scene.bodies[b], scene.folder)});
+    (is_auto ? auto_ : others_).push_back({scene.bodies[b], withPlace(scene, b, [&] {
+                                             return makeTissue(scene.bodies[b], scene.folder);
+                                           })});
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "math/nearest_names.h"
 #include "viscera/math/error.h"
 
 namespace viscera {
@@ -20,7 +21,9 @@ Overlays overlaysOf(const std::vector<std::string>& names) {
     const auto* const found = std::find_if(kOverlayNames.begin(), kOverlayNames.end(),
                                            [&](const OverlayName& overlay) { return name == overlay.name; });
     if (found == kOverlayNames.end()) {
-      throw SceneError("there is no overlay '" + name + "'; there are " + overlayNames());
+      std::vector<std::string> known;
+      for (const OverlayName& overlay : kOverlayNames) known.emplace_back(overlay.name);
+      throw SceneError("there is no overlay '" + name + "'; there are " + nearestFirstText(name, known));
     }
     out.add(found->value);
   }

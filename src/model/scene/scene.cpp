@@ -255,7 +255,7 @@ Scene parseScene(const std::string& yaml, const std::string& name, const Overrid
     for (const std::string& text : overrides) applyOverride(root, text, source);
     YamlReader::readMap(root, "", source, scene);
   } catch (const YAML::Exception& e) {
-    throw SceneError(yamlFault(name, e));
+    throw SceneError(yamlFault(name, e, yaml));
   }
   for (BodyConfig& body : scene.bodies) {
     leaveOutNuOfPreset(body);

@@ -4,6 +4,7 @@
 
 #include <dlfcn.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <vector>
@@ -25,13 +26,15 @@ void addFolders(const fs::path& binary, std::vector<fs::path>& out) {
   }
 }
 
-std::vector<fs::path> configFolders() {
+/// In the order in which they are looked through. @param last  another one, or nothing
+std::vector<fs::path> configFolders(const std::string& last) {
   std::vector<fs::path> out;
   std::error_code error;
   addFolders(fs::read_symlink("/proc/self/exe", error), out);
   Dl_info here{};
   if (dladdr(reinterpret_cast<const void*>(&configFolders), &here) != 0 && here.dli_fname)
     addFolders(fs::absolute(here.dli_fname, error), out);
+  if (!last.empty()) out.emplace_back(last);
   return out;
 }
 
@@ -40,13 +43,24 @@ std::vector<fs::path> configFolders() {
 std::string shippedFile(const std::string& name, const std::string& kind, const std::string& last) {
   std::error_code error;
   if (fs::exists(name, error) || name.find('/') != std::string::npos) return name;
-  std::vector<fs::path> folders = configFolders();
-  if (!last.empty()) folders.emplace_back(last);
-  for (const fs::path& folder : folders) {
+  for (const fs::path& folder : configFolders(last)) {
     const fs::path file = folder / kind / (name + ".yaml");
     if (fs::exists(file, error)) return file.string();
   }
   return "";
+}
+
+std::vector<std::string> shippedNames(const std::string& kind, const std::string& last) {
+  std::vector<std::string> out;
+  for (const fs::path& folder : configFolders(last)) {
+    std::error_code error;
+    for (const auto& file : fs::directory_iterator(folder / kind, error)) {
+      if (file.path().extension() == ".yaml") out.push_back(file.path().stem().string());
+    }
+    if (!out.empty()) break;
+  }
+  std::sort(out.begin(), out.end());
+  return out;
 }
 
 }  // namespace viscera

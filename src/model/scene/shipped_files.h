@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace viscera {
 
@@ -11,5 +12,7 @@ namespace viscera {
 /// source tree that these were built from.
 /// @param kind  "scenes", "tasks": a folder of config/   @param last  another folder config/, for want of these
 std::string shippedFile(const std::string& name, const std::string& kind, const std::string& last = "");
+/// Returns the names of the shipped files of a kind, sorted, from the first of these folders that has any.
+std::vector<std::string> shippedNames(const std::string& kind, const std::string& last = "");
 
 }  // namespace viscera

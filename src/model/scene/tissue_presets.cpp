@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cctype>
 #include <set>
-#include <sstream>
 
+#include "math/number_text.h"
 #include "model/scene/structure_rules.h"
 
 namespace viscera {
@@ -85,7 +85,7 @@ const std::vector<TissuePreset> kPresets = {
      "Umale et al. 2011, J Biomech 44:1678", ""}};
 
 std::string numberOf(double value) {
-  std::ostringstream out;
+  TextOut out;
   out << value;
   return value < 1e6 ? out.str() : std::to_string(static_cast<long>(value));
 }
@@ -141,7 +141,7 @@ const TissuePreset* tissueOfLabel(const std::string& label) {
   if (words.empty()) return nullptr;
   for (const TissuePreset& preset : kPresets) {
     if (words == wordsOf(preset.name)) return &preset;
-    std::istringstream labels(preset.labels);
+    TextIn labels(preset.labels);
     for (std::string other; std::getline(labels, other, ',');) {
       if (words == wordsOf(other)) return &preset;
     }
@@ -158,7 +158,7 @@ std::string toughTissues() {
 }
 
 std::string tissueTable() {
-  std::ostringstream out;
+  TextOut out;
   out << "| tissue | E, Pa | from, to, Pa | nu | density, kg/m3 | J, J/m2 | test of E | source | test and source of J "
          "|\n|---|---|---|---|---|---|---|---|---|\n";
   for (const TissuePreset& p : kPresets) {
@@ -170,8 +170,24 @@ std::string tissueTable() {
   return out.str();
 }
 
+/// Empty: it is as stiff as organs are.
+std::string softNote(const std::string& what, double young_modulus_pa) {
+  constexpr double kSoftest_pa = 100;  // fat and brain have a few hundred (docs/tissues.md)
+  if (young_modulus_pa >= kSoftest_pa) return "";
+  return what + ": a young_modulus_pa of " + numberText(young_modulus_pa) +
+         " Pa is softer than any organ: is it in kPa?";
+}
+
 std::vector<std::string> tissueNotes(const BodyConfig& body) {
   std::vector<std::string> notes;
+  if (const std::string note = softNote("material", body.material.young_modulus_pa); !note.empty())
+    notes.push_back(note);
+  for (const PartConfig& part : body.parts)
+    if (const std::string note = softNote("part " + part.part, part.young_modulus_pa); !note.empty())
+      notes.push_back(note);
+  if (body.target_nodes > 0 && !body.auto_spacing && body.spacing_m != BodyConfig{}.spacing_m)
+    notes.push_back("spacing_m " + numberText(body.spacing_m) + " is not used: target_nodes " +
+                    std::to_string(body.target_nodes) + " says how fine the lattice is");
   if (!body.material.tissue.empty()) notes.push_back(noteOf(body.material, isNetwork(body.structure)));
   for (const PartConfig& part : body.parts) {
     if (!part.tissue.empty()) notes.push_back("part " + part.part + ", " + noteOf(part, false));

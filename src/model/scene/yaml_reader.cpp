@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "math/memory_for.h"
+#include "math/nearest_names.h"
 #include "math/out_file.h"
 #include "viscera/math/error.h"
 
@@ -22,23 +23,17 @@ std::string shown(const YAML::Node& node) {
   return node.IsMap() ? "a map" : "nothing";
 }
 
+/// As YAML::convert<double>, whose stream has the program's locale.
+bool decode(const std::string& text, double& value) {
+  TextIn in(text);
+  return in >> value && (in >> std::ws).eof();
+}
+
 std::string rangeText(Range range, const std::string& unit) {
   return numberText(range.min) + " .. " + numberText(range.max) + (unit.empty() || unit == "1" ? "" : " " + unit);
 }
 
 }  // namespace
-
-std::string numberText(double value) {
-  std::ostringstream out;
-  out << value;
-  return out.str();
-}
-
-std::string yamlFault(const std::string& file, const YAML::Exception& error) {
-  const std::string place = error.mark.is_null() ? file : file + ":" + std::to_string(error.mark.line + 1);
-  if (error.msg == YAML::ErrorMsg::BAD_FILE) return place + ": lists and maps are nested too deep";
-  return place + ": " + error.msg;
-}
 
 std::string textOf(const std::string& path, const std::string& what) {
   constexpr size_t kMostMb = 100, kBytesPerMb = 1000000;  // some million keys of strokes
@@ -109,7 +104,7 @@ void YamlReader::fail(const std::string& key, const YAML::Node& node, const std:
 double YamlReader::scalar(const char* key, const YAML::Node& node, Range range, const std::string& unit,
                           const std::string& more) const {
   double value = 0;
-  const bool is_number = node.IsScalar() && YAML::convert<double>::decode(node, value);
+  const bool is_number = node.IsScalar() && decode(node.Scalar(), value);
   if (!is_number || !std::isfinite(value) || value < range.min || value > range.max) {
     fail(key, node, "is a number, " + rangeText(range, unit) + more);
   }
@@ -229,10 +224,8 @@ void YamlReader::finish() const {
   for (const auto& entry : map_) {
     const std::string key = entry.first.Scalar();
     if (std::find(known_.begin(), known_.end(), key) != known_.end()) continue;
-    std::string accepted;
-    for (const std::string& k : known_) accepted += (accepted.empty() ? "" : ", ") + k;
     throw UnknownKeyError(whereIs(source_, child(key), entry.first) + "unknown key '" + child(key) +
-                          "'; accepted here: " + accepted);
+                          "'; accepted here: " + nearestFirstText(key, known_));
   }
 }
 

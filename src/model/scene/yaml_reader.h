@@ -9,8 +9,11 @@
 #include <string>
 #include <vector>
 
+#include "math/nearest_names.h"
+#include "math/number_text.h"
 #include "model/scene/scene_fields.h"
 #include "model/scene/tissue_presets.h"
+#include "model/scene/yaml_fault.h"
 
 namespace viscera {
 
@@ -62,15 +65,15 @@ class YamlReader {
   void choice(const char* key, E& value, const List& names, const char*) {
     const YAML::Node node = take(key);
     if (!node) return;
-    std::string accepted;
+    std::vector<std::string> accepted;
     for (const auto& n : names) {
       if (node.IsScalar() && node.Scalar() == n.name) {
         value = n.value;
         return;
       }
-      accepted += std::string(accepted.empty() ? "" : ", ") + n.name;
+      accepted.emplace_back(n.name);
     }
-    fail(key, node, "is one of " + accepted);
+    fail(key, node, "is one of " + nearestFirstText(node.IsScalar() ? node.Scalar() : "", accepted));
   }
   template <class E>
   void choice(const char* key, E& value, Choices<E> names, const char* text) {
@@ -132,14 +135,8 @@ class YamlReader {
 /// "file:line: " of a node; "override: " for one that was set from outside.
 std::string whereIs(const YamlSource& source, const std::string& path, const YAML::Node& node);
 
-/// What YAML itself has against a file: file, line and what is wrong.
-std::string yamlFault(const std::string& file, const YAML::Exception& error);
-
 /// All of a text file. @param what  it should be, for errors
 /// @throws SceneError  it is a folder, cannot be read, or has no end in sight
 std::string textOf(const std::string& path, const std::string& what);
-
-/// A number as a person would write it.
-std::string numberText(double value);
 
 }  // namespace viscera

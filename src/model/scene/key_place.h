@@ -1,0 +1,44 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "viscera/math/error.h"
+#include "viscera/model/scene/scene.h"
+
+namespace viscera {
+
+/// A key of a body does not suit its tissue. Who knows the scene's file puts file and line before it (withPlace).
+struct BodyKeyError : SceneError {
+  /// @param its_key  within the body, as in fixed[0]   @param its_reason  what follows the key
+  BodyKeyError(const std::string& body, const std::string& its_key, const std::string& its_reason)
+      : SceneError("body '" + body + "': " + its_key + its_reason), key(its_key), reason(its_reason) {}
+  std::string key, reason;
+};
+
+/// An error that names file, line and key.
+struct PlacedError : SceneError {
+  using SceneError::SceneError;
+};
+
+/// Returns "FILE:LINE: PATH" of a key of a scene's file, "FILE: PATH" where it was set from outside.
+/// @param path  as in bodies[0].fixed[1]
+std::string placeOf(const std::string& file, const std::string& path);
+
+/// Does something with a body of the scene. @throws PlacedError, MeshError  with the body's place in the file
+template <class Act>
+auto withPlace(const Scene& scene, size_t body, const Act& act) {
+  const std::string path = "bodies[" + std::to_string(body) + "]";
+  try {
+    return act();
+  } catch (const BodyKeyError& error) {
+    if (scene.file.empty()) throw;
+    throw PlacedError(placeOf(scene.file, path + "." + error.key) + error.reason);
+  } catch (const MeshError& error) {
+    if (scene.file.empty()) throw;
+    throw MeshError(placeOf(scene.file, path) + ": " + error.what());
+  }
+}
+
+}  // namespace viscera

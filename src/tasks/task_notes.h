@@ -1,0 +1,15 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tasks/task.h"
+
+namespace viscera {
+
+/// Returns what a task says in vain, one line each for a person: rules of measures that its kind does not count.
+std::vector<std::string> taskNotes(const TaskConfig& task);
+
+}  // namespace viscera

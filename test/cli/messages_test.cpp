@@ -1,0 +1,112 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Errors and notes say where a mistake is, what was probably meant, and what has no effect.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "cli/small_scene.h"
+#include "support/temporary_folder.h"
+
+namespace viscera {
+namespace {
+
+using namespace test;
+
+class Messages : public ::testing::Test {
+ protected:
+  /// The one line with which the command gives up.
+  static std::string lineOf(const std::vector<std::string>& arguments) {
+    const Ending ending = viscera(arguments);
+    EXPECT_NE(ending.status, 0);
+    const std::vector<std::string> lines = complaints(ending);
+    return lines.size() == 1 ? lines[0] : "not one line: " + ending.err;
+  }
+  std::string lineOfScene(const std::string& yaml) const {
+    return lineOf({"run", folder_.write("bad.yaml", yaml), "--no-view", "--seconds", "0.01"});
+  }
+  static void expectSays(const std::string& line, const std::string& text) {
+    EXPECT_NE(line.find(text), std::string::npos) << line;
+  }
+  /// What a run says before its JSON. @param more  of the block scene
+  std::string notesOf(const std::vector<std::string>& more) const {
+    std::vector<std::string> arguments = {"run", scene_, "--no-view", "--seconds", "0.01"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Ending ending = viscera(arguments);
+    EXPECT_EQ(ending.status, 0) << ending.err;
+    return ending.out;
+  }
+
+  TemporaryFolder folder_;
+  const std::string scene_ = folder_.write("scene.yaml", kBlockScene);
+};
+
+TEST_F(Messages, CallTabsAndWrongIndentsSo) {
+  const std::string tab = "indented by a tab; YAML accepts blanks alone";
+  expectSays(lineOfScene("name: a\nbodies:\n\t- name: b\n"), "bad.yaml:3: the line is " + tab);
+  expectSays(lineOfScene("name: a\nbodies:\n  - name: b\n\t  source: box\n"), "bad.yaml:4: the line is " + tab);
+  expectSays(lineOfScene("name: a\nbodies:\n  - name: b\n   source: box\n"),
+             "bad.yaml:4: wrong indent: the line is indented by 3, keys above by 0, 4");
+  expectSays(lineOfScene("name: a\nbodies:\n  - name: b\n    source: box\n  spacing_m: 1\n"),
+             "bad.yaml:5: wrong indent: the line is indented by 2, keys above by 0, 4");
+  expectSays(lineOfScene("name: a\nsolver:\n  tick_hz: 100\n    max_substeps: 4\n"),
+             "bad.yaml:4: wrong indent: the line is indented by 4, keys above by 0, 2");
+  expectSays(lineOfScene("bodies:\n   - name: a\n  - name: b\n"),
+             "bad.yaml:3: wrong indent: the line is indented by 2, items above by 3");
+  const std::string other = lineOfScene("name: a: b\n");
+  expectSays(other, "bad.yaml:1: ");
+  EXPECT_EQ(other.find("indent"), std::string::npos) << other;
+}
+
+TEST_F(Messages, NameWhatIsNearestFirst) {
+  expectSays(lineOf({"rnu", "heart"}), "nearest to 'rnu' are run, ");
+  expectSays(lineOf({"run", "heart", "--sceonds", "1"}), "nearest to '--sceonds' are --seconds, ");
+  expectSays(lineOf({"run", "heard"}), "shipped are heart, ");
+  expectSays(lineOf({"task", "cut_a_disk"}), "is neither a file nor the name of a shipped task; shipped are ");
+  const std::string key = lineOf({"run", scene_, "--set", "solver.max_substep=3"});
+  expectSays(key, "unknown key 'solver.max_substep'; accepted here: max_substeps, ");
+  expectSays(lineOf({"run", scene_, "--set", "solver.backend=gqu"}), "is one of gpu, ");
+}
+
+TEST_F(Messages, RefuseOptionsThatWriteNothing) {
+  const std::string out = folder_.file("out");
+  const auto run = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"run", scene_, "--out", out, "--no-view", "--seconds", "0.1"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return lineOf(arguments);
+  };
+  expectSays(run({"--export", "threads"}), "--export threads: the scene has none");
+  expectSays(run({"--export", "network"}), "--export network: the scene has none");
+  expectSays(run({"--export", "skin", "--every", "2"}), "--every 2 s is longer than the run, 0.1 s");
+  expectSays(run({"--depth"}), "--depth: comes with pictures, and there are none: leave out --no-view");
+  expectSays(run({"--labels"}), "--labels: comes with pictures");
+  EXPECT_FALSE(std::filesystem::exists(out)) << "nothing is made before the run is refused";
+}
+
+TEST_F(Messages, SayFileAndLineOfPartsRegionsAndMeshes) {
+  const std::string body =
+      "bodies:\n  - name: a\n    source: box\n    box_size_m: [0.04, 0.04, 0.04]\n    spacing_m: 0.01\n";
+  expectSays(lineOfScene(body + "    fixed:\n      - {shape: part, part: bix}\n"),
+             "bad.yaml:7: bodies[0].fixed[0]: no part 'bix'");
+  expectSays(lineOfScene(body + "    fixed:\n      - {shape: sphere, center_m: [1, 0, 0], radius_m: 0.01}\n"),
+             "bad.yaml:7: bodies[0].fixed[0] matches no node");
+  expectSays(lineOfScene(body + "    parts:\n      - {part: bix}\n"), "bad.yaml:7: bodies[0].parts[0] names 'bix'");
+  expectSays(lineOfScene("name: a\nbodies:\n  - name: a\n    source: mesh\n    mesh_file: none.obj\n"),
+             "bad.yaml:3: bodies[0]: mesh file '");
+}
+
+TEST_F(Messages, NoteWhatHasNoEffectOrIsStrange) {
+  const std::string soft = "is softer than any organ: is it in kPa?";
+  EXPECT_NE(notesOf({"--set", "bodies[0].material.young_modulus_pa=20"}).find(soft), std::string::npos);
+  EXPECT_EQ(notesOf({}).find(soft), std::string::npos);
+  EXPECT_NE(notesOf({"--set", "bodies[0].target_nodes=200"}).find("spacing_m 0.01 is not used: target_nodes 200"),
+            std::string::npos);
+  const std::string far = folder_.write("far.yaml",
+                                        "strokes:\n  - stylus: left\n    keys:\n"
+                                        "      - {t_s: 0, position_m: [0, 0, 50], rotation_deg: [0, 0, 0]}\n");
+  EXPECT_NE(notesOf({"--strokes", far}).find("stylus 'left' goes 50 m from the tissue frame, beyond its workspace_m"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace viscera
