@@ -116,6 +116,7 @@ SimulatorOptions SceneSwitch::check(const LoadScene::Request& request) const {
   SimulatorOptions next = running_;
   Parameters parameters = parametersOf(request, running_.publish.frame_prefix);
   next.take(SceneChoice::read(parameters, "", package_folder_), package_folder_);
+  for (const std::string& note : next.limit_notes) ROS_WARN("load_scene: %s", note.c_str());
   return next;
 }
 
@@ -187,7 +188,10 @@ void SceneSwitch::serve(const char* service, const std::function<SimulatorOption
     response.message = change(next, make(service, next.scene), carries);
     endOld();
     response.success = response.message.empty();
-    if (response.success) response.message = "running " + next.scene.name;
+    if (response.success) {
+      response.message = "running " + next.scene.name;
+      for (const std::string& note : next.limit_notes) response.message += "; " + note;
+    }
   } catch (const Ended&) {
     response.message = "the simulation has ended";
   } catch (const std::exception& error) {
@@ -208,6 +212,7 @@ bool SceneSwitch::onCoarsen(std_srvs::Trigger::Request& /*request*/, std_srvs::T
       [&] {
         SimulatorOptions next = running_;
         next.scene = keep_up_.coarser(running_.scene);
+        next.limit_notes.clear();
         return next;
       },
       true, response);

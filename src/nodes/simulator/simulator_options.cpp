@@ -55,6 +55,8 @@ void SimulatorOptions::take(const SceneChoice& another, const std::string& folde
   package_folder = folder;
   choice = another;
   scene = choice.load(package_folder);
+  if (!launch_limits) launch_limits.emplace(scene.styluses, choice.overrides);
+  limit_notes = launch_limits->bound(scene.styluses);
   devices = device_choices.load(scene.styluses, package_folder);
   for (size_t s = 0; s < devices.size(); ++s) scene.styluses[s] = withDevice(scene.styluses[s], devices[s]);
 }

@@ -183,6 +183,69 @@ TEST_F(SimulatorOptionsTest, OverrideOfAnUnknownKeyIsRefused) {
   expectRefused([&] { read(values); }, {"spacing_mm"});
 }
 
+/// A scene of `left` and `right`, and one of `left` and `third`, which allows them more.
+class LaunchLimitsTest : public SimulatorOptionsTest {
+ protected:
+  LaunchLimitsTest() {
+    const std::string block = "bodies: [{source: box, spacing_m: 0.01}]\nstyluses:\n";
+    std::ofstream(folder_ / "config/scenes/first.yaml")
+        << block + "  - {name: left, max_force_n: 4}\n  - {name: right}\n";
+    std::ofstream(folder_ / "config/scenes/second.yaml")
+        << block + "  - {name: left, max_force_n: 8}\n  - {name: third, max_torque_nm: 0.3}\n";
+    std::filesystem::create_directories(folder_ / "config/devices");
+    std::ofstream(folder_ / "config/devices/crtk.yaml")
+        << "pose: {type: pose_stamped, topic: poses}\nforce: {type: wrench_stamped, topic: forces, max_force_n: 6}\n";
+  }
+  SimulatorOptions launch(const std::string& overrides) {
+    XmlRpcValue values = one("scene", XmlRpcValue("first"));
+    values["overrides"] = overrides;
+    return read(values);
+  }
+  /// As load_scene does it.
+  std::vector<StylusConfig> load(SimulatorOptions options, const Overrides& overrides = {}) {
+    options.take({"second", {}, overrides, ""}, folder_.string());
+    notes_ = options.limit_notes;
+    return options.scene.styluses;
+  }
+  std::vector<std::string> notes_;  ///< of load()
+};
+
+TEST_F(LaunchLimitsTest, AreBoundsOfEveryLaterSceneAndOverride) {
+  const SimulatorOptions first = launch("styluses[0].max_force_n=1;styluses[1].max_force_rate_n_per_s=50");
+  EXPECT_EQ(first.scene.styluses.at(0).max_force_n, 1);
+  EXPECT_TRUE(first.limit_notes.empty());
+  EXPECT_EQ(load(first).at(0).max_force_n, 1);
+  ASSERT_EQ(notes_.size(), 2U);
+  EXPECT_EQ(notes_[0], "stylus left: max_force_n is 1, which the launch's ~overrides set, not 8");
+  const std::vector<StylusConfig> later = load(first, {"styluses[0].max_force_n=10"});
+  EXPECT_EQ(later.at(0).max_force_n, 1);
+  EXPECT_EQ(later.at(0).max_force_rate_n_per_s, 100) << "of the other stylus alone";
+  EXPECT_EQ(load(first, {"styluses[0].max_force_n=0.5"}).at(0).max_force_n, 0.5) << "less may be asked for";
+}
+
+TEST_F(LaunchLimitsTest, HoldForStylusesOfOtherNames) {
+  const SimulatorOptions first = launch("styluses[0].max_force_n=2;styluses[1].max_force_n=1");
+  const std::vector<StylusConfig> later = load(first);
+  EXPECT_EQ(later.at(0).max_force_n, 2);
+  EXPECT_EQ(later.at(1).max_force_n, 1);
+  EXPECT_EQ(later.at(1).max_torque_nm, 0.3) << "no override sets it";
+}
+
+TEST_F(LaunchLimitsTest, OfWholeStylusesAreThoseTheyName) {
+  const SimulatorOptions one_stylus = launch("styluses[0]={name: left, max_force_n: 1, grasper: {max_force_n: 3}}");
+  EXPECT_EQ(load(one_stylus).at(0).max_force_n, 1);
+  const SimulatorOptions all = launch("styluses=[{name: left, max_torque_nm: 0.1}]");
+  EXPECT_EQ(load(all).at(0).max_torque_nm, 0.1);
+  EXPECT_EQ(load(all).at(0).max_force_n, 6) << "that of the device";
+}
+
+TEST_F(LaunchLimitsTest, OfASceneFileAreOfThatSceneAlone) {
+  const SimulatorOptions first = launch("");
+  EXPECT_EQ(first.scene.styluses.at(0).max_force_n, 4);
+  EXPECT_EQ(load(first).at(0).max_force_n, 6) << "that of the device";
+  EXPECT_TRUE(notes_.empty());
+}
+
 TEST_F(SimulatorOptionsTest, AnchoredStrokesAreBroughtToTheSkinOfTheScene) {
   std::ofstream(folder_ / "anchored.yaml") << "strokes:\n"
                                               "  - stylus: hand\n"

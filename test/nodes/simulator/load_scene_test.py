@@ -133,8 +133,9 @@ class LoadSceneTest(unittest.TestCase):
         self.assertIn("%d nodes touch nothing" % self.watch.value("simulation", "nodes_crowded"), status.message)
 
     def test_4_and_back(self):
-        answer = self.load(scene="heart", overrides=HEART)
+        answer = self.load(scene="heart", overrides=HEART + ["styluses[0].max_force_n=10"])
         self.assertTrue(answer.success, answer.message)
+        self.assertIn("stylus left: max_force_n is 4, which the launch's ~overrides set, not 10", answer.message)
         wait_until(lambda: "/left/body/servo_cf" in self.topics() and "/scope/image_raw" not in self.topics(), 10,
                    "topics of the old scene")
 
