@@ -59,6 +59,15 @@ void ForceLoop::release(SteadyTime now) {
   schedule_.release(now);
 }
 
+void ForceLoop::suspend(SteadyTime now) {
+  schedule_.suspend(now);
+}
+
+void ForceLoop::resume(SteadyTime now) {
+  schedule_.resume(now);
+  forget(now);
+}
+
 void ForceLoop::forget(SteadyTime now) {
   for (HapticServo& servo : servos_) servo.forget(seconds(now));
 }

@@ -55,6 +55,9 @@ class ForceLoop {
   void rest(SteadyTime now);
   /// Zero for ever.
   void release(SteadyTime now);
+  /// Zero until resume(), whatever ticks say; after it all begins again.
+  void suspend(SteadyTime now);
+  void resume(SteadyTime now);
 
   /// At the latest then next() is to be called.
   SteadyTime due() const;

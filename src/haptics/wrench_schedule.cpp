@@ -40,7 +40,7 @@ bool WrenchSchedule::late(Time now) const {
 }
 
 void WrenchSchedule::tick(Time now) {
-  if (mode_ == Mode::kReleased) return;
+  if (closed()) return;
   noticeStall(now);
   if (mode_ == Mode::kResting) mode_ = Mode::kLive;
   if (mode_ == Mode::kStalled) {
@@ -63,15 +63,28 @@ void WrenchSchedule::want(const Wrenches& wanted, const HandsThere& there, Time 
 }
 
 void WrenchSchedule::rest(Time now) {
-  if (mode_ == Mode::kReleased) return;
+  if (closed()) return;
   mode_ = Mode::kResting;
   last_tick_ = now;
   letAllGo(kLetGo_s, now);
 }
 
 void WrenchSchedule::release(Time now) {
-  if (mode_ == Mode::kReleased) return;
-  mode_ = Mode::kReleased;
+  if (mode_ != Mode::kReleased) close(Mode::kReleased, now);
+}
+
+void WrenchSchedule::suspend(Time now) {
+  if (!closed()) close(Mode::kSuspended, now);
+}
+
+void WrenchSchedule::resume(Time now) {
+  if (mode_ != Mode::kSuspended) return;
+  mode_ = Mode::kResting;
+  rest(now);
+}
+
+void WrenchSchedule::close(Mode mode, Time now) {
+  mode_ = mode;
   silent_ = false;
   letAllGo(kRelease_s, now);
 }
@@ -106,7 +119,7 @@ WrenchSchedule::Time WrenchSchedule::due() const {
 /// In an end or a stall the largest wrench that is allowed is gone within kRelease_s, and a smaller one sooner.
 ForceLimits WrenchSchedule::limitsNow(const ForceLimits& usual) const {
   ForceLimits limits = usual;
-  if (mode_ != Mode::kStalled && mode_ != Mode::kReleased) return limits;
+  if (mode_ != Mode::kStalled && !closed()) return limits;
   limits.force_rate_n_per_s = std::max(usual.force_rate_n_per_s, usual.force_n / kRelease_s);
   limits.torque_rate_nm_per_s = std::max(usual.torque_rate_nm_per_s, usual.torque_nm / kRelease_s);
   return limits;

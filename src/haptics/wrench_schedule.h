@@ -48,6 +48,9 @@ class WrenchSchedule {
   void rest(Time now);
   /// Zero for ever.
   void release(Time now);
+  /// Zero, as soon as in an end, until resume(), whatever ticks say.
+  void suspend(Time now);
+  void resume(Time now);
   /// At the latest then next() is to be called, whatever has come.
   Time due() const;
   /// The wrenches to send now.
@@ -60,9 +63,11 @@ class WrenchSchedule {
   uint64_t stalls() const { return stalls_; }
   /// release() was called, and zero was sent since.
   bool released() const { return mode_ == Mode::kReleased && silent_; }
+  /// release() or suspend() was called, and zero was sent since.
+  bool silenced() const { return closed() && silent_; }
 
  private:
-  enum class Mode { kResting, kLive, kStalled, kReleased };
+  enum class Mode { kResting, kLive, kStalled, kSuspended, kReleased };
   /// A wrench that goes away evenly, at the latest within a time.
   struct LettingGo {
     bool on = true;
@@ -70,6 +75,8 @@ class WrenchSchedule {
     double within_s = kLetGo_s, force_n = 0, torque_nm = 0;  ///< what was sent last when it began
   };
   static Time after(Time time, double span_s);
+  bool closed() const { return mode_ == Mode::kReleased || mode_ == Mode::kSuspended; }
+  void close(Mode mode, Time now);
   bool late(Time now) const;
   void noticeStall(Time now);
   void letGo(size_t stylus, double within_s, Time now);

@@ -112,6 +112,23 @@ TEST_F(WrenchScheduleTest, ReleaseEndsForcesForEverWithinItsTime) {
   EXPECT_EQ(ticks(20, wrench(5))[0].force_n, Vector3d::Zero());
 }
 
+TEST_F(WrenchScheduleTest, SuspensionEndsForcesWithinTheTimeOfAnEndUntilItIsOver) {
+  ticks(50, wrench(5, 0.2));
+  schedule_.suspend(now_);
+  EXPECT_FALSE(schedule_.silenced());
+  EXPECT_EQ(wait(WrenchSchedule::kRelease_s + 2 * WrenchSchedule::kSlewPeriod_s)[0].force_n, Vector3d::Zero());
+  EXPECT_TRUE(schedule_.silenced());
+  EXPECT_FALSE(schedule_.released());
+  EXPECT_EQ(ticks(20, wrench(5))[0].force_n, Vector3d::Zero()) << "of ticks meanwhile";
+  schedule_.rest(now_);
+  EXPECT_EQ(ticks(20, wrench(5))[0].force_n, Vector3d::Zero()) << "of ticks after a pause meanwhile";
+  schedule_.resume(now_);
+  EXPECT_GT(ticks(50, wrench(5))[0].force_n.x(), 0);
+  schedule_.release(now_);
+  schedule_.resume(now_);
+  EXPECT_EQ(ticks(50, wrench(5))[0].force_n, Vector3d::Zero()) << "an end is for ever";
+}
+
 TEST_F(WrenchScheduleTest, PureTwistIsLimitedToo) {
   double before_nm = 0;
   for (int t = 0; t < 200; ++t) {
@@ -140,6 +157,7 @@ TEST(WrenchScheduleEndings, NothingKeepsAWrenchUpWhateverSlewAndLimitsAre) {
   const std::vector<Ending> endings = {
       {"rest", [](WrenchSchedule& it, SteadyTime now) { it.rest(now); }, WrenchSchedule::kLetGo_s},
       {"release", [](WrenchSchedule& it, SteadyTime now) { it.release(now); }, WrenchSchedule::kRelease_s},
+      {"suspension", [](WrenchSchedule& it, SteadyTime now) { it.suspend(now); }, WrenchSchedule::kRelease_s},
       {"stall", [](WrenchSchedule&, SteadyTime) {}, kWrenchScheduleStall_s + WrenchSchedule::kRelease_s},
       {"hand lost", [&](WrenchSchedule& it, SteadyTime now) { it.want(pushed, {false}, now); },
        WrenchSchedule::kLetGo_s},

@@ -88,9 +88,26 @@ void WrenchPublisher::release() {
   std::unique_lock<PriorityMutex> lock(mutex_);
   if (loop_.schedule().released()) return;
   loop_.release(Clock::now());
+  awaitZeros(lock);
+}
+
+void WrenchPublisher::suspend() {
+  std::unique_lock<PriorityMutex> lock(mutex_);
+  if (loop_.schedule().silenced()) return;
+  loop_.suspend(Clock::now());
+  awaitZeros(lock);
+}
+
+void WrenchPublisher::resume() {
+  const std::lock_guard<PriorityMutex> lock(mutex_);
+  loop_.resume(Clock::now());
+  poses_received_ = {};
+}
+
+void WrenchPublisher::awaitZeros(std::unique_lock<PriorityMutex>& lock) {
   put_ = true;
   changed_.notify_one();
-  if (sent_.wait_for(lock, kReleaseLimit, [this] { return loop_.schedule().released(); }))
+  if (sent_.wait_for(lock, kReleaseLimit, [this] { return loop_.schedule().silenced(); }))
     std::this_thread::sleep_for(kFlush);
 }
 
@@ -147,7 +164,7 @@ void WrenchPublisher::main() {
       if (loop_.answering()) poses_received_[s] = hands[s].tracked ? hands[s].told : SteadyTime{};
       latencies_[s].add(poses_received_[s], sent);
     }
-    if (loop_.schedule().released()) sent_.notify_all();
+    if (loop_.schedule().silenced()) sent_.notify_all();
   }
 }
 

@@ -45,6 +45,9 @@ class WrenchPublisher {
   void rest();
   /// Zeros go out, and nothing else ever again; waits until they are written to the devices, at most kReleaseLimit.
   void release();
+  /// As release(), until resume(): the process is about to be stopped.
+  void suspend();
+  void resume();
 
   /// From the arrival of a pose to the sending of the force that answers it, since they were last taken: [styluses].
   std::vector<LatencyMeter::Reading> takeLatencies();
@@ -58,6 +61,8 @@ class WrenchPublisher {
  private:
   void main();
   void schedule();
+  /// Waits until zeros are written to the devices, at most kReleaseLimit.
+  void awaitZeros(std::unique_lock<PriorityMutex>& lock);
   /// Which devices listen.
   HandsThere listening() const;
   ForceLoop::Hands handsNow(SteadyTime now) const;

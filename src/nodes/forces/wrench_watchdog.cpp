@@ -85,7 +85,8 @@ WrenchWatchdog::WrenchWatchdog(const WatchdogOptions& options, EndWatch& end)
         });
         return line;
       }()),
-      act_(end, [this] { stop(); }),
+      act_(
+          end, [this] { stop(); }, [this] { suspend(); }, [this] { resume(); }),
       watch_([this] { watch(); }),
       spinner_(1, &queue_) {
   ros::NodeHandle input(node_);
@@ -114,7 +115,7 @@ void WrenchWatchdog::run() {
 
 void WrenchWatchdog::pass(const std::function<void()>& send) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (stopped_) return;
+  if (stopped_ || suspended_) return;
   heard_ = Clock::now();
   if (std::exchange(silent_, false)) changed_.notify_all();  // what is due now is a time-out
   send();
@@ -137,6 +138,22 @@ void WrenchWatchdog::watch() {
     if (!std::exchange(silent_, true)) ++silences_;
     sendZero();
   }
+}
+
+void WrenchWatchdog::suspend() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (stopped_) return;
+    suspended_ = silent_ = true;
+    sendZero();
+  }
+  changed_.notify_all();
+  std::this_thread::sleep_for(kWrenchWatchdogFlush);
+}
+
+void WrenchWatchdog::resume() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  suspended_ = false;
 }
 
 void WrenchWatchdog::stop() {

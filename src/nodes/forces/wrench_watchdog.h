@@ -52,6 +52,8 @@ class WrenchWatchdog {
   void sendZero();
   void watch();
   void stop();
+  void suspend();
+  void resume();
 
   const Clock::duration timeout_;
   EndWatch& end_;
@@ -62,6 +64,7 @@ class WrenchWatchdog {
   std::unique_ptr<Line> line_;
   Clock::time_point heard_{}, sent_{};
   bool silent_ = true, stopped_ = false;
+  bool suspended_ = false;             ///< the process is about to be stopped: nothing is passed on
   std::atomic<uint64_t> silences_{0};  ///< that have begun
   EndWatch::Act act_;
   std::thread watch_;

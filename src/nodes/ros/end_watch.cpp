@@ -24,7 +24,8 @@ namespace {
 
 constexpr int kEndSignals[] = {SIGINT, SIGTERM, SIGHUP};
 constexpr int kCrashSignals[] = {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT};  // the last is std::terminate() too
-constexpr char kEnd = 'e', kCrash = 'c', kClose = 'q';
+constexpr int kStopSignals[] = {SIGTSTP, SIGTTIN, SIGTTOU};
+constexpr char kEnd = 'e', kCrash = 'c', kClose = 'q', kStop = 's';
 /// What a crash waits for what is done before the end: zeros on their way to the devices take less.
 constexpr long kCrashWait_ns = 60'000'000;
 /// A master that answers is told that this node is gone.
@@ -33,6 +34,8 @@ constexpr std::chrono::milliseconds kFarewell{200};
 int wake_pipe[2] = {-1, -1};  // what signal handlers can reach
 std::atomic_flag crashed = ATOMIC_FLAG_INIT;
 std::atomic<int> forced_status{EXIT_SUCCESS};
+std::atomic_flag stopping = ATOMIC_FLAG_INIT;
+std::atomic<std::chrono::steady_clock::rep> continued_at{0};
 
 void wake(char why) {
   const int saved = errno;
@@ -43,6 +46,14 @@ void wake(char why) {
 
 void onEnd(int) {
   wake(kEnd);
+}
+
+void onStop(int) {
+  if (!stopping.test_and_set()) wake(kStop);  // the terminal may repeat it until the process stands
+}
+
+void onContinue(int) {
+  continued_at = std::chrono::steady_clock::now().time_since_epoch().count();
 }
 
 void sleep(timespec left) {
@@ -85,6 +96,8 @@ EndWatch::EndWatch() {
   CrashStack::give();
   thread_ = std::thread([this] { main(); });
   for (const int signal : kEndSignals) handle(signal, onEnd, SA_RESTART);
+  for (const int signal : kStopSignals) handle(signal, onStop, SA_RESTART);
+  handle(SIGCONT, onContinue, SA_RESTART);
   for (const int signal : kCrashSignals) handle(signal, onCrash, SA_ONSTACK);
   ros::XMLRPCManager::instance()->unbind("shutdown");
   ros::XMLRPCManager::instance()->bind("shutdown", onMastersDemand);
@@ -100,7 +113,9 @@ EndWatch::~EndWatch() {
   thread_.join();
 }
 
-EndWatch::Act::Act(EndWatch& watch, std::function<void()> run) : watch_(watch), run_(std::move(run)) {
+EndWatch::Act::Act(EndWatch& watch, std::function<void()> run, std::function<void()> suspend,
+                   std::function<void()> resume)
+    : watch_(watch), run_(std::move(run)), suspend_(std::move(suspend)), resume_(std::move(resume)) {
   const std::lock_guard<std::mutex> lock(watch_.acts_mutex_);
   watch_.acts_.push_back(this);
 }
@@ -115,6 +130,24 @@ void EndWatch::runActs() {
   for (const Act* act : acts_) act->run_();
 }
 
+/// As the signal would have done it, once there is nothing that must not stay as it is.
+void EndWatch::beStopped() {
+  const std::lock_guard<std::mutex> lock(acts_mutex_);
+  for (const Act* act : acts_)
+    if (act->suspend_) act->suspend_();
+  handle(SIGTSTP, SIG_DFL, 0);
+  raise(SIGTSTP);  // the process stands here; an orphaned one, which no terminal continues, does not
+  handle(SIGTSTP, onStop, SA_RESTART);
+  stopping.clear();
+  for (const Act* act : acts_)
+    if (act->resume_) act->resume_();
+}
+
+std::chrono::steady_clock::time_point EndWatch::continued() {
+  using std::chrono::steady_clock;
+  return steady_clock::time_point(steady_clock::duration(continued_at));
+}
+
 void EndWatch::main() {
   nameThread("end_watch");
   char why = 0;
@@ -122,7 +155,8 @@ void EndWatch::main() {
     const ssize_t got = read(wake_pipe[0], &why, 1);
     if (got < 0 && errno == EINTR) continue;
     if (got != 1) return;
-    if (why != kClose) runActs();
+    if (why == kStop) beStopped();
+    if (why == kEnd || why == kCrash) runActs();
   }
   std::unique_lock<std::mutex> lock(mutex_);
   if (why == kClose) return;

@@ -11,6 +11,7 @@
 #include <sys/time.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <condition_variable>
@@ -125,7 +126,8 @@ void MasterWatch::ask(const std::shared_ptr<Shared>& shared) {
 
 bool MasterWatch::check() const {
   const std::lock_guard<std::mutex> lock(shared_->mutex);
-  return !shared_->lost && Clock::now() - shared_->known < kPatience;
+  // A process that was stopped has not been able to ask.
+  return !shared_->lost && Clock::now() - std::max(shared_->known, EndWatch::continued()) < kPatience;
 }
 
 }  // namespace viscera::nodes

@@ -46,7 +46,8 @@ Simulator::Simulator(const SimulatorOptions& options, EndWatch& end, SceneSwitch
       camera_frames_(options.scene, frames_, options.max_transform_age_s),
       inputs_(makeInputs(options, frames_)),
       wrenches_(node_, mailboxes(), stallTime_s(options), options.scene, options.haptics),
-      release_(end_, [this] { wrenches_.release(); }),
+      release_(
+          end_, [this] { wrenches_.release(); }, [this] { wrenches_.suspend(); }, [this] { wrenches_.resume(); }),
       preparation_(options.scene),
       tool_frames_(options.scene.environment.tissue_frame, toolFrames(options.scene, options.publish.frame_prefix)),
       publisher_(node_, options.scene, options.publish, [this](std::exception_ptr error) { fail(error); }),

@@ -15,6 +15,10 @@ import rostest
 from force_session import END_LIMIT_S, FELT_S, FORCED_END_S, SCENE, ForceCase, Session
 
 
+SILENT_MASTER_S = 6.0   # master_watch.cpp waits 5 s
+AGAIN_S = 1.0           # in which the loss of a master is noticed
+
+
 class ForceEndingsTest(ForceCase):
     def signal_ends(self, number, status):
         with Session() as session:
@@ -35,6 +39,23 @@ class ForceEndingsTest(ForceCase):
 
     def test_hang_up(self):
         self.signal_ends(signal.SIGHUP, 0)
+
+    def test_stopped_by_the_terminal_and_continued(self):
+        """For longer than a master may be silent: the session goes on."""
+        with Session(job=True) as session:
+            session.wait_touch()
+            stopped = time.monotonic()
+            session.stop_by_terminal(session.simulator)
+            time.sleep(SILENT_MASTER_S)
+            continued = time.monotonic()
+            session.simulator.send_signal(signal.SIGCONT)
+            felt = session.felt(FELT_S)
+            self.assertZeroSoon("SIGTSTP", felt, stopped, until=continued)
+            time.sleep(AGAIN_S)
+            self.assertIsNone(session.simulator.poll())
+            session.simulator.send_signal(signal.SIGINT)
+            session.simulator.stdout.read()
+            self.assertEqual(session.simulator.wait(END_LIMIT_S), 0)
 
     def test_crash(self):
         self.signal_ends(signal.SIGSEGV, -signal.SIGSEGV)

@@ -3,6 +3,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What nothing in the simulator can end, kill -9 among it, a watchdog does: drivers of every kind that keep the last force
 which they were told are told zero, soon."""
+import signal
 import sys
 import time
 
@@ -38,6 +39,19 @@ class ForceEndingsWatchdogTest(ForceCase):
             session.simulator.kill()
             self.assertZeroSoon("kill -9, watchdog", session.felt(FELT_S), ended)
             self.assertIsNone(watchdog.poll())
+
+    def test_watchdog_stopped_by_the_terminal_and_continued(self):
+        session, watchdog = watched_session(job=True)
+        with session:
+            session.wait_touch()
+            stopped = time.monotonic()
+            session.stop_by_terminal(watchdog)
+            time.sleep(FELT_S)
+            continued = time.monotonic()
+            watchdog.send_signal(signal.SIGCONT)
+            felt = session.felt(FELT_S)
+            self.assertZeroSoon("SIGTSTP, watchdog", felt, stopped, until=continued)
+            self.assertGreater(max(n for t, n, _, _ in felt if t > continued), 0, "forces come again")
 
     def test_killed_simulator_and_omni_feedback(self):
         self.kill_behind("PhantomOmni")

@@ -12,6 +12,7 @@ import time
 import unittest
 
 import roslib.packages
+from simulator_watch import wait_until
 from tries import Late, in_one_of_several_tries
 
 END_LIMIT_S = 30
@@ -33,9 +34,11 @@ def free_port():
 
 class Session:
     """A simulator and a hand, with a master of their own where one is asked for.
-    kind: of the hand's driver, a class of drivers.py, for which options are the simulator's"""
+    kind: of the hand's driver, a class of drivers.py, for which options are the simulator's
+    job: nodes are in process groups of their own, as a shell's jobs, so that signals of a terminal stop them"""
 
-    def __init__(self, own_master=False, wrenches="left/body/servo_cf", kind=None, options=(), overrides=""):
+    def __init__(self, own_master=False, wrenches="left/body/servo_cf", kind=None, options=(), overrides="", job=False):
+        self.job = job
         self.environment = dict(os.environ, ROSCONSOLE_STDOUT_LINE_BUFFERED="1")
         self.processes = []
         self.master = None
@@ -60,7 +63,8 @@ class Session:
 
     def node(self, name, *arguments):
         path = roslib.packages.find_node("viscera", name)[0]
-        return self.start([path] + list(arguments), text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+        return self.start([path] + list(arguments), text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                          preexec_fn=os.setpgrp if self.job else None)
 
     def freeze_master(self, seconds=0):
         """It keeps its connections, and answers nothing from now on."""
@@ -69,6 +73,11 @@ class Session:
 
     def thaw_master(self):
         self.master.send_signal(signal.SIGCONT)
+
+    def stop_by_terminal(self, process):
+        """SIGTSTP, as by Ctrl-Z. @returns once it stands"""
+        process.send_signal(signal.SIGTSTP)
+        wait_until(lambda: state_of(process) == "T", END_LIMIT_S, "process that stands")
 
     def wait_touch(self):
         line = self.hand.stdout.readline()
@@ -97,6 +106,12 @@ def watched_session(**how):
     """A session and, between its simulator and its hand, a watchdog."""
     session = Session(wrenches="watched", **how)
     return session, session.node("wrench_watchdog", "wrench_in:=left/body/servo_cf", "wrench_out:=watched", TIMEOUT)
+
+
+def state_of(process):
+    """T: stopped."""
+    with open("/proc/%d/stat" % process.pid) as file:
+        return file.read().rsplit(")", 1)[1].split()[0]
 
 
 def wait_ready(process):

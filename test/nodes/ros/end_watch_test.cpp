@@ -9,6 +9,9 @@
 
 #include <atomic>
 #include <csignal>
+#include <cstring>
+#include <fstream>
+#include <string>
 #include <thread>
 
 #include "nodes/ros/thread_name.h"
@@ -106,6 +109,47 @@ TEST_F(EndWatchDeathTest, CrashOfAnActWaitsForWhatItHasBegun) {
     sender.join();
   };
   EXPECT_EXIT(die(), ::testing::KilledBySignal(SIGSEGV), "zero");
+}
+
+/// In a process group of its own, as a shell gives it: its parent's session can continue it, so that signals of the
+/// terminal stop it. @returns the process that continues this one once it stands
+pid_t continueOnceStopped() {
+  setpgid(0, 0);
+  const pid_t watched = getpid(), watcher = fork();
+  if (watcher != 0) return watcher;
+  for (std::string state; state != "T"; usleep(1000)) {
+    std::string number, name;
+    std::ifstream("/proc/" + std::to_string(watched) + "/stat") >> number >> name >> state;
+  }
+  kill(watched, SIGCONT);
+  std::_Exit(EXIT_SUCCESS);
+}
+
+void sayOn() {
+  constexpr char kOn[] = "on\n";
+  if (write(STDERR_FILENO, kOn, sizeof kOn - 1) < 0) std::_Exit(EXIT_FAILURE);
+}
+
+void beStoppedAndGoOn(int signal) {
+  const pid_t watcher = continueOnceStopped();
+  EndWatch end;
+  std::atomic<bool> goes_on{false};
+  const EndWatch::Act act(
+      end, [] {}, sayZero,
+      [&goes_on] {
+        sayOn();
+        goes_on = true;
+      });
+  kill(getpid(), signal);
+  while (!goes_on) std::this_thread::sleep_for(milliseconds(1));
+  kill(watcher, SIGKILL);
+  const bool just_now = std::chrono::steady_clock::now() - EndWatch::continued() < EndWatch::kLimit;
+  std::_Exit(just_now && !end.waitFor(milliseconds(0)) ? EXIT_SUCCESS : EXIT_FAILURE);
+}
+
+TEST_F(EndWatchDeathTest, ProcessThatATerminalStopsReleasesBeforeAndGoesOn) {
+  for (const int signal : {SIGTSTP, SIGTTIN, SIGTTOU})
+    EXPECT_EXIT(beStoppedAndGoOn(signal), ::testing::ExitedWithCode(EXIT_SUCCESS), "^zero\non\n$") << strsignal(signal);
 }
 
 TEST_F(EndWatchDeathTest, ProcessThatDoesNotComeToItsEndIsEndedWithTheStatusThatItHasAskedFor) {
