@@ -89,6 +89,7 @@ class Session {
   void setToolMode(size_t stylus, ToolSwitch when, ToolMode mode);
   /// What the reactions on a stylus are limited to from the next step on. @param stylus  < scene().styluses.size()
   void setForceLimits(size_t stylus, const ForceLimits& limits);
+  const ForceLimits& forceLimits(size_t stylus) const { return limiters_[stylus].limits(); }
   void reset();
   /// The hands were not followed for a while, as in a pause: what they hold is let go at the next step, where they
   /// appear again; forces begin at zero.

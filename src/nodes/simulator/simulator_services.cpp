@@ -139,10 +139,8 @@ SimulatorServices::SimulatorServices(ros::NodeHandle node, const std::vector<Sty
     session.save(path);
     return path;
   });
-  advertiseFile(node, "load_state", true, [](Session& session, const std::string& path) {
-    session.restore(path);
-    return path;
-  });
+  advertiseFile(node, "load_state", true,
+                [this](Session& session, const std::string& path) { return loadState(session, path); });
   advertiseFile(node, "save_surface", false, [this](Session& session, const std::string& path) {
     saved_folder_.room();
     return saveSurface(session, path);
@@ -202,6 +200,30 @@ void SimulatorServices::advertiseTrigger(ros::NodeHandle& node, const std::strin
   servers_.push_back(node.advertiseService<Request, Response>(name, serve));
 }
 
+/// Modes come with the state, and settings are told of them; limits of forces are those of now, which devices have.
+std::string SimulatorServices::loadState(Session& session, const std::string& path) const {
+  std::vector<ForceLimits> limits;
+  for (size_t s = 0; s < styluses_.size(); ++s) limits.push_back(session.forceLimits(s));
+  const auto settle = [&] {
+    for (size_t s = 0; s < styluses_.size(); ++s) {
+      session.setForceLimits(s, limits[s]);
+      if (!mode_set_) continue;
+      const StylusConfig& now = session.styluses()[s];
+      mode_set_(s, ToolSwitch::kIdle, now.idle);
+      mode_set_(s, ToolSwitch::kButton1, now.button1);
+      mode_set_(s, ToolSwitch::kButton2, now.button2);
+    }
+  };
+  try {
+    session.restore(path);
+  } catch (const Error&) {
+    settle();
+    throw;
+  }
+  settle();
+  return path;
+}
+
 bool SimulatorServices::onSetOverlays(SetOverlays::Request& request, SetOverlays::Response& response) {
   Command command;
   command.kind = Command::Kind::kOverlays;
@@ -225,10 +247,10 @@ bool SimulatorServices::onSetToolMode(SetToolMode::Request& request, SetToolMode
     const ToolMode mode = modeNamed(request.mode);
     command.change = [=](Session& session) {
       session.setToolMode(stylus, when, mode);
+      if (mode_set_) mode_set_(stylus, when, mode);
       return "from the next tick on";
     };
     answer(commands_, std::move(command), response);
-    if (response.success && mode_set_) mode_set_(stylus, when, mode);
   } catch (const Error& error) {
     response.message = error.what();
   }

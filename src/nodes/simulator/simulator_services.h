@@ -33,7 +33,7 @@ class SimulatorServices {
     TaskSwitch& tasks;
   };
   /// @param styluses  of the scene   @param saved_folder  of all files that are written and read   @param commands,
-  /// switches  must outlive this   @param mode_set  told of changes of modes
+  /// switches  must outlive this   @param mode_set  told of changes of modes, on the simulation's thread
   SimulatorServices(ros::NodeHandle node, const std::vector<StylusConfig>& styluses, const SavedFolder& saved_folder,
                     CommandQueue& commands, const Switches& switches, ModeSet mode_set = {});
 
@@ -45,6 +45,7 @@ class SimulatorServices {
   /// Of a file: whole path of it. @returns what to answer  @throws Error
   using FileAct = std::function<std::string(Session&, const std::string& path)>;
   void advertiseFile(ros::NodeHandle& node, const std::string& name, bool leaps, const FileAct& act);
+  std::string loadState(Session& session, const std::string& path) const;
   bool onSetOverlays(SetOverlays::Request& request, SetOverlays::Response& response);
   bool onSetToolMode(SetToolMode::Request& request, SetToolMode::Response& response);
   bool onTieThread(TieThread::Request& request, TieThread::Response& response);

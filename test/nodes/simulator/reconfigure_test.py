@@ -15,7 +15,7 @@ from dynamic_reconfigure.client import Client
 from geometry_msgs.msg import PoseStamped, WrenchStamped
 from sensor_msgs.msg import Image
 from simulator_watch import Latest, SimulatorWatch, wait_until
-from viscera.srv import SetToolMode
+from viscera.srv import FileCommand, SetToolMode
 
 START_LIMIT_S = 30
 OUTSIDE_Y_M, DEEP_Y_M = -0.06, -0.022  # before the block, whose face is at -0.02, and a ball of 8 mm 6 mm deep in it
@@ -51,6 +51,7 @@ class ReconfigureTest(unittest.TestCase):
         cls.watch.wait_ready()
         cls.left = Client("simulator/left", timeout=START_LIMIT_S)
         cls.force = Latest("left/body/servo_cf", WrenchStamped)
+        cls.hand = Hand()
 
     def newtons(self):
         f = self.force.message.wrench.force if self.force.message else None
@@ -63,8 +64,7 @@ class ReconfigureTest(unittest.TestCase):
         self.assertEqual(Client("simulator", timeout=START_LIMIT_S).get_configuration(START_LIMIT_S)["surface_rate_hz"], 30)
 
     def test_1_a_limit_holds_the_force_and_lets_it_go_again(self):
-        hand = Hand()
-        hand.y_m = DEEP_Y_M
+        self.hand.y_m = DEEP_Y_M
         wait_until(lambda: self.newtons() > 0.1, 30, "force")
         for limit_n in (0.05, 0.02):
             self.assertEqual(self.left.update_configuration({"max_force_n": limit_n})["max_force_n"], limit_n)
@@ -87,7 +87,28 @@ class ReconfigureTest(unittest.TestCase):
         self.assertTrue(answer.success, answer.message)
         wait_until(lambda: self.left.get_configuration(timeout=1)["button1"] == "suction", 10, "news of the mode")
 
-    def test_4_the_rate_of_pictures_changes(self):
+    def test_4_a_loaded_state_tells_its_modes_and_leaves_the_limits(self):
+        set_mode = rospy.ServiceProxy("set_tool_mode", SetToolMode)
+        self.assertTrue(set_mode("left", "button2", "suction").success)
+        self.left.update_configuration({"max_force_n": 0.5})
+        saved = rospy.ServiceProxy("save_state", FileCommand)("reconfigure")
+        self.assertTrue(saved.success, saved.message)
+        self.assertTrue(set_mode("left", "button2", "cut").success)
+        self.left.update_configuration({"idle": "probe", "max_force_n": 0.1})
+        wait_until(lambda: self.left.get_configuration(timeout=1)["button2"] == "cut", 10, "news of the mode")
+        self.hand.y_m = OUTSIDE_Y_M
+        wait_until(lambda: self.newtons() == 0, 10, "hand that has left the tissue")
+        loaded = rospy.ServiceProxy("load_state", FileCommand)("reconfigure")
+        self.assertTrue(loaded.success, loaded.message)
+        wait_until(lambda: self.left.get_configuration(timeout=1)["button2"] == "suction", 10, "news of the mode")
+        self.assertEqual(self.left.get_configuration(timeout=1)["idle"], "none")
+        self.assertEqual(self.left.get_configuration(timeout=1)["max_force_n"], 0.1)
+        self.left.update_configuration({"idle": "probe"})
+        self.hand.y_m = DEEP_Y_M
+        wait_until(lambda: self.newtons() > 0.09, 20, "force")
+        wait_until(lambda: abs(self.watch.value("left", "force_n") - 0.1) < SLACK_N, 10, "force within the limit of now, in the diagnostics too")
+
+    def test_5_the_rate_of_pictures_changes(self):
         image = Latest("camera/image_raw", Image)
         wait_until(lambda: image.count > 3, 30, "pictures")
         camera = Client("simulator/cameras/camera", timeout=START_LIMIT_S)
