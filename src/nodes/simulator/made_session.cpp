@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/simulator/made_session.h"
 
+#include <ros/console.h>
 #include <sys/resource.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
 #include <future>
 
+#include "math/one_line.h"
 #include "viscera/calibration/auto_spacing.h"
 #include "viscera/math/error.h"
 
@@ -26,8 +28,23 @@ MadeSession::~MadeSession() {
   if (session && !session->solver().onHost()) (void)context->makeCurrent();  // its buffers end in it
 }
 
+/// A scene that does not ask for the GPU goes without: on the processor, and without pictures.
+/// @throws GpuError  it asks for it
+void MadeSession::makeContext() {
+  if (context || !no_context.empty()) return;
+  try {
+    context = std::make_unique<gpu::Context>(scene.solver.device);
+  } catch (const GpuError& error) {
+    if (scene.solver.backend == Backend::kGpu || scene.solver.device >= 0)
+      throw GpuError(error.what() + std::string("; solver.backend: auto without solver.device does without, on the "
+                                                "processor and without pictures"));
+    no_context = oneLine(error.what());
+    ROS_WARN_ONCE("no pictures, and the processor steps: %s", no_context.c_str());
+  }
+}
+
 void MadeSession::makeModel(const Progress& progress) {
-  context = std::make_unique<gpu::Context>(scene.solver.device);
+  makeContext();
   scene = withChosenSpacing(scene, context.get(), progress);
   model = std::async(std::launch::async, [&] {
             giveWay();
@@ -36,11 +53,12 @@ void MadeSession::makeModel(const Progress& progress) {
 }
 
 void MadeSession::makeRest(const Progress& progress) {
-  if (!context) context = std::make_unique<gpu::Context>(scene.solver.device);
+  makeContext();
   if (session) return;
   SessionOptions options;
   options.model = model;
-  session = std::make_unique<Session>(scene, *context, progress, options);
+  session = context ? std::make_unique<Session>(scene, *context, progress, options)
+                    : std::make_unique<Session>(scene, progress, options);
 }
 
 void MadeSession::give() const {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 
 #include "viscera/gpu/context.h"
 #include "viscera/session/session.h"
@@ -18,7 +19,8 @@ struct MadeSession {
 
   Scene scene;                            ///< with numbers in place of `spacing_m: auto` once there is a model
   std::shared_ptr<const Model> model;     ///< null: none yet
-  std::unique_ptr<gpu::Context> context;  ///< which the session needs to its end
+  std::unique_ptr<gpu::Context> context;  ///< which the session needs to its end; null: there is no OpenGL
+  std::string no_context;                 ///< why there is none; empty: there is, or it was not looked for yet
   std::unique_ptr<Session> session;       ///< null: none yet
 
   /// Makes the model, while another simulator runs: on a thread that gives way to all others.
@@ -30,6 +32,9 @@ struct MadeSession {
   void give() const;
   /// The calling thread takes it. @throws GpuError
   void take() const;
+
+ private:
+  void makeContext();
 };
 
 }  // namespace viscera::nodes

@@ -76,12 +76,12 @@ void SimulationLoop::run() {
     if (stop_) throw Stopped{};
     progress_(stage, fraction);
   });
-  const gpu::Context& context = *made_->context;
   Session& session = *made_->session;
   {
     const std::lock_guard<std::mutex> lock(status_mutex_);
-    status_.gpu = context.renderer();
-    status_.software_gpu = context.isSoftware();
+    status_.pictures = made_->context != nullptr;
+    status_.gpu = status_.pictures ? made_->context->renderer() : "none: " + made_->no_context;
+    status_.software_gpu = status_.pictures && made_->context->isSoftware();
     status_.backend = session.solver().backend();
     status_.stepped_by = session.backendNote();
   }
@@ -104,7 +104,7 @@ void SimulationLoop::tick(Session& session, const StylusSamples& samples, bool l
   const Clock::time_point begun = Clock::now();
   if (ports_.place) ports_.place(session);
   if (ports_.aim) ports_.aim(session);
-  Frame frame = session.step(samples, ports_.wants());
+  Frame frame = session.step(samples, drawable(ports_.wants()));
   const Clock::time_point stepped = Clock::now();
   {
     const std::lock_guard<std::mutex> lock(status_mutex_);
@@ -113,6 +113,13 @@ void SimulationLoop::tick(Session& session, const StylusSamples& samples, bool l
   tick_ended_ = stepped;
   ports_.stepped(session.tick(), samples, frame.tools, std::exchange(hands_anew_, false));
   deliver(session, std::move(frame), samples, live);
+}
+
+Wants SimulationLoop::drawable(const Wants& wants) const {
+  if (made_->context) return wants;
+  Wants out;
+  out.surface = wants.surface;
+  return out;
 }
 
 /// Of the state at the start. Pictures take their time: they are those of the first ticks.
@@ -129,7 +136,7 @@ void SimulationLoop::showSkin(Session& session) {
 void SimulationLoop::rest(Session& session) {
   Frame frame = session.drain();
   const bool aimed = ports_.aim && ports_.aim(session);
-  const Wants wants = ports_.stills(std::exchange(unseen_, false), aimed);
+  const Wants wants = drawable(ports_.stills(std::exchange(unseen_, false), aimed));
   if (wants.count() > 0) {
     Pictures shown = session.show(wants);
     if (shown.surface) frame.surface = std::move(shown.surface);

@@ -28,6 +28,7 @@ namespace viscera::nodes {
 struct LoopStatus {
   std::string gpu, backend, stepped_by;
   bool software_gpu = false;
+  bool pictures = true;  ///< there is OpenGL to draw them with
   bool paused = false;
   double dt_s = 0, dt_safe_s = 0, dt_limit_s = 0;
   uint64_t tick = 0;
@@ -107,6 +108,8 @@ class SimulationLoop {
   CommandAnswer change(const Command& command, Session& session);
   CommandAnswer setOverlays(const Command& command, Session& session);
   CommandAnswer step(const Command& command, Session& session);
+  /// Without images where there is no OpenGL.
+  Wants drawable(const Wants& wants) const;
   /// Of one tick of a step.
   StylusSamples samplesOf(const Command& command, uint32_t tick) const;
 

@@ -80,14 +80,14 @@ SimulatorDiagnostics::SimulatorDiagnostics(ros::NodeHandle node, const Scene& sc
 void SimulatorDiagnostics::update() {
   now_ = loop_.takeStatus();
   takeLatencies();
-  if (now_) updater_.setHardwareID(now_->gpu);
+  if (now_) updater_.setHardwareID(now_->pictures ? now_->gpu : "none");
   watchPictures();
   updater_.force_update();
 }
 
 /// Of a simulation that is slower than real time they come the more seldom; in a pause they come if something changes.
 void SimulatorDiagnostics::watchPictures() {
-  if (!now_) return;
+  if (!now_ || !now_->pictures) return;
   if (!std::exchange(told_ways_, true)) {
     for (const std::string& way : pictures_.ways(now_->software_gpu)) ROS_INFO("%s", way.c_str());
   }

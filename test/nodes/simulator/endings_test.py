@@ -12,8 +12,12 @@ import unittest
 
 import rosgraph
 import roslib.packages
+import rospy
 import rostest
-from simulator_watch import wait_until
+from sensor_msgs.msg import Image
+from simulator_watch import Latest, wait_until
+from std_srvs.srv import Trigger
+from viscera.msg import SurfaceVertices
 
 REFUSAL_LIMIT_S = 20
 END_LIMIT_S = 30
@@ -21,8 +25,11 @@ serial = itertools.count()
 COARSE = "_overrides:=bodies[0].spacing_m=0.008"
 
 
-def start(node, arguments, master_uri=None):
-    environment = dict(os.environ, ROSCONSOLE_STDOUT_LINE_BUFFERED="1")
+NO_EGL = {"__EGL_VENDOR_LIBRARY_FILENAMES": "/dev/null"}
+
+
+def start(node, arguments, master_uri=None, more={}):
+    environment = dict(os.environ, ROSCONSOLE_STDOUT_LINE_BUFFERED="1", **more)
     if master_uri:
         environment["ROS_MASTER_URI"] = master_uri
     path = roslib.packages.find_node("viscera", node)[0]
@@ -45,9 +52,9 @@ def free_port():
 
 
 class EndingsTest(unittest.TestCase):
-    def assertRefused(self, node, arguments, *words):
+    def assertRefused(self, node, arguments, *words, more={}):
         """The node ends by itself, with a status and one line that names the trouble."""
-        process = start(node, arguments)
+        process = start(node, arguments, more=more)
         output = process.communicate(timeout=REFUSAL_LIMIT_S)[0]
         self.assertEqual(process.returncode, 1, output)
         fatal = [line for line in output.splitlines() if "FATAL" in line]
@@ -80,6 +87,29 @@ class EndingsTest(unittest.TestCase):
         process.send_signal(signal.SIGINT)
         output = process.communicate(timeout=END_LIMIT_S)[0]
         self.assertEqual(process.returncode, 0, output)
+
+    def test_without_egl_the_processor_steps_and_there_are_no_pictures(self):
+        rospy.init_node("endings_test", disable_signals=True)
+        process = start("simulator", [COARSE], more=NO_EGL)
+        try:
+            wait_ready(process)
+            surface, picture = Latest("surface", SurfaceVertices), Latest("camera/image_raw", Image)
+            shown = Latest("surface_strain", SurfaceVertices)
+            wait_until(lambda: surface.count > 20, END_LIMIT_S, "surface")
+            self.assertEqual((picture.count, shown.count), (0, 0))
+            for name in ("pause", "reset", "resume"):
+                answer = rospy.ServiceProxy(name, Trigger)()
+                self.assertTrue(answer.success, answer.message)
+        finally:
+            process.send_signal(signal.SIGINT)
+            output = process.communicate(timeout=END_LIMIT_S)[0]
+        self.assertEqual(process.returncode, 0, output)
+        warnings = [line for line in output.splitlines() if "WARN" in line]
+        self.assertEqual([line for line in warnings if "no pictures" not in line and "slower than" not in line], [])
+        self.assertEqual(len([line for line in warnings if "no EGL device" in line]), 1, output)
+
+    def test_without_egl_a_scene_that_asks_for_the_gpu_is_refused(self):
+        self.assertRefused("simulator", [COARSE + ";solver.backend=gpu"], "no EGL device", "solver.backend: auto", more=NO_EGL)
 
     def test_lost_master_ends_the_simulator_with_an_error(self):
         port = free_port()
