@@ -59,8 +59,9 @@ Verdict stamps(const std::vector<HeardPose>& heard) {
     ages_s.push_back(it.clock_s - *it.stamp_s);
   }
   if (different.count(0) > 0)
-    return {Grade::kWrong, "stamps: 0, which means that a pose is invalid: those are dropped"};
-  if (different.size() == 1) return {Grade::kWrong, "stamps: always the same: the driver hangs, poses are dropped"};
+    return {Grade::kWrong, "stamps: 0, which means that a pose is invalid: those are dropped", different.size() == 1};
+  if (different.size() == 1)
+    return {Grade::kWrong, "stamps: always the same: the driver hangs, poses are dropped", heard.size() > 1};
   std::nth_element(ages_s.begin(), ages_s.begin() + static_cast<std::ptrdiff_t>(ages_s.size() / 2), ages_s.end());
   const double age_s = ages_s[ages_s.size() / 2];
   if (std::abs(age_s) > kOldStamp_s)
@@ -90,10 +91,14 @@ void judgeNumbers(const std::vector<HeardPose>& heard, double unit_m, std::vecto
     if (!it.pose.position_m.allFinite() || !std::isfinite(norm)) ++bad;
     if (!(std::abs(norm - 1) < kNorm)) ++odd;
   }
-  if (bad > 0) return out.push_back({Grade::kWrong, "numbers: " + std::to_string(bad) + " poses are not finite"});
+  const bool none_good = std::max(bad, odd) == heard.size();
+  if (bad > 0)
+    return out.push_back({Grade::kWrong, "numbers: " + std::to_string(bad) + " poses are not finite", none_good});
   if (odd > 0)
-    out.push_back({Grade::kWrong, "quaternions: the length of " + std::to_string(odd) +
-                                      " is not 1: not filled in, or another order than x, y, z, w; they are dropped"});
+    out.push_back({Grade::kWrong,
+                   "quaternions: the length of " + std::to_string(odd) +
+                       " is not 1: not filled in, or another order than x, y, z, w; they are dropped",
+                   none_good});
   const double tremble_m = unit_m * trembleOf(heard);
   out.push_back(tremble_m > kTremble_m
                     ? Verdict{Grade::kNote, "still: it moved by " + millimetres(tremble_m) +

@@ -29,6 +29,7 @@ struct Verdict {
   enum class Grade { kRight, kNote, kWrong };
   Grade grade = Grade::kRight;
   std::string text;
+  bool beyond_profile = false;  ///< the tool cannot follow the hand, whatever a profile says
 };
 
 /// Of a device that is held still: its rate, gaps, stamps, frames, quaternions and how much it trembles.

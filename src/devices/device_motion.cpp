@@ -129,11 +129,12 @@ std::optional<std::string> axesFor(const std::vector<Pair>& pairs, const Eigen::
   if (fitOf(now, pairs).least >= kAlong) return axesText(now);
   const Fit best = bestFit(pairs, false), mirror = bestFit(pairs, true);
   if (pairs.size() == 3 && mirror.sum > best.sum + kMirror) {
-    verdicts.push_back(
-        {Grade::kWrong, std::string(what) +
+    verdicts.push_back({Grade::kWrong,
+                        std::string(what) +
                             ": a mirror image. One of three was the wrong way round: do them again; if it "
                             "stays, the device's axes are left-handed, or its orientations those of the "
-                            "base seen from the tip, which no profile mends, but its driver"});
+                            "base seen from the tip, which no profile mends, but its driver",
+                        true});
     return std::nullopt;
   }
   if (best.least < kAlong) {

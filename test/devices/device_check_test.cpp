@@ -71,6 +71,11 @@ bool says(const std::vector<Verdict>& verdicts, Grade grade, const std::string& 
   });
 }
 
+/// Does one of them say that no profile helps?
+bool isBeyond(const std::vector<Verdict>& verdicts) {
+  return std::any_of(verdicts.begin(), verdicts.end(), [](const Verdict& verdict) { return verdict.beyond_profile; });
+}
+
 Verdict judged(Asked asked, const DeviceProfile& truth, const DeviceProfile& profile) {
   return judgeMotion(asked, *motionOf(course(truth, kBegin, after(asked))), profile, kNoTurn);
 }
@@ -135,15 +140,18 @@ TEST(DeviceCheck, WhatNoProfileMendsIsSaid) {
   FoundMap found = findMap(motions, profileOf(), kNoTurn);
   EXPECT_FALSE(found.axes);
   EXPECT_TRUE(says(found.verdicts, Grade::kWrong, "places: a mirror image"));
+  EXPECT_TRUE(isBeyond(found.verdicts));
   motions = motionsOf(profileOf());
   for (auto* turn : {&motions.turn_left, &motions.tilt_right, &motions.tilt_away}) (*turn)->turn *= -1;
   found = findMap(motions, profileOf(), kNoTurn);
   EXPECT_FALSE(found.turn_axes);
   EXPECT_TRUE(says(found.verdicts, Grade::kWrong, "orientations: a mirror image"));
+  EXPECT_TRUE(isBeyond(found.verdicts));
   const Quaterniond askew(Eigen::AngleAxisd(0.8, Vector3d::UnitZ()));
   found = findMap(motionsOf(profileOf()), profileOf(), askew);
   EXPECT_FALSE(found.axes);
   EXPECT_TRUE(says(found.verdicts, Grade::kWrong, "its base is turned"));
+  EXPECT_FALSE(isBeyond(found.verdicts)) << "register_stylus finds the base";
   motions = motionsOf(profileOf("{about: a, pose: {unit_m: 10}}"));
   found = findMap(motions, profileOf(), kNoTurn);
   EXPECT_FALSE(found.unit_m);
@@ -195,6 +203,20 @@ TEST(DeviceCheck, StreamOfABadDevice) {
                    Grade::kWrong, "not finite"));
   EXPECT_TRUE(says(spoilt([](Heard& it, size_t i) { it.pose.position_m.x() += 0.02 * static_cast<double>(i % 2); }),
                    Grade::kNote, "still: it moved"));
+}
+
+TEST(DeviceCheck, NoProfileHelpsADeviceWithoutAGoodPose) {
+  const auto spoilt = [&](auto spoil, size_t from) {
+    std::vector<HeardPose> heard = course(profileOf(), kBegin, kBegin);
+    for (size_t i = from; i < heard.size(); ++i) spoil(heard[i]);
+    return isBeyond(judgeStream(heard, kSpan_s, kPort));
+  };
+  const auto zero = [](HeardPose& it) { it.stamp_s = 0; };
+  const auto same = [](HeardPose& it) { it.stamp_s = 5; };
+  const auto odd = [](HeardPose& it) { it.pose.orientation.coeffs() *= 2; };
+  const auto bad = [](HeardPose& it) { it.pose.position_m.x() = std::numeric_limits<double>::quiet_NaN(); };
+  EXPECT_TRUE(spoilt(zero, 0) && spoilt(same, 0) && spoilt(odd, 0) && spoilt(bad, 0));
+  EXPECT_FALSE(spoilt(zero, 50) || spoilt(same, 50) || spoilt(odd, 50) || spoilt(bad, 50)) << "some are used";
 }
 
 TEST(DeviceCheck, ShaftOfAnUprightHandleIsFound) {

@@ -28,10 +28,17 @@ WatchdogOptions watchdogOptions(Parameters& parameters, const std::string& packa
   options.timeout_s = parameters.number("timeout_s", options.timeout_s, kMinTimeout_s, kMaxTimeout_s);
   DeviceChoice choice;
   setProfile(choice, parameters.text("device", choice.profile));
+  choice.stylus = parameters.text("stylus", "");
+  const bool finds_topic = !choice.stylus.empty();
+  for (const std::string& option : parameters.texts("device_options"))
+    if (option.rfind(choice.stylus + ".", 0) == 0) choice.overrides.push_back(option.substr(choice.stylus.size() + 1));
   parameters.refuseOthers();
   options.port = loadDevice(namedFile("device", choice.profile, package_folder + "/config/devices"), choice).force;
-  if (options.port.type == ForceType::kNone)
+  if (finds_topic) {
+    options.topic = options.port.topic;
+  } else if (options.port.type == ForceType::kNone) {
     throw ParameterError("parameter ~device: " + choice.profile + " takes no forces");
+  }
   return options;
 }
 
@@ -46,8 +53,8 @@ class WrenchWatchdog::Line {
 template <class Message>
 class WrenchWatchdog::LineOf : public Line {
  public:
-  LineOf(ros::NodeHandle& node, const ForcePort& port)
-      : port_(port), out_(advertiseForce<Message>(node, "wrench_out", port)) {}
+  LineOf(ros::NodeHandle& node, const WatchdogOptions& options)
+      : port_(options.port), out_(advertiseForce<Message>(node, options.topic, options.port)) {}
 
   void listen(ros::NodeHandle& node, WrenchWatchdog& watchdog) override {
     const boost::function<void(const boost::shared_ptr<Message const>&)> take =
@@ -80,15 +87,18 @@ WrenchWatchdog::WrenchWatchdog(const WatchdogOptions& options, EndWatch& end)
       end_(end),
       line_([&] {
         std::unique_ptr<Line> line;
-        withForceMessage(options.port.type, [&](auto message) {
-          line = std::make_unique<LineOf<decltype(message)>>(node_, options.port);
-        });
+        withForceMessage(options.port.type,
+                         [&](auto message) { line = std::make_unique<LineOf<decltype(message)>>(node_, options); });
         return line;
       }()),
       act_(
           end, [this] { stop(); }, [this] { suspend(); }, [this] { resume(); }),
       watch_([this] { watch(); }),
       spinner_(1, &queue_) {
+  if (!line_) {
+    ROS_INFO("the device takes no forces: there is nothing to watch");
+    return;
+  }
   ros::NodeHandle input(node_);
   input.setCallbackQueue(&queue_);
   line_->listen(input, *this);
@@ -122,7 +132,7 @@ void WrenchWatchdog::pass(const std::function<void()>& send) {
 }
 
 void WrenchWatchdog::sendZero() {
-  line_->sendZero();
+  if (line_) line_->sendZero();
   sent_ = Clock::now();
 }
 

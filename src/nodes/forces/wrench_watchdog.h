@@ -23,7 +23,8 @@ namespace viscera::nodes {
 
 struct WatchdogOptions {
   double timeout_s = 0.1;
-  ForcePort port;  ///< what the driver takes: its type and message count
+  ForcePort port;                    ///< what the driver takes: its type and message count; of type none: nothing
+  std::string topic = "wrench_out";  ///< to the driver
 };
 /// @param package_folder  where config/devices/<profile>.yaml are looked up   @throws ParameterError, DeviceError
 WatchdogOptions watchdogOptions(Parameters& parameters, const std::string& package_folder);
@@ -39,7 +40,7 @@ class WrenchWatchdog {
   WrenchWatchdog(const WrenchWatchdog&) = delete;
   WrenchWatchdog& operator=(const WrenchWatchdog&) = delete;
 
-  /// Until the end begins. @throws MasterLost
+  /// Until the end begins. A driver that takes no forces is left alone. @throws MasterLost
   void run();
 
  private:
@@ -61,7 +62,7 @@ class WrenchWatchdog {
   ros::NodeHandle node_;
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::unique_ptr<Line> line_;
+  std::unique_ptr<Line> line_;  ///< null: the driver takes no forces
   Clock::time_point heard_{}, sent_{};
   bool silent_ = true, stopped_ = false;
   bool suspended_ = false;             ///< the process is about to be stopped: nothing is passed on

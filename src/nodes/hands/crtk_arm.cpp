@@ -84,42 +84,68 @@ void CrtkArm::subscribe(ros::NodeHandle& node, FrameLookup lookup) {
   tellState();
 }
 
-/// Commands need no stamp: clients of CRTK send none.
-bool CrtkArm::good(const geometry_msgs::PoseStamped& message, const std::string& topic) {
-  const Pose pose = fromMessage(message.pose);
-  if (!isFinite(pose)) return refuse(topic, Drop::kNotFinite), false;
-  if (!isUnit(pose.orientation)) return refuse(topic, Drop::kBadQuaternion), false;
-  return true;
+/// Clients of CRTK send neither stamp nor frame: without a frame a command is of the arm's base.
+bool CrtkArm::isOfBase(const std::string& frame) const {
+  return frame.empty() || frame == (frame_.empty() ? mailbox_.deviceFrame().name : tf2Name(frame_));
 }
 
-void CrtkArm::refuse(const std::string& topic, Drop reason) {
+/// Of another frame. @returns nothing where tf does not join it to the tissue: the command is refused
+std::optional<Pose> CrtkArm::placeOf(const std::string& frame, const std::string& topic) {
+  const FramePlace place = lookup_(frame);
+  if (!place.in_tissue)
+    refuse(topic, place.too_old ? Drop::kOldTransform : Drop::kNoTransform,
+           ": '" + frame + "' to the tissue frame; without a frame a command is of the arm's base");
+  return place.in_tissue;
+}
+
+/// @returns the pose in the arm's base; nothing where it is refused
+std::optional<Pose> CrtkArm::inBase(const geometry_msgs::PoseStamped& message, const std::string& topic) {
+  Pose pose = fromMessage(message.pose);
+  if (!isFinite(pose)) return refuse(topic, Drop::kNotFinite), std::nullopt;
+  if (!isUnit(pose.orientation)) return refuse(topic, Drop::kBadQuaternion), std::nullopt;
+  pose.orientation.normalize();
+  const std::string frame = tf2Name(message.header.frame_id);
+  if (isOfBase(frame)) return pose;
+  const std::optional<Pose> place = placeOf(frame, topic);
+  if (!place) return std::nullopt;
+  const Pose told = mailbox_.inDevice(*place * pose * mailbox_.device().tip.pose());
+  if (!isFinite(told)) return refuse(topic, Drop::kNotFinite), std::nullopt;
+  return told;
+}
+
+void CrtkArm::refuse(const std::string& topic, Drop reason, const std::string& detail) {
   mailbox_.drop(reason);
   if (std::exchange(warned_, true)) return;
-  ROS_WARN("%s/%s: a command was dropped (%s); later ones are counted in /diagnostics", base_.c_str(), topic.c_str(),
-           nodes::text(reason));
+  ROS_WARN("%s/%s: a command was dropped (%s%s); later ones are counted in /diagnostics", base_.c_str(), topic.c_str(),
+           nodes::text(reason), detail.c_str());
 }
 
 void CrtkArm::onServo(const geometry_msgs::PoseStamped& message) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (!good(message, "servo_cp")) return;
-  Pose pose = fromMessage(message.pose);
-  pose.orientation.normalize();
-  if (motion_.servo(pose)) place();
+  const std::optional<Pose> pose = inBase(message, "servo_cp");
+  if (pose && motion_.servo(*pose)) place();
 }
 
 void CrtkArm::onMove(const geometry_msgs::PoseStamped& message) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (!good(message, "move_cp")) return;
-  Pose pose = fromMessage(message.pose);
-  pose.orientation.normalize();
-  if (motion_.move(pose)) tellState();
+  const std::optional<Pose> pose = inBase(message, "move_cp");
+  if (pose && motion_.move(*pose)) tellState();
 }
 
 void CrtkArm::onVelocity(const geometry_msgs::TwistStamped& message) {
   const std::lock_guard<std::mutex> lock(mutex_);
   const geometry_msgs::Vector3 &linear = message.twist.linear, &angular = message.twist.angular;
-  const Vector3d along(linear.x, linear.y, linear.z), about(angular.x, angular.y, angular.z);
+  Vector3d along(linear.x, linear.y, linear.z), about(angular.x, angular.y, angular.z);
   if (!along.allFinite() || !about.allFinite()) return refuse("servo_cv", Drop::kNotFinite);
+  const std::string frame = tf2Name(message.header.frame_id);
+  if (!isOfBase(frame)) {
+    const std::optional<Pose> place = placeOf(frame, "servo_cv");
+    if (!place) return;
+    const Quaterniond turn = mailbox_.deviceFrame().from_tissue * place->orientation;
+    along = turn * along / (mailbox_.device().pose.unit_m * mailbox_.device().scale);
+    about = turn * about;
+    if (!along.allFinite() || !about.allFinite()) return refuse("servo_cv", Drop::kNotFinite);
+  }
   motion_.servoVelocity(along, about);
 }
 

@@ -44,8 +44,10 @@ class CrtkArm {
   void onHold();
   void onJaw(const sensor_msgs::JointState& message, bool moves);
   void onState(const crtk_msgs::StringStamped& message);
-  bool good(const geometry_msgs::PoseStamped& message, const std::string& topic);
-  void refuse(const std::string& topic, Drop reason);
+  std::optional<Pose> inBase(const geometry_msgs::PoseStamped& message, const std::string& topic);
+  bool isOfBase(const std::string& frame) const;
+  std::optional<Pose> placeOf(const std::string& frame, const std::string& topic);
+  void refuse(const std::string& topic, Drop reason, const std::string& detail = "");
   void place();
   void tellSetpoints();
   void tellState();
@@ -56,7 +58,7 @@ class CrtkArm {
   mutable std::mutex mutex_;
   ArmMotion motion_;
   bool told_busy_ = false, warned_ = false;
-  std::string frame_;  ///< of the arm's base: that of the last command, or the profile's
+  const std::string frame_;  ///< of the arm's base, as the profile has it; empty: the tissue frame
   SteadyTime ticked_{};
   Pose last_measured_;
   std::optional<sensor_msgs::JointState> measured_jaw_;  ///< of a tool with jaws; others have what they are told

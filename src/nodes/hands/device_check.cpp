@@ -134,6 +134,7 @@ void DeviceCheck::tell(const Verdict& verdict) {
   say(marks[static_cast<int>(verdict.grade)] + oneLine(verdict.text));
   wrong_ += verdict.grade == Grade::kWrong;
   notes_ += verdict.grade == Grade::kNote;
+  helps_ = helps_ && !verdict.beyond_profile;
 }
 
 /// Without a profile: whatever moves when the device is moved.
@@ -320,14 +321,24 @@ void DeviceCheck::write(const std::string& file) {
           : "roslaunch viscera training.launch devices:=\"" + stylus + "=" + path + "\"");
 }
 
-void DeviceCheck::finish() {
+/// @returns whether a profile helps
+bool DeviceCheck::finish() {
   say("\n" + std::to_string(wrong_) + " wrong, " + std::to_string(notes_) + " to note");
+  if (!helps_) {
+    say("No profile makes the tool follow this device: its driver is to be mended first. No profile is written.");
+    return false;
+  }
   for (const std::string& text : corrections_) say("   " + text);
-  if (!options_.write.empty()) return write(options_.write);
-  if (corrections_.empty()) return say("the profile is right as it is");
-  say("Write a profile with these to which file? Enter: none");
-  const std::string file = line();
-  if (!file.empty()) write(file);
+  if (!options_.write.empty()) {
+    write(options_.write);
+  } else if (corrections_.empty()) {
+    say("the profile is right as it is");
+  } else {
+    say("Write a profile with these to which file? Enter: none");
+    const std::string file = line();
+    if (!file.empty()) write(file);
+  }
+  return true;
 }
 
 bool DeviceCheck::run(EndWatch& end) {
@@ -350,8 +361,7 @@ bool DeviceCheck::run(EndWatch& end) {
     press(device_.button1, "button1", "the first button");
     press(device_.button2, "button2", "the second button");
     feel();
-    finish();
-    return true;
+    return finish();
   } catch (const Left&) {
     say("\nended before its end; nothing is written");
     return false;

@@ -39,7 +39,7 @@ void readParameters(Parameters& parameters, DeviceCheckOptions& options);
 class DeviceCheck {
  public:
   explicit DeviceCheck(const DeviceCheckOptions& options);
-  /// @returns whether it was gone through to the end
+  /// @returns whether it was gone through to the end, and a profile helps
   /// @throws Error, DeviceError
   bool run(EndWatch& end);
 
@@ -58,7 +58,7 @@ class DeviceCheck {
   void judgeMap();
   void press(const ButtonPort& port, const std::string& key, const std::string& text);
   void feel();
-  void finish();
+  bool finish();
   void write(const std::string& file);
   DeviceProfile corrected() const;
 
@@ -74,6 +74,7 @@ class DeviceCheck {
   std::string typed_;  ///< what was read beyond the last line
 
   int steps_ = 0, wrong_ = 0, notes_ = 0;
+  bool helps_ = true;  ///< a profile can, as far as is known
   std::vector<HeardPose> still_;
   Quaterniond base_ = Quaterniond::Identity();  ///< from the frame of the poses to the tissue frame
   bool knows_base_ = true;

@@ -33,7 +33,9 @@ void StylusInput::subscribe(ros::NodeHandle& node) {
   listenTo(node, device.button2, ButtonRole::kButton2);
   listenTo(node, device.clutch, ButtonRole::kClutch);
   if (arm_) {
-    arm_->subscribe(node, [this](const std::string& frame) { return inTissue(frame); });
+    arm_->subscribe(node, [this](const std::string& frame) {
+      return frame == tissue_frame_ ? FramePlace{Pose{}} : inTissue(frame);
+    });
   } else if (port.type == PoseType::kTf) {
     follower_ =
         std::make_unique<FrameFollower>(frames_, port.tf_base, port.tf_frame,
@@ -101,13 +103,31 @@ void StylusInput::onPose(const DevicePose& pose, const std::string& topic) {
 }
 
 void StylusInput::onButtons(const ButtonPort& port, ButtonRole role, const std::vector<int32_t>& values) {
+  const uint64_t ignored = mailbox_.pressesIgnored();
   warn(port.topic, mailbox_.press(role, values, static_cast<size_t>(port.index), std::chrono::steady_clock::now()));
+  if (role == ButtonRole::kClutch) return;
+  warnOfIgnored(port.topic, role == ButtonRole::kButton1 ? PressedButton::kButton1 : PressedButton::kButton2, ignored);
 }
 
 void StylusInput::onGripper(const sensor_msgs::JointState& message) {
   const GripperPort& port = mailbox_.device().gripper;
   const size_t joint = static_cast<size_t>(port.index);
+  const uint64_t ignored = mailbox_.pressesIgnored();
   warn(port.topic, mailbox_.grip(message.position, joint, std::chrono::steady_clock::now()));
+  warnOfIgnored(port.topic, port.presses, ignored);
+}
+
+/// Once for each time that a button is held down in vain.
+void StylusInput::warnOfIgnored(const std::string& topic, PressedButton button, uint64_t ignored_before) {
+  if (button != PressedButton::kButton1 && button != PressedButton::kButton2) return;
+  const bool ignored = mailbox_.pressesIgnored() != ignored_before;
+  bool& told = ignored_told_[button == PressedButton::kButton2];
+  if (ignored && !told)
+    ROS_WARN(
+        "%s: this press does nothing, as there is no hand yet, or the button was down when its hand came: let it "
+        "go and press again",
+        topic.c_str());
+  told = ignored;
 }
 
 void StylusInput::beginTick() {

@@ -51,6 +51,7 @@ class StylusInput {
   void onPose(const DevicePose& pose, const std::string& topic);
   void onButtons(const ButtonPort& port, ButtonRole role, const std::vector<int32_t>& values);
   void onGripper(const sensor_msgs::JointState& message);
+  void warnOfIgnored(const std::string& topic, PressedButton button, uint64_t ignored_before);
   FramePlace inTissue(const std::string& frame) const;
   void warn(const std::string& topic, std::optional<Drop> reason, const std::string& detail = "");
 
@@ -61,6 +62,7 @@ class StylusInput {
   SenderWatch senders_;
   std::array<std::atomic<bool>, kDropReasons> warned_{};  ///< by threads of topics and of tf
   uint64_t base_moves_told_ = 0;
+  std::array<bool, 2> ignored_told_{};  ///< [buttons] that a press does nothing, since it last did something
   ros::Subscriber pose_;
   ros::Publisher jaw_;
   std::vector<ros::Subscriber> others_;  ///< buttons, gripper

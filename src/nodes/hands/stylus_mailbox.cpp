@@ -28,11 +28,6 @@ double delay_s(const ros::Time& stamp, const Arrival& now) {
   return now.ros.toSec() - stamp.toSec();
 }
 
-/// tf2 refuses names with a leading slash, which drivers older than tf2 still send.
-std::string tf2Name(const std::string& frame) {
-  return !frame.empty() && frame.front() == '/' ? frame.substr(1) : frame;
-}
-
 }  // namespace
 
 const char* text(Drop reason) {
@@ -255,6 +250,11 @@ bool StylusMailbox::clutched() const {
 uint64_t StylusMailbox::baseMoves() const {
   const std::lock_guard<PriorityMutex> lock(mutex_);
   return status_.base_moves;
+}
+
+uint64_t StylusMailbox::pressesIgnored() const {
+  const std::lock_guard<PriorityMutex> lock(mutex_);
+  return status_.presses_ignored;
 }
 
 DeviceFrame StylusMailbox::deviceFrame() const {

@@ -113,7 +113,8 @@ class StylusMailbox {
   StylusSample peek(SteadyTime now) const;
 
   StylusStatus status(SteadyTime now) const;
-  uint64_t baseMoves() const;  ///< as of status()
+  uint64_t baseMoves() const;       ///< as of status()
+  uint64_t pressesIgnored() const;  ///< likewise
   DeviceFrame deviceFrame() const;
   /// A pose of the tissue frame as the device would tell it.
   Pose inDevice(const Pose& in_tissue) const;

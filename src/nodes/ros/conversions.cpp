@@ -90,6 +90,10 @@ sensor_msgs::JointState toJaw(const StylusMotion& tool, double moment_nm, const 
   return message;
 }
 
+std::string tf2Name(const std::string& frame) {
+  return !frame.empty() && frame.front() == '/' ? frame.substr(1) : frame;
+}
+
 std::string toolFrame(const StylusConfig& stylus, const std::string& frame_prefix) {
   return frame_prefix + stylus.name + "_tool";
 }

@@ -46,6 +46,8 @@ bool hasJaws(const StylusMotion& tool);
 /// Its joint `jaw`: position, the opening [rad]; effort, the moment that keeps them open about their pivot [N m].
 sensor_msgs::JointState toJaw(const StylusMotion& tool, double moment_nm, const ros::Time& stamp);
 
+/// tf2 refuses names with a leading slash, which drivers older than tf2 still send.
+std::string tf2Name(const std::string& frame);
 std::string toolFrame(const StylusConfig& stylus, const std::string& frame_prefix);
 
 }  // namespace viscera::nodes

@@ -15,6 +15,7 @@
 #include "math/one_line.h"
 #include "nodes/ros/end_watch.h"
 #include "nodes/ros/master_watch.h"
+#include "nodes/ros/relaunch.h"
 
 namespace viscera::nodes {
 
@@ -29,6 +30,8 @@ inline void readyLog() {
 /// @param body  takes the EndWatch of the process
 template <class Body>
 int nodeMain(int argc, char** argv, const char* name, Body body) {
+  const bool takes_arguments = !ros::isInitialized();  // else they are gone, and the name is new each time
+  const Relaunch launched(argc, argv);
   std::setvbuf(stdout, nullptr, _IOLBF, BUFSIZ);  // lines of the log come as they are said, into a file or a pipe too
   try {
     ros::init(argc, argv, name, ros::init_options::NoSigintHandler);
@@ -38,6 +41,7 @@ int nodeMain(int argc, char** argv, const char* name, Body body) {
   }
   const ros::NodeHandle keep_started;  // roscpp ends with the last handle, and logging with it
   readyLog();
+  if (takes_arguments) launched.tellInherited();
   int status = 1;
   try {
     EndWatch end;

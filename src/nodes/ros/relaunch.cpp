@@ -2,11 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/ros/relaunch.h"
 
+#include <ros/console.h>
 #include <ros/param.h>
+#include <ros/this_node.h>
 
 #include <algorithm>
 #include <filesystem>
+#include <sstream>
 
+#include "math/one_line.h"
 #include "nodes/ros/parameters.h"
 
 namespace viscera::nodes {
@@ -27,14 +31,32 @@ Relaunch::Relaunch(int argc, const char* const* argv) {
       const std::string folder = std::filesystem::path(argument.substr(log.size())).parent_path().filename().string();
       if (isUuid(folder)) run_id_ = folder;
     } else if (argument.size() > 1 && argument[0] == '_' && argument[1] != '_') {
-      has_parameters_ = has_parameters_ || argument.find(":=") != std::string::npos;
+      const size_t assign = argument.find(":=");
+      if (assign != std::string::npos) given_.insert(argument.substr(1, assign - 1));
     }
   }
 }
 
+void Relaunch::tellInherited() const {
+  XmlRpc::XmlRpcValue values;
+  if (!run_id_.empty() || !ros::param::get("~", values) || values.getType() != XmlRpc::XmlRpcValue::TypeStruct) return;
+  std::ostringstream found;
+  for (auto& [name, value] : values) {
+    if (given_.count(name) > 0) continue;
+    found << " ~" << name << "=";
+    value.write(found);
+  }
+  if (found.str().empty()) return;
+  const std::string node = ros::this_node::getName();
+  ROS_WARN(
+      "parameters in force that an earlier start, or rosparam, has left on the master:%s; `rosparam delete %s` clears "
+      "them",
+      oneLine(found.str()).c_str(), node.c_str());
+}
+
 void Relaunch::requireParameters() const {
   std::string now;
-  if (run_id_.empty() || has_parameters_) return;
+  if (run_id_.empty() || hasParameters()) return;
   if (ros::param::get("/run_id", now) && now == run_id_) return;
   throw ParameterError(
       "the ROS master was restarted after roslaunch had started this node, and has lost its parameters: start "

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <set>
 #include <string>
 
 namespace viscera::nodes {
@@ -16,13 +17,16 @@ class Relaunch {
 
   /// Of the run of roslaunch that started this node, by the folder of its log; empty if none did.
   const std::string& runId() const { return run_id_; }
-  bool hasParameters() const { return has_parameters_; }
+  bool hasParameters() const { return !given_.empty(); }
+  /// Says in the log which private parameters are in force that the command line did not give, as an earlier start on
+  /// this master left them; not of a node that roslaunch started, which sets them itself. After ros::init().
+  void tellInherited() const;
   /// After ros::init(). @throws ParameterError  the master is not the one of that run, and there are no such arguments
   void requireParameters() const;
 
  private:
   std::string run_id_;
-  bool has_parameters_ = false;
+  std::set<std::string> given_;  ///< parameters, as arguments
 };
 
 }  // namespace viscera::nodes

@@ -8,8 +8,9 @@ import unittest
 
 import rospy
 import rostest
+import tf2_ros
 from drivers import JAWS, fill, foreign, vector
-from geometry_msgs.msg import PoseStamped, TwistStamped, WrenchStamped
+from geometry_msgs.msg import PoseStamped, TransformStamped, TwistStamped, WrenchStamped
 from sensor_msgs.msg import JointState
 from simulator_watch import Latest, SimulatorWatch, wait_until
 from std_msgs.msg import Empty
@@ -75,9 +76,10 @@ class CrtkArmTest(unittest.TestCase):
             if transform.child_frame_id == "left_tool":
                 cls.tool = transform.transform
 
-    def tell(self, publisher, at, jaws=JAWS):
+    def tell(self, publisher, at, jaws=JAWS, frame=""):
         """As crtk_python_client does: without a stamp and a frame. The jaws point down."""
         message = PoseStamped()
+        message.header.frame_id = frame
         fill(message.pose, at, jaws)
         publisher.publish(message)
 
@@ -169,6 +171,37 @@ class CrtkArmTest(unittest.TestCase):
         self.tell(self.servo, (float("nan"), 0, 0))
         wait_until(lambda: self.watch.value("left", "dropped_not_finite") == before + 1, LIMIT_S, "count")
         self.assertTrue(self.is_at((0, 0, 0.06)))
+
+    def test_5b_a_command_of_another_frame_is_brought_to_the_base_or_refused(self):
+        at = (0, 0, 0.06)
+        dropped = self.watch.value("left", "dropped_no_transform") or 0
+        for publisher in (self.servo, self.move):
+            self.tell(publisher, (0.01, 0, 0.05), frame="nowhere")
+        wait_until(lambda: self.watch.value("left", "dropped_no_transform") == dropped + 2, LIMIT_S, "count")
+        self.assertTrue(self.is_at(at))
+        self.tell(self.servo, (0.001, 0, 0.06), frame="/tissue")
+        wait_until(lambda: self.is_at((0.001, 0, 0.06)), LIMIT_S, "arm at a place of its base")
+        table = TransformStamped()
+        table.header.frame_id, table.child_frame_id, table.header.stamp = "tissue", "table", rospy.Time.now()
+        fill(table.transform, (0.004, 0, 0.06), ((0, -1, 0), (1, 0, 0), (0, 0, 1)))  # a quarter turn to the left
+        broadcaster = tf2_ros.StaticTransformBroadcaster()
+        broadcaster.sendTransform(table)
+
+        def arrives():
+            self.tell(self.servo, (0, 0.002, 0), frame="table")
+            return self.is_at((0.002, 0, 0.06))
+        wait_until(arrives, LIMIT_S, "arm at a place of the table")
+        message = TwistStamped()
+        message.header.frame_id = "table"
+        message.twist.linear.y = 0.01  # y of the table is -x of the tissue frame
+
+        def goes():
+            self.velocity.publish(message)
+            return self.at.message.pose.position.x < 0.001
+        wait_until(goes, LIMIT_S, "arm that goes as the table has it")
+        self.assertLess(abs(self.at.message.pose.position.y), PLACE_M)
+        time.sleep(HOLDS_S + 0.1)
+        self.go(at)
 
     def wait_rest(self):
         wait_until(lambda: not self.state.message.is_busy, LIMIT_S, "end of the move")

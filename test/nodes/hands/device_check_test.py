@@ -120,6 +120,13 @@ class MillimetreCrtk(Crtk):
         self.pedals.publish(Joy(buttons=[0, int(down and button == 1), int(down and button == 2)]))
 
 
+class MirroredCrtk(Crtk):
+    """Left-handed axes: no profile of three axes is right."""
+
+    def tell(self, position, rotation):
+        super().tell((-position[0], position[1], position[2]), rotation)
+
+
 class DeviceCheckTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -199,6 +206,18 @@ class DeviceCheckTest(unittest.TestCase):
         finally:
             driver.end()
             still.end()
+
+    def test_3b_where_no_profile_helps_none_is_written(self):
+        driver = MirroredCrtk("left")
+        file = os.path.join(self.folder, "mirrored.yaml")
+        try:
+            seen = Operator(driver, "device_left:=crtk", "--write", file)
+            self.assertEqual(seen.status, 1, seen.said)
+            self.assertEqual(seen.judged("places: a mirror image"), "WRONG", seen.said)
+            self.assertIn("No profile is written", seen.said)
+            self.assertFalse(os.path.exists(file))
+        finally:
+            driver.end()
 
     def test_4_wrong_arguments_and_a_device_that_is_silent(self):
         there = os.path.join(self.folder, "there.yaml")

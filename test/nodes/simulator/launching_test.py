@@ -62,6 +62,17 @@ class LaunchingTest(unittest.TestCase):
         replay = self.start("rosrun", "viscera", "stylus_replay", "_strokes:=nowhere")
         replay.said("~strokes")
 
+    def test_rosrun_says_what_an_earlier_start_has_left(self):
+        self.start_master()
+        first = self.start("rosrun", "viscera", "simulator", "_scene:=" + SCENE, "_overrides:=solver.tick_hz=50")
+        first.said("ready: " + SCENE_NODES)
+        self.assertNotIn("parameters in force", first.output)
+        first.end()
+        second = self.start("rosrun", "viscera", "simulator", "_scene:=" + SCENE)
+        second.said("ready: " + SCENE_NODES)
+        self.assertIn("parameters in force", second.output)
+        self.assertIn(" ~overrides=solver.tick_hz=50; `rosparam delete /simulator` clears them", second.output)
+
     def test_parameters_of_an_earlier_launch_are_cleared(self):
         self.start_master()
         self.master.setParam("/simulator/mesh_unit_m", 0.001)
@@ -81,10 +92,7 @@ class LaunchingTest(unittest.TestCase):
     def test_arguments_that_mean_nothing_are_refused(self):
         for file, arguments, words in (("fleet", {"n": 0}, "n:=0 is no number of simulators"),
                                        ("fleet", {"n": 1.5}, "n:=1.5 is no number of simulators"),
-                                       ("training", {"rviz": "true", "view": "nosuch"}, "nosuch.rviz"),
-                                       ("training", {"watchdog": "true", "device_left": "/my/own.yaml"}, "by hand"),
-                                       ("training", {"watchdog": "true", "device_options": "left.force.topic=mine"},
-                                        "by hand")):
+                                       ("training", {"rviz": "true", "view": "nosuch"}, "nosuch.rviz")):
             with self.assertRaises(roslaunch.core.RLException) as refused:
                 self.nodes_of(file + ".launch", **arguments)
             self.assertIn(words, str(refused.exception))
@@ -96,12 +104,34 @@ class LaunchingTest(unittest.TestCase):
         launched = self.start("roslaunch", "viscera", "training.launch", "scene:=" + TWO_HANDS, "watchdog:=true",
                               "device_left:=phantom_omni", "device_right:=polhemus")
         launched.said("ready: ")
-        wait_until(lambda: (self.publishers("/phantom/force_feedback"), self.publishers("/left/unwatched")) ==
-                   (["/watchdog_left"], ["/simulator"]), START_LIMIT_S, "watchdog: " + launched.output)
+        self.wait_watched("left", "/phantom/force_feedback", launched)
         self.assertNotIn("watchdog_right", launched.output)
         self.assertEqual(self.publishers("/right/unwatched"), [])
 
-    def test_watchdogs_know_the_force_topics_of_the_shipped_profiles(self):
+    def wait_watched(self, stylus, topic, launched):
+        wait_until(lambda: (self.publishers(topic), self.publishers("/%s/unwatched" % stylus)) ==
+                   (["/watchdog_" + stylus], ["/simulator"]), START_LIMIT_S, "watchdog: " + launched.output)
+
+    def test_a_watchdog_stands_before_drivers_of_own_profiles_and_topics(self):
+        """As device_check writes them."""
+        self.start_master()
+        folder = os.path.join(roslib.packages.get_pkg_dir("viscera"), "config/devices")
+        with tempfile.TemporaryDirectory() as own:
+            for name, written in (("geomagic", "mine"), ("tf", "bare")):
+                with open(os.path.join(folder, name + ".yaml")) as text, open(os.path.join(own, written + ".yaml"), "w") as file:
+                    file.write(text.read().replace("name: Geomagic", "name: desk"))
+            launched = self.start("roslaunch", "viscera", "training.launch", "scene:=" + TWO_HANDS, "watchdog:=true",
+                                  "device_left:=%s/mine.yaml" % own, "device_options:=right.force.topic=motors")
+            launched.said("ready: ")
+            self.wait_watched("left", "/desk/force_feedback", launched)
+            self.wait_watched("right", "/motors", launched)
+            launched.end()
+            launched = self.start("roslaunch", "viscera", "training.launch", "scene:=" + TWO_HANDS, "watchdog:=true",
+                                  "device_left:=%s/bare.yaml" % own)
+            launched.said("ready: ")
+            launched.said("the device takes no forces")
+
+    def test_watchdogs_know_the_shipped_profiles_that_take_forces(self):
         folder = os.path.join(roslib.packages.get_pkg_dir("viscera"), "config/devices")
         watched = 0
         for file in sorted(os.listdir(folder)):
@@ -112,10 +142,9 @@ class LaunchingTest(unittest.TestCase):
             if profile["force"]["type"] == "none" or name == "crtk_arm":  # whose force others read
                 self.assertEqual(set(nodes), {"/simulator"}, name)
                 continue
-            topic = profile["force"]["topic"]
-            for stylus, driver in (("left", profile.get("name", "left")), ("right", "other")):
-                self.assertTrue(nodes["/watchdog_" + stylus].endswith(
-                    "wrench_in:=%s/unwatched wrench_out:=%s" % (stylus, topic.replace("{name}", driver))), name)
+            for stylus, device in (("left", name), ("right", name + ":other")):
+                for argument in ('_device:="%s"' % device, "_stylus:=" + stylus, "wrench_in:=%s/unwatched" % stylus):
+                    self.assertIn(argument, nodes["/watchdog_" + stylus])
                 self.assertIn("%s.force.topic=%s/unwatched" % (stylus, stylus), nodes["/simulator"])
             watched += 1
         self.assertEqual(watched, 6)
