@@ -12,6 +12,7 @@ if(NOT interactive_markers_FOUND)
   list(REMOVE_ITEM node_mains ${PROJECT_SOURCE_DIR}/src/nodes/stand_ins/stylus_marker_node.cpp)
 endif()
 # Settings at run time need the messages of dynamic_reconfigure, which are headers alone.
+find_package(dynamic_reconfigure QUIET)
 find_path(DYNAMIC_RECONFIGURE_INCLUDE dynamic_reconfigure/Reconfigure.h HINTS ${roscpp_INCLUDE_DIRS})
 if(NOT DYNAMIC_RECONFIGURE_INCLUDE)
   message(STATUS "dynamic_reconfigure not found: limits and rates stay as the scene has them")

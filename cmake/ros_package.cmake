@@ -6,14 +6,20 @@
 # ROS's Python modules belong to the distribution's interpreter; a pyenv or conda that comes first in PATH lacks them.
 find_program(PYTHON_EXECUTABLE python3 PATHS /usr/bin NO_DEFAULT_PATH)
 set(Python3_EXECUTABLE ${PYTHON_EXECUTABLE})
+# What catkin installs at the root of a prefix, as setup.bash, it puts at an absolute place: that of CMAKE_INSTALL_PREFIX now,
+# whatever `cmake --install --prefix` says later. A package that is built by itself gives it a relative one.
+if("${CMAKE_SOURCE_DIR}" STREQUAL "${PROJECT_SOURCE_DIR}" AND NOT "${CMAKE_INSTALL_PREFIX}" STREQUAL "/usr")
+  set(CMAKE_INSTALL_PREFIX .)  # beside the cached one, which is untouched
+endif()
 find_package(catkin QUIET)
+unset(CMAKE_INSTALL_PREFIX)
 find_package(roscpp QUIET)
 if(NOT catkin_FOUND OR NOT roscpp_FOUND)
   message(STATUS "catkin or roscpp not found: the ROS nodes are left out")
   return()
 endif()
-set(VISCERA_ROS_DEPENDS diagnostic_updater geometry_msgs image_transport roscpp roslib sensor_msgs std_msgs std_srvs
-    tf2_ros visualization_msgs)
+set(VISCERA_ROS_DEPENDS diagnostic_msgs diagnostic_updater geometry_msgs image_transport roscpp roslib sensor_msgs std_msgs
+    std_srvs tf2 tf2_msgs tf2_ros visualization_msgs)
 find_package(catkin REQUIRED COMPONENTS message_generation ${VISCERA_ROS_DEPENDS})
 
 add_message_files(FILES Metrics.msg Samples.msg StylusState.msg SurfaceTopology.msg SurfaceTopologyChange.msg SurfaceVertices.msg
