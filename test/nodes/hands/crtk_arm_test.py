@@ -8,7 +8,6 @@ import unittest
 
 import rospy
 import rostest
-import tf2_ros
 from drivers import JAWS, fill, foreign, vector
 from geometry_msgs.msg import PoseStamped, TransformStamped, TwistStamped, WrenchStamped
 from sensor_msgs.msg import JointState
@@ -184,8 +183,8 @@ class CrtkArmTest(unittest.TestCase):
         table = TransformStamped()
         table.header.frame_id, table.child_frame_id, table.header.stamp = "tissue", "table", rospy.Time.now()
         fill(table.transform, (0.004, 0, 0.06), ((0, -1, 0), (1, 0, 0), (0, 0, 1)))  # a quarter turn to the left
-        broadcaster = tf2_ros.StaticTransformBroadcaster()
-        broadcaster.sendTransform(table)
+        frames = rospy.Publisher("/tf_static", TFMessage, queue_size=1, latch=True)
+        frames.publish(TFMessage([table]))
 
         def arrives():
             self.tell(self.servo, (0, 0.002, 0), frame="table")
