@@ -22,7 +22,7 @@ set(VISCERA_ROS_DEPENDS diagnostic_msgs diagnostic_updater geometry_msgs image_t
     std_srvs tf2 tf2_msgs tf2_ros visualization_msgs)
 find_package(catkin REQUIRED COMPONENTS message_generation ${VISCERA_ROS_DEPENDS})
 
-add_message_files(FILES Metrics.msg Samples.msg StylusState.msg SurfaceTopology.msg SurfaceTopologyChange.msg SurfaceVertices.msg
+add_message_files(FILES Metrics.msg Needles.msg Samples.msg StylusState.msg SurfaceTopology.msg SurfaceTopologyChange.msg SurfaceVertices.msg
                   TaskState.msg Threads.msg Tick.msg)
 add_service_files(FILES FileCommand.srv LoadScene.srv SetOverlays.srv SetToolMode.srv StartTask.srv Step.srv TieThread.srv)
 generate_messages(DEPENDENCIES geometry_msgs std_msgs)

@@ -284,6 +284,7 @@ void Session::collect(Frame& frame, bool wait) {
   frame.threads.clear();
   std::copy_if(look_.threads.begin(), look_.threads.end(), std::back_inserter(frame.threads),
                [](const ShownThread& shown) { return shown.part != ThreadPart::kNeedle; });
+  frame.needles = seenNeedles();
   collectStats(frame, wait);
   view_->collect(frame, wait);
   if (frame.surface) frame.surface->pose_received = posesOf(frame.surface->tick).newest();

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <vector>
 
 #include "viscera/math/error.h"
 #include "viscera/session/session.h"
@@ -49,6 +51,9 @@ struct Sewn {
   int unfelt = 0;                               ///< ticks with a force that the answers between ticks do not know of
   double skin_n = 0, inside_n = 0;              ///< widest range of force along that is told, at the skin and inside
   double skin_n_per_m = 0, inside_n_per_m = 0;  ///< largest stiffness that is told of the tissue around it
+  double unseen_m = 0;                          ///< how far tip and tail were from where seenNeedles() has them
+  bool in_tissue = false;                       ///< as that has it
+  std::vector<size_t> holders = {};             ///< one after another, kMaxStyluses for none
 };
 
 Sewn sew(const Overrides& overrides) {
@@ -73,6 +78,18 @@ Sewn sew(const Overrides& overrides) {
       most_n_per_m = std::max(most_n_per_m, contact.stiffness_n_per_m);
     }
     out.off_m = std::max(out.off_m, (session.threadPlaces(0)[0] - needle.back()).norm());
+    if (frame.needles.size() == 1) {
+      const SeenNeedle& seen = frame.needles[0];
+      const Vector3d tip = seen.pose * Vector3d(seen.radius_m, 0, 0);
+      const double arc_rad = seen.arc_rad;
+      const Vector3d tail =
+          seen.pose * Vector3d(seen.radius_m * std::cos(arc_rad), 0, -seen.radius_m * std::sin(arc_rad));
+      out.unseen_m = std::max({out.unseen_m, (tip - needle.front()).norm(), (tail - needle.back()).norm()});
+      if (out.holders.empty() || out.holders.back() != seen.stylus) out.holders.push_back(seen.stylus);
+      out.in_tissue = out.in_tissue || seen.in_tissue;
+    } else {
+      out.unseen_m = 1;
+    }
     out.tip = needle.front();
     if (time_s < 1.3) left = needle.front();
     out.trips = frame.health.trips;
@@ -88,6 +105,9 @@ TEST(NeedleSession, AStylusTakesOneDrivesItThroughAndLetsItGo) {
   EXPECT_LT(once.most_n, 0.5);
   EXPECT_LT(once.off_m, 1e-4);
   EXPECT_EQ(once.unfelt, 0);  // also at the skin, before it is in
+  EXPECT_LT(once.unseen_m, 1e-9);
+  EXPECT_TRUE(once.in_tissue);
+  EXPECT_EQ(once.holders, (std::vector<size_t>{0, layout::kMaxStyluses}));
   EXPECT_NEAR(once.skin_n, kPuncture_n, 1e-3 * kPuncture_n);
   EXPECT_GT(once.inside_n, kPuncture_n);  // the far skin, and friction both ways
   EXPECT_LT(once.inside_n, kPuncture_n + 2 * kFriction_n_per_m * kWhole_m);

@@ -16,6 +16,7 @@
 #include "viscera/solver/governor.h"
 #include "viscera/solver/seen_blood.h"
 #include "viscera/solver/seen_burns.h"
+#include "viscera/solver/seen_needle.h"
 #include "viscera/surface/shown_mesh.h"
 #include "viscera/tools/force_limiter.h"
 #include "viscera/tools/stylus.h"
@@ -93,7 +94,8 @@ struct Frame : Pictures {
   ToolMotions tools;                                   ///< of the tick: `to` is where the tools are shown
   std::vector<Pose> obstacles;                         ///< [obstacles] at the end of the tick, tissue frame
   std::vector<Pose> cameras;                           ///< [cameras] optical frames of the tick, tissue frame
-  ShownThreads threads;  ///< at the end of the tick: threads of the scene, then what was parted from them
+  ShownThreads threads;             ///< at the end of the tick: threads of the scene, then what was parted from them
+  std::vector<SeenNeedle> needles;  ///< likewise
   /// Nodes that each stylus holds, in the frame of its tool [m]; empty here, filled by who shows them.
   std::array<std::vector<Vector3d>, layout::kMaxStyluses> held_m;
   /// [obstacles] what the tissue does to each, not limited; torque about its place at the end of the tick. Of `stats`.

@@ -15,6 +15,7 @@
 #include "viscera/solver/seen_blood.h"
 #include "viscera/solver/seen_burns.h"
 #include "viscera/solver/seen_clip.h"
+#include "viscera/solver/seen_needle.h"
 #include "viscera/solver/seen_thread.h"
 #include "viscera/solver/solver.h"
 #include "viscera/solver/threads.h"
@@ -136,6 +137,7 @@ class Session {
   std::vector<Vector3d> needlePlaces(size_t thread) const;        ///< of its needle, from the tip on; or none
   std::vector<double> threadTensions_n(size_t piece) const;       ///< of its links, pulling above 0
   std::vector<SeenThread> seenThreads() const;                    ///< [pieces]
+  std::vector<SeenNeedle> seenNeedles() const;                    ///< of the threads that have one
   SeenClips seenClips() const;
   std::string threadRefusal() const;  ///< why the last of ThreadConfig::ties was not tied
   /// @}

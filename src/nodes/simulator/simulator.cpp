@@ -183,7 +183,7 @@ void Simulator::deliver(Frame&& frame, const StylusSamples& samples, bool live) 
   ticks_.publish(frame.tick);
   tasks_.notice();
   obstacle_forces_.publish(frame, publisher_.tickStamp());
-  publisher_.deliver(std::move(frame));
+  publisher_.deliver(std::move(frame), samples);
 }
 
 void Simulator::fail(std::exception_ptr error) {

@@ -19,6 +19,7 @@ FramePublisher::FramePublisher(ros::NodeHandle node, const Scene& scene, const P
       surface_throttle_(options.surface_rate_hz, scene.solver.tick_hz),
       scene_markers_(node, scene, options),
       threads_(node, scene),
+      needles_(node, scene),
       failed_(std::move(failed)),
       image_viewers_(kPictureKinds * scene.cameras.size(), 0) {
   for (const CameraConfig& camera : scene.cameras)
@@ -114,15 +115,16 @@ void FramePublisher::look(const Session& session, Frame& frame) {
   if (scene_markers_.isWanted()) held_.addTo(frame, session);
 }
 
-void FramePublisher::deliver(Frame&& frame) {
+void FramePublisher::deliver(Frame&& frame, const StylusSamples& samples) {
   stamps_[frame.tick % stamps_.size()] = {tick_stamp_, frame.tick};
   putCameraFrames(frame);
-  const bool scene_due = scene_markers_.isDue(), threads_due = threads_.isWanted();
-  if (!scene_due && !threads_due && !frame.surface && frame.images.empty()) return;
+  const bool scene_due = scene_markers_.isDue(), threads_due = threads_.isWanted(), needles_due = needles_.isWanted();
+  if (!scene_due && !threads_due && !needles_due && !frame.surface && frame.images.empty()) return;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    if (scene_due) slots_.scene = {stampOf(frame.tick), lookOf(frame)};
+    if (scene_due) slots_.scene = {stampOf(frame.tick), lookOf(frame, samples)};
     if (threads_due) slots_.threads = threads_.messageOf(frame, stampOf(frame.tick));
+    if (needles_due) slots_.needles = needles_.messageOf(frame, stampOf(frame.tick));
     if (frame.surface) {
       const ros::Time stamp = stampOf(frame.surface->tick);
       slots_.surface = {stamp, std::move(frame.surface)};
@@ -191,6 +193,7 @@ void FramePublisher::send(Slots&& slots) {
   surface_.publishDue();
   if (slots.scene) scene_markers_.publish(slots.scene->value, slots.scene->stamp);
   if (slots.threads) threads_.publish(*slots.threads);
+  if (slots.needles) needles_.publish(*slots.needles);
   for (size_t i = 0; i < slots.images.size(); ++i) {
     if (!slots.images[i]) continue;
     const SteadyTime pose_received = slots.images[i]->value.pose_received;
@@ -203,7 +206,7 @@ void FramePublisher::send(Slots&& slots) {
 
 bool FramePublisher::isViewed() const {
   const auto watched = [](const auto& camera) { return camera->isWanted(); };
-  return surface_.isWanted() || scene_markers_.isWanted() || threads_.isWanted() ||
+  return surface_.isWanted() || scene_markers_.isWanted() || threads_.isWanted() || needles_.isWanted() ||
          std::any_of(cameras_.begin(), cameras_.end(), watched);
 }
 

@@ -24,6 +24,7 @@
 #include "nodes/ros/throttle.h"
 #include "nodes/views/camera_publisher.h"
 #include "nodes/views/held_nodes.h"
+#include "nodes/views/needle_publisher.h"
 #include "nodes/views/scene_marker_publisher.h"
 #include "nodes/views/surface_publisher.h"
 #include "nodes/views/thread_publisher.h"
@@ -69,7 +70,8 @@ class FramePublisher {
   ros::Time tickStamp() const { return tick_stamp_; }
   /// Before deliver(): what of the session's state is shown too.
   void look(const Session& session, Frame& frame);
-  void deliver(Frame&& frame);
+  /// @param samples  as the frames of the tools in tf have them
+  void deliver(Frame&& frame, const StylusSamples& samples);
 
  private:
   template <class T>
@@ -84,6 +86,7 @@ class FramePublisher {
     std::vector<geometry_msgs::TransformStamped> frames;     ///< of cameras that are carried; none is overtaken
     std::optional<Stamped<SceneLook>> scene;
     std::optional<Threads> threads;
+    std::optional<Needles> needles;
   };
 
   void putCameraFrames(const Frame& frame);
@@ -108,6 +111,7 @@ class FramePublisher {
   Throttle surface_throttle_;
   SceneMarkerPublisher scene_markers_;
   ThreadPublisher threads_;
+  NeedlePublisher needles_;
   std::vector<std::unique_ptr<CameraPublisher>> cameras_;
   const std::function<void(std::exception_ptr)> failed_;
 

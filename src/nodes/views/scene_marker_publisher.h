@@ -5,13 +5,32 @@
 #include <ros/node_handle.h>
 
 #include <chrono>
+#include <map>
+#include <mutex>
 #include <string>
+#include <utility>
 
 #include "nodes/views/scene_markers.h"
 
 namespace viscera::nodes {
 
-/// Topic `scene_markers`, for rviz: latched, so that a viewer who comes while the scene is made, or paused, sees it.
+/// Leaves out meshes that viewers have: a viewer keeps a marker until it is told another one of that name and number.
+class SentMeshes {
+ public:
+  /// What of an array is not a mesh, is another one than before, or was not sent for `every_s`.
+  visualization_msgs::MarkerArray newsOf(const visualization_msgs::MarkerArray& whole, SteadyTime now);
+  /// Viewers have nothing.
+  void clear() { sent_.clear(); }
+
+  static constexpr double kEvery_s = 5;  ///< so that each part of a bag that is split has them all
+
+ private:
+  std::map<std::pair<std::string, int32_t>, visualization_msgs::Marker> sent_;
+  SteadyTime all_sent_{};
+};
+
+/// Topic `scene_markers`, for rviz. A viewer who comes has all at once, also while the scene is made, or paused; from
+/// then on meshes only as they change, and every 5 s.
 class SceneMarkerPublisher {
  public:
   SceneMarkerPublisher(ros::NodeHandle& node, const Scene& scene, const PublishOptions& options);
@@ -30,11 +49,16 @@ class SceneMarkerPublisher {
  private:
   using Clock = std::chrono::steady_clock;
   static Clock::duration period(double rate_hz);
+  void welcome(const ros::SingleSubscriberPublisher& viewer);
+  void keep(const visualization_msgs::MarkerArray& whole);
 
   const SceneMarkers markers_;
   Clock::duration period_;
   Clock::time_point next_{};
   std::string told_;
+  SentMeshes sent_;
+  std::mutex mutex_;
+  visualization_msgs::MarkerArray whole_;  ///< what viewers have by now
   ros::Publisher publisher_;
 };
 

@@ -9,6 +9,7 @@
 #include "nodes/ros/conversions.h"
 #include "render/shapes/obstacle_shape.h"
 #include "session/thread_looks.h"
+#include "solver/thread/needle_shape.h"
 #include "viscera/render/camera.h"
 
 namespace viscera::nodes {
@@ -53,6 +54,12 @@ bool inTheWay(const Label& a, const Label& b, double height_m) {
   return std::abs(apart_m.z()) < kLineHeight * height_m && apart_m.head<2>().norm() < widths_m;
 }
 
+/// But for rounding.
+bool isSame(const Pose& a, const Pose& b) {
+  constexpr double kApart_m = 1e-9, kApart_rad = 1e-6;
+  return (a.position_m - b.position_m).norm() < kApart_m && a.orientation.angularDistance(b.orientation) < kApart_rad;
+}
+
 std::vector<Vector3d> pointsOf(const ToolShape& shape) {
   std::vector<Vector3d> points_m;
   for (const ToolVertex& vertex : shape.vertices)
@@ -62,8 +69,11 @@ std::vector<Vector3d> pointsOf(const ToolShape& shape) {
 
 }  // namespace
 
-SceneLook lookOf(const Frame& frame) {
-  return {frame.tools, frame.obstacles, frame.reactions, frame.threads, frame.held_m};
+SceneLook lookOf(const Frame& frame, const StylusSamples& samples) {
+  SceneLook look{frame.tools, frame.obstacles, frame.reactions, frame.threads, frame.held_m, frame.needles};
+  for (size_t s = 0; s < samples.size(); ++s)
+    look.in_tf[s] = samples[s].valid && frame.tools[s].present && isSame(samples[s].pose, frame.tools[s].to);
+  return look;
 }
 
 void partLabels(std::vector<Label>& labels, double height_m) {
@@ -88,6 +98,7 @@ SceneMarkers::SceneMarkers(const Scene& scene, const PublishOptions& options)
       threads_(looksOf(scene)) {
   for (const StylusConfig& stylus : scene.styluses) {
     styluses_.push_back(stylus);
+    tool_frames_.push_back(toolFrame(stylus, options.frame_prefix));
     auto& shapes = tools_.emplace_back();
     for (const ToolMode mode : {ToolMode::kNone, stylus.idle, stylus.button1, stylus.button2})
       shapes[mode] = partsOf(toolShape(stylus, mode));
@@ -120,8 +131,9 @@ MarkerArray SceneMarkers::at(const SceneLook& look, const ros::Time& stamp) cons
     addHeld(s, look, stamp, out);
   }
   for (size_t i = 0; i < std::min(obstacles_.size(), look.obstacles.size()); ++i)
-    addParts("obstacles", kMostParts * i, obstacles_[i].parts, look.obstacles[i], stamp, out);
+    addParts("obstacles", kMostParts * i, obstacles_[i].parts, look.obstacles[i], "", stamp, out);
   addThreads(look, stamp, out);
+  addNeedles(look, stamp, out);
   addNames(look, stamp, out);
   addText("", stamp, out);
   return out;
@@ -148,13 +160,19 @@ Marker SceneMarkers::marker(const char* names, size_t id, const ros::Time& stamp
 
 /// Ids that no part has are deleted.
 void SceneMarkers::addParts(const char* names, size_t first_id, const Parts& parts, const Pose& pose,
-                            const ros::Time& stamp, MarkerArray& out) const {
+                            const std::string& frame, const ros::Time& stamp, MarkerArray& out) const {
   for (size_t i = 0; i < kMostParts; ++i) {
     Marker& marker = out.markers.emplace_back(this->marker(names, first_id + i, stamp));
     marker.type = Marker::TRIANGLE_LIST;
     marker.action = i < parts.size() ? Marker::ADD : Marker::DELETE;
     if (i >= parts.size()) continue;
-    marker.pose = toMessage(pose);
+    if (frame.empty()) {
+      marker.pose = toMessage(pose);
+    } else {
+      marker.header.frame_id = frame;
+      marker.header.stamp = ros::Time();  // the newest
+      marker.frame_locked = true;
+    }
     paint(parts[i].color, marker);
     marker.points = parts[i].corners;
   }
@@ -167,7 +185,11 @@ void SceneMarkers::addTool(size_t stylus, const SceneLook& look, const ros::Time
   const bool shown = motion.present && shape != tools_[stylus].end();
   const bool jaws = shown && kindOf(motion.mode).jaws;
   const Parts turned = jaws ? partsOf(toolShape(styluses_[stylus], motion.mode, motion.opens_to_rad)) : kNothing;
-  addParts("tools", kMostParts * stylus, jaws ? turned : shown ? shape->second : kNothing, motion.to, stamp, out);
+  addParts("tools", kMostParts * stylus,
+           jaws    ? turned
+           : shown ? shape->second
+                   : kNothing,
+           motion.to, look.in_tf[stylus] ? tool_frames_[stylus] : "", stamp, out);
 }
 
 /// From the tip, to where the hand is pushed.
@@ -199,7 +221,30 @@ void SceneMarkers::addHeld(size_t stylus, const SceneLook& look, const ros::Time
   for (const Vector3d& place_m : look.held_m[stylus]) marker.points.push_back(toPoint(place_m));
 }
 
-/// Lines: a tube would be tens of points for each of theirs.
+/// A tube would be tens of points for each of its. @param places_m  fewer than two: there is none
+void SceneMarkers::addLine(const char* names, size_t id, const ThreadLook& how, const std::vector<Vector3d>& places_m,
+                           const ros::Time& stamp, MarkerArray& out) const {
+  Marker& marker = out.markers.emplace_back(this->marker(names, id, stamp));
+  marker.type = Marker::LINE_STRIP;
+  marker.action = places_m.size() > 1 ? Marker::ADD : Marker::DELETE;
+  if (marker.action == Marker::DELETE) return;
+  marker.scale.x = std::max(2 * how.radius_m, kLeastThread_m);
+  paint(how.color, marker);
+  for (const Vector3d& place_m : places_m) marker.points.push_back(toPoint(place_m));
+}
+
+void SceneMarkers::addNeedles(const SceneLook& look, const ros::Time& stamp, MarkerArray& out) const {
+  for (size_t i = 0, id = 0; i < threads_.size(); ++i) {
+    const ThreadLook& how = threads_[i];
+    if (how.part != ThreadPart::kNeedle) continue;
+    std::vector<Vector3d> places_m;
+    for (const SeenNeedle& needle : look.needles)
+      if (needle.thread == how.thread)
+        places_m = NeedleShape(needle.radius_m, needle.arc_rad, needle.wire_radius_m).places(needle.pose);
+    addLine("needles", id++, how, places_m, stamp, out);
+  }
+}
+
 void SceneMarkers::addThreads(const SceneLook& look, const ros::Time& stamp, MarkerArray& out) const {
   size_t threads = 0, clips = 0;
   for (const ThreadLook& look : threads_) {
@@ -208,17 +253,11 @@ void SceneMarkers::addThreads(const SceneLook& look, const ros::Time& stamp, Mar
   }
   const ThreadLook* const clip = clips > 0 ? &threads_.back() : nullptr;
   for (size_t i = 0; i < (threads > 0 ? threads + kMostParted : 0) + clips; ++i) {
-    const bool there = i < look.threads.size() && look.threads[i].places_m.size() > 1;
-    Marker& marker = out.markers.emplace_back(this->marker("threads", i, stamp));
-    marker.type = Marker::LINE_STRIP;
-    marker.action = Marker::DELETE;
-    if (!there) continue;
-    const bool is_clip = clip && look.threads[i].part == ThreadPart::kClip;
-    const ThreadLook& how = is_clip ? *clip : threads_[look.threads[i].thread];
-    marker.action = Marker::ADD;
-    marker.scale.x = std::max(2 * how.radius_m, kLeastThread_m);
-    paint(how.color, marker);
-    for (const Vector3d& place_m : look.threads[i].places_m) marker.points.push_back(toPoint(place_m));
+    static const std::vector<Vector3d> kNone;
+    const bool there = i < look.threads.size();
+    const bool is_clip = there && clip && look.threads[i].part == ThreadPart::kClip;
+    const ThreadLook& how = is_clip ? *clip : threads_[there ? look.threads[i].thread : 0];
+    addLine("threads", i, how, there ? look.threads[i].places_m : kNone, stamp, out);
   }
 }
 

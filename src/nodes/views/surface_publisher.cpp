@@ -5,6 +5,7 @@
 
 #include <ros/console.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace viscera::nodes {
@@ -53,17 +54,23 @@ void SurfacePublisher::sendTopology() {
   const auto now = std::chrono::steady_clock::now();
   next_whole_ =
       now + std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(seconds));
+  again_ = std::max(next_whole_, now + kAgain_s);
   is_sent_ = true;
   topology_.publish(whole_);
 }
 
 std::optional<std::chrono::steady_clock::time_point> SurfacePublisher::due() const {
-  if (is_sent_ || whole_.version == 0) return std::nullopt;
-  return next_whole_;
+  if (whole_.version == 0) return std::nullopt;
+  return is_sent_ ? again_ : next_whole_;
 }
 
 void SurfacePublisher::publishDue() {
-  if (due() && std::chrono::steady_clock::now() >= next_whole_) sendTopology();
+  const auto now = std::chrono::steady_clock::now();
+  if (!due() || now < *due()) return;
+  if (is_sent_ && topology_.getNumSubscribers() == 0)
+    again_ = now + kAgain_s;  // those who come have the last one
+  else
+    sendTopology();
 }
 
 void SurfacePublisher::publish(const SurfaceFrame& frame, const ros::Time& stamp) {

@@ -16,7 +16,8 @@ namespace viscera::nodes {
 
 /// Topics `surface_topology` (latched), `surface_topology_change`, `surface`, `surface_strain` and `surface_marker`.
 /// Every change of the topology is sent at once as such; the whole one again when as much time has passed as it takes
-/// at kTopologyBytesPerSecond, so that a large organ is not sent whole in every tick of a cut.
+/// at kTopologyBytesPerSecond, so that a large organ is not sent whole in every tick of a cut; and every kAgain_s for
+/// those who listen, so that each part of a bag that is split has one.
 class SurfacePublisher {
  public:
   SurfacePublisher(ros::NodeHandle& node, const std::string& tissue_frame);
@@ -29,11 +30,12 @@ class SurfacePublisher {
   void start(const std::shared_ptr<const ShownTopology>& skin, const ros::Time& stamp);
   /// Sends a frame to whom it may concern; the topology first, if it has changed.
   void publish(const SurfaceFrame& frame, const ros::Time& stamp);
-  /// When the whole topology is to be sent that has changed since it last was; none where it has not.
+  /// When the whole topology is to be sent that has changed since it last was, or for a bag; none: not at all.
   std::optional<std::chrono::steady_clock::time_point> due() const;
   void publishDue();
 
   static constexpr double kTopologyBytesPerSecond = 3e6;
+  static constexpr std::chrono::seconds kAgain_s{5};
 
  private:
   void changeTopology(const ShownTopology& topology, const ros::Time& stamp);
@@ -48,6 +50,7 @@ class SurfacePublisher {
   uint64_t revision_ = 0;                               ///< of the surface that it was made of
   bool is_sent_ = false;                                ///< ... as a whole
   std::chrono::steady_clock::time_point next_whole_{};  ///< the earliest time at which one may be sent
+  std::chrono::steady_clock::time_point again_{};       ///< when it is to be sent though it has not changed
 };
 
 }  // namespace viscera::nodes

@@ -48,6 +48,13 @@ const Needle* Needles::find(size_t thread) const {
   return nullptr;
 }
 
+size_t Needles::holderOf(size_t thread) const {
+  for (const OnThread& one : needles_) {
+    if (one.thread == thread) return one.held.stylus;
+  }
+  return layout::kMaxStyluses;
+}
+
 void Needles::beginTick(const ToolMotions& motions) {
   motions_ = motions;
   pulls_ = {};

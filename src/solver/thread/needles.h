@@ -22,6 +22,8 @@ class Needles {
   using Passes = std::function<void(uint32_t thread, const NeedlePassed&, const ChannelLaw&)>;
   bool empty() const { return needles_.empty(); }
   const Needle* find(size_t thread) const;
+  /// The stylus that holds the needle of a thread; kMaxStyluses: none.
+  size_t holderOf(size_t thread) const;
   /// Springs were cut.
   void embedAgain(const TissuePoints& tissue);
   /// A stylus that begins takes the nearest needle within its reach, also from another hand.

@@ -75,6 +75,7 @@ class ThreadBodies {
   const ThreadPiece& piece(size_t at) const { return pieces_[at]; }
   const Chain& chain(size_t at) const { return pieces_[at].chain; }
   const Needle* needle(size_t thread) const { return needles_ ? needles_->find(thread) : nullptr; }
+  size_t needleHolder(size_t thread) const { return needles_ ? needles_->holderOf(thread) : layout::kMaxStyluses; }
   const Clips* clips() const { return clips_ ? &*clips_ : nullptr; }  ///< null: no stylus sets any
   const std::vector<ChainSlide>& slides(size_t at) const { return pieces_[at].around.slides; }
   const ThreadLinks& links() const { return links_; }

@@ -4,7 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include "nodes/views/scene_marker_publisher.h"
+
 #include <algorithm>
+#include <chrono>
+#include <cmath>
 #include <limits>
 #include <set>
 
@@ -195,6 +199,104 @@ TEST(SceneMarkers, ClipsAreLinesBehindThoseOfThreads) {
   ASSERT_EQ(lines.size(), 1u);
   EXPECT_EQ(lines[0].points.size(), 4u);
   EXPECT_EQ(lines[0].scale.x, 1e-3);
+}
+
+TEST(SceneMarkers, NeedlesAreLinesAlongTheirWireFromTheTip) {
+  Scene with = scene();
+  ThreadConfig thread;
+  thread.path = {{Vector3d(0.05, 0, 0)}};
+  with.threads = {thread, thread};
+  with.threads[1].needle.arc = NeedleArc::kHalfCircle;
+  const SceneMarkers markers(with, {});
+  SceneLook placed = look();
+  EXPECT_TRUE(shown(markers.at(placed, ros::Time(3)), "needles").empty());
+  SeenNeedle needle;
+  needle.thread = 1;
+  needle.pose.position_m = {0, 0, 0.1};
+  needle.radius_m = 0.01;
+  needle.arc_rad = M_PI;
+  needle.wire_radius_m = 0.0004;
+  placed.needles = {needle};
+  const auto lines = shown(markers.at(placed, ros::Time(3)), "needles");
+  ASSERT_EQ(lines.size(), 1U);
+  EXPECT_EQ(lines[0].type, Marker::LINE_STRIP);
+  ASSERT_GT(lines[0].points.size(), 8U);
+  EXPECT_NEAR(lines[0].points.front().x, 0.01, kRounding_m);
+  EXPECT_NEAR(lines[0].points.back().x, -0.01, kRounding_m);
+  EXPECT_NEAR(lines[0].points[lines[0].points.size() / 2].z, 0.09, 1e-4) << "the tip heads for +z";
+}
+
+TEST(SceneMarkers, ToolsThatAreWhereTheirFramesAreGoWithThese) {
+  SceneLook look = viscera::nodes::look();
+  look.in_tf[0] = true;
+  PublishOptions options;
+  options.frame_prefix = "room/";
+  for (const Marker& tool : shown(SceneMarkers(scene(), options).at(look, ros::Time(3)), "tools")) {
+    EXPECT_EQ(tool.header.frame_id, "room/left_tool");
+    EXPECT_TRUE(tool.frame_locked);
+    EXPECT_EQ(tool.header.stamp, ros::Time()) << "the newest";
+    EXPECT_EQ(tool.pose.position.y, 0);
+    EXPECT_EQ(tool.pose.orientation.w, 1);
+  }
+}
+
+TEST(SceneMarkers, AToolThatIsHeldBackIsNotWhereItsFrameIs) {
+  Frame frame;
+  StylusSamples samples;
+  samples[0].valid = samples[1].valid = true;
+  frame.tools[0].present = frame.tools[1].present = true;
+  frame.tools[1].to.position_m.x() = 0.001;
+  samples[2].valid = true;
+  const SceneLook look = lookOf(frame, samples);
+  EXPECT_TRUE(look.in_tf[0]);
+  EXPECT_FALSE(look.in_tf[1]);
+  EXPECT_FALSE(look.in_tf[2]) << "not there";
+}
+
+class SentMeshesTest : public ::testing::Test {
+ protected:
+  /// Ids of tools in what is sent of this.
+  std::vector<int> tools(const SceneLook& look, double time_s) {
+    const auto now = SteadyTime(std::chrono::hours(1)) +
+                     std::chrono::duration_cast<SteadyTime::duration>(std::chrono::duration<double>(time_s));
+    std::vector<int> out;
+    const MarkerArray news = sent_.newsOf(markers_.at(look, ros::Time(time_s)), now);
+    for (const Marker& marker : news.markers)
+      if (marker.ns == "tools") out.push_back(marker.id);
+    names_ = shown(news, "names").size();
+    return out;
+  }
+  const SceneMarkers markers_{scene(), {}};
+  SentMeshes sent_;
+  size_t names_ = 0;
+};
+
+TEST_F(SentMeshesTest, AreSentOnceAndAgainAsTheyChange) {
+  SceneLook look = viscera::nodes::look();
+  look.in_tf[0] = true;
+  const size_t all = tools(look, 0).size();
+  EXPECT_GE(all, 8U) << "of two styluses, present or not";
+  look.tools[0].to.position_m.x() = 0.01;
+  EXPECT_TRUE(tools(look, 0.1).empty()) << "its frame has moved";
+  EXPECT_EQ(names_, 2U) << "all else is in every array";
+  look.tools[0].mode = ToolMode::kGrab;
+  EXPECT_FALSE(tools(look, 0.2).empty());
+  EXPECT_TRUE(tools(look, 0.3).empty());
+  look.tools[0].present = false;
+  EXPECT_FALSE(tools(look, 0.4).empty()) << "gone";
+  EXPECT_TRUE(tools(look, 0.5).empty());
+  EXPECT_EQ(tools(look, 5.1).size(), all) << "every 5 s, for bags that are split";
+  EXPECT_TRUE(tools(look, 5.2).empty());
+  sent_.clear();
+  EXPECT_EQ(tools(look, 5.3).size(), all);
+}
+
+TEST_F(SentMeshesTest, OfToolsThatAreNotInTheirFramesAreSentAsTheyMove) {
+  SceneLook look = viscera::nodes::look();
+  tools(look, 0);
+  EXPECT_TRUE(tools(look, 0.1).empty());
+  look.tools[0].to.position_m.x() = 0.01;
+  EXPECT_FALSE(tools(look, 0.2).empty());
 }
 
 TEST(SceneMarkers, NamesAtOnePlaceAreWrittenAboveEachOther) {

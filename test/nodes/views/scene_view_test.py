@@ -27,6 +27,7 @@ PIXEL_LIMIT = 0.1         # [px] of its middle: slanted borders meet pixels anyw
 ABOVE_M = -0.05    # over the cloth, out of its reach
 CLOTH_M = -0.1
 DARK = 0xff540144  # end of the scale of strain, where none is
+AGAIN_S = 5        # between two whole topologies that are one
 GRAB_M = 0.02      # more than the reach of a tool that grabs, and what a pose moves between two messages
 
 
@@ -83,6 +84,7 @@ class SceneViewTest(unittest.TestCase):
         cls.left, cls.right = Hand("left"), Hand("right")
         cls.frames = {}
         cls.static = Latest("/tf_static", TFMessage, cls.on_tf)
+        cls.moving = Latest("/tf", TFMessage, cls.on_tf)
         cls.watch.wait_ready()
 
     @classmethod
@@ -236,12 +238,44 @@ class SceneViewTest(unittest.TestCase):
         self.left.move((-0.05, 0, ABOVE_M), (-0.05, 0, CLOTH_M - 0.02), 1)
         wait_until(lambda: seen.get("tools") and seen.get("forces"), LIMIT_S, "tool and force")
         tool, force = list(seen["tools"].values())[0], list(seen["forces"].values())[0]
-        self.assertAlmostEqual(tool.pose.position.x, -0.05, delta=1e-6)
+        self.assertEqual((tool.header.frame_id, tool.frame_locked, tool.pose.position.x), ("left_tool", True, 0))
+        tip = wait_until(lambda: self.frames.get("left_tool"), LIMIT_S, "frame of the tool")
+        self.assertAlmostEqual(tip.translation.x, -0.05, delta=1e-6)
         self.assertGreater(force.points[1].z, force.points[0].z)  # the cloth pushes up
         self.assertEqual({marker.text for marker in seen["names"].values()}, {"tile", "camera", "left"})
         self.left.position = None
         wait_until(lambda: not seen["tools"] and not seen["forces"], LIMIT_S, "end of the tool")
         markers.stop()
+
+    def test_meshes_of_tools_are_sent_once_and_to_each_who_comes(self):
+        arrays = []
+        markers = Latest("scene_markers", MarkerArray, arrays.append, queue_size=1000)
+        self.left.move((-0.05, 0, ABOVE_M), (-0.02, 0, ABOVE_M), 0.5)
+
+        def drawn(array):
+            return [m for m in array.markers if m.ns == "tools" and m.action == Marker.ADD and m.points]
+        wait_until(lambda: any(drawn(array) for array in arrays), LIMIT_S, "tool")
+        del arrays[:]
+        self.left.move((-0.02, 0, ABOVE_M), (-0.05, 0, ABOVE_M), 3)
+        with_tools = sum(1 for array in arrays if drawn(array))
+        self.assertGreater(len(arrays), 20)
+        self.assertLess(with_tools, 0.2 * len(arrays))  # as a new shape, every 5 s, and where a busy machine lost the hand
+        late = []
+        another = Latest("scene_markers", MarkerArray, late.append, queue_size=1000)
+        wait_until(lambda: late, LIMIT_S, "markers")
+        self.assertTrue(drawn(late[0]))
+        self.left.position = None
+        for subscriber in (markers, another):
+            subscriber.stop()
+
+    def test_the_whole_topology_is_sent_again_for_bags_that_are_split(self):
+        came = []
+        topology = Latest("surface_topology", SurfaceTopology, lambda it: came.append((time.monotonic(), it)), queue_size=10)
+        wait_until(lambda: len(came) >= 3, 3 * AGAIN_S, "topology again and again")
+        first, again = came[1][1], came[2][1]
+        self.assertEqual((first.version, first.triangles), (again.version, again.triangles))
+        self.assertGreater(came[2][0] - came[1][0], 0.8 * AGAIN_S)
+        topology.stop()
 
     def test_markers_show_nodes_that_are_held(self):
         seen = {}
@@ -254,7 +288,8 @@ class SceneViewTest(unittest.TestCase):
         self.assertTrue(set_tool_mode("left", "idle", "grab").success)
         held = list(wait_until(lambda: seen.get("held"), LIMIT_S, "nodes that are held").values())[0]
         tool = list(seen["tools"].values())[0]
-        self.assertEqual(held.pose, tool.pose)
+        self.assertEqual(tool.header.frame_id, "left_tool")
+        self.assertAlmostEqual(held.pose.position.x, -0.05, delta=1e-6)
         wait_until(lambda: self.watch.value("left", "nodes_held") == len(held.points), LIMIT_S, "as many as are held")
         for point in held.points:
             self.assertLess(math.hypot(point.x, point.y, point.z), GRAB_M)
