@@ -16,7 +16,7 @@ SMALL = {
     "bodies": [{"name": "block", "source": "box", "box_size_m": [0.04, 0.04, 0.03], "spacing_m": 0.01,
                 "fixed": [{"shape": "box", "min_m": [-1, -1, -1], "max_m": [1, 1, -0.014]}]}],
     "styluses": [{"name": "left", "probe": {"radius_m": 0.012}}],
-    "cameras": [{"name": "camera", "width_px": 48, "height_px": 32}],
+    "cameras": [{"name": "camera", "position_m": [0, -0.1, 0.1], "target_m": [0, 0, 0], "width_px": 48, "height_px": 32}],
     "solver": {"threads": 1, "integrator": "leapfrog"},
 }
 TICKS = 30

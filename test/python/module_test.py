@@ -73,7 +73,7 @@ class SceneTest(unittest.TestCase):
         self.assertEqual(repr(eval(repr(stylus))), repr(stylus))
         with small() as session:
             session.step()
-            self.assertEqual(repr(session), f"<viscera.Session of 'small', tick 1, {len(session.nodes)} nodes, cpu>")
+            self.assertRegex(repr(session), rf"^<viscera.Session of 'small', tick 1, {len(session.nodes)} nodes, cpu \(.*\)>$")
         self.assertEqual(repr(session), "<viscera.Session, closed>")
         self.assertEqual(repr(viscera.VectorSession(viscera.Scene(SMALL), 2)), "<viscera.VectorSession of 2 sessions>")
         for each in viscera.__all__:
@@ -166,8 +166,8 @@ class SessionTest(unittest.TestCase):
     def test_diagnostics_after_a_restored_cut(self):
         scene = viscera.Scene(SMALL, ["styluses[0].button2=cut"])
         with viscera.Session(scene) as session, viscera.Session(scene) as other:
-            for tick in range(60):
-                session.step([viscera.Stylus([-0.03 + 0.001 * tick, 0, 0.005], [0, 0.7071068, 0, 0.7071068], button2=True)])
+            for tick in range(120):
+                session.step([viscera.Stylus([-0.06 + 0.001 * tick, 0, 0.005], button2=True)])
             self.assertGreater(session.diagnostics["springs_cut"], 0)
             other.restore(session.state())
             self.assertEqual(other.diagnostics["springs_cut"], session.diagnostics["springs_cut"])
