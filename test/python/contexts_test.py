@@ -69,7 +69,8 @@ class ContextsTest(unittest.TestCase):
         for options in ({"backend": "gpu"}, {"backend": "cpu", "pictures": True}):
             one, other = made(**options), made(**options)
             press(one)
-            threads = [threading.Thread(target=press, args=(other,)), threading.Thread(target=other.picture if "pictures" in options else other.skin)]
+            look = other.picture if "pictures" in options else other.skin
+            threads = [threading.Thread(target=press, args=(other,)), threading.Thread(target=look)]
             for thread in threads:
                 thread.start()
                 thread.join()
